@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_classic - rungs of ClassicLadder as strokes; see grid_classic.h.
+ * grid_classic - rungs of ClassicLadder as strokes, and below them what they became here;
+ * see grid_classic.h.
  *
- * A block holds its code in its upper right cell, an expression in its right one; the
- * other cells of both are marked as taken.
+ * In the file a block has its code in its upper right cell, an expression in its right one;
+ * the other cells of both are marked as taken.
  */
 #include "editor-gtk/draw/grid_classic.h"
-#include "editor-gtk/draw/grid_pen.h"
+#include "editor-gtk/draw/grid_draw.h"
+#include "editor-gtk/draw/grid_glyph.h"
+#include "editor-gtk/kit/i18n.h"
 
 #include <glib.h>
 #include <string.h>
@@ -19,6 +22,7 @@
 #define HEADING     28
 #define NAME_UP     17   /* baselines above and below the wire                  */
 #define NAME_DOWN   25
+#define CAPTION     24   /* height of the line above a rung                     */
 #define FRAME_UP    16   /* of an expression                                    */
 
 enum { TAKEN = 99, COMPARE = 20, OPERATE = 60, JUMP = 54, CALL = 55, WIRE = 9,
@@ -26,7 +30,7 @@ enum { TAKEN = 99, COMPARE = 20, OPERATE = 60, JUMP = 54, CALL = 55, WIRE = 9,
 
 struct sketch {
 	const struct classic_scene *scene;
-	struct pen pen;
+	struct nib nib;
 	int columns, rows;
 	bool covered[CLASSIC_ROWS][CLASSIC_COLUMNS]; /* by something that is drawn */
 };
@@ -69,26 +73,26 @@ static float wire_of(int y)
 
 static void put_line(const struct sketch *sketch, float x1, float y1, float x2, float y2)
 {
-	picture_line(sketch->pen.picture, TOKEN_IDLE, STROKE_SOLID,
-		     sketch->pen.theme->idle_width, x1, y1, x2, y2);
+	picture_line(sketch->nib.picture, TOKEN_IDLE, STROKE_SOLID,
+		     sketch->nib.theme->idle_width, x1, y1, x2, y2);
 }
 
 static void put_frame(const struct sketch *sketch, enum stroke_style style, float x,
 		      float y, float right, float bottom)
 {
-	picture_frame(sketch->pen.picture, TOKEN_INK, style,
-		      sketch->pen.theme->shape_width, x, y, right - x, bottom - y);
+	picture_frame(sketch->nib.picture, TOKEN_INK, style,
+		      sketch->nib.theme->shape_width, x, y, right - x, bottom - y);
 }
 
 /* @side: -1 ends at @x, 0 is centred, 1 begins there. */
 static void put_text(const struct sketch *sketch, enum token token, enum letter letter,
 		     const char *text, float x, float y, int side, float bound)
 {
-	const struct lettered fits = lettering_fit(sketch->pen.drafting->lettering, letter,
+	const struct lettered fits = lettering_fit(sketch->nib.lettering, letter,
 						   text, -1, bound);
 
 	if (*text)
-		picture_text(sketch->pen.picture, token, letter, fits,
+		picture_text(sketch->nib.picture, token, letter, fits,
 			     x - fits.width * (float)(1 - side) / 2, y);
 }
 
@@ -138,14 +142,14 @@ static void put_element(struct sketch *sketch, int y, int x, const char *strokes
 	struct glyph glyph = { .strokes = strokes, .x = middle, .y = wire,
 			       .half = strokes[0] == '(' ? 13 : 8, .up = RUNG_HALF,
 			       .wire = { TOKEN_INK, STROKE_SOLID,
-					 sketch->pen.theme->shape_width } };
+					 sketch->nib.theme->shape_width } };
 	char name[CLASSIC_SAID];
 	const char *symbol;
 
 	name_element(sketch, cell, name, &symbol);
 	put_line(sketch, left_of(x), wire, middle - glyph.half, wire);
 	put_line(sketch, middle + glyph.half, wire, left_of(x + 1), wire);
-	glyph_draw(&sketch->pen, &glyph);
+	glyph_draw(&sketch->nib, &glyph);
 	put_text(sketch, TOKEN_INK, LETTER_SYMBOL, *symbol ? symbol : name, middle,
 		 wire - NAME_UP, 0, CELL_WIDTH - 4);
 	if (*symbol)
@@ -330,20 +334,18 @@ static void put_rails(const struct sketch *sketch, float bottom)
 {
 	const float right = left_of(sketch->columns);
 
-	picture_line(sketch->pen.picture, TOKEN_IDLE, STROKE_SOLID,
-		     sketch->pen.theme->rail_width, LEFT, HEADING, LEFT, bottom);
-	picture_line(sketch->pen.picture, TOKEN_IDLE, STROKE_SOLID,
-		     sketch->pen.theme->rail_width, right, HEADING, right, bottom);
+	picture_line(sketch->nib.picture, TOKEN_IDLE, STROKE_SOLID,
+		     sketch->nib.theme->rail_width, LEFT, HEADING, LEFT, bottom);
+	picture_line(sketch->nib.picture, TOKEN_IDLE, STROKE_SOLID,
+		     sketch->nib.theme->rail_width, right, HEADING, right, bottom);
 }
 
 float grid_classic_draw(const struct classic_scene *scene, struct picture *picture)
 {
-	const struct drafting drafting = { .lettering = scene->lettering };
 	struct sketch sketch = {
 		.scene = scene, .columns = scene->rung->columns == 10 ? 10 : CLASSIC_COLUMNS,
 		.rows = rows_of(scene->rung),
-		.pen = { .drafting = &drafting, .theme = scene->theme, .picture = picture,
-			 .ink = TOKEN_INK },
+		.nib = { picture, scene->theme, scene->lettering, TOKEN_INK },
 	};
 	const float bottom = HEADING + (float)(sketch.rows * CELL_HEIGHT);
 	const float width = left_of(sketch.columns) + RIGHT;
@@ -361,4 +363,92 @@ float grid_classic_draw(const struct classic_scene *scene, struct picture *pictu
 		 width - x - RIGHT);
 	picture->width = MAX(picture->width, width);
 	return bottom + 8;
+}
+
+/* ---- theirs above ours ---- */
+
+static float put_caption(const struct classic_pair *pair, const char *text, float y,
+			 struct picture *picture)
+{
+	const struct lettered fits = lettering_fit(pair->there.lettering, LETTER_COMMENT,
+						   text, -1, 0);
+
+	picture_move(picture, 0, y);
+	picture_text(picture, TOKEN_COMMENT, LETTER_COMMENT, fits, 16, 17);
+	picture_move(picture, 0, 0);
+	picture->width = MAX(picture->width, fits.width + 32);
+	return CAPTION;
+}
+
+/* "Here: Main, rungs 3 to 5" */
+static char *name_ours(const struct classic_pair *pair)
+{
+	const char *pou = project_text(pair->project, pair->project->pou[pair->pou].name);
+	const int first = pair->rung[0] + 1, last = pair->rung[pair->rungs - 1] + 1;
+
+	if (pair->rungs == 1)
+		return g_strdup_printf(_("Here: %s, rung %d"), pou, first);
+	return g_strdup_printf(_("Here: %s, rungs %d to %d"), pou, first, last);
+}
+
+static void put_layout(const struct classic_pair *pair, const struct drafting *drafting,
+		       struct rung_layout *layout, float y, struct picture *picture)
+{
+	const struct grid_scene scene = { .drafting = drafting, .layout = layout,
+					  .theme = pair->there.theme };
+
+	picture_move(picture, 0, y);
+	grid_draw(&scene, picture);
+	picture_move(picture, 0, 0);
+	picture->width = MAX(picture->width, rung_layout_width(layout));
+}
+
+static float put_ours(const struct classic_pair *pair, float y, struct picture *picture)
+{
+	const struct pou *pou = &pair->project->pou[pair->pou];
+	struct grid_names *names = grid_names_new(pair->project, pou);
+	struct drafting drafting = { .project = pair->project, .names = names,
+				     .lettering = pair->there.lettering,
+				     .show = pair->show };
+	struct rung_layout **layout = g_new0(struct rung_layout *, pair->rungs);
+	float rails = 0;
+
+	for (int i = 0; i < pair->rungs; i++)
+		drafting.columns = MAX(drafting.columns,
+				       rung_layout_columns(pou->rung[pair->rung[i]]));
+	for (int i = 0; i < pair->rungs; i++) {
+		layout[i] = rung_layout_new(&drafting, pou->rung[pair->rung[i]],
+					    pair->rung[i] + 1, 0);
+		rails = MAX(rails, layout[i]->natural);
+	}
+	for (int i = 0; i < pair->rungs; i++) {
+		rung_layout_stretch(layout[i], rails);
+		put_layout(pair, &drafting, layout[i], y, picture);
+		y += layout[i]->height;
+		rung_layout_free(layout[i]);
+	}
+	g_free(layout);
+	grid_names_free(names);
+	return y;
+}
+
+float grid_classic_pair(const struct classic_pair *pair, float y, struct picture *picture)
+{
+	char *text = g_strdup_printf(_("ClassicLadder: %s"), pair->there_name);
+
+	y += put_caption(pair, text, y, picture);
+	g_free(text);
+	picture_move(picture, 0, y);
+	y += grid_classic_draw(&pair->there, picture);
+	picture_move(picture, 0, 0);
+	if (pair->rungs > 0) {
+		text = name_ours(pair);
+		y += put_caption(pair, text, y, picture);
+		g_free(text);
+		y = put_ours(pair, y, picture);
+	} else if (pair->lost) {
+		y += put_caption(pair, pair->lost, y, picture);
+	}
+	picture->height = MAX(picture->height, y + 4);
+	return y + 4;
 }

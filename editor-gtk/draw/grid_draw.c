@@ -1,52 +1,131 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_draw - a whole rung: ground, rails, wires between rows, elements, marks, heading.
+ * grid_draw - strokes of a rung: ground, rails, wires, elements, boxes, marks, heading; and
+ * of an element in the palette. See grid_draw.h.
  */
 #include "editor-gtk/draw/grid_draw.h"
-#include "editor-gtk/draw/grid_pen.h"
+#include "editor-gtk/draw/grid_glyph.h"
+#include "editor-gtk/draw/rung_box.h"
 #include "editor-gtk/draw/rung_text.h"
 
 #include <glib.h>
+#include <math.h>
+#include <string.h>
 
 #define COMMENT_LINE 17
+#define PADDING   6     /* px inside the frame of a box                         */
+#define MIDDLE    4.5f  /* baseline of a text whose middle is on a line          */
+#define CIRCLE    3     /* radius of an inverting pin                            */
+#define BELOW_BASELINE 30 /* px below the wire: comment, value                  */
+#define EDGE 5          /* px of an icon: between a word and the side; of wire   */
+#define ICON_LINE 10    /* px from a line of an icon to the next                */
+#define INSET 3 /* below; above, Chinese names need the room */
+#define HATCH 9 /* px from line to line                      */
+#define CORNER 7 /* px of a side, at a corner that is marked  */
+#define CORNER_INSET 3 /* px, inside of what else is framed   */
 
-struct wire pen_wire(const struct pen *pen, unsigned int live)
+struct pen {
+	struct nib nib;
+	const struct grid_scene *scene;
+	const struct drafting *drafting;
+	const struct rung_layout *layout;
+	const struct rung *rung;
+	uint8_t *net_live;   /* enum live_bit of the net of each bar, by row     */
+};
+
+static struct wire wire_of(const struct pen *pen, unsigned int live)
 {
-	struct wire wire = { TOKEN_IDLE, STROKE_SOLID, pen->theme->idle_width };
+	struct wire wire = { TOKEN_IDLE, STROKE_SOLID, pen->nib.theme->idle_width };
 
 	if (!pen->scene->live)
 		return wire;
 	if (!(live & LIVE_KNOWN))
 		wire.style = STROKE_DOTTED;
 	else if (live & LIVE_OUT)
-		wire = (struct wire){ TOKEN_POWER, STROKE_SOLID, pen->theme->power_width };
+		wire = (struct wire){ TOKEN_POWER, STROKE_SOLID, pen->nib.theme->power_width };
 	return wire;
 }
 
-unsigned int pen_live(const struct pen *pen, int row, int col)
+static unsigned int live_of(const struct pen *pen, int row, int col)
 {
 	const struct grid_live *live = pen->scene->live;
 
 	return live ? live->cell[row * pen->rung->cols + col] : 0;
 }
 
-unsigned int pen_net(const struct pen *pen, int row, int bar)
+static unsigned int net_of(const struct pen *pen, int row, int bar)
 {
 	return pen->net_live[row * (pen->rung->cols + 1) + bar];
 }
 
-void pen_line(const struct pen *pen, struct wire wire, float x1, float y1, float x2,
+static void put_line(const struct pen *pen, struct wire wire, float x1, float y1, float x2,
 	      float y2)
 {
 	if (x2 != x1 || y2 != y1)
-		picture_line(pen->picture, wire.token, wire.style, wire.width, x1, y1, x2,
+		picture_line(pen->nib.picture, wire.token, wire.style, wire.width, x1, y1, x2,
 			     y2);
 }
 
-void pen_text(const struct pen *pen, enum token token, enum letter letter,
+static void put_text(const struct pen *pen, enum token token, enum letter letter,
 	      struct lettered text, float x, float baseline)
 {
-	picture_text(pen->picture, token, letter, text, x - text.width / 2, baseline);
+	picture_text(pen->nib.picture, token, letter, text, x - text.width / 2, baseline);
+}
+
+/* ---- nets ---- */
+
+static int root_of(int *net, int bar)
+{
+	while (net[bar] != bar)
+		bar = net[bar] = net[net[bar]];
+	return bar;
+}
+
+static void join(int *net, int a, int b)
+{
+	int x = root_of(net, a), y = root_of(net, b);
+
+	net[MAX(x, y)] = MIN(x, y);
+}
+
+static bool is_wire(const struct pen *pen, int row, int col)
+{
+	return word_row(rung_at(pen->rung, row, col)->word)->place == PLACE_WIRE;
+}
+
+static void find_power(struct pen *pen)
+{
+	const struct rung *rung = pen->rung;
+	int bars = rung->cols + 1;
+	int *net = g_new(int, rung->rows * bars);
+	uint8_t *live = g_new0(uint8_t, rung->rows * bars);
+
+	for (int bar = 0; bar < rung->rows * bars; bar++)
+		net[bar] = bar % bars == 0 ? 0 : bar;
+	for (int row = 0; row < rung->rows; row++)
+		for (int col = 0; col < rung->cols; col++) {
+			int bar = row * bars + col + 1;
+
+			if (rung_at(rung, row, col)->link && row > 0)
+				join(net, bar, bar - bars);
+			if (is_wire(pen, row, col))
+				join(net, bar, bar - 1);
+		}
+	if (pen->scene->live && !(pen->scene->state & RUNG_STILL))
+		live[0] = LIVE_KNOWN | LIVE_OUT;
+	for (int row = 0; row < rung->rows; row++)
+		for (int col = 0; col < rung->cols; col++) {
+			enum place place =
+				word_row(rung_at(rung, row, col)->word)->place;
+
+			if (place == PLACE_SERIES || place == PLACE_BOX)
+				live[root_of(net, row * bars + col + 1)] |=
+					live_of(pen, row, col) & (LIVE_KNOWN | LIVE_OUT);
+		}
+	for (int bar = 0; bar < rung->rows * bars; bar++)
+		live[bar] = live[root_of(net, bar)];
+	g_free(net);
+	pen->net_live = live;
 }
 
 /* ---- wires that belong to no cell ---- */
@@ -59,11 +138,11 @@ static void draw_links(const struct pen *pen)
 		for (int col = 0; col < rung->cols; col++) {
 			if (!rung_at(rung, row, col)->link)
 				continue;
-			struct wire wire = pen_wire(pen, pen_net(pen, row, col + 1));
+			struct wire wire = wire_of(pen, net_of(pen, row, col + 1));
 			float x = rung_layout_bar(pen->layout, row, col + 1);
 			float half = wire.width / 2;
 
-			pen_line(pen, wire, x, pen->layout->row[row - 1].wire - half, x,
+			put_line(pen, wire, x, pen->layout->row[row - 1].wire - half, x,
 				 pen->layout->row[row].wire + half);
 		}
 }
@@ -75,7 +154,7 @@ static void draw_trails(const struct pen *pen)
 		const struct rung_row *r = &pen->layout->row[row];
 
 		if (r->trail >= 0)
-			pen_line(pen, pen_wire(pen, pen_live(pen, row, r->trail)),
+			put_line(pen, wire_of(pen, live_of(pen, row, r->trail)),
 				 rung_layout_bar(pen->layout, row, r->trail + 1), r->wire,
 				 pen->layout->right, r->wire);
 	}
@@ -84,15 +163,282 @@ static void draw_trails(const struct pen *pen)
 static void draw_rails(const struct pen *pen)
 {
 	const struct rung_row *last = &pen->layout->row[pen->layout->rows - 1];
-	float width = pen->theme->rail_width, end = last->y + last->height;
+	float width = pen->nib.theme->rail_width, end = last->y + last->height;
 	bool live = pen->scene->live && !pen->rung->off &&
 		    !(pen->scene->state & RUNG_STILL);
 	enum stroke_style style = pen->rung->off ? STROKE_DASHED : STROKE_SOLID;
 
-	picture_line(pen->picture, live ? TOKEN_POWER : TOKEN_IDLE, style, width,
+	picture_line(pen->nib.picture, live ? TOKEN_POWER : TOKEN_IDLE, style, width,
 		     RUNG_LEFT, pen->layout->top, RUNG_LEFT, end);
-	picture_line(pen->picture, TOKEN_IDLE, style, width, pen->layout->right,
+	picture_line(pen->nib.picture, TOKEN_IDLE, style, width, pen->layout->right,
 		     pen->layout->top, pen->layout->right, end);
+}
+
+/* ---- marks of a cell ---- */
+
+static unsigned int marks_of(const struct pen *pen, int row, int column)
+{
+	unsigned int marks = 0;
+
+	for (int i = 0; i < pen->scene->mark_count; i++) {
+		const struct grid_mark *mark = &pen->scene->mark[i];
+
+		if (mark->row == row && mark->column == column)
+			marks |= mark->marks;
+	}
+	return marks;
+}
+
+static const char *note_of(const struct pen *pen, int row, int column)
+{
+	const struct grid_scene *scene = pen->scene;
+
+	return scene->note && marks_of(pen, row, column) & MARK_BLOCKS ?
+	       scene->note(scene->context, row, column) : NULL;
+}
+
+/* ---- boxes ---- */
+
+static struct lettered fit(const struct pen *pen, enum letter letter, const char *text,
+			   size_t len, float bound)
+{
+	return lettering_fit(pen->drafting->lettering, letter, text, (ptrdiff_t)len, bound);
+}
+
+static void draw_pin(const struct pen *pen, const struct rung_box *box,
+		     const struct rung_pin *pin, bool output)
+{
+	float y = pen->layout->row[box->top].wire + pin->y;
+	float side = output ? box->x + box->inner : box->x, way = output ? 1 : -1;
+	struct lettered name = fit(pen, LETTER_PIN, pin->name, pin->name_len, 140);
+	struct wire idle = { TOKEN_IDLE, STROKE_SOLID, pen->nib.theme->idle_width };
+
+	picture_text(pen->nib.picture, pen->nib.ink, LETTER_PIN, name,
+		     output ? side - PADDING - name.width : side + PADDING, y + MIDDLE);
+	if (!pin->value)
+		return;
+	struct lettered value = fit(pen, LETTER_OPERAND, pin->value, pin->value_len,
+				    box->value_most);
+	float from = side + (pin->inverse ? way * 2 * CIRCLE : 0);
+	put_line(pen, idle, from, y, side + way * BOX_STUB, y);
+	if (pin->inverse)
+		picture_arc(pen->nib.picture, pen->nib.ink, pen->nib.theme->idle_width,
+			    side + way * CIRCLE, y, CIRCLE, 0, (float)(2 * G_PI));
+	float x = side + way * (BOX_STUB + 3);
+	picture_text(pen->nib.picture, pen->nib.ink, LETTER_OPERAND, value,
+		     output ? x : x - value.width, y + MIDDLE);
+}
+
+/* Rows of power that lead into the box, and the one that leads out of it. */
+static void draw_power(const struct pen *pen, const struct rung_box *box)
+{
+	const struct rung_layout *layout = pen->layout;
+	float y = layout->row[box->top].wire;
+
+	for (int row = box->top; row <= box->last; row++) {
+		float at = layout->row[row].wire;
+
+		if (row == box->top || rung_at(pen->rung, row, box->col)->operand)
+			put_line(pen, wire_of(pen, net_of(pen, row, box->col)),
+				 rung_layout_bar(layout, row, box->col), at, box->x, at);
+	}
+	put_line(pen, wire_of(pen, live_of(pen, box->top, box->col)),
+		 box->x + box->inner, y,
+		 rung_layout_bar(layout, box->top, box->col + 1), y);
+}
+
+static void draw_value(const struct pen *pen, const struct rung_box *box, float bottom)
+{
+	const struct grid_live *live = pen->scene->live;
+	struct live_value value;
+
+	if (!box->value || !live || !live->value ||
+	    !live->value(live->context, box->top, box->col, &value))
+		return;
+	float room = box->inner - 2 * PADDING;
+	struct lettered text = lettering_fit(pen->drafting->lettering, LETTER_VALUE,
+					     value.text, -1, room);
+	put_text(pen, TOKEN_ACCENT, LETTER_VALUE, text, box->x + box->inner / 2,
+		 bottom - 12);
+	if (value.part < 0)
+		return;
+	float part = MIN(value.part, 1);
+	picture_fill(pen->nib.picture, TOKEN_LINE, 1, box->x + PADDING, bottom - 7, room, 3);
+	picture_fill(pen->nib.picture, TOKEN_POWER, 1, box->x + PADDING, bottom - 7,
+		     room * part, 3);
+}
+
+static void draw_frame(const struct pen *pen, const struct rung_box *box)
+{
+	float y = pen->layout->row[box->top].wire, middle = box->x + box->inner / 2;
+	bool lit = live_of(pen, box->top, box->col) & LIVE_OUT;
+	const char *instance = project_text(pen->drafting->project, box->cell->operand);
+	int column = rung_layout_column(pen->layout, box->top, box->col);
+	bool wrong = marks_of(pen, box->top, column) & MARK_ERROR;
+
+	if (live_of(pen, box->top, box->col) & LIVE_FRESH)
+		picture_fill(pen->nib.picture, TOKEN_ACCENT, pen->nib.theme->wash, box->x,
+			     y - BOX_ABOVE, box->inner, BOX_ABOVE + box->bottom);
+	picture_frame(pen->nib.picture, lit ? TOKEN_POWER : pen->nib.ink, STROKE_SOLID,
+		      lit ? pen->nib.theme->power_width : pen->nib.theme->shape_width, box->x,
+		      y - BOX_ABOVE, box->inner, BOX_ABOVE + box->bottom);
+	put_text(pen, pen->nib.ink, LETTER_TYPE,
+		 lettering_fit(pen->drafting->lettering, LETTER_TYPE, box->row->word, -1,
+			       280), middle, y - BOX_ABOVE + 15);
+	if (*instance)
+		put_text(pen, wrong ? TOKEN_ERROR : pen->nib.ink, LETTER_SYMBOL,
+			 lettering_fit(pen->drafting->lettering, LETTER_SYMBOL, instance,
+				       -1, box->name_most), middle, y - BOX_ABOVE - 5);
+	draw_value(pen, box, y + box->bottom);
+	if (box->in.cut || box->out.cut)
+		put_text(pen, pen->nib.ink, LETTER_PIN,
+			 lettering_fit(pen->drafting->lettering, LETTER_PIN, "\xe2\x80\xa6",
+				       -1, 0), middle, y + box->bottom - 3);
+}
+
+static void draw_box(const struct pen *pen, int row, int col)
+{
+	struct rung_box box;
+
+	rung_box_at(pen->drafting, pen->layout, row, col, &box);
+	draw_power(pen, &box);
+	draw_frame(pen, &box);
+	for (int i = 0; i < box.in.count; i++)
+		draw_pin(pen, &box, &box.in.pin[i], false);
+	for (int i = 0; i < box.out.count; i++)
+		draw_pin(pen, &box, &box.out.pin[i], true);
+}
+
+/* ---- elements ---- */
+
+/* How the strokes of an element are drawn. A coil has no power behind it, so it is
+ * judged by what comes. */
+static struct wire shape_wire(const struct pen *pen, const struct word_row *word,
+			      unsigned int live)
+{
+	unsigned int lit = word->place == PLACE_LAST ? LIVE_IN : LIVE_OUT;
+	struct wire wire = { pen->nib.ink, STROKE_SOLID, pen->nib.theme->shape_width };
+
+	if (live & LIVE_KNOWN && live & lit)
+		wire = (struct wire){ TOKEN_POWER, STROKE_SOLID, pen->nib.theme->power_width };
+	else if (pen->scene->live && !(live & LIVE_KNOWN))
+		wire.token = TOKEN_COMMENT;
+	return wire;
+}
+
+static void draw_label(const struct pen *pen, int row, int col, float x)
+{
+	const struct rung_row *r = &pen->layout->row[row];
+	struct rung_label label = rung_label(pen->drafting, rung_at(pen->rung, row, col));
+	int column = rung_layout_column(pen->layout, row, col);
+	bool wrong = marks_of(pen, row, column) & MARK_ERROR;
+
+	put_text(pen, wrong ? TOKEN_ERROR : pen->nib.ink, LETTER_SYMBOL, label.symbol, x,
+		 r->wire - (r->addressed ? 31 : 18));
+	put_text(pen, TOKEN_COMMENT, LETTER_ADDRESS, label.address, x, r->wire - 17);
+}
+
+/* A coil's comment, and where it is read. There is room up to where its wire begins to
+ * run alone. */
+static void draw_reference(const struct pen *pen, int row, int col, float x)
+{
+	const struct rung_layout *layout = pen->layout;
+	float from = MAX(rung_layout_bar(layout, row, col), pen->scene->reference_from) + 6;
+	float room = layout->right - 6 - from, baseline = layout->row[row].wire + BELOW_BASELINE;
+	struct lettered fits = rung_element_comment(pen->drafting,
+						    rung_at(pen->rung, row, col), room);
+	char *before = g_strdup_printf("%s%s", fits.text, *fits.text ? " \xc2\xb7 " : "");
+	float taken = lettering_fit(pen->drafting->lettering, LETTER_PIN, before, -1,
+				    0).width;
+	char *read = pen->scene->reference(pen->scene->context, row, col, room - taken);
+	char *text = g_strdup_printf("%s%s", read ? before : fits.text, read ? read : "");
+
+	fits = lettering_fit(pen->drafting->lettering, LETTER_PIN, text, -1, room);
+	g_free(read);
+	g_free(text);
+	g_free(before);
+	float left = MIN(x - fits.width / 2, layout->right - 6 - fits.width);
+	picture_text(pen->nib.picture, TOKEN_COMMENT, LETTER_PIN, fits, left, baseline);
+}
+
+/* @up: of the strokes. An expression of many lines leaves room above it only. */
+static void draw_below(const struct pen *pen, int row, int col, float x, float room,
+		       float up)
+{
+	const struct grid_scene *scene = pen->scene;
+	const struct cell *cell = rung_at(pen->rung, row, col);
+	float baseline = pen->layout->row[row].wire +
+			 (up > RUNG_HALF ? -up - 4 : BELOW_BASELINE);
+	struct live_value value;
+
+	if (note_of(pen, row, rung_layout_column(pen->layout, row, col)))
+		return; /* it stands there */
+	if (scene->live && scene->live->value &&
+	    scene->live->value(scene->live->context, row, col, &value)) {
+		put_text(pen, TOKEN_ACCENT, LETTER_VALUE,
+			 lettering_fit(pen->drafting->lettering, LETTER_VALUE, value.text,
+				       -1, room), x, baseline);
+		return;
+	}
+	if (scene->reference && word_row(cell->word)->place == PLACE_LAST)
+		draw_reference(pen, row, col, x);
+	else
+		put_text(pen, TOKEN_COMMENT, LETTER_PIN,
+			 rung_element_comment(pen->drafting, cell, room), x, baseline);
+}
+
+static void draw_shape(const struct pen *pen, int row, int col)
+{
+	const struct rung_layout *layout = pen->layout;
+	const struct cell *cell = rung_at(pen->rung, row, col);
+	const struct word_row *word = word_row(cell->word);
+	int column = rung_layout_column(layout, row, col);
+	float width = layout->column_width[column], y = layout->row[row].wire;
+	unsigned int live = live_of(pen, row, col), left = net_of(pen, row, col);
+	bool last = word->place == PLACE_LAST;
+	struct glyph glyph = { .strokes = word->glyph, .y = y, .half = glyph_half(word),
+			       .x = layout->column_x[column] + width / 2,
+			       .wire = shape_wire(pen, word, live), .up = RUNG_HALF,
+			       .lit = live & LIVE_CLOSED };
+
+	struct rung_framed framed;
+
+	if (rung_is_framed(word)) {
+		framed = rung_framed(pen->drafting, cell);
+		glyph.framed = &framed;
+		glyph.half = framed.width / 2 + FRAMED_SIDE;
+		glyph.up = framed.up;
+	} else if (word->operand == OPND_NONE) {
+		glyph.inside = word->word;
+		glyph.letter = LETTER_TYPE;
+	}
+	put_line(pen, wire_of(pen, left), rung_layout_bar(layout, row, col), y,
+		 glyph.x - glyph.half, y);
+	put_line(pen, wire_of(pen, last ? left : live), glyph.x + glyph.half, y,
+		 rung_layout_bar(layout, row, col + 1), y);
+	if (live & LIVE_FRESH)
+		picture_fill(pen->nib.picture, TOKEN_ACCENT, pen->nib.theme->wash,
+			     glyph.x - glyph.half - 4, y - glyph.up - 2,
+			     2 * glyph.half + 8, 2 * glyph.up + 4);
+	glyph_draw(&pen->nib, &glyph);
+	draw_label(pen, row, col, glyph.x);
+	draw_below(pen, row, col, glyph.x, width - 8 - 2 * pen->drafting->beside, glyph.up);
+}
+
+static void draw_element(const struct pen *pen, int row, int col)
+{
+	const struct cell *cell = rung_at(pen->rung, row, col);
+	const struct word_row *word = words_row(&pen->drafting->project->words, cell->word);
+	float y = pen->layout->row[row].wire;
+
+	if (word->kind != WORD_ELEM)
+		draw_box(pen, row, col);
+	else if (word->place == PLACE_WIRE)
+		put_line(pen, wire_of(pen, net_of(pen, row, col)),
+			 rung_layout_bar(pen->layout, row, col), y,
+			 rung_layout_bar(pen->layout, row, col + 1), y);
+	else if (word->place != PLACE_NONE && word->place != PLACE_PIN)
+		draw_shape(pen, row, col);
 }
 
 /* ---- what stands round the grid ---- */
@@ -115,7 +461,7 @@ static void take_line(void *context, int line, struct lettered text)
 static void draw_title(const struct pen *pen, const struct rung_heading *heading)
 {
 	const struct rung_layout *layout = pen->layout;
-	struct line_place place = { pen->picture, pen->ink, LETTER_TITLE,
+	struct line_place place = { pen->nib.picture, pen->nib.ink, LETTER_TITLE,
 				    RUNG_LEFT + heading->indent, layout->title_y,
 				    TITLE_STEP };
 
@@ -134,11 +480,11 @@ static void draw_heading(const struct pen *pen)
 	struct rung_heading heading = rung_heading(pen->drafting, pen->rung);
 	float y = layout->title_y;
 
-	picture_text(pen->picture, TOKEN_ACCENT, LETTER_OPERAND, heading.label, RUNG_LEFT, y);
+	picture_text(pen->nib.picture, TOKEN_ACCENT, LETTER_OPERAND, heading.label, RUNG_LEFT, y);
 	draw_title(pen, &heading);
 	y += layout->title_lines ? (float)((layout->title_lines - 1) * TITLE_STEP) : 0;
 	if (layout->comment_lines) {
-		struct line_place place = { pen->picture, TOKEN_COMMENT, LETTER_COMMENT,
+		struct line_place place = { pen->nib.picture, TOKEN_COMMENT, LETTER_COMMENT,
 					    RUNG_LEFT, y + (heading.width > 0 ?
 							    COMMENT_LINE : 0),
 					    COMMENT_LINE };
@@ -146,7 +492,7 @@ static void draw_heading(const struct pen *pen)
 		rung_lines(pen->drafting, LETTER_COMMENT, heading.comment,
 			   layout->heading_room, layout->comment_lines, take_line, &place);
 	} else if (*heading.comment) {
-		picture_text(pen->picture, TOKEN_COMMENT, LETTER_COMMENT,
+		picture_text(pen->nib.picture, TOKEN_COMMENT, LETTER_COMMENT,
 			     lettering_fit(pen->drafting->lettering, LETTER_COMMENT,
 					   heading.comment, -1, 0),
 			     RUNG_LEFT + heading.width, y);
@@ -161,19 +507,19 @@ static void draw_ground(const struct pen *pen)
 	float width = rung_layout_width(layout);
 
 	if (!(state & (RUNG_NO_GUTTER | RUNG_ON_GUTTER)))
-		picture_fill(pen->picture, TOKEN_GUTTER, 1, 0, 0, RUNG_GUTTER,
+		picture_fill(pen->nib.picture, TOKEN_GUTTER, 1, 0, 0, RUNG_GUTTER,
 			     layout->height);
 	if (state & RUNG_SELECTED)
-		picture_fill(pen->picture, TOKEN_ACCENT, pen->theme->wash, 0, 0, width,
+		picture_fill(pen->nib.picture, TOKEN_ACCENT, pen->nib.theme->wash, 0, 0, width,
 			     layout->height);
 	if (state & RUNG_ADDED)
-		picture_fill(pen->picture, TOKEN_POWER, 0.10f, 0, 0, width, layout->height);
+		picture_fill(pen->nib.picture, TOKEN_POWER, 0.10f, 0, 0, width, layout->height);
 	if (state & RUNG_REMOVED)
-		picture_fill(pen->picture, TOKEN_ERROR, 0.10f, 0, 0, width, layout->height);
+		picture_fill(pen->nib.picture, TOKEN_ERROR, 0.10f, 0, 0, width, layout->height);
 	if (state & RUNG_CURRENT)
-		picture_fill(pen->picture, TOKEN_ACCENT, 1, 0, 2, 3, layout->height - 4);
+		picture_fill(pen->nib.picture, TOKEN_ACCENT, 1, 0, 2, 3, layout->height - 4);
 	if (!(state & RUNG_NO_GUTTER))
-		picture_fill(pen->picture, TOKEN_LINE, 1, 0, layout->height - 1, width, 1);
+		picture_fill(pen->nib.picture, TOKEN_LINE, 1, 0, layout->height - 1, width, 1);
 }
 
 static void draw_number(const struct pen *pen)
@@ -188,44 +534,279 @@ static void draw_number(const struct pen *pen)
 	char number[16];
 
 	g_snprintf(number, sizeof(number), "%d", pen->layout->number);
-	pen_text(pen, token, LETTER_NUMBER,
+	put_text(pen, token, LETTER_NUMBER,
 		 lettering_fit(lettering, LETTER_NUMBER, number, -1, 0), x, y);
 	if (pen->rung->off) /* paper may be made smaller */
-		pen_text(pen, TOKEN_COMMENT, small,
+		put_text(pen, TOKEN_COMMENT, small,
 			 lettering_fit(lettering, small, "OFF", -1, 0), x, y + 15);
 	if (sign)
-		pen_text(pen, state & RUNG_ADDED ? TOKEN_POWER : state & RUNG_REMOVED ?
+		put_text(pen, state & RUNG_ADDED ? TOKEN_POWER : state & RUNG_REMOVED ?
 			 TOKEN_ERROR : TOKEN_FORCE, LETTER_HEADING,
 			 lettering_fit(lettering, LETTER_HEADING, sign, -1, 0), x, y + 36);
 	if (state & RUNG_MARKED) /* a ribbon */
-		picture_fill(pen->picture, TOKEN_ACCENT, 1, 7, 0, 6, y + 6);
+		picture_fill(pen->nib.picture, TOKEN_ACCENT, 1, 7, 0, 6, y + 6);
 	if (state & RUNG_EDITED)
-		picture_disc(pen->picture, TOKEN_ACCENT, 1, RUNG_GUTTER - 6, y - 5, 3);
+		picture_disc(pen->nib.picture, TOKEN_ACCENT, 1, RUNG_GUTTER - 6, y - 5, 3);
 }
+
+/* ---- marks: each has a shape or a letter, never a colour alone ---- */
+
+static bool is_inside(const struct pen *pen, const struct grid_mark *mark)
+{
+	return mark->row >= 0 && mark->row < pen->layout->rows && mark->column >= 0 &&
+	       mark->column < pen->layout->columns;
+}
+
+static graphene_rect_t place_of(const struct pen *pen, const struct grid_mark *mark)
+{
+	graphene_rect_t rect = rung_layout_cell(pen->layout, mark->row, mark->column);
+
+	return GRAPHENE_RECT_INIT(rect.origin.x + 1, rect.origin.y,
+				  rect.size.width - 2, rect.size.height - INSET);
+}
+
+/* Slanting lines, faint enough for what stands upon them. */
+static void draw_hatch(const struct pen *pen, const graphene_rect_t *r)
+{
+	const float width = r->size.width, height = r->size.height;
+
+	for (float at = HATCH; at < width + height; at += HATCH) {
+		const float left = MAX(at - height, 0), right = MIN(at, width);
+
+		picture_line(pen->nib.picture, TOKEN_BLOCKS, STROKE_SOLID, 1,
+			     r->origin.x + left, r->origin.y + at - left,
+			     r->origin.x + right, r->origin.y + at - right);
+		pen->nib.picture->stroke[pen->nib.picture->count - 1].alpha = 0.35f;
+	}
+}
+
+static void draw_grounds(const struct pen *pen)
+{
+	for (int i = 0; i < pen->scene->mark_count; i++) {
+		const struct grid_mark *mark = &pen->scene->mark[i];
+
+		if (!is_inside(pen, mark))
+			continue;
+		graphene_rect_t r = place_of(pen, mark);
+		if (mark->marks & MARK_FOUND) {
+			picture_fill(pen->nib.picture, TOKEN_FOUND, 1, r.origin.x, r.origin.y,
+				     r.size.width, r.size.height);
+			picture_frame(pen->nib.picture, TOKEN_COMMENT, STROKE_SOLID, 1,
+				      r.origin.x, r.origin.y, r.size.width,
+				      r.size.height);
+		}
+		if (mark->marks & MARK_BLOCKS)
+			draw_hatch(pen, &r);
+		if (mark->marks & (MARK_CURSOR | MARK_SELECTED | MARK_DROP))
+			picture_fill(pen->nib.picture, TOKEN_ACCENT, pen->nib.theme->wash,
+				     r.origin.x, r.origin.y, r.size.width, r.size.height);
+	}
+}
+
+/* A letter on a small ground, its left upper corner at (x, y); returns its width. */
+static float badge(const struct pen *pen, enum token ground, const char *text, float x,
+		   float y)
+{
+	struct lettered fits = lettering_fit(pen->drafting->lettering, LETTER_BADGE, text,
+					     -1, 0);
+
+	picture_fill(pen->nib.picture, ground, 1, x, y, fits.width + 6, 13);
+	picture_text(pen->nib.picture, TOKEN_BADGE, LETTER_BADGE, fits, x + 3, y + 10);
+	return fits.width + 6;
+}
+
+#define FORCED "F"
+#define TWICE  "2\xc3\x97"
+#define FAILED "!"
+#define REFUSED "\xc3\x97"
+
+static void mark_wrong(const struct pen *pen, unsigned int marks, float x, float y, float w)
+{
+	if (marks & MARK_ERROR)
+		picture_wave(pen->nib.picture, TOKEN_ERROR, x, y, w);
+	else if (marks & MARK_WARNING)
+		picture_line(pen->nib.picture, TOKEN_FORCE, STROKE_DASHED, 2, x, y + 1, x + w,
+			     y + 1);
+}
+
+/* An expression may have several lines: what is wrong stands below them. */
+static void mark_framed(const struct pen *pen, unsigned int marks, const struct cell *cell,
+			float middle, float y)
+{
+	struct rung_framed framed = rung_framed(pen->drafting, cell);
+	float x = middle + framed.width / 2 + FRAMED_SIDE + 2;
+
+	mark_wrong(pen, marks, middle - 22, y + framed.up + 2, 44);
+	if (marks & (MARK_FORCED | MARK_TWICE))
+		badge(pen, TOKEN_FORCE, marks & MARK_FORCED ? FORCED : TWICE, x,
+		      y - 15);
+	if (marks & MARK_FAILED)
+		badge(pen, TOKEN_ERROR, FAILED, x, y + 2);
+}
+
+/* Behind the address if there is room, else below the wire. */
+static void mark_element(const struct pen *pen, unsigned int marks, int row, int col,
+			 const graphene_rect_t *r)
+{
+	const struct cell *cell = col >= 0 ? rung_at(pen->rung, row, col) : NULL;
+	const struct word_row *word = cell ? word_row(cell->word) : NULL;
+	float middle = r->origin.x + r->size.width / 2, y = pen->layout->row[row].wire;
+	float half = word ? glyph_half(word) : 8, address = 0;
+
+	if (word && rung_is_framed(word)) {
+		mark_framed(pen, marks, cell, middle, y);
+		return;
+	}
+	if (word)
+		address = rung_label(pen->drafting, cell).address.width;
+	float behind = middle + address / 2 + 2;
+	bool fits = address > 0 && behind + 13 < r->origin.x + r->size.width;
+	mark_wrong(pen, marks, middle - 22, y + RUNG_HALF + 2, 44);
+	if (marks & MARK_FORCED && fits)
+		badge(pen, TOKEN_FORCE, FORCED, behind, y - 28);
+	else if (marks & MARK_FORCED)
+		badge(pen, TOKEN_FORCE, FORCED, middle + half + 3, y + 1.5f);
+	if (marks & MARK_TWICE)
+		badge(pen, TOKEN_FORCE, TWICE, middle + half + 3, y - 15);
+}
+
+/* Those of a box stand below it. */
+static void mark_box(const struct pen *pen, unsigned int marks, int row, int col)
+{
+	const struct rung_layout *layout = pen->layout;
+	struct rung_box box;
+
+	rung_box_at(pen->drafting, layout, row, col, &box);
+	float x = box.x, y = layout->row[row].wire + box.bottom + 2;
+	if (marks & (MARK_ERROR | MARK_WARNING)) {
+		mark_wrong(pen, marks, x, y + 1, 36);
+		x += 38;
+	}
+	if (marks & MARK_FORCED)
+		x += badge(pen, TOKEN_FORCE, FORCED, x, y) + 2;
+	if (marks & MARK_TWICE)
+		x += badge(pen, TOKEN_FORCE, TWICE, x, y) + 2;
+	if (marks & MARK_FAILED)
+		badge(pen, TOKEN_ERROR, FAILED, x, y);
+}
+
+/* Where else its value would be. */
+static void draw_note(const struct pen *pen, const struct grid_mark *mark,
+		      const graphene_rect_t *r)
+{
+	const char *note = note_of(pen, mark->row, mark->column);
+	struct lettered fits = lettering_fit(pen->drafting->lettering, LETTER_BADGE, note,
+					     -1, r->size.width - 10);
+
+	badge(pen, TOKEN_BLOCKS, fits.text,
+	      r->origin.x + (r->size.width - fits.width) / 2 - 3,
+	      r->origin.y + r->size.height - 17);
+}
+
+/* Its four corners: all round so many cells would be more than what stands in them, and
+ * what is broken would be an image for each rung. */
+static void draw_corners(const struct pen *pen, const graphene_rect_t *r)
+{
+	const float left = r->origin.x + CORNER_INSET, top = r->origin.y + CORNER_INSET;
+	const float right = r->origin.x + r->size.width - CORNER_INSET;
+	const float bottom = r->origin.y + r->size.height - CORNER_INSET;
+	const float thick = floorf(pen->nib.theme->idle_width);
+
+	for (int i = 0; i < 4; i++) {
+		const bool after = i % 2, below = i / 2;
+
+		picture_fill(pen->nib.picture, TOKEN_ACCENT, 1, after ? right - CORNER : left,
+			     below ? bottom - thick : top, CORNER, thick);
+		picture_fill(pen->nib.picture, TOKEN_ACCENT, 1, after ? right - thick : left,
+			     below ? bottom - CORNER : top + thick, thick,
+			     CORNER - thick);
+	}
+}
+
+static void draw_frames(const struct pen *pen, const struct grid_mark *mark,
+			const graphene_rect_t *r)
+{
+	if (mark->marks & MARK_CURSOR)
+		picture_frame(pen->nib.picture, TOKEN_ACCENT, STROKE_SOLID, 1.5f, r->origin.x,
+			      r->origin.y, r->size.width, r->size.height);
+	if (mark->marks & MARK_DROP)
+		picture_frame(pen->nib.picture, TOKEN_ACCENT, STROKE_DASHED, 1.5f,
+			      r->origin.x, r->origin.y, r->size.width, r->size.height);
+	if (mark->marks & MARK_ILLEGAL)
+		picture_frame(pen->nib.picture, TOKEN_ERROR, STROKE_SOLID, 1.5f, r->origin.x,
+			      r->origin.y, r->size.width, r->size.height);
+	if (mark->marks & MARK_BLOCKS)
+		picture_frame(pen->nib.picture, TOKEN_BLOCKS, STROKE_SOLID, 2, r->origin.x,
+			      r->origin.y, r->size.width, r->size.height);
+	if (mark->marks & MARK_CHANGED)
+		picture_frame(pen->nib.picture, TOKEN_FORCE, STROKE_DOTTED, 1.5f, r->origin.x,
+			      r->origin.y, r->size.width, r->size.height);
+}
+
+static void draw_takes(const struct pen *pen)
+{
+	const int columns = pen->layout->columns;
+
+	for (int i = 0; pen->scene->takes && i < pen->layout->rows * columns; i++) {
+		const struct grid_mark mark = { i / columns, i % columns, 0 };
+		const graphene_rect_t r = place_of(pen, &mark);
+
+		if (pen->scene->takes[i])
+			draw_corners(pen, &r);
+	}
+}
+
+static void draw_marks(const struct pen *pen)
+{
+	draw_takes(pen);
+	for (int i = 0; i < pen->scene->mark_count; i++) {
+		const struct grid_mark *mark = &pen->scene->mark[i];
+
+		if (!is_inside(pen, mark))
+			continue;
+		graphene_rect_t r = place_of(pen, mark);
+		int col = rung_layout_col(pen->layout, mark->row, mark->column);
+		int top = col < 0 ? -1 : rung_box_top(pen->rung, mark->row, col);
+		draw_frames(pen, mark, &r);
+		if (top >= 0)
+			mark_box(pen, mark->marks, top, col);
+		else
+			mark_element(pen, mark->marks, mark->row, col, &r);
+		if (mark->marks & MARK_CHANGED)
+			badge(pen, TOKEN_FORCE, "\xe2\x89\xa0", r.origin.x + 1,
+			      r.origin.y + r.size.height - 14);
+		if (mark->marks & MARK_ILLEGAL)
+			badge(pen, TOKEN_ERROR, REFUSED, r.origin.x + 1,
+			      r.origin.y + r.size.height - 14);
+		if (note_of(pen, mark->row, mark->column))
+			draw_note(pen, mark, &r);
+	}
+}
+
+/* ---- all of a rung ---- */
 
 void grid_draw(const struct grid_scene *scene, struct picture *picture)
 {
 	struct grid_scene still = *scene;
 	struct pen pen = { .scene = &still, .drafting = scene->drafting,
 			   .layout = scene->layout, .rung = scene->layout->rung,
-			   .theme = scene->theme, .picture = picture };
+			   .nib = { picture, scene->theme, scene->drafting->lettering,
+				    scene->layout->rung->off ? TOKEN_COMMENT : TOKEN_INK } };
 
-	/* A rung that is OFF is not scanned. */
-	pen.ink = pen.rung->off ? TOKEN_COMMENT : TOKEN_INK;
-	if (pen.rung->off)
+	if (pen.rung->off) /* it is not scanned */
 		still.live = NULL;
-	grid_net_make(&pen);
+	find_power(&pen);
 	draw_ground(&pen);
-	grid_draw_grounds(&pen);
+	draw_grounds(&pen);
 	draw_links(&pen);
 	draw_trails(&pen);
 	for (int row = 0; row < pen.rung->rows; row++)
 		for (int col = 0; col < pen.rung->cols; col++)
-			grid_draw_element(&pen, row, col);
+			draw_element(&pen, row, col);
 	draw_rails(&pen);
 	draw_heading(&pen);
 	draw_number(&pen);
-	grid_draw_marks(&pen);
+	draw_marks(&pen);
 	g_free(pen.net_live);
 }
 
@@ -240,4 +821,108 @@ GskRenderNode *grid_draw_node(const struct grid_scene *scene)
 					   scene->drafting->lettering);
 	picture_clear(&picture);
 	return node;
+}
+
+/* ---- icons: what an element says by a text, its icon says by its word ---- */
+
+struct word_lines {
+	struct lettered line[2];
+	int lines;
+	float width;
+};
+
+/* Behind the last `_` of the first half or a little more; without one in the middle. */
+static size_t break_at(const char *word)
+{
+	size_t len = strlen(word), at = 0;
+
+	for (size_t i = 1; i < len; i++)
+		if (word[i - 1] == '_' && (i <= len / 2 + 2 || at == 0))
+			at = i;
+	return at ? at : (len + 1) / 2;
+}
+
+static struct word_lines lines_of(struct lettering *lettering, const char *word,
+				  float room)
+{
+	struct lettered whole = lettering_fit(lettering, LETTER_BADGE, word, -1, 0);
+	struct word_lines lines = { { whole }, 1, whole.width };
+
+	if (whole.width <= room)
+		return lines;
+	size_t at = break_at(word);
+	lines.line[0] = lettering_fit(lettering, LETTER_BADGE, word, (ptrdiff_t)at, room);
+	lines.line[1] = lettering_fit(lettering, LETTER_BADGE, word + at, -1, room);
+	lines.lines = 2;
+	lines.width = MAX(lines.line[0].width, lines.line[1].width);
+	return lines;
+}
+
+/* Words of a project may have any letters: they are not cut in two but clipped. */
+static bool is_plain(const char *word)
+{
+	for (; *word; word++)
+		if ((guchar)*word >= 0x80)
+			return false;
+	return true;
+}
+
+static void say_word(const struct pen *pen, const struct glyph *glyph,
+		     const struct word_lines *lines)
+{
+	float y = glyph->y + (lines->lines > 1 ? -2 : 3.5f);
+
+	for (int i = 0; i < lines->lines; i++)
+		put_text(pen, TOKEN_INK, LETTER_BADGE, lines->line[i], glyph->x,
+			 y + (float)(i * ICON_LINE));
+}
+
+static void draw_word(const struct pen *pen, struct glyph *glyph, bool box,
+		      const struct word_lines *lines)
+{
+	float up = lines->lines > 1 ? RUNG_HALF + 2 : RUNG_HALF;
+	if (box)
+		picture_frame(pen->nib.picture, TOKEN_INK, STROKE_SOLID,
+			      pen->nib.theme->shape_width, glyph->x - glyph->half,
+			      glyph->y - up, 2 * glyph->half, 2 * up);
+	else
+		glyph_outline(&pen->nib, glyph);
+	say_word(pen, glyph, lines);
+}
+
+void grid_draw_icon(const struct word_row *word, const struct theme *theme,
+		    struct lettering *lettering, float width, float height,
+		    struct picture *picture)
+{
+	struct drafting drafting = { .lettering = lettering };
+	struct grid_scene scene = { .drafting = &drafting, .theme = theme };
+	struct pen pen = { .scene = &scene, .drafting = &drafting,
+			   .nib = { picture, theme, lettering, TOKEN_INK } };
+	struct wire wire = { TOKEN_INK, STROKE_SOLID, theme->shape_width };
+	struct glyph glyph = { .strokes = word->glyph, .x = width / 2, .y = height / 2,
+			       .half = glyph_half(word), .wire = wire, .up = RUNG_HALF };
+	bool box = word->kind != WORD_ELEM;
+	bool pointed = !box && strchr("<>", word->glyph[0]);
+	bool says = box || rung_is_framed(word) || word->operand == OPND_NONE;
+	float room = width - 2 * EDGE - 2;
+	struct word_lines lines = { .lines = 0 };
+
+	if (word->place == PLACE_WIRE) {
+		put_line(&pen, wire, 0, glyph.y, width, glyph.y);
+		return;
+	}
+	if (says && is_plain(word->word))
+		lines = lines_of(lettering, word->word, room);
+	else if (says)
+		lines = (struct word_lines){ { lettering_fit(lettering, LETTER_BADGE,
+			word->word, -1, room) }, 1, room };
+	float side = pointed ? 10 : lines.width + 8 > room ? 3 : EDGE;
+	if (says)
+		glyph.half = MAX(lines.width / 2 + side, 14);
+	put_line(&pen, wire, 0, glyph.y, glyph.x - glyph.half, glyph.y);
+	put_line(&pen, wire, glyph.x + glyph.half, glyph.y, width, glyph.y);
+	if (says)
+		draw_word(&pen, &glyph, box, &lines);
+	else
+		glyph_draw(&pen.nib, &glyph);
 }

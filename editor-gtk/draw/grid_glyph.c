@@ -3,9 +3,9 @@
  * grid_glyph - the three characters of an element as strokes.
  *
  * It knows characters and no elements: `|` is a bar, `(` and `)` are arcs, `[` `]`
- * brackets, `<` `>` arrows; in the middle `/` slants through and a letter is a letter.
+ * brackets, `<` `>` arrows; in the middle `/` is a slanting line, a letter is a letter.
  */
-#include "editor-gtk/draw/grid_pen.h"
+#include "editor-gtk/draw/grid_glyph.h"
 
 #include <glib.h>
 #include <string.h>
@@ -15,15 +15,15 @@
 #define COIL_RADIUS 18
 #define TIP         7     /* of a bracket, an arrow                             */
 
-static void shape_line(const struct pen *pen, const struct glyph *glyph, float x1,
+static void shape_line(const struct nib *nib, const struct glyph *glyph, float x1,
 		       float y1, float x2, float y2)
 {
-	picture_line(pen->picture, glyph->wire.token, STROKE_SOLID, glyph->wire.width,
+	picture_line(nib->picture, glyph->wire.token, STROKE_SOLID, glyph->wire.width,
 		     glyph->x + x1, glyph->y + y1, glyph->x + x2, glyph->y + y2);
 }
 
 /* One stroke at the left (@side -1) or at the right (1). */
-static void side_stroke(const struct pen *pen, const struct glyph *glyph, char stroke,
+static void side_stroke(const struct nib *nib, const struct glyph *glyph, char stroke,
 			float side)
 {
 	float x = side * glyph->half, up = glyph->up;
@@ -31,11 +31,11 @@ static void side_stroke(const struct pen *pen, const struct glyph *glyph, char s
 
 	switch (stroke) {
 	case '|':
-		shape_line(pen, glyph, x, -up, x, up);
+		shape_line(nib, glyph, x, -up, x, up);
 		return;
 	case '(':
 	case ')':
-		picture_arc(pen->picture, glyph->wire.token, glyph->wire.width,
+		picture_arc(nib->picture, glyph->wire.token, glyph->wire.width,
 			    glyph->x + x - side * COIL_RADIUS, glyph->y, COIL_RADIUS,
 			    opening - 0.73f, opening + 0.73f);
 		return;
@@ -43,43 +43,49 @@ static void side_stroke(const struct pen *pen, const struct glyph *glyph, char s
 	case '>':
 		up = RUNG_HALF - 2;
 		if ((stroke == '<') == (side < 0)) { /* its point is outside    */
-			shape_line(pen, glyph, x, 0, x - side * TIP, -up);
-			shape_line(pen, glyph, x, 0, x - side * TIP, up);
+			shape_line(nib, glyph, x, 0, x - side * TIP, -up);
+			shape_line(nib, glyph, x, 0, x - side * TIP, up);
 		} else {
-			shape_line(pen, glyph, x - side * TIP, 0, x, -up);
-			shape_line(pen, glyph, x - side * TIP, 0, x, up);
+			shape_line(nib, glyph, x - side * TIP, 0, x, -up);
+			shape_line(nib, glyph, x - side * TIP, 0, x, up);
 		}
 		return;
 	default: /* brackets, and words such as FOR */
-		shape_line(pen, glyph, x, -up, x, up);
-		shape_line(pen, glyph, x, -up, x - side * TIP, -up);
-		shape_line(pen, glyph, x, up, x - side * TIP, up);
+		shape_line(nib, glyph, x, -up, x, up);
+		shape_line(nib, glyph, x, -up, x - side * TIP, -up);
+		shape_line(nib, glyph, x, up, x - side * TIP, up);
 		return;
 	}
 }
 
-static void fill(const struct pen *pen, const struct glyph *glyph)
+static void centred(const struct nib *nib, enum token token, enum letter letter,
+		    struct lettered text, float x, float baseline)
 {
-	float alpha = pen->theme->fill;
+	picture_text(nib->picture, token, letter, text, x - text.width / 2, baseline);
+}
+
+static void fill(const struct nib *nib, const struct glyph *glyph)
+{
+	float alpha = nib->theme->fill;
 
 	if (glyph->strokes[0] == '(')
-		picture_disc(pen->picture, TOKEN_POWER, alpha, glyph->x, glyph->y,
+		picture_disc(nib->picture, TOKEN_POWER, alpha, glyph->x, glyph->y,
 			     glyph->half);
 	else
-		picture_fill(pen->picture, TOKEN_POWER, alpha, glyph->x - glyph->half,
+		picture_fill(nib->picture, TOKEN_POWER, alpha, glyph->x - glyph->half,
 			     glyph->y - RUNG_HALF, 2 * glyph->half, 2 * RUNG_HALF);
 }
 
-static void lines_inside(const struct pen *pen, const struct glyph *glyph)
+static void lines_inside(const struct nib *nib, const struct glyph *glyph)
 {
 	float y = glyph->y + 4.5f - (float)(glyph->framed->lines - 1) * FRAMED_LINE / 2;
 
 	for (int i = 0; i < glyph->framed->lines; i++)
-		pen_text(pen, pen->ink, LETTER_OPERAND, glyph->framed->line[i], glyph->x,
-			 y + (float)(i * FRAMED_LINE));
+		centred(nib, nib->ink, LETTER_OPERAND, glyph->framed->line[i], glyph->x,
+			y + (float)(i * FRAMED_LINE));
 }
 
-static void middle(const struct pen *pen, const struct glyph *glyph)
+static void middle(const struct nib *nib, const struct glyph *glyph)
 {
 	char letter[2] = { glyph->strokes[1], 0 };
 	const char *text = glyph->inside ? glyph->inside : letter;
@@ -90,29 +96,29 @@ static void middle(const struct pen *pen, const struct glyph *glyph)
 	if (!glyph->inside && letter[0] == '/') {
 		float x = glyph->strokes[0] == '(' ? 5 : glyph->half + 1;
 
-		shape_line(pen, glyph, -x, RUNG_HALF - 3, x, 3 - RUNG_HALF);
+		shape_line(nib, glyph, -x, RUNG_HALF - 3, x, 3 - RUNG_HALF);
 		return;
 	}
-	struct lettered fits = lettering_fit(pen->drafting->lettering, kind, text, -1, 0);
-	pen_text(pen, glyph->inside ? pen->ink : glyph->wire.token, kind, fits, glyph->x,
-		 glyph->y + 4.5f);
+	struct lettered fits = lettering_fit(nib->lettering, kind, text, -1, 0);
+	centred(nib, glyph->inside ? nib->ink : glyph->wire.token, kind, fits, glyph->x,
+		glyph->y + 4.5f);
 }
 
-void glyph_outline(const struct pen *pen, const struct glyph *glyph)
+void glyph_outline(const struct nib *nib, const struct glyph *glyph)
 {
-	side_stroke(pen, glyph, glyph->strokes[0], -1);
-	side_stroke(pen, glyph, glyph->strokes[2], 1);
+	side_stroke(nib, glyph, glyph->strokes[0], -1);
+	side_stroke(nib, glyph, glyph->strokes[2], 1);
 }
 
-void glyph_draw(const struct pen *pen, const struct glyph *glyph)
+void glyph_draw(const struct nib *nib, const struct glyph *glyph)
 {
 	if (glyph->lit)
-		fill(pen, glyph);
-	glyph_outline(pen, glyph);
+		fill(nib, glyph);
+	glyph_outline(nib, glyph);
 	if (glyph->framed)
-		lines_inside(pen, glyph);
+		lines_inside(nib, glyph);
 	else
-		middle(pen, glyph);
+		middle(nib, glyph);
 }
 
 float glyph_half(const struct word_row *word)

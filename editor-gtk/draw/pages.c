@@ -1,15 +1,87 @@
 /* SPDX-License-Identifier: MIT
  *
- * pages - breaking a project into pages; see pages.h. Rungs are pages_rung.c and
- * pages_fold.c, charts pages_chart.c, painting is pages_paint.c and pages_title.c.
+ * pages - breaks a project into pages and paints them; see pages.h.
+ *
+ * Everything is first drawn as pictures; pieces of them are put on pages, one below the
+ * other. A rung that is too wide for a page is folded: its columns go on in strips below
+ * each other, and each wire that is cut has a number at both ends. A chart goes on across
+ * and down over as many pages as it takes. The title block has the same fields at the same
+ * places on all pages; its height is that of the longest text in it.
  */
-#include "editor-gtk/draw/pages_inside.h"
+#include "editor-gtk/draw/pages.h"
+#include "editor-gtk/draw/grid_draw.h"
+#include "editor-gtk/draw/listing.h"
+#include "editor-gtk/draw/rung_text.h"
+#include "editor-gtk/draw/sfc_bodies.h"
+#include "editor-gtk/draw/sfc_draw.h"
 #include "editor-gtk/kit/i18n.h"
 
+#include <cairo-pdf.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
-#define TITLE_AIR   16 /* px above the title block                             */
-#define HEADING_LINE 24 /* px from a line of a heading to the next              */
+#define PAGE_PX     (96 / 25.4f) /* px a mm                                     */
+#define PAGE_MARGIN 45           /* px: 12 mm                                   */
+#define TEXT_LINE   16           /* px of a line of IL or of a table             */
+#define PAGE_AIR    14           /* px between what stands below each other      */
+#define PAGE_LEAST  0.6f         /* no rung, no chart is made smaller: 5.1 pt        */
+#define ABOVE_TITLE 16           /* px above the title block                     */
+#define HEADING_LINE 24          /* px from a line of a heading to the next      */
+#define MOST_PLACES 12 /* are told where there is no room for all                  */
+#define MOST_STRIPS LIMIT_COLS
+#define LINK_AIR    3    /* px behind a wire between rows that stays whole            */
+#define MARK        38   /* px of an arrow with its number                           */
+#define ARROW       12   /* of them the arrow                                        */
+#define HEAD        5    /* of it its point                                          */
+#define FIELD_AIR  16 /* px in a field beside its text                            */
+#define LINE_STEP  10 /* px from a line of small type to the next                 */
+#define LINES_LEAST 2 /* there is always room for these                           */
+#define SHORT_TEXT 80 /* px: what is not longer is not broken                     */
+#define PART_MOST  4  /* of a page are the most lines, as a divisor               */
+#define PAPER_LEAST 240 /* px: on less there is no title block                      */
+
+/* In the order in which they stand.  */
+enum { PROJECT, NAME, UNIT, DATE, PAGE, FIELDS };
+
+/* Part of a picture on a page. */
+struct piece {
+	const struct picture *picture;
+	float y;         /* below the upper margin                               */
+	float scale;
+	float from, to;  /* px of the picture: what of it is shown                */
+	float left, right; /* the same across; both 0: all of it                 */
+	float x;         /* of the page: where @left stands, px of the picture    */
+};
+struct page {
+	GArray *piece;
+	char *subject;   /* the POU, or "Symbols"                                */
+};
+
+struct pages {
+	const struct project *project;
+	struct lettering *lettering;
+	const struct theme *theme;
+	enum drafting_show show;
+	char *file, *date;
+	float width, height;           /* px of a page                          */
+	float room_width, room_height; /* px inside the margins, above the title block */
+	float field[FIELDS];      /* px: how wide those of the title block are */
+	int title_lines;               /* of small type in them; 0: not measured */
+	bool title_cut;                /* the name of the project has no room   */
+	GPtrArray *page, *picture;
+	struct listing_reads *reads;
+	/* While they are made: */
+	float y;                       /* what is free on the last page begins here */
+	float left, right, x;          /* of what is put there: struct piece     */
+	const struct picture *beside;  /* put with it, all its width; NULL: nothing */
+	const char *subject;
+	int pou;
+	const struct rung *rung;
+	const struct drafting *drafting;
+	GPtrArray *reference;          /* lines: what had no room below its coil   */
+	GPtrArray *remark;             /* and comments that had none at their element */
+};
 
 bool paper_find(const char *name, struct paper *out)
 {
@@ -25,6 +97,18 @@ bool paper_find(const char *name, struct paper *out)
 			return true;
 		}
 	return false;
+}
+
+const char *pages_subject(const struct pages *pages, int page)
+{
+	const struct page *of = g_ptr_array_index(pages->page, page);
+
+	return of->subject ? of->subject : "";
+}
+
+int pages_count(const struct pages *pages)
+{
+	return (int)pages->page->len;
 }
 
 /* ---- the flow ---- */
@@ -43,7 +127,7 @@ static void page_free(gpointer pointer)
 	g_free(page);
 }
 
-void pages_next(struct pages *pages)
+static void next_page(struct pages *pages)
 {
 	struct page *page = g_new0(struct page, 1);
 
@@ -59,7 +143,7 @@ static void picture_free(gpointer pointer)
 	g_free(pointer);
 }
 
-struct picture *pages_picture(struct pages *pages)
+static struct picture *new_picture(struct pages *pages)
 {
 	struct picture *picture = g_new(struct picture, 1);
 
@@ -81,19 +165,19 @@ static void put_piece(struct pages *pages, const struct picture *picture, float 
 	pages->y += (to - from) * scale;
 }
 
-void pages_put_whole(struct pages *pages, const struct picture *picture, float height,
+static void put_whole(struct pages *pages, const struct picture *picture, float height,
 		     float scale, float more)
 {
 	if (pages->y > 0 && pages->y + height * scale + more > pages->room_height)
-		pages_next(pages);
+		next_page(pages);
 	put_piece(pages, picture, scale, 0, height);
 }
 
 /* ---- what is put on them ---- */
 
-void pages_put_heading(struct pages *pages, const char *text, float more)
+static void put_heading(struct pages *pages, const char *text, float more)
 {
-	struct picture *picture = pages_picture(pages);
+	struct picture *picture = new_picture(pages);
 	int lines = 0;
 
 	while (*text || !lines) {
@@ -103,10 +187,10 @@ void pages_put_heading(struct pages *pages, const char *text, float more)
 		picture_text(picture, TOKEN_INK, LETTER_HEADING, line, 0,
 			     20 + (float)(lines++ * HEADING_LINE));
 	}
-	pages_put_whole(pages, picture, 32 + (float)((lines - 1) * HEADING_LINE), 1, more);
+	put_whole(pages, picture, 32 + (float)((lines - 1) * HEADING_LINE), 1, more);
 }
 
-void pages_put_span(struct pages *pages, const struct picture *picture, float scale,
+static void put_span(struct pages *pages, const struct picture *picture, float scale,
 		    float from, float end)
 {
 	while (from < end) {
@@ -115,11 +199,11 @@ void pages_put_span(struct pages *pages, const struct picture *picture, float sc
 		put_piece(pages, picture, scale, from, to);
 		from = to;
 		if (from < end)
-			pages_next(pages);
+			next_page(pages);
 	}
 }
 
-bool pages_can_cut(const struct picture *picture, float x, float top, float room)
+static bool can_cut(const struct picture *picture, float x, float top, float room)
 {
 	for (int i = 0; i < picture->count; i++) {
 		const struct stroke *stroke = &picture->stroke[i];
@@ -133,31 +217,844 @@ bool pages_can_cut(const struct picture *picture, float x, float top, float room
 	return true;
 }
 
-void pages_put_line(struct pages *pages, const char *line)
+static void put_line(struct pages *pages, const char *line)
 {
 	GString *text = g_string_new(line);
 	float room = pages->room_width - 8;
 
 	g_string_replace(text, "\t", "        ", 0);
 	for (const char *at = text->str; at == text->str || *at;) {
-		struct picture *picture = pages_picture(pages);
+		struct picture *picture = new_picture(pages);
 		size_t len = lettering_wrap(pages->lettering, LETTER_OPERAND, at, room);
 
 		picture_text(picture, TOKEN_INK, LETTER_OPERAND,
 			     lettering_fit(pages->lettering, LETTER_OPERAND, at,
 					   (ptrdiff_t)len, 0), 8, 12);
-		pages_put_whole(pages, picture, TEXT_LINE, 1, 0);
+		put_whole(pages, picture, TEXT_LINE, 1, 0);
 		at += len;
 	}
 	g_string_free(text, TRUE);
 }
 
-void pages_put_list(struct pages *pages, const char *heading, char **lines)
+static void put_list(struct pages *pages, const char *heading, char **lines)
 {
-	pages_put_heading(pages, heading, 3 * TEXT_LINE);
+	put_heading(pages, heading, 3 * TEXT_LINE);
 	for (int i = 0; lines && lines[i]; i++)
-		pages_put_line(pages, lines[i]);
+		put_line(pages, lines[i]);
 	g_strfreev(lines);
+}
+
+/* ---- the title block ---- */
+
+/* What it is in small type, and how much room its texts need. */
+struct field {
+	const char *what;        /* NULL: there is none                         */
+	float width;             /* px: as it is, unless somebody needs more      */
+	float need, least;       /* px: in one line, or in all lines of small type */
+	float label;             /* px of what it is                            */
+};
+
+static float width_of(const struct pages *pages, enum letter letter, const char *text)
+{
+	return lettering_fit(pages->lettering, letter, text, -1, 0).width;
+}
+
+static bool fits(const struct pages *pages, const char *text, float room, int lines)
+{
+	return lettering_lines(pages->lettering, LETTER_BADGE, text, room) <= lines;
+}
+
+/* The least that a text needs in so many lines of small type, to a pixel. */
+static float broken_width(const struct pages *pages, const char *text, int lines)
+{
+	float more = ceilf(width_of(pages, LETTER_BADGE, text)), less = floorf(more / (float)lines);
+
+	while (more - less > 1) {
+		const float middle = floorf((less + more) / 2);
+
+		if (fits(pages, text, middle, lines))
+			more = middle;
+		else
+			less = middle;
+	}
+	return more;
+}
+
+static void measure(const struct pages *pages, struct field *field, const char *text)
+{
+	const float what = width_of(pages, LETTER_BADGE, field->what) + FIELD_AIR + 1;
+	const float one = width_of(pages, LETTER_SYMBOL, text) + FIELD_AIR + 1;
+
+	field->label = what;
+	field->need = MAX(field->need, MAX(what, one));
+}
+
+static void measure_least(const struct pages *pages, struct field *field, const char *text)
+{
+	const float broken = MAX(broken_width(pages, text, pages->title_lines),
+				 MIN(width_of(pages, LETTER_BADGE, text), SHORT_TEXT));
+
+	field->least = MAX(field->least, MAX(field->label, MIN(field->need, broken + FIELD_AIR + 1)));
+}
+
+/* As it is drawn: a tab is a blank, and nothing begins a line of its own. Borrowed until
+ * lettering_trim(). */
+static const char *drawn(const struct pages *pages, const char *text)
+{
+	return lettering_fit(pages->lettering, LETTER_BADGE, text, -1, 0).text;
+}
+
+static const char *file_name(const struct pages *pages)
+{
+	return drawn(pages, pages->file);
+}
+
+static const char *project_title(const struct pages *pages)
+{
+	const char *title = project_text(pages->project, pages->project->title);
+
+	return *title ? drawn(pages, title) : file_name(pages);
+}
+
+/* As wide on all pages: what differs from one to the next is measured on each. */
+static void measure_fields(const struct pages *pages, struct field *field,
+			   void (*measured)(const struct pages *pages, struct field *field,
+					    const char *text))
+{
+	const int count = pages_count(pages);
+
+	measured(pages, &field[PROJECT], project_title(pages));
+	measured(pages, &field[NAME], file_name(pages));
+	for (int i = 0; i < count; i++)
+		if (i == 0 || strcmp(pages_subject(pages, i), pages_subject(pages, i - 1)) != 0)
+			measured(pages, &field[UNIT], pages_subject(pages, i));
+	if (pages->date)
+		measured(pages, &field[DATE], drawn(pages, pages->date));
+}
+
+/* What all fields need in so many lines, px. */
+static float needed(const struct pages *pages, struct field *field)
+{
+	float sum = 0;
+
+	for (int i = 0; i < FIELDS; i++)
+		field[i].least = i == PAGE ? field[i].need : 0;
+	measure_fields(pages, field, measure_least);
+	for (int i = 0; i < FIELDS; i++)
+		sum += field[i].least;
+	return sum;
+}
+
+/* Fields that need more get it from those that need less than they have. */
+static void share_width(struct field *field, float width)
+{
+	float lacking = 0, spare = 0, over = -width;
+
+	for (int i = 0; i < FIELDS; i++) {
+		lacking += MAX(0, field[i].need - field[i].width);
+		spare += MAX(0, field[i].width - field[i].need);
+		over += field[i].need;
+	}
+	for (int i = 0; i < FIELDS; i++)
+		if (over > 0 || field[i].need > field[i].width)
+			field[i].width = field[i].need;
+		else if (spare > 0)
+			field[i].width -= (field[i].width - field[i].need) * lacking / spare;
+	/* Too much for all: some are written in more lines, the name of the project first. */
+	for (int i = 0; i < FIELDS && over > 0; i++) {
+		const float less = MIN(over, field[i].need - field[i].least);
+
+		field[i].width -= less;
+		over -= less;
+	}
+	/* And what even so has no room ends in an ellipsis: that name first, which is told elsewhere. */
+	for (int i = PROJECT; i <= UNIT && over > 0; i++) {
+		const float less = MIN(over, field[i].width - field[i].label);
+
+		field[i].width -= less;
+		over -= less;
+	}
+}
+
+static float title_height(const struct pages *pages)
+{
+	const int lines = MAX(pages->title_lines, LINES_LEAST); /* not measured: 0 */
+
+	return pages->height < PAPER_LEAST ? 0 : (float)(16 + LINE_STEP * lines);
+}
+
+/* The name of the project has no room, and had before. */
+static bool is_cut_now(struct pages *pages)
+{
+	const bool before = pages->title_cut;
+
+	pages->title_cut |= !fits(pages, project_title(pages),
+				  pages->field[PROJECT] - FIELD_AIR, pages->title_lines);
+	return pages->title_cut && !before;
+}
+
+static bool measure_title(struct pages *pages)
+{
+	const float width = pages->room_width, part = width / 100;
+	const int before = MAX(pages->title_lines, LINES_LEAST);
+	int most = (int)(pages->height / PART_MOST / LINE_STEP);
+	char *last = g_strdup_printf(_("%d of %d"), pages_count(pages), pages_count(pages));
+	struct field field[FIELDS] = {
+		[PROJECT] = { _("Project"), 34 * part, 0, 0, 0 },
+		[NAME] = { _("File"), 22 * part, 0, 0, 0 },
+		[UNIT] = { _("Program unit"), (pages->date ? 14 : 30) * part, 0, 0, 0 },
+		[DATE] = { pages->date ? _("Date") : NULL, pages->date ? 16 * part : 0, 0, 0, 0 },
+		[PAGE] = { _("Page"), 14 * part, 0, 0, 0 },
+	};
+
+	measure_fields(pages, field, measure);
+	measure(pages, &field[PAGE], last);
+	for (int less = before; less < most;) {
+		pages->title_lines = (less + most) / 2;
+		if (needed(pages, field) > width)
+			less = pages->title_lines + 1;
+		else
+			most = pages->title_lines;
+	}
+	pages->title_lines = most;
+	needed(pages, field);
+	share_width(field, width);
+	for (int i = 0; i < FIELDS; i++)
+		pages->field[i] = field[i].width;
+	g_free(last);
+	return pages->title_lines > before || is_cut_now(pages);
+}
+
+static void draw_field(const struct pages *pages, struct picture *picture, const char *what,
+		       const char *text, float x, float width)
+{
+	const float room = width - FIELD_AIR, end = x + width, height = title_height(pages);
+	const bool wide = width_of(pages, LETTER_SYMBOL, text) > room;
+	const bool broken = wide && width_of(pages, LETTER_BADGE, text) > room;
+	const enum letter letter = wide ? LETTER_BADGE : LETTER_SYMBOL;
+
+	if (end < pages->room_width - 1)
+		picture_line(picture, TOKEN_INK, STROKE_SOLID, 0.75f, end, 0, end, height);
+	picture_text(picture, TOKEN_COMMENT, LETTER_BADGE,
+		     lettering_fit(pages->lettering, LETTER_BADGE, what, -1, room),
+		     x + 8, broken ? 11 : 12);
+	for (int line = 0; *text; line++)
+		picture_text(picture, TOKEN_INK, letter,
+			     lettering_line(pages->lettering, letter, &text, room,
+					    line == pages->title_lines - 1), x + 8,
+			     broken ? 22 + (float)(line * LINE_STEP) : 29);
+}
+
+static void draw_title(const struct pages *pages, int page, struct picture *picture)
+{
+	const float height = title_height(pages);
+	char *count = g_strdup_printf(_("%d of %d"), page + 1, pages_count(pages));
+	const char *what[FIELDS] = { _("Project"), _("File"), _("Program unit"), _("Date"),
+				     _("Page") };
+	const char *date = pages->date ? drawn(pages, pages->date) : NULL;
+	const char *text[FIELDS] = { project_title(pages), file_name(pages),
+				     pages_subject(pages, page), date, count };
+	float x = 0;
+
+	picture_move(picture, PAGE_MARGIN, pages->height - PAGE_MARGIN - height);
+	picture_frame(picture, TOKEN_INK, STROKE_SOLID, 0.75f, 0, 0, pages->room_width, height);
+	for (int i = 0; i < FIELDS; i++) {
+		if (text[i])
+			draw_field(pages, picture, what[i], text[i], x, pages->field[i]);
+		x += pages->field[i];
+	}
+	g_free(count);
+}
+
+/* ---- rungs ---- */
+
+/* @text is to be read behind the rungs, once for all coils of the same bit. */
+static void note_reference(struct pages *pages, const struct cell *cell, const char *text)
+{
+	const struct rung_label label = rung_label(pages->drafting, cell);
+	char *line = g_strdup_printf("%s%s%s: %s", label.symbol.text,
+				     *label.symbol.text && *label.address.text ? " " : "",
+				     label.address.text, text);
+
+	if (g_ptr_array_find_with_equal_func(pages->reference, line, g_str_equal, NULL))
+		g_free(line);
+	else
+		g_ptr_array_add(pages->reference, line);
+}
+
+static bool has_room(const struct pages *pages, const char *text, float room)
+{
+	return lettering_fit(pages->lettering, LETTER_PIN, text, -1, 0).width <= room;
+}
+
+/* All places, or as many as there is room for. */
+static char *reference_of(void *context, int row, int col, float room)
+{
+	struct pages *pages = context;
+	const struct cell *cell = rung_at(pages->rung, row, col);
+	const char *operand = project_text(pages->project, cell->operand);
+	char *text;
+
+	if (word_row(cell->word)->operand != OPND_BOOL_W)
+		return NULL;
+	text = listing_reads_of(pages->reads, pages->pou, operand, 0);
+	if (!text || has_room(pages, text, room))
+		return text;
+	note_reference(pages, cell, text);
+	for (int most = MOST_PLACES; most > 0 && !has_room(pages, text, room); most--) {
+		g_free(text);
+		text = listing_reads_of(pages->reads, pages->pou, operand, most);
+	}
+	return text;
+}
+
+static void put_told(struct pages *pages, GPtrArray *lines, const char *heading)
+{
+	if (lines->len)
+		put_heading(pages, heading, 3 * TEXT_LINE);
+	for (guint i = 0; i < lines->len; i++)
+		put_line(pages, g_ptr_array_index(lines, i));
+	pages->y += lines->len ? PAGE_AIR : 0;
+	g_ptr_array_set_size(lines, 0);
+}
+
+static void put_references(struct pages *pages)
+{
+	put_told(pages, pages->remark, _("Comments"));
+	put_told(pages, pages->reference, _("Cross reference"));
+}
+
+static struct grid_scene scene_of(struct pages *pages, const struct sheet *sheet,
+			      const struct rung_layout *layout)
+{
+	pages->rung = layout->rung;
+	pages->drafting = &sheet->drafting;
+	return (struct grid_scene){
+		.drafting = &sheet->drafting, .layout = layout, .theme = pages->theme,
+		.state = RUNG_NO_GUTTER, .reference = reference_of, .context = pages,
+	};
+}
+
+static void put_rows(struct pages *pages, const struct rung_layout *layout,
+		    const struct picture *picture, float scale, float from, float bottom)
+{
+	float end = from;
+
+	for (int row = 0; row < layout->rows && layout->row[row].y < bottom; row++) {
+		float to = fminf(layout->row[row].y + layout->row[row].height, bottom);
+
+		if ((to - from) * scale > pages->room_height - pages->y) {
+			put_span(pages, picture, scale, from, end);
+			next_page(pages);
+			from = end;
+		}
+		end = to;
+	}
+	put_span(pages, picture, scale, from, bottom);
+}
+
+static struct sheet *lay_out(struct pages *pages)
+{
+	struct sheet *sheet = sheet_new(pages->project,
+					&pages->project->pou[pages->pou],
+					pages->lettering);
+
+	sheet->drafting.show = pages->show;
+	sheet->drafting.all_comments = true;
+	sheet->most = pages->room_width / PAGE_LEAST - RUNG_LEFT - RUNG_AFTER;
+	sheet_layout(sheet);
+	return sheet;
+}
+
+/* ---- rungs in strips ---- */
+
+struct fold {
+	struct pages *pages;
+	const struct rung_layout *layout;
+	struct picture *picture;
+	float scale;
+	float cut[MOST_STRIPS + 1]; /* x of the picture: where strips begin, and the end */
+	int strips;
+	int wires[MOST_STRIPS + 1]; /* that were cut before                            */
+};
+
+/* Is there a stroke through (@x, @y), along a row (@across) or between rows? */
+static bool is_wire(const struct picture *picture, float x, float y, bool across)
+{
+	for (int i = 0; i < picture->count; i++) {
+		const struct stroke *line = &picture->stroke[i];
+
+		if (line->kind != STROKE_LINE)
+			continue;
+		if (across ? line->y == line->h && fabsf(line->y - y) < 1 &&
+			     fminf(line->x, line->w) <= x && fmaxf(line->x, line->w) >= x
+			   : line->x == line->w && fabsf(line->x - x) < 2 &&
+			     fmaxf(line->y, line->h) > y)
+			return true;
+	}
+	return false;
+}
+
+/* Where a strip from @left on ends: between columns, and between no rows that are joined
+ * there if that does not leave half of it empty. */
+static float fold_at(const struct fold *fold, float left, float room)
+{
+	const struct rung_layout *layout = fold->layout;
+	float joined = 0;
+
+	for (int column = layout->columns - 1; column > 0; column--) {
+		const float x = layout->column_x[column];
+
+		if (x > left + room - LINK_AIR || x <= left + LINK_AIR)
+			continue;
+		if (joined > 0 && x < left + room / 2)
+			break;
+		if (!is_wire(fold->picture, x, layout->top, false) &&
+		    can_cut(fold->picture, x, layout->top, room))
+			return x;
+		if (joined <= 0 &&
+		    can_cut(fold->picture, x + LINK_AIR, layout->top, room))
+			joined = x + LINK_AIR;
+	}
+	return joined > 0 ? joined : left + room;
+}
+
+/* Strips, as wide as the page; the first one begins with the number of the rung. */
+static void find_strips(struct fold *fold)
+{
+	const struct rung_layout *layout = fold->layout;
+	const float room = fold->pages->room_width / fold->scale;
+	float left = 0, end = layout->right + RUNG_AFTER;
+
+	while (fold->strips < MOST_STRIPS - 1 &&
+	       end - left > room - (fold->strips ? RUNG_LEFT : 0)) {
+		left = fold_at(fold, left, room - MARK - (fold->strips ? RUNG_LEFT : 0));
+		fold->cut[++fold->strips] = left;
+	}
+	fold->cut[++fold->strips] = end;
+}
+
+static bool goes_on(const struct fold *fold, int row, float x)
+{
+	const float y = fold->layout->row[row].wire;
+
+	return is_wire(fold->picture, x - 1, y, true) &&
+	       is_wire(fold->picture, x + 1, y, true);
+}
+
+/* From @x on to the right; its number stands at the end at which no wire is. */
+static void draw_arrow(const struct fold *fold, struct picture *picture, float x, float y,
+		       int number, bool ends)
+{
+	const struct theme *theme = fold->pages->theme;
+	const float to = x + ARROW;
+	char text[16];
+
+	g_snprintf(text, sizeof(text), "%d", number);
+	struct lettered fits = lettering_fit(fold->pages->lettering, LETTER_PIN, text, -1, 0);
+	picture_line(picture, TOKEN_INK, STROKE_SOLID, theme->idle_width, x, y, to, y);
+	picture_line(picture, TOKEN_INK, STROKE_SOLID, theme->idle_width, to - HEAD,
+		     y - HEAD, to, y);
+	picture_line(picture, TOKEN_INK, STROKE_SOLID, theme->idle_width, to - HEAD,
+		     y + HEAD, to, y);
+	picture_text(picture, TOKEN_INK, LETTER_PIN, fits,
+		     ends ? to + 4 : x - 4 - fits.width, y + 4);
+}
+
+/* At the end of a strip, or where the next one begins. */
+static void draw_arrows(const struct fold *fold, struct picture *picture, int cut, float x,
+			bool ends)
+{
+	int number = fold->wires[cut];
+
+	for (int row = 0; row < fold->layout->rung->rows; row++)
+		if (goes_on(fold, row, fold->cut[cut]))
+			draw_arrow(fold, picture, ends ? x : x - ARROW,
+				   fold->layout->row[row].wire, ++number, ends);
+}
+
+static void number_wires(struct fold *fold)
+{
+	for (int cut = 1; cut < fold->strips; cut++) {
+		fold->wires[cut + 1] = fold->wires[cut];
+		for (int row = 0; row < fold->layout->rung->rows; row++)
+			fold->wires[cut + 1] += goes_on(fold, row, fold->cut[cut]);
+	}
+}
+
+/* The number of the rung, and of its strips which this is. */
+static void draw_number(const struct fold *fold, struct picture *picture, int strip)
+{
+	struct lettering *lettering = fold->pages->lettering;
+	char number[16], part[32];
+
+	g_snprintf(number, sizeof(number), "%d", fold->layout->number);
+	g_snprintf(part, sizeof(part), "%d/%d", strip + 1, fold->strips);
+	struct lettered first = lettering_fit(lettering, LETTER_NUMBER, number, -1, 0);
+	struct lettered second = lettering_fit(lettering, LETTER_PIN, part, -1, 0);
+	picture_text(picture, TOKEN_COMMENT, LETTER_NUMBER, first,
+		     (RUNG_GUTTER - first.width) / 2, fold->layout->top + 14);
+	picture_text(picture, TOKEN_COMMENT, LETTER_PIN, second,
+		     (RUNG_GUTTER - second.width) / 2, fold->layout->top + 29);
+}
+
+static float stroke_bottom(const struct stroke *stroke)
+{
+	switch (stroke->kind) {
+	case STROKE_LINE:
+		return fmaxf(stroke->y, stroke->h);
+	case STROKE_ARC:
+	case STROKE_DISC:
+		return stroke->y + stroke->w;
+	case STROKE_FILL:
+	case STROKE_FRAME:
+		return stroke->y + stroke->h;
+	case STROKE_WAVE:
+	case STROKE_TEXT:
+		break;
+	}
+	return stroke->y;
+}
+
+/* Below the last row of which there is something in a strip; rails do not count. */
+static float strip_bottom(const struct fold *fold, int strip)
+{
+	const struct rung_layout *layout = fold->layout;
+	const float from = fold->cut[strip], to = fminf(fold->cut[strip + 1],
+							layout->right - 2);
+	float most = layout->top;
+	int row = 0;
+
+	if (strip == 0)
+		return layout->height;
+	for (int i = 0; i < fold->picture->count; i++) {
+		const struct stroke *stroke = &fold->picture->stroke[i];
+		const float end = stroke->kind == STROKE_LINE ? stroke->w :
+								stroke->x + stroke->w;
+
+		if (fminf(stroke->x, end) < to && fmaxf(stroke->x, end) > from)
+			most = fmaxf(most, stroke_bottom(stroke));
+	}
+	while (row + 1 < layout->rows && layout->row[row + 1].y < most)
+		row++;
+	return row + 1 < layout->rows ? layout->row[row + 1].y : layout->height;
+}
+
+/* What stands beside the columns: numbers and arrows. @x: where those begin. */
+static struct picture *draw_beside(const struct fold *fold, int strip, float x)
+{
+	struct picture *beside = new_picture(fold->pages);
+
+	if (strip > 0) {
+		draw_number(fold, beside, strip);
+		draw_arrows(fold, beside, strip, x, false);
+	}
+	if (strip + 1 < fold->strips)
+		draw_arrows(fold, beside, strip + 1,
+			    x + fold->cut[strip + 1] - fold->cut[strip], true);
+	return beside;
+}
+
+/* @room: px of a page that it may take. */
+static void put_strip(struct fold *fold, int strip, float room)
+{
+	struct pages *pages = fold->pages;
+	const struct rung_layout *layout = fold->layout;
+	const float x = strip ? RUNG_LEFT : 0, bottom = strip_bottom(fold, strip);
+	const float top = strip ? 0 : layout->top;
+	float height = (bottom - layout->top + top) * fold->scale;
+
+	if (height > room) /* its title stands with its first row */
+		height = (layout->row[0].height + top) * fold->scale;
+	if (pages->y + height > pages->room_height && height <= room)
+		next_page(pages);
+	if (strip == 0) /* title and comment are as wide as the page */
+		put_span(pages, fold->picture, fold->scale, 0, layout->top);
+	pages->left = fold->cut[strip];
+	pages->right = fold->cut[strip + 1];
+	pages->x = x;
+	pages->beside = draw_beside(fold, strip, x);
+	put_rows(pages, layout, fold->picture, fold->scale, layout->top, bottom);
+	pages->left = pages->right = pages->x = 0;
+	pages->beside = NULL;
+}
+
+/* A column is not wider than a strip, if it need not be. */
+static float scale_for(const struct pages *pages, const struct rung_layout *layout,
+		       float scale)
+{
+	float widest = 0;
+
+	for (int column = 0; column < layout->columns; column++)
+		widest = fmaxf(widest, layout->column_width[column]);
+	return fmaxf(PAGE_LEAST, fminf(scale, pages->room_width / (RUNG_LEFT + widest +
+								  2 * LINK_AIR + MARK)));
+}
+
+/* Where it is cut is known before what there is room for below its outputs. Its right rail
+ * stands below that of the others. */
+static void draw_strips(struct fold *fold, struct grid_scene scene, struct rung_layout *layout,
+		 float rails)
+{
+	struct picture plain;
+	char *(*reference)(void *, int, int, float) = scene.reference;
+
+	picture_init(&plain);
+	scene.reference = NULL;
+	grid_draw(&scene, &plain);
+	fold->picture = &plain;
+	find_strips(fold);
+	picture_clear(&plain);
+	scene.reference = reference;
+	scene.reference_from = fold->cut[fold->strips - 1];
+	float last = layout->right - scene.reference_from;
+	if (last < rails)
+		rung_layout_stretch(layout, layout->right - RUNG_LEFT + rails - last);
+	fold->cut[fold->strips] = layout->right + RUNG_AFTER;
+	fold->picture = new_picture(fold->pages);
+	grid_draw(&scene, fold->picture);
+	number_wires(fold);
+}
+
+static void put_folded(struct pages *pages, const struct sheet *sheet, int index, float scale,
+		bool first)
+{
+	const struct rung *rung = sheet->rung[index]->rung;
+	const float room = pages->room_height - (first ? pages->y : 0);
+	struct drafting drafting = sheet->drafting;
+	struct fold fold = { .pages = pages,
+			     .scale = scale_for(pages, sheet->rung[index], scale) };
+
+	drafting.columns = 0;
+	drafting.most = pages->room_width / fold.scale - RUNG_LEFT - RUNG_AFTER;
+	struct rung_layout *layout = rung_layout_new(&drafting, rung, index + 1, 0);
+	struct grid_scene scene = scene_of(pages, sheet, layout);
+	scene.drafting = &drafting;
+	fold.layout = layout;
+	draw_strips(&fold, scene, layout, sheet->rails * scale / fold.scale);
+	for (int strip = 0; strip < fold.strips; strip++)
+		put_strip(&fold, strip, strip ? pages->room_height : room);
+	rung_layout_free(layout);
+}
+
+/* ---- the rungs of a POU, all at one scale ---- */
+
+/* The first one stands below the heading of its POU, whatever it takes. */
+static void put_rung(struct pages *pages, const struct sheet *sheet, int index,
+		     float scale, bool first)
+{
+	const struct rung_layout *layout = sheet->rung[index];
+	const struct grid_scene scene = scene_of(pages, sheet, layout);
+	struct picture *picture = new_picture(pages);
+	float room = pages->room_height - (first ? pages->y : 0);
+	float shrunk = room / layout->height * 0.999f;
+
+	grid_draw(&scene, picture);
+	if (layout->height * scale <= room)
+		put_whole(pages, picture, layout->height, scale, 0);
+	else if (shrunk >= PAGE_LEAST)
+		put_whole(pages, picture, layout->height, shrunk, 0);
+	else
+		put_rows(pages, layout, picture, scale, 0, layout->height);
+}
+
+static void put_rungs(struct pages *pages, const struct sheet *sheet, const char *heading,
+		     int first, int end)
+{
+	const float scale = fminf(1, pages->room_width / sheet->width);
+	float more = first < end ? sheet->rung[first]->height * scale : 0;
+
+	put_heading(pages, heading, fminf(more, pages->room_height - 40));
+	for (int i = first; i < end; i++) {
+		if (sheet_is_wide(sheet, i))
+			put_folded(pages, sheet, i, scale, i == first);
+		else
+			put_rung(pages, sheet, i, scale, i == first);
+		sheet_remarks(sheet, i, pages->remark);
+	}
+}
+
+/* ---- charts ---- */
+
+/* Is there something to be read? */
+static bool is_blank(const struct pages *pages, const struct picture *picture, float from,
+		     float to)
+{
+	const float right = pages->right > 0 ? pages->right : INFINITY;
+
+	for (int i = 0; i < picture->count; i++) {
+		const struct stroke *stroke = &picture->stroke[i];
+
+		if (stroke->kind == STROKE_TEXT && stroke->y > from && stroke->y < to &&
+		    stroke->x >= pages->left && stroke->x < right)
+			return false;
+	}
+	return true;
+}
+
+/* On a page of its own, unless it is the first; returns how much of the next one's room is
+ * used: none. Nothing is put where nothing is. */
+static float put_slice(struct pages *pages, const struct picture *picture, float scale,
+		       float from, float to, float room_used)
+{
+	if (is_blank(pages, picture, from, to))
+		return room_used;
+	if (pages->y > room_used)
+		next_page(pages);
+	put_span(pages, picture, scale, from, to);
+	return 0;
+}
+
+/* Rows of a chart, as many as fit on each page; it ends between boxes if it can. */
+static void put_chart_slices(struct pages *pages, const struct sfc_sheet *chart,
+			     const struct picture *picture, float scale)
+{
+	float from = 0, end = 0, room_used = pages->y;
+
+	for (int row = 0; row < chart->layout->rows; row++) {
+		float to = sfc_sheet_y(row) + SFC_ROW / 2.0f;
+
+		if (!sfc_sheet_can_part(chart, row))
+			continue;
+		if (end > from && (to - from) * scale > pages->room_height - room_used) {
+			room_used = put_slice(pages, picture, scale, from, end, room_used);
+			from = end;
+		}
+		end = to;
+	}
+	put_slice(pages, picture, scale, from, chart->height, room_used);
+}
+
+static void put_bodies(struct pages *pages, const struct pou *pou)
+{
+	struct sheet *sheet = lay_out(pages);
+	int count;
+	struct sfc_part_body *bodies = sfc_bodies_new(pages->project, pou, &count);
+
+	for (int i = 0; i < count; i++) {
+		const struct sfc_body *body = bodies[i].body;
+
+		if (body->kind == BODY_LIST)
+			put_list(pages, bodies[i].heading,
+				 sfc_body_lines(pages->project, pou, body));
+		else
+			put_rungs(pages, sheet, bodies[i].heading, body->first,
+				  body->first + body->count);
+	}
+	put_references(pages);
+	sfc_bodies_free(bodies, count);
+	sheet_free(sheet);
+}
+
+/* As much of a chart as fits beside each other, from @left on. */
+static float cut_at(const struct picture *picture, float left, float room, float width)
+{
+	float x = left + room;
+
+	if (x + 1 >= width) /* what fits is no two pages for a rounding */
+		return width;
+	while (x > left + room / 2 && !can_cut(picture, x, -1, room))
+		x -= 4;
+	return x > left + room / 2 ? x : left + room;
+}
+
+static void put_columns(struct pages *pages, const struct sfc_sheet *chart,
+			const struct picture *picture, const char *heading, float scale)
+{
+	const float room = pages->room_width / scale;
+	int number = 0;
+
+	for (float left = 0, right; left < chart->width; left = right) {
+		char *text = left > 0 || chart->width > room + 1 ?
+			g_strdup_printf(_("%s, part %d"), heading, ++number) :
+			g_strdup(heading);
+
+		right = cut_at(picture, left, room, chart->width);
+		if (left > 0)
+			next_page(pages);
+		put_heading(pages, text, 5 * TEXT_LINE);
+		pages->left = left;
+		pages->right = right;
+		if (chart->height * scale <= pages->room_height - pages->y)
+			put_whole(pages, picture, chart->height, scale, 0);
+		else
+			put_chart_slices(pages, chart, picture, scale);
+		pages->left = pages->right = 0;
+		g_free(text);
+	}
+}
+
+/* A comment for which there was too little room at @x beside its box. */
+static void put_comment(struct pages *pages, const struct sfc_sheet *chart, int shape,
+			const char *comment, float x, bool *any)
+{
+	const float room = fminf(SFC_BOUND,
+			sfc_sheet_room(chart, chart->layout->shape[shape].lane, x));
+	char *line;
+
+	if (!*comment || lettering_fit(pages->lettering, LETTER_COMMENT, comment, -1,
+				       0).width <= room)
+		return;
+	if (!*any)
+		put_heading(pages, _("Comments"), 3 * TEXT_LINE);
+	*any = true;
+	line = g_strdup_printf("%s: %s", chart->name[shape], comment);
+	put_line(pages, line);
+	g_free(line);
+}
+
+static void put_comments(struct pages *pages, const struct sfc_sheet *chart)
+{
+	const struct sfc *sfc = chart->layout->sfc;
+	bool any = false;
+
+	for (int i = 0; i < chart->layout->shape_count; i++)
+		put_comment(pages, chart, i, chart->comment[i],
+			    sfc_sheet_comment(chart, i).x, &any);
+	for (int i = 0; i < sfc->use_count; i++) {
+		const graphene_rect_t use = sfc_sheet_use(chart, i);
+
+		put_comment(pages, chart, sfc->use[i].step, chart->use_comment[i],
+			    use.origin.x + use.size.width + SFC_APART, &any);
+	}
+	pages->y += any ? PAGE_AIR : 0;
+}
+
+/* A page more is not begun for comments alone: they get what is left of the last one. */
+static void narrow(struct sfc_sheet *chart, const struct picture *picture, float room)
+{
+	float width = 0, left = 0;
+
+	for (int i = 0; i < picture->count; i++) {
+		const struct stroke *stroke = &picture->stroke[i];
+
+		if (stroke->kind == STROKE_FRAME || (stroke->kind == STROKE_TEXT &&
+						     stroke->letter != LETTER_COMMENT))
+			width = fmaxf(width, stroke->x + stroke->w + SFC_EDGE);
+	}
+	while (cut_at(picture, left, room, width) < width)
+		left = cut_at(picture, left, room, width);
+	chart->width = fminf(chart->width, left + room);
+}
+
+static void put_chart(struct pages *pages, const char *heading)
+{
+	const struct pou *pou = &pages->project->pou[pages->pou];
+	struct sfc_sheet *chart = sfc_sheet_new(pages->project, pou, pages->lettering);
+	const struct sfc_scene scene = { .sheet = chart, .theme = pages->theme };
+	const float scale = fmaxf(fminf(1, pages->room_width / chart->width), PAGE_LEAST);
+	struct picture *picture = new_picture(pages);
+
+	sfc_draw(&scene, picture);
+	if (chart->width * scale > pages->room_width) {
+		narrow(chart, picture, pages->room_width / scale);
+		picture = new_picture(pages);
+		sfc_draw(&scene, picture);
+	}
+	put_columns(pages, chart, picture, heading, scale);
+	put_comments(pages, chart);
+	sfc_sheet_free(chart);
+	put_bodies(pages, pou);
 }
 
 /* ---- symbols ---- */
@@ -211,18 +1108,18 @@ static void put_table(struct pages *pages, const struct var_table *table,
 
 	if (first == count)
 		return;
-	pages_put_heading(pages, heading, 5 * TEXT_LINE);
-	struct picture *top = pages_picture(pages);
+	put_heading(pages, heading, 5 * TEXT_LINE);
+	struct picture *top = new_picture(pages);
 	float top_height = draw_cells(pages, top, head, true);
-	pages_put_whole(pages, top, top_height, 1, 2 * TEXT_LINE);
+	put_whole(pages, top, top_height, 1, 2 * TEXT_LINE);
 	for (int i = first; i < count; i++) {
-		struct picture *picture = pages_picture(pages);
+		struct picture *picture = new_picture(pages);
 		char *cell[LISTING_COLUMNS];
 
 		listing_symbol(pages->project, table, i, cell);
 		float height = draw_cells(pages, picture, cell, false);
 		if (pages->y + height > pages->room_height) {
-			pages_next(pages);
+			next_page(pages);
 			put_piece(pages, top, 1, 0, top_height);
 		}
 		put_piece(pages, picture, 1, 0, height);
@@ -242,7 +1139,7 @@ static void put_symbols(struct pages *pages)
 	if (!any)
 		return;
 	pages->subject = _("Symbols");
-	pages_next(pages);
+	next_page(pages);
 	put_table(pages, &project->globals, _("Global symbols"));
 	for (int i = 0; i < project->pou_count; i++) {
 		char *heading = g_strdup_printf(_("Symbols of %s"),
@@ -253,13 +1150,15 @@ static void put_symbols(struct pages *pages)
 	}
 }
 
+/* ---- all of it ---- */
+
 static void put_ladder(struct pages *pages, const char *heading, int only)
 {
-	struct sheet *sheet = pages_sheet(pages);
+	struct sheet *sheet = lay_out(pages);
 
-	pages_put_rungs(pages, sheet, heading, only ? only - 1 : 0,
+	put_rungs(pages, sheet, heading, only ? only - 1 : 0,
 			only ? only : sheet->count);
-	pages_put_references(pages);
+	put_references(pages);
 	sheet_free(sheet);
 }
 
@@ -271,11 +1170,11 @@ static void put_pou(struct pages *pages, int index, int rung)
 
 	pages->pou = index;
 	pages->subject = name;
-	pages_next(pages);
+	next_page(pages);
 	if (pou->language == LANGUAGE_IL)
-		pages_put_list(pages, heading, listing_il(pages->project, pou));
+		put_list(pages, heading, listing_il(pages->project, pou));
 	else if (pou->sfc && !rung)
-		pages_put_chart(pages, heading);
+		put_chart(pages, heading);
 	else
 		put_ladder(pages, heading, rung);
 	g_free(heading);
@@ -291,8 +1190,8 @@ static void put_name(struct pages *pages)
 	line = g_new0(char *, 2);
 	line[0] = g_strdup(project_text(pages->project, pages->project->title));
 	pages->subject = _("Project");
-	pages_next(pages);
-	pages_put_list(pages, _("Project"), line);
+	next_page(pages);
+	put_list(pages, _("Project"), line);
 }
 
 /* Above a title block as high as it was measured; what was put before that goes. */
@@ -300,8 +1199,8 @@ static void put_all(struct pages *pages, int pou, int rung)
 {
 	g_ptr_array_set_size(pages->page, 0);
 	g_ptr_array_set_size(pages->picture, 0);
-	pages->room_height = fmaxf(TEXT_LINE, pages->height - 2 * PAGE_MARGIN - TITLE_AIR -
-				   pages_title_height(pages));
+	pages->room_height = fmaxf(TEXT_LINE, pages->height - 2 * PAGE_MARGIN - ABOVE_TITLE -
+				   title_height(pages));
 	for (int i = 0; i < pages->project->pou_count; i++)
 		if (pou < 0 || pou == i)
 			put_pou(pages, i, rung);
@@ -309,7 +1208,7 @@ static void put_all(struct pages *pages, int pou, int rung)
 		put_symbols(pages);
 	put_name(pages);
 	if (pages->page->len == 0)
-		pages_next(pages);
+		next_page(pages);
 }
 
 struct pages *pages_new(const struct project *project, const char *file, int pou, int rung,
@@ -336,7 +1235,7 @@ struct pages *pages_new(const struct project *project, const char *file, int pou
 	pages->remark = g_ptr_array_new_with_free_func(g_free);
 	do
 		put_all(pages, pou, rung);
-	while (pages_measure_title(pages));
+	while (measure_title(pages));
 	return pages;
 }
 
@@ -354,14 +1253,92 @@ void pages_free(struct pages *pages)
 	g_free(pages);
 }
 
-const char *pages_subject(const struct pages *pages, int page)
-{
-	const struct page *of = g_ptr_array_index(pages->page, page);
+/* ---- painting ---- */
 
-	return of->subject ? of->subject : "";
+static void paint_piece(const struct pages *pages, const struct piece *piece, cairo_t *cr)
+{
+	cairo_save(cr);
+	cairo_translate(cr, PAGE_MARGIN, (double)(PAGE_MARGIN + piece->y));
+	cairo_scale(cr, (double)piece->scale, (double)piece->scale);
+	if (piece->right > 0)
+		cairo_rectangle(cr, (double)piece->x, 0, (double)(piece->right - piece->left),
+				(double)(piece->to - piece->from));
+	else
+		cairo_rectangle(cr, -PAGE_MARGIN, 0, (double)(pages->width / piece->scale),
+				(double)(piece->to - piece->from));
+	cairo_clip(cr);
+	cairo_translate(cr, (double)(piece->x - piece->left), (double)-piece->from);
+	picture_cairo(piece->picture, pages->theme, pages->lettering, cr);
+	cairo_restore(cr);
 }
 
-int pages_count(const struct pages *pages)
+void pages_paint(const struct pages *pages, int page, cairo_t *cr)
 {
-	return (int)pages->page->len;
+	const struct page *this = g_ptr_array_index(pages->page, page);
+	struct picture picture;
+
+	cairo_save(cr);
+	cairo_scale(cr, 0.75, 0.75); /* px of 1/96 inch to points */
+	for (guint i = 0; i < this->piece->len; i++)
+		paint_piece(pages, &g_array_index(this->piece, struct piece, i), cr);
+	picture_init(&picture);
+	if (title_height(pages) > 0)
+		draw_title(pages, page, &picture);
+	picture_cairo(&picture, pages->theme, pages->lettering, cr);
+	picture_clear(&picture);
+	cairo_restore(cr);
+}
+
+/* ---- PDF ---- */
+
+static double points(float mm)
+{
+	return (double)mm / 25.4 * 72;
+}
+
+/* The table of contents that a reader shows beside the pages: POUs, symbols. */
+static void add_outline(cairo_surface_t *surface, const struct pages *pages, int page)
+{
+	const char *subject = pages_subject(pages, page);
+	char place[32];
+
+	if (page > 0 && strcmp(subject, pages_subject(pages, page - 1)) == 0)
+		return;
+	snprintf(place, sizeof(place), "page=%d", page + 1);
+	cairo_pdf_surface_add_outline(surface, CAIRO_PDF_OUTLINE_ROOT, subject, place, 0);
+}
+
+static void paint_all(cairo_surface_t *surface, const struct pages *pages)
+{
+	cairo_t *cr = cairo_create(surface);
+
+	for (int page = 0; page < pages_count(pages); page++) {
+		pages_paint(pages, page, cr);
+		add_outline(surface, pages, page);
+		cairo_show_page(cr);
+	}
+	cairo_destroy(cr);
+}
+
+GBytes *pages_pdf(const struct pages *pages, const struct paper *paper, const char *title,
+		  const char *made)
+{
+	GByteArray *bytes = g_byte_array_new();
+	const float width = paper->landscape ? paper->height : paper->width;
+	const float height = paper->landscape ? paper->width : paper->height;
+	cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(picture_append, bytes,
+		points(width), points(height));
+	bool good;
+
+	if (made)
+		cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, made);
+	cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
+	paint_all(surface, pages);
+	cairo_surface_finish(surface);
+	good = cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS;
+	cairo_surface_destroy(surface);
+	if (good)
+		return g_byte_array_free_to_bytes(bytes);
+	g_byte_array_unref(bytes);
+	return NULL;
 }

@@ -3,7 +3,7 @@
  * pages - a project on paper: pages with a title block, rungs, lists, symbols.
  *
  * PDF and print have the same pages: both paint them with pages_paint(). It knows no
- * printer and writes no file.
+ * printer and writes no file: a PDF is bytes, disk_save() writes them.
  */
 #ifndef EDITOR_PAGES_H
 #define EDITOR_PAGES_H
@@ -37,5 +37,16 @@ int pages_count(const struct pages *pages);
 const char *pages_subject(const struct pages *pages, int page);
 /** pages_paint - page @page (0-based) upon a surface whose unit is 1/72 inch. */
 void pages_paint(const struct pages *pages, int page, cairo_t *cr);
+
+/**
+ * pages_pdf - all of @pages, with a table of contents
+ * @paper: what the pages were made for
+ * @title: of the document, as a reader shows it
+ * @made:  when, as ISO 8601 has it; NULL: now
+ *
+ * Owns: the caller, g_bytes_unref.   Fails: NULL, there is no memory for it.
+ */
+GBytes *pages_pdf(const struct pages *pages, const struct paper *paper, const char *title,
+		  const char *made);
 
 #endif

@@ -4,7 +4,7 @@
  */
 #include "editor-gtk/draw/print.h"
 #include "editor-gtk/draw/grid_draw.h"
-#include "editor-gtk/draw/pages_pdf.h"
+#include "editor-gtk/draw/pages.h"
 
 #include <math.h>
 

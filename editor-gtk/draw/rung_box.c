@@ -187,3 +187,13 @@ void rung_box_place(struct rung_box *box, const struct rung_row *row, float colu
 	box->x = column_x + box->left - box->inner / 2 +
 		 (column_width - box->left - box->right) / 2;
 }
+
+void rung_box_at(const struct drafting *drafting, const struct rung_layout *layout, int row,
+		 int col, struct rung_box *box)
+{
+	const int column = rung_layout_column(layout, row, col);
+
+	rung_box_make(drafting, layout->rung, row, col, box);
+	rung_box_place(box, layout->row, layout->column_x[column],
+		       layout->column_width[column]);
+}

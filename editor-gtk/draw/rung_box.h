@@ -52,5 +52,8 @@ void rung_box_make(const struct drafting *drafting, const struct rung *rung, int
  * @row: places of the rows, known from box->top down to box->last */
 void rung_box_place(struct rung_box *box, const struct rung_row *row, float column_x,
 		    float column_width);
+/** rung_box_at - both, for the box whose first cell is (row, col) of a rung that is laid out. */
+void rung_box_at(const struct drafting *drafting, const struct rung_layout *layout, int row,
+		 int col, struct rung_box *box);
 
 #endif

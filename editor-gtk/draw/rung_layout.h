@@ -99,9 +99,6 @@ float rung_layout_bar(const struct rung_layout *layout, int row, int bar);
 /** rung_layout_cell - the rectangle of (row, column); of a box with its pin rows, all of
  * it: for the cursor, for accessibility, for what pops up there. */
 graphene_rect_t rung_layout_cell(const struct rung_layout *layout, int row, int column);
-/** rung_layout_title, rung_layout_number - theirs. */
-graphene_rect_t rung_layout_title(const struct rung_layout *layout);
-graphene_rect_t rung_layout_number(const struct rung_layout *layout);
 
 /** rung_layout_label - how wide what stands above an element is. */
 float rung_layout_label(const struct drafting *drafting, const struct cell *cell);

@@ -88,7 +88,5 @@ GBytes *picture_png(const struct picture *picture, const struct theme *theme,
 		    struct lettering *lettering, float scale);
 /** picture_append - cairo writes into a GByteArray, the closure. */
 cairo_status_t picture_append(void *bytes, const unsigned char *data, unsigned int len);
-/** picture_lines - a line for each stroke, for tests. Owns: the caller, g_free. */
-char *picture_lines(const struct picture *picture);
 
 #endif

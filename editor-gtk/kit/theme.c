@@ -4,8 +4,6 @@
  */
 #include "editor-gtk/kit/theme.h"
 
-#include <math.h>
-
 #define HEX(rgb) { (float)((rgb) >> 16 & 0xff) / 255, (float)((rgb) >> 8 & 0xff) / 255, \
 		   (float)((rgb) & 0xff) / 255, 1 }
 
@@ -67,35 +65,6 @@ static const struct theme table[THEME_KINDS][THEME_POWERS] = {
 const struct theme *theme_get(enum theme_kind kind, enum theme_power power)
 {
 	return &table[kind][power];
-}
-
-static double linear(double part)
-{
-	return part <= 0.04045 ? part / 12.92 : pow((part + 0.055) / 1.055, 2.4);
-}
-
-/* Relative luminance, WCAG 2.1. */
-static double luminance(const GdkRGBA *color)
-{
-	return 0.2126 * linear((double)color->red) +
-	       0.7152 * linear((double)color->green) +
-	       0.0722 * linear((double)color->blue);
-}
-
-double theme_contrast(const GdkRGBA *a, const GdkRGBA *b)
-{
-	double one = luminance(a), two = luminance(b);
-
-	return one > two ? (one + 0.05) / (two + 0.05) : (two + 0.05) / (one + 0.05);
-}
-
-GdkRGBA theme_mix(const GdkRGBA *over, float alpha, const GdkRGBA *ground)
-{
-	float rest = 1 - alpha;
-
-	return (GdkRGBA){ over->red * alpha + ground->red * rest,
-			  over->green * alpha + ground->green * rest,
-			  over->blue * alpha + ground->blue * rest, 1 };
 }
 
 const char *token_name(enum token token)

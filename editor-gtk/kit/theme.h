@@ -54,10 +54,6 @@ struct theme {
 
 /** theme_get - one row of the table. Owns: nothing; it lives for ever. */
 const struct theme *theme_get(enum theme_kind kind, enum theme_power power);
-/** theme_contrast - WCAG 2 contrast ratio of two opaque colours, 1 to 21. */
-double theme_contrast(const GdkRGBA *a, const GdkRGBA *b);
-/** theme_mix - @over with opacity @alpha upon @ground. */
-GdkRGBA theme_mix(const GdkRGBA *over, float alpha, const GdkRGBA *ground);
 /** token_name - "power"; names in SVG pictures and tests. Lives for ever. */
 const char *token_name(enum token token);
 

@@ -8,7 +8,7 @@
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/kit/i18n.h"
-#include "editor-gtk/draw/pages_pdf.h"
+#include "editor-gtk/draw/pages.h"
 #include "editor-gtk/render/render_classic.h"
 #include "editor-gtk/render/render_diff.h"
 #include "editor-gtk/render/render_options.h"

@@ -9,6 +9,7 @@
 #include "editor-gtk/document/classic_origin.h"
 #include "editor-gtk/draw/grid_classic.h"
 #include "editor-gtk/document/report_lines.h"
+#include "tests/editor/lines.h"
 #include "tests/tap.h"
 
 #include <glib/gstdio.h>

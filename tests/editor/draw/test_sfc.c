@@ -6,6 +6,7 @@
 #include "editor-gtk/document/document.h"
 #include "editor-gtk/draw/sfc_draw.h"
 #include "tests/editor/drawn.h"
+#include "tests/editor/lines.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>

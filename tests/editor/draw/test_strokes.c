@@ -9,6 +9,7 @@
  * With --bless the files are written anew; read the difference.
  */
 #include "tests/editor/drawn.h"
+#include "tests/editor/lines.h"
 #include "tests/editor/nodes.h"
 #include "tests/tap.h"
 

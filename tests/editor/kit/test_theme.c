@@ -7,6 +7,39 @@
 #include "editor-gtk/kit/theme.h"
 #include "tests/tap.h"
 
+#include <math.h>
+
+static double linear(double part)
+{
+	return part <= 0.04045 ? part / 12.92 : pow((part + 0.055) / 1.055, 2.4);
+}
+
+/* Relative luminance, WCAG 2.1. */
+static double luminance(const GdkRGBA *color)
+{
+	return 0.2126 * linear((double)color->red) +
+	       0.7152 * linear((double)color->green) +
+	       0.0722 * linear((double)color->blue);
+}
+
+/* WCAG 2 contrast ratio of two opaque colours, 1 to 21. */
+static double theme_contrast(const GdkRGBA *a, const GdkRGBA *b)
+{
+	double one = luminance(a), two = luminance(b);
+
+	return one > two ? (one + 0.05) / (two + 0.05) : (two + 0.05) / (one + 0.05);
+}
+
+/* @over with opacity @alpha upon @ground. */
+static GdkRGBA theme_mix(const GdkRGBA *over, float alpha, const GdkRGBA *ground)
+{
+	float rest = 1 - alpha;
+
+	return (GdkRGBA){ over->red * alpha + ground->red * rest,
+			  over->green * alpha + ground->green * rest,
+			  over->blue * alpha + ground->blue * rest, 1 };
+}
+
 static const enum token texts[] = { TOKEN_INK, TOKEN_ERROR, TOKEN_ACCENT, TOKEN_COMMENT };
 static const enum token graphics[] = { TOKEN_IDLE, TOKEN_POWER, TOKEN_FORCE,
 					TOKEN_BLOCKS };
