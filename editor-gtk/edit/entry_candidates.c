@@ -2,10 +2,11 @@
  *
  * entry_candidates - what the word before the cursor could become, best first.
  *
- * What is offered exists, but for a new name at the end, which says so: taking the first
- * of the list makes nothing new if anything is there. It shows nothing.
+ * All candidates exist, except new names at the end of the list, which say so: taking the
+ * first one makes nothing new if anything fits. Which addresses a new name may get, and what
+ * the line as it is means, entry_read() says.
  */
-#include "editor-gtk/edit/entry_search.h"
+#include "editor-gtk/edit/entry_operand.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/ascii.h"
@@ -16,6 +17,156 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum {
+	WANT_WORD = 1, WANT_BOOL = 2, WANT_ANY = 4, WANT_INSTANCE = 8, WANT_LABEL = 16,
+	WANT_ROUTINE = 32, WANT_PIN_NAME = 64, WANT_NEW = 128,
+	WANT_FUNCTION = 256,
+};
+
+struct search {
+	const struct entry_place *place;
+	const char *line;
+	size_t cursor, from;       /* the word is line[from … cursor)          */
+	size_t head;               /* of it: up to its last dot; 0: none       */
+	unsigned int want;
+	uint16_t classes;          /* of values; 0: any                        */
+	bool write;
+	const struct word_row *row; /* of the line's word; NULL: none          */
+	enum word word;
+	struct entry_candidate *out;
+	int count, most;
+	int *rank;                 /* of each in out                           */
+};
+
+/* ---- what may stand there, by what stands before the word ---- */
+
+static bool is_part(char c)
+{
+	return (c >= '0' && c <= '9') || ascii_upper(c) != c || (c >= 'A' && c <= 'Z') ||
+	       c == '_' || c == '%' || c == '.' || (c & 0x80);
+}
+
+static void want_operand(struct search *s)
+{
+	switch (s->row->operand) {
+	case OPND_BOOL_R:
+		s->want = WANT_BOOL | WANT_NEW;
+		return;
+	case OPND_BOOL_W:
+		s->want = WANT_BOOL | WANT_NEW;
+		s->write = true;
+		return;
+	case OPND_LABEL:
+		s->want = WANT_LABEL;
+		return;
+	case OPND_ROUTINE:
+		s->want = WANT_ROUTINE;
+		return;
+	case OPND_EXPR:
+	case OPND_ASSIGN:
+		s->want = WANT_ANY | WANT_FUNCTION;
+		return;
+	case OPND_LOOP:
+	case OPND_ANY_R:
+	case OPND_ANY_W:
+		s->want = WANT_ANY;
+		return;
+	case OPND_NONE:
+	case OPND_LOOP_END:
+	case OPND_INSTANCE:
+	case OPND_PIN:
+		return;
+	}
+}
+
+/* Behind `PT:=`: what fits that pin. */
+static void want_value(struct search *s, const char *rest, size_t len)
+{
+	size_t from;
+	int pin;
+
+	while (len > 0 && strchr(":=>/ ", rest[len - 1]))
+		len--;
+	for (from = len; from > 0 && is_part(rest[from - 1]); from--)
+		;
+	pin = word_pin_find(s->row, rest + from, len - from);
+	s->want = WANT_ANY;
+	if (pin < 0)
+		return;
+	s->classes = entry_fit_pin(s->row, s->row->kind == WORD_FN ?
+				   word_input(s->row, (uint32_t)pin) : &s->row->pin[pin],
+				   IEC_NONE, false).classes;
+}
+
+/* Behind a word: its operand, its instance, its parameters. */
+static void want_behind(struct search *s, const char *rest, size_t len)
+{
+	size_t end = len;
+
+	if (s->row->kind == WORD_ELEM) {
+		want_operand(s);
+		return;
+	}
+	while (end > 0 && rest[end - 1] == ' ')
+		end--;
+	if (end > 0 && strchr("=>/", rest[end - 1])) {
+		want_value(s, rest, end);
+		return;
+	}
+	s->want = WANT_PIN_NAME;
+	if (s->row->kind == WORD_FN)
+		s->want |= WANT_ANY;
+	else if (end == 0)
+		s->want |= WANT_INSTANCE;
+	else
+		s->want |= WANT_ANY;
+}
+
+/* In an expression: what goes with its first operand. */
+static void want_operand_like(struct search *s, const char *text)
+{
+	struct entry_target target;
+	size_t len = 0;
+
+	while (is_part(text[len]))
+		len++;
+	s->want = WANT_ANY | WANT_FUNCTION;
+	s->write = false;
+	entry_target_find(s->place, text, len, &target);
+	if (target.means == MEANS_VALUE)
+		s->classes = entry_fit_type(target.type, false).classes;
+}
+
+static void find_want(struct search *s)
+{
+	const char *line = s->line;
+	size_t at = strspn(line, " \t"), glyph = entry_glyph(line + at, &s->word);
+	size_t end = at;
+	bool below;
+
+	s->word = glyph ? s->word : WORD_COUNT;
+	if (glyph) {
+		end = at + glyph;
+	} else {
+		while (end < s->from && line[end] != ' ' && line[end] != '[')
+			end++;
+		if (end == at || end == s->from)
+			end = at;
+		else
+			s->word = entry_word_find(s->place, line + at, end - at, &below);
+	}
+	s->write = s->place->output;
+	s->want = WANT_WORD | WANT_BOOL | WANT_NEW;
+	if (s->word != WORD_COUNT && s->from >= end && end > at) {
+		s->row = words_row(&s->place->project->words, s->word);
+		s->want = 0;
+		s->write = false;
+		want_behind(s, line + end, s->from - end);
+	} else if (s->from > at && line[at] != '/' && line[at] != '!') {
+		want_operand_like(s, line + at + (line[at] == '['));
+	}
+}
 
 /* ---- ranking ---- */
 
@@ -346,6 +497,217 @@ static void add_pin_names(struct search *s)
 	}
 }
 
+/* ---- new names, with each address that they may get ---- */
+
+static void add_row(struct search *s, const struct entry_new *declared,
+		    const char *address, const char *more)
+{
+	struct entry_candidate *c = &s->out[s->count++];
+
+	memset(c, 0, sizeof(*c));
+	c->kind = ENTRY_NEW;
+	snprintf(c->text, sizeof(c->text), "%s", declared->name);
+	snprintf(c->address, sizeof(c->address), "%s", address);
+	snprintf(c->note, sizeof(c->note), "%.100s%s%.200s", declared->type,
+		 more[0] ? ", " : "", more);
+}
+
+/* Of one address the line says it, so that it can be changed at once. @name_end: of the
+ * name in the line; from there to the cursor goes what is said of it. */
+static void add_choices(struct search *s, const struct entry_new *declared,
+			size_t name_end, const char *typed, size_t typed_len)
+{
+	for (int i = 0; i < declared->choices && s->count < s->most; i++) {
+		const char *address = declared->choice[i];
+		char *line = s->out[s->count].line;
+
+		if (typed_len > strlen(address) || !ascii_same(address, typed, typed_len))
+			continue;
+		add_row(s, declared, address, address[0] ? "" : _("no address"));
+		snprintf(line, ENTRY_TEXT, "%.*s%s%s%s", (int)name_end, s->line,
+			 address[0] ? " AT " : " : ", address[0] ? address : declared->type,
+			 s->line + s->cursor);
+	}
+}
+
+static const struct entry_new *declared_as(const struct entry *entry, const char *name,
+					   size_t len)
+{
+	for (int i = 0; i < entry->declares; i++)
+		if (ascii_is(entry->declare[i].name, name, len))
+			return &entry->declare[i];
+	return NULL;
+}
+
+/* If the line with the word before the cursor would declare that. */
+static void add_name(struct search *s, struct entry *entry)
+{
+	const struct entry_new *declared;
+
+	if (!entry_read(s->place, s->line, entry))
+		return;
+	declared = declared_as(entry, s->line + s->from, s->cursor - s->from);
+	if (!declared)
+		return;
+	if (declared->choices > 0) {
+		add_choices(s, declared, s->cursor, "", 0);
+		return;
+	}
+	snprintf(s->out[s->count].line, ENTRY_TEXT, "%s", s->line);
+	add_row(s, declared, declared->address, "");
+}
+
+/* A new name behind the others, if the line would declare it. */
+static void add_new(struct search *s)
+{
+	struct entry *entry = malloc(sizeof(*entry));
+
+	if (entry && s->count < s->most && s->cursor > s->from)
+		add_name(s, entry);
+	free(entry);
+}
+
+/* ---- what the line says of a name already ---- */
+
+/* Where the operand begins: behind a word, a glyph, a sign. */
+static size_t operand_at(const struct search *s)
+{
+	static const char blanks[] = " \t";
+	size_t at = strspn(s->line, blanks), len, glyph;
+	enum word word;
+	bool below;
+
+	glyph = entry_glyph(s->line + at, &word);
+	len = strcspn(s->line + at, blanks);
+	if (glyph > 0)
+		at += glyph;
+	else if (!entry_declared_len(s->line + at, s->cursor - at, ENTRY_WORD_POSSIBLE) &&
+		 entry_word_find(s->place, s->line + at, len, &below) != WORD_COUNT)
+		at += len;
+	at += strspn(s->line + at, blanks);
+	if (s->line[at] == '/' || s->line[at] == '!')
+		at += 1 + strspn(s->line + at + 1, blanks);
+	return at;
+}
+
+/* What the cursor's word says of a name. */
+struct saying {
+	size_t name, name_end; /* in the line; name_end 0: it says nothing     */
+	bool type;             /* else its address                             */
+};
+
+static size_t back_blanks(const char *line, size_t at)
+{
+	while (at > 0 && (line[at - 1] == ' ' || line[at - 1] == '\t'))
+		at--;
+	return at;
+}
+
+/* Without the sign before it; the colon in I:0/3 belongs to it. */
+static size_t back_word(const char *line, size_t end)
+{
+	size_t at = end;
+
+	while (at > 0 && (!strchr(" \t:=<>+-*&,;()[]", line[at - 1]) ||
+			  (at < end && line[at - 1] == ':' && ascii_digit(line[at]))))
+		at--;
+	while (at < end && (line[at] == '/' || line[at] == '!'))
+		at++;
+	return at;
+}
+
+/* By what stands before that word: `Level AT`, `Level AT %IW0 :`, `Level :`; or it is
+ * AT itself; or, of a contact or coil, an address. */
+static struct saying find_saying(const struct search *s)
+{
+	const char *line = s->line;
+	size_t end = back_blanks(line, s->from), word;
+	struct saying out = { .type = end > 0 && line[end - 1] == ':' };
+
+	if (out.type)
+		end = back_blanks(line, end - 1);
+	word = back_word(line, end);
+	if (ascii_is("AT", line + word, end - word)) {
+		end = back_blanks(line, word);
+	} else if (out.type && back_blanks(line, word) > 0) {
+		const size_t at = back_word(line, back_blanks(line, word));
+
+		if (ascii_is("AT", line + at, back_blanks(line, word) - at))
+			end = back_blanks(line, at);
+		else if (line[word] == '%' && at == operand_at(s))
+			end = back_blanks(line, word);
+	} else if (!out.type && !ascii_is("AT", line + s->from, s->cursor - s->from) &&
+		   (line[s->from] != '%' || word != operand_at(s))) {
+		return out;
+	}
+	word = back_word(line, end);
+	if (entry_is_name(line + word, end - word)) {
+		out.name = word;
+		out.name_end = end;
+	}
+	return out;
+}
+
+/* All types that will do there. */
+static void add_types(struct search *s, const struct saying *saying, struct entry *entry)
+{
+	const size_t len = s->cursor - s->from;
+
+	for (int i = IEC_NONE + 1; i < IEC_TYPE_COUNT && s->count < s->most; i++) {
+		const char *word = iec_type_row((enum iec_type)i)->word;
+		char *line = s->out[s->count].line;
+		const struct entry_new *declared;
+
+		if (len > strlen(word) || !ascii_same(word, s->line + s->from, len))
+			continue;
+		snprintf(line, ENTRY_TEXT, "%.*s%s%s", (int)s->from, s->line, word,
+			 s->line + s->cursor);
+		if (!entry_read(s->place, line, entry))
+			continue;
+		declared = declared_as(entry, s->line + saying->name,
+				       saying->name_end - saying->name);
+		if (declared)
+			add_row(s, declared, declared->address, "");
+	}
+}
+
+/* Behind AT or in its place the addresses that begin so. */
+static void add_addresses(struct search *s, const struct saying *saying,
+			  struct entry *entry)
+{
+	const char *typed = s->line + s->from;
+	const size_t len = s->cursor - s->from;
+	const struct entry_new *declared;
+	char line[ENTRY_TEXT];
+
+	snprintf(line, sizeof(line), "%.*s%s", (int)saying->name_end, s->line,
+		 s->line + s->cursor);
+	if (!entry_read(s->place, line, entry))
+		return;
+	declared = declared_as(entry, s->line + saying->name,
+			       saying->name_end - saying->name);
+	if (declared)
+		add_choices(s, declared, saying->name_end, typed,
+			    ascii_is("AT", typed, len) ? 0 : len);
+}
+
+/* Does the cursor stand in what a line says of its name, `AT %I`? Then that is offered. */
+static bool add_said(struct search *s)
+{
+	const struct saying saying = find_saying(s);
+	struct entry *entry;
+
+	if (saying.name_end == 0)
+		return false;
+	entry = malloc(sizeof(*entry));
+	if (entry && saying.type)
+		add_types(s, &saying, entry);
+	else if (entry)
+		add_addresses(s, &saying, entry);
+	free(entry);
+	return true;
+}
+
 /* ---- all of them ---- */
 
 static void find_all(struct search *s)
@@ -376,7 +738,7 @@ static void find_all(struct search *s)
 		ladder_functions(s->place->project, typed(s), typed_len(s), add_function,
 				 s);
 	if (s->want & (WANT_NEW | WANT_INSTANCE | WANT_ANY))
-		entry_add_new(s);
+		add_new(s);
 }
 
 /* Bytes up to the last dot of the word, if an instance or structure stands there. */
@@ -403,11 +765,11 @@ static int search(const struct entry_place *place, const char *line, size_t curs
 		return 0;
 	s.cursor = cursor <= strlen(line) ? cursor : strlen(line);
 	s.from = s.cursor;
-	while (s.from > 0 && entry_is_part(line[s.from - 1]))
+	while (s.from > 0 && is_part(line[s.from - 1]))
 		s.from--;
 	s.head = find_head(&s);
-	if (!entry_is_said(&s)) {
-		entry_find_want(&s);
+	if (!add_said(&s)) {
+		find_want(&s);
 		find_all(&s);
 	}
 	free(s.rank);

@@ -6,7 +6,7 @@
  * contact of its output, in parameters and expressions. It declares nothing.
  */
 #include "editor-gtk/edit/entry_duplicate.h"
-#include "editor-gtk/edit/entry_inside.h"
+#include "editor-gtk/edit/entry_operand.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"

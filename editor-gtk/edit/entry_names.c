@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_names - what a name, a path or an address in any spelling stands for, and names
- * for what is new.
- *
- * It looks variables up as they are declared; types of expressions are the engine's.
+ * entry_names - what a name, a path, an address in any spelling or a mnemonic stands for,
+ * and names for new variables; see entry_names.h.
  */
-#include "editor-gtk/edit/entry_inside.h"
+#include "editor-gtk/edit/entry_names.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/ascii.h"
@@ -13,21 +11,17 @@
 #include "engine/ladder.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const struct var *find_in(const struct project *project,
 				 const struct var_table *table, const char *text,
 				 size_t len, uint16_t *flags)
 {
-	for (int i = 0; i < table->count; i++) {
-		if (!ascii_is(project_text(project, table->var[i].name), text, len))
-			continue;
-		if (flags)
-			*flags = vars_flags(table, i);
-		return &table->var[i];
-	}
-	return NULL;
+	const int i = vars_find(table, names_find_any(&project->names, text, len));
+
+	if (i >= 0 && flags)
+		*flags = vars_flags(table, i);
+	return i >= 0 ? &table->var[i] : NULL;
 }
 
 const struct var *entry_var_find(const struct entry_place *place, const char *text,
@@ -389,4 +383,93 @@ const char *entry_family_base(const struct word_row *row)
 		if (!strcmp(bases[i].family, row->family))
 			return bases[i].base;
 	return row->word;
+}
+
+/* ---- words: tables of other dialects, then the catalogue and the project ---- */
+
+static const struct entry_mnemonic elements[] = {
+#define MNEMONIC(text, id, below, dialect) { text, ELEM_##id, below },
+#include "editor-gtk/edit/entry_words.def"
+};
+
+static const struct { const char *text, *word; } functions[] = {
+#define BOX(text, word, dialect) { text, word },
+#include "editor-gtk/edit/entry_words.def"
+};
+
+#define COUNT(table) ((int)(sizeof(table) / sizeof(*(table))))
+
+const struct entry_mnemonic *entry_mnemonic(int index)
+{
+	return index >= 0 && index < COUNT(elements) ? &elements[index] : NULL;
+}
+
+static enum word find_element(const char *text, size_t len, bool *below)
+{
+	for (int i = 0; i < COUNT(elements); i++)
+		if (ascii_is(elements[i].text, text, len)) {
+			*below = elements[i].below;
+			return elements[i].word;
+		}
+	return WORD_COUNT;
+}
+
+enum word entry_word_find(const struct entry_place *place, const char *text, size_t len,
+			  bool *below)
+{
+	enum word word = find_element(text, len, below);
+
+	if (word != WORD_COUNT)
+		return word;
+	*below = false;
+	for (int i = 0; i < COUNT(functions); i++)
+		if (ascii_is(functions[i].text, text, len))
+			return word_find(functions[i].word, strlen(functions[i].word));
+	word = words_find(&place->project->words, text, len);
+	if (word == WORD_COUNT || word == ELEM_EMPTY ||
+	    words_row(&place->project->words, word)->kind == WORD_STRUCT)
+		return WORD_COUNT;
+	return word;
+}
+
+/* A glyph without its blanks: "||" for "| |". */
+static size_t match(const char *glyph, const char *text)
+{
+	size_t n = strlen(glyph);
+	char tight[4] = "";
+	size_t len = 0;
+
+	if (!strncmp(text, glyph, n))
+		return n;
+	for (size_t i = 0; i < n && i < 3; i++)
+		if (glyph[i] != ' ')
+			tight[len++] = glyph[i];
+	return len > 1 && !strncmp(text, tight, len) ? len : 0;
+}
+
+static size_t dashes(const char *text)
+{
+	return strspn(text, "- ");
+}
+
+size_t entry_glyph(const char *line, enum word *word)
+{
+	const size_t before = dashes(line);
+
+	if (line[before] != '|' && line[before] != '(')
+		return 0;
+	for (int i = 0; i < WORD_KNOWN; i++) {
+		const struct word_row *row = word_row((enum word)i);
+		size_t len;
+
+		if (row->kind != WORD_ELEM || (row->operand != OPND_BOOL_R &&
+					       row->operand != OPND_BOOL_W))
+			continue;
+		len = match(row->glyph, line + before);
+		if (len == 0)
+			continue;
+		*word = (enum word)i;
+		return before + len + dashes(line + before + len);
+	}
+	return 0;
 }

@@ -3,8 +3,8 @@
  * grid_canvas - a rung spread out as it is shown, while an edit works on it.
  *
  * On a canvas a display cell is a cell: outputs stand in the last column, with real
- * wire up to them. Only editor-gtk/grid_*.c include this. A canvas that failed stays
- * failed, and all that is done to it does nothing.
+ * wire up to them. Only edit/grid_*.c include this. After the first refusal a canvas does
+ * nothing more.
  */
 #ifndef EDITOR_GRID_CANVAS_H
 #define EDITOR_GRID_CANVAS_H
@@ -25,10 +25,6 @@ struct canvas {
 /** grid_spread - the rung with its outputs in column @columns - 1, which must be at
  * least grid_display_columns(); NULL: no memory. Owns: the caller. */
 struct rung *grid_spread(const struct rung *rung, int columns);
-
-/** grid_without_spare - the rung without the column right before its last one, if that
- * is nothing but wire on the way to outputs; NULL: it is not. Owns: the caller. */
-struct rung *grid_without_spare(const struct rung *rung);
 
 /** canvas_open - spreads a rung out over so many columns, @rows of them at least.
  * Returns false when it failed; canvas_close() all the same. */
@@ -91,21 +87,9 @@ int canvas_prune(struct canvas *c, int row, int bar);
 /** canvas_at_element - opens it, with the mark on the element at the cursor. Fails:
  * false if there is none. */
 bool canvas_at_element(struct canvas *c, const struct rung *rung, struct grid_at *at);
-/* The wire to the left and right of a place, up to the next thing that is joined to it:
- * from bar to bar. */
-struct stretch { int left, right; };
-struct stretch canvas_stretch(const struct canvas *c, int row, int col);
-/** canvas_is_backwards - would power have to go leftwards to or from the element at
- * (@row, @col), by wires in other rows? */
-bool canvas_is_backwards(struct canvas *c, int row, int col);
-/** canvas_room_before - makes cell (@row, @col) free by moving what stands there right. */
-bool canvas_room_before(struct canvas *c, int row, int col);
 /** canvas_place - as grid_place(), on the canvas. */
 bool canvas_place(struct canvas *c, int row, int col, struct cell cell,
 		  enum grid_how how);
-/** canvas_output - an output at the end of @row; a row below where one stands. Gives
- * its row; -1: it failed. */
-int canvas_output(struct canvas *c, int row, struct cell cell);
 /**
  * canvas_branch_row - a row in which cells @col … @last are free and whose bars @col and
  * @last + 1 can be linked with those of @row; made if there is none
@@ -119,14 +103,7 @@ int canvas_branch_row(struct canvas *c, int *row, int col, int last);
 void canvas_join_branch(struct canvas *c, int row, int branch, int bar);
 /** canvas_parallel - as grid_parallel(), round the cells @col … @last. */
 bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell cell);
-/** canvas_paste - as grid_paste(). */
-bool canvas_paste(struct canvas *c, int row, int col, const struct rung *part,
-		  bool parallel);
-/** canvas_delete - takes the element at (@row, @col) away, as grid_delete(), but for
- * rows that are empty then. */
-void canvas_delete(struct canvas *c, int row, int col);
-/** canvas_delete_whole - the same, with the rows; a branch below moves up into a gap. */
+/** canvas_delete_whole - deletes the element at (@row, @col) and rows that become empty; a
+ * branch below moves up into a gap. */
 void canvas_delete_whole(struct canvas *c, int row, int col);
-/** canvas_remove_pin - takes a row of pins away, with the wire that leads there. */
-void canvas_remove_pin(struct canvas *c, int row, int col);
 #endif

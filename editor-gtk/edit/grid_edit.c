@@ -1,12 +1,23 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_edit - putting elements into a rung, and changing the one that stands there.
+ * grid_edit - elements, rows and pins of a rung: putting, changing, branching, deleting.
  *
- * Branches are in grid_branch.c, taking away in grid_delete.c. It knows of a word only
- * what its row says.
+ * Deleting: where power must pass a wire stays; a branch that became nothing but wire would
+ * be a short circuit and goes; rows that become empty go too.
+ *
+ * A branch needs a row in which its cells are free and down to which its ends can be
+ * linked without touching another circuit; where there is none it gets a new row. Below a
+ * box whose pins are fed there is no such row, because what feeds them comes from the left,
+ * past the place where the branch would begin: a branch round such a box goes above it.
+ *
+ * Of a word it knows only what its row of the catalogue says.
  */
 #include "editor-gtk/edit/grid_canvas.h"
 #include "editor-gtk/kit/i18n.h"
+
+#include "engine/model/args.h"
+
+#include <string.h>
 
 static const char *const refusal_text[] = {
 #define REFUSAL(id, text) text,
@@ -16,6 +27,628 @@ static const char *const refusal_text[] = {
 const char *grid_refusal_text(enum grid_refusal refusal)
 {
 	return refusal < GRID_REFUSAL_COUNT ? refusal_text[refusal] : "";
+}
+
+static bool is_cell(struct canvas *c, const struct grid_at *at)
+{
+	return (at->row >= 0 && at->row < LIMIT_ROWS && at->col >= 0 &&
+		at->col < c->rung->cols) || canvas_fail(c, GRID_OUTSIDE);
+}
+
+/* Opens the canvas; @why: the refusal if there is no cell at @at. */
+static bool at_cell(struct canvas *c, const struct rung *rung, struct grid_at *at,
+		    enum grid_refusal why)
+{
+	return canvas_open(c, rung, at->columns, 1) &&
+	       ((at->row >= 0 && at->row < c->rung->rows && at->col >= 0 &&
+		 at->col < c->rung->cols) || canvas_fail(c, why));
+}
+
+/* ---- deleting ---- */
+
+/* The wire to the left and right of a place, up to the next thing that is joined to it:
+ * from bar to bar. */
+struct stretch { int left, right; };
+
+static struct stretch stretch_at(const struct canvas *c, int row, int col)
+{
+	struct stretch s = { col, col + 1 };
+
+	while (s.left > 0 && canvas_word(c, row, s.left - 1) == ELEM_WIRE &&
+	       !canvas_linked(c, row, s.left))
+		s.left--;
+	while (s.right < c->rung->cols && canvas_word(c, row, s.right) == ELEM_WIRE &&
+	       !canvas_linked(c, row, s.right))
+		s.right++;
+	return s;
+}
+
+static int feeders(const struct network *n, int net)
+{
+	return n->first_feeder[net + 1] - n->first_feeder[net];
+}
+
+/* Does power have to go through (@row, @col), which is empty now? So if what comes
+ * behind it is read and fed by nothing else, or what comes before it leads nowhere
+ * else. */
+static bool must_pass(struct canvas *c, int row, int col)
+{
+	const struct network *n = &c->network;
+	int in, out;
+
+	if (!canvas_network(c))
+		return false;
+	in = network_net(n, row, col);
+	out = network_net(n, row, col + 1);
+	if (in == out || out == NET_RAIL || n->reader_count[out] == 0)
+		return false;
+	return feeders(n, out) == 0 ||
+	       (in != NET_RAIL && n->reader_count[in] == 0 && feeders(n, in) > 0);
+}
+
+/* Wire that ended at bar @bar of @row and now ends in nothing goes, up to its other end;
+ * returns the bar there, or -1: none did. */
+static int erase_end(struct canvas *c, int row, int bar)
+{
+	const int from = bar;
+
+	if (canvas_linked(c, row, bar))
+		return -1;
+	if (!canvas_right(c, row, bar))
+		while (bar > 0 && canvas_word(c, row, bar - 1) == ELEM_WIRE &&
+		       (bar == from || !canvas_linked(c, row, bar)))
+			canvas_clear(c, row, --bar);
+	else if (bar > 0 && !canvas_left(c, row, bar))
+		while (canvas_word(c, row, bar) == ELEM_WIRE &&
+		       (bar == from || !canvas_linked(c, row, bar)))
+			canvas_clear(c, row, bar++);
+	return bar == from ? -1 : bar;
+}
+
+/* Links and wires that led to bar @bar of @row alone. */
+static void erase_way(struct canvas *c, int row, int bar)
+{
+	while (bar >= 0) {
+		row = canvas_prune(c, row, bar);
+		bar = erase_end(c, row, bar);
+	}
+}
+
+static void erase_stretch(struct canvas *c, int row, struct stretch s)
+{
+	for (int col = s.left; col < s.right; col++)
+		canvas_clear(c, row, col);
+	erase_way(c, row, s.left);
+	erase_way(c, row, s.right);
+}
+
+/* ---- a branch that became the only way moves up ---- */
+
+/* Does the row below hold a branch from bar to bar, and nothing beside it? */
+static bool can_pull(const struct canvas *c, int row, struct stretch s)
+{
+	const int below = row + 1;
+
+	if (below >= c->rung->rows || !canvas_up(c, below, s.right) ||
+	    (s.left > 0 && !canvas_up(c, below, s.left)) ||
+	    canvas_left(c, below, s.left) || canvas_right(c, below, s.right))
+		return false;
+	for (int col = s.left; col < s.right; col++)
+		if (!canvas_is_empty(c, row, col) || canvas_is_empty(c, below, col) ||
+		    canvas_word(c, below, col) == ELEM_PIN ||
+		    rung_height(c->rung, below, col) > 1 ||
+		    (col > s.left && canvas_up(c, below, col)))
+			return false;
+	return true;
+}
+
+static void pull_up(struct canvas *c, int row, struct stretch s)
+{
+	if (!can_pull(c, row, s))
+		return;
+	for (int col = s.left; col < s.right; col++) {
+		canvas_put(c, row, col, *canvas_cell(c, row + 1, col));
+		canvas_clear(c, row + 1, col);
+	}
+	/* Links from further below now pass the row that was left. */
+	for (int bar = s.left > 0 ? s.left : 1; bar <= s.right; bar++)
+		canvas_cell(c, row + 1, bar - 1)->link =
+			canvas_down(c, row + 1, bar);
+	canvas_drop_row(c, row + 1);
+}
+
+/* ---- one element ---- */
+
+/* The wire that leads to bar @col of @row, and nowhere else. */
+static void erase_left(struct canvas *c, int row, int col)
+{
+	while (col > 0 && !canvas_linked(c, row, col) &&
+	       canvas_word(c, row, col - 1) == ELEM_WIRE)
+		canvas_clear(c, row, --col);
+	canvas_prune(c, row, col);
+}
+
+static void remove_pin(struct canvas *c, int row, int col)
+{
+	rung_clear_cell(c->rung, row, col);
+	erase_left(c, row, col);
+}
+
+static struct stretch take_out(struct canvas *c, int row, int col)
+{
+	struct stretch s;
+
+	for (int i = rung_height(c->rung, row, col) - 1; i > 0; i--)
+		remove_pin(c, row + i, col);
+	canvas_clear(c, row, col);
+	s = stretch_at(c, row, col);
+	if (must_pass(c, row, col))
+		canvas_cell(c, row, col)->word = ELEM_WIRE;
+	else
+		erase_stretch(c, row, s);
+	return s;
+}
+
+/* Which rows were empty before: those stay. */
+struct bare { bool row[LIMIT_ROWS]; };
+
+static void look_for_bare(const struct canvas *c, struct bare *bare)
+{
+	for (int row = 0; row < c->rung->rows; row++)
+		bare->row[row] = canvas_is_bare(c, row);
+}
+
+/* Drops the rows that are empty now, but not @keep; returns where that is then. */
+static int drop_rows(struct canvas *c, const struct bare *bare, int keep)
+{
+	for (int row = c->rung->rows - 1; row >= 0; row--) {
+		const int before = c->rung->rows;
+
+		if (bare->row[row] || row == keep)
+			continue;
+		canvas_drop_row(c, row);
+		if (row < keep && c->rung->rows < before)
+			keep--;
+	}
+	return keep;
+}
+
+void canvas_delete_whole(struct canvas *c, int row, int col)
+{
+	struct stretch s;
+	struct bare bare;
+
+	look_for_bare(c, &bare);
+	s = take_out(c, row, col);
+	row = drop_rows(c, &bare, row);
+	pull_up(c, row, s);
+	canvas_drop_row(c, row);
+}
+
+static void erase_wire(struct canvas *c, int row, int col)
+{
+	canvas_clear(c, row, col);
+	canvas_prune(c, row, col);
+	canvas_prune(c, row, col + 1);
+	canvas_drop_row(c, row);
+}
+
+struct rung *grid_delete(const struct rung *rung, struct grid_at *at)
+{
+	struct canvas c;
+
+	if (at_cell(&c, rung, at, GRID_NOTHING)) {
+		const int row = at->row, col = at->col;
+
+		if (canvas_is_element(&c, row, col)) {
+			canvas_delete_whole(&c, row, col);
+		} else if (canvas_word(&c, row, col) == ELEM_PIN) {
+			remove_pin(&c, row, col);
+			canvas_drop_row(&c, row);
+		} else if (canvas_word(&c, row, col) == ELEM_WIRE) {
+			erase_wire(&c, row, col);
+		} else if (canvas_up(&c, row, col + 1)) {
+			canvas_cell(&c, row, col)->link = 0;
+			canvas_prune(&c, row, col + 1);
+			canvas_drop_row(&c, row);
+		} else if (canvas_cell(&c, row, col)->comment) {
+			canvas_clear(&c, row, col);
+		} else {
+			canvas_fail(&c, GRID_NOTHING);
+		}
+	}
+	return canvas_close(&c, at);
+}
+
+/* ---- an area ---- */
+
+static bool clip(const struct canvas *c, struct grid_area *area)
+{
+	if (area->row < 0)
+		area->row = 0;
+	if (area->col < 0)
+		area->col = 0;
+	if (area->last_row >= c->rung->rows)
+		area->last_row = c->rung->rows - 1;
+	if (area->last_col >= c->rung->cols)
+		area->last_col = c->rung->cols - 1;
+	return area->row <= area->last_row && area->col <= area->last_col;
+}
+
+/* From the end, so that a branch goes before what it goes round. */
+static bool delete_elements(struct canvas *c, const struct grid_area *area)
+{
+	bool any = false;
+
+	for (int row = area->last_row; row >= area->row; row--)
+		for (int col = area->last_col; col >= area->col; col--) {
+			if (!canvas_is_element(c, row, col))
+				continue;
+			take_out(c, row, col);
+			any = true;
+		}
+	return any;
+}
+
+static bool delete_wires(struct canvas *c, const struct grid_area *area)
+{
+	bool any = false;
+
+	for (int row = area->last_row; row >= area->row; row--)
+		for (int col = area->last_col; col >= area->col; col--) {
+			struct cell *cell = canvas_cell(c, row, col);
+
+			if (cell->word == ELEM_PIN ||
+			    (cell->word == ELEM_EMPTY && !cell->link))
+				continue;
+			*cell = (struct cell){ .word = ELEM_EMPTY };
+			canvas_prune(c, row, col);
+			canvas_prune(c, row, col + 1);
+			any = true;
+		}
+	return any;
+}
+
+struct rung *grid_delete_area(const struct rung *rung, struct grid_at *at,
+			      const struct grid_area *area)
+{
+	struct grid_area clipped = *area;
+	struct canvas c;
+
+	if (canvas_open(&c, rung, at->columns, 1)) {
+		struct bare bare;
+
+		look_for_bare(&c, &bare);
+		if (!clip(&c, &clipped) || (!delete_elements(&c, &clipped) &&
+					    !delete_wires(&c, &clipped)))
+			canvas_fail(&c, GRID_NOTHING);
+		else
+			drop_rows(&c, &bare, -1);
+	}
+	return canvas_close(&c, at);
+}
+
+/* ---- branches ---- */
+
+/* The cells and bars of a branch that is looked for: cells first … last of a row, its
+ * ends at bars left and right; right -1: an output ends it. */
+struct reach { int row, first, last, left, right; };
+
+static int net_at(const struct canvas *c, int row, int bar)
+{
+	return network_net(&c->network, row, bar);
+}
+
+/* May bar @bar of @row be joined with the same bar of the branch's own row? */
+static bool may_join(const struct canvas *c, const struct reach *reach, int row, int bar)
+{
+	return bar < 0 || !canvas_bar_used(c, row, bar) ||
+	       net_at(c, row, bar) == net_at(c, reach->row, bar);
+}
+
+static bool is_passable(const struct canvas *c, const struct reach *reach, int row)
+{
+	return may_join(c, reach, row, reach->left) &&
+	       may_join(c, reach, row, reach->right);
+}
+
+static bool is_free(const struct canvas *c, const struct reach *reach, int row)
+{
+	for (int col = reach->first; col <= reach->last; col++) {
+		if (!canvas_is_empty(c, row, col))
+			return false;
+		if (col > reach->first && canvas_linked(c, row, col))
+			return false;
+	}
+	return (reach->right >= 0 || !canvas_linked(c, row, reach->last + 1)) &&
+	       is_passable(c, reach, row);
+}
+
+/* May a row for the branch be put in before @row: without cutting a box where it goes,
+ * or links that it would cross? */
+static bool may_insert(const struct canvas *c, const struct reach *reach, int row)
+{
+	for (int col = reach->first; col <= reach->last; col++)
+		if (canvas_word(c, row, col) == ELEM_PIN ||
+		    (col > reach->first && canvas_up(c, row, col)))
+			return false;
+	return true;
+}
+
+/* The first row below that is free, or a new one before what is in the way; -1: none. */
+static int row_below(struct canvas *c, const struct reach *reach)
+{
+	int row = reach->row + 1, put_in = -1;
+
+	for (; row < c->rung->rows; row++) {
+		if (is_free(c, reach, row))
+			return row;
+		if (may_insert(c, reach, row))
+			put_in = row;
+		if (!is_passable(c, reach, row))
+			break;
+	}
+	if (row == c->rung->rows)
+		return canvas_rows(c, row + 1) ? row : -1;
+	return put_in >= 0 && canvas_insert_row(c, put_in) ? put_in : -1;
+}
+
+/* The same above; a row put in there comes right before that of the branch. */
+static int row_above(struct canvas *c, const struct reach *reach)
+{
+	for (int row = reach->row - 1; row >= 0; row--) {
+		if (is_free(c, reach, row))
+			return row;
+		if (!is_passable(c, reach, row))
+			break;
+	}
+	return may_insert(c, reach, reach->row) && canvas_insert_row(c, reach->row) ?
+	       reach->row : -1;
+}
+
+static int find_row(struct canvas *c, const struct reach *reach)
+{
+	int row = -1;
+
+	if (canvas_network(c))
+		row = row_below(c, reach);
+	if (row < 0)
+		canvas_fail(c, GRID_CROSSING);
+	return row;
+}
+
+int canvas_branch_row(struct canvas *c, int *row, int col, int last)
+{
+	const struct reach reach = { *row, col, last, col, last + 1 };
+	const int rows = c->rung->rows;
+	int found = -1;
+
+	if (canvas_network(c))
+		found = row_below(c, &reach);
+	if (found < 0 && c->refusal == GRID_DONE) {
+		found = row_above(c, &reach);
+		*row += c->rung->rows - rows;
+	}
+	if (found < 0)
+		canvas_fail(c, GRID_CROSSING);
+	return found;
+}
+
+/* Only as far as the first row that is joined with @row there already: no wire twice. */
+void canvas_join_branch(struct canvas *c, int row, int branch, int bar)
+{
+	const bool old = c->rung->rows == c->network.rows;
+	int top = branch - 1;
+
+	if (old && net_at(c, branch, bar) == net_at(c, row, bar))
+		return;
+	if (branch < row) {
+		canvas_join_up(c, branch, row, bar);
+		return;
+	}
+	while (top > row && net_at(c, top, bar) != net_at(c, row, bar))
+		top--;
+	canvas_join_up(c, top, branch, bar);
+}
+
+/* ---- outputs ---- */
+
+/* An output in a row below @row, on a branch from bar @bar of it. */
+static int branch_output(struct canvas *c, int row, int bar, struct cell cell)
+{
+	const int last = canvas_last(c);
+	const struct reach reach = { row, bar, last, bar, -1 };
+	const int below = find_row(c, &reach);
+
+	if (below < 0)
+		return -1;
+	canvas_join_branch(c, row, below, bar);
+	for (int col = bar; col < last; col++)
+		canvas_cell(c, below, col)->word = ELEM_WIRE;
+	canvas_put(c, below, last, cell);
+	return below;
+}
+
+/* The bar where the wire to the output of @row begins. */
+static int output_bar(const struct canvas *c, int row)
+{
+	int bar = canvas_last(c);
+
+	while (bar > 0 && canvas_word(c, row, bar - 1) == ELEM_WIRE &&
+	       !canvas_linked(c, row, bar))
+		bar--;
+	return bar;
+}
+
+static int output_below(struct canvas *c, int row, struct cell cell)
+{
+	return branch_output(c, row, output_bar(c, row), cell);
+}
+
+/* Has the row no end that waits for an output: is it bare, or a closed branch? */
+static bool is_closed(const struct canvas *c, int row)
+{
+	int bar = canvas_last(c);
+
+	while (bar > 0 && canvas_is_empty(c, row, bar - 1) && !canvas_linked(c, row, bar))
+		bar--;
+	return bar == 0 || (canvas_left(c, row, bar) && canvas_up(c, row, bar));
+}
+
+/* An output at the end of @row, or in a row below if one stands there. Gives its row; -1: it
+ * failed. */
+static int put_output(struct canvas *c, int row, struct cell cell)
+{
+	const int last = canvas_last(c);
+
+	if (canvas_is_output(c, row, last))
+		return output_below(c, row, cell);
+	if (!canvas_is_empty(c, row, last)) {
+		canvas_fail(c, GRID_FULL_COLS);
+		return -1;
+	}
+	if (row > 0 && canvas_is_output(c, row - 1, last) && is_closed(c, row))
+		return output_below(c, row - 1, cell);
+	if (!canvas_close_left(c, row, last)) {
+		canvas_fail(c, GRID_PIN_CELL);
+		return -1;
+	}
+	canvas_put(c, row, last, cell);
+	return row;
+}
+
+/* ---- parallel ---- */
+
+static bool parallel_output(struct canvas *c, int row, int col, int last,
+			    struct cell cell)
+{
+	const int at = canvas_is_output(c, row, col) ? output_below(c, row, cell) :
+			branch_output(c, row, last + 1, cell);
+
+	if (at >= 0)
+		canvas_mark(c, at, canvas_last(c));
+	return at >= 0;
+}
+
+/* Column of the first element from @col to @last; -1: there is none. */
+static int first_element(const struct canvas *c, int row, int col, int last)
+{
+	for (; col <= last; col++)
+		if (canvas_is_element(c, row, col))
+			return col;
+	return -1;
+}
+
+bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell cell)
+{
+	const enum place place = word_row((enum word)cell.word)->place;
+	const int at = first_element(c, row, col, last);
+	int below;
+
+	if (at < 0)
+		return canvas_fail(c, GRID_NOTHING_BELOW);
+	if (place == PLACE_LAST)
+		return parallel_output(c, row, col, last, cell);
+	if (place != PLACE_SERIES && place != PLACE_BOX)
+		return canvas_fail(c, GRID_NO_WORD);
+	if (last == canvas_last(c))
+		return canvas_fail(c, GRID_ONLY_OUTPUT);
+	below = canvas_branch_row(c, &row, col, last);
+	if (below < 0)
+		return false;
+	for (int i = col; i <= last; i++)
+		canvas_cell(c, below, i)->word = ELEM_WIRE;
+	canvas_put(c, below, at, cell);
+	canvas_join_branch(c, row, below, col);
+	canvas_join_branch(c, row, below, last + 1);
+	canvas_mark(c, below, at);
+	return true;
+}
+
+/* What of an area a branch can go round: the last column only alone. */
+static bool take_area(struct canvas *c, const struct grid_area *area, int *row, int *col,
+		      int *last)
+{
+	*row = area->row;
+	*col = area->col;
+	*last = area->last_col;
+	if (*row < 0 || *row >= c->rung->rows || *col < 0 || *last < *col ||
+	    *last >= c->rung->cols)
+		return canvas_fail(c, GRID_OUTSIDE);
+	if (*last == canvas_last(c) && *col < *last)
+		--*last;
+	return true;
+}
+
+struct rung *grid_parallel(const struct rung *rung, struct grid_at *at,
+			   const struct grid_area *area, struct cell cell)
+{
+	const struct grid_area own = { at->row, at->col, at->row, at->col };
+	struct canvas c;
+	int row, col, last;
+
+	cell.spare = 0;
+	if (canvas_open(&c, rung, at->columns, 1) &&
+	    take_area(&c, area ? area : &own, &row, &col, &last)) {
+		if (canvas_word(&c, row, col) == ELEM_PIN)
+			canvas_fail(&c, GRID_PIN_CELL);
+		else
+			canvas_parallel(&c, row, col, last, cell);
+	}
+	return canvas_close(&c, at);
+}
+
+/* ---- branches drawn by hand ---- */
+
+struct rung *grid_open_branch(const struct rung *rung, struct grid_at *at)
+{
+	struct canvas c;
+	int row = at->row, below;
+
+	if (at_cell(&c, rung, at, GRID_OUTSIDE)) {
+		const struct reach reach = { row, at->col, at->col, at->col, -1 };
+
+		below = find_row(&c, &reach);
+		if (below >= 0) {
+			canvas_join_branch(&c, row, below, at->col);
+			at->row = below;
+		}
+	}
+	return canvas_close(&c, at);
+}
+
+struct rung *grid_close_gaps(const struct rung *rung, struct grid_at *at)
+{
+	struct canvas c;
+
+	if (canvas_open(&c, rung, at->columns, 1))
+		for (int row = 0; row < c.rung->rows; row++)
+			for (int col = 1; col < c.rung->cols; col++)
+				if (canvas_right(&c, row, col) &&
+				    canvas_word(&c, row, col) != ELEM_WIRE)
+					canvas_close_left(&c, row, col);
+	return canvas_close(&c, at);
+}
+
+/* Would power have to go leftwards to or from the element at (@row, @col), by wires in other
+ * rows? check_rung() asks the same. */
+static bool is_backwards(struct canvas *c, int row, int col)
+{
+	const struct network *n = &c->network;
+	int in, out;
+
+	if (!canvas_network(c))
+		return false;
+	in = network_net(n, row, col);
+	out = network_net(n, row, col + 1);
+	for (int i = 0; i < n->element_count; i++)
+		if ((n->element[i].out == in && n->element[i].col + 1 > col) ||
+		    (n->element[i].in == out && n->element[i].col < col + 1))
+			return true;
+	for (int i = 0; i < n->pin_count; i++)
+		if (n->pin[i].in == out && n->pin[i].col < col + 1)
+			return true;
+	return false;
 }
 
 /* ---- room in a row ---- */
@@ -49,10 +682,10 @@ static int shift_end(const struct canvas *c, int row, int col)
 /* The last of those that moved would be fed from its right, or feed to its left. */
 static bool shift_fails(struct canvas *c, int row, int end)
 {
-	return canvas_is_element(c, row, end) && canvas_is_backwards(c, row, end);
+	return canvas_is_element(c, row, end) && is_backwards(c, row, end);
 }
 
-bool canvas_room_before(struct canvas *c, int row, int col)
+static bool room_before(struct canvas *c, int row, int col)
 {
 	const int end = shift_end(c, row, col);
 	const enum word freed = canvas_word(c, row, end);
@@ -81,7 +714,7 @@ static void replace(struct canvas *c, int row, int col, struct cell cell)
 		1 : rung_height(c->rung, row, col);
 
 	for (int i = 1; i < height; i++)
-		canvas_remove_pin(c, row + i, col);
+		remove_pin(c, row + i, col);
 	canvas_put(c, row, col, cell);
 }
 
@@ -128,7 +761,7 @@ static bool place_output(struct canvas *c, int row, int col, struct cell cell,
 	if (how == GRID_REPLACE && col == last && canvas_is_output(c, row, last)) {
 		canvas_put(c, row, last, commented(c, row, last, cell));
 	} else {
-		row = canvas_output(c, row, cell);
+		row = put_output(c, row, cell);
 		if (row < 0)
 			return false;
 	}
@@ -143,7 +776,7 @@ static bool fits_wire(struct canvas *c, int row, int col, struct cell cell)
 	bool fits;
 
 	canvas_put(c, row, col, cell);
-	fits = !canvas_is_backwards(c, row, col);
+	fits = !is_backwards(c, row, col);
 	canvas_put(c, row, col, wire);
 	return fits;
 }
@@ -152,7 +785,7 @@ static bool fits_wire(struct canvas *c, int row, int col, struct cell cell)
  * nearest that will do, or right before what the wire leads to. -1: it failed. */
 static int wire_column(struct canvas *c, int row, int col, struct cell cell)
 {
-	const struct stretch s = canvas_stretch(c, row, col);
+	const struct stretch s = stretch_at(c, row, col);
 	const int last = s.right < canvas_last(c) ? s.right : canvas_last(c);
 
 	for (int step = 0; step < c->rung->cols; step++) {
@@ -166,7 +799,7 @@ static int wire_column(struct canvas *c, int row, int col, struct cell cell)
 		canvas_fail(c, GRID_BACKWARDS);
 		return -1;
 	}
-	return canvas_room_before(c, row, s.right) ? s.right : -1;
+	return room_before(c, row, s.right) ? s.right : -1;
 }
 
 static bool place_series(struct canvas *c, int row, int col, struct cell cell,
@@ -180,7 +813,7 @@ static bool place_series(struct canvas *c, int row, int col, struct cell cell,
 			canvas_mark(c, row, col);
 			return true;
 		}
-		if (!canvas_room_before(c, row, col))
+		if (!room_before(c, row, col))
 			return false;
 	} else if (canvas_word(c, row, col) == ELEM_WIRE) {
 		col = wire_column(c, row, col, cell);
@@ -217,12 +850,6 @@ bool canvas_place(struct canvas *c, int row, int col, struct cell cell,
 		break;
 	}
 	return canvas_fail(c, GRID_NO_WORD);
-}
-
-static bool is_cell(struct canvas *c, const struct grid_at *at)
-{
-	return (at->row >= 0 && at->row < LIMIT_ROWS && at->col >= 0 &&
-		at->col < c->rung->cols) || canvas_fail(c, GRID_OUTSIDE);
 }
 
 struct rung *grid_place(const struct rung *rung, struct grid_at *at, struct cell cell,
@@ -277,17 +904,11 @@ struct rung *grid_set(const struct rung *rung, struct grid_at *at, struct cell c
 
 /* ---- rows and columns ---- */
 
-static bool at_cell(struct canvas *c, const struct rung *rung, struct grid_at *at)
-{
-	return canvas_open(c, rung, at->columns, 1) && is_cell(c, at) &&
-	       (at->row < c->rung->rows || canvas_fail(c, GRID_OUTSIDE));
-}
-
 struct rung *grid_insert_row(const struct rung *rung, struct grid_at *at)
 {
 	struct canvas c;
 
-	if (at_cell(&c, rung, at))
+	if (at_cell(&c, rung, at, GRID_OUTSIDE))
 		canvas_insert_row(&c, at->row);
 	return canvas_close(&c, at);
 }
@@ -296,7 +917,7 @@ struct rung *grid_insert_column(const struct rung *rung, struct grid_at *at)
 {
 	struct canvas c;
 
-	if (at_cell(&c, rung, at))
+	if (at_cell(&c, rung, at, GRID_OUTSIDE))
 		canvas_insert_column(&c, at->col);
 	return canvas_close(&c, at);
 }
@@ -305,7 +926,7 @@ struct rung *grid_delete_row(const struct rung *rung, struct grid_at *at)
 {
 	struct canvas c;
 
-	if (at_cell(&c, rung, at)) {
+	if (at_cell(&c, rung, at, GRID_OUTSIDE)) {
 		if (c.rung->rows == 1)
 			canvas_fail(&c, GRID_ONLY_ROW);
 		else
@@ -318,11 +939,120 @@ struct rung *grid_delete_column(const struct rung *rung, struct grid_at *at)
 {
 	struct canvas c;
 
-	if (at_cell(&c, rung, at)) {
+	if (at_cell(&c, rung, at, GRID_OUTSIDE)) {
 		if (at->col == canvas_last(&c))
 			canvas_fail(&c, GRID_LAST_COLUMN);
 		else
 			canvas_replace(&c, rung_delete_column(c.rung, at->col));
 	}
+	return canvas_close(&c, at);
+}
+
+/* ---- rows of pins below boxes: an input has one only when a branch feeds it ---- */
+
+/* Why input @name may have no row of its own; GRID_DONE: it may. */
+static enum grid_refusal judge(const struct word_row *row, const char *name)
+{
+	const int index = word_pin_find(row, name, strlen(name));
+	const struct word_pin *pin;
+
+	if (index < 0)
+		return GRID_BAD_PIN;
+	pin = &row->pin[index < row->pin_count ? index : row->pin_count - 1];
+	if (pin->dir != PIN_IN)
+		return GRID_BAD_PIN;
+	if (row->kind == WORD_FN)
+		return pin->classes & CLASS_BOOL ? GRID_DONE : GRID_BAD_PIN;
+	if (index == word_first_bool(row, PIN_IN))
+		return GRID_FIRST_PIN;
+	return pin->type == IEC_BOOL ? GRID_DONE : GRID_BAD_PIN;
+}
+
+static bool is_connected(const struct canvas *c, const struct project *project, int row,
+			 int col, uint32_t pin)
+{
+	const struct cell *box = rung_at(c->rung, row, col);
+	const char *name = project_text(project, pin);
+	const int height = rung_height(c->rung, row, col);
+	struct arg arg;
+
+	for (int i = 1; i < height; i++)
+		if (rung_at(c->rung, row + i, col)->operand == pin)
+			return true;
+	return box->args && args_find(project_text(project, box->args), name,
+				      strlen(name), &arg);
+}
+
+static bool may_add(struct canvas *c, const struct project *project, int row, int col,
+		    uint32_t pin)
+{
+	const enum word word = canvas_word(c, row, col);
+	const struct word_row *words = words_row(&project->words, word);
+	enum grid_refusal why;
+
+	if (words->place != PLACE_BOX || words->kind == WORD_ELEM)
+		return canvas_fail(c, GRID_NO_BOX);
+	why = judge(words, project_text(project, pin));
+	if (why == GRID_DONE && is_connected(c, project, row, col, pin))
+		why = GRID_PIN_TAKEN;
+	return why == GRID_DONE || canvas_fail(c, why);
+}
+
+/* The row right below the box gets free in column @col and before it. */
+static bool room_below(struct canvas *c, int row, int col)
+{
+	if (row == c->rung->rows)
+		return canvas_rows(c, row + 1);
+	if ((!canvas_is_empty(c, row, col) || canvas_bar_used(c, row, col)) &&
+	    !canvas_insert_row(c, row))
+		return false;
+	return !canvas_bar_used(c, row, col) || canvas_fail(c, GRID_CROSSING);
+}
+
+static void add_row(struct canvas *c, struct grid_at *at, uint32_t pin,
+		    const struct cell *feed)
+{
+	const struct cell cell = { .word = ELEM_PIN, .operand = pin };
+	int col = at->col, row = at->row + rung_height(c->rung, at->row, at->col);
+
+	if (col == 0 && !canvas_insert_column(c, col++))
+		return;
+	if (!room_below(c, row, col))
+		return;
+	canvas_put(c, row, col, cell);
+	if (feed) {
+		const enum place place = word_row((enum word)feed->word)->place;
+
+		if (place != PLACE_SERIES && place != PLACE_BOX) {
+			canvas_fail(c, GRID_NO_WORD);
+			return;
+		}
+		canvas_put(c, row, col - 1, *feed);
+		canvas_close_left(c, row, col - 1);
+	}
+	at->row = row;
+	at->col = col - 1;
+	canvas_mark(c, row, col - 1);
+}
+
+/* A row of pins is a part of the box above it. */
+static void climb_to_box(const struct rung *rung, struct grid_at *at)
+{
+	if (at->col < 0 || at->col >= rung->cols || at->row >= rung->rows)
+		return;
+	while (at->row > 0 && rung_at(rung, at->row, at->col)->word == ELEM_PIN)
+		at->row--;
+}
+
+struct rung *grid_add_pin(const struct rung *rung, struct grid_at *at,
+			  const struct project *project, uint32_t pin,
+			  const struct cell *feed)
+{
+	struct canvas c;
+
+	climb_to_box(rung, at);
+	if (canvas_at_element(&c, rung, at) &&
+	    may_add(&c, project, at->row, at->col, pin))
+		add_row(&c, at, pin, feed);
 	return canvas_close(&c, at);
 }

@@ -84,8 +84,6 @@ struct rung *grid_negate(const struct rung *rung, struct grid_at *at,
 			 struct project *project, const struct pou *pou);
 /** grid_cycle - the next kind of its family: NO NC P N, COIL COILNOT S R COILP COILN. */
 struct rung *grid_cycle(const struct rung *rung, struct grid_at *at);
-/** grid_word_after - the word grid_cycle() turns @word into; itself: there is none. */
-enum word grid_word_after(enum word word);
 /** grid_word_negated - what grid_negate() turns @word into; itself: there is none. */
 enum word grid_word_negated(enum word word);
 
@@ -152,9 +150,6 @@ void grid_wire_ends(const struct rung *rung, int columns, struct grid_end from,
 /** grid_open_branch - a link from the left end of the cursor's cell down to a row with
  * room, where the cursor goes. */
 struct rung *grid_open_branch(const struct rung *rung, struct grid_at *at);
-/** grid_close_branch - joins the right end of the row's last element before or at the
- * cursor with the first circuit above it. */
-struct rung *grid_close_branch(const struct rung *rung, struct grid_at *at);
 /** grid_close_gaps - every element that hangs in the air gets a wire leftwards. */
 struct rung *grid_close_gaps(const struct rung *rung, struct grid_at *at);
 
@@ -171,8 +166,6 @@ struct rung *grid_close_gaps(const struct rung *rung, struct grid_at *at);
 struct rung *grid_add_pin(const struct rung *rung, struct grid_at *at,
 			  const struct project *project, uint32_t pin,
 			  const struct cell *feed);
-/** grid_remove_pin - the pin row at the cursor, with the branch that only feeds it. */
-struct rung *grid_remove_pin(const struct rung *rung, struct grid_at *at);
 
 /* ---- blocks ---- */
 

@@ -58,11 +58,6 @@ static enum word next_word(enum word word, bool (*fits)(const struct word_row *,
 	return word;
 }
 
-enum word grid_word_after(enum word word)
-{
-	return next_word(word, can_cycle);
-}
-
 enum word grid_word_negated(enum word word)
 {
 	return next_word(word, are_opposite);
@@ -74,7 +69,7 @@ struct rung *grid_cycle(const struct rung *rung, struct grid_at *at)
 
 	if (canvas_at_element(&c, rung, at)) {
 		struct cell *cell = canvas_cell(&c, at->row, at->col);
-		const enum word next = grid_word_after((enum word)cell->word);
+		const enum word next = next_word((enum word)cell->word, can_cycle);
 
 		if (next == cell->word)
 			canvas_fail(&c, GRID_NO_OTHER);
@@ -99,26 +94,23 @@ static int sign_at(const struct lex *lex)
 	return -1;
 }
 
-static const struct var *find_var(const struct project *project,
-				  const struct var_table *table,
-				  const struct token *token)
+static const struct var *find_var(const struct var_table *table, uint32_t fold)
 {
-	for (int i = 0; i < table->count; i++)
-		if (ascii_is(project_text(project, table->var[i].name), token->text,
-			     token->len))
-			return &table->var[i];
-	return NULL;
+	const int i = vars_find(table, fold);
+
+	return i >= 0 ? &table->var[i] : NULL;
 }
 
 /* May a name stand for a REAL, which can be no number? So may whatever is not known. */
 static bool may_be_real(const struct project *project, const struct pou *pou,
 			const struct token *token)
 {
-	const struct var *var = find_var(project, &pou->vars, token);
+	const uint32_t fold = names_find_any(&project->names, token->text, token->len);
+	const struct var *var = find_var(&pou->vars, fold);
 	struct iec_addr addr;
 
 	if (!var)
-		var = find_var(project, &project->globals, token);
+		var = find_var(&project->globals, fold);
 	if (var)
 		return var->type == IEC_NONE ||
 		       iec_type_row(var->type)->class == CLASS_REAL;

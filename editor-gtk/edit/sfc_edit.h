@@ -60,7 +60,7 @@ bool sfc_edit_cut_way(struct sfc_edit *edit, int transition, int ref);
  * changes places with its neighbour. */
 bool sfc_edit_move(struct sfc_edit *edit, int step, int transition, bool right);
 
-/* ---- sfc_edit_text.c: names, conditions, what is done ---- */
+/* ---- names, conditions, what is done, comments ---- */
 
 /** sfc_edit_free_name - Step3: one that nothing has. Lives as long as the edit. */
 const char *sfc_edit_free_name(struct sfc_edit *edit, const char *base);
@@ -103,7 +103,13 @@ bool sfc_edit_set_use(struct sfc_edit *edit, int step, int use,
 		      const struct sfc_doing *doing);
 bool sfc_edit_delete_use(struct sfc_edit *edit, int use);
 
-/* ---- sfc_edit_macro.c: charts in steps; comments ---- */
+/** sfc_edit_set_comment - of PIECE_STEP, PIECE_TRANSITION; "": none. */
+bool sfc_edit_set_comment(struct sfc_edit *edit, enum piece_kind kind, int index,
+			  const char *text);
+/** sfc_edit_set_use_comment - of a line of what a step does. */
+bool sfc_edit_set_use_comment(struct sfc_edit *edit, int use, const char *text);
+
+/* ---- sfc_edit_macro.c: charts in steps ---- */
 
 /** sfc_edit_macro_make - the steps of @chosen (by step) become the inside of a new
  * macro-step; one of them must be where it is entered, one where it is left. Returns the
@@ -112,12 +118,6 @@ int sfc_edit_macro_make(struct sfc_edit *edit, const bool *chosen);
 /** sfc_edit_macro_open - the inside of a macro-step stands in its place. Returns the step
  * that is entered. */
 int sfc_edit_macro_open(struct sfc_edit *edit, int macro);
-/** sfc_edit_set_comment - of PIECE_STEP, PIECE_TRANSITION; "": none. */
-bool sfc_edit_set_comment(struct sfc_edit *edit, enum piece_kind kind, int index,
-			  const char *text);
-/** sfc_edit_set_use_comment - of a line of what a step does. */
-bool sfc_edit_set_use_comment(struct sfc_edit *edit, int use, const char *text);
-
 /* ---- sfc_edit_insert.c: a part comes into the sequence ---- */
 
 /**
@@ -145,6 +145,12 @@ int sfc_edit_step_end(const struct sfc_edit *edit, int step);
 /** sfc_edit_copy_refs - the names behind FROM (@to false) or TO become the transition's own,
  * behind all others; without @skip (-1: all of them). */
 bool sfc_edit_copy_refs(struct sfc_edit *edit, int transition, bool to, int skip);
+/** sfc_edit_names_step - is @step one of the names behind FROM (@to false) or TO? */
+bool sfc_edit_names_step(const struct sfc_edit *edit, int transition, bool to, int step);
+/** sfc_edit_hand_over - the first @ways transitions that leave @step leave @other instead. */
+bool sfc_edit_hand_over(struct sfc_edit *edit, int step, int other, int ways);
+/** sfc_edit_drop_piece - number @at is written no more; -1: nothing. */
+void sfc_edit_drop_piece(struct sfc_edit *edit, int at);
 /** sfc_edit_asks_for - does anything in the chart name @step.X or @step.T? */
 bool sfc_edit_asks_for(const struct sfc_edit *edit, int step);
 uint32_t sfc_edit_id(struct sfc_edit *edit, const char *text);

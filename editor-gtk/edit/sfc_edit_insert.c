@@ -40,22 +40,11 @@ static const struct sfc_ref *side_of(const struct passage *part, int transition,
 	return sfc->ref + (to ? t->first_to : t->first_from);
 }
 
-static bool has_name(const struct passage *part, int transition, bool to, int step)
-{
-	int count;
-	const struct sfc_ref *ref = side_of(part, transition, to, &count);
-
-	for (int i = 0; i < count; i++)
-		if (ref[i].step == step)
-			return true;
-	return false;
-}
-
 /* Does a transition of the part lead to the step, or from it? */
 static bool is_led(const struct passage *part, bool to, int step)
 {
 	for (int t = part->way; t < part->way_end; t++)
-		if (has_name(part, t, to, step))
+		if (sfc_edit_names_step(part->edit, t, to, step))
 			return true;
 	return false;
 }
@@ -255,29 +244,6 @@ static int behind_transition(struct passage *part, int transition)
 	return join(part, &old) && lead(part, transition, true, head) ? head : -1;
 }
 
-/* The ways of @step lead from @other. */
-static bool hand_over(struct passage *part, int step, int other)
-{
-	struct sfc_edit *edit = part->edit;
-
-	for (int t = 0; t < part->way; t++) {
-		const struct sfc_transition *way = &edit->sfc.transition[t];
-
-		if (!has_name(part, t, false, step))
-			continue;
-		if (!sfc_edit_copy_refs(edit, t, false, -1))
-			return false;
-		for (int i = 0; i < way->from_count; i++) {
-			struct sfc_ref *ref = &edit->sfc.ref[way->first_from + i];
-
-			if (ref->step == step)
-				*ref = (struct sfc_ref){ .step = other,
-							 .name = name_of(part, other) };
-		}
-	}
-	return true;
-}
-
 /* What leaves it comes to one step. */
 static int last_step(struct passage *part)
 {
@@ -305,7 +271,7 @@ static int behind_step(struct passage *part, int step, bool goes)
 		return -1;
 	if (goes) {
 		last = last_step(part);
-		if (last < 0 || !hand_over(part, step, last))
+		if (last < 0 || !sfc_edit_hand_over(edit, step, last, part->way))
 			return -1;
 	} else if (!close_ways(part)) {
 		return -1;
@@ -324,7 +290,7 @@ static int count_ways(const struct passage *part, int step, int *only)
 
 	*only = -1;
 	for (int t = 0; t < part->way; t++)
-		if (has_name(part, t, false, step)) {
+		if (sfc_edit_names_step(part->edit, t, false, step)) {
 			count++;
 			if (part->edit->sfc.transition[t].from_count == 1)
 				*only = t;

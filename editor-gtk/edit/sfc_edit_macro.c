@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_edit_macro - steps go into a macro-step and come out again; comments. See sfc_edit.h.
+ * sfc_edit_macro - steps go into a macro-step and come out again; see sfc_edit.h.
  *
  * Neither changes what the chart does, but for the numbers of its steps: what led to the
  * step that is entered leads to the macro-step, and what led away from the one that is
@@ -10,7 +10,6 @@
 
 #include "editor-gtk/kit/i18n.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -111,12 +110,9 @@ static bool find_gates(struct group *group)
 /* Does a transition that goes inside lead away from it? */
 static bool leads_on(const struct group *group, int step)
 {
-	const struct sfc *sfc = &group->edit->sfc;
-
-	for (int i = 0; i < sfc->transition_count; i++)
-		for (int k = 0; group->inner[i] && k < sfc->transition[i].from_count; k++)
-			if (sfc->ref[sfc->transition[i].first_from + k].step == step)
-				return true;
+	for (int i = 0; i < group->edit->sfc.transition_count; i++)
+		if (group->inner[i] && sfc_edit_names_step(group->edit, i, false, step))
+			return true;
 	return false;
 }
 
@@ -334,13 +330,10 @@ int sfc_edit_macro_make(struct sfc_edit *edit, const bool *chosen)
 
 static bool has_way_on(const struct sfc_edit *edit, int step)
 {
-	const struct sfc *sfc = &edit->sfc;
-
-	for (int i = 0; i < sfc->transition_count; i++)
-		for (int k = 0; k < sfc->transition[i].from_count; k++)
-			if (sfc->ref[sfc->transition[i].first_from + k].step == step &&
-			    sfc_edit_find_piece(edit, PIECE_TRANSITION, i) >= 0)
-				return true;
+	for (int i = 0; i < edit->sfc.transition_count; i++)
+		if (sfc_edit_names_step(edit, i, false, step) &&
+		    sfc_edit_find_piece(edit, PIECE_TRANSITION, i) >= 0)
+			return true;
 	return false;
 }
 
@@ -400,13 +393,6 @@ static void lead_to_inside(struct sfc_edit *edit, int macro, int entry, int leav
 	}
 }
 
-static void drop_piece(struct sfc *sfc, int at)
-{
-	memmove(sfc->piece + at, sfc->piece + at + 1,
-		(size_t)(sfc->piece_count - at - 1) * sizeof(*sfc->piece));
-	sfc->piece_count--;
-}
-
 int sfc_edit_macro_open(struct sfc_edit *edit, int macro)
 {
 	struct sfc *sfc = &edit->sfc;
@@ -427,55 +413,7 @@ int sfc_edit_macro_open(struct sfc_edit *edit, int macro)
 	sfc->step[entry].kind = STEP_PLAIN;
 	if (!sfc->step[entry].comment)
 		sfc->step[entry].comment = sfc->step[macro].comment;
-	drop_piece(sfc, sfc_edit_find_piece(edit, PIECE_MACRO_END, macro));
-	drop_piece(sfc, sfc_edit_find_piece(edit, PIECE_STEP, macro));
+	sfc_edit_drop_piece(edit, sfc_edit_find_piece(edit, PIECE_MACRO_END, macro));
+	sfc_edit_drop_piece(edit, sfc_edit_find_piece(edit, PIECE_STEP, macro));
 	return entry;
-}
-
-/* ---- comments ---- */
-
-/* With the delimiters of the file. */
-static bool comment_id(struct sfc_edit *edit, const char *text, uint32_t *id)
-{
-	const size_t size = strlen(text) + 8;
-	char *whole;
-
-	if (strstr(text, "*)") || strstr(text, "(*") || strpbrk(text, "\r\n"))
-		return sfc_edit_refuse(edit, N_("a comment holds no (* and no *)"));
-	*id = 0;
-	if (!*text)
-		return true;
-	whole = malloc(size);
-	if (!whole)
-		return sfc_edit_refuse(edit, NO_MEMORY);
-	snprintf(whole, size, "(* %s *)", text);
-	*id = sfc_edit_id(edit, whole);
-	free(whole);
-	return *id || sfc_edit_refuse(edit, NO_MEMORY);
-}
-
-bool sfc_edit_set_comment(struct sfc_edit *edit, enum piece_kind kind, int index,
-			  const char *text)
-{
-	uint32_t id;
-
-	if (!comment_id(edit, text, &id))
-		return false;
-	if (kind == PIECE_STEP)
-		edit->sfc.step[index].comment = id;
-	else
-		edit->sfc.transition[index].comment = id;
-	return true;
-}
-
-bool sfc_edit_set_use_comment(struct sfc_edit *edit, int use, const char *text)
-{
-	struct sfc_use *u = &edit->sfc.use[use];
-	uint32_t id;
-
-	if (!comment_id(edit, text, &id))
-		return false;
-	u->comment = id;
-	u->more = id ? 0 : u->more;
-	return true;
 }

@@ -8,7 +8,6 @@
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
-#include "editor-gtk/edit/entry_inside.h"
 #include "editor-gtk/document/entry_outcome.h"
 #include "editor-gtk/kit/entry_popup.h"
 

@@ -8,7 +8,7 @@
 #include "editor-gtk/ladder/grid_view_inside.h"
 
 #include "editor-gtk/kit/comment_text.h"
-#include "editor-gtk/edit/entry_inside.h"
+#include "editor-gtk/edit/entry_names.h"
 #include "editor-gtk/kit/entry_popup.h"
 
 #include "engine/base/explain.h"

@@ -224,16 +224,12 @@ static inline struct rung *grid_play(struct grid_bench *bench, const struct rung
 		return grid_insert_column(rung, at);
 	if (!strcmp(verb, "open"))
 		return grid_open_branch(rung, at);
-	if (!strcmp(verb, "close"))
-		return grid_close_branch(rung, at);
 	if (!strcmp(verb, "gaps"))
 		return grid_close_gaps(rung, at);
 	if (!strcmp(verb, "negate"))
 		return grid_negate(rung, at, bench->project, pou);
 	if (!strcmp(verb, "cycle"))
 		return grid_cycle(rung, at);
-	if (!strcmp(verb, "unpin"))
-		return grid_remove_pin(rung, at);
 	if (!strcmp(verb, "pin")) {
 		const char *space = strchr(rest, ' ');
 		size_t len = space ? (size_t)(space - rest) : strlen(rest);

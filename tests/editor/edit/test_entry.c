@@ -7,7 +7,7 @@
  * last column begins with `>`.
  */
 #include "editor-gtk/edit/entry_duplicate.h"
-#include "editor-gtk/edit/entry_inside.h"
+#include "editor-gtk/edit/entry_names.h"
 #include "engine/base/diag.h"
 #include "engine/ladder.h"
 #include "engine/text/text.h"

@@ -62,8 +62,8 @@ static struct rung *wild(struct grid_bench *bench, const struct rung *rung,
 	static const char *const verbs[] = {
 		"place", "place", "insert", "below", "drop", "set", "delete", "delete",
 		"delete-area", "delete-row", "delete-column", "insert-row",
-		"insert-column", "open", "close", "gaps", "negate", "cycle", "unpin",
-		"pin", "wire", "wire", "wire", "move", "copy", "paste", "paste-below", "move-area",
+		"insert-column", "open", "gaps", "negate", "cycle", "pin",
+		"wire", "wire", "wire", "move", "copy", "paste", "paste-below", "move-area",
 		"round", "draw", "draw", "erase",
 	};
 	static const char *const ways[] = { "up", "down", "left", "right" };

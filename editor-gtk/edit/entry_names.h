@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * entry_names - what a name, a path, an address in any spelling or a mnemonic stands for,
+ * and names for new variables.
+ *
+ * It looks variables up as they are declared; types of expressions are the engine's. It
+ * changes nothing in a project but strings and rows of words made by rule.
+ */
+#ifndef EDITOR_ENTRY_NAMES_H
+#define EDITOR_ENTRY_NAMES_H
+
+#include "editor-gtk/edit/entry.h"
+
+/* What a name, path or address stands for. */
+enum entry_means {
+	MEANS_NOTHING,  /* no operand at all                                   */
+	MEANS_VALUE,    /* a value that is there                               */
+	MEANS_INSTANCE, /* an instance or structure as a whole                 */
+	MEANS_NEW,      /* a plain name that nothing has yet                   */
+	MEANS_WRONG,    /* see why                                             */
+};
+
+struct entry_target {
+	enum entry_means means;
+	enum iec_type type;      /* of a value                                 */
+	enum word word;          /* of an instance                             */
+	bool write;              /* may a program write it?                    */
+	bool array;              /* a whole array                              */
+	const struct var *var;   /* base of the path; NULL: none               */
+	struct iec_addr addr;    /* of an address, AREA_NONE: none             */
+	const char *why;         /* N_() text                                  */
+	char text[ENTRY_TEXT];   /* canonical                                  */
+};
+
+static inline struct pou *entry_pou(const struct entry_place *place)
+{
+	return place->pou >= 0 && place->pou < place->project->pou_count ?
+		&place->project->pou[place->pou] : NULL;
+}
+
+void entry_target_find(const struct entry_place *place, const char *text, size_t len,
+		       struct entry_target *out);
+/** entry_var_find - declared in the POU or globally, any case; NULL: none. @flags gets
+ * enum var_flag of its block, may be NULL. */
+const struct var *entry_var_find(const struct entry_place *place, const char *text,
+				 size_t len, uint16_t *flags);
+/** entry_address_parse - in any spelling. False: it is none; a wrong one is one and gets
+ * @why, N_() text. */
+bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
+			 const char **why);
+/** entry_is_name - could a variable be called so? */
+bool entry_is_name(const char *text, size_t len);
+/** entry_name_taken - by a variable, a POU, a label, or in the line itself. */
+bool entry_name_taken(const struct entry_place *place, const struct entry *entry,
+		      const char *name);
+/** entry_fresh_name - base and the smallest number that makes a new name of it. */
+void entry_fresh_name(const struct entry_place *place, const struct entry *entry,
+		      const char *base, char *out, size_t size);
+/** entry_family_base - what instances of a word are called: "Delay". */
+const char *entry_family_base(const struct word_row *row);
+
+struct entry_mnemonic {
+	const char *text;
+	enum word word;
+	bool below;
+};
+/** entry_mnemonic - number @index of all dialects; NULL: past the last. */
+const struct entry_mnemonic *entry_mnemonic(int index);
+/** entry_word_find - a mnemonic or a word of the catalogue or project; WORD_COUNT:
+ * none. @below gets whether it goes in parallel. */
+enum word entry_word_find(const struct entry_place *place, const char *text, size_t len,
+			  bool *below);
+/** entry_glyph - a drawn element, -|/|- or -(S)-, at the begin of @line. Returns its
+ * bytes; 0: none. */
+size_t entry_glyph(const char *line, enum word *word);
+
+#endif
