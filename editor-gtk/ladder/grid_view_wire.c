@@ -5,7 +5,7 @@
  * Near the end of an element, on a wire and at the ends of free cells the pointer is a
  * cross, and a drag from there is a stroke of wire (grid_draw_wire()); with Ctrl it
  * erases. Until it is let go the sheet shows the way it would take and where it may end;
- * the document learns of it then. What a stroke means is said by grid_line.c.
+ * the document learns of it then. What a stroke means grid_wire.c says.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
