@@ -67,6 +67,9 @@ void panel_go_to(GtkWidget *from, const LadderPanelRow *row);
 /** panel_speak - names the row that a cell of the list stands in, for a screen reader. */
 void panel_speak(GtkWidget *cell, const LadderPanelRow *row);
 
+/** panel_choose_beside - a file chooser begins in the folder of @document, if it has one. */
+void panel_choose_beside(GtkFileChooserNative *chooser, LadderDocument *document);
+
 /* ---- the document ---- */
 
 struct panel_watch;

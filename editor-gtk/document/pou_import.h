@@ -11,8 +11,6 @@
 
 #include "editor-gtk/document/document.h"
 
-#include <gtk/gtk.h>
-
 /**
  * pou_import - into the document, as one step
  * @from:   the other project, loaded; borrowed, other names may be given to its parts
@@ -23,7 +21,5 @@
  */
 bool pou_import(LadderDocument *document, struct ladder *from, const bool *chosen,
 		GString *told);
-/** pou_import_ask - asks for a file, then for its POUs, then does it. */
-void pou_import_ask(GtkWidget *widget, LadderDocument *document);
 
 #endif

@@ -6,7 +6,7 @@
 #include "editor-gtk/panels/symbols_view.h"
 
 #include "editor-gtk/kit/cells.h"
-#include "editor-gtk/document/chooser.h"
+#include "editor-gtk/document/panel.h"
 #include "editor-gtk/document/csv.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/kit/drop.h"
@@ -446,7 +446,7 @@ static void import(GtkWidget *widget, const char *action, GVariant *unused)
 	gtk_file_filter_add_suffix(filter, "txt");
 	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(view->chooser), filter);
 	g_object_unref(filter);
-	chooser_beside(view->chooser, panel_watch_document(view->watch));
+	panel_choose_beside(view->chooser, panel_watch_document(view->watch));
 	g_signal_connect(view->chooser, "response", G_CALLBACK(chosen), view);
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(view->chooser));
 }

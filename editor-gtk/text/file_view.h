@@ -6,7 +6,6 @@
 #define EDITOR_FILE_VIEW_H
 
 #include "editor-gtk/document/side_file.h"
-#include "editor-gtk/text/file_marks.h"
 
 #define LADDER_TYPE_FILE_VIEW (ladder_file_view_get_type())
 G_DECLARE_FINAL_TYPE(LadderFileView, ladder_file_view, LADDER, FILE_VIEW, GtkBox)
@@ -19,8 +18,11 @@ GtkWidget *ladder_file_view_new(LadderSideFile *file,
 LadderSideFile *ladder_file_view_file(LadderFileView *view);
 /** ladder_file_view_table - what @table made; NULL: nothing. Borrowed. */
 GtkWidget *ladder_file_view_table(LadderFileView *view);
-/** ladder_file_view_marks - what is wrong with its lines (file_marks.h). Borrowed. */
-struct file_marks *ladder_file_view_marks(LadderFileView *view);
+/** ladder_file_view_clear_flaws - nothing is wrong with its lines. */
+void ladder_file_view_clear_flaws(LadderFileView *view);
+/** ladder_file_view_add_flaw - underlines a line, and shows @text below while the cursor is
+ * on it. Both follow the line. @line, @column: 1-based, bytes; column 0: the whole line. */
+void ladder_file_view_add_flaw(LadderFileView *view, int line, int column, const char *text);
 /** ladder_file_view_go - the cursor to a line, 1-based, with the focus. */
 void ladder_file_view_go(LadderFileView *view, int line);
 

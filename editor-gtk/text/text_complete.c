@@ -64,11 +64,6 @@ static void ladder_proposal_init(LadderProposal *proposal)
 	(void)proposal;
 }
 
-const char *text_complete_text(gpointer proposal)
-{
-	return LADDER_PROPOSAL(proposal)->text;
-}
-
 /* ---- what could stand there ---- */
 
 static void take_word(void *context, const struct ladder_word *word)

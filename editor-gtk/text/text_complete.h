@@ -24,7 +24,5 @@ void text_complete_attach(GtkSourceView *view, LadderDocument *document, const i
  * @prefix_len: gets how many of these are of the word. Owns: the caller. */
 GListStore *text_complete_words(LadderDocument *document, int pou, const char *text,
 				int line, int column, gsize *prefix_len);
-/** text_complete_text - of one of them. Borrowed. */
-const char *text_complete_text(gpointer proposal);
 
 #endif

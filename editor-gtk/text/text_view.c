@@ -8,11 +8,10 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/text/text_complete.h"
 #include "editor-gtk/document/text_lines.h"
+#include "editor-gtk/sim/live_map.h"
 #include "editor-gtk/kit/text_scheme.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
-#include <gtksourceview/gtksource.h>
-#include "editor-gtk/text/text_live.h"
 
 #include <string.h>
 
@@ -278,6 +277,62 @@ static void tell_line(LadderTextView *view)
 	g_free(text);
 }
 
+/* ---- values ---- */
+
+static bool was_before(GArray *parts, guint index)
+{
+	const char *name = g_array_index(parts, struct live_part, index).text;
+
+	for (guint i = 0; i < index; i++) {
+		const struct live_part *part = &g_array_index(parts, struct live_part, i);
+
+		if (part->at.type != IEC_NONE && g_ascii_strcasecmp(part->text, name) == 0)
+			return true;
+	}
+	return false;
+}
+
+static char *values_of_parts(GArray *parts, const struct image *image)
+{
+	GString *text = g_string_new(NULL);
+	char value[48];
+
+	for (guint i = 0; i < parts->len; i++) {
+		const struct live_part *part = &g_array_index(parts, struct live_part, i);
+
+		if (part->at.type == IEC_NONE || was_before(parts, i))
+			continue;
+		live_value_print(part->at.type, image_get(image, part->at), value,
+				 sizeof(value));
+		g_string_append_printf(text, "%s%s = %s", text->len ? " · " : "",
+				       part->text, value);
+	}
+	return g_string_free(text, FALSE);
+}
+
+/* "Start = TRUE · Level = 12"; NULL: nothing is simulated, or the line has no variable. Names
+ * are looked up anew each time: a person points at few lines. Caller frees. */
+static char *live_line(LadderSim *sim, const char *pou, const char *line)
+{
+	const struct twin *twin = sim ? ladder_sim_twin(sim) : NULL;
+	const char *comment = strstr(line, "(*");
+	struct live_map *map;
+	GArray *parts;
+	char *code, *text;
+
+	if (!twin)
+		return NULL;
+	code = g_strndup(line, comment ? (gsize)(comment - line) : strlen(line));
+	map = live_map_new(&twin->resource, pou, NULL);
+	parts = live_parts(map, code);
+	text = parts ? values_of_parts(parts, &twin->resource.image) : NULL;
+	if (parts)
+		g_array_unref(parts);
+	live_map_free(map);
+	g_free(code);
+	return text;
+}
+
 static char *values_of(LadderTextView *view, int line)
 {
 	const struct project *project = ladder_document_project(view->document);
@@ -290,7 +345,7 @@ static char *values_of(LadderTextView *view, int line)
 	end = start;
 	gtk_text_iter_forward_to_line_end(&end);
 	text = gtk_text_iter_get_text(&start, &end);
-	values = text_live_line(view->sim, project_text(project,
+	values = live_line(view->sim, project_text(project,
 		project->pou[view->pou].name), text);
 	g_free(text);
 	return values;
@@ -381,11 +436,6 @@ void ladder_text_view_set_pou(LadderTextView *view, int pou)
 {
 	view->pou = pou;
 	show_text(view);
-}
-
-char *ladder_text_view_reasons(LadderTextView *view, int line)
-{
-	return reasons_of(view, line - 1);
 }
 
 GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view)

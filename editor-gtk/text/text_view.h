@@ -25,9 +25,6 @@ void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim);
 /** ladder_text_view_tip - what the tooltip of line @line, 1-based, of the text that is shown
  * says: why it is wrong, and values; NULL: nothing. Caller frees. */
 char *ladder_text_view_tip(LadderTextView *view, int line);
-/** ladder_text_view_reasons - what is wrong with line @line, 1-based, of the text that is
- * shown; NULL: nothing. Caller frees. */
-char *ladder_text_view_reasons(LadderTextView *view, int line);
 /** ladder_text_view_take - what was just typed is in the document now; else it will be as
  * soon as it is seen. */
 void ladder_text_view_take(LadderTextView *view);

@@ -2,9 +2,11 @@
  *
  * pou_import_dialog - asks which programs and blocks of which project come.
  */
+#include "editor-gtk/window/pou_import_dialog.h"
+
 #include "editor-gtk/document/pou_import.h"
 
-#include "editor-gtk/document/chooser.h"
+#include "editor-gtk/document/panel.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/window.h"
 
@@ -164,7 +166,7 @@ void pou_import_ask(GtkWidget *widget, LadderDocument *document)
 	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), rungs);
 	g_object_unref(rungs);
 	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
-	chooser_beside(chooser, document);
+	panel_choose_beside(chooser, document);
 	g_object_set_data_full(G_OBJECT(chooser), "widget", g_object_ref(widget),
 			       g_object_unref);
 	g_signal_connect_data(chooser, "response", G_CALLBACK(file_chosen),

@@ -10,7 +10,7 @@
 #include "editor-gtk/window/commands.h"
 #include "editor-gtk/panels/palette.h"
 #include "editor-gtk/document/pou_edit.h"
-#include "editor-gtk/document/pou_import.h"
+#include "editor-gtk/window/pou_import_dialog.h"
 #include "editor-gtk/window/preferences.h"
 #include "editor-gtk/panels/problems.h"
 #include "editor-gtk/window/recent.h"

@@ -5,7 +5,6 @@
  */
 #include "editor-gtk/window/window_inside.h"
 
-#include "editor-gtk/document/chooser.h"
 #include "editor-gtk/document/classic.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/report_lines.h"

@@ -8,7 +8,7 @@
 #include "editor-gtk/window/window_inside.h"
 
 #include "editor-gtk/window/app.h"
-#include "editor-gtk/document/chooser.h"
+#include "editor-gtk/document/panel.h"
 #include "editor-gtk/document/classic.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/draft.h"
@@ -34,7 +34,7 @@ GtkFileChooserNative *window_chooser(LadderWindow *window, const char *title,
 	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), rungs);
 	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), all);
 	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
-	chooser_beside(chooser, window->document);
+	panel_choose_beside(chooser, window->document);
 	g_object_unref(rungs);
 	g_object_unref(all);
 	return chooser;

@@ -7,7 +7,6 @@
  */
 #include "editor-gtk/window/window_inside.h"
 
-#include "editor-gtk/document/chooser.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/draw/print.h"
 #include "editor-gtk/panels/problems.h"

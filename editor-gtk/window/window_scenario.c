@@ -43,14 +43,14 @@ static void mark_file(LadderWindow *window, LadderFileView *view)
 {
 	GPtrArray *results = ladder_scenario_view_results(view_of(window));
 	const char *path = ladder_side_file_path(ladder_file_view_file(view));
-	struct file_marks *marks = ladder_file_view_marks(view);
 
-	file_marks_clear(marks);
+	ladder_file_view_clear_flaws(view);
 	for (guint i = 0; results && i < results->len; i++) {
 		const struct scenario_result *result = results->pdata[i];
 
 		if (result->line && strcmp(result->path, path) == 0)
-			file_marks_add(marks, result->line, result->column, result->why);
+			ladder_file_view_add_flaw(view, result->line, result->column,
+					      result->why);
 	}
 }
 

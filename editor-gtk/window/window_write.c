@@ -5,7 +5,7 @@
  */
 #include "editor-gtk/window/window_inside.h"
 
-#include "editor-gtk/document/chooser.h"
+#include "editor-gtk/document/panel.h"
 #include "editor-gtk/document/csv.h"
 #include "editor-gtk/document/disk.h"
 
@@ -149,7 +149,7 @@ GtkFileChooser *window_ask_where(LadderWindow *window, const char *title,
 
 	*asked = (struct asked){ window, endings, save };
 	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
-	chooser_beside(chooser, window->document);
+	panel_choose_beside(chooser, window->document);
 	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), name);
 	g_signal_connect_data(chooser, "response", G_CALLBACK(where_response), asked,
 			      asked_free, 0);

@@ -101,8 +101,10 @@ static bool offers(const char *text, int line, int column, const char *word, gsi
 
 	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(words)); i++) {
 		gpointer one = g_list_model_get_item(G_LIST_MODEL(words), i);
+		char *typed = gtk_source_completion_proposal_get_typed_text(one);
 
-		found = found || strcmp(text_complete_text(one), word) == 0;
+		found = found || strcmp(typed, word) == 0;
+		g_free(typed);
 		g_object_unref(one);
 	}
 	g_object_unref(words);
@@ -129,7 +131,7 @@ static void test_words(void)
 
 static bool wrong_at(int line, const char *part)
 {
-	char *text = ladder_text_view_reasons(view, line + 1);
+	char *text = ladder_text_view_tip(view, line + 1);
 	const bool found = text && strstr(text, part);
 
 	if (!found)
@@ -143,7 +145,7 @@ static int wrong_lines(void)
 	int count = 0;
 
 	for (int i = 0; i < gtk_text_buffer_get_line_count(buffer); i++) {
-		char *text = ladder_text_view_reasons(view, i + 1);
+		char *text = ladder_text_view_tip(view, i + 1);
 
 		count += text != NULL;
 		g_free(text);

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * pou_import_dialog - asks which programs and blocks of which project to import.
+ */
+#ifndef EDITOR_POU_IMPORT_DIALOG_H
+#define EDITOR_POU_IMPORT_DIALOG_H
+
+#include "editor-gtk/document/document.h"
+
+#include <gtk/gtk.h>
+
+/** pou_import_ask - asks for a file, then for its POUs, then imports them. */
+void pou_import_ask(GtkWidget *widget, LadderDocument *document);
+
+#endif
