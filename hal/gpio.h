@@ -47,8 +47,6 @@ bool gpio_list(const char *dev,
 bool gpio_take(struct request *request, struct trouble *why,
 	       int (*take)(struct request *request, const struct gpio_chip *chip),
 	       struct gpio_chip *kept);
-/** gpio_path - "/dev/gpiochip3". */
-void gpio_path(const char *dev, int chip, char *out, size_t size);
 /** gpio_text - copies a text that may be NULL, clipped. */
 void gpio_text(char *out, const char *text);
 #endif

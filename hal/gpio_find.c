@@ -26,7 +26,8 @@
 #define UNSEEN      (UINT_MAX - 1)
 #define GROUP_OPENS (S_IRGRP | S_IWGRP)
 
-void gpio_path(const char *dev, int chip, char *out, size_t size)
+/* "/dev/gpiochip3". */
+static void gpio_path(const char *dev, int chip, char *out, size_t size)
 {
 	snprintf(out, size, "%s/" CHIP_PREFIX "%d", dev, chip);
 }

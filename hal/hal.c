@@ -5,7 +5,7 @@
  */
 #include "hal/request.h"
 
-void request_failed(struct hal *hal, struct hal_request *request)
+static void request_failed(struct hal *hal, struct hal_request *request)
 {
 	hal->failed++;
 	request->dirty = true;
@@ -13,7 +13,7 @@ void request_failed(struct hal *hal, struct hal_request *request)
 		request->failures++;
 }
 
-void request_worked(struct hal_request *request)
+static void request_worked(struct hal_request *request)
 {
 	request->failures = 0;
 }

@@ -30,8 +30,5 @@ struct hal_request {
 	uint8_t failures;        /* in a row, up to HAL_FAILURES              */
 };
 
-/** request_failed, request_worked - count a call of the driver. */
-void request_failed(struct hal *hal, struct hal_request *request);
-void request_worked(struct hal_request *request);
 bool request_in_fault(const struct hal_request *request);
 #endif

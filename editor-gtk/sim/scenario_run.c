@@ -141,9 +141,9 @@ static void keep_way(struct running *running, int index, struct scenario_result 
 	result->acts = g_array_new(FALSE, FALSE, sizeof(struct sim_played));
 	if (twin_init(twin, running->program->program,
 		      plant ? running->plant->program : NULL, result->period_ns) &&
-	    scenario_read_with(running->file->file, running->text, running->len,
-			       &twin->resource.image, plant ? &twin->plant.image : NULL,
-			       &arena, &file, diags))
+	    scenario_read(running->file->file, running->text, running->len,
+			  &twin->resource.image, plant ? &twin->plant.image : NULL,
+			  &arena, &file, diags))
 		scenario_each_act(&file, index, twin, result->scan, keep_act,
 				  result->acts);
 	twin_free(twin);
@@ -166,7 +166,7 @@ static void run_one(struct running *running, int index, struct resource *resourc
 	const struct scenario *scenario = &running->file->scenario[index];
 	struct scenario_result *result;
 	const struct sink out = { .write = tell_nobody };
-	const bool held = scenario_run_with(running->file, index, resource, plant, &out);
+	const bool held = scenario_run(running->file, index, resource, plant, &out);
 
 	result = add(running->results, held ? SCENARIO_HELD : SCENARIO_FAILED,
 		     running->path, scenario->name,
@@ -223,9 +223,9 @@ static void run_all_of(struct running *running, struct resource *resource,
 	diag_init(diags);
 	arena_init(&arena);
 	running->file = &file;
-	if (scenario_read_with(name, running->text, running->len, &resource->image,
-			       plant ? &plant->resource.image : NULL, &arena, &file,
-			       diags)) {
+	if (scenario_read(name, running->text, running->len, &resource->image,
+			  plant ? &plant->resource.image : NULL, &arena, &file,
+			  diags)) {
 		file.stop = &running->job->stop;
 		for (int i = 0; i < file.count && !running->job->stop; i++)
 			run_one(running, i, resource, plant);

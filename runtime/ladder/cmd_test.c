@@ -51,8 +51,8 @@ static void run_one(struct tap *tap, struct machine *machine,
 
 	sink_memory_init(&comments);
 	struct sink sink = sink_to_memory(&comments);
-	bool good = scenario_run_with(file, index, &machine->resource,
-				      machine_plant(machine), &sink);
+	bool good = scenario_run(file, index, &machine->resource,
+				 machine_plant(machine), &sink);
 
 	print_result(tap, good, file->file, file->scenario[index].name);
 	sink_text(&tap->call->out, sink_memory_text(&comments));
@@ -88,10 +88,10 @@ static bool run_text(struct tap *tap, struct machine *machine, const char *path,
 	diag_init(diags);
 	arena_init(&arena);
 	good = find_plant(machine, path, text, len, &arena) &&
-	       scenario_read_with(path, text, len, &machine->resource.image,
-				  machine_plant(machine) ?
-				  &machine->plant.resource.image : NULL, &arena,
-				  &file, diags);
+	       scenario_read(path, text, len, &machine->resource.image,
+			     machine_plant(machine) ?
+			     &machine->plant.resource.image : NULL, &arena,
+			     &file, diags);
 	report_diags(diags);
 	for (int i = 0; good && i < file.count && !tap->call->out_failed; i++)
 		run_one(tap, machine, &file, i);

@@ -71,8 +71,6 @@ bool call_flag(const struct call *call, const char *name);
 
 /** command_help - what --help prints. NULL row: of `ladder` itself. */
 void command_help(const struct command_row *row, const struct sink *out);
-/** command_man - the man page, in roff. NULL row: of `ladder` itself. */
-void command_man(const struct command_row *row, const struct sink *out);
 
 enum status cmd_check(struct call *call);
 enum status cmd_complete(struct call *call);

@@ -180,7 +180,8 @@ static void man_all(const struct sink *out)
 			    row[1].name ? "," : "");
 }
 
-void command_man(const struct command_row *row, const struct sink *out)
+/* The man page, in roff. NULL row: of `ladder` itself. */
+static void command_man(const struct command_row *row, const struct sink *out)
 {
 	if (!row) {
 		man_all(out);

@@ -37,13 +37,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 	diag_init(&diags);
 	arena_init(&arena);
 	if (!scenario_read("fuzz.scn", (const char *)bytes, len,
-			   &sandbox->resource.image, &arena, &file, &diags)) {
+			   &sandbox->resource.image, NULL, &arena, &file,
+			   &diags)) {
 		fuzz_expect(diags.errors > 0, "a refused file has an error");
 		file.count = 0;
 	}
 	for (int i = 0; i < file.count && i < 8; i++)
 		if (is_short(&file.scenario[i]))
-			scenario_run(&file, i, &sandbox->resource,
+			scenario_run(&file, i, &sandbox->resource, NULL,
 				     &sandbox->sink);
 	arena_free(&arena);
 	return 0;

@@ -45,14 +45,6 @@ size_t plain_clip(const char *text, size_t len, int columns, int *width)
 	return at;
 }
 
-int plain_width(const char *text, size_t len)
-{
-	int width;
-
-	plain_clip(text, len, 1 << 30, &width);
-	return width;
-}
-
 void plain_write(const struct sink *sink, const char *text, size_t len)
 {
 	size_t plain = 0, at = 0;

@@ -10,9 +10,6 @@
 
 #include "engine/base/sink.h"
 
-/** plain_width - columns of @text on a terminal. */
-int plain_width(const char *text, size_t len);
-
 /**
  * plain_clip - how much of @text fits into @columns
  * @width: gets the columns of what fits

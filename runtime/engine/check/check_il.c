@@ -2,13 +2,41 @@
  *
  * check_il - walks an instruction list with the type of its current result.
  */
-#include "engine/check/il_check.h"
+#include "engine/check/check_il.h"
 
 #include "engine/model/advice.h"
+#include "engine/model/shape.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
+
+/* The current result (IEC 61131-3 3.2.2): nothing, a type, or a constant that
+ * has no type yet. */
+struct result {
+	bool there;
+	enum iec_type type;
+	const struct literal *literal;
+	const struct meaning *whole; /* a structure or array; else NULL    */
+};
+
+struct il_check {
+	struct scope *scope;
+	const struct pou *pou;
+	const struct il *il;
+	enum iec_type *types;
+	struct diag_list *diags;
+	uint8_t *label;        /* by folded name: is it a label?            */
+	uint32_t label_count;
+	struct result now;
+	int depth;           /* of open parentheses                         */
+	struct il_opened {
+		struct result left;
+		uint8_t op;          /* of AND OR XOR                       */
+		enum word word;      /* of a function; 0: of an operator    */
+	} *opened;           /* LIMIT_IL_DEPTH of them                      */
+};
+struct expect_want;
 
 struct diag il_place(const struct scope *scope, const struct pou *pou,
 		     const struct il_line *line, enum diag_id id)
@@ -27,7 +55,8 @@ struct diag il_place(const struct scope *scope, const struct pou *pou,
 	return place;
 }
 
-bool il_report(struct il_check *c, const struct il_line *line,
+/* Each adds a diagnostic at @line; false unless it is a warning. */
+static bool il_report(struct il_check *c, const struct il_line *line,
 		   enum diag_id id, const char *arg)
 {
 	return diag_add(c->diags, il_place(c->scope, c->pou, line, id), "%s", arg);
@@ -40,7 +69,7 @@ static bool is_made(const struct il_check *c, const char *operand)
 	       (operand[1] == 'N' || operand[1] == 'T');
 }
 
-bool il_report_types(struct il_check *c, const struct il_line *line,
+static bool il_report_types(struct il_check *c, const struct il_line *line,
 			 enum iec_type from, enum iec_type to)
 {
 	const struct il_line *call = line;
@@ -64,13 +93,14 @@ bool il_report_types(struct il_check *c, const struct il_line *line,
 	return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
 }
 
-const char *il_operand_text(struct il_check *c, const struct il_line *line)
+static const char *il_operand_text(struct il_check *c, const struct il_line *line)
 {
 	return scope_text(c->scope, line->operand);
 }
 
-bool il_report_near(struct il_check *c, const struct il_line *line, enum diag_id id,
-		    unsigned int kinds)
+/* The same with the words of @kinds that may have been meant. */
+static bool il_report_near(struct il_check *c, const struct il_line *line, enum diag_id id,
+			   unsigned int kinds)
 {
 	char text[LIMIT_ARG];
 
@@ -132,13 +162,14 @@ static const struct meaning *as_value(struct il_check *c, const struct il_line *
 	return m;
 }
 
-const struct meaning *il_value_of(struct il_check *c,
+/* The operand as a value to read; NULL after a diagnostic. */
+static const struct meaning *il_value_of(struct il_check *c,
 				      const struct il_line *line)
 {
 	return as_value(c, line, find(c, line));
 }
 
-struct result il_result_of(const struct meaning *m)
+static struct result il_result_of(const struct meaning *m)
 {
 	struct result out = { .there = true, .type = m->type };
 
@@ -149,7 +180,7 @@ struct result il_result_of(const struct meaning *m)
 
 /* An untyped constant that is no value of @to: out of its range, or of another
  * kind; then with an example of the right one. */
-bool il_report_constant(struct il_check *c, const struct il_line *line,
+static bool il_report_constant(struct il_check *c, const struct il_line *line,
 			    const struct literal *literal, enum iec_type to)
 {
 	static const struct { uint16_t class; const char *like; } kind[] = {
@@ -173,7 +204,7 @@ bool il_report_constant(struct il_check *c, const struct il_line *line,
 }
 
 /* After an error was told: a result that fits everywhere. */
-bool il_is_unknown(struct result result)
+static bool il_is_unknown(struct result result)
 {
 	return result.there && result.type == IEC_NONE && !result.literal;
 }
@@ -211,13 +242,14 @@ static bool can_write(struct il_check *c, const struct il_line *line,
 	return true;
 }
 
-bool il_need_result(struct il_check *c, const struct il_line *line)
+static bool il_need_result(struct il_check *c, const struct il_line *line)
 {
 	return c->now.there ||
 	       il_report(c, line, DIAG_IL_NO_RESULT, il_operand_text(c, line));
 }
 
-bool il_need_bool(struct il_check *c, const struct il_line *line,
+/* @what names the value in the message. */
+static bool il_need_bool(struct il_check *c, const struct il_line *line,
 		      struct result result, const char *what)
 {
 	union iec_value value;
@@ -228,6 +260,45 @@ bool il_need_bool(struct il_check *c, const struct il_line *line,
 	if (il_is_unknown(result))
 		return false;
 	return il_report(c, line, DIAG_NOT_BOOL, what);
+}
+
+/* BYTE to LWORD? */
+static bool il_is_bits(struct result result)
+{
+	return iec_type_row(result.type)->class & CLASS_BITS;
+}
+
+/* ---- MOVE ---- */
+
+static bool may_move(const struct meaning *m)
+{
+	return m && (m->kind == MEANING_STRUCT || m->kind == MEANING_ARRAY);
+}
+
+/* ---- LD and ST ---- */
+
+/* The line behind @at that is no comment; count: none. */
+static int next_line(const struct il_check *c, int at)
+{
+	do
+		at++;
+	while (at < c->il->count && c->il->line[at].kind == IL_COMMENT);
+	return at;
+}
+
+static bool is_store(const struct il_check *c, int at)
+{
+	const struct il_line *line = at < c->il->count ? &c->il->line[at] : NULL;
+
+	return line && line->kind == IL_OP && line->op == OP_ST && !line->modifiers;
+}
+
+/* Is @m a structure or array that LD at @at loads and the lines behind
+ * it only store? */
+static bool il_loads_whole(struct il_check *c, int at, const struct meaning *m)
+{
+	return may_move(m) && !c->il->line[at].modifiers &&
+	       is_store(c, next_line(c, at));
 }
 
 static bool check_load(struct il_check *c, int at)
@@ -265,19 +336,20 @@ static bool check_store(struct il_check *c, const struct il_line *line)
 }
 
 /* For check_own.c. */
-const struct meaning *il_find(struct il_check *c, const struct il_line *line)
+static const struct meaning *il_find(struct il_check *c, const struct il_line *line)
 {
 	return find(c, line);
 }
 
-bool il_can_store(struct il_check *c, const struct il_line *line,
-		  struct result from, enum iec_type to)
+/* May it be stored there, written? False after a diagnostic. */
+static bool il_can_store(struct il_check *c, const struct il_line *line,
+			 struct result from, enum iec_type to)
 {
 	return can_store(c, line, from, to);
 }
 
-bool il_can_write(struct il_check *c, const struct il_line *line,
-		  const struct meaning *m)
+static bool il_can_write(struct il_check *c, const struct il_line *line,
+			 const struct meaning *m)
 {
 	return can_write(c, line, m);
 }
@@ -320,6 +392,178 @@ static struct il_line overloaded(const struct il_line *line, const struct result
 		out.word = (uint16_t)fn_overload((enum word)line->word, in[0].type,
 						 in[1].type);
 	return out;
+}
+
+static bool report_pin(struct il_check *c, const struct il_line *line,
+		       const struct word_pin *pin, enum iec_type type)
+{
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
+	char text[LIMIT_ARG];
+
+	if (pin->own)
+		snprintf(text, sizeof(text), "%.16s.%.8s does not take %s",
+			 row->word, pin->name, iec_type_row(type)->word);
+	else
+		snprintf(text, sizeof(text), "%s does not take %s", row->word,
+			 iec_type_row(type)->word);
+	return il_report(c, line, DIAG_WRONG_TYPE, text);
+}
+
+/* An input with a type of its own. */
+static bool check_own(struct il_check *c, const struct il_line *line,
+		      const struct word_pin *pin, const struct result *in)
+{
+	enum iec_type type = in->literal ? fn_own_type(pin, in->literal) : in->type;
+
+	if (il_is_unknown(*in))
+		return false;
+	if (iec_type_row(type)->class & pin->classes)
+		return true;
+	if (type == IEC_NONE)
+		type = in->literal->real ? IEC_REAL : IEC_DINT;
+	return report_pin(c, line, pin, type);
+}
+
+/* Constants only: the first usual type that the function takes. */
+static enum iec_type constants_type(const struct word_pin *pin,
+				    const struct result *in, enum iec_type hint)
+{
+	enum iec_type type;
+
+	if (iec_type_row(hint)->class & pin->classes)
+		return hint;
+	type = in ? fn_own_type(pin, in->literal) : IEC_NONE;
+	return type ? type : IEC_DINT;
+}
+
+/* Input @index of a call in an expression: "LIMIT.MX"; "" elsewhere. */
+static const char *input_name(const struct il_line *line, const struct word_row *row,
+			      int index, char out[LIMIT_ARG])
+{
+	int len = 0;
+
+	*out = '\0';
+	if (!(line->mark & IL_NAMED))
+		return out;
+	len = snprintf(out, LIMIT_ARG, "%.24s.", row->word);
+	if (index < row->pin_count)
+		snprintf(out + len, LIMIT_ARG - (size_t)len, "%.16s", row->pin[index].name);
+	else
+		snprintf(out + len, LIMIT_ARG - (size_t)len, "IN%d",
+			 index - (row->pin_count - 1) + word_last_number(row));
+	return out;
+}
+
+static bool report_join(struct il_check *c, const struct il_line *line, int index,
+			enum iec_type a, enum iec_type b)
+{
+	char name[LIMIT_ARG], text[2 * LIMIT_ARG];
+
+	if (!(line->mark & IL_NAMED))
+		return il_report_types(c, line, a, b);
+	input_name(line, scope_row(c->scope, (enum word)line->word), index, name);
+	snprintf(text, sizeof(text), "%s and %s: %s", iec_type_row(a)->word,
+		 iec_type_row(b)->word, name);
+	return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
+}
+
+static bool report_literal(struct il_check *c, const struct il_line *line, int index,
+			   const struct literal *literal, enum iec_type type)
+{
+	char name[LIMIT_ARG], text[2 * LIMIT_ARG];
+
+	if (!(line->mark & IL_NAMED) || literal->real ||
+	    !(iec_type_row(type)->class & (ANY_NUM | CLASS_BITS)))
+		return il_report_constant(c, line, literal, type);
+	input_name(line, scope_row(c->scope, (enum word)line->word), index, name);
+	snprintf(text, sizeof(text), "%s: %s", iec_type_row(type)->word, name);
+	return il_report(c, line, DIAG_LITERAL_RANGE, text);
+}
+
+/* The type that inputs share, and whether the function takes it. */
+static bool check_shared(struct il_check *c, const struct il_line *line,
+			 const struct result *in, int count,
+			 const struct word_pin *pin, enum iec_type type)
+{
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
+	union iec_value value;
+
+	if (pin->type != IEC_NONE && type != pin->type)
+		return report_join(c, line, 0, type, pin->type);
+	if (!(pin->classes & iec_type_row(type)->class))
+		return report_pin(c, line, pin, type);
+	for (int i = 0; i < count; i++)
+		if (in[i].literal && !word_input(row, (uint32_t)i)->own &&
+		    !literal_fit(in[i].literal, type, &value))
+			return report_literal(c, line, i, in[i].literal, type);
+	return true;
+}
+
+/* The type that inputs of a function share, and whether it takes them
+ * @hint:   what constants alone should be, or IEC_NONE
+ * @common: gets that type; unchanged if none is shared
+ *
+ * Fails: false after a diagnostic, or where one was told before.
+ */
+static bool il_check_inputs(struct il_check *c, const struct il_line *line,
+			 const struct result *in, int count,
+			 enum iec_type hint, enum iec_type *common)
+{
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
+	const struct word_pin *shared = NULL;
+	const struct result *first = NULL;
+	enum iec_type type = IEC_NONE;
+
+	for (int i = 0; i < count; i++) {
+		const struct word_pin *pin = word_input(row, (uint32_t)i);
+		bool point = in[i].literal && in[i].literal->real;
+		enum iec_type own = point ? IEC_REAL : in[i].type;
+		enum iec_type join = types_join(type, own);
+
+		if (pin->own && !check_own(c, line, pin, &in[i]))
+			return false;
+		if (pin->own)
+			continue;
+		if (il_is_unknown(in[i]))
+			return false;
+		if (join == IEC_TYPE_COUNT)
+			return report_join(c, line, i, type, own);
+		type = join;
+		shared = pin;
+		first = in[i].literal && !first ? &in[i] : first;
+	}
+	if (!shared)
+		return true;
+	if (shared->type != IEC_NONE && (type == IEC_NONE ||
+					 iec_can_widen(type, shared->type)))
+		type = shared->type; /* INT_TO_REAL: made an INT first */
+	if (type == IEC_NONE)
+		type = constants_type(shared, first, hint);
+	*common = type;
+	return check_shared(c, line, in, count, shared, type);
+}
+
+/* AND( or ADD( : the result waits. @good: so far. */
+static bool il_open_paren(struct il_check *c, const struct il_line *line, bool good)
+{
+	const struct meaning *m;
+
+	if (c->depth == LIMIT_IL_DEPTH)
+		return il_report(c, line, DIAG_TOO_DEEP, "(");
+	c->opened[c->depth++] = (struct il_opened){
+		.left = c->now, .op = line->op,
+		.word = line->kind == IL_FN ? (enum word)line->word : 0,
+	};
+	if (line->kind == IL_OP && !il_is_bits(c->now) && !c->now.literal)
+		good = good && il_need_bool(c, line, c->now, "the result");
+	c->now.there = false;
+	if (!line->operand)
+		return good;
+	m = il_value_of(c, line); /* AND( Level, then GT 10 */
+	c->now = (struct result){ .there = true, .type = IEC_BOOL };
+	if (m)
+		c->now = il_result_of(m);
+	return m && good;
 }
 
 /* A function on the current result: ADD 5. */
@@ -442,6 +686,304 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	return good;
 }
 
+static bool is_label(struct il_check *c, uint32_t name)
+{
+	uint32_t fold = names_fold(&scope_project(c->scope)->names, name);
+
+	return fold && fold < c->label_count && c->label[fold];
+}
+
+/* With C the result must be there, without it nothing goes on. */
+static bool il_check_flow(struct il_check *c, const struct il_line *line)
+{
+	bool good = true;
+
+	if (c->depth > 0 && line->op != OP_STP)
+		good = il_report(c, line, DIAG_IL_OPEN_PAREN, op_row(line->op)->word);
+	if (line->op == OP_JMP && !is_label(c, line->operand))
+		good = il_report_near(c, line, DIAG_NO_LABEL, EXPECT_LABEL);
+	if (line->modifiers & MOD_C)
+		return il_need_result(c, line) &&
+		       il_need_bool(c, line, c->now, "the result") && good;
+	if (line->op != OP_STP)
+		c->now.there = false;
+	return good;
+}
+
+/* CAL of a SUBROUTINE, which has no parameters. */
+static bool check_routine(struct il_check *c, int at, const struct pou *to)
+{
+	const struct il_line *line = &c->il->line[at];
+	bool good = true;
+
+	if (to->kind != POU_SUBROUTINE)
+		return il_report(c, line, DIAG_NOT_SUBROUTINE, il_operand_text(c, line));
+	if (line->modifiers & MOD_C)
+		good = il_need_result(c, line) &&
+		       il_need_bool(c, line, c->now, "the result");
+	if (is_arg(c, at + 1))
+		good = il_report(c, &c->il->line[at + 1], DIAG_TOO_MANY_OPERANDS,
+				 scope_text(c->scope, c->il->line[at + 1].pin));
+	c->now.there = false;
+	return good;
+}
+
+static const char *pin_text(struct il_check *c, const struct il_line *arg)
+{
+	return scope_text(c->scope, arg->pin);
+}
+
+static const char *operand_text(struct il_check *c, const struct il_line *line)
+{
+	return scope_text(c->scope, line->operand);
+}
+
+/* Is it of a type without parts, or else told what is wrong with it? */
+static bool is_plain(struct il_check *c, const struct il_line *arg,
+		     const struct meaning *m)
+{
+	if (m->kind == MEANING_STRUCT)
+		return il_report(c, arg, DIAG_STRUCT_AS_VALUE, operand_text(c, arg));
+	return meaning_fault(m) == DIAG_COUNT ||
+	       il_report(c, arg, meaning_fault(m), operand_text(c, arg));
+}
+
+static struct result value_of(const struct meaning *m)
+{
+	struct result out = { .there = true, .type = m->type };
+
+	if (m->kind == MEANING_LITERAL && m->type == IEC_NONE)
+		out.literal = &m->literal;
+	return out;
+}
+
+/* ---- shapes ---- */
+
+static bool is_like(const struct meaning *m, const struct word_pin *pin)
+{
+	if (pin->elements)
+		return m->kind == MEANING_ARRAY && m->addr.area == AREA_NONE &&
+		       m->type == pin->type && m->array.low == pin->low &&
+		       m->array.count == pin->elements &&
+		       (pin->type != IEC_NONE || m->word == pin->word) &&
+		       (pin->type != IEC_STRING || m->capacity == pin->capacity);
+	return (m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE) &&
+	       pin->type == IEC_NONE && m->word == pin->word;
+}
+
+/** il_check_shape - is @m a structure, array or instance of the type that @pin declares? */
+static bool il_check_shape(struct il_check *c, const struct il_line *arg,
+			   const struct meaning *m, const struct word_pin *pin)
+{
+	const char *word = pin->type == IEC_NONE ? scope_row(c->scope, pin->word)->word :
+						   iec_type_row(pin->type)->word;
+	char text[2 * LIMIT_ARG], room[16] = "";
+
+	if (is_like(m, pin))
+		return true;
+	if (!pin->elements)
+		return il_report(c, arg, DIAG_WRONG_TYPE, word);
+	if (pin->type == IEC_STRING)
+		snprintf(room, sizeof(room), "[%u]", pin->capacity);
+	snprintf(text, sizeof(text), "ARRAY[%ld..%lld] OF %.20s%s%s", (long)pin->low,
+		 (long long)pin->low + pin->elements - 1, word, room,
+		 m->addr.area == AREA_NONE ? "" : " without AT");
+	return il_report(c, arg, DIAG_WRONG_TYPE, text);
+}
+
+static bool check_in_out(struct il_check *c, const struct il_line *arg,
+			 const struct meaning *m, const struct word_pin *pin)
+{
+	if (pin->type == IEC_NONE)
+		return il_check_shape(c, arg, m, pin) &&
+		       (m->kind == MEANING_INSTANCE || il_can_write(c, arg, m));
+	if (!is_plain(c, arg, m) || !il_can_write(c, arg, m))
+		return false;
+	if (m->type == pin->type)
+		return true;
+	return il_report(c, arg, DIAG_WRONG_TYPE, iec_type_row(pin->type)->word);
+}
+
+/* @m: what stands at the pin, to be read or written. */
+static bool check_value(struct il_check *c, const struct il_line *arg,
+			const struct meaning *m, const struct word_pin *pin)
+{
+	bool output = pin->dir == PIN_OUT;
+
+	if (pin->elements)
+		return il_check_shape(c, arg, m, pin) &&
+		       (pin->dir == PIN_IN || il_can_write(c, arg, m));
+	if (pin->dir == PIN_IN_OUT)
+		return check_in_out(c, arg, m, pin);
+	if (pin->type == IEC_NONE)
+		return il_check_shape(c, arg, m, pin) &&
+		       (!output || il_can_write(c, arg, m));
+	if (!is_plain(c, arg, m))
+		return false;
+	if (!output)
+		return il_can_store(c, arg, value_of(m), pin->type);
+	return il_can_write(c, arg, m) &&
+	       il_can_store(c, arg, (struct result){ .there = true, .type = pin->type },
+			    m->type);
+}
+
+/** il_check_pin - one parameter against the pin of @row that it names. */
+static bool il_check_pin(struct il_check *c, const struct word_row *row,
+			 const struct il_line *arg)
+{
+	const char *name = pin_text(c, arg);
+	int index = word_pin_find(row, name, strlen(name));
+	const struct meaning *m = il_find(c, arg);
+
+	if (!m)
+		return false;
+	if (index < 0)
+		return is_plain(c, arg, m) &&
+		       il_report(c, arg, DIAG_NO_PIN, arg->mark & IL_IN_ORDER ?
+				 operand_text(c, arg) : name);
+	if ((row->pin[index].dir == PIN_OUT) != (arg->kind == IL_ARG_OUT))
+		return il_report(c, arg, DIAG_PIN_DIRECTION, name);
+	return check_value(c, arg, m, &row->pin[index]);
+}
+
+/* Is there a parameter for pin @name of the call at @at? */
+static bool has_arg(struct il_check *c, int at, const char *name)
+{
+	for (int i = at + 1; is_arg(c, i); i++)
+		if (strcasecmp(pin_text(c, &c->il->line[i]), name) == 0)
+			return true;
+	return false;
+}
+
+/* Is there a parameter for each VAR_IN_OUT of @row? */
+static bool il_check_in_outs(struct il_check *c, int at, const struct word_row *row)
+{
+	for (int i = 0; i < row->pin_count; i++)
+		if (row->pin[i].dir == PIN_IN_OUT &&
+		    !has_arg(c, at, row->pin[i].name))
+			return il_report(c, &c->il->line[at], DIAG_MISSING_INPUT,
+					 row->pin[i].name);
+	return true;
+}
+
+/* CAL of an instance or a subroutine; the lines behind @at too. */
+static bool il_check_cal(struct il_check *c, int at)
+{
+	const struct il_line *line = &c->il->line[at];
+	const struct pou *routine = scope_pou(c->scope, c->pou, line->operand);
+	const struct meaning *m;
+	bool good = true;
+
+	if (routine)
+		return check_routine(c, at, routine);
+	m = il_find(c, line);
+	if (!m)
+		return false;
+	if (m->kind != MEANING_INSTANCE)
+		return il_report(c, line, DIAG_NOT_INSTANCE, il_operand_text(c, line));
+	if (line->modifiers & MOD_C)
+		good = il_need_result(c, line) &&
+		       il_need_bool(c, line, c->now, "the result");
+	for (int i = at + 1; is_arg(c, i); i++)
+		good &= il_check_pin(c, scope_row(c->scope, m->word),
+				     &c->il->line[i]);
+	good &= il_check_in_outs(c, at, scope_row(c->scope, m->word));
+	c->now.there = false;
+	return good;
+}
+
+/* The result of @op on two values; of BOOLs as an operator, of bits as a function. */
+static bool combine(struct il_check *c, const struct il_line *line, enum op op,
+		    struct result left, struct result right, const char *what)
+{
+	struct il_line function = *line;
+	struct result in[2] = { left, right };
+	enum iec_type type = IEC_NONE;
+
+	c->now = (struct result){ .there = true, .type = IEC_BOOL };
+	if (!il_is_bits(left) && !il_is_bits(right)) {
+		bool good = il_need_bool(c, line, left, "the result");
+
+		good = il_need_bool(c, line, right, what) && good;
+		if (!good) /* goes with everything */
+			c->now.type = IEC_NONE;
+		return good;
+	}
+	function.word = (uint16_t)op_function(op);
+	c->now.type = IEC_NONE;
+	if (!il_check_inputs(c, &function, in, 2, IEC_NONE, &type))
+		return false;
+	c->now.type = type;
+	return true;
+}
+
+/* AND OR XOR, with N and parentheses; il_check_close the other end;
+ * il_check_not NOT. On BOOL or on bits. */
+static bool il_check_logic(struct il_check *c, const struct il_line *line)
+{
+	bool good = il_need_result(c, line);
+	const struct meaning *m;
+
+	if (line->modifiers & MOD_PAREN)
+		return il_open_paren(c, line, good);
+	m = il_value_of(c, line);
+	if (m && good)
+		return combine(c, line, (enum op)line->op, c->now, il_result_of(m),
+			       il_operand_text(c, line));
+	c->now = (struct result){ .there = true, .type = IEC_BOOL };
+	return false;
+}
+
+static bool il_check_not(struct il_check *c, const struct il_line *line)
+{
+	struct result now = c->now;
+	bool good = il_need_result(c, line);
+
+	if (good && il_is_bits(now))
+		return true;
+	c->now = (struct result){ .there = true, .type = IEC_BOOL };
+	return good && il_need_bool(c, line, now, "the result");
+}
+
+/* As it would be declared. */
+static struct word_pin pin_like(const struct meaning *m)
+{
+	struct word_pin pin = { .type = m->type };
+
+	if (m->type == IEC_NONE)
+		pin.word = (enum word)m->word;
+	else
+		pin.capacity = m->capacity;
+	if (m->kind == MEANING_ARRAY) {
+		pin.elements = m->array.count;
+		pin.low = m->array.low;
+	}
+	return pin;
+}
+
+/* Is @m of the same type as @like? Both are wholes that a program may
+ * copy, or it is told. */
+static bool il_check_same(struct il_check *c, const struct il_line *arg,
+			  const struct meaning *m, const struct meaning *like)
+{
+	const struct word_pin pin = pin_like(like);
+
+	if (like->addr.area != AREA_NONE) /* what may be copied has no AT */
+		return il_check_shape(c, arg, like, &pin);
+	return il_check_shape(c, arg, m, &pin);
+}
+
+/* ST of one. */
+static bool il_check_store_whole(struct il_check *c, int at)
+{
+	const struct il_line *line = &c->il->line[at];
+	const struct meaning *from = c->now.whole, *to = il_find(c, line);
+
+	if (!is_store(c, next_line(c, at))) /* nothing else takes it */
+		c->now = (struct result){ .there = false };
+	return to && il_check_same(c, line, to, from) && il_can_write(c, line, to);
+}
+
 /* ---- the walk ---- */
 
 static bool check_op(struct il_check *c, int at)
@@ -477,6 +1019,213 @@ static bool check_op(struct il_check *c, int at)
 		break;
 	}
 	return false;
+}
+
+/* The function before a parenthesis, on what stands left of it and inside. */
+static bool close_function(struct il_check *c, int at, struct result left,
+			   struct result right, enum iec_type *common)
+{
+	const enum word word = fn_overload(c->opened[c->depth].word, left.type,
+					   right.type);
+	const struct word_row *row = scope_row(c->scope, word);
+	struct il_line function = c->il->line[at];
+	struct result in[2] = { left, right };
+	enum iec_type stored = il_stored_type(c->scope, c->pou, c->il, at);
+
+	function.word = (uint16_t)word;
+	c->now.type = word_is_test(row) ? IEC_BOOL : IEC_NONE;
+	if (!il_check_inputs(c, &function, in, 2, IEC_NONE, common))
+		return false;
+	c->now.type = fn_result(row, *common, stored);
+	return true;
+}
+
+static bool close_paren(struct il_check *c, int at, enum iec_type *common)
+{
+	const struct il_line *line = &c->il->line[at];
+	bool good = il_need_result(c, line);
+	struct result right = c->now;
+
+	c->now = (struct result){ .there = true, .type = IEC_BOOL };
+	if (c->depth == 0)
+		return il_report(c, line, DIAG_IL_CLOSE_PAREN, ")");
+	c->depth--;
+	if (!good || !c->opened[c->depth].left.there)
+		return false;
+	if (c->opened[c->depth].word)
+		return close_function(c, at, c->opened[c->depth].left, right,
+				      common);
+	good = combine(c, line, (enum op)c->opened[c->depth].op,
+		       c->opened[c->depth].left, right, "the result");
+	*common = c->now.type;
+	return good;
+}
+
+static bool il_check_close(struct il_check *c, int at, enum iec_type *common)
+{
+	*common = IEC_NONE;
+	return close_paren(c, at, common);
+}
+
+/* ---- functions ---- */
+
+static const struct var *result_var(struct il_check *c, int at)
+{
+	const struct pou *pou = shape_pou(scope_project(c->scope),
+					  (enum word)c->il->line[at].word);
+
+	return pou && pou->vars.count > 0 ? &pou->vars.var[0] : NULL;
+}
+
+/* EN := or ENO => at @arg. */
+static bool il_check_power(struct il_check *c, const struct il_line *arg, bool write)
+{
+	const struct meaning *m = il_find(c, arg);
+
+	return m && is_plain(c, arg, m) && (!write || il_can_write(c, arg, m)) &&
+	       il_need_bool(c, arg, value_of(m), operand_text(c, arg));
+}
+
+/* OUT => variable: the function's result. */
+static bool check_result(struct il_check *c, const struct il_line *arg,
+			 const struct var *var)
+{
+	const struct meaning *m = il_find(c, arg);
+	struct word_pin pin = { .dir = PIN_OUT };
+
+	if (!m || !var)
+		return false;
+	pin.type = var->type;
+	if (var->type == IEC_NONE)
+		pin.word = var->fb;
+	return check_value(c, arg, m, &pin);
+}
+
+/* Every input that has no value of its own must be given. */
+static bool check_inputs(struct il_check *c, int at, const struct word_row *row)
+{
+	for (int i = 0; i < row->pin_count; i++)
+		if (row->pin[i].dir == PIN_IN && !row->pin[i].has_init &&
+		    !has_arg(c, at, row->pin[i].name))
+			return il_report(c, &c->il->line[at], DIAG_MISSING_INPUT,
+					 row->pin[i].name);
+	return il_check_in_outs(c, at, row);
+}
+
+/* One with formal parameters. */
+static bool il_check_own_call(struct il_check *c, int at)
+{
+	const struct il_line *line = &c->il->line[at];
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
+	bool good = check_inputs(c, at, row);
+
+	for (int i = at + 1; is_arg(c, i); i++) {
+		const struct il_line *arg = &c->il->line[i];
+		const char *pin = pin_text(c, arg);
+		bool output = arg->kind == IL_ARG_OUT;
+
+		if (strcasecmp(pin, output ? "ENO" : "EN") == 0)
+			good &= il_check_power(c, arg, output);
+		else if (output && strcasecmp(pin, "OUT") == 0)
+			good &= check_result(c, arg, result_var(c, at));
+		else
+			good &= il_check_pin(c, row, arg);
+	}
+	c->now.there = false;
+	return good;
+}
+
+/* The next input behind pin @index; -1: none. */
+static int next_input(const struct word_row *row, int index)
+{
+	while (++index < row->pin_count)
+		if (row->pin[index].dir == PIN_IN)
+			return index;
+	return -1;
+}
+
+/* An operand at the next input; @pin gets its index. */
+static bool check_operand(struct il_check *c, const struct word_row *row,
+			  const struct il_line *line, int *pin)
+{
+	const struct meaning *m = il_find(c, line);
+
+	*pin = next_input(row, *pin);
+	if (!m)
+		return false;
+	if (*pin < 0)
+		return il_report(c, line, DIAG_TOO_MANY_OPERANDS, operand_text(c, line));
+	return check_value(c, line, m, &row->pin[*pin]);
+}
+
+/* The result is the first input, the operands are the others. */
+static bool il_check_own_fn(struct il_check *c, int at)
+{
+	const struct il_line *line = &c->il->line[at];
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
+	const struct var *var = result_var(c, at);
+	struct result first = c->now;
+	int pin = next_input(row, -1);
+	bool good = true;
+
+	c->now = (struct result){ .there = true, .type = var ? var->type : IEC_NONE };
+	if (!first.there)
+		return il_report(c, line, DIAG_IL_NO_RESULT, row->word);
+	if (pin < 0 || row->pin[pin].type == IEC_NONE || !var ||
+	    var->type == IEC_NONE)
+		return il_report(c, line, DIAG_WRONG_TYPE, row->word);
+	good = il_can_store(c, line, first, row->pin[pin].type);
+	if (line->operand)
+		good &= check_operand(c, row, line, &pin);
+	for (int i = at + 1; good && is_arg(c, i); i++)
+		good &= check_operand(c, row, &c->il->line[i], &pin);
+	while (good && (pin = next_input(row, pin)) >= 0)
+		if (!row->pin[pin].has_init)
+			return il_report(c, line, DIAG_MISSING_INPUT,
+					 row->pin[pin].name);
+	return il_check_in_outs(c, at, row) && good;
+}
+
+/* Is the line at @at a MOVE of a structure or array? */
+static bool il_is_whole_move(struct il_check *c, int at)
+{
+	enum diag_id why;
+
+	if (c->il->line[at].word != FN_MOVE)
+		return false;
+	for (int i = at + 1; is_arg(c, i); i++)
+		if (may_move(scope_find(c->scope, c->pou, c->il->line[i].operand,
+					&why)))
+			return true;
+	return false;
+}
+
+static const struct il_line *arg_of(struct il_check *c, int at, const char *name)
+{
+	for (int i = at + 1; is_arg(c, i); i++)
+		if (strcasecmp(scope_text(c->scope, c->il->line[i].pin), name) == 0)
+			return &c->il->line[i];
+	return NULL;
+}
+
+static bool il_check_whole_move(struct il_check *c, int at)
+{
+	const struct il_line *line = &c->il->line[at];
+	const struct il_line *in = arg_of(c, at, "IN"), *out = arg_of(c, at, "OUT");
+	const struct il_line *en = arg_of(c, at, "EN"), *eno = arg_of(c, at, "ENO");
+	const struct meaning *from, *to;
+
+	c->now.there = false;
+	if (!in || !out)
+		return il_report(c, line, DIAG_MISSING_INPUT, in ? "OUT" : "IN");
+	from = il_find(c, in);
+	to = il_find(c, out);
+	if (!from || !to || (en && !il_check_power(c, en, false)) ||
+	    (eno && !il_check_power(c, eno, true)))
+		return false;
+	if (!may_move(to))
+		return il_check_same(c, out, to, from);
+	return il_check_same(c, in, from, to) && il_can_write(c, out, to);
 }
 
 static bool check_line(struct il_check *c, int at, enum iec_type *type)

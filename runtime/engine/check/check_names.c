@@ -9,11 +9,11 @@
 #include "engine/base/ascii.h"
 #include "engine/check/check.h"
 #include "engine/check/check_config.h"
-#include "engine/check/check_init.h"
 #include "engine/check/check_operand.h"
 #include "engine/check/check_sfc.h"
 #include "engine/check/check_sfc_names.h"
 #include "engine/check/reserved.h"
+#include "engine/model/init.h"
 
 #include <string.h>
 
@@ -169,6 +169,44 @@ static void report_twice(struct names_check *c, const struct pou *pou,
 {
 	c->good &= diag_add(c->diags, place_of(c, DIAG_DUPLICATE_NAME, pou, var->line),
 			    "%.40s, first in line %d", text_of(c, var->name), first);
+}
+
+static bool report(const struct project *project, const struct var *var,
+		   const struct init_walk *walk, struct diag_list *diags,
+		   struct diag place)
+{
+	char where[LIMIT_ARG];
+
+	place.id = walk->why;
+	init_where(walk, where, sizeof(where));
+	return diag_add(diags, place, "%s%s%s%.*s",
+			project_text(project, var->name), where,
+			walk->arg_len ? ": " : "",
+			(int)(walk->arg_len < LIMIT_ARG ? walk->arg_len : LIMIT_ARG),
+			walk->arg_len ? walk->arg : "");
+}
+
+/* Does the text of @var's initial values, which has parts, fit its type?
+ * @walk:    *@walk NULL or what an earlier call left there; from @scratch
+ * @place:   of the declaration
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false after one diagnostic.
+ */
+static bool check_init(const struct project *project, const struct var *var,
+		       struct init_walk **walk, struct arena *scratch,
+		       struct diag_list *diags, struct diag place)
+{
+	struct init_value value;
+
+	if (!*walk)
+		*walk = arena_alloc(scratch, sizeof(**walk));
+	if (!*walk)
+		return false; /* the caller tells that memory is out */
+	init_begin(*walk, project, var, scratch);
+	while (init_next(*walk, &value))
+		continue;
+	return (*walk)->why == DIAG_COUNT ||
+	       report(project, var, *walk, diags, place);
 }
 
 static void check_var(struct names_check *c, const struct pou *pou,

@@ -4,20 +4,33 @@
  *
  * It counts ways in and out; which steps are active together is check_tokens'.
  */
-#include "engine/check/sfc_check.h"
+#include "engine/check/check_sfc.h"
 
 #include "engine/model/advice.h"
 
 #include <stdio.h>
 #include <string.h>
 
-const char *sfc_name(const struct sfc_check *c, uint32_t id)
+struct sfc_check {
+	struct scope *scope;
+	struct project *project;
+	const struct pou *pou;
+	const struct sfc *sfc;
+	struct arena *scratch;
+	struct diag_list *diags;
+	int *mark;                /* by folded name: where a label stood last     */
+	bool good;
+};
+
+/* The text of an id. */
+static const char *sfc_name(const struct sfc_check *c, uint32_t id)
 {
 	return project_text(c->project, id);
 }
 
-bool sfc_report(struct sfc_check *c, enum diag_id id, int line, int column,
-		const char *arg)
+/* A diagnostic with a line and column of the chart. False: an error. */
+static bool sfc_report(struct sfc_check *c, enum diag_id id, int line, int column,
+		       const char *arg)
 {
 	const struct diag place = {
 		.id = id, .file = c->pou->file, .line = line, .column = column,
@@ -27,13 +40,6 @@ bool sfc_report(struct sfc_check *c, enum diag_id id, int line, int column,
 
 	c->good &= good;
 	return good;
-}
-
-int *sfc_mark(struct sfc_check *c, uint32_t name)
-{
-	const uint32_t fold = names_fold(&c->project->names, name);
-
-	return fold ? &c->mark[fold] : NULL;
 }
 
 /* ---- transitions ---- */
@@ -202,6 +208,188 @@ static void check_steps(struct sfc_check *c, const int *in, const int *out)
 static int *numbers(struct sfc_check *c, int count)
 {
 	return arena_alloc(c->scratch, ((size_t)count + 1) * sizeof(int));
+}
+
+/* ---- the one rung of a condition ---- */
+
+static bool is_condition(const struct sfc_check *c, uint32_t operand)
+{
+	enum diag_id why;
+	const struct meaning *m = scope_find(c->scope, c->pou, operand, &why);
+
+	return m && scope_is_condition(m);
+}
+
+/* Its output is COIL TRANSITION or its inverse, and there is no other. */
+static bool has_one_coil(const struct sfc_check *c, const struct rung *rung)
+{
+	int outputs = 0, coils = 0;
+
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		const struct cell *cell = &rung->cell[i];
+		const enum word word = (enum word)cell->word;
+
+		if (words_row(&c->project->words, word)->place != PLACE_LAST)
+			continue;
+		outputs++;
+		coils += (word == ELEM_COIL || word == ELEM_COIL_NOT) &&
+			 is_condition(c, cell->operand);
+	}
+	return outputs == 1 && coils == 1;
+}
+
+static void check_rung_of(struct sfc_check *c, const struct sfc_transition *t)
+{
+	const struct sfc_body *body = &t->condition;
+	const struct rung *rung = body->count ? c->pou->rung[body->first] : NULL;
+	const char *name = sfc_name(c, t->name);
+
+	if (!rung || rung->off)
+		sfc_report(c, DIAG_SFC_NO_CONDITION, t->line, t->column, name);
+	else if (body->count > 1 || !has_one_coil(c, rung))
+		sfc_report(c, DIAG_SFC_CONDITION_RUNG, rung_line(rung, 0), 0, name);
+}
+
+/* ---- lists ---- */
+
+static void report_line(struct sfc_check *c, enum diag_id id, const struct il_line *line)
+{
+	sfc_report(c, id, (int)line->line, line->col, sfc_name(c, line->operand));
+}
+
+static bool is_jump(const struct il_line *line)
+{
+	return line->kind == IL_OP && line->op == OP_JMP;
+}
+
+static int *mark_of(struct sfc_check *c, const struct il_line *line)
+{
+	const uint32_t fold = names_fold(&c->project->names, line->operand);
+
+	return fold ? &c->mark[fold] : NULL;
+}
+
+/* @key: another for each list. */
+static void check_labels(struct sfc_check *c, const struct sfc_body *body, int key)
+{
+	const struct il_line *line = c->pou->il.line;
+	int *mark;
+
+	for (int i = body->first; i < body->first + body->count; i++) {
+		mark = line[i].kind == IL_LABEL ? mark_of(c, &line[i]) : NULL;
+		if (mark && *mark == key)
+			report_line(c, DIAG_DUPLICATE_LABEL, &line[i]);
+		if (mark)
+			*mark = key;
+	}
+	for (int i = body->first; i < body->first + body->count; i++) {
+		mark = is_jump(&line[i]) ? mark_of(c, &line[i]) : NULL;
+		if (mark && *mark != key)
+			report_line(c, DIAG_NO_LABEL, &line[i]);
+	}
+}
+
+static bool is_empty(const struct sfc_check *c, const struct sfc_body *body)
+{
+	for (int i = body->first; i < body->first + body->count; i++)
+		if (c->pou->il.line[i].kind != IL_COMMENT &&
+		    c->pou->il.line[i].kind != IL_LABEL)
+			return false;
+	return true;
+}
+
+static void sfc_check_bodies(struct sfc_check *c)
+{
+	const struct sfc *sfc = c->sfc;
+
+	for (int i = 0; i < sfc->transition_count; i++) {
+		const struct sfc_transition *t = &sfc->transition[i];
+
+		if (t->condition.kind == BODY_RUNGS)
+			check_rung_of(c, t);
+		if (t->condition.kind == BODY_LIST && is_empty(c, &t->condition))
+			sfc_report(c, DIAG_SFC_NO_CONDITION, t->line, t->column,
+				   sfc_name(c, t->name));
+	}
+	for (int i = 0; i < sfc_bodies(sfc); i++)
+		if (sfc_body(sfc, i)->kind == BODY_LIST)
+			check_labels(c, sfc_body(sfc, i), i + 1);
+}
+
+/* ---- supervision ---- */
+
+/* A time that is the same for ever. */
+static bool is_fixed(struct sfc_check *c, uint32_t text, int64_t *ns)
+{
+	enum diag_id why;
+	const struct meaning *m = text ? scope_find(c->scope, c->pou, text, &why) : NULL;
+
+	if (!m || m->type != IEC_TIME)
+		return false;
+	if (m->kind == MEANING_LITERAL)
+		*ns = m->literal.value.i;
+	else if (m->kind == MEANING_VARIABLE && m->constant && m->var->has_init)
+		*ns = m->var->init.i;
+	else
+		return false;
+	return true;
+}
+
+static void check_supervision(struct sfc_check *c, const struct sfc_step *step)
+{
+	const bool times = step->min || step->max;
+	const char *name = sfc_name(c, step->name);
+	int64_t least, most;
+
+	if (is_fixed(c, step->min, &least) && is_fixed(c, step->max, &most) &&
+	    most < least)
+		sfc_report(c, DIAG_SFC_TIMES_CROSS, step->line, step->column_at, name);
+	if (times != (step->alarm != 0))
+		sfc_report(c, DIAG_SFC_NO_ALARM, step->line, step->column_at, name);
+}
+
+/* ---- lines ---- */
+
+static void check_line(struct sfc_check *c, const struct sfc_use *use, uint8_t *called)
+{
+	const bool wanted = qualifier_has_time(use->qualifier);
+
+	if (use->kind != USE_ACTION) {
+		if (use->action >= 0)
+			sfc_report(c, DIAG_SFC_SET_ACTION, use->line, use->column,
+				   sfc_name(c, use->operand));
+		return;
+	}
+	if (wanted != (use->time != 0))
+		sfc_report(c, wanted ? DIAG_SFC_NEEDS_TIME : DIAG_SFC_NO_TIME,
+			   use->line, use->column, qualifier_word(use->qualifier));
+	if (use->action >= 0)
+		called[use->action] = 1;
+}
+
+static void check_control(struct sfc_check *c)
+{
+	const uint32_t *control = c->sfc->control;
+
+	if ((control[CONTROL_SEMI] || control[CONTROL_MANUAL]) && !control[CONTROL_TIP])
+		sfc_report(c, DIAG_SFC_NO_TIP, c->sfc->control_line, 0, "");
+}
+
+static void sfc_check_lines(struct sfc_check *c)
+{
+	const struct sfc *sfc = c->sfc;
+	uint8_t *called = arena_alloc(c->scratch, (size_t)sfc->action_count + 1);
+
+	for (int i = 0; i < sfc->step_count; i++)
+		check_supervision(c, &sfc->step[i]);
+	for (int i = 0; called && i < sfc->use_count; i++)
+		check_line(c, &sfc->use[i], called);
+	for (int i = 0; called && i < sfc->action_count; i++)
+		if (!called[i])
+			sfc_report(c, DIAG_SFC_NOT_CALLED, sfc->action[i].line,
+				   sfc->action[i].column,
+				   sfc_name(c, sfc->action[i].name));
+	check_control(c);
 }
 
 bool check_sfc(struct scope *scope, const struct pou *pou, struct arena *scratch,

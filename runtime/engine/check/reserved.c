@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * reserved - names that a project cannot give. Which names it has given already is
- * check_names.c's.
+ * reserved - names that a project must not declare. check_names.c finds names that are
+ * declared twice.
  */
 #include "engine/check/reserved.h"
 
@@ -57,7 +57,8 @@ bool reserved_generated(const char *name)
 	return !*name;
 }
 
-bool reserved_name(const char *name)
+/* A word of the language, SYS_…, or a generated name, in any case. */
+static bool reserved_name(const char *name)
 {
 	const size_t len = strlen(name);
 	const char *word;

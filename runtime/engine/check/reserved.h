@@ -12,8 +12,6 @@
 const char *reserved_word(int i);
 /** reserved_generated - `_T12`: translation makes names of this form. Scan-safe: yes. */
 bool reserved_generated(const char *name);
-/** reserved_name - a word of the language, SYS_…, or a generated name, in any case. */
-bool reserved_name(const char *name);
 /**
  * reserved_fault - why nothing can have this name, wherever it stands
  *

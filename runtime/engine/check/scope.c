@@ -6,11 +6,12 @@
  * far by (POU, string id). An answer never moves. It reports nothing: who asks
  * knows the place and says it.
  */
-#include "engine/check/scope_mean.h"
+#include "engine/check/scope.h"
 
 #include "engine/base/ascii.h"
 #include "engine/model/shape.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* A declaration; table 0 is the globals, POU number n has n + 1. */
@@ -182,8 +183,14 @@ static bool may_write(struct iec_addr addr)
 	       iec_area_row(addr.area)->access == ACCESS_WRITE;
 }
 
-void scope_mean_whole(const struct scope *scope, enum word word,
-		      struct meaning *out)
+const struct word_row *scope_row(const struct scope *scope, enum word word)
+{
+	return words_row(&scope->project->words, word);
+}
+
+/* @out is something of @word, which has parts. */
+static void scope_mean_whole(const struct scope *scope, enum word word,
+			     struct meaning *out)
 {
 	out->word = (uint16_t)word;
 	out->type = IEC_NONE;
@@ -208,6 +215,15 @@ static void mean_shape(const struct scope *scope, const struct var *var,
 	} else if (var->type == IEC_NONE && var->fb) {
 		scope_mean_whole(scope, var->fb, out);
 	}
+}
+
+bool scope_is_condition(const struct meaning *meaning)
+{
+	const struct pou *pou = meaning->pou;
+
+	return pou && pou->sfc && pou->sfc->block >= 0 &&
+	       meaning->kind == MEANING_VARIABLE &&
+	       meaning->index == sfc_condition(pou->sfc, &pou->vars);
 }
 
 static void mean_variable(const struct scope *scope,
@@ -250,8 +266,9 @@ static bool is_step(const struct scope *scope, uint32_t table, const char *text,
 	return slot && slot->flags & VAR_SFC;
 }
 
-bool scope_mean_name(const struct scope *scope, uint32_t table, const char *text,
-		     size_t len, struct meaning *out)
+/* A declared name alone. Scan-safe: no. False: it is none. */
+static bool scope_mean_name(const struct scope *scope, uint32_t table, const char *text,
+			    size_t len, struct meaning *out)
 {
 	struct names *names = &scope->project->names;
 	uint32_t id = names_intern(names, text, len);
@@ -301,8 +318,9 @@ static bool mean_literal(const char *text, size_t len, struct meaning *out,
 	return false;
 }
 
-bool scope_mean_address(const struct scope *scope, const char *text, size_t len,
-			struct meaning *out, enum diag_id *why)
+/* A direct address. Scan-safe: no. */
+static bool scope_mean_address(const struct scope *scope, const char *text, size_t len,
+			       struct meaning *out, enum diag_id *why)
 {
 	enum iec_addr_result result = iec_addr_parse(text, len, &out->addr);
 
@@ -320,31 +338,100 @@ bool scope_mean_address(const struct scope *scope, const char *text, size_t len,
 	return false;
 }
 
-/* Declared names first, then system names, pins, constants and addresses. */
-static bool mean(struct scope *scope, uint32_t table, uint32_t id,
-		 struct meaning *out, enum diag_id *why)
-{
-	struct names *names = &scope->project->names;
-	const char *text = names_text(names, id);
-	size_t len = names_len(names, id);
-	const struct declared *slot;
+/* On the way along a path. */
+struct path {
+	struct scope *scope;
+	uint32_t table;
+	const char *at, *end;
+	struct meaning m;        /* what was reached                          */
+	int pin;                 /* the first part that was named; -1: none   */
+	struct open_index *open; /* LIMIT_INDICES of those to be found out    */
+	int opens;
+	const struct meaning *index_of;
+	enum diag_id why;
+};
 
-	*why = DIAG_UNKNOWN_NAME;
-	slot = find_declared(scope, table, names_fold(names, id));
-	if (slot) {
-		mean_variable(scope, slot, out);
-		return true;
+static bool refuse(struct path *path, enum diag_id why)
+{
+	path->why = why;
+	return false;
+}
+
+static void skip_blanks(struct path *path)
+{
+	while (path->at < path->end && *path->at == ' ')
+		path->at++;
+}
+
+/* The text up to the next @stops, without the blanks at its ends; the path goes to
+ * the character that stopped it. */
+static size_t take(struct path *path, const char *stops, const char **text)
+{
+	size_t len;
+
+	skip_blanks(path);
+	*text = path->at;
+	while (path->at < path->end && !strchr(stops, *path->at))
+		path->at++;
+	len = (size_t)(path->at - *text);
+	while (len && (*text)[len - 1] == ' ')
+		len--;
+	return len;
+}
+
+static bool has_parts(const struct meaning *m)
+{
+	return m->kind == MEANING_INSTANCE || m->kind == MEANING_STRUCT;
+}
+
+struct project *scope_project(const struct scope *scope)
+{
+	return scope->project;
+}
+
+/* A part that @pin declares. */
+static void mean_pin(const struct scope *scope, const struct word_pin *pin,
+		     struct meaning *m)
+{
+	m->offset += pin->offset;
+	m->type = pin->type;
+	m->array = pin_array(pin);
+	if (pin->elements) {
+		m->kind = MEANING_ARRAY;
+		m->word = pin->type == IEC_NONE ? pin->word : 0;
+		m->capacity = pin->type == IEC_NONE ? 0 : pin->capacity;
+		m->stride = shape_of(&scope_project(scope)->words, pin).unit;
+	} else if (pin->type == IEC_NONE) {
+		scope_mean_whole(scope, pin->word, m);
+	} else {
+		m->kind = MEANING_PIN;
 	}
-	if (scope_has_index(text, len))
-		return scope_mean_path(scope, table, text, len, out, why);
-	if (is_step(scope, table, text, len, why))
-		return false;
-	*why = DIAG_UNKNOWN_NAME;
-	return mean_system(text, len, out) ||
-	       (memchr(text, '.', len) &&
-		scope_mean_path(scope, table, text, len, out, why)) ||
-	       mean_literal(text, len, out, why) ||
-	       scope_mean_address(scope, text, len, out, why);
+}
+
+/* `.Speed`. What is inside a block is not to be named from outside. */
+static bool step_into(struct path *path)
+{
+	struct meaning *m = &path->m;
+	const struct word_row *row;
+	const char *name;
+	size_t len;
+	int index;
+
+	path->at++;
+	len = take(path, ".[", &name);
+	if (!has_parts(m)) /* the name itself has no dots behind it */
+		return refuse(path, m->kind == MEANING_VARIABLE ?
+				    DIAG_UNKNOWN_NAME : DIAG_NO_PIN);
+	row = scope_row(path->scope, m->word);
+	index = word_pin_find(row, name, len);
+	if (index < 0)
+		return refuse(path, DIAG_NO_PIN);
+	if (path->pin < 0)
+		path->pin = index;
+	if (row->kind == WORD_FB)
+		m->writable = row->pin[index].dir == PIN_IN;
+	mean_pin(path->scope, &row->pin[index], m);
+	return true;
 }
 
 enum diag_id meaning_fault(const struct meaning *meaning)
@@ -352,45 +439,6 @@ enum diag_id meaning_fault(const struct meaning *meaning)
 	if (meaning->kind == MEANING_INSTANCE)
 		return DIAG_INSTANCE_AS_VALUE;
 	return meaning->kind == MEANING_ARRAY ? DIAG_ARRAY_AS_VALUE : DIAG_COUNT;
-}
-
-bool meaning_same(const struct meaning *a, const struct meaning *b)
-{
-	if (a->opens || b->opens)
-		return false;
-	if (a->addr.area != AREA_NONE || b->addr.area != AREA_NONE)
-		return a->addr.area == b->addr.area && a->addr.byte == b->addr.byte &&
-		       a->addr.bits == b->addr.bits && a->addr.bit == b->addr.bit;
-	return a->var && a->var == b->var && a->offset == b->offset &&
-	       a->kind == b->kind;
-}
-
-bool scope_is_condition(const struct meaning *meaning)
-{
-	const struct pou *pou = meaning->pou;
-
-	return pou && pou->sfc && pou->sfc->block >= 0 &&
-	       meaning->kind == MEANING_VARIABLE &&
-	       meaning->index == sfc_condition(pou->sfc, &pou->vars);
-}
-
-struct var_array meaning_reach(const struct meaning *meaning)
-{
-	return meaning->opens ? meaning->open[0].array : meaning->array;
-}
-
-bool scope_keep_open(struct scope *scope, struct meaning *m,
-		     const struct open_index *open, int count)
-{
-	struct open_index *kept = arena_alloc(scope->arena,
-					      (size_t)count * sizeof(*kept));
-
-	if (!kept)
-		return false;
-	memcpy(kept, open, (size_t)count * sizeof(*kept));
-	m->open = kept;
-	m->opens = (uint8_t)count;
-	return true;
 }
 
 /* The answer that was given to this question; NULL: none so far. */
@@ -426,6 +474,9 @@ static struct answer *add_answer(struct scope *scope, uint32_t table,
 	return answer;
 }
 
+static bool mean(struct scope *scope, uint32_t table, uint32_t id,
+		 struct meaning *out, enum diag_id *why);
+
 const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 				 uint32_t text, enum diag_id *why)
 {
@@ -446,6 +497,254 @@ const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 	}
 	*why = answer->why;
 	return answer->known ? &answer->meaning : NULL;
+}
+
+/* ---- indices ---- */
+
+/* An element whose number is known, or the first of those that are possible. */
+static void mean_element(struct path *path, uint32_t number)
+{
+	struct meaning *m = &path->m;
+
+	if (m->addr.area != AREA_NONE)
+		m->addr = vars_shift(m->addr, number);
+	if (m->var)
+		m->offset += number * m->stride;
+	m->array.count = 0;
+	m->kind = m->var ? MEANING_ELEMENT : MEANING_ADDRESS;
+	if (m->var && m->type == IEC_NONE)
+		scope_mean_whole(path->scope, m->word, m);
+}
+
+/* A fixed index, whose type may have values above INT64_MAX. */
+static bool step_fixed(struct path *path, enum iec_type type, int64_t index)
+{
+	int64_t number = var_element(path->m.array, index);
+	bool is_signed = type == IEC_NONE ||
+			 iec_type_row(type)->class == CLASS_SIGNED;
+
+	if (number < 0 || (!is_signed && index < 0))
+		return refuse(path, DIAG_INDEX_RANGE);
+	mean_element(path, (uint32_t)number);
+	return true;
+}
+
+static bool step_open(struct path *path, const struct meaning *index)
+{
+	if (path->opens == LIMIT_INDICES)
+		return refuse(path, DIAG_INDEX_PLAIN);
+	if (!path->opens)
+		path->index_of = index;
+	path->open[path->opens++] = (struct open_index){
+		path->m.array, path->m.stride, index,
+	};
+	mean_element(path, 0);
+	return true;
+}
+
+static bool is_index(enum iec_type type)
+{
+	return iec_type_row(type)->class & (ANY_INT | CLASS_BITS);
+}
+
+static const struct pou *pou_of(const struct scope *scope, uint32_t table)
+{
+	return table ? &scope_project(scope)->pou[table - 1] : NULL;
+}
+
+/* Index @text: an integer constant, or an operand that holds one. */
+static bool step_index(struct path *path, const char *text, size_t len)
+{
+	struct names *names = &scope_project(path->scope)->names;
+	const struct meaning *m = scope_find(path->scope,
+		pou_of(path->scope, path->table),
+		names_intern(names, text, len), &path->why);
+	bool literal = m && m->kind == MEANING_LITERAL;
+
+	if (!m)
+		return false;
+	if (literal && m->literal.high)
+		return refuse(path, DIAG_INDEX_RANGE);
+	if (literal && (m->literal.real ||
+			(m->type != IEC_NONE && !is_index(m->type))))
+		return refuse(path, DIAG_INDEX_TYPE);
+	if (literal)
+		return step_fixed(path, m->type, m->literal.value.i);
+	if (meaning_fault(m) != DIAG_COUNT || !is_index(m->type))
+		return refuse(path, DIAG_INDEX_TYPE);
+	if (m->kind == MEANING_VARIABLE && m->constant && m->var->has_init) {
+		if (!path->opens)
+			path->index_of = m;
+		return step_fixed(path, m->type, m->var->init.i);
+	}
+	return step_open(path, m);
+}
+
+/* `[3]`, `[ i ]`. */
+static bool step_element(struct path *path)
+{
+	const char *text;
+	size_t len;
+
+	path->at++;
+	len = take(path, "[]", &text);
+	if (!len || path->at == path->end || *path->at != ']')
+		return refuse(path, DIAG_UNKNOWN_NAME);
+	path->at++;
+	if (path->m.kind != MEANING_ARRAY)
+		return refuse(path, DIAG_NOT_ARRAY);
+	return step_index(path, text, len);
+}
+
+const struct areas *scope_areas(const struct scope *scope)
+{
+	return &scope->areas;
+}
+
+/* ---- paths ---- */
+
+/* An address before [ is an array up to the end of its area. */
+static bool begin_address(struct path *path, const char *text, size_t len)
+{
+	const struct areas *areas = scope_areas(path->scope);
+	struct meaning *m = &path->m;
+	uint32_t first;
+
+	if (!scope_mean_address(path->scope, text, len, m, &path->why))
+		return false;
+	first = m->addr.byte * 8 + m->addr.bit;
+	m->array.count = (areas->bytes[m->addr.area] * 8 - first) /
+			 m->addr.bits;
+	m->stride = iec_type_row(m->type)->size;
+	m->kind = MEANING_ARRAY;
+	return true;
+}
+
+static bool begin(struct path *path)
+{
+	const char *text;
+	const char *start = path->at;
+	size_t len = take(path, ".[", &text);
+
+	if (!len || path->at == path->end)
+		return false;
+	if (scope_mean_name(path->scope, path->table, text, len, &path->m))
+		return true;
+	path->at = start;
+	len = take(path, "[", &text); /* %MX0.0[3] */
+	return path->at < path->end && begin_address(path, text, len);
+}
+
+/* @m is behind @count indices that are found out in the scan.
+ * Scan-safe: no. Fails: false when memory is out. */
+static bool scope_keep_open(struct scope *scope, struct meaning *m,
+			    const struct open_index *open, int count)
+{
+	struct open_index *kept = arena_alloc(scope->arena,
+					      (size_t)count * sizeof(*kept));
+
+	if (!kept)
+		return false;
+	memcpy(kept, open, (size_t)count * sizeof(*kept));
+	m->open = kept;
+	m->opens = (uint8_t)count;
+	return true;
+}
+
+/* What an open index leads to is no instance: that is called, and has a place. */
+static bool finish(struct path *path, struct meaning *out)
+{
+	struct meaning *m = &path->m;
+
+	m->index_of = path->index_of;
+	if (path->opens) {
+		if (m->kind == MEANING_INSTANCE)
+			return refuse(path, DIAG_INDEX_PLAIN);
+		if (!meaning_is_whole(m))
+			m->kind = MEANING_ELEMENT;
+		if (!scope_keep_open(path->scope, m, path->open, path->opens))
+			return refuse(path, DIAG_NO_MEMORY);
+	} else if (path->pin >= 0 && m->kind != MEANING_ARRAY) {
+		m->pin = path->pin;
+		if (m->kind == MEANING_ELEMENT)
+			m->kind = MEANING_PIN;
+	}
+	*out = *m;
+	return true;
+}
+
+/* `Runout.Q`, `Table[i]`, `Line[2].Recipe.Times[i]`, `%MW0[i]`;
+ * there may be blanks around what is in brackets. Scan-safe: no.
+ * Fails: false and @why; then @out is as it was. */
+static bool scope_mean_path(struct scope *scope, uint32_t table, const char *text,
+			    size_t len, struct meaning *out, enum diag_id *why)
+{
+	struct open_index open[LIMIT_INDICES];
+	struct path path = { .scope = scope, .table = table, .at = text,
+			     .end = text + len, .open = open, .pin = -1,
+			     .why = *why };
+	bool good = begin(&path);
+
+	while (good && path.at < path.end) {
+		skip_blanks(&path);
+		if (path.at == path.end)
+			break;
+		good = *path.at == '.' ? step_into(&path) :
+		       *path.at == '[' ? step_element(&path) :
+					 refuse(&path, DIAG_UNKNOWN_NAME);
+	}
+	good = good && finish(&path, out);
+	*why = path.why;
+	return good;
+}
+
+/* Not in a text: 'a[1]'. */
+static bool scope_has_index(const char *text, size_t len)
+{
+	return memchr(text, '[', len) && !memchr(text, '\'', len);
+}
+
+/* Declared names first, then system names, pins, constants and addresses. */
+static bool mean(struct scope *scope, uint32_t table, uint32_t id,
+		 struct meaning *out, enum diag_id *why)
+{
+	struct names *names = &scope->project->names;
+	const char *text = names_text(names, id);
+	size_t len = names_len(names, id);
+	const struct declared *slot;
+
+	*why = DIAG_UNKNOWN_NAME;
+	slot = find_declared(scope, table, names_fold(names, id));
+	if (slot) {
+		mean_variable(scope, slot, out);
+		return true;
+	}
+	if (scope_has_index(text, len))
+		return scope_mean_path(scope, table, text, len, out, why);
+	if (is_step(scope, table, text, len, why))
+		return false;
+	*why = DIAG_UNKNOWN_NAME;
+	return mean_system(text, len, out) ||
+	       (memchr(text, '.', len) &&
+		scope_mean_path(scope, table, text, len, out, why)) ||
+	       mean_literal(text, len, out, why) ||
+	       scope_mean_address(scope, text, len, out, why);
+}
+
+bool meaning_same(const struct meaning *a, const struct meaning *b)
+{
+	if (a->opens || b->opens)
+		return false;
+	if (a->addr.area != AREA_NONE || b->addr.area != AREA_NONE)
+		return a->addr.area == b->addr.area && a->addr.byte == b->addr.byte &&
+		       a->addr.bits == b->addr.bits && a->addr.bit == b->addr.bit;
+	return a->var && a->var == b->var && a->offset == b->offset &&
+	       a->kind == b->kind;
+}
+
+struct var_array meaning_reach(const struct meaning *meaning)
+{
+	return meaning->opens ? meaning->open[0].array : meaning->array;
 }
 
 const struct pou *scope_pou(struct scope *scope, const struct pou *pou, uint32_t text)
@@ -498,22 +797,45 @@ uint32_t scope_span(const struct scope *scope, const struct meaning *meaning)
 	return span;
 }
 
-struct project *scope_project(const struct scope *scope)
-{
-	return scope->project;
-}
-
-const struct areas *scope_areas(const struct scope *scope)
-{
-	return &scope->areas;
-}
-
-const struct word_row *scope_row(const struct scope *scope, enum word word)
-{
-	return words_row(&scope->project->words, word);
-}
-
 const char *scope_text(const struct scope *scope, uint32_t id)
 {
 	return names_text(&scope->project->names, id);
+}
+
+const struct meaning *scope_index(struct scope *scope, const struct pou *pou,
+				  uint32_t text, size_t *at)
+{
+	struct project *project = scope_project(scope);
+	const char *all = scope_text(scope, text);
+	const char *open = strchr(all + *at, '[');
+	struct path path = { .scope = scope };
+	const char *index;
+	enum diag_id why;
+	size_t len;
+
+	if (!open)
+		return NULL;
+	path.at = open + 1;
+	path.end = open + strlen(open);
+	len = take(&path, "]", &index);
+	*at = (size_t)(path.at - all);
+	return scope_find(scope, pou, names_intern(&project->names, index, len),
+			  &why);
+}
+
+uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
+		     const char *tail, size_t len)
+{
+	struct names *names = &scope_project(scope)->names;
+	char text[3 * LIMIT_NAME];
+	enum diag_id why;
+	const struct meaning *m = scope_find(scope, pou, array, &why);
+	int size;
+
+	if (!m || (m->kind != MEANING_ARRAY && m->kind != MEANING_ADDRESS))
+		return 0;
+	size = snprintf(text, sizeof(text), "%s[%ld]%.*s", names_text(names, array),
+			(long)m->array.low, (int)len, tail);
+	return size < 0 || (size_t)size >= sizeof(text) ? 0 :
+	       names_intern(names, text, (size_t)size);
 }

@@ -91,24 +91,6 @@ struct rung *project_take_rung(struct pou *pou, int at)
 	return rung;
 }
 
-bool project_move_rung(struct pou *pou, int from, int to)
-{
-	struct rung *rung;
-
-	if (from < 0 || from >= pou->rung_count || to < 0 ||
-	    to >= pou->rung_count)
-		return false;
-	rung = pou->rung[from];
-	if (from < to)
-		memmove(pou->rung + from, pou->rung + from + 1,
-			(size_t)(to - from) * sizeof(struct rung *));
-	else
-		memmove(pou->rung + to + 1, pou->rung + to,
-			(size_t)(from - to) * sizeof(struct rung *));
-	pou->rung[to] = rung;
-	return true;
-}
-
 bool project_areas(const struct project *project, struct areas *out)
 {
 	const struct config *config = project->config;

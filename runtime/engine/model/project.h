@@ -92,7 +92,6 @@ void project_free(struct project *project);
 bool project_add_rung(struct pou *pou, int at, struct rung *rung);
 /** project_take_rung - removes it; the caller owns what is returned. */
 struct rung *project_take_rung(struct pou *pou, int at);
-bool project_move_rung(struct pou *pou, int from, int to);
 /** project_areas - how large the areas of this project are: what its configuration says,
  * or what is usual.   Fails: false if they are too large together. */
 bool project_areas(const struct project *project, struct areas *out);

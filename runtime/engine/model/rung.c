@@ -160,64 +160,6 @@ struct rung *rung_delete_row(const struct rung *rung, int at)
 	return made;
 }
 
-static bool is_linked(const struct rung *rung, int row, int col)
-{
-	return row > 0 && row < rung->rows && rung_at(rung, row, col)->link;
-}
-
-/* Do links join row @from with row @to at the right end of @col? */
-static bool is_joined(const struct rung *rung, int from, int to, int col)
-{
-	int top = from < to ? from : to, bottom = from < to ? to : from;
-
-	while (bottom > top && is_linked(rung, bottom, col))
-		bottom--;
-	return bottom == top;
-}
-
-/* The links of one column after row @from went to @to. Inside its branch the
- * links stay where they are; else it leaves one branch as a deleted row does and
- * comes into another as an inserted one. */
-static void move_links(struct rung *made, const struct rung *rung, int from,
-		       int to, int col)
-{
-	if (is_joined(rung, from, to, col)) {
-		for (int row = 0; row < rung->rows; row++)
-			rung_cell(made, row, col)->link =
-				rung_at(rung, row, col)->link;
-		return;
-	}
-	if (from + 1 < rung->rows)
-		rung_cell(made, from < to ? from : from + 1, col)->link =
-			is_linked(rung, from, col) &&
-			is_linked(rung, from + 1, col);
-	rung_cell(made, to, col)->link =
-		to > 0 && is_linked(made, to + 1, col);
-}
-
-struct rung *rung_move_row(const struct rung *rung, int from, int to)
-{
-	struct rung *made;
-
-	if (from < 0 || from >= rung->rows || to < 0 || to >= rung->rows)
-		return NULL;
-	made = rung_copy(rung);
-	if (!made || from == to)
-		return made;
-	for (int row = 0; row < made->rows; row++) {
-		int source = row < to ? row : row - 1;
-
-		if (row == to)
-			copy_row(made, row, rung, from);
-		else
-			copy_row(made, row, rung,
-				 source < from ? source : source + 1);
-	}
-	for (int col = 0; col < rung->cols; col++)
-		move_links(made, rung, from, to, col);
-	return made;
-}
-
 static bool is_empty(const struct cell *cell)
 {
 	return cell->word == ELEM_EMPTY && !cell->link && !cell->comment;
@@ -290,28 +232,6 @@ struct rung *rung_delete_column(const struct rung *rung, int at)
 		       (size_t)(made->cols - at) * sizeof(*to));
 		if (at > 0 && from[at].link)
 			to[at - 1].link = 1;
-	}
-	return made;
-}
-
-struct rung *rung_move_column(const struct rung *rung, int from, int to)
-{
-	struct rung *made;
-
-	if (from < 0 || from >= rung->cols || to < 0 || to >= rung->cols)
-		return NULL;
-	made = rung_copy(rung);
-	for (int row = 0; made && row < made->rows; row++) {
-		struct cell *cell = rung_cell(made, row, 0);
-		struct cell moved = cell[from];
-
-		if (from < to)
-			memmove(cell + from, cell + from + 1,
-				(size_t)(to - from) * sizeof(*cell));
-		else
-			memmove(cell + to + 1, cell + to,
-				(size_t)(from - to) * sizeof(*cell));
-		cell[to] = moved;
 	}
 	return made;
 }

@@ -63,10 +63,8 @@ const struct cell *rung_at(const struct rung *rung, int row, int col);
  * moved inside its branch stays in it. A box goes with its pin rows. */
 struct rung *rung_insert_row(const struct rung *rung, int at);
 struct rung *rung_delete_row(const struct rung *rung, int at);
-struct rung *rung_move_row(const struct rung *rung, int from, int to);
 struct rung *rung_insert_column(const struct rung *rung, int at);
 struct rung *rung_delete_column(const struct rung *rung, int at);
-struct rung *rung_move_column(const struct rung *rung, int from, int to);
 /** rung_trim - without the empty rows and columns at its end (at least 1x1). */
 struct rung *rung_trim(const struct rung *rung);
 /** rung_resize - cut or padded with empty cells. */
@@ -76,17 +74,6 @@ struct rung *rung_resize(const struct rung *rung, int rows, int cols);
 bool rung_set_cell(struct rung *rung, int row, int col, struct cell cell);
 /** rung_clear_cell - nothing but its link stays; a box goes with its pin rows. */
 bool rung_clear_cell(struct rung *rung, int row, int col);
-/** rung_move_cell - the element moves (a box with its pin rows), links stay where
- * they are; false if it does not fit there. What was there is overwritten. */
-bool rung_move_cell(struct rung *rung, int row, int col, int to_row, int to_col);
-/** rung_insert_cell - shifts @row right from @col up to the next empty cell or
- * wire, which it swallows; @col becomes a wire. False if there is none, or a box
- * of several rows stands in the way. */
-bool rung_insert_cell(struct rung *rung, int row, int col);
-/** rung_delete_cell - the cell becomes a wire between elements, else empty. */
-bool rung_delete_cell(struct rung *rung, int row, int col);
-/** rung_set_link - false in row 0. */
-bool rung_set_link(struct rung *rung, int row, int col, bool link);
 /** rung_line - line of @row (1-based; 0: the RUNG word) in the file the rung was
  * read from; of the RUNG word when its rows have gaps; 0: not from a file. */
 int rung_line(const struct rung *rung, int row);

@@ -70,9 +70,6 @@ struct draw {
 void draw_blank(const struct draw *draw, int count);
 /** draw_across - a wire; @on: with power. */
 void draw_across(const struct draw *draw, int count, bool on);
-/** draw_head, draw_comments - texts above and below the grid (show_text.c). */
-void draw_head(const struct draw *draw);
-void draw_comments(const struct draw *draw);
 /** draw_clipped - columns a text takes when clipped to @limit. */
 int draw_clipped(const char *text, size_t len, int limit);
 /** draw_text - the text clipped to @limit; returns its columns. */

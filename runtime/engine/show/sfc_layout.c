@@ -2,14 +2,72 @@
  *
  * sfc_layout - a chart put together from its lower end to its upper one.
  *
- * Every point begins a strip, in which stand all points that it dominates. What follows it
- * stands beside each other; those of them that lead to one and the same point are joined
- * below, and the strip of that point is put there, until all that is dominated has its
- * place. So nothing has to be moved, and nothing can cross.
+ * Every point begins a strip that holds all points it dominates. Its successors stand side
+ * by side; successors that lead to the same point are joined below, and the strip of that
+ * point is placed there, until every dominated point has its place. So nothing moves once
+ * it is placed, and no lines cross.
  */
-#include "engine/show/sfc_strip.h"
+#include "engine/show/sfc_layout.h"
 
+#include "engine/base/arena.h"
+#include "engine/model/sfc.h"
+
+#include <limits.h>
 #include <stdlib.h>
+#include <string.h>
+
+/* A line that ends in a lane and has still to be led to @point. */
+struct sfc_exit {
+	int lane, up;      /* rows between its end and the strip's last row    */
+	int point;          /* of the graph: where it leads                     */
+	int from, ref;     /* and whence, by which name                        */
+};
+
+struct sfc_strip {
+	int in;            /* the strip that it is a part of; -1: none         */
+	int lane, row;     /* in it; of one that is in none: in the drawing    */
+	int lanes, rows;
+	int entry;         /* lane of its last entry; -1: nothing leads into it */
+	int hint;          /* lane it wishes to have, from that of the first one
+			      beside it                                       */
+	int *reach;        /* lanes that are taken, by row, the last row first */
+	int reach_count;   /* is rows                                          */
+	struct sfc_exit *exit; /* from left to right                           */
+	int exit_count;
+};
+
+struct sfc_edge {
+	int to;            /* point; -1: none of this name in this chart       */
+	int ref;           /* of sfc.ref; -1: from a root                     */
+	bool far;
+};
+
+struct sfc_graph {
+	const struct sfc *sfc;
+	int steps, transitions, points; /* points: with the roots               */
+	struct sfc_edge *edge;         /* those out of point n: first[n] …     */
+	int *first;                    /* points + 1                           */
+	int *order;                    /* points from top to bottom, with roots */
+	int *ways;                     /* edges to a point that are not far    */
+	int *dominator;                /* -1: a root                          */
+	int *merge;                    /* by dominator: the first point below it
+					  that several ways lead to; -1      */
+	int *next;                     /* merge: the next of them, downwards  */
+};
+
+struct sfc_weave {
+	struct sfc_graph graph;
+	struct sfc_layout *layout;
+	struct arena arena;      /* for what is needed meanwhile               */
+	struct sfc_strip *strip; /* parts before what they are parts of        */
+	int strip_count;
+	int *wire_strip;         /* by wire: the strip it is in                */
+	int wire_strip_count;
+	int *jump_strip;
+	int jump_strip_count;
+	struct sfc_shape *jump_at; /* by jump                                  */
+	int jump_at_count;
+};
 
 #define MOST_BESIDE 4 /* lines that run to one step beside each other          */
 
@@ -66,6 +124,97 @@ static struct sfc_exit exit_of(int from, const struct sfc_edge *edge)
 	return (struct sfc_exit){ 0, 0, edge->to, from, edge->ref };
 }
 
+static bool push_reach(struct sfc_weave *weave, struct sfc_strip *strip, int lanes)
+{
+	int *reach = arena_push(&weave->arena, &strip->reach, &strip->reach_count,
+				sizeof(*reach));
+
+	if (!reach)
+		return false;
+	*reach = lanes;
+	strip->rows++;
+	if (lanes > strip->lanes)
+		strip->lanes = lanes;
+	return true;
+}
+
+/* All of these return -1 or false when memory is out. Strips are known by number. */
+
+/** strip_new - of @rows rows, of which lane 0 is taken. */
+static int strip_new(struct sfc_weave *weave, int rows)
+{
+	struct sfc_strip *strip = arena_push(&weave->arena, &weave->strip,
+					     &weave->strip_count, sizeof(*strip));
+
+	if (!strip)
+		return -1;
+	*strip = (struct sfc_strip){ .in = -1 };
+	for (int i = 0; i < rows; i++)
+		if (!push_reach(weave, strip, 1))
+			return -1;
+	return weave->strip_count - 1;
+}
+
+/* A line in it; lanes and rows of @wire are its own. */
+static bool strip_wire(struct sfc_weave *weave, int strip, struct sfc_wire wire)
+{
+	struct sfc_layout *layout = weave->layout;
+	struct sfc_wire *to;
+	int *in;
+
+	if (wire.lane == wire.end_lane && wire.row == wire.end_row)
+		return true;
+	to = arena_push(&layout->arena, &layout->wire, &layout->wire_count, sizeof(*to));
+	in = arena_push(&weave->arena, &weave->wire_strip, &weave->wire_strip_count,
+			sizeof(*in));
+	if (!to || !in)
+		return false;
+	*to = wire;
+	*in = strip;
+	return true;
+}
+
+/* A line in lane 0 leads on from its last row. */
+static bool strip_exit(struct sfc_weave *weave, int strip, struct sfc_exit exit)
+{
+	struct sfc_strip *s = &weave->strip[strip];
+	struct sfc_exit *to = arena_push(&weave->arena, &s->exit, &s->exit_count,
+					 sizeof(*to));
+
+	if (to)
+		*to = exit;
+	return to != NULL;
+}
+
+/* An arrow at (lane, row), for @exit. */
+static bool strip_jump(struct sfc_weave *weave, int strip, int lane, int row,
+		       const struct sfc_exit *exit)
+{
+	struct sfc_layout *layout = weave->layout;
+	const int steps = weave->graph.steps;
+	struct sfc_jump *jump = arena_push(&layout->arena, &layout->jump,
+					   &layout->jump_count, sizeof(*jump));
+	int *in = arena_push(&weave->arena, &weave->jump_strip, &weave->jump_strip_count,
+			     sizeof(*in));
+	struct sfc_shape *at = arena_push(&weave->arena, &weave->jump_at,
+					  &weave->jump_at_count, sizeof(*at));
+
+	if (!jump || !in || !at)
+		return false;
+	*jump = (struct sfc_jump){ exit->ref, exit->from, false, -1 };
+	jump->to_transition = exit->from < steps;
+	if (jump->to_transition)
+		jump->target = exit->point - steps;
+	else
+		jump->from -= steps;
+	if (!jump->to_transition && exit->ref >= 0 &&
+	    layout->sfc->ref[exit->ref].step < steps)
+		jump->target = layout->sfc->ref[exit->ref].step;
+	*in = strip;
+	*at = (struct sfc_shape){ SFC_JUMP, layout->jump_count - 1, lane, row, row };
+	return true;
+}
+
 /* The strip of one edge: a jump, a line that only leads on, or what it leads to. */
 static int branch(struct sewing *sewing, int point, const struct sfc_edge *edge)
 {
@@ -85,6 +234,99 @@ static int branch(struct sewing *sewing, int point, const struct sfc_edge *edge)
 	return strip;
 }
 
+#define MOST_HINT 64
+
+/* ---- beside each other ---- */
+
+/* The first lane that is free for @part at the right of what is there. Both begin in the
+ * same row, so that nothing below the last row of @part is in its way, unless lines lead
+ * on from it. */
+static int free_lane(const struct sfc_strip *strip, const struct sfc_strip *part)
+{
+	int rows = part->rows < strip->rows ? part->rows + 1 : strip->rows, lane = 0;
+
+	if (part->exit_count)
+		return strip->lanes;
+	for (int i = 0; i < rows; i++)
+		if (strip->reach[strip->rows - 1 - i] > lane)
+			lane = strip->reach[strip->rows - 1 - i];
+	return lane;
+}
+
+static void put_reach(struct sfc_strip *strip, struct sfc_strip *part, int lane)
+{
+	for (int i = 0; i < part->rows; i++)
+		part->reach[i] += lane;
+	if (part->rows <= strip->rows) {
+		memcpy(strip->reach + (strip->rows - part->rows), part->reach,
+		       (size_t)part->rows * sizeof(int));
+		return;
+	}
+	for (int i = 0; i < strip->exit_count; i++)
+		strip->exit[i].up += part->rows - strip->rows;
+	strip->reach = part->reach;
+	strip->reach_count = strip->rows = part->rows;
+}
+
+static bool put_beside(struct sfc_weave *weave, int number, int other)
+{
+	struct sfc_strip *strip = &weave->strip[number], *part = &weave->strip[other];
+	const int hint = part->hint - (strip->hint > 0 ? strip->hint : 0);
+	int lane = free_lane(strip, part);
+
+	if (hint > lane && hint < MOST_HINT)
+		lane = hint;
+	part->in = number;
+	part->lane = lane;
+	part->row = 0;
+	if (part->entry >= 0)
+		strip->entry = lane + part->entry;
+	if (lane + part->lanes > strip->lanes)
+		strip->lanes = lane + part->lanes;
+	const int rows = part->rows;
+	put_reach(strip, part, lane);
+	for (int i = 0; i < part->exit_count; i++) {
+		struct sfc_exit exit = part->exit[i];
+
+		exit.lane += lane;
+		exit.up += strip->rows - rows;
+		if (!strip_exit(weave, number, exit))
+			return false;
+	}
+	return true;
+}
+
+/* A strip around another one, which takes over all that it has. */
+static int around(struct sfc_weave *weave, int part)
+{
+	int number = strip_new(weave, 0);
+
+	if (number < 0)
+		return -1;
+	struct sfc_strip *strip = &weave->strip[number], *inner = &weave->strip[part];
+	*strip = *inner;
+	inner->in = number;
+	inner->lane = inner->row = 0;
+	return number;
+}
+
+/* Some strips beside each other, their first rows in line.
+ * Returns the new strip. */
+static int strip_beside(struct sfc_weave *weave, const int *part, int count)
+{
+	int number;
+
+	if (count == 0)
+		return strip_new(weave, 0);
+	if (count == 1)
+		return part[0];
+	number = around(weave, part[0]);
+	for (int i = 1; number >= 0 && i < count; i++)
+		if (!put_beside(weave, number, part[i]))
+			return -1;
+	return number;
+}
+
 /* Puts strips first … last of the list together to one. */
 static bool together(struct sewing *sewing, int first, int last)
 {
@@ -97,6 +339,177 @@ static bool together(struct sewing *sewing, int first, int last)
 		sewing->list[first + i - last] = sewing->list[i];
 	sewing->list_count -= last - first;
 	return true;
+}
+
+/* Has it an exit to @point? */
+static bool strip_leads(const struct sfc_weave *weave, int strip, int point)
+{
+	const struct sfc_strip *s = &weave->strip[strip];
+
+	for (int i = 0; i < s->exit_count; i++)
+		if (s->exit[i].point == point)
+			return true;
+	return false;
+}
+
+/* The exits that lead to @point, from the first to the last of them. */
+struct span { int first, last, count; };
+
+static struct span find_span(const struct sfc_strip *strip, int point)
+{
+	struct span span = { -1, -1, 0 };
+
+	for (int i = 0; i < strip->exit_count; i++) {
+		if (strip->exit[i].point != point)
+			continue;
+		span.first = span.first < 0 ? i : span.first;
+		span.last = i;
+		span.count++;
+	}
+	return span;
+}
+
+/* ---- below each other ---- */
+
+/* One more row at the lower end. */
+static bool grow_below(struct sfc_weave *weave, struct sfc_strip *strip, int reach)
+{
+	if (!push_reach(weave, strip, reach))
+		return false;
+	memmove(strip->reach + 1, strip->reach, (size_t)(strip->rows - 1) *
+		sizeof(int));
+	strip->reach[0] = reach;
+	for (int i = 0; i < strip->exit_count; i++)
+		strip->exit[i].up++;
+	return true;
+}
+
+/* Is another exit in the way of what comes below the ones that are joined? */
+static bool is_shut(const struct sfc_strip *strip, struct span span, int i, int lanes)
+{
+	return i > span.first &&
+	       (i < span.last || strip->exit[i].lane < strip->exit[span.first].lane + lanes);
+}
+
+static bool cut(struct sfc_weave *weave, int number, int point, struct span span,
+		int lanes)
+{
+	struct sfc_strip *strip = &weave->strip[number];
+	bool low = false;
+
+	for (int i = 0; i < strip->exit_count; i++)
+		low |= strip->exit[i].point != point && is_shut(strip, span, i, lanes) &&
+		       strip->exit[i].up == 0;
+	if (low && !grow_below(weave, strip, 0))
+		return false;
+	for (int i = 0; i < strip->exit_count; i++) {
+		struct sfc_exit *exit = &strip->exit[i];
+		int row = strip->rows - exit->up;
+		int *reach = &strip->reach[exit->up - 1];
+
+		if (exit->point == point || !is_shut(strip, span, i, lanes))
+			continue;
+		if (*reach <= exit->lane)
+			*reach = exit->lane + 1;
+		if (!strip_jump(weave, number, exit->lane, row, exit) ||
+		    !strip_wire(weave, number, (struct sfc_wire){ false, exit->lane,
+				row - 1, exit->lane, row }))
+			return false;
+		exit->point = -1;
+	}
+	return true;
+}
+
+/* Lines from the exits down to the row below all, where they meet. */
+static bool join_exits(struct sfc_weave *weave, int number, int point, struct span span,
+		       bool twin)
+{
+	struct sfc_strip *strip = &weave->strip[number];
+	const int first = strip->exit[span.first].lane;
+	const int last = strip->exit[span.last].lane;
+
+	if (span.count > 1) {
+		if (!grow_below(weave, strip, last + 1) ||
+		    !strip_wire(weave, number, (struct sfc_wire){ twin, first,
+				strip->rows - 1, last, strip->rows - 1 }))
+			return false;
+	}
+	for (int i = span.first; i <= span.last; i++) {
+		const struct sfc_exit *exit = &strip->exit[i];
+
+		if (exit->point == point &&
+		    !strip_wire(weave, number, (struct sfc_wire){ false, exit->lane,
+				strip->rows - 1 - exit->up, exit->lane,
+				strip->rows - 1 }))
+			return false;
+	}
+	return true;
+}
+
+/* The exits that are left, with those of the part below between them. */
+static bool exits_below(struct sfc_weave *weave, int number, int point, struct span span,
+			const struct sfc_strip *part, int lane)
+{
+	struct sfc_strip *strip = &weave->strip[number];
+	const struct sfc_exit *old = strip->exit;
+	const int count = strip->exit_count;
+
+	strip->exit = NULL;
+	strip->exit_count = 0;
+	for (int i = 0; i <= count; i++) {
+		for (int k = 0; i == span.first && k < part->exit_count; k++) {
+			struct sfc_exit exit = part->exit[k];
+
+			exit.lane += lane;
+			if (!strip_exit(weave, number, exit))
+				return false;
+		}
+		if (i == count || old[i].point == point || old[i].point < 0)
+			continue;
+		struct sfc_exit exit = old[i];
+		exit.up += part->rows;
+		if (!strip_exit(weave, number, exit))
+			return false;
+	}
+	return true;
+}
+
+/* The rows of @part, then those of the strip above it. */
+static bool stack(struct sfc_weave *weave, struct sfc_strip *strip,
+		  struct sfc_strip *part, int lane)
+{
+	const int *old = strip->reach;
+	const int rows = strip->rows;
+
+	for (int i = 0; lane && i < part->rows; i++)
+		part->reach[i] += lane;
+	strip->reach = part->reach;
+	strip->reach_count = strip->rows = part->rows;
+	for (int i = 0; i < rows; i++)
+		if (!push_reach(weave, strip, old[i]))
+			return false;
+	if (lane + part->lanes > strip->lanes)
+		strip->lanes = lane + part->lanes;
+	return true;
+}
+
+/* Leads the exits to @point together, and to @part below them.
+ * @twin: by a double line. Exits that it would shut in become jumps. */
+static bool strip_join(struct sfc_weave *weave, int number, int point, int other, bool twin)
+{
+	struct sfc_strip *strip = &weave->strip[number], *part = &weave->strip[other];
+	const struct span span = find_span(strip, point);
+	const int lane = strip->exit[span.first].lane;
+
+	if (!cut(weave, number, point, span, part->lanes) ||
+	    !join_exits(weave, number, point, span, twin) ||
+	    !strip_wire(weave, other, (struct sfc_wire){ false, 0, -1, 0, 0 }))
+		return false;
+	part->in = number;
+	part->lane = lane;
+	part->row = strip->rows;
+	return exits_below(weave, number, point, span, part, lane) &&
+	       stack(weave, strip, part, lane);
 }
 
 /* A point to which several of the list lead, below them. */
@@ -137,6 +550,21 @@ static int count_exits(const struct sewing *sewing, int point)
 			count += strip->exit[k].point == point;
 	}
 	return count;
+}
+
+/* Its only exit, in lane 0, becomes an arrow. */
+static bool strip_cut(struct sfc_weave *weave, int number)
+{
+	struct sfc_strip *strip = &weave->strip[number];
+	const int row = strip->rows - strip->exit->up;
+
+	if ((strip->exit->up == 0 && !grow_below(weave, strip, 1)) ||
+	    !strip_jump(weave, number, strip->exit->lane, row, strip->exit) ||
+	    !strip_wire(weave, number, (struct sfc_wire){ false, strip->exit->lane,
+			row - 1, strip->exit->lane, row }))
+		return false;
+	strip->exit_count = 0;
+	return true;
 }
 
 /* Where many lines run down beside each other to one and the same step, a branch that is
@@ -200,6 +628,32 @@ static int follow(struct sewing *sewing, int point)
 		if (!merge(sewing, m))
 			return -1;
 	return strip_beside(sewing->weave, sewing->list, sewing->list_count);
+}
+
+/* @rows of one lane above a strip, or (strip -1) alone.
+ * @line: with a line to all its entries; @twin: a double one. Returns the new strip. */
+static int strip_under(struct sfc_weave *weave, int part, int rows, bool line, bool twin)
+{
+	int number = part < 0 ? strip_new(weave, 0) : around(weave, part);
+
+	if (number < 0)
+		return -1;
+	struct sfc_strip *strip = &weave->strip[number];
+	const int entry = strip->entry;
+	if (part >= 0)
+		weave->strip[part].row = rows + line;
+	if (line && (!push_reach(weave, strip, entry + 1) ||
+		     !strip_wire(weave, number, (struct sfc_wire){ twin, 0, rows, entry,
+				 rows }) ||
+		     !strip_wire(weave, number, (struct sfc_wire){ false, 0, rows - 1, 0,
+				 rows })))
+		return -1;
+	for (int i = 0; i < rows; i++)
+		if (!push_reach(weave, strip, 1))
+			return -1;
+	strip->entry = 0;
+	strip->hint = -1;
+	return number;
 }
 
 static int sew(struct sewing *sewing, int point)
@@ -415,6 +869,355 @@ static bool find_turns(struct sfc_layout *layout, const struct sfc_graph *graph)
 	return layout->turn != NULL;
 }
 
+/* What is needed while it is made. */
+struct making {
+	struct sfc_graph *graph;
+	const struct sfc *sfc;
+	struct arena *arena;
+	int *group;        /* of a point: its root                             */
+	int *stamp;        /* by step: the transition that named it last      */
+	int *turn;         /* transitions by priority                         */
+	int *start;        /* points that nothing leads to, as found           */
+	int start_count;
+	int *phase;        /* of a point: 0 not seen; later ones are greater   */
+	int *at;           /* next edge of a point to be walked; -1: done      */
+	int *stack;
+	int done;          /* points finished                                  */
+};
+
+static int root_of(const struct sfc_graph *graph, int macro)
+{
+	const int main = graph->steps + graph->transitions;
+
+	return macro >= 0 && macro < graph->steps ? main + 1 + macro : main;
+}
+
+/* ---- edges ---- */
+
+struct turn { int priority, index; };
+
+static int compare_turns(const void *a, const void *b)
+{
+	const struct turn *x = a, *y = b;
+
+	if (x->priority != y->priority)
+		return x->priority < y->priority ? -1 : 1;
+	return x->index < y->index ? -1 : x->index > y->index;
+}
+
+static bool sort_transitions(struct making *making)
+{
+	const int count = making->graph->transitions;
+	struct turn *turn = arena_alloc(making->arena, ((size_t)count + 1) *
+					sizeof(*turn));
+
+	if (!turn)
+		return false;
+	for (int i = 0; i < count; i++) {
+		int priority = making->sfc->transition[i].priority;
+
+		turn[i] = (struct turn){ priority > 0 ? priority : INT_MAX, i };
+	}
+	qsort(turn, (size_t)count, sizeof(*turn), compare_turns);
+	for (int i = 0; i < count; i++)
+		making->turn[i] = turn[i].index;
+	return true;
+}
+
+static bool in_sfc(const struct making *making, int step, int transition)
+{
+	return step >= 0 && step < making->graph->steps &&
+	       making->group[step] == making->group[making->graph->steps + transition];
+}
+
+static void put_edge(struct making *making, int point, int to, int ref, bool count)
+{
+	struct sfc_graph *graph = making->graph;
+
+	if (count)
+		graph->first[point + 1]++;
+	else
+		graph->edge[graph->first[point + 1]++] =
+			(struct sfc_edge){ to, ref, to < 0 };
+}
+
+/* A name that stands twice in one list counts once. */
+static bool is_again(const struct making *making, int step, int mark)
+{
+	if (step < 0 || step >= making->graph->steps)
+		return false;
+	if (making->stamp[step] == mark)
+		return true;
+	making->stamp[step] = mark;
+	return false;
+}
+
+static void put_edges(struct making *making, bool count)
+{
+	const struct sfc *sfc = making->sfc;
+	const int steps = making->graph->steps;
+
+	for (int i = 0; i <= steps; i++)
+		making->stamp[i] = -1;
+	for (int k = 0; k < making->graph->transitions; k++) {
+		const int t = making->turn[k];
+		const struct sfc_transition *transition = &sfc->transition[t];
+
+		for (int i = 0; i < transition->from_count; i++) {
+			int ref = transition->first_from + i, step = sfc->ref[ref].step;
+
+			if (in_sfc(making, step, t) &&
+			    !is_again(making, step, 2 * t))
+				put_edge(making, step, steps + t, ref, count);
+		}
+		for (int i = 0; i < transition->to_count; i++) {
+			int ref = transition->first_to + i, step = sfc->ref[ref].step;
+
+			if (!is_again(making, step, 2 * t + 1))
+				put_edge(making, steps + t,
+					 in_sfc(making, step, t) ? step : -1, ref,
+					 count);
+		}
+	}
+}
+
+/* Counts go to first[n + 1]; summed up they are where a point's edges begin, and writing
+ * an edge moves the one of its point on to where the next begins. */
+static void sum_edges(int *first, int points)
+{
+	int sum = 0;
+
+	for (int n = 1; n <= points; n++) {
+		int count = first[n];
+
+		first[n] = sum;
+		sum += count;
+	}
+}
+
+/* ---- loops ---- */
+
+static void walk_from(struct making *making, int point, int phase)
+{
+	struct sfc_graph *graph = making->graph;
+	int depth = 0;
+
+	making->start[making->start_count++] = point;
+	making->stack[depth++] = point;
+	making->phase[point] = phase;
+	making->at[point] = graph->first[point];
+	while (depth > 0) {
+		const int from = making->stack[depth - 1];
+
+		if (making->at[from] == graph->first[from + 1]) {
+			making->at[from] = -1;
+			graph->order[making->done++] = from;
+			depth--;
+			continue;
+		}
+		struct sfc_edge *edge = &graph->edge[making->at[from]++];
+		if (edge->far)
+			continue;
+		if (!making->phase[edge->to]) {
+			making->phase[edge->to] = phase;
+			making->at[edge->to] = graph->first[edge->to];
+			making->stack[depth++] = edge->to;
+		} else if (making->at[edge->to] >= 0 || making->phase[edge->to] < phase) {
+			edge->far = true; /* up, or into what stands without it */
+		}
+	}
+}
+
+/* Initial steps first; then what nothing leads to; then loops that nothing leads to. */
+static void walk(struct making *making)
+{
+	const struct sfc_graph *graph = making->graph;
+	const int inner = graph->steps + graph->transitions;
+	int phase = 1;
+
+	for (int n = 0; n < graph->steps; n++)
+		if (making->sfc->step[n].kind == STEP_INITIAL && !making->phase[n])
+			walk_from(making, n, phase);
+	for (int e = 0; e < graph->first[inner]; e++)
+		if (graph->edge[e].to >= 0)
+			graph->ways[graph->edge[e].to]++;
+	for (int n = 0; n < inner; n++)
+		if (!graph->ways[n] && !making->phase[n])
+			walk_from(making, n, ++phase);
+	for (int n = 0; n < inner; n++)
+		if (!making->phase[n])
+			walk_from(making, n, ++phase);
+}
+
+/* Roots lead to where the walks began. */
+static void put_roots(struct making *making)
+{
+	struct sfc_graph *graph = making->graph;
+	const int inner = graph->steps + graph->transitions;
+	int *first = graph->first, sum = first[inner];
+
+	for (int n = inner; n < graph->points; n++)
+		first[n + 1] = 0;
+	for (int i = 0; i < making->start_count; i++)
+		first[making->group[making->start[i]] + 1]++;
+	for (int n = inner; n < graph->points; n++) {
+		int count = first[n + 1];
+
+		first[n + 1] = sum;
+		sum += count;
+	}
+	for (int i = 0; i < making->start_count; i++) {
+		const int start = making->start[i], root = making->group[start];
+
+		graph->edge[first[root + 1]++] = (struct sfc_edge){ start, -1, false };
+	}
+	for (int n = graph->points - 1; n >= inner; n--)
+		graph->order[making->done++] = n;
+	for (int a = 0, b = graph->points - 1; a < b; a++, b--) {
+		int point = graph->order[a];
+
+		graph->order[a] = graph->order[b];
+		graph->order[b] = point;
+	}
+}
+
+/* ---- dominators ---- */
+
+/* Beside its parent, each point knows one far above it, so that two points meet in few
+ * steps however deep they are. */
+struct above { int depth, jump; };
+
+static void hang(struct sfc_graph *graph, struct above *above, int point)
+{
+	const int parent = graph->dominator[point];
+
+	if (parent < 0) {
+		above[point] = (struct above){ 0, point };
+		return;
+	}
+	const int far = above[parent].jump;
+	const bool same = above[parent].depth - above[far].depth ==
+			  above[far].depth - above[above[far].jump].depth;
+	above[point] = (struct above){ above[parent].depth + 1,
+				      same ? above[far].jump : parent };
+}
+
+static int meet(const struct sfc_graph *graph, const struct above *above, int a, int b)
+{
+	while (a != b) {
+		if (above[a].depth < above[b].depth) {
+			int other = a;
+
+			a = b;
+			b = other;
+		}
+		if (above[a].depth > above[b].depth)
+			a = above[above[a].jump].depth >= above[b].depth ?
+			    above[a].jump : graph->dominator[a];
+		else if (above[a].jump != above[b].jump)
+			a = above[a].jump, b = above[b].jump;
+		else
+			a = graph->dominator[a], b = graph->dominator[b];
+	}
+	return a;
+}
+
+static bool dominate(struct making *making)
+{
+	struct sfc_graph *graph = making->graph;
+	struct above *above = arena_alloc(making->arena, (size_t)graph->points *
+					  sizeof(*above));
+
+	if (!above)
+		return false;
+	for (int n = 0; n < graph->points; n++) {
+		graph->dominator[n] = graph->merge[n] = graph->next[n] = -1;
+		graph->ways[n] = 0;
+	}
+	for (int i = 0; i < graph->points; i++) {
+		const int point = graph->order[i];
+
+		hang(graph, above, point);
+		for (int e = graph->first[point]; e < graph->first[point + 1]; e++) {
+			const int to = graph->edge[e].to;
+
+			if (graph->edge[e].far)
+				continue;
+			graph->dominator[to] = graph->ways[to]++ == 0 ? point :
+				meet(graph, above, graph->dominator[to], point);
+		}
+	}
+	for (int i = graph->points - 1; i >= 0; i--) {
+		const int point = graph->order[i], over = graph->dominator[point];
+
+		if (graph->ways[point] < 2)
+			continue;
+		graph->next[point] = graph->merge[over];
+		graph->merge[over] = point;
+	}
+	return true;
+}
+
+static int *integers(struct arena *arena, int count)
+{
+	return arena_alloc(arena, ((size_t)count + 1) * sizeof(int));
+}
+
+/* ---- */
+
+static bool make_room(struct making *making)
+{
+	struct sfc_graph *graph = making->graph;
+	struct arena *arena = making->arena;
+	const int points = graph->points;
+
+	graph->first = integers(arena, points + 1);
+	graph->order = integers(arena, points);
+	graph->ways = integers(arena, points);
+	graph->dominator = integers(arena, points);
+	graph->merge = integers(arena, points);
+	graph->next = integers(arena, points);
+	making->group = integers(arena, points);
+	making->stamp = integers(arena, points);
+	making->turn = integers(arena, points);
+	making->start = integers(arena, points);
+	making->phase = integers(arena, points);
+	making->at = integers(arena, points);
+	making->stack = integers(arena, points);
+	return !arena->failed;
+}
+
+/* Of any chart, right or wrong
+ * @arena: for everything in it
+ *
+ * Scan-safe: no.   Fails: false: no memory.
+ */
+static bool sfc_graph_make(struct sfc_graph *graph, const struct sfc *sfc, struct arena *arena)
+{
+	struct making making = { .graph = graph, .sfc = sfc, .arena = arena };
+
+	*graph = (struct sfc_graph){ .sfc = sfc, .steps = sfc->step_count,
+				     .transitions = sfc->transition_count };
+	graph->points = 2 * graph->steps + graph->transitions + 1;
+	if (!make_room(&making) || !sort_transitions(&making))
+		return false;
+	for (int i = 0; i < graph->steps; i++)
+		making.group[i] = root_of(graph, sfc->step[i].macro);
+	for (int i = 0; i < graph->transitions; i++)
+		making.group[graph->steps + i] =
+			root_of(graph, sfc->transition[i].macro);
+	put_edges(&making, true);
+	sum_edges(graph->first, graph->points);
+	graph->edge = arena_alloc(arena, ((size_t)sfc->ref_count + (size_t)graph->points) *
+				  sizeof(*graph->edge));
+	if (!graph->edge)
+		return false;
+	put_edges(&making, false);
+	walk(&making);
+	put_roots(&making);
+	return dominate(&making);
+}
+
 static bool make_layout(struct sfc_layout *layout, struct sfc_weave *weave)
 {
 	struct sewing sewing = { .weave = weave };
@@ -436,6 +1239,13 @@ static bool make_layout(struct sfc_layout *layout, struct sfc_weave *weave)
 	       find_apart(layout, &weave->graph) && find_turns(layout, &weave->graph);
 }
 
+void sfc_layout_free(struct sfc_layout *layout)
+{
+	if (layout)
+		arena_free(&layout->arena);
+	free(layout);
+}
+
 struct sfc_layout *sfc_layout_new(const struct sfc *sfc)
 {
 	struct sfc_layout *layout = calloc(1, sizeof(*layout));
@@ -453,13 +1263,6 @@ struct sfc_layout *sfc_layout_new(const struct sfc *sfc)
 		return layout;
 	sfc_layout_free(layout);
 	return NULL;
-}
-
-void sfc_layout_free(struct sfc_layout *layout)
-{
-	if (layout)
-		arena_free(&layout->arena);
-	free(layout);
 }
 
 const struct sfc_shape *sfc_layout_step(const struct sfc_layout *layout, int step)
@@ -490,12 +1293,4 @@ int sfc_layout_at(const struct sfc_layout *layout, int lane, int row)
 		return -1;
 	const struct sfc_shape *shape = &layout->shape[layout->sorted[low - 1]];
 	return shape->lane == lane && shape->bottom >= row ? layout->sorted[low - 1] : -1;
-}
-
-int sfc_layout_use(const struct sfc_layout *layout, int step, int row)
-{
-	const struct sfc_step *s = &layout->sfc->step[step];
-	const int line = row - layout->shape[step].top - 1;
-
-	return line >= 0 && line < s->use_count ? s->first_use + line : -1;
 }

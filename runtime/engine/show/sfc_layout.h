@@ -85,8 +85,6 @@ const struct sfc_shape *sfc_layout_transition(const struct sfc_layout *layout,
 					      int transition);
 /** sfc_layout_at - number of the shape that covers a lane in a row; -1: none does. */
 int sfc_layout_at(const struct sfc_layout *layout, int lane, int row);
-/** sfc_layout_use - the line of step's box in @row: of sfc.use; -1: none. */
-int sfc_layout_use(const struct sfc_layout *layout, int step, int row);
 /** sfc_step_rows - rows inside the box of a step: its name and times, what it does. */
 int sfc_step_rows(const struct sfc *sfc, int step);
 

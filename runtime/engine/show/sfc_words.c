@@ -31,8 +31,9 @@ static const struct cell *expression_of(const struct pou *pou,
 	       rung->cell[0].word == ELEM_COMPARE ? rung->cell : NULL;
 }
 
-void sfc_words_condition(const struct project *project, const struct pou *pou,
-			 int transition, const struct sink *sink)
+/* `Start`, `rung 3`, `list`; `?` where there is none. */
+static void sfc_words_condition(const struct project *project, const struct pou *pou,
+				int transition, const struct sink *sink)
 {
 	const struct sfc_body *body = &pou->sfc->transition[transition].condition;
 	const struct cell *cell = expression_of(pou, body);

@@ -22,9 +22,6 @@ void sfc_words_times(const struct project *project, const struct sfc *sfc, int s
 /** sfc_words_qualifier - `N`, `L T#1s`, `SET`. */
 void sfc_words_qualifier(const struct project *project, const struct sfc *sfc, int use,
 			 const struct sink *sink);
-/** sfc_words_condition - `Start`, `rung 3`, `list`; `?` where there is none. */
-void sfc_words_condition(const struct project *project, const struct pou *pou,
-			 int transition, const struct sink *sink);
 /** sfc_words_ways - `Idle, Wait -> Fill`: what a transition leads from and to. */
 void sfc_words_ways(const struct project *project, const struct sfc *sfc, int transition,
 		    const struct sink *sink);

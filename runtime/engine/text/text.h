@@ -53,9 +53,6 @@ char *text_outline(const struct project *project, size_t *len,
 /** text_write_vars - VAR … END_VAR, every block of @table. Scan-safe: no. */
 void text_write_vars(const struct project *project, const struct var_table *table,
 		     const struct sink *sink);
-/** text_write_pou - one POU, from its heading to its end. Scan-safe: no. */
-void text_write_pou(const struct project *project, const struct pou *pou,
-		    const struct sink *sink);
 /** text_write_sfc - of a chart what stands behind its declarations. Scan-safe: no. */
 void text_write_sfc(const struct project *project, const struct pou *pou,
 		    const struct sink *sink);

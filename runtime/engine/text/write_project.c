@@ -4,11 +4,10 @@
  *
  * What was read from included files is left out: it stands in those.
  */
-#include "engine/text/writer.h"
-
 #include "engine/base/lex.h"
 #include "engine/base/literal.h"
 #include "engine/text/text.h"
+#include "engine/text/writer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -79,7 +78,8 @@ void write_string(const struct sink *sink, const char *text, size_t len)
 	sink_text(sink, "\"");
 }
 
-int write_width(const struct project *project, uint32_t id)
+/* Columns the string of @id takes. */
+static int write_width(const struct project *project, uint32_t id)
 {
 	return utf8_width(project_text(project, id), names_len(&project->names, id));
 }
@@ -169,8 +169,9 @@ static void write_marked_var(const struct sink *sink, const struct project *proj
 	sink_mark(sink, TEXT_VAR, number, false);
 }
 
-void write_block(const struct sink *sink, const struct project *project,
-		 const struct var_table *table, int index)
+/* VAR … END_VAR number @index of a table. */
+static void write_block(const struct sink *sink, const struct project *project,
+			const struct var_table *table, int index)
 {
 	const struct var_block *block = &table->block[index];
 	const struct var *var = table->var ? table->var + block->first : NULL;
@@ -219,8 +220,9 @@ static void write_body(const struct sink *sink, const struct project *project,
 	sink_mark(sink, TEXT_BODY, number, false);
 }
 
-void text_write_pou(const struct project *project, const struct pou *pou,
-		    const struct sink *sink)
+/* One POU, from its heading to its end. Scan-safe: no. */
+static void text_write_pou(const struct project *project, const struct pou *pou,
+			   const struct sink *sink)
 {
 	const bool sfc = pou->language == LANGUAGE_SFC;
 
@@ -293,6 +295,98 @@ static void write_types(const struct sink *sink, const struct project *project,
 	sink_text(sink, "END_TYPE\n");
 }
 
+struct config_writer {
+	const struct sink *sink;
+	const struct project *project;
+};
+
+static void put_id(const struct config_writer *w, const char *before, uint32_t id)
+{
+	sink_text(w->sink, before);
+	write_id(w->sink, w->project, id);
+}
+
+static void put_comment(const struct config_writer *w, uint32_t comment)
+{
+	if (comment)
+		put_id(w, " ", comment);
+	sink_text(w->sink, "\n");
+}
+
+static void put_task(const struct config_writer *w,
+		     const struct config_entry *entry)
+{
+	put_id(w, "TASK ", entry->name);
+	if (entry->interval)
+		put_id(w, " (INTERVAL := ", entry->interval);
+	else
+		put_id(w, " (SINGLE := ", entry->single);
+	sink_printf(w->sink, ", PRIORITY := %u", (unsigned)entry->priority);
+	if (entry->watchdog)
+		put_id(w, ", WATCHDOG := ", entry->watchdog);
+	sink_text(w->sink, ");");
+}
+
+static void put_program(const struct config_writer *w,
+			const struct config_entry *entry)
+{
+	put_id(w, "PROGRAM ", entry->name);
+	if (entry->task)
+		put_id(w, " WITH ", entry->task);
+	put_id(w, " : ", entry->pou);
+	sink_text(w->sink, ";");
+}
+
+static void put_entry(const struct config_writer *w,
+		     const struct config_entry *entry)
+{
+	if (entry->kind == CONFIG_VARS) {
+		write_block(w->sink, w->project, &w->project->globals,
+			    entry->block);
+		return;
+	}
+	sink_text(w->sink, entry->inside ? "    " : "  ");
+	if (entry->kind == CONFIG_TASK)
+		put_task(w, entry);
+	else if (entry->kind == CONFIG_PROGRAM)
+		put_program(w, entry);
+	else
+		sink_printf(w->sink, "AREA %s %u;",
+			    iec_area_row(entry->area)->letters,
+			    (unsigned)entry->bytes);
+	put_comment(w, entry->comment);
+}
+
+/* The lines outside the RESOURCE keep their side of it. */
+static void write_config(const struct sink *sink, const struct project *project)
+{
+	const struct config_writer w = { sink, project };
+	const struct config *config = project->config;
+	bool open = false, done = !config->has_resource;
+
+	put_id(&w, "CONFIGURATION ", config->name);
+	put_comment(&w, config->comment);
+	for (int i = 0; i <= config->count; i++) {
+		const struct config_entry *entry = &config->entry[i];
+		bool inside = i < config->count && entry->inside;
+
+		if (!done && !open && (inside || i == config->count)) {
+			put_id(&w, "  RESOURCE ", config->resource);
+			if (config->on)
+				put_id(&w, " ON ", config->on);
+			put_comment(&w, config->resource_comment);
+			open = true;
+		}
+		if (open && !done && !inside) {
+			sink_text(sink, "  END_RESOURCE\n");
+			done = true;
+		}
+		if (i < config->count)
+			put_entry(&w, entry);
+	}
+	sink_text(sink, "END_CONFIGURATION\n");
+}
+
 static void write_part(const struct sink *sink, const struct project *project,
 		       const struct part *part)
 {
@@ -326,7 +420,7 @@ static void write_part(const struct sink *sink, const struct project *project,
 
 /* Without a title there is no PROJECT line to stand above: the head then goes to
  * the first part, where reading finds it. */
-void write_project(const struct sink *sink, const struct project *project)
+static void write_project(const struct sink *sink, const struct project *project)
 {
 	uint32_t head = project->head;
 
@@ -372,4 +466,75 @@ char *text_write(const struct project *project, size_t *len)
 	}
 	*len = memory.len;
 	return memory.text;
+}
+
+#define OUTLINE_DEPTH (8 + LIMIT_MACROS) /* parts inside one another; those that are
+					    deeper are not told               */
+
+struct outline {
+	struct sink_memory memory;
+	struct sink into;
+	void (*take)(void *context, const struct text_span *span);
+	void *context;
+	struct text_span open[OUTLINE_DEPTH];
+	int depth;
+};
+
+static void outline_write(void *context, const char *text, size_t len)
+{
+	struct outline *outline = context;
+
+	sink_write(&outline->into, text, len);
+}
+
+static void outline_mark(void *context, int kind, int number, bool begins)
+{
+	struct outline *outline = context;
+	const int at = outline->depth - !begins;
+	const struct text_span *outer;
+	struct text_span *span;
+
+	if (at >= OUTLINE_DEPTH) {
+		outline->depth += begins ? 1 : -1;
+		return;
+	}
+	span = &outline->open[at];
+	if (begins) {
+		outer = at ? span - 1 : NULL;
+		*span = (struct text_span){ (enum text_part)kind, number,
+			outer ? outer->pou : -1, outer ? outer->structure : -1,
+			outline->memory.len, 0 };
+		if (kind == TEXT_POU)
+			span->pou = number;
+		if (kind == TEXT_STRUCT)
+			span->structure = number;
+		outline->depth++;
+		return;
+	}
+	outline->depth--;
+	span->len = outline->memory.len - span->at;
+	if (outline->take)
+		outline->take(outline->context, span);
+}
+
+char *text_outline(const struct project *project, size_t *len,
+		   void (*take)(void *context, const struct text_span *span),
+		   void *context)
+{
+	struct outline outline = { .take = take, .context = context };
+	const struct sink sink = { outline_write, &outline, outline_mark };
+
+	sink_memory_init(&outline.memory);
+	outline.into = sink_to_memory(&outline.memory);
+	write_project(&sink, project);
+	*len = outline.memory.len;
+	if (outline.memory.failed)
+		sink_memory_free(&outline.memory);
+	return outline.memory.text;
+}
+
+void text_write_config(const struct project *project, const struct sink *sink)
+{
+	if (project->config)
+		write_config(sink, project);
 }

@@ -20,14 +20,7 @@ void write_above(const struct sink *sink, const struct project *project,
 		 uint32_t comment);
 /** write_string - "…" with its escapes. */
 void write_string(const struct sink *sink, const char *text, size_t len);
-/** write_width - columns the string of @id takes. */
-int write_width(const struct project *project, uint32_t id);
 
-/** write_block - VAR … END_VAR number @index of a table. */
-void write_block(const struct sink *sink, const struct project *project,
-		 const struct var_table *table, int index);
-/** write_config - the project's CONFIGURATION. */
-void write_config(const struct sink *sink, const struct project *project);
 /** write_rung - comments, RUNG line and rows. */
 void write_rung(const struct sink *sink, const struct project *project,
 		const struct rung *rung);
@@ -37,6 +30,4 @@ void write_cell(const struct sink *sink, const struct project *project,
 /** write_sfc - a chart: declarations and items, up to the comments before its end. */
 void write_sfc(const struct sink *sink, const struct project *project,
 	       const struct pou *pou);
-/** write_project - all of it; marks its parts, as enum text_part. */
-void write_project(const struct sink *sink, const struct project *project);
 #endif

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * assemble_unit - walks an instruction list with the current result in hand.
+ * assemble_unit - turns each instruction list into instructions, and all of them into an
+ * image. It walks a list with its current result in hand.
  *
  * Bits stay truth tables as long as nothing they read is written; before that
  * they are stored (list_protect). Types were checked before; nothing is judged here.
  */
+#include "engine/translate/assembler.h"
 #include "engine/translate/lists.h"
 
 #define ALWAYS CODE_TRUE_AT(list->as->areas)
@@ -537,7 +539,8 @@ static void assemble_line(struct list *list)
 	}
 }
 
-bool assemble_unit(struct assembler *as, int unit, bool watch)
+/** assemble_unit - the instructions of one list, with END behind them. */
+static bool assemble_unit(struct assembler *as, int unit, bool watch)
 {
 	const struct unit *u = &as->translation->unit[unit];
 	struct list *list = arena_alloc(as->arena, sizeof(*list));
@@ -567,4 +570,46 @@ bool assemble_unit(struct assembler *as, int unit, bool watch)
 	if (!as->failed)
 		list_patch(list, end);
 	return !as->failed;
+}
+
+static bool assemble_section(struct assembler *as, bool watch)
+{
+	as->text = watch ? &as->watch : &as->code;
+	for (int i = 0; i < as->translation->unit_count; i++) {
+		struct code_program *entry = &as->entry[i];
+		uint32_t first = (uint32_t)as->text->count;
+
+		if (!assemble_unit(as, i, watch))
+			return false;
+		if (watch) {
+			entry->watch = first;
+			entry->watch_words = (uint32_t)as->text->count - first;
+		} else {
+			entry->text = first;
+			entry->text_words = (uint32_t)as->text->count - first;
+		}
+	}
+	return true;
+}
+
+void *assemble(struct translation *translation, bool watch, size_t *len)
+{
+	struct assembler *as = arena_alloc(translation->arena, sizeof(*as));
+
+	if (!as)
+		return NULL;
+	as->translation = translation;
+	as->arena = translation->arena;
+	as->areas = scope_areas(translation->scope);
+	as->entry = arena_alloc(as->arena, ((size_t)translation->unit_count + 1) *
+				sizeof(*as->entry));
+	if (!as->entry || !layout_make(as) || !assemble_section(as, false))
+		return NULL;
+	layout_core(as);
+	if (watch) {
+		layout_power(as);
+		if (!assemble_section(as, true))
+			return NULL;
+	}
+	return pack_image(as, len);
 }

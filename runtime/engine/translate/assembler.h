@@ -3,7 +3,7 @@
  * assembler - what the parts of the assembler share.
  *
  * Private to translate/. layout decides where everything lies, fuse keeps bits as
- * truth tables until they must be stored, assemble walks the lists, pack_image
+ * truth tables until they must be stored, assemble_unit.c walks the lists, pack_image
  * writes the result.
  */
 #ifndef TRANSLATE_ASSEMBLER_H
@@ -99,9 +99,6 @@ bool layout_make(struct assembler *as);
 /** layout_place - a place of @size bytes behind all others, as part of a run. */
 uint32_t layout_place(struct assembler *as, struct code_run want, uint32_t size,
 		      uint32_t align);
-/** layout_string - a place for a text of @capacity bytes. */
-uint32_t layout_string(struct assembler *as, enum code_run_kind kind,
-		       uint32_t capacity);
 /** layout_init_text - a text's first bytes at an offset. */
 void layout_init_text(struct assembler *as, uint32_t offset, uint32_t capacity,
 		      struct literal literal);
@@ -201,10 +198,6 @@ void emit_op(struct assembler *as, enum vm_op op, uint32_t n);
 /** emit_block - @size bytes from @from to @to, unless they are the same. */
 void emit_block(struct assembler *as, uint32_t to, uint32_t from, uint32_t size);
 uint32_t scratch_new(struct assembler *as);
-
-/* ---- assemble_unit.c ---- */
-/** assemble_unit - the instructions of one list, with END behind them. */
-bool assemble_unit(struct assembler *as, int unit, bool watch);
 
 /* ---- pack_tasks.c ---- */
 /** pack_tasks - tasks and what they call; a task's name is its string id. */

@@ -2,8 +2,8 @@
  *
  * ladder_unit - what the parts of the LD translation share: one rung in work.
  *
- * Private to translate/. ld_to_il walks rungs, ld_power turns nets and elements
- * into IL, ld_box does boxes and ld_expr expressions.
+ * Private to translate/. ld_to_il.c walks rungs and turns nets and elements into IL,
+ * ld_box.c does boxes and ld_expr.c expressions.
  */
 #ifndef TRANSLATE_LADDER_UNIT_H
 #define TRANSLATE_LADDER_UNIT_H
@@ -66,7 +66,7 @@ bool ld_begin(struct ld *ld);
 /** ld_rungs - adds the instructions of @count rungs from @first on; @skip: as ld_to_il(). */
 bool ld_rungs(struct ld *ld, int first, int count, const uint8_t *skip);
 
-/* ---- ld_power.c: instructions, nets, leaves ---- */
+/* ---- instructions, nets, leaves ---- */
 /** ld_emit - one operator; places it at the present cell. */
 void ld_emit(struct ld *ld, enum op op, uint8_t modifiers, uint32_t operand);
 void ld_emit_line(struct ld *ld, struct il_line line);
@@ -89,39 +89,22 @@ void ld_freeze(struct ld *ld, uint32_t operand);
 /** ld_freeze_globals - the same before a body runs that may write any global or
  * address. */
 void ld_freeze_globals(struct ld *ld);
-/** ld_read - an element has been evaluated: ld_freeze will find it. */
-void ld_read(struct ld *ld, int element);
 /** ld_meaning - of an operand; NULL: none. */
 const struct meaning *ld_meaning(struct ld *ld, uint32_t operand);
 /** ld_is_indexed - is it an element whose index is found out in the scan? */
 bool ld_is_indexed(struct ld *ld, uint32_t operand);
-/** ld_settle - while watching: power of an element or net in a variable. */
-void ld_settle_element(struct ld *ld, int element);
-void ld_settle_net(struct ld *ld, int net);
 
-/* ---- ld_element.c: elements whose index is found out in the scan ---- */
+/* ---- elements whose index is found out in the scan ---- */
 /** ld_fetch - such an element as it is now, in a new temporary
  * @en:  operand that enables it
  * @eno: gets a temporary: is there such an element? */
 uint32_t ld_fetch(struct ld *ld, uint32_t element, uint32_t en, uint32_t *eno);
-/** ld_contact - a contact, normally open or closed: power only if there is one. */
-void ld_contact(struct ld *ld, int element, uint32_t operand);
-/** ld_edge - an edge contact; without the element its memory stays. */
-void ld_edge(struct ld *ld, int element, uint32_t operand);
-
-/* ---- ld_memory.c ---- */
-/** ld_memory - the memory of an element that sees edges; 0: no memory. */
-uint32_t ld_memory(struct ld *ld, int element);
 
 /* ---- ld_box.c ---- */
 /** ld_row - the row of a word, be it the project's own. */
 const struct word_row *ld_row(const struct ld *ld, enum word word);
 /** ld_box - a function or function block at its place in phase 1. */
 void ld_box(struct ld *ld, int element);
-
-/* ---- ld_loop.c ---- */
-void ld_loop_begin(struct ld *ld, int element);
-void ld_loop_end(struct ld *ld);
 
 /* ---- ld_expr.c ---- */
 /** ld_compare - [ … ]: sets the element's leaf. */

@@ -6,7 +6,8 @@
 
 #include <string.h>
 
-uint32_t layout_string(struct assembler *as, enum code_run_kind kind,
+/* A place for a text of @capacity bytes. */
+static uint32_t layout_string(struct assembler *as, enum code_run_kind kind,
 			   uint32_t capacity)
 {
 	struct code_run run = { .kind = (uint8_t)kind, .type = IEC_STRING,

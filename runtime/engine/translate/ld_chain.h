@@ -29,10 +29,6 @@ struct chain {
 uint32_t chain_intern(struct chain *c, const char *text, size_t len);
 /** chain_infer - type of a part; IEC_NONE: constants take that of their neighbours. */
 enum iec_type chain_infer(struct chain *c, int index);
-/** chain_compute - a part; @hint: the type of what has none, @target: where an operation
- * may store, or 0. */
-struct value chain_compute(struct chain *c, int index, enum iec_type hint,
-			   uint32_t target);
 /** chain_side - an input beside one of @type: a bare constant takes that type by itself,
  * an operation on constants must be told. */
 struct value chain_side(struct chain *c, int index, enum iec_type type);

@@ -5,9 +5,8 @@
  * Every operation that can fail gets EN from the ENO of the one before, the first
  * from the power of the cell. So an expression is what the same boxes would be.
  */
-#include "engine/translate/ld_chain.h"
-
 #include "engine/check/check_il.h"
+#include "engine/translate/ld_chain.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -88,16 +87,7 @@ static enum op operator_of(const struct expr_node *node)
 	       node->op == EXPR_OR ? OP_OR : OP_XOR;
 }
 
-/* AND OR XOR NOT: BOOL, unless one side is bits that go with the other; IEC_NONE of
- * constants alone. */
-static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
-{
-	enum iec_type type = chain_infer(c, node->left);
-
-	if (node->op != EXPR_NOT)
-		type = types_join(type, chain_infer(c, node->right));
-	return type == IEC_NONE || is_bits(type) ? type : IEC_BOOL;
-}
+static enum iec_type infer_logic(struct chain *c, const struct expr_node *node);
 
 /* Type of a part; constants without a type take that of their neighbours. */
 enum iec_type chain_infer(struct chain *c, int index)
@@ -134,6 +124,17 @@ enum iec_type chain_infer(struct chain *c, int index)
 				 IEC_NONE);
 	left = types_join(left, right);
 	return left == IEC_TYPE_COUNT ? right : left;
+}
+
+/* AND OR XOR NOT: BOOL, unless one side is bits that go with the other; IEC_NONE of
+ * constants alone. */
+static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
+{
+	enum iec_type type = chain_infer(c, node->left);
+
+	if (node->op != EXPR_NOT)
+		type = types_join(type, chain_infer(c, node->right));
+	return type == IEC_NONE || is_bits(type) ? type : IEC_BOOL;
 }
 
 /* Is this a constant that @type has? If not, the plain one is told about. */
@@ -218,30 +219,8 @@ static struct value settle(struct chain *c, struct value value)
 	return operate(c, FN_MOVE, value, none, value.type, 0);
 }
 
-/* `Table[index].Member`, after the index has been computed; an element itself is
- * none. */
-static uint32_t compute_element(struct chain *c, const struct expr_node *node)
-{
-	const struct names *names = &c->ld->translation->project->names;
-	uint32_t base = node->right < 0 ? chain_intern(c, node->text, node->len) :
-			compute_element(c, &c->expr->node[node->right]);
-	const struct expr_tail tail = node->tail;
-	struct value index = chain_compute(c, node->left, IEC_NONE, 0);
-	struct value none = { 0, IEC_NONE };
-	char text[3 * LIMIT_NAME + 12 * LIMIT_INDICES];
-	int size;
-
-	if (strchr(names_text(names, index.operand), '['))
-		index = operate(c, FN_MOVE, index, none, index.type, 0);
-	size = snprintf(text, sizeof(text), "%s[%s]%.*s", names_text(names, base),
-			names_text(names, index.operand), (int)tail.len,
-			tail.len ? tail.text : "");
-	if (!index.operand || !base || size < 0 || (size_t)size >= sizeof(text)) {
-		c->ld->failed = true;
-		return 0;
-	}
-	return chain_intern(c, text, drop_blanks(text, (size_t)size));
-}
+static struct value chain_compute(struct chain *c, int index, enum iec_type hint,
+				  uint32_t target);
 
 static struct value compute_neg(struct chain *c, const struct expr_node *node,
 				enum iec_type hint, uint32_t target)
@@ -268,27 +247,6 @@ struct value chain_side(struct chain *c, int index, enum iec_type type)
 	if (node->op == EXPR_NEG)
 		node = &c->expr->node[node->left];
 	return chain_compute(c, index, node->op == EXPR_LITERAL ? IEC_NONE : type, 0);
-}
-
-static struct value compute_compare(struct chain *c,
-				    const struct expr_node *node)
-{
-	enum iec_type type = types_join(chain_infer(c, node->left),
-					chain_infer(c, node->right));
-	struct value left, right, out = { 0, IEC_BOOL };
-	struct il_line line = { .kind = IL_FN, .word = (uint16_t)node->fn };
-
-	if (type == IEC_TYPE_COUNT)
-		type = IEC_NONE;
-	left = chain_side(c, node->left, type);
-	right = chain_side(c, node->right, type);
-	left = settle(c, left);
-	right = settle(c, right);
-	ld_emit(c->ld, OP_LD, 0, left.operand);
-	line.operand = right.operand;
-	ld_emit_line(c->ld, line);
-	out.operand = ld_store_new(c->ld);
-	return out;
 }
 
 /* On bits: the functions of the operators' names. */
@@ -329,6 +287,27 @@ static struct value compute_logic(struct chain *c, const struct expr_node *node,
 	return out;
 }
 
+static struct value compute_compare(struct chain *c,
+				    const struct expr_node *node)
+{
+	enum iec_type type = types_join(chain_infer(c, node->left),
+					chain_infer(c, node->right));
+	struct value left, right, out = { 0, IEC_BOOL };
+	struct il_line line = { .kind = IL_FN, .word = (uint16_t)node->fn };
+
+	if (type == IEC_TYPE_COUNT)
+		type = IEC_NONE;
+	left = chain_side(c, node->left, type);
+	right = chain_side(c, node->right, type);
+	left = settle(c, left);
+	right = settle(c, right);
+	ld_emit(c->ld, OP_LD, 0, left.operand);
+	line.operand = right.operand;
+	ld_emit_line(c->ld, line);
+	out.operand = ld_store_new(c->ld);
+	return out;
+}
+
 /* Times and dates: each side is of its own type. */
 static struct value compute_overload(struct chain *c, const struct expr_node *node,
 				     enum word word, enum iec_type type,
@@ -365,6 +344,8 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 	return operate(c, node->fn, left, right, type, target);
 }
 
+static uint32_t compute_element(struct chain *c, const struct expr_node *node);
+
 struct value chain_place(struct chain *c, int index)
 {
 	const struct expr_node *node = &c->expr->node[index];
@@ -392,8 +373,8 @@ static struct value keep_value(struct chain *c, struct value value)
 }
 
 /* Depth is bounded by LIMIT_EXPR_DEPTH, which the parser keeps. */
-struct value chain_compute(struct chain *c, int index, enum iec_type hint,
-			   uint32_t target)
+static struct value chain_compute(struct chain *c, int index, enum iec_type hint,
+				  uint32_t target)
 {
 	const struct expr_node *node = &c->expr->node[index];
 	struct value value = { 0, IEC_NONE };
@@ -419,6 +400,31 @@ struct value chain_compute(struct chain *c, int index, enum iec_type hint,
 		return compute_logic(c, node, hint, target);
 	}
 	return value;
+}
+
+/* `Table[index].Member`, after the index has been computed; an element itself is
+ * none. */
+static uint32_t compute_element(struct chain *c, const struct expr_node *node)
+{
+	const struct names *names = &c->ld->translation->project->names;
+	uint32_t base = node->right < 0 ? chain_intern(c, node->text, node->len) :
+			compute_element(c, &c->expr->node[node->right]);
+	const struct expr_tail tail = node->tail;
+	struct value index = chain_compute(c, node->left, IEC_NONE, 0);
+	struct value none = { 0, IEC_NONE };
+	char text[3 * LIMIT_NAME + 12 * LIMIT_INDICES];
+	int size;
+
+	if (strchr(names_text(names, index.operand), '['))
+		index = operate(c, FN_MOVE, index, none, index.type, 0);
+	size = snprintf(text, sizeof(text), "%s[%s]%.*s", names_text(names, base),
+			names_text(names, index.operand), (int)tail.len,
+			tail.len ? tail.text : "");
+	if (!index.operand || !base || size < 0 || (size_t)size >= sizeof(text)) {
+		c->ld->failed = true;
+		return 0;
+	}
+	return chain_intern(c, text, drop_blanks(text, (size_t)size));
 }
 
 static bool parse(struct ld *ld, int element)

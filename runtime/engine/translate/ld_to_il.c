@@ -46,6 +46,159 @@ static uint32_t operand_of(const struct ld *ld, int element)
 	return rung_at(ld->rung, at->row, at->col)->operand;
 }
 
+static void add(struct ld *ld, bool output, uint32_t pin, uint32_t operand)
+{
+	if (!pin || !operand)
+		ld->failed = true;
+	ld_arg(ld, output, pin, operand);
+}
+
+const struct meaning *ld_meaning(struct ld *ld, uint32_t operand)
+{
+	enum diag_id why;
+
+	return scope_find(ld->translation->scope, ld->unit->pou, operand, &why);
+}
+
+uint32_t ld_fetch(struct ld *ld, uint32_t element, uint32_t en, uint32_t *eno)
+{
+	const struct meaning *m = ld_meaning(ld, element);
+	uint32_t value = m && meaning_is_whole(m) ? temps_whole(ld->temps, m) :
+			 temps_number(ld->temps, m ? m->type : IEC_BOOL);
+
+	*eno = temps_bool(ld->temps);
+	ld_call(ld, FN_MOVE);
+	add(ld, false, ld->en_id, en);
+	add(ld, false, ld->in_id, element);
+	add(ld, true, ld->eno_id, *eno);
+	add(ld, true, ld->out_id, value);
+	return value;
+}
+
+#define OPERAND_MOST 80 /* bytes of an operand that tell it from others       */
+
+static uint32_t mix(uint32_t hash, const char *text)
+{
+	for (; *text; text++)
+		hash = (hash ^ (uint8_t)*text) * 16777619u;
+	return (hash ^ 255u) * 16777619u;
+}
+
+/* A number for what is drawn, whatever stands around the rung. */
+static uint32_t hash_rung(const struct ld *ld)
+{
+	const struct project *project = ld->translation->project;
+	const struct rung *rung = ld->rung;
+	uint32_t hash = 2166136261u ^ rung->cols;
+
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		const struct cell *cell = &rung->cell[i];
+
+		hash = mix(hash, words_row(&project->words,
+					   (enum word)cell->word)->word);
+		hash = mix(hash, cell->link ? "|" : "");
+		hash = mix(hash, names_text(&project->names, cell->operand));
+		hash = mix(hash, names_text(&project->names, cell->args));
+	}
+	return hash;
+}
+
+/* "P Start @1a2b3c4d": a name with blanks, which no variable has. */
+static uint32_t ld_memory(struct ld *ld, int element)
+{
+	const struct network_element *at = &ld->network.element[element];
+	const struct cell *cell = rung_at(ld->rung, at->row, at->col);
+	const struct names *names = &ld->translation->project->names;
+	char text[LIMIT_NAME + OPERAND_MOST + 16];
+	int len = snprintf(text, sizeof(text), "%.*s %.*s @%08x", LIMIT_NAME,
+			   word_row((enum word)cell->word)->word, OPERAND_MOST,
+			   names_text(names, cell->operand), (unsigned)hash_rung(ld));
+
+	return temps_edge(ld->temps, arena_copy(ld->translation->arena, text,
+						(size_t)len));
+}
+
+void ld_emit_line(struct ld *ld, struct il_line line)
+{
+	line.rung = ld->number;
+	line.row = ld->row;
+	line.col = ld->col;
+	line.line = (uint32_t)rung_line(ld->rung, ld->row);
+	if (!il_add(ld->il, line))
+		ld->failed = true;
+}
+
+/* Was it stored just now? Then it is the result still. */
+static bool is_result(const struct ld *ld, uint32_t operand)
+{
+	const struct il_line *last = ld->il->count ?
+		&ld->il->line[ld->il->count - 1] : NULL;
+
+	return last && last->kind == IL_OP && last->op == OP_ST &&
+	       !last->modifiers && last->operand == operand &&
+	       last->rung == ld->number;
+}
+
+void ld_emit(struct ld *ld, enum op op, uint8_t modifiers, uint32_t operand)
+{
+	struct il_line line = {
+		.kind = IL_OP, .op = (uint8_t)op, .modifiers = modifiers,
+		.operand = operand,
+	};
+
+	if (op == OP_LD && !modifiers && !ld->open && is_result(ld, operand))
+		return;
+	if (ld->open) {
+		struct il_line open = {
+			.kind = IL_OP, .op = ld->open_op,
+			.modifiers = MOD_PAREN,
+		};
+
+		ld->open = false;
+		if (op == OP_LD && !modifiers) {
+			open.operand = operand; /* OR( Motor */
+			ld_emit_line(ld, open);
+			return;
+		}
+		ld_emit_line(ld, open);
+	}
+	ld_emit_line(ld, line);
+}
+
+uint32_t ld_store_new(struct ld *ld)
+{
+	uint32_t name = temps_bool(ld->temps);
+
+	if (!name)
+		ld->failed = true;
+	ld_emit(ld, OP_ST, 0, name);
+	return name;
+}
+
+/* An edge contact; without the element its memory stays. */
+static void ld_edge(struct ld *ld, int element, uint32_t operand)
+{
+	bool rising = row_of(ld, element)->edge == EDGE_RISING;
+	uint32_t memory = ld_memory(ld, element), eno, value;
+
+	value = ld_fetch(ld, operand, ld->true_id, &eno);
+	ld_emit(ld, OP_LD, 0, eno);
+	ld_emit(ld, OP_AND, 0, rising ? value : memory);
+	ld_emit(ld, OP_AND, MOD_N, rising ? memory : value);
+	ld->element[element].leaf = ld_store_new(ld);
+	ld_call(ld, FN_MOVE);
+	add(ld, false, ld->en_id, eno);
+	add(ld, false, ld->in_id, value);
+	add(ld, true, ld->out_id, memory);
+}
+
+bool ld_is_indexed(struct ld *ld, uint32_t operand)
+{
+	const struct meaning *m = operand ? ld_meaning(ld, operand) : NULL;
+
+	return m && meaning_is_indexed(m);
+}
+
 /* ---- phase 1 ---- */
 
 /* An edge has a memory of its own, set at every evaluation. */
@@ -68,6 +221,245 @@ static void read_edge(struct ld *ld, int element)
 	ld_emit(ld, OP_ST, 0, memory);
 	if (!memory)
 		ld->failed = true;
+}
+
+void ld_place(struct ld *ld, int row, int col)
+{
+	ld->row = (uint16_t)(row + 1);
+	ld->col = (uint16_t)(col + 1);
+}
+
+static uint8_t negation(const struct element_state *state)
+{
+	return state->negate ? MOD_N : 0;
+}
+
+/* Is the element's power one operand, perhaps negated? */
+static bool is_single(const struct ld *ld, int element)
+{
+	const struct element_state *state = &ld->element[element];
+
+	return state->leaf &&
+	       (state->powered || ld->network.element[element].in == NET_RAIL);
+}
+
+static void load_element(struct ld *ld, int element)
+{
+	const struct element_state *state = &ld->element[element];
+	const struct network_element *at = &ld->network.element[element];
+
+	ld_place(ld, at->row, at->col);
+	if (is_single(ld, element)) {
+		ld_emit(ld, OP_LD, negation(state), state->leaf);
+		return;
+	}
+	ld_load(ld, at->in);
+	ld_place(ld, at->row, at->col);
+	if (state->leaf)
+		ld_emit(ld, OP_AND, negation(state), state->leaf);
+	else
+		ld_emit(ld, OP_NOT, 0, 0);
+}
+
+static void or_element(struct ld *ld, int element)
+{
+	const struct element_state *state = &ld->element[element];
+	struct il_line close = { .kind = IL_CLOSE };
+
+	if (is_single(ld, element)) {
+		const struct network_element *at = &ld->network.element[element];
+
+		ld_place(ld, at->row, at->col);
+		ld_emit(ld, OP_OR, negation(state), state->leaf);
+		return;
+	}
+	ld->open = true;
+	ld->open_op = OP_OR;
+	load_element(ld, element);
+	ld_emit_line(ld, close);
+}
+
+void ld_load(struct ld *ld, int net)
+{
+	const struct network *n = &ld->network;
+	int first = n->first_feeder[net], end = n->first_feeder[net + 1];
+
+	if (net == NET_RAIL || ld->net[net].temp || first == end) {
+		ld_emit(ld, OP_LD, 0, net != NET_RAIL && ld->net[net].temp ?
+			ld->net[net].temp : ld->true_id);
+		return;
+	}
+	load_element(ld, n->feeder[first]);
+	for (int i = first + 1; i < end; i++)
+		or_element(ld, n->feeder[i]);
+}
+
+/* The one operand that a net's power is, or 0. */
+static uint32_t single_operand(const struct ld *ld, int net)
+{
+	const struct network *n = &ld->network;
+	int first = n->first_feeder[net];
+
+	if (net == NET_RAIL)
+		return ld->true_id;
+	if (ld->net[net].temp)
+		return ld->net[net].temp;
+	if (n->first_feeder[net + 1] != first + 1)
+		return 0;
+	if (is_single(ld, n->feeder[first]) &&
+	    !ld->element[n->feeder[first]].negate)
+		return ld->element[n->feeder[first]].leaf;
+	return 0;
+}
+
+void ld_prepare(struct ld *ld, int net, int readers)
+{
+	const struct network *n = &ld->network;
+
+	if (net == NET_RAIL || ld->net[net].prepared)
+		return;
+	ld->net[net].prepared = true;
+	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++)
+		if (!ld->element[n->feeder[i]].powered)
+			ld_prepare(ld, n->element[n->feeder[i]].in, 1);
+	if (n->reader_count[net] > readers && !single_operand(ld, net)) {
+		ld_load(ld, net);
+		ld->net[net].temp = ld_store_new(ld);
+	}
+}
+
+uint32_t ld_operand(struct ld *ld, int net)
+{
+	uint32_t operand;
+
+	ld_prepare(ld, net, 1);
+	operand = single_operand(ld, net);
+	if (operand)
+		return operand;
+	ld_load(ld, net);
+	return ld->net[net].temp = ld_store_new(ld);
+}
+
+/* A contact, normally open or closed: power only if there is one. */
+static void ld_contact(struct ld *ld, int element, uint32_t operand)
+{
+	const struct network_element *at = &ld->network.element[element];
+	struct element_state *state = &ld->element[element];
+	uint32_t en = ld_operand(ld, at->in), eno, value;
+
+	ld_place(ld, at->row, at->col);
+	value = ld_fetch(ld, operand, en, &eno);
+	ld_emit(ld, OP_LD, 0, eno);
+	ld_emit(ld, OP_AND, row_of(ld, element)->negate ? MOD_N : 0, value);
+	state->leaf = ld_store_new(ld);
+	state->powered = true;
+}
+
+/* ---- a POU ---- */
+
+static uint32_t fold(struct ld *ld, uint32_t name)
+{
+	return names_fold(&ld->translation->project->names, name);
+}
+
+static struct names *names_of(struct ld *ld)
+{
+	return &ld->translation->project->names;
+}
+
+static uint32_t intern(struct ld *ld, const char *text, size_t len)
+{
+	uint32_t id = names_intern(names_of(ld), text, len);
+
+	if (!id)
+		ld->failed = true;
+	return id;
+}
+
+static uint32_t label(struct ld *ld, char letter, uint32_t number)
+{
+	char text[24];
+	int len = snprintf(text, sizeof(text), "_%c%u", letter, (unsigned)number);
+
+	return intern(ld, text, (size_t)len);
+}
+
+static void head(struct ld *ld)
+{
+	const struct names *names = &ld->translation->project->names;
+	struct il_line line = { .kind = IL_COMMENT };
+	const char *label = names_text(names, ld->rung->label);
+	char text[LIMIT_NAME + 32];
+	int len;
+	uint32_t id;
+
+	if (!ld->watch) {
+		len = snprintf(text, sizeof(text), "(* rung %u%s%s *)",
+			       ld->number, *label ? ": " : "", label);
+		line.operand = names_intern(&ld->translation->project->names,
+					    text, (size_t)len);
+		ld_emit_line(ld, line);
+	}
+	id = ld->rung->label ? fold(ld, ld->rung->label) : 0;
+	if (id && id < ld->target_count && ld->target[id]) {
+		line.kind = IL_LABEL;
+		line.operand = ld->rung->label;
+		ld_emit_line(ld, line);
+	}
+}
+
+/* Readers are kept by place, so that a write looks at few of them: eight bytes of
+ * an area, or a variable. A wide read may begin in the eight bytes before. */
+static uint32_t place_key(const struct meaning *m)
+{
+	if (m->addr.area != AREA_NONE)
+		return (uint32_t)m->addr.area << 16 | m->addr.byte / 8;
+	return (uint32_t)((uintptr_t)m->var >> 4) * 2654435761u;
+}
+
+/* An element has been evaluated: ld_freeze will find it. */
+static void ld_read(struct ld *ld, int element)
+{
+	struct element_state *state = &ld->element[element];
+	const struct meaning *read = state->leaf ? ld_meaning(ld, state->leaf)
+						 : NULL;
+	int *head;
+
+	if (!read)
+		return;
+	head = &ld->reader[place_key(read) & ld->reader_mask];
+	state->next = *head;
+	*head = element;
+}
+
+/* ---- watching ---- */
+
+static uint32_t store_power(struct ld *ld)
+{
+	uint32_t name = temps_power(ld->temps);
+
+	if (!name)
+		ld->failed = true;
+	ld_emit(ld, OP_ST, 0, name);
+	return name;
+}
+
+/* ld_settle - while watching: power of an element or net in a variable. */
+static void ld_settle_element(struct ld *ld, int element)
+{
+	const struct network_element *at = &ld->network.element[element];
+	struct element_state *state = &ld->element[element];
+	const struct word_row *row = word_row((enum word)at->word);
+
+	if (!ld->watch || row->place == PLACE_LAST)
+		return;
+	if (!state->leaf && row->operand == OPND_ASSIGN)
+		return;
+	load_element(ld, element);
+	*state = (struct element_state){
+		.seen = true, .powered = true, .leaf = store_power(ld),
+		.next = state->next,
+	};
 }
 
 static void evaluate(struct ld *ld, int element)
@@ -98,7 +490,27 @@ static void evaluate(struct ld *ld, int element)
 	ld_read(ld, element);
 }
 
-static void visit_net(struct ld *ld, int net);
+static void ld_settle_net(struct ld *ld, int net)
+{
+	if (!ld->watch || net == NET_RAIL || ld->net[net].temp)
+		return;
+	ld_load(ld, net);
+	ld->net[net].temp = store_power(ld);
+}
+
+static void visit(struct ld *ld, int element);
+
+static void visit_net(struct ld *ld, int net)
+{
+	const struct network *n = &ld->network;
+
+	if (net == NET_RAIL || ld->net[net].seen)
+		return;
+	ld->net[net].seen = true;
+	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++)
+		visit(ld, n->feeder[i]);
+	ld_settle_net(ld, net);
+}
 
 /* Depth: an element leads right, so at most LIMIT_COLS of them nest. */
 static void visit(struct ld *ld, int element)
@@ -112,18 +524,6 @@ static void visit(struct ld *ld, int element)
 	for (int i = 0; i < at->pins; i++)
 		visit_net(ld, ld->network.pin[at->first_pin + i].in);
 	evaluate(ld, element);
-}
-
-static void visit_net(struct ld *ld, int net)
-{
-	const struct network *n = &ld->network;
-
-	if (net == NET_RAIL || ld->net[net].seen)
-		return;
-	ld->net[net].seen = true;
-	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++)
-		visit(ld, n->feeder[i]);
-	ld_settle_net(ld, net);
 }
 
 /* ---- phase 2 ---- */
@@ -208,6 +608,183 @@ static int group_size(const struct ld *ld, const int *actor, int first,
 	       ld->network.element[actor[first + n]].in == net)
 		n++;
 	return n;
+}
+
+/* Bytes of its area that it may be; one behind the last. */
+static uint32_t end_byte(const struct meaning *m)
+{
+	struct iec_addr last = m->addr;
+	uint32_t count = meaning_reach(m).count;
+
+	if (count)
+		last = vars_shift(m->addr, count - 1);
+	return last.byte + (last.bits + 7u) / 8;
+}
+
+/* ---- keeping aside ---- */
+
+static bool is_var(const struct meaning *m)
+{
+	return m->var && (m->kind == MEANING_VARIABLE || m->kind == MEANING_PIN ||
+			  m->kind == MEANING_INSTANCE ||
+			  m->kind == MEANING_STRUCT ||
+			  m->kind == MEANING_ARRAY ||
+			  m->kind == MEANING_ELEMENT);
+}
+
+/* Bytes of a variable that it may be: all elements that an index may lead to. */
+static uint32_t end_of(const struct scope *scope, const struct meaning *m)
+{
+	return m->offset + scope_span(scope, m);
+}
+
+/* Two parts of one variable; those with an address by where they lie. */
+static bool parts_touch(const struct scope *scope, const struct meaning *a,
+			const struct meaning *b)
+{
+	return a->offset < end_of(scope, b) && b->offset < end_of(scope, a);
+}
+
+static bool bytes_overlap(const struct meaning *a, const struct meaning *b)
+{
+	if (a->addr.area != b->addr.area || a->addr.area == AREA_NONE)
+		return false;
+	if (a->addr.bits == 1 && b->addr.bits == 1 && !meaning_reach(a).count &&
+	    !meaning_reach(b).count)
+		return a->addr.byte == b->addr.byte && a->addr.bit == b->addr.bit;
+	return a->addr.byte < end_byte(b) && b->addr.byte < end_byte(a);
+}
+
+/* Can a write to @a change what is read from @b? */
+static bool touches(const struct scope *scope, const struct meaning *a,
+		    const struct meaning *b)
+{
+	if (is_var(a) && is_var(b) && a->var == b->var)
+		return parts_touch(scope, a, b);
+	return bytes_overlap(a, b);
+}
+
+static void freeze_at(struct ld *ld, const struct meaning *write, uint32_t key)
+{
+	int at = ld->reader[key & ld->reader_mask];
+
+	for (; at >= 0; at = ld->element[at].next) {
+		struct element_state *state = &ld->element[at];
+		const struct meaning *read = ld_meaning(ld, state->leaf);
+
+		if (!read || !touches(ld->translation->scope, write, read))
+			continue;
+		ld_emit(ld, OP_LD, 0, state->leaf);
+		state->leaf = ld_store_new(ld);
+	}
+}
+
+void ld_freeze(struct ld *ld, uint32_t operand)
+{
+	const struct meaning *write = ld_meaning(ld, operand);
+	uint32_t key, last;
+
+	if (!write)
+		return;
+	key = place_key(write);
+	freeze_at(ld, write, key);
+	if (write->addr.area == AREA_NONE)
+		return;
+	freeze_at(ld, write, key - 1);
+	last = key + (end_byte(write) - 1) / 8 - write->addr.byte / 8 + 1;
+	if (last - key > ld->reader_mask)
+		last = key + ld->reader_mask; /* then all of them */
+	for (; key != last; key++)
+		freeze_at(ld, write, key + 1);
+}
+
+static void emit_label(struct ld *ld, uint32_t name)
+{
+	ld_emit_line(ld, (struct il_line){ .kind = IL_LABEL, .operand = name });
+}
+
+static uint32_t part(struct ld *ld, const struct loop_part *part)
+{
+	return part->text ? intern(ld, part->text, part->len) : intern(ld, "1", 1);
+}
+
+static void emit_fn(struct ld *ld, enum word fn, uint32_t operand)
+{
+	ld_emit_line(ld, (struct il_line){ .kind = IL_FN, .word = (uint16_t)fn,
+					   .operand = operand });
+}
+
+/* Leaves the loop when @value is past its end. */
+static void leave_past(struct ld *ld, const struct open_loop *loop, uint32_t value)
+{
+	ld_emit(ld, OP_LD, 0, value);
+	emit_fn(ld, loop->down ? FN_LT : FN_GT, loop->to);
+	ld_emit(ld, OP_JMP, MOD_C, loop->out);
+}
+
+static void ld_loop_begin(struct ld *ld, int element)
+{
+	const struct network_element *at = &ld->network.element[element];
+	uint32_t id = rung_at(ld->rung, at->row, at->col)->operand;
+	struct open_loop *loop;
+	struct loop text;
+
+	if (ld->loops == LIMIT_LOOPS ||
+	    !loop_parse(names_text(names_of(ld), id), names_len(names_of(ld), id),
+			&text))
+		return;
+	loop = &ld->loop[ld->loops++];
+	*loop = (struct open_loop){
+		.variable = part(ld, &text.variable), .to = part(ld, &text.to),
+		.by = part(ld, &text.by), .down = text.step < 0,
+		.top = label(ld, 'L', ld->number), .out = label(ld, 'X', ld->number),
+	};
+	if (at->in != NET_RAIL) {
+		ld_prepare(ld, at->in, 1);
+		ld_load(ld, at->in);
+		ld_place(ld, at->row, at->col);
+		ld_emit(ld, OP_JMP, MOD_C | MOD_N, loop->out);
+	}
+	ld_emit(ld, OP_LD, 0, part(ld, &text.from));
+	ld_emit(ld, OP_ST, 0, loop->variable);
+	emit_label(ld, loop->top);
+	leave_past(ld, loop, loop->variable);
+}
+
+static enum iec_type type_of(struct ld *ld, uint32_t operand)
+{
+	enum diag_id why;
+	const struct meaning *m = scope_find(ld->translation->scope, ld->unit->pou,
+					     operand, &why);
+
+	return m ? m->type : IEC_DINT;
+}
+
+static void ld_loop_end(struct ld *ld)
+{
+	const struct open_loop *loop;
+	uint32_t next, eno;
+
+	if (ld->loops == 0)
+		return;
+	loop = &ld->loop[--ld->loops];
+	next = temps_number(ld->temps, type_of(ld, loop->variable));
+	eno = temps_bool(ld->temps);
+	ld_emit(ld, OP_LD, 0, loop->variable);
+	emit_fn(ld, FN_EQ, loop->to);
+	ld_emit(ld, OP_JMP, MOD_C, loop->out);
+	ld_call(ld, FN_ADD);
+	ld_arg(ld, false, intern(ld, "IN1", 3), loop->variable);
+	ld_arg(ld, false, intern(ld, "IN2", 3), loop->by);
+	ld_arg(ld, true, ld->eno_id, eno);
+	ld_arg(ld, true, ld->out_id, next);
+	ld_emit(ld, OP_LD, 0, eno);
+	ld_emit(ld, OP_JMP, MOD_C | MOD_N, loop->out);
+	leave_past(ld, loop, next);
+	ld_emit(ld, OP_LD, 0, next);
+	ld_emit(ld, OP_ST, 0, loop->variable);
+	ld_emit(ld, OP_JMP, 0, loop->top);
+	emit_label(ld, loop->out);
 }
 
 static void act(struct ld *ld, const int *actor, int count)
@@ -339,13 +916,6 @@ static void translate_rung(struct ld *ld)
 		note_rung(ld);
 }
 
-/* ---- a POU ---- */
-
-static uint32_t fold(struct ld *ld, uint32_t name)
-{
-	return names_fold(&ld->translation->project->names, name);
-}
-
 /* Only labels that are jumped to are written: a label ends what may be fused. */
 static bool find_targets(struct ld *ld)
 {
@@ -378,30 +948,6 @@ static bool find_targets(struct ld *ld)
 			return false;
 	}
 	return true;
-}
-
-static void head(struct ld *ld)
-{
-	const struct names *names = &ld->translation->project->names;
-	struct il_line line = { .kind = IL_COMMENT };
-	const char *label = names_text(names, ld->rung->label);
-	char text[LIMIT_NAME + 32];
-	int len;
-	uint32_t id;
-
-	if (!ld->watch) {
-		len = snprintf(text, sizeof(text), "(* rung %u%s%s *)",
-			       ld->number, *label ? ": " : "", label);
-		line.operand = names_intern(&ld->translation->project->names,
-					    text, (size_t)len);
-		ld_emit_line(ld, line);
-	}
-	id = ld->rung->label ? fold(ld, ld->rung->label) : 0;
-	if (id && id < ld->target_count && ld->target[id]) {
-		line.kind = IL_LABEL;
-		line.operand = ld->rung->label;
-		ld_emit_line(ld, line);
-	}
 }
 
 bool ld_begin(struct ld *ld)
@@ -456,4 +1002,18 @@ bool ld_to_il(struct translation *translation, struct unit *unit,
 	};
 
 	return ld_begin(&ld) && ld_rungs(&ld, 0, unit->pou->rung_count, skip);
+}
+
+void ld_freeze_globals(struct ld *ld)
+{
+	for (int i = 0; i < ld->network.element_count; i++) {
+		struct element_state *state = &ld->element[i];
+		const struct meaning *read = state->seen && state->leaf ?
+			ld_meaning(ld, state->leaf) : NULL;
+
+		if (!read || read->pou || read->kind == MEANING_LITERAL)
+			continue;
+		ld_emit(ld, OP_LD, 0, state->leaf);
+		state->leaf = ld_store_new(ld);
+	}
 }

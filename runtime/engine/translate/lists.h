@@ -2,8 +2,8 @@
  *
  * lists - one instruction list on its way to instructions.
  *
- * Private to the assembler: assemble_unit walks the lines, temps_use.c counts how
- * often a temporary is read, list_logic.c does AND OR XOR NOT, call.c calls.
+ * Private to the assembler: assemble_unit.c walks the lines, temps.c counts how often a
+ * temporary is read, list_logic.c does AND OR XOR NOT and jumps, call.c calls.
  */
 #ifndef TRANSLATE_LISTS_H
 #define TRANSLATE_LISTS_H
@@ -64,7 +64,7 @@ struct list {
 	int fixup_count;
 };
 
-/* ---- temps_use.c ---- */
+/* ---- temps.c ---- */
 /** list_count_reads - which temporaries need no memory, and how often each value
  * of theirs is read. Fails: false when memory is out. */
 bool list_count_reads(struct list *list);
@@ -134,13 +134,6 @@ uint32_t list_fetch_whole(struct list *list, const struct meaning *m, uint32_t e
 /* ---- whole.c: structures and arrays as a whole ---- */
 /** list_copy_whole - @size bytes, what waits for them stored before. */
 void list_copy_whole(struct list *list, uint32_t to, uint32_t from, uint32_t size);
-/** list_load_whole - reads it while @en, for list_store_whole(). */
-struct whole_value list_load_whole(struct list *list, const struct meaning *m,
-				   uint32_t en);
-/** list_store_whole - stores it while it is there; returns the BOOL that tells whether
- * that was done. The current result is lost. */
-uint32_t list_store_whole(struct list *list, const struct meaning *to,
-			  struct whole_value value);
 /** list_load_result, list_store_result - LD and ST of one. */
 void list_load_result(struct list *list, const struct meaning *m);
 void list_store_result(struct list *list, const struct meaning *m);
@@ -167,7 +160,7 @@ bool list_always_stores(uint32_t fn, enum iec_type type);
 /** list_copy_if - COPY while the BOOL at @en is TRUE. */
 void list_copy_if(struct list *list, uint32_t en, uint32_t to, uint32_t from);
 
-/* ---- list_flow.c ---- */
+/* ---- jumps ---- */
 /** list_find_labels - before the first line. Fails: false when memory is out. */
 bool list_find_labels(struct list *list);
 /** list_flow - JMP and RET. */

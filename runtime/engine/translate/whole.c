@@ -21,8 +21,9 @@ void list_copy_whole(struct list *list, uint32_t to, uint32_t from, uint32_t siz
 	emit_block(list->as, to, from, size);
 }
 
-struct whole_value list_load_whole(struct list *list, const struct meaning *m,
-				   uint32_t en)
+/* Reads it while @en, for list_store_whole(). */
+static struct whole_value list_load_whole(struct list *list, const struct meaning *m,
+					  uint32_t en)
 {
 	struct whole_value out = { .m = m, .ok = en, .own = meaning_is_indexed(m) };
 
@@ -45,8 +46,10 @@ static int skip_unless(struct list *list, uint32_t ok)
 	return list_skip_call(list, &jump);
 }
 
-uint32_t list_store_whole(struct list *list, const struct meaning *to,
-			  struct whole_value value)
+/* Stores it while it is there; returns the BOOL that tells whether
+ * that was done. The current result is lost. */
+static uint32_t list_store_whole(struct list *list, const struct meaning *to,
+				 struct whole_value value)
 {
 	uint32_t size = size_of(list, to), copy;
 	int skip;

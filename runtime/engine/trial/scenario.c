@@ -276,9 +276,9 @@ static void report_fault(struct run *run)
 	sink_text(run->out, "\n");
 }
 
-bool scenario_run_with(const struct scenario_file *file, int index,
-		       struct resource *resource, struct plant *plant,
-		       const struct sink *out)
+bool scenario_run(const struct scenario_file *file, int index,
+		  struct resource *resource, struct plant *plant,
+		  const struct sink *out)
 {
 	struct run run = { .file = file, .scenario = &file->scenario[index],
 			   .resource = resource, .out = out, .held = true };
@@ -305,12 +305,6 @@ bool scenario_run_with(const struct scenario_file *file, int index,
 			return false;
 	} while (!is_done(&run));
 	return run.held;
-}
-
-bool scenario_run(const struct scenario_file *file, int index,
-		  struct resource *resource, const struct sink *out)
-{
-	return scenario_run_with(file, index, resource, NULL, out);
 }
 
 /* A setting that cannot be done is left out, as in a run. */

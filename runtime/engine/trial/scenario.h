@@ -87,19 +87,6 @@ struct scenario_file {
 };
 
 /**
- * scenario_read - reads a scenario file for a program
- * @file:  names it in diagnostics and reports; outlives @out
- * @text:  borrowed as long as @out
- * @image: of the program, which gives names their places
- *
- * Owns: @arena.   Scan-safe: no.
- * Fails: false and a diagnostic for each error.
- */
-bool scenario_read(const char *file, const char *text, size_t len,
-		   const struct image *image, struct arena *arena,
-		   struct scenario_file *out, struct diag_list *diags);
-
-/**
  * scenario_find_plant - the plant that a scenario file names, before it can be read
  * @out: gets the name as it is written, the path of a rung file from the scenario file's
  * folder   @place: of it, for diagnostics
@@ -112,37 +99,43 @@ const char *scenario_find_plant(const char *file, const char *text, size_t len,
  * scenario_is_plant - does the statement at @lex name a plant? Scan-safe: no. */
 bool scenario_plant_token(const char *text, size_t len, struct token *out);
 bool scenario_is_plant(const struct lex *lex);
-/** scenario_read_with - as scenario_read(), with the image of its plant, whose variables
- * are `plant.Level`. Without one (NULL) a scenario that names a plant is an error.
- * @plant: borrowed as long as @out */
-bool scenario_read_with(const char *file, const char *text, size_t len,
-			const struct image *image, const struct image *plant,
-			struct arena *arena, struct scenario_file *out,
-			struct diag_list *diags);
-/** scenario_run_with - as scenario_run(). @plant: the one whose image was read with; it is
- * started, too, if the scenario is beside it; or NULL */
-bool scenario_run_with(const struct scenario_file *file, int index,
-		       struct resource *resource, struct plant *plant,
-		       const struct sink *out);
+/**
+ * scenario_read - reads a scenario file for a program
+ * @file:  names it in diagnostics and reports; outlives @out
+ * @text:  borrowed as long as @out
+ * @image: of the program, which gives names their places
+ * @plant: of its plant, whose variables are `plant.Level`; borrowed as long as @out.
+ *         NULL: none; a scenario that names a plant is an error then
+ *
+ * Owns: @arena.   Scan-safe: no.
+ * Fails: false and a diagnostic for each error.
+ */
+bool scenario_read(const char *file, const char *text, size_t len,
+		   const struct image *image, const struct image *plant,
+		   struct arena *arena, struct scenario_file *out,
+		   struct diag_list *diags);
 
 /**
  * scenario_run - runs one scenario from a cold start
  * @resource: of the same program; it is started here
+ * @plant:    whose image was read with, or NULL; it is started, too, if the scenario
+ *            has one
  * @out:      gets a report of what failed, each line with `# ` before it
  *
  * Returns whether everything held.   Scan-safe: no.
  */
 bool scenario_run(const struct scenario_file *file, int index,
-		  struct resource *resource, const struct sink *out);
+		  struct resource *resource, struct plant *plant,
+		  const struct sink *out);
 
 /**
  * scenario_each_act - what a scenario does, up to a scan
  * @file:  read with the images of @twin
  * @twin:  of the same program, with the plant if the scenario has one; initialised,
- * nothing else; it runs here
+ *         nothing else; it runs here
  * @scans: how many
  * @take:  gets each act, with the scan after which it is done; what it points to is
- * borrowed until it returns
+ *         borrowed until it returns
  *
  * Scan-safe: no.   Fails: false: the twin cannot run so far.
  */

@@ -516,16 +516,9 @@ static bool open_reader(struct reader *reader, const char *text, size_t len)
 }
 
 bool scenario_read(const char *file, const char *text, size_t len,
-		   const struct image *image, struct arena *arena,
-		   struct scenario_file *out, struct diag_list *diags)
-{
-	return scenario_read_with(file, text, len, image, NULL, arena, out, diags);
-}
-
-bool scenario_read_with(const char *file, const char *text, size_t len,
-			const struct image *image, const struct image *plant,
-			struct arena *arena, struct scenario_file *out,
-			struct diag_list *diags)
+		   const struct image *image, const struct image *plant,
+		   struct arena *arena, struct scenario_file *out,
+		   struct diag_list *diags)
 {
 	struct reader reader = { .file = file, .image = image, .plant = plant,
 				 .arena = arena, .diags = diags, .out = out };

@@ -115,7 +115,10 @@ static bool print_address(const struct image *image, struct location at, char *o
 	return is_found(image, out, at);
 }
 
-bool session_name(const struct image *image, struct location at, char *out)
+/* What a variable is called in a scenario: the name that value_find()
+ * finds it by, else its address. @out: SESSION_NAME bytes.   Scan-safe: no.
+ * Fails: false: it has neither. */
+static bool session_name(const struct image *image, struct location at, char *out)
 {
 	return find_symbol(image, at, false, out) || find_symbol(image, at, true, out) ||
 	       print_address(image, at, out);
@@ -183,8 +186,10 @@ static bool note(struct session *session, uint64_t scan, bool expect, struct loc
 	return true;
 }
 
-bool session_can_hold(const struct session *session, uint64_t after,
-		      const struct act *act)
+/* Can a scenario say it? The start of the first scan, and the period
+ * that is anyway, are nothing to be said. */
+static bool session_can_hold(const struct session *session, uint64_t after,
+			     const struct act *act)
 {
 	if (act->plant)
 		return false;

@@ -25,10 +25,6 @@ void session_free(struct session *session);
 /** session_plant - a plant stood beside it; @name: its file, from the folder of the scenario
  * file, borrowed as long as the session. */
 void session_plant(struct session *session, const char *name);
-/** session_can_hold - can a scenario say it? The start of the first scan, and the period
- * that is anyway, are nothing to be said. */
-bool session_can_hold(const struct session *session, uint64_t after,
-		      const struct act *act);
 /** session_act - @act was done after scan @after. Not before an earlier one. Fails: false:
  * session_can_hold() says no, its variable has no name, no memory. */
 bool session_act(struct session *session, uint64_t after, const struct act *act);
@@ -44,8 +40,4 @@ int session_expects(const struct session *session);
 bool session_write(const struct session *session, const char *name,
 		   const struct sink *out);
 
-/** session_name - what a variable is called in a scenario: the name that value_find()
- * finds it by, else its address. @out: SESSION_NAME bytes.   Scan-safe: no.
- * Fails: false: it has neither. */
-bool session_name(const struct image *image, struct location at, char *out);
 #endif

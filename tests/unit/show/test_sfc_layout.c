@@ -423,8 +423,6 @@ static void check_sequence(void)
 	CHECK(layout && layout->shape[1].top == 4 && layout->shape[1].bottom == 8);
 	CHECK(layout && layout->jump[0].from == 2 && layout->jump[0].target == 0 &&
 	      !layout->jump[0].to_transition);
-	CHECK(layout && sfc_layout_use(layout, 1, 4) == -1 &&
-	      sfc_layout_use(layout, 1, 7) == 2 && sfc_layout_use(layout, 1, 8) == -1);
 	CHECK(layout && sfc_layout_at(layout, 0, 3) == 3 &&
 	      sfc_layout_at(layout, 1, 3) == -1 && sfc_layout_at(layout, 0, 99) == -1);
 	sfc_layout_free(layout);

@@ -19,13 +19,13 @@ static const char *run(const char *text)
 
 	bed_clear(&bed);
 	arena_init(&arena);
-	if (!scenario_read("s.scn", text, strlen(text), &bed.resource.image,
+	if (!scenario_read("s.scn", text, strlen(text), &bed.resource.image, NULL,
 			   &arena, &file, &bed.diags)) {
 		arena_free(&arena);
 		return bed_first(&bed);
 	}
 	for (int i = 0; i < file.count; i++)
-		held = scenario_run(&file, i, &bed.resource, &bed.out) && held;
+		held = scenario_run(&file, i, &bed.resource, NULL, &bed.out) && held;
 	failed = file.scenario[0];
 	arena_free(&arena);
 	CHECK_AS(held == !*sink_memory_text(&bed.text),

@@ -124,13 +124,13 @@ static const char *judge(const char *text)
 
 	bed_clear(&bed);
 	arena_init(&arena);
-	if (!scenario_read("s.scn", text, strlen(text), &bed.resource.image,
+	if (!scenario_read("s.scn", text, strlen(text), &bed.resource.image, NULL,
 			   &arena, &file, &bed.diags)) {
 		arena_free(&arena);
 		return bed_first(&bed);
 	}
 	for (int i = 0; i < file.count; i++)
-		held = scenario_run(&file, i, &bed.resource, &bed.out) && held;
+		held = scenario_run(&file, i, &bed.resource, NULL, &bed.out) && held;
 	arena_free(&arena);
 	return held ? "held" : sink_memory_text(&bed.text);
 }

@@ -35,7 +35,7 @@ struct classic_names {
 	int count;
 };
 
-/* What one look at the project finds: classic_use.c. */
+/* What one look at the project finds. */
 struct classic_uses;
 
 /* A step as it is here: classic_chart.c. */
@@ -119,27 +119,21 @@ enum {
 /** memory_of, pin_of - NULL: it is none. */
 const struct classic_memory_row *memory_of(int type);
 const struct classic_pin_row *pin_of(int type);
-/** memory_place - which row it is. */
-int memory_place(const struct classic_memory_row *row);
 /** memory_numbers - how many of them there can be here, from 0. */
 int memory_numbers(const struct classic_memory_row *row);
 /** is_word - has this type 32 bits, and an address? */
 bool is_word(int type);
-/** block_type - the type that stands for a block in the list of names: of its first pin. */
-int block_type(enum classic_kind kind);
 /** address_of - "%IX0.3", "%VD4" */
 const char *address_of(struct conversion *c, const struct classic_memory_row *row,
 		       int number);
 /** name_of - what it is called; NULL: nothing. */
 const char *name_of(const struct conversion *c, int type, int number);
 
-/* ---- new names: classic_new_name.c ---- */
+/* ---- new names ---- */
 /** name_new - @wish, or something like it that nothing else has. */
 const char *name_new(struct conversion *c, const char *wish);
-/** name_reserve - nothing else gets this name. @name lives as long as the arena. */
-void name_reserve(struct conversion *c, const char *name);
 
-/* ---- what is used: classic_use.c ---- */
+/* ---- what is used ---- */
 /** find_uses - looks at all of the project; false: no memory. */
 bool find_uses(struct conversion *c);
 /** used_name - the entry of a variable, or of the block it is a pin of; NULL: not used. */
@@ -152,8 +146,6 @@ bool is_shared_block(const struct conversion *c, enum classic_kind kind, int num
 bool is_jumped_to(const struct conversion *c, int rung);
 /** has_step - is there one with this number? */
 bool has_step(const struct conversion *c, int number);
-/** known_type - @type of a file as a row of classic.def has it. */
-int known_type(const struct conversion *c, int type);
 
 /* ---- names: classic_names.c ---- */
 /** find_names - gives everything that the project uses its name. */
@@ -196,11 +188,9 @@ void expression_uses(const char *text,
 		     void *context);
 void write_functions(struct conversion *c);
 
-/* ---- rungs: classic_grid.c, charts: classic_chart.c ---- */
+/* ---- rungs: classic_grid.c, charts: classic_sfc.c ---- */
 void convert_rung(struct conversion *c, const struct classic_rung *rung);
 void convert_sfc(struct conversion *c, const struct classic_section *section);
 /** step_begins - is %X@number TRUE from the very beginning on? */
 bool step_begins(struct conversion *c, int number);
-/** convert_others - what a page does for the steps of other pages, behind its chart. */
-void convert_others(struct conversion *c, const struct classic_section *section);
 #endif

@@ -8,14 +8,27 @@
  * file brings along. Texts come from files: depth is bounded, anything that is no
  * expression is told and left out.
  */
-#include "engine/exchange/classic/classic_part.h"
-
 #include "engine/base/ascii.h"
 #include "engine/base/limits.h"
+#include "engine/exchange/classic/classic_convert.h"
 
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* A part of an expression: its text, and how strongly it holds together here. */
+struct part {
+	const char *text;
+	const char *a, *b; /* of what may wrap: its operands, of this function */
+	enum classic_function function;
+	int rank;          /* 0: an operand or call; greater: weaker           */
+	bool constant;
+	int32_t value;     /* of a constant                                    */
+	bool known;        /* it lies between these two; else it can be any    */
+	int32_t low, high;
+};
+
+enum { RANK_OPERAND, RANK_SIGN, RANK_PRODUCT, RANK_SUM };
 
 enum { DEPTH = 40, ARGUMENTS = 10 };
 
@@ -26,8 +39,6 @@ struct parse {
 	int depth;
 	bool failed;
 };
-
-static struct part parse_or(struct parse *p);
 
 static struct part fail(struct parse *p)
 {
@@ -46,9 +57,24 @@ static struct part constant(struct parse *p, int64_t value)
 								   RANK_OPERAND };
 }
 
+/* ---- operators ---- */
+
+static const char *const function_name[CLASSIC_FUNCTIONS] = {
+	[CLASSIC_DIVIDE] = "Quotient", [CLASSIC_REMAINDER] = "Remainder",
+	[CLASSIC_SUM] = "Sum", [CLASSIC_DIFFERENCE] = "Difference",
+	[CLASSIC_PRODUCT] = "Product", [CLASSIC_POWER] = "Power", [CLASSIC_AND] = "BitAnd", [CLASSIC_XOR] = "BitXor",
+	[CLASSIC_OR] = "BitOr", [CLASSIC_SHIFT_LEFT] = "ShiftLeft",
+	[CLASSIC_SHIFT_RIGHT] = "ShiftRight", [CLASSIC_ROTATE_LEFT] = "RotateLeft",
+	[CLASSIC_ROTATE_RIGHT] = "RotateRight",
+};
+
 static const char *function_call(struct parse *p, enum classic_function function,
-				 const char *a, const char *b);
-static struct part add(struct parse *p, struct part a, struct part b, char op);
+				 const char *a, const char *b)
+{
+	if (!p->c->function_name[function])
+		p->c->function_name[function] = name_new(p->c, function_name[function]);
+	return text_of(p->c, "%s(%s, %s)", p->c->function_name[function], a, b);
+}
 
 /* As an operand of something else. What overflows there goes on with what is left of it,
  * and must not end the expression: a function of its own. */
@@ -193,6 +219,43 @@ static const struct known known_functions[] = {
 };
 enum { KNOWN = sizeof(known_functions) / sizeof(*known_functions) };
 
+/* part_low, part_high - the least and the greatest that it can be. */
+static int32_t part_low(struct part part)
+{
+	return part.known ? part.low : INT32_MIN;
+}
+
+static int32_t part_high(struct part part)
+{
+	return part.known ? part.high : INT32_MAX;
+}
+
+/* It lies between these two. What goes beyond 32 bits wraps, and can be any. */
+static void part_keep(struct part *part, int64_t low, int64_t high)
+{
+	part->known = low >= INT32_MIN && high <= INT32_MAX;
+	part->low = part->known ? (int32_t)low : 0;
+	part->high = part->known ? (int32_t)high : 0;
+}
+
+static struct part add(struct parse *p, struct part a, struct part b, char op)
+{
+	const bool plus = op == '+';
+	const char *left = inside(p, a, RANK_SUM);
+	const char *right = inside(p, b, b.rank == RANK_SIGN ? RANK_OPERAND : RANK_PRODUCT);
+	struct part part = { .text = text_of(p->c, "%s %c %s", left, op, right),
+			     .rank = RANK_SUM };
+
+	part_keep(&part, (int64_t)part_low(a) + (plus ? part_low(b) : -(int64_t)part_high(b)),
+		   (int64_t)part_high(a) + (plus ? part_high(b) : -(int64_t)part_low(b)));
+	if (!part.known) {
+		part.a = left;
+		part.b = right;
+		part.function = plus ? CLASSIC_SUM : CLASSIC_DIFFERENCE;
+	}
+	return part;
+}
+
 /* "(a + b + c) / 3" */
 static const char *average(struct parse *p, const struct part *part, int count)
 {
@@ -224,44 +287,10 @@ static struct part call(struct parse *p, const struct known *known,
 	return (struct part){ .text = text_of(p->c, "%s(%s)", known->here, list) };
 }
 
-static struct part parse_function(struct parse *p)
+/* A minus in front of one belongs to it, there too. */
+static bool is_literal(char first)
 {
-	struct part part[ARGUMENTS];
-	const struct known *known = NULL;
-	int count = 0;
-
-	for (int i = 0; i < KNOWN && !known; i++)
-		if (accept(p, known_functions[i].name))
-			known = &known_functions[i];
-	if (!known || !accept(p, "("))
-		return fail(p);
-	do {
-		if (count == ARGUMENTS)
-			return fail(p);
-		part[count++] = parse_or(p);
-	} while (!p->failed && accept(p, ","));
-	if (p->failed || !accept(p, ")"))
-		return fail(p);
-	return call(p, known, part, count);
-}
-
-/* ---- operators ---- */
-
-static const char *const function_name[CLASSIC_FUNCTIONS] = {
-	[CLASSIC_DIVIDE] = "Quotient", [CLASSIC_REMAINDER] = "Remainder",
-	[CLASSIC_SUM] = "Sum", [CLASSIC_DIFFERENCE] = "Difference",
-	[CLASSIC_PRODUCT] = "Product", [CLASSIC_POWER] = "Power", [CLASSIC_AND] = "BitAnd", [CLASSIC_XOR] = "BitXor",
-	[CLASSIC_OR] = "BitOr", [CLASSIC_SHIFT_LEFT] = "ShiftLeft",
-	[CLASSIC_SHIFT_RIGHT] = "ShiftRight", [CLASSIC_ROTATE_LEFT] = "RotateLeft",
-	[CLASSIC_ROTATE_RIGHT] = "RotateRight",
-};
-
-static const char *function_call(struct parse *p, enum classic_function function,
-				 const char *a, const char *b)
-{
-	if (!p->c->function_name[function])
-		p->c->function_name[function] = name_new(p->c, function_name[function]);
-	return text_of(p->c, "%s(%s, %s)", p->c->function_name[function], a, b);
+	return ascii_digit(first) || first == '$' || first == '\'';
 }
 
 /* Of the least number it is that number itself. */
@@ -280,12 +309,6 @@ static struct part negate(struct parse *p, struct part part)
 }
 
 static struct part parse_term(struct parse *p);
-
-/* A minus in front of one belongs to it, there too. */
-static bool is_literal(char first)
-{
-	return ascii_digit(first) || first == '$' || first == '\'';
-}
 
 /* Behind a minus, which there is 0. Two are none, so that they do not stand one in another. */
 static struct part negative(struct parse *p)
@@ -306,6 +329,10 @@ static struct part negative(struct parse *p)
 		return part;
 	return negate(p, part);
 }
+
+static struct part parse_function(struct parse *p);
+
+static struct part parse_or(struct parse *p);
 
 static struct part parse_term(struct parse *p)
 {
@@ -361,6 +388,22 @@ static struct part divide(struct parse *p, struct part a, struct part b, bool re
 		inside(p, b, RANK_SUM)) };
 }
 
+/* It is @a times @b. */
+static void part_keep_product(struct part *part, struct part a, struct part b)
+{
+	const int64_t corner[] = {
+		(int64_t)part_low(a) * part_low(b), (int64_t)part_low(a) * part_high(b),
+		(int64_t)part_high(a) * part_low(b), (int64_t)part_high(a) * part_high(b),
+	};
+	int64_t low = corner[0], high = corner[0];
+
+	for (int i = 1; i < 4; i++) {
+		low = corner[i] < low ? corner[i] : low;
+		high = corner[i] > high ? corner[i] : high;
+	}
+	part_keep(part, low, high);
+}
+
 static struct part multiply(struct parse *p, struct part a, struct part b)
 {
 	const char *left = inside(p, a, RANK_PRODUCT), *right = inside(p, b, RANK_OPERAND);
@@ -389,24 +432,6 @@ static struct part parse_product(struct parse *p)
 		other = parse_term(p);
 		part = op == '*' ? multiply(p, part, other) :
 				   divide(p, part, other, op == '%');
-	}
-	return part;
-}
-
-static struct part add(struct parse *p, struct part a, struct part b, char op)
-{
-	const bool plus = op == '+';
-	const char *left = inside(p, a, RANK_SUM);
-	const char *right = inside(p, b, b.rank == RANK_SIGN ? RANK_OPERAND : RANK_PRODUCT);
-	struct part part = { .text = text_of(p->c, "%s %c %s", left, op, right),
-			     .rank = RANK_SUM };
-
-	part_keep(&part, (int64_t)part_low(a) + (plus ? part_low(b) : -(int64_t)part_high(b)),
-		   (int64_t)part_high(a) + (plus ? part_high(b) : -(int64_t)part_low(b)));
-	if (!part.known) {
-		part.a = left;
-		part.b = right;
-		part.function = plus ? CLASSIC_SUM : CLASSIC_DIFFERENCE;
 	}
 	return part;
 }
@@ -467,6 +492,27 @@ static struct part parse_or(struct parse *p)
 	}
 	p->depth--;
 	return part;
+}
+
+static struct part parse_function(struct parse *p)
+{
+	struct part part[ARGUMENTS];
+	const struct known *known = NULL;
+	int count = 0;
+
+	for (int i = 0; i < KNOWN && !known; i++)
+		if (accept(p, known_functions[i].name))
+			known = &known_functions[i];
+	if (!known || !accept(p, "("))
+		return fail(p);
+	do {
+		if (count == ARGUMENTS)
+			return fail(p);
+		part[count++] = parse_or(p);
+	} while (!p->failed && accept(p, ","));
+	if (p->failed || !accept(p, ")"))
+		return fail(p);
+	return call(p, known, part, count);
 }
 
 /* ---- whole expressions ---- */

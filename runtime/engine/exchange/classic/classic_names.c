@@ -7,10 +7,11 @@
  * names of their pins are found by that. Inputs and outputs without a symbol stay
  * addresses.
  */
-#include "engine/exchange/classic/classic_convert.h"
-
 #include "engine/base/ascii.h"
+#include "engine/base/lex.h"
 #include "engine/base/limits.h"
+#include "engine/check/reserved.h"
+#include "engine/exchange/classic/classic_convert.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -45,6 +46,15 @@ static const char *const instance_prefix[CLASSIC_KINDS] = {
 	[CLASSIC_IEC_TIMER] = "TM", [CLASSIC_COUNTER] = "C", [CLASSIC_REGISTER] = "Reg",
 };
 
+struct classic_uses {
+	/* Of each row: memory, then blocks, then bits and times of steps.     */
+	bool seen[MEMORY_KINDS + CLASSIC_KINDS + 2][CLASSIC_ALL + 1];
+	int most[MEMORY_KINDS];
+	bool step[CLASSIC_LIMIT];
+	bool jumped_to[CLASSIC_LIMIT];
+	unsigned char blocks[CLASSIC_KINDS][CLASSIC_LIMIT]; /* 2: and more */
+};
+
 const struct classic_memory_row *memory_of(int type)
 {
 	for (int i = 0; i < MEMORY_ROWS; i++)
@@ -53,7 +63,8 @@ const struct classic_memory_row *memory_of(int type)
 	return NULL;
 }
 
-int memory_place(const struct classic_memory_row *row)
+/* Which row it is. */
+static int memory_place(const struct classic_memory_row *row)
 {
 	return (int)(row - memory_rows);
 }
@@ -93,7 +104,8 @@ enum classic_kind kind_of(int type)
 	return row ? row->kind : CLASSIC_KINDS;
 }
 
-int block_type(enum classic_kind kind)
+/* The type that stands for a block in the list of names: of its first pin. */
+static int block_type(enum classic_kind kind)
 {
 	for (int i = 0; i < PIN_ROWS; i++)
 		if (pin_rows[i].kind == kind)
@@ -142,6 +154,26 @@ static int by_what(const void *a, const void *b)
 	return x->type != y->type ? (x->type < y->type ? -1 : 1) :
 	       x->number != y->number ? (x->number < y->number ? -1 : 1) :
 	       x->index < y->index ? -1 : x->index > y->index;
+}
+
+/* ---- what is used ---- */
+
+static int by_type(const void *a, const void *b)
+{
+	const struct classic_name *x = a, *y = b;
+
+	return x->type != y->type ? (x->type < y->type ? -1 : 1) :
+	       x->number < y->number ? -1 : x->number > y->number;
+}
+
+/* ---- what others ask ---- */
+
+struct classic_name *used_name(const struct conversion *c, int type, int number)
+{
+	struct classic_name key = { .type = type, .number = number };
+
+	return c->names.count ? bsearch(&key, c->names.list, (size_t)c->names.count,
+					sizeof(key), by_type) : NULL;
 }
 
 /* Of several for one thing the first counts. */
@@ -198,6 +230,75 @@ static bool looks_like_step(const char *name)
 	return ascii_upper(name[0]) == 'X' && ascii_digit(name[1]);
 }
 
+/* Bytes of the character at @text if a name may hold it, else 0. */
+static size_t name_char(const char *text, size_t len)
+{
+	size_t step = utf8_length(text, len);
+	char upper = ascii_upper(*text);
+
+	if (step > 1)
+		return step;
+	return (upper >= 'A' && upper <= 'Z') || ascii_digit(upper) || upper == '_';
+}
+
+/* Letters, digits and _ of @wish; anything else becomes _. */
+static const char *as_name(struct conversion *c, const char *wish)
+{
+	size_t len = strlen(wish), at = 0, out = 0;
+	char *name = arena_alloc(c->arena, len + 3);
+
+	if (!name)
+		return "_";
+	if (len > LIMIT_NAME - 8)
+		len = LIMIT_NAME - 8;
+	if (!len || ascii_digit(wish[0]))
+		name[out++] = 'N';
+	while (at < len) {
+		size_t step = name_char(wish + at, len - at);
+
+		if (step)
+			memcpy(name + out, wish + at, step);
+		else
+			name[out] = '_';
+		out += step ? step : 1;
+		at += step ? step : 1;
+	}
+	return name;
+}
+
+/* false: something has it, whatever its spelling. */
+static bool claim(struct conversion *c, const char *name)
+{
+	int before = c->taken.count;
+	uint32_t id = names_intern(&c->taken, name, strlen(name));
+
+	return !id || (c->taken.count > before && names_fold(&c->taken, id) == id);
+}
+
+/* The number behind @base that is to be tried next. */
+static int number_behind(struct conversion *c, const char *base)
+{
+	uint32_t id = names_find_any(&c->taken, base, strlen(base));
+
+	while (c->tried_count <= (int)id)
+		if (!arena_push(c->arena, &c->tried, &c->tried_count, sizeof(*c->tried)))
+			return 0;
+	return ++c->tried[id] + 1;
+}
+
+const char *name_new(struct conversion *c, const char *wish)
+{
+	const char *base = as_name(c, wish), *name = base;
+
+	if (reserved_fault(base) != DIAG_COUNT)
+		base = name = text_of(c, "%s_", base);
+	if (reserved_fault(base) != DIAG_COUNT) /* SYS_… */
+		base = name = text_of(c, "N%s", base);
+	while (!claim(c, name) && !c->arena->failed)
+		name = text_of(c, "%s_%d", base, number_behind(c, base));
+	return name;
+}
+
 static void give_name(struct conversion *c, struct classic_name *name)
 {
 	const struct classic_symbol *symbol = name->symbol;
@@ -227,6 +328,12 @@ static void give_name(struct conversion *c, struct classic_name *name)
 	name->name = name_new(c, wish);
 	if (symbol)
 		tell_symbol(c, symbol, name->name);
+}
+
+/* Nothing else gets this name. @name lives as long as the arena. */
+static void name_reserve(struct conversion *c, const char *name)
+{
+	claim(c, name);
 }
 
 /* What the text calls a step, its actions, and the block that has its seconds. */
@@ -284,6 +391,11 @@ const char *address_of(struct conversion *c, const struct classic_memory_row *ro
 	return text_of(c, "%%%sD%ld", row->area, bit / 8);
 }
 
+bool has_step(const struct conversion *c, int number)
+{
+	return number >= 0 && number < CLASSIC_LIMIT && c->uses->step[number];
+}
+
 static const char *plain_operand(struct conversion *c, int type, int number,
 				 bool *is_bool)
 {
@@ -323,6 +435,14 @@ static const char *indexed(struct conversion *c, const struct classic_memory_row
 	if (!number)
 		return text_of(c, "%s[%s]", name_of(c, memory->type, CLASSIC_ALL), index);
 	return text_of(c, "%s[%s + %d]", name_of(c, memory->type, CLASSIC_ALL), index, number);
+}
+
+/* A register of LinuxCNC's has another meaning: its numbers with a point. */
+static int known_type(const struct conversion *c, int type)
+{
+	if (c->project->dialect == CLASSIC_LINUXCNC && type == LINUXCNC_IN)
+		return LINUXCNC_INPUT;
+	return type;
 }
 
 const char *operand_of(struct conversion *c, struct classic_variable variable,
@@ -370,4 +490,173 @@ const char *target_of(struct conversion *c, struct classic_variable variable, bo
 		return text;
 	tell(c, REPORT_LOST, "%s is written, which a program cannot: it was left out", text);
 	return NULL;
+}
+
+/* One of a kind of variables is enough: @place says which kind. */
+static void add_once(struct conversion *c, int place, int type, int number)
+{
+	struct classic_name *name;
+
+	if (c->uses->seen[place][number])
+		return;
+	c->uses->seen[place][number] = true;
+	name = arena_push(c->arena, &c->names.list, &c->names.count, sizeof(*name));
+	if (name)
+		*name = (struct classic_name){ .type = type, .number = number,
+					       .comment = "" };
+}
+
+static void use(struct conversion *c, int type, int number)
+{
+	const struct classic_memory_row *memory;
+	const struct classic_pin_row *pin;
+
+	type = known_type(c, type);
+	memory = memory_of(type);
+	pin = pin_of(type);
+	if (number < 0 || number > CLASSIC_ALL || (memory && number < CLASSIC_ALL &&
+						   number >= memory_numbers(memory)))
+		return;
+	if (memory)
+		add_once(c, memory_place(memory), type, number);
+	else if (pin)
+		add_once(c, MEMORY_KINDS + (int)pin->kind, block_type(pin->kind), number);
+	else if (type == STEP_TYPE)
+		add_once(c, MEMORY_KINDS + CLASSIC_KINDS, type, number);
+	else if (type == STEP_TIME && has_step(c, number))
+		add_once(c, MEMORY_KINDS + CLASSIC_KINDS + 1, type, number);
+}
+
+/* How far its area must reach. */
+static void use_place(struct conversion *c, int type, int number)
+{
+	const struct classic_memory_row *memory = memory_of(type);
+	int *most;
+
+	if (!memory || number < 0 || number >= memory_numbers(memory))
+		return;
+	most = &c->uses->most[memory_place(memory)];
+	if (number >= *most)
+		*most = number + 1;
+}
+
+static void use_variable(void *context, struct classic_variable variable)
+{
+	struct conversion *c = context;
+	int type = known_type(c, variable.type);
+
+	use_place(c, type, variable.number);
+	if (variable.index_type < 0) {
+		use(c, type, variable.number);
+		return;
+	}
+	use_place(c, known_type(c, variable.index_type), variable.index_number);
+	use(c, variable.index_type, variable.index_number);
+	/* Of words there is an array; a bit with an index is an address. */
+	if (is_word(type))
+		use(c, type, CLASSIC_ALL);
+}
+
+static enum classic_kind kind_of_element(int element)
+{
+	switch (element) {
+	case 10: return CLASSIC_TIMER;
+	case 11: return CLASSIC_MONOSTABLE;
+	case 12: return CLASSIC_COUNTER;
+	case 13: return CLASSIC_IEC_TIMER;
+	case 14: return CLASSIC_REGISTER;
+	}
+	return CLASSIC_KINDS;
+}
+
+static void count_block(struct conversion *c, enum classic_kind kind, int number)
+{
+	if (number < CLASSIC_LIMIT && c->uses->blocks[kind][number] < 2)
+		c->uses->blocks[kind][number]++;
+}
+
+static void use_cell(struct conversion *c, const struct classic_cell *cell)
+{
+	enum classic_kind kind = kind_of_element(cell->element);
+	const char *text;
+
+	if (cell->element == 54 && cell->variable.number < CLASSIC_LIMIT)
+		c->uses->jumped_to[cell->variable.number] = true;
+	if (kind != CLASSIC_KINDS) {
+		use(c, block_type(kind), cell->variable.number);
+		count_block(c, kind, cell->variable.number);
+	} else if (cell->element == 20 || cell->element == 60) {
+		text = classic_expression(c->project, cell->variable.number);
+		if (text)
+			expression_uses(text, use_variable, c);
+	} else if ((cell->element >= 1 && cell->element <= 4) ||
+		   (cell->element >= 50 && cell->element <= 53)) {
+		use_variable(c, cell->variable);
+	}
+}
+
+static void use_blocks(struct conversion *c, const struct classic_blocks *blocks,
+		       enum classic_kind kind)
+{
+	for (int i = 0; i < blocks->count; i++)
+		use(c, block_type(kind), blocks->block[i].number);
+}
+
+static void use_more(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+
+	for (int i = 0; i < project->steps; i++)
+		use(c, STEP_TIME, project->step[i].number);
+	use_blocks(c, &project->timer, CLASSIC_TIMER);
+	use_blocks(c, &project->monostable, CLASSIC_MONOSTABLE);
+	use_blocks(c, &project->counter, CLASSIC_COUNTER);
+	use_blocks(c, &project->iec_timer, CLASSIC_IEC_TIMER);
+	use_blocks(c, &project->reg, CLASSIC_REGISTER);
+}
+
+static void use_all(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+
+	for (int i = 0; i < project->steps; i++)
+		c->uses->step[project->step[i].number] = true;
+	for (int i = 0; i < project->rungs; i++)
+		for (int y = 0; y < CLASSIC_ROWS; y++)
+			for (int x = 0; x < CLASSIC_COLUMNS; x++)
+				use_cell(c, &project->rung[i]->cell[y][x]);
+	for (int i = 0; i < project->transitions; i++)
+		use_variable(c, project->transition[i].condition);
+	for (int i = 0; i < project->steps; i++)
+		use(c, STEP_TYPE, project->step[i].number);
+	/* Whoever looks at the original itself may ask for anything that it has. */
+	if (!c->options.task)
+		use_more(c);
+}
+
+bool find_uses(struct conversion *c)
+{
+	c->uses = arena_alloc(c->arena, sizeof(*c->uses));
+	if (!c->uses)
+		return false;
+	use_all(c);
+	if (c->names.count)
+		qsort(c->names.list, (size_t)c->names.count, sizeof(*c->names.list),
+		      by_type);
+	return true;
+}
+
+int used_numbers(const struct conversion *c, const struct classic_memory_row *memory)
+{
+	return c->uses->most[memory_place(memory)];
+}
+
+bool is_shared_block(const struct conversion *c, enum classic_kind kind, int number)
+{
+	return c->uses->blocks[kind][number] > 1;
+}
+
+bool is_jumped_to(const struct conversion *c, int rung)
+{
+	return c->uses->jumped_to[rung];
 }

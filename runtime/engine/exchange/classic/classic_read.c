@@ -5,9 +5,12 @@
  * Which reader gets which member, and what is found by its number afterwards. All or
  * nothing: with one error there is no project.
  */
+#include "engine/exchange/classic/classic_read.h"
+
 #include "engine/base/ascii.h"
 #include "engine/base/file.h"
-#include "engine/exchange/classic/classic_read.h"
+#include "engine/base/lex.h"
+#include "engine/base/limits.h"
 #include "engine/exchange/classic/inflate.h"
 
 #include <dirent.h>
@@ -65,6 +68,62 @@ static bool is_kept(const char *name)
 		if (strcmp(name, known[i]) == 0)
 			return true;
 	return false;
+}
+
+void classic_lost(struct classic_reader *reader, const char *text)
+{
+	report_add(reader->report, (struct report_line){
+			.kind = REPORT_LOST, .member = reader->member->name,
+			.line = reader->line_number }, "%s", text);
+}
+
+struct classic_place classic_here(const struct classic_reader *reader)
+{
+	return (struct classic_place){ reader->member->name, reader->line_number };
+}
+
+static bool is_blank(char c)
+{
+	return c == ' ' || c == '\t' || c == '\r';
+}
+
+/* A file of a folder is named whole; the member of a container stands in the text. */
+static bool classic_fail_at(struct classic_reader *reader, enum diag_id id,
+			    struct classic_place place, const char *text, size_t len)
+{
+	struct diag diag = { .id = id, .file = reader->project->file,
+			     .line = place.line };
+	int shown;
+
+	while (len && is_blank(text[len - 1]))
+		len--;
+	while (len && is_blank(*text)) {
+		text++;
+		len--;
+	}
+	shown = len > LIMIT_ARG ? LIMIT_ARG : (int)len;
+	if (diag_severity(id) == SEVERITY_ERROR)
+		reader->good = false;
+	if (!place.member || !*place.member)
+		return diag_add(reader->diags, diag, "%.*s", shown, text);
+	return diag_add(reader->diags, diag, "%.40s%s%.*s", place.member,
+			len ? ": " : "", shown, text);
+}
+
+bool classic_fail(struct classic_reader *reader, enum diag_id id, const char *text,
+		  size_t len)
+{
+	return classic_fail_at(reader, id, classic_here(reader), text, len);
+}
+
+bool classic_in_range(struct classic_reader *reader, int number, int low, int high)
+{
+	char text[16];
+
+	if (number >= low && number <= high)
+		return true;
+	snprintf(text, sizeof(text), "%d", number);
+	return classic_fail(reader, DIAG_IMPORT_RANGE, text, strlen(text));
 }
 
 static void read_member(struct classic_reader *reader, const struct classic_member *member)
@@ -184,6 +243,132 @@ static bool no_nul(struct classic_reader *reader, const char *text, size_t len)
 	return classic_fail_at(reader, DIAG_BAD_BYTE, place, "", 0);
 }
 
+static const char begins[] = "_FILE-";
+static const char last[] = "_/FILES_CLASSICLADDER";
+
+struct lines {
+	const char *at, *end;
+	const char *line;
+	size_t len;              /* without its end                            */
+	int number;
+};
+
+static bool next_line(struct lines *lines)
+{
+	size_t left = (size_t)(lines->end - lines->at);
+	const char *newline;
+
+	if (!left)
+		return false;
+	newline = memchr(lines->at, '\n', left);
+	lines->line = lines->at;
+	lines->len = newline ? (size_t)(newline - lines->at) : left;
+	lines->at += lines->len + (newline ? 1 : 0);
+	lines->number++;
+	while (lines->len && (lines->line[lines->len - 1] == '\r' ||
+			      lines->line[lines->len - 1] == ' '))
+		lines->len--;
+	return true;
+}
+
+static bool begins_with(const struct lines *lines, const char *word)
+{
+	size_t len = strlen(word);
+
+	return lines->len >= len && memcmp(lines->line, word, len) == 0;
+}
+static const char ends[] = "_/FILE-";
+
+const char *classic_text(struct classic_reader *reader, const char *from, size_t len)
+{
+	bool latin = !utf8_valid(from, len, NULL);
+	char *text, *to;
+
+	while (len && is_blank(from[len - 1]))
+		len--;
+	while (len && is_blank(*from)) {
+		from++;
+		len--;
+	}
+	if (!len)
+		return "";
+	text = to = arena_alloc(reader->arena, len * 2 + 1);
+	if (!text)
+		return "";
+	for (size_t i = 0; i < len; i++) {
+		unsigned char byte = (unsigned char)from[i];
+
+		if (byte == '\t')
+			*to++ = ' ';
+		else if (byte < ' ' || byte == 127 || (latin && byte > 127 && byte < 160))
+			*to++ = '?';
+		else if (byte < 128 || !latin) {
+			*to++ = (char)byte;
+		} else {
+			*to++ = (char)(0xc0 | byte >> 6);
+			*to++ = (char)(0x80 | (byte & 0x3f));
+		}
+	}
+	return text;
+}
+
+/* The lines up to the end of the member that begins here. */
+static bool take_member(struct classic_reader *reader, struct lines *lines)
+{
+	struct classic_project *project = reader->project;
+	struct classic_place place = { "", lines->number };
+	struct classic_member member = { 0 }, *added;
+
+	member.name = classic_text(reader, lines->line + sizeof(begins) - 1,
+				   lines->len - (sizeof(begins) - 1));
+	member.text = lines->at;
+	member.line = lines->number + 1;
+	for (;;) {
+		if (!next_line(lines) || begins_with(lines, begins) ||
+		    begins_with(lines, last))
+			return classic_fail_at(reader, DIAG_IMPORT_OPEN, place,
+					       member.name, strlen(member.name));
+		if (begins_with(lines, ends))
+			break;
+	}
+	member.len = (size_t)(lines->line - member.text);
+	if (project->members >= 2 * CLASSIC_LIMIT)
+		return classic_fail_at(reader, DIAG_TOO_MANY, place, member.name,
+				       strlen(member.name));
+	added = arena_push(reader->arena, &project->member, &project->members,
+			   sizeof(member));
+	if (added)
+		*added = member;
+	return true;
+}
+
+/** classic_members - parts a container's text into its members. false: told. */
+static bool classic_members(struct classic_reader *reader, const char *text, size_t len)
+{
+	struct lines lines = { text, text + len, text, 0, 0 };
+	struct classic_place place = { "", 1 };
+	bool closed = false;
+
+	next_line(&lines);
+	if (lines.len != sizeof(last) - 2) /* _FILES_… has no slash            */
+		return classic_fail_at(reader, DIAG_NEWER_VERSION, place, lines.line,
+				       lines.len);
+	while (!closed && next_line(&lines)) {
+		if (begins_with(&lines, last))
+			closed = true;
+		else if (begins_with(&lines, begins)) {
+			if (!take_member(reader, &lines))
+				return false;
+		} else if (lines.len) {
+			place.line = lines.number;
+			return classic_fail_at(reader, DIAG_IMPORT_LINE, place,
+					       lines.line, lines.len);
+		}
+	}
+	place.line = lines.number;
+	return closed || classic_fail_at(reader, DIAG_IMPORT_CUT, place, "", 0);
+}
+
 static bool read_text(struct classic_reader *reader, const char *text, size_t len)
 {
 	struct classic_place whole = { "", 0 };
@@ -221,6 +406,396 @@ static bool begin(struct classic_reader *reader, struct arena *arena, const char
 	reader->project->period = 50;
 	reader->project->register_list = 500;
 	return true;
+}
+
+static int compare(int a, int b)
+{
+	return (a > b) - (a < b);
+}
+
+static int by_block(const void *a, const void *b)
+{
+	const struct classic_block *x = a, *y = b;
+
+	return compare(x->number, y->number);
+}
+
+static void sort(void *vector, int count, size_t size,
+		 int (*order)(const void *, const void *))
+{
+	if (count > 1)
+		qsort(vector, (size_t)count, size, order);
+}
+
+void classic_twice(struct classic_reader *reader, struct classic_place place,
+		   const char *what, int number)
+{
+	char text[40];
+
+	snprintf(text, sizeof(text), "%s %d", what, number);
+	classic_fail_at(reader, DIAG_IMPORT_TWICE, place, text, strlen(text));
+}
+
+static void order_blocks(struct classic_reader *reader, struct classic_blocks *blocks,
+			 const char *what)
+{
+	sort(blocks->block, blocks->count, sizeof(*blocks->block), by_block);
+	for (int i = 1; i < blocks->count; i++)
+		if (blocks->block[i].number == blocks->block[i - 1].number)
+			classic_twice(reader, blocks->block[i].place, what,
+				      blocks->block[i].number);
+}
+
+static int by_rung(const void *a, const void *b)
+{
+	const struct classic_rung *const *x = a, *const *y = b;
+
+	return compare((*x)->number, (*y)->number);
+}
+
+static int by_expression(const void *a, const void *b)
+{
+	const struct classic_expression *x = a, *y = b;
+
+	return compare(x->number, y->number);
+}
+
+static int by_section(const void *a, const void *b)
+{
+	const struct classic_section *x = a, *y = b;
+
+	return compare(x->number, y->number);
+}
+
+static int by_step(const void *a, const void *b)
+{
+	const struct classic_step *x = a, *y = b;
+
+	return compare(x->index, y->index);
+}
+
+static int by_transition(const void *a, const void *b)
+{
+	const struct classic_transition *x = a, *y = b;
+
+	return compare(x->index, y->index);
+}
+
+static void order_lists(struct classic_reader *reader)
+{
+	struct classic_project *project = reader->project;
+
+	sort(project->rung, project->rungs, sizeof(*project->rung), by_rung);
+	for (int i = 1; i < project->rungs; i++)
+		if (project->rung[i]->number == project->rung[i - 1]->number)
+			classic_twice(reader, project->rung[i]->place, "rung",
+				      project->rung[i]->number);
+	sort(project->expression, project->expressions, sizeof(*project->expression),
+	     by_expression);
+	for (int i = 1; i < project->expressions; i++)
+		if (project->expression[i].number == project->expression[i - 1].number)
+			classic_twice(reader, project->expression[i].place, "expression",
+				      project->expression[i].number);
+	sort(project->section, project->sections, sizeof(*project->section), by_section);
+	sort(project->step, project->steps, sizeof(*project->step), by_step);
+	for (int i = 1; i < project->steps; i++)
+		if (project->step[i].index == project->step[i - 1].index)
+			classic_twice(reader, project->step[i].place, "step",
+				      project->step[i].index);
+	sort(project->transition, project->transitions, sizeof(*project->transition),
+	     by_transition);
+	for (int i = 1; i < project->transitions; i++)
+		if (project->transition[i].index == project->transition[i - 1].index)
+			classic_twice(reader, project->transition[i].place, "transition",
+				      project->transition[i].index);
+}
+
+static bool has_step(const struct classic_project *project, int index)
+{
+	struct classic_step key = { .index = index };
+
+	return project->steps && bsearch(&key, project->step, (size_t)project->steps,
+					 sizeof(key), by_step);
+}
+
+static void check_links(struct classic_reader *reader,
+			const struct classic_transition *transition, const int *link,
+			int count)
+{
+	for (int i = 0; i < count; i++)
+		if (!has_step(reader->project, link[i])) {
+			reader->line_number = transition->place.line;
+			classic_fail_at(reader, DIAG_IMPORT_NO_STEP, transition->place, "", 0);
+			return;
+		}
+}
+
+/* Rungs one after the other to the last; each is seen once, or they go in a circle. How
+ * many they are. */
+static int check_chain(struct classic_reader *reader,
+		       const struct classic_section *section)
+{
+	struct classic_project *project = reader->project;
+	struct classic_place place = section->place;
+	int number = section->first;
+
+	for (int seen = 0; ; seen++) {
+		const struct classic_rung *rung = classic_rung(project, number);
+		char text[24] = "rung_";
+
+		if (!rung) {
+			int len = 5, from = len;
+
+			do
+				text[len++] = (char)('0' + number % 10);
+			while ((number /= 10));
+			for (int to = len - 1; from < to; from++, to--) {
+				char digit = text[from];
+
+				text[from] = text[to];
+				text[to] = digit;
+			}
+			classic_fail_at(reader, DIAG_IMPORT_NO_RUNG, place, text, (size_t)len);
+			return seen;
+		}
+		if (number == section->last)
+			return seen + 1;
+		if (seen > project->rungs) {
+			classic_fail_at(reader, DIAG_IMPORT_CIRCLE, place, section->name,
+					strlen(section->name));
+			return seen;
+		}
+		place = rung->place;
+		number = rung->next;
+		if (number < 0) {
+			classic_fail_at(reader, DIAG_IMPORT_CHAIN, place, section->name,
+					strlen(section->name));
+			return seen + 1;
+		}
+	}
+}
+
+/* A rung may belong to several sections, but so it does in no project that was drawn: a few
+ * lines could stand for millions of rungs. */
+static void check_sections(struct classic_reader *reader)
+{
+	struct classic_project *project = reader->project;
+	int rungs = 0;
+
+	for (int i = 0; i < project->sections && rungs <= CLASSIC_LIMIT; i++) {
+		struct classic_section *section = &project->section[i];
+
+		if (!section->sequential)
+			rungs += check_chain(reader, section);
+		if (rungs > CLASSIC_LIMIT)
+			classic_fail_at(reader, DIAG_IMPORT_OVERLAP, section->place,
+					section->name, strlen(section->name));
+	}
+}
+
+/* Before there were sections: all rungs, in the order of their numbers. */
+static void add_only_section(struct classic_reader *reader)
+{
+	struct classic_project *project = reader->project;
+	struct classic_section *section;
+
+	for (int i = 0; i < project->rungs; i++) {
+		project->rung[i]->previous = i ? project->rung[i - 1]->number : -1;
+		project->rung[i]->next = i + 1 < project->rungs ?
+					 project->rung[i + 1]->number : -1;
+	}
+	section = arena_push(reader->arena, &project->section, &project->sections,
+			     sizeof(*section));
+	if (section)
+		*section = (struct classic_section){
+			.place = project->rung[0]->place, .name = "", .subroutine = -1,
+			.first = project->rung[0]->number,
+			.last = project->rung[project->rungs - 1]->number };
+}
+
+/* ---- who wrote it ---- */
+
+static bool has_member(const struct classic_project *project, const char *name)
+{
+	for (int i = 0; i < project->members; i++)
+		if (strcmp(project->member[i].name, name) == 0)
+			return true;
+	return false;
+}
+
+static bool wide(const struct classic_project *project)
+{
+	for (int i = 0; i < project->rungs; i++)
+		if (project->rung[i]->columns > 10 || project->rung[i]->rows > 6)
+			return true;
+	return false;
+}
+
+/* Upstream has members and sizes that LinuxCNC has not, and the other way round. What
+ * both could have written is taken for upstream's. */
+static enum classic_dialect dialect_of(const struct classic_project *project)
+{
+	static const char *const upstream[] = {
+		"project_infos.txt", "registers.csv", "config_events.csv", "modem_config.txt",
+		"remote_alarms.txt", "spy_vars.csv" };
+
+	for (size_t i = 0; i < sizeof(upstream) / sizeof(*upstream); i++)
+		if (has_member(project, upstream[i]))
+			return CLASSIC_UPSTREAM;
+	if (wide(project))
+		return CLASSIC_UPSTREAM;
+	return classic_setting(project, "MODBUS_MAP_COIL_READ") ? CLASSIC_LINUXCNC :
+								  CLASSIC_UPSTREAM;
+}
+
+enum { CALL = 55, DEEPEST = LIMIT_CALLS - 2, UNSEEN = 0, OPEN = -1 };
+
+/* The way from a section to the cell that is looked at in it. */
+struct frame {
+	int section;
+	const struct classic_rung *rung; /* NULL: it has been left             */
+	int cell;                        /* the next one                       */
+	int depth;                       /* of what it has called              */
+};
+
+struct calls {
+	struct classic_reader *reader;
+	int *target;   /* of each subroutine's number: its section, or -1      */
+	int *depth;    /* of each section: how many call one another           */
+	struct frame *frame;
+	int frames;
+};
+
+static void push(struct calls *calls, int section)
+{
+	const struct classic_project *project = calls->reader->project;
+	struct frame *frame = &calls->frame[calls->frames++];
+
+	calls->depth[section] = OPEN;
+	*frame = (struct frame){ .section = section };
+	if (!project->section[section].sequential)
+		frame->rung = classic_rung(project, project->section[section].first);
+}
+
+static void fail(struct calls *calls, const struct frame *frame, int y)
+{
+	const struct classic_rung *rung = frame->rung;
+	const char *name = calls->reader->project->section[frame->section].name;
+	struct classic_place place = { rung->place.member, rung->row_line[y] };
+
+	classic_fail_at(calls->reader, DIAG_IMPORT_CALLS, place, name, strlen(name));
+}
+
+/* The section that the next call of this frame leads to; -1: it has no more. */
+static int next_call(struct calls *calls, struct frame *frame, int *row)
+{
+	const struct classic_project *project = calls->reader->project;
+	const struct classic_section *section = &project->section[frame->section];
+
+	while (frame->rung) {
+		while (frame->cell < CLASSIC_ROWS * CLASSIC_COLUMNS) {
+			int y = frame->cell / CLASSIC_COLUMNS;
+			const struct classic_cell *cell =
+				&frame->rung->cell[y][frame->cell++ % CLASSIC_COLUMNS];
+
+			*row = y;
+			if (cell->element == CALL && calls->target[cell->variable.number] >= 0)
+				return calls->target[cell->variable.number];
+		}
+		frame->rung = frame->rung->number == section->last ? NULL :
+			      classic_rung(project, frame->rung->next);
+		frame->cell = 0;
+	}
+	return -1;
+}
+
+/* From one section down; each section is looked at once. */
+static bool look_from(struct calls *calls, int section)
+{
+	int row = 0;
+
+	push(calls, section);
+	while (calls->frames) {
+		struct frame *frame = &calls->frame[calls->frames - 1];
+		int to = next_call(calls, frame, &row);
+
+		if (to >= 0 && calls->depth[to] == UNSEEN) {
+			frame->cell--; /* once more when it is known               */
+			if (calls->frames > DEEPEST) {
+				fail(calls, frame, row);
+				return false;
+			}
+			push(calls, to);
+		} else if (to >= 0) {
+			if (calls->depth[to] == OPEN || calls->depth[to] >= DEEPEST) {
+				fail(calls, frame, row);
+				return false;
+			}
+			if (calls->depth[to] > frame->depth)
+				frame->depth = calls->depth[to];
+		} else {
+			calls->depth[frame->section] = frame->depth + 1;
+			calls->frames--;
+		}
+	}
+	return true;
+}
+
+/* Tells where subroutines call one another in a circle, or deeper than a
+ * program can here. Chains of rungs must be good, sections in order. */
+static void classic_calls(struct classic_reader *reader)
+{
+	struct classic_project *project = reader->project;
+	size_t sections = (size_t)project->sections;
+	struct calls calls = { .reader = reader };
+
+	calls.target = arena_alloc(reader->arena, CLASSIC_LIMIT * sizeof(int));
+	calls.depth = arena_alloc(reader->arena, (sections + 1) * sizeof(int));
+	calls.frame = arena_alloc(reader->arena, (sections + 1) * sizeof(struct frame));
+	if (!calls.target || !calls.depth || !calls.frame)
+		return;
+	memset(calls.target, -1, CLASSIC_LIMIT * sizeof(int));
+	for (int i = project->sections - 1; i >= 0; i--)
+		if (project->section[i].subroutine >= 0 && !project->section[i].sequential)
+			calls.target[project->section[i].subroutine] = i;
+	for (int i = 0; i < project->sections; i++)
+		if (calls.depth[i] == UNSEEN && !look_from(&calls, i))
+			return;
+}
+
+/** classic_whole - brings everything into its order and looks whether it fits together:
+ * chains of rungs, steps, dialect. */
+static void classic_whole(struct classic_reader *reader)
+{
+	struct classic_project *project = reader->project;
+
+	order_lists(reader);
+	order_blocks(reader, &project->timer, "timer");
+	order_blocks(reader, &project->monostable, "monostable");
+	order_blocks(reader, &project->counter, "counter");
+	order_blocks(reader, &project->iec_timer, "IEC timer");
+	order_blocks(reader, &project->reg, "register");
+	if (project->dialect != CLASSIC_NUMERIC)
+		project->dialect = dialect_of(project);
+	if (!reader->good)
+		return;
+	if (project->rungs && !project->sections)
+		add_only_section(reader);
+	if (!project->sections) {
+		classic_fail_at(reader, DIAG_IMPORT_NOTHING, (struct classic_place){ "", 0 },
+				"", 0);
+		return;
+	}
+	check_sections(reader);
+	for (int i = 0; i < project->transitions; i++) {
+		const struct classic_transition *transition = &project->transition[i];
+
+		check_links(reader, transition, transition->activate, transition->activates);
+		check_links(reader, transition, transition->deactivate,
+			    transition->deactivates);
+	}
+	if (reader->good)
+		classic_calls(reader);
 }
 
 static struct classic_project *end(struct classic_reader *reader)
@@ -351,4 +926,132 @@ struct classic_project *classic_read_folder(struct arena *arena, const char *fol
 	}
 	registers_have_modes(&reader);
 	return end(&reader);
+}
+
+void classic_member_begin(struct classic_reader *reader,
+			  const struct classic_member *member)
+{
+	reader->member = member;
+	reader->at = member->text;
+	reader->end = member->text + member->len;
+	reader->line_number = member->line - 1;
+	reader->line = member->text;
+	reader->len = 0;
+}
+
+bool classic_line_next(struct classic_reader *reader)
+{
+	/* More errors than are kept: nobody would read them. */
+	while (reader->at < reader->end && reader->diags->errors <= LIMIT_DIAGS) {
+		const char *line = reader->at;
+		size_t left = (size_t)(reader->end - line);
+		const char *newline = memchr(line, '\n', left);
+		size_t len = newline ? (size_t)(newline - line) : left;
+
+		reader->at = line + len + (newline ? 1 : 0);
+		reader->line_number++;
+		while (len && is_blank(line[len - 1]))
+			len--;
+		while (len && is_blank(*line)) {
+			line++;
+			len--;
+		}
+		reader->line = line;
+		reader->len = len;
+		if (len <= CLASSIC_LINE)
+			return true;
+		classic_fail(reader, DIAG_IMPORT_LONG_LINE, line, 16);
+	}
+	return false;
+}
+
+bool classic_line_told(struct classic_reader *reader)
+{
+	while (classic_line_next(reader))
+		if (reader->len && *reader->line != ';')
+			return true;
+	return false;
+}
+
+const char *classic_line_after(const struct classic_reader *reader, const char *key)
+{
+	size_t len = ascii_prefix(key, reader->line, reader->len);
+
+	return len ? reader->line + len : NULL;
+}
+
+const char *classic_name(struct classic_reader *reader, const char *from, size_t len,
+			 size_t usual)
+{
+	const char *text = classic_text(reader, from, len);
+	size_t bytes = strlen(text);
+
+	if (bytes > LIMIT_NAME) {
+		classic_fail(reader, DIAG_NAME_TOO_LONG, text, bytes);
+		return "";
+	}
+	if (usual && bytes > usual)
+		classic_fail(reader, DIAG_IMPORT_LONG, text, bytes);
+	return text;
+}
+
+bool classic_number(const char **at, const char *end, int *out)
+{
+	const char *p = *at;
+	bool minus = false;
+	int64_t value = 0;
+
+	while (p < end && is_blank(*p))
+		p++;
+	if (p < end && (*p == '-' || *p == '+'))
+		minus = *p++ == '-';
+	if (p == end || !ascii_digit(*p))
+		return false;
+	for (; p < end && ascii_digit(*p); p++)
+		if (value <= INT32_MAX)
+			value = value * 10 + (*p - '0');
+	while (p < end && is_blank(*p))
+		p++;
+	if (value > INT32_MAX)
+		value = INT32_MAX;
+	*out = (int)(minus ? -value : value);
+	*at = p;
+	return true;
+}
+
+bool classic_numbers(struct classic_reader *reader, const char *at, int *out, int least,
+		     int max)
+{
+	const char *end = reader->line + reader->len;
+	int count = 0;
+
+	memset(out, 0, (size_t)max * sizeof(*out));
+	while (at < end && count < max) {
+		if (!classic_number(&at, end, &out[count]))
+			break;
+		count++;
+		if (at == end)
+			break;
+		if (*at != ',')
+			return classic_fail(reader, DIAG_IMPORT_FIELDS, at,
+					    (size_t)(end - at));
+		at++;
+	}
+	if (count < least || (at < end && count < max))
+		return classic_fail(reader, DIAG_IMPORT_FIELDS, reader->line, reader->len);
+	return true;
+}
+
+bool classic_version(struct classic_reader *reader, int known)
+{
+	const char *at = classic_line_after(reader, "#VER=");
+	int version;
+
+	if (!at)
+		return true;
+	if (!classic_number(&at, reader->line + reader->len, &version))
+		return classic_fail(reader, DIAG_IMPORT_FIELDS, reader->line, reader->len);
+	if (version > known)
+		return classic_fail(reader, DIAG_NEWER_VERSION, reader->line, reader->len);
+	return true;
 }

@@ -34,7 +34,7 @@ struct classic_reader {
 	bool good;               /* no error in it yet                         */
 };
 
-/* ---- classic_read_line.c ---- */
+/* ---- lines ---- */
 /** classic_member_begin - before the first line of @member. */
 void classic_member_begin(struct classic_reader *reader,
 			  const struct classic_member *member);
@@ -50,9 +50,6 @@ struct classic_place classic_here(const struct classic_reader *reader);
 /** classic_fail - a message about this line, "MEMBER: TEXT"; false for an error. */
 bool classic_fail(struct classic_reader *reader, enum diag_id id, const char *text,
 		  size_t len);
-/** classic_fail_at - the same of another place. */
-bool classic_fail_at(struct classic_reader *reader, enum diag_id id,
-		     struct classic_place place, const char *text, size_t len);
 /** classic_lost - a line of the report about this line. */
 void classic_lost(struct classic_reader *reader, const char *text);
 /** classic_text - @len bytes as UTF-8 that is shown: Latin-1 if it was not, `?` for
@@ -75,10 +72,6 @@ bool classic_version(struct classic_reader *reader, int known);
 /** classic_twice - tells that @what stands twice. */
 void classic_twice(struct classic_reader *reader, struct classic_place place,
 		   const char *what, int number);
-
-/* ---- classic_read_members.c ---- */
-/** classic_members - parts a container's text into its members. false: told. */
-bool classic_members(struct classic_reader *reader, const char *text, size_t len);
 
 /* ---- classic_read_rung.c ---- */
 /** classic_read_rung - one member rung_N.csv. */
@@ -113,13 +106,4 @@ void classic_read_sfc(struct classic_reader *reader, const struct classic_member
 const char *classic_read_variable(const char *at, const char *end, char slash,
 				  struct classic_variable *variable);
 
-/* ---- classic_read_whole.c ---- */
-/** classic_whole - brings everything into its order and looks whether it fits together:
- * chains of rungs, steps, dialect. */
-void classic_whole(struct classic_reader *reader);
-
-/* ---- classic_read_calls.c ---- */
-/** classic_calls - tells where subroutines call one another in a circle, or deeper than a
- * program can here. Chains of rungs must be good, sections in order. */
-void classic_calls(struct classic_reader *reader);
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_chart - a sequential page as a chart IN ORDER, which is how pages run there.
+ * classic_sfc - a sequential page as a chart IN ORDER, which is how pages run there.
  *
  * There, each page tells at its end what the steps of all pages are. Here each chart tells
  * of its own steps; only what can be seen of the first scan before a page has run needs
@@ -354,23 +354,6 @@ static void write_one_sfc(struct conversion *c, const struct classic_section *se
 	put(c, "END_PROGRAM\n\n");
 }
 
-void convert_sfc(struct conversion *c, const struct classic_section *section)
-{
-	if (section_of(c, section->page) != section - c->project->section)
-		tell(c, REPORT_LOST, "a page runs once in a scan: section \"%s\" shows it "
-		     "again", section->name);
-	else if (!has_steps(c, section))
-		tell(c, REPORT_LOST, "section \"%s\" is an empty page", section->name);
-	else if (!ever_runs(c, section))
-		tell(c, REPORT_LOST, "section \"%s\" is a page without an initial step: "
-		     "nothing happens on it", section->name);
-	else
-		write_one_sfc(c, section);
-	if (section->subroutine >= 0)
-		tell(c, REPORT_CHANGED, "a page is no subroutine: it runs in each scan");
-	convert_others(c, section);
-}
-
 /* ---- what a page does for the others ---- */
 
 static void begin_more(struct conversion *c, const char **name)
@@ -384,7 +367,7 @@ static void begin_more(struct conversion *c, const char **name)
 
 /* What is FALSE before the first page has run, TRUE before the own one has, and asked in
  * both. And, a fault of the original, each page lets the time of all steps go on. */
-void convert_others(struct conversion *c, const struct classic_section *section)
+static void convert_others(struct conversion *c, const struct classic_section *section)
 {
 	const char *name = NULL;
 
@@ -407,4 +390,21 @@ void convert_others(struct conversion *c, const struct classic_section *section)
 	}
 	if (name)
 		put(c, "END_PROGRAM\n\n");
+}
+
+void convert_sfc(struct conversion *c, const struct classic_section *section)
+{
+	if (section_of(c, section->page) != section - c->project->section)
+		tell(c, REPORT_LOST, "a page runs once in a scan: section \"%s\" shows it "
+		     "again", section->name);
+	else if (!has_steps(c, section))
+		tell(c, REPORT_LOST, "section \"%s\" is an empty page", section->name);
+	else if (!ever_runs(c, section))
+		tell(c, REPORT_LOST, "section \"%s\" is a page without an initial step: "
+		     "nothing happens on it", section->name);
+	else
+		write_one_sfc(c, section);
+	if (section->subroutine >= 0)
+		tell(c, REPORT_CHANGED, "a page is no subroutine: it runs in each scan");
+	convert_others(c, section);
 }

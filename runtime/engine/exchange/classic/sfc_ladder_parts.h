@@ -2,9 +2,8 @@
  *
  * sfc_ladder_parts - what the parts of the export of charts share: one chart in work.
  *
- * Private to classic/. sfc_ladder writes the project, sfc_ladder_names gives names,
- * sfc_ladder_rung writes one rung, sfc_ladder_steps the program of the steps,
- * sfc_ladder_outputs that of actions.
+ * Private to classic/. sfc_ladder.c writes the project, sfc_ladder_names.c gives names,
+ * sfc_ladder_rung.c writes one rung, sfc_ladder_steps.c the programs of steps and actions.
  * A chart is written several times: only then is it known which bits it needs.
  */
 #ifndef CLASSIC_SFC_LADDER_PARTS_H
@@ -127,29 +126,11 @@ void lad_write(struct lad *e, const struct lad_rung *r, const char *label,
 /** lad_expression - an expression as contacts where that means the same; else a cell. */
 void lad_expression(struct lad *e, struct lad_rung *r, const char *text);
 
-/* ---- sfc_ladder_control.c ---- */
-bool lad_has_reset(const struct lad *e);
-bool lad_has_force(const struct lad *e);
-/** lad_has_gate - can it be that nothing fires? */
-bool lad_has_gate(const struct lad *e);
-/** lad_has_modes - does somebody say when transitions fire? */
-bool lad_has_modes(const struct lad *e);
-void lad_control(struct lad *e);
-
-/* ---- IN ORDER: sfc_ladder_order.c ---- */
 bool lad_is_in_order(const struct lad *e);
-/** lad_order - rounds of transitions, each with what it does to its steps. */
-void lad_order(struct lad *e);
 
 /* ---- the two programs ---- */
 /** lad_arc - the rungs that tell whether an arc fires; @label: of the first one. */
 void lad_arc(struct lad *e, int arc, const char *label);
-/** lad_once - what a step has to SET and RESET. */
-void lad_once(struct lad *e, struct lad_rung *r, int step);
-/** lad_steps_text - "Fill + Stir". */
-char *lad_steps_text(struct lad *e, const struct sfc_steps *steps);
 void lad_steps(struct lad *e);
 void lad_outputs(struct lad *e);
-/** lad_body - the body as a subroutine. @result: NULL, or what gets its last result. */
-void lad_body(struct lad *e, int body, const char *result);
 #endif

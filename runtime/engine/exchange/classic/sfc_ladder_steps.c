@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_ladder_steps - the program that moves from step to step.
+ * sfc_ladder_steps - the program that moves from step to step, and that of the actions.
  *
  * Its rungs stand in the order of what a scan does (docs/sfc.md): times, supervision,
  * which transitions fire, which steps begin and end, resets before sets, SET and RESET.
  */
 #include "engine/exchange/classic/sfc_ladder_parts.h"
-
 #include "engine/text/text.h"
 
 #include <stdlib.h>
@@ -119,7 +118,8 @@ static bool has(const struct sfc_steps *steps, int step)
 	return false;
 }
 
-char *lad_steps_text(struct lad *e, const struct sfc_steps *steps)
+/* "Fill + Stir". */
+static char *lad_steps_text(struct lad *e, const struct sfc_steps *steps)
 {
 	char *text = (char *)"";
 
@@ -183,6 +183,55 @@ static void put_rung(struct lad *e, struct lad_rung *r, const struct rung *rung)
 	}
 }
 
+static void write_rungs(struct lad *e, const struct sfc_body *body)
+{
+	for (int i = 0; i < body->count; i++) {
+		char *text = text_write_rung(e->project, e->pou->rung[body->first + i]);
+
+		e->good &= text != NULL;
+		if (text)
+			sink_text(&e->subs, lad_words(e, text));
+		free(text);
+	}
+}
+
+static void write_list(struct lad *e, const struct sfc_body *body, const char *result)
+{
+	const struct il il = { .line = e->pou->il.line + body->first,
+			       .count = body->count };
+	struct sink_memory memory;
+	struct sink sink;
+
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	text_write_il(e->project, &il, &sink);
+	e->good &= !memory.failed;
+	sink_text(&e->subs, lad_words(e, sink_memory_text(&memory)));
+	sink_memory_free(&memory);
+	if (!result)
+		return;
+	sink_text(&e->subs, "ST ");
+	sink_text(&e->subs, result);
+	sink_text(&e->subs, "\n");
+}
+
+/* The body as a subroutine. @result: NULL, or what gets its last result. */
+static void lad_body(struct lad *e, int number, const char *result)
+{
+	const struct sfc_body *body = sfc_body(e->sfc, number);
+
+	e->condition = result;
+	sink_text(&e->subs, "SUBROUTINE ");
+	sink_text(&e->subs, project_text(e->project, e->body[number]));
+	sink_text(&e->subs, body->kind == BODY_LIST ? " IL\n" : " LD\n");
+	if (body->kind == BODY_LIST)
+		write_list(e, body, result);
+	else
+		write_rungs(e, body);
+	sink_text(&e->subs, "END_SUBROUTINE\n\n");
+	e->condition = NULL;
+}
+
 static void write_condition(struct lad *e, struct lad_rung *r, int arc)
 {
 	const int number = e->net.arc[arc].transition;
@@ -201,6 +250,27 @@ static void write_condition(struct lad *e, struct lad_rung *r, int arc)
 		lad_cell(r, lad_text(e, "CALL %s", text_of(e, e->body[number])));
 		lad_cell(r, lad_text(e, "NO %s", result));
 	}
+}
+
+static bool lad_has_reset(const struct lad *e)
+{
+	return e->sfc->control[CONTROL_RESET];
+}
+
+static bool lad_has_force(const struct lad *e)
+{
+	return e->sfc->control[CONTROL_FORCE];
+}
+
+/* Can it be that nothing fires? */
+static bool lad_has_gate(const struct lad *e)
+{
+	return lad_has_reset(e) || lad_has_force(e) || e->sfc->control[CONTROL_HOLD];
+}
+
+bool lad_is_in_order(const struct lad *e)
+{
+	return e->sfc->evolution == EVOLVE_IN_ORDER;
 }
 
 /* What has to be before a condition is asked: a cell each. */
@@ -234,6 +304,12 @@ static void write_fires(struct lad *e, int arc, const char *title)
 	}
 	lad_out(r, coil(e, "COIL", &e->arc[arc][LAD_FIRES]));
 	lad_write(e, r, "", title);
+}
+
+/* Does somebody say when transitions fire? */
+static bool lad_has_modes(const struct lad *e)
+{
+	return e->sfc->control[CONTROL_SEMI] || e->sfc->control[CONTROL_MANUAL];
 }
 
 void lad_arc(struct lad *e, int arc, const char *label)
@@ -473,7 +549,8 @@ static void write_sets(struct lad *e)
 	}
 }
 
-void lad_once(struct lad *e, struct lad_rung *r, int step)
+/* What a step has to SET and RESET. */
+static void lad_once(struct lad *e, struct lad_rung *r, int step)
 {
 	const struct sfc_step *at = &e->sfc->step[step];
 
@@ -557,6 +634,224 @@ static void write_gathered(struct lad *e)
 		}
 }
 
+static void write_force(struct lad *e, const char *reset)
+{
+	const char *force = lad_words(e, text_of(e, e->sfc->control[CONTROL_FORCE]));
+	const char *number = lad_use(e, &e->whole[LAD_NUMBER]);
+	struct lad_rung *r = lad_begin(e);
+
+	lad_head(r, no(e, &e->whole[LAD_RUNS]));
+	if (*reset)
+		lad_head(r, lad_text(e, "NC %s", reset));
+	lad_head(r, lad_text(e, "[ %s <> %s ]", force, number));
+	lad_out(r, coil(e, "COIL", &e->whole[LAD_CHANGED]));
+	lad_write(e, r, "", "FORCE has changed");
+	r = lad_begin(e);
+	lad_out(r, lad_text(e, "[ %s := %s ]", number, force));
+	lad_write(e, r, "", "What it is now");
+	for (int i = 0; i < e->reach; i++) {
+		r = lad_begin(e);
+		lad_head(r, no(e, &e->whole[LAD_CHANGED]));
+		lad_head(r, lad_text(e, "[ %s = %d ]", number, i + 1));
+		lad_out(r, coil(e, "COIL", &e->step[i][LAD_FORCED]));
+		lad_write(e, r, "", lad_text(e, "%s is forced", lad_name(e, i)));
+	}
+	r = lad_begin(e);
+	lad_head(r, no(e, &e->whole[LAD_CHANGED]));
+	lad_head(r, lad_text(e, "[ %s >= 1 ]", number));
+	lad_head(r, lad_text(e, "[ %s <= %d ]", number, e->reach));
+	lad_out(r, coil(e, "COIL", &e->whole[LAD_SET]));
+	lad_write(e, r, "", "A step is forced");
+}
+
+/* SEMI: only when TIP rises. MANUAL: then all that are enabled, and it wins. */
+static void write_modes(struct lad *e)
+{
+	const char *semi = lad_words(e, text_of(e, e->sfc->control[CONTROL_SEMI]));
+	const char *manual = lad_words(e, text_of(e, e->sfc->control[CONTROL_MANUAL]));
+	const char *tip = lad_words(e, text_of(e, e->sfc->control[CONTROL_TIP]));
+	struct lad_rung *r = lad_begin(e);
+
+	lad_head(r, *tip ? lad_text(e, "P %s", tip) : lad_text(e, "NC SYS_ALWAYS_ON"));
+	lad_out(r, coil(e, "COIL", &e->whole[LAD_HAND]));
+	lad_write(e, r, "", "TIP rises");
+	r = lad_begin(e);
+	if (*manual)
+		lad_head(r, lad_text(e, "NC %s", manual));
+	if (*semi) {
+		lad_cell(r, lad_text(e, "NC %s", semi));
+		lad_way(r);
+		lad_cell(r, no(e, &e->whole[LAD_HAND]));
+	}
+	lad_out(r, coil(e, "COIL", &e->whole[LAD_GO]));
+	lad_write(e, r, "", "Transitions fire when they are true");
+	if (*semi && sfc_goes_round(e->sfc)) {
+		r = lad_begin(e);
+		lad_head(r, lad_text(e, "NO %s", semi));
+		lad_out(r, coil(e, "COIL", &e->whole[LAD_ONCE]));
+		lad_write(e, r, "", "SEMI, whatever the chart makes of it in this scan");
+	}
+	r = lad_begin(e);
+	if (*manual)
+		lad_head(r, lad_text(e, "NC %s", manual));
+	else
+		lad_head(r, lad_text(e, "NO SYS_ALWAYS_ON"));
+	lad_out(r, coil(e, "R", &e->whole[LAD_HAND]));
+	lad_write(e, r, "", "Whatever they are, in MANUAL alone");
+}
+
+static void lad_control(struct lad *e)
+{
+	const char *reset = lad_words(e, text_of(e, e->sfc->control[CONTROL_RESET]));
+	const char *hold = lad_words(e, text_of(e, e->sfc->control[CONTROL_HOLD]));
+	struct lad_rung *r = lad_begin(e);
+
+	if (lad_has_reset(e)) {
+		lad_head(r, lad_text(e, "P %s", reset));
+		lad_head(r, no(e, &e->whole[LAD_RUNS]));
+		lad_out(r, coil(e, "COIL", &e->whole[LAD_ANEW]));
+		lad_write(e, r, "", "RESET: all begins anew");
+	}
+	if (lad_has_force(e))
+		write_force(e, reset);
+	if (lad_has_modes(e))
+		write_modes(e);
+	r = lad_begin(e);
+	if (lad_has_reset(e)) {
+		lad_way(r);
+		lad_cell(r, lad_text(e, "NO %s", reset));
+	}
+	if (*hold) {
+		lad_way(r);
+		lad_cell(r, lad_text(e, "NO %s", hold));
+	}
+	if (lad_has_force(e)) {
+		lad_way(r);
+		lad_cell(r, no(e, &e->whole[LAD_SET]));
+	}
+	if (lad_has_gate(e)) {
+		lad_out(r, coil(e, "COIL", &e->whole[LAD_STANDS]));
+		lad_write(e, r, "", "While this is TRUE nothing fires");
+	}
+	r = lad_begin(e);
+	lad_head(r, nc(e, &e->whole[LAD_RUNS]));
+	lad_out(r, coil(e, "COIL", &e->whole[LAD_FIRST]));
+	lad_write(e, r, "", "The first scan");
+}
+
+/* ---- one transition ---- */
+
+static void write_short(struct lad *e, int arc, int step)
+{
+	const struct sfc_step *at = &e->sfc->step[step];
+	struct lad_rung *r = lad_begin(e);
+
+	if (!at->min || !at->alarm)
+		return;
+	lad_head(r, no(e, &e->arc[arc][LAD_FIRES]));
+	lad_head(r, lad_text(e, "[ %s < %s ]", lad_use(e, &e->step[step][LAD_T]),
+			     lad_words(e, text_of(e, at->min))));
+	lad_out(r, lad_text(e, "S %s", lad_words(e, text_of(e, at->alarm))));
+	lad_write(e, r, "", lad_text(e, "%s was too short", lad_name(e, step)));
+}
+
+static void write_leave(struct lad *e, int arc)
+{
+	const struct sfc_steps *from = &e->net.arc[arc].from;
+	struct lad_rung *r = lad_begin(e);
+
+	lad_head(r, no(e, &e->arc[arc][LAD_FIRES]));
+	for (int i = 0; i < from->count; i++) {
+		const int step = from->step[i];
+
+		write_short(e, arc, step);
+		if (e->step[step][LAD_ENDED].used)
+			lad_out(r, coil(e, "S", &e->step[step][LAD_ENDED]));
+		lad_out(r, coil(e, "R", &e->step[step][LAD_X]));
+	}
+	lad_write(e, r, "", lad_text(e, "Leave %s", lad_steps_text(e, from)));
+}
+
+static void write_enter(struct lad *e, int arc, int step)
+{
+	struct lad_rung *r = lad_begin(e);
+
+	lad_head(r, no(e, &e->arc[arc][LAD_FIRES]));
+	lad_head(r, lad_text(e, "NC %s", lad_use(e, &e->step[step][LAD_X])));
+	if (e->step[step][LAD_T].used)
+		lad_out(r, lad_text(e, "[ %s := T#0s ]",
+				    lad_use(e, &e->step[step][LAD_T])));
+	if (e->step[step][LAD_STARTED].used)
+		lad_out(r, coil(e, "S", &e->step[step][LAD_STARTED]));
+	lad_once(e, r, step);
+	lad_out(r, coil(e, "S", &e->step[step][LAD_X]));
+	lad_write(e, r, "", lad_text(e, "Enter %s", lad_name(e, step)));
+}
+
+/* SET and RESET are done step by step in the order of the file. */
+static void write_enters(struct lad *e, int arc)
+{
+	const struct sfc_steps *to = &e->net.arc[arc].to;
+	int last = -1;
+
+	for (int i = 0; i < to->count; i++) {
+		int next = -1;
+
+		for (int k = 0; k < to->count; k++)
+			if (to->step[k] > last && (next < 0 || to->step[k] < next))
+				next = to->step[k];
+		write_enter(e, arc, next);
+		last = next;
+	}
+}
+
+static void write_fired(struct lad *e, int arc)
+{
+	struct lad_rung *r = lad_begin(e);
+
+	lad_head(r, no(e, &e->arc[arc][LAD_FIRES]));
+	lad_out(r, coil(e, "S", &e->whole[LAD_FIRED]));
+	if (lad_has_modes(e))
+		lad_out(r, coil(e, "R", &e->whole[LAD_HAND]));
+	lad_write(e, r, "", "Something has fired in this round");
+	r = lad_begin(e);
+	if (!e->sfc->control[CONTROL_SEMI])
+		return;
+	lad_head(r, no(e, &e->arc[arc][LAD_FIRES]));
+	lad_head(r, no(e, &e->whole[LAD_ONCE]));
+	lad_out(r, coil(e, "R", &e->whole[LAD_GO]));
+	lad_write(e, r, "", "SEMI: one TIP is one transition");
+}
+
+/* ---- rounds ---- */
+
+static void lad_order(struct lad *e)
+{
+	const char *rounds = lad_use(e, &e->whole[LAD_ROUNDS]);
+	struct lad_rung *r = lad_begin(e);
+
+	if (!e->net.arc_count)
+		return;
+	lad_head(r, lad_text(e, "NO SYS_ALWAYS_ON"));
+	lad_out(r, lad_text(e, "[ %s := 0 ]", rounds));
+	lad_write(e, r, text_of(e, e->again), "No round yet");
+	r = lad_begin(e);
+	lad_head(r, lad_text(e, "[ %s := %s + 1 ]", rounds, rounds));
+	lad_out(r, coil(e, "R", &e->whole[LAD_FIRED]));
+	lad_write(e, r, text_of(e, e->round), "A round");
+	for (int i = 0; i < e->net.arc_count; i++) {
+		lad_arc(e, i, "");
+		write_leave(e, i);
+		write_enters(e, i);
+		write_fired(e, i);
+	}
+	r = lad_begin(e);
+	lad_head(r, no(e, &e->whole[LAD_FIRED]));
+	lad_head(r, lad_text(e, "[ %s < %d ]", rounds, LIMIT_ROUNDS));
+	lad_out(r, lad_text(e, "JMP %s", text_of(e, e->round)));
+	lad_write(e, r, "", "Until nothing fires");
+}
+
 void lad_steps(struct lad *e)
 {
 	struct lad_rung *r;
@@ -578,4 +873,336 @@ void lad_steps(struct lad *e)
 	lad_head(r, no(e, &e->whole[LAD_FIRST]));
 	lad_out(r, coil(e, "S", &e->whole[LAD_RUNS]));
 	lad_write(e, r, "", "From now on it runs");
+}
+
+/* The pulse of a step in this scan. */
+static struct lad_var *began(struct lad *e, int step)
+{
+	return &e->step[step][sfc_goes_round(e->sfc) ? LAD_STARTED : LAD_START];
+}
+
+static struct lad_var *ended(struct lad *e, int step)
+{
+	return &e->step[step][sfc_goes_round(e->sfc) ? LAD_ENDED : LAD_END];
+}
+
+/* Does line @use call for @called? */
+static bool is_of(const struct lad *e, const struct sfc_use *use,
+		  const struct lad_called *called)
+{
+	if (use->kind != USE_ACTION)
+		return false;
+	return called->action >= 0 ? use->action == called->action :
+	       use->action < 0 && e->same[use - e->sfc->use] == called->use;
+}
+
+static char *title_of(struct lad *e, const struct sfc_use *use)
+{
+	return lad_text(e, "%s: %s(%s)", lad_name(e, use->step),
+			text_of(e, use->operand), qualifier_word(use->qualifier));
+}
+
+static bool is_stored(enum qualifier q)
+{
+	return q == QUALIFIER_S || q == QUALIFIER_SD || q == QUALIFIER_DS ||
+	       q == QUALIFIER_SL;
+}
+
+/* ---- what is stored ---- */
+
+/* SD, SL: the time since it was stored; HOLD stops it with the others. */
+static void write_since(struct lad *e, int line)
+{
+	const struct sfc_use *use = &e->sfc->use[line];
+	const char *since = lad_use(e, &e->line[line][LAD_SINCE]);
+	struct lad_rung *r = lad_begin(e);
+
+	lad_head(r, no(e, &e->line[line][LAD_STORED]));
+	lad_out(r, lad_text(e, "[ %s := %s + %s ]", since, since,
+			    lad_use(e, &e->whole[LAD_PASSED])));
+	lad_write(e, r, "", lad_text(e, "%s: its time", title_of(e, use)));
+	r = lad_begin(e);
+	lad_head(r, no(e, began(e, use->step)));
+	lad_head(r, nc(e, &e->line[line][LAD_STORED]));
+	lad_out(r, lad_text(e, "[ %s := T#0s ]", since));
+	lad_write(e, r, "", lad_text(e, "%s: it begins", title_of(e, use)));
+}
+
+/* DS: as long as its step has been active without a break, and no R. */
+static void write_armed(struct lad *e, int line)
+{
+	const struct sfc_use *use = &e->sfc->use[line];
+	struct lad_rung *r = lad_begin(e);
+
+	lad_head(r, no(e, began(e, use->step)));
+	lad_out(r, coil(e, "S", &e->line[line][LAD_ARMED]));
+	lad_write(e, r, "", lad_text(e, "%s: it waits", title_of(e, use)));
+	r = lad_begin(e);
+	lad_head(r, nc(e, &e->step[use->step][LAD_X]));
+	lad_out(r, coil(e, "R", &e->line[line][LAD_ARMED]));
+	lad_write(e, r, "", lad_text(e, "%s: it waits no more", title_of(e, use)));
+}
+
+static void write_anew(struct lad *e, int line)
+{
+	struct lad_rung *r = lad_begin(e);
+
+	if (!e->sfc->control[CONTROL_RESET])
+		return;
+	lad_head(r, no(e, &e->whole[LAD_ANEW]));
+	lad_out(r, coil(e, "R", &e->line[line][LAD_STORED]));
+	if (e->sfc->use[line].qualifier == QUALIFIER_DS)
+		lad_out(r, coil(e, "R", &e->line[line][LAD_ARMED]));
+	lad_write(e, r, "", lad_text(e, "%s: RESET", title_of(e, &e->sfc->use[line])));
+}
+
+static void write_stored(struct lad *e, int line)
+{
+	const struct sfc_use *use = &e->sfc->use[line];
+	const enum qualifier q = use->qualifier;
+	struct lad_rung *r;
+
+	write_anew(e, line);
+	if (q == QUALIFIER_SD || q == QUALIFIER_SL)
+		write_since(e, line);
+	if (q == QUALIFIER_DS)
+		write_armed(e, line);
+	r = lad_begin(e);
+	if (q == QUALIFIER_DS) {
+		lad_head(r, no(e, &e->line[line][LAD_ARMED]));
+		lad_head(r, lad_text(e, "[ %s >= %s ]",
+				     lad_use(e, &e->step[use->step][LAD_T]),
+				     lad_words(e, text_of(e, use->time))));
+	} else {
+		lad_head(r, no(e, began(e, use->step)));
+	}
+	lad_out(r, coil(e, "S", &e->line[line][LAD_STORED]));
+	lad_write(e, r, "", title_of(e, use));
+}
+
+/* An R of @called, in any step, ends line @line. */
+static void write_ended(struct lad *e, int line, const struct lad_called *called)
+{
+	struct lad_rung *r = lad_begin(e);
+	bool any = false;
+
+	for (int i = 0; i < e->sfc->use_count; i++) {
+		const struct sfc_use *use = &e->sfc->use[i];
+
+		if (use->qualifier != QUALIFIER_R || !is_of(e, use, called))
+			continue;
+		lad_way(r);
+		lad_cell(r, no(e, &e->step[use->step][LAD_X]));
+		if (sfc_goes_round(e->sfc)) {
+			lad_way(r);
+			lad_cell(r, no(e, began(e, use->step)));
+		}
+		any = true;
+	}
+	if (!any)
+		return;
+	lad_out(r, coil(e, "R", &e->line[line][LAD_STORED]));
+	if (e->sfc->use[line].qualifier == QUALIFIER_DS)
+		lad_out(r, coil(e, "R", &e->line[line][LAD_ARMED]));
+	lad_write(e, r, "", lad_text(e, "%s ends", title_of(e, &e->sfc->use[line])));
+}
+
+/* ---- what is called for ---- */
+
+static char *time_cell(struct lad *e, const struct sfc_use *use, struct lad_var *var,
+		       const char *sign)
+{
+	return lad_text(e, "[ %s %s %s ]", lad_use(e, var), sign,
+			lad_words(e, text_of(e, use->time)));
+}
+
+/* One line as a way of the rung. */
+static void put_line(struct lad *e, struct lad_rung *r, int line)
+{
+	const struct sfc_use *use = &e->sfc->use[line];
+	struct lad_var *x = &e->step[use->step][LAD_X], *t = &e->step[use->step][LAD_T];
+
+	lad_way(r);
+	switch (use->qualifier) {
+	case QUALIFIER_N:
+		lad_cell(r, no(e, x));
+		break;
+	case QUALIFIER_L:
+	case QUALIFIER_D:
+		lad_cell(r, no(e, x));
+		lad_cell(r, time_cell(e, use, t,
+				      use->qualifier == QUALIFIER_L ? "<" : ">="));
+		break;
+	case QUALIFIER_P:
+	case QUALIFIER_P1:
+		lad_cell(r, no(e, began(e, use->step)));
+		break;
+	case QUALIFIER_P0:
+		lad_cell(r, no(e, ended(e, use->step)));
+		break;
+	case QUALIFIER_S:
+	case QUALIFIER_DS:
+		lad_cell(r, no(e, &e->line[line][LAD_STORED]));
+		break;
+	case QUALIFIER_SD:
+	case QUALIFIER_SL:
+		lad_cell(r, no(e, &e->line[line][LAD_STORED]));
+		lad_cell(r, time_cell(e, use, &e->line[line][LAD_SINCE],
+				      use->qualifier == QUALIFIER_SL ? "<" : ">="));
+		break;
+	case QUALIFIER_R:
+	case QUALIFIER_COUNT:
+		break;
+	}
+}
+
+static bool is_pulse(enum qualifier q)
+{
+	return q == QUALIFIER_P0 || q == QUALIFIER_P1;
+}
+
+/* While a step has it with R nothing calls for it. */
+static void put_refusals(struct lad *e, struct lad_rung *r, const struct lad_called *called)
+{
+	for (int i = 0; i < e->sfc->use_count; i++)
+		if (e->sfc->use[i].qualifier == QUALIFIER_R &&
+		    is_of(e, &e->sfc->use[i], called))
+			lad_head(r, nc(e, &e->step[e->sfc->use[i].step][LAD_X]));
+}
+
+/* @pulses: the lines of P0 and P1 alone, else those without them, or with @all both. */
+static bool put_lines(struct lad *e, struct lad_rung *r, const struct lad_called *called,
+		      bool pulses, bool all)
+{
+	bool any = false;
+
+	put_refusals(e, r, called);
+	for (int i = 0; i < e->sfc->use_count; i++) {
+		const struct sfc_use *use = &e->sfc->use[i];
+
+		if (!is_of(e, use, called) || use->qualifier == QUALIFIER_R ||
+		    (!all && is_pulse(use->qualifier) != pulses))
+			continue;
+		put_line(e, r, i);
+		any = true;
+	}
+	return any;
+}
+
+static bool is_variable(struct lad *e, const struct lad_called *called)
+{
+	for (int i = 0; i < e->sfc->use_count; i++) {
+		const struct sfc_use *use = &e->sfc->use[i];
+
+		if (is_of(e, use, called) && (use->qualifier == QUALIFIER_SD ||
+		    use->qualifier == QUALIFIER_SL) && !strchr(text_of(e, use->time), '#'))
+			return true;
+	}
+	return false;
+}
+
+static bool is_mixed(const struct lad *e, const struct lad_called *called)
+{
+	bool pulse = false;
+
+	for (int i = 0; i < e->sfc->use_count; i++)
+		pulse |= is_of(e, &e->sfc->use[i], called) &&
+			 is_pulse(e->sfc->use[i].qualifier);
+	return pulse;
+}
+
+/* The bits of what is called for; of a BOOL that is nobody else's, the BOOL itself. */
+static void write_called(struct lad *e, struct lad_called *called)
+{
+	struct lad_rung *r = lad_begin(e);
+	const char *name = text_of(e, called->operand);
+	const char *what = lad_words(e, name);
+
+	if (!put_lines(e, r, called, false, true)) {
+		r = lad_begin(e);
+		lad_head(r, lad_text(e, "NC SYS_ALWAYS_ON"));
+	}
+	lad_out(r, called->alone ? lad_text(e, "COIL %s", what) :
+		coil(e, "COIL", &called->var[LAD_CALLED]));
+	lad_write(e, r, "", lad_text(e, called->alone ? "%s" : "%s is called for", name));
+	if (called->action < 0 || !is_mixed(e, called))
+		return;
+	r = lad_begin(e);
+	if (!put_lines(e, r, called, false, false)) {
+		r = lad_begin(e);
+		lad_head(r, lad_text(e, "NC SYS_ALWAYS_ON"));
+	}
+	lad_out(r, coil(e, "COIL", &called->var[LAD_LEVEL]));
+	lad_write(e, r, "", lad_text(e, "%s is called for, not by P0 or P1 alone", name));
+}
+
+/* ---- doing it ---- */
+
+static void write_bool(struct lad *e, struct lad_called *called)
+{
+	const char *name = text_of(e, called->operand), *what = lad_words(e, name);
+	struct lad_rung *r = lad_begin(e);
+
+	if (called->alone)
+		return;
+	lad_head(r, no(e, &called->var[LAD_CALLED]));
+	lad_out(r, lad_text(e, "S %s", what));
+	lad_write(e, r, "", name);
+	r = lad_begin(e);
+	lad_head(r, nc(e, &called->var[LAD_CALLED]));
+	lad_head(r, no(e, &called->var[LAD_WAS]));
+	lad_out(r, lad_text(e, "R %s", what));
+	lad_write(e, r, "", lad_text(e, "%s, when it is called for no more", name));
+	r = lad_begin(e);
+	lad_head(r, no(e, &called->var[LAD_CALLED]));
+	lad_out(r, coil(e, "COIL", &called->var[LAD_WAS]));
+	lad_write(e, r, "", lad_text(e, "Was %s called for?", name));
+}
+
+static void write_body(struct lad *e, struct lad_called *called)
+{
+	struct lad_var *level = &called->var[is_mixed(e, called) ? LAD_LEVEL : LAD_CALLED];
+	const int body = e->sfc->transition_count + called->action;
+	const char *name = text_of(e, called->operand);
+	struct lad_rung *r = lad_begin(e);
+
+	if (sfc_body(e->sfc, body)->kind == BODY_NONE || !sfc_body(e->sfc, body)->count)
+		return;
+	lad_body(e, body, NULL);
+	lad_cell(r, no(e, &called->var[LAD_CALLED]));
+	lad_way(r);
+	lad_cell(r, no(e, &called->var[LAD_WAS]));
+	lad_out(r, lad_text(e, "CALL %s", text_of(e, e->body[body])));
+	lad_write(e, r, "", lad_text(e, "%s, and once more when it ends", name));
+	r = lad_begin(e);
+	lad_head(r, no(e, level));
+	lad_out(r, coil(e, "COIL", &called->var[LAD_WAS]));
+	lad_write(e, r, "", lad_text(e, "Was %s called for?", name));
+}
+
+void lad_outputs(struct lad *e)
+{
+	for (int i = 0; i < e->sfc->use_count; i++)
+		if (e->sfc->use[i].kind == USE_ACTION &&
+		    is_stored(e->sfc->use[i].qualifier))
+			write_stored(e, i);
+	for (int i = 0; i < e->called_count; i++)
+		for (int k = 0; k < e->sfc->use_count; k++)
+			if (is_of(e, &e->sfc->use[k], &e->called[i]) &&
+			    is_stored(e->sfc->use[k].qualifier))
+				write_ended(e, k, &e->called[i]);
+	for (int i = 0; i < e->called_count; i++)
+		if (!is_variable(e, &e->called[i]) &&
+		    !(e->called[i].action < 0 && e->called[i].alone))
+			write_called(e, &e->called[i]);
+	for (int i = 0; i < e->called_count; i++) {
+		struct lad_called *called = &e->called[i];
+
+		if (is_variable(e, called) || (called->action < 0 && called->alone))
+			write_called(e, called);
+		if (called->action < 0)
+			write_bool(e, called);
+		else
+			write_body(e, called);
+	}
 }

@@ -2,9 +2,8 @@
  *
  * to_classic - sections, settings and the order of a project that goes to ClassicLadder.
  */
-#include "engine/exchange/classic/to_classic_parts.h"
-
 #include "engine/base/ascii.h"
+#include "engine/exchange/classic/to_classic_parts.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -100,7 +99,7 @@ void tell_line(struct leaving *e, int line, const char *format, ...)
 /* ---- rungs ---- */
 
 /* Of "the text $"so$"": without its quotes. */
-const char *plain_title(struct leaving *e, const char *text)
+static const char *plain_title(struct leaving *e, const char *text)
 {
 	char *copy = arena_copy(e->arena, text, strlen(text)), *to = copy;
 	bool quoted = text[0] == '"';
@@ -531,6 +530,100 @@ static void check_numeric(struct leaving *e)
 	}
 }
 
+static void setting(struct leaving *e, const char *key, const char *value)
+{
+	struct classic_setting *one = arena_push(e->arena, &e->out->setting,
+						 &e->out->settings, sizeof(*one));
+
+	if (one) {
+		one->key = key;
+		one->value = value;
+	}
+}
+
+static void size(struct leaving *e, const char *key, int count, int usual)
+{
+	setting(e, key, out_text(e, "%d", count > usual ? count : usual));
+}
+
+int blocks_end(const struct classic_blocks *blocks)
+{
+	return blocks->count ? blocks->block[blocks->count - 1].number + 1 : 0;
+}
+
+/* An array of all words tells how many there are. */
+static int word_count(const struct leaving *e, int type, int usual)
+{
+	for (int i = 0; i < e->slots; i++)
+		if (e->slot[i].type == type && e->slot[i].count > 1 && !e->slot[i].number &&
+		    e->slot[i].count < usual)
+			return e->slot[i].count;
+	return usual;
+}
+
+/* A table of 64 lines. LinuxCNC has pins of its own: HAL's. */
+static void leave_lines(struct leaving *e)
+{
+	enum { LINES = 32 };
+	int used[2] = { 0, 0 };
+
+	if (!e->lines || !e->lines->count)
+		return;
+	if (e->dialect != CLASSIC_UPSTREAM) {
+		tell_line(e, 0, e->dialect == CLASSIC_LINUXCNC ?
+			  "the I/O map stays here: LinuxCNC connects pins of HAL" :
+			  "the I/O map stays here: a bare rung file has none");
+		return;
+	}
+	for (int i = 0; i < e->lines->count; i++) {
+		const struct classic_io *from = &e->lines->io[i];
+		struct classic_io *to;
+
+		if (used[from->output]++ == LINES) {
+			out_refuse(e, DIAG_EXPORT_MANY, "%s", from->output ?
+				   "lines of outputs in the I/O map" :
+				   "lines of inputs in the I/O map");
+			return;
+		}
+		to = arena_push(e->arena, &e->out->io, &e->out->ios, sizeof(*to));
+		if (to)
+			*to = *from;
+		size_note(e, from->output ? 60 : 50, from->first + from->count - 1);
+	}
+}
+
+static void leave_settings(struct leaving *e)
+{
+	struct classic_project *out = e->out;
+
+	const char *title = plain_title(e, project_text(e->project, e->project->title));
+
+	leave_lines(e);
+	setting(e, "PROJECT_NAME", title);
+	if (strlen(title) > CLASSIC_COMMENT)
+		tell_line(e, 0, "the project's name is cut to %d bytes", CLASSIC_COMMENT);
+	setting(e, "PERIODIC_REFRESH", out_text(e, "%d", out->period));
+	setting(e, "PERIODIC_INPUTS_REFRESH", out_text(e, "%d", e->lines &&
+		e->lines->sample_ms ? e->lines->sample_ms : 10));
+	setting(e, "REAL_INPUTS_OUTPUTS_ONLY_ON_TARGET", "0");
+	size(e, "SIZE_NBR_RUNGS", out->rungs, 100);
+	size(e, "SIZE_NBR_BITS", e->sizes[CL_BIT], 500);
+	size(e, "SIZE_NBR_WORDS", e->sizes[CL_WORD], word_count(e, CL_WORD, 200));
+	size(e, "SIZE_NBR_TIMERS", blocks_end(&out->timer), 10);
+	size(e, "SIZE_NBR_MONOSTABLES", blocks_end(&out->monostable), 10);
+	size(e, "SIZE_NBR_COUNTERS", blocks_end(&out->counter), 10);
+	size(e, "SIZE_NBR_TIMERS_IEC", blocks_end(&out->iec_timer), 10);
+	size(e, "SIZE_NBR_REGISTERS", blocks_end(&out->reg), 10);
+	setting(e, "SIZE_REGISTER_LIST", out_text(e, "%d", out->register_list));
+	size(e, "SIZE_NBR_PHYS_INPUTS", e->sizes[50], 50);
+	size(e, "SIZE_NBR_PHYS_OUTPUTS", e->sizes[60], 50);
+	size(e, "SIZE_NBR_ARITHM_EXPR", out->expressions, 100);
+	size(e, "SIZE_NBR_SECTIONS", out->sections, 10);
+	size(e, "SIZE_NBR_SYMBOLS", out->symbols, 100);
+	size(e, "SIZE_NBR_PHYS_WORDS_INPUTS", e->sizes[270], word_count(e, 270, 25));
+	size(e, "SIZE_NBR_PHYS_WORDS_OUTPUTS", e->sizes[280], word_count(e, 280, 25));
+}
+
 struct classic_project *to_classic(struct project *project, enum classic_dialect dialect,
 				   const struct classic_lines *lines, struct arena *arena,
 				   struct classic_report *report, struct diag_list *diags)
@@ -567,4 +660,140 @@ struct classic_project *to_classic(struct project *project, enum classic_dialect
 		diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY,
 					       .file = project->file }, "%s", "");
 	return NULL;
+}
+
+/* The rung whose label a jump names; -1: none. */
+static int target_of(const struct leaving *e, const struct pou *pou, uint32_t label)
+{
+	const struct names *names = &e->project->names;
+
+	for (int i = 0; i < pou->rung_count; i++)
+		if (pou->rung[i]->label &&
+		    names_fold(names, pou->rung[i]->label) == names_fold(names, label))
+			return i;
+	return -1;
+}
+
+static bool in_loop(const struct leaving *e, const struct pou *pou, int index)
+{
+	for (int i = index; i < pou->rung_count; i++) {
+		const struct rung *rung = pou->rung[i];
+
+		for (int k = 0; k < rung->rows * rung->cols; k++) {
+			int to = rung->cell[k].word == ELEM_JUMP && !rung->off ?
+				 target_of(e, pou, rung->cell[k].operand) : -1;
+
+			if (to >= 0 && to <= index)
+				return true;
+		}
+	}
+	return false;
+}
+
+struct call_place { const struct pou *pou; int rung, count; };
+
+static void find_calls(const struct leaving *e, const struct pou *called,
+		       struct call_place *place)
+{
+	*place = (struct call_place){ NULL, 0, 0 };
+	for (int i = 0; i < e->project->pou_count; i++) {
+		const struct pou *pou = &e->project->pou[i];
+
+		for (int k = 0; k < pou->rung_count; k++)
+			for (int m = 0; m < pou->rung[k]->rows * pou->rung[k]->cols; m++) {
+				const struct cell *cell = &pou->rung[k]->cell[m];
+
+				if (cell->word == ELEM_CALL && !pou->rung[k]->off &&
+				    scope_pou(e->scope, pou, cell->operand) == called)
+					*place = (struct call_place){ pou, k,
+						place->count + 1 };
+			}
+	}
+}
+
+/* Does a rung before @index lead past it? */
+static bool is_skipped(const struct leaving *e, const struct pou *pou, int index)
+{
+	for (int i = 0; i < index; i++) {
+		const struct rung *rung = pou->rung[i];
+
+		for (int k = 0; !rung->off && k < rung->rows * rung->cols; k++) {
+			const struct cell *cell = &rung->cell[k];
+
+			if (cell->word == ELEM_RETURN || cell->word == ELEM_END ||
+			    (cell->word == ELEM_JUMP &&
+			     target_of(e, pou, cell->operand) > index))
+				return true;
+		}
+	}
+	return false;
+}
+
+bool may_rest(struct leaving *e)
+{
+	return e->pou->kind == POU_SUBROUTINE || is_skipped(e, e->pou, e->rung_index);
+}
+
+bool runs_often(struct leaving *e)
+{
+	const struct pou *pou = e->pou;
+	int rung = e->rung_index;
+
+	for (int depth = 0; depth <= e->project->pou_count; depth++) {
+		struct call_place place;
+
+		if (in_loop(e, pou, rung))
+			return true;
+		if (pou->kind != POU_SUBROUTINE)
+			return false;
+		find_calls(e, pou, &place);
+		if (place.count != 1)
+			return place.count > 1;
+		pou = place.pou;
+		rung = place.rung;
+	}
+	return true;
+}
+
+static bool overlap(struct iec_addr a, int64_t bits, struct iec_addr b, int64_t more)
+{
+	int64_t from = (int64_t)a.byte * 8 + a.bit, to = (int64_t)b.byte * 8 + b.bit;
+
+	return a.area == b.area && from < to + more && to < from + bits;
+}
+
+static int64_t bits_of(const struct var *var)
+{
+	return (int64_t)var->at.bits * (var->array.count ? var->array.count : 1);
+}
+
+static bool table_shares(const struct var_table *table, const struct var *var)
+{
+	for (int i = 0; i < table->count; i++)
+		if (&table->var[i] != var && table->var[i].at.area != AREA_NONE &&
+		    overlap(var->at, bits_of(var), table->var[i].at,
+			    bits_of(&table->var[i])))
+			return true;
+	return false;
+}
+
+bool is_shared(struct leaving *e, const struct var *var)
+{
+	const struct names *names = &e->project->names;
+
+	for (uint32_t id = 1; id < (uint32_t)names->count; id++) {
+		const char *text = names_text(names, id);
+		struct iec_addr addr;
+
+		if (id != var->at_text && iec_addr_parse(text, strlen(text), &addr) == ADDR_OK &&
+		    overlap(var->at, bits_of(var), addr, addr.bits) &&
+		    memcmp(&addr, &var->at, sizeof(addr)) != 0)
+			return true;
+	}
+	if (table_shares(&e->project->globals, var))
+		return true;
+	for (int i = 0; i < e->project->pou_count; i++)
+		if (table_shares(&e->project->pou[i].vars, var))
+			return true;
+	return false;
 }

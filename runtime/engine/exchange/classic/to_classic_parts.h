@@ -4,7 +4,7 @@
  *
  * Private to to_classic*.c: to_classic sections and programs, to_classic_names
  * numbers and symbols, to_classic_expression arithmetic, to_classic_rung one rung as it is
- * drawn, to_classic_split one that must be cut, to_classic_chart pages.
+ * drawn, to_classic_split one that must be cut, to_classic_sfc pages.
  */
 #ifndef CLASSIC_TO_CLASSIC_PARTS_H
 #define CLASSIC_TO_CLASSIC_PARTS_H
@@ -141,15 +141,10 @@ int blocks_end(const struct classic_blocks *blocks);
 /** routine_number - of a subroutine; -1: it is none. */
 int routine_number(struct leaving *e, uint32_t name);
 
-/** plain_title - a quoted text without its quotes. */
-const char *plain_title(struct leaving *e, const char *text);
-
 /* ---- to_classic_kept.c ---- */
 /** leave_kept - what an import kept goes back. */
 void leave_kept(struct leaving *e);
 
-/* ---- to_classic_settings.c, to_classic_shared.c ---- */
-void leave_settings(struct leaving *e);
 /** is_shared - has anything else a part of its memory? Scan-safe: no. */
 bool is_shared(struct leaving *e, const struct var *var);
 
@@ -229,12 +224,10 @@ void split_rung(struct leaving *e, struct out_rung *r);
 /** draw_step - a rung of a contact, or the rail (@code CL_WIRE), and an output. */
 void draw_step(struct leaving *e, int code, struct classic_variable variable,
 	       const struct out_part *output);
-/** draw_before - what must be worked out, a rung each. */
-void draw_before(struct leaving *e, const struct out_before *before);
 /** pin_kind - of which kind of block is this type a pin? -1: of none. */
 int pin_kind(int type);
 
-/* ---- to_classic_initial.c ---- */
+/* ---- initial values ---- */
 /** leave_initial - what variables begin with; leave_started - that the first scan has been. */
 void leave_initial(struct leaving *e);
 void leave_started(struct leaving *e);
@@ -246,8 +239,6 @@ void leave_temporaries(struct leaving *e, const struct pou *pou);
 void out_symbol(struct leaving *e, const struct out_slot *slot, const char *prefix,
 		const char *own);
 
-/* ---- to_classic_chart.c ---- */
-bool sfc_fits(const struct project *project, const struct pou *pou);
 /** sfc_prepare - numbers of steps, before anything is named. */
 void sfc_prepare(struct leaving *e, const struct pou *pou, int page);
 void leave_sfc(struct leaving *e, const struct pou *pou, int page);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * to_classic_chart - a chart as a sequential page: it runs IN ORDER, which is how pages run
- * there, or UNTIL STABLE, which is nearly so, and told; its conditions are
- * one bit each, and its steps do nothing but tell that they are active.
+ * to_classic_sfc - a chart as a sequential page.
  *
- * Conditions that are more become bits that a section in front works out; BOOLs that
- * several steps hold, coils in one behind. Any other chart is written as a ladder first.
+ * The page runs IN ORDER, as all pages do there, or UNTIL STABLE, which is nearly the same
+ * and is reported. Its conditions are one bit each, and its steps only show that they are
+ * active. A longer condition becomes a bit that a section before the page computes; a BOOL
+ * that several steps hold becomes a coil in a section behind it. Any other chart is written
+ * as a ladder first.
  */
 #include "engine/exchange/classic/to_classic_parts.h"
 
@@ -107,7 +108,7 @@ static bool line_fits(const struct project *project, const struct pou *pou,
 	return use->qualifier == QUALIFIER_N && (!body || seconds_of(pou, body));
 }
 
-bool sfc_fits(const struct project *project, const struct pou *pou)
+static bool sfc_fits(const struct project *project, const struct pou *pou)
 {
 	const struct sfc *sfc = pou->sfc;
 

@@ -5,9 +5,29 @@
  *
  * The power of a net is a bit; a rung gives it: a row for each way that leads there.
  */
-#include "engine/exchange/classic/to_classic_way.h"
+#include "engine/exchange/classic/to_classic_parts.h"
 
 #include <string.h>
+
+enum { CHAIN = 16 };
+
+/* Items are large: their functions share no frame. */
+#define APART __attribute__((noinline))
+
+/* Contacts in series, from the rail on. */
+struct way { struct out_part item[CHAIN]; int count, width; bool never; };
+
+/** contact, coil - one of them. Scan-safe: yes. */
+static inline struct out_part contact(int code, struct classic_variable variable)
+{
+	return (struct out_part){ .code = code, .width = 1, .height = 1,
+				  .variable = variable };
+}
+
+static inline struct out_part coil(int code, int bit)
+{
+	return contact(code, variable_of(CL_BIT, bit));
+}
 
 /* What has power there: always, never, or while a bit is. */
 struct net_power { bool known, always, never; struct classic_variable bit; };
@@ -21,27 +41,9 @@ struct splitting {
 	struct classic_variable gate[4]; /* of a counter, in the place of an input */
 };
 
-static void settle(struct splitting *s, int net);
-
 static int longest(const struct splitting *s)
 {
 	return s->e->columns - 3;
-}
-
-/* ---- ways ---- */
-
-static bool power_contact(struct splitting *s, int net, struct out_part *out, bool *never)
-{
-	struct net_power *power;
-
-	*never = false;
-	if (net == NET_RAIL)
-		return false;
-	settle(s, net);
-	power = &s->net[net];
-	*never = power->never;
-	*out = contact(CL_NO, power->bit);
-	return !power->always && !power->never;
 }
 
 static int only_feeder(const struct splitting *s, int net)
@@ -61,6 +63,22 @@ static bool is_simple(const struct splitting *s, int index)
 	return !s->given[index].known && !item->invert && !item->before &&
 	       ((item->code >= CL_NO && item->code <= CL_WIRE) || item->code == CL_COMPARE);
 }
+
+/* One more in series; beyond CHAIN it is left out. */
+static APART void way_add(struct way *way, struct out_part item)
+{
+	if (way->count == CHAIN)
+		return;
+	way->item[way->count++] = item;
+	way->width += item.width;
+}
+
+static APART void way_contact(struct way *way, int code, struct classic_variable variable)
+{
+	way_add(way, contact(code, variable));
+}
+
+static bool power_contact(struct splitting *s, int net, struct out_part *out, bool *never);
 
 /* The way through one feeder, back to the rail or to a bit. */
 static APART void find_way(struct splitting *s, int index, struct way *way)
@@ -103,6 +121,44 @@ static void copy_way(struct way *to, const struct way *from)
 	memcpy(to, from, sizeof(*to));
 }
 
+/* In row @y, with wires up to column @to; gives the column behind. */
+static int draw_way(struct leaving *e, struct classic_rung *rung, int y,
+		    const struct way *way, int to)
+{
+	int x = 0;
+
+	if (way->never)
+		x = 1;
+	for (int i = 0; i < way->count && !way->never; i++) {
+		out_put(e, rung, y, x, &way->item[i]);
+		x += way->item[i].width;
+	}
+	for (; x < to; x++)
+		rung->cell[y][x].element = CL_WIRE;
+	return x;
+}
+
+/* Ways side by side, then an output. */
+static void draw_ways(struct leaving *e, const struct way *way, int ways,
+		      const struct out_part *output)
+{
+	struct classic_rung *rung = rung_begin(e);
+	int join = 1, end = e->columns - output->width;
+
+	if (!rung)
+		return;
+	for (int i = 0; i < ways; i++)
+		if (way[i].width > join)
+			join = way[i].width;
+	for (int i = 0; i < ways; i++) {
+		draw_way(e, rung, i, &way[i], i ? join : end);
+		rung->cell[i][join].top = i > 0;
+	}
+	out_put(e, rung, 0, end, output);
+	if (output->code == CL_JUMP)
+		note_jump(e, &rung->cell[0][end], output);
+}
+
 /* All ways of a net, at most as many as a rung has rows: what is more gives a bit before. */
 static int find_ways(struct splitting *s, int net, struct way *way)
 {
@@ -135,54 +191,6 @@ static int find_ways(struct splitting *s, int net, struct way *way)
 static struct way *ways_room(struct splitting *s)
 {
 	return arena_alloc(s->e->arena, sizeof(struct way) * CLASSIC_ROWS);
-}
-
-static void work_out(struct splitting *s, int index);
-
-static void settle(struct splitting *s, int net)
-{
-	const struct network *n = &s->r->network;
-	struct net_power *power = &s->net[net];
-	struct way *way;
-	struct out_part output;
-	int count;
-
-	if (net == NET_RAIL || power->known)
-		return;
-	power->known = true;
-	for (int i = n->first_feeder[net]; s->r->boxes && i < n->first_feeder[net + 1]; i++)
-		work_out(s, n->feeder[i]);
-	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++)
-		if (s->r->item[n->feeder[i]].invert)
-			work_out(s, n->feeder[i]);
-	way = ways_room(s);
-	count = way ? find_ways(s, net, way) : 0;
-	power->never = count == 0;
-	for (int i = 0; i < count; i++)
-		power->always |= way[i].count == 0;
-	if (power->never || power->always)
-		return;
-	if (count == 1 && way[0].count == 1 && way[0].item[0].code == CL_NO &&
-	    s->given[n->feeder[n->first_feeder[net]]].known) {
-		power->bit = way[0].item[0].variable;
-		return;
-	}
-	power->bit = variable_of(CL_BIT, spare_bit(s->e));
-	output = contact(CL_COIL, power->bit);
-	draw_ways(s->e, way, count, &output);
-}
-
-/* A bit that is the power of a net. */
-static struct classic_variable net_bit(struct splitting *s, int net, bool *never)
-{
-	struct out_part first, output;
-
-	if (power_contact(s, net, &first, never))
-		return first.variable;
-	output = coil(CL_COIL, *never ? never_bit(s->e) : spare_bit(s->e));
-	if (!*never)
-		draw_step(s->e, CL_WIRE, variable_of(0, 0), &output);
-	return output.variable;
 }
 
 /* ---- blocks ---- */
@@ -237,11 +245,55 @@ static APART void draw_block(struct splitting *s, int index)
 	give(s, index, bit);
 }
 
+/* What must be worked out, a rung each. */
+static void draw_before(struct leaving *e, const struct out_before *before)
+{
+	for (; before && e->good; before = before->next) {
+		struct out_part item = { .code = CL_OPERATE, .width = 3, .height = 1,
+					 .text = before->text };
+		struct way *way = arena_alloc(e->arena, sizeof(*way));
+
+		if (!way)
+			return;
+		if (before->bit >= 0) {
+			item.code = CL_COMPARE;
+			way_add(way, item);
+			item = coil(CL_COIL, before->bit);
+		}
+		draw_ways(e, way, 1, &item);
+	}
+}
+
 static void compare_bit(struct leaving *e, const char *text, int bit)
 {
 	const struct out_before one = { text, bit, NULL };
 
 	draw_before(e, &one);
+}
+
+void draw_step(struct leaving *e, int code, struct classic_variable variable,
+	       const struct out_part *output)
+{
+	struct way *way = arena_alloc(e->arena, sizeof(*way));
+
+	if (!way)
+		return;
+	if (code != CL_WIRE)
+		way_contact(way, code, variable);
+	draw_ways(e, way, 1, output);
+}
+
+/* A bit that is the power of a net. */
+static struct classic_variable net_bit(struct splitting *s, int net, bool *never)
+{
+	struct out_part first, output;
+
+	if (power_contact(s, net, &first, never))
+		return first.variable;
+	output = coil(CL_COIL, *never ? never_bit(s->e) : spare_bit(s->e));
+	if (!*never)
+		draw_step(s->e, CL_WIRE, variable_of(0, 0), &output);
+	return output.variable;
 }
 
 /* An edge of an input counts only while the count can go on: there it would go round. */
@@ -394,6 +446,8 @@ static APART void draw_read(struct splitting *s, int index)
 	give(s, index, output.variable.number);
 }
 
+static void settle(struct splitting *s, int net);
+
 static void work_out(struct splitting *s, int index)
 {
 	const struct out_part *item = &s->r->item[index];
@@ -436,6 +490,55 @@ static void work_out(struct splitting *s, int index)
 	else if (is_changed(s, item))
 		draw_read(s, index);
 	draw_before(s->e, item->after);
+}
+
+static void settle(struct splitting *s, int net)
+{
+	const struct network *n = &s->r->network;
+	struct net_power *power = &s->net[net];
+	struct way *way;
+	struct out_part output;
+	int count;
+
+	if (net == NET_RAIL || power->known)
+		return;
+	power->known = true;
+	for (int i = n->first_feeder[net]; s->r->boxes && i < n->first_feeder[net + 1]; i++)
+		work_out(s, n->feeder[i]);
+	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++)
+		if (s->r->item[n->feeder[i]].invert)
+			work_out(s, n->feeder[i]);
+	way = ways_room(s);
+	count = way ? find_ways(s, net, way) : 0;
+	power->never = count == 0;
+	for (int i = 0; i < count; i++)
+		power->always |= way[i].count == 0;
+	if (power->never || power->always)
+		return;
+	if (count == 1 && way[0].count == 1 && way[0].item[0].code == CL_NO &&
+	    s->given[n->feeder[n->first_feeder[net]]].known) {
+		power->bit = way[0].item[0].variable;
+		return;
+	}
+	power->bit = variable_of(CL_BIT, spare_bit(s->e));
+	output = contact(CL_COIL, power->bit);
+	draw_ways(s->e, way, count, &output);
+}
+
+/* ---- ways ---- */
+
+static bool power_contact(struct splitting *s, int net, struct out_part *out, bool *never)
+{
+	struct net_power *power;
+
+	*never = false;
+	if (net == NET_RAIL)
+		return false;
+	settle(s, net);
+	power = &s->net[net];
+	*never = power->never;
+	*out = contact(CL_NO, power->bit);
+	return !power->always && !power->never;
 }
 
 /* ---- outputs ---- */

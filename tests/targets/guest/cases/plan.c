@@ -352,7 +352,7 @@ static bool holds(const struct scenario_file *file, int index)
 	sink_memory_init(&report);
 	struct sink sink = sink_to_memory(&report);
 
-	good = scenario_run(file, index, &maker.resource, &sink);
+	good = scenario_run(file, index, &maker.resource, NULL, &sink);
 	sink_memory_free(&report);
 	maker.scans = (uint32_t)maker.resource.scans;
 	return good;
@@ -437,8 +437,8 @@ static bool read_scenarios(const char *scn, const char *text, size_t len,
 			return tell(path);
 		image = &maker.plant.resource.image;
 	}
-	return scenario_read_with(scn, text, len, &maker.resource.image, image,
-				  &maker.arena, file, &maker.diags);
+	return scenario_read(scn, text, len, &maker.resource.image, image,
+			     &maker.arena, file, &maker.diags);
 }
 
 static bool make_all(const char *scn)
