@@ -5,7 +5,7 @@
  * It is made when somebody looks at it: that of a large program takes long, and a text
  * widget holds it in many times its size.
  */
-#include "editor-gtk/panels/panels.h"
+#include "editor-gtk/panels/code_view.h"
 
 #include "editor-gtk/kit/i18n.h"
 

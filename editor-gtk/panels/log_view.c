@@ -5,7 +5,7 @@
  * Messages of system, compile, operator, simulation and communication (with what runs on
  * this machine) in one list; it keeps the last thousand.
  */
-#include "editor-gtk/panels/panels.h"
+#include "editor-gtk/panels/log_view.h"
 
 #include "editor-gtk/kit/i18n.h"
 

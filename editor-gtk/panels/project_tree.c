@@ -5,7 +5,7 @@
  * Its rows are made by tree_rows.h. One goes where it is double clicked or entered;
  * programs and blocks are added, renamed and deleted from its menu.
  */
-#include "editor-gtk/panels/panels.h"
+#include "editor-gtk/panels/project_tree.h"
 
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/i18n.h"

@@ -6,7 +6,7 @@
 #define EDITOR_RENDER_DIFF_H
 
 #include "editor-gtk/kit/picture.h"
-#include "editor-gtk/render/render_options.h"
+#include "editor-gtk/render/render.h"
 
 /** render_diff - what is other in project @b than in @a: rungs that were removed, added
  * and, above each other with their cells marked, changed; then lists, charts and, in

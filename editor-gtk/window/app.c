@@ -18,6 +18,7 @@
 #include "editor-gtk/window/recent.h"
 #include "editor-gtk/render/render.h"
 #include "editor-gtk/window/usage.h"
+#include "editor-gtk/window/window.h"
 
 #include <glib-unix.h>
 #include <gtksourceview/gtksource.h>
@@ -27,15 +28,17 @@
 
 /* ---- windows ---- */
 
-static AdwApplication *the_application(LadderWindow *window)
-{
-	return ADW_APPLICATION(gtk_window_get_application(GTK_WINDOW(window)));
-}
+/* A window asks for another file, and that may open another window. */
+static void open_wanted(LadderWindow *window, const char *path, gboolean as_copy,
+			AdwApplication *application);
+static void new_wanted(LadderWindow *window, AdwApplication *application);
 
 static LadderWindow *show_document(AdwApplication *application, LadderDocument *document)
 {
 	LadderWindow *window = ladder_window_new(application, document);
 
+	g_signal_connect(window, "open-wanted", G_CALLBACK(open_wanted), application);
+	g_signal_connect(window, "new-wanted", G_CALLBACK(new_wanted), application);
 	draft_keep(document);
 	gtk_window_present(GTK_WINDOW(window));
 	return window;
@@ -50,27 +53,35 @@ static LadderWindow *new_window(AdwApplication *application)
 	return window;
 }
 
-void app_new_window(LadderWindow *window)
+/* The document of a window in which nothing was done; else a new one. Caller:
+ * g_object_unref. */
+static LadderDocument *document_for(LadderWindow *window)
 {
-	new_window(the_application(window));
+	return window && ladder_window_is_untouched(window) ?
+	       g_object_ref(ladder_window_document(window)) : ladder_document_new();
+}
+
+/* @document, which was opened, in its window. */
+static LadderWindow *show_opened(AdwApplication *application, LadderWindow *window,
+				 LadderDocument *document)
+{
+	if (!window || ladder_window_document(window) != document)
+		return show_document(application, document);
+	ladder_window_opened(window);
+	return window;
 }
 
 static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 			     const char *path, GError **error)
 {
-	LadderDocument *document = window && ladder_window_is_untouched(window) ?
-		g_object_ref(ladder_window_document(window)) : ladder_document_new();
+	LadderDocument *document = document_for(window);
 
-	if (!ladder_document_open(document, path, error)) {
-		g_object_unref(document);
-		return NULL;
+	window = ladder_document_open(document, path, error) ?
+		show_opened(application, window, document) : NULL;
+	if (window) {
+		recent_add(path);
+		ladder_window_tell_file(window);
 	}
-	if (!window || ladder_window_document(window) != document)
-		window = show_document(application, document);
-	else
-		ladder_window_opened(window);
-	recent_add(path);
-	ladder_window_tell_file(window);
 	g_object_unref(document);
 	return window;
 }
@@ -111,13 +122,9 @@ static LadderWindow *open_classic(AdwApplication *application, LadderWindow *win
 		g_free(place);
 		return NULL;
 	}
-	document = window && ladder_window_is_untouched(window) ?
-		g_object_ref(ladder_window_document(window)) : ladder_document_new();
+	document = document_for(window);
 	ladder_document_open_text(document, NULL, text, len, false);
-	if (!window || ladder_window_document(window) != document)
-		window = show_document(application, document);
-	else
-		ladder_window_opened(window);
+	window = show_opened(application, window, document);
 	ladder_window_set_origin(window, path);
 	recent_add(path);
 	origin = ladder_origin_new(document, place, ladder);
@@ -179,38 +186,42 @@ static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
 					  open_in(application, window, path, error);
 }
 
-void app_open_path(LadderWindow *window, const char *path)
+static void open_sample(AdwApplication *application, LadderWindow *window, const char *path,
+			GError **error)
+{
+	LadderDocument *document;
+	gsize len;
+	char *text = disk_read(path, LIMIT_TEXT, &len, error);
+
+	if (!text)
+		return;
+	document = document_for(window);
+	ladder_document_open_text(document, NULL, text, len, true);
+	window = show_opened(application, window, document);
+	ladder_window_set_origin(window, path);
+	draft_of_sample(document, path);
+	g_object_unref(document);
+	g_free(text);
+}
+
+static void open_wanted(LadderWindow *window, const char *path, gboolean as_copy,
+			AdwApplication *application)
 {
 	GError *error = NULL;
 
-	if (!open_any(the_application(window), window, path, &error))
+	if (as_copy)
+		open_sample(application, window, path, &error);
+	else
+		open_any(application, window, path, &error);
+	if (error)
 		ladder_window_warn(window, error->message);
 	g_clear_error(&error);
 }
 
-void app_open_sample(LadderWindow *window, const char *path)
+static void new_wanted(LadderWindow *window, AdwApplication *application)
 {
-	LadderDocument *document = ladder_window_is_untouched(window) ?
-		g_object_ref(ladder_window_document(window)) : ladder_document_new();
-	GError *error = NULL;
-	char *text;
-	gsize len;
-
-	text = disk_read(path, LIMIT_TEXT, &len, &error);
-	if (text) {
-		ladder_document_open_text(document, NULL, text, len, true);
-		if (ladder_window_document(window) != document)
-			window = show_document(the_application(window), document);
-		else
-			ladder_window_opened(window);
-		ladder_window_set_origin(window, path);
-		draft_of_sample(document, path);
-		g_free(text);
-	} else {
-		ladder_window_warn(window, error->message);
-	}
-	g_clear_error(&error);
-	g_object_unref(document);
+	(void)window;
+	new_window(application);
 }
 
 /* ---- after a crash ---- */

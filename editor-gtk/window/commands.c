@@ -7,13 +7,14 @@
 #include "editor-gtk/window/commands.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/verbs.h"
 
 #include <string.h>
 
 /* ---- finding a verb ---- */
 
 struct commands {
-	LadderWindow *window;
+	GtkWindow *window;
 	GtkWidget *dialog, *search, *list, *none;
 	char *filled;   /* for which text the list is what it is               */
 };
@@ -91,11 +92,11 @@ static void do_row(struct commands *commands, GtkListBoxRow *row)
 {
 	const enum verb verb = row ? (enum verb)GPOINTER_TO_INT(
 		g_object_get_data(G_OBJECT(row), "verb")) : VERB_COUNT;
-	LadderWindow *window = commands->window;
+	GtkWindow *window = commands->window;
 
 	gtk_window_destroy(GTK_WINDOW(commands->dialog)); /* frees commands */
 	if (verb != VERB_COUNT)
-		ladder_window_do(window, verb);
+		gtk_widget_activate_action(GTK_WIDGET(window), verb_row(verb)->action, NULL);
 }
 
 static GtkWidget *nothing_new(void)
@@ -152,7 +153,7 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 	return TRUE;
 }
 
-void commands_show(LadderWindow *window)
+void commands_show(GtkWindow *window)
 {
 	struct commands *commands = g_new0(struct commands, 1);
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
@@ -171,7 +172,7 @@ void commands_show(LadderWindow *window)
 	gtk_window_set_titlebar(GTK_WINDOW(commands->dialog), bar);
 	gtk_window_set_title(GTK_WINDOW(commands->dialog), _("All commands"));
 	gtk_window_set_default_size(GTK_WINDOW(commands->dialog), 560, 460);
-	gtk_window_set_transient_for(GTK_WINDOW(commands->dialog), GTK_WINDOW(window));
+	gtk_window_set_transient_for(GTK_WINDOW(commands->dialog), window);
 	gtk_window_set_modal(GTK_WINDOW(commands->dialog), TRUE);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), commands->list);
 	gtk_widget_set_vexpand(scroller, TRUE);
@@ -262,7 +263,7 @@ static void append_section(GString *ui, const char *name, const char *title, boo
 	g_free(escaped);
 }
 
-void keys_show(LadderWindow *window)
+void keys_show(GtkWindow *window)
 {
 	GString *ui = g_string_new("<interface><object class='GtkShortcutsWindow' id='keys'>"
 				   "<property name='modal'>1</property>");
@@ -274,7 +275,7 @@ void keys_show(LadderWindow *window)
 	g_string_append(ui, "</object></interface>");
 	builder = gtk_builder_new_from_string(ui->str, -1);
 	keys = GTK_WINDOW(gtk_builder_get_object(builder, "keys"));
-	gtk_window_set_transient_for(keys, GTK_WINDOW(window));
+	gtk_window_set_transient_for(keys, window);
 	gtk_window_present(keys);
 	g_object_unref(builder);
 	g_string_free(ui, TRUE);

@@ -5,11 +5,11 @@
 #ifndef EDITOR_COMMANDS_H
 #define EDITOR_COMMANDS_H
 
-#include "editor-gtk/window/window.h"
+#include <gtk/gtk.h>
 
-/** commands_show - a dialog in which a verb is found and done. */
-void commands_show(LadderWindow *window);
+/** commands_show - a dialog that finds a verb and does its action of @window. */
+void commands_show(GtkWindow *window);
 /** keys_show - the window of all keys, by group. */
-void keys_show(LadderWindow *window);
+void keys_show(GtkWindow *window);
 
 #endif

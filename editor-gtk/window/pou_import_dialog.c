@@ -5,12 +5,8 @@
 #include "editor-gtk/window/pou_import_dialog.h"
 
 #include "editor-gtk/document/pou_import.h"
-
-#include "editor-gtk/document/panel.h"
 #include "editor-gtk/kit/i18n.h"
-#include "editor-gtk/window/window.h"
-
-#include <adwaita.h>
+#include "editor-gtk/window/ask.h"
 
 struct asking {
 	GtkWidget *widget;       /* of the tree                                */
@@ -31,11 +27,6 @@ static void asking_free(gpointer data, GClosure *closure)
 	g_free(asking);
 }
 
-static LadderWindow *window_of(GtkWidget *widget)
-{
-	return LADDER_WINDOW(gtk_widget_get_root(widget));
-}
-
 /* ---- which POUs ---- */
 
 static void chosen(AdwMessageDialog *dialog, const char *response, struct asking *asking)
@@ -51,9 +42,9 @@ static void chosen(AdwMessageDialog *dialog, const char *response, struct asking
 	}
 	if (any && g_strcmp0(response, "import") == 0) {
 		if (pou_import(asking->document, asking->from, wanted, told))
-			ladder_window_tell(window_of(asking->widget), told->str);
+			gtk_widget_activate_action(asking->widget, "win.tell", "s", told->str);
 		else
-			ladder_window_warn(window_of(asking->widget), told->str);
+			gtk_widget_activate_action(asking->widget, "win.warn", "s", told->str);
 	}
 	g_string_free(told, TRUE);
 	g_free(wanted);
@@ -107,20 +98,17 @@ static GtkWidget *checks_new(struct asking *asking)
 
 static void ask_which(GtkWidget *widget, LadderDocument *document, struct ladder *from)
 {
-	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(gtk_widget_get_root(widget)),
-		_("Import"), _("What they use comes along: symbols, structures, blocks."));
+	AdwMessageDialog *dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(widget)), _("Import"),
+		_("What they use comes along: symbols, structures, blocks."), "import",
+		_("Import"), ADW_RESPONSE_DEFAULT);
 	struct asking *asking = g_new0(struct asking, 1);
 
 	asking->widget = g_object_ref(widget);
 	asking->document = g_object_ref(document);
 	asking->from = from;
 	asking->checks = g_ptr_array_new();
-	adw_message_dialog_set_extra_child(ADW_MESSAGE_DIALOG(dialog), checks_new(asking));
-	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog),
-		"cancel", _("Cancel"), "import", _("Import"), NULL);
-	choose_first(dialog, asking);
-	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "import");
-	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
+	adw_message_dialog_set_extra_child(dialog, checks_new(asking));
+	choose_first(GTK_WIDGET(dialog), asking);
 	g_signal_connect_data(dialog, "response", G_CALLBACK(chosen), asking, asking_free, 0);
 	gtk_window_present(GTK_WINDOW(dialog));
 }
@@ -136,37 +124,27 @@ static void ask_of(GtkWidget *widget, LadderDocument *document, const char *path
 		return;
 	}
 	ladder_free(from);
-	ladder_window_warn(window_of(widget),
-			   _("That file cannot be read as a project: open it to see why."));
+	gtk_widget_activate_action(widget, "win.warn", "s",
+		_("That file cannot be read as a project: open it to see why."));
 }
 
 static void file_chosen(GtkNativeDialog *dialog, int response, LadderDocument *document)
 {
-	GtkWidget *widget = g_object_get_data(G_OBJECT(dialog), "widget");
-	GFile *file = response == GTK_RESPONSE_ACCEPT ?
-		gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog)) : NULL;
-	char *path = file ? g_file_get_path(file) : NULL;
+	GtkWidget *widget = g_object_ref(g_object_get_data(G_OBJECT(dialog), "widget"));
+	char *path = ask_take_path(dialog, response);
 
 	if (path)
 		ask_of(widget, document, path);
+	g_object_unref(widget);
 	g_free(path);
-	g_clear_object(&file);
-	g_object_unref(dialog);
 }
 
 void pou_import_ask(GtkWidget *widget, LadderDocument *document)
 {
-	GtkFileChooserNative *chooser = gtk_file_chooser_native_new(
-		_("Import from another project"), GTK_WINDOW(gtk_widget_get_root(widget)),
-		GTK_FILE_CHOOSER_ACTION_OPEN, _("Open"), _("Cancel"));
-	GtkFileFilter *rungs = gtk_file_filter_new();
+	GtkFileChooserNative *chooser = ask_rung_file(GTK_WINDOW(gtk_widget_get_root(widget)),
+		document, _("Import from another project"), GTK_FILE_CHOOSER_ACTION_OPEN,
+		_("Open"));
 
-	gtk_file_filter_set_name(rungs, _("Rung files"));
-	gtk_file_filter_add_pattern(rungs, "*.rung");
-	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), rungs);
-	g_object_unref(rungs);
-	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
-	panel_choose_beside(chooser, document);
 	g_object_set_data_full(G_OBJECT(chooser), "widget", g_object_ref(widget),
 			       g_object_unref);
 	g_signal_connect_data(chooser, "response", G_CALLBACK(file_chosen),

@@ -96,7 +96,7 @@ static void add_keys(AdwPreferencesPage *page)
 		   _("For people who come from another editor"), names);
 }
 
-void preferences_show(LadderWindow *window)
+void preferences_show(GtkWindow *window)
 {
 	GtkWidget *dialog = adw_preferences_window_new();
 	GtkWidget *page = adw_preferences_page_new();
@@ -107,6 +107,6 @@ void preferences_show(LadderWindow *window)
 				   ADW_PREFERENCES_PAGE(page));
 	adw_preferences_window_set_search_enabled(ADW_PREFERENCES_WINDOW(dialog), FALSE);
 	gtk_window_set_default_size(GTK_WINDOW(dialog), 560, 460);
-	gtk_window_set_transient_for(GTK_WINDOW(dialog), GTK_WINDOW(window));
+	gtk_window_set_transient_for(GTK_WINDOW(dialog), window);
 	gtk_window_present(GTK_WINDOW(dialog));
 }

@@ -7,11 +7,11 @@
 #ifndef EDITOR_PREFERENCES_H
 #define EDITOR_PREFERENCES_H
 
-#include "editor-gtk/window/window.h"
+#include <adwaita.h>
 
 /** preferences_follow - what was chosen holds, now and when it changes; once a start. */
 void preferences_follow(AdwApplication *application);
 /** preferences_show - asks. */
-void preferences_show(LadderWindow *window);
+void preferences_show(GtkWindow *window);
 
 #endif

@@ -19,6 +19,7 @@ struct _LadderSfcPage {
 	GtkLabel *heading;
 	char *shown;                 /* heading of the body whose rungs stand below */
 	GtkWidget *rungs, *text;     /* one of them, or none                   */
+	bool below_active;           /* somebody works on @rungs, not on the chart */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSfcPage, ladder_sfc_page, GTK_TYPE_BOX)
@@ -33,13 +34,51 @@ LadderGridView *ladder_sfc_page_rungs(LadderSfcPage *page)
 	return page->rungs ? LADDER_GRID_VIEW(page->rungs) : NULL;
 }
 
+LadderGridView *ladder_sfc_page_sheet(LadderSfcPage *page)
+{
+	return page->below_active ? ladder_sfc_page_rungs(page) : NULL;
+}
+
 /* ---- what stands below ---- */
+
+static void moved(LadderSfcPage *page)
+{
+	g_signal_emit_by_name(page->chart, "cursor-moved");
+}
+
+static void set_active(LadderSfcPage *page, bool below)
+{
+	if (page->below_active == below)
+		return;
+	page->below_active = below;
+	moved(page);
+}
+
+static void chart_entered(LadderSfcPage *page)
+{
+	set_active(page, false);
+}
+
+static void rungs_entered(LadderSfcPage *page)
+{
+	set_active(page, true);
+}
+
+/* The part of the page that had the keys last is worked on. */
+static void follow_focus(LadderSfcPage *page, GtkWidget *widget, GCallback entered)
+{
+	GtkEventController *focus = gtk_event_controller_focus_new();
+
+	g_signal_connect_swapped(focus, "enter", entered, page);
+	gtk_widget_add_controller(widget, focus);
+}
 
 static void close_below(LadderSfcPage *page)
 {
 	GtkWidget *child = gtk_widget_get_first_child(page->place);
 
 	page->rungs = page->text = NULL;
+	page->below_active = false;
 	g_clear_pointer(&page->shown, g_free);
 	gtk_widget_set_visible(page->below, FALSE);
 	if (child)
@@ -66,11 +105,6 @@ static char *heading_of(LadderSfcPage *page, int first, int *count)
 static void told(LadderSfcPage *page, const char *text)
 {
 	g_signal_emit_by_name(page->chart, "told", text);
-}
-
-static void moved(LadderSfcPage *page)
-{
-	g_signal_emit_by_name(page->chart, "cursor-moved");
 }
 
 static void put_below(LadderSfcPage *page, GtkWidget *widget, const char *heading,
@@ -102,9 +136,10 @@ static void show_rungs(LadderSfcPage *page, int first)
 	ladder_grid_view_set_sim(LADDER_GRID_VIEW(page->rungs), page->sim);
 	g_signal_connect_swapped(page->rungs, "told", G_CALLBACK(told), page);
 	g_signal_connect_swapped(page->rungs, "cursor-moved", G_CALLBACK(moved), page);
-	g_signal_connect_swapped(page->rungs, "notify::has-focus", G_CALLBACK(moved), page);
+	follow_focus(page, page->rungs, G_CALLBACK(rungs_entered));
 	put_below(page, page->rungs, heading, true);
 	gtk_widget_grab_focus(page->rungs);
+	set_active(page, true);
 	page->shown = heading;
 }
 
@@ -268,6 +303,7 @@ GtkWidget *ladder_sfc_page_new(LadderDocument *document, int pou, LadderSim *sim
 	gtk_viewport_set_scroll_to_focus(GTK_VIEWPORT(gtk_scrolled_window_get_child(
 		GTK_SCROLLED_WINDOW(scroller))), FALSE);
 	gtk_paned_set_start_child(GTK_PANED(page->paned), scroller);
+	follow_focus(page, page->chart, G_CALLBACK(chart_entered));
 	g_signal_connect_swapped(page->chart, "body-wanted", G_CALLBACK(body_wanted), page);
 	page->handler = g_signal_connect_swapped(document, "project-changed",
 						 G_CALLBACK(project_changed), page);

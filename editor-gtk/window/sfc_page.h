@@ -18,6 +18,8 @@ void ladder_sfc_page_set_pou(LadderSfcPage *page, int pou);
 LadderSfcView *ladder_sfc_page_chart(LadderSfcPage *page);
 /** ladder_sfc_page_rungs - those below; NULL: none are shown. */
 LadderGridView *ladder_sfc_page_rungs(LadderSfcPage *page);
+/** ladder_sfc_page_sheet - the same while somebody works on them; NULL: on the chart. */
+LadderGridView *ladder_sfc_page_sheet(LadderSfcPage *page);
 /** ladder_sfc_page_show_rung - what stands in a rung of the POU: at the chart, and below
  * if it is a body of rungs. */
 void ladder_sfc_page_show_rung(LadderSfcPage *page, int rung, int row, int col);

@@ -1,136 +1,613 @@
 /* SPDX-License-Identifier: MIT
  *
- * window - one document's window: sheets in tabs, panels round them.
+ * window - one document's window: its parts, and what each verb does to which part.
+ *
+ * Every row of verbs.def is an action "win.ID". Verbs of a sheet go to the sheet in front.
  */
-#include "editor-gtk/window/window_inside.h"
+#include "editor-gtk/window/window.h"
 
-#include "editor-gtk/panels/palette.h"
-#include "editor-gtk/panels/panels.h"
+#include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/kit/gtk48/popover.h"
-#include "editor-gtk/kit/settings.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/still.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/settings.h"
+#include "editor-gtk/kit/verbs.h"
+#include "editor-gtk/live/timing_view.h"
+#include "editor-gtk/live/watch_view.h"
+#include "editor-gtk/panels/code_view.h"
+#include "editor-gtk/panels/log_view.h"
+#include "editor-gtk/panels/palette.h"
+#include "editor-gtk/panels/problems.h"
+#include "editor-gtk/panels/project_tree.h"
+#include "editor-gtk/window/below.h"
+#include "editor-gtk/window/blockers.h"
+#include "editor-gtk/window/board_bar.h"
+#include "editor-gtk/window/commands.h"
+#include "editor-gtk/window/finder.h"
+#include "editor-gtk/window/messages.h"
+#include "editor-gtk/window/names.h"
+#include "editor-gtk/window/pou_import_dialog.h"
+#include "editor-gtk/window/preferences.h"
+#include "editor-gtk/window/recent.h"
+#include "editor-gtk/window/scenarios.h"
+#include "editor-gtk/window/status.h"
+#include "editor-gtk/window/tabs.h"
+
+#include "engine/base/version.h"
 
 #include <string.h>
 
+#define DISK_SECONDS 2 /* between looks at the files                           */
+
+struct _LadderWindow {
+	AdwApplicationWindow parent;
+	struct core core;
+	struct messages messages;
+	struct below below;
+	struct front front;
+	struct tabs tabs;
+	struct status status;
+	struct finder finder;
+	struct origin origin;
+	struct export export;
+	struct exchange exchange;
+	struct files files;
+	struct sim_bar sim_bar;
+	struct blockers blockers;
+	struct scenarios scenarios;
+	struct board_bar board_bar;
+	guint disk_timer;         /* until the files are looked at again         */
+	GtkWidget *palette;
+	AdwWindowTitle *title;
+	GtkButton *undo_button, *redo_button;
+	GtkMenuButton *menu_button;
+	GtkPaned *side;
+};
+
 G_DEFINE_FINAL_TYPE(LadderWindow, ladder_window, ADW_TYPE_APPLICATION_WINDOW)
 
-#define NARROW 1100 /* px; below it the left side folds                        */
+/* ---- what the application asks ---- */
 
-/* ---- messages ---- */
-
-#define TOLD 1500000 /* us a message stays at least, if the cursor moves on    */
-#define TOLD_BY_STEP 300000 /* us from what a step says to the end of its check */
-
-void window_toast(LadderWindow *window, const char *text)
+LadderDocument *ladder_window_document(LadderWindow *window)
 {
-	adw_toast_overlay_add_toast(window->toasts, adw_toast_new(text));
-}
-
-/* Sheets speak until they have gone, which is after their window let go of its document. */
-static bool goes(LadderWindow *window)
-{
-	return !window->document;
-}
-
-void ladder_window_tell(LadderWindow *window, const char *text)
-{
-	if (goes(window))
-		return;
-	window->told_at = text[0] ? g_get_monotonic_time() : 0;
-	window->told_of = ladder_document_version(window->document);
-	if (!text[0] && window->keys_text)
-		text = window->keys_text;
-	gtk_label_set_text(window->message_label, text);
-	tip_set(GTK_WIDGET(window->message_label), text);
-}
-
-void window_show_keys(LadderWindow *window, char *text)
-{
-	g_free(window->keys_text);
-	window->keys_text = text;
-	if (goes(window)) /* the last one */
-		g_clear_pointer(&window->keys_text, g_free);
-	if (g_get_monotonic_time() - window->told_at > TOLD)
-		ladder_window_tell(window, "");
-}
-
-/* What was said of a program that is another now is over, but for what a step said while it
- * was made. */
-static void forget_told(LadderWindow *window)
-{
-	if (window->told_of == ladder_document_version(window->document))
-		return;
-	if (g_get_monotonic_time() - window->told_at > TOLD_BY_STEP)
-		ladder_window_tell(window, "");
-	window->told_of = ladder_document_version(window->document);
-}
-
-static void forget_bookmarks(LadderWindow *window)
-{
-	ladder_window_tell(window, "");
-}
-
-void window_log(LadderWindow *window, const char *kind, const char *text)
-{
-	ladder_log_view_put(below_panel(window, "log"), kind, text);
-}
-
-void window_banner_of(LadderWindow *window, const char *kind, const char *text,
-		      const char *button, void (*act)(LadderWindow *window))
-{
-	window_log(window, kind, text);
-	gtk_label_set_text(window->banner_label, text);
-	gtk_widget_set_visible(GTK_WIDGET(window->banner_button), button != NULL);
-	if (button)
-		gtk_button_set_label(window->banner_button, button);
-	window->banner_do = act;
-	gtk_revealer_set_reveal_child(window->banner, TRUE);
-}
-
-void window_banner(LadderWindow *window, const char *text, const char *button,
-		   void (*act)(LadderWindow *window))
-{
-	window_banner_of(window, _("system"), text, button, act);
+	return window->core.document;
 }
 
 LadderSim *ladder_window_sim(LadderWindow *window)
 {
-	return window->sim;
+	return window->core.sim;
+}
+
+bool ladder_window_is_untouched(LadderWindow *window)
+{
+	LadderDocument *document = window->core.document;
+
+	return !ladder_document_path(document) && ladder_document_is_saved(document) &&
+	       !ladder_document_undo_name(document) && !ladder_sim_is_on(window->core.sim);
 }
 
 void ladder_window_welcome(LadderWindow *window)
 {
-	tabs_show_widget(window, "welcome");
-}
-
-void ladder_window_show_file(LadderWindow *window, const char *path)
-{
-	tabs_show_file(window, path);
+	tabs_show_widget(&window->tabs, "welcome");
 }
 
 void ladder_window_warn(LadderWindow *window, const char *text)
 {
-	window_banner(window, text, NULL, NULL);
+	messages_warn(&window->messages, text);
 }
 
 void ladder_window_offer_restored(LadderWindow *window)
 {
-	window_banner(window, _("This was not saved when the editor ended. It is as you "
-				"left it."), _("Save"), window_save);
+	messages_banner(&window->messages, NULL, _("This was not saved when the editor ended. "
+		"It is as you left it."), _("Save"), "win.save");
 }
 
-void window_banner_close(LadderWindow *window)
+void ladder_window_opened(LadderWindow *window)
 {
-	gtk_revealer_set_reveal_child(window->banner, FALSE);
+	tabs_open_anew(&window->tabs);
+	origin_set_path(&window->origin, NULL);
 }
 
-static void banner_clicked(LadderWindow *window)
+void ladder_window_tell_file(LadderWindow *window)
 {
-	window_banner_close(window);
-	if (window->banner_do)
-		window->banner_do(window);
+	files_tell(&window->files);
+}
+
+void ladder_window_set_origin(LadderWindow *window, const char *path)
+{
+	origin_set_path(&window->origin, path);
+}
+
+void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin)
+{
+	g_set_object(&window->origin.classic, origin);
+	exchange_imported(&window->exchange);
+}
+
+bool ladder_window_has_file(LadderWindow *window, const char *path)
+{
+	return tabs_find_file(&window->tabs, path) != NULL;
+}
+
+void ladder_window_show_file(LadderWindow *window, const char *path)
+{
+	tabs_show_file(&window->tabs, path);
+}
+
+bool ladder_window_restore_file(LadderWindow *window, const struct draft *draft)
+{
+	return files_restore(&window->files, draft);
+}
+
+void ladder_window_keep_drafts(LadderWindow *window)
+{
+	files_keep_drafts(&window->files);
+}
+
+/* ---- editing ---- */
+
+/* Of the tree, if one is there; else of the name at the cursor. */
+static void do_rename(LadderWindow *window)
+{
+	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
+
+	if (!focus || !gtk_widget_activate_action(focus, "tree.rename", NULL))
+		names_rename(&window->core);
+}
+
+/* ---- going ---- */
+
+static void do_next_problem(LadderWindow *window)
+{
+	LadderProblems *problems = LADDER_PROBLEMS(below_panel(&window->below, "problems"));
+
+	messages_tell(&window->messages, ladder_problems_next(problems, false) ?
+			   ladder_problems_current(problems) : _("no problems"));
+}
+
+static void do_next_bookmark(LadderWindow *window)
+{
+	LadderGridView *sheet = front_sheet(&window->front);
+	int pou = sheet ? ladder_grid_view_pou(sheet) : 0;
+	int rung = sheet ? ladder_grid_view_cursor(sheet).rung : -1;
+
+	if (ladder_document_next_bookmark(window->core.document, &pou, &rung))
+		tabs_go(&window->tabs, pou, rung, -1, -1);
+	else
+		messages_tell(&window->messages, _("no bookmarks"));
+}
+
+static void do_sheet_by(LadderWindow *window, bool next)
+{
+	if (front_older_by(&window->front, next ? 1 : -1))
+		return;
+	if (next ? !adw_tab_view_select_next_page(window->front.tabs) :
+		   !adw_tab_view_select_previous_page(window->front.tabs))
+		return;
+	front_enter(&window->front);
+}
+
+/* ---- viewing ---- */
+
+static void zoom(LadderWindow *window, double factor)
+{
+	LadderGridView *sheet = front_seen_sheet(&window->front);
+	LadderSfcView *chart = front_seen_chart(&window->front);
+
+	if (sheet)
+		ladder_grid_view_set_zoom(sheet, factor == 0 ? 1 :
+					  ladder_grid_view_zoom(sheet) * factor);
+	else if (chart)
+		ladder_sfc_view_set_zoom(chart, factor == 0 ? 1 :
+					 ladder_sfc_view_zoom(chart) * factor);
+}
+
+static void do_show_as(LadderWindow *window)
+{
+	LadderGridView *sheet = front_seen_sheet(&window->front);
+
+	if (!sheet)
+		return;
+	ladder_grid_view_set_show(sheet, (ladder_grid_view_show(sheet) + 1) % 3);
+	if (settings_get())
+		g_settings_set_enum(settings_get(), "show",
+				    (int)ladder_grid_view_show(sheet));
+}
+
+static void toggle(GtkWidget *widget)
+{
+	gtk_widget_set_visible(widget, !gtk_widget_get_visible(widget));
+}
+
+/* Light, dark, as the desktop has it. */
+static void do_appearance(LadderWindow *window)
+{
+	static const AdwColorScheme schemes[] = {
+		ADW_COLOR_SCHEME_DEFAULT, ADW_COLOR_SCHEME_FORCE_LIGHT,
+		ADW_COLOR_SCHEME_FORCE_DARK,
+	};
+	static const char *const names[] = {
+		N_("as the desktop"), N_("light"), N_("dark"),
+	};
+	AdwStyleManager *manager = adw_style_manager_get_default();
+	const AdwColorScheme now = adw_style_manager_get_color_scheme(manager);
+	int next = now == schemes[0] ? 1 : now == schemes[1] ? 2 : 0;
+
+	adw_style_manager_set_color_scheme(manager, schemes[next]);
+	if (settings_get())
+		g_settings_set_enum(settings_get(), "appearance", next);
+	messages_tell(&window->messages, _(names[next]));
+}
+
+static void do_fullscreen(LadderWindow *window)
+{
+	if (gtk_window_is_fullscreen(GTK_WINDOW(window)))
+		gtk_window_unfullscreen(GTK_WINDOW(window));
+	else
+		gtk_window_fullscreen(GTK_WINDOW(window));
+}
+
+static void do_about(LadderWindow *window)
+{
+	adw_show_about_window(GTK_WINDOW(window), "application-name", "Rungboard",
+		"application-icon", APP_ID, "version", LADDER_VERSION,
+		"developer-name", _("The Rungboard developers"),
+		"license-type", GTK_LICENSE_MIT_X11,
+		"comments", _("Ladder logic for Linux ARM boards"), NULL);
+}
+
+/* ---- what the project is made of ---- */
+
+static void add_pou(LadderWindow *window, const char *what)
+{
+	const char *why = pou_add(GTK_WIDGET(window), window->core.document, what);
+
+	if (why)
+		messages_tell(&window->messages, why);
+}
+
+/* Its page is made when it is seen. */
+static void import_symbols(LadderWindow *window)
+{
+	GtkWidget *symbols;
+
+	if (!ladder_document_project(window->core.document)) {
+		messages_toast(&window->messages, _("The file cannot be read as a program"));
+		return;
+	}
+	symbols = adw_bin_get_child(ADW_BIN(tabs_show_widget(&window->tabs, "symbols")));
+	if (symbols)
+		gtk_widget_activate_action(symbols, "symbols.import", NULL);
+}
+
+static bool do_project(LadderWindow *window, enum verb verb)
+{
+	switch ((int)verb) {
+	case VERB_new_program: add_pou(window, "PROGRAM LD"); return true;
+	case VERB_new_list: add_pou(window, "PROGRAM IL"); return true;
+	case VERB_new_chart: add_pou(window, "PROGRAM SFC"); return true;
+	case VERB_new_block: add_pou(window, "FUNCTION_BLOCK LD"); return true;
+	case VERB_new_function: add_pou(window, "FUNCTION LD"); return true;
+	case VERB_new_subroutine: add_pou(window, "SUBROUTINE LD"); return true;
+	case VERB_import:
+		pou_import_ask(GTK_WIDGET(window), window->core.document);
+		return true;
+	case VERB_new_iomap: board_bar_new_map(&window->board_bar); return true;
+	case VERB_symbols:
+		tabs_show_widget(&window->tabs, "symbols");
+		front_enter(&window->front);
+		return true;
+	case VERB_import_symbols: import_symbols(window); return true;
+	case VERB_export_symbols: export_symbols(&window->export); return true;
+	default: return false;
+	}
+}
+
+/* ---- the table ---- */
+
+/* Esc closes the bar that finds when the sheet has nothing to give back. */
+static void do_on_sheet(LadderWindow *window, LadderGridView *sheet, enum verb verb)
+{
+	const guint64 version = ladder_document_version(window->core.document);
+	const bool begun = ladder_grid_view_has_begun(sheet);
+
+	ladder_grid_view_do(sheet, verb);
+	if (verb == VERB_cancel && !begun && ladder_document_version(window->core.document) == version)
+		finder_close(&window->finder);
+}
+
+static void do_on_chart(LadderWindow *window, enum verb verb)
+{
+	LadderSfcView *chart = front_seen_chart(&window->front);
+
+	if (chart)
+		ladder_sfc_view_do(chart, verb);
+	else if (verb == VERB_copy_picture)
+		messages_tell(&window->messages, _("Rungs are copied as pictures: open a sheet "
+						   "first."));
+}
+
+static bool do_in_file(LadderWindow *window, enum verb verb)
+{
+	switch ((int)verb) {
+	case VERB_new_project: g_signal_emit_by_name(window, "new-wanted"); return true;
+	case VERB_open: files_open(&window->files); return true;
+	case VERB_save: files_save(&window->files); return true;
+	case VERB_save_as: files_save_as(&window->files); return true;
+	case VERB_export_classic: exchange_export(&window->exchange); return true;
+	case VERB_print: export_print(&window->export); return true;
+	case VERB_export_pdf: export_pdf(&window->export); return true;
+	case VERB_preferences: preferences_show(GTK_WINDOW(window)); return true;
+	case VERB_close_tab: tabs_close(&window->tabs); return true;
+	case VERB_close: gtk_window_close(GTK_WINDOW(window)); return true;
+	default: return false;
+	}
+}
+
+static bool do_find(LadderWindow *window, enum verb verb)
+{
+	switch ((int)verb) {
+	case VERB_find: case VERB_replace: case VERB_find_next: case VERB_find_previous:
+		finder_do(&window->finder, verb);
+		return true;
+	case VERB_find_element:
+		gtk_widget_set_visible(GTK_WIDGET(window->side), TRUE);
+		ladder_palette_find(window->palette);
+		return true;
+	case VERB_rename: do_rename(window); return true;
+	case VERB_watch_add: names_watch(&window->core); return true;
+	case VERB_show_uses: names_show_uses(&window->core); return true;
+	case VERB_go_coil: names_go_driver(&window->core); return true;
+	case VERB_next_bookmark: do_next_bookmark(window); return true;
+	case VERB_next_problem: do_next_problem(window); return true;
+	case VERB_next_sheet: do_sheet_by(window, true); return true;
+	case VERB_previous_sheet: do_sheet_by(window, false); return true;
+	default: return false;
+	}
+}
+
+static void do_view(LadderWindow *window, enum verb verb)
+{
+	switch ((int)verb) {
+	case VERB_show_report: exchange_show(&window->exchange); break;
+	case VERB_show_original: exchange_show_original(&window->exchange); break;
+	case VERB_show_as: do_show_as(window); break;
+	case VERB_zoom_in: zoom(window, 1.25); break;
+	case VERB_zoom_out: zoom(window, 0.8); break;
+	case VERB_zoom_reset: zoom(window, 0); break;
+	case VERB_side: toggle(GTK_WIDGET(window->side)); break;
+	case VERB_below: toggle(GTK_WIDGET(window->below.box)); break;
+	case VERB_appearance: do_appearance(window); break;
+	case VERB_fullscreen: do_fullscreen(window); break;
+	case VERB_palette: commands_show(GTK_WINDOW(window)); break;
+	case VERB_shortcuts: keys_show(GTK_WINDOW(window)); break;
+	case VERB_welcome: tabs_show_widget(&window->tabs, "welcome"); break;
+	case VERB_about: do_about(window); break;
+	default: break;
+	}
+}
+
+static void do_in_window(LadderWindow *window, enum verb verb)
+{
+	LadderGridView *sheet = front_seen_sheet(&window->front);
+
+	switch ((int)verb) {
+	case VERB_undo: tabs_step(&window->tabs, false); break;
+	case VERB_redo: tabs_step(&window->tabs, true); break;
+	case VERB_run_board: board_bar_run(&window->board_bar); break;
+	case VERB_stop_board: board_bar_stop(&window->board_bar); break;
+	case VERB_sim_why: blockers_ask(&window->blockers); break;
+	case VERB_go_rung:
+		if (!sheet && front_seen_chart(&window->front))
+			do_on_chart(window, verb); /* to a step */
+		else
+			front_ask_number(&window->front);
+		break;
+	case VERB_bookmark:
+		if (sheet)
+			do_on_sheet(window, sheet, verb);
+		else
+			messages_tell(&window->messages, _("Only rungs have bookmarks: open a "
+							   "sheet first."));
+		break;
+	default:
+		if (!do_in_file(window, verb) && !do_project(window, verb) &&
+		    !do_find(window, verb) && !sim_bar_do(&window->sim_bar, verb) &&
+		    !scenarios_do(&window->scenarios, verb))
+			do_view(window, verb);
+	}
+}
+
+static void do_verb(LadderWindow *window, enum verb verb)
+{
+	const enum verb_where where = verb_row(verb)->where;
+	const bool taken = front_take_typed(&window->front);
+	LadderGridView *sheet = front_seen_sheet(&window->front);
+
+	if (!taken && (verb == VERB_close || verb == VERB_close_tab))
+		return;
+	if (where == VERB_WINDOW)
+		do_in_window(window, verb);
+	else if (sheet && where != VERB_CHART)
+		do_on_sheet(window, sheet, verb);
+	else if (!sheet)
+		do_on_chart(window, verb);
+}
+
+/* ---- actions ---- */
+
+static void act(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)unused;
+	do_verb(LADDER_WINDOW(widget), verb_find(name));
+}
+
+static void go_to(GtkWidget *widget, const char *name, GVariant *place)
+{
+	int pou, rung, row, col;
+
+	(void)name;
+	g_variant_get(place, "(iiii)", &pou, &rung, &row, &col);
+	tabs_go(&LADDER_WINDOW(widget)->tabs, pou, rung, row, col);
+}
+
+static void do_rename_pou(GtkWidget *widget, const char *name, GVariant *pou)
+{
+	(void)name;
+	names_rename_pou(&LADDER_WINDOW(widget)->core, g_variant_get_int32(pou));
+}
+
+static void show_uses(GtkWidget *widget, const char *action, GVariant *name)
+{
+	(void)action;
+	names_show_uses_of(&LADDER_WINDOW(widget)->core, g_variant_get_string(name, NULL));
+}
+
+static void expect_value(GtkWidget *widget, const char *action, GVariant *name)
+{
+	(void)action;
+	scenarios_expect(&LADDER_WINDOW(widget)->scenarios, g_variant_get_string(name, NULL));
+}
+
+static void watch_value(GtkWidget *widget, const char *action, GVariant *name)
+{
+	(void)action;
+	names_watch_this(&LADDER_WINDOW(widget)->core, g_variant_get_string(name, NULL));
+}
+
+static void show_panel(GtkWidget *widget, const char *action, GVariant *name)
+{
+	(void)action;
+	below_show(&LADDER_WINDOW(widget)->below, g_variant_get_string(name, NULL));
+}
+
+static void open_path(GtkWidget *widget, const char *action, GVariant *path)
+{
+	(void)action;
+	g_signal_emit_by_name(widget, "open-wanted", g_variant_get_string(path, NULL), FALSE);
+}
+
+static void open_text(GtkWidget *widget, const char *action, GVariant *path)
+{
+	(void)action;
+	tabs_show_file(&LADDER_WINDOW(widget)->tabs, g_variant_get_string(path, NULL));
+}
+
+static void open_sample(GtkWidget *widget, const char *action, GVariant *path)
+{
+	(void)action;
+	g_signal_emit_by_name(widget, "open-wanted", g_variant_get_string(path, NULL), TRUE);
+}
+
+/* From the welcome page to the empty sheet. */
+static void begin(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderWindow *window = LADDER_WINDOW(widget);
+	AdwTabPage *page = front_tab(&window->front);
+
+	(void)action;
+	(void)unused;
+	tabs_show(&window->tabs, 0);
+	adw_tab_view_close_page(window->front.tabs, page);
+}
+
+static void place_word(GtkWidget *widget, const char *name, GVariant *word)
+{
+	LadderWindow *window = LADDER_WINDOW(widget);
+	LadderGridView *sheet = front_sheet(&window->front);
+
+	(void)name;
+	if (sheet)
+		ladder_grid_view_put(sheet, (enum word)g_variant_get_int32(word));
+	else
+		messages_tell(&window->messages, _("Elements go into rungs: open a sheet first."));
+}
+
+static void tell(GtkWidget *widget, const char *name, GVariant *text)
+{
+	(void)name;
+	messages_tell(&LADDER_WINDOW(widget)->messages, g_variant_get_string(text, NULL));
+}
+
+static void warn(GtkWidget *widget, const char *name, GVariant *text)
+{
+	(void)name;
+	messages_warn(&LADDER_WINDOW(widget)->messages, g_variant_get_string(text, NULL));
+}
+
+/* "win.save-over", "win.save-locked". */
+static void save_over(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)unused;
+	files_save_over(&LADDER_WINDOW(widget)->files, strcmp(name, "win.save-locked") == 0);
+}
+
+static void reload(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	files_reload(&LADDER_WINDOW(widget)->files);
+}
+
+static void to_sheet(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	front_enter(&LADDER_WINDOW(widget)->front);
+}
+
+static void install_actions(GtkWidgetClass *class)
+{
+	for (int i = 0; i < VERB_COUNT; i++)
+		gtk_widget_class_install_action(class, verb_row((enum verb)i)->action,
+						NULL, act);
+	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
+	gtk_widget_class_install_action(class, "win.rename-pou", "i", do_rename_pou);
+	gtk_widget_class_install_action(class, "win.show-uses", "s", show_uses);
+	gtk_widget_class_install_action(class, "win.expect-value", "s", expect_value);
+	gtk_widget_class_install_action(class, "win.watch-value", "s", watch_value);
+	gtk_widget_class_install_action(class, "win.open-path", "s", open_path);
+	gtk_widget_class_install_action(class, "win.open-text", "s", open_text);
+	gtk_widget_class_install_action(class, "win.open-sample", "s", open_sample);
+	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
+	gtk_widget_class_install_action(class, "win.place", "i", place_word);
+	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
+	/* Between the panes GTK goes by it; what is above them is in none. */
+	gtk_widget_class_add_binding_action(class, GDK_KEY_F6, 0, "win.to-sheet", NULL);
+	gtk_widget_class_install_action(class, "win.tell", "s", tell);
+	gtk_widget_class_install_action(class, "win.warn", "s", warn);
+	gtk_widget_class_install_action(class, "win.save-over", NULL, save_over);
+	gtk_widget_class_install_action(class, "win.save-locked", NULL, save_over);
+	gtk_widget_class_install_action(class, "win.reload", NULL, reload);
+	gtk_widget_class_install_action(class, "win.show-panel", "s", show_panel);
+}
+
+/* The main menu, of the rows of verbs.def. Caller: g_object_unref. */
+static GMenu *menu_new(void)
+{
+	GMenu *menu = g_menu_new();
+
+	for (int group = 0; group < VERBS_GROUPS; group++) {
+		GMenu *part = g_menu_new();
+		int recent = -1;
+
+		for (int i = 0; i < VERB_COUNT; i++) {
+			if ((int)verb_row((enum verb)i)->group != group)
+				continue;
+			g_menu_append(part, _(verb_row((enum verb)i)->label),
+				      verb_row((enum verb)i)->action);
+			if (i == VERB_open)
+				recent = g_menu_model_get_n_items(G_MENU_MODEL(part));
+		}
+		if (recent >= 0)
+			recent_follow(part, recent);
+		g_menu_append_submenu(menu, _(verb_group_label((enum verb_group)group)),
+				      G_MENU_MODEL(part));
+		g_object_unref(part);
+	}
+	return menu;
 }
 
 /* ---- state ---- */
@@ -153,9 +630,9 @@ static char *short_path(const char *path)
 	       g_strdup_printf("~%s", path + len) : g_strdup(path);
 }
 
-void window_show_state(LadderWindow *window)
+static void show_state(LadderWindow *window)
 {
-	LadderDocument *document = window->document;
+	LadderDocument *document = window->core.document;
 	const char *undo = ladder_document_undo_name(document);
 	const char *redo = ladder_document_redo_name(document);
 	const char *path = ladder_document_path(document);
@@ -163,68 +640,119 @@ void window_show_state(LadderWindow *window)
 	char *title = g_strdup_printf("%s%s",
 		ladder_document_is_saved(document) ? "" : "• ", name);
 
-	adw_window_title_set_title(window->title, title);
 	char *place = path ? short_path(path) : g_strdup(_("not saved yet"));
 
-	adw_window_title_set_subtitle(window->title, place);
-	g_free(place);
+	adw_window_title_set_title(window->title, title);
+	if (!ladder_sim_is_on(window->core.sim)) /* else it tells the simulated time */
+		adw_window_title_set_subtitle(window->title, place);
 	gtk_window_set_title(GTK_WINDOW(window), title);
-	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.undo", undo != NULL);
-	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.redo", redo != NULL);
+	core_enable(&window->core, "win.undo", undo != NULL);
+	core_enable(&window->core, "win.redo", redo != NULL);
 	name_button(window->undo_button, _("Undo"), undo);
 	name_button(window->redo_button, _("Redo"), redo);
+	g_free(place);
 	g_free(title);
 	g_free(name);
 }
 
-static void show_checked(LadderWindow *window)
+static void page_changed(LadderWindow *window)
 {
-	const struct diag_list *diags = ladder_document_diags(window->document);
-	const int warnings = diags->count + diags->dropped - diags->errors;
-	char *text;
+	LadderGridView *sheet = front_sheet(&window->front);
+	GtkWidget *list = sheet ? below_made(&window->below, "list") : NULL;
 
-	forget_told(window);
-	if (diags->errors)
-		text = g_strdup_printf(ngettext("%d error", "%d errors",
-			(unsigned long)diags->errors), diags->errors);
-	else if (warnings)
-		text = g_strdup_printf(ngettext("%d warning", "%d warnings",
-			(unsigned long)warnings), warnings);
-	else
-		text = g_strdup(_("no problems"));
-	gtk_label_set_text(window->checked_label, text);
-	g_free(text);
-}
-
-LadderDocument *ladder_window_document(LadderWindow *window)
-{
-	return window->document;
-}
-
-bool ladder_window_is_untouched(LadderWindow *window)
-{
-	return !ladder_document_path(window->document) &&
-	       ladder_document_is_saved(window->document) &&
-	       !ladder_document_undo_name(window->document) &&
-	       !ladder_sim_is_on(window->sim);
+	if (list)
+		ladder_code_view_set_pou(list, ladder_grid_view_pou(sheet));
 }
 
 /* ---- panels ---- */
 
-static void add_panels(LadderWindow *window)
+/* The tab of the problems tells how many there are. */
+static void title_changed(LadderWindow *window, LadderProblems *problems)
 {
-	window->tree = ladder_project_tree_new(window->document);
-	gtk_paned_set_start_child(window->side, ladder_still_new(window->tree));
-	window->palette = ladder_palette_new(window->document);
+	below_set_title(&window->below, "problems", ladder_problems_title(problems));
+}
+
+static GtkWidget *make_problems(gpointer data)
+{
+	LadderWindow *window = data;
+	GtkWidget *problems = ladder_problems_new();
+
+	g_signal_connect_object(problems, "title-changed", G_CALLBACK(title_changed), window,
+				G_CONNECT_SWAPPED);
+	ladder_problems_set_document(LADDER_PROBLEMS(problems), window->core.document);
+	return problems;
+}
+
+static GtkWidget *make_watch(gpointer data)
+{
+	const struct core *core = data;
+
+	return ladder_watch_view_new(core->document, core->sim);
+}
+
+static GtkWidget *make_timing(gpointer data)
+{
+	const struct core *core = data;
+
+	return ladder_timing_view_new(core->sim);
+}
+
+static GtkWidget *make_list(gpointer data)
+{
+	struct core *core = data;
+	GtkWidget *list = ladder_code_view_new(core->document);
+	LadderGridView *sheet = front_sheet(core->front);
+
+	if (sheet)
+		ladder_code_view_set_pou(list, ladder_grid_view_pou(sheet));
+	return list;
+}
+
+static GtkWidget *make_log(gpointer data)
+{
+	const struct core *core = data;
+
+	return ladder_log_view_new(core->document);
+}
+
+/* The order of the panels below is that of their tabs. */
+static void add_parts(LadderWindow *window)
+{
+	struct core *core = &window->core;
+
+	window->sim_bar.title = window->title;
+	messages_init(&window->messages, core);
+	below_init(&window->below, core);
+	front_init(&window->front, core);
+	status_init(&window->status, core);
+	origin_init(&window->origin, core);
+	export_init(&window->export, core, &window->origin);
+	sim_bar_init(&window->sim_bar, core, &window->origin);
+	blockers_init(&window->blockers, core);
+	finder_init(&window->finder, core);
+	below_add(&window->below, "problems", N_("Problems"), make_problems, window);
+	names_add_panel(core);
+	below_add(&window->below, "watch", N_("Status chart"), make_watch, core);
+	below_add(&window->below, "timing", N_("Timing chart"), make_timing, core);
+	scenarios_init(&window->scenarios, core, &window->origin, &window->sim_bar);
+	below_add(&window->below, "list", N_("Instruction list"), make_list, core);
+	below_add(&window->below, "log", N_("Log"), make_log, core);
+	exchange_init(&window->exchange, core, &window->origin, &window->export);
+	files_init(&window->files, core, &window->origin, &window->exchange);
+	board_bar_init(&window->board_bar, core, &window->export, &window->files);
+	/* These two show what they hear from the beginning. */
+	below_panel(&window->below, "problems");
+	below_panel(&window->below, "log");
+}
+
+static void add_sides(LadderWindow *window)
+{
+	window->core.tree = ladder_project_tree_new(window->core.document);
+	gtk_paned_set_start_child(window->side, ladder_still_new(window->core.tree));
+	window->palette = ladder_palette_new(window->core.document);
 	gtk_paned_set_end_child(window->side, ladder_still_new(window->palette));
 	gtk_paned_set_position(window->side, 230);
-	window_scenario_init(window);
-	below_init(window);
-	gtk_paned_set_position(window->below_paned, 620);
-	window_find_init(window);
-	window_sim_init(window);
-	window_board_init(window);
-	window_drop_init(window);
+	gtk_paned_set_position(window->below.paned, 620);
 }
 
 /* ---- settings ---- */
@@ -236,7 +764,7 @@ static void load_settings(LadderWindow *window)
 	if (settings_flag("maximized", FALSE))
 		gtk_window_maximize(GTK_WINDOW(window));
 	gtk_widget_set_visible(GTK_WIDGET(window->side), settings_flag("side", TRUE));
-	gtk_widget_set_visible(GTK_WIDGET(window->below), settings_flag("below", TRUE));
+	gtk_widget_set_visible(GTK_WIDGET(window->below.box), settings_flag("below", TRUE));
 }
 
 static void keep_settings(LadderWindow *window)
@@ -254,21 +782,30 @@ static void keep_settings(LadderWindow *window)
 	g_settings_set_boolean(settings, "side",
 			       gtk_widget_get_visible(GTK_WIDGET(window->side)));
 	g_settings_set_boolean(settings, "below",
-			       gtk_widget_get_visible(GTK_WIDGET(window->below)));
+			       gtk_widget_get_visible(GTK_WIDGET(window->below.box)));
 }
 
 /* ---- life ---- */
+
+static gboolean look_at_disk(gpointer data)
+{
+	LadderWindow *window = data;
+
+	files_look(&window->files);
+	board_bar_look(&window->board_bar);
+	return G_SOURCE_CONTINUE;
+}
 
 static gboolean ladder_window_close_request(GtkWindow *gtk_window)
 {
 	LadderWindow *window = LADDER_WINDOW(gtk_window);
 
-	if (!tabs_take_typed(window))
+	if (!front_take_typed(&window->front))
 		return TRUE;
-	ladder_sim_stop(window->sim);
-	if (!window_board_may_close(window))
+	ladder_sim_stop(window->core.sim);
+	if (!board_bar_may_close(&window->board_bar))
 		return TRUE;
-	if (!window->closing && !window_may_close(window))
+	if (!files_may_close(&window->files))
 		return TRUE;
 	keep_settings(window);
 	return GTK_WINDOW_CLASS(ladder_window_parent_class)->close_request(gtk_window);
@@ -277,27 +814,38 @@ static gboolean ladder_window_close_request(GtkWindow *gtk_window)
 static void ladder_window_dispose(GObject *object)
 {
 	LadderWindow *window = LADDER_WINDOW(object);
+	struct core *core = &window->core;
 
-	if (window->disk_timer)
-		g_source_remove(window->disk_timer);
-	window->disk_timer = 0;
-	g_clear_handle_id(&window->when_timer, g_source_remove);
-	g_clear_object(&window->recorder);
-	window_why_free(window);
-	window_older_free(window);
-	g_clear_object(&window->sim);
-	g_clear_object(&window->board);
-	g_clear_object(&window->classic);
-	if (window->document) { /* files beside it go only with the tabs         */
-		g_signal_handlers_disconnect_by_data(window->document, window);
-		draft_stop(window->document);
+	g_clear_handle_id(&window->disk_timer, g_source_remove);
+	board_bar_clear(&window->board_bar);
+	scenarios_clear(&window->scenarios);
+	blockers_clear(&window->blockers);
+	sim_bar_clear(&window->sim_bar);
+	origin_clear(&window->origin);
+	front_clear(&window->front);
+	g_clear_object(&core->sim);
+	g_clear_object(&core->board);
+	if (core->document) { /* the drafts of files go with their tabs          */
+		g_signal_handlers_disconnect_by_data(core->document, window);
+		draft_stop(core->document);
 	}
-	g_clear_object(&window->document);
-	g_clear_pointer(&window->keys_text, g_free);
-	g_clear_pointer(&window->board_said, g_free);
-	g_clear_pointer(&window->origin, g_free);
-	g_clear_pointer(&window->plant, g_free);
+	g_clear_object(&core->document);
+	messages_clear(&window->messages);
 	G_OBJECT_CLASS(ladder_window_parent_class)->dispose(object);
+}
+
+static void make_signals(GType type)
+{
+	g_signal_new("open-wanted", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE,
+		     2, G_TYPE_STRING, G_TYPE_BOOLEAN);
+	g_signal_new("new-wanted", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE,
+		     0);
+	g_signal_new("cursor-moved", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+		     G_TYPE_NONE, 0);
+	g_signal_new("place-changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+		     G_TYPE_NONE, 0);
+	g_signal_new("page-changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+		     G_TYPE_NONE, 0);
 }
 
 static void ladder_window_class_init(LadderWindowClass *class)
@@ -307,37 +855,43 @@ static void ladder_window_class_init(LadderWindowClass *class)
 	tip_init();
 	G_OBJECT_CLASS(class)->dispose = ladder_window_dispose;
 	GTK_WINDOW_CLASS(class)->close_request = ladder_window_close_request;
+	make_signals(G_TYPE_FROM_CLASS(class));
 	g_type_ensure(LADDER_TYPE_STILL);
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/window.ui");
-#define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderWindow, name)
-	CHILD(toasts); CHILD(title); CHILD(undo_button); CHILD(redo_button);
-	CHILD(menu_button); CHILD(side_paned); CHILD(side); CHILD(below_paned);
-	CHILD(right_paned); CHILD(right); CHILD(edit_mode); CHILD(simulate_mode);
-	CHILD(sim_buttons); CHILD(run_button); CHILD(forces_button); CHILD(pace_button);
-	CHILD(record_button);
-	CHILD(tab_bar); CHILD(front); CHILD(tabs); CHILD(nothing_label);
-	CHILD(banner); CHILD(banner_label);
-	CHILD(banner_button); CHILD(banner_close); CHILD(find_place); CHILD(below);
-	CHILD(below_stack); CHILD(below_switcher);
-	CHILD(below_tabs); CHILD(below_more); CHILD(pill); CHILD(place_label); CHILD(message_label);
-	CHILD(checked_label); CHILD(zoom_label);
+#define CHILD(name, field) gtk_widget_class_bind_template_child_full(widget, name, FALSE, \
+	G_STRUCT_OFFSET(LadderWindow, field))
+	CHILD("title", title); CHILD("side", side);
+	CHILD("undo_button", undo_button); CHILD("redo_button", redo_button);
+	CHILD("menu_button", menu_button);
+	CHILD("toasts", messages.toasts); CHILD("message_label", messages.message_label);
+	CHILD("banner", messages.banner); CHILD("banner_label", messages.banner_label);
+	CHILD("banner_button", messages.banner_button);
+	CHILD("banner_close", messages.banner_close);
+	CHILD("below", below.box); CHILD("below_paned", below.paned);
+	CHILD("below_stack", below.stack); CHILD("below_switcher", below.switcher);
+	CHILD("below_tabs", below.tabs); CHILD("below_more", below.more);
+	CHILD("tab_bar", front.tab_bar); CHILD("front", front.now); CHILD("tabs", front.tabs);
+	CHILD("nothing_label", front.nothing_label); CHILD("find_place", finder.place);
+	CHILD("pill", status.pill); CHILD("place_label", status.place);
+	CHILD("checked_label", status.checked); CHILD("zoom_label", status.zoom);
+	CHILD("right", sim_bar.right); CHILD("edit_mode", sim_bar.edit_mode);
+	CHILD("simulate_mode", sim_bar.simulate_mode); CHILD("sim_buttons", sim_bar.buttons);
+	CHILD("run_button", sim_bar.run_button); CHILD("pace_button", sim_bar.pace_button);
+	CHILD("forces_button", sim_bar.forces_button);
+	CHILD("record_button", scenarios.record_button);
 #undef CHILD
-	window_install_actions(widget);
+	install_actions(widget);
 }
 
 static void ladder_window_init(LadderWindow *window)
 {
 	gtk_widget_init_template(GTK_WIDGET(window));
-	popover_menu_of(window->menu_button, window_menu);
-	spoken_text(window->place_label);
-	spoken_text(window->message_label);
-	spoken_text(window->checked_label);
-	spoken_text(window->zoom_label);
-	g_signal_connect_swapped(window->banner_button, "clicked",
-				 G_CALLBACK(banner_clicked), window);
-	g_signal_connect_swapped(window->banner_close, "clicked",
-				 G_CALLBACK(window_banner_close), window);
+	popover_menu_of(window->menu_button, menu_new);
+	window->core = (struct core){
+		.window = GTK_WINDOW(window), .messages = &window->messages,
+		.below = &window->below, .front = &window->front, .tabs = &window->tabs,
+	};
 }
 
 LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *document)
@@ -345,20 +899,20 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 	LadderWindow *window = g_object_new(LADDER_TYPE_WINDOW, "application", application,
 					    NULL);
 
-	window->document = g_object_ref(document);
-	window->sim = ladder_sim_new(document);
-	window->board = ladder_board_run_new();
-	g_signal_connect_object(document, "state-changed", G_CALLBACK(window_show_state),
-				window, G_CONNECT_SWAPPED);
-	g_signal_connect_object(document, "checked", G_CALLBACK(show_checked), window,
+	window->core.document = g_object_ref(document);
+	window->core.sim = ladder_sim_new(document);
+	window->core.board = ladder_board_run_new();
+	g_signal_connect_object(document, "state-changed", G_CALLBACK(show_state), window,
 				G_CONNECT_SWAPPED);
-	g_signal_connect_object(document, "bookmarks-changed", G_CALLBACK(forget_bookmarks),
+	g_signal_connect_object(window->core.sim, "state-changed", G_CALLBACK(show_state),
 				window, G_CONNECT_SWAPPED);
+	g_signal_connect(window, "page-changed", G_CALLBACK(page_changed), NULL);
 	load_settings(window);
-	add_panels(window);
-	tabs_init(window);
-	window_show_state(window);
-	window_watch_disk(window);
+	add_sides(window);
+	add_parts(window);
+	tabs_init(&window->tabs, &window->core);
+	show_state(window);
+	window->disk_timer = g_timeout_add_seconds(DISK_SECONDS, look_at_disk, window);
 	spoken_parts(GTK_WIDGET(window));
 	return window;
 }

@@ -12,6 +12,7 @@
  * keys that of the thread that draws.
  */
 #include "editor-gtk/window/app.h"
+#include "editor-gtk/window/window.h"
 #include "editor-gtk/ladder/grid_view_live.h"
 #include "editor-gtk/kit/gtk48/memory.h"
 #include "editor-gtk/document/pou_edit.h"

@@ -6,7 +6,7 @@
 #include "editor-gtk/panels/find_bar.h"
 #include "editor-gtk/panels/import_dialog.h"
 #include "editor-gtk/kit/panel_row.h"
-#include "editor-gtk/panels/panels.h"
+#include "editor-gtk/panels/project_tree.h"
 #include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/panels/problems.h"
 #include "editor-gtk/panels/symbols_view.h"

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * ask - questions over a window.
+ */
+#include "editor-gtk/window/ask.h"
+
+#include "editor-gtk/document/panel.h"
+#include "editor-gtk/kit/i18n.h"
+
+AdwMessageDialog *ask_new(GtkWindow *window, const char *heading, const char *body,
+			  const char *answer, const char *label,
+			  AdwResponseAppearance appearance)
+{
+	AdwMessageDialog *dialog =
+		ADW_MESSAGE_DIALOG(adw_message_dialog_new(window, heading, body));
+
+	adw_message_dialog_add_responses(dialog, "cancel", _("Cancel"), answer, label, NULL);
+	adw_message_dialog_set_response_appearance(dialog, answer, appearance);
+	adw_message_dialog_set_default_response(dialog, answer);
+	adw_message_dialog_set_close_response(dialog, "cancel");
+	return dialog;
+}
+
+AdwMessageDialog *ask_save(GtkWindow *window, const char *name)
+{
+	char *body = g_strdup_printf(_("“%s” has changes that are not saved."), name);
+	AdwMessageDialog *dialog = ask_new(window, _("Save the changes?"), body, "discard",
+					   _("Discard"), ADW_RESPONSE_DESTRUCTIVE);
+
+	adw_message_dialog_add_response(dialog, "save", _("Save"));
+	adw_message_dialog_set_response_appearance(dialog, "save", ADW_RESPONSE_SUGGESTED);
+	adw_message_dialog_set_default_response(dialog, "save");
+	gtk_window_present(GTK_WINDOW(dialog));
+	g_free(body);
+	return dialog;
+}
+
+GtkWidget *ask_entry(const char *name)
+{
+	GtkWidget *entry = gtk_entry_new();
+
+	gtk_entry_set_activates_default(GTK_ENTRY(entry), TRUE);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       name, -1);
+	return entry;
+}
+
+GtkFileChooserNative *ask_rung_file(GtkWindow *window, LadderDocument *document,
+				    const char *title, GtkFileChooserAction action,
+				    const char *accept)
+{
+	GtkFileChooserNative *chooser = gtk_file_chooser_native_new(title, window, action,
+								    accept, _("Cancel"));
+	GtkFileFilter *rungs = gtk_file_filter_new(), *all = gtk_file_filter_new();
+
+	gtk_file_filter_set_name(rungs, _("Rung files"));
+	gtk_file_filter_add_pattern(rungs, "*.rung");
+	gtk_file_filter_set_name(all, _("All files"));
+	gtk_file_filter_add_pattern(all, "*");
+	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), rungs);
+	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), all);
+	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
+	panel_choose_beside(chooser, document);
+	g_object_unref(rungs);
+	g_object_unref(all);
+	return chooser;
+}
+
+char *ask_take_path(GtkNativeDialog *dialog, int response)
+{
+	GFile *file = response == GTK_RESPONSE_ACCEPT ?
+		gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog)) : NULL;
+	char *path = file ? g_file_get_path(file) : NULL;
+
+	g_clear_object(&file);
+	g_object_unref(dialog);
+	return path;
+}

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * below - the panels below the sheets, each made when it is first needed.
+ */
+#include "editor-gtk/window/below.h"
+
+#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/problems.h"
+
+/* What a place in the stack needs to make its panel. */
+struct maker {
+	below_make *make;
+	gpointer part;
+};
+
+static AdwBin *place_of(struct below *below, const char *name)
+{
+	return ADW_BIN(gtk_stack_get_child_by_name(below->stack, name));
+}
+
+static GtkStackPage *page_of(struct below *below, const char *name)
+{
+	return gtk_stack_get_page(below->stack, GTK_WIDGET(place_of(below, name)));
+}
+
+GtkWidget *below_made(struct below *below, const char *name)
+{
+	return adw_bin_get_child(place_of(below, name));
+}
+
+static GtkWidget *panel_in(AdwBin *place)
+{
+	const struct maker *maker = g_object_get_data(G_OBJECT(place), "maker");
+
+	if (!adw_bin_get_child(place)) {
+		adw_bin_set_child(place, maker->make(maker->part));
+		spoken_parts(adw_bin_get_child(place));
+	}
+	return adw_bin_get_child(place);
+}
+
+GtkWidget *below_panel(struct below *below, const char *name)
+{
+	return panel_in(place_of(below, name));
+}
+
+GtkWidget *below_show(struct below *below, const char *name)
+{
+	gtk_widget_set_visible(GTK_WIDGET(below->box), TRUE);
+	gtk_stack_set_visible_child_name(below->stack, name);
+	return below_panel(below, name);
+}
+
+void below_show_error(struct below *below)
+{
+	ladder_problems_show_error(LADDER_PROBLEMS(below_show(below, "problems")));
+}
+
+void below_offer(struct below *below, const char *name, bool offered)
+{
+	gtk_stack_page_set_visible(page_of(below, name), offered);
+}
+
+void below_set_title(struct below *below, const char *name, const char *title)
+{
+	gtk_stack_page_set_title(page_of(below, name), title);
+}
+
+void below_make_room(struct below *below, int panel, int sheet)
+{
+	const int height = gtk_widget_get_height(GTK_WIDGET(below->paned));
+	const int most = MAX(height - panel, sheet);
+
+	if (height && gtk_paned_get_position(below->paned) > most)
+		gtk_paned_set_position(below->paned, most);
+}
+
+void below_add(struct below *below, const char *name, const char *title, below_make *make,
+	       gpointer part)
+{
+	GtkWidget *place = adw_bin_new();
+	struct maker *maker = g_new(struct maker, 1);
+
+	*maker = (struct maker){ make, part };
+	g_object_set_data_full(G_OBJECT(place), "maker", maker, g_free);
+	gtk_stack_add_titled(below->stack, place, name, _(title));
+	g_signal_connect(place, "map", G_CALLBACK(panel_in), NULL);
+}
+
+/* ---- tabs that have no room ---- */
+
+static void fill_more(GtkMenuButton *button, gpointer data)
+{
+	const struct below *below = data;
+	GListModel *pages = G_LIST_MODEL(gtk_stack_get_pages(below->stack));
+	GMenu *menu = g_menu_new();
+
+	for (guint i = 0; i < g_list_model_get_n_items(pages); i++) {
+		GtkStackPage *page = g_list_model_get_item(pages, i);
+		GMenuItem *row = g_menu_item_new(gtk_stack_page_get_title(page), NULL);
+
+		g_menu_item_set_action_and_target(row, "win.show-panel", "s",
+						  gtk_stack_page_get_name(page));
+		if (gtk_stack_page_get_visible(page))
+			g_menu_append_item(menu, row);
+		g_object_unref(row);
+		g_object_unref(page);
+	}
+	gtk_menu_button_set_menu_model(button, G_MENU_MODEL(menu));
+	g_object_unref(pages);
+	g_object_unref(menu);
+}
+
+/* Scrolls to the tab of the panel that is shown. */
+static void reveal_tab(struct below *below)
+{
+	GtkWidget *tab = gtk_widget_get_first_child(below->switcher);
+	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(below->tabs);
+	graphene_rect_t bounds;
+
+	while (tab && !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(tab)))
+		tab = gtk_widget_get_next_sibling(tab);
+	if (tab && gtk_widget_compute_bounds(tab, below->switcher, &bounds))
+		gtk_adjustment_clamp_page(along, bounds.origin.x,
+					  bounds.origin.x + bounds.size.width);
+}
+
+static void show_more(struct below *below)
+{
+	GtkWidget *more = GTK_WIDGET(below->more);
+	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(below->tabs);
+	const int button = gtk_widget_get_visible(more) ? gtk_widget_get_width(more) : 0;
+
+	gtk_widget_set_visible(more, gtk_adjustment_get_upper(along) >
+			       gtk_adjustment_get_page_size(along) + button + 1);
+	reveal_tab(below);
+}
+
+static gboolean look_at_room(gpointer data)
+{
+	struct below *below = data;
+
+	if (below->tabs) /* NULL: the window was closed meanwhile              */
+		show_more(below);
+	g_object_unref(below->core->window);
+	return G_SOURCE_REMOVE;
+}
+
+/* GTK forbids to show or hide anything while the window is laid out. */
+static void room_changed(struct below *below)
+{
+	g_object_ref(below->core->window);
+	g_idle_add(look_at_room, below);
+}
+
+void below_init(struct below *below, struct core *core)
+{
+	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(below->tabs);
+
+	below->core = core;
+	gtk_menu_button_set_create_popup_func(below->more, fill_more, below, NULL);
+	core_connect(core, along, "changed", G_CALLBACK(room_changed), below,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, below->stack, "notify::visible-child",
+		     G_CALLBACK(room_changed), below, G_CONNECT_SWAPPED);
+}

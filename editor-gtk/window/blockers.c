@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * blockers - why the element at the cursor has no power; see blockers.h.
+ */
+#include "editor-gtk/window/blockers.h"
+
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/window/front.h"
+#include "editor-gtk/window/messages.h"
+
+#include "engine/trial/why.h"
+
+#include <string.h>
+
+static void forget(struct blockers *blockers)
+{
+	if (blockers->sheet)
+		ladder_grid_view_set_blockers(blockers->sheet, -1, NULL, 0);
+	g_clear_weak_pointer(&blockers->sheet);
+	g_clear_pointer(&blockers->told, g_free);
+}
+
+/* ---- in words ---- */
+
+/* The texts of why.def have one %s at most. */
+static void append_said(GString *out, enum why_kind kind, bool on, const char *name)
+{
+	const char *text = said(why_text(kind, on)), *hole = strstr(text, "%s");
+
+	if (!hole) {
+		g_string_append(out, text);
+		return;
+	}
+	g_string_append_len(out, text, hole - text);
+	g_string_append(out, name);
+	g_string_append(out, hole + strlen("%s"));
+}
+
+static void append_cell(GString *out, const struct why_cell *cell, bool on)
+{
+	append_said(out, cell->kind, on, cell->name);
+	if (cell->values[0])
+		g_string_append_printf(out, " (%s)", cell->values);
+}
+
+/* "Off: Start is FALSE; or Motor is FALSE". Caller frees. */
+static char *in_words(const struct why *why)
+{
+	GString *out = g_string_new(why->on ? _("It has power: ") : _("No power: "));
+
+	if (why->whole != WHY_COUNT)
+		append_said(out, why->whole, false, why->name);
+	for (int i = 0; i < why->ways; i++) {
+		if (i)
+			g_string_append(out, why->on ? _("; and ") : _("; or "));
+		for (int k = 0; k < why->way[i].count; k++) {
+			g_string_append(out, k ? _(" and ") : "");
+			append_cell(out, &why->way[i].cell[k], why->on);
+		}
+		if (!why->way[i].count)
+			g_string_append(out, _("from the left rail"));
+	}
+	if (why->more)
+		g_string_append(out, " …");
+	return g_string_free(out, FALSE);
+}
+
+/* ---- in the rung ---- */
+
+static bool has(const GArray *cells, const struct why_cell *cell)
+{
+	for (guint i = 0; i < cells->len; i++) {
+		const struct grid_blocker *one = &g_array_index(cells, struct grid_blocker, i);
+
+		if (one->row == cell->row - 1 && one->col == cell->col - 1)
+			return true;
+	}
+	return false;
+}
+
+static void mark(struct blockers *blockers, const struct why *why)
+{
+	GArray *cells = g_array_new(FALSE, FALSE, sizeof(struct grid_blocker));
+
+	for (int i = 0; !why->on && i < why->ways; i++)
+		for (int k = 0; k < why->way[i].count; k++) {
+			const struct why_cell *cell = &why->way[i].cell[k];
+			const struct grid_blocker one = { cell->row - 1, cell->col - 1, NULL };
+
+			if (!has(cells, cell))
+				g_array_append_val(cells, one);
+		}
+	ladder_grid_view_set_blockers(blockers->sheet, blockers->rung,
+		(const struct grid_blocker *)(gpointer)cells->data, (int)cells->len);
+	g_array_unref(cells);
+}
+
+/* ---- asking ---- */
+
+static bool ask(struct blockers *blockers, struct why *why)
+{
+	const struct twin *twin = ladder_sim_twin(blockers->core->sim);
+	const int pou = ladder_grid_view_pou(blockers->sheet);
+	const int rung = ladder_sim_rung(blockers->core->sim,
+		ladder_grid_view_document(blockers->sheet), pou,
+		blockers->rung + ladder_grid_view_first(blockers->sheet));
+	struct arena arena;
+	bool good;
+
+	if (!twin || rung < 0)
+		return false;
+	arena_init(&arena);
+	good = why_ask(&(struct why_place){
+		.project = ladder_project(ladder_sim_ladder(blockers->core->sim)),
+		.resource = &twin->resource, .pou = pou,
+		.instance = ladder_grid_view_instance(blockers->sheet),
+		.rung = rung + 1, .row = blockers->row + 1, .col = blockers->col + 1,
+	}, &arena, why);
+	arena_free(&arena);
+	return good;
+}
+
+static void tell(struct blockers *blockers, const struct why *why)
+{
+	char *text = in_words(why);
+
+	if (g_strcmp0(text, blockers->told) != 0) {
+		mark(blockers, why);
+		messages_tell(blockers->core->messages, text);
+	}
+	g_free(blockers->told);
+	blockers->told = text;
+}
+
+/* The answer of the scan that is shown now. */
+static void look(struct blockers *blockers)
+{
+	struct why *why;
+
+	if (!blockers->sheet)
+		return;
+	why = g_new0(struct why, 1);
+	if (ask(blockers, why))
+		tell(blockers, why);
+	else
+		forget(blockers);
+	g_free(why);
+}
+
+/* The element at the cursor, else the first output of its rung. */
+static bool meant(LadderGridView *sheet, int *row, int *col)
+{
+	const struct project *project = ladder_document_project(
+		ladder_grid_view_document(sheet));
+	const struct rung *rung = project->pou[ladder_grid_view_pou(sheet)]
+		.rung[ladder_grid_view_first(sheet) + ladder_grid_view_cursor(sheet).rung];
+
+	if (ladder_grid_view_cell(sheet, row, col))
+		return true;
+	*col = rung->cols - 1;
+	for (*row = 0; *row < rung->rows; (*row)++)
+		if (word_row(rung_at(rung, *row, *col)->word)->place == PLACE_LAST)
+			return true;
+	return false;
+}
+
+void blockers_ask(struct blockers *blockers)
+{
+	LadderGridView *sheet = front_seen_sheet(blockers->core->front);
+	LadderSfcView *chart = front_seen_chart(blockers->core->front);
+	int row, col;
+	const int rung = sheet ? ladder_grid_view_cursor(sheet).rung : -1;
+	bool again;
+
+	if (!ladder_sim_is_on(blockers->core->sim)) {
+		messages_tell(blockers->core->messages, _("Simulate first: then it can be told"));
+		return;
+	}
+	/* A condition is shown as rungs first, with the power that they have. */
+	if (!sheet && chart && ladder_sfc_view_why(chart))
+		return;
+	if (!sheet || !meant(sheet, &row, &col)) {
+		messages_tell(blockers->core->messages, _("Put the cursor on the element that is meant"));
+		return;
+	}
+	again = blockers->sheet == sheet && blockers->rung == rung && blockers->row == row &&
+		blockers->col == col;
+	forget(blockers);
+	messages_tell(blockers->core->messages, "");
+	if (again)
+		return;
+	g_set_weak_pointer(&blockers->sheet, sheet);
+	blockers->rung = rung;
+	blockers->row = row;
+	blockers->col = col;
+	look(blockers);
+	if (!blockers->sheet)
+		messages_tell(blockers->core->messages, _("This rung is not in the program that runs"));
+}
+
+/* ---- life ---- */
+
+void blockers_init(struct blockers *blockers, struct core *core)
+{
+	blockers->core = core;
+	core_connect(core, core->sim, "shown", G_CALLBACK(look), blockers,
+		     G_CONNECT_SWAPPED);
+}
+
+void blockers_clear(struct blockers *blockers)
+{
+	g_clear_weak_pointer(&blockers->sheet);
+	g_clear_pointer(&blockers->told, g_free);
+}

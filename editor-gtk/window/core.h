@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * core - what the parts of one window share: its document, what runs it, and the parts that
+ * the others build on.
+ *
+ * A part knows the parts below it and calls them. It tells those above by a signal of
+ * @window or by one of its actions ("win.save"); window.h lists the signals.
+ */
+#ifndef EDITOR_CORE_H
+#define EDITOR_CORE_H
+
+#include "editor-gtk/document/document.h"
+#include "editor-gtk/sim/board_run.h"
+#include "editor-gtk/sim/sim.h"
+
+#include <adwaita.h>
+
+struct core {
+	GtkWindow *window;
+	LadderDocument *document;  /* NULL: the window is closing                 */
+	LadderSim *sim;            /* off while the window edits                  */
+	LadderBoardRun *board;     /* what runs on this machine                   */
+	GtkWidget *tree;
+	struct messages *messages;
+	struct below *below;
+	struct front *front;
+	struct tabs *tabs;
+};
+
+/** core_connect - g_signal_connect_object() with @part as the data of the handler; the
+ * handler goes with the window. */
+static inline void core_connect(struct core *core, gpointer instance, const char *signal,
+				GCallback handler, gpointer part, GConnectFlags flags)
+{
+	GClosure *closure = flags & G_CONNECT_SWAPPED ?
+		g_cclosure_new_swap(handler, part, NULL) : g_cclosure_new(handler, part, NULL);
+
+	g_object_watch_closure(G_OBJECT(core->window), closure);
+	g_signal_connect_closure(instance, signal, closure, FALSE);
+}
+
+/** core_do - one of the window's actions, "win.save". */
+static inline void core_do(struct core *core, const char *action)
+{
+	gtk_widget_activate_action(GTK_WIDGET(core->window), action, NULL);
+}
+
+/** core_enable - whether one of the window's actions can be done. */
+static inline void core_enable(struct core *core, const char *action, bool enabled)
+{
+	gtk_widget_action_set_enabled(GTK_WIDGET(core->window), action, enabled);
+}
+
+#endif

@@ -1,0 +1,459 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * files - opening, saving and closing; see files.h.
+ */
+#include "editor-gtk/window/files.h"
+
+#include "editor-gtk/document/classic.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/window/ask.h"
+#include "editor-gtk/window/messages.h"
+#include "editor-gtk/window/recent.h"
+#include "editor-gtk/window/tabs.h"
+
+#include <string.h>
+
+/* ---- opening ---- */
+
+static void want_open(struct files *files, const char *path)
+{
+	g_signal_emit_by_name(files->core->window, "open-wanted", path, false);
+}
+
+static void open_response(GtkNativeDialog *dialog, int response, struct files *files)
+{
+	char *path = ask_take_path(dialog, response);
+
+	if (path)
+		want_open(files, path);
+	g_free(path);
+}
+
+/* All kinds in one filter, which is chosen. */
+static void add_all(GtkFileChooser *chooser)
+{
+	GtkFileFilter *filter = gtk_file_filter_new();
+
+	gtk_file_filter_set_name(filter, _("Programs, scenarios, I/O maps"));
+	gtk_file_filter_add_pattern(filter, "*.rung");
+	gtk_file_filter_add_pattern(filter, "*.scn");
+	gtk_file_filter_add_pattern(filter, "*.io");
+	gtk_file_filter_add_pattern(filter, "*.clprj");
+	gtk_file_filter_add_pattern(filter, "*.clprjz");
+	gtk_file_filter_add_pattern(filter, "*.clp");
+	gtk_file_chooser_add_filter(chooser, filter);
+	gtk_file_chooser_set_filter(chooser, filter);
+	g_object_unref(filter);
+}
+
+void files_open(struct files *files)
+{
+	struct core *core = files->core;
+	GtkFileChooserNative *chooser = ask_rung_file(core->window, core->document, _("Open"),
+		GTK_FILE_CHOOSER_ACTION_OPEN, _("Open"));
+
+	add_all(GTK_FILE_CHOOSER(chooser));
+	exchange_add_filter(GTK_FILE_CHOOSER(chooser), false);
+	core_connect(core, chooser, "response", G_CALLBACK(open_response), files, 0);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
+
+/* ---- files that are dropped ---- */
+
+static bool can_open(const char *path)
+{
+	const char *dot = strrchr(path, '.');
+
+	return (dot && g_ascii_strcasecmp(dot, ".rung") == 0) || side_file_is(path) ||
+	       classic_is_project(path);
+}
+
+static void tell_refused(struct files *files, const GPtrArray *refused)
+{
+	GString *names = g_string_new(NULL);
+	char *text;
+
+	for (guint i = 0; i < refused->len; i++)
+		g_string_append_printf(names, "%s%s", i ? ", " : "",
+				       (const char *)refused->pdata[i]);
+	text = g_strdup_printf(_("Not opened: %s. Rung files, scenarios, I/O maps and projects "
+				 "of ClassicLadder can be dropped here."), names->str);
+	messages_warn(files->core->messages, text);
+	gtk_window_present(files->core->window); /* before those that opened */
+	g_free(text);
+	g_string_free(names, TRUE);
+}
+
+/* What was dropped opens as if it had been chosen. */
+static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
+			struct files *files)
+{
+	GPtrArray *refused = g_ptr_array_new_with_free_func(g_free);
+
+	(void)target;
+	(void)x;
+	(void)y;
+	for (const GSList *at = g_value_get_boxed(value); at; at = at->next) {
+		char *path = g_file_get_path(at->data);
+
+		if (path && can_open(path))
+			want_open(files, path);
+		else
+			g_ptr_array_add(refused, g_file_get_basename(at->data));
+		g_free(path);
+	}
+	if (refused->len)
+		tell_refused(files, refused);
+	g_ptr_array_unref(refused);
+	return TRUE;
+}
+
+/* It comes before the widgets inside: a text would take the name of the file. */
+static void accept_drops(struct files *files)
+{
+	GtkDropTarget *drop = gtk_drop_target_new(GDK_TYPE_FILE_LIST, GDK_ACTION_COPY);
+
+	gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(drop),
+						   GTK_PHASE_CAPTURE);
+	g_signal_connect(drop, "drop", G_CALLBACK(dropped), files);
+	gtk_widget_add_controller(GTK_WIDGET(files->core->messages->toasts),
+				  GTK_EVENT_CONTROLLER(drop));
+}
+
+/* ---- saving ---- */
+
+static void warn(struct files *files, const char *text, const char *button,
+		 const char *action)
+{
+	messages_banner(files->core->messages, NULL, text, button, action);
+}
+
+static bool save_to(struct files *files, const char *path)
+{
+	LadderDocument *document = files->core->document;
+	const char *sample = origin_sample(files->origin);
+	GError *error = NULL;
+
+	if (!ladder_document_save(document, path, &error)) {
+		warn(files, error->message, _("Save as…"), "win.save_as");
+		g_clear_error(&error);
+		return false;
+	}
+	files->over_locked = files->over_locked && !path;
+	draft_remove(document);
+	recent_add(ladder_document_path(document));
+	messages_tell(files->core->messages, _("Saved"));
+	messages_close_banner(files->core->messages);
+	files->disk_told = DISK_AS_READ;
+	origin_saved(files->origin, sample);
+	return true;
+}
+
+static bool is_locked(struct files *files)
+{
+	const char *path = ladder_document_path(files->core->document);
+
+	return path && !files->over_locked && disk_is_locked(path);
+}
+
+static void ask_locked(struct files *files)
+{
+	warn(files, _("The file is read-only. Saving would write over it; saved as another file "
+		      "it stays as it is."), _("Save all the same"), "win.save-locked");
+}
+
+void files_save_over(struct files *files, bool locked)
+{
+	files->over_locked = files->over_locked || locked;
+	if (is_locked(files))
+		ask_locked(files);
+	else
+		save_to(files, NULL);
+}
+
+static gboolean close_idle(gpointer window)
+{
+	gtk_window_close(GTK_WINDOW(window));
+	g_object_unref(window);
+	return G_SOURCE_REMOVE;
+}
+
+/* The dialog that was answered goes with the window: it must be done before. */
+static void close_now(struct files *files)
+{
+	draft_remove(files->core->document);
+	tabs_each_file(files->core->tabs, draft_remove);
+	files->closing = true;
+	g_idle_add(close_idle, g_object_ref(files->core->window));
+}
+
+/* An export to ClassicLadder does not save the program: the window stays open. */
+static void save_chosen(gpointer part, const char *path)
+{
+	struct files *files = part;
+
+	if (classic_save_is(path))
+		exchange_export_to(files->exchange, path);
+	else if (save_to(files, path) && files->close_when_saved)
+		close_now(files);
+}
+
+/* The endings of programs, and the file's own. With another ending, of a scenario or an I/O
+ * map say, the program could not be opened again. Caller frees. */
+static char *program_endings(struct files *files, bool classic)
+{
+	const char *path = ladder_document_path(files->core->document);
+	char *name = g_path_get_basename(path ? path : ""), *lower = g_utf8_strdown(name, -1);
+	const char *own = strrchr(lower, '.');
+	char *endings = g_strconcat(classic ? ".clprj|.clprjz|.clp|.rung" :
+				    ".rung|.clprj|.clprjz|.clp", own ? "|" : NULL, own, NULL);
+
+	g_free(lower);
+	g_free(name);
+	return endings;
+}
+
+static void save_response(GtkNativeDialog *dialog, int response, struct files *files)
+{
+	GtkFileFilter *filter = gtk_file_chooser_get_filter(GTK_FILE_CHOOSER(dialog));
+	const char *kind = filter ? gtk_file_filter_get_name(filter) : NULL;
+	char *endings = program_endings(files, kind && g_str_has_prefix(kind, "Classic"));
+	char *path = ask_take_path(dialog, response);
+
+	if (path)
+		export_named(files->core, path, endings, save_chosen, files);
+	g_free(endings);
+	g_free(path);
+}
+
+static void ask_path(struct files *files, bool close_when_saved)
+{
+	struct core *core = files->core;
+	GtkFileChooserNative *chooser = ask_rung_file(core->window, core->document,
+		_("Save as"), GTK_FILE_CHOOSER_ACTION_SAVE, _("Save"));
+	const char *path = ladder_document_path(core->document);
+	char *name = path ? g_path_get_basename(path) :
+		files->origin->classic || origin_sample(files->origin) ?
+		origin_name(files->origin, ".rung") : g_strdup(_("program.rung"));
+
+	files->close_when_saved = close_when_saved;
+	exchange_add_filter(GTK_FILE_CHOOSER(chooser), false);
+	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), name);
+	g_free(name);
+	core_connect(core, chooser, "response", G_CALLBACK(save_response), files, 0);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
+
+void files_save_as(struct files *files)
+{
+	ask_path(files, false);
+}
+
+static void tell_bytes(struct files *files, const char *button, const char *action)
+{
+	char *text = g_strdup_printf(_("From line %d on the file holds bytes that are no text "
+		"(UTF-8); they are shown as �. Saving would write over them."),
+		ladder_document_repaired(files->core->document));
+
+	warn(files, text, button, action);
+	g_free(text);
+}
+
+void files_tell(struct files *files)
+{
+	files->over_locked = false;
+	if (ladder_document_repaired(files->core->document) > 0)
+		tell_bytes(files, _("Save as…"), "win.save_as");
+	else if (is_locked(files))
+		warn(files, _("The file is read-only: saving asks before it writes over it."),
+		     _("Save as…"), "win.save_as");
+}
+
+/* To its own file. False: it could not be saved, or a banner asks first. */
+static bool save_here(struct files *files)
+{
+	if (ladder_document_disk(files->core->document) == DISK_OTHER)
+		warn(files, _("Somebody else changed the file since it was opened. Saving would "
+			      "write over that."), _("Save all the same"), "win.save-over");
+	else if (ladder_document_repaired(files->core->document) > 0)
+		tell_bytes(files, _("Save all the same"), "win.save-over");
+	else if (is_locked(files))
+		ask_locked(files);
+	else
+		return save_to(files, NULL);
+	return false;
+}
+
+void files_save(struct files *files)
+{
+	LadderSideFile *file = front_file(files->core->front);
+
+	if (file)
+		tabs_save_file(files->core->tabs, file);
+	else if (ladder_document_path(files->core->document))
+		save_here(files);
+	else
+		files_save_as(files);
+}
+
+bool files_is_all_saved(struct files *files)
+{
+	GPtrArray *beside = tabs_unsaved(files->core->tabs);
+	const bool saved = ladder_document_is_saved(files->core->document) && beside->len == 0;
+
+	g_ptr_array_unref(beside);
+	return saved;
+}
+
+bool files_save_all(struct files *files)
+{
+	return tabs_save_files(files->core->tabs) &&
+	       (ladder_document_is_saved(files->core->document) || save_here(files));
+}
+
+/* ---- closing ---- */
+
+static void save_and_close(struct files *files)
+{
+	if (!tabs_save_files(files->core->tabs))
+		return;
+	if (!ladder_document_is_saved(files->core->document) &&
+	    !ladder_document_path(files->core->document))
+		ask_path(files, true);
+	else if (files_save_all(files))
+		close_now(files);
+}
+
+static void close_answered(AdwMessageDialog *dialog, const char *answer, struct files *files)
+{
+	(void)dialog;
+	if (g_strcmp0(answer, "discard") == 0)
+		close_now(files);
+	else if (g_strcmp0(answer, "save") == 0)
+		save_and_close(files);
+}
+
+/* "Pump, pump.scn". Caller frees. */
+static char *unsaved_names(struct files *files)
+{
+	GPtrArray *beside = tabs_unsaved(files->core->tabs);
+	GString *names = g_string_new(NULL);
+
+	if (!ladder_document_is_saved(files->core->document)) {
+		char *name = ladder_document_name(files->core->document);
+
+		g_string_append(names, name);
+		g_free(name);
+	}
+	for (guint i = 0; i < beside->len; i++) {
+		char *name = ladder_side_file_name(beside->pdata[i]);
+
+		g_string_append_printf(names, "%s%s", names->len ? ", " : "", name);
+		g_free(name);
+	}
+	g_ptr_array_unref(beside);
+	return g_string_free(names, FALSE);
+}
+
+bool files_may_close(struct files *files)
+{
+	char *names;
+
+	if (files->closing)
+		return true;
+	ladder_document_disk(files->core->document); /* finds a file that is gone */
+	if (files_is_all_saved(files)) {
+		draft_remove(files->core->document);
+		tabs_each_file(files->core->tabs, draft_remove);
+		return true;
+	}
+	names = unsaved_names(files);
+	core_connect(files->core, ask_save(files->core->window, names), "response",
+		     G_CALLBACK(close_answered), files, 0);
+	g_free(names);
+	return false;
+}
+
+/* ---- drafts ---- */
+
+void files_keep_drafts(struct files *files)
+{
+	front_take_typed(files->core->front);
+	tabs_each_file(files->core->tabs, ladder_side_file_commit);
+	ladder_document_disk(files->core->document); /* finds a file that is gone */
+	draft_write(files->core->document);
+	tabs_each_file(files->core->tabs, draft_write);
+}
+
+/* Of two drafts of one file the second is a step that can be undone. */
+bool files_restore(struct files *files, const struct draft *draft)
+{
+	struct tabs *tabs = files->core->tabs;
+	LadderFileView *there = tabs_find_file(tabs, draft->path);
+	LadderSideFile *file = there ? g_object_ref(ladder_file_view_file(there)) :
+		ladder_side_file_restore(draft->path, draft->sum, draft->text,
+					 files->core->document);
+	bool kept;
+
+	if (there)
+		ladder_side_file_put(file, draft->text, draft->sum);
+	else
+		tabs_put_file(tabs, file);
+	draft_write(file);
+	kept = draft_is_kept(file);
+	g_object_unref(file);
+	return kept;
+}
+
+/* ---- what others do to the file ---- */
+
+void files_reload(struct files *files)
+{
+	GError *error = NULL;
+	char *path = g_strdup(ladder_document_path(files->core->document));
+
+	if (ladder_document_open(files->core->document, path, &error)) {
+		files->disk_told = DISK_AS_READ;
+		files_tell(files);
+	} else {
+		messages_warn(files->core->messages, error->message);
+	}
+	g_clear_error(&error);
+	g_free(path);
+}
+
+static void tell_disk(struct files *files, enum disk_state state)
+{
+	if (state == DISK_GONE)
+		warn(files, _("The file is gone. What you see here is all there is of it."),
+		     _("Save"), "win.save-over");
+	else if (state == DISK_OTHER)
+		warn(files, ladder_document_is_saved(files->core->document) ?
+			_("The file was changed by somebody else.") :
+			_("The file was changed by somebody else. Reading it again "
+			  "would lose what you did since."), _("Read it again"), "win.reload");
+	else if (files->disk_told == DISK_GONE)
+		messages_close_banner(files->core->messages); /* it is there again */
+}
+
+/* Each change is told once: a banner that was closed stays closed. */
+void files_look(struct files *files)
+{
+	const enum disk_state state = ladder_document_disk(files->core->document);
+
+	tabs_each_file(files->core->tabs, ladder_side_file_look);
+	if (state == files->disk_told || (state != DISK_AS_READ &&
+	    messages_has_banner(files->core->messages) && files->disk_told == DISK_AS_READ))
+		return;
+	tell_disk(files, state);
+	files->disk_told = state;
+}
+
+void files_init(struct files *files, struct core *core, struct origin *origin,
+		struct exchange *exchange)
+{
+	files->core = core;
+	files->origin = origin;
+	files->exchange = exchange;
+	accept_drops(files);
+}

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * finder - the find bar in its window; see finder.h.
+ */
+#include "editor-gtk/window/finder.h"
+
+#include "editor-gtk/document/find.h"
+#include "editor-gtk/panels/symbols_view.h"
+#include "editor-gtk/window/front.h"
+
+/* NULL: it stands on none. */
+static const struct find_hit *hit_of(struct finder *finder)
+{
+	LadderFindBar *bar = finder->bar;
+	const struct find *find = ladder_find_bar_find(bar);
+	const int current = ladder_find_bar_current(bar);
+
+	return find && current >= 0 ? find->hit->pdata[current] : NULL;
+}
+
+/* The hit it stands on is marked on its sheet. */
+static void mark_hit(struct finder *finder)
+{
+	LadderGridView *sheet = front_rungs(finder->core->front);
+	LadderSfcView *chart = front_chart(finder->core->front);
+	const struct find_hit *hit = hit_of(finder);
+
+	if (chart)
+		ladder_sfc_view_set_found(chart, hit && hit->rung < 0 &&
+			hit->pou == ladder_sfc_view_pou(chart) ? hit->row : -1);
+	if (!sheet)
+		return;
+	if (hit && hit->rung >= 0 && hit->pou == ladder_grid_view_pou(sheet))
+		ladder_grid_view_set_found(sheet, hit->rung - ladder_grid_view_first(sheet),
+					   hit->row, hit->col);
+	else
+		ladder_grid_view_set_found(sheet, -1, 0, 0);
+}
+
+/* NULL: there is no table of symbols in front. */
+static LadderSymbolsView *symbols_of(AdwTabPage *page)
+{
+	GtkWidget *place = page ? page_content(page) : NULL;
+	GtkWidget *symbols = ADW_IS_BIN(place) ? adw_bin_get_child(ADW_BIN(place)) : NULL;
+
+	return LADDER_IS_SYMBOLS_VIEW(symbols) ? LADDER_SYMBOLS_VIEW(symbols) : NULL;
+}
+
+/* To where the hit is; else to what is in front. */
+static void give_keys(struct finder *finder)
+{
+	const struct find_hit *hit = hit_of(finder);
+	LadderSfcView *chart = front_chart(finder->core->front);
+	LadderGridView *sheet = chart && (!hit || hit->rung < 0) ? NULL : front_rungs(finder->core->front);
+	AdwTabPage *page = front_tab(finder->core->front);
+
+	if (sheet || chart)
+		gtk_widget_grab_focus(sheet ? GTK_WIDGET(sheet) : GTK_WIDGET(chart));
+	else if (page)
+		gtk_widget_child_focus(page_content(page), GTK_DIR_TAB_FORWARD);
+	if (symbols_of(page))
+		ladder_symbols_view_enter(symbols_of(page));
+}
+
+static void closed(struct finder *finder)
+{
+	LadderGridView *sheet = front_rungs(finder->core->front);
+	LadderSfcView *chart = front_chart(finder->core->front);
+
+	if (chart)
+		ladder_sfc_view_set_found(chart, -1);
+	if (sheet)
+		ladder_grid_view_set_found(sheet, -1, 0, 0);
+	if (ladder_find_bar_has_keys(finder->bar))
+		give_keys(finder);
+}
+
+/* The cursor of a chart still is where find left it. */
+static bool is_at_hit(struct finder *finder, LadderSfcView *chart)
+{
+	const int *place = ladder_find_bar_place(finder->bar);
+
+	return place[0] == ladder_sfc_view_pou(chart) && place[1] < 0 &&
+	       ladder_sfc_view_is_at(chart, place[2]);
+}
+
+static void tell_place(struct finder *finder)
+{
+	LadderGridView *sheet = front_sheet(finder->core->front);
+	LadderSfcView *chart = sheet ? NULL : front_chart(finder->core->front);
+	struct grid_cursor cursor;
+
+	if (ladder_find_bar_has_keys(finder->bar))
+		return; /* from hit to hit */
+	if (chart && !is_at_hit(finder, chart))
+		ladder_find_bar_set_place(finder->bar, ladder_sfc_view_pou(chart), -1,
+					  ladder_sfc_view_row(chart), -1);
+	if (!sheet)
+		return;
+	cursor = ladder_grid_view_cursor(sheet);
+	ladder_find_bar_set_place(finder->bar, ladder_grid_view_pou(sheet),
+				  ladder_grid_view_first(sheet) + cursor.rung, cursor.row,
+				  cursor.col);
+}
+
+void finder_do(struct finder *finder, enum verb verb)
+{
+	LadderFindBar *bar = finder->bar;
+
+	tell_place(finder);
+	if (verb == VERB_find || verb == VERB_replace)
+		ladder_find_bar_open(bar, verb == VERB_replace, NULL);
+	else
+		ladder_find_bar_next(bar, verb == VERB_find_previous);
+	mark_hit(finder);
+}
+
+bool finder_close(struct finder *finder)
+{
+	LadderFindBar *bar = finder->bar;
+	const bool open = ladder_find_bar_is_open(bar);
+
+	ladder_find_bar_close(bar);
+	return open;
+}
+
+/* Esc that nobody else had a use for. */
+static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
+			    GdkModifierType state, struct finder *finder)
+{
+	(void)controller;
+	(void)code;
+	return key == GDK_KEY_Escape && !(state & gtk_accelerator_get_default_mod_mask()) &&
+	       finder_close(finder);
+}
+
+void finder_init(struct finder *finder, struct core *core)
+{
+	GtkWidget *bar = ladder_find_bar_new();
+	GtkEventController *keys = gtk_event_controller_key_new();
+
+	finder->core = core;
+	finder->bar = LADDER_FIND_BAR(bar);
+	gtk_box_append(finder->place, bar);
+	ladder_find_bar_set_document(finder->bar, core->document);
+	core_connect(core, bar, "hits-changed", G_CALLBACK(mark_hit), finder,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, bar, "closed", G_CALLBACK(closed), finder, G_CONNECT_SWAPPED);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), finder);
+	gtk_widget_add_controller(GTK_WIDGET(core->window), keys);
+}

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * messages - what the window says: in the status bar, in a toast, in a banner, in the log.
+ */
+#include "editor-gtk/window/messages.h"
+
+#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/log_view.h"
+#include "editor-gtk/window/below.h"
+
+#define TOLD 1500000 /* us a message stays at least, if the cursor moves on    */
+#define TOLD_BY_STEP 300000 /* us from the message of a step to the end of its check */
+
+/* ---- the status bar ---- */
+
+void messages_tell(struct messages *messages, const char *text)
+{
+	/* Sheets may emit "told" after the document is cleared. */
+	if (!messages->core->document)
+		return;
+	messages->told_at = text[0] ? g_get_monotonic_time() : 0;
+	messages->told_of = ladder_document_version(messages->core->document);
+	if (!text[0] && messages->keys)
+		text = messages->keys;
+	gtk_label_set_text(messages->message_label, text);
+	tip_set(GTK_WIDGET(messages->message_label), text);
+}
+
+void messages_keys(struct messages *messages, char *text)
+{
+	g_free(messages->keys);
+	messages->keys = text;
+	if (g_get_monotonic_time() - messages->told_at > TOLD)
+		messages_tell(messages, "");
+}
+
+/* A message about a program that has changed since goes, unless the step that changed it
+ * has just given it. */
+static void checked(struct messages *messages)
+{
+	const guint64 version = ladder_document_version(messages->core->document);
+
+	if (messages->told_of == version)
+		return;
+	if (g_get_monotonic_time() - messages->told_at > TOLD_BY_STEP)
+		messages_tell(messages, "");
+	messages->told_of = version;
+}
+
+static void bookmarks_changed(struct messages *messages)
+{
+	messages_tell(messages, "");
+}
+
+/* ---- what stays ---- */
+
+void messages_toast(struct messages *messages, const char *text)
+{
+	adw_toast_overlay_add_toast(messages->toasts, adw_toast_new(text));
+}
+
+void messages_log(struct messages *messages, const char *kind, const char *text)
+{
+	ladder_log_view_put(below_panel(messages->core->below, "log"), kind, text);
+}
+
+void messages_banner(struct messages *messages, const char *kind, const char *text,
+		     const char *button, const char *action)
+{
+	messages_log(messages, kind ? kind : _("system"), text);
+	gtk_label_set_text(messages->banner_label, text);
+	gtk_widget_set_visible(GTK_WIDGET(messages->banner_button), button != NULL);
+	if (button)
+		gtk_button_set_label(messages->banner_button, button);
+	messages->banner_action = action;
+	gtk_revealer_set_reveal_child(messages->banner, TRUE);
+}
+
+void messages_warn(struct messages *messages, const char *text)
+{
+	messages_banner(messages, NULL, text, NULL, NULL);
+}
+
+void messages_close_banner(struct messages *messages)
+{
+	gtk_revealer_set_reveal_child(messages->banner, FALSE);
+}
+
+bool messages_has_banner(const struct messages *messages)
+{
+	return gtk_revealer_get_reveal_child(messages->banner);
+}
+
+bool messages_close_offer(struct messages *messages, const char *action)
+{
+	if (g_strcmp0(messages->banner_action, action) != 0)
+		return false;
+	messages_close_banner(messages);
+	messages->banner_action = NULL;
+	return true;
+}
+
+static void banner_clicked(struct messages *messages)
+{
+	messages_close_banner(messages);
+	if (messages->banner_action)
+		core_do(messages->core, messages->banner_action);
+}
+
+/* ---- life ---- */
+
+void messages_init(struct messages *messages, struct core *core)
+{
+	messages->core = core;
+	core_connect(core, messages->banner_button, "clicked", G_CALLBACK(banner_clicked),
+		     messages, G_CONNECT_SWAPPED);
+	core_connect(core, messages->banner_close, "clicked",
+		     G_CALLBACK(messages_close_banner), messages, G_CONNECT_SWAPPED);
+	core_connect(core, core->document, "checked", G_CALLBACK(checked), messages,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->document, "bookmarks-changed",
+		     G_CALLBACK(bookmarks_changed), messages, G_CONNECT_SWAPPED);
+}
+
+void messages_clear(struct messages *messages)
+{
+	g_clear_pointer(&messages->keys, g_free);
+}

@@ -1,0 +1,590 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * names - what is done with the name at the cursor; see names.h.
+ */
+#include "editor-gtk/window/names.h"
+
+#include "editor-gtk/document/symbols.h"
+#include "editor-gtk/kit/cells.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/live/watch_view.h"
+#include "editor-gtk/panels/uses_view.h"
+#include "editor-gtk/window/ask.h"
+#include "editor-gtk/window/below.h"
+#include "editor-gtk/window/messages.h"
+#include "editor-gtk/window/tabs.h"
+
+#include "engine/xref/xref.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define WHY_LINES 4 /* that the reason why a name is refused can take          */
+
+static const char no_name[] = N_("There is no name at the cursor.");
+
+/* ---- what the cursor is on ---- */
+
+static bool is_in_rung(const struct xref_use *use, LadderGridView *sheet)
+{
+	return use->pou == ladder_grid_view_pou(sheet) &&
+	       use->rung == ladder_grid_view_first(sheet) +
+			    ladder_grid_view_cursor(sheet).rung + 1;
+}
+
+static bool is_here(const struct xref_use *use, LadderGridView *sheet, int row, int col)
+{
+	return is_in_rung(use, sheet) && use->row == row + 1 && use->col == col + 1;
+}
+
+static bool is_at_cursor(struct core *core, const struct xref *xref, int here, int use)
+{
+	LadderGridView *sheet = front_sheet(core->front);
+	int row, col;
+
+	return use == here || (sheet && ladder_grid_view_cell(sheet, &row, &col) &&
+			       is_here(&xref->use[use], sheet, row, col));
+}
+
+/* What the name at the cursor of a list is: the use in that line, or elsewhere in it. */
+static int use_in_list(LadderTextView *list, const struct xref *xref)
+{
+	char *name = ladder_text_view_name(list);
+	int found = -1;
+
+	for (int i = 0; name && i < xref->count; i++) {
+		const struct xref_use *use = &xref->use[i];
+
+		if (use->pou != ladder_text_view_pou(list) || use->rung > 0 || !use->slot ||
+		    strlen(name) != use->len ||
+		    g_ascii_strncasecmp(name, xref_text(xref, use) + use->at, use->len) != 0)
+			continue;
+		if (found < 0 || ladder_text_view_is_at(list, use->row))
+			found = i;
+	}
+	g_free(name);
+	return found;
+}
+
+/* The first use in the cursor's cell; -1: there is none. */
+static int use_here(struct core *core, const struct xref *xref)
+{
+	LadderGridView *sheet = front_sheet(core->front);
+	int row, col;
+
+	if (!sheet && front_chart(core->front)) {
+		const struct xref_use *use = ladder_sfc_view_use(front_chart(core->front), xref);
+
+		return use ? (int)(use - xref->use) : -1;
+	}
+	if (front_list(core->front))
+		return use_in_list(front_list(core->front), xref);
+	if (!sheet || !ladder_grid_view_cell(sheet, &row, &col))
+		return -1;
+	for (int i = 0; i < xref->count; i++)
+		if (is_here(&xref->use[i], sheet, row, col))
+			return i;
+	return -1;
+}
+
+static bool find_here(struct core *core, struct xref *xref, int *here)
+{
+	struct project *project = ladder_document_project(core->document);
+
+	if (!project)
+		return false;
+	if (!xref_make(xref, project))
+		g_error("out of memory");
+	*here = use_here(core, xref);
+	return *here >= 0;
+}
+
+static bool begin(struct core *core, struct xref *xref, int *here)
+{
+	const bool found = find_here(core, xref, here);
+
+	if (!found && ladder_document_project(core->document))
+		messages_tell(core->messages, _(no_name));
+	return found;
+}
+
+/* ---- going ---- */
+
+static void go_to_use(struct core *core, const struct xref_use *use)
+{
+	if (use->rung > 0)
+		tabs_go(core->tabs, use->pou, use->rung - 1, use->row - 1, use->col - 1);
+	else
+		tabs_go(core->tabs, use->pou, -1, use->row - 1, use->col - 1);
+}
+
+static bool drives(enum xref_kind kind)
+{
+	return kind == XREF_COIL || kind == XREF_SET || kind == XREF_RESET ||
+	       kind == XREF_WRITTEN || kind == XREF_CHANGED || kind == XREF_CALLED ||
+	       kind == XREF_ENTERED;
+}
+
+/* A jump leads to its label, a call to what it calls; else what drives it is meant. */
+static bool is_named_place(const struct xref_use *use)
+{
+	return use->kind == XREF_JUMPED ||
+	       (use->target.what == XREF_POU && !use->unnamed);
+}
+
+static bool leads(const struct xref_use *from, const struct xref_use *to)
+{
+	if (to->pou < 0 || to->included || !xref_touches(&to->target, &from->target))
+		return false;
+	return is_named_place(from) ? to->kind == XREF_DECLARED : drives(to->kind);
+}
+
+static const char *lost(const struct xref *xref, int here)
+{
+	const struct xref_use *use = &xref->use[here];
+
+	if (use->kind == XREF_JUMPED)
+		return _("No rung has this label.");
+	return is_named_place(use) ? _("It is declared in another file") :
+	       _("Nothing in the program drives it.");
+}
+
+/* The next one that drives it, round and round. */
+void names_go_driver(struct core *core)
+{
+	struct xref xref = { 0 };
+	int here;
+
+	if (begin(core, &xref, &here)) {
+		for (int step = 1; step <= xref.count; step++) {
+			const struct xref_use *use = &xref.use[(here + step) % xref.count];
+
+			if (leads(&xref.use[here], use)) {
+				go_to_use(core, use);
+				xref_free(&xref);
+				return;
+			}
+		}
+		messages_tell(core->messages, lost(&xref, here));
+	}
+	xref_free(&xref);
+}
+
+/* ---- all uses ---- */
+
+static char *name_by(struct core *core,
+		     bool (*find)(struct core *core, struct xref *xref, int *here))
+{
+	struct xref xref = { 0 };
+	char name[400] = "";
+	int here = -1;
+
+	if (find(core, &xref, &here))
+		xref_name(ladder_document_project(core->document), &xref.use[here].target,
+			  &xref.use[here], name, sizeof(name));
+	xref_free(&xref);
+	return name[0] ? g_strdup(name) : NULL;
+}
+
+char *names_at_cursor(struct core *core)
+{
+	return name_by(core, begin);
+}
+
+/* The cross reference came to sight. */
+static void uses_seen(GtkWidget *uses, struct core *core)
+{
+	char *name = name_by(core, find_here);
+
+	if (name)
+		ladder_uses_view_set_symbol(LADDER_USES_VIEW(uses), -1, name);
+	g_free(name);
+}
+
+/* The cursor went on: a cross reference that lost its name is asked anew. */
+static void cursor_moved(struct core *core)
+{
+	GtkWidget *uses = below_made(core->below, "uses");
+
+	if (uses && gtk_widget_get_mapped(uses) &&
+	    ladder_uses_view_is_lost(LADDER_USES_VIEW(uses)))
+		uses_seen(uses, core);
+}
+
+/* Where there is no name in a rung that has a label: the label. */
+static bool find_label(struct core *core, struct xref *xref, int *here)
+{
+	LadderGridView *sheet = front_sheet(core->front);
+
+	if (find_here(core, xref, here) || !sheet || !xref->project)
+		return *here >= 0;
+	for (int i = 0; i < xref->count && *here < 0; i++) {
+		const struct xref_use *use = &xref->use[i];
+
+		if (use->target.what == XREF_LABEL && use->kind == XREF_DECLARED &&
+		    is_in_rung(use, sheet))
+			*here = i;
+	}
+	return *here >= 0;
+}
+
+void names_show_uses(struct core *core)
+{
+	char *name = name_by(core, find_label);
+
+	if (name) {
+		names_show_uses_of(core, name);
+	} else {
+		messages_tell(core->messages, _(no_name));
+		ladder_uses_view_set_mode(LADDER_USES_VIEW(below_show(core->below, "uses")),
+					  USES_ALL);
+	}
+	g_free(name);
+}
+
+void names_watch_this(struct core *core, const char *name)
+{
+	ladder_watch_view_add(LADDER_WATCH_VIEW(below_show(core->below, "watch")), name);
+}
+
+static bool at_step(struct core *core)
+{
+	struct xref xref = { 0 };
+	int here;
+	const bool is = !front_sheet(core->front) && front_chart(core->front) &&
+			begin(core, &xref, &here) &&
+			xref.use[here].target.what == XREF_STEP;
+
+	xref_free(&xref);
+	return is;
+}
+
+/* Of a step, whether it is active. */
+void names_watch(struct core *core)
+{
+	char *name = names_at_cursor(core);
+	char *active = name && at_step(core) ? g_strconcat(name, ".X", NULL) : NULL;
+
+	names_watch_this(core, active ? active : name ? name : "");
+	g_free(active);
+	g_free(name);
+}
+
+void names_show_uses_of(struct core *core, const char *name)
+{
+	GtkWidget *uses = below_show(core->below, "uses");
+
+	ladder_uses_view_set_symbol(LADDER_USES_VIEW(uses), -1, name);
+	ladder_uses_view_set_mode(LADDER_USES_VIEW(uses), USES_SYMBOL);
+}
+
+/* ---- another name ---- */
+
+/* A thing that can get another name. */
+struct named {
+	struct xref_target target;
+	char *name;          /* what it is called until now                   */
+	int uses;
+};
+
+struct renaming {
+	struct core *core;
+	AdwMessageDialog *dialog;
+	GtkWidget *line, *why;
+	GArray *choice;      /* of struct named, one at least                 */
+	guint chosen;
+};
+
+static void rename_target(struct core *core, const struct named *named, const char *name)
+{
+	LadderDocument *document = core->document;
+	struct ladder_rename how;
+	size_t len, old_len;
+	char *text = ladder_rename(ladder_document_ladder(document), &named->target, name,
+				   &len, &how);
+	char *step = g_strdup_printf(_("Rename %s to %s"), named->name, name);
+	char *before = ladder_document_outline(document, &old_len, NULL, NULL);
+	char *told;
+
+	if (text) {
+		ladder_document_begin(document, step, NULL);
+		ladder_document_replace(document, 0, old_len, text, NULL);
+		if (named->target.what == XREF_POU)
+			ladder_document_rename_bookmarks(document, named->name, name);
+		ladder_document_end(document);
+		told = g_strdup_printf(ngettext("%d place changed", "%d places changed",
+			(unsigned long)how.places), how.places);
+	} else {
+		told = rename_reason(document, &how, name);
+	}
+	messages_tell(core->messages, told);
+	g_free(told);
+	g_free(before);
+	g_free(step);
+	free(text);
+}
+
+/* Why it cannot be called so; NULL: it can. Caller frees. */
+static char *refusal(LadderDocument *document, const struct named *named, const char *name)
+{
+	struct ladder_rename how;
+	size_t len;
+	char *text, *why;
+
+	if (strcmp(name, named->name) == 0)
+		return NULL;
+	if (!*name)
+		return g_strdup(_("A name is needed"));
+	text = ladder_rename(ladder_document_ladder(document), &named->target, name, &len,
+			     &how);
+	why = text ? NULL : rename_reason(document, &how, name);
+	free(text);
+	return why;
+}
+
+static const struct named *chosen_of(const struct renaming *renaming)
+{
+	return &g_array_index(renaming->choice, struct named, renaming->chosen);
+}
+
+/* Caller frees. */
+static char *name_typed(const struct renaming *renaming)
+{
+	return g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(renaming->line))));
+}
+
+static void typed(GtkEditable *line, struct renaming *renaming)
+{
+	char *name = name_typed(renaming);
+	char *why = refusal(renaming->core->document, chosen_of(renaming), name);
+
+	gtk_label_set_text(GTK_LABEL(renaming->why), why ? why : "");
+	adw_message_dialog_set_response_enabled(renaming->dialog, "rename", !why);
+	cells_refuse(GTK_WIDGET(line), why);
+	g_free(name);
+}
+
+static void show_chosen(struct renaming *renaming)
+{
+	const struct named *named = chosen_of(renaming);
+
+	adw_message_dialog_format_body(renaming->dialog,
+		ngettext("%s stands in %d place.", "%s stands in %d places.",
+			 (unsigned long)named->uses), named->name, named->uses);
+	gtk_editable_set_text(GTK_EDITABLE(renaming->line), named->name);
+}
+
+static void choose(GtkDropDown *list, GParamSpec *spec, struct renaming *renaming)
+{
+	const guint chosen = gtk_drop_down_get_selected(list);
+
+	(void)spec;
+	if (chosen >= renaming->choice->len)
+		return;
+	renaming->chosen = chosen;
+	show_chosen(renaming);
+}
+
+static void rename_now(AdwMessageDialog *dialog, const char *response,
+		       struct renaming *renaming)
+{
+	const struct named *named = chosen_of(renaming);
+	char *name = name_typed(renaming);
+
+	(void)dialog;
+	if (strcmp(response, "rename") == 0 && strcmp(name, named->name) != 0)
+		rename_target(renaming->core, named, name);
+	g_free(name);
+}
+
+static void renaming_free(gpointer data, GClosure *closure)
+{
+	struct renaming *renaming = data;
+
+	(void)closure;
+	g_array_unref(renaming->choice);
+	g_free(renaming);
+}
+
+/* NULL: there is nothing to choose. */
+static GtkWidget *choice_new(struct renaming *renaming)
+{
+	GtkStringList *names = gtk_string_list_new(NULL);
+	GtkWidget *list;
+
+	for (guint i = 0; i < renaming->choice->len; i++)
+		gtk_string_list_append(names, g_array_index(renaming->choice, struct named,
+							    i).name);
+	list = gtk_drop_down_new(G_LIST_MODEL(names), NULL);
+	gtk_widget_set_visible(list, renaming->choice->len > 1);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(list), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       _("Which name"), -1);
+	g_signal_connect(list, "notify::selected", G_CALLBACK(choose), renaming);
+	return list;
+}
+
+static GtkWidget *line_new(struct renaming *renaming)
+{
+	GtkWidget *line = ask_entry(_("New name"));
+
+	g_signal_connect(line, "changed", G_CALLBACK(typed), renaming);
+	return line;
+}
+
+/* It has its line also while it is empty: what is below it stays where it is. */
+static GtkWidget *why_new(void)
+{
+	GtkWidget *why = gtk_label_new("");
+
+	gtk_label_set_xalign(GTK_LABEL(why), 0);
+	gtk_label_set_wrap(GTK_LABEL(why), TRUE);
+	gtk_label_set_wrap_mode(GTK_LABEL(why), PANGO_WRAP_WORD_CHAR);
+	gtk_label_set_lines(GTK_LABEL(why), WHY_LINES);
+	gtk_label_set_ellipsize(GTK_LABEL(why), PANGO_ELLIPSIZE_END);
+	gtk_widget_add_css_class(why, "error");
+	return why;
+}
+
+static GtkWidget *parts_new(struct renaming *renaming)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
+
+	renaming->line = line_new(renaming);
+	renaming->why = why_new();
+	gtk_box_append(GTK_BOX(box), choice_new(renaming));
+	gtk_box_append(GTK_BOX(box), renaming->line);
+	gtk_box_append(GTK_BOX(box), renaming->why);
+	spoken_parts(box);
+	return box;
+}
+
+/* @choice: taken over. */
+static void ask_name(struct core *core, GArray *choice)
+{
+	struct renaming *renaming = g_new0(struct renaming, 1);
+	AdwMessageDialog *dialog = ask_new(core->window, _("Rename everywhere"), NULL, "rename",
+					   _("Rename"), ADW_RESPONSE_SUGGESTED);
+
+	*renaming = (struct renaming){ .core = core, .dialog = dialog, .choice = choice };
+	adw_message_dialog_set_extra_child(dialog, parts_new(renaming));
+	show_chosen(renaming);
+	g_signal_connect_data(dialog, "response", G_CALLBACK(rename_now), renaming,
+			      renaming_free, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+	gtk_widget_grab_focus(renaming->line);
+}
+
+/* What it is declared as; NULL: it is not. */
+static const char *declared_name(const struct xref *xref, const struct xref_target *target)
+{
+	for (int i = 0; i < xref->count; i++) {
+		const struct xref_use *use = &xref->use[i];
+
+		if (use->kind == XREF_DECLARED && use->slot &&
+		    xref_same(&use->target, target))
+			return project_text(xref->project, *use->slot);
+	}
+	return NULL;
+}
+
+static void named_clear(gpointer named)
+{
+	g_free(((struct named *)named)->name);
+}
+
+static GArray *choice_start(void)
+{
+	GArray *choice = g_array_new(FALSE, FALSE, sizeof(struct named));
+
+	g_array_set_clear_func(choice, named_clear);
+	return choice;
+}
+
+/* If it is declared, and not among them yet. */
+static void choice_add(GArray *choice, const struct xref *xref,
+		       const struct xref_target *target)
+{
+	const char *name = declared_name(xref, target);
+	struct named named = { .target = *target };
+
+	for (guint i = 0; i < choice->len; i++)
+		if (xref_same(&g_array_index(choice, struct named, i).target, target))
+			return;
+	if (!name)
+		return;
+	named.name = g_strdup(name);
+	for (int i = 0; i < xref->count; i++)
+		named.uses += xref_same(&xref->use[i].target, target);
+	g_array_append_val(choice, named);
+}
+
+/* What is written in the cell; then what only its box is named by: an instance comes before
+ * its block. */
+static GArray *choice_here(struct core *core, const struct xref *xref, int here)
+{
+	GArray *choice = choice_start();
+
+	for (int unnamed = 0; unnamed < 2; unnamed++)
+		for (int i = here; i < xref->count; i++)
+			if (xref->use[i].unnamed == (unnamed == 1) &&
+			    is_at_cursor(core, xref, here, i))
+				choice_add(choice, xref, &xref->use[i].target);
+	return choice;
+}
+
+void names_rename(struct core *core)
+{
+	struct xref xref = { 0 };
+	int here;
+
+	if (begin(core, &xref, &here)) {
+		GArray *choice = choice_here(core, &xref, here);
+
+		if (choice->len) {
+			ask_name(core, choice);
+		} else {
+			messages_tell(core->messages, _("Only a declared name can be "
+				"changed; this one has no declaration."));
+			g_array_unref(choice);
+		}
+	}
+	xref_free(&xref);
+}
+
+void names_rename_pou(struct core *core, int pou)
+{
+	struct project *project = ladder_document_project(core->document);
+	const struct xref_target target = { .what = XREF_POU, .index = pou };
+	struct xref xref = { 0 };
+	GArray *choice = choice_start();
+
+	if (project && !xref_make(&xref, project))
+		g_error("out of memory");
+	choice_add(choice, &xref, &target);
+	if (choice->len)
+		ask_name(core, choice);
+	else
+		g_array_unref(choice);
+	xref_free(&xref);
+}
+
+/* ---- the panel ---- */
+
+static GtkWidget *make_uses(gpointer data)
+{
+	struct core *core = data;
+	GtkWidget *uses = ladder_uses_view_new();
+
+	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), core->document);
+	core_connect(core, uses, "map", G_CALLBACK(uses_seen), core, 0);
+	core_connect(core, uses, "lost", G_CALLBACK(uses_seen), core, 0);
+	return uses;
+}
+
+void names_add_panel(struct core *core)
+{
+	below_add(core->below, "uses", N_("Cross reference"), make_uses, core);
+	core_connect(core, core->window, "cursor-moved", G_CALLBACK(cursor_moved), core,
+		     G_CONNECT_SWAPPED);
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * page - what a tab of the window holds; see page.h.
+ */
+#include "editor-gtk/window/page.h"
+
+#include "editor-gtk/iomap/iomap_view.h"
+#include "editor-gtk/kit/gtk48/slow_bar.h"
+#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/window/messages.h"
+
+/* ---- what it is ---- */
+
+GtkWidget *page_inside(GtkWidget *child)
+{
+	return GTK_IS_SCROLLED_WINDOW(child) ?
+	       gtk_scrolled_window_get_child(GTK_SCROLLED_WINDOW(child)) : child;
+}
+
+GtkWidget *page_content(AdwTabPage *page)
+{
+	return page ? page_inside(adw_tab_page_get_child(page)) : NULL;
+}
+
+const char *page_name(AdwTabPage *page)
+{
+	return g_object_get_data(G_OBJECT(page), "name");
+}
+
+void page_set_name(AdwTabPage *page, const char *name, const char *title)
+{
+	g_object_set_data_full(G_OBJECT(page), "name", g_strdup(name), g_free);
+	adw_tab_page_set_title(page, title);
+}
+
+bool page_fits(GtkWidget *content, const struct project *project, int pou)
+{
+	if (project->pou[pou].sfc)
+		return LADDER_IS_SFC_PAGE(content);
+	return project->pou[pou].language == LANGUAGE_LD ? LADDER_IS_GRID_VIEW(content) :
+	       LADDER_IS_TEXT_VIEW(content);
+}
+
+int page_pou(GtkWidget *content)
+{
+	if (LADDER_IS_GRID_VIEW(content))
+		return ladder_grid_view_pou(LADDER_GRID_VIEW(content));
+	if (LADDER_IS_SFC_PAGE(content))
+		return ladder_sfc_view_pou(ladder_sfc_page_chart(LADDER_SFC_PAGE(content)));
+	return ladder_text_view_pou(LADDER_TEXT_VIEW(content));
+}
+
+void page_set_pou(GtkWidget *content, int pou)
+{
+	if (page_pou(content) == pou)
+		return;
+	if (LADDER_IS_TEXT_VIEW(content))
+		ladder_text_view_set_pou(LADDER_TEXT_VIEW(content), pou);
+	else if (LADDER_IS_GRID_VIEW(content))
+		ladder_grid_view_set_pou(LADDER_GRID_VIEW(content), pou);
+	else
+		ladder_sfc_page_set_pou(LADDER_SFC_PAGE(content), pou);
+}
+
+LadderSideFile *page_file(AdwTabPage *page)
+{
+	GtkWidget *content = page_content(page);
+
+	return LADDER_IS_FILE_VIEW(content) ?
+	       ladder_file_view_file(LADDER_FILE_VIEW(content)) : NULL;
+}
+
+/* The table of an I/O map; NULL: the page shows none. */
+static LadderIomapView *table_of(AdwTabPage *page)
+{
+	GtkWidget *content = page_content(page);
+	GtkWidget *table = LADDER_IS_FILE_VIEW(content) ?
+		ladder_file_view_table(LADDER_FILE_VIEW(content)) : NULL;
+
+	return table ? LADDER_IOMAP_VIEW(table) : NULL;
+}
+
+static GtkTextBuffer *buffer_of(AdwTabPage *page)
+{
+	GtkWidget *content = page_content(page);
+
+	if (LADDER_IS_TEXT_VIEW(content))
+		return GTK_TEXT_BUFFER(ladder_text_view_buffer(LADDER_TEXT_VIEW(content)));
+	return page_file(page) ? ladder_side_file_buffer(page_file(page)) : NULL;
+}
+
+GtkTextBuffer *page_text(AdwTabPage *page)
+{
+	/* A table hides the text. */
+	return table_of(page) && !ladder_iomap_view_is_text(table_of(page)) ? NULL :
+	       buffer_of(page);
+}
+
+/* ---- what it tells the window ---- */
+
+static void moved(struct core *core)
+{
+	g_signal_emit_by_name(core->window, "cursor-moved");
+}
+
+static void changed(struct core *core)
+{
+	g_signal_emit_by_name(core->window, "place-changed");
+}
+
+static void told(struct core *core, const char *text)
+{
+	messages_tell(core->messages, text);
+}
+
+void page_follow(struct core *core, AdwTabPage *page)
+{
+	GtkTextBuffer *buffer = buffer_of(page);
+
+	if (table_of(page))
+		core_connect(core, table_of(page), "turned", G_CALLBACK(changed), core,
+			     G_CONNECT_SWAPPED);
+	if (buffer)
+		core_connect(core, buffer, "notify::cursor-position", G_CALLBACK(changed), core,
+			     G_CONNECT_SWAPPED);
+}
+
+/* @view: a sheet or a chart. */
+static void listen(struct core *core, gpointer view)
+{
+	core_connect(core, view, "cursor-moved", G_CALLBACK(moved), core, G_CONNECT_SWAPPED);
+	core_connect(core, view, "zoom-changed", G_CALLBACK(changed), core,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, view, "told", G_CALLBACK(told), core, G_CONNECT_SWAPPED);
+}
+
+/* ---- making one ---- */
+
+static GtkWidget *new_sheet(struct core *core, LadderDocument *document, int pou)
+{
+	GtkWidget *sheet = ladder_grid_view_new(document, pou);
+	GtkWidget *scroller = gtk_scrolled_window_new();
+
+	ladder_grid_view_set_sim(LADDER_GRID_VIEW(sheet), core->sim);
+	listen(core, sheet);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
+	slow_bar_make(GTK_SCROLLED_WINDOW(scroller));
+	return scroller;
+}
+
+GtkWidget *page_new(struct core *core, LadderDocument *document, int pou)
+{
+	const struct project *project = ladder_document_project(document);
+	GtkWidget *page;
+
+	if (project->pou[pou].language == LANGUAGE_LD)
+		return new_sheet(core, document, pou);
+	if (project->pou[pou].sfc) {
+		page = ladder_sfc_page_new(document, pou, core->sim);
+		listen(core, ladder_sfc_page_chart(LADDER_SFC_PAGE(page)));
+		return page;
+	}
+	page = ladder_text_view_new(document, pou);
+	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page), core->sim);
+	return page;
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * scenarios - scenarios in the window: recording, the file that a recording goes to, running
+ * all of them, going to where one failed.
+ */
+#ifndef EDITOR_SCENARIOS_H
+#define EDITOR_SCENARIOS_H
+
+#include "editor-gtk/sim/scenario_record.h"
+#include "editor-gtk/window/sim_bar.h"
+
+struct scenarios {
+	struct core *core;
+	struct origin *origin;
+	struct sim_bar *sim_bar;
+	LadderRecorder *recorder;
+	GtkButton *record_button;
+};
+
+void scenarios_init(struct scenarios *scenarios, struct core *core, struct origin *origin,
+		    struct sim_bar *sim_bar);
+void scenarios_clear(struct scenarios *scenarios);
+/** scenarios_do - the verbs of scenarios; false: @verb is none of them. */
+bool scenarios_do(struct scenarios *scenarios, enum verb verb);
+/** scenarios_expect - while it records: that variable is to have the value it has. */
+void scenarios_expect(struct scenarios *scenarios, const char *name);
+
+#endif

@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim_bar - the simulation in the window; see sim_bar.h.
+ */
+#include "editor-gtk/window/sim_bar.h"
+
+#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/live/sim_panel.h"
+#include "editor-gtk/sim/sim_pace.h"
+#include "editor-gtk/window/ask.h"
+#include "editor-gtk/window/below.h"
+#include "editor-gtk/window/messages.h"
+#include "editor-gtk/window/tabs.h"
+
+#include <string.h>
+
+#define WHEN_US 200000 /* the title tells the time so often                      */
+
+/* ---- what it says ---- */
+
+static void show_when(struct sim_bar *bar)
+{
+	const struct twin *twin = ladder_sim_twin(bar->core->sim);
+	char *text;
+
+	if (!twin)
+		return;
+	text = g_strdup_printf(_("Simulating · %g ms · scan %llu · %.2f s"),
+			       (double)twin->period_ns / 1e6,
+			       (unsigned long long)twin->scan, (double)twin->now_ns / 1e9);
+	adw_window_title_set_subtitle(bar->title, text);
+	g_free(text);
+}
+
+static void show_forces(struct sim_bar *bar)
+{
+	const int forces = ladder_sim_forces(bar->core->sim);
+	char *text = g_strdup_printf(ngettext("%d force", "%d forces",
+					      (unsigned long)forces), forces);
+
+	if (g_strcmp0(gtk_button_get_label(bar->forces_button), text) != 0) {
+		gtk_widget_set_visible(GTK_WIDGET(bar->forces_button), forces > 0);
+		gtk_button_set_label(bar->forces_button, text);
+	}
+	g_free(text);
+}
+
+static void show_buttons(struct sim_bar *bar)
+{
+	const bool on = ladder_sim_is_on(bar->core->sim);
+	const bool run = ladder_sim_state(bar->core->sim) == SIM_RUN;
+	const char *name = run ? _("Pause") : _("Run");
+
+	gtk_widget_set_visible(GTK_WIDGET(bar->buttons), on);
+	gtk_button_set_icon_name(bar->run_button, run ? "media-playback-pause-symbolic" :
+				 "media-playback-start-symbolic");
+	tip_set(GTK_WIDGET(bar->run_button), name);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(bar->run_button),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	gtk_toggle_button_set_active(on ? bar->simulate_mode : bar->edit_mode, TRUE);
+	core_enable(bar->core, "win.sim_stop", on &&
+		    ladder_sim_state(bar->core->sim) != SIM_STOP);
+}
+
+static void state_changed(struct sim_bar *bar)
+{
+	if (ladder_sim_state(bar->core->sim) == SIM_RUN &&
+	    messages_close_offer(bar->core->messages, "win.sim_run"))
+		messages_tell(bar->core->messages, ""); /* it goes on after a fault */
+	show_buttons(bar);
+	if (ladder_sim_is_on(bar->core->sim))
+		show_when(bar);
+}
+
+static gboolean when_elapsed(gpointer data)
+{
+	struct sim_bar *bar = data;
+
+	bar->when_timer = 0;
+	show_when(bar);
+	return G_SOURCE_REMOVE;
+}
+
+static void shown(struct sim_bar *bar)
+{
+	show_forces(bar);
+	if (!bar->when_timer && ladder_sim_is_on(bar->core->sim))
+		bar->when_timer = g_timeout_add(WHEN_US / 1000, when_elapsed, bar);
+}
+
+/* What the simulation stands still for. */
+static const struct fault_place *stopped_at(const struct resource *resource)
+{
+	switch (resource->state) {
+	case STATE_FAULT: return &resource->fault_at;
+	case STATE_STOP: return &resource->halt_at;
+	case STATE_RUN: break;
+	}
+	return &resource->error_at;
+}
+
+/* A fault opens the place where it was. */
+static void go_to_fault(struct sim_bar *bar)
+{
+	const struct fault_place *at =
+		stopped_at(&ladder_sim_twin(bar->core->sim)->resource);
+	const struct project *project = ladder_document_project(bar->core->document);
+	const int pou = project && at->rung && at->pou ?
+		project_find_pou(project, at->pou, strlen(at->pou)) : -1;
+
+	if (pou >= 0)
+		tabs_go(bar->core->tabs, pou, (int)at->rung - 1, (int)at->row - 1,
+			(int)at->col - 1);
+}
+
+static void told(LadderSim *sim, const char *text, gboolean bad, struct sim_bar *bar)
+{
+	(void)sim;
+	messages_tell(bar->core->messages, text);
+	if (!bad) {
+		messages_log(bar->core->messages, _("simulation"), text);
+		return;
+	}
+	messages_banner(bar->core->messages, _("simulation"), text, _("Run"), "win.sim_run");
+	go_to_fault(bar);
+}
+
+/* ---- what it does ---- */
+
+/* What is wrong with the plant stands in no list: it is told where it stays. */
+static bool refuse(struct sim_bar *bar, GError *error, bool plant)
+{
+	char *text = plant ? g_strdup_printf(_("The plant has errors: %s"), error->message) :
+			     g_strdup(error->message);
+
+	if (plant)
+		messages_warn(bar->core->messages, text);
+	else
+		below_show_error(bar->core->below);
+	messages_tell(bar->core->messages, text);
+	g_free(text);
+	g_error_free(error);
+	show_buttons(bar);
+	return false;
+}
+
+static bool begin(struct sim_bar *bar)
+{
+	GError *error = NULL;
+
+	if (ladder_sim_is_on(bar->core->sim))
+		return true;
+	if (!origin_load_plant(bar->origin, &error))
+		return refuse(bar, error, true);
+	if (!ladder_sim_begin(bar->core->sim, &error))
+		return refuse(bar, error, false);
+	messages_close_banner(bar->core->messages);
+	messages_tell(bar->core->messages, ""); /* what kept it from beginning is over */
+	sim_bar_show_panel(bar);
+	return true;
+}
+
+static void end(struct sim_bar *bar)
+{
+	ladder_sim_end(bar->core->sim);
+	gtk_widget_set_visible(GTK_WIDGET(bar->right), FALSE);
+	messages_close_banner(bar->core->messages);
+}
+
+static void mode_toggled(struct sim_bar *bar)
+{
+	if (gtk_toggle_button_get_active(bar->simulate_mode) ==
+	    ladder_sim_is_on(bar->core->sim))
+		return;
+	if (ladder_sim_is_on(bar->core->sim))
+		end(bar);
+	else
+		begin(bar);
+}
+
+static void run_or_pause(struct sim_bar *bar)
+{
+	if (ladder_sim_state(bar->core->sim) == SIM_RUN && !ladder_sim_is_past(bar->core->sim))
+		ladder_sim_pause(bar->core->sim);
+	else if (begin(bar))
+		ladder_sim_run(bar->core->sim);
+}
+
+static void step_shown(struct sim_bar *bar, int by)
+{
+	const struct twin *twin = ladder_sim_twin(bar->core->sim);
+
+	if (!twin)
+		return;
+	if (by > 0 && twin->scan >= ladder_sim_last(bar->core->sim))
+		ladder_sim_show_now(bar->core->sim);
+	else if (!ladder_sim_show(bar->core->sim, by > 0 ? twin->scan + 1 : twin->scan - 1))
+		messages_tell(bar->core->messages, _("no scan before this one was kept"));
+}
+
+static void plant_chosen(GtkNativeDialog *dialog, int response, struct sim_bar *bar)
+{
+	char *path = ask_take_path(dialog, response);
+
+	if (path)
+		origin_set_plant(bar->origin, path);
+	g_free(path);
+}
+
+static void choose_plant(struct sim_bar *bar)
+{
+	struct core *core = bar->core;
+	GtkFileChooserNative *chooser = ask_rung_file(core->window, core->document,
+		_("Plant beside the program"), GTK_FILE_CHOOSER_ACTION_OPEN, _("Choose"));
+
+	core_connect(core, chooser, "response", G_CALLBACK(plant_chosen), bar, 0);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
+
+bool sim_bar_do(struct sim_bar *bar, enum verb verb)
+{
+	LadderSim *sim = bar->core->sim;
+
+	switch ((int)verb) {
+	case VERB_sim_mode:
+		if (ladder_sim_is_on(sim))
+			end(bar);
+		else
+			begin(bar);
+		return true;
+	case VERB_sim_run: run_or_pause(bar); return true;
+	case VERB_sim_scan:
+		if (begin(bar))
+			ladder_sim_scan(sim, 1);
+		return true;
+	case VERB_sim_stop: ladder_sim_stop(sim); return true;
+	case VERB_sim_cold: ladder_sim_reset(sim, false); return true;
+	case VERB_sim_warm: ladder_sim_reset(sim, true); return true;
+	case VERB_sim_back: step_shown(bar, -1); return true;
+	case VERB_sim_forth: step_shown(bar, 1); return true;
+	case VERB_sim_plant: choose_plant(bar); return true;
+	case VERB_sim_no_plant: origin_set_plant(bar->origin, NULL); return true;
+	case VERB_sim_now: ladder_sim_show_now(sim); return true;
+	case VERB_sim_release: ladder_sim_release_all(sim); return true;
+	case VERB_right:
+		if (ladder_sim_is_on(sim))
+			gtk_widget_set_visible(GTK_WIDGET(bar->right),
+				!gtk_widget_get_visible(GTK_WIDGET(bar->right)));
+		return true;
+	default: return false;
+	}
+}
+
+void sim_bar_show_panel(struct sim_bar *bar)
+{
+	gtk_widget_set_visible(GTK_WIDGET(bar->right), TRUE);
+}
+
+void sim_bar_init(struct sim_bar *bar, struct core *core, struct origin *origin)
+{
+	LadderSim *sim = core->sim;
+	GtkWidget *panel = ladder_sim_panel_new(sim);
+
+	bar->core = core;
+	bar->origin = origin;
+	gtk_widget_set_vexpand(panel, TRUE);
+	gtk_box_append(bar->right, panel);
+	tip_set(GTK_WIDGET(bar->forces_button), _("Release all forces"));
+	gtk_menu_button_set_popover(bar->pace_button, sim_pace_new(sim));
+	core_connect(core, sim, "state-changed", G_CALLBACK(state_changed), bar,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, sim, "shown", G_CALLBACK(shown), bar, G_CONNECT_SWAPPED);
+	core_connect(core, sim, "told", G_CALLBACK(told), bar, 0);
+	core_connect(core, bar->simulate_mode, "toggled", G_CALLBACK(mode_toggled), bar,
+		     G_CONNECT_SWAPPED);
+	show_buttons(bar);
+}
+
+void sim_bar_clear(struct sim_bar *bar)
+{
+	g_clear_handle_id(&bar->when_timer, g_source_remove);
+}

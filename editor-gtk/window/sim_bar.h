@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim_bar - the simulation in the window: its switch, its buttons, what the title says of it,
+ * its panel at the right. Sheets and panels show its values by themselves.
+ */
+#ifndef EDITOR_SIM_BAR_H
+#define EDITOR_SIM_BAR_H
+
+#include "editor-gtk/kit/verbs.h"
+#include "editor-gtk/window/origin.h"
+
+struct sim_bar {
+	struct core *core;
+	struct origin *origin;
+	GtkBox *right, *buttons;
+	GtkToggleButton *edit_mode, *simulate_mode;
+	GtkButton *run_button, *forces_button;
+	GtkMenuButton *pace_button;
+	AdwWindowTitle *title;
+	guint when_timer;      /* until the title tells the simulated time      */
+};
+
+void sim_bar_init(struct sim_bar *bar, struct core *core, struct origin *origin);
+void sim_bar_clear(struct sim_bar *bar);
+/** sim_bar_show_panel - the panel at the right. */
+void sim_bar_show_panel(struct sim_bar *bar);
+/** sim_bar_do - the verbs of the simulation; false: @verb is none of them. */
+bool sim_bar_do(struct sim_bar *bar, enum verb verb);
+
+#endif

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * status - the status bar; see status.h.
+ */
+#include "editor-gtk/window/status.h"
+
+#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/verbs.h"
+#include "editor-gtk/window/front.h"
+#include "editor-gtk/window/messages.h"
+
+#include <string.h>
+
+/* ---- what the window is doing ---- */
+
+static void set_pill(struct status *status, const char *text, const char *class)
+{
+	static const char *const classes[] = { "run", "still", "past", "fault" };
+
+	/* GTK draws a label again even if the text is the same. */
+	if (g_strcmp0(gtk_label_get_text(status->pill), text) == 0 &&
+	    (!class || gtk_widget_has_css_class(GTK_WIDGET(status->pill), class)))
+		return;
+	for (gsize i = 0; i < G_N_ELEMENTS(classes); i++)
+		gtk_widget_remove_css_class(GTK_WIDGET(status->pill), classes[i]);
+	if (class)
+		gtk_widget_add_css_class(GTK_WIDGET(status->pill), class);
+	gtk_label_set_text(status->pill, text);
+}
+
+static const char *board_class(struct status *status)
+{
+	const char *state = ladder_board_run_status(status->core->board)->state;
+
+	return strcmp(state, "FAULT") == 0 ? "fault" : strcmp(state, "RUN") == 0 ? "run" :
+	       "still";
+}
+
+static void show_pill(struct status *status)
+{
+	static const struct { const char *text, *class; } pills[] = {
+		[SIM_OFF] = { N_("EDIT"), NULL },
+		[SIM_STOP] = { N_("SIMULATION · STOP"), "still" },
+		[SIM_RUN] = { N_("SIMULATION"), "run" },
+		[SIM_PAUSE] = { N_("SIMULATION · PAUSE"), "still" },
+		[SIM_FAULT] = { N_("SIMULATION · FAULT"), "fault" },
+	};
+	const enum sim_state state = ladder_sim_state(status->core->sim);
+	char *text;
+
+	if (ladder_board_run_state(status->core->board) != BOARD_OFF) {
+		set_pill(status, _("ON THIS MACHINE"), board_class(status));
+		return;
+	}
+	if (!ladder_sim_is_past(status->core->sim)) {
+		set_pill(status, _(pills[state].text), pills[state].class);
+		return;
+	}
+	text = g_strdup_printf(_("PAST · scan %llu"),
+			       (unsigned long long)ladder_sim_twin(status->core->sim)->scan);
+	set_pill(status, text, "past");
+	g_free(text);
+}
+
+/* ---- the place ---- */
+
+static char *place_in(GtkTextBuffer *text)
+{
+	GtkTextIter at;
+
+	gtk_text_buffer_get_iter_at_mark(text, &at, gtk_text_buffer_get_insert(text));
+	return g_strdup_printf(_("Line %d · column %d"), gtk_text_iter_get_line(&at) + 1,
+			       gtk_text_iter_get_line_offset(&at) + 1);
+}
+
+static char *keys_in_list(void)
+{
+	GString *text = g_string_new(NULL);
+
+	verb_tell(text, VERB_go_coil);
+	verb_tell(text, VERB_show_uses);
+	verb_tell(text, VERB_rename);
+	verb_tell(text, VERB_next_problem);
+	return g_string_free(text, FALSE);
+}
+
+/* All three are taken over. */
+static void show(struct status *status, char *place, char *zoom, char *keys)
+{
+	messages_keys(status->core->messages, keys);
+	gtk_label_set_text(status->place, place);
+	gtk_label_set_text(status->zoom, zoom);
+	g_free(place);
+	g_free(zoom);
+}
+
+static char *percent(double zoom)
+{
+	return g_strdup_printf("%d %%", (int)(zoom * 100 + 0.5));
+}
+
+static void show_place(struct status *status)
+{
+	struct front *front = status->core->front;
+	LadderGridView *sheet = front_seen_sheet(front);
+	LadderSfcView *chart = front_seen_chart(front);
+	GtkTextBuffer *text = page_text(front_tab(front));
+
+	if (sheet)
+		show(status, ladder_grid_view_place(sheet),
+		     percent(ladder_grid_view_zoom(sheet)), ladder_grid_view_keys(sheet));
+	else if (chart)
+		show(status, ladder_sfc_view_place(chart),
+		     percent(ladder_sfc_view_zoom(chart)), ladder_sfc_view_keys(chart));
+	else
+		show(status, text ? place_in(text) : g_strdup(""), g_strdup(""),
+		     front_list(front) ? keys_in_list() : g_strdup(""));
+}
+
+/* ---- the checks ---- */
+
+static void show_checked(struct status *status)
+{
+	const struct diag_list *diags = ladder_document_diags(status->core->document);
+	const int warnings = diags->count + diags->dropped - diags->errors;
+	char *text;
+
+	if (diags->errors)
+		text = g_strdup_printf(ngettext("%d error", "%d errors",
+			(unsigned long)diags->errors), diags->errors);
+	else if (warnings)
+		text = g_strdup_printf(ngettext("%d warning", "%d warnings",
+			(unsigned long)warnings), warnings);
+	else
+		text = g_strdup(_("no problems"));
+	gtk_label_set_text(status->checked, text);
+	g_free(text);
+}
+
+/* ---- life ---- */
+
+void status_init(struct status *status, struct core *core)
+{
+	status->core = core;
+	spoken_text(status->place);
+	spoken_text(status->checked);
+	spoken_text(status->zoom);
+	core_connect(core, core->window, "cursor-moved", G_CALLBACK(show_place), status,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->window, "place-changed", G_CALLBACK(show_place), status,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->document, "checked", G_CALLBACK(show_checked), status,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->sim, "state-changed", G_CALLBACK(show_pill), status,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->sim, "shown", G_CALLBACK(show_pill), status,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->board, "changed", G_CALLBACK(show_pill), status,
+		     G_CONNECT_SWAPPED);
+}

@@ -1,0 +1,561 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * tabs - the pages of a window: which are open, and going to a place in one.
+ */
+#include "editor-gtk/window/tabs.h"
+
+#include "editor-gtk/document/disk.h"
+#include "editor-gtk/document/draft.h"
+#include "editor-gtk/iomap/iomap_view.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/gtk48/tab_home.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/symbols_view.h"
+#include "editor-gtk/window/ask.h"
+#include "editor-gtk/window/messages.h"
+#include "editor-gtk/window/welcome.h"
+
+#include <string.h>
+
+#define OPEN_MOST 8 /* POUs that are opened with a file                        */
+
+/* ---- what is open ---- */
+
+static AdwTabPage *nth(struct tabs *tabs, int index)
+{
+	return adw_tab_view_get_nth_page(tabs->view, index);
+}
+
+static AdwTabPage *find_page(struct tabs *tabs, const char *name)
+{
+	for (int i = 0; i < adw_tab_view_get_n_pages(tabs->view); i++)
+		if (g_strcmp0(page_name(nth(tabs, i)), name) == 0)
+			return nth(tabs, i);
+	return NULL;
+}
+
+void tabs_each_file(struct tabs *tabs, void (*act)(gpointer file))
+{
+	for (int i = 0; i < adw_tab_view_get_n_pages(tabs->view); i++) {
+		LadderSideFile *file = page_file(nth(tabs, i));
+
+		if (file)
+			act(file);
+	}
+}
+
+GPtrArray *tabs_unsaved(struct tabs *tabs)
+{
+	GPtrArray *files = g_ptr_array_new();
+
+	for (int i = 0; i < adw_tab_view_get_n_pages(tabs->view); i++) {
+		LadderSideFile *file = page_file(nth(tabs, i));
+
+		if (file && !ladder_side_file_is_saved(file))
+			g_ptr_array_add(files, file);
+	}
+	return files;
+}
+
+static AdwTabPage *find_file_page(struct tabs *tabs, const char *path)
+{
+	for (int i = 0; i < adw_tab_view_get_n_pages(tabs->view); i++) {
+		LadderSideFile *file = page_file(nth(tabs, i));
+
+		if (file && disk_same(path, ladder_side_file_path(file)))
+			return nth(tabs, i);
+	}
+	return NULL;
+}
+
+LadderFileView *tabs_find_file(struct tabs *tabs, const char *path)
+{
+	AdwTabPage *page = find_file_page(tabs, path);
+
+	return page ? LADDER_FILE_VIEW(page_content(page)) : NULL;
+}
+
+/* ---- saving files beside the project ---- */
+
+bool tabs_save_file(struct tabs *tabs, LadderSideFile *file)
+{
+	GError *error = NULL;
+	const bool good = ladder_side_file_save(file, &error);
+
+	if (good)
+		messages_tell(tabs->core->messages, _("Saved"));
+	else
+		messages_warn(tabs->core->messages, error->message);
+	g_clear_error(&error);
+	return good;
+}
+
+bool tabs_save_files(struct tabs *tabs)
+{
+	GPtrArray *files = tabs_unsaved(tabs);
+	bool good = true;
+
+	for (guint i = 0; good && i < files->len; i++)
+		good = tabs_save_file(tabs, files->pdata[i]);
+	g_ptr_array_unref(files);
+	return good;
+}
+
+/* ---- opening ---- */
+
+static AdwTabPage *insert_page(struct tabs *tabs, int at, GtkWidget *child,
+			       const char *name, const char *title)
+{
+	AdwTabPage *page = adw_tab_view_insert(tabs->view, child, at);
+
+	page_set_name(page, name, title);
+	page_follow(tabs->core, page);
+	spoken_parts(child);
+	spoken_parts(GTK_WIDGET(tabs->core->front->tab_bar));
+	return page;
+}
+
+static AdwTabPage *add_page(struct tabs *tabs, GtkWidget *child, const char *name,
+			    const char *title)
+{
+	return insert_page(tabs, adw_tab_view_get_n_pages(tabs->view), child, name,
+			   title);
+}
+
+/* Pages stand in the order of the file. */
+static int place_of(struct tabs *tabs, const struct project *project, int pou)
+{
+	int at = adw_tab_view_get_n_pages(tabs->view);
+
+	while (at > 0) {
+		const char *name = page_name(nth(tabs, at - 1));
+		const int number = name[0] == ' ' ? -1 : project_find_pou(project, name, strlen(name));
+
+		if (number >= 0 && number < pou)
+			break;
+		at--;
+	}
+	return at;
+}
+
+static AdwTabPage *open_pou(struct tabs *tabs, int pou)
+{
+	const struct project *project = ladder_document_project(tabs->core->document);
+	const char *name = project_text(project, project->pou[pou].name);
+
+	return insert_page(tabs, place_of(tabs, project, pou),
+			   page_new(tabs->core, tabs->core->document, pou), name, name);
+}
+
+/* The tabs are of the program as it is now. */
+static void select_page(struct tabs *tabs, AdwTabPage *page)
+{
+	if (front_is_older(tabs->core->front))
+		ladder_sim_show_now(tabs->core->sim);
+	adw_tab_view_set_selected_page(tabs->view, page);
+}
+
+void tabs_show(struct tabs *tabs, int pou)
+{
+	const struct project *project = ladder_document_project(tabs->core->document);
+	AdwTabPage *page;
+
+	if (!project || pou < 0 || pou >= project->pou_count)
+		return;
+	page = find_page(tabs, project_text(project, project->pou[pou].name));
+	if (!page)
+		page = open_pou(tabs, pou);
+	select_page(tabs, page);
+}
+
+/* The table may have thousands of symbols: it is made when somebody looks at it. */
+static GtkWidget *symbols_in(AdwBin *place, struct tabs *tabs)
+{
+	GtkWidget *symbols = adw_bin_get_child(place);
+
+	if (!symbols) {
+		symbols = ladder_symbols_view_new();
+		ladder_symbols_view_set_document(LADDER_SYMBOLS_VIEW(symbols),
+						 tabs->core->document);
+		adw_bin_set_child(place, symbols);
+		spoken_parts(symbols);
+	}
+	return symbols;
+}
+
+static GtkWidget *symbols_page(struct tabs *tabs)
+{
+	GtkWidget *place = adw_bin_new();
+
+	core_connect(tabs->core, place, "map", G_CALLBACK(symbols_in), tabs, 0);
+	return place;
+}
+
+/* Names of POUs have no blank before them. */
+static AdwTabPage *open_widget(struct tabs *tabs, const char *name)
+{
+	char *key = g_strdup_printf(" %s", name);
+	AdwTabPage *page = find_page(tabs, key);
+
+	if (!page && strcmp(name, "symbols") == 0)
+		page = add_page(tabs, symbols_page(tabs), key, _("Symbols"));
+	else if (!page && strcmp(name, "welcome") == 0)
+		page = add_page(tabs, welcome_new(), key, _("Welcome"));
+	else if (!page && strcmp(name, "text") == 0)
+		page = add_page(tabs, ladder_text_view_new(tabs->core->document, -1), key,
+				_("Text of the file"));
+	g_free(key);
+	return page;
+}
+
+static void show_file_state(AdwTabPage *page, LadderSideFile *file)
+{
+	char *name = ladder_side_file_name(file);
+	char *title = g_strdup_printf("%s%s",
+				      ladder_side_file_differs(file) ? "• " : "", name);
+
+	adw_tab_page_set_title(page, title);
+	g_free(title);
+	g_free(name);
+}
+
+/* What is undone is shown. */
+static void show_undone(LadderSideFile *file, struct tabs *tabs)
+{
+	tabs_show_file(tabs, ladder_side_file_path(file));
+}
+
+void tabs_put_file(struct tabs *tabs, LadderSideFile *file)
+{
+	char *name = ladder_side_file_name(file);
+	AdwTabPage *page = add_page(tabs, ladder_file_view_new(file,
+		g_str_has_suffix(name, ".io") ? ladder_iomap_view_new : NULL), " file", name);
+
+	g_signal_connect_object(file, "state-changed", G_CALLBACK(show_file_state), page,
+				G_CONNECT_SWAPPED);
+	core_connect(tabs->core, file, "undone", G_CALLBACK(show_undone), tabs, 0);
+	show_file_state(page, file);
+	draft_keep_file(file, tabs->core->document);
+	select_page(tabs, page);
+	g_free(name);
+}
+
+void tabs_show_file(struct tabs *tabs, const char *path)
+{
+	AdwTabPage *page = find_file_page(tabs, path);
+	GError *error = NULL;
+	LadderSideFile *file;
+
+	if (page) {
+		select_page(tabs, page);
+		return;
+	}
+	file = ladder_side_file_open(path, tabs->core->document, &error);
+	if (file)
+		tabs_put_file(tabs, file);
+	else
+		messages_warn(tabs->core->messages, error->message);
+	g_clear_error(&error);
+	g_clear_object(&file);
+}
+
+GtkWidget *tabs_show_widget(struct tabs *tabs, const char *name)
+{
+	AdwTabPage *page = open_widget(tabs, name);
+
+	if (!page)
+		return NULL;
+	select_page(tabs, page);
+	return page_content(page);
+}
+
+static void go_in_chart(LadderSfcPage *page, int rung, int row, int col)
+{
+	if (rung >= 0)
+		ladder_sfc_page_show_rung(page, rung, row, col);
+	else
+		ladder_sfc_view_go_row(ladder_sfc_page_chart(page), row);
+}
+
+static void go_in_symbols(struct tabs *tabs, int table, int index)
+{
+	GtkWidget *place = tabs_show_widget(tabs, "symbols");
+	LadderSymbolsView *symbols =
+		LADDER_SYMBOLS_VIEW(symbols_in(ADW_BIN(place), tabs));
+
+	if (ladder_symbols_view_show(symbols, table, index))
+		ladder_symbols_view_enter(symbols);
+}
+
+void tabs_go(struct tabs *tabs, int pou, int rung, int row, int col)
+{
+	LadderGridView *sheet;
+	AdwTabPage *page;
+
+	if (!ladder_document_project(tabs->core->document)) {
+		GtkWidget *text = tabs_show_widget(tabs, "text");
+
+		ladder_text_view_go(LADDER_TEXT_VIEW(text), rung + 1, col + 1);
+		return;
+	}
+	if (pou < 0) {
+		go_in_symbols(tabs, row, col);
+		return;
+	}
+	tabs_show(tabs, pou);
+	page = front_tab(tabs->core->front);
+	sheet = front_sheet(tabs->core->front);
+	if (page && LADDER_IS_SFC_PAGE(page_content(page)))
+		go_in_chart(LADDER_SFC_PAGE(page_content(page)), rung, row, col);
+	else if (sheet && ladder_grid_view_pou(sheet) == pou)
+		ladder_grid_view_go(sheet, rung, row, col);
+	else if (page && LADDER_IS_TEXT_VIEW(page_content(page)))
+		ladder_text_view_go_here(LADDER_TEXT_VIEW(page_content(page)), row + 1, col + 1);
+}
+
+/* ---- closing ---- */
+
+struct closing {
+	struct tabs *tabs;
+	AdwTabPage *page;
+};
+
+static void close_answered(AdwMessageDialog *dialog, const char *answer,
+			   struct closing *closing)
+{
+	LadderSideFile *file = page_file(closing->page);
+	const bool save = strcmp(answer, "save") == 0;
+	const bool close = strcmp(answer, "discard") == 0 ||
+			   (save && tabs_save_file(closing->tabs, file));
+
+	(void)dialog;
+	if (close)
+		draft_remove(file);
+	adw_tab_view_close_page_finish(closing->tabs->view, closing->page, close);
+}
+
+static void closing_free(gpointer closing, GClosure *closure)
+{
+	(void)closure;
+	g_object_unref(((struct closing *)closing)->page);
+	g_free(closing);
+}
+
+/* A file that is not saved is closed only when the person says so. */
+static gboolean close_page(struct tabs *tabs, AdwTabPage *page)
+{
+	LadderSideFile *file = page_file(page);
+	struct closing *closing;
+	char *name;
+
+	if (!file || ladder_side_file_is_saved(file))
+		return GDK_EVENT_PROPAGATE;
+	closing = g_new(struct closing, 1);
+	*closing = (struct closing){ tabs, g_object_ref(page) };
+	name = ladder_side_file_name(file);
+	g_signal_connect_data(ask_save(tabs->core->window, name), "response",
+			      G_CALLBACK(close_answered), closing, closing_free, 0);
+	g_free(name);
+	return GDK_EVENT_STOP;
+}
+
+void tabs_close(struct tabs *tabs)
+{
+	AdwTabPage *page = front_tab(tabs->core->front);
+
+	if (page)
+		adw_tab_view_close_page(tabs->view, page);
+}
+
+/* ---- undo and redo ---- */
+
+/* What a step changed first. */
+struct changed {
+	int pou, rung; /* -1: no rung and no list; of a list, rung -1          */
+};
+
+static void rungs_changed(LadderDocument *document, int pou, int at, int removed, int added,
+			  struct changed *changed)
+{
+	(void)document;
+	(void)removed;
+	(void)added;
+	if (changed->pou < 0)
+		*changed = (struct changed){ pou, at };
+}
+
+static void list_changed(LadderDocument *document, int pou, struct changed *changed)
+{
+	(void)document;
+	if (changed->pou < 0)
+		*changed = (struct changed){ pou, -1 };
+}
+
+/* Is it at the cursor of what is in front? */
+static bool is_here(struct tabs *tabs, const struct changed *changed)
+{
+	LadderGridView *sheet = front_sheet(tabs->core->front);
+	LadderTextView *list = front_list(tabs->core->front);
+
+	if (sheet)
+		return ladder_grid_view_pou(sheet) == changed->pou &&
+		       ladder_grid_view_first(sheet) + ladder_grid_view_cursor(sheet).rung ==
+		       changed->rung;
+	return list && ladder_text_view_pou(list) == changed->pou;
+}
+
+static void show(struct tabs *tabs, const struct changed *changed)
+{
+	const struct project *project = ladder_document_project(tabs->core->document);
+	const int count = project && changed->pou >= 0 && changed->pou < project->pou_count ?
+			  project->pou[changed->pou].rung_count : -1;
+
+	if (count < 0 || is_here(tabs, changed))
+		return;
+	tabs_go(tabs, changed->pou, MIN(changed->rung, count - 1), -1, -1);
+}
+
+void tabs_step(struct tabs *tabs, bool redo)
+{
+	LadderDocument *document = tabs->core->document;
+	struct changed changed = { -1, -1 };
+	gulong rungs, list;
+	char *name, *text;
+	bool done;
+
+	tabs_each_file(tabs, ladder_side_file_commit);
+	name = g_strdup(redo ? ladder_document_redo_name(document) :
+			ladder_document_undo_name(document));
+	rungs = g_signal_connect(document, "rungs-changed", G_CALLBACK(rungs_changed),
+				 &changed);
+	list = g_signal_connect(document, "list-changed", G_CALLBACK(list_changed), &changed);
+	done = redo ? ladder_document_redo(document) : ladder_document_undo(document);
+	g_signal_handler_disconnect(document, rungs);
+	g_signal_handler_disconnect(document, list);
+	if (done) {
+		show(tabs, &changed);
+		text = g_strdup_printf(redo ? _("Done again: %s") : _("Undone: %s"), name);
+		messages_tell(tabs->core->messages, text);
+		g_free(text);
+	}
+	g_free(name);
+	front_enter_program(tabs->core->front);
+}
+
+/* ---- when the project is another ---- */
+
+/* The POU of a page may have another number, and with @renamed another name. Returns false if
+ * it is gone. */
+static bool update_page(AdwTabPage *page, const struct project *project, bool renamed)
+{
+	GtkWidget *widget = page_content(page);
+	const char *name = page_name(page);
+	int pou;
+
+	if (strcmp(name, " welcome") == 0)
+		return false; /* a file was opened */
+	if (LADDER_IS_FILE_VIEW(widget))
+		return true; /* it stands beside the project */
+	if (name[0] == ' ')
+		return (strcmp(name, " text") == 0) == !project;
+	pou = project_find_pou(project, name, strlen(name));
+	if (pou < 0) {
+		pou = page_pou(widget);
+		if (!renamed || pou >= project->pou_count || !page_fits(widget, project, pou))
+			return false;
+		name = project_text(project, project->pou[pou].name);
+		page_set_name(page, name, name);
+	}
+	if (!page_fits(widget, project, pou))
+		return false;
+	page_set_pou(widget, pou);
+	return true;
+}
+
+static bool has_pou_page(struct tabs *tabs)
+{
+	for (int i = 0; i < adw_tab_view_get_n_pages(tabs->view); i++)
+		if (page_name(nth(tabs, i))[0] != ' ')
+			return true;
+	return false;
+}
+
+/* Closes the pages whose POU is gone. The keys stay where they are, in the tree say. */
+static void update_pages(struct tabs *tabs, const struct project *project)
+{
+	const bool renamed = project && project->pou_count == tabs->pou_count;
+	GtkWidget *focus = gtk_window_get_focus(tabs->core->window);
+	const bool beside = focus && !gtk_widget_is_ancestor(focus, GTK_WIDGET(tabs->view));
+
+	tabs->pou_count = project ? project->pou_count : 0;
+	for (int i = adw_tab_view_get_n_pages(tabs->view) - 1; i >= 0; i--) {
+		AdwTabPage *page = nth(tabs, i);
+
+		if (!update_page(page, project, renamed))
+			adw_tab_view_close_page(tabs->view, page);
+	}
+	if (beside && adw_tab_view_get_n_pages(tabs->view))
+		gtk_widget_grab_focus(focus);
+}
+
+static void update(struct tabs *tabs)
+{
+	const struct project *project = ladder_document_project(tabs->core->document);
+
+	update_pages(tabs, project);
+	if (!project) {
+		tabs_show_widget(tabs, "text");
+		return;
+	}
+	if (!has_pou_page(tabs)) {
+		for (int i = 0; i < MIN(project->pou_count, OPEN_MOST); i++)
+			if (!project->pou[i].included)
+				open_pou(tabs, i);
+		open_widget(tabs, "symbols");
+		tabs_show(tabs, 0);
+	}
+	g_signal_emit_by_name(tabs->core->window, "place-changed");
+}
+
+/* Else the sheet of the empty project would stay, as that of the first program alone. */
+void tabs_open_anew(struct tabs *tabs)
+{
+	for (int i = adw_tab_view_get_n_pages(tabs->view) - 1; i >= 0; i--) {
+		AdwTabPage *page = nth(tabs, i);
+
+		if (!LADDER_IS_FILE_VIEW(page_content(page)))
+			adw_tab_view_close_page(tabs->view, page);
+	}
+	update(tabs);
+}
+
+/* ---- life ---- */
+
+static void page_selected(struct tabs *tabs)
+{
+	g_signal_emit_by_name(tabs->core->window, "place-changed");
+	g_signal_emit_by_name(tabs->core->window, "page-changed");
+	messages_tell(tabs->core->messages, "");
+	front_enter_program(tabs->core->front);
+}
+
+void tabs_init(struct tabs *tabs, struct core *core)
+{
+	tabs->core = core;
+	tabs->view = core->front->tabs;
+	/* Those keys go to the ends of a text or a rung. */
+	adw_tab_view_remove_shortcuts(tabs->view, ADW_TAB_VIEW_SHORTCUT_CONTROL_HOME |
+		ADW_TAB_VIEW_SHORTCUT_CONTROL_END |
+		ADW_TAB_VIEW_SHORTCUT_CONTROL_SHIFT_HOME |
+		ADW_TAB_VIEW_SHORTCUT_CONTROL_SHIFT_END |
+		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_UP |
+		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_DOWN);
+	tab_home_make(core->front->tab_bar);
+	core_connect(core, core->document, "project-changed", G_CALLBACK(update), tabs,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, tabs->view, "notify::selected-page", G_CALLBACK(page_selected), tabs,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, tabs->view, "close-page", G_CALLBACK(close_page), tabs,
+		     G_CONNECT_SWAPPED);
+	update(tabs);
+}
