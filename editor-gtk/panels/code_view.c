@@ -44,7 +44,7 @@ static void show_now(struct code_view *code)
 	code->stale = false;
 	if (!il) {
 		gtk_text_buffer_set_text(code->buffer,
-			_("There is an instruction list when the program has no errors."),
+			_("Fix the errors of the program to see its instruction list."),
 			-1);
 		return;
 	}

@@ -180,7 +180,7 @@ static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
 
 	(void)unused;
 	if (pou < 0)
-		why = _("There is no program or block in this row");
+		why = _("Select a program or block first");
 	else if (renames)
 		gtk_widget_activate_action(tree->list, "win.rename-pou", "i", pou);
 	else

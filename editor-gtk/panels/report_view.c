@@ -47,7 +47,7 @@ static const struct theme *theme_now(void)
 
 static void put_nothing(LadderClassicPicture *picture)
 {
-	const char *text = _("Nothing of ClassicLadder became this rung.");
+	const char *text = _("This rung does not come from ClassicLadder.");
 	const struct lettered fits = lettering_fit(picture->lettering, LETTER_COMMENT, text,
 						   -1, 0);
 
@@ -68,7 +68,7 @@ static void put_pair(LadderClassicPicture *picture)
 		.there_name = name,
 		.project = ladder_document_project(picture->document),
 		.show = (enum drafting_show)settings_enum("show", SHOW_BOTH),
-		.lost = _("Nothing of it is here any more."),
+		.lost = _("This rung was deleted after the import."),
 	};
 	GArray *ours = ladder_origin_became(picture->origin, rung, &pair.pou);
 
@@ -84,7 +84,7 @@ static void name_it(LadderClassicPicture *picture)
 	char *text = picture->rung ?
 		g_strdup_printf(_("Original of the rung: %s"), *picture->rung->comment ?
 				picture->rung->comment : picture->rung->place.member) :
-		g_strdup(_("Nothing of ClassicLadder became this rung."));
+		g_strdup(_("This rung does not come from ClassicLadder."));
 
 	gtk_accessible_update_property(GTK_ACCESSIBLE(picture),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, text, -1);
@@ -452,7 +452,7 @@ static void ladder_report_view_init(LadderReportView *view)
 		widget, LADDER_TYPE_REPORT_VIEW, "view")));
 	panel_list_column(&view->list, "", REPORT_KIND, PANEL_ICON, 0);
 	panel_list_column(&view->list, _("What"), REPORT_KIND, 0, 76);
-	panel_list_add(&view->list, _("Told"), REPORT_TEXT, PANEL_EXPAND, 0, text_factory());
+	panel_list_add(&view->list, _("Message"), REPORT_TEXT, PANEL_EXPAND, 0, text_factory());
 	panel_list_column(&view->list, _("Here"), REPORT_HERE, PANEL_NUMBER, 104);
 	g_signal_connect_object(view->list.selection, "selection-changed",
 				G_CALLBACK(selected), view, G_CONNECT_SWAPPED);

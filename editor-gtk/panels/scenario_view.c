@@ -67,7 +67,7 @@ static void show_summary(LadderScenarioView *view)
 		bad += ((struct scenario_result *)view->results->pdata[i])->outcome !=
 		       SCENARIO_HELD;
 	if (view->running)
-		text = g_strdup(_("They run…"));
+		text = g_strdup(_("Running…"));
 	else if (!view->results)
 		text = g_strdup("");
 	else if (bad)
@@ -86,10 +86,10 @@ static void show_rows(LadderScenarioView *view)
 	for (guint i = 0; view->results && i < view->results->len; i++)
 		g_ptr_array_add(rows, row_of(view->results->pdata[i], (int)i));
 	panel_list_update(&view->list, rows);
-	gtk_label_set_label(GTK_LABEL(view->empty), view->running ? _("They run…") :
-		view->results ? _("The project has no scenarios yet: record one.") :
-		_("Scenarios say what a program must do. They lie beside it, in files "
-		  "that begin with its name and end in .scn."));
+	gtk_label_set_label(GTK_LABEL(view->empty), view->running ? _("Running…") :
+		view->results ? _("The project has no scenarios yet. Record one.") :
+		_("Scenarios say what a program must do. They are in files beside it whose "
+		  "names begin with its name and end in .scn."));
 	gtk_stack_set_visible_child_name(GTK_STACK(view->stack), rows->len ? "list" : "none");
 	g_ptr_array_unref(rows);
 	show_summary(view);

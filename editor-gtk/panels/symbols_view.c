@@ -267,7 +267,7 @@ static char *told_of(LadderDocument *document, const LadderPanelRow *row, enum f
 	const char *other = field == FIELD_ADDRESS ?
 		symbol_beside(document, row->table, index_of(document, row)) : NULL;
 
-	return other ? g_strdup_printf(_("%s, %s: %s lies there, too"),
+	return other ? g_strdup_printf(_("%s, %s: %s has the same address"),
 		panel_row_text(row, FIELD_NAME), symbol_field_name(field), other) : NULL;
 }
 

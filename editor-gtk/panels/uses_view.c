@@ -372,7 +372,8 @@ static enum uses_mode mode_of(LadderUsesView *view)
 static void show_empty(LadderUsesView *view)
 {
 	static const char *const nothing[] = {
-		[USES_SYMBOL] = N_("Nothing is used here. Place the cursor on an element."),
+		[USES_SYMBOL] = N_("Place the cursor on an element to see where its name is "
+				   "used."),
 		[USES_ALL] = N_("No symbols yet"),
 		[USES_UNUSED] = N_("Every symbol is used"),
 		[USES_DOUBLE] = N_("No address has two names"),
@@ -514,7 +515,7 @@ static void ladder_uses_view_init(LadderUsesView *view)
 	panel_list_column(&view->list, _("Address"), USES_ADDRESS, 0, 90);
 	panel_list_column(&view->list, _("Use"), USES_KIND, 0, 110);
 	panel_list_column(&view->list, _("Place"), USES_PLACE, PANEL_NUMBER, 260);
-	panel_list_column(&view->list, _("In"), USES_TEXT, PANEL_EXPAND, 0);
+	panel_list_column(&view->list, _("Context"), USES_TEXT, PANEL_EXPAND, 0);
 	view->watch = panel_watch_new(widget, false, refresh);
 	show_empty(view);
 }

@@ -284,7 +284,7 @@ static struct ladder *load(const char *path, enum render_status *status)
 	if (ladder_could_read(ladder))
 		*status = RENDER_NO;
 	if (!ladder_diags(ladder)->count)
-		fprintf(stderr, _("ladder-editor: %s: a code image has no drawing\n"),
+		fprintf(stderr, _("ladder-editor: %s: a code image cannot be drawn\n"),
 			path);
 	ladder_free(ladder);
 	return NULL;
@@ -399,7 +399,8 @@ static enum render_status draw(struct ladder *ladder, const struct render_option
 			       struct lettering *lettering)
 {
 	const struct project *project = ladder_project(ladder);
-	int pou = options->pou ? project_find_pou(project, options->pou, strlen(options->pou)) : -1;
+	int pou = options->pou ?
+		project_find_pou(project, options->pou, strlen(options->pou)) : -1;
 	enum render_status status;
 	struct picture picture;
 
@@ -413,8 +414,8 @@ static enum render_status draw(struct ladder *ladder, const struct render_option
 	if (draw_rungs(ladder, pou, options, lettering, &picture)) {
 		status = write_picture(&picture, options, lettering);
 	} else {
-		fprintf(stderr, _("ladder-editor: %s: nothing of it comes from "
-				  "ClassicLadder\n"), options->file);
+		fprintf(stderr, _("ladder-editor: %s: does not come from ClassicLadder\n"),
+			options->file);
 		status = RENDER_WRONG;
 	}
 	picture_clear(&picture);

@@ -295,8 +295,8 @@ static void tell_draft_failed(gpointer object, const char *why)
 {
 	LadderWindow *window = window_with(LADDER_IS_DOCUMENT(object) ? object :
 					   ladder_side_file_document(object));
-	char *text = g_strdup_printf(_("What is not saved would be lost in a crash, no draft "
-				       "of it can be kept: %s"), why);
+	char *text = g_strdup_printf(_("Cannot keep a draft, so a crash would lose your "
+				       "unsaved changes: %s"), why);
 
 	if (window)
 		ladder_window_warn(window, text);
@@ -350,7 +350,7 @@ static void open_files(AdwApplication *application, GFile **files, int count,
 		if (!window) {
 			window = new_window(application);
 			ladder_window_warn(window, error ? error->message :
-					   _("Only files of this machine can be opened."));
+					   _("Only files on this machine can be opened."));
 		}
 		g_clear_error(&error);
 		g_free(path);

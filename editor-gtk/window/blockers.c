@@ -173,14 +173,14 @@ void blockers_ask(struct blockers *blockers)
 	bool again;
 
 	if (!ladder_sim_is_on(blockers->core->sim)) {
-		messages_tell(blockers->core->messages, _("Simulate first: then it can be told"));
+		messages_tell(blockers->core->messages, _("Start the simulation first"));
 		return;
 	}
 	/* A condition is shown as rungs first, with the power that they have. */
 	if (!sheet && chart && ladder_sfc_view_why(chart))
 		return;
 	if (!sheet || !meant(sheet, &row, &col)) {
-		messages_tell(blockers->core->messages, _("Put the cursor on the element that is meant"));
+		messages_tell(blockers->core->messages, _("Put the cursor on an element first"));
 		return;
 	}
 	again = blockers->sheet == sheet && blockers->rung == rung && blockers->row == row &&
@@ -195,7 +195,8 @@ void blockers_ask(struct blockers *blockers)
 	blockers->col = col;
 	look(blockers);
 	if (!blockers->sheet)
-		messages_tell(blockers->core->messages, _("This rung is not in the program that runs"));
+		messages_tell(blockers->core->messages, _("This rung is not in the running "
+							  "program"));
 }
 
 /* ---- life ---- */

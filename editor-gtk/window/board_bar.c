@@ -158,12 +158,13 @@ static char *question_text(struct board_bar *bar, const struct question *questio
 
 	g_string_append_printf(body, _("“%s” with %s."), name, board);
 	if (!question->own)
-		g_string_append_printf(body, _(" %s is not this project's own I/O map, "
-			"which has the name %s: its pins may be wired to something else."),
+		g_string_append_printf(body, _(" %s is not the I/O map of this project, "
+					       "which is named %s. Its pins may be wired to "
+					       "something else."),
 			board, usual);
 	add_pins(body, question);
 	if (!question->saved)
-		g_string_append(body, _(" What is not saved is saved first."));
+		g_string_append(body, _(" Unsaved changes are saved first."));
 	g_free(usual);
 	g_free(board);
 	g_free(name);
@@ -212,7 +213,7 @@ static bool is_sound(struct board_bar *bar)
 	    !ladder_document_diags(bar->core->document)->errors)
 		return true;
 	below_show_error(bar->core->below);
-	messages_tell(bar->core->messages, _("A program with errors cannot be run"));
+	messages_tell(bar->core->messages, _("Cannot run a program with errors"));
 	return false;
 }
 
@@ -223,7 +224,7 @@ void board_bar_run(struct board_bar *bar)
 
 	if (ladder_board_run_state(bar->core->board) != BOARD_OFF) {
 		below_show(bar->core->below, "board");
-		messages_tell(bar->core->messages, _("It runs on this machine already"));
+		messages_tell(bar->core->messages, _("The program already runs on this machine"));
 		return;
 	}
 	if (!is_sound(bar))
@@ -237,8 +238,9 @@ void board_bar_run(struct board_bar *bar)
 		ladder_board_view_set_map(board_view(bar), ladder_side_file_path(file));
 	map = ladder_board_view_map(board_view(bar));
 	if (!map) {
-		messages_banner(bar->core->messages, NULL, _("There is no I/O map beside the "
-			"program: which pin each input and output is."),
+		messages_banner(bar->core->messages, NULL, _("The program has no I/O map. "
+							     "Create one to say which pin "
+							     "each input and output uses."),
 			_("New I/O map…"), "win.new_iomap");
 		return;
 	}
@@ -272,8 +274,8 @@ bool board_bar_may_close(struct board_bar *bar)
 
 	if (ladder_board_run_state(bar->core->board) == BOARD_OFF)
 		return true;
-	dialog = ask_new(bar->core->window, _("Stop what runs on this machine?"),
-			 _("The program drives pins. When it is stopped they have their safe "
+	dialog = ask_new(bar->core->window, _("Stop the program on this machine?"),
+			 _("The program drives pins. When it stops, they take their safe "
 			   "values."), "stop", _("Stop and close"), ADW_RESPONSE_DESTRUCTIVE);
 	core_connect(bar->core, dialog, "response", G_CALLBACK(stop_answered), bar, 0);
 	gtk_window_present(GTK_WINDOW(dialog));
@@ -324,7 +326,7 @@ static void board_ended(struct board_bar *bar, int status)
 	g_free(text);
 	if (status != 0 && !bar->ran) {
 		below_show(bar->core->below, "board");
-		warn_board(bar, _("It was not run: ladderd says why, below."));
+		warn_board(bar, _("Could not start. See the messages below."));
 	}
 	if (bar->close_when_off)
 		gtk_window_close(bar->core->window);

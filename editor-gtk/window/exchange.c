@@ -51,9 +51,11 @@ static void follow(struct exchange *exchange)
 
 void exchange_show(struct exchange *exchange)
 {
-	if (!below_made(exchange->core->below, "report") || !ladder_report_view_has(view_of(exchange))) {
-		messages_tell(exchange->core->messages, _("Nothing was taken from ClassicLadder or "
-					     "written for it."));
+	if (!below_made(exchange->core->below, "report") ||
+	    !ladder_report_view_has(view_of(exchange))) {
+		messages_tell(exchange->core->messages, _("There is no report: nothing was "
+							  "imported from ClassicLadder or "
+							  "exported for it."));
 		return;
 	}
 	show_panel(exchange);
@@ -74,8 +76,8 @@ void exchange_show_original(struct exchange *exchange)
 	LadderGridView *sheet = front_sheet(exchange->core->front);
 
 	if (!exchange->origin->classic) {
-		messages_tell(exchange->core->messages, _("Nothing of this project was taken from "
-					     "ClassicLadder."));
+		messages_tell(exchange->core->messages, _("This project was not imported "
+							  "from ClassicLadder."));
 		return;
 	}
 	ladder_report_view_import(view_of(exchange), exchange->origin->classic);
@@ -99,8 +101,9 @@ void exchange_imported(struct exchange *exchange)
 {
 	ladder_report_view_import(view_of(exchange), exchange->origin->classic);
 	below_offer(exchange->core->below, "report", true);
-	messages_banner(exchange->core->messages, NULL, ladder_report_view_title(view_of(exchange)),
-			_("Show report"), "win.show_report");
+	messages_banner(exchange->core->messages, NULL,
+			ladder_report_view_title(view_of(exchange)), _("Show report"),
+			"win.show_report");
 }
 
 /* ---- writing one ---- */
@@ -121,11 +124,11 @@ static void tell_written(struct exchange *exchange, const char *path, guint chan
 {
 	char *name = g_path_get_basename(path);
 	char *text = changed ?
-		g_strdup_printf(ngettext("%s was written for ClassicLadder; %u thing means "
-					 "something else there.",
-					 "%s was written for ClassicLadder; %u things mean "
-					 "something else there.", changed), name, changed) :
-		g_strdup_printf(_("%s was written for ClassicLadder."), name);
+		g_strdup_printf(ngettext("Exported %s for ClassicLadder; %u item has another "
+					 "meaning there.",
+					 "Exported %s for ClassicLadder; %u items have "
+					 "another meaning there.", changed), name, changed) :
+		g_strdup_printf(_("Exported %s for ClassicLadder."), name);
 
 	if (changed)
 		messages_banner(exchange->core->messages, NULL, text, _("Show report"),

@@ -45,7 +45,7 @@ static void replace_answered(AdwMessageDialog *dialog, const char *answer,
 static void ask_replace(struct core *core, struct named *named)
 {
 	char *name = g_path_get_basename(named->path);
-	char *body = g_strdup_printf(_("“%s” exists already."), name);
+	char *body = g_strdup_printf(_("“%s” already exists."), name);
 	AdwMessageDialog *dialog = ask_new(core->window, _("Replace the file?"), body,
 		"replace", _("Replace"), ADW_RESPONSE_DESTRUCTIVE);
 
@@ -153,8 +153,8 @@ static void symbols_to(gpointer part, const char *path)
 
 	if (disk_save(path, table, strlen(table), &error)) {
 		messages_close_offer(messages, "win.export_symbols");
-		told = g_strdup_printf(ngettext("%d symbol is in %s now",
-			"%d symbols are in %s now", (gulong)count), count, path);
+		told = g_strdup_printf(ngettext("Exported %d symbol to %s",
+			"Exported %d symbols to %s", (gulong)count), count, path);
 		messages_toast(messages, told);
 		g_free(told);
 	} else {

@@ -76,8 +76,8 @@ static void tell_refused(struct files *files, const GPtrArray *refused)
 	for (guint i = 0; i < refused->len; i++)
 		g_string_append_printf(names, "%s%s", i ? ", " : "",
 				       (const char *)refused->pdata[i]);
-	text = g_strdup_printf(_("Not opened: %s. Rung files, scenarios, I/O maps and projects "
-				 "of ClassicLadder can be dropped here."), names->str);
+	text = g_strdup_printf(_("Cannot open %s. You can drop rung files, scenarios, I/O "
+				 "maps and ClassicLadder projects here."), names->str);
 	messages_warn(files->core->messages, text);
 	gtk_window_present(files->core->window); /* before those that opened */
 	g_free(text);
@@ -158,8 +158,8 @@ static bool is_locked(struct files *files)
 
 static void ask_locked(struct files *files)
 {
-	warn(files, _("The file is read-only. Saving would write over it; saved as another file "
-		      "it stays as it is."), _("Save all the same"), "win.save-locked");
+	warn(files, _("The file is read-only. Save as another file, or overwrite this one."),
+	     _("Save anyway"), "win.save-locked");
 }
 
 void files_save_over(struct files *files, bool locked)
@@ -251,8 +251,9 @@ void files_save_as(struct files *files)
 
 static void tell_bytes(struct files *files, const char *button, const char *action)
 {
-	char *text = g_strdup_printf(_("From line %d on the file holds bytes that are no text "
-		"(UTF-8); they are shown as �. Saving would write over them."),
+	char *text = g_strdup_printf(_("From line %d on, the file contains bytes that are "
+				       "not UTF-8 text; they are shown as �. Saving would "
+				       "overwrite them."),
 		ladder_document_repaired(files->core->document));
 
 	warn(files, text, button, action);
@@ -265,7 +266,8 @@ void files_tell(struct files *files)
 	if (ladder_document_repaired(files->core->document) > 0)
 		tell_bytes(files, _("Save as…"), "win.save_as");
 	else if (is_locked(files))
-		warn(files, _("The file is read-only: saving asks before it writes over it."),
+		warn(files, _("The file is read-only. Saving asks before it overwrites the "
+			      "file."),
 		     _("Save as…"), "win.save_as");
 }
 
@@ -273,10 +275,11 @@ void files_tell(struct files *files)
 static bool save_here(struct files *files)
 {
 	if (ladder_document_disk(files->core->document) == DISK_OTHER)
-		warn(files, _("Somebody else changed the file since it was opened. Saving would "
-			      "write over that."), _("Save all the same"), "win.save-over");
+		warn(files, _("Another program changed the file after it was opened. Saving "
+			      "would overwrite those changes."), _("Save anyway"),
+		     "win.save-over");
 	else if (ladder_document_repaired(files->core->document) > 0)
-		tell_bytes(files, _("Save all the same"), "win.save-over");
+		tell_bytes(files, _("Save anyway"), "win.save-over");
 	else if (is_locked(files))
 		ask_locked(files);
 	else
@@ -425,13 +428,14 @@ void files_reload(struct files *files)
 static void tell_disk(struct files *files, enum disk_state state)
 {
 	if (state == DISK_GONE)
-		warn(files, _("The file is gone. What you see here is all there is of it."),
+		warn(files, _("The file was deleted or moved. Save it to keep what you see "
+			      "here."),
 		     _("Save"), "win.save-over");
 	else if (state == DISK_OTHER)
 		warn(files, ladder_document_is_saved(files->core->document) ?
-			_("The file was changed by somebody else.") :
-			_("The file was changed by somebody else. Reading it again "
-			  "would lose what you did since."), _("Read it again"), "win.reload");
+			_("Another program changed the file.") :
+			_("Another program changed the file. Reloading it would discard your "
+			  "changes."), _("Reload"), "win.reload");
 	else if (files->disk_told == DISK_GONE)
 		messages_close_banner(files->core->messages); /* it is there again */
 }

@@ -51,7 +51,8 @@ static void give_keys(struct finder *finder)
 {
 	const struct find_hit *hit = hit_of(finder);
 	LadderSfcView *chart = front_chart(finder->core->front);
-	LadderGridView *sheet = chart && (!hit || hit->rung < 0) ? NULL : front_rungs(finder->core->front);
+	LadderGridView *sheet = chart && (!hit || hit->rung < 0) ? NULL :
+				front_rungs(finder->core->front);
 	AdwTabPage *page = front_tab(finder->core->front);
 
 	if (sheet || chart)

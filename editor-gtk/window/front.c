@@ -217,8 +217,8 @@ static void say_which(struct front *front, const struct sim_edited *edit)
 {
 	GDateTime *when = g_date_time_new_from_unix_local(edit->us / G_USEC_PER_SEC);
 	char *clock = g_date_time_format(when, "%H:%M:%S");
-	char *text = g_strdup_printf(_("Before the edit of %s, after scan %llu: the program "
-				       "as it was then, to be looked at"), clock,
+	char *text = g_strdup_printf(_("The program before the edit at %s, after scan %llu "
+				       "(read-only)"), clock,
 				     (unsigned long long)edit->scan);
 
 	gtk_label_set_text(front->label, text);

@@ -147,7 +147,7 @@ static const char *lost(const struct xref *xref, int here)
 	if (use->kind == XREF_JUMPED)
 		return _("No rung has this label.");
 	return is_named_place(use) ? _("It is declared in another file") :
-	       _("Nothing in the program drives it.");
+	       _("Nothing in the program drives this name.");
 }
 
 /* The next one that drives it, round and round. */
@@ -335,7 +335,7 @@ static char *refusal(LadderDocument *document, const struct named *named, const 
 	if (strcmp(name, named->name) == 0)
 		return NULL;
 	if (!*name)
-		return g_strdup(_("A name is needed"));
+		return g_strdup(_("Enter a name"));
 	text = ladder_rename(ladder_document_ladder(document), &named->target, name, &len,
 			     &how);
 	why = text ? NULL : rename_reason(document, &how, name);
@@ -370,7 +370,7 @@ static void show_chosen(struct renaming *renaming)
 	const struct named *named = chosen_of(renaming);
 
 	adw_message_dialog_format_body(renaming->dialog,
-		ngettext("%s stands in %d place.", "%s stands in %d places.",
+		ngettext("“%s” is used in %d place.", "“%s” is used in %d places.",
 			 (unsigned long)named->uses), named->name, named->uses);
 	gtk_editable_set_text(GTK_EDITABLE(renaming->line), named->name);
 }
@@ -544,8 +544,8 @@ void names_rename(struct core *core)
 		if (choice->len) {
 			ask_name(core, choice);
 		} else {
-			messages_tell(core->messages, _("Only a declared name can be "
-				"changed; this one has no declaration."));
+			messages_tell(core->messages, _("Only declared names can be renamed; "
+							"this name has no declaration."));
 			g_array_unref(choice);
 		}
 	}

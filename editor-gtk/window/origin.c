@@ -174,16 +174,16 @@ static void tell(const struct taking *taking)
 	char *text;
 
 	if (taking->taken->len) {
-		text = g_strdup_printf(_("Saved, and what belongs to the sample beside it: "
-					 "%s"), taking->taken->str);
+		text = g_strdup_printf(_("Saved, together with the files of the sample: %s"),
+				       taking->taken->str);
 		messages_log(taking->origin->core->messages, _("system"), text);
 		messages_tell(taking->origin->core->messages, text);
 		ladder_project_tree_look(taking->origin->core->tree);
 		g_free(text);
 	}
 	if (taking->left->len) {
-		text = g_strdup_printf(_("Not copied from the sample, because files of that "
-					 "name were there already: %s"), taking->left->str);
+		text = g_strdup_printf(_("These files of the sample were not copied because "
+					 "they already exist: %s"), taking->left->str);
 		messages_warn(taking->origin->core->messages, text);
 		g_free(text);
 	}
@@ -217,7 +217,7 @@ static void classic_saved(struct origin *origin)
 
 	if (io && !g_file_test(path, G_FILE_TEST_EXISTS)) {
 		char *name = g_path_get_basename(path);
-		char *text = g_strdup_printf(_("Saved, and the I/O map beside it: %s"), name);
+		char *text = g_strdup_printf(_("Saved, together with its I/O map: %s"), name);
 
 		if (disk_save(path, io, strlen(io), &error))
 			messages_toast(origin->core->messages, text);

@@ -99,7 +99,7 @@ static GtkWidget *checks_new(struct asking *asking)
 static void ask_which(GtkWidget *widget, LadderDocument *document, struct ladder *from)
 {
 	AdwMessageDialog *dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(widget)), _("Import"),
-		_("What they use comes along: symbols, structures, blocks."), "import",
+		_("The symbols, structures and blocks that they use are imported too."), "import",
 		_("Import"), ADW_RESPONSE_DEFAULT);
 	struct asking *asking = g_new0(struct asking, 1);
 
@@ -125,7 +125,7 @@ static void ask_of(GtkWidget *widget, LadderDocument *document, const char *path
 	}
 	ladder_free(from);
 	gtk_widget_activate_action(widget, "win.warn", "s",
-		_("That file cannot be read as a project: open it to see why."));
+		_("Cannot read the file as a project. Open it to see why."));
 }
 
 static void file_chosen(GtkNativeDialog *dialog, int response, LadderDocument *document)

@@ -82,7 +82,7 @@ static void add_looks(AdwPreferencesPage *page)
 
 	add_choice(group, "appearance", _("Light or dark"), NULL, appearance);
 	add_choice(group, "power", _("Colour of power"),
-		   _("It is drawn thicker, too: colour alone tells nothing"), power);
+		   _("Power is also drawn thicker, so colour is not needed to see it"), power);
 	add_choice(group, "show", _("Above an element"), NULL, show);
 }
 
@@ -92,8 +92,8 @@ static void add_keys(AdwPreferencesPage *page)
 
 	for (int i = 0; i < KEY_SCHEMES; i++)
 		names[i] = key_scheme_name((enum key_scheme)i);
-	add_choice(add_group(page, _("Keys")), "keys", _("Keys as in"),
-		   _("For people who come from another editor"), names);
+	add_choice(add_group(page, _("Keys")), "keys", _("Key scheme"),
+		   _("Rungboard's own keys, or those of another editor"), names);
 }
 
 void preferences_show(GtkWindow *window)

@@ -39,8 +39,9 @@ static void run_all(struct scenarios *scenarios)
 {
 	const char *path = ladder_document_path(scenarios->core->document);
 
-	ladder_scenario_view_run(LADDER_SCENARIO_VIEW(below_show(scenarios->core->below, "scenarios")),
-				 path ? path : origin_sample(scenarios->origin), typed_text,
+	below_show(scenarios->core->below, "scenarios");
+	ladder_scenario_view_run(view_of(scenarios), path ? path :
+				 origin_sample(scenarios->origin), typed_text,
 				 scenarios->core->tabs);
 }
 
@@ -68,8 +69,8 @@ static void play(struct scenarios *scenarios, const struct scenario_result *resu
 
 	if (ladder_scenario_view_version(view_of(scenarios)) !=
 	    ladder_document_version(scenarios->core->document)) {
-		messages_tell(scenarios->core->messages, _("The program was changed since: run the "
-					     "scenarios again."));
+		messages_tell(scenarios->core->messages, _("The program has changed. Run the "
+							   "scenarios again."));
 		return;
 	}
 	if (g_strcmp0(ladder_sim_plant(scenarios->core->sim), result->plant) != 0 &&
@@ -281,7 +282,7 @@ static void ended(LadderRecorder *recorder, const char *why, struct scenarios *s
 		outputs = ladder_recorder_expect_outputs(recorder);
 	if (ladder_recorder_expects(recorder) == 0) {
 		g_string_append_printf(body, "%s%s", body->len ? "\n" : "",
-			_("Nothing is expected, so there is nothing to save."));
+			_("The recording expects no value, so there is nothing to save."));
 		messages_tell(scenarios->core->messages, body->str);
 		g_string_free(body, TRUE);
 		return;
@@ -294,8 +295,8 @@ static void ended(LadderRecorder *recorder, const char *why, struct scenarios *s
 		ladder_recorder_expects(recorder));
 	if (outputs)
 		g_string_append_printf(body, "\n%s",
-			_("You expected nothing yourself: all outputs are expected as they "
-			  "were at the end."));
+			_("You expected no value, so all outputs are expected as they were "
+			  "at the end."));
 	ask(scenarios, body->str);
 	g_string_free(body, TRUE);
 }
@@ -309,8 +310,9 @@ static void toggle(struct scenarios *scenarios)
 		return;
 	}
 	if (!ladder_document_path(scenarios->core->document)) {
-		messages_tell(scenarios->core->messages, _("Save the project first: scenarios lie beside "
-					     "it."));
+		messages_tell(scenarios->core->messages, _("Save the project first: its "
+							   "scenarios are saved in the same "
+							   "folder."));
 		return;
 	}
 	if (!ladder_recorder_begin(scenarios->recorder, &error)) {
@@ -319,8 +321,9 @@ static void toggle(struct scenarios *scenarios)
 		return;
 	}
 	sim_bar_show_panel(scenarios->sim_bar);
-	messages_tell(scenarios->core->messages, _("Recording, from a cold start. What you set is noted; "
-				     "what must come of it, you say."));
+	messages_tell(scenarios->core->messages, _("Recording from a cold start. The values "
+						   "that you set are recorded; mark the "
+						   "results with “Expect this value”."));
 }
 
 void scenarios_expect(struct scenarios *scenarios, const char *name)

@@ -196,7 +196,7 @@ static void step_shown(struct sim_bar *bar, int by)
 	if (by > 0 && twin->scan >= ladder_sim_last(bar->core->sim))
 		ladder_sim_show_now(bar->core->sim);
 	else if (!ladder_sim_show(bar->core->sim, by > 0 ? twin->scan + 1 : twin->scan - 1))
-		messages_tell(bar->core->messages, _("no scan before this one was kept"));
+		messages_tell(bar->core->messages, _("No earlier scan was kept"));
 }
 
 static void plant_chosen(GtkNativeDialog *dialog, int response, struct sim_bar *bar)

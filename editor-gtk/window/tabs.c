@@ -129,7 +129,8 @@ static int place_of(struct tabs *tabs, const struct project *project, int pou)
 
 	while (at > 0) {
 		const char *name = page_name(nth(tabs, at - 1));
-		const int number = name[0] == ' ' ? -1 : project_find_pou(project, name, strlen(name));
+		const int number = name[0] == ' ' ? -1 :
+				   project_find_pou(project, name, strlen(name));
 
 		if (number >= 0 && number < pou)
 			break;
@@ -434,7 +435,7 @@ void tabs_step(struct tabs *tabs, bool redo)
 	g_signal_handler_disconnect(document, list);
 	if (done) {
 		show(tabs, &changed);
-		text = g_strdup_printf(redo ? _("Done again: %s") : _("Undone: %s"), name);
+		text = g_strdup_printf(redo ? _("Redone: %s") : _("Undone: %s"), name);
 		messages_tell(tabs->core->messages, text);
 		g_free(text);
 	}

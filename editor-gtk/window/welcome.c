@@ -138,9 +138,9 @@ GtkWidget *welcome_new(void)
 	GtkWidget *page = adw_preferences_page_new();
 	GtkWidget *begin = add_group(page, _("Begin"));
 
-	add_row(begin, _("New project"), _("An empty sheet: type a name, and it is a contact"),
+	add_row(begin, _("New project"), _("An empty sheet. Type a name to make a contact."),
 		"win.begin", NULL);
-	add_row(begin, _("Open a file…"), _("Rung files; a damaged one opens as text"),
+	add_row(begin, _("Open a file…"), _("Rung files. A damaged file opens as text."),
 		"win.open", NULL);
 	add_recent(page);
 	add_samples(page);

@@ -100,8 +100,8 @@ void ladder_window_warn(LadderWindow *window, const char *text)
 
 void ladder_window_offer_restored(LadderWindow *window)
 {
-	messages_banner(&window->messages, NULL, _("This was not saved when the editor ended. "
-		"It is as you left it."), _("Save"), "win.save");
+	messages_banner(&window->messages, NULL, _("The editor ended before this was saved. "
+			"Your changes are restored."), _("Save"), "win.save");
 }
 
 void ladder_window_opened(LadderWindow *window)
@@ -314,7 +314,8 @@ static void do_on_sheet(LadderWindow *window, LadderGridView *sheet, enum verb v
 	const bool begun = ladder_grid_view_has_begun(sheet);
 
 	ladder_grid_view_do(sheet, verb);
-	if (verb == VERB_cancel && !begun && ladder_document_version(window->core.document) == version)
+	if (verb == VERB_cancel && !begun &&
+	    ladder_document_version(window->core.document) == version)
 		finder_close(&window->finder);
 }
 
@@ -325,8 +326,8 @@ static void do_on_chart(LadderWindow *window, enum verb verb)
 	if (chart)
 		ladder_sfc_view_do(chart, verb);
 	else if (verb == VERB_copy_picture)
-		messages_tell(&window->messages, _("Rungs are copied as pictures: open a sheet "
-						   "first."));
+		messages_tell(&window->messages, _("Only rungs can be copied as pictures. "
+						   "Open a sheet first."));
 }
 
 static bool do_in_file(LadderWindow *window, enum verb verb)
@@ -409,8 +410,8 @@ static void do_in_window(LadderWindow *window, enum verb verb)
 		if (sheet)
 			do_on_sheet(window, sheet, verb);
 		else
-			messages_tell(&window->messages, _("Only rungs have bookmarks: open a "
-							   "sheet first."));
+			messages_tell(&window->messages, _("Only rungs have bookmarks. Open "
+							   "a sheet first."));
 		break;
 	default:
 		if (!do_in_file(window, verb) && !do_project(window, verb) &&
@@ -522,7 +523,8 @@ static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 	if (sheet)
 		ladder_grid_view_put(sheet, (enum word)g_variant_get_int32(word));
 	else
-		messages_tell(&window->messages, _("Elements go into rungs: open a sheet first."));
+		messages_tell(&window->messages, _("Elements are placed in rungs. Open a "
+						   "sheet first."));
 }
 
 static void tell(GtkWidget *widget, const char *name, GVariant *text)

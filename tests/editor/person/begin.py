@@ -72,7 +72,7 @@ def belongings(screen):
             editor.shot('begin-belongings')
         proposes(editor)
         editor.give_path(path, 'ctrl+s')
-        told = 'Saved, and what belongs to the sample beside it: '
+        told = 'Saved, together with the files of the sample: '
         editor.find(told + ('mine.plant.rung' if there else 'mine.plant.rung, mine.scn'), 'label')
         assert sorted(os.listdir(os.path.dirname(path))) == sorted(names)
         assert read(plant) == read(os.path.join(ROOT, 'ladders', 'conveyor.plant.rung'))
@@ -114,7 +114,7 @@ def killed(screen):
     editor.find(' passed', 'label')
     proposes(editor)
     editor.give_path(path, 'ctrl+s')
-    editor.find('Saved, and what belongs to the sample beside it: mine.plant.rung, mine.scn', 'label')
+    editor.find('Saved, together with the files of the sample: mine.plant.rung, mine.scn', 'label')
     assert '%QX7.7' in open(path).read()
 
 
@@ -232,7 +232,7 @@ def searched(screen):
     editor.focus_on('Find an element')
     editor.type('TON')
     editor.keys('Return')
-    editor.says('Elements go into rungs: open a sheet first.')
+    editor.says('Elements are placed in rungs. Open a sheet first.')
 
 
 def folded(screen):
@@ -277,7 +277,7 @@ def tables(screen):
             assert read(table) == 'precious'
             editor.answer(answer)
         if answer != 'Cancel':
-            editor.find('2 symbols are in %s now' % table)
+            editor.find('Exported 2 symbols to %s' % table)
             text = read(table)
             assert 'Start,BOOL,%IX0.0' in text and 'the green one' in text, text
         with open(table, 'w') as file:

@@ -128,7 +128,7 @@ def over_an_edit(screen):
     at = lambda scan: (x + NAMES + (width - NAMES) * scan * 10 // 200 + 3, y + 20)
     editor.drag(at(18), at(7), look='chart-older')
     editor.says('PAST · scan 7')
-    editor.says('Before the edit of ')
+    editor.says('The program before the edit at ')
     editor.element('NO', 'Start', 'closed')
     editor.element('COIL', ', on')
     # What was cannot be changed, and not be acted upon.
@@ -146,10 +146,10 @@ def over_an_edit(screen):
     # Behind the edit the sheet is the document's again.
     editor.keys(*['alt+Right'] * 5)
     editor.says('PAST · scan 16')
-    until(lambda: not editor.all('Before the edit of '), 'the bar to go')
+    until(lambda: not editor.all('The program before the edit at '), 'the bar to go')
     assert not [node for node in editor.all('NO', 'table cell') if 'Start' in node.name]
     editor.keys(*['alt+Left'] * 2)
-    editor.says('Before the edit of ')
+    editor.says('The program before the edit at ')
     editor.find('Show the newest scan', 'push button').press()
     editor.says('SIMULATION · PAUSE')
     editor.keys('ctrl+z')

@@ -77,7 +77,7 @@ def keyboard(screen):
     editor.keys('Return')
     editor.find('Original of the rung: rung_1.csv')
     editor.keys('Insert')
-    editor.find('Nothing of ClassicLadder became this rung')
+    editor.find('This rung does not come from ClassicLadder')
     editor.keys('Escape', 'ctrl+z', 'ctrl+Home')
     editor.find('Original of the rung: Estop chain')
     editor.command('report of import')
@@ -134,7 +134,7 @@ def written(screen):
         path = os.path.join(screen.home, name)
         editor.give_path(path, 'ctrl+shift+s')
         until(lambda: os.path.exists(path), name)
-        editor.says(name + ' was written for ClassicLadder')
+        editor.says('Exported %s for ClassicLadder' % name)
         assert '%Q0=1' in trace(path), trace(path)
     assert gzip.decompress(read(path + 'rjz', 'rb')) == read(os.path.join(screen.home, 'a.clprj'), 'rb')
     assert editor.all('• new') and read(os.path.join(screen.home, 'new.rung')) == SIMPLE
@@ -155,7 +155,7 @@ def saved(screen):
     assert read(os.path.join(screen.home, 'same.io')) == read(path[:-4] + 'io')
     assert read(os.path.join(screen.home, 'members.clprj'), 'rb') == before
     editor.give_path(os.path.join(screen.home, 'back.clprj'), 'ctrl+shift+s')
-    editor.says('back.clprj was written for ClassicLadder; 1 thing')
+    editor.says('Exported back.clprj for ClassicLadder; 1 item')
 
 
 def exported(screen):
@@ -219,7 +219,7 @@ def dropped(screen):
     until(lambda: len(editor.windows()) == before + 2, 'the windows')
     for name in *names, 'new', 'new.scn':
         editor.says(name)
-    editor.says('Not opened: letter.odt')
+    editor.says('Cannot open letter.odt')
     until(lambda: any('GUI_E' in name for name in editor.cells()), 'the sheet of the first one')
     editor.shot('classic-dropped')
 

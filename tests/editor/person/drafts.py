@@ -28,7 +28,7 @@ def after_a_kill(screen):
     editor.kill()
     assert open(path).read() == saved, 'the file itself was touched'
     again = Editor(screen)
-    again.says('This was not saved when the editor ended')
+    again.says('The editor ended before this was saved')
     until(lambda: len(again.cells()) == 3, 'the three elements')
     again.shot('drafts-restored')
     again.to_sheet()
@@ -53,14 +53,14 @@ def changed_meanwhile(screen):
     with open(path, 'w') as file:
         file.write(other)
     again = Editor(screen, path)
-    again.says('This was not saved when the editor ended')
+    again.says('The editor ended before this was saved')
     until(lambda: len(again.cells()) == 3, 'the three elements')
     assert len(again.windows()) == 1
     again.to_sheet()
     again.keys('ctrl+s')
-    again.says('Saving would write over that')
+    again.says('Saving would overwrite those changes')
     assert open(path).read() == other
-    again.click(again.find('Save all the same', 'push button'))
+    again.click(again.find('Save anyway', 'push button'))
     until(lambda: open(path).read() != other, 'the file to be written')
     check(path)
     assert lines(path, '@print Motor\nStart=0\nStart=1\nStart=0\n') == ['Motor=0', 'Motor=1', 'Motor=1']
@@ -90,7 +90,7 @@ def beside_a_project(screen):
     with open(path, 'w') as file:
         file.write('# theirs')
     again = Editor(screen)
-    again.says('This was not saved when the editor ended')
+    again.says('The editor ended before this was saved')
     again.says('• new.scn')
     again.shot('drafts-scenario')
     assert again.find('new.scn', 'text').text() == SCENARIO + '# mine' and len(again.windows()) == 1
@@ -168,7 +168,7 @@ def of_another_version(screen):
     with open(os.path.join(folder, '1-2.draft'), 'wb') as file:
         file.write(b'RUNGBOARD-DRAFT 2\n' + ONE_RUNG.encode() + b'\0\xff mine')
     editor = Editor(screen)
-    editor.says('This was not saved when the editor ended')
+    editor.says('The editor ended before this was saved')
     text = until(lambda: [view for view in editor.all('', 'text') if 'RUNGBOARD-DRAFT' in view.text()], 'the text')
     assert ONE_RUNG in text[0].text() and text[0].text().endswith('mine')
     editor.says('1 error')
@@ -207,7 +207,7 @@ def at_the_end_of_a_session(screen):
     editor.finish()
     assert len(drafts(screen)) == 1
     again = Editor(screen)
-    again.says('This was not saved when the editor ended')
+    again.says('The editor ended before this was saved')
     until(lambda: len(again.cells()) == 1, 'the contact')
 
 

@@ -82,7 +82,7 @@ def no_text(screen):
     editor.find('Save as…', 'push button')
     editor.to_sheet()
     editor.keys('slash', 'ctrl+s')
-    editor.find('Save all the same', 'push button')
+    editor.find('Save anyway', 'push button')
     editor.shot('files-no-text')
     with open(path, 'rb') as file:
         assert file.read() == old
@@ -91,7 +91,7 @@ def no_text(screen):
     until(lambda: os.path.exists(other) and 'NC Start' in read(other), 'the other file')
     with open(path, 'rb') as file:
         assert file.read() == old
-    until(lambda: not editor.all('Save all the same'), 'the banner to be gone')
+    until(lambda: not editor.all('Save anyway'), 'the banner to be gone')
     editor.to_sheet()
     editor.keys('slash')
     assert 'NO Start' in editor.save(other)
@@ -99,7 +99,7 @@ def no_text(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('slash', 'ctrl+s')
-    editor.click(editor.find('Save all the same', 'push button'))
+    editor.click(editor.find('Save anyway', 'push button'))
     until(lambda: b'NC Start' in open(path, 'rb').read(), 'the file to be saved')
     check(path)
 
@@ -286,12 +286,12 @@ def closing(screen):
     editor.find('•')
     theirs = ONE_RUNG.replace('Start', 'Begin')
     write(path, theirs)
-    editor.says('changed by somebody else')
+    editor.says('Another program changed the file')
     editor.keys('ctrl+w')
     editor.answer('Save')
-    editor.says('Saving would write over that')
+    editor.says('Saving would overwrite those changes')
     assert read(path) == theirs
-    editor.click(editor.find('Save all the same', 'push button'))
+    editor.click(editor.find('Save anyway', 'push button'))
     until(lambda: 'NC Start' in read(path), 'it to be saved all the same')
     check(path)
     assert lines(path, '@print Motor\nStart=0\nStart=1\n') == ['Motor=1', 'Motor=0']

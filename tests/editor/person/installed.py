@@ -59,7 +59,7 @@ def moved(screen):
     for name in [name for name in os.environ if name.startswith('RUNGBOARD_')]:
         del os.environ[name]
     editor = Chinese(screen, XDG_DATA_DIRS=share + ':/usr/share', GSETTINGS_SCHEMA_DIR='')
-    editor.says('An empty sheet: type a name, and it is a contact')
+    editor.says('An empty sheet. Type a name to make a contact.')
     editor.shot('installed-welcome')
     editor.click(until(lambda: [node for node in editor.all(role='label') if node.name == 'dosing.rung'], 'the sample')[0])
     until(lambda: editor.all(role='table cell'), 'its first rung')

@@ -202,7 +202,7 @@ def as_text(screen):
     open_map(editor)
     until(lambda: not editor.all(' · column', 'label'), 'no place in a table')
     editor.keys('ctrl+g')
-    editor.says('Neither rungs nor lines stand here.')
+    editor.says('There are no rungs or lines to go to')
     editor.click(editor.find('Text', 'page tab'))
     editor.says('Line 5: ')
     place = editor.find(' · column', 'label').name
@@ -351,7 +351,7 @@ def no_longer(screen):
     for make in lambda: editor.command('New I/O map'), None:
         editor.to_sheet()
         editor.command('Run on this machine')
-        editor.says('There is no I/O map beside the program')
+        editor.says('The program has no I/O map')
         if make:
             editor.brought(make, 'New I/O map')
             editor.keys('Return')
@@ -359,7 +359,7 @@ def no_longer(screen):
         else:
             with open(io, 'w') as file:
                 file.write(SIM)
-        until(lambda: not editor.all('There is no I/O map beside the program', 'label'), 'the bar to be gone')
+        until(lambda: not editor.all('The program has no I/O map', 'label'), 'the bar to be gone')
         if make:
             editor.keys('ctrl+shift+w')
             until(lambda: not editor.all('%IX0.0, Driver'), 'the page to be gone')
@@ -368,26 +368,26 @@ def no_longer(screen):
     editor.to_sheet()
     editor.command('Run on this machine')
     editor.says('RUN')
-    assert not editor.all('There is no I/O map beside the program', 'label')
+    assert not editor.all('The program has no I/O map', 'label')
 
 
 def close_board(screen):
     """closing the window asks, stops it first; a map that is wrong is refused with the reason"""
     editor, io = running(screen, SIM + '%QX0.9  sim\n')
-    editor.says('It was not run: ladderd says why, below.')
+    editor.says('Could not start. See the messages below.')
     until(lambda: 'LD502' in editor.find('What ladderd says', 'text').text(), 'the reason')
     editor.shot('board-refused')
-    for line in 'LD502', 'ladderd ended with status', 'It was not run: ladderd says why':
+    for line in 'LD502', 'ladderd ended with status', 'Could not start.':
         editor.logs('communication', line)
     editor.tab('Board')
     with open(io, 'w') as file:
         file.write(SIM)
     editor.click(editor.find('Run…', 'push button'))
     until(lambda: editor.all('RUN', 'label'), 'that it runs')
-    until(lambda: not editor.all('It was not run'), 'the bar to be gone')
+    until(lambda: not editor.all('Could not start'), 'the bar to be gone')
     pid = child(editor)
     editor.keys('ctrl+w')
-    editor.find('Stop what runs on this machine?')
+    editor.find('Stop the program on this machine?')
     editor.find('Cancel', 'push button').press()
     until(lambda: not editor.all('Stop and close'), 'the question to be gone')
     assert not is_gone(pid)

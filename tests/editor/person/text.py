@@ -182,7 +182,7 @@ def names(screen):
     second = until(lambda: [node for node in editor.all('Text of the program') if 'QX0.1' in node.text()], 'the second list')[0]
     editor.click(second)
     editor.keys('ctrl+Home', 'Down', 'Down', 'End', 'F2')
-    editor.says('Only a declared name can be changed')
+    editor.says('Only declared names can be renamed')
 
 
 def at_once(screen):
@@ -221,7 +221,7 @@ def no_bookmark(screen):
     editor, path, view = in_the_text(screen, TWO)
     before = view.text()
     editor.keys('ctrl+b')
-    until(lambda: editor.all('Only rungs have bookmarks: open a sheet first.', 'label'),
+    until(lambda: editor.all('Only rungs have bookmarks. Open a sheet first.', 'label'),
           'why not')
     editor.shot('text-no-bookmark')
     assert view.text() == before and 'VIEW' not in open(path).read()

@@ -108,7 +108,7 @@ def steps(screen):
     editor.says('Rung 1 ')
     editor.element('Rung 1, NO', '%IX0.0')
     editor.keys('ctrl+End', 'ctrl+y')
-    editor.says('Done again: Negate')
+    editor.says('Redone: Negate')
     editor.element('Rung 1, NC', '%IX0.0')
     editor.keys('ctrl+Page_Down')
     editor.element('Rung 1, NO', '%IX0.2')
@@ -327,7 +327,7 @@ def nothing_open(screen):
         """Their titles stand right of the tree, above what they hold."""
         return len([node for node in editor.all(role='label') if node.name in ('Main', 'Other', 'Symbols') and
                     node.box()[0] > 230 and node.box()[1] < 100])
-    said = 'Nothing is open. A double click in the tree opens a program.'
+    said = 'Nothing is open. Double-click a program in the tree to open it.'
     for left in 2, 1, 0:  # Main, Other, Symbols
         assert not editor.all(said, 'label'), '%d more are open' % (left + 1)
         editor.keys('ctrl+shift+w')

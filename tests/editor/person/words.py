@@ -192,14 +192,14 @@ def other_keys(screen):
     editor = Editor(screen, path)
     editor.keys('ctrl+comma')
     editor.focus_on('Light or dark')
-    for row in 'Colour of power', 'Above an element', 'Keys as in':
+    for row in 'Colour of power', 'Above an element', 'Key scheme':
         editor.keys('Tab')
         editor.focus_on(row)
     editor.keys('Return')
     editor.choose('LDmicro')
     editor.shot('preferences')
     # The first Escape may be the list's, if that is still on its way out.
-    until(lambda: editor.keys('Escape') or not editor.all('Keys as in'), 'the preferences to be gone')
+    until(lambda: editor.keys('Escape') or not editor.all('Key scheme'), 'the preferences to be gone')
     editor.to_sheet()
     editor.keys('c')
     editor.opened()

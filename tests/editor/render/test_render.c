@@ -389,7 +389,7 @@ static void check_original(void)
 	CHECK(has("both.svg", ">%TM0<") && has("both.svg", ">TM0<"));
 	CHECK(has("both.svg", ">Estop chain<") && has("both.svg", ">Here: Power, rung 1<"));
 	CHECK(render(SHAPES " --original -o OUT/none.svg") == 2);
-	CHECK(strstr(said, "nothing of it comes from ClassicLadder"));
+	CHECK(strstr(said, "does not come from ClassicLadder"));
 	CHECK(render(CLASSIC " --original -o OUT/a.pdf") == 2);
 	CHECK(render(CLASSIC " --rung 99 --original -o OUT/none.svg") == 2);
 #undef CLASSIC
