@@ -11,7 +11,7 @@
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/history.h"
 #include "editor-gtk/document/text_lines.h"
-#include "editor-gtk/kit/gtk48/memory.h"
+#include "editor-gtk/kit/memory.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/lex.h"

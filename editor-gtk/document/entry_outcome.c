@@ -61,15 +61,11 @@ static void tell_wrong(GString *out, LadderDocument *document, int pou,
 		       const struct entry *entry)
 {
 	const int line = entry->known ? line_of(document, pou, entry->known) : 0;
+	char *what = line ? g_strdup_printf(_("%s, line %d"), entry->what, line) :
+			    g_strdup(entry->what);
 
-	g_string_append(out, _(entry->why));
-	if (!entry->what[0])
-		return;
-	g_string_append(out, ": ");
-	if (line)
-		g_string_append_printf(out, _("%s, line %d"), entry->what, line);
-	else
-		g_string_append(out, entry->what);
+	g_string_append_printf(out, _(entry->why), what);
+	g_free(what);
 }
 
 static void tell_new(GString *out, const struct entry_new *declare)

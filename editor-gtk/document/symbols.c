@@ -939,7 +939,7 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
 	else if (strcmp(symbol->text[field], clean) == 0)
 		good = true;
 	else if (field == FIELD_COMMENT && (strstr(clean, "(*") || strstr(clean, "*)")))
-		good = refuse(why, g_strdup(_("a comment holds no (* and no *)")));
+		good = refuse(why, g_strdup(_("a comment is one line without (* and *)")));
 	else if (field == FIELD_NAME && symbol->uses > 0)
 		good = rename_everywhere(document, table, index, clean, why);
 	else

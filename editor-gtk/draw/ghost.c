@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * ghost - what hangs from the pointer; see ghost.h.
+ * ghost - the picture at the pointer of a drag; see ghost.h.
  */
 #include "editor-gtk/draw/ghost.h"
 
@@ -12,7 +12,7 @@
 #define RUNG_HEIGHT    160
 #define OPACITY        0.7
 
-/* Where nothing can be seen through, it would be seen upon black. */
+/* Without compositing, transparency would show black. */
 static double opacity_of(GtkDragSource *source)
 {
 	GtkWidget *widget = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(source));
@@ -20,7 +20,7 @@ static double opacity_of(GtkDragSource *source)
 	return gdk_display_is_composited(gtk_widget_get_display(widget)) ? OPACITY : 1;
 }
 
-/* @drawing: taken over; NULL: nothing but the ground. @width, @height: of what is shown. */
+/* Takes @drawing; NULL: only the ground. */
 static void show(GtkDragSource *source, GskRenderNode *drawing, const struct theme *theme,
 		 float scale, float width, float height, int hot_x, int hot_y)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * ghost - what hangs from the pointer while an element or a rung is dragged.
+ * ghost - the picture at the pointer while an element or a rung is dragged.
  *
- * Half transparent upon the ground of a sheet, so that it is read wherever it is and what
- * is below it is seen. It knows nothing of where it may be dropped.
+ * It is half transparent on the colour of a sheet, so that both it and what is below it can
+ * be read.
  */
 #ifndef EDITOR_GHOST_H
 #define EDITOR_GHOST_H
@@ -14,9 +14,9 @@
 void ghost_element(GtkDragSource *source, const struct word_row *word,
 		   const struct theme *theme, struct lettering *lettering);
 /**
- * ghost_rung - its drawing, not larger than a hand can lead
- * @scale:    of the sheet; what is too wide gets smaller, what is too high is cut off
- * @hot_x, hot_y: where it was taken, px of its drawing at 100 %
+ * ghost_rung - the drawing of a rung, at most 480 x 160 px
+ * @scale:    of the sheet; a wider rung is drawn smaller, a higher one is cut off
+ * @hot_x, hot_y: where the drag began, px of the drawing at 100 %
  */
 void ghost_rung(GtkDragSource *source, const struct drafting *drafting,
 		const struct rung_layout *layout, const struct theme *theme, float scale,

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_classic - a rung of ClassicLadder as it stands in its file, as strokes; and the same
- * above what became of it here.
+ * grid_classic - a rung of ClassicLadder as it is in its file, as strokes; and above the
+ * rungs that the import made of it.
  *
- * Its cells are drawn where they are, also those that do nothing: what the import made of
- * them is seen beside it. It knows no widget and no display, and changes nothing.
+ * All its cells are drawn in their places, also those that do nothing. Drawing needs no
+ * widget and no display.
  */
 #ifndef EDITOR_GRID_CLASSIC_H
 #define EDITOR_GRID_CLASSIC_H
@@ -25,16 +25,16 @@ struct classic_scene {
  * picture wide enough. Units: px at 100 %. */
 float grid_classic_draw(const struct classic_scene *scene, struct picture *picture);
 
-/* Theirs above ours. */
+/* The rung there, above the rungs here. */
 struct classic_pair {
 	struct classic_scene there;
 	const char *there_name;      /* "rung_3.csv"                              */
 	const struct project *project; /* here                                    */
 	int pou;
 	const int *rung;             /* 0-based, of @pou                          */
-	int rungs;                   /* 0: theirs alone                           */
+	int rungs;                   /* 0: only the rung there                    */
 	enum drafting_show show;
-	const char *lost;            /* then said in the place of ours; NULL: nothing */
+	const char *lost;            /* then a text instead; NULL: none           */
 };
 
 /** grid_classic_pair - added to @picture at @y, which grows with it; gives where it ends. */

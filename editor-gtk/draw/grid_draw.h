@@ -2,10 +2,9 @@
  *
  * grid_draw - a rung as strokes: wires, elements, marks, live power.
  *
- * The strokes of an element are the three characters of its row in catalog.def. It takes
- * a rung and its layout and knows no widget and no display, so that screen, print,
- * pictures, palette and tests have one drawing. It evaluates nothing: power is what it
- * is told.
+ * The strokes of an element are the three characters of its row in catalog.def. Drawing
+ * needs a rung and its layout but no widget and no display, so that screen, print, pictures,
+ * palette and tests have the same drawing. It evaluates nothing: the caller gives the power.
  */
 #ifndef EDITOR_GRID_DRAW_H
 #define EDITOR_GRID_DRAW_H
@@ -17,7 +16,7 @@
 enum live_bit {
 	LIVE_KNOWN = 1,  /* else: not scanned; dotted                           */
 	LIVE_IN = 2,     /* power at its left end                               */
-	LIVE_OUT = 4,    /* and what it lets through                            */
+	LIVE_OUT = 4,    /* power at its right end                              */
 	LIVE_CLOSED = 8, /* a contact that conducts, a coil whose bit is TRUE     */
 	LIVE_FRESH = 16, /* its value changed within the last second             */
 };
@@ -25,7 +24,7 @@ struct live_value {
 	char text[48];
 	float part;      /* 0 … 1 of its goal, as a bar in a box; below 0: none   */
 };
-/* NULL instead of it: a rung that is edited, all in the ink of idle wire. */
+/* NULL instead of it: not running; all wires are idle. */
 struct grid_live {
 	const uint8_t *cell; /* enum live_bit, rows * cols of the rung, by row     */
 	/** The value to be shown below an element or inside a box; false: none. NULL: no
@@ -38,16 +37,16 @@ struct grid_live {
 enum mark {
 	MARK_CURSOR = 1,
 	MARK_SELECTED = 2,
-	MARK_DROP = 4,       /* what is dragged may be put here                 */
-	MARK_ILLEGAL = 8,    /* it may not                                      */
+	MARK_DROP = 4,       /* the dragged element may be dropped here         */
+	MARK_ILLEGAL = 8,    /* it may not be dropped here                      */
 	MARK_ERROR = 16,
 	MARK_WARNING = 32,
 	MARK_FORCED = 64,
 	MARK_FOUND = 128,    /* by a search                                     */
-	MARK_TWICE = 256,    /* written elsewhere too: the last one wins          */
+	MARK_TWICE = 256,    /* also written elsewhere: the last one wins         */
 	MARK_CHANGED = 512,  /* differs, in a comparison                        */
-	MARK_FAILED = 2048,  /* what it does failed in the scan that is shown     */
-	MARK_BLOCKS = 1024,  /* keeps power away; scene.note says why            */
+	MARK_FAILED = 2048,  /* it failed in the scan that is shown               */
+	MARK_BLOCKS = 1024,  /* it blocks power; scene.note says why             */
 };
 struct grid_mark { int row, column; unsigned int marks; };
 
@@ -69,16 +68,16 @@ struct grid_scene {
 	const struct grid_live *live;  /* NULL: not running                       */
 	const struct grid_mark *mark;
 	int mark_count;
-	const bool *takes;             /* cells as shown, by row, that take what is
-					* dragged; NULL: nothing is              */
+	const bool *takes;             /* cells as shown, by row, that accept the
+					* dragged element; NULL: nothing is dragged */
 	unsigned int state;            /* enum rung_state, or'ed                  */
 	float scale;                   /* device px of a px; 0: any               */
-	/** What stands below a coil on paper ("read in Main 3, 5"), @room px wide in
-	 * LETTER_PIN; NULL: nothing. Owns: the caller of it, g_free. */
+	/** Text below a coil on paper ("read in Main 3, 5"), at most @room px wide in
+	 * LETTER_PIN; NULL: nothing. Owns: the caller, g_free. */
 	char *(*reference)(void *context, int row, int col, float room);
 	float reference_from;          /* x: it begins nowhere before it           */
-	/** What a MARK_BLOCKS says of (row, column); NULL: nothing. NULL instead of it:
-	 * none says anything. Owns: the callee. */
+	/** Note at a MARK_BLOCKS; NULL: none. Owns: the callee. NULL instead of it: there
+	 * are no notes. */
 	const char *(*note)(void *context, int row, int column);
 	void *context;
 };

@@ -2,9 +2,8 @@
  *
  * grid_names - the symbol, address and comment that belong to an operand of a POU.
  *
- * An index over what is declared, for drawing and pictures. It resolves no members and
- * no elements of arrays: those are written above an element as they are. Meaning is
- * check/'s.
+ * An index of declared variables, for drawings. It does not resolve members and elements of
+ * arrays: drawings show them as they are written. check/ knows their meaning.
  */
 #ifndef EDITOR_GRID_NAMES_H
 #define EDITOR_GRID_NAMES_H

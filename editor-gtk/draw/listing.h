@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * listing - what is not drawn as rungs: POUs in IL, and the symbols of a project.
- *
- * As lines of text; it breaks no pages and draws nothing.
+ * listing - lines of text for paper: POUs in IL, the symbols of a project, and where the
+ * operand of a coil is read.
  */
 #ifndef EDITOR_LISTING_H
 #define EDITOR_LISTING_H
@@ -19,24 +18,24 @@ enum listing_column {
 	LISTING_NAME, LISTING_TYPE, LISTING_ADDRESS, LISTING_INITIAL, LISTING_COMMENT,
 	LISTING_COLUMNS
 };
-/** listing_first - the first variable that stands in a declaration: result and ENO of a
- * function, which do not, are before it. */
+/** listing_first - the first variable with a declaration; result and ENO of a function, which
+ * have none, are before it. */
 int listing_first(const struct var_table *table);
-/** listing_count - how many of them there are. */
+/** listing_count - how many variables have a declaration. */
 int listing_count(const struct var_table *table);
 /** listing_type - "ARRAY[1..4] OF INT". Owns: the caller, g_free. */
 char *listing_type(const struct project *project, const struct var *var);
-/** listing_symbol_count - variables of a project that somebody declared: all tables. */
+/** listing_symbol_count - declared variables of all tables of a project. */
 int listing_symbol_count(const struct project *project);
 /** listing_symbol - variable @index of a table. Owns: the caller, each g_free. */
 void listing_symbol(const struct project *project, const struct var_table *table,
 		    int index, char *cell[LISTING_COLUMNS]);
-/** listing_reads - "read in Main 3, 5" for the operand of a cell of POU @pou; NULL: it
- * is read nowhere. Of more places than @most an ellipsis tells; 0: all. Owns: the caller,
- * g_free. */
-struct listing_reads;
+/** listing_reads_new - an index of the places that read operands. Owns: the caller,
+ * listing_reads_free(); @project must live as long. */
 struct listing_reads *listing_reads_new(const struct project *project);
 void listing_reads_free(struct listing_reads *reads);
+/** listing_reads_of - "read in Main 3, 5" for the operand of a cell of POU @pou; NULL: it is
+ * read nowhere. At most @most places and an ellipsis; 0: all. Owns: the caller, g_free. */
 char *listing_reads_of(const struct listing_reads *reads, int pou, const char *operand,
 		       int most);
 

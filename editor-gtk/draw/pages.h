@@ -2,7 +2,7 @@
  *
  * pages - a project on paper: pages with a title block, rungs, lists, symbols.
  *
- * PDF and print have the same pages: both paint them with pages_paint(). It knows no
+ * PDF and print have the same pages; both use pages_paint(). It knows no
  * printer and writes no file: a PDF is bytes, disk_save() writes them.
  */
 #ifndef EDITOR_PAGES_H
@@ -13,8 +13,8 @@
 
 struct paper {
 	float width, height;  /* mm                                              */
-	const char *date;     /* as it shall stand there; NULL: none. Nothing here
-				 reads a clock: the same file gives the same pages */
+	const char *date;     /* text for the title block; NULL: none. No clock is
+				 read: the same file gives the same pages        */
 	bool landscape;
 };
 /** paper_find - "a4", "a3", "a5", "letter", "legal", any case; false: unknown. */
@@ -23,7 +23,7 @@ bool paper_find(const char *name, struct paper *out);
 struct pages;
 /**
  * pages_new - breaks a project into pages
- * @pou, @rung: index and 1-based number of what alone is wanted; -1 and 0: all
+ * @pou, @rung: index of the only POU (-1: all), 1-based number of its only rung (0: all)
  * @file:       its name in the title block
  *
  * Owns: the caller, pages_free(). @project and @lettering must live as long.
@@ -33,7 +33,7 @@ struct pages *pages_new(const struct project *project, const char *file, int pou
 			struct lettering *lettering);
 void pages_free(struct pages *pages);
 int pages_count(const struct pages *pages);
-/** pages_subject - what a page is of: a POU, the symbols. Borrowed from @pages. */
+/** pages_subject - what is on a page: the name of a POU, "Symbols". Borrowed from @pages. */
 const char *pages_subject(const struct pages *pages, int page);
 /** pages_paint - page @page (0-based) upon a surface whose unit is 1/72 inch. */
 void pages_paint(const struct pages *pages, int page, cairo_t *cr);

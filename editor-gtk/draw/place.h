@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT
  *
- * place - how a person is told where a cell is: by the letter of the column that the sheet
- * shows it in. A file and the engine's messages have the number of the cell, which is another
- * where wire is stretched up to an output. Of a chart by the step, not by the line of a text
- * that nobody sees.
+ * place - names the place of a cell or line for a person.
+ *
+ * A cell has the letter of the column in which the sheet shows it. The file and the engine's
+ * messages have the column of the file, which differs where a wire is stretched up to an
+ * output. A line of a chart has the name of its step, because nobody sees the text of a chart.
  */
 #ifndef EDITOR_PLACE_H
 #define EDITOR_PLACE_H
 
 #include "engine/model/project.h"
 
-/* Of the sheet that was asked for last: many cells are asked for in a row. Zeroed first. */
+/* The sheet of the last call, because many calls are about the same one. Zero it first. */
 struct place_sheet {
 	const struct project *project;
 	int pou, first, count; /* its rungs                                   */
@@ -22,15 +23,15 @@ struct place_sheet {
 /** place_column - "A", "Z", "AA" of a column, 0-based; returns @out. */
 const char *place_column(int column, char out[PLACE_LETTERS]);
 /**
- * place_shown - the column, 0-based, in which a cell of the file is seen
+ * place_shown - the column, 0-based, in which the sheet shows a cell of the file
  * @sheet: of this project as it is; @rung, @row, @col: 0-based
  *
- * Of a cell that is not there: @col.
+ * Returns @col for a cell that does not exist.
  */
 int place_shown(struct place_sheet *sheet, const struct project *project, int pou, int rung,
 		int row, int col);
 /**
- * place_line - of what a line of a POU's text is: "Main, line 3"; of a chart "Main, step Fill"
+ * place_line - the place of a line of a POU: "Main, line 3"; in a chart "Main, step Fill"
  * @pou: of @project; @row: lines below its heading
  *
  * In the language of the session. Owns: the caller, g_free().

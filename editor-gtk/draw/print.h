@@ -2,8 +2,8 @@
  *
  * print - the pages of a project to a printer, and a rung as a picture to the clipboard.
  *
- * The pages are those of the PDF (pages.h). It asks nothing by itself: whoever runs the
- * operation says whether there is a dialog.
+ * The pages are those of the PDF (pages.h). The caller that runs the operation decides
+ * whether there is a dialog.
  */
 #ifndef EDITOR_PRINT_H
 #define EDITOR_PRINT_H
@@ -15,7 +15,7 @@
 /**
  * print_operation_new - pages for gtk_print_operation_run()
  * @file: its name in the title block
- * @pou:  index of what alone is printed; -1: all
+ * @pou:  index of the only POU that is printed; -1: all
  * @date: in the title block; NULL: none
  *
  * @project must live, and not change, until the operation is done. Paper is what the

@@ -2,8 +2,8 @@
  *
  * rung_box - a function or function block as a box: its pins, how large it is.
  *
- * Pins that carry power stand in the rows that the rung gives them; all others follow
- * below, with what is connected beside them. It judges no parameter and draws nothing.
+ * Pins that carry power stand in the rows of the rung; all others follow below, with the
+ * connected values beside them. Parameters are not checked here.
  */
 #ifndef EDITOR_RUNG_BOX_H
 #define EDITOR_RUNG_BOX_H
@@ -19,7 +19,7 @@
 
 struct rung_pin {
 	const char *name;   /* borrowed, not NUL-ended                         */
-	const char *value;  /* what is connected; NULL: nothing                */
+	const char *value;  /* connected to it; NULL: nothing                  */
 	size_t name_len, value_len;
 	float y;            /* below the first wire                            */
 	bool inverse;       /* the value goes in inverted                      */

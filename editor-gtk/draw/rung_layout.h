@@ -3,13 +3,11 @@
  * rung_layout - where everything of a rung stands, and what stands at a point.
  *
  * A rung is laid out by itself; rungs of one sheet then get the same right rail
- * (rung_layout_stretch). Places are px at 100 %, from the upper left corner of the
- * rung's strip; zoom is the business of whoever draws. It draws nothing and changes
- * nothing.
+ * (rung_layout_stretch). Places are px at 100 %, from the upper left corner of the rung's
+ * strip; the caller that draws applies the zoom.
  *
- * Columns are those that people see (grid_display.h): `columns` of them, and of a row
- * whose last element is an output that element stands in the last one, with wire
- * stretched up to it. Rows are those of the rung, and empty ones below.
+ * Columns are display columns (grid_display.h): an output at the end of a row stands in the
+ * last one, with a wire up to it. Rows are those of the rung, and empty ones below.
  */
 #ifndef EDITOR_RUNG_LAYOUT_H
 #define EDITOR_RUNG_LAYOUT_H
@@ -96,11 +94,11 @@ bool rung_layout_wired(const struct rung_layout *layout, int row, int column);
 /** rung_layout_bar - x of bar @bar (0 … cols) of the rung. */
 float rung_layout_bar(const struct rung_layout *layout, int row, int bar);
 
-/** rung_layout_cell - the rectangle of (row, column); of a box with its pin rows, all of
- * it: for the cursor, for accessibility, for what pops up there. */
+/** rung_layout_cell - the rectangle of (row, column); for a cell of a box that of the whole
+ * box: for the cursor, accessible children and popovers. */
 graphene_rect_t rung_layout_cell(const struct rung_layout *layout, int row, int column);
 
-/** rung_layout_label - how wide what stands above an element is. */
+/** rung_layout_label - px: width of the texts above an element. */
 float rung_layout_label(const struct drafting *drafting, const struct cell *cell);
 
 enum rung_part {
@@ -130,8 +128,8 @@ float rung_layout_end_x(const struct rung_layout *layout, int bar);
 /** rung_layout_nearest - the end nearest to a point; below all rows: the next row. */
 void rung_layout_nearest(const struct rung_layout *layout, float x, float y, int *row,
 			 int *bar);
-/** rung_layout_end - the end at which a pointer there would begin a wire: beside an
- * element, on wire, at the end of an empty cell. False: it would not. */
+/** rung_layout_end - the end at which a drag from a point begins a wire: beside an element,
+ * on a wire, at the end of an empty cell. False: a drag from there draws no wire. */
 bool rung_layout_end(const struct drafting *drafting, const struct rung_layout *layout,
 		     float x, float y, int *row, int *bar);
 

@@ -2,8 +2,7 @@
  *
  * rung_text - which texts stand at an element and above a rung.
  *
- * Measured and cut to their bounds, so that layout and drawing say the same. It knows no
- * places.
+ * Measured and cut to their bounds, so that layout and drawing have the same texts.
  */
 #ifndef EDITOR_RUNG_TEXT_H
 #define EDITOR_RUNG_TEXT_H
@@ -18,10 +17,10 @@
 #define TITLE_STEP   18    /* px from a line of a title to the next             */
 #define FRAMED_SIDE  12    /* px between its text and the outside of a bracket    */
 
-/* What stands above a contact, coil or box. "" and 0 for nothing. */
+/* Texts above a contact, coil or box. "" and 0: none. */
 struct rung_label { struct lettered symbol, address; };
 struct rung_label rung_label(const struct drafting *drafting, const struct cell *cell);
-/** rung_element_comment - what stands below it; "" for nothing. @room: px. */
+/** rung_element_comment - the text below it; "": none. @room: px. */
 struct lettered rung_element_comment(const struct drafting *drafting,
 				     const struct cell *cell, float room);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_bodies - conditions and actions of a chart that are rungs or lists, in the order in
- * which they stand below it.
+ * sfc_bodies - conditions and actions of a chart that are rungs or lists, in the order of
+ * paper, where they follow the chart.
  */
 #ifndef EDITOR_SFC_BODIES_H
 #define EDITOR_SFC_BODIES_H
@@ -14,8 +14,8 @@ struct sfc_part_body {
 	char *heading;                 /* "Ready: Idle → Fill", "Count"         */
 };
 
-/** sfc_bodies_new - @count gets how many. An expression is none: it stands beside its
- * transition. Owns: the caller, sfc_bodies_free(). */
+/** sfc_bodies_new - @count gets how many. Expressions are not included: they stand beside
+ * their transition. Owns: the caller, sfc_bodies_free(). */
 struct sfc_part_body *sfc_bodies_new(const struct project *project, const struct pou *pou,
 				     int *count);
 void sfc_bodies_free(struct sfc_part_body *bodies, int count);

@@ -2,8 +2,8 @@
  *
  * sfc_draw - a chart as strokes: boxes, lines, texts, marks, what is active.
  *
- * As grid_draw for rungs: for screen, paper, pictures and tests the same strokes, no
- * widget, no display, no colour of its own.
+ * As grid_draw for rungs: the same strokes for screen, paper, pictures and tests; no widget,
+ * no display, no colours.
  */
 #ifndef EDITOR_SFC_DRAW_H
 #define EDITOR_SFC_DRAW_H
@@ -28,7 +28,7 @@ struct sfc_live {
 
 enum sfc_sign {
 	SFC_CURSOR = 1, SFC_SELECTED = 2, SFC_ERROR = 4, SFC_WARNING = 8,
-	SFC_DROP = 16,     /* what is dragged would go here                     */
+	SFC_DROP = 16,     /* the dragged step would go here                    */
 	SFC_FOUND = 32,
 	SFC_CHANGED = 64, SFC_ADDED = 128, SFC_REMOVED = 256, /* in a comparison  */
 };
@@ -40,7 +40,7 @@ struct sfc_scene {
 	const struct sfc_live *live;
 	const struct sfc_mark *mark;
 	int mark_count;
-	float top, bottom;     /* px: what alone is needed; both 0: everything    */
+	float top, bottom;     /* px: only this part is drawn; both 0: all        */
 };
 
 /** sfc_draw - the strokes, added to @picture at its place. */

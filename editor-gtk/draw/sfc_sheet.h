@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_sheet - a chart in pixels: where its boxes, texts and lines stand, and what stands
- * at a point.
+ * sfc_sheet - a chart in pixels: the places of its boxes, texts and lines, and the part at a
+ * point.
  *
  * Lanes and rows are those of the engine's layout (show/sfc_layout.h); here they get
  * their widths. Places are px at 100 %. It draws nothing and changes nothing.
@@ -71,17 +71,17 @@ void sfc_sheet_ends(const struct sfc_sheet *sheet, const struct sfc_wire *wire, 
 struct sfc_at {
 	int shape;       /* of layout->shape; -1: nothing                       */
 	int use;         /* of sfc.use; -1: the shape itself                    */
-	bool foot;       /* at the lower edge of a step: a way may be drawn away  */
+	bool foot;       /* at the lower edge of a step: a drag draws a link       */
 };
-/** sfc_sheet_at - nearest thing whose box is not farther than @slack px. */
+/** sfc_sheet_at - the nearest part whose box is within @slack px. */
 struct sfc_at sfc_sheet_at(const struct sfc_sheet *sheet, float x, float y, float slack);
 /**
- * sfc_sheet_of_diag - what a diagnostic of this POU speaks of, by its line and, of
- * conditions and actions, by its rung
- * @checked: the chart that was checked: it knows the lines; one with other steps, ways or
- *           lines than this one is not asked
+ * sfc_sheet_of_diag - the part that a diagnostic of this POU is about, by its line; in
+ * conditions and actions by its rung
+ * @checked: the chart that was checked, which has the lines; ignored if it has other numbers
+ *           of steps, transitions or actions than this one
  *
- * Fails: false: of nothing in the chart.
+ * Fails: false: the diagnostic is not about a part of the chart.
  */
 bool sfc_sheet_of_diag(const struct sfc_sheet *sheet, const struct sfc *checked,
 		       const struct diag *diag, int *shape, int *use);

@@ -2,8 +2,8 @@
  *
  * sheet - the rungs of one POU laid out below one another, with one right rail.
  *
- * For pictures and paper, where nothing changes. The view has strips of its own that are
- * laid out as they are seen. It draws nothing.
+ * For pictures and paper, where nothing changes. A grid view lays out its rungs when they
+ * become visible.
  */
 #ifndef EDITOR_SHEET_H
 #define EDITOR_SHEET_H
@@ -33,13 +33,13 @@ struct sheet {
 struct sheet *sheet_new(const struct project *project, const struct pou *pou,
 			struct lettering *lettering);
 void sheet_free(struct sheet *sheet);
-/** sheet_layout - lays out all rungs: after sheet_new(), or when something of
- * sheet->drafting or sheet->most was set. The width of drafting is a least one. */
+/** sheet_layout - lays out all rungs. Call it after sheet_new() and after changes of
+ * sheet->drafting or sheet->most. drafting.width is the least width. */
 void sheet_layout(struct sheet *sheet);
-/** sheet_is_wide - does a rung need more than the most there is for all? */
+/** sheet_is_wide - does a rung need more than sheet->most? */
 bool sheet_is_wide(const struct sheet *sheet, int index);
-/** sheet_remarks - what no element of a rung has the room for: comments that end in an
- * ellipsis there, whole, a line each, with their place. @lines: char *, g_free */
+/** sheet_remarks - comments that are cut off at their elements, whole, a line each, with their
+ * place. @lines: char *, g_free */
 void sheet_remarks(const struct sheet *sheet, int index, GPtrArray *lines);
 
 #endif

@@ -20,7 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char too_long[] = N_("this line is too long");
+static const char too_long[] = N_("the line is too long");
 
 static bool is_blank(char c)
 {
@@ -54,7 +54,7 @@ static bool keep_instance(const struct entry_place *place, struct entry_target *
 			word_first_bool(row, PIN_OUT);
 
 	if (pin < 0 || write)
-		return entry_wrong(entry, N_("this is no BOOL"), text, len);
+		return entry_wrong(entry, N_("“%s” is not a BOOL"), text, len);
 	return keep_operand(entry, target->text, strlen(target->text)) &&
 	       keep_operand(entry, ".", 1) &&
 	       keep_operand(entry, row->pin[pin].name, strlen(row->pin[pin].name));
@@ -72,10 +72,10 @@ static bool take_bool(const struct entry_place *place, const char *text, size_t 
 		return keep_instance(place, &target, target.text, strlen(target.text),
 				     write, entry);
 	if (target.means == MEANS_VALUE && (target.type != IEC_BOOL || target.array))
-		return entry_wrong(entry, N_("this is no BOOL: compare it, as in Level > 5"),
+		return entry_wrong(entry, N_("“%s” is not a BOOL: compare it, as in Level > 5"),
 				   target.text, strlen(target.text));
 	if (target.means == MEANS_VALUE && write && !target.write)
-		return entry_wrong(entry, N_("this cannot be written"), target.text,
+		return entry_wrong(entry, N_("“%s” cannot be written"), target.text,
 				   strlen(target.text));
 	return keep_operand(entry, target.text, strlen(target.text));
 }
@@ -221,12 +221,12 @@ static bool add_value(const struct entry_place *place, const struct entry_fit *f
 	bool fits;
 
 	if (fit->write && value->inverse)
-		return entry_wrong(entry, N_("this cannot be written"), value->text,
+		return entry_wrong(entry, N_("“%s” cannot be written"), value->text,
 				   value->len);
 	if ((fit->write || value->inverse) &&
 	    add_literal(value, number, sizeof(number), &fits))
-		return entry_wrong(entry, fit->write ? N_("this cannot be written") :
-				   N_("this is no operand"), value->text, value->len);
+		return entry_wrong(entry, fit->write ? N_("“%s” cannot be written") :
+				   N_("“%s” is not an operand"), value->text, value->len);
 	if (value->inverse && !entry_append(entry->args, sizeof(entry->args), "/", 1))
 		return entry_wrong(entry, too_long, "", 0);
 	if (add_literal(value, entry->args, sizeof(entry->args), &fits))
@@ -234,7 +234,7 @@ static bool add_value(const struct entry_place *place, const struct entry_fit *f
 	if (!entry_operand(place, value->text, value->len, fit, &target, entry))
 		return false;
 	if (fit->write && target.means == MEANS_VALUE && !target.write)
-		return entry_wrong(entry, N_("this cannot be written"), value->text,
+		return entry_wrong(entry, N_("“%s” cannot be written"), value->text,
 				   value->len);
 	return entry_append(entry->args, sizeof(entry->args), target.text,
 			    strlen(target.text)) ||
@@ -248,7 +248,7 @@ static bool add_pin(const struct entry_place *place, const struct entry_fit *fit
 	struct arg arg;
 
 	if (args_find(entry->args, name, strlen(name), &arg))
-		return entry_wrong(entry, N_("this pin is given twice"), name,
+		return entry_wrong(entry, N_("“%s” is given twice"), name,
 				   strlen(name));
 	snprintf(head, sizeof(head), "%s%.250s%s", entry->args[0] ? " " : "", name,
 		 fit->write ? "=>" : ":=");
@@ -281,7 +281,7 @@ static bool add_named(const struct entry_place *place, const struct word_row *ro
 	struct entry_fit fit;
 
 	if (!pin && !is_out(row, value->name, value->name_len))
-		return entry_wrong(entry, N_("the box has no such pin"), value->name,
+		return entry_wrong(entry, N_("“%s” is not a pin of this box"), value->name,
 				   value->name_len);
 	upper(value->name, value->name_len, spelled, sizeof(spelled));
 	if (pin && (row->kind != WORD_FN || index < row->pin_count))
@@ -319,7 +319,7 @@ static bool add_inputs(const struct entry_place *place, const struct word_row *r
 	char name[LIMIT_NAME + 1];
 
 	if (row->pin_count == 0 || inputs > row->most_inputs)
-		return entry_wrong(entry, N_("the box has fewer inputs"), "", 0);
+		return entry_wrong(entry, N_("there are more values than inputs of the box"), "", 0);
 	for (int i = 0; i < inputs; i++) {
 		const struct entry_fit fit = entry_fit_pin(row, pin_of(row, i), shared,
 							   false);
@@ -347,7 +347,7 @@ static bool add_block_inputs(const struct entry_place *place, const struct word_
 			return false;
 	}
 	return used == count ||
-	       entry_wrong(entry, N_("the box has fewer inputs"), "", 0);
+	       entry_wrong(entry, N_("there are more values than inputs of the box"), "", 0);
 }
 
 /* What a timer or counter of the catalogue gets that nothing was said for. */
@@ -431,7 +431,8 @@ static bool read_values(const char *text, struct values *out, struct entry *entr
 		if (out->count == ENTRY_TEXT / 2)
 			return entry_wrong(entry, too_long, "", 0);
 		if (!next_value(&lex, value))
-			return entry_wrong(entry, N_("a value is missing"), value->name,
+			return entry_wrong(entry, value->name_len ? N_("“%s” needs a value") :
+					   N_("a value is missing"), value->name,
 					   value->name_len);
 		out->count++;
 	}
@@ -484,7 +485,7 @@ static bool take_name(const char *text, size_t len, struct entry *entry)
 	lex_init(&lex, text, len);
 	if (lex_next(&lex) != TOKEN_NAME || lex.token.len != len ||
 	    memchr(text, '.', len) || len > LIMIT_NAME)
-		return entry_wrong(entry, N_("this is no name"), text, len);
+		return entry_wrong(entry, N_("“%s” is not a name"), text, len);
 	return keep_operand(entry, text, len);
 }
 
@@ -518,7 +519,7 @@ static bool take_element(const struct entry_place *place, const struct word_row 
 		return take_name(text, len, entry);
 	case OPND_LOOP:
 		if (!loop_parse(text, len, &loop))
-			return entry_wrong(entry, N_("a loop is: FOR I := 1 TO 10"), text,
+			return entry_wrong(entry, N_("“%s” is not a loop: write FOR I := 1 TO 10"), text,
 					   len);
 		return keep_operand(entry, text, len);
 	case OPND_EXPR:
@@ -532,7 +533,7 @@ static bool take_element(const struct entry_place *place, const struct word_row 
 	case OPND_PIN:
 		break;
 	}
-	return entry_wrong(entry, N_("nothing stands behind this word"), text, len);
+	return entry_wrong(entry, N_("“%s” is not expected: this word has no operand"), text, len);
 }
 
 static bool takes_nothing(const struct word_row *row)
@@ -584,7 +585,7 @@ static bool take_block(const struct entry_place *place, const struct word_row *r
 	} else if (target.means != MEANS_INSTANCE || target.array ||
 		   target.word != entry->word) {
 		return entry_wrong(entry, target.why ? target.why :
-				   N_("this is no instance of that block"), text, len);
+				   N_("“%s” is not an instance of this block"), text, len);
 	}
 	return keep_operand(entry, target.text, strlen(target.text)) &&
 	       read_args(place, row, text + len, entry);
@@ -597,7 +598,7 @@ static bool take_word(const struct entry_place *place, enum word word, const cha
 
 	entry->word = word;
 	if (place->output && row->place == PLACE_SERIES)
-		return entry_wrong(entry, N_("only an output can stand in the last column"),
+		return entry_wrong(entry, N_("“%s” cannot stand in the last column: only an output can"),
 				   row->word, strlen(row->word));
 	if (row->kind == WORD_FB)
 		return take_block(place, row, text, entry) &&
@@ -715,7 +716,7 @@ static bool read_line(const struct entry_place *place, const char *text, size_t 
 	if (word != WORD_COUNT && word != ELEM_WIRE && word != ELEM_PIN)
 		return take_word(place, word, rest, rest_len, out);
 	if (rest_len > 0 && !entry_declared_len(text, len, ENTRY_WORD_GIVEN))
-		return entry_wrong(out, N_("there is no such word"), text, head);
+		return entry_wrong(out, N_("“%s” is not the word of an element or block"), text, head);
 	return take_symbol(place, text, len, out);
 }
 
@@ -739,7 +740,7 @@ static bool read_with(reading *read, const struct entry_place *place, const char
 	memcpy(copy, text, len);
 	copy[len] = '\0';
 	if (!utf8_valid(copy, len, NULL))
-		return entry_wrong(out, N_("this is not UTF-8"), "", 0);
+		return entry_wrong(out, N_("the line is not valid UTF-8"), "", 0);
 	if (read(place, copy, len, out))
 		return true;
 	out->declares = 0;
@@ -756,7 +757,7 @@ static bool read_condition(const struct entry_place *place, const char *text, si
 {
 	return entry_expression(place, text, len, out) &&
 	       (out->word == ELEM_COMPARE ||
-		entry_wrong(out, N_("this is no expression"), text, len));
+		entry_wrong(out, N_("“%s” is not a valid expression"), text, len));
 }
 
 bool entry_condition(const struct entry_place *place, const char *line, struct entry *out)

@@ -2,9 +2,9 @@
  *
  * entry - quick entry: what a line typed at the cursor means, and what could be meant.
  *
- * Mnemonics of all dialects, a plain name, an address in any spelling, an expression.
- * It says what would happen and does nothing: cells are put by grid_edit, variables
- * declared by the document, only from what struct entry names. It prints nothing.
+ * A line is a mnemonic of any dialect, a plain name, an address in any spelling or an
+ * expression. This file only reads it into struct entry: grid_edit puts the cell, the
+ * document declares the variables.
  */
 #ifndef EDITOR_ENTRY_H
 #define EDITOR_ENTRY_H
@@ -23,8 +23,8 @@ struct entry_place {
 				    nothing else changes                      */
 	int pou;                 /* index in it                                */
 	bool output;             /* the cursor is in the last column           */
-	struct xref *xref;       /* of the project as it is, borrowed; NULL: it is
-				    made when it is needed, which takes longer */
+	struct xref *xref;       /* of the project, borrowed; NULL: made when it is
+				    needed, which takes longer                 */
 };
 
 /* A variable that does not exist yet and would be declared. */
@@ -32,17 +32,17 @@ struct entry_new {
 	char name[ENTRY_NAME];
 	char type[ENTRY_NAME];    /* "BOOL", "TON"                             */
 	char address[ENTRY_ADDRESS_TEXT]; /* "%IX0.3"; "": none                */
-	char shares[ENTRY_NAME];  /* a variable that lies there already        */
-	char choice[ENTRY_CHOICES][ENTRY_ADDRESS_TEXT]; /* as it is proposed, then
-				     instead; "": none                         */
-	int choices;              /* 0: the line or the place says it          */
+	char shares[ENTRY_NAME];  /* another variable at this address; "": none */
+	char choice[ENTRY_CHOICES][ENTRY_ADDRESS_TEXT]; /* addresses that it may get,
+				     the proposed one first; "": no address    */
+	int choices;              /* 0: there is no choice                     */
 };
 
 enum entry_sense {
 	ENTRY_EMPTY,   /* nothing typed                                        */
 	ENTRY_ELEMENT, /* it means an element: it can be put                   */
 	ENTRY_PART,    /* a word whose operand is still missing                */
-	ENTRY_WRONG,   /* why stands in @why                                   */
+	ENTRY_WRONG,   /* see @why                                             */
 };
 
 struct entry {
@@ -51,13 +51,14 @@ struct entry {
 	bool below;               /* in parallel to what is at the cursor: OR X */
 	char operand[ENTRY_TEXT]; /* "": none                                  */
 	char args[ENTRY_TEXT];    /* "PT:=T#1s"; "": none                      */
-	bool proposed;            /* the line does not say those of a block    */
+	bool proposed;            /* @args of a block are not from the line    */
 	struct entry_new declare[ENTRY_NEW_MOST];
-	int declares;             /* 0: everything named is there already      */
-	const char *why;          /* N_() text; NULL: nothing is wrong         */
-	char what[ENTRY_NAME];    /* that @why speaks of                       */
-	const struct var *known;  /* whose declaration it speaks of, borrowed
-				     of the project; NULL: of none             */
+	int declares;             /* 0: no new variable                        */
+	const char *why;          /* N_() text, with %s where @what belongs if that is
+				     not empty; NULL: nothing is wrong         */
+	char what[ENTRY_NAME];
+	const struct var *known;  /* the variable whose declaration @why is about;
+				     borrowed from the project; NULL: none     */
 };
 
 /**
@@ -67,15 +68,15 @@ struct entry {
  * Owns: nothing.   Scan-safe: no.   Fails: false unless @out->sense is ENTRY_ELEMENT.
  */
 bool entry_read(const struct entry_place *place, const char *line, struct entry *out);
-/** entry_condition - the same of a line that can only be an expression of a BOOL: what a
- * chart waits for. @out->operand has it without what the line says of its names. */
+/** entry_condition - the same for the condition of a transition: an expression of a BOOL.
+ * @out->operand has it without the declarations in the line. */
 bool entry_condition(const struct entry_place *place, const char *line,
 		     struct entry *out);
 /** entry_cell - the element as a cell, its texts as strings of the project. Fails: false
- * if it is none, or memory is out. */
+ * if @entry is not an element, or memory is out. */
 bool entry_cell(struct project *project, const struct entry *entry, struct cell *cell);
 
-/* What a name with `%` behind it could be, too: a word with its operand. */
+/* `Open %` may also be a word with its operand. */
 enum entry_doubt { ENTRY_WORD_POSSIBLE, ENTRY_WORD_GIVEN };
 /** entry_declared_len - bytes of the name that a declaration begins with, `Open AT` or
  * `Open :`, or `Open %` if no word is in doubt; 0: it is no declaration. */
@@ -99,10 +100,9 @@ struct entry_candidate {
  * @cursor: bytes of @line before it
  * @out:    caller's, room for @most
  *
- * What is typed exactly, then what begins with it, then what has it inside; in each
- * of these variables of the fitting type, addresses in use, pins, words. The last ones
- * are a new name, where one may stand, with each address that it may get: nothing is ever
- * declared that is not chosen so or told by entry_read(). Returns how many.
+ * First exact matches, then texts that begin with the word, then texts that contain it; in
+ * each group variables of the fitting type, addresses in use, pins, words. Last comes a new
+ * name, if one may stand there, with each address that it may get. Returns how many.
  * Owns: nothing.   Scan-safe: no.
  */
 int entry_candidates(const struct entry_place *place, const char *line, size_t cursor,

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_duplicate - rungs once more, with blocks that count and time for themselves.
+ * entry_duplicate - copies of rungs with instances of their own; see entry_duplicate.h.
  *
- * An instance of theirs becomes a new one wherever they name it: in the box, in a
- * contact of its output, in parameters and expressions. It declares nothing.
+ * An instance gets its new name wherever the rungs name it: in the box, in a contact of its
+ * output, in parameters and expressions. The caller declares the new instances.
  */
 #include "editor-gtk/edit/entry_duplicate.h"
 #include "editor-gtk/edit/entry_operand.h"

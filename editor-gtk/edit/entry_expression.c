@@ -61,7 +61,7 @@ static bool keep_said(struct lex *lex, struct work *w, struct entry *entry)
 	if (len == 0)
 		return true;
 	if (w->said_count == ENTRY_NEW_MOST)
-		return entry_wrong(entry, N_("too many new names in one line"), text,
+		return entry_wrong(entry, N_("“%s” is not declared: one line declares at most 4 names"), text,
 				   lex->token.len);
 	*said = (struct said){ text, len, lex->token.len, IEC_NONE };
 	said->type = type_said(said);
@@ -94,7 +94,7 @@ static bool print(const char *text, size_t len, struct work *w, struct entry *en
 		if (!keep_said(&lex, w, entry))
 			return false;
 	}
-	return good || entry_wrong(entry, N_("this line is too long"), "", 0);
+	return good || entry_wrong(entry, N_("the line is too long"), "", 0);
 }
 
 static const struct said *said_of(const struct work *w, const char *name, size_t len)
@@ -387,7 +387,7 @@ static bool look_up(const struct entry_place *place, const char *text, size_t le
 			   &w->target, entry))
 		return false;
 	return !write || w->target.means == MEANS_NEW || w->target.write ||
-	       entry_wrong(entry, N_("this cannot be written"), text, len);
+	       entry_wrong(entry, N_("“%s” cannot be written"), text, len);
 }
 
 static bool look_up_all(const struct entry_place *place, struct work *w,
@@ -415,11 +415,11 @@ static bool read_expression(const struct entry_place *place, struct work *w,
 	diag_init(&w->diags);
 	if (!expr_parse_text(entry->operand, strlen(entry->operand), &w->expr, &w->diags,
 			     (struct diag){ .id = DIAG_BAD_EXPRESSION }))
-		return entry_wrong(entry, N_("this is no expression"), entry->operand,
+		return entry_wrong(entry, N_("“%s” is not a valid expression"), entry->operand,
 				   strlen(entry->operand));
 	entry->word = w->expr.target ? ELEM_ASSIGN : ELEM_COMPARE;
 	if (place->output && !w->expr.target)
-		return entry_wrong(entry, N_("only an output can stand in the last column"),
+		return entry_wrong(entry, N_("“%s” cannot stand in the last column: only an output can"),
 				   entry->operand, strlen(entry->operand));
 	if (!look_up_all(place, w, entry))
 		return false;

@@ -78,8 +78,8 @@ static bool parse_octal(const char *text, size_t len, struct iec_addr *out,
 	if (bit < 0 || at != text + len)
 		return false;
 	if (bit > 7)
-		*why = N_("some controllers count this in octal, others in hexadecimal: "
-			  "write %IX1.0");
+		*why = N_("“%s” is octal in some controllers and hexadecimal in others: "
+			  "write %%IX1.0");
 	return bit > 7 || bit_of(letter == 'X' ? AREA_I : AREA_Q, bit, out);
 }
 
@@ -139,7 +139,7 @@ bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
 	case ADDR_OK:
 		return true;
 	case ADDR_RANGE:
-		*why = N_("there is no such address");
+		*why = N_("“%s” is not an address of this project");
 		return true;
 	case ADDR_NONE:
 		break;
@@ -148,7 +148,7 @@ bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
 	    parse_letter(text, len, out))
 		return true;
 	if (len > 0 && text[0] == '%')
-		*why = N_("this is no address");
+		*why = N_("“%s” is not an address");
 	return *why != NULL;
 }
 
@@ -212,8 +212,8 @@ static void walk(const struct entry_place *place, const char *at, const char *en
 		at = step(place, at, end, out);
 	if (!at)
 		fail(out, out->type == IEC_NONE && !out->array ?
-		     N_("it has no such pin or member") :
-		     N_("it is neither an array nor does it have members"));
+		     N_("“%s” is not a pin or member") :
+		     N_("“%s” does not exist: the variable has no elements and no members"));
 	else
 		out->means = out->type == IEC_NONE ? MEANS_INSTANCE : MEANS_VALUE;
 }
@@ -262,11 +262,11 @@ static void take_address(const struct entry_place *place, const char *text, size
 	char address[40];
 
 	if (head < len && index_end(text + head, text + len) != text + len) {
-		fail(out, N_("this is no index"));
+		fail(out, N_("“%s” has no valid index: write a number or a variable"));
 		return;
 	}
 	if (!project_has(place->project, out->addr)) {
-		fail(out, N_("there is no such address"));
+		fail(out, N_("“%s” is not an address of this project"));
 		return;
 	}
 	if (head == len && pou)
@@ -334,9 +334,9 @@ void entry_target_find(const struct entry_place *place, const char *typed, size_
 	} else if (entry_is_name(text, len)) {
 		out->means = MEANS_NEW;
 	} else if (entry_is_name(text, head)) {
-		fail(out, N_("there is no such variable"));
+		fail(out, N_("“%s” is not declared"));
 	} else {
-		fail(out, N_("no variable can be called so"));
+		fail(out, N_("“%s” cannot be the name of a variable"));
 	}
 }
 

@@ -23,7 +23,7 @@ enum entry_means {
 struct entry_target {
 	enum entry_means means;
 	enum iec_type type;      /* of a value                                 */
-	enum word word;          /* of an instance                             */
+	enum word word;          /* of an instance or structure                */
 	bool write;              /* may a program write it?                    */
 	bool array;              /* a whole array                              */
 	const struct var *var;   /* base of the path; NULL: none               */

@@ -294,7 +294,7 @@ bool entry_declare(const struct entry_place *place, struct entry *entry, const c
 		if (ascii_is(entry->declare[i].name, name, len))
 			return true;
 	if (entry->declares == ENTRY_NEW_MOST)
-		return entry_wrong(entry, N_("too many new names in one line"), name, len);
+		return entry_wrong(entry, N_("“%s” is not declared: one line declares at most 4 names"), name, len);
 	made = &entry->declare[entry->declares++];
 	snprintf(made->name, sizeof(made->name), "%.*s", (int)len, name);
 	snprintf(made->type, sizeof(made->type), "%s", type);
@@ -403,7 +403,7 @@ static bool take_address(struct piece *rest, struct pieces *out, struct entry *e
 		cut(rest, strlen("AT"));
 	len = address_len(rest);
 	if (len == 0)
-		return entry_wrong(entry, N_("an address is missing behind AT"),
+		return entry_wrong(entry, N_("“%s” needs an address behind AT"),
 				   out->name.text, out->name.len);
 	out->address = cut(rest, len);
 	return true;
@@ -413,7 +413,7 @@ static bool take_type(struct piece *rest, struct pieces *out, struct entry *entr
 {
 	cut(rest, strlen(":"));
 	if (rest->len == 0)
-		return entry_wrong(entry, N_("a type is missing behind the colon"),
+		return entry_wrong(entry, N_("“%s” needs a type behind the colon"),
 				   out->name.text, out->name.len);
 	out->type = cut(rest, rest->len);
 	return true;
@@ -431,7 +431,7 @@ static bool split(const char *text, size_t len, size_t name, struct pieces *out,
 	if (is_colon(rest.text, rest.len) && !take_type(&rest, out, entry))
 		return false;
 	return rest.len == 0 ||
-	       entry_wrong(entry, N_("only an address and a type stand behind a name"),
+	       entry_wrong(entry, N_("“%s” is not expected: only an address and a type can follow a name"),
 			   rest.text, rest.len);
 }
 
@@ -446,9 +446,9 @@ static bool read_address(const struct entry_place *place, const struct piece *pi
 	if (piece->len == 0)
 		return true;
 	if (!entry_address_parse(piece->text, piece->len, out, &why))
-		why = N_("this is no address");
+		why = N_("“%s” is not an address");
 	else if (!why && !project_has(place->project, *out))
-		why = N_("there is no such address");
+		why = N_("“%s” is not an address of this project");
 	return !why || entry_wrong(entry, why, piece->text, piece->len);
 }
 
@@ -475,7 +475,7 @@ static bool read_type(const struct entry_place *place, const struct piece *piece
 	if (out->type == IEC_NONE && !lex_is(&lex, "ARRAY") &&
 	    (out->word == WORD_COUNT || (words_row(words, out->word)->kind != WORD_FB &&
 					 words_row(words, out->word)->kind != WORD_STRUCT)))
-		return entry_wrong(entry, N_("there is no such type"), piece->text,
+		return entry_wrong(entry, N_("“%s” is not a type"), piece->text,
 				   piece->len);
 	cut(&rest, lex.token.len);
 	out->more = rest;
@@ -509,7 +509,7 @@ static bool is_other(const struct entry_place *place, const struct var *var,
 		 var->type != IEC_NONE ? iec_type_row(var->type)->word :
 		 words_row(&project->words, var->fb)->word);
 	entry->known = var;
-	return entry_wrong(entry, N_("it is declared as"), text, strlen(text));
+	return entry_wrong(entry, N_("the name is declared already as %s"), text, strlen(text));
 }
 
 /* ---- of a new name ---- */
@@ -523,11 +523,12 @@ static bool fits_type(const struct entry_fit *fit, const struct pieces *pieces,
 	if (value ? !(type->type == fit->type ||
 		      iec_type_row(type->type)->class & fit->classes) :
 		    fit->type != IEC_NONE || type->word != fit->word)
-		return entry_wrong(entry, fit->type == IEC_BOOL ? N_("this is no BOOL") :
-				   N_("this type does not fit here"), pieces->type.text,
+		return entry_wrong(entry, fit->type == IEC_BOOL ?
+				   N_("the type “%s” does not fit: this is a BOOL") :
+				   N_("the type “%s” does not fit here"), pieces->type.text,
 				   pieces->type.len);
 	return type->more.len == 0 ||
-	       entry_wrong(entry, N_("only an address and a type stand behind a name"),
+	       entry_wrong(entry, N_("“%s” is not expected: only an address and a type can follow a name"),
 			   type->more.text, type->more.len);
 }
 
@@ -543,17 +544,17 @@ static bool has_width(enum iec_type type, const struct piece *address,
 	if (addr.bits == bits)
 		return true;
 	if (type == IEC_BOOL)
-		return entry_wrong(entry, N_("this is no address of a BOOL"),
+		return entry_wrong(entry, N_("“%s” is not the address of a BOOL"),
 				   address->text, address->len);
 	if (bits == 0)
-		return entry_wrong(entry, N_("what is of such a type has no address"),
+		return entry_wrong(entry, N_("“%s” cannot be used: variables of this type have no address"),
 				   address->text, address->len);
 	for (int wide = 4; wide < bits; wide *= 2)
 		letter++;
 	snprintf(text, sizeof(text), "%.*s, %s: %%%s%c", (int)(address->len < 40 ?
 		 address->len : 40), address->text, iec_type_row(type)->word,
 		 iec_area_row(addr.area)->letters, letters[letter]);
-	return entry_wrong(entry, N_("this address is not as wide as its type"), text,
+	return entry_wrong(entry, N_("the address is not as wide as its type: %s"), text,
 			   strlen(text));
 }
 
@@ -567,7 +568,7 @@ static bool is_good(const struct entry_place *place, const struct pieces *pieces
 
 	entry_target_find(place, name->text, name->len, &target);
 	if (target.means != MEANS_NEW)
-		return entry_wrong(entry, N_("no variable can be called so"), name->text,
+		return entry_wrong(entry, N_("“%s” cannot be the name of a variable"), name->text,
 				   name->len);
 	if (pieces->type.len > 0 && !fits_type(fit, pieces, type, entry))
 		return false;
@@ -580,7 +581,7 @@ static bool is_good(const struct entry_place *place, const struct pieces *pieces
 	if (!has_width(out->type, address, addr, entry))
 		return false;
 	return !fit->write || iec_area_row(addr.area)->access != ACCESS_READ ||
-	       entry_wrong(entry, N_("this cannot be written"), address->text,
+	       entry_wrong(entry, N_("“%s” cannot be written"), address->text,
 			   address->len);
 }
 
@@ -623,7 +624,7 @@ static bool declare(const struct entry_place *place, const char *text, size_t le
 	const int before = entry->declares;
 
 	if (type == IEC_NONE && fit->word == WORD_COUNT)
-		return entry_wrong(entry, N_("there is no such variable"), text, len);
+		return entry_wrong(entry, N_("“%s” is not declared"), text, len);
 	if (!entry_declare(place, entry, text, len, type_word(place, type, fit),
 			   said ? said->address : ""))
 		return false;
@@ -646,7 +647,7 @@ bool entry_operand(const struct entry_place *place, const char *text, size_t len
 	}
 	entry_target_find(place, text, len, out);
 	if (out->means == MEANS_WRONG || out->means == MEANS_NOTHING)
-		return entry_wrong(entry, out->why ? out->why : N_("this is no operand"),
+		return entry_wrong(entry, out->why ? out->why : N_("“%s” is not an operand"),
 				   text, len);
 	return out->means != MEANS_NEW ||
 	       declare(place, text, len, fit, name ? &said : NULL, entry);

@@ -19,35 +19,35 @@ struct entry_fit {
 	bool write;
 };
 
-/** entry_fit_bool - of a contact or a coil. */
+/** entry_fit_bool - what fits a contact or (@write) a coil. */
 struct entry_fit entry_fit_bool(bool write);
-/** entry_fit_type - of a value that goes with those of a type. */
+/** entry_fit_type - what fits beside a value of a type. */
 struct entry_fit entry_fit_type(enum iec_type type, bool write);
-/** entry_fit_pin - of a pin. @shared: type of the other values of a function, IEC_NONE:
- * nobody knows. */
+/** entry_fit_pin - what fits a pin. @shared: type of the other values of a function,
+ * IEC_NONE: unknown. */
 struct entry_fit entry_fit_pin(const struct word_row *row, const struct word_pin *pin,
 			       enum iec_type shared, bool write);
-/** entry_fit_result - of what a function gives. */
+/** entry_fit_result - what fits the result of a function. */
 struct entry_fit entry_fit_result(const struct word_row *row, enum iec_type shared);
-/** entry_operand - a name, a path, an address; or a new name, which is declared with what
- * the line says of it, else with what is proposed. Fails: false, the entry says why. */
+/** entry_operand - reads a name, a path or an address. A new name is declared as the line
+ * says, else as proposed. Fails: false, the entry says why. */
 bool entry_operand(const struct entry_place *place, const char *text, size_t len,
 		   const struct entry_fit *fit, struct entry_target *out,
 		   struct entry *entry);
-/** entry_each_address - hands over every address that is used by itself. */
+/** entry_each_address - calls @take for each address that the project uses without a name. */
 void entry_each_address(const struct entry_place *place,
 			void (*take)(void *context, struct iec_addr addr),
 			void *context);
 
-/** entry_declare - a variable more. Fails: false and WRONG if there are too many. */
+/** entry_declare - adds a variable to @entry. Fails: false and WRONG if there are too many. */
 bool entry_declare(const struct entry_place *place, struct entry *entry, const char *name,
 		   size_t len, const char *type, const char *address);
-/** entry_said_len - bytes of the declaration that a text begins with, its name, address
- * and type; 0: it is none. */
+/** entry_said_len - bytes of the declaration at the begin of a text: name, address, type;
+ * 0: there is none. */
 size_t entry_said_len(const char *text, size_t len);
-/** entry_wrong - returns false. */
+/** entry_wrong - @entry is ENTRY_WRONG, for this reason. Returns false. */
 bool entry_wrong(struct entry *entry, const char *why, const char *what, size_t len);
-/** entry_append - to a text of @size; false if it does not fit. */
+/** entry_append - adds to the text in @out; false if it does not fit. */
 bool entry_append(char *out, size_t size, const char *text, size_t len);
 
 #endif

@@ -12,12 +12,12 @@
 #include "editor-gtk/edit/grid_edit.h"
 #include "engine/model/network.h"
 
-/* Marks in cell.spare, which is 0 in every rung that leaves this room. */
+/* Marks in cell.spare, which is 0 in every rung that these files return. */
 enum canvas_mark { CANVAS_CURSOR = 1, CANVAS_MOVED = 2 };
 
 struct canvas {
 	struct rung *rung;          /* of the canvas; replaced when it grows  */
-	enum grid_refusal refusal;  /* first one                              */
+	enum grid_refusal refusal;  /* the first one                          */
 	struct arena arena;         /* of @network                            */
 	struct network network;     /* of canvas_network()                    */
 };
@@ -26,8 +26,8 @@ struct canvas {
  * least grid_display_columns(); NULL: no memory. Owns: the caller. */
 struct rung *grid_spread(const struct rung *rung, int columns);
 
-/** canvas_open - spreads a rung out over so many columns, @rows of them at least.
- * Returns false when it failed; canvas_close() all the same. */
+/** canvas_open - spreads a rung out over @columns columns and at least @rows rows. Fails:
+ * false; call canvas_close() all the same. */
 bool canvas_open(struct canvas *c, const struct rung *rung, int columns, int rows);
 /** canvas_close - gives the rung in normal form, or NULL if the canvas failed; @at gets
  * the refusal and the place of the mark CANVAS_CURSOR. */
@@ -46,7 +46,7 @@ enum word canvas_word(const struct canvas *c, int row, int col);
 void canvas_put(struct canvas *c, int row, int col, struct cell content);
 /** canvas_clear - nothing but its link stays. */
 void canvas_clear(struct canvas *c, int row, int col);
-/* A cell holds neither element nor wire nor pin. */
+/** canvas_is_empty - neither element nor wire nor pin. */
 bool canvas_is_empty(const struct canvas *c, int row, int col);
 /** canvas_is_element - neither empty nor wire nor a row of pins. */
 bool canvas_is_element(const struct canvas *c, int row, int col);
@@ -67,9 +67,9 @@ bool canvas_replace(struct canvas *c, struct rung *made);
 bool canvas_insert_row(struct canvas *c, int at);
 /** canvas_insert_column - power that crosses it gets wire; outputs stay last. */
 bool canvas_insert_column(struct canvas *c, int at);
-/** canvas_is_bare - nothing stands in the row; links may pass it. */
+/** canvas_is_bare - is the row empty but for links? */
 bool canvas_is_bare(const struct canvas *c, int row);
-/** canvas_drop_row - takes an empty row away, if it is one and not the only one. */
+/** canvas_drop_row - deletes a row if it is empty and not the only one. */
 void canvas_drop_row(struct canvas *c, int row);
 
 /** canvas_close_left - wire from cell (@row, @col) leftwards to an element, a linked
@@ -80,8 +80,8 @@ bool canvas_close_left(struct canvas *c, int row, int col);
 void canvas_close_right(struct canvas *c, int row, int col);
 /** canvas_join_up - links bar @bar of @row with each row above it down from @top. */
 void canvas_join_up(struct canvas *c, int top, int row, int bar);
-/** canvas_prune - takes links away that lead from bar @bar of @row into nothing. Returns
- * the row where they came from. */
+/** canvas_prune - deletes links that lead from bar @bar of @row into nothing. Returns the
+ * row where they came from. */
 int canvas_prune(struct canvas *c, int row, int bar);
 
 /** canvas_at_element - opens it, with the mark on the element at the cursor. Fails:

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_display - which cell of a rung a person sees where.
+ * grid_display - in which column of a sheet a cell is shown; see grid_display.h.
  *
- * Everything follows from one question: is the last element of a row an output whose
- * wire can be made longer without touching another? It draws nothing.
+ * It depends on one question: is the last element of a row an output whose wire can be made
+ * longer without touching another wire?
  */
 #include "editor-gtk/edit/grid_display.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_display - which cell of a rung a person sees where.
+ * grid_display - in which column of a sheet a cell of a rung is shown.
  *
- * A sheet shows all its rungs with the same number of columns. The output at the end
- * of a row (a coil, a jump) is shown in the last column with wire stretched up to it,
- * everything else in its own column. It draws nothing and changes nothing.
+ * A sheet shows all its rungs with the same number of columns. The output at the end of a
+ * row (a coil, a jump) is shown in the last column, with a wire up to it; everything else is
+ * shown in its own column.
  */
 #ifndef EDITOR_GRID_DISPLAY_H
 #define EDITOR_GRID_DISPLAY_H

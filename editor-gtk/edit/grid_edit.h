@@ -2,13 +2,13 @@
  *
  * grid_edit - what a person does to a rung: each edit makes a new rung of an old one.
  *
- * No toolkit, no document, no undo: a rung comes in and is never changed, a new one in
- * normal form goes out. Places are display cells (grid_display.h), 0-based, on a sheet
- * of so many columns. Only the last column holds outputs, and nothing else stands in it.
+ * No toolkit, no document, no undo: the old rung never changes, the new one is in normal
+ * form. Places are display cells (grid_display.h), 0-based, on a sheet of grid_at.columns
+ * columns. Only outputs stand in the last column, and they stand nowhere else.
  *
- * Boxes: what is said of an element holds for a box with its rows of pins.
- * Owns: every rung that is returned is the caller's, rung_free(). None is scan-safe.
- * Fails: NULL, and why stands in grid_at.refusal; nothing else changed.
+ * "Element" includes a box with its rows of pins.
+ * Owns: a returned rung is the caller's, rung_free(). None is scan-safe.
+ * Fails: NULL, and grid_at.refusal says why; nothing else changed.
  */
 #ifndef EDITOR_GRID_EDIT_H
 #define EDITOR_GRID_EDIT_H
@@ -33,39 +33,38 @@ struct grid_at {
 	enum grid_refusal refusal; /* out: GRID_DONE or why not                */
 };
 
-/* Display cells from a corner to the other, both within it, first <= last. */
+/* Display cells from corner to corner, both included; first <= last. */
 struct grid_area { int row, col, last_row, last_col; };
 
 enum grid_way { GRID_LEFT, GRID_RIGHT, GRID_UP, GRID_DOWN };
 
 /* ---- elements ---- */
 
-/* What happens to an element that stands where another is put. */
+/* What happens to the element that stands there already. */
 enum grid_how {
-	GRID_REPLACE, /* it goes                                              */
-	GRID_INSERT,  /* it moves to the right, the new one before it         */
+	GRID_REPLACE, /* it is replaced                                       */
+	GRID_INSERT,  /* it moves to the right                                */
 };
 
 /**
  * grid_place - puts an element at a cell
  * @cell: its link and spare count for nothing
  *
- * On an empty cell or a wire it goes there; wires close by themselves: leftwards up to
- * an element, a linked bar or the rail, rightwards to what waits for power. An output
- * lands in the last column, whatever column was meant: in that row, or in a row of
- * its own below where an output stands already, unless that very one is replaced. A
- * box put into the last column lands behind the last element of its row. Columns and
- * rows appear when needed.
+ * An element goes to an empty cell or into a wire. Wires close by themselves: leftwards up
+ * to an element, a linked bar or the rail, rightwards to the next element without power.
+ * An output always goes to the last column: of this row, or of a new row below if an output
+ * stands there and is not replaced. A box put into the last column goes behind the last
+ * element of its row. Columns and rows are added when needed.
  */
 struct rung *grid_place(const struct rung *rung, struct grid_at *at, struct cell cell,
 			enum grid_how how);
 /**
  * grid_parallel - puts an element below the one at the cursor, joined at both ends
- * @area: what the branch goes round, cells of one row; NULL: the element at @at
+ * @area: cells of one row that the branch goes round; NULL: the element at @at
  *
- * Below an output an output; an output below anything else gets a branch behind it.
- * Where wires bar the way down, as those that feed the pins of a box, the branch goes
- * above.
+ * Below an output only an output can stand; an output below another element gets a branch
+ * behind that. Where wires bar the way down, such as those that feed pins of a box, the
+ * branch goes above.
  */
 struct rung *grid_parallel(const struct rung *rung, struct grid_at *at,
 			   const struct grid_area *area, struct cell cell);
@@ -84,19 +83,19 @@ struct rung *grid_negate(const struct rung *rung, struct grid_at *at,
 			 struct project *project, const struct pou *pou);
 /** grid_cycle - the next kind of its family: NO NC P N, COIL COILNOT S R COILP COILN. */
 struct rung *grid_cycle(const struct rung *rung, struct grid_at *at);
-/** grid_word_negated - what grid_negate() turns @word into; itself: there is none. */
+/** grid_word_negated - the word that grid_negate() makes of @word; @word itself: none. */
 enum word grid_word_negated(enum word word);
 
-/* ---- taking away ---- */
+/* ---- deleting ---- */
 
-/** grid_delete - the element or wire at the cursor. A wire stays where power must pass;
- * a branch that nothing is left in goes away with its row. */
+/** grid_delete - deletes the element or wire at the cursor. Where power must pass a wire
+ * stays; an empty branch is deleted with its row. */
 struct rung *grid_delete(const struct rung *rung, struct grid_at *at);
-/** grid_delete_area - all elements in it; where there is none, its wires and links. */
+/** grid_delete_area - deletes all elements in it; if there is none, its wires and links. */
 struct rung *grid_delete_area(const struct rung *rung, struct grid_at *at,
 			      const struct grid_area *area);
-/* Whole rows and columns at the cursor; the new ones come before it. The last column
- * stays. */
+/* Whole rows and columns at the cursor; new ones come before it. The last column cannot be
+ * deleted. */
 struct rung *grid_delete_row(const struct rung *rung, struct grid_at *at);
 struct rung *grid_delete_column(const struct rung *rung, struct grid_at *at);
 struct rung *grid_insert_row(const struct rung *rung, struct grid_at *at);
@@ -107,9 +106,9 @@ struct rung *grid_insert_column(const struct rung *rung, struct grid_at *at);
 /**
  * grid_wire - draws a wire that way from the cursor, or erases the one that is there
  *
- * Left and right: in the cursor's own cell if that holds no element, else in the next
- * one. Up and down: the right end of the cell joined with the row above or below. The
- * cursor goes where the wire leads.
+ * Left and right: in the cursor's own cell if it holds no element, else in the next one. Up
+ * and down: joins the right end of the cell with the row above or below. The cursor goes
+ * where the wire leads.
  */
 struct rung *grid_wire(const struct rung *rung, struct grid_at *at, enum grid_way way);
 
@@ -122,14 +121,13 @@ struct grid_end { int row, bar; };
  *             the last one is made
  * @along:     at the corner, first up or down and then across, if both ways are free
  *
- * In one row it goes round elements that stand between: as a branch in a row of its own.
- * It never goes through an element; what it touches on its way is joined. The cursor
- * goes behind its end, or to the first cell of the branch.
+ * In one row it goes round elements in between, as a branch in a row of its own. It never
+ * goes through an element; wires that it touches are joined. The cursor goes behind its end,
+ * or to the first cell of the branch.
  */
 struct rung *grid_draw_wire(const struct rung *rung, struct grid_at *at,
 			    struct grid_end from, struct grid_end to, bool along);
-/** grid_erase_wire - takes the wires and links away that such a stroke goes over;
- * elements stay. */
+/** grid_erase_wire - deletes the wires and links on the way of such a stroke, not elements. */
 struct rung *grid_erase_wire(const struct rung *rung, struct grid_at *at,
 			     struct grid_end from, struct grid_end to, bool along);
 
@@ -137,8 +135,8 @@ enum grid_course {
 	GRID_NO_COURSE, /* elements are in the way                             */
 	GRID_ACROSS,    /* first to the left or right                          */
 	GRID_ALONG,     /* first up or down                                    */
-	GRID_ROUND,     /* round what stands between, below it                 */
-	GRID_OVER,      /* or above it                                         */
+	GRID_ROUND,     /* round elements in between, below them               */
+	GRID_OVER,      /* the same above them                                 */
 };
 /** grid_wire_course - which way grid_draw_wire() would go. */
 enum grid_course grid_wire_course(const struct rung *rung, int columns,
@@ -150,7 +148,7 @@ void grid_wire_ends(const struct rung *rung, int columns, struct grid_end from,
 /** grid_open_branch - a link from the left end of the cursor's cell down to a row with
  * room, where the cursor goes. */
 struct rung *grid_open_branch(const struct rung *rung, struct grid_at *at);
-/** grid_close_gaps - every element that hangs in the air gets a wire leftwards. */
+/** grid_close_gaps - every element without a wire at its left end gets one. */
 struct rung *grid_close_gaps(const struct rung *rung, struct grid_at *at);
 
 /* ---- pins of boxes ---- */
@@ -179,12 +177,13 @@ struct rung *grid_copy(const struct rung *rung, int columns,
  * @parallel: as a branch below the element at the cursor; else in series: on a wire or
  *            an empty cell there, before an element
  *
- * What has outputs and more comes as rows of its own, outputs alone into the row.
+ * A part with outputs and other elements becomes rows of its own; a part of outputs alone
+ * goes into the row.
  */
 struct rung *grid_paste(const struct rung *rung, struct grid_at *at,
 			const struct rung *part, bool parallel);
 
-/** grid_is_outputs - nothing but outputs: without a condition they would be on always. */
+/** grid_is_outputs - does it hold only outputs? Without a condition they would always be on. */
 bool grid_is_outputs(const struct rung *rung);
 
 /* What dropping something at a cell would do. */
@@ -196,28 +195,27 @@ enum grid_drop {
 	GRID_DROP_BELOW,    /* in parallel to the element above                */
 	GRID_DROP_OUTPUT,   /* into the last column, perhaps in a row below    */
 };
-/** grid_can_drop - for the marks while dragging: may an element of @word go to display
- * cell (@row, @col), and how? */
+/** grid_can_drop - how may an element of @word be dropped at display cell (@row, @col)? */
 enum grid_drop grid_can_drop(const struct rung *rung, int columns, int row, int col,
 			     enum word word);
-/** grid_takes - which of all display cells grid_can_drop() lets have it.
+/** grid_takes - the same for all display cells: may it be dropped there?
  * @takes: @rows * @columns, by row; a row below the rung counts
  * Fails: false, and none takes it, if there is no memory. */
 bool grid_takes(const struct rung *rung, int columns, int rows, enum word word, bool *takes);
-/** grid_drop - does what grid_can_drop() says. */
+/** grid_drop - drops it as grid_can_drop() says. */
 struct rung *grid_drop(const struct rung *rung, struct grid_at *at, struct cell cell);
 /**
  * grid_move - drags the element at @from to @to
  * @source: gets the rung it came from without it, unless both are the same rung
  * @target: the rung it goes to; @rung itself: within the rung
  *
- * Returns the new target. Pin rows are left behind with what feeds them.
+ * Returns the new target. Rows of pins stay behind with the elements that feed them.
  */
 struct rung *grid_move(const struct rung *rung, struct grid_at *from,
 		       const struct rung *target, struct grid_at *to,
 		       struct rung **source);
 /**
- * grid_move_area - the same with all that stands in an area
+ * grid_move_area - drags all elements of an area
  * @to: where its upper left corner goes, as grid_paste() with @parallel
  */
 struct rung *grid_move_area(const struct rung *rung, struct grid_at *from,
@@ -229,9 +227,9 @@ struct rung *grid_move_area(const struct rung *rung, struct grid_at *from,
 /**
  * grid_normalise - the same circuit as the editor leaves it
  *
- * Outputs all in one column behind everything else, with wire up to them; no columns
- * of nothing but wire right before it; no empty rows and columns at the end. Gaps stay
- * gaps: never another meaning.
+ * All outputs stand in one column behind everything else, with wire up to them; there is no
+ * column of only wire right before it, and no empty row or column at the end. Gaps stay gaps:
+ * the meaning never changes.
  */
 struct rung *grid_normalise(const struct rung *rung);
 /** grid_same - do both hold the same elements in the same order, joined the same way?

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_kind - an element turned into its opposite, or into the next of its family.
+ * grid_kind - changes an element into its opposite, or into the next of its family.
  *
- * Which words belong together is read from their rows; only the signs of comparisons,
- * which are no words, stand here.
+ * The rows of the catalogue say which words belong together. Only the signs of comparisons,
+ * which are not words, are listed here.
  */
 #include "editor-gtk/edit/grid_canvas.h"
 

@@ -292,9 +292,9 @@ static bool can_be_called(struct sfc_edit *edit, const char *name)
 	lex_init(&lex, name, strlen(name));
 	if (lex_next(&lex) != TOKEN_NAME || lex.token.len != strlen(name) ||
 	    lex.token.len > LIMIT_NAME || strchr(name, '.'))
-		return sfc_edit_refuse(edit, N_("this is no name"));
+		return sfc_edit_refuse(edit, N_("this is not a name"));
 	if (is_taken(edit, name))
-		return sfc_edit_refuse(edit, N_("something has this name already"));
+		return sfc_edit_refuse(edit, N_("this name is used already"));
 	return true;
 }
 
@@ -327,7 +327,7 @@ int sfc_edit_new_step(struct sfc_edit *edit, int macro, int behind)
 	struct sfc_step *step;
 
 	if (sfc->step_count >= LIMIT_STEPS)
-		return sfc_edit_refuse(edit, N_("there are too many steps")) - 1;
+		return sfc_edit_refuse(edit, N_("the chart has too many steps")) - 1;
 	step = arena_push(&edit->arena, &sfc->step, &sfc->step_count, sizeof(*step));
 	if (!step || !name)
 		return sfc_edit_refuse(edit, NO_MEMORY) - 1;
@@ -345,7 +345,7 @@ int sfc_edit_new_transition(struct sfc_edit *edit, int macro, int from, int to, 
 	const int number = sfc->transition_count;
 
 	if (number >= 2 * LIMIT_STEPS)
-		return sfc_edit_refuse(edit, N_("there are too many transitions")) - 1;
+		return sfc_edit_refuse(edit, N_("the chart has too many transitions")) - 1;
 	t = arena_push(&edit->arena, &sfc->transition, &sfc->transition_count, sizeof(*t));
 	if (!t)
 		return sfc_edit_refuse(edit, NO_MEMORY) - 1;
@@ -454,8 +454,8 @@ int sfc_edit_first(struct sfc_edit *edit, int macro)
 int sfc_edit_lead(struct sfc_edit *edit, int from, int to)
 {
 	if (edit->sfc.step[from].macro != edit->sfc.step[to].macro)
-		return sfc_edit_refuse(edit, N_("no way leads past the border of a "
-						"macro-step")) - 1;
+		return sfc_edit_refuse(edit, N_("a link cannot cross the border of "
+						"a macro-step")) - 1;
 	return sfc_edit_new_transition(edit, edit->sfc.step[from].macro, from, to,
 			      behind_ways(edit, from));
 }
@@ -470,8 +470,10 @@ bool sfc_edit_set_ways(struct sfc_edit *edit, int transition, bool to, const cha
 		uint32_t name;
 
 		if (len > 0) {
-			if (len > LIMIT_NAME || edit->sfc.ref_count - first >= LIMIT_BRANCHES)
-				return sfc_edit_refuse(edit, N_("this is too long"));
+			if (len > LIMIT_NAME)
+				return sfc_edit_refuse(edit, N_("this is not a name"));
+			if (edit->sfc.ref_count - first >= LIMIT_BRANCHES)
+				return sfc_edit_refuse(edit, N_("there are too many branches"));
 			name = names_intern(&edit->project->names, at, len);
 			if (!put_ref(edit, name, sfc_find_step(&edit->sfc,
 					&edit->project->names, name)))
@@ -491,10 +493,10 @@ bool sfc_edit_wait(struct sfc_edit *edit, int transition, int step)
 	const struct sfc_transition *t = &edit->sfc.transition[transition];
 
 	if (t->macro != edit->sfc.step[step].macro)
-		return sfc_edit_refuse(edit, N_("no way leads past the border of a "
-						"macro-step"));
+		return sfc_edit_refuse(edit, N_("a link cannot cross the border of "
+						"a macro-step"));
 	if (sfc_edit_names_step(edit, transition, false, step))
-		return sfc_edit_refuse(edit, N_("it waits for that step already"));
+		return sfc_edit_refuse(edit, N_("the transition waits for this step already"));
 	if (t->from_count >= LIMIT_BRANCHES)
 		return sfc_edit_refuse(edit, N_("there are too many branches"));
 	return add_step(edit, transition, false, step);
@@ -839,7 +841,7 @@ bool sfc_edit_name_transition(struct sfc_edit *edit, int transition, const char 
 bool sfc_edit_set_priority(struct sfc_edit *edit, int transition, int priority)
 {
 	if (priority < 0 || priority > 65535)
-		return sfc_edit_refuse(edit, N_("this is no priority"));
+		return sfc_edit_refuse(edit, N_("the priority is a number from 0 to 65535"));
 	edit->sfc.transition[transition].priority = priority;
 	return true;
 }
@@ -847,7 +849,7 @@ bool sfc_edit_set_priority(struct sfc_edit *edit, int transition, int priority)
 bool sfc_edit_set_kind(struct sfc_edit *edit, int step, enum step_kind kind)
 {
 	if (edit->sfc.step[step].kind == STEP_MACRO || kind == STEP_MACRO)
-		return sfc_edit_refuse(edit, N_("a macro-step stays one"));
+		return sfc_edit_refuse(edit, N_("a macro-step cannot become another kind of step"));
 	edit->sfc.step[step].kind = kind;
 	return true;
 }
@@ -864,7 +866,7 @@ bool sfc_edit_set_times(struct sfc_edit *edit, int step, const char *min, const 
 	struct sfc_step *s = &edit->sfc.step[step];
 
 	if (!is_word(min) || !is_word(max) || !is_word(alarm))
-		return sfc_edit_refuse(edit, N_("this is no time and no bit"));
+		return sfc_edit_refuse(edit, N_("write a time, such as T#5s, or the name of a bit"));
 	s->min = sfc_edit_id(edit, min);
 	s->max = sfc_edit_id(edit, max);
 	s->alarm = sfc_edit_id(edit, alarm);
@@ -913,7 +915,7 @@ bool sfc_edit_set_condition(struct sfc_edit *edit, int transition, const char *t
 		return true;
 	}
 	if (strpbrk(text, ";|\n\r") || strlen(text) > 4000 || !sfc_is_expression(text))
-		return sfc_edit_refuse(edit, N_("this is no expression"));
+		return sfc_edit_refuse(edit, N_("the condition is not a valid expression"));
 	rung = expression_rung(edit, text);
 	to = rung ? arena_push(&edit->arena, &edit->pou.rung, &edit->pou.rung_count,
 			       sizeof(*to)) : NULL;
@@ -933,7 +935,7 @@ bool sfc_edit_as_rung(struct sfc_edit *edit, int transition)
 	if (body->kind == BODY_NONE && !sfc_edit_set_condition(edit, transition, "TRUE"))
 		return false;
 	if (body->kind == BODY_LIST)
-		return sfc_edit_refuse(edit, N_("this condition is a list"));
+		return sfc_edit_refuse(edit, N_("the condition is a list and cannot become a rung"));
 	body->kind = BODY_RUNGS;
 	return true;
 }
@@ -978,7 +980,7 @@ static bool take_qualifier(const char **at, struct sfc_doing *out)
 	*at = behind;
 	if (out->kind != USE_ACTION || !qualifier_has_time(found))
 		return true;
-	out->why = N_("a time and a name belong to this qualifier");
+	out->why = N_("this qualifier needs a time and a name, as in L T#5s Motor");
 	return next_word(at, out->time, sizeof(out->time)) && *skip(*at);
 }
 
@@ -998,8 +1000,8 @@ static bool take_operand(const char *at, bool qualified, struct sfc_doing *out)
 	if (!next_word(&at, word, sizeof(word)))
 		return false;
 	if (!is_word(word) || *skip(at)) {
-		out->why = qualified ? N_("too many words") :
-				       N_("there is no such qualifier");
+		out->why = qualified ? N_("there are too many words: write a qualifier and a name") :
+				       N_("the first word is not a qualifier");
 		return false;
 	}
 	snprintf(out->name, sizeof(out->name), "%s", word);
@@ -1096,7 +1098,7 @@ bool sfc_edit_set_use(struct sfc_edit *edit, int step, int use,
 	struct sfc_use *to;
 
 	if (use < 0 && s->use_count >= LIMIT_STEP_USES)
-		return sfc_edit_refuse(edit, N_("this step does too much"));
+		return sfc_edit_refuse(edit, N_("the step has too many actions"));
 	if ((doing->action && !new_action(edit, doing->name)) ||
 	    !copy_uses(edit, step, -1, use < 0))
 		return false;
@@ -1123,7 +1125,7 @@ static bool comment_id(struct sfc_edit *edit, const char *text, uint32_t *id)
 	char *whole;
 
 	if (strstr(text, "*)") || strstr(text, "(*") || strpbrk(text, "\r\n"))
-		return sfc_edit_refuse(edit, N_("a comment holds no (* and no *)"));
+		return sfc_edit_refuse(edit, N_("a comment is one line without (* and *)"));
 	*id = 0;
 	if (!*text)
 		return true;

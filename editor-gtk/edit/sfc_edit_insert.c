@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_edit_insert - what was put behind a chart comes into its sequence; see sfc_edit.h.
+ * sfc_edit_insert - moves a pasted part into the sequence of a chart; see sfc_edit.h.
  *
- * It knows a part of a chart by its numbers alone: steps and transitions from two numbers
- * on. Ways that leave the part are those whose steps have lower numbers, or none.
+ * The part is all steps and transitions from two numbers on. A transition leaves the part if
+ * it leads to steps with lower numbers, or to unknown ones.
  */
 #include "editor-gtk/edit/sfc_edit.h"
 
@@ -13,13 +13,13 @@
 
 struct passage {
 	struct sfc_edit *edit;
-	int step, way;           /* from which numbers on it is the part         */
-	int step_end, way_end;   /* what is made on the way is not of it         */
-	int macro;               /* where it comes to stand                      */
-	int head, head_way;      /* where it is entered: one of them, else -1    */
+	int step, way;           /* its first step and transition                */
+	int step_end, way_end;   /* behind its last ones                         */
+	int macro;               /* the macro-step it goes into; -1: none        */
+	int head, head_way;      /* the step or transition at its begin, else -1 */
 	int heads;
-	int tail, tails;         /* a step that no way leaves                    */
-	int exit, exits;         /* the first way that leads out of it           */
+	int tail, tails;         /* a step that no transition leaves             */
+	int exit, exits;         /* the first transition that leaves it          */
 };
 
 static uint32_t name_of(const struct passage *part, int step)
@@ -309,8 +309,8 @@ int sfc_edit_insert(struct sfc_edit *edit, int step, int way, int at_step, int a
 	if ((at_step < 0 && at_way < 0) || part.heads != 1 || part.tails > 1 ||
 	    part.tails + part.exits == 0) {
 		if (at_step >= 0 || at_way >= 0)
-			edit->why = N_("it stands beside the chart: it has not one "
-				       "beginning and one end");
+			edit->why = N_("the pasted part stands beside the chart: it "
+				       "does not have one beginning and one end");
 		return close_ways(&part) ? step : -1;
 	}
 	part.macro = at_way >= 0 ? edit->sfc.transition[at_way].macro :

@@ -2,9 +2,8 @@
  *
  * sfc_edit_macro - steps go into a macro-step and come out again; see sfc_edit.h.
  *
- * Neither changes what the chart does, but for the numbers of its steps: what led to the
- * step that is entered leads to the macro-step, and what led away from the one that is
- * left leads away from it.
+ * Both change nothing in what the chart does: transitions that led to the first step of the
+ * group lead to the macro-step, and those that left its last step leave the macro-step.
  */
 #include "editor-gtk/edit/sfc_edit.h"
 
@@ -126,7 +125,7 @@ static bool guess_gates(struct group *group)
 		if (!group->step[i])
 			continue;
 		if (sfc->step[i].kind == STEP_INITIAL)
-			return refuse(group, N_("the initial step stays outside"));
+			return refuse(group, N_("the initial step cannot go into a macro-step"));
 		group->entry = group->entry < 0 ? i : group->entry;
 		if (group->exit >= 0 || leads_on(group, i))
 			continue;
@@ -138,10 +137,9 @@ static bool guess_gates(struct group *group)
 	if (group->exit < -1)
 		group->exit = -2 - group->exit;
 	if (group->exit < 0 || leads_on(group, group->exit))
-		return refuse(group, N_("none of these steps is only left: add one that "
-					"ends them"));
+		return refuse(group, N_("these steps have no last step: add one"));
 	if (sfc->step[group->entry].kind == STEP_MACRO)
-		return refuse(group, N_("a macro-step cannot be where another one begins"));
+		return refuse(group, N_("a macro-step cannot begin with another macro-step"));
 	return true;
 }
 
@@ -154,11 +152,11 @@ static bool check_chosen(struct group *group)
 		if (!group->step[i])
 			continue;
 		if (any && sfc->step[i].macro != group->macro)
-			return refuse(group, N_("these steps do not stand in one chart"));
+			return refuse(group, N_("the selected steps are in different charts"));
 		group->macro = sfc->step[i].macro;
 		any = true;
 	}
-	return any || refuse(group, N_("the cursor is on no step"));
+	return any || refuse(group, N_("the cursor is not on a step"));
 }
 
 /* ---- into ---- */
@@ -249,7 +247,7 @@ static int new_macro(struct group *group)
 	struct sfc_step *step;
 
 	if (sfc->step_count >= LIMIT_STEPS)
-		return refuse(group, N_("there are too many steps")) - 1;
+		return refuse(group, N_("the chart has too many steps")) - 1;
 	step = arena_push(&edit->arena, &sfc->step, &sfc->step_count, sizeof(*step));
 	if (!step || !name)
 		return refuse(group, NO_MEMORY) - 1;
@@ -290,7 +288,7 @@ static int put_inside(struct group *group)
 	int macro;
 
 	if (is_too_deep(group))
-		return refuse(group, N_("macro-steps stand in each other too deep")) - 1;
+		return refuse(group, N_("macro-steps are nested too deep")) - 1;
 	macro = new_macro(group);
 	/* The new one is none of them, whatever stands behind the end of @step. */
 	if (macro < 0 || !gather(group, macro) || !lead_to_macro(group, macro))
@@ -363,13 +361,13 @@ static bool may_open(struct sfc_edit *edit, int macro)
 	const struct sfc_step *step = &edit->sfc.step[macro];
 
 	if (step->kind != STEP_MACRO)
-		return sfc_edit_refuse(edit, N_("this is no macro-step"));
+		return sfc_edit_refuse(edit, N_("this is not a macro-step"));
 	if (step->use_count || step->min || step->max || step->alarm)
-		return sfc_edit_refuse(edit, N_("the macro-step does something itself: "
-						"that goes into its steps first"));
+		return sfc_edit_refuse(edit, N_("the macro-step has actions or times "
+						"of its own: move them into its steps"));
 	if (sfc_edit_asks_for(edit, macro))
-		return sfc_edit_refuse(edit, N_("the chart asks whether the macro-step is "
-						"active, or for how long"));
+		return sfc_edit_refuse(edit, N_("the chart uses .X or .T of the "
+						"macro-step"));
 	return true;
 }
 
@@ -401,8 +399,8 @@ int sfc_edit_macro_open(struct sfc_edit *edit, int macro)
 	if (!may_open(edit, macro))
 		return -1;
 	if (!inside_gates(edit, macro, &entry, &leave))
-		return sfc_edit_refuse(edit, N_("it is not clear where the macro-step is "
-						"entered or left")) - 1;
+		return sfc_edit_refuse(edit, N_("the macro-step needs one initial step and "
+						"one last step")) - 1;
 	lead_to_inside(edit, macro, entry, leave);
 	for (int i = 0; i < sfc->step_count; i++)
 		if (sfc->step[i].macro == macro)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cell_entry - see cell_entry.h. What the toolkit draws is drawn by it, up to where the
- * ellipsis stands.
+ * cell_entry - an entry of a table; see cell_entry.h. GtkText draws the text, clipped where
+ * the ellipsis begins.
  */
 #include "editor-gtk/kit/cell_entry.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * cells - what cells that can be edited share; see cells.h.
+ * cells - refusals, focus and pending edits in tables; see cells.h.
  */
 #include "editor-gtk/kit/cells.h"
 
@@ -10,7 +10,7 @@
 
 #define PLACE GTK_ENTRY_ICON_SECONDARY
 
-/* An icon that is none would keep its room. */
+/* An empty icon would take up space. */
 static void hide_empty(GtkEntry *cell)
 {
 	for (GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(cell)); child;
@@ -21,7 +21,7 @@ static void hide_empty(GtkEntry *cell)
 				GTK_IMAGE_EMPTY);
 }
 
-/* What stands at the end of a cell. */
+/* The icon at the end of a cell. */
 struct sign {
 	char *icon, *tip;
 };
@@ -43,8 +43,8 @@ static void put_icon(GtkEntry *cell, const char *icon, const char *tip)
 	hide_empty(cell);
 }
 
-/* Not by its colour alone: what was refused may be an empty text. The sign takes the place
- * of the one that is there, if one is, as long as it is refused: no text moves. */
+/* A colour alone would not show on an empty text. The icon replaces the one that is there,
+ * until the refusal ends, so that no text moves. */
 static void show_icon(GtkEntry *cell, const char *why)
 {
 	struct sign *was = g_object_get_data(G_OBJECT(cell), "sign");
@@ -92,7 +92,7 @@ void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller
 	g_object_set_data(G_OBJECT(cell), name, controller);
 }
 
-/* ---- a cell that is to have the focus ---- */
+/* ---- focus ---- */
 
 #define FRAMES_SEEN 3  /* until a new row has a place that can be scrolled to   */
 #define FRAMES_MOST 60 /* that a table may need to make it                      */
@@ -177,7 +177,7 @@ LadderPanelRow *cells_focused(GtkColumnView *table, int *field)
 	return gtk_list_item_get_item(g_object_get_data(G_OBJECT(cell), "item"));
 }
 
-/* ---- an edit that is to end where it stands ---- */
+/* ---- pending edits ---- */
 
 struct take {
 	bool (*take)(GtkWidget *cell, GtkListItem *item);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * cells - what the cells of tables that can be edited share. What a cell means, and how
- * it is edited, is the table's business.
+ * cells - refusals, focus and pending edits in the cells of tables.
  */
 #ifndef EDITOR_CELLS_H
 #define EDITOR_CELLS_H
@@ -12,27 +11,26 @@
 
 #include <stdbool.h>
 
-/** cells_refuse - marks a cell as refused, and says @why; NULL: it is not. Takes @why. */
+/** cells_refuse - marks a cell as refused, with the reason; NULL: removes the mark. Takes @why. */
 void cells_refuse(GtkWidget *cell, char *why);
-/** cells_refused - the same of an edit that did not succeed; @why may be NULL. Takes it. */
+/** cells_refused - marks a cell after a failed edit; @why NULL: "Refused". Takes @why. */
 void cells_refused(GtkWidget *cell, char *why);
-/** cells_add - a controller of @cell, to be found as its data @name. */
+/** cells_add - adds a controller to @cell, and as its data @name. */
 void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller);
 
-/** cells_stand - where @cell stands: the item of its row (NULL: nowhere), its column. */
+/** cells_stand - sets the row (NULL: none) and the column of @cell. */
 void cells_stand(GtkWidget *cell, GtkListItem *item, int field);
-/** cells_enter - the cell of @table in its selected row @row gets the focus, its text
- * selected, and is scrolled to; if the table has yet to make it, then. */
+/** cells_enter - moves the focus to a cell of the selected row @row, selects its text and
+ * scrolls to it; later, if the table has not made the cell yet. */
 void cells_enter(GtkColumnView *table, const LadderPanelRow *row, int field);
-/** cells_focused - the row of the cell that has the keys, and its @field; NULL: none has.
- * Borrowed. */
+/** cells_focused - the row and @field of the cell that has the focus; NULL: none. Borrowed. */
 LadderPanelRow *cells_focused(GtkColumnView *table, int *field);
 
-/** cells_on_take - what ends an edit in @cell where it stands, as before saving. @take:
- * false: refused, and it told why in the cell; NULL: the cell is no one's any more. */
+/** cells_on_take - sets the function that ends an edit in @cell, as before saving. It returns
+ * false if it refused the edit and marked the cell. NULL: none. */
 void cells_on_take(GtkWidget *cell, bool (*take)(GtkWidget *cell, GtkListItem *item),
 		   GtkListItem *item);
-/** cells_take - ends the edit that has the focus, if one has; false: it was refused. */
+/** cells_take - ends the edit that has the focus, if there is one; false: it was refused. */
 bool cells_take(GtkWidget *focus);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * comment_text - what a comment says; see comment_text.h.
+ * comment_text - the text of a comment; see comment_text.h.
  */
 #include "editor-gtk/kit/comment_text.h"
 

@@ -2,9 +2,9 @@
  *
  * diag_said - a diagnostic of the engine in the language of the session.
  *
- * What it speaks of is mostly a name of the user, and must not be taken for a text of
- * ours that happens to be the same: such as `index`. Of a sentence of ours round such
- * names (diag_args.def) the sentence is said in the language and the names stay.
+ * An argument is mostly a name of the user and must not be translated even if the engine has
+ * the same word, such as `index`. In sentences of the engine round such names
+ * (diag_args.def) the sentence is translated and the names stay.
  */
 #include "editor-gtk/kit/diag_said.h"
 

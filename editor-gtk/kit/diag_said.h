@@ -7,17 +7,16 @@
 
 #include "engine/base/diag.h"
 
-/** diag_said - its text, without what it speaks of. Lives for ever. */
+/** diag_said - its text, without its argument. Lives for ever. */
 const char *diag_said(const struct diag *diag);
 
 /**
- * diag_said_arg - what it speaks of: names of the user as they are, what the engine
- * expected, counted or says of them in the language of the session. Caller frees with
- * g_free().
+ * diag_said_arg - its argument: names of the user unchanged, words of the engine translated.
+ * Caller frees with g_free().
  */
 char *diag_said_arg(const struct diag *diag);
 
-/** diag_said_whole - "text: what", or the text alone. Caller frees with g_free(). */
+/** diag_said_whole - "text: argument", or the text alone. Caller frees with g_free(). */
 char *diag_said_whole(const struct diag *diag);
 
 /** diag_said_line - as diag_print(), place, code and text; in English it is the same. Caller

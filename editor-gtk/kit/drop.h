@@ -7,8 +7,8 @@
 
 #include <gtk/gtk.h>
 
-/** drop_fill - offers these @names (of const char *, copied). One that offers them already is
- * left as it is: a click would be lost whose press was before and whose release is after. */
+/** drop_fill - offers @names (const char *, copied). It does nothing if they are offered
+ * already: a click would be lost if the list changed between press and release. */
 void drop_fill(GtkDropDown *drop, const GPtrArray *names);
 
 #endif

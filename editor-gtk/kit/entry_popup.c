@@ -2,11 +2,10 @@
  *
  * entry_popup - a line to type in at a place, with what could be meant below it.
  *
- * Enter takes what is typed, or the candidate that the arrows chose: never one that
- * nobody chose. A key of the window takes what is typed, too, and then does what it does
- * everywhere: who saves means all that is there to be seen. Undo and redo are the line's.
- * Candidates that are not seen at first become widgets when the person stops typing, or
- * goes there: most never do. What was made once is used again: an owner keeps its popup.
+ * Enter takes the typed text, or the candidate that the arrows selected; it never selects one
+ * by itself. A key of the window, such as Ctrl+S, first takes the typed text and then does
+ * its work. Undo and redo belong to the line. Candidates that are not visible at first become
+ * widgets only after a pause or when the selection moves there. Rows and popups are reused.
  */
 #include "editor-gtk/kit/entry_popup.h"
 

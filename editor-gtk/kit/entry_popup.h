@@ -2,8 +2,8 @@
  *
  * entry_popup - a line to type in at a place, with what could be meant below it.
  *
- * It knows no ladder: its owner says what candidates there are, what a line would do, and
- * whether it is taken.
+ * It knows nothing of ladders: its owner gives the candidates, says what a line would do and
+ * takes it or not.
  */
 #ifndef EDITOR_ENTRY_POPUP_H
 #define EDITOR_ENTRY_POPUP_H
@@ -21,39 +21,39 @@ struct entry_popup_row {
 };
 
 struct entry_popup_calls {
-	/** Adds rows with ladder_entry_popup_add(); returns what Enter would do, to be
-	 * shown below, g_free'd; @good false: it would do nothing. */
+	/** Adds rows with ladder_entry_popup_add(); returns a text for below the line: what
+	 * Enter would do, or with @good false why it would do nothing. Freed with g_free. */
 	char *(*changed)(void *context, const char *line, int cursor, bool *good);
-	/** Takes the line. False: not yet, it stays. */
+	/** Takes the line. False: not taken, the popup stays. */
 	bool (*taken)(void *context, const char *line);
-	/** It is gone, taken or not. */
+	/** The popup closed, with its line taken or not. */
 	void (*gone)(void *context);
 	void *context;
-	/** After a click elsewhere: what was typed was taken as by Enter, or, if this is
-	 * called, could not be, which it tells. NULL: what was typed is dropped. */
+	/** A click elsewhere takes the line as Enter does; if it could not be taken, this is
+	 * called to tell so. NULL: a click elsewhere drops the line. */
 	void (*left)(void *context, const char *line);
-	bool proposes; /* what stands there at first is a proposal, not what there is:
-			  a click elsewhere takes it, too                      */
+	bool proposes; /* the first text is a proposal: a click elsewhere takes it
+			  even if nothing was typed                            */
 };
 
-/** ladder_entry_popup_new - @prompt: what is asked for; @text: there at first, and
- * selected unless @typed; @owner: its parent, of whom a popup that was kept is used again. */
+/** ladder_entry_popup_new - @owner: its parent; a popup that @owner kept is used again.
+ * @prompt: what to type; @text: the first text, selected unless @typed. */
 GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const char *text,
 				  bool typed, const struct entry_popup_calls *calls);
 /** ladder_entry_popup_add - one more candidate; its strings are copied. */
 void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_row *row);
-/** ladder_entry_popup_ask - asks its owner again what there is. */
+/** ladder_entry_popup_ask - asks its owner for the candidates again. */
 void ladder_entry_popup_ask(LadderEntryPopup *popup);
 /** ladder_entry_popup_select - of its line, in bytes. */
 void ladder_entry_popup_select(LadderEntryPopup *popup, gsize from, gsize to);
 /** ladder_entry_popup_show - at @cell of its owner. */
 void ladder_entry_popup_show(LadderEntryPopup *popup, const GdkRectangle *cell);
-/** ladder_entry_popup_keep - closes it, and keeps it for what its owner asks next: to make
- * one takes as long as all that a key does else. It may be what is calling. */
+/** ladder_entry_popup_keep - closes it and keeps it for its owner's next line: to make one
+ * takes as long as everything else that a key does. It may be called from a callback. */
 void ladder_entry_popup_keep(LadderEntryPopup *popup);
 /** ladder_entry_popup_close - without taking anything. */
 void ladder_entry_popup_close(LadderEntryPopup *popup);
-/** ladder_entry_popup_drop - takes what was kept from @owner, who is going. */
+/** ladder_entry_popup_drop - removes the popup that @owner kept; when @owner is disposed. */
 void ladder_entry_popup_drop(GtkWidget *owner);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * installed - what belongs to this program, wherever it was built, installed or moved to.
+ * installed - finds files and programs of this package; see installed.h.
  */
 #include "editor-gtk/kit/installed.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * installed - what belongs to this program, wherever it was built, installed or moved to.
+ * installed - finds files and programs of this package, wherever it was built or installed.
  */
 #ifndef EDITOR_INSTALLED_H
 #define EDITOR_INSTALLED_H
@@ -12,7 +12,7 @@
  * @built:     its name beside the program in a build
  * @installed: below share/ of where the program is in bin/
  *
- * A file of that name is none: /usr/bin has a program `locale`.
+ * A file of that name is not accepted: /usr/bin has a program `locale`.
  * Owns: the caller, g_free().   Fails: NULL: there is none.
  */
 char *installed_folder(const char *built, const char *installed);

@@ -2,9 +2,9 @@
  *
  * lettering - the styles of type, and how wide a text is in one of them.
  *
- * Texts are measured with Pango and remembered, because a sheet says the same names over
- * and over. A text that is longer than its bound is cut with an ellipsis here, so that
- * screen, SVG and PDF show the same. It draws nothing.
+ * Texts are measured with Pango and remembered, because a sheet has the same names over and
+ * over. A text that is longer than its bound is cut with an ellipsis here, so that screen,
+ * SVG and PDF show the same.
  */
 #ifndef EDITOR_LETTERING_H
 #define EDITOR_LETTERING_H
@@ -28,7 +28,7 @@ enum letter {
 	LETTERS
 };
 
-/* A text made fit to be drawn: valid UTF-8, no control characters, not too wide. */
+/* A text ready to be drawn: valid UTF-8, no control characters, not too wide. */
 struct lettered {
 	const char *text; /* lives until lettering_trim() or lettering_free()   */
 	float width;      /* px                                                 */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * panel_row - a row of a panel's list: texts, and the place they speak of. It is what the
- * lists of problems, uses and symbols hold. Signal: changed (): it tells something else of
- * the same declaration.
+ * panel_row - a row of a panel's list: texts and the place that they are about. The lists of
+ * problems, uses and symbols hold such rows. Signal: changed (): the row of the same
+ * declaration has other texts now.
  */
 #ifndef EDITOR_PANEL_ROW_H
 #define EDITOR_PANEL_ROW_H
@@ -21,7 +21,7 @@ struct _LadderPanelRow {
 	GObject parent_instance;
 	char *text[PANEL_TEXTS];   /* a column each; NULL: ""                  */
 	char *spoken;              /* of the whole row, for a screen reader    */
-	char *note;                /* what is wrong with it; NULL: nothing     */
+	char *note;                /* the problem that it has; NULL: none      */
 	gint64 number;             /* how its place sorts                      */
 	enum panel_tone tone;
 	int pou, rung, row, col;   /* 0-based; -1: the whole                   */
@@ -29,17 +29,17 @@ struct _LadderPanelRow {
 	unsigned int flags;        /* the panel's own                          */
 };
 
-/** ladder_panel_row_new - of nothing, with no place. */
+/** ladder_panel_row_new - without texts and place. */
 LadderPanelRow *ladder_panel_row_new(void);
 /** panel_row_text - never NULL. Borrowed. */
 const char *panel_row_text(const LadderPanelRow *row, int column);
 /** panel_row_equal - would a reader see no difference? */
 bool panel_row_equal(const LadderPanelRow *a, const LadderPanelRow *b);
-/** panel_row_matches - has one of its texts what is wanted in it? In any case. */
+/** panel_row_matches - does one of its texts contain @wanted, in any case? */
 bool panel_row_matches(const LadderPanelRow *row, const char *wanted);
-/** panel_rows_update - a list becomes @rows; what is the same at both ends stays, so that
- * selection and scrolling do. Declarations that only say something else are not replaced but
- * changed: who types into one goes on, and sorting waits. @rows: their content may go. */
+/** panel_rows_update - replaces the rows of a list by @rows. Equal rows at both ends stay, and
+ * with them selection and scrolling. Rows of the same declarations are changed, not replaced,
+ * so that typing into one goes on and sorting waits. @rows: their contents may be moved. */
 void panel_rows_update(GListStore *store, GPtrArray *rows);
 
 #endif

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * picture - a drawing as a list of strokes, before it is anywhere.
+ * picture - a drawing as a list of strokes.
  *
- * What is drawn is drawn once, into this list; from it come a render node for the screen,
- * cairo for PDF, print and PNG, SVG with real text, and the lines that tests compare.
- * Strokes name tokens (theme.h) and styles of type (lettering.h): a list has no colours
- * of its own.
+ * A drawing is made once, as this list. It becomes a render node for the screen, cairo for
+ * PDF, print and PNG, or SVG with real text; tests compare it as lines. Strokes have tokens
+ * (theme.h) and styles of type (lettering.h) instead of colours and fonts.
  */
 #ifndef EDITOR_PICTURE_H
 #define EDITOR_PICTURE_H
@@ -50,7 +49,7 @@ struct picture {
 /** picture_init - empty. Give it back with picture_clear(). */
 void picture_init(struct picture *picture);
 void picture_clear(struct picture *picture);
-/** picture_move - where 0, 0 of what follows is. */
+/** picture_move - sets the origin of the strokes that follow. */
 void picture_move(struct picture *picture, float dx, float dy);
 
 void picture_fill(struct picture *picture, enum token token, float alpha,
@@ -86,7 +85,7 @@ char *picture_svg(const struct picture *picture, const struct theme *theme, floa
  * Fails: NULL, there is no memory for it. */
 GBytes *picture_png(const struct picture *picture, const struct theme *theme,
 		    struct lettering *lettering, float scale);
-/** picture_append - cairo writes into a GByteArray, the closure. */
+/** picture_append - a cairo_write_func_t; the closure is a GByteArray. */
 cairo_status_t picture_append(void *bytes, const unsigned char *data, unsigned int len);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * settings - what a person chose, kept from one start to the next.
+ * settings - preferences; see settings.h.
  */
 #include "editor-gtk/kit/settings.h"
 
@@ -8,7 +8,7 @@
 
 #define SCHEMA "org.rungboard.Editor"
 
-/* A program that was built, or installed where the desktop does not look, has its own. */
+/* In a build, or installed where the desktop does not look for schemas. */
 static GSettingsSchema *own_schema(void)
 {
 	char *schemas = installed_folder("schemas", "glib-2.0/schemas");

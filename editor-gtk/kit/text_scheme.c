@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_scheme - see text_scheme.h. It knows nothing of what the text says.
+ * text_scheme - the colours of a source view; see text_scheme.h.
  */
 #include "editor-gtk/kit/text_scheme.h"
 

@@ -3,7 +3,7 @@
  * theme - the colours and weights of everything that is drawn, in one table.
  *
  * Drawings name a token, never a colour. Screen, pictures, print and palette icons take
- * them from here and not from CSS, so that all of them look the same. It draws nothing.
+ * colours from here and not from CSS, so that all of them look the same.
  *
  * Text keeps 4.5 : 1 against the sheet and graphics 3 : 1 (tests/editor/kit/test_theme.c).
  * Power is told by weight and fill as well as by colour: light power and idle wire differ

@@ -2,8 +2,7 @@
  *
  * verbs - the rows of verbs.def as a table.
  *
- * What a verb does is told by the window and the sheet; here is only what it is called,
- * which keys it has and where they count.
+ * Here are the names, keys and groups of verbs. Windows and sheets do what they name.
  */
 #ifndef EDITOR_VERBS_H
 #define EDITOR_VERBS_H
@@ -37,14 +36,15 @@ const struct verb_row *verb_row(enum verb verb);
 enum verb verb_find(const char *action);
 /** verb_group_label - not translated. */
 const char *verb_group_label(enum verb_group group);
-/** verb_keys - that hold now, parted by |; "" for none. Borrowed until another scheme. */
+/** verb_keys - the keys of the scheme in use, with | between them; "": none. Borrowed until
+ * the scheme changes. */
 const char *verb_keys(enum verb verb);
-/** keys_label - the first one as people read it; "" of none. Caller frees. */
+/** keys_label - the first key as people read it; "": none. Caller frees. */
 char *keys_label(const char *keys);
 /** verb_keys_label - "Ctrl+S" as people read it; "" if it has none. Caller frees. */
 char *verb_keys_label(enum verb verb);
 
-/** verb_tell - adds "F5: Contact" to a line of such, if it has a key. */
+/** verb_tell - adds "F5: Contact" to a line, if the verb has a key. */
 void verb_tell(GString *line, enum verb verb);
 
 /* Maps of keys, key_schemes.def. */
@@ -53,18 +53,18 @@ enum key_scheme {
 #include "editor-gtk/kit/key_schemes.def"
 	KEY_SCHEMES
 };
-/** key_scheme_name - of the editor it is like; never translated. */
+/** key_scheme_name - the editor that it follows; never translated. */
 const char *key_scheme_name(enum key_scheme scheme);
 /** verb_keys_of - in a scheme. Caller frees. */
 char *verb_keys_of(enum verb verb, enum key_scheme scheme);
-/** key_scheme_put - the word number @index that a scheme has keys for; false: none. */
+/** key_scheme_put - word number @index with keys in a scheme; false: there is none. */
 bool key_scheme_put(enum key_scheme scheme, int index, const char **word,
 		    const char **keys);
-/** verbs_use_scheme - from now on these keys hold, in all windows and sheets; @application
- * NULL: there is none. */
+/** verbs_use_scheme - all windows and sheets use this scheme from now on. @application may be
+ * NULL. */
 void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme);
-/** verb_of_key - the WINDOW verb whose key it is, by the keys that hold now; VERB_COUNT:
- * none. For what keeps its keys from the window. */
+/** verb_of_key - the WINDOW verb of a key; VERB_COUNT: none. For widgets that handle keys
+ * before the window. */
 enum verb verb_of_key(GdkEvent *key);
 /** verbs_controller - the keys of all SHEET or CHART verbs, and of those of BOTH; follows
  * the scheme. Owns: the widget it is added to. */

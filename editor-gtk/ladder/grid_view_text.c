@@ -84,11 +84,11 @@ static char *refusal(const struct sheet_asked *asked, const char *line)
 	const bool comment = verb == VERB_rung_comment || verb == VERB_comment;
 
 	if (comment && (strstr(line, "(*") || strstr(line, "*)")))
-		return g_strdup(_("a comment holds no (* and no *)"));
+		return g_strdup(_("a comment is one line without (* and *)"));
 	if (verb != VERB_rung_label || !line[0])
 		return NULL;
 	return entry_is_name(line, strlen(line)) ? label_refusal(asked->view, line) :
-	       g_strdup(_("this is no name"));
+	       g_strdup(_("this is not a name"));
 }
 
 static bool is_refused(const struct sheet_asked *asked, const char *line)

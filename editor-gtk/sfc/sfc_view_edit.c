@@ -386,7 +386,7 @@ static void macro_open(LadderSfcView *view)
 	int made = -1;
 
 	if (edit && macro < 0)
-		edit->why = N_("this is no macro-step");
+		edit->why = N_("this is not a macro-step");
 	if (edit && macro >= 0)
 		made = sfc_edit_macro_open(edit, macro);
 	chart_put(view, edit, made >= 0, _(verb_row(VERB_macro_open)->label), PIECE_STEP,

@@ -257,7 +257,7 @@ static bool take_priority(struct asked *asked, const char *line)
 	bool good = !*line || g_ascii_string_to_unsigned(line, 10, 1, 65535, &number, NULL);
 
 	if (!good)
-		edit->why = N_("this is no priority");
+		edit->why = N_("the priority is a number from 0 to 65535");
 	good = good && sfc_edit_set_priority(edit, asked->index, (int)number);
 	return chart_put(asked->view, edit, good, _("Change priority"), PIECE_TRANSITION,
 			 asked->index);
@@ -467,7 +467,7 @@ void chart_ask(LadderSfcView *view, enum chart_asked what, const char *typed)
 	if (what != ASK_GO && (part == SFC_NOTHING || part == SFC_JUMP ||
 			       (part_of(what) != SFC_NOTHING && part_of(what) != part))) {
 		chart_tell(view, part_of(what) == SFC_STEP ?
-			   _("the cursor is on no step") :
+			   _("the cursor is not on a step") :
 			   _("the cursor is on no transition"));
 		return;
 	}

@@ -237,7 +237,7 @@ void chart_live_force(LadderSfcView *view)
 		return;
 	}
 	if (chart_part(view, &index) != SFC_STEP) {
-		chart_tell(view, _("the cursor is on no step"));
+		chart_tell(view, _("the cursor is not on a step"));
 		return;
 	}
 	act.at = live_map_find(view->live.map, name, strlen(name));

@@ -12,8 +12,8 @@
 #include "editor-gtk/document/side_file.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/installed.h"
-#include "editor-gtk/kit/gtk48/memory.h"
-#include "editor-gtk/kit/gtk48/popovers.h"
+#include "editor-gtk/kit/memory.h"
+#include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/window/preferences.h"
 #include "editor-gtk/window/recent.h"
 #include "editor-gtk/render/render.h"
@@ -388,7 +388,7 @@ static void startup(GtkApplication *application)
 	forget_gl();
 	gtk_source_init();
 	app_style();
-	popovers_let_go();
+	popover_init();
 	preferences_follow(ADW_APPLICATION(application));
 	gtk_window_set_default_icon_name(APP_ID);
 	draft_on_failure(tell_draft_failed);

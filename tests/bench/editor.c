@@ -14,7 +14,7 @@
 #include "editor-gtk/window/app.h"
 #include "editor-gtk/window/window.h"
 #include "editor-gtk/ladder/grid_view_live.h"
-#include "editor-gtk/kit/gtk48/memory.h"
+#include "editor-gtk/kit/memory.h"
 #include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/sfc/sfc_view.h"
 #include "editor-gtk/text/text_view.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * popover - opens menus below a place, tells, and takes popovers from their parents.
+ * popover - popovers and menus that GTK 4.8 closes, points and measures well; see popover.h.
  */
 #include "editor-gtk/kit/gtk48/popover.h"
 
@@ -8,14 +8,14 @@
 
 void popover_drop(GtkWidget *popover)
 {
-	/* An event on its way may have brought the pointer back since it was hidden; what
-	 * is insensitive is looked for no more. */
+	/* An event may have brought the pointer back since it was hidden. GTK does not look
+	 * for a surface below the pointer in an insensitive widget. */
 	gtk_widget_set_sensitive(popover, FALSE);
 	if (gtk_widget_get_parent(popover))
 		gtk_widget_unparent(popover);
 }
 
-/* Most widgets take only what they know of from themselves when they go. */
+/* A widget that is disposed unparents only the children that it made itself. */
 void popover_put(GtkWidget *popover, GtkWidget *parent)
 {
 	gtk_widget_set_parent(popover, parent);
@@ -28,7 +28,6 @@ static int within(int at, int size)
 	return CLAMP(at, 0, MAX(size - 1, 0));
 }
 
-/* GTK 4.8 looks for the monitor where that is, and stumbles over there being none. */
 void popover_point(GtkWidget *popover, const GdkRectangle *at)
 {
 	GtkWidget *parent = gtk_widget_get_parent(popover);
@@ -81,7 +80,8 @@ static bool is_beside(GtkWidget *focus, gpointer button)
 	return focus && !gtk_widget_is_ancestor(focus, GTK_WIDGET(button));
 }
 
-/* What a command gave the keys to keeps them. A text would be selected if it grabbed them. */
+/* Unless a command moved the focus. gtk_widget_grab_focus() would select the text of an
+ * entry. */
 static void give_back(GtkMenuButton *button)
 {
 	GtkWidget *then = g_object_get_data(G_OBJECT(button), "then");
@@ -91,7 +91,7 @@ static void give_back(GtkMenuButton *button)
 	g_object_set_data(G_OBJECT(button), "then", NULL);
 }
 
-/* Before each time it opens. F10 opens one without having been in its button. */
+/* Called each time before the menu opens; F10 opens it when the focus is not in the button. */
 static void make_menu(GtkMenuButton *button, gpointer make)
 {
 	GtkWidget *focus = focus_of(button);
@@ -113,8 +113,6 @@ void popover_menu_of(GtkMenuButton *button, GMenu *(*make)(void))
 	gtk_menu_button_set_create_popup_func(button, make_menu, (gpointer)make, NULL);
 }
 
-/* GTK 4.8 takes a popover's height from more width than it gives to what is inside: of a
- * text that just needs one line more, that line is cut off unless it is asked for. */
 void popover_tell(GtkLabel *label, const char *text)
 {
 	GtkWidget *widget = GTK_WIDGET(label);
@@ -126,4 +124,37 @@ void popover_tell(GtkLabel *label, const char *text)
 	gtk_widget_measure(widget, GTK_ORIENTATION_HORIZONTAL, -1, NULL, &width, NULL, NULL);
 	gtk_widget_measure(widget, GTK_ORIENTATION_VERTICAL, width, NULL, &height, NULL, NULL);
 	gtk_widget_set_size_request(widget, width, height);
+}
+
+/* ---- closed popovers give up their surface ---- */
+
+static gboolean give_up_surface(gpointer data)
+{
+	GtkWidget *popover = data;
+
+	if (!gtk_widget_get_mapped(popover) && gtk_widget_get_realized(popover))
+		gtk_widget_unrealize(popover);
+	return G_SOURCE_REMOVE;
+}
+
+/* Before any frame, but not in the midst of what hides it. */
+static gboolean closed(GSignalInvocationHint *hint, guint count, const GValue *values,
+		       gpointer data)
+{
+	GtkPopover *popover = g_value_get_object(values);
+
+	(void)hint, (void)count, (void)data;
+	if (gtk_popover_get_autohide(popover)) /* others never have the pointer grabbed */
+		g_idle_add_full(G_PRIORITY_HIGH, give_up_surface, g_object_ref(popover),
+				g_object_unref);
+	return TRUE; /* of the next one, too */
+}
+
+void popover_init(void)
+{
+	gpointer class = g_type_class_ref(GTK_TYPE_POPOVER); /* stays: its signals live in it */
+
+	(void)class;
+	g_signal_add_emission_hook(g_signal_lookup("closed", GTK_TYPE_POPOVER), 0, closed,
+				   NULL, NULL);
 }

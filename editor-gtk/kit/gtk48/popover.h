@@ -1,33 +1,49 @@
 /* SPDX-License-Identifier: MIT
  *
- * popover - a menu at a place, a text in a popover, and how one that was made for one
- * question goes away again.
+ * popover - opens, points and removes popovers and menus.
+ *
+ * Mends in GTK 4.8.3:
+ * - Lost pointer, popover_init(): after a layout GDK tells a popover's surface that the
+ *   pointer moves on it, even if the popover is hidden (gdk_surface_ensure_motion(),
+ *   maybe_request_motion_event()). The window then believes the pointer is there until it
+ *   moves, and a press is lost. To see it: open and close a menu, change the layout by a key,
+ *   click without moving the pointer. Test: tests/editor/kit/gtk48/test_popover.c.
+ * - Crash, popover_drop(): a popover that is unparented while the pointer is in it is asked
+ *   for its surface in the next layout and has none.
+ * - Crash, popover_point(): a popover that points outside its parent, such as to a cell that
+ *   was scrolled away, looks for a monitor there and finds none.
+ * - Cut text, popover_tell(): a popover measures its height for more width than its child
+ *   gets, so that the last line of a wrapped label is cut off. To see it: a refusal that
+ *   needs just two lines at a line of quick entry.
+ * - Focus, popover_menu() and popover_menu_of(): when a menu closes, GTK gives the focus back
+ *   only to the widget that had it when the menu was first drawn.
+ * Remove each of them on a new floor, and run test_popover and tests/editor/person/seal_in.py.
  */
 #ifndef EDITOR_POPOVER_H
 #define EDITOR_POPOVER_H
 
 #include <gtk/gtk.h>
 
-/** popover_put - gives it a parent, with which it goes: a key may close the page below a menu
- * that is open. */
+/** popover_init - from now on a popover that closes gives up its surface. Call once, in the
+ * main thread. */
+void popover_init(void);
+/** popover_put - sets the parent of @popover, which is removed when @parent is destroyed: a key
+ * may close the page below an open menu. */
 void popover_put(GtkWidget *popover, GtkWidget *parent);
-/** popover_point - to @at of its parent, or where that comes nearest: it may be scrolled away. */
+/** popover_point - points to @at of its parent, or to the nearest place inside the parent. */
 void popover_point(GtkWidget *popover, const GdkRectangle *at);
-/** popover_drop - takes it from its parent, now; never in one of its own signals. A pointer
- * that was in it is not any more: GTK 4.8 asks what is below it for its surface in the next
- * layout, and one that is gone has none. */
+/** popover_drop - unparents it now. Never call it in one of the popover's own signals. */
 void popover_drop(GtkWidget *popover);
-/** popover_drop_later - the same when it comes to rest: its signals, and the action that
- * closed it, have run. */
+/** popover_drop_later - the same when its signals, and the action that closed it, have run. */
 void popover_drop_later(GtkWidget *popover);
-/** popover_menu - opens @menu, which it takes, at @at of @parent; it is gone when it closes,
- * and the keys go to @then: GTK gives them back only to what had them when the menu was drawn. */
+/** popover_menu - opens @menu at @at of @parent. When it closes it is removed and @then gets
+ * the focus. Owns: takes @menu. */
 void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWidget *then);
-/** popover_menu_of - what @button opens is made by @make, which gives it away, the first time:
- * most menus are never seen. When it closes, the keys are where they were before. */
+/** popover_menu_of - @button opens the menu that @make gives, which is called the first time:
+ * most menus are never seen. When it closes, the focus goes back. Owns: takes the menu. */
 void popover_menu_of(GtkMenuButton *button, GMenu *(*make)(void));
-/** popover_tell - a text that is seen whole, of a label that wraps; once it has the parent
- * whose style it takes. An empty one hides the label. */
+/** popover_tell - sets the text of a label inside a popover, and shows all of its lines; "":
+ * hides the label. Call it when the label has a parent. */
 void popover_tell(GtkLabel *label, const char *text);
 
 #endif

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * slow_bar - scroll bars that follow later; see slow_bar.h.
- *
- * The handler of the bar is blocked at the adjustment's "value-changed". Where GTK has
- * none that is known by its data, nothing is blocked and the bar follows at once.
+ * slow_bar - blocks the handler of a scroll bar at "value-changed" of its adjustment, and
+ * lets the bar follow by a timer; see slow_bar.h.
  */
 #include "editor-gtk/kit/gtk48/slow_bar.h"
 
@@ -19,8 +17,7 @@ struct slow_bar {
 	guint timer;
 };
 
-/* Does the slider stand a pixel from where it should? In a long sheet a wheel's step is
- * less. */
+/* Is the slider a pixel or more off? In a long sheet one step of a wheel is less. */
 static gboolean is_behind(const struct slow_bar *bar)
 {
 	GtkAdjustment *of = bar->adjustment;
@@ -40,7 +37,7 @@ static gboolean follow(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-/* GTK lays the slider out: by follow(), or because what is scrolled has another size. */
+/* GTK laid out the slider: by follow(), or because the scrolled widget changed its size. */
 static void followed(struct slow_bar *bar)
 {
 	bar->value = gtk_adjustment_get_value(bar->adjustment);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * spoken - what the toolkit's widgets leave out, or tell too much of; see spoken.h.
+ * spoken - accessible names that widgets lack; see spoken.h.
  */
 #include "editor-gtk/kit/gtk48/spoken.h"
 
 #include <string.h>
 
-/* In the order in which a reader would come to them. */
+/* Depth first. */
 static GtkWidget *next(GtkWidget *widget, GtkWidget *root)
 {
 	GtkWidget *found = gtk_widget_get_first_child(widget);
@@ -32,7 +32,7 @@ static void name_part(GtkWidget *widget)
 			GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
 }
 
-/* A reader finds what is in a revealer, revealed or not. It moves in and out as before. */
+/* It stays visible while it moves in or out. */
 static void hide_closed(GtkRevealer *revealer)
 {
 	gtk_widget_set_visible(GTK_WIDGET(revealer),

@@ -1,19 +1,23 @@
 /* SPDX-License-Identifier: MIT
  *
- * spoken - what the toolkit's widgets leave out for a screen reader, or tell too much of.
+ * spoken - accessible names that widgets of GTK and libadwaita lack, and text that a screen
+ * reader should not find.
  *
- * GTK 4.8 calls the button within a drop-down "GtkToggleButton", and libadwaita's cross of a
- * tab "GtkImage": so a screen reader says it. What is ours has its name where it is made.
- * And it tells of what is in a revealer that is closed: a message that is over.
+ * Mends in GTK 4.8.3 and libadwaita 1.2:
+ * - The button inside a GtkDropDown has the name "GtkToggleButton", the close button of an
+ *   AdwTab "GtkImage", an empty label "GtkLabel".
+ * - What is inside a closed GtkRevealer is still in the accessible tree: a toast that is over.
+ * To see it: look at the window with accerciser, or run tests/editor/person/spoken.py without
+ * the calls. Try so on each new floor.
  */
 #ifndef EDITOR_SPOKEN_H
 #define EDITOR_SPOKEN_H
 
 #include <gtk/gtk.h>
 
-/** spoken_parts - mends what is found below @root now. */
+/** spoken_parts - names the parts that are below @root now, and hides closed revealers. */
 void spoken_parts(GtkWidget *root);
-/** spoken_text - @label is there while it has a text: an empty one is called "GtkLabel". */
+/** spoken_text - from now on @label is visible only while it has a text. */
 void spoken_text(GtkLabel *label);
 
 #endif

@@ -10,9 +10,9 @@
 
 struct _LadderStill {
 	GtkWidget parent_instance;
-	gint64 changed;         /* us, when it was last another                */
-	guint timer;            /* looks whether it came to rest                */
-	bool at_rest;           /* it did: what is drawn next is an image       */
+	gint64 changed;         /* us, time of the last change                */
+	guint timer;            /* looks whether the child is at rest          */
+	bool at_rest;           /* draw an image next                           */
 };
 
 G_DEFINE_FINAL_TYPE(LadderStill, ladder_still, GTK_TYPE_WIDGET)
@@ -62,7 +62,7 @@ static gboolean look(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-/* It may be drawn again in the next frame, and an image of it be in vain. */
+/* Not at once: if the child changes in the next frame, an image would be wasted. */
 static void look_later(LadderStill *still)
 {
 	still->changed = g_get_monotonic_time();

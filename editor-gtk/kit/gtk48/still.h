@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * still - round a widget: an image of it, once it has not changed for a moment.
+ * still - a container that draws its child as one image when the child has not changed for
+ * 250 ms.
  *
- * The cairo renderer goes through every node of a window in each frame, also those that
- * are far from what changed: a palette alone has hundreds. An image is one of them. A
- * renderer that keeps nodes by itself gets them as they are.
+ * Mends in GTK 4.8.3: the cairo renderer walks through every node of a window in each frame,
+ * also those far from the change; a palette alone has hundreds. The image is one node. Other
+ * renderers keep nodes by themselves and get them unchanged.
+ *
+ * To see it: remove it round the palette and compare `make bench-editor`. When the floor
+ * rises, compare again with GSK_RENDERER=cairo; it can go if nobody uses the cairo renderer.
  */
 #ifndef EDITOR_STILL_H
 #define EDITOR_STILL_H
@@ -14,7 +18,7 @@
 #define LADDER_TYPE_STILL (ladder_still_get_type())
 G_DECLARE_FINAL_TYPE(LadderStill, ladder_still, LADDER, STILL, GtkWidget)
 
-/** ladder_still_new - @child is drawn within its bounds alone. It may be <child> in a template. */
+/** ladder_still_new - @child is clipped to its bounds. It may be <child> in a template. */
 GtkWidget *ladder_still_new(GtkWidget *child);
 
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * tab_home - a tab stays in its window; see tab_home.h.
+ * tab_home - keeps tabs in their window; see tab_home.h.
  *
- * libadwaita takes a tab out of its view while it is dragged out of the bar. What bar and
- * view accept is asked of us first, at their drop targets. Where a libadwaita has none that
- * takes tabs, nothing is asked.
+ * While a tab is dragged out of its bar, libadwaita detaches it from its view. The drop
+ * targets of bar and view ask accept() before they take a tab. A libadwaita without such drop
+ * targets behaves as if this file did not exist.
  */
 #include "editor-gtk/kit/gtk48/tab_home.h"
 
@@ -12,9 +12,9 @@
 
 struct home {
 	AdwTabView *view; /* not held: it is only compared                        */
-	AdwTabPage *out;  /* the last that was taken out; a weak pointer          */
+	AdwTabPage *out;  /* the last tab that was detached; a weak pointer       */
 	int place;        /* where it was                                         */
-	bool begged;      /* for a window of its own: it comes back               */
+	bool begged;      /* libadwaita asked for a new window: it comes back      */
 };
 
 static void forget(gpointer home)
@@ -28,15 +28,15 @@ static void let_go(gpointer home, GClosure *closure)
 	g_rc_box_release_full(home, forget);
 }
 
-/* Each that is listened to holds it. */
+/* Each signal connection holds a reference to @home. */
 static void listen(gpointer to, const char *signal, GCallback act, struct home *home)
 {
 	g_signal_connect_data(to, signal, act, g_rc_box_acquire(home), let_go, 0);
 }
 
-/* ---- what is taken ---- */
+/* ---- which tabs are accepted ---- */
 
-/* The tab that is dragged; NULL: something else is, or it is of another program. */
+/* The dragged tab; NULL: another thing is dragged, or a tab of another program. */
 static AdwTabPage *dragged(GdkDrop *drop)
 {
 	GdkDrag *drag = gdk_drop_get_drag(drop);
@@ -52,7 +52,7 @@ static AdwTabPage *dragged(GdkDrop *drop)
 	return page;
 }
 
-/* The bar takes those of its view, the view none. */
+/* The bar accepts tabs of its view, the view accepts none. */
 static gboolean accept(GtkDropTarget *target, GdkDrop *drop, struct home *home)
 {
 	GtkWidget *widget = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(target));
@@ -86,7 +86,7 @@ static void ask_first_inside(GtkWidget *widget, struct home *home)
 		ask_first_inside(child, home);
 }
 
-/* ---- let go where none is taken ---- */
+/* ---- a tab dropped elsewhere comes back ---- */
 
 static void taken_out(AdwTabView *view, AdwTabPage *page, int place, struct home *home)
 {
@@ -95,7 +95,7 @@ static void taken_out(AdwTabView *view, AdwTabPage *page, int place, struct home
 	home->place = place;
 }
 
-/* It is asked for a window that takes the tab, as the first. */
+/* Handler of "create-window": the first handler decides which view gets the tab. */
 static AdwTabView *back(AdwTabView *view, struct home *home)
 {
 	home->begged = true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * tip - tooltips as wide as what stands in them; see tip.h.
+ * tip - tooltips with lines of a good width; see tip.h.
  */
 #include "editor-gtk/kit/gtk48/tip.h"
 
@@ -16,8 +16,8 @@ static int columns_of(gunichar c)
 	return g_unichar_iszerowidth(c) ? 0 : g_unichar_iswide(c) ? 2 : 1;
 }
 
-/* Where a line that begins at @at is to end, before what may begin the next one: at its
- * end, or at the last place before it is full; a word that is longer is cut. */
+/* Where a line that begins at @at ends: at a line break, or at the last place where it may be
+ * broken before it is full. A longer word is cut. */
 static int line_end(const gunichar *text, const PangoLogAttr *attrs, int at, int count)
 {
 	int width = 0, last = at;

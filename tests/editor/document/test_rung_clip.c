@@ -196,7 +196,7 @@ static void test_line(void)
 	refused("LD Start\nST Motor\nST Lamp\n", "The clipboard, line 3: this can only be "
 		"pasted as a row of a rung file: ST Lamp");
 	refused("Start XIC Stop", "The clipboard, line 1: there is no such word: Start");
-	refused("LD > 5", "The clipboard, line 1: no variable can be called so: LD");
+	refused("LD > 5", "The clipboard, line 1: “LD” cannot be the name of a variable");
 }
 
 /* All rungs of its ladder programs, and of its declarations those that they use. */

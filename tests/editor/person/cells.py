@@ -90,7 +90,7 @@ def on_a_coil(screen):
     assert '| NC Sens | TP ' in text and '| COIL Lamp |' in text, text
     # In an empty last column, too, a contact is refused, and said.
     editor.keys('Insert', 'End', 'F5')
-    editor.says('only an output can stand in the last column')
+    editor.says('the last column is for outputs only')
     editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z', 'ctrl+z')
     assert '| NO Start | COIL Lamp |' in editor.save(path)
     check(path)

@@ -226,7 +226,7 @@ def folded(screen):
     # What cannot be one says why, and nothing changes.
     go(editor, 'Idle')
     editor.keys('ctrl+shift+Down')
-    editor.says('the initial step stays outside')
+    editor.says('the initial step cannot go into a macro-step')
     # Taken out again, by the menu.
     menu(editor, shape(editor, 'Step Heat, initial'), 'Take out of the macro-step')
     until(lambda: not editor.all('Step Macro1', 'table cell'), 'the macro-step to be gone')
@@ -380,10 +380,10 @@ def declared(screen):
     editor.keys('F9')
     editor.opened()
     editor.type('Z Horn')
-    editor.says('there is no such qualifier')
+    editor.says('the first word is not a qualifier')
     editor.keys('ctrl+a')
     editor.type('N Horn AT %IX0.5')
-    editor.says('this cannot be written: %IX0.5')
+    editor.says('“%IX0.5” cannot be written')
     editor.keys('Return')
     assert editor.asked()[0].text() == 'N Horn AT %IX0.5'
     editor.keys('ctrl+a')
@@ -405,7 +405,7 @@ def declared(screen):
     editor.opened()
     editor.keys('ctrl+a')
     editor.type('Later.X')
-    editor.says('there is no such variable: Later.X')
+    editor.says('“Later.X” is not declared')
     editor.keys('Escape')
     editor.gone()
     on_chart(editor)

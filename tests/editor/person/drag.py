@@ -165,7 +165,7 @@ def refused(screen):
     wire = 36 + 46
     # Along a wire that is there: nothing to do.
     editor.drag(editor.wire_end(wire, 3), editor.wire_end(wire, 4))
-    editor.says('this wire is there already')
+    editor.says('the wire is there already')
     (x0, y0), (x1, y1) = editor.wire_end(wire, 1), editor.wire_end(wire + 84, 3)
     sh('xdotool', 'mousemove', str(x0), str(y0), 'mousedown', '1', 'mousemove', str(x0), str(y0 + 30),
        'sleep', '0.1', 'mousemove', str(x1), str(y1), 'sleep', '0.2', 'key', 'Escape',
@@ -260,7 +260,7 @@ def not_there(screen):
     path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
-    told = 'an output can only be put into the last column'
+    told = 'an output can only stand in the last column'
     editor.drag(editor.tile('TRUE while powered'), editor.grid(80, 0), ready=lambda: editor.all(told, 'label'))
     until(lambda: editor.all(told, 'label'), 'the reason, still')
     assert len(editor.cells()) == 5 and not editor.all('\u2022 new')

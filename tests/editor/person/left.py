@@ -62,7 +62,7 @@ def wrong(screen):
     before = open(path).read()
     editor.to_sheet()
     editor.type('FROB it')
-    editor.says('there is no such word: FROB')
+    editor.says('“FROB” is not the word of an element or block')
     away(editor)
     editor.says('not taken: FROB it')
     editor.shot('left-wrong')

@@ -167,7 +167,7 @@ def labels(screen):
     assert editor.asked()
     editor.keys('ctrl+a')
     editor.type('LD')
-    editor.says('this is no name')
+    editor.says('this is not a name')
     editor.keys('Escape')
     editor.gone()
     editor.keys('Up', 'ctrl+l')

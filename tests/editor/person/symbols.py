@@ -143,7 +143,7 @@ def tables(screen):
     editor.keys('ctrl+a')
     editor.type('a *) b')
     editor.keys('Return')
-    label(editor, 'Horn, Comment: a comment holds no (* and no *)')
+    label(editor, 'Horn, Comment: a comment is one line without (* and *)')
     editor.keys('Escape')
     editor.into('Horn, Address')
     editor.keys('ctrl+a')

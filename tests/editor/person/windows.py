@@ -171,7 +171,7 @@ def charts(screen):
     two.find('Step Wait, initial', 'table cell')
     two.keys('ctrl+v')
     two.find('Step Fill', 'table cell')
-    two.says('3 names were declared; Pump has no address: %QX0.1 is Fan here · it stands beside the chart')
+    two.says('3 names were declared; Pump has no address: %QX0.1 is Fan here · the pasted part stands beside the chart')
     two.shot('windows-chart')
     text = two.save(path)
     assert 'Pump' in text and '(* it runs long *)' in text and 'Level : INT := 7;' in text, text

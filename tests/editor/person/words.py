@@ -286,7 +286,7 @@ def comments(screen):
     editor.keys('Return')
     editor.gone()
     assert editor.save(path) == before.replace('NO Start', 'NO Start (* one two *)')
-    for key, text, why in (('semicolon', 'a *) b', 'a comment holds no (* and no *)'), ('ctrl+l', 'a b', 'this is no name')):
+    for key, text, why in (('semicolon', 'a *) b', 'a comment is one line without (* and *)'), ('ctrl+l', 'a b', 'this is not a name')):
         editor.keys(key)
         editor.opened()
         editor.keys('ctrl+a')

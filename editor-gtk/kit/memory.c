@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * memory - what is kept for the next frame, and what goes back to the system.
+ * memory - see memory.h.
  */
-#include "editor-gtk/kit/gtk48/memory.h"
+#include "editor-gtk/kit/memory.h"
 
 #include <stdlib.h>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 
-#define FRAME (32 * 1024 * 1024) /* bytes: more than a frame takes, the most there can be */
+#define FRAME (32 * 1024 * 1024) /* bytes: the largest value that glibc accepts */
 
 void memory_keep_frames(void)
 {
