@@ -63,7 +63,7 @@ told "a template of the sources" editor-gtk/po/pot.sh "$work/fresh.pot"
 told "it has the texts of all sources" sh -c "
 	for t in 'Cross reference' 'Match capital and small letters' 'rung is empty' \
 		'on-delay timer' 'seconds since 1970-01-01; ENO FALSE out of range' \
-		'this branch is closed already' 'Contacts'; do
+		'the wire is there already' 'Contacts'; do
 		grep -qxF \"msgid \\\"\$t\\\"\" $work/fresh.pot || { echo \"\$t\"; exit 1; }
 	done"
 for language in $(cat editor-gtk/po/LINGUAS); do
