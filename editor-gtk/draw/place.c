@@ -7,8 +7,8 @@
 #include "editor-gtk/edit/grid_display.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/rung_layout.h"
+#include "editor-gtk/draw/sfc_bodies.h"
 #include "editor-gtk/edit/sfc_lines.h"
-#include "engine/show/sfc_words.h"
 
 #include <glib.h>
 
@@ -25,21 +25,16 @@ const char *place_column(int column, char out[PLACE_LETTERS])
 	return out;
 }
 
-static bool holds(const struct sfc_body *body, int rung)
-{
-	return body->kind == BODY_RUNGS && rung >= body->first &&
-	       rung < body->first + body->count;
-}
-
 /* The body of a chart that the rung is in; NULL: none. */
 static const struct sfc_body *body_of(const struct sfc *sfc, int rung)
 {
-	for (int i = 0; i < sfc->transition_count; i++)
-		if (holds(&sfc->transition[i].condition, rung))
-			return &sfc->transition[i].condition;
-	for (int i = 0; i < sfc->action_count; i++)
-		if (holds(&sfc->action[i].body, rung))
-			return &sfc->action[i].body;
+	for (int i = 0; i < sfc_bodies(sfc); i++) {
+		const struct sfc_body *body = sfc_body(sfc, i);
+
+		if (body->kind == BODY_RUNGS && rung >= body->first &&
+		    rung < body->first + body->count)
+			return body;
+	}
 	return NULL;
 }
 
@@ -75,22 +70,12 @@ int place_shown(struct place_sheet *sheet, const struct project *project, int po
 
 /* ---- lines ---- */
 
-/* By its name, else by the steps between which it is: it has no number that is seen. */
+/* Its name, or else the steps before and behind it: no number of it is shown. */
 static char *transition_text(const struct project *project, const struct sfc *sfc, int index)
 {
 	const char *name = project_text(project, sfc->transition[index].name);
-	struct sink_memory memory;
-	struct sink sink;
-	char *text;
 
-	if (*name)
-		return g_strdup(name);
-	sink_memory_init(&memory);
-	sink = sink_to_memory(&memory);
-	sfc_words_ways(project, sfc, index, &sink);
-	text = g_strdup(sink_memory_text(&memory));
-	sink_memory_free(&memory);
-	return text;
+	return *name ? g_strdup(name) : sfc_bodies_ways(project, sfc, index);
 }
 
 static char *chart_text(const struct project *project, const struct sfc *sfc, const char *pou,

@@ -191,9 +191,7 @@ void rung_box_place(struct rung_box *box, const struct rung_row *row, float colu
 void rung_box_at(const struct drafting *drafting, const struct rung_layout *layout, int row,
 		 int col, struct rung_box *box)
 {
-	const int column = rung_layout_column(layout, row, col);
-
+	/* Only outputs are shown in another column, and a box is none. */
 	rung_box_make(drafting, layout->rung, row, col, box);
-	rung_box_place(box, layout->row, layout->column_x[column],
-		       layout->column_width[column]);
+	rung_box_place(box, layout->row, layout->column_x[col], layout->column_width[col]);
 }

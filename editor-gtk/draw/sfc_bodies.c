@@ -8,21 +8,34 @@
 
 #include <glib.h>
 
-static char *transition_heading(const struct project *project, const struct sfc *sfc,
-				int transition)
+char *sfc_bodies_ways(const struct project *project, const struct sfc *sfc, int transition)
 {
-	const char *name = project_text(project, sfc->transition[transition].name);
 	struct sink_memory memory;
 	struct sink sink;
-	char *heading;
+	char *text;
 
 	sink_memory_init(&memory);
 	sink = sink_to_memory(&memory);
 	sfc_words_ways(project, sfc, transition, &sink);
-	heading = *name ? g_strdup_printf(_("Condition %s: %s"), name,
-					  sink_memory_text(&memory)) :
-			  g_strdup_printf(_("Condition: %s"), sink_memory_text(&memory));
+	text = g_strdup(sink_memory_text(&memory));
 	sink_memory_free(&memory);
+	return text;
+}
+
+/* Of body number @i of the chart: transitions come first, then actions. */
+static char *heading_of(const struct project *project, const struct sfc *sfc, int i)
+{
+	const char *name;
+	char *ways, *heading;
+
+	if (i >= sfc->transition_count)
+		return g_strdup_printf(_("Action %s"), project_text(project,
+				       sfc->action[i - sfc->transition_count].name));
+	name = project_text(project, sfc->transition[i].name);
+	ways = sfc_bodies_ways(project, sfc, i);
+	heading = *name ? g_strdup_printf(_("Condition %s: %s"), name, ways) :
+			  g_strdup_printf(_("Condition: %s"), ways);
+	g_free(ways);
 	return heading;
 }
 
@@ -30,23 +43,17 @@ struct sfc_part_body *sfc_bodies_new(const struct project *project, const struct
 				     int *count)
 {
 	const struct sfc *sfc = pou->sfc;
-	struct sfc_part_body *bodies = g_new0(struct sfc_part_body,
-					      sfc->transition_count + sfc->action_count +
-					      1);
+	struct sfc_part_body *bodies = g_new0(struct sfc_part_body, sfc_bodies(sfc) + 1);
 
 	*count = 0;
-	for (int i = 0; i < sfc->transition_count; i++) {
-		const struct sfc_body *body = &sfc->transition[i].condition;
+	for (int i = 0; i < sfc_bodies(sfc); i++) {
+		const struct sfc_body *body = sfc_body(sfc, i);
 
-		if (body->kind == BODY_RUNGS || body->kind == BODY_LIST)
+		if (i >= sfc->transition_count || body->kind == BODY_RUNGS ||
+		    body->kind == BODY_LIST)
 			bodies[(*count)++] = (struct sfc_part_body){
-				body, i, -1, transition_heading(project, sfc, i) };
+				body, heading_of(project, sfc, i) };
 	}
-	for (int i = 0; i < sfc->action_count; i++)
-		bodies[(*count)++] = (struct sfc_part_body){
-			&sfc->action[i].body, -1, i,
-			g_strdup_printf(_("Action %s"),
-					project_text(project, sfc->action[i].name)) };
 	return bodies;
 }
 
@@ -69,9 +76,7 @@ char *sfc_body_heading(const struct project *project, const struct pou *pou, int
 		if (body->kind == BODY_LIST || body->count == 0 || body->first != first)
 			continue;
 		*count = body->count;
-		return i < sfc->transition_count ? transition_heading(project, sfc, i) :
-		       g_strdup_printf(_("Action %s"), project_text(project,
-				sfc->action[i - sfc->transition_count].name));
+		return heading_of(project, sfc, i);
 	}
 	return NULL;
 }

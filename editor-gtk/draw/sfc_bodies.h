@@ -10,7 +10,6 @@
 
 struct sfc_part_body {
 	const struct sfc_body *body;   /* borrowed from the chart              */
-	int transition, action;        /* one of them; -1: the other           */
 	char *heading;                 /* "Ready: Idle → Fill", "Count"         */
 };
 
@@ -19,6 +18,8 @@ struct sfc_part_body {
 struct sfc_part_body *sfc_bodies_new(const struct project *project, const struct pou *pou,
 				     int *count);
 void sfc_bodies_free(struct sfc_part_body *bodies, int count);
+/** sfc_bodies_ways - "Idle → Fill": the steps before and behind a transition. Caller frees. */
+char *sfc_bodies_ways(const struct project *project, const struct sfc *sfc, int transition);
 /** sfc_body_heading - of the body whose first rung is @first, expressions too; @count gets
  * its rungs. Caller frees; NULL: no body begins there. */
 char *sfc_body_heading(const struct project *project, const struct pou *pou, int first,
