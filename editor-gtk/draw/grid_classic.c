@@ -285,7 +285,7 @@ static void put_block(struct sketch *sketch, int y, int x, const struct block_lo
 
 /* ---- the rung ---- */
 
-/* What conducts nothing, there as here: its number in a dotted frame. */
+/* An element that conducts nothing, in ClassicLadder too: its number in a dotted frame. */
 static void put_odd(const struct sketch *sketch, int y, int x, int element)
 {
 	const float wire = wire_of(y);

@@ -22,7 +22,7 @@
 #define INSET 3 /* below; above, Chinese names need the room */
 #define HATCH 9 /* px from line to line                      */
 #define CORNER 7 /* px of a side, at a corner that is marked  */
-#define CORNER_INSET 3 /* px, inside of what else is framed   */
+#define CORNER_INSET 3 /* px, inside of other frames          */
 
 struct pen {
 	struct nib nib;
@@ -311,8 +311,8 @@ static void draw_box(const struct pen *pen, int row, int col)
 
 /* ---- elements ---- */
 
-/* How the strokes of an element are drawn. A coil has no power behind it, so it is
- * judged by what comes. */
+/* How the strokes of an element are drawn. A coil lets no power through, so the power at its
+ * left end counts. */
 static struct wire shape_wire(const struct pen *pen, const struct word_row *word,
 			      unsigned int live)
 {
@@ -338,8 +338,7 @@ static void draw_label(const struct pen *pen, int row, int col, float x)
 	put_text(pen, TOKEN_COMMENT, LETTER_ADDRESS, label.address, x, r->wire - 17);
 }
 
-/* A coil's comment, and where it is read. There is room up to where its wire begins to
- * run alone. */
+/* A coil's comment, and where it is read: from where only its own wire is on the left. */
 static void draw_reference(const struct pen *pen, int row, int col, float x)
 {
 	const struct rung_layout *layout = pen->layout;
@@ -372,7 +371,7 @@ static void draw_below(const struct pen *pen, int row, int col, float x, float r
 	struct live_value value;
 
 	if (note_of(pen, row, rung_layout_column(pen->layout, row, col)))
-		return; /* it stands there */
+		return; /* the note stands there */
 	if (scene->live && scene->live->value &&
 	    scene->live->value(scene->live->context, row, col, &value)) {
 		put_text(pen, TOKEN_ACCENT, LETTER_VALUE,
@@ -441,7 +440,7 @@ static void draw_element(const struct pen *pen, int row, int col)
 		draw_shape(pen, row, col);
 }
 
-/* ---- what stands round the grid ---- */
+/* ---- heading, number, rails ---- */
 
 struct line_place {
 	struct picture *picture;
@@ -565,7 +564,7 @@ static graphene_rect_t place_of(const struct pen *pen, const struct grid_mark *m
 				  rect.size.width - 2, rect.size.height - INSET);
 }
 
-/* Slanting lines, faint enough for what stands upon them. */
+/* Slanting lines, faint enough to read the element on them. */
 static void draw_hatch(const struct pen *pen, const graphene_rect_t *r)
 {
 	const float width = r->size.width, height = r->size.height;
@@ -629,7 +628,7 @@ static void mark_wrong(const struct pen *pen, unsigned int marks, float x, float
 			     y + 1);
 }
 
-/* An expression may have several lines: what is wrong stands below them. */
+/* An expression may have several lines: error marks stand below them. */
 static void mark_framed(const struct pen *pen, unsigned int marks, const struct cell *cell,
 			float middle, float y)
 {
@@ -703,8 +702,8 @@ static void draw_note(const struct pen *pen, const struct grid_mark *mark,
 	      r->origin.y + r->size.height - 17);
 }
 
-/* Its four corners: all round so many cells would be more than what stands in them, and
- * what is broken would be an image for each rung. */
+/* Only corners: whole frames round so many cells would hide the elements, and each dashed
+ * stroke would be an image of its own. */
 static void draw_corners(const struct pen *pen, const graphene_rect_t *r)
 {
 	const float left = r->origin.x + CORNER_INSET, top = r->origin.y + CORNER_INSET;
@@ -823,7 +822,7 @@ GskRenderNode *grid_draw_node(const struct grid_scene *scene)
 	return node;
 }
 
-/* ---- icons: what an element says by a text, its icon says by its word ---- */
+/* ---- icons: with the word of the element instead of its text ---- */
 
 struct word_lines {
 	struct lettered line[2];

@@ -12,7 +12,7 @@
 #include "editor-gtk/kit/picture.h"
 #include "editor-gtk/draw/rung_layout.h"
 
-/* What is known of a cell while a program runs. */
+/* State of a cell while a program runs. */
 enum live_bit {
 	LIVE_KNOWN = 1,  /* else: not scanned; dotted                           */
 	LIVE_IN = 2,     /* power at its left end                               */

@@ -64,7 +64,7 @@ void grid_names_free(struct grid_names *names)
 	g_free(names);
 }
 
-/* The empty name is nobody's, and what came later was not declared. */
+/* Id 0 is the empty name; ids from names->count on are newer than the index. */
 static const struct var *look_up(const struct grid_names *names, const int *table, uint32_t id)
 {
 	return id > 0 && id < names->count && table[id] ? var_of(names, table[id] - 1) : NULL;

@@ -24,11 +24,11 @@
 #define PAGE_PX     (96 / 25.4f) /* px a mm                                     */
 #define PAGE_MARGIN 45           /* px: 12 mm                                   */
 #define TEXT_LINE   16           /* px of a line of IL or of a table             */
-#define PAGE_AIR    14           /* px between what stands below each other      */
+#define PAGE_AIR    14           /* px between parts of a page                   */
 #define PAGE_LEAST  0.6f         /* no rung, no chart is made smaller: 5.1 pt        */
 #define ABOVE_TITLE 16           /* px above the title block                     */
 #define HEADING_LINE 24          /* px from a line of a heading to the next      */
-#define MOST_PLACES 12 /* are told where there is no room for all                  */
+#define MOST_PLACES 12 /* places that a coil lists if not all have room          */
 #define MOST_STRIPS LIMIT_COLS
 #define LINK_AIR    3    /* px behind a wire between rows that stays whole            */
 #define MARK        38   /* px of an arrow with its number                           */
@@ -37,7 +37,7 @@
 #define FIELD_AIR  16 /* px in a field beside its text                            */
 #define LINE_STEP  10 /* px from a line of small type to the next                 */
 #define LINES_LEAST 2 /* there is always room for these                           */
-#define SHORT_TEXT 80 /* px: what is not longer is not broken                     */
+#define SHORT_TEXT 80 /* px: a shorter text is not broken                         */
 #define PART_MOST  4  /* of a page are the most lines, as a divisor               */
 #define PAPER_LEAST 240 /* px: on less there is no title block                      */
 
@@ -49,7 +49,7 @@ struct piece {
 	const struct picture *picture;
 	float y;         /* below the upper margin                               */
 	float scale;
-	float from, to;  /* px of the picture: what of it is shown                */
+	float from, to;  /* px of the picture: the part that is shown             */
 	float left, right; /* the same across; both 0: all of it                 */
 	float x;         /* of the page: where @left stands, px of the picture    */
 };
@@ -72,15 +72,15 @@ struct pages {
 	GPtrArray *page, *picture;
 	struct listing_reads *reads;
 	/* While they are made: */
-	float y;                       /* what is free on the last page begins here */
+	float y;                       /* px: the free part of the last page begins here */
 	float left, right, x;          /* of what is put there: struct piece     */
 	const struct picture *beside;  /* put with it, all its width; NULL: nothing */
 	const char *subject;
 	int pou;
 	const struct rung *rung;
 	const struct drafting *drafting;
-	GPtrArray *reference;          /* lines: what had no room below its coil   */
-	GPtrArray *remark;             /* and comments that had none at their element */
+	GPtrArray *reference;          /* lines: references without room below their coil */
+	GPtrArray *remark;             /* lines: comments without room at their element */
 };
 
 bool paper_find(const char *name, struct paper *out)
@@ -173,7 +173,7 @@ static void put_whole(struct pages *pages, const struct picture *picture, float 
 	put_piece(pages, picture, scale, 0, height);
 }
 
-/* ---- what is put on them ---- */
+/* ---- headings, spans, lists ---- */
 
 static void put_heading(struct pages *pages, const char *text, float more)
 {
@@ -246,12 +246,12 @@ static void put_list(struct pages *pages, const char *heading, char **lines)
 
 /* ---- the title block ---- */
 
-/* What it is in small type, and how much room its texts need. */
+/* A field of the title block: its label, and the room that its texts need. */
 struct field {
 	const char *what;        /* NULL: there is none                         */
-	float width;             /* px: as it is, unless somebody needs more      */
+	float width;             /* px: usual width                              */
 	float need, least;       /* px: in one line, or in all lines of small type */
-	float label;             /* px of what it is                            */
+	float label;             /* px of @what                                 */
 };
 
 static float width_of(const struct pages *pages, enum letter letter, const char *text)
@@ -316,7 +316,7 @@ static const char *project_title(const struct pages *pages)
 	return *title ? drawn(pages, title) : file_name(pages);
 }
 
-/* As wide on all pages: what differs from one to the next is measured on each. */
+/* A field has the same width on all pages: texts that differ are measured on each page. */
 static void measure_fields(const struct pages *pages, struct field *field,
 			   void (*measured)(const struct pages *pages, struct field *field,
 					    const char *text))
@@ -332,7 +332,7 @@ static void measure_fields(const struct pages *pages, struct field *field,
 		measured(pages, &field[DATE], drawn(pages, pages->date));
 }
 
-/* What all fields need in so many lines, px. */
+/* px that all fields need with pages->title_lines lines. */
 static float needed(const struct pages *pages, struct field *field)
 {
 	float sum = 0;
@@ -360,14 +360,15 @@ static void share_width(struct field *field, float width)
 			field[i].width = field[i].need;
 		else if (spare > 0)
 			field[i].width -= (field[i].width - field[i].need) * lacking / spare;
-	/* Too much for all: some are written in more lines, the name of the project first. */
+	/* Not enough for all: some get more lines, the name of the project first. */
 	for (int i = 0; i < FIELDS && over > 0; i++) {
 		const float less = MIN(over, field[i].need - field[i].least);
 
 		field[i].width -= less;
 		over -= less;
 	}
-	/* And what even so has no room ends in an ellipsis: that name first, which is told elsewhere. */
+	/* Texts that still have no room end in an ellipsis: first the name of the project, which
+	 * then has a page of its own. */
 	for (int i = PROJECT; i <= UNIT && over > 0; i++) {
 		const float less = MIN(over, field[i].width - field[i].label);
 
@@ -740,7 +741,7 @@ static float strip_bottom(const struct fold *fold, int strip)
 	return row + 1 < layout->rows ? layout->row[row + 1].y : layout->height;
 }
 
-/* What stands beside the columns: numbers and arrows. @x: where those begin. */
+/* Numbers and arrows beside the columns, which begin at @x. */
 static struct picture *draw_beside(const struct fold *fold, int strip, float x)
 {
 	struct picture *beside = new_picture(fold->pages);
@@ -791,8 +792,8 @@ static float scale_for(const struct pages *pages, const struct rung_layout *layo
 								  2 * LINK_AIR + MARK)));
 }
 
-/* Where it is cut is known before what there is room for below its outputs. Its right rail
- * stands below that of the others. */
+/* First without references: the cuts decide how much room those have. The right rail stands
+ * below that of the other rungs. */
 static void draw_strips(struct fold *fold, struct grid_scene scene, struct rung_layout *layout,
 		 float rails)
 {
@@ -839,7 +840,7 @@ static void put_folded(struct pages *pages, const struct sheet *sheet, int index
 
 /* ---- the rungs of a POU, all at one scale ---- */
 
-/* The first one stands below the heading of its POU, whatever it takes. */
+/* The first one always stands on the page of the heading of its POU. */
 static void put_rung(struct pages *pages, const struct sheet *sheet, int index,
 		     float scale, bool first)
 {
@@ -951,7 +952,7 @@ static float cut_at(const struct picture *picture, float left, float room, float
 {
 	float x = left + room;
 
-	if (x + 1 >= width) /* what fits is no two pages for a rounding */
+	if (x + 1 >= width) /* a rounding error makes no second page */
 		return width;
 	while (x > left + room / 2 && !can_cut(picture, x, -1, room))
 		x -= 4;
@@ -1020,7 +1021,7 @@ static void put_comments(struct pages *pages, const struct sfc_sheet *chart)
 	pages->y += any ? PAGE_AIR : 0;
 }
 
-/* A page more is not begun for comments alone: they get what is left of the last one. */
+/* Comments alone do not begin another page: they get the rest of the last one. */
 static void narrow(struct sfc_sheet *chart, const struct picture *picture, float room)
 {
 	float width = 0, left = 0;
@@ -1194,7 +1195,7 @@ static void put_name(struct pages *pages)
 	put_list(pages, _("Project"), line);
 }
 
-/* Above a title block as high as it was measured; what was put before that goes. */
+/* Makes all pages anew, above a title block of the measured height. */
 static void put_all(struct pages *pages, int pou, int rung)
 {
 	g_ptr_array_set_size(pages->page, 0);

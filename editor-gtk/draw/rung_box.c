@@ -10,9 +10,9 @@
 #include <string.h>
 #include <strings.h>
 
-#define VALUE_BOUND 180   /* px of what is written at a pin; on paper more   */
+#define VALUE_BOUND 180   /* px of a value at a pin; on paper more           */
 #define NAME_BOUND  140   /* px of a pin; of a box twice, on paper four times     */
-#define PADDING     6     /* between a side and what stands inside              */
+#define PADDING     6     /* px between a side and the texts inside             */
 #define LEAST_INNER 70
 #define VALUE_INNER 86 /* "12.5/20.0 s" has room                          */
 #define LEAD        14    /* of a side with nothing connected                   */
@@ -79,8 +79,8 @@ static void add_named(const struct drafting *drafting, struct rung_box *box, boo
 	side_add(drafting, output ? &box->out : &box->in, pin);
 }
 
-/* What was written at pins that the row does not list: IN3, mistakes, and a parameter
- * at a pin that carries power. */
+/* Values at pins that the row does not list: IN3, mistakes, and parameters of pins that
+ * carry power. */
 static void add_others(const struct drafting *drafting, struct rung_box *box)
 {
 	const char *at = project_text(drafting->project, box->cell->args);
@@ -144,7 +144,7 @@ static void measure(const struct drafting *drafting, struct rung_box *box)
 			 box->value ? VALUE_INNER : LEAST_INNER);
 	box->lead = value > 0 ? value + BOX_STUB + 10 : LEAD;
 	box->tail = result > 0 ? result + BOX_STUB + 10 : LEAD;
-	/* Its name stands above the middle, whatever is connected on either side. */
+	/* The name is centred on the frame, not on frame and values. */
 	float name = width_of(drafting, LETTER_SYMBOL, instance, box->name_most) / 2 + 4;
 	box->left = MAX(box->lead + box->inner / 2, name);
 	box->right = MAX(box->inner / 2 + box->tail, name);

@@ -15,7 +15,7 @@
 #define BOX_BELOW   12      /* from its last pin to its lower edge             */
 #define BOX_VALUE   22      /* more for a live value inside                    */
 #define BOX_PIN_MOST 64     /* on each side; more are not shown                */
-#define BOX_STUB    12      /* from what is connected to the side              */
+#define BOX_STUB    12      /* px from a value to the side                     */
 
 struct rung_pin {
 	const char *name;   /* borrowed, not NUL-ended                         */
@@ -38,13 +38,13 @@ struct rung_box {
 	struct rung_side in, out;
 	float lead, inner, tail; /* px: before, between and behind its sides    */
 	float left, right;       /* px from its middle to the ends of all of it */
-	float name_most, value_most; /* px of its name, of what is at a pin     */
+	float name_most, value_most; /* px of its name, of a value at a pin     */
 	bool value;              /* has room for a live value                  */
 	float bottom;            /* below the first wire                       */
 	float x;                 /* of its left side; after rung_box_place()    */
 };
 
-/** rung_box_make - what is known without a place; its pins have no y yet.
+/** rung_box_make - finds pins and sizes; places come with rung_box_place().
  * @row, @col: its first cell */
 void rung_box_make(const struct drafting *drafting, const struct rung *rung, int row,
 		   int col, struct rung_box *box);

@@ -340,7 +340,7 @@ float rung_layout_label(const struct drafting *drafting, const struct cell *cell
 	return MAX(label.symbol.width, label.address.width);
 }
 
-/* ---- what stands at a point ---- */
+/* ---- the part at a point ---- */
 
 static int row_at(const struct rung_layout *layout, float y)
 {
@@ -351,7 +351,7 @@ static int row_at(const struct rung_layout *layout, float y)
 	return row;
 }
 
-/* What lies between the columns belongs to the last one, where outputs stand. */
+/* The space between the columns belongs to the last one. */
 static int column_at(const struct rung_layout *layout, float x)
 {
 	int d = 0;

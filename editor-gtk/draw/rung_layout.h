@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * rung_layout - where everything of a rung stands, and what stands at a point.
+ * rung_layout - the places of everything in a rung, and the part at a point.
  *
  * A rung is laid out by itself; rungs of one sheet then get the same right rail
  * (rung_layout_stretch). Places are px at 100 %, from the upper left corner of the rung's
@@ -29,7 +29,7 @@
 
 enum drafting_show { SHOW_BOTH, SHOW_SYMBOLS, SHOW_ADDRESSES };
 
-/* What layouts and drawings of one sheet share. All of it is borrowed. */
+/* Shared by the layouts and drawings of one sheet; all borrowed. */
 struct drafting {
 	const struct project *project;
 	const struct grid_names *names; /* of the POU                          */
@@ -118,7 +118,7 @@ struct rung_hit {
 	const char *name;  /* of the pin, borrowed, not NUL-ended              */
 	size_t name_len;
 };
-/** rung_layout_hit - what stands at a point. */
+/** rung_layout_hit - the part at a point. */
 struct rung_hit rung_layout_hit(const struct drafting *drafting,
 				const struct rung_layout *layout, float x, float y);
 

@@ -24,7 +24,7 @@ static bool has_names(const struct word_row *word)
 	       word->operand == OPND_ANY_R || word->operand == OPND_ANY_W;
 }
 
-/* On paper nobody points at a name to read the rest of it. */
+/* Paper has no tooltips. */
 static float name_bound(const struct drafting *drafting)
 {
 	return drafting->all_comments ? 2 * LABEL_BOUND : LABEL_BOUND;

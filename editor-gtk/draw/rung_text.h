@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * rung_text - which texts stand at an element and above a rung.
+ * rung_text - the texts at an element and above a rung.
  *
  * Measured and cut to their bounds, so that layout and drawing have the same texts.
  */
@@ -26,7 +26,7 @@ struct lettered rung_element_comment(const struct drafting *drafting,
 
 /** rung_is_framed - is it drawn as text between strokes: [ a > b ], >> Label? */
 bool rung_is_framed(const struct word_row *word);
-/** rung_framed - that text, in lines; what is longer ends in an ellipsis. */
+/** rung_framed - that text in lines; a longer one ends in an ellipsis. */
 struct rung_framed {
 	struct lettered line[FRAMED_LINES];
 	int lines;
@@ -35,7 +35,7 @@ struct rung_framed {
 };
 struct rung_framed rung_framed(const struct drafting *drafting, const struct cell *cell);
 
-/* What stands above a rung. */
+/* Texts above a rung. */
 struct rung_heading {
 	struct lettered label, title;
 	float indent;        /* px from the rail to the title: behind the label   */

@@ -15,7 +15,7 @@
 #define TOKEN_DOT  4.5f
 #define SIGN_APART 2     /* from a frame to the sign of a comparison               */
 #define SIGN_BASE  5
-#define SIGN_ROOM  10    /* what comments leave to it                             */
+#define SIGN_ROOM  10    /* px that comments leave for it                         */
 
 struct nib {
 	const struct sfc_scene *scene;
@@ -76,8 +76,8 @@ static void draw_grounds(const struct nib *nib)
 	}
 }
 
-/* In a comparison, as cells of rungs: a dotted frame, and a sign for who sees no colours, before
- * a step or transition, behind a line of a step. */
+/* In a comparison, as in rungs: a dotted frame and a sign, not only a colour; before a step or
+ * transition, behind a line of a step. */
 static void draw_difference(const struct nib *nib, const struct sfc_mark *mark)
 {
 	const bool added = mark->signs & SFC_ADDED, removed = mark->signs & SFC_REMOVED;
@@ -221,7 +221,7 @@ static void draw_comment(const struct nib *nib, int shape)
 	draw_aside(nib, shape, nib->sheet->comment[shape], at.x, at.y);
 }
 
-/* What it does: a table beside the box, qualifiers on the left. */
+/* Actions: a table beside the box, qualifiers on the left. */
 static void draw_table(const struct nib *nib, int step)
 {
 	const struct sfc_step *s = &nib->layout->sfc->step[step];

@@ -11,7 +11,7 @@
 #include "editor-gtk/kit/picture.h"
 #include "editor-gtk/draw/sfc_sheet.h"
 
-/* What is known of a step or transition while the chart runs. */
+/* State of a step or transition while the chart runs. */
 enum sfc_bit {
 	SFC_KNOWN = 1,
 	SFC_ACTIVE = 2,    /* a step                                            */

@@ -220,7 +220,7 @@ void sfc_sheet_free(struct sfc_sheet *sheet)
 {
 	if (!sheet)
 		return;
-	/* The chart may be gone already: what there was is counted by the texts. */
+	/* The chart may be freed already, so its counts are not used here. */
 	g_strfreev(sheet->name);
 	g_strfreev(sheet->times);
 	g_strfreev(sheet->what);
@@ -264,7 +264,7 @@ graphene_point_t sfc_sheet_comment(const struct sfc_sheet *sheet, int shape)
 	if (s->part != SFC_STEP)
 		return GRAPHENE_POINT_INIT(box.origin.x + box.size.width + SFC_APART,
 					   sfc_sheet_y(s->top));
-	/* Above the table of what it does, if there is one. */
+	/* Above the table of actions, if there is one. */
 	return GRAPHENE_POINT_INIT(lane->x + lane->half + SFC_APART,
 		sheet->pou->sfc->step[s->index].use_count ? sfc_sheet_y(s->top) - 1 :
 		box.origin.y + box.size.height / 2);
@@ -307,7 +307,7 @@ void sfc_sheet_ends(const struct sfc_sheet *sheet, const struct sfc_wire *wire, 
 		*y2 -= TWIN_HALF;
 }
 
-/* ---- what is hit ---- */
+/* ---- the part at a point ---- */
 
 /* How far a point is from a box; 0 inside. */
 static float distance(const graphene_rect_t *box, float x, float y)
@@ -364,7 +364,7 @@ bool sfc_sheet_can_part(const struct sfc_sheet *sheet, int row)
 	return true;
 }
 
-/* ---- what a diagnostic speaks of ---- */
+/* ---- the part of a diagnostic ---- */
 
 static bool is_of_body(const struct sfc_body *body, int rung)
 {

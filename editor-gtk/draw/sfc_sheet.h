@@ -19,15 +19,15 @@
 /* px at 100 % */
 #define SFC_ROW    22     /* from one row to the next                           */
 #define SFC_EDGE   28     /* around everything                                  */
-#define SFC_LEAD   14     /* from a box to what it does                         */
+#define SFC_LEAD   14     /* from a box to its actions                          */
 #define SFC_BAR    11     /* half of a transition's bar                         */
 #define SFC_BOUND  340    /* of a text                                          */
-#define SFC_CELL   7      /* beside the text in a cell of what a step does        */
+#define SFC_CELL   7      /* beside the text in a cell of actions                 */
 #define SFC_APART  12     /* before a comment                                    */
 #define SFC_ASIDE  110    /* so much room a comment may ask for between lanes    */
 
 struct sfc_lane { float x, half, right; };
-/* Columns of the table of what a step does. */
+/* Columns of the table of actions. */
 struct sfc_table { float x, what, does; };
 
 struct sfc_sheet {
@@ -37,7 +37,7 @@ struct sfc_sheet {
 	struct sfc_layout *layout;
 	struct sfc_lane *lane;         /* by lane                             */
 	struct sfc_table *table;       /* by step                             */
-	char **name;                   /* by shape: what stands in or at it    */
+	char **name;                   /* by shape: the text in or at it       */
 	char **times;                  /* by step                             */
 	char **what, **does;           /* by use                              */
 	char **comment;                /* by shape, without delimiters         */
@@ -54,20 +54,20 @@ void sfc_sheet_free(struct sfc_sheet *sheet);
 /** sfc_sheet_comment - where the comment of step or transition @shape begins: x, and the
  * middle of its line. */
 graphene_point_t sfc_sheet_comment(const struct sfc_sheet *sheet, int shape);
-/** sfc_sheet_room - up to what is beside lane @lane, from @x on. */
+/** sfc_sheet_room - px from @x to the lane right of @lane. */
 float sfc_sheet_room(const struct sfc_sheet *sheet, int lane, float x);
 /** sfc_sheet_y - of a row's middle. */
 float sfc_sheet_y(int row);
 /** sfc_sheet_box - of a shape: the box of a step, bar and text of a transition, arrow
  * and name of a jump. */
 graphene_rect_t sfc_sheet_box(const struct sfc_sheet *sheet, int shape);
-/** sfc_sheet_use - of a line of what a step does; sfc.use @use. */
+/** sfc_sheet_use - of an action in the table; sfc.use @use. */
 graphene_rect_t sfc_sheet_use(const struct sfc_sheet *sheet, int use);
 /** sfc_sheet_ends - y of a line down a lane: not into a double line. */
 void sfc_sheet_ends(const struct sfc_sheet *sheet, const struct sfc_wire *wire, float *y1,
 		    float *y2);
 
-/* What stands at a point. */
+/* The part at a point. */
 struct sfc_at {
 	int shape;       /* of layout->shape; -1: nothing                       */
 	int use;         /* of sfc.use; -1: the shape itself                    */

@@ -56,7 +56,7 @@ bool sheet_is_wide(const struct sheet *sheet, int index)
 	return sheet->most > 0 && sheet->rung[index]->natural > sheet->most;
 }
 
-/* What the widest rung that is not too wide needs. */
+/* px that the widest rung needs, except those that are too wide. */
 static float rails_of(const struct sheet *sheet)
 {
 	float most = sheet->drafting.width;

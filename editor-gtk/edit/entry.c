@@ -123,7 +123,7 @@ struct value {
 	const char *name;    /* of its pin; name_len 0: the line says none      */
 	size_t name_len;
 	bool output, inverse;
-	const char *text;    /* a new name with what the line says of it        */
+	const char *text;    /* of a new name with its declaration              */
 	size_t len;
 };
 
@@ -331,7 +331,7 @@ static bool add_inputs(const struct entry_place *place, const struct word_row *r
 	return !out || add_pin(place, &result, "OUT", &value[inputs], entry);
 }
 
-/* Those of a block that no row of power is drawn to: its inputs that are not BOOL. */
+/* Values of a block in their order: for its inputs that are not BOOL. */
 static bool add_block_inputs(const struct entry_place *place, const struct word_row *row,
 			     const struct value *value, int count, struct entry *entry)
 {
@@ -350,7 +350,7 @@ static bool add_block_inputs(const struct entry_place *place, const struct word_
 	       entry_wrong(entry, N_("there are more values than inputs of the box"), "", 0);
 }
 
-/* What a timer or counter of the catalogue gets that nothing was said for. */
+/* First values of a timer or counter of the catalogue, if the line has none. */
 static bool add_first_values(const struct word_row *row, struct entry *entry)
 {
 	const bool counts = !strcmp(row->family, "Counters");
@@ -382,7 +382,7 @@ static bool is_alone(const struct word_row *row, const struct value *value, int 
 	       (pin_of(row, index)->own || pin_of(row, index)->type != IEC_NONE);
 }
 
-/* Of one value; IEC_NONE: nobody knows. @guessed gets what it may be then. */
+/* Of one value; IEC_NONE: unknown. Then @guessed gets a possible type. */
 static enum iec_type type_of(const struct entry_place *place, const struct value *value,
 			     enum iec_type *guessed)
 {
@@ -461,8 +461,8 @@ static bool add_all(const struct entry_place *place, const struct word_row *row,
 		add_block_inputs(place, row, value, count, entry);
 }
 
-/* To @entry->args; a timer or counter without any gets values to begin with. What does not fit
- * the type of a pin the checks will say. */
+/* To @entry->args; a timer or counter without any gets first values. The checks of the engine
+ * compare values with the types of pins. */
 static bool read_args(const struct entry_place *place, const struct word_row *row,
 		const char *text, struct entry *entry)
 {
@@ -658,8 +658,8 @@ static size_t head_len(const char *text, size_t len)
 	return head;
 }
 
-/* `Stop` is a push button before it is what ends the program for good: a word alone that
- * has no operand is meant if it is written as it is listed, STOP. */
+/* `Stop` is the name of a push button, `STOP` the word that ends the program: a word without
+ * operand must be written in capitals, as in the catalogue. */
 static bool is_name_rather(const struct entry_place *place, enum word word, const char *text,
 			   size_t len)
 {

@@ -48,7 +48,7 @@ enum entry_sense {
 struct entry {
 	enum entry_sense sense;
 	enum word word;
-	bool below;               /* in parallel to what is at the cursor: OR X */
+	bool below;               /* in parallel to the element at the cursor: OR X */
 	char operand[ENTRY_TEXT]; /* "": none                                  */
 	char args[ENTRY_TEXT];    /* "PT:=T#1s"; "": none                      */
 	bool proposed;            /* @args of a block are not from the line    */
@@ -91,7 +91,7 @@ struct entry_candidate {
 	enum entry_kind kind;
 	char text[ENTRY_NAME];    /* the word or name                          */
 	char address[32];         /* "": none                                  */
-	char note[ENTRY_NAME];    /* its type and comment, or what it does     */
+	char note[ENTRY_NAME];    /* type and comment; of a word its explanation */
 	char line[ENTRY_TEXT];    /* the line with it taken                    */
 };
 

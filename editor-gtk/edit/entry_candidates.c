@@ -39,7 +39,7 @@ struct search {
 	int *rank;                 /* of each in out                           */
 };
 
-/* ---- what may stand there, by what stands before the word ---- */
+/* ---- which candidates are wanted, by the text before the word ---- */
 
 static bool is_part(char c)
 {
@@ -80,7 +80,7 @@ static void want_operand(struct search *s)
 	}
 }
 
-/* Behind `PT:=`: what fits that pin. */
+/* Behind `PT:=`: values that fit this pin. */
 static void want_value(struct search *s, const char *rest, size_t len)
 {
 	size_t from;
@@ -123,7 +123,7 @@ static void want_behind(struct search *s, const char *rest, size_t len)
 		s->want |= WANT_ANY;
 }
 
-/* In an expression: what goes with its first operand. */
+/* In an expression: values that fit its first operand. */
 static void want_operand_like(struct search *s, const char *text)
 {
 	struct entry_target target;
@@ -266,7 +266,7 @@ static void add(struct search *s, enum entry_kind kind, int fits, const char *te
 	make_line(s, text, c->line, sizeof(c->line));
 }
 
-/* ---- what there is ---- */
+/* ---- candidates that exist ---- */
 
 static const char *typed(const struct search *s)
 {
@@ -348,7 +348,7 @@ static void add_table(struct search *s, const struct var_table *table)
 	}
 }
 
-/* Pins and members of what stands before the last dot. */
+/* Pins and members of the instance before the last dot. */
 static void add_pins(struct search *s)
 {
 	struct entry_target target;
@@ -512,8 +512,8 @@ static void add_row(struct search *s, const struct entry_new *declared,
 		 more[0] ? ", " : "", more);
 }
 
-/* Of one address the line says it, so that it can be changed at once. @name_end: of the
- * name in the line; from there to the cursor goes what is said of it. */
+/* The new line has the address of the choice, so that it can be changed at once. It replaces
+ * the text from @name_end, the end of the name, to the cursor. */
 static void add_choices(struct search *s, const struct entry_new *declared,
 			size_t name_end, const char *typed, size_t typed_len)
 {
@@ -567,7 +567,7 @@ static void add_new(struct search *s)
 	free(entry);
 }
 
-/* ---- what the line says of a name already ---- */
+/* ---- inside the declaration of a name ---- */
 
 /* Where the operand begins: behind a word, a glyph, a sign. */
 static size_t operand_at(const struct search *s)
@@ -590,7 +590,7 @@ static size_t operand_at(const struct search *s)
 	return at;
 }
 
-/* What the cursor's word says of a name. */
+/* The name that the word at the cursor declares. */
 struct saying {
 	size_t name, name_end; /* in the line; name_end 0: it says nothing     */
 	bool type;             /* else its address                             */
@@ -616,8 +616,8 @@ static size_t back_word(const char *line, size_t end)
 	return at;
 }
 
-/* By what stands before that word: `Level AT`, `Level AT %IW0 :`, `Level :`; or it is
- * AT itself; or, of a contact or coil, an address. */
+/* By the text before the word: `Level AT`, `Level AT %IW0 :`, `Level :`; or the word is AT; or
+ * it is the address of a contact or coil. */
 static struct saying find_saying(const struct search *s)
 {
 	const char *line = s->line;
@@ -691,7 +691,7 @@ static void add_addresses(struct search *s, const struct saying *saying,
 			    ascii_is("AT", typed, len) ? 0 : len);
 }
 
-/* Does the cursor stand in what a line says of its name, `AT %I`? Then that is offered. */
+/* Is the cursor in a declaration such as `AT %I`? Then types or addresses are offered. */
 static bool add_said(struct search *s)
 {
 	const struct saying saying = find_saying(s);

@@ -34,7 +34,7 @@ static bool is_new(const struct project *project, const struct entry_instance *m
 	return true;
 }
 
-/* False: no memory. @made: gets one more, a name for what is there called @one.from. */
+/* Adds a new instance for @one.from to @made. False: no memory. */
 static bool add(const struct entry_place *place, struct entry_instance one,
 		struct entry_instance *made, int *count)
 {
@@ -52,7 +52,7 @@ static bool add(const struct entry_place *place, struct entry_instance one,
 	return one.to != 0;
 }
 
-/* Of a box, if it is a variable by itself, and one that may be another; else NULL. */
+/* The variable of a box that may get another name; NULL: it has none. */
 static const struct var *instance_of(const struct entry_place *place,
 				     const struct cell *cell, bool *retain)
 {
@@ -90,7 +90,7 @@ static size_t head_of(const struct token *token)
 	return dot ? (size_t)(dot - token->text) : token->len;
 }
 
-/* To the next name of an instance, past what stands in quotes; NULL: none follows. */
+/* To the next name of an instance that is not in quotes; NULL: none follows. */
 static const struct entry_instance *next(const struct project *project, struct lex *lex,
 					 const struct entry_instance *made, int count)
 {

@@ -19,18 +19,18 @@
 struct types {
 	uint8_t given[LIMIT_EXPR_NODES];  /* by declarations and typed constants   */
 	uint8_t guessed[LIMIT_EXPR_NODES]; /* else by constants and operators  */
-	uint8_t wanted[LIMIT_EXPR_NODES]; /* what a new name there becomes     */
-	uint8_t target;                   /* of what is written                */
+	uint8_t wanted[LIMIT_EXPR_NODES]; /* the type of a new name there      */
+	uint8_t target;                   /* of the target of an assignment    */
 };
 
-/* A name with what the line says of it, `Level AT %IW0 : INT`. */
+/* A name with its declaration, `Level AT %IW0 : INT`. */
 struct said {
 	const char *text;
 	size_t len, name;    /* bytes, and of the name in them                 */
 	enum iec_type type;  /* IEC_NONE: it does not say it                   */
 };
 
-/* What does not fit a small stack. */
+/* Too large for a small stack. */
 struct work {
 	struct expr expr;
 	struct diag_list diags;
@@ -40,7 +40,7 @@ struct work {
 	int said_count;
 };
 
-/* Only what a person would call a type; an error is found when the name is declared. */
+/* IEC_NONE for a wrong type: the error is found when the name is declared. */
 static enum iec_type type_said(const struct said *said)
 {
 	const char *end = said->text + said->len, *at = end;
@@ -61,7 +61,8 @@ static bool keep_said(struct lex *lex, struct work *w, struct entry *entry)
 	if (len == 0)
 		return true;
 	if (w->said_count == ENTRY_NEW_MOST)
-		return entry_wrong(entry, N_("“%s” is not declared: one line declares at most 4 names"), text,
+		return entry_wrong(entry, N_("“%s” is not declared: one line declares "
+				   "at most 4 names"), text,
 				   lex->token.len);
 	*said = (struct said){ text, len, lex->token.len, IEC_NONE };
 	said->type = type_said(said);
@@ -70,8 +71,8 @@ static bool keep_said(struct lex *lex, struct work *w, struct entry *entry)
 	return true;
 }
 
-/* With one blank round := and comparisons, one where there were some, else none; and
- * without what is said of names. */
+/* With one blank round := and comparisons, and one where the line has some; without the
+ * declarations of names. */
 static bool print(const char *text, size_t len, struct work *w, struct entry *entry)
 {
 	static const char *const wide[] = { ":=", "<", ">", "<=", ">=", "=", "<>" };
@@ -115,7 +116,7 @@ static enum iec_type type_of(const struct work *w, const char *name, size_t len)
 struct infer {
 	const struct entry_place *place;
 	const struct expr *expr;
-	const struct work *work; /* what the line says of names                 */
+	const struct work *work; /* for the declarations in the line            */
 	struct types *types;
 };
 
@@ -129,7 +130,7 @@ static enum iec_type or_else(uint8_t a, uint8_t b)
 	return (enum iec_type)(a != IEC_NONE ? a : b);
 }
 
-/* ---- types: up the tree goes what is known of the parts ---- */
+/* ---- types: from the operands up ---- */
 
 static enum iec_type type_of_name(const struct infer *in, const char *text, size_t len)
 {
@@ -183,7 +184,7 @@ static const struct word_pin *pin_of(const struct infer *in, const struct word_r
 	return index >= 0 ? word_input(row, (uint32_t)index) : NULL;
 }
 
-/* What those arguments have that share a type; @guessed: or may have. */
+/* The common type of the arguments that share one; @guessed: a possible one. */
 static enum iec_type shared_by(const struct infer *in, const struct word_row *row,
 			       int call, bool guessed)
 {
@@ -257,7 +258,7 @@ static void know(const struct infer *in, int i)
 	guessed[i] = (uint8_t)or_else(guessed[node->left], guessed[node->right]);
 }
 
-/* ---- down goes what a name there is calculated and compared with ---- */
+/* ---- types: down to new names ---- */
 
 /* Of two that must go together. */
 static enum iec_type common_type(const struct infer *in, const struct expr_node *node)

@@ -160,7 +160,7 @@ static void fail(struct entry_target *out, const char *why)
 	out->why = why;
 }
 
-/* `[3]`, `[-3]`, `[i]` at @at; returns what is behind it, NULL: it is none. */
+/* `[3]`, `[-3]`, `[i]` at @at; returns its end, NULL: it is not an index. */
 static const char *index_end(const char *at, const char *end)
 {
 	struct lex lex;
@@ -176,7 +176,7 @@ static const char *index_end(const char *at, const char *end)
 	return lex_is(&lex, "]") ? lex.token.text + 1 : NULL;
 }
 
-/* One step, `[3]` or `.Q`, at @at; returns what is behind it, NULL: wrong. */
+/* One step, `[3]` or `.Q`, at @at; returns its end, NULL: wrong. */
 static const char *step(const struct entry_place *place, const char *at, const char *end,
 			struct entry_target *out)
 {

@@ -11,7 +11,7 @@
 
 #include "editor-gtk/edit/entry.h"
 
-/* What a name, path or address stands for. */
+/* The meaning of a name, path or address. */
 enum entry_means {
 	MEANS_NOTHING,  /* no operand at all                                   */
 	MEANS_VALUE,    /* a value that is there                               */
@@ -48,7 +48,7 @@ const struct var *entry_var_find(const struct entry_place *place, const char *te
  * @why, N_() text. */
 bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
 			 const char **why);
-/** entry_is_name - could a variable be called so? */
+/** entry_is_name - may a variable have this name? */
 bool entry_is_name(const char *text, size_t len);
 /** entry_name_taken - by a variable, a POU, a label, or in the line itself. */
 bool entry_name_taken(const struct entry_place *place, const struct entry *entry,
@@ -56,7 +56,7 @@ bool entry_name_taken(const struct entry_place *place, const struct entry *entry
 /** entry_fresh_name - base and the smallest number that makes a new name of it. */
 void entry_fresh_name(const struct entry_place *place, const struct entry *entry,
 		      const char *base, char *out, size_t size);
-/** entry_family_base - what instances of a word are called: "Delay". */
+/** entry_family_base - the begin of names for instances of a word: "Delay". */
 const char *entry_family_base(const struct word_row *row);
 
 struct entry_mnemonic {

@@ -39,7 +39,7 @@ bool entry_append(char *out, size_t size, const char *text, size_t len)
 	return true;
 }
 
-/* ---- what fits ---- */
+/* ---- types that fit ---- */
 
 /* Values that go with one: numbers with numbers. */
 static uint16_t classes_with(uint16_t classes)
@@ -294,7 +294,8 @@ bool entry_declare(const struct entry_place *place, struct entry *entry, const c
 		if (ascii_is(entry->declare[i].name, name, len))
 			return true;
 	if (entry->declares == ENTRY_NEW_MOST)
-		return entry_wrong(entry, N_("“%s” is not declared: one line declares at most 4 names"), name, len);
+		return entry_wrong(entry, N_("“%s” is not declared: one line declares "
+				   "at most 4 names"), name, len);
 	made = &entry->declare[entry->declares++];
 	snprintf(made->name, sizeof(made->name), "%.*s", (int)len, name);
 	snprintf(made->type, sizeof(made->type), "%s", type);
@@ -361,7 +362,7 @@ static bool is_assign(const char *text, size_t len)
 	return len > 1 && text[0] == ':' && text[1] == '=';
 }
 
-/* Up to what cannot be a part of one: in an expression signs go on. */
+/* Up to a character that no address contains. */
 static size_t address_len(const struct piece *rest)
 {
 	size_t len = 0;
@@ -431,11 +432,12 @@ static bool split(const char *text, size_t len, size_t name, struct pieces *out,
 	if (is_colon(rest.text, rest.len) && !take_type(&rest, out, entry))
 		return false;
 	return rest.len == 0 ||
-	       entry_wrong(entry, N_("“%s” is not expected: only an address and a type can follow a name"),
+	       entry_wrong(entry, N_("“%s” is not expected: only an address and a type "
+				"can follow a name"),
 			   rest.text, rest.len);
 }
 
-/* ---- what they say ---- */
+/* ---- reading the parts ---- */
 
 static bool read_address(const struct entry_place *place, const struct piece *piece,
 			 struct iec_addr *out, struct entry *entry)
@@ -455,7 +457,7 @@ static bool read_address(const struct entry_place *place, const struct piece *pi
 struct type {
 	enum iec_type type;  /* IEC_NONE: an instance, a structure, an array   */
 	enum word word;
-	struct piece more;    /* behind its word, of what has none              */
+	struct piece more;    /* text behind the word of the type               */
 };
 
 static bool read_type(const struct entry_place *place, const struct piece *piece,
@@ -482,7 +484,7 @@ static bool read_type(const struct entry_place *place, const struct piece *piece
 	return true;
 }
 
-/* ---- of a name that is there ---- */
+/* ---- a declared name ---- */
 
 static bool is_same(const struct var *var, const struct pieces *pieces,
 		    struct iec_addr addr, const struct type *type)
@@ -512,9 +514,9 @@ static bool is_other(const struct entry_place *place, const struct var *var,
 	return entry_wrong(entry, N_("the name is declared already as %s"), text, strlen(text));
 }
 
-/* ---- of a new name ---- */
+/* ---- a new name ---- */
 
-/* Is it what the place takes, IEC_BOOL where only that will do? */
+/* Does the type fit the place? */
 static bool fits_type(const struct entry_fit *fit, const struct pieces *pieces,
 		      const struct type *type, struct entry *entry)
 {
@@ -528,11 +530,12 @@ static bool fits_type(const struct entry_fit *fit, const struct pieces *pieces,
 				   N_("the type “%s” does not fit here"), pieces->type.text,
 				   pieces->type.len);
 	return type->more.len == 0 ||
-	       entry_wrong(entry, N_("“%s” is not expected: only an address and a type can follow a name"),
+	       entry_wrong(entry, N_("“%s” is not expected: only an address and a type "
+				"can follow a name"),
 			   type->more.text, type->more.len);
 }
 
-/* What is told of an address that is too wide or too narrow: how it should begin. */
+/* A wrong width is told with the begin of a right address, such as %IW. */
 static bool has_width(enum iec_type type, const struct piece *address,
 		      struct iec_addr addr, struct entry *entry)
 {

@@ -10,7 +10,7 @@
 
 #include "editor-gtk/edit/entry_names.h"
 
-/* What a place of a line takes, and what a new name there becomes. */
+/* Types that fit a place of a line, and the type of a new name there. */
 struct entry_fit {
 	enum iec_type type;      /* if the line does not say it; IEC_NONE: see word */
 	enum word word;          /* an instance or structure of it; WORD_COUNT: no

@@ -77,7 +77,7 @@ static bool is_plain(const struct cell *cell)
 	return cell->word == ELEM_EMPTY || cell->word == ELEM_WIRE;
 }
 
-/* What a piece is: how it goes in depends on it. */
+/* The contents of a piece, which decide how it is pasted. */
 struct piece {
 	const struct rung *rung;
 	int elements, outputs, pins;
@@ -419,9 +419,9 @@ struct rung *grid_drop(const struct rung *rung, struct grid_at *at, struct cell 
 	return canvas_close(&c, at);
 }
 
-/* ---- moving what is there ---- */
+/* ---- moving an element ---- */
 
-/* From the end, so that a branch goes before what it goes round. */
+/* From the end, so that a branch is deleted before the element in parallel to it. */
 static bool delete_last_moved(struct canvas *c)
 {
 	for (int row = c->rung->rows - 1; row >= 0; row--)

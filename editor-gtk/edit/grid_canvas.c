@@ -100,8 +100,8 @@ static bool is_output(const struct rung *rung, int row, int col)
 	return word_row((enum word)rung_at(rung, row, col)->word)->place == PLACE_LAST;
 }
 
-/* May cell (@row, @col), which stands right before the outputs, go? Wire and links on
- * the way to an output may; a link of somebody who still draws stays where it is. */
+/* May cell (@row, @col), right before the outputs, be removed? Wires and links that lead to an
+ * output may; a link that a person is still drawing stays. */
 static bool is_spare(const struct rung *rung, int row, int col)
 {
 	const struct cell *cell = rung_at(rung, row, col);
@@ -428,8 +428,8 @@ bool canvas_close_left(struct canvas *c, int row, int col)
 	return true;
 }
 
-/* The bar up to which wire would have to go: of what waits for power there, or of a
- * link that nothing else joins; -1: there is none. */
+/* The bar that wire must reach: that of an element without power, or of a link with nothing
+ * else on it; -1: there is none. */
 static int waiting_bar(const struct canvas *c, int row, int bar)
 {
 	for (; bar < c->rung->cols; bar++) {

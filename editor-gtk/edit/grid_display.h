@@ -28,8 +28,8 @@ struct grid_place {
 /** grid_display_columns - how many a rung needs to be shown: at least @least, one for
  * outputs behind everything else, at most LIMIT_COLS. Scan-safe: no; so are all. */
 int grid_display_columns(const struct rung *rung, int least);
-/** grid_display_find - what stands in display cell (@row, @col), 0-based. Cells outside
- * are empty. Returns out->seen. */
+/** grid_display_find - the contents of display cell (@row, @col), 0-based. Cells outside are
+ * empty. Returns out->seen. */
 enum grid_seen grid_display_find(const struct rung *rung, int columns, int row,
 				 int col, struct grid_place *out);
 /** grid_display_column - the display column of cell (@row, @col) of the rung. */

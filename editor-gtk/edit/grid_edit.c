@@ -68,9 +68,8 @@ static int feeders(const struct network *n, int net)
 	return n->first_feeder[net + 1] - n->first_feeder[net];
 }
 
-/* Does power have to go through (@row, @col), which is empty now? So if what comes
- * behind it is read and fed by nothing else, or what comes before it leads nowhere
- * else. */
+/* Must power pass (@row, @col), which is empty now? Yes if the net behind it is read and has
+ * no other feeder, or if the net before it is fed and leads nowhere else. */
 static bool must_pass(struct canvas *c, int row, int col)
 {
 	const struct network *n = &c->network;
@@ -275,7 +274,7 @@ static bool clip(const struct canvas *c, struct grid_area *area)
 	return area->row <= area->last_row && area->col <= area->last_col;
 }
 
-/* From the end, so that a branch goes before what it goes round. */
+/* From the end, so that a branch is deleted before the element in parallel to it. */
 static bool delete_elements(struct canvas *c, const struct grid_area *area)
 {
 	bool any = false;
@@ -375,7 +374,7 @@ static bool may_insert(const struct canvas *c, const struct reach *reach, int ro
 	return true;
 }
 
-/* The first row below that is free, or a new one before what is in the way; -1: none. */
+/* The first free row below, or a new one before the first obstacle; -1: none. */
 static int row_below(struct canvas *c, const struct reach *reach)
 {
 	int row = reach->row + 1, put_in = -1;
@@ -565,7 +564,7 @@ bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell c
 	return true;
 }
 
-/* What of an area a branch can go round: the last column only alone. */
+/* A branch goes round the last column only if the area is nothing else. */
 static bool take_area(struct canvas *c, const struct grid_area *area, int *row, int *col,
 		      int *last)
 {
@@ -679,7 +678,7 @@ static int shift_end(const struct canvas *c, int row, int col)
 	return end < canvas_last(c) && can_shift(c, row, col, end) ? end : -1;
 }
 
-/* The last of those that moved would be fed from its right, or feed to its left. */
+/* Would the last element that moved be fed from its right, or feed to its left? */
 static bool shift_fails(struct canvas *c, int row, int end)
 {
 	return canvas_is_element(c, row, end) && is_backwards(c, row, end);
@@ -718,7 +717,7 @@ static void replace(struct canvas *c, int row, int col, struct cell cell)
 	canvas_put(c, row, col, cell);
 }
 
-/* What is put in the place of an element keeps its comment, unless it has one. */
+/* A new element keeps the comment of the old one, unless it has its own. */
 static struct cell commented(struct canvas *c, int row, int col, struct cell cell)
 {
 	if (!cell.comment)
@@ -781,8 +780,8 @@ static bool fits_wire(struct canvas *c, int row, int col, struct cell cell)
 	return fits;
 }
 
-/* The column of the wire at (@row, @col) that an element is put into: that one, or the
- * nearest that will do, or right before what the wire leads to. -1: it failed. */
+/* The column where an element goes into the wire at (@row, @col): the nearest one without
+ * power leftwards, else right before the element at the end of the wire. -1: it failed. */
 static int wire_column(struct canvas *c, int row, int col, struct cell cell)
 {
 	const struct stretch s = stretch_at(c, row, col);

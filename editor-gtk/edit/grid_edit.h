@@ -40,7 +40,7 @@ enum grid_way { GRID_LEFT, GRID_RIGHT, GRID_UP, GRID_DOWN };
 
 /* ---- elements ---- */
 
-/* What happens to the element that stands there already. */
+/* For the element that stands there already. */
 enum grid_how {
 	GRID_REPLACE, /* it is replaced                                       */
 	GRID_INSERT,  /* it moves to the right                                */
@@ -186,7 +186,7 @@ struct rung *grid_paste(const struct rung *rung, struct grid_at *at,
 /** grid_is_outputs - does it hold only outputs? Without a condition they would always be on. */
 bool grid_is_outputs(const struct rung *rung);
 
-/* What dropping something at a cell would do. */
+/* Where a dropped element goes. */
 enum grid_drop {
 	GRID_DROP_NOT,      /* nothing: no legal place                         */
 	GRID_DROP_THERE,    /* goes into the empty cell                        */

@@ -81,7 +81,7 @@ struct rung *grid_cycle(const struct rung *rung, struct grid_at *at)
 /* ---- comparisons ---- */
 
 static const struct { const char *sign, *opposite; bool any; } signs[] = {
-	{ "=", "<>", true }, { "<>", "=", true }, /* right for what is no number, too */
+	{ "=", "<>", true }, { "<>", "=", true }, /* also for values that are not numbers */
 	{ "<", ">=", false }, { ">=", "<", false },
 	{ ">", "<=", false }, { "<=", ">", false },
 };
@@ -101,7 +101,7 @@ static const struct var *find_var(const struct var_table *table, uint32_t fold)
 	return i >= 0 ? &table->var[i] : NULL;
 }
 
-/* May a name stand for a REAL, which can be no number? So may whatever is not known. */
+/* May a name be a REAL, whose value may be NaN? An unknown name may. */
 static bool may_be_real(const struct project *project, const struct pou *pou,
 			const struct token *token)
 {
@@ -119,7 +119,7 @@ static bool may_be_real(const struct project *project, const struct pou *pou,
 	       !ascii_prefix("SYS_", token->text, token->len);
 }
 
-/* What an expression is made of, as far as its opposite asks. */
+/* The structure of an expression, for its negation. */
 struct shape {
 	int comparisons, logic; /* outside of all parentheses                   */
 	int sign;

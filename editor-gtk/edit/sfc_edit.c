@@ -106,7 +106,7 @@ uint32_t sfc_edit_id(struct sfc_edit *edit, const char *text)
 	return names_intern(&edit->project->names, text, strlen(text));
 }
 
-/* ---- pieces: what stands where in the file ---- */
+/* ---- pieces: the order of steps and transitions in the file ---- */
 
 bool sfc_edit_put_piece(struct sfc_edit *edit, int at, enum piece_kind kind, int index)
 {
@@ -540,8 +540,8 @@ static int only_way(const struct sfc_edit *edit, int step)
 	return found;
 }
 
-/* A transition that led to the step leads to what followed it; if nothing did, or if it
- * came from the step, the name goes. */
+/* Of a step that is deleted: a transition to it leads to its successors; without any, or if
+ * it came from the step, the name is deleted. */
 static bool loosen(struct sfc_edit *edit, int transition, int step, int way)
 {
 	for (int side = 0; side < 2; side++) {
@@ -769,7 +769,7 @@ static bool rename_in_list(struct sfc_edit *edit, const char *old, const char *n
 	return true;
 }
 
-/* Times and bits of steps and of what they do. */
+/* Times and bits of steps and of their actions. */
 static void rename_in_steps(struct sfc_edit *edit, const char *old, const char *name)
 {
 	struct sfc *sfc = &edit->sfc;
@@ -854,7 +854,7 @@ bool sfc_edit_set_kind(struct sfc_edit *edit, int step, enum step_kind kind)
 	return true;
 }
 
-/* One operand or literal: what stands between commas in the file. */
+/* One operand or literal, as between commas in the file. */
 static bool is_word(const char *text)
 {
 	return strlen(text) < 200 && !strpbrk(text, ",;()|\n\r\t \"");
@@ -940,7 +940,7 @@ bool sfc_edit_as_rung(struct sfc_edit *edit, int transition)
 	return true;
 }
 
-/* ---- what a step does ---- */
+/* ---- actions of a step ---- */
 
 static const char *skip(const char *at)
 {
@@ -984,7 +984,7 @@ static bool take_qualifier(const char **at, struct sfc_doing *out)
 	return next_word(at, out->time, sizeof(out->time)) && *skip(*at);
 }
 
-/* Its name, with what the line says of it. */
+/* The name, with its declaration. */
 static bool take_operand(const char *at, bool qualified, struct sfc_doing *out)
 {
 	char word[LIMIT_NAME + 1];

@@ -18,7 +18,7 @@ struct sfc_edit {
 	struct sfc sfc;
 	struct arena arena;
 	int rungs;               /* of the POU that was copied: not owned       */
-	const char *why;         /* N_(): what was refused last; NULL: nothing  */
+	const char *why;         /* N_(): the last refusal; NULL: none          */
 };
 
 /** sfc_edit_new - of a POU that is a chart. Owns: the caller, sfc_edit_free(). NULL: no
@@ -60,7 +60,7 @@ bool sfc_edit_cut_way(struct sfc_edit *edit, int transition, int ref);
  * neighbour. */
 bool sfc_edit_move(struct sfc_edit *edit, int step, int transition, bool right);
 
-/* ---- names, conditions, what is done, comments ---- */
+/* ---- names, conditions, actions, comments ---- */
 
 /** sfc_edit_free_name - "Step3": a name that is not used. Lives as long as the edit. */
 const char *sfc_edit_free_name(struct sfc_edit *edit, const char *base);
@@ -106,7 +106,7 @@ bool sfc_edit_delete_use(struct sfc_edit *edit, int use);
 /** sfc_edit_set_comment - of PIECE_STEP, PIECE_TRANSITION; "": none. */
 bool sfc_edit_set_comment(struct sfc_edit *edit, enum piece_kind kind, int index,
 			  const char *text);
-/** sfc_edit_set_use_comment - of a line of what a step does. */
+/** sfc_edit_set_use_comment - of an action of a step. */
 bool sfc_edit_set_use_comment(struct sfc_edit *edit, int use, const char *text);
 
 /* ---- sfc_edit_macro.c: charts in steps ---- */

@@ -27,7 +27,7 @@ static uint32_t name_of(const struct passage *part, int step)
 	return part->edit->sfc.step[step].name;
 }
 
-/* ---- what it is ---- */
+/* ---- its ends ---- */
 
 /* The names on one side of a transition. */
 static const struct sfc_ref *side_of(const struct passage *part, int transition, bool to,
@@ -140,7 +140,7 @@ static bool lead(struct passage *part, int transition, bool to, int step)
 				 project_text(part->edit->project, name_of(part, step)));
 }
 
-/* A step at the end of what there is of it, or before its beginning. */
+/* A new step at the end of the part, or before its beginning. */
 static int step_at(struct passage *part, bool end)
 {
 	struct sfc_edit *edit = part->edit;
@@ -165,7 +165,8 @@ static bool is_known(const struct passage *part, int transition, bool to)
 	return true;
 }
 
-/* The first way out goes on, and those that led to where it led; and what leads nowhere. */
+/* The first transition out of the part is joined, those to the same steps, and those to
+ * unknown steps. */
 static bool goes_on(const struct passage *part, int transition,
 		    const struct sfc_transition *exit)
 {
@@ -180,7 +181,7 @@ static bool goes_on(const struct passage *part, int transition,
 	return t->to_count == exit->to_count;
 }
 
-/* What leaves it leads to where @like leads. */
+/* Transitions out of the part now lead where @like leads. */
 static bool join(struct passage *part, const struct sfc_transition *like)
 {
 	struct sfc *sfc = &part->edit->sfc;
@@ -208,7 +209,7 @@ static bool join(struct passage *part, const struct sfc_transition *like)
 	return true;
 }
 
-/* What names steps that there are not leads to a new one, or from it. */
+/* Transitions with unknown steps lead to a new step, or from it. */
 static bool close_ways(struct passage *part)
 {
 	int made[2] = { -1, -1 };
@@ -244,7 +245,7 @@ static int behind_transition(struct passage *part, int transition)
 	return join(part, &old) && lead(part, transition, true, head) ? head : -1;
 }
 
-/* What leaves it comes to one step. */
+/* All transitions out of the part lead to one step. */
 static int last_step(struct passage *part)
 {
 	struct sfc_transition exit, like;

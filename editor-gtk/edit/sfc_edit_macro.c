@@ -18,7 +18,7 @@
 struct group {
 	struct sfc_edit *edit;
 	const bool *step;       /* by step: is it one of them?                 */
-	int macro;              /* what all of them stand in; -1: the chart    */
+	int macro;              /* the macro-step they are in; -1: the chart   */
 	int entry, exit;        /* -1: not known yet                           */
 	bool *inner;            /* by transition: it goes with them            */
 };
@@ -290,7 +290,7 @@ static int put_inside(struct group *group)
 	if (is_too_deep(group))
 		return refuse(group, N_("macro-steps are nested too deep")) - 1;
 	macro = new_macro(group);
-	/* The new one is none of them, whatever stands behind the end of @step. */
+	/* @step has no entry for the new one. */
 	if (macro < 0 || !gather(group, macro) || !lead_to_macro(group, macro))
 		return -1;
 	for (int i = 0; i < count; i++)

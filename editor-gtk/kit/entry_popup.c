@@ -25,10 +25,10 @@ struct _LadderEntryPopup {
 	guint made;         /* so many of them are seen, as widgets            */
 	guint making;       /* soon makes the others                           */
 	bool filling;       /* the line is changed by us                       */
-	guint asking;       /* soon asks what could be meant                   */
-	bool spare;         /* closed, and kept for what is asked next          */
+	guint asking;       /* idle source: asks for candidates                */
+	bool spare;         /* closed, and kept for the next line               */
 	bool done;          /* taken or given up: not left by a click elsewhere */
-	char *first;        /* what the line was before anything was typed      */
+	char *first;        /* the line before anything was typed               */
 };
 
 G_DEFINE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, GTK_TYPE_POPOVER)
@@ -36,7 +36,7 @@ G_DEFINE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, GTK_TYPE_POPOVER)
 #define LIST_HEIGHT 190
 #define ROWS_SEEN   8    /* at least so many fill the list                     */
 #define REST_MS     120
-#define TOLD_WIDTH  60   /* characters: most of what is told fits a line        */
+#define TOLD_WIDTH  60   /* characters: most texts fit in a line                */
 
 static void row_free(gpointer pointer)
 {
@@ -118,7 +118,7 @@ static void hide_rest(LadderEntryPopup *popup)
 		gtk_widget_set_visible(GTK_WIDGET(row), FALSE);
 }
 
-/* What is seen at once. */
+/* The rows that are visible at once. */
 static void make_first(LadderEntryPopup *popup)
 {
 	make_rows(popup, ROWS_SEEN);
@@ -224,7 +224,7 @@ static bool take(LadderEntryPopup *popup)
 	return good;
 }
 
-/* False: it is none. A line that cannot be taken stays, and tells why. */
+/* False: not a key of the window. A line that cannot be taken stays and says why. */
 static bool window_key(LadderEntryPopup *popup, GdkEvent *key)
 {
 	GtkWidget *owner = gtk_widget_get_parent(GTK_WIDGET(popup));
@@ -294,7 +294,7 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 	}
 }
 
-/* ---- what is pasted ---- */
+/* ---- pasting ---- */
 
 /* Lines as one, with blanks between them. */
 static char *joined(const char *text, gsize len)
@@ -327,8 +327,8 @@ static void comes(GtkEditable *line, const char *text, int len, int *at)
 
 /* ---- the widget ---- */
 
-/* By a click elsewhere: nothing that was typed is lost for that. False: it was not taken,
- * and that was told. */
+/* After a click elsewhere: takes the typed text. False: it could not be taken, and the owner
+ * told so. */
 static bool leave(LadderEntryPopup *popup)
 {
 	const struct entry_popup_calls calls = popup->calls;

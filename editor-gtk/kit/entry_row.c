@@ -11,7 +11,7 @@
 enum { TEXT, ADDRESS, NOTE, COLUMNS };
 
 #define GAP    12   /* px between columns                                       */
-#define QUIET  0.75 /* of the colour of what is less important                  */
+#define QUIET  0.75 /* opacity of the note                                      */
 
 /* In characters: a column is never narrower, and wants to be no wider. */
 static const int least[COLUMNS] = { 14, 8, 18 }, most[COLUMNS] = { 22, 12, 44 };
@@ -96,7 +96,7 @@ static void ladder_entry_row_measure(GtkWidget *widget, GtkOrientation orientati
 	}
 }
 
-/* The note gets what is left, as much as the row has of it. */
+/* The note gets the rest of the width. */
 static void ladder_entry_row_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 {
 	LadderEntryRow *row = LADDER_ENTRY_ROW(widget);

@@ -4,7 +4,7 @@
  */
 #include "editor-gtk/kit/installed.h"
 
-/* @path is taken; NULL if it is not what is wanted. */
+/* @path, which it takes; NULL if the test fails. */
 static char *if_is(char *path, GFileTest wanted)
 {
 	if (g_file_test(path, wanted))

@@ -33,7 +33,7 @@ struct known {
 	enum letter letter;
 	int bound;           /* 1/64 px: of two that differ by less one may fit  */
 	float width;
-	char *fit;           /* what is drawn                                  */
+	char *fit;           /* the text that is drawn                         */
 	size_t len;
 	char text[];         /* as it was given                                */
 };
@@ -42,7 +42,7 @@ struct lettering {
 	PangoContext *context;
 	PangoLayout *layout[LETTERS]; /* for measuring                          */
 	GHashTable *known;
-	/* Of texts that were drawn: most of what a drawing costs is shaping them. */
+	/* Of drawn texts: shaping them is most of the cost of a drawing. */
 	GHashTable *laid[LETTERS];
 };
 

@@ -21,7 +21,7 @@ enum letter {
 	LETTER_NUMBER,  /* of a rung                                            */
 	LETTER_TYPE,    /* TON in its box; the P of |P|                         */
 	LETTER_PIN,
-	LETTER_OPERAND, /* what is written at a pin, expressions: monospace     */
+	LETTER_OPERAND, /* values at pins, expressions: monospace               */
 	LETTER_VALUE,   /* live: monospace, digits do not dance                 */
 	LETTER_BADGE,   /* F, 2×                                                */
 	LETTER_HEADING, /* of a page                                            */
@@ -80,7 +80,7 @@ struct lettered lettering_line(struct lettering *lettering, enum letter letter,
 PangoLayout *lettering_layout(struct lettering *lettering, enum letter letter,
 			      const char *text, float *baseline);
 
-/* What a style is, for pictures that are drawn by others: SVG. */
+/* A style, for renderers that do not use Pango: SVG. */
 struct letter_style {
 	const char *name;   /* "symbol"                                        */
 	float size;         /* px                                              */

@@ -96,7 +96,7 @@ static bool are_same(GListModel *model, guint first, guint count, GPtrArray *row
 	return renamed < 2;
 }
 
-/* What each was is the other's now. */
+/* Exchanges the contents of two rows. */
 static void exchange(LadderPanelRow *a, LadderPanelRow *b)
 {
 	LadderPanelRow kept = *a;

@@ -231,8 +231,8 @@ static float opening_of(const struct stroke *s)
 	return fabsf(sinf((s->h + s->to) / 2)) < 0.001f ? (s->to - s->h) / 2 : 0;
 }
 
-/* Only these go through cairo, which draws them into an image of their own first: what is
- * broken, and arcs that stand askew. */
+/* Cairo draws an image of its own for each of these: dashed and dotted strokes, waves, and
+ * arcs that are not symmetric. */
 static bool wants_cairo(const struct stroke *s)
 {
 	switch (s->kind) {
@@ -321,7 +321,7 @@ static void ring(GtkSnapshot *snapshot, const struct stroke *s, float radius, fl
 	gtk_snapshot_append_border(snapshot, &circle, width, colors);
 }
 
-/* What an arc takes from the radius @inner on, where it ends. */
+/* Bounds of an arc; its ends from the radius @inner on. */
 static graphene_rect_t arc_bounds(const struct stroke *s, float inner)
 {
 	const float opening = opening_of(s), outer = s->w + s->width / 2;
@@ -334,7 +334,7 @@ static graphene_rect_t arc_bounds(const struct stroke *s, float inner)
 				  outer - end, 2 * half);
 }
 
-/* What is seen of its ring. The ends of an arc are upright so, not across it. */
+/* A clipped ring. The ends of the arc are vertical, not across it. */
 static void arc_as_ring(GtkSnapshot *snapshot, const struct stroke *s,
 			const GdkRGBA *color)
 {
@@ -395,7 +395,7 @@ static GdkTexture *arc_draw(const struct arc_key *key, int width, int height)
 	return texture;
 }
 
-/* To a quarter of a px: nobody sees less, and there are few images. */
+/* Rounded to a quarter of a px, which nobody sees, so that there are few images. */
 static struct stroke arc_placed(const struct stroke *s)
 {
 	struct stroke placed = *s;

@@ -41,7 +41,7 @@ struct picture {
 	struct stroke *stroke;
 	int count, size;
 	float width, height;     /* px at 100 %                                 */
-	float dx, dy;            /* added to what is put in                     */
+	float dx, dy;            /* added to the strokes that follow            */
 	float scale;             /* device px of a px, for nodes; 0: any        */
 	GStringChunk *texts;
 };

@@ -17,7 +17,7 @@
 
 enum theme_kind {
 	THEME_LIGHT, THEME_DARK,
-	THEME_CONTRAST, THEME_CONTRAST_DARK, /* for people who need more of it  */
+	THEME_CONTRAST, THEME_CONTRAST_DARK, /* high contrast                   */
 	THEME_PRINT,                         /* black; power is double weight   */
 	THEME_KINDS
 };
@@ -34,11 +34,11 @@ enum token {
 	TOKEN_ACCENT,  /* cursor, selection, live numbers                      */
 	TOKEN_COMMENT, /* comments, addresses                                  */
 	TOKEN_BADGE,   /* text on a ground of TOKEN_FORCE or TOKEN_BLOCKS      */
-	TOKEN_BLOCKS,  /* what keeps power away                                */
-	/* Grounds and hairlines: decoration, nothing is told by them alone. */
+	TOKEN_BLOCKS,  /* an element that blocks power                         */
+	/* Grounds and hairlines: decoration only. */
 	TOKEN_GUTTER,  /* below the rung numbers                               */
 	TOKEN_LINE,    /* between rungs                                        */
-	TOKEN_FOUND,   /* below what a search found                            */
+	TOKEN_FOUND,   /* behind a search hit                                  */
 	TOKENS
 };
 
