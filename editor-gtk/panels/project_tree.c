@@ -284,44 +284,6 @@ static void add_controllers(struct tree *tree)
 	gtk_widget_add_controller(tree->list, keys);
 }
 
-/* ---- the list as one stop of Tab ---- */
-
-/* A list of GTK 4.8 has one at each of its rows; arrows go from one to the other here. */
-struct _LadderTreeStop {
-	AdwBin parent_instance;
-};
-
-#define LADDER_TYPE_TREE_STOP (ladder_tree_stop_get_type())
-G_DECLARE_FINAL_TYPE(LadderTreeStop, ladder_tree_stop, LADDER, TREE_STOP, AdwBin)
-G_DEFINE_FINAL_TYPE(LadderTreeStop, ladder_tree_stop, ADW_TYPE_BIN)
-
-static gboolean stop_focus(GtkWidget *stop, GtkDirectionType direction)
-{
-	if ((direction == GTK_DIR_TAB_FORWARD || direction == GTK_DIR_TAB_BACKWARD) &&
-	    gtk_widget_get_focus_child(stop))
-		return FALSE;
-	return GTK_WIDGET_CLASS(ladder_tree_stop_parent_class)->focus(stop, direction);
-}
-
-static void ladder_tree_stop_class_init(LadderTreeStopClass *class)
-{
-	GTK_WIDGET_CLASS(class)->focus = stop_focus;
-}
-
-static void ladder_tree_stop_init(LadderTreeStop *stop)
-{
-	(void)stop;
-}
-
-static GtkWidget *stop_new(GtkWidget *child)
-{
-	GtkWidget *stop = g_object_new(LADDER_TYPE_TREE_STOP, NULL);
-
-	adw_bin_set_child(ADW_BIN(stop), child);
-	gtk_widget_set_vexpand(stop, TRUE);
-	return stop;
-}
-
 /* ---- the widget ---- */
 
 static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
@@ -483,7 +445,7 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
 				       GTK_POLICY_AUTOMATIC);
 	gtk_box_append(GTK_BOX(box), heading_new());
-	gtk_box_append(GTK_BOX(box), stop_new(scroller));
+	gtk_box_append(GTK_BOX(box), list_tab_stop_new(scroller));
 	g_object_set_data_full(G_OBJECT(box), "tree", tree, tree_free);
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(project_changed),
 				 tree);

@@ -13,6 +13,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/installed.h"
 #include "editor-gtk/kit/memory.h"
+#include "editor-gtk/kit/gtk48/gl.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/window/preferences.h"
 #include "editor-gtk/window/recent.h"
@@ -367,25 +368,9 @@ void app_style(void)
 	g_object_unref(css);
 }
 
-/* What cairo draws needs no GL, which GTK 4.8 gets ready all the same: 30 ms of a start. Any
- * other program that is begun from here has its own mind. */
-#define NO_GL "gl-disable"
-
-static void spare_gl(void)
-{
-	if (g_strcmp0(g_getenv("GSK_RENDERER"), "cairo") == 0)
-		g_setenv("GDK_DEBUG", NO_GL, FALSE);
-}
-
-static void forget_gl(void)
-{
-	if (g_strcmp0(g_getenv("GDK_DEBUG"), NO_GL) == 0)
-		g_unsetenv("GDK_DEBUG");
-}
-
 static void startup(GtkApplication *application)
 {
-	forget_gl();
+	gl_forget();
 	gtk_source_init();
 	app_style();
 	popover_init();
@@ -438,7 +423,7 @@ int app_run(int argc, char **argv)
 		return render_main(argc, argv);
 	if (usage_main(argc, argv, &status))
 		return status;
-	spare_gl();
+	gl_spare();
 	application = adw_application_new(APP_ID,
 		G_APPLICATION_HANDLES_OPEN | G_APPLICATION_NON_UNIQUE);
 	g_application_set_option_context_parameter_string(G_APPLICATION(application),

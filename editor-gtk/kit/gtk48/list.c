@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * list - scrolling and focus of lists in GTK 4.8; see list.h.
+ * list - scrolling, focus and Tab of lists in GTK 4.8; see list.h.
  */
 #include "editor-gtk/kit/gtk48/list.h"
+
+#include <adwaita.h>
 
 #define SCROLL "list.scroll-to-item" /* of GtkListBase */
 
@@ -25,4 +27,41 @@ void list_mend_focus(GtkWidget *list)
 
 	if (focus && gtk_widget_get_root(focus) != root)
 		gtk_root_set_focus(root, NULL);
+}
+
+/* ---- one stop of Tab ---- */
+
+struct _LadderTabStop {
+	AdwBin parent_instance;
+};
+
+#define LADDER_TYPE_TAB_STOP (ladder_tab_stop_get_type())
+G_DECLARE_FINAL_TYPE(LadderTabStop, ladder_tab_stop, LADDER, TAB_STOP, AdwBin)
+G_DEFINE_FINAL_TYPE(LadderTabStop, ladder_tab_stop, ADW_TYPE_BIN)
+
+static gboolean stop_focus(GtkWidget *stop, GtkDirectionType direction)
+{
+	if ((direction == GTK_DIR_TAB_FORWARD || direction == GTK_DIR_TAB_BACKWARD) &&
+	    gtk_widget_get_focus_child(stop))
+		return FALSE;
+	return GTK_WIDGET_CLASS(ladder_tab_stop_parent_class)->focus(stop, direction);
+}
+
+static void ladder_tab_stop_class_init(LadderTabStopClass *class)
+{
+	GTK_WIDGET_CLASS(class)->focus = stop_focus;
+}
+
+static void ladder_tab_stop_init(LadderTabStop *stop)
+{
+	(void)stop;
+}
+
+GtkWidget *list_tab_stop_new(GtkWidget *child)
+{
+	GtkWidget *stop = g_object_new(LADDER_TYPE_TAB_STOP, NULL);
+
+	adw_bin_set_child(ADW_BIN(stop), child);
+	gtk_widget_set_vexpand(stop, TRUE);
+	return stop;
 }

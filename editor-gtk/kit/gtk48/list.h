@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * list - scrolling a list to one of its rows, and the focus of rows that were replaced.
+ * list - scrolling a list to one of its rows, the focus of replaced rows, Tab in a list.
  *
  * Mends in GTK 4.8.3:
  * - A list can be scrolled to a row only through an action of GtkListBase, which
@@ -10,6 +10,8 @@
  *   the next frame; a key pressed in this time is lost, Ctrl+S too. To see it: remove the
  *   call of list_mend_focus() in tree_update(), delete a POU in the tree and press Ctrl+Z
  *   at once. Try without it on each new floor.
+ * - Tab stops at each row of a list. GTK 4.12 has the property "tab-behavior" of lists: use it
+ *   when the floor rises to 4.12.
  */
 #ifndef EDITOR_GTK48_LIST_H
 #define EDITOR_GTK48_LIST_H
@@ -22,5 +24,8 @@ void list_scroll_to(GtkWidget *view, guint at);
 /** list_mend_focus - after widgets inside @list were replaced: if the focus was in one that
  * is gone, the window gets the keys. */
 void list_mend_focus(GtkWidget *list);
+/** list_tab_stop_new - a container in which Tab leaves @child, a list, and arrows go from row to
+ * row. */
+GtkWidget *list_tab_stop_new(GtkWidget *child);
 
 #endif
