@@ -99,7 +99,8 @@ bool paper_find(const char *name, struct paper *out)
 	return false;
 }
 
-const char *pages_subject(const struct pages *pages, int page)
+/* The name of a POU, or "Symbols". Borrowed from @pages. */
+static const char *subject_of(const struct pages *pages, int page)
 {
 	const struct page *of = g_ptr_array_index(pages->page, page);
 
@@ -326,8 +327,8 @@ static void measure_fields(const struct pages *pages, struct field *field,
 	measured(pages, &field[PROJECT], project_title(pages));
 	measured(pages, &field[NAME], file_name(pages));
 	for (int i = 0; i < count; i++)
-		if (i == 0 || strcmp(pages_subject(pages, i), pages_subject(pages, i - 1)) != 0)
-			measured(pages, &field[UNIT], pages_subject(pages, i));
+		if (i == 0 || strcmp(subject_of(pages, i), subject_of(pages, i - 1)) != 0)
+			measured(pages, &field[UNIT], subject_of(pages, i));
 	if (pages->date)
 		measured(pages, &field[DATE], drawn(pages, pages->date));
 }
@@ -454,7 +455,7 @@ static void draw_title(const struct pages *pages, int page, struct picture *pict
 				     _("Page") };
 	const char *date = pages->date ? drawn(pages, pages->date) : NULL;
 	const char *text[FIELDS] = { project_title(pages), file_name(pages),
-				     pages_subject(pages, page), date, count };
+				     subject_of(pages, page), date, count };
 	float x = 0;
 
 	picture_move(picture, PAGE_MARGIN, pages->height - PAGE_MARGIN - height);
@@ -1300,10 +1301,10 @@ static double points(float mm)
 /* The table of contents that a reader shows beside the pages: POUs, symbols. */
 static void add_outline(cairo_surface_t *surface, const struct pages *pages, int page)
 {
-	const char *subject = pages_subject(pages, page);
+	const char *subject = subject_of(pages, page);
 	char place[32];
 
-	if (page > 0 && strcmp(subject, pages_subject(pages, page - 1)) == 0)
+	if (page > 0 && strcmp(subject, subject_of(pages, page - 1)) == 0)
 		return;
 	snprintf(place, sizeof(place), "page=%d", page + 1);
 	cairo_pdf_surface_add_outline(surface, CAIRO_PDF_OUTLINE_ROOT, subject, place, 0);

@@ -33,8 +33,6 @@ struct pages *pages_new(const struct project *project, const char *file, int pou
 			struct lettering *lettering);
 void pages_free(struct pages *pages);
 int pages_count(const struct pages *pages);
-/** pages_subject - what is on a page: the name of a POU, "Symbols". Borrowed from @pages. */
-const char *pages_subject(const struct pages *pages, int page);
 /** pages_paint - page @page (0-based) upon a surface whose unit is 1/72 inch. */
 void pages_paint(const struct pages *pages, int page, cairo_t *cr);
 

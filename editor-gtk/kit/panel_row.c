@@ -44,7 +44,8 @@ const char *panel_row_text(const LadderPanelRow *row, int column)
 	return row->text[column] ? row->text[column] : "";
 }
 
-bool panel_row_equal(const LadderPanelRow *a, const LadderPanelRow *b)
+/* Would a reader see no difference? */
+static bool is_equal(const LadderPanelRow *a, const LadderPanelRow *b)
 {
 	for (int i = 0; i < PANEL_TEXTS; i++)
 		if (strcmp(panel_row_text(a, i), panel_row_text(b, i)) != 0)
@@ -73,7 +74,7 @@ bool panel_row_matches(const LadderPanelRow *row, const char *wanted)
 static bool is_same(GListModel *model, guint at, gpointer row)
 {
 	LadderPanelRow *old = g_list_model_get_item(model, at);
-	bool same = panel_row_equal(old, row);
+	bool same = is_equal(old, row);
 
 	g_object_unref(old);
 	return same;
@@ -111,7 +112,7 @@ static void change(GListModel *model, guint first, guint count, GPtrArray *rows)
 	for (guint i = first; i < first + count; i++) {
 		LadderPanelRow *old = g_list_model_get_item(model, i);
 
-		if (!panel_row_equal(old, rows->pdata[i])) {
+		if (!is_equal(old, rows->pdata[i])) {
 			exchange(old, rows->pdata[i]);
 			g_signal_emit(old, changed, 0);
 		}

@@ -33,8 +33,6 @@ struct _LadderPanelRow {
 LadderPanelRow *ladder_panel_row_new(void);
 /** panel_row_text - never NULL. Borrowed. */
 const char *panel_row_text(const LadderPanelRow *row, int column);
-/** panel_row_equal - would a reader see no difference? */
-bool panel_row_equal(const LadderPanelRow *a, const LadderPanelRow *b);
 /** panel_row_matches - does one of its texts contain @wanted, in any case? */
 bool panel_row_matches(const LadderPanelRow *row, const char *wanted);
 /** panel_rows_update - replaces the rows of a list by @rows. Equal rows at both ends stay, and
