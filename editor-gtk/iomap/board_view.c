@@ -7,11 +7,11 @@
 #include "editor-gtk/kit/drop.h"
 #include "editor-gtk/document/side_file.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/log_text.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
 #include <string.h>
 
-#define LINES_MOST 1000 /* of the log                                          */
 #define LEFT_WIDTH 400  /* px of what stands beside the log                    */
 
 enum row { ROW_SCANS, ROW_PERIOD, ROW_TIME, ROW_LATE, ROW_IO, ROW_ERRORS, ROWS };
@@ -37,26 +37,13 @@ G_DEFINE_FINAL_TYPE(LadderBoardView, ladder_board_view, GTK_TYPE_BOX)
 void ladder_board_view_put(LadderBoardView *view, const char *text)
 {
 	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(view->log));
-	GDateTime *now = g_date_time_new_now_local();
-	char *time = g_date_time_format(now, "%H:%M:%S");
-	char *line = g_strdup_printf("%s%s  %s", gtk_text_buffer_get_char_count(buffer) ?
-				     "\n" : "", time, text);
-	GtkTextIter end, second;
+	GtkTextIter end;
 
-	gtk_text_buffer_get_end_iter(buffer, &end);
-	gtk_text_buffer_insert(buffer, &end, line, -1);
-	while (gtk_text_buffer_get_line_count(buffer) > LINES_MOST) {
-		gtk_text_buffer_get_start_iter(buffer, &end);
-		gtk_text_buffer_get_iter_at_line(buffer, &second, 1);
-		gtk_text_buffer_delete(buffer, &end, &second);
-	}
+	log_text_put(GTK_TEXT_VIEW(view->log), "  ", text);
 	gtk_text_buffer_get_end_iter(buffer, &end);
 	gtk_text_buffer_place_cursor(buffer, &end);
 	gtk_text_view_scroll_mark_onscreen(GTK_TEXT_VIEW(view->log),
 					   gtk_text_buffer_get_insert(buffer));
-	g_free(line);
-	g_free(time);
-	g_date_time_unref(now);
 }
 
 static void told(LadderBoardView *view, const char *line)

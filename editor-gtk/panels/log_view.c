@@ -8,17 +8,16 @@
 #include "editor-gtk/panels/log_view.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/log_text.h"
 
 #include <string.h>
-
-#define LINES_MOST 1000
 
 struct log {
 	LadderDocument *document;
 	GtkTextView *text;
-	int errors, warnings; /* told last; -1: nothing yet                    */
+	int errors, warnings; /* in the last line; -1: none yet                */
 	bool saved;
-	char *undo;           /* name of the step told last                    */
+	char *undo;           /* name of the step in the last line             */
 };
 
 static void log_free(gpointer pointer)
@@ -43,24 +42,14 @@ static void set_tabs(GtkTextView *text)
 
 static void put(struct log *log, const char *kind, const char *what)
 {
-	GtkTextBuffer *buffer = gtk_text_view_get_buffer(log->text);
-	GDateTime *now = g_date_time_new_now_local();
-	char *time = g_date_time_format(now, "%H:%M:%S");
-	char *line = g_strdup_printf("%s\t%s\t%s\n", time, kind, what);
-	GtkTextIter end, second;
+	char *text = g_strdup_printf("%s\t%s", kind, what);
+	GtkTextIter last;
 
-	gtk_text_buffer_get_end_iter(buffer, &end);
-	gtk_text_buffer_insert(buffer, &end, line, -1);
-	while (gtk_text_buffer_get_line_count(buffer) > LINES_MOST) {
-		gtk_text_buffer_get_start_iter(buffer, &end);
-		gtk_text_buffer_get_iter_at_line(buffer, &second, 1);
-		gtk_text_buffer_delete(buffer, &end, &second);
-	}
-	gtk_text_buffer_get_end_iter(buffer, &end);
-	gtk_text_view_scroll_to_iter(log->text, &end, 0, FALSE, 0, 1);
-	g_free(line);
-	g_free(time);
-	g_date_time_unref(now);
+	log_text_put(log->text, "\t", text);
+	gtk_text_buffer_get_end_iter(gtk_text_view_get_buffer(log->text), &last);
+	gtk_text_iter_set_line_offset(&last, 0);
+	gtk_text_view_scroll_to_iter(log->text, &last, 0, FALSE, 0, 1);
+	g_free(text);
 }
 
 static void checked(LadderDocument *document, struct log *log)

@@ -460,46 +460,28 @@ static void do_rename_pou(GtkWidget *widget, const char *name, GVariant *pou)
 	names_rename_pou(&LADDER_WINDOW(widget)->core, g_variant_get_int32(pou));
 }
 
-static void show_uses(GtkWidget *widget, const char *action, GVariant *name)
+static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter)
 {
-	(void)action;
-	names_show_uses_of(&LADDER_WINDOW(widget)->core, g_variant_get_string(name, NULL));
-}
+	LadderWindow *window = LADDER_WINDOW(widget);
+	const char *text = g_variant_get_string(parameter, NULL);
 
-static void expect_value(GtkWidget *widget, const char *action, GVariant *name)
-{
-	(void)action;
-	scenarios_expect(&LADDER_WINDOW(widget)->scenarios, g_variant_get_string(name, NULL));
-}
-
-static void watch_value(GtkWidget *widget, const char *action, GVariant *name)
-{
-	(void)action;
-	names_watch_this(&LADDER_WINDOW(widget)->core, g_variant_get_string(name, NULL));
-}
-
-static void show_panel(GtkWidget *widget, const char *action, GVariant *name)
-{
-	(void)action;
-	below_show(&LADDER_WINDOW(widget)->below, g_variant_get_string(name, NULL));
-}
-
-static void open_path(GtkWidget *widget, const char *action, GVariant *path)
-{
-	(void)action;
-	g_signal_emit_by_name(widget, "open-wanted", g_variant_get_string(path, NULL), FALSE);
-}
-
-static void open_text(GtkWidget *widget, const char *action, GVariant *path)
-{
-	(void)action;
-	tabs_show_file(&LADDER_WINDOW(widget)->tabs, g_variant_get_string(path, NULL));
-}
-
-static void open_sample(GtkWidget *widget, const char *action, GVariant *path)
-{
-	(void)action;
-	g_signal_emit_by_name(widget, "open-wanted", g_variant_get_string(path, NULL), TRUE);
+	if (strcmp(name, "win.show-uses") == 0)
+		names_show_uses_of(&window->core, text);
+	else if (strcmp(name, "win.expect-value") == 0)
+		scenarios_expect(&window->scenarios, text);
+	else if (strcmp(name, "win.watch-value") == 0)
+		names_watch_this(&window->core, text);
+	else if (strcmp(name, "win.show-panel") == 0)
+		below_show(&window->below, text);
+	else if (strcmp(name, "win.open-text") == 0)
+		tabs_show_file(&window->tabs, text);
+	else if (strcmp(name, "win.tell") == 0)
+		messages_tell(&window->messages, text);
+	else if (strcmp(name, "win.warn") == 0)
+		messages_warn(&window->messages, text);
+	else
+		g_signal_emit_by_name(window, "open-wanted", text,
+				      strcmp(name, "win.open-sample") == 0);
 }
 
 /* From the welcome page to the empty sheet. */
@@ -527,18 +509,6 @@ static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 						   "sheet first."));
 }
 
-static void tell(GtkWidget *widget, const char *name, GVariant *text)
-{
-	(void)name;
-	messages_tell(&LADDER_WINDOW(widget)->messages, g_variant_get_string(text, NULL));
-}
-
-static void warn(GtkWidget *widget, const char *name, GVariant *text)
-{
-	(void)name;
-	messages_warn(&LADDER_WINDOW(widget)->messages, g_variant_get_string(text, NULL));
-}
-
 /* "win.save-over", "win.save-locked". */
 static void save_over(GtkWidget *widget, const char *name, GVariant *unused)
 {
@@ -562,28 +532,26 @@ static void to_sheet(GtkWidget *widget, const char *name, GVariant *unused)
 
 static void install_actions(GtkWidgetClass *class)
 {
+	static const char *const on_text[] = {
+		"win.show-uses", "win.expect-value", "win.watch-value", "win.show-panel",
+		"win.open-text", "win.open-path", "win.open-sample", "win.tell", "win.warn",
+	};
+
 	for (int i = 0; i < VERB_COUNT; i++)
 		gtk_widget_class_install_action(class, verb_row((enum verb)i)->action,
 						NULL, act);
+	for (gsize i = 0; i < G_N_ELEMENTS(on_text); i++)
+		gtk_widget_class_install_action(class, on_text[i], "s", act_on_text);
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
 	gtk_widget_class_install_action(class, "win.rename-pou", "i", do_rename_pou);
-	gtk_widget_class_install_action(class, "win.show-uses", "s", show_uses);
-	gtk_widget_class_install_action(class, "win.expect-value", "s", expect_value);
-	gtk_widget_class_install_action(class, "win.watch-value", "s", watch_value);
-	gtk_widget_class_install_action(class, "win.open-path", "s", open_path);
-	gtk_widget_class_install_action(class, "win.open-text", "s", open_text);
-	gtk_widget_class_install_action(class, "win.open-sample", "s", open_sample);
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
-	/* Between the panes GTK goes by it; what is above them is in none. */
+	/* GTK moves between the panes by F6, but not from above them. */
 	gtk_widget_class_add_binding_action(class, GDK_KEY_F6, 0, "win.to-sheet", NULL);
-	gtk_widget_class_install_action(class, "win.tell", "s", tell);
-	gtk_widget_class_install_action(class, "win.warn", "s", warn);
 	gtk_widget_class_install_action(class, "win.save-over", NULL, save_over);
 	gtk_widget_class_install_action(class, "win.save-locked", NULL, save_over);
 	gtk_widget_class_install_action(class, "win.reload", NULL, reload);
-	gtk_widget_class_install_action(class, "win.show-panel", "s", show_panel);
 }
 
 /* The main menu, of the rows of verbs.def. Caller: g_object_unref. */

@@ -77,7 +77,7 @@ def belongings(screen):
         assert sorted(os.listdir(os.path.dirname(path))) == sorted(names)
         assert read(plant) == read(os.path.join(ROOT, 'ladders', 'conveyor.plant.rung'))
         if there:
-            editor.find('because files of that name were there already: mine.scn', 'label')
+            editor.find('because they already exist: mine.scn', 'label')
             assert read(scenarios) == '# precious\n'
         else:
             assert 'plant "mine.plant.rung"' in read(scenarios)

@@ -149,7 +149,7 @@ def saved(screen):
     editor.to_sheet()
     editor.give_path(path, 'ctrl+shift+s')
     until(lambda: os.path.exists(path[:-4] + 'io'), 'the map')
-    editor.says('the I/O map beside it: members.io')
+    editor.says('together with its I/O map: members.io')
     check(path)
     sh(LADDER, 'import', os.path.join(screen.home, 'members.clprj'), '-o', os.path.join(screen.home, 'same.rung'))
     assert read(os.path.join(screen.home, 'same.io')) == read(path[:-4] + 'io')
@@ -172,7 +172,7 @@ def exported(screen):
         assert read(path) == 'precious'
         editor.answer(answer)
         editor.to_sheet()
-    editor.says('b.clprj was written')
+    editor.says('Exported b.clprj')
     assert '%Q0=1' in trace(path)
 
 

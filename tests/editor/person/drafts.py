@@ -127,7 +127,7 @@ def no_room_again(screen):
     editor.kill()
     old = drafts(screen)
     again = Editor(screen, before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (50, resource.RLIM_INFINITY)))
-    again.says('no draft of it can be kept')
+    again.says('Cannot keep a draft')
     assert again.find('new.scn', 'text').text() == SCENARIO + '# mine' and drafts(screen) == old
 
 
@@ -194,7 +194,7 @@ def no_room(screen):
     editor = Editor(screen, path)
     sh('prlimit', '--pid', str(editor.process.pid), '--fsize=50:')
     editor.entry('Start')
-    editor.says('no draft of it can be kept')
+    editor.says('Cannot keep a draft')
     editor.shot('drafts-no-room')
 
 

@@ -62,7 +62,7 @@ def no_program(screen):
     write(empty, '')
     with open(binary, 'wb') as file:
         file.write(bytes(range(256)) * 4)
-    for path, told in (empty, 'error'), (binary, 'bytes that are no text'):
+    for path, told in (empty, 'error'), (binary, 'bytes that are not UTF-8 text'):
         editor = Editor(screen, path)
         editor.says(told)
         editor.says('error')
@@ -78,7 +78,7 @@ def no_text(screen):
     with open(path, 'wb') as file:
         file.write(old)
     editor = Editor(screen, path)
-    editor.says('bytes that are no text (UTF-8)')
+    editor.says('bytes that are not UTF-8 text')
     editor.find('Save as…', 'push button')
     editor.to_sheet()
     editor.keys('slash', 'ctrl+s')

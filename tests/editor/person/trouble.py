@@ -255,7 +255,7 @@ def no_pages(screen):
     editor.says(why)
     assert len(editor.windows()) == 1
     editor.command('Copy rung as a picture')
-    editor.says('open a sheet first')
+    editor.says('Open a sheet first')
 
 
 def text_closed(screen):
