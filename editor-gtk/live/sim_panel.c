@@ -15,9 +15,9 @@
 
 #include <string.h>
 
-/* A line that is on as long as a key is down. */
+/* A line that is on while its own key is down. */
 struct held {
-	guint code;              /* of the keyboard: what is typed may change    */
+	guint code;              /* of the key on the keyboard                 */
 	LadderSimRow *row;
 };
 
@@ -25,19 +25,19 @@ struct _LadderSimPanel {
 	GtkWidget parent;
 	LadderSim *sim;
 	GPtrArray *rows;          /* all, of LadderSimRow                       */
-	GListStore *store;        /* those that stand there, and headings       */
+	GListStore *store;        /* the rows that are listed, and headings     */
 	GtkSingleSelection *selection;
-	GPtrArray *views;         /* widgets that show one; borrowed            */
-	guint behind;             /* so many of them are looked at later         */
+	GPtrArray *views;         /* widgets that show a row; borrowed          */
+	guint behind;             /* views still to be updated by the timer     */
 	guint behind_timer;
-	bool again;               /* there was something new meanwhile          */
-	char *wanted;             /* never NULL                                 */
-	GHashTable *folded;       /* sections that are, sim_row_section()        */
+	bool again;               /* values changed since that round began      */
+	char *wanted;             /* text of the filter; never NULL             */
+	GHashTable *folded;       /* folded sections, sim_row_section()         */
 	bool on;
-	LadderSimRow *held;       /* by the space bar                           */
-	GPtrArray *bound;         /* lines that keys of their own hold, struct held */
+	LadderSimRow *held;       /* by the space bar; NULL: none               */
+	GPtrArray *bound;         /* of struct held                             */
 	GtkEventController *root_keys; /* of `root`; borrowed                   */
-	GtkRoot *root;            /* it stands in; NULL: none                   */
+	GtkRoot *root;            /* the window; NULL: none                     */
 	gulong root_active;
 	guint last_code;          /* of the key that is down; 0: none           */
 	GtkWidget *menu;          /* NULL: none yet                             */
@@ -52,7 +52,7 @@ GListModel *ladder_sim_panel_list(LadderSimPanel *panel)
 	return G_LIST_MODEL(panel->selection);
 }
 
-#define AT_A_TIME 12 /* lines that are not seen                                 */
+#define AT_A_TIME 12 /* hidden views that one timer call updates              */
 #define BEHIND_MS 30
 
 /* ---- the lines ---- */
@@ -71,7 +71,7 @@ static bool is_section(const LadderSimRow *row, const LadderSimRow *other)
 	return row->group == other->group && g_strcmp0(row->place, other->place) == 0;
 }
 
-/* Lines of the same group and place: one heading, and those below it. */
+/* Adds a heading and its lines: rows from @from to before @to, of one group and place. */
 static void add_section(LadderSimPanel *panel, GPtrArray *out, guint from, guint to)
 {
 	const LadderSimRow *first = g_ptr_array_index(panel->rows, from);
@@ -161,7 +161,7 @@ static LadderSimRowView *view_of(LadderSimPanel *panel, const LadderSimRow *row)
 	return NULL;
 }
 
-/* ---- keys of their own for inputs, wherever the focus is, except in a text ---- */
+/* ---- keys assigned to inputs: they act wherever the focus is, except in a text ---- */
 
 static void held_free(gpointer data)
 {
@@ -195,11 +195,16 @@ static void let_go_bound(LadderSimPanel *panel)
 	}
 }
 
-static void let_go(LadderSimPanel *panel)
+static void let_go_held(LadderSimPanel *panel)
 {
 	if (panel->held)
 		sim_row_unpress(panel->held, panel->sim);
 	g_clear_object(&panel->held);
+}
+
+static void let_go(LadderSimPanel *panel)
+{
+	let_go_held(panel);
 	let_go_bound(panel);
 }
 
@@ -226,7 +231,7 @@ static void press_bound(LadderSimPanel *panel, LadderSimRow *row, guint code)
 	give(panel, row, 1);
 }
 
-/* A key that toggles repeats itself, too: it does so once. */
+/* True: the key is assigned to a line. A repeated key press does not act again. */
 static bool act_on_key(LadderSimPanel *panel, guint key, guint code, bool repeats)
 {
 	const char *name = gdk_keyval_name(gdk_keyval_to_lower(key));
@@ -284,15 +289,17 @@ static void root_key_released(GtkEventControllerKey *keys, guint key, guint code
 	}
 }
 
-/* Nobody tells of a release in another window. */
+/* Another window gets the release of the key. */
 static void active_changed(LadderSimPanel *panel)
 {
 	if (!gtk_window_is_active(GTK_WINDOW(panel->root)))
 		let_go(panel);
 }
 
-static void bind_root(LadderSimPanel *panel, GtkRoot *root)
+static void bind_root(LadderSimPanel *panel)
 {
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(panel));
+
 	if (!GTK_IS_WINDOW(root))
 		return;
 	panel->root = root;
@@ -320,15 +327,7 @@ static void unbind_root(LadderSimPanel *panel)
 
 /* ---- what a person chooses for a line; the project keeps it ---- */
 
-static void keep(LadderSimPanel *panel, const LadderSimRow *row)
-{
-	LadderDocument *document = ladder_sim_document(panel->sim);
-
-	live_lines_keep(document, sim_row_write_choices(ladder_document_view(document), row),
-			_("Change the simulation panel"));
-}
-
-/* A line as it is to become; caller: put. */
+/* A copy of the choices of @row, to be changed and given to put_draft(). */
 static LadderSimRow *draft_of(const LadderSimRow *row)
 {
 	LadderSimRow *draft = g_object_new(LADDER_TYPE_SIM_ROW, NULL);
@@ -345,25 +344,26 @@ static LadderSimRow *draft_of(const LadderSimRow *row)
 	return draft;
 }
 
-static void put(LadderSimPanel *panel, LadderSimRow *draft)
+/* @draft: taken over. The rows follow when the document tells that its VIEW part changed. */
+static void put_draft(LadderSimPanel *panel, LadderSimRow *draft)
 {
-	keep(panel, draft);
+	LadderDocument *document = ladder_sim_document(panel->sim);
+
+	live_lines_keep(document, sim_row_write_choices(ladder_document_view(document), draft),
+			_("Change the simulation panel"));
 	g_object_unref(draft);
 }
 
-static void toggle_push(GtkWidget *widget, const char *name, GVariant *unused)
+static void toggle_push(LadderSimPanel *panel)
 {
-	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
 	const LadderSimRow *row = selected_row(panel);
 	LadderSimRow *draft;
 
-	(void)name;
-	(void)unused;
 	if (!row || row->kind != SIM_SWITCH)
 		return;
 	draft = draft_of(row);
 	draft->push = !row->push;
-	put(panel, draft);
+	put_draft(panel, draft);
 }
 
 /* ---- asking ---- */
@@ -387,7 +387,7 @@ static void closed(LadderSimPanel *panel)
 	g_idle_add(end_later, g_object_ref(panel));
 }
 
-/* A small window of its own at the line, with @child in it. */
+/* Opens a popover with @child at the selected line. */
 static void ask(LadderSimPanel *panel, GtkWidget *child)
 {
 	GtkWidget *at = GTK_WIDGET(view_of(panel, selected_row(panel)));
@@ -418,7 +418,7 @@ static void bind_key(LadderSimPanel *panel, const char *key, bool toggles)
 	g_free(draft->key);
 	draft->key = g_strdup(key);
 	draft->key_toggles = key && toggles;
-	put(panel, draft);
+	put_draft(panel, draft);
 }
 
 static gboolean key_given(GtkEventControllerKey *keys, guint key, guint code,
@@ -463,25 +463,19 @@ static void ask_key(LadderSimPanel *panel, bool toggles)
 	g_free(text);
 }
 
-static void hold_key(GtkWidget *widget, const char *name, GVariant *unused)
+static void hold_key(LadderSimPanel *panel)
 {
-	(void)name;
-	(void)unused;
-	ask_key(LADDER_SIM_PANEL(widget), false);
+	ask_key(panel, false);
 }
 
-static void toggle_key(GtkWidget *widget, const char *name, GVariant *unused)
+static void toggle_key(LadderSimPanel *panel)
 {
-	(void)name;
-	(void)unused;
-	ask_key(LADDER_SIM_PANEL(widget), true);
+	ask_key(panel, true);
 }
 
-static void no_key(GtkWidget *widget, const char *name, GVariant *unused)
+static void no_key(LadderSimPanel *panel)
 {
-	(void)name;
-	(void)unused;
-	bind_key(LADDER_SIM_PANEL(widget), NULL, false);
+	bind_key(panel, NULL, false);
 }
 
 /* ---- a range ---- */
@@ -513,11 +507,11 @@ static void range_given(GtkWidget *entry, LadderSimPanel *panel)
 	draft->high = number_in(high, &good[1]);
 	if (!good[0] || !good[1] || draft->low >= draft->high) {
 		gtk_widget_add_css_class(entry, "error");
-		tip_set(entry, _("From a number to a larger one"));
+		tip_set(entry, _("The lowest value must be less than the highest"));
 		g_object_unref(draft);
 		return;
 	}
-	put(panel, draft);
+	put_draft(panel, draft);
 	gtk_popover_popdown(GTK_POPOVER(panel->asking));
 }
 
@@ -536,14 +530,11 @@ static GtkWidget *number_entry(LadderSimPanel *panel, const char *name, double v
 	return entry;
 }
 
-static void ask_range(GtkWidget *widget, const char *name, GVariant *unused)
+static void ask_range(LadderSimPanel *panel)
 {
-	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
 	const LadderSimRow *row = selected_row(panel);
 	GtkWidget *box;
 
-	(void)name;
-	(void)unused;
 	if (!row || (row->kind != SIM_SLIDER && row->kind != SIM_LEVEL))
 		return;
 	box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
@@ -554,19 +545,16 @@ static void ask_range(GtkWidget *widget, const char *name, GVariant *unused)
 	gtk_widget_grab_focus(gtk_widget_get_first_child(box));
 }
 
-static void no_range(GtkWidget *widget, const char *name, GVariant *unused)
+static void no_range(LadderSimPanel *panel)
 {
-	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
 	const LadderSimRow *row = selected_row(panel);
 	LadderSimRow *draft;
 
-	(void)name;
-	(void)unused;
 	if (!row)
 		return;
 	draft = draft_of(row);
 	draft->ranged = false;
-	put(panel, draft);
+	put_draft(panel, draft);
 }
 
 /* ---- the menu ---- */
@@ -577,29 +565,19 @@ static GMenuModel *choices_of(const LadderSimRow *row)
 	const bool ranged = row->kind == SIM_SLIDER || row->kind == SIM_LEVEL;
 
 	if (row->kind == SIM_SWITCH)
-		g_menu_append(menu, row->push ? _("Is a Switch") : _("Is a Push Button"),
+		g_menu_append(menu, row->push ? _("Use as a switch") : _("Use as a push button"),
 			      "sim-panel.push");
 	if (sim_row_is_bit(row)) {
-		g_menu_append(menu, _("Key That Holds It On…"), "sim-panel.hold-key");
-		g_menu_append(menu, _("Key That Toggles It…"), "sim-panel.toggle-key");
+		g_menu_append(menu, _("Assign a key to hold it on…"), "sim-panel.hold-key");
+		g_menu_append(menu, _("Assign a key to toggle it…"), "sim-panel.toggle-key");
 	}
 	if (row->key)
-		g_menu_append(menu, _("No Key"), "sim-panel.no-key");
+		g_menu_append(menu, _("Remove the key"), "sim-panel.no-key");
 	if (ranged)
-		g_menu_append(menu, _("Range…"), "sim-panel.range");
+		g_menu_append(menu, _("Change range…"), "sim-panel.range");
 	if (ranged && row->ranged)
-		g_menu_append(menu, _("Range of Its Type"), "sim-panel.no-range");
+		g_menu_append(menu, _("Use the range of its type"), "sim-panel.no-range");
 	return G_MENU_MODEL(menu);
-}
-
-static void install_choices(GtkWidgetClass *class)
-{
-	gtk_widget_class_install_action(class, "sim-panel.push", NULL, toggle_push);
-	gtk_widget_class_install_action(class, "sim-panel.hold-key", NULL, hold_key);
-	gtk_widget_class_install_action(class, "sim-panel.toggle-key", NULL, toggle_key);
-	gtk_widget_class_install_action(class, "sim-panel.no-key", NULL, no_key);
-	gtk_widget_class_install_action(class, "sim-panel.range", NULL, ask_range);
-	gtk_widget_class_install_action(class, "sim-panel.no-range", NULL, no_range);
 }
 
 /* ---- keys ---- */
@@ -611,7 +589,7 @@ static bool is_typing(LadderSimPanel *panel)
 	return root && GTK_IS_EDITABLE(gtk_root_get_focus(root));
 }
 
-/* The line does more than to be activated: space is held. */
+/* The space bar presses the line until it is released. True: the key is used. */
 static bool press(LadderSimPanel *panel)
 {
 	LadderSimRow *row = selected_row(panel);
@@ -649,14 +627,6 @@ static void key_released(GtkEventControllerKey *keys, guint key, guint code,
 		let_go(panel);
 }
 
-static void left(GtkEventControllerFocus *focus, LadderSimPanel *panel)
-{
-	(void)focus;
-	if (panel->held)
-		sim_row_unpress(panel->held, panel->sim);
-	g_clear_object(&panel->held);
-}
-
 /* Return, or a double click. */
 static void activated(GtkListView *list, guint at, LadderSimPanel *panel)
 {
@@ -682,13 +652,10 @@ static void force_to(LadderSimPanel *panel, gint64 to)
 		live_value_force(panel->sim, row->plant, row->at, (union iec_value){ .i = to });
 }
 
-static void force(GtkWidget *widget, const char *name, GVariant *unused)
+static void force(LadderSimPanel *panel)
 {
-	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
 	LadderSimRow *row = selected_row(panel);
 
-	(void)name;
-	(void)unused;
 	if (!row)
 		return;
 	if (sim_row_is_forced(row, panel->sim))
@@ -698,25 +665,19 @@ static void force(GtkWidget *widget, const char *name, GVariant *unused)
 				 live_value_get(panel->sim, row->plant, row->at));
 }
 
-static void force_on(GtkWidget *widget, const char *name, GVariant *unused)
+static void force_on(LadderSimPanel *panel)
 {
-	(void)name;
-	(void)unused;
-	force_to(LADDER_SIM_PANEL(widget), 1);
+	force_to(panel, 1);
 }
 
-static void force_off(GtkWidget *widget, const char *name, GVariant *unused)
+static void force_off(LadderSimPanel *panel)
 {
-	(void)name;
-	(void)unused;
-	force_to(LADDER_SIM_PANEL(widget), 0);
+	force_to(panel, 0);
 }
 
-static void release_all(GtkWidget *widget, const char *name, GVariant *unused)
+static void release_all(LadderSimPanel *panel)
 {
-	(void)name;
-	(void)unused;
-	ladder_sim_release_all(LADDER_SIM_PANEL(widget)->sim);
+	ladder_sim_release_all(panel->sim);
 }
 
 static void edit(LadderSimPanel *panel, enum sim_edit what)
@@ -727,28 +688,18 @@ static void edit(LadderSimPanel *panel, enum sim_edit what)
 		ladder_sim_row_view_edit(view, what);
 }
 
-static void edit_value(GtkWidget *widget, const char *name, GVariant *unused)
+static void edit_value(LadderSimPanel *panel)
 {
-	(void)name;
-	(void)unused;
-	edit(LADDER_SIM_PANEL(widget), SIM_EDIT_VALUE);
+	edit(panel, SIM_EDIT_VALUE);
 }
 
-static void edit_preset(GtkWidget *widget, const char *name, GVariant *unused)
+static void edit_preset(LadderSimPanel *panel)
 {
-	(void)name;
-	(void)unused;
-	edit(LADDER_SIM_PANEL(widget), SIM_EDIT_PRESET);
+	edit(panel, SIM_EDIT_PRESET);
 }
 
 /* ---- the menu ---- */
 
-static void add(GMenu *menu, const char *text, const char *action)
-{
-	g_menu_append(menu, text, action);
-}
-
-/* An action of the window, with the name of the variable. */
 static void add_named(GMenu *menu, const char *text, const char *action, const char *name)
 {
 	GMenuItem *item = g_menu_item_new(text, NULL);
@@ -758,7 +709,7 @@ static void add_named(GMenu *menu, const char *text, const char *action, const c
 	g_object_unref(item);
 }
 
-/* Of a timer or counter what it tells is Q. */
+/* Of a timer or counter, Q is expected. */
 static void add_window(GMenu *menu, const LadderSimRow *row)
 {
 	char *name = row->kind == SIM_PRESET ? g_strconcat(row->name, ".Q", NULL) :
@@ -777,22 +728,22 @@ static GMenuModel *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
 
 	if (row->kind == SIM_PRESET) {
 		if (row->given.type != IEC_NONE)
-			add(values, _("Change Preset…"), "sim-panel.edit-preset");
-		add(values, row->group == SIM_COUNTERS ? _("Change Count…") :
-		    _("Change Elapsed Time…"), "sim-panel.edit-value");
+			g_menu_append(values, _("Change preset…"), "sim-panel.edit-preset");
+		g_menu_append(values, row->group == SIM_COUNTERS ? _("Change count…") :
+		    _("Change elapsed time…"), "sim-panel.edit-value");
 	} else if (!sim_row_is_bit(row) && !row->at.constant) {
-		add(values, _("Change Value…"), "sim-panel.edit-value");
+		g_menu_append(values, _("Change value…"), "sim-panel.edit-value");
 	}
 	if (sim_row_is_forced(row, panel->sim))
-		add(forces, _("Release Force"), "sim-panel.force");
+		g_menu_append(forces, _("Release force"), "sim-panel.force");
 	if (sim_row_is_bit(row)) {
-		add(forces, _("Force On"), "sim-panel.force-on");
-		add(forces, _("Force Off"), "sim-panel.force-off");
+		g_menu_append(forces, _("Force on"), "sim-panel.force-on");
+		g_menu_append(forces, _("Force off"), "sim-panel.force-off");
 	} else if (row->at.type != IEC_STRING && !sim_row_is_forced(row, panel->sim)) {
-		add(forces, _("Force at This Value"), "sim-panel.force");
+		g_menu_append(forces, _("Force at this value"), "sim-panel.force");
 	}
 	if (ladder_sim_forces(panel->sim))
-		add(forces, _("Release All Forces"), "sim-panel.release-all");
+		g_menu_append(forces, _("Release all forces"), "sim-panel.release-all");
 	if (!row->plant)
 		add_window(others, row);
 	g_menu_append_section(menu, NULL, G_MENU_MODEL(values));
@@ -826,15 +777,12 @@ static void show_menu(LadderSimPanel *panel, const GdkRectangle *at)
 	g_object_unref(model);
 }
 
-static void menu_at_line(GtkWidget *widget, const char *name, GVariant *unused)
+static void menu_at_line(LadderSimPanel *panel)
 {
-	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
 	LadderSimRowView *view = view_of(panel, selected_row(panel));
 	graphene_rect_t box;
 
-	(void)name;
-	(void)unused;
-	if (view && gtk_widget_compute_bounds(GTK_WIDGET(view), widget, &box))
+	if (view && gtk_widget_compute_bounds(GTK_WIDGET(view), GTK_WIDGET(panel), &box))
 		show_menu(panel, &(GdkRectangle){ (int)box.origin.x + 20,
 			(int)box.origin.y, 1, (int)box.size.height });
 }
@@ -857,22 +805,6 @@ static void right_clicked(GtkGestureClick *gesture, int times, double x, double 
 	show_menu(panel, &(GdkRectangle){ (int)x, (int)y, 1, 1 });
 }
 
-static void install_keys(GtkWidgetClass *class)
-{
-	gtk_widget_class_install_action(class, "sim-panel.force", NULL, force);
-	gtk_widget_class_install_action(class, "sim-panel.force-on", NULL, force_on);
-	gtk_widget_class_install_action(class, "sim-panel.force-off", NULL, force_off);
-	gtk_widget_class_install_action(class, "sim-panel.release-all", NULL, release_all);
-	gtk_widget_class_install_action(class, "sim-panel.edit-value", NULL, edit_value);
-	gtk_widget_class_install_action(class, "sim-panel.edit-preset", NULL, edit_preset);
-	gtk_widget_class_install_action(class, "sim-panel.menu", NULL, menu_at_line);
-	gtk_widget_class_add_binding_action(class, GDK_KEY_F, GDK_CONTROL_MASK |
-					    GDK_SHIFT_MASK, "sim-panel.force", NULL);
-	gtk_widget_class_add_binding_action(class, GDK_KEY_Menu, 0, "sim-panel.menu", NULL);
-	gtk_widget_class_add_binding_action(class, GDK_KEY_F10, GDK_SHIFT_MASK,
-					    "sim-panel.menu", NULL);
-}
-
 static void begin_keys(LadderSimPanel *panel)
 {
 	GtkEventController *keys = gtk_event_controller_key_new();
@@ -882,7 +814,7 @@ static void begin_keys(LadderSimPanel *panel)
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
 	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), panel);
 	g_signal_connect(keys, "key-released", G_CALLBACK(key_released), panel);
-	g_signal_connect(focus, "leave", G_CALLBACK(left), panel);
+	g_signal_connect_swapped(focus, "leave", G_CALLBACK(let_go_held), panel);
 	g_signal_connect(panel->list, "activate", G_CALLBACK(activated), panel);
 	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(click), GDK_BUTTON_SECONDARY);
 	g_signal_connect(click, "pressed", G_CALLBACK(right_clicked), panel);
@@ -891,10 +823,9 @@ static void begin_keys(LadderSimPanel *panel)
 	gtk_widget_add_controller(GTK_WIDGET(panel), GTK_EVENT_CONTROLLER(click));
 }
 
-
 /* ---- the program and its values ---- */
 
-/* Another program. What has the same lines keeps their widgets. */
+/* The lines of another program. If they are the same, their widgets stay. */
 static void look_at_program(LadderSimPanel *panel)
 {
 	GPtrArray *rows = sim_rows_new(panel->sim);
@@ -926,7 +857,7 @@ static void read_choices(LadderSimPanel *panel)
 	}
 }
 
-/* ---- what happens ---- */
+/* ---- updates ---- */
 
 static bool is_seen(LadderSimPanel *panel, GtkWidget *view)
 {
@@ -937,8 +868,8 @@ static bool is_seen(LadderSimPanel *panel, GtkWidget *view)
 	       box.origin.y + box.size.height > 0 && box.origin.y < height;
 }
 
-/* A list has some two hundred widgets, most of them beyond its edges: those follow a few at
- * a time, for assistive technology, and at once when they come into sight. */
+/* Some two hundred widgets of the list are outside the visible part. Assistive technology reads
+ * them too, so they are updated a few at a time, and at once when they are scrolled into view. */
 static gboolean look_at_some(gpointer data)
 {
 	LadderSimPanel *panel = data;
@@ -972,7 +903,7 @@ static void look(LadderSimPanel *panel)
 	}
 	if (seen == panel->views->len)
 		return;
-	/* A round that has begun is not begun again, or its end never came. */
+	/* A round under way is not restarted: it would never reach the last views. */
 	if (panel->behind_timer) {
 		panel->again = true;
 		return;
@@ -981,23 +912,21 @@ static void look(LadderSimPanel *panel)
 	panel->behind_timer = g_timeout_add(BEHIND_MS, look_at_some, panel);
 }
 
-static void shown(LadderSim *sim, LadderSimPanel *panel)
+static void shown(LadderSimPanel *panel)
 {
-	(void)sim;
 	if (gtk_widget_get_mapped(GTK_WIDGET(panel)))
 		look(panel);
 }
 
-static void program_changed(LadderSim *sim, LadderSimPanel *panel)
+static void program_changed(LadderSimPanel *panel)
 {
-	(void)sim;
 	look_at_program(panel);
 	look(panel);
 }
 
-static void state_changed(LadderSim *sim, LadderSimPanel *panel)
+static void state_changed(LadderSimPanel *panel)
 {
-	const bool on = ladder_sim_is_on(sim);
+	const bool on = ladder_sim_is_on(panel->sim);
 
 	if (on != panel->on)
 		look_at_program(panel);
@@ -1027,14 +956,10 @@ static void fold(GtkWidget *widget, const char *name, GVariant *section)
 	show_lines(panel);
 }
 
-/* What cannot be built the window tells: its own action does the same. */
-static void simulate(GtkWidget *widget, const char *name, GVariant *unused)
+/* The window's action also reports why a program cannot be built. */
+static void simulate(LadderSimPanel *panel)
 {
-	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
-
-	(void)name;
-	(void)unused;
-	if (!gtk_widget_activate_action(widget, "win.sim_mode", NULL))
+	if (!gtk_widget_activate_action(GTK_WIDGET(panel), "win.sim_mode", NULL))
 		ladder_sim_begin(panel->sim, NULL);
 }
 
@@ -1117,6 +1042,34 @@ static void make_list(LadderSimPanel *panel, GtkWidget *list)
 
 /* ---- the widget ---- */
 
+static const struct {
+	const char *name;
+	void (*act)(LadderSimPanel *panel);
+} actions[] = {
+	{ "sim-panel.simulate", simulate },
+	{ "sim-panel.force", force },
+	{ "sim-panel.force-on", force_on },
+	{ "sim-panel.force-off", force_off },
+	{ "sim-panel.release-all", release_all },
+	{ "sim-panel.edit-value", edit_value },
+	{ "sim-panel.edit-preset", edit_preset },
+	{ "sim-panel.menu", menu_at_line },
+	{ "sim-panel.push", toggle_push },
+	{ "sim-panel.hold-key", hold_key },
+	{ "sim-panel.toggle-key", toggle_key },
+	{ "sim-panel.no-key", no_key },
+	{ "sim-panel.range", ask_range },
+	{ "sim-panel.no-range", no_range },
+};
+
+static void do_action(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)unused;
+	for (gsize i = 0; i < G_N_ELEMENTS(actions); i++)
+		if (g_str_equal(actions[i].name, name))
+			actions[i].act(LADDER_SIM_PANEL(widget));
+}
+
 static void dispose(GObject *object)
 {
 	LadderSimPanel *panel = LADDER_SIM_PANEL(object);
@@ -1143,7 +1096,7 @@ static void dispose(GObject *object)
 static void root(GtkWidget *widget)
 {
 	GTK_WIDGET_CLASS(ladder_sim_panel_parent_class)->root(widget);
-	bind_root(LADDER_SIM_PANEL(widget), gtk_widget_get_root(widget));
+	bind_root(LADDER_SIM_PANEL(widget));
 }
 
 static void unroot(GtkWidget *widget)
@@ -1169,9 +1122,13 @@ static void ladder_sim_panel_class_init(LadderSimPanelClass *class)
 	gtk_widget_class_bind_template_child(widget, LadderSimPanel, list);
 	gtk_widget_class_bind_template_callback(widget, search_changed);
 	gtk_widget_class_install_action(widget, "sim-panel.fold", "s", fold);
-	gtk_widget_class_install_action(widget, "sim-panel.simulate", NULL, simulate);
-	install_keys(widget);
-	install_choices(widget);
+	for (gsize i = 0; i < G_N_ELEMENTS(actions); i++)
+		gtk_widget_class_install_action(widget, actions[i].name, NULL, do_action);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_F, GDK_CONTROL_MASK |
+					    GDK_SHIFT_MASK, "sim-panel.force", NULL);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_Menu, 0, "sim-panel.menu", NULL);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_F10, GDK_SHIFT_MASK,
+					    "sim-panel.menu", NULL);
 }
 
 static void ladder_sim_panel_init(LadderSimPanel *panel)
@@ -1191,11 +1148,11 @@ GtkWidget *ladder_sim_panel_new(LadderSim *sim)
 	LadderSimPanel *panel = g_object_new(LADDER_TYPE_SIM_PANEL, NULL);
 
 	panel->sim = g_object_ref(sim);
-	g_signal_connect(sim, "shown", G_CALLBACK(shown), panel);
-	g_signal_connect(sim, "program-changed", G_CALLBACK(program_changed), panel);
-	g_signal_connect(sim, "state-changed", G_CALLBACK(state_changed), panel);
+	g_signal_connect_swapped(sim, "shown", G_CALLBACK(shown), panel);
+	g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(program_changed), panel);
+	g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(state_changed), panel);
 	g_signal_connect_swapped(ladder_sim_document(sim), "bookmarks-changed",
 				 G_CALLBACK(read_choices), panel);
-	state_changed(sim, panel);
+	state_changed(panel);
 	return GTK_WIDGET(panel);
 }

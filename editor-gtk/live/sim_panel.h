@@ -3,8 +3,8 @@
  * sim_panel - the panel beside the sheets while a program is simulated: inputs as switches,
  * outputs as lamps, timers, counters, numbers.
  *
- * It shows what ladder_sim_twin() has, and does what it does through ladder_sim_act(). While
- * the simulation is off it says what it is for.
+ * It shows ladder_sim_twin() and changes it with ladder_sim_act(). While the simulation is off
+ * it says what it is for.
  */
 #ifndef EDITOR_SIM_PANEL_H
 #define EDITOR_SIM_PANEL_H
@@ -19,12 +19,12 @@ G_DECLARE_FINAL_TYPE(LadderSimPanel, ladder_sim_panel, LADDER, SIM_PANEL, GtkWid
 /** ladder_sim_panel_new - @sim: referenced. */
 GtkWidget *ladder_sim_panel_new(LadderSim *sim);
 
-/** ladder_sim_panel_list - of LadderSimRow, headings too, as they stand. Borrowed. */
+/** ladder_sim_panel_list - of LadderSimRow, with headings, as listed. Borrowed. */
 GListModel *ladder_sim_panel_list(LadderSimPanel *panel);
-/** ladder_sim_panel_select - the line of that name, brought into sight; false: none. */
+/** ladder_sim_panel_select - selects the line of that name and scrolls to it; false: none. */
 bool ladder_sim_panel_select(LadderSimPanel *panel, const char *name);
-/** ladder_sim_panel_shown - what the widget of a line shows now, as
- * ladder_sim_row_view_text(); NULL: no widget shows it. Caller frees. For tests. */
+/** ladder_sim_panel_shown - ladder_sim_row_view_text() of the widget of a line; NULL: there is
+ * none. Caller frees. For tests. */
 char *ladder_sim_panel_shown(LadderSimPanel *panel, const LadderSimRow *row);
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_panel_row - a line of the panel: its values, as texts and as acts. Which lines there
- * are is sim_panel_rows.c's.
+ * sim_panel_row - a line of the panel: see sim_panel_row.h. sim_panel_rows.c makes the lines.
  */
 #include "editor-gtk/live/sim_panel_row.h"
 
@@ -241,7 +240,7 @@ static void take_choice(const char **at, const char *word, struct choices *out)
 	}
 }
 
-/* False: it is a line of somebody else. @out: choices_clear(). */
+/* False: another kind of line. @out: choices_clear(). */
 static bool line_read(const char *line, struct choices *out)
 {
 	const char *at = line;
@@ -265,7 +264,7 @@ static bool is_of(const struct choices *choices, const LadderSimRow *row)
 	       g_ascii_strcasecmp(choices->name, row->name) == 0;
 }
 
-/* @choices NULL: none. True: it was other. */
+/* @choices: NULL: none. True: the row changed. */
 static bool choose(LadderSimRow *row, const struct choices *choices)
 {
 	static const struct choices none;

@@ -2,8 +2,7 @@
  *
  * sim_panel_row - one line of the simulation panel, and the list of them for a program.
  *
- * A row knows where its values are and how they are written; it shows nothing, and changes
- * nothing but through ladder_sim_act().
+ * A row knows where its values are. It shows nothing; values are set through live_value.h.
  */
 #ifndef EDITOR_SIM_PANEL_ROW_H
 #define EDITOR_SIM_PANEL_ROW_H
@@ -17,65 +16,63 @@ enum sim_group {
 
 enum sim_kind {
 	SIM_HEADING,   /* of a group                                           */
-	SIM_SWITCH,    /* a bit that a person gives                            */
-	SIM_LAMP,      /* a bit that the program gives                         */
-	SIM_PRESET,    /* a timer or counter: how far, of how much             */
-	SIM_SLIDER,    /* a number from without                                */
-	SIM_LEVEL,     /* a number that goes out                               */
+	SIM_SWITCH,    /* a bit that a person can set                          */
+	SIM_LAMP,      /* a bit that the program writes                        */
+	SIM_PRESET,    /* a timer or counter: its value and its preset         */
+	SIM_SLIDER,    /* a number that is an input                            */
+	SIM_LEVEL,     /* a number that is an output                           */
 	SIM_VALUE,     /* anything else                                        */
 };
 
 #define LADDER_TYPE_SIM_ROW (ladder_sim_row_get_type())
 G_DECLARE_FINAL_TYPE(LadderSimRow, ladder_sim_row, LADDER, SIM_ROW, GObject)
 
-/* Read only, but for those who make rows. Places are those of the program that runs. */
+/* Read only, except for sim_panel_rows.c. Places are of the program that runs. */
 struct _LadderSimRow {
 	GObject parent;
 	enum sim_group group;
 	enum sim_kind kind;
-	char *name;             /* as traces have it: "Start", "Main.Delay"    */
+	char *name;             /* as in traces: "Start", "Main.Delay"         */
 	char *address;          /* "%IX0.0"; NULL: none                        */
 	char *comment;          /* without its delimiters; NULL: none          */
 	/* Of an input or output, if there is an I/O map beside the project. */
-	char *place;            /* where its pin is: chip or board; NULL: no map */
-	char *pin;              /* "GPIO17", "12" of a chip; NULL: none is known */
-	char *pin_told;         /* both, and what the map says of it; or NULL  */
+	char *place;            /* chip or board of its pin; NULL: no map      */
+	char *pin;              /* "GPIO17", "12" of a chip; NULL: unknown     */
+	char *pin_told;         /* both, and the comment of the map; or NULL   */
 	int place_number;       /* in the order of the map                     */
-	char *block;            /* word of the timer or counter; else NULL     */
+	char *block;            /* type of the timer or counter; else NULL     */
 	bool plant;             /* of the plant                                */
 	bool driven;            /* by the plant                                */
 	bool folded;            /* of a SIM_HEADING                            */
-	struct location at;     /* the value; of a SIM_PRESET how far it is    */
+	struct location at;     /* the value; of a SIM_PRESET its ET or CV     */
 	/* Of a SIM_PRESET; type IEC_NONE: there is none. */
 	struct location preset;
-	struct location given;  /* where the preset comes from, if it can be set:
-				   a variable, or the instance itself          */
+	struct location given;  /* the variable or pin to set the preset with  */
 	struct location done;   /* its Q                                       */
 	struct location start;  /* of a timer: when it began to run            */
-	/* What a person chose. */
-	bool push;              /* a switch that is on as long as it is held   */
-	char *key;              /* gdk_keyval_name() of one that does it; NULL */
-	bool key_toggles;       /* rather than being held                      */
-	bool ranged;
+	/* Choices of a person. */
+	bool push;              /* a push button instead of a switch           */
+	char *key;              /* gdk_keyval_name() of its key; NULL: none    */
+	bool key_toggles;       /* the key toggles; else it holds              */
+	bool ranged;            /* the range is not that of the type           */
 	double low, high;       /* of SIM_SLIDER, SIM_LEVEL                    */
 };
 
-/** sim_rows_new - what the program that runs, and its plant, have to show: of LadderSimRow,
- * group by group, no headings. Empty: the simulation is off. Caller: g_ptr_array_unref. */
+/** sim_rows_new - the rows of the program that runs and of its plant, in their order, without
+ * headings. Empty: the simulation is off. Caller: g_ptr_array_unref. */
 GPtrArray *sim_rows_new(LadderSim *sim);
-/** sim_row_heading - of a group, and of the place of its lines: as @first has them, which
- * is one of them; new reference. */
+/** sim_row_heading - the heading above @first. Caller: g_object_unref(). */
 LadderSimRow *sim_row_heading(const LadderSimRow *first, bool folded);
-/** sim_row_section - what a heading and the lines below it have in common: "0 gpiochip0".
- * Caller frees. */
+/** sim_row_section - a key of the heading and of the lines below it: "0 gpiochip0". Caller
+ * frees. */
 char *sim_row_section(const LadderSimRow *row);
-/** sim_row_is - the same line of the panel, whatever its places are? */
+/** sim_row_is - is it the same line, apart from its places? */
 bool sim_row_is(const LadderSimRow *row, const LadderSimRow *other);
-/** sim_row_become - its places are those of @from, which is the same line. */
+/** sim_row_become - takes the places of @from, which is the same line. */
 void sim_row_become(LadderSimRow *row, const LadderSimRow *from);
 /** sim_row_set_range - of SIM_SLIDER, SIM_LEVEL; @ranged false: that of its type. */
 void sim_row_set_range(LadderSimRow *row, bool ranged, double low, double high);
-/** sim_row_matches - is @wanted in name, address, pin, place, comment or block? Any case. */
+/** sim_row_matches - is @wanted in name, address, pin, place, comment or block? Ignores case. */
 bool sim_row_matches(const LadderSimRow *row, const char *wanted);
 
 /** sim_group_name - translated. Lives for ever. */

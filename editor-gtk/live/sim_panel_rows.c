@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_panel_rows - which lines the panel has for a program: what it declares, and the
- * addresses that it uses without a name; of its plant what is no wire between both.
+ * sim_panel_rows - the lines of the panel for a program: the variables that it declares and the
+ * addresses that it uses without a name; of its plant, the variables not bound to the program.
  *
- * In the order of groups, of the places that the I/O map names, and there by address; what
- * has none as it is declared.
+ * They are sorted by group, place of the I/O map, and address; rows without an address keep the
+ * order of their declarations.
  */
 #include "editor-gtk/live/sim_panel_row.h"
 
@@ -27,10 +27,10 @@ struct maker {
 	bool plant;
 	GPtrArray *rows;
 	GHashTable *comments;       /* of folded names                         */
-	GHashTable *starts;         /* of a timer's ET: where it keeps its start */
+	GHashTable *starts;         /* by place of ET: place of the timer's start */
 	GHashTable *taken;          /* places that have a line                 */
-	LadderSimRow *last;         /* a timer or counter, pin by pin          */
-	gsize last_len;             /* of its name                             */
+	LadderSimRow *last;         /* timer or counter whose pins follow      */
+	gsize last_len;             /* length of its name                      */
 };
 
 /* ---- comments ---- */
@@ -61,7 +61,7 @@ static void add_comment(struct maker *maker, const char *pou, const struct var *
 				    plain_comment(comment));
 }
 
-/* Locals first: what has the name of a global shows that without its POU. */
+/* Locals first: without its POU, a name that is also a global means the global. */
 static void find_comments(struct maker *maker)
 {
 	const struct project *project = maker->project;
@@ -74,7 +74,7 @@ static void find_comments(struct maker *maker)
 		add_comment(maker, "", &project->globals.var[i]);
 }
 
-/* Of Table[3] that of Table, of Main.Recipe.Speed that of Main.Recipe. */
+/* Table[3] has the comment of Table, Main.Recipe.Speed that of Main.Recipe. */
 static char *comment_of(struct maker *maker, const char *name)
 {
 	char *key = g_ascii_strdown(name, -1);
@@ -102,7 +102,7 @@ static gpointer key_copy(gint64 key)
 	return g_memdup2(&key, sizeof(key));
 }
 
-/* Where a timer keeps when it began, of each. */
+/* Where each timer keeps the time at which it began to run. */
 static void find_starts(struct maker *maker)
 {
 	struct symbol_cursor cursor = { .whole = true };
@@ -206,7 +206,7 @@ static void add_value(struct maker *maker, const char *name, struct location at)
 	LadderSimRow *row;
 
 	if (maker->plant && (comes_in(addr.area) || goes_out(addr.area)))
-		return; /* it is the program's, crosswise */
+		return; /* bound to the program, which has a line for it */
 	row = new_row(maker, name, strlen(name), at);
 	if (at.type == IEC_BOOL)
 		place_bit(row, addr.area);
@@ -232,7 +232,7 @@ static bool is_name(const struct maker *maker, uint32_t id, const char *name, gs
 	return strlen(text) == len && g_ascii_strncasecmp(text, name, len) == 0;
 }
 
-/* What stands at a pin where the instance is called; false: nothing does. */
+/* The argument at a pin where the instance is called; false: none. */
 static bool find_arg(const struct maker *maker, int pou, const char *name,
 		     const char *pin, struct arg *out)
 {
@@ -252,8 +252,8 @@ static bool find_arg(const struct maker *maker, int pou, const char *name,
 	return false;
 }
 
-/* Where the preset of an instance can be set: the variable that it is given, or its own
- * place if nothing is. */
+/* Where the preset of an instance can be set: the variable at its pin, or the pin itself if
+ * there is none. */
 static struct location given_of(const struct maker *maker, const LadderSimRow *row,
 				const char *pin)
 {
@@ -427,8 +427,7 @@ static bool read_address(const char *text, struct iec_addr *addr)
 	       addr->bits == 1 && (addr->area == AREA_I || addr->area == AREA_Q);
 }
 
-/* A line has a name of its own on the whole board, an offset is one of a chip. Caller
- * frees. */
+/* A line name is unique on the board, an offset only on its chip. Caller frees. */
 static char *place_of(const struct map *map, int at)
 {
 	char *line = io_text_field(&map->io, at, IO_LINE);
@@ -540,7 +539,7 @@ static void take_map(const char *path, GPtrArray *rows)
 
 /* ---- all of them, in order ---- */
 
-/* By address where there is one; else they stay as they are declared. */
+/* NULL: it has no address and keeps the order of its declaration. */
 static const char *order_key(const LadderSimRow *row)
 {
 	return row->address ? row->address : row->name[0] == '%' ? row->name : NULL;

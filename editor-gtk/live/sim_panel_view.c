@@ -19,14 +19,13 @@
 struct _LadderSimRowView {
 	GtkWidget parent;
 	LadderSim *sim;          /* borrowed                                    */
-	GtkListItem *item;       /* likewise                                    */
+	GtkListItem *item;       /* borrowed                                    */
 	LadderSimRow *row;       /* NULL: none                                  */
-	LadderSimRow *held;      /* pressed with the pointer                    */
-	/* What is shown now. */
+	LadderSimRow *held;      /* pressed with the pointer; NULL: none        */
 	struct live_seen value_seen, preset_seen, done_seen;
-	bool telling;            /* a change of a widget is no person's         */
-	double sent;             /* by the slider                               */
-	int waiting;             /* so many looks more until that must be shown */
+	bool telling;            /* widgets are being set: ignore their signals */
+	double sent;             /* the value that the slider set last          */
+	int waiting;             /* updates left until the slider gives that up */
 	GtkWidget *heading, *arrow, *title, *where;
 	GtkWidget *line, *lamp, *address, *name, *pin, *tag, *badge, *value, *toggle, *push;
 	GtkWidget *entry;        /* NULL: none yet                              */
@@ -60,10 +59,25 @@ static const char *kind_name(const LadderSimRow *row)
 	return _(name[row->group]);
 }
 
+static void set_name(GtkWidget *widget, const char *name)
+{
+	gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       name, -1);
+}
+
+/* The list item is what a screen reader stops at. */
+static void name_line(LadderSimRowView *view, const char *name)
+{
+	GtkWidget *item = gtk_widget_get_parent(GTK_WIDGET(view));
+
+	set_name(GTK_WIDGET(view), name);
+	if (item)
+		set_name(item, name);
+}
+
 static void speak(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
-	GtkWidget *item = gtk_widget_get_parent(GTK_WIDGET(view));
 	const char *state = !sim_row_is_bit(row) ? "" : view->value_seen.value.i ? _("on") : _("off");
 	char *name = g_strdup_printf("%s %s%s%s%s%s", kind_name(row), row->name,
 				     row->address ? ", " : "",
@@ -72,19 +86,11 @@ static void speak(LadderSimRowView *view)
 	char *all = g_strdup_printf("%s%s%s%s%s", name, *state ? ", " : "", state,
 				    is_forced(view) ? ", " : "", is_forced(view) ? _("forced") : "");
 
-	gtk_accessible_update_property(GTK_ACCESSIBLE(view), GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       all, -1);
-	if (item)
-		gtk_accessible_update_property(GTK_ACCESSIBLE(item),
-					       GTK_ACCESSIBLE_PROPERTY_LABEL, all, -1);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(view->toggle),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(view->push),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(view->scale),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(view->lamp),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, all, -1);
+	name_line(view, all);
+	set_name(view->toggle, name);
+	set_name(view->push, name);
+	set_name(view->scale, name);
+	set_name(view->lamp, all);
 	g_free(all);
 	g_free(name);
 }
@@ -264,9 +270,8 @@ static void entered(GtkEntry *entry, LadderSimRowView *view)
 	end_edit(view);
 }
 
-static void text_changed(GtkEditable *editable, LadderSimRowView *view)
+static void text_changed(LadderSimRowView *view)
 {
-	(void)editable;
 	if (gtk_widget_has_css_class(view->entry, "error"))
 		mark_bad(view, false);
 }
@@ -284,12 +289,6 @@ static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
 	return GDK_EVENT_STOP;
 }
 
-static void entry_left(GtkEventControllerFocus *focus, LadderSimRowView *view)
-{
-	(void)focus;
-	end_edit(view);
-}
-
 static void add_entry(LadderSimRowView *view)
 {
 	GtkEventController *keys = gtk_event_controller_key_new();
@@ -301,9 +300,9 @@ static void add_entry(LadderSimRowView *view)
 	gtk_editable_set_alignment(GTK_EDITABLE(view->entry), 1);
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
 	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), view);
-	g_signal_connect(focus, "leave", G_CALLBACK(entry_left), view);
+	g_signal_connect_swapped(focus, "leave", G_CALLBACK(end_edit), view);
 	g_signal_connect(view->entry, "activate", G_CALLBACK(entered), view);
-	g_signal_connect(view->entry, "changed", G_CALLBACK(text_changed), view);
+	g_signal_connect_swapped(view->entry, "changed", G_CALLBACK(text_changed), view);
 	gtk_widget_add_controller(view->entry, keys);
 	gtk_widget_add_controller(view->entry, focus);
 	gtk_box_insert_child_after(GTK_BOX(view->line), view->entry, view->value);
@@ -333,8 +332,7 @@ void ladder_sim_row_view_edit(LadderSimRowView *view, enum sim_edit what)
 	text = live_value_text(at.type, live_value_get(view->sim, view->row->plant, at));
 	name = field_name(view);
 	gtk_editable_set_text(GTK_EDITABLE(view->entry), text);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(view->entry),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	set_name(view->entry, name);
 	mark_bad(view, false);
 	gtk_widget_set_visible(view->value, FALSE);
 	gtk_widget_set_visible(view->entry, TRUE);
@@ -343,7 +341,7 @@ void ladder_sim_row_view_edit(LadderSimRowView *view, enum sim_edit what)
 	g_free(text);
 }
 
-/* Later: the item of the list takes the focus when it is clicked. */
+/* The click still moves the focus to the list item: the entry is opened later. */
 static gboolean edit_later(gpointer data)
 {
 	LadderSimRowView *view = data;
@@ -354,13 +352,8 @@ static gboolean edit_later(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-static void value_released(GtkGestureClick *gesture, int times, double x, double y,
-			   LadderSimRowView *view)
+static void value_released(LadderSimRowView *view)
 {
-	(void)gesture;
-	(void)times;
-	(void)x;
-	(void)y;
 	g_idle_add(edit_later, g_object_ref(view));
 }
 
@@ -369,7 +362,7 @@ static void can_edit(LadderSimRowView *view)
 	GtkGesture *click = gtk_gesture_click_new();
 
 	gtk_widget_set_cursor_from_name(view->value, "text");
-	g_signal_connect(click, "released", G_CALLBACK(value_released), view);
+	g_signal_connect_swapped(click, "released", G_CALLBACK(value_released), view);
 	gtk_widget_add_controller(view->value, GTK_EVENT_CONTROLLER(click));
 }
 
@@ -411,7 +404,6 @@ static char *tooltip_of(const LadderSimRow *row)
 static void show_heading(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
-	GtkWidget *item = gtk_widget_get_parent(GTK_WIDGET(view));
 	const char *name = sim_group_name(row->group);
 	char *spoken = g_strdup_printf("%s%s%s, %s", name, row->place ? " · " : "",
 				       row->place ? row->place : "",
@@ -423,11 +415,7 @@ static void show_heading(LadderSimRowView *view)
 	tip_set(view->where, row->place);
 	gtk_image_set_from_icon_name(GTK_IMAGE(view->arrow), row->folded ?
 				     "pan-end-symbolic" : "pan-down-symbolic");
-	gtk_accessible_update_property(GTK_ACCESSIBLE(view), GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       spoken, -1);
-	if (item)
-		gtk_accessible_update_property(GTK_ACCESSIBLE(item),
-					       GTK_ACCESSIBLE_PROPERTY_LABEL, spoken, -1);
+	name_line(view, spoken);
 	g_free(spoken);
 }
 
@@ -510,20 +498,6 @@ static void select_line(LadderSimRowView *view)
 		gtk_widget_grab_focus(item);
 }
 
-/* Not claimed here or below: the item of the list would wait for its release for ever. */
-static void pressed(GtkGestureClick *gesture, int times, double x, double y,
-		    LadderSimRowView *view)
-{
-	(void)gesture;
-	(void)times;
-	(void)x;
-	(void)y;
-	select_line(view);
-	g_set_object(&view->held, view->row);
-	if (view->held)
-		sim_row_press(view->held, view->sim);
-}
-
 static void let_go(LadderSimRowView *view)
 {
 	if (view->held)
@@ -531,31 +505,23 @@ static void let_go(LadderSimRowView *view)
 	g_clear_object(&view->held);
 }
 
-static void released(GtkGestureClick *gesture, int times, double x, double y,
-		     LadderSimRowView *view)
+/* The gesture is not claimed: the list item would wait for its release forever. */
+static void press(LadderSimRowView *view)
 {
-	(void)gesture;
-	(void)times;
-	(void)x;
-	(void)y;
-	let_go(view);
-}
-
-static void ended(GtkGesture *gesture, GdkEventSequence *sequence, LadderSimRowView *view)
-{
-	(void)gesture;
-	(void)sequence;
-	let_go(view);
+	select_line(view);
+	g_set_object(&view->held, view->row);
+	if (view->held)
+		sim_row_press(view->held, view->sim);
 }
 
 static void can_be_pressed(LadderSimRowView *view, GtkWidget *widget)
 {
 	GtkGesture *click = gtk_gesture_click_new();
 
-	g_signal_connect(click, "pressed", G_CALLBACK(pressed), view);
-	g_signal_connect(click, "released", G_CALLBACK(released), view);
-	g_signal_connect(click, "end", G_CALLBACK(ended), view);
-	g_signal_connect(click, "cancel", G_CALLBACK(ended), view);
+	g_signal_connect_swapped(click, "pressed", G_CALLBACK(press), view);
+	g_signal_connect_swapped(click, "released", G_CALLBACK(let_go), view);
+	g_signal_connect_swapped(click, "end", G_CALLBACK(let_go), view);
+	g_signal_connect_swapped(click, "cancel", G_CALLBACK(let_go), view);
 	gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(click));
 }
 
@@ -567,7 +533,7 @@ void ladder_sim_row_view_fold(GtkWidget *from, const LadderSimRow *heading)
 	g_free(section);
 }
 
-/* Later: the item that was clicked goes with it. */
+/* Folding removes the list item that the click still uses: it is done later. */
 static gboolean fold_later(gpointer data)
 {
 	LadderSimRowView *view = data;
@@ -578,13 +544,8 @@ static gboolean fold_later(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-static void heading_released(GtkGestureClick *gesture, int times, double x, double y,
-			     LadderSimRowView *view)
+static void heading_released(LadderSimRowView *view)
 {
-	(void)gesture;
-	(void)times;
-	(void)x;
-	(void)y;
 	g_idle_add(fold_later, g_object_ref(view));
 }
 
@@ -641,7 +602,7 @@ static GtkWidget *add_label(GtkWidget *to, const char *class, bool expand)
 	return label;
 }
 
-/* The row acts for it, so that a press is told from a release. */
+/* The gesture of the row acts, because it needs both press and release. */
 static void show_only(GtkWidget *widget)
 {
 	gtk_widget_set_can_target(widget, FALSE);
@@ -660,7 +621,7 @@ static void add_heading(LadderSimRowView *view)
 	gtk_box_append(GTK_BOX(view->heading), view->arrow);
 	view->title = add_label(view->heading, "sim-heading", false);
 	view->where = add_label(view->heading, "sim-place", true);
-	g_signal_connect(click, "released", G_CALLBACK(heading_released), view);
+	g_signal_connect_swapped(click, "released", G_CALLBACK(heading_released), view);
 	gtk_widget_add_controller(view->heading, GTK_EVENT_CONTROLLER(click));
 	gtk_widget_set_parent(view->heading, GTK_WIDGET(view));
 }

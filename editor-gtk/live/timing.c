@@ -313,6 +313,6 @@ void timing_kept_put(LadderDocument *document, const char *const *names)
 	if (ladder_document_project(document) &&
 	    !g_strv_equal((const char *const *)before, names))
 		live_lines_keep(document, timing_kept_write(view, names),
-				_("Variables of the timing chart"));
+				_("Change variables of the timing chart"));
 	g_strfreev(before);
 }

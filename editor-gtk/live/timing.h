@@ -10,44 +10,44 @@
 
 #include "editor-gtk/sim/sim.h"
 
-#define TIMING_SCANS 20000u /* kept of each variable                             */
+#define TIMING_SCANS 20000u /* kept for each variable                            */
 #define TIMING_LINES 64
 
 struct timing;
 
-/** timing_new - empty. @sim: borrowed as long as it is used. Owns: timing_free(). */
+/** timing_new - empty. @sim: lives longer. Owns: timing_free(). */
 struct timing *timing_new(LadderSim *sim);
 void timing_free(struct timing *timing);
 
-/** timing_add - a variable or address, behind the others. Fails: false: there is one of
- * this name already, or too many. A name that means nothing now may mean something later. */
+/** timing_add - adds a variable or address as the last line; the program need not have it.
+ * Fails: false: there is a line of this name, or there are TIMING_LINES. */
 bool timing_add(struct timing *timing, const char *name);
 void timing_remove(struct timing *timing, int line);
-/** timing_move - @to: its place afterwards. */
+/** timing_move - @to: its index afterwards. */
 void timing_move(struct timing *timing, int line, int to);
 int timing_lines(const struct timing *timing);
 /** timing_name - borrowed until the line goes. */
 const char *timing_name(const struct timing *timing, int line);
-/** timing_at - where it is in the program whose scan is shown; type IEC_NONE: nowhere. */
+/** timing_at - its place in the program whose scan is shown; type IEC_NONE: unknown name. */
 struct location timing_at(const struct timing *timing, int line);
 
-/** timing_program_changed - another program runs, or is shown, or none: what is in the chart
- * stays, unless the simulation began anew. */
+/** timing_program_changed - to be called when the simulation emits program-changed. Samples
+ * stay, unless the simulation began anew. */
 void timing_program_changed(struct timing *timing);
 /** timing_feed - takes scans from the record for at most @us; true: there are more. */
 bool timing_feed(struct timing *timing, gint64 us);
 
-/* Scans that it has: first … end - 1; none if they are equal. */
+/* It has the scans from first to end - 1; none if both are equal. */
 guint64 timing_first(const struct timing *timing);
 guint64 timing_end(const struct timing *timing);
-/** timing_time - ns, of a scan that it has. */
+/** timing_time - in ns, of a scan that it has. */
 gint64 timing_time(const struct timing *timing, guint64 scan);
-/** timing_scan_at - the last scan at or before that time, inside what it has. */
+/** timing_scan_at - the last scan that it has at or before that time. */
 guint64 timing_scan_at(const struct timing *timing, gint64 ns);
-/** timing_value - as a number: BOOL 0 and 1, TIME in ms; of a STRING its length. */
+/** timing_value - as live_value_number(). */
 double timing_value(const struct timing *timing, int line, guint64 scan);
-/** timing_range - the smallest and the largest from @from to @to, both included, that it
- * has. False: it has none of them. */
+/** timing_range - the smallest and the largest value of scans @from to @to, both included.
+ * False: it has none of these scans. */
 bool timing_range(const struct timing *timing, int line, guint64 from, guint64 to,
 		 double *low, double *high);
 
@@ -55,14 +55,13 @@ bool timing_range(const struct timing *timing, int line, guint64 from, guint64 t
  * Lines `timing NAME` of the VIEW part, from top to bottom of the chart. The program need not
  * have the name. */
 
-/** timing_kept_read - the names in a VIEW part, in its order; none: nobody chose any. Caller:
- * g_strfreev(). */
+/** timing_kept_read - the names in a VIEW part, in its order. Caller: g_strfreev(). */
 char **timing_kept_read(const char *view);
-/** timing_kept_write - @view with these names in the place of those that it had; its other
- * lines stay. Caller frees. */
+/** timing_kept_write - @view with its names replaced by @names; other lines stay. Caller
+ * frees. */
 char *timing_kept_write(const char *view, const char *const *names);
-/** timing_kept_put - the same in a document, as a step of its history. Nothing happens if it
- * has these very names, or is one of text. */
+/** timing_kept_put - the same in a document, as a step of its history. Does nothing if it has
+ * these names already, or is text only. */
 void timing_kept_put(LadderDocument *document, const char *const *names);
 
 #endif

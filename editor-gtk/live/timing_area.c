@@ -20,29 +20,28 @@
 #define RULER_PX 22       /* times below                                         */
 #define ROW_PX   34       /* a line                                              */
 #define TICK_APART 90     /* px between two times of the ruler, at least           */
-#define SPAN_LEAST 1e6    /* ns                                                  */
-#define SPAN_MOST  4e12
-#define SPAN_FIRST 1e10
-#define FEED_US    2000   /* a frame may take so long to bring in new scans      */
+#define SPAN_LEAST_NS 1e6
+#define SPAN_MOST_NS  4e12
+#define SPAN_FIRST_NS 1e10
+#define FEED_US    2000   /* time for taking new scans in a frame                */
 
-enum { LINES_CHANGED, TOLD, SIGNAL_COUNT };
-static guint signals[SIGNAL_COUNT];
+static guint lines_changed_signal;
 
 struct _LadderTimingArea {
 	GtkWidget parent;
 	LadderSim *sim;
 	struct timing *timing;
 	struct lettering *lettering;
-	double span_ns;           /* of the time that is seen                   */
-	double right_ns;          /* time at the right edge, unless it follows  */
-	bool follows;             /* the newest scan                            */
-	int selected;             /* line; -1: none                             */
-	guint64 life;             /* of the simulation, that it was seen in last */
+	double span_ns;           /* from the left edge to the right            */
+	double right_ns;          /* time at the right edge, unless `follows`   */
+	bool follows;             /* the right edge is the newest scan          */
+	int selected;             /* a line; -1: none                           */
+	guint64 life;             /* of the simulation, as it was last seen     */
 	gint64 mark_ns;           /* second cursor, to measure from; -1: none   */
 	double drag_x;            /* where a drag began                         */
 	double pan_ns;            /* right_ns when a pan began                  */
-	guint idle;               /* fills what is not there yet                */
-	GtkAdjustment *scrolled;  /* up and down; NULL: not at all             */
+	guint idle;               /* takes the scans that are missing           */
+	GtkAdjustment *scrolled;  /* vertical scrolling; NULL: none             */
 };
 
 G_DEFINE_FINAL_TYPE(LadderTimingArea, ladder_timing_area, GTK_TYPE_WIDGET)
@@ -92,11 +91,6 @@ static double ns_at(LadderTimingArea *area, double x)
 	       area->span_ns / MAX(plot_width(area), 1);
 }
 
-double ladder_timing_area_x(LadderTimingArea *area, guint64 scan)
-{
-	return x_of(area, (double)timing_time(area->timing, scan));
-}
-
 static void see(LadderTimingArea *area, double right_ns)
 {
 	const double most = newest(area), least = area->span_ns;
@@ -111,7 +105,7 @@ static void zoom_at(LadderTimingArea *area, double factor, double x)
 	const double ns = ns_at(area, x);
 	const double part = (x - NAMES_PX) / MAX(plot_width(area), 1);
 
-	area->span_ns = CLAMP(area->span_ns / factor, SPAN_LEAST, SPAN_MOST);
+	area->span_ns = CLAMP(area->span_ns / factor, SPAN_LEAST_NS, SPAN_MOST_NS);
 	if (!area->follows)
 		see(area, ns + (1 - part) * area->span_ns);
 	gtk_widget_queue_draw(GTK_WIDGET(area));
@@ -128,7 +122,7 @@ void ladder_timing_area_fit(LadderTimingArea *area)
 
 	if (timing_first(timing) < timing_end(timing))
 		area->span_ns = CLAMP(newest(area) -
-			(double)timing_time(timing, timing_first(timing)), SPAN_LEAST, SPAN_MOST);
+			(double)timing_time(timing, timing_first(timing)), SPAN_LEAST_NS, SPAN_MOST_NS);
 	area->follows = true;
 	gtk_widget_queue_draw(GTK_WIDGET(area));
 }
@@ -210,12 +204,11 @@ static void show_scan(LadderTimingArea *area, guint64 scan)
 	if (timing_first(timing) >= timing_end(timing))
 		return;
 	scan = CLAMP(scan, timing_first(timing), timing_end(timing) - 1);
-	/* What is looked at stands still. */
+	/* The chart stands still while a scan of the past is shown. */
 	area->right_ns = right_edge(area);
 	area->follows = false;
-	if (!ladder_sim_show(area->sim, scan))
-		g_signal_emit(area, signals[TOLD], 0, _("that scan is not kept any more"));
-	const double x = ladder_timing_area_x(area, scan);
+	ladder_sim_show(area->sim, scan);
+	const double x = x_of(area, (double)timing_time(timing, scan));
 
 	if (x < NAMES_PX || x > NAMES_PX + plot_width(area))
 		see(area, (double)timing_time(timing, scan) + area->span_ns / 2);
@@ -244,7 +237,7 @@ static int line_at(LadderTimingArea *area, double y)
 	return y >= 0 && line < timing_lines(area->timing) ? line : -1;
 }
 
-static void drag_begin(GtkGestureDrag *drag, double x, double y, LadderTimingArea *area)
+static void drag_begin(LadderTimingArea *area, double x, double y, GtkGestureDrag *drag)
 {
 	const GdkModifierType state = gtk_event_controller_get_current_event_state(
 		GTK_EVENT_CONTROLLER(drag));
@@ -259,26 +252,19 @@ static void drag_begin(GtkGestureDrag *drag, double x, double y, LadderTimingAre
 	gtk_widget_queue_draw(GTK_WIDGET(area));
 }
 
-static void drag_update(GtkGestureDrag *drag, double dx, double dy, LadderTimingArea *area)
+static void drag_update(LadderTimingArea *area, double dx)
 {
-	(void)drag;
-	(void)dy;
 	if (area->drag_x >= NAMES_PX)
 		show_at(area, MAX(area->drag_x + dx, NAMES_PX));
 }
 
-static void pan_begin(GtkGestureDrag *drag, double x, double y, LadderTimingArea *area)
+static void pan_begin(LadderTimingArea *area)
 {
-	(void)drag;
-	(void)x;
-	(void)y;
 	area->pan_ns = right_edge(area);
 }
 
-static void pan_update(GtkGestureDrag *drag, double dx, double dy, LadderTimingArea *area)
+static void pan_update(LadderTimingArea *area, double dx)
 {
-	(void)drag;
-	(void)dy;
 	see(area, area->pan_ns - dx * area->span_ns / MAX(plot_width(area), 1));
 }
 
@@ -308,7 +294,7 @@ static void move_line(LadderTimingArea *area, int by)
 	timing_move(area->timing, area->selected, to);
 	area->selected = to;
 	ladder_timing_area_lines_changed(area);
-	g_signal_emit(area, signals[LINES_CHANGED], 0);
+	g_signal_emit(area, lines_changed_signal, 0);
 }
 
 static void remove_line(LadderTimingArea *area)
@@ -317,7 +303,7 @@ static void remove_line(LadderTimingArea *area)
 		return;
 	timing_remove(area->timing, area->selected);
 	ladder_timing_area_lines_changed(area);
-	g_signal_emit(area, signals[LINES_CHANGED], 0);
+	g_signal_emit(area, lines_changed_signal, 0);
 }
 
 static void do_line(GtkWidget *widget, const char *name, GVariant *unused)
@@ -331,12 +317,10 @@ static void do_line(GtkWidget *widget, const char *name, GVariant *unused)
 		move_line(area, g_str_equal(name, "line.up") ? -1 : 1);
 }
 
-static void open_menu(GtkGestureClick *click, int count, double x, double y,
-		      LadderTimingArea *area)
+static void open_menu(LadderTimingArea *area, int count, double x, double y)
 {
 	GMenu *menu;
 
-	(void)click;
 	(void)count;
 	area->selected = line_at(area, y);
 	gtk_widget_queue_draw(GTK_WIDGET(area));
@@ -394,9 +378,10 @@ static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
 
 struct drawing {
 	LadderTimingArea *area;
+	const struct timing *timing;
 	GtkSnapshot *snapshot;
 	const struct theme *theme;
-	double width, bottom;   /* bottom of what is seen of the widget        */
+	double width, bottom;   /* bottom of the visible part                  */
 	double left_ns, ns_per_px;
 };
 
@@ -471,21 +456,20 @@ static void draw_ruler(struct drawing *drawing)
 
 /* ---- lines ---- */
 
-/* What a pixel shows of a line. */
+/* The values of a line in one pixel. */
 struct span {
 	double low, high, last;
 	bool any;
 };
 
-/* Scans are walked through once from left to right: @scan is the next one. */
+/* @scan: the next scan, counted on; pixels are asked for from left to right. */
 static struct span span_of(struct drawing *drawing, int line, guint64 *scan, double until)
 {
-	const struct timing *timing = drawing->area->timing;
-	const guint64 end = timing_end(timing);
+	const guint64 end = timing_end(drawing->timing);
 	struct span span = { 0 };
 
-	while (*scan < end && (double)timing_time(timing, *scan) <= until) {
-		span.last = timing_value(timing, line, *scan);
+	while (*scan < end && (double)timing_time(drawing->timing, *scan) <= until) {
+		span.last = timing_value(drawing->timing, line, *scan);
 		span.low = span.any ? MIN(span.low, span.last) : span.last;
 		span.high = span.any ? MAX(span.high, span.last) : span.last;
 		span.any = true;
@@ -496,13 +480,13 @@ static struct span span_of(struct drawing *drawing, int line, guint64 *scan, dou
 
 static guint64 scan_from(struct drawing *drawing)
 {
-	return timing_scan_at(drawing->area->timing, (gint64)MAX(drawing->left_ns, 0));
+	return timing_scan_at(drawing->timing, (gint64)MAX(drawing->left_ns, 0));
 }
 
 struct curve {
 	cairo_t *cairo;
-	double y, height, low, range;  /* where its values are                */
-	double value;                  /* at the pen                          */
+	double y, height, low, range;  /* place and range of its values       */
+	double value;                  /* at the end of the path              */
 	bool begun;
 };
 
@@ -531,7 +515,8 @@ static void curve_add(struct curve *curve, double x, const struct span *span)
 	curve->value = span->last;
 }
 
-/* BOOL: what is TRUE is filled, so that it is told by more than a colour. */
+/* @close: closes the path at value 0, to be filled. TRUE is filled, because colour alone would
+ * not be enough. */
 static void trace_curve(struct drawing *drawing, int line, struct curve *curve, bool close)
 {
 	guint64 scan = scan_from(drawing);
@@ -550,7 +535,7 @@ static void trace_curve(struct drawing *drawing, int line, struct curve *curve, 
 	if (first < 0)
 		return;
 	x = MIN(drawing->width, x_of(drawing->area, (double)timing_time(
-		drawing->area->timing, timing_end(drawing->area->timing) - 1)));
+		drawing->timing, timing_end(drawing->timing) - 1)));
 	cairo_line_to(curve->cairo, MAX(x, first), y_of(curve, curve->value));
 	if (!close)
 		return;
@@ -567,18 +552,17 @@ static void set_color(cairo_t *cairo, const GdkRGBA *color, float alpha)
 
 static void range_of(struct drawing *drawing, int line, struct curve *curve)
 {
-	const struct timing *timing = drawing->area->timing;
 	double low = 0, high = 1;
 
-	if (timing_at(timing, line).type != IEC_BOOL)
-		timing_range(timing, line, scan_from(drawing), timing_end(timing), &low, &high);
+	if (timing_at(drawing->timing, line).type != IEC_BOOL)
+		timing_range(drawing->timing, line, scan_from(drawing), timing_end(drawing->timing), &low, &high);
 	if (high - low < 1e-9)
 		high = low + 1;
 	curve->low = low;
 	curve->range = high - low;
 }
 
-/* What is above the lower line, again, in the colour of power. */
+/* Draws the part above the lower line again in the colour of power. */
 static void stroke_true(struct drawing *drawing, int line, struct curve *curve, double top)
 {
 	cairo_rectangle(curve->cairo, NAMES_PX, top, drawing->width - NAMES_PX,
@@ -593,7 +577,7 @@ static void stroke_true(struct drawing *drawing, int line, struct curve *curve, 
 
 static void draw_curve(struct drawing *drawing, int line, double top)
 {
-	const bool bit = timing_at(drawing->area->timing, line).type == IEC_BOOL;
+	const bool bit = timing_at(drawing->timing, line).type == IEC_BOOL;
 	const struct theme *theme = drawing->theme;
 	struct curve curve = { .y = top + 8, .height = ROW_PX - 16 };
 	cairo_t *cairo = gtk_snapshot_append_cairo(drawing->snapshot, &GRAPHENE_RECT_INIT(
@@ -622,24 +606,22 @@ static void draw_curve(struct drawing *drawing, int line, double top)
 static guint64 scan_shown(struct drawing *drawing)
 {
 	const struct twin *twin = ladder_sim_twin(drawing->area->sim);
-	const struct timing *timing = drawing->area->timing;
 
-	return CLAMP(twin->scan, timing_first(timing), timing_end(timing) - 1);
+	return CLAMP(twin->scan, timing_first(drawing->timing), timing_end(drawing->timing) - 1);
 }
 
 static void draw_name(struct drawing *drawing, int line, double top)
 {
-	const struct timing *timing = drawing->area->timing;
-	const struct location at = timing_at(timing, line);
+	const struct location at = timing_at(drawing->timing, line);
 	char value[32] = "";
 
 	if (line == drawing->area->selected)
 		fill(drawing, TOKEN_ACCENT, drawing->theme->wash, 0, top, NAMES_PX,
 		     ROW_PX);
-	if (timing_first(timing) < timing_end(timing))
-		live_number_print(at.type, timing_value(timing, line, scan_shown(drawing)),
+	if (timing_first(drawing->timing) < timing_end(drawing->timing))
+		live_number_print(at.type, timing_value(drawing->timing, line, scan_shown(drawing)),
 				  value, sizeof(value));
-	text(drawing, LETTER_SYMBOL, TOKEN_INK, timing_name(timing, line), 14, top + 22,
+	text(drawing, LETTER_SYMBOL, TOKEN_INK, timing_name(drawing->timing, line), 14, top + 22,
 	     NAMES_PX - 100);
 	text(drawing, LETTER_VALUE, TOKEN_ACCENT, value, NAMES_PX - 78, top + 22, 74);
 }
@@ -689,16 +671,15 @@ static void label_edit(struct drawing *drawing, double x)
 	text(drawing, LETTER_ADDRESS, TOKEN_COMMENT, _("edit"), x + 4, top + 11, 0);
 }
 
-/* Where the program was changed. */
+/* A dotted line where an edit changed the program. */
 static void draw_edits(struct drawing *drawing)
 {
-	const struct timing *timing = drawing->area->timing;
-	guint64 scan = timing_first(timing);
+	guint64 scan = timing_first(drawing->timing);
 	struct sim_edited edit;
 
 	while (ladder_sim_next_edit(drawing->area->sim, scan, &edit) &&
-	       edit.scan < timing_end(timing)) {
-		const double x = x_of(drawing->area, (double)timing_time(timing, edit.scan));
+	       edit.scan < timing_end(drawing->timing)) {
+		const double x = x_of(drawing->area, (double)timing_time(drawing->timing, edit.scan));
 
 		scan = edit.scan + 1;
 		if (x < NAMES_PX || x > drawing->width)
@@ -709,15 +690,13 @@ static void draw_edits(struct drawing *drawing)
 	}
 }
 
-/* Those that are seen. */
 static void draw_lines(struct drawing *drawing)
 {
-	const struct timing *timing = drawing->area->timing;
 	const int first = (int)(visible_top(drawing->area) / ROW_PX);
 
-	for (int i = first; i < timing_lines(timing) && i * ROW_PX < drawing->bottom; i++) {
+	for (int i = first; i < timing_lines(drawing->timing) && i * ROW_PX < drawing->bottom; i++) {
 		draw_name(drawing, i, i * ROW_PX);
-		if (timing_first(timing) < timing_end(timing))
+		if (timing_first(drawing->timing) < timing_end(drawing->timing))
 			draw_curve(drawing, i, i * ROW_PX);
 	}
 }
@@ -732,7 +711,7 @@ static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 	LadderTimingArea *area = LADDER_TIMING_AREA(widget);
 	const bool dark = adw_style_manager_get_dark(adw_style_manager_get_default());
 	struct drawing drawing = {
-		.area = area, .snapshot = snapshot,
+		.area = area, .timing = area->timing, .snapshot = snapshot,
 		.theme = theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN),
 		.width = gtk_widget_get_width(GTK_WIDGET(area)),
 		.bottom = visible_bottom(area),
@@ -742,7 +721,7 @@ static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 	fill(&drawing, TOKEN_SHEET, 1, 0, 0, drawing.width,
 	     gtk_widget_get_height(GTK_WIDGET(area)));
 	if (!ladder_sim_is_on(area->sim)) {
-		draw_hint(&drawing, _("What variables were, scan by scan: simulate to see it."));
+		draw_hint(&drawing, _("Start the simulation to see the values of variables, scan by scan."));
 		return;
 	}
 	if (!lines) {
@@ -772,7 +751,7 @@ static void area_measure(GtkWidget *widget, GtkOrientation orientation, int for_
 	*baseline = *natural_baseline = -1;
 }
 
-/* The ruler stays in sight. */
+/* The ruler stays visible at the bottom when the chart is scrolled. */
 static void watch_scrolling(LadderTimingArea *area)
 {
 	GtkWidget *scroller = gtk_widget_get_ancestor(GTK_WIDGET(area),
@@ -808,7 +787,6 @@ static void ladder_timing_area_dispose(GObject *object)
 static void ladder_timing_area_class_init(LadderTimingAreaClass *class)
 {
 	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
-	const GType type = G_TYPE_FROM_CLASS(class);
 
 	G_OBJECT_CLASS(class)->dispose = ladder_timing_area_dispose;
 	widget->measure = area_measure;
@@ -818,10 +796,8 @@ static void ladder_timing_area_class_init(LadderTimingAreaClass *class)
 	gtk_widget_class_install_action(widget, "line.up", NULL, do_line);
 	gtk_widget_class_install_action(widget, "line.down", NULL, do_line);
 	gtk_widget_class_install_action(widget, "line.remove", NULL, do_line);
-	signals[LINES_CHANGED] = g_signal_new("lines-changed", type, G_SIGNAL_RUN_LAST, 0,
-		NULL, NULL, NULL, G_TYPE_NONE, 0);
-	signals[TOLD] = g_signal_new("told", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
-		G_TYPE_NONE, 1, G_TYPE_STRING);
+	lines_changed_signal = g_signal_new("lines-changed", G_TYPE_FROM_CLASS(class),
+		G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 }
 
 static void add_drag(LadderTimingArea *area, guint button, GCallback begin, GCallback update)
@@ -829,8 +805,8 @@ static void add_drag(LadderTimingArea *area, guint button, GCallback begin, GCal
 	GtkGesture *drag = gtk_gesture_drag_new();
 
 	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(drag), button);
-	g_signal_connect(drag, "drag-begin", begin, area);
-	g_signal_connect(drag, "drag-update", update, area);
+	g_signal_connect_swapped(drag, "drag-begin", begin, area);
+	g_signal_connect_swapped(drag, "drag-update", update, area);
 	gtk_widget_add_controller(GTK_WIDGET(area), GTK_EVENT_CONTROLLER(drag));
 }
 
@@ -839,7 +815,7 @@ static void add_menu(LadderTimingArea *area)
 	GtkGesture *click = gtk_gesture_click_new();
 
 	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(click), GDK_BUTTON_SECONDARY);
-	g_signal_connect(click, "pressed", G_CALLBACK(open_menu), area);
+	g_signal_connect_swapped(click, "pressed", G_CALLBACK(open_menu), area);
 	gtk_widget_add_controller(GTK_WIDGET(area), GTK_EVENT_CONTROLLER(click));
 }
 
@@ -849,7 +825,7 @@ static void ladder_timing_area_init(LadderTimingArea *area)
 		GTK_EVENT_CONTROLLER_SCROLL_BOTH_AXES);
 	GtkEventController *keys = gtk_event_controller_key_new();
 
-	area->span_ns = SPAN_FIRST;
+	area->span_ns = SPAN_FIRST_NS;
 	area->follows = true;
 	area->selected = -1;
 	area->mark_ns = -1;

@@ -4,27 +4,26 @@
  */
 #include "editor-gtk/live/timing_view.h"
 
-#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/watch_names.h"
 #include "editor-gtk/sim/live_value.h"
 
 #include <string.h>
 
-#define LINES_FIRST 12 /* of those that nobody chose                             */
+#define LINES_FIRST 12 /* at most, until a person chooses variables               */
 
 struct _LadderTimingView {
 	GtkBox parent;
 	LadderSim *sim;
 	LadderTimingArea *area;
-	bool chosen;             /* a person said what is to be seen            */
-	int compared;            /* lines that are those of the program        */
-	bool keeping;            /* what the document keeps changes by itself   */
+	bool chosen;             /* a person chose the variables                */
+	int compared;            /* lines that are the inputs and outputs       */
+	bool keeping;            /* it changes the document itself              */
 	GtkSearchEntry *wanted;
 	GtkStringList *names;
-	GtkFilterListModel *found;
+	GtkStringFilter *filter;
 	GtkSingleSelection *selection;
-	GtkWidget *popover;
+	GtkScrolledWindow *scroller;
 };
 
 G_DEFINE_FINAL_TYPE(LadderTimingView, ladder_timing_view, GTK_TYPE_BOX)
@@ -73,7 +72,7 @@ static void drop_lines(LadderTimingView *view)
 		timing_remove(timing, 0);
 }
 
-/* Are its lines those that nobody chose, already? */
+/* Counts the lines that are already the inputs and outputs; INT_MAX: one is not. */
 static void compare_first(LadderTimingView *view, const struct symbol *symbol)
 {
 	struct timing *timing = ladder_timing_area_timing(view->area);
@@ -111,7 +110,7 @@ static LadderDocument *document_of(LadderTimingView *view)
 	return ladder_sim_document(view->sim);
 }
 
-/* Of the chart. Caller: g_free(); the names are borrowed. */
+/* Caller: g_free(); the names are borrowed. */
 static const char **names_of(LadderTimingView *view)
 {
 	struct timing *timing = ladder_timing_area_timing(view->area);
@@ -133,7 +132,7 @@ static void keep(LadderTimingView *view)
 	g_free(names);
 }
 
-/* Another file, or an undo: the chart is what the project keeps. */
+/* After another file or an undo, the chart shows what the project keeps. */
 static void read_kept(LadderTimingView *view)
 {
 	char **kept = view->keeping ? NULL :
@@ -171,35 +170,22 @@ bool ladder_timing_view_add(LadderTimingView *view, const char *name)
 
 /* ---- adding ---- */
 
-static gboolean is_wanted(gpointer item, gpointer data)
-{
-	LadderTimingView *view = data;
-	char *name = g_utf8_casefold(gtk_string_object_get_string(item), -1);
-	char *wanted = g_utf8_casefold(gtk_editable_get_text(GTK_EDITABLE(view->wanted)), -1);
-	const bool good = strstr(name, wanted) != NULL;
-
-	g_free(name);
-	g_free(wanted);
-	return good;
-}
-
 static void wanted_changed(LadderTimingView *view)
 {
-	gtk_filter_changed(gtk_filter_list_model_get_filter(view->found),
-			   GTK_FILTER_CHANGE_DIFFERENT);
+	gtk_string_filter_set_search(view->filter,
+				     gtk_editable_get_text(GTK_EDITABLE(view->wanted)));
 	gtk_widget_remove_css_class(GTK_WIDGET(view->wanted), "error");
 }
 
-static void add_row(GtkListView *list, guint row, LadderTimingView *view)
+static void add_row(LadderTimingView *view, guint row)
 {
 	GtkStringObject *name = g_list_model_get_item(G_LIST_MODEL(view->selection), row);
 
-	(void)list;
 	ladder_timing_view_add(view, gtk_string_object_get_string(name));
 	g_object_unref(name);
 }
 
-/* What was typed, if it is something; else the first that has it in its name. */
+/* Adds the variable of the typed name, or else the first one in the list. */
 static void add_wanted(LadderTimingView *view)
 {
 	const char *text = gtk_editable_get_text(GTK_EDITABLE(view->wanted));
@@ -207,7 +193,7 @@ static void add_wanted(LadderTimingView *view)
 	if (*text && live_value_find(live_image(view->sim, false), text).type != IEC_NONE)
 		ladder_timing_view_add(view, text);
 	else if (g_list_model_get_n_items(G_LIST_MODEL(view->selection)))
-		add_row(NULL, gtk_single_selection_get_selected(view->selection), view);
+		add_row(view, gtk_single_selection_get_selected(view->selection));
 	else
 		gtk_widget_add_css_class(GTK_WIDGET(view->wanted), "error");
 	gtk_editable_select_region(GTK_EDITABLE(view->wanted), 0, -1);
@@ -221,78 +207,14 @@ static void popover_shown(LadderTimingView *view)
 	gtk_widget_grab_focus(GTK_WIDGET(view->wanted));
 }
 
-static void setup_name(GtkListItemFactory *factory, GtkListItem *item)
-{
-	GtkWidget *label = gtk_label_new(NULL);
-
-	(void)factory;
-	gtk_label_set_xalign(GTK_LABEL(label), 0);
-	gtk_list_item_set_child(item, label);
-}
-
-static void bind_name(GtkListItemFactory *factory, GtkListItem *item)
-{
-	(void)factory;
-	gtk_label_set_text(GTK_LABEL(gtk_list_item_get_child(item)),
-		gtk_string_object_get_string(gtk_list_item_get_item(item)));
-}
-
-static GtkWidget *new_list(LadderTimingView *view)
-{
-	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
-	GtkWidget *list;
-
-	view->names = gtk_string_list_new(NULL);
-	view->found = gtk_filter_list_model_new(G_LIST_MODEL(view->names),
-		GTK_FILTER(gtk_custom_filter_new(is_wanted, view, NULL)));
-	view->selection = gtk_single_selection_new(G_LIST_MODEL(view->found));
-	g_signal_connect(factory, "setup", G_CALLBACK(setup_name), NULL);
-	g_signal_connect(factory, "bind", G_CALLBACK(bind_name), NULL);
-	list = gtk_list_view_new(GTK_SELECTION_MODEL(view->selection), factory);
-	gtk_list_view_set_single_click_activate(GTK_LIST_VIEW(list), TRUE);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(list), GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       _("Variables"), -1);
-	g_signal_connect(list, "activate", G_CALLBACK(add_row), view);
-	return list;
-}
-
-static GtkWidget *new_popover(LadderTimingView *view)
-{
-	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
-	GtkWidget *scroller = gtk_scrolled_window_new();
-
-	view->popover = gtk_popover_new();
-	view->wanted = GTK_SEARCH_ENTRY(gtk_search_entry_new());
-	g_object_set(view->wanted, "placeholder-text", _("Name or address"), NULL);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(view->wanted),
-		GTK_ACCESSIBLE_PROPERTY_LABEL, _("Variable to be seen"), -1);
-	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), new_list(view));
-	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
-				       GTK_POLICY_AUTOMATIC);
-	gtk_widget_set_size_request(scroller, 260, 260);
-	gtk_box_append(GTK_BOX(box), GTK_WIDGET(view->wanted));
-	gtk_box_append(GTK_BOX(box), scroller);
-	gtk_popover_set_child(GTK_POPOVER(view->popover), box);
-	g_signal_connect_swapped(view->wanted, "search-changed", G_CALLBACK(wanted_changed),
-				 view);
-	g_signal_connect_swapped(view->wanted, "activate", G_CALLBACK(add_wanted), view);
-	g_signal_connect_swapped(view->popover, "show", G_CALLBACK(popover_shown), view);
-	return view->popover;
-}
-
 /* ---- dropping ---- */
 
-/* Names with blanks between them; of an instance all that it has. */
-static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
-			LadderTimingView *view)
+static gboolean dropped(LadderTimingView *view, const GValue *value)
 {
 	GPtrArray *names = watch_names_expand(live_image(view->sim, false),
 					      g_value_get_string(value));
 	bool any = false;
 
-	(void)target;
-	(void)x;
-	(void)y;
 	for (guint i = 0; i < names->len; i++)
 		any = ladder_timing_view_add(view, names->pdata[i]) || any;
 	g_ptr_array_unref(names);
@@ -301,20 +223,12 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 
 /* ---- buttons ---- */
 
-static void name_button(GtkWidget *button, const char *name)
-{
-	tip_set(button, name);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-	gtk_widget_add_css_class(button, "flat");
-}
-
-static void larger(LadderTimingView *view)
+static void zoom_in(LadderTimingView *view)
 {
 	ladder_timing_area_zoom(view->area, 1.6);
 }
 
-static void smaller(LadderTimingView *view)
+static void zoom_out(LadderTimingView *view)
 {
 	ladder_timing_area_zoom(view->area, 1 / 1.6);
 }
@@ -322,31 +236,6 @@ static void smaller(LadderTimingView *view)
 static void fit(LadderTimingView *view)
 {
 	ladder_timing_area_fit(view->area);
-}
-
-static void add_button(LadderTimingView *view, GtkBox *bar, const char *icon,
-		       const char *name, void (*act)(LadderTimingView *view))
-{
-	GtkWidget *button = gtk_button_new_from_icon_name(icon);
-
-	name_button(button, name);
-	g_signal_connect_swapped(button, "clicked", G_CALLBACK(act), view);
-	gtk_box_append(bar, button);
-}
-
-static GtkWidget *new_bar(LadderTimingView *view)
-{
-	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
-	GtkWidget *add = gtk_menu_button_new();
-
-	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(add), "list-add-symbolic");
-	gtk_menu_button_set_popover(GTK_MENU_BUTTON(add), new_popover(view));
-	name_button(add, _("Add a variable"));
-	gtk_box_append(GTK_BOX(bar), add);
-	add_button(view, GTK_BOX(bar), "zoom-in-symbolic", _("Less time"), larger);
-	add_button(view, GTK_BOX(bar), "zoom-out-symbolic", _("More time"), smaller);
-	add_button(view, GTK_BOX(bar), "zoom-fit-best-symbolic", _("All that is kept"), fit);
-	return bar;
 }
 
 /* ---- the widget ---- */
@@ -363,35 +252,41 @@ static void ladder_timing_view_dispose(GObject *object)
 
 static void ladder_timing_view_class_init(LadderTimingViewClass *class)
 {
+	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+
 	G_OBJECT_CLASS(class)->dispose = ladder_timing_view_dispose;
+	gtk_widget_class_set_template_from_resource(widget,
+		"/org/rungboard/Editor/ui/timing_view.ui");
+	gtk_widget_class_bind_template_child(widget, LadderTimingView, wanted);
+	gtk_widget_class_bind_template_child(widget, LadderTimingView, names);
+	gtk_widget_class_bind_template_child(widget, LadderTimingView, filter);
+	gtk_widget_class_bind_template_child(widget, LadderTimingView, selection);
+	gtk_widget_class_bind_template_child(widget, LadderTimingView, scroller);
+	gtk_widget_class_bind_template_callback(widget, popover_shown);
+	gtk_widget_class_bind_template_callback(widget, wanted_changed);
+	gtk_widget_class_bind_template_callback(widget, add_wanted);
+	gtk_widget_class_bind_template_callback(widget, add_row);
+	gtk_widget_class_bind_template_callback(widget, zoom_in);
+	gtk_widget_class_bind_template_callback(widget, zoom_out);
+	gtk_widget_class_bind_template_callback(widget, fit);
 }
 
 static void ladder_timing_view_init(LadderTimingView *view)
 {
-	(void)view;
-}
-
-LadderTimingArea *ladder_timing_view_area(LadderTimingView *view)
-{
-	return view->area;
+	gtk_widget_init_template(GTK_WIDGET(view));
 }
 
 GtkWidget *ladder_timing_view_new(LadderSim *sim)
 {
 	LadderTimingView *view = g_object_new(LADDER_TYPE_TIMING_VIEW, NULL);
-	GtkWidget *scroller = gtk_scrolled_window_new(), *area = ladder_timing_area_new(sim);
+	GtkWidget *area = ladder_timing_area_new(sim);
 	GtkDropTarget *drop = gtk_drop_target_new(G_TYPE_STRING, GDK_ACTION_COPY);
 
 	view->sim = g_object_ref(sim);
 	view->area = LADDER_TIMING_AREA(area);
-	gtk_box_append(GTK_BOX(view), new_bar(view));
-	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), area);
+	gtk_scrolled_window_set_child(view->scroller, area);
 	gtk_viewport_set_scroll_to_focus(GTK_VIEWPORT(gtk_widget_get_parent(area)), FALSE);
-	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
-				       GTK_POLICY_AUTOMATIC);
-	gtk_widget_set_hexpand(scroller, TRUE);
-	gtk_box_append(GTK_BOX(view), scroller);
-	g_signal_connect(drop, "drop", G_CALLBACK(dropped), view);
+	g_signal_connect_swapped(drop, "drop", G_CALLBACK(dropped), view);
 	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(drop));
 	g_signal_connect_object(sim, "program-changed", G_CALLBACK(program_changed), view,
 				G_CONNECT_SWAPPED);

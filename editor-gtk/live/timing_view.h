@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * timing_view - the timing chart with its buttons: what it shows is chosen here.
+ * timing_view - the timing chart with its buttons, and the choice of its variables.
  *
- * Until a person chooses, it shows the inputs and outputs of the program.
+ * Until a person chooses variables, it shows inputs and outputs of the program.
  */
 #ifndef EDITOR_TIMING_VIEW_H
 #define EDITOR_TIMING_VIEW_H
@@ -14,8 +14,8 @@ G_DECLARE_FINAL_TYPE(LadderTimingView, ladder_timing_view, LADDER, TIMING_VIEW, 
 
 /** ladder_timing_view_new - @sim: referenced. */
 GtkWidget *ladder_timing_view_new(LadderSim *sim);
-/** ladder_timing_view_add - a variable or address; false: it is there, or there is no room. */
+/** ladder_timing_view_add - a variable or address. False: it is in the chart already, or the
+ * chart is full. */
 bool ladder_timing_view_add(LadderTimingView *view, const char *name);
-LadderTimingArea *ladder_timing_view_area(LadderTimingView *view);
 
 #endif

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * watch - the status charts that a project keeps: names of variables, how each is
- * shown, what a person says of it.
+ * watch - the status charts that a project keeps: names of variables, a format and a comment
+ * for each. It shows nothing and reads no value.
  *
- * They are lines of the file's VIEW part, so that they are saved with it and undone like
- * everything else:
+ * They are lines of the file's VIEW part, so they are saved and undone with it:
  *
  *   status-chart Motors
  *     watch auto Start the green button
  *     watch hex %QW0
  *
- * A name need not be one of the program. It shows nothing and reads no value.
+ * The program need not have the name.
  */
 #ifndef EDITOR_WATCH_H
 #define EDITOR_WATCH_H
@@ -32,15 +31,15 @@ struct watch_line *watch_line_new(enum live_format format, const char *name,
 void watch_line_free(struct watch_line *line);
 struct watch *watch_new(const char *name);
 
-/** watch_list_read - those of a VIEW part, of struct watch *, in its order. Caller:
+/** watch_list_read - the charts of a VIEW part, of struct watch *, in its order. Caller:
  * g_ptr_array_unref(). */
 GPtrArray *watch_list_read(const char *view);
-/** watch_list_write - @view with these charts in the place of those that it had; its
- * other lines stay. Caller frees. */
+/** watch_list_write - @view with its charts replaced by @charts; other lines stay. Caller
+ * frees. */
 char *watch_list_write(const char *view, GPtrArray *charts);
 
-/** watch_list_of, watch_list_keep - those of a document; what is kept is one step of
- * its history, @name behind Undo. Fails: false: a document of text has none. */
+/** watch_list_of, watch_list_keep - the charts of a document; keeping them is the step @name of
+ * its history. Fails: false: the document is text only. */
 GPtrArray *watch_list_of(LadderDocument *document);
 bool watch_list_keep(LadderDocument *document, GPtrArray *charts, const char *name);
 

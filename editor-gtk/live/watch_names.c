@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * watch_names - names for a status chart.
+ * watch_names - names for a status chart: see watch_names.h.
  *
- * What the quick entry knows comes first; then all that the program has, so that locals of
- * every program can be had.
+ * Candidates of the quick entry come first, then all names of the program, so that locals of
+ * every POU are offered.
  */
 #include "editor-gtk/live/watch_names.h"
 
@@ -39,7 +39,7 @@ static bool add_pins(GPtrArray *names, const struct image *image, const char *na
 	return names->len > before;
 }
 
-/* A script's range, over an image as a cold start has it. */
+/* A range as in scripts; it needs an image after a cold start. */
 static bool add_range(GPtrArray *names, const struct image *program, const char *word)
 {
 	struct diag_list *diags = g_new0(struct diag_list, 1);
@@ -84,13 +84,13 @@ GPtrArray *watch_names_expand(const struct image *image, const char *line)
 	return names;
 }
 
-/* ---- what could be meant ---- */
+/* ---- completion ---- */
 
 struct offer {
 	LadderEntryPopup *popup;
 	const char *line;
 	gsize from, cursor;   /* of the word before the cursor                 */
-	GHashTable *seen;     /* names that are offered, folded                */
+	GHashTable *seen;     /* names offered so far, in lower case           */
 };
 
 static void put(struct offer *offer, const char *text, const char *address,
@@ -108,7 +108,7 @@ static void put(struct offer *offer, const char *text, const char *address,
 	g_free(line);
 }
 
-/* As an operand of an expression: of any type. */
+/* Candidates for an operand of any type: that of an expression. */
 static void offer_entries(struct offer *offer, struct project *project)
 {
 	const struct entry_place place = { .project = project };

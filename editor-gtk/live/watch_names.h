@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * watch_names - names for a status chart: what could be meant, and which variables one
- * typed line means. It shows nothing.
+ * watch_names - the variables that a typed line means, and completion of a name in it.
  */
 #ifndef EDITOR_WATCH_NAMES_H
 #define EDITOR_WATCH_NAMES_H
@@ -17,14 +16,14 @@
  * watch_names_expand - the variables that a line means, of char *
  * @image: of the program; NULL: there is none, and the line is taken as it is
  *
- * `Motor`, several parted by blanks, ranges as in scripts (`%Q0..7`, `Table[1..4]`), an
- * instance as a whole: its pins. What the program does not know stays. Caller:
+ * The line has names separated by blanks: `Motor`, a range as in scripts (`%Q0..7`,
+ * `Table[1..4]`), an instance, which means all its pins. Unknown names are kept. Caller:
  * g_ptr_array_unref().
  */
 GPtrArray *watch_names_expand(const struct image *image, const char *line);
 
-/** watch_names_offer - rows for what the word before @cursor (bytes) could become, put into
- * @popup. @image as above. */
+/** watch_names_offer - adds rows to @popup that complete the word before @cursor (in bytes).
+ * @image: as above. */
 void watch_names_offer(LadderDocument *document, const struct image *image,
 		       const char *line, gsize cursor, LadderEntryPopup *popup);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * watch_row - a row of a status chart: looks up its variable, and what that holds.
+ * watch_row - a row of a status chart: see watch_row.h.
  */
 #include "editor-gtk/live/watch_row.h"
 
@@ -94,19 +94,4 @@ bool watch_row_take(const LadderWatchRow *row, const struct image *image,
 			       diag.id == DIAG_WRITE_CONSTANT ? row->line->name :
 			       row->typed);
 	return false;
-}
-
-/* ---- where names are found ---- */
-
-const struct image *watch_image(LadderDocument *document, LadderSim *sim,
-				struct image *room)
-{
-	const struct image *image = live_image(sim, false);
-	struct ladder *checked = ladder_document_checked(document);
-
-	if (image)
-		return image;
-	memset(room, 0, sizeof(*room));
-	room->program = checked ? ladder_program(checked) : NULL;
-	return room->program ? room : NULL;
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * watch_view - the status chart: which rows there are, and looking at their values.
+ * watch_view - the status chart: its rows and cells, and what a person does to rows, charts
+ * and values. Each change of a chart is one step of the document's history.
  *
- * A scan that was shown costs a comparison for each row of the chart; only cells whose
- * value is another are touched. Unseen it does nothing.
+ * For each scan that is shown, the value of each row is compared; only cells whose value
+ * changed are set. A hidden view does nothing. A row knows its widgets while it is on screen.
  */
 #include "editor-gtk/live/watch_view.h"
 
@@ -28,9 +29,10 @@ struct _LadderWatchView {
 	LadderSim *sim;
 	GListStore *store;          /* of LadderWatchRow                       */
 	GtkSingleSelection *selection;
-	GtkWidget *popup;           /* a line that is typed; NULL: none        */
-	guint chart;                /* that is shown, 0-based                  */
-	char *chart_name;           /* its name, to find it again              */
+	GtkWidget *popup;           /* the entry of a line; NULL: none         */
+	guint chart;                /* the chart that is shown, 0-based        */
+	char *chart_name;           /* to find it again; NULL: there is none   */
+	struct image checked;       /* of the checked program, for image_of()  */
 	bool dirty;                 /* the rows are older than the charts      */
 	bool busy;                  /* the drop-down is being filled           */
 };
@@ -38,6 +40,22 @@ struct _LadderWatchView {
 G_DEFINE_FINAL_TYPE(LadderWatchView, ladder_watch_view, GTK_TYPE_WIDGET)
 
 /* ---- rows ---- */
+
+/* Where names are found: the program that runs, else the document's as it was last checked.
+ * NULL: there is none. */
+static const struct image *image_of(LadderWatchView *view)
+{
+	const struct image *image = live_image(view->sim, false);
+	struct ladder *checked = ladder_document_checked(view->document);
+
+	view->checked.program = checked ? ladder_program(checked) : NULL;
+	return image ? image : view->checked.program ? &view->checked : NULL;
+}
+
+static guint row_count(LadderWatchView *view)
+{
+	return g_list_model_get_n_items(G_LIST_MODEL(view->store));
+}
 
 static LadderWatchRow *row_at(LadderWatchView *view, guint at)
 {
@@ -60,9 +78,7 @@ static int selected_index(LadderWatchView *view)
 
 static void select_row(LadderWatchView *view, int at)
 {
-	const int count = (int)g_list_model_get_n_items(G_LIST_MODEL(view->store));
-
-	at = MIN(at, count - 1);
+	at = MIN(at, (int)row_count(view) - 1);
 	gtk_single_selection_set_selected(view->selection, at < 0 ?
 					  GTK_INVALID_LIST_POSITION : (guint)at);
 	if (at >= 0)
@@ -88,30 +104,35 @@ const char *ladder_watch_view_message(LadderWatchView *view)
 	return gtk_label_get_text(GTK_LABEL(view->message));
 }
 
-/* ---- what the charts of the project are ---- */
+/* ---- the charts of the project ---- */
 
 static const char *shown_name(const struct watch *chart)
 {
 	return *chart->name ? chart->name : _("Status chart");
 }
 
-/* The one that was shown is found again by its name, else by its place. */
-static void find_chart(LadderWatchView *view, GPtrArray *charts)
+static struct watch *chart_at(GPtrArray *charts, guint at)
+{
+	return at < charts->len ? charts->pdata[at] : NULL;
+}
+
+/* Finds the chart that was shown by its name, or else by its index. Returns it, or NULL. */
+static struct watch *find_chart(LadderWatchView *view, GPtrArray *charts)
 {
 	struct watch *chart;
 
 	if (view->chart >= charts->len)
 		view->chart = charts->len ? charts->len - 1 : 0;
-	chart = charts->len ? charts->pdata[view->chart] : NULL;
-	for (guint i = 0; i < charts->len && view->chart_name &&
-	     strcmp(chart->name, view->chart_name) != 0; i++) {
-		chart = charts->pdata[i];
-		if (strcmp(chart->name, view->chart_name) == 0)
+	chart = chart_at(charts, view->chart);
+	for (guint i = 0; chart && g_strcmp0(chart->name, view->chart_name) != 0 &&
+	     view->chart_name && i < charts->len; i++)
+		if (strcmp(chart_at(charts, i)->name, view->chart_name) == 0) {
 			view->chart = i;
-	}
+			chart = chart_at(charts, i);
+		}
 	g_free(view->chart_name);
-	view->chart_name = charts->len ?
-		g_strdup(((struct watch *)charts->pdata[view->chart])->name) : NULL;
+	view->chart_name = chart ? g_strdup(chart->name) : NULL;
+	return chart;
 }
 
 static void fill_charts(LadderWatchView *view, GPtrArray *charts)
@@ -147,12 +168,12 @@ static void show_actions(LadderWatchView *view)
 	gtk_widget_action_set_enabled(widget, "watch.write-all", on);
 }
 
-/* ---- rows become others ---- */
+/* ---- exchanging rows ---- */
 
-/* What is typed and not written yet goes with the name. */
+/* Typed values that are not written yet stay with the name. */
 static void keep_typed(LadderWatchView *view, GPtrArray *rows)
 {
-	const guint old = g_list_model_get_n_items(G_LIST_MODEL(view->store));
+	const guint old = row_count(view);
 	GHashTable *typed = g_hash_table_new(g_str_hash, g_str_equal);
 
 	for (guint i = 0; i < old; i++) {
@@ -183,10 +204,10 @@ static bool stays(LadderWatchView *view, guint at, LadderWatchRow *row)
 	return same;
 }
 
-/* What is the same at both ends stays, so that selection, focus and scrolling do. */
+/* Equal rows at both ends are kept, and with them selection, focus and scroll position. */
 static void exchange(LadderWatchView *view, GPtrArray *rows)
 {
-	const guint old = g_list_model_get_n_items(G_LIST_MODEL(view->store));
+	const guint old = row_count(view);
 	guint first = 0, last = 0;
 
 	keep_typed(view, rows);
@@ -265,9 +286,7 @@ static void show_cells(LadderWatchRow *row)
 
 static void look(LadderWatchView *view)
 {
-	const guint count = g_list_model_get_n_items(G_LIST_MODEL(view->store));
-
-	for (guint i = 0; i < count; i++) {
+	for (guint i = 0; i < row_count(view); i++) {
 		LadderWatchRow *row = row_at(view, i);
 
 		if (live_value_look(&row->seen, view->sim, false, row->at))
@@ -280,21 +299,17 @@ static void refresh(LadderWatchView *view)
 {
 	GPtrArray *charts = watch_list_of(view->document);
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
-	struct image *room = g_new0(struct image, 1);
-	const struct image *image = watch_image(view->document, view->sim, room);
-	struct watch *chart;
+	struct watch *chart = find_chart(view, charts);
 
 	view->dirty = false;
-	find_chart(view, charts);
 	fill_charts(view, charts);
-	chart = charts->len ? charts->pdata[view->chart] : NULL;
 	for (guint i = 0; chart && i < chart->lines->len; i++)
-		g_ptr_array_add(rows, ladder_watch_row_new(chart->lines->pdata[i], image));
+		g_ptr_array_add(rows, ladder_watch_row_new(chart->lines->pdata[i],
+							   image_of(view)));
 	exchange(view, rows);
 	look(view);
 	gtk_stack_set_visible_child_name(GTK_STACK(view->stack), rows->len ? "list" : "none");
 	show_actions(view);
-	g_free(room);
 	g_ptr_array_unref(rows);
 	g_ptr_array_unref(charts);
 }
@@ -304,13 +319,6 @@ static void changed(LadderWatchView *view)
 	view->dirty = true;
 	if (gtk_widget_get_mapped(GTK_WIDGET(view)))
 		refresh(view);
-}
-
-/* Of a program that is gone nothing may be looked at, seen or not. */
-static void program_changed(LadderWatchView *view)
-{
-	view->dirty = true;
-	changed(view);
 }
 
 static void shown(LadderWatchView *view)
@@ -343,7 +351,7 @@ static void refuse(LadderWatchView *view, LadderWatchRow *row, char *why)
 	tell(view, why);
 }
 
-/* The value that is typed; false: there is none, or it is refused and that is told. */
+/* False: what is typed is no value for the row; the message says why. */
 static bool take_typed(LadderWatchView *view, LadderWatchRow *row, struct iec_text *room,
 		 union iec_value *value)
 {
@@ -384,16 +392,12 @@ static bool write_row(LadderWatchView *view, LadderWatchRow *row)
 	return true;
 }
 
-/* All or, if one is refused, those before it: what is still typed was not written. */
-static void write_all(GtkWidget *widget, const char *action, GVariant *unused)
+/* Stops at the first value that is refused. Values not written stay in their entries. */
+static void write_all(LadderWatchView *view)
 {
-	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
-	const guint count = g_list_model_get_n_items(G_LIST_MODEL(view->store));
 	bool good = true;
 
-	(void)action;
-	(void)unused;
-	for (guint i = 0; i < count && good; i++) {
+	for (guint i = 0; i < row_count(view) && good; i++) {
 		LadderWatchRow *row = row_at(view, i);
 
 		good = !*row->typed || write_row(view, row);
@@ -421,10 +425,19 @@ static void toggle_force(LadderWatchView *view, LadderWatchRow *row)
 
 /* ---- charts ---- */
 
+/* A copy of the chart that is shown, or NULL, in *charts; to be changed and kept. */
 static struct watch *edit_chart(LadderWatchView *view, GPtrArray **charts)
 {
 	*charts = watch_list_of(view->document);
-	return view->chart < (*charts)->len ? (*charts)->pdata[view->chart] : NULL;
+	return chart_at(*charts, view->chart);
+}
+
+/* The same, of a row: its line, or NULL. */
+static struct watch_line *edit_line(LadderWatchView *view, int at, GPtrArray **charts)
+{
+	struct watch *chart = edit_chart(view, charts);
+
+	return chart && at >= 0 && at < (int)chart->lines->len ? chart->lines->pdata[at] : NULL;
 }
 
 /* @charts: taken over. */
@@ -438,7 +451,7 @@ static void keep_charts(LadderWatchView *view, GPtrArray *charts, const char *st
 static bool is_taken(GPtrArray *charts, const char *name)
 {
 	for (guint i = 0; i < charts->len; i++)
-		if (strcmp(((struct watch *)charts->pdata[i])->name, name) == 0)
+		if (strcmp(chart_at(charts, i)->name, name) == 0)
 			return true;
 	return false;
 }
@@ -460,30 +473,24 @@ static struct watch *add_chart(LadderWatchView *view, GPtrArray *charts)
 	return chart;
 }
 
-static void new_chart(GtkWidget *widget, const char *action, GVariant *unused)
+static void new_chart(LadderWatchView *view)
 {
-	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
 	GPtrArray *charts = watch_list_of(view->document);
 
-	(void)action;
-	(void)unused;
 	add_chart(view, charts);
 	keep_charts(view, charts, _("New status chart"));
 }
 
-static void delete_chart(GtkWidget *widget, const char *action, GVariant *unused)
+static void delete_chart(LadderWatchView *view)
 {
-	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
 	GPtrArray *charts;
 
-	(void)action;
-	(void)unused;
 	if (edit_chart(view, &charts))
 		g_ptr_array_remove_index(charts, view->chart);
 	keep_charts(view, charts, _("Delete status chart"));
 }
 
-/* ---- a line that is typed ---- */
+/* ---- the entry of a line: names, or the name of a chart ---- */
 
 enum asked { ASK_ADD, ASK_NAME, ASK_CHART };
 struct ask {
@@ -496,32 +503,26 @@ static char *line_changed(void *context, const char *line, int cursor, bool *goo
 {
 	struct ask *ask = context;
 	LadderWatchView *view = ask->view;
-	struct image *room;
 
 	(void)good;
-	if (!view->popup || ask->what == ASK_CHART)
-		return NULL; /* while it is made, it cannot be filled */
-	room = g_new0(struct image, 1);
-	watch_names_offer(view->document, watch_image(view->document, view->sim, room),
-			  line, (gsize)(g_utf8_offset_to_pointer(line, cursor) - line),
-			  LADDER_ENTRY_POPUP(view->popup));
-	g_free(room);
+	if (view->popup && ask->what != ASK_CHART) /* not while the popup is made */
+		watch_names_offer(view->document, image_of(view), line,
+				  (gsize)(g_utf8_offset_to_pointer(line, cursor) - line),
+				  LADDER_ENTRY_POPUP(view->popup));
 	return NULL;
 }
 
 static void rename_row(LadderWatchView *view, int row, const char *name)
 {
 	GPtrArray *charts;
-	struct watch *chart = edit_chart(view, &charts);
-	struct watch_line *line = chart && row < (int)chart->lines->len ?
-		chart->lines->pdata[row] : NULL;
+	struct watch_line *line = edit_line(view, row, &charts);
 
 	if (line) {
 		g_free(line->name);
 		line->name = g_strdup(name);
 		line->format = FORMAT_AUTO;
 	}
-	keep_charts(view, charts, _("Another variable in the status chart"));
+	keep_charts(view, charts, _("Change variable in the status chart"));
 }
 
 static void rename_chart(LadderWatchView *view, const char *name)
@@ -555,7 +556,7 @@ static bool line_taken(void *context, const char *line)
 	return true;
 }
 
-/* Its own signal is still under way. */
+/* Called from a signal of the popup: it is freed later. */
 static void line_gone(void *context)
 {
 	struct ask *ask = context;
@@ -591,12 +592,8 @@ static void ask_line(LadderWatchView *view, enum asked what, int row, const char
 	ladder_entry_popup_show(LADDER_ENTRY_POPUP(view->popup), &place);
 }
 
-static void ask_add(GtkWidget *widget, const char *action, GVariant *unused)
+static void ask_add(LadderWatchView *view)
 {
-	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
-
-	(void)action;
-	(void)unused;
 	ask_line(view, ASK_ADD, 0, _("Names and addresses, such as Motor %IW0 %Q0..7"), "",
 		 view->add_button);
 }
@@ -607,12 +604,8 @@ static void ask_name(LadderWatchView *view, LadderWatchRow *row)
 		 row->line->name, row->value ? row->value : view->list);
 }
 
-static void ask_chart(GtkWidget *widget, const char *action, GVariant *unused)
+static void ask_chart(LadderWatchView *view)
 {
-	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
-
-	(void)action;
-	(void)unused;
 	ask_line(view, ASK_CHART, 0, _("Name of the chart"),
 		 view->chart_name ? view->chart_name : "", view->charts);
 }
@@ -621,9 +614,7 @@ static void ask_chart(GtkWidget *widget, const char *action, GVariant *unused)
 
 bool ladder_watch_view_add(LadderWatchView *view, const char *line)
 {
-	struct image *room = g_new0(struct image, 1);
-	GPtrArray *names = watch_names_expand(watch_image(view->document, view->sim, room),
-					      line);
+	GPtrArray *names = watch_names_expand(image_of(view), line);
 	const int selected = selected_index(view);
 	GPtrArray *charts;
 	struct watch *chart = edit_chart(view, &charts);
@@ -642,21 +633,16 @@ bool ladder_watch_view_add(LadderWatchView *view, const char *line)
 	}
 	g_ptr_array_unref(charts);
 	g_ptr_array_unref(names);
-	g_free(room);
 	return good;
 }
 
-static void remove_row(GtkWidget *widget, const char *action, GVariant *unused)
+static void remove_row(LadderWatchView *view)
 {
-	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
 	const int at = selected_index(view);
 	GPtrArray *charts;
-	struct watch *chart = edit_chart(view, &charts);
 
-	(void)action;
-	(void)unused;
-	if (chart && at >= 0 && at < (int)chart->lines->len)
-		g_ptr_array_remove_index(chart->lines, (guint)at);
+	if (edit_line(view, at, &charts))
+		g_ptr_array_remove_index(chart_at(charts, view->chart)->lines, (guint)at);
 	keep_charts(view, charts, _("Remove from the status chart"));
 	select_row(view, at);
 }
@@ -677,65 +663,74 @@ static void move_row(LadderWatchView *view, int by)
 	select_row(view, to);
 }
 
-static void row_up(GtkWidget *widget, const char *action, GVariant *unused)
+static void row_up(LadderWatchView *view)
 {
-	(void)action;
-	(void)unused;
-	move_row(LADDER_WATCH_VIEW(widget), -1);
+	move_row(view, -1);
 }
 
-static void row_down(GtkWidget *widget, const char *action, GVariant *unused)
+static void row_down(LadderWatchView *view)
 {
-	(void)action;
-	(void)unused;
-	move_row(LADDER_WATCH_VIEW(widget), 1);
+	move_row(view, 1);
 }
 
 static void set_format(GtkWidget *widget, const char *action, GVariant *to)
 {
 	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
+	struct watch_line *line;
 	GPtrArray *charts;
-	struct watch *chart = edit_chart(view, &charts);
 	int row, format;
 
 	(void)action;
 	g_variant_get(to, "(ii)", &row, &format);
-	if (chart && row >= 0 && row < (int)chart->lines->len && format >= 0 &&
-	    format < FORMAT_COUNT)
-		((struct watch_line *)chart->lines->pdata[row])->format =
-			(enum live_format)format;
-	keep_charts(view, charts, _("Shown in another way"));
+	line = edit_line(view, row, &charts);
+	if (line && format >= 0 && format < FORMAT_COUNT)
+		line->format = (enum live_format)format;
+	keep_charts(view, charts, _("Change format in the status chart"));
 }
 
 static void set_comment(LadderWatchView *view, LadderWatchRow *row, const char *text)
 {
 	const int at = place_of(view, row);
+	struct watch_line *line;
 	GPtrArray *charts;
-	struct watch *chart;
 
 	if (at < 0 || strcmp(text, row->line->comment) == 0)
 		return;
-	chart = edit_chart(view, &charts);
-	if (chart && at < (int)chart->lines->len) {
-		struct watch_line *line = chart->lines->pdata[at];
-
+	line = edit_line(view, at, &charts);
+	if (line) {
 		g_free(line->comment);
 		line->comment = g_strdup(text);
 	}
-	keep_charts(view, charts, _("Comment in the status chart"));
+	keep_charts(view, charts, _("Change comment in the status chart"));
+}
+
+static const struct {
+	const char *name;
+	void (*act)(LadderWatchView *view);
+} actions[] = {
+	{ "watch.add", ask_add },
+	{ "watch.remove", remove_row },
+	{ "watch.up", row_up },
+	{ "watch.down", row_down },
+	{ "watch.new-chart", new_chart },
+	{ "watch.rename-chart", ask_chart },
+	{ "watch.delete-chart", delete_chart },
+	{ "watch.write-all", write_all },
+};
+
+static void do_action(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)unused;
+	for (gsize i = 0; i < G_N_ELEMENTS(actions); i++)
+		if (g_str_equal(actions[i].name, name))
+			actions[i].act(LADDER_WATCH_VIEW(widget));
 }
 
 static void install_actions(GtkWidgetClass *class)
 {
-	gtk_widget_class_install_action(class, "watch.add", NULL, ask_add);
-	gtk_widget_class_install_action(class, "watch.remove", NULL, remove_row);
-	gtk_widget_class_install_action(class, "watch.up", NULL, row_up);
-	gtk_widget_class_install_action(class, "watch.down", NULL, row_down);
+	for (gsize i = 0; i < G_N_ELEMENTS(actions); i++)
+		gtk_widget_class_install_action(class, actions[i].name, NULL, do_action);
 	gtk_widget_class_install_action(class, "watch.format", "(ii)", set_format);
-	gtk_widget_class_install_action(class, "watch.new-chart", NULL, new_chart);
-	gtk_widget_class_install_action(class, "watch.rename-chart", NULL, ask_chart);
-	gtk_widget_class_install_action(class, "watch.delete-chart", NULL, delete_chart);
-	gtk_widget_class_install_action(class, "watch.write-all", NULL, write_all);
 	gtk_widget_class_add_binding_action(class, GDK_KEY_Insert, 0, "watch.add", NULL);
 	gtk_widget_class_add_binding_action(class, GDK_KEY_Delete, 0, "watch.remove", NULL);
 	gtk_widget_class_add_binding_action(class, GDK_KEY_Up, GDK_ALT_MASK, "watch.up",
@@ -776,11 +771,6 @@ static bool comment_left(GtkWidget *entry, GtkListItem *item)
 	return true;
 }
 
-static void comment_activated(GtkEntry *entry, GtkListItem *item)
-{
-	comment_left(GTK_WIDGET(entry), item);
-}
-
 static void comment_unfocused(GtkEventControllerFocus *focus, GtkListItem *item)
 {
 	comment_left(gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus)), item);
@@ -792,11 +782,10 @@ static void force_clicked(GtkButton *button, GtkListItem *item)
 
 	if (!row)
 		return;
-	show_force(row); /* until the simulation says so, it is as it was */
+	show_force(row); /* the button follows the simulation, not the click */
 	toggle_force(view_of(GTK_WIDGET(button)), row);
 }
 
-/* Only formats that its type has. */
 static void make_formats(GtkMenuButton *button, gpointer data)
 {
 	LadderWatchRow *row = gtk_list_item_get_item(data);
@@ -861,11 +850,10 @@ static GtkWidget *force_cell(void)
 	return button;
 }
 
-static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer column)
+static void setup(gpointer column, GtkListItem *item)
 {
 	GtkWidget *cell = NULL;
 
-	(void)factory;
 	switch ((enum column)GPOINTER_TO_INT(column)) {
 	case NAME: cell = label_cell(NULL); break;
 	case TYPE: cell = label_cell("dim-label"); break;
@@ -885,7 +873,7 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer
 static void bind_name(GtkWidget *cell, LadderWatchRow *row)
 {
 	const bool unknown = watch_row_is_unknown(row);
-	char *tip = unknown ? g_strdup_printf(_("%s: the program has no such name"),
+	char *tip = unknown ? g_strdup_printf(_("\"%s\" is not declared in the program"),
 					      row->line->name) : NULL;
 
 	gtk_label_set_text(GTK_LABEL(cell), row->line->name);
@@ -931,19 +919,18 @@ static void bind_comment(GtkWidget *cell, LadderWatchRow *row, GtkListItem *item
 	gtk_editable_set_text(GTK_EDITABLE(cell), row->line->comment);
 	tip_set(cell, row->line->comment);
 	name_cell(cell, row, COMMENT);
-	g_signal_connect(cell, "activate", G_CALLBACK(comment_activated), item);
+	g_signal_connect(cell, "activate", G_CALLBACK(comment_left), item);
 	g_signal_connect(focus, "leave", G_CALLBACK(comment_unfocused), item);
 	gtk_widget_add_controller(cell, focus);
 	g_object_set_data(G_OBJECT(cell), "focus", focus);
 	cells_on_take(cell, comment_left, item);
 }
 
-static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer column)
+static void bind(gpointer column, GtkListItem *item)
 {
 	LadderWatchRow *row = gtk_list_item_get_item(item);
 	GtkWidget *cell = gtk_list_item_get_child(item);
 
-	(void)factory;
 	switch ((enum column)GPOINTER_TO_INT(column)) {
 	case NAME: bind_name(cell, row); break;
 	case TYPE: bind_type(cell, row); break;
@@ -964,26 +951,22 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 	}
 }
 
-static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer column)
+static void unbind(gpointer column, GtkListItem *item)
 {
 	LadderWatchRow *row = gtk_list_item_get_item(item);
 	GtkWidget *cell = gtk_list_item_get_child(item);
 
-	(void)factory;
 	g_signal_handlers_disconnect_by_data(cell, item);
-	switch ((enum column)GPOINTER_TO_INT(column)) {
-	case VALUE: row->value = NULL; break;
-	case FRESH: row->fresh = NULL; break;
-	case FORCE: row->force = NULL; break;
-	case COMMENT:
+	if (cell == row->value)
+		row->value = NULL;
+	if (cell == row->fresh)
+		row->fresh = NULL;
+	if (cell == row->force)
+		row->force = NULL;
+	if (GPOINTER_TO_INT(column) == COMMENT) {
 		cells_on_take(cell, NULL, NULL);
 		gtk_widget_remove_controller(cell, g_object_get_data(G_OBJECT(cell),
 								     "focus"));
-		break;
-	case NAME:
-	case TYPE:
-	case FORMAT:
-	case COLUMNS: break;
 	}
 }
 
@@ -993,9 +976,12 @@ static void add_columns(LadderWatchView *view)
 		GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
 		GtkColumnViewColumn *column;
 
-		g_signal_connect(factory, "setup", G_CALLBACK(setup), GINT_TO_POINTER(i));
-		g_signal_connect(factory, "bind", G_CALLBACK(bind), GINT_TO_POINTER(i));
-		g_signal_connect(factory, "unbind", G_CALLBACK(unbind), GINT_TO_POINTER(i));
+		g_signal_connect_swapped(factory, "setup", G_CALLBACK(setup),
+					 GINT_TO_POINTER(i));
+		g_signal_connect_swapped(factory, "bind", G_CALLBACK(bind),
+					 GINT_TO_POINTER(i));
+		g_signal_connect_swapped(factory, "unbind", G_CALLBACK(unbind),
+					 GINT_TO_POINTER(i));
 		column = gtk_column_view_column_new(_(columns[i].title), factory);
 		gtk_column_view_column_set_resizable(column, TRUE);
 		gtk_column_view_column_set_expand(column, i == COMMENT);
@@ -1032,12 +1018,8 @@ static void activated(GtkColumnView *list, guint at, LadderWatchView *view)
 	g_clear_object(&row);
 }
 
-static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
-			LadderWatchView *view)
+static gboolean dropped(LadderWatchView *view, const GValue *value)
 {
-	(void)target;
-	(void)x;
-	(void)y;
 	return ladder_watch_view_add(view, g_value_get_string(value));
 }
 
@@ -1089,31 +1071,25 @@ static void ladder_watch_view_init(LadderWatchView *view)
 	gtk_column_view_set_model(GTK_COLUMN_VIEW(view->list),
 				  GTK_SELECTION_MODEL(view->selection));
 	add_columns(view);
-	g_signal_connect(drop, "drop", G_CALLBACK(dropped), view);
+	g_signal_connect_swapped(drop, "drop", G_CALLBACK(dropped), view);
 	gtk_widget_add_controller(view->stack, GTK_EVENT_CONTROLLER(drop));
-}
-
-static void follow_document(LadderWatchView *view)
-{
-	static const char *const signals[] = {
-		"project-changed", "bookmarks-changed", "checked",
-	};
-
-	for (gsize i = 0; i < G_N_ELEMENTS(signals); i++)
-		g_signal_connect_swapped(view->document, signals[i], G_CALLBACK(changed),
-					 view);
 }
 
 GtkWidget *ladder_watch_view_new(LadderDocument *document, LadderSim *sim)
 {
 	LadderWatchView *view = g_object_new(LADDER_TYPE_WATCH_VIEW, NULL);
+	static const char *const document_signals[] = {
+		"project-changed", "bookmarks-changed", "checked",
+	};
 
 	view->document = g_object_ref(document);
 	view->sim = g_object_ref(sim);
-	follow_document(view);
+	for (gsize i = 0; i < G_N_ELEMENTS(document_signals); i++)
+		g_signal_connect_swapped(document, document_signals[i], G_CALLBACK(changed),
+					 view);
 	g_signal_connect_swapped(view->selection, "notify::selected",
 				 G_CALLBACK(show_actions), view);
-	g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(program_changed), view);
+	g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(changed), view);
 	g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(show_actions), view);
 	g_signal_connect_swapped(sim, "shown", G_CALLBACK(shown), view);
 	refresh(view);

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * watch_view - status charts: variables in a table, what they hold now, new values and
- * forces for them.
+ * watch_view - status charts: a table of variables with their values, new values and forces.
  *
- * Which variables stand in a chart is kept in the project, one history with everything
- * else. Values come from the simulation and go to it as acts; while it is off the table can
- * be made, and shows no values.
+ * The charts are kept in the project and are part of its history. Values come from the
+ * simulation and are set as acts; while it is off, charts can be edited and show no values.
  */
 #ifndef EDITOR_WATCH_VIEW_H
 #define EDITOR_WATCH_VIEW_H
@@ -18,12 +16,12 @@
 G_DECLARE_FINAL_TYPE(LadderWatchView, ladder_watch_view, LADDER, WATCH_VIEW, GtkWidget)
 
 GtkWidget *ladder_watch_view_new(LadderDocument *document, LadderSim *sim);
-/** ladder_watch_view_add - more rows behind the selected one, for what a line means
- * (watch_names.h); a chart is made if there is none. False: nothing was added. */
+/** ladder_watch_view_add - adds rows for the names of a line (watch_names.h) behind the selected
+ * row; makes a chart if there is none. False: nothing was added. */
 bool ladder_watch_view_add(LadderWatchView *view, const char *line);
-/** ladder_watch_view_list - the rows shown (LadderWatchRow). Borrowed. */
+/** ladder_watch_view_list - the rows, of LadderWatchRow. Borrowed. */
 GListModel *ladder_watch_view_list(LadderWatchView *view);
-/** ladder_watch_view_message - what was refused last; "": nothing. Borrowed. */
+/** ladder_watch_view_message - why a value was refused; "": none was. Borrowed. */
 const char *ladder_watch_view_message(LadderWatchView *view);
 
 #endif

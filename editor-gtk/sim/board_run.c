@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * board_run - ladderd as a child of the editor: started, watched, stopped.
+ * board_run - ladderd as a child process: see board_run.h.
  */
 #include "editor-gtk/sim/board_run.h"
 
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define ASK_MS 300 /* so often it is asked for its status                      */
+#define ASK_MS 300 /* between two requests for its status                      */
 
 struct _LadderBoardRun {
 	GObject parent;
@@ -20,7 +20,7 @@ struct _LadderBoardRun {
 	GSubprocess *child;
 	GCancellable *cancel;
 	guint timer;
-	int open;          /* streams that have not ended, and the child itself */
+	int open;          /* streams that have not ended, plus 1 for the child */
 	int exit;
 };
 
@@ -29,9 +29,9 @@ G_DEFINE_FINAL_TYPE(LadderBoardRun, ladder_board_run, G_TYPE_OBJECT)
 enum { CHANGED, TOLD, ENDED, SIGNALS };
 static guint signals[SIGNALS];
 
-/* ---- its end ---- */
+/* ---- end ---- */
 
-/* One of its streams, or itself. */
+/* One of its streams, or the child, has ended. */
 static void close_one(LadderBoardRun *run)
 {
 	const int status = run->exit;
@@ -55,7 +55,7 @@ static void waited(GObject *child, GAsyncResult *result, gpointer data)
 	g_subprocess_wait_finish(G_SUBPROCESS(child), result, &error);
 	if (g_error_matches(error, G_IO_ERROR, G_IO_ERROR_CANCELLED)) {
 		g_error_free(error);
-		return; /* it goes */
+		return; /* @data is gone */
 	}
 	g_clear_error(&error);
 	run = LADDER_BOARD_RUN(data);
@@ -71,9 +71,9 @@ char *board_ended_text(int status)
 		g_strdup_printf(_("ladderd ended with status %d"), status);
 }
 
-/* ---- what it says ---- */
+/* ---- status and log ---- */
 
-/* "last 1.0 us, mean 2.0 us, max 3.0 us": what stands behind @word. */
+/* "last 1.0 us, mean 2.0 us, max 3.0 us": the text after @word. */
 static void take_part(char *out, size_t size, const char *text, const char *word)
 {
 	const char *at = strstr(text, word);
@@ -102,7 +102,7 @@ bool board_status_line(struct board_status *status, const char *line)
 	if (!*line)
 		return true;
 	if (strncmp(line, "state: ", 7) == 0)
-		status->stop[0] = '\0'; /* it is told only if there is one */
+		status->stop[0] = '\0'; /* a line follows only if there is one */
 	if (strncmp(line, "scan: ", 6) == 0) {
 		take_part(status->mean, sizeof(status->mean), line, "mean ");
 		take_part(status->worst, sizeof(status->worst), line, "max ");
@@ -139,7 +139,7 @@ static void read_line(GObject *stream, GAsyncResult *result, gpointer data)
 
 	if (g_error_matches(error, G_IO_ERROR, G_IO_ERROR_CANCELLED)) {
 		g_error_free(error);
-		return; /* it goes */
+		return; /* @data is gone */
 	}
 	g_clear_error(&error);
 	run = LADDER_BOARD_RUN(data);
@@ -181,14 +181,9 @@ static gboolean ask(gpointer data)
 	return G_SOURCE_CONTINUE;
 }
 
-/* ---- its begin ---- */
+/* ---- begin ---- */
 
-char *board_find_ladderd(void)
-{
-	return installed_program("ladderd");
-}
-
-/* Before it listens to it, this signal would end it. */
+/* SIGUSR1 would end ladderd before it has its handler. */
 static void in_child(gpointer unused)
 {
 	(void)unused;
@@ -204,7 +199,7 @@ static GSubprocess *spawn(const char *program, const char *file, const char *map
 	GSubprocess *child;
 
 	g_subprocess_launcher_set_child_setup(launcher, in_child, NULL, NULL);
-	/* It is no service of the one that began the editor. */
+	/* ladderd must not report to the service manager of the editor. */
 	g_subprocess_launcher_unsetenv(launcher, "NOTIFY_SOCKET");
 	g_subprocess_launcher_unsetenv(launcher, "WATCHDOG_USEC");
 	child = g_subprocess_launcher_spawn(launcher, error, program, "--attended", "--io",
@@ -216,12 +211,12 @@ static GSubprocess *spawn(const char *program, const char *file, const char *map
 bool ladder_board_run_start(LadderBoardRun *run, const char *file, const char *map,
 			    GError **error)
 {
-	char *program = board_find_ladderd();
+	char *program = installed_program("ladderd");
 
 	if (!program) {
 		g_set_error(error, G_IO_ERROR, G_IO_ERROR_NOT_FOUND,
-			    _("ladderd, which runs programs on pins, was not found: neither "
-			      "beside this editor nor in PATH"));
+			    _("ladderd, which runs programs on pins, was not found beside "
+			      "this editor or in PATH: install it"));
 		return false;
 	}
 	run->child = spawn(program, file, map, error);
@@ -276,7 +271,7 @@ static void ladder_board_run_dispose(GObject *object)
 	if (run->cancel)
 		g_cancellable_cancel(run->cancel);
 	g_clear_object(&run->cancel);
-	if (run->child) { /* nobody would look after it */
+	if (run->child) {
 		g_subprocess_send_signal(run->child, SIGTERM);
 		g_output_stream_close(g_subprocess_get_stdin_pipe(run->child), NULL, NULL);
 	}

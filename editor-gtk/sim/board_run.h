@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * board_run - ladderd as a child of the editor: started, watched, stopped.
+ * board_run - ladderd as a child process of the editor: starts, reads its status, stops it.
  *
- * It runs on the pins of this machine. Its standard input is a pipe from here: when that
- * closes, because the editor ended in whatever way, ladderd stops by itself and leaves safe
- * outputs (`ladderd --attended`). It is never killed: SIGTERM is what makes outputs safe.
+ * It runs on the pins of this machine. Its standard input is a pipe from the editor: however
+ * the editor ends, the pipe closes, and ladderd stops with safe outputs (`--attended`). It is
+ * never sent SIGKILL, because only SIGTERM makes the outputs safe.
  *
  * Signals: changed () state or status; told (char *line) a line of its log; ended (int exit)
  * with its exit status, or -1 after a signal.
@@ -20,9 +20,9 @@ G_DECLARE_FINAL_TYPE(LadderBoardRun, ladder_board_run, LADDER, BOARD_RUN, GObjec
 
 enum board_state { BOARD_OFF, BOARD_STARTING, BOARD_RUNNING, BOARD_STOPPING };
 
-/* What it told of itself last, as texts of runtime/ladderd/control.c. */
+/* Its last status: the values of the lines that runtime/ladderd/control.c writes. */
 struct board_status {
-	char state[8];          /* "RUN", "STOP", "FAULT"; "": not told yet    */
+	char state[8];          /* "RUN", "STOP", "FAULT"; "": not known yet   */
 	char fault[200];        /* "none", or what and where                   */
 	char scans[24], period[24];
 	char mean[24], worst[24]; /* of scans                                  */
@@ -43,12 +43,9 @@ void ladder_board_run_stop(LadderBoardRun *run);
 /** ladder_board_run_reset - out of a FAULT. */
 void ladder_board_run_reset(LadderBoardRun *run);
 enum board_state ladder_board_run_state(LadderBoardRun *run);
-/** ladder_board_run_status - as it was told last. Borrowed. */
+/** ladder_board_run_status - its last status. Borrowed. */
 const struct board_status *ladder_board_run_status(LadderBoardRun *run);
 /** board_ended_text - what `ended` with that status means. Caller: g_free. */
 char *board_ended_text(int status);
-/** board_find_ladderd - beside this program, else in PATH; NULL: there is none. Caller:
- * g_free. */
-char *board_find_ladderd(void);
 
 #endif

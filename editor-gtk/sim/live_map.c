@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * live_map - names and cells of the program that runs; see live_map.h. What is shown of
- * them is live_rung.c.
+ * live_map - names and cells of the program that runs: see live_map.h.
  */
 #include "editor-gtk/sim/live_map.h"
 
@@ -10,7 +9,7 @@
 #include <string.h>
 
 struct live_map {
-	struct image image;          /* of names and places: it has no memory     */
+	struct image image;          /* only to find names: it has no memory      */
 	const struct program *program;
 	int unit;                    /* of CODE_PROGRAMS; -1: none              */
 	char *pou;
@@ -29,7 +28,7 @@ static char *key_of(const char *pou, const char *name, size_t len)
 	return text;
 }
 
-/* Single values and instances; whatever is asked for seldom is found by image_find(). */
+/* Single values and instances. Others are used rarely: image_find() finds them. */
 static void take_names(struct live_map *map)
 {
 	struct declared_cursor cursor = { 0 };
@@ -63,7 +62,7 @@ static struct location find_pin(const struct live_map *map, struct location whol
 	return at;
 }
 
-/* @key: owned here. */
+/* @key: taken over. */
 static struct location look_up(const struct live_map *map, char *key)
 {
 	const struct location *at = g_hash_table_lookup(map->names, key);

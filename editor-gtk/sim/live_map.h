@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * live_map - where the program that runs keeps what a rung shows.
+ * live_map - where the program that runs has the values and the power that a rung shows.
  *
- * Names and cells are looked up once a program; what is asked in each frame are bytes at
- * known places. It draws nothing, changes nothing and knows no widget.
+ * Names and cells are looked up once for a program; each frame only reads bytes at known
+ * places. It draws nothing, changes nothing and uses no widget.
  */
 #ifndef EDITOR_LIVE_MAP_H
 #define EDITOR_LIVE_MAP_H
@@ -13,7 +13,7 @@
 
 #include "engine/scan/resource.h"
 
-/* Names of a program that runs, as one POU of it sees them. */
+/* The names that one POU of the program can use. */
 struct live_map;
 
 /**
@@ -35,7 +35,7 @@ const char *live_map_instance(const struct live_map *map);
  * type IEC_NONE: it has no place that is always the same, or there is none. */
 struct location live_map_find(const struct live_map *map, const char *name, size_t len);
 
-/* A piece of a text: a variable, or what stands between them. */
+/* A piece of a text: a variable, or the text between two of them. */
 struct live_part {
 	struct location at;    /* type IEC_NONE: no variable that has a place     */
 	char *text;            /* as it is written                              */
@@ -51,19 +51,19 @@ struct live_cell {
 	uint32_t in, out;      /* where its power is; LIVE_NOWHERE: not known     */
 	enum { LIVE_NOTHING, LIVE_CONTACT, LIVE_COIL, LIVE_TEXT, LIVE_BOX } kind;
 	bool inverse;          /* closed while FALSE                            */
-	bool edge;             /* closed as its power says                      */
-	bool fails;            /* no power behind it means that it failed        */
+	bool edge;             /* closed if its output has power                */
+	bool fails;            /* no power at its output means that it failed    */
 	struct location at;    /* of its operand, of the first variable of an
 				  expression, of what counts in a box           */
 	const char *name;      /* of that variable; else ""                     */
-	struct location goal;  /* up to which it counts                         */
+	struct location goal;  /* the preset up to which it counts              */
 	GArray *parts;         /* of LIVE_TEXT: of struct live_part; NULL: none    */
-	union iec_value value, aim; /* that were seen last                      */
+	union iec_value value, aim; /* value and goal, as last looked at         */
 	union iec_value scanned; /* of a contact: after the scan that is shown    */
-	guint64 sum;           /* of all values of `parts`                       */
-	gint64 changed, flash; /* us: when `at` changed last, when that was new  */
-	float part;            /* as drawn                                      */
-	char text[48];         /* likewise; "": no value is shown               */
+	guint64 sum;           /* hash of all values of `parts`                  */
+	gint64 changed, flash; /* us: last change, last change that was marked   */
+	float part;            /* 0 to 1 of the bar, as drawn; -1: no bar        */
+	char text[48];         /* as drawn; "": no value is shown               */
 };
 #define LIVE_NOWHERE UINT32_MAX
 /* In live_rung.bits beside enum live_bit; they are marks when they are drawn. */
@@ -73,10 +73,9 @@ struct live_cell {
 struct live_rung {
 	int rows, cols;
 	int number;            /* of the program that runs; -1: changed since      */
-	bool fresh;            /* nothing was looked at yet                     */
-	gint64 until;          /* us: when something stops to be new; 0: nothing is */
-	guint64 scans;         /* since the start at start_ns: the scan that was
-				  looked at last                                */
+	bool fresh;            /* not looked at yet                             */
+	gint64 until;          /* us: when the next mark of a change ends; 0: none */
+	guint64 scans;         /* the last scan looked at, counted from start_ns  */
 	gint64 start_ns;
 	uint8_t *bits;         /* by row; enum live_bit, LIVE_FORCED, LIVE_FAILED */
 	struct live_cell *cell; /* by row                                       */
@@ -85,7 +84,7 @@ struct live_rung {
 	const struct rung *shown;
 };
 
-/** live_map_power - where the cells of rung->number have their power. */
+/** live_map_power - stores where the cells of rung->number have their power. */
 void live_map_power(const struct live_map *map, struct live_rung *rung);
 
 /**
@@ -99,11 +98,11 @@ struct live_rung *live_rung_new(const struct live_map *map, const struct project
 				const struct rung *shown, int number);
 void live_rung_free(struct live_rung *rung);
 /**
- * live_rung_look - looks at all of it again
- * @resource: of the same program, in whatever state
- * @now:      us; @flash: what has just changed is marked as new for a second
+ * live_rung_look - reads all values and power again
+ * @resource: of the same program, in any state
+ * @now:      us; @flash: marks changed values for a second
  *
- * Returns what of it is other than it was: nothing of that is drawn otherwise, if not.
+ * Returns what changed; LIVE_SAME: it is drawn the same.
  */
 enum live_change {
 	LIVE_SAME, LIVE_OTHER_VALUE = 1, LIVE_OTHER_STATE = 2,

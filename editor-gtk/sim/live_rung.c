@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * live_rung - what of a rung is shown while it runs, and whether it is other than it was.
+ * live_rung - values and power of a rung, and whether they changed: see live_map.h.
  */
 #include "editor-gtk/sim/live_map.h"
 
 #include <string.h>
 
 #define FLASH (1 * G_USEC_PER_SEC)
-#define STEPS 64   /* of a bar: what is less is not worth to be drawn again      */
+#define STEPS 64   /* of a bar; smaller changes do not redraw                    */
 
 /* ---- finding places ---- */
 
@@ -21,7 +21,7 @@ static bool is_name(char c)
 	return g_ascii_isalnum(c) || c == '_' || c == '.' || c == '#' || (c & 0x80);
 }
 
-/* A name with its members and constant indices, a number, or a single character. */
+/* The length of a name with members and constant indices, of a number, or 1. */
 static size_t token_length(const char *text)
 {
 	size_t len = *text == '%';
@@ -130,7 +130,7 @@ static struct location pin_of(const struct live_map *map, const char *instance,
 	return at;
 }
 
-/* What a box counts: its first output that is no BOOL, up to PT or PV of the same type. */
+/* A box counts in its first output that is no BOOL, up to PT or PV of the same type. */
 static void find_count(const struct live_map *map, const struct word_row *word,
 		       const char *instance, struct live_cell *cell)
 {
@@ -161,7 +161,7 @@ static void find_text(const struct live_map *map, const struct word_row *word,
 	}
 }
 
-/* Does it store what is no BOOL? A function with a BOOL for a result gives that as power. */
+/* Does the function store a result? One with a BOOL result gives it as power instead. */
 static bool stores_number(const struct live_rung *rung, const char *args)
 {
 	const char *out = strstr(args, "OUT=>");
@@ -263,7 +263,7 @@ static guint64 number_of(const struct image *image, struct location at)
 	return sum;
 }
 
-/* A number that is another one when a value is. */
+/* A hash of all values of the parts. */
 static guint64 sum_of(const struct live_cell *cell, const struct image *image)
 {
 	guint64 sum = 1469598103934665603u;
@@ -302,7 +302,7 @@ static float part_of(const struct live_cell *cell)
 	return (float)((int)(CLAMP(part, 0, 1) * STEPS + 0.5)) / STEPS;
 }
 
-/* Text and bar of a cell; true: they are others. */
+/* Updates text and bar of a cell. True: they changed. */
 static bool look_at_value(struct live_cell *cell, const struct image *image, bool first)
 {
 	const union iec_value before = cell->value, aim = cell->aim;
@@ -349,9 +349,9 @@ static uint8_t power_of(const struct live_cell *cell, const struct resource *res
 			 (memory[cell->out] ? LIVE_OUT : 0));
 }
 
-/* What the scan saw may be another value than the one that is left behind it: of what is
- * forced, or written again further down. Power that came to the contact tells it, until a
- * person sets another value. */
+/* The scan may have read another value than the one after it, if the variable is forced or
+ * written further down. The power behind the contact tells which, until a person sets another
+ * value. */
 static bool tells_power(const struct live_cell *cell, uint8_t power)
 {
 	return cell->edge || cell->at.type == IEC_NONE ||
@@ -375,7 +375,7 @@ static bool is_closed(const struct live_cell *cell, uint8_t power)
 	return false;
 }
 
-/* What changes all the time is new only when it begins to. */
+/* A value that changes all the time is marked only when it begins to change. */
 static bool is_fresh(struct live_cell *cell, bool changed, gint64 now, bool flash)
 {
 	if (changed) {

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenario_record - records what a person does in the simulation.
+ * scenario_record - see scenario_record.h.
  *
- * The simulation's record knows each act with the scan after which it was done, and forgets
- * the oldest when it is full: so they are taken over while it runs. Acts after the newest
- * scan may still get more; they are taken when a scan follows, or at the end.
+ * The simulation's record has each act with the scan after which it was done. It drops the
+ * oldest when it is full, so acts are copied while it runs. Acts after the newest scan are copied
+ * when the next scan follows, or at the end, because more may still be added to them.
  */
 #include "editor-gtk/sim/scenario_record.h"
 
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/sim/live_value.h"
 
 #include "engine/trial/session.h"
 #include "engine/trial/value.h"
@@ -21,11 +22,11 @@ struct _LadderRecorder {
 	LadderSim *sim;
 	struct session *session;
 	bool on, beginning;
-	bool gone;           /* the program that it was of                     */
-	guint64 taken;       /* acts after scans before this one are taken      */
-	guint64 last;        /* scan of the recording                          */
-	char *plant;         /* its file, as the scenario names it; NULL: none  */
-	char *why;           /* what cannot be said, while acts are taken       */
+	bool gone;           /* the recorded program was replaced              */
+	guint64 taken;       /* acts after scans before this one are copied    */
+	guint64 last;        /* last scan of the recording                     */
+	char *plant;         /* file name as the scenario has it; NULL: none   */
+	char *why;           /* why recording ended by itself; NULL            */
 };
 
 enum { CHANGED, ENDED, SIGNAL_COUNT };
@@ -33,7 +34,7 @@ static guint signals[SIGNAL_COUNT];
 
 G_DEFINE_FINAL_TYPE(LadderRecorder, ladder_recorder, G_TYPE_OBJECT)
 
-/* ---- what happens ---- */
+/* ---- acts ---- */
 
 static const char *reason(const struct act *act)
 {
@@ -45,7 +46,7 @@ static const char *reason(const struct act *act)
 	case ACT_START: case ACT_WARM:
 		return N_("a start cannot be part of a scenario");
 	case ACT_STOP: return N_("the simulation was stopped");
-	case ACT_PERIOD: return N_("a scenario has one period");
+	case ACT_PERIOD: return N_("the period cannot change within a scenario");
 	case ACT_SET: break;
 	}
 	return N_("this variable has no name in a scenario");
@@ -53,7 +54,7 @@ static const char *reason(const struct act *act)
 
 struct taking {
 	LadderRecorder *recorder;
-	guint64 before;      /* acts after that scan wait                       */
+	guint64 before;      /* acts after this scan or later are not copied yet */
 };
 
 static void take_act(void *context, uint64_t after, const struct act *act)
@@ -81,7 +82,7 @@ static void ended(LadderRecorder *recorder)
 	g_free(why);
 }
 
-/* @all: also those after the newest scan. */
+/* @all: also acts after the newest scan. */
 static void take(LadderRecorder *recorder, bool all)
 {
 	const int before = session_acts(recorder->session);
@@ -109,11 +110,9 @@ static void shown(LadderRecorder *recorder)
 
 static void program_changed(LadderRecorder *recorder)
 {
-	if (!recorder->on || recorder->beginning) {
-		recorder->gone = true;
-		return;
-	}
 	recorder->gone = true;
+	if (!recorder->on || recorder->beginning)
+		return;
 	recorder->why = g_strdup(_("Recording ended: the program was changed"));
 	ended(recorder);
 }
@@ -128,7 +127,7 @@ static void forget(LadderRecorder *recorder)
 	recorder->taken = recorder->last = 0;
 }
 
-/* As a scenario names it: a file beside the program by its name alone. */
+/* The plant as a scenario names it: without folder if it is beside the program. Caller frees. */
 static char *plant_name(LadderRecorder *recorder)
 {
 	const char *plant = ladder_sim_plant(recorder->sim);
@@ -198,7 +197,7 @@ int ladder_recorder_expects(LadderRecorder *recorder)
 
 /* ---- expectations ---- */
 
-/* The twin right after a scan, without what was done since. NULL: it is not kept. */
+/* The state right after a scan, without later acts. NULL: it is not recorded. */
 static struct replay *right_after(LadderRecorder *recorder, guint64 scan)
 {
 	const struct record *record = ladder_sim_lock_record(recorder->sim);
@@ -213,13 +212,6 @@ static struct replay *right_after(LadderRecorder *recorder, guint64 scan)
 	replay_free(replay);
 	g_free(replay);
 	return NULL;
-}
-
-static bool is_same_value(enum iec_type type, union iec_value a, union iec_value b)
-{
-	if (type != IEC_STRING)
-		return memcmp(&a, &b, sizeof(a)) == 0;
-	return a.s->length == b.s->length && memcmp(a.s->text, b.s->text, a.s->length) == 0;
 }
 
 static char *said_of(const char *name, enum iec_type type, union iec_value value)
@@ -249,14 +241,14 @@ static bool expect_at(LadderRecorder *recorder, const struct twin *shown_twin,
 	}
 	seen = image_get(&shown_twin->resource.image, at);
 	was = image_get(&after->resource.image, at);
-	if (!is_same_value(at.type, seen, was)) {
+	if (!live_value_is_equal(at.type, seen, was)) {
 		*said = g_strdup_printf(shown_twin->resource.state != STATE_RUN ?
-			_("%s is what a board drives in STOP: expect it in an earlier scan") :
-			_("%s was set after this scan: expect it after the next one"), name);
+			_("\"%s\" has its safe value in STOP: expect it in an earlier scan") :
+			_("\"%s\" was set after this scan: expect it after the next scan"), name);
 		return false;
 	}
 	if (!session_expect(recorder->session, after->scan, at, was)) {
-		*said = g_strdup_printf(_("%s cannot be expected in a scenario"), name);
+		*said = g_strdup_printf(_("\"%s\" cannot be expected in a scenario"), name);
 		return false;
 	}
 	*said = said_of(name, at.type, was);
@@ -271,16 +263,16 @@ bool ladder_recorder_expect(LadderRecorder *recorder, const char *name, char **s
 
 	*said = NULL;
 	if (!recorder->on || !twin) {
-		*said = g_strdup(_("Nothing is recorded now."));
+		*said = g_strdup(_("No scenario is being recorded"));
 		return false;
 	}
 	if (twin->scan == 0) {
-		*said = g_strdup(_("Nothing has run yet: expect it after the first scan"));
+		*said = g_strdup(_("No scan has run yet: expect values after the first scan"));
 		return false;
 	}
 	replay = right_after(recorder, twin->scan);
 	if (!replay) {
-		*said = g_strdup(_("This scan is not kept any more."));
+		*said = g_strdup(_("This scan is no longer recorded"));
 		return false;
 	}
 	good = expect_at(recorder, twin, &replay->twin, name, said);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenario_record - records what a person does in the simulation, and expects of it.
+ * scenario_record - records acts of a person in the simulation, and expected values.
  *
- * It begins with a cold start, and reads the acts from the simulation's own record. What a
- * scenario cannot say ends it: a force, a restart, a stop, another period, an edit of the
- * program; what was recorded until then stays. It asks nobody anything and writes no file.
+ * It begins with a cold start and reads the acts from the simulation's record. A force, a
+ * restart, a stop, another period and an edit of the program end it, because a scenario cannot
+ * contain them; what was recorded before stays. It opens no dialog and writes no file.
  *
  * Signals:
- *   changed ()   on or off, more acts, more expectations
- *   ended (const char *why)  it ended by itself; NULL: it was told to
+ *   changed ()   it began or ended, or has more acts or expectations
+ *   ended (const char *why)  why it ended by itself; NULL: ladder_recorder_end()
  */
 #ifndef EDITOR_SCENARIO_RECORD_H
 #define EDITOR_SCENARIO_RECORD_H
@@ -23,7 +23,6 @@ LadderRecorder *ladder_recorder_new(LadderSim *sim);
 /** ladder_recorder_begin - begins the simulation anew, and records; it runs, or stands in
  * PAUSE if it stood there. Fails: as ladder_sim_restart(). */
 bool ladder_recorder_begin(LadderRecorder *recorder, GError **error);
-/** ladder_recorder_end - no more is recorded. */
 void ladder_recorder_end(LadderRecorder *recorder);
 bool ladder_recorder_is_on(LadderRecorder *recorder);
 /** ladder_recorder_acts, ladder_recorder_expects - how many there are, until the next

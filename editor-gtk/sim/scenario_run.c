@@ -40,17 +40,17 @@ struct job {
 	char *file, *program;
 	gsize len;
 	GPtrArray *files, *texts;
-	bool stop;              /* read by the run                              */
+	bool stop;              /* set by the main thread                       */
 };
 
 struct running {
 	struct job *job;
 	struct sim_program *program;
 	struct scenario_file *file;
-	const char *path, *text; /* of the scenario file that is run            */
+	const char *path, *text; /* of the scenario file                        */
 	gsize len;
 	char *plant_path;
-	struct sim_program *plant; /* that it names; NULL: none                */
+	struct sim_program *plant; /* that the file names; NULL: none          */
 	GPtrArray *results;
 };
 
@@ -126,7 +126,7 @@ static void keep_act(void *context, uint64_t after, const struct act *act)
 	g_array_append_val((GArray *)context, played);
 }
 
-/* What led to the failure, to be done again where it can be seen. */
+/* Keeps the acts up to the failure, to repeat them in the simulation. */
 static void keep_way(struct running *running, int index, struct scenario_result *result)
 {
 	const bool plant = running->file->scenario[index].with_plant && running->plant;
@@ -152,8 +152,8 @@ static void keep_way(struct running *running, int index, struct scenario_result 
 	g_free(diags);
 }
 
-/* The report is for a terminal: the list tells what was first. */
-static void tell_nobody(void *context, const char *text, size_t len)
+/* The report is written for a terminal; the results list has the first failure. */
+static void drop_report(void *context, const char *text, size_t len)
 {
 	(void)context;
 	(void)text;
@@ -165,7 +165,7 @@ static void run_one(struct running *running, int index, struct resource *resourc
 {
 	const struct scenario *scenario = &running->file->scenario[index];
 	struct scenario_result *result;
-	const struct sink out = { .write = tell_nobody };
+	const struct sink out = { .write = drop_report };
 	const bool held = scenario_run(running->file, index, resource, plant, &out);
 
 	result = add(running->results, held ? SCENARIO_HELD : SCENARIO_FAILED,
@@ -180,7 +180,7 @@ static void run_one(struct running *running, int index, struct resource *resourc
 		keep_way(running, index, result);
 }
 
-/* The plant that the file names; false: it cannot be had, and that is a result. */
+/* Reads the plant that the file names. False: it cannot be read, which is added as a result. */
 static bool find_plant(struct running *running)
 {
 	struct scenario_result *result;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenario_run - runs the scenarios of a project, and tells what came of each.
+ * scenario_run - runs the scenarios of a project in a thread, and returns a result for each.
  *
- * A program that is built for it, in a thread of its own: the simulation does not know of
- * it. Results are plain values, made in that thread and handed over.
+ * It builds its own program and does not use the simulation.
  */
 #ifndef EDITOR_SCENARIO_RUN_H
 #define EDITOR_SCENARIO_RUN_H
@@ -12,18 +11,18 @@
 
 enum scenario_outcome {
 	SCENARIO_HELD,
-	SCENARIO_FAILED,     /* an expectation did not hold, or the program stopped  */
-	SCENARIO_UNREAD,     /* something in the file is wrong, or in the program    */
+	SCENARIO_FAILED,     /* a value was not as expected, or the program stopped  */
+	SCENARIO_UNREAD,     /* the file or the program has an error                 */
 };
 
 struct scenario_result {
 	enum scenario_outcome outcome;
 	char *path;          /* of the file                                    */
 	char *name;          /* of the scenario; "": of the file as a whole    */
-	char *why;           /* in one line; "": it held                       */
+	char *why;           /* why it failed, one line; "": it held           */
 	int first_line;      /* of the scenario; 0: none                       */
-	int line, column;    /* that is wrong, 1-based; 0: none                */
-	/* Of SCENARIO_FAILED: how to get there, for ladder_sim_play(). */
+	int line, column;    /* of the failure, 1-based; 0: none               */
+	/* Of SCENARIO_FAILED: for ladder_sim_play(), to show the failure. */
 	guint64 scan;
 	gint64 period_ns;
 	GArray *acts;
@@ -38,13 +37,13 @@ GPtrArray *scenario_files(const char *path);
 /**
  * scenario_run_all - in a thread; @done is called in the main context
  * @program, @len: text of the project   @file: what it is called
- * @files: paths (char *); @texts: what stands in each, NULL: on the disk; both taken over
- * @stop: NULL: nobody stops it
+ * @files: paths (char *); @texts: the text of each, NULL: read the file; both taken over
+ * @stop: cancels it; NULL: cannot be cancelled
  */
 void scenario_run_all(const char *file, const char *program, gsize len, GPtrArray *files,
 		      GPtrArray *texts, GCancellable *stop, GAsyncReadyCallback done,
 		      gpointer data);
-/** scenario_run_finish - of struct scenario_result *; NULL: it was stopped. Caller:
+/** scenario_run_finish - of struct scenario_result *; NULL: cancelled. Caller:
  * g_ptr_array_unref(). */
 GPtrArray *scenario_run_finish(GAsyncResult *result);
 

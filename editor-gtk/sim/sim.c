@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim - the window's side of a simulation: orders to the thread, copies from it.
+ * sim - the window's side of a simulation: it orders the thread and reads copies of its state.
  *
- * What it shows is the newest copy, or, when a scan that was is asked for, a replay of the
- * record. The thread is there from begin to end.
+ * It shows the newest copy, or a replay of the record for a scan of the past. The thread lives
+ * from ladder_sim_begin() to ladder_sim_end().
  */
 #include "editor-gtk/sim/sim_thread.h"
 
@@ -14,35 +14,49 @@
 
 #include <string.h>
 
-/* ---- which rung of the document is which of the program that runs ---- */
-
-/* A rung that was edited is unknown until a program with it runs; those above and below it keep
- * their numbers, and so their power. */
-struct sim_rungs {
+struct _LadderSim {
+	GObject parent;
 	LadderDocument *document;
-	GPtrArray *pou;   /* of GArray of int, in the order of the POUs        */
-	gulong rungs_handler, project_handler;
+	GPtrArray *rungs;           /* by POU: GArray of int, by rung of the document:
+				       its number in the program that runs; -1 */
+	struct sim_thread *thread;  /* NULL: off                               */
+	struct sim_view view;       /* the newest state                        */
+	struct sim_replay *replay;  /* of the past; NULL: none yet             */
+	bool past;                  /* `replay` is shown                       */
+	LadderDocument *older;      /* of a program before an edit; NULL: none yet */
+	guint64 older_era;          /* era of that program                     */
+	guint64 life;               /* how often it began                      */
+	guint refused;              /* count of the last refusal that was told */
+	struct sim_events known;    /* events that were told                   */
+	enum sim_state told;        /* state and period (ns) when state-changed */
+	gint64 told_period;         /* was emitted last                        */
+	gint64 period_ns;
+	double speed;
+	bool fault_on_error;
+	char *plant_path;
+	struct sim_program *plant;
+	struct sim_program *newest; /* the last one given to the thread        */
+	guint64 version;            /* of the document, when that was built     */
+	bool building;
 };
 
-static GArray *numbers(int count)
-{
-	GArray *rungs = g_array_sized_new(FALSE, FALSE, sizeof(int), (guint)count);
+enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, SIGNAL_COUNT };
+static guint signals[SIGNAL_COUNT];
 
-	for (int i = 0; i < count; i++)
-		g_array_append_val(rungs, i);
-	return rungs;
-}
+G_DEFINE_FINAL_TYPE(LadderSim, ladder_sim, G_TYPE_OBJECT)
 
-static void rungs_changed(LadderDocument *document, int pou, int at, int removed,
-			  int inserted, struct sim_rungs *rungs)
+/* ---- which rung of the document is which of the program that runs ---- */
+
+/* An edited rung is unknown until a program with it runs. Rungs above and below it keep their
+ * numbers, and so their power. */
+static void rungs_changed(LadderSim *sim, int pou, int at, int removed, int inserted)
 {
 	const int unknown = -1;
 	GArray *of;
 
-	(void)document;
-	if (pou < 0 || (guint)pou >= rungs->pou->len)
+	if (pou < 0 || (guint)pou >= sim->rungs->len)
 		return;
-	of = rungs->pou->pdata[pou];
+	of = sim->rungs->pdata[pou];
 	if (at < 0 || (guint)(at + removed) > of->len)
 		return;
 	if (removed)
@@ -51,85 +65,33 @@ static void rungs_changed(LadderDocument *document, int pou, int at, int removed
 		g_array_insert_val(of, (guint)(at + i), unknown);
 }
 
-static void rungs_forget(struct sim_rungs *rungs)
+static void forget_rungs(LadderSim *sim)
 {
-	g_ptr_array_set_size(rungs->pou, 0);
+	g_ptr_array_set_size(sim->rungs, 0);
 }
 
-static struct sim_rungs *rungs_new(LadderDocument *document)
+/* The program that runs is the document as it is now. */
+static void number_rungs(LadderSim *sim)
 {
-	struct sim_rungs *rungs = g_new0(struct sim_rungs, 1);
+	const struct project *project = ladder_document_project(sim->document);
 
-	rungs->document = g_object_ref(document);
-	rungs->pou = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
-	rungs->rungs_handler = g_signal_connect(document, "rungs-changed",
-						G_CALLBACK(rungs_changed), rungs);
-	rungs->project_handler = g_signal_connect_swapped(document, "project-changed",
-		G_CALLBACK(rungs_forget), rungs);
-	return rungs;
+	forget_rungs(sim);
+	for (int i = 0; project && i < project->pou_count; i++) {
+		GArray *of = g_array_new(FALSE, FALSE, sizeof(int));
+
+		for (int rung = 0; rung < project->pou[i].rung_count; rung++)
+			g_array_append_val(of, rung);
+		g_ptr_array_add(sim->rungs, of);
+	}
 }
 
-static void rungs_free(struct sim_rungs *rungs)
+static int find_rung(LadderSim *sim, int pou, int rung)
 {
-	if (!rungs)
-		return;
-	g_clear_signal_handler(&rungs->rungs_handler, rungs->document);
-	g_clear_signal_handler(&rungs->project_handler, rungs->document);
-	g_object_unref(rungs->document);
-	g_ptr_array_unref(rungs->pou);
-	g_free(rungs);
+	const GArray *of = pou >= 0 && (guint)pou < sim->rungs->len ?
+		sim->rungs->pdata[pou] : NULL;
+
+	return of && rung >= 0 && (guint)rung < of->len ? g_array_index(of, int, rung) : -1;
 }
-
-static void rungs_same(struct sim_rungs *rungs)
-{
-	const struct project *project = ladder_document_project(rungs->document);
-
-	g_ptr_array_set_size(rungs->pou, 0);
-	for (int i = 0; project && i < project->pou_count; i++)
-		g_ptr_array_add(rungs->pou, numbers(project->pou[i].rung_count));
-}
-
-static int rungs_find(const struct sim_rungs *rungs, int pou, int rung)
-{
-	const GArray *of;
-
-	if (pou < 0 || (guint)pou >= rungs->pou->len)
-		return -1;
-	of = rungs->pou->pdata[pou];
-	return rung >= 0 && (guint)rung < of->len ? g_array_index(of, int, rung) : -1;
-}
-/* ---- the object ---- */
-
-struct _LadderSim {
-	GObject parent;
-	LadderDocument *document;
-	struct sim_rungs *rungs;
-	struct sim_thread *thread;  /* NULL: off                               */
-	struct sim_view view;       /* the newest                              */
-	struct sim_replay *replay;  /* the past                                */
-	bool past;
-	LadderDocument *older;      /* of a program before an edit; NULL: none yet */
-	guint64 older_era;          /* whose it is                             */
-	guint64 life;               /* how often it began                      */
-	guint refused;              /* of the view's refusal, that were told of */
-	struct sim_events known;    /* of the view's, that were told of         */
-	enum sim_state told;        /* the last state that signals told of     */
-	gint64 told_period;         /* and period, ns                          */
-	gint64 period_ns;
-	double speed;
-	bool heeds;                 /* FAULT when an operation fails           */
-	char *plant_path;
-	struct sim_program *plant;
-	/* Another program is built: */
-	struct sim_program *newest; /* that the thread was given last          */
-	guint64 version;            /* of the document that the last one was of */
-	bool building;
-};
-
-enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, SIGNAL_COUNT };
-static guint signals[SIGNAL_COUNT];
-
-G_DEFINE_FINAL_TYPE(LadderSim, ladder_sim, G_TYPE_OBJECT)
 
 /* ---- what is shown ---- */
 
@@ -151,7 +113,7 @@ int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung)
 		return -1;
 	if (ladder_sim_older(sim, NULL))
 		return document == sim->older ? rung : -1;
-	return document == sim->document ? rungs_find(sim->rungs, pou, rung) : -1;
+	return document == sim->document ? find_rung(sim, pou, rung) : -1;
 }
 
 bool ladder_sim_is_forced(LadderSim *sim, struct location at)
@@ -168,13 +130,13 @@ int ladder_sim_forces(LadderSim *sim)
 	return twin ? twin->resource.image.force_count + twin->plant.image.force_count : 0;
 }
 
-/* ---- a look of one's own ---- */
+/* ---- replays ---- */
 
 struct sim_replay {
 	struct replay replay;
-	struct sim_program *program, *plant; /* whose scan it is; NULL: of none   */
+	struct sim_program *program, *plant; /* of its scan; NULL: of no scan     */
 	guint64 era;
-	gint64 edited_us;        /* as it was when it was looked at            */
+	gint64 edited_us;        /* of that era, at the last step              */
 };
 
 struct sim_replay *sim_replay_new(void)
@@ -263,7 +225,7 @@ struct ladder *ladder_sim_plant_ladder(LadderSim *sim)
 	return plant ? plant->ladder : NULL;
 }
 
-/* After another scan may be shown than was. */
+/* After the scan that is shown may have changed; @before: the program of the one before. */
 static void tell_shown(LadderSim *sim, const struct sim_program *before)
 {
 	if (shown_program(sim) != before)
@@ -271,7 +233,7 @@ static void tell_shown(LadderSim *sim, const struct sim_program *before)
 	g_signal_emit(sim, signals[SHOWN], 0);
 }
 
-/* A scan at a time, so that the thread need not wait for long. */
+/* Locks the record for one scan at a time, so that the thread does not wait long. */
 static bool replay_to(LadderSim *sim, guint64 scan)
 {
 	bool good;
@@ -290,7 +252,7 @@ bool ladder_sim_show(LadderSim *sim, guint64 scan)
 	if (!sim->replay)
 		sim->replay = sim_replay_new();
 	good = replay_to(sim, scan);
-	/* What is half on its way is no scan, and it may be of no program. */
+	/* A replay that failed on the way may have no program. */
 	sim->past = good || (sim->past && sim->replay->program);
 	if (good || shown_program(sim) != before)
 		tell_shown(sim, before);
@@ -406,7 +368,7 @@ guint64 ladder_sim_life(LadderSim *sim)
 	return sim->life;
 }
 
-/* ---- what the log and the buttons are told ---- */
+/* ---- signals ---- */
 
 static void tell_state(LadderSim *sim)
 {
@@ -425,7 +387,7 @@ static void tell(LadderSim *sim, const char *text, bool bad)
 static char *halt_words(const struct resource *resource)
 {
 	char *place = sim_place_words(&resource->halt_at);
-	char *text = g_strdup_printf(_("STOP, outputs are safe: the program says so: %s"),
+	char *text = g_strdup_printf(_("STOP: the program stopped itself: %s. Outputs have their safe values"),
 				     place);
 
 	g_free(place);
@@ -437,14 +399,14 @@ static char *failed_words(const struct resource *resource, bool faulted)
 	char *place = sim_place_words(&resource->error_at);
 	char *text = g_strdup_printf(faulted ?
 		_("FAULT: an operation failed, such as a division by zero: %s. Outputs are "
-		  "off; Run goes on with ENO FALSE, as the board does") :
+		  "off. Run continues with ENO FALSE, as on a board") :
 		_("ENO is FALSE: an operation failed, such as a division by zero: %s"), place);
 
 	g_free(place);
 	return text;
 }
 
-/* Of a start that was ended and is not yet begun anew. */
+/* Tells that the program ended in FAULT or STOP, if it has not been started again. */
 static void tell_end(LadderSim *sim)
 {
 	const struct resource *resource = &sim->view.twin.resource;
@@ -459,8 +421,7 @@ static void tell_end(LadderSim *sim)
 	g_free(text);
 }
 
-/* On a board that is no fault: ENO is FALSE, and it is counted. But a person who tries a
- * program out shall see it. */
+/* A board only sets ENO to FALSE and counts. A person who tests a program shall see it. */
 static void tell_failure(LadderSim *sim)
 {
 	const struct resource *resource = &sim->view.twin.resource;
@@ -483,12 +444,12 @@ static void tell_refusal(LadderSim *sim)
 		return;
 	sim->refused = refusal->count;
 	tell(sim, refusal->why == SIM_REFUSED_STALE ?
-	     _("Not done: the program was changed just now") :
-	     _("Not done: this cannot be set or forced, or too much is forced already"),
+	     _("Not done: the program has just changed. Try again") :
+	     _("Not done: the variable cannot be set or forced, or too many variables are forced already"),
 	     false);
 }
 
-/* Scans before can be shown; a program that has run none is not worth a word. */
+/* Not told if no scan ran before the edit. */
 static void tell_edit(LadderSim *sim)
 {
 	const struct record *record = ladder_sim_lock_record(sim);
@@ -498,13 +459,12 @@ static void tell_edit(LadderSim *sim)
 	ladder_sim_unlock_record(sim);
 	if (scan == 0)
 		return;
-	text = g_strdup_printf(_("The program was changed after scan %llu; it goes on with "
-				 "its values"), (unsigned long long)scan);
+	text = g_strdup_printf(_("The program was changed after scan %llu. Values are kept"), (unsigned long long)scan);
 	tell(sim, text, false);
 	g_free(text);
 }
 
-static bool take(LadderSim *sim)
+static void take(LadderSim *sim)
 {
 	bool other;
 
@@ -515,7 +475,6 @@ static bool take(LadderSim *sim)
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 		tell_edit(sim);
 	}
-	return other;
 }
 
 static gboolean notified(gpointer data)
@@ -545,7 +504,7 @@ static struct sim_program *build(LadderSim *sim, GError **error)
 	struct sim_program *program = sim_program_new(
 		g_intern_string(path ? path : "-"), text, len, error);
 
-	/* It would not be what is shown: a list has more or less than its POU. */
+	/* A list that cannot be read yet differs from its POU: it would not be what is shown. */
 	if (program && !ladder_document_is_whole(sim->document)) {
 		ladder_document_check_now(sim->document);
 		sim_program_say_why(ladder_document_diags(sim->document), error);
@@ -566,7 +525,6 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 				    _("Out of memory"));
 		return false;
 	}
-	/* What ran before is of another program, even if that is the same. */
 	g_clear_pointer(&sim->thread, sim_thread_free);
 	sim_view_clear(&sim->view);
 	sim->refused = 0;
@@ -577,14 +535,14 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 	sim->newest = sim_program_ref(program);
 	if (sim->speed > 0)
 		sim_thread_speed(sim->thread, sim->speed);
-	sim_thread_heed(sim->thread, sim->heeds);
+	sim_thread_fault_on_error(sim->thread, sim->fault_on_error);
 	sim->version = ladder_document_version(sim->document);
-	rungs_same(sim->rungs);
+	number_rungs(sim);
 	take(sim);
 	return true;
 }
 
-/* @period_ns: 0: as the person or the tasks want it. */
+/* @period_ns: 0: the period that the person set, or that of the tasks. */
 static bool start(LadderSim *sim, gint64 period_ns, GError **error)
 {
 	struct sim_program *program = build(sim, error);
@@ -680,7 +638,7 @@ const char *ladder_sim_plant(LadderSim *sim)
 	return sim->plant_path;
 }
 
-/* ---- another program, while it runs ---- */
+/* ---- an edit while it runs ---- */
 
 struct rebuild {
 	char *text;
@@ -709,7 +667,7 @@ static void rebuild_run(GTask *task, gpointer source, gpointer data,
 
 static void checked(LadderSim *sim);
 
-/* A bookmark, or a variable of a chart, makes no other program. */
+/* Changes of the VIEW part, such as bookmarks, do not replace the program. */
 static void exchange(LadderSim *sim, struct sim_program *program)
 {
 	if (sim_program_is_same(sim->newest, program))
@@ -732,13 +690,13 @@ static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
 		sim->version = rebuild->version;
 	}
 	if (program && rebuild->version == ladder_document_version(sim->document))
-		rungs_same(sim->rungs);
+		number_rungs(sim);
 	else
 		checked(sim);
 	sim_program_unref(program);
 }
 
-/* The document's checks say whether it is worth to build it. */
+/* Builds the document in a thread, if it has changed and has no errors. */
 static void checked(LadderSim *sim)
 {
 	const struct diag_list *diags = ladder_document_diags(sim->document);
@@ -838,7 +796,7 @@ void ladder_sim_set_period(LadderSim *sim, gint64 ns)
 {
 	sim->period_ns = CLAMP(ns, 100000, 60000000000);
 	order(sim, ACT_PERIOD, sim->period_ns);
-	if (!sim->thread) /* else when it holds: until then it is what it was */
+	if (!sim->thread) /* a running thread reports the new period itself */
 		tell_state(sim);
 }
 
@@ -855,16 +813,16 @@ void ladder_sim_set_speed(LadderSim *sim, double scans)
 	tell_state(sim);
 }
 
-bool ladder_sim_heeds(LadderSim *sim)
+bool ladder_sim_fault_on_error(LadderSim *sim)
 {
-	return sim->heeds;
+	return sim->fault_on_error;
 }
 
-void ladder_sim_set_heeds(LadderSim *sim, bool heeds)
+void ladder_sim_set_fault_on_error(LadderSim *sim, bool fault)
 {
-	sim->heeds = heeds;
+	sim->fault_on_error = fault;
 	if (sim->thread)
-		sim_thread_heed(sim->thread, heeds);
+		sim_thread_fault_on_error(sim->thread, fault);
 	tell_state(sim);
 }
 
@@ -873,8 +831,8 @@ void ladder_sim_act(LadderSim *sim, const struct act *act)
 	if (!sim->thread)
 		return;
 	if (ladder_sim_older(sim, NULL)) {
-		tell(sim, _("Not done: this is the program as it was before an edit. Show the "
-			    "newest scan first"), false);
+		tell(sim, _("Not done: this scan ran the program before an edit. Show the newest "
+			    "scan first"), false);
 		return;
 	}
 	ladder_sim_show_now(sim);
@@ -902,9 +860,9 @@ static void ladder_sim_dispose(GObject *object)
 	sim_view_clear(&sim->view);
 	g_clear_pointer(&sim->plant, sim_program_unref);
 	g_clear_pointer(&sim->newest, sim_program_unref);
-	g_clear_pointer(&sim->rungs, rungs_free);
 	if (sim->document)
 		g_signal_handlers_disconnect_by_data(sim->document, sim);
+	g_clear_pointer(&sim->rungs, g_ptr_array_unref);
 	g_clear_object(&sim->document);
 	G_OBJECT_CLASS(ladder_sim_parent_class)->dispose(object);
 }
@@ -934,7 +892,8 @@ static void ladder_sim_class_init(LadderSimClass *class)
 static void ladder_sim_init(LadderSim *sim)
 {
 	sim->told = SIM_OFF;
-	sim->heeds = true;
+	sim->rungs = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
+	sim->fault_on_error = true;
 }
 
 LadderDocument *ladder_sim_document(LadderSim *sim)
@@ -947,7 +906,8 @@ LadderSim *ladder_sim_new(LadderDocument *document)
 	LadderSim *sim = g_object_new(LADDER_TYPE_SIM, NULL);
 
 	sim->document = g_object_ref(document);
-	sim->rungs = rungs_new(document);
+	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(rungs_changed), sim);
+	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(forget_rungs), sim);
 	g_signal_connect_swapped(document, "checked", G_CALLBACK(checked), sim);
 	return sim;
 }

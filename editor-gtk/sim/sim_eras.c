@@ -2,9 +2,9 @@
  *
  * sim_eras - the records of the programs that ran one after the other, from edit to edit.
  *
- * A record is of one program; when that is edited, another record begins at the same scan,
- * and the one before is kept with its program, so that what it ran can be shown as it was.
- * Scan numbers go on, and between two eras none is missing.
+ * A record has one program. After an edit another record begins at the same scan; the one
+ * before is kept with its program, so that its scans can be shown. Scan numbers continue, and
+ * no scan between two eras is missing.
  */
 #include "editor-gtk/sim/sim_eras.h"
 
@@ -13,7 +13,7 @@
 struct sim_eras {
 	GPtrArray *era;          /* of struct sim_era; the last one runs        */
 	guint64 ids;
-	gsize ended;             /* bytes of those that do not                 */
+	gsize ended;             /* bytes of all others                        */
 };
 
 static struct sim_era *at(const struct sim_eras *eras, guint index)
@@ -86,7 +86,7 @@ gsize sim_eras_bytes(const struct sim_eras *eras)
 	return eras->ended + record_bytes(newest(eras)->record);
 }
 
-/* The scan at which one took over is of the one before, which ran it. */
+/* The scan at which a program was replaced belongs to the era before, which ran it. */
 const struct sim_era *sim_eras_find(const struct sim_eras *eras, guint64 scan)
 {
 	for (guint i = 0; i < eras->era->len; i++) {
@@ -98,7 +98,7 @@ const struct sim_era *sim_eras_find(const struct sim_eras *eras, guint64 scan)
 	return NULL;
 }
 
-/* ---- what is kept ---- */
+/* ---- dropping ---- */
 
 static void drop_oldest(struct sim_eras *eras)
 {
@@ -106,7 +106,7 @@ static void drop_oldest(struct sim_eras *eras)
 	g_ptr_array_remove_index(eras->era, 0);
 }
 
-/* Those before a hole could be shown, but not what came of them. */
+/* Eras before a missing scan are dropped too. */
 static void keep_bound(struct sim_eras *eras)
 {
 	const struct record *record = newest(eras)->record;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_pace - how fast a simulation goes, and how it starts: the popover of its button.
+ * sim_pace - the popover of the clock button: period, slow motion, FAULT on a failed operation,
+ * plant, cold and warm start.
  */
 #ifndef EDITOR_SIM_PACE_H
 #define EDITOR_SIM_PACE_H
@@ -9,8 +10,10 @@
 
 #include <gtk/gtk.h>
 
-/** sim_pace_new - a popover: period, slow motion, what it pauses at, cold and warm start.
- * @sim: referenced. */
-GtkWidget *sim_pace_new(LadderSim *sim);
+#define LADDER_TYPE_SIM_PACE (ladder_sim_pace_get_type())
+G_DECLARE_FINAL_TYPE(LadderSimPace, ladder_sim_pace, LADDER, SIM_PACE, GtkPopover)
+
+/** ladder_sim_pace_new - @sim: referenced. */
+GtkWidget *ladder_sim_pace_new(LadderSim *sim);
 
 #endif

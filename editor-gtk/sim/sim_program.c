@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_program - a project that was built to be watched, counted.
+ * sim_program - a project that was built to be simulated: see sim_program.h.
  */
 #include "editor-gtk/sim/sim_program.h"
 
@@ -104,7 +104,7 @@ static char *plain_text(const struct sim_program *program)
 				    at + strlen(view)) : g_strdup(program->text);
 }
 
-/* Of two programs with the same areas. */
+/* @a and @b have the same areas. */
 static bool is_safe_same(const struct sim_program *a, const struct sim_program *b)
 {
 	return a->safe && b->safe ?

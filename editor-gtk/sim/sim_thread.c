@@ -1,22 +1,21 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_thread - scans at their times, does what it is told between them, records.
+ * sim_thread - scans when a scan is due, does orders between scans, and records.
  *
- * What it is told comes through a queue; what it has comes out as a copy, at most once a
- * frame, which it leaves out rather than wait for whoever reads the one before. It sleeps
- * in the queue: standing still costs nothing.
+ * Orders come through a queue. Its state goes out as a copy, at most once a frame; a copy is
+ * skipped while the window reads the one before. It sleeps in the queue: a pause costs nothing.
  */
 #include "editor-gtk/sim/sim_thread.h"
 
 #define FRAME_US G_GINT64_CONSTANT(16000)
-#define LATE_STEPS 320 /* of a table of how late scans were: up to hours     */
-#define BEHIND_US G_GINT64_CONSTANT(250000) /* more than that is not made up for   */
+#define LATE_STEPS 320 /* of the table of lateness: up to hours              */
+#define BEHIND_US G_GINT64_CONSTANT(250000) /* a longer delay is not caught up      */
 
-enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_HEED, ORDER_ACT, ORDER_CHANGE,
-		  ORDER_PLAY, ORDER_END };
+enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_FAULT_ON_ERROR, ORDER_ACT,
+		  ORDER_CHANGE, ORDER_PLAY, ORDER_END };
 struct order {
 	enum order_kind kind;
-	int scans;               /* ORDER_RUN, ORDER_HEED: 0, 1                */
+	int scans;               /* ORDER_RUN, ORDER_FAULT_ON_ERROR: 0 or 1    */
 	double speed;
 	struct act act;
 	char *text;              /* of the act's STRING                        */
@@ -33,14 +32,14 @@ struct sim_thread {
 	/* Of the thread alone: */
 	struct twin twin;
 	bool run;
-	bool heed;               /* FAULT when an operation fails              */
-	bool fault;              /* it is: for that                            */
+	bool fault_on_error;
+	bool fault;              /* an operation failed                        */
 	double speed;
-	double due_us;           /* of the next scan                           */
+	double due_us;           /* when the next scan is due                  */
 	gint64 told_us;          /* when the last copy went out                */
 	struct sim_refusal refusal;
 	struct sim_events events;
-	bool changed;            /* since then                                 */
+	bool changed;            /* since told_us                              */
 	/* Under `record_lock`: */
 	GMutex record_lock;
 	struct sim_eras *eras;
@@ -51,9 +50,9 @@ struct sim_thread {
 	bool out_run, out_fault;
 	struct sim_refusal out_refusal;
 	struct sim_events out_events;
-	/* Between both, atomic: */
+	/* Atomic: */
 	int notified;
-	guint late[LATE_STEPS];  /* scans that were so late, by step           */
+	guint late[LATE_STEPS];  /* scans by lateness, late_step()             */
 };
 
 /* ---- out ---- */
@@ -65,7 +64,7 @@ static void publish(struct sim_thread *thread, bool must)
 	else if (!g_mutex_trylock(&thread->out_lock))
 		return;
 	twin_copy(&thread->out, &thread->twin);
-	/* A record, and with it a scenario, has the outputs of the scan. */
+	/* Only the copy: the record, and so a scenario, has the outputs of the scan. */
 	if (thread->fault || thread->twin.resource.halted)
 		twin_outputs_safe(&thread->out);
 	thread->out_run = thread->run;
@@ -121,7 +120,7 @@ static guint64 wait_us(struct sim_thread *thread)
 	return 0;
 }
 
-/* Steps of 1/16 of the power of two below: 6 % from step to step. */
+/* Steps of 1/16 of the next lower power of two, so 6 % from step to step. */
 static guint late_step(double us)
 {
 	const guint64 late = us > 0 ? (guint64)us : 0;
@@ -135,15 +134,15 @@ static double late_us(guint step)
 	return step < 32 ? step : (double)((guint64)(step % 16 + 16) << (step / 16 - 1));
 }
 
-/* FAULT after the first scan of a start in which an operation failed: time stands still, and
- * a person sees where it was. Whoever looks finds outputs safe; what the board would give is
- * kept here, and goes on from there. */
-static void scan_heeding(struct sim_thread *thread)
+/* The first failed operation of a start is a FAULT: time stands still, so that a person sees
+ * where it was. The window gets safe outputs; the twin keeps those of a board and continues
+ * with them. */
+static void scan_or_fault(struct sim_thread *thread)
 {
 	const guint failures = thread->events.failures;
 
 	scan(thread);
-	if (!thread->heed || thread->events.failures == failures)
+	if (!thread->fault_on_error || thread->events.failures == failures)
 		return;
 	thread->run = false;
 	thread->fault = thread->events.faulted = true;
@@ -153,7 +152,7 @@ static void scan_in_time(struct sim_thread *thread)
 {
 	g_atomic_int_inc((gint *)&thread->late[late_step(
 		(double)g_get_monotonic_time() - thread->due_us)]);
-	scan_heeding(thread);
+	scan_or_fault(thread);
 	thread->due_us += wall_period_us(thread);
 	if (g_get_monotonic_time() - thread->told_us >= FRAME_US)
 		publish(thread, false);
@@ -185,7 +184,7 @@ static void act(struct sim_thread *thread, const struct act *act)
 	g_mutex_unlock(&thread->record_lock);
 }
 
-/* A place of another program is somebody else's memory here. */
+/* In the program that runs, a place of another program is another variable. */
 static void act_of(struct sim_thread *thread, const struct order *order)
 {
 	if (!order->program || order->program == thread->program ||
@@ -195,8 +194,8 @@ static void act_of(struct sim_thread *thread, const struct order *order)
 		refuse(thread, SIM_REFUSED_STALE);
 }
 
-/* @next takes the place of the twin; what is of the one before is let go. */
-static void take_place(struct sim_thread *thread, const struct twin *next,
+/* Replaces the twin by @next, and frees the one before. */
+static void replace_twin(struct sim_thread *thread, const struct twin *next,
 		       struct sim_program *program)
 {
 	g_mutex_lock(&thread->record_lock);
@@ -221,7 +220,7 @@ static void change(struct sim_thread *thread, struct sim_program *program)
 		      thread->plant->program : NULL, thread->twin.period_ns) &&
 	    twin_change(&next, &thread->twin)) {
 		twin_set_safe(&next, program->safe);
-		take_place(thread, &next, program);
+		replace_twin(thread, &next, program);
 		return;
 	}
 	twin_free(&next);
@@ -235,7 +234,7 @@ static void scan_some(struct sim_thread *thread, int scans)
 		scan(thread);
 }
 
-/* Somebody who wants something else does not wait for the end of it. */
+/* Another order ends it. */
 static void play(struct sim_thread *thread, GArray *acts, guint64 until)
 {
 	const struct act start = { .kind = ACT_START };
@@ -260,7 +259,7 @@ static void play(struct sim_thread *thread, GArray *acts, guint64 until)
 	}
 }
 
-/* False: it is to end. */
+/* False: the thread is to end. */
 static bool obey(struct sim_thread *thread, struct order *order)
 {
 	switch (order->kind) {
@@ -273,7 +272,7 @@ static bool obey(struct sim_thread *thread, struct order *order)
 		thread->speed = order->speed;
 		start_clock(thread);
 		break;
-	case ORDER_HEED: thread->heed = order->scans != 0; break;
+	case ORDER_FAULT_ON_ERROR: thread->fault_on_error = order->scans != 0; break;
 	case ORDER_ACT: act_of(thread, order); break;
 	case ORDER_CHANGE: change(thread, g_steal_pointer(&order->program)); break;
 	case ORDER_PLAY: play(thread, order->acts, order->until); break;
@@ -314,7 +313,7 @@ static gpointer main_of(gpointer data)
 			go_on = obey(thread, order);
 		else if (thread->run)
 			scan_in_time(thread);
-		/* What scans changed is shown with a later one, if there is one. */
+		/* While it runs, scan_in_time() publishes. */
 		if (thread->changed && (order || !thread->run) &&
 		    g_async_queue_length(thread->orders) <= 0)
 			publish(thread, true);
@@ -324,7 +323,7 @@ static gpointer main_of(gpointer data)
 	return NULL;
 }
 
-/* ---- of the window ---- */
+/* ---- called by the window ---- */
 
 static bool start_twin(struct twin *twin, const struct sim_program *program,
 		       const struct sim_program *plant, int64_t period_ns)
@@ -399,9 +398,9 @@ void sim_thread_speed(struct sim_thread *thread, double scans)
 	tell(thread, &(struct order){ .kind = ORDER_SPEED, .speed = scans });
 }
 
-void sim_thread_heed(struct sim_thread *thread, bool heed)
+void sim_thread_fault_on_error(struct sim_thread *thread, bool fault)
 {
-	tell(thread, &(struct order){ .kind = ORDER_HEED, .scans = heed });
+	tell(thread, &(struct order){ .kind = ORDER_FAULT_ON_ERROR, .scans = fault });
 }
 
 void sim_thread_act(struct sim_thread *thread, struct sim_program *of, const struct act *act)
@@ -461,7 +460,7 @@ bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *oth
 	return good;
 }
 
-/* The lateness that a part of all scans does not reach beyond. */
+/* The lateness that @part of all scans do not exceed. */
 static double late_of(const guint *late, guint64 scans, double part)
 {
 	const double wanted = part * (double)scans;

@@ -9,24 +9,24 @@
 
 struct sim_thread;
 
-/* What was not done, last, and how many were not. */
+/* The last refusal, and how many there were. */
 enum sim_refused {
-	SIM_REFUSED_PLACE, /* it cannot be set or forced, or too many are held  */
-	SIM_REFUSED_STALE, /* it is a place of a program that runs no more      */
+	SIM_REFUSED_PLACE, /* cannot be set or forced, or too many are forced   */
+	SIM_REFUSED_STALE, /* a place of a program that does not run any more    */
 };
 struct sim_refusal {
 	enum sim_refused why;
 	guint count;
 };
 
-/* What came of scans by themselves; each counted, since copies of values leave some out. */
+/* What scans caused. Counted, because not every scan is copied to the window. */
 struct sim_events {
-	guint ends;              /* in FAULT, or because the program said STOP  */
+	guint ends;              /* FAULT, or STOP by the program               */
 	guint failures;          /* starts in which an operation failed        */
-	bool faulted;            /* for the last failure                       */
+	bool faulted;            /* the last failure was a FAULT               */
 };
 
-/* What the window sees of the thread. */
+/* The window's copy of the thread's state. */
 struct sim_view {
 	struct twin twin;        /* a clone: of `program`                      */
 	struct sim_program *program, *plant;
@@ -38,9 +38,9 @@ struct sim_view {
 
 /**
  * sim_thread_new - in STOP, with a record
- * @program, @plant: it takes references; @plant NULL: none
- * @notify: called in the main context when there is something new to take; @data borrowed
- * Owns: sim_thread_free(), which waits until it has ended. Fails: NULL: no memory.
+ * @program, @plant: referenced; @plant NULL: none
+ * @notify: called in the main context when sim_thread_take() has something new; @data borrowed
+ * Owns: sim_thread_free(), which waits for its end. Fails: NULL: no memory.
  */
 struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_program *plant,
 				  gint64 period_ns, GSourceFunc notify, gpointer data);
@@ -49,25 +49,25 @@ void sim_thread_free(struct sim_thread *thread);
 void sim_thread_run(struct sim_thread *thread, bool run);
 void sim_thread_scan(struct sim_thread *thread, int scans);
 void sim_thread_speed(struct sim_thread *thread, double scans);
-/** sim_thread_heed - as ladder_sim_set_heeds(). */
-void sim_thread_heed(struct sim_thread *thread, bool heed);
-/** sim_thread_act - @of: the program or plant whose place it means, NULL: none; if that runs
- * no more, it is refused: what stands there now is another variable. */
+/** sim_thread_fault_on_error - as ladder_sim_set_fault_on_error(). */
+void sim_thread_fault_on_error(struct sim_thread *thread, bool fault);
+/** sim_thread_act - @of: the program or plant that has the place; NULL: the act has no place. If
+ * it does not run any more, the act is refused: another variable may be at that place. */
 void sim_thread_act(struct sim_thread *thread, struct sim_program *of,
 		    const struct act *act);
-/** sim_thread_play - as ladder_sim_play(); it takes a reference of @acts. */
+/** sim_thread_play - as ladder_sim_play(); @acts: referenced. */
 void sim_thread_play(struct sim_thread *thread, GArray *acts, guint64 scans);
-/** sim_thread_change - another program takes the place of the one that runs. It takes a
- * reference. */
+/** sim_thread_change - @program (referenced) replaces the one that runs. */
 void sim_thread_change(struct sim_thread *thread, struct sim_program *program);
 
-/** sim_thread_take - brings @view to what is newest; @other gets whether it is of another
- * program than it was. Fails: false: no memory, @view is as it was. */
+/** sim_thread_take - copies the newest state to @view; *other: it is of another program than
+ * before. Fails: false: no memory, @view is unchanged. */
 bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *other);
 void sim_view_clear(struct sim_view *view);
 /** sim_thread_lateness - as ladder_sim_lateness(). */
 bool sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out);
-/** sim_thread_lock - the records of all programs; the thread waits as long. */
+/** sim_thread_lock - the records of all programs; the thread waits until
+ * sim_thread_unlock(). */
 const struct sim_eras *sim_thread_lock(struct sim_thread *thread);
 void sim_thread_unlock(struct sim_thread *thread);
 

@@ -267,7 +267,7 @@ void sim_bar_init(struct sim_bar *bar, struct core *core, struct origin *origin)
 	gtk_widget_set_vexpand(panel, TRUE);
 	gtk_box_append(bar->right, panel);
 	tip_set(GTK_WIDGET(bar->forces_button), _("Release all forces"));
-	gtk_menu_button_set_popover(bar->pace_button, sim_pace_new(sim));
+	gtk_menu_button_set_popover(bar->pace_button, ladder_sim_pace_new(sim));
 	core_connect(core, sim, "state-changed", G_CALLBACK(state_changed), bar,
 		     G_CONNECT_SWAPPED);
 	core_connect(core, sim, "shown", G_CALLBACK(shown), bar, G_CONNECT_SWAPPED);

@@ -26,9 +26,20 @@ static void program_changed(void)
 	changes++;
 }
 
+static LadderTimingArea *area_in(GtkWidget *widget)
+{
+	LadderTimingArea *found = LADDER_IS_TIMING_AREA(widget) ?
+		LADDER_TIMING_AREA(widget) : NULL;
+	GtkWidget *child = gtk_widget_get_first_child(widget);
+
+	for (; child && !found; child = gtk_widget_get_next_sibling(child))
+		found = area_in(child);
+	return found;
+}
+
 static char *names(void)
 {
-	struct timing *timing = ladder_timing_area_timing(ladder_timing_view_area(view));
+	struct timing *timing = ladder_timing_area_timing(area_in(GTK_WIDGET(view)));
 	GString *out = g_string_new(NULL);
 
 	for (int i = 0; i < timing_lines(timing); i++)

@@ -75,7 +75,7 @@ def simulates(screen):
     editor.find('Start, New value', 'text')
     until(lambda: [node for node in editor.all(role='label') if node.name == '0'], 'the value of that scan')
     editor.tab('Timing chart')
-    editor.click(editor.find('All that is kept'))
+    editor.click(editor.find('Show all recorded scans'))
     until(lambda: editor.find('Timing chart, cursor').has(12) or editor.click(editor.find('Timing chart, cursor')), 'the keys')
     editor.shot('below-past')
     editor.keys('Escape')

@@ -155,7 +155,7 @@ def zero(screen):
     log = editor.logs('simulation', 'division by zero: Main, rung 2 (1,')
     assert log.count('division by zero') == 1, log
     # A cold start forgets that it was told; but it can be switched off.
-    switch = at_the_clock(editor, 'FAULT at a failed operation')
+    switch = at_the_clock(editor, 'FAULT on a failed operation')
     assert switch.has(4)
     editor.keys('space')
     until(lambda: not switch.has(4), 'the switch to be off')

@@ -101,7 +101,7 @@ def rests(screen):
     editor.element('Rung 1, COIL', 'Motor', ', on')
     editor.click(editor.beside(editor.element('Rung 1, COIL')))
     editor.keys('ctrl+alt+e')
-    editor.says('Motor is what a board drives in STOP')
+    editor.says('"Motor" has its safe value in STOP')
     editor.shot('scenario-rests')
 
 

@@ -77,7 +77,7 @@ def pointer(screen):
     editor.click(switch(editor, 'Stop, %IX0.1'))
     line(editor, 'Output 电机, %QX0.0, off')
     editor.click(line(editor, 'Output 电机'), button=3)
-    editor.find('Force On', 'menu item').press()
+    editor.find('Force on', 'menu item').press()
     line(editor, 'Output 电机, %QX0.0, on, forced')
     editor.says('1 force')
     editor.shot('simpanel-forced')
@@ -142,7 +142,7 @@ def small(screen):
     editor.click(node)
     editor.shot('simpanel-small')
     editor.click(node, button=3)
-    editor.find('Is a Switch', 'menu item')
+    editor.find('Use as a switch', 'menu item')
     editor.shot('simpanel-small-menu')
 
 

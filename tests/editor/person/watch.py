@@ -53,7 +53,7 @@ def values(screen):
     chart(editor)
     editor.shot('watch-first')
     add(editor, 'Level Nobody')
-    editor.find('Nobody: the program has no such name')
+    editor.find('"Nobody" is not declared in the program')
     editor.keys('ctrl+r')
     editor.says('SIMULATION')
     editor.into('Level, New value')

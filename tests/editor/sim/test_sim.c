@@ -304,14 +304,14 @@ static void test_refused(void)
 		CHECK(ladder_sim_begin(sim, NULL));
 		g_clear_pointer(&told, g_free);
 		ladder_sim_act(sim, &(struct act){ .kind = ACT_FORCE, .at = nowhere });
-		told_is("Not done: this cannot be set or forced");
+		told_is("Not done: the variable cannot be set or forced");
 		for (guint i = 0; i < LIMIT_FORCES; i++)
 			ladder_sim_act(sim, &(struct act){ .kind = ACT_FORCE,
 				.at = { .type = IEC_BOOL, .area = AREA_M, .where = i } });
 		CHECK_SOON(ladder_sim_forces(sim) == LIMIT_FORCES);
 		CHECK(!told);
 		act(ACT_FORCE, "Count", 7);
-		told_is("too much is forced already");
+		told_is("too many variables are forced already");
 		CHECK(ladder_sim_forces(sim) == LIMIT_FORCES && value("Count") == 0);
 		ladder_sim_end(sim);
 	}
@@ -351,7 +351,7 @@ static void test_heeds(void)
 		  "END_VAR\n\nPROGRAM Main LD\n"
 		  "RUNG\n  | --- | COIL Lamp |\n"
 		  "RUNG\n  | --- | [ Rate := Parts / Minutes ] |\nEND_PROGRAM\n");
-	CHECK(ladder_sim_begin(sim, NULL) && ladder_sim_heeds(sim));
+	CHECK(ladder_sim_begin(sim, NULL) && ladder_sim_fault_on_error(sim));
 	for (int again = 0; again < 20; again++) {
 		ladder_sim_run(sim);
 		told_is("! FAULT: an operation failed");
@@ -380,13 +380,13 @@ static void test_heeds(void)
 	CHECK_SOON(told && g_str_has_prefix(told, "ENO is FALSE"));
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 5);
 	g_clear_pointer(&told, g_free);
-	ladder_sim_set_heeds(sim, false);
+	ladder_sim_set_fault_on_error(sim, false);
 	ladder_sim_reset(sim, false);
 	ladder_sim_run(sim);
 	CHECK_SOON(told && g_str_has_prefix(told, "ENO is FALSE"));
 	CHECK_SOON(ladder_sim_twin(sim)->resource.vm.errors > 3);
 	CHECK(ladder_sim_state(sim) == SIM_RUN);
-	ladder_sim_set_heeds(sim, true);
+	ladder_sim_set_fault_on_error(sim, true);
 	ladder_sim_end(sim);
 	g_array_unref(acts);
 }
