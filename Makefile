@@ -163,7 +163,7 @@ all: $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder)
 $(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
 
-# From the rows of runtime/ladder/commands.c. A cross build has them from programs
+# From the rows of runtime/ladder/commands.def. A cross build has them from programs
 # that run here.
 HERE := $(if $(CROSS),build/here,$(BUILD))
 ifneq ($(HERE),$(BUILD))

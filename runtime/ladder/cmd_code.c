@@ -200,20 +200,6 @@ enum status cmd_code(struct call *call)
 	return status;
 }
 
-static enum status save_bytes(const void *bytes, size_t len, const char *path)
-{
-	struct diag_list *diags = calloc(1, sizeof(*diags));
-	bool good;
-
-	if (!diags)
-		return report_no_memory(path);
-	diag_init(diags);
-	good = file_save(path, bytes, len, diags);
-	report_diags(diags);
-	free(diags);
-	return good ? STATUS_GOOD : STATUS_WRONG;
-}
-
 static enum status save(const struct ladder *ladder, bool small,
 			const char *path)
 {
@@ -223,13 +209,13 @@ static enum status save(const struct ladder *ladder, bool small,
 	void *stripped;
 
 	if (!small)
-		return save_bytes(image, len, path);
+		return report_save(path, image, len);
 	len = code_strip(image, NULL);
 	stripped = malloc(len);
 	if (!stripped)
 		return report_no_memory(path);
 	code_strip(image, stripped);
-	status = save_bytes(stripped, len, path);
+	status = report_save(path, stripped, len);
 	free(stripped);
 	return status;
 }

@@ -18,21 +18,11 @@
 static enum status write_out(struct call *call, const char *text, size_t len)
 {
 	const char *path = call_option(call, "-o");
-	struct diag_list *diags;
-	bool good;
 
-	if (!path) {
-		sink_write(&call->out, text, len);
-		return STATUS_GOOD;
-	}
-	diags = calloc(1, sizeof(*diags));
-	if (!diags)
-		return report_no_memory(path);
-	diag_init(diags);
-	good = file_save(path, text, len, diags);
-	report_diags(diags);
-	free(diags);
-	return good ? STATUS_GOOD : STATUS_WRONG;
+	if (path)
+		return report_save(path, text, len);
+	sink_write(&call->out, text, len);
+	return STATUS_GOOD;
 }
 
 /* @text: as the engine made it. */

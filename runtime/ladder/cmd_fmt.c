@@ -10,20 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static enum status write_file(const char *path, const char *text, size_t len)
-{
-	struct diag_list *diags = calloc(1, sizeof(*diags));
-	bool good;
-
-	if (!diags)
-		return report_no_memory(path);
-	diag_init(diags);
-	good = file_save(path, text, len, diags);
-	report_diags(diags);
-	free(diags);
-	return good ? STATUS_GOOD : STATUS_WRONG;
-}
-
 static enum status compare(struct call *call, const char *path,
 			   const char *text, size_t len)
 {
@@ -38,7 +24,7 @@ static enum status compare(struct call *call, const char *path,
 	if (same)
 		return STATUS_GOOD;
 	if (!call_flag(call, "--check"))
-		return write_file(path, text, len);
+		return report_save(path, text, len);
 	sink_text(&call->out, path);
 	sink_text(&call->out, "\n");
 	return STATUS_NO;

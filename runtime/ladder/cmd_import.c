@@ -71,20 +71,6 @@ static void print_json(const char *path, const struct classic_report *report,
 	sink_text(out, "]}\n");
 }
 
-static bool save(const char *path, const char *text, size_t len)
-{
-	struct diag_list *diags = calloc(1, sizeof(*diags));
-	bool good = false;
-
-	if (!diags)
-		return report_no_memory(path) == STATUS_GOOD;
-	diag_init(diags);
-	good = file_save(path, text, len, diags);
-	report_diags(diags);
-	free(diags);
-	return good;
-}
-
 /* OUT.rung: OUT.io */
 static bool save_io(const char *out, const char *map)
 {
@@ -97,7 +83,7 @@ static bool save_io(const char *out, const char *map)
 		return report_no_memory(out) == STATUS_GOOD;
 	memcpy(path, out, stem);
 	memcpy(path + stem, ".io", sizeof(".io"));
-	good = save(path, map, strlen(map));
+	good = report_save(path, map, strlen(map)) == STATUS_GOOD;
 	free(path);
 	return good;
 }
@@ -111,7 +97,7 @@ static enum status write_files(struct ladder *ladder, const char *out)
 
 	if (!text)
 		return report_no_memory(out);
-	good = save(out, text, len) && (!map || save_io(out, map));
+	good = report_save(out, text, len) == STATUS_GOOD && (!map || save_io(out, map));
 	free(text);
 	return good ? STATUS_GOOD : STATUS_WRONG;
 }

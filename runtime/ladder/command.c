@@ -4,10 +4,21 @@
  * command by name, and abbreviates no option.
  */
 #include "ladder/command.h"
+
 #include "ladder/report.h"
 
 #include <stdio.h>
 #include <string.h>
+
+static const struct command_row rows[] = {
+#include "ladder/commands.def"
+	{ .name = NULL },
+};
+
+const struct command_row *command_table(void)
+{
+	return rows;
+}
 
 const struct command_row *command_find(const char *name)
 {

@@ -46,8 +46,6 @@ void picture_json(const struct picture *picture, int row,
 		  const struct sink *out);
 /** picture_is_whole - does the machine have every line of the map? */
 bool picture_is_whole(const struct picture *picture);
-/** picture_level - of a row. */
-enum level picture_level(const struct picture *picture, int row);
 
 /** picture_live - in the terminal, until q or a signal. */
 enum status picture_live(struct call *call, struct picture *picture);

@@ -349,3 +349,17 @@ char *report_read(const char *path, size_t *len)
 	free(diags);
 	return text;
 }
+
+enum status report_save(const char *path, const void *bytes, size_t len)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	bool good;
+
+	if (!diags)
+		return report_no_memory(path);
+	diag_init(diags);
+	good = file_save(path, bytes, len, diags);
+	report_diags(diags);
+	free(diags);
+	return good ? STATUS_GOOD : STATUS_WRONG;
+}

@@ -84,4 +84,6 @@ bool report_count(const struct call *call, const char *option, int64_t preset,
 /** report_read - the text of a file, or of standard input for `-`.
  * Owns: the caller, free(). NULL after a message. */
 char *report_read(const char *path, size_t *len);
+/** report_save - writes a file; else STATUS_WRONG after a message. */
+enum status report_save(const char *path, const void *bytes, size_t len);
 #endif

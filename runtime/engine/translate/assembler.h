@@ -108,8 +108,6 @@ uint32_t layout_like(struct assembler *as, const struct meaning *m);
 void layout_core(struct assembler *as);
 /** layout_power - places for the power of cells, and for a copy an instance. */
 void layout_power(struct assembler *as);
-/** layout_place_powers - of the cells of one table's POU. */
-bool layout_place_powers(struct assembler *as, int table);
 /** layout_spot - where the value of @meaning lies; not for literals. */
 struct spot layout_spot(const struct assembler *as, const struct meaning *m);
 /** layout_constant - a constant's place, made once a value. */
@@ -138,8 +136,6 @@ void layout_init_array(struct assembler *as, uint32_t offset,
  * of its parts. */
 void layout_init_parts(struct assembler *as, uint32_t offset,
 		       const struct var *var);
-/** layout_count_pins - counts the uses of every instance pin. */
-bool layout_count_pins(struct assembler *as);
 /** layout_only_stored - is a parameter of the only call all that is ever done with
  * this pin? Then a constant may be its initial value instead, if that call runs in
  * every scan: nobody can tell. */
@@ -147,22 +143,6 @@ bool layout_only_stored(const struct assembler *as, const struct meaning *pin);
 /** layout_pou - the frame of a function or block; @index: of its POU. */
 const struct frame *layout_pou(const struct assembler *as, enum word word,
 			       uint32_t *index);
-/** layout_has_room - is there room for @size bytes at @offset? */
-bool layout_has_room(struct assembler *as, uint32_t offset, uint64_t size);
-/** layout_place_at - the same at @offset, behind all that lies there already. */
-uint32_t layout_place_at(struct assembler *as, struct code_run want,
-			 uint32_t offset, uint32_t size);
-/** layout_init_var - the initial value of a variable at an offset. */
-void layout_init_var(struct assembler *as, uint32_t offset, const struct var *var);
-/** layout_whole - a place for an instance, frame or structure of the project's own;
- * @init: with its initial values. */
-uint32_t layout_whole(struct assembler *as, enum word word, bool init);
-/** layout_instances - places for @count blocks of the catalogue from @offset on, one
- * every @unit bytes. */
-void layout_instances(struct assembler *as, enum word word, uint32_t offset,
-		      uint32_t count, uint32_t unit);
-/** layout_row - the row of a word, be it the project's own. */
-const struct word_row *layout_row(const struct assembler *as, enum word word);
 /** layout_vars - declared variables of table 0 (globals) or unit + 1. */
 const struct var_table *layout_vars(const struct assembler *as, int table);
 /** layout_table - index of the table a meaning belongs to. */

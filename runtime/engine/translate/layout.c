@@ -22,14 +22,15 @@ void words_push(struct assembler *as, struct words *words, uint32_t word)
 		as->failed = true;
 }
 
-const struct word_row *layout_row(const struct assembler *as, enum word word)
+/* The row of a word, be it the project's own. */
+static const struct word_row *layout_row(const struct assembler *as, enum word word)
 {
 	return words_row(&as->translation->project->words, word);
 }
 
 /* ---- runs ---- */
 
-bool layout_has_room(struct assembler *as, uint32_t offset, uint64_t size)
+static bool layout_has_room(struct assembler *as, uint32_t offset, uint64_t size)
 {
 	struct diag diag = { .id = DIAG_DATA_TOO_LARGE,
 		.file = as->translation->project->file };
@@ -44,8 +45,8 @@ bool layout_has_room(struct assembler *as, uint32_t offset, uint64_t size)
 }
 
 /* @want: what, and how many of it, each of @size. */
-uint32_t layout_place_at(struct assembler *as, struct code_run want,
-			 uint32_t offset, uint32_t size)
+static uint32_t layout_place_at(struct assembler *as, struct code_run want,
+				uint32_t offset, uint32_t size)
 {
 	struct code_run *last = as->run_count ?
 		&as->run[as->run_count - 1] : NULL;
@@ -98,14 +99,159 @@ static uint32_t place_value(struct assembler *as, enum code_run_kind kind,
 }
 
 /* So many of one word in a row, each where @unit bytes behind the one before end. */
-void layout_instances(struct assembler *as, enum word word, uint32_t offset,
-		      uint32_t count, uint32_t unit)
+static void layout_instances(struct assembler *as, enum word word, uint32_t offset,
+			     uint32_t count, uint32_t unit)
 {
 	const struct code_run run = { .kind = RUN_INSTANCE, .count = 1,
 				      .word = (uint16_t)word };
 
 	for (uint32_t i = 0; i < count && !as->failed; i++)
 		layout_place_at(as, run, offset + i * unit, word_row(word)->size);
+}
+
+/* One that is being placed, part by part. */
+struct whole {
+	const struct word_row *row;
+	const struct var_table *vars;
+	uint32_t base;
+	int next;
+	uint32_t element;   /* of the part at next                           */
+};
+
+static struct whole whole_of(const struct assembler *as, enum word word,
+			     uint32_t base)
+{
+	return (struct whole){
+		.row = layout_row(as, word), .base = base,
+		.vars = shape_vars(as->translation->project, word),
+	};
+}
+
+/* ---- variables ---- */
+
+/* The literal that a text begins with; it was read before. */
+static struct literal init_text(const struct assembler *as, const struct var *var)
+{
+	const struct names *names = &as->translation->project->names;
+	struct literal literal;
+
+	literal_parse(names_text(names, var->init_text),
+		      names_len(names, var->init_text), &literal);
+	return literal;
+}
+
+/* The initial value of a variable at an offset. */
+static void layout_init_var(struct assembler *as, uint32_t offset, const struct var *var)
+{
+	uint32_t capacity = var->capacity ? var->capacity : IEC_STRING_MOST;
+
+	if (init_has_parts(var))
+		layout_init_parts(as, offset, var);
+	else if (var->array.count)
+		layout_init_array(as, offset, var);
+	else if (var->has_init && var->type == IEC_STRING)
+		layout_init_text(as, offset, capacity, init_text(as, var));
+	else if (var->has_init)
+		layout_init(as, offset, var->type, var->init);
+}
+
+/* Instances of the catalogue. */
+static void place_blocks(struct assembler *as, const struct word_pin *pin,
+			 uint32_t offset, struct extent extent, bool init)
+{
+	uint32_t count = pin->elements ? pin->elements : 1;
+
+	layout_instances(as, pin->word, offset, count, extent.unit);
+	for (uint32_t i = 0; i < count && init && !as->failed; i++)
+		layout_init_pins(as, offset + i * extent.unit, word_row(pin->word));
+}
+
+/* A part without parts of the project's own. */
+static void place_part(struct assembler *as, const struct whole *whole, int index,
+		       bool init)
+{
+	const struct word_pin *pin = &whole->row->pin[index];
+	struct extent extent = shape_of(&as->translation->project->words, pin);
+	uint32_t offset = whole->base + pin->offset;
+	struct code_run run = { .kind = RUN_VALUES, .type = (uint8_t)pin->type,
+				.count = pin->elements };
+
+	if (pin->type == IEC_STRING)
+		run.word = pin->capacity;
+	if (pin->type == IEC_NONE)
+		place_blocks(as, pin, offset, extent, init);
+	else
+		layout_place_at(as, run, offset, extent.unit);
+	if (init && pin->has_init)
+		layout_init_var(as, offset, &whole->vars->var[index]);
+}
+
+/* Behind the last part of what has parts of the project's own: what the declaration of
+ * that member itself says. */
+static void end_part(struct assembler *as, const struct whole *outer)
+{
+	int index;
+	const struct word_pin *pin;
+
+	if (outer->element)
+		return; /* of an array more elements come */
+	index = outer->row->order[outer->next - 1];
+	pin = &outer->row->pin[index];
+	if (pin->has_init)
+		layout_init_var(as, outer->base + pin->offset,
+				&outer->vars->var[index]);
+}
+
+/* The next part of @top, an element at a time if it is an array of what has parts of
+ * the project's own; @offset: where it lies. */
+static int next_part(const struct assembler *as, struct whole *top, uint32_t *offset)
+{
+	int index = top->row->order[top->next];
+	const struct word_pin *pin = &top->row->pin[index];
+	bool each = pin->type == IEC_NONE && word_is_own(pin->word);
+
+	*offset = top->base + pin->offset;
+	if (each)
+		*offset += top->element++ * layout_row(as, pin->word)->size;
+	if (!each || top->element >= pin->elements) {
+		top->element = 0;
+		top->next++;
+	}
+	return index;
+}
+
+/* Runs for its parts, in the order of model/shape.h. */
+static uint32_t layout_whole(struct assembler *as, enum word word, bool init)
+{
+	struct whole level[LIMIT_NESTING + 1];
+	uint32_t base = (as->data_size + 7) / 8 * 8;
+	uint32_t size = layout_row(as, word)->size;
+	int depth = 0;
+
+	if (!layout_has_room(as, base, size))
+		return as->data_size - 1;
+	level[0] = whole_of(as, word, base);
+	while (depth >= 0 && !as->failed) {
+		struct whole *top = &level[depth];
+		const struct word_pin *pin;
+		uint32_t offset;
+		int index;
+
+		if (top->next == top->row->ordered) {
+			if (--depth >= 0 && init)
+				end_part(as, &level[depth]);
+			continue;
+		}
+		index = next_part(as, top, &offset);
+		pin = &top->row->pin[index];
+		if (pin->type == IEC_NONE && word_is_own(pin->word)) {
+			level[++depth] = whole_of(as, pin->word, offset);
+			continue;
+		}
+		place_part(as, top, index, init);
+	}
+	as->data_size = base + size;
+	return base;
 }
 
 /* An instance or structure, or an array of such; @init: with the values that their
@@ -309,33 +455,6 @@ static bool place_bits(struct assembler *as)
 				place_byte(as, area, byte, used[at + byte]);
 	}
 	return true;
-}
-
-/* ---- variables ---- */
-
-/* The literal that a text begins with; it was read before. */
-static struct literal init_text(const struct assembler *as, const struct var *var)
-{
-	const struct names *names = &as->translation->project->names;
-	struct literal literal;
-
-	literal_parse(names_text(names, var->init_text),
-		      names_len(names, var->init_text), &literal);
-	return literal;
-}
-
-void layout_init_var(struct assembler *as, uint32_t offset, const struct var *var)
-{
-	uint32_t capacity = var->capacity ? var->capacity : IEC_STRING_MOST;
-
-	if (init_has_parts(var))
-		layout_init_parts(as, offset, var);
-	else if (var->array.count)
-		layout_init_array(as, offset, var);
-	else if (var->has_init && var->type == IEC_STRING)
-		layout_init_text(as, offset, capacity, init_text(as, var));
-	else if (var->has_init)
-		layout_init(as, offset, var->type, var->init);
 }
 
 /* A pin of this row that is part of it. */
@@ -544,6 +663,129 @@ static bool make_tables(struct assembler *as)
 	return true;
 }
 
+/* Only pins of the catalogue's blocks are counted, and in programs: others lie in
+ * many instances. */
+static bool is_counted(const struct meaning *m)
+{
+	return m->var->type == IEC_NONE && !word_is_own(m->var->fb) &&
+	       !m->var->array.count &&
+	       (!m->pou || m->pou->kind == POU_PROGRAM);
+}
+
+/* ---- pins that always get the same constant ---- */
+
+static uint8_t *pin_count(const struct assembler *as, const struct meaning *m)
+{
+	uint32_t first = as->first_pin[layout_table(as, m)][m->index];
+
+	return &as->pin_writes[first + (uint32_t)m->pin];
+}
+
+/* A parameter of a call counts one, any other use two: then it is not alone. */
+static void count_use(struct assembler *as, const struct meaning *m,
+		      bool parameter)
+{
+	uint8_t *count = pin_count(as, m);
+
+	*count = (uint8_t)(*count + (parameter ? 1 : 2));
+	if (*count > 2)
+		*count = 2;
+}
+
+/* Calls of an instance are counted behind its pins. */
+static struct meaning calls_of(const struct assembler *as,
+			       const struct meaning *instance)
+{
+	struct meaning calls = *instance;
+
+	calls.pin = layout_row(as, instance->var->fb)->pin_count;
+	return calls;
+}
+
+static void count_call(struct assembler *as, const struct meaning *instance)
+{
+	struct meaning calls = calls_of(as, instance);
+
+	count_use(as, &calls, true);
+}
+
+/* ENO of the function whose list it is. */
+static bool is_eno(const struct pou *pou, const struct meaning *m)
+{
+	return pou->kind == POU_FUNCTION && pou->vars.count > 1 &&
+	       m->var == &pou->vars.var[1];
+}
+
+static void count_list(struct assembler *as, const struct unit *unit)
+{
+	struct scope *scope = as->translation->scope;
+	const struct meaning *instance = NULL;
+	enum diag_id why;
+
+	for (int i = 0; i < unit->il.count; i++) {
+		const struct il_line *line = &unit->il.line[i];
+		const struct meaning *m = NULL;
+
+		if (line->operand && line->kind != IL_LABEL &&
+		    line->kind != IL_TARGET && line->kind != IL_COMMENT)
+			m = scope_find(scope, unit->pou, line->operand, &why);
+		if (m && m->var && is_eno(unit->pou, m))
+			as->frame[unit - as->translation->unit].eno = true;
+		if (line->kind == IL_OP)
+			instance = m && m->kind == MEANING_INSTANCE &&
+				   is_counted(m) ? m : NULL;
+		if (line->kind == IL_CALL)
+			instance = NULL;
+		if (m && m->kind == MEANING_PIN && is_counted(m))
+			count_use(as, m, false);
+		if (line->kind == IL_OP && instance)
+			count_call(as, instance);
+		if (line->kind == IL_ARG_IN && instance) {
+			struct meaning pin = *instance;
+			const char *name = scope_text(scope, line->pin);
+
+			pin.pin = word_pin_find(layout_row(as, pin.var->fb), name,
+						strlen(name));
+			if (pin.pin >= 0)
+				count_use(as, &pin, true);
+		}
+	}
+}
+
+/* Counts the uses of every instance pin. */
+static bool layout_count_pins(struct assembler *as)
+{
+	int tables = as->translation->unit_count + 1;
+	uint32_t pins = 0;
+
+	as->first_pin = arena_alloc(as->arena,
+				    (size_t)tables * sizeof(uint32_t *));
+	if (!as->first_pin)
+		return false;
+	for (int table = 0; table < tables; table++) {
+		int size = layout_vars(as, table)->count;
+		uint32_t *first = arena_alloc(as->arena, ((size_t)size + 1) *
+					      sizeof(*first));
+
+		if (!first)
+			return false;
+		as->first_pin[table] = first;
+		for (int i = 0; i < size; i++) {
+			const struct var *var = &layout_vars(as, table)->var[i];
+
+			first[i] = pins;
+			if (var->type == IEC_NONE && !word_is_own(var->fb))
+				pins += layout_row(as, var->fb)->pin_count + 1u;
+		}
+	}
+	as->pin_writes = arena_alloc(as->arena, pins + 1u);
+	if (!as->pin_writes)
+		return false;
+	for (int i = 0; i < as->translation->unit_count; i++)
+		count_list(as, &as->translation->unit[i]);
+	return true;
+}
+
 bool layout_make(struct assembler *as)
 {
 	as->data_size = as->areas->size;
@@ -568,7 +810,8 @@ void layout_core(struct assembler *as)
 	as->run_core = as->run_count;
 }
 
-bool layout_place_powers(struct assembler *as, int table)
+/* Of the cells of one table's POU. */
+static bool layout_place_powers(struct assembler *as, int table)
 {
 	int count = table_size(as, table);
 
@@ -596,4 +839,124 @@ struct spot layout_spot(const struct assembler *as, const struct meaning *m)
 		}
 	}
 	return spot;
+}
+
+bool layout_only_stored(const struct assembler *as, const struct meaning *pin)
+{
+	const struct var_table *vars = layout_vars(as, layout_table(as, pin));
+	struct meaning calls = calls_of(as, pin);
+
+	/* What is retained comes back as it was before the program was edited: each
+	 * call must give its constant anew. */
+	if (!is_counted(pin) || vars_flags(vars, pin->index) & VAR_RETAIN)
+		return false;
+	return *pin_count(as, pin) == 1 && *pin_count(as, &calls) == 1;
+}
+
+/* The unit whose cells an instance has; -1: none of the project's, or not its own. */
+static int unit_of(const struct assembler *as, const struct var_table *vars,
+		   int index)
+{
+	const struct project *project = as->translation->project;
+	const struct var *var = &vars->var[index];
+	const struct pou *pou = var->type == IEC_NONE ?
+		shape_pou(project, var->fb) : NULL;
+
+	return pou && pou->kind == POU_BLOCK &&
+	       !(vars_flags(vars, index) & VAR_IN_OUT) ?
+	       (int)(pou - project->pou) : -1;
+}
+
+/* Of all instances of one variable, whose block is @unit. */
+static uint64_t power_of(const struct assembler *as, const struct var *var, int unit)
+{
+	uint32_t count = var->array.count ? var->array.count : 1;
+
+	return (uint64_t)as->frame[unit].power_size * count;
+}
+
+static uint32_t own_cells(const struct assembler *as, int unit)
+{
+	const struct unit *u = &as->translation->unit[unit];
+	const struct names *names = &as->translation->project->names;
+	uint32_t count = 0;
+
+	for (int i = 0; i < u->temp_count; i++)
+		count += is_temporary(names_text(names, u->temp[i]->name), 'P');
+	return count;
+}
+
+/* Blocks inside have less depth, so that their sizes are known. */
+static void measure(struct assembler *as, int unit)
+{
+	const struct var_table *vars = layout_vars(as, unit + 1);
+	uint64_t size = own_cells(as, unit);
+
+	for (int i = 0; i < vars->count && size <= LIMIT_DATA; i++) {
+		int inner = unit_of(as, vars, i);
+
+		if (inner >= 0)
+			size += power_of(as, &vars->var[i], inner);
+	}
+	as->frame[unit].power_size = size <= LIMIT_DATA ? (uint32_t)size
+							: LIMIT_DATA;
+}
+
+static void measure_all(struct assembler *as)
+{
+	for (int depth = 1; depth <= LIMIT_NESTING; depth++)
+		for (int i = 0; i < as->translation->unit_count; i++) {
+			const struct pou *pou = as->translation->unit[i].pou;
+
+			if (pou->kind == POU_BLOCK &&
+			    layout_row(as, pou->word)->depth == depth)
+				measure(as, i);
+		}
+}
+
+static bool place_table(struct assembler *as, int table)
+{
+	const struct var_table *vars = layout_vars(as, table);
+
+	as->power[table] = arena_alloc(as->arena, ((size_t)vars->count + 1) *
+				       sizeof(uint32_t));
+	if (!as->power[table])
+		return false;
+	if (table > 0)
+		as->frame[table - 1].power = as->data_size;
+	if (!layout_place_powers(as, table))
+		return false;
+	for (int i = 0; i < vars->count; i++) {
+		int unit = unit_of(as, vars, i);
+		uint64_t size = unit < 0 ? 0 : power_of(as, &vars->var[i], unit);
+
+		as->power[table][i] = size ? as->data_size : 0;
+		for (; size > 0 && !as->failed; size--)
+			layout_tail(as, RUN_VALUES, IEC_BOOL);
+	}
+	return !as->failed;
+}
+
+void layout_power(struct assembler *as)
+{
+	int tables = as->translation->unit_count + 1;
+
+	as->power = arena_alloc(as->arena, (size_t)tables * sizeof(*as->power));
+	if (!as->power) {
+		as->failed = true;
+		return;
+	}
+	measure_all(as);
+	for (int table = 0; table < tables; table++)
+		if (!place_table(as, table))
+			as->failed = true;
+}
+
+const struct frame *layout_pou(const struct assembler *as, enum word word,
+			       uint32_t *index)
+{
+	const struct pou *pou = shape_pou(as->translation->project, word);
+
+	*index = (uint32_t)(pou - as->translation->project->pou);
+	return &as->frame[*index];
 }

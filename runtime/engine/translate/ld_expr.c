@@ -1,17 +1,34 @@
 /* SPDX-License-Identifier: MIT
  *
- * ld_expr - [ … ] cells as IL: a chain of functions.
+ * ld_expr - [ … ] cells as IL: a chain of operators, operands and calls of functions.
  *
  * Every operation that can fail gets EN from the ENO of the one before, the first
  * from the power of the cell. So an expression is what the same boxes would be.
  */
 #include "engine/check/check_il.h"
-#include "engine/translate/ld_chain.h"
+#include "engine/model/expr_args.h"
+#include "engine/model/shape.h"
+#include "engine/translate/ladder_unit.h"
 
 #include <stdio.h>
 #include <string.h>
 
-uint32_t chain_intern(struct chain *c, const char *text, size_t len)
+/* A part of an expression that has been computed. */
+struct value {
+	uint32_t operand;
+	enum iec_type type;     /* IEC_NONE: a constant without a type        */
+};
+
+struct chain {
+	struct ld *ld;
+	const struct expr *expr;
+	int net;                /* power of the cell                          */
+	uint32_t en;            /* of the next operation; 0: none so far      */
+	bool can_fail;
+	int calls;              /* of the project's own functions, to come    */
+};
+
+static uint32_t chain_intern(struct chain *c, const char *text, size_t len)
 {
 	uint32_t id = names_intern(&c->ld->translation->project->names, text,
 				   len);
@@ -87,10 +104,80 @@ static enum op operator_of(const struct expr_node *node)
 	       node->op == EXPR_OR ? OP_OR : OP_XOR;
 }
 
-static enum iec_type infer_logic(struct chain *c, const struct expr_node *node);
+static enum iec_type chain_infer(struct chain *c, int index);
+
+/* AND OR XOR NOT: BOOL, unless one side is bits that go with the other; IEC_NONE of
+ * constants alone. */
+static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
+{
+	enum iec_type type = chain_infer(c, node->left);
+
+	if (node->op != EXPR_NOT)
+		type = types_join(type, chain_infer(c, node->right));
+	return type == IEC_NONE || is_bits(type) ? type : IEC_BOOL;
+}
+
+static enum word function_of(const struct ld *ld, const struct expr_node *node)
+{
+	return expr_function(&ld->translation->project->words, node);
+}
+
+/* ---- types ---- */
+
+static const struct var *result_of(const struct chain *c, enum word word)
+{
+	const struct pou *pou = shape_pou(c->ld->translation->project, word);
+
+	return pou && pou->vars.count ? &pou->vars.var[0] : NULL;
+}
+
+/* The word that it is on these arguments: of times ADD is another. */
+static enum word overloaded(struct chain *c, enum word word, const struct expr_args *args)
+{
+	if (args->count != 2)
+		return word;
+	return fn_overload(word, chain_infer(c, args->arg[0].at),
+			   chain_infer(c, args->arg[1].at));
+}
+
+/* The type that the inputs share; IEC_NONE: constants, or none does. */
+static enum iec_type shared_type(struct chain *c, const struct word_row *row,
+				 const struct expr_args *args)
+{
+	enum iec_type type = IEC_NONE;
+
+	for (int i = 0; i < args->count && type != IEC_TYPE_COUNT; i++) {
+		const struct word_pin *pin = word_input(row, (uint32_t)args->arg[i].pin);
+
+		if (!pin->own)
+			type = types_join(type, pin->type != IEC_NONE ? pin->type :
+					  chain_infer(c, args->arg[i].at));
+	}
+	return type == IEC_TYPE_COUNT ? IEC_NONE : type;
+}
+
+static enum iec_type chain_infer_call(struct chain *c, const struct expr_node *node)
+{
+	enum word word = function_of(c->ld, node);
+	const struct word_row *row = ld_row(c->ld, word);
+	struct expr_args args;
+	const struct var *result;
+
+	if (word_is_own(word)) {
+		result = result_of(c, word);
+		return result ? result->type : IEC_NONE;
+	}
+	if (word == WORD_COUNT ||
+	    expr_match(c->expr, node, row, &args) != DIAG_COUNT)
+		return IEC_NONE;
+	row = ld_row(c->ld, overloaded(c, word, &args));
+	if (word_shares(row))
+		return shared_type(c, row, &args);
+	return row->result == RESULT_OPEN ? IEC_NONE : (enum iec_type)row->result;
+}
 
 /* Type of a part; constants without a type take that of their neighbours. */
-enum iec_type chain_infer(struct chain *c, int index)
+static enum iec_type chain_infer(struct chain *c, int index)
 {
 	const struct expr_node *node = &c->expr->node[index];
 	enum iec_type left, right;
@@ -126,17 +213,6 @@ enum iec_type chain_infer(struct chain *c, int index)
 	return left == IEC_TYPE_COUNT ? right : left;
 }
 
-/* AND OR XOR NOT: BOOL, unless one side is bits that go with the other; IEC_NONE of
- * constants alone. */
-static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
-{
-	enum iec_type type = chain_infer(c, node->left);
-
-	if (node->op != EXPR_NOT)
-		type = types_join(type, chain_infer(c, node->right));
-	return type == IEC_NONE || is_bits(type) ? type : IEC_BOOL;
-}
-
 /* Is this a constant that @type has? If not, the plain one is told about. */
 static bool fits(const char *text, size_t len, enum iec_type type)
 {
@@ -168,7 +244,8 @@ static struct value constant(struct chain *c, const char *text, size_t len,
 	return value;
 }
 
-uint32_t chain_power(struct chain *c)
+/* The operand that enables the next operation. */
+static uint32_t chain_power(struct chain *c)
 {
 	if (!c->en) {
 		uint16_t row = c->ld->row, col = c->ld->col;
@@ -222,25 +299,9 @@ static struct value settle(struct chain *c, struct value value)
 static struct value chain_compute(struct chain *c, int index, enum iec_type hint,
 				  uint32_t target);
 
-static struct value compute_neg(struct chain *c, const struct expr_node *node,
-				enum iec_type hint, uint32_t target)
-{
-	const struct expr_node *inner = &c->expr->node[node->left];
-	struct value zero, value;
-	enum iec_type type;
-
-	if (inner->op == EXPR_LITERAL && !memchr(inner->text, '#', inner->len))
-		return constant(c, inner->text, inner->len, true, hint);
-	value = chain_compute(c, node->left, hint, 0);
-	zero = value.type == IEC_TIME ? constant(c, "T#0s", 4, false, IEC_NONE)
-				      : constant(c, "0", 1, false, IEC_NONE);
-	type = value.type ? value.type : hint;
-	return operate(c, FN_SUB, zero, value, type ? type : IEC_DINT, target);
-}
-
 /* An input beside one of @type: a bare constant takes that type by itself, an
  * operation on constants must be told. */
-struct value chain_side(struct chain *c, int index, enum iec_type type)
+static struct value chain_side(struct chain *c, int index, enum iec_type type)
 {
 	const struct expr_node *node = &c->expr->node[index];
 
@@ -344,9 +405,33 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 	return operate(c, node->fn, left, right, type, target);
 }
 
-static uint32_t compute_element(struct chain *c, const struct expr_node *node);
+/* `Table[index].Member`, after the index has been computed; an element itself is
+ * none. */
+static uint32_t compute_element(struct chain *c, const struct expr_node *node)
+{
+	const struct names *names = &c->ld->translation->project->names;
+	uint32_t base = node->right < 0 ? chain_intern(c, node->text, node->len) :
+			compute_element(c, &c->expr->node[node->right]);
+	const struct expr_tail tail = node->tail;
+	struct value index = chain_compute(c, node->left, IEC_NONE, 0);
+	struct value none = { 0, IEC_NONE };
+	char text[3 * LIMIT_NAME + 12 * LIMIT_INDICES];
+	int size;
 
-struct value chain_place(struct chain *c, int index)
+	if (strchr(names_text(names, index.operand), '['))
+		index = operate(c, FN_MOVE, index, none, index.type, 0);
+	size = snprintf(text, sizeof(text), "%s[%s]%.*s", names_text(names, base),
+			names_text(names, index.operand), (int)tail.len,
+			tail.len ? tail.text : "");
+	if (!index.operand || !base || size < 0 || (size_t)size >= sizeof(text)) {
+		c->ld->failed = true;
+		return 0;
+	}
+	return chain_intern(c, text, drop_blanks(text, (size_t)size));
+}
+
+/* The operand of a variable or element, as it is. */
+static struct value chain_place(struct chain *c, int index)
 {
 	const struct expr_node *node = &c->expr->node[index];
 	struct value value;
@@ -371,6 +456,115 @@ static struct value keep_value(struct chain *c, struct value value)
 		return value;
 	return operate(c, FN_MOVE, value, none, value.type, 0);
 }
+
+/* ---- calls ---- */
+
+/* @in by argument. Into a temporary, if there is no @target. */
+static struct value emit_call(struct chain *c, enum word word, const struct expr_args *args,
+			      const struct value in[LIMIT_ARGS], struct value out)
+{
+	struct ld *ld = c->ld;
+	const struct word_row *row = ld_row(ld, word);
+	uint32_t en = chain_power(c), eno = temps_bool(ld->temps);
+
+	ld_emit_line(ld, (struct il_line){ .kind = IL_CALL, .word = (uint16_t)word,
+					   .mark = IL_NAMED });
+	ld_arg(ld, false, ld->en_id, en);
+	for (int i = 0; i < args->count; i++) {
+		char name[24];
+		int len = expr_pin_name(row, args->arg[i].pin, name, sizeof(name));
+		uint32_t pin = args->arg[i].pin < row->pin_count ?
+			chain_intern(c, row->pin[args->arg[i].pin].name,
+				     strlen(row->pin[args->arg[i].pin].name)) :
+			chain_intern(c, name, (size_t)len);
+
+		ld_arg(ld, false, pin, in[i].operand);
+	}
+	ld_arg(ld, true, ld->eno_id, eno);
+	ld_arg(ld, true, ld->out_id, out.operand);
+	c->en = eno;
+	return out;
+}
+
+static bool is_whole(const struct word_pin *pin)
+{
+	return pin->elements || pin->type == IEC_NONE;
+}
+
+/* Of the project's own function: each argument is of its pin's type, or the very thing. */
+static struct value call_own(struct chain *c, enum word word, const struct expr_args *args,
+			     uint32_t target)
+{
+	struct ld *ld = c->ld;
+	const struct word_row *row = ld_row(ld, word);
+	const struct var *result = result_of(c, word);
+	struct value in[LIMIT_ARGS], out = { target, result ? result->type : IEC_NONE };
+
+	for (int i = 0; i < args->count; i++) {
+		const struct word_pin *pin = &row->pin[args->arg[i].pin];
+		bool place = is_whole(pin) || pin->dir == PIN_IN_OUT;
+
+		in[i] = place ? chain_place(c, args->arg[i].at) :
+				chain_side(c, args->arg[i].at, pin->type);
+		if (pin->dir == PIN_IN_OUT)
+			ld_freeze(ld, in[i].operand);
+	}
+	c->calls--;
+	ld_freeze_globals(ld);
+	if (!out.operand && result && result->type != IEC_NONE)
+		out.operand = temps_number(ld->temps, result->type);
+	else if (!out.operand && result)
+		out.operand = temps_whole(ld->temps, &(struct meaning){
+			.kind = MEANING_STRUCT, .word = (uint16_t)result->fb });
+	return emit_call(c, word, args, in, out);
+}
+
+/* Of the catalogue. */
+static struct value call_known(struct chain *c, enum word word, const struct expr_args *args,
+			       enum iec_type hint, uint32_t target)
+{
+	const struct word_row *row = ld_row(c->ld, word);
+	enum word runs = overloaded(c, word, args);
+	enum iec_type type = shared_type(c, row, args), given;
+	struct value in[LIMIT_ARGS], out = { target, IEC_NONE };
+
+	given = type ? type : word_shares(row) ? hint : IEC_NONE;
+	for (int i = 0; i < args->count; i++) {
+		const struct word_pin *pin = word_input(row, (uint32_t)args->arg[i].pin);
+
+		in[i] = chain_side(c, args->arg[i].at,
+				   pin->own || runs != word ? IEC_NONE : given);
+		if (!pin->own && !type)
+			given = types_join(given, in[i].type);
+	}
+	if (given == IEC_NONE || given == IEC_TYPE_COUNT)
+		given = IEC_DINT;
+	if (runs != word)
+		given = chain_infer(c, args->arg[0].at);
+	out.type = fn_result(ld_row(c->ld, runs), given, hint);
+	if (!target)
+		out.operand = temps_number(c->ld->temps, out.type);
+	return emit_call(c, word, args, in, out);
+}
+
+static struct value chain_call(struct chain *c, const struct expr_node *node,
+			       enum iec_type hint, uint32_t target)
+{
+	enum word word = function_of(c->ld, node);
+	struct value none = { 0, IEC_NONE };
+	struct expr_args args;
+
+	if (word == WORD_COUNT ||
+	    expr_match(c->expr, node, ld_row(c->ld, word), &args) != DIAG_COUNT) {
+		c->ld->failed = true;
+		return none;
+	}
+	return word_is_own(word) ? call_own(c, word, &args, target) :
+				   call_known(c, word, &args, hint, target);
+}
+
+static struct value compute_neg(struct chain *c, const struct expr_node *node,
+				enum iec_type hint, uint32_t target);
 
 /* Depth is bounded by LIMIT_EXPR_DEPTH, which the parser keeps. */
 static struct value chain_compute(struct chain *c, int index, enum iec_type hint,
@@ -402,29 +596,20 @@ static struct value chain_compute(struct chain *c, int index, enum iec_type hint
 	return value;
 }
 
-/* `Table[index].Member`, after the index has been computed; an element itself is
- * none. */
-static uint32_t compute_element(struct chain *c, const struct expr_node *node)
+static struct value compute_neg(struct chain *c, const struct expr_node *node,
+				enum iec_type hint, uint32_t target)
 {
-	const struct names *names = &c->ld->translation->project->names;
-	uint32_t base = node->right < 0 ? chain_intern(c, node->text, node->len) :
-			compute_element(c, &c->expr->node[node->right]);
-	const struct expr_tail tail = node->tail;
-	struct value index = chain_compute(c, node->left, IEC_NONE, 0);
-	struct value none = { 0, IEC_NONE };
-	char text[3 * LIMIT_NAME + 12 * LIMIT_INDICES];
-	int size;
+	const struct expr_node *inner = &c->expr->node[node->left];
+	struct value zero, value;
+	enum iec_type type;
 
-	if (strchr(names_text(names, index.operand), '['))
-		index = operate(c, FN_MOVE, index, none, index.type, 0);
-	size = snprintf(text, sizeof(text), "%s[%s]%.*s", names_text(names, base),
-			names_text(names, index.operand), (int)tail.len,
-			tail.len ? tail.text : "");
-	if (!index.operand || !base || size < 0 || (size_t)size >= sizeof(text)) {
-		c->ld->failed = true;
-		return 0;
-	}
-	return chain_intern(c, text, drop_blanks(text, (size_t)size));
+	if (inner->op == EXPR_LITERAL && !memchr(inner->text, '#', inner->len))
+		return constant(c, inner->text, inner->len, true, hint);
+	value = chain_compute(c, node->left, hint, 0);
+	zero = value.type == IEC_TIME ? constant(c, "T#0s", 4, false, IEC_NONE)
+				      : constant(c, "0", 1, false, IEC_NONE);
+	type = value.type ? value.type : hint;
+	return operate(c, FN_SUB, zero, value, type ? type : IEC_DINT, target);
 }
 
 static bool parse(struct ld *ld, int element)
@@ -439,6 +624,17 @@ static bool parse(struct ld *ld, int element)
 		return true;
 	ld->failed = true;
 	return false;
+}
+
+/** chain_count_calls - calls of the project's own functions in the expression. */
+static int chain_count_calls(const struct ld *ld, const struct expr *expr)
+{
+	int calls = 0;
+
+	for (int i = 0; i < expr->count; i++)
+		calls += expr->node[i].op == EXPR_CALL &&
+			 word_is_own(function_of(ld, &expr->node[i]));
+	return calls;
 }
 
 void ld_compare(struct ld *ld, int element)

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_evolve - which transitions fire, and what that does to steps.
+ * sfc_evolve - which transitions fire, and which steps they end and begin; also IN ORDER.
  *
- * While conditions are evaluated no step changes: what fires notes which steps are left
- * and entered, and both are done together afterwards.
+ * No step changes while conditions are evaluated: a transition that fires notes the steps
+ * it leaves and enters, and both are done together afterwards.
  */
 #include "engine/translate/sfc_unit.h"
+
+#include <stdio.h>
 
 /* ---- who evaluates what ---- */
 
@@ -106,7 +108,8 @@ static bool ends_with_coil(const struct sfc_il *s, int first)
 	return stores == 1 && il->line[il->count - 1].operand == s->condition;
 }
 
-void sfc_put_condition(struct sfc_il *s, int arc)
+/* The result is whether arc @arc fires. */
+static void sfc_put_condition(struct sfc_il *s, int arc)
 {
 	const int number = s->net.arc[arc].transition;
 	const struct sfc_transition *t = &s->sfc->transition[number];
@@ -150,7 +153,9 @@ static void note_fired(struct sfc_il *s, int arc)
 		sfc_op(s, OP_ST, 0, sfc_var(s, "Entered", a->to.step[i], IEC_BOOL));
 }
 
-void sfc_load_active(struct sfc_il *s, const struct sfc_arc *arc, int known)
+/* The result: all steps that it wants are active; @known is, -1: none
+ * is known. */
+static void sfc_load_active(struct sfc_il *s, const struct sfc_arc *arc, int known)
 {
 	bool any = false;
 
@@ -290,6 +295,14 @@ static void load_late(struct sfc_il *s, int step, enum word word, uint32_t limit
 	sfc_fn(s, word, limit);
 }
 
+static bool has(const struct sfc_steps *steps, int step)
+{
+	for (int i = 0; i < steps->count; i++)
+		if (steps->step[i] == step)
+			return true;
+	return false;
+}
+
 void sfc_supervise(struct sfc_il *s)
 {
 	const int count = s->sfc->step_count;
@@ -333,7 +346,7 @@ static void darken_conditions(struct sfc_il *s, int step)
 	}
 }
 
-void sfc_end_step(struct sfc_il *s, int step)
+static void sfc_end_step(struct sfc_il *s, int step)
 {
 	const struct sfc_step *at = &s->sfc->step[step];
 
@@ -387,7 +400,7 @@ void sfc_leave(struct sfc_il *s)
 		leave_step(s, i);
 }
 
-void sfc_begin_step(struct sfc_il *s, int step)
+static void sfc_begin_step(struct sfc_il *s, int step)
 {
 	const struct sfc_step *at = &s->sfc->step[step];
 
@@ -413,6 +426,11 @@ static void enter_step(struct sfc_il *s, int step)
 	sfc_jump_if(s, s->enter);
 	sfc_begin_step(s, step);
 	sfc_jump(s, s->enter);
+}
+
+bool sfc_is_in_order(const struct sfc_il *s)
+{
+	return s->sfc->evolution == EVOLVE_IN_ORDER;
 }
 
 /* Can it be that this part enters the step? IN ORDER transitions do so themselves. */
@@ -449,4 +467,84 @@ void sfc_enter(struct sfc_il *s)
 	for (int i = 0; i < count; i++)
 		if (is_entered(s, i))
 			enter_step(s, i);
+}
+
+/* SET and RESET are done step by step in the order of the file. */
+static void sort(struct sfc_steps *steps)
+{
+	for (int i = 1; i < steps->count; i++) {
+		const int step = steps->step[i];
+		int k = i;
+
+		for (; k > 0 && steps->step[k - 1] > step; k--)
+			steps->step[k] = steps->step[k - 1];
+		steps->step[k] = step;
+	}
+}
+
+/* One that is active stays so, unless it was left just now. */
+static void enter(struct sfc_il *s, const struct sfc_arc *arc, int step)
+{
+	const bool left = has(&arc->from, step);
+	const uint32_t is = sfc_label(s, "Is", s->entries++);
+
+	if (!left) {
+		sfc_op(s, OP_LD, 0, sfc_x_name(s, step));
+		sfc_jump_if(s, is);
+	}
+	sfc_begin_step(s, step);
+	if (!left)
+		sfc_here(s, is);
+}
+
+static void put_arc(struct sfc_il *s, int number)
+{
+	struct sfc_arc *arc = &s->net.arc[number];
+	const uint32_t skip = sfc_label(s, "Skip", number);
+	const uint32_t line = (uint32_t)s->sfc->transition[arc->transition].line;
+
+	s->line = line;
+	if (arc->from.count) {
+		sfc_load_active(s, arc, -1);
+		sfc_jump_unless(s, skip);
+	}
+	sfc_put_condition(s, number);
+	sfc_jump_unless(s, skip);
+	sfc_set(s, s->fired, true);
+	for (int i = 0; i < arc->from.count; i++)
+		sfc_end_step(s, arc->from.step[i]);
+	sort(&arc->to);
+	for (int i = 0; i < arc->to.count; i++)
+		enter(s, arc, arc->to.step[i]);
+	s->line = line;
+	sfc_once(s);
+	sfc_here(s, skip);
+}
+
+void sfc_order(struct sfc_il *s)
+{
+	const uint32_t rounds = sfc_var(s, "Rounds", -1, IEC_INT);
+	const uint32_t round = sfc_label(s, "Round", -1);
+	char most[16];
+
+	snprintf(most, sizeof(most), "%d", LIMIT_ROUNDS);
+	/* One behind the other, before steps name some of them: EACH goes through them. */
+	for (int i = 0; i < s->called_count; i++)
+		sfc_var(s, "Due", i, IEC_BOOL);
+	sfc_here(s, sfc_label(s, "Order", -1));
+	sfc_op(s, OP_LD, 0, sfc_literal(s, "0"));
+	sfc_op(s, OP_ST, 0, rounds);
+	sfc_here(s, round);
+	sfc_set(s, s->fired, false);
+	for (int i = 0; i < s->net.arc_count; i++)
+		put_arc(s, i);
+	s->line = (uint32_t)s->ld.unit->pou->line;
+	sfc_op(s, OP_LD, 0, s->fired);
+	sfc_jump_unless(s, s->act);
+	sfc_op(s, OP_LD, 0, rounds);
+	sfc_fn(s, FN_ADD, sfc_literal(s, "1"));
+	sfc_op(s, OP_ST, 0, rounds);
+	sfc_fn(s, FN_LT, sfc_literal(s, most));
+	sfc_jump_if(s, round);
+	sfc_set(s, s->fired, false);
 }

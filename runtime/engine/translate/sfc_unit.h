@@ -95,14 +95,6 @@ void sfc_evaluate(struct sfc_il *s);
 void sfc_fire(struct sfc_il *s);
 void sfc_leave(struct sfc_il *s);
 void sfc_enter(struct sfc_il *s);
-/** sfc_put_condition - the result is whether arc @arc fires. */
-void sfc_put_condition(struct sfc_il *s, int arc);
-/** sfc_load_active - the result: all steps that it wants are active; @known is, -1: none
- * is known. */
-void sfc_load_active(struct sfc_il *s, const struct sfc_arc *arc, int known);
-/** sfc_end_step, sfc_begin_step - all that happens when it is left, becomes active. */
-void sfc_end_step(struct sfc_il *s, int step);
-void sfc_begin_step(struct sfc_il *s, int step);
 
 /* ---- sfc_order.c: IN ORDER ---- */
 /** sfc_is_in_order - does the chart evolve so? */

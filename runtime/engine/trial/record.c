@@ -6,7 +6,8 @@
  * in it, too, and come before the next scan.
  */
 #include "engine/trial/record.h"
-#include "engine/trial/keep.h"
+
+#include "engine/trial/twin.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -86,6 +87,132 @@ static bool make_room(struct record *record)
 	return true;
 }
 
+struct times { int64_t now_ns, period_ns; uint64_t scan; };
+
+/* ---- a twin ---- */
+
+/* Those of the plant lie behind those of the program. */
+static size_t memory_of(const struct twin *twin)
+{
+	return twin->memory_size + twin->plant_size;
+}
+
+/* Bytes that a state takes at most.   Scan-safe: yes. */
+static size_t keep_most(const struct twin *twin)
+{
+	/* Forces are in the two resources. */
+	const size_t size = memory_of(twin) + 2 * sizeof(twin->resource) +
+			    sizeof(struct times);
+
+	/* A byte for a word and one for a run; words that are not whole. */
+	return size + size / 4 + 4 * 8 * LIMIT_FORCES;
+}
+
+#define SAME 0x00u
+#define RUN_SAME 128
+#define RUN_OTHER 64
+
+static uint64_t difference(const uint8_t *a, const uint8_t *b, size_t size)
+{
+	uint64_t x = 0, y = 0;
+
+	memcpy(&x, a, size < 8 ? size : 8);
+	memcpy(&y, b, size < 8 ? size : 8);
+	return x ^ y;
+}
+#define BITS 0x80u
+#define REST 0xc0u
+
+#define ONES UINT64_C(0x0101010101010101)
+
+static unsigned kind_of(uint64_t differs)
+{
+	return !differs ? SAME : differs & ~ONES ? REST : BITS;
+}
+
+static uint8_t *put_word(uint8_t *to, uint64_t differs, unsigned kind)
+{
+	uint8_t *mask = to++;
+
+	*mask = 0;
+	for (int i = 0; i < 8; i++) {
+		const uint8_t byte = (uint8_t)(differs >> 8 * i);
+
+		if (!byte)
+			continue;
+		*mask |= (uint8_t)(1u << i);
+		if (kind == REST)
+			*to++ = byte;
+	}
+	return to;
+}
+
+/* Words of a kind, from @at on. */
+static uint8_t *put_run(uint8_t *to, const uint8_t *a, const uint8_t *b, size_t size,
+			size_t *at)
+{
+	const unsigned kind = kind_of(difference(a + *at, b + *at, size - *at));
+	const unsigned most = kind == SAME ? RUN_SAME : RUN_OTHER;
+	uint8_t *head = to++;
+	unsigned words = 0;
+
+	while (*at < size && words < most) {
+		const uint64_t differs = difference(a + *at, b + *at, size - *at);
+
+		if (kind_of(differs) != kind)
+			break;
+		if (kind != SAME)
+			to = put_word(to, differs, kind);
+		*at += 8;
+		words++;
+	}
+	*head = (uint8_t)(kind | (words - 1));
+	return to;
+}
+
+static uint8_t *put(uint8_t *to, const void *a, const void *b, size_t size)
+{
+	for (size_t at = 0; at < size; )
+		to = put_run(to, a, b, size, &at);
+	return to;
+}
+
+/* The state of a resource but for the forces that it could have, and does not. */
+#define FORCES_AT (offsetof(struct resource, image) + offsetof(struct image, force))
+#define BEHIND_AT (FORCES_AT + sizeof(((struct image *)0)->force))
+
+/* ---- a resource ---- */
+
+static const struct force no_force;
+
+static uint8_t *put_resource(uint8_t *to, const struct resource *a,
+			     const struct resource *b)
+{
+	const uint8_t *x = (const uint8_t *)a, *y = (const uint8_t *)b;
+
+	to = put(to, x, y, FORCES_AT);
+	to = put(to, x + BEHIND_AT, y + BEHIND_AT, sizeof(*a) - BEHIND_AT);
+	for (int i = 0; i < a->image.force_count; i++)
+		to = put(to, &a->image.force[i], &no_force, sizeof(no_force));
+	return to;
+}
+
+/* The state of @twin at @to, as it differs from @base
+ * @to: keep_most() bytes   Returns how many it took.   Scan-safe: as twin_copy(). */
+static size_t keep_put(const struct twin *twin, const struct twin *base, uint8_t *to)
+{
+	const struct times now = { twin->now_ns, twin->period_ns, twin->scan };
+	const struct times then = { base->now_ns, base->period_ns, base->scan };
+	uint8_t *at = put(to, &now, &then, sizeof(now));
+
+	at = put_resource(at, &twin->resource, &base->resource);
+	if (twin->plant.image.program)
+		at = put_resource(at, &twin->plant, &base->plant);
+	at = put(at, twin->resource.image.memory, base->resource.image.memory,
+		 memory_of(twin));
+	return (size_t)(at - to);
+}
+
 /* The state of @twin, as long as it is; NULL: no memory. */
 static uint8_t *put_state(struct record *record, const struct twin *twin, size_t *size)
 {
@@ -137,6 +264,18 @@ static bool begin_anew(struct record *record, const struct twin *twin)
 	return add_frame(record, twin);
 }
 
+void record_free(struct record *record)
+{
+	if (!record)
+		return;
+	while (record->count)
+		drop_first(record);
+	twin_free(&record->base);
+	free(record->scratch);
+	free(record->frame);
+	free(record);
+}
+
 struct record *record_new(const struct twin *twin, uint64_t scans, size_t bytes)
 {
 	struct record *record = calloc(1, sizeof(*record));
@@ -150,18 +289,6 @@ struct record *record_new(const struct twin *twin, uint64_t scans, size_t bytes)
 		return NULL;
 	}
 	return record;
-}
-
-void record_free(struct record *record)
-{
-	if (!record)
-		return;
-	while (record->count)
-		drop_first(record);
-	twin_free(&record->base);
-	free(record->scratch);
-	free(record->frame);
-	free(record);
 }
 
 static bool make_room_for_act(struct record *record, struct frame *frame)
@@ -335,6 +462,69 @@ bool replay_next(struct replay *replay, const struct record *record)
 	}
 	replay->serial = 0; /* it is half on its way: of no scan */
 	return false;
+}
+
+static const uint8_t *get_word(const uint8_t *from, uint8_t *out, size_t size, bool bits)
+{
+	const uint8_t mask = *from++;
+
+	for (size_t i = 0; i < 8; i++)
+		if (mask >> i & 1) {
+			const uint8_t byte = bits ? 1 : *from++;
+
+			if (i < size)
+				out[i] ^= byte;
+		}
+	return from;
+}
+
+static const uint8_t *get(const uint8_t *from, void *out, const void *base, size_t size)
+{
+	uint8_t *bytes = out;
+	size_t at = 0;
+
+	memmove(bytes, base, size);
+	while (at < size) {
+		const unsigned head = *from++;
+		size_t words = head < BITS ? head + 1 : (head & (RUN_OTHER - 1)) + 1;
+
+		for (; words; words--, at += 8)
+			if (head >= BITS)
+				from = get_word(from, bytes + at, size - at, head < REST);
+	}
+	return from;
+}
+
+static const uint8_t *get_resource(const uint8_t *from, struct resource *out,
+				   const struct resource *base)
+{
+	uint8_t *x = (uint8_t *)out, *own = out->image.memory;
+	const uint8_t *y = (const uint8_t *)base;
+
+	from = get(from, x, y, FORCES_AT);
+	from = get(from, x + BEHIND_AT, y + BEHIND_AT, sizeof(*out) - BEHIND_AT);
+	for (int i = 0; i < out->image.force_count; i++)
+		from = get(from, &out->image.force[i], &no_force, sizeof(no_force));
+	out->image.memory = out->vm.memory = own;
+	return from;
+}
+
+/* The state at @from into @twin. @base: as it was when it was put.
+ * Scan-safe: as twin_copy(). */
+static void keep_get(struct twin *twin, const struct twin *base, const uint8_t *from)
+{
+	struct times now;
+	const struct times then = { base->now_ns, base->period_ns, base->scan };
+
+	from = get(from, &now, &then, sizeof(now));
+	from = get_resource(from, &twin->resource, &base->resource);
+	if (twin->plant.image.program)
+		from = get_resource(from, &twin->plant, &base->plant);
+	get(from, twin->resource.image.memory, base->resource.image.memory,
+	    memory_of(twin));
+	twin->now_ns = now.now_ns;
+	twin->period_ns = now.period_ns;
+	twin->scan = now.scan;
 }
 
 bool replay_jump(struct replay *replay, const struct record *record, uint64_t scan)

@@ -6,6 +6,7 @@
  */
 #include "engine/exchange/classic/classic.h"
 
+#include <stdio.h>
 #include <string.h>
 
 int classic_rung_index(const struct classic_project *project, int number)
@@ -68,4 +69,19 @@ const char *classic_setting(const struct classic_project *project, const char *k
 		if (strcmp(project->setting[i].key, key) == 0)
 			return project->setting[i].value;
 	return NULL;
+}
+
+char *classic_print(struct arena *arena, const char *format, va_list args)
+{
+	va_list again;
+	char *text;
+	int need;
+
+	va_copy(again, args);
+	need = vsnprintf(NULL, 0, format, again);
+	va_end(again);
+	text = need < 0 ? NULL : arena_alloc(arena, (size_t)need + 1);
+	if (text)
+		vsnprintf(text, (size_t)need + 1, format, args);
+	return text;
 }

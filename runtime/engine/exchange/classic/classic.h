@@ -13,6 +13,8 @@
 #include "engine/base/diag.h"
 #include "engine/exchange/report.h"
 
+#include <stdarg.h>
+
 enum {
 	CLASSIC_ROWS = 8,
 	CLASSIC_COLUMNS = 12,
@@ -182,4 +184,7 @@ const struct classic_rung *classic_rung(const struct classic_project *project, i
 const struct classic_block *classic_block(const struct classic_blocks *blocks, int number);
 const char *classic_expression(const struct classic_project *project, int number);
 const char *classic_setting(const struct classic_project *project, const char *key);
+
+/** classic_print - as vsnprintf, into an arena. Fails: NULL: no memory. */
+char *classic_print(struct arena *arena, const char *format, va_list args);
 #endif

@@ -121,6 +121,19 @@ static struct classic_section *find_section(struct classic_project *project, int
 	return NULL;
 }
 
+/* Each line but directives goes to @add. */
+static void read_lines(struct classic_reader *reader, const struct classic_member *member,
+		       void (*add)(struct classic_reader *reader))
+{
+	classic_member_begin(reader, member);
+	while (classic_line_told(reader)) {
+		if (*reader->line == '#')
+			classic_version(reader, 1);
+		else
+			add(reader);
+	}
+}
+
 static void add_section(struct classic_reader *reader)
 {
 	struct classic_project *project = reader->project;
@@ -172,13 +185,7 @@ static void name_section(struct classic_reader *reader)
 void classic_read_sections(struct classic_reader *reader,
 			   const struct classic_member *member)
 {
-	classic_member_begin(reader, member);
-	while (classic_line_told(reader)) {
-		if (*reader->line == '#')
-			classic_version(reader, 1);
-		else
-			add_section(reader);
-	}
+	read_lines(reader, member, add_section);
 	classic_member_begin(reader, member);
 	while (classic_line_told(reader))
 		if (*reader->line == '#')
@@ -224,13 +231,7 @@ static void add_symbol(struct classic_reader *reader)
 void classic_read_symbols(struct classic_reader *reader,
 			  const struct classic_member *member)
 {
-	classic_member_begin(reader, member);
-	while (classic_line_told(reader)) {
-		if (*reader->line == '#')
-			classic_version(reader, 1);
-		else
-			add_symbol(reader);
-	}
+	read_lines(reader, member, add_symbol);
 }
 
 /* ---- lines of the machine ---- */
@@ -266,13 +267,7 @@ static void add_io(struct classic_reader *reader)
 
 void classic_read_io(struct classic_reader *reader, const struct classic_member *member)
 {
-	classic_member_begin(reader, member);
-	while (classic_line_told(reader)) {
-		if (*reader->line == '#')
-			classic_version(reader, 1);
-		else
-			add_io(reader);
-	}
+	read_lines(reader, member, add_io);
 }
 
 /* ---- settings ---- */

@@ -80,28 +80,13 @@ static void unput(struct conversion *c)
 		out->lines--;
 }
 
-static char *format_in(struct arena *arena, const char *format, va_list args)
-{
-	va_list again;
-	char *text;
-	int need;
-
-	va_copy(again, args);
-	need = vsnprintf(NULL, 0, format, again);
-	va_end(again);
-	text = need < 0 ? NULL : arena_alloc(arena, (size_t)need + 1);
-	if (text)
-		vsnprintf(text, (size_t)need + 1, format, args);
-	return text;
-}
-
 const char *text_of(struct conversion *c, const char *format, ...)
 {
 	va_list args;
 	char *text;
 
 	va_start(args, format);
-	text = format_in(c->arena, format, args);
+	text = classic_print(c->arena, format, args);
 	va_end(args);
 	return text ? text : "";
 }
@@ -116,7 +101,7 @@ void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
 	char *text;
 
 	va_start(args, format);
-	text = format_in(c->arena, format, args);
+	text = classic_print(c->arena, format, args);
 	va_end(args);
 	if (text)
 		report_add(c->report, line, "%s", text);

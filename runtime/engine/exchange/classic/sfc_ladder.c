@@ -23,20 +23,12 @@ char *lad_text(struct lad *e, const char *format, ...)
 {
 	va_list args;
 	char *text;
-	int len;
 
 	va_start(args, format);
-	len = vsnprintf(NULL, 0, format, args);
+	text = classic_print(e->arena, format, args);
 	va_end(args);
-	text = len < 0 ? NULL : arena_alloc(e->arena, (size_t)len + 1);
-	if (!text) {
-		e->good = false;
-		return (char *)"";
-	}
-	va_start(args, format);
-	vsnprintf(text, (size_t)len + 1, format, args);
-	va_end(args);
-	return text;
+	e->good &= text != NULL;
+	return text ? text : (char *)"";
 }
 
 const char *lad_name(const struct lad *e, int step)

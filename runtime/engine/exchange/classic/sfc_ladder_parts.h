@@ -10,6 +10,7 @@
 #define CLASSIC_SFC_LADDER_PARTS_H
 
 #include "engine/model/sfc_net.h"
+#include "engine/exchange/classic/classic.h"
 #include "engine/exchange/classic/sfc_ladder.h"
 #include "engine/xref/xref.h"
 

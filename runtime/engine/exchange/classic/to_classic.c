@@ -14,20 +14,12 @@ const char *out_text(struct leaving *e, const char *format, ...)
 {
 	va_list args;
 	char *text;
-	int len;
 
 	va_start(args, format);
-	len = vsnprintf(NULL, 0, format, args);
+	text = classic_print(e->arena, format, args);
 	va_end(args);
-	text = len < 0 ? NULL : arena_alloc(e->arena, (size_t)len + 1);
-	if (!text) {
-		e->good = false;
-		return "";
-	}
-	va_start(args, format);
-	vsnprintf(text, (size_t)len + 1, format, args);
-	va_end(args);
-	return text;
+	e->good &= text != NULL;
+	return text ? text : "";
 }
 
 static struct diag place_of(const struct leaving *e, enum diag_id id)

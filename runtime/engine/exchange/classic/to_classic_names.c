@@ -2,8 +2,8 @@
  *
  * to_classic_names - the numbers that variables and blocks have in ClassicLadder.
  *
- * What has the address or the name that an import gives goes back to where it came from;
- * anything else gets a number behind all that are used. Names become symbols.
+ * A variable with the address or name that an import gives gets its old number back; any
+ * other gets a number behind all used ones. Names become symbols.
  */
 #include "engine/base/ascii.h"
 #include "engine/exchange/classic/to_classic_parts.h"
@@ -479,8 +479,36 @@ static bool literal_operand(struct leaving *e, const struct literal *literal,
 	return true;
 }
 
+static bool meaning_operand(struct leaving *e, const struct meaning *m,
+			    const char *text, struct out_operand *out);
+
 static bool element_operand(struct leaving *e, const struct meaning *m, const char *text,
-			    struct out_operand *out);
+			    struct out_operand *out)
+{
+	struct out_operand index;
+	int low = 0;
+
+	if (m->var && m->var->at.area == AREA_NONE) {
+		if (!slot_operand(e, m, text, out))
+			return false;
+	} else if (!address_variable(e, m->addr, out)) {
+		return no_number(e, text);
+	}
+	if (!meaning_is_indexed(m))
+		return true;
+	if (m->opens > 1 || !m->index_of ||
+	    !meaning_operand(e, m->index_of, text, &index) || index.is_bool ||
+	    index.variable.index_type >= 0)
+		return no_number(e, text);
+	low = m->open[0].array.low;
+	if (out->variable.number < low)
+		return no_number(e, text);
+	out->variable.number -= low;
+	e->indexes = true;
+	out->variable.index_type = index.variable.type;
+	out->variable.index_number = index.variable.number;
+	return true;
+}
 
 static bool meaning_operand(struct leaving *e, const struct meaning *m,
 			    const char *text, struct out_operand *out)
@@ -514,34 +542,6 @@ static bool meaning_operand(struct leaving *e, const struct meaning *m,
 	}
 }
 
-static bool element_operand(struct leaving *e, const struct meaning *m, const char *text,
-			    struct out_operand *out)
-{
-	struct out_operand index;
-	int low = 0;
-
-	if (m->var && m->var->at.area == AREA_NONE) {
-		if (!slot_operand(e, m, text, out))
-			return false;
-	} else if (!address_variable(e, m->addr, out)) {
-		return no_number(e, text);
-	}
-	if (!meaning_is_indexed(m))
-		return true;
-	if (m->opens > 1 || !m->index_of ||
-	    !meaning_operand(e, m->index_of, text, &index) || index.is_bool ||
-	    index.variable.index_type >= 0)
-		return no_number(e, text);
-	low = m->open[0].array.low;
-	if (out->variable.number < low)
-		return no_number(e, text);
-	out->variable.number -= low;
-	e->indexes = true;
-	out->variable.index_type = index.variable.type;
-	out->variable.index_number = index.variable.number;
-	return true;
-}
-
 bool there_find(struct leaving *e, uint32_t text, struct out_operand *out)
 {
 	enum diag_id why;
@@ -556,6 +556,93 @@ bool there_find(struct leaving *e, uint32_t text, struct out_operand *out)
 bool there_text(struct leaving *e, const char *text, size_t len, struct out_operand *out)
 {
 	return there_find(e, names_intern(&e->project->names, text, len), out);
+}
+
+/* Of "(* %B3: the pump *)": "the pump". */
+static const char *plain_comment(struct leaving *e, const char *text)
+{
+	size_t len = strlen(text);
+	const char *colon;
+	char *copy;
+
+	if (len < 4 || text[0] != '(')
+		return "";
+	copy = arena_copy(e->arena, text + 2, len - 4);
+	while (copy && *copy == ' ')
+		copy++;
+	for (len = copy ? strlen(copy) : 0; len && copy[len - 1] == ' '; len--)
+		copy[len - 1] = '\0';
+	if (!copy || *copy != '%')
+		return copy ? copy : "";
+	colon = strstr(copy, ": ");
+	return colon && !memchr(copy, ' ', (size_t)(colon - copy)) ? colon + 2 :
+	       strchr(copy, ' ') ? copy : "";
+}
+
+/* Is the name what an import makes of no symbol? */
+static bool says_number(const struct out_slot *slot, const char *own)
+{
+	char text[LIMIT_NAME + 16];
+
+	snprintf(text, sizeof(text), "%s%d", own, slot->number);
+	return !strcmp(text, slot->name);
+}
+
+static bool symbol_taken(const struct leaving *e, const char *name)
+{
+	for (int i = 0; i < e->out->symbols; i++)
+		if (!strcmp(e->out->symbol[i].name, name))
+			return true;
+	return false;
+}
+
+/* At most 9 bytes, and no other has it. */
+static const char *symbol_name(struct leaving *e, const char *name)
+{
+	const char *cut = out_text(e, "%.*s", classic_cut(name, CLASSIC_SYMBOL), name);
+
+	for (int i = 2; symbol_taken(e, cut) && i < CLASSIC_LIMIT; i++) {
+		int digits = snprintf(NULL, 0, "%d", i);
+
+		cut = out_text(e, "%.*s%d", classic_cut(name, CLASSIC_SYMBOL - digits),
+			       name, i);
+	}
+	return cut;
+}
+
+/** out_symbol - of a variable that is @prefix and a number there, @own and one here. */
+static void out_symbol(struct leaving *e, const struct out_slot *slot, const char *prefix,
+		       const char *own)
+{
+	const char *comment = plain_comment(e, slot->comment), *name = slot->name;
+	const int most = e->dialect == CLASSIC_UPSTREAM ? CLASSIC_COMMENT :
+							  CLASSIC_SYMBOL_COMMENT;
+	struct classic_symbol *symbol;
+	size_t len = strlen(own);
+
+	if (says_number(slot, own) && !*comment)
+		return;
+	if (slot->block >= 0 && !strncmp(name, own, len)) {
+		/* TM0_Delay */
+		while (ascii_digit(name[len]))
+			len++;
+		if (name[len] == '_' && name[len + 1])
+			name += len + 1;
+	}
+	symbol = arena_push(e->arena, &e->out->symbol, &e->out->symbols, sizeof(*symbol));
+	if (!symbol)
+		return;
+	e->out->symbols--;
+	symbol->variable = out_text(e, "%%%s%d", prefix, slot->number);
+	symbol->name = says_number(slot, own) ? "" : symbol_name(e, name);
+	symbol->comment = comment;
+	if (*symbol->name && strcmp(symbol->name, name) != 0)
+		tell_line(e, slot->var->line, "%s is called %s there", slot->name,
+			  symbol->name);
+	if (strlen(comment) > (size_t)most)
+		tell_line(e, slot->var->line, "the comment of %s is cut to %d bytes",
+			  slot->name, most);
+	e->out->symbols++;
 }
 
 /* ---- symbols ---- */

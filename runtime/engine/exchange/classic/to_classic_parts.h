@@ -205,9 +205,6 @@ struct out_rung {
 	bool *net_seen;
 };
 void leave_rung(struct leaving *e, const struct rung *rung);
-/** same_rung - as it is drawn here. False: it does not fit, or would mean something
- * else; nothing was written. */
-bool same_rung(struct leaving *e, struct out_rung *r);
 /** out_put - an element whose left top cell is at (y, x). */
 void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
 	      const struct out_part *item);
@@ -233,11 +230,6 @@ void leave_initial(struct leaving *e);
 void leave_started(struct leaving *e);
 /** leave_temporaries - VAR_TEMP of the POU begin anew each time it runs. */
 void leave_temporaries(struct leaving *e, const struct pou *pou);
-
-/* ---- to_classic_symbols.c ---- */
-/** out_symbol - of a variable that is @prefix and a number there, @own and one here. */
-void out_symbol(struct leaving *e, const struct out_slot *slot, const char *prefix,
-		const char *own);
 
 /** sfc_prepare - numbers of steps, before anything is named. */
 void sfc_prepare(struct leaving *e, const struct pou *pou, int page);

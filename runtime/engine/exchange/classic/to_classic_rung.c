@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
  * to_classic_rung - what a rung holds, in ClassicLadder's terms: elements, the nets between
- * them, and when each is evaluated here.
+ * them, when each is evaluated here; and the rung drawn cell by cell.
  */
-#include "engine/exchange/classic/to_classic_parts.h"
-
 #include "engine/base/ascii.h"
+#include "engine/exchange/classic/to_classic_parts.h"
 #include "engine/model/args.h"
 
 #include <stdio.h>
@@ -169,20 +168,7 @@ static bool make_part(struct leaving *e, struct out_rung *r, int index)
 	return element_part(e, row, cell, item);
 }
 
-/* ---- the order of evaluation here ---- */
-
-static void visit(struct out_rung *r, int index);
-
-static void visit_net(struct out_rung *r, int net)
-{
-	const struct network *n = &r->network;
-
-	if (net == NET_RAIL || net == NET_NONE || r->net_seen[net])
-		return;
-	r->net_seen[net] = true;
-	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++)
-		visit(r, n->feeder[i]);
-}
+static void visit_net(struct out_rung *r, int net);
 
 /* As deep as a rung has columns. */
 static void visit(struct out_rung *r, int index)
@@ -197,6 +183,17 @@ static void visit(struct out_rung *r, int index)
 	for (int i = 0; i < at->pins; i++)
 		visit_net(r, r->network.pin[at->first_pin + i].in);
 	item->order = ++r->order;
+}
+
+static void visit_net(struct out_rung *r, int net)
+{
+	const struct network *n = &r->network;
+
+	if (net == NET_RAIL || net == NET_NONE || r->net_seen[net])
+		return;
+	r->net_seen[net] = true;
+	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++)
+		visit(r, n->feeder[i]);
 }
 
 /* ---- what touches what ---- */
@@ -261,6 +258,333 @@ static bool prepare(struct leaving *e, struct out_rung *r)
 		    (box && !box_is_plain(item)))
 			r->plain = false;
 	}
+	return true;
+}
+
+enum { ITEMS = 120, RAIL_BIT = 127, LOST_BIT = 126 };
+
+struct drawing {
+	struct leaving *e;
+	struct out_rung *r;
+	struct classic_rung *rung;
+	int pos[LIMIT_COLS + 1];
+	int part_at[CLASSIC_ROWS][CLASSIC_COLUMNS]; /* number + 1, at its last column */
+	int x[ITEMS];
+	bool bad;
+};
+
+static int width_of(const struct out_rung *r, int col)
+{
+	int width = 0;
+
+	for (int i = 0; i < r->count; i++)
+		if (r->item[i].col == col && !r->item[i].actor &&
+		    r->item[i].width > width)
+			width = r->item[i].width;
+	for (int y = 0; y < r->rung->rows; y++)
+		if (!width && rung_at(r->rung, y, col)->word == ELEM_WIRE)
+			width = 1;
+	return width;
+}
+
+static bool find_columns(struct drawing *d)
+{
+	const struct out_rung *r = d->r;
+	int cols = r->rung->cols;
+
+	for (int i = 0; i < r->count; i++)
+		if (is_block(&r->item[i]) && r->item[i].col == 0)
+			d->pos[0] = 1;
+	for (int c = 0; c < cols; c++)
+		d->pos[c + 1] = d->pos[c] + width_of(r, c);
+	return d->pos[cols] <= d->e->columns;
+}
+
+/* ---- placing ---- */
+
+static void put_code(struct drawing *d, int y, int x, int code)
+{
+	struct classic_cell *cell;
+
+	if (y >= d->e->rows || x < 0 || x >= d->e->columns) {
+		d->bad = true;
+		return;
+	}
+	cell = &d->rung->cell[y][x];
+	d->bad |= cell->element != CL_FREE;
+	cell->element = code;
+	cell->variable = variable_of(0, 0);
+}
+
+static void put_wires(struct drawing *d, int y, int from, int to)
+{
+	for (int x = from; x < to; x++)
+		put_code(d, y, x, CL_WIRE);
+}
+
+void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
+	      const struct out_part *item)
+{
+	int alive = item->width - 1;
+	struct classic_cell *cell;
+
+	for (int i = 0; i < item->height; i++)
+		for (int k = 0; k < item->width; k++)
+			rung->cell[y + i][x + k].element = CL_PART;
+	cell = &rung->cell[y][x + alive];
+	cell->element = item->code;
+	cell->variable = item->text ? variable_of(0, add_expression(e, item->text)) :
+			 item->code == CL_WIRE ? variable_of(0, 0) : item->variable;
+}
+
+static void place_part(struct drawing *d, int index)
+{
+	const struct out_part *item = &d->r->item[index];
+	int x = d->pos[item->col], end = d->pos[item->col + 1], y = item->row;
+	struct classic_rung *rung = d->rung;
+
+	if (item->actor) {
+		end = d->e->columns - item->width;
+		put_wires(d, y, x, end);
+		x = end;
+		end = x + item->width;
+	}
+	if (item->dead)
+		return;
+	for (int i = 0; i < item->height; i++)
+		for (int k = 0; k < item->width; k++)
+			put_code(d, y + i, x + k, CL_PART);
+	if (d->bad)
+		return;
+	out_put(d->e, rung, y, x, item);
+	d->x[index] = x + item->width - 1;
+	d->part_at[y][d->x[index]] = index + 1;
+	put_wires(d, y, x + item->width, end);
+}
+
+static bool leads_on(const struct cell *cell)
+{
+	return cell->word != ELEM_EMPTY && (cell->word != ELEM_PIN || cell->operand);
+}
+
+static void place_all(struct drawing *d)
+{
+	const struct rung *rung = d->r->rung;
+
+	for (int i = 0; i < d->r->count; i++)
+		place_part(d, i);
+	for (int y = 0; y < rung->rows; y++) {
+		for (int c = 0; c < rung->cols; c++) {
+			const struct cell *cell = rung_at(rung, y, c);
+
+			if (cell->word == ELEM_WIRE)
+				put_wires(d, y, d->pos[c], d->pos[c + 1]);
+			if (cell->link && d->pos[c + 1] < d->e->columns)
+				d->rung->cell[y][d->pos[c + 1]].top = true;
+		}
+		if (d->pos[0] && leads_on(rung_at(rung, y, 0)))
+			put_wires(d, y, 0, 1);
+	}
+}
+
+/* Who gives power: items by number, the rail, what should not. */
+struct sources { uint64_t bit[2]; };
+
+/* ---- what it means there ---- */
+
+struct power { struct sources out[CLASSIC_ROWS][CLASSIC_COLUMNS]; };
+
+static void sources_add(struct sources *to, int bit)
+{
+	to->bit[bit / 64] |= UINT64_C(1) << bit % 64;
+}
+
+static void sources_join(struct sources *to, struct sources from)
+{
+	to->bit[0] |= from.bit[0];
+	to->bit[1] |= from.bit[1];
+}
+
+static struct sources left_of(const struct drawing *d, const struct power *power, int y,
+			      int x)
+{
+	struct sources left = { { 0, 0 } };
+	int from = y, to = y;
+
+	if (x == 0) {
+		sources_add(&left, RAIL_BIT);
+		return left;
+	}
+	while (from > 0 && d->rung->cell[from][x].top)
+		from--;
+	while (to + 1 < d->e->rows && d->rung->cell[to + 1][x].top)
+		to++;
+	for (int i = from; i <= to; i++)
+		sources_join(&left, power->out[i][x - 1]);
+	return left;
+}
+
+/* ---- what should be ---- */
+
+static void expected(const struct out_rung *r, int net, struct sources *out, int depth)
+{
+	const struct network *n = &r->network;
+
+	if (net == NET_NONE || depth > LIMIT_COLS)
+		return;
+	if (net == NET_RAIL) {
+		sources_add(out, RAIL_BIT);
+		return;
+	}
+	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++) {
+		const struct out_part *item = &r->item[n->feeder[i]];
+
+		if (item->dead)
+			continue;
+		if (item->code == CL_WIRE)
+			expected(r, item->in, out, depth + 1);
+		else if (!item->actor)
+			sources_add(out, n->feeder[i]);
+	}
+}
+
+static bool is_expected(struct drawing *d, struct sources left, int net)
+{
+	struct sources want = { { 0, 0 } };
+
+	expected(d->r, net, &want, 0);
+	return want.bit[0] == left.bit[0] && want.bit[1] == left.bit[1];
+}
+
+static bool check_part(struct drawing *d, const struct power *power, int index, int y,
+		       int x)
+{
+	const struct out_part *item = &d->r->item[index];
+
+	x -= item->width - 1;
+	if (!is_block(item))
+		return is_expected(d, left_of(d, power, y, x), item->in);
+	for (int i = 0; i < item->height; i++)
+		if ((item->slot->block != BLOCK_IEC && item->slot->block != BLOCK_MONO) ||
+		    i == 0)
+			if ((item->slot->block != BLOCK_TIMER || i < 2) &&
+			    !is_expected(d, left_of(d, power, y + i, x), item->pin[i]))
+				return false;
+	return true;
+}
+
+static void give_power(struct drawing *d, struct power *power, int index, int y, int x)
+{
+	const struct out_part *item = &d->r->item[index];
+
+	if (item->actor)
+		return;
+	sources_add(&power->out[y][x], index);
+	for (int i = 1; is_block(item) && i < item->height; i++)
+		sources_add(&power->out[y + i][x], LOST_BIT);
+}
+
+static bool means_the_same(struct drawing *d)
+{
+	struct power *power = arena_alloc(d->e->arena, sizeof(*power));
+
+	if (!power)
+		return false;
+	for (int x = 0; x < d->e->columns; x++)
+		for (int y = 0; y < d->e->rows; y++) {
+			int index = d->part_at[y][x] - 1;
+
+			if (d->rung->cell[y][x].element == CL_WIRE)
+				power->out[y][x] = left_of(d, power, y, x);
+			if (index < 0 || d->rung->cell[y][x].element == CL_WIRE)
+				continue;
+			if (!check_part(d, power, index, y, x))
+				return false;
+			give_power(d, power, index, y, x);
+		}
+	return true;
+}
+
+/* Column by column there; here as the walk from the outputs back meets it. */
+static bool same_order(const struct drawing *d)
+{
+	const struct out_rung *r = d->r;
+
+	for (int i = 0; i < r->count; i++) {
+		const struct out_part *box = &r->item[i];
+
+		for (int k = 0; is_block(box) && k < r->count; k++) {
+			const struct out_part *item = &r->item[k];
+			int there = (d->x[k] - d->x[i]) * 256 + item->row - box->row;
+
+			if (k == i || item->actor || item->order < 0 || item->dead ||
+			    item->code == CL_WIRE || !part_touches(item, box))
+				continue;
+			/* What an import would cut is cut here: it stays as it is then. */
+			if ((item->order < box->order) != (there < 0) ||
+			    (d->x[k] <= d->x[i] && item->row < box->row))
+				return false;
+		}
+	}
+	return true;
+}
+
+static bool actors_apart(const struct out_rung *r)
+{
+	for (int i = 1; i < r->count; i++)
+		for (int k = 0; k < i; k++)
+			if (r->item[i].actor && r->item[k].actor &&
+			    r->item[i].row == r->item[k].row)
+				return false;
+	return true;
+}
+
+/* A jump that nothing feeds would only want a rung to go to. */
+static bool jumps_dead(const struct out_rung *r)
+{
+	for (int i = 0; i < r->count; i++) {
+		struct sources sources = { { 0, 0 } };
+
+		if (!r->item[i].actor || r->item[i].code != CL_JUMP)
+			continue;
+		expected(r, r->item[i].in, &sources, 0);
+		if (!sources.bit[0] && !sources.bit[1])
+			return true;
+	}
+	return false;
+}
+
+/* As it is drawn here. False: it does not fit, or would mean something
+ * else; nothing was written. */
+static bool same_rung(struct leaving *e, struct out_rung *r)
+{
+	struct drawing *d = arena_alloc(e->arena, sizeof(*d));
+	struct classic_rung *rung;
+
+	if (!d || !r->plain || r->count > ITEMS || r->rung->rows > e->rows)
+		return false;
+	d->e = e;
+	d->r = r;
+	d->rung = arena_alloc(e->arena, sizeof(*d->rung));
+	for (int i = 0; d->rung && i < CLASSIC_ROWS * CLASSIC_COLUMNS; i++)
+		d->rung->cell[i / CLASSIC_COLUMNS][i % CLASSIC_COLUMNS].variable =
+			variable_of(0, 0);
+	if (!d->rung || !actors_apart(r) || jumps_dead(r) || !find_columns(d))
+		return false;
+	place_all(d);
+	if (d->bad || !means_the_same(d) || !same_order(d))
+		return false;
+	rung = rung_begin(e);
+	if (!rung)
+		return true;
+	memcpy(rung->cell, d->rung->cell, sizeof(rung->cell));
+	for (int i = 0; i < r->count; i++)
+		if (r->item[i].actor && r->item[i].code == CL_JUMP) {
+			e->row = r->item[i].row + 1;
+			e->col = r->item[i].col + 1;
+			note_jump(e, &rung->cell[r->item[i].row][e->columns - 1],
+				  &r->item[i]);
+		}
 	return true;
 }
 
