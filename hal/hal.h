@@ -5,7 +5,7 @@
  * It turns an I/O map into requests of drivers and moves levels between them
  * and the process image. Inversion, debounce, failed reads and safe values are
  * here, once for all drivers. It reads no clock, starts no thread and decides
- * nothing: a fault of a line is told to the caller, who stops the program.
+ * nothing: it reports a fault of a line to the caller, which stops the program.
  */
 #ifndef HAL_HAL_H
 #define HAL_HAL_H

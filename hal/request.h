@@ -2,8 +2,8 @@
  *
  * request - a request of a driver with what hal.c knows about its lines.
  *
- * Shared by hal.c (which moves levels) and hal_open.c (which finds lines and
- * takes them); nobody else needs it.
+ * Private to hal.c, which moves levels, and hal_open.c, which finds lines and takes
+ * them.
  */
 #ifndef HAL_REQUEST_H
 #define HAL_REQUEST_H

@@ -20,9 +20,9 @@ struct xref_target;
 
 /** ladder_new - nothing loaded. Owns: the caller, ladder_free(). NULL: no memory. */
 struct ladder *ladder_new(void);
-/** ladder_new_terse - the same; messages do not say what may have been meant, and nothing
- * is told of the states that charts can come to (LD450 … LD455). Every error is told, and
- * every other warning. For boards: what it takes is not linked (model/advice.h). */
+/** ladder_new_terse - the same, but messages suggest no names, and there are no warnings
+ * about states of charts (LD450 … LD455). All errors and other warnings stay. For boards:
+ * the code that this saves is not linked (model/advice.h). */
 struct ladder *ladder_new_terse(void);
 void ladder_free(struct ladder *ladder);
 
@@ -34,7 +34,8 @@ struct classic_lines;
  * @faithful: faults of the original are repeated
  *
  * They are converted as they are loaded: ladder_project() and ladder_write() have the rung
- * file that they become. Only who calls this links the import. Fails: false: no memory.
+ * file that they become. A program that does not call this does not link the import.
+ * Fails: false: no memory.
  */
 bool ladder_take_classic(struct ladder *ladder, bool faithful);
 /** ladder_is_classic - is there such a project, a file or a folder, at @path? */
@@ -65,7 +66,7 @@ int64_t ladder_period(const struct ladder *ladder);
 
 /**
  * ladder_load - reads a rung file or a code image
- * @path: told apart by its first bytes, not by its name. Must stay valid.
+ * @path: its first bytes tell which it is, not its name. Must stay valid.
  *
  * On failure nothing is loaded and ladder_diags() says why.   Scan-safe: no.
  */

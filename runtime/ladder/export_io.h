@@ -2,7 +2,7 @@
  *
  * export_io - an I/O map as the lines of ClassicLadder's ioconf.csv: pins of a Raspberry Pi.
  *
- * What such a line cannot say is told on standard error, with the line of the map.
+ * Settings that such a line cannot hold are reported on standard error, with their place.
  */
 #ifndef LADDER_EXPORT_IO_H
 #define LADDER_EXPORT_IO_H

@@ -12,7 +12,7 @@
 #define SLICE_NS 100000000  /* longest sleep without a look at requests */
 #define TEND_NS  1000000000 /* lines in FAULT are looked after so often */
 #define SECOND   INT64_C(1000000000)
-#define PERIOD   INT64_C(10000000) /* when nobody asks for another */
+#define PERIOD   INT64_C(10000000) /* by default */
 
 static int64_t clock_now(void)
 {

@@ -43,7 +43,7 @@ struct cycle {
 };
 
 /**
- * cycle_plan - the period, and who judges how long a scan may take
+ * cycle_plan - sets the period and the limit of a scan's time
  * @period_ns: asked for; 0: not
  *
  * The resource is initialised. Returns how long one scan may take before it counts

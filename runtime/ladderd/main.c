@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * main - ladderd, the runtime: loads a program and an I/O map, takes the lines,
- * scans until it is told to stop, and leaves safe outputs behind. It has no
+ * scans until a signal ends it, and leaves safe outputs behind. It has no
  * network and needs no user but the one that may open the lines.
  */
 #define _DEFAULT_SOURCE /* syscall() */

@@ -32,7 +32,7 @@ struct store_wish {
  * @status: the exit status when it fails
  *
  * A file that cannot be read or is broken is no failure, nor a disk that cannot be
- * written: the program is told by SYS_RETAIN_LOST, the operator by a message.
+ * written: the program sees SYS_RETAIN_LOST, the operator a message.
  * Owns: @arena, and store_close().   Scan-safe: no.
  * Fails: NULL, with a message: no such folder, not a file, another ladderd has it,
  * an image without names, memory is out.
@@ -55,8 +55,8 @@ int store_begin(struct store *store);
  */
 void store_restore(struct store *store, struct resource *resource,
 		   int64_t now_ns);
-/** store_take - the values after a whole scan at @now_ns, for the thread. Waits for
- * nobody. Scan-safe: yes. */
+/** store_take - the values after a whole scan at @now_ns, for the thread. Never waits.
+ * Scan-safe: yes. */
 void store_take(struct store *store, const struct image *image, int64_t now_ns);
 /** store_hurry - has the thread write now what has changed. Scan-safe: between
  * scans. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * store_file - opens, allocates, writes, replaces. Every write is followed by
- * fdatasync(), a new file and its name by fsync(): what is told to be stored is.
+ * fdatasync(), a new file and its name by fsync(): a value reported as stored is on the disk.
  */
 #define _DEFAULT_SOURCE /* flock() */
 #include "ladderd/store_file.h"

@@ -2,7 +2,7 @@
  *
  * store_none - no --retain: a ladderd for small boards starts no thread, and a
  * write that waits for flash between two scans would make scans late. It refuses
- * and keeps nothing, so that nobody relies on it.
+ * and keeps nothing, so that no operator relies on it.
  */
 #include "ladderd/store.h"
 

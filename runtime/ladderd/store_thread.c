@@ -28,7 +28,7 @@
 #define SECOND     INT64_C(1000000000)
 #define TICK_NS    (SECOND / 10) /* the thread looks so often, at most       */
 #define QUIET_NS   SECOND        /* without a change, then it is written     */
-#define FRESH      4u            /* nobody has seen what is in the middle    */
+#define FRESH      4u            /* the middle is not read yet               */
 #define STACK_LEAST 65536u
 #define TOLD_MOST  20            /* names of lost values                     */
 

@@ -115,8 +115,8 @@ enum iec_addr_result { ADDR_OK, ADDR_NONE, ADDR_RANGE };
  *
  * Short forms (without `%`) too: I3 is bit 3 of the inputs, B5 is M5.
  * Returns ADDR_NONE when the text is no address, ADDR_RANGE when it is one that
- * no area can have (a bit above 7, beyond the most bytes). Whether the areas of a
- * program have it is told by areas_have().   Scan-safe: yes.
+ * no area can have (a bit above 7, beyond the most bytes). areas_have() tells whether a
+ * program has it.   Scan-safe: yes.
  */
 enum iec_addr_result iec_addr_parse(const char *text, size_t len,
 				    struct iec_addr *out);

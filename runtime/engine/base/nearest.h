@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * nearest - which of many words did somebody mean who misspelled one?
+ * nearest - the words that are spelled most like a misspelled one.
  *
- * Candidates are offered one after another, the nearest few are kept. It knows
- * nothing of what the words mean.
+ * Candidates are offered one after another, the nearest few are kept. The meaning of the
+ * words does not matter.
  */
 #ifndef BASE_NEAREST_H
 #define BASE_NEAREST_H

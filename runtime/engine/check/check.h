@@ -20,8 +20,8 @@
  * @network: its graph
  * @scratch: some memory a rung; the caller resets it between rungs
  *
- * LD201 … LD214; a rung that is OFF is good. A fault is told once, where it
- * begins: what only follows from it is not told.
+ * LD201 … LD214; a rung that is OFF is good. A fault is reported once, where it
+ * begins, without the faults that follow from it.
  * Owns: nothing.   Scan-safe: no.   Fails: false when it added an error.
  */
 bool check_rung(const struct project *project, const struct pou *pou,

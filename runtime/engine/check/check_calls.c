@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_calls - who calls whom: no circle, and not too deep.
+ * check_calls - calls between POUs: no circle, and not too deep.
  *
  * A call of a function or function block of the project is a step from POU to POU.
  * The steps are walked depth first, without recursion, each list once.
@@ -123,7 +123,7 @@ static void step(struct calls *c)
 	}
 }
 
-/* A subroutine that nobody calls never runs. */
+/* A subroutine that is not called never runs. */
 static void warn_of_uncalled(struct calls *c, int count)
 {
 	for (int i = 0; i < count; i++) {

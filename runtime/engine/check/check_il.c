@@ -79,7 +79,7 @@ static bool il_report_types(struct il_check *c, const struct il_line *line,
 
 	while (call->kind == IL_ARG_IN && call > c->il->line)
 		call--;
-	if (call != line && call->mark & IL_NAMED) { /* its operand may be nobody's */
+	if (call != line && call->mark & IL_NAMED) { /* its operand may be no name */
 		snprintf(text, sizeof(text), "%s and %s: %.20s.%.16s",
 			 iec_type_row(from)->word, iec_type_row(to)->word,
 			 scope_row(c->scope, (enum word)call->word)->word,
@@ -131,7 +131,7 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 
 	if (m)
 		return m;
-	/* The index may be a temporary that nobody wrote. */
+	/* The index may be a temporary that is never written. */
 	if ((why == DIAG_INDEX_TYPE || why == DIAG_INDEX_PLAIN) && c->pou->language == LANGUAGE_LD) {
 		const char *text = il_operand_text(c, line);
 

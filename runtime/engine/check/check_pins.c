@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_pins - inputs of called blocks that nobody ever gives a value.
+ * check_pins - inputs of called blocks that never get a value.
  *
  * A timer without PT elapses at once, a counter without PV is full from the start:
  * legal, and nearly always forgotten. BOOL inputs may stay open; they are not

@@ -5,7 +5,7 @@
  * It looks at the grid for loose ends and boxes, and at the network for
  * elements that are cut off, shorted or turned round. Names mean nothing here.
  *
- * Only the place where a fault begins is told: of a chain that hangs in the
+ * Only the place where a fault begins is reported: of a chain that hangs in the
  * air, its first element; of a chain that leads nowhere, its last.
  */
 #include "engine/check/check.h"

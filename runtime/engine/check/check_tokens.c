@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define WAY 4000 /* bytes of a way before it is cut                            */
-#define SOME 5   /* findings of a kind that are told                           */
+#define SOME 5   /* findings of a kind to report                               */
 
 struct teller {
 	struct project *project;
@@ -80,7 +80,7 @@ static size_t put(char *out, size_t used, const char *text)
 	return used + len;
 }
 
-/* Active steps; a macro-step is told by what is in it. */
+/* Active steps; of a macro-step, the steps inside it. */
 static size_t put_bits(const struct teller *c, size_t used, const uint64_t *bits)
 {
 	const char *between = "";
@@ -140,7 +140,7 @@ static const char *way_to(struct teller *c, const char *head, int state, int arc
 	for (int at = state; at >= 0; at = t->states.before[at])
 		back[count++] = at;
 	while (count > 0) {
-		/* Of a long way the end is told: the rest has no room anyway. */
+		/* Of a long way only the end is reported; the rest has no room. */
 		if (used > WAY / 2)
 			used = 0;
 		used = put_bits(c, used, tokens_state(t, back[--count]));
@@ -348,7 +348,7 @@ void check_tokens(struct scope *scope, const struct pou *pou, struct arena *scra
 		if (scratch->failed || !tokens_walk(&c.tokens))
 			return;
 		tell_found(&c);
-		/* Not all is known of what has faults: what is told must be so. */
+		/* A chart with errors is not fully known, and each report must be true. */
 		if ((c.tokens.find_count || c.tokens.gave_up) &&
 		    !tokens_bound(&c.tokens))
 			return;

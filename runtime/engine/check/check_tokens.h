@@ -2,9 +2,9 @@
  *
  * check_tokens - what a chart can come to: which steps can be active together.
  *
- * Each condition may be true or not at any time, but for the constants TRUE and FALSE;
- * what an operator does with RESET and FORCE is not looked at. So nothing is overlooked,
- * and what is told may need inputs that the machine never gives: all are warnings.
+ * Any condition may be true or false at any time, except the constants TRUE and FALSE;
+ * RESET and FORCE by an operator are ignored. So no state is missed, but a state may need
+ * inputs that the machine never gives: all messages are warnings.
  */
 #ifndef CHECK_CHECK_TOKENS_H
 #define CHECK_CHECK_TOKENS_H

@@ -56,7 +56,7 @@ void expect_functions(const struct project *project, const char *begun, size_t l
 		      const struct expect_taker *taker);
 
 /** expect_note - the type of what was offered, or what it does; "": nothing. Lives as
- * @word does, at least. Explanations are linked by who asks for them here. */
+ * @word does, at least. Only programs that call this link the explanations. */
 const char *expect_note(const struct expect_word *word);
 
 /** expect_kind_text - "variable". Lives for ever. */

@@ -3,7 +3,7 @@
  * scope - from the text of an operand to what it means.
  *
  * Two open hashes: the declared names of all tables, and the answers given so
- * far by (POU, string id). An answer never moves. It reports nothing: who asks
+ * far by (POU, string id). An answer never moves. It reports nothing: the caller
  * knows the place and says it.
  */
 #include "engine/check/scope.h"

@@ -6,9 +6,9 @@
  * them.
  *
  * It fires one transition at a time, although a scan fires all that are true. That is
- * enough: transitions that fire together want different steps, so one after another
- * they do the same, unless one enters a step before another has left it. Then that one
- * alone, whose condition may be true alone, enters an active step, which is told.
+ * enough: transitions that fire together have different steps before them, so firing them
+ * one after another has the same result, unless one enters a step before another has left
+ * it. In that case the first one alone enters an active step, which is a warning.
  */
 #ifndef CHECK_TOKENS_H
 #define CHECK_TOKENS_H

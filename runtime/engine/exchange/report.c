@@ -2,7 +2,7 @@
  *
  * report - what an import took, what means something else now, what it could not take.
  *
- * A list, nothing more: who prints it decides how. The texts are its own.
+ * Only a list: the caller decides how to print it. The texts are its own.
  */
 #include "engine/exchange/report.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * advice - asks for what only people at a desk are told, if there is somebody to ask.
+ * advice - suggestions in messages, if the program that loads has set an adviser.
  *
  * It knows no words itself; check/expect.c does.
  */
@@ -10,7 +10,7 @@
 
 #include <stdio.h>
 
-/* After so many messages nobody is told what may have been meant. */
+/* Messages beyond this number suggest nothing. */
 #define SUGGEST_MOST 20
 
 void advice_word(const struct project *project, const struct pou *pou,

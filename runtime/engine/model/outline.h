@@ -2,7 +2,7 @@
  *
  * outline - where the parts of a project stand in its canonical text.
  *
- * For who changes a text by parts, as an editor does with declarations.
+ * For programs that change parts of a text, such as the editor its declarations.
  */
 #ifndef MODEL_OUTLINE_H
 #define MODEL_OUTLINE_H

@@ -2,10 +2,10 @@
  *
  * sfc - a sequential function chart (IEC 61131-3, 6.7) as data.
  *
- * It holds what was written, right or wrong, in the order of the file. Conditions and
- * bodies are rungs and lines of the POU's own vectors, so that whatever works on rungs
- * and lists works on them; an expression is a rung of one cell and a coil. Which steps
- * are active, and what that means, is told in docs/sfc.md.
+ * It holds the chart as written, right or wrong, in the order of the file. Conditions and
+ * bodies are rungs and lines of the POU's own vectors, so that code for rungs and lists
+ * works on them; an expression is a rung of one cell and a coil. docs/sfc.md explains which
+ * steps are active, and what that means.
  */
 #ifndef MODEL_SFC_H
 #define MODEL_SFC_H

@@ -3,7 +3,7 @@
  * shape - rows of a project's own words, and the order of their parts in memory.
  *
  * Parts lie by type, as variables do, so that few runs describe them; blocks and
- * structures last. What contains itself has no size: that is told here.
+ * structures last. A type that contains itself has no size; this reports it.
  */
 #include "engine/model/shape.h"
 

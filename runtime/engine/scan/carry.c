@@ -160,7 +160,7 @@ static bool has_room(const struct image *image, struct location at,
 	       image_get(image, at).s->capacity >= value.s->length;
 }
 
-/* One that nobody has changed takes its new initial value. */
+/* A value that was never changed takes its new initial value. */
 static void carry_value(const struct work *work, struct location to,
 			struct location from)
 {

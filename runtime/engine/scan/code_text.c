@@ -318,7 +318,7 @@ static bool check_math(const struct verifier *v, const uint32_t *at, uint32_t n,
 	       verify_use(v, at[2], type, true) && check_pair(v, at + 3, type);
 }
 
-/* One instruction; jumps and who calls whom are looked at later. */
+/* One instruction; jumps and calls are checked later. */
 static bool check_code(struct verifier *v, const uint32_t *code)
 {
 	uint32_t op = *code & 0xff, n = *code >> 8;

@@ -14,7 +14,7 @@ void fb_##id##_step(struct fb_##id *fb, int64_t now_ns) \
 	bool edge = fb_rises(fb->CU, &fb->seen); \
 \
 	(void)now_ns; \
-	/* No branch on an input: nobody can foresee one. */ \
+	/* No branch on an input: a CPU cannot predict one. */ \
 	fb->CV += edge & (fb->CV < (high)); \
 	fb->CV = fb->R ? 0 : fb->CV; \
 	fb->Q = fb->CV >= fb->PV; \

@@ -4,7 +4,7 @@
  *
  * All measure against a start on the scan's monotonic clock. A period begins where
  * the one before ended, not in the scan that noticed it, so nothing drifts when a
- * scan is late; whole periods that nobody saw are left out. TIMEs below 0 count as 0.
+ * scan is late; whole periods between two scans are left out. TIMEs below 0 count as 0.
  */
 #include "engine/scan/fb.h"
 

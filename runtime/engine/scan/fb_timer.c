@@ -8,7 +8,7 @@
  */
 #include "engine/scan/fb.h"
 
-/* No branch on an input but for its edge: nobody can foresee one. Without power nothing
+/* No branch on an input but for its edge: a CPU cannot predict one. Without power nothing
  * changes, or a retained timer would be stored in every scan. */
 void fb_TON_step(struct fb_TON *fb, int64_t now_ns)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * math_bits - what kind of double it is, told by its bits, and the special ones made.
+ * math_bits - the kind of a double by its bits, and the special values.
  *
  * For math only. isnan() and its kind may be calls of a C library, and a NaN that
  * arithmetic makes has a sign that differs from machine to machine.

@@ -297,7 +297,7 @@ static void clear_area(struct resource *resource, enum iec_area area)
 	}
 }
 
-/* The scan was whole, but nobody shall believe its outputs. */
+/* The scan was whole, but its outputs must not be used. */
 static void halt(struct resource *resource, bool watch)
 {
 	resource->state = STATE_STOP;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * task - who is due. The verifier has checked that there are at most LIMIT_TASKS,
+ * task - which tasks are due. The verifier has checked that there are at most LIMIT_TASKS,
  * ordered by priority, with intervals above 0.
  */
 #include "engine/scan/task.h"

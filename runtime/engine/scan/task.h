@@ -3,8 +3,8 @@
  * task - when each task of a program runs, and what is known of it.
  *
  * (IEC 61131-3, 2.7.2: periodic tasks and tasks that an event starts, by priority.)
- * One thread runs them one after another, none interrupts another. Here it is decided
- * who is due; resource.c runs them. It reads no clock: times are arguments.
+ * One thread runs them one after another; no task interrupts another. This file decides
+ * which tasks are due; resource.c runs them. It reads no clock: times are arguments.
  */
 #ifndef SCAN_TASK_H
 #define SCAN_TASK_H
@@ -50,8 +50,8 @@ bool tasks_declared(const struct program *program);
  * @preset_ns: when neither the user nor the program says anything
  *
  * The greatest common divisor of all intervals and of @period_ns; of @preset_ns, too,
- * if nobody gave @period_ns and there are tasks without an interval, which are looked
- * at in every cycle. Not less than LIMIT_TICK: then a task runs in the first cycle
+ * if @period_ns is 0 and there are tasks without an interval, which may run in every
+ * cycle. Not less than LIMIT_TICK: then a task runs in the first cycle
  * behind its deadline.
  * Scan-safe: yes.
  */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_words - what is written in and beside the boxes of a chart that is drawn.
+ * sfc_words - the texts in and beside the boxes of a chart.
  *
- * The same for the terminal and for the editor's sheet. Everything is put out as it
- * stands in the file: who draws it takes care of control characters and of its width.
+ * The same for the terminal and for the editor's sheet. Texts are as in the file: the
+ * caller takes care of control characters and of the width.
  */
 #ifndef SHOW_SFC_WORDS_H
 #define SHOW_SFC_WORDS_H

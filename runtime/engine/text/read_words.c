@@ -17,7 +17,7 @@
 
 struct look {
 	struct reader *r;
-	struct diag_list *diags;       /* heap; nobody reads them             */
+	struct diag_list *diags;       /* heap; not reported                  */
 	const char *file[FILES_MOST];
 	int files;
 	size_t total;

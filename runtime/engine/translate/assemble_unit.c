@@ -199,7 +199,7 @@ uint32_t list_keep(struct list *list, const struct bits *value)
 	return slot;
 }
 
-/* A temporary: kept as a value, unless nobody reads it. */
+/* A temporary: kept as a value if it is read. */
 static void write_temp(struct list *list, int var, const struct bits *value)
 {
 	struct pending *pending = find_pending(list, var);

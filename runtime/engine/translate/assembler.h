@@ -136,9 +136,8 @@ void layout_init_array(struct assembler *as, uint32_t offset,
  * of its parts. */
 void layout_init_parts(struct assembler *as, uint32_t offset,
 		       const struct var *var);
-/** layout_only_stored - is a parameter of the only call all that is ever done with
- * this pin? Then a constant may be its initial value instead, if that call runs in
- * every scan: nobody can tell. */
+/** layout_only_stored - is this pin used only as a parameter of one call? Then a constant
+ * can be its initial value instead, if that call runs in every scan. */
 bool layout_only_stored(const struct assembler *as, const struct meaning *pin);
 /** layout_pou - the frame of a function or block; @index: of its POU. */
 const struct frame *layout_pou(const struct assembler *as, enum word word,

@@ -16,7 +16,7 @@ static const char *pin_text(const struct list *list, const struct il_line *arg)
 	return scope_text(list->as->translation->scope, arg->pin);
 }
 
-/* Where a result goes that nobody wants. */
+/* Where an unused result goes. */
 uint32_t list_sink(struct assembler *as, enum iec_type type)
 {
 	if (!as->sink[type])
@@ -362,7 +362,7 @@ void list_call(struct list *list)
 		list_own_call(list);
 		return;
 	}
-	list->now.kind = RESULT_NONE; /* nobody reads it any more */
+	list->now.kind = RESULT_NONE; /* not read any more */
 	read_args(list, row, type, &call);
 	result = fn_result(row, type, call.out ? call.out->type : IEC_NONE);
 	if (call.out && meaning_is_indexed(call.out)) { /* what it is, if OUT fails */
@@ -569,7 +569,7 @@ void list_cal(struct list *list)
 		return;
 	}
 	if (!(line->modifiers & MOD_C))
-		list->now.kind = RESULT_NONE; /* nobody reads it any more */
+		list->now.kind = RESULT_NONE; /* not read any more */
 	list_protect(list, offset, list_row(list, fb)->size);
 	if (line->modifiers & MOD_C)
 		unless = list_skip_call(list, line);

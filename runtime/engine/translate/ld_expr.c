@@ -213,7 +213,7 @@ static enum iec_type chain_infer(struct chain *c, int index)
 	return left == IEC_TYPE_COUNT ? right : left;
 }
 
-/* Is this a constant that @type has? If not, the plain one is told about. */
+/* Is this a constant of @type? If not, the message names the plain one. */
 static bool fits(const char *text, size_t len, enum iec_type type)
 {
 	struct literal literal;

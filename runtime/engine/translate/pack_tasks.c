@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * pack_tasks - who runs which program when, as the code image says it.
+ * pack_tasks - tasks and their programs, as they stand in the code image.
  *
  * Without a CONFIGURATION, and for programs that it gives no task: one task that runs
  * in every cycle, behind all others.

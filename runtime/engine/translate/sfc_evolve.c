@@ -9,7 +9,7 @@
 
 #include <stdio.h>
 
-/* ---- who evaluates what ---- */
+/* ---- conditions ---- */
 
 static int find(int *parent, int step)
 {

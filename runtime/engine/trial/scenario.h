@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenario - what a program must do, as the person who ordered it would say it.
+ * scenario - what a program must do, in words of the person who ordered it.
  *
  *   scenario "stop wins over start"        # any number in a file
  *     period 10ms                          # if not said: of the tasks, or 10ms

@@ -243,7 +243,7 @@ static void end_way(struct walk *walk, struct why_way *way)
 	add_rest(walk, way, walk->depth - 1);
 }
 
-/* Two contacts of one operand that exclude each other: nobody comes by here. */
+/* Two contacts of one operand exclude each other: this way never has power. */
 static bool is_possible(struct walk *walk, uint32_t operand, bool value)
 {
 	const struct names *names = &walk->at->project->names;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * why_values - the values of what stands in a cell, for people who ask why.
+ * why_values - the values of the operands in a cell, for the answers of why.h.
  *
  * Private to why.c.
  */

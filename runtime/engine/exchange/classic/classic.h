@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic - a ClassicLadder project as its files tell it, nothing more.
+ * classic - a ClassicLadder project as it stands in its files.
  *
- * Numbers are those of the files: codes of elements and variables stand in classic.def.
- * What they mean here is told by classic_rung.h and what it calls; what they do there,
- * in docs/from-classicladder.md. Everything lives in one arena.
+ * Numbers are those of the files; classic.def has the codes of elements and variables.
+ * classic_rung.h converts them; docs/from-classicladder.md describes what they do in
+ * ClassicLadder. Everything lives in one arena.
  */
 #ifndef CLASSIC_H
 #define CLASSIC_H

@@ -6,7 +6,7 @@
  * Whole numbers of 32 bits; from the strongest: ! | * / % | + - | & | ^ | or. What IEC
  * 61131-3 says otherwise (division by zero, bits of numbers) becomes a function that the
  * file brings along. Texts come from files: depth is bounded, anything that is no
- * expression is told and left out.
+ * expression is reported and left out.
  */
 #include "engine/base/ascii.h"
 #include "engine/base/limits.h"

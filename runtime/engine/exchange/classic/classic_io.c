@@ -3,7 +3,7 @@
  * classic_io - the table of inputs and outputs as an I/O map.
  *
  * Lines of a Raspberry Pi have names that are the same here. Ports of a PC, chips of an
- * AT91 and Comedi have none: they are told.
+ * AT91 and Comedi have none: they are reported.
  */
 #include "engine/exchange/classic/classic_convert.h"
 

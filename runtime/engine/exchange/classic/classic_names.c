@@ -210,7 +210,7 @@ static void tell_symbol(struct conversion *c, const struct classic_symbol *symbo
 		     symbol->variable, name);
 }
 
-/* LinuxCNC gives every variable a symbol, %B4 is _B4_: nobody chose it. */
+/* LinuxCNC gives every variable a symbol, %B4 is _B4_; the user did not choose it. */
 static bool says_nothing(const struct classic_symbol *symbol)
 {
 	const char *name = symbol->name, *variable = symbol->variable;

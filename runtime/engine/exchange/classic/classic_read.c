@@ -613,7 +613,7 @@ static void add_only_section(struct classic_reader *reader)
 			.last = project->rung[project->rungs - 1]->number };
 }
 
-/* ---- who wrote it ---- */
+/* ---- the program that wrote it ---- */
 
 static bool has_member(const struct classic_project *project, const char *name)
 {
@@ -941,7 +941,7 @@ void classic_member_begin(struct classic_reader *reader,
 
 bool classic_line_next(struct classic_reader *reader)
 {
-	/* More errors than are kept: nobody would read them. */
+	/* More errors than the list keeps. */
 	while (reader->at < reader->end && reader->diags->errors <= LIMIT_DIAGS) {
 		const char *line = reader->at;
 		size_t left = (size_t)(reader->end - line);

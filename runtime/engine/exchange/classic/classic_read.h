@@ -38,8 +38,8 @@ struct classic_reader {
 /** classic_member_begin - before the first line of @member. */
 void classic_member_begin(struct classic_reader *reader,
 			  const struct classic_member *member);
-/** classic_line_next - the next line, without its end and the blanks around it; too long
- * ones are told and left out. false: there is none. */
+/** classic_line_next - the next line, without its end and the blanks around it. Lines that
+ * are too long are reported and skipped. false: there is none. */
 bool classic_line_next(struct classic_reader *reader);
 /** classic_line_told - the same, but comments (;) and empty lines are left out. */
 bool classic_line_told(struct classic_reader *reader);
@@ -52,24 +52,24 @@ bool classic_fail(struct classic_reader *reader, enum diag_id id, const char *te
 		  size_t len);
 /** classic_lost - a line of the report about this line. */
 void classic_lost(struct classic_reader *reader, const char *text);
-/** classic_text - @len bytes as UTF-8 that is shown: Latin-1 if it was not, `?` for
- * control characters. "" when memory is out. */
+/** classic_text - @len bytes as UTF-8 to show; bytes that are not UTF-8 are read as
+ * Latin-1, control characters become `?`. "": no memory. */
 const char *classic_text(struct classic_reader *reader, const char *from, size_t len);
-/** classic_name - the same of a name: longer than ClassicLadder's @usual bytes is told. */
+/** classic_name - the same of a name; reports one longer than ClassicLadder's @usual bytes. */
 const char *classic_name(struct classic_reader *reader, const char *from, size_t len,
 			 size_t usual);
 /** classic_number - one whole number at *@at, blanks before it; steps over it. Numbers
  * beyond 32 bits become the largest. false: there is none. */
 bool classic_number(const char **at, const char *end, int *out);
 /** classic_numbers - numbers of the line from @at, with commas between them, @max at
- * most. What is missing is 0; at least @least must be there. false: told. */
+ * most. Missing ones are 0; at least @least must be there. false: reported. */
 bool classic_numbers(struct classic_reader *reader, const char *at, int *out, int least,
 		     int max);
-/** classic_in_range - else it is told, with the number. */
+/** classic_in_range - false: the number was reported. */
 bool classic_in_range(struct classic_reader *reader, int number, int low, int high);
-/** classic_version - is this `#VER=` with at most @known? Other directives are true, too. */
+/** classic_version - false for `#VER=` beyond @known; true for other directives. */
 bool classic_version(struct classic_reader *reader, int known);
-/** classic_twice - tells that @what stands twice. */
+/** classic_twice - reports that @what stands twice. */
 void classic_twice(struct classic_reader *reader, struct classic_place place,
 		   const char *what, int number);
 

@@ -41,7 +41,7 @@ static bool is_first(const struct conversion *c, const struct classic_section *s
 	return section - c->project->section == first_page(c);
 }
 
-/* ---- who reads %X3.A ---- */
+/* ---- readers of %X3.A ---- */
 
 /* By number of a step: is it read by the first page or before it; the first section behind
  * that reads it. Sub-routines are called from anywhere. */

@@ -3,9 +3,9 @@
  * classic_write - a struct classic_project as the text that ClassicLadder, LinuxCNC or an
  * old soft PLC reads.
  *
- * The mirror of classic_read(). It knows what their readers stumble over: a member without
- * a line, lines and names that are too long, a comma in a name. What a text is too long
- * for is cut at a whole character; that names stay different is for who made them.
+ * The mirror of classic_read(). It avoids what those readers cannot read: a member without
+ * a line, lines and names that are too long, a comma in a name. A text that is too long is
+ * cut at a whole character; the caller keeps names different.
  */
 #ifndef CLASSIC_WRITE_H
 #define CLASSIC_WRITE_H

@@ -18,7 +18,7 @@
  * @project: without errors; its table of names grows
  * @sink:    gets the text, which is not canonical
  *
- * What has no ladder is told: LD460, with its place.
+ * Adds LD460 with its place for each part that has no ladder.
  * Owns: nothing.   Scan-safe: no.   Fails: false after a diagnostic.
  */
 bool sfc_ladder(struct project *project, const struct sink *sink,

@@ -324,7 +324,7 @@ static void memory_slot(struct leaving *e, struct out_slot *slot)
 	int count = var->array.count ? (int)var->array.count : 1;
 	struct out_operand operand;
 
-	slot->type = -1; /* it has no number: who asks for it is told */
+	slot->type = -1; /* it has no number: its uses report that */
 	if (count > CLASSIC_LIMIT || (var->type != IEC_BOOL && !whole_number(var->type)))
 		return;
 	slot->count = count;
