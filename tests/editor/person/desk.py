@@ -64,10 +64,13 @@ class Editor:
         self.alive()
         for name, path in self.call('org.a11y.atspi.Registry', '/org/a11y/atspi/accessible/root',
                                     'Accessible', 'GetChildren'):
-            pid = self.bus.call_blocking('org.freedesktop.DBus', '/', 'org.freedesktop.DBus',
-                                         'GetConnectionUnixProcessID', 's', (name,))
-            if self.is_ours(pid) and self.call(name, path, 'Accessible', 'GetChildren'):
-                return name, path
+            try:
+                pid = self.bus.call_blocking('org.freedesktop.DBus', '/', 'org.freedesktop.DBus',
+                                             'GetConnectionUnixProcessID', 's', (name,))
+                if self.is_ours(pid) and self.call(name, path, 'Accessible', 'GetChildren'):
+                    return name, path
+            except (dbus.exceptions.DBusException, FileNotFoundError):
+                pass  # an editor that just ended
         return None
 
     def is_ours(self, pid):
@@ -480,21 +483,48 @@ class Chinese(Editor):
 
 
 def report(tests):
-    """Runs the tests, each at a desk of its own, as TAP; returns the exit status. A test
-    may have a `size`, of its screen."""
+    """Runs the tests one after another at one desk, as TAP; returns the exit status. Each has a home folder and
+    editors of its own. A test may have a `size`, of its screen: then it has a desk of its own, and so has the
+    test behind one that failed."""
     lacks = missing()
     if lacks:
         print('1..0 # SKIP needs ' + lacks)
         return 0
-    failed = 0
-    for number, test in enumerate(tests, 1):
+    done, failed = 0, False
+    while done < len(tests):
+        size = size_of(tests[done])
+        same = next((i for i in range(done, len(tests)) if size_of(tests[i]) != size), len(tests))
+        sys.stdout.flush()
         # A process each: the accessibility bus is that of the first screen it saw.
         child = os.fork()
         if child == 0:
-            os._exit(run(number, test))
-        failed |= os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 0
+            passed = 0
+            try:
+                passed = run_at_one_desk(done, tests[done:same], size)
+            except Exception:
+                traceback.print_exc()
+            os._exit(passed)
+        passed = max(0, os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+        if passed < same - done:
+            failed = True
+            passed += 1  # that one has failed
+        done += passed
     print('1..%d' % len(tests))
     return int(failed)
+
+
+def size_of(test):
+    return getattr(test, 'size', '1440x900x24')
+
+
+def run_at_one_desk(done, tests, size):
+    """Returns how many passed before the first that failed."""
+    screen, passed = Screen(size), 0
+    while passed < len(tests) and run(screen, done + passed + 1, tests[passed], passed > 0):
+        passed += 1
+    screen.close()
+    sys.stdout.flush()
+    return passed
 
 
 def keep_log(editor, number):
@@ -513,17 +543,18 @@ def keep_failure(number, test, error):
         file.write('\n'.join([test.__doc__, *ways[1:5], repr(error)[:600], '']))
 
 
-def run(number, test):
+def run(screen, number, test, used):
+    """Runs one test; False if it failed. @used: another test was at this desk before."""
     begin = time.monotonic()
-    screen = Screen(getattr(test, 'size', '1440x900x24'))
-    failed = 1
     try:
+        if used:
+            screen.tidy()
         test(screen)
         for editor in editors[:]:
             editor.finish()
             keep_log(editor, number)
-        print('ok %d - %s # %.1f s' % (number, test.__doc__, time.monotonic() - begin))
-        failed = 0
+        print('ok %d - %s # %.1f s' % (number, test.__doc__, time.monotonic() - begin), flush=True)
+        return True
     except Exception as error:
         print('not ok %d - %s' % (number, test.__doc__))
         keep_failure(number, test, error)
@@ -534,9 +565,7 @@ def run(number, test):
     for editor in editors[:]:
         print('# ' + editor.logged().replace('\n', '\n# '))
         editor.kill()
-    screen.close()
-    sys.stdout.flush()
-    return failed
+    return False
 
 
 def main(tests):

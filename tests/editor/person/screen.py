@@ -57,12 +57,24 @@ class ClientMessage(ctypes.Structure):
                 ('format', ctypes.c_int), ('data', ctypes.c_long * 5), ('rest', ctypes.c_long * 12)]
 
 
-def close_window(window):
-    """As a task bar does it: the window manager is asked to (_NET_CLOSE_WINDOW of the EWMH)."""
+def open_display():
+    """The X library and a connection to the screen."""
     x = ctypes.CDLL('libX11.so.6')
     x.XOpenDisplay.restype = ctypes.c_void_p
     x.XDefaultRootWindow.restype = x.XInternAtom.restype = ctypes.c_ulong
-    display = ctypes.c_void_p(x.XOpenDisplay(None))
+    return x, ctypes.c_void_p(x.XOpenDisplay(None))
+
+
+def empty_clipboard():
+    x, display = open_display()
+    clipboard = x.XInternAtom(display, b'CLIPBOARD', 0)
+    x.XSetSelectionOwner(display, ctypes.c_ulong(clipboard), ctypes.c_ulong(0), ctypes.c_ulong(0))
+    x.XCloseDisplay(display)
+
+
+def close_window(window):
+    """Closes a window as a task bar does: asks the window manager to (_NET_CLOSE_WINDOW of the EWMH)."""
+    x, display = open_display()
     message = x.XInternAtom(display, b'_NET_CLOSE_WINDOW', 0)
     event = ClientMessage(type=33, window=window, message=message, format=32)  # ClientMessage
     event.data[1] = 2  # by a person, not by a program
@@ -75,13 +87,13 @@ class Screen:
     """A private X screen with a window manager, a session bus, a home folder."""
 
     def __init__(self, size='1440x900x24'):
-        self.home = tempfile.mkdtemp(prefix='rungboard-desk-')
-        self.running = []
-        os.environ.update(HOME=self.home, XDG_RUNTIME_DIR=self.home, LC_ALL='C.UTF-8', LANGUAGE='',
+        self.runtime = tempfile.mkdtemp(prefix='rungboard-run-')
+        self.running, self.folder = [], os.getcwd()
+        os.environ.update(XDG_RUNTIME_DIR=self.runtime, LC_ALL='C.UTF-8', LANGUAGE='',
                           GDK_BACKEND='x11', GSK_RENDERER='cairo', GTK_A11Y='atspi',
-                          GSETTINGS_BACKEND='memory', ADW_DISABLE_PORTAL='1', GTK_USE_PORTAL='0',
-                          XDG_STATE_HOME=os.path.join(self.home, 'state'), NO_AT_BRIDGE='0')
+                          GSETTINGS_BACKEND='memory', ADW_DISABLE_PORTAL='1', GTK_USE_PORTAL='0', NO_AT_BRIDGE='0')
         os.environ.pop('XDG_DATA_HOME', None)
+        self.move_in()
         self.start_bus()
         read, write = os.pipe()
         # -r: no key repeats itself while a busy machine is late to let go of it.
@@ -96,6 +108,24 @@ class Screen:
         if shutil.which('xcompmgr'):  # without it popovers have a black frame
             self.start('xcompmgr')
         until(self.is_managed, 'the window manager')
+        self.environment, self.always = dict(os.environ), len(self.running)
+
+    def move_in(self):
+        """A new home folder."""
+        self.home = tempfile.mkdtemp(prefix='rungboard-desk-')
+        os.environ.update(HOME=self.home, XDG_STATE_HOME=os.path.join(self.home, 'state'))
+
+    def tidy(self):
+        """The same screen as at the beginning, for the next test: what the last one started has ended, nothing is in
+        the clipboard, the pointer rests in the middle."""
+        self.end(self.always)
+        shutil.rmtree(self.home, ignore_errors=True)
+        os.chdir(self.folder)
+        os.environ.clear()
+        os.environ.update(self.environment)
+        self.move_in()
+        empty_clipboard()
+        sh('xdotool', 'mousemove', '--polar', '0', '0')
 
     @staticmethod
     def is_managed():
@@ -134,9 +164,14 @@ class Screen:
         return ended + [sh('xprop', '-root', '_NET_CLIENT_LIST'),
                         *(line for line in tree if '+' in line and ' 1x1+' not in line)]
 
-    def close(self):
-        while self.running:
+    def end(self, but=0):
+        """Ends all programs but the first ones."""
+        while len(self.running) > but:
             process = self.running.pop()
             process.kill()
             process.wait()
-        shutil.rmtree(self.home, ignore_errors=True)
+
+    def close(self):
+        self.end()
+        for folder in self.home, self.runtime:
+            shutil.rmtree(folder, ignore_errors=True)
