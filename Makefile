@@ -76,6 +76,8 @@ UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/*/test_*
 $(BUILD)/unit/%: $(BUILD)/tests/unit/%.o $(BUILD)/libladder.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+# What a test itself does takes no time: it is compiled fast, not made fast.
+$(call obj,$(wildcard tests/unit/*/*.c tests/unit/*/*/*.c tests/editor/*/*.c tests/editor/*/*/*.c)): COLD = $(if $(filter -O2,$(CFLAGS)),-O0)
 unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
@@ -255,7 +257,7 @@ no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is le
 .PHONY: no-editor
 endif
 # A person's work, with pointer and keys on a screen of its own: PICTURES=folder keeps what was seen.
-EDITOR_PERSON := $(if $(EDITOR),$(filter-out %/desk.py %/node.py %/screen.py %/outcome.py %/projects.py,$(wildcard tests/editor/person/*.py)))
+EDITOR_PERSON := $(if $(EDITOR),$(shell grep -l '^\#!' tests/editor/person/*.py))
 # Its languages: editor-gtk/po/. In the build they lie beside the program, in build/locale/.
 MSGFMT   := $(if $(EDITOR),$(shell command -v msgfmt))
 MO       := $(if $(MSGFMT),$(patsubst %,$(BUILD)/locale/%/LC_MESSAGES/rungboard.mo,$(shell cat editor-gtk/po/LINGUAS)))
@@ -530,17 +532,40 @@ VALGRIND := valgrind -q --leak-check=full --show-leak-kinds=definite --errors-fo
 valgrind-editor: all ## editor tests as a person under valgrind: lost memory, what was never written; PERSON=… as above
 	BUILD=$(BUILD) GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas G_SLICE=always-malloc PATIENCE=600 WRAPPER='$(VALGRIND)' \
 	  prove -e '' $(if $(PERSON),$(PERSON),$(EDITOR_PERSON))
+# Scripts that use the editor mostly wait for it. So more tests run at once than there are processors, and each
+# script runs beside one that computes. Those that take longest are first.
+JOBS     ?= $$(($$(nproc) * 2))
+LONGEST  := tests/arm.sh tests/compilers.sh
+COMPUTING := $(sort $(filter-out $(LONGEST) $(EDITOR_PERSON),$(TESTS_T) $(TESTS_SH) tests/small.sh)) \
+            $(TESTS_BIN:$(BUILD)/%=$(ASAN)/%) $(filter-out $(BIN)/exhaustion,$(TESTS_BIN)) $(BIN)/exhaustion
+in_turn   = $(subst |, ,$(join $(addsuffix |,$(1)),$(2)))
+IN_ORDER  = $(LONGEST) $(call in_turn,$(EDITOR_PERSON),$(filter-out $(ASAN)/%/exhaustion,$(COMPUTING))) \
+            $(filter-out $(TESTS_BIN),$(BUILT)) $(filter-out $(COMPUTING),$(ASAN_RUN))
 check: tests asan arm small cases ## build, then every test; what failed at a desk is told once more at the end
 	rm -rf $(BUILD)/failed
-	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' \
-	  prove -j$$(nproc) -e '' tests/arm.sh tests/small.sh $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN) || \
+	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' prove -j$(JOBS) -e '' $(IN_ORDER) || \
 	  { head -vn 9 $(BUILD)/failed/* 2>/dev/null; exit 1; }
+# What a change of one room needs. A script has one test for a room where it says TEST.quick = 'ROOM'; other
+# rooms have those of editor-gtk/window.
+ifneq ($(filter quick,$(MAKECMDGOALS)),)
+QUICK    := $(patsubst %/,%,$(or $(ROOM),$(shell tests/changed.sh)))
+$(foreach r,$(QUICK),$(if $(wildcard $r/),,$(error ROOM=$r: no such folder; for example editor-gtk/live or runtime/engine/scan)))
+QUICK_IN := $(patsubst runtime/engine/%,runtime/%,$(QUICK))
+QUICK_IN := $(patsubst editor-gtk/%,$(BUILD)/tests/editor/%,$(QUICK_IN:runtime/%=$(BUILD)/unit/%))
+QUICK_TESTS := $(sort $(foreach d,$(QUICK_IN),$(filter $d/test_%,$(UNIT) $(EDITOR_TESTS))) $(if $(filter hal,$(QUICK)),$(HAL_TESTS)))
+with_test = $(if $(EDITOR),$(shell grep -lE "\.quick = '($(subst $() ,|,$(strip $(1))))'" $(EDITOR_PERSON)))
+JOURNEYS := $(or $(call with_test,$(QUICK)),$(call with_test,editor-gtk/window))
+QUICK_ENV = BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' QUICK='$(or $(QUICK),editor-gtk/window)'
+endif
+quick: all $(QUICK_TESTS) ## what a change of one room needs, in a minute: ROOM=editor-gtk/live, or the rooms that git says changed
+	@echo "quick: $(or $(QUICK),no room)"
+	$(QUICK_ENV) prove -j$(JOBS) -e '' $(JOURNEYS) tests/golden.t tests/floors.sh tests/quiet.sh tests/banned.pl $(QUICK_TESTS)
 $(BUILD)/tests/bench/record: $(BUILD)/tests/bench/record.o $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 bench: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/bench/record ## speed, load time and size, as a table
 	@BUILD=$(BUILD) CC='$(CC)' tests/bench/bench.sh
 .SECONDARY:
-.PHONY: tests asan asan-editor asan-editor-run leaks-editor leaks-editor-run valgrind-editor check bench
+.PHONY: tests asan asan-editor asan-editor-run leaks-editor leaks-editor-run valgrind-editor check quick bench
 # ---- end of everything ----
 
 clean: ## remove everything that was built

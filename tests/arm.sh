@@ -11,17 +11,18 @@ count=${COUNT:-1000} # random programs for the second evaluator
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
 
-n=0 failed=0
+failed=0
 say() { # status text
 	n=$((n + 1))
 	if [ "$1" -eq 0 ]; then echo "ok $n - $2"; return; fi
 	failed=1
 	echo "not ok $n - $2"
-	sed -n '/^not ok/s/^/#   /p; $s/^/#   /p' "$tmp/out"
+	sed -n '/^not ok/s/^/#   /p; $s/^/#   /p' "$out"
 }
 
 # run_arch NAME EMULATOR CROSS PACKAGE
 run_arch() {
+	n=0 out=$tmp/$1.out
 	if ! command -v "$2" >/dev/null || ! command -v "$3gcc" >/dev/null; then
 		n=$((n + 1))
 		echo "ok $n # SKIP $1 did not run: apt-get install qemu-user $4"
@@ -31,22 +32,26 @@ run_arch() {
 	fi
 	for program in "$build/$1"/unit/*/test_* "$build/$1"/unit/*/*/test_* "$build/$1"/tests/bin/iec_cases; do
 		case $program in *.d | *.o) continue;; esac
-		"$2" "$program" >"$tmp/out" 2>&1
+		"$2" "$program" >"$out" 2>&1
 		say $? "$1: ${program#"$build/$1"/}"
 	done
-	"$2" "$build/$1/tests/bin/differential" --count "$count" >"$tmp/out" 2>&1
+	"$2" "$build/$1/tests/bin/differential" --count "$count" >"$out" 2>&1
 	say $? "$1: the second evaluator, $count random programs"
-	"$2" "$build/$1/replay" "$build/cases/programs.bundle" >"$tmp/out" 2>&1
+	"$2" "$build/$1/replay" "$build/cases/programs.bundle" >"$out" 2>&1
 	say $? "$1: 1,000 random programs: the traces of the machine that built, byte for byte"
-	printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$2" "$PWD/$build/$1/ladder" >"$tmp/ladder"
-	chmod +x "$tmp/ladder"
-	LADDER=$tmp/ladder perl tests/golden.t >"$tmp/out" 2>&1
+	printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$2" "$PWD/$build/$1/ladder" >"$tmp/$1.ladder"
+	chmod +x "$tmp/$1.ladder"
+	LADDER=$tmp/$1.ladder perl tests/golden.t >"$out" 2>&1
 	say $? "$1: the golden cases, byte by byte"
+	return $failed
 }
 
+# Both at once; then the lines are numbered through.
 run_arch arm64 qemu-aarch64 aarch64-linux-gnu- \
-	'gcc-aarch64-linux-gnu libc6-dev-arm64-cross'
+	'gcc-aarch64-linux-gnu libc6-dev-arm64-cross' >"$tmp/arm64" &
 run_arch armhf qemu-arm arm-linux-gnueabihf- \
-	'gcc-arm-linux-gnueabihf libc6-dev-armhf-cross'
-echo "1..$n"
+	'gcc-arm-linux-gnueabihf libc6-dev-armhf-cross' >"$tmp/armhf"
+failed=$?
+wait $! || failed=1
+awk '/^(not )?ok [0-9]/ { sub(/ok [0-9]+/, "ok " ++n) } { print } END { print "1.." n }' "$tmp/arm64" "$tmp/armhf"
 exit $failed

@@ -118,4 +118,5 @@ def all_panels(screen):
 
 
 all_panels.size = '1024x700x24'
+edits.quick = 'editor-gtk/panels'
 main([edits, simulates, chosen, all_panels])

@@ -150,4 +150,6 @@ def dragged(screen):
     assert 'NO Motor' in editor.save(path)
 
 
+coil.quick = 'editor-gtk/ladder'
+on_a_coil.quick = 'editor-gtk/edit'
 main([coil, on_a_coil, branch, dragged])

@@ -494,4 +494,5 @@ def long_texts(screen):
     assert editor.save(path) == EMPTY
 
 
+bodies.quick = 'editor-gtk/sfc'
 main([by_keyboard, by_pointer, bodies, clipped, zoomed, simulated, forced, long_texts])

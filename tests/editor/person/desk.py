@@ -1,30 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""desk - a person at a desk: a screen, a keyboard, a pointer, and ladder-editor.
+"""desk - uses ladder-editor as a person does, with a real pointer and real keys.
 
-What the person sees is found by its accessible name, what the person does is done with a
-real pointer and real keys. A test is a function; report() runs it and speaks TAP. What it
-needs is in screen.py; without that all is skipped.
-
-The accessibility bus gives all that the toolkit knows in one answer (org.a11y.atspi.Cache):
-one node after the other would take most of a test's time. The palette, which is most of the
-tree and never changes, is looked into only for its tiles.
+finder.py finds the widgets. A test is a function that gets a Screen; main() of report.py runs the tests of a
+script. Without the programs of screen.py all tests are skipped.
 """
 import gettext
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
 import time
-import traceback
-import warnings
 
-from node import A11Y, EXTENTS, ROLES, WHOLE, Gone, Node
+import report
+from finder import Finder
+from node import A11Y, EXTENTS, ROLES, WHOLE, Gone, Node  # noqa: F401
 from outcome import BUILD, LADDER, ROOT, check, lines, new_file, trace  # noqa: F401
 from screen import PATIENCE, Screen, dbus, lacking, sh, until
 
-warnings.simplefilter('ignore')
 EDITOR = os.environ.get('LADDER_EDITOR') or os.path.join(BUILD, 'ladder-editor')
 WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
 SLOWLY = max(1, PATIENCE / 60)  # a hand knows a slow machine
@@ -38,7 +31,12 @@ def missing():
     return ', '.join(lacking() + ([] if os.path.exists(EDITOR) else [EDITOR]))
 
 
-class Editor:
+def main(tests):
+    """Runs the tests of a script, or some of them, and ends with its status."""
+    sys.exit(report.report(report.chosen(tests), missing(), editors))
+
+
+class Editor(Finder):
     """ladder-editor, as a person uses it."""
 
     def __init__(self, screen, *files, before=None, **env):
@@ -85,198 +83,6 @@ class Editor:
     def alive(self):
         if self.process.poll() is not None:
             raise AssertionError('the editor ended with %d: %s' % (self.process.returncode, self.logged()))
-
-    # ---- asking ----
-
-    def call(self, name, path, interface, method):
-        return self.bus.call_blocking(name, path, A11Y + interface, method, '', ())
-
-    def ask(self, questions):
-        """Answers of (path, interface, method, signature, arguments…), all asked at once; None: it is gone."""
-        answers, waiting = [None] * len(questions), []
-        for index, (path, interface, method, *args) in enumerate(questions):
-            message = dbus.lowlevel.MethodCallMessage(self.name, path, A11Y + interface, method)
-            message.append(*args[1:], signature=args[0] if args else '')
-
-            def done(answer, index=index):
-                if isinstance(answer, dbus.lowlevel.MethodReturnMessage):  # else it went while we asked
-                    answers[index] = answer.get_args_list()
-            waiting.append(self.bus.send_message_with_reply(message, done, 60))
-        for reply in waiting:
-            reply.block()
-        self.alive()
-        return answers
-
-    # ---- seeing ----
-
-    def known(self):
-        """All that the toolkit knows, seen or not: path -> node."""
-        try:
-            items = self.bus.call_blocking(self.name, '/org/a11y/atspi/cache', A11Y + 'Cache', 'GetItems', '', ())
-        except dbus.exceptions.DBusException:
-            self.alive()
-            raise
-        nodes = [Node(self, item) for item in items]
-        return {node.path: node for node in nodes}
-
-    def seen(self, nodes, top=None):
-        """The paths below each node that are seen: path -> paths in their order. What is hidden has
-        the place of the next that is seen, and one that nobody asked for is not known yet: so all
-        are asked, but for what never hides a part of its own, and the palette unless it is @top."""
-        family = {path: [] for path in nodes}
-        for node in nodes.values():
-            family.setdefault(node.parent, []).append(node)
-        below, asked, paths = {}, [], [self.root] + ([top] if top else [])
-        while paths:
-            path = paths.pop()
-            node, children = nodes.get(path), sorted(family.get(path, []), key=lambda child: child.place)
-            if node and not node.children and path != self.root:
-                continue
-            below[path] = [child.path for child in children]
-            if not node or node.role not in WHOLE or [child.place for child in children] != list(range(node.children)):
-                asked.append(path)
-            paths += [child for child in below[path] if child != self.palette]
-        answers = self.ask([(path, 'Accessible', 'GetChildren') for path in asked])
-        for path, answer in zip(asked, answers):
-            below[path] = [child for _, child in answer[0]] if answer else []
-        return below
-
-    def waken(self, paths, known):
-        """A widget comes into being on the bus by being asked for, and what is below it, too."""
-        while paths:
-            known |= paths
-            answers = self.ask([(path, 'Accessible', 'GetChildren') for path in paths])
-            paths = {child for answer in answers if answer for _, child in answer[0]} - known
-
-    def walk(self, path=None):
-        unknown, before = {self.root}, set()
-        while unknown - before:
-            nodes, before = self.known(), unknown
-            below = self.seen(nodes, path)
-            unknown = {child for paths in below.values() for child in paths if child not in nodes}
-            self.waken(unknown, set(nodes))
-        paths = [path] if path else below.get(self.root, [])
-        while paths:
-            level = [nodes[each] for each in paths if each in nodes]
-            yield from level
-            paths = []
-            for node in level:
-                if node.name == 'Elements' and node.role == 49:
-                    self.palette = node.path
-                if node.path != self.palette or node.path == path:
-                    for child in below.get(node.path, []):
-                        page = child in nodes and not nodes[child].widget
-                        paths += below.get(child, []) if page else [child]
-
-    def all(self, name=None, role=None, below=None):
-        """All widgets whose name holds a text; of a role."""
-        return [node for node in self.walk(below) if (role is None or node.role == ROLES[role]) and
-                (name is None or name in node.name)]
-
-    def find(self, name=None, role=None, seconds=PATIENCE):
-        def look():
-            found = self.all(name, role)
-            return found[0] if found else None
-        return until(look, '%s "%s"' % (role or 'widget', name), seconds)
-
-    def tile(self, name):
-        """A tile of the palette."""
-        return until(lambda: self.all(name, 'push button', self.palette), 'tile "%s"' % name)[0]
-
-    def sheet(self):
-        return self.find('Sheet')
-
-    def elements(self):
-        """Those that are seen on sheets: not the wire or the empty cell that the cursor is on."""
-        return [node for node in self.all('Rung ', 'table cell') if not re.search(r', row \d+, column \w+$', node.name)]
-
-    def cells(self):
-        """Their names."""
-        return [node.name for node in self.elements()]
-
-    def says(self, text):
-        """Waits until a text stands somewhere in the window."""
-        return self.find(text)
-
-    def windows(self):
-        """Those that the window manager knows: no tooltip, no popup. Nothing is found, too, when
-        one goes away while it is looked for: then it is looked again."""
-        known = [int(number, 16) for number in re.findall('0x[0-9a-f]+', sh('xprop', '-root', '_NET_CLIENT_LIST'))]
-        looks = (sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.pid)).split() for _ in range(3))
-        seen = next(filter(None, looks), [])
-        return [window for window in seen if int(window) in known]
-
-    def place(self, node):
-        """Where a widget of the main window is on the screen: x, y, width, height."""
-        about = dict(re.findall(r'(Absolute upper-left X|Absolute upper-left Y|Width|Height): +(-?\d+)',
-                                sh('xwininfo', '-id', self.window)))
-        frame = self.call(self.name, self.root, 'Accessible', 'GetChildren')[0][1]
-        _, _, width, height = self.ask([(frame, *EXTENTS)])[0][0]
-        x = int(about['Absolute upper-left X']) + (int(about['Width']) - width * self.scale) // 2
-        y = int(about['Absolute upper-left Y']) + (int(about['Height']) - height * self.scale) // 2
-        left, top, width, height = (each * self.scale for each in self.at_rest(node))
-        return x + left, y + top, width, height
-
-    @staticmethod
-    def at_rest(node):
-        """Where it is once it has come there: what was just made still moves."""
-        seen = []
-
-        def look():
-            seen.append(node.box())
-            return len(seen) > 1 and seen[-1] == seen[-2] and seen[-1][2] > 0 and seen[-1]
-        return until(look, '"%s" to be at rest' % node.name)
-
-    def centre(self, node):
-        x, y, width, height = self.place(node)
-        return x + width // 2, y + height // 2
-
-    def popped(self, node):
-        """The middle of a widget in a popover: that is a window of its own, of just its size."""
-        left, top, width, height = self.at_rest(node)
-        nodes = self.known()
-        windows = [re.findall(r'(?:upper-left [XY]|Width|Height): +(-?\d+)', sh('xwininfo', '-id', each))
-                   for each in sh('xdotool', 'search', '--onlyvisible', '--class', 'ladder-editor').split()]
-        while node.parent in nodes:
-            node = nodes[node.parent]
-            x0, y0, *size = node.box() if node.widget else (0, 0)
-            for about in windows:
-                x, y, _, _, *of_window = [int(number) for number in about]
-                if size and of_window == size:
-                    return x + left - x0 + width // 2, y + top - y0 + height // 2
-        raise AssertionError('"%s" is in no popover' % node.name)
-
-    def grid(self, rung_y, column):
-        """A point of the sheet: so many px below its top, in the middle of a column of 98 px."""
-        x, y, _, _ = self.place(self.sheet())
-        return x + 61 + 98 * column + 49, y + rung_y
-
-    def element(self, *parts):
-        """The element of a rung whose name has all these parts; waits for it."""
-        def look():
-            found = [node for node in self.elements() if all(part in node.name for part in parts)]
-            return found[0] if found else None
-        return until(look, 'the element %s' % ', '.join(parts))
-
-    def middle(self, node):
-        """Where the contact or coil of an element is; its wire is 46 px below its top."""
-        x, y, width, _ = self.place(node)
-        return x + width // 2, y + 46
-
-    def beside(self, node):
-        """On the wire of an element: the cursor goes there, and nothing else happens."""
-        x, y, _, _ = self.place(node)
-        return x + 12, y + 46
-
-    def wire_end(self, rung_y, bar, by=0):
-        """The left end of a column, and so many px to its right."""
-        x, y, _, _ = self.place(self.sheet())
-        return x + 61 + 98 * bar + by, y + rung_y
-
-    def shot(self, name):
-        """A picture for a person to look at, if PICTURES names a folder."""
-        if os.environ.get('PICTURES'):
-            sh('import', '-window', 'root', os.path.join(os.environ['PICTURES'], name + '.png'))
 
     # ---- doing ----
 
@@ -480,96 +286,6 @@ class Chinese(Editor):
 
     def all(self, name=None, *more, **named):
         return super().all(name and self.said.gettext(name), *more, **named)
-
-
-def report(tests):
-    """Runs the tests one after another at one desk, as TAP; returns the exit status. Each has a home folder and
-    editors of its own. A test may have a `size`, of its screen: then it has a desk of its own, and so has the
-    test behind one that failed."""
-    lacks = missing()
-    if lacks:
-        print('1..0 # SKIP needs ' + lacks)
-        return 0
-    done, failed = 0, False
-    while done < len(tests):
-        size = size_of(tests[done])
-        same = next((i for i in range(done, len(tests)) if size_of(tests[i]) != size), len(tests))
-        sys.stdout.flush()
-        # A process each: the accessibility bus is that of the first screen it saw.
-        child = os.fork()
-        if child == 0:
-            passed = 0
-            try:
-                passed = run_at_one_desk(done, tests[done:same], size)
-            except Exception:
-                traceback.print_exc()
-            os._exit(passed)
-        passed = max(0, os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
-        if passed < same - done:
-            failed = True
-            passed += 1  # that one has failed
-        done += passed
-    print('1..%d' % len(tests))
-    return int(failed)
-
-
-def size_of(test):
-    return getattr(test, 'size', '1440x900x24')
-
-
-def run_at_one_desk(done, tests, size):
-    """Returns how many passed before the first that failed."""
-    screen, passed = Screen(size), 0
-    while passed < len(tests) and run(screen, done + passed + 1, tests[passed], passed > 0):
-        passed += 1
-    screen.close()
-    sys.stdout.flush()
-    return passed
-
-
-def keep_log(editor, number):
-    """Beside the pictures, if there is anything in it."""
-    if os.environ.get('PICTURES') and os.path.getsize(editor.log):
-        shutil.copy(editor.log, os.path.join(os.environ['PICTURES'], 'log-%d.txt' % number))
-
-
-def keep_failure(number, test, error):
-    """A few lines for who sees only the end of a long log: where in the script, and what did not come."""
-    folder, script = os.path.join(BUILD, 'failed'), os.path.basename(sys.argv[0])
-    ways = ['%s:%d %s' % (os.path.basename(step.filename), step.lineno, step.line)
-            for step in traceback.extract_tb(error.__traceback__)]
-    os.makedirs(folder, exist_ok=True)
-    with open(os.path.join(folder, '%s-%d' % (script, number)), 'w') as file:
-        file.write('\n'.join([test.__doc__, *ways[1:5], repr(error)[:600], '']))
-
-
-def run(screen, number, test, used):
-    """Runs one test; False if it failed. @used: another test was at this desk before."""
-    begin = time.monotonic()
-    try:
-        if used:
-            screen.tidy()
-        test(screen)
-        for editor in editors[:]:
-            editor.finish()
-            keep_log(editor, number)
-        print('ok %d - %s # %.1f s' % (number, test.__doc__, time.monotonic() - begin), flush=True)
-        return True
-    except Exception as error:
-        print('not ok %d - %s' % (number, test.__doc__))
-        keep_failure(number, test, error)
-        print('# ' + ''.join(traceback.format_exception(error)[-3:]).replace('\n', '\n# '))
-        if os.environ.get('PICTURES'):
-            sh('import', '-window', 'root', os.path.join(os.environ['PICTURES'], 'failed-%d.png' % number))
-        print('# ' + '\n# '.join(screen.told()))
-    for editor in editors[:]:
-        print('# ' + editor.logged().replace('\n', '\n# '))
-        editor.kill()
-    return False
-
-
-def main(tests):
-    sys.exit(report(tests))
 
 
 if __name__ == '__main__':  # desk.py COMMAND...: runs a command at a desk of its own

@@ -210,4 +210,6 @@ def board(screen):
         assert not began.stdout and not editor.all('Started with'), 'it ran'
 
 
+dialogs.quick = 'editor-gtk/kit'
+popups.quick = 'editor-gtk/kit/gtk48'
 main([dialogs, popups, give_back, close, commands, writers, replaced, imported, board])

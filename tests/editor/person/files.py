@@ -297,4 +297,5 @@ def closing(screen):
     assert lines(path, '@print Motor\nStart=0\nStart=1\n') == ['Motor=1', 'Motor=0']
 
 
+one_history.quick = 'editor-gtk/document'
 main([refused, classic, no_program, no_text, foreign, beside, stays_a_link, tab, window, one_history, written_over, closing])

@@ -149,4 +149,5 @@ def dark_and_small(screen):
 
 
 dark_and_small.size = '1024x700x24'
+motor.quick = 'editor-gtk/sim'
 main([motor, force, numbers, dark_and_small])

@@ -128,4 +128,5 @@ def sharp(screen):
 
 small.size = '1024x700x24'
 large.size = sharp.size = '3840x2160x24'
+light.quick = 'editor-gtk/draw'
 main([light, dark, high, small, large, sharp])

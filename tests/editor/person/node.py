@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """node - a widget as the accessibility bus knows it: what it is called, is, has and where.
 
-It finds none and touches none: desk.py does.
+finder.py finds widgets, desk.py uses them.
 """
 WHOLE = {11, 29, 37, 43, 48, 61, 62}  # roles of what never hides a part of its own
 ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,

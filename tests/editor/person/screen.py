@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """screen - a desk without a program: a private X screen, a window manager, a session bus, a home folder.
 
-What is on it desk.py finds and uses.
+finder.py and desk.py use it.
 """
 import ctypes
 import os
@@ -88,7 +88,7 @@ class Screen:
 
     def __init__(self, size='1440x900x24'):
         self.runtime = tempfile.mkdtemp(prefix='rungboard-run-')
-        self.running, self.folder = [], os.getcwd()
+        self.running, self.size = [], size
         os.environ.update(XDG_RUNTIME_DIR=self.runtime, LC_ALL='C.UTF-8', LANGUAGE='',
                           GDK_BACKEND='x11', GSK_RENDERER='cairo', GTK_A11Y='atspi',
                           GSETTINGS_BACKEND='memory', ADW_DISABLE_PORTAL='1', GTK_USE_PORTAL='0', NO_AT_BRIDGE='0')
@@ -108,7 +108,7 @@ class Screen:
         if shutil.which('xcompmgr'):  # without it popovers have a black frame
             self.start('xcompmgr')
         until(self.is_managed, 'the window manager')
-        self.environment, self.always = dict(os.environ), len(self.running)
+        self.always = len(self.running)
 
     def move_in(self):
         """A new home folder."""
@@ -116,13 +116,9 @@ class Screen:
         os.environ.update(HOME=self.home, XDG_STATE_HOME=os.path.join(self.home, 'state'))
 
     def tidy(self):
-        """The same screen as at the beginning, for the next test: what the last one started has ended, nothing is in
-        the clipboard, the pointer rests in the middle."""
-        self.end(self.always)
+        """Makes the screen as it was at the beginning, for the next test: a new home folder, nothing in the
+        clipboard, the pointer in the middle."""
         shutil.rmtree(self.home, ignore_errors=True)
-        os.chdir(self.folder)
-        os.environ.clear()
-        os.environ.update(self.environment)
         self.move_in()
         empty_clipboard()
         sh('xdotool', 'mousemove', '--polar', '0', '0')

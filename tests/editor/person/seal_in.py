@@ -114,4 +114,5 @@ def by_pointer(screen):
     behaves(path)
 
 
+by_keyboard.quick = 'editor-gtk/window'
 main([by_keyboard, by_signs, by_pointer])

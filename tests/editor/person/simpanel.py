@@ -147,4 +147,5 @@ def small(screen):
 
 
 small.size = '1024x700x24'
+pointer.quick = 'editor-gtk/live'
 main([pointer, keyboard, small])

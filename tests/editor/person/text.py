@@ -227,4 +227,5 @@ def no_bookmark(screen):
     assert view.text() == before and 'VIEW' not in open(path).read()
 
 
+typed.quick = 'editor-gtk/text'
 main([no_bookmark, names, typed, damaged, emptied, one_more, closed, at_once])

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: MIT
+"""finder - finds the widgets of the editor by their accessible names, and their places on the screen.
+
+The toolkit gives all widgets that it knows in one answer (org.a11y.atspi.Cache). One question for each would
+take most of a test's time. The palette holds most of the widgets and never changes: the search enters it only
+for its tiles.
+"""
+import os
+import re
+
+from node import A11Y, EXTENTS, ROLES, WHOLE, Node
+from screen import PATIENCE, dbus, sh, until
+
+
+class Finder:
+    """The widgets of an editor. Editor in desk.py sets: screen, pid, name, root, window, scale, palette."""
+
+    # ---- asking ----
+
+    def call(self, name, path, interface, method):
+        return self.bus.call_blocking(name, path, A11Y + interface, method, '', ())
+
+    def ask(self, questions):
+        """Answers of (path, interface, method, signature, arguments…), all asked at once; None: it is gone."""
+        answers, waiting = [None] * len(questions), []
+        for index, (path, interface, method, *args) in enumerate(questions):
+            message = dbus.lowlevel.MethodCallMessage(self.name, path, A11Y + interface, method)
+            message.append(*args[1:], signature=args[0] if args else '')
+
+            def done(answer, index=index):
+                if isinstance(answer, dbus.lowlevel.MethodReturnMessage):  # else it went while we asked
+                    answers[index] = answer.get_args_list()
+            waiting.append(self.bus.send_message_with_reply(message, done, 60))
+        for reply in waiting:
+            reply.block()
+        self.alive()
+        return answers
+
+    # ---- seeing ----
+
+    def known(self):
+        """All that the toolkit knows, seen or not: path -> node."""
+        try:
+            items = self.bus.call_blocking(self.name, '/org/a11y/atspi/cache', A11Y + 'Cache', 'GetItems', '', ())
+        except dbus.exceptions.DBusException:
+            self.alive()
+            raise
+        nodes = [Node(self, item) for item in items]
+        return {node.path: node for node in nodes}
+
+    def seen(self, nodes, top=None):
+        """The paths below each node that are seen: path -> paths in their order. What is hidden has
+        the place of the next that is seen, and one that nobody asked for is not known yet: so all
+        are asked, but for what never hides a part of its own, and the palette unless it is @top."""
+        family = {path: [] for path in nodes}
+        for node in nodes.values():
+            family.setdefault(node.parent, []).append(node)
+        below, asked, paths = {}, [], [self.root] + ([top] if top else [])
+        while paths:
+            path = paths.pop()
+            node, children = nodes.get(path), sorted(family.get(path, []), key=lambda child: child.place)
+            if node and not node.children and path != self.root:
+                continue
+            below[path] = [child.path for child in children]
+            if not node or node.role not in WHOLE or [child.place for child in children] != list(range(node.children)):
+                asked.append(path)
+            paths += [child for child in below[path] if child != self.palette]
+        answers = self.ask([(path, 'Accessible', 'GetChildren') for path in asked])
+        for path, answer in zip(asked, answers):
+            below[path] = [child for _, child in answer[0]] if answer else []
+        return below
+
+    def waken(self, paths, known):
+        """A widget comes into being on the bus by being asked for, and what is below it, too."""
+        while paths:
+            known |= paths
+            answers = self.ask([(path, 'Accessible', 'GetChildren') for path in paths])
+            paths = {child for answer in answers if answer for _, child in answer[0]} - known
+
+    def walk(self, path=None):
+        unknown, before = {self.root}, set()
+        while unknown - before:
+            nodes, before = self.known(), unknown
+            below = self.seen(nodes, path)
+            unknown = {child for paths in below.values() for child in paths if child not in nodes}
+            self.waken(unknown, set(nodes))
+        paths = [path] if path else below.get(self.root, [])
+        while paths:
+            level = [nodes[each] for each in paths if each in nodes]
+            yield from level
+            paths = []
+            for node in level:
+                if node.name == 'Elements' and node.role == 49:
+                    self.palette = node.path
+                if node.path != self.palette or node.path == path:
+                    for child in below.get(node.path, []):
+                        page = child in nodes and not nodes[child].widget
+                        paths += below.get(child, []) if page else [child]
+
+    def all(self, name=None, role=None, below=None):
+        """All widgets whose name holds a text; of a role."""
+        return [node for node in self.walk(below) if (role is None or node.role == ROLES[role]) and
+                (name is None or name in node.name)]
+
+    def find(self, name=None, role=None, seconds=PATIENCE):
+        def look():
+            found = self.all(name, role)
+            return found[0] if found else None
+        return until(look, '%s "%s"' % (role or 'widget', name), seconds)
+
+    def tile(self, name):
+        """A tile of the palette."""
+        return until(lambda: self.all(name, 'push button', self.palette), 'tile "%s"' % name)[0]
+
+    def sheet(self):
+        return self.find('Sheet')
+
+    def elements(self):
+        """Those that are seen on sheets: not the wire or the empty cell that the cursor is on."""
+        return [node for node in self.all('Rung ', 'table cell') if not re.search(r', row \d+, column \w+$', node.name)]
+
+    def cells(self):
+        """Their names."""
+        return [node.name for node in self.elements()]
+
+    def says(self, text):
+        """Waits until a text stands somewhere in the window."""
+        return self.find(text)
+
+    def windows(self):
+        """Those that the window manager knows: no tooltip, no popup. Nothing is found, too, when
+        one goes away while it is looked for: then it is looked again."""
+        known = [int(number, 16) for number in re.findall('0x[0-9a-f]+', sh('xprop', '-root', '_NET_CLIENT_LIST'))]
+        looks = (sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.pid)).split() for _ in range(3))
+        seen = next(filter(None, looks), [])
+        return [window for window in seen if int(window) in known]
+
+    def place(self, node):
+        """Where a widget of the main window is on the screen: x, y, width, height."""
+        about = dict(re.findall(r'(Absolute upper-left X|Absolute upper-left Y|Width|Height): +(-?\d+)',
+                                sh('xwininfo', '-id', self.window)))
+        frame = self.call(self.name, self.root, 'Accessible', 'GetChildren')[0][1]
+        _, _, width, height = self.ask([(frame, *EXTENTS)])[0][0]
+        x = int(about['Absolute upper-left X']) + (int(about['Width']) - width * self.scale) // 2
+        y = int(about['Absolute upper-left Y']) + (int(about['Height']) - height * self.scale) // 2
+        left, top, width, height = (each * self.scale for each in self.at_rest(node))
+        return x + left, y + top, width, height
+
+    @staticmethod
+    def at_rest(node):
+        """Where it is once it has come there: what was just made still moves."""
+        seen = []
+
+        def look():
+            seen.append(node.box())
+            return len(seen) > 1 and seen[-1] == seen[-2] and seen[-1][2] > 0 and seen[-1]
+        return until(look, '"%s" to be at rest' % node.name)
+
+    def centre(self, node):
+        x, y, width, height = self.place(node)
+        return x + width // 2, y + height // 2
+
+    def popped(self, node):
+        """The middle of a widget in a popover: that is a window of its own, of just its size."""
+        left, top, width, height = self.at_rest(node)
+        nodes = self.known()
+        windows = [re.findall(r'(?:upper-left [XY]|Width|Height): +(-?\d+)', sh('xwininfo', '-id', each))
+                   for each in sh('xdotool', 'search', '--onlyvisible', '--class', 'ladder-editor').split()]
+        while node.parent in nodes:
+            node = nodes[node.parent]
+            x0, y0, *size = node.box() if node.widget else (0, 0)
+            for about in windows:
+                x, y, _, _, *of_window = [int(number) for number in about]
+                if size and of_window == size:
+                    return x + left - x0 + width // 2, y + top - y0 + height // 2
+        raise AssertionError('"%s" is in no popover' % node.name)
+
+    def grid(self, rung_y, column):
+        """A point of the sheet: so many px below its top, in the middle of a column of 98 px."""
+        x, y, _, _ = self.place(self.sheet())
+        return x + 61 + 98 * column + 49, y + rung_y
+
+    def element(self, *parts):
+        """The element of a rung whose name has all these parts; waits for it."""
+        def look():
+            found = [node for node in self.elements() if all(part in node.name for part in parts)]
+            return found[0] if found else None
+        return until(look, 'the element %s' % ', '.join(parts))
+
+    def middle(self, node):
+        """Where the contact or coil of an element is; its wire is 46 px below its top."""
+        x, y, width, _ = self.place(node)
+        return x + width // 2, y + 46
+
+    def beside(self, node):
+        """On the wire of an element: the cursor goes there, and nothing else happens."""
+        x, y, _, _ = self.place(node)
+        return x + 12, y + 46
+
+    def wire_end(self, rung_y, bar, by=0):
+        """The left end of a column, and so many px to its right."""
+        x, y, _, _ = self.place(self.sheet())
+        return x + 61 + 98 * bar + by, y + rung_y
+
+    def shot(self, name):
+        """A picture for a person to look at, if PICTURES names a folder."""
+        if os.environ.get('PICTURES'):
+            sh('import', '-window', 'root', os.path.join(os.environ['PICTURES'], name + '.png'))
