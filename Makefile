@@ -73,15 +73,26 @@ $(BUILD)/%.o: %.c Makefile
 
 # Tests stand in folders like those of what they test: tests/unit/scan/test_fb.c. A new one is found by its name.
 UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/*/test_*.c tests/unit/*/*/test_*.c))
-$(BUILD)/unit/%: $(BUILD)/tests/unit/%.o $(BUILD)/libladder.a
+# The tests of a folder are one program; tests/room.c tells how. Compiling a test takes longer than running it: -O0.
+TEST_C    = $(if $(filter -O2,$(CFLAGS)),-O0 -U_FORTIFY_SOURCE)
+ROOM_TEST = $(TEST_C) -Dmain=main_$(notdir $*) -Wno-missing-prototypes
+ROOM_C    = $(STD) $(CPPFLAGS) $(WARN) $(CFLAGS) -DTESTS='$(patsubst %,TEST(%),$(filter test_%,$(basename $(notdir $(filter %.o,$^)))))'
+folders   = $(sort $(patsubst %/,%,$(dir $(1))))
+define room # folder, its tests, their objects
+$(1)/tests: tests/room.c $(3)
+$(2): $(1)/tests
+$(3): COLD = $$(ROOM_TEST)
+endef
+UNIT_ROOMS := $(call folders,$(UNIT))
+$(foreach r,$(UNIT_ROOMS),$(eval $(call room,$r,$(filter $r/test_%,$(UNIT)),$(patsubst $(BUILD)/%,$(BUILD)/tests/%.o,$(filter $r/test_%,$(UNIT))))))
+$(UNIT_ROOMS:%=%/tests): $(BUILD)/libladder.a
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
-# What a test itself does takes no time: it is compiled fast, not made fast.
-$(call obj,$(wildcard tests/unit/*/*.c tests/unit/*/*/*.c tests/editor/*/*.c tests/editor/*/*/*.c)): COLD = $(if $(filter -O2,$(CFLAGS)),-O0)
+	$(CC) $(ROOM_C) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o,$^) $(filter %.a,$^) -lm
+$(UNIT): ; @ln -sf tests $@
 unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
-$(BUILD)/unit/ladder/test_words: $(call obj,$(wildcard runtime/ladder/words*.c))
+$(BUILD)/unit/ladder/tests: $(call obj,$(wildcard runtime/ladder/words*.c))
 words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md
 
@@ -218,8 +229,16 @@ EDITOR_TESTS := $(EDITOR_TESTS_PLAIN)
 $(BUILD)/libeditor-plain.a: $(call obj,$(EDITOR_PLAIN))
 	@rm -f $@
 	$(AR) rcs $@ $^
-$(EDITOR_TESTS_PLAIN): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor-plain.a $(BUILD)/libladder.a
+# One named test_plain_* stands beside others that need the toolkit: it is a program of its own.
+PLAIN_ALONE := $(foreach t,$(EDITOR_TESTS_PLAIN),$(if $(findstring /test_plain_,$t),$t))
+PLAIN_ROOM  := $(filter-out $(PLAIN_ALONE),$(EDITOR_TESTS_PLAIN))
+$(PLAIN_ALONE:%=%.o): COLD = $(TEST_C)
+$(PLAIN_ALONE): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor-plain.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+$(foreach r,$(call folders,$(PLAIN_ROOM)),$(eval $(call room,$r,$(filter $r/test_%,$(PLAIN_ROOM)),$(patsubst %,%.o,$(filter $r/test_%,$(PLAIN_ROOM))))))
+$(patsubst %,%/tests,$(call folders,$(PLAIN_ROOM))): $(BUILD)/libeditor-plain.a $(BUILD)/libladder.a
+	$(CC) $(ROOM_C) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o,$^) $(filter %.a,$^) -lm
+$(PLAIN_ROOM): ; @ln -sf tests $@
 ifneq ($(EDITOR),)
 # Their headers are not ours to warn about.
 EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags gtk4 libadwaita-1 gtksourceview-5)) -I$(BUILD)
@@ -249,8 +268,14 @@ $(BUILD)/ladders:
 	ln -sfn '$(CURDIR)/ladders' $@
 $(BUILD)/ladder-editor: $(BUILD)/editor-gtk/window/main.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
-$(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)) $(EDITOR_BENCH): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+GTK_TESTS := $(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS))
+GTK_TEST_ROOMS := $(call folders,$(GTK_TESTS))
+$(foreach r,$(GTK_TEST_ROOMS),$(eval $(call room,$r,$(filter $r/test_%,$(GTK_TESTS)),$(patsubst %,%.o,$(filter $r/test_%,$(GTK_TESTS))))))
+$(GTK_TESTS): ; @ln -sf tests $@
+$(EDITOR_BENCH): $(EDITOR_BENCH).o
+$(EDITOR_BENCH): ROOM_C = $(CFLAGS)
+$(EDITOR_BENCH) $(GTK_TEST_ROOMS:%=%/tests): $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
+	$(CC) $(ROOM_C) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 else
 all: no-editor
 no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
@@ -354,13 +379,12 @@ TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_different
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
-$(addprefix $(BUILD)/unit/,trial/test_record scan/test_carry trial/test_why): $(RANDOM_O)
+$(addprefix $(BUILD)/,unit/trial/tests unit/scan/tests tests/editor/live/tests tests/editor/sim/tests): $(RANDOM_O)
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
 $(BIN)/sfc_differential: $(BUILD)/tests/sfc_differential.o $(WALKER)
 $(BIN)/sfc_trace: $(BUILD)/tests/sfc_trace.o $(WALKER)
 $(BIN)/sfc_ladder: $(BUILD)/tests/sfc_ladder.o $(RANDOM_O)
 $(BIN)/members: $(BUILD)/tests/members.o $(RANDOM_O)
-$(BUILD)/tests/editor/live/test_sim_trace $(BUILD)/tests/editor/sim/test_sim_older: $(RANDOM_O)
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free,--wrap=mmap64,--wrap=munmap

@@ -35,7 +35,7 @@ status=0
 # The gpio drivers are compiled against both libgpiods by the HAL tests.
 # shellcheck disable=SC2086
 if find runtime hal tests -name '*.c' ! -name 'gpiod_v*.c' ! -path 'tests/hal/*' \
-	! -path 'tests/editor/*' ! -path 'tests/bench/editor*' ! -name 'gpio_find.c' ! -name '*_small.c' -print0 |
+	! -path 'tests/editor/*' ! -path 'tests/bench/editor*' ! -name 'gpio_find.c' ! -name room.c ! -name '*_small.c' -print0 |
 		xargs -0 -P 2 -n 8 $cc -fsyntax-only $flags >"$log" 2>&1 &&
 	find runtime -name '*_small.c' -print0 |
 		xargs -0 $cc -fsyntax-only $flags -DRUNGBOARD_SMALL >>"$log" 2>&1 &&
