@@ -93,6 +93,7 @@ class Screen:
                           GDK_BACKEND='x11', GSK_RENDERER='cairo', GTK_A11Y='atspi',
                           GSETTINGS_BACKEND='memory', ADW_DISABLE_PORTAL='1', GTK_USE_PORTAL='0', NO_AT_BRIDGE='0')
         os.environ.pop('XDG_DATA_HOME', None)
+        os.environ.pop('DISPLAY', None)  # of the desk before: the session bus starts programs with it
         self.move_in()
         self.start_bus()
         read, write = os.pipe()
