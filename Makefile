@@ -221,7 +221,7 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 # files need none of them; nor do the tests of those, tests/editor/edit/ and test_plain_*.c.
 EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
 EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
-EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim ladder sfc text iomap live panels render window)
+EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim canvas ladder sfc text iomap live panels render window)
 EDITOR_PLAIN := $(wildcard editor-gtk/edit/*.c) $(addprefix editor-gtk/document/,text_lines.c iomap_text.c iomap_uses.c iomap_check.c)
 EDITOR_C := $(wildcard $(EDITOR_ROOMS:%=%/*.c))
 EDITOR_TESTS_PLAIN := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/edit/test_*.c tests/editor/*/test_plain_*.c))

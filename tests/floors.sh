@@ -33,8 +33,9 @@ editor-gtk/edit           $doors editor-gtk/kit
 editor-gtk/draw           $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit engine/exchange/classic/classic_say.h
 editor-gtk/document       $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw hal engine/exchange/report.h
 editor-gtk/sim            $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document hal
+editor-gtk/canvas         $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim
 "
-sheets='editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim'
+sheets='editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim editor-gtk/canvas'
 for room in ladder sfc text iomap live; do
 	rooms="$rooms
 editor-gtk/$room $doors $sheets hal"

@@ -1,178 +1,198 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view - a sheet: the rungs of one POU, with a cursor.
- *
- * Here: the widget, its scrolling, and what it hears of the document.
+ * grid_view - the widget of a sheet of rungs: what it draws, and what it does at keys, clicks
+ * and changes.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
-#include "editor-gtk/kit/entry_popup.h"
-#include "editor-gtk/draw/place.h"
-#include "editor-gtk/kit/settings.h"
-
 #include <string.h>
 
-enum { PROP_0, PROP_HADJUSTMENT, PROP_VADJUSTMENT, PROP_HPOLICY, PROP_VPOLICY };
-enum { CURSOR_MOVED, TOLD, ZOOM_CHANGED, SIGNALS };
-static guint signals[SIGNALS];
+G_DEFINE_FINAL_TYPE(LadderGridView, ladder_grid_view, LADDER_TYPE_CANVAS)
 
-G_DEFINE_FINAL_TYPE_WITH_CODE(LadderGridView, ladder_grid_view, GTK_TYPE_WIDGET,
-	G_IMPLEMENT_INTERFACE(GTK_TYPE_SCROLLABLE, NULL))
+/* ---- drawing ---- */
 
-#define ZOOM_LEAST 0.5
-#define ZOOM_MOST  3.0
-#define BELOW      120 /* px of free sheet below the last rung                 */
+#define AHEAD 1.3 /* pages above and below the screen that are drawn before      */
+#define BELOW 120 /* px of free sheet below the last rung                        */
 
-/* ---- what is shown ---- */
-
-struct pou *sheet_pou(LadderGridView *view)
+static graphene_size_t size(LadderCanvas *canvas)
 {
-	struct project *project = ladder_document_project(view->document);
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
 
-	return project && view->pou < project->pou_count &&
-	       (project->pou[view->pou].language == LANGUAGE_LD ||
-		(project->pou[view->pou].sfc && view->count >= 0)) ?
-	       &project->pou[view->pou] : NULL;
+	return GRAPHENE_SIZE_INIT(strips_width(view), strips_height(view) + BELOW);
 }
 
-int sheet_rungs(LadderGridView *view)
+static void lay_out(LadderCanvas *canvas, double page)
 {
-	const struct pou *pou = sheet_pou(view);
-
-	if (!pou || view->count < 0)
-		return pou ? pou->rung_count : 0;
-	return CLAMP(pou->rung_count - view->first, 0, view->count);
+	strips_lay_out(LADDER_GRID_VIEW(canvas), page);
 }
 
-struct rung *sheet_rung(LadderGridView *view, int rung)
+static void push_mark(GArray *marks, int row, int column, unsigned int mark)
 {
-	const struct pou *pou = sheet_pou(view);
+	const struct grid_mark one = { row, column, mark };
 
-	if (!pou || rung < 0 || rung >= sheet_rungs(view))
-		return NULL;
-	return view->preview && rung == view->cursor.rung ? view->preview :
-	       pou->rung[view->first + rung];
+	g_array_append_val(marks, one);
 }
 
-/* In a chart each change has a rung on both sides, so that it is sure whose body it is:
- * one that comes stands beside one that was there. */
-static bool splice_body(LadderGridView *view, int at, int removed, struct rung **rungs,
-			int inserted, struct diag_list *why)
+static void mark_selection(LadderGridView *view, int rung, GArray *marks)
 {
-	const struct pou *pou = sheet_pou(view);
-	const bool before = at > 0;
-	const int beside = before ? at - 1 : at + removed;
-	struct rung **all;
-	bool good;
+	struct grid_area area;
 
-	if (!pou || at < 0 || at + removed > sheet_rungs(view) ||
-	    beside >= sheet_rungs(view)) {
-		for (int i = 0; i < inserted; i++)
-			rung_free(rungs[i]);
-		return false;
-	}
-	all = g_new0(struct rung *, inserted + 1);
-	for (int i = 0; i < inserted; i++)
-		all[i + before] = rungs[i];
-	all[before ? 0 : inserted] = rung_copy(pou->rung[view->first + beside]);
-	good = ladder_document_splice(view->document, view->pou,
-				      view->first + at - before, removed + 1, all,
-				      inserted + 1, why);
-	g_free(all);
-	return good;
-}
-
-bool sheet_splice(LadderGridView *view, int at, int removed, struct rung **rungs,
-		  int inserted, struct diag_list *why)
-{
-	if (view->count >= 0 && (removed == 0 || inserted == 0))
-		return splice_body(view, at, removed, rungs, inserted, why);
-	return ladder_document_splice(view->document, view->pou, view->first + at, removed,
-				      rungs, inserted, why);
-}
-
-void sheet_tell(LadderGridView *view, const char *text)
-{
-	g_signal_emit(view, signals[TOLD], 0, text);
-}
-
-void sheet_moved(LadderGridView *view)
-{
-	keys_moved(view);
-	g_signal_emit(view, signals[CURSOR_MOVED], 0);
-}
-
-/* ---- size and scrolling ---- */
-
-static void configure(GtkAdjustment *adjustment, double content, double page)
-{
-	double value, upper = MAX(content, page);
-
-	if (!adjustment)
+	if (rung != view->cursor.at.rung)
 		return;
-	value = CLAMP(gtk_adjustment_get_value(adjustment), 0, upper - page);
-	gtk_adjustment_configure(adjustment, value, 0, upper, 40, page * 0.9, page);
+	if (cursor_area(view, &area))
+		for (int row = area.row; row <= area.last_row; row++)
+			for (int col = area.col; col <= area.last_col; col++)
+				push_mark(marks, row, col, MARK_SELECTED);
+	if (gtk_widget_has_focus(GTK_WIDGET(view)) || view->canvas->entry)
+		push_mark(marks, view->cursor.at.row, view->cursor.at.col, MARK_CURSOR);
+	else
+		push_mark(marks, view->cursor.at.row, view->cursor.at.col, MARK_SELECTED);
 }
 
-static void ladder_grid_view_size_allocate(GtkWidget *widget, int width, int height,
-					   int baseline)
+static void mark_checks(LadderGridView *view, int rung, GArray *marks)
 {
-	LadderGridView *view = LADDER_GRID_VIEW(widget);
+	const struct rung *shown = sheet_rung(view, rung);
 
-	(void)baseline;
-	view->allocating = true;
-	strips_lay_out(view, height);
-	configure(view->adjustment[0], strips_width(view) * view->zoom, width);
-	configure(view->adjustment[1], (strips_height(view) + BELOW) * view->zoom, height);
-	cursor_reveal_late(view, height);
-	if (height != view->cells_height)
-		cells_later(view);
-	view->cells_height = height;
-	cells_allocate(view);
-	entry_allocate(view);
-	view->allocating = false;
-}
+	for (guint i = 0; i < view->marks->len; i++) {
+		const struct sheet_mark *mark =
+			&g_array_index(view->marks, struct sheet_mark, i);
 
-static void ladder_grid_view_measure(GtkWidget *widget, GtkOrientation orientation,
-				     int for_size, int *least, int *natural, int *least_base,
-				     int *natural_base)
-{
-	LadderGridView *view = LADDER_GRID_VIEW(widget);
-
-	(void)for_size;
-	*least = 100;
-	*natural = orientation == GTK_ORIENTATION_HORIZONTAL ?
-		   (int)(strips_width(view) * view->zoom) : 400;
-	*least_base = *natural_base = -1;
-}
-
-/* Nothing but the drawing follows at once: to allocate the window and the cells that
- * assistive technology sees would take longer than to draw. */
-static void scrolled(LadderGridView *view)
-{
-	cells_scrolled(view);
-	if (!view->allocating) {
-		view->allocating = true; /* rungs that grow above may scroll it */
-		strips_lay_out(view, gtk_widget_get_height(GTK_WIDGET(view)));
-		view->allocating = false;
-		if (view->entry)
-			gtk_widget_queue_allocate(GTK_WIDGET(view));
+		if (mark->rung == rung && mark->row >= 0 && mark->row < shown->rows &&
+		    mark->col >= 0 && mark->col < shown->cols)
+			push_mark(marks, mark->row,
+				  grid_display_column(shown, view->columns, mark->row,
+						      mark->col), mark->marks);
 	}
-	strips_draw_ahead(view);
-	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
-static void set_adjustment(LadderGridView *view, int which, GtkAdjustment *adjustment)
+static void marks_push(LadderGridView *view, int rung, GArray *marks)
 {
-	if (view->adjustment[which])
-		g_signal_handler_disconnect(view->adjustment[which],
-					    view->scrolled[which]);
-	if (!adjustment)
-		adjustment = gtk_adjustment_new(0, 0, 0, 0, 0, 0);
-	g_set_object(&view->adjustment[which], adjustment);
-	view->scrolled[which] = g_signal_connect_swapped(view->adjustment[which],
-		"value-changed", G_CALLBACK(scrolled), view);
-	gtk_widget_queue_resize(GTK_WIDGET(view));
+	mark_selection(view, rung, marks);
+	mark_checks(view, rung, marks);
+	if (rung == view->found.rung)
+		push_mark(marks, view->found.row, view->found.col, MARK_FOUND);
+}
+
+static unsigned int marks_state(LadderGridView *view, int rung)
+{
+	unsigned int state = RUNG_ON_GUTTER;
+	int first, last;
+
+	if (rung == view->cursor.at.rung)
+		state |= RUNG_CURRENT;
+	if (cursor_rungs(view, &first, &last) && rung >= first && rung <= last)
+		state |= RUNG_SELECTED;
+	return state;
+}
+
+/* A rung that is edited shows no values: it does not run. */
+static struct grid_live live_of(LadderGridView *view, int rung, const struct strip *strip,
+				uint8_t **unknown)
+{
+	const struct rung *shown = sheet_rung(view, rung);
+
+	if (strip->live && shown != view->preview)
+		return (struct grid_live){ strip->live->bits, live_rung_value,
+					   strip->live };
+	*unknown = g_new0(uint8_t, shown->rows * shown->cols);
+	return (struct grid_live){ *unknown, NULL, NULL };
+}
+
+static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
+{
+	GArray *marks = g_array_new(FALSE, FALSE, sizeof(struct grid_mark));
+	struct live_place place = { view, rung };
+	struct grid_scene scene = {
+		.drafting = &view->drafting, .layout = strip->layout,
+		.theme = canvas_theme(LADDER_CANVAS(view)), .note = live_note, .context = &place,
+		.state = marks_state(view, rung),
+		.scale = (float)(view->canvas->zoom * gtk_widget_get_scale_factor(GTK_WIDGET(view))),
+	};
+	struct grid_live live;
+	uint8_t *unknown = NULL;
+	bool *takes = drop_takes(view, rung, strip->layout);
+
+	live_look(view, rung);
+	if (canvas_is_live(LADDER_CANVAS(view))) {
+		live = live_of(view, rung, strip, &unknown);
+		scene.live = &live;
+		scene.state |= view->live.still ? RUNG_STILL : 0;
+	}
+	marks_push(view, rung, marks);
+	live_marks(view, rung, marks);
+	drop_mark(view, rung, marks);
+	scene.takes = takes;
+	if (ladder_document_is_bookmarked(view->canvas->document, view->canvas->pou,
+					     view->first + rung))
+		scene.state |= RUNG_MARKED;
+	if (view->preview && rung == view->cursor.at.rung)
+		scene.state |= RUNG_EDITED;
+	scene.mark = (const struct grid_mark *)(void *)marks->data;
+	scene.mark_count = (int)marks->len;
+	strip->node = grid_draw_node(&scene);
+	view->live.drawn++;
+	g_array_unref(marks);
+	g_free(unknown);
+	g_free(takes);
+}
+
+static void snapshot_rungs(LadderGridView *view, GtkSnapshot *snapshot)
+{
+	const float zoom = (float)view->canvas->zoom;
+	const float x = (float)gtk_adjustment_get_value(view->canvas->adjustment[0]);
+	const float top = (float)gtk_adjustment_get_value(view->canvas->adjustment[1]);
+	const float end = top + (float)gtk_widget_get_height(GTK_WIDGET(view));
+
+	for (int i = strips_at(view, top / zoom);
+	     i >= 0 && i < (int)view->strips->len; i++) {
+		struct strip *strip = strip_of(view, i);
+
+		if (strip->y * zoom > end)
+			break;
+		if (strip->layout && live_look(view, i))
+			g_clear_pointer(&strip->node, gsk_render_node_unref);
+		if (!strip->layout)
+			strips_resize_later(view); /* and it will be drawn */
+		else if (!strip->node)
+			draw_strip(view, i, strip);
+		if (!strip->node)
+			continue;
+		gtk_snapshot_save(snapshot);
+		gtk_snapshot_translate(snapshot,
+			&GRAPHENE_POINT_INIT(-x, strip->y * zoom - top));
+		gtk_snapshot_scale(snapshot, zoom, zoom);
+		gtk_snapshot_append_node(snapshot, strip->node);
+		gtk_snapshot_restore(snapshot);
+	}
+}
+
+/* Draws the rungs that come into view next, one at a time, while the program is
+ * idle. Not while something runs: their values would change before they are seen. */
+static gboolean draw_ahead(gpointer data)
+{
+	LadderGridView *view = data;
+	const graphene_rect_t seen = canvas_page(LADDER_CANVAS(view));
+	const double top = (double)seen.origin.y, page = (double)seen.size.height;
+	int i = strips_at(view, (float)(top - AHEAD * page));
+
+	for (; !canvas_is_live(LADDER_CANVAS(view)) && i >= 0 && i < (int)view->strips->len; i++) {
+		if ((double)strip_of(view, i)->y > top + (1 + AHEAD) * page)
+			break;
+		if (strip_of(view, i)->node || !sheet_rung(view, i))
+			continue;
+		draw_strip(view, i, strips_get(view, i));
+		return G_SOURCE_CONTINUE;
+	}
+	view->ahead = 0;
+	return G_SOURCE_REMOVE;
+}
+
+static void draw_ahead_later(LadderCanvas *canvas)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+
+	if (!view->ahead)
+		view->ahead = g_idle_add_full(G_PRIORITY_LOW, draw_ahead, view, NULL);
 }
 
 /* An empty sheet says what to do. */
@@ -186,62 +206,60 @@ static bool is_blank(LadderGridView *view)
 	return rung != NULL;
 }
 
-static void snapshot_hint(LadderGridView *view, GtkSnapshot *snapshot,
-			  const struct theme *theme)
+static void paint(LadderCanvas *canvas, GtkSnapshot *snapshot, const struct theme *theme)
 {
-	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(view),
-		_("Type a name, such as Start, and press Enter: a contact.\n"
-		  "Type OUT Motor: a coil. Type TON: a timer. All dialects are understood.\n"
-		  "Or drag an element from the left, and wires from the ends of elements.\n"
-		  "F5 contact, F6 negated, F7 coil, Shift+F5 in parallel, "
-		  "Ins new rung."));
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	const double zoom = view->canvas->zoom;
+	const double left = gtk_adjustment_get_value(view->canvas->adjustment[0]);
 
-	pango_layout_set_spacing(layout, 6 * PANGO_SCALE);
-	gtk_snapshot_save(snapshot);
-	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(
-		(float)(RUNG_LEFT * view->zoom),
-		(float)((strips_height(view) + 24) * view->zoom)));
-	gtk_snapshot_append_layout(snapshot, layout, &theme->color[TOKEN_COMMENT]);
-	gtk_snapshot_restore(snapshot);
-	g_object_unref(layout);
-}
-
-static void ladder_grid_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
-{
-	LadderGridView *view = LADDER_GRID_VIEW(widget);
-	const struct theme *theme = strips_theme(view);
-	const float width = (float)gtk_widget_get_width(widget);
-	const float height = (float)gtk_widget_get_height(widget);
-
-	gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(0, 0, width, height));
-	gtk_snapshot_append_color(snapshot, &theme->color[TOKEN_SHEET],
-				  &GRAPHENE_RECT_INIT(0, 0, width, height));
 	gtk_snapshot_append_color(snapshot, &theme->color[TOKEN_GUTTER],
-		&GRAPHENE_RECT_INIT((float)-gtk_adjustment_get_value(view->adjustment[0]),
-				    0, (float)(RUNG_GUTTER * view->zoom), height));
-	strips_snapshot(view, snapshot);
+		&GRAPHENE_RECT_INIT((float)-left, 0, (float)(RUNG_GUTTER * zoom),
+				    (float)gtk_widget_get_height(GTK_WIDGET(view))));
+	snapshot_rungs(view, snapshot);
 	wire_snapshot(view, snapshot, theme);
 	drop_snapshot(view, snapshot, theme);
-	keys_snapshot(view, snapshot, theme);
 	if (is_blank(view))
-		snapshot_hint(view, snapshot, theme);
-	gtk_snapshot_pop(snapshot);
+		canvas_snapshot_hint(canvas, snapshot, theme,
+			_("Type a name, such as Start, and press Enter: a contact.\n"
+			  "Type OUT Motor: a coil. Type TON: a timer. All dialects are understood.\n"
+			  "Or drag an element from the left, and wires from the ends of elements.\n"
+			  "F5 contact, F6 negated, F7 coil, Shift+F5 in parallel, "
+			  "Ins new rung."),
+			GRAPHENE_POINT_INIT((float)(RUNG_LEFT * zoom),
+					    (float)((strips_height(view) + 24) * zoom)));
 }
 
-/* ---- what is heard of the document ---- */
+static void restyle(LadderCanvas *canvas)
+{
+	strips_redraw(LADDER_GRID_VIEW(canvas), -1);
+}
+
+static graphene_rect_t box_at_cursor(LadderCanvas *canvas)
+{
+	return cursor_cell_box(LADDER_GRID_VIEW(canvas));
+}
+
+static void reveal(LadderCanvas *canvas)
+{
+	cursor_reveal_head(LADDER_GRID_VIEW(canvas));
+}
+
+/* ---- the document: first the rungs and the cursor are what they are now; then the popup
+ * closes, since it gives the keys back and others ask where the cursor is */
 
 static void forget_edit(LadderGridView *view)
 {
-	entry_close(view);
-	entry_forget_uses(view);
 	wire_forget(view);
-	g_clear_pointer(&view->preview, rung_free);
+	ladder_grid_view_set_blockers(view, -1, NULL, 0);
+	canvas_close_entry(LADDER_CANVAS(view));
+	canvas_moved(LADDER_CANVAS(view));
 }
 
-static void rungs_changed(LadderGridView *view, int pou, int at, int removed, int inserted)
+static void rungs_changed(LadderCanvas *canvas, int pou, int at, int removed, int inserted)
 {
-	entry_forget_uses(view);
-	if (pou != view->pou)
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+
+	if (pou != view->canvas->pou)
 		return;
 	at -= view->first;
 	if (view->count >= 0 && (at < 0 || at + removed > view->count)) {
@@ -253,39 +271,36 @@ static void rungs_changed(LadderGridView *view, int pou, int at, int removed, in
 	}
 	if (view->count >= 0)
 		view->count += inserted - removed;
-	strips_stale(view, at, removed); /* a popup that closes asks where the cursor is */
-	forget_edit(view);
-	ladder_grid_view_set_blockers(view, -1, NULL, 0);
-	if (removed != inserted) {
-		view->came_rung = -1;
-		cells_tell_again(view);
-	}
+	g_clear_pointer(&view->preview, rung_free);
 	strips_splice(view, at, removed, inserted);
 	cursor_fit(view);
-	sheet_moved(view);
+	if (removed != inserted) {
+		view->cursor.came_rung = -1;
+		canvas_say_again(canvas);
+	}
+	forget_edit(view);
 }
 
-static void variable_changed(LadderGridView *view, int pou, const char *name,
+static void variable_changed(LadderCanvas *canvas, int pou, const char *name,
 			     const char *address)
 {
-	entry_forget_uses(view);
-	if (pou >= 0 && pou != view->pou)
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+
+	if (pou >= 0 && pou != view->canvas->pou)
 		return;
 	strips_renamed(view, name, address);
-	cells_later(view);
+	canvas_cells_later(canvas);
 }
 
-static void project_changed(LadderGridView *view)
+static void project_changed(LadderCanvas *canvas)
 {
-	/* Before a popup closes, which gives the keys back: they ask where the cursor is. */
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+
 	g_clear_pointer(&view->preview, rung_free);
 	live_forget_all(view);
 	strips_reset(view);
 	cursor_fit(view);
 	forget_edit(view);
-	ladder_grid_view_set_blockers(view, -1, NULL, 0);
-	gtk_widget_queue_resize(GTK_WIDGET(view));
-	sheet_moved(view);
 }
 
 static void add_mark(LadderGridView *view, const struct diag *diag)
@@ -301,11 +316,12 @@ static void add_mark(LadderGridView *view, const struct diag *diag)
 	g_array_append_val(view->marks, mark);
 }
 
-static void checked(LadderGridView *view)
+static void checked(LadderCanvas *canvas)
 {
-	const struct diag_list *diags = ladder_document_diags(view->document);
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	const struct diag_list *diags = ladder_document_diags(view->canvas->document);
 	const struct pou *pou = sheet_pou(view);
-	const struct project *project = ladder_document_project(view->document);
+	const struct project *project = ladder_document_project(view->canvas->document);
 
 	g_array_set_size(view->marks, 0);
 	for (int i = 0; pou && i < diags->count; i++) {
@@ -319,44 +335,414 @@ static void checked(LadderGridView *view)
 	strips_redraw(view, -1);
 }
 
-static void bookmarks_changed(LadderGridView *view)
+/* ---- the simulation ---- */
+
+static void values_changed(LadderCanvas *canvas)
 {
-	strips_redraw(view, -1);
+	live_values_changed(LADDER_GRID_VIEW(canvas));
 }
 
-static void listen(LadderGridView *view)
+/* Variables are at other places: a question for a value ends. */
+static void program_changed(LadderCanvas *canvas)
 {
-	view->handler[0] = g_signal_connect_swapped(view->document, "rungs-changed",
-		G_CALLBACK(rungs_changed), view);
-	view->handler[1] = g_signal_connect_swapped(view->document, "project-changed",
-		G_CALLBACK(project_changed), view);
-	view->handler[3] = g_signal_connect_swapped(view->document, "bookmarks-changed",
-		G_CALLBACK(bookmarks_changed), view);
-	view->handler[4] = g_signal_connect_swapped(view->document, "variable-changed",
-		G_CALLBACK(variable_changed), view);
-	view->handler[2] = g_signal_connect_swapped(view->document, "checked",
-		G_CALLBACK(checked), view);
+	act_forget(LADDER_GRID_VIEW(canvas));
+	live_program_changed(LADDER_GRID_VIEW(canvas));
+}
+
+static void state_changed(LadderCanvas *canvas)
+{
+	if (!canvas_is_live(canvas))
+		act_forget(LADDER_GRID_VIEW(canvas));
+	live_state_changed(LADDER_GRID_VIEW(canvas));
+}
+
+/* ---- accessible children: one for each element ---- */
+
+static bool is_named(const struct cell *cell)
+{
+	return cell->word != ELEM_EMPTY && cell->word != ELEM_WIRE &&
+	       cell->word != ELEM_PIN;
+}
+
+static void list_rung(LadderGridView *view, int number)
+{
+	const struct rung *rung = sheet_rung(view, number);
+	int row = -1, col = -1;
+	const bool current = number == view->cursor.at.rung && cursor_cell(view, &row, &col);
+
+	for (int r = 0; r < rung->rows; r++)
+		for (int c = 0; c < rung->cols; c++)
+			if (is_named(rung_at(rung, r, c)))
+				canvas_add_cell(LADDER_CANVAS(view),
+						(struct canvas_spot){ number, r, c },
+						current && r == row && c == col);
+}
+
+static void list_cells(LadderCanvas *canvas)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	const double zoom = view->canvas->zoom;
+	const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]) / zoom;
+	const double end = top + gtk_widget_get_height(GTK_WIDGET(view)) / zoom;
+	char *blank = NULL;
+
+	if (!view->names)
+		return;
+	for (int i = strips_at(view, (float)top); i >= 0 && i < (int)view->strips->len; i++) {
+		if (strips_get(view, i)->y > end)
+			break;
+		list_rung(view, i);
+	}
+	if (sheet_rungs(view) > 0 && !cursor_cell(view, NULL, NULL))
+		blank = tell_cursor(view, false);
+	canvas_set_blank(canvas, blank);
+	g_free(blank);
+}
+
+/* NULL: the children are older than the rungs, and nothing stands there now. */
+static const struct cell *cell_at(LadderGridView *view, struct canvas_spot spot)
+{
+	const struct rung *rung = sheet_rung(view, spot.number);
+
+	return view->names && rung && spot.number < (int)view->strips->len &&
+	       spot.row < rung->rows && spot.col < rung->cols ?
+	       rung_at(rung, spot.row, spot.col) : NULL;
+}
+
+static char *cell_name(LadderCanvas *canvas, struct canvas_spot spot)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	const struct cell *cell = cell_at(view, spot);
+
+	return cell && is_named(cell) ?
+	       tell_cell(view, spot.number, spot.row, spot.col, cell) : NULL;
+}
+
+static bool cell_box(LadderCanvas *canvas, struct canvas_spot spot, graphene_rect_t *box)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	const struct strip *strip;
+
+	if (!cell_at(view, spot))
+		return false;
+	strip = strips_get(view, spot.number);
+	*box = rung_layout_cell(strip->layout, spot.row,
+				rung_layout_column(strip->layout, spot.row, spot.col));
+	box->origin.y += strip->y;
+	return true;
+}
+
+static void go_to_cell(LadderCanvas *canvas, struct canvas_spot spot)
+{
+	ladder_grid_view_go(LADDER_GRID_VIEW(canvas), spot.number, spot.row, spot.col);
+}
+
+static char *cursor_name(LadderCanvas *canvas, bool values)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+
+	return view->names ? tell_cursor(view, values) : NULL;
+}
+
+static char *place(LadderCanvas *canvas)
+{
+	return tell_place(LADDER_GRID_VIEW(canvas));
+}
+
+static char *next_keys(LadderCanvas *canvas)
+{
+	return tell_keys(LADDER_GRID_VIEW(canvas));
+}
+
+static char *tip(LadderCanvas *canvas, int x, int y, bool by_keys)
+{
+	return tell_tip(LADDER_GRID_VIEW(canvas), x, y, by_keys);
+}
+
+/* ---- giving up ---- */
+
+static void give_back(LadderGridView *view)
+{
+	if (view->cursor.came_rung != view->cursor.at.rung)
+		return;
+	if (ladder_document_give_back(view->canvas->document, view->canvas->pou,
+				      view->first + view->cursor.at.rung, view->cursor.came,
+				      _(verb_row(VERB_cancel)->label)) == BACK_OTHER)
+		canvas_tell(LADDER_CANVAS(view), _("Other things were changed since. Undo "
+						   "takes them back one by one."));
+}
+
+bool ladder_grid_view_has_begun(LadderGridView *view)
+{
+	return view->wire.drawing || view->canvas->entry || view->preview ||
+	       view->cursor.selecting;
+}
+
+/* Esc: a stroke or the entry first, then the edits of this rung since the cursor came. */
+static void do_cancel(LadderGridView *view)
+{
+	view->press.given_up = true;
+	canvas_end_drag(LADDER_CANVAS(view));
+	if (view->wire.drawing)
+		wire_forget(view);
+	else if (view->canvas->entry || view->preview)
+		canvas_close_entry(LADDER_CANVAS(view));
+	else if (view->cursor.selecting)
+		cursor_set(view, view->cursor.at, false);
+	else
+		give_back(view);
+}
+
+/* ---- verbs ---- */
+
+/* On an empty cell the key begins an entry: `/Stop`. */
+static void do_negate(LadderGridView *view)
+{
+	struct project *project = ladder_document_project(view->canvas->document);
+	const struct rung *rung = sheet_rung(view, view->cursor.at.rung);
+	struct grid_at at = sheet_at(view);
+
+	if (rung && !cursor_cell(view, NULL, NULL))
+		entry_begin(view, "/");
+	else if (rung)
+		sheet_put(view, grid_negate(rung, &at, project, sheet_pou(view)), &at,
+			  _(verb_row(VERB_negate)->label));
+}
+
+static bool changes(enum verb verb)
+{
+	return verb != VERB_copy && verb != VERB_copy_picture && verb != VERB_select_all &&
+	       verb != VERB_cancel;
+}
+
+static void do_verb(LadderCanvas *canvas, enum verb verb)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+
+	if ((changes(verb) && canvas_is_fixed(canvas)) || act_do(view, verb) ||
+	    edit_do(view, verb))
+		return;
+	switch ((int)verb) {
+	case VERB_context_menu: canvas_show_menu(canvas); break;
+	case VERB_enter: case VERB_edit_operand: entry_begin_edit(view); break;
+	case VERB_contact: entry_begin_word(view, ELEM_CONTACT_NO, false); break;
+	case VERB_contact_not: entry_begin_word(view, ELEM_CONTACT_NC, false); break;
+	case VERB_coil: entry_begin_word(view, ELEM_COIL, false); break;
+	case VERB_block: entry_begin(view, ""); break;
+	case VERB_parallel: entry_begin_word(view, ELEM_CONTACT_NO, true); break;
+	case VERB_parallel_not: entry_begin_word(view, ELEM_CONTACT_NC, true); break;
+	case VERB_negate: do_negate(view); break;
+	case VERB_add_pin: case VERB_comment: case VERB_rung_title:
+	case VERB_rung_label: case VERB_rung_comment:
+		entry_begin_text(view, verb);
+		break;
+	case VERB_bookmark:
+		ladder_document_toggle_bookmark(view->canvas->document, view->canvas->pou,
+						view->first + view->cursor.at.rung);
+		break;
+	case VERB_cancel: do_cancel(view); break;
+	default: break;
+	}
+}
+
+/* ---- keys ---- */
+
+static bool move_by_key(LadderCanvas *canvas, guint key, GdkModifierType state)
+{
+	return cursor_key(LADDER_GRID_VIEW(canvas), key, state);
+}
+
+/* Names, addresses, expressions; `= Motor`, `!Stop`, `-(S)- Lamp`. A slash is a verb's. */
+static bool begins_entry(LadderCanvas *canvas, gunichar c)
+{
+	(void)canvas;
+	return g_unichar_isalpha(c) || (c > 0 && c < 128 && strchr("%[_=!(-|", (int)c));
+}
+
+static void type(LadderCanvas *canvas, const char *text)
+{
+	entry_begin(LADDER_GRID_VIEW(canvas), text);
+}
+
+static void closed(LadderCanvas *canvas, bool was_open)
+{
+	entry_closed(LADDER_GRID_VIEW(canvas), was_open);
+}
+
+/* ---- the pointer ---- */
+
+/* A double click: at a pin of a box it edits the value there; else it acts as Enter. */
+static void begin_there(LadderGridView *view, const struct rung_hit *hit)
+{
+	if (hit->part == RUNG_PART_PIN && !canvas_is_live(LADDER_CANVAS(view)))
+		entry_begin_pin(view, hit->name, hit->name_len, hit->output);
+	else
+		do_verb(LADDER_CANVAS(view), VERB_enter);
+}
+
+/* Moves the cursor there; the selection ends. */
+static void press_on(LadderGridView *view, int rung, const struct rung_hit *hit, int count,
+		  GdkModifierType state)
+{
+	/* Found before the sheet scrolls to the cursor. */
+	const graphene_point_t at = canvas_point(LADDER_CANVAS(view), view->press.x,
+						 view->press.y);
+
+	if (hit_is_cell(hit)) {
+		cursor_set(view, (struct grid_cursor){ rung, hit->row, hit->column },
+			   state & GDK_SHIFT_MASK);
+		view->press.takes = !(state & GDK_SHIFT_MASK) &&
+			      !wire_press(view, view->press.x, view->press.y) &&
+			      cursor_cell(view, NULL, NULL);
+		view->press.toggles = view->press.takes &&
+			act_is_click(view, at.x, at.y);
+		if (count == 2 && !view->press.toggles)
+			begin_there(view, hit);
+		return;
+	}
+	cursor_set(view, (struct grid_cursor){ rung, 0, 0 }, state & GDK_SHIFT_MASK);
+	if (hit->part == RUNG_PART_NUMBER && !(state & GDK_SHIFT_MASK))
+		do_verb(LADDER_CANVAS(view), VERB_select_all);
+	else if (hit->part == RUNG_PART_TITLE && count == 2)
+		do_verb(LADDER_CANVAS(view), VERB_rung_title);
+}
+
+/* The selection stays while the button is down: it may be dragged, or get a menu. */
+static bool is_kept(LadderGridView *view, int rung, const struct rung_hit *hit, int count,
+		    GdkModifierType state)
+{
+	int first, last;
+
+	if (count > 1 || state & GDK_SHIFT_MASK)
+		return false;
+	if (hit->part == RUNG_PART_NUMBER || hit->part == RUNG_PART_TITLE)
+		return cursor_rungs(view, &first, &last) &&
+		       cursor_selects(view, rung, 0, 0);
+	return hit_is_cell(hit) && cursor_selects(view, rung, hit->row, hit->column);
+}
+
+static void press(LadderCanvas *canvas, double x, double y, int count, GdkModifierType state)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	struct rung_hit hit;
+	const int rung = sheet_point(view, x, y, &hit);
+
+	view->press = (struct sheet_press){ .x = x, .y = y };
+	wire_forget(view);
+	if (rung < 0)
+		return;
+	view->press.keeps = view->press.takes = is_kept(view, rung, &hit, count, state);
+	if (!view->press.keeps)
+		press_on(view, rung, &hit, count, state);
+}
+
+/* Acts at the release of the button, since a press may begin a drag. */
+static void release(LadderCanvas *canvas, double x, double y, int count, bool moved)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	struct rung_hit hit;
+	int rung;
+
+	(void)x;
+	(void)y;
+	if (view->press.keeps && !moved) {
+		rung = sheet_point(view, view->press.x, view->press.y, &hit);
+		if (rung >= 0)
+			press_on(view, rung, &hit, count, 0);
+		wire_forget(view);
+	}
+	if (view->press.toggles && !moved)
+		act_click(view);
+	view->press.toggles = view->press.keeps = false;
+}
+
+static bool can_drag(LadderCanvas *canvas)
+{
+	const struct sheet_press *press = &LADDER_GRID_VIEW(canvas)->press;
+
+	return !press->takes && !press->given_up;
+}
+
+/* A wire grows to there, or the selection does; false: neither. */
+static bool drag(LadderCanvas *canvas, double x, double y, GdkModifierType state)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	struct rung_hit hit;
+	int rung;
+
+	if (view->wire.pressed) {
+		wire_drag(view, x, y, state);
+		return true;
+	}
+	rung = sheet_point(view, x, y, &hit);
+	if (rung < 0 || !hit_is_cell(&hit))
+		return false;
+	cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column }, true);
+	return true;
+}
+
+static void drag_end(LadderCanvas *canvas, bool cancelled)
+{
+	if (cancelled)
+		wire_forget(LADDER_GRID_VIEW(canvas));
+	else
+		wire_release(LADDER_GRID_VIEW(canvas));
+}
+
+/* Sections; with a name, they open at the side. */
+static const struct {
+	const char *name;
+	enum verb verb[14];
+} menu_parts[] = {
+	{ NULL, { VERB_edit_operand, VERB_negate, VERB_cycle, VERB_comment, VERB_COUNT } },
+	{ N_("Put here"), { VERB_contact, VERB_contact_not, VERB_coil, VERB_block,
+		VERB_parallel, VERB_parallel_not, VERB_add_pin, VERB_COUNT } },
+	{ N_("Wires"), { VERB_wire_left, VERB_wire_right, VERB_wire_up, VERB_wire_down,
+		VERB_wire_here, VERB_link_here, VERB_COUNT } },
+	{ N_("Rows and columns"), { VERB_insert_row, VERB_delete_row,
+		VERB_insert_column, VERB_delete_column, VERB_COUNT } },
+	{ N_("Rung"), { VERB_rung_below, VERB_rung_above, VERB_rung_duplicate,
+		VERB_rung_up, VERB_rung_down, VERB_rung_title, VERB_rung_label,
+		VERB_rung_comment, VERB_rung_off, VERB_bookmark, VERB_copy_picture,
+		VERB_rung_delete, VERB_COUNT } },
+	{ NULL, { VERB_cut, VERB_copy, VERB_paste, VERB_paste_parallel, VERB_delete,
+		VERB_COUNT } },
+	{ NULL, { VERB_go_coil, VERB_show_uses, VERB_rename, VERB_watch_add, VERB_expect,
+		VERB_COUNT } },
+};
+
+static GMenu *make_menu(LadderCanvas *canvas)
+{
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	GMenu *menu = g_menu_new();
+	GMenuModel *live = act_menu(view);
+
+	g_menu_append_section(menu, NULL, live);
+	g_object_unref(live);
+	for (gsize i = 0; i < G_N_ELEMENTS(menu_parts); i++) {
+		GMenu *part = g_menu_new();
+
+		for (const enum verb *verb = menu_parts[i].verb; *verb != VERB_COUNT; verb++)
+			g_menu_append(part, _(verb_row(*verb)->label),
+				      verb_row(*verb)->action);
+		if (menu_parts[i].name)
+			g_menu_append_submenu(menu, _(menu_parts[i].name),
+					      G_MENU_MODEL(part));
+		else
+			g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
+		g_object_unref(part);
+	}
+	return menu;
 }
 
 /* ---- from outside ---- */
-
-int ladder_grid_view_pou(LadderGridView *view)
-{
-	return view->pou;
-}
-
-void ladder_grid_view_set_pou(LadderGridView *view, int pou)
-{
-	view->pou = pou;
-	project_changed(view);
-}
 
 void ladder_grid_view_set_range(LadderGridView *view, int first, int count)
 {
 	view->first = first;
 	view->count = count;
-	project_changed(view);
-	checked(view);
+	project_changed(LADDER_CANVAS(view));
+	checked(LADDER_CANVAS(view));
 }
 
 int ladder_grid_view_range(LadderGridView *view, int *count)
@@ -372,7 +758,7 @@ int ladder_grid_view_first(LadderGridView *view)
 
 struct grid_cursor ladder_grid_view_cursor(LadderGridView *view)
 {
-	return view->cursor;
+	return view->cursor.at;
 }
 
 void ladder_grid_view_go(LadderGridView *view, int rung, int row, int col)
@@ -380,7 +766,7 @@ void ladder_grid_view_go(LadderGridView *view, int rung, int row, int col)
 	struct grid_cursor to = { MAX(rung, 0), MAX(row, 0), MAX(col, 0) };
 	const struct rung *shown;
 
-	entry_close(view);
+	canvas_close_entry(LADDER_CANVAS(view));
 	shown = sheet_rung(view, to.rung);
 	if (shown && col >= 0 && to.row < shown->rows && to.col < shown->cols)
 		to.col = grid_display_column(shown, view->columns, to.row, to.col);
@@ -392,61 +778,6 @@ void ladder_grid_view_go(LadderGridView *view, int rung, int row, int col)
 bool ladder_grid_view_cell(LadderGridView *view, int *row, int *col)
 {
 	return cursor_cell(view, row, col) != NULL;
-}
-
-static char *place_of(LadderGridView *view)
-{
-	const int rung = view->first + view->cursor.rung + 1, row = view->cursor.row + 1;
-	char column[PLACE_LETTERS];
-
-	if (sheet_rungs(view) == 0)
-		return g_strdup(_("no rung"));
-	place_column(view->cursor.col, column);
-	return row > 1 ? g_strdup_printf(_("Rung %d · row %d · column %s"), rung, row, column) :
-	       g_strdup_printf(_("Rung %d · column %s"), rung, column);
-}
-
-/* Of a block also the instance whose body it is. */
-char *ladder_grid_view_place(LadderGridView *view)
-{
-	const char *instance = ladder_grid_view_instance(view);
-	char *place = place_of(view), *whole;
-
-	if (!instance)
-		return place;
-	whole = g_strdup_printf("%s · %s", place, instance);
-	g_free(place);
-	return whole;
-}
-
-double ladder_grid_view_zoom(LadderGridView *view)
-{
-	return view->zoom;
-}
-
-/* What is in the middle stays there. */
-void sheet_zoom(LadderGridView *view, double zoom)
-{
-	GtkAdjustment *down = view->adjustment[1];
-	const double middle = gtk_adjustment_get_page_size(down) / 2;
-	const double at = (gtk_adjustment_get_value(down) + middle) / view->zoom;
-
-	zoom = CLAMP(zoom, ZOOM_LEAST, ZOOM_MOST);
-	if (zoom == view->zoom)
-		return;
-	view->zoom = zoom;
-	gtk_adjustment_set_upper(down, (strips_height(view) + BELOW) * zoom);
-	gtk_adjustment_set_value(down, at * zoom - middle);
-	gtk_widget_queue_resize(GTK_WIDGET(view));
-	strips_redraw(view, -1); /* images of it have their size              */
-	g_signal_emit(view, signals[ZOOM_CHANGED], 0);
-}
-
-void ladder_grid_view_set_show(LadderGridView *view, enum drafting_show show)
-{
-	view->drafting.show = show;
-	strips_reset(view);
-	gtk_widget_queue_resize(GTK_WIDGET(view));
 }
 
 enum drafting_show ladder_grid_view_show(LadderGridView *view)
@@ -466,55 +797,22 @@ void ladder_grid_view_set_found(LadderGridView *view, int rung, int row, int col
 	strips_redraw(view, rung);
 }
 
+void ladder_grid_view_put(LadderGridView *view, enum word word)
+{
+	gtk_widget_grab_focus(GTK_WIDGET(view)); /* before a line opens, which takes it  */
+	entry_begin_word(view, word, false);
+}
+
 /* ---- life ---- */
-
-static void ladder_grid_view_get_property(GObject *object, guint id, GValue *value,
-					  GParamSpec *spec)
-{
-	LadderGridView *view = LADDER_GRID_VIEW(object);
-
-	if (id == PROP_HADJUSTMENT || id == PROP_VADJUSTMENT)
-		g_value_set_object(value, view->adjustment[id - PROP_HADJUSTMENT]);
-	else if (id == PROP_HPOLICY || id == PROP_VPOLICY)
-		g_value_set_enum(value, (int)view->policy[id - PROP_HPOLICY]);
-	else
-		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-}
-
-static void ladder_grid_view_set_property(GObject *object, guint id, const GValue *value,
-					  GParamSpec *spec)
-{
-	LadderGridView *view = LADDER_GRID_VIEW(object);
-
-	if (id == PROP_HADJUSTMENT || id == PROP_VADJUSTMENT)
-		set_adjustment(view, (int)id - PROP_HADJUSTMENT, g_value_get_object(value));
-	else if (id == PROP_HPOLICY || id == PROP_VPOLICY)
-		view->policy[id - PROP_HPOLICY] =
-			(GtkScrollablePolicy)g_value_get_enum(value);
-	else
-		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-}
 
 static void ladder_grid_view_dispose(GObject *object)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(object);
 
-	entry_close(view);
-	ladder_entry_popup_drop(GTK_WIDGET(view));
-	edge_forget(view);
+	canvas_close_entry(LADDER_CANVAS(view));
 	live_clear(view);
-	cells_clear(view);
-	for (int i = 0; i < 2; i++) {
-		if (view->adjustment[i])
-			g_signal_handler_disconnect(view->adjustment[i],
-						    view->scrolled[i]);
-		g_clear_object(&view->adjustment[i]);
-	}
-	for (int i = 0; view->document && i < (int)G_N_ELEMENTS(view->handler); i++)
-		g_signal_handler_disconnect(view->document, view->handler[i]);
+	g_clear_handle_id(&view->ahead, g_source_remove);
 	strips_clear(view);
-	g_clear_object(&view->input);
-	g_clear_object(&view->document);
 	G_OBJECT_CLASS(ladder_grid_view_parent_class)->dispose(object);
 }
 
@@ -522,73 +820,77 @@ static void ladder_grid_view_finalize(GObject *object)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(object);
 
-	entry_forget_uses(view);
 	g_free(view->wire.legal);
-	g_free(view->composed);
 	rung_free(view->preview);
 	g_array_unref(view->strips);
 	g_array_unref(view->marks);
-	g_array_unref(view->cells);
-	g_clear_pointer(&view->live.blockers, g_array_unref);
+	g_array_unref(view->live.blockers);
 	G_OBJECT_CLASS(ladder_grid_view_parent_class)->finalize(object);
 }
 
 static void ladder_grid_view_class_init(LadderGridViewClass *class)
 {
-	GObjectClass *object = G_OBJECT_CLASS(class);
-	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
-	const GType type = G_TYPE_FROM_CLASS(class);
+	LadderCanvasClass *canvas = LADDER_CANVAS_CLASS(class);
 
-	object->get_property = ladder_grid_view_get_property;
-	object->set_property = ladder_grid_view_set_property;
-	object->dispose = ladder_grid_view_dispose;
-	object->finalize = ladder_grid_view_finalize;
-	widget->measure = ladder_grid_view_measure;
-	widget->size_allocate = ladder_grid_view_size_allocate;
-	widget->snapshot = ladder_grid_view_snapshot;
-	g_object_class_override_property(object, PROP_HADJUSTMENT, "hadjustment");
-	g_object_class_override_property(object, PROP_VADJUSTMENT, "vadjustment");
-	g_object_class_override_property(object, PROP_HPOLICY, "hscroll-policy");
-	g_object_class_override_property(object, PROP_VPOLICY, "vscroll-policy");
-	signals[CURSOR_MOVED] = g_signal_new("cursor-moved", type, G_SIGNAL_RUN_LAST, 0,
-		NULL, NULL, NULL, G_TYPE_NONE, 0);
-	signals[TOLD] = g_signal_new("told", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
-		G_TYPE_NONE, 1, G_TYPE_STRING);
-	signals[ZOOM_CHANGED] = g_signal_new("zoom-changed", type, G_SIGNAL_RUN_LAST, 0,
-		NULL, NULL, NULL, G_TYPE_NONE, 0);
-	gtk_widget_class_set_css_name(widget, "sheet");
-	gtk_widget_class_set_accessible_role(widget, GTK_ACCESSIBLE_ROLE_GRID);
+	G_OBJECT_CLASS(class)->dispose = ladder_grid_view_dispose;
+	G_OBJECT_CLASS(class)->finalize = ladder_grid_view_finalize;
+	canvas->least_zoom = 0.5;
+	canvas->keys = VERB_SHEET;
+	canvas->name = N_("Sheet");
+	canvas->size = size;
+	canvas->lay_out = lay_out;
+	canvas->scrolled = draw_ahead_later;
+	canvas->paint = paint;
+	canvas->restyle = restyle;
+	canvas->cursor_box = box_at_cursor;
+	canvas->reveal = reveal;
+	canvas->cursor_name = cursor_name;
+	canvas->place = place;
+	canvas->next_keys = next_keys;
+	canvas->do_verb = do_verb;
+	canvas->key = move_by_key;
+	canvas->begins_entry = begins_entry;
+	canvas->type = type;
+	canvas->closed = closed;
+	canvas->press = press;
+	canvas->release = release;
+	canvas->can_drag = can_drag;
+	canvas->drag = drag;
+	canvas->drag_end = drag_end;
+	canvas->menu = make_menu;
+	canvas->tip = tip;
+	canvas->list_cells = list_cells;
+	canvas->cell_name = cell_name;
+	canvas->cell_box = cell_box;
+	canvas->go_to_cell = go_to_cell;
+	canvas->project_changed = project_changed;
+	canvas->rungs_changed = rungs_changed;
+	canvas->variable_changed = variable_changed;
+	canvas->bookmarks_changed = restyle;
+	canvas->checked = checked;
+	canvas->values_changed = values_changed;
+	canvas->program_changed = program_changed;
+	canvas->state_changed = state_changed;
 }
 
 static void ladder_grid_view_init(LadderGridView *view)
 {
-	view->zoom = CLAMP(settings_number("zoom", 1.0), ZOOM_LEAST, ZOOM_MOST);
-	view->drafting.show = (enum drafting_show)settings_enum("show", SHOW_BOTH);
-	view->strips = g_array_new(FALSE, TRUE, sizeof(struct strip));
+	view->canvas = canvas_state(LADDER_CANVAS(view));
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct sheet_mark));
-	view->cells = g_array_new(FALSE, TRUE, sizeof(struct cell_widget));
 	view->count = -1;
-	view->found.rung = view->drop.rung = view->came_rung = view->drop_line = -1;
-	set_adjustment(view, 0, NULL);
-	set_adjustment(view, 1, NULL);
-	gtk_widget_set_focusable(GTK_WIDGET(view), TRUE);
-	gtk_widget_set_overflow(GTK_WIDGET(view), GTK_OVERFLOW_HIDDEN);
-	keys_init(view);
+	view->found.rung = view->drop.at.rung = view->cursor.came_rung = view->drop.line = -1;
+	strips_init(view);
 	live_init(view);
-	mouse_init(view);
+	act_init(view);
+	drag_init(view);
 	wire_init(view);
-	cells_init(view);
-	tell_init(view);
 }
 
 GtkWidget *ladder_grid_view_new(LadderDocument *document, int pou)
 {
 	LadderGridView *view = g_object_new(LADDER_TYPE_GRID_VIEW, NULL);
 
-	view->document = g_object_ref(document);
-	view->pou = pou;
-	strips_init(view);
-	listen(view);
-	checked(view);
+	view->drafting.lettering = view->canvas->lettering;
+	canvas_show(LADDER_CANVAS(view), document, pou);
 	return GTK_WIDGET(view);
 }

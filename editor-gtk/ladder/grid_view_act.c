@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_act - what a person does on a sheet to the values of what runs.
+ * grid_view_act - what a person does on a sheet to the values of the program that runs.
  *
- * Everything goes to the simulation as an act, so that it is recorded. Keys that mean
- * something else while it simulates are Space, and Enter on a number.
+ * Everything goes to the simulation as an act, so that it is recorded. Space, and Enter on a
+ * number, have another meaning while it simulates.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
 #include "editor-gtk/kit/diag_said.h"
-#include "editor-gtk/kit/entry_popup.h"
-
 #include "engine/trial/value.h"
 
 #include <string.h>
@@ -18,7 +16,7 @@
 
 static const struct image *image_of(LadderGridView *view)
 {
-	return &ladder_sim_twin(view->live.sim)->resource.image;
+	return &ladder_sim_twin(view->canvas->sim)->resource.image;
 }
 
 static const struct live_cell *cell_of(const struct live_rung *live, int row, int col)
@@ -27,14 +25,14 @@ static const struct live_cell *cell_of(const struct live_rung *live, int row, in
 	       &live->cell[row * live->cols + col] : NULL;
 }
 
-/* At the cursor; NULL: nothing that has a value, or had one before an edit. */
+/* The cell at the cursor; NULL: it has no value in the program that runs. */
 static const struct live_cell *cell_here(LadderGridView *view)
 {
-	const struct live_rung *live = live_rung_of(view, view->cursor.rung);
+	const struct live_rung *live = live_rung_of(view, view->cursor.at.rung);
 	const struct live_cell *cell;
 	int row, col;
 
-	if (!live || ladder_document_is_fixed(view->document) ||
+	if (!live || ladder_document_is_fixed(view->canvas->document) ||
 	    !cursor_cell(view, &row, &col))
 		return NULL;
 	cell = cell_of(live, row, col);
@@ -52,12 +50,12 @@ static bool is_number(const struct live_cell *cell)
 	return cell && cell->at.type != IEC_BOOL && !cell->at.constant;
 }
 
-/* As it is written at the cursor; of a box the pin that counts is not. */
+/* The operand at the cursor; of a box its instance. */
 static const char *name_here(LadderGridView *view)
 {
 	const struct cell *cell = cursor_cell(view, NULL, NULL);
 
-	return cell ? project_text(ladder_document_project(view->document),
+	return cell ? project_text(ladder_document_project(view->canvas->document),
 				   cell->operand) : "";
 }
 
@@ -66,7 +64,7 @@ static bool is_place(struct location a, struct location b)
 	return a.type == b.type && a.area == b.area && a.where == b.where;
 }
 
-/* What was ordered last may not have come back yet. */
+/* The last act may not have reached the simulation yet: its value counts. */
 static union iec_value value_now(LadderGridView *view, struct location at)
 {
 	const struct sheet_live *live = &view->live;
@@ -78,7 +76,7 @@ static union iec_value value_now(LadderGridView *view, struct location at)
 
 static bool is_held(LadderGridView *view, struct location at)
 {
-	return ladder_sim_is_forced(view->live.sim, at);
+	return ladder_sim_is_forced(view->canvas->sim, at);
 }
 
 /* ---- acts ---- */
@@ -88,7 +86,7 @@ static void order(LadderGridView *view, enum act_kind kind, struct location at,
 {
 	const struct act act = { .kind = kind, .at = at, .value = value };
 
-	ladder_sim_act(view->live.sim, &act);
+	ladder_sim_act(view->canvas->sim, &act);
 	view->live.ordered = view->live.stamp;
 	view->live.ordered_at = at;
 	view->live.ordered_value = value;
@@ -108,7 +106,7 @@ static void tell_value(LadderGridView *view, const char *name, struct location a
 				       keys);
 		g_free(keys);
 	}
-	sheet_tell(view, text);
+	canvas_tell(LADDER_CANVAS(view), text);
 	g_free(text);
 }
 
@@ -119,12 +117,12 @@ static void toggle(LadderGridView *view, const struct live_cell *cell)
 
 	order(view, held ? ACT_FORCE : ACT_SET, cell->at, value);
 	if (!held && cell->kind == LIVE_COIL &&
-	    ladder_sim_state(view->live.sim) == SIM_RUN) {
+	    ladder_sim_state(view->canvas->sim) == SIM_RUN) {
 		char *keys = verb_keys_label(VERB_force);
-		char *text = g_strdup_printf(_("%s: the program writes it in each scan; "
-			"%s holds it"), name_here(view), keys);
+		char *text = g_strdup_printf(_("\"%s\" is written by the program in each scan. %s "
+			  "forces it."), name_here(view), keys);
 
-		sheet_tell(view, text);
+		canvas_tell(LADDER_CANVAS(view), text);
 		g_free(keys);
 		g_free(text);
 	} else {
@@ -136,7 +134,7 @@ static void force_at(LadderGridView *view, const struct live_cell *cell,
 		     union iec_value value)
 {
 	order(view, ACT_FORCE, cell->at, value);
-	sheet_moved(view);
+	canvas_moved(LADDER_CANVAS(view));
 	tell_value(view, name_here(view), cell->at, value, true);
 }
 
@@ -145,20 +143,20 @@ static void release(LadderGridView *view, const struct live_cell *cell)
 	char *text = g_strdup_printf(_("%s is released"), name_here(view));
 
 	order(view, ACT_RELEASE, cell->at, image_get(image_of(view), cell->at));
-	sheet_moved(view);
-	sheet_tell(view, text);
+	canvas_moved(LADDER_CANVAS(view));
+	canvas_tell(LADDER_CANVAS(view), text);
 	g_free(text);
 }
 
-/* At the value that it has: what is forced does not jump. */
+/* Forces the present value, so that nothing jumps. */
 static void force(LadderGridView *view)
 {
 	const struct live_cell *cell = cell_here(view);
 
-	if (!live_is_on(view))
-		sheet_tell(view, _("nothing is simulated"));
+	if (!canvas_is_live(LADDER_CANVAS(view)))
+		canvas_tell(LADDER_CANVAS(view), _("The simulation is not running."));
 	else if (!cell || cell->at.constant || cell->at.type == IEC_STRING)
-		sheet_tell(view, _("there is nothing to be forced here"));
+		canvas_tell(LADDER_CANVAS(view), _("Nothing here can be forced."));
 	else if (is_held(view, cell->at))
 		release(view, cell);
 	else
@@ -179,7 +177,7 @@ static void asked_free(gpointer data)
 	g_free(data);
 }
 
-/* Why not; NULL: it is one. Caller frees. */
+/* Why @line is no value; NULL: it is one. Caller frees. */
 static char *read_value(const struct asked *asked, const char *line, struct iec_text *room,
 			union iec_value *value)
 {
@@ -207,8 +205,9 @@ static char *set_changed(void *context, const char *line, int cursor, bool *good
 	const struct asked *asked = context;
 	struct iec_text *room = g_new0(struct iec_text, 1);
 	union iec_value value = { 0 };
-	char *why = live_is_on(asked->view) ? read_value(asked, line, room, &value) :
-		g_strdup(_("nothing is simulated")), shown[48];
+	const bool live = canvas_is_live(LADDER_CANVAS(asked->view));
+	char *why = live ? read_value(asked, line, room, &value) :
+		    g_strdup(_("The simulation is not running.")), shown[48];
 
 	(void)cursor;
 	*good = why == NULL;
@@ -226,8 +225,8 @@ static bool set_taken(void *context, const char *line)
 	LadderGridView *view = asked->view;
 	struct iec_text *room = g_new0(struct iec_text, 1);
 	union iec_value value = { 0 };
-	char *why = live_is_on(view) ? read_value(asked, line, room, &value) : NULL;
-	const bool good = live_is_on(view) && !why;
+	char *why = canvas_is_live(LADDER_CANVAS(view)) ? read_value(asked, line, room, &value) : NULL;
+	const bool good = canvas_is_live(LADDER_CANVAS(view)) && !why;
 
 	if (good) {
 		const bool held = is_held(view, asked->at);
@@ -241,47 +240,31 @@ static bool set_taken(void *context, const char *line)
 	return good;
 }
 
-static void set_gone(void *context)
-{
-	struct asked *asked = context;
-
-	entry_close(asked->view);
-	gtk_widget_grab_focus(GTK_WIDGET(asked->view));
-}
-
 static void ask(LadderGridView *view, const char *name, struct location at)
 {
-	struct entry_popup_calls calls = { .changed = set_changed, .taken = set_taken,
-					   .gone = set_gone };
 	struct asked *asked = g_new0(struct asked, 1);
-	graphene_rect_t rect = cursor_rect(view);
-	GdkRectangle place = { (int)rect.origin.x, (int)rect.origin.y,
-			       (int)rect.size.width, (int)rect.size.height };
-	char now[IEC_VALUE_TEXT + 1], *prompt;
+	char now[IEC_VALUE_TEXT + 1], *prompt = g_strdup_printf(_("value of %s"), name);
+	const struct canvas_question question = {
+		.prompt = prompt, .text = now, .drops = true, .changed = set_changed,
+		.taken = set_taken, .context = asked, .free = asked_free,
+	};
 
-	entry_close(view);
 	*asked = (struct asked){ view, at, g_strdup(name) };
-	calls.context = asked;
 	iec_value_print(at.type, image_get(image_of(view), at), now, sizeof(now));
-	prompt = g_strdup_printf(_("value of %s"), name);
-	view->entry = ladder_entry_popup_new(GTK_WIDGET(view), prompt, now, false, &calls);
-	g_object_set_data_full(G_OBJECT(view->entry), "set", asked, asked_free);
-	view->entry_sets = true;
-	ladder_entry_popup_ask(LADDER_ENTRY_POPUP(view->entry));
-	ladder_entry_popup_show(LADDER_ENTRY_POPUP(view->entry), &place);
-	g_free(prompt);
+	canvas_ask(LADDER_CANVAS(view), &question);
+	view->asks_value = true;
 }
 
-/* Of a box what it counts. */
+/* Asks for a new value; of a box for that of its counting pin. */
 static void set_here(LadderGridView *view)
 {
 	const struct live_cell *cell = cell_here(view);
 	const char *name = name_here(view);
 
-	if (!live_is_on(view))
-		sheet_tell(view, _("nothing is simulated"));
+	if (!canvas_is_live(LADDER_CANVAS(view)))
+		canvas_tell(LADDER_CANVAS(view), _("The simulation is not running."));
 	else if (!cell || cell->at.constant)
-		sheet_tell(view, _("there is nothing to be set here"));
+		canvas_tell(LADDER_CANVAS(view), _("Nothing here has a value that can be set."));
 	else
 		ask(view, cell->parts ? cell->name : name, cell->at);
 }
@@ -289,8 +272,8 @@ static void set_here(LadderGridView *view)
 void act_forget(LadderGridView *view)
 {
 	view->live.ordered = 0;
-	if (view->entry && view->entry_sets)
-		entry_close(view);
+	if (view->canvas->entry && view->asks_value)
+		canvas_close_entry(LADDER_CANVAS(view));
 }
 
 /* ---- verbs ---- */
@@ -306,7 +289,7 @@ bool act_do(LadderGridView *view, enum verb verb)
 			set_here(view);
 		return true;
 	}
-	if (!live_is_on(view) || (verb != VERB_cycle && verb != VERB_enter))
+	if (!canvas_is_live(LADDER_CANVAS(view)) || (verb != VERB_cycle && verb != VERB_enter))
 		return false;
 	cell = cell_here(view);
 	if (verb == VERB_cycle && is_switch(cell))
@@ -324,7 +307,7 @@ bool act_do(LadderGridView *view, enum verb verb)
 
 bool act_is_click(LadderGridView *view, float x, float y)
 {
-	const struct live_cell *cell = live_is_on(view) ? cell_here(view) : NULL;
+	const struct live_cell *cell = canvas_is_live(LADDER_CANVAS(view)) ? cell_here(view) : NULL;
 	const struct strip *strip;
 	const struct rung_layout *layout;
 	const struct cell *shown = cursor_cell(view, NULL, NULL);
@@ -332,13 +315,13 @@ bool act_is_click(LadderGridView *view, float x, float y)
 
 	if (!is_switch(cell))
 		return false;
-	strip = strips_get(view, view->cursor.rung);
+	strip = strips_get(view, view->cursor.at.rung);
 	layout = strip->layout;
 	y -= strip->y;
-	middle = layout->column_x[view->cursor.col] +
-		 layout->column_width[view->cursor.col] / 2;
-	wire = layout->row[view->cursor.row].wire;
-	if (y > wire + REACH || y < layout->row[view->cursor.row].y)
+	middle = layout->column_x[view->cursor.at.col] +
+		 layout->column_width[view->cursor.at.col] / 2;
+	wire = layout->row[view->cursor.at.row].wire;
+	if (y > wire + REACH || y < layout->row[view->cursor.at.row].y)
 		return false;
 	if (y > wire - REACH)
 		return ABS(x - middle) <= REACH;
@@ -348,7 +331,7 @@ bool act_is_click(LadderGridView *view, float x, float y)
 
 void act_click(LadderGridView *view)
 {
-	const struct live_cell *cell = live_is_on(view) ? cell_here(view) : NULL;
+	const struct live_cell *cell = canvas_is_live(LADDER_CANVAS(view)) ? cell_here(view) : NULL;
 
 	if (is_switch(cell))
 		toggle(view, cell);
@@ -363,7 +346,7 @@ static void menu_do(GSimpleAction *action, GVariant *parameter, gpointer data)
 	const struct live_cell *cell = cell_here(view);
 	const char *text = parameter ? g_variant_get_string(parameter, NULL) : NULL;
 
-	if (!live_is_on(view) || !view->live.map)
+	if (!canvas_is_live(LADDER_CANVAS(view)) || !view->live.map)
 		return;
 	if (g_str_equal(name, "instance")) {
 		ladder_grid_view_set_instance(view, text);
@@ -427,7 +410,7 @@ static void add_instances(LadderGridView *view, GMenu *menu)
 
 GMenuModel *act_menu(LadderGridView *view)
 {
-	const struct live_cell *cell = live_is_on(view) ? cell_here(view) : NULL;
+	const struct live_cell *cell = canvas_is_live(LADDER_CANVAS(view)) ? cell_here(view) : NULL;
 	GMenu *menu = g_menu_new();
 
 	if (is_switch(cell))
@@ -445,10 +428,10 @@ GMenuModel *act_menu(LadderGridView *view)
 	}
 	if (cell && is_held(view, cell->at))
 		g_menu_append(menu, _("Release"), "live.force");
-	if (live_is_on(view) && ladder_sim_forces(view->live.sim) > 0)
+	if (canvas_is_live(LADDER_CANVAS(view)) && ladder_sim_forces(view->canvas->sim) > 0)
 		g_menu_append(menu, _(verb_row(VERB_sim_release)->label),
 			      verb_row(VERB_sim_release)->action);
-	if (live_is_on(view))
+	if (canvas_is_live(LADDER_CANVAS(view)))
 		add_instances(view, menu);
 	return G_MENU_MODEL(menu);
 }
@@ -484,7 +467,7 @@ static void add_key(GString *text, enum verb verb, const char *what)
 
 bool act_keys(LadderGridView *view, GString *text)
 {
-	const struct live_cell *cell = live_is_on(view) ? cell_here(view) : NULL;
+	const struct live_cell *cell = canvas_is_live(LADDER_CANVAS(view)) ? cell_here(view) : NULL;
 	const bool held = cell && is_held(view, cell->at);
 
 	if (!cell || cell->at.constant)
@@ -499,7 +482,7 @@ bool act_keys(LadderGridView *view, GString *text)
 
 static void add_pins(LadderGridView *view, const struct cell *cell, GString *text)
 {
-	const struct project *project = ladder_document_project(view->document);
+	const struct project *project = ladder_document_project(view->canvas->document);
 	const struct word_row *row = words_row(&project->words, (enum word)cell->word);
 	const char *instance = project_text(project, cell->operand), *gap = "\n";
 	char shown[48];
@@ -522,7 +505,7 @@ static void add_pins(LadderGridView *view, const struct cell *cell, GString *tex
 
 static void add_filled(LadderGridView *view, uint32_t id, GString *text)
 {
-	const struct project *project = ladder_document_project(view->document);
+	const struct project *project = ladder_document_project(view->canvas->document);
 	GArray *parts = live_parts(view->live.map, project_text(project, id));
 	char *filled;
 

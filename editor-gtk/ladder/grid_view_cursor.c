@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_cursor - where the cursor is, where it goes, what is selected.
+ * grid_view_cursor - where the cursor is, where it goes, what is selected; and the rung at the
+ * cursor, when another one replaces it.
  *
- * It moves over display cells, from rung to rung as if there were no border.
+ * The cursor moves over display cells, from rung to rung as if there were no border.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
+#include "editor-gtk/kit/diag_said.h"
+
 #define PAGE_RUNGS 5 /* that Page Down goes on                                 */
+#define ASIDE     24 /* px left and right of the cursor that are seen, too        */
 #define MARGIN    40 /* px above and below the cursor that are seen, too        */
 
 static int rows_of(LadderGridView *view, int rung)
@@ -18,25 +22,25 @@ static int rows_of(LadderGridView *view, int rung)
 
 void cursor_fit(LadderGridView *view)
 {
-	struct grid_cursor *cursor = &view->cursor;
+	struct grid_cursor *cursor = &view->cursor.at;
 
 	cursor->rung = CLAMP(cursor->rung, 0, MAX(sheet_rungs(view) - 1, 0));
 	cursor->row = CLAMP(cursor->row, 0, MAX(rows_of(view, cursor->rung) - 1, 0));
 	cursor->col = CLAMP(cursor->col, 0, view->columns - 1);
-	view->selecting = false;
+	view->cursor.selecting = false;
 }
 
-/* What Esc gives back: the rung as the cursor found it, or as Undo left it. */
-void cursor_remember(LadderGridView *view)
+/* Esc restores the rung as it was when the cursor came, or as Undo left it. */
+static void cursor_remember(LadderGridView *view)
 {
-	if (view->came_rung == view->cursor.rung &&
-	    ladder_document_knows_place(view->document, view->came))
+	if (view->cursor.came_rung == view->cursor.at.rung &&
+	    ladder_document_knows_place(view->canvas->document, view->cursor.came))
 		return;
-	view->came_rung = view->cursor.rung;
-	view->came = ladder_document_place(view->document);
+	view->cursor.came_rung = view->cursor.at.rung;
+	view->cursor.came = ladder_document_place(view->canvas->document);
 }
 
-/* Several rungs are drawn anew when they are selected, and when they are no more. */
+/* A selection of several rungs redraws all: when it begins, changes and ends. */
 static void redraw_moved(LadderGridView *view, int from, bool several)
 {
 	int first, last;
@@ -45,9 +49,9 @@ static void redraw_moved(LadderGridView *view, int from, bool several)
 		strips_redraw(view, -1);
 		return;
 	}
-	if (from != view->cursor.rung)
+	if (from != view->cursor.at.rung)
 		strips_redraw(view, from);
-	strips_redraw(view, view->cursor.rung);
+	strips_redraw(view, view->cursor.at.rung);
 }
 
 static void tell_selected(LadderGridView *view, bool before)
@@ -58,40 +62,40 @@ static void tell_selected(LadderGridView *view, bool before)
 	if (cursor_rungs(view, &first, &last)) {
 		text = g_strdup_printf(_("Rungs %d to %d are selected"),
 				       view->first + first + 1, view->first + last + 1);
-		sheet_tell(view, text);
+		canvas_tell(LADDER_CANVAS(view), text);
 		g_free(text);
 	} else if (before) {
-		sheet_tell(view, "");
+		canvas_tell(LADDER_CANVAS(view), "");
 	}
 }
 
 void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend)
 {
-	const int from = view->cursor.rung;
+	const int from = view->cursor.at.rung;
 	int first, last;
 	const bool several = cursor_rungs(view, &first, &last);
 
-	if (extend && !view->selecting)
-		view->anchor = view->cursor;
+	if (extend && !view->cursor.selecting)
+		view->cursor.anchor = view->cursor.at;
 	to.rung = CLAMP(to.rung, 0, MAX(sheet_rungs(view) - 1, 0));
-	view->cursor = to;
+	if (from != to.rung)
+		canvas_close_entry(LADDER_CANVAS(view)); /* it is of the rung before */
+	view->cursor.at = to;
 	cursor_fit(view);
-	view->selecting = extend;
-	if (from != view->cursor.rung)
-		entry_close(view);
+	view->cursor.selecting = extend;
 	redraw_moved(view, from, several);
 	cursor_remember(view);
 	cursor_reveal(view);
-	sheet_moved(view);
+	canvas_moved(LADDER_CANVAS(view));
 	tell_selected(view, several);
 }
 
 bool cursor_area(LadderGridView *view, struct grid_area *area)
 {
-	const struct grid_cursor *a = &view->anchor, *b = &view->cursor;
+	const struct grid_cursor *a = &view->cursor.anchor, *b = &view->cursor.at;
 
 	*area = (struct grid_area){ b->row, b->col, b->row, b->col };
-	if (!view->selecting || a->rung != b->rung)
+	if (!view->cursor.selecting || a->rung != b->rung)
 		return false;
 	area->row = MIN(a->row, b->row);
 	area->last_row = MAX(a->row, b->row);
@@ -102,10 +106,10 @@ bool cursor_area(LadderGridView *view, struct grid_area *area)
 
 bool cursor_rungs(LadderGridView *view, int *first, int *last)
 {
-	const int other = view->selecting ? view->anchor.rung : view->cursor.rung;
+	const int other = view->cursor.selecting ? view->cursor.anchor.rung : view->cursor.at.rung;
 
-	*first = MIN(view->cursor.rung, other);
-	*last = MAX(view->cursor.rung, other);
+	*first = MIN(view->cursor.at.rung, other);
+	*last = MAX(view->cursor.at.rung, other);
 	return *first != *last;
 }
 
@@ -116,18 +120,18 @@ bool cursor_selects(LadderGridView *view, int rung, int row, int col)
 
 	if (cursor_rungs(view, &first, &last))
 		return rung >= first && rung <= last;
-	return cursor_area(view, &area) && rung == view->cursor.rung && row >= area.row &&
+	return cursor_area(view, &area) && rung == view->cursor.at.rung && row >= area.row &&
 	       row <= area.last_row && col >= area.col && col <= area.last_col;
 }
 
 const struct cell *cursor_cell(LadderGridView *view, int *row, int *col)
 {
-	const struct rung *shown = sheet_rung(view, view->cursor.rung);
+	const struct rung *shown = sheet_rung(view, view->cursor.at.rung);
 	struct grid_place place;
 	const struct cell *cell;
 
-	if (!shown || grid_display_find(shown, view->columns, view->cursor.row,
-					view->cursor.col, &place) != GRID_SEEN_CELL)
+	if (!shown || grid_display_find(shown, view->columns, view->cursor.at.row,
+					view->cursor.at.col, &place) != GRID_SEEN_CELL)
 		return NULL;
 	if (place.box_row >= 0)
 		place.row = place.box_row;
@@ -143,136 +147,72 @@ const struct cell *cursor_cell(LadderGridView *view, int *row, int *col)
 
 /* ---- on the screen ---- */
 
-static graphene_rect_t rect_at_100(LadderGridView *view)
+graphene_rect_t cursor_cell_box(LadderGridView *view)
 {
 	struct strip *strip;
 	graphene_rect_t rect;
 
-	if (view->cursor.rung >= (int)view->strips->len)
+	if (view->cursor.at.rung >= (int)view->strips->len)
 		return GRAPHENE_RECT_INIT(0, 0, 0, 0);
-	strip = strips_get(view, view->cursor.rung);
+	strip = strips_get(view, view->cursor.at.rung);
 	if (!strip->layout) /* it is gone, and the strips do not know it yet */
 		return GRAPHENE_RECT_INIT(0, 0, 0, 0);
-	rect = rung_layout_cell(strip->layout, view->cursor.row, view->cursor.col);
+	rect = rung_layout_cell(strip->layout, view->cursor.at.row, view->cursor.at.col);
 	rect.origin.y += strip->y;
 	return rect;
 }
 
-graphene_rect_t cursor_rect(LadderGridView *view)
-{
-	const float zoom = (float)view->zoom;
-	graphene_rect_t rect = rect_at_100(view);
-
-	graphene_rect_scale(&rect, zoom, zoom, &rect);
-	rect.origin.x -= (float)gtk_adjustment_get_value(view->adjustment[0]);
-	rect.origin.y -= (float)gtk_adjustment_get_value(view->adjustment[1]);
-	return rect;
-}
-
-/* Where what is shown with the cursor's cell begins: of the first row that is the title and
- * the comment of the rung, as far as there is room. */
+/* Upper end of what is shown together with the cell: for the first row also the
+ * title and the comment of the rung, if there is room. */
 static double head_of(LadderGridView *view, const graphene_rect_t *cell)
 {
-	const double page = gtk_adjustment_get_page_size(view->adjustment[1]);
-	const double end = (cell->origin.y + cell->size.height) * view->zoom;
-	const double from = cell->origin.y * view->zoom;
+	const double page = gtk_adjustment_get_page_size(view->canvas->adjustment[1]);
+	const double end = (cell->origin.y + cell->size.height) * view->canvas->zoom;
+	const double from = cell->origin.y * view->canvas->zoom;
 
-	if (view->cursor.row > 0 || view->cursor.rung >= (int)view->strips->len)
+	if (view->cursor.at.row > 0 || view->cursor.at.rung >= (int)view->strips->len)
 		return from;
-	return MIN(from, MAX(strips_get(view, view->cursor.rung)->y * view->zoom,
+	return MIN(from, MAX(strips_get(view, view->cursor.at.rung)->y * view->canvas->zoom,
 			     end + 2 * MARGIN - page));
-}
-
-static void reveal(GtkAdjustment *adjustment, double from, double to, double margin)
-{
-	const double page = gtk_adjustment_get_page_size(adjustment);
-	const double value = gtk_adjustment_get_value(adjustment);
-
-	if (from - margin < value)
-		gtk_adjustment_set_value(adjustment, from - margin);
-	else if (to + margin > value + page)
-		gtk_adjustment_set_value(adjustment, to + margin - page);
 }
 
 void cursor_reveal(LadderGridView *view)
 {
-	const double zoom = view->zoom;
-	graphene_rect_t rect = rect_at_100(view);
-	GtkAdjustment *across = view->adjustment[0], *down = view->adjustment[1];
-	const double right = (rect.origin.x + rect.size.width) * zoom;
-	const double end = (rect.origin.y + rect.size.height) * zoom;
-
-	/* Of no page at all it would come to stand above the edge. */
-	view->reveal = gtk_adjustment_get_page_size(down) <= 0;
-	if (view->reveal)
-		return;
-	/* Before the next allocation they may still be too small for a new rung, or for a
-	 * sheet that grew. */
-	if (gtk_adjustment_get_upper(across) < right + 24)
-		gtk_adjustment_set_upper(across, right + 24);
-	if (gtk_adjustment_get_upper(down) < end + 60)
-		gtk_adjustment_set_upper(down, end + 60);
-	reveal(across, rect.origin.x * zoom, right, 24);
-	reveal(down, rect.origin.y * zoom, end, MARGIN);
+	canvas_reveal(LADDER_CANVAS(view), cursor_cell_box(view), ASIDE, MARGIN);
 }
 
 void cursor_reveal_head(LadderGridView *view)
 {
-	GtkAdjustment *down = view->adjustment[1];
-	graphene_rect_t cell;
+	graphene_rect_t box;
+	float head;
 
 	cursor_reveal(view);
-	cell = rect_at_100(view);
-	if (!view->reveal)
-		reveal(down, head_of(view, &cell),
-		       (cell.origin.y + cell.size.height) * view->zoom, MARGIN);
-}
-
-void cursor_reveal_late(LadderGridView *view, double page)
-{
-	if (!view->reveal)
-		return;
-	cursor_reveal_head(view);
-	strips_lay_out(view, page);
-	cursor_reveal_head(view); /* rungs before it may have grown                */
-}
-
-/* Is something of its cell? */
-static bool is_seen(LadderGridView *view)
-{
-	const graphene_rect_t cell = cursor_rect(view);
-	const graphene_rect_t page = GRAPHENE_RECT_INIT(0, 0,
-		(float)gtk_adjustment_get_page_size(view->adjustment[0]),
-		(float)gtk_adjustment_get_page_size(view->adjustment[1]));
-
-	return graphene_rect_intersection(&cell, &page, NULL);
-}
-
-void ladder_grid_view_set_zoom(LadderGridView *view, double zoom)
-{
-	const bool seen = is_seen(view);
-
-	sheet_zoom(view, zoom);
-	if (seen)
-		cursor_reveal_head(view);
+	box = cursor_cell_box(view);
+	head = (float)(head_of(view, &box) / view->canvas->zoom);
+	box.size.height += box.origin.y - head;
+	box.origin.y = head;
+	canvas_reveal(LADDER_CANVAS(view), box, ASIDE, MARGIN);
 }
 
 int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit)
 {
-	const float at_x = (float)((x + gtk_adjustment_get_value(view->adjustment[0])) /
-				   view->zoom);
-	const float at_y = (float)((y + gtk_adjustment_get_value(view->adjustment[1])) /
-				   view->zoom);
-	const int rung = strips_at(view, at_y);
+	const graphene_point_t at = canvas_point(LADDER_CANVAS(view), x, y);
+	const int rung = strips_at(view, at.y);
 	struct strip *strip;
 
 	if (rung < 0)
 		return -1;
 	strip = strips_get(view, rung);
-	if (at_y > strip->y + strip->height)
+	if (at.y > strip->y + strip->height)
 		return -1;
-	*hit = rung_layout_hit(&view->drafting, strip->layout, at_x, at_y - strip->y);
+	*hit = rung_layout_hit(&view->drafting, strip->layout, at.x, at.y - strip->y);
 	return rung;
+}
+
+bool hit_is_cell(const struct rung_hit *hit)
+{
+	return hit->part == RUNG_PART_CELL || hit->part == RUNG_PART_WIRE ||
+	       hit->part == RUNG_PART_LINK || hit->part == RUNG_PART_PIN;
 }
 
 /* ---- keys ---- */
@@ -331,15 +271,15 @@ static bool step(LadderGridView *view, guint key, struct grid_cursor *to)
 	}
 }
 
-/* Of several rungs one more, or one less, whatever rows they have. */
+/* A selection of several rungs grows or shrinks by whole rungs. */
 static bool step_rungs(LadderGridView *view, guint key, struct grid_cursor *to)
 {
 	int first, last;
 
 	if (!cursor_rungs(view, &first, &last) || !step(view, key, to))
 		return false;
-	if (to->rung == view->cursor.rung && to->row != view->cursor.row)
-		to->rung += to->row > view->cursor.row ? 1 : -1;
+	if (to->rung == view->cursor.at.rung && to->row != view->cursor.at.row)
+		to->rung += to->row > view->cursor.at.row ? 1 : -1;
 	to->row = 0;
 	return true;
 }
@@ -347,7 +287,7 @@ static bool step_rungs(LadderGridView *view, guint key, struct grid_cursor *to)
 bool cursor_key(LadderGridView *view, guint key, GdkModifierType state)
 {
 	const bool control = state & GDK_CONTROL_MASK;
-	struct grid_cursor to = view->cursor;
+	struct grid_cursor to = view->cursor.at;
 
 	if (state & GDK_ALT_MASK)
 		return false;
@@ -359,5 +299,48 @@ bool cursor_key(LadderGridView *view, guint key, GdkModifierType state)
 		return false;
 	cursor_set(view, to, state & GDK_SHIFT_MASK);
 	cursor_reveal_head(view);
+	return true;
+}
+
+/* ---- one rung becomes another ---- */
+
+struct grid_at sheet_at(LadderGridView *view)
+{
+	return (struct grid_at){ .columns = view->columns, .row = view->cursor.at.row,
+				 .col = view->cursor.at.col };
+}
+
+static void tell_diags(LadderGridView *view, const struct diag_list *why)
+{
+	char *text;
+
+	text = why->count ? diag_said_whole(&why->diag[0]) :
+	       g_strdup(_("A rung file cannot hold this."));
+	canvas_tell(LADDER_CANVAS(view), text);
+	g_free(text);
+}
+
+bool sheet_put(LadderGridView *view, struct rung *rung, const struct grid_at *at,
+	       const char *name)
+{
+	struct diag_list why;
+	bool good;
+
+	if (!rung) {
+		canvas_tell(LADDER_CANVAS(view), _(grid_refusal_text(at->refusal)));
+		return false;
+	}
+	diag_init(&why);
+	cursor_remember(view);
+	ladder_document_begin(view->canvas->document, name, NULL);
+	good = sheet_splice(view, view->cursor.at.rung, 1, &rung, 1, &why);
+	ladder_document_end(view->canvas->document);
+	if (!good) {
+		tell_diags(view, &why);
+		return false;
+	}
+	canvas_tell(LADDER_CANVAS(view), "");
+	cursor_set(view, (struct grid_cursor){ view->cursor.at.rung, at->row, at->col },
+		   false);
 	return true;
 }

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_drag - elements and rungs are dragged about: what is taken, where it may be
- * dropped, and what that does.
+ * grid_view_drag - elements and rungs are dragged: what is taken, where it may be dropped, what
+ * the sheet shows meanwhile, and what the drop does.
  *
- * What is selected goes as a whole, if it is taken by a part of it.
+ * A selection is dragged as a whole if the pointer takes a part of it. An element is also text,
+ * the names of its variables, for status charts and timing charts.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
 #include "editor-gtk/draw/ghost.h"
+
+#include <math.h>
+#include <string.h>
 
 /* ---- what is dragged ---- */
 
@@ -56,13 +60,240 @@ GdkContentProvider *ladder_grid_view_drag(enum word word)
 	return gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag);
 }
 
+/* ---- variables of an element ---- */
+
+static bool is_word(char c)
+{
+	return g_ascii_isalnum(c) || c == '_' || c & 0x80;
+}
+
+/* A name with its members and constant indices, or an address; 0: something else. */
+static gsize name_length(const char *text)
+{
+	gsize len = *text == '%';
+
+	if (!len && (!is_word(*text) || g_ascii_isdigit(*text)))
+		return 0;
+	while (is_word(text[len]) || (text[len] == '.' && is_word(text[len + 1])))
+		len++;
+	while (text[len] == '[') {
+		const gsize index = strspn(text + len + 1, "-0123456789,");
+
+		if (text[len + 1 + index] != ']')
+			break;
+		len += index + 2;
+		while (is_word(text[len]) || text[len] == '.')
+			len++;
+	}
+	return len;
+}
+
+static bool is_declared(const struct project *project, const struct var_table *vars,
+			const char *name)
+{
+	const gsize len = strcspn(name, ".[");
+
+	for (int i = 0; i < vars->count; i++) {
+		const char *own = project_text(project, vars->var[i].name);
+
+		if (strlen(own) == len && g_ascii_strncasecmp(own, name, len) == 0)
+			return true;
+	}
+	return false;
+}
+
+/* "Main.Count" of Count; NULL: no variable, or one of a function block without an
+ * instance. */
+static char *full_name(LadderGridView *view, const char *name)
+{
+	const struct project *project = ladder_document_project(view->canvas->document);
+	const struct pou *pou = sheet_pou(view);
+	const char *owner = pou->kind == POU_PROGRAM || pou->kind == POU_SUBROUTINE ?
+		project_text(project, pou->name) : ladder_grid_view_instance(view);
+
+	if (*name == '%')
+		return g_strdup(name);
+	if (is_declared(project, &pou->vars, name))
+		return owner ? g_strconcat(owner, ".", name, NULL) : NULL;
+	return is_declared(project, &project->globals, name) ? g_strdup(name) : NULL;
+}
+
+/* Is it the name of a pin, as IN1 in `IN1:=Count`? */
+static bool is_pin(const char *behind)
+{
+	behind += strspn(behind, " ");
+	return g_str_has_prefix(behind, ":=") || g_str_has_prefix(behind, "=>");
+}
+
+static void take_names(LadderGridView *view, const char *text, bool args, GPtrArray *names)
+{
+	while (*text) {
+		const gsize len = name_length(text);
+		char *name = len ? g_strndup(text, len) : NULL;
+		char *full = name && !(args && is_pin(text + len)) ? full_name(view, name) :
+								     NULL;
+
+		if (full && !g_ptr_array_find_with_equal_func(names, full, g_str_equal, NULL))
+			g_ptr_array_add(names, g_steal_pointer(&full));
+		g_free(full);
+		g_free(name);
+		/* Letters behind a number are no name. */
+		text += len ? len : MAX(strspn(text, "0123456789#_."), 1);
+	}
+}
+
+/* The variables of an element: "Main.Count Level %IW2"; "": none. Caller frees. */
+static char *variables_of(LadderGridView *view, const struct cell *cell)
+{
+	const struct project *project = ladder_document_project(view->canvas->document);
+	GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
+	char *all;
+
+	take_names(view, project_text(project, cell->operand), false, names);
+	if (names->len == 0 && cell->args)
+		take_names(view, project_text(project, cell->args), true, names);
+	g_ptr_array_add(names, NULL);
+	all = g_strjoinv(" ", (char **)names->pdata);
+	g_ptr_array_unref(names);
+	return all;
+}
+
+/* ---- what is shown: an element ---- */
+
+#define LINE      3 /* px thick; odd, so that its middle is a pixel            */
+#define KNOB     11 /* px square, at the ends of the line                      */
+
+static void drop_word(LadderGridView *view, enum word word)
+{
+	if (word == view->drop.word)
+		return;
+	view->drop.word = word;
+	strips_redraw(view, -1);
+}
+
+static const char *why_not(LadderGridView *view, int rung, int row, int col)
+{
+	struct grid_at at = { .columns = view->columns, .row = row, .col = col };
+
+	rung_free(grid_drop(sheet_rung(view, rung), &at,
+			    (struct cell){ .word = (uint16_t)view->drop.word }));
+	return _(grid_refusal_text(at.refusal));
+}
+
+static void drop_at_cell(LadderGridView *view, int rung, int row, int col, bool legal)
+{
+	const int before = view->drop.at.rung;
+
+	if (rung == before && row == view->drop.at.row && col == view->drop.at.col &&
+	    legal == view->drop.legal)
+		return;
+	view->drop.at = (struct grid_cursor){ rung, row, col };
+	view->drop.legal = legal;
+	if (rung >= 0) /* it stays when it is let go there */
+		canvas_tell(LADDER_CANVAS(view), legal ? "" : why_not(view, rung, row, col));
+	if (before >= 0)
+		strips_dirty(view, before);
+	if (rung >= 0)
+		strips_dirty(view, rung); /* it may need a row more */
+}
+
+bool *drop_takes(LadderGridView *view, int rung, const struct rung_layout *layout)
+{
+	const struct grid_cursor *meant = &view->drop.at;
+	bool *takes;
+
+	if (view->drop.word == ELEM_EMPTY)
+		return NULL;
+	takes = g_new0(bool, layout->rows * layout->columns);
+	grid_takes(sheet_rung(view, rung), layout->columns, layout->rows, view->drop.word,
+		   takes);
+	if (rung == meant->rung && meant->row < layout->rows && meant->col < layout->columns)
+		takes[meant->row * layout->columns + meant->col] = false; /* it has a frame */
+	return takes;
+}
+
+void drop_mark(LadderGridView *view, int rung, GArray *marks)
+{
+	const struct grid_mark meant = { view->drop.at.row, view->drop.at.col,
+					 view->drop.legal ? MARK_DROP : MARK_ILLEGAL };
+
+	if (rung == view->drop.at.rung)
+		g_array_append_val(marks, meant);
+}
+
+/* ---- a rung ---- */
+
+static void drop_line(LadderGridView *view, int before)
+{
+	if (before == view->drop.line)
+		return;
+	view->drop.line = before;
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+static int drop_boundary(LadderGridView *view, double y)
+{
+	const float at = canvas_point(LADDER_CANVAS(view), 0, y).y;
+	const int rung = strips_at(view, at);
+	const struct strip *strip;
+
+	if (rung < 0)
+		return 0;
+	strip = strips_get(view, rung);
+	return at > strip->y + strip->height / 2 ? rung + 1 : rung;
+}
+
+static void fill(GtkSnapshot *snapshot, const struct theme *theme, float x, float y,
+		 float width, float height)
+{
+	gtk_snapshot_append_color(snapshot, &theme->color[TOKEN_ACCENT],
+				  &GRAPHENE_RECT_INIT(x, y, width, height));
+}
+
+void drop_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme)
+{
+	const float width = (float)gtk_widget_get_width(GTK_WIDGET(view));
+	const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]);
+	float y;
+
+	if (view->drop.line < 0)
+		return;
+	y = view->drop.line < sheet_rungs(view) ? strips_get(view, view->drop.line)->y :
+						  strips_height(view);
+	y = MAX(roundf((float)((double)y * view->canvas->zoom - top)), LINE / 2); /* the first one */
+	fill(snapshot, theme, 0, y - LINE / 2, width, LINE);
+	fill(snapshot, theme, 0, y - KNOB / 2, KNOB, KNOB);
+	fill(snapshot, theme, width - KNOB, y - KNOB / 2, KNOB, KNOB);
+}
+
+static void drop_rung_ghost(LadderGridView *view, GtkDragSource *source, int rung)
+{
+	const struct strip *strip = strips_get(view, rung);
+	const graphene_point_t at = canvas_point(LADDER_CANVAS(view), view->press.x,
+						 view->press.y);
+
+	if (strip->layout)
+		ghost_rung(source, &view->drafting, strip->layout,
+			   canvas_theme(LADDER_CANVAS(view)), (float)view->canvas->zoom, at.x,
+			   at.y - strip->y);
+}
+
+/* ---- the end ---- */
+
+static void drop_forget(LadderGridView *view)
+{
+	drop_word(view, ELEM_EMPTY);
+	drop_at_cell(view, -1, 0, 0, false);
+	drop_line(view, -1);
+}
+
 /* ---- dragging an element or a rung ---- */
 
-/* A chart takes an element as its variables. @element: taken over. */
+/* Adds the variables of the element as text. @element: taken over. */
 static GdkContentProvider *with_names(LadderGridView *view, const struct cell *cell,
 				      GdkContentProvider *element)
 {
-	char *names = sheet_variables(view, cell);
+	char *names = variables_of(view, cell);
 	GdkContentProvider *both[] = { element, NULL };
 
 	if (*names)
@@ -76,7 +307,7 @@ static GdkContentProvider *provide(const struct ladder_drag *drag)
 	return gdk_content_provider_new_typed(LADDER_TYPE_DRAG, drag);
 }
 
-/* All that is selected; NULL: nothing stands there. */
+/* The selected elements; NULL: there are none. */
 static GdkContentProvider *drag_area(LadderGridView *view, struct ladder_drag *drag)
 {
 	const struct rung *rung = sheet_rung(view, drag->from.rung);
@@ -102,29 +333,29 @@ static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double 
 	bool rungs;
 
 	(void)source;
-	if (rung < 0 || view->entry)
+	if (rung < 0 || view->canvas->entry)
 		return NULL;
 	drag.from = (struct grid_cursor){ rung, -1, -1 };
 	rungs = cursor_rungs(view, &drag.from.rung, &drag.last);
-	if (rungs && view->keeps)
+	if (rungs && view->press.keeps)
 		return provide(&drag);
-	if (rung != view->cursor.rung)
+	if (rung != view->cursor.at.rung)
 		return NULL;
 	if (hit.part == RUNG_PART_NUMBER)
 		return provide(&drag);
-	if (view->keeps && cursor_area(view, &drag.area))
+	if (view->press.keeps && cursor_area(view, &drag.area))
 		return drag_area(view, &drag);
 	cell = cursor_cell(view, NULL, NULL);
-	if (!mouse_is_cell(&hit) || !cell || !view->takes)
+	if (!hit_is_cell(&hit) || !cell || !view->press.takes)
 		return NULL;
 	drag.word = (enum word)cell->word;
-	drag.from = view->cursor;
+	drag.from = view->cursor.at;
 	return with_names(view, cell, provide(&drag));
 }
 
 static void drag_begin(GtkDragSource *source, GdkDrag *begun, LadderGridView *view)
 {
-	const struct project *project = ladder_document_project(view->document);
+	const struct project *project = ladder_document_project(view->canvas->document);
 	const struct ladder_drag *drag;
 	GValue value = G_VALUE_INIT;
 
@@ -136,7 +367,7 @@ static void drag_begin(GtkDragSource *source, GdkDrag *begun, LadderGridView *vi
 		drop_rung_ghost(view, source, drag->from.rung);
 	else if (project)
 		ghost_element(source, words_row(&project->words, drag->word),
-			      strips_theme(view), view->lettering);
+			      canvas_theme(LADDER_CANVAS(view)), view->canvas->lettering);
 unset:
 	g_value_unset(&value);
 }
@@ -153,24 +384,24 @@ static const struct ladder_drag *dragged(GtkDropTarget *target)
 	       g_value_get_boxed(value) : NULL;
 }
 
-/* The lower part of an element's cell means: below it. */
+/* The lower part of the cell of an element means the row below. */
 static bool is_below(LadderGridView *view, int rung, const struct rung_hit *hit, double y)
 {
 	const struct strip *strip = strips_get(view, rung);
 	const struct rung_row *row = &strip->layout->row[hit->row];
-	const double at = (y + gtk_adjustment_get_value(view->adjustment[1])) / view->zoom;
+	const float at = canvas_point(LADDER_CANVAS(view), 0, y).y;
 
 	return at > strip->y + row->wire + DROP_BELOW;
 }
 
-/* Which cell is meant: below an element the free one that would be a branch; below the last
- * row there is room for another. */
+/* The cell that the pointer means: below an element the free cell of a new branch;
+ * below the last row a new row. */
 static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hit,
 		   enum word word)
 {
-	const double shift = RUNG_CELL_HEIGHT * view->zoom;
+	const double shift = RUNG_CELL_HEIGHT * view->canvas->zoom;
 	int rung = sheet_point(view, x, y, hit);
-	const bool inside = rung >= 0 && mouse_is_cell(hit);
+	const bool inside = rung >= 0 && hit_is_cell(hit);
 	enum grid_drop how;
 
 	if (inside && !is_below(view, rung, hit, y))
@@ -178,7 +409,7 @@ static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hi
 	if (!inside) {
 		const int above = sheet_point(view, x, y - shift, hit);
 
-		if (above < 0 || !mouse_is_cell(hit) || (rung >= 0 && rung != above))
+		if (above < 0 || !hit_is_cell(hit) || (rung >= 0 && rung != above))
 			return -1;
 		rung = above;
 	}
@@ -203,7 +434,7 @@ static bool takes_rung(LadderGridView *view, const struct ladder_drag *drag)
 /* Marks where it would be dropped; 0: it may not. */
 static GdkDragAction show_drop(LadderGridView *view, double x, double y)
 {
-	const struct ladder_drag *drag = dragged(view->target);
+	const struct ladder_drag *drag = dragged(view->drop.target);
 	const enum word word = drag ? drag->word : ELEM_EMPTY;
 	struct rung_hit hit;
 	bool legal;
@@ -225,9 +456,10 @@ static GdkDragAction show_drop(LadderGridView *view, double x, double y)
 	return !legal ? 0 : drag->view ? GDK_ACTION_MOVE : GDK_ACTION_COPY;
 }
 
-static void drop_again(LadderGridView *view, double x, double y, GdkModifierType state)
+static void drop_again(LadderCanvas *canvas, double x, double y, GdkModifierType state)
 {
-	GdkDrop *drop = gtk_drop_target_get_current_drop(view->target);
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+	GdkDrop *drop = gtk_drop_target_get_current_drop(view->drop.target);
 	const GdkDragAction action = show_drop(view, x, y);
 
 	(void)state;
@@ -239,18 +471,18 @@ static GdkDragAction drop_motion(GtkDropTarget *target, double x, double y,
 				 LadderGridView *view)
 {
 	(void)target;
-	edge_at(view, x, y, 0, drop_again);
+	canvas_scroll_at_edge(LADDER_CANVAS(view), x, y, 0, drop_again);
 	return show_drop(view, x, y);
 }
 
 static void drop_leave(GtkDropTarget *target, LadderGridView *view)
 {
 	(void)target;
-	edge_forget(view);
+	canvas_end_drag(LADDER_CANVAS(view));
 	drop_forget(view);
 }
 
-/* The cursor goes with them. */
+/* The cursor moves with the rungs. */
 static bool move_rungs(LadderGridView *view, const struct ladder_drag *drag, int before)
 {
 	return takes_rung(view, drag) &&
@@ -272,7 +504,7 @@ static struct rung *moved(const struct ladder_drag *drag, const struct rung *fro
 	return grid_move_area(from_rung, from, &drag->area, to_rung, at, below, source);
 }
 
-/* From one rung to another is one step. */
+/* A move from one rung to another is one step of the history. */
 static void move_between(LadderGridView *view, const struct ladder_drag *drag,
 			 struct grid_cursor to)
 {
@@ -282,20 +514,20 @@ static void move_between(LadderGridView *view, const struct ladder_drag *drag,
 	struct grid_at at = { view->columns, to.row, to.col, 0 };
 	const bool same = from_rung == to_rung;
 
-	if (!from_rung || !to_rung || drag->view->document != view->document)
+	if (!from_rung || !to_rung || drag->view->canvas->document != view->canvas->document)
 		return;
 	made = moved(drag, from_rung, &from, to_rung, &at, &source);
 	if (!made) {
-		sheet_tell(view, _(grid_refusal_text(at.refusal ? at.refusal :
+		canvas_tell(LADDER_CANVAS(view), _(grid_refusal_text(at.refusal ? at.refusal :
 						     from.refusal)));
 		return;
 	}
-	ladder_document_begin(view->document, drag->several ? _("Move elements") :
+	ladder_document_begin(view->canvas->document, drag->several ? _("Move elements") :
 			      _("Move element"), NULL);
 	if (!same && source)
 		sheet_splice(drag->view, drag->from.rung, 1, &source, 1, NULL);
 	sheet_splice(view, to.rung, 1, &made, 1, NULL);
-	ladder_document_end(view->document);
+	ladder_document_end(view->canvas->document);
 	cursor_set(view, (struct grid_cursor){ to.rung, at.row, at.col }, false);
 }
 
@@ -307,9 +539,9 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 	int rung;
 
 	(void)target;
-	edge_forget(view);
+	canvas_end_drag(LADDER_CANVAS(view));
 	drop_forget(view);
-	if (sheet_is_fixed(view))
+	if (canvas_is_fixed(LADDER_CANVAS(view)))
 		return FALSE;
 	if (is_rung(drag))
 		return move_rungs(view, drag, drop_boundary(view, y));
@@ -337,7 +569,7 @@ void drag_init(LadderGridView *view)
 	g_signal_connect(source, "prepare", G_CALLBACK(drag_prepare), view);
 	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), view);
 	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(source));
-	view->target = target;
+	view->drop.target = target;
 	gtk_drop_target_set_preload(target, TRUE);
 	g_signal_connect(target, "motion", G_CALLBACK(drop_motion), view);
 	g_signal_connect(target, "leave", G_CALLBACK(drop_leave), view);

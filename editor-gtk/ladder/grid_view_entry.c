@@ -1,59 +1,56 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_entry - what is asked for at a cell of a sheet: an element, its operand.
+ * grid_view_entry - what is asked at a cell of a sheet: an element and its operand; title,
+ * label, comments, one more pin.
  *
- * The line is read by entry.c. While a word still lacks its operand, the sheet shows a
- * preview of the rung; the document learns of it when the line is taken, in one step with
- * the variables that it declares.
+ * While a word still lacks its operand, the sheet shows a preview of the rung. The document
+ * learns of it when the line is taken, in one step with the variables that it declares. A line
+ * that a file could not hold stays open and says why.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
 #include "editor-gtk/document/entry_outcome.h"
+#include "editor-gtk/document/symbols.h"
+#include "editor-gtk/edit/entry_names.h"
+#include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/kit/entry_popup.h"
-
+#include "engine/base/explain.h"
 #include "engine/model/args.h"
+#include "engine/xref/xref.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define CANDIDATES 40
 
-/* Of the project as it is: made once, until that changes. A key must not wait for it. */
-static struct xref *uses_of(LadderGridView *view)
-{
-	struct project *project = ladder_document_project(view->document);
+/* What is asked for. It lives until something else is asked. */
+struct asked {
+	LadderGridView *view;
+	enum word word;       /* fixed; ELEM_EMPTY: the line begins with it     */
+	bool edit;            /* of what stands there; its comment is kept      */
+	bool parallel;
+	bool before;          /* it comes before the output at the cursor       */
+	enum verb verb;       /* of a text: title, label, comment, pin          */
+	struct grid_at at;    /* of the element in the preview                 */
+	struct grid_cursor cursor; /* when it began                            */
+};
 
-	if (view->xref || !project)
-		return view->xref;
-	view->xref = g_new0(struct xref, 1);
-	if (!xref_addresses(view->xref, project))
-		entry_forget_uses(view);
-	return view->xref;
-}
-
-void entry_forget_uses(LadderGridView *view)
-{
-	if (view->xref)
-		xref_free(view->xref);
-	g_clear_pointer(&view->xref, g_free);
-}
-
-static struct entry_place place_of(const struct sheet_asked *asked)
+static struct entry_place place_of(const struct asked *asked)
 {
 	LadderGridView *view = asked->view;
 
 	return (struct entry_place){
-		.project = ladder_document_project(view->document),
-		.pou = view->pou,
+		.project = ladder_document_project(view->canvas->document),
+		.pou = view->canvas->pou,
 		.output = asked->cursor.col == view->columns - 1 && !asked->before,
-		.xref = uses_of(view),
+		.xref = canvas_uses(LADDER_CANVAS(view)),
 	};
 }
 
 /* A line that begins with the word that was chosen before. */
-static char *whole_line(const struct sheet_asked *asked, const char *line, size_t *skipped)
+static char *whole_line(const struct asked *asked, const char *line, size_t *skipped)
 {
-	const struct project *project = ladder_document_project(asked->view->document);
+	const struct project *project = ladder_document_project(asked->view->canvas->document);
 	const struct word_row *row;
 	char *whole;
 
@@ -70,7 +67,7 @@ static char *whole_line(const struct sheet_asked *asked, const char *line, size_
 
 /* ---- while it is typed ---- */
 
-static void add_candidate(const struct sheet_asked *asked, const struct entry_candidate *one,
+static void add_candidate(const struct asked *asked, const struct entry_candidate *one,
 			  size_t skipped)
 {
 	struct entry_popup_row row = {
@@ -79,12 +76,12 @@ static void add_candidate(const struct sheet_asked *asked, const struct entry_ca
 		.line = (char *)one->line + MIN(skipped, strlen(one->line)),
 	};
 
-	ladder_entry_popup_add(LADDER_ENTRY_POPUP(asked->view->entry), &row);
+	ladder_entry_popup_add(LADDER_ENTRY_POPUP(asked->view->canvas->entry), &row);
 }
 
 static char *element_changed(void *context, const char *line, int cursor, bool *good)
 {
-	struct sheet_asked *asked = context;
+	struct asked *asked = context;
 	struct entry_place place;
 	struct entry_candidate *found;
 	struct entry *entry;
@@ -92,15 +89,13 @@ static char *element_changed(void *context, const char *line, int cursor, bool *
 	char *whole, *told;
 	int count;
 
-	if (!asked->view->entry)
-		return NULL; /* the popup is being made: it asks again */
 	place = place_of(asked);
 	found = g_new(struct entry_candidate, CANDIDATES);
 	entry = g_new0(struct entry, 1);
 	whole = whole_line(asked, line, &skipped);
 	at = skipped + (size_t)(g_utf8_offset_to_pointer(line, cursor) - line);
 	entry_read(&place, whole, entry);
-	told = entry_outcome_tell(asked->view->document, place.pou, entry, line, good);
+	told = entry_outcome_tell(asked->view->canvas->document, place.pou, entry, line, good);
 	count = entry_candidates(&place, whole, at, found, CANDIDATES);
 	for (int i = 0; i < count; i++)
 		add_candidate(asked, &found[i], skipped);
@@ -112,7 +107,7 @@ static char *element_changed(void *context, const char *line, int cursor, bool *
 
 /* ---- when it is taken ---- */
 
-static struct rung *put_element(const struct sheet_asked *asked, struct cell cell,
+static struct rung *put_element(const struct asked *asked, struct cell cell,
 				bool below, struct grid_at *at)
 {
 	LadderGridView *view = asked->view;
@@ -142,15 +137,15 @@ static struct rung *put_element(const struct sheet_asked *asked, struct cell cel
 
 static void advance(LadderGridView *view, const struct grid_at *at)
 {
-	struct grid_cursor to = { view->cursor.rung, at->row, at->col };
+	struct grid_cursor to = { view->cursor.at.rung, at->row, at->col };
 
 	if (to.col < view->columns - 1)
 		to.col++;
 	cursor_set(view, to, false);
 }
 
-/* Of another instance of a block, of which nothing else is said. */
-static void keep_args(const struct sheet_asked *asked, struct cell *cell)
+/* Another instance of the same block keeps the arguments. */
+static void keep_args(const struct asked *asked, struct cell *cell)
 {
 	const struct cell *old = cursor_cell(asked->view, NULL, NULL);
 
@@ -160,7 +155,7 @@ static void keep_args(const struct sheet_asked *asked, struct cell *cell)
 
 static bool element_taken(void *context, const char *line)
 {
-	struct sheet_asked *asked = context;
+	struct asked *asked = context;
 	LadderGridView *view = asked->view;
 	const struct entry_place place = place_of(asked);
 	struct entry *entry = g_new0(struct entry, 1);
@@ -176,12 +171,12 @@ static bool element_taken(void *context, const char *line)
 	if (good) {
 		struct rung *edited = put_element(asked, cell, entry->below, &at);
 
-		view->cursor = asked->cursor;
-		ladder_document_begin(view->document,
+		view->cursor.at = asked->cursor;
+		ladder_document_begin(view->canvas->document,
 			asked->edit ? _("Change element") : _("Add element"), NULL);
 		good = sheet_put(view, edited, &at, "") &&
-		       entry_outcome_declare(view->document, view->pou, entry);
-		ladder_document_end(view->document);
+		       entry_outcome_declare(view->canvas->document, view->canvas->pou, entry);
+		ladder_document_end(view->canvas->document);
 		if (good && !asked->edit)
 			advance(view, &at);
 	}
@@ -190,88 +185,64 @@ static bool element_taken(void *context, const char *line)
 	return good;
 }
 
-void entry_line_left(void *context, const char *line)
-{
-	const struct sheet_asked *asked = context;
-	char *told = g_strdup_printf(_("not taken: %s"), line);
-
-	sheet_tell(asked->view, told);
-	g_free(told);
-}
-
-void entry_line_gone(void *context)
-{
-	struct sheet_asked *asked = context;
-
-	entry_close(asked->view);
-	gtk_widget_grab_focus(GTK_WIDGET(asked->view));
-}
-
 /* ---- opening ---- */
 
-void entry_open(struct sheet_asked *asked, const char *prompt, const char *text,
-		       bool typed, const struct entry_popup_calls *calls)
+/* @asked: taken over. */
+static void open_entry(struct asked *asked, struct canvas_question question)
 {
-	LadderGridView *view = asked->view;
-	graphene_rect_t rect = cursor_rect(view);
-	GdkRectangle cell = { (int)rect.origin.x, (int)rect.origin.y,
-			      (int)rect.size.width, (int)rect.size.height };
-
-	view->entry = ladder_entry_popup_new(GTK_WIDGET(view), prompt, text, typed, calls);
-	g_object_set_data_full(G_OBJECT(view->entry), "asked", asked, g_free);
-	/* Now it can be filled. */
-	ladder_entry_popup_ask(LADDER_ENTRY_POPUP(view->entry));
-	strips_redraw(view, view->cursor.rung);
-	ladder_entry_popup_show(LADDER_ENTRY_POPUP(view->entry), &cell);
+	question.context = asked;
+	question.free = g_free;
+	canvas_ask(LADDER_CANVAS(asked->view), &question);
+	strips_redraw(asked->view, asked->view->cursor.at.rung);
 }
 
-struct sheet_asked *entry_ask(LadderGridView *view)
+/* For what is asked at the cursor; an open entry is closed. */
+static struct asked *asked_new(LadderGridView *view)
 {
-	struct sheet_asked *asked = g_new0(struct sheet_asked, 1);
+	struct asked *asked = g_new0(struct asked, 1);
 
-	entry_close(view);
+	canvas_close_entry(LADDER_CANVAS(view));
 	asked->view = view;
-	asked->cursor = view->cursor;
+	asked->cursor = view->cursor.at;
 	return asked;
 }
 
-static void open_element(struct sheet_asked *asked, const char *prompt, const char *text,
+static void open_element(struct asked *asked, const char *prompt, const char *text,
 			 bool typed)
 {
-	const struct entry_popup_calls calls = {
-		element_changed, element_taken, entry_line_gone, asked, entry_line_left,
+	open_entry(asked, (struct canvas_question){
+		.prompt = prompt, .text = text, .typed = typed,
 		.proposes = !asked->edit && asked->word != ELEM_EMPTY,
-	};
-
-	entry_open(asked, prompt, text, typed, &calls);
+		.changed = element_changed, .taken = element_taken,
+	});
 }
 
 void entry_begin(LadderGridView *view, const char *text)
 {
-	if (sheet_pou(view) && sheet_rungs(view) > 0 && !sheet_is_fixed(view))
-		open_element(entry_ask(view), _("element and operand"), text, true);
+	if (sheet_pou(view) && sheet_rungs(view) > 0 && !canvas_is_fixed(LADDER_CANVAS(view)))
+		open_element(asked_new(view), _("element and operand"), text, true);
 }
 
 /* Shows the element where it will be; false: it cannot stand there. */
-static bool show_preview(struct sheet_asked *asked, struct rung *preview)
+static bool show_preview(struct asked *asked, struct rung *preview)
 {
 	LadderGridView *view = asked->view;
 
 	if (!preview) {
-		sheet_tell(view, _(grid_refusal_text(asked->at.refusal)));
+		canvas_tell(LADDER_CANVAS(view), _(grid_refusal_text(asked->at.refusal)));
 		g_free(asked);
 		return false;
 	}
 	view->preview = preview;
-	strips_dirty(view, view->cursor.rung);
-	view->cursor.row = asked->at.row;
-	view->cursor.col = asked->at.col;
+	strips_dirty(view, view->cursor.at.rung);
+	view->cursor.at.row = asked->at.row;
+	view->cursor.at.col = asked->at.col;
 	cursor_reveal(view);
 	return true;
 }
 
-/* What it gets if nothing else is said: an instance, parameters; else nothing. */
-static char *proposal(const struct sheet_asked *asked, bool *whole)
+/* The text that is proposed: an instance, parameters; "": none. */
+static char *proposal(const struct asked *asked, bool *whole)
 {
 	const struct entry_place place = place_of(asked);
 	struct entry *entry = g_new0(struct entry, 1);
@@ -288,10 +259,10 @@ static char *proposal(const struct sheet_asked *asked, bool *whole)
 	return text ? text : g_strdup("");
 }
 
-static void begin_word(struct sheet_asked *asked, struct rung *preview)
+static void begin_word(struct asked *asked, struct rung *preview)
 {
 	LadderGridView *view = asked->view;
-	const struct project *project = ladder_document_project(view->document);
+	const struct project *project = ladder_document_project(view->canvas->document);
 	const struct word_row *row = words_row(&project->words, asked->word);
 	bool whole;
 	char *text = proposal(asked, &whole), *prompt;
@@ -299,7 +270,7 @@ static void begin_word(struct sheet_asked *asked, struct rung *preview)
 	if (whole && !text[0]) { /* nothing to ask for */
 		rung_free(preview);
 		if (element_taken(asked, ""))
-			sheet_tell(view, "");
+			canvas_tell(LADDER_CANVAS(view), "");
 		g_free(asked);
 		g_free(text);
 		return;
@@ -314,19 +285,19 @@ static void begin_word(struct sheet_asked *asked, struct rung *preview)
 void entry_begin_word(LadderGridView *view, enum word word, bool parallel)
 {
 	const struct cell cell = { .word = (uint16_t)word };
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	struct sheet_asked *asked;
+	const struct rung *rung = sheet_rung(view, view->cursor.at.rung);
+	struct asked *asked;
 	struct grid_area area;
 	bool chosen;
 
-	if (!rung || sheet_is_fixed(view))
+	if (!rung || canvas_is_fixed(LADDER_CANVAS(view)))
 		return;
-	asked = entry_ask(view);
-	rung = sheet_rung(view, view->cursor.rung); /* the preview is gone */
+	asked = asked_new(view);
+	rung = sheet_rung(view, view->cursor.at.rung); /* the preview is gone */
 	asked->word = word;
 	asked->parallel = parallel;
-	/* An output at the cursor is not lost for something else. */
-	asked->before = view->cursor.col >= view->columns - 1 &&
+	/* An output at the cursor must not be replaced by another kind of element. */
+	asked->before = view->cursor.at.col >= view->columns - 1 &&
 			word_row(word)->place != PLACE_LAST;
 	asked->at = sheet_at(view);
 	chosen = cursor_area(view, &area);
@@ -339,21 +310,21 @@ void entry_begin_word(LadderGridView *view, enum word word, bool parallel)
 void entry_begin_drop(LadderGridView *view, enum word word, int row, int col)
 {
 	const struct cell cell = { .word = (uint16_t)word };
-	struct sheet_asked *asked;
+	struct asked *asked;
 
-	if (sheet_is_fixed(view))
+	if (canvas_is_fixed(LADDER_CANVAS(view)))
 		return;
-	asked = entry_ask(view);
+	asked = asked_new(view);
 	asked->word = word;
 	asked->at = (struct grid_at){ .columns = view->columns, .row = row, .col = col };
-	begin_word(asked, grid_drop(sheet_rung(view, view->cursor.rung), &asked->at,
+	begin_word(asked, grid_drop(sheet_rung(view, view->cursor.at.rung), &asked->at,
 				    cell));
 }
 
 /* As it stands in the cell at the cursor. */
 static char *line_now(LadderGridView *view)
 {
-	const struct project *project = ladder_document_project(view->document);
+	const struct project *project = ladder_document_project(view->canvas->document);
 	const struct cell *cell = cursor_cell(view, NULL, NULL);
 
 	return g_strdup_printf("%s%s%s", project_text(project, cell->operand),
@@ -363,7 +334,7 @@ static char *line_now(LadderGridView *view)
 
 static void begin_edit(LadderGridView *view, const char *text)
 {
-	struct sheet_asked *asked = entry_ask(view);
+	struct asked *asked = asked_new(view);
 
 	asked->word = (enum word)cursor_cell(view, NULL, NULL)->word;
 	asked->edit = true;
@@ -374,7 +345,7 @@ void entry_begin_edit(LadderGridView *view)
 {
 	char *text;
 
-	if (!sheet_pou(view) || sheet_rungs(view) == 0 || sheet_is_fixed(view))
+	if (!sheet_pou(view) || sheet_rungs(view) == 0 || canvas_is_fixed(LADDER_CANVAS(view)))
 		return;
 	if (!cursor_cell(view, NULL, NULL)) {
 		entry_begin(view, "");
@@ -391,53 +362,371 @@ void entry_begin_pin(LadderGridView *view, const char *pin, gsize len, bool outp
 	char *text, *line;
 	const char *args;
 
-	if (sheet_is_fixed(view) || !cursor_cell(view, NULL, NULL))
+	if (canvas_is_fixed(LADDER_CANVAS(view)) || !cursor_cell(view, NULL, NULL))
 		return;
 	text = line_now(view);
-	args = project_text(ladder_document_project(view->document),
+	args = project_text(ladder_document_project(view->canvas->document),
 			    cursor_cell(view, NULL, NULL)->args);
 	if (args_find(args, pin, len, &arg)) {
 		const gsize from = strlen(text) - strlen(args) + (gsize)(arg.value - args) -
 				   arg.inverse;
 
 		begin_edit(view, text);
-		ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->entry), from,
+		ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->canvas->entry), from,
 					  from + arg.value_len + arg.inverse);
 	} else {
 		line = g_strdup_printf("%s%s%.*s%s", text, *text ? " " : "", (int)len, pin,
 				       output ? "=>" : ":=");
 		begin_edit(view, line);
-		ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->entry), strlen(line),
+		ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->canvas->entry), strlen(line),
 					  strlen(line));
 		g_free(line);
 	}
 	g_free(text);
 }
 
-/* ---- closing ---- */
+/* ---- a label, and the jumps to it ---- */
 
-void entry_close(LadderGridView *view)
+/* The label of the cursor's rung, and how many jumps lead to it. */
+static int jumps_here(LadderGridView *view, struct xref_target *label)
 {
-	GtkWidget *entry = view->entry;
+	const int rung = view->first + view->cursor.at.rung;
+	struct xref xref;
+	int jumps = 0;
 
-	view->entry = NULL;
-	view->entry_sets = false;
-	if (view->preview) {
-		g_clear_pointer(&view->preview, rung_free);
-		strips_dirty(view, view->cursor.rung);
-		cursor_fit(view);
-	}
-	if (!entry)
-		return;
-	ladder_entry_popup_keep(LADDER_ENTRY_POPUP(entry));
-	strips_redraw(view, view->cursor.rung);
+	*label = (struct xref_target){ XREF_LABEL, view->canvas->pou + 1, rung, { 0 } };
+	if (!xref_make(&xref, ladder_document_project(view->canvas->document)))
+		g_error("out of memory");
+	for (int i = 0; i < xref.count; i++)
+		jumps += xref.use[i].kind == XREF_JUMPED &&
+			 xref_same(&xref.use[i].target, label);
+	xref_free(&xref);
+	return jumps;
 }
 
-void entry_allocate(LadderGridView *view)
+/* Do jumps lead to the present label, and is @name a new one? */
+static bool is_led_to(LadderGridView *view, const char *name, struct xref_target *label,
+		      int *jumps)
 {
-	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(view));
+	const struct project *project = ladder_document_project(view->canvas->document);
+	const struct rung *rung = sheet_rung(view, view->cursor.at.rung);
 
-	for (; child; child = gtk_widget_get_next_sibling(child))
-		if (GTK_IS_POPOVER(child)) /* the menu, too */
-			gtk_popover_present(GTK_POPOVER(child));
+	if (!rung->label || !*name || strcmp(project_text(project, rung->label), name) == 0)
+		return false;
+	*jumps = jumps_here(view, label);
+	return *jumps > 0;
+}
+
+/* The text of the program with the new label; NULL: impossible, or no jump leads
+ * there. free(). */
+static char *label_renamed(LadderGridView *view, const char *name, size_t *len, int *jumps,
+		     struct ladder_rename *how)
+{
+	struct xref_target label;
+
+	*how = (struct ladder_rename){ .why = RENAME_GOOD };
+	if (!is_led_to(view, name, &label, jumps))
+		return NULL;
+	return ladder_rename(ladder_document_ladder(view->canvas->document), &label, name, len, how);
+}
+
+/* Why the jumps that lead to the label of the cursor's rung cannot follow it to @name; NULL:
+ * they can, or there are none. Caller frees. */
+static char *label_refusal(LadderGridView *view, const char *name)
+{
+	struct ladder_rename how;
+	size_t len;
+	int jumps;
+
+	free(label_renamed(view, name, &len, &jumps, &how));
+	return how.why == RENAME_GOOD ? NULL : rename_reason(view->canvas->document, &how, name);
+}
+
+/* Renames the label with the jumps that lead to it, as one step; false: there are none. */
+static bool label_set(LadderGridView *view, const char *name)
+{
+	struct ladder_rename how;
+	size_t len, old_len;
+	int jumps;
+	char *text = label_renamed(view, name, &len, &jumps, &how), *told;
+	bool good;
+
+	if (!text)
+		return false;
+	g_free(ladder_document_outline(view->canvas->document, &old_len, NULL, NULL));
+	ladder_document_begin(view->canvas->document, _(verb_row(VERB_rung_label)->label), NULL);
+	good = ladder_document_replace(view->canvas->document, 0, old_len, text, NULL);
+	ladder_document_end(view->canvas->document);
+	told = g_strdup_printf(ngettext("%d jump follows", "%d jumps follow",
+					(unsigned long)jumps), jumps);
+	if (good)
+		canvas_tell(LADDER_CANVAS(view), told);
+	g_free(told);
+	free(text);
+	return good;
+}
+
+/* ---- texts and pins ---- */
+
+static uint32_t intern_comment(struct project *project, const char *text)
+{
+	char *whole = g_strdup_printf("(* %s *)", text);
+	uint32_t id = text[0] ? names_intern(&project->names, whole, strlen(whole)) : 0;
+
+	g_free(whole);
+	return id;
+}
+
+static bool set_text(LadderGridView *view, enum verb verb, const char *text,
+		     struct rung *rung, struct cell *cell)
+{
+	struct project *project = ladder_document_project(view->canvas->document);
+	const uint32_t id = names_intern(&project->names, text, strlen(text));
+
+	switch ((int)verb) {
+	case VERB_rung_title:
+		rung->title = id;
+		return true;
+	case VERB_rung_label:
+		rung->label = id;
+		return true;
+	case VERB_rung_comment:
+		rung->comment = intern_comment(project, text);
+		return true;
+	default:
+		if (cell)
+			cell->comment = intern_comment(project, text);
+		return cell != NULL;
+	}
+}
+
+static bool add_pin(LadderGridView *view, const char *name)
+{
+	struct project *project = ladder_document_project(view->canvas->document);
+	const struct rung *rung = sheet_rung(view, view->cursor.at.rung);
+	struct grid_at at = sheet_at(view);
+	const uint32_t pin = names_intern(&project->names, name, strlen(name));
+
+	return sheet_put(view, grid_add_pin(rung, &at, project, pin, NULL), &at,
+			 _(verb_row(VERB_add_pin)->label));
+}
+
+/* As it stands in the file now. */
+static char *text_now(LadderGridView *view, enum verb verb)
+{
+	const struct project *project = ladder_document_project(view->canvas->document);
+	const struct rung *rung = sheet_rung(view, view->cursor.at.rung);
+	const struct cell *cell = cursor_cell(view, NULL, NULL);
+
+	switch ((int)verb) {
+	case VERB_rung_title:
+		return g_strdup(project_text(project, rung->title));
+	case VERB_rung_label:
+		return g_strdup(project_text(project, rung->label));
+	case VERB_rung_comment:
+		return comment_text(project_text(project, rung->comment));
+	default:
+		return comment_text(cell ? project_text(project, cell->comment) : "");
+	}
+}
+
+/* Why the line cannot be taken: no file could hold it, or jumps could not follow the
+ * label. NULL: it can. Caller frees. */
+static char *refusal(const struct asked *asked, const char *line)
+{
+	const enum verb verb = asked->verb;
+	const bool comment = verb == VERB_rung_comment || verb == VERB_comment;
+
+	if (comment && (strstr(line, "(*") || strstr(line, "*)")))
+		return g_strdup(_("a comment is one line without (* and *)"));
+	if (verb != VERB_rung_label || !line[0])
+		return NULL;
+	return entry_is_name(line, strlen(line)) ? label_refusal(asked->view, line) :
+	       g_strdup(_("this is not a name"));
+}
+
+static bool is_refused(const struct asked *asked, const char *line)
+{
+	char *why = refusal(asked, line);
+	const bool is = why != NULL;
+
+	g_free(why);
+	return is;
+}
+
+static bool is_as_before(const struct asked *asked, const char *line)
+{
+	char *before = text_now(asked->view, asked->verb);
+	const bool same = strcmp(before, line) == 0;
+
+	g_free(before);
+	return same;
+}
+
+static bool text_taken(void *context, const char *line)
+{
+	struct asked *asked = context;
+	LadderGridView *view = asked->view;
+	const struct rung *rung = sheet_rung(view, view->cursor.at.rung);
+	struct grid_at at = sheet_at(view);
+	struct rung *copy;
+	int row, col;
+
+	if (asked->verb == VERB_add_pin)
+		return add_pin(view, line);
+	if (is_as_before(asked, line))
+		return true;
+	if (is_refused(asked, line))
+		return false;
+	if (asked->verb == VERB_rung_label && label_set(view, line))
+		return true;
+	copy = rung_copy(rung);
+	if (!set_text(view, asked->verb, line, copy,
+		      cursor_cell(view, &row, &col) ? rung_cell(copy, row, col) : NULL)) {
+		rung_free(copy);
+		return true;
+	}
+	return sheet_put(view, copy, &at, _(verb_row(asked->verb)->label));
+}
+
+/* Is it a Boolean input without a wire? Whether there is room is checked when it is
+ * taken. */
+static bool may_feed(LadderGridView *view, const char *name)
+{
+	struct project *project = ladder_document_project(view->canvas->document);
+	struct grid_at at = sheet_at(view);
+	const uint32_t pin = names_intern(&project->names, name, strlen(name));
+
+	rung_free(grid_add_pin(sheet_rung(view, view->cursor.at.rung), &at, project, pin, NULL));
+	return at.refusal != GRID_NO_BOX && at.refusal != GRID_BAD_PIN &&
+	       at.refusal != GRID_PIN_TAKEN && at.refusal != GRID_FIRST_PIN;
+}
+
+/* The word at the cursor; a row of pins is a part of the box above it. */
+static const struct word_row *word_here(LadderGridView *view)
+{
+	const struct project *project = ladder_document_project(view->canvas->document);
+	int row, col;
+	const struct cell *cell = cursor_cell(view, &row, &col);
+
+	while (cell->word == ELEM_PIN && row > 0)
+		cell = rung_at(sheet_rung(view, view->cursor.at.rung), --row, col);
+	return words_row(&project->words, (enum word)cell->word);
+}
+
+static void offer(GtkWidget *popup, const struct word_row *row, int index, const char *name)
+{
+	struct entry_popup_row one = { (char *)name, "", (char *)said(explain_pin(row, index)),
+				       _("input"), (char *)name };
+
+	ladder_entry_popup_add(LADDER_ENTRY_POPUP(popup), &one);
+}
+
+/* The next input of a function with any number of inputs; NULL: it has a fixed
+ * number. */
+static const char *further_input(LadderGridView *view, const struct word_row *row, char *name,
+				 size_t size)
+{
+	if (row->kind != WORD_FN)
+		return NULL;
+	for (int i = word_last_number(row) + 1; ; i++) {
+		snprintf(name, size, "IN%d", i);
+		if (word_pin_find(row, name, strlen(name)) < 0)
+			return NULL;
+		if (may_feed(view, name))
+			return name;
+	}
+}
+
+/* How many inputs can be fed; @popup, if not NULL, offers those that begin as @line. */
+static int offer_inputs(LadderGridView *view, GtkWidget *popup, const char *line)
+{
+	const struct word_row *row = word_here(view);
+	char further[LIMIT_NAME + 1];
+	int count = 0;
+
+	for (int i = 0; i <= row->pin_count; i++) {
+		const char *name = i < row->pin_count ? row->pin[i].name :
+				   further_input(view, row, further, sizeof(further));
+
+		if (!name || !may_feed(view, name))
+			continue;
+		count++;
+		if (popup && g_ascii_strncasecmp(name, line, strlen(line)) == 0)
+			offer(popup, row, MIN(i, row->pin_count - 1), name);
+	}
+	return count;
+}
+
+static char *pin_changed(void *context, const char *line, int cursor, bool *good)
+{
+	struct asked *asked = context;
+
+	(void)cursor;
+	(void)good;
+	if (cursor_cell(asked->view, NULL, NULL))
+		offer_inputs(asked->view, asked->view->canvas->entry, line);
+	return NULL;
+}
+
+/* Why nothing is asked for at the cursor; NULL: it can be. */
+static const char *nothing_to_ask(LadderGridView *view, enum verb verb)
+{
+	if (verb != VERB_comment && verb != VERB_add_pin)
+		return NULL;
+	if (!cursor_cell(view, NULL, NULL))
+		return _("there is no element here");
+	if (verb == VERB_comment || offer_inputs(view, NULL, "") > 0)
+		return NULL;
+	return word_here(view)->place == PLACE_BOX ?
+		_("The box has no further Boolean input.") :
+		_(grid_refusal_text(GRID_NO_BOX));
+}
+
+static char *text_changed(void *context, const char *line, int cursor, bool *good)
+{
+	const struct asked *asked = context;
+	char *why = refusal(asked, line);
+
+	(void)cursor;
+	*good = !why;
+	return why;
+}
+
+void entry_begin_text(LadderGridView *view, enum verb verb)
+{
+	const bool pin = verb == VERB_add_pin;
+	struct asked *asked;
+	const char *why;
+	char *text;
+
+	if (!sheet_rung(view, view->cursor.at.rung))
+		return;
+	why = nothing_to_ask(view, verb);
+	if (why) {
+		canvas_tell(LADDER_CANVAS(view), why);
+		return;
+	}
+	asked = asked_new(view);
+	asked->verb = verb;
+	text = pin ? g_strdup("") : text_now(view, verb);
+	open_entry(asked, (struct canvas_question){
+		.prompt = _(verb_row(verb)->label), .text = text,
+		.changed = pin ? pin_changed : text_changed, .taken = text_taken,
+	});
+	g_free(text);
+}
+
+/* ---- the end ---- */
+
+void entry_closed(LadderGridView *view, bool was_open)
+{
+	view->asks_value = false;
+	if (view->preview) {
+		g_clear_pointer(&view->preview, rung_free);
+		strips_dirty(view, view->cursor.at.rung);
+		cursor_fit(view);
+	}
+	if (was_open)
+		strips_redraw(view, view->cursor.at.rung);
 }

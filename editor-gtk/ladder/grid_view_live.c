@@ -1,19 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_live - what a sheet shows of the program that runs; see grid_view_live.h.
+ * grid_view_live - what a sheet shows of the program that runs.
  *
- * When values are others, the rungs on the screen are looked at, and those are drawn anew
- * of which something is. What is not on the screen is looked at when it comes there.
+ * It shows what the program computed and evaluates nothing. When values change, the rungs on
+ * the screen are looked at, and those that show another value are drawn anew. Other rungs are
+ * looked at when they come to the screen.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
 #define SAY_MS 300 /* names of cells follow so late: reading them takes longer   */
 #define VALUES_MS 1000 /* and so late if there are other numbers in them alone    */
-
-static struct strip *strip_of(LadderGridView *view, int rung)
-{
-	return &g_array_index(view->strips, struct strip, rung);
-}
 
 static bool flashes(LadderGridView *view)
 {
@@ -21,26 +17,15 @@ static bool flashes(LadderGridView *view)
 
 	g_object_get(gtk_widget_get_settings(GTK_WIDGET(view)), "gtk-enable-animations",
 		     &animations, NULL);
-	return animations && !ladder_sim_is_past(view->live.sim);
-}
-
-bool live_is_on(LadderGridView *view)
-{
-	return view->live.sim && ladder_sim_is_on(view->live.sim);
+	return animations && !ladder_sim_is_past(view->canvas->sim);
 }
 
 /* ---- forgetting ---- */
 
-void live_forget(struct strip *strip)
-{
-	g_clear_pointer(&strip->live, live_rung_free);
-	strip->looked = 0;
-}
-
 void live_forget_all(LadderGridView *view)
 {
 	for (guint i = 0; i < view->strips->len; i++)
-		live_forget(strip_of(view, (int)i));
+		strip_forget_live(strip_of(view, (int)i));
 	g_clear_pointer(&view->live.map, live_map_free);
 }
 
@@ -52,8 +37,8 @@ static struct live_map *map_of(LadderGridView *view)
 
 	if (!view->live.map && pou)
 		view->live.map = live_map_new(
-			&ladder_sim_twin(view->live.sim)->resource,
-			project_text(ladder_document_project(view->document), pou->name),
+			&ladder_sim_twin(view->canvas->sim)->resource,
+			project_text(ladder_document_project(view->canvas->document), pou->name),
 			view->live.instance);
 	return view->live.map;
 }
@@ -64,20 +49,20 @@ static bool same_text(const struct project *a, uint32_t x, const struct project 
 	return g_str_equal(project_text(a, x), project_text(b, y));
 }
 
-/* Of the program that runs, if it is the very rung: a rung that a program to come has
- * must not show the power of another. */
+/* Number of the rung in the program that runs; -1: it is not the same rung, and must
+ * not show the power of another one. */
 static int number_of(LadderGridView *view, const struct rung *shown, int rung)
 {
-	const struct project *mine = ladder_document_project(view->document);
-	const struct project *running = ladder_project(ladder_sim_ladder(view->live.sim));
-	const int number = ladder_sim_rung(view->live.sim, view->document,
-						  view->pou, view->first + rung);
+	const struct project *mine = ladder_document_project(view->canvas->document);
+	const struct project *running = ladder_project(ladder_sim_ladder(view->canvas->sim));
+	const int number = ladder_sim_rung(view->canvas->sim, view->canvas->document,
+						  view->canvas->pou, view->first + rung);
 	const struct rung *other;
 
-	if (number < 0 || view->pou >= running->pou_count ||
-	    number >= running->pou[view->pou].rung_count)
+	if (number < 0 || view->canvas->pou >= running->pou_count ||
+	    number >= running->pou[view->canvas->pou].rung_count)
 		return -1;
-	other = running->pou[view->pou].rung[number];
+	other = running->pou[view->canvas->pou].rung[number];
 	if (other->rows != shown->rows || other->cols != shown->cols)
 		return -1;
 	for (int i = 0; i < shown->rows * shown->cols; i++)
@@ -100,17 +85,18 @@ bool live_look(LadderGridView *view, int rung)
 	const struct rung *shown = sheet_rung(view, rung);
 	unsigned int changed;
 
-	if (!live_is_on(view) || shown == view->preview || strip->looked == view->live.stamp)
+	if (!canvas_is_live(LADDER_CANVAS(view)) || shown == view->preview ||
+	    strip->looked == view->live.stamp)
 		return false;
 	if (strip->live && strip->live->shown != shown)
-		live_forget(strip);
+		strip_forget_live(strip);
 	if (!strip->live && map_of(view))
 		strip->live = live_rung_new(map_of(view), view->drafting.project, shown,
 					    number_of(view, shown, rung));
 	strip->looked = view->live.stamp;
 	if (!strip->live)
 		return false;
-	changed = live_rung_look(strip->live, &ladder_sim_twin(view->live.sim)->resource,
+	changed = live_rung_look(strip->live, &ladder_sim_twin(view->canvas->sim)->resource,
 				 g_get_monotonic_time(), flashes(view));
 	if (changed & LIVE_OTHER_STATE)
 		say_later(view);
@@ -123,7 +109,7 @@ const struct live_rung *live_rung_of(LadderGridView *view, int rung)
 {
 	const struct rung *shown = sheet_rung(view, rung);
 
-	if (!live_is_on(view) || !shown || shown == view->preview)
+	if (!canvas_is_live(LADDER_CANVAS(view)) || !shown || shown == view->preview)
 		return NULL;
 	if (live_look(view, rung))
 		strips_redraw(view, rung);
@@ -132,7 +118,7 @@ const struct live_rung *live_rung_of(LadderGridView *view, int rung)
 
 static gboolean look_again(gpointer view);
 
-/* What is new now is not in a while, even if nothing else happens. */
+/* Looks again at @until, when the marks of new values end. */
 static void look_later(LadderGridView *view, gint64 until)
 {
 	const gint64 now = g_get_monotonic_time();
@@ -145,18 +131,18 @@ static void look_later(LadderGridView *view, gint64 until)
 /* The rungs on the screen. */
 static void look_at_seen(LadderGridView *view)
 {
-	const double top = gtk_adjustment_get_value(view->adjustment[1]);
+	const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]);
 	const double end = top + gtk_widget_get_height(GTK_WIDGET(view));
 	gint64 until = 0;
 	bool changed = false;
 
 	if (!gtk_widget_get_mapped(GTK_WIDGET(view)))
 		return;
-	for (int i = strips_at(view, (float)(top / view->zoom));
+	for (int i = strips_at(view, (float)(top / view->canvas->zoom));
 	     i >= 0 && i < (int)view->strips->len; i++) {
 		struct strip *strip = strip_of(view, i);
 
-		if (strip->y * view->zoom > end)
+		if (strip->y * view->canvas->zoom > end)
 			break;
 		if (!strip->layout)
 			continue;
@@ -185,10 +171,10 @@ static gboolean look_again(gpointer data)
 
 /* ---- what is heard of the simulation ---- */
 
-/* Power is there while something is scanned, or was. */
+/* Power is drawn while the program is scanned, or paused; not when it is stopped. */
 static void notice_state(LadderGridView *view)
 {
-	const enum sim_state state = ladder_sim_state(view->live.sim);
+	const enum sim_state state = ladder_sim_state(view->canvas->sim);
 	const bool still = state == SIM_STOP;
 
 	if (still == view->live.still)
@@ -197,32 +183,31 @@ static void notice_state(LadderGridView *view)
 	strips_redraw(view, -1);
 }
 
-static void shown(LadderGridView *view)
+void live_values_changed(LadderGridView *view)
 {
 	view->live.stamp++;
-	if (!live_is_on(view))
+	if (!canvas_is_live(LADDER_CANVAS(view)))
 		return;
 	notice_state(view);
 	look_at_seen(view);
 }
 
-static void program_changed(LadderGridView *view)
+void live_program_changed(LadderGridView *view)
 {
 	view->live.stamp++;
-	act_forget(view);
 	live_forget_all(view);
 	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	strips_redraw(view, -1);
-	cells_later(view);
-	sheet_moved(view);
+	canvas_cells_later(LADDER_CANVAS(view));
+	canvas_moved(LADDER_CANVAS(view));
 }
 
-static void state_changed(LadderGridView *view)
+void live_state_changed(LadderGridView *view)
 {
-	if (live_is_on(view))
+	if (canvas_is_live(LADDER_CANVAS(view)))
 		notice_state(view);
 	else
-		program_changed(view);
+		live_program_changed(view);
 }
 
 static gboolean say_now(gpointer data)
@@ -230,7 +215,7 @@ static gboolean say_now(gpointer data)
 	LadderGridView *view = data;
 
 	view->live.say = 0;
-	cells_later(view);
+	canvas_cells_later(LADDER_CANVAS(view));
 	return G_SOURCE_REMOVE;
 }
 
@@ -245,7 +230,7 @@ static gboolean say_values_now(gpointer data)
 	LadderGridView *view = data;
 
 	view->live.say_values = 0;
-	cells_rename(view);
+	canvas_cells_rename(LADDER_CANVAS(view));
 	return G_SOURCE_REMOVE;
 }
 
@@ -255,41 +240,20 @@ static void say_values_later(LadderGridView *view)
 		view->live.say_values = g_timeout_add(VALUES_MS, say_values_now, view);
 }
 
-void ladder_grid_view_set_sim(LadderGridView *view, LadderSim *sim)
-{
-	struct sheet_live *live = &view->live;
-
-	if (live->sim) {
-		for (gsize i = 0; i < G_N_ELEMENTS(live->handler); i++)
-			g_signal_handler_disconnect(live->sim, live->handler[i]);
-		live_forget_all(view);
-		g_clear_object(&live->sim);
-	}
-	if (!sim)
-		return;
-	live->sim = g_object_ref(sim);
-	live->handler[0] = g_signal_connect_swapped(sim, "shown", G_CALLBACK(shown), view);
-	live->handler[1] = g_signal_connect_swapped(sim, "program-changed",
-		G_CALLBACK(program_changed), view);
-	live->handler[2] = g_signal_connect_swapped(sim, "state-changed",
-		G_CALLBACK(state_changed), view);
-	if (live_is_on(view))
-		program_changed(view);
-}
-
 /* ---- instances ---- */
 
 void ladder_grid_view_set_instance(LadderGridView *view, const char *instance)
 {
 	g_free(view->live.instance);
 	view->live.instance = g_strdup(instance);
-	if (live_is_on(view))
-		program_changed(view);
+	if (canvas_is_live(LADDER_CANVAS(view)))
+		live_program_changed(view);
 }
 
 const char *ladder_grid_view_instance(LadderGridView *view)
 {
-	return live_is_on(view) && map_of(view) ? live_map_instance(map_of(view)) : NULL;
+	return canvas_is_live(LADDER_CANVAS(view)) && map_of(view) ?
+	       live_map_instance(map_of(view)) : NULL;
 }
 
 /* ---- marks ---- */
@@ -403,13 +367,12 @@ void live_init(LadderGridView *view)
 	view->live.stamp = 1;
 	view->live.blockers = g_array_new(FALSE, FALSE, sizeof(struct grid_blocker));
 	g_array_set_clear_func(view->live.blockers, blocker_clear);
-	act_init(view);
 	g_signal_connect(view, "map", G_CALLBACK(gtk_widget_queue_draw), NULL);
 }
 
 void live_clear(LadderGridView *view)
 {
-	ladder_grid_view_set_sim(view, NULL);
+	live_forget_all(view);
 	g_clear_handle_id(&view->live.timer, g_source_remove);
 	g_clear_handle_id(&view->live.say, g_source_remove);
 	g_clear_handle_id(&view->live.say_values, g_source_remove);

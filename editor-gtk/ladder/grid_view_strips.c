@@ -1,44 +1,97 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_strips - the rungs of a sheet one below the other.
+ * grid_view_strips - the rungs that a sheet shows, one below the other.
  *
  * A rung is laid out when it is seen, or when nothing else is to be done; until then its
  * height is guessed. It is drawn into one render node, which lives until something of it
- * changes or it is far away, so that scrolling draws nothing anew. Of what is far away
- * the height alone is kept.
+ * changes or it is far away, so that scrolling draws nothing anew. Of a rung far away the
+ * height alone is kept.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
 #include "editor-gtk/kit/settings.h"
 
-#include <adwaita.h>
 #include <string.h>
 
 #define TITLE_GUESS  32 /* px above the first row of a rung                    */
 #define IDLE_RUNGS   64 /* laid out at a time while nothing else is done       */
 #define NEAR_RUNGS   40 /* kept above and below what is seen                   */
-#define AHEAD       1.3 /* pages above and below that are drawn before          */
 
-static struct strip *strip_of(LadderGridView *view, int rung)
+/* ---- which rungs ---- */
+
+struct pou *sheet_pou(LadderGridView *view)
 {
-	return &g_array_index(view->strips, struct strip, rung);
+	struct project *project = ladder_document_project(view->canvas->document);
+
+	return project && view->canvas->pou < project->pou_count &&
+	       (project->pou[view->canvas->pou].language == LANGUAGE_LD ||
+		(project->pou[view->canvas->pou].sfc && view->count >= 0)) ?
+	       &project->pou[view->canvas->pou] : NULL;
 }
 
-/* Asked for once: a setting is looked up by names, which takes as long as a few wires. */
-const struct theme *strips_theme(LadderGridView *view)
+int sheet_rungs(LadderGridView *view)
 {
-	AdwStyleManager *manager = adw_style_manager_get_default();
-	const bool dark = adw_style_manager_get_dark(manager);
-	const bool contrast = adw_style_manager_get_high_contrast(manager);
+	const struct pou *pou = sheet_pou(view);
 
-	if (!view->theme)
-		view->theme = theme_get(contrast ? dark ? THEME_CONTRAST_DARK : THEME_CONTRAST :
-					dark ? THEME_DARK : THEME_LIGHT,
-			(enum theme_power)settings_enum("power", THEME_GREEN));
-	return view->theme;
+	if (!pou || view->count < 0)
+		return pou ? pou->rung_count : 0;
+	return CLAMP(pou->rung_count - view->first, 0, view->count);
+}
+
+struct rung *sheet_rung(LadderGridView *view, int rung)
+{
+	const struct pou *pou = sheet_pou(view);
+
+	if (!pou || rung < 0 || rung >= sheet_rungs(view))
+		return NULL;
+	return view->preview && rung == view->cursor.at.rung ? view->preview :
+	       pou->rung[view->first + rung];
+}
+
+/* In a chart a copy of a rung beside the place is part of each change, so that the document
+ * knows whose body changes. */
+static bool splice_body(LadderGridView *view, int at, int removed, struct rung **rungs,
+			int inserted, struct diag_list *why)
+{
+	const struct pou *pou = sheet_pou(view);
+	const bool before = at > 0;
+	const int beside = before ? at - 1 : at + removed;
+	struct rung **all;
+	bool good;
+
+	if (!pou || at < 0 || at + removed > sheet_rungs(view) ||
+	    beside >= sheet_rungs(view)) {
+		for (int i = 0; i < inserted; i++)
+			rung_free(rungs[i]);
+		return false;
+	}
+	all = g_new0(struct rung *, inserted + 1);
+	for (int i = 0; i < inserted; i++)
+		all[i + before] = rungs[i];
+	all[before ? 0 : inserted] = rung_copy(pou->rung[view->first + beside]);
+	good = ladder_document_splice(view->canvas->document, view->canvas->pou,
+				      view->first + at - before, removed + 1, all,
+				      inserted + 1, why);
+	g_free(all);
+	return good;
+}
+
+bool sheet_splice(LadderGridView *view, int at, int removed, struct rung **rungs,
+		  int inserted, struct diag_list *why)
+{
+	if (view->count >= 0 && (removed == 0 || inserted == 0))
+		return splice_body(view, at, removed, rungs, inserted, why);
+	return ladder_document_splice(view->canvas->document, view->canvas->pou,
+				      view->first + at, removed, rungs, inserted, why);
 }
 
 /* ---- what is remembered ---- */
+
+void strip_forget_live(struct strip *strip)
+{
+	g_clear_pointer(&strip->live, live_rung_free);
+	strip->looked = 0;
+}
 
 static void forget_drawing(struct strip *strip)
 {
@@ -48,7 +101,7 @@ static void forget_drawing(struct strip *strip)
 static void forget(struct strip *strip)
 {
 	forget_drawing(strip);
-	live_forget(strip);
+	strip_forget_live(strip);
 	g_clear_pointer(&strip->layout, rung_layout_free);
 }
 
@@ -80,13 +133,12 @@ static void stack(LadderGridView *view, int from)
 static void share_names(LadderGridView *view)
 {
 	const struct pou *pou = sheet_pou(view);
-	struct project *project = ladder_document_project(view->document);
+	struct project *project = ladder_document_project(view->canvas->document);
 
 	grid_names_free(view->names);
 	view->names = project && pou ? grid_names_new(project, pou) : NULL;
 	view->drafting.project = project;
 	view->drafting.names = view->names;
-	view->drafting.lettering = view->lettering;
 }
 
 /* The number of columns that all rungs share. */
@@ -100,18 +152,18 @@ static void share_columns(LadderGridView *view)
 	view->drafting.columns = columns;
 }
 
-/* While the window is allocated or drawn nobody may ask for another size. */
+/* GTK ignores a request for another size while it allocates or draws. */
 static gboolean resize_now(gpointer data)
 {
 	LadderGridView *view = data;
 
 	view->resize = 0;
-	cells_later(view);
+	canvas_cells_later(LADDER_CANVAS(view));
 	gtk_widget_queue_resize(GTK_WIDGET(view));
 	return G_SOURCE_REMOVE;
 }
 
-static void resize_later(LadderGridView *view)
+void strips_resize_later(LadderGridView *view)
 {
 	if (!view->resize)
 		view->resize = g_idle_add_full(G_PRIORITY_HIGH_IDLE, resize_now, view,
@@ -120,21 +172,21 @@ static void resize_later(LadderGridView *view)
 
 static void forget_far(LadderGridView *view)
 {
-	const double top = gtk_adjustment_get_value(view->adjustment[1]) / view->zoom;
-	const double page = gtk_adjustment_get_page_size(view->adjustment[1]);
+	const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]) / view->canvas->zoom;
+	const double page = gtk_adjustment_get_page_size(view->canvas->adjustment[1]);
 	const int first = strips_at(view, (float)top) - NEAR_RUNGS;
-	const int last = strips_at(view, (float)(top + page / view->zoom)) + NEAR_RUNGS;
+	const int last = strips_at(view, (float)(top + page / view->canvas->zoom)) + NEAR_RUNGS;
 
 	for (int i = 0; i < (int)view->strips->len; i++)
-		if ((i < first || i > last) && i != view->cursor.rung)
+		if ((i < first || i > last) && i != view->cursor.at.rung)
 			forget(strip_of(view, i));
 	view->forgot_at = first;
 }
 
-/* To look at all rungs for each step of a wheel would take a part of its frame. */
+/* Not at each step of the wheel: it looks at all rungs, which takes time of a frame. */
 static void forget_behind(LadderGridView *view)
 {
-	const double top = gtk_adjustment_get_value(view->adjustment[1]) / view->zoom;
+	const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]) / view->canvas->zoom;
 	const int first = strips_at(view, (float)top) - NEAR_RUNGS;
 
 	if (ABS(first - view->forgot_at) >= NEAR_RUNGS / 2)
@@ -153,7 +205,7 @@ static gboolean lay_out_more(gpointer data)
 			done++;
 		}
 	forget_far(view);
-	lettering_trim(view->lettering);
+	lettering_trim(view->canvas->lettering);
 	if (done > 0)
 		return G_SOURCE_CONTINUE;
 	view->idle = 0;
@@ -186,19 +238,19 @@ void strips_reset(LadderGridView *view)
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
-void strips_stale(LadderGridView *view, int at, int count)
+static void forget_some(LadderGridView *view, int at, int count)
 {
 	for (int i = at; i < at + count && i < (int)view->strips->len; i++)
 		forget(strip_of(view, i));
 }
 
-/* There are more or fewer before it; nothing else of it changed. */
+/* Rungs before it came or went; only its number changed. */
 static void renumber(LadderGridView *view, int rung)
 {
 	struct strip *strip = strip_of(view, rung);
 
 	forget_drawing(strip);
-	live_forget(strip);
+	strip_forget_live(strip);
 	if (strip->layout)
 		strip->layout->number = view->first + rung + 1;
 }
@@ -207,7 +259,7 @@ void strips_renumber(LadderGridView *view)
 {
 	for (int i = 0; i < (int)view->strips->len; i++)
 		renumber(view, i);
-	cells_later(view);
+	canvas_cells_later(LADDER_CANVAS(view));
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
@@ -216,7 +268,7 @@ void strips_splice(LadderGridView *view, int at, int removed, int inserted)
 	const struct strip none = { 0 };
 	const int columns = view->columns;
 
-	strips_stale(view, at, removed);
+	forget_some(view, at, removed);
 	g_array_remove_range(view->strips, (guint)at, (guint)removed);
 	for (int i = 0; i < inserted; i++)
 		g_array_insert_val(view->strips, (guint)at, none);
@@ -251,7 +303,7 @@ static bool names_one(LadderGridView *view, int rung, uint32_t name, uint32_t ad
 
 void strips_renamed(LadderGridView *view, const char *name, const char *address)
 {
-	struct names *names = &ladder_document_project(view->document)->names;
+	struct names *names = &ladder_document_project(view->canvas->document)->names;
 	const uint32_t of = names_find_any(names, name, strlen(name));
 	const uint32_t at = names_find_any(names, address, strlen(address));
 
@@ -302,20 +354,20 @@ static void widen(LadderGridView *view, float rail)
 			forget_drawing(strip);
 		}
 	}
-	resize_later(view);
+	strips_resize_later(view);
 }
 
-/* What is seen stays where it is, if something above it grows. */
+/* If a rung above the screen grows, the screen keeps showing the same rungs. */
 static void keep_view(LadderGridView *view, const struct strip *strip, float grown)
 {
-	GtkAdjustment *down = view->adjustment[1];
+	GtkAdjustment *down = view->canvas->adjustment[1];
 	const double value = gtk_adjustment_get_value(down);
 
-	if (strip->y * view->zoom >= value)
+	if (strip->y * view->canvas->zoom >= value)
 		return;
 	gtk_adjustment_set_upper(down, gtk_adjustment_get_upper(down) +
-				 grown * view->zoom);
-	gtk_adjustment_set_value(down, value + grown * view->zoom);
+				 grown * view->canvas->zoom);
+	gtk_adjustment_set_value(down, value + grown * view->canvas->zoom);
 }
 
 struct strip *strips_get(LadderGridView *view, int rung)
@@ -327,10 +379,10 @@ struct strip *strips_get(LadderGridView *view, int rung)
 
 	if (strip->layout || !shown)
 		return strip;
-	if (rung == view->cursor.rung)
-		rows = view->cursor.row + 1;
-	if (rung == view->drop.rung)
-		rows = MAX(rows, view->drop.row + 1);
+	if (rung == view->cursor.at.rung)
+		rows = view->cursor.at.row + 1;
+	if (rung == view->drop.at.rung)
+		rows = MAX(rows, view->drop.at.row + 1);
 	if (rung == view->wire.rung && view->wire.drawing)
 		rows = MAX(rows, view->wire.rows); /* one may come below */
 	strip->layout = rung_layout_new(&view->drafting, shown,
@@ -344,7 +396,7 @@ struct strip *strips_get(LadderGridView *view, int rung)
 	if (grown != 0) {
 		stack(view, rung);
 		keep_view(view, strip, grown);
-		resize_later(view);
+		strips_resize_later(view);
 	}
 	return strip;
 }
@@ -352,10 +404,10 @@ struct strip *strips_get(LadderGridView *view, int rung)
 void strips_lay_out(LadderGridView *view, double page)
 {
 	for (int i = 0; i < (int)view->strips->len; i++) {
-		const double top = gtk_adjustment_get_value(view->adjustment[1]);
-		const int first = strips_at(view, (float)(top / view->zoom));
+		const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]);
+		const int first = strips_at(view, (float)(top / view->canvas->zoom));
 
-		if (strip_of(view, i = MAX(i, first))->y * view->zoom > top + page)
+		if (strip_of(view, i = MAX(i, first))->y * view->canvas->zoom > top + page)
 			break;
 		strips_get(view, i);
 	}
@@ -391,123 +443,13 @@ float strips_height(LadderGridView *view)
 		       strip_of(view, (int)count - 1)->height : 0;
 }
 
-/* ---- drawing ---- */
-
-/* Of a rung that is being edited nothing is known. */
-static struct grid_live live_of(LadderGridView *view, int rung, const struct strip *strip,
-				uint8_t **unknown)
-{
-	const struct rung *shown = sheet_rung(view, rung);
-
-	if (strip->live && shown != view->preview)
-		return (struct grid_live){ strip->live->bits, live_rung_value,
-					   strip->live };
-	*unknown = g_new0(uint8_t, shown->rows * shown->cols);
-	return (struct grid_live){ *unknown, NULL, NULL };
-}
-
-static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
-{
-	GArray *marks = g_array_new(FALSE, FALSE, sizeof(struct grid_mark));
-	struct live_place place = { view, rung };
-	struct grid_scene scene = {
-		.drafting = &view->drafting, .layout = strip->layout,
-		.theme = strips_theme(view), .note = live_note, .context = &place,
-		.state = marks_state(view, rung),
-		.scale = (float)(view->zoom * gtk_widget_get_scale_factor(GTK_WIDGET(view))),
-	};
-	struct grid_live live;
-	uint8_t *unknown = NULL;
-	bool *takes = drop_takes(view, rung, strip->layout);
-
-	live_look(view, rung);
-	if (live_is_on(view)) {
-		live = live_of(view, rung, strip, &unknown);
-		scene.live = &live;
-		scene.state |= view->live.still ? RUNG_STILL : 0;
-	}
-	marks_push(view, rung, marks);
-	live_marks(view, rung, marks);
-	drop_mark(view, rung, marks);
-	scene.takes = takes;
-	if (ladder_document_is_bookmarked(view->document, view->pou,
-					     view->first + rung))
-		scene.state |= RUNG_MARKED;
-	if (view->preview && rung == view->cursor.rung)
-		scene.state |= RUNG_EDITED;
-	scene.mark = (const struct grid_mark *)(void *)marks->data;
-	scene.mark_count = (int)marks->len;
-	strip->node = grid_draw_node(&scene);
-	view->live.drawn++;
-	g_array_unref(marks);
-	g_free(unknown);
-	g_free(takes);
-}
-
-void strips_snapshot(LadderGridView *view, GtkSnapshot *snapshot)
-{
-	const float zoom = (float)view->zoom;
-	const float x = (float)gtk_adjustment_get_value(view->adjustment[0]);
-	const float top = (float)gtk_adjustment_get_value(view->adjustment[1]);
-	const float end = top + (float)gtk_widget_get_height(GTK_WIDGET(view));
-
-	for (int i = strips_at(view, top / zoom);
-	     i >= 0 && i < (int)view->strips->len; i++) {
-		struct strip *strip = strip_of(view, i);
-
-		if (strip->y * zoom > end)
-			break;
-		if (strip->layout && live_look(view, i))
-			forget_drawing(strip);
-		if (!strip->layout)
-			resize_later(view); /* and it will be drawn */
-		else if (!strip->node)
-			draw_strip(view, i, strip);
-		if (!strip->node)
-			continue;
-		gtk_snapshot_save(snapshot);
-		gtk_snapshot_translate(snapshot,
-			&GRAPHENE_POINT_INIT(-x, strip->y * zoom - top));
-		gtk_snapshot_scale(snapshot, zoom, zoom);
-		gtk_snapshot_append_node(snapshot, strip->node);
-		gtk_snapshot_restore(snapshot);
-	}
-	lettering_trim(view->lettering);
-}
-
-/* What comes into view next is drawn before: one rung at a time, while nothing else is
- * done. Of what runs the values would be others by then. */
-static gboolean draw_ahead(gpointer data)
-{
-	LadderGridView *view = data;
-	const double top = gtk_adjustment_get_value(view->adjustment[1]) / view->zoom;
-	const double page = gtk_adjustment_get_page_size(view->adjustment[1]) / view->zoom;
-	int i = strips_at(view, (float)(top - AHEAD * page));
-
-	for (; !live_is_on(view) && i >= 0 && i < (int)view->strips->len; i++) {
-		if ((double)strip_of(view, i)->y > top + (1 + AHEAD) * page)
-			break;
-		if (strip_of(view, i)->node || !sheet_rung(view, i))
-			continue;
-		draw_strip(view, i, strips_get(view, i));
-		return G_SOURCE_CONTINUE;
-	}
-	view->ahead = 0;
-	return G_SOURCE_REMOVE;
-}
-
-void strips_draw_ahead(LadderGridView *view)
-{
-	if (!view->ahead)
-		view->ahead = g_idle_add_full(G_PRIORITY_LOW, draw_ahead, view, NULL);
-}
-
 /* ---- life ---- */
 
-void strips_style(LadderGridView *view)
+void ladder_grid_view_set_show(LadderGridView *view, enum drafting_show show)
 {
-	view->theme = NULL;
-	strips_redraw(view, -1);
+	view->drafting.show = show;
+	strips_reset(view);
+	gtk_widget_queue_resize(GTK_WIDGET(view));
 }
 
 static void show_chosen(LadderGridView *view)
@@ -517,34 +459,19 @@ static void show_chosen(LadderGridView *view)
 
 void strips_init(LadderGridView *view)
 {
-	view->lettering = lettering_new(gtk_widget_get_pango_context(GTK_WIDGET(view)),
-					NULL);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(strips_style), view, G_CONNECT_SWAPPED);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::high-contrast",
-				G_CALLBACK(strips_style), view, G_CONNECT_SWAPPED);
-	if (settings_get()) {
-		g_signal_connect_object(settings_get(), "changed::power",
-					G_CALLBACK(strips_style), view, G_CONNECT_SWAPPED);
+	view->strips = g_array_new(FALSE, TRUE, sizeof(struct strip));
+	view->drafting.show = (enum drafting_show)settings_enum("show", SHOW_BOTH);
+	if (settings_get())
 		g_signal_connect_object(settings_get(), "changed::show",
 					G_CALLBACK(show_chosen), view, G_CONNECT_SWAPPED);
-	}
-	g_signal_connect(view, "notify::has-focus", G_CALLBACK(strips_style), NULL);
-	g_signal_connect(view, "notify::scale-factor", G_CALLBACK(strips_style), NULL);
-	strips_reset(view);
 }
 
 void strips_clear(LadderGridView *view)
 {
-	if (view->idle)
-		g_source_remove(view->idle);
-	if (view->resize)
-		g_source_remove(view->resize);
-	g_clear_handle_id(&view->ahead, g_source_remove);
-	view->idle = view->resize = 0;
+	g_clear_handle_id(&view->idle, g_source_remove);
+	g_clear_handle_id(&view->resize, g_source_remove);
 	for (guint i = 0; i < view->strips->len; i++)
 		forget(strip_of(view, (int)i));
 	g_array_set_size(view->strips, 0);
 	g_clear_pointer(&view->names, grid_names_free);
-	g_clear_pointer(&view->lettering, lettering_free);
 }

@@ -1,15 +1,87 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_tell - what a sheet tells of an element: below the pointer, in the status bar.
+ * grid_view_tell - what a sheet says of an element: its name, its tooltip, its place and its
+ * keys.
  *
- * The texts are the declarations', the catalogue's and the checks'; keys are those of the
+ * The texts come from the declarations, the catalogue and the checks; keys are those of the
  * verbs.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
+
+#include "editor-gtk/draw/place.h"
 #include "editor-gtk/kit/diag_said.h"
-#include "editor-gtk/kit/gtk48/tip.h"
 
 #include <string.h>
+
+/* ---- names, for those who hear them ---- */
+
+/* "Rung 3, contact, closed while TRUE: Start, %IX0.0". */
+static void say_element(LadderGridView *view, int rung, const struct cell *cell,
+			GString *text)
+{
+	const struct project *project = ladder_document_project(view->canvas->document);
+	const struct word_row *word = words_row(&project->words, (enum word)cell->word);
+	const char *operand = project_text(project, cell->operand);
+	const struct grid_name name = grid_names_find(view->names, operand);
+
+	g_string_printf(text, _("Rung %d, %s"), view->first + rung + 1,
+			word->word[0] ? word->word : word->id);
+	if (words_explain(word)[0])
+		g_string_append_printf(text, ", %s", _(words_explain(word)));
+	if (operand[0])
+		g_string_append_printf(text, ": %s", operand);
+	if (name.symbol[0] && g_ascii_strcasecmp(name.symbol, operand) != 0)
+		g_string_append_printf(text, ", %s", name.symbol);
+	if (name.address[0] && g_ascii_strcasecmp(name.address, operand) != 0)
+		g_string_append_printf(text, ", %s", name.address);
+	if (cell->args)
+		g_string_append_printf(text, ", %s", project_text(project, cell->args));
+}
+
+char *tell_cell(LadderGridView *view, int rung, int row, int col, const struct cell *cell)
+{
+	GString *text = g_string_new(NULL);
+
+	say_element(view, rung, cell, text);
+	act_said(view, rung, row, col, text);
+	return g_string_free(text, FALSE);
+}
+
+static bool is_wire(LadderGridView *view, const struct grid_cursor *at)
+{
+	struct grid_place place;
+
+	return grid_display_find(sheet_rung(view, at->rung), view->columns, at->row,
+				 at->col, &place) != GRID_SEEN_EMPTY;
+}
+
+/* "Rung 3, empty cell, row 1, column B"; the place tells elements of the same name
+ * apart. */
+char *tell_cursor(LadderGridView *view, bool values)
+{
+	const struct grid_cursor *at = &view->cursor.at;
+	GString *text = g_string_new(NULL);
+	char column[PLACE_LETTERS];
+	const struct cell *cell;
+	int row, col;
+
+	if (sheet_rungs(view) == 0) {
+		g_string_append(text, _("no rung"));
+		return g_string_free(text, FALSE);
+	}
+	cell = cursor_cell(view, &row, &col);
+	if (cell)
+		say_element(view, at->rung, cell, text);
+	else
+		g_string_printf(text, _("Rung %d, %s"), view->first + at->rung + 1,
+				is_wire(view, at) ? _("wire") : _("empty cell"));
+	if (cell && values)
+		act_said(view, at->rung, row, col, text);
+	g_string_append(text, ", ");
+	g_string_append_printf(text, _("row %d, column %s"), at->row + 1,
+			       place_column(at->col, column));
+	return g_string_free(text, FALSE);
+}
 
 /* ---- below the pointer ---- */
 
@@ -43,7 +115,7 @@ static void add_comment(GString *text, const char *comment)
 /* "Start · %IX0.0 · BOOL". */
 static void add_name(LadderGridView *view, GString *text, const struct cell *cell)
 {
-	const struct project *project = ladder_document_project(view->document);
+	const struct project *project = ladder_document_project(view->canvas->document);
 	const char *operand = project_text(project, cell->operand);
 	const struct grid_name name = grid_names_find(view->names, operand);
 	GString *line = g_string_new(name.symbol[0] ? name.symbol : operand);
@@ -80,7 +152,7 @@ static void add_faults(LadderGridView *view, GString *text, int rung, int row, i
 
 char *ladder_grid_view_tip(LadderGridView *view, int rung, int row, int col)
 {
-	const struct project *project = ladder_document_project(view->document);
+	const struct project *project = ladder_document_project(view->canvas->document);
 	const struct rung *shown = sheet_rung(view, rung);
 	const struct cell *cell;
 	const struct word_row *word;
@@ -116,50 +188,26 @@ static char *tip_of_rung(LadderGridView *view, int rung)
 	return g_string_free(text, text->len == 0);
 }
 
-/* What has popped up over the sheet must not be hidden by what is said of that. */
-static bool is_covered(LadderGridView *view)
+char *tell_tip(LadderGridView *view, int x, int y, bool by_keys)
 {
-	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(view));
+	struct rung_hit hit = { .part = RUNG_PART_CELL, .row = view->cursor.at.row,
+				.column = view->cursor.at.col };
+	const int rung = by_keys ? view->cursor.at.rung : sheet_point(view, x, y, &hit);
 
-	while (child && !(GTK_IS_POPOVER(child) && gtk_widget_get_mapped(child)))
-		child = gtk_widget_get_next_sibling(child);
-	return child;
-}
-
-static gboolean tip_wanted(GtkWidget *widget, int x, int y, gboolean by_keys,
-			   GtkTooltip *tooltip)
-{
-	LadderGridView *view = LADDER_GRID_VIEW(widget);
-	struct rung_hit hit = { .part = RUNG_PART_CELL, .row = view->cursor.row,
-				.column = view->cursor.col };
-	int rung = by_keys ? view->cursor.rung : sheet_point(view, x, y, &hit);
-	const struct strip *strip;
-	gboolean told;
-	char *text;
-
-	if (rung < 0 || !sheet_rung(view, rung) || view->entry || is_covered(view))
-		return FALSE;
-	strip = strips_get(view, rung);
-	text = hit.part == RUNG_PART_NUMBER || hit.part == RUNG_PART_TITLE ?
-		tip_of_rung(view, rung) : hit.part == RUNG_PART_NONE ? NULL :
-		ladder_grid_view_tip(view, rung, hit.row,
-				     rung_layout_col(strip->layout, hit.row, hit.column));
-	told = tip_show(tooltip, text);
-	g_free(text);
-	return told;
-}
-
-void tell_init(LadderGridView *view)
-{
-	gtk_widget_set_has_tooltip(GTK_WIDGET(view), TRUE);
-	g_signal_connect(view, "query-tooltip", G_CALLBACK(tip_wanted), NULL);
+	if (rung < 0 || !sheet_rung(view, rung) || hit.part == RUNG_PART_NONE)
+		return NULL;
+	if (hit.part == RUNG_PART_NUMBER || hit.part == RUNG_PART_TITLE)
+		return tip_of_rung(view, rung);
+	return ladder_grid_view_tip(view, rung, hit.row,
+				    rung_layout_col(strips_get(view, rung)->layout, hit.row,
+						    hit.column));
 }
 
 /* ---- in the status bar ---- */
 
 #define VERBS_TOLD 4
 
-/* What is done most with what the cursor is on. */
+/* The most used verbs for the thing at the cursor. */
 static const enum verb *verbs_of(LadderGridView *view, const struct cell *cell)
 {
 	static const enum verb nothing[] = { VERB_contact, VERB_coil, VERB_block,
@@ -176,7 +224,7 @@ static const enum verb *verbs_of(LadderGridView *view, const struct cell *cell)
 
 	if (!cell)
 		return nothing;
-	row = words_row(&ladder_document_project(view->document)->words,
+	row = words_row(&ladder_document_project(view->canvas->document)->words,
 			(enum word)cell->word);
 	if (row->kind == WORD_FB || row->kind == WORD_FN)
 		return box;
@@ -185,14 +233,14 @@ static const enum verb *verbs_of(LadderGridView *view, const struct cell *cell)
 	return row->operand == OPND_BOOL_R ? contact : other;
 }
 
-char *ladder_grid_view_keys(LadderGridView *view)
+char *tell_keys(LadderGridView *view)
 {
 	const struct cell *cell = cursor_cell(view, NULL, NULL);
 	GString *text = g_string_new(NULL);
 	const enum verb *verb;
 	bool live;
 
-	if (sheet_rungs(view) == 0 || ladder_document_is_fixed(view->document))
+	if (sheet_rungs(view) == 0 || ladder_document_is_fixed(view->canvas->document))
 		return g_string_free(text, FALSE);
 	verb = verbs_of(view, cell);
 	live = act_keys(view, text);
@@ -203,4 +251,29 @@ char *ladder_grid_view_keys(LadderGridView *view)
 		if (!live || (verb[i] != VERB_cycle && verb[i] != VERB_enter))
 			verb_tell(text, verb[i]);
 	return g_string_free(text, FALSE);
+}
+
+static char *place_of(LadderGridView *view)
+{
+	const int rung = view->first + view->cursor.at.rung + 1, row = view->cursor.at.row + 1;
+	char column[PLACE_LETTERS];
+
+	if (sheet_rungs(view) == 0)
+		return g_strdup(_("no rung"));
+	place_column(view->cursor.at.col, column);
+	return row > 1 ? g_strdup_printf(_("Rung %d · row %d · column %s"), rung, row, column) :
+	       g_strdup_printf(_("Rung %d · column %s"), rung, column);
+}
+
+/* In a function block with the instance that is shown. */
+char *tell_place(LadderGridView *view)
+{
+	const char *instance = ladder_grid_view_instance(view);
+	char *place = place_of(view), *whole;
+
+	if (!instance)
+		return place;
+	whole = g_strdup_printf("%s · %s", place, instance);
+	g_free(place);
+	return whole;
 }

@@ -2,10 +2,10 @@
  *
  * grid_view_wire - wires drawn on a sheet with the pointer.
  *
- * Near the end of an element, on a wire and at the ends of free cells the pointer is a
- * cross, and a drag from there is a stroke of wire (grid_draw_wire()); with Ctrl it
- * erases. Until it is let go the sheet shows the way it would take and where it may end;
- * the document learns of it then. What a stroke means grid_wire.c says.
+ * Near the end of an element, on a wire and at the ends of free cells the pointer is a cross,
+ * and a drag from there is a stroke of wire (grid_draw_wire()); with Ctrl it erases. Until the
+ * button is released the sheet shows the way of the wire and where it may end; then the document
+ * gets it. grid_wire.c defines what a stroke means.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
@@ -26,29 +26,26 @@ static graphene_point_t place_of(LadderGridView *view, struct grid_end end)
 	const struct rung_layout *layout = strip->layout;
 	const int row = MIN(end.row, layout->rows - 1);
 	const float below = end.row > row ? RUNG_CELL_HEIGHT : 0;
-	const float zoom = (float)view->zoom;
 
-	return GRAPHENE_POINT_INIT(
-		rung_layout_end_x(layout, end.bar) * zoom -
-			(float)gtk_adjustment_get_value(view->adjustment[0]),
-		(strip->y + layout->row[row].wire + below) * zoom -
-			(float)gtk_adjustment_get_value(view->adjustment[1]));
+	return canvas_rect(LADDER_CANVAS(view), GRAPHENE_RECT_INIT(
+		rung_layout_end_x(layout, end.bar), strip->y + layout->row[row].wire + below,
+		0, 0)).origin;
 }
 
 /* A point of the widget as one of the strip of @rung, at 100 %. */
 static graphene_point_t in_strip(LadderGridView *view, int rung, double x, double y)
 {
-	return GRAPHENE_POINT_INIT(
-		(float)((x + gtk_adjustment_get_value(view->adjustment[0])) / view->zoom),
-		(float)((y + gtk_adjustment_get_value(view->adjustment[1])) / view->zoom) -
-			strips_get(view, rung)->y);
+	graphene_point_t at = canvas_point(LADDER_CANVAS(view), x, y);
+
+	at.y -= strips_get(view, rung)->y;
+	return at;
 }
 
 /* The rung and the end of a cell where a wire can begin; -1: not here. */
 static int begin_at(LadderGridView *view, double x, double y, struct grid_end *end)
 {
 	struct rung_hit hit;
-	const bool drawn = !view->entry && !ladder_document_is_fixed(view->document);
+	const bool drawn = !view->canvas->entry && !ladder_document_is_fixed(view->canvas->document);
 	const int rung = drawn ? sheet_point(view, x, y, &hit) : -1;
 	graphene_point_t at;
 
@@ -59,7 +56,7 @@ static int begin_at(LadderGridView *view, double x, double y, struct grid_end *e
 			       &end->row, &end->bar) ? rung : -1;
 }
 
-/* Where a stroke ends that the pointer leads there. */
+/* The end of a stroke for a pointer at (@x, @y). */
 static struct grid_end end_at(LadderGridView *view, double x, double y)
 {
 	const struct rung_layout *layout = strips_get(view, view->wire.rung)->layout;
@@ -83,7 +80,7 @@ static void hover(LadderGridView *view, double x, double y)
 	struct grid_end end = { -1, -1 };
 	const int rung = view->preview ? -1 : begin_at(view, x, y, &end);
 
-	/* A quick hand is far from where it pressed before the stroke begins. */
+	/* The pointer may move far before the stroke begins. */
 	if (view->wire.pressed || (rung == view->wire.hover &&
 	    end.row == view->wire.from.row && end.bar == view->wire.from.bar))
 		return;
@@ -122,7 +119,7 @@ bool wire_press(LadderGridView *view, double x, double y)
 	return true;
 }
 
-/* A row comes into sight below the rung: a stroke may need it. */
+/* Shows one more row below the rung: a stroke may end there. */
 static void begin(LadderGridView *view, const struct rung *rung)
 {
 	view->wire.drawing = true;
@@ -133,7 +130,7 @@ static void begin(LadderGridView *view, const struct rung *rung)
 	strips_dirty(view, view->wire.rung);
 }
 
-/* What moves it away from its begin says which leg comes first. */
+/* The first direction of the pointer decides which leg comes first. */
 static void choose_leg(LadderGridView *view, struct grid_end to)
 {
 	const struct grid_end *from = &view->wire.from;
@@ -187,7 +184,7 @@ void wire_forget(LadderGridView *view)
 
 static void put_stroke(LadderGridView *view, const struct sheet_wire *wire)
 {
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	const struct rung *rung = sheet_rung(view, view->cursor.at.rung);
 	struct grid_at at = sheet_at(view);
 	struct rung *made = wire->erase ?
 		grid_erase_wire(rung, &at, wire->from, wire->to, wire->along) :
@@ -195,8 +192,8 @@ static void put_stroke(LadderGridView *view, const struct sheet_wire *wire)
 
 	if (sheet_put(view, made, &at, wire->erase ? _("Erase wire") : _("Draw wire")) &&
 	    (wire->course == GRID_ROUND || wire->course == GRID_OVER))
-		sheet_tell(view, _("A branch of wire: type what belongs there, or drop "
-				   "it on the wire."));
+		canvas_tell(LADDER_CANVAS(view), _("This branch is empty: type an element, or drop "
+			  "one on the wire."));
 }
 
 bool wire_release(LadderGridView *view)
@@ -208,7 +205,7 @@ bool wire_release(LadderGridView *view)
 		return false;
 	}
 	wire_forget(view);
-	if (wire.rung == view->cursor.rung && sheet_rung(view, wire.rung) &&
+	if (wire.rung == view->cursor.at.rung && sheet_rung(view, wire.rung) &&
 	    (wire.to.row != wire.from.row || wire.to.bar != wire.from.bar))
 		put_stroke(view, &wire);
 	return true;
@@ -277,7 +274,7 @@ static void draw_way(LadderGridView *view, const struct brush *brush)
 	const enum grid_course course = view->wire.course;
 	const graphene_point_t a = place_of(view, view->wire.from);
 	const graphene_point_t b = place_of(view, view->wire.to);
-	const float aside = ASIDE * (float)view->zoom * (course == GRID_OVER ? -0.8f : 1);
+	const float aside = ASIDE * (float)view->canvas->zoom * (course == GRID_OVER ? -0.8f : 1);
 	graphene_point_t first = { b.x, a.y }, second;
 
 	if (course == GRID_ALONG)

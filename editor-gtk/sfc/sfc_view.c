@@ -1,192 +1,42 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_view - the sheet of a chart: the widget, its drawing, and what it hears.
+ * sfc_view - the widget of a chart: what it draws, says and does at keys and clicks.
  */
 #include "editor-gtk/sfc/sfc_view_inside.h"
 
+#include "editor-gtk/edit/sfc_lines.h"
 #include "editor-gtk/kit/diag_said.h"
-#include "editor-gtk/kit/settings.h"
-#include "editor-gtk/kit/gtk48/tip.h"
 
-#include <adwaita.h>
+#include <math.h>
 #include <string.h>
 
-enum { CURSOR_MOVED, TOLD, ZOOM_CHANGED, BODY_WANTED, SIGNALS };
-static guint signals[SIGNALS];
+G_DEFINE_FINAL_TYPE(LadderSfcView, ladder_sfc_view, LADDER_TYPE_CANVAS)
 
-G_DEFINE_FINAL_TYPE(LadderSfcView, ladder_sfc_view, GTK_TYPE_WIDGET)
+#define NOWHERE ((struct sfc_at){ -1, -1, false })
+#define BELOW   60 /* px of free sheet below the chart                          */
+#define SLACK   6  /* px round a box where a click means it                     */
+#define TIP_SLACK 4
 
-#define ZOOM_LEAST 0.3
-#define ZOOM_MOST  3.0
-
-/* ---- what is shown ---- */
-
-struct pou *chart_pou(LadderSfcView *view)
+static bool is_same(struct sfc_at a, struct sfc_at b)
 {
-	struct project *project = ladder_document_project(view->document);
-
-	return project && view->pou < project->pou_count && project->pou[view->pou].sfc ?
-	       &project->pou[view->pou] : NULL;
+	return a.shape == b.shape && a.use == b.use;
 }
 
-void chart_tell(LadderSfcView *view, const char *text)
+static struct sfc_at at_point(LadderSfcView *view, double x, double y, float slack)
 {
-	g_signal_emit(view, signals[TOLD], 0, text);
-}
+	const graphene_point_t point = canvas_point(LADDER_CANVAS(view), x, y);
 
-bool chart_is_fixed(LadderSfcView *view)
-{
-	if (!ladder_document_is_fixed(view->document))
-		return false;
-	chart_tell(view, _("This is the program before an edit: it can be looked at, not "
-			   "changed"));
-	return true;
-}
-
-void chart_body_wanted(LadderSfcView *view, const struct sfc_body *body)
-{
-	const bool rungs = body->kind == BODY_RUNGS || body->kind == BODY_EXPRESSION;
-
-	g_signal_emit(view, signals[BODY_WANTED], 0, body->first,
-		      rungs ? body->count : 0);
-}
-
-enum sfc_part chart_part(LadderSfcView *view, int *index)
-{
-	const struct sfc_shape *shape;
-
-	*index = -1;
-	if (!view->sheet || view->cursor.shape < 0)
-		return SFC_NOTHING;
-	shape = &view->sheet->layout->shape[view->cursor.shape];
-	*index = shape->index;
-	return shape->part;
-}
-
-graphene_rect_t chart_box(LadderSfcView *view, struct sfc_at at)
-{
-	if (!view->sheet || at.shape < 0)
-		return GRAPHENE_RECT_INIT(SFC_EDGE, SFC_EDGE, 80, SFC_ROW);
-	return at.use >= 0 ? sfc_sheet_use(view->sheet, at.use) :
-			     sfc_sheet_box(view->sheet, at.shape);
-}
-
-double chart_px(LadderSfcView *view, double px)
-{
-	return px / view->zoom;
-}
-
-/* ---- the cursor ---- */
-
-static int size_along(LadderSfcView *view, GtkOrientation orientation)
-{
-	double size = 200;
-
-	if (view->sheet)
-		size = (double)(orientation == GTK_ORIENTATION_HORIZONTAL ?
-				view->sheet->width : view->sheet->height + 60) * view->zoom;
-	return MAX((int)size, 100);
-}
-
-static void reveal_along(GtkAdjustment *adjustment, double from, double to)
-{
-	const double value = gtk_adjustment_get_value(adjustment);
-	const double page = gtk_adjustment_get_page_size(adjustment);
-
-	if (from < value)
-		gtk_adjustment_set_value(adjustment, from);
-	else if (to > value + page)
-		gtk_adjustment_set_value(adjustment, MIN(to - page, from));
-}
-
-/* What scrolls the chart that way, knowing already how large the chart is: it may have
- * grown, and is only given its place when it is drawn. NULL: nothing. */
-static GtkAdjustment *along(LadderSfcView *view, GtkOrientation orientation)
-{
-	GtkWidget *scroller = gtk_widget_get_ancestor(GTK_WIDGET(view),
-						      GTK_TYPE_SCROLLED_WINDOW);
-	GtkAdjustment *adjustment;
-
-	if (!scroller)
-		return NULL;
-	adjustment = orientation == GTK_ORIENTATION_HORIZONTAL ?
-		gtk_scrolled_window_get_hadjustment(GTK_SCROLLED_WINDOW(scroller)) :
-		gtk_scrolled_window_get_vadjustment(GTK_SCROLLED_WINDOW(scroller));
-	gtk_adjustment_set_upper(adjustment, MAX(size_along(view, orientation),
-						 gtk_adjustment_get_page_size(adjustment)));
-	return adjustment;
-}
-
-/* Of the cursor, with some room around it: px of the widget. */
-static graphene_rect_t cursor_box(LadderSfcView *view, float around)
-{
-	graphene_rect_t box = chart_box(view, view->cursor);
-
-	graphene_rect_inset(&box, -around, -around);
-	graphene_rect_scale(&box, (float)view->zoom, (float)view->zoom, &box);
-	return box;
-}
-
-static void reveal(LadderSfcView *view)
-{
-	GtkAdjustment *x = along(view, GTK_ORIENTATION_HORIZONTAL);
-	GtkAdjustment *y = along(view, GTK_ORIENTATION_VERTICAL);
-	const graphene_rect_t box = cursor_box(view, 30);
-
-	if (!x || view->cursor.shape < 0)
-		return;
-	reveal_along(x, (double)box.origin.x, (double)(box.origin.x + box.size.width));
-	reveal_along(y, (double)box.origin.y, (double)(box.origin.y + box.size.height));
-}
-
-/* Is something of the cursor? */
-static bool is_seen(LadderSfcView *view)
-{
-	GtkAdjustment *x = along(view, GTK_ORIENTATION_HORIZONTAL);
-	GtkAdjustment *y = along(view, GTK_ORIENTATION_VERTICAL);
-	const graphene_rect_t box = cursor_box(view, 0);
-
-	if (!x || view->cursor.shape < 0)
-		return false;
-	return graphene_rect_intersection(&box, &GRAPHENE_RECT_INIT(
-		(float)gtk_adjustment_get_value(x), (float)gtk_adjustment_get_value(y),
-		(float)gtk_adjustment_get_page_size(x),
-		(float)gtk_adjustment_get_page_size(y)), NULL);
-}
-
-void chart_moved(LadderSfcView *view)
-{
-	reveal(view);
-	chart_cells_later(view);
-	gtk_widget_queue_draw(GTK_WIDGET(view));
-	g_signal_emit(view, signals[CURSOR_MOVED], 0);
-}
-
-void chart_go(LadderSfcView *view, struct sfc_at at, bool extend)
-{
-	if (!view->sheet)
-		return;
-	if (!extend)
-		memset(view->selected, 0, (size_t)view->sheet->layout->shape_count + 1);
-	else if (view->cursor.shape >= 0)
-		view->selected[view->cursor.shape] = true;
-	view->cursor = at;
-	if (extend && at.shape >= 0)
-		view->selected[at.shape] = true;
-	chart_moved(view);
+	return view->sheet ? sfc_sheet_at(view->sheet, point.x, point.y, slack) : NOWHERE;
 }
 
 /* ---- drawing ---- */
 
-static const struct theme *theme_now(void)
+static graphene_size_t size(LadderCanvas *canvas)
 {
-	AdwStyleManager *manager = adw_style_manager_get_default();
-	const bool dark = adw_style_manager_get_dark(manager);
-	const enum theme_power power = (enum theme_power)settings_enum("power", THEME_GREEN);
+	const struct sfc_sheet *sheet = LADDER_SFC_VIEW(canvas)->sheet;
 
-	if (adw_style_manager_get_high_contrast(manager))
-		return theme_get(dark ? THEME_CONTRAST_DARK : THEME_CONTRAST, power);
-	return theme_get(dark ? THEME_DARK : THEME_LIGHT, power);
+	return sheet ? GRAPHENE_SIZE_INIT(sheet->width, sheet->height + BELOW) :
+		       GRAPHENE_SIZE_INIT(0, 0);
 }
 
 static GArray *all_marks(LadderSfcView *view)
@@ -210,174 +60,114 @@ static GArray *all_marks(LadderSfcView *view)
 
 		g_array_append_val(marks, mark);
 	}
-	if (view->dragging && view->drop.shape >= 0) {
-		struct sfc_mark mark = { view->drop.shape, -1, SFC_DROP };
+	if (view->stroke.drawn && view->stroke.to.shape >= 0) {
+		struct sfc_mark mark = { view->stroke.to.shape, -1, SFC_DROP };
 
 		g_array_append_val(marks, mark);
 	}
 	return marks;
 }
 
-/* Only what is seen is drawn: a chart may be a thousand steps long. */
-static void visible(LadderSfcView *view, float *top, float *bottom)
+/* The way that is drawn with the pointer. */
+static void snapshot_stroke(LadderSfcView *view, GtkSnapshot *snapshot,
+			    const struct theme *theme)
 {
-	GtkWidget *scroller = gtk_widget_get_ancestor(GTK_WIDGET(view),
-						      GTK_TYPE_SCROLLED_WINDOW);
-	GtkAdjustment *down = scroller ? gtk_scrolled_window_get_vadjustment(
-		GTK_SCROLLED_WINDOW(scroller)) : NULL;
+	const struct sfc_stroke *stroke = &view->stroke;
+	const graphene_rect_t box = sfc_box(view, stroke->from);
+	const struct sfc_layout *layout = view->sheet->layout;
+	struct picture picture;
 
-	*top = down ? (float)(gtk_adjustment_get_value(down) / view->zoom) : 0;
-	*bottom = down ? *top + (float)(gtk_adjustment_get_page_size(down) / view->zoom) :
-		  0;
-}
-
-static void snapshot_hint(LadderSfcView *view, GtkSnapshot *snapshot,
-			  const struct theme *theme)
-{
-	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(view),
-		_("Press Ins: a step, and below it a transition and the next one.\n"
-		  "F6 another branch, F7 a branch beside it, F8 leads to a step.\n"
-		  "Type a name at a step, a condition at a transition."));
-
-	pango_layout_set_spacing(layout, 6 * PANGO_SCALE);
-	gtk_snapshot_save(snapshot);
-	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(SFC_EDGE, SFC_EDGE));
-	gtk_snapshot_append_layout(snapshot, layout, &theme->color[TOKEN_COMMENT]);
-	gtk_snapshot_restore(snapshot);
-	g_object_unref(layout);
+	picture_init(&picture);
+	picture_line(&picture, TOKEN_ACCENT, STROKE_DASHED, 2,
+		     view->sheet->lane[layout->shape[stroke->from.shape].lane].x,
+		     box.origin.y + box.size.height, stroke->at.x, stroke->at.y);
+	picture_disc(&picture, TOKEN_ACCENT, 1, stroke->at.x, stroke->at.y, 4);
+	picture_snapshot(&picture, theme, view->canvas->lettering, snapshot);
+	picture_clear(&picture);
 }
 
 static void snapshot_chart(LadderSfcView *view, GtkSnapshot *snapshot,
 			   const struct theme *theme)
 {
+	const graphene_rect_t page = canvas_page(LADDER_CANVAS(view));
 	GArray *marks = all_marks(view);
 	struct sfc_live live;
-	struct sfc_scene scene = { .sheet = view->sheet, .theme = theme,
-				   .mark = (const struct sfc_mark *)marks->data,
-				   .mark_count = (int)marks->len };
+	struct sfc_scene scene = {
+		.sheet = view->sheet, .theme = theme,
+		.mark = (const struct sfc_mark *)(void *)marks->data,
+		.mark_count = (int)marks->len,
+		.top = page.origin.y, .bottom = page.origin.y + page.size.height,
+	};
 	GskRenderNode *node;
 
-	if (chart_live_look(view, &live))
+	if (sfc_live_look(view, &live))
 		scene.live = &live;
-	visible(view, &scene.top, &scene.bottom);
-	gtk_snapshot_save(snapshot);
-	gtk_snapshot_scale(snapshot, (float)view->zoom, (float)view->zoom);
 	node = sfc_draw_node(&scene);
 	if (node) {
 		gtk_snapshot_append_node(snapshot, node);
 		gsk_render_node_unref(node);
 	}
-	chart_drag_snapshot(view, snapshot, theme);
-	gtk_snapshot_restore(snapshot);
+	if (view->stroke.drawn)
+		snapshot_stroke(view, snapshot, theme);
 	g_array_unref(marks);
 }
 
-static void ladder_sfc_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
+static void paint(LadderCanvas *canvas, GtkSnapshot *snapshot, const struct theme *theme)
 {
-	LadderSfcView *view = LADDER_SFC_VIEW(widget);
-	const struct theme *theme = theme_now();
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	const graphene_rect_t origin = canvas_rect(canvas, GRAPHENE_RECT_INIT(0, 0, 0, 0));
 
-	gtk_snapshot_append_color(snapshot, &theme->color[TOKEN_SHEET],
-		&GRAPHENE_RECT_INIT(0, 0, (float)gtk_widget_get_width(widget),
-				    (float)gtk_widget_get_height(widget)));
-	lettering_trim(view->lettering);
-	if (view->sheet && view->sheet->layout->shape_count)
-		snapshot_chart(view, snapshot, theme);
-	else if (view->sheet)
-		snapshot_hint(view, snapshot, theme);
-}
-
-static void ladder_sfc_view_measure(GtkWidget *widget, GtkOrientation orientation,
-				    int for_size, int *least, int *natural, int *least_base,
-				    int *natural_base)
-{
-	(void)for_size;
-	*least = *natural = size_along(LADDER_SFC_VIEW(widget), orientation);
-	*least_base = *natural_base = -1;
-}
-
-static void ladder_sfc_view_size_allocate(GtkWidget *widget, int width, int height,
-					  int baseline)
-{
-	GtkWidget *child = gtk_widget_get_first_child(widget);
-
-	(void)width;
-	(void)height;
-	(void)baseline;
-	chart_cells_allocate(LADDER_SFC_VIEW(widget));
-	for (; child; child = gtk_widget_get_next_sibling(child))
-		if (GTK_IS_POPOVER(child))
-			gtk_popover_present(GTK_POPOVER(child));
-}
-
-/* ---- what is heard of the document ---- */
-
-static void forget_sheet(LadderSfcView *view)
-{
-	chart_entry_close(view);
-	chart_forget_uses(view);
-	chart_live_forget(view);
-	g_array_set_size(view->marks, 0);
-	view->found.shape = -1;
-	g_clear_pointer(&view->sheet, sfc_sheet_free);
-	g_clear_pointer(&view->selected, g_free);
-}
-
-static void make_sheet(LadderSfcView *view)
-{
-	const struct pou *pou = chart_pou(view);
-
-	forget_sheet(view);
-	view->of = ladder_document_ladder(view->document);
-	view->dragging = false;
-	if (pou) {
-		view->sheet = sfc_sheet_new(ladder_document_project(view->document), pou,
-					    view->lettering);
-		view->selected = g_new0(bool, view->sheet->layout->shape_count + 1);
+	if (!view->sheet)
+		return;
+	if (!view->sheet->layout->shape_count) {
+		canvas_snapshot_hint(canvas, snapshot, theme,
+			_("Press Ins: a step, and below it a transition and the next one.\n"
+			  "F6 another branch, F7 a branch beside it, F8 leads to a step.\n"
+			  "Type a name at a step, a condition at a transition."),
+			GRAPHENE_POINT_INIT(SFC_EDGE, SFC_EDGE));
+		return;
 	}
-	if (!view->sheet || view->cursor.shape >= view->sheet->layout->shape_count)
-		view->cursor = (struct sfc_at){ view->sheet ?
-			view->sheet->layout->shape_count - 1 : -1, -1, false };
-	if (view->sheet && view->cursor.shape < 0 && view->sheet->layout->shape_count)
-		view->cursor.shape = 0;
-	if (view->cursor.use >= (pou ? pou->sfc->use_count : 0) ||
-	    (view->cursor.use >= 0 &&
-	     pou->sfc->use[view->cursor.use].step != view->cursor.shape))
-		view->cursor.use = -1;
-	gtk_widget_queue_resize(GTK_WIDGET(view));
-	chart_moved(view);
+	gtk_snapshot_save(snapshot);
+	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(roundf(origin.origin.x),
+							      roundf(origin.origin.y)));
+	gtk_snapshot_scale(snapshot, (float)view->canvas->zoom, (float)view->canvas->zoom);
+	snapshot_chart(view, snapshot, theme);
+	gtk_snapshot_restore(snapshot);
 }
 
-void chart_fresh(LadderSfcView *view)
+/* ---- the document and the simulation ---- */
+
+static void project_changed(LadderCanvas *canvas)
 {
-	if (view->of != ladder_document_ladder(view->document))
-		make_sheet(view);
+	sfc_make_sheet(LADDER_SFC_VIEW(canvas));
 }
 
-static void rungs_changed(LadderSfcView *view, int pou)
+static void rungs_changed(LadderCanvas *canvas, int pou, int at, int removed, int inserted)
 {
-	if (pou == view->pou)
-		make_sheet(view);
-	else
-		chart_forget_uses(view);
+	(void)at;
+	(void)removed;
+	(void)inserted;
+	if (pou == canvas_state(canvas)->pou)
+		sfc_make_sheet(LADDER_SFC_VIEW(canvas));
 }
 
-/* The chart that the checks saw: rungs may have been edited since this one was read, so
- * that lines are others. NULL: not known. */
+/* The chart as it was checked: edits of rungs may have moved lines since. NULL: not
+ * known. */
 static const struct sfc *checked_chart(LadderSfcView *view)
 {
-	struct ladder *ladder = ladder_document_checked(view->document);
+	struct ladder *ladder = ladder_document_checked(view->canvas->document);
 	const struct project *project = ladder ? ladder_project(ladder) : NULL;
 
-	return project && view->pou < project->pou_count ? project->pou[view->pou].sfc :
+	return project && view->canvas->pou < project->pou_count ? project->pou[view->canvas->pou].sfc :
 	       NULL;
 }
 
-static void checked(LadderSfcView *view)
+static void checked(LadderCanvas *canvas)
 {
-	const struct diag_list *diags = ladder_document_diags(view->document);
-	const struct pou *pou = chart_pou(view);
-	const struct project *project = ladder_document_project(view->document);
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	const struct diag_list *diags = ladder_document_diags(view->canvas->document);
+	const struct pou *pou = sfc_pou(view);
+	const struct project *project = ladder_document_project(view->canvas->document);
 
 	g_array_set_size(view->marks, 0);
 	for (int i = 0; pou && view->sheet && i < diags->count; i++) {
@@ -395,24 +185,114 @@ static void checked(LadderSfcView *view)
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
-static void listen(LadderSfcView *view)
+static void values_changed(LadderCanvas *canvas)
 {
-	view->handler[0] = g_signal_connect_swapped(view->document, "rungs-changed",
-		G_CALLBACK(rungs_changed), view);
-	view->handler[1] = g_signal_connect_swapped(view->document, "project-changed",
-		G_CALLBACK(make_sheet), view);
-	view->handler[2] = g_signal_connect_swapped(view->document, "variable-changed",
-		G_CALLBACK(chart_forget_uses), view);
-	view->handler[3] = g_signal_connect_swapped(view->document, "checked",
-		G_CALLBACK(checked), view);
+	gtk_widget_queue_draw(GTK_WIDGET(canvas));
+	canvas_cells_later(canvas);
 }
 
-/* ---- what is told of a place ---- */
-
-char *ladder_sfc_view_tip(LadderSfcView *view, int shape, int use)
+static void program_changed(LadderCanvas *canvas)
 {
-	const struct diag_list *diags = ladder_document_diags(view->document);
-	const struct pou *pou = chart_pou(view);
+	sfc_forget_places(LADDER_SFC_VIEW(canvas));
+	values_changed(canvas);
+}
+
+/* ---- names and tips ---- */
+
+static void add_names(GString *text, const struct project *project, const struct sfc *sfc,
+		      int first, int count)
+{
+	for (int i = 0; i < count; i++)
+		g_string_append_printf(text, "%s%s", i ? ", " : "",
+				       project_text(project, sfc->ref[first + i].name));
+}
+
+static void say_step(LadderSfcView *view, GString *text, int index, bool live)
+{
+	const struct sfc *sfc = view->sheet->layout->sfc;
+
+	g_string_append_printf(text, _("Step %s"), view->sheet->name[index]);
+	if (sfc->step[index].kind == STEP_INITIAL)
+		g_string_append_printf(text, ", %s", _("initial"));
+	if (sfc->step[index].kind == STEP_MACRO)
+		g_string_append_printf(text, ", %s", _("macro-step"));
+	if (view->sheet->times[index][0])
+		g_string_append_printf(text, ", %s", view->sheet->times[index]);
+	if (live && canvas_is_live(LADDER_CANVAS(view)) && view->places.step &&
+	    view->places.step[index] & SFC_ACTIVE)
+		g_string_append_printf(text, ", %s", _("active"));
+}
+
+static void say_transition(LadderSfcView *view, GString *text, int index)
+{
+	const struct sfc *sfc = view->sheet->layout->sfc;
+	const struct sfc_transition *t = &sfc->transition[index];
+	GString *from = g_string_new(NULL), *to = g_string_new(NULL);
+
+	add_names(from, view->sheet->project, sfc, t->first_from, t->from_count);
+	add_names(to, view->sheet->project, sfc, t->first_to, t->to_count);
+	g_string_append_printf(text, _("Transition %d, from %s to %s, condition %s"),
+			       index + 1, from->str, to->str,
+			       view->sheet->name[sfc->step_count + index]);
+	g_string_free(from, TRUE);
+	g_string_free(to, TRUE);
+}
+
+/* @live: with its state in the program that runs. */
+static char *name_of(LadderSfcView *view, struct sfc_at at, bool live)
+{
+	const struct sfc_shape *shape = &view->sheet->layout->shape[at.shape];
+	const char *comment = at.use >= 0 ? view->sheet->use_comment[at.use] :
+			      view->sheet->comment[at.shape];
+	GString *text = g_string_new(NULL);
+
+	if (at.use >= 0)
+		g_string_append_printf(text, _("%s does: %s %s"),
+				       view->sheet->name[at.shape],
+				       view->sheet->what[at.use],
+				       view->sheet->does[at.use]);
+	else if (shape->part == SFC_STEP)
+		say_step(view, text, shape->index, live);
+	else if (shape->part == SFC_TRANSITION)
+		say_transition(view, text, shape->index);
+	else
+		g_string_append_printf(text, _("Jump to %s"), view->sheet->name[at.shape]);
+	if (*comment)
+		g_string_append_printf(text, ", %s", comment);
+	return g_string_free(text, FALSE);
+}
+
+static char *cursor_name(LadderCanvas *canvas, bool values)
+{
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	const struct sfc_at at = view->cursor;
+	char *name, *text;
+
+	if (!view->sheet || at.shape < 0)
+		return NULL;
+	name = name_of(view, at, values);
+	if (values)
+		return name;
+	text = g_strdup_printf("%d %d %s", at.shape, at.use, name);
+	g_free(name);
+	return text;
+}
+
+static char *place(LadderCanvas *canvas)
+{
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	char *name;
+
+	sfc_fresh(view);
+	name = cursor_name(canvas, true);
+	return name ? name : g_strdup("");
+}
+
+/* Its comment, and what is wrong with it; NULL: nothing. Caller frees. */
+static char *tip_of(LadderSfcView *view, int shape, int use)
+{
+	const struct diag_list *diags = ladder_document_diags(view->canvas->document);
+	const struct pou *pou = sfc_pou(view);
 	const char *comment = !view->sheet ? "" : use >= 0 ? view->sheet->use_comment[use] :
 			      view->sheet->comment[shape];
 	GString *text = g_string_new(comment);
@@ -437,75 +317,566 @@ char *ladder_sfc_view_tip(LadderSfcView *view, int shape, int use)
 	return g_string_free(text, text->len == 0);
 }
 
-static gboolean tip_wanted(GtkWidget *widget, int x, int y, gboolean by_keys,
-			   GtkTooltip *tooltip)
+static char *tip(LadderCanvas *canvas, int x, int y, bool by_keys)
 {
-	LadderSfcView *view = LADDER_SFC_VIEW(widget);
-	struct sfc_at at = view->cursor;
-	gboolean told;
-	char *text;
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	const struct sfc_at at = by_keys ? view->cursor : at_point(view, x, y, TIP_SLACK);
 
-	if (!view->sheet || view->entry)
-		return FALSE;
-	if (!by_keys)
-		at = sfc_sheet_at(view->sheet, (float)chart_px(view, x),
-				  (float)chart_px(view, y), 4);
+	return view->sheet && at.shape >= 0 ? tip_of(view, at.shape, at.use) : NULL;
+}
+
+static char *next_keys(LadderCanvas *canvas)
+{
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	static const enum verb verbs[][4] = {
+		[SFC_NOTHING] = { VERB_step_below, VERB_paste, VERB_COUNT, VERB_COUNT },
+		[SFC_STEP] = { VERB_step_below, VERB_step_branch, VERB_lead_to,
+			       VERB_step_does },
+		[SFC_TRANSITION] = { VERB_enter, VERB_step_parallel, VERB_wait_for,
+				     VERB_as_rung },
+		[SFC_JUMP] = { VERB_enter, VERB_step_below, VERB_delete, VERB_COUNT },
+	};
+	GString *text = g_string_new(NULL);
+	enum sfc_part part;
+	int index;
+
+	sfc_fresh(view);
+	part = sfc_part_at_cursor(view, &index);
+	for (int i = 0; i < 4 && verbs[part][i] != VERB_COUNT; i++)
+		verb_tell(text, verbs[part][i]);
+	return g_string_free(text, FALSE);
+}
+
+/* ---- accessible children ---- */
+
+/* They may be older than the chart. */
+static bool is_there(LadderSfcView *view, struct sfc_at at)
+{
+	return view->sheet && at.shape < view->sheet->layout->shape_count &&
+	       at.use < view->sheet->layout->sfc->use_count;
+}
+
+static struct sfc_at at_spot(struct canvas_spot spot)
+{
+	return (struct sfc_at){ spot.number, spot.row, false };
+}
+
+static void add_cell(LadderSfcView *view, int shape, int use)
+{
+	const struct sfc_at at = { shape, use, false };
+
+	canvas_add_cell(LADDER_CANVAS(view), (struct canvas_spot){ shape, use, 0 },
+			is_same(at, view->cursor));
+}
+
+static void list_cells(LadderCanvas *canvas)
+{
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	const graphene_rect_t page = canvas_page(canvas);
+	const struct sfc_layout *layout;
+	struct sfc_live now;
+
+	sfc_fresh(view);
+	sfc_live_look(view, &now); /* names have the values that are shown now */
+	layout = view->sheet ? view->sheet->layout : NULL;
+	for (int i = 0; layout && i < layout->shape_count; i++) {
+		const struct sfc_shape *shape = &layout->shape[i];
+		const graphene_rect_t box = sfc_sheet_box(view->sheet, i);
+
+		if (!graphene_rect_intersection(&page, &box, NULL))
+			continue;
+		add_cell(view, i, -1);
+		for (int u = 0; shape->part == SFC_STEP &&
+		     u < layout->sfc->step[shape->index].use_count; u++)
+			add_cell(view, i, layout->sfc->step[shape->index].first_use + u);
+	}
+}
+
+static char *cell_name(LadderCanvas *canvas, struct canvas_spot spot)
+{
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+
+	return is_there(view, at_spot(spot)) ? name_of(view, at_spot(spot), true) : NULL;
+}
+
+static bool cell_box(LadderCanvas *canvas, struct canvas_spot spot, graphene_rect_t *box)
+{
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+
+	if (!is_there(view, at_spot(spot)))
+		return false;
+	*box = sfc_box(view, at_spot(spot));
+	return true;
+}
+
+static void go_to_cell(LadderCanvas *canvas, struct canvas_spot spot)
+{
+	sfc_go(LADDER_SFC_VIEW(canvas), at_spot(spot), false);
+}
+
+static graphene_rect_t cursor_box(LadderCanvas *canvas)
+{
+	return sfc_box(LADDER_SFC_VIEW(canvas), LADDER_SFC_VIEW(canvas)->cursor);
+}
+
+static void reveal(LadderCanvas *canvas)
+{
+	sfc_reveal(LADDER_SFC_VIEW(canvas));
+}
+
+/* ---- keys: the cursor goes to the nearest box in the direction of the arrow ---- */
+
+#define ASIDE 2.5f /* a px aside counts as so many ahead                       */
+
+/* The point from which arrows measure: on the lane of a box, in the middle of a line
+ * of a step. */
+static graphene_point_t anchor_of(LadderSfcView *view, struct sfc_at at)
+{
+	const graphene_rect_t box = sfc_box(view, at);
+	graphene_point_t point = { box.origin.x + box.size.width / 2,
+				   box.origin.y + box.size.height / 2 };
+
+	if (at.shape >= 0 && at.use < 0)
+		point.x = view->sheet->lane[view->sheet->layout->shape[at.shape].lane].x;
+	return point;
+}
+
+/* Distance of a place in a direction; INFINITY: it lies elsewhere. */
+static float way_to_place(const graphene_point_t *from, const graphene_point_t *to, int dx,
+			  int dy)
+{
+	const float ahead = dx ? (to->x - from->x) * (float)dx :
+				 (to->y - from->y) * (float)dy;
+	const float aside = dx ? fabsf(to->y - from->y) : fabsf(to->x - from->x);
+
+	return ahead > 4 ? ahead + ASIDE * aside : INFINITY;
+}
+
+static void try_place(LadderSfcView *view, struct sfc_at at, const graphene_point_t *from,
+		      int dx, int dy, float *least, struct sfc_at *best)
+{
+	const graphene_point_t to = anchor_of(view, at);
+	const float far = way_to_place(from, &to, dx, dy);
+
+	if (at.shape == view->cursor.shape && at.use == view->cursor.use)
+		return;
+	if (far < *least) {
+		*least = far;
+		*best = at;
+	}
+}
+
+static void go(LadderSfcView *view, int dx, int dy, bool extend)
+{
+	const struct sfc_layout *layout = view->sheet->layout;
+	const graphene_point_t from = anchor_of(view, view->cursor);
+	struct sfc_at best = view->cursor;
+	float least = INFINITY;
+
+	for (int i = 0; i < layout->shape_count; i++) {
+		const struct sfc_shape *shape = &layout->shape[i];
+
+		/* From a line of a step one goes to its lines, and aside. */
+		try_place(view, (struct sfc_at){ i, -1, false }, &from, dx, dy, &least,
+			  &best);
+		for (int u = 0; !extend && shape->part == SFC_STEP &&
+		     u < layout->sfc->step[shape->index].use_count; u++) {
+			if (dy && view->cursor.use < 0)
+				continue; /* down the lane, not into the table */
+			try_place(view, (struct sfc_at){ i,
+				layout->sfc->step[shape->index].first_use + u, false },
+				&from, dx, dy, &least, &best);
+		}
+	}
+	if (best.shape >= 0)
+		sfc_go(view, best, extend);
+}
+
+/* False: nothing was selected; the window gets the key. */
+static bool unselect(LadderSfcView *view)
+{
+	bool any = false;
+
+	for (int i = 0; i < view->sheet->layout->shape_count; i++)
+		any = any || view->selected[i];
+	sfc_go(view, view->cursor, false);
+	return any;
+}
+
+static bool move_by_key(LadderCanvas *canvas, guint key, GdkModifierType state)
+{
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	const bool extend = state & GDK_SHIFT_MASK;
+	const int last = view->sheet ? view->sheet->layout->shape_count - 1 : -1;
+
+	if (last < 0 || state & (GDK_CONTROL_MASK | GDK_ALT_MASK))
+		return false;
+	switch (key) {
+	case GDK_KEY_Up: case GDK_KEY_KP_Up: go(view, 0, -1, extend); return true;
+	case GDK_KEY_Down: case GDK_KEY_KP_Down: go(view, 0, 1, extend); return true;
+	case GDK_KEY_Left: case GDK_KEY_KP_Left: go(view, -1, 0, extend); return true;
+	case GDK_KEY_Right: case GDK_KEY_KP_Right: go(view, 1, 0, extend); return true;
+	case GDK_KEY_Home: sfc_go(view, (struct sfc_at){ 0, -1, false }, false); return true;
+	case GDK_KEY_End:
+		sfc_go(view, (struct sfc_at){ view->sheet->layout->sfc->step_count > 0 ?
+			view->sheet->layout->sfc->step_count - 1 : last, -1, false }, false);
+		return true;
+	case GDK_KEY_Escape: return unselect(view);
+	default: return false;
+	}
+}
+
+static bool begins_entry(LadderCanvas *canvas, gunichar c)
+{
+	return LADDER_SFC_VIEW(canvas)->sheet &&
+	       (g_unichar_isalnum(c) || c == '%' || c == '_' || c == '(');
+}
+
+static void type(LadderCanvas *canvas, const char *text)
+{
+	if (LADDER_SFC_VIEW(canvas)->sheet)
+		sfc_ask_here(LADDER_SFC_VIEW(canvas), text);
+}
+
+/* ---- the pointer: a way is drawn from a step or transition to another one ---- */
+
+static void press(LadderCanvas *canvas, double x, double y, int count, GdkModifierType state)
+{
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	const struct sfc_at at = at_point(view, x, y, SLACK);
+
+	view->stroke = (struct sfc_stroke){ at, NOWHERE, false, { 0, 0 } };
 	if (at.shape < 0)
-		return FALSE;
-	text = ladder_sfc_view_tip(view, at.shape, at.use);
-	told = tip_show(tooltip, text);
-	g_free(text);
-	return told;
+		return;
+	sfc_go(view, at, state & GDK_SHIFT_MASK);
+	if (count == 2)
+		sfc_ask_here(view, NULL);
 }
 
-char *ladder_sfc_view_place(LadderSfcView *view)
+static bool can_drag(LadderCanvas *canvas)
 {
-	chart_fresh(view);
-	return view->cursor.shape < 0 || !view->sheet ? g_strdup("") : chart_said(view, view->cursor);
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	const struct sfc_at from = view->stroke.from;
+
+	return view->sheet && from.shape >= 0 && from.use < 0 &&
+	       view->sheet->layout->shape[from.shape].part != SFC_JUMP;
 }
 
-/* ---- from outside ---- */
-
-int ladder_sfc_view_pou(LadderSfcView *view)
+static bool drag(LadderCanvas *canvas, double x, double y, GdkModifierType state)
 {
-	return view->pou;
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	struct sfc_stroke *stroke = &view->stroke;
+
+	(void)state;
+	if (!can_drag(canvas)) /* the chart changed meanwhile */
+		return false;
+	stroke->drawn = true;
+	stroke->at = canvas_point(canvas, x, y);
+	stroke->to = at_point(view, x, y, SLACK);
+	if (stroke->to.shape == stroke->from.shape)
+		stroke->to.shape = -1;
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+	return true;
 }
 
-void ladder_sfc_view_set_pou(LadderSfcView *view, int pou)
+static void drag_end(LadderCanvas *canvas, bool cancelled)
 {
-	view->pou = pou;
-	make_sheet(view);
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	const struct sfc_stroke stroke = view->stroke;
+
+	if (!stroke.drawn)
+		return;
+	view->stroke.drawn = false;
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+	if (!cancelled && stroke.to.shape >= 0)
+		sfc_lead(view, stroke.from, stroke.to);
+}
+
+/* ---- the menu ---- */
+
+static const enum verb menu_parts[][9] = {
+	{ VERB_enter, VERB_step_does, VERB_as_rung, VERB_COUNT },
+	{ VERB_step_below, VERB_step_branch, VERB_step_parallel, VERB_lead_to,
+		  VERB_wait_for, VERB_branch_left, VERB_branch_right, VERB_COUNT },
+	{ VERB_step_kind, VERB_step_times, VERB_way_name, VERB_way_priority,
+		  VERB_chart_comment, VERB_macro_make, VERB_macro_open, VERB_COUNT },
+	{ VERB_rename, VERB_show_uses, VERB_watch_add, VERB_force, VERB_COUNT },
+	{ VERB_cut, VERB_copy, VERB_paste, VERB_delete, VERB_COUNT },
+};
+
+/* Is there another branch beside it? */
+static bool has_neighbour(LadderSfcView *view, enum sfc_part part, int index)
+{
+	const struct sfc *sfc = view->sheet->layout->sfc;
+	int step = part == SFC_STEP ? index : -1, ways = 0, from = -1;
+
+	for (int i = 0; i < sfc->transition_count; i++) {
+		const struct sfc_transition *t = &sfc->transition[i];
+		bool leads = part == SFC_TRANSITION && i == index;
+
+		for (int k = t->first_to; step >= 0 && k < t->first_to + t->to_count; k++)
+			leads |= sfc->ref[k].step == step;
+		if (leads && step >= 0 && t->to_count > 1)
+			return true;
+		if (leads && t->from_count > 0)
+			from = sfc->ref[t->first_from].step;
+	}
+	for (int i = 0; from >= 0 && i < sfc->transition_count; i++)
+		for (int k = 0; k < sfc->transition[i].from_count; k++)
+			ways += sfc->ref[sfc->transition[i].first_from + k].step == from;
+	return ways > 1;
+}
+
+/* Does the verb apply to the thing at the cursor? */
+static bool applies(LadderSfcView *view, enum verb verb)
+{
+	int index;
+	const enum sfc_part part = sfc_part_at_cursor(view, &index);
+
+	switch ((int)verb) {
+	case VERB_branch_left: case VERB_branch_right:
+		return has_neighbour(view, part, index);
+	case VERB_step_does: case VERB_step_kind: case VERB_step_times: case VERB_macro_make:
+	case VERB_step_branch:
+		return part == SFC_STEP && view->cursor.use < 0;
+	case VERB_wait_for: case VERB_way_name: case VERB_way_priority:
+		return part == SFC_TRANSITION;
+	case VERB_macro_open:
+		return sfc_macro_here(view) >= 0;
+	case VERB_as_rung:
+		return part == SFC_TRANSITION || view->cursor.use >= 0;
+	case VERB_chart_comment:
+		return part == SFC_STEP || part == SFC_TRANSITION;
+	case VERB_force:
+		return part == SFC_STEP && canvas_is_live(LADDER_CANVAS(view));
+	default:
+		return true;
+	}
+}
+
+static GMenu *make_menu(LadderCanvas *canvas)
+{
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+	GMenu *menu = g_menu_new();
+
+	for (gsize i = 0; i < G_N_ELEMENTS(menu_parts); i++) {
+		GMenu *part = g_menu_new();
+
+		for (const enum verb *verb = menu_parts[i]; *verb != VERB_COUNT; verb++)
+			if (applies(view, *verb))
+				g_menu_append(part, _(verb_row(*verb)->label),
+					      verb_row(*verb)->action);
+		g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
+		g_object_unref(part);
+	}
+	return menu;
+}
+
+/* ---- verbs ---- */
+
+static void select_all(LadderSfcView *view)
+{
+	if (!view->sheet)
+		return;
+	for (int i = 0; i < view->sheet->layout->shape_count; i++)
+		view->selected[i] = true;
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+static bool changes(enum verb verb)
+{
+	return verb != VERB_copy && verb != VERB_select_all && verb != VERB_go_rung &&
+	       verb != VERB_enter;
+}
+
+static void do_verb(LadderCanvas *canvas, enum verb verb)
+{
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
+
+	sfc_fresh(view);
+	if (!view->sheet || (changes(verb) && canvas_is_fixed(canvas)) ||
+	    sfc_edit_do(view, verb))
+		return;
+	switch ((int)verb) {
+	case VERB_lead_to: sfc_ask_for(view, ASK_LEAD, NULL); break;
+	case VERB_wait_for: sfc_ask_for(view, ASK_WAIT, NULL); break;
+	case VERB_step_does: sfc_ask_for(view, ASK_ANOTHER, NULL); break;
+	case VERB_step_times: sfc_ask_for(view, ASK_TIMES, NULL); break;
+	case VERB_way_name: sfc_ask_for(view, ASK_NAME, NULL); break;
+	case VERB_way_priority: sfc_ask_for(view, ASK_PRIORITY, NULL); break;
+	case VERB_chart_comment: sfc_ask_for(view, ASK_COMMENT, NULL); break;
+	case VERB_go_rung: sfc_ask_for(view, ASK_GO, NULL); break;
+	case VERB_enter: sfc_ask_here(view, NULL); break;
+	case VERB_select_all: select_all(view); break;
+	case VERB_context_menu: canvas_show_menu(canvas); break;
+	case VERB_force: sfc_live_force(view); break;
+	default: break;
+	}
+}
+
+bool ladder_sfc_view_why(LadderSfcView *view)
+{
+	int index;
+
+	sfc_fresh(view);
+	if (sfc_part_at_cursor(view, &index) != SFC_TRANSITION ||
+	    sfc_pou(view)->sfc->transition[index].condition.kind == BODY_NONE)
+		return false;
+	sfc_want_body(view, &sfc_pou(view)->sfc->transition[index].condition);
+	return true;
 }
 
 void ladder_sfc_view_go(LadderSfcView *view, int rung)
 {
-	const struct diag place = { .rung = rung + 1 };
-	struct sfc_at at = { -1, -1, false };
+	const struct diag diag = { .rung = rung + 1 };
+	struct sfc_at at = NOWHERE;
 
-	chart_fresh(view);
-	if (view->sheet && sfc_sheet_of_diag(view->sheet, NULL, &place, &at.shape, &at.use))
-		chart_go(view, at, false);
+	sfc_fresh(view);
+	if (view->sheet && sfc_sheet_of_diag(view->sheet, NULL, &diag, &at.shape, &at.use))
+		sfc_go(view, at, false);
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 }
 
-double ladder_sfc_view_zoom(LadderSfcView *view)
+/* ---- lines ---- */
+
+static int line_of(LadderSfcView *view, struct sfc_at at)
 {
-	return view->zoom;
+	const struct sfc_shape *shape = &view->sheet->layout->shape[at.shape];
+	struct sfc_spot spot = { SPOT_NONE, shape->index };
+
+	if (at.use >= 0)
+		spot = (struct sfc_spot){ SPOT_USE, at.use };
+	else if (shape->part == SFC_STEP)
+		spot.kind = SPOT_STEP;
+	else if (shape->part == SFC_TRANSITION)
+		spot.kind = SPOT_TRANSITION;
+	return sfc_line_of(view->sheet->project, view->sheet->layout->sfc, spot);
 }
 
-void ladder_sfc_view_set_zoom(LadderSfcView *view, double zoom)
+/* A line of an action is shown at the first step that calls it. */
+static struct sfc_at called_first(const struct sfc *sfc, int action)
 {
-	const bool seen = is_seen(view);
+	for (int i = 0; i < sfc->use_count; i++)
+		if (sfc->use[i].action == action)
+			return (struct sfc_at){ sfc->use[i].step, i, false };
+	return NOWHERE;
+}
 
-	zoom = CLAMP(zoom, ZOOM_LEAST, ZOOM_MOST);
-	if (zoom == view->zoom)
-		return;
-	view->zoom = zoom;
-	gtk_widget_queue_resize(GTK_WIDGET(view));
-	if (seen)
-		reveal(view);
+static struct sfc_at at_line(LadderSfcView *view, int line)
+{
+	const struct sfc *sfc = view->sheet->layout->sfc;
+	const struct sfc_spot spot = sfc_spot_at(view->sheet->project, sfc, line);
+
+	switch (spot.kind) {
+	case SPOT_STEP:
+		return (struct sfc_at){ spot.index, -1, false };
+	case SPOT_TRANSITION:
+		return (struct sfc_at){ sfc->step_count + spot.index, -1, false };
+	case SPOT_USE:
+		return (struct sfc_at){ sfc->use[spot.index].step, spot.index, false };
+	case SPOT_ACTION:
+		return called_first(sfc, spot.index);
+	case SPOT_CONTROL:
+	case SPOT_NONE:
+		break;
+	}
+	return NOWHERE;
+}
+
+void ladder_sfc_view_go_row(LadderSfcView *view, int row)
+{
+	struct sfc_at at;
+
+	sfc_fresh(view);
+	if (view->sheet) {
+		at = at_line(view, sfc_pou(view)->line + row);
+		if (at.shape >= 0)
+			sfc_go(view, at, false);
+	}
+	gtk_widget_grab_focus(GTK_WIDGET(view));
+}
+
+int ladder_sfc_view_row(LadderSfcView *view)
+{
+	sfc_fresh(view);
+	return view->sheet && view->cursor.shape >= 0 ?
+	       MAX(line_of(view, view->cursor) - sfc_pou(view)->line, -1) : -1;
+}
+
+bool ladder_sfc_view_is_at(LadderSfcView *view, int row)
+{
+	struct sfc_at at;
+
+	sfc_fresh(view);
+	if (!view->sheet)
+		return false;
+	at = at_line(view, sfc_pou(view)->line + row);
+	return at.shape < 0 || (at.shape == view->cursor.shape &&
+				at.use == view->cursor.use);
+}
+
+/* ---- what find has come to ---- */
+
+void ladder_sfc_view_set_found(LadderSfcView *view, int row)
+{
+	sfc_fresh(view);
+	view->found = NOWHERE;
+	if (view->sheet && row >= 0)
+		view->found = at_line(view, sfc_pou(view)->line + row);
 	gtk_widget_queue_draw(GTK_WIDGET(view));
-	g_signal_emit(view, signals[ZOOM_CHANGED], 0);
+}
+
+/* ---- the name at the cursor ---- */
+
+/* The first name of a condition's rung, but for the coil of the condition itself. */
+static const struct xref_use *name_in(const struct xref *xref, int pou,
+				      const struct sfc_body *body)
+{
+	for (int i = 0; i < xref->count; i++) {
+		const struct xref_use *use = &xref->use[i];
+
+		if (use->pou == pou && use->slot && use->rung > body->first &&
+		    use->rung <= body->first + body->count &&
+		    strcmp(project_text(xref->project, *use->slot), SFC_CONDITION) != 0)
+			return use;
+	}
+	return NULL;
+}
+
+static const struct xref_use *of_slot(const struct xref *xref, const uint32_t *slot)
+{
+	for (int i = 0; i < xref->count; i++)
+		if (xref->use[i].slot == slot)
+			return &xref->use[i];
+	return NULL;
+}
+
+const struct xref_use *ladder_sfc_view_use(LadderSfcView *view, const struct xref *xref)
+{
+	const struct sfc *sfc;
+	const struct sfc_body *body;
+	const struct xref_use *use = NULL;
+	enum sfc_part part;
+	int index;
+
+	sfc_fresh(view);
+	part = sfc_part_at_cursor(view, &index);
+	if (part == SFC_NOTHING)
+		return NULL;
+	sfc = view->sheet->layout->sfc;
+	if (view->cursor.use >= 0)
+		return of_slot(xref, &sfc->use[view->cursor.use].operand);
+	if (part == SFC_JUMP) {
+		const struct sfc_jump *jump = &view->sheet->layout->jump[index];
+
+		return of_slot(xref, &sfc->ref[jump->ref].name);
+	}
+	if (part == SFC_STEP)
+		return of_slot(xref, &sfc->step[index].name);
+	body = &sfc->transition[index].condition;
+	if (body->kind == BODY_EXPRESSION || body->kind == BODY_RUNGS)
+		use = name_in(xref, view->canvas->pou, body);
+	return use ? use : of_slot(xref, &sfc->transition[index].name);
 }
 
 /* ---- life ---- */
@@ -514,14 +885,9 @@ static void ladder_sfc_view_dispose(GObject *object)
 {
 	LadderSfcView *view = LADDER_SFC_VIEW(object);
 
-	chart_live_clear(view);
-	chart_cells_clear(view);
-	if (view->document) {
-		forget_sheet(view);
-		for (int i = 0; i < (int)G_N_ELEMENTS(view->handler); i++)
-			g_signal_handler_disconnect(view->document, view->handler[i]);
-	}
-	g_clear_object(&view->document);
+	canvas_close_entry(LADDER_CANVAS(view));
+	sfc_forget_places(view);
+	g_clear_pointer(&view->sheet, sfc_sheet_free);
 	G_OBJECT_CLASS(ladder_sfc_view_parent_class)->dispose(object);
 }
 
@@ -530,61 +896,61 @@ static void ladder_sfc_view_finalize(GObject *object)
 	LadderSfcView *view = LADDER_SFC_VIEW(object);
 
 	g_array_unref(view->marks);
-	g_array_unref(view->cells);
-	lettering_free(view->lettering);
+	g_free(view->selected);
 	G_OBJECT_CLASS(ladder_sfc_view_parent_class)->finalize(object);
 }
 
 static void ladder_sfc_view_class_init(LadderSfcViewClass *class)
 {
-	GObjectClass *object = G_OBJECT_CLASS(class);
-	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
-	const GType type = G_TYPE_FROM_CLASS(class);
+	LadderCanvasClass *canvas = LADDER_CANVAS_CLASS(class);
 
-	object->dispose = ladder_sfc_view_dispose;
-	object->finalize = ladder_sfc_view_finalize;
-	widget->measure = ladder_sfc_view_measure;
-	widget->size_allocate = ladder_sfc_view_size_allocate;
-	widget->snapshot = ladder_sfc_view_snapshot;
-	signals[CURSOR_MOVED] = g_signal_new("cursor-moved", type, G_SIGNAL_RUN_LAST, 0,
-		NULL, NULL, NULL, G_TYPE_NONE, 0);
-	signals[TOLD] = g_signal_new("told", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
-		G_TYPE_NONE, 1, G_TYPE_STRING);
-	signals[ZOOM_CHANGED] = g_signal_new("zoom-changed", type, G_SIGNAL_RUN_LAST, 0,
-		NULL, NULL, NULL, G_TYPE_NONE, 0);
-	signals[BODY_WANTED] = g_signal_new("body-wanted", type, G_SIGNAL_RUN_LAST, 0, NULL,
-		NULL, NULL, G_TYPE_NONE, 2, G_TYPE_INT, G_TYPE_INT);
-	gtk_widget_class_set_css_name(widget, "sheet");
-	gtk_widget_class_set_accessible_role(widget, GTK_ACCESSIBLE_ROLE_GRID);
+	G_OBJECT_CLASS(class)->dispose = ladder_sfc_view_dispose;
+	G_OBJECT_CLASS(class)->finalize = ladder_sfc_view_finalize;
+	canvas->least_zoom = 0.3;
+	canvas->keys = VERB_CHART;
+	canvas->name = N_("Chart");
+	canvas->size = size;
+	canvas->paint = paint;
+	canvas->cursor_box = cursor_box;
+	canvas->reveal = reveal;
+	canvas->cursor_name = cursor_name;
+	canvas->place = place;
+	canvas->next_keys = next_keys;
+	canvas->do_verb = do_verb;
+	canvas->key = move_by_key;
+	canvas->begins_entry = begins_entry;
+	canvas->type = type;
+	canvas->press = press;
+	canvas->can_drag = can_drag;
+	canvas->drag = drag;
+	canvas->drag_end = drag_end;
+	canvas->menu = make_menu;
+	canvas->tip = tip;
+	canvas->list_cells = list_cells;
+	canvas->cell_name = cell_name;
+	canvas->cell_box = cell_box;
+	canvas->go_to_cell = go_to_cell;
+	canvas->project_changed = project_changed;
+	canvas->rungs_changed = rungs_changed;
+	canvas->checked = checked;
+	canvas->values_changed = values_changed;
+	canvas->program_changed = program_changed;
+	g_signal_new("body-wanted", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST,
+		0, NULL, NULL, NULL, G_TYPE_NONE, 2, G_TYPE_INT, G_TYPE_INT);
 }
 
 static void ladder_sfc_view_init(LadderSfcView *view)
 {
-	view->zoom = CLAMP(settings_number("zoom", 1.0), ZOOM_LEAST, ZOOM_MOST);
-	view->cursor = view->press = view->drop = (struct sfc_at){ -1, -1, false };
+	view->canvas = canvas_state(LADDER_CANVAS(view));
+	view->cursor = view->found = NOWHERE;
+	view->stroke = (struct sfc_stroke){ NOWHERE, NOWHERE, false, { 0, 0 } };
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct sfc_mark));
-	view->cells = g_array_new(FALSE, TRUE, sizeof(struct sfc_cell));
-	gtk_widget_set_focusable(GTK_WIDGET(view), TRUE);
-	gtk_widget_set_has_tooltip(GTK_WIDGET(view), TRUE);
-	g_signal_connect(view, "query-tooltip", G_CALLBACK(tip_wanted), NULL);
-	g_signal_connect(view, "notify::has-focus", G_CALLBACK(gtk_widget_queue_draw), NULL);
-	chart_keys_init(view);
-	chart_mouse_init(view);
-	chart_cells_init(view);
 }
 
 GtkWidget *ladder_sfc_view_new(LadderDocument *document, int pou)
 {
 	LadderSfcView *view = g_object_new(LADDER_TYPE_SFC_VIEW, NULL);
 
-	view->document = g_object_ref(document);
-	view->pou = pou;
-	view->lettering = lettering_new(gtk_widget_get_pango_context(GTK_WIDGET(view)),
-					NULL);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(gtk_widget_queue_draw), view, G_CONNECT_SWAPPED);
-	listen(view);
-	make_sheet(view);
-	checked(view);
+	canvas_show(LADDER_CANVAS(view), document, pou);
 	return GTK_WIDGET(view);
 }

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_view_edit - what the verbs of a chart do.
+ * sfc_view_edit - what the verbs of a chart change, and the clipboard.
+ *
+ * To copy is to write a chart without what is not selected. To paste is to read one, to give
+ * its steps unused names, and to put its pieces into this chart.
  */
+#include "editor-gtk/document/rung_clip.h"
 #include "editor-gtk/sfc/sfc_view_inside.h"
-
-#include "editor-gtk/sfc/sfc_view_clipboard.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,9 +26,9 @@ static void take_pou(void *context, const struct text_span *span)
 /* Only the lines that differ are exchanged. */
 static bool exchange(LadderSfcView *view, const char *text)
 {
-	struct pou_place place = { .pou = view->pou };
+	struct pou_place place = { .pou = view->canvas->pou };
 	gsize len, start = 0, end = 0;
-	char *whole = ladder_document_outline(view->document, &len, take_pou, &place), *with;
+	char *whole = ladder_document_outline(view->canvas->document, &len, take_pou, &place), *with;
 	const char *old = whole + place.span.at;
 	const gsize new_len = strlen(text), old_len = place.span.len;
 	struct diag_list why;
@@ -44,16 +46,16 @@ static bool exchange(LadderSfcView *view, const char *text)
 	with = g_strndup(text + start, new_len - start - end);
 	diag_init(&why);
 	good = (old_len - start - end == 0 && !with[0]) ||
-	       ladder_document_replace(view->document, place.span.at + start,
+	       ladder_document_replace(view->canvas->document, place.span.at + start,
 				       old_len - start - end, with, &why);
 	if (!good)
-		chart_tell(view, _("a file could not hold this"));
+		canvas_tell(LADDER_CANVAS(view), _("A rung file cannot hold this."));
 	g_free(with);
 	g_free(whole);
 	return good;
 }
 
-/* The number that it has when the file has been read. */
+/* Its number after the file is read again. */
 static int rank_of(const struct sfc_edit *edit, enum piece_kind kind, int index)
 {
 	int rank = 0;
@@ -70,35 +72,35 @@ static int rank_of(const struct sfc_edit *edit, enum piece_kind kind, int index)
 
 static void go_rank(LadderSfcView *view, enum piece_kind kind, int rank)
 {
-	const struct pou *pou = chart_pou(view);
+	const struct pou *pou = sfc_pou(view);
 
 	if (!pou || rank < 0 || !view->sheet)
 		return;
-	chart_go(view, (struct sfc_at){ kind == PIECE_STEP ? rank :
+	sfc_go(view, (struct sfc_at){ kind == PIECE_STEP ? rank :
 					pou->sfc->step_count + rank, -1, false }, false);
 }
 
-struct sfc_edit *chart_edit(LadderSfcView *view)
+struct sfc_edit *sfc_edit_begin(LadderSfcView *view)
 {
-	struct pou *pou = chart_pou(view);
+	struct pou *pou = sfc_pou(view);
 
-	return pou ? sfc_edit_new(ladder_document_project(view->document), pou) : NULL;
+	return pou ? sfc_edit_new(ladder_document_project(view->canvas->document), pou) : NULL;
 }
 
-bool chart_put(LadderSfcView *view, struct sfc_edit *edit, bool good, const char *name,
+bool sfc_put(LadderSfcView *view, struct sfc_edit *edit, bool good, const char *name,
 	       enum piece_kind kind, int index)
 {
 	const int rank = good && index >= 0 ? rank_of(edit, kind, index) : -1;
 	char *text = good ? sfc_edit_text(edit) : NULL;
 
 	if (edit && !good)
-		chart_tell(view, edit->why ? _(edit->why) : "");
+		canvas_tell(LADDER_CANVAS(view), edit->why ? _(edit->why) : "");
 	sfc_edit_free(edit);
 	if (!text)
 		return false;
-	ladder_document_begin(view->document, name, NULL);
+	ladder_document_begin(view->canvas->document, name, NULL);
 	good = exchange(view, text);
-	ladder_document_end(view->document);
+	ladder_document_end(view->canvas->document);
 	free(text);
 	if (good)
 		go_rank(view, kind, rank);
@@ -107,33 +109,20 @@ bool chart_put(LadderSfcView *view, struct sfc_edit *edit, bool good, const char
 
 /* ---- structure ---- */
 
-/* A new step at which the cursor goes on. */
+/* Puts the edit; the cursor moves to the new step. */
 static void put_step(LadderSfcView *view, struct sfc_edit *edit, int step, enum verb verb)
 {
-	chart_put(view, edit, step >= 0, _(verb_row(verb)->label), PIECE_STEP, step);
-}
-
-/* The transition of a jump, or the step whose jump it is: where one would go on. */
-enum sfc_part chart_part_here(LadderSfcView *view, int *index)
-{
-	enum sfc_part part = chart_part(view, index);
-	const struct sfc_jump *jump;
-
-	if (part != SFC_JUMP)
-		return part;
-	jump = &view->sheet->layout->jump[*index];
-	*index = jump->from;
-	return jump->to_transition ? SFC_STEP : SFC_TRANSITION;
+	sfc_put(view, edit, step >= 0, _(verb_row(verb)->label), PIECE_STEP, step);
 }
 
 static void step_below(LadderSfcView *view)
 {
-	struct sfc_edit *edit = chart_edit(view);
+	struct sfc_edit *edit = sfc_edit_begin(view);
 	int index, made;
 
 	if (!edit)
 		return;
-	switch (chart_part_here(view, &index)) {
+	switch (sfc_part_here(view, &index)) {
 	case SFC_STEP:
 		made = sfc_edit_step_below(edit, index);
 		break;
@@ -151,14 +140,14 @@ static void step_below(LadderSfcView *view)
 
 static void branch(LadderSfcView *view)
 {
-	const struct pou *pou = chart_pou(view);
-	struct sfc_edit *edit = chart_edit(view);
+	const struct pou *pou = sfc_pou(view);
+	struct sfc_edit *edit = sfc_edit_begin(view);
 	int index, made = -1;
 	enum sfc_part part;
 
 	if (!edit)
 		return;
-	part = chart_part_here(view, &index);
+	part = sfc_part_here(view, &index);
 	/* Beside a transition: another way out of its step. */
 	if (part == SFC_TRANSITION && pou->sfc->transition[index].from_count > 0)
 		index = pou->sfc->ref[pou->sfc->transition[index].first_from].step;
@@ -167,7 +156,7 @@ static void branch(LadderSfcView *view)
 	if (index >= 0)
 		made = sfc_edit_branch(edit, index);
 	else
-		edit->why = N_("a branch begins at a step");
+		edit->why = N_("Select a step: a branch begins there.");
 	put_step(view, edit, made, VERB_step_branch);
 }
 
@@ -183,49 +172,49 @@ static int way_to(const struct sfc *sfc, int step)
 
 static void parallel(LadderSfcView *view)
 {
-	const struct pou *pou = chart_pou(view);
-	struct sfc_edit *edit = chart_edit(view);
+	const struct pou *pou = sfc_pou(view);
+	struct sfc_edit *edit = sfc_edit_begin(view);
 	int index, made = -1;
 	enum sfc_part part;
 
 	if (!edit)
 		return;
-	part = chart_part_here(view, &index);
+	part = sfc_part_here(view, &index);
 	if (part == SFC_STEP)
 		index = way_to(pou->sfc, index);
 	if (index >= 0)
 		made = sfc_edit_parallel(edit, index);
 	else
-		edit->why = N_("side by side run steps that one transition leads to");
+		edit->why = N_("Select a transition, or a step that a transition leads to.");
 	put_step(view, edit, made, VERB_step_parallel);
 }
 
 static void move(LadderSfcView *view, bool right)
 {
-	struct sfc_edit *edit = chart_edit(view);
+	struct sfc_edit *edit = sfc_edit_begin(view);
 	int index;
 	enum sfc_part part;
 	bool good;
 
 	if (!edit)
 		return;
-	part = chart_part_here(view, &index);
+	part = sfc_part_here(view, &index);
 	if (part == SFC_NOTHING) {
 		sfc_edit_free(edit);
 		return;
 	}
 	good = sfc_edit_move(edit, part == SFC_STEP ? index : -1,
 			     part == SFC_TRANSITION ? index : -1, right);
-	chart_put(view, edit, good, _("Move branch"), part == SFC_STEP ? PIECE_STEP :
+	sfc_put(view, edit, good, _("Move branch"), part == SFC_STEP ? PIECE_STEP :
 		  PIECE_TRANSITION, index);
 }
 
-void chart_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to)
+void sfc_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to)
 {
 	const struct sfc_layout *layout = view->sheet->layout;
 	const struct sfc_shape *a = &layout->shape[from.shape];
 	const struct sfc_shape *b = &layout->shape[to.shape];
-	struct sfc_edit *edit = chart_edit(view);
+	struct sfc_edit *edit = sfc_edit_begin(view);
 	int made = -1;
 	bool good = false;
 
@@ -242,9 +231,9 @@ void chart_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to)
 		good = sfc_edit_set_ways(edit, a->index, true, project_text(
 			view->sheet->project, layout->sfc->step[b->index].name));
 	} else {
-		edit->why = N_("a way leads from a step or transition to a step");
+		edit->why = N_("Draw a way from a step or a transition to a step.");
 	}
-	chart_put(view, edit, good, _("Draw a way"), PIECE_TRANSITION, made);
+	sfc_put(view, edit, good, _("Draw a way"), PIECE_TRANSITION, made);
 }
 
 /* ---- deleting ---- */
@@ -256,7 +245,7 @@ static int step_of(const struct sfc *sfc, int transition)
 	       sfc->ref[sfc->transition[transition].first_from].step : -1;
 }
 
-/* Where the cursor goes when what stands there is gone: to the step before it that stays. */
+/* The step before the cursor that is not deleted: the cursor moves there. -1: none. */
 static int step_before(LadderSfcView *view, const struct sfc *sfc, enum sfc_part part,
 		       int index)
 {
@@ -311,7 +300,7 @@ static bool delete_selected(LadderSfcView *view, struct sfc_edit *edit, bool *an
 
 static void delete(LadderSfcView *view)
 {
-	const struct pou *pou = chart_pou(view);
+	const struct pou *pou = sfc_pou(view);
 	struct sfc_edit *edit;
 	int index, next;
 	enum sfc_part part;
@@ -319,8 +308,8 @@ static void delete(LadderSfcView *view)
 
 	if (!pou || view->cursor.shape < 0)
 		return;
-	edit = chart_edit(view);
-	part = chart_part(view, &index);
+	edit = sfc_edit_begin(view);
+	part = sfc_part_at_cursor(view, &index);
 	next = step_before(view, pou->sfc, part, index);
 	good = delete_selected(view, edit, &any);
 	if (!any && view->cursor.use >= 0) {
@@ -329,21 +318,21 @@ static void delete(LadderSfcView *view)
 	} else if (!any) {
 		good = delete_shape(view, edit, view->cursor.shape);
 	}
-	chart_put(view, edit, good, _(verb_row(VERB_delete)->label), PIECE_STEP, next);
+	sfc_put(view, edit, good, _(verb_row(VERB_delete)->label), PIECE_STEP, next);
 }
 
 /* ---- kinds ---- */
 
 static void change_kind(LadderSfcView *view)
 {
-	const struct pou *pou = chart_pou(view);
+	const struct pou *pou = sfc_pou(view);
 	struct sfc_edit *edit;
 	int index;
 
-	if (chart_part(view, &index) != SFC_STEP)
+	if (sfc_part_at_cursor(view, &index) != SFC_STEP)
 		return;
-	edit = chart_edit(view);
-	chart_put(view, edit, sfc_edit_set_kind(edit, index,
+	edit = sfc_edit_begin(view);
+	sfc_put(view, edit, sfc_edit_set_kind(edit, index,
 			pou->sfc->step[index].kind == STEP_INITIAL ? STEP_PLAIN :
 			STEP_INITIAL), _(verb_row(VERB_step_kind)->label), PIECE_STEP, index);
 }
@@ -353,68 +342,57 @@ static void change_kind(LadderSfcView *view)
 /* The steps that are selected, else the one at the cursor. */
 static void macro_make(LadderSfcView *view)
 {
-	struct sfc_edit *edit = chart_edit(view);
+	struct sfc_edit *edit = sfc_edit_begin(view);
 	const int count = edit ? edit->sfc.step_count : 0;
 	bool *chosen = g_new0(bool, count + 1), any = false;
 	int index, made;
 
 	for (int i = 0; i < count; i++)
 		any |= chosen[i] = view->selected[i];
-	if (!any && chart_part(view, &index) == SFC_STEP)
+	if (!any && sfc_part_at_cursor(view, &index) == SFC_STEP)
 		chosen[index] = true;
 	made = edit ? sfc_edit_macro_make(edit, chosen) : -1;
-	chart_put(view, edit, made >= 0, _(verb_row(VERB_macro_make)->label), PIECE_STEP,
+	sfc_put(view, edit, made >= 0, _(verb_row(VERB_macro_make)->label), PIECE_STEP,
 		  made);
 	g_free(chosen);
 }
 
-int chart_macro_here(LadderSfcView *view)
-{
-	const struct sfc *sfc = chart_pou(view)->sfc;
-	int index;
-	const enum sfc_part part = chart_part_here(view, &index);
-
-	if (part == SFC_STEP)
-		return sfc->step[index].kind == STEP_MACRO ? index : sfc->step[index].macro;
-	return part == SFC_TRANSITION ? sfc->transition[index].macro : -1;
-}
-
 static void macro_open(LadderSfcView *view)
 {
-	struct sfc_edit *edit = chart_edit(view);
-	const int macro = chart_macro_here(view);
+	struct sfc_edit *edit = sfc_edit_begin(view);
+	const int macro = sfc_macro_here(view);
 	int made = -1;
 
 	if (edit && macro < 0)
-		edit->why = N_("this is not a macro-step");
+		edit->why = N_("This is not a macro-step.");
 	if (edit && macro >= 0)
 		made = sfc_edit_macro_open(edit, macro);
-	chart_put(view, edit, made >= 0, _(verb_row(VERB_macro_open)->label), PIECE_STEP,
+	sfc_put(view, edit, made >= 0, _(verb_row(VERB_macro_open)->label), PIECE_STEP,
 		  made);
 }
 
-/* A condition that is an expression becomes a rung; what is one is shown. */
+/* Makes a rung of a condition that is an expression, and shows it. */
 static void as_rung(LadderSfcView *view)
 {
-	const struct pou *pou = chart_pou(view);
+	const struct pou *pou = sfc_pou(view);
 	struct sfc_edit *edit;
 	int index;
 
-	switch (chart_part_here(view, &index)) {
+	switch (sfc_part_here(view, &index)) {
 	case SFC_TRANSITION:
-		edit = chart_edit(view);
-		if (chart_put(view, edit, sfc_edit_as_rung(edit, index),
+		edit = sfc_edit_begin(view);
+		if (sfc_put(view, edit, sfc_edit_as_rung(edit, index),
 			      _(verb_row(VERB_as_rung)->label), PIECE_TRANSITION, index) &&
-		    chart_part(view, &index) == SFC_TRANSITION)
-			chart_body_wanted(view,
-				&chart_pou(view)->sfc->transition[index].condition);
+		    sfc_part_at_cursor(view, &index) == SFC_TRANSITION)
+			sfc_want_body(view,
+				&sfc_pou(view)->sfc->transition[index].condition);
 		break;
 	case SFC_STEP:
 		if (view->cursor.use >= 0 && pou->sfc->use[view->cursor.use].action >= 0)
-			chart_body_wanted(view, &pou->sfc->action[
+			sfc_want_body(view, &pou->sfc->action[
 				pou->sfc->use[view->cursor.use].action].body);
 		else
-			chart_tell(view, _("the cursor is on no condition and no action"));
+			canvas_tell(LADDER_CANVAS(view), _("Select a condition or an action first."));
 		break;
 	case SFC_NOTHING:
 	case SFC_JUMP:
@@ -423,92 +401,314 @@ static void as_rung(LadderSfcView *view)
 	}
 }
 
-bool ladder_sfc_view_why(LadderSfcView *view)
-{
-	int index;
+/* ---- copying ---- */
 
-	chart_fresh(view);
-	if (chart_part(view, &index) != SFC_TRANSITION ||
-	    chart_pou(view)->sfc->transition[index].condition.kind == BODY_NONE)
-		return false;
-	chart_body_wanted(view, &chart_pou(view)->sfc->transition[index].condition);
-	return true;
-}
-
-static void select_all(LadderSfcView *view)
+static bool is_chosen(LadderSfcView *view, int shape)
 {
-	if (!view->sheet)
-		return;
+	bool any = false;
+
 	for (int i = 0; i < view->sheet->layout->shape_count; i++)
-		view->selected[i] = true;
-	gtk_widget_queue_draw(GTK_WIDGET(view));
+		any |= view->selected[i];
+	return any ? view->selected[shape] : shape == view->cursor.shape;
 }
 
-static bool changes(enum verb verb)
+/* A transition is copied with the steps before it. sfc_edit_insert() finds a new
+ * step behind it. */
+static bool is_left(LadderSfcView *view, const struct sfc *sfc, int transition)
 {
-	return verb != VERB_copy && verb != VERB_select_all && verb != VERB_go_rung &&
-	       verb != VERB_enter;
+	const struct sfc_transition *t = &sfc->transition[transition];
+
+	if (is_chosen(view, sfc->step_count + transition))
+		return true;
+	for (int i = t->first_from; i < t->first_from + t->from_count; i++)
+		if (sfc->ref[i].step < 0 || !is_chosen(view, sfc->ref[i].step))
+			return false;
+	return t->from_count > 0;
 }
 
-void ladder_sfc_view_do(LadderSfcView *view, enum verb verb)
+static bool is_kept(LadderSfcView *view, const struct sfc *sfc, const struct sfc_piece *piece)
 {
-	chart_fresh(view);
-	if (!view->sheet || (changes(verb) && chart_is_fixed(view)))
-		return;
-	switch ((int)verb) {
-	case VERB_step_below: step_below(view); break;
-	case VERB_step_branch: branch(view); break;
-	case VERB_step_parallel: parallel(view); break;
-	case VERB_branch_left: move(view, false); break;
-	case VERB_branch_right: move(view, true); break;
-	case VERB_step_kind: change_kind(view); break;
-	case VERB_as_rung: as_rung(view); break;
-	case VERB_lead_to: chart_ask(view, ASK_LEAD, NULL); break;
-	case VERB_wait_for: chart_ask(view, ASK_WAIT, NULL); break;
-	case VERB_step_does: chart_ask(view, ASK_ANOTHER, NULL); break;
-	case VERB_step_times: chart_ask(view, ASK_TIMES, NULL); break;
-	case VERB_way_name: chart_ask(view, ASK_NAME, NULL); break;
-	case VERB_way_priority: chart_ask(view, ASK_PRIORITY, NULL); break;
-	case VERB_chart_comment: chart_ask(view, ASK_COMMENT, NULL); break;
-	case VERB_go_rung: chart_ask(view, ASK_GO, NULL); break;
-	case VERB_macro_make: macro_make(view); break;
-	case VERB_macro_open: macro_open(view); break;
-	case VERB_enter: chart_ask_here(view, NULL); break;
-	case VERB_delete: delete(view); break;
-	case VERB_cut:
-		chart_copy(view);
-		ladder_document_begin(view->document, _(verb_row(VERB_cut)->label), NULL);
-		delete(view);
-		ladder_document_end(view->document);
-		break;
-	case VERB_copy: chart_copy(view); break;
-	case VERB_paste: chart_paste(view); break;
-	case VERB_select_all: select_all(view); break;
-	case VERB_context_menu: chart_mouse_menu(view); break;
-	case VERB_force: chart_live_force(view); break;
-	default: break;
+	switch (piece->kind) {
+	case PIECE_STEP:
+	case PIECE_MACRO_END:
+		return is_chosen(view, piece->index);
+	case PIECE_TRANSITION:
+		return is_left(view, sfc, piece->index);
+	case PIECE_ACTION:
+	case PIECE_CONTROL:
+	default:
+		return false;
 	}
 }
 
-/* ---- in the status bar ---- */
-
-char *ladder_sfc_view_keys(LadderSfcView *view)
+/* The chart, with the declarations of what it names: globals before it, its own in it.
+ * Caller: g_free. */
+static char *with_declarations(LadderSfcView *view, const char *chart)
 {
-	static const enum verb verbs[][4] = {
-		[SFC_NOTHING] = { VERB_step_below, VERB_paste, VERB_COUNT, VERB_COUNT },
-		[SFC_STEP] = { VERB_step_below, VERB_step_branch, VERB_lead_to,
-			       VERB_step_does },
-		[SFC_TRANSITION] = { VERB_enter, VERB_step_parallel, VERB_wait_for,
-				     VERB_as_rung },
-		[SFC_JUMP] = { VERB_enter, VERB_step_below, VERB_delete, VERB_COUNT },
-	};
-	GString *text = g_string_new(NULL);
+	GString *globals = g_string_new(NULL), *locals = g_string_new(NULL);
+	const char *body = strchr(chart, '\n');
+
+	rung_clip_blocks(view->canvas->document, view->canvas->pou, chart, globals, locals);
+	g_string_append_len(globals, chart, body + 1 - chart);
+	g_string_append_printf(globals, "%s%s", locals->str, body + 1);
+	g_string_free(locals, TRUE);
+	return g_string_free(globals, FALSE);
+}
+
+static void copy(LadderSfcView *view)
+{
+	struct sfc_edit *edit = sfc_edit_begin(view);
+	int kept = 0, inside = -1;
+	char *text, *whole;
+
+	if (!edit)
+		return;
+	for (int i = 0; i < edit->sfc.piece_count; i++) {
+		const struct sfc_piece piece = edit->sfc.piece[i];
+		const bool macro = piece.kind == PIECE_STEP &&
+				   edit->sfc.step[piece.index].kind == STEP_MACRO;
+
+		/* What stands in a macro-step goes with it. */
+		if (inside >= 0 || is_kept(view, sfc_pou(view)->sfc, &piece))
+			edit->sfc.piece[kept++] = piece;
+		else
+			continue;
+		if (macro && inside < 0)
+			inside = piece.index;
+		else if (piece.kind == PIECE_MACRO_END && piece.index == inside)
+			inside = -1;
+	}
+	edit->sfc.piece_count = kept;
+	edit->pou.vars.block_count = 0;
+	text = kept ? sfc_edit_text(edit) : NULL;
+	whole = text ? with_declarations(view, text) : NULL;
+	if (whole)
+		gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(view)), whole);
+	else
+		canvas_tell(LADDER_CANVAS(view), _("There is nothing to copy here."));
+	g_free(whole);
+	free(text);
+	sfc_edit_free(edit);
+}
+
+/* ---- pasting ---- */
+
+static bool is_taken(const struct sfc_edit *here, const char *name)
+{
+	for (int i = 0; i < here->sfc.step_count; i++)
+		if (g_ascii_strcasecmp(project_text(here->project, here->sfc.step[i].name),
+				       name) == 0)
+			return true;
+	return false;
+}
+
+/* Has the chart an initial step? If not, a pasted initial step stays one. */
+static bool begins(const struct sfc_edit *edit)
+{
+	for (int i = 0; i < edit->sfc.step_count; i++)
+		if (edit->sfc.step[i].kind == STEP_INITIAL && edit->sfc.step[i].macro < 0)
+			return true;
+	return false;
+}
+
+/* Gives steps names that neither chart has. */
+static void rename_steps(struct sfc_edit *here, struct sfc_edit *other)
+{
+	for (int i = 0; i < other->sfc.step_count; i++) {
+		const char *old = project_text(other->project, other->sfc.step[i].name);
+		char *name = g_strdup(old);
+
+		for (int k = 2; is_taken(here, name) ||
+		     (strcmp(name, old) != 0 && is_taken(other, name)); k++) {
+			g_free(name);
+			name = g_strdup_printf("%s_%d", old, k);
+		}
+		if (strcmp(name, old) != 0)
+			sfc_edit_name_step(other, i, name);
+		g_free(name);
+	}
+	for (int i = 0; i < other->sfc.transition_count; i++)
+		sfc_edit_name_transition(other, i, "");
+	for (int i = 0; i < other->sfc.step_count; i++)
+		if (other->sfc.step[i].kind == STEP_INITIAL &&
+		    other->sfc.step[i].macro < 0 && begins(here))
+			other->sfc.step[i].kind = STEP_PLAIN;
+}
+
+/* What stands between its first line and its last one. */
+static char *pieces_of(const struct sfc_edit *edit)
+{
+	char *text = sfc_edit_text(edit);
+	const char *from = text ? strchr(text, '\n') : NULL;
+	const char *to = text ? g_strrstr(text, "END_PROGRAM") : NULL;
+	char *pieces = from && to ? g_strndup(from + 1, (gsize)(to - from - 1)) : NULL;
+
+	free(text);
+	return pieces;
+}
+
+struct end_of_pou { int pou; struct text_span span; };
+
+static void take_end(void *context, const struct text_span *span)
+{
+	struct end_of_pou *end = context;
+
+	if (span->part == TEXT_BODY && span->pou == end->pou)
+		end->span = *span;
+}
+
+/* Declares the variables that this project lacks. @told: the message about them;
+ * NULL: none. Caller: g_free. */
+static bool put_pieces(LadderSfcView *view, const char *pieces, LadderDocument *source,
+		       char **told)
+{
+	const struct rung_clip clip = { .source = source };
+	struct end_of_pou end = { .pou = view->canvas->pou };
+	gsize len;
+	char *whole = ladder_document_outline(view->canvas->document, &len, take_end, &end), *with;
+	bool good;
+
+	with = g_strdup_printf("\n%s", pieces);
+	good = whole && ladder_document_replace(view->canvas->document, end.span.at + end.span.len,
+						0, with, NULL);
+	*told = good ? rung_clip_declare(&clip, view->canvas->document, view->canvas->pou, -1,
+					 LIMIT_RUNGS + 1) : NULL;
+	g_free(with);
+	g_free(whole);
+	return good;
+}
+
+static bool holds_chart(LadderDocument *source)
+{
+	const struct project *project = ladder_document_project(source);
+
+	return project && project->pou_count == 1 && project->pou[0].sfc &&
+	       project->pou[0].sfc->step_count + project->pou[0].sfc->transition_count > 0;
+}
+
+/* A whole chart, or pieces alone: then a chart is made of them. */
+static LadderDocument *read_chart(const char *text)
+{
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	LadderDocument *source = NULL;
+
+	for (int try = 0; try < 2 && !source; try++) {
+		char *body = try ? g_strdup_printf("PROGRAM Copy SFC\n%s\nEND_PROGRAM\n", text) :
+				   g_strdup(text);
+
+		source = rung_clip_source(body, diags);
+		if (source && !holds_chart(source))
+			g_clear_object(&source);
+		g_free(body);
+	}
+	g_free(diags);
+	return source;
+}
+
+/* Its pieces, by names that no step has here; NULL: it is none. Caller: g_free. */
+static char *pieces_for(struct sfc_edit *here, LadderDocument *source)
+{
+	struct project *project = ladder_document_project(source);
+	struct sfc_edit *other = sfc_edit_new(project, &project->pou[0]);
+	char *pieces;
+
+	if (!other)
+		return NULL;
+	other->pou.vars.block_count = 0;
+	rename_steps(here, other);
+	pieces = pieces_of(other);
+	sfc_edit_free(other);
+	return pieces;
+}
+
+/* Moves the pasted pieces from the end of the chart to the cursor. @told: message so
+ * far. */
+static void insert_pieces(LadderSfcView *view, const struct sfc_edit *before, enum sfc_part part,
+		   int index, const char *told)
+{
+	struct sfc_edit *edit;
+	const char *why;
+	char *all;
+	int made;
+
+	sfc_fresh(view);
+	edit = sfc_edit_begin(view);
+	if (!edit)
+		return;
+	made = sfc_edit_insert(edit, before->sfc.step_count, before->sfc.transition_count,
+			       part == SFC_STEP ? index : -1,
+			       part == SFC_TRANSITION ? index : -1);
+	why = made >= 0 && edit->why ? _(edit->why) : "";
+	all = g_strdup_printf("%s%s%s", told ? told : "", told && *why ? " · " : "", why);
+	if (*all)
+		canvas_tell(LADDER_CANVAS(view), all);
+	g_free(all);
+	sfc_put(view, edit, made >= 0, _(verb_row(VERB_paste)->label), PIECE_STEP, made);
+}
+
+static void paste_text(LadderSfcView *view, const char *text)
+{
+	LadderDocument *source = text ? read_chart(text) : NULL;
+	struct sfc_edit *here = source ? sfc_edit_begin(view) : NULL;
+	char *pieces = here ? pieces_for(here, source) : NULL, *told = NULL;
 	enum sfc_part part;
 	int index;
 
-	chart_fresh(view);
-	part = chart_part(view, &index);
-	for (int i = 0; i < 4 && verbs[part][i] != VERB_COUNT; i++)
-		verb_tell(text, verbs[part][i]);
-	return g_string_free(text, FALSE);
+	part = here ? sfc_part_here(view, &index) : SFC_NOTHING;
+	ladder_document_begin(view->canvas->document, _(verb_row(VERB_paste)->label), NULL);
+	if (!pieces || !put_pieces(view, pieces, source, &told))
+		canvas_tell(LADDER_CANVAS(view), _("The clipboard holds no steps."));
+	else
+		insert_pieces(view, here, part, index, told);
+	ladder_document_end(view->canvas->document);
+	g_free(told);
+	g_free(pieces);
+	sfc_edit_free(here);
+	g_clear_object(&source);
+}
+
+static void pasted(GObject *clipboard, GAsyncResult *result, gpointer data)
+{
+	LadderSfcView *view = data;
+	char *text = gdk_clipboard_read_text_finish(GDK_CLIPBOARD(clipboard), result, NULL);
+
+	paste_text(view, text);
+	g_free(text);
+	g_object_unref(view);
+}
+
+static void paste(LadderSfcView *view)
+{
+	gdk_clipboard_read_text_async(gtk_widget_get_clipboard(GTK_WIDGET(view)), NULL,
+				      pasted, g_object_ref(view));
+}
+
+/* ---- the table ---- */
+
+static void cut(LadderSfcView *view)
+{
+	copy(view);
+	ladder_document_begin(view->canvas->document, _(verb_row(VERB_cut)->label), NULL);
+	delete(view);
+	ladder_document_end(view->canvas->document);
+}
+
+bool sfc_edit_do(LadderSfcView *view, enum verb verb)
+{
+	switch ((int)verb) {
+	case VERB_step_below: step_below(view); return true;
+	case VERB_step_branch: branch(view); return true;
+	case VERB_step_parallel: parallel(view); return true;
+	case VERB_branch_left: move(view, false); return true;
+	case VERB_branch_right: move(view, true); return true;
+	case VERB_step_kind: change_kind(view); return true;
+	case VERB_as_rung: as_rung(view); return true;
+	case VERB_macro_make: macro_make(view); return true;
+	case VERB_macro_open: macro_open(view); return true;
+	case VERB_delete: delete(view); return true;
+	case VERB_cut: cut(view); return true;
+	case VERB_copy: copy(view); return true;
+	case VERB_paste: paste(view); return true;
+	default: return false;
+	}
 }

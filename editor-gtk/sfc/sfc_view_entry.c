@@ -1,29 +1,170 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_view_entry - what is asked for at a place of a chart: names, conditions, what a step
- * does, where ways lead.
+ * sfc_view_entry - the questions that a chart asks at its cursor: names, conditions, what a
+ * step does, where ways lead; and the candidates for each.
  */
 #include "editor-gtk/sfc/sfc_view_inside.h"
 
-#include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/document/entry_outcome.h"
+#include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/kit/entry_popup.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What the popup that is open is for. It lives as long as that does. */
+#define CANDIDATES 40
+
+/* What is asked for. It lives until something else is asked. */
 struct asked {
 	LadderSfcView *view;
-	enum chart_asked what;
+	enum sfc_asked what;
 	int index, use;      /* step or transition; line of a step             */
 };
+
+static struct entry_place place_of(LadderSfcView *view, bool output)
+{
+	return (struct entry_place){
+		.project = ladder_document_project(view->canvas->document),
+		.pou = view->canvas->pou, .output = output,
+		.xref = canvas_uses(LADDER_CANVAS(view)),
+	};
+}
+
+/* ---- candidates ---- */
+
+/* Where the word before the cursor begins. */
+static gsize word_start(const char *line, gsize cursor)
+{
+	while (cursor > 0 && !strchr(" ,\t()", line[cursor - 1]))
+		cursor--;
+	return cursor;
+}
+
+/* @put: it takes the place of what stands from @start to @cursor. */
+static void add_row(LadderSfcView *view, const char *line, gsize start, gsize cursor,
+		    const char *put, const char *text, const char *address,
+		    const char *note, const char *kind)
+{
+	char *whole = g_strdup_printf("%.*s%s%s", (int)start, line, put, line + cursor);
+	struct entry_popup_row row = { .text = (char *)text, .address = (char *)address,
+				       .note = (char *)note, .kind = (char *)kind,
+				       .line = whole };
+
+	ladder_entry_popup_add(LADDER_ENTRY_POPUP(view->canvas->entry), &row);
+	g_free(whole);
+}
+
+static bool begins(const char *text, const char *line, gsize start, gsize cursor)
+{
+	return g_ascii_strncasecmp(text, line + start, cursor - start) == 0;
+}
+
+/* Variables, addresses and new names for the part of the line from @from on, as on the
+ * sheet of rungs behind @head; no words that are elements. */
+static void offer_names(LadderSfcView *view, const char *head, const char *line,
+			gsize from, gsize cursor)
+{
+	const struct entry_place place = place_of(view, g_str_equal(head, "OUT "));
+	struct entry_candidate *found = g_new(struct entry_candidate, CANDIDATES);
+	char *part = g_strdup_printf("%s%s", head, line + from);
+	const gsize skip = strlen(head);
+	const int count = entry_candidates(&place, part, skip + cursor - from, found,
+					   CANDIDATES);
+
+	for (int i = 0; i < count; i++) {
+		const struct entry_candidate *one = &found[i];
+
+		if (one->kind != ENTRY_WORD && one->kind != ENTRY_ROUTINE &&
+		    one->kind != ENTRY_LABEL && strlen(one->line) >= skip)
+			add_row(view, line, from, strlen(line), one->line + skip, one->text,
+				one->address, one->note, _(entry_kind_text(one->kind)));
+	}
+	g_free(part);
+	g_free(found);
+}
+
+static void offer_steps(LadderSfcView *view, const char *line, gsize start, gsize cursor)
+{
+	for (int i = 0; i < view->sheet->layout->sfc->step_count; i++)
+		if (begins(view->sheet->name[i], line, start, cursor))
+			add_row(view, line, start, cursor, view->sheet->name[i],
+				view->sheet->name[i], "", "", _("step"));
+}
+
+static void offer_members(LadderSfcView *view, const char *line, gsize start, gsize cursor)
+{
+	for (int i = 0; i < view->sheet->layout->sfc->step_count; i++)
+		for (int k = 0; k < 2; k++) {
+			char *name = g_strdup_printf("%s.%c", view->sheet->name[i],
+						     k ? 'T' : 'X');
+
+			if (cursor > start && begins(name, line, start, cursor))
+				add_row(view, line, start, cursor, name, name, "", k ?
+					_("how long it has been active") :
+					_("TRUE while it is active"), _("step"));
+			g_free(name);
+		}
+}
+
+static void offer_doing(LadderSfcView *view, const char *line, gsize start, gsize cursor)
+{
+	const struct sfc *sfc = view->sheet->layout->sfc;
+	struct sfc_doing doing;
+
+	for (int i = 0; start == 0 && i < QUALIFIER_COUNT; i++) {
+		char *word = g_strdup_printf("%s ", qualifier_word((enum qualifier)i));
+
+		if (begins(word, line, start, cursor))
+			add_row(view, line, start, cursor, word, word, "", "",
+				_("qualifier"));
+		g_free(word);
+	}
+	for (int i = 0; i < sfc->action_count; i++) {
+		const char *name = project_text(view->sheet->project, sfc->action[i].name);
+
+		if (begins(name, line, start, cursor))
+			add_row(view, line, start, cursor, name, name, "", "",
+				_("action"));
+	}
+	sfc_doing_read(line, &doing);
+	offer_names(view, "OUT ", line, doing.operand && cursor >= (gsize)(doing.operand - line) ?
+		    (gsize)(doing.operand - line) : start, cursor);
+}
+
+/* Candidates for the question. */
+static void offer(LadderSfcView *view, enum sfc_asked what, const char *line, gsize at)
+{
+	const gsize start = word_start(line, at);
+
+	switch (what) {
+	case ASK_CONDITION:
+		offer_members(view, line, start, at);
+		offer_names(view, "[", line, 0, at);
+		break;
+	case ASK_DOES:
+	case ASK_ANOTHER:
+		offer_doing(view, line, start, at);
+		break;
+	case ASK_LEAD:
+	case ASK_WAIT:
+	case ASK_GO:
+		offer_steps(view, line, start, at);
+		break;
+	case ASK_STEP:
+	case ASK_TIMES:
+	case ASK_NAME:
+	case ASK_PRIORITY:
+	case ASK_COMMENT:
+	default:
+		break;
+	}
+}
 
 /* ---- while it is typed ---- */
 
 static bool is_action(LadderSfcView *view, const char *name)
 {
-	const struct sfc *sfc = chart_pou(view)->sfc;
+	const struct sfc *sfc = sfc_pou(view)->sfc;
 
 	for (int i = 0; i < sfc->action_count; i++)
 		if (g_ascii_strcasecmp(project_text(view->sheet->project,
@@ -36,7 +177,7 @@ static bool is_action(LadderSfcView *view, const char *name)
 static void read_bit(LadderSfcView *view, const struct sfc_doing *doing,
 		     struct entry *entry)
 {
-	const struct entry_place place = chart_entry_place(view, true);
+	const struct entry_place place = place_of(view, true);
 	char *line = g_strdup_printf("OUT %s", doing->operand);
 
 	memset(entry, 0, sizeof(*entry));
@@ -45,13 +186,13 @@ static void read_bit(LadderSfcView *view, const struct sfc_doing *doing,
 	g_free(line);
 }
 
-/* What becomes of the line. A name that cannot be found is no reason to refuse it: the
- * step it belongs to may come later; but what the line says of one must be right. */
+/* The outcome of the line, to be shown. An unknown name is not refused, since its
+ * step may be added later; a declaration in the line must be right. */
 static char *outcome(const struct asked *asked, const char *line, struct entry *entry,
 		     bool *good)
 {
 	LadderSfcView *view = asked->view;
-	const struct entry_place place = chart_entry_place(view, false);
+	const struct entry_place place = place_of(view, false);
 	struct sfc_doing doing;
 	char *told;
 	bool lenient;
@@ -73,7 +214,7 @@ static char *outcome(const struct asked *asked, const char *line, struct entry *
 	} else {
 		return g_strdup("");
 	}
-	told = entry_outcome_tell(view->document, view->pou, entry, line, good);
+	told = entry_outcome_tell(view->canvas->document, view->canvas->pou, entry, line, good);
 	*good = *good || lenient;
 	return told;
 }
@@ -86,10 +227,9 @@ static char *line_changed(void *context, const char *line, int cursor, bool *goo
 	struct entry *entry;
 	char *told;
 
-	*good = true;
-	if (!view->entry || !view->sheet)
-		return NULL; /* the popup is being made: it asks again */
-	chart_offer(view, asked->what, line, at);
+	if (!view->sheet)
+		return NULL;
+	offer(view, asked->what, line, at);
 	entry = g_new(struct entry, 1);
 	told = outcome(asked, line, entry, good);
 	g_free(entry);
@@ -105,12 +245,12 @@ static bool put_doing(struct asked *asked, const struct sfc_doing *doing,
 	struct sfc_edit *edit;
 	bool good;
 
-	ladder_document_begin(view->document, _("Change what a step does"), NULL);
-	edit = chart_edit(view);
-	good = chart_put(view, edit, sfc_edit_set_use(edit, asked->index, asked->use, doing),
+	ladder_document_begin(view->canvas->document, _("Change what a step does"), NULL);
+	edit = sfc_edit_begin(view);
+	good = sfc_put(view, edit, sfc_edit_set_use(edit, asked->index, asked->use, doing),
 			 "", PIECE_STEP, asked->index) &&
-	       entry_outcome_declare(view->document, view->pou, entry);
-	ladder_document_end(view->document);
+	       entry_outcome_declare(view->canvas->document, view->canvas->pou, entry);
+	ladder_document_end(view->canvas->document);
 	return good;
 }
 
@@ -123,8 +263,8 @@ static bool take_doing(struct asked *asked, const char *line)
 	bool good;
 
 	if (!line[0] && asked->use >= 0) {
-		edit = chart_edit(view);
-		return chart_put(view, edit, sfc_edit_delete_use(edit, asked->use),
+		edit = sfc_edit_begin(view);
+		return sfc_put(view, edit, sfc_edit_delete_use(edit, asked->use),
 				 _("Change what a step does"), PIECE_STEP, asked->index);
 	}
 	entry = g_new(struct entry, 1);
@@ -134,7 +274,7 @@ static bool take_doing(struct asked *asked, const char *line)
 	return good;
 }
 
-/* As it is kept: without what the line says of its names. */
+/* Stores the condition without the declarations of the line. */
 static bool put_condition(struct asked *asked, const char *line, const struct entry *entry)
 {
 	LadderSfcView *view = asked->view;
@@ -142,12 +282,12 @@ static bool put_condition(struct asked *asked, const char *line, const struct en
 	struct sfc_edit *edit;
 	bool good;
 
-	ladder_document_begin(view->document, _("Change condition"), NULL);
-	edit = chart_edit(view);
-	good = chart_put(view, edit, sfc_edit_set_condition(edit, asked->index, text), "",
+	ladder_document_begin(view->canvas->document, _("Change condition"), NULL);
+	edit = sfc_edit_begin(view);
+	good = sfc_put(view, edit, sfc_edit_set_condition(edit, asked->index, text), "",
 			 PIECE_TRANSITION, asked->index) &&
-	       entry_outcome_declare(view->document, view->pou, entry);
-	ladder_document_end(view->document);
+	       entry_outcome_declare(view->canvas->document, view->canvas->pou, entry);
+	ladder_document_end(view->canvas->document);
 	return good;
 }
 
@@ -162,27 +302,33 @@ static bool take_condition(struct asked *asked, const char *line)
 	return good;
 }
 
-/* Of a step: a new transition; of a transition: it leads there. */
+/* The step of this name; -1: there is none. */
+static int step_named(LadderSfcView *view, const char *name)
+{
+	for (int i = 0; i < sfc_pou(view)->sfc->step_count; i++)
+		if (g_ascii_strcasecmp(view->sheet->name[i], name) == 0)
+			return i;
+	return -1;
+}
+
+/* At a step: adds a transition to the named step; at a transition: it leads to that
+ * step. */
 static bool take_lead(struct asked *asked, const char *line)
 {
 	LadderSfcView *view = asked->view;
-	struct sfc_edit *edit = chart_edit(view);
+	struct sfc_edit *edit = sfc_edit_begin(view);
 	int index, way = asked->index;
 
-	if (chart_part(view, &index) == SFC_STEP) {
-		const struct sfc *sfc = chart_pou(view)->sfc;
-		int to = -1;
+	if (sfc_part_at_cursor(view, &index) == SFC_STEP) {
+		const int to = step_named(view, line);
 
-		for (int i = 0; i < sfc->step_count; i++)
-			if (g_ascii_strcasecmp(view->sheet->name[i], line) == 0)
-				to = i;
 		if (to < 0)
-			edit->why = N_("there is no step of this name");
+			edit->why = N_("There is no step with this name.");
 		way = to < 0 ? -1 : sfc_edit_lead(edit, asked->index, to);
-		return chart_put(view, edit, way >= 0, _(verb_row(VERB_lead_to)->label),
+		return sfc_put(view, edit, way >= 0, _(verb_row(VERB_lead_to)->label),
 				 PIECE_TRANSITION, way);
 	}
-	return chart_put(view, edit, sfc_edit_set_ways(edit, way, true, line),
+	return sfc_put(view, edit, sfc_edit_set_ways(edit, way, true, line),
 			 _(verb_row(VERB_lead_to)->label), PIECE_TRANSITION, way);
 }
 
@@ -190,7 +336,7 @@ static bool take_times(struct asked *asked, const char *line)
 {
 	char *min = g_strdup(""), *max = g_strdup(""), *alarm = g_strdup("");
 	char **words = g_strsplit_set(line, " ,", -1), **to = NULL;
-	struct sfc_edit *edit = chart_edit(asked->view);
+	struct sfc_edit *edit = sfc_edit_begin(asked->view);
 	bool good = true;
 
 	for (char **word = words; *word; word++) {
@@ -211,8 +357,9 @@ static bool take_times(struct asked *asked, const char *line)
 		}
 	}
 	if (!good)
-		edit->why = N_("write MIN time, MAX time, ALARM bit");
-	good = chart_put(asked->view, edit, good && sfc_edit_set_times(edit, asked->index,
+		edit->why = N_("Write MIN time, MAX time, ALARM bit, for example: "
+			  "MIN T#2s MAX T#10s ALARM Late");
+	good = sfc_put(asked->view, edit, good && sfc_edit_set_times(edit, asked->index,
 			 min, max, alarm), _(verb_row(VERB_step_times)->label), PIECE_STEP,
 			 asked->index);
 	g_strfreev(words);
@@ -224,49 +371,46 @@ static bool take_times(struct asked *asked, const char *line)
 
 static bool take_name(struct asked *asked, const char *line, bool step)
 {
-	struct sfc_edit *edit = chart_edit(asked->view);
+	struct sfc_edit *edit = sfc_edit_begin(asked->view);
 
-	return step ? chart_put(asked->view, edit, sfc_edit_name_step(edit, asked->index,
+	return step ? sfc_put(asked->view, edit, sfc_edit_name_step(edit, asked->index,
 								      line),
 				_("Name a step"), PIECE_STEP, asked->index) :
-		chart_put(asked->view, edit,
+		sfc_put(asked->view, edit,
 			  sfc_edit_name_transition(edit, asked->index, line),
 			  _("Name a transition"), PIECE_TRANSITION, asked->index);
 }
 
-/* For one more step, by its name. */
+/* The transition also waits for the named step. */
 static bool take_wait(struct asked *asked, const char *line)
 {
-	const struct sfc *sfc = chart_pou(asked->view)->sfc;
-	struct sfc_edit *edit = chart_edit(asked->view);
-	bool good = false;
+	const int step = step_named(asked->view, line);
+	struct sfc_edit *edit = sfc_edit_begin(asked->view);
 
-	edit->why = N_("there is no step of this name");
-	for (int i = 0; i < sfc->step_count; i++)
-		if (g_ascii_strcasecmp(asked->view->sheet->name[i], line) == 0)
-			good = sfc_edit_wait(edit, asked->index, i);
-	return chart_put(asked->view, edit, good, _(verb_row(VERB_wait_for)->label),
+	edit->why = N_("There is no step with this name.");
+	return sfc_put(asked->view, edit,
+		       step >= 0 && sfc_edit_wait(edit, asked->index, step), _(verb_row(VERB_wait_for)->label),
 			 PIECE_TRANSITION, asked->index);
 }
 
-/* 1 is asked first; nothing: by the order of the file. */
+/* 1 is evaluated first; an empty line: in the order of the file. */
 static bool take_priority(struct asked *asked, const char *line)
 {
-	struct sfc_edit *edit = chart_edit(asked->view);
+	struct sfc_edit *edit = sfc_edit_begin(asked->view);
 	guint64 number = 0;
 	bool good = !*line || g_ascii_string_to_unsigned(line, 10, 1, 65535, &number, NULL);
 
 	if (!good)
-		edit->why = N_("the priority is a number from 0 to 65535");
+		edit->why = N_("A priority is a number from 1 to 65535.");
 	good = good && sfc_edit_set_priority(edit, asked->index, (int)number);
-	return chart_put(asked->view, edit, good, _("Change priority"), PIECE_TRANSITION,
+	return sfc_put(asked->view, edit, good, _("Change priority"), PIECE_TRANSITION,
 			 asked->index);
 }
 
 static bool take_comment(struct asked *asked, const char *line)
 {
 	LadderSfcView *view = asked->view;
-	struct sfc_edit *edit = chart_edit(view);
+	struct sfc_edit *edit = sfc_edit_begin(view);
 	const bool step = view->cursor.shape < edit->sfc.step_count;
 	const struct sfc_at at = view->cursor;
 	bool good;
@@ -276,24 +420,22 @@ static bool take_comment(struct asked *asked, const char *line)
 	else
 		good = sfc_edit_set_comment(edit, step ? PIECE_STEP : PIECE_TRANSITION,
 					    asked->index, line);
-	good = chart_put(view, edit, good, _("Change comment"), step ? PIECE_STEP :
+	good = sfc_put(view, edit, good, _("Change comment"), step ? PIECE_STEP :
 			 PIECE_TRANSITION, asked->index);
 	if (good && asked->use >= 0)
-		chart_go(view, at, false);
+		sfc_go(view, at, false);
 	return good;
 }
 
 static bool take_go(struct asked *asked, const char *line)
 {
-	LadderSfcView *view = asked->view;
+	const int step = step_named(asked->view, line);
 
-	for (int i = 0; i < view->sheet->layout->sfc->step_count; i++)
-		if (g_ascii_strcasecmp(view->sheet->name[i], line) == 0) {
-			chart_go(view, (struct sfc_at){ i, -1, false }, false);
-			return true;
-		}
-	chart_tell(view, _("there is no step of this name"));
-	return false;
+	if (step < 0)
+		canvas_tell(LADDER_CANVAS(asked->view), _("There is no step with this name."));
+	else
+		sfc_go(asked->view, (struct sfc_at){ step, -1, false }, false);
+	return step >= 0;
 }
 
 static bool line_taken(void *context, const char *text)
@@ -323,24 +465,6 @@ static bool line_taken(void *context, const char *text)
 	return good;
 }
 
-static void line_gone(void *context)
-{
-	struct asked *asked = context;
-	LadderSfcView *view = asked->view;
-
-	chart_entry_close(view);
-	gtk_widget_grab_focus(GTK_WIDGET(view));
-}
-
-static void line_left(void *context, const char *line)
-{
-	const struct asked *asked = context;
-	char *told = g_strdup_printf(_("not taken: %s"), line);
-
-	chart_tell(asked->view, told);
-	g_free(told);
-}
-
 /* ---- asking ---- */
 
 static char *times_now(const struct project *project, const struct sfc_step *step)
@@ -366,7 +490,7 @@ static char *condition_now(const struct pou *pou, const struct project *project,
 static char *comment_now(const struct asked *asked)
 {
 	LadderSfcView *view = asked->view;
-	const struct sfc *sfc = chart_pou(view)->sfc;
+	const struct sfc *sfc = sfc_pou(view)->sfc;
 
 	return comment_text(project_text(view->sheet->project, asked->use >= 0 ?
 		sfc->use[asked->use].comment : view->cursor.shape < sfc->step_count ?
@@ -375,7 +499,7 @@ static char *comment_now(const struct asked *asked)
 
 static char *text_now(const struct asked *asked)
 {
-	const struct pou *pou = chart_pou(asked->view);
+	const struct pou *pou = sfc_pou(asked->view);
 	const struct project *project = asked->view->sheet->project;
 	char line[LIMIT_NAME + 100];
 
@@ -407,7 +531,7 @@ static char *text_now(const struct asked *asked)
 	}
 }
 
-static const char *prompt_of(enum chart_asked what)
+static const char *prompt_of(enum sfc_asked what)
 {
 	static const char *const prompts[] = {
 		[ASK_STEP] = N_("Name of the step"),
@@ -417,7 +541,7 @@ static const char *prompt_of(enum chart_asked what)
 		[ASK_ANOTHER] = N_("What the step does: N Valve, L T#3s Horn, SET Lamp, "
 				   "ACTION Count"),
 		[ASK_LEAD] = N_("Lead to the step"),
-		[ASK_WAIT] = N_("Wait also for the step"),
+		[ASK_WAIT] = N_("Also wait for the step"),
 		[ASK_TIMES] = N_("MIN time, MAX time, ALARM bit"),
 		[ASK_NAME] = N_("Name of the transition"),
 		[ASK_PRIORITY] = N_("Priority: 1 is asked first"),
@@ -429,7 +553,7 @@ static const char *prompt_of(enum chart_asked what)
 }
 
 /* Which part it is asked of; SFC_NOTHING: of step or transition. */
-static enum sfc_part part_of(enum chart_asked what)
+static enum sfc_part part_of(enum sfc_asked what)
 {
 	switch (what) {
 	case ASK_STEP:
@@ -450,51 +574,52 @@ static enum sfc_part part_of(enum chart_asked what)
 	}
 }
 
-void chart_ask(LadderSfcView *view, enum chart_asked what, const char *typed)
+/* Why it cannot be asked for at the cursor; NULL: it can. */
+static const char *refusal(LadderSfcView *view, enum sfc_asked what)
 {
-	struct entry_popup_calls calls = { .changed = line_changed, .taken = line_taken,
-					   .gone = line_gone,
-					   .left = what != ASK_GO ? line_left : NULL };
+	int index;
+	const enum sfc_part part = sfc_part_at_cursor(view, &index), of = part_of(what);
+
+	if (what == ASK_GO || (part != SFC_NOTHING && part != SFC_JUMP &&
+			       (of == SFC_NOTHING || of == part)))
+		return NULL;
+	return of == SFC_STEP ? _("Select a step first.") :
+				_("Select a transition first.");
+}
+
+void sfc_ask_for(LadderSfcView *view, enum sfc_asked what, const char *typed)
+{
+	struct canvas_question question = {
+		.prompt = _(prompt_of(what)), .typed = typed != NULL, .drops = what == ASK_GO,
+		.changed = line_changed, .taken = line_taken, .free = g_free,
+	};
 	struct asked *asked;
-	graphene_rect_t box;
-	GdkRectangle cell;
 	char *text;
 	int index;
-	enum sfc_part part = chart_part(view, &index);
 
-	if (view->entry || !view->sheet || (what != ASK_GO && chart_is_fixed(view)))
+	if (view->canvas->entry || !view->sheet ||
+	    (what != ASK_GO && canvas_is_fixed(LADDER_CANVAS(view))))
 		return;
-	if (what != ASK_GO && (part == SFC_NOTHING || part == SFC_JUMP ||
-			       (part_of(what) != SFC_NOTHING && part_of(what) != part))) {
-		chart_tell(view, part_of(what) == SFC_STEP ?
-			   _("the cursor is not on a step") :
-			   _("the cursor is on no transition"));
+	if (refusal(view, what)) {
+		canvas_tell(LADDER_CANVAS(view), refusal(view, what));
 		return;
 	}
+	sfc_part_at_cursor(view, &index);
 	asked = g_new0(struct asked, 1);
 	*asked = (struct asked){ view, what, index,
 				 what == ASK_DOES || what == ASK_COMMENT ?
 				 view->cursor.use : -1 };
-	calls.context = asked;
 	text = typed ? g_strdup(typed) : text_now(asked);
-	box = chart_box(view, view->cursor);
-	cell = (GdkRectangle){ (int)((double)box.origin.x * view->zoom),
-			       (int)((double)box.origin.y * view->zoom),
-			       (int)((double)box.size.width * view->zoom),
-			       (int)((double)box.size.height * view->zoom) };
-	view->entry = ladder_entry_popup_new(GTK_WIDGET(view), _(prompt_of(what)), text,
-					     typed != NULL, &calls);
-	g_object_set_data_full(G_OBJECT(view->entry), "asked", asked, g_free);
-	/* Now it can be filled. */
-	ladder_entry_popup_ask(LADDER_ENTRY_POPUP(view->entry));
-	ladder_entry_popup_show(LADDER_ENTRY_POPUP(view->entry), &cell);
+	question.context = asked;
+	question.text = text;
+	canvas_ask(LADDER_CANVAS(view), &question);
 	g_free(text);
 }
 
-/* A condition or an action that is rungs is edited where rungs are. */
+/* A condition or an action made of rungs is edited on a sheet of rungs. */
 static bool show_body(LadderSfcView *view, int index, enum sfc_part part)
 {
-	const struct sfc *sfc = chart_pou(view)->sfc;
+	const struct sfc *sfc = sfc_pou(view)->sfc;
 	const struct sfc_body *body;
 
 	if (part == SFC_TRANSITION)
@@ -505,47 +630,26 @@ static bool show_body(LadderSfcView *view, int index, enum sfc_part part)
 		return false;
 	if (body->kind != BODY_RUNGS && body->kind != BODY_LIST)
 		return false;
-	chart_body_wanted(view, body);
+	sfc_want_body(view, body);
 	return true;
 }
 
-void chart_ask_here(LadderSfcView *view, const char *typed)
+void sfc_ask_here(LadderSfcView *view, const char *typed)
 {
 	int index;
-	const enum sfc_part part = chart_part(view, &index);
+	const enum sfc_part part = sfc_part_at_cursor(view, &index);
 
 	if (part == SFC_JUMP) {
 		const struct sfc_jump *jump = &view->sheet->layout->jump[index];
 
-		chart_go(view, (struct sfc_at){ jump->to_transition ? jump->from :
+		sfc_go(view, (struct sfc_at){ jump->to_transition ? jump->from :
 			view->sheet->layout->sfc->step_count + jump->from, -1, false },
 			false);
-		chart_ask(view, ASK_LEAD, typed);
+		sfc_ask_for(view, ASK_LEAD, typed);
 		return;
 	}
 	if (part == SFC_NOTHING || (!typed && show_body(view, index, part)))
 		return;
-	chart_ask(view, part == SFC_TRANSITION ? ASK_CONDITION :
+	sfc_ask_for(view, part == SFC_TRANSITION ? ASK_CONDITION :
 		  view->cursor.use >= 0 ? ASK_DOES : ASK_STEP, typed);
-}
-
-/* ---- closing ---- */
-
-static gboolean drop_popup(gpointer popup)
-{
-	gtk_widget_unparent(popup);
-	g_object_unref(popup);
-	return G_SOURCE_REMOVE;
-}
-
-void chart_entry_close(LadderSfcView *view)
-{
-	GtkWidget *entry = view->entry;
-
-	view->entry = NULL;
-	if (!entry)
-		return;
-	ladder_entry_popup_close(LADDER_ENTRY_POPUP(entry));
-	/* It may be what is calling. */
-	g_idle_add(drop_popup, g_object_ref(entry));
 }

@@ -1,146 +1,97 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_view_inside - what the files of a chart's sheet share. Only editor-gtk/sfc_view*.c
- * include it.
+ * sfc_view_inside - the parts of a chart's widget. Each may call those before it: cursor;
+ * live and edit; entry; the widget itself (sfc_view.c).
  */
 #ifndef EDITOR_SFC_VIEW_INSIDE_H
 #define EDITOR_SFC_VIEW_INSIDE_H
 
-#include "editor-gtk/edit/entry.h"
-#include "editor-gtk/kit/i18n.h"
-#include "editor-gtk/sim/live_map.h"
 #include "editor-gtk/draw/sfc_draw.h"
+#include "editor-gtk/edit/entry.h"
 #include "editor-gtk/edit/sfc_edit.h"
+#include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sfc/sfc_view.h"
+#include "editor-gtk/sim/live_map.h"
 
-/* A shape that assistive technology can name: a widget that draws nothing. */
-struct sfc_cell {
-	GtkWidget *widget;
-	struct sfc_at at;
-	char *name;
+/* A way that is drawn with the pointer. */
+struct sfc_stroke {
+	struct sfc_at from, to;     /* shape -1: none                          */
+	bool drawn;
+	graphene_point_t at;        /* the pointer, px at 100 %                 */
 };
 
-/* What runs, of what is shown. */
-struct chart_live {
-	LadderSim *sim;             /* NULL: none was given                    */
-	gulong handler[3];
-	struct live_map *map;       /* NULL: it is off, or not yet             */
-	struct location *active, *time; /* by step                             */
+/* Where the values of the program that runs are. */
+struct sfc_places {
+	struct live_map *map;       /* NULL: not found                         */
+	struct location *active, *time; /* by step; NULL: not looked for         */
 	uint8_t *step, *transition; /* enum sfc_bit                            */
-	bool same;                  /* the chart that runs is the one shown    */
 };
 
 struct _LadderSfcView {
-	GtkWidget parent;
-	LadderDocument *document;
-	int pou;
-	gulong handler[4];          /* of the document's signals               */
-	struct lettering *lettering;
+	LadderCanvas parent;
+	const struct canvas_state *canvas;
 	struct sfc_sheet *sheet;    /* NULL: the POU is no chart now           */
 	const struct ladder *of;    /* what the sheet was made of              */
-	double zoom;
 	struct sfc_at cursor;       /* shape -1: there is nothing              */
 	bool *selected;             /* by shape                                */
 	GArray *marks;              /* of struct sfc_mark: what the checks say   */
-	struct sfc_at found;        /* what find came to; shape -1: nothing      */
-	GtkWidget *entry;           /* the popup, while it is there            */
-	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
-	GArray *cells;              /* of struct sfc_cell                      */
-	guint cells_later;
-	char *told;                 /* of the cursor, to people who hear; NULL: nothing */
-	graphene_rect_t seen;       /* when they were made last                */
-	struct sfc_at press;        /* where the button went down              */
-	double press_x, press_y;    /* px at 100 %                              */
-	bool dragging;
-	double drag_x, drag_y;      /* where the pointer is, px at 100 %        */
-	struct sfc_at drop;
-	struct chart_live live;
+	struct sfc_at found;        /* by a search; shape -1: nothing           */
+	struct sfc_stroke stroke;
+	struct sfc_places places;
 };
 
-/* ---- sfc_view.c ---- */
-/** chart_pou - NULL: there is no chart now. */
-struct pou *chart_pou(LadderSfcView *view);
-/** chart_fresh - the sheet is that of the project as it is: others may hear of a change
- * before this view does, and ask it. */
-void chart_fresh(LadderSfcView *view);
-void chart_tell(LadderSfcView *view, const char *text);
-/** chart_is_fixed - is it a program that nobody can change? That is told. */
-bool chart_is_fixed(LadderSfcView *view);
-void chart_moved(LadderSfcView *view);
-/** chart_part - the part at the cursor, SFC_NOTHING for none; its number in the chart. */
-enum sfc_part chart_part(LadderSfcView *view, int *index);
-/** chart_box - of a place, px at 100 %. */
-graphene_rect_t chart_box(LadderSfcView *view, struct sfc_at at);
-/** chart_go - the cursor goes there, and is seen. @extend: what it leaves and comes to is
+/* ---- sfc_view_cursor.c: the chart, and where the cursor is ---- */
+/** sfc_pou - NULL: there is no chart now. */
+struct pou *sfc_pou(LadderSfcView *view);
+/** sfc_make_sheet - of the chart as it is now; what was asked for is closed. */
+void sfc_make_sheet(LadderSfcView *view);
+/** sfc_forget_places - another program runs, or another chart is shown. */
+void sfc_forget_places(LadderSfcView *view);
+/** sfc_fresh - makes the sheet if it is older than the project: other widgets may hear of
+ * a change first, and ask this one. */
+void sfc_fresh(LadderSfcView *view);
+/** sfc_part_at_cursor - SFC_NOTHING for none; @index: its number in the chart. */
+enum sfc_part sfc_part_at_cursor(LadderSfcView *view, int *index);
+/** sfc_part_here - the same, but of a jump its transition, or the step whose jump it is:
+ * where an edit goes on. */
+enum sfc_part sfc_part_here(LadderSfcView *view, int *index);
+/** sfc_macro_here - the macro-step at the cursor, else the one it stands in; -1: none. */
+int sfc_macro_here(LadderSfcView *view);
+/** sfc_box - of a place, px at 100 %. */
+graphene_rect_t sfc_box(LadderSfcView *view, struct sfc_at at);
+void sfc_reveal(LadderSfcView *view);
+/** sfc_go - moves the cursor and shows it. @extend: what it leaves and comes to is
  * selected. */
-void chart_go(LadderSfcView *view, struct sfc_at at, bool extend);
-/** chart_point - px of the widget become px at 100 %. */
-double chart_px(LadderSfcView *view, double px);
-void chart_body_wanted(LadderSfcView *view, const struct sfc_body *body);
+void sfc_go(LadderSfcView *view, struct sfc_at at, bool extend);
+/** sfc_want_body - emits "body-wanted". */
+void sfc_want_body(LadderSfcView *view, const struct sfc_body *body);
 
-/* ---- sfc_view_edit.c ---- */
-/** chart_put - the edit's text takes the place of the chart (taken over; @good false or a
- * NULL: nothing but its reason is told). The cursor goes to step or transition @index (of
- * the edit) if @kind is PIECE_STEP, PIECE_TRANSITION. @name: of the step of the history. */
-bool chart_put(LadderSfcView *view, struct sfc_edit *edit, bool good, const char *name,
-	       enum piece_kind kind, int index);
-struct sfc_edit *chart_edit(LadderSfcView *view);
-/** chart_part_here - as chart_part(), but of a jump its transition, or the step whose jump it
- * is: where one would go on. */
-enum sfc_part chart_part_here(LadderSfcView *view, int *index);
-/** chart_macro_here - the macro-step at the cursor, else the one it stands in; -1: none. */
-int chart_macro_here(LadderSfcView *view);
-/** chart_lead - a way from what stands at @from to what stands at @to. */
-void chart_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to);
+/* ---- sfc_view_live.c: what runs ---- */
+/** sfc_live_look - what the simulation has now; false: nothing runs. */
+bool sfc_live_look(LadderSfcView *view, struct sfc_live *out);
+/** sfc_live_force - makes the step at the cursor the active one. */
+void sfc_live_force(LadderSfcView *view);
 
-/* ---- sfc_view_entry.c ---- */
-enum chart_asked { ASK_STEP, ASK_CONDITION, ASK_DOES, ASK_ANOTHER, ASK_LEAD, ASK_WAIT,
-		   ASK_TIMES, ASK_NAME, ASK_PRIORITY, ASK_COMMENT, ASK_GO };
-/** chart_ask - for something of what stands at the cursor. @typed: already; NULL: what
- * there is. */
-void chart_ask(LadderSfcView *view, enum chart_asked what, const char *typed);
-/** chart_ask_here - for what is asked for there first. */
-void chart_ask_here(LadderSfcView *view, const char *typed);
-void chart_entry_close(LadderSfcView *view);
+/* ---- sfc_view_edit.c: changes, and the clipboard ---- */
+/** sfc_edit_begin - an edit of the chart; NULL: there is none. */
+struct sfc_edit *sfc_edit_begin(LadderSfcView *view);
+/** sfc_put - the edit's text replaces the chart (taken over; @good false or a NULL: only
+ * the reason is told). The cursor goes to step or transition @index (of the edit) if @kind
+ * is PIECE_STEP, PIECE_TRANSITION. @name: of the step of the history. */
+bool sfc_put(LadderSfcView *view, struct sfc_edit *edit, bool good, const char *name,
+	     enum piece_kind kind, int index);
+/** sfc_lead - a way from what stands at @from to what stands at @to. */
+void sfc_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to);
+/** sfc_edit_do - a verb that changes the chart, or copies; false: it is another verb. */
+bool sfc_edit_do(LadderSfcView *view, enum verb verb);
 
-/* ---- sfc_view_offer.c ---- */
-/** chart_offer - fills the popup with what could be meant at byte @at of @line. */
-void chart_offer(LadderSfcView *view, enum chart_asked what, const char *line, gsize at);
-/** chart_entry_place - where names are looked up; borrowed until the chart changes. */
-struct entry_place chart_entry_place(LadderSfcView *view, bool output);
-void chart_forget_uses(LadderSfcView *view);
-
-/* ---- sfc_view_find.c ---- */
-/** chart_line_of - from which line of the file on (1-based) a place stands there, its
- * comments too. */
-int chart_line_of(LadderSfcView *view, struct sfc_at at);
-
-/* ---- sfc_view_mouse.c ---- */
-void chart_mouse_init(LadderSfcView *view);
-/** chart_mouse_menu - what the right button shows, at the cursor. */
-void chart_mouse_menu(LadderSfcView *view);
-/** chart_drag_snapshot - the way that is drawn just now. */
-void chart_drag_snapshot(LadderSfcView *view, GtkSnapshot *snapshot,
-			 const struct theme *theme);
-
-/* ---- sfc_view_keys.c ---- */
-void chart_keys_init(LadderSfcView *view);
-
-/* ---- sfc_view_cells.c ---- */
-void chart_cells_init(LadderSfcView *view);
-void chart_cells_clear(LadderSfcView *view);
-void chart_cells_later(LadderSfcView *view);
-void chart_cells_allocate(LadderSfcView *view);
-/** chart_said - "Step Fill, initial": what a place is called. Caller frees. */
-char *chart_said(LadderSfcView *view, struct sfc_at at);
-
-/* ---- sfc_view_live.c ---- */
-void chart_live_clear(LadderSfcView *view);
-void chart_live_forget(LadderSfcView *view);
-/** chart_live_look - what the simulation has now; false: nothing runs. */
-bool chart_live_look(LadderSfcView *view, struct sfc_live *out);
-bool chart_live_is_on(LadderSfcView *view);
-/** chart_live_force - holds or releases the step at the cursor. */
-void chart_live_force(LadderSfcView *view);
+/* ---- sfc_view_entry.c: questions ---- */
+enum sfc_asked { ASK_STEP, ASK_CONDITION, ASK_DOES, ASK_ANOTHER, ASK_LEAD, ASK_WAIT,
+		 ASK_TIMES, ASK_NAME, ASK_PRIORITY, ASK_COMMENT, ASK_GO };
+/** sfc_ask_for - something of what stands at the cursor. @typed: the first letters; NULL:
+ * the line shows what there is. */
+void sfc_ask_for(LadderSfcView *view, enum sfc_asked what, const char *typed);
+/** sfc_ask_here - what is asked there first. */
+void sfc_ask_here(LadderSfcView *view, const char *typed);
 
 #endif

@@ -12,36 +12,10 @@
 
 #include <string.h>
 
-bool chart_live_is_on(LadderSfcView *view)
-{
-	return view->live.sim && ladder_sim_is_on(view->live.sim);
-}
-
-void chart_live_forget(LadderSfcView *view)
-{
-	struct chart_live *live = &view->live;
-
-	g_clear_pointer(&live->map, live_map_free);
-	g_clear_pointer(&live->active, g_free);
-	g_clear_pointer(&live->time, g_free);
-	g_clear_pointer(&live->step, g_free);
-	g_clear_pointer(&live->transition, g_free);
-}
-
-void chart_live_clear(LadderSfcView *view)
-{
-	struct chart_live *live = &view->live;
-
-	chart_live_forget(view);
-	for (int i = 0; live->sim && i < (int)G_N_ELEMENTS(live->handler); i++)
-		g_signal_handler_disconnect(live->sim, live->handler[i]);
-	g_clear_object(&live->sim);
-}
-
 static struct location find(LadderSfcView *view, const char *step, const char *member)
 {
 	char *name = g_strdup_printf("%s.%s", step, member);
-	struct location at = live_map_find(view->live.map, name, strlen(name));
+	struct location at = live_map_find(view->places.map, name, strlen(name));
 
 	g_free(name);
 	return at;
@@ -50,13 +24,13 @@ static struct location find(LadderSfcView *view, const char *step, const char *m
 /* Places of all steps, once a program. */
 static bool find_places(LadderSfcView *view)
 {
-	struct chart_live *live = &view->live;
+	struct sfc_places *live = &view->places;
 	const struct sfc *sfc = view->sheet->layout->sfc;
 
 	if (live->active)
 		return live->map;
-	live->map = live_map_new(&ladder_sim_twin(live->sim)->resource,
-		project_text(view->sheet->project, chart_pou(view)->name), NULL);
+	live->map = live_map_new(&ladder_sim_twin(view->canvas->sim)->resource,
+		project_text(view->sheet->project, sfc_pou(view)->name), NULL);
 	live->active = g_new0(struct location, sfc->step_count + 1);
 	live->time = g_new0(struct location, sfc->step_count + 1);
 	live->step = g_new0(uint8_t, sfc->step_count + 1);
@@ -71,8 +45,8 @@ static bool find_places(LadderSfcView *view)
 /* Was the condition of an enabled transition true? That of its last rung's coil. */
 static bool was_true(LadderSfcView *view, const struct sfc_body *body)
 {
-	const struct resource *resource = &ladder_sim_twin(view->live.sim)->resource;
-	const struct pou *pou = chart_pou(view);
+	const struct resource *resource = &ladder_sim_twin(view->canvas->sim)->resource;
+	const struct pou *pou = sfc_pou(view);
 	const int rung = body->first + body->count - 1;
 	bool in = false, out = false;
 	int number;
@@ -80,15 +54,15 @@ static bool was_true(LadderSfcView *view, const struct sfc_body *body)
 	if ((body->kind != BODY_EXPRESSION && body->kind != BODY_RUNGS) || rung < 0 ||
 	    rung >= pou->rung_count)
 		return false;
-	number = ladder_sim_rung(view->live.sim, view->document, view->pou, rung);
+	number = ladder_sim_rung(view->canvas->sim, view->canvas->document, view->canvas->pou, rung);
 	return number >= 0 &&
-	       resource_power(resource, (uint32_t)view->pou, (uint32_t)number + 1, 1,
+	       resource_power(resource, (uint32_t)view->canvas->pou, (uint32_t)number + 1, 1,
 			      pou->rung[rung]->cols, &in, &out) && in;
 }
 
 static void look_at_ways(LadderSfcView *view)
 {
-	struct chart_live *live = &view->live;
+	struct sfc_places *live = &view->places;
 	const struct sfc *sfc = view->sheet->layout->sfc;
 
 	for (int t = 0; t < sfc->transition_count; t++) {
@@ -109,23 +83,23 @@ static void look_at_ways(LadderSfcView *view)
 static bool time_of(void *context, int step, char *out, size_t size)
 {
 	LadderSfcView *view = context;
-	const struct image *image = &ladder_sim_twin(view->live.sim)->resource.image;
-	const struct location at = view->live.time[step];
+	const struct image *image = &ladder_sim_twin(view->canvas->sim)->resource.image;
+	const struct location at = view->places.time[step];
 
-	if (!(view->live.step[step] & SFC_ACTIVE) || at.type == IEC_NONE)
+	if (!(view->places.step[step] & SFC_ACTIVE) || at.type == IEC_NONE)
 		return false;
 	live_value_print(at.type, image_get(image, at), out, size);
 	return true;
 }
 
-bool chart_live_look(LadderSfcView *view, struct sfc_live *out)
+bool sfc_live_look(LadderSfcView *view, struct sfc_live *out)
 {
-	struct chart_live *live = &view->live;
+	struct sfc_places *live = &view->places;
 	const struct image *image;
 
-	if (!chart_live_is_on(view) || !view->sheet || !find_places(view))
+	if (!canvas_is_live(LADDER_CANVAS(view)) || !view->sheet || !find_places(view))
 		return false;
-	image = &ladder_sim_twin(live->sim)->resource.image;
+	image = &ladder_sim_twin(view->canvas->sim)->resource.image;
 	for (int i = 0; i < view->sheet->layout->sfc->step_count; i++) {
 		const struct location at = live->active[i];
 
@@ -137,44 +111,17 @@ bool chart_live_look(LadderSfcView *view, struct sfc_live *out)
 	return true;
 }
 
-/* ---- from outside ---- */
-
-static void shown(LadderSfcView *view)
-{
-	gtk_widget_queue_draw(GTK_WIDGET(view));
-	chart_cells_later(view);
-}
-
-static void program_changed(LadderSfcView *view)
-{
-	chart_live_forget(view);
-	shown(view);
-}
-
-void ladder_sfc_view_set_sim(LadderSfcView *view, LadderSim *sim)
-{
-	struct chart_live *live = &view->live;
-
-	chart_live_clear(view);
-	if (!sim)
-		return;
-	live->sim = g_object_ref(sim);
-	live->handler[0] = g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(shown),
-						    view);
-	live->handler[1] = g_signal_connect_swapped(sim, "program-changed",
-						    G_CALLBACK(program_changed), view);
-	live->handler[2] = g_signal_connect_swapped(sim, "shown", G_CALLBACK(shown), view);
-}
+/* ---- acts ---- */
 
 static void act_set(LadderSfcView *view, struct location at, int64_t value)
 {
 	const struct act act = { .kind = ACT_SET, .at = at, .value.i = value };
 
 	if (at.type != IEC_NONE)
-		ladder_sim_act(view->live.sim, &act);
+		ladder_sim_act(view->canvas->sim, &act);
 }
 
-/* What a step that becomes active does once. */
+/* Sets and resets of a step that becomes active. */
 static void set_once(LadderSfcView *view, const struct sfc_step *step)
 {
 	for (int i = step->first_use; i < step->first_use + step->use_count; i++) {
@@ -182,7 +129,7 @@ static void set_once(LadderSfcView *view, const struct sfc_step *step)
 		const char *name = project_text(view->sheet->project, use->operand);
 
 		if (use->kind != USE_ACTION)
-			act_set(view, live_map_find(view->live.map, name, strlen(name)),
+			act_set(view, live_map_find(view->places.map, name, strlen(name)),
 				use->kind == USE_SET);
 	}
 }
@@ -195,12 +142,12 @@ static bool is_among(const struct sfc_steps *steps, int step)
 	return false;
 }
 
-/* Between two scans: all steps are left, and those that belong to @index are active, as
- * FORCE has it; only what pulses and what is stored needs a scan to begin. */
+/* Between two scans: only the steps of @index become active, as with FORCE. Pulses
+ * and stored actions begin in a scan only. */
 static void force_between(LadderSfcView *view, int index)
 {
 	const struct sfc *sfc = view->sheet->layout->sfc;
-	const struct chart_live *live = &view->live;
+	const struct sfc_places *live = &view->places;
 	struct sfc_steps steps;
 	struct arena arena;
 
@@ -218,33 +165,34 @@ static void force_between(LadderSfcView *view, int index)
 			set_once(view, &sfc->step[i]);
 	}
 	arena_free(&arena);
-	chart_tell(view, _("The step is active. What begins with P, S, SD, DS or SL does so "
-			   "by CONTROL(FORCE := …) alone."));
+	canvas_tell(LADDER_CANVAS(view),
+		    _("The step is active. Actions with P, S, SD, DS or "
+			  "SL start only with CONTROL(FORCE := …)."));
 }
 
-/* By the number that CONTROL has for it; else by hand. */
-void chart_live_force(LadderSfcView *view)
+/* Uses the variable of CONTROL(FORCE); without one sets the steps itself. */
+void sfc_live_force(LadderSfcView *view)
 {
-	const struct pou *pou = chart_pou(view);
+	const struct pou *pou = sfc_pou(view);
 	const char *name = pou ? project_text(view->sheet->project,
 					      pou->sfc->control[CONTROL_FORCE]) : "";
 	struct act act = { .kind = ACT_SET };
 	struct sfc_live now;
 	int index;
 
-	if (!chart_live_look(view, &now)) {
-		chart_tell(view, _("nothing is simulated"));
+	if (!sfc_live_look(view, &now)) {
+		canvas_tell(LADDER_CANVAS(view), _("The simulation is not running."));
 		return;
 	}
-	if (chart_part(view, &index) != SFC_STEP) {
-		chart_tell(view, _("the cursor is not on a step"));
+	if (sfc_part_at_cursor(view, &index) != SFC_STEP) {
+		canvas_tell(LADDER_CANVAS(view), _("Select a step first."));
 		return;
 	}
-	act.at = live_map_find(view->live.map, name, strlen(name));
+	act.at = live_map_find(view->places.map, name, strlen(name));
 	if (!*name || act.at.type == IEC_NONE) {
 		force_between(view, index);
 		return;
 	}
 	act.value.i = index + 1;
-	ladder_sim_act(view->live.sim, &act);
+	ladder_sim_act(view->canvas->sim, &act);
 }

@@ -100,9 +100,9 @@ static void mark(struct blockers *blockers, const struct why *why)
 static bool ask(struct blockers *blockers, struct why *why)
 {
 	const struct twin *twin = ladder_sim_twin(blockers->core->sim);
-	const int pou = ladder_grid_view_pou(blockers->sheet);
+	const int pou = ladder_canvas_pou(LADDER_CANVAS(blockers->sheet));
 	const int rung = ladder_sim_rung(blockers->core->sim,
-		ladder_grid_view_document(blockers->sheet), pou,
+		ladder_canvas_document(LADDER_CANVAS(blockers->sheet)), pou,
 		blockers->rung + ladder_grid_view_first(blockers->sheet));
 	struct arena arena;
 	bool good;
@@ -151,8 +151,8 @@ static void look(struct blockers *blockers)
 static bool meant(LadderGridView *sheet, int *row, int *col)
 {
 	const struct project *project = ladder_document_project(
-		ladder_grid_view_document(sheet));
-	const struct rung *rung = project->pou[ladder_grid_view_pou(sheet)]
+		ladder_canvas_document(LADDER_CANVAS(sheet)));
+	const struct rung *rung = project->pou[ladder_canvas_pou(LADDER_CANVAS(sheet))]
 		.rung[ladder_grid_view_first(sheet) + ladder_grid_view_cursor(sheet).rung];
 
 	if (ladder_grid_view_cell(sheet, row, col))

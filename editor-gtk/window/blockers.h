@@ -8,7 +8,7 @@
 #ifndef EDITOR_BLOCKERS_H
 #define EDITOR_BLOCKERS_H
 
-#include "editor-gtk/ladder/grid_view_live.h"
+#include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/window/core.h"
 
 struct blockers {

@@ -44,7 +44,7 @@ static void follow(struct exchange *exchange)
 	LadderGridView *sheet = front_sheet(exchange->core->front);
 
 	if (sheet)
-		ladder_report_view_follow(view_of(exchange), ladder_grid_view_pou(sheet),
+		ladder_report_view_follow(view_of(exchange), ladder_canvas_pou(LADDER_CANVAS(sheet)),
 					  ladder_grid_view_first(sheet) +
 					  ladder_grid_view_cursor(sheet).rung, true);
 }

@@ -27,10 +27,10 @@ static void mark_hit(struct finder *finder)
 
 	if (chart)
 		ladder_sfc_view_set_found(chart, hit && hit->rung < 0 &&
-			hit->pou == ladder_sfc_view_pou(chart) ? hit->row : -1);
+			hit->pou == ladder_canvas_pou(LADDER_CANVAS(chart)) ? hit->row : -1);
 	if (!sheet)
 		return;
-	if (hit && hit->rung >= 0 && hit->pou == ladder_grid_view_pou(sheet))
+	if (hit && hit->rung >= 0 && hit->pou == ladder_canvas_pou(LADDER_CANVAS(sheet)))
 		ladder_grid_view_set_found(sheet, hit->rung - ladder_grid_view_first(sheet),
 					   hit->row, hit->col);
 	else
@@ -81,7 +81,7 @@ static bool is_at_hit(struct finder *finder, LadderSfcView *chart)
 {
 	const int *place = ladder_find_bar_place(finder->bar);
 
-	return place[0] == ladder_sfc_view_pou(chart) && place[1] < 0 &&
+	return place[0] == ladder_canvas_pou(LADDER_CANVAS(chart)) && place[1] < 0 &&
 	       ladder_sfc_view_is_at(chart, place[2]);
 }
 
@@ -94,12 +94,12 @@ static void tell_place(struct finder *finder)
 	if (ladder_find_bar_has_keys(finder->bar))
 		return; /* from hit to hit */
 	if (chart && !is_at_hit(finder, chart))
-		ladder_find_bar_set_place(finder->bar, ladder_sfc_view_pou(chart), -1,
+		ladder_find_bar_set_place(finder->bar, ladder_canvas_pou(LADDER_CANVAS(chart)), -1,
 					  ladder_sfc_view_row(chart), -1);
 	if (!sheet)
 		return;
 	cursor = ladder_grid_view_cursor(sheet);
-	ladder_find_bar_set_place(finder->bar, ladder_grid_view_pou(sheet),
+	ladder_find_bar_set_place(finder->bar, ladder_canvas_pou(LADDER_CANVAS(sheet)),
 				  ladder_grid_view_first(sheet) + cursor.rung, cursor.row,
 				  cursor.col);
 }

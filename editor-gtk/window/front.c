@@ -280,10 +280,10 @@ static struct numbers numbers_of(struct front *front)
 	const struct project *project;
 
 	if (of.sheet) {
-		project = ladder_document_project(ladder_grid_view_document(of.sheet));
+		project = ladder_document_project(ladder_canvas_document(LADDER_CANVAS(of.sheet)));
 		of.first = 1 + ladder_grid_view_range(of.sheet, &of.last);
 		of.last = of.last < 0 ?
-			project->pou[ladder_grid_view_pou(of.sheet)].rung_count :
+			project->pou[ladder_canvas_pou(LADDER_CANVAS(of.sheet))].rung_count :
 			of.first - 1 + of.last;
 	} else if (of.text) {
 		of.last = gtk_text_buffer_get_line_count(of.text);

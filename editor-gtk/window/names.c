@@ -28,7 +28,7 @@ static const char no_name[] = N_("There is no name at the cursor.");
 
 static bool is_in_rung(const struct xref_use *use, LadderGridView *sheet)
 {
-	return use->pou == ladder_grid_view_pou(sheet) &&
+	return use->pou == ladder_canvas_pou(LADDER_CANVAS(sheet)) &&
 	       use->rung == ladder_grid_view_first(sheet) +
 			    ladder_grid_view_cursor(sheet).rung + 1;
 }

@@ -44,9 +44,9 @@ bool page_fits(GtkWidget *content, const struct project *project, int pou)
 int page_pou(GtkWidget *content)
 {
 	if (LADDER_IS_GRID_VIEW(content))
-		return ladder_grid_view_pou(LADDER_GRID_VIEW(content));
+		return ladder_canvas_pou(LADDER_CANVAS(content));
 	if (LADDER_IS_SFC_PAGE(content))
-		return ladder_sfc_view_pou(ladder_sfc_page_chart(LADDER_SFC_PAGE(content)));
+		return ladder_canvas_pou(LADDER_CANVAS(ladder_sfc_page_chart(LADDER_SFC_PAGE(content))));
 	return ladder_text_view_pou(LADDER_TEXT_VIEW(content));
 }
 
@@ -57,7 +57,7 @@ void page_set_pou(GtkWidget *content, int pou)
 	if (LADDER_IS_TEXT_VIEW(content))
 		ladder_text_view_set_pou(LADDER_TEXT_VIEW(content), pou);
 	else if (LADDER_IS_GRID_VIEW(content))
-		ladder_grid_view_set_pou(LADDER_GRID_VIEW(content), pou);
+		ladder_canvas_set_pou(LADDER_CANVAS(content), pou);
 	else
 		ladder_sfc_page_set_pou(LADDER_SFC_PAGE(content), pou);
 }
@@ -141,7 +141,7 @@ static GtkWidget *new_sheet(struct core *core, LadderDocument *document, int pou
 	GtkWidget *sheet = ladder_grid_view_new(document, pou);
 	GtkWidget *scroller = gtk_scrolled_window_new();
 
-	ladder_grid_view_set_sim(LADDER_GRID_VIEW(sheet), core->sim);
+	ladder_canvas_set_sim(LADDER_CANVAS(sheet), core->sim);
 	listen(core, sheet);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
 	slow_bar_make(GTK_SCROLLED_WINDOW(scroller));

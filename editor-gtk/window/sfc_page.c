@@ -133,7 +133,7 @@ static void show_rungs(LadderSfcPage *page, int first)
 		return;
 	page->rungs = ladder_grid_view_new(page->document, page->pou);
 	ladder_grid_view_set_range(LADDER_GRID_VIEW(page->rungs), first, count);
-	ladder_grid_view_set_sim(LADDER_GRID_VIEW(page->rungs), page->sim);
+	ladder_canvas_set_sim(LADDER_CANVAS(page->rungs), page->sim);
 	g_signal_connect_swapped(page->rungs, "told", G_CALLBACK(told), page);
 	g_signal_connect_swapped(page->rungs, "cursor-moved", G_CALLBACK(moved), page);
 	follow_focus(page, page->rungs, G_CALLBACK(rungs_entered));
@@ -231,7 +231,7 @@ void ladder_sfc_page_set_pou(LadderSfcPage *page, int pou)
 		return;
 	page->pou = pou;
 	close_below(page);
-	ladder_sfc_view_set_pou(LADDER_SFC_VIEW(page->chart), pou);
+	ladder_canvas_set_pou(LADDER_CANVAS(page->chart), pou);
 }
 
 /* ---- life ---- */
@@ -296,12 +296,9 @@ GtkWidget *ladder_sfc_page_new(LadderDocument *document, int pou, LadderSim *sim
 	page->sim = sim ? g_object_ref(sim) : NULL;
 	page->pou = pou;
 	page->chart = ladder_sfc_view_new(document, pou);
-	ladder_sfc_view_set_sim(LADDER_SFC_VIEW(page->chart), sim);
+	ladder_canvas_set_sim(LADDER_CANVAS(page->chart), sim);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), page->chart);
 	gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(scroller), FALSE);
-	/* The chart shows its cursor; all of it cannot be shown when it gets the focus. */
-	gtk_viewport_set_scroll_to_focus(GTK_VIEWPORT(gtk_scrolled_window_get_child(
-		GTK_SCROLLED_WINDOW(scroller))), FALSE);
 	gtk_paned_set_start_child(GTK_PANED(page->paned), scroller);
 	follow_focus(page, page->chart, G_CALLBACK(chart_entered));
 	g_signal_connect_swapped(page->chart, "body-wanted", G_CALLBACK(body_wanted), page);

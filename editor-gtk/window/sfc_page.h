@@ -6,7 +6,7 @@
 #ifndef EDITOR_SFC_PAGE_H
 #define EDITOR_SFC_PAGE_H
 
-#include "editor-gtk/ladder/grid_view_live.h"
+#include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sfc/sfc_view.h"
 
 #define LADDER_TYPE_SFC_PAGE (ladder_sfc_page_get_type())

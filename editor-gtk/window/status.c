@@ -108,11 +108,11 @@ static void show_place(struct status *status)
 	GtkTextBuffer *text = page_text(front_tab(front));
 
 	if (sheet)
-		show(status, ladder_grid_view_place(sheet),
-		     percent(ladder_grid_view_zoom(sheet)), ladder_grid_view_keys(sheet));
+		show(status, ladder_canvas_place(LADDER_CANVAS(sheet)),
+		     percent(ladder_canvas_zoom(LADDER_CANVAS(sheet))), ladder_canvas_next_keys(LADDER_CANVAS(sheet)));
 	else if (chart)
-		show(status, ladder_sfc_view_place(chart),
-		     percent(ladder_sfc_view_zoom(chart)), ladder_sfc_view_keys(chart));
+		show(status, ladder_canvas_place(LADDER_CANVAS(chart)),
+		     percent(ladder_canvas_zoom(LADDER_CANVAS(chart))), ladder_canvas_next_keys(LADDER_CANVAS(chart)));
 	else
 		show(status, text ? place_in(text) : g_strdup(""), g_strdup(""),
 		     front_list(front) ? keys_in_list() : g_strdup(""));

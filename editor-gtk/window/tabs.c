@@ -308,7 +308,7 @@ void tabs_go(struct tabs *tabs, int pou, int rung, int row, int col)
 	sheet = front_sheet(tabs->core->front);
 	if (page && LADDER_IS_SFC_PAGE(page_content(page)))
 		go_in_chart(LADDER_SFC_PAGE(page_content(page)), rung, row, col);
-	else if (sheet && ladder_grid_view_pou(sheet) == pou)
+	else if (sheet && ladder_canvas_pou(LADDER_CANVAS(sheet)) == pou)
 		ladder_grid_view_go(sheet, rung, row, col);
 	else if (page && LADDER_IS_TEXT_VIEW(page_content(page)))
 		ladder_text_view_go_here(LADDER_TEXT_VIEW(page_content(page)), row + 1, col + 1);
@@ -399,7 +399,7 @@ static bool is_here(struct tabs *tabs, const struct changed *changed)
 	LadderTextView *list = front_list(tabs->core->front);
 
 	if (sheet)
-		return ladder_grid_view_pou(sheet) == changed->pou &&
+		return ladder_canvas_pou(LADDER_CANVAS(sheet)) == changed->pou &&
 		       ladder_grid_view_first(sheet) + ladder_grid_view_cursor(sheet).rung ==
 		       changed->rung;
 	return list && ladder_text_view_pou(list) == changed->pou;

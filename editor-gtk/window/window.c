@@ -170,7 +170,7 @@ static void do_next_problem(LadderWindow *window)
 static void do_next_bookmark(LadderWindow *window)
 {
 	LadderGridView *sheet = front_sheet(&window->front);
-	int pou = sheet ? ladder_grid_view_pou(sheet) : 0;
+	int pou = sheet ? ladder_canvas_pou(LADDER_CANVAS(sheet)) : 0;
 	int rung = sheet ? ladder_grid_view_cursor(sheet).rung : -1;
 
 	if (ladder_document_next_bookmark(window->core.document, &pou, &rung))
@@ -197,11 +197,11 @@ static void zoom(LadderWindow *window, double factor)
 	LadderSfcView *chart = front_seen_chart(&window->front);
 
 	if (sheet)
-		ladder_grid_view_set_zoom(sheet, factor == 0 ? 1 :
-					  ladder_grid_view_zoom(sheet) * factor);
+		ladder_canvas_set_zoom(LADDER_CANVAS(sheet), factor == 0 ? 1 :
+					  ladder_canvas_zoom(LADDER_CANVAS(sheet)) * factor);
 	else if (chart)
-		ladder_sfc_view_set_zoom(chart, factor == 0 ? 1 :
-					 ladder_sfc_view_zoom(chart) * factor);
+		ladder_canvas_set_zoom(LADDER_CANVAS(chart), factor == 0 ? 1 :
+					 ladder_canvas_zoom(LADDER_CANVAS(chart)) * factor);
 }
 
 static void do_show_as(LadderWindow *window)
@@ -313,7 +313,7 @@ static void do_on_sheet(LadderWindow *window, LadderGridView *sheet, enum verb v
 	const guint64 version = ladder_document_version(window->core.document);
 	const bool begun = ladder_grid_view_has_begun(sheet);
 
-	ladder_grid_view_do(sheet, verb);
+	ladder_canvas_do(LADDER_CANVAS(sheet), verb);
 	if (verb == VERB_cancel && !begun &&
 	    ladder_document_version(window->core.document) == version)
 		finder_close(&window->finder);
@@ -324,7 +324,7 @@ static void do_on_chart(LadderWindow *window, enum verb verb)
 	LadderSfcView *chart = front_seen_chart(&window->front);
 
 	if (chart)
-		ladder_sfc_view_do(chart, verb);
+		ladder_canvas_do(LADDER_CANVAS(chart), verb);
 	else if (verb == VERB_copy_picture)
 		messages_tell(&window->messages, _("Only rungs can be copied as pictures. "
 						   "Open a sheet first."));
@@ -631,7 +631,7 @@ static void page_changed(LadderWindow *window)
 	GtkWidget *list = sheet ? below_made(&window->below, "list") : NULL;
 
 	if (list)
-		ladder_code_view_set_pou(list, ladder_grid_view_pou(sheet));
+		ladder_code_view_set_pou(list, ladder_canvas_pou(LADDER_CANVAS(sheet)));
 }
 
 /* ---- panels ---- */
@@ -674,7 +674,7 @@ static GtkWidget *make_list(gpointer data)
 	LadderGridView *sheet = front_sheet(core->front);
 
 	if (sheet)
-		ladder_code_view_set_pou(list, ladder_grid_view_pou(sheet));
+		ladder_code_view_set_pou(list, ladder_canvas_pou(LADDER_CANVAS(sheet)));
 	return list;
 }
 

@@ -13,7 +13,7 @@
  */
 #include "editor-gtk/window/app.h"
 #include "editor-gtk/window/window.h"
-#include "editor-gtk/ladder/grid_view_live.h"
+#include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/kit/memory.h"
 #include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/sfc/sfc_view.h"
@@ -178,13 +178,13 @@ static void to_contact(LadderGridView *sheet, int round)
 static void negate(LadderGridView *sheet, int round)
 {
 	(void)round;
-	ladder_grid_view_do(sheet, VERB_negate);
+	ladder_canvas_do(LADDER_CANVAS(sheet), VERB_negate);
 }
 
 static void add_rung(LadderGridView *sheet, int round)
 {
 	(void)round;
-	ladder_grid_view_do(sheet, VERB_rung_below);
+	ladder_canvas_do(LADDER_CANVAS(sheet), VERB_rung_below);
 }
 
 static void undo(LadderGridView *sheet, int round)
@@ -203,7 +203,7 @@ static void free_cell(LadderGridView *sheet, int round)
 {
 	(void)round;
 	if (line_of(sheet) && gtk_widget_get_mapped(line_of(sheet)))
-		ladder_grid_view_do(sheet, VERB_cancel);
+		ladder_canvas_do(LADDER_CANVAS(sheet), VERB_cancel);
 	ladder_grid_view_go(sheet, 2500, 0, 0);
 }
 
@@ -211,7 +211,7 @@ static void free_cell(LadderGridView *sheet, int round)
 static void open_entry(LadderGridView *sheet, int round)
 {
 	(void)round;
-	ladder_grid_view_do(sheet, VERB_block);
+	ladder_canvas_do(LADDER_CANVAS(sheet), VERB_block);
 }
 
 static void with_entry(LadderGridView *sheet, int round)
@@ -465,7 +465,7 @@ static void scroll_chart(GtkWidget *chart, int round)
 static void edit_chart(GtkWidget *chart, int round)
 {
 	(void)round;
-	ladder_sfc_view_do(LADDER_SFC_VIEW(chart), VERB_step_below);
+	ladder_canvas_do(LADDER_CANVAS(chart), VERB_step_below);
 }
 
 static void measure_one(GtkWidget *widget, const char *name,

@@ -3,7 +3,7 @@
  * test_live - a sheet while it simulates: what it shows is what the program computed, only
  * what changed is drawn, and what a person does reaches the program.
  */
-#include "editor-gtk/ladder/grid_view_live.h"
+#include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sim/live_map.h"
 #include "editor-gtk/text/text_view.h"
 #include "tests/editor/nodes.h"
@@ -384,25 +384,25 @@ static void test_keys(void)
 	char *keys;
 
 	ladder_grid_view_go(view, 0, 0, 0);
-	keys = ladder_grid_view_keys(view);
+	keys = ladder_canvas_next_keys(LADDER_CANVAS(view));
 	CHECK_AS(g_str_has_prefix(keys, "Space: Toggle"), keys);
 	g_free(keys);
-	ladder_grid_view_do(view, VERB_cycle);
+	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
 	CHECK(comes("Start", 1));
-	ladder_grid_view_do(view, VERB_cycle);
-	ladder_grid_view_do(view, VERB_cycle);
-	ladder_grid_view_do(view, VERB_cycle);
+	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
+	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
+	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
 	CHECK_AS(comes("Start", 0), "each key counts, whether it was seen or not");
 	ladder_grid_view_go(view, 0, 0, 2);
-	ladder_grid_view_do(view, VERB_force);
+	ladder_canvas_do(LADDER_CANVAS(view), VERB_force);
 	scan(1);
 	CHECK(ladder_sim_is_forced(sim, find("Motor")) && value_of("Motor") == 1);
 	CHECK(bits_of(view, 0, 0, 2) & LIVE_FORCED && bits_of(view, 0, 1, 0) & LIVE_FORCED);
-	ladder_grid_view_do(view, VERB_cycle);
+	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
 	CHECK(comes("Motor", 0));
 	scan(2);
 	CHECK_AS(value_of("Motor") == 0, "held against the program");
-	ladder_grid_view_do(view, VERB_force);
+	ladder_canvas_do(LADDER_CANVAS(view), VERB_force);
 	scan(2);
 	CHECK(!ladder_sim_is_forced(sim, find("Motor")));
 	CHECK(!(bits_of(view, 0, 0, 2) & LIVE_FORCED));
@@ -507,7 +507,7 @@ static void test_end(void)
 	ladder_sim_end(sim);
 	settle();
 	CHECK(!ladder_grid_view_live(view, 0, 0, 0, &bits, text));
-	ladder_grid_view_do(view, VERB_force); /* tells, and does nothing */
+	ladder_canvas_do(LADDER_CANVAS(view), VERB_force); /* tells, and does nothing */
 }
 
 /* ---- a window ---- */
@@ -518,7 +518,7 @@ static GtkWidget *sheet_of(int pou)
 	GtkWidget *sheet = ladder_grid_view_new(document, pou);
 
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
-	ladder_grid_view_set_sim(LADDER_GRID_VIEW(sheet), sim);
+	ladder_canvas_set_sim(LADDER_CANVAS(sheet), sim);
 	gtk_stack_add_named(GTK_STACK(stack), scroller, pou == 1 ? "main" : "body");
 	return sheet;
 }
@@ -545,7 +545,7 @@ static void test_zoom(void)
 	};
 
 	for (gsize i = 0; i < G_N_ELEMENTS(cases); i++) {
-		ladder_grid_view_set_zoom(view, cases[i].zoom);
+		ladder_canvas_set_zoom(LADDER_CANVAS(view), cases[i].zoom);
 		draw();
 		CHECK(widget_has(GTK_WIDGET(view), "texture {") == cases[i].image);
 	}

@@ -164,7 +164,7 @@ def nothing_left(screen):
     editor.keys('Home', 'ctrl+i')
     editor.says('there is no box here')
     editor.keys('Right', 'Right', 'ctrl+i')
-    editor.says('nothing is left to be fed: the box has no further Boolean input')
+    editor.says('The box has no further Boolean input')
     assert not editor.asked()
     editor.keys('Left')
     feed(editor, 'CD', 'Back')
@@ -175,7 +175,7 @@ def nothing_left(screen):
     feed(editor, 'R', 'Zero')
     feed(editor, 'LD', 'Back')
     editor.keys('ctrl+i')
-    editor.says('nothing is left to be fed')
+    editor.says('The box has no further Boolean input')
     text = editor.save(path)
     assert all(re.search(r'NO %s +\| \.%s ' % pair, text) for pair in (('Back', 'CD'), ('Zero', 'R'), ('Back', 'LD'))), text
     check(path)

@@ -182,7 +182,7 @@ def given_back(screen):
     editor.to_sheet()
     edited = editor.save(path)
     editor.keys('Escape')
-    editor.says('other things were changed since')
+    editor.says('Other things were changed since')
     editor.shot('declared-not-given-back')
     editor.keys('Insert')  # the rung below; the cursor left
     editor.entry('OUT More')

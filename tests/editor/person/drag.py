@@ -148,7 +148,7 @@ def quick(screen):
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     editor.drag(editor.wire_end(36 + 46, 0, 10), editor.wire_end(36 + 46, 1, 10), steps=1)
-    editor.says('A branch of wire')
+    editor.says('This branch is empty')
     saved(editor, path, lambda rows: '^' in ''.join(rows))
     editor.entry('Lamp')
     saved(editor, path, lambda rows: 'NO Lamp ^' in rows[2])

@@ -105,7 +105,7 @@ def by_pointer(screen):
         choose(editor, name)
     # From the wire left of Start round it to the wire right of it: a row comes below.
     editor.drag(editor.wire_end(60, 0, 10), editor.wire_end(60, 1, 10), look='seal-in-branch')
-    editor.says('A branch of wire')
+    editor.says('This branch is empty')
     editor.drag(contact, editor.grid(60 + 84, 0))
     choose(editor, 'Motor')
     editor.shot('seal-in-pointer')

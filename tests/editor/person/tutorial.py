@@ -216,7 +216,7 @@ def by_mouse(screen):
     put('closed while FALSE', 'Stop', 60, 1)
     put('TRUE while powered', 'Motor', 60, 5)
     editor.drag(editor.wire_end(60, 0, 10), editor.wire_end(60, 1, 10))
-    editor.says('A branch of wire')
+    editor.says('This branch is empty')
     put('closed while TRUE', 'Motor', 60 + 84, 0)
     editor.click(editor.find('Save', 'push button'))
     until(lambda: open(path).read() == picture(PICTURES[-1]), 'it to be saved')

@@ -57,14 +57,14 @@ static void test_pages(LadderDocument *document)
 		GtkWidget *page = ladder_sfc_view_new(document, 1);
 
 		put(page);
-		ladder_sfc_view_do(LADDER_SFC_VIEW(page), chart[i]);
+		ladder_canvas_do(LADDER_CANVAS(page), chart[i]);
 		goes(page, "a chart goes");
 	}
 	for (gsize i = 0; i < G_N_ELEMENTS(sheet); i++) {
 		GtkWidget *page = ladder_grid_view_new(document, 0);
 
 		put(page);
-		ladder_grid_view_do(LADDER_GRID_VIEW(page), sheet[i]);
+		ladder_canvas_do(LADDER_CANVAS(page), sheet[i]);
 		goes(page, "a sheet goes");
 	}
 }

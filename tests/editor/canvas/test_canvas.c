@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_canvas - what sheets of rungs and of charts share: zoom, scrolling, accessible
+ * children, the popup. Both kinds pass the same checks.
+ */
+#include "editor-gtk/ladder/grid_view.h"
+#include "editor-gtk/sfc/sfc_view.h"
+#include "editor-gtk/window/app.h"
+#include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+#include <gtksourceview/gtksource.h>
+#include <string.h>
+
+static const char sample[] =
+	"RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n\n"
+	"PROGRAM Way SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n";
+
+static GtkWidget *window;
+static int zoomed, moved;
+static bool had_place;
+
+static void count_zoom(LadderCanvas *canvas)
+{
+	(void)canvas;
+	zoomed++;
+}
+
+/* The window asks for the place of the cursor whenever it moved, or the focus did. */
+static void ask_place(LadderCanvas *canvas)
+{
+	char *place = ladder_canvas_place(canvas);
+
+	moved++;
+	had_place = had_place && place[0];
+	g_free(place);
+}
+
+static GtkWidget *child_of(LadderCanvas *canvas, bool popover)
+{
+	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(canvas));
+
+	while (child && (popover ? !GTK_IS_POPOVER(child) || !gtk_widget_get_mapped(child) :
+			 GTK_IS_POPOVER(child)))
+		child = gtk_widget_get_next_sibling(child);
+	return child;
+}
+
+static void test_zoom(LadderCanvas *canvas, double least)
+{
+	GtkAdjustment *down = gtk_scrollable_get_vadjustment(GTK_SCROLLABLE(canvas));
+
+	zoomed = 0;
+	ladder_canvas_set_zoom(canvas, 10);
+	CHECK(ladder_canvas_zoom(canvas) == 3 && zoomed == 1);
+	CHECK_SOON(gtk_adjustment_get_upper(down) > gtk_adjustment_get_page_size(down));
+	ladder_canvas_set_zoom(canvas, 0.01);
+	CHECK(ladder_canvas_zoom(canvas) == least && zoomed == 2);
+	CHECK_SOON(gtk_adjustment_get_upper(down) == gtk_adjustment_get_page_size(down));
+	ladder_canvas_set_zoom(canvas, 1);
+	ladder_canvas_set_zoom(canvas, 1);
+	CHECK(zoomed == 3);
+}
+
+/* Another program comes while a line is typed. */
+static void test_change(LadderCanvas *canvas, LadderDocument *document, enum verb verb)
+{
+	const char *added = "\nPROGRAM More LD\nRUNG\nEND_PROGRAM\n";
+
+	CHECK_SOON(child_of(canvas, false) != NULL);
+	ladder_canvas_do(canvas, verb);
+	CHECK_SOON(child_of(canvas, true) != NULL);
+	moved = 0;
+	had_place = true;
+	CHECK(ladder_document_replace(document, strlen(sample), 0, added, NULL));
+	CHECK_SOON(child_of(canvas, true) == NULL);
+	CHECK(moved > 0 && had_place);
+	CHECK(ladder_document_replace(document, strlen(sample), strlen(added), "", NULL));
+}
+
+static void test_sheet(LadderDocument *document, GtkWidget *sheet, double least, enum verb verb)
+{
+	GtkWidget *scroller = gtk_scrolled_window_new();
+	LadderCanvas *canvas = LADDER_CANVAS(sheet);
+
+	g_signal_connect(canvas, "zoom-changed", G_CALLBACK(count_zoom), NULL);
+	g_signal_connect(canvas, "cursor-moved", G_CALLBACK(ask_place), NULL);
+	g_signal_connect(canvas, "notify::has-focus", G_CALLBACK(ask_place), NULL);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
+	gtk_window_set_child(GTK_WINDOW(window), scroller);
+	WAIT(gtk_widget_get_width(sheet) > 0 && gtk_widget_grab_focus(sheet));
+	test_zoom(canvas, least);
+	test_change(canvas, document, verb);
+}
+
+int main(void)
+{
+	LadderDocument *document;
+
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
+		return 0;
+	}
+	adw_init();
+	gtk_source_init();
+	app_style();
+	document = ladder_document_new();
+	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
+	window = gtk_window_new();
+	gtk_window_set_default_size(GTK_WINDOW(window), 500, 200);
+	gtk_window_set_child(GTK_WINDOW(window), gtk_box_new(GTK_ORIENTATION_VERTICAL, 0));
+	screen_show(window);
+	test_sheet(document, ladder_grid_view_new(document, 0), 0.5, VERB_comment);
+	test_sheet(document, ladder_sfc_view_new(document, 1), 0.3, VERB_chart_comment);
+	gtk_window_destroy(GTK_WINDOW(window));
+	turn(0);
+	g_object_unref(document);
+	return tap_done();
+}
