@@ -13,6 +13,11 @@
 #include "editor-gtk/document/iomap_uses.h"
 #include "editor-gtk/kit/panel_row.h"
 
+/* Texts of a row behind its fields, which have their own numbers. */
+enum { IOMAP_SYMBOL = IO_FIELDS, IOMAP_STATE };
+
+/** io_field_name - of a column, translated. */
+const char *io_field_name(enum io_field field);
 /** iomap_row_new - of row @number of @io; its texts are the fields, IOMAP_SYMBOL and
  * IOMAP_STATE, its index is @number. @check: NULL: nothing is wrong. */
 LadderPanelRow *iomap_row_new(const struct io_uses *uses, const struct io_machine *machine,

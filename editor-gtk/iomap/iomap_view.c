@@ -4,7 +4,7 @@
  */
 #include "editor-gtk/iomap/iomap_view.h"
 
-#include "editor-gtk/iomap/iomap_cells.h"
+#include "editor-gtk/document/panel_cells.h"
 #include "editor-gtk/iomap/iomap_rows.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/diag_said.h"
@@ -20,7 +20,7 @@ struct _LadderIomapView {
 	GtkWidget *stack, *tools, *board, *lacks, *lacks_label, *message;
 	struct panel_list list;
 	struct panel_watch *watch;
-	struct iomap_cells cells;
+	struct panel_cells cells;
 	struct io_machine machine;
 	struct io_uses uses;
 	guint64 version;        /* of the document the uses are of, + 1; 0: none */
@@ -114,10 +114,10 @@ static bool is_same_row(const struct io_text *io, const LadderPanelRow *row)
 	return same;
 }
 
-static bool set_field(gpointer owner, const LadderPanelRow *row, enum io_field field,
-		      const char *value, char **why)
+static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char *value,
+		      char **why)
 {
-	LadderIomapView *view = owner;
+	LadderIomapView *view = LADDER_IOMAP_VIEW(owner);
 	enum io_refusal said = IO_NO_WORD;
 	struct io_edit edit = { 0, 0, NULL };
 	struct io_text io;
@@ -128,7 +128,8 @@ static bool set_field(gpointer owner, const LadderPanelRow *row, enum io_field f
 		return false; /* the view is disposed */
 	text = map_text(view);
 	if (io_text_read(&io, text, strlen(text)) && is_same_row(&io, row)) {
-		said = io_text_set(&io, row->index, field, value, &edit);
+		said = io_text_set(&io, row->index, (enum io_field)field, value,
+				   &edit);
 		good = said == IO_GOOD;
 		*why = good ? NULL : g_strdup(refusal(said));
 		if (good)
@@ -140,7 +141,7 @@ static bool set_field(gpointer owner, const LadderPanelRow *row, enum io_field f
 		tell(view, NULL);
 	else {
 		char *whole = g_strdup_printf("%s, %s: %s", panel_row_text(row, IO_ADDRESS),
-					      io_field_name(field), *why);
+					      io_field_name((enum io_field)field), *why);
 
 		tell(view, whole);
 		g_free(whole);
@@ -180,7 +181,7 @@ static void board_left(GtkEventControllerFocus *focus, LadderIomapView *view)
 
 static void commit(LadderIomapView *view)
 {
-	iomap_cells_commit(GTK_WIDGET(view->list.view));
+	panel_cells_commit(view->list.view);
 	set_board(view);
 }
 
@@ -453,28 +454,21 @@ static void select_row(LadderIomapView *view, int index)
 	}
 }
 
-static void entered(gpointer owner, const LadderPanelRow *row)
+static void given_up(GObject *owner)
 {
-	if (row && selected(owner) != row->index)
-		select_row(owner, row->index);
-}
-
-static void given_up(gpointer owner)
-{
-	tell(owner, NULL);
+	tell(LADDER_IOMAP_VIEW(owner), NULL);
 }
 
 static void refresh(GtkWidget *widget)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
-	GtkWidget *list = GTK_WIDGET(view->list.view);
 	char *text = map_text(view);
 	struct io_check *check;
 	struct io_text io;
-	enum io_field field, now_field;
-	int row, now;
-	const bool focus = iomap_cells_place(list, &row, &field);
+	int field, now_field;
+	LadderPanelRow *cell = cells_focused(view->list.view, &field), *now;
+	const int row = cell ? cell->index : -1;
 	const int was = selected(view);
 
 	take_uses(view);
@@ -485,9 +479,9 @@ static void refresh(GtkWidget *widget)
 						    check, i));
 	panel_list_update(&view->list, rows);
 	select_row(view, was);
-	if (focus && !(iomap_cells_place(list, &now, &now_field) && now == row &&
-		       now_field == field))
-		iomap_cells_focus(list, row, field);
+	now = cells_focused(view->list.view, &now_field);
+	if (row >= 0 && !(now && now->index == row && now_field == field))
+		panel_cells_focus(GTK_WIDGET(view->list.view), row, field);
 	show_board(view, &io);
 	show_lacks(view, &io);
 	find_said(view, check, &io);
@@ -498,16 +492,15 @@ static void refresh(GtkWidget *widget)
 	g_ptr_array_unref(rows);
 }
 
-static GPtrArray *choices_of(gpointer owner, const LadderPanelRow *row, enum io_field field)
+static GPtrArray *choices_of(GObject *owner, int field)
 {
-	LadderIomapView *view = owner;
+	LadderIomapView *view = LADDER_IOMAP_VIEW(owner);
 	char *text = map_text(view);
 	GPtrArray *choices;
 	struct io_text io;
 
-	(void)row;
 	io_text_read(&io, text, strlen(text));
-	choices = iomap_choices(&view->uses, &view->machine, &io, field);
+	choices = iomap_choices(&view->uses, &view->machine, &io, (enum io_field)field);
 	io_text_free(&io);
 	g_free(text);
 	return choices;
@@ -563,6 +556,11 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 	gtk_widget_class_bind_template_callback(widget, board_left);
 }
 
+static const char *field_name(int field)
+{
+	return io_field_name((enum io_field)field);
+}
+
 static void add_columns(LadderIomapView *view)
 {
 	static const struct { enum io_field field; int width; } column[] = {
@@ -572,12 +570,11 @@ static void add_columns(LadderIomapView *view)
 	};
 
 	panel_list_column(&view->list, "", 0, PANEL_ICON, 0);
-	panel_list_add(&view->list, io_field_name(IO_ADDRESS), IO_ADDRESS, 0, 96,
-		       iomap_cells(IO_ADDRESS, &view->cells));
+	panel_cells_add(&view->list, &view->cells, IO_ADDRESS, 0, 96);
 	panel_list_column(&view->list, _("Symbol"), IOMAP_SYMBOL, 0, 105);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
-		panel_list_add(&view->list, io_field_name(column[i].field),
-			       (int)column[i].field, 0, column[i].width, iomap_cells(column[i].field, &view->cells));
+		panel_cells_add(&view->list, &view->cells, (int)column[i].field, 0,
+				column[i].width);
 	panel_list_column(&view->list, _("State"), IOMAP_STATE, PANEL_EXPAND, 150);
 }
 
@@ -585,8 +582,13 @@ static void ladder_iomap_view_init(LadderIomapView *view)
 {
 	GtkWidget *widget = GTK_WIDGET(view);
 
-	view->cells = (struct iomap_cells){ view, set_field, given_up, entered,
-					    choices_of };
+	view->cells = (struct panel_cells){
+		.owner = G_OBJECT(view), .checks = 1u << IO_ACTIVE_LOW,
+		.choosable = 1u << IO_ADDRESS | 1u << IO_DRIVER | 1u << IO_LINE |
+			     1u << IO_PULL | 1u << IO_DRIVE | 1u << IO_SAFE,
+		.later = true, .name = field_name, .set = set_field, .given_up = given_up,
+		.choices = choices_of,
+	};
 	arena_init(&view->uses.arena);
 	io_machine_look(&view->machine, NULL);
 	gtk_widget_init_template(widget);

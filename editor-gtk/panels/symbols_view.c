@@ -1,21 +1,17 @@
 /* SPDX-License-Identifier: MIT
  *
- * symbols_view - the table of all symbols. What an edit does to the document is
- * symbols_edit.c's, what a table would do csv_plan.c's.
+ * symbols_view - the table of all symbols.
  */
 #include "editor-gtk/panels/symbols_view.h"
 
 #include "editor-gtk/document/csv.h"
 #include "editor-gtk/document/disk.h"
-#include "editor-gtk/document/panel.h"
-#include "editor-gtk/document/symbols.h"
-#include "editor-gtk/kit/cell_entry.h"
+#include "editor-gtk/document/panel_cells.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/drop.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/import_dialog.h"
-
 #include "engine/xref/xref.h"
 
 #include <string.h>
@@ -24,13 +20,16 @@
 
 /* Texts of a row behind its fields, which have their own numbers. */
 enum { SYMBOLS_SCOPE = SYMBOL_FIELDS, SYMBOLS_USES };
-/* LadderPanelRow.flags. */
+/* LadderPanelRow.flags, beside SYMBOL_KINDS. */
 enum { SYMBOLS_FIXED = 1, SYMBOLS_MEMBER = 2 };
+
+#define CHECKS (1u << FIELD_RETAIN | 1u << FIELD_CONSTANT)
 
 struct _LadderSymbolsView {
 	GtkWidget parent_instance;
 	GtkWidget *box, *scopes, *kind, *search, *bar, *message;
 	struct panel_list list;
+	struct panel_cells cells;
 	struct panel_watch *watch;
 	GtkFileChooserNative *chooser;
 	int table;              /* that is shown; -1: all                      */
@@ -271,10 +270,16 @@ static char *told_of(LadderDocument *document, const LadderPanelRow *row, enum f
 		panel_row_text(row, FIELD_NAME), symbol_field_name(field), other) : NULL;
 }
 
-static bool set_field(gpointer owner, LadderPanelRow *row, enum field field,
-		      const char *text, char **why)
+static const char *field_name(int field)
 {
-	LadderSymbolsView *view = owner;
+	return symbol_field_name((enum field)field);
+}
+
+static bool set_field(GObject *owner, LadderPanelRow *row, int number, const char *text,
+		      char **why)
+{
+	const enum field field = (enum field)number;
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(owner);
 	LadderDocument *document = panel_watch_document(view->watch);
 	const bool good = symbol_set(document, row->table, index_of(document, row), field,
 				     text, why);
@@ -386,247 +391,6 @@ static void show_uses(GtkWidget *widget, const char *action, GVariant *unused)
 	       g_strdup(panel_row_text(row, FIELD_NAME));
 	gtk_widget_activate_action(widget, "win.show-uses", "s", name);
 	g_free(name);
-}
-
-static bool is_check(enum field field)
-{
-	return field == FIELD_RETAIN || field == FIELD_CONSTANT;
-}
-
-static enum field field_of(GtkWidget *cell)
-{
-	return (enum field)GPOINTER_TO_INT(g_object_get_data(G_OBJECT(cell), "field"));
-}
-
-static LadderSymbolsView *view_of(GtkWidget *cell)
-{
-	return LADDER_SYMBOLS_VIEW(gtk_widget_get_ancestor(cell, LADDER_TYPE_SYMBOLS_VIEW));
-}
-
-/* ---- cells: what a person did ---- */
-
-/* The row has it now, and shows what became of it. @text: taken over. */
-static void taken(GtkWidget *cell, char *text)
-{
-	cells_refuse(cell, NULL);
-	tip_set(cell, text);
-	g_object_set_data_full(G_OBJECT(cell), "shown", text, g_free);
-}
-
-/* What stands in the cell is what is meant, unless it was refused already. */
-static bool commit(GtkWidget *cell, GtkListItem *item)
-{
-	const enum field field = field_of(cell);
-	const char *refused = g_object_get_data(G_OBJECT(cell), "refused");
-	LadderPanelRow *row = gtk_list_item_get_item(item);
-	char *text, *why = NULL;
-	bool good;
-
-	if (!row)
-		return true;
-	text = g_strdup(gtk_editable_get_text(GTK_EDITABLE(cell)));
-	if (refused && strcmp(refused, text) == 0) {
-		g_free(text);
-		return true;
-	}
-	g_object_ref(row);
-	g_object_ref(cell);
-	/* What is as it was is told, too, if that was refused before: it is no more. */
-	good = (!refused && strcmp(text, panel_row_text(row, field)) == 0) ||
-	       set_field(view_of(cell), row, field, text, &why);
-	if (good)
-		taken(cell, text);
-	else
-		cells_refused(cell, why);
-	g_object_set_data_full(G_OBJECT(cell), "refused", good ? NULL : text, g_free);
-	g_object_unref(cell);
-	g_object_unref(row);
-	return good;
-}
-
-static void activated(GtkEntry *cell, GtkListItem *item)
-{
-	commit(GTK_WIDGET(cell), item);
-}
-
-static void left(GtkEventControllerFocus *focus, GtkListItem *item)
-{
-	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
-	GtkRoot *root = gtk_widget_get_root(cell);
-
-	/* A window that goes took what was typed before (cells_take). */
-	if (!root || gtk_widget_in_destruction(GTK_WIDGET(root)))
-		return;
-	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
-	commit(cell, item);
-}
-
-/* Its row is the one that what is done next is done with. */
-static void entered(GtkEventControllerFocus *focus, GtkListItem *item)
-{
-	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
-	GtkWidget *table = gtk_widget_get_ancestor(cell, GTK_TYPE_COLUMN_VIEW);
-
-	if (table)
-		gtk_single_selection_set_selected(GTK_SINGLE_SELECTION(
-			gtk_column_view_get_model(GTK_COLUMN_VIEW(table))),
-			gtk_list_item_get_position(item));
-}
-
-/* Escape: as it was. */
-static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
-			GdkModifierType state, GtkListItem *item)
-{
-	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(keys));
-	const enum field field = field_of(cell);
-	LadderPanelRow *row = gtk_list_item_get_item(item);
-	const char *text = row ? panel_row_text(row, field) : "";
-
-	(void)code;
-	(void)state;
-	if (key != GDK_KEY_Escape ||
-	    strcmp(text, gtk_editable_get_text(GTK_EDITABLE(cell))) == 0)
-		return FALSE;
-	gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	commit(cell, item);
-	return TRUE;
-}
-
-static void toggled(GtkCheckButton *check, GtkListItem *item)
-{
-	const enum field field = field_of(GTK_WIDGET(check));
-	LadderPanelRow *row = gtk_list_item_get_item(item);
-	const bool is = row && *panel_row_text(row, field);
-	char *why = NULL;
-
-	if (!row || gtk_check_button_get_active(check) == is)
-		return;
-	/* The list gave the keys to the first cell of the row that was clicked. */
-	gtk_widget_grab_focus(GTK_WIDGET(check));
-	g_object_ref(row);
-	if (set_field(view_of(GTK_WIDGET(check)), row, field, is ? "" : "1", &why))
-		cells_refuse(GTK_WIDGET(check), NULL);
-	else {
-		gtk_check_button_set_active(check, is);
-		cells_refused(GTK_WIDGET(check), why);
-	}
-	g_object_unref(row);
-}
-
-/* ---- cells: their factory ---- */
-
-static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
-{
-	const enum field field = (enum field)GPOINTER_TO_INT(data);
-	GtkWidget *cell = is_check(field) ? gtk_check_button_new() : cell_entry_new();
-
-	(void)factory;
-	g_object_set_data(G_OBJECT(cell), "field", data);
-	if (is_check(field)) {
-		gtk_widget_set_halign(cell, GTK_ALIGN_CENTER);
-	} else {
-		cells_add(cell, "focus", gtk_event_controller_focus_new());
-		cells_add(cell, "keys", gtk_event_controller_key_new());
-	}
-	gtk_list_item_set_child(item, cell);
-}
-
-static void connect_text(GtkWidget *cell, GtkListItem *item)
-{
-	g_signal_connect(cell, "activate", G_CALLBACK(activated), item);
-	g_signal_connect(g_object_get_data(G_OBJECT(cell), "focus"), "leave",
-			 G_CALLBACK(left), item);
-	g_signal_connect(g_object_get_data(G_OBJECT(cell), "focus"), "enter",
-			 G_CALLBACK(entered), item);
-	g_signal_connect(g_object_get_data(G_OBJECT(cell), "keys"), "key-pressed",
-			 G_CALLBACK(pressed), item);
-	cells_on_take(cell, commit, item);
-}
-
-static bool is_fixed(enum field field, const LadderPanelRow *row)
-{
-	if (row->flags & SYMBOLS_FIXED)
-		return true;
-	return row->flags & SYMBOLS_MEMBER && (is_check(field) ||
-					       field == FIELD_ADDRESS);
-}
-
-/* What somebody types there stays. */
-static void show_text(GtkWidget *cell, const char *text)
-{
-	const char *shown = g_object_get_data(G_OBJECT(cell), "shown");
-	const char *now = gtk_editable_get_text(GTK_EDITABLE(cell));
-
-	if (shown && strcmp(shown, now) != 0)
-		return;
-	if (strcmp(now, text) != 0)
-		gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	g_object_set_data_full(G_OBJECT(cell), "shown", g_strdup(text), g_free);
-	tip_set(cell, text);
-}
-
-static void show(LadderPanelRow *row, GtkListItem *item)
-{
-	GtkWidget *cell = gtk_list_item_get_child(item);
-	const enum field field = field_of(cell);
-	const char *text = panel_row_text(row, field);
-	char *name = g_strdup_printf("%s, %s", panel_row_text(row, FIELD_NAME),
-				     symbol_field_name(field));
-
-	gtk_widget_set_sensitive(cell, !is_fixed(field, row));
-	if (is_check(field))
-		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);
-	else
-		show_text(cell, text);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(cell),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-	panel_speak(cell, row);
-	g_free(name);
-}
-
-static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
-{
-	const enum field field = (enum field)GPOINTER_TO_INT(data);
-	LadderPanelRow *row = gtk_list_item_get_item(item);
-	GtkWidget *cell = gtk_list_item_get_child(item);
-
-	(void)factory;
-	cells_refuse(cell, NULL);
-	cells_stand(cell, item, (int)field);
-	g_object_set_data(G_OBJECT(cell), "refused", NULL);
-	g_object_set_data(G_OBJECT(cell), "shown", NULL);
-	show(row, item);
-	g_signal_connect(row, "changed", G_CALLBACK(show), item);
-	if (is_check(field))
-		g_signal_connect(cell, "toggled", G_CALLBACK(toggled), item);
-	else
-		connect_text(cell, item);
-}
-
-static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
-{
-	GtkWidget *cell = gtk_list_item_get_child(item);
-
-	(void)factory;
-	(void)data;
-	g_signal_handlers_disconnect_by_data(gtk_list_item_get_item(item), item);
-	g_signal_handlers_disconnect_by_data(cell, item);
-	cells_stand(cell, NULL, 0);
-	if (!GTK_IS_ENTRY(cell))
-		return;
-	cells_on_take(cell, NULL, NULL);
-	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "focus"), item);
-	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "keys"), item);
-}
-
-static GtkListItemFactory *cells_factory(enum field field)
-{
-	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
-
-	g_signal_connect(factory, "setup", G_CALLBACK(setup), GINT_TO_POINTER(field));
-	g_signal_connect(factory, "bind", G_CALLBACK(bind), GINT_TO_POINTER(field));
-	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), NULL);
-	return factory;
 }
 
 /* ---- tables ---- */
@@ -766,6 +530,14 @@ static void ladder_symbols_view_class_init(LadderSymbolsViewClass *class)
 	bind_children(widget);
 }
 
+static bool is_fixed(const LadderPanelRow *row, int field)
+{
+	if (row->flags & SYMBOLS_FIXED)
+		return true;
+	return row->flags & SYMBOLS_MEMBER &&
+	       ((CHECKS >> field & 1) || field == FIELD_ADDRESS);
+}
+
 static void add_columns(LadderSymbolsView *view)
 {
 	static const struct { enum field field; int width; } column[] = {
@@ -774,13 +546,13 @@ static void add_columns(LadderSymbolsView *view)
 		{ FIELD_COMMENT, 180 },
 	};
 
+	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .checks = CHECKS,
+		.name = field_name, .set = set_field, .is_fixed = is_fixed };
 	panel_list_column(&view->list, "", SYMBOLS_USES, PANEL_ICON, 0);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
-		panel_list_add(&view->list, symbol_field_name(column[i].field),
-			       column[i].field,
-			       column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
-			       column[i].width,
-			       cells_factory(column[i].field));
+		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
+				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
+				column[i].width);
 	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 150);
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
 }

@@ -1,87 +1,132 @@
 /* SPDX-License-Identifier: MIT
  *
- * iomap_cells - cells of the table of an I/O map that can be edited.
+ * panel_cells - cells of a panel's list that can be edited.
  */
-#include "editor-gtk/iomap/iomap_cells.h"
+#include "editor-gtk/document/panel_cells.h"
 
 #include "editor-gtk/kit/cell_entry.h"
 #include "editor-gtk/kit/cells.h"
-#include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
 
 #include <string.h>
 
 struct column {
-	enum io_field field;
-	const struct iomap_cells *cells;
+	int field;
+	const struct panel_cells *cells;
 };
-
-const char *io_field_name(enum io_field field)
-{
-	static const char *const name[IO_FIELDS] = {
-		[IO_ADDRESS] = N_("Address"), [IO_DRIVER] = N_("Driver"),
-		[IO_LINE] = N_("I/O line"), [IO_PULL] = N_("Pull"),
-		[IO_ACTIVE_LOW] = N_("Active low"), [IO_DEBOUNCE] = N_("Debounce"),
-		[IO_DRIVE] = N_("Drive"), [IO_SAFE] = N_("Safe"),
-		[IO_COMMENT] = N_("Comment"),
-	};
-
-	return _(name[field]);
-}
-
-static bool has_choices(enum io_field field)
-{
-	return field != IO_DEBOUNCE && field != IO_COMMENT && field != IO_ACTIVE_LOW;
-}
 
 static const struct column *column_of(GtkWidget *cell)
 {
 	return g_object_get_data(G_OBJECT(cell), "column");
 }
 
-/* ---- what a person did ---- */
-
-/* What stands in a cell; NULL: it was refused already, or nothing is to be done. Caller:
- * g_free. */
-static char *meant(GtkWidget *cell, const LadderPanelRow *row)
+static bool is_check(const struct column *column)
 {
-	const char *refused = g_object_get_data(G_OBJECT(cell), "refused");
+	return column->cells->checks >> column->field & 1;
+}
+
+static bool has_choices(const struct column *column)
+{
+	return column->cells->choosable >> column->field & 1;
+}
+
+static GtkListItem *item_of(GtkWidget *cell)
+{
+	return g_object_get_data(G_OBJECT(cell), "item");
+}
+
+static const char *refused_text(GtkWidget *cell)
+{
+	return g_object_get_data(G_OBJECT(cell), "refused");
+}
+
+static bool set(const struct column *column, LadderPanelRow *row, const char *text,
+		char **why)
+{
+	return column->cells->set(column->cells->owner, row, column->field, text, why);
+}
+
+/* ---- an edit of a text ---- */
+
+/* @refused: taken over; NULL: the row has the text of the cell now. */
+static void mark(GtkWidget *cell, char *refused, char *why)
+{
+	const char *text = gtk_editable_get_text(GTK_EDITABLE(cell));
+
+	if (refused) {
+		cells_refused(cell, why);
+	} else {
+		cells_refuse(cell, NULL);
+		tip_set(cell, text);
+		g_object_set_data_full(G_OBJECT(cell), "shown", g_strdup(text), g_free);
+	}
+	g_object_set_data_full(G_OBJECT(cell), "refused", refused, g_free);
+}
+
+/* What is to be set; NULL: it is as it was, or was refused already. Caller: g_free. */
+static char *edited(GtkWidget *cell, const LadderPanelRow *row)
+{
+	const struct column *column = column_of(cell);
+	const char *refused = refused_text(cell);
 	char *text = g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(cell))));
 
 	if (row && g_strcmp0(refused, text) != 0 &&
-	    strcmp(text, panel_row_text(row, (int)column_of(cell)->field)) != 0)
+	    strcmp(text, panel_row_text(row, column->field)) != 0)
 		return text;
 	g_free(text);
 	return NULL;
 }
 
-/* @refused: taken over; NULL: nothing is. */
-static void mark(GtkWidget *cell, char *refused, char *why)
+static bool apply(GtkWidget *cell, LadderPanelRow *row, const char *text)
 {
-	if (refused)
-		cells_refused(cell, why);
-	else
-		cells_refuse(cell, NULL);
-	g_object_set_data_full(G_OBJECT(cell), "refused", refused, g_free);
-}
-
-static void commit(GtkWidget *cell, GtkListItem *item)
-{
-	const struct column *column = column_of(cell);
-	LadderPanelRow *row = gtk_list_item_get_item(item);
-	char *text = meant(cell, row), *why = NULL;
+	char *why = NULL;
 	bool good;
 
-	if (!text)
-		return;
 	g_object_ref(row);
 	g_object_ref(cell);
-	good = column->cells->set(column->cells->owner, row, column->field, text, &why);
+	good = set(column_of(cell), row, text, &why);
 	mark(cell, good ? NULL : g_strdup(text), why);
-	g_free(text);
 	g_object_unref(cell);
 	g_object_unref(row);
+	return good;
+}
+
+/* The text is as it was before the edit. */
+static void give_up(GtkWidget *cell, LadderPanelRow *row)
+{
+	const struct panel_cells *cells = column_of(cell)->cells;
+	const bool refused = refused_text(cell);
+
+	if (!cells->given_up) {
+		if (refused && row)
+			apply(cell, row, gtk_editable_get_text(GTK_EDITABLE(cell)));
+		return;
+	}
+	mark(cell, NULL, NULL);
+	cells->given_up(cells->owner);
+}
+
+static bool is_as_before(GtkWidget *cell, const LadderPanelRow *row)
+{
+	return row && strcmp(gtk_editable_get_text(GTK_EDITABLE(cell)),
+			     panel_row_text(row, column_of(cell)->field)) == 0;
+}
+
+/* False: it is refused. What was refused before is not tried again. */
+static bool commit(GtkWidget *cell, GtkListItem *item)
+{
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	char *text = edited(cell, row);
+	bool good = true;
+
+	if (text)
+		good = apply(cell, row, text);
+	else if (refused_text(cell) && is_as_before(cell, row))
+		give_up(cell, row);
+	g_free(text);
+	return good;
 }
 
 static void activated(GtkEntry *cell, GtkListItem *item)
@@ -89,7 +134,7 @@ static void activated(GtkEntry *cell, GtkListItem *item)
 	commit(GTK_WIDGET(cell), item);
 }
 
-/* An edit that waits until the focus is where it goes: the rows are made anew by it. */
+/* An edit that waits until the focus is where it goes. */
 struct later {
 	const struct column *column;
 	GtkWidget *cell;
@@ -100,11 +145,9 @@ struct later {
 static gboolean do_later(gpointer data)
 {
 	struct later *later = data;
-	const struct iomap_cells *cells = later->column->cells;
 	char *why = NULL;
-	const bool good = cells->set(cells->owner, later->row, later->column->field,
-				     later->text, &why);
-	GtkListItem *item = g_object_get_data(G_OBJECT(later->cell), "item");
+	const bool good = set(later->column, later->row, later->text, &why);
+	GtkListItem *item = item_of(later->cell);
 
 	if (!good && item && gtk_list_item_get_item(item) == later->row)
 		mark(later->cell, g_strdup(later->text), why);
@@ -124,85 +167,59 @@ static void later_free(gpointer data)
 	g_free(later);
 }
 
-/* It is as it was, and what was told of it is over. */
-static void give_up(GtkWidget *cell)
-{
-	const struct iomap_cells *cells = column_of(cell)->cells;
-
-	mark(cell, NULL, NULL);
-	tip_set(cell, gtk_editable_get_text(GTK_EDITABLE(cell)));
-	cells->given_up(cells->owner);
-}
-
 static void left(GtkEventControllerFocus *focus, GtkListItem *item)
 {
 	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
+	GtkRoot *root = gtk_widget_get_root(cell);
 	LadderPanelRow *row = gtk_list_item_get_item(item);
-	char *text = meant(cell, row);
 	struct later *later;
+	char *text;
 
-	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
-	if (!text && row && g_object_get_data(G_OBJECT(cell), "refused") &&
-	    strcmp(gtk_editable_get_text(GTK_EDITABLE(cell)),
-		   panel_row_text(row, (int)column_of(cell)->field)) == 0)
-		give_up(cell);
-	if (!text)
+	/* A window that closes committed the edit before. */
+	if (root ? gtk_widget_in_destruction(GTK_WIDGET(root)) :
+		   !column_of(cell)->cells->later)
 		return;
+	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
+	text = column_of(cell)->cells->later ? edited(cell, row) : NULL;
+	if (!text) {
+		commit(cell, item);
+		return;
+	}
 	later = g_new(struct later, 1);
-	*later = (struct later){ column_of(cell), g_object_ref(cell),
-				 g_object_ref(row), text };
+	*later = (struct later){ column_of(cell), g_object_ref(cell), g_object_ref(row),
+				 text };
 	g_object_ref(later->column->cells->owner);
 	g_idle_add_full(G_PRIORITY_HIGH_IDLE, do_later, later, later_free);
 }
 
+/* Actions of the panel are for the row of the cell with the focus. */
 static void entered(GtkEventControllerFocus *focus, GtkListItem *item)
 {
 	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
-	const struct iomap_cells *cells = column_of(cell)->cells;
+	GtkWidget *table = gtk_widget_get_ancestor(cell, GTK_TYPE_COLUMN_VIEW);
 
-	cells->entered(cells->owner, gtk_list_item_get_item(item));
+	if (table)
+		gtk_single_selection_set_selected(GTK_SINGLE_SELECTION(
+			gtk_column_view_get_model(GTK_COLUMN_VIEW(table))),
+			gtk_list_item_get_position(item));
 }
 
-/* ---- the cell that has the focus ---- */
-
-/* NULL: none of a table. */
-static GtkWidget *focused(GtkWidget *within)
+void panel_cells_commit(GtkColumnView *view)
 {
-	GtkRoot *root = gtk_widget_get_root(within);
-	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
+	GtkWidget *cell = root ? gtk_root_get_focus(root) : NULL;
 
-	for (; focus && focus != within; focus = gtk_widget_get_parent(focus))
-		if (column_of(focus) && !GTK_IS_POPOVER(focus))
-			return focus;
-	return NULL;
+	while (cell && cell != GTK_WIDGET(view) && !column_of(cell))
+		cell = gtk_widget_get_parent(cell);
+	if (cell && gtk_widget_is_ancestor(cell, GTK_WIDGET(view)) && GTK_IS_ENTRY(cell) &&
+	    item_of(cell))
+		commit(cell, item_of(cell));
 }
 
-void iomap_cells_commit(GtkWidget *within)
-{
-	GtkWidget *cell = focused(within);
-	GtkListItem *item = cell ? g_object_get_data(G_OBJECT(cell), "item") : NULL;
-
-	if (item)
-		commit(cell, item);
-}
-
-bool iomap_cells_place(GtkWidget *within, int *row, enum io_field *field)
-{
-	GtkWidget *cell = focused(within);
-	GtkListItem *item = cell ? g_object_get_data(G_OBJECT(cell), "item") : NULL;
-	LadderPanelRow *of = item ? gtk_list_item_get_item(item) : NULL;
-
-	if (!of)
-		return false;
-	*row = of->index;
-	*field = column_of(cell)->field;
-	return true;
-}
-
-bool iomap_cells_focus(GtkWidget *within, int row, enum io_field field)
+bool panel_cells_focus(GtkWidget *within, int row, int field)
 {
 	const struct column *column = column_of(within);
-	GtkListItem *item = column ? g_object_get_data(G_OBJECT(within), "item") : NULL;
+	GtkListItem *item = column ? item_of(within) : NULL;
 	LadderPanelRow *of = item ? gtk_list_item_get_item(item) : NULL;
 
 	if (of && of->index == row && column->field == field) {
@@ -214,7 +231,7 @@ bool iomap_cells_focus(GtkWidget *within, int row, enum io_field field)
 	}
 	for (GtkWidget *child = column ? NULL : gtk_widget_get_first_child(within); child;
 	     child = gtk_widget_get_next_sibling(child))
-		if (iomap_cells_focus(child, row, field))
+		if (panel_cells_focus(child, row, field))
 			return true;
 	return false;
 }
@@ -223,14 +240,15 @@ static void toggled(GtkCheckButton *check, GtkListItem *item)
 {
 	const struct column *column = column_of(GTK_WIDGET(check));
 	LadderPanelRow *row = gtk_list_item_get_item(item);
-	const bool is = row && *panel_row_text(row, (int)column->field);
+	const bool is = row && *panel_row_text(row, column->field);
 	char *why = NULL;
 
 	if (!row || gtk_check_button_get_active(check) == is)
 		return;
+	/* The list gave the keys to the first cell of the row that was clicked. */
+	gtk_widget_grab_focus(GTK_WIDGET(check));
 	g_object_ref(row);
-	if (column->cells->set(column->cells->owner, row, column->field, is ? "" : "1",
-			       &why)) {
+	if (set(column, row, is ? "" : "1", &why)) {
 		cells_refuse(GTK_WIDGET(check), NULL);
 	} else {
 		gtk_check_button_set_active(check, is);
@@ -239,7 +257,7 @@ static void toggled(GtkCheckButton *check, GtkListItem *item)
 	g_object_unref(row);
 }
 
-/* ---- a list of what there is ---- */
+/* ---- choices ---- */
 
 #define MANY 8 /* choices; with more of them one can search                    */
 
@@ -256,9 +274,8 @@ static void chosen(GtkWidget *popover, GtkListBoxRow *choice)
 	char *why = NULL;
 
 	gtk_popover_popdown(GTK_POPOVER(popover));
-	iomap_cells_focus(gtk_widget_get_parent(popover), row->index, column->field);
-	column->cells->set(column->cells->owner, row, column->field,
-			   g_object_get_data(G_OBJECT(choice), "text"), &why);
+	panel_cells_focus(gtk_widget_get_parent(popover), row->index, column->field);
+	set(column, row, g_object_get_data(G_OBJECT(choice), "text"), &why);
 	g_free(why);
 }
 
@@ -350,8 +367,8 @@ static void show_choices(GtkWidget *cell, GtkListItem *item)
 
 	if (!row || !scroller)
 		return;
-	choices = column->cells->choices(column->cells->owner, row, column->field);
-	popover = choice_popover(choices, panel_row_text(row, (int)column->field));
+	choices = column->cells->choices(column->cells->owner, column->field);
+	popover = choice_popover(choices, panel_row_text(row, column->field));
 	g_object_set_data(G_OBJECT(popover), "column", (gpointer)column);
 	g_object_set_data_full(G_OBJECT(popover), "row", g_object_ref(row), g_object_unref);
 	popover_put(popover, scroller);
@@ -366,21 +383,21 @@ static void show_choices(GtkWidget *cell, GtkListItem *item)
 static void icon_pressed(GtkEntry *cell, GtkEntryIconPosition position, GtkListItem *item)
 {
 	(void)position;
-	if (has_choices(column_of(GTK_WIDGET(cell))->field))
+	if (has_choices(column_of(GTK_WIDGET(cell))))
 		show_choices(GTK_WIDGET(cell), item);
 }
 
-/* Escape: as it was. Alt+Down: what there is. */
+/* Esc: as it was. Alt+Down: choices. */
 static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 			GdkModifierType state, GtkListItem *item)
 {
 	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(keys));
 	const struct column *column = column_of(cell);
 	LadderPanelRow *row = gtk_list_item_get_item(item);
-	const char *text = row ? panel_row_text(row, (int)column->field) : "";
+	const char *text = row ? panel_row_text(row, column->field) : "";
 
 	(void)code;
-	if (key == GDK_KEY_Down && state & GDK_ALT_MASK && has_choices(column->field)) {
+	if (key == GDK_KEY_Down && state & GDK_ALT_MASK && has_choices(column)) {
 		show_choices(cell, item);
 		return TRUE;
 	}
@@ -388,24 +405,24 @@ static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 	    strcmp(text, gtk_editable_get_text(GTK_EDITABLE(cell))) == 0)
 		return FALSE;
 	gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	give_up(cell);
+	give_up(cell, row);
 	return TRUE;
 }
 
 /* ---- the factory ---- */
 
-static GtkWidget *entry_new(enum io_field field)
+static GtkWidget *entry_new(const struct column *column)
 {
 	GtkWidget *cell = cell_entry_new();
 
 	cells_add(cell, "focus", gtk_event_controller_focus_new());
 	cells_add(cell, "keys", gtk_event_controller_key_new());
 	gtk_editable_set_width_chars(GTK_EDITABLE(cell), 4);
-	if (has_choices(field)) {
+	if (has_choices(column)) {
 		gtk_entry_set_icon_from_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY,
 						  "pan-down-symbolic");
 		gtk_entry_set_icon_tooltip_text(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY,
-						_("What there is (Alt+Down)"));
+						_("Choices (Alt+Down)"));
 	}
 	return cell;
 }
@@ -413,29 +430,62 @@ static GtkWidget *entry_new(enum io_field field)
 static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
 {
 	const struct column *column = data;
-	GtkWidget *cell = column->field == IO_ACTIVE_LOW ? gtk_check_button_new() :
-		entry_new(column->field);
+	GtkWidget *cell = is_check(column) ? gtk_check_button_new() : entry_new(column);
 
 	(void)factory;
 	g_object_set_data(G_OBJECT(cell), "column", data);
-	if (column->field == IO_ACTIVE_LOW)
+	if (is_check(column))
 		gtk_widget_set_halign(cell, GTK_ALIGN_CENTER);
 	gtk_list_item_set_child(item, cell);
 }
 
-static void bind_entry(GtkWidget *cell, GtkListItem *item, const char *text)
+static void connect_entry(GtkWidget *cell, GtkListItem *item)
 {
-	gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	tip_set(cell, text);
-	g_object_set_data(G_OBJECT(cell), "refused", NULL);
+	GObject *focus = g_object_get_data(G_OBJECT(cell), "focus");
+
 	g_signal_connect(cell, "activate", G_CALLBACK(activated), item);
 	g_signal_connect(cell, "icon-press", G_CALLBACK(icon_pressed), item);
-	g_signal_connect(g_object_get_data(G_OBJECT(cell), "focus"), "leave",
-			 G_CALLBACK(left), item);
-	g_signal_connect(g_object_get_data(G_OBJECT(cell), "focus"), "enter",
-			 G_CALLBACK(entered), item);
+	g_signal_connect(focus, "leave", G_CALLBACK(left), item);
+	g_signal_connect(focus, "enter", G_CALLBACK(entered), item);
 	g_signal_connect(g_object_get_data(G_OBJECT(cell), "keys"), "key-pressed",
 			 G_CALLBACK(pressed), item);
+	if (!column_of(cell)->cells->later)
+		cells_on_take(cell, commit, item);
+}
+
+/* What a person is typing there stays. */
+static void show_text(GtkWidget *cell, const char *text)
+{
+	const char *shown = g_object_get_data(G_OBJECT(cell), "shown");
+	const char *now = gtk_editable_get_text(GTK_EDITABLE(cell));
+
+	if (shown && strcmp(shown, now) != 0)
+		return;
+	if (strcmp(now, text) != 0)
+		gtk_editable_set_text(GTK_EDITABLE(cell), text);
+	g_object_set_data_full(G_OBJECT(cell), "shown", g_strdup(text), g_free);
+	tip_set(cell, text);
+}
+
+static void show(LadderPanelRow *row, GtkListItem *item)
+{
+	GtkWidget *cell = gtk_list_item_get_child(item);
+	const struct column *column = column_of(cell);
+	const struct panel_cells *cells = column->cells;
+	const char *text = panel_row_text(row, column->field);
+	char *name = g_strdup_printf("%s, %s", panel_row_text(row, 0),
+				     cells->name(column->field));
+
+	gtk_widget_set_sensitive(cell, !cells->is_fixed ||
+				 !cells->is_fixed(row, column->field));
+	if (is_check(column))
+		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);
+	else
+		show_text(cell, text);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(cell),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	panel_speak(cell, row);
+	g_free(name);
 }
 
 static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
@@ -443,23 +493,18 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 	const struct column *column = data;
 	LadderPanelRow *row = gtk_list_item_get_item(item);
 	GtkWidget *cell = gtk_list_item_get_child(item);
-	const char *text = panel_row_text(row, (int)column->field);
-	char *name = g_strdup_printf("%s, %s", panel_row_text(row, IO_ADDRESS),
-				     io_field_name(column->field));
 
 	(void)factory;
 	cells_refuse(cell, NULL);
-	cells_stand(cell, item, (int)column->field);
-	if (column->field == IO_ACTIVE_LOW) {
-		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);
+	cells_stand(cell, item, column->field);
+	g_object_set_data(G_OBJECT(cell), "refused", NULL);
+	g_object_set_data(G_OBJECT(cell), "shown", NULL);
+	show(row, item);
+	g_signal_connect(row, "changed", G_CALLBACK(show), item);
+	if (is_check(column))
 		g_signal_connect(cell, "toggled", G_CALLBACK(toggled), item);
-	} else {
-		bind_entry(cell, item, text);
-	}
-	gtk_accessible_update_property(GTK_ACCESSIBLE(cell),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-	panel_speak(cell, row);
-	g_free(name);
+	else
+		connect_entry(cell, item);
 }
 
 static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
@@ -468,10 +513,12 @@ static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointe
 
 	(void)factory;
 	(void)data;
+	g_signal_handlers_disconnect_by_data(gtk_list_item_get_item(item), item);
 	g_signal_handlers_disconnect_by_data(cell, item);
 	cells_stand(cell, NULL, 0);
 	if (!GTK_IS_ENTRY(cell))
 		return;
+	cells_on_take(cell, NULL, NULL);
 	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "focus"), item);
 	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "keys"), item);
 }
@@ -482,7 +529,8 @@ static void free_column(gpointer column, GClosure *closure)
 	g_free(column);
 }
 
-GtkListItemFactory *iomap_cells(enum io_field field, const struct iomap_cells *cells)
+void panel_cells_add(struct panel_list *list, const struct panel_cells *cells, int field,
+		     unsigned int flags, int width)
 {
 	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
 	struct column *column = g_new(struct column, 1);
@@ -491,5 +539,5 @@ GtkListItemFactory *iomap_cells(enum io_field field, const struct iomap_cells *c
 	g_signal_connect_data(factory, "setup", G_CALLBACK(setup), column, free_column, 0);
 	g_signal_connect(factory, "bind", G_CALLBACK(bind), column);
 	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), column);
-	return factory;
+	panel_list_add(list, cells->name(field), field, flags, width, factory);
 }
