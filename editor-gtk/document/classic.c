@@ -182,7 +182,7 @@ static void tell_map(LadderDocument *document, GPtrArray *lines)
 		char *name = g_path_get_basename(map);
 
 		add_line(lines, false, NULL, 0, 0, 0, g_strdup_printf(
-			 _("the I/O map %s is not in it: ladder export --io takes it along"),
+			 _("the I/O map “%s” was not exported: ladder export --io includes it"),
 			 name));
 		g_free(name);
 	}

@@ -109,7 +109,7 @@ static bool read_field(struct reader *reader)
 		reader->at++;
 		good = read_quoted(reader, out);
 		if (good && !is_end(reader))
-			good = fail(reader, N_("text behind a quoted field"));
+			good = fail(reader, N_("text after a quoted field"));
 	} else {
 		while (!is_end(reader) && out->len <= CSV_FIELD_MOST)
 			g_string_append_c(out, *reader->at++);
@@ -640,7 +640,7 @@ static bool is_seen(struct import *import, const char *key, int line, const char
 		return false;
 	}
 	tell(import->plan, CSV_REFUSE, line, g_strdup(name),
-	     g_strdup_printf(_("It stands in line %d already"), before));
+	     g_strdup_printf(_("It is already in line %d"), before));
 	return true;
 }
 
@@ -753,7 +753,7 @@ struct csv_plan *csv_plan_new(LadderDocument *document, const char *text, gsize 
 	line = csv_read(text, len, take_record, &import, &why);
 	if (line)
 		tell(plan, CSV_REFUSE, line, g_strdup(""), g_strdup_printf(
-			_("%s; nothing from here on was read"), why));
+			_("%s; the rest of the table was not read"), why));
 	else if (!import.has_header)
 		tell(plan, CSV_REFUSE, 1, g_strdup(""), g_strdup(_("The table is empty")));
 	g_hash_table_unref(import.row);
@@ -778,7 +778,8 @@ bool csv_plan_apply(struct csv_plan *plan, char **why)
 {
 	if (plan->version != ladder_document_version(plan->document)) {
 		if (why)
-			*why = g_strdup(_("The program was changed meanwhile"));
+			*why = g_strdup(_("The program has changed since the table was "
+					  "read. Import the table again."));
 		return false;
 	}
 	if (!plan->counts[CSV_ADD] && !plan->counts[CSV_CHANGE])

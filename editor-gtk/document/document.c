@@ -1477,8 +1477,8 @@ bool ladder_document_open(LadderDocument *document, const char *path, GError **e
 	if (len >= strlen(CODE_MAGIC) && !memcmp(text, CODE_MAGIC, strlen(CODE_MAGIC))) {
 		g_free(text);
 		return fail(error, G_FILE_ERROR_INVAL,
-			    _("is a code image; the program it was made of can be "
-			      "opened"), path);
+			    _("is a code image; open the program that it was made "
+			      "from"), path);
 	}
 	open_bytes(document, path, text, len);
 	g_free(text);

@@ -121,8 +121,8 @@ static bool is_as_read(LadderSideFile *file, GError **error)
 	g_free(file->read);
 	file->read = now;
 	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_FAILED,
-		    _("%s: somebody else changed it since it was opened; saved again, "
-		      "it is written over"), file->path);
+		    _("“%s” was changed by another program since it was opened. Save "
+		      "again to overwrite it."), file->path);
 	return false;
 }
 
@@ -132,7 +132,7 @@ static bool is_free(LadderSideFile *file, GError **error)
 		return true;
 	file->told_locked = true;
 	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_ACCES,
-		    _("%s: the file is read-only; saved again, it is written over"),
+		    _("“%s” is read-only. Save again to overwrite it."),
 		    file->path);
 	return false;
 }
@@ -223,7 +223,7 @@ static char *text_of(const char *path, GError **error)
 	if (!text || g_utf8_validate_len(text, len, NULL))
 		return text;
 	g_free(text);
-	g_set_error(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA, _("%s is no text file"),
+	g_set_error(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA, _("“%s” is not a text file"),
 		    path);
 	return NULL;
 }

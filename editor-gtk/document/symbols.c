@@ -293,7 +293,7 @@ char *rename_reason(LadderDocument *document, const struct ladder_rename *how,
 	switch (how->why) {
 	case RENAME_GOOD:
 	case RENAME_NOTHING:
-		text = g_strdup(_("This has no name that could be changed"));
+		text = g_strdup(_("This has no name to change"));
 		break;
 	case RENAME_FORM:
 		text = g_strdup_printf(_("“%s” is not a name"), name);
@@ -312,7 +312,7 @@ char *rename_reason(LadderDocument *document, const struct ladder_rename *how,
 		text = g_strdup_printf(_("It is used in another file (%s)"), place);
 		break;
 	case RENAME_MEMORY:
-		text = g_strdup(_("Memory is out"));
+		text = g_strdup(_("Out of memory"));
 		break;
 	}
 	g_free(place);

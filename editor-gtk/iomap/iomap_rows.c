@@ -141,7 +141,7 @@ char *iomap_lacks(const struct io_uses *uses, const struct io_text *io)
 	if (count > LACKS_SHOWN)
 		g_string_append_printf(text, ngettext(" and %d more", " and %d more",
 			(gulong)(count - LACKS_SHOWN)), count - LACKS_SHOWN);
-	whole = count ? g_strdup_printf(_("The program uses, the map lacks: %s"),
+	whole = count ? g_strdup_printf(_("Used by the program, missing in the map: %s"),
 					text->str) : NULL;
 	g_string_free(text, TRUE);
 	return whole;

@@ -73,7 +73,7 @@ static const char *refusal(enum io_refusal why)
 		[IO_GOOD] = "", [IO_MANY_WORDS] = N_("It must be one word, without blanks"),
 		[IO_NO_WORD] = N_("There is no such word"),
 		[IO_BAD_OFFSET] = N_("The number of a line is too large"),
-		[IO_BAD_NAME] = N_("No map can hold that name"),
+		[IO_BAD_NAME] = N_("This name is too long, or has control characters"),
 		[IO_MEMORY] = N_("Out of memory"),
 	};
 
@@ -365,8 +365,8 @@ static void find_said(LadderIomapView *view, const struct io_check *check,
 	if (!view->said && view->machine.diags.count)
 		view->said = diag_said_whole(&view->machine.diags.diag[0]);
 	else if (!view->said && !view->machine.count)
-		view->said = g_strdup(_("This machine has no GPIO lines: whether the map "
-					"fits a board is seen there."));
+		view->said = g_strdup(_("This machine has no GPIO lines. Check on the "
+					"board whether the map fits it."));
 	show_message(view);
 }
 

@@ -340,7 +340,7 @@ static void test_csv(void)
 	reads("a,\"b", "line 1: a quoted field does not end");
 	reads("a\n\"b\n1\n2\n", "1[a]line 2: a quoted field does not end");
 	reads("a\n\"b\r1\r\n2\",c\nd\n", "1[a]2[b\r1\r\n2][c]5[d]");
-	reads("a\n\"b\"c\n", "1[a]line 2: text behind a quoted field");
+	reads("a\n\"b\"c\n", "1[a]line 2: text after a quoted field");
 	reads("a\n\xff", "line 2: this is not UTF-8 text");
 	reads(big, "line 1: a field is too long");
 	got = read_all("a\0b", 3);

@@ -289,7 +289,7 @@ def tables(screen):
     editor.shot('begin-table')
     editor.says('2 new, 1 changed, 1 unchanged, 2 refused; after 2 of these lines the program has faults')
     for line in ('line 5, Away, refused, does not belong here: VAR_TEMP', 'line 6, Twice, new, also used as Start',
-                 'line 7, , refused, a quoted field does not end; nothing from here on was read'):
+                 'line 7, , refused, a quoted field does not end; the rest of the table was not read'):
         editor.find(line)
     next(node for node in editor.all('Import', 'push button') if node.name in ('Import', 'Import Import')).press()
     until(lambda: len(editor.windows()) == 1, 'the end of the plan')

@@ -63,7 +63,7 @@ def table(screen):
     editor = Editor(screen, path)
     open_map(editor)
     until(lambda: editor.all('bad value of an option'), 'the problem of its row')
-    editor.says('The program uses, the map lacks: %IX0.2 StopOk')
+    editor.says('Used by the program, missing in the map: %IX0.2 StopOk')
     editor.click(cell(editor, '%IX0.1, Debounce'))
     editor.keys('ctrl+a')
     editor.type('2 s')

@@ -105,7 +105,7 @@ def locked(screen):
     editor.type('# mine')
     until(lambda: '# mine' in editor.find('a.scn', 'text').text(), 'what is typed')
     editor.keys('ctrl+s')
-    editor.says('the file is read-only; saved again, it is written over')
+    editor.says('is read-only. Save again to overwrite it.')
     assert '# mine' not in open(scenario).read()
     assert '# mine' in editor.save(scenario)
 
