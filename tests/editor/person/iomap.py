@@ -322,7 +322,7 @@ def not_its_own(screen):
         editor.to_sheet()
         editor.command('Run on this machine')
         said, button = described(editor)
-        assert 'press.io is not this project\'s own I/O map, which has the name garage-door.io' in said, said
+        assert 'press.io is not the I/O map of this project, which is named garage-door.io' in said, said
         assert pins in said if pins else 'It reads' not in said, said
         assert button.startswith('Cancel'), button
         editor.shot('board-not-its-own')
