@@ -76,7 +76,7 @@ static union iec_value value_now(LadderGridView *view, struct location at)
 
 static bool is_held(LadderGridView *view, struct location at)
 {
-	return ladder_sim_is_forced(view->canvas->sim, at);
+	return live_value_is_forced(view->canvas->sim, false, at);
 }
 
 /* ---- acts ---- */

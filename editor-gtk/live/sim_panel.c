@@ -47,11 +47,6 @@ struct _LadderSimPanel {
 
 G_DEFINE_FINAL_TYPE(LadderSimPanel, ladder_sim_panel, GTK_TYPE_WIDGET)
 
-GListModel *ladder_sim_panel_list(LadderSimPanel *panel)
-{
-	return G_LIST_MODEL(panel->selection);
-}
-
 #define AT_A_TIME 12 /* hidden views that one timer call updates              */
 #define BEHIND_MS 30
 
@@ -294,35 +289,6 @@ static void active_changed(LadderSimPanel *panel)
 {
 	if (!gtk_window_is_active(GTK_WINDOW(panel->root)))
 		let_go(panel);
-}
-
-static void bind_root(LadderSimPanel *panel)
-{
-	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(panel));
-
-	if (!GTK_IS_WINDOW(root))
-		return;
-	panel->root = root;
-	panel->bound = g_ptr_array_new_with_free_func(held_free);
-	panel->root_keys = gtk_event_controller_key_new();
-	gtk_event_controller_set_propagation_phase(panel->root_keys, GTK_PHASE_CAPTURE);
-	g_signal_connect(panel->root_keys, "key-pressed", G_CALLBACK(root_key_pressed), panel);
-	g_signal_connect(panel->root_keys, "key-released", G_CALLBACK(root_key_released), panel);
-	gtk_widget_add_controller(GTK_WIDGET(root), panel->root_keys);
-	panel->root_active = g_signal_connect_swapped(root, "notify::is-active",
-						      G_CALLBACK(active_changed), panel);
-}
-
-static void unbind_root(LadderSimPanel *panel)
-{
-	if (!panel->root)
-		return;
-	let_go_bound(panel);
-	g_signal_handler_disconnect(panel->root, panel->root_active);
-	gtk_widget_remove_controller(GTK_WIDGET(panel->root), panel->root_keys);
-	g_clear_pointer(&panel->bound, g_ptr_array_unref);
-	panel->root_keys = NULL;
-	panel->root = NULL;
 }
 
 /* ---- what a person chooses for a line; the project keeps it ---- */
@@ -981,15 +947,6 @@ bool ladder_sim_panel_select(LadderSimPanel *panel, const char *name)
 	return false;
 }
 
-char *ladder_sim_panel_shown(LadderSimPanel *panel, const LadderSimRow *row)
-{
-	LadderSimRowView *view = view_of(panel, row);
-
-	if (view)
-		ladder_sim_row_view_update(view); /* as if it came into sight */
-	return view ? ladder_sim_row_view_text(view) : NULL;
-}
-
 /* ---- widgets of lines ---- */
 
 static void setup(GtkSignalListItemFactory *factory, GtkListItem *item,
@@ -1095,13 +1052,35 @@ static void dispose(GObject *object)
 
 static void root(GtkWidget *widget)
 {
+	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
+	GtkRoot *window = gtk_widget_get_root(widget);
+
 	GTK_WIDGET_CLASS(ladder_sim_panel_parent_class)->root(widget);
-	bind_root(LADDER_SIM_PANEL(widget));
+	if (!GTK_IS_WINDOW(window))
+		return;
+	panel->root = window;
+	panel->bound = g_ptr_array_new_with_free_func(held_free);
+	panel->root_keys = gtk_event_controller_key_new();
+	gtk_event_controller_set_propagation_phase(panel->root_keys, GTK_PHASE_CAPTURE);
+	g_signal_connect(panel->root_keys, "key-pressed", G_CALLBACK(root_key_pressed), panel);
+	g_signal_connect(panel->root_keys, "key-released", G_CALLBACK(root_key_released), panel);
+	gtk_widget_add_controller(GTK_WIDGET(window), panel->root_keys);
+	panel->root_active = g_signal_connect_swapped(window, "notify::is-active",
+						      G_CALLBACK(active_changed), panel);
 }
 
 static void unroot(GtkWidget *widget)
 {
-	unbind_root(LADDER_SIM_PANEL(widget));
+	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
+
+	if (panel->root) {
+		let_go_bound(panel);
+		g_signal_handler_disconnect(panel->root, panel->root_active);
+		gtk_widget_remove_controller(GTK_WIDGET(panel->root), panel->root_keys);
+		g_clear_pointer(&panel->bound, g_ptr_array_unref);
+		panel->root_keys = NULL;
+		panel->root = NULL;
+	}
 	GTK_WIDGET_CLASS(ladder_sim_panel_parent_class)->unroot(widget);
 }
 

@@ -19,12 +19,7 @@ G_DECLARE_FINAL_TYPE(LadderSimPanel, ladder_sim_panel, LADDER, SIM_PANEL, GtkWid
 /** ladder_sim_panel_new - @sim: referenced. */
 GtkWidget *ladder_sim_panel_new(LadderSim *sim);
 
-/** ladder_sim_panel_list - of LadderSimRow, with headings, as listed. Borrowed. */
-GListModel *ladder_sim_panel_list(LadderSimPanel *panel);
 /** ladder_sim_panel_select - selects the line of that name and scrolls to it; false: none. */
 bool ladder_sim_panel_select(LadderSimPanel *panel, const char *name);
-/** ladder_sim_panel_shown - ladder_sim_row_view_text() of the widget of a line; NULL: there is
- * none. Caller frees. For tests. */
-char *ladder_sim_panel_shown(LadderSimPanel *panel, const LadderSimRow *row);
 
 #endif

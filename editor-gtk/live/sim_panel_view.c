@@ -473,19 +473,6 @@ void ladder_sim_row_view_bind(LadderSimRowView *view, LadderSimRow *row)
 	ladder_sim_row_view_update(view);
 }
 
-char *ladder_sim_row_view_text(LadderSimRowView *view)
-{
-	if (!view->row || view->row->kind == SIM_HEADING)
-		return NULL;
-	if (!sim_row_is_bit(view->row))
-		return g_strdup(gtk_label_get_text(GTK_LABEL(view->value)));
-	if (view->row->kind == SIM_SWITCH)
-		return g_strdup((view->row->push ?
-			gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->push)) :
-			gtk_switch_get_active(GTK_SWITCH(view->toggle))) ? "1" : "0");
-	return g_strdup(gtk_widget_has_css_class(view->lamp, "on") ? "1" : "0");
-}
-
 /* ---- what is clicked ---- */
 
 static void select_line(LadderSimRowView *view)

@@ -26,10 +26,6 @@ enum sim_edit { SIM_EDIT_VALUE, SIM_EDIT_PRESET };
 /** ladder_sim_row_view_edit - opens an entry for the value or the preset. */
 void ladder_sim_row_view_edit(LadderSimRowView *view, enum sim_edit what);
 
-/** ladder_sim_row_view_text - what it shows: "0" or "1" of a bit, "1.00s / 2.00s" of a timer,
- * else the value. Caller frees. For tests. */
-char *ladder_sim_row_view_text(LadderSimRowView *view);
-
 /** ladder_sim_row_view_fold - folds or unfolds the section of @heading; @from: the panel or a
  * widget in it. */
 void ladder_sim_row_view_fold(GtkWidget *from, const LadderSimRow *heading);

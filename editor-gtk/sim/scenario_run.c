@@ -17,7 +17,7 @@
 
 #define FILE_MOST (4 << 20) /* bytes of a scenario file                          */
 
-void scenario_result_free(struct scenario_result *result)
+static void scenario_result_free(struct scenario_result *result)
 {
 	g_free(result->path);
 	g_free(result->name);

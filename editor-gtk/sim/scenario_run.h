@@ -28,7 +28,6 @@ struct scenario_result {
 	GArray *acts;
 	char *plant;         /* file of the plant beside it; NULL: none        */
 };
-void scenario_result_free(struct scenario_result *result);
 
 /** scenario_files - paths of a project's scenario files: those beside @path whose names
  * begin as its own does, but those of another program. Caller: g_ptr_array_unref(). */

@@ -116,13 +116,6 @@ int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung)
 	return document == sim->document ? find_rung(sim, pou, rung) : -1;
 }
 
-bool ladder_sim_is_forced(LadderSim *sim, struct location at)
-{
-	const struct twin *twin = ladder_sim_twin(sim);
-
-	return twin && image_is_forced(&twin->resource.image, at);
-}
-
 int ladder_sim_forces(LadderSim *sim)
 {
 	const struct twin *twin = ladder_sim_twin(sim);

@@ -121,8 +121,6 @@ struct ladder *ladder_sim_plant_ladder(LadderSim *sim);
  * same POU. -1: it is new or was changed since, or @document is not the one of the scan that is
  * shown. */
 int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung);
-/** ladder_sim_is_forced - @at: of the program whose scan is shown. */
-bool ladder_sim_is_forced(LadderSim *sim, struct location at);
 /** ladder_sim_forces - how many variables are forced, those of the plant included. */
 int ladder_sim_forces(LadderSim *sim);
 

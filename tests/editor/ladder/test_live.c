@@ -369,12 +369,12 @@ static void test_menu(void)
 {
 	ladder_grid_view_go(view, 0, 0, 1);
 	gtk_widget_activate_action(GTK_WIDGET(view), "live.on", NULL);
-	CHECK(comes("Stop", 1) && ladder_sim_is_forced(sim, find("Stop")));
+	CHECK(comes("Stop", 1) && live_value_is_forced(sim, false, find("Stop")));
 	gtk_widget_activate_action(GTK_WIDGET(view), "live.toggle", NULL);
-	CHECK(comes("Stop", 0) && ladder_sim_is_forced(sim, find("Stop")));
+	CHECK(comes("Stop", 0) && live_value_is_forced(sim, false, find("Stop")));
 	gtk_widget_activate_action(GTK_WIDGET(view), "live.force", NULL);
 	scan(1);
-	CHECK(!ladder_sim_is_forced(sim, find("Stop")));
+	CHECK(!live_value_is_forced(sim, false, find("Stop")));
 	gtk_widget_activate_action(GTK_WIDGET(body), "live.instance", "s", "First");
 	CHECK_TEXT(ladder_grid_view_instance(body), "First");
 }
@@ -396,7 +396,7 @@ static void test_keys(void)
 	ladder_grid_view_go(view, 0, 0, 2);
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_force);
 	scan(1);
-	CHECK(ladder_sim_is_forced(sim, find("Motor")) && value_of("Motor") == 1);
+	CHECK(live_value_is_forced(sim, false, find("Motor")) && value_of("Motor") == 1);
 	CHECK(bits_of(view, 0, 0, 2) & LIVE_FORCED && bits_of(view, 0, 1, 0) & LIVE_FORCED);
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
 	CHECK(comes("Motor", 0));
@@ -404,7 +404,7 @@ static void test_keys(void)
 	CHECK_AS(value_of("Motor") == 0, "held against the program");
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_force);
 	scan(2);
-	CHECK(!ladder_sim_is_forced(sim, find("Motor")));
+	CHECK(!live_value_is_forced(sim, false, find("Motor")));
 	CHECK(!(bits_of(view, 0, 0, 2) & LIVE_FORCED));
 }
 

@@ -4,8 +4,7 @@
  * what a click, a key, the menu does. SIM_PICTURES=FOLDER saves pictures, for a human eye.
  */
 #include "editor-gtk/window/app.h"
-#include "editor-gtk/live/sim_panel.h"
-#include "editor-gtk/live/sim_panel_view.h"
+#include "tests/editor/panel_shown.h"
 #include "tests/editor/keys.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
@@ -84,7 +83,7 @@ static void picture(const char *name)
 
 static LadderSimRow *row_of(const char *name)
 {
-	GListModel *list = ladder_sim_panel_list(panel);
+	GListModel *list = panel_list(panel);
 
 	for (guint i = 0; i < g_list_model_get_n_items(list); i++) {
 		LadderSimRow *row = g_list_model_get_item(list, i);
@@ -99,7 +98,7 @@ static LadderSimRow *row_of(const char *name)
 static bool shows(const char *name, const char *want)
 {
 	LadderSimRow *row = row_of(name);
-	char *text = row ? ladder_sim_panel_shown(panel, row) : NULL;
+	char *text = row ? panel_shown(panel, row) : NULL;
 	const bool is = g_strcmp0(text, want) == 0;
 
 	g_free(text);
@@ -109,7 +108,7 @@ static bool shows(const char *name, const char *want)
 /* All lines: "[Inputs] Start Stop [Outputs] …", of a map "[Inputs gpiochip1] Start …". */
 static char *lines(void)
 {
-	GListModel *list = ladder_sim_panel_list(panel);
+	GListModel *list = panel_list(panel);
 	GString *out = g_string_new(NULL);
 
 	for (guint i = 0; i < g_list_model_get_n_items(list); i++) {
@@ -313,7 +312,7 @@ static void test_found(void)
 	CHECK_TEXT(all, "[Inputs] Start ");
 	g_free(all);
 	gtk_editable_set_text(GTK_EDITABLE(search), "nothing has this");
-	CHECK_SOON(g_list_model_get_n_items(ladder_sim_panel_list(panel)) == 0);
+	CHECK_SOON(g_list_model_get_n_items(panel_list(panel)) == 0);
 	picture("none");
 	gtk_editable_set_text(GTK_EDITABLE(search), "");
 	CHECK_SOON(row_of("Alarm"));
@@ -445,7 +444,7 @@ static void test_map(void)
 static void test_end(void)
 {
 	ladder_sim_end(sim);
-	CHECK_SOON(g_list_model_get_n_items(ladder_sim_panel_list(panel)) == 0);
+	CHECK_SOON(g_list_model_get_n_items(panel_list(panel)) == 0);
 }
 
 int main(int argc, char **argv)

@@ -8,8 +8,8 @@
  * A click is one on a switch of the panel, or a value typed; what is compared is the text of
  * the widgets. The trace is run by itself, from a script of the same clicks.
  */
-#include "editor-gtk/live/sim_panel.h"
 #include "editor-gtk/sim/live_value.h"
+#include "tests/editor/panel_shown.h"
 #include "tests/editor/screen.h"
 #include "tests/tap.h"
 #include "tests/walker/random.h"
@@ -52,7 +52,7 @@ static bool wait_for(guint64 scan)
 /* A new reference; NULL: behind the last. */
 static LadderSimRow *row_at(guint at)
 {
-	return g_list_model_get_item(ladder_sim_panel_list(panel), at);
+	return g_list_model_get_item(panel_list(panel), at);
 }
 
 /* " Name=value" as a trace has it, of a text that a widget shows: 1.50s are 1500 there. */
@@ -77,10 +77,10 @@ static void put(GString *out, const char *name, const char *pin, enum iec_type t
 static void put_row(GString *line, GString *columns, const LadderSimRow *row, bool all)
 {
 	const bool timer = row->group == SIM_TIMERS;
-	char *text = ladder_sim_panel_shown(panel, row), *slash;
+	char *text = panel_shown(panel, row), *slash;
 
 	if (!text && all && ladder_sim_panel_select(panel, row->name))
-		text = ladder_sim_panel_shown(panel, row);
+		text = panel_shown(panel, row);
 	if (!text) {
 		unseen += all;
 		return;
@@ -146,7 +146,7 @@ static void click(struct random_source *random, const LadderSimRow *row, GString
 
 static void click_some(struct random_source *random, GString *script)
 {
-	const guint rows = g_list_model_get_n_items(ladder_sim_panel_list(panel));
+	const guint rows = g_list_model_get_n_items(panel_list(panel));
 	guint at = rows ? random_below(random, rows) : 0;
 
 	for (guint n = random_below(random, 4); n && at < rows;

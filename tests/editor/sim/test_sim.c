@@ -4,6 +4,7 @@
  * any scan that was; errors keep it off, faults stop it. A chart of it has every scan.
  */
 #include "editor-gtk/live/timing.h"
+#include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/sim/sim_thread.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -110,7 +111,7 @@ static void test_acts(void)
 	ladder_sim_scan(sim, 2);
 	CHECK_SOON(value("Count") == 3);
 	CHECK(value("Lamp") == 1 && ladder_sim_forces(sim) == 1);
-	CHECK(ladder_sim_is_forced(sim, image_find(image(), "Lamp", 4)));
+	CHECK(live_value_is_forced(sim, false, image_find(image(), "Lamp", 4)));
 	act(ACT_RELEASE, "Lamp", 0);
 	CHECK_SOON(ladder_sim_forces(sim) == 0);
 	ladder_sim_scan(sim, 1);
