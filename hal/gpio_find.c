@@ -235,7 +235,7 @@ static bool refused(struct trouble *why, const char *path, int error)
 		denied_add(&denied, path);
 		return denied_say(&denied, why);
 	}
-	return trouble_set(why, DIAG_IO_REQUEST, "%s: %s",
+	return trouble_set(why, DIAG_IO_REQUEST, "%s" DIAG_AND "%s",
 			   name ? name + 1 : path, strerror(-error));
 }
 
@@ -245,7 +245,7 @@ static bool busy(struct trouble *why, const struct io_point *point,
 	char name[LIMIT_ARG];
 
 	io_line_print(point, name, sizeof(name));
-	return trouble_set(why, DIAG_IO_BUSY, "%.26s, by %.16s", name,
+	return trouble_set(why, DIAG_IO_BUSY, "%.26s" DIAG_AND "%.16s", name,
 			   line->owner[0] ? line->owner : "the kernel");
 }
 
@@ -260,7 +260,7 @@ static void blame(struct trouble *why, const struct request *request,
 		if (gpio_chip_line(chip, request->line[i].at.offset, &line) ||
 		    !line.used)
 			continue;
-		trouble_set(why, DIAG_IO_BUSY, "by %.40s",
+		trouble_set(why, DIAG_IO_BUSY, "%.40s",
 			    line.owner[0] ? line.owner : "the kernel");
 		why->line = i;
 		break;
@@ -410,10 +410,11 @@ bool gpio_find(const struct io_point *point, const char *dev,
 				   point->chip);
 	if (search.hits > 1)
 		return trouble_set(why, DIAG_IO_LINE_AMBIGUOUS,
-				   "%.20s, on gpiochip%d, %d", point->line,
+				   "%.20s" DIAG_AND "gpiochip%d, %d", point->line,
 				   search.at.chip, search.second);
 	if (point->chip && point->offset >= search.lines)
-		return trouble_set(why, DIAG_IO_NO_LINE, "%.20s %u of %u",
+		return trouble_set(why, DIAG_IO_NO_OFFSET,
+				   "%.20s" DIAG_AND "%u" DIAG_AND "%u",
 				   point->chip, (unsigned)point->offset,
 				   (unsigned)search.lines);
 	if (search.line.used)

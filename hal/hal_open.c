@@ -65,7 +65,7 @@ static bool check_places(const struct iomap *map, const struct line_at *place,
 			 struct diag_list *diags)
 {
 	bool good = true;
-	char name[LIMIT_ARG];
+	char name[LIMIT_ARG], first[24];
 
 	for (int i = 0; i < map->count; i++) {
 		const struct io_point *point = &map->point[i];
@@ -76,11 +76,11 @@ static bool check_places(const struct iomap *map, const struct line_at *place,
 			    map->point[k].driver != point->driver)
 				continue;
 			io_line_print(point, name, sizeof(name));
+			iec_addr_print(map->point[k].addr, first, sizeof(first));
 			good = diag_add(diags, io_place(map, point,
 				map->point[k].output == point->output ?
 				DIAG_IO_LINE_TWICE : DIAG_IO_BOTH_WAYS),
-				"%s, as in line %d", name,
-				map->point[k].text_line);
+				"%s" DIAG_AND "%s", name, first);
 			break;
 		}
 	}
@@ -250,7 +250,7 @@ static bool refuse(const struct hal *hal, const struct hal_request *request,
 	if (!diags)
 		return false;
 	io_line_print(point, name, sizeof(name));
-	return diag_add(diags, io_place(hal->map, point, why->id), "%s: %s",
+	return diag_add(diags, io_place(hal->map, point, why->id), "%s" DIAG_AND "%s",
 			name, why->text);
 }
 

@@ -383,7 +383,7 @@ static void read_point(struct reader *reader, const struct word *address)
 	    !check_line(reader, &point, address, seen))
 		return;
 	if (reader->map.count == LIMIT_IO_POINTS) {
-		complain(reader, DIAG_TOO_MANY, address);
+		complain(reader, DIAG_IO_TOO_MANY, address);
 		return;
 	}
 	kept = arena_push(reader->arena, &reader->map.point, &reader->map.count,

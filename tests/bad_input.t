@@ -106,7 +106,7 @@ sub first_message {
 	my ($text) = @_;
 	my ($message) = $text =~ /^\S+ (?:rung .*?\) |.*?: )?error (LD\d+: .*)$/m;
 	return 'good' if !defined $message;
-	$message =~ s/^(LD\d+: [^:]*)(?:: .*)?$/$1/s;
+	$message =~ s/"[^"]*"/"…"/g; # the name: the same message for many operands
 	return $message;
 }
 

@@ -60,7 +60,7 @@ my $refused = qr/error LD717: .*ladder import/;
 # Of each command: arguments, status, what it prints. FILE is the project. Rows of one
 # command follow one another; `undef`: it takes no program.
 my @table = (
-	['check', ['FILE'], 0, qr{^FILE(?:/symbols\.csv)?:\d+: warning LD312.*Seven\nFILE: good, 1 warning$}],
+	['check', ['FILE'], 0, qr{^FILE(?:/symbols\.csv)?:\d+: warning LD312: "Seven".*\nFILE: good, 1 warning$}],
 	['check', ['--json', 'FILE'], 0, qr/"LD312"/],
 	['complete', ['FILE', 3, 2], 1, $refused],
 	['fmt', ['FILE'], 1, $refused],

@@ -141,7 +141,7 @@ is_run(0, 'CRLF', ['check', 'crlf.rung']);
 ($out, $err) = is_run(0, 'check', ['check', 'good.rung']);
 is($out, "good.rung: good\n", 'check: the sum');
 ($out, $err) = is_run(1, 'check of an error', ['check', 'good.rung', 'bad.rung']);
-like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: .*Stopp \(Stop\?\)$/m, 'check: file, line, rung, cell, code, name');
+like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: "Stopp" .*; did you mean Stop\?$/m, 'check: file, line, rung, cell, code, name');
 like($out, qr/^good\.rung: good\nbad\.rung: 1 error/, 'check: a line for each file');
 ($out, $err) = is_run(1, 'check --json', ['check', '--json', 'good.rung', 'bad.rung']);
 my $json = decode_json($out);
@@ -312,7 +312,7 @@ put('locals.scn', "scenario \"x\"\nat 0ms I0 = 1\nexpect A.X and b.t.q\n");
 is_run(0, 'a local with its program', ['test', 'locals.scn']);
 put('locals.scn', "scenario \"x\"\nat 0ms X = 1\nexpect T.Q\n");
 ($out, $err) = is_run(1, 'a local of which program', ['test', 'locals.scn']);
-like($err, qr/^locals\.scn:2:8: error LD327: .*: X\n.*:3:8: error LD327: .*: T\.Q$/m, 'a local of which program: place and name');
+like($err, qr/^locals\.scn:2:8: error LD327: "X" .*\n.*:3:8: error LD327: "T\.Q" .*$/m, 'a local of which program: place and name');
 ($out, $err) = is_run(1, 'trace: of which program', ['trace', 'locals.rung', '-'], "\@print A.X X\nT.PT=5\n");
 is(() = $err =~ /error LD327/g, 2, 'trace: of which program');
 is_run(2, 'run: of which program', ['run', 'locals.rung', '--set', 'X=1', '--scans', '1']);
@@ -357,7 +357,7 @@ is_run(2, 'run with no map', ['run', 'good.rung', '--io', 'nowhere', '--scans', 
 is_run(1, 'run with a bad map', ['run', 'good.rung', '--io', 'bad.io', '--scans', '1']);
 put('far.io', "BOARD \"x\"\n%IX0.0 sim\n%IX512.0 sim\n");
 (undef, $err) = is_run(1, 'run with a line beyond its area', ['run', 'good.rung', '--io', 'far.io', '--scans', '1']);
-like($err, qr/^far\.io:3:1: error LD523: .*: %IX512\.0$/m, 'which is named with its place');
+like($err, qr/^far\.io:3:1: error LD523: "%IX512\.0" /m, 'which is named with its place');
 (undef, $err) = is_run(1, 'io --program with such a line', ['io', 'far.io', '--program', 'good.rung']);
 like($err, qr/^far\.io:3:1: error LD523: /m, 'says so too');
 is_run(0, 'io without a program knows no sizes', ['io', 'far.io']);
@@ -521,7 +521,7 @@ for my $command (['trace', 'good.rung', '-'], ['run', 'good.rung', '--plain'],
 		 ['why', 'good.rung', '-', 'Motor']) {
 	my (undef, $said) = is_run(2, "$command->[0]: no such plant", [@$command, '--plant', 'none.rung'], ".\n");
 	like($said, qr/^none\.rung: error LD002/m, "$command->[0]: the file");
-	like($said, qr/^--plant: error LD016: .*none\.rung$/m, "$command->[0]: and what it was for");
+	like($said, qr/^--plant: error LD016: ".*none\.rung" /m, "$command->[0]: and what it was for");
 }
 put('broken.plant.rung', "RUNGBOARD 1\nPROGRAM P LD\nRUNG\n  | NO Nobody | COIL %QX0.1 |\nEND_PROGRAM\n");
 put('p.rung', get('good.rung'));
@@ -539,11 +539,11 @@ like(said_of_scenarios("# no plant \"x\" here\nplant \"none.rung\"\nscenario \"a
 like(said_of_scenarios("scenario \"a\"\n  plant \"broken.plant.rung\"\n$end"),
      qr/^1 broken\.plant\.rung:4:.*LD301: .*Nobody.*^p\.scn:2:9: error LD016/ms, 'a plant with an error: that, and the place');
 like(said_of_scenarios("scenario \"a\"\n  plant \"world.rung\"\n  plant \"world.rung\"\n$end"),
-     qr/p\.scn:3:9: error LD126: .*second plant/, 'two plants');
+     qr/p\.scn:3:9: error LD134: .*only one plant/, 'two plants');
 like(said_of_scenarios("scenario \"a\"\n  plant \"world.rung\"\n$end\nscenario \"b\"\n  plant \"good.rung\"\n$end"),
-     qr/p\.scn:7:9: error LD126: .*second plant/, 'another plant in another scenario');
+     qr/p\.scn:7:9: error LD134: .*only one plant/, 'another plant in another scenario');
 like(said_of_scenarios("scenario \"a\"\n  at 0ms Open = 1\n  plant \"world.rung\"\n  at 50ms expect Stop\n"),
-     qr/p\.scn:3:9: error LD126/, 'a plant behind steps');
+     qr/p\.scn:3:9: error LD133/, 'a plant behind steps');
 like(said_of_scenarios("scenario \"a\"\n$end  expect plant.Way > 1\n"),
      qr/p\.scn:4:10: error LD301: .*plant\.Way/, 'a name of a plant without one');
 like(said_of_scenarios("scenario \"a\"\n  plant \"world.rung\"\n$end  expect plant.Nobody > 1\n"),

@@ -163,8 +163,9 @@ sub missing_words {
 }
 
 # Not to be shown by a small rung file: of the system (LD0), of names in scripts
-# (LD327), of ladderd alone (LD316: tests/hal/retain.t), of I/O maps (LD5), of code images (LD61), of programs of many megabytes.
-my $elsewhere = qr/^LD(?:0|316|327|5|61|606|607)/;
+# (LD327), of ladderd alone (LD316: tests/hal/retain.t), of I/O maps (LD5), of code images (LD61),
+# of scenarios (LD131 …: tests/unit/trial/test_scenario.c), of programs of many megabytes.
+my $elsewhere = qr/^LD(?:0|129|13[1-79]|316|327|5|61|606|607|608|718)/;
 
 sub missing_codes {
 	my $shown = join '', map { slurp("$_/expected.diag") // slurp("$_/expected.ladder") //

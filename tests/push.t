@@ -136,7 +136,7 @@ my @to = ('--folder', $etc);
 # ---- what is wrong here is told here, and nobody is called ----
 put('never', "#!/bin/sh\ntouch $dir/called\n", 0755);
 my ($out, $err) = is_push(1, 'an error in the program', "$dir/never", 'bad.rung', 'desk.io', $board);
-like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: .*Lamb \(Lamp\?\)$/m, 'it is told as `ladder check` tells it');
+like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: "Lamb" .*; did you mean Lamp\?$/m, 'it is told as `ladder check` tells it');
 ($out, $err) = is_push(1, 'an error in the map', "$dir/never", 'one.rung', 'bad.io', $board);
 like($err, qr/^bad\.io:2:8: error LD503: /m, 'with its place');
 put('far.io', "BOARD \"x\"\n%IX0.0 sim\n%QX512.0 sim\n");
@@ -212,7 +212,7 @@ $left = unchanged('no ladderd', sub {
 	($out, $err) = is_push(2, 'no ladderd there', $ssh, @to, 'one.rung', 'desk.io', $board);
 	rename "$bin/ladderd.away", "$bin/ladderd";
 });
-like($err, qr/^\Q$board\E: error LD012: .*ladderd/m, 'no ladderd: says so');
+like($err, qr/^\Q$board\E: error LD019: .*ladderd/m, 'no ladderd: says so');
 is($left, 0, 'no ladderd: nothing is left behind');
 put('file', '');
 unchanged('no folder', sub { ($out, $err) = is_push(2, 'no folder there', $ssh, '--folder', "$dir/file/x", 'one.rung', 'desk.io', $board) });
@@ -222,7 +222,7 @@ like($err, qr/^\Q$board\E: error LD012: /m, 'no folder: says so');
 my $before = get("$etc/active");
 my $runs = identity(active());
 ($out, $err) = is_push(1, 'lines that are not there', $ssh, @to, 'one.rung', 'other.io', $board);
-like($err, qr/^\Q$board\E: error LD014: .*the one before runs$/m, 'it went back, and says so');
+like($err, qr/^\Q$board\E: error LD014: .*the previous program runs again$/m, 'it went back, and says so');
 is(get("$etc/active"), $before, 'the old files stand again');
 like(ask(), qr/^state: RUN\n.*^program: $runs$/ms, 'the old program runs again');
 is(folders(), 2, 'nothing is left behind');

@@ -695,8 +695,8 @@ static void import_record(struct import *import, int line, char *const *field, i
 		tell(import->plan, CSV_REFUSE, line, full, g_strdup_printf(
 			_("There is no program or structure “%s”"), scope));
 	else if (flags < 0)
-		tell(import->plan, CSV_REFUSE, line, full, g_strdup_printf("%s: %s",
-			_(diag_text(DIAG_MISPLACED)), block));
+		tell(import->plan, CSV_REFUSE, line, full,
+		     diag_said_of(DIAG_MISPLACED, block));
 	else if (is_seen(import, key, line, full))
 		g_free(full);
 	else if (old && old->included)

@@ -167,14 +167,16 @@ static void check_twice(struct io_check *check, int index)
 	const struct io_placed *placed = &check->placed[index];
 
 	for (int i = 0; i < index; i++) {
-		char text[24];
+		char name[LIMIT_ARG], first[24];
 
 		if (check->placed[i].found != placed->found)
 			continue;
-		iec_addr_print(check->placed[i].point->addr, text, sizeof(text));
+		io_line_print(placed->point, name, sizeof(name));
+		iec_addr_print(check->placed[i].point->addr, first, sizeof(first));
 		diag_add(&check->here, io_place(&check->map, placed->point,
 			check->placed[i].point->output == placed->point->output ?
-			DIAG_IO_LINE_TWICE : DIAG_IO_BOTH_WAYS), "%s", text);
+			DIAG_IO_LINE_TWICE : DIAG_IO_BOTH_WAYS),
+			"%s" DIAG_AND "%s", name, first);
 		return;
 	}
 }

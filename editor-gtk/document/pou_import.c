@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/document/pou_import.h"
 
+#include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/xref/xref.h"
@@ -297,9 +298,13 @@ static bool bring(LadderDocument *document, struct ladder *from,
 	ladder_document_begin(document, _("Import"), NULL);
 	good = all && ladder_document_replace(document, len, 0, text, &why);
 	ladder_document_end(document);
-	if (!good)
-		g_string_printf(told, _("Nothing was imported: %s"),
-				all && why.count ? _(diag_text(why.diag[0].id)) : "");
+	if (!good) {
+		char *reason = all && why.count ? diag_said_whole(&why.diag[0]) :
+						  g_strdup("");
+
+		g_string_printf(told, _("Nothing was imported: %s"), reason);
+		g_free(reason);
+	}
 	g_free(all);
 	g_free(text);
 	return good;

@@ -270,7 +270,7 @@ char *symbol_error(LadderDocument *document, const struct symbol_row *symbol,
 	for (int i = 0; diags && i < diags->count; i++)
 		if (speaks_of(&diags->diag[i], symbol)) {
 			*warning = diag_severity(diags->diag[i].id) != SEVERITY_ERROR;
-			return g_strdup(_(diag_text(diags->diag[i].id)));
+			return diag_said_whole(&diags->diag[i]);
 		}
 	return NULL;
 }
@@ -547,7 +547,7 @@ static char *name_reason(enum diag_id fault, const char *name)
 {
 	if (fault == DIAG_EXPECTED)
 		return g_strdup_printf(_("“%s” is not a name"), name);
-	return g_strdup_printf("%s: %s", _(diag_text(fault)), name);
+	return diag_said_of(fault, name);
 }
 
 /* Does the program say this name and mean an address? It would mean the symbol then. */

@@ -2,9 +2,8 @@
  *
  * diag_said - a diagnostic of the engine in the language of the session.
  *
- * An argument is mostly a name of the user and must not be translated even if the engine has
- * the same word, such as `index`. In sentences of the engine round such names
- * (diag_args.def) the sentence is translated and the names stay.
+ * The text is translated; its parts are mostly names of the user and stay as they are. A
+ * part is translated only if it is a text of ours: of several words, or what was expected.
  */
 #include "editor-gtk/kit/diag_said.h"
 
@@ -13,115 +12,39 @@
 #include <glib.h>
 #include <string.h>
 
-#define PARTS_MOST 3 /* names in one sentence                                  */
-
-struct sentence { enum diag_id id; const char *text; };
-static const struct sentence sentences[] = {
-#define SENTENCE(id, text) { DIAG_##id, text },
-#include "editor-gtk/kit/diag_args.def"
-};
-
-/* A name within an argument. */
-struct part { const char *text; int len; };
-
-const char *diag_said(const struct diag *diag)
+/* A part that is a word could also be a name, such as `index`. */
+static bool is_ours(enum diag_id id, const char *part)
 {
-	return said(diag_text(diag->id));
+	return id == DIAG_EXPECTED || id == DIAG_TOO_MANY || id == DIAG_SFC_TOO_MANY ||
+	       strchr(part, ' ');
 }
 
-/* Up to the next name of a sentence, or its end. */
-static size_t plain_length(const char *sentence)
+char *diag_said_of(enum diag_id id, const char *arg)
 {
-	const char *name = strstr(sentence, "%s");
+	char **part = g_strsplit(arg, DIAG_AND, -1);
+	char *joined, *whole;
+	int len;
 
-	return name ? (size_t)(name - sentence) : strlen(sentence);
-}
+	for (int i = 0; part[i]; i++) {
+		char *of_user = part[i];
 
-/* Where the text @plain of that length stands in @arg; behind the last name it must be
- * the end. NULL: nowhere. */
-static const char *find_plain(const char *arg, const char *plain, size_t len, bool last)
-{
-	const size_t size = strlen(arg);
-
-	if (last)
-		return size > len && memcmp(arg + size - len, plain, len) == 0 ?
-		       arg + size - len : NULL;
-	return size > 1 ? g_strstr_len(arg + 1, -1, plain) : NULL;
-}
-
-/* Is @arg such a sentence? Its names; no name is empty. */
-static bool is_sentence(const char *arg, const char *sentence, struct part *part)
-{
-	size_t len = plain_length(sentence);
-
-	if (strncmp(arg, sentence, len) != 0)
-		return false;
-	arg += len;
-	sentence += len;
-	for (int i = 0; *sentence; i++) {
-		char *plain;
-		const char *found;
-
-		sentence += strlen("%s");
-		len = plain_length(sentence);
-		plain = g_strndup(sentence, len);
-		found = find_plain(arg, plain, len, sentence[len] == '\0');
-		g_free(plain);
-		if (!found || i == PARTS_MOST)
-			return false;
-		part[i] = (struct part){ arg, (int)(found - arg) };
-		arg = found + len;
-		sentence += len;
-	}
-	return *arg == '\0';
-}
-
-/* Names are counted, %2$s, where a language needs another order. */
-static char *filled(const char *sentence, const struct part *part)
-{
-	GString *out = g_string_new(NULL);
-	int next = 0;
-
-	for (; *sentence; sentence++) {
-		int which = next;
-
-		if (*sentence != '%') {
-			g_string_append_c(out, *sentence);
-			continue;
+		if (*of_user && is_ours(id, of_user)) {
+			part[i] = g_strdup(said(of_user));
+			g_free(of_user);
 		}
-		if (g_ascii_isdigit(sentence[1])) {
-			which = sentence[1] - '1';
-			sentence += strlen("1$");
-		}
-		sentence++;
-		next++;
-		if (which >= 0 && which < PARTS_MOST)
-			g_string_append_len(out, part[which].text, part[which].len);
 	}
-	return g_string_free(out, FALSE);
-}
-
-char *diag_said_arg(const struct diag *diag)
-{
-	const bool ours = diag->id == DIAG_EXPECTED || diag->id == DIAG_TOO_MANY ||
-			  strchr(diag->arg, ' ');
-	const char *text = ours ? said(diag->arg) : diag->arg;
-	struct part part[PARTS_MOST] = { { "", 0 }, { "", 0 }, { "", 0 } };
-
-	for (gsize i = 0; text == diag->arg && i < G_N_ELEMENTS(sentences); i++)
-		if (sentences[i].id == diag->id &&
-		    is_sentence(diag->arg, sentences[i].text, part))
-			return filled(_(sentences[i].text), part);
-	return g_strdup(text);
+	joined = g_strjoinv(DIAG_AND, part);
+	len = diag_fill(said(diag_text(id)), joined, NULL, 0) + 1;
+	whole = g_malloc((gsize)len);
+	diag_fill(said(diag_text(id)), joined, whole, (size_t)len);
+	g_free(joined);
+	g_strfreev(part);
+	return whole;
 }
 
 char *diag_said_whole(const struct diag *diag)
 {
-	char *arg = diag_said_arg(diag);
-	char *whole = g_strdup_printf("%s%s%s", diag_said(diag), arg[0] ? ": " : "", arg);
-
-	g_free(arg);
-	return whole;
+	return diag_said_of(diag->id, diag->arg);
 }
 
 /* "pump.rung:14:3: ". */

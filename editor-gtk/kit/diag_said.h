@@ -7,16 +7,12 @@
 
 #include "engine/base/diag.h"
 
-/** diag_said - its text, without its argument. Lives for ever. */
-const char *diag_said(const struct diag *diag);
+/** diag_said_of - the text of @id with the parts of @arg (DIAG_AND): names of the user as they
+ * are, texts of the engine in the language of the session. Caller frees with g_free(). */
+char *diag_said_of(enum diag_id id, const char *arg);
 
-/**
- * diag_said_arg - its argument: names of the user unchanged, words of the engine translated.
- * Caller frees with g_free().
- */
-char *diag_said_arg(const struct diag *diag);
-
-/** diag_said_whole - "text: argument", or the text alone. Caller frees with g_free(). */
+/** diag_said_whole - the same of a diagnostic, without its place. Caller frees with
+ * g_free(). */
 char *diag_said_whole(const struct diag *diag);
 
 /** diag_said_line - as diag_print(), place, code and text; in English it is the same. Caller

@@ -182,17 +182,20 @@ static char *read_value(const struct asked *asked, const char *line, struct iec_
 			union iec_value *value)
 {
 	const struct iec_type_row *type = iec_type_row(asked->at.type);
-	struct diag diag = { .id = DIAG_BAD_LITERAL };
+	enum diag_id fault = DIAG_BAD_LITERAL;
 	char *plain = g_strstrip(g_strdup(line)), *why = NULL;
 
-	if (!value_parse(asked->at.type, plain, strlen(plain), room, value, &diag.id)) {
+	if (!value_parse(asked->at.type, plain, strlen(plain), room, value, &fault)) {
+		char *said = diag_said_of(fault, plain);
+
 		if (type->low < type->high && type->class & (ANY_INT | CLASS_BITS) &&
 		    !iec_is_wide(asked->at.type))
-			why = g_strdup_printf(_("%s: %s, %lld to %lld"), diag_said(&diag),
+			why = g_strdup_printf(_("%s: %s, %lld to %lld"), said,
 					      type->word, (long long)type->low,
 					      (long long)type->high);
 		else
-			why = g_strdup_printf("%s: %s", diag_said(&diag), type->word);
+			why = g_strdup_printf("%s: %s", said, type->word);
+		g_free(said);
 	} else if (!value_has_room(image_of(asked->view), asked->at, *value)) {
 		why = g_strdup(_("the text is too long"));
 	}

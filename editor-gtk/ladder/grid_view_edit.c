@@ -416,9 +416,10 @@ static bool is_blank(const struct rung *rung)
 
 static void tell_too_many(LadderGridView *view)
 {
-	const struct diag diag = { .id = DIAG_TOO_MANY };
+	char *said = diag_said_of(DIAG_TOO_MANY, "rungs");
 
-	canvas_tell(LADDER_CANVAS(view), diag_said(&diag));
+	canvas_tell(LADDER_CANVAS(view), said);
+	g_free(said);
 }
 
 /* Declares the variables that the pasted rungs use and this project lacks. @at: a

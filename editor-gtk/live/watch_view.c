@@ -93,21 +93,20 @@ static char *row_value(const LadderWatchRow *row)
 static bool row_parse(const LadderWatchRow *row, const struct image *image,
 		      struct iec_text *room, union iec_value *out, char **why)
 {
-	struct diag diag = { .id = DIAG_COUNT };
+	enum diag_id fault = DIAG_COUNT;
 
 	if (row->at.type == IEC_NONE)
-		diag.id = DIAG_UNKNOWN_NAME;
+		fault = DIAG_UNKNOWN_NAME;
 	else if (row->at.constant)
-		diag.id = DIAG_WRITE_CONSTANT;
+		fault = DIAG_WRITE_CONSTANT;
 	else if (live_value_parse(row->line->format, row->at.type, row->typed, room, out,
-			     &diag.id))
-		diag.id = value_has_room(image, row->at, *out) ? DIAG_COUNT :
+			     &fault))
+		fault = value_has_room(image, row->at, *out) ? DIAG_COUNT :
 			  DIAG_LITERAL_RANGE;
-	if (diag.id == DIAG_COUNT)
+	if (fault == DIAG_COUNT)
 		return true;
-	*why = g_strdup_printf("%s: %s", diag_said(&diag), diag.id == DIAG_UNKNOWN_NAME ||
-			       diag.id == DIAG_WRITE_CONSTANT ? row->line->name :
-			       row->typed);
+	*why = diag_said_of(fault, fault == DIAG_UNKNOWN_NAME || fault == DIAG_WRITE_CONSTANT ?
+				   row->line->name : row->typed);
 	return false;
 }
 

@@ -234,9 +234,7 @@ static bool expect_at(LadderRecorder *recorder, const struct twin *shown_twin,
 	union iec_value seen, was;
 
 	if (at.type == IEC_NONE) {
-		const struct diag diag = { .id = why };
-
-		*said = g_strdup_printf("%s: %s", diag_said(&diag), name);
+		*said = diag_said_of(why, name);
 		return false;
 	}
 	seen = image_get(&shown_twin->resource.image, at);

@@ -135,7 +135,7 @@ static char *load_include(void *context, const char *from, const char *name,
 	text = file_read(path, LIMIT_TEXT, len, NULL);
 	if (!text && diags->errors == before) {
 		place.id = DIAG_BAD_INCLUDE;
-		diag_add(diags, place, "%.60s: %s", name,
+		diag_add(diags, place, "%.30s" DIAG_AND "%s", name,
 			 errno ? strerror(errno) : "not a file of text");
 	}
 	free(path);

@@ -113,9 +113,9 @@ enum status cmd_il(struct call *call)
 		else
 			status = report_no_memory(call->arg[0]);
 	} else if (status == STATUS_GOOD) {
-		report_diag((struct diag){ .id = DIAG_NOT_RUNGBOARD,
+		report_diag((struct diag){ .id = DIAG_IMAGE_NO_TEXT,
 					   .file = call->arg[0] },
-			    "a code image holds no list");
+			    "%s", "");
 		status = STATUS_NO;
 	}
 	free(text);

@@ -87,7 +87,8 @@ static enum status tell(const struct push *push, enum diag_id id,
 			const char *what)
 {
 	report_diag((struct diag){ .id = id, .file = push->board }, "%s", what);
-	return id == DIAG_BOARD_REFUSED || id == DIAG_BOARD_NOT_STARTED ?
+	return id == DIAG_BOARD_REFUSED || id == DIAG_BOARD_NOT_STARTED ||
+	       id == DIAG_BOARD_STOPPED ?
 		       STATUS_NO : STATUS_WRONG;
 }
 
@@ -108,7 +109,7 @@ static enum status send_file(const struct push *push, const char *name,
 		return tell(push, DIAG_BOARD_AWAY, strerror(-end));
 	if (end == PUSH_NO_SSH)
 		return tell(push, DIAG_BOARD_AWAY, "ssh failed");
-	return tell(push, DIAG_BOARD_CANNOT, "cannot write there");
+	return tell(push, DIAG_BOARD_CANNOT, "");
 }
 
 static enum status judge(const struct push *push, int end)
@@ -117,20 +118,19 @@ static enum status judge(const struct push *push, int end)
 	case PUSH_DONE:
 		return STATUS_GOOD;
 	case PUSH_REFUSED:
-		return tell(push, DIAG_BOARD_REFUSED, "ladderd --check");
+		return tell(push, DIAG_BOARD_REFUSED, "");
 	case PUSH_WENT_BACK:
-		return tell(push, DIAG_BOARD_NOT_STARTED,
-			    "the one before runs");
+		return tell(push, DIAG_BOARD_NOT_STARTED, "");
 	case PUSH_NOTHING_RUNS:
-		return tell(push, DIAG_BOARD_NOT_STARTED, "nothing runs there");
+		return tell(push, DIAG_BOARD_STOPPED, "");
 	case PUSH_NOT_WHOLE:
-		return tell(push, DIAG_BOARD_CANNOT, "it did not arrive whole");
+		return tell(push, DIAG_BOARD_NOT_WHOLE, "");
 	case PUSH_NO_LADDERD:
-		return tell(push, DIAG_BOARD_CANNOT, "no ladderd in its PATH");
+		return tell(push, DIAG_BOARD_NO_LADDERD, "");
 	case PUSH_NO_SERVICE:
-		return tell(push, DIAG_BOARD_CANNOT, "no service to restart");
+		return tell(push, DIAG_BOARD_NO_SERVICE, "");
 	case PUSH_NO_ROOM:
-		return tell(push, DIAG_BOARD_CANNOT, "cannot write there");
+		return tell(push, DIAG_BOARD_CANNOT, "");
 	default:
 		return tell(push, DIAG_BOARD_CUT, "");
 	}

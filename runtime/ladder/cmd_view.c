@@ -31,8 +31,8 @@ static enum status show(struct call *call, const struct project *project,
 
 static enum status no_project(const char *path)
 {
-	report_diag((struct diag){ .id = DIAG_NOT_RUNGBOARD, .file = path },
-		    "a code image holds no rungs");
+	report_diag((struct diag){ .id = DIAG_IMAGE_NO_TEXT, .file = path },
+		    "%s", "");
 	return STATUS_NO;
 }
 

@@ -219,8 +219,8 @@ enum status cmd_why(struct call *call)
 	if (text && diags)
 		status = machine_watch(&machine, call->arg[0]);
 	if (status == STATUS_GOOD && !ladder_project(machine.ladder)) {
-		report_diag((struct diag){ .id = DIAG_NOT_RUNGBOARD,
-			    .file = call->arg[0] }, "a code image holds no rungs");
+		report_diag((struct diag){ .id = DIAG_IMAGE_NO_TEXT,
+			    .file = call->arg[0] }, "%s", "");
 		status = STATUS_NO;
 	}
 	if (status == STATUS_GOOD && plant)

@@ -9,8 +9,8 @@
 
 static enum status no_image(const char *path)
 {
-	report_diag((struct diag){ .id = DIAG_NOT_RUNGBOARD, .file = path },
-		    "a code image holds no names");
+	report_diag((struct diag){ .id = DIAG_IMAGE_NO_TEXT, .file = path },
+		    "%s", "");
 	return STATUS_NO;
 }
 

@@ -154,8 +154,7 @@ bool paths_collect(struct paths *paths, const char *path, const char *ending,
 		return false;
 	}
 	if (!has_ending(path, ending))
-		return complain(path, DIAG_NOT_A_FILE,
-				"wanted: .scn, .rung, .clprj or a folder");
+		return complain(path, DIAG_WRONG_KIND, "");
 	char *copy = malloc(strlen(path) + 1);
 
 	if (copy)

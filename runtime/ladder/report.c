@@ -98,7 +98,7 @@ void report_diags(const struct diag_list *diags)
 	if (diags->dropped)
 		report_diag((struct diag){ .id = DIAG_MORE,
 					   .file = diags->diag[0].file },
-			    "%d more", diags->dropped);
+			    "%d", diags->dropped);
 }
 
 static void json_number(const char *name, int value, const struct sink *out)

@@ -231,7 +231,7 @@ for (['no such program', "$dir/none.rung", $map, 2, qr/none\.rung/],
      ['binary program', put('b.rung', "\0\1\2" x 99), $map, 1, qr/b\.rung/],
      ['empty map', $rung, put('e.io', ''), 1, qr/e\.io.*LD101/],
      ['bad map', $rung, put('b.io', "BOARD \"x\"\n%QX0.0 sim fast\n"), 1,
-      qr/b\.io:2:12: error LD504: unknown option: fast/],
+      qr/b\.io:2:12: error LD504: "fast" is not a known option/],
      ['bad program', put('n.rung', "RUNGBOARD 1\nPROJECT \"x\"\n\nPROGRAM M ".
       "LD\nRUNG\n  | NO Nope | COIL Nope2 |\nEND_PROGRAM\n"), $map, 1,
       qr/n\.rung.*LD301/]) {
@@ -244,7 +244,7 @@ for (['no such program', "$dir/none.rung", $map, 2, qr/none\.rung/],
 # Errors and other warnings are those of `ladder check`; advice is for people at a desk.
 my $near = put('near.rung', "RUNGBOARD 1\n\nVAR_GLOBAL\n  Valve : BOOL;\nEND_VAR\n\n".
 	       "PROGRAM M LD\nRUNG\n  | NO Valv | COIL Valve |\nEND_PROGRAM\n");
-for (['LD301 names its word', $near, 1, qr/rung 1 \(1,1\): error LD301: [^\n]*: Valv/, qr/ \(Valve\?\)/],
+for (['LD301 names its word', $near, 1, qr/rung 1 \(1,1\): error LD301: "Valv"/, qr/did you mean/],
      ['a chart is checked', 'tests/golden/diag-LD451-dead-end/main.rung', 0, qr/warning LD439: /,
       qr/warning LD451: /]) {
 	my ($what, $file, $status, $told, $advice) = @$_;
@@ -260,7 +260,7 @@ like(get('err'), qr/half\.io.*warning LD515.*Brake/, 'is a warning');
 my $bare = put('bare.rung', "RUNGBOARD 1\n\nPROGRAM M LD\nRUNG\n".
 	       "  | NO I0 | NO %IX5.0 | COIL %QX7.0 |\nEND_PROGRAM\n");
 is(run($ladderd, $bare, '--io', $half, '--scans', '1'), 0, 'bare addresses');
-like(get('err'), qr/LD515.*: %IX5\.0\n.*LD515.*: %QX7\.0\n/,
+like(get('err'), qr/LD515: "%IX5\.0".*\n.*LD515: "%QX7\.0".*\n/,
      'those without a line are told');
 unlike(get('err'), qr/%IX0\.0/, 'those with one are not');
 
@@ -274,7 +274,7 @@ sub sized {
 my $large = sized('large.rung', V => 65536, Q => 1);
 my $wide = put('wide.io', "BOARD \"x\"\n%IX0.0 sim\n%QX0.0 sim\n%QX1.0 sim\n");
 is(run($ladderd, $large, '--io', $wide, @traced), 1, 'a line beyond its area');
-like(get('err'), qr/wide\.io:4:1: error LD523: .*: %QX1\.0$/m, 'is an error with its place');
+like(get('err'), qr/wide\.io:4:1: error LD523: "%QX1\.0" /m, 'is an error with its place');
 unlike(get('err'), qr/^%Q/m, 'no pin is touched');
 is(run($ladderd, $large, '--io', $half, '--check'), 0, 'larger areas');
 like(get('out'), qr/^data: 770\d\d bytes$/m, 'take more memory');

@@ -68,8 +68,8 @@ static void test_refusals(void)
 	BAD("%IX8192.0 sim", "LD502");
 	BAD("%IX0.8 sim", "LD502");
 	BAD("hello sim", "LD502");
-	BAD("%IX0.0 modem", "test.io:2:8: error LD503: unknown driver: modem");
-	BAD("%IX0.0 sim fast", "test.io:2:12: error LD504: unknown option: fast");
+	BAD("%IX0.0 modem", "test.io:2:8: error LD503: \"modem\" is not a known driver");
+	BAD("%IX0.0 sim fast", "test.io:2:12: error LD504: \"fast\" is not a known option");
 	BAD("%IX0.0 gpio line=", "LD505");
 	BAD("%IX0.0 gpio line=\"\"", "LD505");
 	BAD("%IX0.0 gpio line=a\"b\"", "LD505");

@@ -296,28 +296,27 @@ static void test_places(void)
 	chips();
 	fake.chip[1].line[3].name = "IN0";
 	CHECK(refused(&b, "%IX0.0 gpio line=IN0",
-		      "LD509: two lines have this name; give chip and offset: "
-		      "IN0, on gpiochip0, 1"));
+		      "LD509: \"IN0\": two lines have this name, on gpiochip0, 1; "
+		      "give chip= and offset="));
 	CHECK(refused(&b, "%IX0.0 gpio line=NOPE",
-		      "LD508: no such line on this machine: NOPE"));
+		      "LD508: \"NOPE\": this machine has no such line"));
 	CHECK(refused(&b, "%IX0.0 gpio chip=nope offset=1",
-		      "LD512: no such GPIO chip on this machine: nope"));
+		      "LD512: \"nope\": this machine has no such GPIO chip"));
 	CHECK(refused(&b, "%IX0.0 gpio chip=panel offset=200",
-		      "LD508: no such line on this machine: panel 200 of 200"));
+		      "LD525: \"panel\" has no line 200: it has 200 lines, from 0 on"));
 	CHECK(refused(&b, "%IX0.0 gpio chip=gpiochip7 offset=1",
-		      "LD512: no such GPIO chip on this machine: gpiochip7"));
+		      "LD512: \"gpiochip7\": this machine has no such GPIO chip"));
 	fake.chip[1].label = "panel";
 	CHECK(refused(&b, "%IX0.0 gpio chip=panel offset=1",
-		      "LD521: two chips have this label; use line names: "
-		      "panel"));
+		      "LD521: \"panel\": two chips have this label; use line names"));
 	CHECK(refused(&b, "%IX0.0 gpio line=IN1\n"
 			  "%IX0.1 gpio chip=gpiochip0 offset=1",
-		      "LD507: line stands twice in the map: gpiochip0 1, as in "
-		      "line 2"));
+		      "LD507: \"gpiochip0 1\" is used twice in the map, first for "
+		      "%IX0.0"));
 	CHECK(refused(&b, "%QX0.0 gpio line=IN1\n"
 			  "%IX0.1 gpio chip=/dev/gpiochip0 offset=1",
-		      "LD518: line is used as an input and as an output: "
-		      "/dev/gpiochip0 1, as in line 2"));
+		      "LD518: \"/dev/gpiochip0 1\" is used as an input and as an "
+		      "output, first for %QX0.0"));
 	CHECK_AS(fake.takes == 0 && fake.opens == fake.closes,
 		 "a map that is refused touches no line");
 }
@@ -330,27 +329,25 @@ static void test_owners(void)
 	fake.chip[0].line[1].used = true;
 	fake.chip[0].line[1].owner = "spi0 CS0";
 	CHECK(refused(&b, "%IX0.0 gpio line=IN1",
-		      "LD510: line is in use by another owner: IN1, by "
-		      "spi0 CS0"));
+		      "LD510: \"IN1\" is in use by spi0 CS0"));
 	fake.chip[0].line[1].owner = NULL;
 	CHECK(refused(&b, "%QX0.0 gpio line=IN1",
-		      "LD510: line is in use by another owner: IN1, by "
-		      "the kernel"));
+		      "LD510: \"IN1\" is in use by the kernel"));
 	CHECK(fake.takes == 0);
 	fake.take_error = EINVAL;
 	CHECK(refused(&b, "%QX0.0 gpio line=OUT0",
-		      "LD513: the kernel refused this line: OUT0: gpiochip0: "
+		      "LD513: \"OUT0\": the kernel refuses access: gpiochip0: "
 		      "Invalid argument"));
 	fake.take_error = 0;
 	fake.read_error = EIO;
 	CHECK(refused(&b, "%IX0.0 gpio line=IN0\n%QX0.0 gpio line=OUT0 safe=1",
-		      "LD522: line does not answer: IN0: Input/output error"));
+		      "LD522: \"IN0\" does not answer: Input/output error"));
 	CHECK_AS(level("OUT0") == 0, "and no output was taken");
 	fake.read_error = 0;
 	CHECK(bench_deny(0, 0600, 0));
 	CHECK(refused_like(&b, "%IX0.0 gpio line=IN0",
-		"LD511: no permission for a chip; join its group: "
-		"gpiochip0 (no group)"));
+		"LD511: no permission to use a GPIO chip; add the user to its "
+		"group: gpiochip0 (no group)"));
 	CHECK(bench_deny(0, 0660, (long)getegid()));
 	CHECK(refused_like(&b, "%IX0.0 gpio chip=panel offset=0",
 		"its group: gpiochip0 ("));

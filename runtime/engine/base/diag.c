@@ -29,12 +29,12 @@ void diag_init(struct diag_list *list)
 	list->count = list->dropped = list->errors = 0;
 }
 
-/* C0, DEL and C1: a terminal might act on them. */
+/* C0, DEL and C1: a terminal might act on them. What separates parts is never printed. */
 static bool is_control(const char *at, size_t len)
 {
 	unsigned char c = (unsigned char)at[0];
 
-	return c < 0x20 || c == 0x7f ||
+	return (c < 0x20 && c != DIAG_AND[0]) || c == 0x7f ||
 	       (c == 0xc2 && len > 1 && (unsigned char)at[1] < 0xa0);
 }
 
@@ -148,6 +148,73 @@ static void put(struct out *out, const char *format, ...)
 		out->len += (size_t)len;
 }
 
+/* Part @n of an argument, from 1 on; empty if there is none. */
+static const char *part_of(const char *arg, int n, int *len)
+{
+	while (--n > 0) {
+		arg += strcspn(arg, DIAG_AND);
+		arg += *arg != '\0';
+	}
+	*len = (int)strcspn(arg, DIAG_AND);
+	return arg;
+}
+
+/* The number of a place for a part, %1 to %9; 0: there is none at @text. */
+static int place_at(const char *text)
+{
+	return text[0] == '%' && text[1] >= '1' && text[1] <= '9' ? text[1] - '0' : 0;
+}
+
+/* Has the group {…} at @text all its parts? */
+static bool is_whole(const char *text, const char *arg)
+{
+	int len = 1;
+
+	for (; *text && *text != '}' && len > 0; text++)
+		if (place_at(text))
+			part_of(arg, place_at(text), &len);
+	return len > 0;
+}
+
+static void put_filled(struct out *to, const char *text, const char *arg)
+{
+	unsigned int placed = 0;
+	const char *part;
+	int len;
+
+	for (const char *at = text; *at; at++)
+		if (place_at(at))
+			placed |= 1u << place_at(at);
+	for (; *text; text++) {
+		if (*text == '{' && !is_whole(text, arg))
+			text += strcspn(text, "}");
+		else if (place_at(text)) {
+			part = part_of(arg, place_at(text), &len);
+			put(to, "%.*s", len, part);
+			text++;
+		} else if (*text != '{' && *text != '}') {
+			put(to, "%c", *text);
+		}
+		if (!*text)
+			break;
+	}
+	for (int n = 1; n <= DIAG_PARTS; n++) {
+		part = part_of(arg, n, &len);
+		if (len > 0 && !(placed & 1u << n))
+			put(to, ": %.*s", len, part);
+	}
+}
+
+int diag_fill(const char *text, const char *arg, char *out, size_t size)
+{
+	struct out to = { out, size, 0 };
+
+	if (size)
+		out[0] = '\0';
+	put_filled(&to, text, arg);
+	return (int)to.len;
+}
+
 int diag_print(const struct diag *diag, char *out, size_t size)
 {
 	struct out to = { out, size, 0 };
@@ -170,9 +237,7 @@ int diag_print(const struct diag *diag, char *out, size_t size)
 		put(&to, "rung %d (%d,%d): ", diag->rung, diag->row, diag->col);
 	else if (diag->rung > 0)
 		put(&to, "rung %d: ", diag->rung);
-	put(&to, "%s %s: %s", error ? "error" : "warning", diag_code(diag->id),
-	    diag_text(diag->id));
-	if (diag->arg[0])
-		put(&to, ": %s", diag->arg);
+	put(&to, "%s %s: ", error ? "error" : "warning", diag_code(diag->id));
+	put_filled(&to, diag_text(diag->id), diag->arg);
 	return (int)to.len;
 }

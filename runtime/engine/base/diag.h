@@ -14,6 +14,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#define DIAG_AND "\037" /* between the parts of an argument                     */
+#define DIAG_PARTS 4    /* at most                                             */
+
 enum diag_severity { SEVERITY_WARNING, SEVERITY_ERROR };
 
 enum diag_id {
@@ -29,7 +32,7 @@ struct diag {
 	const char *pou;     /* name, or NULL; borrowed from the project       */
 	int rung, row, col;  /* 1-based, as the editor numbers; 0: the whole   */
 	int column;          /* 1-based byte in the line, for text; 0: none    */
-	char arg[LIMIT_ARG]; /* the name or value the text speaks of, clipped  */
+	char arg[LIMIT_ARG]; /* names and values for its text, clipped         */
 };
 
 struct diag_list {
@@ -45,8 +48,9 @@ void diag_init(struct diag_list *list);
 /**
  * diag_add - one more diagnostic
  * @place: id and place; its arg is ignored
- * @arg:   printf format of what the text speaks of; "" for nothing. Clipped at
- *         a whole UTF-8 character; control characters are shown as `?`.
+ * @arg:   printf format of the parts that go into the text, DIAG_AND between them;
+ *         "" for none. Clipped at a whole UTF-8 character; control characters
+ *         are shown as `?`.
  *
  * Returns false, so that `return diag_add(…)` reads well; true for a warning.
  * Owns: nothing.   Scan-safe: no.   Fails: never; a full list counts.
@@ -57,13 +61,22 @@ bool diag_add(struct diag_list *list, struct diag place, const char *arg, ...)
 /** diag_code - "LD203" of an id. Lives for ever. */
 const char *diag_code(enum diag_id id);
 enum diag_severity diag_severity(enum diag_id id);
-/** diag_text - the row's text, without the argument. Lives for ever. */
+/** diag_text - the row's text, with the places of its parts. Lives for ever. */
 const char *diag_text(enum diag_id id);
+
+/**
+ * diag_fill - a text of diag.def, or its translation, with the parts of @arg
+ * @text: %1 is the first part, %2 the second; {…} is left out if one of its parts
+ *        is empty. Parts without a place follow the text, each after a colon.
+ *
+ * Returns the length it needs, like snprintf.   Scan-safe: no.
+ */
+int diag_fill(const char *text, const char *arg, char *out, size_t size);
 
 /**
  * diag_print - one diagnostic as a line, without a newline
  *
- * `pump.rung:14: rung 3 (2,5): error LD203: coil must be last: %QX0.1`
+ * `pump.rung:14: rung 3 (2,5): error LD203: "%QX0.1" must be last on its branch`
  * Returns the length it needs, like snprintf.   Scan-safe: no.
  */
 int diag_print(const struct diag *diag, char *out, size_t size);

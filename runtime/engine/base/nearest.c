@@ -6,6 +6,8 @@
  */
 #include "engine/base/nearest.h"
 
+#include "engine/base/diag.h"
+
 #include "engine/base/ascii.h"
 
 #include <stdbool.h>
@@ -103,12 +105,9 @@ void nearest_print(const struct nearest *nearest, char *out, size_t size)
 	for (int i = 0; i < nearest->count; i++) {
 		const char *text = nearest->word[i].text;
 
-		if (used < 0 || (size_t)used + strlen(text) + 5 > size)
+		if (used < 0 || (size_t)used + strlen(text) + 3 > size)
 			break;
 		used += snprintf(out + used, size - (size_t)used, "%s%s",
-				 i > 0 ? ", " : " (", text);
-		if (i + 1 == nearest->count ||
-		    (size_t)used + strlen(nearest->word[i + 1].text) + 5 > size)
-			used += snprintf(out + used, size - (size_t)used, "?)");
+				 i > 0 ? ", " : DIAG_AND, text);
 	}
 }

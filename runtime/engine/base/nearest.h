@@ -25,7 +25,7 @@ void nearest_init(struct nearest *nearest, const char *wanted, size_t len);
 /** nearest_offer - a candidate, which lives as long as @nearest. In any case of its
  * letters; twice the same counts once. Scan-safe: yes. */
 void nearest_offer(struct nearest *nearest, const char *text);
-/** nearest_print - "Mtor (Motor, Rotor?)", or the wanted word alone. As snprintf, but
- * returns nothing. Scan-safe: no. */
+/** nearest_print - the wanted word, and as a second part of a diagnostic what may have been
+ * meant: "Motor, Rotor". As snprintf, but returns nothing. Scan-safe: no. */
 void nearest_print(const struct nearest *nearest, char *out, size_t size);
 #endif

@@ -68,7 +68,7 @@ static void check_event(struct config_check *c, const struct config_entry *entry
 		return;
 	m = scope_find(c->scope, NULL, entry->single, &why);
 	if (m && m->kind == MEANING_LITERAL)
-		report(c, DIAG_EXPECTED, entry, "a variable behind SINGLE");
+		report(c, DIAG_EXPECTED, entry, "a variable after SINGLE");
 	else if (!m || m->type != IEC_BOOL)
 		report(c, m ? DIAG_NOT_BOOL : why, entry,
 		       scope_text(c->scope, entry->single));
@@ -156,7 +156,7 @@ static void check_areas(struct config_check *c)
 		areas.bytes[entry->area] = entry->bytes;
 		if (areas_place(&areas))
 			continue;
-		snprintf(arg, sizeof(arg), "%u bytes, at most %u",
+		snprintf(arg, sizeof(arg), "%u" DIAG_AND "%u",
 			 (unsigned)areas.size, (unsigned)LIMIT_AREAS);
 		report(c, DIAG_AREAS_TOO_LARGE, entry, arg);
 		return;

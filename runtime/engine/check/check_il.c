@@ -69,6 +69,19 @@ static bool is_made(const struct il_check *c, const char *operand)
 	       (operand[1] == 'N' || operand[1] == 'T');
 }
 
+#define NUMBER_TEXT 32
+
+/* @operand is not of the type @wanted. */
+static bool il_report_wrong(struct il_check *c, const struct il_line *line, const char *operand,
+		     const char *wanted)
+{
+	char text[LIMIT_ARG];
+
+	snprintf(text, sizeof(text), "%.30s" DIAG_AND "%.30s", is_made(c, operand) ? "" :
+		 operand, wanted);
+	return il_report(c, line, DIAG_WRONG_TYPE, text);
+}
+
 static bool il_report_types(struct il_check *c, const struct il_line *line,
 			 enum iec_type from, enum iec_type to)
 {
@@ -80,16 +93,16 @@ static bool il_report_types(struct il_check *c, const struct il_line *line,
 	while (call->kind == IL_ARG_IN && call > c->il->line)
 		call--;
 	if (call != line && call->mark & IL_NAMED) { /* its operand may be no name */
-		snprintf(text, sizeof(text), "%s and %s: %.20s.%.16s",
-			 iec_type_row(from)->word, iec_type_row(to)->word,
+		snprintf(text, sizeof(text), "%.20s.%.16s" DIAG_AND "%s" DIAG_AND "%s",
 			 scope_row(c->scope, (enum word)call->word)->word,
-			 scope_text(c->scope, line->pin));
+			 scope_text(c->scope, line->pin), iec_type_row(from)->word,
+			 iec_type_row(to)->word);
 		return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
 	}
 	if (is_made(c, operand))
 		operand = "";
-	snprintf(text, sizeof(text), "%s and %s%s%.24s", iec_type_row(from)->word,
-		 iec_type_row(to)->word, *operand ? ": " : "", operand);
+	snprintf(text, sizeof(text), "%.24s" DIAG_AND "%s" DIAG_AND "%s", operand,
+		 iec_type_row(from)->word, iec_type_row(to)->word);
 	return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
 }
 
@@ -132,7 +145,8 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 	if (m)
 		return m;
 	/* The index may be a temporary that is never written. */
-	if ((why == DIAG_INDEX_TYPE || why == DIAG_INDEX_PLAIN) && c->pou->language == LANGUAGE_LD) {
+	if ((why == DIAG_INDEX_TYPE || why == DIAG_INDEX_PLAIN ||
+	     why == DIAG_INDICES_MANY) && c->pou->language == LANGUAGE_LD) {
 		const char *text = il_operand_text(c, line);
 
 		snprintf(array, sizeof(array), "%.*s", (int)strcspn(text, "["),
@@ -178,6 +192,17 @@ static struct result il_result_of(const struct meaning *m)
 	return out;
 }
 
+/* An untyped number as a message shows it. */
+static void il_print_constant(const struct literal *literal, char out[NUMBER_TEXT])
+{
+	if (literal->real)
+		snprintf(out, NUMBER_TEXT, "%g", literal->value.r);
+	else if (literal->high)
+		snprintf(out, NUMBER_TEXT, "%llu", (unsigned long long)literal->value.i);
+	else
+		snprintf(out, NUMBER_TEXT, "%lld", (long long)literal->value.i);
+}
+
 /* An untyped constant that is no value of @to: out of its range, or of another
  * kind; then with an example of the right one. */
 static bool il_report_constant(struct il_check *c, const struct il_line *line,
@@ -190,17 +215,25 @@ static bool il_report_constant(struct il_check *c, const struct il_line *line,
 		{ CLASS_DT, "DT#2026-11-21-08:30:00" }, { CLASS_STRING, "'text'" },
 	};
 	const struct iec_type_row *row = iec_type_row(to);
-	char text[LIMIT_ARG];
+	char text[2 * LIMIT_ARG], number[NUMBER_TEXT];
 	int k = 0;
 
+	il_print_constant(literal, number);
 	if (row->class & (ANY_NUM | CLASS_BITS) &&
-	    (!literal->real || row->class == CLASS_REAL))
-		return il_report(c, line, DIAG_LITERAL_RANGE, row->word);
+	    (!literal->real || row->class == CLASS_REAL)) {
+		snprintf(text, sizeof(text), "%s" DIAG_AND "%s", number, row->word);
+		return il_report(c, line, DIAG_LITERAL_RANGE, text);
+	}
+	if (row->class & CLASS_TIME && !literal->real && !literal->high) {
+		snprintf(text, sizeof(text), "%s" DIAG_AND "%s" DIAG_AND "T#%sms", number,
+			 row->word, number);
+		return il_report(c, line, DIAG_WRONG_CONSTANT, text);
+	}
 	while (!(kind[k].class & row->class))
 		k++;
-	snprintf(text, sizeof(text), "must be %s, such as %s", row->word,
+	snprintf(text, sizeof(text), "%s" DIAG_AND "%s" DIAG_AND "%s", number, row->word,
 		 kind[k].like);
-	return il_report(c, line, DIAG_WRONG_CONSTANT, text);
+	return il_report(c, line, DIAG_CONSTANT_KIND, text);
 }
 
 /* After an error was told: a result that fits everywhere. */
@@ -248,7 +281,7 @@ static bool il_need_result(struct il_check *c, const struct il_line *line)
 	       il_report(c, line, DIAG_IL_NO_RESULT, il_operand_text(c, line));
 }
 
-/* @what names the value in the message. */
+/* @what names the value in the message; "": the current result. */
 static bool il_need_bool(struct il_check *c, const struct il_line *line,
 		      struct result result, const char *what)
 {
@@ -259,7 +292,7 @@ static bool il_need_bool(struct il_check *c, const struct il_line *line,
 		return true;
 	if (il_is_unknown(result))
 		return false;
-	return il_report(c, line, DIAG_NOT_BOOL, what);
+	return il_report(c, line, *what ? DIAG_NOT_BOOL : DIAG_RESULT_NOT_BOOL, what);
 }
 
 /* BYTE to LWORD? */
@@ -329,7 +362,7 @@ static bool check_store(struct il_check *c, const struct il_line *line)
 
 	if (!m || !il_need_result(c, line) || !can_write(c, line, m))
 		return false;
-	if (bits && (!il_need_bool(c, line, c->now, "the result") ||
+	if (bits && (!il_need_bool(c, line, c->now, "") ||
 		     !il_need_bool(c, line, il_result_of(m), il_operand_text(c, line))))
 		return false;
 	return can_store(c, line, c->now, m->type);
@@ -401,12 +434,12 @@ static bool report_pin(struct il_check *c, const struct il_line *line,
 	char text[LIMIT_ARG];
 
 	if (pin->own)
-		snprintf(text, sizeof(text), "%.16s.%.8s does not take %s",
+		snprintf(text, sizeof(text), "%.16s.%.8s" DIAG_AND "%s",
 			 row->word, pin->name, iec_type_row(type)->word);
 	else
-		snprintf(text, sizeof(text), "%s does not take %s", row->word,
+		snprintf(text, sizeof(text), "%s" DIAG_AND "%s", row->word,
 			 iec_type_row(type)->word);
-	return il_report(c, line, DIAG_WRONG_TYPE, text);
+	return il_report(c, line, DIAG_TYPE_NOT_TAKEN, text);
 }
 
 /* An input with a type of its own. */
@@ -462,21 +495,23 @@ static bool report_join(struct il_check *c, const struct il_line *line, int inde
 	if (!(line->mark & IL_NAMED))
 		return il_report_types(c, line, a, b);
 	input_name(line, scope_row(c->scope, (enum word)line->word), index, name);
-	snprintf(text, sizeof(text), "%s and %s: %s", iec_type_row(a)->word,
-		 iec_type_row(b)->word, name);
+	snprintf(text, sizeof(text), "%s" DIAG_AND "%s" DIAG_AND "%s", name,
+		 iec_type_row(a)->word, iec_type_row(b)->word);
 	return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
 }
 
 static bool report_literal(struct il_check *c, const struct il_line *line, int index,
 			   const struct literal *literal, enum iec_type type)
 {
-	char name[LIMIT_ARG], text[2 * LIMIT_ARG];
+	char name[LIMIT_ARG], text[2 * LIMIT_ARG], number[NUMBER_TEXT];
 
 	if (!(line->mark & IL_NAMED) || literal->real ||
 	    !(iec_type_row(type)->class & (ANY_NUM | CLASS_BITS)))
 		return il_report_constant(c, line, literal, type);
 	input_name(line, scope_row(c->scope, (enum word)line->word), index, name);
-	snprintf(text, sizeof(text), "%s: %s", iec_type_row(type)->word, name);
+	il_print_constant(literal, number);
+	snprintf(text, sizeof(text), "%s" DIAG_AND "%s" DIAG_AND "%s", number,
+		 iec_type_row(type)->word, name);
 	return il_report(c, line, DIAG_LITERAL_RANGE, text);
 }
 
@@ -555,7 +590,7 @@ static bool il_open_paren(struct il_check *c, const struct il_line *line, bool g
 		.word = line->kind == IL_FN ? (enum word)line->word : 0,
 	};
 	if (line->kind == IL_OP && !il_is_bits(c->now) && !c->now.literal)
-		good = good && il_need_bool(c, line, c->now, "the result");
+		good = good && il_need_bool(c, line, c->now, "");
 	c->now.there = false;
 	if (!line->operand)
 		return good;
@@ -704,7 +739,7 @@ static bool il_check_flow(struct il_check *c, const struct il_line *line)
 		good = il_report_near(c, line, DIAG_NO_LABEL, EXPECT_LABEL);
 	if (line->modifiers & MOD_C)
 		return il_need_result(c, line) &&
-		       il_need_bool(c, line, c->now, "the result") && good;
+		       il_need_bool(c, line, c->now, "") && good;
 	if (line->op != OP_STP)
 		c->now.there = false;
 	return good;
@@ -720,7 +755,7 @@ static bool check_routine(struct il_check *c, int at, const struct pou *to)
 		return il_report(c, line, DIAG_NOT_SUBROUTINE, il_operand_text(c, line));
 	if (line->modifiers & MOD_C)
 		good = il_need_result(c, line) &&
-		       il_need_bool(c, line, c->now, "the result");
+		       il_need_bool(c, line, c->now, "");
 	if (is_arg(c, at + 1))
 		good = il_report(c, &c->il->line[at + 1], DIAG_TOO_MANY_OPERANDS,
 				 scope_text(c->scope, c->il->line[at + 1].pin));
@@ -777,18 +812,19 @@ static bool il_check_shape(struct il_check *c, const struct il_line *arg,
 {
 	const char *word = pin->type == IEC_NONE ? scope_row(c->scope, pin->word)->word :
 						   iec_type_row(pin->type)->word;
+	const char *operand = il_operand_text(c, arg);
 	char text[2 * LIMIT_ARG], room[16] = "";
 
 	if (is_like(m, pin))
 		return true;
 	if (!pin->elements)
-		return il_report(c, arg, DIAG_WRONG_TYPE, word);
+		return il_report_wrong(c, arg, operand, word);
 	if (pin->type == IEC_STRING)
 		snprintf(room, sizeof(room), "[%u]", pin->capacity);
-	snprintf(text, sizeof(text), "ARRAY[%ld..%lld] OF %.20s%s%s", (long)pin->low,
-		 (long long)pin->low + pin->elements - 1, word, room,
-		 m->addr.area == AREA_NONE ? "" : " without AT");
-	return il_report(c, arg, DIAG_WRONG_TYPE, text);
+	snprintf(text, sizeof(text), "%.20s" DIAG_AND "ARRAY[%ld..%lld] OF %.20s%s", operand,
+		 (long)pin->low, (long long)pin->low + pin->elements - 1, word, room);
+	return il_report(c, arg, m->addr.area == AREA_NONE ? DIAG_WRONG_TYPE : DIAG_AT_WHOLE,
+			 text);
 }
 
 static bool check_in_out(struct il_check *c, const struct il_line *arg,
@@ -801,7 +837,8 @@ static bool check_in_out(struct il_check *c, const struct il_line *arg,
 		return false;
 	if (m->type == pin->type)
 		return true;
-	return il_report(c, arg, DIAG_WRONG_TYPE, iec_type_row(pin->type)->word);
+	return il_report_wrong(c, arg, operand_text(c, arg),
+			       iec_type_row(pin->type)->word);
 }
 
 /* @m: what stands at the pin, to be read or written. */
@@ -883,7 +920,7 @@ static bool il_check_cal(struct il_check *c, int at)
 		return il_report(c, line, DIAG_NOT_INSTANCE, il_operand_text(c, line));
 	if (line->modifiers & MOD_C)
 		good = il_need_result(c, line) &&
-		       il_need_bool(c, line, c->now, "the result");
+		       il_need_bool(c, line, c->now, "");
 	for (int i = at + 1; is_arg(c, i); i++)
 		good &= il_check_pin(c, scope_row(c->scope, m->word),
 				     &c->il->line[i]);
@@ -902,7 +939,7 @@ static bool combine(struct il_check *c, const struct il_line *line, enum op op,
 
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (!il_is_bits(left) && !il_is_bits(right)) {
-		bool good = il_need_bool(c, line, left, "the result");
+		bool good = il_need_bool(c, line, left, "");
 
 		good = il_need_bool(c, line, right, what) && good;
 		if (!good) /* goes with everything */
@@ -942,7 +979,7 @@ static bool il_check_not(struct il_check *c, const struct il_line *line)
 	if (good && il_is_bits(now))
 		return true;
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
-	return good && il_need_bool(c, line, now, "the result");
+	return good && il_need_bool(c, line, now, "");
 }
 
 /* As it would be declared. */
@@ -1056,7 +1093,7 @@ static bool close_paren(struct il_check *c, int at, enum iec_type *common)
 		return close_function(c, at, c->opened[c->depth].left, right,
 				      common);
 	good = combine(c, line, (enum op)c->opened[c->depth].op,
-		       c->opened[c->depth].left, right, "the result");
+		       c->opened[c->depth].left, right, "");
 	*common = c->now.type;
 	return good;
 }

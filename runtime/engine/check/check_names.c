@@ -168,8 +168,10 @@ static void report_twice(struct names_check *c, const struct pou *pou,
 			 const struct var *var, int first)
 {
 	c->good &= diag_add(c->diags, place_of(c, DIAG_DUPLICATE_NAME, pou, var->line),
-			    "%.40s, first in line %d", text_of(c, var->name), first);
+			    "%.40s" DIAG_AND "%d", text_of(c, var->name), first);
 }
+
+#define WHAT_MOST 30 /* bytes of what is wrong, so that its place is told, too */
 
 static bool report(const struct project *project, const struct var *var,
 		   const struct init_walk *walk, struct diag_list *diags,
@@ -179,11 +181,10 @@ static bool report(const struct project *project, const struct var *var,
 
 	place.id = walk->why;
 	init_where(walk, where, sizeof(where));
-	return diag_add(diags, place, "%s%s%s%.*s",
-			project_text(project, var->name), where,
-			walk->arg_len ? ": " : "",
-			(int)(walk->arg_len < LIMIT_ARG ? walk->arg_len : LIMIT_ARG),
-			walk->arg_len ? walk->arg : "");
+	return diag_add(diags, place, "%.*s" DIAG_AND DIAG_AND "%s%s",
+			(int)(walk->arg_len < WHAT_MOST ? walk->arg_len : WHAT_MOST),
+			walk->arg_len ? walk->arg : "",
+			project_text(project, var->name), where);
 }
 
 /* Does the text of @var's initial values, which has parts, fit its type?

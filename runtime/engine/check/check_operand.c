@@ -173,7 +173,7 @@ static void check_loop(struct operand_check *c, struct operand_spot at, uint32_t
 	operand_read(c, at, operand_intern(c, loop.from.text, loop.from.len));
 	operand_read(c, at, operand_intern(c, loop.to.text, loop.to.len));
 	if (loop.step == 0)
-		operand_report(c, DIAG_LOOP_FORM, at, "BY 0");
+		operand_report(c, DIAG_LOOP_STEP, at, "");
 }
 
 /* ---- boxes ---- */
@@ -423,7 +423,7 @@ static uint32_t use_indices(struct operand_check *c, struct operand_spot at,
 	for (; end >= 0 && count < LIMIT_INDICES; end = expr->node[end].right)
 		chain[count++] = (int16_t)end;
 	if (end >= 0) {
-		operand_report(c, DIAG_INDEX_PLAIN, at, "");
+		operand_report(c, DIAG_INDICES_MANY, at, "");
 		return 0;
 	}
 	for (int i = count - 1; i >= 0; i--) {

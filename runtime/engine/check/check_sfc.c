@@ -137,7 +137,7 @@ static void check_exits(struct sfc_check *c, int macro, const int *out)
 {
 	const struct sfc_step *at = &c->sfc->step[macro];
 	char text[2 * LIMIT_ARG];
-	size_t used = (size_t)snprintf(text, sizeof(text), "%.40s:",
+	size_t used = (size_t)snprintf(text, sizeof(text), "%.30s" DIAG_AND,
 				       sfc_name(c, at->name));
 	int steps = 0, exits = 0;
 
@@ -149,7 +149,7 @@ static void check_exits(struct sfc_check *c, int macro, const int *out)
 			continue;
 		if (used < LIMIT_ARG)
 			used += (size_t)snprintf(text + used, sizeof(text) - used,
-				"%s %.40s", exits ? "," : "",
+				"%s%.30s", exits ? ", " : "",
 				sfc_name(c, c->sfc->step[i].name));
 		exits++;
 	}
@@ -345,7 +345,8 @@ static void check_supervision(struct sfc_check *c, const struct sfc_step *step)
 	    most < least)
 		sfc_report(c, DIAG_SFC_TIMES_CROSS, step->line, step->column_at, name);
 	if (times != (step->alarm != 0))
-		sfc_report(c, DIAG_SFC_NO_ALARM, step->line, step->column_at, name);
+		sfc_report(c, times ? DIAG_SFC_NO_ALARM : DIAG_SFC_ALARM_ALONE,
+			   step->line, step->column_at, name);
 }
 
 /* ---- lines ---- */

@@ -55,7 +55,7 @@ static void add_name(struct sfc_names *c, uint32_t name, struct spot at, bool ow
 	if (!c->first[fold])
 		c->first[fold] = at.line ? at.line : 1;
 	else if (own)
-		c->good &= diag_add(c->diags, place, "%.40s, first in line %d", text,
+		c->good &= diag_add(c->diags, place, "%.40s" DIAG_AND "%d", text,
 				    c->first[fold]);
 }
 

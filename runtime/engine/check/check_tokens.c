@@ -159,7 +159,7 @@ static void report_way(struct teller *c, enum diag_id id, int line, int column,
 {
 	char head[40], arg[2 * LIMIT_ARG];
 
-	snprintf(head, sizeof(head), "%.30s%s", name, *name ? ": " : "");
+	snprintf(head, sizeof(head), "%.30s%s", name, *name ? DIAG_AND : "");
 	snprintf(arg, sizeof(arg), "%s%.*s", head, LIMIT_ARG,
 		 way_to(c, head, state, arc));
 	report(c, id, line, column, arg);
@@ -223,7 +223,7 @@ static void tell_found(struct teller *c)
 		tell_strange(c);
 	if (!t->gave_up)
 		return;
-	snprintf(text, sizeof(text), "%d were looked at", t->states.count);
+	snprintf(text, sizeof(text), "%d", t->states.count);
 	report(c, DIAG_SFC_GAVE_UP, c->pou->line, 0, text);
 }
 

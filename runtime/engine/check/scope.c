@@ -532,7 +532,7 @@ static bool step_fixed(struct path *path, enum iec_type type, int64_t index)
 static bool step_open(struct path *path, const struct meaning *index)
 {
 	if (path->opens == LIMIT_INDICES)
-		return refuse(path, DIAG_INDEX_PLAIN);
+		return refuse(path, DIAG_INDICES_MANY);
 	if (!path->opens)
 		path->index_of = index;
 	path->open[path->opens++] = (struct open_index){

@@ -46,7 +46,7 @@ struct advice {
 };
 
 /**
- * advice_word - what a message says of a word that is unknown: "Mtor (Motor, Rotor?)"
+ * advice_word - the argument of a message about an unknown word: "Mtor", "Motor, Rotor"
  * @pou:   NULL: of no POU
  * @kinds: enum expect_kind, or'ed: what it could be
  * @diags: the first few messages say what may have been meant: it takes its time

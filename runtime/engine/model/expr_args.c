@@ -63,7 +63,7 @@ static enum diag_id collect(const struct expr *expr, const struct expr_node *cal
 	     at = expr->node[at].right)
 		out->arg[out->count++].at = at;
 	if (at >= 0)
-		return fail(out, DIAG_TOO_MANY, -1, call);
+		return fail(out, DIAG_TOO_MANY_OPERANDS, -1, call);
 	for (int i = 0, k = out->count - 1; i < k; i++, k--) {
 		at = out->arg[i].at;
 		out->arg[i].at = out->arg[k].at;
@@ -83,7 +83,7 @@ static enum diag_id find_pins(const struct expr *expr, const struct word_row *ro
 		out->number = i + 1;
 
 		if ((arg->len > 0) != (expr->node[out->arg[0].at].len > 0))
-			return fail(out, DIAG_BAD_EXPRESSION, -1, arg);
+			return fail(out, DIAG_MIXED_NAMES, -1, arg);
 		pin = arg->len ? word_pin_find(row, arg->text, arg->len) :
 				 next_pin(row, pin);
 		if (pin < 0 || (pin < row->pin_count && !takes(row, pin)))

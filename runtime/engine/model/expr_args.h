@@ -29,7 +29,7 @@ enum word expr_function(struct word_table *words, const struct expr_node *call);
  *
  * Owns: nothing.   Scan-safe: yes.
  * Fails: the diagnostic that is due, about out->wrong or out->text; else DIAG_COUNT.
- * DIAG_BAD_EXPRESSION: some by name and others not. DIAG_NO_PIN, DIAG_DUPLICATE_ARG,
+ * DIAG_MIXED_NAMES: some by name and others not. DIAG_NO_PIN, DIAG_DUPLICATE_ARG,
  * DIAG_MISSING_INPUT.
  */
 enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,

@@ -134,7 +134,7 @@ static void report_circle(struct shaper *s, int again)
 	if (used < LIMIT_ARG)
 		snprintf(text + used, sizeof(text) - used, "%.40s",
 			 own_row(s, again)->word);
-	report(s, again, DIAG_RECURSION, text);
+	report(s, again, DIAG_CONTAINS_ITSELF, text);
 }
 
 /* ---- pins ---- */
@@ -248,7 +248,7 @@ static bool place_pins(struct shaper *s, int index)
 			at += extent.size;
 			order[row->ordered++] = (uint16_t)i;
 			if (at > LIMIT_DATA) {
-				report(s, index, DIAG_DATA_TOO_LARGE, row->word);
+				report(s, index, DIAG_TYPE_TOO_LARGE, row->word);
 				return true;
 			}
 			if (own == IEC_NONE && word_is_own(pin[i].word)) {

@@ -170,9 +170,13 @@ static bool read_area_size(struct reader *r, const struct iec_area_row *row,
 
 	if (!parse_count(r, row->most, out))
 		return false;
+	if (row->least == row->most && *out != row->most) {
+		snprintf(bounds, sizeof(bounds), "%s" DIAG_AND "%u", row->letters,
+			 (unsigned)row->most);
+		return reader_fail_word(r, DIAG_AREA_FIXED, bounds);
+	}
 	if (*out < row->least || *out > row->most) {
-		snprintf(bounds, sizeof(bounds), row->least == row->most ?
-			 "%s: always %u bytes" : "%s: %u to %u bytes",
+		snprintf(bounds, sizeof(bounds), "%s" DIAG_AND "%u" DIAG_AND "%u",
 			 row->letters, (unsigned)row->least, (unsigned)row->most);
 		return reader_fail_word(r, DIAG_AREA_SIZE, bounds);
 	}

@@ -208,8 +208,8 @@ static void include_file(struct reader *r, uint32_t name, bool library,
 	if (library && was_used(r, path))
 		return;
 	if (!may_include(r, path)) {
-		diag_add(r->diags, place, "%.64s: includes itself or too deep",
-			 text_name);
+		place.id = DIAG_INCLUDE_CIRCLE;
+		diag_add(r->diags, place, "%.64s", text_name);
 		return;
 	}
 	char *text = r->source->load(r->source->context, r->place.file,
@@ -218,8 +218,9 @@ static void include_file(struct reader *r, uint32_t name, bool library,
 		return;
 	/* Files that name each other many times must not take for ever. */
 	*r->total += len + 1024;
+	place.id = DIAG_INCLUDE_LARGE;
 	if (*r->total > LIMIT_TEXT)
-		diag_add(r->diags, place, "%.70s: too much text", text_name);
+		diag_add(r->diags, place, "%.64s", text_name);
 	else
 		read_included(r, path, library, text, len);
 	free(text);

@@ -138,11 +138,8 @@ static bool read_operand(struct reader *r, struct cell *cell,
 	if ((token->kind != TOKEN_NAME && token->kind != TOKEN_ADDRESS) ||
 	    (row->kind == WORD_FB &&
 	     (reader_peek(r, ":=") || reader_peek(r, "=>"))))
-		return row->kind == WORD_FB ?
-			reader_fail_word(r, DIAG_MISSING_OPERAND,
-					 "the name of its instance") :
-			reader_fail(r, DIAG_MISSING_OPERAND, word->text,
-				    word->len);
+		return reader_fail(r, row->kind == WORD_FB ? DIAG_MISSING_INSTANCE :
+				   DIAG_MISSING_OPERAND, word->text, word->len);
 	if (plain && !(row->kind == WORD_FB ?
 		       reader_instance(r, &cell->operand) :
 		       reader_name(r, "name", &cell->operand)))
@@ -250,8 +247,7 @@ static bool read_link(struct reader *r, struct cell *cell)
 	if (!reader_is(r, '^'))
 		return true;
 	if (r->place.row == 1)
-		return reader_fail_word(r, DIAG_LINK_NOWHERE,
-					"no row is above the first");
+		return reader_fail_word(r, DIAG_LINK_ABOVE, "");
 	reader_next(r);
 	if (!reader_is(r, '|'))
 		return reader_fail_word(r, DIAG_EXTRA_TEXT, "^");

@@ -335,7 +335,7 @@ static uint16_t read_flags(struct reader *r, bool global)
 		flags |= flag;
 	}
 	if (r->library && global && !(flags & VAR_CONSTANT))
-		reader_fail_word(r, DIAG_MISPLACED, "variables of a library");
+		reader_fail_word(r, DIAG_LIBRARY_VARS, "");
 	return flags;
 }
 

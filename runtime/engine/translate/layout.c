@@ -38,7 +38,7 @@ static bool layout_has_room(struct assembler *as, uint32_t offset, uint64_t size
 	if (size <= LIMIT_DATA && offset <= LIMIT_DATA - (uint32_t)size)
 		return true;
 	if (!as->failed)
-		diag_add(as->translation->diags, diag, "%u bytes",
+		diag_add(as->translation->diags, diag, "%u",
 			 (unsigned)LIMIT_DATA);
 	as->failed = true;
 	return false;

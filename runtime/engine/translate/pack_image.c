@@ -611,7 +611,7 @@ static void *write_pieces(struct assembler *as, const struct piece *piece,
 		struct diag place = { .id = DIAG_CODE_TOO_LARGE,
 			.file = as->translation->project->file };
 
-		diag_add(as->translation->diags, place, "%zu bytes", size);
+		diag_add(as->translation->diags, place, "%zu", size);
 		return NULL;
 	}
 	image = arena_alloc(as->arena, size);

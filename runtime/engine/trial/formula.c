@@ -318,7 +318,7 @@ struct formula *formula_new(const struct image *image, const struct image *plant
 			return NULL;
 		}
 		if (from->op == EXPR_CALL || from->op == EXPR_ARG) {
-			complain(diags, place, DIAG_BAD_EXPRESSION, line_start,
+			complain(diags, place, DIAG_NO_CALLS_HERE, line_start,
 				 function_of(expr, i));
 			return NULL;
 		}

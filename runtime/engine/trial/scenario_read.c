@@ -216,7 +216,7 @@ static bool take_condition(struct reader *reader, enum scenario_verb verb,
 		return false;
 	if (formula_kind(formula) != KIND_BOOL) {
 		place.id = DIAG_NOT_BOOL;
-		return diag_add(reader->diags, place, "what is expected");
+		return diag_add(reader->diags, place, "expect");
 	}
 	return watch(reader, formula) &&
 	       add_step(reader, verb, span_ns, (struct location){ 0 }, formula);
@@ -347,8 +347,7 @@ static bool take_at(struct reader *reader)
 	if (!take_time(reader, &ns))
 		return false;
 	if (ns < reader->at_ns)
-		return complain(reader, DIAG_MISPLACED,
-				"an earlier time behind a later one");
+		return complain(reader, DIAG_TIME_BACK, "");
 	reader->at_ns = ns;
 	return at_end(reader) || take_action(reader);
 }
@@ -359,7 +358,7 @@ static bool take_period(struct reader *reader)
 	int64_t ns = 0;
 
 	if (scenario->period_ns)
-		return complain(reader, DIAG_MISPLACED, "a second period");
+		return complain(reader, DIAG_PERIOD_TWICE, "");
 	if (!take_time(reader, &ns))
 		return false;
 	if (!ns)
@@ -377,11 +376,11 @@ static bool take_plant(struct reader *reader)
 
 	step_over(reader);
 	if (scenario && scenario->step_count)
-		return complain(reader, DIAG_MISPLACED, "a plant behind steps");
+		return complain(reader, DIAG_PLANT_LATE, "");
 	if (!reader->plant || *with || token->len != reader->plant_name.len ||
 	    memcmp(token->text, reader->plant_name.text, token->len) != 0)
-		return complain(reader, DIAG_MISPLACED, *with || reader->plant ?
-				"a second plant" : "a plant, where there is none");
+		return complain(reader, *with || reader->plant ? DIAG_PLANT_TWICE :
+				DIAG_NO_PLANT_FILE, "");
 	*with = true;
 	step_over(reader);
 	return true;
@@ -402,21 +401,21 @@ static void close_scenario(struct reader *reader)
 	for (int i = 0; i < scenario->step_count && !expects; i++)
 		expects = scenario->step[i].verb != VERB_SET;
 	if (!expects && !reader->spoiled) {
-		struct diag place = { .id = DIAG_EXPECTED, .file = reader->file,
+		struct diag place = { .id = DIAG_NO_EXPECT, .file = reader->file,
 				      .line = scenario->line };
 
-		diag_add(reader->diags, place, "an expectation in scenario");
+		diag_add(reader->diags, place, "%s", "");
 	}
 	for (int i = 0; i < scenario->step_count; i++) {
 		const struct scenario_step *step = &scenario->step[i];
-		struct diag place = { .id = DIAG_LITERAL_RANGE,
+		struct diag place = { .id = DIAG_TOO_MANY_SCANS,
 				      .file = reader->file,
 				      .line = step->line };
 
 		if ((step->at_ns + step->span_ns) / scenario->period_ns <
 		    SCENARIO_SCANS_MAX)
 			continue;
-		diag_add(reader->diags, place, "more than %d scans",
+		diag_add(reader->diags, place, "%d",
 			 SCENARIO_SCANS_MAX);
 		return;
 	}

@@ -182,7 +182,7 @@ bool script_fault(const struct resource *resource, const char *file, int line,
 	resource_fault_print(resource, text, sizeof(text));
 	/* Of a list the text has POU and line already. */
 	return place.pou && place.rung ?
-	       diag_add(diags, place, "%s, in %.40s", text, place.pou) :
+	       diag_add(diags, place, "%s" DIAG_AND "%.40s", text, place.pou) :
 	       diag_add(diags, place, "%s", text);
 }
 
@@ -295,7 +295,7 @@ static bool set_period(struct script *script, struct script_word head)
 
 	place.id = DIAG_EXPECTED;
 	if (!next_word(script, &word))
-		return diag_add(script->diags, place, "a time behind @period");
+		return diag_add(script->diags, place, "a time after @period");
 	if (!take_time(script, word, 0, &ns))
 		return false;
 	if (!ns)

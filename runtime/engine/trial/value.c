@@ -308,7 +308,7 @@ bool setting_parse(const struct image *image, const char *text, size_t len,
 
 	if (!name) {
 		place.id = DIAG_EXPECTED;
-		return diag_add(diags, place, "NAME=VALUE, not %.*s",
+		return diag_add(diags, place, "NAME=VALUE" DIAG_AND "%.*s",
 				(int)(len < 40 ? len : 40), text);
 	}
 	out->at = value_find(image, text, name, &why);

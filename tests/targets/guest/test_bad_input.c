@@ -44,9 +44,9 @@ static void maps(void)
 		   "line=GPIO17");
 	refuse_map("a map for another board: no such chip", "LD512",
 		   "chip=pinctrl-bcm2835 offset=1");
-	refuse_map("an offset just out of range", "LD508",
+	refuse_map("an offset just out of range", "LD525",
 		   "chip=panel offset=8");
-	refuse_map("an offset far out of range", "LD508",
+	refuse_map("an offset far out of range", "LD525",
 		   "chip=panel offset=65535");
 	refuse_map("one line twice, by name and by offset", "LD507",
 		   "chip=panel offset=6");

@@ -20,7 +20,7 @@ static void prints(void)
 	CHECK(!diag_add(&list, place, "%s", "%QX0.1"));
 	len = diag_print(&list.diag[0], text, sizeof(text));
 	CHECK_TEXT(text, "pump.rung:14: rung 3 (2,5): error LD203: "
-			 "must be last on its branch: %QX0.1");
+			 "\"%QX0.1\" must be last on its branch");
 	CHECK(len == (int)strlen(text));
 	CHECK(diag_print(&list.diag[0], cut, sizeof(cut)) == len);
 	CHECK_TEXT(cut, "pump.rung");
@@ -28,19 +28,41 @@ static void prints(void)
 
 	place = (struct diag){ .id = DIAG_COIL_TWICE, .file = "a", .line = 2,
 			       .column = 7 };
-	CHECK_AS(diag_add(&list, place, "%s", ""), "a warning is no failure");
+	CHECK_AS(diag_add(&list, place, "%s", "Motor"), "a warning is no failure");
 	diag_print(&list.diag[1], text, sizeof(text));
 	CHECK_TEXT(text, "a:2:7: warning LD310: "
-			 "written by coils in two places; the last one wins");
+			 "\"Motor\" is written by coils in two places; the last one wins");
 	place = (struct diag){ .id = DIAG_EMPTY_RUNG, .pou = "Main", .rung = 4 };
 	diag_add(&list, place, "%s", "");
 	diag_print(&list.diag[2], text, sizeof(text));
-	CHECK_TEXT(text, "Main: rung 4: error LD207: rung is empty");
+	CHECK_TEXT(text, "Main: rung 4: error LD207: rung is empty; delete it or add a coil");
 	place = (struct diag){ .id = DIAG_EMPTY_FILE, .file = "b.rung" };
 	diag_add(&list, place, "%s", "");
 	diag_print(&list.diag[3], text, sizeof(text));
 	CHECK_TEXT(text, "b.rung: error LD101: file is empty");
 	CHECK(list.count == 4 && list.errors == 3);
+}
+
+static const char *filled(const char *text, const char *arg)
+{
+	static char out[100];
+	int len = diag_fill(text, arg, out, sizeof(out));
+
+	return len == (int)strlen(out) ? out : "another length";
+}
+
+static void fills_in_parts(void)
+{
+	CHECK_TEXT(filled("plain", ""), "plain");
+	CHECK_TEXT(filled("plain", "one"), "plain: one");
+	CHECK_TEXT(filled("plain", "one" DIAG_AND "two"), "plain: one: two");
+	CHECK_TEXT(filled("%1 at %2", "one" DIAG_AND "two"), "one at two");
+	CHECK_TEXT(filled("%2 before %1", "one" DIAG_AND "two"), "two before one");
+	CHECK_TEXT(filled("%1{ of %2}{, %3}", "one"), "one");
+	CHECK_TEXT(filled("%1{ of %2}{, %3}", "one" DIAG_AND DIAG_AND "three"), "one, three");
+	CHECK_TEXT(filled("{%1: }text", ""), "text");
+	CHECK_TEXT(filled("{%1: }text", "one" DIAG_AND "two"), "one: text: two");
+	CHECK_TEXT(filled("100% {open", "%1"), "100% open: %1");
 }
 
 static const char *argument(const char *text)
@@ -139,6 +161,7 @@ static void codes_are_unique(void)
 int main(void)
 {
 	prints();
+	fills_in_parts();
 	cleans_arguments();
 	counts_beyond_its_limit();
 	shows_errors_before_warnings();

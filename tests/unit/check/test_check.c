@@ -342,7 +342,7 @@ static void test_declarations(void)
 	declare("_T1", IEC_BOOL, ELEM_EMPTY, "%IX1.1");
 	declare("main", IEC_BOOL, ELEM_EMPTY, "%IX1.2");
 	CHECK_TEXT(name("| NO A | NO M1 | NO Mod | NO _T1 | NO main | COIL Q0 |"),
-		   "LD302(0,0)a, first in line 1 LD315(0,0)M1 LD318(0,0)M1 LD317(0,0)Mod "
+		   "LD302(0,0)a\0371 LD315(0,0)M1 LD318(0,0)M1 LD317(0,0)Mod "
 		   "LD317(0,0)_T1 LD302(0,0)main");
 	forget();
 	declare("K", IEC_INT, ELEM_EMPTY, NULL);

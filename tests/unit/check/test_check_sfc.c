@@ -69,23 +69,23 @@ static void test_steps(void)
 	CHECK_TEXT(check("I A; M B; I C; I D; S F; T C>F; T D>F; E; T A>B; T B>A"),
 		   "LD431:14 D");
 	CHECK_TEXT(check("I A; M B; I C; S D; S F; T C>D; T C>F; E; T A>B; T B>A"),
-		   "LD437:12 B: D, F");
+		   "LD437:12 B\037D, F");
 	CHECK_TEXT(check("I A; S B; T A>B"), "LD439:12 B");
 }
 
 static void test_names(void)
 {
 	CHECK_TEXT(check("I A; S a; T A>A"),
-		   "LD302:12 a, first in line 11 LD438:12 a LD439:12 a");
+		   "LD302:12 a\03711 LD438:12 a LD439:12 a");
 	CHECK_TEXT(check("I A; L B N; A B; A b; T A>A"),
-		   "LD302:202 b, first in line 201 LD444:202 b");
+		   "LD302:202 b\037201 LD444:202 b");
 	CHECK_TEXT(check("I AND; T AND>AND"), "LD317:11 AND");
 	CHECK_TEXT(check("I A; L Q0 N; A Q0; T A>A"), "");
 }
 
 static void test_transitions(void)
 {
-	CHECK_TEXT(check("I Fill; T Fill>Fil"), "LD432:101 Fil (Fill?)");
+	CHECK_TEXT(check("I Fill; T Fill>Fil"), "LD432:101 Fil\037Fill");
 	CHECK_TEXT(check("I A; S B; T A>B,b; T B,B>A"), "LD435:101 b LD435:102 B");
 	CHECK_TEXT(check("I A; T A>A="), "LD433:101 A -> A");
 	CHECK_TEXT(check("I A; M B; I C; S D; T C>D; T D>A; E; T A>B; T A>D; T B>A"),
@@ -126,7 +126,7 @@ static void test_supervision(void)
 	CHECK_TEXT(supervise("T#2s", "T#1999ms", "M0"), "LD442:11 A");
 	CHECK_TEXT(supervise("3", "TRUE", "M0"), "LD303:11 3 LD303:11 TRUE");
 	CHECK_TEXT(supervise("", "T#1s", ""), "LD443:11 A");
-	CHECK_TEXT(supervise("", "", "M0"), "LD443:11 A");
+	CHECK_TEXT(supervise("", "", "M0"), "LD448:11 A");
 	CHECK_TEXT(supervise("", "A.T", "I0"), "LD304:11 I0");
 }
 

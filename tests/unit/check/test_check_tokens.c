@@ -54,13 +54,13 @@ static void test_faults(void)
 			 "T Fill,Stir>Idle"),
 		   "LD451:12 Idle -> Fill + Stir -> Fill + Mix");
 	CHECK_TEXT(check("I A; S B; S C; T A>B,C; T B>A; T B,C>A"),
-		   "LD450:13 C: A -> B + C -> A + C -> B + C; "
+		   "LD450:13 C\037A -> B + C -> A + C -> B + C; "
 		   "LD452:102 B -> A");
 	CHECK_TEXT(check("I A; S B; S C; S D; T A>B,C; T A>D; T D>B; T B,C>A"),
 		   "LD451:12 A -> D -> B; LD452:103 D -> B");
 	CHECK_TEXT(check("I A; M B; I C; S D; S F; T C>D,F; T D>D; E; T A>B; T B>A"),
 		   "LD452:104 A -> C -> D + F -> A; "
-		   "LD450:14 D: A -> C -> D + F -> A + D -> C + D -> D + F");
+		   "LD450:14 D\037A -> C -> D + F -> A + D -> C + D -> D + F");
 }
 
 static void test_long_ways(void)
@@ -127,7 +127,7 @@ static void test_giving_up(void)
 	append(text, sizeof(text), "; S D; T C0>D; T D>B0"); /* still proven: one more way */
 	CHECK_TEXT(check(text), "");
 	append(text, sizeof(text), "; S X; S Y; T D>X,Y; T X,Y,C1>C0,C1");
-	CHECK_TEXT(check(text), "LD455:1 20000 were looked at");
+	CHECK_TEXT(check(text), "LD455:1 20000");
 }
 
 /* ---- random charts ---- */

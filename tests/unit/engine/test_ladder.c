@@ -170,10 +170,10 @@ static void includes_files(void)
 	CHECK_AS(ladder_project(ladder)->pou_count == 1, "beside the file that names it");
 	put("sub/two.rung", "RUNGBOARD 1\nINCLUDE \"one.rung\"\n");
 	CHECK(!ladder_load(ladder, in_folder("main.rung")));
-	CHECK_AS(has(ladder, DIAG_BAD_INCLUDE), "round in a circle");
+	CHECK_AS(has(ladder, DIAG_INCLUDE_CIRCLE), "round in a circle");
 	put("main.rung", "RUNGBOARD 1\nINCLUDE \"main.rung\"\n");
 	CHECK(!ladder_load(ladder, in_folder("main.rung")) &&
-	      has(ladder, DIAG_BAD_INCLUDE));
+	      has(ladder, DIAG_INCLUDE_CIRCLE));
 	put("main.rung", "RUNGBOARD 1\nINCLUDE \"nothing.rung\"\n");
 	CHECK(!ladder_load(ladder, in_folder("main.rung")) &&
 	      has(ladder, DIAG_BAD_INCLUDE));

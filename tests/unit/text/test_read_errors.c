@@ -150,9 +150,9 @@ static void test_cell_errors(void)
 	fails(LD("RUNG\n| NO A | RET\n"), "LD119 5 1 (1,2) 13 ");
 	CHECK(diags.count == 1);
 	fails(LD("RUNG\n|\n"), "LD119 5 1 (1,0) 2 ");
-	fails(LD("RUNG\n| NO A ^| RET |\n"), "LD206 5 1 (1,1) 8 no row is above the first");
+	fails(LD("RUNG\n| NO A ^| RET |\n"), "LD219 5 1 (1,1) 8 ");
 	fails(LD("RUNG\n| NO %IX0.9 |\n"), "LD117 5 1 (1,1) 6 %IX0.9");
-	fails(LD("RUNG\n| TON PT:=T#3s |\n"), "LD120 5 1 (1,1) 7 the name of its instance");
+	fails(LD("RUNG\n| TON PT:=T#3s |\n"), "LD127 5 1 (1,1) 7 TON");
 	fails(LD("RUNG\n| TON T1 PT:=T#3x |\n"), "LD115 5 1 (1,1) 14 T#3x");
 	fails(LD("RUNG\n| TON T1 PT:=T#3s pt:=T#4s |\n"),
 	      "LD124 5 1 (1,1) 19 pt");
@@ -343,7 +343,7 @@ static void test_include_total(void)
 	CHECK(!text_read(project, "t.rung", text, sizeof(text) - 1, &source,
 			 &diags));
 	for (int i = 0; i < diags.count; i++)
-		large += diags.diag[i].id == DIAG_BAD_INCLUDE;
+		large += diags.diag[i].id == DIAG_INCLUDE_LARGE;
 	CHECK_AS(large == 1 && diags.count == 4,
 		 "three files are read, the fourth is too much");
 }

@@ -401,9 +401,9 @@ static void test_include(void)
 	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_BAD_TYPE);
 	CHECK_TEXT(diags.diag[0].file, "dir/bad");
 	CHECK(!read_with("RUNGBOARD 1\nINCLUDE \"self\"\n"));
-	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_BAD_INCLUDE);
+	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_INCLUDE_CIRCLE);
 	CHECK(!read_with("RUNGBOARD 1\nINCLUDE \"deep\"\n"));
-	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_BAD_INCLUDE);
+	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_INCLUDE_CIRCLE);
 	CHECK(!read_with("RUNGBOARD 1\nINCLUDE \"missing\"\nINCLUDE 5\n"));
 	CHECK(diags.count == 2 && diags.diag[1].id == DIAG_EXPECTED);
 }
@@ -423,7 +423,7 @@ static void test_uses(void)
 	CHECK_TEXT(text, good);
 	free(text);
 	CHECK(!read_with("RUNGBOARD 1\nUSES \"odd\"\n"));
-	CHECK(diags.errors >= 3 && diags.diag[0].id == DIAG_MISPLACED &&
+	CHECK(diags.errors >= 3 && diags.diag[0].id == DIAG_LIBRARY_VARS &&
 	      diags.diag[1].id == DIAG_MISPLACED &&
 	      diags.diag[2].id == DIAG_MISPLACED);
 	CHECK(read_with("RUNGBOARD 1\nVAR\nP : Pair;\nEND_VAR\nUSES \"lib\"\n"));

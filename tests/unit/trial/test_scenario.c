@@ -138,7 +138,7 @@ static void test_wrong(void)
 	CHECK_TEXT(run(""), "LD107:1:1");
 	CHECK_TEXT(run("at 0 Open = 1\n"), "LD107:1:1");
 	CHECK_TEXT(run("scenario\nexpect Motor\n"), "LD107:1:9");
-	CHECK_TEXT(run(S "at 0 Open = 1\n"), "LD107:1:0");
+	CHECK_TEXT(run(S "at 0 Open = 1\n"), "LD136:1:0");
 	CHECK_TEXT(run(S "expect Nothing\n"), "LD301:2:8");
 	CHECK_TEXT(run(S "expect Motor and Level\n"), "LD324:2:18");
 	CHECK_TEXT(run(S "expect Level and Motor\n"), "LD324:2:8");
@@ -148,7 +148,7 @@ static void test_wrong(void)
 	CHECK_TEXT(run(S "at 5 expect Motor\n"), "LD107:2:4");
 	CHECK_TEXT(run(S "at x expect Motor\n"), "LD107:2:4");
 	CHECK_TEXT(run(S "at 2s expect Motor\nat 1s expect Motor\n"),
-		   "LD126:3:7");
+		   "LD131:3:7");
 	CHECK_TEXT(run(S "at 0 Nothing = 1\n"), "LD301:2:6");
 	CHECK_TEXT(run(S "at 0 Seven = 1\n"), "LD305:2:6");
 	CHECK_TEXT(run(S "at 0 Open = 2\n"), "LD116:2:6");
@@ -158,8 +158,8 @@ static void test_wrong(void)
 	CHECK_TEXT(run(S "within 10ms Motor\n"), "LD107:2:13");
 	CHECK_TEXT(run(S "within expect Motor\n"), "LD107:2:8");
 	CHECK_TEXT(run(S "period 0ms\nexpect TRUE\n"), "LD116:2:11");
-	CHECK_TEXT(run(S "period 1s\nperiod 1s\nexpect TRUE\n"), "LD126:3:8");
-	CHECK_TEXT(run(S "period 1ns\nat 1h expect Motor\n"), "LD116:3:0");
+	CHECK_TEXT(run(S "period 1s\nperiod 1s\nexpect TRUE\n"), "LD132:3:8");
+	CHECK_TEXT(run(S "period 1ns\nat 1h expect Motor\n"), "LD137:3:0");
 	CHECK_TEXT(run(S "at 9999999999999999999s expect Motor\n"),
 		   "LD116:2:4");
 	CHECK_TEXT(run(S "\xff"), "LD104:2:1");

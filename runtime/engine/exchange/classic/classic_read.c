@@ -333,7 +333,7 @@ static bool take_member(struct classic_reader *reader, struct lines *lines)
 	}
 	member.len = (size_t)(lines->line - member.text);
 	if (project->members >= 2 * CLASSIC_LIMIT)
-		return classic_fail_at(reader, DIAG_TOO_MANY, place, member.name,
+		return classic_fail_at(reader, DIAG_IMPORT_MANY, place, member.name,
 				       strlen(member.name));
 	added = arena_push(reader->arena, &project->member, &project->members,
 			   sizeof(member));
