@@ -61,7 +61,7 @@ noticed() {
 
 told "a template of the sources" editor-gtk/po/pot.sh "$work/fresh.pot"
 told "it has the texts of all sources" sh -c "
-	for t in 'Cross reference' 'Match capital and small letters' 'not a regular file' \
+	for t in 'Cross reference' 'Match case' 'not a regular file' \
 		'on-delay timer' 'seconds since 1970-01-01; ENO FALSE out of range' \
 		'the wire is there already' 'Contacts'; do
 		grep -qxF \"msgid \\\"\$t\\\"\" $work/fresh.pot || { echo \"\$t\"; exit 1; }

@@ -92,7 +92,7 @@ static void add_diags(GPtrArray *results, const char *path, const struct diag_li
 	}
 }
 
-/* "at 50 ms: not so: expect Motor = 1". Caller frees. */
+/* "at 50 ms: not true: expect Motor = 1". Caller frees. */
 static char *why_of(const struct scenario *scenario, const struct resource *resource,
 		    const struct plant *plant)
 {

@@ -125,7 +125,7 @@ static enum status complete(struct call *call, struct ladder *ladder, int line,
 		return STATUS_WRONG;
 	ladder_load_text(ladder, call->arg[0], text, len);
 	if (!ladder_complete(ladder, text, len, line, column, take, &list, &place))
-		status = report_usage(call, "there is no line %d with a column %d",
+		status = report_usage(call, "the file has no line %d with a column %d",
 				      line, column);
 	else if (list.failed)
 		status = report_no_memory(call->arg[0]);
@@ -145,7 +145,7 @@ enum status cmd_complete(struct call *call)
 	int line, column;
 
 	if (!read_number(call->arg[1], &line) || !read_number(call->arg[2], &column))
-		return report_usage(call, "LINE and COLUMN are numbers from 1 on");
+		return report_usage(call, "LINE and COLUMN must be numbers, from 1 on");
 	if (report_classic(call->arg[0]))
 		return STATUS_NO;
 	ladder = ladder_new();

@@ -202,8 +202,8 @@ enum status cmd_export(struct call *call)
 	while (as && word < CLASSIC_WORDS && strcmp(as, classic_words[word].word) != 0)
 		word++;
 	if (!as || (word == CLASSIC_WORDS && strcmp(as, "ld") != 0))
-		return report_usage(call, "--as ld, classicladder, linuxcnc or numeric must "
-				    "be given");
+		return report_usage(call, "--as needs ld, classicladder, linuxcnc or "
+				    "numeric");
 	ladder = program_new(false);
 	if (!ladder)
 		return report_no_memory(path);

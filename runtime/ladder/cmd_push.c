@@ -216,15 +216,15 @@ enum status cmd_push(struct call *call)
 
 	push.names.folder = folder ? folder : FOLDER;
 	if (!is_board(push.board))
-		return report_usage(call, "not a user@board: %.24s",
+		return report_usage(call, "%.24s is not USER@BOARD",
 				    push.board);
 	if (!is_folder(push.names.folder))
-		return report_usage(call, "not a folder of a board: %.16s",
+		return report_usage(call, "%.16s is not a folder on a board",
 				    folder);
 	if (push_words_split(&push.words, ssh ? ssh : "ssh", push.board))
 		status = read_and_send(&push);
 	else
-		status = report_usage(call, "--ssh wants 1 to %d words",
+		status = report_usage(call, "--ssh needs 1 to %d words",
 				      PUSH_WORDS);
 	free(push.words.text);
 	return status;

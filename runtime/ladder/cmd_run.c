@@ -133,7 +133,7 @@ static enum status take_pace(struct call *call, struct pace *pace)
 		pace->speed = strtod(speed, &end);
 		if (end == speed || *end ||
 		    !(pace->speed >= 1e-6 && pace->speed <= 1e9))
-			return report_usage(call, "--speed wants a number "
+			return report_usage(call, "--speed needs a number "
 					    "such as 10, not %.12s", speed);
 	}
 	pace->most = (uint64_t)scans;
@@ -190,7 +190,7 @@ static enum status watch_rungs(struct call *call, struct machine *machine,
 	if (project && rungs_show(project, rungs, &machine->resource, options,
 				  &nowhere) > 0)
 		return STATUS_GOOD;
-	return report_usage(call, "no rung or instance is called %.60s", rungs);
+	return report_usage(call, "there is no rung or instance %.60s", rungs);
 }
 
 enum status cmd_run(struct call *call)

@@ -150,7 +150,7 @@ enum status cmd_test(struct call *call)
 		if (!paths_collect(&paths, call->arg[i], ".scn", programs))
 			status = STATUS_WRONG;
 	if (status == STATUS_GOOD && !paths.count)
-		status = report_usage(call, "no scenario files here");
+		status = report_usage(call, "there are no scenario files");
 	for (int i = 0; status == STATUS_GOOD && i < paths.count; i++)
 		if (!call->out_failed)
 			run_file(&tap, paths.path[i]);

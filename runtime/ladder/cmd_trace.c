@@ -46,7 +46,7 @@ enum status cmd_trace(struct call *call)
 	int64_t period_ns;
 
 	if (csv && vcd)
-		return report_usage(call, "--csv and --vcd exclude each other");
+		return report_usage(call, "--csv and --vcd cannot be used together");
 	if (!report_period(call, "--period", 0, &period_ns))
 		return STATUS_WRONG;
 	status = call_flag(call, "--faithful") ?

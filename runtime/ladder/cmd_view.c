@@ -25,8 +25,8 @@ static enum status show(struct call *call, const struct project *project,
 		return report_no_memory(call->arg[0]);
 	if (shown || !name)
 		return STATUS_GOOD;
-	return report_usage(call, resource ? "no rung or instance is called %.60s" :
-			    "no rung is called %.24s", name);
+	return report_usage(call, resource ? "there is no rung or instance %.60s" :
+			    "there is no rung %.24s", name);
 }
 
 static enum status no_project(const char *path)

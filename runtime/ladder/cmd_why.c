@@ -181,7 +181,7 @@ static enum status ask(struct call *call, struct machine *machine)
 	if (asked.failed)
 		return report_no_memory(call->arg[0]);
 	return asked.found ? STATUS_GOOD :
-	       report_usage(call, "no coil or rung is called %.60s", asked.coil);
+	       report_usage(call, "there is no coil or rung %.60s", asked.coil);
 }
 
 /* A program that stops with a fault or at a STOP is asked as it stopped. */

@@ -37,7 +37,7 @@ static enum status run_command(struct call *call, int argc, char **argv)
 {
 	call->row = command_find(argv[0]);
 	if (!call->row)
-		return report_usage(call, "no command is called %.24s",
+		return report_usage(call, "there is no command %.24s",
 				    argv[0]);
 	if (asks_help(argc - 1, argv + 1)) {
 		command_help(call->row, &call->out);
@@ -55,7 +55,7 @@ int main(int argc, char **argv)
 	ignore_sigpipe();
 	report_open(&call);
 	if (argc < 2) {
-		report_usage(&call, "a command is missing; see ladder --help");
+		report_usage(&call, "a command is missing");
 		return STATUS_WRONG;
 	}
 	if (!strcmp(argv[1], "--version")) {

@@ -280,7 +280,7 @@ bool report_period(const struct call *call, const char *option,
 	if (value_parse_time(text, strlen(text), VALUE_MS, ns) == LITERAL_OK &&
 	    *ns > 0)
 		return true;
-	report_usage(call, "%s wants a time such as 10ms, not %.12s", option,
+	report_usage(call, "%s needs a time such as 10ms, not %.12s", option,
 		     text);
 	return false;
 }
@@ -301,7 +301,7 @@ bool report_count(const struct call *call, const char *option, int64_t preset,
 	if (*text >= '0' && *text <= '9' && !*end && !errno && number >= 1 &&
 	    number <= most)
 		return true;
-	report_usage(call, "%s wants a number from 1 on, not %.12s", option,
+	report_usage(call, "%s needs a number from 1 on, not %.12s", option,
 		     text);
 	return false;
 }

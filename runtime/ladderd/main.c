@@ -38,7 +38,7 @@ static void print_diags(const struct diag_list *list)
 		fprintf(stderr, "%s\n", text);
 	}
 	if (list->dropped)
-		fprintf(stderr, "ladderd: %d more\n", list->dropped);
+		fprintf(stderr, "ladderd: %d more messages\n", list->dropped);
 }
 
 static void print_all_diags(const struct daemon *daemon)

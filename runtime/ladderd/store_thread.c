@@ -321,7 +321,7 @@ static void take_payload(struct store *store, const struct retain_found *found)
 	}
 	tell_new(store, &told);
 	if (told > TOLD_MOST)
-		fprintf(stderr, "ladderd: %d more\n", told - TOLD_MOST);
+		fprintf(stderr, "ladderd: %d more values\n", told - TOLD_MOST);
 	copy->clock_ns = retain_clock(found->payload);
 	store->lost = lost > 0;
 	store->old_copy = found->old_copy;

@@ -30,10 +30,10 @@ const char *fault_text(enum fault fault)
 {
 	static const char *const text[FAULT_COUNT] = {
 		[FAULT_NONE] = "none",
-		[FAULT_BUDGET] = "instruction budget of the scan exceeded",
+		[FAULT_BUDGET] = "instruction budget of the scan exceeded (a loop?)",
 		[FAULT_WATCHDOG] = "watchdog: scan too late or too long",
 		[FAULT_IO] = "inputs or outputs do not answer",
-		[FAULT_CODE] = "program damaged in memory",
+		[FAULT_CODE] = "the program in memory is damaged",
 	};
 
 	return fault < FAULT_COUNT ? text[fault] : "unknown";

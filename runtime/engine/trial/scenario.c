@@ -73,9 +73,9 @@ static void print_scan(const struct run *run, const struct formula *formula,
 const char *scenario_failure_text(enum scenario_failure failure)
 {
 	static const char *const text[FAILURE_COUNT] = {
-		[FAILURE_FALSE] = "not so",
+		[FAILURE_FALSE] = "not true",
 		[FAILURE_UNKNOWN] = "cannot be computed",
-		[FAILURE_RANGE] = "value out of range",
+		[FAILURE_RANGE] = "value is out of range",
 		[FAILURE_PROGRAM] = "the program stopped with a fault",
 		[FAILURE_PLANT] = "the plant stopped with a fault",
 	};
@@ -83,7 +83,7 @@ const char *scenario_failure_text(enum scenario_failure failure)
 	return text[failure];
 }
 
-/* "# door.scn:7: at 50 ms: not so: ". @step: NULL: of no step. */
+/* "# door.scn:7: at 50 ms: not true: ". @step: NULL: of no step. */
 static void fail(struct run *run, const struct scenario_step *step,
 		 enum scenario_failure failure)
 {

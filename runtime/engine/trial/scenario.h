@@ -39,7 +39,7 @@ enum scenario_failure {
 	FAILURE_FALSE, FAILURE_UNKNOWN, FAILURE_RANGE, FAILURE_PROGRAM, FAILURE_PLANT,
 	FAILURE_COUNT
 };
-/** scenario_failure_text - "not so", "the program stopped with a fault". Lives for ever. */
+/** scenario_failure_text - "not true", "the program stopped with a fault". Lives for ever. */
 const char *scenario_failure_text(enum scenario_failure failure);
 
 struct scenario_step {

@@ -210,7 +210,7 @@ static void test_reasons(void)
 		"\xe2\x80\x9cMotor2\xe2\x80\x9d is declared already");
 	refuses("Motor", "", FIND_DECLARATIONS,
 		"\xe2\x80\x9c: INT;\xe2\x80\x9d: expected: name of a variable");
-	refuses("Start", "x | y", FIND_OPERANDS, "Main, rung 1: unknown word: y");
+	refuses("Start", "x | y", FIND_OPERANDS, "Main, rung 1: \"y\" is not a known word");
 }
 
 /* ---- charts ---- */

@@ -233,20 +233,20 @@ static void test_refused(void)
 	refused("VAR\n  A : BOOL;\nEND_VAR\n", "The clipboard holds no rungs.");
 	refused("RUNGBOARD 1\nPROGRAM A IL\n  LD TRUE\nEND_PROGRAM\n",
 		"The clipboard holds no rungs.");
-	refused("RUNG\n  | BADWORD Start |\n", "The clipboard, line 2: unknown word: BADWORD");
-	refused("\n  | BADWORD Start |\n", "The clipboard, line 2: unknown word: BADWORD");
+	refused("RUNG\n  | BADWORD Start |\n", "The clipboard, line 2: \"BADWORD\" is not a known word");
+	refused("\n  | BADWORD Start |\n", "The clipboard, line 2: \"BADWORD\" is not a known word");
 	refused("RUNG\n| NO %IX0.0 |\n\n(* c\n*)\nRUNG\n| NO %IX0.0 |\n| BADWORD Start |\n",
-		"The clipboard, line 8: unknown word: BADWORD");
+		"The clipboard, line 8: \"BADWORD\" is not a known word");
 	refused("hello\nRUNG\n| COIL %QX0.0 |\n", "The clipboard, line 1: expected: RUNG");
 	refused("VAR\n  D : TON;\nEND_VAR\n\nVAR_GLOBAL\n\n  A : BOOL := 7;\nEND_VAR\nRUNG\n| NO A |\n",
-		"The clipboard, line 7: constant out of range: 7");
+		"The clipboard, line 7: \"7\": constant is out of range");
 	refused("RUNGBOARD 1\nPROGRAM A LD\nRUNG\n  | BADWORD Start |\nEND_PROGRAM\n",
-		"The clipboard, line 4: unknown word: BADWORD");
+		"The clipboard, line 4: \"BADWORD\" is not a known word");
 	refused("PROGRAM A LD\nRUNG\n  | BADWORD Start |\nEND_PROGRAM\n",
-		"The clipboard, line 3: unknown word: BADWORD");
-	refused("RUNG\n | COIL \xff |\n", "not valid UTF-8 text");
+		"The clipboard, line 3: \"BADWORD\" is not a known word");
+	refused("RUNG\n | COIL \xff |\n", "not valid UTF-8 text; save the file as UTF-8");
 	why = pasted(document, nul, sizeof(nul) - 1);
-	CHECK_TEXT(why, "not valid UTF-8 text");
+	CHECK_TEXT(why, "not valid UTF-8 text; save the file as UTF-8");
 	g_free(why);
 	memset(large, ' ', LIMIT_TEXT + 1);
 	memcpy(large, "RUNG\n", 5);

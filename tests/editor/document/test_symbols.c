@@ -498,7 +498,7 @@ static void test_faults(void)
 		",Count,INT,%QX0.5\n" ",Stop,BOOL,%IX0.0\n" ",Hours,UDINT,%MD8\n"
 		"Main,Wide,WORD,%QW0\n" ",Free,BOOL,%IX0.1\n";
 	static const struct wanted want[] = {
-		{ CSV_CHANGE, "%QX0.5", "type does not fit the width of the address" },
+		{ CSV_CHANGE, "%QX0.5", "its type does not fit the width of its address" },
 		{ CSV_ADD, "%IX0.0", "also used as Start" }, { CSV_CHANGE, "%MD8", NULL },
 		{ CSV_ADD, "%QW0", "also used as" }, { CSV_ADD, "%IX0.1", NULL },
 	};
@@ -529,10 +529,10 @@ static void test_uses(void)
 		",Lamp,INT,\n" ",Horn,TIME,\n" "Recipe,Full,INT,\n" ",N,BOOL,\n"
 		",Bell,BOOL,%QX1.0\n" "Main,Bell,INT,\n" ",New,INT,\n";
 	static const struct wanted want[] = {
-		{ CSV_CHANGE, "%QX0.0", "must be BOOL: Lamp" },
+		{ CSV_CHANGE, "%QX0.0", "\"Lamp\" must be BOOL" },
 		{ CSV_CHANGE, "TIME", "" },
 		{ CSV_CHANGE, "INT", "must be BOOL" }, { CSV_CHANGE, "BOOL", "" },
-		{ CSV_CHANGE, "%QX1.0", NULL }, { CSV_ADD, "INT", "must be BOOL: Bell" },
+		{ CSV_CHANGE, "%QX1.0", NULL }, { CSV_ADD, "INT", "\"Bell\" must be BOOL" },
 		{ CSV_ADD, "INT", NULL },
 	};
 	LadderDocument *document = opened(program);

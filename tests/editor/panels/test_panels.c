@@ -223,7 +223,7 @@ static void test_problems(void)
 		}
 		g_object_unref(row);
 	}
-	is_row(list, count - 1, "unknown name: Lost|List, line 3|LD301|Error|");
+	is_row(list, count - 1, "\"Lost\" is not declared|List, line 3|LD301|Error|");
 	CHECK(ladder_problems_next(problems, false));
 	CHECK(ladder_problems_next(problems, true));
 	CHECK(ladder_problems_show_error(problems));

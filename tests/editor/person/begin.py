@@ -288,7 +288,7 @@ def tables(screen):
     editor.give_path(table, editor.find('Import', 'push button').press)
     editor.shot('begin-table')
     editor.says('2 new, 1 changed, 1 unchanged, 2 refused; after 2 of these lines the program has faults')
-    for line in ('line 5, Away, refused, does not belong here: VAR_TEMP', 'line 6, Twice, new, also used as Start',
+    for line in ('line 5, Away, refused, "VAR_TEMP" does not belong here', 'line 6, Twice, new, also used as Start',
                  'line 7, , refused, a quoted field does not end; the rest of the table was not read'):
         editor.find(line)
     next(node for node in editor.all('Import', 'push button') if node.name in ('Import', 'Import Import')).press()

@@ -245,7 +245,7 @@ def folded(screen):
     assert 'TRANSITION (PRIORITY := 1) FROM Fill TO Idle' in text, text
     asked(editor, 'ctrl+shift+p', '')
     assert editor.save(path) == TANK
-    menu(editor, shape(editor, 'from Fill to Heat'), 'Priority of the transition')
+    menu(editor, shape(editor, 'from Fill to Heat'), 'Transition priority')
     editor.opened()
     editor.entry('2')
     on_chart(editor)
@@ -256,7 +256,7 @@ def folded(screen):
     go(editor, 'Heat')
     asked(editor, 'semicolon', 'steam')
     shape(editor, 'Step Heat', 'steam')
-    menu(editor, shape(editor, 'does: N Valve'), 'Comment of step or transition')
+    menu(editor, shape(editor, 'does: N Valve'), 'Step or transition comment')
     editor.opened()
     editor.entry('the inlet')
     shape(editor, 'does: N Valve', 'the inlet')

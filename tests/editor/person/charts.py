@@ -193,8 +193,8 @@ def by_pointer(screen):
                             ('Heat to Start', 'I0.3'), ('Drain to Start', 'I0.3')):
         twice(editor, shape(editor, 'from ' + ways), condition)
         shape(editor, 'from %s, condition %s' % (ways, condition))
-    chosen(editor, shape(editor, 'Step Fill'), 'Add what the step does', 'Q0.0')
-    chosen(editor, shape(editor, 'Step Drain'), 'Add what the step does', 'L T#5s Q0.1')
+    chosen(editor, shape(editor, 'Step Fill'), 'Add action to step', 'Q0.0')
+    chosen(editor, shape(editor, 'Step Drain'), 'Add action to step', 'L T#5s Q0.1')
     shape(editor, 'Drain does: L T#5s Q0.1')
     editor.shot('chart-pointer')
     finished(editor, path)

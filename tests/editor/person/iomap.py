@@ -62,7 +62,7 @@ def table(screen):
     path, io = garage(screen)
     editor = Editor(screen, path)
     open_map(editor)
-    until(lambda: editor.all('bad value of an option'), 'the problem of its row')
+    until(lambda: editor.all('this option does not take this value'), 'the problem of its row')
     editor.says('Used by the program, missing in the map: %IX0.2 StopOk')
     editor.click(cell(editor, '%IX0.1, Debounce'))
     editor.keys('ctrl+a')
@@ -274,7 +274,7 @@ def run_board(screen):
     editor.says('RUN')
     until(lambda: editor.all('ON THIS MACHINE', 'label'), 'the state of the window')
     until(lambda: editor.all(' us, at worst ', 'label'), 'the times of scans')
-    assert 'Started with garage-door.io' in editor.find('What ladderd says', 'text').text()
+    assert 'Started with garage-door.io' in editor.find('Messages of ladderd', 'text').text()
     editor.shot('board-run')
     pid = child(editor)
     assert pid
@@ -282,7 +282,7 @@ def run_board(screen):
         assert 'GDK_DEBUG' not in environ.read()
     editor.click(editor.find('Stop', 'push button'))
     until(lambda: 'Ended; outputs have their safe values' in
-          editor.find('What ladderd says', 'text').text(), 'its end in the log')
+          editor.find('Messages of ladderd', 'text').text(), 'its end in the log')
     editor.find('OFF', 'label')
     for line in 'Started with garage-door.io', 'RUN', 'STOPPING', 'Ended; outputs have their safe values':
         log = editor.logs('communication', line)
@@ -334,7 +334,7 @@ def not_its_own(screen):
     editor.command('Run on this machine')
     editor.answer('Run')
     editor.says('RUN')
-    assert 'Started with press.io' in editor.find('What ladderd says', 'text').text()
+    assert 'Started with press.io' in editor.find('Messages of ladderd', 'text').text()
     editor.click(editor.find('Stop', 'push button'))
     editor.find('OFF', 'label')
     # What it lacks is made from there, and is what runs then, unasked.
@@ -346,7 +346,7 @@ def not_its_own(screen):
     to_program(editor)
     editor.to_sheet()
     editor.command('Run on this machine')
-    until(lambda: 'Started with garage-door.io' in editor.find('What ladderd says', 'text').text(), 'that it runs with it')
+    until(lambda: 'Started with garage-door.io' in editor.find('Messages of ladderd', 'text').text(), 'that it runs with it')
 
 
 def no_longer(screen):
@@ -381,7 +381,7 @@ def close_board(screen):
     """closing the window asks, stops it first; a map that is wrong is refused with the reason"""
     editor, io = running(screen, SIM + '%QX0.9  sim\n')
     editor.says('Could not start. See the messages below.')
-    until(lambda: 'LD502' in editor.find('What ladderd says', 'text').text(), 'the reason')
+    until(lambda: 'LD502' in editor.find('Messages of ladderd', 'text').text(), 'the reason')
     editor.shot('board-refused')
     for line in 'LD502', 'ladderd ended with status', 'Could not start.':
         editor.logs('communication', line)
@@ -453,9 +453,9 @@ def lines_here(screen):
     path, io = garage(screen, LINES)
     editor = Editor(screen, path, FAKE_DEV=dev, PATH='')
     open_map(editor)
-    for name, text in (('%IX0.0', 'gpiochip0 0'), ('%IX0.1', 'no such line on this machine: NOWHERE'),
-                       ('%IX0.2', 'line stands twice in the map: %IX0.0'),
-                       ('%IX0.3', 'line is in use by another owner'), ('%QX0.0', 'gpiochip0 2')):
+    for name, text in (('%IX0.0', 'gpiochip0 0'), ('%IX0.1', '"NOWHERE": this machine has no such line'),
+                       ('%IX0.2', 'is used twice in the map, first for %IX0.0'),
+                       ('%IX0.3', 'is in use by'), ('%QX0.0', 'gpiochip0 2')):
         row_says(editor, name + ', gpio', text)
     editor.click(cell(editor, '%IX0.1, I/O line'))
     editor.keys('alt+Down')

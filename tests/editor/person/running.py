@@ -98,7 +98,7 @@ END_PROGRAM
 
 def at_the_clock(editor, name):
     """Opens what the clock in the header has, and leads the keys there to a widget of that name."""
-    editor.click(editor.find('Period, speed, start', 'push button'))
+    editor.click(editor.find('Simulation settings', 'push button'))
     at = editor.focus_on('Period, ms')
     while name not in at.name:
         editor.keys('Tab')
@@ -240,7 +240,7 @@ def paces(screen):
     editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
     editor.element('Rung 1, COIL', 'Motor', ', on')
     scan = lambda: int(re.search(r'scan (\d+)', editor.find('Simulating · ', 'label').name)[1])
-    editor.click(editor.find('Period, speed, start', 'push button'))
+    editor.click(editor.find('Simulation settings', 'push button'))
     editor.focus_on('Period, ms')
     editor.keys('ctrl+a')
     editor.type('20')

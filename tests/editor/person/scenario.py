@@ -117,12 +117,12 @@ def fails(screen):
     editor.shot('scenario-list')
     editor.click(row(editor, 'starts by itself'), count=2)
     editor.find('SIMULATION · PAUSE', 'label')
-    editor.says('at 50 ms: not so: at 50ms  expect Motor = 1')
+    editor.says('at 50 ms: not true: at 50ms  expect Motor = 1')
     editor.says('scan 5')
     editor.shot('scenario-failed')
-    editor.click(row(editor, 'unknown name'), count=2)
+    editor.click(row(editor, 'is not declared'), count=2)
     editor.find('motor-other.scn', 'text')
-    editor.says('unknown name: Strat')
+    editor.says('"Strat" is not declared')
     editor.shot('scenario-unknown')
 
 

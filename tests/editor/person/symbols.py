@@ -242,7 +242,7 @@ def imported(screen):
     editor.to_sheet()
     editor.give_path(table, lambda: editor.command('Import symbols'), 'Import symbols')
     editor.find('1 new, 1 changed, 0 unchanged, 0 refused; after 1 of these lines the program has a fault', 'label')
-    editor.find('must be BOOL: Lamp', 'table row')
+    editor.find('"Lamp" must be BOOL', 'table row')
     editor.shot('symbols-import')
     assert [node for node in editor.all(', Name') if node.box()[2] > 0], 'the page of the symbols is not in front'
     editor.find('Import', 'push button').press()
@@ -341,7 +341,7 @@ def kinds(screen):
     editor.keys('ctrl+alt+s')
 
     def offered():
-        return [node for node in editor.all('As what the symbol is declared', 'combo box') if node.box()[2] > 0]
+        return [node for node in editor.all('Kind of declaration', 'combo box') if node.box()[2] > 0]
     editor.into('Speed, Name')
     until(offered, 'a choice')
     editor.into('Horn, Name')
@@ -361,7 +361,7 @@ def kinds(screen):
     editor.click(editor.find('Speed, Retain', 'check box'))
     text = editor.save(path)
     choose('VAR_TEMP')
-    editor.find('Speed: does not belong here: RETAIN', 'label')
+    editor.find('Speed: "RETAIN" does not belong here', 'label')
     editor.shot('symbols-kinds-refused')
     editor.into('Open, Name')
     choose('VAR_IN_OUT')

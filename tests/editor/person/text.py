@@ -125,7 +125,7 @@ def one_more(screen):
     editor.keys('ctrl+End')
     editor.put_clipboard(EXTRA)
     editor.keys('ctrl+v')
-    back_and_forth(editor, path, view, 'does not belong here: Extra')
+    back_and_forth(editor, path, view, '"Extra" does not belong here')
 
 
 def closed(screen):
@@ -149,7 +149,7 @@ def names(screen):
     until(lambda: second.has(12), 'the focus in the second list')
     editor.keys('ctrl+Home', 'Down', 'End')
     editor.says('Line 2 · column 14')
-    editor.says('F12: Go to the coil that drives it')
+    editor.says('F12: Go to coil')
     editor.shot('text-place')
     editor.keys('F12')
     until(lambda: [node for node in editor.all('Text of the program') if 'ST    Motor' in node.text() and node.has(12)],

@@ -67,7 +67,7 @@ def values(screen):
     editor.into('Level, New value')
     editor.type('70000')
     editor.keys('Return')
-    editor.find('constant out of range')
+    editor.find('constant is out of range')
     editor.keys('ctrl+a')
     editor.type('12')
     editor.keys('Return')

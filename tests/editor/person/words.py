@@ -91,11 +91,11 @@ def next_problem(screen):
     """Ctrl+. tells the problem that it goes to; its row is seen and chosen"""
     editor = Editor(screen, new_file(screen, MANY))
     editor.to_sheet()
-    editor.find('Error: unknown name: Lost7. Main, rung 8', 'table row')
+    editor.find('Error: "Lost7" is not declared. Main, rung 8', 'table row')
     for _ in range(24):
         editor.keys('ctrl+period')
-    editor.says('Error: unknown name: Lost2')
-    until(lambda: [node for node in editor.all('Error: unknown name', 'table row') if node.has(23)], 'a row that is chosen')
+    editor.says('Error: "Lost2')
+    until(lambda: [node for node in editor.all('Error: "Lost', 'table row') if node.has(23)], 'a row that is chosen')
     editor.shot('problems-next')
 
 
@@ -135,8 +135,8 @@ def next_place(screen):
     """a problem of a subroutine or a program opens it, one of a symbol its row of the table: Ctrl+., a double click"""
     editor = Editor(screen, new_file(screen, UNUSED))
     editor.to_sheet()
-    rows = ['is declared but not used: Tab. Symbols', 'is declared but not used: Own. Main, symbols',
-            'subroutine is never called: Sub. Sub', 'it does not run: Spare. Spare']
+    rows = ['"Tab" is declared but not used. Symbols', '"Own" is declared but not used. Main, symbols',
+            '"Sub" is a subroutine that is never called. Sub', '"Spare" does not run: the configuration has no PROGRAM line for it. Spare']
     for row in rows:
         editor.find(row, 'table row')
 

@@ -157,7 +157,7 @@ static void test_record(void)
 	result = run(wrong);
 	CHECK(result && result->outcome == SCENARIO_FAILED && result->line == 6 &&
 	      result->scan == 7);
-	CHECK_TEXT(result->why, "at 70 ms: not so: at 70ms       expect Late = 0");
+	CHECK_TEXT(result->why, "at 70 ms: not true: at 70ms       expect Late = 0");
 	CHECK(ladder_sim_play(sim, result->period_ns, result->acts, result->scan, NULL));
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 7 && ladder_sim_state(sim) == SIM_PAUSE);
 	CHECK(value("Late") == 1 && value("Start") == 0 &&

@@ -65,7 +65,7 @@ static void test_times(void)
 	CHECK_TEXT(run(S "at 1s Open=1\nwithin 10ms expect Level = 14\n"),
 		   "held");
 	CHECK(strstr(run(S "at 1s Open=1\nwithin 10ms expect Level = 21\n"),
-		     "at 1010 ms: not so: within 10ms expect Level = 21"));
+		     "at 1010 ms: not true: within 10ms expect Level = 21"));
 	/* `for 20ms` from 1 s looks at 1 s and 1.01 s, not at 1.02 s. */
 	CHECK_TEXT(run(S "at 1s Open=1\nfor 20ms expect Level < 15\n"), "held");
 	CHECK(strstr(run(S "at 1s Open=1\nfor 21ms expect Level < 15\n"),
@@ -74,14 +74,14 @@ static void test_times(void)
 	/* What is still open is not forgotten behind what is judged. */
 	CHECK(strstr(run(S "at 10ms within 50ms expect Lamp\n"
 			 "at 20ms expect not Motor\nat 30ms expect not Lamp\n"),
-		     "at 60 ms: not so: at 10ms within 50ms expect Lamp"));
+		     "at 60 ms: not true: at 10ms within 50ms expect Lamp"));
 }
 
 static void test_report(void)
 {
 	CHECK_TEXT(run(S "at 0 Open = 1\nat 30ms Stop = 1\n"
 		       "at 50ms expect Motor = 1 and Level > 5\n"),
-		   "# s.scn:4: at 50 ms: not so: at 50ms expect Motor = 1 and "
+		   "# s.scn:4: at 50 ms: not true: at 50ms expect Motor = 1 and "
 		   "Level > 5\n"
 		   "#   1 t=10 Motor=1 Level=7\n#   2 t=20 Motor=1 Level=14\n"
 		   "#   3 t=30 Motor=0 Level=21\n#   4 t=40 Motor=0 Level=28\n"
@@ -89,7 +89,7 @@ static void test_report(void)
 	const char *text = run(S "at 0 Open=1\nalways Level < 80\n"
 			       "at 1s expect Motor\n");
 
-	CHECK(strncmp(text, "# s.scn:3: at 120 ms: not so: always Level < 80\n"
+	CHECK(strncmp(text, "# s.scn:3: at 120 ms: not true: always Level < 80\n"
 		      "#   5 t=50 Level=35\n", 68) == 0);
 	CHECK(strstr(text, "#   12 t=120 Level=84\n") != NULL);
 	CHECK(strstr(text, "13") == NULL);

@@ -145,7 +145,7 @@ static void texts(void)
 			 "at 40ms expect Copy = 'fixed, fixed'\n"), "held");
 	CHECK_TEXT(judge(S "at 0 Name = 'x'\nat 20ms Name = 'y'\n"
 			 "at 20ms expect Name = 'z'\n"),
-		   "# s.scn:4: at 20 ms: not so: at 20ms expect Name = 'z'\n"
+		   "# s.scn:4: at 20 ms: not true: at 20ms expect Name = 'z'\n"
 		   "#   1 t=10 Name='x'\n#   2 t=20 Name='y'\n");
 	CHECK_TEXT(judge(S "at 0 Name = 'abcdefg'\nexpect Go\n"), "LD116:2:6");
 	CHECK_TEXT(judge(S "at 0 Name = 5\nexpect Go\n"), "LD303:2:6");
@@ -155,7 +155,7 @@ static void texts(void)
 	CHECK_TEXT(judge(S "expect -Name = 'b'\n"), "LD303:2:9");
 	CHECK_TEXT(judge(S "expect Name\n"), "LD324:2:8");
 	CHECK_TEXT(judge(S "at 0 Go = 1\nat 20ms Name = Copy\nexpect not Go\n"),
-		   "# s.scn:4: at 20 ms: not so: expect not Go\n"
+		   "# s.scn:4: at 20 ms: not true: expect not Go\n"
 		   "#   1 t=10 Go=1\n#   2 t=20 Go=1\n");
 	CHECK_AS(strstr(judge(S "at 0 Copy = 'longer than six'\nat 20ms Name = Copy\n"
 				"expect Go = 0\n"), "value out of range") != NULL,

@@ -464,7 +464,7 @@ const char *operand_of(struct conversion *c, struct classic_variable variable,
 		       indexed(c, memory, variable.number, index) : NULL;
 	}
 	if (!text)
-		tell(c, REPORT_LOST, "variable of type %d, number %d%s, has no meaning here",
+		tell(c, REPORT_LOST, "variable of type %d, number %d%s, is not supported",
 		     variable.type, variable.number,
 		     variable.index_type < 0 ? "" : ", with an index");
 	return text;
@@ -488,7 +488,7 @@ const char *target_of(struct conversion *c, struct classic_variable variable, bo
 
 	if (!text || is_writable(known_type(c, variable.type)))
 		return text;
-	tell(c, REPORT_LOST, "%s is written, which a program cannot: it was left out", text);
+	tell(c, REPORT_LOST, "%s cannot be written by a program; the write was left out", text);
 	return NULL;
 }
 

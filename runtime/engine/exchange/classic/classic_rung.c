@@ -353,7 +353,7 @@ static void tell_faults(struct conversion *c)
 	const struct classic_project *project = c->project;
 
 	if (c->options.faithful) {
-		tell(c, REPORT_TAKEN, "faults of the original are repeated");
+		tell(c, REPORT_TAKEN, "faults of ClassicLadder are repeated");
 		return;
 	}
 	if (project->iec_timer.count)

@@ -219,7 +219,7 @@ void section_begin(struct leaving *e, const char *name, int subroutine, bool seq
 		section->name = out_text(e, "%.*s_%d",
 			classic_cut(name, CLASSIC_SECTION_NAME - 4), name, i);
 	if (strcmp(name, section->name) != 0)
-		tell_change(e, "section %s is called %s there", name, section->name);
+		tell_change(e, "section %s is called %s in ClassicLadder", name, section->name);
 }
 
 static void patch_jumps(struct leaving *e)
@@ -563,8 +563,8 @@ static void leave_lines(struct leaving *e)
 		return;
 	if (e->dialect != CLASSIC_UPSTREAM) {
 		tell_line(e, 0, e->dialect == CLASSIC_LINUXCNC ?
-			  "the I/O map stays here: LinuxCNC connects pins of HAL" :
-			  "the I/O map stays here: a bare rung file has none");
+			  "the I/O map is not exported: LinuxCNC connects HAL pins" :
+			  "the I/O map is not exported: a bare rung file has none");
 		return;
 	}
 	for (int i = 0; i < e->lines->count; i++) {

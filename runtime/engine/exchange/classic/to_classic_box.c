@@ -213,7 +213,7 @@ static bool declared_time(struct leaving *e, const char *name, int64_t *ns)
 	if (slot)
 		slot->calls++;
 	if (!m->constant)
-		tell_change(e, "%s is fixed there", name);
+		tell_change(e, "%s is fixed in ClassicLadder", name);
 	*ns = m->var->init.i;
 	return true;
 }
@@ -228,7 +228,7 @@ static bool iec_time(struct leaving *e, struct out_part *item, const char *text)
 		return out_refuse(e, DIAG_EXPORT_TIME, "%s", text);
 	block->mode = item->word == FB_TON ? 0 : item->word == FB_TOF ? 1 : 2;
 	if (may_rest(e))
-		tell_change(e, "timer %s stands still there while its rung is not reached",
+		tell_change(e, "timer %s stops in ClassicLadder while its rung is skipped",
 			    item->slot->name);
 	return time_units(e, ns, item->slot->name, block);
 }
@@ -240,7 +240,7 @@ static bool counter_preset(struct leaving *e, struct out_part *item, const char 
 
 	if (!block || !there_text(e, text, strlen(text), &operand))
 		return false;
-	tell_change(e, "counter %s counts from 0 to 9999 there", item->slot->name);
+	tell_change(e, "counter %s counts from 0 to 9999 in ClassicLadder", item->slot->name);
 	if (operand.is_constant) {
 		block->preset = operand.value;
 		return operand.value >= 0 && operand.value <= 9999 ? true :

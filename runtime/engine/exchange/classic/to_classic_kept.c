@@ -165,5 +165,5 @@ void leave_kept(struct leaving *e)
 		others |= other;
 	}
 	if (others)
-		tell_line(e, 0, "what the editor keeps (VIEW) stays here");
+		tell_line(e, 0, "settings of the editor (VIEW) are not exported");
 }

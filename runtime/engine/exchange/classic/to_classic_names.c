@@ -637,7 +637,7 @@ static void out_symbol(struct leaving *e, const struct out_slot *slot, const cha
 	symbol->name = says_number(slot, own) ? "" : symbol_name(e, name);
 	symbol->comment = comment;
 	if (*symbol->name && strcmp(symbol->name, name) != 0)
-		tell_line(e, slot->var->line, "%s is called %s there", slot->name,
+		tell_line(e, slot->var->line, "%s is called %s in ClassicLadder", slot->name,
 			  symbol->name);
 	if (strlen(comment) > (size_t)most)
 		tell_line(e, slot->var->line, "the comment of %s is cut to %d bytes",

@@ -606,7 +606,7 @@ void leave_rung(struct leaving *e, const struct rung *rung)
 	}
 	if (rung->off) {
 		rung_begin(e);
-		tell_change(e, "a rung that is switched off stays empty there");
+		tell_change(e, "a rung that is switched off is exported as an empty rung");
 		return;
 	}
 	if (!prepare(e, &r))

@@ -14,7 +14,7 @@ static void told_flags(struct leaving *e, const struct var *var, uint16_t flags)
 	const char *name = project_text(e->project, var->name);
 
 	if (flags & VAR_RETAIN)
-		tell_line(e, var->line, "%s: nothing is retained there", name);
+		tell_line(e, var->line, "%s: ClassicLadder retains no values", name);
 }
 
 static bool is_narrow(enum iec_type type)
@@ -40,12 +40,12 @@ static void told_variable(struct leaving *e, const struct var *var, uint16_t fla
 		return;
 	told_flags(e, var, flags);
 	if (!slot || !is_expressed(slot))
-		tell_line(e, var->line, "%s stays here: nothing there needs it", name);
+		tell_line(e, var->line, "%s is not exported: nothing needs it", name);
 	else if (slot->block < 0 && is_narrow(var->type))
 		tell_line(e, var->line, "%s has 32 bits there, more than %s has", name,
 			  iec_type_row(var->type)->word);
 	if (slot && slot->type >= 0 && slot->block < 0 && var->array.count)
-		tell_line(e, var->line, "%s: an array has no name there", name);
+		tell_line(e, var->line, "%s: ClassicLadder has no names for arrays", name);
 }
 
 static void told_table(struct leaving *e, const struct var_table *table)
@@ -111,7 +111,7 @@ static void told_comments(struct leaving *e)
 	if (comments.count)
 		tell_line(e, comments.line, "%d comment%s: ClassicLadder has them on rungs, "
 			  "as their titles, and on symbols", comments.count,
-			  comments.count > 1 ? "s stay here" : " stays here");
+			  comments.count > 1 ? "s are not exported" : " is not exported");
 }
 
 /* ---- the configuration ---- */
@@ -136,13 +136,13 @@ static void told_entry(struct leaving *e, const struct config_entry *entry)
 	const char *name = project_text(e->project, entry->name);
 
 	if (entry->kind == CONFIG_TASK && entry->watchdog_ns)
-		tell_line(e, entry->line, "%s: nothing there watches how long a scan takes",
+		tell_line(e, entry->line, "%s: ClassicLadder does not monitor the length of a scan",
 			  name);
 	if (entry->kind == CONFIG_TASK && entry->interval_ns % 1000000)
-		tell_line(e, entry->line, "%s: a scan has %d ms there, a whole number", name,
+		tell_line(e, entry->line, "%s: ClassicLadder needs whole milliseconds; a scan has %d ms there", name,
 			  e->out->period);
 	if (entry->kind == CONFIG_AREA)
-		tell_line(e, entry->line, "AREA: ClassicLadder has sizes of its own");
+		tell_line(e, entry->line, "AREA: ClassicLadder has its own area sizes");
 }
 
 static void told_config(struct leaving *e)
@@ -152,8 +152,8 @@ static void told_config(struct leaving *e)
 	for (int i = 0; config && i < config->count; i++)
 		told_entry(e, &config->entry[i]);
 	if (!e->has_period && e->dialect != CLASSIC_NUMERIC)
-		tell_line(e, config ? config->line : 0, "no task says how long a scan is: "
-			  "%d ms there", e->out->period);
+		tell_line(e, config ? config->line : 0, "no task gives the period: "
+			  "ClassicLadder uses %d ms", e->out->period);
 }
 
 /* ---- POUs and the rest ---- */
@@ -168,17 +168,17 @@ static void told_pous(struct leaving *e)
 
 		if (pou_has_frame(pou)) {
 			if (!pou_is_imported(project, pou))
-				tell_line(e, pou->line, "%s %s stays here",
+				tell_line(e, pou->line, "%s %s is not exported",
 					  pou_word(pou->kind), name);
 			continue;
 		}
 		told_table(e, &pou->vars);
 		if (pou->kind == POU_PROGRAM && !runs(e, pou))
-			tell_line(e, pou->line, "PROGRAM %s stays here: no task runs it",
+			tell_line(e, pou->line, "PROGRAM %s is not exported: no task runs it",
 				  name);
 	}
 	for (int i = 0; i < project->structure_count; i++)
-		tell_line(e, project->structure[i].line, "structure %s stays here",
+		tell_line(e, project->structure[i].line, "structure %s is not exported",
 			  project_text(project, project->structure[i].name));
 }
 
