@@ -1,0 +1,54 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# floors.t - floors.sh finds each kind of wrong include, room and library.
+#
+# It works on a copy of the sources. All mistakes are made at once; each must be told.
+cd "$(dirname "$0")/.." || exit 2
+copy=$(mktemp -d)
+trap 'rm -rf "$copy"' EXIT
+cp -R runtime hal editor-gtk "$copy"
+n=0
+
+# wrong FILE INCLUDE: FILE gets `#include INCLUDE`, which floors.sh must list.
+wrong() {
+	printf '#include %s\n' "$2" >>"$copy/$1"
+	printf '%s includes %s\n' "$1" "$2" | tr -d '"' >>"$copy/expected"
+}
+wrong runtime/engine/base/arena.c '"engine/model/rung.h"'           # up
+wrong runtime/engine/model/rung.c '"engine/scan/code.h"'            # sideways
+wrong runtime/engine/check/check_rung.c '"engine/text/text.h"'      # sideways
+wrong runtime/engine/xref/xref.c '"engine/show/sfc_layout.h"'       # sideways
+wrong runtime/engine/text/read_rung.c '"engine/ladder.h"'           # the facade
+wrong runtime/engine/scan/vm.c '"hal/hal.h"'                        # another floor
+wrong runtime/ladderd/cycle.c '"engine/trial/twin.h"'               # no door of this program
+wrong hal/hal.c '"engine/model/rung.h"'
+wrong hal/sim.c '"tests/tap.h"'                                     # a test
+wrong hal/iomap.c '<gtk/gtk.h>'                                     # a library of another room
+wrong editor-gtk/edit/grid_edit.c '<gtk/gtk.h>'                     # a room without toolkit
+wrong editor-gtk/kit/theme.c '"editor-gtk/draw/grid_draw.h"'        # up
+wrong editor-gtk/document/document.c '"editor-gtk/sim/sim.h"'       # up
+wrong editor-gtk/ladder/grid_view.c '"editor-gtk/sfc/sfc_view.h"'   # sideways
+wrong editor-gtk/panels/palette.c '"editor-gtk/window/window.h"'    # up
+wrong editor-gtk/text/text_view.c '<engine/ladder.h>'               # ours, as if a library
+wrong editor-gtk/sim/sim.c '"engine/translate/translate.h"'         # no door of the engine
+mkdir "$copy/editor-gtk/attic"                                      # an unknown room
+echo >"$copy/editor-gtk/attic/attic.c"
+echo 'editor-gtk/attic' >>"$copy/expected"
+rm -r "$copy/editor-gtk/iomap"                                      # a room that is gone
+echo 'editor-gtk/iomap: no such folder' >>"$copy/expected"
+
+FLOORS_ROOT=$copy sh tests/floors.sh >"$copy/said"
+status=$?
+while read -r line; do
+	n=$((n + 1))
+	if grep -qF "$line" "$copy/said"; then echo "ok $n - told: $line"
+	else echo "not ok $n - told: $line"; fi
+done <"$copy/expected"
+n=$((n + 1))
+if [ $status -ne 0 ]; then echo "ok $n - it fails"; else echo "not ok $n - it fails"; fi
+# What stood there before is right: nothing else is told but what comes of the missing room.
+FLOORS_ROOT=$PWD sh tests/floors.sh >"$copy/clean"
+n=$((n + 1))
+if [ $? -eq 0 ]; then echo "ok $n - nothing is told of the tree as it is"
+else echo "not ok $n - nothing is told of the tree as it is"; sed -n '/^not ok/,/^ok/p' "$copy/clean" | sed 's/^/#   /'; fi
+echo "1..$n"
