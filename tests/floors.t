@@ -46,9 +46,11 @@ while read -r line; do
 done <"$copy/expected"
 n=$((n + 1))
 if [ $status -ne 0 ]; then echo "ok $n - it fails"; else echo "not ok $n - it fails"; fi
-# What stood there before is right: nothing else is told but what comes of the missing room.
-FLOORS_ROOT=$PWD sh tests/floors.sh >"$copy/clean"
+# The tree as it is has no mistake, so that what was told above is new.
 n=$((n + 1))
-if [ $? -eq 0 ]; then echo "ok $n - nothing is told of the tree as it is"
-else echo "not ok $n - nothing is told of the tree as it is"; sed -n '/^not ok/,/^ok/p' "$copy/clean" | sed 's/^/#   /'; fi
+if sh tests/floors.sh >"$copy/clean"; then echo "ok $n - nothing is told of the tree as it is"
+else
+	echo "not ok $n - nothing is told of the tree as it is"
+	sed -n '/^not ok/,/^ok/p' "$copy/clean" | sed 's/^/#   /'
+fi
 echo "1..$n"
