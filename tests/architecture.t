@@ -1,0 +1,67 @@
+#!/usr/bin/env perl
+# SPDX-License-Identifier: MIT
+# architecture.t - each file, folder, function and make target that ARCHITECTURE.md names exists.
+#
+# A name of a file is looked up as a path from the top, below runtime/, runtime/engine/
+# and editor-gtk/, or as the name of exactly one or more files anywhere.
+use strict;
+use warnings;
+use File::Find;
+use FindBin;
+
+chdir "$FindBin::Bin/.." or die;
+my (%base, $sources);
+find({ no_chdir => 1, wanted => sub {
+	return if m{^\./(?:\.git|build)};
+	(my $path = $_) =~ s{^\./}{};
+	push @{ $base{$1} }, $path if m{([^/]+)\z};
+	if (-f && /\.(?:c|h)\z/ && !m{^\./tests/}) {
+		open my $in, '<', $_ or die "$_: $!";
+		local $/;
+		$sources .= <$in>;
+	}
+} }, '.');
+open my $make, '<', 'Makefile' or die;
+my $makefile = do { local $/; <$make> };
+open my $page, '<', 'ARCHITECTURE.md' or die;
+my $text = do { local $/; <$page> };
+$text =~ s/^```.*?^```//gms;
+
+my ($n, $failed, %seen) = (0, 0);
+sub check {
+	my ($good, $name) = @_;
+
+	printf "%sok %d - %s\n", $good ? "" : "not ", ++$n, $name;
+	$failed ||= !$good;
+}
+sub found {
+	my ($path) = @_;
+
+	for my $top ('', 'runtime/', 'runtime/engine/', 'editor-gtk/', 'tests/') {
+		return 1 if glob("$top$path") && -e (glob("$top$path"))[0];
+	}
+	(my $leaf = $path) =~ s{.*/}{};
+	return $path !~ m{/} && $base{$leaf};
+}
+while ($text =~ /`([^`\n]+)`/g) {
+	my $said = $1;
+
+	for my $name (split / /, $said) {
+		next if $seen{$name}++ || $name =~ /NAME|LANG|\bX\b|_X/;
+		if ($name =~ /^(\w+)\(\)$/) {
+			my $function = $1;
+			check(scalar($sources =~ /\b\Q$function\E\(/), "function $name");
+		} elsif ($name =~ m{^[\w.*/-]+(?:\.(?:c|h|def|sh|t|pl|py|md|ui)|/)$}) {
+			check(found($name), "file $name");
+		}
+	}
+	if ($said =~ /^make ([a-z-]+)$/ && !$seen{$said}++) {
+		my $target = $1;
+		check(scalar($makefile =~ /^\Q$target\E:/m), $said);
+	}
+	check(scalar($sources =~ /\b\Q$said\E\b/), $said)
+		if $said =~ /^(?:struct|enum) \w+$/ && !$seen{$said}++;
+}
+check($n > 100, "it found the names ($n of them)");
+print "1..$n\n";
+exit $failed;
