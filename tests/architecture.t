@@ -38,7 +38,8 @@ sub found {
 	my ($path) = @_;
 
 	for my $top ('', 'runtime/', 'runtime/engine/', 'editor-gtk/', 'tests/') {
-		return 1 if glob("$top$path") && -e (glob("$top$path"))[0];
+		my ($hit) = glob("$top$path");
+		return 1 if defined $hit && -e $hit;
 	}
 	(my $leaf = $path) =~ s{.*/}{};
 	return $path !~ m{/} && $base{$leaf};
