@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/window/messages.h"
 
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/log_view.h"
@@ -113,6 +114,7 @@ static void banner_clicked(struct messages *messages)
 void messages_init(struct messages *messages, struct core *core)
 {
 	messages->core = core;
+	spoken_text(messages->message_label);
 	core_connect(core, messages->banner_button, "clicked", G_CALLBACK(banner_clicked),
 		     messages, G_CONNECT_SWAPPED);
 	core_connect(core, messages->banner_close, "clicked",
