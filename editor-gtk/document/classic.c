@@ -227,13 +227,13 @@ gboolean classic_is_project(const char *path)
 static void fail(struct ladder *ladder, const char *path, GError **error)
 {
 	const struct diag_list *diags = ladder_diags(ladder);
-	char line[400] = "";
+	char *line = NULL;
 
-	for (int i = 0; i < diags->count && !*line; i++)
+	for (int i = 0; i < diags->count && !line; i++)
 		if (diag_severity(diags->diag[i].id) == SEVERITY_ERROR)
-			diag_print(&diags->diag[i], line, sizeof(line));
-	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_INVAL, "%s",
-		    *line ? line : path);
+			line = diag_said_line(&diags->diag[i]);
+	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_INVAL, "%s", line ? line : path);
+	g_free(line);
 }
 
 char *classic_import(const char *path, gsize *len, struct ladder **from, GError **error)

@@ -256,9 +256,10 @@ const char *symbol_beside(LadderDocument *document, int table, int index)
 
 static bool speaks_of(const struct diag *diag, const struct symbol_row *symbol)
 {
-	const char *pou = diag->pou ? diag->pou : "";
+	const char *pou = diag->pou ? diag->pou : "", *name = symbol->text[FIELD_NAME];
+	const size_t len = (size_t)diag_name_length(diag);
 
-	return diag->rung == 0 && strcmp(diag->arg, symbol->text[FIELD_NAME]) == 0 &&
+	return diag->rung == 0 && strlen(name) == len && strncmp(diag->arg, name, len) == 0 &&
 	       (symbol->member || strcmp(pou, symbol->scope) == 0);
 }
 

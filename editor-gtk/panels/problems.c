@@ -81,7 +81,8 @@ static bool is_of_pou(const struct diag *diag)
 static void find_declaration(struct project *project, const struct diag *diag,
 			     LadderPanelRow *row)
 {
-	const uint32_t id = names_find(&project->names, diag->arg, strlen(diag->arg));
+	const uint32_t id = names_find(&project->names, diag->arg,
+				       (size_t)diag_name_length(diag));
 	const int table = row->pou + 1;
 	const int index = !id || diag->rung ? -1 :
 		vars_find(xref_table(project, table), names_fold(&project->names, id));

@@ -211,14 +211,14 @@ static void variable_changed(LadderTextView *view, int pou)
 /* A name or value is marked to its end, else the rest of the line. */
 static void end_of_word(const struct diag *diag, GtkTextIter *end)
 {
-	const int len = diag->column > 0 && diag->arg[0] ? (int)strlen(diag->arg) : 0;
+	const int len = diag->column > 0 ? diag_name_length(diag) : 0;
 	GtkTextIter to = *end, from = *end;
 	char *text;
 
 	gtk_text_iter_forward_to_line_end(&to);
 	text = gtk_text_iter_get_slice(&from, &to);
 	if (len > 0 && g_ascii_strncasecmp(text, diag->arg, (gsize)len) == 0)
-		gtk_text_iter_forward_chars(end, (int)g_utf8_strlen(diag->arg, -1));
+		gtk_text_iter_forward_chars(end, (int)g_utf8_strlen(diag->arg, len));
 	else if (!gtk_text_iter_ends_line(end))
 		*end = to;
 	g_free(text);

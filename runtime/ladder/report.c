@@ -107,17 +107,28 @@ static void json_number(const char *name, int value, const struct sink *out)
 		sink_printf(out, ", \"%s\": %d", name, value);
 }
 
+/* The whole sentence, and the name in question alone. */
+static void json_texts(const struct diag *diag, const struct sink *out)
+{
+	char text[1024], name[LIMIT_ARG];
+
+	diag_fill(diag_text(diag->id), diag->arg, text, sizeof(text));
+	sink_text(out, ", \"text\": ");
+	sink_json_text(out, text);
+	snprintf(name, sizeof(name), "%.*s", diag_name_length(diag), diag->arg);
+	if (!*name)
+		return;
+	sink_text(out, ", \"arg\": ");
+	sink_json_text(out, name);
+}
+
 static void json_diag(const struct diag *diag, const struct sink *out)
 {
 	bool error = diag_severity(diag->id) == SEVERITY_ERROR;
 
-	sink_printf(out, "{\"code\": \"%s\", \"severity\": \"%s\", \"text\": ",
-		    diag_code(diag->id), error ? "error" : "warning");
-	sink_json_text(out, diag_text(diag->id));
-	if (diag->arg[0]) {
-		sink_text(out, ", \"arg\": ");
-		sink_json_text(out, diag->arg);
-	}
+	sink_printf(out, "{\"code\": \"%s\", \"severity\": \"%s\"", diag_code(diag->id),
+		    error ? "error" : "warning");
+	json_texts(diag, out);
 	if (diag->file) {
 		sink_text(out, ", \"file\": ");
 		sink_json_text(out, diag->file);

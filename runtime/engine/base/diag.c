@@ -99,6 +99,11 @@ bool diag_add(struct diag_list *list, struct diag place, const char *arg, ...)
 	return !error;
 }
 
+int diag_name_length(const struct diag *diag)
+{
+	return (int)strcspn(diag->arg, DIAG_AND);
+}
+
 /* The code of a row; its text is behind it. */
 static const char *row_of(enum diag_id id)
 {
@@ -178,6 +183,7 @@ static bool is_whole(const char *text, const char *arg)
 
 static void put_filled(struct out *to, const char *text, const char *arg)
 {
+	const size_t from = to->len;
 	unsigned int placed = 0;
 	const char *part;
 	int len;
@@ -201,7 +207,7 @@ static void put_filled(struct out *to, const char *text, const char *arg)
 	for (int n = 1; n <= DIAG_PARTS; n++) {
 		part = part_of(arg, n, &len);
 		if (len > 0 && !(placed & 1u << n))
-			put(to, ": %.*s", len, part);
+			put(to, "%s%.*s", to->len > from ? ": " : "", len, part);
 	}
 }
 

@@ -58,6 +58,10 @@ void diag_init(struct diag_list *list);
 bool diag_add(struct diag_list *list, struct diag place, const char *arg, ...)
 	__attribute__((format(printf, 3, 4)));
 
+/** diag_name_length - bytes of the first part of the argument of @diag: mostly the name in
+ * question, as it is written in the program. */
+int diag_name_length(const struct diag *diag);
+
 /** diag_code - "LD203" of an id. Lives for ever. */
 const char *diag_code(enum diag_id id);
 enum diag_severity diag_severity(enum diag_id id);

@@ -43,6 +43,15 @@ static void prints(void)
 	CHECK(list.count == 4 && list.errors == 3);
 }
 
+static void name_alone(void)
+{
+	struct diag diag = { .id = DIAG_UNKNOWN_NAME, .arg = "Haet" DIAG_AND "Heat" };
+
+	CHECK(diag_name_length(&diag) == 4);
+	diag = (struct diag){ .id = DIAG_NEEDS_CONVERSION, .arg = DIAG_AND "INT" DIAG_AND "REAL" };
+	CHECK(diag_name_length(&diag) == 0);
+}
+
 static const char *filled(const char *text, const char *arg)
 {
 	static char out[100];
@@ -54,6 +63,7 @@ static const char *filled(const char *text, const char *arg)
 static void fills_in_parts(void)
 {
 	CHECK_TEXT(filled("plain", ""), "plain");
+	CHECK_TEXT(filled("", "one" DIAG_AND "two"), "one: two");
 	CHECK_TEXT(filled("plain", "one"), "plain: one");
 	CHECK_TEXT(filled("plain", "one" DIAG_AND "two"), "plain: one: two");
 	CHECK_TEXT(filled("%1 at %2", "one" DIAG_AND "two"), "one at two");
@@ -161,6 +171,7 @@ static void codes_are_unique(void)
 int main(void)
 {
 	prints();
+	name_alone();
 	fills_in_parts();
 	cleans_arguments();
 	counts_beyond_its_limit();
