@@ -95,7 +95,7 @@ def beside_a_project(screen):
     again.shot('drafts-scenario')
     assert again.find('new.scn', 'text').text() == SCENARIO + '# mine' and len(again.windows()) == 1
     again.keys('ctrl+s')
-    again.says('somebody else changed it')
+    again.says('was changed by another program')
     assert open(path).read() == '# theirs'
     again.save(path)
     assert open(path).read() == SCENARIO + '# mine'

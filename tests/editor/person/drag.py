@@ -103,7 +103,7 @@ def wires(screen):
     # Up to the wire: a second way round Stop.
     editor.drag(editor.wire_end(wire + 84, 3, -6), editor.wire_end(wire, 3, 5), look='wire-up')
     saved(editor, path, lambda rows: plain(rows[2]).endswith('---^|'))
-    editor.says('short circuit')
+    editor.says('is short-circuited')
     # Ctrl erases: first what leads up, then the rest of it.
     editor.drag(editor.wire_end(wire, 3, 5), editor.wire_end(wire + 84, 3, 5), key='ctrl', look='wire-erase')
     saved(editor, path, lambda rows: not rows[2].endswith('^|'))

@@ -270,7 +270,7 @@ def written_over(screen):
     editor, path = scenario(screen)
     write(path, SCENARIO + '# theirs\n')
     editor.keys('ctrl+s')
-    editor.says('somebody else changed it')
+    editor.says('was changed by another program')
     editor.shot('files-somebody-else')
     assert read(path) == SCENARIO + '# theirs\n'
     editor.save(path)
