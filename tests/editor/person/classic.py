@@ -80,7 +80,7 @@ def keyboard(screen):
     editor.find('This rung does not come from ClassicLadder')
     editor.keys('Escape', 'ctrl+z', 'ctrl+Home')
     editor.find('Original of the rung: Estop chain')
-    editor.command('report of import')
+    editor.command('import or export report')
     editor.focus_on('Left out: element 103', 'table row')
     editor.keys('Return')
     editor.to_sheet()

@@ -194,7 +194,7 @@ def from_text(screen):
     assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
     saved = open(path).read()
     for text, why in ('this is no rung', 'The clipboard, line 1: there is no such word: this'), \
-            ('RUNG\n  | NO Start | COIL Motor |\nRUNG\n  | BADWORD Start |\n', 'line 4: unknown word: BADWORD'), \
+            ('RUNG\n  | NO Start | COIL Motor |\nRUNG\n  | BADWORD Start |\n', 'line 4: "BADWORD" is not a known word'), \
             ('RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO Start\nEND_PROGRAM\n', 'The clipboard, line 4: '):
         editor.put_clipboard(text)
         editor.keys('ctrl+v')
