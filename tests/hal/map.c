@@ -180,7 +180,7 @@ static void test_limit(void)
 	bench_begin(&b);
 	snprintf(text + len, size - len, "%%QX0.0 sim\n");
 	CHECK(!iomap_read(&b.map, &b.arena, "test.io", text, strlen(text),
-			  &b.diags) && b.diags.diag[0].id == DIAG_TOO_MANY);
+			  &b.diags) && b.diags.diag[0].id == DIAG_IO_TOO_MANY);
 	bench_end(&b);
 	free(text);
 }
@@ -206,8 +206,9 @@ static void test_fits(void)
 	output(&b, 512 * 8, true);
 	CHECK(scan(&b, 0));
 	bench_end(&b);
-	CHECK(refused(&b, "%IX8191.7 sim\n%IX8191.7 sim", "%IX8191.7"));
-	CHECK(refused(&b, "%IX8192.0 sim", "%IX8192.0"));
+	CHECK(refused(&b, "%IX8191.7 sim\n%IX8191.7 sim",
+		      "\"%IX8191.7\" is in the map twice"));
+	CHECK(refused_like(&b, "%IX8192.0 sim", "LD502: \"%IX8192.0\" "));
 }
 
 static char traced[200];

@@ -69,7 +69,7 @@ static void test_times(void)
 	/* `for 20ms` from 1 s looks at 1 s and 1.01 s, not at 1.02 s. */
 	CHECK_TEXT(run(S "at 1s Open=1\nfor 20ms expect Level < 15\n"), "held");
 	CHECK(strstr(run(S "at 1s Open=1\nfor 21ms expect Level < 15\n"),
-		     "at 1020 ms: not so:"));
+		     "at 1020 ms: not true:"));
 	CHECK_TEXT(run(S "at 1s for 0 expect Level = 0\n"), "held");
 	/* What is still open is not forgotten behind what is judged. */
 	CHECK(strstr(run(S "at 10ms within 50ms expect Lamp\n"
@@ -99,7 +99,7 @@ static void test_report(void)
 	CHECK(strstr(run(S "expect 1 / Level = 1\n"), "cannot be computed"));
 	CHECK(failed.failure == FAILURE_UNKNOWN && failed.failed_ns == 10000000);
 	CHECK(strstr(run(S "at 0 Level = 30000\nat 20ms Level = Level * 2\n"
-			 "expect TRUE\n"), "value out of range: "));
+			 "expect TRUE\n"), "value is out of range: "));
 	CHECK(failed.failure == FAILURE_RANGE && failed.failed_line == 3);
 	CHECK(strstr(run(S "Heat = 200.0\nexpect TRUE\n"), "# s.scn:1: at 10 "
 		     "ms: the program stopped with a fault: "));

@@ -158,7 +158,7 @@ static void texts(void)
 		   "# s.scn:4: at 20 ms: not true: expect not Go\n"
 		   "#   1 t=10 Go=1\n#   2 t=20 Go=1\n");
 	CHECK_AS(strstr(judge(S "at 0 Copy = 'longer than six'\nat 20ms Name = Copy\n"
-				"expect Go = 0\n"), "value out of range") != NULL,
+				"expect Go = 0\n"), "value is out of range") != NULL,
 		 "no text longer than its variable is set");
 }
 
@@ -180,7 +180,7 @@ static void times(void)
 	CHECK_TEXT(judge(S "expect 2 * Delay = 20s\n"), "LD303:2:8");
 	CHECK_TEXT(judge(S "at 0 Clock = 1h\nexpect Go\n"), "LD303:2:6");
 	CHECK_AS(strstr(judge(S "at 0 Clock = Clock + 20h\nexpect not Go\n"),
-			"value out of range") != NULL, "a day has 24 hours");
+			"value is out of range") != NULL, "a day has 24 hours");
 }
 
 static void numbers(void)
