@@ -12,6 +12,7 @@
 #   expected.ladder what `ladder export --as ld` prints, and what is said of it
 #   expected.classic what `ladder export --as classicladder` prints, and what is said of it;
 #                   expected.numeric: --as numeric
+#   expected.test   what `ladder test main.scn` says on standard error
 #   expected.fault  the same of a program that ends with a fault, and what is said of it
 # The cases together must show every message of diag.def and trace every word of
 # catalog.def. `--bless CASE` rewrites what a case expects and shows the difference:
@@ -29,6 +30,7 @@ my $ladder = abs_path($ENV{LADDER} || "$tests/../build/ladder");
 
 my %command = (
 	diag  => ['check', 'main.rung'],
+	test  => ['test', 'main.scn'],
 	il    => ['il', 'main.rung'],
 	trace => ['trace', 'main.rung', 'stimulus'],
 	fault => ['trace', 'main.rung', 'stimulus'],
@@ -85,8 +87,8 @@ sub produce {
 	my ($dir, $kind) = @_;
 	return produce_why($dir) if $kind eq 'why';
 	my ($out, $err, $status) = run_case($dir, @{$command{$kind}});
-	my $text = $kind eq 'diag' ? $err : $kind =~ /fault|ladder|classic|numeric/ ? "$out$err" : $out;
-	my $wanted = $kind eq 'fault' || ($kind =~ /diag|ladder|classic|numeric/ && $err =~ /: error LD/) ? 1 : 0;
+	my $text = $kind =~ /^(?:diag|test)$/ ? $err : $kind =~ /fault|ladder|classic|numeric/ ? "$out$err" : $out;
+	my $wanted = $kind eq 'fault' || ($kind =~ /diag|test|ladder|classic|numeric/ && $err =~ /: error LD/) ? 1 : 0;
 	return ($text, $status == $wanted, $status);
 }
 
@@ -164,12 +166,13 @@ sub missing_words {
 
 # Not to be shown by a small rung file: of the system (LD0), of names in scripts
 # (LD327), of ladderd alone (LD316: tests/hal/retain.t), of I/O maps (LD5), of code images (LD61),
-# of scenarios (LD131 …: tests/unit/trial/test_scenario.c), of programs of many megabytes.
-my $elsewhere = qr/^LD(?:0|129|13[1-79]|316|327|5|61|606|607|608|718)/;
+# of files of many megabytes (LD129: tests/unit/text/test_read_errors.c, LD718: tests/unit/
+# exchange/classic/test_classic_read.c), of a plant nobody gave (LD135: tests/unit/trial/test_scenario.c).
+my $elsewhere = qr/^LD(?:0|129|135|316|327|5|61|606|607|718)/;
 
 sub missing_codes {
-	my $shown = join '', map { slurp("$_/expected.diag") // slurp("$_/expected.ladder") //
-		slurp("$_/expected.classic") // slurp("$_/expected.numeric") // '' } cases();
+	my $shown = join '', map { my $dir = $_; map { slurp("$dir/expected.$_") // '' }
+		qw(diag test ladder classic numeric) } cases();
 	my @codes = slurp("$engine/diag.def") =~ /^DIAG\(\w+,\s*"(LD\d+)"/mg;
 	return grep { !/$elsewhere/ && $shown !~ / $_: / } @codes;
 }

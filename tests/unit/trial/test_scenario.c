@@ -159,6 +159,8 @@ static void test_wrong(void)
 	CHECK_TEXT(run(S "within expect Motor\n"), "LD107:2:8");
 	CHECK_TEXT(run(S "period 0ms\nexpect TRUE\n"), "LD116:2:11");
 	CHECK_TEXT(run(S "period 1s\nperiod 1s\nexpect TRUE\n"), "LD132:3:8");
+	CHECK_TEXT(run(S "plant \"world.rung\"\nexpect TRUE\n"), "LD135:2:7");
+	CHECK_TEXT(run(S "expect MAX(Level, 1) = 1\n"), "LD139:2:8");
 	CHECK_TEXT(run(S "period 1ns\nat 1h expect Motor\n"), "LD137:3:0");
 	CHECK_TEXT(run(S "at 9999999999999999999s expect Motor\n"),
 		   "LD116:2:4");

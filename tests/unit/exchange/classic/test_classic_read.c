@@ -295,6 +295,21 @@ static void test_messages(void)
 	CHECK_TEXT(told(BOX(MEMBER("rung_10000.csv", ""))), "LD707 3: rung_10000.csv: 10000");
 }
 
+static void test_too_many_parts(void)
+{
+	char *text = malloc(1 << 20);
+	size_t len = 0;
+
+	if (!CHECK(text))
+		return;
+	len += (size_t)sprintf(text, "_FILES_CLASSICLADDER\n");
+	for (int i = 0; i <= 2 * CLASSIC_LIMIT; i++)
+		len += (size_t)sprintf(text + len, "_FILE-x%d.txt\n_/FILE-x%d.txt\n", i, i);
+	sprintf(text + len, "_/FILES_CLASSICLADDER\n");
+	CHECK_TEXT(told(text), "LD718 40002: x20000.txt");
+	free(text);
+}
+
 static void test_cells(void)
 {
 	CHECK_TEXT(told(BOX(MEMBER("rung_0.csv", "9-0-0/0 , 3-0-0-19\n"))),
@@ -568,6 +583,7 @@ int main(void)
 	test_dialects();
 	test_texts();
 	test_messages();
+	test_too_many_parts();
 	test_cells();
 	test_whole();
 	test_long();
