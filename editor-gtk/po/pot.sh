@@ -42,7 +42,7 @@ sed -n 's/^#define [A-Z_]* *\(".*"\)$/N_(\1)/p' runtime/engine/model/convert.c \
 mkdir "$work/runtime/engine/text" # the family of a project's own blocks
 sed -n 's/.*\.family = \("[A-Za-z]*"\).*/N_(\1)/p' runtime/engine/text/read_words.c \
 	>"$work/runtime/engine/text/read_words.c"
-sed -n 's/^\t*\("[a-z ]*"\));$/N_(\1)/p' runtime/engine/text/read_array.c \
+sed -n 's/^\t*\(.*? \)\?\("[a-z ]*"\|") or \]"\)\();\| :\)$/N_(\2)/p' runtime/engine/text/read_array.c \
 	>"$work/runtime/engine/text/read_array.c" # of an expression, which xgettext misses
 mkdir "$work/runtime/engine/trial"
 sed -n 's/^WHY(\w*, *\("[^"]*"\), *\("[^"]*"\))$/N_(\1) N_(\2)/p' runtime/engine/trial/why.def |
@@ -61,7 +61,7 @@ sed -n 's/^\t*\[FAULT_[A-Z]*\] = \(".*"\),$/N_(\1)/p' runtime/engine/scan/vm.c \
 $take -L C -k -kreader_fail_word:3 -kfail_word:3 -kfail_expected:2 -kreader_name:2 \
 	-kil_need_bool:4 -kreport:4 -kreport_line:5 -o - \
 	runtime/engine/text/*.c runtime/engine/model/*.c runtime/engine/check/*.c 2>/dev/null |
-	msggrep --msgid -e '[a-z][a-z][a-z]' -o "$work/args.pot" -
+	msggrep --msgid -e '[a-z][a-z][a-z]' -e ' or ' -o "$work/args.pot" -
 
 # The date would differ each time, and nothing reads it.
 xgettext --from-code=UTF-8 --add-location=file --package-name=Rungboard -L PO -o - \

@@ -297,15 +297,17 @@ static void test_messages(void)
 
 static void test_too_many_parts(void)
 {
-	char *text = malloc(1 << 20);
+	const size_t size = 1 << 20;
+	char *text = malloc(size);
 	size_t len = 0;
 
 	if (!CHECK(text))
 		return;
-	len += (size_t)sprintf(text, "_FILES_CLASSICLADDER\n");
+	len += (size_t)snprintf(text, size, "_FILES_CLASSICLADDER\n");
 	for (int i = 0; i <= 2 * CLASSIC_LIMIT; i++)
-		len += (size_t)sprintf(text + len, "_FILE-x%d.txt\n_/FILE-x%d.txt\n", i, i);
-	sprintf(text + len, "_/FILES_CLASSICLADDER\n");
+		len += (size_t)snprintf(text + len, size - len, "_FILE-x%d.txt\n_/FILE-x%d.txt\n",
+					i, i);
+	snprintf(text + len, size - len, "_/FILES_CLASSICLADDER\n");
 	CHECK_TEXT(told(text), "LD718 40002: x20000.txt");
 	free(text);
 }
