@@ -73,8 +73,8 @@ $(BUILD)/%.o: %.c Makefile
 
 # Tests stand in folders like those of what they test: tests/unit/scan/test_fb.c. A new one is found by its name.
 UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/*/test_*.c tests/unit/*/*/test_*.c))
-# The tests of a folder are one program; tests/room.c tells how. Compiling a test takes longer than running it: -O0.
-TEST_C    = $(if $(filter -O2,$(CFLAGS)),-O0 -U_FORTIFY_SOURCE)
+# The tests of a folder are one program; tests/room.c tells how. Compiling a test takes longer than running it: -O0, but not in an emulator.
+TEST_C    = $(if $(CROSS),,$(if $(filter -O2,$(CFLAGS)),-O0 -U_FORTIFY_SOURCE))
 ROOM_TEST = $(TEST_C) -Dmain=main_$(notdir $*) -Wno-missing-prototypes
 ROOM_C    = $(STD) $(CPPFLAGS) $(WARN) $(CFLAGS) -DTESTS='$(patsubst %,TEST(%),$(filter test_%,$(basename $(notdir $(filter %.o,$^)))))'
 folders   = $(sort $(patsubst %/,%,$(dir $(1))))
