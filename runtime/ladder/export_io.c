@@ -60,20 +60,20 @@ static void note_debounce(struct leaving_map *m, const struct io_point *point)
 	if (!m->lines->sample_ms && sample)
 		m->lines->sample_ms = sample;
 	if (ms != SAMPLES * (m->lines->sample_ms ? m->lines->sample_ms : 10))
-		tell(m, point, "must be steady for %d ms there, as all inputs",
+		tell(m, point, "must be steady for %d ms in ClassicLadder, as all inputs",
 		     SAMPLES * (m->lines->sample_ms ? m->lines->sample_ms : 10));
 }
 
 static void tell_rest(struct leaving_map *m, const struct io_point *point)
 {
 	if (!point->output && point->bias != BIAS_UP)
-		tell(m, point, "has a pull-up there");
+		tell(m, point, "has a pull-up in ClassicLadder");
 	if (point->output && point->bias != BIAS_AS_IS)
-		tell(m, point, "an output has no pull there");
+		tell(m, point, "an output has no pull in ClassicLadder");
 	if (point->output && point->drive != DRIVE_AS_IS && point->drive != DRIVE_PUSH_PULL)
-		tell(m, point, "is driven to both levels there");
+		tell(m, point, "is driven to both levels in ClassicLadder");
 	if (point->safe)
-		tell(m, point, "has no safe value there: it stays as it is");
+		tell(m, point, "has no safe value in ClassicLadder: it stays as it is");
 }
 
 static bool goes_on(const struct classic_io *last, const struct io_point *point, int bit,
@@ -90,7 +90,7 @@ static void add_point(struct leaving_map *m, const struct io_point *point)
 	struct classic_io *last = lines->count ? &m->io[lines->count - 1] : NULL;
 
 	if (point->driver != DRIVER_gpio || pin < 0) {
-		tell(m, point, "is no pin of a Raspberry Pi (line=GPIO17): it stays here");
+		tell(m, point, "is no pin of a Raspberry Pi (line=GPIO17) and is not exported");
 		return;
 	}
 	tell_rest(m, point);

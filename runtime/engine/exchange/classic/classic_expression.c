@@ -591,7 +591,7 @@ const char *comparison_of(struct conversion *c, const char *text)
 		return not_understood(&p);
 	if (*p.at)
 		tell(c, REPORT_CHANGED, "what stands behind the first comparison of \"%.40s\" "
-		     "does not count, here as there", text);
+		     "does not count, as in ClassicLadder", text);
 	return if_fits(&p, text_of(c, "%s %s %s", inside(&p, left, RANK_SUM), op,
 				   inside(&p, right, RANK_SUM)));
 }
@@ -604,7 +604,7 @@ static const char *stored(struct parse *p, const char *target, bool is_bool)
 		return not_understood(p);
 	if (*p->at)
 		tell(p->c, REPORT_CHANGED, "\"%.20s\" at the end of an expression does not "
-		     "count, here as there", p->at);
+		     "count, as in ClassicLadder", p->at);
 	if (is_bool)
 		return if_fits(p, text_of(p->c, "%s := %s <> 0", target,
 					  inside(p, value, RANK_SUM)));

@@ -111,7 +111,7 @@ static const char *jump_text(struct grid *grid, int number)
 	if (label)
 		return text_of(c, "JMP %s", label);
 	tell(c, REPORT_CHANGED, "a jump to rung %d, which this section has not, ends it, "
-	     "here as there", number);
+	     "as in ClassicLadder", number);
 	return "RET";
 }
 
@@ -123,8 +123,8 @@ static const char *call_text(struct grid *grid, int number)
 		if (c->project->section[i].subroutine == number &&
 		    !c->project->section[i].sequential)
 			return text_of(c, "CALL %s", c->pou[i]);
-	tell(c, REPORT_CHANGED, "a call of subroutine %d, which is not there, does "
-	     "nothing, here as there", number);
+	tell(c, REPORT_CHANGED, "a call of subroutine %d, which does not exist, does "
+	     "nothing, as in ClassicLadder", number);
 	return NULL;
 }
 

@@ -412,8 +412,8 @@ void leave_sfc(struct leaving *e, const struct pou *pou, int page)
 	const char *name = project_text(e->project, pou->name);
 
 	if (sfc->evolution == EVOLVE_UNTIL_STABLE)
-		tell_change(e, "a chart UNTIL STABLE goes on transition by transition there, "
-			    "as one IN ORDER does");
+		tell_change(e, "in ClassicLadder, a chart UNTIL STABLE goes on transition by "
+			    "transition, as one IN ORDER does");
 	section_begin(e, out_text(e, "%.*s_If", classic_cut(name, 16), name), -1, false);
 	for (int i = 0; i < sfc->transition_count && e->good; i++)
 		transition(e, &sfc->transition[i], page);

@@ -42,7 +42,7 @@ static void told_variable(struct leaving *e, const struct var *var, uint16_t fla
 	if (!slot || !is_expressed(slot))
 		tell_line(e, var->line, "%s is not exported: nothing needs it", name);
 	else if (slot->block < 0 && is_narrow(var->type))
-		tell_line(e, var->line, "%s has 32 bits there, more than %s has", name,
+		tell_line(e, var->line, "%s has 32 bits in ClassicLadder, more than %s has", name,
 			  iec_type_row(var->type)->word);
 	if (slot && slot->type >= 0 && slot->block < 0 && var->array.count)
 		tell_line(e, var->line, "%s: ClassicLadder has no names for arrays", name);
@@ -139,7 +139,8 @@ static void told_entry(struct leaving *e, const struct config_entry *entry)
 		tell_line(e, entry->line, "%s: ClassicLadder does not monitor the length of a scan",
 			  name);
 	if (entry->kind == CONFIG_TASK && entry->interval_ns % 1000000)
-		tell_line(e, entry->line, "%s: ClassicLadder needs whole milliseconds; a scan has %d ms there", name,
+		tell_line(e, entry->line, "%s: ClassicLadder needs whole milliseconds; it "
+			  "uses %d ms", name,
 			  e->out->period);
 	if (entry->kind == CONFIG_AREA)
 		tell_line(e, entry->line, "AREA: ClassicLadder has its own area sizes");
@@ -216,29 +217,31 @@ static void told_faults(struct leaving *e)
 
 	for (int i = 0; i < mono->count; i++)
 		if (mono->block[i].preset * base_ms[mono->block[i].base] % period)
-			tell_line(e, 0, "monostable %%M%d works once there: its time is no "
-				  "multiple of %d ms", mono->block[i].number, period);
+			tell_line(e, 0, "monostable %%M%d works only once in ClassicLadder: its "
+				  "time is no multiple of %d ms", mono->block[i].number, period);
 	for (int i = 0; i < iec->count; i++)
 		if (base_ms[iec->block[i].base] < period)
-			tell_line(e, 0, "timer %%TM%d is slow there: it counts one unit a "
-				  "scan", iec->block[i].number);
+			tell_line(e, 0, "timer %%TM%d is slow in ClassicLadder: it counts one "
+				  "unit a scan", iec->block[i].number);
 	if (iec->count)
-		tell_line(e, 0, "timers (%%TM) that are cut short keep there what they had of "
-			  "a unit");
+		tell_line(e, 0, "in ClassicLadder, timers (%%TM) that are cut short keep the "
+			  "part of a unit they had");
 	if (e->out->reg.count)
-		tell_line(e, 0, "registers (%%R) use there a place behind their last one");
+		tell_line(e, 0, "in ClassicLadder, registers (%%R) use one more place than they "
+			  "have");
 	if (e->divides)
 		tell_line(e, 0, e->dialect == CLASSIC_LINUXCNC ?
 			  "a division by 0 ends LinuxCNC's real-time part" :
-			  "a division by 0 gives 0 there, and the rung goes on");
+			  "a division by 0 gives 0 in ClassicLadder, and the rung goes on");
 	if (e->sums)
-		tell_line(e, 0, "arithmetic wraps there where it is an error here");
+		tell_line(e, 0, "arithmetic that overflows wraps in ClassicLadder; here it is an "
+			  "error");
 	if (e->indexes)
 		tell_line(e, 0, "an index outside its array reads and writes other "
-			  "variables there");
+			  "variables in ClassicLadder");
 	if (e->clocks)
-		tell_line(e, 0, "SYS_CLOCK_1S and SYS_CLOCK_1MIN begin there with the "
-			  "machine's second and minute");
+		tell_line(e, 0, "in ClassicLadder, SYS_CLOCK_1S and SYS_CLOCK_1MIN begin with "
+			  "the machine's second and minute");
 }
 
 void leave_told(struct leaving *e)
