@@ -18,7 +18,7 @@ def door(screen):
     shutil.copytree(os.path.join(desk.ROOT, 'ladders'), os.path.join(screen.home, 'ladders'))
     editor = desk.Editor(screen, os.path.join(screen.home, 'ladders', 'garage-door.rung'))
     desk.until(lambda: editor.all('no problems', 'label'), 'the check')
-    editor.press(editor.find('Timing chart'))
+    editor.find('Timing chart').press()
     editor.to_sheet()
     editor.keys('ctrl+r')
     for name in 'StopOk', 'BeamOk', 'MotorOk', 'ButtonUp':
