@@ -215,7 +215,7 @@ sub test_numbers {
 	}
 	project(rung => [[row('1-0-0/1', '50-0-50/3')], [row('1-0-70/300', '50-0-60/1')]]);
 	my (undef, $report) = fine('what cannot be');
-	like($report, qr/:14: lost: rung_0\.csv: .*%IX0\.3 is written, which a program cannot/, 'told with its place');
+	like($report, qr/:14: lost: rung_0\.csv: .*%IX0\.3 cannot be written by a program/, 'told with its place');
 	like($report, qr/lost: rung_1\.csv: .*type 70, number 300/, 'a system bit that does not exist');
 	# Each line names the rung here that it speaks of; of one that became none, none.
 	my @good = [row('1-0-50/0', '50-0-60/0')];
