@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_long_problem - a problem that is longer than its column shows what it speaks of,
- * which stands at its end.
+ * test_long_problem - a problem that is longer than its column shows what it speaks of, at
+ * its begin, and its end.
  */
 #include "editor-gtk/panels/problems.h"
 #include "tests/editor/screen.h"
@@ -57,7 +57,7 @@ int main(void)
 	ladder_problems_set_document(LADDER_PROBLEMS(problems), document);
 	gtk_window_set_child(GTK_WINDOW(window), problems);
 	screen_show(window);
-	WAIT((label = label_of(problems, ": Lamp")) != NULL);
+	WAIT((label = label_of(problems, "the last one wins")) != NULL);
 	CHECK(label);
 	if (label) {
 		CHECK_SOON(pango_layout_is_ellipsized(gtk_label_get_layout(label)));
