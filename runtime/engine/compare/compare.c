@@ -36,7 +36,7 @@ struct diff {
 	struct arena arena;        /* scratch                                 */
 	struct names names;        /* strings of both projects, by one id     */
 	struct sink_memory bytes;  /* scratch: a rung or line made comparable */
-	char from[1024], to[1024]; /* scratch: texts of two cells or lines    */
+	char from[1024], to[1024]; /* scratch: texts of two cells, lines, types */
 	char subject[2 * LIMIT_NAME], pin[LIMIT_NAME + 1]; /* scratch: names  */
 	/* Takes the rungs instead of words; NULL: words. */
 	void (*take)(void *context, struct compare_pair pair);
@@ -282,12 +282,10 @@ static void compare_var(struct diff *diff, struct difference what,
 			const struct var_table *b, int j)
 {
 	const struct var *x = &a->var[i], *y = &b->var[j];
-	char old[TYPE_TEXT], new[TYPE_TEXT];
-
 	diff_texts(diff, what, "name", project_text(diff->a, x->name),
 		   project_text(diff->b, y->name));
-	diff_texts(diff, what, "type", type_text(diff->a, x, old),
-		   type_text(diff->b, y, new));
+	diff_texts(diff, what, "type", type_text(diff->a, x, diff->from),
+		   type_text(diff->b, y, diff->to));
 	diff_texts(diff, what, "address", project_text(diff->a, x->at_text),
 		   project_text(diff->b, y->at_text));
 	diff_texts(diff, what, "initial value", init_text(diff->a, x),

@@ -34,7 +34,7 @@ static const char *show(const char *pous, int pou, int rung, bool ascii,
 
 static const char *rung(const char *rows)
 {
-	static char pou[50000];
+	static char pou[70000];
 
 	snprintf(pou, sizeof(pou), "PROGRAM Main LD\n%sEND_PROGRAM\n", rows);
 	return show(pou, 0, 1, false, 0);
