@@ -419,7 +419,7 @@ static void test_bad_plant(void)
 		"END_PROGRAM\n", -1, NULL));
 	CHECK(!ladder_sim_set_plant(sim, path, &error));
 	CHECK(error && g_str_has_prefix(error->message, path) &&
-	      strstr(error->message, "Nobody: World, rung 2 (1,1)"));
+	      strstr(error->message, "\"Nobody\" is not declared: World, rung 2 (1,1)"));
 	g_clear_error(&error);
 	CHECK(g_unlink(path) == 0 && g_rmdir(folder) == 0);
 	g_free(path);
