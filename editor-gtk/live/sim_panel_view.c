@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_panel_view - the widget of a line: what it shows, what a click does, and the entry in
- * which a person types a value.
+ * sim_panel_view - the widget of a line; see sim_panel_view.h.
  */
 #include "editor-gtk/live/sim_panel_view.h"
 

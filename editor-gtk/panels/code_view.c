@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * code_view - the instruction list that the sheet in front becomes. To be read only.
- *
- * It is made when somebody looks at it: that of a large program takes long, and a text
- * widget holds it in many times its size.
+ * code_view - the instruction list of the sheet in front; see code_view.h.
  */
 #include "editor-gtk/panels/code_view.h"
 
@@ -18,7 +15,7 @@ struct code_view {
 	GtkTextBuffer *buffer;
 	GtkWidget *text;
 	int pou;
-	bool stale;         /* there is another list than what is shown        */
+	bool stale;         /* the list changed since it was shown             */
 };
 
 static void code_view_free(gpointer pointer)

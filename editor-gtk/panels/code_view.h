@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * code_view - the instruction list that the sheet in front becomes. It cannot be edited.
+ * code_view - the instruction list of the sheet in front, read-only.
  *
- * The list is made when somebody looks at it: that of a large program takes long, and a text
- * widget holds it in many times its size.
+ * The list is made when the panel is shown: for a large program that takes long, and a text
+ * widget needs many times its size.
  */
 #ifndef EDITOR_CODE_VIEW_H
 #define EDITOR_CODE_VIEW_H
@@ -12,7 +12,7 @@
 
 #include <gtk/gtk.h>
 
-/** ladder_code_view_new - of the first program. */
+/** ladder_code_view_new - shows the first program. */
 GtkWidget *ladder_code_view_new(LadderDocument *document);
 void ladder_code_view_set_pou(GtkWidget *view, int pou);
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * find_bar - the bar that finds and replaces. What a hit is and how it is replaced is
- * find.c's.
+ * find_bar - the bar that finds and replaces; see find_bar.h.
  */
 #include "editor-gtk/panels/find_bar.h"
 
@@ -19,15 +18,15 @@ struct _LadderFindBar {
 	GtkWidget *message;
 	struct panel_watch *watch;
 	struct find *find;
-	int current;            /* number of a hit; -1: none                   */
-	int place[4];           /* of the cursor: POU, rung, row, column       */
+	int current;            /* index of the current hit; -1: none          */
+	int place[4];           /* cursor: POU, rung, row, column              */
 };
 
 G_DEFINE_FINAL_TYPE(LadderFindBar, ladder_find_bar, GTK_TYPE_WIDGET)
 
 static guint signals[SIGNALS];
 
-/* As the drop-down has them. */
+/* In the order of the drop-down. */
 static const unsigned int places[] = {
 	FIND_EVERYWHERE, FIND_OPERANDS, FIND_COMMENTS | FIND_TITLES, FIND_LABELS,
 	FIND_LISTS, FIND_DECLARATIONS,
@@ -99,7 +98,7 @@ static void look(GtkWidget *widget)
 	search(bar, ladder_find_bar_is_open(bar));
 }
 
-/* What has the keys in the bar; NULL: they are elsewhere. */
+/* The widget in the bar that has the focus; NULL: none. */
 static GtkWidget *keys_inside(LadderFindBar *bar)
 {
 	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(bar));
@@ -108,7 +107,8 @@ static GtkWidget *keys_inside(LadderFindBar *bar)
 	return focus && gtk_widget_is_ancestor(focus, GTK_WIDGET(bar)) ? focus : NULL;
 }
 
-/* Another Return is the next hit, not a key of the sheet: nothing is overwritten there. */
+/* Keeps the focus in the bar: another Return goes to the next hit, and must not edit the
+ * sheet. */
 static void keep_keys(GtkWidget *inside)
 {
 	if (GTK_IS_TEXT(inside))
@@ -132,7 +132,7 @@ static void go(LadderFindBar *bar, int number)
 		gtk_widget_activate_action(GTK_WIDGET(bar), "win.go-to", "(iiii)", hit->pou,
 					   hit->rung, hit->row, hit->col);
 	keep_keys(inside);
-	g_signal_emit(bar, signals[HITS_CHANGED], 0); /* another is marked */
+	g_signal_emit(bar, signals[HITS_CHANGED], 0); /* another hit is current */
 }
 
 bool ladder_find_bar_next(LadderFindBar *bar, bool back)
@@ -140,7 +140,7 @@ bool ladder_find_bar_next(LadderFindBar *bar, bool back)
 	int count, number;
 
 	if (!ladder_find_bar_is_open(bar))
-		search(bar, true); /* what was looked for last */
+		search(bar, true); /* the text of the last search */
 	count = bar->find ? (int)bar->find->hit->len : 0;
 	if (!count)
 		return false;
@@ -181,7 +181,7 @@ void ladder_find_bar_set_place(LadderFindBar *bar, int pou, int rung, int row, i
 		bar->find->hit->pdata[bar->current] : NULL;
 
 	memcpy(bar->place, place, sizeof(place));
-	/* Who moved the cursor goes on from there. */
+	/* After a cursor move, the search continues from there. */
 	if (hit && (hit->pou != pou || hit->rung != rung || hit->row != row ||
 		    hit->col != col))
 		bar->current = -1;
@@ -195,7 +195,7 @@ static void next(GtkWidget *widget, const char *action, GVariant *unused)
 	ladder_find_bar_next(LADDER_FIND_BAR(widget), strcmp(action, "find.previous") == 0);
 }
 
-/* Is there a text to be replaced where we stand? */
+/* Has the current hit text that can be replaced? */
 static bool is_on_text(LadderFindBar *bar)
 {
 	const struct find_hit *hit = bar->current < 0 ? NULL :
@@ -204,7 +204,7 @@ static bool is_on_text(LadderFindBar *bar)
 	return hit && !hit->by_symbol;
 }
 
-/* The hit we stand on; else the next one is only shown. */
+/* Replaces the current hit; without one, only goes to the next. */
 static void replace(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderFindBar *bar = LADDER_FIND_BAR(widget);
@@ -220,7 +220,7 @@ static void replace(GtkWidget *widget, const char *action, GVariant *unused)
 	}
 	if (!find_replace(panel_watch_document(bar->watch), bar->find, number,
 			  gtk_editable_get_text(GTK_EDITABLE(bar->with)), &why)) {
-		panel_watch_now(bar->watch); /* it was tried: the hits are told before why */
+		panel_watch_now(bar->watch); /* updates the count before the reason of a refusal is shown */
 		set_message(bar, why ? why : _("Refused"), true);
 		g_free(why);
 		return;
@@ -243,7 +243,7 @@ static void replace_all(GtkWidget *widget, const char *action, GVariant *unused)
 		return;
 	count = find_replace_all(panel_watch_document(bar->watch), bar->find,
 				 gtk_editable_get_text(GTK_EDITABLE(bar->with)), &why);
-	panel_watch_now(bar->watch); /* refused or not: it was tried */
+	panel_watch_now(bar->watch); /* also after a refusal: some may be replaced */
 	text = count < 0 ? g_strdup(why ? why : _("Refused")) :
 	       g_strdup_printf(ngettext("%d replaced", "%d replaced", (gulong)count), count);
 	set_message(bar, text, count < 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * import_dialog - shows what the import of a table of symbols would do.
+ * import_dialog - shows what an import of symbols would change; see import_dialog.h.
  */
 #include "editor-gtk/panels/import_dialog.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * import_dialog - shows what the import of a table of symbols would do, line by line, and
- * does it or not.
+ * import_dialog - lists what an import of symbols would change, and does it after a click.
  */
 #ifndef EDITOR_IMPORT_DIALOG_H
 #define EDITOR_IMPORT_DIALOG_H
@@ -13,8 +12,8 @@
 #define LADDER_TYPE_IMPORT_DIALOG (ladder_import_dialog_get_type())
 G_DECLARE_FINAL_TYPE(LadderImportDialog, ladder_import_dialog, LADDER, IMPORT_DIALOG, GtkWindow)
 
-/** ladder_import_dialog_new - @plan: taken over; @from: where the table came from.
- * Actions: import.apply (which closes it), import.cancel; Escape cancels. */
+/** ladder_import_dialog_new - @plan: taken over; @from: file name, for the title. Actions:
+ * import.apply (also closes it), import.cancel; Escape cancels. */
 GtkWidget *ladder_import_dialog_new(struct csv_plan *plan, const char *from);
 
 #endif

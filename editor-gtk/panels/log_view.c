@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * log_view - what happened to a document, with the time of day.
- *
- * Messages of system, compile, operator, simulation and communication (with what runs on
- * this machine) in one list; it keeps the last thousand.
+ * log_view - the log of a document; see log_view.h.
  */
 #include "editor-gtk/panels/log_view.h"
 
@@ -15,9 +12,9 @@
 struct log {
 	LadderDocument *document;
 	GtkTextView *text;
-	int errors, warnings; /* in the last line; -1: none yet                */
+	int errors, warnings; /* numbers in the last line; -1: no line yet     */
 	bool saved;
-	char *undo;           /* name of the step in the last line             */
+	char *undo;           /* undo step in the last line                    */
 };
 
 static void log_free(gpointer pointer)
@@ -30,7 +27,7 @@ static void log_free(gpointer pointer)
 	g_free(log);
 }
 
-/* Columns by pixels: how wide a letter is differs. */
+/* In pixels, because widths of letters differ. */
 static void set_tabs(GtkTextView *text)
 {
 	PangoTabArray *tabs = pango_tab_array_new_with_positions(2, TRUE,

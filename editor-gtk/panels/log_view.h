@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * log_view - what happened to a document, with the time of day.
+ * log_view - the log of a document: messages with the time of day.
  *
- * Messages of system, compile, operator, simulation and communication (with what runs on
- * this machine) in one list; it keeps the last thousand.
+ * Kinds are system, compile, operator, simulation, and communication with the program on
+ * this machine. The last 1,000 messages are kept.
  */
 #ifndef EDITOR_LOG_VIEW_H
 #define EDITOR_LOG_VIEW_H
@@ -13,7 +13,7 @@
 #include <gtk/gtk.h>
 
 GtkWidget *ladder_log_view_new(LadderDocument *document);
-/** ladder_log_view_put - a line with the time. @kind: "system", "operator" …, translated. */
+/** ladder_log_view_put - adds a message. @kind: "system", "operator" …, translated. */
 void ladder_log_view_put(GtkWidget *view, const char *kind, const char *what);
 
 #endif

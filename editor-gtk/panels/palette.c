@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * palette - every element and block as a tile, by family, to be clicked, dragged, or found.
+ * palette - the palette of elements and blocks; see palette.h.
  */
 #include "editor-gtk/panels/palette.h"
 
@@ -16,15 +16,15 @@
 #define LADDER_TYPE_PALETTE (ladder_palette_get_type())
 G_DECLARE_FINAL_TYPE(LadderPalette, ladder_palette, LADDER, PALETTE, GtkBox)
 
-/* How well a word is what is looked for: it is, it begins so, its explanation tells of it. */
+/* How well a word fits the search text: equal, begins with it, its explanation contains it. */
 enum rank { RANK_IS, RANK_BEGINS, RANK_TOLD, RANK_NONE };
 
 struct _LadderPalette {
 	GtkBox parent;
 	LadderDocument *document;
 	GtkWidget *search, *families;
-	int own;                    /* words of the project that are shown     */
-	enum word best;             /* of what is looked for                   */
+	int own;                    /* number of words of the project shown    */
+	enum word best;             /* best match of the search                */
 	enum rank rank;             /* how well it fits                        */
 };
 
@@ -40,7 +40,7 @@ G_DECLARE_FINAL_TYPE(LadderIcon, ladder_icon, LADDER, ICON, GtkWidget)
 
 struct _LadderIcon {
 	GtkWidget parent;
-	const struct word_row *row; /* of the catalogue, or alive while it is shown */
+	const struct word_row *row; /* of the catalogue, or of the project while it is shown */
 	struct lettering *lettering;
 };
 
@@ -98,7 +98,7 @@ static void ladder_icon_init(LadderIcon *icon)
 
 /* ---- tiles ---- */
 
-/* The key that puts this very word, if there is one. */
+/* The key that enters this word; NULL: none. */
 static char *key_of(enum word word)
 {
 	static const struct { enum word word; enum verb verb; } keys[] = {
@@ -193,7 +193,7 @@ static bool is_offered(const struct word_row *row)
 	       row->place != PLACE_PIN && row->kind != WORD_STRUCT;
 }
 
-/* Tiles are made when their family is opened: they are most of a window's widgets. */
+/* Tiles are made when their family is opened: they are most of the window's widgets. */
 static void make_tiles(GtkExpander *expander)
 {
 	GArray *words = g_object_get_data(G_OBJECT(expander), "words");
@@ -242,7 +242,7 @@ static GtkWidget *family_new(const char *name)
 	return expander;
 }
 
-/* What most rungs need is open at first. */
+/* Families that are open at first. */
 static bool is_common(const char *family)
 {
 	static const char *const common[] = { "Contacts", "Coils", "Timers", "Counters" };
@@ -328,7 +328,7 @@ static void leave(LadderPalette *palette)
 	gtk_widget_activate_action(GTK_WIDGET(palette), "win.to-sheet", NULL);
 }
 
-/* What is typed counts at once, and not when the entry says so a little later. */
+/* Uses the text in the entry: "search-changed" comes with a delay. */
 static void place_best(LadderPalette *palette)
 {
 	enum word best;
@@ -338,12 +338,12 @@ static void place_best(LadderPalette *palette)
 	fill(palette);
 	if (palette->rank == RANK_NONE)
 		return;
-	best = palette->best; /* the next line makes it another            */
+	best = palette->best; /* placing changes palette->best               */
 	gtk_editable_set_text(GTK_EDITABLE(palette->search), "");
 	gtk_widget_activate_action(GTK_WIDGET(palette), "win.place", "i", (int)best);
 }
 
-/* Rows of own words die with the project. */
+/* Rows of words of the project are freed with it. */
 static void project_changed(LadderPalette *palette)
 {
 	const struct project *project = ladder_document_project(palette->document);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * palette - every element and block as a tile, by family, to be clicked or dragged.
+ * palette - every element and block as a tile, by family, to be clicked, dragged or
+ * searched.
  *
- * Tiles come from the catalogue and from the blocks of the project; their icons are the
- * drawing of the sheet.
+ * Tiles come from the catalogue and from the blocks of the project; their icons are drawn
+ * as on the sheet.
  */
 #ifndef EDITOR_PALETTE_H
 #define EDITOR_PALETTE_H
@@ -12,10 +13,10 @@
 
 #include <gtk/gtk.h>
 
-/** ladder_palette_new - a click does "win.place", a drag is ladder_grid_view_drag(). */
+/** ladder_palette_new - a click activates "win.place"; a drag is ladder_grid_view_drag(). */
 GtkWidget *ladder_palette_new(LadderDocument *document);
-/** ladder_palette_find - the keys go to its search; Return there does "win.place" with the
- * one that fits best, Escape empties it and does "win.to-sheet". */
+/** ladder_palette_find - focuses the search entry. Return activates "win.place" with the
+ * best match; Escape clears it and activates "win.to-sheet". */
 void ladder_palette_find(GtkWidget *palette);
 
 #endif

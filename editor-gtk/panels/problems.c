@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * problems - the list of what the checks found wrong, and how many there are.
+ * problems - the list of problems; see problems.h.
  */
 #include "editor-gtk/panels/problems.h"
 
@@ -16,7 +16,7 @@ enum { COLUMN_TEXT, COLUMN_PLACE, COLUMN_CODE, COLUMN_SEVERITY };
 
 struct _LadderProblems {
 	GtkWidget parent_instance;
-	GtkWidget *stack;       /* the list, or that there is nothing           */
+	GtkWidget *stack;       /* the list, or the page "no problems"          */
 	struct panel_list list;
 	LadderDocument *document;
 	char *title;
@@ -25,7 +25,7 @@ struct _LadderProblems {
 
 G_DEFINE_FINAL_TYPE(LadderProblems, ladder_problems, GTK_TYPE_WIDGET)
 
-static guint title_changed; /* signal */
+static guint title_changed;
 
 /* ---- rows ---- */
 
@@ -34,14 +34,14 @@ static int pou_of(const struct project *project, const char *name)
 	return project && name ? project_find_pou(project, name, strlen(name)) : -1;
 }
 
-/* A row of the symbol table. */
+/* The text for the row of the symbol table. */
 static char *declaration_text(const struct diag *diag)
 {
 	return diag->pou ? g_strdup_printf(_("%s, symbols"), diag->pou) :
 			   g_strdup(_("Symbols"));
 }
 
-/* @row: a line of the text of POU @pou, 0-based; -1: of none. @col: that is seen, 0-based. */
+/* @row: 0-based line of the text of POU @pou; -1: none. @col: 0-based column as shown. */
 static char *place_text(const struct diag *diag, const struct project *project, int pou, int row,
 			int col)
 {
@@ -64,7 +64,7 @@ static bool is_list(const struct project *project, int pou)
 	return pou >= 0 && project->pou[pou].language != LANGUAGE_LD;
 }
 
-/* Of a list the line of its text, which begins with its heading. */
+/* In a list, the line in its text, whose first line is the heading. */
 static int list_row(const struct project *project, int pou, int line)
 {
 	if (!is_list(project, pou) || !line)
@@ -77,7 +77,7 @@ static bool is_of_pou(const struct diag *diag)
 	return diag->id == DIAG_NEVER_CALLED || diag->id == DIAG_NOT_RUN;
 }
 
-/* A declaration that the message speaks of. */
+/* Finds the declaration that the message is about. */
 static void find_declaration(struct project *project, const struct diag *diag,
 			     LadderPanelRow *row)
 {
@@ -93,7 +93,7 @@ static void find_declaration(struct project *project, const struct diag *diag,
 	}
 }
 
-/* Of a file that is no program: line and byte. */
+/* In a file that is no program: line and byte. */
 static void set_place(LadderDocument *document, const struct diag *diag,
 		      LadderPanelRow *row)
 {
@@ -107,7 +107,7 @@ static void set_place(LadderDocument *document, const struct diag *diag,
 		return;
 	}
 	row->rung = diag->rung - 1;
-	if (!diag->rung && diag->line) /* what is read then may lack its POU, or have more */
+	if (!diag->rung && diag->line) /* the project of an unreadable text may lack the POU */
 		row->pou = ladder_document_list_at(document, diag->line, &row->row);
 	if (row->pou >= 0)
 		return;
@@ -115,7 +115,7 @@ static void set_place(LadderDocument *document, const struct diag *diag,
 	row->row = diag->rung ? diag->row - 1 : list_row(was, was ? pou_of(was, diag->pou) : -1,
 							 diag->line);
 	if (row->row < 0 && !diag->rung && diag->line && is_list(project, row->pou))
-		row->row = 0; /* its text has no such POU */
+		row->row = 0; /* not a line of this POU */
 	if (row->row < 0 && !diag->rung && !is_of_pou(diag))
 		find_declaration(project, diag, row);
 }
@@ -159,7 +159,7 @@ static void set_title(LadderProblems *problems)
 	g_free(title);
 }
 
-/* At once, also unseen: the tab shows the count. */
+/* Also while hidden, because the tab shows the count. */
 static void refresh(LadderProblems *problems)
 {
 	LadderDocument *document = problems->document;
@@ -294,7 +294,7 @@ static void ladder_problems_init(LadderProblems *problems)
 	panel_list_init(&problems->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
 		widget, LADDER_TYPE_PROBLEMS, "view")));
 	panel_list_column(&problems->list, "", COLUMN_SEVERITY, PANEL_ICON, 0);
-	/* What it speaks of stands at the end. */
+	/* The name in quotes comes first, so long texts are cut at the end. */
 	panel_list_column(&problems->list, _("Problem"), COLUMN_TEXT,
 			  PANEL_EXPAND | PANEL_MIDDLE, 0);
 	panel_list_column(&problems->list, _("Place"), COLUMN_PLACE, PANEL_NUMBER, 260);

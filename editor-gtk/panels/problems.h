@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * problems - the list of what the checks found wrong, and how many there are.
+ * problems - the list of what the checks found, and the number of problems.
  *
- * Signal: title-changed (): ladder_problems_title() is another. To activate a row, or ladder_problems_next(), goes to its place by the action
- * win.go-to (iiii). It corrects nothing.
+ * Signal: title-changed (): ladder_problems_title() changed.
+ *
+ * Activating a row, or ladder_problems_next(), goes to its place by the action win.go-to
+ * (iiii). It corrects nothing.
  */
 #ifndef EDITOR_PROBLEMS_H
 #define EDITOR_PROBLEMS_H
@@ -19,16 +21,15 @@ GtkWidget *ladder_problems_new(void);
 void ladder_problems_set_document(LadderProblems *problems, LadderDocument *document);
 /** ladder_problems_title - "Problems 3", for the tab. Borrowed until it changes. */
 const char *ladder_problems_title(LadderProblems *problems);
-/** ladder_problems_count - all, or errors only. */
+/** ladder_problems_count - of all, or of errors only. */
 int ladder_problems_count(LadderProblems *problems, bool errors);
-/** ladder_problems_next - selects the next one, around the end, and goes there. False:
- * there is none. */
+/** ladder_problems_next - selects the next or previous problem, after the last the first,
+ * and goes there. False: none. */
 bool ladder_problems_next(LadderProblems *problems, bool back);
-/** ladder_problems_current - "Error: … Main, rung 3" of the selected one; "": none is.
+/** ladder_problems_current - "Error: … Main, rung 3" of the selected problem; "": none.
  * Borrowed until the next `checked`. */
 const char *ladder_problems_current(LadderProblems *problems);
-/** ladder_problems_show_error - selects the first one that nothing can be run with, and goes
- * there. False: there is none. */
+/** ladder_problems_show_error - selects the first error and goes there. False: none. */
 bool ladder_problems_show_error(LadderProblems *problems);
 /** ladder_problems_list - its rows (LadderPanelRow). Borrowed. */
 GListModel *ladder_problems_list(LadderProblems *problems);

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * project_tree - what a project is made of: programs, blocks, types, symbols, files.
- *
- * Its rows are made by tree_rows.h. One goes where it is double clicked or entered;
- * programs and blocks are added, renamed and deleted from its menu.
+ * project_tree - the project tree; see project_tree.h.
  */
 #include "editor-gtk/panels/project_tree.h"
 
@@ -22,17 +19,17 @@
 struct tree {
 	LadderDocument *document;
 	GListStore *root;
-	GtkTreeListModel *model;   /* the selection holds it                   */
+	GtkTreeListModel *model;   /* owned by the selection                   */
 	GtkSingleSelection *selection;
-	GtkWidget *list, *panel;   /* the panel holds all of it                */
-	char *shape;       /* what is shown, to see whether it changed         */
-	bool stale;        /* it may have, by what is not in the shape         */
-	guint timer;       /* soon looks whether it did                        */
-	LadderTreeRow *going; /* what was activated, ...                       */
-	guint going_soon;  /* ... goes there soon                              */
+	GtkWidget *list, *panel;   /* owned by the panel                       */
+	char *shape;       /* text form of the rows, to detect changes         */
+	bool stale;        /* something not in `shape` may have changed        */
+	guint timer;       /* compares `shape` when it elapses                 */
+	LadderTreeRow *going; /* the row that was activated                    */
+	guint going_soon;  /* idle that goes there                             */
 };
 
-/* Headings show what stands below them when they come. */
+/* Expands new headings. */
 static void expand_headings(struct tree *tree, guint at, guint gone, guint come)
 {
 	(void)gone;
@@ -44,7 +41,7 @@ static void expand_headings(struct tree *tree, guint at, guint gone, guint come)
 	}
 }
 
-/* Who had the keys at a row that goes keeps them, at the row of that place. */
+/* If the focus is on a row that disappears, it moves to the row now at that index. */
 static void refill(struct tree *tree)
 {
 	GtkRoot *root = gtk_widget_get_root(tree->list);
@@ -100,7 +97,7 @@ static gboolean follow_now(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-/* A count may be another: no key waits for that. */
+/* Counts are updated with a delay, so that typing does not wait for them. */
 static void follow_later(struct tree *tree)
 {
 	if (!tree->timer)
@@ -129,7 +126,7 @@ static LadderTreeRow *row_at(struct tree *tree, guint position)
 
 	g_clear_object(&item);
 	if (row)
-		g_object_unref(row); /* the model holds it */
+		g_object_unref(row); /* the model has a reference */
 	return row;
 }
 
@@ -150,8 +147,8 @@ static gboolean go(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-/* Not at once: the row that was clicked takes the focus after this, and who went to a
- * rung would still have the keys in the tree. */
+/* Later, because the click moves the focus to the row after this signal; the sheet would
+ * lose it. */
 static void activated(struct tree *tree, guint position)
 {
 	LadderTreeRow *row = row_at(tree, position);
@@ -204,7 +201,7 @@ static GMenu *menu_model(void)
 	return menu;
 }
 
-/* Actions of the whole panel: its keys, its menus, and F2 of the window. */
+/* Actions of the panel: for its keys, its menus, and F2 of the window. */
 static void add_actions(struct tree *tree, GtkWidget *panel)
 {
 	const GActionEntry entries[] = {
@@ -237,13 +234,13 @@ static GtkWidget *menu_new(void)
 
 static void show_menu(struct tree *tree, double x, double y)
 {
-	/* Not to the scroller, which takes the arrows to itself. */
+	/* not on the scrolled window, which takes the arrow keys */
 	gtk_widget_translate_coordinates(tree->list, tree->panel, x, y, &x, &y);
 	popover_menu(tree->panel, menu_model(), &(GdkRectangle){ (int)x, (int)y, 1, 1 },
 		     tree->list);
 }
 
-/* The row below the pointer is the one that is meant. */
+/* The menu is for the row below the pointer. */
 static void right_pressed(struct tree *tree, int count, double x, double y)
 {
 	GtkWidget *picked = gtk_widget_pick(tree->list, x, y, GTK_PICK_DEFAULT);
@@ -305,9 +302,9 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_list_item_set_child(item, expander);
 }
 
-#define TEXT_WIDE 20 /* characters that a note does not take from the text before it */
+#define TEXT_WIDE 20 /* characters that remain for the text beside a note */
 
-/* As it reads: of the row, and of what has the keys in it. */
+/* The accessible name of the row, set on the widget that takes the focus too. */
 static void speak(LadderTreeRow *row, GtkWidget *expander)
 {
 	GtkWidget *of_row = gtk_widget_get_parent(expander);
@@ -358,7 +355,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 	g_object_set_data_full(G_OBJECT(note), "row", row, g_object_unref);
 }
 
-/* The row of the list may be none any more, and know no row of ours. */
+/* By now the list row may have no item. */
 static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item)
 {
 	GtkWidget *note = gtk_widget_get_next_sibling(text_of(item));
@@ -410,7 +407,7 @@ static void make_list(struct tree *tree)
 	tree->model = gtk_tree_list_model_new(G_LIST_MODEL(tree->root), FALSE, FALSE,
 					      children, tree, NULL);
 	g_signal_connect_swapped(tree->root, "items-changed", G_CALLBACK(expand_headings),
-				 tree); /* behind the model's own */
+				 tree); /* after the handlers of the model */
 	tree->selection = gtk_single_selection_new(G_LIST_MODEL(tree->model));
 	gtk_single_selection_set_autoselect(tree->selection, FALSE);
 	gtk_single_selection_set_can_unselect(tree->selection, TRUE);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * project_tree - programs, blocks, symbols and files of a project.
+ * project_tree - programs, blocks, types, symbols and files of a project, with a menu to
+ * add, rename and delete.
  *
- * To go somewhere it does the action "win.go-to" with (pou, rung, row, col), 0-based, -1 for
- * the whole.
+ * It goes to a row by the action "win.go-to" with (pou, rung, row, col), 0-based, -1: the
+ * whole. tree_rows.h makes the rows.
  */
 #ifndef EDITOR_PROJECT_TREE_H
 #define EDITOR_PROJECT_TREE_H
@@ -13,7 +14,7 @@
 #include <gtk/gtk.h>
 
 GtkWidget *ladder_project_tree_new(LadderDocument *document);
-/** ladder_project_tree_look - at the files beside the project: there may be another. */
+/** ladder_project_tree_look - looks for new files beside the project. */
 void ladder_project_tree_look(GtkWidget *tree);
 
 #endif

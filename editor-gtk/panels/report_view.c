@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * report_view - a list of report_lines.h beside a picture of a rung before and after.
+ * report_view - the report of an import or export; see report_view.h.
  */
 #include "editor-gtk/panels/report_view.h"
 
@@ -21,7 +21,7 @@
 G_DECLARE_FINAL_TYPE(LadderClassicPicture, ladder_classic_picture, LADDER, CLASSIC_PICTURE,
 		     GtkWidget)
 
-/* A rung of ClassicLadder above what became of it here, as wide as there is room. */
+/* A rung of ClassicLadder above the rung it became, scaled to the width. */
 struct _LadderClassicPicture {
 	GtkWidget parent_instance;
 	LadderOrigin *origin;
@@ -119,9 +119,9 @@ static void picture_show(LadderClassicPicture *picture, LadderOrigin *origin,
 
 /* ---- the widget ---- */
 
-#define SCALE_LEAST 0.55f /* names can be read; what is wider scrolls           */
+#define SCALE_LEAST 0.55f /* names stay readable; a wider picture scrolls       */
 
-/* As wide as there is room, never larger than natural. */
+/* Fits the width; at most the natural size. */
 static float scale_for(LadderClassicPicture *picture, int width)
 {
 	return width > 0 && picture->strokes.width > 0 ?
@@ -210,9 +210,9 @@ struct _LadderReportView {
 	struct panel_list list;
 	struct panel_watch *watch;
 	LadderDocument *document;
-	LadderOrigin *origin;      /* of an import; NULL: none                  */
-	GPtrArray *lines;          /* of an export that is told; NULL: the import is */
-	char *name;                /* of the file of the export                 */
+	LadderOrigin *origin;      /* of the import; NULL: none                 */
+	GPtrArray *lines;          /* of the export that is shown; NULL: the import is shown */
+	char *name;                /* name of the exported file                 */
 	char *said;
 	const struct classic_rung *shown; /* of @origin                         */
 	bool filling, shared;
@@ -220,7 +220,7 @@ struct _LadderReportView {
 
 G_DEFINE_FINAL_TYPE(LadderReportView, ladder_report_view, GTK_TYPE_WIDGET)
 
-static guint close_wanted; /* signal */
+static guint close_wanted;
 
 /* ---- what it tells ---- */
 
@@ -306,7 +306,7 @@ void ladder_report_view_follow(LadderReportView *view, int pou, int rung, bool s
 
 /* ---- its rows ---- */
 
-/* Line and origin of an import; NULL: it speaks of no rung. */
+/* The rung of a line in the origin; NULL: none. */
 static const struct classic_rung *rung_of(LadderReportView *view, const LadderPanelRow *row)
 {
 	const struct report_line *line;
@@ -373,9 +373,9 @@ static GtkListItemFactory *text_factory(void)
 
 /* ---- the widget ---- */
 
-#define LIST_MOST 620 /* px of the list at first; the picture has the rest     */
+#define LIST_MOST 620 /* initial width of the list in px, at most; the picture gets the rest */
 
-/* Once: from then on the person's hand counts. */
+/* Once; then the divider stays where a person moves it. */
 static void share_room(GtkPaned *paned, GParamSpec *spec, LadderReportView *view)
 {
 	const int width = gtk_widget_get_width(GTK_WIDGET(paned));

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * report_view - the panel that tells what an import or an export did; each line leads to
- * its rung, and beside them stands the original of a rung.
+ * report_view - the report of an import from or export to ClassicLadder. A line leads to
+ * its rung; beside the list is the original of a rung.
  *
- * Signal: close-wanted (): the person wants it away. It opens and writes nothing.
+ * Signal: close-wanted (): close the panel. It opens and writes no file.
  */
 #ifndef EDITOR_REPORT_VIEW_H
 #define EDITOR_REPORT_VIEW_H
@@ -16,19 +16,19 @@
 G_DECLARE_FINAL_TYPE(LadderReportView, ladder_report_view, LADDER, REPORT_VIEW, GtkWidget)
 
 GtkWidget *ladder_report_view_new(LadderDocument *document);
-/** ladder_report_view_import - tells what @origin does, from now on. */
+/** ladder_report_view_import - shows the import of @origin. */
 void ladder_report_view_import(LadderReportView *view, LadderOrigin *origin);
-/** ladder_report_view_export - tells @lines (struct left_line; a reference is kept) of the
- * writing of the file @name. */
+/** ladder_report_view_export - shows @lines (struct left_line; a reference is kept) of the
+ * export to the file @name. */
 void ladder_report_view_export(LadderReportView *view, const char *name, GPtrArray *lines);
-/** ladder_report_view_has - is there anything to tell? */
+/** ladder_report_view_has - is there a report? */
 bool ladder_report_view_has(LadderReportView *view);
 /** ladder_report_view_title - "pump.clprj: 3 changed, 1 left out". Borrowed. */
 const char *ladder_report_view_title(LadderReportView *view);
-/** ladder_report_view_follow - the picture is of that rung, 0-based; -1: of none.
- * @sure: also if that came of nothing, and it says so. */
+/** ladder_report_view_follow - shows the original of that rung, 0-based; -1: none. @sure:
+ * if it has no original, clears the picture and says so. */
 void ladder_report_view_follow(LadderReportView *view, int pou, int rung, bool sure);
-/** ladder_report_view_focus - to its list. */
+/** ladder_report_view_focus - focuses the list. */
 void ladder_report_view_focus(LadderReportView *view);
 /** ladder_report_view_list - its rows (LadderPanelRow). Borrowed. */
 GListModel *ladder_report_view_list(LadderReportView *view);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenario_view - the list of scenarios and what came of them.
+ * scenario_view - the list of scenarios and their results; see scenario_view.h.
  */
 #include "editor-gtk/panels/scenario_view.h"
 
@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* Texts of a row. */
+/* Columns of a row. */
 enum { NAME, FILE_NAME, RESULT };
 
 struct _LadderScenarioView {
@@ -20,13 +20,13 @@ struct _LadderScenarioView {
 	LadderRecorder *recorder;
 	struct panel_list list;
 	GPtrArray *results;
-	guint64 version;       /* of the document that they are of             */
-	GCancellable *running; /* NULL: nothing runs                           */
+	guint64 version;       /* of the document that the results are for     */
+	GCancellable *running; /* NULL: none running                           */
 };
 
 G_DEFINE_FINAL_TYPE(LadderScenarioView, ladder_scenario_view, GTK_TYPE_WIDGET)
 
-static guint opened; /* signal */
+static guint opened;
 
 /* ---- results as rows ---- */
 

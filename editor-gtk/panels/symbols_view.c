@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * symbols_view - the table of all symbols.
+ * symbols_view - the table of all symbols; see symbols_view.h.
  */
 #include "editor-gtk/panels/symbols_view.h"
 
@@ -16,9 +16,9 @@
 
 #include <string.h>
 
-#define FILE_MOST (64 << 20) /* bytes of a table that is read                  */
+#define FILE_MOST (64 << 20) /* bytes of a table that can be imported          */
 
-/* Texts of a row behind its fields, which have their own numbers. */
+/* Columns of a row after its fields, which have their own numbers. */
 enum { SYMBOLS_SCOPE = SYMBOL_FIELDS, SYMBOLS_USES };
 /* LadderPanelRow.flags, beside SYMBOL_KINDS. */
 enum { SYMBOLS_FIXED = 1, SYMBOLS_MEMBER = 2 };
@@ -32,17 +32,17 @@ struct _LadderSymbolsView {
 	struct panel_cells cells;
 	struct panel_watch *watch;
 	GtkFileChooserNative *chooser;
-	int table;              /* that is shown; -1: all                      */
-	guint64 told_of;        /* version of the document that the message is of */
-	bool busy;              /* a drop-down is being filled                 */
-	bool turning;           /* the symbol becomes another kind             */
+	int table;              /* the table that is shown; -1: all            */
+	guint64 told_of;        /* version of the document when the message was set */
+	bool busy;              /* a drop-down is being filled: ignore its signal */
+	bool turning;           /* the kind of the symbol is being changed     */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
 
 /* ---- messages ---- */
 
-/* @text: taken over; NULL: nothing to tell. */
+/* @text: taken over; NULL: clears the message. */
 static void tell(LadderSymbolsView *view, char *text)
 {
 	LadderDocument *document = panel_watch_document(view->watch);
@@ -79,7 +79,7 @@ static char *spoken(const struct symbol_row *symbol, const char *error)
 	return g_string_free(text, FALSE);
 }
 
-/* Where it counts, and as what of a block: "Motor VAR_OUTPUT". */
+/* The scope, and the kind in a block: "Motor VAR_OUTPUT". */
 static char *scope_of(const struct symbol_row *symbol)
 {
 	const uint16_t kind = symbol->flags & SYMBOL_KINDS;
@@ -140,8 +140,7 @@ static bool is_declaration(const LadderPanelRow *row, gconstpointer what)
 		panel_row_text(other, FIELD_NAME)) == 0;
 }
 
-/* The list becomes @rows. RETAIN moves a declaration to another block: the keys go there with
- * it, and not to what comes to stand in its place. */
+/* Updates the list. RETAIN moves a declaration to another block: the focus follows it. */
 static void update(LadderSymbolsView *view, GPtrArray *rows)
 {
 	int field, now;
@@ -156,16 +155,16 @@ static void update(LadderSymbolsView *view, GPtrArray *rows)
 	g_clear_object(&row);
 }
 
-/* As the drop-down offers them. */
+/* In the order of the drop-down. */
 static const uint16_t kinds[] = { 0, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP };
 
-/* That of the selected symbol. Globals and members of structures have none. */
+/* Shows the kind of the selected symbol. Globals and members of structures have none. */
 static void show_kind(LadderSymbolsView *view)
 {
 	const LadderPanelRow *row = panel_list_row(&view->list);
 	guint at = 0;
 
-	if (view->turning) /* it has the keys: hidden between, it would lose them */
+	if (view->turning) /* hiding it now would drop the focus */
 		return;
 	for (guint i = 1; row && i < G_N_ELEMENTS(kinds); i++)
 		at = row->flags & kinds[i] ? i : at;
@@ -196,7 +195,7 @@ static void refresh(GtkWidget *widget)
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
 	LadderDocument *document = panel_watch_document(view->watch);
 
-	/* What was said is of a document that is another now. */
+	/* the message was about an older version */
 	if (document && ladder_document_version(document) != view->told_of)
 		tell(view, NULL);
 	fill_scopes(view, document ? ladder_document_project(document) : NULL);
@@ -244,7 +243,8 @@ void ladder_symbols_view_enter(LadderSymbolsView *view)
 
 /* ---- edits ---- */
 
-/* Where it is by now: a row is a tenth of a second behind, and RETAIN moves. -1: nowhere. */
+/* The current index: rows are updated with a delay, and RETAIN moves a declaration. -1:
+ * deleted. */
 static int index_of(LadderDocument *document, const LadderPanelRow *row)
 {
 	struct project *project = ladder_document_project(document);
@@ -260,7 +260,7 @@ static int index_of(LadderDocument *document, const LadderPanelRow *row)
 	return index;
 }
 
-/* Who lies at the same address may be meant, and may be not. */
+/* Names the other symbols at the same address. */
 static char *told_of(LadderDocument *document, const LadderPanelRow *row, enum field field)
 {
 	const char *other = field == FIELD_ADDRESS ?
@@ -287,7 +287,7 @@ static bool set_field(GObject *owner, LadderPanelRow *row, int number, const cha
 	tell(view, good ? told_of(document, row, field) : g_strdup_printf("%s, %s: %s",
 		panel_row_text(row, FIELD_NAME), symbol_field_name(field),
 		why && *why ? *why : ""));
-	if (good) { /* it is looked for by its name, and shown anew if that is undone */
+	if (good) { /* Found by name again, also after an undo. */
 		g_free(row->text[field]);
 		row->text[field] = g_strstrip(g_strdup(text));
 		panel_watch_later(view->watch);
@@ -308,7 +308,7 @@ static int last_index(LadderDocument *document, int table, const char *name)
 	return index;
 }
 
-/* Like the one that is selected, an input beside an input; else a bit. */
+/* The new symbol has the kind of the selected one; default BOOL. */
 static void add(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
@@ -472,7 +472,7 @@ static void scope_changed(GtkDropDown *scopes, GParamSpec *spec, LadderSymbolsVi
 	if (view->busy || !view->watch)
 		return;
 	view->table = (int)gtk_drop_down_get_selected(scopes) - 1;
-	fill_rows(view); /* another list of scopes, within this signal, would never end it */
+	fill_rows(view); /* changing the scopes within their own signal would recurse */
 }
 
 static void search_changed(GtkSearchEntry *entry, LadderSymbolsView *view)
@@ -557,7 +557,7 @@ static void add_columns(LadderSymbolsView *view)
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
 }
 
-/* With words of the language. */
+/* The labels are translated. */
 static void fill_kinds(LadderSymbolsView *view)
 {
 	GPtrArray *name = g_ptr_array_new();

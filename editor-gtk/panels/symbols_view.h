@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * symbols_view - the table of all symbols: sort, filter, edit in place, tables of other
- * programs in and out.
+ * symbols_view - the table of all symbols: sort, filter, edit, import and export.
  *
- * Actions: symbols.add, symbols.delete, symbols.import, symbols.uses (goes to win.show-uses
- * with the name, if the window has it); the window's win.export_symbols writes one. What a field refuses is told in the row and below the table.
+ * Actions: symbols.add, symbols.delete, symbols.import, symbols.uses (activates win.show-
+ * uses with the name). win.export_symbols exports. A refusal is shown in the row and below
+ * the table.
  */
 #ifndef EDITOR_SYMBOLS_VIEW_H
 #define EDITOR_SYMBOLS_VIEW_H
@@ -20,16 +20,16 @@ GtkWidget *ladder_symbols_view_new(void);
 void ladder_symbols_view_set_document(LadderSymbolsView *view, LadderDocument *document);
 /** ladder_symbols_view_show - selects a symbol, by table and index of xref/xref.h. */
 bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index);
-/** ladder_symbols_view_enter - the name of the row that is selected has the keys. */
+/** ladder_symbols_view_enter - focuses the name in the selected row. */
 void ladder_symbols_view_enter(LadderSymbolsView *view);
-/** ladder_symbols_view_list - the rows shown (LadderPanelRow). Borrowed. */
+/** ladder_symbols_view_list - its rows (LadderPanelRow). Borrowed. */
 GListModel *ladder_symbols_view_list(LadderSymbolsView *view);
-/** ladder_symbols_view_refresh - now, seen or not. */
+/** ladder_symbols_view_refresh - updates the rows now, also while hidden. */
 void ladder_symbols_view_refresh(LadderSymbolsView *view);
-/** ladder_symbols_view_message - what was refused last; "": nothing. Borrowed. */
+/** ladder_symbols_view_message - the last refusal; "": none. Borrowed. */
 const char *ladder_symbols_view_message(LadderSymbolsView *view);
-/** ladder_symbols_view_import - asks, with a list of what would change. @from: a name for
- * the title. Returns the dialog; it owns itself. */
+/** ladder_symbols_view_import - opens a dialog with the changes of an import. @from: file
+ * name, for the title. Returns the dialog; it frees itself. */
 GtkWidget *ladder_symbols_view_import(LadderSymbolsView *view, const char *from,
 				      const char *text, gsize len);
 

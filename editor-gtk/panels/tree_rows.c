@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * tree_rows - a project's programs, blocks, types, symbols and files as rows. They are made anew
- * and compared: what stays as it was is not touched.
+ * tree_rows - makes the rows of the project tree; see tree_rows.h.
+ *
+ * New rows are compared with the old ones; equal rows are kept.
  */
 #include "editor-gtk/panels/tree_rows.h"
 
@@ -13,7 +14,7 @@
 
 G_DEFINE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, G_TYPE_OBJECT)
 
-static guint changed; /* signal */
+static guint changed;
 
 static void ladder_tree_row_finalize(GObject *object)
 {
@@ -124,7 +125,7 @@ static void add_structures(GListStore *root, const struct project *project)
 	}
 }
 
-/* Text files beside the project. */
+/* Adds text files beside the project. */
 static void add_texts(GListStore *root, LadderDocument *document, const char *title,
 		      const char *ending, bool own)
 {
@@ -141,7 +142,7 @@ static void add_texts(GListStore *root, LadderDocument *document, const char *ti
 	g_ptr_array_unref(files);
 }
 
-/* What a POU or a structure is made of. */
+/* The variables of a POU or a structure. */
 static GListStore *variables(const struct project *project, const LadderTreeRow *row)
 {
 	const struct var_table *vars = row->kind == ROW_POU ? &project->pou[row->pou].vars :
@@ -210,13 +211,14 @@ static LadderTreeRow *row_at(GListStore *rows, guint at)
 {
 	LadderTreeRow *row = g_list_model_get_item(G_LIST_MODEL(rows), at);
 
-	g_object_unref(row); /* the list holds it */
+	g_object_unref(row); /* the list has a reference */
 	return row;
 }
 
 static void update(GListStore *old, GListStore *fresh, const struct project *project);
 
-/* A row stays. It may be another's by number: what is below it is compared, too. */
+/* Gives a row that stays the values of @fresh. Its index may be that of another POU, so its
+ * children are compared too. */
 static void become(LadderTreeRow *old, LadderTreeRow *fresh, const struct project *project)
 {
 	GListStore *rows;
@@ -267,7 +269,7 @@ GListModel *tree_row_children(LadderTreeRow *row, LadderDocument *document)
 {
 	const struct project *project = ladder_document_project(document);
 
-	/* Between a change and its news numbers are those of before. */
+	/* Between a change and its signal, indices may be out of date. */
 	if (!row->parent || (!row->rows && (!project || row->pou >= (row->kind == ROW_POU ?
 			project->pou_count : project->structure_count))))
 		return NULL;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * tree_rows - the rows of the project tree: what they are of, and how they are made.
+ * tree_rows - the rows of the project tree.
  *
- * What a person does with them is project_tree.c's.
+ * project_tree.c does what a person does with them.
  */
 #ifndef EDITOR_TREE_ROWS_H
 #define EDITOR_TREE_ROWS_H
@@ -18,20 +18,17 @@ enum row_kind { ROW_HEADING, ROW_BOOKMARK, ROW_POU, ROW_SYMBOLS, ROW_FILE,
 struct _LadderTreeRow {
 	GObject parent_instance;
 	enum row_kind kind;
-	int pou, rung;      /* pou of a STRUCTURE: its number                  */
+	int pou, rung;      /* pou of a STRUCTURE: its index                   */
 	char *text, *note, *path;
-	bool parent;        /* something stands below it                       */
-	GListStore *rows;   /* that, once somebody asked for it                */
+	bool parent;        /* it has children                                 */
+	GListStore *rows;   /* the children, once asked for                    */
 };
 
-/**
- * tree_rows_update - @root becomes the rows of the project as it is; without one: none
- *
- * A row that stays is the same one, with what is open below it; its number may be another,
- * and "changed" tells that its note is.
- */
+/** tree_rows_update - makes @root the rows of the project; without a project it becomes
+ * empty. A row that stays is the same object, with its children; its index may change, and
+ * "changed" is emitted if its note did. */
 void tree_rows_update(GListStore *root, LadderDocument *document);
-/** tree_row_children - what stands below a row: variables are asked of the project.
- * Owns: the caller.   Fails: NULL: nothing does. */
+/** tree_row_children - the children of a row; variables come from the project. NULL: it has
+ * none. Caller: g_object_unref(). */
 GListModel *tree_row_children(LadderTreeRow *row, LadderDocument *document);
 #endif

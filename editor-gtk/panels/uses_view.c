@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * uses_view - the cross reference of a document as a list.
+ * uses_view - the cross reference as a list; see uses_view.h.
  */
 #include "editor-gtk/panels/uses_view.h"
 
@@ -15,14 +15,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Texts of a row. */
+/* Columns of a row. */
 enum { USES_NAME, USES_ADDRESS, USES_KIND, USES_PLACE, USES_TEXT };
 
-/* The cross reference as it was made last; it need not be made again for the same document. */
+/* The cross reference made last, reused for the same document. */
 struct cache {
 	struct xref xref;
-	LadderDocument *document; /* whose it is; compared only                  */
-	const struct ladder *checked; /* where its lines are known from; compared only */
+	LadderDocument *document; /* only compared                               */
+	const struct ladder *checked; /* source of line numbers; only compared */
 	guint64 version;
 };
 
@@ -121,7 +121,7 @@ static LadderPanelRow *add_row(struct maker *maker, const struct xref_use *use)
 
 /* ---- of one symbol ---- */
 
-/* Main.Delay, Main:Seal: the name of one thing; NULL: none. */
+/* The use that declares "Main.Delay" or "Main:Seal"; NULL: none. */
 static const struct xref_use *find_whole(struct maker *maker, const char *symbol)
 {
 	char name[2 * LIMIT_NAME + 8];
@@ -138,8 +138,8 @@ static const struct xref_use *find_whole(struct maker *maker, const char *symbol
 	return NULL;
 }
 
-/* The use that is meant by a name as a cell says it: a local before a global, also with
- * parts behind it, as Delay.Q; NULL: none. */
+/* The use that a name in a cell means: a local before a global, also with members, as
+ * Delay.Q; NULL: none. */
 static const struct xref_use *find_symbol(struct maker *maker, int pou, const char *symbol)
 {
 	const gsize len = strcspn(symbol, ".[ ");
@@ -184,7 +184,7 @@ static guint64 key_of(const struct xref_target *target)
 	       (guint32)target->index;
 }
 
-/* A bit of memory as a key: areas far apart. */
+/* A bit of memory as a key. */
 static gpointer bit_key(struct iec_addr addr, guint bit)
 {
 	return GUINT_TO_POINTER((guint)addr.area << 27 | (addr.byte * 8 + addr.bit + bit));
@@ -204,7 +204,7 @@ static GHashTable *used_bits(const struct maker *maker)
 	return bits;
 }
 
-/* A symbol with an address is used, too, if its address is. */
+/* A symbol is also used if its address is used. */
 static bool is_used_by_address(GHashTable *bits, const struct xref_target *target)
 {
 	for (guint k = 0; target->addr.area != AREA_NONE && k < target->addr.bits; k++)
@@ -285,7 +285,7 @@ static int by_rank(gconstpointer left, gconstpointer right)
 	return a->row != b->row ? a->row - b->row : a->col - b->col;
 }
 
-/* All uses, those of one thing together. */
+/* All uses, grouped by target. */
 static void add_all(struct maker *maker)
 {
 	const gsize size = sizeof(*maker->xref.use) * (gsize)maker->xref.count;
@@ -320,8 +320,9 @@ static void fill_cache(struct cache *cache, LadderDocument *document)
 	cache->version = version;
 }
 
-/* Rows (LadderPanelRow) in the order of the file, names in that of their declarations.
- * @symbol: of USES_SYMBOL, in POU @pou, else among the globals. Caller: g_ptr_array_unref. */
+/* Rows (LadderPanelRow) in the order of the file, names in the order of their declarations.
+ * @symbol: for USES_SYMBOL, in POU @pou, else among the globals. Caller:
+ * g_ptr_array_unref(). */
 static GPtrArray *make_rows(struct cache *cache, LadderDocument *document, enum uses_mode mode,
 			    int pou, const char *symbol)
 {
@@ -357,7 +358,7 @@ struct _LadderUsesView {
 	struct cache cache;
 	char *symbol;
 	int pou;
-	bool lost;      /* there is no such symbol                             */
+	bool lost;      /* the symbol was not found                            */
 };
 
 G_DEFINE_FINAL_TYPE(LadderUsesView, ladder_uses_view, GTK_TYPE_WIDGET)
@@ -429,7 +430,7 @@ void ladder_uses_view_set_symbol(LadderUsesView *view, int pou, const char *symb
 	g_free(view->symbol);
 	view->symbol = g_strdup(symbol);
 	view->pou = pou;
-	/* The cursor may move on at once. */
+	/* at once: the cursor may move on */
 	if (mode_of(view) == USES_SYMBOL)
 		panel_watch_later(view->watch);
 }

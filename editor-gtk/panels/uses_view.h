@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * uses_view - the cross reference: where a symbol is used, all symbols, those that are
- * never used, and memory that has two names.
+ * uses_view - the cross reference: uses of a symbol, all symbols, unused symbols, and
+ * memory with two names.
  *
- * To activate a row goes to its place by win.go-to (iiii). Signal "lost" (): nothing is
- * called so any more, as after a rename; what stands at the cursor may be asked for.
+ * Activating a row goes to its place by win.go-to (iiii). Signal "lost" (): the symbol does
+ * not exist any more, for example after a rename; the window may set another.
  */
 #ifndef EDITOR_USES_VIEW_H
 #define EDITOR_USES_VIEW_H
@@ -20,15 +20,15 @@ G_DECLARE_FINAL_TYPE(LadderUsesView, ladder_uses_view, LADDER, USES_VIEW, GtkWid
 
 GtkWidget *ladder_uses_view_new(void);
 void ladder_uses_view_set_document(LadderUsesView *view, LadderDocument *document);
-/** ladder_uses_view_set_symbol - what stands at the cursor, as the cell says it; @pou: in
- * which POU, -1: among the globals. NULL: nothing. */
+/** ladder_uses_view_set_symbol - the name as a cell has it; @pou: in which POU, -1: among
+ * the globals. NULL: none. */
 void ladder_uses_view_set_symbol(LadderUsesView *view, int pou, const char *symbol);
 void ladder_uses_view_set_mode(LadderUsesView *view, enum uses_mode mode);
-/** ladder_uses_view_is_lost - uses of a symbol are asked for, and there is no such symbol. */
+/** ladder_uses_view_is_lost - are the uses of a symbol shown that does not exist? */
 bool ladder_uses_view_is_lost(LadderUsesView *view);
-/** ladder_uses_view_list - the rows shown (LadderPanelRow). Borrowed. */
+/** ladder_uses_view_list - its rows (LadderPanelRow). Borrowed. */
 GListModel *ladder_uses_view_list(LadderUsesView *view);
-/** ladder_uses_view_refresh - now, seen or not. */
+/** ladder_uses_view_refresh - updates the rows now, also while hidden. */
 void ladder_uses_view_refresh(LadderUsesView *view);
 
 #endif

@@ -414,7 +414,8 @@ static void tell_end(LadderSim *sim)
 	g_free(text);
 }
 
-/* A board only sets ENO to FALSE and counts. A person who tests a program shall see it. */
+/* A board only sets ENO to FALSE and counts. The simulation stops, so that a person sees
+ * it. */
 static void tell_failure(LadderSim *sim)
 {
 	const struct resource *resource = &sim->view.twin.resource;
@@ -497,7 +498,7 @@ static struct sim_program *build(LadderSim *sim, GError **error)
 	struct sim_program *program = sim_program_new(
 		g_intern_string(path ? path : "-"), text, len, error);
 
-	/* A list that cannot be read yet differs from its POU: it would not be what is shown. */
+	/* A list that cannot be read would run differently from its text. */
 	if (program && !ladder_document_is_whole(sim->document)) {
 		ladder_document_check_now(sim->document);
 		sim_program_say_why(ladder_document_diags(sim->document), error);

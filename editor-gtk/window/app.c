@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * app - the life of the editor: its command line, its windows, its end.
+ * app - the command line of the editor, its windows, and its end.
  *
- * Pictures (--render) are made before anything asks for a display.
+ * --render is handled before a display is opened.
  */
 #include "editor-gtk/window/app.h"
 
@@ -29,7 +29,6 @@
 
 /* ---- windows ---- */
 
-/* A window asks for another file, and that may open another window. */
 static void open_wanted(LadderWindow *window, const char *path, gboolean as_copy,
 			AdwApplication *application);
 static void new_wanted(LadderWindow *window, AdwApplication *application);
@@ -54,15 +53,15 @@ static LadderWindow *new_window(AdwApplication *application)
 	return window;
 }
 
-/* The document of a window in which nothing was done; else a new one. Caller:
- * g_object_unref. */
+/* The document of an untouched window, else a new one. Caller: g_object_unref(). */
 static LadderDocument *document_for(LadderWindow *window)
 {
 	return window && ladder_window_is_untouched(window) ?
 	       g_object_ref(ladder_window_document(window)) : ladder_document_new();
 }
 
-/* @document, which was opened, in its window. */
+/* Shows @document, which was just opened, in @window if that is its window, else in a new
+ * one. */
 static LadderWindow *show_opened(AdwApplication *application, LadderWindow *window,
 				 LadderDocument *document)
 {
@@ -94,7 +93,7 @@ static bool has_open(LadderWindow *window, const char *path)
 	return (open && disk_same(path, open)) || ladder_window_has_file(window, path);
 }
 
-/* The window that has this project, or this file of one, open; NULL: none. */
+/* The window in which this project, or this file beside a project, is open; NULL: none. */
 static LadderWindow *window_of(AdwApplication *application, const char *path)
 {
 	GList *at = gtk_application_get_windows(GTK_APPLICATION(application));
@@ -108,7 +107,7 @@ static LadderWindow *window_of(AdwApplication *application, const char *path)
 	return found;
 }
 
-/* Never saved: it becomes a file of ours where the person says. */
+/* The project has no path until a person saves it as a rung file. */
 static LadderWindow *open_classic(AdwApplication *application, LadderWindow *window,
 				  const char *path, GError **error)
 {
@@ -136,7 +135,7 @@ static LadderWindow *open_classic(AdwApplication *application, LadderWindow *win
 	return window;
 }
 
-/* A map of no project in particular, that the tree of this window lists. */
+/* An I/O map that belongs to no project and that the tree of this window lists. */
 static bool is_listed(LadderWindow *window, const char *path)
 {
 	GPtrArray *maps = side_file_list(ladder_document_path(ladder_window_document(window)),
@@ -147,7 +146,7 @@ static bool is_listed(LadderWindow *window, const char *path)
 	return found;
 }
 
-/* A scenario or an I/O map: in its project, if that is to be found. */
+/* Opens a scenario or an I/O map together with its project, if there is one. */
 static LadderWindow *open_beside(AdwApplication *application, LadderWindow *window,
 				 const char *path, GError **error)
 {
@@ -173,7 +172,7 @@ static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
 {
 	LadderWindow *there = window_of(application, path);
 
-	if (there) { /* twice, each would write over the other's */
+	if (there) { /* two windows would overwrite each other's file */
 		if (side_file_is(path))
 			ladder_window_show_file(there, path);
 		else
@@ -227,7 +226,7 @@ static void new_wanted(LadderWindow *window, AdwApplication *application)
 
 /* ---- after a crash ---- */
 
-/* Of two drafts of one file the second is a program that has no file yet. */
+/* If the file is open already, the draft is restored as a program without a file. */
 static bool restore_document(AdwApplication *application, const struct draft *draft)
 {
 	const bool twice = draft->path && window_of(application, draft->path);
@@ -249,7 +248,7 @@ static bool restore_document(AdwApplication *application, const struct draft *dr
 	return kept;
 }
 
-/* With its project, if that is still there. */
+/* Opens the project of the file too, if it still exists. */
 static bool restore_file(AdwApplication *application, const struct draft *draft)
 {
 	LadderWindow *window = draft->beside ?
@@ -264,7 +263,7 @@ static bool restore_file(AdwApplication *application, const struct draft *draft)
 	return kept;
 }
 
-/* A draft goes when what it holds has one of this editor's again. */
+/* A draft is deleted only when its contents are kept as a draft of this editor. */
 static int restore_drafts(AdwApplication *application)
 {
 	GPtrArray *drafts = draft_find();
@@ -306,7 +305,7 @@ static void tell_draft_failed(gpointer object, const char *why)
 
 /* ---- told to end ---- */
 
-/* As at the end of a session: what is not saved is there again at the next start. */
+/* Ends the editor without questions; unsaved changes are restored at the next start. */
 static gboolean end_now(gpointer application)
 {
 	GList *windows = g_list_copy(gtk_application_get_windows(application));
@@ -379,7 +378,7 @@ static void startup(GtkApplication *application)
 	draft_on_failure(tell_draft_failed);
 }
 
-/* Where the languages lie; NULL: there are none. */
+/* The folder of translations; NULL: none. */
 static char *languages_folder(void)
 {
 	const char *told = g_getenv("RUNGBOARD_LOCALE");
@@ -387,7 +386,7 @@ static char *languages_folder(void)
 	return told ? g_strdup(told) : installed_folder("locale", "locale");
 }
 
-/* Numbers stay as programs and pictures have them, with a point: files are written here. */
+/* Numbers keep a decimal point, because they are written to files. */
 static void set_language(void)
 {
 	char *folder = languages_folder();
@@ -417,7 +416,7 @@ int app_run(int argc, char **argv)
 
 	set_language();
 	memory_keep_frames();
-	/* A limit on the size of files is told like a full disk. */
+	/* Writing beyond the limit on file size then fails with EFBIG, which is reported. */
 	signal(SIGXFSZ, SIG_IGN);
 	if (is_render(argc, argv))
 		return render_main(argc, argv);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * ask - questions over a window.
+ * ask - dialogs of a window; see ask.h.
  */
 #include "editor-gtk/window/ask.h"
 

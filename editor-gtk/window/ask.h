@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * ask - questions over a window.
+ * ask - dialogs of a window: a question with two answers, a file chooser.
  */
 #ifndef EDITOR_ASK_H
 #define EDITOR_ASK_H
@@ -9,24 +9,24 @@
 
 #include <adwaita.h>
 
-/** ask_new - a question with two answers, "cancel" and @answer, which Enter gives. @body:
- * plain text; NULL: none. The caller presents it; it owns itself. */
+/** ask_new - a dialog with "cancel" and @answer; Enter gives @answer. @body: plain text, or
+ * NULL. The caller presents it; it frees itself. */
 AdwMessageDialog *ask_new(GtkWindow *window, const char *heading, const char *body,
 			  const char *answer, const char *label,
 			  AdwResponseAppearance appearance);
-/** ask_save - shall the changes of @name be saved? Shown; its response is "save", "discard"
- * or "cancel". It owns itself. */
+/** ask_save - presents the question whether to save @name; the response is "save",
+ * "discard" or "cancel". It frees itself. */
 AdwMessageDialog *ask_save(GtkWindow *window, const char *name);
-/** ask_entry - an entry that stands in a question; Enter in it answers the question. @name:
- * as a screen reader says it. */
+/** ask_entry - an entry for a dialog; Enter gives the default answer. @name: its accessible
+ * name. */
 GtkWidget *ask_entry(const char *name);
-/** ask_rung_file - a file dialog for rung files beside @document. The caller shows it; its
- * response is ask_take_path()'s. */
+/** ask_rung_file - a file chooser for rung files that starts in the folder of @document.
+ * The caller shows it and passes its response to ask_take_path(). */
 GtkFileChooserNative *ask_rung_file(GtkWindow *window, LadderDocument *document,
 				    const char *title, GtkFileChooserAction action,
 				    const char *accept);
-/** ask_take_path - what a file dialog that answered @response chose; the dialog goes. NULL:
- * no file of this machine. Caller frees. */
+/** ask_take_path - the chosen path; frees the dialog. NULL: cancelled, or not a local file.
+ * Caller frees. */
 char *ask_take_path(GtkNativeDialog *dialog, int response);
 
 #endif

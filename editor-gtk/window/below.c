@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * below - the panels below the sheets, each made when it is first needed.
+ * below - the panels below the sheets; see below.h.
  */
 #include "editor-gtk/window/below.h"
 
@@ -8,7 +8,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/problems.h"
 
-/* What a place in the stack needs to make its panel. */
+/* How to make the panel of a page of the stack. */
 struct maker {
 	below_make *make;
 	gpointer part;
@@ -112,7 +112,7 @@ static void fill_more(GtkMenuButton *button, gpointer data)
 	g_object_unref(menu);
 }
 
-/* Scrolls to the tab of the panel that is shown. */
+/* Scrolls to the tab of the current panel. */
 static void reveal_tab(struct below *below)
 {
 	GtkWidget *tab = gtk_widget_get_first_child(below->switcher);
@@ -147,7 +147,7 @@ static gboolean look_at_room(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-/* GTK forbids to show or hide anything while the window is laid out. */
+/* GTK forbids to show or hide widgets during layout, so it is done in an idle call. */
 static void room_changed(struct below *below)
 {
 	g_object_ref(below->core->window);

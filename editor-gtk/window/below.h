@@ -2,8 +2,7 @@
  *
  * below - the panels below the sheets.
  *
- * Most are never looked at while a window is open: a panel is made when it is first seen or
- * asked for.
+ * A panel is made when it is shown or asked for first: most are never used.
  */
 #ifndef EDITOR_BELOW_H
 #define EDITOR_BELOW_H
@@ -12,34 +11,34 @@
 
 struct below {
 	struct core *core;
-	GtkPaned *paned;       /* sheets above, panels below                     */
+	GtkPaned *paned;
 	GtkBox *box;
 	GtkStack *stack;
 	GtkWidget *switcher;
 	GtkScrolledWindow *tabs;
-	GtkMenuButton *more;   /* seen when not all tabs are                     */
+	GtkMenuButton *more;   /* shown while the tabs are wider than the window */
 };
 
 typedef GtkWidget *below_make(gpointer part);
 
 void below_init(struct below *below, struct core *core);
-/** below_add - a tab for a panel that @make(@part) makes. @name: lives for ever. @title: not
+/** below_add - adds a tab; @make(@part) makes its panel. @name: static. @title: not
  * translated. */
 void below_add(struct below *below, const char *name, const char *title, below_make *make,
 	       gpointer part);
-/** below_panel - by the name of its tab; made now, if nobody has seen it yet. Borrowed. */
+/** below_panel - the panel of a tab; makes it if need be. Borrowed. */
 GtkWidget *below_panel(struct below *below, const char *name);
-/** below_made - the same; NULL: nobody has seen it yet. */
+/** below_made - the panel of a tab; NULL: not made yet. Borrowed. */
 GtkWidget *below_made(struct below *below, const char *name);
-/** below_show - the same, brought to the front. */
+/** below_show - below_panel(), and brings it to the front. */
 GtkWidget *below_show(struct below *below, const char *name);
-/** below_show_error - the list of problems, with the keys at the first error. */
+/** below_show_error - shows the problems and focuses the first error. */
 void below_show_error(struct below *below);
-/** below_offer - whether its tab is shown. */
+/** below_offer - shows or hides a tab. */
 void below_offer(struct below *below, const char *name, bool offered);
 /** below_set_title - @title: translated. */
 void below_set_title(struct below *below, const char *name, const char *title);
-/** below_make_room - @panel px for the panels, if the sheets keep @sheet px. */
+/** below_make_room - gives the panels @panel px if @sheet px are left for the sheets. */
 void below_make_room(struct below *below, int panel, int sheet);
 
 #endif

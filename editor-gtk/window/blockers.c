@@ -22,7 +22,7 @@ static void forget(struct blockers *blockers)
 
 /* ---- in words ---- */
 
-/* The texts of why.def have one %s at most. */
+/* Each text of why.def has at most one %s. */
 static void append_said(GString *out, enum why_kind kind, bool on, const char *name)
 {
 	const char *text = said(why_text(kind, on)), *hole = strstr(text, "%s");
@@ -43,7 +43,6 @@ static void append_cell(GString *out, const struct why_cell *cell, bool on)
 		g_string_append_printf(out, " (%s)", cell->values);
 }
 
-/* "Off: Start is FALSE; or Motor is FALSE". Caller frees. */
 static char *in_words(const struct why *why)
 {
 	GString *out = g_string_new(why->on ? _("It has power: ") : _("No power: "));
@@ -132,7 +131,7 @@ static void tell(struct blockers *blockers, const struct why *why)
 	blockers->told = text;
 }
 
-/* The answer of the scan that is shown now. */
+/* Updates marks and text for the scan that is shown. */
 static void look(struct blockers *blockers)
 {
 	struct why *why;
@@ -176,7 +175,7 @@ void blockers_ask(struct blockers *blockers)
 		messages_tell(blockers->core->messages, _("Start the simulation first"));
 		return;
 	}
-	/* A condition is shown as rungs first, with the power that they have. */
+	/* Opens the condition as rungs first, so that their power is visible. */
 	if (!sheet && chart && ladder_sfc_view_why(chart))
 		return;
 	if (!sheet || !meant(sheet, &row, &col)) {

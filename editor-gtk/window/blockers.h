@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * blockers - why the element at the cursor has no power, or by what ways it has it.
+ * blockers - why the element at the cursor has no power, or how power reaches it.
  *
- * The engine finds the reasons (trial/why.h). They are marked in the rung and told in the
- * status bar, for the scan that is shown, until the person asks again.
+ * trial/why.h finds the reasons. They are marked in the rung and shown in the status bar
+ * for the current scan, until the command is given again.
  */
 #ifndef EDITOR_BLOCKERS_H
 #define EDITOR_BLOCKERS_H
@@ -13,14 +13,15 @@
 
 struct blockers {
 	struct core *core;
-	LadderGridView *sheet;  /* of the window's document, weak; NULL: nothing is asked */
+	LadderGridView *sheet;  /* weak; NULL: nothing is asked */
 	int rung, row, col;     /* 0-based, of the rung                        */
 	char *told;
 };
 
 void blockers_init(struct blockers *blockers, struct core *core);
 void blockers_clear(struct blockers *blockers);
-/** blockers_ask - of the element at the cursor; asked again of the same, the marks go. */
+/** blockers_ask - shows the reasons for the element at the cursor; if they are shown
+ * already, clears them. */
 void blockers_ask(struct blockers *blockers);
 
 #endif

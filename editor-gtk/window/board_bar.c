@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * board_bar - the project's I/O maps, and running it on this machine; see board_bar.h.
+ * board_bar - I/O maps of the project, and running it on this machine; see board_bar.h.
  */
 #include "editor-gtk/window/board_bar.h"
 
@@ -24,7 +24,7 @@ static LadderBoardView *board_view(struct board_bar *bar)
 
 /* ---- a new map ---- */
 
-/* It may have been made here, or come otherwise; whoever closed the banner knows. */
+/* The map may have been made in this editor or elsewhere; closing the banner records that. */
 void board_bar_look(struct board_bar *bar)
 {
 	if (messages_has_banner(bar->core->messages) &&
@@ -49,7 +49,7 @@ static void make_map(gpointer part, const char *path)
 	g_free(text);
 }
 
-/* "garage-door.io", beside the program. */
+/* Proposes "garage-door.io" beside "garage-door.rung". */
 void board_bar_new_map(struct board_bar *bar)
 {
 	export_ask(bar->export, _("New I/O map"), ".io", make_map, bar);
@@ -57,9 +57,9 @@ void board_bar_new_map(struct board_bar *bar)
 
 /* ---- running ---- */
 
-#define MAP_MOST (4 << 20) /* bytes of a map, as ladderd has it                */
+#define MAP_MOST (4 << 20) /* bytes of a map, as in ladderd                    */
 
-/* What stays in the log when the page is gone. */
+/* Logs @text: the log keeps it after the page is closed. */
 static void log_board(struct board_bar *bar, const char *text)
 {
 	messages_log(bar->core->messages, _("communication"), text);
@@ -93,7 +93,7 @@ static void start(struct board_bar *bar)
 	g_free(name);
 }
 
-/* Of the pins of a map: how many are read, how many are driven. */
+/* Counts the pins of a map that are read and driven. */
 static void count_pins(const char *map, int *inputs, int *outputs)
 {
 	gsize len;
@@ -123,13 +123,13 @@ static void run_answered(AdwMessageDialog *dialog, const char *answer, struct bo
 		start(bar);
 }
 
-/* What is asked before a run. */
+/* The facts that the question before a run shows. */
 struct question {
 	const char *map;
-	char *usual;         /* the project's own map; NULL: it has none       */
-	bool own;            /* the map is one of its own, by its name         */
+	char *usual;         /* path of the project's own map; NULL: none      */
+	bool own;            /* the map belongs to the project, by its name    */
 	bool saved;
-	int inputs, outputs; /* pins of the map                                */
+	int inputs, outputs; /* number of pins of the map                      */
 };
 
 static char *pins(int count)
@@ -171,8 +171,8 @@ static char *question_text(struct board_bar *bar, const struct question *questio
 	return g_string_free(body, FALSE);
 }
 
-/* Pins are driven, or files written, only if the person says so: plainly, if the map is
- * another's. */
+/* Asks before pins are driven or files are written; warns if the map belongs to another
+ * project. */
 static void ask(struct board_bar *bar, const struct question *question)
 {
 	char *body = question_text(bar, question);
@@ -205,7 +205,7 @@ static void run_with(struct board_bar *bar, const char *map)
 	g_free(question.usual);
 }
 
-/* The problems come to the front if there are errors. */
+/* False: the project has errors; shows them. */
 static bool is_sound(struct board_bar *bar)
 {
 	ladder_document_check_now(bar->core->document);
@@ -294,7 +294,7 @@ static char *said_by(enum board_state state, const struct board_status *status)
 	return g_strdup_printf("%s%s%s", status->state, *why ? ": " : "", why);
 }
 
-/* It is asked for its state again and again: the log has it when it is another. */
+/* Logs the state only when it changed, because it is polled. */
 static void log_state(struct board_bar *bar, enum board_state state)
 {
 	char *said = said_by(state, ladder_board_run_status(bar->core->board));
@@ -317,7 +317,7 @@ static void board_changed(struct board_bar *bar)
 	log_state(bar, state);
 }
 
-/* What was refused before it ran must be seen. */
+/* If ladderd ended before the first scan, its messages are in the log: show it. */
 static void board_ended(struct board_bar *bar, int status)
 {
 	char *text = board_ended_text(status);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * board_bar - the project's I/O maps, and running it on this machine.
+ * board_bar - I/O maps of the project, and running it on this machine.
  */
 #ifndef EDITOR_BOARD_BAR_H
 #define EDITOR_BOARD_BAR_H
@@ -11,24 +11,24 @@ struct board_bar {
 	struct core *core;
 	struct export *export;
 	struct files *files;
-	bool ran;            /* the program came to a scan                       */
-	char *said;          /* the state that the log has; NULL: none           */
-	bool close_when_off; /* the person closes the window                     */
+	bool ran;            /* at least one scan has run                        */
+	char *said;          /* the state logged last; NULL: none                */
+	bool close_when_off; /* close the window when the program has stopped    */
 };
 
 void board_bar_init(struct board_bar *bar, struct core *core, struct export *export,
 		    struct files *files);
 void board_bar_clear(struct board_bar *bar);
-/** board_bar_new_map - asks for a file, and opens it: a point for all that is used. */
+/** board_bar_new_map - asks for a file and writes a map with a point for each used address. */
 void board_bar_new_map(struct board_bar *bar);
-/** board_bar_run - with the map in front, or the one chosen below; asks before pins are
- * driven or files are written. */
+/** board_bar_run - runs with the map in front, else with the one chosen in its panel; asks
+ * before pins are driven or files are written. */
 void board_bar_run(struct board_bar *bar);
 void board_bar_stop(struct board_bar *bar);
-/** board_bar_look - closes the banner that no map lies beside the program when one does. */
+/** board_bar_look - closes the banner "no I/O map" if the project has one now. */
 void board_bar_look(struct board_bar *bar);
-/** board_bar_may_close - false: something runs; the person is asked, and the window closes
- * itself when outputs are safe. */
+/** board_bar_may_close - true: nothing runs. Else asks, and closes the window when the
+ * outputs are safe. */
 bool board_bar_may_close(struct board_bar *bar);
 
 #endif

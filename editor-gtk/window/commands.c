@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * commands - all verbs by name: a line to find one, and a window of all keys.
+ * commands - a dialog that finds a command by name, and the window of all keys.
  *
  * Both are made from the rows of verbs.def.
  */
@@ -16,7 +16,7 @@
 struct commands {
 	GtkWindow *window;
 	GtkWidget *dialog, *search, *list, *none;
-	char *filled;   /* for which text the list is what it is               */
+	char *filled;   /* the search text that the list was filled for        */
 };
 
 static bool fits(enum verb verb, const char *want)
@@ -68,13 +68,13 @@ static void fill(struct commands *commands)
 			gtk_list_box_append(GTK_LIST_BOX(commands->list),
 					    row_new((enum verb)i));
 	row = gtk_list_box_get_row_at_index(GTK_LIST_BOX(commands->list), 0);
-	gtk_widget_set_visible(commands->none, !row); /* a reader sees hidden ones, too */
+	gtk_widget_set_visible(commands->none, !row); /* screen readers read hidden text too */
 	gtk_list_box_select_row(GTK_LIST_BOX(commands->list), row);
 	g_free(commands->filled);
 	commands->filled = g_strdup(want);
 }
 
-/* The line tells what was typed a moment later: Enter may be quicker. */
+/* "search-changed" comes with a delay; Enter may come before it. */
 static void fill_if_due(struct commands *commands)
 {
 	if (g_strcmp0(commands->filled, gtk_editable_get_text(
@@ -94,7 +94,7 @@ static void do_row(struct commands *commands, GtkListBoxRow *row)
 		g_object_get_data(G_OBJECT(row), "verb")) : VERB_COUNT;
 	GtkWindow *window = commands->window;
 
-	gtk_window_destroy(GTK_WINDOW(commands->dialog)); /* frees commands */
+	gtk_window_destroy(GTK_WINDOW(commands->dialog));
 	if (verb != VERB_COUNT)
 		gtk_widget_activate_action(GTK_WIDGET(window), verb_row(verb)->action, NULL);
 }
@@ -114,7 +114,7 @@ static void do_selected(struct commands *commands)
 	do_row(commands, gtk_list_box_get_selected_row(GTK_LIST_BOX(commands->list)));
 }
 
-/* The line keeps the focus, so that the list does not follow by itself. */
+/* The focus stays in the search entry, so the list does not scroll by itself. */
 static void reveal(struct commands *commands, GtkListBoxRow *row)
 {
 	GtkAdjustment *down = gtk_list_box_get_adjustment(
@@ -195,7 +195,7 @@ void commands_show(GtkWindow *window)
 
 /* ---- all keys ---- */
 
-#define KEYS_HIGH 13 /* of a column: more would not fit a screen of 768 lines */
+#define KEYS_HIGH 13 /* rows of a column; more do not fit a screen 768 px high */
 
 static void append_title(GString *ui, const char *title)
 {
@@ -203,7 +203,7 @@ static void append_title(GString *ui, const char *title)
 			       "<property name='title'>%s</property>", title);
 }
 
-/* As the shortcuts window wants them; those of the number pad are the same again. */
+/* Accelerators for GtkShortcutsShortcut, without those of the number pad. */
 static char *keys_shown(const char *text)
 {
 	char **keys = g_strsplit(text, "|", -1);
@@ -247,7 +247,7 @@ static void append_group(GString *ui, enum verb_group group)
 	g_free(title);
 }
 
-/* A page of groups: of drawing, or of all the rest. */
+/* A page of the window: the groups for drawing, or all others. */
 static void append_section(GString *ui, const char *name, const char *title, bool drawing)
 {
 	char *escaped = g_markup_escape_text(title, -1);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * commands - all verbs by name: a line to find one, and a window of all keys.
+ * commands - a dialog that finds a command by name, and the window of all keys.
  */
 #ifndef EDITOR_COMMANDS_H
 #define EDITOR_COMMANDS_H
 
 #include <gtk/gtk.h>
 
-/** commands_show - a dialog that finds a verb and does its action of @window. */
+/** commands_show - opens the dialog; a command is activated as an action of @window. */
 void commands_show(GtkWindow *window);
-/** keys_show - the window of all keys, by group. */
+/** keys_show - opens the window of all keys. */
 void keys_show(GtkWindow *window);
 
 #endif

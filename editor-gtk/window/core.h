@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * core - what the parts of one window share: its document, what runs it, and the parts that
- * the others build on.
+ * core - what the parts of one window share: document, simulation, and the lower parts.
  *
- * A part knows the parts below it and calls them. It tells those above by a signal of
- * @window or by one of its actions ("win.save"); window.h lists the signals.
+ * A part calls the parts below it. To parts above it, it emits a signal of @window or
+ * activates one of its actions ("win.save"); window.h lists the signals.
  */
 #ifndef EDITOR_CORE_H
 #define EDITOR_CORE_H
@@ -18,8 +17,8 @@
 struct core {
 	GtkWindow *window;
 	LadderDocument *document;  /* NULL: the window is closing                 */
-	LadderSim *sim;            /* off while the window edits                  */
-	LadderBoardRun *board;     /* what runs on this machine                   */
+	LadderSim *sim;            /* off while editing                           */
+	LadderBoardRun *board;     /* the program on this machine                 */
 	GtkWidget *tree;
 	struct messages *messages;
 	struct below *below;
@@ -27,8 +26,8 @@ struct core {
 	struct tabs *tabs;
 };
 
-/** core_connect - g_signal_connect_object() with @part as the data of the handler; the
- * handler goes with the window. */
+/** core_connect - connects @handler with @part as its data; disconnected when the window is
+ * freed. */
 static inline void core_connect(struct core *core, gpointer instance, const char *signal,
 				GCallback handler, gpointer part, GConnectFlags flags)
 {
@@ -39,13 +38,13 @@ static inline void core_connect(struct core *core, gpointer instance, const char
 	g_signal_connect_closure(instance, signal, closure, FALSE);
 }
 
-/** core_do - one of the window's actions, "win.save". */
+/** core_do - activates an action of the window, such as "win.save". */
 static inline void core_do(struct core *core, const char *action)
 {
 	gtk_widget_activate_action(GTK_WIDGET(core->window), action, NULL);
 }
 
-/** core_enable - whether one of the window's actions can be done. */
+/** core_enable - enables or disables an action of the window. */
 static inline void core_enable(struct core *core, const char *action, bool enabled)
 {
 	gtk_widget_action_set_enabled(GTK_WIDGET(core->window), action, enabled);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * exchange - a project that came from ClassicLadder, or goes there; see exchange.h.
+ * exchange - import from and export to ClassicLadder; see exchange.h.
  */
 #include "editor-gtk/window/exchange.h"
 
@@ -12,7 +12,7 @@
 #include "editor-gtk/window/front.h"
 #include "editor-gtk/window/messages.h"
 
-#define REPORT_ROOM 300 /* px that the panel gets at least, if there is room    */
+#define REPORT_ROOM 300 /* px that the panel gets, if the sheets keep SHEET_ROOM */
 #define SHEET_ROOM  180
 
 static LadderReportView *view_of(struct exchange *exchange)
@@ -108,7 +108,7 @@ void exchange_imported(struct exchange *exchange)
 
 /* ---- writing one ---- */
 
-/* In the place of the import's, which comes again with an original. */
+/* Shows the report of an export in place of that of the import. */
 static void tell_export(struct exchange *exchange, const char *path, GPtrArray *lines)
 {
 	char *name = g_path_get_basename(path);

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * exchange - a project that came from ClassicLadder, or goes there: what changed on the way,
- * the originals of its rungs, and writing it. An export does not save the document.
+ * exchange - import from and export to ClassicLadder: the report, the originals of rungs,
+ * and writing a file.
+ *
+ * An export does not mark the document as saved.
  */
 #ifndef EDITOR_EXCHANGE_H
 #define EDITOR_EXCHANGE_H
@@ -14,22 +16,23 @@ struct exchange {
 	struct export *export;
 };
 
-/** exchange_init - adds the panel, which is offered when there is a report. */
+/** exchange_init - adds the panel; its tab is hidden until there is a report. */
 void exchange_init(struct exchange *exchange, struct core *core, struct origin *origin,
 		 struct export *export);
-/** exchange_show - the panel, with the keys. */
+/** exchange_show - shows and focuses the panel. */
 void exchange_show(struct exchange *exchange);
-/** exchange_show_original - of the rung at the cursor, which it follows from then on. */
+/** exchange_show_original - shows the original of the rung at the cursor; it follows the
+ * cursor. */
 void exchange_show_original(struct exchange *exchange);
-/** exchange_imported - the document was made from the origin's ClassicLadder project; a banner
- * tells that. */
+/** exchange_imported - shows a banner: the document was made from the ClassicLadder project
+ * of @origin. */
 void exchange_imported(struct exchange *exchange);
-/** exchange_export - asks for a file of ClassicLadder. */
+/** exchange_export - asks for a file and exports. */
 void exchange_export(struct exchange *exchange);
-/** exchange_export_to - false: it could not be written, which is told. */
+/** exchange_export_to - false: writing failed, and a banner says why. */
 bool exchange_export_to(struct exchange *exchange, const char *path);
-/** exchange_add_filter - files of ClassicLadder. @numbers: bare rung files too, and it is the
- * filter that is chosen. */
+/** exchange_add_filter - adds a filter for ClassicLadder files. @numbers: it also has
+ * rung_N.txt, and is selected. */
 void exchange_add_filter(GtkFileChooser *chooser, bool numbers);
 
 #endif

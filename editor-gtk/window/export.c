@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * export - files that a window writes beside its program, and paper; see export.h.
+ * export - writes files beside the program, and prints; see export.h.
  */
 #include "editor-gtk/window/export.h"
 
@@ -57,7 +57,7 @@ static void ask_replace(struct core *core, struct named *named)
 	g_free(name);
 }
 
-/* Has it one of them, parted by `|`? */
+/* Does @path end in one of @endings, which `|` separates? */
 static bool has_ending(const char *path, const char *endings)
 {
 	char *name = g_path_get_basename(path), *lower = g_utf8_strdown(name, -1);
@@ -72,7 +72,7 @@ static bool has_ending(const char *path, const char *endings)
 	return found;
 }
 
-/* The first one. Caller frees. */
+/* The first of @endings. Caller frees. */
 static char *ending_of(const char *endings)
 {
 	return g_strndup(endings, strcspn(endings, "|"));
@@ -97,7 +97,7 @@ void export_named(struct core *core, const char *path, const char *endings,
 
 /* ---- asking where ---- */
 
-/* What is asked for while the dialog is open. */
+/* Data of the open file chooser. */
 struct asked {
 	struct core *core;
 	const char *endings;
@@ -175,7 +175,7 @@ void export_symbols(struct export *export)
 
 /* ---- on paper ---- */
 
-/* What is printed, and how: the title block and what stands above elements. */
+/* What a print needs: project, title block, and what is shown above elements. */
 struct printing {
 	const struct project *project;
 	char *file, *date;
@@ -198,7 +198,7 @@ static struct printing printing_of(struct export *export)
 	return printing;
 }
 
-/* A file that is open as text has no pages: the panel shows what is wrong with it. */
+/* False: the file is open as text only; shows its problems. */
 static bool has_pages(struct export *export)
 {
 	if (ladder_document_project(export->core->document))
@@ -215,7 +215,7 @@ static GtkPrintOperation *operation_new(struct export *export)
 	GtkPrintOperation *operation = print_operation_new(printing.project, printing.file,
 							   -1, printing.show, printing.date);
 
-	/* The operation asks for them again while it runs. */
+	/* the operation borrows both while it runs */
 	g_object_set_data_full(G_OBJECT(operation), "file", printing.file, g_free);
 	g_object_set_data_full(G_OBJECT(operation), "date", printing.date, g_free);
 	return operation;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * export - files that a window writes beside its program: where, under which name, and over
- * what. Also paper: to a printer, into a PDF.
+ * export - writes files beside the program (symbols, PDF), and prints.
  *
- * A file is written whole, or what was there stays. Saving the program is files.c's.
+ * A file is replaced only if the new one was written whole. Saving the program is in
+ * files.c.
  */
 #ifndef EDITOR_EXPORT_H
 #define EDITOR_EXPORT_H
@@ -18,16 +18,16 @@ struct export {
 typedef void export_write(gpointer part, const char *path);
 
 void export_init(struct export *export, struct core *core, struct origin *origin);
-/** export_named - @write(@part, @path), which gets the first of @endings (".csv|.txt") if it
- * has none of them. If a file of that name is there, of which the file dialog did not know,
- * the person is asked. */
+/** export_named - calls @write(@part, path). Adds the first of @endings (".csv|.txt") if
+ * @path has none of them; then asks before it replaces an existing file, which the file
+ * chooser could not check. */
 void export_named(struct core *core, const char *path, const char *endings,
 		  export_write *write, gpointer part);
-/** export_ask - asks for a file beside the program, named as it, and writes it. @endings: as
- * above; lives for ever. Returns the dialog; it owns itself. */
+/** export_ask - asks for a file, proposed beside the program with its name, and writes it.
+ * @endings: static. Returns the dialog; it frees itself. */
 GtkFileChooser *export_ask(struct export *export, const char *title, const char *endings,
 			   export_write *write, gpointer part);
-/** export_symbols - asks for a file: all symbols as a table. */
+/** export_symbols - asks for a file and writes all symbols as a table. */
 void export_symbols(struct export *export);
 void export_pdf(struct export *export);
 void export_print(struct export *export);

@@ -29,7 +29,7 @@ static void open_response(GtkNativeDialog *dialog, int response, struct files *f
 	g_free(path);
 }
 
-/* All kinds in one filter, which is chosen. */
+/* Adds a filter with all kinds, and selects it. */
 static void add_all(GtkFileChooser *chooser)
 {
 	GtkFileFilter *filter = gtk_file_filter_new();
@@ -79,12 +79,11 @@ static void tell_refused(struct files *files, const GPtrArray *refused)
 	text = g_strdup_printf(_("Cannot open %s. You can drop rung files, scenarios, I/O "
 				 "maps and ClassicLadder projects here."), names->str);
 	messages_warn(files->core->messages, text);
-	gtk_window_present(files->core->window); /* before those that opened */
+	gtk_window_present(files->core->window); /* above windows that were just opened */
 	g_free(text);
 	g_string_free(names, TRUE);
 }
 
-/* What was dropped opens as if it had been chosen. */
 static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
 			struct files *files)
 {
@@ -108,7 +107,7 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 	return TRUE;
 }
 
-/* It comes before the widgets inside: a text would take the name of the file. */
+/* In the capture phase, because a text view would insert the file name. */
 static void accept_drops(struct files *files)
 {
 	GtkDropTarget *drop = gtk_drop_target_new(GDK_TYPE_FILE_LIST, GDK_ACTION_COPY);
@@ -178,7 +177,7 @@ static gboolean close_idle(gpointer window)
 	return G_SOURCE_REMOVE;
 }
 
-/* The dialog that was answered goes with the window: it must be done before. */
+/* In an idle call, because the dialog that was answered belongs to the window. */
 static void close_now(struct files *files)
 {
 	draft_remove(files->core->document);
@@ -187,7 +186,7 @@ static void close_now(struct files *files)
 	g_idle_add(close_idle, g_object_ref(files->core->window));
 }
 
-/* An export to ClassicLadder does not save the program: the window stays open. */
+/* After an export to ClassicLadder the window stays open: the program is not saved. */
 static void save_chosen(gpointer part, const char *path)
 {
 	struct files *files = part;
@@ -198,8 +197,8 @@ static void save_chosen(gpointer part, const char *path)
 		close_now(files);
 }
 
-/* The endings of programs, and the file's own. With another ending, of a scenario or an I/O
- * map say, the program could not be opened again. Caller frees. */
+/* Endings of programs, and the one that the file has. With the ending of a scenario or an
+ * I/O map the program could not be opened again. Caller frees. */
 static char *program_endings(struct files *files, bool classic)
 {
 	const char *path = ladder_document_path(files->core->document);
@@ -271,7 +270,7 @@ void files_tell(struct files *files)
 		     _("Save as…"), "win.save_as");
 }
 
-/* To its own file. False: it could not be saved, or a banner asks first. */
+/* Saves to the path of the document. False: not saved, or a banner asks first. */
 static bool save_here(struct files *files)
 {
 	if (ladder_document_disk(files->core->document) == DISK_OTHER)
@@ -364,7 +363,7 @@ bool files_may_close(struct files *files)
 
 	if (files->closing)
 		return true;
-	ladder_document_disk(files->core->document); /* finds a file that is gone */
+	ladder_document_disk(files->core->document); /* detects a deleted file */
 	if (files_is_all_saved(files)) {
 		draft_remove(files->core->document);
 		tabs_each_file(files->core->tabs, draft_remove);
@@ -383,12 +382,12 @@ void files_keep_drafts(struct files *files)
 {
 	front_take_typed(files->core->front);
 	tabs_each_file(files->core->tabs, ladder_side_file_commit);
-	ladder_document_disk(files->core->document); /* finds a file that is gone */
+	ladder_document_disk(files->core->document); /* detects a deleted file */
 	draft_write(files->core->document);
 	tabs_each_file(files->core->tabs, draft_write);
 }
 
-/* Of two drafts of one file the second is a step that can be undone. */
+/* If the file is open and unsaved, the draft becomes a step that can be undone. */
 bool files_restore(struct files *files, const struct draft *draft)
 {
 	struct tabs *tabs = files->core->tabs;
@@ -437,10 +436,10 @@ static void tell_disk(struct files *files, enum disk_state state)
 			_("Another program changed the file. Reloading it would discard your "
 			  "changes."), _("Reload"), "win.reload");
 	else if (files->disk_told == DISK_GONE)
-		messages_close_banner(files->core->messages); /* it is there again */
+		messages_close_banner(files->core->messages); /* the file exists again */
 }
 
-/* Each change is told once: a banner that was closed stays closed. */
+/* Each change is reported once: a closed banner stays closed. */
 void files_look(struct files *files)
 {
 	const enum disk_state state = ladder_document_disk(files->core->document);

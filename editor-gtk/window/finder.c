@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * finder - the find bar in its window; see finder.h.
+ * finder - the find bar of a window; see finder.h.
  */
 #include "editor-gtk/window/finder.h"
 
@@ -8,7 +8,7 @@
 #include "editor-gtk/panels/symbols_view.h"
 #include "editor-gtk/window/front.h"
 
-/* NULL: it stands on none. */
+/* The current hit; NULL: none. */
 static const struct find_hit *hit_of(struct finder *finder)
 {
 	LadderFindBar *bar = finder->bar;
@@ -18,7 +18,7 @@ static const struct find_hit *hit_of(struct finder *finder)
 	return find && current >= 0 ? find->hit->pdata[current] : NULL;
 }
 
-/* The hit it stands on is marked on its sheet. */
+/* Marks the current hit on its sheet. */
 static void mark_hit(struct finder *finder)
 {
 	LadderGridView *sheet = front_rungs(finder->core->front);
@@ -37,7 +37,7 @@ static void mark_hit(struct finder *finder)
 		ladder_grid_view_set_found(sheet, -1, 0, 0);
 }
 
-/* NULL: there is no table of symbols in front. */
+/* The symbol table, if it is in front, else NULL. */
 static LadderSymbolsView *symbols_of(AdwTabPage *page)
 {
 	GtkWidget *place = page ? page_content(page) : NULL;
@@ -46,7 +46,7 @@ static LadderSymbolsView *symbols_of(AdwTabPage *page)
 	return LADDER_IS_SYMBOLS_VIEW(symbols) ? LADDER_SYMBOLS_VIEW(symbols) : NULL;
 }
 
-/* To where the hit is; else to what is in front. */
+/* Focuses the place of the hit, else the page in front. */
 static void give_keys(struct finder *finder)
 {
 	const struct find_hit *hit = hit_of(finder);
@@ -76,7 +76,7 @@ static void closed(struct finder *finder)
 		give_keys(finder);
 }
 
-/* The cursor of a chart still is where find left it. */
+/* Is the cursor of the chart at the current hit? */
 static bool is_at_hit(struct finder *finder, LadderSfcView *chart)
 {
 	const int *place = ladder_find_bar_place(finder->bar);
@@ -92,7 +92,7 @@ static void tell_place(struct finder *finder)
 	struct grid_cursor cursor;
 
 	if (ladder_find_bar_has_keys(finder->bar))
-		return; /* from hit to hit */
+		return; /* the cursor moved from hit to hit */
 	if (chart && !is_at_hit(finder, chart))
 		ladder_find_bar_set_place(finder->bar, ladder_canvas_pou(LADDER_CANVAS(chart)), -1,
 					  ladder_sfc_view_row(chart), -1);
@@ -125,7 +125,7 @@ bool finder_close(struct finder *finder)
 	return open;
 }
 
-/* Esc that nobody else had a use for. */
+/* Esc closes the bar if no other widget used the key. */
 static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
 			    GdkModifierType state, struct finder *finder)
 {

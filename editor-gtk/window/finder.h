@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * finder - the find bar in its window: where it begins, what it marks.
+ * finder - the find bar of a window: where a search begins, and its marks on the sheets.
  */
 #ifndef EDITOR_FINDER_H
 #define EDITOR_FINDER_H
@@ -18,7 +18,7 @@ struct finder {
 void finder_init(struct finder *finder, struct core *core);
 /** finder_do - find, replace, next, previous. */
 void finder_do(struct finder *finder, enum verb verb);
-/** finder_close - false: it is not open. */
+/** finder_close - closes the bar; false: it was closed. */
 bool finder_close(struct finder *finder);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * front - what is seen of the program; see front.h.
+ * front - the part of the program that is visible; see front.h.
  */
 #include "editor-gtk/window/front.h"
 
@@ -24,7 +24,7 @@ AdwTabPage *front_tab(struct front *front)
 	return adw_tab_view_get_selected_page(front->tabs);
 }
 
-/* With what scrolls it; NULL: nothing is seen. */
+/* The visible page, including its scrolled window; NULL: none. */
 static GtkWidget *seen_page(struct front *front)
 {
 	AdwTabPage *tab = front_tab(front);
@@ -120,7 +120,7 @@ void front_enter(struct front *front)
 {
 	GtkWidget *page = seen_page(front);
 
-	/* A cell that is edited goes on. */
+	/* A cell that is being edited keeps the focus. */
 	if (page && !has_focus(front, page) && !front_enter_program(front))
 		gtk_widget_child_focus(page, GTK_DIR_TAB_FORWARD);
 }
@@ -178,7 +178,7 @@ bool front_older_by(struct front *front, int by)
 	return true;
 }
 
-/* The POU in front, if it was there then; else the first. */
+/* The POU in front if the older program has it, else the first. */
 static int pou_before(struct front *front, const struct project *project)
 {
 	AdwTabPage *tab = front_tab(front);
@@ -267,11 +267,11 @@ static void program_changed(struct front *front)
 
 /* ---- going to a number ---- */
 
-/* The numbers of what is seen: of rungs as they are shown, or of lines, from 1 on. */
+/* The range of numbers to go to: rungs as they are shown, or lines, from 1. */
 struct numbers {
 	LadderGridView *sheet;
 	GtkTextBuffer *text;
-	int first, last;       /* 1 and 0: neither is seen                     */
+	int first, last;       /* 1 and 0: nothing to go to                    */
 };
 
 static struct numbers numbers_of(struct front *front)
@@ -303,7 +303,7 @@ static bool is_number(const struct numbers *of, const char *text, int *number)
 	return true;
 }
 
-/* The text view in @within; NULL: there is none. */
+/* The first GtkTextView in @within; NULL: none. */
 static GtkTextView *view_in(GtkWidget *within)
 {
 	GtkTextView *found = GTK_IS_TEXT_VIEW(within) ? GTK_TEXT_VIEW(within) : NULL;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * front - what is seen of the program: the page in front of the tabs, or the program as it
- * was before an edit.
+ * front - the visible part of the program: the page in front, or the program before an
+ * edit.
  *
- * While a scan is shown that ran before an edit, that program stands in the place of the
- * tabs, with a bar that says so: its POUs are sheets of a document that nobody can change.
+ * While the scan that is shown ran before an edit, sheets of that older program replace the
+ * tabs, below a bar that says so. They belong to a read-only document.
  */
 #ifndef EDITOR_FRONT_H
 #define EDITOR_FRONT_H
@@ -14,45 +14,46 @@
 struct front {
 	struct core *core;
 	AdwTabBar *tab_bar;
-	GtkWidget *now;           /* the program as it is: the tabs              */
+	GtkWidget *now;           /* the tabs: the current program               */
 	AdwTabView *tabs;
 	GtkLabel *nothing_label;
-	LadderDocument *older;    /* the program before an edit; NULL: not seen  */
-	GtkWidget *box, *page;    /* of that: all of it; the POU that is shown   */
+	LadderDocument *older;    /* the program before an edit; NULL: not shown */
+	GtkWidget *box, *page;    /* everything of that program; its current POU */
 	GtkLabel *label;
 	GtkDropDown *pous;
-	bool filling;             /* @pous is being filled                       */
+	bool filling;             /* @pous is being filled: ignore its signal    */
 };
 
 void front_init(struct front *front, struct core *core);
 void front_clear(struct front *front);
-/** front_is_older - is a program before an edit seen? */
+/** front_is_older - is a program before an edit shown? */
 bool front_is_older(const struct front *front);
-/** front_older_by - shows the POU so many further on of that program. False: none is seen. */
+/** front_older_by - shows the POU of that program @by further on. False: no such program is
+ * shown. */
 bool front_older_by(struct front *front, int by);
-/** front_tab - the page in front of the tabs; NULL: there is none. Borrowed, as all below. */
+/** front_tab - the page in front; NULL: none. Borrowed, as all below. */
 AdwTabPage *front_tab(struct front *front);
-/** front_seen_sheet, front_seen_chart - that is seen, also of a program before an edit.
- * Of a chart, the rungs below it are the sheet while somebody works on them. NULL: none. */
+/** front_seen_sheet, front_seen_chart - the visible one, also of a program before an edit.
+ * On the page of a chart, the rungs below it are the sheet while they have the focus.
+ * NULL: none. */
 LadderGridView *front_seen_sheet(struct front *front);
 LadderSfcView *front_seen_chart(struct front *front);
-/** front_sheet, front_chart - the same of the window's document only. */
+/** front_sheet, front_chart - the same, of the document of the window only. */
 LadderGridView *front_sheet(struct front *front);
 LadderSfcView *front_chart(struct front *front);
-/** front_rungs - the sheet; else the rungs that stand below a chart, whoever has the keys. */
+/** front_rungs - the sheet, else the rungs below a chart, with or without the focus. */
 LadderGridView *front_rungs(struct front *front);
-/** front_list - the text of a program. front_file - a file beside the project. */
+/** front_list - the text of a POU. front_file - a file beside the project. */
 LadderTextView *front_list(struct front *front);
 LadderSideFile *front_file(struct front *front);
-/** front_enter_program - gives the keys to the sheet, the chart or the text that is seen.
- * False: none is seen. */
+/** front_enter_program - focuses the visible sheet, chart or text. False: none is visible. */
 bool front_enter_program(struct front *front);
-/** front_enter - gives the keys to the page in front, unless something in it has them. */
+/** front_enter - focuses the page in front, unless the focus is in it. */
 void front_enter(struct front *front);
-/** front_take_typed - what was just typed into a text or a cell goes into the document.
- * False: it was refused, which is told where it stands. */
+/** front_take_typed - takes over what is being typed in a text or a cell. False: it was
+ * refused, and the cell shows why. */
 bool front_take_typed(struct front *front);
-/** front_ask_number - asks for a rung or a line of what is seen, and goes there. */
+/** front_ask_number - asks for the number of a rung or line, and goes there. */
 void front_ask_number(struct front *front);
 
 #endif

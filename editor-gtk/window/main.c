@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * main - ladder-editor begins here; everything else is app.c's.
+ * main - the entry point of ladder-editor.
  */
 #include "editor-gtk/window/app.h"
 

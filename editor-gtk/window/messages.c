@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * messages - what the window says: in the status bar, in a toast, in a banner, in the log.
+ * messages - messages of the window; see messages.h.
  */
 #include "editor-gtk/window/messages.h"
 
@@ -10,14 +10,13 @@
 #include "editor-gtk/panels/log_view.h"
 #include "editor-gtk/window/below.h"
 
-#define TOLD 1500000 /* us a message stays at least, if the cursor moves on    */
+#define TOLD 1500000 /* us for which cursor moves do not replace a message     */
 #define TOLD_BY_STEP 300000 /* us from the message of a step to the end of its check */
 
 /* ---- the status bar ---- */
 
 void messages_tell(struct messages *messages, const char *text)
 {
-	/* Sheets may emit "told" after the document is cleared. */
 	if (!messages->core->document)
 		return;
 	messages->told_at = text[0] ? g_get_monotonic_time() : 0;
@@ -36,8 +35,8 @@ void messages_keys(struct messages *messages, char *text)
 		messages_tell(messages, "");
 }
 
-/* A message about a program that has changed since goes, unless the step that changed it
- * has just given it. */
+/* Clears a message about an older version of the program, except one just given for the
+ * step that made this version. */
 static void checked(struct messages *messages)
 {
 	const guint64 version = ladder_document_version(messages->core->document);

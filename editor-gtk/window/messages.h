@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * messages - what the window says: in the status bar, in a toast, in a banner, in the log.
+ * messages - messages of the window: status bar, toast, banner, log.
  */
 #ifndef EDITOR_MESSAGES_H
 #define EDITOR_MESSAGES_H
@@ -14,34 +14,35 @@ struct messages {
 	GtkLabel *banner_label, *message_label;
 	GtkButton *banner_button, *banner_close;
 	const char *banner_action;
-	gint64 told_at;   /* us; when the message in the status bar came         */
-	guint64 told_of;  /* version of the document then                        */
-	char *keys;       /* stands in the status bar when there is no message   */
+	gint64 told_at;   /* us; when the message in the status bar was set      */
+	guint64 told_of;  /* version of the document at that time                */
+	char *keys;       /* shown while there is no message                     */
 };
 
 void messages_init(struct messages *messages, struct core *core);
 void messages_clear(struct messages *messages);
-/** messages_tell - a short message in the status bar; "" for none. It stays for a moment
- * while the cursor moves. */
+/** messages_tell - shows a short message in the status bar, for a moment at least; "":
+ * none. */
 void messages_tell(struct messages *messages, const char *text);
-/** messages_keys - what the next key could do (taken over), shown where no message stands. */
+/** messages_keys - what the next key would do (taken over), shown while there is no
+ * message. */
 void messages_keys(struct messages *messages, char *text);
-/** messages_toast - a message that goes by itself. */
+/** messages_toast - a message that disappears by itself. */
 void messages_toast(struct messages *messages, const char *text);
-/** messages_log - a line of the log (ladder_log_view_put). */
+/** messages_log - adds a line to the log (ladder_log_view_put()). */
 void messages_log(struct messages *messages, const char *kind, const char *text);
-/** messages_banner - a message that stays until it is closed. @action: of the window, what
- * the button @button does; lives for ever. Both NULL: no button. The log keeps the message,
- * as one of @kind, translated; NULL: of the system. */
+/** messages_banner - a message that stays until it is closed, and is logged. @kind: of the
+ * log, translated; NULL: "system". @button, @action: a button and the action of the window
+ * it activates; static, or both NULL. */
 void messages_banner(struct messages *messages, const char *kind, const char *text,
 		     const char *button, const char *action);
 /** messages_warn - a banner without a button. */
 void messages_warn(struct messages *messages, const char *text);
 void messages_close_banner(struct messages *messages);
-/** messages_has_banner - is any banner seen? */
+/** messages_has_banner - is a banner open? */
 bool messages_has_banner(const struct messages *messages);
-/** messages_close_offer - closes the banner if its button does @action. Returns false if it
- * does something else. */
+/** messages_close_offer - closes the banner if its button has @action. False: it has
+ * another. */
 bool messages_close_offer(struct messages *messages, const char *action);
 
 #endif

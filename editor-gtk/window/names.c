@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * names - what is done with the name at the cursor; see names.h.
+ * names - commands on the name at the cursor; see names.h.
  */
 #include "editor-gtk/window/names.h"
 
@@ -20,7 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WHY_LINES 4 /* that the reason why a name is refused can take          */
+#define WHY_LINES 4 /* lines reserved for the reason of a refusal              */
 
 static const char no_name[] = N_("There is no name at the cursor.");
 
@@ -47,7 +47,7 @@ static bool is_at_cursor(struct core *core, const struct xref *xref, int here, i
 			       is_here(&xref->use[use], sheet, row, col));
 }
 
-/* What the name at the cursor of a list is: the use in that line, or elsewhere in it. */
+/* The use of the name at the cursor of a list: in that line, else anywhere in the list. */
 static int use_in_list(LadderTextView *list, const struct xref *xref)
 {
 	char *name = ladder_text_view_name(list);
@@ -67,7 +67,7 @@ static int use_in_list(LadderTextView *list, const struct xref *xref)
 	return found;
 }
 
-/* The first use in the cursor's cell; -1: there is none. */
+/* The first use in the cell at the cursor; -1: none. */
 static int use_here(struct core *core, const struct xref *xref)
 {
 	LadderGridView *sheet = front_sheet(core->front);
@@ -126,7 +126,8 @@ static bool drives(enum xref_kind kind)
 	       kind == XREF_ENTERED;
 }
 
-/* A jump leads to its label, a call to what it calls; else what drives it is meant. */
+/* From a jump the command goes to its label, from a call to the POU; else to what drives
+ * the name. */
 static bool is_named_place(const struct xref_use *use)
 {
 	return use->kind == XREF_JUMPED ||
@@ -150,7 +151,7 @@ static const char *lost(const struct xref *xref, int here)
 	       _("Nothing in the program drives this name.");
 }
 
-/* The next one that drives it, round and round. */
+/* Goes to the next use that drives the name; after the last, to the first. */
 void names_go_driver(struct core *core)
 {
 	struct xref xref = { 0 };
@@ -192,7 +193,7 @@ char *names_at_cursor(struct core *core)
 	return name_by(core, begin);
 }
 
-/* The cross reference came to sight. */
+/* The panel became visible. */
 static void uses_seen(GtkWidget *uses, struct core *core)
 {
 	char *name = name_by(core, find_here);
@@ -202,7 +203,7 @@ static void uses_seen(GtkWidget *uses, struct core *core)
 	g_free(name);
 }
 
-/* The cursor went on: a cross reference that lost its name is asked anew. */
+/* If the panel has lost its name, it shows the one at the cursor. */
 static void cursor_moved(struct core *core)
 {
 	GtkWidget *uses = below_made(core->below, "uses");
@@ -212,7 +213,7 @@ static void cursor_moved(struct core *core)
 		uses_seen(uses, core);
 }
 
-/* Where there is no name in a rung that has a label: the label. */
+/* As find_here(); a rung without a name at the cursor gives its label. */
 static bool find_label(struct core *core, struct xref *xref, int *here)
 {
 	LadderGridView *sheet = front_sheet(core->front);
@@ -260,7 +261,7 @@ static bool at_step(struct core *core)
 	return is;
 }
 
-/* Of a step, whether it is active. */
+/* Of a step, adds whether it is active. */
 void names_watch(struct core *core)
 {
 	char *name = names_at_cursor(core);
@@ -281,10 +282,10 @@ void names_show_uses_of(struct core *core, const char *name)
 
 /* ---- another name ---- */
 
-/* A thing that can get another name. */
+/* A name that can be changed. */
 struct named {
 	struct xref_target target;
-	char *name;          /* what it is called until now                   */
+	char *name;          /* the current name                              */
 	int uses;
 };
 
@@ -292,7 +293,7 @@ struct renaming {
 	struct core *core;
 	AdwMessageDialog *dialog;
 	GtkWidget *line, *why;
-	GArray *choice;      /* of struct named, one at least                 */
+	GArray *choice;      /* of struct named, at least one                 */
 	guint chosen;
 };
 
@@ -325,7 +326,7 @@ static void rename_target(struct core *core, const struct named *named, const ch
 	free(text);
 }
 
-/* Why it cannot be called so; NULL: it can. Caller frees. */
+/* Why the name is refused; NULL: it is not. Caller frees. */
 static char *refusal(LadderDocument *document, const struct named *named, const char *name)
 {
 	struct ladder_rename how;
@@ -407,7 +408,7 @@ static void renaming_free(gpointer data, GClosure *closure)
 	g_free(renaming);
 }
 
-/* NULL: there is nothing to choose. */
+/* Hidden if there is only one choice. */
 static GtkWidget *choice_new(struct renaming *renaming)
 {
 	GtkStringList *names = gtk_string_list_new(NULL);
@@ -432,7 +433,7 @@ static GtkWidget *line_new(struct renaming *renaming)
 	return line;
 }
 
-/* It has its line also while it is empty: what is below it stays where it is. */
+/* The empty label keeps its height, so that the dialog does not jump. */
 static GtkWidget *why_new(void)
 {
 	GtkWidget *why = gtk_label_new("");
@@ -475,7 +476,7 @@ static void ask_name(struct core *core, GArray *choice)
 	gtk_widget_grab_focus(renaming->line);
 }
 
-/* What it is declared as; NULL: it is not. */
+/* The declared name; NULL: the target is not declared. */
 static const char *declared_name(const struct xref *xref, const struct xref_target *target)
 {
 	for (int i = 0; i < xref->count; i++) {
@@ -501,7 +502,7 @@ static GArray *choice_start(void)
 	return choice;
 }
 
-/* If it is declared, and not among them yet. */
+/* Adds the target if it is declared and not in @choice. */
 static void choice_add(GArray *choice, const struct xref *xref,
 		       const struct xref_target *target)
 {
@@ -519,8 +520,8 @@ static void choice_add(GArray *choice, const struct xref *xref,
 	g_array_append_val(choice, named);
 }
 
-/* What is written in the cell; then what only its box is named by: an instance comes before
- * its block. */
+/* First the name written in the cell, then names that only its box stands for: the instance
+ * before the block type. */
 static GArray *choice_here(struct core *core, const struct xref *xref, int here)
 {
 	GArray *choice = choice_start();

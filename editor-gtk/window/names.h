@@ -1,32 +1,33 @@
 /* SPDX-License-Identifier: MIT
  *
- * names - what is done with the name at the cursor: where it is driven, where it is used,
- * its value in the status chart, another name for it.
+ * names - commands on the name at the cursor: go to what drives it, show its uses, add it
+ * to the status chart, rename it.
  *
- * The engine's cross reference says what a name means.
+ * The engine's cross reference decides what a name means.
  */
 #ifndef EDITOR_NAMES_H
 #define EDITOR_NAMES_H
 
 #include "editor-gtk/window/core.h"
 
-/** names_add_panel - the cross reference. */
+/** names_add_panel - adds the cross reference. */
 void names_add_panel(struct core *core);
-/** names_go_driver - to the next place that drives the name, round and round. */
+/** names_go_driver - goes to the next place that drives the name, and from the last to the
+ * first. */
 void names_go_driver(struct core *core);
-/** names_at_cursor - of the element there; NULL: there is none, and that is told. Caller
+/** names_at_cursor - the name at the cursor; NULL: none, and the status bar says so. Caller
  * frees. */
 char *names_at_cursor(struct core *core);
-/** names_watch - adds it to the status chart, which is shown. */
+/** names_watch - adds the name to the status chart and shows it. */
 void names_watch(struct core *core);
 void names_watch_this(struct core *core, const char *name);
-/** names_show_uses - in the panel of the cross reference. */
+/** names_show_uses - shows the uses in the cross reference. */
 void names_show_uses(struct core *core);
 void names_show_uses_of(struct core *core, const char *name);
-/** names_rename - asks for the new name of what is at the cursor, and writes it wherever it
- * is used. While it is typed the question says why it cannot be taken; the engine decides. */
+/** names_rename - asks for a new name and changes all uses. The dialog shows why a name is
+ * refused; the engine decides that. */
 void names_rename(struct core *core);
-/** names_rename_pou - the same of a POU. */
+/** names_rename_pou - the same for a POU. */
 void names_rename_pou(struct core *core, int pou);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * origin - what an unsaved project was made from, and what comes along when it is saved.
+ * origin - what an unsaved project was made from; see origin.h.
  */
 #include "editor-gtk/window/origin.h"
 
@@ -12,12 +12,12 @@
 
 #include <string.h>
 
-#define FILE_MOST (4 << 20) /* bytes of a file that comes along                 */
+#define FILE_MOST (4 << 20) /* bytes of a file that is copied                   */
 
 struct taking {
 	struct origin *origin;
 	char *old_stem, *new_stem; /* paths without their ending               */
-	GString *taken, *left;     /* names, with commas between               */
+	GString *taken, *left;     /* file names, separated by commas          */
 };
 
 void origin_set_path(struct origin *origin, const char *path)
@@ -52,7 +52,7 @@ char *origin_name(struct origin *origin, const char *ending)
 
 /* ---- the plant ---- */
 
-/* "tank.plant.rung" of "tank.rung", if it is there. Caller frees. */
+/* "tank.plant.rung" for "tank.rung", if it exists. Caller frees. */
 static char *plant_of(const char *path)
 {
 	const gsize len = path ? strlen(path) : 0;
@@ -105,7 +105,7 @@ static char *stem_of(const char *path)
 			 strlen(path));
 }
 
-/* A scenario says in a line which plant it has. Caller frees. */
+/* @text of a scenario, with the new name of its plant. Caller frees. */
 static char *renamed(const struct taking *taking, const char *text)
 {
 	char *was = g_path_get_basename(taking->old_stem);
@@ -164,7 +164,7 @@ static void take_all(struct taking *taking, const char *sample)
 		take(taking, plant);
 	for (guint i = 0; i < scenarios->len; i++)
 		if (g_str_has_prefix(scenarios->pdata[i], taking->old_stem))
-			take(taking, scenarios->pdata[i]); /* not of another folder */
+			take(taking, scenarios->pdata[i]);
 	g_ptr_array_unref(scenarios);
 	g_free(plant);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * page - what a tab of the window holds; see page.h.
+ * page - what a tab of the window shows; see page.h.
  */
 #include "editor-gtk/window/page.h"
 
@@ -70,7 +70,7 @@ LadderSideFile *page_file(AdwTabPage *page)
 	       ladder_file_view_file(LADDER_FILE_VIEW(content)) : NULL;
 }
 
-/* The table of an I/O map; NULL: the page shows none. */
+/* The table of an I/O map; NULL: the page has none. */
 static LadderIomapView *table_of(AdwTabPage *page)
 {
 	GtkWidget *content = page_content(page);
@@ -91,7 +91,7 @@ static GtkTextBuffer *buffer_of(AdwTabPage *page)
 
 GtkTextBuffer *page_text(AdwTabPage *page)
 {
-	/* A table hides the text. */
+	/* the table hides the text */
 	return table_of(page) && !ladder_iomap_view_is_text(table_of(page)) ? NULL :
 	       buffer_of(page);
 }

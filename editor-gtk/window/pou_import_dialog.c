@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * pou_import_dialog - asks which programs and blocks of which project come.
+ * pou_import_dialog - imports POUs of another project; see pou_import_dialog.h.
  */
 #include "editor-gtk/window/pou_import_dialog.h"
 
@@ -9,10 +9,10 @@
 #include "editor-gtk/window/ask.h"
 
 struct asking {
-	GtkWidget *widget;       /* of the tree                                */
+	GtkWidget *widget;       /* that the result is reported to             */
 	LadderDocument *document;
 	struct ladder *from;
-	GPtrArray *checks;       /* of GtkCheckButton, one a POU               */
+	GPtrArray *checks;       /* of GtkCheckButton, one for each POU        */
 };
 
 static void asking_free(gpointer data, GClosure *closure)
@@ -50,7 +50,7 @@ static void chosen(AdwMessageDialog *dialog, const char *response, struct asking
 	g_free(wanted);
 }
 
-/* Nothing is imported by somebody who chose nothing. */
+/* "Import" is enabled while at least one is checked. */
 static void toggled(GtkWidget *check, AdwMessageDialog *dialog)
 {
 	const struct asking *asking = g_object_get_data(G_OBJECT(dialog), "asking");
@@ -62,7 +62,7 @@ static void toggled(GtkWidget *check, AdwMessageDialog *dialog)
 	adw_message_dialog_set_response_enabled(dialog, "import", any);
 }
 
-/* One that is the only one need not be chosen. */
+/* Checks the only POU, if there is just one. */
 static void choose_first(GtkWidget *dialog, struct asking *asking)
 {
 	GtkWidget *first = asking->checks->len == 1 ? asking->checks->pdata[0] : NULL;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * preferences - what a person chooses once: light or dark, colour of power, names, keys.
+ * preferences - what a person chooses once; see preferences.h.
  */
 #include "editor-gtk/window/preferences.h"
 

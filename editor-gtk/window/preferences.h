@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT
  *
- * preferences - what a person chooses once: light or dark, colour of power, names, keys.
+ * preferences - light or dark, colour of power, names, keys.
  *
- * All of it is kept in the settings, and holds at once in all windows.
+ * All are GSettings; a change applies to all windows at once.
  */
 #ifndef EDITOR_PREFERENCES_H
 #define EDITOR_PREFERENCES_H
 
 #include <adwaita.h>
 
-/** preferences_follow - what was chosen holds, now and when it changes; once a start. */
+/** preferences_follow - applies the settings, now and whenever they change; call it once. */
 void preferences_follow(AdwApplication *application);
-/** preferences_show - asks. */
+/** preferences_show - opens the dialog. */
 void preferences_show(GtkWindow *window);
 
 #endif

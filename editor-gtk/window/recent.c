@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * recent - the projects opened or saved last, as the desktop keeps them for all programs.
+ * recent - the projects opened or saved last; see recent.h.
  */
 #include "editor-gtk/window/recent.h"
 
@@ -10,14 +10,15 @@
 #include <stdbool.h>
 
 #define RECENT_MOST 8
-#define PROGRAM "ladder-editor" /* as others see who had a file                 */
+#define PROGRAM "ladder-editor" /* name of this program in the list of the desktop */
 
 void recent_add(const char *path)
 {
 	char *uri = path ? g_filename_to_uri(path, NULL, NULL) : NULL;
 	char *kind = uri ? g_content_type_guess(path, NULL, 0, NULL) : NULL;
 	char *mime = kind ? g_content_type_get_mime_type(kind) : NULL;
-	/* With its kind it is there at once; else several would come in any order. */
+	/* With a MIME type GTK adds it at once; otherwise the order of several would be
+	 * random. */
 	GtkRecentData about = {
 		.mime_type = mime ? mime : (char *)"application/octet-stream",
 		.app_name = (char *)PROGRAM, .app_exec = (char *)PROGRAM " %f",
@@ -32,7 +33,7 @@ void recent_add(const char *path)
 
 /* ---- in their order ---- */
 
-/* Borrowed; NULL: this editor never had it. Another program may have changed it since. */
+/* When this editor used it last, whatever other programs did since. Borrowed; NULL: never. */
 static GDateTime *had_at(GtkRecentInfo *info)
 {
 	const char *exec;
@@ -48,15 +49,14 @@ static int newer_first(gconstpointer a, gconstpointer b)
 	return g_date_time_compare(had_at((GtkRecentInfo *)b), had_at((GtkRecentInfo *)a));
 }
 
-/* The dialogs of the toolkit put there, in this editor's name, whatever file was chosen in
- * them: tables, maps, pages. */
+/* GTK's file choosers also add tables, maps and PDFs in the editor's name. */
 static bool is_project(const char *path)
 {
 	return g_file_test(path, G_FILE_TEST_EXISTS) &&
 	       (g_str_has_suffix(path, ".rung") || classic_is_project(path));
 }
 
-/* NULL: it is not to be listed. Actions take no name that is no text. */
+/* NULL: not to be listed. Actions take UTF-8 only. */
 static char *path_of(GtkRecentInfo *info)
 {
 	char *path = g_filename_from_uri(gtk_recent_info_get_uri(info), NULL, NULL);
@@ -96,8 +96,8 @@ struct following {
 	bool shown;
 };
 
-/* "ladders/door.rung": many folders have a main.rung. A line below a letter is only one if
- * there are two. Caller frees. */
+/* "ladders/door.rung", because many folders have a main.rung. "__" shows one underscore in
+ * a menu. Caller frees. */
 static char *label_of(const char *path)
 {
 	char *name = g_path_get_basename(path), *folder = g_path_get_dirname(path);
@@ -125,7 +125,7 @@ static void add_row(GMenu *rows, const char *path)
 	g_free(label);
 }
 
-/* A menu without rows would lead nowhere. */
+/* An empty submenu is not added. */
 static void show(GMenu *menu)
 {
 	struct following *following = g_object_get_data(G_OBJECT(menu), "recent");

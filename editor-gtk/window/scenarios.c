@@ -17,7 +17,7 @@
 
 #include <string.h>
 
-#define FILE_MOST (4 << 20) /* bytes of a file that a scenario is added to      */
+#define FILE_MOST (4 << 20) /* bytes of a file that a scenario is appended to   */
 
 static LadderScenarioView *view_of(struct scenarios *scenarios)
 {
@@ -34,7 +34,7 @@ static char *typed_text(gpointer tabs, const char *path)
 	return file && !ladder_side_file_is_saved(file) ? ladder_side_file_text(file) : NULL;
 }
 
-/* A copy of a sample has the sample's until it is saved. */
+/* An unsaved copy of a sample runs the scenarios of the sample. */
 static void run_all(struct scenarios *scenarios)
 {
 	const char *path = ladder_document_path(scenarios->core->document);
@@ -45,7 +45,7 @@ static void run_all(struct scenarios *scenarios)
 				 scenarios->core->tabs);
 }
 
-/* All that is wrong with that file, each at its line. */
+/* Marks each failed line in the file. */
 static void mark_file(struct scenarios *scenarios, LadderFileView *view)
 {
 	GPtrArray *results = ladder_scenario_view_results(view_of(scenarios));
@@ -61,7 +61,7 @@ static void mark_file(struct scenarios *scenarios, LadderFileView *view)
 	}
 }
 
-/* The simulation stands right after the scan that failed. */
+/* Shows the scan that failed, in the simulation. */
 static void play(struct scenarios *scenarios, const struct scenario_result *result)
 {
 	GError *error = NULL;
@@ -101,9 +101,9 @@ static void opened(LadderScenarioView *view, struct scenario_result *result,
 	if (result->outcome == SCENARIO_FAILED && result->acts)
 		play(scenarios, result);
 	if (!g_str_has_suffix(result->path, ".scn"))
-		return; /* of the program: its problems stand in their own list */
+		return; /* an error of the program: the problems list has it */
 	if (!ladder_document_path(scenarios->core->document))
-		return; /* of a sample: nobody shall write into that             */
+		return; /* files of a sample are not opened, so that nobody changes them */
 	tabs_show_file(scenarios->core->tabs, result->path);
 	file = tabs_find_file(scenarios->core->tabs, result->path);
 	if (!file)
@@ -119,7 +119,7 @@ struct saving {
 	GtkWidget *name, *file;
 };
 
-/* What is to be added, parted by a blank line from what stands before it. */
+/* The scenario to append, with a blank line before it. */
 static char *to_append(const char *before, const char *scenario)
 {
 	const gsize len = strlen(before);
@@ -150,7 +150,7 @@ static bool append_to_disk(const char *path, const char *scenario, GError **erro
 	return good;
 }
 
-/* A file that is open is added to where it is typed in. */
+/* If the file is open, the text is added to its buffer instead of the file. */
 static bool append(struct scenarios *scenarios, const char *path, const char *scenario)
 {
 	LadderFileView *view = tabs_find_file(scenarios->core->tabs, path);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenarios - scenarios in the window: recording, the file that a recording goes to, running
- * all of them, going to where one failed.
+ * scenarios - scenarios in the window: recording, saving a recording, running all, going to
+ * a failure.
  */
 #ifndef EDITOR_SCENARIOS_H
 #define EDITOR_SCENARIOS_H
@@ -20,9 +20,9 @@ struct scenarios {
 void scenarios_init(struct scenarios *scenarios, struct core *core, struct origin *origin,
 		    struct sim_bar *sim_bar);
 void scenarios_clear(struct scenarios *scenarios);
-/** scenarios_do - the verbs of scenarios; false: @verb is none of them. */
+/** scenarios_do - does a command for scenarios; false: @verb is none. */
 bool scenarios_do(struct scenarios *scenarios, enum verb verb);
-/** scenarios_expect - while it records: that variable is to have the value it has. */
+/** scenarios_expect - while recording: expects the current value of that variable. */
 void scenarios_expect(struct scenarios *scenarios, const char *name);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_page - a chart above, a body of it below; see sfc_page.h.
+ * sfc_page - the page of a chart; see sfc_page.h.
  */
 #include "editor-gtk/window/sfc_page.h"
 
@@ -15,11 +15,11 @@ struct _LadderSfcPage {
 	LadderSim *sim;
 	int pou;
 	gulong handler;
-	GtkWidget *paned, *chart, *below, *place; /* place: of what stands below  */
+	GtkWidget *paned, *chart, *below, *place; /* place: holds @rungs or @text */
 	GtkLabel *heading;
-	char *shown;                 /* heading of the body whose rungs stand below */
-	GtkWidget *rungs, *text;     /* one of them, or none                   */
-	bool below_active;           /* somebody works on @rungs, not on the chart */
+	char *shown;                 /* heading of the body shown in @rungs */
+	GtkWidget *rungs, *text;     /* at most one of them                    */
+	bool below_active;           /* @rungs has the focus, or had it last */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSfcPage, ladder_sfc_page, GTK_TYPE_BOX)
@@ -64,7 +64,7 @@ static void rungs_entered(LadderSfcPage *page)
 	set_active(page, true);
 }
 
-/* The part of the page that had the keys last is worked on. */
+/* The part of the page that had the focus last is active. */
 static void follow_focus(LadderSfcPage *page, GtkWidget *widget, GCallback entered)
 {
 	GtkEventController *focus = gtk_event_controller_focus_new();
@@ -91,7 +91,7 @@ static void close_clicked(LadderSfcPage *page)
 	gtk_widget_grab_focus(page->chart);
 }
 
-/* The heading of a body that begins with this rung; NULL: there is none. Caller frees. */
+/* The heading of the body whose first rung is @first; NULL: none. Caller frees. */
 static char *heading_of(LadderSfcPage *page, int first, int *count)
 {
 	const struct project *project = ladder_document_project(page->document);
@@ -160,8 +160,8 @@ static void body_wanted(LadderSfcPage *page, int first, int count)
 		show_text(page);
 }
 
-/* The first rung of the body that was shown, wherever it is now: the nearest one of its
- * name, else what begins where it began (it may have another name). -1: it is gone. */
+/* The first rung of the body that was shown: the nearest body with its heading, else one
+ * that begins at @first (it may have been renamed). The result may be no body. */
 static int find_shown(LadderSfcPage *page, int first)
 {
 	const struct project *project = ladder_document_project(page->document);
@@ -182,7 +182,7 @@ static int find_shown(LadderSfcPage *page, int first)
 	return best < 0 ? first : best;
 }
 
-/* Its rungs may have other numbers now, or be gone. */
+/* The body may have other rungs now, or be deleted. */
 static void project_changed(LadderSfcPage *page)
 {
 	int first, count, now, was;

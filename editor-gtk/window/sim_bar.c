@@ -15,7 +15,7 @@
 
 #include <string.h>
 
-#define WHEN_US 200000 /* the title tells the time so often                      */
+#define WHEN_US 200000 /* us between updates of the title                        */
 
 /* ---- what it says ---- */
 
@@ -67,7 +67,7 @@ static void state_changed(struct sim_bar *bar)
 {
 	if (ladder_sim_state(bar->core->sim) == SIM_RUN &&
 	    messages_close_offer(bar->core->messages, "win.sim_run"))
-		messages_tell(bar->core->messages, ""); /* it goes on after a fault */
+		messages_tell(bar->core->messages, ""); /* clears the message of the fault */
 	show_buttons(bar);
 	if (ladder_sim_is_on(bar->core->sim))
 		show_when(bar);
@@ -89,7 +89,7 @@ static void shown(struct sim_bar *bar)
 		bar->when_timer = g_timeout_add(WHEN_US / 1000, when_elapsed, bar);
 }
 
-/* What the simulation stands still for. */
+/* Where the program stopped, or an operation failed. */
 static const struct fault_place *stopped_at(const struct resource *resource)
 {
 	switch (resource->state) {
@@ -100,7 +100,7 @@ static const struct fault_place *stopped_at(const struct resource *resource)
 	return &resource->error_at;
 }
 
-/* A fault opens the place where it was. */
+/* Opens the place of the fault. */
 static void go_to_fault(struct sim_bar *bar)
 {
 	const struct fault_place *at =
@@ -128,7 +128,7 @@ static void told(LadderSim *sim, const char *text, gboolean bad, struct sim_bar 
 
 /* ---- what it does ---- */
 
-/* What is wrong with the plant stands in no list: it is told where it stays. */
+/* Errors of the plant are not in the problems list, so a banner shows them. */
 static bool refuse(struct sim_bar *bar, GError *error, bool plant)
 {
 	char *text = plant ? g_strdup_printf(_("The plant has errors: %s"), error->message) :
@@ -156,7 +156,7 @@ static bool begin(struct sim_bar *bar)
 	if (!ladder_sim_begin(bar->core->sim, &error))
 		return refuse(bar, error, false);
 	messages_close_banner(bar->core->messages);
-	messages_tell(bar->core->messages, ""); /* what kept it from beginning is over */
+	messages_tell(bar->core->messages, ""); /* clears an earlier refusal */
 	sim_bar_show_panel(bar);
 	return true;
 }

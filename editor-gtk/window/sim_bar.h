@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_bar - the simulation in the window: its switch, its buttons, what the title says of it,
- * its panel at the right. Sheets and panels show its values by themselves.
+ * sim_bar - the simulation in the window: its switch, its buttons, the subtitle, the panel
+ * at the right.
+ *
+ * Sheets and panels show values by themselves.
  */
 #ifndef EDITOR_SIM_BAR_H
 #define EDITOR_SIM_BAR_H
@@ -17,14 +19,14 @@ struct sim_bar {
 	GtkButton *run_button, *forces_button;
 	GtkMenuButton *pace_button;
 	AdwWindowTitle *title;
-	guint when_timer;      /* until the title tells the simulated time      */
+	guint when_timer;      /* updates the subtitle when it elapses; 0: none */
 };
 
 void sim_bar_init(struct sim_bar *bar, struct core *core, struct origin *origin);
 void sim_bar_clear(struct sim_bar *bar);
-/** sim_bar_show_panel - the panel at the right. */
+/** sim_bar_show_panel - shows the panel at the right. */
 void sim_bar_show_panel(struct sim_bar *bar);
-/** sim_bar_do - the verbs of the simulation; false: @verb is none of them. */
+/** sim_bar_do - does a command of the simulation; false: @verb is none. */
 bool sim_bar_do(struct sim_bar *bar, enum verb verb);
 
 #endif

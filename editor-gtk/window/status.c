@@ -18,7 +18,7 @@ static void set_pill(struct status *status, const char *text, const char *class)
 {
 	static const char *const classes[] = { "run", "still", "past", "fault" };
 
-	/* GTK draws a label again even if the text is the same. */
+	/* GTK redraws a label even if its text is the same. */
 	if (g_strcmp0(gtk_label_get_text(status->pill), text) == 0 &&
 	    (!class || gtk_widget_has_css_class(GTK_WIDGET(status->pill), class)))
 		return;
@@ -85,7 +85,7 @@ static char *keys_in_list(void)
 	return g_string_free(text, FALSE);
 }
 
-/* All three are taken over. */
+/* @place, @zoom, @keys: taken over. */
 static void show(struct status *status, char *place, char *zoom, char *keys)
 {
 	messages_keys(status->core->messages, keys);

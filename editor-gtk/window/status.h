@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * status - the status bar: what the window is doing, where the cursor is, what the next key
- * does, how large the page in front is shown, what the checks found. Its messages are
- * messages.c's.
+ * status - the status bar: mode, cursor position, hint, zoom, and the number of problems.
+ *
+ * messages.c shows messages in it.
  */
 #ifndef EDITOR_STATUS_H
 #define EDITOR_STATUS_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * tabs - the pages of a window: which are open, and going to a place in one.
+ * tabs - the open pages of a window; see tabs.h.
  */
 #include "editor-gtk/window/tabs.h"
 
@@ -17,7 +17,7 @@
 
 #include <string.h>
 
-#define OPEN_MOST 8 /* POUs that are opened with a file                        */
+#define OPEN_MOST 8 /* POUs that are opened with a file, at most               */
 
 /* ---- what is open ---- */
 
@@ -122,7 +122,7 @@ static AdwTabPage *add_page(struct tabs *tabs, GtkWidget *child, const char *nam
 			   title);
 }
 
-/* Pages stand in the order of the file. */
+/* Pages have the order of the file. */
 static int place_of(struct tabs *tabs, const struct project *project, int pou)
 {
 	int at = adw_tab_view_get_n_pages(tabs->view);
@@ -148,7 +148,7 @@ static AdwTabPage *open_pou(struct tabs *tabs, int pou)
 			   page_new(tabs->core, tabs->core->document, pou), name, name);
 }
 
-/* The tabs are of the program as it is now. */
+/* Shows the current program first, because the tabs belong to it. */
 static void select_page(struct tabs *tabs, AdwTabPage *page)
 {
 	if (front_is_older(tabs->core->front))
@@ -169,7 +169,7 @@ void tabs_show(struct tabs *tabs, int pou)
 	select_page(tabs, page);
 }
 
-/* The table may have thousands of symbols: it is made when somebody looks at it. */
+/* Made when it is shown first: there may be thousands of symbols. */
 static GtkWidget *symbols_in(AdwBin *place, struct tabs *tabs)
 {
 	GtkWidget *symbols = adw_bin_get_child(place);
@@ -192,7 +192,7 @@ static GtkWidget *symbols_page(struct tabs *tabs)
 	return place;
 }
 
-/* Names of POUs have no blank before them. */
+/* The blank makes the name different from that of any POU. */
 static AdwTabPage *open_widget(struct tabs *tabs, const char *name)
 {
 	char *key = g_strdup_printf(" %s", name);
@@ -220,7 +220,7 @@ static void show_file_state(AdwTabPage *page, LadderSideFile *file)
 	g_free(name);
 }
 
-/* What is undone is shown. */
+/* Shows a file in which a step was undone. */
 static void show_undone(LadderSideFile *file, struct tabs *tabs)
 {
 	tabs_show_file(tabs, ladder_side_file_path(file));
@@ -342,7 +342,7 @@ static void closing_free(gpointer closing, GClosure *closure)
 	g_free(closing);
 }
 
-/* A file that is not saved is closed only when the person says so. */
+/* Asks before a file with unsaved changes is closed. */
 static gboolean close_page(struct tabs *tabs, AdwTabPage *page)
 {
 	LadderSideFile *file = page_file(page);
@@ -370,9 +370,9 @@ void tabs_close(struct tabs *tabs)
 
 /* ---- undo and redo ---- */
 
-/* What a step changed first. */
+/* The first place that a step changed. */
 struct changed {
-	int pou, rung; /* -1: no rung and no list; of a list, rung -1          */
+	int pou, rung; /* -1: neither rung nor list; in a list, rung is -1     */
 };
 
 static void rungs_changed(LadderDocument *document, int pou, int at, int removed, int added,
@@ -392,7 +392,7 @@ static void list_changed(LadderDocument *document, int pou, struct changed *chan
 		*changed = (struct changed){ pou, -1 };
 }
 
-/* Is it at the cursor of what is in front? */
+/* Is the cursor of the page in front there? */
 static bool is_here(struct tabs *tabs, const struct changed *changed)
 {
 	LadderGridView *sheet = front_sheet(tabs->core->front);
@@ -445,8 +445,8 @@ void tabs_step(struct tabs *tabs, bool redo)
 
 /* ---- when the project is another ---- */
 
-/* The POU of a page may have another number, and with @renamed another name. Returns false if
- * it is gone. */
+/* Gives the page the new index of its POU, and its new name (@renamed). False: the POU is
+ * gone. */
 static bool update_page(AdwTabPage *page, const struct project *project, bool renamed)
 {
 	GtkWidget *widget = page_content(page);
@@ -456,7 +456,7 @@ static bool update_page(AdwTabPage *page, const struct project *project, bool re
 	if (strcmp(name, " welcome") == 0)
 		return false; /* a file was opened */
 	if (LADDER_IS_FILE_VIEW(widget))
-		return true; /* it stands beside the project */
+		return true; /* it does not depend on the project */
 	if (name[0] == ' ')
 		return (strcmp(name, " text") == 0) == !project;
 	pou = project_find_pou(project, name, strlen(name));
@@ -481,7 +481,7 @@ static bool has_pou_page(struct tabs *tabs)
 	return false;
 }
 
-/* Closes the pages whose POU is gone. The keys stay where they are, in the tree say. */
+/* Closes the pages of deleted POUs. The focus stays where it is, for example in the tree. */
 static void update_pages(struct tabs *tabs, const struct project *project)
 {
 	const bool renamed = project && project->pou_count == tabs->pou_count;
@@ -518,7 +518,8 @@ static void update(struct tabs *tabs)
 	g_signal_emit_by_name(tabs->core->window, "place-changed");
 }
 
-/* Else the sheet of the empty project would stay, as that of the first program alone. */
+/* Closes the pages of the empty project first; the sheet of the first program would be
+ * kept. */
 void tabs_open_anew(struct tabs *tabs)
 {
 	for (int i = adw_tab_view_get_n_pages(tabs->view) - 1; i >= 0; i--) {
@@ -544,7 +545,7 @@ void tabs_init(struct tabs *tabs, struct core *core)
 {
 	tabs->core = core;
 	tabs->view = core->front->tabs;
-	/* Those keys go to the ends of a text or a rung. */
+	/* these keys move the text cursor or the cursor of a sheet */
 	adw_tab_view_remove_shortcuts(tabs->view, ADW_TAB_VIEW_SHORTCUT_CONTROL_HOME |
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_END |
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_SHIFT_HOME |

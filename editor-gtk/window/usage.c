@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * usage - what ladder-editor says on a terminal: --help, --version, --keys, its man page.
+ * usage - what ladder-editor prints on a terminal; see usage.h.
  */
 #include "editor-gtk/window/usage.h"
 
@@ -45,7 +45,7 @@ static char *all_labels(const char *keys)
 	for (char **key = each; *key; key++) {
 		char *label = keys_label(*key);
 
-		/* The same on the other part of the keyboard is told once. */
+		/* keys of the number pad are the same again */
 		if (label[0] && !strstr(*key, "KP_"))
 			g_string_append_printf(text, "%s%s", text->len ? ", " : "", label);
 		g_free(label);
@@ -86,7 +86,7 @@ static void print_keys(enum key_scheme scheme)
 
 /* ---- the man page ---- */
 
-/* A text of the program as text of a page: nothing in it is a request. */
+/* Prints @text for a man page, so that no line of it is a request. */
 static void print_plain(const char *text)
 {
 	bool begins = true;
@@ -157,7 +157,7 @@ static int keys_main(const char *name)
 
 static bool is_known(const char *option)
 {
-	/* GApplication's and GTK's. */
+	/* options of GApplication and GTK */
 	static const char *const known[] = { "--gapplication-", "--display", "--name",
 					     "--class", "--g-fatal-warnings" };
 

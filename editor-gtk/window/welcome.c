@@ -81,7 +81,7 @@ static void add_recent(GtkWidget *page)
 	g_ptr_array_unref(paths);
 }
 
-/* PROJECT "…" of a file, if it is near its beginning. */
+/* The text after PROJECT; NULL: none. Caller frees. */
 static char *title_of(const char *path)
 {
 	char *found, *end, *title = NULL;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * window - one document's window: its parts, and what each verb does to which part.
+ * window - the window of one document: its parts, and which part does which command.
  *
- * Every row of verbs.def is an action "win.ID". Verbs of a sheet go to the sheet in front.
+ * Every row of verbs.def is an action "win.ID". Commands of a sheet go to the sheet in
+ * front.
  */
 #include "editor-gtk/window/window.h"
 
@@ -39,7 +40,7 @@
 
 #include <string.h>
 
-#define DISK_SECONDS 2 /* between looks at the files                           */
+#define DISK_SECONDS 2 /* between checks for changed files                     */
 
 struct _LadderWindow {
 	AdwApplicationWindow parent;
@@ -58,7 +59,7 @@ struct _LadderWindow {
 	struct blockers blockers;
 	struct scenarios scenarios;
 	struct board_bar board_bar;
-	guint disk_timer;         /* until the files are looked at again         */
+	guint disk_timer;         /* checks for changed files when it elapses    */
 	GtkWidget *palette;
 	AdwWindowTitle *title;
 	GtkButton *undo_button, *redo_button;
@@ -148,7 +149,7 @@ void ladder_window_keep_drafts(LadderWindow *window)
 
 /* ---- editing ---- */
 
-/* Of the tree, if one is there; else of the name at the cursor. */
+/* Renames the selected row of the tree if that has the focus, else the name at the cursor. */
 static void do_rename(LadderWindow *window)
 {
 	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
@@ -221,7 +222,7 @@ static void toggle(GtkWidget *widget)
 	gtk_widget_set_visible(widget, !gtk_widget_get_visible(widget));
 }
 
-/* Light, dark, as the desktop has it. */
+/* Switches from desktop to light, to dark, and back. */
 static void do_appearance(LadderWindow *window)
 {
 	static const AdwColorScheme schemes[] = {
@@ -268,7 +269,7 @@ static void add_pou(LadderWindow *window, const char *what)
 		messages_tell(&window->messages, why);
 }
 
-/* Its page is made when it is seen. */
+/* The page with the table makes the dialog, so it is shown first. */
 static void import_symbols(LadderWindow *window)
 {
 	GtkWidget *symbols;
@@ -307,7 +308,7 @@ static bool do_project(LadderWindow *window, enum verb verb)
 
 /* ---- the table ---- */
 
-/* Esc closes the bar that finds when the sheet has nothing to give back. */
+/* Esc also closes the find bar, if the sheet had nothing to cancel. */
 static void do_on_sheet(LadderWindow *window, LadderGridView *sheet, enum verb verb)
 {
 	const guint64 version = ladder_document_version(window->core.document);
@@ -509,7 +510,7 @@ static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 						   "sheet first."));
 }
 
-/* "win.save-over", "win.save-locked". */
+/* Actions "win.save-over", "win.save-locked". */
 static void save_over(GtkWidget *widget, const char *name, GVariant *unused)
 {
 	(void)unused;
@@ -547,14 +548,14 @@ static void install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
-	/* GTK moves between the panes by F6, but not from above them. */
+	/* GTK binds F6 inside panes only, not above them. */
 	gtk_widget_class_add_binding_action(class, GDK_KEY_F6, 0, "win.to-sheet", NULL);
 	gtk_widget_class_install_action(class, "win.save-over", NULL, save_over);
 	gtk_widget_class_install_action(class, "win.save-locked", NULL, save_over);
 	gtk_widget_class_install_action(class, "win.reload", NULL, reload);
 }
 
-/* The main menu, of the rows of verbs.def. Caller: g_object_unref. */
+/* The main menu, from the rows of verbs.def. Caller: g_object_unref(). */
 static GMenu *menu_new(void)
 {
 	GMenu *menu = g_menu_new();
@@ -613,7 +614,7 @@ static void show_state(LadderWindow *window)
 	char *place = path ? short_path(path) : g_strdup(_("not saved yet"));
 
 	adw_window_title_set_title(window->title, title);
-	if (!ladder_sim_is_on(window->core.sim)) /* else it tells the simulated time */
+	if (!ladder_sim_is_on(window->core.sim)) /* else it shows the time */
 		adw_window_title_set_subtitle(window->title, place);
 	gtk_window_set_title(GTK_WINDOW(window), title);
 	core_enable(&window->core, "win.undo", undo != NULL);
@@ -636,7 +637,7 @@ static void page_changed(LadderWindow *window)
 
 /* ---- panels ---- */
 
-/* The tab of the problems tells how many there are. */
+/* The title of the tab has the number of problems. */
 static void title_changed(LadderWindow *window, LadderProblems *problems)
 {
 	below_set_title(&window->below, "problems", ladder_problems_title(problems));
@@ -685,7 +686,7 @@ static GtkWidget *make_log(gpointer data)
 	return ladder_log_view_new(core->document);
 }
 
-/* The order of the panels below is that of their tabs. */
+/* Panels are added in the order of their tabs. */
 static void add_parts(LadderWindow *window)
 {
 	struct core *core = &window->core;
@@ -710,7 +711,7 @@ static void add_parts(LadderWindow *window)
 	exchange_init(&window->exchange, core, &window->origin, &window->export);
 	files_init(&window->files, core, &window->origin, &window->exchange);
 	board_bar_init(&window->board_bar, core, &window->export, &window->files);
-	/* These two show what they hear from the beginning. */
+	/* these two need to see all events from the start */
 	below_panel(&window->below, "problems");
 	below_panel(&window->below, "log");
 }
@@ -795,7 +796,7 @@ static void ladder_window_dispose(GObject *object)
 	front_clear(&window->front);
 	g_clear_object(&core->sim);
 	g_clear_object(&core->board);
-	if (core->document) { /* the drafts of files go with their tabs          */
+	if (core->document) { /* drafts of files are removed with their tabs     */
 		g_signal_handlers_disconnect_by_data(core->document, window);
 		draft_stop(core->document);
 	}

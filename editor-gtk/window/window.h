@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * window - one document's window: sheets in tabs, panels round them.
+ * window - the window of one document: sheets in tabs, panels around them.
  *
- * It makes the parts, joins them, and knows which part does which verb. It draws nothing and
- * changes no rung.
+ * It makes the parts, connects them, and knows which part does which command. It draws
+ * nothing and edits no rung.
  *
- * Signals for the application: "open-wanted" (path, gboolean): a file is to be opened, or a
- * copy of a sample; "new-wanted": a window with a new project. Signals among its parts:
- * "cursor-moved" in the page in front; "place-changed": what the status bar tells of the page
- * in front; "page-changed": another page is in front.
+ * Signals for the application: "open-wanted" (path, gboolean): open a file, or a copy of a
+ * sample; "new-wanted": open a window with a new project. Signals among its parts: "cursor-
+ * moved" in the page in front; "place-changed": the status bar shows the place again;
+ * "page-changed": another page is in front.
  */
 #ifndef EDITOR_WINDOW_H
 #define EDITOR_WINDOW_H
@@ -25,37 +25,37 @@
 #define LADDER_TYPE_WINDOW (ladder_window_get_type())
 G_DECLARE_FINAL_TYPE(LadderWindow, ladder_window, LADDER, WINDOW, AdwApplicationWindow)
 
-/** ladder_window_new - shows @document; a reference is kept. */
+/** ladder_window_new - shows @document; keeps a reference. */
 LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *document);
 LadderDocument *ladder_window_document(LadderWindow *window);
-/** ladder_window_sim - what it simulates with; for measurements. Borrowed. */
+/** ladder_window_sim - for measurements. Borrowed. */
 LadderSim *ladder_window_sim(LadderWindow *window);
-/** ladder_window_is_untouched - a new project in which nothing was done: a file may be
- * opened in its place. */
+/** ladder_window_is_untouched - a new project without changes: a file may be opened in its
+ * place. */
 bool ladder_window_is_untouched(LadderWindow *window);
 /** ladder_window_welcome - shows the welcome page. */
 void ladder_window_welcome(LadderWindow *window);
-/** ladder_window_warn - a message that stays until it is closed. */
+/** ladder_window_warn - shows a banner. */
 void ladder_window_warn(LadderWindow *window, const char *text);
-/** ladder_window_offer_restored - tells that this was not saved when the editor ended. */
+/** ladder_window_offer_restored - says that unsaved changes were restored. */
 void ladder_window_offer_restored(LadderWindow *window);
-/** ladder_window_opened - its untouched document became a file: the sheets of that open. */
+/** ladder_window_opened - shows the file that replaced the untouched document. */
 void ladder_window_opened(LadderWindow *window);
-/** ladder_window_tell_file - a banner if saving would write over something: the file holds
- * what is no text, or is read-only. */
+/** ladder_window_tell_file - warns if saving would overwrite bytes that are not text, or a
+ * read-only file. */
 void ladder_window_tell_file(LadderWindow *window);
-/** ladder_window_set_origin - the file that an unsaved project was made from. */
+/** ladder_window_set_origin - the file that the unsaved project was made from. */
 void ladder_window_set_origin(LadderWindow *window, const char *path);
-/** ladder_window_set_classic - the same of ClassicLadder; that is told. */
+/** ladder_window_set_classic - the same for ClassicLadder; shows a banner. */
 void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin);
-/** ladder_window_has_file - is that text file open there? */
+/** ladder_window_has_file - is that text file open in the window? */
 bool ladder_window_has_file(LadderWindow *window, const char *path);
-/** ladder_window_show_file - a text file beside the project, in front. */
+/** ladder_window_show_file - opens a text file beside the project. */
 void ladder_window_show_file(LadderWindow *window, const char *path);
-/** ladder_window_restore_file - the draft of a text file beside the project, in front. False:
- * it could not be kept as a draft again, which is told. */
+/** ladder_window_restore_file - opens the draft of a text file beside the project. False:
+ * no new draft could be written, which is reported. */
 bool ladder_window_restore_file(LadderWindow *window, const struct draft *draft);
-/** ladder_window_keep_drafts - of all that is not saved, at once. */
+/** ladder_window_keep_drafts - writes drafts of all unsaved files now. */
 void ladder_window_keep_drafts(LadderWindow *window);
 
 #endif
