@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""begin - the welcome page, the palette's search and families, tables of symbols in files."""
+"""begin - the welcome page, the palette's search and families, and tables of symbols in files."""
 import os
 import shutil
 import sys
@@ -25,7 +25,7 @@ END_PROGRAM
 
 
 def sample(screen):
-    """a sample opens as a copy that has no file; once saved it is the first of those used lately"""
+    """a sample opens as a copy without a file; once saved it is the first of the recent files"""
     editor = Editor(screen)
     editor.shot('begin-welcome')
     editor.click(editor.find('dosing.rung', 'label'))
@@ -44,7 +44,7 @@ def sample(screen):
 
 
 def proposes(editor):
-    """Ctrl+S asks for a name, which is that of the sample at first."""
+    """Waits until the name of a new file is proposed: at first that of the sample."""
     before = editor.windows()
     editor.brought('ctrl+s')
     until(lambda: editor.focused() and editor.focused().text() == 'conveyor.rung', 'the name of the sample')
@@ -53,7 +53,7 @@ def proposes(editor):
 
 
 def belongings(screen):
-    """what belongs to a sample comes along when its copy is saved: plant and scenarios, by the copy's name, over nothing"""
+    """saving the copy of a sample also saves its plant and scenarios under the copy's name; no file is replaced"""
     names = 'mine.rung', 'mine.plant.rung', 'mine.scn'
     for there in False, True:
         path, plant, scenarios = [os.path.join(screen.home, 'copy-%d' % there, name) for name in names]
@@ -65,7 +65,7 @@ def belongings(screen):
             with open(scenarios, 'w') as file:
                 file.write('# precious\n')
         else:
-            # Its scenarios can be run before.
+            # The scenarios run before the copy is saved.
             editor.keys('ctrl+F5')
             editor.find('conveyor.scn', 'label')
             editor.find(' passed', 'label')
@@ -82,11 +82,11 @@ def belongings(screen):
         else:
             assert 'plant "mine.plant.rung"' in read(scenarios)
             sh(LADDER, 'test', path, check=True)
-            editor.find('mine.scn', 'label')  # in the tree, too
+            editor.find('mine.scn', 'label')  # also in the tree
             editor.keys('ctrl+F5')
             until(lambda: len(editor.all('mine.scn', 'label')) > 2, 'the scenarios of the copy')
             editor.find(' passed', 'label')
-            # Another name afterwards is no copy of the sample any more.
+            # Saved under another name it is no longer a copy of the sample.
             other = os.path.join(screen.home, 'other.rung')
             editor.give_path(other, 'ctrl+shift+s')
             until(lambda: os.path.exists(other), 'the other file')
@@ -97,7 +97,7 @@ def belongings(screen):
 
 
 def killed(screen):
-    """a sample that was drawn on, and kill -9: the copy is there again, and what belongs to it comes along"""
+    """kill -9 with a changed sample: the next start restores the copy, and saving it saves plant and scenarios"""
     path = os.path.join(screen.home, 'mine.rung')
     editor = Editor(screen)
     editor.click(editor.find('conveyor.rung', 'label'))
@@ -119,13 +119,13 @@ def killed(screen):
 
 
 def listed(editor):
-    """Names of the files used lately, as the welcome page has them."""
+    """Returns the names of the recent files on the welcome page."""
     names = [node.name for node in editor.all(editor.screen.home, 'label')]
     return [os.path.basename(name) for name in names]
 
 
 def to_item(editor, name):
-    """Down to that item of the menu that is open."""
+    """Moves down to an item of the open menu."""
     item = editor.focus_on(role='menu item')
     while item.name != name:
         editor.keys('Down')
@@ -133,15 +133,15 @@ def to_item(editor, name):
 
 
 def lately(screen):
-    """what was used lately is listed by the last time, projects of all kinds; so in the menu, by keys"""
+    """recent files of all kinds are listed, the last one first; also in the menu, by keys"""
     files = [new_file(screen, PROGRAM, 'f_%d.rung' % number) for number in range(10)]
     files.append(shutil.copy(CLASSIC, os.path.join(screen.home, 'mill.clp')))
     kept = os.path.join(screen.home, '.local', 'share', 'recently-used.xbel')
-    # All within a second, and one of them again.
+    # All within a second, and the first one twice.
     editor = Editor(screen, *files, files[1])
     until(lambda: os.path.exists(kept) and 'mill.clp' in open(kept).read(), 'the files to be kept')
     editor.finish()
-    shutil.rmtree(os.path.join(screen.home, 'state'))  # the draft of what is not saved yet
+    shutil.rmtree(os.path.join(screen.home, 'state'))  # the draft of the unsaved work does not exist yet
     os.unlink(files[9])
     wanted = ['f_1.rung', 'mill.clp', *('f_%d.rung' % number for number in (8, 7, 6, 5, 4, 3))]
     editor = Editor(screen)
@@ -171,7 +171,7 @@ def lately(screen):
 
 
 def only_projects(screen):
-    """tables, maps and pages that were chosen in a dialog push no project out of those used lately"""
+    """tables, maps and pages chosen in a dialog remove no project from the recent files"""
     path = new_file(screen, PROGRAM)
     tables = [new_file(screen, 'Scope,Name,Type,Address\n', 'names_%d.csv' % number) for number in range(3)]
     kept = os.path.join(screen.home, '.local', 'share', 'recently-used.xbel')
@@ -192,7 +192,7 @@ def only_projects(screen):
 
 
 def empty(screen):
-    """New project leads from the welcome page to a sheet that says what to do; a name is a contact"""
+    """New project leads from the welcome page to an empty sheet with a hint; a typed name becomes a contact"""
     editor = Editor(screen)
     editor.click(editor.find('An empty sheet', 'label'))
     editor.to_sheet()
@@ -203,7 +203,7 @@ def empty(screen):
 
 
 def searched(screen):
-    """the palette finds an element by its word or what it does; Return puts it at the cursor, Escape gives up"""
+    """the palette finds an element by its word or its description; Return puts it at the cursor, Escape ends the search"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -227,7 +227,7 @@ def searched(screen):
     check(path)
     editor.keys('ctrl+z')
     assert editor.save(path) == PROGRAM
-    # Beside the sheets there is nothing that it could be put into.
+    # Without a sheet the palette offers nothing.
     editor.keys('ctrl+Page_Down', 'ctrl+shift+e')
     editor.focus_on('Find an element')
     editor.type('TON')
@@ -236,7 +236,7 @@ def searched(screen):
 
 
 def folded(screen):
-    """a family is closed and opened by pointer and by key; the sides of the window fold"""
+    """a family folds by pointer and by key; the sides of the window fold"""
     editor = Editor(screen, new_file(screen, PROGRAM))
     editor.tile('TON')
     x, y, width, _ = editor.place(editor.all('Timers', 'push button', editor.palette)[0])
@@ -247,7 +247,7 @@ def folded(screen):
     editor.tile('TON:')
     editor.keys('ctrl+shift+e')
     editor.focus_on('Find an element')
-    editor.keys('Tab')  # to the wires, which are closed at first
+    editor.keys('Tab')  # to the wires, which are folded at first
     before = len(editor.all(role='push button', below=editor.palette))
     editor.keys('space')
     until(lambda: len(editor.all(role='push button', below=editor.palette)) > before, 'the tiles of the wires')
@@ -265,7 +265,7 @@ def read(path):
 
 
 def tables(screen):
-    """symbols go into a table and come back from it, changed; what a line would do, or spoil, is told before"""
+    """symbols are exported to a table and imported again; the preview tells what each line changes or breaks"""
     path = new_file(screen, PROGRAM)
     table = os.path.join(screen.home, 'names.csv')
     editor = Editor(screen, path)

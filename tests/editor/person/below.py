@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""below - the panels below the sheets, each seen for the first time: while it edits, while it simulates."""
+"""below - the panels below the sheets, each shown for the first time, while editing and while simulating."""
 import os
 import sys
 
@@ -31,13 +31,13 @@ END_PROGRAM
 
 
 def listed(editor, text):
-    """The instruction list has that line."""
+    """Waits until the instruction list has that line."""
     editor.tab('Instruction list')
     until(lambda: any(text in node.text() for node in editor.all('Instruction list', 'text')), 'the line ' + text)
 
 
 def edits(screen):
-    """the cross reference is that of the name at the cursor, each time it comes to sight; the list that of the sheet"""
+    """a panel that comes to the front shows the name at the cursor (cross reference) or the sheet in front (list)"""
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     editor.tab('Cross reference')
@@ -51,7 +51,7 @@ def edits(screen):
     editor.says('Rung 3')
     editor.tab('Log')
     editor.to_sheet()
-    editor.keys('shift+F12')  # of no name: all that is used
+    editor.keys('shift+F12')  # without a name all uses are listed
     editor.find('There is no name at the cursor')
     until(lambda: editor.find('Cross reference', 'page tab').states >> SELECTED & 1, 'the cross reference')
     editor.says('Other, rung 1, row 1, column A')
@@ -63,7 +63,7 @@ def edits(screen):
 
 
 def simulates(screen):
-    """a status chart, first seen in the past, has its values from then; the timing chart steps from there"""
+    """a status chart first shown in the past has the values of then; the timing chart steps from there"""
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     editor.keys('ctrl+t', 'space', 'ctrl+t', 'ctrl+t')
@@ -85,7 +85,7 @@ def simulates(screen):
 
 
 def chosen(screen):
-    """the menu of a line in the timing chart, by pointer: one is moved, one is removed; the keys are in the chart again"""
+    """the menu of a line in the timing chart, by pointer: a line is moved, one is removed; the chart has the keys again"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -102,7 +102,7 @@ def chosen(screen):
 
 
 def all_panels(screen):
-    """a small window while it simulates: panels whose tab has no room are in a menu, and the tab of the one shown is seen"""
+    """a small window while simulating: tabs without room are in a menu; the tab of the current panel is visible"""
     editor = Editor(screen, os.path.join(ROOT, 'ladders', 'conveyor.rung'))
     editor.to_sheet()
     assert not editor.all('All panels')

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""boxes - a box that stands there: another instance, a value at a pin by the pointer."""
+"""boxes - changes of a box: another instance, a value at a pin by pointer, another input."""
 import os
 import re
 import sys
@@ -29,7 +29,7 @@ END_PROGRAM
 
 
 def instance(screen):
-    """another instance keeps the parameters of which the line says nothing"""
+    """another instance keeps the parameters that the typed line does not mention"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -51,7 +51,7 @@ def twice(editor, at):
 
 
 def values(screen):
-    """a double click on the value at a pin chooses that; on a pin without one it begins it"""
+    """a double click on the value at a pin selects it in the entry; on a pin without a value the entry begins one"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -71,7 +71,7 @@ def values(screen):
     editor.shot('boxes-output')
     editor.keys('Return')
     editor.gone()
-    # Its name, above the box, still chooses all.
+    # A double click on the name above the box selects the whole line.
     x, y, width, height = editor.place(editor.element('TON'))
     line = twice(editor, (x + width // 2, y + 8))
     editor.type('D2')
@@ -84,7 +84,7 @@ def values(screen):
 
 
 def twice_there(screen):
-    """a rung that is duplicated has a timer of its own; one step of the history"""
+    """a duplicated rung gets a timer of its own, in one step of the history"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -97,7 +97,7 @@ def twice_there(screen):
     assert re.search('  D3 +: TON;\n', text), text
     editor.keys('ctrl+z')
     assert editor.save(path) == PROJECT
-    # A counter that is kept while the power is off has a twin that is, too.
+    # The copy of a RETAIN counter is RETAIN too.
     kept = PROJECT.replace('  Parts : CTU;\nEND_VAR', 'END_VAR\n\nVAR RETAIN\n  Parts : CTU;\nEND_VAR')
     path = new_file(screen, kept, 'kept.rung')
     editor = Editor(screen, path)
@@ -135,7 +135,7 @@ def feed(editor, pin, contact):
 
 
 def inputs(screen):
-    """one input of a box is fed, and then, where the cursor went, another: it is that box's"""
+    """two inputs of one box are fed one after the other, the second from the place of the cursor after the first"""
     path = new_file(screen, COUNTER)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -156,7 +156,7 @@ def inputs(screen):
 
 
 def nothing_left(screen):
-    """Ctrl+I tells what has no further input, and asks for nothing; a row of pins is the box's"""
+    """Ctrl+I says that no input is left and opens no entry; on a row of pins it acts on the box"""
     path = new_file(screen, COUNTER.replace('| COIL %QX0.1 |', '| TON Long PT:=T#5s | COIL %QX0.1 |')
                     .replace('END_VAR', '  Long : TON;\nEND_VAR'))
     editor = Editor(screen, path)
@@ -182,7 +182,7 @@ def nothing_left(screen):
 
 
 def below(screen):
-    """Return in a row of pins, where the cursor is on the box, changes that"""
+    """Return in a row of pins edits the box, where the cursor is"""
     path = new_file(screen, COUNTER.replace(' |\nEND_PROGRAM', ' |\n  | NO Back | .CD |\nEND_PROGRAM'))
     editor = Editor(screen, path)
     editor.to_sheet()

@@ -28,7 +28,7 @@ END_PROGRAM
 
 
 def coil(screen):
-    """a coil is cut and comes back, is copied to an empty rung and beside another: never to a rung where it is always on"""
+    """a coil is cut, pasted back, copied to an empty rung and beside another coil; never to a rung where it is always on"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -48,7 +48,7 @@ def coil(screen):
     editor.keys('Home', 'ctrl+v')
     editor.element('Rung 1, COIL', 'Motor')
     assert editor.save(path) == PROJECT
-    # To an empty rung, with its condition behind it.
+    # An empty rung gets the coil and its condition.
     editor.keys('End', 'ctrl+c', 'Insert')
     until(lambda: editor.all('Rung 3, S', 'table cell'), 'the new rung')
     editor.keys('ctrl+v')
@@ -58,7 +58,7 @@ def coil(screen):
     assert 'RUNG\n  | NO Over | COIL Motor |\nRUNG "two"' in editor.save(path)
     editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z')
     assert editor.save(path) == PROJECT
-    # To an output that is there: beside it.
+    # Beside an existing output: in parallel.
     editor.keys('ctrl+Home', 'End', 'ctrl+c', 'ctrl+End', 'ctrl+v')
     editor.element('Rung 2, COIL', 'Motor')
     editor.shot('cells-coil')
@@ -69,7 +69,7 @@ def coil(screen):
 
 
 def on_a_coil(screen):
-    """what is no output comes before the coil that the cursor is on, which stays: boxes that are typed or clicked, F5, F6"""
+    """an element that is no output is inserted before the coil at the cursor; also by F5, F6 and the palette"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.entry('Start')
@@ -88,7 +88,7 @@ def on_a_coil(screen):
     editor.shot('cells-on-a-coil')
     text = editor.save(path)
     assert '| NC Sens | TP ' in text and '| COIL Lamp |' in text, text
-    # In an empty last column, too, a contact is refused, and said.
+    # An empty last column refuses a contact, too, with a message.
     editor.keys('Insert', 'End', 'F5')
     editor.says('the last column is for outputs only')
     editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z', 'ctrl+z')
@@ -97,7 +97,7 @@ def on_a_coil(screen):
 
 
 def branch(screen):
-    """contacts and a branch are cut and pasted into another rung; one undo each, by name"""
+    """contacts and a branch are cut and pasted into another rung; each has one named undo step"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -113,7 +113,7 @@ def branch(screen):
 
 
 def dragged(screen):
-    """what is selected is dragged as a whole, and has a menu; a click in it selects no more"""
+    """a selection is dragged as a whole and has a menu; a click in it selects one cell again"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -128,14 +128,14 @@ def dragged(screen):
     editor.keys('ctrl+z')
     editor.says('Undone: Move elements')
     assert editor.save(path) == PROJECT
-    # Onto itself: nothing.
+    # A drop onto its own place changes nothing.
     editor.keys('ctrl+Home', 'shift+Down')
     editor.drag(start, (start[0] + 20, start[1] + 4))
     editor.keys('ctrl+y')
     until(lambda: len(editor.all('Rung 2, ', 'table cell')) >= 4, 'the branch in rung 2')
     editor.keys('ctrl+z')
     editor.element('Rung 1, NO', 'Start')
-    # The menu is that of all that is selected; a click selects a cell.
+    # The menu acts on the whole selection; a click selects a cell.
     editor.keys('ctrl+Home', 'shift+Down')
     editor.click(start, 3)
     until(lambda: [node for node in editor.all('Copy', 'menu item') if node.name == 'Copy'], 'the menu')[0].press()

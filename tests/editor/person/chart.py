@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""chart - the timing chart: its cursor shows the scan that was, in the rungs, too; why a coil is
-off; a rung is added while the program runs."""
+"""chart - the timing chart.
+
+Its cursor selects the scan that the rungs show; why a coil is off; a rung is added while the program runs.
+"""
 import os
 import sys
 
@@ -36,7 +38,7 @@ def toggle(editor, *parts):
 
 
 def session(screen, **env):
-    """Five scans with nothing, five with Start, five with Stop: 150 ms. It stands."""
+    """Five scans with no input, five with Start, five with Stop, 150 ms in all; then paused."""
     editor = Editor(screen, new_file(screen, PROGRAM), **env)
     editor.to_sheet()
     scans(editor, 5)
@@ -52,7 +54,7 @@ def session(screen, **env):
 
 
 def rewind(screen):
-    """the cursor of the chart is the scan that the rungs show; keys step it; End comes back"""
+    """the rungs show the scan at the cursor of the timing chart; keys step it; End returns to the present"""
     editor = session(screen)
     editor.tab('Timing chart')
     chart = editor.find('Timing chart, cursor')
@@ -78,7 +80,7 @@ def rewind(screen):
 
 
 def why(screen):
-    """why a coil is off is told, of this scan and of one that was"""
+    """why a coil is off is answered for the present scan and for a past one"""
     editor = session(screen)
     editor.click(editor.beside(editor.element('COIL', 'Motor')))
     editor.keys('ctrl+F12')
@@ -94,7 +96,7 @@ def why(screen):
 
 
 def edit(screen):
-    """a rung is added while it runs, and runs with the values that were"""
+    """a rung added while the program runs is executed; values are kept"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -114,7 +116,7 @@ def edit(screen):
 
 
 def over_an_edit(screen):
-    """a scan before an edit is shown with the rungs that ran it, which nobody can change"""
+    """a scan before an edit is shown with the rungs of that time, read-only"""
     editor = session(screen)
     toggle(editor, 'NC', 'Stop', 'open')
     editor.keys('Escape', 'Home', 'Delete')  # no Start, no motor: another program
@@ -131,7 +133,7 @@ def over_an_edit(screen):
     editor.says('The program before the edit at ')
     editor.element('NO', 'Start', 'closed')
     editor.element('COIL', ', on')
-    # What was cannot be changed, and not be acted upon.
+    # The past accepts no edits and no values.
     editor.click(editor.beside(editor.element('NO', 'Start')))
     editor.keys('space')
     editor.says('This is the program before an edit')
@@ -143,7 +145,7 @@ def over_an_edit(screen):
     editor.keys('ctrl+F12')
     editor.says('No power: Stop is TRUE')
     editor.shot('chart-older-why')
-    # Behind the edit the sheet is the document's again.
+    # After the edit the sheet shows the document again.
     editor.keys(*['alt+Right'] * 5)
     editor.says('PAST · scan 16')
     until(lambda: not editor.all('The program before the edit at '), 'the bar to go')
@@ -157,7 +159,7 @@ def over_an_edit(screen):
 
 
 def faults(screen):
-    """a program with errors does not start, and the first is shown; an endless loop is a fault with its place"""
+    """a program with errors does not start and its first error is shown; an endless loop is a fault with its place"""
     path = new_file(screen, PROGRAM.replace('NO Start', 'NO Nobody'))
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -171,12 +173,12 @@ def faults(screen):
     editor.keys('ctrl+r')
     toggle(editor, 'Rung 1, NO', 'Start', 'open')
     editor.says('SIMULATION · FAULT')
-    bar = 'instruction budget of the scan exceeded (a loop?): Main, rung 2 (1,'  # the status bar says it, too
+    bar = 'instruction budget of the scan exceeded (a loop?): Main, rung 2 (1,'  # also in the status bar
     until(lambda: len(editor.all(bar, 'label')) > 1, 'the bar')
     editor.says('Rung 2')
     editor.shot('chart-fault')
     editor.element('COIL', 'Motor', ', off')
-    # Run begins anew, and it is a fault again: that is told again, and does not go with the bar.
+    # Run starts again and fails again: it is reported again, and stays after the bar is closed.
     _, of_the_bar = [node for node in editor.all('Run', 'push button') if node.name == 'Run']
     stands = editor.find('Simulating · 10 ms · scan ').name
     editor.click(of_the_bar)

@@ -58,12 +58,12 @@ def shape(editor, *parts):
 
 
 def at(editor, text):
-    """The cursor is on what is called so."""
+    """Waits until the cursor is on the shape whose name has this text."""
     until(lambda: shape(editor, text).has(23), 'the cursor at ' + text)
 
 
 def go(editor, text):
-    """By the key that asks for a step."""
+    """Goes to a step by the key for that."""
     on_chart(editor)
     editor.keys('ctrl+g')
     editor.opened()
@@ -114,7 +114,7 @@ def menu(editor, node, verb):
 
 
 def renamed(screen):
-    """F2 renames steps, what lines do, names of conditions; F12 and Shift+F12 on them"""
+    """F2 renames steps, actions, variables and names in conditions; F12 and Shift+F12 work on them"""
     path, editor = opened(screen)
     go(editor, 'Fill')
     editor.keys('F2')
@@ -123,7 +123,7 @@ def renamed(screen):
     text = editor.save(path)
     assert 'Fill ' not in text and 'Filling.T > T#1s' in text and 'FROM Filling TO Heat' in text, text
     check(path)
-    # The variable of a line of the step, by the menu of the pointer.
+    # The variable of a step's line, by the context menu.
     menu(editor, shape(editor, 'Filling does: N Valve'), 'Rename everywhere')
     rename(editor, 'Inlet')
     text = editor.save(path)
@@ -134,7 +134,7 @@ def renamed(screen):
     editor.keys('F2')
     rename(editor, 'Tally')
     shape(editor, 'does: P1 Tally')
-    # The name of a condition.
+    # A name in a condition.
     editor.click(upon(editor, shape(editor, 'from Filling to Heat')))
     at(editor, 'from Filling to Heat')
     editor.keys('F2')
@@ -143,13 +143,13 @@ def renamed(screen):
     text = editor.save(path)
     assert 'ACTION Tally:' in text and '    Level AT %IX0.1 : BOOL;' in text, text
     check(path)
-    # All uses of the step; a row of them leads back to the chart.
+    # All uses of the step; activating a row returns to the chart.
     go(editor, 'Filling')
     editor.keys('shift+F12')
     until(lambda: editor.all('Main.Filling', 'label'), 'the uses')
     editor.says('entered')
     editor.shot('chart-uses')
-    # Where it is driven: the transition that enters it.
+    # "Where it is driven" of a step: the transition that enters it.
     go(editor, 'Filling')
     editor.keys('F12')
     at(editor, 'from Idle to Filling')
@@ -160,7 +160,7 @@ def renamed(screen):
 
 
 def found(screen):
-    """find goes over steps, conditions and into the rungs of actions; replace"""
+    """find and replace reach steps, conditions and the rungs of actions"""
     path, editor = opened(screen)
     editor.keys('ctrl+f')
     editor.type('heat')
@@ -176,14 +176,14 @@ def found(screen):
     at(editor, 'from Heat to Idle')
     editor.keys('shift+F3')
     at(editor, 'Step Heat')
-    # Esc on the chart closes the bar, once nothing is selected.
+    # Esc on the chart clears the selection first, then closes the bar.
     editor.keys('ctrl+f')
     editor.focus_on('Find', 'text')
     editor.click(upon(editor, shape(editor, 'Step Heat')))
     on_chart(editor)
     editor.keys('Escape')
     until(lambda: not [node for node in editor.all('Find', 'text') if node.name == 'Find'], 'the bar to be closed')
-    # A rung of an action opens below the chart, and gets the keys from the bar.
+    # Next hit: the rung of an action opens below the chart and gets the keys.
     editor.keys('ctrl+f')
     editor.type('MX1')
     editor.keys('Return')
@@ -193,7 +193,7 @@ def found(screen):
     editor.focus_on('Find', 'text')
     editor.keys('Escape')
     until(lambda: editor.sheet().has(12), 'the focus on the rung')
-    # Replace all: in rungs, lines and declarations, one step of the history.
+    # Replace all: in rungs, lines and declarations, as one step of the history.
     editor.keys('ctrl+h', 'ctrl+a')
     editor.type('Count')
     line = until(lambda: editor.all('Replace with', 'text'), 'the second line')[0]
@@ -213,7 +213,7 @@ def found(screen):
 
 
 def folded(screen):
-    """a macro-step is made and taken apart; priorities; comments"""
+    """a macro-step is made and dissolved; priorities; comments"""
     path, editor = opened(screen)
     go(editor, 'Heat')
     editor.keys('ctrl+shift+Down')
@@ -223,11 +223,11 @@ def folded(screen):
     text = editor.save(path)
     assert '  MACRO_STEP Macro1:\n    INITIAL_STEP Heat:\n    END_STEP\n  END_STEP\n' in text, text
     check(path)
-    # What cannot be one says why, and nothing changes.
+    # A selection that cannot be a macro-step is refused with the reason; nothing changes.
     go(editor, 'Idle')
     editor.keys('ctrl+shift+Down')
     editor.says('the initial step cannot go into a macro-step')
-    # Taken out again, by the menu.
+    # Dissolved again, by the menu.
     menu(editor, shape(editor, 'Step Heat, initial'), 'Take out of the macro-step')
     until(lambda: not editor.all('Step Macro1', 'table cell'), 'the macro-step to be gone')
     text = editor.save(path)
@@ -237,7 +237,7 @@ def folded(screen):
     shape(editor, 'Step Macro1')
     editor.keys('ctrl+z')
     until(lambda: not editor.all('Step Macro1', 'table cell'), 'the macro-step to be gone')
-    # Who is asked first.
+    # The priority: which transition is evaluated first.
     editor.click(upon(editor, shape(editor, 'from Fill to Idle')))
     at(editor, 'from Fill to Idle')
     asked(editor, 'ctrl+shift+p', '1')
@@ -269,12 +269,12 @@ def folded(screen):
 
 
 def far(screen):
-    """a chart that is larger than the window: what one goes to is seen, and has the focus"""
+    """a chart larger than the window scrolls to the shape that the cursor goes to, and has the focus"""
     with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../../ladders/washing-machine.rung')) as file:
         path = new_file(screen, file.read())
     editor = Editor(screen, path)
     shape(editor, 'Step Standby')
-    # Only what is seen is told to assistive technology.
+    # Only visible shapes are accessible children.
     for step in ('Blocked', 'Standby', 'Stuck'):
         go(editor, step)
     editor.keys('ctrl+f')
@@ -312,8 +312,8 @@ END_PROGRAM
 
 
 def enter(editor, text):
-    """What stands below it, or an entry: a click and a key. A click again, long after the
-    first: where a popover was GTK 4.8 loses some under X11."""
+    """Opens the body below, or an entry, by a click and a key. Clicks again after a pause: under X11 GTK 4.8 loses
+    some clicks where a popover was."""
     def look():
         editor.click(upon(editor, shape(editor, text)))
         try:
@@ -326,7 +326,7 @@ def enter(editor, text):
 
 
 def numbered(screen):
-    """rungs below a chart keep their numbers and their action when others come and go above them"""
+    """rungs below a chart keep their numbers and their action when rungs above are added and removed"""
     path = new_file(screen, TWO)
     editor = Editor(screen, path)
     shape(editor, 'Step Idle, initial')
@@ -340,31 +340,31 @@ def numbered(screen):
     enter(editor, 'Idle does: N Two')
     until(lambda: editor.all('Action Two', 'label'), 'the heading of the other action')
     editor.element('Rung 3', 'QX0.1')
-    # A condition that comes is one more rung above.
+    # A new condition is one more rung above.
     enter(editor, 'from Idle to Idle')
     editor.opened()
     editor.entry('I0.2')
     on_chart(editor)
     editor.element('Rung 4', 'QX0.1')
     editor.find('Action Two')
-    # It goes, then the other action's rung.
+    # Removed again, then the other action's rung.
     on_chart(editor)
     editor.keys('ctrl+z')
     editor.element('Rung 3', 'QX0.1')
     for _ in range(3):
         editor.keys('ctrl+z')
-    # That is shown where it is undone.
+    # Undo shows the body that it changed.
     until(lambda: editor.all('Action One', 'label'), 'the heading of the action')
     until(lambda: not editor.all('Rung 2', 'table cell'), 'the rung to be gone')
     enter(editor, 'Idle does: N Two')
     until(lambda: editor.all('Action Two', 'label'), 'the heading of the other action')
     editor.element('Rung 2', 'QX0.1')
     editor.shot('chart-numbers')
-    time.sleep(1.8)  # longer than a message stays: what closes now has nothing to say
+    time.sleep(1.8)  # longer than a message stays: closing the body must not tell anything now
 
 
 def declared(screen):
-    """new names in conditions and behind qualifiers are declared, with what is said of them or chosen for them"""
+    """new names in conditions and behind qualifiers are declared, with the typed or the chosen type"""
     path, editor = opened(screen)
     enter(editor, 'from Heat to Idle')
     editor.opened()
@@ -400,7 +400,7 @@ def declared(screen):
         assert '  %s\n' % wanted in text, (wanted, text)
     assert 'FROM Heat TO Idle := Level > 80 AND Ready;' in text, text
     check(path)
-    # Where the name of a step is wrong, that is told; it may come later.
+    # A wrong step name is reported at once; an unknown one is allowed, since the step may follow.
     enter(editor, 'from Heat to Idle')
     editor.opened()
     editor.keys('ctrl+a')

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""A chart of four steps with a branch, drawn by the keyboard alone and by the pointer alone."""
+"""A chart of four steps with a branch is drawn by keyboard alone and by pointer alone."""
 import os
 import re
 import sys
@@ -31,7 +31,7 @@ def shape(editor, *parts):
 
 
 def at(editor, text):
-    """The cursor has come to what is called so."""
+    """Waits until the cursor is on the shape whose name has this text."""
     until(lambda: shape(editor, text).has(23), 'the cursor at ' + text)
 
 
@@ -40,7 +40,7 @@ def on_chart(editor):
 
 
 def typed(editor, text):
-    """Into the entry that the first letter opens."""
+    """Types into the entry that the first letter opens."""
     on_chart(editor)
     editor.type(text[0])
     editor.opened()
@@ -57,7 +57,7 @@ def asked(editor, key, text):
 
 
 def finished(editor, path):
-    """What was drawn is saved, checks, and does what it says."""
+    """Saves; the file must pass the check and run as expected."""
     text = editor.save(path)
     for line in ('TRANSITION FROM Start TO Fill := I0.0;', 'TRANSITION FROM Fill TO Heat := I0.1;',
                  'TRANSITION FROM Fill TO Drain := I0.2;', 'TRANSITION FROM Heat TO Start := I0.3;',
@@ -68,7 +68,7 @@ def finished(editor, path):
 
 
 def active(path):
-    """Which step is active after each scan of the script."""
+    """Returns the active step after each scan of the script."""
     return [' '.join(re.findall(r'(\w+)\.X=1', line)) for line in trace(path, SCRIPT).splitlines()]
 
 
@@ -135,13 +135,13 @@ def by_keyboard(screen):
 
 
 def below(editor, node):
-    """The lower edge of a step, where a way begins."""
+    """The lower edge of a step, where a drag begins a way."""
     x, y, width, height = editor.place(node)
     return x + width // 2, y + height - 4
 
 
 def upon(editor, node):
-    """The bar of a transition, the box of a step."""
+    """The bar of a transition, or the box of a step."""
     x, y, _, height = editor.place(node)
     return x + 11, y + height // 2
 
@@ -153,7 +153,7 @@ def menu(editor, node, verb):
 
 
 def chosen(editor, node, verb, text=None):
-    """From the menu of a shape; what is asked for then is typed."""
+    """Chooses from the menu of a shape and types into the entry that opens."""
     menu(editor, node, verb)
     if text:
         editor.opened()
@@ -162,7 +162,7 @@ def chosen(editor, node, verb, text=None):
 
 
 def twice(editor, node, text):
-    """A double click asks for what stands there."""
+    """Double-clicks a shape; its entry opens."""
     editor.click(upon(editor, node), count=2)
     editor.opened()
     editor.entry(text)
@@ -170,14 +170,14 @@ def twice(editor, node, text):
 
 
 def lead(editor, start, end, look=None):
-    """Draws a way; the pointer is there before, as a hand is."""
+    """Draws a way; the pointer rests at its beginning first, as a hand does."""
     editor.click(upon(editor, shape(editor, start)))
     at(editor, start)
     editor.drag(below(editor, shape(editor, start)), shape(editor, end), look=look)
 
 
 def by_pointer(screen):
-    """by the pointer alone, but for names and conditions"""
+    """by the pointer alone, except for names and conditions"""
     path = new_file(screen, EMPTY)
     editor = Editor(screen, path)
     chosen(editor, shape(editor, 'Step Start'), 'Step and transition below')
@@ -199,11 +199,11 @@ def by_pointer(screen):
     editor.shot('chart-pointer')
     finished(editor, path)
     assert active(path) == ['Start', 'Fill', 'Drain', 'Start', 'Fill', 'Heat'], active(path)
-    # A branch changes places with its neighbour, which is asked first now.
+    # A branch changes places with its neighbour; it is evaluated first now.
     chosen(editor, shape(editor, 'from Fill to Drain'), 'Branch to the left')
     text = editor.save(path)
     assert text.index('FROM Fill TO Drain') < text.index('FROM Fill TO Heat'), text
-    # What is deleted comes back.
+    # Undo restores what was deleted.
     chosen(editor, shape(editor, 'Step Drain'), 'Delete')
     until(lambda: not [name for name in shapes(editor) if 'Drain' in name], 'Drain to be gone')
     editor.keys('ctrl+z')
@@ -211,7 +211,7 @@ def by_pointer(screen):
 
 
 def bodies(screen):
-    """a condition becomes a rung that is drawn below, an action its own; copied steps get names"""
+    """a condition becomes a rung below the chart, an action gets rungs; pasted steps get new names"""
     path = new_file(screen, EMPTY)
     editor = Editor(screen, path)
     on_chart(editor)
@@ -230,7 +230,7 @@ def bodies(screen):
     editor.shot('chart-rung')
     text = editor.save(path)
     assert '      | NO %IX0.1 ^|\n' in text, text
-    # The action: from the line of the step to its rung, where a coil is put.
+    # The action: from the line of the step to its rung, which gets a coil.
     editor.click(shape(editor, 'Step1 does: N Count'), count=2)
     until(lambda: editor.all('Action Count', 'label'), 'the heading of the action')
     editor.to_sheet()
@@ -242,7 +242,7 @@ def bodies(screen):
     assert text.count('    RUNG\n') == 3 and 'COIL %QX0.7' in text, text
     check(path)
     editor.keys('ctrl+z', 'ctrl+z')
-    # Steps are copied as text, and get names of their own.
+    # Steps are copied as text and get new names.
     editor.click(shape(editor, 'Step Step1'))
     at(editor, 'Step Step1')
     on_chart(editor)
@@ -282,7 +282,7 @@ END_PROGRAM
 
 
 def simulated(screen):
-    """a chart that runs: which step is active, why a transition waits, a step that is forced"""
+    """a running chart shows the active step and why a transition waits; a step is forced"""
     path = new_file(screen, RUNS)
     editor = Editor(screen, path)
     on_chart(editor)
@@ -295,7 +295,7 @@ def simulated(screen):
     shape(editor, 'Step Run, active')
     until(lambda: 'Step Start, initial' in shapes(editor), 'Start to be left')
     editor.shot('chart-live')
-    # What the transition waits for, as rungs with power.
+    # The condition that the transition waits for, as rungs with power.
     editor.click(upon(editor, shape(editor, 'from Run to Start')))
     at(editor, 'from Run to Start')
     editor.keys('ctrl+F12')
@@ -308,7 +308,7 @@ def simulated(screen):
     editor.keys('ctrl+shift+f')
     editor.keys('ctrl+t')
     shape(editor, 'Step Apart, active')
-    # The scan before, and the one before that: what was active then.
+    # One scan back, then another: the steps active then.
     editor.keys('alt+Left')
     shape(editor, 'Step Run, active')
 
@@ -318,7 +318,7 @@ PLAIN = RUNS.replace('  VAR\n    Number : INT;\n  END_VAR\n\n  CONTROL(FORCE := 
 
 
 def forced(screen):
-    """by the pointer: a chart that runs, is forced without CONTROL, and whose variables are traced"""
+    """a running chart by pointer: a step is forced without CONTROL, its variables are traced"""
     assert 'CONTROL' not in PLAIN and 'Q0.2(N)' in PLAIN
     path = new_file(screen, PLAIN)
     editor = Editor(screen, path)
@@ -331,7 +331,7 @@ def forced(screen):
     shape(editor, 'Step Apart, active')
     until(lambda: 'Step Start, initial' in shapes(editor), 'Start to be left')
     editor.shot('chart-forced')
-    # It is in the status chart from its menu, and goes on from where it was forced.
+    # Added to the status chart by its menu; the chart goes on from the forced step.
     chosen(editor, shape(editor, 'Step Apart'), 'Add to the status chart')
     editor.find('Apart.X')
     editor.click(editor.find('One scan'))
@@ -339,7 +339,7 @@ def forced(screen):
     editor.click(editor.find('Run'))
     shape(editor, 'Step Apart, active')
     editor.shot('chart-traced')
-    # The scan before it was forced: what was active then, and nothing else.
+    # One scan before the force: only the step active then.
     editor.click(editor.find('Pause'))
     editor.keys('alt+Left')
     shape(editor, 'Step Apart, active')
@@ -368,7 +368,7 @@ END_PROGRAM
 
 
 def clipped(screen):
-    """a step is cut with the condition behind it, and pasted into the sequence; a copy, a transition, too"""
+    """a step is cut with the condition behind it and pasted into the sequence; so are copies and transitions"""
     path = new_file(screen, SEQUENCE)
     editor = Editor(screen, path)
     on_chart(editor)
@@ -380,7 +380,7 @@ def clipped(screen):
     at(editor, 'Step Start')
     cut = editor.save(path)
     assert 'Fill' not in cut, cut
-    # Where it was, all is as it was; elsewhere it is led to from there.
+    # Pasted at its old place the chart is as before; elsewhere the step is connected there.
     editor.keys('ctrl+v')
     at(editor, 'Step Fill')
     assert editor.save(path) == SEQUENCE
@@ -396,21 +396,21 @@ def clipped(screen):
     shape(editor, 'from Drain to Fill, condition I0.2')
     editor.shot('chart-pasted')
     check(path)
-    # Again: a name of its own, in its condition, too.
+    # Pasted again: a new name, also in its condition.
     editor.keys('ctrl+c', 'ctrl+v')
     at(editor, 'Step Fill_2')
     shape(editor, 'from Fill to Fill_2, condition Fill.T > T#2s')
     shape(editor, 'from Fill_2 to Start, condition Fill_2.T > T#2s')
     text = editor.save(path)
     check(path)
-    # Two steps with what is between them and behind them.
+    # Two steps, with the transitions between and behind them.
     editor.keys('shift+Up', 'shift+Up', 'ctrl+x')
     at(editor, 'Step Drain')
     assert editor.save(path) == cut
     editor.keys('ctrl+v')
     at(editor, 'Step Fill')
     assert editor.save(path) == text
-    # A transition that is cut closes the gap again; at another place it brings a step.
+    # Cutting a transition closes the gap; pasting it elsewhere adds a step.
     editor.keys('Down', 'ctrl+x')
     at(editor, 'Step Fill')
     until(lambda: not [name for name in shapes(editor) if 'from Fill to Fill_2' in name], 'the transition to be gone')
@@ -435,7 +435,7 @@ def lies_in(inner, outer):
 
 
 def zoomed(screen):
-    """what the cursor is on stays in sight when the chart grows and shrinks, by keys, and by a step more"""
+    """the cursor stays in sight when the chart is zoomed by keys and when a step is added"""
     steps = ''.join('  STEP S%d:\n    Q0.0(N);\n  END_STEP\n\n  TRANSITION FROM S%d TO S%d := I0.0; END_TRANSITION\n\n' %
                     (i, i, i + 1) for i in range(1, 19))
     editor = Editor(screen, new_file(screen, 'RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP S0:\n  END_STEP\n\n'
@@ -461,7 +461,7 @@ def zoomed(screen):
     editor.keys('ctrl+0')
     editor.says('100 %')
     seen('Step S10', 'S10 in sight at 100 %')
-    # From the last step on one more, which had no room before.
+    # One more step below the last one, where there was no room.
     editor.keys('End')
     at(editor, 'Step S19')
     editor.keys('Insert')
@@ -472,7 +472,7 @@ def zoomed(screen):
 
 
 def long_texts(screen):
-    """a comment longer than the window is wide leaves the window as it is; the next line opens, too"""
+    """a comment wider than the window does not widen the window; the next entry opens, too"""
     path = new_file(screen, EMPTY)
     editor = Editor(screen, path)
     on_chart(editor)

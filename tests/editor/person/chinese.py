@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""chinese - a project in Chinese: names, titles and comments, in every list, and under the pointer."""
+"""chinese - a project with Chinese names, titles and comments: in each list and under the pointer."""
 import gettext
 import os
 import re
@@ -32,7 +32,7 @@ NAMES = 128  # px to the values, which are right of the names
 
 
 def project(screen):
-    """a Chinese project: a branch with a Chinese name, and a new one"""
+    """A Chinese project: a branch with a Chinese name, and a new name."""
     path = new_file(screen, PROJECT, '水泵站.rung')
     editor = Editor(screen, path)
     assert any('启动' in name for name in editor.cells()), editor.cells()
@@ -83,14 +83,14 @@ def tip(screen):
 
 
 def pixels(x, y, width, height):
-    """The lines of a place on the screen, each as the brightness of its pixels."""
+    """The lines of an area of the screen, each as the brightness of its pixels."""
     body = subprocess.run(['import', '-window', 'root', '-crop', '%dx%d+%d+%d' % (width, height, x, y), '-colorspace',
                            'gray', '-depth', '8', 'gray:-'], capture_output=True, check=True).stdout
     return [body[i:i + width] for i in range(0, len(body), width)]
 
 
 def ink(editor, line):
-    """Of a name in the timing chart: the first and the last line and column of pixels that are no background."""
+    """The first and last line and column of a name in the timing chart whose pixels differ from the background."""
     x, y, _, _ = editor.place(editor.find('Timing chart, cursor'))
     rows = pixels(x, y + LINE * line, NAMES, LINE)
     upon = [(row, column) for row, data in enumerate(rows) for column, grey in enumerate(data)
@@ -99,7 +99,7 @@ def ink(editor, line):
 
 
 def at_the_bottom(editor, text):
-    """It is told in the status bar: that is the last of the window, and as high as a line."""
+    """Is it in the status bar: the lowest of the window, one line high?"""
     node = editor.says(text)
     _, y, _, height = editor.place(node)
     _, top, _, whole = editor.place(editor.find(role='frame'))
@@ -107,7 +107,7 @@ def at_the_bottom(editor, text):
 
 
 def listed(editor, said, name):
-    """Cross reference, rename, log, status bar and timing chart; @said: a text in the editor's language."""
+    """Cross reference, rename, log, status bar and timing chart. @said: a text in the editor's language."""
     path = os.path.join(editor.screen.home, '水泵站.rung')
     editor.to_sheet()
     editor.keys('End', 'shift+F12')
@@ -150,7 +150,7 @@ def listed(editor, said, name):
 
 
 def wrong(editor, said, name):
-    """The list of problems: a name that is declared twice and one that is not, each with its place."""
+    """The problem list: a duplicate name and an undeclared one, each with its place."""
     editor.to_sheet()
     for problem, place in ((said('"%1" is declared twice{, first in line %2}').split('{')[0].replace('%1', '启动'), said('Symbols')),
                            (said('"%1" is not declared{; did you mean %2?}').split('{')[0].replace('%1', '未声明'),
@@ -162,7 +162,7 @@ def wrong(editor, said, name):
 
 
 def below(screen):
-    """the lists below the sheets and the status bar show Chinese names, and where they are"""
+    """the lists below the sheets and the status bar show Chinese names and places"""
     said = gettext.NullTranslations().gettext
     editor = Editor(screen, new_file(screen, HELD, '水泵站.rung'))
     listed(editor, said, 'wide')
@@ -171,7 +171,7 @@ def below(screen):
 
 
 def small(screen):
-    """so they do in Chinese, dark and small"""
+    """the same in a Chinese, dark, small window"""
     editor = Chinese(screen, new_file(screen, HELD, '水泵站.rung'), ADW_DEBUG_COLOR_SCHEME='prefer-dark')
     said = editor.said.gettext
     listed(editor, said, 'small')

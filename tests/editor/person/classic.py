@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""classic - a project of ClassicLadder: its report, the originals of its rungs, the way back, files dropped."""
+"""classic - a ClassicLadder project: its report, the original rungs, export, files dropped on the window."""
 import gzip
 import os
 import shutil
@@ -46,12 +46,12 @@ def report(editor):
 
 
 def rows(editor):
-    """What a screen reader says of the lines."""
+    """The accessible names of the lines."""
     return [node.name for node in editor.all(': ') if node.name.startswith(('Left out', 'Changed', 'Refused'))]
 
 
 def mouse(screen):
-    """a message of one line, a button that shows the report; a line leads to its rung, and its original is shown"""
+    """a message with a button opens the report; a line leads to its rung and shows its original"""
     editor = opened(screen)
     line = report(editor)
     editor.find('Original of the rung: Estop chain')  # of the rung at the cursor
@@ -65,7 +65,7 @@ def mouse(screen):
 
 
 def keyboard(screen):
-    """the same by keys; the original follows the cursor, and says so of a rung that has none"""
+    """the same by keys; the original follows the cursor and says so when a rung has none"""
     editor = opened(screen)
     editor.to_sheet()
     editor.keys('ctrl+alt+o')
@@ -88,7 +88,7 @@ def keyboard(screen):
 
 
 def edits(screen):
-    """lines follow their rungs: one is deleted, comes back, is moved; the report is closed and opened again"""
+    """report lines follow their rungs: deleted, restored, moved; the report is closed and opened again"""
     editor = opened(screen)
     report(editor)
     until(lambda: any('Prog1, rung 3' in row for row in rows(editor)), 'the place')
@@ -125,7 +125,8 @@ def trace(path):
 
 
 def written(screen):
-    """Save as .clprj, .clprjz, .clp: that is written, and does the same; the document stays what it was, and unsaved"""
+    """Save as .clprj, .clprjz, .clp writes a project that does the same; the document keeps its name and stays
+    unsaved"""
     editor = Editor(screen, new_file(screen, SIMPLE))
     editor.to_sheet()
     editor.keys('slash')
@@ -142,7 +143,7 @@ def written(screen):
 
 
 def saved(screen):
-    """saved as a rung file of its own name, with its I/O map beside it; the project itself stays what it is"""
+    """saved as a rung file of the same name, with its I/O map beside it; the ClassicLadder project is unchanged"""
     editor = opened(screen, 'members.clprj')
     before = read(os.path.join(screen.home, 'members.clprj'), 'rb')
     path = os.path.join(screen.home, 'members.rung')
@@ -159,7 +160,7 @@ def saved(screen):
 
 
 def exported(screen):
-    """the command for it, by the list of all; a file that is there is not written over unasked, whatever gives its ending"""
+    """export by the list of commands; an existing file is replaced only after a question, however its ending was given"""
     editor = Editor(screen, new_file(screen, SIMPLE))
     path = os.path.join(screen.home, 'b.clprj')
     new_file(screen, 'precious', 'b.clprj')
@@ -177,7 +178,7 @@ def exported(screen):
 
 
 def refused(screen):
-    """what ClassicLadder cannot hold: nothing is written, and each reason leads to its rung"""
+    """an export that ClassicLadder cannot hold writes nothing; each reason leads to its rung"""
     editor = Editor(screen, new_file(screen, REAL))
     editor.to_sheet()
     path = os.path.join(screen.home, 'c.clprj')
@@ -192,7 +193,7 @@ def refused(screen):
 
 
 def source(screen, *paths):
-    """A window like that of a file manager, in the corner, with those files."""
+    """A window with those files, in the corner, that acts as a file manager does."""
     screen.start('/usr/bin/python3', os.path.abspath(__file__), '--drag', *paths)
     window = until(lambda: sh('xdotool', 'search', '--onlyvisible', '--name', 'drop source'), 'the window of files')
     sh('xdotool', 'windowmove', '--sync', window.split()[0], '1200', '700')
@@ -201,7 +202,7 @@ def source(screen, *paths):
 
 
 def dropped(screen):
-    """files are dropped on the window: each program opens, one in its place, the others in windows of their own"""
+    """dropped files: each program opens, one in this window, the others in new windows"""
     names = ['linuxcnc.clp', 'elements.clprj']
     paths = [shutil.copy(os.path.join(PROJECTS, name), screen.home) for name in names]
     paths += [new_file(screen, SIMPLE), new_file(screen, 'hello', 'letter.odt'),
@@ -214,7 +215,7 @@ def dropped(screen):
     def edge():
         return sh('import', '-window', 'root', '-crop', '12x1+%d+%d' % (x, y + height // 2), 'txt:-')
     plain = edge()
-    # The window has a frame as long as it would take what is dragged: from another program it comes late.
+    # The window keeps its frame while it accepts a drag; from another program the drag arrives late.
     editor.drag(start, editor.centre(editor.find('Find an element')), look='classic-drop', ready=lambda: edge() != plain)
     until(lambda: len(editor.windows()) == before + 2, 'the windows')
     for name in *names, 'new', 'new.scn':
@@ -225,7 +226,7 @@ def dropped(screen):
 
 
 def small(screen):
-    """report and originals on a small screen, in the dark, in Chinese"""
+    """report and originals in a small, dark, Chinese window"""
     for kind, name, env in ((Editor, 'light', {}), (Chinese, 'dark', {'ADW_DEBUG_COLOR_SCHEME': 'prefer-dark'})):
         editor = opened(screen, kind=kind, **env)
         editor.shot('classic-small-first-' + name)
@@ -241,7 +242,7 @@ small.size = '1024x700x24'
 
 
 def drag(paths):
-    """What source() starts."""
+    """Drags from the window of source()."""
     import gi
     gi.require_version('Gtk', '4.0')
     from gi.repository import Gdk, Gio, GLib, Gtk

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""compose - names that no key gives: dead keys, a compose key, characters by their number."""
+"""compose - characters without a key: dead keys, a compose key, code points."""
 import os
 import shutil
 import sys
@@ -10,15 +10,15 @@ from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 
 def keyboard(screen):
-    """Dead keys by AltGr, Compose by Menu. A key that the keyboard lacks xdotool makes, and
-    takes away before a busy machine has looked at what it was."""
+    """Dead keys by AltGr, Compose by Menu. xdotool maps a missing key for a moment only; a busy machine reads it
+    too late."""
     if shutil.which('setxkbmap'):
         sh('setxkbmap', '-layout', 'us', '-variant', 'altgr-intl', '-option', 'compose:menu')
     return screen
 
 
 def line(editor):
-    """What stands in the line at the cursor."""
+    """The text of the entry at the cursor."""
     return until(editor.asked, 'an entry')[0].text()
 
 
@@ -28,7 +28,7 @@ def take(editor):
 
 
 def on_the_sheet(screen):
-    """what is composed on the sheet begins the entry: é by a dead key, ø by Compose, 阀 by its number"""
+    """a composed character begins the entry on a sheet: é by a dead key, ø by Compose, 阀 by its code point"""
     path = new_file(screen)
     editor = Editor(keyboard(screen), path)
     editor.to_sheet()
@@ -53,7 +53,7 @@ def on_the_sheet(screen):
 
 
 def given_up(screen):
-    """what is composed and given up changes nothing, and the keys are verbs again"""
+    """a composition that is cancelled changes nothing; keys are verbs again"""
     path = new_file(screen)
     editor = Editor(keyboard(screen), path)
     editor.entry('Start')
@@ -67,7 +67,7 @@ def given_up(screen):
 
 
 def in_the_entry(screen):
-    """the line at the cursor composes as well, and so does a label"""
+    """composing works in the entry and in the line of a label"""
     path = new_file(screen)
     editor = Editor(keyboard(screen), path)
     editor.type('T')

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""contrast - every text in the window against what is behind it, measured on the screen.
+"""contrast - the contrast of each text in the window, measured on the screen.
 
-WCAG 2.1, 1.4.3: 4.5 : 1. Texts of what cannot be used are exempt. Two pixels to a point, so
-that a letter has pixels which are nothing but ink.
+WCAG 2.1, 1.4.3: 4.5 : 1; texts of insensitive widgets are exempt. Two pixels to a point, so that letters have
+pixels of pure ink.
 """
 import collections
 import os
@@ -29,7 +29,7 @@ def ratio(one, other):
 
 
 class Picture:
-    """What is on the screen."""
+    """A screenshot."""
 
     def __init__(self):
         data = subprocess.run(['import', '-window', 'root', '-depth', '8', 'ppm:-'], capture_output=True,
@@ -38,7 +38,7 @@ class Picture:
         self.width, self.height = map(int, size.split())
 
     def colors(self, x, y, width, height):
-        """Of a place: color -> how many pixels."""
+        """The colours of an area: colour -> number of pixels."""
         count = collections.Counter()
         for line in range(max(y, 0), min(y + height, self.height)):
             start = 3 * (line * self.width + max(x, 0))
@@ -48,7 +48,7 @@ class Picture:
 
 
 def ink(colors):
-    """The ratio of what is behind, the most of it, to what differs most from it."""
+    """Contrast ratio between the most frequent colour and the one that differs most from it."""
     if len(colors) < 2:
         return None
     behind = colors.most_common(1)[0][0]
@@ -56,7 +56,7 @@ def ink(colors):
 
 
 def whole(node, nodes, boxes):
-    """Is it seen as a whole? What is scrolled away, in part too, has another thing at its place."""
+    """Is the widget wholly visible? If it is scrolled away, another widget stands at its place."""
     x, y, width, height = boxes[node.path]
     while node.parent in nodes and nodes[node.parent].role != ROLES['frame']:
         node = nodes[node.parent]
@@ -67,7 +67,7 @@ def whole(node, nodes, boxes):
 
 
 def faint(editor, where, known):
-    """Texts with less than 4.5 : 1, each as a line, but for those that are @known, as path and name."""
+    """Texts with less than 4.5 : 1, a line each, except @known (path and name)."""
     about = sh('xwininfo', '-id', editor.window)
     left, top, width, height = [int(each.split()[-1]) for each in about.splitlines()
                                 if each.strip().startswith(('Absolute', 'Width', 'Height'))]
@@ -78,7 +78,7 @@ def faint(editor, where, known):
     texts = [node for node in nodes.values() if node.role in (ROLES['label'], ROLES['text']) and
              node.path in boxes and node.name.strip() and node.states >> SENSITIVE & 1]
     typed = editor.ask([(node.path, 'Text', 'GetText', 'ii', 0, 1 << 20) for node in texts])
-    # An empty label has a name, and nothing of its own to be seen: what lies there may be on its way.
+    # An empty label has a name but draws nothing: another widget may pass there.
     texts = [node for node, text in zip(texts, typed) if text and text[0].strip() or
              text is None and node.role == ROLES['label']]
     picture, told = Picture(), []
@@ -96,7 +96,7 @@ def faint(editor, where, known):
 
 
 def look(screen, theme, name, kind=Editor):
-    """The window with a program, simulated, and each panel below the sheet. @name: of the pictures"""
+    """The window with a program, simulated, and each panel below the sheet. @name: of the pictures."""
     editor = kind(screen, os.path.join(ROOT, 'ladders', 'garage-door.rung'), GDK_SCALE=str(SCALE),
                   ADW_DEBUG_COLOR_SCHEME='prefer-' + theme)
     editor.to_sheet()
@@ -126,7 +126,7 @@ def look(screen, theme, name, kind=Editor):
 
 
 def light(screen):
-    """light: no text is fainter than 4.5 : 1, in the window, while it simulates, in each panel"""
+    """light: no text has less contrast than 4.5 : 1, in the window, while simulating, in each panel"""
     look(screen, 'light', 'light')
 
 

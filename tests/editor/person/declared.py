@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""declared - a new name at the cursor: its address and type are typed with it, or taken from the list."""
+"""declared - a new name at the cursor: its address and type are typed with it, or chosen from the list."""
 import os
 import re
 import sys
@@ -49,7 +49,7 @@ def typed(screen):
 
 
 def refused(screen):
-    """what cannot be is told at once, and where another declaration stands; the line stays"""
+    """an impossible declaration is refused at once, with the place of the conflicting one; the entry stays open"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -84,7 +84,7 @@ def refused(screen):
 
 
 def chosen(screen):
-    """the list offers a new name with each address that it may get: by pointer, by keys, to be changed"""
+    """the list offers a new name with each possible address: by pointer, by keys, to be edited"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -100,7 +100,7 @@ def chosen(screen):
     editor.keys('Down', 'Down', 'Down', 'Return')
     editor.gone()
     editor.type('OUT Lamp')
-    editor.candidate('Lamp, new %MX0.1 BOOL')  # there are markers, and no outputs yet
+    editor.candidate('Lamp, new %MX0.1 BOOL')  # there are markers and no outputs yet
     editor.candidate('Lamp, new %QX0.0 BOOL')
     editor.keys('Down', 'Down', 'Tab')
     until(lambda: editor.asked()[0].text() == 'OUT Lamp AT %QX0.0', 'the address in the line')
@@ -117,7 +117,7 @@ def chosen(screen):
 
 
 def anywhere(screen):
-    """at a pin and in a comparison, too: of the type that fits there, with addresses as wide as that"""
+    """also at a pin and in a comparison: the type that fits, with addresses of its width"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -154,12 +154,12 @@ def anywhere(screen):
 
 
 def given_back(screen):
-    """Esc gives the rung back as it was when the cursor came, without what was declared for it; Ctrl+Z all of it"""
+    """Esc restores the rung as the cursor found it, without the names declared for it; Ctrl+Z undoes that"""
     path = new_file(screen)
     editor = Editor(screen, path)
     before = open(path).read()
     editor.to_sheet()
-    editor.entry('Open')  # the first declaration of the file: it is read anew
+    editor.entry('Open')  # the first declaration of the file: the file is read again
     editor.entry('TON D1 Wait')
     editor.entry('OUT Lamp')
     edited = editor.save(path)
@@ -168,11 +168,11 @@ def given_back(screen):
     until(lambda: not editor.all('Lamp'), 'the empty rung')
     editor.shot('declared-given-back')
     assert editor.save(path) == before
-    editor.keys('Escape')  # it is as it was
+    editor.keys('Escape')  # unchanged
     editor.keys('ctrl+z')
     editor.element('Lamp')
     assert editor.save(path) == edited
-    # What was done elsewhere meanwhile is not touched.
+    # Changes elsewhere since then stay.
     editor.keys('Home')
     editor.brought('F2')
     editor.keys('ctrl+a')
@@ -184,7 +184,7 @@ def given_back(screen):
     editor.keys('Escape')
     editor.says('Other things were changed since')
     editor.shot('declared-not-given-back')
-    editor.keys('Insert')  # the rung below; the cursor left
+    editor.keys('Insert')  # the rung below: the cursor left the rung
     editor.entry('OUT More')
     editor.keys('Escape')
     until(lambda: not editor.all('More'), 'the empty rung below')

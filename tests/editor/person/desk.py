@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""desk - uses ladder-editor as a person does, with a real pointer and real keys.
+"""desk - uses ladder-editor as a person does, with a real pointer and real keys; finder.py finds the widgets.
 
-finder.py finds the widgets. A test is a function that gets a Screen; main() of report.py runs the tests of a
-script. Without the programs of screen.py all tests are skipped.
+A test is a function that gets a Screen; main() of report.py runs the tests of a script. All tests are skipped
+without the programs of screen.py.
 """
 import gettext
 import os
@@ -20,19 +20,19 @@ from screen import PATIENCE, Screen, dbus, lacking, sh, until
 
 EDITOR = os.environ.get('LADDER_EDITOR') or os.path.join(BUILD, 'ladder-editor')
 WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
-SLOWLY = max(1, PATIENCE / 60)  # a hand knows a slow machine
+SLOWLY = max(1, PATIENCE / 60)  # typing waits longer on a slow machine
 
-editors = []  # those that were begun
-DOUBLE_CLICK = 0.4  # s, of the toolkit
+editors = []  # the editors that were started
+DOUBLE_CLICK = 0.4  # s; of the toolkit
 
 
 def missing():
-    """What is not here, as one text; '' if all is."""
+    """What is not installed, as one text; '' if nothing is missing."""
     return ', '.join(lacking() + ([] if os.path.exists(EDITOR) else [EDITOR]))
 
 
 def main(tests):
-    """Runs the tests of a script, or some of them, and ends with its status."""
+    """Runs all tests of a script, or some, and exits with the status."""
     sys.exit(report.report(report.chosen(tests), missing(), editors))
 
 
@@ -40,10 +40,10 @@ class Editor(Finder):
     """ladder-editor, as a person uses it."""
 
     def __init__(self, screen, *files, before=None, **env):
-        """@before: done in the process before the editor begins"""
+        """@before: called in the child process before the editor starts."""
         self.screen = screen
         self.log = os.path.join(screen.home, 'editor-%d.log' % time.monotonic_ns())
-        # Critical messages of the toolkit are faults of ours; what reads memory that was freed reads rubbish.
+        # Critical messages of the toolkit are faults of the editor; memory that was freed holds rubbish.
         with open(self.log, 'w') as log:
             self.process = subprocess.Popen([*WRAPPER, EDITOR, *files], stdout=log, stderr=subprocess.STDOUT,
                                             preexec_fn=before, env={**os.environ, 'G_DEBUG': 'fatal-criticals',
@@ -72,7 +72,7 @@ class Editor(Finder):
         return None
 
     def is_ours(self, pid):
-        """The editor, or below a WRAPPER that began another process."""
+        """Is it the editor, or a child of a WRAPPER?"""
         with open('/proc/%d/stat' % pid) as stat:
             parent = int(stat.read().rsplit(')', 1)[1].split()[1])
         if self.process.pid not in (pid, parent):
@@ -88,23 +88,23 @@ class Editor(Finder):
 
     def click(self, at, button=1, count=1, shift=False):
         x, y = at if isinstance(at, tuple) else self.centre(at)
-        if count > 1:  # a click just before would be one of them
+        if count > 1:  # a click right before would make it a double click
             time.sleep(max(0.0, self.clicked + 2 * DOUBLE_CLICK - time.monotonic()))
         self.clicked = time.monotonic()
         held = [['keydown', 'Shift_L'], ['keyup', 'Shift_L']] if shift else [[], []]
         sh('xdotool', 'mousemove', str(x), str(y), *held[0], 'click', '--repeat', str(count), '--delay', '60', str(button), *held[1])
 
     def into(self, name):
-        """Clicks into a line or a text until it has the keys: what lies round it may still move."""
+        """Clicks into a line or text until it has the focus: the widgets around it may still move."""
         until(lambda: self.find(name, 'text').has(12) or self.click(self.find(name, 'text')), 'the keys in "%s"' % name)
 
     def tab(self, name):
-        """Clicks on the tab of exactly that name, below the sheets or in a panel."""
+        """Clicks the tab of exactly that name, below the sheets or in a panel."""
         self.click(until(lambda: [node for node in self.all(name, 'page tab') if node.name == name], 'the tab ' + name)[0])
 
     def drag(self, start, end, steps=10, key=None, look=None, ready=None):
-        """@key: held down meanwhile; @look: name of a picture of the moment before it is let go;
-        @ready: what is waited for before, if it is not this window's own that is dragged"""
+        """@key: held down meanwhile; @look: name of a picture taken before the release; @ready: what to wait for
+        before the release, for a drag from another window."""
         (x0, y0), (x1, y1) = [at if isinstance(at, tuple) else self.centre(at) for at in (start, end)]
         way = ['keydown', key] if key else []
         way += ['mousemove', str(x0), str(y0), 'mousedown', '1']
@@ -113,7 +113,7 @@ class Editor(Finder):
                     'sleep', str(0.03 * SLOWLY)]
         sh('xdotool', *way, 'sleep', str(0.15 * SLOWLY))
         if ready:
-            # One that began late has seen no movement yet.
+            # A drag that began late has missed all movement so far.
             until(lambda: sh('xdotool', 'mousemove', str(x1 + 1), str(y1), 'mousemove', str(x1), str(y1)) or ready(),
                   'what is dragged to be welcome')
         if look:
@@ -124,8 +124,8 @@ class Editor(Finder):
         sh('xdotool', 'key', '--delay', '20', *keys)
 
     def type(self, text):
-        """Types a text; what no key of the keyboard gives is pasted, as an input method would,
-        into a line or a text: when it stands there."""
+        """Types a text. Characters without a key are pasted into the line or text, as an input method would; waits
+        until they are there."""
         if text.isascii():
             sh('xdotool', 'type', '--delay', '15', '--', text)
             return
@@ -134,21 +134,21 @@ class Editor(Finder):
         until(lambda: any(text in node.text() for node in self.all(role='text')), 'what is pasted')
 
     def put_clipboard(self, text):
-        """Of another program: that it took it is no sign yet that the screen knows."""
+        """Sets the clipboard from another program. Its exit does not mean that the X server knows yet."""
         subprocess.run(['xclip', '-selection', 'clipboard'], input=text, text=True, check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         until(lambda: sh('timeout', '10', 'xclip', '-selection', 'clipboard', '-o') == text.strip().replace('\r\n', '\n'),
               'the text in the clipboard')
 
     def entry(self, text, enter=True):
-        """Types into the line that opens at the cursor, and waits until it is gone."""
+        """Types into the entry that opens at the cursor, and waits until it closes."""
         self.type(text)
         if enter:
             self.keys('Return')
             self.gone()
 
     def asked(self):
-        """The line that is open at the cursor."""
+        """The open entry at the cursor."""
         return [node for node in self.all(role='text') if node.path not in self.lines]
 
     def candidate(self, *parts):
@@ -165,7 +165,7 @@ class Editor(Finder):
         until(self.asked, 'an entry')
 
     def save(self, path):
-        """Ctrl+S, and waits until the file is another."""
+        """Presses Ctrl+S and waits until the file has changed."""
         before = open(path).read() if os.path.exists(path) else None
         self.keys('ctrl+s')
 
@@ -176,7 +176,7 @@ class Editor(Finder):
         return open(path).read()
 
     def logs(self, kind, text):
-        """Waits until the log, which is shown, has a line of that kind with a text; gives all of it."""
+        """Waits until the log, which is shown, has a line of that kind with the text; returns all its lines."""
         self.tab('Log')
         line = re.compile(r'^[0-9:]{8}\t%s\t.*%s' % (kind, re.escape(text)), re.MULTILINE)
 
@@ -185,14 +185,14 @@ class Editor(Finder):
         return until(look, 'the line "%s" of %s in the log' % (text, kind))
 
     def give_path(self, path, ask, title=''):
-        """Types a path into the chooser of files that a key, or what is called, brings; waits until it has gone."""
+        """Opens the file chooser by a key or a call, types the path, and waits until the chooser closes."""
         chooser = self.brought(ask, title)
         self.type_path(path)
         self.keys('Return')
         until(lambda: chooser not in self.windows(), 'the end of the chooser')
 
     def brought(self, ask, title=''):
-        """The window of a title that a key, or what is called, brings: when it has the keys, which is after it is seen."""
+        """Opens a window by a key or a call and waits until it has the focus, which is later than it is visible."""
         before = self.windows()
         ask() if callable(ask) else self.keys(ask)
         window = until(lambda: [each for each in self.windows() if each not in before and
@@ -207,7 +207,7 @@ class Editor(Finder):
         return window
 
     def command(self, name):
-        """Does a command that is found by its name in the list of all."""
+        """Runs a command, found by its name in the list of all."""
         window = self.list_commands()
         self.type(name)
         until(lambda: not self.all('About Rungboard'), 'that command alone')
@@ -215,31 +215,31 @@ class Editor(Finder):
         until(lambda: window not in self.windows(), 'the end of the list')
 
     def type_path(self, path):
-        """Over what stands in the chooser of files that has the keys; it has them before they are a path."""
+        """Types a path into the focused file chooser; it takes over the keys before it shows the line."""
         self.keys('ctrl+a')
         self.type(path)
         until(lambda: any(node.text() == path for node in self.all(role='text')), 'the path in the chooser')
 
     def front(self):
-        """Brings its window before the others."""
+        """Brings its window to the front."""
         sh('xdotool', 'windowactivate', '--sync', self.window)
 
     def reply(self, button):
-        """Presses a button of the dialog that is there, or comes."""
+        """Presses a button of the open or coming dialog."""
         path = self.find(role='dialog').path
         until(lambda: self.all(button, 'push button', path), 'the button "%s"' % button)[0].press()
 
     def answer(self, button):
-        """The same, and waits until the dialog is gone and what was below it has the keys again."""
+        """The same, then waits until the dialog closed and the window has the focus again."""
         self.reply(button)
         until(lambda: not self.all(role='dialog') and self.focused(), 'the dialog to be gone')
 
     def focused(self):
-        """The widget that has the focus of the keyboard; None: none is known."""
+        """The widget with the keyboard focus; None: unknown."""
         return next((node for node in self.walk() if node.states >> 12 & 1), None)
 
     def focus_on(self, name=None, role=None, but=None):
-        """Waits until a widget of a name or role has the focus, another than @but; returns it."""
+        """Waits until a widget of a name or role other than @but has the focus; returns it."""
         def look():
             node = self.focused()
             return node and (name is None or name in node.name) and (
@@ -247,7 +247,7 @@ class Editor(Finder):
         return until(look, 'the focus on %s "%s"' % (role or 'widget', name))
 
     def choose(self, text):
-        """Goes down to a text in the list that just opened, and takes it."""
+        """Moves down to a text in the list that just opened, and takes it."""
         row = self.focus_on(role='list item')
         while not self.all(text, 'label', row.path):
             self.keys('Down')
@@ -264,7 +264,7 @@ class Editor(Finder):
         editors.remove(self)
 
     def finish(self):
-        """As a session ends: in good order, whatever is on the screen."""
+        """Ends the editor as a session does, whatever is on the screen."""
         if self.process.poll() is None:
             os.kill(self.pid, signal.SIGTERM)
         editors.remove(self)
@@ -272,13 +272,13 @@ class Editor(Finder):
         assert status == 0, 'the editor ended with %d: %s' % (status, self.logged())
 
     def logged(self):
-        """What it wrote for nobody to see: messages of the toolkit, of sanitizers."""
+        """Messages of the toolkit and of sanitizers."""
         with open(self.log) as log:
             return log.read()
 
 
 class Chinese(Editor):
-    """The same, where what is looked for is said in Chinese."""
+    """The same, with the texts to look for in Chinese."""
 
     def __init__(self, screen, *files, **env):
         self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""dialogs - each can be cancelled with Esc, and the sheet has the focus again."""
+"""dialogs - each is cancelled with Esc, and the sheet has the focus again."""
 import os
 import subprocess
 import sys
@@ -11,17 +11,17 @@ from projects import ONE_RUNG  # noqa: E402
 
 MAP = 'BOARD "Desk"\n%IX0.0  gpio  line=NOWHERE\n%QX0.0  sim  safe=0\n'
 OTHER = ONE_RUNG.replace('Main', 'Other').replace('Motor', 'Pump')
-# key, and what is seen then
+# the key, and a text of the dialog
 DIALOGS = [
     ('ctrl+o', 'Open'), ('ctrl+shift+s', 'Save as'), ('F2', 'Rename everywhere'), ('ctrl+g', 'Go to rung'),
     ('F1', None), ('ctrl+p', 'Print'),
 ]
-# popups of the window itself
+# popups of the window
 POPUPS = ['F8', 'F5', 'Return', 'ctrl+shift+t', 'ctrl+l', 'semicolon', 'ctrl+k', 'ctrl+f', 'ctrl+h']
 
 
 def dialogs(screen):
-    """dialogs: Esc cancels, nothing is changed, the sheet has the focus"""
+    """dialogs: Esc cancels, nothing changes, the sheet has the focus"""
     path = new_file(screen, ONE_RUNG)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -36,7 +36,7 @@ def dialogs(screen):
 
 
 def popups(screen):
-    """popups of the window: Esc closes them, nothing is changed, the sheet has the focus"""
+    """popups of the window: Esc closes them, nothing changes, the sheet has the focus"""
     path = new_file(screen, ONE_RUNG)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -50,7 +50,7 @@ def popups(screen):
 
 
 def give_back(screen):
-    """Esc gives a rung back as the cursor found it; a palette click leaves the focus here"""
+    """Esc restores a rung as the cursor found it; a click on the palette leaves the focus here"""
     path = new_file(screen, ONE_RUNG)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -71,7 +71,7 @@ def give_back(screen):
 
 
 def close(screen):
-    """closing with changes asks; Esc keeps the window, Discard ends it"""
+    """closing with changes asks; Esc keeps the window, Discard closes it"""
     path = new_file(screen, ONE_RUNG)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -91,7 +91,7 @@ def close(screen):
 
 
 def commands(screen):
-    """in the list of all commands the one that Enter does is seen, however far down it is"""
+    """the selected row in the list of all commands is visible, however far down it is"""
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     editor.to_sheet()
     editor.list_commands()
@@ -109,7 +109,7 @@ def commands(screen):
 
 
 def kept(editor):
-    """Title and files, as they are now: what a dialog that is cancelled must leave alone."""
+    """Title and files: a cancelled dialog must not change them."""
     home, files = editor.screen.home, {}
     for name in os.listdir(home):
         path = os.path.join(home, name)
@@ -120,7 +120,7 @@ def kept(editor):
 
 
 def escape(editor, before, picture):
-    """Esc, and nothing is another than before."""
+    """Esc; title and files are as before."""
     editor.shot('dialogs-' + picture)
     until(editor.focused, 'the keys')
     editor.keys('Escape')
@@ -129,7 +129,7 @@ def escape(editor, before, picture):
 
 
 def writers(screen):
-    """what writes a file by a command: Esc in its dialog, and there is none"""
+    """commands that write a file: Esc in the dialog writes none"""
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     editor.to_sheet()
     before = kept(editor)
@@ -142,12 +142,12 @@ def writers(screen):
 
 
 def replaced(screen):
-    """the question whether a file is replaced: Esc, and it is not; find and replace: Esc, and nothing was"""
+    """Esc at "replace the file?" keeps the file; Esc in find and replace changes nothing"""
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     other = new_file(screen, OTHER, 'other.rung')
     editor.to_sheet()
     before = kept(editor)
-    # The chooser of files asks for itself, and is there again; the editor asks where it gives the ending.
+    # The file chooser asks by itself and stays open; the editor asks where it adds the ending.
     for name, question, windows in (other, 'Do you want to replace it?', 3), (other[:-5], 'Replace the file?', 2):
         editor.brought('ctrl+shift+s', 'Save as')
         editor.type_path(name)
@@ -171,14 +171,14 @@ def replaced(screen):
 
 
 def imported(screen):
-    """import from another project: Esc where the project is chosen, and where its parts are"""
+    """import from another project: Esc in the file chooser, and in the choice of parts"""
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     other = new_file(screen, OTHER, 'other.rung')
     editor.click([node for node in editor.all('Main', 'label') if node.name == 'Main'][0])
     before = kept(editor)
 
     def item():
-        """The item of the menu, which has the keys."""
+        """The focused item of the menu."""
         return any(node.has(12) for node in editor.all('Import from another project', 'menu item'))
     for chosen in False, True:
         editor.keys('Menu')
@@ -194,11 +194,11 @@ def imported(screen):
 
 
 def board(screen):
-    """run on this machine: Esc at the question, and nothing runs, nothing is saved"""
+    """run on this machine: Esc at the question starts and saves nothing"""
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     new_file(screen, MAP, 'new.io')
     editor.to_sheet()
-    for change in (), ('slash',):  # of pins, and of what is not saved too
+    for change in (), ('slash',):  # questions about pins and about unsaved work
         editor.keys(*change)
         until(lambda: bool(editor.all('•')) == bool(change), 'the mark of a change')
         before = kept(editor)

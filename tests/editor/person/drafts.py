@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""drafts - work that was not saved is there again after a kill."""
+"""drafts - unsaved work is restored after a kill."""
 import os
 import re
 import resource
@@ -15,7 +15,7 @@ SCENARIO = 'scenario One\n'
 
 
 def after_a_kill(screen):
-    """save, draw on, kill -9: the next start gives all of it back"""
+    """save, draw on, kill -9: the next start restores all of it"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.entry('Start')
@@ -39,7 +39,7 @@ def after_a_kill(screen):
 
 
 def changed_meanwhile(screen):
-    """somebody else changes the file after the kill: it is not written over unasked, and one window has it"""
+    """the file changed on disk after the kill: saving asks before it replaces it; one window holds the file"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.entry('Start')
@@ -67,7 +67,7 @@ def changed_meanwhile(screen):
 
 
 def scenario(screen):
-    """An editor, its scenario with a line more that is not saved, and the path of that."""
+    """An editor with an unsaved line in its scenario, and the path of the scenario."""
     path = new_file(screen, ONE_RUNG)
     beside = os.path.join(screen.home, 'new.scn')
     with open(beside, 'w') as file:
@@ -84,7 +84,7 @@ def scenario(screen):
 
 
 def beside_a_project(screen):
-    """a scenario that was typed comes back with its project; what another wrote meanwhile is not written over"""
+    """an edited scenario is restored with its project; a change on disk is not overwritten"""
     editor, path = scenario(screen)
     editor.kill()
     with open(path, 'w') as file:
@@ -108,7 +108,7 @@ def beside_a_project(screen):
 
 
 def gone(screen):
-    """a scenario whose file is gone is a draft, though nothing was typed; so at the end of a session"""
+    """a scenario whose file was deleted becomes a draft without an edit; also at the end of a session"""
     editor, path = scenario(screen)
     editor.save(path)
     until(lambda: not drafts(screen), 'the draft to go with the save')
@@ -122,7 +122,7 @@ def gone(screen):
 
 
 def no_room_again(screen):
-    """what cannot be kept as a draft again stays in the old one"""
+    """an old draft stays when the restored work cannot be written as a new draft"""
     editor, _ = scenario(screen)
     editor.kill()
     old = drafts(screen)
@@ -132,7 +132,7 @@ def no_room_again(screen):
 
 
 def twice(screen):
-    """two drafts of one file are both there: the second is a step behind the first"""
+    """two drafts of one file are both restored: the second is one undo step older"""
     editor, path = scenario(screen)
     editor.kill()
     old = drafts(screen)[0]
@@ -150,7 +150,7 @@ def twice(screen):
 
 
 def same_number(screen):
-    """the next editor has the number of the one that died: its draft comes back all the same"""
+    """the next editor has the process id of the killed one: its draft is restored all the same"""
     editor, path = scenario(screen)
     editor.kill()
     old = drafts(screen)[0]
@@ -162,7 +162,7 @@ def same_number(screen):
 
 
 def of_another_version(screen):
-    """what is no draft of this version opens as text with its problems: nothing is lost, nothing silent"""
+    """a draft of another version opens as text with its problems; nothing is lost"""
     folder = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, '1-2.draft'), 'wb') as file:
@@ -178,7 +178,7 @@ def of_another_version(screen):
 
 
 def not_wanted(screen):
-    """its draft goes with the tab, and with the window"""
+    """a draft is deleted with its tab, and with the window"""
     for key in 'ctrl+shift+w', 'ctrl+w':
         editor, path = scenario(screen)
         editor.keys(key)
@@ -189,7 +189,7 @@ def not_wanted(screen):
 
 
 def no_room(screen):
-    """a draft that cannot be written is told"""
+    """a draft that cannot be written is reported"""
     path = new_file(screen)
     editor = Editor(screen, path)
     sh('prlimit', '--pid', str(editor.process.pid), '--fsize=50:')
@@ -199,7 +199,7 @@ def no_room(screen):
 
 
 def at_the_end_of_a_session(screen):
-    """told to end, it keeps what was drawn last, asks nobody, and gives it back"""
+    """SIGTERM keeps the last edit without a question, and the next start restores it"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.entry('Start')

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""drag - elements and rungs go where the pointer takes them."""
+"""drag - elements and rungs are dragged with the pointer."""
 import os
 import sys
 
@@ -15,7 +15,7 @@ def rung_lines(path):
 
 
 def as_before(path):
-    """The program is good, and its rungs do what they did."""
+    """The saved program passes the check and its rungs do the same."""
     check(path)
     assert lines(path, '@print Motor\nStart=1\nStop=1\n') == ['Motor=1', 'Motor=0']
     assert lines(path, '@print Lamp\nStart=1\nStop=1\n') == ['Lamp=1', 'Lamp=0']
@@ -26,7 +26,7 @@ def plain(text):
 
 
 def elements(screen):
-    """an element is dragged into another rung, and back by undo"""
+    """an element is dragged into another rung, and undo moves it back"""
     path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
@@ -54,12 +54,12 @@ def rungs(screen):
     editor.save(path)
     assert rung_lines(path)[0] == 'RUNG "two"', rung_lines(path)
     check(path)
-    # The cursor went with it: what a key does next, it does to that rung.
+    # The cursor went with it: the next key acts on that rung.
     editor.keys('ctrl+Delete')
     until(lambda: not any('Lamp' in name for name in editor.cells()), 'the rung that was dragged to be gone')
     editor.keys('ctrl+z')
     editor.element('Rung 1', 'Lamp')
-    # Lamp is now before Motor, which it follows: a scan late.
+    # Lamp now comes before Motor: it follows one scan late.
     assert lines(path, '@print Lamp\nStart=1\n.\nStop=1\n.\n') == ['Lamp=0', 'Lamp=1', 'Lamp=1', 'Lamp=0']
 
 
@@ -83,7 +83,7 @@ def branch(screen):
 
 
 def saved(editor, path, good):
-    """Saves until the file is so; the drag may still be on its way."""
+    """Saves until the file is so; the drag may not have ended yet."""
     def look():
         editor.keys('ctrl+s')
         return good(rung_lines(path))
@@ -91,20 +91,20 @@ def saved(editor, path, good):
 
 
 def wires(screen):
-    """wires are drawn and erased by dragging alone: down, across, round; Esc gives up"""
+    """wires are drawn and erased by dragging alone: down, across, around; Esc cancels"""
     path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     wire = 36 + 46  # below a title
-    # From the end of Start down into a row that was not there, then to the right.
+    # From the end of Start down into a new row, then to the right.
     editor.drag(editor.wire_end(wire, 1, -8), editor.wire_end(wire + 84, 3, 4), look='wire-down')
     saved(editor, path, lambda rows: '^' in ''.join(rows))
     assert plain(''.join(rung_lines(path)[1:3])) == '|NOStart|NCStop|---|COILMotor||^|---|---|', rung_lines(path)
-    # Up to the wire: a second way round Stop.
+    # Up to the wire: a second way around Stop.
     editor.drag(editor.wire_end(wire + 84, 3, -6), editor.wire_end(wire, 3, 5), look='wire-up')
     saved(editor, path, lambda rows: plain(rows[2]).endswith('---^|'))
     editor.says('is short-circuited')
-    # Ctrl erases: first what leads up, then the rest of it.
+    # Ctrl erases: first the part that leads up, then the rest.
     editor.drag(editor.wire_end(wire, 3, 5), editor.wire_end(wire + 84, 3, 5), key='ctrl', look='wire-erase')
     saved(editor, path, lambda rows: not rows[2].endswith('^|'))
     editor.drag(editor.wire_end(wire + 84, 3, -6), editor.wire_end(wire, 1, 5), key='ctrl')
@@ -117,7 +117,7 @@ SEAL_IN = TWO_RUNGS.replace('| NO Start | NC Stop | COIL Motor |\n', '| NO Start
 
 
 def at_node(screen):
-    """where a branch leaves the wire, a drop on that wire goes into it; under an element, beside it"""
+    """a drop on the wire where a branch begins goes into that wire; below an element, in parallel"""
     path = new_file(screen, SEAL_IN.replace('NO Motor | COIL Lamp', 'NO Motor | NC Lamp | COIL Lamp'))
     before = rung_lines(path)
     editor = Editor(screen, path)
@@ -129,13 +129,13 @@ def at_node(screen):
         saved(editor, path, lambda rows: rows[1:3] == ['| NO Start  | NC Lamp | NC Stop | COIL Motor |', '| NO Motor ^|'])
         editor.keys('ctrl+z')
         saved(editor, path, lambda rows: rows == before)
-    # Under Stop there is room: a branch.
+    # There is room below Stop: a branch.
     x, y = editor.wire_end(wire, 2, -49)
     editor.drag(taken, (x, y + 28), look='drag-under')
     saved(editor, path, lambda rows: rows[1:3] == ['| NO Start  | NC Stop  | COIL Motor |', '| NO Motor ^| NC Lamp ^|'])
     editor.keys('ctrl+z')
     saved(editor, path, lambda rows: rows == before)
-    # Under Start there is none: it goes before Start, not to what stands below.
+    # There is none below Start: the drop goes before Start, not to the element below.
     x, y = editor.wire_end(wire, 1, -49)
     editor.drag(taken, (x, y + 28))
     saved(editor, path, lambda rows: plain(rows[1]) == '|NCLamp|NOStart|NCStop|COILMotor|')
@@ -143,7 +143,7 @@ def at_node(screen):
 
 
 def quick(screen):
-    """a hand so quick that the pointer is seen where the stroke begins and where it ends, no more"""
+    """a quick drag whose pointer is seen only at its two ends"""
     path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
@@ -157,21 +157,21 @@ def quick(screen):
 
 
 def refused(screen):
-    """a stroke that cannot be is told, and Esc gives one up"""
+    """an impossible wire is refused with a message; Esc cancels a wire"""
     path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     before = open(path).read()
     wire = 36 + 46
-    # Along a wire that is there: nothing to do.
+    # Along an existing wire: nothing to do.
     editor.drag(editor.wire_end(wire, 3), editor.wire_end(wire, 4))
     editor.says('the wire is there already')
     (x0, y0), (x1, y1) = editor.wire_end(wire, 1), editor.wire_end(wire + 84, 3)
     sh('xdotool', 'mousemove', str(x0), str(y0), 'mousedown', '1', 'mousemove', str(x0), str(y0 + 30),
        'sleep', '0.1', 'mousemove', str(x1), str(y1), 'sleep', '0.2', 'key', 'Escape',
        'sleep', '0.1', 'mousemove', str(x1 + 9), str(y1 + 9), 'sleep', '0.1', 'mouseup', '1')
-    editor.says('Rung 1 · column')  # what comes after Esc selects no rungs
-    # A selection is still made from a free place.
+    editor.says('Rung 1 · column')  # after Esc the rest of the drag selects no rungs
+    # A drag from a free place still selects.
     editor.drag(editor.grid(wire + 25, 2), editor.grid(wire + 25, 3))
     editor.keys('Insert')
     text = editor.save(path)
@@ -184,12 +184,12 @@ def refused(screen):
 
 
 def seen(editor, name):
-    """An item of a menu that is open; a menu that is not has the same items somewhere."""
+    """An item of an open menu; hidden menus have the same items elsewhere."""
     return until(lambda: next((node for node in editor.all(name, 'menu item') if node.box()[2] > 0), None), name)
 
 
 def by_menu(screen):
-    """the menu of the right button draws wires, too"""
+    """the context menu draws wires, too"""
     path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
@@ -217,8 +217,8 @@ def rung_of(node):
 
 
 def far(screen):
-    """an element is held at the lower edge: the sheet scrolls to a rung that was not seen"""
-    # Each rung has a coil of its own: what one does is not done again by the next.
+    """a drag held at the lower edge scrolls the sheet to a rung out of sight"""
+    # Each rung has its own coil, so that one drop does not repeat another.
     more = ''.join('RUNG\n  | NO Motor | COIL %%MX%d.%d |\n' % divmod(number, 8) for number in range(40))
     text = TWO_RUNGS.replace('END_PROGRAM', more + 'END_PROGRAM')
     path = new_file(screen, text)
@@ -235,13 +235,13 @@ def far(screen):
     sh('xdotool', *way)
 
     def scrolled():
-        # A hand is never quite still; X leaves out the last step of one that is.
+        # A hand is never quite still; X drops the last motion of a pointer that is.
         sh('xdotool', 'mousemove_relative', '1', '0', 'sleep', '0.05', 'mousemove_relative', '--', '-1', '0')
         return max(map(rung_of, editor.all('Rung ', 'table cell')), default=0) > last + 4
     until(scrolled, 'the sheet to scroll')
     sh('xdotool', 'mousemove', str(to), str(y + height // 2))
     editor.shot('drag-far')
-    # How far it came is not asked: a rung in the middle of what is seen now.
+    # Any rung in the middle of the visible part will do.
     there = sorted({rung_of(node) for node in editor.all('Rung ', 'table cell')} - set(range(last + 1)))
     seen = editor.element('Rung %d,' % there[len(there) // 2], 'Motor')
     _, wire = editor.middle(seen)
@@ -256,7 +256,7 @@ def far(screen):
 
 
 def not_there(screen):
-    """a coil that is dragged onto a contact is refused with the reason while it is held, and nothing is changed"""
+    """a coil dragged onto a contact is refused with the reason while it is held; nothing changes"""
     path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""files - what is no program is told, a file stays what it is, and nothing of others is written over unasked."""
+"""files - files that are no program are reported, files stay as they are, and no file of others is replaced without
+a question.
+"""
 import os
 import stat
 import sys
@@ -25,7 +27,7 @@ def write(path, text):
 
 
 def refused(screen):
-    """a device, a pipe, a folder, what is too large: a banner each, and an empty sheet; no file is touched"""
+    """a device, a pipe, a folder and a large file each give a banner and an empty sheet; no file is touched"""
     pipe, folder, large = [os.path.join(screen.home, name) for name in ('pipe', 'folder', 'large.rung')]
     os.mkfifo(pipe)
     os.mkdir(folder)
@@ -41,7 +43,7 @@ def refused(screen):
 
 
 def classic(screen):
-    """a project of ClassicLadder opens as a file of ours that is not saved yet, and says what became of it"""
+    """a ClassicLadder project opens as a new unsaved rung file with a report"""
     project = os.path.join(screen.home, 'pump.txt')
     cells = ' , '.join(['9-0-0-0'] * 8)
     write(project, ';Rung:\n#LABEL=\n#COMMENT=The pump\n1-0-50-0 , 103-0-0-0 , ' + cells[:-10] +
@@ -57,7 +59,7 @@ def classic(screen):
 
 
 def no_program(screen):
-    """an empty file and a binary one open as text that says what is wrong; the file is untouched"""
+    """an empty and a binary file open as text with their problems; the files are untouched"""
     empty, binary = [os.path.join(screen.home, name) for name in ('empty.rung', 'binary.rung')]
     write(empty, '')
     with open(binary, 'wb') as file:
@@ -72,7 +74,7 @@ def no_program(screen):
 
 
 def no_text(screen):
-    """bytes that are no UTF-8 are told in a banner; saving asks once more, saving as another file keeps them"""
+    """bytes that are not UTF-8 give a banner; saving asks once more, saving as another file keeps them"""
     path = os.path.join(screen.home, 'old.rung')
     old = ONE_RUNG.replace('PROGRAM Main', '(* Gr\xfc\xdfe *)\nPROGRAM Main').encode('latin-1')
     with open(path, 'wb') as file:
@@ -105,7 +107,7 @@ def no_text(screen):
 
 
 def foreign(screen):
-    """saved as what would be a scenario, a map, a table: .rung comes behind it, and the title says so; an ending that the file has stays"""
+    """Save as with the ending of a scenario, map or table adds .rung, and the title says so; its own ending stays"""
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     editor.to_sheet()
     for name in 'pump.scn', 'pump.io', 'pump.txt', 'pump', 'pump.v2':
@@ -126,7 +128,7 @@ def foreign(screen):
 
 
 def beside(screen):
-    """a scenario opens in the only project of its folder, a map in that of its name, others in an empty one"""
+    """a scenario opens in the only project of its folder, a map in the project of its name, others in an empty one"""
     for name in 'pump.rung', 'pump.plant.rung', 'boards/pump.io', 'morning.scn', 'far/lone.scn', 'far/lone.io':
         os.makedirs(os.path.dirname(os.path.join(screen.home, name)), exist_ok=True)
         write(os.path.join(screen.home, name), ONE_RUNG if name.endswith('.rung') else SCENARIO if
@@ -143,16 +145,16 @@ def beside(screen):
     editor.find('New project', 'label')
     editor.shot('files-beside')
     assert len(editor.windows()) == 2
-    # That one is untouched yet: a second one has room there.
+    # That window is still empty: a second file fits there.
     editor.give_path(os.path.join(screen.home, 'far', 'lone.io'), 'ctrl+o')
     editor.find('lone.io')
     assert len(editor.windows()) == 2 and not editor.all('Text of the file')
-    # What is open is shown where it is.
+    # An open file is shown where it is.
     editor.give_path(scenario, 'ctrl+o')
     editor.give_path(os.path.join(screen.home, 'far', 'lone.scn'), 'ctrl+o')
     assert len(editor.windows()) == 2
     editor.finish()
-    # A map of a folder with several programs is of the one that lists it.
+    # A map in a folder of several programs belongs to the one that lists it.
     write(os.path.join(screen.home, 'fan.rung'), ONE_RUNG)
     panel = os.path.join(screen.home, 'boards', 'panel.io')
     os.rename(os.path.join(screen.home, 'far', 'lone.io'), panel)
@@ -166,7 +168,7 @@ def beside(screen):
 
 
 def stays_a_link(screen):
-    """a link stays a link when what it leads to is saved, and that keeps who may read it; by any name it opens once"""
+    """saving through a link keeps the link and the permissions of the target; under any name it opens once"""
     os.mkdir(os.path.join(screen.home, 'there'))
     path = new_file(screen, ONE_RUNG, 'there/real.rung')
     link = os.path.join(screen.home, 'link.rung')
@@ -188,7 +190,7 @@ def stays_a_link(screen):
 
 
 def scenario(screen):
-    """An editor with a scenario in front that was changed; its path."""
+    """An editor with a changed scenario in front; its path."""
     path = new_file(screen, ONE_RUNG)
     beside = os.path.join(screen.home, 'new.scn')
     write(beside, SCENARIO)
@@ -210,7 +212,7 @@ def change(editor, text):
 
 
 def tab(screen):
-    """the tab of a changed scenario asks when it is closed: cancel, discard, save"""
+    """closing the tab of a changed scenario asks: cancel, discard, save"""
     editor, path = scenario(screen)
     editor.says('• new.scn')
     editor.keys('ctrl+shift+w')
@@ -229,7 +231,7 @@ def tab(screen):
 
 
 def window(screen):
-    """so does the window: Cancel keeps it, Save writes the scenario and ends it"""
+    """closing the window asks, too: Cancel keeps it, Save writes the scenario and closes it"""
     editor, path = scenario(screen)
     editor.keys('ctrl+w')
     editor.says('new.scn” has changes')
@@ -242,7 +244,7 @@ def window(screen):
 
 
 def one_history(screen):
-    """Ctrl+Z takes back what was done last, on a sheet or in a scenario, and shows it; Ctrl+Y does it again"""
+    """Ctrl+Z undoes the last change, on a sheet or in a scenario, and shows it; Ctrl+Y redoes it"""
     editor, path = scenario(screen)
     editor.click(editor.find('Main', 'label'), count=2)
     editor.to_sheet()
@@ -266,7 +268,7 @@ def one_history(screen):
 
 
 def written_over(screen):
-    """somebody else changes the scenario meanwhile: the first save is refused and told, the second writes"""
+    """the scenario changed on disk: the first save is refused with a message, the second writes"""
     editor, path = scenario(screen)
     write(path, SCENARIO + '# theirs\n')
     editor.keys('ctrl+s')
@@ -278,7 +280,7 @@ def written_over(screen):
 
 
 def closing(screen):
-    """somebody else changes the project: saving at the end is refused too, and the window stays"""
+    """the project changed on disk: saving while closing is refused, too, and the window stays"""
     path = new_file(screen, ONE_RUNG)
     editor = Editor(screen, path)
     editor.to_sheet()

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 """finder - finds the widgets of the editor by their accessible names, and their places on the screen.
 
-The toolkit gives all widgets that it knows in one answer (org.a11y.atspi.Cache). One question for each would
-take most of a test's time. The palette holds most of the widgets and never changes: the search enters it only
-for its tiles.
+One call (org.a11y.atspi.Cache) returns all widgets; a call for each would take most of a test's time. The
+palette holds most of the widgets and never changes: the search enters it only for its tiles.
 """
 import os
 import re
@@ -21,14 +20,15 @@ class Finder:
         return self.bus.call_blocking(name, path, A11Y + interface, method, '', ())
 
     def ask(self, questions):
-        """Answers of (path, interface, method, signature, arguments…), all asked at once; None: it is gone."""
+        """Sends all calls (path, interface, method, signature, arguments…) at once, returns the answers; None: the
+        widget is gone."""
         answers, waiting = [None] * len(questions), []
         for index, (path, interface, method, *args) in enumerate(questions):
             message = dbus.lowlevel.MethodCallMessage(self.name, path, A11Y + interface, method)
             message.append(*args[1:], signature=args[0] if args else '')
 
             def done(answer, index=index):
-                if isinstance(answer, dbus.lowlevel.MethodReturnMessage):  # else it went while we asked
+                if isinstance(answer, dbus.lowlevel.MethodReturnMessage):  # otherwise it went away meanwhile
                     answers[index] = answer.get_args_list()
             waiting.append(self.bus.send_message_with_reply(message, done, 60))
         for reply in waiting:
@@ -39,7 +39,7 @@ class Finder:
     # ---- seeing ----
 
     def known(self):
-        """All that the toolkit knows, seen or not: path -> node."""
+        """All widgets that the toolkit knows, visible or not: path -> node."""
         try:
             items = self.bus.call_blocking(self.name, '/org/a11y/atspi/cache', A11Y + 'Cache', 'GetItems', '', ())
         except dbus.exceptions.DBusException:
@@ -49,9 +49,9 @@ class Finder:
         return {node.path: node for node in nodes}
 
     def seen(self, nodes, top=None):
-        """The paths below each node that are seen: path -> paths in their order. What is hidden has
-        the place of the next that is seen, and one that nobody asked for is not known yet: so all
-        are asked, but for what never hides a part of its own, and the palette unless it is @top."""
+        """The visible paths below each node: path -> paths in order. A hidden widget has the place of the next
+        visible one, and a new one is unknown until it is asked for: so all are asked, except parts of widgets that
+        never hide any, and the palette unless it is @top."""
         family = {path: [] for path in nodes}
         for node in nodes.values():
             family.setdefault(node.parent, []).append(node)
@@ -71,7 +71,7 @@ class Finder:
         return below
 
     def waken(self, paths, known):
-        """A widget comes into being on the bus by being asked for, and what is below it, too."""
+        """A widget appears on the bus when it is asked for, and its children then, too."""
         while paths:
             known |= paths
             answers = self.ask([(path, 'Accessible', 'GetChildren') for path in paths])
@@ -98,7 +98,7 @@ class Finder:
                         paths += below.get(child, []) if page else [child]
 
     def all(self, name=None, role=None, below=None):
-        """All widgets whose name holds a text; of a role."""
+        """All widgets whose name contains a text; of a role."""
         return [node for node in self.walk(below) if (role is None or node.role == ROLES[role]) and
                 (name is None or name in node.name)]
 
@@ -116,7 +116,7 @@ class Finder:
         return self.find('Sheet')
 
     def elements(self):
-        """Those that are seen on sheets: not the wire or the empty cell that the cursor is on."""
+        """The visible elements on sheets, without the wire or empty cell at the cursor."""
         return [node for node in self.all('Rung ', 'table cell') if not re.search(r', row \d+, column \w+$', node.name)]
 
     def cells(self):
@@ -128,8 +128,8 @@ class Finder:
         return self.find(text)
 
     def windows(self):
-        """Those that the window manager knows: no tooltip, no popup. Nothing is found, too, when
-        one goes away while it is looked for: then it is looked again."""
+        """The windows that the window manager knows, without tooltips and popups. An empty answer may mean that a
+        window closed during the search: it is repeated."""
         known = [int(number, 16) for number in re.findall('0x[0-9a-f]+', sh('xprop', '-root', '_NET_CLIENT_LIST'))]
         looks = (sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.pid)).split() for _ in range(3))
         seen = next(filter(None, looks), [])
@@ -148,7 +148,7 @@ class Finder:
 
     @staticmethod
     def at_rest(node):
-        """Where it is once it has come there: what was just made still moves."""
+        """The same once it has stopped moving: new widgets still move."""
         seen = []
 
         def look():
@@ -161,7 +161,7 @@ class Finder:
         return x + width // 2, y + height // 2
 
     def popped(self, node):
-        """The middle of a widget in a popover: that is a window of its own, of just its size."""
+        """The middle of a widget in a popover, which is a window of exactly its size."""
         left, top, width, height = self.at_rest(node)
         nodes = self.known()
         windows = [re.findall(r'(?:upper-left [XY]|Width|Height): +(-?\d+)', sh('xwininfo', '-id', each))
@@ -193,7 +193,7 @@ class Finder:
         return x + width // 2, y + 46
 
     def beside(self, node):
-        """On the wire of an element: the cursor goes there, and nothing else happens."""
+        """A point on the wire of an element: a click there only moves the cursor."""
         x, y, _, _ = self.place(node)
         return x + 12, y + 46
 
@@ -203,6 +203,6 @@ class Finder:
         return x + 61 + 98 * bar + by, y + rung_y
 
     def shot(self, name):
-        """A picture for a person to look at, if PICTURES names a folder."""
+        """Takes a picture for a person to look at, if PICTURES names a folder."""
         if os.environ.get('PICTURES'):
             sh('import', '-window', 'root', os.path.join(os.environ['PICTURES'], name + '.png'))

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""ghost - what is seen while an element or a rung is dragged, light, dark and with contrast."""
+"""ghost - what is drawn while an element or a rung is dragged: light, dark, with high contrast."""
 import os
 import re
 import subprocess
@@ -22,7 +22,7 @@ RUN = '@print Motor Lamp\nStart=1\nStop=1\nStart=0\n'
 
 
 def pixels(x, y, width, height):
-    """The colours of a place on the screen, line by line."""
+    """The colours of an area of the screen, line by line."""
     picture = subprocess.run(['import', '-window', 'root', '-crop', '%dx%d+%d+%d' % (width, height, x, y),
                               '-depth', '8', 'ppm:-'], capture_output=True, check=True).stdout
     body = picture[len(re.match(rb'P6\s+\d+\s+\d+\s+\d+\s', picture)[0]):]
@@ -30,32 +30,32 @@ def pixels(x, y, width, height):
 
 
 def marked(editor, rung_y, accent, row=0):
-    """The columns of a row whose left upper corner is marked."""
+    """The columns of a row whose upper left corner is marked."""
     x, y, _, _ = editor.place(editor.sheet())
     return [column for column in COLUMNS
             if pixels(x + 61 + 98 * column + 2, y + rung_y + ROW + 84 * row + 1, 9, 6).count(accent) >= 5]
 
 
 def luminance(color):
-    """0 to 1, by eye."""
+    """0 to 1, as the eye weighs it."""
     return (0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]) / 255
 
 
 def inked(editor, x, y, width, height):
-    """How many pixels are quite another than the sheet: of a ghost upon nothing, its ink."""
+    """How many pixels differ clearly from the sheet: the ink of a ghost above an empty place."""
     left, top, wide, high = editor.place(editor.sheet())
     ground = luminance(pixels(left + wide - 30, top + high - 30, 1, 1)[0])
     return sum(abs(luminance(color) - ground) > 0.4 for color in pixels(x, y, width, height))
 
 
 def states(path):
-    """Motor and lamp after Start, then Stop, then Start let go."""
+    """Motor and Lamp after Start, then Stop, then Start released."""
     return [''.join(word[-1] for word in line.split()[-2:]) for line in trace(path, RUN).splitlines()]
 
 
 def sheets(screen, wanted, *names):
-    """One editor after the other, which know nothing of each other: its name, itself, its colour of marks. What is saved
-    at last is good, and has these states."""
+    """Independent editors one after the other: name, editor, colour of its marks. The program saved at last must
+    pass the check and have these states."""
     for name in names:
         env, accent = THEMES[name]
         path = new_file(screen, TWO_RUNGS)
@@ -69,13 +69,13 @@ def sheets(screen, wanted, *names):
 
 
 def below(editor):
-    """Where nothing stands, and nothing is taken."""
+    """A free place that takes no drop."""
     x, y = editor.grid(2 * RUNG + 84 + 160, 2)
     return x, y
 
 
 def ghosts(screen):
-    """a dragged element is seen where there is nothing else, of the sheet and of the palette"""
+    """a dragged element is visible over an empty place, dragged from the sheet and from the palette"""
     for name, editor, _ in sheets(screen, ['11', '00', '00'], *THEMES):
         x, y = below(editor)
         for kind, start in (('sheet', editor.grid(ROW + 46, 1)), ('palette', editor.tile('closed while FALSE'))):
@@ -85,7 +85,7 @@ def ghosts(screen):
 
 
 def cells(screen):
-    """the cells that take it are marked, and the one that is meant is another"""
+    """cells that accept the drop are marked; the one under the pointer has another mark"""
     for name, editor, accent in sheets(screen, ['11', '10', '00'], 'light', 'dark'):
         to = editor.grid(RUNG + ROW + 46, 3)
         editor.drag(editor.grid(ROW + 46, 1), to, look='takes-contact-' + name, ready=lambda: (
@@ -97,7 +97,7 @@ def cells(screen):
 
 
 def places(screen):
-    """a dragged rung is seen, and a line where it would come: of two ends the nearer"""
+    """a dragged rung is visible, with a line where it would come: at the nearer of two ends"""
     for name, editor, accent in sheets(screen, ['10', '01', '00'], 'dark'):
         x, y, width, _ = editor.place(editor.sheet())
         for at, line in ((RUNG + 30, RUNG), (RUNG + 90, 2 * RUNG), (below(editor)[1] - y, 2 * RUNG), (40, 1)):

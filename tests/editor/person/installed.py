@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""installed - what `make install` places: found by the desktop, and by the program wherever it was moved to."""
+"""installed - the desktop finds what `make install` placed, and the program finds it after the folder was moved."""
 import os
 import shutil
 import subprocess
@@ -16,14 +16,14 @@ PACKAGING = os.path.join(ROOT, 'packaging', 'org.rungboard.Editor.')
 
 
 def done(*command, **more):
-    """What a program says; it must be content."""
+    """The output of a program that must succeed."""
     result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
     assert result.returncode == 0, '%s\n%s' % (' '.join(command), result.stdout)
     return result.stdout
 
 
 def install(screen):
-    """Into a folder, and what a package does then; the prefix there."""
+    """Installs into a folder and does what a package does afterwards; returns the prefix there."""
     done('make', '-s', '-C', ROOT, '-o', 'all', 'install', 'BUILD=' + BUILD, 'prefix=/usr', 'DESTDIR=' + screen.home)
     share = os.path.join(screen.home, 'usr', 'share')
     done('glib-compile-schemas', '--strict', os.path.join(share, 'glib-2.0', 'schemas'))
@@ -33,7 +33,7 @@ def install(screen):
 
 
 def validators(screen):
-    """appstreamcli, desktop-file-validate and the desktop's own tools are content"""
+    """appstreamcli, desktop-file-validate and the desktop's own tools accept the installed files"""
     done('appstreamcli', 'validate', '--no-net', PACKAGING + 'metainfo.xml')
     done('desktop-file-validate', PACKAGING + 'desktop')
     share = os.path.join(install(screen), 'share')
@@ -50,7 +50,7 @@ def validators(screen):
 
 
 def moved(screen):
-    """installed, then moved: in the language of the session, with the samples, I/O maps and a man page"""
+    """installed, then moved: the language of the session, the samples, I/O maps and a man page are found"""
     old, new = install(screen), os.path.join(screen.home, 'opt')
     os.rename(old, new)
     desk.EDITOR = os.path.join(new, 'bin', 'ladder-editor')

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""iomap - a person edits an I/O map as a table, and runs a program with it on this machine."""
+"""iomap - a person edits an I/O map as a table and runs a program with it on this machine."""
 import os
 import shutil
 import signal
@@ -23,7 +23,7 @@ MAP = '''BOARD "Garage"
 
 
 def garage(screen, text=MAP):
-    """The garage door in a folder of its own, with a map; the paths of both."""
+    """The garage door in its own folder, with a map; returns the paths of both."""
     path = os.path.join(screen.home, 'garage-door.rung')
     io = os.path.join(screen.home, 'garage-door.io')
     shutil.copy(os.path.join(ROOT, 'ladders', 'garage-door.rung'), path)
@@ -33,14 +33,14 @@ def garage(screen, text=MAP):
 
 
 def open_map(editor, name='garage-door.io'):
-    """From the tree, which is on the left."""
+    """From the tree at the left."""
     editor.find(name, 'label')
     editor.click(min(editor.all(name, 'label'), key=lambda node: node.box()[0]), count=2)
     editor.find('Name of the board')
 
 
 def to_program(editor):
-    """From the tree, too, whose rows may still move."""
+    """From the tree, whose rows may still move."""
     until(lambda: any(sheet.has(12) for sheet in editor.all('Sheet')) or editor.click(editor.find('Door', 'label'), count=2),
           'the sheet of the program')
 
@@ -58,7 +58,7 @@ def shows(editor, name, value):
 
 
 def table(screen):
-    """the table: problems marked, a cell edited, undone, saved; nothing else changes"""
+    """the table: problems are marked, a cell is edited, undone, saved; nothing else changes"""
     path, io = garage(screen)
     editor = Editor(screen, path)
     open_map(editor)
@@ -89,7 +89,7 @@ def table(screen):
 
 
 def undone(screen):
-    """Ctrl+Z while a cell is typed into: what is typed counts, and is what goes first, saved before or not"""
+    """Ctrl+Z in a cell that is being edited takes the typed text first, then undoes it, before and after a save"""
     path, io = garage(screen)
     editor = Editor(screen, path)
     open_map(editor)
@@ -115,7 +115,7 @@ def undone(screen):
 
 
 def choices(screen):
-    """what there is for a cell is offered, by pointer and by key; points are added and deleted"""
+    """values for a cell are offered, by pointer and by key; points are added and deleted"""
     path, io = garage(screen, 'BOARD "Desk"\n%IX0.0  sim\n%QX0.0  sim  safe=0')
     editor = Editor(screen, path)
     open_map(editor)
@@ -149,7 +149,7 @@ def choices(screen):
 
 
 def given_up(screen):
-    """a value that is refused, by Return and by going on: what is told goes when it is given up; texts stay where they were"""
+    """a refused value, by Return and by leaving: its message goes when the value is dropped; texts stay at their place"""
     path, io = garage(screen, 'BOARD "Desk"\n%QX0.0  sim  safe=0\n%QX0.1  sim  safe=0\n')
     editor = Editor(screen, path)
     open_map(editor)
@@ -167,7 +167,7 @@ def given_up(screen):
         until(lambda: not editor.all('There is no such word'), 'nothing to be told')
         shows(editor, '%QX0.0, Safe', '0')
     assert cell(editor, '%QX0.0, Safe').box() == before
-    # What there is is shown by the sign, which is in its place again and whole.
+    # The arrow shows the choices; it is back at its place and whole.
     x, y, width, height = editor.place(cell(editor, '%QX0.0, Safe'))
     editor.click((x + width - 12, y + height // 2))
     editor.shot('iomap-given-up')
@@ -183,7 +183,7 @@ def given_up(screen):
 
 
 def added(screen):
-    """+: the address of the new point has the keys, its text selected"""
+    """+: the cell of the new address has the keys, its text selected"""
     path, io = garage(screen, 'BOARD "Desk"\n%QX0.0  sim  safe=0\n')
     editor = Editor(screen, path)
     open_map(editor)
@@ -192,7 +192,7 @@ def added(screen):
     for address in '%QX7.0', '%QX7.1':
         editor.click(editor.find('Add a point', 'push button'))
         point = editor.focus_on(', Address', 'text', but=point)
-        editor.type(address)  # what stood there was selected
+        editor.type(address)  # the old text was selected
         time.sleep(0.3)  # the table is read again meanwhile
         editor.keys('Return')
         shows(editor, address + ', Address', address)
@@ -202,7 +202,7 @@ def added(screen):
 
 
 def as_text(screen):
-    """the text of the map, its wrong line and its place told, which a table has none of; closing asks before anything is lost"""
+    """the map as text: a wrong line and its place, which the table cannot show; closing asks before anything is lost"""
     path, io = garage(screen)
     editor = Editor(screen, path)
     open_map(editor)
@@ -227,7 +227,7 @@ def as_text(screen):
 
 
 def new_map(screen):
-    """a new map has a point for all that the program uses"""
+    """a new map has a point for each input and output of the program"""
     path, io = garage(screen)
     os.unlink(io)
     editor = Editor(screen, path)
@@ -244,7 +244,7 @@ def new_map(screen):
 
 
 def child(editor):
-    """The process of ladderd that the editor began; None: there is none."""
+    """The ladderd process that the editor started; None: there is none."""
     found = subprocess.run(['pgrep', '-P', str(editor.pid), 'ladderd'], capture_output=True, text=True).stdout
     return int(found) if found else None
 
@@ -269,7 +269,7 @@ def running(screen, text=SIM):
 
 
 def run_board(screen):
-    """run on this machine with simulated pins: state, log, stop; what is not saved is saved first"""
+    """run on this machine with simulated pins: state, log, stop; unsaved work is saved first"""
     editor, io = running(screen)
     editor.says('RUN')
     until(lambda: editor.all('ON THIS MACHINE', 'label'), 'the state of the window')
@@ -278,7 +278,7 @@ def run_board(screen):
     editor.shot('board-run')
     pid = child(editor)
     assert pid
-    with open('/proc/%d/environ' % pid) as environ:  # what spares the editor GL is not for others
+    with open('/proc/%d/environ' % pid) as environ:  # the variables that avoid GL in the editor are not for other programs
         assert 'GDK_DEBUG' not in environ.read()
     editor.click(editor.find('Stop', 'push button'))
     until(lambda: 'Ended; outputs have their safe values' in
@@ -304,14 +304,14 @@ def run_board(screen):
 
 
 def described(editor):
-    """What the question says, and the button that Enter would press."""
+    """The text of the question, and its default button."""
     dialog = editor.find(role='dialog')
     until(lambda: editor.focused() and editor.focused().role == ROLES['push button'], 'the focus in the question')
     return ' '.join(node.name for node in editor.all(role='label', below=dialog.path)), editor.focused().name
 
 
 def not_its_own(screen):
-    """a map of another program is never used unasked: both are named, Enter is Cancel; one of its own takes its place"""
+    """a map of another program is used only after a question that names both, with Cancel as default; its own map replaces it"""
     path, io = garage(screen, SIM)
     other = io.replace('garage-door', 'press')
     os.rename(io, other)
@@ -337,7 +337,7 @@ def not_its_own(screen):
     assert 'Started with press.io' in editor.find('Messages of ladderd', 'text').text()
     editor.click(editor.find('Stop', 'push button'))
     editor.find('OFF', 'label')
-    # What it lacks is made from there, and is what runs then, unasked.
+    # Missing points are added from there; then it runs without a question.
     editor.click(editor.find('Run…', 'push button'))
     editor.brought(lambda: editor.reply('New I/O map…'), 'New I/O map')
     editor.keys('Return')
@@ -350,7 +350,7 @@ def not_its_own(screen):
 
 
 def no_longer(screen):
-    """the bar that no map lies beside the program goes when one is made, here or elsewhere"""
+    """the bar "no I/O map beside the program" closes when a map is made, here or elsewhere"""
     path, io = garage(screen)
     os.unlink(io)
     editor = Editor(screen, path)
@@ -378,7 +378,7 @@ def no_longer(screen):
 
 
 def close_board(screen):
-    """closing the window asks, stops it first; a map that is wrong is refused with the reason"""
+    """closing the window asks and stops the program first; a wrong map is refused with the reason"""
     editor, io = running(screen, SIM + '%QX0.9  sim\n')
     editor.says('Could not start. See the messages below.')
     until(lambda: 'LD502' in editor.find('Messages of ladderd', 'text').text(), 'the reason')
@@ -404,7 +404,7 @@ def close_board(screen):
 
 
 def lost(screen):
-    """what stops itself, and what is lost, is in the log with the reason"""
+    """a program that stops by itself or is lost is logged with the reason"""
     path, io = garage(screen, 'BOARD "Desk"\n%IX0.0  sim\n%QX0.0  sim  safe=0\n')
     with open(path, 'w') as file:
         file.write('RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NC %IX0.0 | STOP |\nRUNG\n'
@@ -418,7 +418,7 @@ def lost(screen):
 
 
 def killed(screen):
-    """an editor that is killed leaves nothing running"""
+    """a killed editor leaves no running process"""
     editor, _ = running(screen)
     editor.says('RUN')
     pid = child(editor)
@@ -442,7 +442,7 @@ def row_says(editor, name, text):
 
 
 def lines_here(screen):
-    """lines of this machine (fake chips): offered, named, and marked if they cannot be had; no ladderd"""
+    """lines of this machine (fake chips) are offered, named, and marked if unavailable; no ladderd"""
     if not os.path.exists(FAKE):
         return
     dev = os.path.join(screen.home, 'dev')
@@ -475,7 +475,7 @@ def lines_here(screen):
 
 
 def in_chinese(screen):
-    """the table and the board page in Chinese, dark, 1024 x 700"""
+    """table and board page in Chinese, dark, 1024 x 700"""
     path, io = garage(screen)
     with open(io, 'w') as file:
         file.write(SIM)

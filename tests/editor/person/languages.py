@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """languages - the editor in Chinese, German and French, on a project with Chinese names.
 
-A person's session in each: nothing that has a name on the screen may be English where there
-is a translation, what is drawn and typed is saved, and a print speaks the same language.
+A session in each: no accessible name may be English if it has a translation, drawn and typed work is saved, and
+a print uses the same language.
 """
 import gettext
 import os
@@ -30,7 +30,7 @@ RUNG "缺少名称"
   | NO 未声明 | R 电机 |
 END_PROGRAM
 '''
-# What must be seen: the project tree, a problem, the palette, the symbols, an answer.
+# Texts that must be visible: project tree, a problem, palette, symbols, an answer.
 SEEN = {
     'zh_CN': ['程序', '函数和功能块', '“未声明”没有声明', '常开触点：TRUE 时接通', '所有命令', '初始值', '梯级 1'],
     'de': ['Programme', 'Funktionen, Bausteine', '„未声明“ ist nicht deklariert', 'Schließer: geschlossen bei TRUE',
@@ -47,7 +47,7 @@ def catalogue(language):
 
 
 class Foreign(Editor):
-    """The same, where what is looked for is said in the language of the editor."""
+    """The same, with the texts to look for in the language of the editor."""
 
     def __init__(self, screen, language, *files):
         self.said = catalogue(language)
@@ -60,9 +60,9 @@ class Foreign(Editor):
         return {node.name for node in super().all()}
 
     def english(self, names):
-        """Those that are a text of the editor and have another one in its language."""
+        """Texts of the editor that stayed English though they have a translation."""
         texts = self.said._catalog
-        keys = ['Delete']  # the toolkit says what keys are called
+        keys = ['Delete']  # the toolkit names the keys
         return sorted(name for name in names if name and texts.get(name, name) != name and
                       name not in texts.values() and name not in keys)
 
@@ -84,7 +84,7 @@ def session(screen, language):
     editor.keys('ctrl+Page_Up')
     headings_fit(editor, language)
     editor.click(editor.grid(60, 3))
-    editor.lines = {node.path for node in editor.all(role='text')}  # that of the filter is new
+    editor.lines = {node.path for node in editor.all(role='text')}  # the filter's is new
     editor.keys('F5')
     editor.opened()
     editor.entry('允许')
@@ -102,7 +102,7 @@ def session(screen, language):
 
 
 def headings_fit(editor, language):
-    """The status chart's: what stands in a heading has room in it."""
+    """Each heading of the status chart is wide enough for its text."""
     editor.click(editor.grid(60, 0))
     editor.keys('ctrl+alt+w')
     until(lambda: editor.all('New value', 'label'), 'the status chart')
@@ -145,7 +145,7 @@ def printed(screen, path, language):
 
 
 def rendered(screen, path, language):
-    """What --render says of a file: place, how bad, and text are all in that language."""
+    """What --render reports about a file: place, severity and text are all in that language."""
     said = catalogue(language).gettext
     none = os.path.join(screen.home, 'none.rung')
     places = {none: ('', 'LD002', 'cannot read this file'),

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""left - a click elsewhere while a line is typed: what was typed is taken, or it is told that it could not be."""
+"""left - a click elsewhere while the entry is open: its text is taken, or the reason why not is shown."""
 import os
 import signal
 import sys
@@ -11,7 +11,7 @@ from screen import close_window  # noqa: E402
 
 
 def away(editor):
-    """Far below all rungs."""
+    """A point far below all rungs."""
     editor.click(editor.grid(400, 3))
     editor.gone()
 
@@ -48,7 +48,7 @@ def elements(screen):
     editor.keys('Escape')
     editor.gone()
     assert not editor.all('Never')
-    # An operand that is as it was is no change.
+    # An unchanged operand is no edit.
     editor.keys('Home', 'Return')
     editor.opened()
     away(editor)
@@ -56,7 +56,7 @@ def elements(screen):
 
 
 def wrong(screen):
-    """what cannot be taken is told, with the line"""
+    """a wrong text is reported, with the text"""
     path = new_file(screen)
     editor = Editor(screen, path)
     before = open(path).read()
@@ -77,7 +77,7 @@ def wrong(screen):
 
 
 def dropped(screen):
-    """what a box got as a proposal is taken, too; of a contact without an operand nothing comes"""
+    """a proposed instance of a box is taken, too; a contact without an operand is dropped"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -98,7 +98,7 @@ CHART = 'RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND
 
 
 def charts(screen):
-    """on a chart, too"""
+    """the same on a chart"""
     path = new_file(screen, CHART)
     editor = Editor(screen, path)
     step = editor.find('Step Start, initial', 'table cell')
@@ -114,7 +114,7 @@ def charts(screen):
 
 
 def closed(screen):
-    """the window is closed from outside, by a task bar: what was typed is in what it asks for; what is wrong keeps it once"""
+    """the window is closed by a task bar: the question is about a program with the typed text; a wrong text keeps the window once"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -137,7 +137,7 @@ def closed(screen):
 
 
 def ended(screen):
-    """the machine is shut down while a line is typed: it is in the draft"""
+    """SIGTERM while the entry is open: its text is in the draft"""
     path = new_file(screen)
     before = open(path).read()
     editor = Editor(screen, path)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""live - the sheet while it simulates: contacts are pressed, wires are lit, values are forced."""
+"""live - the sheet while simulating: contacts are pressed, wires are lit, values are forced."""
 import os
 import re
 import shutil
@@ -35,7 +35,7 @@ END_PROGRAM
 
 
 def pixels(editor, node, color):
-    """How many pixels of a colour the cell shows."""
+    """How many pixels of a colour the cell has."""
     x, y, width, height = editor.place(node)
     picture = subprocess.run(['import', '-window', 'root', '-crop', '%dx%d+%d+%d' % (width, height, x, y),
                               '-depth', '8', 'ppm:-'], capture_output=True, check=True).stdout
@@ -45,12 +45,12 @@ def pixels(editor, node, color):
 
 
 def motor(screen):
-    """the motor sample: contacts are pressed with the mouse, coil and wires are lit"""
+    """the motor sample: contacts are pressed with the mouse; coil and wires are lit"""
     path = os.path.join(screen.home, 'motor.rung')
     shutil.copy(os.path.join(ROOT, 'ladders', 'motor.rung'), path)
     editor = Editor(screen, path)
     editor.to_sheet()
-    editor.keys('shift+F4', 'ctrl+r')  # all rungs are to be seen
+    editor.keys('shift+F4', 'ctrl+r')  # all rungs must be visible
     editor.says('SIMULATION')
     for name in 'StopOk', 'OverloadOk':
         editor.click(editor.middle(editor.element('Rung 1, NO', name, 'open')))
@@ -58,7 +58,7 @@ def motor(screen):
     coil = editor.element('Rung 1, COIL', ', off')
     assert pixels(editor, coil, POWER['light']) == 0
     editor.shot('live-motor-off')
-    editor.keys('ctrl+r')  # the contactor must answer: nobody is quick enough
+    editor.keys('ctrl+r')  # the contactor must answer within a time too short for a hand
     editor.says('PAUSE')
     editor.click(editor.middle(editor.element('Rung 1, P,', 'Start')))
     editor.says('Start = TRUE')
@@ -76,7 +76,7 @@ def motor(screen):
 
 
 def force(screen):
-    """what is forced holds against the program, with a mark in the rung and the status bar"""
+    """a forced value holds against the program, with a mark in the rung and the status bar"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -98,7 +98,7 @@ def force(screen):
 
 
 def numbers(screen):
-    """a number gets another value at its place; what is none is told"""
+    """a number gets another value at its place; a text that is no value is refused"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -118,10 +118,10 @@ def numbers(screen):
     editor.element('Rung 2, COIL', ', on')
     editor.shot('live-numbers')
     before = open(path).read()
-    editor.keys('Home', 'shift+F5')  # and it can be edited meanwhile
+    editor.keys('Home', 'shift+F5')  # edited while it runs
     editor.opened()
     editor.entry('Stop')
-    # The program with it goes on where the other one was: Start is on, and so is the motor.
+    # The new program goes on from the values of the old one: Start and Motor are on.
     until(lambda: len([node for node in editor.all('Rung 1, NO', 'table cell')
                        if 'Stop' in node.name and node.name.endswith('open')]) == 1, 'power in the edited rung')
     editor.element('Rung 1, COIL', ', on')

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""looks - the window in the dark, with more contrast, on a small screen and a very large one is used as any other."""
+"""looks - the window is used in the dark, with high contrast, on a small and on a very large screen."""
 import os
 import subprocess
 import sys
@@ -55,7 +55,7 @@ def dark(screen):
 
 
 def light(screen):
-    """a project with mistakes: they are listed, and the next one is found by a key"""
+    """a project with mistakes: they are listed, and a key goes to the next one"""
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.says('1 error')
     editor.keys('ctrl+period')
@@ -71,7 +71,7 @@ def small(screen):
 
 
 def high(screen):
-    """more contrast in the dark: the sheet is black, also where no rung is"""
+    """high contrast in the dark: the sheet is black, also outside of rungs"""
     editor = draw(screen, 'looks-high', ADW_DEBUG_COLOR_SCHEME='prefer-dark', ADW_DEBUG_HIGH_CONTRAST='1')
     left, top, width, height = editor.place(editor.sheet())
     for x in left + 6, left + width - 60:
@@ -82,9 +82,9 @@ def high(screen):
 
 
 def fills(editor, width, height):
-    """Waits until the window has the whole screen, and its parts are where they belong."""
+    """Waits until the window fills the screen and its parts are at their places."""
     def inside():
-        edge = editor.scale  # a frame may be drawn round what it holds
+        edge = editor.scale  # the window manager may add a frame
         places = [node.box() for node in editor.walk() if node.widget]
         return all(x >= -edge and y >= -edge and (x + w - edge) * editor.scale <= width and
                    (y + h - edge) * editor.scale <= height for x, y, w, h in places if w > 0)
@@ -103,7 +103,7 @@ def fills(editor, width, height):
 
 
 def large(screen, name='looks-4k', **env):
-    """a screen of 3840x2160: the window fills it, all is inside and where the pointer finds it"""
+    """a screen of 3840x2160: the window fills it, everything is inside and the pointer meets it"""
     editor = draw(screen, name + '-window', **env)
     editor.keys('F11', 'ctrl+Home')
     assert fills(editor, 3840, 2160) >= 3800, 'the sheet does not reach the right side'

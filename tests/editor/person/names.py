@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""names - find, replace, rename everywhere, and where a name is driven."""
+"""names - find, replace, rename everywhere, and go to the coil that drives a name."""
 import os
 import sys
 
@@ -57,7 +57,7 @@ COMPARED = '@print %QX0.0\n%IW0=2\n%IW2=5\n'
 
 
 def question(editor, *keys):
-    """F2, and the line of what it asks."""
+    """F2 and the line of its entry."""
     editor.keys(*keys, 'F2')
     line = until(editor.asked, 'the new name')[0]
     until(lambda: line.has(12), 'the focus in the line')
@@ -65,13 +65,13 @@ def question(editor, *keys):
 
 
 def name_it(editor, text):
-    """Types another name over the one that is there."""
+    """Replaces the text of the entry by another name."""
     editor.keys('ctrl+a')
     editor.type(text)
 
 
 def stays(editor, line, text, reason):
-    """Return with a name that is refused: what was typed and why stand there."""
+    """Return with a refused name: the entry stays with its text and the reason."""
     name_it(editor, text)
     until(lambda: [node for node in editor.all(reason, 'label') if node.name == reason], 'the reason ' + reason)
     editor.keys('Return')
@@ -80,7 +80,7 @@ def stays(editor, line, text, reason):
 
 
 def refused(screen):
-    """a name that cannot be: the question says why while it is typed, and stays; Esc leaves"""
+    """a refused name: the reason is shown while typing, the entry stays open; Esc closes it"""
     path = new_file(screen, JUMPS)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -110,7 +110,7 @@ def refused(screen):
 
 
 def jumps(screen):
-    """F12 on a jump goes to its label, F2 renames both, Ctrl+L takes the jumps along"""
+    """F12 on a jump goes to its label, F2 renames both, Ctrl+L changes the jumps, too"""
     path = new_file(screen, JUMPS)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -151,7 +151,7 @@ def jumps(screen):
 
 
 def labels(screen):
-    """a label of another rung is refused where jumps would follow; without jumps it is a text"""
+    """a label that another rung has is refused if jumps would follow; without jumps it is just a text"""
     path = new_file(screen, JUMPS.replace('RUNG\n  | NO Stop | COIL', 'RUNG Other\n  | NO Stop | COIL'))
     text = open(path).read()
     editor = Editor(screen, path)
@@ -182,12 +182,12 @@ def labels(screen):
 
 
 def on_sheet(editor):
-    """Waits until the sheet that is seen has the keys."""
+    """Waits until the visible sheet has the focus."""
     until(lambda: [node for node in editor.all('Sheet') if node.has(12)], 'the focus on its sheet')
 
 
 def calls(screen):
-    """F12 on a call goes to what it calls, F2 renames that"""
+    """F12 on a call goes to the called block, F2 renames it"""
     path = new_file(screen, JUMPS)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -211,7 +211,7 @@ def calls(screen):
 
 
 def operands(screen):
-    """of several names in one element one is chosen"""
+    """an element with several names asks which one"""
     path = new_file(screen, JUMPS)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -284,7 +284,8 @@ def is_open(editor):
 
 
 def hits(screen):
-    """Return goes from hit to hit and keeps the keys; Esc gives them to the sheet there, and on the sheet closes the bar"""
+    """Return goes from hit to hit and keeps the keys in the bar; Esc moves them to the sheet there, and closes the
+    bar next"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -303,7 +304,7 @@ def hits(screen):
     until(lambda: not is_open(editor), 'the bar to be closed')
     editor.keys('F3')
     editor.to_sheet()
-    # The sheet gives back what was drawn first.
+    # On the sheet, Esc restores the rung first.
     editor.keys('ctrl+f')
     editor.focus_on('Find', 'text')
     editor.click(editor.middle(editor.element('Rung 2, NO', 'Motor')))
@@ -313,14 +314,14 @@ def hits(screen):
     editor.keys('Escape')
     editor.element('Rung 2, NO', 'Motor')
     assert is_open(editor)
-    # A selection is ended first, too.
+    # A selection is cleared first, too.
     editor.keys('shift+Right', 'Escape')
     editor.to_sheet()
     assert is_open(editor)
     editor.keys('Escape')
     until(lambda: not is_open(editor), 'the bar to be closed')
     editor.to_sheet()
-    # In the symbols, too, nothing is written but what is looked for.
+    # In the symbols only the search text is written.
     editor.keys('ctrl+f')
     editor.type('Start')
     editor.says('2 hits')
@@ -340,7 +341,7 @@ def hits(screen):
 
 
 def address(screen):
-    """of an address also what shows it is found; only texts are replaced"""
+    """a search for an address also finds the symbols at it; replace changes texts only"""
     path = new_file(screen, JUMPS)
     editor = Editor(screen, path)
     editor.keys('ctrl+h')

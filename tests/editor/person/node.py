@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""node - a widget as the accessibility bus knows it: what it is called, is, has and where.
+"""node - a widget as the accessibility bus knows it: name, role, states, box.
 
 finder.py finds widgets, desk.py uses them.
 """
-WHOLE = {11, 29, 37, 43, 48, 61, 62}  # roles of what never hides a part of its own
+WHOLE = {11, 29, 37, 43, 48, 61, 62}  # roles of widgets that never hide a part
 ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
          'dialog': 16, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'panel': 39, 'push button': 43,
          'table': 55, 'table cell': 56, 'table row': 90, 'text': 61, 'toggle button': 62, 'entry': 79}
@@ -12,19 +12,19 @@ EXTENTS = ('Component', 'GetExtents', 'u', 1)  # in the window
 
 
 class Gone(AssertionError):
-    """A widget went away while it was looked at."""
+    """The widget was destroyed during a query."""
 
 
 class Node:
-    """A widget, as the accessibility bus knows it."""
+    """A widget on the accessibility bus."""
 
     def __init__(self, editor, item):
-        """@item: as org.a11y.atspi.Cache.GetItems gives it"""
+        """@item: as org.a11y.atspi.Cache.GetItems returns it."""
         self.editor = editor
         self.path, self.parent = str(item[0][1]), str(item[2][1])
-        self.place, self.children = int(item[3]), int(item[4])  # among those that are seen
+        self.place, self.children = int(item[3]), int(item[4])  # among the visible ones
         self.name, self.role, self.states = str(item[6]), int(item[7]), int(item[9][0])
-        self.widget = A11Y + 'Component' in item[5]  # the page of a stack is none: only what it holds is seen
+        self.widget = A11Y + 'Component' in item[5]  # a page of a stack is not visible itself: only its content is
 
     def ask(self, *question):
         answer = self.editor.ask([(self.path, *question)])[0]
@@ -37,12 +37,12 @@ class Node:
         return self.ask(*EXTENTS)[0]
 
     def press(self):
-        """What assistive technology does in the place of a click: for other windows."""
+        """The accessible action that replaces a click: for windows other than the main one."""
         self.ask('Action', 'DoAction', 'i', 0)
 
     def text(self):
         return str(self.ask('Text', 'GetText', 'ii', 0, 1 << 20)[0])
 
     def has(self, state):
-        """11: can have the focus, 12: has it, 24: sensitive …, as AtspiStateType counts."""
+        """States as AtspiStateType counts: 11: focusable, 12: focused, 24: sensitive …"""
         return bool(self.ask('Accessible', 'GetState')[0][0] >> state & 1)

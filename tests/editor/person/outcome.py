@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""outcome - what came of a person's work: the saved file, checked and run."""
+"""outcome - what a person's work produced: the saved file, checked and run."""
 import os
 import subprocess
 import tempfile
@@ -10,14 +10,14 @@ LADDER = os.path.join(BUILD, 'ladder')
 
 
 def check(path):
-    """ladder check must be content."""
+    """`ladder check` must succeed."""
     done = subprocess.run([LADDER, 'check', path], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stderr
 
 
 def trace(path, script):
-    """What the saved program does."""
+    """The trace of the saved program."""
     with tempfile.NamedTemporaryFile('w', suffix='.script') as file:
         file.write(script)
         file.flush()
@@ -27,7 +27,7 @@ def trace(path, script):
 
 
 def lines(path, script):
-    """What `ladder trace` prints last in each line."""
+    """The last field of each line that `ladder trace` prints."""
     return [line.split()[-1] for line in trace(path, script).splitlines()]
 
 
@@ -39,7 +39,7 @@ def new_file(screen, text='RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\nEND_PROGRAM\n',
 
 
 def drafts(screen):
-    """Paths of what is kept for after a crash."""
+    """Paths of the drafts."""
     folder = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
     names = os.listdir(folder) if os.path.isdir(folder) else []
-    return [os.path.join(folder, name) for name in names if name.endswith('.draft')]  # wholly written
+    return [os.path.join(folder, name) for name in names if name.endswith('.draft')]  # completely written

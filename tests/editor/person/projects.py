@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""projects - rung files that several tests begin with."""
+"""projects - rung files that several tests start from."""
 
 ONE_RUNG = '''RUNGBOARD 1
 

@@ -18,7 +18,8 @@ warnings.simplefilter('ignore')
 
 
 def chosen(tests):
-    """Those that the command line names; or with QUICK=ROOM… those whose `quick` is one of the rooms; or all."""
+    """The tests that the command line names; with QUICK=ROOM… those whose `quick` is one of the rooms; otherwise
+    all."""
     if sys.argv[1:]:
         return [test for test in tests if test.__name__ in sys.argv[1:]]
     rooms = os.environ.get('QUICK', '').split()
@@ -27,7 +28,8 @@ def chosen(tests):
 
 
 def report(tests, lacks, editors):
-    """Returns the exit status. @lacks: what is not installed; @editors: a list that tests fill with what they start"""
+    """Returns the exit status. @lacks: missing programs; @editors: a list that tests fill with the editors they
+    start."""
     if lacks:
         print('1..0 # SKIP needs ' + lacks)
         return 0
@@ -59,13 +61,13 @@ def report(tests, lacks, editors):
 
 
 def keep_log(editor, number):
-    """Beside the pictures, if there is anything in it."""
+    """Copies the log beside the pictures unless it is empty."""
     if os.environ.get('PICTURES') and os.path.getsize(editor.log):
         shutil.copy(editor.log, os.path.join(os.environ['PICTURES'], 'log-%d.txt' % number))
 
 
 def keep_failure(number, test, error):
-    """Keeps a few lines, for the end of a long log: the places in the script, and the error."""
+    """Keeps the places in the script and the error for the summary at the end of a long log."""
     folder, script = os.path.join(BUILD, 'failed'), os.path.basename(sys.argv[0])
     ways = ['%s:%d %s' % (os.path.basename(step.filename), step.lineno, step.line)
             for step in traceback.extract_tb(error.__traceback__)]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""running - what ends a simulation or keeps it from beginning is told: errors, faults, the end of work."""
+"""running - the end of a simulation, or why it cannot begin, is reported: errors, faults, closing."""
 import os
 import re
 import sys
@@ -59,7 +59,7 @@ END_PROGRAM
 
 
 def plant(screen):
-    """a plant with errors: it and its place are told where it stays; mended, it runs"""
+    """a plant with errors: the message and its place stay; once mended it runs"""
     path = new_file(screen, PROGRAM, 'motor.rung')
     world = new_file(screen, PLANT, 'motor.plant.rung')
     editor = Editor(screen, path)
@@ -97,7 +97,7 @@ END_PROGRAM
 
 
 def at_the_clock(editor, name):
-    """Opens what the clock in the header has, and leads the keys there to a widget of that name."""
+    """Opens the popover of the clock in the header and moves the focus to a widget of that name."""
     editor.click(editor.find('Simulation settings', 'push button'))
     at = editor.focus_on('Period, ms')
     while name not in at.name:
@@ -107,20 +107,19 @@ def at_the_clock(editor, name):
 
 
 def from_the_clock(editor):
-    """Closes it, and goes away with the pointer: GTK 4.8 takes the next click where that
-    rested below a popover for none, now and then."""
+    """Closes it and moves the pointer away: GTK 4.8 sometimes ignores the next click at the place of a popover."""
     editor.keys('Escape')
     sh('xdotool', 'mousemove', *map(str, editor.centre(editor.sheet())))
     until(lambda: not editor.all('Slow motion', 'check box'), 'the popover to be gone')
 
 
 def runs(editor):
-    """Scans go on."""
+    """Waits until scans go on."""
     until(lambda: editor.all('SIMULATION') and not editor.all('SIMULATION ·'), 'RUN')
 
 
 def zero(screen):
-    """a division by zero is a FAULT, told with its place, and outputs are off; Run goes on as the board does; so does one that is told to"""
+    """a division by zero is a FAULT with its place and outputs off; Run continues as the board would; also when faults are ignored"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -128,12 +127,12 @@ def zero(screen):
     editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
     editor.find('FAULT: an operation failed, such as a division by zero: Main, rung 2 (1,')
     editor.says('SIMULATION · FAULT')
-    # Outputs are off, and what failed is marked.
+    # Outputs are off; the failing element is marked.
     editor.element('Rung 1, COIL', 'Motor', ', off')
     editor.element('Rung 2, [:=]', 'ENO is FALSE')
     editor.element('Rung 3, DIV', 'ENO is FALSE')
     editor.shot('running-zero')
-    # That very scan, with the values that the board would have.
+    # The scan of the fault, with the values that the board would have.
     editor.keys('alt+Left', 'alt+Right')
     editor.says('PAST')
     editor.element('Rung 1, COIL', 'Motor', ', on')
@@ -151,10 +150,10 @@ def zero(screen):
     editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
     editor.element('Rung 2, [:=]', 'ENO is FALSE')
     runs(editor)
-    # Failing again is not told again.
+    # The same fault again is not reported again.
     log = editor.logs('simulation', 'division by zero: Main, rung 2 (1,')
     assert log.count('division by zero') == 1, log
-    # A cold start forgets that it was told; but it can be switched off.
+    # A cold start reports it again; it can be switched off.
     switch = at_the_clock(editor, 'FAULT on a failed operation')
     assert switch.has(4)
     editor.keys('space')
@@ -169,7 +168,7 @@ def zero(screen):
 
 
 def safe(screen):
-    """before a start, in FAULT and in STOP outputs are what the I/O map says a board drives then"""
+    """before a start, in FAULT and in STOP outputs have the safe values of the I/O map"""
     path = new_file(screen, LOOP)
 
     def map_says(motor, alarm):
@@ -207,7 +206,7 @@ def safe(screen):
     editor.says('SIMULATION · STOP')
     outputs(', off', ', on')
     editor.shot('running-halt')
-    # Another map comes with the next edit.
+    # Another map takes effect with the next edit.
     map_says(1, 0)
     editor.keys('ctrl+Home', 'slash')
     editor.element('Rung 1, NC', 'Start')
@@ -215,7 +214,7 @@ def safe(screen):
 
 
 def starts(screen):
-    """a warm start keeps what is VAR RETAIN, a cold one nothing"""
+    """a warm start keeps VAR RETAIN, a cold one nothing"""
     editor = Editor(screen, new_file(screen, RETAIN))
     editor.to_sheet()
     editor.keys('ctrl+r')
@@ -233,7 +232,7 @@ def starts(screen):
 
 
 def paces(screen):
-    """another period, slow motion, a slider and STOP, by pointer and keys"""
+    """another period, slow motion, the slider and STOP, by pointer and keys"""
     editor = Editor(screen, new_file(screen, PROGRAM.replace('Minutes : INT', 'Minutes AT %AIW0 : INT := 3')))
     editor.to_sheet()
     editor.keys('ctrl+r')
@@ -255,7 +254,7 @@ def paces(screen):
     editor.shot('running-slow')
 
     def by():
-        """How many scans the title goes on by: it is written five times a second at most."""
+        """By how many scans the title advances: it is written at most five times a second."""
         before = scan()
         return until(lambda: scan() > before and scan(), 'the next scan') - before
     until(lambda: by() == 1 and by() == 1, 'one scan after the other')
@@ -276,7 +275,7 @@ def paces(screen):
 
 
 def closing(screen):
-    """the window is closed in RUN: it stops, and asks for unsaved work; Cancel keeps it in STOP"""
+    """the window is closed in RUN: it stops and asks about unsaved work; Cancel keeps it in STOP"""
     path = new_file(screen, PROGRAM.replace('Minutes : INT', 'Minutes : INT := 4'))
     editor = Editor(screen, path)
     editor.to_sheet()

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""samples - what comes with Rungboard opens from the command line, whatever it is."""
+"""samples - each file of ladders/ opens from the command line."""
 import os
 import sys
 
@@ -9,13 +9,13 @@ from desk import ROOT, Editor, main, until  # noqa: E402
 
 
 def samples(screen):
-    """every file of ladders/ opens: programs, scenarios and maps, each as what it is"""
+    """each file of ladders/ opens: programs, scenarios and maps, each as its kind"""
     folder = os.path.join(ROOT, 'ladders')
     paths = [os.path.join(where, name) for where in (folder, os.path.join(folder, 'boards'))
              for name in sorted(os.listdir(where)) if name != 'boards']
     texts = [os.path.basename(path) for path in paths if not path.endswith('.rung')]
     maps = [path for path in paths if path.endswith('.io')]
-    # The scenario stands in the window of its program.
+    # A scenario opens in the window of its program.
     programs = [path for path in paths if path.endswith('.rung')]
     assert len(paths) == len(programs) + len(texts) and len(programs) > 20 and len(texts) > 20, paths
     editor = Editor(screen, *paths)

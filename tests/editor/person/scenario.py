@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""scenario - a person records a scenario, saves it, runs all of them, and goes to where one fails."""
+"""scenario - a person records a scenario, saves it, runs all scenarios, and goes to the place of a failure."""
 import os
 import subprocess
 import sys
@@ -45,12 +45,12 @@ def text_of(path):
 
 
 def row(editor, name):
-    """A row of the list of scenarios, by what it says."""
+    """A row of the list of scenarios, by its text."""
     return editor.find(name, 'label')
 
 
 def records(screen):
-    """Record, contacts clicked, a coil expected, Save: the scenario does it again"""
+    """Record, click contacts, expect a coil, Save: the scenario passes"""
     path = new_file(screen, PROGRAM, 'motor.rung')
     kept = '# By hand.\nscenario "kept"\n  expect not Motor'
     scn = new_file(screen, kept, 'motor.scn')
@@ -88,7 +88,7 @@ def records(screen):
 
 
 def rests(screen):
-    """what a board drives after the word STOP is no value of the program: it cannot be expected, and it is said why"""
+    """the safe value that an output has in STOP is no value of the program: "expect" is refused with the reason"""
     path = new_file(screen, PROGRAM.replace('END_PROGRAM', 'RUNG\n  | NO Stop | STOP |\nEND_PROGRAM'), 'motor.rung')
     with open(path.replace('.rung', '.io'), 'w') as file:
         file.write('BOARD "Desk"\n%QX0.0 sim safe=1\n')
@@ -106,7 +106,7 @@ def rests(screen):
 
 
 def fails(screen):
-    """Run all: one failed, one of another machine; each opens at its line, and the scan"""
+    """Run all: one fails, one was recorded on another machine; each opens at its line and scan"""
     path = new_file(screen, PROGRAM, 'motor.rung')
     new_file(screen, BAD, 'motor.scn')
     new_file(screen, UNKNOWN, 'motor-other.scn')
@@ -127,7 +127,7 @@ def fails(screen):
 
 
 def chinese(screen):
-    """the list, and what is asked at the end of a recording: Chinese, dark, small"""
+    """the list and the question at the end of a recording: Chinese, dark, small"""
     path = new_file(screen, PROGRAM, 'motor.rung')
     scn = new_file(screen, BAD, 'motor.scn')
     editor = Chinese(screen, path, ADW_DEBUG_COLOR_SCHEME='prefer-dark')

@@ -18,13 +18,13 @@ try:
     import dbus.lowlevel
 except ImportError:
     dbus = None
-PATIENCE = int(os.environ.get('PATIENCE', '60'))  # seconds until what must come did not; no test waits for it in vain
+PATIENCE = int(os.environ.get('PATIENCE', '60'))  # seconds until a condition must hold
 TOOLS = ('Xvfb', 'openbox', 'xdotool', 'xwininfo', 'xprop', 'xclip', 'import', 'dbus-daemon', 'dbus-monitor')
 BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
 
 
 def lacking():
-    """What is not here, a name each."""
+    """The names of missing programs."""
     lacks = [tool for tool in TOOLS if not shutil.which(tool)]
     if not any(os.path.exists(path) for path in BUS_LAUNCHERS):
         lacks.append('at-spi2-core')
@@ -36,7 +36,7 @@ def sh(*args, **more):
 
 
 def until(look, what, seconds=PATIENCE):
-    """Waits until look() gives something, and gives that. What goes away meanwhile gives nothing."""
+    """Waits until look() returns something true, and returns it. A widget that is gone counts as nothing."""
     end = time.monotonic() + seconds
     while True:
         try:
@@ -51,7 +51,7 @@ def until(look, what, seconds=PATIENCE):
 
 
 def is_gone(pid):
-    """A process has ended, whoever waits for it."""
+    """Has a process ended, whoever waits for it?"""
     try:
         with open('/proc/%d/stat' % pid) as stat:
             return stat.read().rsplit(')', 1)[1].split()[0] == 'Z'
@@ -60,7 +60,7 @@ def is_gone(pid):
 
 
 class ClientMessage(ctypes.Structure):
-    """XClientMessageEvent, as wide as an XEvent."""
+    """XClientMessageEvent, padded to an XEvent."""
     _fields_ = [('type', ctypes.c_int), ('serial', ctypes.c_ulong), ('sent', ctypes.c_int),
                 ('display', ctypes.c_void_p), ('window', ctypes.c_ulong), ('message', ctypes.c_ulong),
                 ('format', ctypes.c_int), ('data', ctypes.c_long * 5), ('rest', ctypes.c_long * 12)]
@@ -86,7 +86,7 @@ def close_window(window):
     x, display = open_display()
     message = x.XInternAtom(display, b'_NET_CLOSE_WINDOW', 0)
     event = ClientMessage(type=33, window=window, message=message, format=32)  # ClientMessage
-    event.data[1] = 2  # by a person, not by a program
+    event.data[1] = 2  # 2: by a pager or task bar, not by the program
     redirect = 1 << 19 | 1 << 20  # SubstructureNotifyMask, SubstructureRedirectMask
     x.XSendEvent(display, ctypes.c_ulong(x.XDefaultRootWindow(display)), 0, redirect, ctypes.byref(event))
     x.XCloseDisplay(display)
@@ -102,11 +102,11 @@ class Screen:
                           GDK_BACKEND='x11', GSK_RENDERER='cairo', GTK_A11Y='atspi',
                           GSETTINGS_BACKEND='memory', ADW_DISABLE_PORTAL='1', GTK_USE_PORTAL='0', NO_AT_BRIDGE='0')
         os.environ.pop('XDG_DATA_HOME', None)
-        os.environ.pop('DISPLAY', None)  # of the desk before: the session bus starts programs with it
+        os.environ.pop('DISPLAY', None)  # of the last test: the session bus starts programs with it
         self.move_in()
         self.start_bus()
         read, write = os.pipe()
-        # -r: no key repeats itself while a busy machine is late to let go of it.
+        # -r: no key repeats while a busy machine is late to release it.
         self.start('Xvfb', '-displayfd', str(write), '-screen', '0', size, '-nolisten', 'tcp', '-noreset', '-r',
                    pass_fds=[write])
         os.close(write)
@@ -126,8 +126,7 @@ class Screen:
         os.environ.update(HOME=self.home, XDG_STATE_HOME=os.path.join(self.home, 'state'))
 
     def tidy(self):
-        """Makes the screen as it was at the beginning, for the next test: a new home folder, nothing in the
-        clipboard, the pointer in the middle."""
+        """Resets the screen for the next test: a new home folder, an empty clipboard, the pointer in the middle."""
         shutil.rmtree(self.home, ignore_errors=True)
         self.move_in()
         empty_clipboard()
@@ -135,8 +134,8 @@ class Screen:
 
     @staticmethod
     def is_managed():
-        """The window manager does what it is asked to. Openbox 3.6 says that it is there while it still begins.
-        What it reads by then it looks at when more arrives: a window would wait for ever, a question is more."""
+        """The window manager answers. Openbox 3.6 announces itself before it is ready and reads earlier messages
+        only when another one arrives, so a window would wait for ever; a question is one more message."""
         if 'window id' not in sh('xprop', '-root', '_NET_SUPPORTING_WM_CHECK'):
             return False
         sh('xdotool', 'set_num_desktops', '1')
@@ -148,7 +147,7 @@ class Screen:
         return session.call_blocking('org.a11y.Bus', '/org/a11y/bus', 'org.a11y.Bus', 'GetAddress', '', ())
 
     def accessibility(self):
-        """A connection of its own to the accessibility bus."""
+        """A new connection to the accessibility bus."""
         return dbus.bus.BusConnection(self.accessibility_address())
 
     def start_bus(self):
@@ -158,20 +157,20 @@ class Screen:
         os.environ['DBUS_SESSION_BUS_ADDRESS'] = bus.stdout.readline().strip()
 
     def start(self, *args, **more):
-        """Programs of others. What makes memory strict is for the editor: openbox lets nothing be dragged with it."""
+        """Starts another program, without the environment for strict memory: with it openbox allows no drag."""
         env = {name: value for name, value in os.environ.items() if name != 'G_SLICE'}
         self.running.append(subprocess.Popen(args, env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **more))
 
     def told(self):
-        """What is there: for who reads why a window did not come."""
-        # A test has a process of its own, which cannot wait for programs that its parent started.
+        """The open windows, for the log of a failure."""
+        # A test has its own process, which cannot wait for programs of its parent.
         ended = [process.args[0] + ' has ended' for process in self.running if is_gone(process.pid)]
         tree = sh('xwininfo', '-root', '-tree').splitlines()
         return ended + [sh('xprop', '-root', '_NET_CLIENT_LIST'),
                         *(line for line in tree if '+' in line and ' 1x1+' not in line)]
 
     def end(self, but=0):
-        """Ends all programs but the first ones."""
+        """Ends all programs except the first ones."""
         while len(self.running) > but:
             process = self.running.pop()
             process.kill()

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""scroll - what is seen of a sheet that is higher than its window is where the cursor is."""
+"""scroll - the visible part of a sheet that is higher than its window contains the cursor."""
 import os
 import sys
 
@@ -17,7 +17,7 @@ PROJECT = 'RUNGBOARD 1\n\nPROGRAM Main LD\n' + ''.join(RUNG % (i, i, i, i) for i
 
 
 def above(editor, *parts):
-    """How far below the sheet's upper edge an element begins; None: it is not seen."""
+    """How far below the sheet's upper edge an element begins; None: it is not visible."""
     found = [node for node in editor.elements() if all(part in node.name for part in parts)]
     if not found:
         return None
@@ -27,7 +27,7 @@ def above(editor, *parts):
 
 
 def again(screen):
-    """a sheet that is closed and opened again begins where its cursor is"""
+    """a sheet that is closed and opened again begins at its cursor"""
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     editor.keys('ctrl+Home')
@@ -51,7 +51,7 @@ def beside(editor, *parts):
 
 
 def zoomed(screen):
-    """by keys a sheet becomes larger and smaller round its cursor, which stays in sight; what was out of sight stays that"""
+    """zooming by keys keeps the cursor in sight; a cursor out of sight stays so"""
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     for place, name in (('ctrl+Home',), ('Rung 1, NO', '%IX0.0')), (('End',), ('Rung 1, COIL', '%QX0.0')), \
@@ -65,7 +65,7 @@ def zoomed(screen):
         until(lambda: above(editor, *name) is not None and beside(editor, *name), '%s to be seen' % name[1])
         editor.keys('ctrl+0')
         editor.says('100 %')
-    # The pointer went elsewhere.
+    # The pointer is elsewhere.
     editor.keys('ctrl+Home')
     until(lambda: above(editor, 'Rung 1, NO'), 'rung 1')
     until(lambda: editor.click(editor.sheet(), 5, 20) or above(editor, 'Rung 4, NO'), 'rung 4')
@@ -76,7 +76,7 @@ def zoomed(screen):
 
 
 def head(screen):
-    """who comes to the first row of a rung by keys sees its title and its comment; a click scrolls to none"""
+    """going to the first row of a rung by keys shows its title and comment; a click does not scroll"""
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     editor.keys('ctrl+Home')
@@ -93,7 +93,7 @@ def head(screen):
     editor.says('Rung 2 · column A')
     editor.shot('scroll-head-2')
     until(lambda: (above(editor, 'Rung 2, NO', '%IX0.1') or 0) >= first, 'all of rung 2')
-    # What is clicked stays below the pointer.
+    # The clicked element stays below the pointer.
     editor.keys('ctrl+Home', 'ctrl+plus', 'ctrl+plus', 'ctrl+plus')
     first = until(lambda: above(editor, 'Rung 1, NO', '%IX0.0'), 'rung 1')
     editor.keys('ctrl+End')

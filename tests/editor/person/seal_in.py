@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""seal_in - a motor seal-in, drawn from nothing: by keyboard alone, and by pointer alone."""
+"""seal_in - a motor seal-in from an empty sheet: by keyboard alone and by pointer alone."""
 import os
 import sys
 
@@ -25,7 +25,7 @@ def behaves(path):
 
 
 def by_keyboard(screen):
-    """a motor seal-in from nothing, by keyboard alone"""
+    """a motor seal-in from an empty sheet, by keyboard alone"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.entry('Start')
@@ -46,7 +46,7 @@ def by_keyboard(screen):
 
 
 def by_signs(screen):
-    """the same by signs, as some write them; on an element a slash still negates that"""
+    """the same typed with signs; on an element a slash still negates it"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.entry('Start')
@@ -86,14 +86,14 @@ END_PROGRAM
 
 
 def choose(editor, *parts):
-    """Clicks a candidate of the entry that opened."""
+    """Clicks a candidate of the open entry."""
     editor.opened()
     editor.click(editor.popped(editor.candidate(*parts)))
     editor.gone()
 
 
 def by_pointer(screen):
-    """the same by pointer: elements from the palette, the branch as a stroke of wire, symbols from the list"""
+    """the same by pointer: elements from the palette, the branch as a wire, symbols from the list"""
     path = new_file(screen, SYMBOLS)
     editor = Editor(screen, path)
     editor.keys = editor.type = None  # nothing is typed
@@ -103,7 +103,7 @@ def by_pointer(screen):
     for tile, column, name in (contact, 0, 'Start'), (negated, 1, 'Stop'), (coil, 5, 'Motor'):
         editor.drag(tile, editor.grid(60, column))
         choose(editor, name)
-    # From the wire left of Start round it to the wire right of it: a row comes below.
+    # From the wire left of Start around it to the wire right of it: a row is added below.
     editor.drag(editor.wire_end(60, 0, 10), editor.wire_end(60, 1, 10), look='seal-in-branch')
     editor.says('This branch is empty')
     editor.drag(contact, editor.grid(60 + 84, 0))

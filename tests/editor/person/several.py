@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""several - more than one rung is selected: copied, moved, duplicated, switched off, deleted; by keys and by pointer."""
+"""several - several rungs are selected, then copied, moved, duplicated, switched off, deleted; by keys and by
+pointer.
+"""
 import os
 import re
 import sys
@@ -40,7 +42,7 @@ def opened(screen):
 
 
 def by_keys(screen):
-    """Shift+Down past the end of a rung selects whole rungs; what a verb does, it does to all of them"""
+    """Shift+Down past the end of a rung selects whole rungs; verbs act on all of them"""
     path, editor = opened(screen)
     editor.keys('Down', 'shift+Down', 'shift+Down')
     editor.says('Rungs 2 to 3 are selected')
@@ -51,13 +53,13 @@ def by_keys(screen):
     editor.keys('alt+Up', 'alt+Up')
     editor.says('Rungs 1 to 2 are selected')
     assert order(editor.save(path)) == 'bcad'
-    editor.keys('alt+Up')  # there is nothing above
+    editor.keys('alt+Up')  # it is the first one
     # Copied behind the last rung; the instance is named, so it stays.
     editor.keys('ctrl+c', 'ctrl+End', 'ctrl+v')
     editor.element('Rung 6')
     assert order(editor.save(path)) == 'bcadbc'
     editor.keys('ctrl+z')
-    # Once more, with a timer for both of them.
+    # Duplicated, with a timer for both of them.
     editor.keys('ctrl+Home', 'shift+Down', 'shift+Down', 'ctrl+d')
     editor.says('D2 : TON')
     text = editor.save(path)
@@ -71,7 +73,7 @@ def by_keys(screen):
 
 
 def by_pointer(screen):
-    """a click on a number selects that rung, one with Shift up to there; cut and paste"""
+    """a click on a number selects that rung, with Shift up to there; cut and paste"""
     path, editor = opened(screen)
     x, y = editor.grid(60, 0)
     editor.click((x - 85, y))
@@ -90,7 +92,7 @@ def by_pointer(screen):
 
 
 def dragged(screen):
-    """rungs that are selected are dragged as one, by the number of any of them; one step"""
+    """selected rungs are dragged together by the number of any of them, in one step"""
     path, editor = opened(screen)
     left = editor.grid(60, 0)[0] - 85
     numbers = [(left, editor.middle(editor.element('Rung %d' % n))[1]) for n in (1, 2, 3)]
@@ -111,13 +113,13 @@ def dragged(screen):
     editor.drag(numbers[2], (left, numbers[0][1] - 30))
     editor.says('Rungs 1 to 2 are selected')
     assert order(editor.save(path)) == 'bcad'
-    # A click on one of them selects that alone.
+    # A click on one of them selects it alone.
     editor.click(numbers[1])
     until(lambda: not editor.all('are selected'), 'one rung')
 
 
 def all_of_them(screen):
-    """Ctrl+A selects the rung, again all rungs; Esc none; all can go"""
+    """Ctrl+A selects the rung, again all rungs; Esc clears the selection; all can be deleted"""
     path, editor = opened(screen)
     editor.keys('ctrl+a', 'ctrl+a')
     editor.says('Rungs 1 to 4 are selected')

@@ -84,8 +84,8 @@ def pointer(screen):
     value = editor.find('/ 1m00.00s', 'label')
 
     def field():
-        """A click again: where a popover was, GTK 4.8 under X11 loses some, also in a program
-        of thirty lines, as long as its window is drawn in each frame."""
+        """Clicks again: GTK 4.8 under X11 loses some clicks where a popover was, while the window redraws in each
+        frame."""
         editor.click(value)
         return editor.asked() or editor.all('Delay, preset', 'text')
     until(field, 'the field of the preset')
@@ -131,7 +131,7 @@ def keyboard(screen):
 
 
 def small(screen):
-    """1024 x 700, dark, Chinese: all is to be seen, and folds away"""
+    """1024 x 700, dark, Chinese: everything is visible and folds"""
     editor = Chinese(screen, new_file(screen, PROGRAM + CHOSEN), ADW_DEBUG_COLOR_SCHEME='prefer-dark')
     editor.to_sheet()
     editor.keys('ctrl+r')

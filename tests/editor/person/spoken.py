@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""spoken - what a screen reader says of the window: everything that can be used has a name of its own."""
+"""spoken - what a screen reader announces: each usable widget has its own name."""
 import os
 import re
 import subprocess
@@ -53,13 +53,14 @@ HEARD = re.compile(r'path=(\S+);[^;]*; member=PropertyChange\n +string "accessib
                    r' +variant +string "(.+)"')
 USED = [ROLES[role] for role in ('check box', 'combo box', 'menu item', 'spin button', 'page tab',
                                  'push button', 'table', 'table cell', 'text', 'toggle button', 'entry')]
-ROWS = ROLES['list item'], ROLES['panel']  # the row, or what is in it
+ROWS = ROLES['list item'], ROLES['panel']  # the row, or its content
 
 TWICE = re.compile(r'(.+) \1$')
 
 
 def nameless(editor):
-    """What can be used, or is a row that can have the keys, and is seen, and has no name, that of a class or one that is said twice. Cells of lists have what is in them."""
+    """Visible widgets that can be used, or rows that can have the focus, without a name, with a class name or with
+    one of another widget. Cells of lists are named by their content."""
     found = [node for top in (None, editor.palette) for node in editor.walk(top)
              if node.role in USED or node.role in ROWS and node.states >> 11 & 1]
     names = [node for node in found if not node.name or node.name.startswith(('Gtk', 'Adw', '_')) or
@@ -69,13 +70,13 @@ def nameless(editor):
 
 
 def described(editor, node):
-    """What a reader says after the name: what the tooltip shows."""
+    """The description that a reader adds to the name: the text of the tooltip."""
     return editor.bus.call_blocking(editor.name, node.path, 'org.freedesktop.DBus.Properties', 'Get', 'ss',
                                     (A11Y + 'Accessible', 'Description'))
 
 
 def tips(screen):
-    """what a tooltip shows describes its widget, also what changes: a tile, a button without a text"""
+    """a tooltip is also the description of its widget, also when it changes: a tile, a button without a text"""
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     assert 'closed while FALSE' in described(editor, editor.tile('NC'))
@@ -105,14 +106,14 @@ def window(screen):
 
 
 def empty_texts(editor):
-    """Labels of the status bar that say nothing, and are told of."""
+    """Labels of the status bar that are empty and announced."""
     bottom = editor.find('EDIT', 'label').box()[1]
     labels = [node for node in editor.all(role='label') if node.box()[2] >= 0 and node.box()[1] == bottom]
     return [node.name for node in labels if not node.text()]
 
 
 def imported(screen):
-    """the dialog of an import; of the status bar what says something"""
+    """the dialog of an import; in the status bar no empty labels"""
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     until(lambda: not empty_texts(editor), 'texts alone in the status bar')
@@ -131,7 +132,7 @@ def imported(screen):
 
 
 def simulated(screen):
-    """the same while it simulates"""
+    """the same while simulating"""
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     editor.keys('ctrl+m')
@@ -140,8 +141,7 @@ def simulated(screen):
 
 
 class Reader:
-    """What is told on the accessibility bus as a screen reader gets it: of the widget with the
-    focus a new description is said."""
+    """Collects what a screen reader announces: new descriptions of the focused widget on the accessibility bus."""
 
     def __init__(self, editor, name='Sheet'):
         self.editor, self.name = editor, name
@@ -158,7 +158,7 @@ class Reader:
         return [text for path, text in HEARD.findall(open(self.path).read()) if path == sheet]
 
     def says(self, text, then=None):
-        """Waits for it: the next that is said after what @then did."""
+        """Waits for the next announcement after @then."""
         before = len(self.said())
         if then:
             then()
@@ -168,7 +168,7 @@ class Reader:
 
 
 def at_cursor(editor):
-    """The node that is told as selected; waits until there is but one."""
+    """The selected node; waits until there is exactly one."""
     def look():
         found = [node for node in editor.all('Rung ', 'table cell') if node.has(23)]
         return found[0] if len(found) == 1 else None
@@ -176,7 +176,7 @@ def at_cursor(editor):
 
 
 def shape(editor, name):
-    """Of a chart."""
+    """A shape of a chart."""
     return until(lambda: [node for node in editor.all(name, 'table cell') if node.name == name], name)[0]
 
 
@@ -185,7 +185,7 @@ def actions(node):
 
 
 def cursor(screen):
-    """the cell that the cursor comes to: an element, a wire, nothing, in a new rung and a deleted one"""
+    """the cell that the cursor moves to: an element, a wire, an empty cell, in a new rung and a deleted one"""
     editor = Editor(screen, new_file(screen, TWO))
     editor.to_sheet()
     start = 'NO, closed while TRUE: Start, %IX0.0'
@@ -200,19 +200,19 @@ def cursor(screen):
     reader.says('Rung 1, ' + start + ', row 1, column A', lambda: editor.click(editor.element('Rung 1', 'Start')))
     assert at_cursor(editor).name == 'Rung 1, ' + start and not editor.all('wire', 'table cell')
     reader.says('Rung 2, ' + start + ', row 1, column A', lambda: editor.keys('Down'))
-    reader.says('Rung 2, ' + start + ', row 1, column B', lambda: editor.keys('Right'))  # called the same
+    reader.says('Rung 2, ' + start + ', row 1, column B', lambda: editor.keys('Right'))  # the same name
     reader.says('Rung 3, empty cell, row 1, column A', lambda: editor.keys('Insert'))
     empty = at_cursor(editor)
     assert empty.name == 'Rung 3, empty cell, row 1, column A' and actions(empty) == ['cell.edit', 'cell.go']
     reader.says('Rung 3, empty cell, row 1, column B', lambda: editor.keys('Right'))
     reader.says('Rung 3, ' + start + ', row 1, column A', lambda: editor.keys('ctrl+Delete'))
     reader.says('Rung 2, ' + start + ', row 1, column A', lambda: editor.keys('Up'))
-    reader.says('Rung 2, ' + start + ', row 1, column A', lambda: editor.keys('ctrl+Delete'))  # another one
+    reader.says('Rung 2, ' + start + ', row 1, column A', lambda: editor.keys('ctrl+Delete'))  # another element
     assert len(editor.cells()) == 5, editor.cells()
 
 
 def edited(screen):
-    """an element that is placed where the cursor is, and its entry through assistive technology"""
+    """an element placed at the cursor, and its entry through assistive technology"""
     editor = Editor(screen, new_file(screen))
     editor.to_sheet()
     until(lambda: described(editor, editor.sheet()) == 'Rung 1, empty cell, row 1, column A', 'the empty cell')
@@ -230,7 +230,7 @@ def edited(screen):
 
 
 def boxes(screen):
-    """each row of a block, columns behind Z; while it simulates what flows, and nobody repeats it"""
+    """each row of a block, columns behind Z; while simulating values are announced, each once"""
     editor = Editor(screen, new_file(screen, BOX))
     editor.to_sheet()
     until(lambda: described(editor, editor.sheet()), 'the first cell')
@@ -253,7 +253,7 @@ def boxes(screen):
 
 
 def chart(screen):
-    """of a chart the step, condition and line that the cursor comes to; not that a step becomes active"""
+    """the step, condition and line that the cursor of a chart moves to; not that a step becomes active"""
     path = new_file(screen, CHART)
     editor = Editor(screen, path)
     until(lambda: editor.find('Chart').has(12), 'the focus on the chart')

@@ -1,9 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""storm - keys, clicks, drags and texts in whatever order: the editor goes on, and undo takes back all.
+"""storm - random keys, clicks, drags and texts: the editor goes on, and undo restores the beginning.
 
-The dice are thrown from a number, so that what was found is found again:
-storm.py NUMBER… throws those instead of its own.
+Each run has a seed, so a failure can be repeated: storm.py NUMBER… uses those seeds.
 """
 import difflib
 import os
@@ -15,7 +14,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import ROOT, Editor, check, main, new_file, sh, until  # noqa: E402
 
 ACTS, AT_ONCE = 96, 16
-# Another window, or none, that the rest of the keys would go to; a printer; any command.
+# Keys that open another window, which would get the rest of the keys; a printer; any command.
 LEFT_OUT = {'new_project', 'open', 'save_as', 'close', 'print', 'palette', 'preferences', 'shortcuts', 'fullscreen'}
 NAMES = {'Control': 'ctrl', 'Shift': 'shift', 'Alt': 'alt'}
 WORDS = ['Start', 'OUT Motor', 'TON T9 2s', 'XIO %IX0.3', 'CTU', '= Lamp', 'OR Stop', 'x := y + 1', '%QX9.9.9', '(* no *)',
@@ -23,7 +22,7 @@ WORDS = ['Start', 'OUT Motor', 'TON T9 2s', 'XIO %IX0.3', 'CTU', '= Lamp', 'OR S
 
 
 def keys_of_window():
-    """All of the one table, and those of hands and texts."""
+    """All keys of verbs.def, and usual others."""
     keys = ['Up', 'Down', 'Left', 'Right', 'Home', 'End', 'Tab', 'shift+Tab', 'Return', 'shift+Down', 'shift+Right', *['Escape'] * 8]
     with open(os.path.join(ROOT, 'editor-gtk', 'kit', 'verbs.def')) as table:
         for verb, accels in re.findall(r'^VERB\((\w+),\s*\w+,\s*"([^"]*)"', table.read(), re.MULTILINE):
@@ -34,14 +33,14 @@ def keys_of_window():
 
 
 class Hand:
-    """Of somebody who does not look."""
+    """A hand whose owner does not look."""
 
     def __init__(self, editor, number):
         self.editor, self.dice, self.keys = editor, random.Random(number), keys_of_window()
         self.left, self.top, self.width, self.height = editor.place(editor.all(role='frame')[0])
 
     def point(self):
-        """Somewhere below the heading with its buttons that close the window."""
+        """A point below the heading, whose buttons close the window."""
         x = self.left + self.dice.randrange(10, self.width - 10)
         return [str(x), str(self.top + self.dice.randrange(60, self.height - 10))]
 
@@ -62,26 +61,26 @@ class Hand:
 
 
 def faults(editor):
-    """What the toolkit says of us. That it leaves a widget out of a frame it says of its own: of
-    scrollbars beside a text, and when a tab is dragged while a menu closes; the next frame has it."""
+    """Messages of the toolkit that are faults of the editor. GTK warns of a widget without allocation for its own
+    scrollbars, and for a tab dragged while a menu closes; the next frame is right."""
     return [line for line in editor.logged().splitlines() if re.search('WARNING|CRITICAL|ERROR', line) and
             not re.search(r'Trying to snapshot \w+ \w+ without a current allocation', line)]
 
 
 def calm(editor):
-    """Whatever is open goes; what runs stops."""
+    """Closes what is open and stops what runs."""
     editor.keys('Escape', 'Escape', 'Escape', 'Escape')
     until(lambda: editor.windows() == [editor.window] or editor.keys('Escape'), 'other windows to go')
     editor.keys('ctrl+shift+r')
 
 
 def is_unsaved(editor):
-    """The mark stands before the name in the heading; a tab may have one, too."""
+    """Is the mark before the name in the heading? A tab may have one, too."""
     return any(node.name.startswith('• ') and node.box()[1] < 50 for node in editor.all('• ', 'label'))
 
 
 def saved(editor, path):
-    """The program, not a text beside it that may be in front."""
+    """Saves the program, not a text beside it that may be in front."""
     editor.keys(*['ctrl+Page_Up'] * 12)
     until(lambda: not editor.keys('ctrl+s') and not is_unsaved(editor), 'the program to be saved')
     with open(path) as text:
@@ -89,7 +88,7 @@ def saved(editor, path):
 
 
 def all_the_way(editor, button, key, path):
-    """Undoes all there is, or does it again, and saves."""
+    """Undoes or redoes everything, and saves."""
     until(lambda: not editor.find(button, 'push button').has(24) or editor.keys(*[key] * 30), 'the end of ' + button)
     return saved(editor, path)
 

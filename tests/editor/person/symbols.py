@@ -69,7 +69,7 @@ def finds(screen):
 
 
 def declared_already(screen):
-    """replace all by a name that another has: nothing changes, and it is told"""
+    """replace all by the name of another symbol is refused with a message"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.keys('ctrl+h')
@@ -79,14 +79,14 @@ def declared_already(screen):
     editor.type('Horn')
     editor.keys('alt+a')
     label(editor, 'is declared already')
-    time.sleep(0.5)  # longer than a panel is behind
+    time.sleep(0.5)  # longer than the delay of a panel
     label(editor, 'is declared already')
     editor.shot('names-declared-already')
     assert open(path).read() == PROGRAM and not editor.all('\u2022 new.rung', 'label')
 
 
 def renames(screen):
-    """F2: another name, Chinese, wherever the symbol is used; one step back"""
+    """F2: a Chinese name, wherever the symbol is used; one step to undo"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.click(editor.grid(60, 0))
@@ -107,7 +107,7 @@ def renames(screen):
 
 
 def uses(screen):
-    """the cross reference keeps what was asked for as long as there is such a name, then takes that at the cursor"""
+    """the cross reference keeps the chosen name as long as it exists, then follows the cursor"""
     path = new_file(screen, PROGRAM.replace('NO Start', 'NO %MX1.0', 1))
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -131,7 +131,7 @@ def uses(screen):
 
 
 def tables(screen):
-    """the symbol table: a comment, a name that is refused, one that is not"""
+    """the symbol table: a comment, a refused name, an accepted one"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
@@ -183,7 +183,7 @@ def tables(screen):
 
 
 def added(screen):
-    """+: the name of the new symbol has the keys, its text selected, wherever its row comes to be"""
+    """+: the name of the new symbol has the keys, its text selected, wherever its row is sorted"""
     many = ''.join('  V%02d : INT;\n' % number for number in range(60))
     path = new_file(screen, PROGRAM.replace('END_VAR', many + 'END_VAR', 1))
     editor = Editor(screen, path)
@@ -192,7 +192,7 @@ def added(screen):
     for name in 'Pump', 'Valve':
         editor.click(editor.find('Add a symbol', 'push button'))
         cell = editor.focus_on(', Name', 'text', but=cell)
-        editor.type(name)  # what stood there was selected
+        editor.type(name)  # the old text was selected
         until(lambda: cell.text() == name, 'the name that is typed')
         time.sleep(0.3)  # the table is read again meanwhile
         editor.type('1')
@@ -206,7 +206,7 @@ def added(screen):
 
 
 def ticked(screen):
-    """Space, and a click, on Retain: the declaration moves to another block, and the keys with it"""
+    """Space and a click on Retain move the declaration to another block; the keys stay with it"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
@@ -235,7 +235,7 @@ def ticked(screen):
 
 
 def imported(screen):
-    """a table is imported by a command: what would change, and after which line the program has an error; then it has"""
+    """a table is imported by a command: the preview shows changes and the line that breaks the program; then it has the error"""
     path = new_file(screen, PROGRAM)
     table = new_file(screen, 'Name,Type,Address\nLamp,INT,\nBell,BOOL,%QX0.7\n', 'symbols.csv')
     editor = Editor(screen, path)
@@ -253,7 +253,7 @@ def imported(screen):
 
 
 def block(screen):
-    """a new block has an input and an output; + beside one of them makes another; it is used as it is called"""
+    """a new block has an input and an output; + adds another; a call uses it"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.command('new function block')
@@ -277,7 +277,7 @@ def block(screen):
 
 
 def ordered(screen):
-    """a click on the title of a column sorts by it, the next one the other way; numbers by what they are, no case"""
+    """a click on a column's title sorts by it, again in reverse; numbers by value, texts without case"""
     names = 'Step10', 'b', 'Txt', 'Step2', 'n'
     text = 'RUNGBOARD 1\n\nVAR\n' + ''.join('  %s : INT;\n' % name for name in names) + \
         'END_VAR\n\nPROGRAM Main LD\nRUNG\n  | COIL %QX0.0 |\nEND_PROGRAM\n'
@@ -300,7 +300,7 @@ def ordered(screen):
 
 
 def scopes(screen):
-    """the table of one program, of none, of all: chosen by keys and by mouse; names that come later"""
+    """the table of one program, of the globals, of all: by keys and by mouse; for new names, too"""
     path = new_file(screen, PROGRAM.replace('PROGRAM Main LD\n', 'PROGRAM Main LD\nVAR\n  Own : INT;\nEND_VAR\n'))
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
@@ -324,7 +324,7 @@ def scopes(screen):
     assert not editor.all('Own, Name')
     editor.keys('ctrl+a')
     editor.type('Bell')
-    # The check of what was typed comes while the button is down.
+    # The check of the typed text arrives while the button is down.
     x, y = editor.centre(editor.find('Scope', 'combo box'))
     sh('xdotool', 'key', 'Return', 'mousemove', str(x), str(y), 'mousedown', '1', 'sleep', '0.8', 'mouseup', '1')
     until(lambda: editor.all('Bell, Name'), 'the name again')
@@ -335,7 +335,7 @@ def scopes(screen):
 
 
 def kinds(screen):
-    """what is an input becomes an output and what is passed by reference; globals are none of these"""
+    """an input becomes an output and an in-out; globals have no such kinds"""
     path = new_file(screen, PROGRAM.replace('PROGRAM Main LD\n', BLOCK + 'PROGRAM Main LD\n'))
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
@@ -374,7 +374,7 @@ def kinds(screen):
 
 
 def through(screen):
-    """cells of a row are filled one after the other by Tab, while the table is read again behind each"""
+    """Tab fills the cells of a row one after the other while the table is read again behind each"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
@@ -392,7 +392,7 @@ def through(screen):
 
 
 def last_letter(screen):
-    """saved, and closed, right behind the last letter in a cell: it is in the file; what is refused keeps the window, once"""
+    """save and close right behind the last letter in a cell: it is in the file; a refused text keeps the window once"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
@@ -421,14 +421,14 @@ def last_letter(screen):
 
 
 def again(screen):
-    """a list that Esc closed opens at the next click, also where the pointer has not moved"""
+    """a list closed by Esc opens at the next click, also when the pointer has not moved"""
     path = new_file(screen, PROGRAM.replace('PROGRAM Main LD\n', 'PROGRAM Main LD\nVAR\n  Own : INT;\nEND_VAR\n'))
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
     until(lambda: editor.all('Own, Name'), 'the table')
 
     def seen():
-        """All windows on the screen, that of a list, too: who clicks sees it gone."""
+        """All windows on the screen, also that of a drop-down: to see it close."""
         return sh('xdotool', 'search', '--onlyvisible', '--class', 'ladder-editor').split()
     alone = seen()
     editor.click(editor.find('Scope', 'combo box'))

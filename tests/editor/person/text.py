@@ -72,7 +72,7 @@ def typed(screen):
 
 
 def damaged(screen):
-    """a damaged file opens as text with what is wrong, is mended there, and drawn"""
+    """a damaged file opens as text with its problems, is mended there, and drawn"""
     editor, path, _ = in_the_text(screen, DAMAGED)
     editor.says('error')
     editor.shot('text-damaged')
@@ -87,7 +87,7 @@ def damaged(screen):
 
 
 def back_and_forth(editor, path, view, said):
-    """It is told, saved as it is seen and not simulated; undone, it is as it was."""
+    """The text with an error is reported, saved as it is shown and not simulated; undo restores it."""
     editor.says(said)
     seen = view.text().strip()
     text = editor.save(path)
@@ -105,12 +105,12 @@ def back_and_forth(editor, path, view, said):
 
 
 def emptied(screen):
-    """a list that is emptied and written anew: nothing of the others is touched, undo gives it back"""
+    """a list is emptied and written again: other programs are untouched, undo restores it"""
     editor, path, view = in_the_text(screen, TWO)
     editor.keys('ctrl+a', 'Delete')
     back_and_forth(editor, path, view, 'expected: PROGRAM')
     editor.keys(*['ctrl+z'] * 8)
-    editor.keys('ctrl+Prior', 'ctrl+Prior')  # it was shown that Motor is not used
+    editor.keys('ctrl+Prior', 'ctrl+Prior')  # the advice that Motor is never read was there
     editor.click(view)
     until(lambda: view.has(12), 'the focus in the text')
     editor.keys('ctrl+a')
@@ -120,7 +120,7 @@ def emptied(screen):
 
 
 def one_more(screen):
-    """a program written behind the list's own stands there once, and is told not to belong there"""
+    """a program typed behind the list's own is kept once and reported as misplaced"""
     editor, path, view = in_the_text(screen, TWO)
     editor.keys('ctrl+End')
     editor.put_clipboard(EXTRA)
@@ -129,7 +129,7 @@ def one_more(screen):
 
 
 def closed(screen):
-    """the window is closed right behind the last letter: it asks, and what it saves has that letter"""
+    """the window is closed right behind the last letter: it asks, and the saved file has that letter"""
     editor, path, _ = in_the_text(screen, IL)
     editor.keys('ctrl+Home', 'Down', 'End', 'Return')
     editor.type('ST Motor')
@@ -141,7 +141,7 @@ def closed(screen):
 
 
 def names(screen):
-    """in a list, too: F12 goes to where the name at the cursor is driven, F2 changes it everywhere, Shift+F12 lists its uses"""
+    """in a list, too: F12 goes to where the name is driven, F2 renames it, Shift+F12 lists its uses"""
     editor, path, view = in_the_text(screen, NAMES)
     editor.keys('ctrl+Page_Down')
     second = until(lambda: [node for node in editor.all('Text of the program') if 'QX0.1' in node.text()], 'the second list')[0]
@@ -177,7 +177,7 @@ def names(screen):
     editor.type('1')
     editor.keys('Return')
     editor.says('Line 1 \u00b7 column 1')
-    # An address, and nothing.
+    # On an address, and on no name.
     editor.keys('ctrl+Page_Down')
     second = until(lambda: [node for node in editor.all('Text of the program') if 'QX0.1' in node.text()], 'the second list')[0]
     editor.click(second)
@@ -186,7 +186,7 @@ def names(screen):
 
 
 def at_once(screen):
-    """a project whose first program is a list opens with the keys in the text; F6, and what leads to a page, gives them from the header, too"""
+    """a project whose first program is a list opens with the keys in the text; F6 and menu entries move them there from the header"""
     path = new_file(screen, TWO.replace('PROGRAM Second IL\n  LD    Start\n  ST    %QX0.1', 'PROGRAM Second LD\nRUNG\n  | NO Start | COIL %QX0.1 |'))
     editor = Editor(screen, path)
     editor.focus_on('Text of the program', 'text')
@@ -196,7 +196,7 @@ def at_once(screen):
     assert 'ANDN  Motor' in editor.save(path)
 
     def header():
-        editor.click(editor.find('Save', 'push button'))  # a button takes the keys when it is clicked
+        editor.click(editor.find('Save', 'push button'))  # a click gives a button the keys
         editor.focus_on('Save', 'push button')
     header()
     editor.keys('F6')
@@ -217,7 +217,7 @@ def at_once(screen):
 
 
 def no_bookmark(screen):
-    """Ctrl+B in a text says why nothing is marked, and leaves the text as it is"""
+    """Ctrl+B in a text says why there is no bookmark, and leaves the text"""
     editor, path, view = in_the_text(screen, TWO)
     before = view.text()
     editor.keys('ctrl+b')

@@ -30,7 +30,7 @@ OTHER = '@print %QX0.2\n%IX0.2=1\n%IX0.2=0\n'
 
 
 def bookmarks(screen):
-    """a bookmark is set, saved, listed, gone to, undone; what was said of the time before is over"""
+    """a bookmark is set, saved, listed, visited, undone; messages of earlier steps are gone"""
     path = new_file(screen, TEXT)
     editor = Editor(screen, path)
     editor.keys('Down', 'ctrl+shift+b')
@@ -56,7 +56,7 @@ def bookmarks(screen):
 
 
 def by_name(screen):
-    """what the tree's menu does is found by its name, too; what is not there is said; a bookmark shows rung and title"""
+    """commands of the tree's menu are found by name, too; impossible ones say why; a bookmark shows rung and title"""
     path = new_file(screen, TEXT.replace('RUNG\n  | NO %IX0.1', 'RUNG "Washing is over, all of it is dry"\n  | NO %IX0.1'))
     editor = Editor(screen, path)
     editor.keys('Down', 'ctrl+b')
@@ -72,7 +72,7 @@ def by_name(screen):
     editor.keys('Return')
     until(lambda: not editor.all('Nothing found', 'label'), 'the end of the list')
     editor.list_commands()
-    # Enter right behind the last letter does what was typed, not what stood in the list.
+    # Enter right behind the last letter runs the command for the typed text, not the one selected before.
     editor.type('new program (il')
     sh('xdotool', 'key', 'Return')
     until(lambda: editor.all('Program1', 'label'), 'the program in the tree')
@@ -83,7 +83,7 @@ def by_name(screen):
 
 
 def nothing_added(screen):
-    """no program comes to a file that cannot be read, and that is said"""
+    """a program cannot be added to a file that cannot be read, with a message"""
     path = new_file(screen, TEXT.replace('PROGRAM Other LD', 'PROGRAM Other XX'))
     editor = Editor(screen, path)
     editor.command('new function block')
@@ -93,7 +93,7 @@ def nothing_added(screen):
 
 
 def steps(screen):
-    """undo and redo show what they change: the program comes to the front, the cursor goes there, and the step is told"""
+    """undo and redo show their change: the program comes to the front, the cursor goes there, a message names the step"""
     many = ''.join('RUNG\n  | NO %%IX1.%d | COIL %%MX1.%d |\n' % (bit, bit) for bit in range(8)) * 3
     path = new_file(screen, TEXT.replace('END_PROGRAM\n\nPROGRAM Other', many + 'END_PROGRAM\n\nPROGRAM Other'))
     before = open(path).read()
@@ -125,7 +125,7 @@ def steps(screen):
 
 
 def rows(screen):
-    """a program shows its variables, F2 renames it, Delete deletes it, Ctrl+Z brings it back"""
+    """a program shows its variables, F2 renames it, Delete deletes it, Ctrl+Z restores it"""
     path = new_file(screen, TEXT)
     editor = Editor(screen, path)
     editor.click([n for n in editor.all('Main', 'label') if n.name == 'Main'][0])
@@ -153,7 +153,7 @@ def rows(screen):
 
 
 def of_others(screen):
-    """a program that is not the last is deleted: its tab goes, and is not one of its neighbour's; opened again it is where it was"""
+    """a program in the middle is deleted: its own tab closes; restored, it is at its old place"""
     third = '\nPROGRAM Third LD\nRUNG\n  | NO %IX0.3 | COIL %QX0.3 |\nEND_PROGRAM\n'
     path = new_file(screen, TEXT + third)
     editor = Editor(screen, path)
@@ -180,7 +180,7 @@ def of_others(screen):
 
 
 def in_front(screen):
-    """Delete of the program in front leaves the keys in the tree; the only one stays, and it is told why"""
+    """Delete of the program in front leaves the keys in the tree; the only one cannot be deleted, with the reason"""
     path = new_file(screen, TEXT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -199,12 +199,12 @@ def in_front(screen):
 
 
 def sheet_of(editor):
-    """Waits until the sheet that is seen has the keys."""
+    """Waits until the visible sheet has the focus."""
     until(lambda: [n for n in editor.all('Sheet') if n.box()[2] > 0 and n.has(12)], 'the focus on its sheet')
 
 
 def keys(screen):
-    """a double click leads the keys to the sheet; what is typed right after Delete in the tree is not lost"""
+    """a double click gives the keys to the sheet; typing right after Delete in the tree loses nothing"""
     path = new_file(screen, TEXT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -226,12 +226,12 @@ def keys(screen):
 
 
 def menu_item(editor, name):
-    """It has the focus, in a menu that is open."""
+    """The focused item of an open menu."""
     return any(node.name == name and node.has(12) for node in editor.all(name, 'menu item'))
 
 
 def menus(screen):
-    """the menu of a row, that of the sheet and that of the window, by keyboard alone; Esc gives the keys back"""
+    """the menus of a row, a sheet and the window, by keyboard alone; Esc gives the keys back"""
     path = new_file(screen, TEXT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -275,7 +275,7 @@ def menus(screen):
 
 
 def stop(screen):
-    """Tab comes to the tree once, arrows go on in it; the row that has the keys is named as it reads, and is seen"""
+    """Tab enters the tree once, arrows move in it; the focused row has its text as name and is visible"""
     path = new_file(screen, TEXT)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -319,12 +319,12 @@ def beside(screen):
 
 
 def nothing_open(screen):
-    """without a tab the window says how to open one, as long as there is none"""
+    """without a tab the window says how to open one"""
     editor = Editor(screen, new_file(screen, TEXT))
     editor.to_sheet()
 
     def tabs():
-        """Their titles stand right of the tree, above what they hold."""
+        """The titles are right of the tree, above their pages."""
         return len([node for node in editor.all(role='label') if node.name in ('Main', 'Other', 'Symbols') and
                     node.box()[0] > 230 and node.box()[1] < 100])
     said = 'Nothing is open. Double-click a program in the tree to open it.'
@@ -341,7 +341,7 @@ def nothing_open(screen):
     left, top, wide, high = editor.place(editor.sheet())
     x, y = x + width // 2, y + height // 2  # a bar without tabs is a little lower
     assert left < x < left + wide and top < y < top + high, 'it stood elsewhere'
-    editor.click((x, y))  # nothing lies over the sheet
+    editor.click((x, y))  # nothing covers the sheet
     editor.keys('ctrl+shift+w')
     editor.says(said)
 

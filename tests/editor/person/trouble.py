@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""trouble - what cannot be saved is told, and the work is kept."""
+"""trouble - a failed save is reported, and the work is kept."""
 import ctypes
 import os
 import shutil
@@ -27,7 +27,7 @@ PR_CAPBSET_DROP = 24
 
 
 def mere_mortal():
-    """Root may write anywhere; who is started without that right may not."""
+    """Root may write anywhere; a process without these capabilities may not."""
     for capability in (1, 2, 3):  # DAC_OVERRIDE, DAC_READ_SEARCH, FOWNER
         ctypes.CDLL(None).prctl(PR_CAPBSET_DROP, capability, 0, 0, 0)
 
@@ -45,7 +45,7 @@ def saved_well(path):
 
 
 def read_only(screen):
-    """a folder that cannot be written: a banner, the work kept, saved when it can be"""
+    """a folder without write permission: a banner, the work is kept, and saved later"""
     folder = os.path.join(screen.home, 'locked')
     os.mkdir(folder)
     path = new_file(screen, PROJECT, 'locked/a.rung')
@@ -64,7 +64,7 @@ def read_only(screen):
 
 
 def locked(screen):
-    """a file that is read-only is told; saving asks once more, saving as another file leaves it, and a scenario is asked for, too"""
+    """a read-only file is reported; saving asks once more, saving as another file leaves it; so for a scenario"""
     path = new_file(screen, PROJECT, 'a.rung')
     scenario = new_file(screen, 'scenario One\n', 'a.scn')
     other = os.path.join(screen.home, 'other.rung')
@@ -94,7 +94,7 @@ def locked(screen):
     until(lambda: 'COIL Motor' in open(path).read(), 'the file to be saved')
     saved_well(path)
     assert stat.S_IMODE(os.stat(path).st_mode) == 0o444
-    # It was said once.
+    # It was reported once.
     editor.click(editor.middle(editor.element('Rung 1, NO', 'Start')))
     editor.to_sheet()
     editor.keys('slash')
@@ -111,7 +111,7 @@ def locked(screen):
 
 
 def full_disk(screen):
-    """a disk that is full: a banner, the old file and the work kept"""
+    """a full disk: a banner, the old file and the work are kept"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     draw(editor)
@@ -125,7 +125,7 @@ def full_disk(screen):
 
 
 def vanished(screen):
-    """the folder of the file is gone: a banner, the work kept"""
+    """the folder of the file is gone: a banner, the work is kept"""
     os.mkdir(os.path.join(screen.home, 'gone'))
     path = new_file(screen, PROJECT, 'gone/a.rung')
     editor = Editor(screen, path)
@@ -140,12 +140,12 @@ def vanished(screen):
 
 
 def bar(editor):
-    """The button of the banner: below the one in the head of the window, which has a picture."""
+    """The banner's button, below the one in the window's head, which has a picture."""
     return max(editor.all('Save', 'push button'), key=lambda button: editor.middle(button)[1])
 
 
 def gone(screen):
-    """the file is gone, nothing was drawn: it is told and asked before the last copy goes"""
+    """the file was deleted without an edit: it is reported, and closing asks before the last copy is lost"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 1, 'the contact')
@@ -168,7 +168,7 @@ def gone(screen):
 
 
 def somebody_else(screen):
-    """somebody else changes the file: it is told, and read again when wanted"""
+    """another program changes the file: it is reported, and reloaded on request"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 1, 'the contact')
@@ -183,17 +183,17 @@ def somebody_else(screen):
 
 
 def export(editor, what, path):
-    """To a path that is typed into the chooser of files."""
+    """To a path that is typed into the file chooser."""
     editor.give_path(path, lambda: editor.command(what), what)
 
 
 def toasts(editor, path):
-    """It says the path of what was written, and no reason."""
+    """Waits for a toast with the path of the written file and no reason."""
     return [node for node in editor.all(path, 'label') if not node.name.startswith(path + ':')]
 
 
 def refused(editor, what, path, why):
-    """A banner with path and reason, no toast, and nothing in the folder but what was there."""
+    """A banner with path and reason, no toast, and no new file in the folder."""
     files = os.listdir(os.path.dirname(path))
     export(editor, what, path)
     banner = editor.find(path + ': ', 'label').name
@@ -202,7 +202,7 @@ def refused(editor, what, path, why):
 
 
 def written(editor, what, path):
-    """Whole, a toast, and the banner of before is gone."""
+    """The whole file, a toast, and no banner."""
     export(editor, what, path)
     until(lambda: toasts(editor, path), 'the toast')
     until(lambda: not editor.all('cannot write this file'), 'the banner to be gone')
@@ -216,7 +216,7 @@ EXPORTS = ('Export as PDF', 'a.pdf'), ('Export symbols', 'a.csv')
 
 
 def export_locked(screen):
-    """what is exported into a folder that cannot be written: a banner with path and reason, no toast; elsewhere it is written"""
+    """an export into a folder without write permission: a banner with path and reason, no toast; elsewhere it is written"""
     folder = os.path.join(screen.home, 'locked')
     os.mkdir(folder)
     os.chmod(folder, 0o555)
@@ -230,7 +230,7 @@ def export_locked(screen):
 
 
 def export_full(screen):
-    """what is exported to a disk that is full: a banner with path and reason, no toast, nothing half written"""
+    """an export to a full disk: a banner with path and reason, no toast, no partial file"""
     folder = os.path.join(screen.home, 'full')
     os.mkdir(folder)
     editor = Editor(screen, new_file(screen, PROJECT))
@@ -243,7 +243,7 @@ def export_full(screen):
 
 
 def no_pages(screen):
-    """a damaged file is text: printing, a PDF and a picture of a rung say why they are not to be had"""
+    """a damaged file is text: print, PDF and the picture of a rung say why they are impossible"""
     editor = Editor(screen, new_file(screen, PROJECT.replace('| NO Start |', '| NOO Start |')))
     editor.find('Text of the program')
     why = 'There is nothing to print: the file cannot be read'
@@ -259,7 +259,7 @@ def no_pages(screen):
 
 
 def text_closed(screen):
-    """the text of a damaged file is closed: what is said there opens it again"""
+    """the text of a damaged file is closed: the message there opens it again"""
     editor = Editor(screen, new_file(screen, PROJECT.replace('| NO Start |', '| NOO Start |')))
     editor.find('Text of the program')
     editor.keys('ctrl+shift+w')
@@ -271,7 +271,7 @@ def text_closed(screen):
 
 
 def rendered_locked(screen):
-    """--render into a folder that cannot be written: path and reason are told, nothing is left"""
+    """--render into a folder without write permission: path and reason are reported, no file is left"""
     folder = os.path.join(screen.home, 'locked')
     os.mkdir(folder)
     os.chmod(folder, 0o555)

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""tutorial - docs/tutorial.md is true: its keys are read from it and pressed, and what it says comes.
+"""tutorial - docs/tutorial.md is true: this script reads its keys and presses them.
 
-A step is a line such as "2. `Up` `End` `Delete`: the coil is gone": keys and texts up to the
-first colon. What must come then stands here, step by step.
+A step is a line such as "2. `Up` `End` `Delete`: the coil is gone": keys and texts up to the first colon. The
+expected result of each step is in this script.
 """
 import os
 import re
@@ -22,7 +22,7 @@ SEALED = ['Motor=0', 'Motor=1', 'Motor=1', 'Motor=1', 'Motor=0', 'Motor=0']
 
 
 def key_of(span):
-    """As xdotool calls it; None: it is a text."""
+    """The name that xdotool has for a key; None: it is a text."""
     found = KEY.match(span)
     if not found:
         return None
@@ -31,7 +31,7 @@ def key_of(span):
 
 
 def steps(letter):
-    """What is pressed in a section: a list of keys and texts for each step."""
+    """The keys and texts of a section, a list for each step."""
     section = re.search(r'^## %s\. .*?(?=^##? )' % letter, TUTORIAL, re.M | re.S)[0]
     return [re.findall('`([^`]+)`', step) for step in re.findall(r'^\d+\. (.*?): ', section, re.M)]
 
@@ -53,7 +53,7 @@ def press(editor, step):
 
 
 def follow(editor, letter, *came):
-    """Does the steps of a section; after each comes what must."""
+    """Does the steps of a section and checks the result of each."""
     todo = steps(letter)
     assert len(todo) == len(came), '%s has %d steps, not %d' % (letter, len(todo), len(came))
     for step, comes in zip(todo, came):
@@ -66,13 +66,13 @@ def element(editor, *parts):
 
 
 def drawn(editor):
-    """What comes of each step of B."""
+    """The result of each step of B."""
     return (element(editor, 'Rung 1, NO', 'Start, %IX0.0'), element(editor, 'Rung 1, NC', 'Stop, %IX0.1'),
             element(editor, 'Rung 1, COIL', 'Motor, %QX0.0'), element(editor, 'Rung 1, NO', 'Motor, %QX0.0'))
 
 
 def begin(screen):
-    """An editor without a file, whose dialogs begin in an empty folder."""
+    """An editor without a file, whose dialogs start in an empty folder."""
     os.mkdir(os.path.join(screen.home, 'work'))
     os.chdir(os.path.join(screen.home, 'work'))
     editor = Editor(screen)
@@ -81,7 +81,7 @@ def begin(screen):
 
 
 def named(editor, name):
-    """A dialog of files with that name in its line, which has the keys."""
+    """A file dialog with that name in its line, which has the focus."""
     def look():
         node = editor.focused()
         return node and node.role == ROLES['text'] and node.text() == name
@@ -166,7 +166,7 @@ def newcomer(screen):
 
 
 def pictured(screen):
-    """what is drawn after each step is what the tutorial has a picture of"""
+    """the drawing after each step equals the tutorial's picture"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -181,7 +181,7 @@ def pictured(screen):
 
 
 def by_names(screen):
-    """F5, F6 and F7 ask for names alone; Ctrl+Z takes back, Ctrl+Shift+Z does it again"""
+    """F5, F6 and F7 ask for names alone; Ctrl+Z undoes, Ctrl+Shift+Z redoes"""
     for key in 'F5', 'F6', 'F7', 'Ctrl+Z', 'Ctrl+Shift+Z':
         assert '`%s`' % key in TUTORIAL
     path = new_file(screen)

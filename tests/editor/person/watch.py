@@ -26,7 +26,7 @@ END_PROGRAM
 
 
 def chart(editor):
-    """Shows the tab, and adds names to the chart."""
+    """Shows the tab and adds names to the chart."""
     editor.to_sheet()
     editor.keys('ctrl+alt+w')
     editor.find('Add variables', 'push button')
@@ -42,12 +42,12 @@ def add(editor, names):
 
 
 def shows(editor, text):
-    """A value cell."""
+    """The text of a value cell."""
     return until(lambda: [node for node in editor.all(role='label') if node.name == text], 'the value ' + text)
 
 
 def values(screen):
-    """names typed, values live, new values written at once, the file has the chart"""
+    """names are typed, values are live, new values are written at once, the file has the chart"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     chart(editor)
@@ -81,7 +81,7 @@ def values(screen):
 
 
 def dragged(screen):
-    """elements of the sheet are dragged onto both charts: their variables are in them, and in the file"""
+    """elements of the sheet are dragged onto both charts: their variables are in them and in the file"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     chart(editor)
@@ -104,7 +104,7 @@ def dragged(screen):
 
 
 def forces(screen):
-    """F holds a value against the program, and lets go of it; a row moves and goes"""
+    """F forces a value against the program and releases it; a row is moved and removed"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     chart(editor)
@@ -142,7 +142,7 @@ def chinese(screen):
 
 chinese.size = '1024x700x24'
 def last_letter(screen):
-    """closed right behind the last letter of a comment: it is in the file; a new value that was not written is none"""
+    """close right behind the last letter of a comment: it is in the file; a new value that was not written is dropped"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     chart(editor)

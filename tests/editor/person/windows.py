@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""windows - rungs go from window to window, and from any text editor, as text."""
+"""windows - rungs are copied between windows, and to and from text editors, as text."""
 import os
 import subprocess
 import sys
@@ -56,7 +56,7 @@ END_PROGRAM
 '''
 
 
-PANEL = 230  # px, of the tree
+PANEL = 230  # px; width of the tree
 SHEETS = ('Main', 'Other', 'Second', 'Symbols')
 
 
@@ -87,7 +87,7 @@ def other_window(screen):
 
 
 def declared(screen):
-    """a rung brings the declarations of what it uses to a project that does not know them; one undo takes back both"""
+    """a pasted rung declares its variables in the project that lacks them; one undo removes both"""
     path = new_file(screen, OTHER, 'second.rung')
     one = Editor(screen, new_file(screen, USES, 'first.rung'))
     one.to_sheet()
@@ -111,7 +111,7 @@ def declared(screen):
     two.keys('ctrl+y')
     until(lambda: len(two.cells()) == 5, 'the elements again')
     assert two.save(path) == text
-    # All is known now: a rung more, and nothing else, though it is copied here.
+    # All are declared now: only a rung is added, though the clipboard has the declarations.
     two.keys('ctrl+End', 'ctrl+a', 'ctrl+c', 'ctrl+v')
     until(lambda: len(two.cells()) == 8, 'the elements twice')
     again = two.save(path)
@@ -160,7 +160,7 @@ END_PROGRAM
 
 
 def charts(screen):
-    """so does a chart; what has a type that nobody knows here stays unknown; one undo"""
+    """the same for a chart; a variable of an unknown type stays undeclared; one undo"""
     path = new_file(screen, EMPTY, 'second.rung')
     one = Editor(screen, new_file(screen, CHART, 'first.rung'))
     one.find('Step Idle, initial', 'table cell')
@@ -182,7 +182,7 @@ def charts(screen):
 
 
 def from_text(screen):
-    """a rung typed in any text editor is pasted"""
+    """a rung typed in a text editor is pasted"""
     path = new_file(screen, TARGET)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -214,7 +214,7 @@ def from_text(screen):
 
 
 def put_bytes(data):
-    """On the clipboard, from another program, which says that it is text; waits until it is there."""
+    """Sets the clipboard to bytes declared as text; waits until they are there."""
     kind = ['-selection', 'clipboard', '-t', 'text/plain;charset=utf-8']
     subprocess.run(['xclip', *kind], input=data, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
@@ -244,7 +244,7 @@ def hostile(screen):
 
 
 def many(screen):
-    """thousands of rungs are pasted, all of them; more than a program holds are none, and that is told"""
+    """thousands of rungs are pasted; more than a program can hold are refused with a message"""
     path = new_file(screen, TARGET)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -262,7 +262,7 @@ def many(screen):
 
 
 def a_tab(screen):
-    """a tab stays in the window of its project: another takes none, and let go anywhere it comes back to its place"""
+    """a tab stays in the window of its project: no other window takes it; released anywhere it returns to its place"""
     more = SOURCE + '\nPROGRAM Second LD\nRUNG\n  | NO Stop | COIL %QX0.1 |\nEND_PROGRAM\n'
     paths = new_file(screen, more, 'one.rung'), new_file(screen, more.replace('Main', 'Other'), 'two.rung')
     editor = Editor(screen, *paths)
@@ -271,7 +271,7 @@ def a_tab(screen):
         sh('xdotool', 'windowsize', '--sync', window, '1024', '700', 'windowmove', '--sync', window, str(x), str(y))
 
     def tabs(name):
-        """Of the window with that program, from left to right: right of the tree, and of a tooltip's corner."""
+        """The tabs of that program's window, from left to right: right of the tree, and of a tooltip's corner."""
         for frame in editor.all(role='frame'):
             named = [(node.box()[0], node) for node in editor.all(role='label', below=frame.path) if node.name in SHEETS]
             if name in [node.name for _, node in named]:
@@ -288,7 +288,7 @@ def a_tab(screen):
     x, y = editor.centre(tabs('Main')[1])
 
     def let_go(below):
-        """Dragged straight down. Again: GTK 4.8 loses some presses after something was dragged away."""
+        """Drags straight down. Tries again: GTK 4.8 loses some presses after a tab was dragged away."""
         def done():
             way = [step for by in range(0, below + 1, below // 10) for step in
                    ('mousemove', str(x), str(y + by), *(() if by else ('mousedown', '1')), 'sleep', '0.03')]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""words - what is typed: a list with completion and undo, a word that goes in parallel, what the editor tells."""
+"""words - typing: a list with completion and undo, a word that goes in parallel, messages."""
 import os
 import sys
 
@@ -38,7 +38,7 @@ def file_with(screen, text):
 
 
 def a_list(screen):
-    """a list: what is typed goes into the file, a word is completed, Ctrl+Z takes it back"""
+    """a list: typed text goes into the file, a word is completed, Ctrl+Z undoes it"""
     path = file_with(screen, LIST)
     editor = Editor(screen, path)
     editor.click(until(lambda: editor.all('Text of the program', 'text'), 'the list')[0])
@@ -62,7 +62,7 @@ def a_list(screen):
 
 
 def wrong_lines(screen):
-    """a line of a list that is none: the problem has its line, Ctrl+. goes there; so it is behind END_PROGRAM"""
+    """a wrong line of a list: the problem has its line, Ctrl+. goes there; also behind END_PROGRAM"""
     path = file_with(screen, LIST)
     editor = Editor(screen, path)
     editor.click(until(lambda: editor.all('Text of the program', 'text'), 'the list')[0])
@@ -88,7 +88,7 @@ MANY = 'RUNGBOARD 1\n\nPROGRAM Main LD\n%sEND_PROGRAM\n' % ''.join(
 
 
 def next_problem(screen):
-    """Ctrl+. tells the problem that it goes to; its row is seen and chosen"""
+    """Ctrl+. says the problem that it goes to; its row is visible and selected"""
     editor = Editor(screen, new_file(screen, MANY))
     editor.to_sheet()
     editor.find('Error: "Lost7" is not declared. Main, rung 8', 'table row')
@@ -132,7 +132,7 @@ END_PROGRAM
 
 
 def next_place(screen):
-    """a problem of a subroutine or a program opens it, one of a symbol its row of the table: Ctrl+., a double click"""
+    """a problem in a subroutine or a program opens it, one of a symbol its row of the table: Ctrl+., a double click"""
     editor = Editor(screen, new_file(screen, UNUSED))
     editor.to_sheet()
     rows = ['"Tab" is declared but not used. Symbols', '"Own" is declared but not used. Main, symbols',
@@ -157,7 +157,7 @@ def next_place(screen):
 
 
 def in_parallel(screen):
-    """OR X goes below what the cursor is on; the status bar says what comes next"""
+    """OR X is placed below the element at the cursor; the status bar says the next keys"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.entry('Start')
@@ -172,7 +172,7 @@ def in_parallel(screen):
 
 
 def pointed_at(screen):
-    """an element under the pointer tells its name, address, type and comment; a wrong one, why"""
+    """the tooltip of an element has name, address, type and comment; of a wrong one, why"""
     path = file_with(screen, LIST.replace('Main IL', 'Main LD').replace(
         '  LD    Start\n  ST    Motor\n', 'RUNG\n  | NO Start | NO Nobody | COIL Motor |\n'))
     editor = Editor(screen, path)
@@ -187,7 +187,7 @@ def pointed_at(screen):
 
 
 def other_keys(screen):
-    """keys of another editor, chosen in the preferences, hold at once"""
+    """a key scheme of another editor takes effect at once"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.keys('ctrl+comma')
@@ -198,7 +198,7 @@ def other_keys(screen):
     editor.keys('Return')
     editor.choose('LDmicro')
     editor.shot('preferences')
-    # The first Escape may be the list's, if that is still on its way out.
+    # The first Escape may close the list, if that has not closed yet.
     until(lambda: editor.keys('Escape') or not editor.all('Key scheme'), 'the preferences to be gone')
     editor.to_sheet()
     editor.keys('c')
@@ -215,7 +215,7 @@ def other_keys(screen):
 
 
 def window_keys(screen):
-    """a key of the window takes the line that is open and does what it does; a wrong line stays"""
+    """a key of the window takes the text of the entry, then acts; a wrong text stays"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -237,7 +237,7 @@ def window_keys(screen):
     editor.shot('window-keys')
     assert editor.asked() and 'COIL' not in open(path).read()
     editor.type(' Motor')
-    editor.keys('ctrl+shift+z', 'ctrl+z')  # the line's own; nothing of the sheet
+    editor.keys('ctrl+shift+z', 'ctrl+z')  # a key of the entry does nothing on the sheet
     editor.keys('ctrl+a')
     editor.type('OUT Motor')
     assert '| NO Start | COIL Motor |' in editor.save(path)
@@ -247,7 +247,7 @@ def window_keys(screen):
 
 
 def again(screen):
-    """a line that opens again remembers nothing of the one before: no text, no candidate, no undo"""
+    """an entry that opens again has no text, candidate or undo of the last one"""
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -268,7 +268,7 @@ def again(screen):
 
 
 def comments(screen):
-    """a comment of two lines becomes one; what a file could not hold is told at the line, and stays there"""
+    """a comment of two lines becomes one; a text that no file can hold is refused at the entry, which stays open"""
     path = file_with(screen, LIST.replace('Main IL', 'Main LD').replace(
         '  LD    Start\n  ST    Motor\n', '// what was\n// said before\nRUNG\n  | NO Start | COIL Motor |\n'))
     before = open(path).read()
@@ -304,7 +304,7 @@ def comments(screen):
 
 
 def as_it_is(screen):
-    """Return and Return again, or a double click and Return, on names that nothing has: they are declared"""
+    """Return twice, or a double click and Return, on undeclared names declares them"""
     path = file_with(screen, UNKNOWN)
     editor = Editor(screen, path)
     editor.to_sheet()
@@ -331,7 +331,7 @@ def as_it_is(screen):
 
 
 def to_rung(screen):
-    """Ctrl+G goes to a rung there is; to another it cannot be sent"""
+    """Ctrl+G goes to a rung; a number without a rung is refused"""
     path = file_with(screen, LIST.replace('Main IL', 'Main LD').replace(
         '  LD    Start\n  ST    Motor\n', 'RUNG\n  | NO Start | COIL Motor |\nRUNG\n  | NC Start | COIL Lamp |\n'))
     editor = Editor(screen, path)
