@@ -21,7 +21,7 @@ struct calls {
 	uint8_t *state;   /* by POU                                          */
 	uint8_t *called;  /* by POU                                          */
 	int *deep;        /* by POU: calls inside one another from it on     */
-	int *stack, *at;  /* POUs in work; the line to look at next          */
+	int *stack, *at;  /* stack of POUs; next line of each                */
 	int depth;
 	bool good;
 };
@@ -87,7 +87,8 @@ static void begin(struct calls *c, int pou)
 	c->at[c->depth++] = 0;
 }
 
-/* One line further in the POU on top; a call that was not looked at goes on top. */
+/* Takes one line of the POU on top of the stack; pushes the POU that it calls, unless that was
+ * visited. */
 static void step(struct calls *c)
 {
 	int top = c->stack[c->depth - 1];
@@ -123,7 +124,7 @@ static void step(struct calls *c)
 	}
 }
 
-/* A subroutine that is not called never runs. */
+/* Warns of a SUBROUTINE that nothing calls. */
 static void warn_of_uncalled(struct calls *c, int count)
 {
 	for (int i = 0; i < count; i++) {

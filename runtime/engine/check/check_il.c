@@ -62,7 +62,7 @@ static bool il_report(struct il_check *c, const struct il_line *line,
 	return diag_add(c->diags, il_place(c->scope, c->pou, line, id), "%s", arg);
 }
 
-/* Is it what translation made, no name of anybody's? */
+/* Was @name made by translation? */
 static bool is_made(const struct il_check *c, const char *operand)
 {
 	return c->pou->language == LANGUAGE_LD && operand[0] == '_' &&
@@ -92,7 +92,7 @@ static bool il_report_types(struct il_check *c, const struct il_line *line,
 
 	while (call->kind == IL_ARG_IN && call > c->il->line)
 		call--;
-	if (call != line && call->mark & IL_NAMED) { /* its operand may be no name */
+	if (call != line && call->mark & IL_NAMED) { /* the operand need not be a name */
 		snprintf(text, sizeof(text), "%.20s.%.16s" DIAG_AND "%s" DIAG_AND "%s",
 			 scope_row(c->scope, (enum word)call->word)->word,
 			 scope_text(c->scope, line->pin), iec_type_row(from)->word,
@@ -111,7 +111,7 @@ static const char *il_operand_text(struct il_check *c, const struct il_line *lin
 	return scope_text(c->scope, line->operand);
 }
 
-/* The same with the words of @kinds that may have been meant. */
+/* The same, with likely words of @kinds in the message. */
 static bool il_report_near(struct il_check *c, const struct il_line *line, enum diag_id id,
 			   unsigned int kinds)
 {
@@ -203,8 +203,8 @@ static void il_print_constant(const struct literal *literal, char out[NUMBER_TEX
 		snprintf(out, NUMBER_TEXT, "%lld", (long long)literal->value.i);
 }
 
-/* An untyped constant that is no value of @to: out of its range, or of another
- * kind; then with an example of the right one. */
+/* The diagnostic for an untyped constant that is no value of @to: out of range, or of another
+ * kind; then with an example of the right kind. */
 static bool il_report_constant(struct il_check *c, const struct il_line *line,
 			    const struct literal *literal, enum iec_type to)
 {
@@ -236,7 +236,7 @@ static bool il_report_constant(struct il_check *c, const struct il_line *line,
 	return il_report(c, line, DIAG_CONSTANT_KIND, text);
 }
 
-/* After an error was told: a result that fits everywhere. */
+/* After an error: a result that fits every use, so that no second error follows. */
 static bool il_is_unknown(struct result result)
 {
 	return result.there && result.type == IEC_NONE && !result.literal;
@@ -344,7 +344,7 @@ static bool check_load(struct il_check *c, int at)
 		return true;
 	}
 	m = as_value(c, line, m);
-	/* After an error: a result that complains no more. */
+	/* After an error: no result, and no second error. */
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (!m)
 		return false;
@@ -368,7 +368,6 @@ static bool check_store(struct il_check *c, const struct il_line *line)
 	return can_store(c, line, c->now, m->type);
 }
 
-/* For check_own.c. */
 static const struct meaning *il_find(struct il_check *c, const struct il_line *line)
 {
 	return find(c, line);
@@ -395,7 +394,8 @@ static bool is_arg(const struct il_check *c, int at)
 				     c->il->line[at].kind == IL_ARG_OUT);
 }
 
-/* The operands behind the first input: `MAX Low, High`. -1 after a diagnostic. */
+/* Counts the operands after the first input: 2 in `MAX Low, High, 5`. -1 after a
+ * diagnostic. */
 static int read_inputs(struct il_check *c, int at, struct result *in)
 {
 	int count = 1;
@@ -415,7 +415,7 @@ static int read_inputs(struct il_check *c, int at, struct result *in)
 	return count;
 }
 
-/* The line with the word that it is on inputs of these types. */
+/* The overload of the line's word for inputs of these types. */
 static struct il_line overloaded(const struct il_line *line, const struct result *in,
 				 int count)
 {
@@ -442,7 +442,7 @@ static bool report_pin(struct il_check *c, const struct il_line *line,
 	return il_report(c, line, DIAG_TYPE_NOT_TAKEN, text);
 }
 
-/* An input with a type of its own. */
+/* An input whose pin has a type of its own. */
 static bool check_own(struct il_check *c, const struct il_line *line,
 		      const struct word_pin *pin, const struct result *in)
 {
@@ -515,7 +515,7 @@ static bool report_literal(struct il_check *c, const struct il_line *line, int i
 	return il_report(c, line, DIAG_LITERAL_RANGE, text);
 }
 
-/* The type that inputs share, and whether the function takes it. */
+/* Finds the type that the inputs share, and whether the function takes it. */
 static bool check_shared(struct il_check *c, const struct il_line *line,
 			 const struct result *in, int count,
 			 const struct word_pin *pin, enum iec_type type)
@@ -594,7 +594,7 @@ static bool il_open_paren(struct il_check *c, const struct il_line *line, bool g
 	c->now.there = false;
 	if (!line->operand)
 		return good;
-	m = il_value_of(c, line); /* AND( Level, then GT 10 */
+	m = il_value_of(c, line); /* AND( Level, followed by GT 10 */
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (m)
 		c->now = il_result_of(m);
@@ -653,7 +653,7 @@ static enum iec_type out_type(struct il_check *c, int at)
 	return IEC_NONE;
 }
 
-/* ADD(EN := …, IN1 := …, ENO => …, OUT => …): the lines behind @at. */
+/* ADD(EN := …, IN1 := …, ENO => …, OUT => …): checks the lines after @at. */
 static bool check_call(struct il_check *c, int at, enum iec_type *common)
 {
 	const struct il_line *line = &c->il->line[at];
@@ -728,7 +728,7 @@ static bool is_label(struct il_check *c, uint32_t name)
 	return fold && fold < c->label_count && c->label[fold];
 }
 
-/* With C the result must be there, without it nothing goes on. */
+/* CALC and CALCN need a result; CAL alone ends it. */
 static bool il_check_flow(struct il_check *c, const struct il_line *line)
 {
 	bool good = true;
@@ -773,7 +773,7 @@ static const char *operand_text(struct il_check *c, const struct il_line *line)
 	return scope_text(c->scope, line->operand);
 }
 
-/* Is it of a type without parts, or else told what is wrong with it? */
+/* Adds a diagnostic when the operand is a structure or array. */
 static bool is_plain(struct il_check *c, const struct il_line *arg,
 		     const struct meaning *m)
 {
@@ -841,7 +841,7 @@ static bool check_in_out(struct il_check *c, const struct il_line *arg,
 			       iec_type_row(pin->type)->word);
 }
 
-/* @m: what stands at the pin, to be read or written. */
+/* @m: the operand at the pin. */
 static bool check_value(struct il_check *c, const struct il_line *arg,
 			const struct meaning *m, const struct word_pin *pin)
 {
@@ -942,7 +942,7 @@ static bool combine(struct il_check *c, const struct il_line *line, enum op op,
 		bool good = il_need_bool(c, line, left, "");
 
 		good = il_need_bool(c, line, right, what) && good;
-		if (!good) /* goes with everything */
+		if (!good) /* the type after an error: no second error */
 			c->now.type = IEC_NONE;
 		return good;
 	}
@@ -982,7 +982,7 @@ static bool il_check_not(struct il_check *c, const struct il_line *line)
 	return good && il_need_bool(c, line, now, "");
 }
 
-/* As it would be declared. */
+/* The type as a declaration would spell it. */
 static struct word_pin pin_like(const struct meaning *m)
 {
 	struct word_pin pin = { .type = m->type };
@@ -998,25 +998,24 @@ static struct word_pin pin_like(const struct meaning *m)
 	return pin;
 }
 
-/* Is @m of the same type as @like? Both are wholes that a program may
- * copy, or it is told. */
+/* Adds a diagnostic unless @m and @like are of the same type and may be copied whole. */
 static bool il_check_same(struct il_check *c, const struct il_line *arg,
 			  const struct meaning *m, const struct meaning *like)
 {
 	const struct word_pin pin = pin_like(like);
 
-	if (like->addr.area != AREA_NONE) /* what may be copied has no AT */
+	if (like->addr.area != AREA_NONE) /* a variable with AT cannot be copied whole */
 		return il_check_shape(c, arg, like, &pin);
 	return il_check_shape(c, arg, m, &pin);
 }
 
-/* ST of one. */
+/* ST of a structure or array. */
 static bool il_check_store_whole(struct il_check *c, int at)
 {
 	const struct il_line *line = &c->il->line[at];
 	const struct meaning *from = c->now.whole, *to = il_find(c, line);
 
-	if (!is_store(c, next_line(c, at))) /* nothing else takes it */
+	if (!is_store(c, next_line(c, at))) /* no other instruction takes a whole */
 		c->now = (struct result){ .there = false };
 	return to && il_check_same(c, line, to, from) && il_can_write(c, line, to);
 }
@@ -1058,7 +1057,7 @@ static bool check_op(struct il_check *c, int at)
 	return false;
 }
 
-/* The function before a parenthesis, on what stands left of it and inside. */
+/* Checks the function before a parenthesis with the value left of it and the value inside. */
 static bool close_function(struct il_check *c, int at, struct result left,
 			   struct result right, enum iec_type *common)
 {
@@ -1138,7 +1137,7 @@ static bool check_result(struct il_check *c, const struct il_line *arg,
 	return check_value(c, arg, m, &pin);
 }
 
-/* Every input that has no value of its own must be given. */
+/* Adds a diagnostic for an input that is neither given nor has a default. */
 static bool check_inputs(struct il_check *c, int at, const struct word_row *row)
 {
 	for (int i = 0; i < row->pin_count; i++)
@@ -1149,7 +1148,7 @@ static bool check_inputs(struct il_check *c, int at, const struct word_row *row)
 	return il_check_in_outs(c, at, row);
 }
 
-/* One with formal parameters. */
+/* A function with formal parameters. */
 static bool il_check_own_call(struct il_check *c, int at)
 {
 	const struct il_line *line = &c->il->line[at];
@@ -1172,7 +1171,7 @@ static bool il_check_own_call(struct il_check *c, int at)
 	return good;
 }
 
-/* The next input behind pin @index; -1: none. */
+/* The next input after pin @index; -1: none. */
 static int next_input(const struct word_row *row, int index)
 {
 	while (++index < row->pin_count)

@@ -2,9 +2,8 @@
  *
  * check_names - declarations, labels, and whether what is declared is used.
  *
- * Every table is asked by folded name or index, so that the cost is linear in
- * the project. What stands in the cells is looked at by check_operand; types
- * over the instruction list are check_il's.
+ * Lookups use folded names or indices, so that the cost is linear in the project.
+ * check_operand looks at cells, check_il at types.
  */
 #include "engine/base/ascii.h"
 #include "engine/check/check.h"
@@ -34,11 +33,11 @@ struct names_check {
 	struct uses uses;
 	struct expr *expr;
 	struct init_walk *walk;
-	struct mark *mark; /* by folded name, for those there were at first */
+	struct mark *mark; /* by folded name, for the names that exist at the start */
 	uint32_t marks;
 	int *end;          /* numbers of rungs that never fall through */
 	int ends;
-	int body;          /* in work: one of each POU, of a chart many; from 1 */
+	int body;          /* number of the current body, from 1; a chart has many bodies */
 	uint64_t located;  /* elements with an address                        */
 	bool good;
 };
@@ -93,8 +92,7 @@ static uint32_t fold_text(struct names_check *c, const char *text)
 	return names_fold(names, names_intern(names, text, strlen(text)));
 }
 
-/* All names that will be asked for get their folded id, then the table is
- * made. */
+/* Folds every name that is looked up later, then makes the table. */
 static bool make_marks(struct names_check *c)
 {
 	struct names *names = &c->project->names;
@@ -141,13 +139,13 @@ static bool fits(const struct var *var)
 	return var->at.bits == (var->type == IEC_BOOL ? 1 : bits);
 }
 
-/* What the result of a function is called at a box. */
+/* Names that a box uses for its own parameters. */
 static bool is_result(const char *name)
 {
 	return ascii_is("OUT", name, strlen(name));
 }
 
-/* Its elements too. All of them are looked at one by one later: not without end. */
+/* Counts elements too; bounded, because each is looked at later. */
 static bool is_inside(struct names_check *c, const struct var *var)
 {
 	const struct areas *areas = scope_areas(c->scope);
@@ -171,7 +169,7 @@ static void report_twice(struct names_check *c, const struct pou *pou,
 			    "%.40s" DIAG_AND "%d", text_of(c, var->name), first);
 }
 
-#define WHAT_MOST 30 /* bytes of what is wrong, so that its place is told, too */
+#define WHAT_MOST 30 /* bytes of the faulty value, so that its column is known */
 
 static bool report(const struct project *project, const struct var *var,
 		   const struct init_walk *walk, struct diag_list *diags,
@@ -202,7 +200,7 @@ static bool check_init(const struct project *project, const struct var *var,
 	if (!*walk)
 		*walk = arena_alloc(scratch, sizeof(**walk));
 	if (!*walk)
-		return false; /* the caller tells that memory is out */
+		return false; /* the caller reports that memory is out */
 	init_begin(*walk, project, var, scratch);
 	while (init_next(*walk, &value))
 		continue;
@@ -225,7 +223,7 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_line(c, DIAG_DUPLICATE_NAME, pou, var->line, name);
 	if (vars_is_eno(table, index))
 		return;
-	/* What `ladder il` prints declares its temporaries. */
+	/* The printed list of `ladder il` declares its temporaries. */
 	if (is_reserved(c, name, var->fold) ||
 	    (reserved_generated(name) && !(pou && pou->language == LANGUAGE_IL)) ||
 	    (pou && pou->kind == POU_FUNCTION && is_result(name)))
@@ -427,7 +425,7 @@ static void mark_bad(uint8_t *bad, int rung_number, bool good)
 		bad[rung_number - 1] = 1;
 }
 
-/* Rungs that stand together: of @pou number @first, 0-based, and those behind it. */
+/* Rungs that stand together: @first is the number, 0-based, of the first in @pou. */
 static void check_ladder(struct names_check *c, const struct pou *pou, int first,
 			 int count, bool condition, uint8_t *bad)
 {
@@ -477,7 +475,6 @@ static void check_whole_sfc(struct names_check *c, const struct pou *pou, uint8_
 		bad[pou->rung_count] = 1;
 }
 
-/* ---- uses ---- */
 
 static unsigned int use_of_operand(enum operand_kind operand)
 {
@@ -525,7 +522,7 @@ static unsigned int use_of_line(const struct il_line *line)
 	return 0;
 }
 
-/* Only notes the uses; check_il says what is wrong with them. */
+/* Only notes the uses; check_il reports errors. */
 static void note_il(struct names_check *c, const struct pou *pou)
 {
 	for (int i = 0; i < pou->il.count; i++) {
@@ -545,9 +542,8 @@ static void note_il(struct names_check *c, const struct pou *pou)
 	}
 }
 
-/* What a declared variable lacks; DIAG_COUNT: nothing. What stands at an
- * address may be read from outside; an instance counts as written by its
- * call. */
+/* The warning for a declared variable; DIAG_COUNT: none. A variable with an address may be
+ * read from outside; an instance counts as written by its call. */
 static enum diag_id judge_use(const struct var *var, unsigned int use,
 			      uint16_t flags)
 {

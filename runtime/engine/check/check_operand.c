@@ -2,7 +2,7 @@
  *
  * check_operand - every name in a cell: known, of the right kind, writable.
  *
- * What it finds good it notes in uses. It judges no labels and no topology.
+ * It notes good operands in uses. It does not judge labels or topology.
  */
 #include "engine/check/check_operand.h"
 
@@ -34,7 +34,7 @@ static bool operand_report(struct operand_check *c, enum diag_id id, struct oper
 	return good;
 }
 
-/* @kinds: of the words that may have been meant. */
+/* @kinds: kinds of words to suggest in the message. */
 static void report_unknown(struct operand_check *c, struct operand_spot at, uint32_t id,
 			   enum diag_id why, unsigned int kinds)
 {
@@ -70,7 +70,7 @@ static uint32_t operand_intern(struct operand_check *c, const char *text, size_t
 	return names_intern(&c->project->names, text, len);
 }
 
-/* What is named wrongly is at least not unused: one mistake, one message. */
+/* Marks a wrong name as used, so that no second message says "never used". */
 static const struct meaning *operand_refuse(struct operand_check *c, enum diag_id id,
 				    struct operand_spot at, uint32_t name,
 				    const struct meaning *m)
@@ -80,8 +80,8 @@ static const struct meaning *operand_refuse(struct operand_check *c, enum diag_i
 	return NULL;
 }
 
-/* A whole array goes to a parameter of the project's own words, or to another; check_il
- * looks at its bounds. */
+/* May a whole array stand here? As a parameter of a POU of the project, or copied to another
+ * array; check_il compares the bounds. */
 static bool operand_is_array(struct operand_check *c, uint32_t id)
 {
 	enum diag_id why;
@@ -90,7 +90,7 @@ static bool operand_is_array(struct operand_check *c, uint32_t id)
 	return m && m->kind == MEANING_ARRAY;
 }
 
-/* A name whose value is asked for. NULL after a diagnostic. */
+/* A name that is read. NULL after a diagnostic. */
 static const struct meaning *operand_read(struct operand_check *c, struct operand_spot at,
 				       uint32_t id)
 {
@@ -116,8 +116,7 @@ static enum diag_id write_fault(const struct meaning *m)
 	return m->kind == MEANING_PIN ? DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT;
 }
 
-/* @always: written at every evaluation, as a coil does; two such places
- * fight. */
+/* @always: written at every evaluation, as a coil does; two such places are reported. */
 static const struct meaning *operand_write(struct operand_check *c, struct operand_spot at,
 					uint32_t id, bool always)
 {
@@ -129,7 +128,7 @@ static const struct meaning *operand_write(struct operand_check *c, struct opera
 	fault = write_fault(m);
 	if (fault != DIAG_COUNT)
 		return operand_refuse(c, fault, at, id, m);
-	/* What stands in a chart is not done in every scan: it does not fight. */
+	/* Writes in a chart do not happen in every scan, so two of them are no conflict. */
 	always &= c->pou->language != LANGUAGE_SFC;
 	if (uses_add(c->uses, m, always ? USE_WRITTEN | USE_COIL : USE_WRITTEN))
 		operand_report(c, DIAG_COIL_TWICE, at, project_text(c->project, id));
@@ -155,7 +154,7 @@ static void operand_write_array(struct operand_check *c, struct operand_spot at,
 		uses_add(c->uses, m, USE_WRITTEN);
 }
 
-/* FOR I := 1 TO 10 BY 2: one way, which a constant tells. */
+/* FOR I := 1 TO 10 BY 2: the sign of a constant BY gives the direction. */
 static void check_loop(struct operand_check *c, struct operand_spot at, uint32_t id)
 {
 	const struct names *names = &c->project->names;
@@ -185,8 +184,8 @@ static bool is_numbered(const struct word_row *row, const struct arg *arg)
 	       ascii_same(arg->pin, "IN", 2) && ascii_digit(arg->pin[2]);
 }
 
-/* What is wrong with the pin of a parameter; DIAG_COUNT: nothing. Functions
- * have EN, ENO and OUT beside the inputs of their row. */
+/* The error of a parameter's pin; DIAG_COUNT: none. Functions have EN, ENO and OUT beside the
+ * inputs of their row. */
 static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
 {
 	int index = word_pin_find(row, arg->pin, arg->pin_len);
@@ -211,7 +210,7 @@ static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
 	return output == arg->output ? DIAG_COUNT : DIAG_PIN_DIRECTION;
 }
 
-/* A parameter that the box changes, too. */
+/* A parameter for VAR_IN_OUT. */
 static bool is_in_out(const struct word_row *row, const struct arg *arg)
 {
 	int index = word_pin_find(row, arg->pin, arg->pin_len);
@@ -320,7 +319,7 @@ static bool has_pin_row(const struct operand_check *c, struct operand_spot at,
 	return false;
 }
 
-/* What is the project's own needs its inputs that have no value. */
+/* POUs of the project: every input without a default must be given. */
 static void check_own_inputs(struct operand_check *c, struct operand_spot at,
 			     const struct cell *cell, const struct word_row *row)
 {
@@ -341,7 +340,7 @@ static void check_own_inputs(struct operand_check *c, struct operand_spot at,
 	}
 }
 
-/* A function needs all its named inputs, and of the others no gap. */
+/* Functions of the catalogue: every named input, and no gap among the numbered ones. */
 static void check_inputs(struct operand_check *c, struct operand_spot at,
 			 const struct cell *cell)
 {
@@ -394,9 +393,9 @@ static void check_routine(struct operand_check *c, struct operand_spot at, uint3
 		operand_report(c, DIAG_NOT_SUBROUTINE, at, project_text(c->project, name));
 }
 
-/* An index that is an expression: of the array @id, or an address, which then is one;
- * @tail: the path behind it. The type of the index is check_il's. Returns the text of the
- * first element behind it; 0 after a diagnostic. */
+/* Checks an index that is an expression, of the array @id or of an address; @tail is the path
+ * after it. check_il checks the type of the index. Returns the text of the first element after
+ * it; 0 after a diagnostic. */
 static uint32_t use_index(struct operand_check *c, struct operand_spot at, uint32_t id,
 			  struct expr_tail tail)
 {
@@ -412,7 +411,7 @@ static uint32_t use_index(struct operand_check *c, struct operand_spot at, uint3
 	return id;
 }
 
-/* The same of a whole path; @end is its last index. */
+/* The same for a whole path; @end is its last index. */
 static uint32_t use_indices(struct operand_check *c, struct operand_spot at,
 			    const struct expr *expr, int end)
 {
@@ -438,8 +437,7 @@ static uint32_t use_indices(struct operand_check *c, struct operand_spot at,
 	return id;
 }
 
-/* What such a path leads to, as it is of the first elements. @whole: it may be an
- * array. */
+/* The meaning of such a path for the first elements. @whole: an array is allowed. */
 static void use_element(struct operand_check *c, struct operand_spot at, uint32_t id,
 			bool write, bool whole)
 {
@@ -505,7 +503,7 @@ static void report_call(struct operand_check *c, struct operand_spot at, enum di
 	operand_report(c, why, at, text);
 }
 
-/* An argument of a function of the project's own that it takes as it is. */
+/* An argument for a VAR_IN_OUT, or a structure or array, of a function of the project. */
 static void note_place(struct operand_check *c, struct operand_spot at,
 		       struct expr_node *value, const struct word_pin *pin)
 {

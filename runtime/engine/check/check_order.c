@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_order - parameters of CAL in the order of the inputs, without their names.
+ * check_order - gives each unnamed parameter of CAL its pin.
  *
- * A list is read before it is known what an instance is; here each parameter gets its
- * pin, so that all others meet calls with names only. It reports nothing.
+ * The reader does not know the block of an instance yet. After this every call has named
+ * parameters. It reports nothing.
  */
 #include "engine/check/check_il.h"
 
 #include <string.h>
 
-/* The row of the block that a line calls; NULL: it calls none. */
+/* The row of the block that a line calls; NULL: the line is no call. */
 static const struct word_row *row_of(struct scope *scope, const struct pou *pou,
 				     const struct il_line *line)
 {

@@ -46,7 +46,7 @@ static bool is_call(const struct il_line *line)
 	return line->kind == IL_OP && line->op == OP_CAL;
 }
 
-/* Parameters of calls, and whatever else is stored into a pin. */
+/* Notes parameters of calls, and stores into pins. */
 static void note_list(struct pins *pins, const struct il_pou *list)
 {
 	const struct meaning *instance = NULL;
@@ -89,7 +89,7 @@ static void warn(struct pins *pins, const struct pou *pou,
 		 scope_text(pins->scope, line->operand), pin);
 }
 
-/* Does the declaration of the instance give it? */
+/* Does the declaration give the pin a value? */
 static bool is_declared(const struct pins *pins, const struct meaning *m, const char *pin)
 {
 	const struct names *names = &scope_project(pins->scope)->names;

@@ -2,11 +2,11 @@
  *
  * check_rung - can power flow through this rung as it is drawn?
  *
- * It looks at the grid for loose ends and boxes, and at the network for
- * elements that are cut off, shorted or turned round. Names mean nothing here.
+ * It finds loose ends and misplaced boxes in the grid, and elements in the network that are
+ * cut off, shorted or reversed. It does not look names up.
  *
- * Only the place where a fault begins is reported: of a chain that hangs in the
- * air, its first element; of a chain that leads nowhere, its last.
+ * Only the place where a fault begins is reported: the first element of a chain without a
+ * feeder, the last of a chain without an output.
  */
 #include "engine/check/check.h"
 
@@ -18,7 +18,7 @@
 struct net_mark {
 	int last_bar;   /* rightmost bar at which an element feeds the net */
 	int feeder;     /* that element */
-	bool said;      /* a loose end of this net was told already */
+	bool said;      /* a loose end of this net was reported */
 	bool wired;     /* a wire belongs to it */
 };
 
@@ -31,7 +31,7 @@ struct rung_check {
 	struct arena *scratch;
 	struct diag_list *diags;
 	struct net_mark *net;
-	bool outputs;   /* without one, nothing is said of what leads nowhere */
+	bool outputs;   /* FALSE: the rung has no output, so no loose end is reported */
 	bool good;
 };
 
@@ -60,7 +60,7 @@ static void report(struct rung_check *c, enum diag_id id, int row, int col,
 	c->good &= diag_add(c->diags, place, "%s", arg);
 }
 
-/* Speaks of what stands in the cell: its operand, else its word. */
+/* A diagnostic that names the operand of a cell, else its word. */
 static void report_cell(struct rung_check *c, enum diag_id id, int row, int col)
 {
 	const struct cell *cell = cell_at(c, row, col);
@@ -149,8 +149,7 @@ static void check_wire(struct rung_check *c, int row, int col)
 	mark->said = true;
 }
 
-/* A `.` row whose box is not directly above it; told for the first of
- * several. */
+/* Reports a `.` row that is not directly below its box; only the first of several. */
 static void check_pin_row(struct rung_check *c, int row, int col)
 {
 	enum word above = word_at(c, row - 1, col);
@@ -182,7 +181,7 @@ static void check_grid(struct rung_check *c)
 
 /* ---- pins of a box ---- */
 
-/* What is wrong with pin @name having a row of its own; DIAG_COUNT: nothing. */
+/* The error of giving pin @name a row of its own; DIAG_COUNT: none. */
 static enum diag_id judge_pin(const struct word_row *row, const char *name,
 			      size_t len, int index)
 {

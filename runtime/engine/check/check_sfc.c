@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_sfc - steps and transitions of a chart: is it whole?
+ * check_sfc - is a chart complete: steps, transitions, actions?
  *
- * It counts ways in and out; which steps are active together is check_tokens'.
+ * It counts the ways into and out of each step. check_tokens finds which steps are active
+ * together.
  */
 #include "engine/check/check_sfc.h"
 
@@ -85,7 +86,7 @@ static void check_refs(struct sfc_check *c, const struct sfc_transition *t, int 
 	}
 }
 
-/* What a message calls a transition that may have no name. */
+/* The name of a transition for a message, also when it has none. */
 static void transition_text(const struct sfc_check *c, const struct sfc_transition *t,
 			    char *out, size_t size)
 {
@@ -118,7 +119,7 @@ static void check_transitions(struct sfc_check *c, int *in, int *out, int *seen)
 
 /* ---- steps ---- */
 
-/* The steps inside @macro, or of the chart itself, that are entered first. */
+/* Counts the steps inside @macro, or of the chart itself, that are entered first. */
 static int count_initial(const struct sfc *sfc, int macro, int *last)
 {
 	int count = 0;
@@ -132,7 +133,7 @@ static int count_initial(const struct sfc *sfc, int macro, int *last)
 	return count;
 }
 
-/* A step that nothing leaves is the end of a macro-step; one of them must be. */
+/* Requires that a macro-step has one end: a step without a transition out of it. */
 static void check_exits(struct sfc_check *c, int macro, const int *out)
 {
 	const struct sfc_step *at = &c->sfc->step[macro];
@@ -170,13 +171,13 @@ static void check_macro(struct sfc_check *c, int macro, const int *out)
 	check_exits(c, macro, out);
 }
 
-/* A step that nothing leaves may wait for what comes from outside. */
+/* Warns of a step that nothing leaves, unless something from outside can. */
 static bool can_be_reset(const struct sfc *sfc)
 {
 	return sfc->control[CONTROL_RESET] || sfc->control[CONTROL_FORCE];
 }
 
-/* A transition out of nothing, which only a chart IN ORDER can have. */
+/* A transition without a step before it, allowed only IN ORDER. */
 static bool has_source(const struct sfc *sfc)
 {
 	for (int i = 0; i < sfc->transition_count; i++)
@@ -318,7 +319,7 @@ static void sfc_check_bodies(struct sfc_check *c)
 
 /* ---- supervision ---- */
 
-/* A time that is the same for ever. */
+/* Is the time a constant? */
 static bool is_fixed(struct sfc_check *c, uint32_t text, int64_t *ns)
 {
 	enum diag_id why;

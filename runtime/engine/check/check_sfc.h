@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_sfc - is a chart whole?
+ * check_sfc - is a chart complete?
  *
- * What names in it mean is check_names'; rungs and lists of conditions and actions are
- * judged like those of other programs; what a chart can come to is found by
- * check_tokens.
+ * check_names checks the names in it, check_rung and check_il its rungs and lists,
+ * check_tokens the states it can reach.
  */
 #ifndef CHECK_CHECK_SFC_H
 #define CHECK_CHECK_SFC_H

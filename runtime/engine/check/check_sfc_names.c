@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_sfc_names - the names that a chart gives, and those that its lines use.
+ * check_sfc_names - the names that a chart declares, and those that its lines use.
  *
- * It looks at each operand for itself: what a time or qualifier means together with
- * others, and where transitions lead, is check_sfc's.
+ * It looks at each operand alone. check_sfc checks times, qualifiers and where transitions
+ * lead.
  */
 #include "engine/check/check_sfc_names.h"
 
@@ -59,7 +59,7 @@ static void add_name(struct sfc_names *c, uint32_t name, struct spot at, bool ow
 				    c->first[fold]);
 }
 
-/* What the program declares, not what the chart brings. */
+/* Names that the program declares, without those that the chart adds. */
 static void add_variables(struct sfc_names *c)
 {
 	const struct var_table *table = &c->pou->vars;
@@ -134,7 +134,7 @@ static const struct meaning *find(struct sfc_names *c, uint32_t id, struct spot 
 	return NULL;
 }
 
-/* What is wrong with something as a value; DIAG_COUNT: nothing. */
+/* The error of using a meaning as a value; DIAG_COUNT: none. */
 static enum diag_id value_fault(const struct meaning *m)
 {
 	if (m->kind == MEANING_STRUCT)
@@ -216,7 +216,7 @@ static void check_control(struct sfc_names *c)
 			   i == CONTROL_FORCE ? DIAG_WRONG_TYPE : DIAG_NOT_BOOL);
 }
 
-/* Lists outside conditions do not know TRANSITION. */
+/* Lists outside conditions cannot use TRANSITION. */
 static void check_lists(struct sfc_names *c)
 {
 	for (int i = 0; i < c->sfc->action_count; i++) {

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_sfc_names - what a chart names outside its rungs and lists.
+ * check_sfc_names - names in a chart outside its rungs and lists.
  *
- * A part of check_names. Steps behind FROM and TO, and how the chart is built, are
- * check_sfc's.
+ * A part of check_names. check_sfc checks FROM, TO and the structure of the chart.
  */
 #ifndef CHECK_CHECK_SFC_NAMES_H
 #define CHECK_CHECK_SFC_NAMES_H

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_tokens - says what was found out about the states of a chart.
+ * check_tokens - reports what tokens.c found about the states of a chart.
  *
- * Each message carries a shortest way that leads there. What only follows from
- * something that was told is not told.
+ * Each message holds a shortest way to the state. Consequences of a reported finding are
+ * not reported.
  */
 #include "engine/check/check_tokens.h"
 
@@ -110,7 +110,7 @@ static size_t put_steps(const struct teller *c, size_t used, const struct sfc_st
 	return used;
 }
 
-/* The end of it, from a state on, that has room; what was left out is "...". */
+/* The end of a way to a state, as much as there is room for, after "...". */
 static const char *cut(char *way, size_t used, size_t room)
 {
 	static const char dots[] = "...";
@@ -126,7 +126,7 @@ static const char *cut(char *way, size_t used, size_t room)
 	return at; /* one state alone is too long: its end */
 }
 
-/* How @state is come to, and @arc, if any, that fires there. */
+/* The way to @state, and @arc, if any, that fires there. */
 static const char *way_to(struct teller *c, const char *head, int state, int arc)
 {
 	const struct tokens *t = &c->tokens;
@@ -189,7 +189,7 @@ static void tell_find(struct teller *c, const struct token_find *find)
 	}
 }
 
-/* Where steps of different branches meet, or one leaves the others. */
+/* Reports steps of different branches that meet, and a branch that leaves the others. */
 static void tell_strange(struct teller *c)
 {
 	const struct tokens *tokens = &c->tokens;
@@ -229,7 +229,7 @@ static void tell_found(struct teller *c)
 
 /* ---- what is never reached ---- */
 
-/* A step, and what only follows from it. */
+/* Reports an unreachable step, without the steps that are unreachable only because of it. */
 static void skip_behind(const struct tokens *t, uint8_t *told, int *queue, int step)
 {
 	int count = 0;
@@ -286,7 +286,7 @@ static void tell_never(struct teller *c, uint8_t *told, int *queue)
 	}
 }
 
-/* Steps to which nothing leads, check_sfc has told. */
+/* check_sfc has reported steps to which nothing leads. */
 static void skip_orphans(const struct teller *c, uint8_t *told, int *queue)
 {
 	const struct tokens *t = &c->tokens;
@@ -322,8 +322,8 @@ static void tell_unreached(struct teller *c)
 	}
 }
 
-/* IN ORDER transitions may lead out of nothing, or into nothing: what is active then is
- * no matter of where tokens go. */
+/* IN ORDER transitions may have no step before or after them; the states do not show what is
+ * active then. */
 static bool is_open(const struct sfc *sfc)
 {
 	for (int i = 0; i < sfc->transition_count; i++)
@@ -348,7 +348,8 @@ void check_tokens(struct scope *scope, const struct pou *pou, struct arena *scra
 		if (scratch->failed || !tokens_walk(&c.tokens))
 			return;
 		tell_found(&c);
-		/* A chart with errors is not fully known, and each report must be true. */
+		/* A chart with errors is not fully known; a warning about it could be
+		 * wrong. */
 		if ((c.tokens.find_count || c.tokens.gave_up) &&
 		    !tokens_bound(&c.tokens))
 			return;

@@ -152,7 +152,7 @@ static const char *type_name(int index)
 	return index < rows + others ? other[index - rows] : NULL;
 }
 
-/* Is what stands there `INT_`, with more or less behind it? */
+/* Is the token `INT_`, with or without more letters? */
 static bool is_begun(const struct offer *o, const char *first)
 {
 	const char *begun = o->want->begun;
@@ -234,7 +234,7 @@ static void offer_var(const struct offer *o, const struct var *var, uint16_t fla
 	const char *name = project_text(o->project, var->name);
 	unsigned int kinds = o->want->kinds;
 
-	/* An instance or structure is on the way to its parts. */
+	/* An instance or structure is offered because a dot may follow. */
 	if (is_instance(o, var)) {
 		if (kinds & EXPECT_INSTANCE ?
 		    o->want->block == WORD_COUNT || o->want->block == var->fb :
@@ -245,7 +245,7 @@ static void offer_var(const struct offer *o, const struct var *var, uint16_t fla
 	}
 	if (!(kinds & EXPECT_VARIABLE) || (o->want->write && !may_write(var, flags)))
 		return;
-	/* Fill.X is read, TRANSITION is written. */
+	/* Fill.X can only be read, TRANSITION only be written. */
 	if (flags & VAR_SFC && o->want->write == (strchr(name, '.') != NULL))
 		return;
 	if (var->type == IEC_NONE || is_class(o, var->type))
@@ -435,7 +435,7 @@ const char *expect_kind_text(enum expect_kind kind)
 	return "";
 }
 
-/* A word that is put together while it is offered is gone when the nearest are printed. */
+/* A word made by rule lives only while it is offered; keep a copy. */
 static bool stays(const struct expect_word *word)
 {
 	if (word->kind == EXPECT_OPERATOR)
@@ -705,8 +705,8 @@ static struct expect_want expect_cell(const struct before *b)
 
 /* ---- the text before the cursor ---- */
 
-/* Bytes [*from, to) are what the cursor's instruction, cell or declaration has so
- * far; an instruction may have begun on an earlier line. */
+/* Bytes [*from, to) of the cursor's instruction, cell or declaration; an instruction may begin
+ * on an earlier line. */
 static size_t expect_line(const char *text, size_t at)
 {
 	while (at > 0 && text[at - 1] != '\n')
@@ -722,7 +722,7 @@ static size_t last_byte(const char *text, size_t from, size_t to)
 	return to;
 }
 
-/* Where what goes on in the line at @line begins. */
+/* Start of the statement that goes on in the line at @line. */
 static size_t expect_statement(const char *text, size_t line)
 {
 	for (int lines = 0; line > 0 && lines < 64; lines++) {
@@ -756,7 +756,7 @@ static const struct pou *pou_at(const struct project *project, const char *text,
 		if (!project->pou[i].included && project->pou[i].line < line &&
 		    (!found || project->pou[i].line > found->line))
 			found = &project->pou[i];
-	while (found && from > 0) { /* an END_… since then? */
+	while (found && from > 0) { /* no END_… since then */
 		size_t begin = expect_line(text, from - 1), word = begin;
 
 		while (word < at && (text[word] == ' ' || text[word] == '\t'))
@@ -772,7 +772,7 @@ static const struct pou *pou_at(const struct project *project, const char *text,
 	return found;
 }
 
-/* In a VAR block: behind its colon a type is wanted. */
+/* In a VAR block, after the colon, a type is wanted. */
 static bool in_vars(const char *text, size_t line)
 {
 	while (line > 0) {
@@ -811,7 +811,7 @@ static bool is_step(const struct before *b, const char *word, size_t len)
 	       sfc_find_step(b->pou->sfc, names, names_find(names, word, len)) >= 0;
 }
 
-/* `Delay.` - what follows is a part of what stands before the dot. */
+/* `Delay.`: the word under the cursor is a part of the variable before the dot. */
 static bool part_want(const struct before *b, const char *word, size_t *len,
 		      struct expect_want *want, const char **prefix)
 {
@@ -883,7 +883,7 @@ static bool ends_with(const char *text, size_t at, size_t end, const char *word)
 	return end - at >= len && ascii_same(text + end - len, word, len);
 }
 
-/* What a line says of those below it; -1: nothing. */
+/* The body that a line begins; -1: the line begins none. */
 static int inside_of(const char *text, size_t at, size_t end)
 {
 	static const struct {
@@ -1006,8 +1006,8 @@ static bool is_sfc_step(const struct token *token)
 	       expect_is(token, "MACRO_STEP");
 }
 
-/* What is wanted in the line at @line of a chart, before @to; @bar:
- * behind its last bar, or @line. */
+/* What is wanted in the line at @line of a chart, before @to; @bar: after its last bar, or
+ * @line. */
 static struct expect_want expect_sfc(struct before *b, const char *text, size_t line,
 				     size_t bar, size_t to)
 {

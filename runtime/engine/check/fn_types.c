@@ -2,8 +2,7 @@
  *
  * fn_types - which types a function's pins and result take.
  *
- * Asked by the check of an instruction list and by its translation, so that both
- * give the same answer. It reports nothing.
+ * Both the check of a list and its translation ask here. It reports nothing.
  */
 #include "engine/check/check_il.h"
 
@@ -20,7 +19,7 @@ enum iec_type types_join(enum iec_type a, enum iec_type b)
 	return IEC_TYPE_COUNT;
 }
 
-/* What a constant without a type is when nothing tells it. */
+/* The default type of an untyped constant. */
 static const enum iec_type usual[] = {
 	IEC_DINT, IEC_LINT, IEC_ULINT, IEC_REAL, IEC_LREAL, IEC_DWORD, IEC_LWORD,
 	IEC_BOOL,
@@ -54,7 +53,7 @@ enum iec_type fn_result(const struct word_row *row, enum iec_type common,
 	return IEC_DINT;
 }
 
-/* IEC 61131-3 table 30: what ADD and its like are on times. */
+/* IEC 61131-3 table 30: ADD and others on times and dates. */
 static const struct {
 	enum word word;
 	uint16_t left, right;

@@ -25,9 +25,8 @@ static const char *const keywords[] = {
 #define RESERVED_COUNT \
 	(KEYWORDS + (int)WORD_COUNT + (int)OP_COUNT + IEC_TYPE_COUNT)
 
-/* Words of contacts, coils, blocks and functions are free: N may be a number, Blink a
- * lamp, Floor a floor; a cell always begins with its word, and a type stands behind a
- * colon. But MOD stands in expressions. */
+/* Names of contacts, coils, blocks and functions may be variables: a cell begins with its
+ * word, and a type follows a colon. MOD may not: it is an operator of expressions. */
 const char *reserved_word(int i)
 {
 	const struct word_row *row;

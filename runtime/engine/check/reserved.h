@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * reserved - names that a project cannot give to anything of its own.
+ * reserved - names that a project cannot declare.
  */
 #ifndef CHECK_RESERVED_H
 #define CHECK_RESERVED_H
 
 #include "engine/base/diag.h"
 
-/** reserved_word - reserved word number @i, in any order; "" for none, NULL behind the
+/** reserved_word - reserved word number @i, in any order; "" for an empty slot, NULL after the
  * last. Scan-safe: yes. */
 const char *reserved_word(int i);
 /** reserved_generated - `_T12`: translation makes names of this form. Scan-safe: yes. */

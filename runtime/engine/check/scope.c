@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * scope - from the text of an operand to what it means.
+ * scope - from the text of an operand to its meaning.
  *
- * Two open hashes: the declared names of all tables, and the answers given so
- * far by (POU, string id). An answer never moves. It reports nothing: the caller
- * knows the place and says it.
+ * Two open hashes: the declared names of all tables, and the answers by (POU, string id).
+ * An answer never moves. It reports nothing, because only the caller knows the place.
  */
 #include "engine/check/scope.h"
 
@@ -21,7 +20,7 @@ struct declared {
 	uint16_t flags;        /* of its VAR block */
 };
 
-/* An answer: what a text means in a table, or why it means nothing. */
+/* An answer: the meaning of a text in a table, or the reason why it has none. */
 struct answer {
 	struct answer *next; /* of the same text in another table */
 	uint32_t table;
@@ -38,7 +37,7 @@ struct scope {
 	uint32_t *slot;            /* open hash of their numbers: small, so that
 				      most of it stays in a cache             */
 	uint32_t count, mask;
-	struct answer **answer; /* by text: what was asked of it so far      */
+	struct answer **answer; /* by text: its first answer                 */
 	uint32_t answers;       /* texts there is room for                   */
 };
 
@@ -74,7 +73,7 @@ static const struct declared *find_in(const struct scope *scope, uint32_t table,
 	return number ? &scope->declared[number] : NULL;
 }
 
-/* Unless the name stands there already. */
+/* Adds a name, unless the table has it. */
 static void declare(struct scope *scope, struct declared declared)
 {
 	uint32_t *slot;
@@ -166,7 +165,7 @@ int scope_duplicate(struct scope *scope, const struct pou *pou, int index)
 	return first && first->index < index ? first->index : -1;
 }
 
-/* A local of this name, else a global; NULL: neither. */
+/* The local of this name, else the global; NULL: neither. */
 static const struct declared *find_declared(const struct scope *scope,
 					    uint32_t table, uint32_t fold)
 {
@@ -188,7 +187,7 @@ const struct word_row *scope_row(const struct scope *scope, enum word word)
 	return words_row(&scope->project->words, word);
 }
 
-/* @out is something of @word, which has parts. */
+/* Makes @out a part or whole of @word. */
 static void scope_mean_whole(const struct scope *scope, enum word word,
 			     struct meaning *out)
 {
@@ -245,7 +244,7 @@ static void mean_variable(const struct scope *scope,
 		out->writable = scope_is_condition(out);
 }
 
-/* Why a name of a chart's step means nothing without its X or T. */
+/* The error of a step's name without .X or .T. */
 static bool is_step(const struct scope *scope, uint32_t table, const char *text,
 		    size_t len, enum diag_id *why)
 {
@@ -338,14 +337,14 @@ static bool scope_mean_address(const struct scope *scope, const char *text, size
 	return false;
 }
 
-/* On the way along a path. */
+/* A path that is being resolved. */
 struct path {
 	struct scope *scope;
 	uint32_t table;
 	const char *at, *end;
-	struct meaning m;        /* what was reached                          */
+	struct meaning m;        /* meaning of the path so far                */
 	int pin;                 /* the first part that was named; -1: none   */
-	struct open_index *open; /* LIMIT_INDICES of those to be found out    */
+	struct open_index *open; /* room for LIMIT_INDICES                    */
 	int opens;
 	const struct meaning *index_of;
 	enum diag_id why;
@@ -408,7 +407,7 @@ static void mean_pin(const struct scope *scope, const struct word_pin *pin,
 	}
 }
 
-/* `.Speed`. What is inside a block is not to be named from outside. */
+/* `.Speed`. Inner variables of a block cannot be named from outside. */
 static bool step_into(struct path *path)
 {
 	struct meaning *m = &path->m;
@@ -441,7 +440,7 @@ enum diag_id meaning_fault(const struct meaning *meaning)
 	return meaning->kind == MEANING_ARRAY ? DIAG_ARRAY_AS_VALUE : DIAG_COUNT;
 }
 
-/* The answer that was given to this question; NULL: none so far. */
+/* The earlier answer to this question; NULL: none. */
 static struct answer *find_answer(const struct scope *scope, uint32_t table,
 				  uint32_t text)
 {
@@ -452,7 +451,7 @@ static struct answer *find_answer(const struct scope *scope, uint32_t table,
 	return answer;
 }
 
-/* Room for the answer to a question that was not asked yet; NULL: no memory. */
+/* Room for a new answer; NULL: no memory. */
 static struct answer *add_answer(struct scope *scope, uint32_t table,
 				 uint32_t text)
 {
@@ -501,7 +500,7 @@ const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 
 /* ---- indices ---- */
 
-/* An element whose number is known, or the first of those that are possible. */
+/* The element at a fixed index, or the first of the possible elements. */
 static void mean_element(struct path *path, uint32_t number)
 {
 	struct meaning *m = &path->m;
@@ -516,7 +515,7 @@ static void mean_element(struct path *path, uint32_t number)
 		scope_mean_whole(path->scope, m->word, m);
 }
 
-/* A fixed index, whose type may have values above INT64_MAX. */
+/* A fixed index of a type with values above INT64_MAX. */
 static bool step_fixed(struct path *path, enum iec_type type, int64_t index)
 {
 	int64_t number = var_element(path->m.array, index);
@@ -603,7 +602,7 @@ const struct areas *scope_areas(const struct scope *scope)
 
 /* ---- paths ---- */
 
-/* An address before [ is an array up to the end of its area. */
+/* An address before [ is an array that reaches to the end of its area. */
 static bool begin_address(struct path *path, const char *text, size_t len)
 {
 	const struct areas *areas = scope_areas(path->scope);
@@ -635,8 +634,8 @@ static bool begin(struct path *path)
 	return path->at < path->end && begin_address(path, text, len);
 }
 
-/* @m is behind @count indices that are found out in the scan.
- * Scan-safe: no. Fails: false when memory is out. */
+/* @m has @count indices that are computed in the scan. Scan-safe: no. Fails: false when memory
+ * is out. */
 static bool scope_keep_open(struct scope *scope, struct meaning *m,
 			    const struct open_index *open, int count)
 {
@@ -651,7 +650,7 @@ static bool scope_keep_open(struct scope *scope, struct meaning *m,
 	return true;
 }
 
-/* What an open index leads to is no instance: that is called, and has a place. */
+/* An instance behind a computed index cannot be called: it has no fixed place. */
 static bool finish(struct path *path, struct meaning *out)
 {
 	struct meaning *m = &path->m;
@@ -673,9 +672,8 @@ static bool finish(struct path *path, struct meaning *out)
 	return true;
 }
 
-/* `Runout.Q`, `Table[i]`, `Line[2].Recipe.Times[i]`, `%MW0[i]`;
- * there may be blanks around what is in brackets. Scan-safe: no.
- * Fails: false and @why; then @out is as it was. */
+/* `Runout.Q`, `Table[i]`, `Line[2].Recipe.Times[i]`, `%MW0[i]`, with or without blanks inside
+ * brackets. Scan-safe: no. Fails: false with @why; @out is unchanged. */
 static bool scope_mean_path(struct scope *scope, uint32_t table, const char *text,
 			    size_t len, struct meaning *out, enum diag_id *why)
 {
@@ -698,7 +696,7 @@ static bool scope_mean_path(struct scope *scope, uint32_t table, const char *tex
 	return good;
 }
 
-/* Not in a text: 'a[1]'. */
+/* A dot or bracket inside a text constant begins no path. */
 static bool scope_has_index(const char *text, size_t len)
 {
 	return memchr(text, '[', len) && !memchr(text, '\'', len);

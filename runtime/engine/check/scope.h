@@ -2,9 +2,8 @@
  *
  * scope - what an operand's text means inside a POU.
  *
- * Locals win over globals, declared names over SYS_ names and over short
- * addresses. One hash a project, so that 100,000 names cost no more than ten
- * each.
+ * Locals win over globals, declared names over SYS_ names and short addresses. One hash
+ * serves the project, so a lookup among 100,000 names costs the same as among ten.
  */
 #ifndef CHECK_SCOPE_H
 #define CHECK_SCOPE_H
@@ -25,8 +24,8 @@ enum meaning_kind {
 	MEANING_LITERAL,   /* literal                                         */
 };
 
-/* An index that is found out in the scan: bounds, bytes from one element to the next,
- * and what it is read from. */
+/* An index that is computed in the scan: bounds, bytes from one element to the next, and its
+ * operand. */
 struct open_index {
 	struct var_array array;
 	uint32_t stride;
@@ -34,7 +33,7 @@ struct open_index {
 };
 
 struct meaning {
-	/* One an operand of a project: small. */
+	/* One for each operand of a project, so it is small. */
 	enum meaning_kind kind : 8;
 	enum iec_type type : 8;   /* of the value; IEC_NONE: untyped literal  */
 	bool writable;            /* by a program                             */
@@ -53,13 +52,11 @@ struct meaning {
 	uint32_t offset;          /* of a part or element: bytes behind the
 				     variable's first; 0 of a whole variable  */
 	struct var_array array;   /* of ARRAY                                 */
-	uint8_t opens;            /* indices that are found out in the scan, of
-				     ELEMENT, STRUCT, ARRAY: addr and offset
-				     are those of the first elements          */
+	uint8_t opens;            /* indices computed in the scan; addr and offset are those
+	                             of the first elements */
 	const struct open_index *open; /* so many, from the left             */
-	const struct meaning *index_of; /* what the first of them is read from;
-				     else, of a fixed one, the constant that
-				     gave it, or NULL                         */
+	const struct meaning *index_of; /* operand of the first computed index; of a fixed
+	                                   one the named constant, or NULL */
 	struct literal literal;
 };
 
@@ -95,8 +92,7 @@ const struct meaning *scope_index(struct scope *scope, const struct pou *pou,
  * it is no array, or too long. */
 uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
 		     const char *tail, size_t len);
-/** meaning_is_indexed - behind an index that is found out in the scan?
- * Scan-safe: yes. */
+/** meaning_is_indexed - behind an index that is computed in the scan? Scan-safe: yes. */
 static inline bool meaning_is_indexed(const struct meaning *meaning)
 {
 	return meaning->opens > 0;
@@ -107,14 +103,14 @@ static inline bool meaning_is_whole(const struct meaning *meaning)
 	return meaning->kind == MEANING_STRUCT || meaning->kind == MEANING_INSTANCE ||
 	       meaning->kind == MEANING_ARRAY;
 }
-/** meaning_reach - the elements behind an address that @meaning may be, as an array;
- * count 0: it is one alone. Scan-safe: yes. */
+/** meaning_reach - the elements of an address that @meaning may be, as an array; count 0:
+ * exactly one. Scan-safe: yes. */
 struct var_array meaning_reach(const struct meaning *meaning);
-/** meaning_fault - why @meaning is no value: DIAG_INSTANCE_AS_VALUE or
- * DIAG_ARRAY_AS_VALUE; DIAG_COUNT: it is one. Scan-safe: yes. */
+/** meaning_fault - the reason why @meaning is no value: DIAG_INSTANCE_AS_VALUE or
+ * DIAG_ARRAY_AS_VALUE; DIAG_COUNT: it is a value. Scan-safe: yes. */
 enum diag_id meaning_fault(const struct meaning *meaning);
-/** meaning_same - one variable, or one bit, however it is written? Of an index that is
- * found out in the scan nothing is known. Scan-safe: yes. */
+/** meaning_same - do both name one variable or one bit? FALSE with an index that is computed in
+ * the scan. Scan-safe: yes. */
 bool meaning_same(const struct meaning *a, const struct meaning *b);
 /** scope_is_condition - TRANSITION of a chart? Scan-safe: yes. */
 bool scope_is_condition(const struct meaning *meaning);
@@ -132,16 +128,16 @@ int scope_duplicate(struct scope *scope, const struct pou *pou, int index);
  */
 bool scope_add(struct scope *scope, const struct pou *pou,
 	       const struct var *var, int index);
-/** scope_size - bytes of what @meaning is. Scan-safe: no. */
+/** scope_size - bytes of @meaning. Scan-safe: no. */
 uint32_t scope_size(const struct scope *scope, const struct meaning *meaning);
-/** scope_span - bytes from its offset on that it may be: to the end of the last element
- * that an index may lead to. Scan-safe: no. */
+/** scope_span - bytes from its offset to the end of the last element that an index may reach.
+ * Scan-safe: no. */
 uint32_t scope_span(const struct scope *scope, const struct meaning *meaning);
 struct project *scope_project(const struct scope *scope);
-/** scope_areas - those of the project as it was when the scope was made. Lives as long
- * as the scope. */
+/** scope_areas - the areas of the project when the scope was made. Lives as long as the
+ * scope. */
 const struct areas *scope_areas(const struct scope *scope);
-/** scope_row - the row of a word, be it the project's own. */
+/** scope_row - the row of a word of the catalogue or the project. */
 const struct word_row *scope_row(const struct scope *scope, enum word word);
 /** scope_text - the string of an id. */
 const char *scope_text(const struct scope *scope, uint32_t id);

@@ -52,9 +52,9 @@ static bool is_within(const struct sfc_steps *some, const struct sfc_steps *all)
 	return true;
 }
 
-/* An arc before it wants no more than it does and is always true: whenever this one is
- * enabled, that one is, and if that one is kept from its steps so is this one. IN ORDER one
- * between them may bring the steps back. */
+/* Is there an arc before this one that needs no more steps and whose condition is always TRUE?
+ * Whenever this arc is enabled, so is that one, and it fires first. IN ORDER, an arc between
+ * the two may bring the steps back. */
 static bool is_behind(const struct tokens *t, int arc, const uint8_t *always)
 {
 	const struct sfc_steps *from = &t->net.arc[arc].from;
@@ -201,7 +201,7 @@ static uint32_t *slot_of(const struct tokens *t, const uint64_t *bits)
 	return &s->slot[at];
 }
 
-/* Unless it is known. False: no memory. */
+/* Adds a state unless it is known. False: no memory. */
 static bool add_state(struct tokens *t, const uint64_t *bits, int before)
 {
 	struct token_states *s = &t->states;
@@ -227,7 +227,7 @@ static bool add_state(struct tokens *t, const uint64_t *bits, int before)
 
 /* ---- what is found ---- */
 
-/* The first of a kind and step, or arc: a shortest way there. */
+/* Keeps the first finding of a kind at a step or arc: its way is a shortest one. */
 static bool add_find(struct tokens *t, struct token_find find)
 {
 	struct token_find *slot;
@@ -302,7 +302,7 @@ static bool fire(struct tokens *t, int arc, int state, uint64_t *after)
 	return look_behind(t, arc, after, state) && add_state(t, after, state);
 }
 
-/* Nothing can fire: whoever waits for something waits in vain. */
+/* No transition can fire in @state: notes the waiting steps. */
 static bool add_dead(struct tokens *t, int state)
 {
 	const uint64_t *bits = tokens_state(t, state);
@@ -373,7 +373,7 @@ struct spot {
 	int parent;       /* the place where the way parted                    */
 	int parting;
 	int waits;        /* the step in it that only a join leaves; -1: none  */
-	int waiting;      /* steps of that kind                                */
+	int waiting;      /* other steps that only a join leaves               */
 	int stamp;
 };
 
@@ -461,7 +461,7 @@ static int join(struct prover *p, int count)
 	return p->list[0];
 }
 
-/* The place of what these steps are together; -1: they are nothing whole. */
+/* The place that these steps make up together; -1: they make up none. */
 static int place_of(struct prover *p, const struct sfc_steps *steps)
 {
 	int count = 0;
@@ -490,7 +490,7 @@ static void put(struct prover *p, int step, int place)
 	p->queue[p->queued++] = step;
 }
 
-/* The steps are entered together, at @parent. False: that cannot be. */
+/* The steps are entered together, at @parent. False: their branches do not allow it. */
 static bool enter(struct prover *p, const struct sfc_steps *steps, int parent)
 {
 	const int count = count_plain(p, steps);

@@ -31,7 +31,7 @@ struct token_find {
 /* States one after another in blocks, known by a hash. */
 struct token_states {
 	uint64_t **block;
-	int *before;           /* by state: from which it was first come to; -1 */
+	int *before;           /* by state: the state before it on a shortest way; -1 */
 	int count, most;
 	int words;             /* of a state                                   */
 	uint32_t *slot, mask;  /* number of a state + 1                        */
@@ -57,15 +57,15 @@ struct tokens {
  * condition is TRUE, 2: FALSE. Owns: @arena.   Fails: false: no memory. */
 bool tokens_begin(struct tokens *t, const struct sfc *sfc, const uint8_t *always,
 		  struct arena *arena);
-/** tokens_prove - can it be seen from the form of the chart that no step is entered
- * twice and there is no dead end? Sets reached and fires if so; strange if not. False
- * too when memory is out. Linear but for joins of many. */
+/** tokens_prove - does the structure of the chart show that no step is entered twice and that
+ * there is no dead end? If so, sets reached and fires. False too when memory is out. Linear,
+ * except for joins of many branches. */
 bool tokens_prove(struct tokens *t);
 /** tokens_walk - looks at the states one by one: find, reached, fires, gave_up.
  * Fails: false: no memory. */
 bool tokens_walk(struct tokens *t);
-/** tokens_bound - sets reached and fires for all that could be active by any chance.
- * Fails: false: no memory. */
+/** tokens_bound - sets reached and fires for everything that could be active if all states were
+ * possible. Fails: false: no memory. */
 bool tokens_bound(struct tokens *t);
 /** tokens_state - the bits of one. */
 const uint64_t *tokens_state(const struct tokens *t, int state);

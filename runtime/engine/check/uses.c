@@ -2,8 +2,8 @@
  *
  * uses - flags for each declared variable, and bit maps of the process image.
  *
- * The maps make overlap free of charge: whoever touches %MW0 touches its 16
- * bits. It knows no rungs and no diagnostics.
+ * The maps find overlaps: a use of %MW0 sets the bits of its 16 bits. It knows no rungs and
+ * no diagnostics.
  */
 #include "engine/check/uses.h"
 
@@ -37,7 +37,7 @@ struct span {
 	uint32_t first, count;
 };
 
-/* None of what is declared beyond all areas: that was told already. */
+/* Skips a variable beyond all areas: it was reported. */
 static struct span span_of(const struct uses *uses, struct iec_addr at,
 			   struct var_array array)
 {
@@ -113,7 +113,7 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 	bool again = false;
 	uint8_t *flags;
 
-	/* Elements found out in the scan: two of them are seldom the same. */
+	/* Two computed indices seldom reach the same element, so they do not conflict. */
 	if (meaning_is_indexed(meaning))
 		use &= ~(unsigned int)USE_COIL;
 

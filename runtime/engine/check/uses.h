@@ -15,7 +15,7 @@ enum use {
 	USE_WRITTEN = 2,
 	USE_COIL = 4,    /* set at every evaluation, not only with power      */
 	USE_CALLED = 8,
-	USE_TWICE = 16,  /* USE_COIL or USE_CALLED was told a second time     */
+	USE_TWICE = 16,  /* USE_COIL or USE_CALLED was reported a second time */
 };
 
 /* A bit each for every bit of the process image. */

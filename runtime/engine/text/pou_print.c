@@ -2,8 +2,8 @@
  *
  * pou_print - a POU as a text that reads again: as it is, or in IL.
  *
- * It has no syntax of its own: it makes a project of that one POU and lets
- * text/ write it. Globals are not part of it.
+ * It makes a project of this POU alone and calls text_write(), so that it has no syntax of
+ * its own. Globals are left out.
  */
 #include "engine/text/pou_print.h"
 
@@ -70,7 +70,7 @@ bool pou_print_il(const struct project *project, const struct pou *pou,
 
 	if (join_vars(&project->names, vars, temps, temp_count, il, &only.vars))
 		text = text_write(&one, &len);
-	/* What stands before it is the head of the file. */
+	/* The text before the POU is the head of the file. */
 	const char *begin = text ? strstr(text, pou_word(pou->kind)) : NULL;
 	if (begin)
 		sink_text(sink, begin);
@@ -93,7 +93,6 @@ char *pou_print(const struct project *project, const struct pou *pou)
 	only.comment = 0;
 	only.included = 0;
 	text = text_write(&one, &len);
-	/* What stands before it is the head of the file. */
 	begin = text ? strstr(text, pou_word(pou->kind)) : NULL;
 	if (begin)
 		memmove(text, begin, strlen(begin) + 1);

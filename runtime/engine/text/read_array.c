@@ -2,8 +2,8 @@
  *
  * read_array - ARRAY[low..high] OF, and initial values: [1, 2, 3(7)], (Speed := 5).
  *
- * Bounds are integer constants, and there is one dimension. Whether a variable with
- * an address leaves its area is found in check/.
+ * Bounds are integer constants of one dimension. check/ finds whether a variable with an
+ * address leaves its area.
  */
 #include "engine/text/reader.h"
 
@@ -11,7 +11,7 @@
 
 #include <stdio.h>
 
-/* A bound under the cursor, which goes behind it. */
+/* Reads a bound and steps past it. */
 static bool read_bound(struct reader *r, int64_t *out)
 {
 	const struct token *token = &r->lex.token;
@@ -72,7 +72,7 @@ bool read_array(struct reader *r, struct var_array *array)
 
 /* ---- initial values ---- */
 
-/* `3(` before a value: how often; 1 without. Its text is kept too. */
+/* Reads the `3(` before a value: the count; 1 without. The text of the count is kept too. */
 static bool read_times(struct reader *r, uint32_t *times)
 {
 	const struct token *token = &r->lex.token;
@@ -123,7 +123,7 @@ static bool read_values(struct reader *r, struct var *var, uint32_t *room)
 
 	value = r->text.len;
 	if (several && reader_is(r, ')'))
-		init.text = 0; /* n(): so many keep their 0 */
+		init.text = 0; /* n(): n elements keep their 0 */
 	else if (!read_constant(r, var->type, &init.value))
 		return false;
 	else if (var->type == IEC_STRING)
@@ -165,7 +165,7 @@ bool read_init_list(struct reader *r, struct var *var)
 
 /* ---- of what has parts ---- */
 
-/* The token under the cursor as canonical text has it. */
+/* Appends the token under the cursor in its canonical form. */
 static void add_part(struct reader *r)
 {
 	const struct token *token = &r->lex.token;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * read_config - CONFIGURATION … END_CONFIGURATION: RESOURCE, TASK, PROGRAM, AREA and
- * the VAR blocks between them.
+ * read_config - CONFIGURATION … END_CONFIGURATION: RESOURCE, TASK, PROGRAM, AREA and the
+ * VAR blocks between them.
  *
- * Values are checked here, names in check/. A comment belongs to the line it stands
- * behind or above; one that no line follows goes to the last.
+ * Values are checked here, names in check/. A comment belongs to the line that it follows
+ * or precedes; the last comments belong to the last line.
  */
 #include "engine/text/reader.h"
 
@@ -88,7 +88,7 @@ static const char *const setting_word[SETTINGS] = {
 	"INTERVAL", "SINGLE", "PRIORITY", "WATCHDOG",
 };
 
-/* NAME := VALUE; @given has a bit a setting. */
+/* NAME := VALUE; sets the bit of the setting in @given. */
 static bool read_setting(struct reader *r, struct config_entry *entry,
 			 unsigned int *given)
 {
@@ -241,7 +241,7 @@ static void read_entry(struct reader *r, struct config *config, bool inside)
 	r->across_lines = true;
 	if (lex_is(&r->lex, "TASK")) {
 		entry.kind = CONFIG_TASK;
-		/* One is for programs without a task. */
+		/* One of LIMIT_TASKS is for programs without a task. */
 		if (has_tasks(config, LIMIT_TASKS - 1))
 			reader_fail_word(r, DIAG_TOO_MANY, "tasks");
 		reader_step(r);
@@ -262,7 +262,7 @@ static void read_entry(struct reader *r, struct config *config, bool inside)
 		skip_entry(r);
 		return;
 	}
-	reader_next(r); /* a comment on the rest of the line is this one's */
+	reader_next(r); /* a comment on the same line belongs to this task or program */
 	entry.comment = buffer_take(r, &r->note);
 	add_entry(r, config, entry);
 }
@@ -283,7 +283,7 @@ static void read_block(struct reader *r, struct config *config, bool inside)
 	add_entry(r, config, entry);
 }
 
-/* What does not begin here ends the block it would stand in. */
+/* A word that cannot begin a line here ends the block. */
 static bool ends_config(const struct reader *r)
 {
 	return r->lex.token.kind == TOKEN_END || r->no_memory ||
@@ -321,7 +321,7 @@ static void read_resource(struct reader *r, struct config *config)
 	reader_end_line(r);
 }
 
-/* A second level only for what stands in the resource. */
+/* A second level only for lines in the RESOURCE. */
 static void read_entries(struct reader *r, struct config *config, bool inside)
 {
 	for (;;) {

@@ -2,8 +2,8 @@
  *
  * read_il - an instruction list as a user writes it, one instruction a line.
  *
- * It knows operators, modifiers and the two forms of a call. Parentheses and
- * results are followed in check/ and translate/, not here.
+ * It knows operators, modifiers and the two forms of a call. check/ and translate/ follow
+ * parentheses and results.
  */
 #include "engine/text/reader.h"
 
@@ -76,7 +76,8 @@ static bool read_value(struct reader *r, const struct token *word)
 	return true;
 }
 
-/* @word: NULL if they have names; else of what they are the values in order. */
+/* Reads parameters. @word: NULL if they have names; else the word whose inputs they are, in
+ * order. */
 static bool read_args(struct reader *r, const struct token *word)
 {
 	buffer_clear(&r->text);
@@ -118,8 +119,8 @@ static bool add_args(struct reader *r, const struct il_line *call)
 	return true;
 }
 
-/* Are the pins of a call the project's own, and stay as they are written? Those of
- * an instance that is declared further on are taken for it. */
+/* May the pins of a call be those of the project, which keep their spelling? Yes too for an
+ * instance that is declared further down. */
 static bool has_own_pins(const struct reader *r, const struct il_line *call)
 {
 	struct project *project = r->project;
@@ -186,7 +187,7 @@ static bool read_more_operands(struct reader *r, const struct token *word,
 	return true;
 }
 
-/* `AND(`, or `AND( A` with the first operand of what stands inside. */
+/* `AND(`, or `AND( A` with the first operand inside. */
 static bool read_open(struct reader *r, const struct token *word,
 		      struct il_line line)
 {
@@ -201,7 +202,7 @@ static bool read_open(struct reader *r, const struct token *word,
 		return true;
 	if (!read_operand(r, word, &line))
 		return false;
-	r->il->count--; /* the one with the operand takes its place */
+	r->il->count--; /* the line with the operand replaces this one */
 	memmove(&r->il->line[at], &r->il->line[at + 1],
 		(size_t)(r->il->count - at) * sizeof(line));
 	return true;
@@ -247,7 +248,7 @@ static bool read_function(struct reader *r, const struct token *word,
 		line.kind = IL_CALL;
 		return read_call(r, NULL, &line);
 	}
-	if (reader_at_end(r) && (row->pin_count == 1 || own)) /* of the result alone */
+	if (reader_at_end(r) && (row->pin_count == 1 || own)) /* SQRT: of the result alone */
 		return add_line(r, line);
 	return read_operand(r, word, &line) && read_more_operands(r, word, &line);
 }
@@ -300,7 +301,7 @@ static bool read_operator(struct reader *r, struct il_line line)
 	return row->operand == OPND_NONE || read_operand(r, &word, &line);
 }
 
-/* Neither an operator nor a function: which one may be meant? */
+/* Neither an operator nor a function: suggests one. */
 static bool fail_word(struct reader *r)
 {
 	char word[LIMIT_ARG], text[LIMIT_ARG];
@@ -359,7 +360,7 @@ static bool read_label(struct reader *r)
 	return true;
 }
 
-/* A faulty call may go on in lines that end with a comma. */
+/* Skips a faulty call, whose lines end with a comma. */
 static void skip_instruction(struct reader *r)
 {
 	bool more = true;
@@ -409,7 +410,7 @@ void read_il(struct reader *r, struct pou *pou)
 		if (r->lex.token.kind == TOKEN_END || read_ends_block(r) ||
 		    r->no_memory)
 			break;
-		/* What is longer than the budget of a scan can never run. */
+		/* A list beyond the budget of a scan cannot run. */
 		if (pou->il.count >= LIMIT_BUDGET) {
 			reader_fail_word(r, DIAG_TOO_MANY, "instructions");
 			r->lex.at = r->lex.end;

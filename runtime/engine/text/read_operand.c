@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * read_operand - names, strings, values and parameters, as cells, declarations
- * and instruction lists have them alike.
+ * read_operand - names, strings, values and parameters in cells, declarations and lists.
  *
- * It judges their form only; what a name means is found in check/.
+ * It judges form only; check/ finds the meaning of a name.
  */
 #include "engine/text/reader.h"
 
@@ -37,7 +36,7 @@ bool reader_name(struct reader *r, const char *wanted, uint32_t *id)
 	return true;
 }
 
-/* What stands behind $ in a string; 0: nothing known. */
+/* The byte that $ and this letter stand for; 0: no such escape. */
 static char escape(char c)
 {
 	switch (ascii_upper(c)) {
@@ -112,7 +111,7 @@ static bool check_constant(struct reader *r, const char *text, size_t len)
 	return reader_fail(r, DIAG_BAD_LITERAL, text, len);
 }
 
-/* `[3]`, `[-3]` or `[i]`, which follows; leaves the cursor on the ]. */
+/* Reads `[3]`, `[-3]` or `[i]` after the cursor; leaves it on the ]. */
 static bool add_index(struct reader *r)
 {
 	const struct token *token = &r->lex.token;
@@ -139,8 +138,8 @@ static bool add_index(struct reader *r)
 	return true;
 }
 
-/* Behind a name or an address: an index, and members of what it leads to, as in
- * `Line[2].Times[i]`; leaves the cursor on the last token. */
+/* Reads an index and members after a name or address, as in `Line[2].Times[i]`; leaves the
+ * cursor on the last token. */
 static bool add_path(struct reader *r)
 {
 	const struct token *token = &r->lex.token;
@@ -205,8 +204,7 @@ bool reader_value(struct reader *r, bool constant, const struct token *word)
 	return reader_fail(r, DIAG_MISSING_OPERAND, word->text, word->len);
 }
 
-/* Pins are words of the catalogue, in upper case, unless they are the project's
- * own. */
+/* Pins of the catalogue become upper case, pins of the project keep their spelling. */
 static bool add_pin(struct reader *r)
 {
 	const struct token *token = &r->lex.token;

@@ -55,7 +55,7 @@ void reader_add_rung(struct reader *r, struct pou *pou)
 	rung_free(rung);
 }
 
-/* Up to its END or to a word that cannot stand in a POU. */
+/* Reads the body up to its END or to a word that cannot stand in a POU. */
 static void read_rungs(struct reader *r, struct pou *pou)
 {
 	for (;;) {
@@ -95,7 +95,7 @@ static void read_body(struct reader *r, struct pou *pou)
 
 /* ---- first lines ---- */
 
-/* The row that looking ahead made, unless another POU has this name. */
+/* The row that read_words() made, unless another POU has this name. */
 static enum word own_word(struct reader *r, uint32_t name, enum word_kind kind,
 			  int owner)
 {
@@ -112,7 +112,7 @@ static enum word own_word(struct reader *r, uint32_t name, enum word_kind kind,
 	return word;
 }
 
-/* ENO is TRUE when the body begins, which may set it. */
+/* ENO is TRUE when a body begins; the body may clear it. */
 static bool add_eno(struct reader *r, struct var_table *table, int line)
 {
 	struct var *eno = arena_push(&r->project->arena, &table->var, &table->count,
@@ -155,7 +155,7 @@ static bool read_result(struct reader *r, struct pou *pou)
 	return add_eno(r, table, pou->line);
 }
 
-/* The second word of two. */
+/* Reads the second of two words. */
 static void read_evolution(struct reader *r, struct sfc *sfc, const char *word,
 			   enum sfc_evolution evolution)
 {
@@ -213,7 +213,7 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 	reader_end_line(r);
 }
 
-/* VAR_TEMP has a row too, without a name. */
+/* VAR_TEMP is a row without a name. */
 static void add_temps(struct reader *r, struct pou *pou, int index)
 {
 	bool temps = false;
@@ -319,7 +319,7 @@ static void add_struct(struct reader *r, struct part *part)
 		return;
 	}
 	good = read_struct(r, &made);
-	bool head = !good && r->across_lines; /* it did not get to STRUCT     */
+	bool head = !good && r->across_lines; /* the reader did not reach STRUCT */
 
 	r->across_lines = false;
 	if (made.name)

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * read_project - a rung file from its first line to its last: parts, includes,
- * and the POUs' frames.
+ * read_project - a rung file from its first line to its last: parts, includes, and the
+ * frames of POUs.
  *
- * It opens no file: what INCLUDE names comes from the caller. Declarations, rungs
- * and instruction lists have readers of their own.
+ * It opens no file: the caller supplies what INCLUDE names.
  */
 #include "engine/model/shape.h"
 #include "engine/text/reader.h"
@@ -70,7 +69,7 @@ void reader_add_part(struct reader *r, struct part part)
 		r->no_memory = true;
 }
 
-/* Behind the line whose first word is END_VIEW; NULL: there is none. */
+/* The line after the one whose first word is END_VIEW; NULL: there is none. */
 const char *reader_view_end(struct lex *lex)
 {
 	static const char word[] = "END_VIEW";
@@ -94,7 +93,7 @@ const char *reader_view_end(struct lex *lex)
 	return NULL;
 }
 
-/* What stands between VIEW and END_VIEW is the editor's; it is kept as it is. */
+/* Text between VIEW and END_VIEW belongs to the editor and is kept unchanged. */
 static void read_view(struct reader *r)
 {
 	const struct token view = r->lex.token;
@@ -144,7 +143,7 @@ const char *reader_path(struct reader *r, const char *from, const char *name)
 	return path;
 }
 
-/* Not itself, not what includes it, and not too deep. */
+/* Refuses a file that includes itself, directly or through others, or too deep. */
 static bool may_include(const struct reader *r, const char *path)
 {
 	int depth = 0;
@@ -173,7 +172,7 @@ static void read_included(struct reader *r, const char *path, bool library,
 	reader_free(inner);
 }
 
-/* Has a library been read, or is it being read? From now on it has. */
+/* Was this library read before? Notes that it is now. */
 static bool was_used(struct reader *r, const char *path)
 {
 	struct project *project = r->project;
@@ -216,7 +215,7 @@ static void include_file(struct reader *r, uint32_t name, bool library,
 				     text_name, &len, r->diags, place);
 	if (!text)
 		return;
-	/* Files that name each other many times must not take for ever. */
+	/* Files that name each other many times must not take very long. */
 	*r->total += len + 1024;
 	place.id = DIAG_INCLUDE_LARGE;
 	if (*r->total > LIMIT_TEXT)
@@ -274,7 +273,7 @@ bool read_ends_block(const struct reader *r)
 	       !reader_peek(r, "AT");
 }
 
-/* A word or a sign where a part, a rung or a declaration should begin. */
+/* Reports a word or sign that begins no part, rung or declaration. */
 void reader_skip_odd_line(struct reader *r)
 {
 	if (r->lex.token.kind == TOKEN_NAME)
@@ -288,7 +287,7 @@ void reader_skip_odd_line(struct reader *r)
 	reader_skip_line(r);
 }
 
-/* One controller, one configuration: of a second one only its errors count. */
+/* A second configuration is reported; its errors are too, its contents are dropped. */
 static void read_configuration(struct reader *r)
 {
 	struct project *project = r->project;
@@ -312,7 +311,8 @@ static void read_configuration(struct reader *r)
 
 /* ---- the file ---- */
 
-/* What a file named by USES must not hold: it would run, or be there twice. */
+/* Reports a part that a file named by USES cannot hold, because it would run or exist
+ * twice. */
 static bool is_foreign(const struct reader *r)
 {
 	return lex_is(&r->lex, "PROGRAM") || lex_is(&r->lex, "INCLUDE") ||
@@ -348,7 +348,7 @@ static void read_parts(struct reader *r)
 	}
 }
 
-/* Without a right first line nothing else would make sense. */
+/* After a wrong first line every other message would be a consequence. */
 static bool has_first_line(struct reader *r, const char *text, size_t len)
 {
 	lex_init(&r->lex, text, len);
@@ -391,7 +391,7 @@ static bool read_file(struct reader *r, const char *text, size_t len)
 	return true;
 }
 
-/* Out of memory is said once, however often it happened. */
+/* Out of memory is reported once. */
 static void fail_memory(const struct project *project, const char *file,
 			bool failed, struct diag_list *diags)
 {
@@ -422,7 +422,7 @@ bool text_read(struct project *project, const char *file, const char *text,
 	return diags->errors == errors;
 }
 
-/* A comment behind the rung has no other place than above it. */
+/* A comment after the last rung is kept above it. */
 static uint32_t join_lines(struct reader *r, uint32_t comment)
 {
 	const char *text = names_text(&r->project->names, comment);

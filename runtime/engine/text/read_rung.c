@@ -2,8 +2,8 @@
  *
  * read_rung - RUNG and its rows: cells, bars, links, boxes, expressions.
  *
- * A cell is read word by word, never by cutting at bars, so that a comment may
- * hold one. Whether what was drawn makes sense is found in check/.
+ * A cell is read word by word and not cut at bars, because a comment may hold a bar. check/
+ * finds whether the drawing makes sense.
  */
 #include "engine/text/reader.h"
 
@@ -28,8 +28,8 @@ static bool read_wire(struct reader *r, struct cell *cell)
 	return true;
 }
 
-/* Does the box that this row of pins belongs to have the project's own pins? The
- * rows above lie one behind the other, each as long as it was written. */
+/* Is the box of this row of pins one of the project? The rows above lie one after the other,
+ * each as long as it was written. */
 static bool is_own_box(const struct reader *r)
 {
 	const int col = r->place.col - 1;
@@ -76,8 +76,8 @@ static bool read_args(struct reader *r, struct cell *cell)
 	return true;
 }
 
-/* Whether it is an assignment; read with a cursor of its own, so that an error has
- * the right column. Gives the word; WORD_COUNT: an error. */
+/* Reads an expression with a cursor of its own, so that an error has the right column. Returns
+ * the word; WORD_COUNT: an error. */
 static enum word check_expression(struct reader *r)
 {
 	struct diag place = r->place;
@@ -99,7 +99,7 @@ static enum word check_expression(struct reader *r)
 	return WORD_COUNT;
 }
 
-/* Kept as text, one blank where there were some. */
+/* Kept as text, with single blanks. */
 static bool read_expression(struct reader *r, struct cell *cell)
 {
 	const struct token *token = &r->lex.token;
@@ -126,7 +126,7 @@ static bool read_expression(struct reader *r, struct cell *cell)
 	return true;
 }
 
-/* The operand or instance behind a word. A box without an instance would take
+/* The operand or instance after a word. Without this a box that lacks its instance would take
  * its first parameter for one. */
 static bool read_operand(struct reader *r, struct cell *cell,
 			 const struct word_row *row, const struct token *word)
@@ -154,7 +154,7 @@ static bool read_operand(struct reader *r, struct cell *cell,
 	return true;
 }
 
-/* FOR I := 1 TO 10: its text, one blank between its parts. */
+/* FOR I := 1 TO 10: kept as text, with single blanks. */
 static bool read_loop(struct reader *r, struct cell *cell)
 {
 	const struct token *token = &r->lex.token;
@@ -178,7 +178,7 @@ static bool read_loop(struct reader *r, struct cell *cell)
 	return true;
 }
 
-/* NOT alone inverts the power; with parameters it is the function. */
+/* NOT alone inverts the power; with parameters it is the function NOT. */
 static enum word with_parameters(struct reader *r, enum word word)
 {
 	const enum word function = op_function(word_row(word)->next);
@@ -288,7 +288,7 @@ static void push_cell(struct reader *r, const struct cell *cell)
 	r->cell[r->cell_count++] = *cell;
 }
 
-/* The cursor stands behind the first bar. */
+/* Reads a row; the cursor stands after the first bar. */
 static void read_cells(struct reader *r)
 {
 	for (int col = 0; ; col++) {
@@ -323,7 +323,7 @@ static void read_row(struct reader *r)
 	r->place.col = 0;
 	if (r->cell_count == first && r->diags->errors == errors)
 		reader_fail_word(r, DIAG_BAD_ROW, "");
-	/* A comment behind the last bar belongs to the last cell. */
+	/* A comment after the last bar belongs to the last cell. */
 	if (r->note.len > 0 && r->cell_count > first) {
 		struct cell *last = &r->cell[r->cell_count - 1];
 		uint32_t id = buffer_take_cell(r, &r->note);
@@ -360,7 +360,7 @@ static void read_head(struct reader *r, struct rung *head)
 	reader_end_line(r);
 }
 
-/* Comments between rows move above the rung, in their order. */
+/* Comments between rows move above the rung, in order. */
 static void keep_above(struct reader *r)
 {
 	if (r->above.len == 0)

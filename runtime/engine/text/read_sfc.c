@@ -2,7 +2,7 @@
  *
  * read_sfc - a sequential function chart: steps, transitions, actions, CONTROL.
  *
- * Reads form only; check/ finds whether a chart makes sense.
+ * It reads form only; check/ finds whether a chart makes sense.
  */
 #include "engine/base/literal.h"
 #include "engine/text/reader.h"
@@ -40,8 +40,7 @@ static bool is_end(const struct sfc_reader *in)
 	       (read_ends_block(r) && !lex_is(&r->lex, "RUNG") && !reader_is_vars(r));
 }
 
-/* Says that a line does not belong here, and skips it; of a rung its
- * rows, too. */
+/* Reports a line that does not belong here and skips it; of a rung its rows, too. */
 static void skip_odd(struct sfc_reader *in)
 {
 	struct reader *r = in->r;
@@ -63,8 +62,8 @@ static bool expect_word(struct sfc_reader *in, const char *symbol)
 	return true;
 }
 
-/* `(WORD := value, …)`; @one reads one of them, from its word to what
- * is behind its value. Fails: false and a diagnostic. */
+/* `(WORD := value, …)`; @one reads one setting, from its word to the end of its value. Fails:
+ * false and a diagnostic. */
 static bool read_settings(struct sfc_reader *in,
 			  bool (*one)(struct sfc_reader *in, void *out), void *out)
 {
@@ -137,7 +136,7 @@ static bool read_number(struct sfc_reader *in, int most, int *out)
 	return true;
 }
 
-/* What is left of an piece that could not be read, its END_… too. */
+/* Skips the rest of a piece that could not be read, its END_… too. */
 static void skip_piece(struct sfc_reader *in, const char *end)
 {
 	struct reader *r = in->r;
@@ -169,8 +168,8 @@ static void close_head(struct sfc_reader *in, const char *end, const struct toke
 	}
 }
 
-/* Room in a vector of the chart, and a diagnostic if it is full or there
- * is no memory; NULL then. */
+/* Room for one more in a vector of the chart. NULL after a diagnostic: the vector is full or
+ * memory is out. */
 static void *push_room(struct sfc_reader *in, void *vector, int *count, size_t size, int most,
 		       const char *what)
 {
@@ -220,7 +219,7 @@ static void read_rungs(struct sfc_reader *in, struct sfc_body *body)
 	body->count = pou->rung_count - body->first;
 }
 
-/* Rungs or a list, up to what ends them. */
+/* Rungs or a list, up to a word that ends them. */
 static void read_body(struct sfc_reader *in, struct sfc_body *body)
 {
 	struct reader *r = in->r;
@@ -324,7 +323,7 @@ static bool is_step(const struct reader *r)
 	       lex_is(&r->lex, "MACRO_STEP");
 }
 
-/* Too much of something: what follows is not read any more, up to the end of the POU. */
+/* Reports a limit of the chart and skips to the end of the POU. */
 static void skip_sfc(struct sfc_reader *in)
 {
 	struct reader *r = in->r;
@@ -345,7 +344,7 @@ static bool is_full(const struct sfc *sfc)
 	       sfc->action_count >= LIMIT_STEPS;
 }
 
-/* A variable may be called Step or Set: then a parenthesis follows. */
+/* A name with a parenthesis, even if the name is Step or Set. */
 static bool is_call(const struct reader *r)
 {
 	return r->lex.token.kind == TOKEN_NAME && reader_peek(r, "(") &&
@@ -361,7 +360,7 @@ static void add_use(struct sfc_reader *in, struct sfc_use use)
 	struct sfc_use *slot;
 
 	use.step = sfc->step_count - 1;
-	if (step->use_count == LIMIT_STEP_USES) /* said once */
+	if (step->use_count == LIMIT_STEP_USES) /* reported once */
 		reader_fail_word(in->r, DIAG_SFC_TOO_MANY, "lines of a step");
 	step->use_count++;
 	if (step->use_count > LIMIT_STEP_USES)
@@ -374,7 +373,7 @@ static void add_use(struct sfc_reader *in, struct sfc_use use)
 		in->r->no_memory = true;
 }
 
-/* SET a, b; with the cursor behind SET. The comments go to the first. */
+/* SET a, b; with the cursor after SET. The comments go to the first line. */
 static bool read_bits(struct sfc_reader *in, struct sfc_use use, const struct token *word)
 {
 	struct reader *r = in->r;
@@ -453,7 +452,7 @@ static bool read_use(struct sfc_reader *in)
 	return read_bits(in, use, &word);
 }
 
-/* Behind a line that could not be read. */
+/* Skips a line that could not be read. */
 static void skip_use(struct sfc_reader *in)
 {
 	struct reader *r = in->r;
@@ -541,8 +540,8 @@ static bool push_step(struct sfc_reader *in, struct sfc_step step)
 	return true;
 }
 
-/* STEP, INITIAL_STEP or MACRO_STEP with its lines; of a macro-step not what
- * is inside. */
+/* STEP, INITIAL_STEP or MACRO_STEP with its lines; the contents of a macro-step are read by
+ * the caller. */
 static void read_step(struct sfc_reader *in)
 {
 	struct reader *r = in->r;
@@ -696,7 +695,7 @@ static bool read_transition_head(struct sfc_reader *in, struct sfc_transition *t
 
 /* ---- := expression; ---- */
 
-/* Read ahead, with a cursor of its own, so that errors have the right column. */
+/* Reads ahead with a cursor of its own, so that errors have the right column. */
 static bool check_expression(struct reader *r)
 {
 	struct diag place = r->place;
@@ -761,7 +760,7 @@ static void add_expression(struct sfc_reader *in, struct sfc_body *body, uint32_
 	*body = (struct sfc_body){ BODY_EXPRESSION, pou->rung_count, 1 };
 	if (rung) {
 		rung->line = (uint32_t)line;
-		rung->gaps = 1; /* its one row stands in this line */
+		rung->gaps = 1; /* its one row is this line */
 		rung->cell[0] = (struct cell){ .word = ELEM_COMPARE, .operand = text };
 		rung->cell[1] = (struct cell){ .word = ELEM_COIL, .operand =
 			reader_intern(r, SFC_CONDITION, strlen(SFC_CONDITION)) };
@@ -801,7 +800,7 @@ static void push(struct sfc_reader *in, struct sfc_transition transition)
 	add_piece(in, PIECE_TRANSITION, sfc->transition_count - 1);
 }
 
-/* What could not be read goes on up to END_TRANSITION, or the next piece. */
+/* After an error: skips to END_TRANSITION, or to the next piece. */
 static void skip_rest(struct sfc_reader *in)
 {
 	struct reader *r = in->r;

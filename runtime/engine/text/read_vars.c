@@ -2,8 +2,8 @@
  *
  * read_vars - VAR … END_VAR: names, addresses, types, initial values.
  *
- * A constant must fit its type here already; whether a name was declared before,
- * or an address fits its type, is found in check/.
+ * A constant must fit its type here; check/ finds duplicate names, and addresses that do
+ * not fit their type.
  */
 #include "engine/text/reader.h"
 
@@ -71,7 +71,7 @@ static bool read_at(struct reader *r, struct var *var)
 	return true;
 }
 
-/* STRING[20]; without a number as many bytes as is usual. */
+/* STRING[20]; without a number the usual capacity. */
 static bool read_capacity(struct reader *r, struct var *var)
 {
 	const struct token *token = &r->lex.token;
@@ -97,7 +97,7 @@ static bool read_capacity(struct reader *r, struct var *var)
 	return true;
 }
 
-/* Would the last elements lie behind the end of the area? */
+/* Do the last elements lie beyond the end of the area? */
 static bool leaves_area(const struct var *var)
 {
 	uint64_t bits = var->at.byte * (uint64_t)8 + var->at.bit +
@@ -106,8 +106,8 @@ static bool leaves_area(const struct var *var)
 	return bits > iec_area_row(var->at.area)->most * (uint64_t)8;
 }
 
-/* Where an instance may be: a function keeps nothing, what is handed over is not a
- * block's own, a structure holds values. */
+/* May an instance be declared here? A function keeps nothing, a VAR_IN_OUT is not the block's
+ * own, a structure holds values. */
 static bool may_hold_blocks(const struct reader *r)
 {
 	if (r->members || r->var_flags & VAR_TEMP)
@@ -150,7 +150,7 @@ bool reader_type(struct reader *r, struct var *var)
 	return var->type != IEC_STRING || read_capacity(r, var);
 }
 
-/* Would it fit if only it were smaller? Then it is of the right kind. */
+/* Is the constant only too large? Then its kind is right. */
 static bool is_kind(const struct literal *literal, enum iec_type type)
 {
 	if (literal->type != IEC_NONE)
@@ -240,13 +240,13 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 		like.line = table->var[i].line;
 		table->var[i] = like;
 	}
-	/* A comment on the rest of the line is this one's. */
+	/* A comment on the same line belongs to this declaration. */
 	reader_next(r);
 	table->var[table->count - 1].comment = buffer_take(r, &r->note);
 	return true;
 }
 
-/* To the next declaration, which may stand on this line. */
+/* Skips to the next declaration, which may be on this line. */
 static void skip_declaration(struct reader *r)
 {
 	while (!reader_at_end(r) && !lex_is(&r->lex, "END_VAR") &&
@@ -339,7 +339,7 @@ static uint16_t read_flags(struct reader *r, bool global)
 	return flags;
 }
 
-/* Comments that no declaration follows go to the last one, or to the block. */
+/* Comments after the last declaration go to it; without one, to the block. */
 static void keep_last_comments(struct reader *r, struct var_table *table,
 			       struct var_block *block)
 {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * read_words - looks ahead in a file for the names of its functions, function blocks
- * and structures, so that they may be used above the place that declares them.
+ * read_words - looks ahead in a file for the names of its functions, function blocks and
+ * structures, so that they may be used above their declaration.
  *
- * It goes into the files that INCLUDE and USES name, each once. It tells nothing: what
- * it cannot read or does not understand the reader will come to, and say.
+ * It follows INCLUDE and USES, each file once. It reports nothing: the reader comes to
+ * every error later.
  */
 #include "engine/text/reader.h"
 
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FILES_MOST 1024 /* looked into; of others the words are not known early */
+#define FILES_MOST 1024 /* files looked into; words of further files are not known early */
 
 struct look {
 	struct reader *r;
@@ -27,8 +27,8 @@ static const char *const heads[] = {
 	"FUNCTION", "TYPE", "INCLUDE", "USES",
 };
 
-/* Does a line begin with one of these? Most files have none, and are not read
- * twice for nothing. */
+/* Does a line begin with one of these words? Most files have none and need no second
+ * reading. */
 static bool has_heads(const char *text, size_t len)
 {
 	const char *at = text, *end = text + len;
@@ -68,7 +68,7 @@ enum word reader_own_word(struct reader *r, uint32_t name, enum word_kind kind)
 	return word;
 }
 
-/* A name at the cursor. The reader may find it faulty; then it says so. */
+/* A name at the cursor; the reader reports a faulty one. */
 static void add_name(struct look *look, const struct lex *lex,
 		     enum word_kind kind)
 {
@@ -138,7 +138,7 @@ static void look_at_file(struct look *look, const char *from, struct lex *lex,
 	free(text);
 }
 
-/* What an editor keeps may hold anything. */
+/* A VIEW may hold any text. */
 static void skip_view(struct lex *lex)
 {
 	const char *end = reader_view_end(lex);

@@ -2,8 +2,7 @@
  *
  * reader - steps through a rung file and keeps its comments.
  *
- * It knows tokens, names, values and parameters, not what a part or a rung is
- * made of: that is in read_*.c.
+ * It knows tokens, names, values and parameters. Parts and rungs are read in read_*.c.
  */
 #include "engine/text/reader.h"
 
@@ -42,7 +41,7 @@ static bool fail_at(struct reader *r, enum diag_id id, int line, int column,
 {
 	struct diag place = r->place;
 
-	/* Out of memory is said at the end, and nothing that follows from it. */
+	/* Out of memory is reported at the end, without its consequences. */
 	if (r->no_memory)
 		return false;
 	place.id = id;
@@ -130,7 +129,7 @@ static bool is_blank(char c)
 	return c == ' ' || c == '\t' || c == '\n';
 }
 
-/* Does a comment begin or end at @text? Inside another it must not. */
+/* Does a comment begin or end in @text? Comments do not nest. */
 static bool is_mark(const char *text, size_t len)
 {
 	return len >= 2 && ((text[0] == '*' && text[1] == ')') ||
@@ -160,7 +159,8 @@ static void slash_close(struct reader *r, struct buffer *b)
 	buffer_add(r, b, " *)", 3);
 }
 
-/* A comment in a cell has no newline: each, with the blanks around, is one. */
+/* A comment in a cell has no newline: line ends and the blanks around them become one
+ * blank. */
 static void add_flat(struct reader *r, struct buffer *b, const char *text,
 		     size_t len)
 {
@@ -261,7 +261,8 @@ static void comment_keep(struct reader *r)
 
 /* ---- stepping ---- */
 
-/* A comment that is not closed goes on to the end of the file: its first line is named. */
+/* A comment that is not closed reaches the end of the file: the diagnostic names its first
+ * line. */
 static void fail_bad(struct reader *r)
 {
 	const struct token *token = &r->lex.token;
@@ -362,8 +363,7 @@ static bool is_clean(const char *text, size_t len)
 	return utf8_valid(text, len, NULL);
 }
 
-/* Copies without CR; a control character becomes a blank, the first of a line
- * is reported. */
+/* Copies without CR. A control character becomes a blank; the first of a line is reported. */
 static size_t copy_clean(struct reader *r, char *copy, const char *text,
 			 size_t len)
 {

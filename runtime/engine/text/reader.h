@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * reader - what the files that read a rung file share: the cursor, the place
- * that diagnostics name, and where comments go.
+ * reader - shared by the files that read a rung file: cursor, place for diagnostics,
+ * destination of comments.
  *
- * Only text/read_*.c include it. A reader lives on the heap while one file is
- * read; all that is kept goes into the project, nothing points into the source.
+ * Only text/read_*.c include it. A reader lives on the heap while one file is read; the
+ * project keeps no pointer into the source.
  */
 #ifndef TEXT_READER_H
 #define TEXT_READER_H
@@ -16,8 +16,8 @@
 #include "engine/text/text.h"
 #include "engine/text/writer.h"
 
-/* Text that grows; of comments it remembers a `//` at its end, which must be
- * rewritten as (* … *) if more follows on the line. */
+/* Text that grows. It remembers a `//` comment at its end, which becomes (* … *) if more text
+ * follows on the line. */
 struct buffer {
 	char *text;
 	size_t len, size;
@@ -25,7 +25,7 @@ struct buffer {
 	size_t slash_len, slash_at;
 };
 
-/* Where the comments go that the cursor passes. */
+/* Where comments go that the cursor passes. */
 enum comment_place {
 	COMMENT_ABOVE, /* the next part, rung or end: one a line              */
 	COMMENT_NOTE,  /* a declaration: behind it, on one line               */
@@ -54,9 +54,9 @@ struct reader {
 	struct read_arg arg[LIMIT_ARGS];
 	int arg_count;
 	struct il *il;              /* of the POU, for COMMENT_IL             */
-	const struct pou *pou;      /* in work; NULL: none                    */
-	uint16_t var_flags;          /* of the VAR block in work               */
-	bool members;               /* of a structure are read                */
+	const struct pou *pou;      /* the current POU; NULL: none            */
+	uint16_t var_flags;          /* of the current VAR block               */
+	bool members;               /* reading the members of a structure     */
 	bool library;               /* the file was named by USES             */
 	bool keep_pins;             /* pins are the project's own: as written */
 	struct cell *cell;          /* of the rung being read, row by row     */
@@ -82,7 +82,7 @@ char *reader_open(struct reader *r, const char *text, size_t len);
 
 /** reader_next - the next token that is no comment. */
 void reader_next(struct reader *r);
-/** reader_step - the same, past ends of lines where they mean nothing. */
+/** reader_step - the same, past ends of lines where they have no meaning. */
 void reader_step(struct reader *r);
 bool reader_is(const struct reader *r, char symbol);
 /** reader_peek - does @symbol follow the token under the cursor? */
@@ -91,7 +91,7 @@ bool reader_peek(const struct reader *r, const char *symbol);
 bool reader_at_end(const struct reader *r);
 void reader_skip_line(struct reader *r);
 void reader_skip_newlines(struct reader *r);
-/** reader_end_line - anything but the end of the line here is an error. */
+/** reader_end_line - reports anything before the end of the line. */
 void reader_end_line(struct reader *r);
 
 /** reader_fail - a diagnostic at the cursor. Returns false. */
@@ -108,16 +108,16 @@ void reader_fail_open(struct reader *r, const struct token *head);
 void buffer_add(struct reader *r, struct buffer *b, const char *text,
 		size_t len);
 void buffer_clear(struct buffer *b);
-/** buffer_take - string id of what is in it; it is empty afterwards. */
+/** buffer_take - string id of the text; the buffer is empty afterwards. */
 uint32_t buffer_take(struct reader *r, struct buffer *b);
 /** buffer_take_cell - the same for comments of a cell: none of them is a //. */
 uint32_t buffer_take_cell(struct reader *r, struct buffer *b);
-/** comment_join - string id of the comments of @id and, behind them, of @b. */
+/** comment_join - string id of the comments of @id followed by those of @b. */
 uint32_t comment_join(struct reader *r, uint32_t id, struct buffer *b);
 uint32_t reader_intern(struct reader *r, const char *text, size_t len);
 
-/* These check what stands under the cursor and leave it there, so that a
- * comment behind it is not passed too early. */
+/* These functions check the token under the cursor and stay on it, because stepping would take
+ * a comment that follows. */
 /** reader_name - a plain name. Fails: false and a diagnostic. */
 bool reader_name(struct reader *r, const char *wanted, uint32_t *id);
 /** reader_instance - the name of an instance, or of one of an array: `Motor[3]`; it
@@ -139,8 +139,8 @@ bool read_constant(struct reader *r, enum iec_type type, union iec_value *out);
 bool read_array(struct reader *r, struct var_array *array);
 /** read_init_list - `[1, 2, 3(7)]`, the initial values of an array. */
 bool read_init_list(struct reader *r, struct var *var);
-/** read_init_parts - `(Speed := 5)`, `[(a := 1), 2(a := 3)]`, those of what has parts; only
- * brackets are counted: model/init.h judges the rest. */
+/** read_init_parts - `(Speed := 5)`, `[(a := 1), 2(a := 3)]`, initial values of structures and
+ * instances. It only counts brackets; model/init.h checks the rest. */
 bool read_init_parts(struct reader *r, struct var *var);
 /** reader_type - `: type` of a declaration or function; steps behind it. */
 bool reader_type(struct reader *r, struct var *var);
@@ -156,10 +156,10 @@ enum word reader_own_word(struct reader *r, uint32_t name, enum word_kind kind);
 void reader_add_part(struct reader *r, struct part part);
 /** reader_is_vars - does a VAR block begin here, of any kind? */
 bool reader_is_vars(const struct reader *r);
-/** reader_skip_odd_line - says that a line does not belong here. */
+/** reader_skip_odd_line - reports a line that does not belong here, and skips it. */
 void reader_skip_odd_line(struct reader *r);
 
-/* One file each. */
+/* The next functions are each in a file of its own. */
 /** read_words - the names of functions, blocks and structures of a whole file. */
 void read_words(struct reader *r, const char *text, size_t len);
 /** read_pou_kind - does a POU begin here? */
@@ -177,10 +177,10 @@ void reader_add_rung(struct reader *r, struct pou *pou);
 void read_il(struct reader *r, struct pou *pou);
 /** read_sfc - the items of a chart, up to END_PROGRAM; pou->sfc is there. */
 void read_sfc(struct reader *r, struct pou *pou);
-/** reader_is_sfc_word - a word that begins or ends an item of a chart? */
+/** reader_is_sfc_word - does this word begin or end an item of a chart? */
 bool reader_is_sfc_word(const struct reader *r);
 void read_config(struct reader *r, struct config *config);
-/** read_ends_block - does a line begin here that never stands inside VAR or an
- * instruction list? A name or label that is spelled so is none. */
+/** read_ends_block - does a line begin here that cannot stand inside VAR or an instruction
+ * list? A name or label of the same spelling can. */
 bool read_ends_block(const struct reader *r);
 #endif

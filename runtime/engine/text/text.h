@@ -2,8 +2,8 @@
  *
  * text - rung files to projects and back. docs/rung-file.md is the grammar.
  *
- * Reading judges form only: words, places, limits. What a name means is found in
- * check/. Writing gives the one canonical form.
+ * Reading judges form only: words, places, limits; check/ finds what a name means. Writing
+ * gives the one canonical form.
  */
 #ifndef TEXT_TEXT_H
 #define TEXT_TEXT_H
@@ -50,16 +50,16 @@ char *text_outline(const struct project *project, size_t *len,
 		   void (*take)(void *context, const struct text_span *span),
 		   void *context);
 
-/** text_write_vars - VAR … END_VAR, every block of @table. Scan-safe: no. */
+/** text_write_vars - every VAR … END_VAR of @table. Scan-safe: no. */
 void text_write_vars(const struct project *project, const struct var_table *table,
 		     const struct sink *sink);
-/** text_write_sfc - of a chart what stands behind its declarations. Scan-safe: no. */
+/** text_write_sfc - a chart without its declarations. Scan-safe: no. */
 void text_write_sfc(const struct project *project, const struct pou *pou,
 		    const struct sink *sink);
 /** text_write_config - the configuration, if there is one. Scan-safe: no. */
 void text_write_config(const struct project *project, const struct sink *sink);
-/** text_write_il - an instruction list; it reads again to the same list, its
- * lines numbered anew. Scan-safe: no. */
+/** text_write_il - an instruction list; it reads again to the same list, with new line numbers.
+ * Scan-safe: no. */
 void text_write_il(const struct project *project, const struct il *il,
 		   const struct sink *sink);
 

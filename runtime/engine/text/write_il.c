@@ -64,7 +64,7 @@ static void write_operator(const struct sink *sink, const struct project *projec
 	sink_text(sink, modifier);
 	if (line->modifiers & MOD_PAREN)
 		sink_text(sink, "(");
-	/* The list may hold AND( with its first operand, as the standard has. */
+	/* AND( may stand with its first operand, as in the standard. */
 	if (line->operand) {
 		sink_text(sink, " ");
 		write_id(sink, project, line->operand);
@@ -148,7 +148,7 @@ static void write_line(const struct sink *sink, const struct project *project,
 void text_write_il(const struct project *project, const struct il *il,
 		   const struct sink *sink)
 {
-	uint32_t last = 0; /* line in the source of the instruction before    */
+	uint32_t last = 0; /* source line of the instruction before           */
 
 	for (int i = 0; i < il->count; i++) {
 		const struct il_line *line = &il->line[i];
@@ -158,7 +158,7 @@ void text_write_il(const struct project *project, const struct il *il,
 			args++;
 			i++;
 		}
-		/* A comment behind an instruction has the line of it. */
+		/* A comment after an instruction has the same line. */
 		if (line->kind == IL_COMMENT && last && line->line == last)
 			sink_text(sink, " ");
 		else if (line != il->line)

@@ -2,7 +2,7 @@
  *
  * write_project - a project as its one canonical text.
  *
- * What was read from included files is left out: it stands in those.
+ * Parts that were read from included files are left out.
  */
 #include "engine/base/lex.h"
 #include "engine/base/literal.h"
@@ -78,7 +78,7 @@ void write_string(const struct sink *sink, const char *text, size_t len)
 	sink_text(sink, "\"");
 }
 
-/* Columns the string of @id takes. */
+/* Columns of the string of @id. */
 static int write_width(const struct project *project, uint32_t id)
 {
 	return utf8_width(project_text(project, id), names_len(&project->names, id));
@@ -357,7 +357,7 @@ static void put_entry(const struct config_writer *w,
 	put_comment(w, entry->comment);
 }
 
-/* The lines outside the RESOURCE keep their side of it. */
+/* Lines outside the RESOURCE stay before or after it. */
 static void write_config(const struct sink *sink, const struct project *project)
 {
 	const struct config_writer w = { sink, project };
@@ -418,8 +418,7 @@ static void write_part(const struct sink *sink, const struct project *project,
 	}
 }
 
-/* Without a title there is no PROJECT line to stand above: the head then goes to
- * the first part, where reading finds it. */
+/* Without a title there is no PROJECT line, so the reader gives the head to the first part. */
 static void write_project(const struct sink *sink, const struct project *project)
 {
 	uint32_t head = project->head;
@@ -468,8 +467,7 @@ char *text_write(const struct project *project, size_t *len)
 	return memory.text;
 }
 
-#define OUTLINE_DEPTH (8 + LIMIT_MACROS) /* parts inside one another; those that are
-					    deeper are not told               */
+#define OUTLINE_DEPTH (8 + LIMIT_MACROS) /* nested parts; deeper parts are not reported */
 
 struct outline {
 	struct sink_memory memory;

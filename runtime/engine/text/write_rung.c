@@ -2,8 +2,8 @@
  *
  * write_rung - a rung as rows of cells between aligned bars.
  *
- * Widths are those a terminal shows, so that bars stay aligned behind Chinese
- * comments. It writes what stands in the grid, right or wrong.
+ * Widths are columns of a terminal, so that bars stay aligned after Chinese comments.
+ * Faulty rungs are written too.
  */
 #include "engine/text/writer.h"
 
@@ -61,7 +61,7 @@ void write_cell(const struct sink *sink, const struct project *project,
 			      words_row(&project->words, (enum word)cell->word));
 }
 
-/* With its comment, and the blank before a link. */
+/* Width with the comment, and with the blank before a link. */
 static void write_whole(const struct sink *sink, const struct project *project,
 			const struct cell *cell)
 {
@@ -96,7 +96,7 @@ static bool is_blank(const struct cell *cell)
 	return cell->word == ELEM_EMPTY && !cell->link && !cell->comment;
 }
 
-/* Cells of a row up to the last one that says something; one at least. */
+/* Cells of a row up to the last one that is not empty; one at least. */
 static int row_cols(const struct rung *rung, int row)
 {
 	int cols = rung->cols;
@@ -106,7 +106,7 @@ static int row_cols(const struct rung *rung, int row)
 	return cols;
 }
 
-/* An empty rung of one row is written without it. */
+/* An empty rung of one row is written without the row. */
 static int rows_to_write(const struct rung *rung)
 {
 	if (rung->rows == 1 && row_cols(rung, 0) == 1 &&
@@ -184,7 +184,7 @@ char *text_write_rung(const struct project *project, const struct rung *rung)
 
 struct bounded {
 	char *out;
-	size_t size, len; /* len counts what did not fit, too                 */
+	size_t size, len; /* len counts text that did not fit, too            */
 };
 
 static void write_bounded(void *context, const char *text, size_t len)

@@ -2,16 +2,16 @@
  *
  * write_sfc - a sequential function chart as its one canonical text.
  *
- * Items stand in the order of the file, two blanks further in for each thing they stand
- * in, an empty line between them. What is in a chart is written, right or wrong; the
- * variables that it brings are not.
+ * Items stand in the order of the file, two blanks deeper for each level, with an empty
+ * line between them. Faulty charts are written too; the variables that a chart adds are
+ * not.
  */
 #include "engine/text/writer.h"
 
 #include "engine/text/text.h"
 
-/* A sink that puts blanks before each line. Inside what it is handed at once, as a
- * comment of several lines, it changes nothing. */
+/* A sink that puts blanks before each line. Text that comes in one piece, such as a comment of
+ * several lines, is not changed. */
 struct indent {
 	const struct sink *to;
 	int depth;
@@ -24,7 +24,7 @@ struct page {
 	const struct sfc *sfc;
 	struct indent *indent;
 	const struct sink *sink; /* through the indent                        */
-	bool follows;            /* something stands above, in the same place */
+	bool follows;            /* an item stands above at the same level */
 };
 
 static void indent_write(void *context, const char *text, size_t len)
@@ -54,7 +54,7 @@ static void write_words(const struct page *page, const char *before, uint32_t id
 	sink_text(page->sink, after);
 }
 
-/* One of `(WORD := value, …)`; @count of them stand before it. */
+/* One setting of `(WORD := value, …)`; @count settings stand before it. */
 static int write_setting(const struct page *page, int count, const char *word,
 			 uint32_t id)
 {
@@ -136,7 +136,7 @@ static void write_uses(const struct page *page, const struct sfc_step *step)
 	}
 }
 
-/* Up to its lines; of a macro-step what is inside follows as pieces. */
+/* The lines of a step; the contents of a macro-step follow as items. */
 static void write_step(struct page *page, int index)
 {
 	const struct sfc_step *step = &page->sfc->step[index];
@@ -189,7 +189,7 @@ static void write_refs(const struct page *page, const char *before, int first, i
 	sink_text(page->sink, count == 1 ? "" : ")");
 }
 
-/* Is the rung still what := expression; says, and nothing else? */
+/* Does the rung still have the form `TRANSITION := expression;`, without comments? */
 static bool is_expression(const struct page *page, const struct sfc_body *body)
 {
 	const struct rung *rung = body->kind == BODY_EXPRESSION && body->count == 1 ?

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * writer - what the files that write the canonical text share.
+ * writer - shared by the files that write the canonical text.
  *
- * Everything goes to a sink in whole strings; nothing is judged or left out.
+ * Everything goes to a sink in whole strings, also faulty contents.
  */
 #ifndef TEXT_WRITER_H
 #define TEXT_WRITER_H
@@ -12,7 +12,7 @@
 
 /** write_id - the string of @id. */
 void write_id(const struct sink *sink, const struct project *project, uint32_t id);
-/** write_comments - comments as they are, each of them handed over at once. */
+/** write_comments - comments unchanged, each in one piece. */
 void write_comments(const struct sink *sink, const struct project *project,
 		    uint32_t comments);
 /** write_above - comments and a newline, or nothing. */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * assemble_unit - turns each instruction list into instructions, and all of them into an
- * image. It walks a list with its current result in hand.
+ * assemble_unit - turns instruction lists into instructions, and all of them into an image.
  *
- * Bits stay truth tables as long as nothing they read is written; before that
- * they are stored (list_protect). Types were checked before; nothing is judged here.
+ * It walks a list and keeps track of the current result. Bits stay truth tables until a
+ * variable that they read is written; then they are stored (list_protect). The types were
+ * checked; nothing is judged here.
  */
 #include "engine/translate/assembler.h"
 #include "engine/translate/lists.h"
@@ -98,7 +98,7 @@ static struct spot spot_of(struct list *list, const struct meaning *m)
 	return layout_spot(list->as, m);
 }
 
-/* The variable's own memory: what is there counts from now on. */
+/* From here on the variable's own memory holds its value. */
 static struct bits settle(struct list *list, struct pending *pending,
 			  const struct meaning *m)
 {
@@ -166,7 +166,7 @@ static bool reads_slot(const struct il_result *result, uint32_t slot)
 	return result->kind == RESULT_BITS && bits_reads(&result->bits, slot, 1);
 }
 
-/* Does anything that waits read this slot? */
+/* Does a waiting value read this slot? */
 static bool is_awaited(const struct list *list, uint32_t slot)
 {
 	bool found = reads_slot(&list->now, slot);
@@ -178,7 +178,7 @@ static bool is_awaited(const struct list *list, uint32_t slot)
 	return found;
 }
 
-/* A comparison that only @value reads becomes @value. */
+/* A comparison whose result only @value reads becomes @value. */
 static void store_at(struct list *list, const struct bits *value, uint32_t offset)
 {
 	uint32_t slot = bits_compared(list->as);
@@ -199,7 +199,7 @@ uint32_t list_keep(struct list *list, const struct bits *value)
 	return slot;
 }
 
-/* A temporary: kept as a value if it is read. */
+/* A temporary: kept as a truth table if it is read later. */
 static void write_temp(struct list *list, int var, const struct bits *value)
 {
 	struct pending *pending = find_pending(list, var);
@@ -365,7 +365,7 @@ void list_load(struct list *list, const struct il_line *line)
 		list_invert(list, m->type);
 }
 
-/* An untyped 0 or 1 where a bit is wanted; it may be a number later. */
+/* An untyped 0 or 1 where a bit is wanted; it may still become a number. */
 struct bits list_now_bits(const struct list *list)
 {
 	if (list->now.kind == RESULT_LITERAL)
@@ -373,15 +373,15 @@ struct bits list_now_bits(const struct list *list)
 	return list->now.bits;
 }
 
-/* A temporary whose value is the result of the next line, too, is stored at once;
- * else both would be worked out. */
+/* A temporary whose value is also the result for the next line is stored at once; otherwise
+ * both would be computed. */
 static bool is_wanted_twice(const struct list *list, const struct bits *value)
 {
 	return value->count > 1 && list->reads[list->at] > 0 &&
 	       result_goes_on(list);
 }
 
-/* Into the variable's own memory, a temporary's too. */
+/* Into the variable's own memory, also for a temporary. */
 static void store_bits(struct list *list, const struct meaning *m,
 		       const struct bits *value)
 {
@@ -395,7 +395,7 @@ static void store_bits(struct list *list, const struct meaning *m,
 	store_at(list, value, offset);
 }
 
-/* STN of bits; the result stays as it is. */
+/* STN of bits; the result does not change. */
 static void store_inverse(struct list *list, const struct meaning *m)
 {
 	struct il_result now = list->now;
@@ -431,7 +431,7 @@ static void store(struct list *list, const struct il_line *line)
 		list_write_bits(list, m, &value);
 		return;
 	}
-	/* From now on the result is what was stored: one leaf. */
+	/* From here on the result is the stored variable: one leaf. */
 	list->now.kind = RESULT_NONE;
 	store_bits(list, m, &value);
 	list->now.kind = RESULT_BITS;
@@ -461,7 +461,7 @@ static void set_reset(struct list *list, const struct il_line *line)
 
 /* ---- the walk ---- */
 
-/* Between statements nothing waits in scratch slots: they are free again. */
+/* Between statements nothing waits in scratch slots: they may be used again. */
 static void begin_statement(struct list *list)
 {
 	if (list->depth == 0 && list->pending_count == 0)

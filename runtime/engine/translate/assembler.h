@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * assembler - what the parts of the assembler share.
+ * assembler - shared by the parts of the assembler.
  *
- * Private to translate/. layout decides where everything lies, fuse keeps bits as
- * truth tables until they must be stored, assemble_unit.c walks the lists, pack_image
- * writes the result.
+ * Private to translate/. layout.c places everything, fuse.c keeps bits as truth tables
+ * until they must be stored, assemble_unit.c walks the lists, pack_image.c writes the
+ * image.
  */
 #ifndef TRANSLATE_ASSEMBLER_H
 #define TRANSLATE_ASSEMBLER_H
@@ -23,7 +23,7 @@ struct spot {
 /* Vectors that grow in the arena of the result. */
 struct words { uint32_t *word; int count; };
 
-/* Bits in memory for what a statement sets aside. */
+/* Bits in memory for values that wait within a statement. */
 struct slots { uint32_t *slot; int count; };
 
 /* A bit that has not been stored: a truth table of up to three BOOLs. */
@@ -40,7 +40,7 @@ struct assembler {
 
 	/* layout */
 	struct code_run *run;
-	int run_count, run_core;   /* run_core: of what runs unwatched          */
+	int run_count, run_core;   /* run_core: data of the part that runs unwatched */
 	struct code_bits *bit_run;
 	int bit_run_count;
 	uint32_t data_size, retain_offset, retain_size;
@@ -64,7 +64,7 @@ struct assembler {
 	/* output of one section */
 	struct words *text;
 	struct words code, watch;
-	int open_lut;              /* word index of a LUT that may go on; -1  */
+	int open_lut;              /* word index of a LUT that may be extended; -1 */
 	int open_cmp;              /* of a comparison that ends the code; -1  */
 	struct code_place *place;
 	int place_count;
@@ -73,15 +73,15 @@ struct assembler {
 	int task_count;
 	struct words call;
 
-	/* slots that are free again at the next statement; a POU that is called
-	 * has its own, so that it does not write those of whoever calls */
+	/* free scratch slots, used again by the next statement; each called POU has its own,
+	 * so that it does not overwrite its caller's */
 	struct slots *slots, program_slots;
 	int scratch_used;
 	uint32_t sink[IEC_TYPE_COUNT];
 };
 
 struct text_key { const char *text; size_t len; uint32_t offset; };
-/* Where the variables of a POU lie while it runs, and what they begin with. */
+/* Where the variables of a POU lie while it runs, and their initial values. */
 struct frame {
 	uint32_t offset, size;      /* of a function or block; size 0: neither */
 	uint32_t model;             /* a function's, as it is before a call    */
@@ -102,9 +102,10 @@ uint32_t layout_place(struct assembler *as, struct code_run want, uint32_t size,
 /** layout_init_text - a text's first bytes at an offset. */
 void layout_init_text(struct assembler *as, uint32_t offset, uint32_t capacity,
 		      struct literal literal);
-/** layout_like - a place for a copy of a whole array or structure. */
+/** layout_like - a place for a copy of an array or structure. */
 uint32_t layout_like(struct assembler *as, const struct meaning *m);
-/** layout_core - what was placed so far is what runs; watching comes behind it. */
+/** layout_core - everything placed so far belongs to the running part; watching comes after
+ * it. */
 void layout_core(struct assembler *as);
 /** layout_power - places for the power of cells, and for a copy an instance. */
 void layout_power(struct assembler *as);
@@ -121,8 +122,7 @@ uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
 /** layout_init - an initial value at an offset. */
 void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
 		 union iec_value value);
-/** layout_init_over - the same where something else stands already: a 0 is stored,
- * too. */
+/** layout_init_over - the same over an earlier value, so that a 0 is stored too. */
 void layout_init_over(struct assembler *as, uint32_t offset, enum iec_type type,
 		      union iec_value value);
 /** layout_init_pins - the values that a row of the catalogue gives its inputs, in an
@@ -132,12 +132,12 @@ void layout_init_pins(struct assembler *as, uint32_t offset,
 /** layout_init_array - the initial values of an array at an offset. */
 void layout_init_array(struct assembler *as, uint32_t offset,
 		       const struct var *var);
-/** layout_init_parts - those that the declaration of what has parts gives, over those
- * of its parts. */
+/** layout_init_parts - initial values of a structure's or instance's declaration, over those of
+ * its type. */
 void layout_init_parts(struct assembler *as, uint32_t offset,
 		       const struct var *var);
-/** layout_only_stored - is this pin used only as a parameter of one call? Then a constant
- * can be its initial value instead, if that call runs in every scan. */
+/** layout_only_stored - is this pin used only as a parameter of one call? Then a constant can
+ * be its initial value, if that call runs in every scan. */
 bool layout_only_stored(const struct assembler *as, const struct meaning *pin);
 /** layout_pou - the frame of a function or block; @index: of its POU. */
 const struct frame *layout_pou(const struct assembler *as, enum word word,
@@ -159,15 +159,15 @@ struct bits bits_combine(struct assembler *as, struct bits a, struct bits b,
 			 uint8_t table2);
 /** bits_store - the instruction that stores @a at @offset. */
 void bits_store(struct assembler *as, const struct bits *a, uint32_t offset);
-/** bits_end - what is emitted next is run from elsewhere, too: it stays apart. */
+/** bits_end - the next instruction is also reached by a jump: it is not fused. */
 void bits_end(struct assembler *as);
 /** bits_compare - a comparison, which is @table of its order, in a scratch slot. */
 struct bits bits_compare(struct assembler *as, uint32_t table, uint32_t left,
 			 uint32_t right);
-/** bits_compared - the slot of a comparison that ends the code so far; 0: none does. */
+/** bits_compared - the slot of a comparison that ends the code; 0: the code ends otherwise. */
 uint32_t bits_compared(const struct assembler *as);
-/** bits_store_compared - as bits_store(), by that comparison, which is there; its slot
- * is not written. False: @a is more than that and one other bit, or without it. */
+/** bits_store_compared - as bits_store(), from the comparison that ends the code; its slot is
+ * not written. False: @a does not consist of it and at most one other bit. */
 bool bits_store_compared(struct assembler *as, const struct bits *a, uint32_t offset);
 /** bits_keep - @a stored in a scratch slot, as a leaf. */
 struct bits bits_keep(struct assembler *as, const struct bits *a);

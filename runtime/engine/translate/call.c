@@ -16,7 +16,7 @@ static const char *pin_text(const struct list *list, const struct il_line *arg)
 	return scope_text(list->as->translation->scope, arg->pin);
 }
 
-/* Where an unused result goes. */
+/* An offset for an unused result. */
 uint32_t list_sink(struct assembler *as, enum iec_type type)
 {
 	if (!as->sink[type])
@@ -24,7 +24,7 @@ uint32_t list_sink(struct assembler *as, enum iec_type type)
 	return as->sink[type];
 }
 
-/* The function of the image behind a word: of INT_TO_REAL and the like another. */
+/* The function of the image for a word: INT_TO_REAL and others share one. */
 static uint32_t function_of(const struct word_row *row, enum word word)
 {
 	return row->runs ? (uint32_t)row->runs : (uint32_t)word;
@@ -60,8 +60,7 @@ static enum iec_type input_type(const struct word_row *row, uint32_t index,
 	return pin->own && literal ? fn_own_type(pin, literal) : type;
 }
 
-/* What a function that fails leaves: the left operand, or 0 where that has another
- * type. */
+/* The result of a function that fails: the left operand, or 0 if that has another type. */
 static void preset(struct list *list, enum iec_type result, uint32_t to, uint32_t left)
 {
 	union iec_value zero = { .i = 0 };
@@ -141,7 +140,7 @@ static bool is_arg(const struct list *list, int at)
 					list->il->line[at].kind == IL_ARG_OUT);
 }
 
-/* The function of the line at work: of two operands their types have a say. */
+/* The function of the current line: its types depend on both operands. */
 static enum word word_at(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
@@ -153,7 +152,7 @@ static enum word word_at(struct list *list)
 			   list_meaning(list, line->operand)->type);
 }
 
-/* An operand of it, from line @at. */
+/* One of its operands, from line @at. */
 static void add_operand(struct list *list, int at, struct applied *fn)
 {
 	const struct word_row *row = list_row(list, fn->word);
@@ -200,7 +199,7 @@ void list_close_fn(struct list *list, const struct opened *open)
 
 /* ---- functions with formal parameters ---- */
 
-/* A BOOL that an instruction writes: in place, or beside it and put there. */
+/* A BOOL that an instruction writes: directly, or through a scratch slot. */
 struct target {
 	const struct meaning *m;
 	uint32_t slot;
@@ -247,7 +246,7 @@ struct call {
 	int eno_line, out_line;
 };
 
-/* EN first: an element whose index leads nowhere is no error while it is FALSE. */
+/* EN first: a missing element is no error while EN is FALSE. */
 static void read_en(struct list *list, struct call *call)
 {
 	for (int i = list->at + 1; is_arg(list, i); i++) {
@@ -261,7 +260,7 @@ static void read_en(struct list *list, struct call *call)
 	}
 }
 
-/* With an element that is not there the function does not run. */
+/* If an element is missing the function does not run. */
 static uint32_t read_input(struct list *list, const struct meaning *m,
 			   enum iec_type type, struct call *call)
 {
@@ -296,7 +295,7 @@ static void read_args(struct list *list, const struct word_row *row,
 	}
 }
 
-/* The word that the line is on its inputs. */
+/* The overload of the line's word for its inputs. */
 static enum word overloaded(struct list *list, enum word word)
 {
 	const struct word_row *row = list_row(list, word);
@@ -325,7 +324,7 @@ static void finish_at(struct list *list, const struct target *target, int line)
 	list->at = at;
 }
 
-/* A value that is stored as it is: that cannot fail, ENO is EN. */
+/* A plain store of a value cannot fail, so ENO is EN. */
 static bool is_plain_move(const struct word_row *row, enum word word,
 			  const struct call *call, uint32_t to)
 {
@@ -362,10 +361,10 @@ void list_call(struct list *list)
 		list_own_call(list);
 		return;
 	}
-	list->now.kind = RESULT_NONE; /* not read any more */
+	list->now.kind = RESULT_NONE; /* read for the last time here */
 	read_args(list, row, type, &call);
 	result = fn_result(row, type, call.out ? call.out->type : IEC_NONE);
-	if (call.out && meaning_is_indexed(call.out)) { /* what it is, if OUT fails */
+	if (call.out && meaning_is_indexed(call.out)) { /* the value if OUT fails */
 		to = list_fetch(list, call.out, call.en, &call.en);
 	} else if (call.out && result == IEC_BOOL) {
 		out = bool_target(list, call.out, true);
@@ -397,7 +396,7 @@ void list_call(struct list *list)
 
 /* ---- function blocks ---- */
 
-/* PIN := value, as LD value, ST Instance.PIN would be. */
+/* PIN := value, stored as LD value, ST Instance.PIN would. */
 static void feed_pin(struct list *list, const struct meaning *instance,
 		     const struct il_line *arg, uint32_t fetched)
 {
@@ -461,8 +460,8 @@ static void take_pin(struct list *list, const struct meaning *instance,
 			  CODE_OPERAND(pin.type, spot.offset));
 }
 
-/* A jump over the call; gives the word of its target. What waits was stored before:
- * behind the jump would be too late. */
+/* A jump over the call; returns the word of its target. Waiting values must be stored before:
+ * after the jump would be too late. */
 static int jump_over(struct list *list, struct bits skip)
 {
 	uint32_t slot = list_slot(list, &skip);
@@ -481,8 +480,8 @@ static bool is_element(struct list *list, const struct il_line *arg)
 	return meaning_is_indexed(list_meaning(list, arg->operand));
 }
 
-/* Inputs that are elements, by number of the parameter; 0: none. Returns the BOOL
- * that tells whether all are there; 0: nothing to tell. */
+/* Looks up inputs that are elements, by number of the parameter; 0: no element. Returns the
+ * BOOL that is TRUE if all exist; 0: there are none. */
 static uint32_t fetch_inputs(struct list *list, uint32_t fetched[LIMIT_ARGS])
 {
 	uint32_t ok = 0;
@@ -545,7 +544,7 @@ void list_end_skip(struct list *list, int skip)
 	list->as->text->word[skip] = (uint32_t)list->as->text->count;
 }
 
-/* An input that is an element that is not there is a jump over the call, too. */
+/* A missing element at an input jumps over the call, too. */
 void list_cal(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
@@ -569,7 +568,7 @@ void list_cal(struct list *list)
 		return;
 	}
 	if (!(line->modifiers & MOD_C))
-		list->now.kind = RESULT_NONE; /* not read any more */
+		list->now.kind = RESULT_NONE; /* read for the last time here */
 	list_protect(list, offset, list_row(list, fb)->size);
 	if (line->modifiers & MOD_C)
 		unless = list_skip_call(list, line);

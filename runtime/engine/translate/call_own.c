@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * call_own - calls of the project's own functions and function blocks.
+ * call_own - calls of the functions and function blocks of a project.
  *
- * A body works on one frame. A block's is filled from the instance and given back
- * after the call; a function's is filled from a model. A body may write any variable:
- * whatever waits to be stored is stored before it runs.
+ * A body works on one frame. A block's frame is filled from the instance and copied back
+ * after the call; a function's is filled from a template. A body may write any variable, so
+ * all waiting values are stored before the call.
  */
 #include "engine/translate/lists.h"
 
@@ -45,7 +45,7 @@ static uint32_t size_of(const struct list *list, const struct meaning *m)
 
 /* ---- pins, at @to in an instance or frame ---- */
 
-/* @fetched: where an element is that was looked up before; 0: none. */
+/* @fetched: place of an element that was looked up; 0: none. */
 static void feed(struct list *list, uint32_t to, const struct word_pin *pin,
 		 const struct meaning *m, uint32_t fetched)
 {
@@ -111,7 +111,7 @@ static void feed_all(struct list *list, const struct word_row *row, uint32_t bas
 	}
 }
 
-/* Outputs, and what was handed over to be changed. */
+/* Copies outputs and VAR_IN_OUT back. */
 static void take_all(struct list *list, const struct word_row *row, uint32_t base)
 {
 	int at = list->at;
@@ -253,8 +253,8 @@ static void take_result(struct list *list, const struct frame *frame,
 	list->at = own;
 }
 
-/* A jump over what takes what a function gives, if its body made ENO FALSE; @en is that
- * then. Where there is a jump over the call, @en has a place of its own already. */
+/* A jump over the copy of the outputs, if the body made ENO FALSE; @en is FALSE then. If a
+ * jump skips the call, @en has a place of its own already. */
 static int skip_failed(struct list *list, const struct frame *frame,
 		       const struct word_row *row, struct bits *en)
 {
@@ -269,7 +269,7 @@ static int skip_failed(struct list *list, const struct frame *frame,
 	return list_skip_call(list, &jump);
 }
 
-/* @en: becomes FALSE, too, if the body says so. */
+/* @en: also becomes FALSE if the body clears ENO. */
 static void call_function(struct list *list, const uint32_t fetched[LIMIT_ARGS],
 			  struct bits *en)
 {
@@ -346,7 +346,7 @@ static void feed_now(struct list *list, uint32_t to, const struct word_pin *pin)
 	list_copy(list, CODE_OPERAND(pin->type, to), from);
 }
 
-/* The result is kept beside the frame, which the next call uses again. */
+/* The result is copied out of the frame, because the next call uses the frame again. */
 static void result_now(struct list *list, uint32_t from, enum iec_type type)
 {
 	struct bits bits = bits_leaf(list->as, from);

@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * element - AGET, APUT and ABLOCK: elements of arrays whose index is found out in the
- * scan.
+ * element - AGET, APUT and ABLOCK: elements of arrays whose index is computed in the scan.
  *
- * A value, structure or array goes through a place of its own, so that no other
- * instruction knows of such indices. Elements with a fixed index are variables like
- * others and not met here.
+ * A value, structure or array is copied to a place of its own, so that no other instruction
+ * needs such indices. Elements with a fixed index are ordinary variables.
  */
 #include "engine/translate/lists.h"
 
-/* Operands of the indices. They are found before the instruction begins: a bit of an
- * area may have to be fetched. */
+/* Operands of the indices. They are computed before the instruction, because a bit of an area
+ * may have to be fetched. */
 struct indices { uint32_t operand[LIMIT_INDICES]; };
 
 static struct indices indices_of(struct list *list, const struct meaning *m)
@@ -60,7 +58,7 @@ static void emit_value(struct list *list, enum vm_op op, const struct meaning *m
 
 /* ---- a whole ---- */
 
-/* @put: from @at into the element; else the other way. */
+/* @put: from @at into the element; else out of it. */
 static void emit_whole(struct list *list, const struct meaning *m, bool put,
 		       const uint32_t operand[3])
 {
@@ -108,8 +106,8 @@ uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 	struct spot spot = layout_spot(list->as, m);
 	uint32_t ok = scratch_new(list->as);
 
-	/* To the end of the last one and no further: where a call is jumped over, what
-	 * lies behind must not be stored on the way. In a text there are no bits. */
+	/* Ends with the last element: a jump over a call must not skip storing what lies after
+	 * it. Texts have no bits. */
 	if (!spot.packed && m->type != IEC_STRING)
 		list_protect(list, spot.offset,
 			     scope_span(list->as->translation->scope, m));

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * function - one function on operands that lie somewhere: the instruction for it.
+ * function - the instruction for one function on operands in memory.
  *
- * FN runs any of them; two numbers of a common type and a plain MOVE have
- * instructions of their own, which do the same sooner. What the operands are was
- * decided before.
+ * FN runs any function. Operations on two numbers of one type and a plain MOVE have faster
+ * instructions of their own with the same results. The caller has chosen the operand types.
  */
 #include "engine/translate/lists.h"
 
 /* ---- comparisons ---- */
 
-/* Of a table of (>=, <=): what a comparison is. Their rows stand in this order. */
+/* The comparison of a table of (>=, <=). The rows stand in this order. */
 static uint32_t table_of(enum word word)
 {
 	static const uint8_t table[] = {

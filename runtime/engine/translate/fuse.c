@@ -2,9 +2,8 @@
  *
  * fuse - bits as truth tables of up to three BOOLs, until they must be stored.
  *
- * Whatever contacts, branches and inverters stand between, three inputs are one
- * instruction; and instructions that follow each other share one LUT word. It knows
- * no patterns, only tables.
+ * Contacts, branches and inverters with three inputs become one instruction, and
+ * consecutive instructions share one LUT word. It knows tables only, no patterns.
  */
 #include "engine/translate/assembler.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * ladder_unit - what the parts of the LD translation share: one rung in work.
+ * ladder_unit - shared by the parts of the LD translation: the current rung.
  *
  * Private to translate/. ld_to_il.c walks rungs and turns nets and elements into IL,
  * ld_box.c does boxes and ld_expr.c expressions.
@@ -18,7 +18,7 @@ struct element_state {
 	bool seen;         /* evaluated, or being so                          */
 	bool negate;
 	bool powered;      /* `leaf` holds its power already                  */
-	uint32_t leaf;     /* operand that decides; 0: NOT, or an output      */
+	uint32_t leaf;     /* operand that gives its power; 0: NOT, or an output */
 	int next;          /* of those that read the same place; -1: last     */
 };
 
@@ -44,7 +44,7 @@ struct ld {
 	struct network network;
 	struct element_state *element;
 	struct net_state *net;
-	int *reader;       /* by place: the element that read it last; -1     */
+	int *reader;       /* by place: last element that read it; -1         */
 	uint32_t reader_mask;
 	uint32_t number;   /* of the rung, 1-based                            */
 	uint16_t row, col; /* place of the next instruction, 1-based          */
@@ -56,7 +56,7 @@ struct ld {
 	struct open_loop loop[LIMIT_LOOPS];
 	int loops;
 	struct expr *expr;
-	struct diag_list *ignored; /* of texts that were read before          */
+	struct diag_list *ignored; /* texts that were parsed before           */
 };
 
 /* ---- ld_to_il.c ---- */
@@ -72,8 +72,8 @@ void ld_emit(struct ld *ld, enum op op, uint8_t modifiers, uint32_t operand);
 void ld_emit_line(struct ld *ld, struct il_line line);
 /** ld_place - following instructions come from this cell (0-based). */
 void ld_place(struct ld *ld, int row, int col);
-/** ld_prepare - gives every net that several read, and that @net needs, a
- * temporary. @readers of @net itself are served now. No result may be open. */
+/** ld_prepare - stores each net that @net needs and that several readers share in a temporary.
+ * @readers of @net itself are served now. No result may be open. */
 void ld_prepare(struct ld *ld, int net, int readers);
 /** ld_routine - CALL of a subroutine. */
 void ld_routine(struct ld *ld, int element);
@@ -83,25 +83,24 @@ void ld_load(struct ld *ld, int net);
 uint32_t ld_operand(struct ld *ld, int net);
 /** ld_store_new - stores the result in a new temporary and returns it. */
 uint32_t ld_store_new(struct ld *ld);
-/** ld_freeze - before @operand is written: whatever read it before keeps its
- * value in a temporary. */
+/** ld_freeze - before @operand is written: elements that read it earlier keep their value in a
+ * temporary. */
 void ld_freeze(struct ld *ld, uint32_t operand);
-/** ld_freeze_globals - the same before a body runs that may write any global or
- * address. */
+/** ld_freeze_globals - the same before a body that may write any global or address. */
 void ld_freeze_globals(struct ld *ld);
 /** ld_meaning - of an operand; NULL: none. */
 const struct meaning *ld_meaning(struct ld *ld, uint32_t operand);
-/** ld_is_indexed - is it an element whose index is found out in the scan? */
+/** ld_is_indexed - is it an element whose index is computed in the scan? */
 bool ld_is_indexed(struct ld *ld, uint32_t operand);
 
-/* ---- elements whose index is found out in the scan ---- */
+/* ---- elements whose index is computed in the scan ---- */
 /** ld_fetch - such an element as it is now, in a new temporary
  * @en:  operand that enables it
  * @eno: gets a temporary: is there such an element? */
 uint32_t ld_fetch(struct ld *ld, uint32_t element, uint32_t en, uint32_t *eno);
 
 /* ---- ld_box.c ---- */
-/** ld_row - the row of a word, be it the project's own. */
+/** ld_row - the row of a word of the catalogue or the project. */
 const struct word_row *ld_row(const struct ld *ld, enum word word);
 /** ld_box - a function or function block at its place in phase 1. */
 void ld_box(struct ld *ld, int element);

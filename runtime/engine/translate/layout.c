@@ -22,7 +22,7 @@ void words_push(struct assembler *as, struct words *words, uint32_t word)
 		as->failed = true;
 }
 
-/* The row of a word, be it the project's own. */
+/* The row of a word of the catalogue or the project. */
 static const struct word_row *layout_row(const struct assembler *as, enum word word)
 {
 	return words_row(&as->translation->project->words, word);
@@ -44,7 +44,7 @@ static bool layout_has_room(struct assembler *as, uint32_t offset, uint64_t size
 	return false;
 }
 
-/* @want: what, and how many of it, each of @size. */
+/* @want: type and count, each of @size bytes. */
 static uint32_t layout_place_at(struct assembler *as, struct code_run want,
 				uint32_t offset, uint32_t size)
 {
@@ -98,7 +98,7 @@ static uint32_t place_value(struct assembler *as, enum code_run_kind kind,
 	return place_values(as, kind, type, IEC_STRING_MOST, 1);
 }
 
-/* So many of one word in a row, each where @unit bytes behind the one before end. */
+/* @count of one word in a row, each aligned to @unit bytes. */
 static void layout_instances(struct assembler *as, enum word word, uint32_t offset,
 			     uint32_t count, uint32_t unit)
 {
@@ -109,7 +109,7 @@ static void layout_instances(struct assembler *as, enum word word, uint32_t offs
 		layout_place_at(as, run, offset + i * unit, word_row(word)->size);
 }
 
-/* One that is being placed, part by part. */
+/* A structure or instance that is being placed, part by part. */
 struct whole {
 	const struct word_row *row;
 	const struct var_table *vars;
@@ -166,7 +166,7 @@ static void place_blocks(struct assembler *as, const struct word_pin *pin,
 		layout_init_pins(as, offset + i * extent.unit, word_row(pin->word));
 }
 
-/* A part without parts of the project's own. */
+/* A part that is no structure, instance or array of the project. */
 static void place_part(struct assembler *as, const struct whole *whole, int index,
 		       bool init)
 {
@@ -186,8 +186,7 @@ static void place_part(struct assembler *as, const struct whole *whole, int inde
 		layout_init_var(as, offset, &whole->vars->var[index]);
 }
 
-/* Behind the last part of what has parts of the project's own: what the declaration of
- * that member itself says. */
+/* After the last part: the initial values in the declaration of this member. */
 static void end_part(struct assembler *as, const struct whole *outer)
 {
 	int index;
@@ -202,8 +201,8 @@ static void end_part(struct assembler *as, const struct whole *outer)
 				&outer->vars->var[index]);
 }
 
-/* The next part of @top, an element at a time if it is an array of what has parts of
- * the project's own; @offset: where it lies. */
+/* The next part of @top, one element at a time if it is an array of structures or instances of
+ * the project; @offset: its place. */
 static int next_part(const struct assembler *as, struct whole *top, uint32_t *offset)
 {
 	int index = top->row->order[top->next];
@@ -220,7 +219,7 @@ static int next_part(const struct assembler *as, struct whole *top, uint32_t *of
 	return index;
 }
 
-/* Runs for its parts, in the order of model/shape.h. */
+/* Reserves runs for its parts, in the order of model/shape.h. */
 static uint32_t layout_whole(struct assembler *as, enum word word, bool init)
 {
 	struct whole level[LIMIT_NESTING + 1];
@@ -254,8 +253,8 @@ static uint32_t layout_whole(struct assembler *as, enum word word, bool init)
 	return base;
 }
 
-/* An instance or structure, or an array of such; @init: with the values that their
- * types give. */
+/* An instance or structure, or an array of these; @init: with the initial values of their
+ * types. */
 static uint32_t place_whole(struct assembler *as, const struct var *var, bool init)
 {
 	struct extent extent = shape_of_var(&as->translation->project->words, var);
@@ -343,7 +342,7 @@ static void use_address(struct assembler *as, uint8_t *used,
 		       addr.bits / 8u);
 }
 
-/* Whatever an index may lead to stays packed, bits too. */
+/* Areas that an index may reach stay packed, bits too. */
 static void use_addresses(struct assembler *as, struct iec_addr first,
 			  uint32_t count)
 {
@@ -457,7 +456,7 @@ static bool place_bits(struct assembler *as)
 	return true;
 }
 
-/* A pin of this row that is part of it. */
+/* A pin of this row as part of it. */
 static bool is_part(const struct assembler *as, enum word word, int index)
 {
 	const struct word_row *row = layout_row(as, word);
@@ -466,7 +465,7 @@ static bool is_part(const struct assembler *as, enum word word, int index)
 	       row->pin[index].dir != PIN_NONE;
 }
 
-/* An edge of a block is remembered in each instance, behind the variables. */
+/* A block's edge memory lies in each instance, after the variables. */
 static int edge_pin(const struct assembler *as, const struct pou *pou,
 		    const struct var *var)
 {
@@ -556,7 +555,7 @@ static void place_var(struct assembler *as, int table, int index, bool retain)
 	layout_init_var(as, *offset, var);
 }
 
-/* All variables of one type (IEC_NONE: instances) that are not placed yet. */
+/* All variables of one type (IEC_NONE: instances) that have no place yet. */
 static void place_type(struct assembler *as, enum iec_type type, bool retain)
 {
 	for (int table = 0; table <= as->translation->unit_count; table++)
@@ -591,7 +590,7 @@ static void place_all(struct assembler *as, bool retain)
 	place_type(as, IEC_NONE, retain);
 }
 
-/* An initial value in its area, as @area will be; or in the bit's own byte. */
+/* An initial value in its area, or in the bit's own byte. */
 static void init_in_area(struct assembler *as, uint8_t *area,
 			 struct iec_addr addr, enum iec_type type,
 			 union iec_value value)
@@ -663,8 +662,8 @@ static bool make_tables(struct assembler *as)
 	return true;
 }
 
-/* Only pins of the catalogue's blocks are counted, and in programs: others lie in
- * many instances. */
+/* Counts only pins of blocks of the catalogue, in programs: other pins exist in many
+ * instances. */
 static bool is_counted(const struct meaning *m)
 {
 	return m->var->type == IEC_NONE && !word_is_own(m->var->fb) &&
@@ -681,7 +680,7 @@ static uint8_t *pin_count(const struct assembler *as, const struct meaning *m)
 	return &as->pin_writes[first + (uint32_t)m->pin];
 }
 
-/* A parameter of a call counts one, any other use two: then it is not alone. */
+/* A parameter of a call counts one, any other use two: then the call is not the only use. */
 static void count_use(struct assembler *as, const struct meaning *m,
 		      bool parameter)
 {
@@ -846,14 +845,14 @@ bool layout_only_stored(const struct assembler *as, const struct meaning *pin)
 	const struct var_table *vars = layout_vars(as, layout_table(as, pin));
 	struct meaning calls = calls_of(as, pin);
 
-	/* What is retained comes back as it was before the program was edited: each
-	 * call must give its constant anew. */
+	/* After a change of the program, retained pins keep their old values: each call must
+	 * store its constant again. */
 	if (!is_counted(pin) || vars_flags(vars, pin->index) & VAR_RETAIN)
 		return false;
 	return *pin_count(as, pin) == 1 && *pin_count(as, &calls) == 1;
 }
 
-/* The unit whose cells an instance has; -1: none of the project's, or not its own. */
+/* The unit whose cells an instance has; -1: a block of the catalogue, or a structure. */
 static int unit_of(const struct assembler *as, const struct var_table *vars,
 		   int index)
 {
@@ -886,7 +885,7 @@ static uint32_t own_cells(const struct assembler *as, int unit)
 	return count;
 }
 
-/* Blocks inside have less depth, so that their sizes are known. */
+/* Inner blocks have less depth, so that their sizes are known. */
 static void measure(struct assembler *as, int unit)
 {
 	const struct var_table *vars = layout_vars(as, unit + 1);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * ld_box - functions and function blocks of a rung as IL calls.
+ * ld_box - functions and function blocks of a rung as calls in IL.
  */
 #include "engine/translate/ladder_unit.h"
 
@@ -60,7 +60,7 @@ static bool is_pin(const struct arg *arg, const char *name)
 	       strncasecmp(arg->pin, name, arg->pin_len) == 0;
 }
 
-/* Everything the box writes, before anything of it runs. */
+/* Freezes readers of everything that the box writes, before it runs. */
 static void freeze_outputs(struct ld *ld, enum word word, const char *text)
 {
 	const struct word_row *row = ld_row(ld, word);
@@ -77,14 +77,14 @@ static void freeze_outputs(struct ld *ld, enum word word, const char *text)
 		ld_freeze_globals(ld);
 }
 
-/* The operands of the written inputs, in their order: of an inverted one a temporary,
- * made before the call. */
+/* The operands of the written inputs, in order; an inverted one is a temporary, made before
+ * the call. */
 struct inputs {
 	uint32_t operand[LIMIT_ARGS];
 };
 
-/* An element whose index is found out in the scan becomes a temporary, while @en; @en
- * then tells whether it is there. What the block writes, too, stays the element. */
+/* Copies an element whose index is computed in the scan to a temporary, while @en; @en then
+ * also tells whether it exists. An operand that the block writes too stays the element. */
 static void fetch_input(struct ld *ld, enum word word, const struct arg *arg,
 			uint32_t *operand, uint32_t *en)
 {
@@ -93,7 +93,7 @@ static void fetch_input(struct ld *ld, enum word word, const struct arg *arg,
 	const struct meaning *m = *operand ? ld_meaning(ld, *operand) : NULL;
 	uint32_t value;
 
-	/* A whole one that MOVE takes it fetches itself; no other function does. */
+	/* MOVE fetches a whole structure or array itself; no other function takes one. */
 	if (!m || !meaning_is_indexed(m) || (meaning_is_whole(m) && !word_is_own(word)))
 		return;
 	value = ld_fetch(ld, *operand, *en ? *en : ld->true_id, en);
@@ -101,8 +101,8 @@ static void fetch_input(struct ld *ld, enum word word, const struct arg *arg,
 		*operand = value;
 }
 
-/* @en: operand that enables it, 0: none so far; afterwards it tells whether all elements
- * are there, too. */
+/* @en: operand that enables it, 0: none so far; afterwards also FALSE if an element is
+ * missing. */
 static void read_inputs(struct ld *ld, enum word word, const char *text,
 			struct inputs *out, uint32_t *en)
 {
@@ -131,7 +131,7 @@ static void write_inputs(struct ld *ld, const char *text, const struct inputs *i
 			       inputs->operand[i]);
 }
 
-/* ENO of a function is stored otherwise. */
+/* ENO of a function is stored elsewhere. */
 static void write_outputs(struct ld *ld, const char *text, bool block)
 {
 	struct arg arg;
@@ -166,7 +166,7 @@ static void feed_pin(struct ld *ld, uint32_t instance, const char *pin, int net)
 }
 
 /* A block of the project without a Boolean input is called while it has power. */
-/* @ok: what else must be TRUE; 0: nothing. */
+/* @ok: another condition; 0: none. */
 static void call_block(struct ld *ld, int element, bool powered, uint32_t ok)
 {
 	const struct network_element *at = &ld->network.element[element];
@@ -230,8 +230,8 @@ static bool is_compare(enum word word)
 	return word >= FN_GT && word <= FN_NE;
 }
 
-/* A comparison whose result is only power needs no EN: it cannot fail, unless what it
- * compares may not be there. */
+/* A comparison whose result is only power needs no EN: it cannot fail unless an element is
+ * missing. */
 static bool is_plain_compare(struct ld *ld, int element, struct arg *left,
 			     struct arg *right)
 {
@@ -258,7 +258,7 @@ static void store_eno(struct ld *ld, const char *args, uint32_t eno)
 	ld_emit(ld, OP_ST, 0, intern(ld, arg.value, arg.value_len));
 }
 
-/* All inputs in the order of the row: those of rows of their own, those written. */
+/* All inputs in the order of the row: pin rows and parameters. */
 struct operands {
 	uint32_t id[LIMIT_FN_INPUTS];
 	bool bits;             /* one of them is a BOOL, and none is more     */
@@ -288,7 +288,7 @@ static void take_operand(struct ld *ld, const struct word_row *row, const char *
 		out->bits = false;
 }
 
-/* Are all inputs that share a type BOOLs? Then @out holds them. */
+/* Are all inputs that share a type BOOLs? They are in @out then. */
 static bool take_operands(struct ld *ld, int element, const struct inputs *inputs,
 			  struct operands *out)
 {
@@ -343,8 +343,8 @@ static void emit_call(struct ld *ld, int element, uint32_t en, uint32_t eno,
 	ld_arg(ld, true, ld->eno_id, eno);
 }
 
-/* A Boolean result that is power, too: stored while enabled. Returns ENO: FALSE also
- * when OUT is an element that is not there. */
+/* A Boolean result that is also power: stored while enabled. Returns ENO, which is FALSE also
+ * if OUT is a missing element. */
 static uint32_t store_result(struct ld *ld, const char *args, uint32_t eno,
 			     uint32_t result)
 {
@@ -381,7 +381,7 @@ static void box_function(struct ld *ld, int element)
 	en = ld_operand(ld, at->in);
 	for (int i = 0; i < at->pins; i++)
 		ld_operand(ld, ld->network.pin[at->first_pin + i].in);
-	ld_place(ld, at->row, at->col); /* an error is the box's own */
+	ld_place(ld, at->row, at->col); /* an error stops at this box */
 	read_inputs(ld, (enum word)at->word, args, &inputs, &en);
 	bits = row->result == (int)RESULT_GATE &&
 	       take_operands(ld, element, &inputs, &operands);
@@ -410,7 +410,7 @@ static void box_function(struct ld *ld, int element)
 	}
 }
 
-/* A subroutine may write all globals; its power is what it was called with. */
+/* A subroutine may write all globals; its output is the power of its call. */
 void ld_routine(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];

@@ -2,8 +2,8 @@
  *
  * ld_expr - [ … ] cells as IL: a chain of operators, operands and calls of functions.
  *
- * Every operation that can fail gets EN from the ENO of the one before, the first
- * from the power of the cell. So an expression is what the same boxes would be.
+ * Every operation that can fail gets EN from the ENO of the one before, the first from the
+ * power of the cell, as the same boxes in series would.
  */
 #include "engine/check/check_il.h"
 #include "engine/model/expr_args.h"
@@ -25,7 +25,7 @@ struct chain {
 	int net;                /* power of the cell                          */
 	uint32_t en;            /* of the next operation; 0: none so far      */
 	bool can_fail;
-	int calls;              /* of the project's own functions, to come    */
+	int calls;              /* calls of functions of the project still to come */
 };
 
 static uint32_t chain_intern(struct chain *c, const char *text, size_t len)
@@ -38,7 +38,7 @@ static uint32_t chain_intern(struct chain *c, const char *text, size_t len)
 	return id;
 }
 
-/* Takes the blanks out of a text; how long it is then. */
+/* Removes the blanks from a text; returns its length. */
 static size_t drop_blanks(char *text, size_t len)
 {
 	size_t used = 0;
@@ -77,8 +77,8 @@ static enum iec_type type_of(struct chain *c, uint32_t operand)
 	return m ? m->type : IEC_NONE;
 }
 
-/* Text of what is behind an index that is an expression: of the first element. Paths
- * are bounded by LIMIT_INDICES, which check_operand keeps. */
+/* The text after an index that is an expression, for the first element. check_operand keeps
+ * LIMIT_INDICES. */
 static uint32_t first_element(struct chain *c, const struct expr_node *node)
 {
 	uint32_t id = node->right < 0 ? chain_intern(c, node->text, node->len) :
@@ -106,8 +106,8 @@ static enum op operator_of(const struct expr_node *node)
 
 static enum iec_type chain_infer(struct chain *c, int index);
 
-/* AND OR XOR NOT: BOOL, unless one side is bits that go with the other; IEC_NONE of
- * constants alone. */
+/* The type of AND OR XOR NOT: BOOL, unless a side is a bit string that the other fits;
+ * IEC_NONE for constants alone. */
 static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
 {
 	enum iec_type type = chain_infer(c, node->left);
@@ -131,7 +131,7 @@ static const struct var *result_of(const struct chain *c, enum word word)
 	return pou && pou->vars.count ? &pou->vars.var[0] : NULL;
 }
 
-/* The word that it is on these arguments: of times ADD is another. */
+/* The overload of a word for these arguments. */
 static enum word overloaded(struct chain *c, enum word word, const struct expr_args *args)
 {
 	if (args->count != 2)
@@ -140,7 +140,7 @@ static enum word overloaded(struct chain *c, enum word word, const struct expr_a
 			   chain_infer(c, args->arg[1].at));
 }
 
-/* The type that the inputs share; IEC_NONE: constants, or none does. */
+/* The type that the inputs share; IEC_NONE: all are constants, or no type fits. */
 static enum iec_type shared_type(struct chain *c, const struct word_row *row,
 				 const struct expr_args *args)
 {
@@ -213,7 +213,7 @@ static enum iec_type chain_infer(struct chain *c, int index)
 	return left == IEC_TYPE_COUNT ? right : left;
 }
 
-/* Is this a constant of @type? If not, the message names the plain one. */
+/* Is this a constant of @type? If not, the message shows it without a type. */
 static bool fits(const char *text, size_t len, enum iec_type type)
 {
 	struct literal literal;
@@ -223,7 +223,7 @@ static bool fits(const char *text, size_t len, enum iec_type type)
 	       literal_fit(&literal, type, &value);
 }
 
-/* A constant; with its type in front when nothing beside it tells the type. */
+/* A constant; with its type in front when no neighbour gives it one. */
 static struct value constant(struct chain *c, const char *text, size_t len,
 			     bool negative, enum iec_type hint)
 {
@@ -251,7 +251,7 @@ static uint32_t chain_power(struct chain *c)
 		uint16_t row = c->ld->row, col = c->ld->col;
 
 		c->en = ld_operand(c->ld, c->net);
-		c->ld->row = row; /* an error is the cell's own */
+		c->ld->row = row; /* an error stops at this cell */
 		c->ld->col = col;
 	}
 	c->can_fail = true;
@@ -284,7 +284,7 @@ static struct value operate(struct chain *c, enum word fn, struct value left,
 	return out;
 }
 
-/* What cannot be an operand of LD comes from a MOVE, which can fail. */
+/* A value that LD cannot take comes from a MOVE, which can fail. */
 static struct value settle(struct chain *c, struct value value)
 {
 	struct value none = { 0, IEC_NONE };
@@ -299,8 +299,8 @@ static struct value settle(struct chain *c, struct value value)
 static struct value chain_compute(struct chain *c, int index, enum iec_type hint,
 				  uint32_t target);
 
-/* An input beside one of @type: a bare constant takes that type by itself, an
- * operation on constants must be told. */
+/* An input beside one of @type: a bare constant takes that type without help, an operation on
+ * constants needs it. */
 static struct value chain_side(struct chain *c, int index, enum iec_type type)
 {
 	const struct expr_node *node = &c->expr->node[index];
@@ -310,7 +310,7 @@ static struct value chain_side(struct chain *c, int index, enum iec_type type)
 	return chain_compute(c, index, node->op == EXPR_LITERAL ? IEC_NONE : type, 0);
 }
 
-/* On bits: the functions of the operators' names. */
+/* On bit strings: the functions with the operators' names. */
 static struct value compute_bits(struct chain *c, const struct expr_node *node,
 				 enum iec_type type, uint32_t target)
 {
@@ -369,7 +369,7 @@ static struct value compute_compare(struct chain *c,
 	return out;
 }
 
-/* Times and dates: each side is of its own type. */
+/* Times and dates: each side has its own type. */
 static struct value compute_overload(struct chain *c, const struct expr_node *node,
 				     enum word word, enum iec_type type,
 				     uint32_t target)
@@ -405,8 +405,7 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 	return operate(c, node->fn, left, right, type, target);
 }
 
-/* `Table[index].Member`, after the index has been computed; an element itself is
- * none. */
+/* `Table[index].Member`, after the index has been computed. */
 static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 {
 	const struct names *names = &c->ld->translation->project->names;
@@ -443,7 +442,7 @@ static struct value chain_place(struct chain *c, int index)
 	return value;
 }
 
-/* What the body of a function that is called further right may write, is kept. */
+/* Freezes what the bodies of functions further right may write. */
 static struct value keep_value(struct chain *c, struct value value)
 {
 	const struct value none = { 0, IEC_NONE };
@@ -491,7 +490,8 @@ static bool is_whole(const struct word_pin *pin)
 	return pin->elements || pin->type == IEC_NONE;
 }
 
-/* Of the project's own function: each argument is of its pin's type, or the very thing. */
+/* A function of the project: each argument has its pin's type; a VAR_IN_OUT is the variable
+ * itself. */
 static struct value call_own(struct chain *c, enum word word, const struct expr_args *args,
 			     uint32_t target)
 {
@@ -566,7 +566,7 @@ static struct value chain_call(struct chain *c, const struct expr_node *node,
 static struct value compute_neg(struct chain *c, const struct expr_node *node,
 				enum iec_type hint, uint32_t target);
 
-/* Depth is bounded by LIMIT_EXPR_DEPTH, which the parser keeps. */
+/* The parser keeps LIMIT_EXPR_DEPTH, which bounds the recursion. */
 static struct value chain_compute(struct chain *c, int index, enum iec_type hint,
 				  uint32_t target)
 {

@@ -22,7 +22,7 @@ static bool is_unread(const struct ld *ld, int element)
 	return out == NET_RAIL || ld->network.reader_count[out] == 0;
 }
 
-/* What acts in phase 2. */
+/* An output, which acts in phase 2. */
 static bool is_actor(const struct ld *ld, int element)
 {
 	const struct word_row *row = row_of(ld, element);
@@ -75,7 +75,7 @@ uint32_t ld_fetch(struct ld *ld, uint32_t element, uint32_t en, uint32_t *eno)
 	return value;
 }
 
-#define OPERAND_MOST 80 /* bytes of an operand that tell it from others       */
+#define OPERAND_MOST 80 /* bytes that identify an operand                     */
 
 static uint32_t mix(uint32_t hash, const char *text)
 {
@@ -84,7 +84,7 @@ static uint32_t mix(uint32_t hash, const char *text)
 	return (hash ^ 255u) * 16777619u;
 }
 
-/* A number for what is drawn, whatever stands around the rung. */
+/* A hash of the element, independent of the rungs around it. */
 static uint32_t hash_rung(const struct ld *ld)
 {
 	const struct project *project = ld->translation->project;
@@ -128,7 +128,7 @@ void ld_emit_line(struct ld *ld, struct il_line line)
 		ld->failed = true;
 }
 
-/* Was it stored just now? Then it is the result still. */
+/* Was it stored by the line before? Then it is still the result. */
 static bool is_result(const struct ld *ld, uint32_t operand)
 {
 	const struct il_line *last = ld->il->count ?
@@ -175,7 +175,7 @@ uint32_t ld_store_new(struct ld *ld)
 	return name;
 }
 
-/* An edge contact; without the element its memory stays. */
+/* An edge contact; the element's memory stays when it is skipped. */
 static void ld_edge(struct ld *ld, int element, uint32_t operand)
 {
 	bool rising = row_of(ld, element)->edge == EDGE_RISING;
@@ -408,8 +408,8 @@ static void head(struct ld *ld)
 	}
 }
 
-/* Readers are kept by place, so that a write looks at few of them: eight bytes of
- * an area, or a variable. A wide read may begin in the eight bytes before. */
+/* Readers are kept by place, so that a write compares with few: eight bytes of an area, or a
+ * variable. A wide read may begin in the eight bytes before. */
 static uint32_t place_key(const struct meaning *m)
 {
 	if (m->addr.area != AREA_NONE)
@@ -417,7 +417,7 @@ static uint32_t place_key(const struct meaning *m)
 	return (uint32_t)((uintptr_t)m->var >> 4) * 2654435761u;
 }
 
-/* An element has been evaluated: ld_freeze will find it. */
+/* Notes an evaluated element for ld_freeze(). */
 static void ld_read(struct ld *ld, int element)
 {
 	struct element_state *state = &ld->element[element];
@@ -512,7 +512,7 @@ static void visit_net(struct ld *ld, int net)
 	ld_settle_net(ld, net);
 }
 
-/* Depth: an element leads right, so at most LIMIT_COLS of them nest. */
+/* The recursion is bounded: an element leads right, so at most LIMIT_COLS of them nest. */
 static void visit(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
@@ -540,7 +540,7 @@ static void act_plain(struct ld *ld, const int *group, int count)
 {
 	int net = ld->network.element[group[0]].in;
 
-	/* One group that reads its net alone needs no temporary for it. */
+	/* A single group that alone reads its net needs no temporary for it. */
 	ld_prepare(ld, net, count);
 	ld_load(ld, net);
 	for (int i = 0; i < count; i++) {
@@ -610,7 +610,7 @@ static int group_size(const struct ld *ld, const int *actor, int first,
 	return n;
 }
 
-/* Bytes of its area that it may be; one behind the last. */
+/* Bytes of its area that @m may cover; one past the last. */
 static uint32_t end_byte(const struct meaning *m)
 {
 	struct iec_addr last = m->addr;
@@ -632,13 +632,13 @@ static bool is_var(const struct meaning *m)
 			  m->kind == MEANING_ELEMENT);
 }
 
-/* Bytes of a variable that it may be: all elements that an index may lead to. */
+/* Bytes of a variable that it may cover: all elements that an index may reach. */
 static uint32_t end_of(const struct scope *scope, const struct meaning *m)
 {
 	return m->offset + scope_span(scope, m);
 }
 
-/* Two parts of one variable; those with an address by where they lie. */
+/* Do two parts of one variable overlap? With an address, compares places. */
 static bool parts_touch(const struct scope *scope, const struct meaning *a,
 			const struct meaning *b)
 {
@@ -693,7 +693,7 @@ void ld_freeze(struct ld *ld, uint32_t operand)
 	freeze_at(ld, write, key - 1);
 	last = key + (end_byte(write) - 1) / 8 - write->addr.byte / 8 + 1;
 	if (last - key > ld->reader_mask)
-		last = key + ld->reader_mask; /* then all of them */
+		last = key + ld->reader_mask; /* write all of them then */
 	for (; key != last; key++)
 		freeze_at(ld, write, key + 1);
 }
@@ -714,7 +714,7 @@ static void emit_fn(struct ld *ld, enum word fn, uint32_t operand)
 					   .operand = operand });
 }
 
-/* Leaves the loop when @value is past its end. */
+/* Leaves the loop when @value is beyond its end. */
 static void leave_past(struct ld *ld, const struct open_loop *loop, uint32_t value)
 {
 	ld_emit(ld, OP_LD, 0, value);
@@ -864,7 +864,7 @@ static void note_rung(struct ld *ld)
 		}
 }
 
-/* One list of readers for about every element, at most 4096 of them. */
+/* One list of readers for about each element, at most 4096. */
 static bool prepare_readers(struct ld *ld)
 {
 	uint32_t size = 4;
@@ -916,7 +916,7 @@ static void translate_rung(struct ld *ld)
 		note_rung(ld);
 }
 
-/* Only labels that are jumped to are written: a label ends what may be fused. */
+/* Writes only labels that a jump names, because a label ends fusing. */
 static bool find_targets(struct ld *ld)
 {
 	const struct pou *pou = ld->unit->pou;

@@ -21,7 +21,7 @@ static bool is_bits(enum iec_type type)
 	return iec_type_row(type)->class & CLASS_BITS;
 }
 
-/* From now on it is a bit for good. */
+/* An untyped 0 or 1 becomes a bit here. */
 static void as_bits(struct list *list)
 {
 	list->now = (struct il_result){
@@ -70,7 +70,7 @@ static void combine(struct list *list, const struct il_result *left, uint8_t op,
 	operate(list, (enum op)op, type, 2, operand);
 }
 
-/* What stands left of a parenthesis waits; a variable may change meanwhile. */
+/* The value left of a parenthesis waits; its variables may change meanwhile. */
 void list_open(struct list *list, const struct il_line *line)
 {
 	struct opened *open = &list->opened[list->depth++];
@@ -183,7 +183,7 @@ static void add_fixup(struct list *list, uint32_t name)
 	list->fixup[list->fixup_count - 1].fold = name ? fold(list, name) : 0;
 }
 
-/* JMP and RET; the fold 0 stands for the end of the list. */
+/* JMP and RET; label 0 is the end of the list. */
 void list_flow(struct list *list, const struct il_line *line)
 {
 	uint32_t target = line->op == OP_JMP ? line->operand : 0;
@@ -208,7 +208,7 @@ void list_flow(struct list *list, const struct il_line *line)
 		emit(list->as, slot);
 }
 
-/* The result stays what it is. */
+/* The result does not change. */
 void list_stop(struct list *list, const struct il_line *line)
 {
 	struct bits condition = bits_constant(true);
@@ -236,7 +236,7 @@ void list_label(struct list *list, const struct il_line *line)
 		list->label[id] = (uint32_t)list->as->text->count + 1;
 }
 
-/* Where a variable that has an address of its own lies. */
+/* Where a variable with an address lies. */
 static uint32_t offset_of(struct list *list, uint32_t operand)
 {
 	return layout_spot(list->as, list_meaning(list, operand)).offset;

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: MIT
  *
- * lists - one instruction list on its way to instructions.
+ * lists - the state of the assembler for one instruction list.
  *
- * Private to the assembler: assemble_unit.c walks the lines, temps.c counts how often a
- * temporary is read, list_logic.c does AND OR XOR NOT and jumps, call.c calls.
+ * Private to the assembler: assemble_unit.c walks the lines, temps.c counts reads of
+ * temporaries, list_logic.c does AND OR XOR NOT and jumps, call.c calls.
  */
 #ifndef TRANSLATE_LISTS_H
 #define TRANSLATE_LISTS_H
 
 #include "engine/translate/assembler.h"
 
-/* A structure or array that was read; the BOOL that tells whether it is there. */
+/* A structure or array that was read; the BOOL tells whether it exists. */
 struct whole_value {
 	const struct meaning *m;
 	uint32_t at, ok;
 	bool own;                     /* a copy that nobody else writes       */
 };
 
-/* The current result of IEC 61131-3: nothing, a bit, a number in memory, a
- * constant without a type, or a structure or array. */
+/* The current result of IEC 61131-3: nothing, a bit, a number in memory, a constant without a
+ * type, or a structure or array. */
 enum result_kind { RESULT_NONE, RESULT_BITS, RESULT_NUMBER, RESULT_LITERAL, RESULT_WHOLE };
 struct il_result {
 	enum result_kind kind;
@@ -49,7 +49,7 @@ struct list {
 	const struct pou *pou;
 	const struct il *il;
 	const enum iec_type *types;
-	int at;                       /* the line in work                     */
+	int at;                       /* the current line                     */
 	struct il_result now;
 	struct opened opened[LIMIT_IL_DEPTH];
 	int depth;
@@ -68,21 +68,21 @@ struct list {
 /** list_count_reads - which temporaries need no memory, and how often each value
  * of theirs is read. Fails: false when memory is out. */
 bool list_count_reads(struct list *list);
-/** list_temp - variable index if this operand is a fleeting temporary, else -1. */
+/** list_temp - variable index if this operand is a temporary without memory, else -1. */
 int list_temp(const struct list *list, const struct meaning *m);
 
 /* ---- assemble_unit.c ---- */
-/** list_row - the row of a word, be it the project's own. */
+/** list_row - the row of a word of the catalogue or the project. */
 const struct word_row *list_row(const struct list *list, enum word word);
 const struct meaning *list_meaning(struct list *list, uint32_t operand);
 /** list_protect - before @size bytes at @offset are written: values that read
  * them are stored first. */
 void list_protect(struct list *list, uint32_t offset, uint32_t size);
-/** list_keep_all - everything that waits is stored, before a jump over code. */
+/** list_keep_all - stores everything that waits, before a jump. */
 void list_keep_all(struct list *list);
-/** list_now_bits - the current result as a bit; it stays what it is. */
+/** list_now_bits - the current result as a bit; the result does not change. */
 struct bits list_now_bits(const struct list *list);
-/** list_bits - a BOOL operand as a value. */
+/** list_bits - a BOOL operand as a truth table. */
 struct bits list_bits(struct list *list, const struct meaning *m);
 /** list_write_bits - stores a bit where @m says. */
 void list_write_bits(struct list *list, const struct meaning *m,
@@ -90,9 +90,9 @@ void list_write_bits(struct list *list, const struct meaning *m,
 /** list_number - a number operand as a typed word; constants as @type. */
 uint32_t list_number(struct list *list, const struct meaning *m,
 		     enum iec_type type);
-/** list_slot - a BOOL's offset that holds @value now. */
+/** list_slot - offset of a BOOL that holds @value now. */
 uint32_t list_slot(struct list *list, const struct bits *value);
-/** list_keep - the same, where nobody else holds a slot that @value reads. */
+/** list_keep - the same, in a slot that @value alone uses. */
 uint32_t list_keep(struct list *list, const struct bits *value);
 /** list_copy - COPY, always enabled. */
 void list_copy(struct list *list, uint32_t to, uint32_t from);
@@ -105,11 +105,11 @@ void list_place(struct list *list);
 /** list_logic - AND OR XOR with N and parentheses; list_close the other end. */
 void list_logic(struct list *list, const struct il_line *line);
 void list_close(struct list *list);
-/** list_open - AND( or ADD( : what stands left of it waits. */
+/** list_open - AND( or ADD( : the value left of it waits. */
 void list_open(struct list *list, const struct il_line *line);
 /** list_not - NOT on the result. */
 void list_not(struct list *list);
-/** list_invert - the result, bits of @type if it is a constant, inverted. */
+/** list_invert - inverts the result, bits of @type if it is a constant. */
 void list_invert(struct list *list, enum iec_type type);
 /* ---- element.c ---- */
 /**
@@ -122,8 +122,8 @@ void list_invert(struct list *list, enum iec_type type);
  */
 uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 		    uint32_t *ok);
-/** list_deposit - stores @from, a typed word, in such an element while @en. Returns the
- * BOOL that tells whether there is one. */
+/** list_deposit - stores @from, a typed word, in such an element while @en. Returns the BOOL
+ * that tells whether it exists. */
 uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 		      uint32_t from);
 /** list_fetch_whole - a structure or array behind such an index goes to @to; returns as
@@ -134,12 +134,12 @@ uint32_t list_fetch_whole(struct list *list, const struct meaning *m, uint32_t e
 /* ---- whole.c: structures and arrays as a whole ---- */
 /** list_copy_whole - @size bytes, what waits for them stored before. */
 void list_copy_whole(struct list *list, uint32_t to, uint32_t from, uint32_t size);
-/** list_load_result, list_store_result - LD and ST of one. */
+/** list_load_result, list_store_result - LD and ST of a structure or array. */
 void list_load_result(struct list *list, const struct meaning *m);
 void list_store_result(struct list *list, const struct meaning *m);
 /** list_is_whole_move - is the line a MOVE of a structure or array? */
 bool list_is_whole_move(struct list *list);
-/** list_whole_move - that, while @en; returns as list_store_whole(). */
+/** list_whole_move - that MOVE, while @en; returns as list_store_whole(). */
 uint32_t list_whole_move(struct list *list, uint32_t en);
 
 /* ---- function.c ---- */
@@ -147,7 +147,8 @@ uint32_t list_whole_move(struct list *list, uint32_t en);
 bool list_is_compare(enum word word);
 /** list_compare - the result becomes that of a comparison of two typed words. */
 void list_compare(struct list *list, enum word word, uint32_t left, uint32_t right);
-/* A function of the image, its operands typed, CODE_OWN where they are. */
+/* A function of the image and its typed operands, CODE_OWN where each input has its own
+ * type. */
 struct fn_code {
 	uint32_t fn;
 	enum iec_type type, result;
@@ -155,7 +156,7 @@ struct fn_code {
 };
 /** list_emit_fn - the instruction that runs it. */
 void list_emit_fn(struct list *list, const struct fn_code *fn);
-/** list_always_stores - has this function a result of @type whatever its operands? */
+/** list_always_stores - has the function a result of @type for all operands? */
 bool list_always_stores(uint32_t fn, enum iec_type type);
 /** list_copy_if - COPY while the BOOL at @en is TRUE. */
 void list_copy_if(struct list *list, uint32_t en, uint32_t to, uint32_t from);
@@ -167,7 +168,7 @@ bool list_find_labels(struct list *list);
 void list_flow(struct list *list, const struct il_line *line);
 /** list_stop - STP. */
 void list_stop(struct list *list, const struct il_line *line);
-/** list_label - a label: nothing waits behind it. */
+/** list_label - a label: all waiting values are stored before it. */
 void list_label(struct list *list, const struct il_line *line);
 /** list_each - IL_EACH with its labels; list_tick - IL_TICK. */
 void list_each(struct list *list);
@@ -176,7 +177,7 @@ void list_tick(struct list *list);
 void list_patch(struct list *list, uint32_t end);
 
 /* ---- call.c ---- */
-/** list_sink - an offset where a value goes that nobody wants. */
+/** list_sink - an offset for a value that nobody reads. */
 uint32_t list_sink(struct assembler *as, enum iec_type type);
 /** list_operand - a result as an operand; a constant as @type. */
 uint32_t list_operand(struct list *list, const struct il_result *result,
@@ -189,19 +190,20 @@ void list_close_fn(struct list *list, const struct opened *open);
 void list_call(struct list *list);
 /** list_cal - a call of an instance; the lines behind it too. */
 void list_cal(struct list *list);
-/** list_skip_missing - inputs that are elements, looked up; a jump over the call if one
- * of them is not there. @kept: nothing waits any more. @fetched: by number of the parameter; 0: no element. Returns as
- * list_skip_call(); -1: no jump. */
+/** list_skip_missing - looks up inputs that are elements, and jumps over the call if one is
+ * missing. @kept: nothing waits any more. @fetched: by number of the parameter; 0: no element.
+ * Returns as list_skip_call(); -1: no jump. */
 int list_skip_missing(struct list *list, bool kept, uint32_t fetched[LIMIT_ARGS]);
-/** list_fetch_args - the same for a function, its OUT too: @en is FALSE then. */
+/** list_fetch_args - the same for a function, its OUT too: @en is FALSE if an element is
+ * missing. */
 void list_fetch_args(struct list *list, struct bits *en,
 		     uint32_t fetched[LIMIT_ARGS]);
-/** list_skip_call - a jump over what follows unless the result is TRUE (N: FALSE);
- * everything that waits is stored before it. list_end_skip() ends it; < 0: none. */
+/** list_skip_call - a jump over the following code unless the result is TRUE (N: FALSE); stores
+ * everything that waits before it. list_end_skip() ends it; < 0: none. */
 int list_skip_call(struct list *list, const struct il_line *line);
 void list_end_skip(struct list *list, int skip);
 
-/* ---- call_own.c: what the project declares itself ---- */
+/* ---- call_own.c: functions and blocks of the project ---- */
 void list_own_fn(struct list *list);
 /** list_own_call - a formal call, or a MOVE of a structure. */
 void list_own_call(struct list *list);

@@ -29,7 +29,7 @@ struct maps {
 #define NAME_PART (LIMIT_NAME + BOUNDS + 1)
 #define NAME_MOST ((LIMIT_NESTING + 2) * NAME_PART)
 
-/* @text behind the strings so far; its offset. */
+/* Appends @text to the strings; returns its offset. */
 static uint32_t maps_string(struct assembler *as, struct maps *maps, const char *text,
 			    size_t len)
 {
@@ -60,7 +60,7 @@ static uint32_t add_name(struct assembler *as, struct maps *maps, uint32_t id)
 	return maps_string(as, maps, names_text(names, id), names_len(names, id));
 }
 
-/* What conditions of a chart write means nothing to anybody else. */
+/* Variables that only conditions of a chart write are hidden from outside. */
 static bool is_condition(const struct pou *pou, int index)
 {
 	return pou && pou->sfc && pou->sfc->block >= 0 &&
@@ -97,7 +97,7 @@ static size_t print_bounds(char *out, struct var_array array)
 				(long long)array.low + array.count - 1);
 }
 
-/* That of an array carries its bounds. */
+/* The symbol of an array carries its bounds. */
 static void add_symbol_name(struct assembler *as, struct maps *maps,
 			    const struct var *var)
 {
@@ -128,7 +128,7 @@ static void add_symbol(struct assembler *as, struct maps *maps,
 	add_symbol_name(as, maps, var);
 }
 
-/* Of an instance without variables there is nothing to name. */
+/* An instance without variables has nothing to name. */
 static void drop_empty_group(struct maps *maps)
 {
 	if (maps->group_count && maps->group[maps->group_count - 1].first ==
@@ -136,7 +136,7 @@ static void drop_empty_group(struct maps *maps)
 		maps->group_count--;
 }
 
-/* The symbols behind it belong to @pou and have the flags of their VAR block. */
+/* The following symbols belong to @pou and have the flags of their VAR block. */
 static void add_group(struct assembler *as, struct maps *maps, uint32_t pou,
 		      uint8_t flags)
 {
@@ -171,8 +171,7 @@ static void add_part(struct assembler *as, struct maps *maps, const char *name,
 	maps_string(as, maps, name, strlen(name));
 }
 
-/* Of what has parts, those are named one by one; so are the elements of an array of
- * such: `Recipes[3].Speed`. */
+/* The parts of a structure or instance get symbols, also in arrays: `Recipes[3].Speed`. */
 struct level {
 	const struct word_row *row;
 	uint32_t base;
@@ -181,8 +180,7 @@ struct level {
 	size_t len;        /* of the name so far                           */
 };
 
-/* The index of an element behind the name of what it is one of; or the
- * bounds of all, if they are values. Its length. */
+/* Appends the index of an element, or the bounds of an array of values; returns the length. */
 static size_t maps_join_index(char *out, const struct word_pin *pin, uint32_t element)
 {
 	*out = '\0';
@@ -194,7 +192,7 @@ static size_t maps_join_index(char *out, const struct word_pin *pin, uint32_t el
 				(long long)pin->low + element);
 }
 
-/* The pin to name next, an element at a time if it has parts; which one. */
+/* The next pin to name; an array of structures gives one element at a time. */
 static const struct word_pin *next_pin(struct level *top, uint32_t *element)
 {
 	const struct word_pin *pin = &top->row->pin[top->next];
@@ -208,7 +206,7 @@ static const struct word_pin *next_pin(struct level *top, uint32_t *element)
 	return pin;
 }
 
-/* What pin @index of a block remembers of an edge; NULL: it is no such memory. */
+/* The edge memory at pin @index of a block; NULL: the pin is none. */
 static const char *edge_key(const struct assembler *as, const struct word_row *row,
 			    int index)
 {
@@ -221,8 +219,8 @@ static const char *edge_key(const struct assembler *as, const struct word_row *r
 	return unit->temps->edge_key[index];
 }
 
-/* All parts of one instance or structure of the project, at every depth; its own name
- * stands in @name. */
+/* All parts of one instance or structure of the project, at every depth; @name holds its own
+ * name. */
 static void add_parts(struct assembler *as, struct maps *maps, char *name,
 		      enum word word, uint32_t offset, uint32_t marks)
 {
@@ -265,7 +263,7 @@ static void add_parts(struct assembler *as, struct maps *maps, char *name,
 	}
 }
 
-/* An instance or structure, or all of an array. */
+/* An instance or structure, or a whole array. */
 static void add_whole(struct assembler *as, struct maps *maps,
 		      const struct var *var, uint32_t offset)
 {
@@ -311,7 +309,7 @@ static void add_table(struct assembler *as, struct maps *maps,
 	uint32_t number = pou ? (uint32_t)(pou - first) + 1 : 0;
 	uint8_t before = 0;
 
-	/* What lies in a frame belongs to the instances. */
+	/* Variables in a frame belong to the instances. */
 	if (pou && pou_has_frame(pou))
 		return;
 	for (int i = 0; i < vars->count && !as->failed; i++) {
@@ -349,7 +347,7 @@ static void add_edges(struct assembler *as, struct maps *maps, int index)
 	}
 }
 
-/* What a chart remembers between scans beside its steps. */
+/* Variables that a chart keeps between scans, beside its steps. */
 static void add_memories(struct assembler *as, struct maps *maps, int index)
 {
 	const struct unit *unit = &as->translation->unit[index];
@@ -403,7 +401,7 @@ static int by_cell(const void *left, const void *right)
 	return (a->col > b->col) - (a->col < b->col);
 }
 
-/* By place, as one looks for them: a chart comes to its rungs in its own order. */
+/* Sorts by place for lookups: a chart comes to its rungs in its own order. */
 static void add_power(struct assembler *as, struct maps *maps)
 {
 	for (int i = 0; i < as->translation->unit_count; i++) {
@@ -450,8 +448,8 @@ struct kept {
 	int unit;
 	uint32_t base; /* of its power                                        */
 	int next;      /* variable of its block to look at                    */
-	uint32_t element; /* of that                                          */
-	size_t len;    /* of its name                                         */
+	uint32_t element; /* its block's variable to look at next             */
+	size_t len;    /* of that variable                                    */
 };
 
 static void add_watched(struct assembler *as, struct maps *maps,
@@ -472,8 +470,8 @@ static void add_watched(struct assembler *as, struct maps *maps,
 	};
 }
 
-/* The next instance inside the one on top, an element at a time; false: no more
- * on this level. */
+/* The next instance inside the one on top, one element at a time; false: no more at this
+ * level. */
 static bool next_kept(const struct assembler *as, struct kept *top, int *index,
 		      uint32_t *element)
 {
@@ -493,8 +491,7 @@ static bool next_kept(const struct assembler *as, struct kept *top, int *index,
 	return true;
 }
 
-/* Element @element of variable @index of table @table, and at all depths what is in
- * it. */
+/* Element @element of variable @index of table @table, and everything inside it. */
 static void keep_instance(struct assembler *as, struct maps *maps, char *name,
 			  size_t len, int table, int index, uint32_t element)
 {
@@ -508,7 +505,7 @@ static void keep_instance(struct assembler *as, struct maps *maps, char *name,
 		uint32_t base = as->power[table][index], unit = 0;
 		struct kept *inner = &level[depth + 1];
 
-		if (depth >= 0) { /* inside a block: beside that of its cells */
+		if (depth >= 0) { /* inside a block: relative to the power of its cells */
 			base += level[depth].base -
 				as->frame[level[depth].unit].power;
 			len = level[depth].len;

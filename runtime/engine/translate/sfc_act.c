@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_act - what steps call for, and what is done (docs/sfc.md, Qualifiers).
+ * sfc_act - which actions the steps call, and what each action does (docs/sfc.md,
+ * Qualifiers).
  *
- * Active steps ask: _Call for what is called for now, _Ask for what is stored. Then each
- * action that was asked for, or was not done yet, decides: those that are _Due.
+ * First the active steps ask: _Call for actions called now, _Ask for stored ones. Then each
+ * action that was asked for, or is not finished, sets _Due.
  */
 #include "engine/translate/sfc_unit.h"
 
@@ -97,7 +98,7 @@ void sfc_find_called(struct sfc_il *s)
 
 /* ---- what the steps ask for ---- */
 
-/* The result, or what was asked for already. */
+/* The result OR an earlier request. */
 static void also(struct sfc_il *s, uint32_t var)
 {
 	sfc_op(s, OP_OR, 0, var);
@@ -145,7 +146,7 @@ static void ask(struct sfc_il *s, int number)
 	sfc_set(s, sfc_var(s, "Due", called, IEC_BOOL), true);
 }
 
-/* Asked for in each scan in which the step is active, not once. */
+/* Asked for in every scan in which the step is active. */
 static bool is_level(const struct sfc_il *s, int use)
 {
 	switch (use_at(s, use)->qualifier) {
@@ -185,8 +186,8 @@ static bool any_asks(const struct sfc_il *s)
 	return false;
 }
 
-/* What becomes TRUE when the step becomes active; 0: nothing. An R ends what is stored
- * also when its step is active only in passing. */
+/* The BOOL that becomes TRUE when the step becomes active; 0: none. An R ends a stored action
+ * also when its step is active for less than a scan. */
 static uint32_t begun(struct sfc_il *s, int use)
 {
 	const int called = s->called_of[use];
@@ -280,7 +281,7 @@ void sfc_forget(struct sfc_il *s)
 	}
 }
 
-/* Of what is stored, also what only waits. */
+/* Of stored actions also those that still wait. */
 static void end_stored(struct sfc_il *s, const struct sfc_called *called)
 {
 	for (int i = 0; i < called->use_count; i++) {
@@ -295,7 +296,7 @@ static void end_stored(struct sfc_il *s, const struct sfc_called *called)
 	}
 }
 
-/* R: nothing is called for, nothing stays stored. */
+/* R: neither called nor stored. */
 static void put_off(struct sfc_il *s, int number)
 {
 	const struct sfc_called *called = &s->called[number];
@@ -314,7 +315,7 @@ static void put_off(struct sfc_il *s, int number)
 	sfc_here(s, on);
 }
 
-/* An R in passing. */
+/* An R of a step that was active for less than a scan. */
 static void put_end(struct sfc_il *s, int number)
 {
 	const uint32_t end = sfc_var(s, "End", number, IEC_BOOL);
@@ -369,7 +370,7 @@ static void keep_time(struct sfc_il *s, int number, int use)
 	also(s, sfc_var(s, "Call", number, IEC_BOOL));
 }
 
-/* The result is TRUE if something is stored, or was there before it: @any. */
+/* The result is TRUE if an action is stored or was asked for before: @any. */
 static bool or_kept(struct sfc_il *s, const struct sfc_called *called, bool any,
 		    bool timed)
 {
@@ -385,7 +386,7 @@ static bool or_kept(struct sfc_il *s, const struct sfc_called *called, bool any,
 	return any;
 }
 
-/* The result: it is called for, but by P0 or P1. */
+/* The result: a qualifier other than P0 and P1 calls it. */
 static void load_called(struct sfc_il *s, int number)
 {
 	const struct sfc_called *called = &s->called[number];
@@ -411,7 +412,7 @@ static void end_calls(struct sfc_il *s, int number)
 		sfc_set(s, sfc_var(s, "Pulse", number, IEC_BOOL), false);
 }
 
-/* It may be looked at without being called for: then it is written only if it was. */
+/* Without a call the variable is written only if it was written before. */
 static void write_called(struct sfc_il *s, int number)
 {
 	const uint32_t now = sfc_var(s, "Now", number, IEC_BOOL);
@@ -462,7 +463,7 @@ static void do_body(struct sfc_il *s, int number)
 	sfc_op(s, OP_LD, 0, now);
 	sfc_op(s, OP_ST, 0, was);
 	or_kept(s, called, true, true);
-	if (s->ld.watch) /* once more, so that its power goes out */
+	if (s->ld.watch) /* once more, so that its power is cleared */
 		sfc_op(s, OP_LD, 0, sfc_literal(s, "TRUE"));
 	sfc_op(s, OP_ST, 0, due);
 	end_calls(s, number);
@@ -481,7 +482,7 @@ static void decide(struct sfc_il *s, int number)
 	s->line = (uint32_t)(called->use_count ? use_at(s, called->use[0])->line :
 			     s->sfc->action[called->action].line);
 	sfc_here(s, sfc_label(s, "Due", number));
-	if (called->action >= 0) /* do_bool() says it anyway */
+	if (called->action >= 0) /* do_bool() writes it too */
 		sfc_set(s, sfc_var(s, "Due", number, IEC_BOOL), false);
 	if (called->off && sfc_goes_round(s->sfc))
 		put_end(s, number);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_control - how a chart starts, and how it is operated from outside.
+ * sfc_control - how a chart starts, and how an operator controls it.
  */
 #include "engine/translate/sfc_unit.h"
 
@@ -31,7 +31,7 @@ static uint32_t put_edge(struct sfc_il *s, uint32_t operand, const char *name,
 	return edge;
 }
 
-/* FORCE became another number: _Forced. */
+/* _Forced: FORCE has a new number. */
 static void note_forced(struct sfc_il *s)
 {
 	const uint32_t forced = sfc_var(s, "Forced", -1, IEC_BOOL);
@@ -137,7 +137,7 @@ void sfc_start(struct sfc_il *s)
 	sfc_jump_if(s, on);
 	sfc_set(s, runs, true);
 	put_steps(s, &s->net.initial);
-	/* What has fired is looked at once more. */
+	/* Evaluates the transitions that fired a second time. */
 	if (sfc_rests_at_once(s->sfc))
 		sfc_set(s, s->fired, true);
 	sfc_jump(s, s->enter);
@@ -187,7 +187,8 @@ void sfc_once(struct sfc_il *s)
 	}
 }
 
-/* What was there at the beginning of the scan: an alarm or a SET may have changed it. */
+/* Uses the steps active at the beginning of the scan: an alarm or a SET may have changed
+ * them. */
 static uint32_t seen(struct sfc_il *s, enum control which)
 {
 	return sfc_var(s, which == CONTROL_RESET ? "ResetWas" : "Hold", -1, IEC_BOOL);
@@ -209,7 +210,7 @@ void sfc_control(struct sfc_il *s)
 
 	s->line = (uint32_t)(s->sfc->control_line ? s->sfc->control_line :
 			     s->ld.unit->pou->line);
-	/* Edges are seen in every scan, whatever comes of them. */
+	/* Edges are evaluated in every scan, whether they are used or not. */
 	if (reset)
 		rises = put_edge(s, reset, "ResetRises", "ResetWas");
 	if (has_modes(s) && tip)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_evolve - which transitions fire, and which steps they end and begin; also IN ORDER.
+ * sfc_evolve - which transitions fire, and which steps they leave and enter; also IN ORDER.
  *
- * No step changes while conditions are evaluated: a transition that fires notes the steps
- * it leaves and enters, and both are done together afterwards.
+ * No step changes while conditions are evaluated: a transition that fires notes its steps,
+ * and all of them change afterwards.
  */
 #include "engine/translate/sfc_unit.h"
 
@@ -18,7 +18,7 @@ static int find(int *parent, int step)
 	return step;
 }
 
-/* Steps that one arc wants belong together; the smallest one stands for them. */
+/* Steps that one arc needs form a group; the step with the smallest number stands for it. */
 static void unite(int *parent, const struct sfc_steps *steps)
 {
 	for (int i = 1; i < steps->count; i++) {
@@ -90,7 +90,7 @@ static bool is_off(const struct sfc_il *s, const struct sfc_body *body)
 	       (body->kind != BODY_LIST && s->ld.unit->pou->rung[body->first]->off);
 }
 
-/* Is the last line the coil, and the only one? Then its result need not be stored. */
+/* Is the last line the coil, and the only coil? Then its result need not be stored. */
 static bool ends_with_coil(const struct sfc_il *s, int first)
 {
 	const struct il *il = s->ld.il;
@@ -153,8 +153,8 @@ static void note_fired(struct sfc_il *s, int arc)
 		sfc_op(s, OP_ST, 0, sfc_var(s, "Entered", a->to.step[i], IEC_BOOL));
 }
 
-/* The result: all steps that it wants are active; @known is, -1: none
- * is known. */
+/* The result: all steps that the arc needs are active; @known is known to be active, -1: no
+ * step is. */
 static void sfc_load_active(struct sfc_il *s, const struct sfc_arc *arc, int known)
 {
 	bool any = false;
@@ -181,7 +181,7 @@ static void evaluate_own(struct sfc_il *s, const struct sfc_duty *duty)
 	sfc_jump(s, s->next);
 }
 
-/* Another of its steps may be the first that stands behind FROM. */
+/* Another of its steps may be the first after FROM. */
 static void evaluate_join(struct sfc_il *s, int step)
 {
 	sfc_load_active(s, &s->net.arc[s->duty[step].arc[0]], step);
@@ -189,7 +189,7 @@ static void evaluate_join(struct sfc_il *s, int step)
 	evaluate_own(s, &s->duty[step]);
 }
 
-/* Whichever of the group's steps is found first evaluates it. */
+/* The first active step of the group evaluates the arc. */
 static void evaluate_group(struct sfc_il *s, int step)
 {
 	const struct sfc_duty *duty = &s->duty[step];
@@ -238,7 +238,7 @@ static void evaluate_step(struct sfc_il *s, int step)
 
 /* ---- phases ---- */
 
-/* FALSE into each group's BOOL: none was looked at. */
+/* Clears each group's BOOL: not evaluated yet. */
 static void forget_groups(struct sfc_il *s)
 {
 	bool any = false;
@@ -333,7 +333,7 @@ void sfc_supervise(struct sfc_il *s)
 	sfc_here(s, on);
 }
 
-/* Conditions that are evaluated no more have no power. */
+/* Conditions that are no longer evaluated have no power. */
 static void darken_conditions(struct sfc_il *s, int step)
 {
 	for (int i = 0; s->ld.watch && i < s->net.arc_count; i++) {
@@ -433,7 +433,7 @@ bool sfc_is_in_order(const struct sfc_il *s)
 	return s->sfc->evolution == EVOLVE_IN_ORDER;
 }
 
-/* Can it be that this part enters the step? IN ORDER transitions do so themselves. */
+/* Can this part enter the step? IN ORDER, transitions enter steps themselves. */
 static bool is_entered(const struct sfc_il *s, int step)
 {
 	return !sfc_is_in_order(s) || sfc_may_begin_anew(s) ||
@@ -482,7 +482,7 @@ static void sort(struct sfc_steps *steps)
 	}
 }
 
-/* One that is active stays so, unless it was left just now. */
+/* An active step stays active, unless it was left just now. */
 static void enter(struct sfc_il *s, const struct sfc_arc *arc, int step)
 {
 	const bool left = has(&arc->from, step);
@@ -528,7 +528,8 @@ void sfc_order(struct sfc_il *s)
 	char most[16];
 
 	snprintf(most, sizeof(most), "%d", LIMIT_ROUNDS);
-	/* One behind the other, before steps name some of them: EACH goes through them. */
+	/* Places the BOOLs one after the other, before steps name some of them, because EACH
+	 * goes through them. */
 	for (int i = 0; i < s->called_count; i++)
 		sfc_var(s, "Due", i, IEC_BOOL);
 	sfc_here(s, sfc_label(s, "Order", -1));

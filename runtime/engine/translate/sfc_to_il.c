@@ -2,8 +2,8 @@
  *
  * sfc_to_il - a scan of a chart as an instruction list (docs/sfc.md).
  *
- * What it costs follows the active steps: EACH leads to the part of each step that is
- * active, and each part leads back to it.
+ * Its cost follows the active steps: EACH jumps to the part of each active step, and each
+ * part jumps back.
  */
 #include "engine/translate/sfc_unit.h"
 
@@ -78,7 +78,7 @@ void sfc_jump_unless(struct sfc_il *s, uint32_t label)
 	sfc_op(s, OP_JMP, MOD_C | MOD_N, label);
 }
 
-/* Whose state a variable is, if it outlives a scan; the others are FALSE between two. */
+/* The owner of a variable that outlives a scan; the others are FALSE between scans. */
 enum owner { OWNER_NONE, OWNER_SFC, OWNER_USE, OWNER_CALLED };
 
 static enum owner owner_of(const char *name)
@@ -96,7 +96,7 @@ static enum owner owner_of(const char *name)
 	return OWNER_NONE;
 }
 
-/* A changed chart goes on with what has the same key: "SFC Kept Fill Valve S". */
+/* A changed chart keeps values with the same key: "SFC Kept Fill Valve S". */
 static void remember(struct sfc_il *s, const char *name, int number)
 {
 	const struct names *names = &s->ld.translation->project->names;
@@ -198,7 +198,7 @@ static void copy_list(struct sfc_il *s, const struct sfc_body *body)
 			s->ld.failed = true;
 }
 
-/* A label belongs to its body: another one may have the same. */
+/* A label is local to its body. */
 static void own_label(struct sfc_il *s, struct il_line *line, int body)
 {
 	const struct names *names = &s->ld.translation->project->names;
@@ -295,7 +295,7 @@ static bool begin(struct sfc_il *s)
 	s->dt = sfc_var(s, "Dt", -1, IEC_TIME);
 	s->last = sfc_var(s, "Last", -1, IEC_TIME);
 	s->fired = declare_bool(s, "Fired", -1, sfc_starts_itself(s));
-	/* Those of one kind one behind the other: EACH goes through them. */
+	/* Places BOOLs of one kind one after the other, because EACH goes through them. */
 	for (int i = 0; i < s->sfc->step_count; i++)
 		sfc_var(s, "Left", i, IEC_BOOL);
 	for (int i = 0; i < s->sfc->step_count; i++)

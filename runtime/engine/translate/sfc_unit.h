@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_unit - what the parts of the translation of charts share: one chart in work.
+ * sfc_unit - shared by the parts of the translation of charts: the current chart.
  *
- * Private to translate/. sfc_to_il walks the phases of a scan, sfc_evolve turns
- * transitions and what they do to steps into IL, sfc_act actions.
+ * Private to translate/. sfc_to_il.c walks the phases of a scan, sfc_evolve.c turns
+ * transitions into IL, sfc_act.c actions.
  */
 #ifndef TRANSLATE_SFC_UNIT_H
 #define TRANSLATE_SFC_UNIT_H
@@ -11,7 +11,7 @@
 #include "engine/model/sfc_net.h"
 #include "engine/translate/ladder_unit.h"
 
-/* What steps call: an action, or a BOOL. */
+/* An action that steps call, or a BOOL. */
 struct sfc_called {
 	int action;           /* -1: a BOOL                                    */
 	uint32_t operand;     /* of a BOOL, as it is written first             */
@@ -19,10 +19,10 @@ struct sfc_called {
 	int *use;             /* of sfc.use, in their order                    */
 	int use_count;
 	bool level, pulse, off; /* has it N S L D P SD DS SL; P0 P1; R?       */
-	bool unsure;          /* is it looked at also when nothing calls for it? */
+	bool unsure;          /* evaluated also when no step calls it? */
 };
 
-/* Which arcs want a step, and who evaluates them. */
+/* The arcs that need a step, and which step evaluates them. */
 enum step_duty {
 	DUTY_NONE,            /* nothing, or another step's                    */
 	DUTY_OWN,             /* arcs that want this step alone                */
@@ -41,7 +41,7 @@ struct sfc_il {
 	const struct sfc *sfc;
 	struct sfc_net net;
 	const uint8_t *skip;  /* rungs with errors                             */
-	uint32_t line;        /* in the source of what is in work              */
+	uint32_t line;        /* source line of the current piece              */
 	struct sfc_duty *duty; /* by step                                      */
 	int *note;            /* by first rung of a body: of unit->power, its first */
 	struct sfc_called *called;
@@ -67,14 +67,14 @@ void sfc_jump_if(struct sfc_il *s, uint32_t label);
 void sfc_jump_unless(struct sfc_il *s, uint32_t label);
 /** sfc_var - a variable of the chart's own: "_Left3"; declared at its first use. */
 uint32_t sfc_var(struct sfc_il *s, const char *name, int number, enum iec_type type);
-/** sfc_starts_itself - does the first scan begin as if something had fired, so that only who
- * leaves steps looks whether the chart runs? */
+/** sfc_starts_itself - does the first scan act as if transitions had fired? Then only code that
+ * leaves steps tests whether the chart runs. */
 bool sfc_starts_itself(const struct sfc_il *s);
 /** sfc_x_name, sfc_t_name - the names of Step.X and Step.T. */
 uint32_t sfc_x_name(const struct sfc_il *s, int step);
 uint32_t sfc_t_name(const struct sfc_il *s, int step);
-/** sfc_each - goes to the label of each of the BOOLs that is TRUE; it is where they come
- * back to. @label: one a BOOL. */
+/** sfc_each - jumps to the label of each BOOL that is TRUE; the parts jump back to it. @label:
+ * one a BOOL. */
 void sfc_each(struct sfc_il *s, uint32_t back, uint32_t first, const uint32_t *label,
 	      int count);
 /** sfc_put_body - the rungs or instructions of a condition or action; RET leads to @end. */
@@ -87,11 +87,11 @@ uint32_t sfc_literal(struct sfc_il *s, const char *text);
 void *sfc_alloc(struct sfc_il *s, size_t count, size_t size);
 
 /* ---- sfc_evolve.c ---- */
-/** sfc_find_duties - who evaluates which arc. */
+/** sfc_find_duties - which step evaluates which arc. */
 void sfc_find_duties(struct sfc_il *s);
 void sfc_supervise(struct sfc_il *s);
 void sfc_evaluate(struct sfc_il *s);
-/** sfc_fire - what is done when arcs fire, when steps are left and entered; with labels. */
+/** sfc_fire - code for arcs that fire and for steps that are left and entered; with labels. */
 void sfc_fire(struct sfc_il *s);
 void sfc_leave(struct sfc_il *s);
 void sfc_enter(struct sfc_il *s);
@@ -99,7 +99,7 @@ void sfc_enter(struct sfc_il *s);
 /* ---- sfc_order.c: IN ORDER ---- */
 /** sfc_is_in_order - does the chart evolve so? */
 bool sfc_is_in_order(const struct sfc_il *s);
-/** sfc_order - all rounds of a scan; where the first scan comes to: label "Order". */
+/** sfc_order - all rounds of a scan; the first scan enters at label "Order". */
 void sfc_order(struct sfc_il *s);
 
 /* ---- sfc_control.c ---- */
@@ -109,24 +109,24 @@ void sfc_control(struct sfc_il *s);
 void sfc_start(struct sfc_il *s);
 /** sfc_stop - RESET and HOLD let nothing fire. */
 void sfc_stop(struct sfc_il *s);
-/** sfc_allow - the result, a condition, as the mode has it. */
+/** sfc_allow - changes the result, a condition, as the mode requires. */
 void sfc_allow(struct sfc_il *s);
-/** sfc_anew - TRUE while RESET or FORCE leaves all steps: what becomes active then does
- * so anew, and no firing left it. sfc_may_begin_anew - it has one of them. */
+/** sfc_anew - TRUE while RESET or FORCE leaves all steps: steps then become active again
+ * without a transition. sfc_may_begin_anew - has the chart RESET or FORCE? */
 uint32_t sfc_anew(struct sfc_il *s);
 bool sfc_may_begin_anew(const struct sfc_il *s);
 /** sfc_once - no TIP counts for another round of the same scan. */
 void sfc_once(struct sfc_il *s);
 
 /* ---- sfc_act.c ---- */
-/** sfc_find_called - what steps call, actions first. */
+/** sfc_find_called - actions and BOOLs that steps call, actions first. */
 void sfc_find_called(struct sfc_il *s);
-/** sfc_ask - what the active steps ask for; sfc_act - what is done; both up to the end of
- * the scan. */
+/** sfc_ask - requests of the active steps; sfc_act - the actions; both up to the end of the
+ * scan. */
 void sfc_ask(struct sfc_il *s);
 void sfc_act(struct sfc_il *s);
-/** sfc_pulse - what of @step begins when it becomes active, or ends when it is left. */
+/** sfc_pulse - actions that begin or end when @step becomes active or is left. */
 void sfc_pulse(struct sfc_il *s, int step, bool entered);
-/** sfc_forget - nothing is stored any more. */
+/** sfc_forget - clears all stored actions. */
 void sfc_forget(struct sfc_il *s);
 #endif

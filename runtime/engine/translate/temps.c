@@ -182,7 +182,7 @@ uint32_t temps_whole(struct temps *temps, const struct meaning *m)
 	return slot->var->name;
 }
 
-/* What a line does with the variable it names. */
+/* How a line uses the variable that it names. */
 enum use { USE_NONE, USE_READ, USE_WRITE, USE_BOTH };
 
 static enum use use_of(const struct il_line *line)
@@ -255,8 +255,8 @@ static void mark_names(struct list *list)
 	}
 }
 
-/* May the argument stay as it was? Behind CALC and CALCN, and OUT of a function,
- * whose EN may be FALSE; ENO is always written. */
+/* May the argument keep its old value? After CALC and CALCN, and for OUT of a function whose
+ * EN may be FALSE; ENO is always written. */
 static bool is_conditional(const struct list *list, int at)
 {
 	const struct scope *scope = list->as->translation->scope;
@@ -270,7 +270,7 @@ static bool is_conditional(const struct list *list, int at)
 	return list->il->line[at].modifiers & MOD_C;
 }
 
-/* Is the argument handed over to a VAR_IN_OUT, and so written too? */
+/* Is the argument a VAR_IN_OUT, which is also written? */
 static bool is_in_out(struct list *list, int at)
 {
 	const struct scope *scope = list->as->translation->scope;
@@ -315,7 +315,7 @@ static void count_line(struct list *list, int at, int *stored, const int *block)
 		return;
 	if (use == USE_BOTH ||
 	    (use == USE_READ && (!stored[var] || stored[var] - 1 < *block)))
-		list->fleeting[var] = 0; /* an ordinary variable after all */
+		list->fleeting[var] = 0; /* treat it as an ordinary variable */
 	else if (use == USE_READ)
 		list->reads[stored[var] - 1]++;
 	else

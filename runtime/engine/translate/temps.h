@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * temps - names for what a ladder has no name for.
+ * temps - names for values of a ladder that have no name.
  *
- * _Tn: a BOOL inside one rung, reused by the next; _Nn: a number likewise; _En:
- * the memory of an edge; _Pn: power of a cell for whoever watches. Users cannot
- * declare such names in LD.
+ * _Tn: a BOOL inside one rung, reused by the next; _Nn: a number likewise; _En: the memory
+ * of an edge; _Pn: power of a cell while watched. Users cannot declare such names in LD.
  */
 #ifndef TRANSLATE_TEMPS_H
 #define TRANSLATE_TEMPS_H
@@ -14,8 +13,8 @@
 /* One that holds a structure or array. */
 struct temp_whole { const struct var *var; bool used; };
 
-/* A variable of a chart that a changed program must find again (scan/carry.h): what it
- * remembers, with a blank. */
+/* A variable of a chart whose value a changed program takes over (scan/carry.h): its key, with
+ * a blank. */
 struct temp_memory { const struct var *var; const char *key; };
 
 struct temps {
@@ -39,10 +38,10 @@ struct temps {
 /** temps_named - declares a variable like @like under a name of its own. Its string id; 0:
  * no memory. */
 uint32_t temps_named(struct temps *temps, const char *name, const struct var *like);
-/** temps_remember - the variable that was declared last is known by @key, too, which is
- * copied. Fails: false: no memory. */
+/** temps_remember - gives the last declared variable a key as well, which is copied. Fails:
+ * false: no memory. */
 bool temps_remember(struct temps *temps, const char *key);
-/** temps_rung - what belongs to one rung may be used anew. */
+/** temps_rung - temporaries of one rung may be used again. */
 void temps_rung(struct temps *temps);
 /* The next name of its kind, a string id; 0 when memory is out. */
 uint32_t temps_bool(struct temps *temps);
@@ -50,6 +49,6 @@ uint32_t temps_bool(struct temps *temps);
 uint32_t temps_edge(struct temps *temps, const char *key);
 uint32_t temps_power(struct temps *temps);
 uint32_t temps_number(struct temps *temps, enum iec_type type);
-/* The same of a structure or array like @m. */
+/* The same for a structure or array like @m. */
 uint32_t temps_whole(struct temps *temps, const struct meaning *m);
 #endif

@@ -2,9 +2,9 @@
  *
  * translate - from a checked project to a code image.
  *
- * LD becomes IL (ld_to_il), IL becomes instructions (assemble). Twice for LD: the
- * list that runs and is shown, and one that also stores the power of every cell.
- * It assumes that check/ found no error in what it is given.
+ * LD becomes IL (ld_to_il), IL becomes instructions (assemble). LD is translated twice: the
+ * list that runs and is shown, and one that also stores the power of every cell. It
+ * requires that check/ found no error.
  */
 #ifndef TRANSLATE_TRANSLATE_H
 #define TRANSLATE_TRANSLATE_H
@@ -21,11 +21,11 @@ struct power_note {
 
 struct temps;
 
-/* A POU on its way. */
+/* A POU with its lists. */
 struct unit {
 	const struct pou *pou;
-	struct il il;           /* what runs                                  */
-	struct il watch;        /* what runs while somebody watches; LD only  */
+	struct il il;           /* the list that runs                         */
+	struct il watch;        /* the list that runs while watched; LD only  */
 	enum iec_type *types, *watch_types; /* a line, from check_il          */
 	struct var **temp;      /* temporaries, in order of their first use   */
 	int temp_count;
@@ -69,6 +69,6 @@ bool sfc_to_il(struct translation *translation, struct unit *unit,
  */
 void *assemble(struct translation *translation, bool watch, size_t *len);
 
-/** is_temporary - is this a name that translation makes: _T1 _N1 _E1 _P1? */
+/** is_temporary - is this a name made by translation: _T1 _N1 _E1 _P1? */
 bool is_temporary(const char *name, char letter);
 #endif

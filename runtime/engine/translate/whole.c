@@ -2,7 +2,7 @@
  *
  * whole - structures and arrays that are copied as a whole: MOVE, LD and ST.
  *
- * Both sides are of one type, so that bytes are copied. It knows no calls.
+ * Both sides have one type, so bytes are copied. It knows no calls.
  */
 #include "engine/translate/lists.h"
 
@@ -34,7 +34,7 @@ static struct whole_value list_load_whole(struct list *list, const struct meanin
 	return out;
 }
 
-/* A jump over what follows while @ok is FALSE; -1: it never is. */
+/* A jump over the following code while @ok is FALSE; -1: @ok is always TRUE. */
 static int skip_unless(struct list *list, uint32_t ok)
 {
 	const struct il_line jump = { .modifiers = MOD_C };
@@ -46,8 +46,8 @@ static int skip_unless(struct list *list, uint32_t ok)
 	return list_skip_call(list, &jump);
 }
 
-/* Stores it while it is there; returns the BOOL that tells whether
- * that was done. The current result is lost. */
+/* Stores it if it exists; returns the BOOL that tells whether it was stored. The current
+ * result is lost. */
 static uint32_t list_store_whole(struct list *list, const struct meaning *to,
 				 struct whole_value value)
 {
@@ -62,7 +62,7 @@ static uint32_t list_store_whole(struct list *list, const struct meaning *to,
 		list_end_skip(list, skip);
 		return value.ok;
 	}
-	if (!value.own && value.m->var == to->var) { /* it may be the very one */
+	if (!value.own && value.m->var == to->var) { /* both may be the same place */
 		copy = layout_like(list->as, to);
 		list_copy_whole(list, copy, value.at, size);
 		value.at = copy;
@@ -79,7 +79,7 @@ void list_load_result(struct list *list, const struct meaning *m)
 	list->now = (struct il_result){ .kind = RESULT_WHOLE, .whole = value };
 }
 
-/* The result stays, for another ST. */
+/* The result stays for another ST. */
 void list_store_result(struct list *list, const struct meaning *m)
 {
 	struct il_result now = list->now;
