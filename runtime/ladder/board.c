@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * board - lamps, switches and the simulated pins behind them. No real line is
- * ever opened from here.
+ * board - lamps, switches and the simulated lines behind them.
  */
 #include "ladder/board.h"
 
@@ -11,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RUN_MAX 64 /* undeclared bits in a row that are still shown        */
+#define RUN_MAX 64 /* longer ranges of undeclared bits get no lamps         */
 
 static bool same_bit(struct location a, struct location b)
 {
@@ -33,21 +32,23 @@ static struct iec_addr address_of(struct location at)
 				  .bit = at.where % 8, .byte = at.where / 8 };
 }
 
-static const char *line_of(const struct board *board, struct location at)
+/* The point of the I/O map at an address; NULL: none, or no map. */
+static const struct io_point *point_at(const struct board *board, struct location at)
 {
 	for (int i = 0; board->mapped && i < board->map.count; i++) {
 		const struct io_point *point = &board->map.point[i];
 
 		if (point->addr.area == at.area &&
 		    point->addr.byte * 8 + point->addr.bit == at.where)
-			return point->line ? point->line : "";
+			return point;
 	}
-	return "";
+	return NULL;
 }
 
 /* A second name of the same bit adds no lamp. */
 static bool add_lamp(struct board *board, struct location at, const char *name)
 {
+	const struct io_point *point = point_at(board, at);
 	struct lamps *lamps = lamps_of(board, at);
 	struct lamp *lamp;
 
@@ -62,7 +63,7 @@ static bool add_lamp(struct board *board, struct location at, const char *name)
 		return false;
 	lamp->at = at;
 	iec_addr_print(address_of(at), lamp->address, sizeof(lamp->address));
-	lamp->line = line_of(board, at);
+	lamp->line = point && point->line ? point->line : "";
 	lamp->name = arena_copy(&board->arena, name, strlen(name));
 	return lamp->name != NULL;
 }
@@ -130,7 +131,7 @@ static bool add_declared(struct board *board)
 	return good;
 }
 
-/* Lamps of bits that the program uses without a name. */
+/* Lamps for bits that the program uses by address. */
 static bool add_used(struct board *board)
 {
 	const struct program *program = board->resource->image.program;
@@ -165,32 +166,27 @@ static bool add_mapped(struct board *board)
 
 static enum status read_map(struct board *board, const char *path)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
 	size_t len;
 	char *text = report_read(path, &len);
-	bool good = false;
+	struct diag_list *diags = text ? report_list(path) : NULL;
 
-	if (text && diags) {
-		diag_init(diags);
-		good = iomap_read(&board->map, &board->arena, path, text, len,
-				  diags);
-		good = good && iomap_fits(&board->map,
-			&board->resource->image.program->areas, diags);
-		for (int i = 0; good && i < board->map.count; i++)
-			board->map.point[i].driver = DRIVER_sim;
-		good = good && hal_open(&board->hal, &board->map,
-					&board->arena, diags);
-		report_diags(diags);
-	}
-	board->mapped = good;
-	free(diags);
-	if (!text)
+	if (!diags) {
+		free(text);
 		return STATUS_WRONG;
+	}
+	board->mapped = iomap_read(&board->map, &board->arena, path, text, len, diags) &&
+			iomap_fits(&board->map, &board->resource->image.program->areas,
+				   diags);
+	for (int i = 0; board->mapped && i < board->map.count; i++)
+		board->map.point[i].driver = DRIVER_sim;
+	board->mapped = board->mapped && hal_open(&board->hal, &board->map,
+						  &board->arena, diags);
+	report_end(diags);
 	free(text);
-	return good ? STATUS_GOOD : STATUS_NO;
+	return board->mapped ? STATUS_GOOD : STATUS_NO;
 }
 
-/* What the wire of a switch shows: TRUE is low when the line is inverted. */
+/* Sets the input of a switch, or the level of its line: of an inverted line TRUE is low. */
 static void move_wire(struct board *board, const struct lamp *lamp)
 {
 	struct iec_addr addr = address_of(lamp->at);
@@ -273,19 +269,12 @@ void board_set(struct board *board, struct location at, union iec_value value)
 
 bool board_is_on(const struct board *board, const struct lamp *lamp)
 {
-	struct iec_addr addr = address_of(lamp->at);
+	const struct io_point *point = point_at(board, lamp->at);
 
-	if (board->resource->state == STATE_RUN || addr.area != AREA_Q)
+	if (board->resource->state == STATE_RUN || lamp->at.area != AREA_Q)
 		return image_get_bit(&board->resource->image, lamp->at.area,
 				     lamp->at.where);
-	for (int i = 0; board->mapped && i < board->map.count; i++) {
-		const struct io_point *point = &board->map.point[i];
-
-		if (point->addr.area == addr.area &&
-		    point->addr.byte == addr.byte && point->addr.bit == addr.bit)
-			return point->safe;
-	}
-	return false;
+	return point && point->safe;
 }
 
 void board_toggle(struct board *board, int index)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_bench - `ladder bench`: how long a program takes here. It measures; it
- * judges nothing and never fails because a machine is slow.
+ * cmd_bench - `ladder bench`: measures how long a program takes here. A slow machine is
+ * no failure.
  */
 #include "ladder/report.h"
 #include "ladder/tty.h"
@@ -10,8 +10,8 @@
 #include <string.h>
 
 #define PERIOD_NS 10000000
-#define BATCH_NS  20000   /* a steady sample takes at least so long          */
-#define LOADS     5       /* of which the fastest counts                     */
+#define BATCH_NS  20000   /* least duration of a steady sample               */
+#define LOADS     5       /* the fastest one is reported                     */
 
 struct figure {
 	double least, median, longest; /* ns a scan                           */
@@ -109,8 +109,8 @@ static int order(const void *a, const void *b)
 	return (x > y) - (x < y);
 }
 
-/* Random inputs change before every scan, steady ones never: those are measured
- * many scans at a time, because a clock is slower than a small program. */
+/* Random inputs change before every scan. With steady inputs a sample has many scans,
+ * because reading the clock takes longer than a small program. */
 static bool measure(struct bench *bench, enum measure which)
 {
 	bool body = which == BODY_STEADY || which == BODY_RANDOM;
@@ -281,7 +281,7 @@ enum status cmd_bench(struct call *call)
 
 	if (!report_count(call, "--scans", 2000, 10000000, &bench.scans))
 		return STATUS_WRONG;
-	status = machine_open_file(&bench.machine, call->arg[0]);
+	status = machine_open(&bench.machine, call->arg[0], MACHINE_AS_FILE);
 	if (status == STATUS_GOOD)
 		status = run(&bench);
 	free(bench.sample);

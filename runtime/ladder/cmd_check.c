@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_check - `ladder check`: every error and warning of programs. It changes
- * no file and writes no image.
+ * cmd_check - `ladder check`: prints every error and warning of programs. It writes no
+ * file.
  */
 #include "ladder/report.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_code - `ladder code` and `ladder build`: the code image as text and as a
- * file. The image is what was verified, byte for byte.
+ * cmd_code - `ladder code` and `ladder build`: print the verified code image, or write it
+ * to a file.
  */
 #include "ladder/report.h"
 
@@ -22,7 +22,7 @@ static const char *const section_name[CODE_SECTION_COUNT] = {
 	[CODE_WATCHED] = "watched instances",
 };
 
-/* Those that have no byte are left out. */
+/* Empty areas are left out. */
 static void print_areas(const struct areas *areas, const struct sink *out)
 {
 	sink_printf(out, "areas         %u bytes:", (unsigned)areas->size);
@@ -60,7 +60,7 @@ static bool is_jump(uint32_t word)
 	return (word & 0xff) == VM_JMP || (word & 0xff) == VM_JMPC;
 }
 
-/* Prints one program; counts its instructions, each part of a LUT as one. */
+/* Prints one program. Returns the number of its instructions; each part of a LUT counts. */
 static uint32_t print_program(const struct program *program,
 			      const struct code_program *entry,
 			      const struct call *call, bool *loops)
@@ -94,8 +94,8 @@ static uint32_t print_program(const struct program *program,
 	return count;
 }
 
-/* Adds what the calls of a program run; @own: instructions of each program alone,
- * @all: with those it calls, as far as they are known. True: more than before. */
+/* Adds the instructions of called programs. @own: instructions of each program without its
+ * calls; @all: with them, as far as computed. Returns whether @all has grown. */
 static bool add_calls(const struct program *program, uint32_t entry,
 		      const uint32_t *own, uint64_t *all)
 {
@@ -107,15 +107,14 @@ static bool add_calls(const struct program *program, uint32_t entry,
 	for (uint32_t at = e->text; at < end; at += code_words(text + at))
 		if ((text[at] & 0xff) == VM_CALL)
 			sum += all[text[at + 1]];
-	/* A count that large only says: more than the budget allows. */
-	sum = sum < UINT32_MAX ? sum : UINT32_MAX;
+	sum = sum < UINT32_MAX ? sum : UINT32_MAX; /* more than any budget */
 	if (sum == all[entry])
 		return false;
 	all[entry] = sum;
 	return true;
 }
 
-/* Calls make no circle, so that this ends after as many rounds as they nest. */
+/* The verifier refuses recursive calls, so this ends after as many rounds as calls nest. */
 static uint64_t count_worst(const struct program *program, const uint32_t *own)
 {
 	uint64_t *all = calloc(program->entry_count + 1u, sizeof(*all)), sum = 0;
@@ -192,7 +191,7 @@ static void print_code(const struct call *call, const struct program *program)
 enum status cmd_code(struct call *call)
 {
 	struct machine machine;
-	enum status status = machine_open_file(&machine, call->arg[0]);
+	enum status status = machine_open(&machine, call->arg[0], MACHINE_AS_FILE);
 
 	if (status == STATUS_GOOD)
 		print_code(call, ladder_program(machine.ladder));
@@ -220,7 +219,7 @@ static enum status save(const struct ladder *ladder, bool small,
 	return status;
 }
 
-/* A device, a pipe or a folder must not be replaced by a file. */
+/* A device, a pipe or a folder is not replaced by a file. */
 static bool is_in_the_way(const char *path)
 {
 	struct stat status;
@@ -242,7 +241,7 @@ enum status cmd_build(struct call *call)
 		return report_usage(call, "-o OUT is missing");
 	if (is_in_the_way(path))
 		return STATUS_WRONG;
-	status = machine_open_file(&machine, call->arg[0]);
+	status = machine_open(&machine, call->arg[0], MACHINE_AS_FILE);
 	if (status == STATUS_GOOD)
 		status = save(machine.ladder, call_flag(call, "--small"), path);
 	machine_close(&machine);

@@ -1,69 +1,50 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_complete - `ladder complete`: what could stand at a place of a program. It is
- * the list that an editor offers; it changes nothing.
+ * cmd_complete - `ladder complete`: lists the words that fit at a place of a program, for
+ * editors.
  */
 #include "ladder/report.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-struct entry { char *text; }; /* a whole line of the result                  */
-
 struct list {
-	struct entry *entry;
+	struct sink_memory *line; /* of the result                           */
 	int count, room;
 	bool json, failed;
 };
 
-/* "kind", "word" and "note" as one text, put together by a sink. */
-static void keep(void *context, const char *text, size_t len)
-{
-	struct list *list = context;
-	struct entry *last = &list->entry[list->count];
-	size_t had = last->text ? strlen(last->text) : 0;
-	char *more = list->failed ? NULL : realloc(last->text, had + len + 1);
-
-	if (!more) {
-		list->failed = true;
-		return;
-	}
-	memcpy(more + had, text, len);
-	more[had + len] = '\0';
-	last->text = more;
-}
-
 static bool has_room(struct list *list)
 {
-	struct entry *more;
+	struct sink_memory *more;
+	const int room = 2 * list->room + 64;
 
-	if (list->count + 1 < list->room)
+	if (list->count < list->room)
 		return true;
-	more = realloc(list->entry, sizeof(*more) * (size_t)(2 * list->room + 64));
+	more = realloc(list->line, sizeof(*more) * (size_t)room);
 	if (!more)
 		return false;
-	memset(more + list->room, 0, sizeof(*more) * (size_t)(list->room + 64));
-	list->entry = more;
-	list->room = 2 * list->room + 64;
+	list->line = more;
+	list->room = room;
 	return true;
 }
 
 static void take(void *context, const struct ladder_word *word)
 {
 	struct list *list = context;
-	struct sink sink = { .write = keep, .context = list };
+	struct sink sink;
 
 	if (list->failed || !has_room(list)) {
 		list->failed = true;
 		return;
 	}
+	sink_memory_init(&list->line[list->count]);
+	sink = sink_to_memory(&list->line[list->count]);
 	if (list->json) {
 		sink_text(&sink, "{\"kind\": ");
 		sink_json_text(&sink, word->kind);
-		sink_text(&sink, ", \"word\": ");
-		sink_json_text(&sink, word->text);
-		sink_text(&sink, ", \"note\": ");
-		sink_json_text(&sink, word->note);
+		report_json_field("word", word->text, &sink);
+		report_json_field("note", word->note, &sink);
 		sink_text(&sink, "}");
 	} else {
 		sink_text(&sink, word->kind);
@@ -72,24 +53,25 @@ static void take(void *context, const struct ladder_word *word)
 		sink_text(&sink, *word->note ? "\t" : "");
 		sink_text(&sink, word->note);
 	}
-	list->count++;
+	list->failed = list->line[list->count++].failed;
 }
 
 static int by_text(const void *a, const void *b)
 {
-	return strcmp(((const struct entry *)a)->text, ((const struct entry *)b)->text);
+	return strcmp(sink_memory_text(a), sink_memory_text(b));
 }
 
-/* A local hides the global of its name, and a word is offered once. */
+/* Sorted; equal lines once, since a local hides the global of its name. */
 static void print_list(struct list *list, const struct sink *out)
 {
 	const char *before = "";
 	bool first = true;
 
-	qsort(list->entry, (size_t)list->count, sizeof(*list->entry), by_text);
+	if (list->count)
+		qsort(list->line, (size_t)list->count, sizeof(*list->line), by_text);
 	sink_text(out, list->json ? "[" : "");
 	for (int i = 0; i < list->count; i++) {
-		const char *text = list->entry[i].text;
+		const char *text = sink_memory_text(&list->line[i]);
 
 		if (strcmp(text, before) == 0)
 			continue;
@@ -129,11 +111,11 @@ static enum status complete(struct call *call, struct ladder *ladder, int line,
 				      line, column);
 	else if (list.failed)
 		status = report_no_memory(call->arg[0]);
-	else if (list.entry || list.json)
+	else
 		print_list(&list, &call->out);
-	for (int i = 0; i < list.room; i++)
-		free(list.entry[i].text);
-	free(list.entry);
+	for (int i = 0; i < list.count; i++)
+		sink_memory_free(&list.line[i]);
+	free(list.line);
 	free(text);
 	return status;
 }

@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_export - `ladder export`: a program in another language. Of charts there are
- * ladders; what comes out is read, checked and written in canonical form. Or the whole as a
- * project of ClassicLadder.
+ * cmd_export - `ladder export`: writes a program with its charts as ladders, or as a
+ * project of ClassicLadder with the pins of the I/O map.
+ *
+ * Lines of ioconf.csv hold pins of a Raspberry Pi by their GPIO numbers. All inputs there
+ * have a pull-up and the same sampling time; other settings of a map are reported.
  */
-#include "ladder/export_io.h"
 #include "ladder/paths.h"
+#include "ladder/report.h"
 
-#include "engine/base/file.h"
+#include "engine/exchange/classic/to_classic.h"
 #include "engine/exchange/report.h"
+#include "hal/iomap.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +29,7 @@ static enum status write_out(struct call *call, const char *text, size_t len)
 	return STATUS_GOOD;
 }
 
-/* @text: as the engine made it. */
+/* Writes @text, as the engine made it, in canonical form. */
 static enum status write_canonical(struct call *call, const char *path, const char *text,
 				   size_t len)
 {
@@ -45,39 +49,161 @@ static enum status write_canonical(struct call *call, const char *path, const ch
 	return status;
 }
 
-static enum status export_loaded(struct call *call, struct ladder *ladder,
-				 const char *path)
+/* The program with each chart as ladders; NULL after messages. Owns: the caller, free(). */
+static char *as_ladder(struct ladder *ladder, const char *path, size_t *len)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
-	enum status status = STATUS_NO;
-	size_t len;
+	struct diag_list *diags = report_list(path);
 	char *text;
 
 	if (!diags)
-		return report_no_memory(path);
-	diag_init(diags);
-	text = ladder_export_ladder(ladder, &len, diags);
+		return NULL;
+	text = ladder_export_ladder(ladder, len, diags);
 	ladder_import_places(ladder, diags);
-	report_diags(diags);
-	free(diags);
+	report_end(diags);
+	return text;
+}
+
+static enum status export_ladder(struct call *call, struct ladder *ladder,
+				 const char *path)
+{
+	enum status status = STATUS_NO;
+	size_t len;
+	char *text = as_ladder(ladder, path, &len);
+
 	if (text)
 		status = write_canonical(call, path, text, len);
 	free(text);
 	return status;
 }
 
+/* ---- the I/O map as lines of ioconf.csv ---- */
+
+enum { RASPBERRY = 2, SAMPLES = 3, PINS = 1000 };
+
+struct map_lines {
+	const struct iomap *map;
+	struct arena *arena;
+	struct classic_lines *lines;
+	struct classic_io *io; /* of @lines; it grows                          */
+};
+
+static __attribute__((format(printf, 3, 4)))
+void tell(const struct map_lines *m, const struct io_point *point, const char *text, ...)
+{
+	char address[24];
+	va_list args;
+
+	iec_addr_print(point->addr, address, sizeof(address));
+	fprintf(stderr, "%s:%d: changed: %s: ", m->map->file, point->text_line, address);
+	va_start(args, text);
+	vfprintf(stderr, text, args);
+	va_end(args);
+	fprintf(stderr, "\n");
+}
+
+/* 17 of GPIO17, or of line 17 of the chip with these pins; -1: no pin of a Raspberry Pi. */
+static int pin_of(const struct io_point *point)
+{
+	char *end;
+	long pin = -1;
+
+	if (point->line && !strncmp(point->line, "GPIO", 4)) {
+		pin = strtol(point->line + 4, &end, 10);
+		if (end == point->line + 4 || *end)
+			return -1;
+	} else if (point->chip && !strncmp(point->chip, "pinctrl-bcm", 11)) {
+		pin = (long)point->offset;
+	}
+	return pin >= 0 && pin < PINS ? (int)pin : -1;
+}
+
+/* ClassicLadder has one sampling time for all inputs: that of the first one here. */
+static void note_debounce(struct map_lines *m, const struct io_point *point)
+{
+	int ms = (int)((point->debounce_ns + 999999) / 1000000);
+	int sample = (ms + SAMPLES - 1) / SAMPLES;
+
+	if (!m->lines->sample_ms && sample)
+		m->lines->sample_ms = sample;
+	if (ms != SAMPLES * (m->lines->sample_ms ? m->lines->sample_ms : 10))
+		tell(m, point, "must be steady for %d ms in ClassicLadder, as all inputs",
+		     SAMPLES * (m->lines->sample_ms ? m->lines->sample_ms : 10));
+}
+
+static void tell_settings(struct map_lines *m, const struct io_point *point)
+{
+	if (!point->output && point->bias != BIAS_UP)
+		tell(m, point, "has a pull-up in ClassicLadder");
+	if (point->output && point->bias != BIAS_AS_IS)
+		tell(m, point, "an output has no pull in ClassicLadder");
+	if (point->output && point->drive != DRIVE_AS_IS && point->drive != DRIVE_PUSH_PULL)
+		tell(m, point, "is driven to both levels in ClassicLadder");
+	if (point->safe)
+		tell(m, point, "has no safe value in ClassicLadder: it stays as it is");
+}
+
+static bool goes_on(const struct classic_io *last, const struct io_point *point, int bit,
+		    int pin)
+{
+	return last && last->output == point->output && last->inverted == point->active_low &&
+	       last->first + last->count == bit && last->channel + last->count == pin;
+}
+
+static void add_point(struct map_lines *m, const struct io_point *point)
+{
+	const int bit = (int)point->addr.byte * 8 + point->addr.bit, pin = pin_of(point);
+	struct classic_lines *lines = m->lines;
+	struct classic_io *last = lines->count ? &m->io[lines->count - 1] : NULL;
+
+	if (point->driver != DRIVER_gpio || pin < 0) {
+		tell(m, point, "is no pin of a Raspberry Pi (line=GPIO17) and is not exported");
+		return;
+	}
+	tell_settings(m, point);
+	if (!point->output)
+		note_debounce(m, point);
+	if (goes_on(last, point, bit, pin)) {
+		last->count++;
+		return;
+	}
+	last = arena_push(m->arena, &m->io, &lines->count, sizeof(*last));
+	if (last)
+		*last = (struct classic_io){ .output = point->output, .first = bit,
+			.device = RASPBERRY, .channel = pin, .count = 1,
+			.inverted = point->active_low };
+}
+
+/* Reads a map and adds its lines to @lines, in @arena. Fails: false after messages. */
+static bool export_lines(const char *path, const char *text, size_t len, struct arena *arena,
+		  struct classic_lines *lines)
+{
+	struct diag_list *diags = report_list(path);
+	struct iomap map = { .file = path };
+	struct map_lines m = { &map, arena, lines, NULL };
+	bool good;
+
+	*lines = (struct classic_lines){ 0 };
+	if (!diags)
+		return false;
+	good = iomap_read(&map, arena, path, text, len, diags);
+	report_end(diags);
+	for (int i = 0; good && i < map.count; i++)
+		add_point(&m, &map.point[i]);
+	lines->io = m.io;
+	return good && !arena->failed;
+}
+
 /* ---- ClassicLadder ---- */
 
-/* What an export goes on with. */
-struct leaving_to {
+struct target {
 	enum classic_dialect dialect;
 	struct classic_lines lines;
 	struct arena arena; /* of the lines                                     */
 };
 
-/* The map that is given, the one that an import of the project itself gives, or the one
- * that stands beside the rung file. */
-static bool find_lines(struct call *call, struct ladder *ladder, struct leaving_to *to)
+/* Reads the I/O map: that of --io, or that of an imported project, or the file beside
+ * FILE. */
+static bool find_lines(struct call *call, struct ladder *ladder, struct target *to)
 {
 	const char *given = call_option(call, "--io"), *own = ladder_import_io(ladder);
 	char *beside = path_with_ending(call->arg[0], ".io"), *text;
@@ -102,8 +228,8 @@ static const struct { const char *word; enum classic_dialect dialect; } classic_
 };
 enum { CLASSIC_WORDS = sizeof(classic_words) / sizeof(*classic_words) };
 
-/* What means something else there; on standard error, because the file may be on the
- * other one. */
+/* Prints what has another meaning there; to standard error, because the result may go to
+ * standard output. */
 static void print_changes(const char *path, const struct classic_report *report)
 {
 	for (int i = 0; i < report->count; i++) {
@@ -117,22 +243,20 @@ static void print_changes(const char *path, const struct classic_report *report)
 }
 
 static enum status export_classic(struct call *call, struct ladder *ladder,
-				  const char *path, const struct leaving_to *to)
+				  const char *path, const struct target *to)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct diag_list *diags = report_list(path);
 	struct classic_report report;
 	enum status status = STATUS_NO;
 	size_t len;
 	char *text;
 
 	if (!diags)
-		return report_no_memory(path);
-	diag_init(diags);
+		return STATUS_WRONG;
 	report_init(&report);
 	text = ladder_export_classic(ladder, to->dialect, &to->lines, &len, &report, diags);
 	ladder_import_places(ladder, diags);
-	report_diags(diags);
-	free(diags);
+	report_end(diags);
 	if (text) {
 		print_changes(path, &report);
 		status = write_out(call, text, len);
@@ -142,32 +266,23 @@ static enum status export_classic(struct call *call, struct ladder *ladder,
 	return status;
 }
 
-/* A chart that can be no page goes there as a ladder. */
+/* Exports charts that do not fit a page of ClassicLadder as ladders. */
 static enum status export_as_ladder(struct call *call, struct ladder *ladder,
-				    const char *path, const struct leaving_to *to)
+				    const char *path, const struct target *to)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
 	struct ladder *again = ladder_new();
 	enum status status = STATUS_NO;
-	char *text = NULL;
 	size_t len;
+	char *text;
 
-	if (!diags || !again) {
-		free(diags);
-		ladder_free(again);
+	if (!again)
 		return report_no_memory(path);
-	}
-	diag_init(diags);
-	text = ladder_export_ladder(ladder, &len, diags);
-	ladder_import_places(ladder, diags);
-	report_diags(diags);
-	if (text && ladder_load_text(again, path, text, len) && ladder_build(again)) {
+	text = as_ladder(ladder, path, &len);
+	if (text && ladder_load_text(again, path, text, len) && ladder_build(again))
 		status = export_classic(call, again, path, to);
-	} else if (text) {
+	else if (text)
 		report_diags(ladder_diags(again));
-	}
 	free(text);
-	free(diags);
 	ladder_free(again);
 	return status;
 }
@@ -175,11 +290,11 @@ static enum status export_as_ladder(struct call *call, struct ladder *ladder,
 static enum status export_any(struct call *call, struct ladder *ladder, const char *path,
 			      int word)
 {
-	struct leaving_to to = { .lines = { NULL, 0, 0 } };
+	struct target to = { .lines = { NULL, 0, 0 } };
 	enum status status;
 
 	if (word == CLASSIC_WORDS)
-		return export_loaded(call, ladder, path);
+		return export_ladder(call, ladder, path);
 	to.dialect = classic_words[word].dialect;
 	arena_init(&to.arena);
 	if (!find_lines(call, ladder, &to))

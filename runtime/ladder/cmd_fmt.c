@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_fmt - `ladder fmt`: rung files in canonical form. A file with an error,
- * or one that is canonical already, is not touched.
+ * cmd_fmt - `ladder fmt`: writes rung files in canonical form. It does not write a file
+ * that has an error or is canonical already.
  */
 #include "ladder/report.h"
-
-#include "engine/base/file.h"
 
 #include <stdlib.h>
 #include <string.h>

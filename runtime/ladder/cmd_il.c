@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_il - `ladder il`: the instruction list that runs, as a rung file of IL
- * POUs.
+ * cmd_il - `ladder il`: prints the instruction lists that run, as a rung file of IL POUs.
  *
- * The project in memory gets the lists that translation made in place of its
- * rungs, and is written by the one writer; so what is shown can be read again,
- * but for charts, whose steps (Step.X, EACH, TICK) no list can name.
+ * It replaces the rungs of the project in memory by the translated lists and writes the
+ * project with the ordinary writer. So the output can be read again, except for charts: IL
+ * in a rung file has no EACH, TICK or Step.X.
  */
 #include "ladder/report.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Those of @temp that the list speaks of; the others serve watching. */
+/* Copies to @out the variables of @temp that the list uses; the others are for watching.
+ * Returns how many; -1: no memory. */
 static int pick_used(const struct project *project, const struct il *il,
 		     struct var *const *temp, int count, struct var *out)
 {
@@ -30,7 +30,7 @@ static int pick_used(const struct project *project, const struct il *il,
 	return kept;
 }
 
-/* Variables of @pou and, in a block of their own, those that were added. */
+/* Adds the temporaries of translation to the variables of @pou, in a block of their own. */
 static bool add_temporaries(struct project *project, struct pou *pou,
 			    struct var *const *temp, int count)
 {
@@ -59,7 +59,7 @@ static bool add_temporaries(struct project *project, struct pou *pou,
 	return true;
 }
 
-/* What an INCLUDE brought in is shown too, and so its line is not. */
+/* Prints what an INCLUDE brought in, instead of its line. */
 static void join_includes(struct project *project)
 {
 	int kept = 0;
@@ -98,7 +98,7 @@ static bool turn_to_il(struct ladder *ladder, struct project *project)
 enum status cmd_il(struct call *call)
 {
 	struct machine machine;
-	enum status status = machine_open_file(&machine, call->arg[0]);
+	enum status status = machine_open(&machine, call->arg[0], MACHINE_AS_FILE);
 	struct project *project = NULL;
 	char *text = NULL;
 	size_t len;
@@ -113,10 +113,7 @@ enum status cmd_il(struct call *call)
 		else
 			status = report_no_memory(call->arg[0]);
 	} else if (status == STATUS_GOOD) {
-		report_diag((struct diag){ .id = DIAG_IMAGE_NO_TEXT,
-					   .file = call->arg[0] },
-			    "%s", "");
-		status = STATUS_NO;
+		status = report_no_text(call->arg[0]);
 	}
 	free(text);
 	machine_close(&machine);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_import - `ladder import`: a project of ClassicLadder becomes a rung file, an I/O
- * map and a report of what became of it.
+ * cmd_import - `ladder import`: makes a rung file, an I/O map and a report from a project
+ * of ClassicLadder.
  */
+#include "ladder/paths.h"
 #include "ladder/report.h"
 
-#include "engine/base/file.h"
 #include "engine/exchange/report.h"
 
 #include <stdlib.h>
@@ -49,12 +49,12 @@ static void print_text(const char *path, const struct classic_report *report,
 
 static void print_json_line(const struct report_line *line, const struct sink *out)
 {
-	sink_printf(out, "  {\"kind\": \"%s\", \"member\": ", kind_text[line->kind]);
-	sink_json_text(out, line->member);
-	sink_printf(out, ", \"line\": %d, \"pou\": ", line->line);
-	sink_json_text(out, line->pou);
-	sink_printf(out, ", \"rung\": %d, \"text\": ", line->rung);
-	sink_json_text(out, line->text);
+	sink_printf(out, "  {\"kind\": \"%s\"", kind_text[line->kind]);
+	report_json_field("member", line->member, out);
+	sink_printf(out, ", \"line\": %d", line->line);
+	report_json_field("pou", line->pou, out);
+	sink_printf(out, ", \"rung\": %d", line->rung);
+	report_json_field("text", line->text, out);
 	sink_text(out, "}");
 }
 
@@ -74,15 +74,11 @@ static void print_json(const char *path, const struct classic_report *report,
 /* OUT.rung: OUT.io */
 static bool save_io(const char *out, const char *map)
 {
-	const char *dot = strrchr(out, '.');
-	size_t stem = dot && !strchr(dot, '/') ? (size_t)(dot - out) : strlen(out);
-	char *path = malloc(stem + sizeof(".io"));
+	char *path = path_with_ending(out, ".io");
 	bool good;
 
 	if (!path)
 		return report_no_memory(out) == STATUS_GOOD;
-	memcpy(path, out, stem);
-	memcpy(path + stem, ".io", sizeof(".io"));
 	good = report_save(path, map, strlen(map)) == STATUS_GOOD;
 	free(path);
 	return good;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_io - `ladder io`: the lines of this machine, whether a map fits them, and
- * what a program calls them. It takes no line and changes none.
+ * cmd_io - `ladder io`: lists the lines of this machine, checks a map against them, shows
+ * their state with the names of a program. It requests no line and changes none.
  */
 #include "ladder/picture.h"
 #include "ladder/tty.h"
@@ -9,13 +9,6 @@
 #include "hal/hal.h"
 
 #include <stdlib.h>
-
-static void json_field(const char *name, const char *text,
-		       const struct sink *out)
-{
-	sink_printf(out, ", \"%s\": ", name);
-	sink_json_text(out, text);
-}
 
 static void print_picture(const struct call *call,
 			  const struct picture *picture)
@@ -55,7 +48,7 @@ static void json_picture(const struct call *call,
 	sink_text(out, "}\n");
 }
 
-/* All lines, or those of a map with the names of a program. */
+/* Shows all lines, or those of a map with the names of a program. */
 static enum status show(struct call *call, struct picture *picture,
 			struct diag_list *diags)
 {
@@ -127,9 +120,9 @@ static void json_points(const struct call *call, const struct iomap *map,
 		sink_text(out, i ? ",\n  {\"address\": " :
 				   "\n  {\"address\": ");
 		sink_json_text(out, text);
-		json_field("driver", driver_row(point->driver)->word, out);
+		report_json_field("driver", driver_row(point->driver)->word, out);
 		io_line_print(point, text, sizeof(text));
-		json_field("line", text, out);
+		report_json_field("line", text, out);
 		sink_printf(out, ", \"output\": %s, \"good\": %s}",
 			    point->output ? "true" : "false",
 			    is_wrong(diags, point) ? "false" : "true");
@@ -157,7 +150,7 @@ static enum status check_map(struct call *call, const struct iomap *map,
 	return good ? STATUS_GOOD : STATUS_NO;
 }
 
-/* The map's lines as they are now; --program names what they are called. */
+/* Shows the state of the map's lines, with the names of --program. */
 static enum status show_map(struct call *call, const struct iomap *map,
 			    struct diag_list *diags)
 {
@@ -168,7 +161,7 @@ static enum status show_map(struct call *call, const struct iomap *map,
 	bool fits = true;
 
 	if (file)
-		status = machine_open(&machine, file);
+		status = machine_open(&machine, file, 0);
 	if (status == STATUS_GOOD) {
 		if (file) {
 			picture.program = ladder_program(machine.ladder);
@@ -216,10 +209,9 @@ enum status cmd_io(struct call *call)
 
 	if (!call->arg_count && call_option(call, "--program"))
 		return report_usage(call, "--program needs a MAP");
-	diags = calloc(1, sizeof(*diags));
+	diags = report_list("ladder io");
 	if (!diags)
-		return report_no_memory("ladder io");
-	diag_init(diags);
+		return STATUS_WRONG;
 	status = call->arg_count ? with_map(call, diags) :
 				   show(call, &all, diags);
 	free(diags);

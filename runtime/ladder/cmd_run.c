@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_run - `ladder run`: a program on simulated pins, at the pace of the wall
- * clock. A live table in a terminal, plain lines elsewhere. It moves no real
- * pin.
+ * cmd_run - `ladder run`: runs a program on simulated pins in real time. In a terminal it
+ * shows a live table, elsewhere it prints lines.
  */
 #include "ladder/live.h"
 #include "ladder/rungs.h"
@@ -17,14 +16,12 @@
 
 static enum status tell_fault(const struct board *board, const char *path)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct diag_list *diags = report_list(path);
 
 	if (!diags)
-		return report_no_memory(path);
-	diag_init(diags);
+		return STATUS_WRONG;
 	script_fault(board->resource, path, 0, diags);
-	report_diags(diags);
-	free(diags);
+	report_end(diags);
 	return STATUS_NO;
 }
 
@@ -42,7 +39,7 @@ static bool add_columns(struct trace *trace, const struct board *board)
 	struct diag_list *diags = calloc(1, sizeof(*diags));
 	bool good = diags && trace_show_all(trace);
 
-	/* Bits that have no name are shown by their address. */
+	/* Bits without a name are shown by their address. */
 	for (int side = 0; side < 2 && good; side++) {
 		const struct lamps *lamps = side ? &board->output :
 						   &board->input;
@@ -59,7 +56,7 @@ static bool add_columns(struct trace *trace, const struct board *board)
 	return good;
 }
 
-/* One line for every scan that changes something, at once. */
+/* Prints and flushes a line for every scan that changes something. */
 static enum status run_plain(struct call *call, struct board *board,
 			     struct pace *pace)
 {
@@ -95,13 +92,12 @@ static enum status run_plain(struct call *call, struct board *board,
 
 static enum status apply_settings(struct call *call, struct board *board)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
 	struct image *image = &board->resource->image;
 	struct diag place = { .file = "--set" };
+	struct diag_list *diags = report_list(place.file);
 
 	if (!diags)
-		return report_no_memory(place.file);
-	diag_init(diags);
+		return STATUS_WRONG;
 	for (int i = 0; i < call->given_count; i++) {
 		const char *text = call->given[i].value;
 		struct setting setting;
@@ -112,11 +108,7 @@ static enum status apply_settings(struct call *call, struct board *board)
 				  place))
 			board_set(board, setting.at, setting.value);
 	}
-	bool good = !diags->errors;
-
-	report_diags(diags);
-	free(diags);
-	return good ? STATUS_GOOD : STATUS_WRONG;
+	return report_end(diags) ? STATUS_GOOD : STATUS_WRONG;
 }
 
 static enum status take_pace(struct call *call, struct pace *pace)
@@ -140,7 +132,7 @@ static enum status take_pace(struct call *call, struct pace *pace)
 	return STATUS_GOOD;
 }
 
-/* As ladderd would: the program's tasks have a say in the period. */
+/* The period of the tasks, as in ladderd. */
 static void settle_pace(struct pace *pace, const struct program *program)
 {
 	pace->period_ns = tasks_tick(program, pace->period_ns, 10 * VALUE_MS);
@@ -171,18 +163,11 @@ static enum status run(struct call *call, struct machine *machine,
 	return status;
 }
 
-static void swallow(void *context, const char *text, size_t len)
-{
-	(void)context;
-	(void)text;
-	(void)len;
-}
-
-/* They must be there before a terminal is taken for them. */
+/* Checks that --rungs names something, before the terminal becomes a live table. */
 static enum status watch_rungs(struct call *call, struct machine *machine,
 			       const char *rungs)
 {
-	const struct sink nowhere = { .write = swallow };
+	const struct sink nowhere = report_nowhere();
 	const struct show_options options = { .width = 0 };
 	const struct project *project = ladder_project(machine->ladder);
 
@@ -203,8 +188,8 @@ enum status cmd_run(struct call *call)
 
 	if (status != STATUS_GOOD)
 		return status;
-	status = rungs ? machine_watch(&machine, call->arg[0]) :
-			 machine_open_file(&machine, call->arg[0]);
+	status = machine_open(&machine, call->arg[0],
+			      rungs ? MACHINE_WATCHED : MACHINE_AS_FILE);
 	if (status == STATUS_GOOD && plant)
 		status = machine_add_plant(&machine, plant,
 					   (struct diag){ .file = "--plant" });

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_test - `ladder test`: scenario files, run against the programs beside
- * them, as TAP. A scenario file without its program is a failed test, not a
- * skipped one.
+ * cmd_test - `ladder test`: runs scenario files with the programs beside them and prints
+ * TAP. A scenario file without a program is a failed test.
  */
 #include "ladder/report.h"
 #include "ladder/paths.h"
@@ -19,8 +18,7 @@ struct tap {
 	int count, failed;
 };
 
-/* A result line; `#` would begin a directive. Backslash escapes, as TAP 13
- * has. */
+/* Prints a result line. In TAP 13 a backslash escapes `#`, which begins a directive. */
 static void print_result(struct tap *tap, bool good, const char *path,
 			 const char *name)
 {
@@ -43,7 +41,7 @@ static void print_result(struct tap *tap, bool good, const char *path,
 	sink_text(out, "\n");
 }
 
-/* Comment lines must follow the result line, so they wait here. */
+/* Prints the result line first, then the comments of the scenario. */
 static void run_one(struct tap *tap, struct machine *machine,
 		    const struct scenario_file *file, int index)
 {
@@ -59,7 +57,8 @@ static void run_one(struct tap *tap, struct machine *machine,
 	sink_memory_free(&comments);
 }
 
-/* The plant that the file names, from its own folder on; true if it names none. */
+/* Opens the plant that the scenario file names, if any; its path begins at the folder of
+ * the file. */
 static bool find_plant(struct machine *machine, const char *path, const char *text,
 		       size_t len, struct arena *arena)
 {
@@ -78,14 +77,13 @@ static bool find_plant(struct machine *machine, const char *path, const char *te
 static bool run_text(struct tap *tap, struct machine *machine, const char *path,
 		     const char *text, size_t len)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct diag_list *diags = report_list(path);
 	struct scenario_file file;
 	struct arena arena;
-	bool good = false;
+	bool good;
 
 	if (!diags)
 		return false;
-	diag_init(diags);
 	arena_init(&arena);
 	good = find_plant(machine, path, text, len, &arena) &&
 	       scenario_read(path, text, len, &machine->resource.image,
@@ -100,7 +98,7 @@ static bool run_text(struct tap *tap, struct machine *machine, const char *path,
 	return good;
 }
 
-/* NAME.rung, or a project of ClassicLadder that has its name; NULL: no memory. */
+/* NAME.rung, or if there is none a project of ClassicLadder of that name; NULL: no memory. */
 static char *program_of(const char *path)
 {
 	static const char *const ending[] = { ".clprj", ".clp", ".clprjz" };
@@ -127,7 +125,8 @@ static void run_file(struct tap *tap, const char *path)
 	char *text = NULL;
 	size_t len;
 
-	if (!program || machine_open_file(&machine, program) != STATUS_GOOD) {
+	if (!program ||
+	    machine_open(&machine, program, MACHINE_AS_FILE) != STATUS_GOOD) {
 		print_result(tap, false, path, "its program is good");
 	} else {
 		text = report_read(path, &len);

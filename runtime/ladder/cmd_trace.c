@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_trace - `ladder trace`: a stimulus script in virtual time, and what the
- * variables were. The clock of the machine is not read.
+ * cmd_trace - `ladder trace`: runs a stimulus script in virtual time and prints the
+ * variables after each scan.
  */
 #include "ladder/report.h"
 
@@ -13,14 +13,13 @@
 static enum status run(struct call *call, struct machine *machine,
 		       enum trace_form form, int64_t period_ns)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
 	struct trace trace;
 	size_t len;
 	char *text = report_read(call->arg[1], &len);
+	struct diag_list *diags = text ? report_list(call->arg[1]) : NULL;
 	enum status status = STATUS_WRONG;
 
-	if (text && diags) {
-		diag_init(diags);
+	if (diags) {
 		trace_init(&trace, &machine->resource.image, &call->out, form,
 			   call_flag(call, "--changes"));
 		trace.stop = &call->out_failed;
@@ -28,12 +27,9 @@ static enum status run(struct call *call, struct machine *machine,
 					 &machine->resource, machine_plant(machine),
 					 &trace, diags) ? STATUS_GOOD : STATUS_NO;
 		trace_free(&trace);
-		report_diags(diags);
-	} else if (text) {
-		report_no_memory(call->arg[1]);
+		report_end(diags);
 	}
 	free(text);
-	free(diags);
 	return status;
 }
 
@@ -49,9 +45,8 @@ enum status cmd_trace(struct call *call)
 		return report_usage(call, "--csv and --vcd cannot be used together");
 	if (!report_period(call, "--period", 0, &period_ns))
 		return STATUS_WRONG;
-	status = call_flag(call, "--faithful") ?
-		 machine_open_faithful(&machine, call->arg[0]) :
-		 machine_open(&machine, call->arg[0]);
+	status = machine_open(&machine, call->arg[0],
+			      call_flag(call, "--faithful") ? MACHINE_FAITHFUL : 0);
 	if (status == STATUS_GOOD && plant)
 		status = machine_add_plant(&machine, plant,
 					   (struct diag){ .file = "--plant" });

@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_view - `ladder show`, `diff` and `words`: what show.h, compare.h and words.h
- * print, with the exit status of the command line around it.
+ * cmd_view - `ladder show`, `ladder diff` and `ladder words`: open the files and print
+ * with show.h, compare.h and words.h.
  */
 #include "ladder/rungs.h"
 #include "ladder/words.h"
 
 #include "engine/compare/compare.h"
 #include "engine/scan/code.h"
-#include "engine/trial/script.h"
-#include "engine/trial/value.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -29,50 +27,21 @@ static enum status show(struct call *call, const struct project *project,
 			    "there is no rung %.24s", name);
 }
 
-static enum status no_project(const char *path)
-{
-	report_diag((struct diag){ .id = DIAG_IMAGE_NO_TEXT, .file = path },
-		    "%s", "");
-	return STATUS_NO;
-}
-
-/* What a trace would show is left out. */
-static void swallow(void *context, const char *text, size_t len)
-{
-	(void)context;
-	(void)text;
-	(void)len;
-}
-
-/* The rungs as they are behind the last scan of a script. A program that stops with a
- * fault or at a STOP is shown as it stopped. */
+/* Shows the rungs after the last scan of a script, also if that was a fault or a STOP. */
 static enum status show_after(struct call *call, const char *script,
 			      const struct show_options *options)
 {
-	const struct sink nowhere = { .write = swallow };
-	struct diag_list *diags = calloc(1, sizeof(*diags));
 	enum status status = STATUS_WRONG, drawn;
-	struct machine machine;
-	struct trace trace;
+	struct machine machine = { 0 };
 	size_t len;
 	char *text = report_read(script, &len);
 
-	if (text && diags)
-		status = machine_watch(&machine, call->arg[0]);
-	else
-		memset(&machine, 0, sizeof(machine));
+	if (text)
+		status = machine_open(&machine, call->arg[0], MACHINE_WATCHED);
 	if (status == STATUS_GOOD && !ladder_project(machine.ladder))
-		status = no_project(call->arg[0]);
+		status = report_no_text(call->arg[0]);
 	if (status == STATUS_GOOD) {
-		diag_init(diags);
-		machine.resource.watch = true;
-		trace_init(&trace, &machine.resource.image, &nowhere, TRACE_LINES, false);
-		if (!script_run(script, text, len,
-				program_period(machine.ladder, 0),
-				&machine.resource, &trace, diags))
-			status = STATUS_NO;
-		trace_free(&trace);
-		report_diags(diags);
+		status = machine_play(&machine, script, text, len);
 		if (status == STATUS_GOOD || machine.resource.state == STATE_FAULT) {
 			drawn = show(call, ladder_project(machine.ladder),
 				     &machine.resource, options);
@@ -80,7 +49,6 @@ static enum status show_after(struct call *call, const char *script,
 		}
 	}
 	machine_close(&machine);
-	free(diags);
 	free(text);
 	return status;
 }
@@ -107,12 +75,12 @@ enum status cmd_show(struct call *call)
 	if (status == STATUS_GOOD)
 		status = ladder_project(ladder) ?
 			show(call, ladder_project(ladder), NULL, &options) :
-			no_project(call->arg[0]);
+			report_no_text(call->arg[0]);
 	ladder_free(ladder);
 	return status;
 }
 
-/* Where one of them is an image: do they run the same code on the same data? */
+/* Compares the identity of code and data, if one of the two is an image. */
 static enum status compare(struct call *call, struct ladder *a,
 			   struct ladder *b)
 {
@@ -161,7 +129,7 @@ enum status cmd_diff(struct call *call)
 		other = report_load(b, call->arg[1], false);
 		if (other > status)
 			status = other;
-		/* An answer of 1 must mean that they differ. */
+		/* Status 1 means that they differ, so an error is 2. */
 		status = status == STATUS_GOOD ? diff(call, a, b) :
 						 STATUS_WRONG;
 	} else {

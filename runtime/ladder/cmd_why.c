@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_why - `ladder why`: what holds power back from a coil after the last scan of a
- * script, or lets it through.
+ * cmd_why - `ladder why`: runs a script and prints which conditions block the power of a
+ * coil, or let it through.
  */
 #include "ladder/report.h"
 
 #include "engine/base/ascii.h"
-#include "engine/trial/script.h"
 #include "engine/trial/value.h"
 #include "engine/trial/why.h"
 
@@ -19,19 +18,11 @@ struct asked {
 	const struct project *project;
 	const struct resource *resource;
 	const char *coil;
-	struct location at;      /* of it, if it has a place for all to see        */
+	struct location at;      /* of the coil; IEC_NONE: local to a block        */
 	struct why *why;
 	int found;
 	bool failed;
 };
-
-/* What a trace would show is left out. */
-static void swallow(void *context, const char *text, size_t len)
-{
-	(void)context;
-	(void)text;
-	(void)len;
-}
 
 static void print_cell(const struct sink *out, const struct why_cell *cell, bool on)
 {
@@ -92,7 +83,7 @@ static void answer(struct asked *asked, const struct why_place *place, const cha
 	asked->found++;
 }
 
-/* The same under another name: %QX0.1, %Q1 of ClassicLadder. */
+/* Is @operand another name of the coil's bit, such as %QX0.1? */
 static bool is_same(const struct asked *asked, const char *operand)
 {
 	struct location at;
@@ -105,7 +96,8 @@ static bool is_same(const struct asked *asked, const char *operand)
 	       at.where == asked->at.where;
 }
 
-/* Is it asked for? `Motor`, `Main.Motor`, `Belt1.Motor`; `Main:3` is all in a rung. */
+/* Does COIL name this coil? `Motor`, `Main.Motor`, `Belt1.Motor`; `Main:3` names all coils
+ * of a rung. */
 static bool is_asked(const struct asked *asked, const char *body, int rung,
 		     const char *operand, bool inside)
 {
@@ -184,23 +176,12 @@ static enum status ask(struct call *call, struct machine *machine)
 	       report_usage(call, "there is no coil or rung %.60s", asked.coil);
 }
 
-/* A program that stops with a fault or at a STOP is asked as it stopped. */
+/* Explains the state after the last scan, also if that was a fault or a STOP. */
 static enum status run(struct call *call, struct machine *machine, const char *text,
-		       size_t len, struct diag_list *diags)
+		       size_t len)
 {
-	const struct sink nowhere = { .write = swallow };
-	enum status status = STATUS_GOOD, answered;
-	struct trace trace;
+	enum status status = machine_play(machine, call->arg[1], text, len), answered;
 
-	diag_init(diags);
-	machine->resource.watch = true;
-	trace_init(&trace, &machine->resource.image, &nowhere, TRACE_LINES, false);
-	if (!script_run_with(call->arg[1], text, len,
-			     program_period(machine->ladder, 0),
-			     &machine->resource, machine_plant(machine), &trace, diags))
-		status = STATUS_NO;
-	trace_free(&trace);
-	report_diags(diags);
 	if (status != STATUS_GOOD && machine->resource.state != STATE_FAULT)
 		return status;
 	answered = ask(call, machine);
@@ -210,26 +191,21 @@ static enum status run(struct call *call, struct machine *machine, const char *t
 enum status cmd_why(struct call *call)
 {
 	const char *plant = call_option(call, "--plant");
-	struct diag_list *diags = calloc(1, sizeof(*diags));
 	struct machine machine = { 0 };
 	enum status status = STATUS_WRONG;
 	size_t len;
 	char *text = report_read(call->arg[1], &len);
 
-	if (text && diags)
-		status = machine_watch(&machine, call->arg[0]);
-	if (status == STATUS_GOOD && !ladder_project(machine.ladder)) {
-		report_diag((struct diag){ .id = DIAG_IMAGE_NO_TEXT,
-			    .file = call->arg[0] }, "%s", "");
-		status = STATUS_NO;
-	}
+	if (text)
+		status = machine_open(&machine, call->arg[0], MACHINE_WATCHED);
+	if (status == STATUS_GOOD && !ladder_project(machine.ladder))
+		status = report_no_text(call->arg[0]);
 	if (status == STATUS_GOOD && plant)
 		status = machine_add_plant(&machine, plant,
 					   (struct diag){ .file = "--plant" });
 	if (status == STATUS_GOOD)
-		status = run(call, &machine, text, len, diags);
+		status = run(call, &machine, text, len);
 	machine_close(&machine);
-	free(diags);
 	free(text);
 	return status;
 }

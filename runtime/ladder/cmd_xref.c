@@ -1,18 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_xref - `ladder xref`: where names and addresses are used. The program need not
- * be without errors, but it must be one that can be read.
+ * cmd_xref - `ladder xref`: lists where names and addresses are used. The program may have
+ * errors, if it can be read.
  */
 #include "ladder/report.h"
 
 #include "engine/xref/xref.h"
-
-static enum status no_image(const char *path)
-{
-	report_diag((struct diag){ .id = DIAG_IMAGE_NO_TEXT, .file = path },
-		    "%s", "");
-	return STATUS_NO;
-}
 
 enum status cmd_xref(struct call *call)
 {
@@ -25,7 +18,7 @@ enum status cmd_xref(struct call *call)
 		return report_no_memory(call->arg[0]);
 	status = report_load(ladder, call->arg[0], false);
 	if (status == STATUS_GOOD && !ladder_project(ladder))
-		status = no_image(call->arg[0]);
+		status = report_no_text(call->arg[0]);
 	if (status == STATUS_GOOD) {
 		struct xref_lines lines = { ladder_import_line, ladder };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * command - takes a command line apart by the command's row. It knows no
- * command by name, and abbreviates no option.
+ * command - parses a command line by the row of its command. Options cannot be
+ * abbreviated.
  */
 #include "ladder/command.h"
 
@@ -45,7 +45,7 @@ static bool wrong(const struct call *call, const char *what, const char *text)
 	return false;
 }
 
-/* One option at argv[*i], its value in the same word or the next. */
+/* Reads the option argv[*i] and its value, which is in the same word or the next. */
 static bool take_option(struct call *call, int argc, char **argv, int *i)
 {
 	const char *text = argv[*i], *equals = strchr(text, '=');
@@ -93,20 +93,23 @@ bool command_parse(struct call *call, int argc, char **argv)
 	return true;
 }
 
+/* The last one of that name; NULL: none. */
+static const struct given *find_given(const struct call *call, const char *name)
+{
+	for (int i = call->given_count; i-- > 0;)
+		if (!strcmp(call->given[i].row->name, name))
+			return &call->given[i];
+	return NULL;
+}
+
 const char *call_option(const struct call *call, const char *name)
 {
-	const char *value = NULL;
+	const struct given *given = find_given(call, name);
 
-	for (int i = 0; i < call->given_count; i++)
-		if (!strcmp(call->given[i].row->name, name))
-			value = call->given[i].value;
-	return value;
+	return given ? given->value : NULL;
 }
 
 bool call_flag(const struct call *call, const char *name)
 {
-	for (int i = 0; i < call->given_count; i++)
-		if (!strcmp(call->given[i].row->name, name))
-			return true;
-	return false;
+	return find_given(call, name);
 }

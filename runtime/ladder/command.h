@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * command - a command of `ladder` as one row, and one call of it.
+ * command - a command of `ladder` as a row of a table, and the call of a command.
  *
- * The row is all there is: arguments are parsed by it, --help and the man page
- * are printed from it. A command reads its call and returns an exit status; it
- * never ends the program itself.
+ * Arguments, --help and the man page come from the row. A command returns an exit status;
+ * it never ends the program itself.
  */
 #ifndef LADDER_COMMAND_H
 #define LADDER_COMMAND_H
@@ -15,7 +14,7 @@
 #define COMMAND_OPTIONS 8
 #define COMMAND_GIVEN 256 /* options on one command line                      */
 
-/* Exit status, a contract (ARCHITECTURE.md, "The command line"). */
+/* Exit status of `ladder`; scripts rely on it. command_help.c has the text. */
 enum status { STATUS_GOOD, STATUS_NO, STATUS_WRONG };
 
 struct option_row {
@@ -30,7 +29,7 @@ struct command_row {
 	const char *name;
 	const char *arguments; /* "FILE..."                                   */
 	const char *purpose;   /* one line                                    */
-	const char *text;      /* more of it, for --help and the man page     */
+	const char *text;      /* paragraph for --help and the man page       */
 	const char *example;   /* lines of shell                              */
 	int least, most;       /* arguments; most -1: any number              */
 	enum status (*run)(struct call *call);
@@ -52,24 +51,24 @@ struct call {
 	bool out_failed;       /* a write to it failed                        */
 };
 
-/** command_table - all rows, the last one without a name. */
+/** command_table - all rows; the last one has no name. */
 const struct command_row *command_table(void);
 /** command_find - NULL: there is no such command. */
 const struct command_row *command_find(const char *name);
 
 /**
- * command_parse - takes the options out of @argv
- * @argv: behind the command's name; reordered, borrowed by @call
+ * command_parse - fills @call from @argv
+ * @argv: the words after the command's name; reordered, borrowed by @call
  *
  * Fails: false after a message about wrong usage.
  */
 bool command_parse(struct call *call, int argc, char **argv);
-/** call_option - what an option was given last; NULL: not given. */
+/** call_option - the last value of an option; NULL: not given. */
 const char *call_option(const struct call *call, const char *name);
-/** call_flag - was an option without a value given? */
+/** call_flag - whether an option was given. */
 bool call_flag(const struct call *call, const char *name);
 
-/** command_help - what --help prints. NULL row: of `ladder` itself. */
+/** command_help - prints what --help prints; @row NULL: for `ladder` itself. */
 void command_help(const struct command_row *row, const struct sink *out);
 
 enum status cmd_check(struct call *call);

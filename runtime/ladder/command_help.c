@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * command_help - --help and man pages, both from the rows of the commands. No
- * text about a single command stands here.
+ * command_help - prints --help and man pages from the rows of commands.def.
  */
 #include "ladder/command.h"
 #include "ladder/report.h"
@@ -19,7 +18,7 @@ static const char about[] =
 	"programs (rung files). Results go to standard output, diagnostics "
 	"to standard error.";
 
-/* Words of @text in lines of at most 76 columns, each behind @indent. */
+/* Breaks @text into lines of at most 76 columns, each with @indent before it. */
 static void print_wrapped(const char *text, const char *indent,
 			  const struct sink *out)
 {
@@ -108,7 +107,7 @@ void command_help(const struct command_row *row, const struct sink *out)
 	print_wrapped(exit_status, "  ", out);
 }
 
-/* Text for roff: no request at a line's start, backslash and minus as such. */
+/* Escapes text for roff: dots and quotes at the start of a line, backslash and minus. */
 static void roff(const char *text, const struct sink *out)
 {
 	bool start = true;
@@ -180,7 +179,7 @@ static void man_all(const struct sink *out)
 			    row[1].name ? "," : "");
 }
 
-/* The man page, in roff. NULL row: of `ladder` itself. */
+/* Prints a man page in roff; @row NULL: for `ladder` itself. */
 static void command_man(const struct command_row *row, const struct sink *out)
 {
 	if (!row) {

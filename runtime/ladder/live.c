@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * live - the live table. It shows about 20 pictures a second however fast scans
- * go, and toggles switches; the program itself it leaves to board_scan().
+ * live - the live table of `ladder run`. It draws 20 times a second, however fast the
+ * scans are.
  */
 #include "ladder/live.h"
 #include "ladder/rungs.h"
@@ -12,11 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FRAME_NS  50000000  /* 20 pictures a second                          */
-#define BEHIND_NS 250000000 /* more than that is not made up for             */
+#define FRAME_NS  50000000  /* between two drawings                          */
+#define BEHIND_NS 250000000 /* a longer delay is not caught up               */
 #define KEY_RESET 18        /* Ctrl-R                                        */
 
-/* s and q have their own meaning. */
+/* Keys of the switches; s scans once, q quits. */
 static const char keys[] = "123456789abcdefghijklmnoprtuvwxyz";
 
 struct live {
@@ -25,7 +25,7 @@ struct live {
 	struct screen screen;
 	const char *file, *title;
 	const struct project *project;
-	const char *rungs;         /* to draw; NULL: variables              */
+	const char *rungs;         /* shown instead of variables; or NULL   */
 	struct sink_memory drawing;
 	bool utf8, paused;
 	int64_t scan_ns, scan_max_ns;
@@ -135,7 +135,7 @@ static void put_lamp(struct live *live, const struct lamp *lamp, char key,
 	}
 }
 
-/* Rows that the tables of lamps may take: some are kept for what is below. */
+/* Number of rows for the lamps; four rows of the screen remain for the rest. */
 static int lamp_rows(const struct live *live, int *left_out)
 {
 	const struct board *board = live->board;
@@ -186,7 +186,7 @@ static void put_variable(struct live *live, const struct moving *moving,
 	char text[IEC_VALUE_TEXT];
 
 	iec_value_print(moving->at.type, moving->last, text, sizeof(text));
-	/* A long name gives way to the value, which is what people watch. */
+	/* A long name is cut, so that the value is visible. */
 	screen_column(&live->screen, col,
 		      limit - (int)strlen(text) - (time ? 6 : 3));
 	screen_put(&live->screen, STYLE_PLAIN, " ");
@@ -198,7 +198,7 @@ static void put_variable(struct live *live, const struct moving *moving,
 		screen_put(&live->screen, STYLE_DIM, " ms");
 }
 
-/* Only variables that have moved since the start, in order of declaration. */
+/* Variables that have changed since the start, in order of declaration. */
 static void put_variables(struct live *live)
 {
 	const struct board *board = live->board;
@@ -227,7 +227,7 @@ static void put_variables(struct live *live)
 	}
 }
 
-/* As many lines of the rungs as there is room for. */
+/* As many lines of the rungs as fit. */
 static void put_rungs(struct live *live)
 {
 	struct screen *screen = &live->screen;
@@ -339,7 +339,7 @@ static bool take_key(struct live *live, int key)
 	}
 	if (live->paused || key == ' ')
 		pace_start(live->pace, tty_now());
-	live->drawn_ns = 0; /* show at once what the key did */
+	live->drawn_ns = 0; /* draw at once */
 	return true;
 }
 
@@ -349,7 +349,7 @@ static bool is_idle(const struct live *live)
 	       live->board->resource->state != STATE_RUN;
 }
 
-/* True: a picture was due, and could be drawn or not. */
+/* Draws if a frame is due. False: the terminal cannot be written. */
 static bool show(struct live *live)
 {
 	int64_t now = tty_now();

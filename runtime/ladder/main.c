@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * main - `ladder COMMAND …`: finds the command's row, runs it, and says so when
- * the result could not be written. It does no work of its own.
+ * main - `ladder COMMAND …`: finds the row of the command, runs it, and reports a failed
+ * write to standard output.
  */
 #include "ladder/command.h"
 #include "ladder/report.h"
@@ -9,7 +9,7 @@
 #include <signal.h>
 #include <string.h>
 
-/* So that a closed pipe is an error of write(), which is reported. */
+/* A closed pipe then makes write() fail, which is reported. */
 static void ignore_sigpipe(void)
 {
 	struct sigaction action;

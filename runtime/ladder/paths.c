@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * paths - looks for files by their ending. Links are followed, so depth is
- * bounded.
+ * paths - finds files by their ending. It follows links, so the depth is limited.
  */
 #include "ladder/paths.h"
 #include "ladder/report.h"

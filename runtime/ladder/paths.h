@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * paths - the scenario files that a command line means: files, programs,
- * folders.
- *
- * It looks into folders, at most eight deep, and opens no file.
+ * paths - file names with other endings or in other folders, and the files that the
+ * arguments of `ladder test` name. Folders are searched at most eight deep; no file is
+ * opened.
  */
 #ifndef LADDER_PATHS_H
 #define LADDER_PATHS_H
@@ -15,21 +14,21 @@ struct paths {
 	int count;
 };
 
-/** path_with_ending - @path with another ending (or one more, if it has none).
+/** path_with_ending - @path with its ending replaced, or with @ending added if it has none.
  * Owns: the caller, free(). NULL: no memory. */
 char *path_with_ending(const char *path, const char *ending);
 
-/** path_beside - @name as a path from the folder of the file @path; as it is if it begins
- * with /.   Owns: the caller, free(). NULL: no memory. */
+/** path_beside - the path of @name in the folder of the file @path; @name itself if it
+ * begins with /.   Owns: the caller, free(). NULL: no memory. */
 char *path_beside(const char *path, const char *name);
 
 /**
- * paths_collect - adds what @path means
- * @ending: of files that are wanted; a folder is searched for them
- * @others: a file of one of these endings stands for the one beside it; NULL behind them
+ * paths_collect - adds the files that @path names
+ * @ending: of the wanted files; a folder is searched for them
+ * @others: a file with one of these endings means the wanted file beside it; ends with NULL
  *
  * Owns: @paths, paths_free().
- * Fails: false after a diagnostic (nothing there, no memory).
+ * Fails: false after a diagnostic (no such file, no memory).
  */
 bool paths_collect(struct paths *paths, const char *path, const char *ending,
 		   const char *const *others);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * picture - joins three things that know nothing of each other: what the kernel
- * says of a line, the point of a map that means it, and the variable at that address.
+ * picture - joins the kernel's state of a line, the point of the map that names it, and
+ * the variable at its address.
  */
 #include "ladder/picture.h"
 
@@ -13,8 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#define _XOPEN_SOURCE 700 /* readlink */
 
 static bool keep(struct picture *picture, const char **out, const char *text)
 {
@@ -44,16 +42,120 @@ static void add_line(void *context, const struct line_seen *seen)
 		picture->count--;
 }
 
-static void add_level(void *context, const char *chip, uint32_t offset,
+/* ---- levels ---- */
+
+/*
+ * The level of a line cannot be read without requesting the line. For lines that are in use
+ * the kernel prints it in its debugfs, to root only. A chip is
+ *   gpiochip0: GPIOs 512-565, parent: platform/…
+ * (newer kernels count from 0: `gpiochip0: 54 GPIOs, …`), and below it a line in use, with
+ * the number of the first line added, is
+ *    gpio-529 (GPIO17              |ladderd             ) in  hi ACTIVE LOW
+ * Other forms are skipped; their level stays unknown.
+ */
+#define LEVELS_FILE "/sys/kernel/debug/gpio"
+
+struct chip_seen {
+	char name[24];
+	uint32_t first;
+	bool good;
+};
+
+static bool read_number(const char **at, uint32_t *out)
+{
+	char *end;
+	unsigned long number;
+
+	if (**at < '0' || **at > '9')
+		return false;
+	number = strtoul(*at, &end, 10);
+	*at = end;
+	*out = (uint32_t)number;
+	return number <= 1000000;
+}
+
+static void read_chip(const char *line, struct chip_seen *chip)
+{
+	size_t len = strcspn(line, ":");
+	const char *at = line + len;
+	uint32_t count;
+
+	chip->good = false;
+	if (len >= sizeof(chip->name) || *at != ':')
+		return;
+	memcpy(chip->name, line, len);
+	chip->name[len] = '\0';
+	chip->first = 0;
+	if (!strncmp(at, ": GPIOs ", 8)) {
+		at += 8;
+		chip->good = read_number(&at, &chip->first) && *at == '-';
+	} else if (!strncmp(at, ": ", 2)) {
+		at += 2;
+		chip->good = read_number(&at, &count) &&
+			     !strncmp(at, " GPIOs", 6);
+	}
+}
+
+/* The level is after the last bracket; names may contain brackets. */
+static enum level read_level(const char *line)
+{
+	const char *at = strrchr(line, ')');
+
+	if (!at)
+		return LEVEL_UNKNOWN;
+	at++;
+	at += strspn(at, " ");
+	if (!strncmp(at, "output-", 7)) /* as gpio-sim writes it          */
+		at += 7;
+	else if (!strncmp(at, "in ", 3) || !strncmp(at, "out ", 4))
+		at += strcspn(at, " ");
+	else
+		return LEVEL_UNKNOWN;
+	at += strspn(at, " ");
+	if (!strncmp(at, "hi", 2))
+		return LEVEL_HIGH;
+	return !strncmp(at, "lo", 2) ? LEVEL_LOW : LEVEL_UNKNOWN;
+}
+
+static void set_level(struct picture *picture, const char *chip, uint32_t offset,
 		      enum level level)
 {
-	struct picture *picture = context;
-
 	for (int i = 0; i < picture->count; i++)
 		if (picture->line[i].offset == offset &&
 		    !strcmp(picture->line[i].chip, chip))
 			picture->line[i].level = level;
 }
+
+/* False: the file cannot be read. */
+static bool read_levels(struct picture *picture)
+{
+	struct chip_seen chip = { .good = false };
+	FILE *file = fopen(LEVELS_FILE, "r");
+	char line[512];
+
+	if (!file)
+		return false;
+	while (fgets(line, sizeof(line), file)) {
+		const char *at = line + strspn(line, " ");
+		enum level level = read_level(line);
+		uint32_t number;
+
+		if (!strncmp(line, "gpiochip", 8)) {
+			read_chip(line, &chip);
+			continue;
+		}
+		if (!chip.good || strncmp(at, "gpio-", 5) != 0)
+			continue;
+		at += 5;
+		if (read_number(&at, &number) && number >= chip.first &&
+		    level != LEVEL_UNKNOWN)
+			set_level(picture, chip.name, number - chip.first, level);
+	}
+	fclose(file);
+	return true;
+}
+
+/* ---- the picture ---- */
 
 bool picture_take(struct picture *picture, struct diag_list *diags)
 {
@@ -63,7 +165,7 @@ bool picture_take(struct picture *picture, struct diag_list *diags)
 	picture->line = NULL;
 	picture->count = 0;
 	good = hal_list(NULL, add_line, picture, diags);
-	picture->levels = levels_read(add_level, picture);
+	picture->levels = read_levels(picture);
 	return good;
 }
 
@@ -79,7 +181,7 @@ int picture_rows(const struct picture *picture)
 	return picture->map ? picture->map->count : picture->count;
 }
 
-/* "gpiochip4" may be a link to another number, as on Raspberry Pi OS. */
+/* On Raspberry Pi OS "gpiochip4" is a link to another number. */
 static bool is_chip(const char *wanted, const struct picture_line *line)
 {
 	const char *name = !strncmp(wanted, "/dev/", 5) ? wanted + 5 : wanted;
@@ -105,7 +207,7 @@ static const struct io_point *point_of(const struct picture *picture, int row)
 	return picture->map ? &picture->map->point[row] : NULL;
 }
 
-/* NULL: this machine has no such line, or the point is a simulated one. */
+/* NULL: this machine has no such line, or the line is simulated. */
 static const struct picture_line *line_of(const struct picture *picture,
 					  int row)
 {
@@ -135,7 +237,6 @@ bool picture_is_whole(const struct picture *picture)
 	return true;
 }
 
-/* Of a row. */
 static enum level picture_level(const struct picture *picture, int row)
 {
 	const struct picture_line *line = line_of(picture, row);
@@ -145,8 +246,8 @@ static enum level picture_level(const struct picture *picture, int row)
 
 #define NAME_ROOM (LIMIT_NAME + 16)
 
-/* What the program calls an address; "" if it has no name for it. @room: where the
- * name of an element is made. */
+/* The variable at an address, "" if there is none. The name of an array element is written
+ * to @room. */
 static const char *variable_at(const struct picture *picture,
 			       struct iec_addr addr, char room[NAME_ROOM])
 {
@@ -185,7 +286,7 @@ static const char *owner_of(const struct picture_line *line)
 	return !line->used ? "free" : *line->owner ? line->owner : "in use";
 }
 
-/* One of a table: at least @width columns, and a blank. */
+/* A cell of a table: at least @width columns and a blank. */
 static void cell(const struct sink *out, const char *text, int width)
 {
 	sink_text(out, *text ? text : "-");
@@ -251,27 +352,20 @@ void picture_row(const struct picture *picture, int row,
 				       "not on this machine" : "simulated");
 }
 
-static void json_text(const char *name, const char *text,
-		      const struct sink *out)
-{
-	sink_printf(out, ", \"%s\": ", name);
-	sink_json_text(out, text);
-}
-
 static void json_line(const struct picture_line *line, const struct sink *out)
 {
 	sink_text(out, "\"chip\": ");
 	sink_json_text(out, line->chip);
-	json_text("label", line->label, out);
+	report_json_field("label", line->label, out);
 	sink_printf(out, ", \"offset\": %u", (unsigned)line->offset);
-	json_text("name", line->name, out);
-	json_text("owner", line->owner, out);
+	report_json_field("name", line->name, out);
+	report_json_field("owner", line->owner, out);
 	sink_printf(out, ", \"used\": %s, \"output\": %s, \"active_low\": %s",
 		    line->used ? "true" : "false",
 		    line->output ? "true" : "false",
 		    line->active_low ? "true" : "false");
-	json_text("bias", line->bias == BIAS_AS_IS ? NULL :
-						     bias_word(line->bias), out);
+	report_json_field("bias", line->bias == BIAS_AS_IS ? NULL : bias_word(line->bias),
+			  out);
 	sink_printf(out, ", \"level\": %s",
 		    line->level == LEVEL_UNKNOWN ? "null" :
 		    line->level == LEVEL_HIGH ? "1" : "0");
@@ -291,10 +385,10 @@ void picture_json(const struct picture *picture, int row,
 		iec_addr_print(point->addr, text, sizeof(text));
 		sink_text(out, "\"address\": ");
 		sink_json_text(out, text);
-		json_text("variable", *variable ? variable : NULL, out);
-		json_text("driver", driver_row(point->driver)->word, out);
+		report_json_field("variable", *variable ? variable : NULL, out);
+		report_json_field("driver", driver_row(point->driver)->word, out);
 		io_line_print(point, text, sizeof(text));
-		json_text("line", text, out);
+		report_json_field("line", text, out);
 		sink_text(out, ", \"here\": ");
 	}
 	if (point && !line)
@@ -387,11 +481,10 @@ static bool take_key(struct view *view, int key)
 
 static bool take(struct view *view)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct diag_list *diags = report_list(view->title);
 
 	if (!diags)
 		return false;
-	diag_init(diags);
 	picture_free(view->picture);
 	view->whole = picture_take(view->picture, diags);
 	free(diags);

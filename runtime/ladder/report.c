@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * report - loading and telling. Standard error is written here and nowhere
- * else.
+ * report - prints to standard output and standard error, and opens machines.
  */
 #include "ladder/report.h"
 
 #include "engine/base/file.h"
+#include "engine/trial/script.h"
 #include "engine/trial/value.h"
 
 #include <errno.h>
@@ -62,8 +62,7 @@ static void print_with(struct diag place, const char *format, va_list list)
 		return;
 	diag_init(diags);
 	diag_add(diags, place, "%s", arg);
-	print_diag(&diags->diag[0]);
-	free(diags);
+	report_end(diags);
 }
 
 void report_diag(struct diag place, const char *format, ...)
@@ -101,25 +100,58 @@ void report_diags(const struct diag_list *diags)
 			    "%d", diags->dropped);
 }
 
+struct diag_list *report_list(const char *path)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+
+	if (diags)
+		diag_init(diags);
+	else
+		report_no_memory(path);
+	return diags;
+}
+
+bool report_end(struct diag_list *diags)
+{
+	const bool good = !diags->errors;
+
+	report_diags(diags);
+	free(diags);
+	return good;
+}
+
+static void swallow(void *context, const char *text, size_t len)
+{
+	(void)context, (void)text, (void)len;
+}
+
+struct sink report_nowhere(void)
+{
+	return (struct sink){ .write = swallow };
+}
+
+void report_json_field(const char *name, const char *text, const struct sink *out)
+{
+	sink_printf(out, ", \"%s\": ", name);
+	sink_json_text(out, text);
+}
+
 static void json_number(const char *name, int value, const struct sink *out)
 {
 	if (value)
 		sink_printf(out, ", \"%s\": %d", name, value);
 }
 
-/* The whole sentence, and the name in question alone. */
+/* "text" is the whole sentence, "arg" only the name in it. */
 static void json_texts(const struct diag *diag, const struct sink *out)
 {
 	char text[1024], name[LIMIT_ARG];
 
 	diag_fill(diag_text(diag->id), diag->arg, text, sizeof(text));
-	sink_text(out, ", \"text\": ");
-	sink_json_text(out, text);
+	report_json_field("text", text, out);
 	snprintf(name, sizeof(name), "%.*s", diag_name_length(diag), diag->arg);
-	if (!*name)
-		return;
-	sink_text(out, ", \"arg\": ");
-	sink_json_text(out, name);
+	if (*name)
+		report_json_field("arg", name, out);
 }
 
 static void json_diag(const struct diag *diag, const struct sink *out)
@@ -129,15 +161,11 @@ static void json_diag(const struct diag *diag, const struct sink *out)
 	sink_printf(out, "{\"code\": \"%s\", \"severity\": \"%s\"", diag_code(diag->id),
 		    error ? "error" : "warning");
 	json_texts(diag, out);
-	if (diag->file) {
-		sink_text(out, ", \"file\": ");
-		sink_json_text(out, diag->file);
-	}
+	if (diag->file)
+		report_json_field("file", diag->file, out);
 	json_number("line", diag->line, out);
-	if (diag->pou) {
-		sink_text(out, ", \"pou\": ");
-		sink_json_text(out, diag->pou);
-	}
+	if (diag->pou)
+		report_json_field("pou", diag->pou, out);
 	json_number("rung", diag->rung, out);
 	json_number("row", diag->row, out);
 	json_number("col", diag->col, out);
@@ -160,6 +188,13 @@ enum status report_no_memory(const char *path)
 	report_diag((struct diag){ .id = DIAG_NO_MEMORY, .file = path }, "%s",
 		    "");
 	return STATUS_WRONG;
+}
+
+enum status report_no_text(const char *path)
+{
+	report_diag((struct diag){ .id = DIAG_IMAGE_NO_TEXT, .file = path },
+		    "%s", "");
+	return STATUS_NO;
 }
 
 enum status report_load(struct ladder *ladder, const char *path, bool build)
@@ -200,18 +235,16 @@ int64_t program_period(const struct ladder *ladder, int64_t given)
 	return given ? given : tasks_tick(ladder_program(ladder), 0, 10 * VALUE_MS);
 }
 
-enum { WATCHED = 1, FAITHFUL = 2, AS_FILE = 4 };
-
-static enum status open_machine(struct machine *machine, const char *path, int how)
+enum status machine_open(struct machine *machine, const char *path, int how)
 {
 	enum status status;
 
 	memset(machine, 0, sizeof(*machine));
-	machine->ladder = program_new(how & FAITHFUL);
+	machine->ladder = program_new(how & MACHINE_FAITHFUL);
 	if (!machine->ladder)
 		return report_no_memory(path);
-	ladder_classic_task(machine->ladder, how & AS_FILE);
-	ladder_watch(machine->ladder, how & WATCHED);
+	ladder_classic_task(machine->ladder, how & MACHINE_AS_FILE);
+	ladder_watch(machine->ladder, how & MACHINE_WATCHED);
 	status = report_load(machine->ladder, path, true);
 	if (status != STATUS_GOOD)
 		return status;
@@ -222,26 +255,6 @@ static enum status open_machine(struct machine *machine, const char *path, int h
 		return report_no_memory(path);
 	resource_init(&machine->resource, program, machine->memory);
 	return STATUS_GOOD;
-}
-
-enum status machine_open(struct machine *machine, const char *path)
-{
-	return open_machine(machine, path, 0);
-}
-
-enum status machine_open_faithful(struct machine *machine, const char *path)
-{
-	return open_machine(machine, path, FAITHFUL);
-}
-
-enum status machine_open_file(struct machine *machine, const char *path)
-{
-	return open_machine(machine, path, AS_FILE);
-}
-
-enum status machine_watch(struct machine *machine, const char *path)
-{
-	return open_machine(machine, path, WATCHED);
 }
 
 enum status machine_add_plant(struct machine *machine, const char *path,
@@ -267,6 +280,25 @@ enum status machine_add_plant(struct machine *machine, const char *path,
 struct plant *machine_plant(struct machine *machine)
 {
 	return machine->plant.memory ? &machine->plant : NULL;
+}
+
+enum status machine_play(struct machine *machine, const char *script, const char *text,
+			 size_t len)
+{
+	const struct sink nowhere = report_nowhere();
+	struct diag_list *diags = report_list(script);
+	struct trace trace;
+	bool good;
+
+	if (!diags)
+		return STATUS_WRONG;
+	machine->resource.watch = true;
+	trace_init(&trace, &machine->resource.image, &nowhere, TRACE_LINES, false);
+	good = script_run_with(script, text, len, program_period(machine->ladder, 0),
+			       &machine->resource, machine_plant(machine), &trace, diags);
+	trace_free(&trace);
+	report_end(diags);
+	return good ? STATUS_GOOD : STATUS_NO;
 }
 
 void machine_close(struct machine *machine)
@@ -349,28 +381,20 @@ char *report_read(const char *path, size_t *len)
 
 	if (!strcmp(path, "-"))
 		return read_stdin(len);
-	diags = calloc(1, sizeof(*diags));
-	if (!diags) {
-		report_no_memory(path);
+	diags = report_list(path);
+	if (!diags)
 		return NULL;
-	}
-	diag_init(diags);
 	text = file_read(path, LIMIT_TEXT, len, diags);
-	report_diags(diags);
-	free(diags);
+	report_end(diags);
 	return text;
 }
 
 enum status report_save(const char *path, const void *bytes, size_t len)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
-	bool good;
+	struct diag_list *diags = report_list(path);
 
 	if (!diags)
-		return report_no_memory(path);
-	diag_init(diags);
-	good = file_save(path, bytes, len, diags);
-	report_diags(diags);
-	free(diags);
-	return good ? STATUS_GOOD : STATUS_WRONG;
+		return STATUS_WRONG;
+	file_save(path, bytes, len, diags);
+	return report_end(diags) ? STATUS_GOOD : STATUS_WRONG;
 }

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * report - what all commands share: loading a program and telling what is
- * wrong.
+ * report - what all commands share: loading programs, messages, files.
  *
  * Results go to call->out (standard output), diagnostics to standard error,
- * one a line in the form of diag_print. It never ends the program.
+ * one per line in the form of diag_print(). It never ends the program.
  */
 #ifndef LADDER_REPORT_H
 #define LADDER_REPORT_H
@@ -13,33 +12,49 @@
 
 #include "engine/trial/plant.h"
 
-/** report_open - results of @call go to standard output from here on. */
+/** report_open - sets call->out to standard output. */
 void report_open(struct call *call);
-/** report_flush - false, after one message, when they could not be written. */
+/** report_flush - flushes standard output. Fails: false, after one message per call. */
 bool report_flush(struct call *call);
 
-/** report_usage - a wrong command line. Returns STATUS_WRONG. */
+/** report_usage - prints what is wrong with the command line. Returns STATUS_WRONG. */
 enum status report_usage(const struct call *call, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
-/** report_no_memory - says so of @path. Returns STATUS_WRONG. */
+/** report_no_memory - prints LD001 for @path. Returns STATUS_WRONG. */
 enum status report_no_memory(const char *path);
-/** report_diags - all of a list, and how many did not fit into it. */
+/** report_no_text - @path is a code image, and the command needs a rung file.
+ * Returns STATUS_NO after the message. */
+enum status report_no_text(const char *path);
+/** report_classic - prints that the command needs a rung file, if @path is a project of
+ * ClassicLadder. Returns whether it is one. */
+bool report_classic(const char *path);
+/** report_diags - prints a list, and how many diagnostics did not fit into it. */
 void report_diags(const struct diag_list *diags);
-/** report_diag - one that no list holds; its argument as printf. */
+/** report_diag - prints one diagnostic; its argument as printf. */
 void report_diag(struct diag place, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
-/** report_json_diags - a list as a JSON array. */
+/** report_list - an empty list, for report_end(). NULL after a message about @path: no
+ * memory. */
+struct diag_list *report_list(const char *path);
+/** report_end - prints @diags and frees it. Returns whether it had no error. */
+bool report_end(struct diag_list *diags);
+/** report_json_diags - prints a list as a JSON array. */
 void report_json_diags(const struct diag_list *diags, const struct sink *out);
+/** report_json_field - `, "NAME": "TEXT"`, or null for NULL. */
+void report_json_field(const char *name, const char *text, const struct sink *out);
+/** report_nowhere - a sink that keeps nothing. */
+struct sink report_nowhere(void);
 
-/** program_new - what takes every file that a command takes: ladder_new, and projects of
- * ClassicLadder. @faithful: with the faults of these. NULL: no memory. */
+/** program_new - ladder_new() that also reads projects of ClassicLadder.
+ * @faithful: reproduces the faults of ClassicLadder. NULL: no memory. */
 struct ladder *program_new(bool faithful);
-/** program_period - from scan to scan: @given, or as the program wants it; ns. */
+/** program_period - time between scans in ns: @given, or if 0 that of the program. */
 int64_t program_period(const struct ladder *ladder, int64_t given);
 /**
  * report_load - reads a program and, if @build, checks and translates it
  *
- * Prints what it finds. STATUS_WRONG: cannot be read at all; STATUS_NO: errors.
+ * Prints all diagnostics. Returns STATUS_WRONG if the file cannot be read at all,
+ * STATUS_NO if it has errors.
  */
 enum status report_load(struct ladder *ladder, const char *path, bool build);
 
@@ -51,29 +66,34 @@ struct machine {
 	struct ladder *plant_ladder;
 	struct plant plant;       /* memory NULL: none                        */
 };
-/** machine_open - loads and builds @path. Owns: machine_close(), always. */
-enum status machine_open(struct machine *machine, const char *path);
-/** report_classic - is @path a project of ClassicLadder? Then it is told that this command
- * wants a rung file. */
-bool report_classic(const char *path);
-/** machine_open_file - an imported project as `ladder import` would write it: with its
- * period. */
-enum status machine_open_file(struct machine *machine, const char *path);
-/** machine_open_faithful - an imported project with the faults of its original. */
-enum status machine_open_faithful(struct machine *machine, const char *path);
-/** machine_watch - the same, with the power of all cells while resource.watch. */
-enum status machine_watch(struct machine *machine, const char *path);
-/** machine_add_plant - the program at @path beside it, as trial/plant.h has it.
- * Fails: a status after diagnostics, of which the last one is LD016 at @place. */
+/* How machine_open() loads; the last two matter for projects of ClassicLadder only. */
+enum {
+	MACHINE_WATCHED = 1,  /* with the power of all cells while resource.watch */
+	MACHINE_FAITHFUL = 2, /* with the faults of ClassicLadder             */
+	MACHINE_AS_FILE = 4,  /* with a task, as `ladder import` writes it    */
+};
+/** machine_open - loads and builds @path; @how: bits as above.
+ * Owns: machine_close(), always.   Fails: a status after diagnostics. */
+enum status machine_open(struct machine *machine, const char *path, int how);
+/** machine_add_plant - loads the plant at @path (trial/plant.h).
+ * Fails: a status after diagnostics, the last one LD016 at @place. */
 enum status machine_add_plant(struct machine *machine, const char *path,
 			      struct diag place);
 /** machine_plant - NULL: it has none. */
 struct plant *machine_plant(struct machine *machine);
+/**
+ * machine_play - runs a stimulus script on a watched machine and prints no trace
+ * @script: names @text in messages
+ *
+ * Fails: a status after diagnostics; the state is STATE_FAULT if the program faulted.
+ */
+enum status machine_play(struct machine *machine, const char *script, const char *text,
+			 size_t len);
 void machine_close(struct machine *machine);
 
 /**
- * report_period - a time option in ns, more than 0; @preset_ns if it is not given
- * @preset_ns: when it is not given
+ * report_period - a time option in ns, more than 0
+ * @preset_ns: value if the option is not given
  * Fails: false after a message about wrong usage.
  */
 bool report_period(const struct call *call, const char *option,
@@ -84,6 +104,6 @@ bool report_count(const struct call *call, const char *option, int64_t preset,
 /** report_read - the text of a file, or of standard input for `-`.
  * Owns: the caller, free(). NULL after a message. */
 char *report_read(const char *path, size_t *len);
-/** report_save - writes a file; else STATUS_WRONG after a message. */
+/** report_save - replaces a file. Fails: STATUS_WRONG after a message. */
 enum status report_save(const char *path, const void *bytes, size_t len);
 #endif

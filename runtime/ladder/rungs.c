@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * rungs - rungs by the names that people give, drawn with the power of the last scan.
+ * rungs - finds rungs by name and draws them with the power of the last scan.
  */
 #include "ladder/rungs.h"
 
 #include "engine/base/ascii.h"
-
 #include "engine/trial/value.h"
 
 #include <stdio.h>
@@ -58,7 +57,7 @@ static int show_named(const struct project *project, const char *name,
 struct powered {
 	const struct project *project;
 	const struct resource *resource;
-	const char *instance; /* NULL: whichever was called last              */
+	const char *instance; /* NULL: the one that was called last           */
 };
 
 static bool power_of(void *context, int pou, int rung, int row, int col, bool *in,
@@ -74,7 +73,7 @@ static bool power_of(void *context, int pou, int rung, int row, int col, bool *i
 			      (uint32_t)row, (uint32_t)col, in, out);
 }
 
-/* A value of a step: of `Main.Fill.X`, or `Fill.X` where there is one program alone. */
+/* Finds `Main.Fill.X`, or `Fill.X` if the project has only one program. */
 static bool value_of(const struct powered *powered, int pou, int step, char member,
 		     struct location *at)
 {
@@ -106,7 +105,7 @@ static bool step_of(void *context, int pou, int step, char *time, size_t size)
 	return true;
 }
 
-/* The instance of a block whose name this is; NULL: there is none. */
+/* NULL: there is no watched instance of that name. */
 static const struct code_watched *find_instance(const struct program *program,
 						const char *name, size_t len)
 {
@@ -116,7 +115,7 @@ static const struct code_watched *find_instance(const struct program *program,
 	return NULL;
 }
 
-/* The instance has the name that its program gives it: `Main.` before it is left out. */
+/* Skips the name of a program before an instance: `Main.Fan` is the instance `Fan`. */
 static const char *behind_program(const struct project *project, const char *name)
 {
 	const char *dot = strchr(name, '.');

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * rungs - which rungs of a program are drawn, and with what power.
+ * rungs - draws rungs by name, with or without power.
  */
 #ifndef LADDER_RUNGS_H
 #define LADDER_RUNGS_H
@@ -10,13 +10,13 @@
 #include "engine/show/show.h"
 
 /**
- * rungs_show - draws rungs by their name
- * @name:     a POU, a rung's number or label, POU:RUNG; INSTANCE or INSTANCE:RUNG of
- *            a block of the project, with @resource; NULL: all
- * @resource: of a watched program: wires with power are thick; NULL: no power
- * @options:  its power is taken from @resource
+ * rungs_show - draws rungs by name
+ * @name:     a POU, the number or label of a rung, or POU:RUNG; with @resource also
+ *            INSTANCE or INSTANCE:RUNG; NULL: all
+ * @resource: a watched program: wires with power are thick; NULL: no power
+ * @options:  its power functions are replaced, if there is a @resource
  *
- * Returns as show_rungs().
+ * Returns the same as show_rungs().
  */
 int rungs_show(const struct project *project, const char *name,
 	       const struct resource *resource, struct show_options options,

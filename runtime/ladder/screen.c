@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * screen - frames made of ECMA-48 sequences that every terminal of the last
- * forty years knows. It asks no terminal database.
+ * screen - frames of text with ECMA-48 sequences that all terminals know, so no terminal
+ * database is needed.
  */
 #include "ladder/screen.h"
 
@@ -36,7 +36,7 @@ void screen_free(struct screen *screen)
 	sink_memory_free(&screen->frame);
 }
 
-/* Bytes of the character at @text; 0: none that may be shown. */
+/* Length of the character at @text in bytes; 0: it is not printable. */
 static size_t char_len(const char *text, size_t left)
 {
 	unsigned char c = (unsigned char)*text;
@@ -102,7 +102,7 @@ bool screen_line(struct screen *screen)
 
 void screen_end(struct screen *screen)
 {
-	/* Behind a full last row a clear would eat its last character. */
+	/* After a full last row, clearing would erase its last character. */
 	if (screen->col < screen->width)
 		add_text(screen, "\033[J");
 }

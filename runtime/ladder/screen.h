@@ -2,8 +2,8 @@
  *
  * screen - one frame of text for a terminal, clipped to its size.
  *
- * Rows are put from left to right and top to bottom; what does not fit is left
- * out, never wrapped. A frame is one block of bytes. It reads no keys.
+ * Text is put from left to right and top to bottom. Text that does not fit is cut, not
+ * wrapped. A frame is one block of bytes. It reads no keys.
  */
 #ifndef LADDER_SCREEN_H
 #define LADDER_SCREEN_H
@@ -21,15 +21,15 @@ struct screen {
 	bool colour;
 };
 
-/** screen_begin - an empty frame of this size. Give it back by screen_free. */
+/** screen_begin - starts an empty frame of this size. Owns: screen_free(). */
 void screen_begin(struct screen *screen, int width, int height);
 void screen_free(struct screen *screen);
-/** screen_put - any bytes; what is no printable UTF-8 is shown as `?`. */
+/** screen_put - puts text; bytes that are no printable UTF-8 become `?`. */
 void screen_put(struct screen *screen, enum style style, const char *text);
-/** screen_column - blanks up to column @col; text then ends before @limit. */
+/** screen_column - puts blanks up to column @col; text is then cut at @limit. */
 void screen_column(struct screen *screen, int col, int limit);
-/** screen_line - the next row. False: there is none; put nothing more. */
+/** screen_line - starts the next row. False: there is none, and nothing more is put. */
 bool screen_line(struct screen *screen);
-/** screen_end - clears what is below. The frame is then in screen->frame. */
+/** screen_end - clears the rest of the screen. The frame is then in screen->frame. */
 void screen_end(struct screen *screen);
 #endif

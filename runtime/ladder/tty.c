@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * tty - termios, signals and the clock, for `ladder run` only. Its few statics
- * are what a signal handler must reach.
+ * tty - termios, signals and the clock, for the live tables of `ladder run` and `ladder
+ * io`. Static variables are there for the signal handlers.
  */
 #include "ladder/tty.h"
 
@@ -20,7 +20,7 @@
 static volatile sig_atomic_t stopped, opened;
 static struct termios before;
 
-/* Second screen, no cursor, no wrapping; and all of that back. */
+/* Second screen, no cursor, no wrapping; and the reverse. */
 static const char enter[] = "\033[?1049h\033[?25l\033[?7l\033[2J";
 static const char leave[] = "\033[0m\033[?7h\033[?25h\033[?1049l";
 
@@ -44,7 +44,7 @@ static void ask_to_stop(int number)
 	stopped = 1;
 }
 
-/* All it calls is async-signal-safe (POSIX 2.4.3). */
+/* Calls only async-signal-safe functions (POSIX 2.4.3). */
 static void restore(void)
 {
 	if (!opened)
@@ -165,7 +165,7 @@ int tty_key(int64_t wait_ns)
 		return count == 0 || errno != EINTR ? -2 : -1;
 	if (bytes[0] != 27)
 		return bytes[0];
-	/* The rest of a sequence is here already, or it was the Esc key. */
+	/* A sequence arrives whole; Esc alone is the key. */
 	count = read(STDIN_FILENO, bytes, sizeof(bytes));
 	return count > 0 ? -1 : 27;
 }

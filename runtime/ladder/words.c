@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * words - lists every word of the catalogue, or tells all about one.
- *
- * It only walks the tables: a new row shows up here by itself.
+ * words - prints every word of the catalogue, or all details of one. A new row of the
+ * catalogue appears without a change here.
  */
 #include "ladder/words.h"
 
@@ -57,7 +56,7 @@ const char *words_operand(enum operand_kind kind)
 	return "";
 }
 
-const char *words_classes(uint16_t classes)
+const char *words_pin_type(const struct word_pin *pin)
 {
 	static const struct {
 		const char *name;
@@ -73,8 +72,10 @@ const char *words_classes(uint16_t classes)
 		{ "ANY_BITS", CLASS_BITS },
 	};
 
+	if (pin->type != IEC_NONE)
+		return iec_type_row(pin->type)->word;
 	for (size_t i = 0; i < sizeof(generic) / sizeof(generic[0]); i++)
-		if (generic[i].classes == classes)
+		if (generic[i].classes == pin->classes)
 			return generic[i].name;
 	return "ANY";
 }
@@ -97,7 +98,7 @@ static void word_entry(int word, struct words_entry *out)
 	out->number = word;
 }
 
-/* INT_TO_REAL and TON_LTIME: not in any table. */
+/* Words that no table has because their names follow a rule: INT_TO_REAL, TON_LTIME. */
 static bool made_entry(const char *word, struct convert_word *made,
 		       struct words_entry *out)
 {
@@ -344,10 +345,7 @@ static void pin_lines(const struct word_row *row, const struct sink *sink)
 			continue;
 		sink_printf(sink, "  %-3s %-*s %-14s %s%s%s\n",
 			    pin->dir == PIN_IN ? "in" : "out", width, pin->name,
-			    pin->type != IEC_NONE ?
-			    iec_type_row(pin->type)->word :
-			    words_classes(pin->classes),
-			    explain_pin(row, i),
+			    words_pin_type(pin), explain_pin(row, i),
 			    pin->has_init ? "; if not given: " : "",
 			    words_default(pin, text));
 	}
@@ -421,9 +419,7 @@ static void json_pins(const struct word_row *row, const struct sink *sink)
 		sink_printf(sink, "%s{\"pin\": \"%s\"", gap, pin->name);
 		json_field(sink, "direction",
 			   pin->dir == PIN_IN ? "in" : "out");
-		json_field(sink, "type", pin->type != IEC_NONE ?
-			   iec_type_row(pin->type)->word :
-			   words_classes(pin->classes));
+		json_field(sink, "type", words_pin_type(pin));
 		json_field(sink, "doc", explain_pin(row, i));
 		if (pin->has_init)
 			json_field(sink, "default", words_default(pin, text));
@@ -433,7 +429,7 @@ static void json_pins(const struct word_row *row, const struct sink *sink)
 	sink_text(sink, "]");
 }
 
-/* Lines in a string: a reader of JSON wants to show them, not to parse them. */
+/* The lines of an example as one string. */
 static void json_example(const struct words_entry *entry, enum words_form form,
 			 const char *name, const struct sink *sink)
 {

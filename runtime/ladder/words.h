@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * words - one row of the catalogue, of whatever kind, as the word list sees it.
- *
- * words.c lists them as text and JSON, words_page.c as the page docs/words.md.
+ * words - all tables of the catalogue as one list of words. words.c prints it as text and
+ * JSON, words_page.c as the page docs/words.md.
  */
 #ifndef LADDER_WORDS_H
 #define LADDER_WORDS_H
@@ -11,14 +10,14 @@
 #include "engine/base/sink.h"
 
 /**
- * words_list - elements, boxes, instructions, types, areas and system names
- * @word: one of them, any case, with its details; NULL: all, a line each
- * @json: an array of objects; each has kind, word and doc, most have more
+ * words_list - prints elements, boxes, instructions, types, areas and system names
+ * @word: one word with its details, in any case; NULL: all words, a line each
+ * @json: prints an array of objects; each has kind, word and doc, most have more
  *
- * Returns how many were listed; 0: there is no such word.   Scan-safe: no.
+ * Returns how many were printed; 0: there is no such word.   Scan-safe: no.
  */
 int words_list(const char *word, bool json, const struct sink *sink);
-/** words_markdown - the whole of docs/words.md. */
+/** words_markdown - prints docs/words.md. */
 void words_markdown(const struct sink *sink);
 
 enum words_kind {
@@ -28,11 +27,11 @@ enum words_kind {
 
 struct words_entry {
 	enum words_kind kind;
-	int number;                 /* in the table of its kind; WORD_COUNT: made
-				       by rule, as INT_TO_REAL is             */
-	const char *word;           /* as one writes it                       */
+	int number;                 /* in the table of its kind; WORD_COUNT: no
+				       row, the name follows a rule (INT_TO_REAL) */
+	const char *word;           /* as written in a program                */
 	const char *family;         /* NULL: none                             */
-	const char *doc;            /* "": words_note says it all             */
+	const char *doc;            /* "": words_note() is enough             */
 	const struct word_row *row; /* of an element, block or function       */
 	const struct op_row *op;
 	const struct iec_type_row *type; /* of a type or system name          */
@@ -40,37 +39,31 @@ struct words_entry {
 	const struct sys_row *sys;
 };
 
-/** words_at - entry number @index, by kinds; false: past the last one. */
+/** words_at - entry number @index, sorted by kind; false: past the last one. */
 bool words_at(int index, struct words_entry *out);
-/** words_kind - "function block". */
+/** words_kind - the name of a kind, such as "function block". */
 const char *words_kind(enum words_kind kind);
-/** words_operand - what stands behind an element or operator; "": nothing. */
+/** words_operand - what an element or operator needs as operand; "": none. */
 const char *words_operand(enum operand_kind kind);
-/** words_classes - "ANY_NUM" of the classes of a function's pin. */
-const char *words_classes(uint16_t classes);
-/** words_default - "T#10ms" of a pin with a value until it is given one, else "";
- * @out: room for 48 bytes, borrowed. */
+/** words_pin_type - the type of a pin, or a class such as "ANY_NUM". */
+const char *words_pin_type(const struct word_pin *pin);
+/** words_default - the default value of a pin, such as "T#10ms", or "".
+ * @out: room for 48 bytes; returned. */
 const char *words_default(const struct word_pin *pin, char *out);
-/* Where a word comes from, and the section that tells more: "page.md#Title". */
+/* Where a word comes from, and the section of a document about it: "page.md#Title". */
 struct words_source {
 	const char *source, *section;
 };
-/** words_source - of any entry; lives for ever. */
+/** words_source - the source of any entry; never freed. */
 const struct words_source *words_source(const struct words_entry *entry);
 
 enum words_form { WORDS_AS_FILE, WORDS_AS_PICTURE, WORDS_AS_LIST };
-/** words_example - a whole rung file, its picture, or a file with the same as a list
+/** words_example - prints an example: a rung file, its picture, or a file with a list
  *
- * Fails: false if the word has none of the form, or memory is out. */
+ * Fails: false if the word has no example of this form, or memory is out. */
 bool words_example(const struct words_entry *entry, enum words_form form,
 		   const struct sink *sink);
-/* An example by hand: variables, the body of Main, what stands behind it. */
-struct words_hand {
-	const char *vars, *body, *behind;
-};
-/** words_hand - NULL: the rule will do. @list: as a list. */
-const struct words_hand *words_hand(const struct words_entry *entry, bool list);
-/** words_note - a short line of facts, such as `LD LDN` or `1 byte, 0 to 1`. */
+/** words_note - prints the facts of a word, such as `LD LDN` or `1 byte, 0 to 1`. */
 void words_note(const struct words_entry *entry, const struct sink *sink);
 
 #endif

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * words_example - an example for each word, made from its row: a whole file with a
- * rung, the picture of that rung, and the same as a list.
+ * words_example - makes an example for each word from its row: a rung file, the picture of
+ * its rung, and the same as a list.
  *
- * Variables and values are chosen by type, or by the name of a pin where a type says
- * too little. Examples that no rule can make (a jump needs a label) are written out by
- * hand. Nothing is checked or run here; tests/docs.t does that with every
+ * Types of pins, and sometimes their names, decide on variables and values. Examples that
+ * no rule can make (a jump needs a label) are written by hand. tests/docs.t runs every
  * example of docs/words.md.
  */
 #include "engine/model/project.h"
@@ -16,13 +15,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An example in work: its variables are put out as they are found to be needed. */
+/* An example while it is made: `var` takes its variables, `out` its body. */
 struct example {
 	struct sink_memory vars, body;
 	struct sink var, out;
-	int switches;         /* inputs beside %IX0.0                         */
+	int switches;         /* inputs after %IX0.0                          */
 	bool value;           /* Value is declared                            */
-	enum iec_type in_text; /* of the value in a text that is converted;
+	enum iec_type in_text; /* Value is a text that holds this type;
 				  IEC_NONE: any text                          */
 };
 
@@ -52,7 +51,7 @@ static enum iec_type pin_type(const struct word_pin *pin)
 	return pin->type != IEC_NONE ? pin->type : type_of(pin->classes);
 }
 
-/* Of a constant, and what the variable begins with; both fit any width. */
+/* A constant, or the initial value of a variable; both fit any width. */
 static const char *value_of(enum iec_type type, bool initial)
 {
 	switch (iec_type_row(type)->class) {
@@ -78,7 +77,7 @@ static const char *value_of(enum iec_type type, bool initial)
 	}
 }
 
-/* Where any value of the type will not do. */
+/* Values for pins that do not take any value of their type. */
 static const char *value_by_name(const struct word_pin *pin)
 {
 	static const struct {
@@ -106,7 +105,7 @@ static const char *value_by_name(const struct word_pin *pin)
 	return NULL;
 }
 
-/* The input that gets a variable; a further one gets a constant. */
+/* These inputs get a variable, the others constants. */
 static bool wants_variable(const struct word_pin *pin)
 {
 	static const char *const name[] = { "IN", "IN1", "IN0", "Y", "DUTY" };
@@ -128,8 +127,7 @@ static void declare_value(struct example *example, enum iec_type type)
 	example->value = true;
 }
 
-/* At an address somebody outside may read it, so that nobody is warned; a text has
- * none. */
+/* At an address, so that there is no warning "never read"; a STRING has none. */
 static void declare_result(struct example *example, enum iec_type type)
 {
 	static const char width[] = { [1] = 'B', [2] = 'W', [4] = 'D', [8] = 'L' };
@@ -176,13 +174,13 @@ static enum iec_type result_type(const struct word_row *row)
 		return shared_type(row);
 	if (row->result != (int)RESULT_OPEN)
 		return row->result;
-	/* Of a conversion: another than it comes from. */
+	/* A conversion has a result of another type than its input. */
 	if (row->result_classes & CLASS_REAL && !(shared_type(row) == IEC_REAL))
 		return IEC_REAL;
 	return type_of(row->result_classes);
 }
 
-/* Of 'ladder' no number can be made. */
+/* A text that is converted to a number must hold one. */
 static enum iec_type text_holds(const struct word_row *row)
 {
 	enum iec_type result = result_type(row);
@@ -224,7 +222,7 @@ static void function_list(struct example *example, const struct word_row *row)
 
 /* ---- function blocks ---- */
 
-/* Inputs but the one that is power; those with a value of their own keep it. */
+/* Inputs except the power input and those with a default. */
 static bool shown_input(const struct word_row *row, int index)
 {
 	const struct word_pin *pin = &row->pin[index];
@@ -290,7 +288,7 @@ static void element_cells(struct example *example, const struct word_row *row)
 		sink_printf(out, "| NO Input | %s | COIL Output |\n", row->word);
 }
 
-/* A type, an area or a system name: a copy of such a value. */
+/* For a type, an area or a system name: a rung that copies such a value. */
 static void name_cells(struct example *example, const struct words_entry *entry)
 {
 	enum iec_type type = entry->kind == WORDS_AREA ? IEC_WORD :
@@ -332,7 +330,7 @@ static bool has_form(const struct words_entry *entry, enum words_form form)
 	return entry->kind != WORDS_OPERATOR;
 }
 
-/* Variables that an example does not name are left out. */
+/* Declares Input and Output only if the example uses them. */
 static void whole_file(struct example *example, bool list, const char *behind,
 		       const struct sink *sink)
 {
@@ -350,9 +348,14 @@ static void whole_file(struct example *example, bool list, const char *behind,
 	sink_text(sink, behind);
 }
 
+/* An example written by hand: variables, the body of Main, text after Main. */
+struct hand {
+	const char *vars, *body, *behind;
+};
+
 static const struct {
 	enum word word;
-	struct words_hand hand;
+	struct hand hand;
 } of_word[] = {
 	{ ELEM_WIRE, { "", "| NO Input | --- | COIL Output |\n", "" } },
 	{ ELEM_JUMP, { "Hand AT %IX0.1 : BOOL;\n",
@@ -385,7 +388,7 @@ static const struct {
 #endif
 };
 
-static const struct words_hand of_op[OP_COUNT] = {
+static const struct hand of_op[OP_COUNT] = {
 	[OP_LD]  = { "", "LD Input\nST Output\n", "" },
 	[OP_ST]  = { "", "LD Input\nST Output\nSTN %QX0.1\n", "" },
 	[OP_S]   = { "", "LD Input\nS Output\n", "" },
@@ -402,7 +405,8 @@ static const struct words_hand of_op[OP_COUNT] = {
 	[OP_STP] = { "", "LD Input\nST Output\nLD %IX0.1\nSTPC\n", "" },
 };
 
-const struct words_hand *words_hand(const struct words_entry *entry, bool list)
+/* NULL: the example is made by rule. */
+static const struct hand *find_hand(const struct words_entry *entry, bool list)
 {
 	if (entry->kind == WORDS_OPERATOR)
 		return &of_op[entry->number];
@@ -415,7 +419,7 @@ const struct words_hand *words_hand(const struct words_entry *entry, bool list)
 static bool draft(const struct words_entry *entry, bool list,
 		  struct sink_memory *memory)
 {
-	const struct words_hand *hand = words_hand(entry, list);
+	const struct hand *hand = find_hand(entry, list);
 	const struct sink sink = sink_to_memory(memory);
 	struct example example = { .in_text = IEC_NONE };
 	bool made;
@@ -439,7 +443,7 @@ static bool draft(const struct words_entry *entry, bool list,
 	return made;
 }
 
-/* As the program itself writes and draws what it reads. */
+/* Prints the example in canonical form, or its picture. */
 static bool put_project(const struct project *project, enum words_form form,
 			const struct sink *sink)
 {

@@ -1,62 +1,33 @@
 /* SPDX-License-Identifier: MIT
  *
- * words_page - the page docs/words.md, made from the catalogue so that it
- * cannot be older than the program. It explains nothing that a row does not
- * say.
+ * words_page - prints the page docs/words.md from the catalogue.
  */
 #include "engine/base/explain.h"
 #include "ladder/words.h"
 
 #include <string.h>
 
-static const char *heading(enum words_kind kind)
-{
-	switch (kind) {
-	case WORDS_ELEMENT:
-		return "Elements of a rung";
-	case WORDS_BLOCK:
-		return "Function blocks";
-	case WORDS_FUNCTION:
-		return "Functions";
-	case WORDS_OPERATOR:
-		return "Operators of the instruction list";
-	case WORDS_TYPE:
-		return "Types";
-	case WORDS_AREA:
-		return "Areas of direct addresses";
-	case WORDS_SYSTEM:
-		return "System names";
-	case WORDS_KIND_COUNT:
-		break;
-	}
-	return "";
-}
-
-static const char *columns(enum words_kind kind)
-{
-	switch (kind) {
-	case WORDS_ELEMENT:
-		return "| word | drawn | family | stands with | effect | source | "
-		       "more |\n|---|---|---|---|---|---|---|\n";
-	case WORDS_TYPE:
-		return "| type | size and range | source | more |\n"
-		       "|---|---|---|---|\n";
-	case WORDS_AREA:
-		return "| letters | size and use | what it is | source | more |\n"
-		       "|---|---|---|---|---|\n";
-	case WORDS_SYSTEM:
-		return "| name | address and type | what it is | source | more |\n"
-		       "|---|---|---|---|---|\n";
-	case WORDS_OPERATOR:
-		return "| operator | forms | operand | what it does | source | "
-		       "more |\n|---|---|---|---|---|---|\n";
-	case WORDS_BLOCK:
-	case WORDS_FUNCTION:
-	case WORDS_KIND_COUNT:
-		break;
-	}
-	return "";
-}
+/* Functions and blocks have a table each, and none for all. */
+static const struct {
+	const char *heading, *columns;
+} of_kind[WORDS_KIND_COUNT] = {
+	[WORDS_ELEMENT] = { "Elements of a rung",
+		"\n| word | drawn | family | stands with | effect | source | more |\n"
+		"|---|---|---|---|---|---|---|\n" },
+	[WORDS_BLOCK] = { "Function blocks", "" },
+	[WORDS_FUNCTION] = { "Functions", "" },
+	[WORDS_OPERATOR] = { "Operators of the instruction list",
+		"\n| operator | forms | operand | what it does | source | more |\n"
+		"|---|---|---|---|---|---|\n" },
+	[WORDS_TYPE] = { "Types",
+		"\n| type | size and range | source | more |\n|---|---|---|---|\n" },
+	[WORDS_AREA] = { "Areas of direct addresses",
+		"\n| letters | size and use | what it is | source | more |\n"
+		"|---|---|---|---|---|\n" },
+	[WORDS_SYSTEM] = { "System names",
+		"\n| name | address and type | what it is | source | more |\n"
+		"|---|---|---|---|---|\n" },
+};
 
 /* A bar would end the column of a Markdown table. */
 static void in_table(const struct sink *sink, const char *text)
@@ -75,7 +46,7 @@ static void code(const struct sink *sink, const char *text)
 	sink_text(sink, "`");
 }
 
-/* A title as the anchor that it gets: "Function blocks" is #function-blocks. */
+/* A link to the section; "Function blocks" has the anchor #function-blocks. */
 static void more(const struct words_entry *entry, const struct sink *sink)
 {
 	const char *section = words_source(entry)->section;
@@ -114,7 +85,7 @@ static void examples(const struct words_entry *entry, const struct sink *sink)
 	fence(entry, WORDS_AS_LIST, sink);
 }
 
-/* Those of the words of a table, behind it. */
+/* The examples of a table's words, after the table. */
 static void table_examples(enum words_kind kind, const struct sink *sink)
 {
 	struct words_entry entry;
@@ -151,10 +122,7 @@ static void box(const struct words_entry *entry, const struct sink *sink)
 		if (pin->dir == PIN_VAR)
 			continue;
 		sink_printf(sink, "| `%s` | %s | %s | ", pin->name,
-			    pin->dir == PIN_IN ? "in" : "out",
-			    pin->type != IEC_NONE ?
-			    iec_type_row(pin->type)->word :
-			    words_classes(pin->classes));
+			    pin->dir == PIN_IN ? "in" : "out", words_pin_type(pin));
 		in_table(sink, explain_pin(row, i));
 		if (pin->has_init)
 			sink_printf(sink, "; `%s` if not given",
@@ -193,20 +161,18 @@ void words_markdown(const struct sink *sink)
 	struct words_entry entry;
 
 	sink_text(sink, "# Words\n\n"
-		"Every word a program can use. This page is made by "
-		"`make words` from `runtime/engine/catalog.def`;\nchange it "
-		"there. How the words are put together is told in "
-		"[rung-file.md](rung-file.md), when\nthey are evaluated "
-		"in [language.md](language.md). Tables are those of the third "
-		"edition of\nIEC 61131-3 (2013) unless another is named. "
-		"Every example is run by the tests; `ladder words TON`\n"
-		"prints what stands here about a word.\n");
+		"This page lists every word that a program can use. `make words` "
+		"makes it from\n`runtime/engine/catalog.def`; change it there. "
+		"[rung-file.md](rung-file.md) describes the syntax,\n"
+		"[language.md](language.md) what each word does. Numbers of tables "
+		"are those of the third edition\nof IEC 61131-3 (2013) unless "
+		"another is named. The tests run every example. `ladder words TON`\n"
+		"prints the entry of a word.\n");
 	for (int i = 0; words_at(i, &entry); i++) {
 		if (entry.kind != kind) {
 			table_examples(kind, sink);
-			sink_printf(sink, "\n## %s\n%s%s", heading(entry.kind),
-				    *columns(entry.kind) ? "\n" : "",
-				    columns(entry.kind));
+			sink_printf(sink, "\n## %s\n%s", of_kind[entry.kind].heading,
+				    of_kind[entry.kind].columns);
 		}
 		kind = entry.kind;
 		if (kind == WORDS_BLOCK || kind == WORDS_FUNCTION)

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * words_source - the rows of words_source.def: where a word comes from.
- *
- * It only answers what a row says. The tables are made from catalog.def, so that a
- * word without a row, or with two, does not compile.
+ * words_source - where a word comes from: the rows of words_source.def. The tables are
+ * made from catalog.def, so a word without a row, or with two, does not compile.
  */
 #include "ladder/words.h"
 

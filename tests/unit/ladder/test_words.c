@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_words - the word list against the catalogue, and docs/words.md against
- * both.
+ * test_words - compares the word list with the catalogue, and docs/words.md with both.
  *
- * Every example builds and is scanned without a fault, those of words made by rule too;
- * tests/docs.t does the same with the page through the public commands.
+ * Builds every example and scans it without a fault, also those of words without a row.
+ * tests/docs.t does the same with the page, with the public commands.
  *
- * `test_words --print` puts out the page instead; `make words` keeps it so.
+ * `test_words --print` prints the page instead; `make words` writes it.
  */
 #include "engine/base/catalog.h"
 #include "engine/base/explain.h"
-#include "ladder/words.h"
 #include "ladder/words.h"
 #include "tests/tap.h"
 #include "tests/unit/rig.h"
@@ -48,21 +46,21 @@ static void test_all(void)
 	CHECK(strstr(text, "  SYS_FIRST_SCAN "));
 }
 
-/* What is told before the source, of all entries that a word has. */
+/* The lines before the source, of all entries of a word. */
 static const char *facts(const char *word, int *count)
 {
 	static char out[4000];
 	char *text = strdup(words(word, false, count)), *rest;
 	size_t len = strlen(word), end = 0;
-	bool told = true;
+	bool shown = true;
 
 	for (char *line = strtok_r(text, "\n", &rest); line;
 	     line = strtok_r(NULL, "\n", &rest)) {
 		if (strncmp(line, "  source: ", 10) == 0)
-			told = false;
+			shown = false;
 		else if (strncasecmp(line, word, len) == 0 && line[len] == ':')
-			told = true;
-		if (told && end < sizeof(out))
+			shown = true;
+		if (shown && end < sizeof(out))
 			end += (size_t)snprintf(out + end, sizeof(out) - end, "%s\n",
 						line);
 	}
@@ -146,7 +144,7 @@ static void test_json(void)
 	CHECK_TEXT(words("nonsense", true, &count), "[\n]\n");
 }
 
-/* @text: a file of one example. */
+/* Builds and scans one example. */
 static void run_example(const char *word, const char *text)
 {
 	struct rig rig;
@@ -179,7 +177,7 @@ static void test_example(const struct words_entry *entry, enum words_form form)
 	sink_memory_free(&example);
 }
 
-/* A section that is named stands in its page. */
+/* The page has the section that the row names. */
 static void test_section(const struct words_entry *entry)
 {
 	static char page[100000];
@@ -219,7 +217,7 @@ static void test_examples(void)
 	}
 }
 
-/* Words that have no row: what stands between "example:" and "drawn:". */
+/* Words without a row: the text between "example:" and "drawn:". */
 static void test_made_examples(void)
 {
 	static const char *const made[] = {
