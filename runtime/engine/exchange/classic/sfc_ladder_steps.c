@@ -31,6 +31,18 @@ static const char *text_of(const struct lad *e, uint32_t id)
 	return project_text(e->project, id);
 }
 
+/* A rung of one or two conditions in series and one output. @also: NULL: only one. */
+static void write_when(struct lad *e, char *when, char *also, char *out, const char *title)
+{
+	struct lad_rung *r = lad_begin(e);
+
+	lad_head(r, when);
+	if (also)
+		lad_head(r, also);
+	lad_out(r, out);
+	lad_write(e, r, "", title);
+}
+
 /* ---- times ---- */
 
 /* Is a time counted anywhere? */
@@ -49,53 +61,44 @@ static void write_clock(struct lad *e)
 {
 	const char *hold = lad_words(e, text_of(e, e->sfc->control[CONTROL_HOLD]));
 	const char *clock, *passed, *last;
-	struct lad_rung *r = lad_begin(e);
 
 	if (!has_times(e))
 		return;
 	clock = lad_use(e, &e->whole[LAD_CLOCK]);
 	passed = lad_use(e, &e->whole[LAD_PASSED]);
 	last = lad_use(e, &e->whole[LAD_LAST]);
-	lad_head(r, lad_text(e, "NO SYS_ALWAYS_ON"));
-	lad_out(r, lad_text(e, "TON %s PT:=T#100000d", clock));
-	lad_write(e, r, "", "Runs for ever: its time is what the steps count with");
-	r = lad_begin(e);
-	lad_head(r, lad_text(e, "[ %s := %s.ET - %s ]", passed, clock, last));
-	lad_out(r, lad_text(e, "[ %s := %s.ET ]", last, clock));
-	lad_write(e, r, "", "Time since the scan before");
-	if (!*hold)
-		return;
-	r = lad_begin(e);
-	lad_head(r, lad_text(e, "NO %s", hold));
-	lad_out(r, lad_text(e, "[ %s := T#0s ]", passed));
-	lad_write(e, r, "", "HOLD: no time passes");
+	write_when(e, lad_text(e, "NO SYS_ALWAYS_ON"), NULL,
+		   lad_text(e, "TON %s PT:=T#100000d", clock),
+		   "Runs for ever: its time is what the steps count with");
+	write_when(e, lad_text(e, "[ %s := %s.ET - %s ]", passed, clock, last), NULL,
+		   lad_text(e, "[ %s := %s.ET ]", last, clock), "Time since the scan before");
+	if (*hold)
+		write_when(e, lad_text(e, "NO %s", hold), NULL,
+			   lad_text(e, "[ %s := T#0s ]", passed), "HOLD: no time passes");
 }
 
 static void write_times(struct lad *e)
 {
 	for (int i = 0; i < e->sfc->step_count; i++) {
-		struct lad_rung *r = lad_begin(e);
 		const char *t;
 
 		if (!e->step[i][LAD_T].used)
 			continue;
 		t = lad_use(e, &e->step[i][LAD_T]);
-		lad_head(r, no(e, &e->step[i][LAD_X]));
-		lad_out(r, lad_text(e, "[ %s := %s + %s ]", t, t,
-				    lad_use(e, &e->whole[LAD_PASSED])));
-		lad_write(e, r, "", lad_text(e, "Time in %s", lad_name(e, i)));
+		write_when(e, no(e, &e->step[i][LAD_X]), NULL,
+			   lad_text(e, "[ %s := %s + %s ]", t, t,
+				    lad_use(e, &e->whole[LAD_PASSED])),
+			   lad_text(e, "Time in %s", lad_name(e, i)));
 	}
 	for (int i = 0; i < e->sfc->step_count; i++) {
 		const struct sfc_step *step = &e->sfc->step[i];
-		struct lad_rung *r = lad_begin(e);
 
-		if (!step->max || !step->alarm)
-			continue;
-		lad_head(r, no(e, &e->step[i][LAD_X]));
-		lad_head(r, lad_text(e, "[ %s > %s ]", lad_use(e, &e->step[i][LAD_T]),
-				     lad_words(e, text_of(e, step->max))));
-		lad_out(r, lad_text(e, "S %s", lad_words(e, text_of(e, step->alarm))));
-		lad_write(e, r, "", lad_text(e, "%s takes too long", lad_name(e, i)));
+		if (step->max && step->alarm)
+			write_when(e, no(e, &e->step[i][LAD_X]),
+				   lad_text(e, "[ %s > %s ]", lad_use(e, &e->step[i][LAD_T]),
+					    lad_words(e, text_of(e, step->max))),
+				   lad_text(e, "S %s", lad_words(e, text_of(e, step->alarm))),
+				   lad_text(e, "%s takes too long", lad_name(e, i)));
 	}
 }
 
@@ -450,16 +453,17 @@ static void write_end(struct lad *e, int step)
 	lad_write(e, r, "", lad_text(e, "%s ends", lad_name(e, step)));
 }
 
-static void write_minimum(struct lad *e, int step)
+/* The alarm of a step that is left before its least time. @left: the bit that leaves it. */
+static void write_minimum(struct lad *e, int step, struct lad_var *left)
 {
 	const struct sfc_step *at = &e->sfc->step[step];
-	struct lad_rung *r = lad_begin(e);
 
-	lad_head(r, no(e, &e->step[step][LAD_LEFT]));
-	lad_head(r, lad_text(e, "[ %s < %s ]", lad_use(e, &e->step[step][LAD_T]),
-			     lad_words(e, text_of(e, at->min))));
-	lad_out(r, lad_text(e, "S %s", lad_words(e, text_of(e, at->alarm))));
-	lad_write(e, r, "", lad_text(e, "%s was too short", lad_name(e, step)));
+	if (at->min && at->alarm)
+		write_when(e, no(e, left),
+			   lad_text(e, "[ %s < %s ]", lad_use(e, &e->step[step][LAD_T]),
+				    lad_words(e, text_of(e, at->min))),
+			   lad_text(e, "S %s", lad_words(e, text_of(e, at->alarm))),
+			   lad_text(e, "%s was too short", lad_name(e, step)));
 }
 
 static void write_pulses(struct lad *e)
@@ -476,9 +480,8 @@ static void write_pulses(struct lad *e)
 		if (e->step[i][LAD_END].used || e->step[i][LAD_ENDED].used)
 			write_end(e, i);
 	}
-	for (int i = 0; i < e->sfc->step_count; i++)
-		if (e->sfc->step[i].min && e->sfc->step[i].alarm && !lad_is_in_order(e))
-			write_minimum(e, i);
+	for (int i = 0; i < e->sfc->step_count && !lad_is_in_order(e); i++)
+		write_minimum(e, i, &e->step[i][LAD_LEFT]);
 }
 
 /* ---- firing ---- */
@@ -569,14 +572,11 @@ static void write_begins(struct lad *e)
 	for (int i = 0; i < e->sfc->step_count; i++) {
 		struct lad_rung *r = lad_begin(e);
 
-		if (e->step[i][LAD_T].used) {
-			lad_head(r, no(e, &e->step[i][LAD_START]));
-			lad_out(r, lad_text(e, "[ %s := T#0s ]",
-					    lad_use(e, &e->step[i][LAD_T])));
-			lad_write(e, r, "", lad_text(e, "The time in %s begins",
-						     lad_name(e, i)));
-		}
-		r = lad_begin(e);
+		if (e->step[i][LAD_T].used)
+			write_when(e, no(e, &e->step[i][LAD_START]), NULL,
+				   lad_text(e, "[ %s := T#0s ]",
+					    lad_use(e, &e->step[i][LAD_T])),
+				   lad_text(e, "The time in %s begins", lad_name(e, i)));
 		lad_once(e, r, i);
 		if (!r || !r->outs)
 			continue;
@@ -592,12 +592,9 @@ static void write_again(struct lad *e)
 
 	if (!sfc_goes_round(e->sfc) || !e->net.arc_count)
 		return;
-	if (e->sfc->control[CONTROL_SEMI] && !lad_is_in_order(e)) {
-		lad_head(r, no(e, &e->whole[LAD_ONCE]));
-		lad_out(r, coil(e, "R", &e->whole[LAD_GO]));
-		lad_write(e, r, "", "SEMI: one TIP is one evolution");
-		r = lad_begin(e);
-	}
+	if (e->sfc->control[CONTROL_SEMI] && !lad_is_in_order(e))
+		write_when(e, no(e, &e->whole[LAD_ONCE]), NULL,
+			   coil(e, "R", &e->whole[LAD_GO]), "SEMI: one TIP is one evolution");
 	if (sfc_rests_at_once(e->sfc)) {
 		lad_head(r, no(e, &e->whole[LAD_FIRST]));
 		lad_out(r, coil(e, "R", &e->whole[LAD_FIRST]));
@@ -623,15 +620,10 @@ static void write_again(struct lad *e)
 static void write_gathered(struct lad *e)
 {
 	for (int i = 0; sfc_goes_round(e->sfc) && i < e->sfc->step_count; i++)
-		for (int k = LAD_STARTED; k <= LAD_ENDED; k++) {
-			struct lad_rung *r = lad_begin(e);
-
-			if (!e->step[i][k].used)
-				continue;
-			lad_head(r, lad_text(e, "NO SYS_ALWAYS_ON"));
-			lad_out(r, coil(e, "R", &e->step[i][k]));
-			lad_write(e, r, "", lad_name(e, i));
-		}
+		for (int k = LAD_STARTED; k <= LAD_ENDED; k++)
+			if (e->step[i][k].used)
+				write_when(e, lad_text(e, "NO SYS_ALWAYS_ON"), NULL,
+					   coil(e, "R", &e->step[i][k]), lad_name(e, i));
 }
 
 static void write_force(struct lad *e, const char *reset)
@@ -649,13 +641,11 @@ static void write_force(struct lad *e, const char *reset)
 	r = lad_begin(e);
 	lad_out(r, lad_text(e, "[ %s := %s ]", number, force));
 	lad_write(e, r, "", "What it is now");
-	for (int i = 0; i < e->reach; i++) {
-		r = lad_begin(e);
-		lad_head(r, no(e, &e->whole[LAD_CHANGED]));
-		lad_head(r, lad_text(e, "[ %s = %d ]", number, i + 1));
-		lad_out(r, coil(e, "COIL", &e->step[i][LAD_FORCED]));
-		lad_write(e, r, "", lad_text(e, "%s is forced", lad_name(e, i)));
-	}
+	for (int i = 0; i < e->reach; i++)
+		write_when(e, no(e, &e->whole[LAD_CHANGED]),
+			   lad_text(e, "[ %s = %d ]", number, i + 1),
+			   coil(e, "COIL", &e->step[i][LAD_FORCED]),
+			   lad_text(e, "%s is forced", lad_name(e, i)));
 	r = lad_begin(e);
 	lad_head(r, no(e, &e->whole[LAD_CHANGED]));
 	lad_head(r, lad_text(e, "[ %s >= 1 ]", number));
@@ -672,10 +662,8 @@ static void write_modes(struct lad *e)
 	const char *tip = lad_words(e, text_of(e, e->sfc->control[CONTROL_TIP]));
 	struct lad_rung *r = lad_begin(e);
 
-	lad_head(r, *tip ? lad_text(e, "P %s", tip) : lad_text(e, "NC SYS_ALWAYS_ON"));
-	lad_out(r, coil(e, "COIL", &e->whole[LAD_HAND]));
-	lad_write(e, r, "", "TIP rises");
-	r = lad_begin(e);
+	write_when(e, *tip ? lad_text(e, "P %s", tip) : lad_text(e, "NC SYS_ALWAYS_ON"), NULL,
+		   coil(e, "COIL", &e->whole[LAD_HAND]), "TIP rises");
 	if (*manual)
 		lad_head(r, lad_text(e, "NC %s", manual));
 	if (*semi) {
@@ -685,19 +673,13 @@ static void write_modes(struct lad *e)
 	}
 	lad_out(r, coil(e, "COIL", &e->whole[LAD_GO]));
 	lad_write(e, r, "", "Transitions fire when they are true");
-	if (*semi && sfc_goes_round(e->sfc)) {
-		r = lad_begin(e);
-		lad_head(r, lad_text(e, "NO %s", semi));
-		lad_out(r, coil(e, "COIL", &e->whole[LAD_ONCE]));
-		lad_write(e, r, "", "SEMI, whatever the chart makes of it in this scan");
-	}
-	r = lad_begin(e);
-	if (*manual)
-		lad_head(r, lad_text(e, "NC %s", manual));
-	else
-		lad_head(r, lad_text(e, "NO SYS_ALWAYS_ON"));
-	lad_out(r, coil(e, "R", &e->whole[LAD_HAND]));
-	lad_write(e, r, "", "Whatever they are, in MANUAL alone");
+	if (*semi && sfc_goes_round(e->sfc))
+		write_when(e, lad_text(e, "NO %s", semi), NULL,
+			   coil(e, "COIL", &e->whole[LAD_ONCE]),
+			   "SEMI, whatever the chart makes of it in this scan");
+	write_when(e, *manual ? lad_text(e, "NC %s", manual) : lad_text(e, "NO SYS_ALWAYS_ON"),
+		   NULL, coil(e, "R", &e->whole[LAD_HAND]),
+		   "Whatever they are, in MANUAL alone");
 }
 
 static void lad_control(struct lad *e)
@@ -706,17 +688,13 @@ static void lad_control(struct lad *e)
 	const char *hold = lad_words(e, text_of(e, e->sfc->control[CONTROL_HOLD]));
 	struct lad_rung *r = lad_begin(e);
 
-	if (lad_has_reset(e)) {
-		lad_head(r, lad_text(e, "P %s", reset));
-		lad_head(r, no(e, &e->whole[LAD_RUNS]));
-		lad_out(r, coil(e, "COIL", &e->whole[LAD_ANEW]));
-		lad_write(e, r, "", "RESET: all begins anew");
-	}
+	if (lad_has_reset(e))
+		write_when(e, lad_text(e, "P %s", reset), no(e, &e->whole[LAD_RUNS]),
+			   coil(e, "COIL", &e->whole[LAD_ANEW]), "RESET: all begins anew");
 	if (lad_has_force(e))
 		write_force(e, reset);
 	if (lad_has_modes(e))
 		write_modes(e);
-	r = lad_begin(e);
 	if (lad_has_reset(e)) {
 		lad_way(r);
 		lad_cell(r, lad_text(e, "NO %s", reset));
@@ -733,27 +711,11 @@ static void lad_control(struct lad *e)
 		lad_out(r, coil(e, "COIL", &e->whole[LAD_STANDS]));
 		lad_write(e, r, "", "While this is TRUE nothing fires");
 	}
-	r = lad_begin(e);
-	lad_head(r, nc(e, &e->whole[LAD_RUNS]));
-	lad_out(r, coil(e, "COIL", &e->whole[LAD_FIRST]));
-	lad_write(e, r, "", "The first scan");
+	write_when(e, nc(e, &e->whole[LAD_RUNS]), NULL, coil(e, "COIL", &e->whole[LAD_FIRST]),
+		   "The first scan");
 }
 
 /* ---- one transition ---- */
-
-static void write_short(struct lad *e, int arc, int step)
-{
-	const struct sfc_step *at = &e->sfc->step[step];
-	struct lad_rung *r = lad_begin(e);
-
-	if (!at->min || !at->alarm)
-		return;
-	lad_head(r, no(e, &e->arc[arc][LAD_FIRES]));
-	lad_head(r, lad_text(e, "[ %s < %s ]", lad_use(e, &e->step[step][LAD_T]),
-			     lad_words(e, text_of(e, at->min))));
-	lad_out(r, lad_text(e, "S %s", lad_words(e, text_of(e, at->alarm))));
-	lad_write(e, r, "", lad_text(e, "%s was too short", lad_name(e, step)));
-}
 
 static void write_leave(struct lad *e, int arc)
 {
@@ -764,7 +726,7 @@ static void write_leave(struct lad *e, int arc)
 	for (int i = 0; i < from->count; i++) {
 		const int step = from->step[i];
 
-		write_short(e, arc, step);
+		write_minimum(e, step, &e->arc[arc][LAD_FIRES]);
 		if (e->step[step][LAD_ENDED].used)
 			lad_out(r, coil(e, "S", &e->step[step][LAD_ENDED]));
 		lad_out(r, coil(e, "R", &e->step[step][LAD_X]));
@@ -814,13 +776,9 @@ static void write_fired(struct lad *e, int arc)
 	if (lad_has_modes(e))
 		lad_out(r, coil(e, "R", &e->whole[LAD_HAND]));
 	lad_write(e, r, "", "Something has fired in this round");
-	r = lad_begin(e);
-	if (!e->sfc->control[CONTROL_SEMI])
-		return;
-	lad_head(r, no(e, &e->arc[arc][LAD_FIRES]));
-	lad_head(r, no(e, &e->whole[LAD_ONCE]));
-	lad_out(r, coil(e, "R", &e->whole[LAD_GO]));
-	lad_write(e, r, "", "SEMI: one TIP is one transition");
+	if (e->sfc->control[CONTROL_SEMI])
+		write_when(e, no(e, &e->arc[arc][LAD_FIRES]), no(e, &e->whole[LAD_ONCE]),
+			   coil(e, "R", &e->whole[LAD_GO]), "SEMI: one TIP is one transition");
 }
 
 /* ---- rounds ---- */
@@ -845,17 +803,13 @@ static void lad_order(struct lad *e)
 		write_enters(e, i);
 		write_fired(e, i);
 	}
-	r = lad_begin(e);
-	lad_head(r, no(e, &e->whole[LAD_FIRED]));
-	lad_head(r, lad_text(e, "[ %s < %d ]", rounds, LIMIT_ROUNDS));
-	lad_out(r, lad_text(e, "JMP %s", text_of(e, e->round)));
-	lad_write(e, r, "", "Until nothing fires");
+	write_when(e, no(e, &e->whole[LAD_FIRED]),
+		   lad_text(e, "[ %s < %d ]", rounds, LIMIT_ROUNDS),
+		   lad_text(e, "JMP %s", text_of(e, e->round)), "Until nothing fires");
 }
 
 void lad_steps(struct lad *e)
 {
-	struct lad_rung *r;
-
 	lad_control(e);
 	write_clock(e);
 	write_times(e);
@@ -869,10 +823,8 @@ void lad_steps(struct lad *e)
 	write_sets(e);
 	write_begins(e);
 	write_again(e);
-	r = lad_begin(e);
-	lad_head(r, no(e, &e->whole[LAD_FIRST]));
-	lad_out(r, coil(e, "S", &e->whole[LAD_RUNS]));
-	lad_write(e, r, "", "From now on it runs");
+	write_when(e, no(e, &e->whole[LAD_FIRST]), NULL, coil(e, "S", &e->whole[LAD_RUNS]),
+		   "From now on it runs");
 }
 
 /* The pulse of a step in this scan. */
@@ -915,32 +867,27 @@ static void write_since(struct lad *e, int line)
 {
 	const struct sfc_use *use = &e->sfc->use[line];
 	const char *since = lad_use(e, &e->line[line][LAD_SINCE]);
-	struct lad_rung *r = lad_begin(e);
 
-	lad_head(r, no(e, &e->line[line][LAD_STORED]));
-	lad_out(r, lad_text(e, "[ %s := %s + %s ]", since, since,
-			    lad_use(e, &e->whole[LAD_PASSED])));
-	lad_write(e, r, "", lad_text(e, "%s: its time", title_of(e, use)));
-	r = lad_begin(e);
-	lad_head(r, no(e, began(e, use->step)));
-	lad_head(r, nc(e, &e->line[line][LAD_STORED]));
-	lad_out(r, lad_text(e, "[ %s := T#0s ]", since));
-	lad_write(e, r, "", lad_text(e, "%s: it begins", title_of(e, use)));
+	write_when(e, no(e, &e->line[line][LAD_STORED]), NULL,
+		   lad_text(e, "[ %s := %s + %s ]", since, since,
+			    lad_use(e, &e->whole[LAD_PASSED])),
+		   lad_text(e, "%s: its time", title_of(e, use)));
+	write_when(e, no(e, began(e, use->step)), nc(e, &e->line[line][LAD_STORED]),
+		   lad_text(e, "[ %s := T#0s ]", since),
+		   lad_text(e, "%s: it begins", title_of(e, use)));
 }
 
 /* DS: as long as its step has been active without a break, and no R. */
 static void write_armed(struct lad *e, int line)
 {
 	const struct sfc_use *use = &e->sfc->use[line];
-	struct lad_rung *r = lad_begin(e);
 
-	lad_head(r, no(e, began(e, use->step)));
-	lad_out(r, coil(e, "S", &e->line[line][LAD_ARMED]));
-	lad_write(e, r, "", lad_text(e, "%s: it waits", title_of(e, use)));
-	r = lad_begin(e);
-	lad_head(r, nc(e, &e->step[use->step][LAD_X]));
-	lad_out(r, coil(e, "R", &e->line[line][LAD_ARMED]));
-	lad_write(e, r, "", lad_text(e, "%s: it waits no more", title_of(e, use)));
+	write_when(e, no(e, began(e, use->step)), NULL,
+		   coil(e, "S", &e->line[line][LAD_ARMED]),
+		   lad_text(e, "%s: it waits", title_of(e, use)));
+	write_when(e, nc(e, &e->step[use->step][LAD_X]), NULL,
+		   coil(e, "R", &e->line[line][LAD_ARMED]),
+		   lad_text(e, "%s: it waits no more", title_of(e, use)));
 }
 
 static void write_anew(struct lad *e, int line)
@@ -960,24 +907,18 @@ static void write_stored(struct lad *e, int line)
 {
 	const struct sfc_use *use = &e->sfc->use[line];
 	const enum qualifier q = use->qualifier;
-	struct lad_rung *r;
+	const bool delayed = q == QUALIFIER_DS;
 
 	write_anew(e, line);
 	if (q == QUALIFIER_SD || q == QUALIFIER_SL)
 		write_since(e, line);
-	if (q == QUALIFIER_DS)
+	if (delayed)
 		write_armed(e, line);
-	r = lad_begin(e);
-	if (q == QUALIFIER_DS) {
-		lad_head(r, no(e, &e->line[line][LAD_ARMED]));
-		lad_head(r, lad_text(e, "[ %s >= %s ]",
-				     lad_use(e, &e->step[use->step][LAD_T]),
-				     lad_words(e, text_of(e, use->time))));
-	} else {
-		lad_head(r, no(e, began(e, use->step)));
-	}
-	lad_out(r, coil(e, "S", &e->line[line][LAD_STORED]));
-	lad_write(e, r, "", title_of(e, use));
+	write_when(e, no(e, delayed ? &e->line[line][LAD_ARMED] : began(e, use->step)),
+		   delayed ? lad_text(e, "[ %s >= %s ]",
+				      lad_use(e, &e->step[use->step][LAD_T]),
+				      lad_words(e, text_of(e, use->time))) : NULL,
+		   coil(e, "S", &e->line[line][LAD_STORED]), title_of(e, use));
 }
 
 /* An R of @called, in any step, ends line @line. */
@@ -1141,22 +1082,16 @@ static void write_called(struct lad *e, struct lad_called *called)
 static void write_bool(struct lad *e, struct lad_called *called)
 {
 	const char *name = text_of(e, called->operand), *what = lad_words(e, name);
-	struct lad_rung *r = lad_begin(e);
 
 	if (called->alone)
 		return;
-	lad_head(r, no(e, &called->var[LAD_CALLED]));
-	lad_out(r, lad_text(e, "S %s", what));
-	lad_write(e, r, "", name);
-	r = lad_begin(e);
-	lad_head(r, nc(e, &called->var[LAD_CALLED]));
-	lad_head(r, no(e, &called->var[LAD_WAS]));
-	lad_out(r, lad_text(e, "R %s", what));
-	lad_write(e, r, "", lad_text(e, "%s, when it is called for no more", name));
-	r = lad_begin(e);
-	lad_head(r, no(e, &called->var[LAD_CALLED]));
-	lad_out(r, coil(e, "COIL", &called->var[LAD_WAS]));
-	lad_write(e, r, "", lad_text(e, "Was %s called for?", name));
+	write_when(e, no(e, &called->var[LAD_CALLED]), NULL, lad_text(e, "S %s", what), name);
+	write_when(e, nc(e, &called->var[LAD_CALLED]), no(e, &called->var[LAD_WAS]),
+		   lad_text(e, "R %s", what),
+		   lad_text(e, "%s, when it is called for no more", name));
+	write_when(e, no(e, &called->var[LAD_CALLED]), NULL,
+		   coil(e, "COIL", &called->var[LAD_WAS]),
+		   lad_text(e, "Was %s called for?", name));
 }
 
 static void write_body(struct lad *e, struct lad_called *called)
@@ -1174,10 +1109,8 @@ static void write_body(struct lad *e, struct lad_called *called)
 	lad_cell(r, no(e, &called->var[LAD_WAS]));
 	lad_out(r, lad_text(e, "CALL %s", text_of(e, e->body[body])));
 	lad_write(e, r, "", lad_text(e, "%s, and once more when it ends", name));
-	r = lad_begin(e);
-	lad_head(r, no(e, level));
-	lad_out(r, coil(e, "COIL", &called->var[LAD_WAS]));
-	lad_write(e, r, "", lad_text(e, "Was %s called for?", name));
+	write_when(e, no(e, level), NULL, coil(e, "COIL", &called->var[LAD_WAS]),
+		   lad_text(e, "Was %s called for?", name));
 }
 
 void lad_outputs(struct lad *e)
