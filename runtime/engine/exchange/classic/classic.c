@@ -7,21 +7,28 @@
 #include "engine/exchange/classic/classic.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+int classic_by_number(const void *a, const void *b)
+{
+	const int x = *(const int *)a, y = *(const int *)b;
+
+	return (x > y) - (x < y);
+}
+
+static int by_rung(const void *number, const void *rung)
+{
+	return classic_by_number(number, *(struct classic_rung *const *)rung);
+}
 
 int classic_rung_index(const struct classic_project *project, int number)
 {
-	int low = 0, high = project->rungs;
+	struct classic_rung **rung = project->rungs ?
+		bsearch(&number, project->rung, (size_t)project->rungs, sizeof(*rung),
+			by_rung) : NULL;
 
-	while (low < high) {
-		int middle = low + (high - low) / 2;
-
-		if (project->rung[middle]->number < number)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return low < project->rungs && project->rung[low]->number == number ? low : -1;
+	return rung ? (int)(rung - project->rung) : -1;
 }
 
 const struct classic_rung *classic_rung(const struct classic_project *project, int number)
@@ -33,34 +40,17 @@ const struct classic_rung *classic_rung(const struct classic_project *project, i
 
 const struct classic_block *classic_block(const struct classic_blocks *blocks, int number)
 {
-	int low = 0, high = blocks->count;
-
-	while (low < high) {
-		int middle = low + (high - low) / 2;
-
-		if (blocks->block[middle].number < number)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return low < blocks->count && blocks->block[low].number == number ?
-	       &blocks->block[low] : NULL;
+	return blocks->count ? bsearch(&number, blocks->block, (size_t)blocks->count,
+				       sizeof(*blocks->block), classic_by_number) : NULL;
 }
 
 const char *classic_expression(const struct classic_project *project, int number)
 {
-	int low = 0, high = project->expressions;
+	const struct classic_expression *found = project->expressions ?
+		bsearch(&number, project->expression, (size_t)project->expressions,
+			sizeof(*found), classic_by_number) : NULL;
 
-	while (low < high) {
-		int middle = low + (high - low) / 2;
-
-		if (project->expression[middle].number < number)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return low < project->expressions && project->expression[low].number == number ?
-	       project->expression[low].text : NULL;
+	return found ? found->text : NULL;
 }
 
 const char *classic_setting(const struct classic_project *project, const char *key)

@@ -177,6 +177,9 @@ struct classic_project *classic_read_folder(struct arena *arena, const char *fol
 					    struct classic_report *report,
 					    struct diag_list *diags);
 
+/** classic_by_number - orders entries of a list by their number, which every entry begins
+ * with: for qsort() and bsearch(). */
+int classic_by_number(const void *a, const void *b);
 /** classic_rung_index - the place among all rungs of the one with a number; -1: none is. */
 int classic_rung_index(const struct classic_project *project, int number);
 /** classic_rung - by its number; NULL: none. Likewise the others. */

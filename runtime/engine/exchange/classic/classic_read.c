@@ -408,25 +408,6 @@ static bool begin(struct classic_reader *reader, struct arena *arena, const char
 	return true;
 }
 
-static int compare(int a, int b)
-{
-	return (a > b) - (a < b);
-}
-
-static int by_block(const void *a, const void *b)
-{
-	const struct classic_block *x = a, *y = b;
-
-	return compare(x->number, y->number);
-}
-
-static void sort(void *vector, int count, size_t size,
-		 int (*order)(const void *, const void *))
-{
-	if (count > 1)
-		qsort(vector, (size_t)count, size, order);
-}
-
 void classic_twice(struct classic_reader *reader, struct classic_place place,
 		   const char *what, int number)
 {
@@ -436,86 +417,78 @@ void classic_twice(struct classic_reader *reader, struct classic_place place,
 	classic_fail_at(reader, DIAG_IMPORT_TWICE, place, text, strlen(text));
 }
 
+/* How each entry of every numbered list begins. */
+struct numbered { int number; struct classic_place place; };
+
+static struct numbered numbered_at(const void *list, int at, size_t size)
+{
+	struct numbered entry;
+
+	memcpy(&entry, (const char *)list + (size_t)at * size, sizeof(entry));
+	return entry;
+}
+
+/* Sorts by number; two entries with one number are an error. */
+static void order(struct classic_reader *reader, void *list, int count, size_t size,
+		  const char *what)
+{
+	if (count > 1)
+		qsort(list, (size_t)count, size, classic_by_number);
+	for (int i = 1; i < count; i++) {
+		const struct numbered entry = numbered_at(list, i, size);
+
+		if (entry.number == numbered_at(list, i - 1, size).number)
+			classic_twice(reader, entry.place, what, entry.number);
+	}
+}
+
 static void order_blocks(struct classic_reader *reader, struct classic_blocks *blocks,
 			 const char *what)
 {
-	sort(blocks->block, blocks->count, sizeof(*blocks->block), by_block);
-	for (int i = 1; i < blocks->count; i++)
-		if (blocks->block[i].number == blocks->block[i - 1].number)
-			classic_twice(reader, blocks->block[i].place, what,
-				      blocks->block[i].number);
+	order(reader, blocks->block, blocks->count, sizeof(*blocks->block), what);
 }
 
 static int by_rung(const void *a, const void *b)
 {
-	const struct classic_rung *const *x = a, *const *y = b;
-
-	return compare((*x)->number, (*y)->number);
+	return classic_by_number(*(struct classic_rung *const *)a,
+				 *(struct classic_rung *const *)b);
 }
 
-static int by_expression(const void *a, const void *b)
+static void order_rungs(struct classic_reader *reader)
 {
-	const struct classic_expression *x = a, *y = b;
+	struct classic_project *project = reader->project;
 
-	return compare(x->number, y->number);
-}
-
-static int by_section(const void *a, const void *b)
-{
-	const struct classic_section *x = a, *y = b;
-
-	return compare(x->number, y->number);
-}
-
-static int by_step(const void *a, const void *b)
-{
-	const struct classic_step *x = a, *y = b;
-
-	return compare(x->index, y->index);
-}
-
-static int by_transition(const void *a, const void *b)
-{
-	const struct classic_transition *x = a, *y = b;
-
-	return compare(x->index, y->index);
+	if (project->rungs > 1)
+		qsort(project->rung, (size_t)project->rungs, sizeof(*project->rung), by_rung);
+	for (int i = 1; i < project->rungs; i++)
+		if (project->rung[i]->number == project->rung[i - 1]->number)
+			classic_twice(reader, project->rung[i]->place, "rung",
+				      project->rung[i]->number);
 }
 
 static void order_lists(struct classic_reader *reader)
 {
 	struct classic_project *project = reader->project;
 
-	sort(project->rung, project->rungs, sizeof(*project->rung), by_rung);
-	for (int i = 1; i < project->rungs; i++)
-		if (project->rung[i]->number == project->rung[i - 1]->number)
-			classic_twice(reader, project->rung[i]->place, "rung",
-				      project->rung[i]->number);
-	sort(project->expression, project->expressions, sizeof(*project->expression),
-	     by_expression);
-	for (int i = 1; i < project->expressions; i++)
-		if (project->expression[i].number == project->expression[i - 1].number)
-			classic_twice(reader, project->expression[i].place, "expression",
-				      project->expression[i].number);
-	sort(project->section, project->sections, sizeof(*project->section), by_section);
-	sort(project->step, project->steps, sizeof(*project->step), by_step);
-	for (int i = 1; i < project->steps; i++)
-		if (project->step[i].index == project->step[i - 1].index)
-			classic_twice(reader, project->step[i].place, "step",
-				      project->step[i].index);
-	sort(project->transition, project->transitions, sizeof(*project->transition),
-	     by_transition);
-	for (int i = 1; i < project->transitions; i++)
-		if (project->transition[i].index == project->transition[i - 1].index)
-			classic_twice(reader, project->transition[i].place, "transition",
-				      project->transition[i].index);
+	order_rungs(reader);
+	order(reader, project->expression, project->expressions, sizeof(*project->expression),
+	      "expression");
+	order(reader, project->section, project->sections, sizeof(*project->section),
+	      "section");
+	order(reader, project->step, project->steps, sizeof(*project->step), "step");
+	order(reader, project->transition, project->transitions,
+	      sizeof(*project->transition), "transition");
+	order_blocks(reader, &project->timer, "timer");
+	order_blocks(reader, &project->monostable, "monostable");
+	order_blocks(reader, &project->counter, "counter");
+	order_blocks(reader, &project->iec_timer, "IEC timer");
+	order_blocks(reader, &project->reg, "register");
 }
 
 static bool has_step(const struct classic_project *project, int index)
 {
-	struct classic_step key = { .index = index };
-
-	return project->steps && bsearch(&key, project->step, (size_t)project->steps,
-					 sizeof(key), by_step);
+	return project->steps && bsearch(&index, project->step, (size_t)project->steps,
+					 sizeof(*project->step), classic_by_number);
 }
 
 static void check_links(struct classic_reader *reader,
@@ -541,21 +514,11 @@ static int check_chain(struct classic_reader *reader,
 
 	for (int seen = 0; ; seen++) {
 		const struct classic_rung *rung = classic_rung(project, number);
-		char text[24] = "rung_";
+		char text[24];
 
 		if (!rung) {
-			int len = 5, from = len;
-
-			do
-				text[len++] = (char)('0' + number % 10);
-			while ((number /= 10));
-			for (int to = len - 1; from < to; from++, to--) {
-				char digit = text[from];
-
-				text[from] = text[to];
-				text[to] = digit;
-			}
-			classic_fail_at(reader, DIAG_IMPORT_NO_RUNG, place, text, (size_t)len);
+			snprintf(text, sizeof(text), "rung_%d", number);
+			classic_fail_at(reader, DIAG_IMPORT_NO_RUNG, place, text, strlen(text));
 			return seen;
 		}
 		if (number == section->last)
@@ -770,11 +733,6 @@ static void classic_whole(struct classic_reader *reader)
 	struct classic_project *project = reader->project;
 
 	order_lists(reader);
-	order_blocks(reader, &project->timer, "timer");
-	order_blocks(reader, &project->monostable, "monostable");
-	order_blocks(reader, &project->counter, "counter");
-	order_blocks(reader, &project->iec_timer, "IEC timer");
-	order_blocks(reader, &project->reg, "register");
 	if (project->dialect != CLASSIC_NUMERIC)
 		project->dialect = dialect_of(project);
 	if (!reader->good)
