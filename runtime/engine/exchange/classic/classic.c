@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic - what stands in a ClassicLadder project, by its number.
+ * classic - finds rungs, blocks, expressions and settings of a ClassicLadder project.
  *
- * All lists are in order, so that looking is short. It changes nothing.
+ * All lists are sorted by number. These functions change nothing.
  */
 #include "engine/exchange/classic/classic.h"
 

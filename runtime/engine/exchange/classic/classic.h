@@ -4,7 +4,8 @@
  *
  * Numbers are those of the files; classic.def has the codes of elements and variables.
  * classic_rung.h converts them; docs/from-classicladder.md describes what they do in
- * ClassicLadder. Everything lives in one arena.
+ * ClassicLadder. Everything lives in one arena. An entry of a numbered list begins with
+ * its number and its place.
  */
 #ifndef CLASSIC_H
 #define CLASSIC_H
@@ -23,7 +24,7 @@ enum {
 	CLASSIC_BYTES = 16 << 20 /* of a project, unpacked                     */
 };
 
-/* Which program wrote it: rungs of 12 x 8 or 10 x 6, and a few codes that differ. */
+/* The program that wrote the project. Grids and a few codes differ. */
 enum classic_dialect { CLASSIC_UPSTREAM, CLASSIC_LINUXCNC, CLASSIC_NUMERIC };
 
 struct classic_variable {
@@ -37,11 +38,11 @@ struct classic_cell {
 	struct classic_variable variable; /* of blocks: number alone           */
 };
 
-/* Where a thing stands: for messages and the report. */
+/* A place in the project, for messages and the report. */
 struct classic_place {
 	const char *member;      /* "rung_3.csv"                               */
-	int line;                /* 1-based, of the whole unpacked text; of a
-				    directory: of that file                    */
+	int line;                /* 1-based: in the whole unpacked text, or in
+				    the file of a folder                       */
 };
 
 struct classic_rung {
@@ -55,7 +56,7 @@ struct classic_rung {
 	struct classic_cell cell[CLASSIC_ROWS][CLASSIC_COLUMNS];
 };
 
-/* One timer, monostable, counter or register. What a kind does not have is 0. */
+/* One timer, monostable, counter or register. Fields that its kind does not have are 0. */
 struct classic_block {
 	int number;
 	struct classic_place place;
@@ -72,7 +73,7 @@ struct classic_blocks {
 struct classic_expression {
 	int number;
 	struct classic_place place;
-	const char *text;        /* as it stands, "@200/0@+1"                  */
+	const char *text;        /* encoded: "@200/0@+1"                       */
 };
 
 struct classic_section {
@@ -80,16 +81,16 @@ struct classic_section {
 	struct classic_place place;
 	const char *name;
 	bool sequential;
-	int subroutine;          /* -1: runs in each scan                      */
+	int subroutine;          /* its number; -1: it runs in each scan       */
 	int first, last;         /* rungs                                      */
 	int page;
 };
 
 struct classic_step {
-	int index;               /* what transitions call it                   */
+	int index;               /* transitions refer to it                    */
 	struct classic_place place;
 	bool initial;
-	int number;              /* what %X calls it                           */
+	int number;              /* 3 of %X3                                   */
 	int page, x, y;
 };
 
@@ -130,9 +131,9 @@ struct classic_setting {
 	const char *key, *value;
 };
 
-struct classic_member {          /* every file of it, whole: nothing is lost   */
+struct classic_member {          /* one file of the project, whole             */
 	const char *name;
-	const char *text;        /* as it was, in bytes                        */
+	const char *text;        /* its bytes, unchanged                       */
 	size_t len;
 	int line;                /* of its first line                          */
 };
@@ -140,7 +141,7 @@ struct classic_member {          /* every file of it, whole: nothing is lost   *
 struct classic_project {
 	enum classic_dialect dialect;
 	const char *file;
-	int period;              /* PERIODIC_REFRESH, ms; 50 when it is not said */
+	int period;              /* PERIODIC_REFRESH, ms; 50 without it        */
 	struct classic_rung **rung;      int rungs;      /* by ascending number */
 	struct classic_blocks timer, monostable, counter, iec_timer, reg;
 	struct classic_expression *expression; int expressions; /* by number    */
@@ -152,27 +153,28 @@ struct classic_project {
 	struct classic_io *io;           int ios;
 	struct classic_setting *setting; int settings;
 	struct classic_member *member;   int members;
-	int register_list;       /* SIZE_REGISTER_LIST; 500 when it is not said */
+	int register_list;       /* SIZE_REGISTER_LIST; 500 without it         */
 };
 
-/** classic_is - could these be the first bytes of a project or a bare rung file (packed
- * or not)? Scan-safe: yes. */
+/** classic_is - true if these can be the first bytes of a project or a bare rung file, packed
+ * or not. Scan-safe: yes. */
 bool classic_is(const void *bytes, size_t len);
 
 /**
  * classic_read - a project from its bytes
  * @file:   names it in messages; must stay valid
  * @bytes:  the text, or that text packed by gzip
- * @report: gets what was not understood but does no harm
+ * @report: gets a line for each part of the file that is ignored
  *
  * Owns: @arena owns everything.   Scan-safe: no.
- * Fails: NULL and at least one diagnostic; nothing is half read.
+ * Fails: NULL and at least one diagnostic; no part of the project is returned.
  */
 struct classic_project *classic_read(struct arena *arena, const char *file,
 				     const void *bytes, size_t len,
 				     struct classic_report *report,
 				     struct diag_list *diags);
-/** classic_read_folder - the same of a folder with those files (before 2008). */
+/** classic_read_folder - the same for a folder that holds the members as files, as before
+ * 2008. */
 struct classic_project *classic_read_folder(struct arena *arena, const char *folder,
 					    struct classic_report *report,
 					    struct diag_list *diags);
@@ -180,14 +182,15 @@ struct classic_project *classic_read_folder(struct arena *arena, const char *fol
 /** classic_by_number - orders entries of a list by their number, which every entry begins
  * with: for qsort() and bsearch(). */
 int classic_by_number(const void *a, const void *b);
-/** classic_rung_index - the place among all rungs of the one with a number; -1: none is. */
+/** classic_rung_index - index in project->rung of rung @number; -1: there is none. */
 int classic_rung_index(const struct classic_project *project, int number);
-/** classic_rung - by its number; NULL: none. Likewise the others. */
+/** classic_rung, classic_block, classic_expression, classic_setting - by number or key;
+ * NULL: there is none. */
 const struct classic_rung *classic_rung(const struct classic_project *project, int number);
 const struct classic_block *classic_block(const struct classic_blocks *blocks, int number);
 const char *classic_expression(const struct classic_project *project, int number);
 const char *classic_setting(const struct classic_project *project, const char *key);
 
-/** classic_print - as vsnprintf, into an arena. Fails: NULL: no memory. */
+/** classic_print - formatted text in @arena. Fails: NULL: no memory. */
 char *classic_print(struct arena *arena, const char *format, va_list args);
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_convert - what the parts of the conversion share. Private to classic_*.c.
+ * classic_convert - types and functions that the files of the import share. Private to
+ * classic_*.c.
  */
 #ifndef CLASSIC_CONVERT_H
 #define CLASSIC_CONVERT_H
@@ -15,14 +16,14 @@ enum classic_kind {
 	CLASSIC_REGISTER, CLASSIC_KINDS
 };
 
-/* Functions of ClassicLadder's arithmetic that a project needs: classic_functions.c. */
+/* Operators and functions of ClassicLadder that become functions of the rung file. */
 enum classic_function {
 	CLASSIC_SUM, CLASSIC_DIFFERENCE, CLASSIC_PRODUCT, CLASSIC_DIVIDE, CLASSIC_REMAINDER, CLASSIC_POWER, CLASSIC_AND, CLASSIC_XOR,
 	CLASSIC_OR, CLASSIC_SHIFT_LEFT, CLASSIC_SHIFT_RIGHT, CLASSIC_ROTATE_LEFT,
 	CLASSIC_ROTATE_RIGHT, CLASSIC_FUNCTIONS
 };
 
-/* One variable that the project uses, and what it is called here. */
+/* One variable that the project uses, and its name in the rung file. */
 struct classic_name {
 	int type, number;      /* of a block: type of its first row in classic.def */
 	const char *name;
@@ -35,65 +36,65 @@ struct classic_names {
 	int count;
 };
 
-/* What one look at the project finds. */
+/* The variables, blocks and jump targets that the project uses: classic_names.c. */
 struct classic_uses;
 
-/* A step as it is here: classic_chart.c. */
+/* A step of the chart in the rung file: classic_sfc.c. */
 struct sfc_step {
 	const char *name;
-	bool publishes;        /* %X3 is this one's: several may have a number     */
-	bool begins;           /* %X3 is TRUE before its page runs, and is seen    */
-	bool late;             /* but not from the very beginning on               */
+	bool publishes;        /* it sets %X3; of several steps with a number: one */
+	bool begins;           /* %X3 must be TRUE before its page first runs      */
+	bool late;             /* but not before the first page has run            */
 };
 
 struct conversion {
 	const struct classic_project *project;
 	struct classic_options options;
 	struct arena *arena;
-	struct arena scratch;  /* what one rung alone needs                        */
+	struct arena scratch;  /* emptied before each rung                         */
 	struct classic_text *out;
 	struct classic_report *report;
 	struct classic_names names;
 	struct classic_uses *uses;
-	struct names taken;    /* every name that is given, for none twice         */
-	int *tried, tried_count; /* of each of them: how often it was wished again */
+	struct names taken;    /* every name given so far                          */
+	int *tried, tried_count; /* by name: the number that was last put behind it */
 	const char **pou;      /* of each section, in the order of sections        */
 	const char **label;    /* of each rung, in the order of rungs; NULL: none  */
-	int *section_of;       /* of each rung: the last that had it, from 1 on    */
+	int *section_of;       /* of each rung: the last section that has it, 1-based */
 	const char *function_name[CLASSIC_FUNCTIONS]; /* NULL: not needed         */
-	const char *section_pou; /* that is written now                            */
+	const char *section_pou; /* POU of the section in work; NULL: none         */
 	int section;           /* its index                                        */
 	int rungs_written;     /* in it                                            */
-	int rung;              /* in it, of which is told now; 0: none             */
-	struct classic_place at; /* of what is written now                         */
+	int rung;              /* in it, for the report; 0: none                   */
+	struct classic_place at; /* place of the text in work                      */
 	size_t cap;
 	int cap_lines;
-	int temporaries;       /* BOOLs between the parts of a rung                */
+	int temporaries;
 	struct { const char **name; int count; } temps, programs;
-	struct sfc_step *step; /* of each step; NULL: not needed yet             */
-	const char *system;    /* the program of system bits; NULL: none is needed */
-	const char *flash;     /* its time                                         */
+	struct sfc_step *step; /* by index; NULL: not made yet                     */
+	const char *system;    /* the program of system bits; NULL: not needed     */
+	const char *flash;     /* its variable that counts the time                */
 };
 
 /* ---- text: classic_rung.c ---- */
 void put(struct conversion *c, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
-/** text_of - a formatted string in the arena; "" without memory. */
+/** text_of - formatted text in the arena; "" without memory. */
 const char *text_of(struct conversion *c, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
-/** put_quoted - as a text of a rung file. */
+/** put_quoted - writes @text in quotes. */
 void put_quoted(struct conversion *c, const char *text);
-/** label_of - of a rung that the section has which is written now; NULL: it has no such
- * rung, or nothing jumps there. */
+/** label_of - label of @rung in the section in work; NULL: the section does not have that
+ * rung, or no jump leads to it. */
 const char *label_of(const struct conversion *c, int rung);
-/** tell - a line of the report about what is written now. */
+/** tell - adds a line to the report, with the place and rung in work. */
 void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
 	__attribute__((format(printf, 3, 4)));
 
-/** write_kept - what only ClassicLadder understands (classic_keep.c). */
+/** write_kept - members that only ClassicLadder uses, in VIEW … END_VIEW (classic_keep.c). */
 void write_kept(struct conversion *c);
 
-/** add_program - one more that runs in each scan, behind the others. */
+/** add_program - adds a program to the end of the task. */
 void add_program(struct conversion *c, const char *name);
 
 /* ---- rows of classic.def: classic_names.c ---- */
@@ -114,72 +115,74 @@ enum {
 	STEP_TYPE = 30, STEP_TIME = 220, /* %X3.A, %X3.V                           */
 	LINUXCNC_IN = 300, LINUXCNC_INPUT = 1300, /* classic.def                   */
 	MEMORY_KINDS = 12,               /* rows of CLASSIC_MEMORY                 */
-	CLASSIC_ALL = CLASSIC_LIMIT + 1  /* the number of all words of a type      */
+	CLASSIC_ALL = CLASSIC_LIMIT + 1  /* stands for the array of a type         */
 };
-/** memory_of, pin_of - NULL: it is none. */
+/** memory_of, pin_of - the row of @type; NULL: it is no memory, no pin. */
 const struct classic_memory_row *memory_of(int type);
 const struct classic_pin_row *pin_of(int type);
-/** memory_numbers - how many of them there can be here, from 0. */
+/** memory_numbers - one more than the highest number that a rung file can hold. */
 int memory_numbers(const struct classic_memory_row *row);
-/** is_word - has this type 32 bits, and an address? */
+/** is_word - true for memory of 32 bits. */
 bool is_word(int type);
 /** address_of - "%IX0.3", "%VD4" */
 const char *address_of(struct conversion *c, const struct classic_memory_row *row,
 		       int number);
-/** name_of - what it is called; NULL: nothing. */
+/** name_of - its name in the rung file; NULL: it has none. */
 const char *name_of(const struct conversion *c, int type, int number);
 
 /* ---- new names ---- */
-/** name_new - @wish, or something like it that nothing else has. */
+/** name_new - @wish, or with a suffix if it is taken or reserved. */
 const char *name_new(struct conversion *c, const char *wish);
 
-/* ---- what is used ---- */
-/** find_uses - looks at all of the project; false: no memory. */
+/* ---- variables in use ---- */
+/** find_uses - notes the variables, blocks and jump targets of the project. false: no
+ * memory. */
 bool find_uses(struct conversion *c);
-/** used_name - the entry of a variable, or of the block it is a pin of; NULL: not used. */
+/** used_name - the entry of a variable or block; NULL: the project does not use it. */
 struct classic_name *used_name(const struct conversion *c, int type, int number);
-/** used_numbers - one more than the highest number that is used of a row; 0: none. */
+/** used_numbers - one more than the highest number in use of a row; 0: none. */
 int used_numbers(const struct conversion *c, const struct classic_memory_row *memory);
-/** is_shared_block - does it stand in two places? @number is one of a cell. */
+/** is_shared_block - true if more than one cell holds this block. */
 bool is_shared_block(const struct conversion *c, enum classic_kind kind, int number);
-/** is_jumped_to - from anywhere. @rung is the number of one. */
+/** is_jumped_to - true if a jump of any section leads to rung number @rung. */
 bool is_jumped_to(const struct conversion *c, int rung);
-/** has_step - is there one with this number? */
+/** has_step - true if a step has this number. */
 bool has_step(const struct conversion *c, int number);
 
 /* ---- names: classic_names.c ---- */
-/** find_names - gives everything that the project uses its name. */
+/** find_names - names everything that find_uses() found. */
 void find_names(struct conversion *c);
-/** operand_of - how @variable is written; NULL after telling why it cannot be.
- * @is_bool: what it is */
+/** operand_of - text of @variable in a rung file; NULL after a line of the report.
+ * @is_bool: gets whether it is a BOOL, else it is a DINT. */
 const char *operand_of(struct conversion *c, struct classic_variable variable,
 		       bool *is_bool);
-/** target_of - the same of what is written; NULL, too, when no program can write it. */
+/** target_of - the same for a variable that is written; NULL also if it is read-only. */
 const char *target_of(struct conversion *c, struct classic_variable variable,
 		      bool *is_bool);
-/** instance_of - of a block. */
+/** instance_of - name of a block; NULL: nothing uses it. */
 const char *instance_of(struct conversion *c, enum classic_kind kind, int number);
-/** iec_word - CL_TON and its like. */
+/** iec_word - CL_TON, CL_TOF or CL_TP. */
 const char *iec_word(const struct classic_block *block);
-/** step_of - its name; NULL: there is none. */
+/** step_of - name of %X@number; NULL: nothing uses it. */
 const char *step_of(struct conversion *c, int number);
-/** kind_of - of a pin's type; CLASSIC_KINDS: it is no pin. */
+/** kind_of - the kind of block that @type is a pin of; CLASSIC_KINDS: none. */
 enum classic_kind kind_of(int type);
-/** words_of - how many words of a row there are, as the project says itself, or as it
- * uses. */
+/** words_of - length of the array of a row: the size that general.txt gives, or the
+ * highest number in use if that is more. */
 int words_of(struct conversion *c, const struct classic_memory_row *memory);
-/** time_is_used - does anything read %X@number.V? */
+/** time_is_used - true if something reads %X@number.V. */
 bool time_is_used(struct conversion *c, int number);
-/** put_comment_line - a line of its own, whatever stands in @text. */
+/** put_comment_line - a comment on a line of its own; @text may hold comment marks. */
 void put_comment_line(struct conversion *c, const char *indent, const char *text);
 /* ---- declarations: classic_declare.c ---- */
 void write_declarations(struct conversion *c);
-/** name_system - decides whether there is a program of system bits, which runs first. */
+/** name_system - makes the program of system bits the first one, if a rung reads one. */
 void name_system(struct conversion *c);
 void write_system(struct conversion *c);
 
 /* ---- expressions: classic_expression.c ---- */
-/** comparison_of, assignment_of - what stands in `[ … ]`; NULL after telling why not. */
+/** comparison_of, assignment_of - the text between `[` and `]`; NULL after a line of the
+ * report. */
 const char *comparison_of(struct conversion *c, const char *text);
 const char *assignment_of(struct conversion *c, const char *text);
 /** expression_uses - calls @take for each variable in @text. */
@@ -191,6 +194,6 @@ void write_functions(struct conversion *c);
 /* ---- rungs: classic_grid.c, charts: classic_sfc.c ---- */
 void convert_rung(struct conversion *c, const struct classic_rung *rung);
 void convert_sfc(struct conversion *c, const struct classic_section *section);
-/** step_begins - is %X@number TRUE from the very beginning on? */
+/** step_begins - true if %X@number is TRUE before the first scan. */
 bool step_begins(struct conversion *c, int number);
 #endif

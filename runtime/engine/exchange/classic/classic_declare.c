@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_declare - what an imported project declares: variables, blocks with their
- * presets, functions, and the program that makes the system's bits and words.
+ * classic_declare - declarations of an imported project: variables, blocks with their
+ * presets, functions, and the program that sets system bits and words.
  */
 #include "engine/exchange/classic/classic_convert.h"
 
@@ -17,7 +17,7 @@ static bool uses(struct conversion *c, int type, int number)
 
 /* ---- declarations ---- */
 
-/* A comment cannot hold its own end. */
+/* Without comment marks. */
 static const char *comment_text(struct conversion *c, const char *text)
 {
 	char *copy = arena_copy(c->arena, text, strlen(text));
@@ -183,9 +183,9 @@ void write_declarations(struct conversion *c)
 		put(c, "END_VAR\n\n");
 }
 
-/* ---- the system's bits and words ---- */
+/* ---- system bits and words ---- */
 
-/* @ is the program's time, ? the variable. */
+/* @ stands for the variable with the time, ? for the bit or word. */
 struct system_row { int type, number; const char *rung; };
 
 static const struct system_row system_rows[] = {
@@ -206,7 +206,7 @@ static bool uses_row(struct conversion *c, int row)
 	return uses(c, system_rows[row].type, system_rows[row].number);
 }
 
-/* Its time begins with the first scan, and counts it. */
+/* The time includes the first scan. */
 static void write_flash(struct conversion *c)
 {
 	put(c, "VAR\n  %s : DINT; (* ms, a minute round *)\nEND_VAR\n", c->flash);
@@ -271,7 +271,7 @@ struct body { const char *title, *rungs, *faithful; };
 #define LEFT_OUT  "RUNG\n  | BIT_TEST IN:=Bits N:=Left | COIL %%SX1.0 |\n"
 #define RIGHT_OUT "RUNG\n  | BIT_TEST IN:=Bits N:=Right | COIL %%SX1.0 |\n"
 #define MOVED(op) "RUNG\n  | [ @ := DWORD_TO_DINT(" op "(Bits, B)) ] |\n"
-/* The fault of the original: all but the highest bit are filled with the sign. */
+/* ClassicLadder's fault: all bits but the highest are filled with the sign. */
 #define FILLED \
 	"RUNG\n  | [ Bits := SHR(Bits, B) ] |\n" \
 	"RUNG\n  | [ A < 0 ] | [ Bits := Bits OR NOT SHR(16#FFFFFFFF, B) ] |\n" \
@@ -296,7 +296,7 @@ static const struct body bodies[CLASSIC_FUNCTIONS] = {
 		"RUNG\n  | [ Rest MOD 2 = 1 ] | [ @ := @ * Base ] |\n"
 		"RUNG\n  | [ Base := Base * Base ] |\nRUNG\n  | [ Rest := Rest / 2 ] |\n"
 		"RUNG\n  | NEXT |\n",
-		/* LinuxCNC's: a square for each of B, of which 32 make 0 or 1. */
+		/* LinuxCNC squares B times; from 32 times on the result is 0 or 1. */
 		"RUNG\n  | [ @ := A ] | [ Rest := MIN(B, 40) ] |\nRUNG\n  | FOR Bit := 1 TO Rest |\n"
 		"RUNG\n  | [ @ := @ * @ ] |\nRUNG\n  | NEXT |\n" },
 	[CLASSIC_AND] = { "the bits that both have", BITS("AND"), NULL },

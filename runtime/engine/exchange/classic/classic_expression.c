@@ -3,10 +3,10 @@
  * classic_expression - the arithmetic of ClassicLadder, "@200/0@:=@200/1@*2", as
  * expressions of a rung file.
  *
- * Whole numbers of 32 bits; from the strongest: ! | * / % | + - | & | ^ | or. What IEC
- * 61131-3 says otherwise (division by zero, bits of numbers) becomes a function that the
- * file brings along. Texts come from files: depth is bounded, anything that is no
- * expression is reported and left out.
+ * Whole numbers of 32 bits; precedence from high to low: ! | * / % | + - | & | ^ | or.
+ * Operators that IEC 61131-3 defines otherwise (division by zero, bits of numbers, overflow)
+ * become functions in the rung file. Depth is bounded; text that is no expression is
+ * reported and left out.
  */
 #include "engine/base/ascii.h"
 #include "engine/base/limits.h"
@@ -16,15 +16,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A part of an expression: its text, and how strongly it holds together here. */
+/* A part of an expression: its text and its precedence. */
 struct part {
 	const char *text;
-	const char *a, *b; /* of what may wrap: its operands, of this function */
+	const char *a, *b; /* if it can overflow: operands of this function    */
 	enum classic_function function;
 	int rank;          /* 0: an operand or call; greater: weaker           */
 	bool constant;
 	int32_t value;     /* of a constant                                    */
-	bool known;        /* it lies between these two; else it can be any    */
+	bool known;        /* its value lies between low and high              */
 	int32_t low, high;
 };
 
@@ -48,7 +48,7 @@ static struct part fail(struct parse *p)
 
 static struct part constant(struct parse *p, int64_t value)
 {
-	/* Larger ones wrap there. */
+	/* Larger ones wrap in ClassicLadder. */
 	int32_t number = (int32_t)(uint32_t)(uint64_t)value;
 
 	return (struct part){ .text = text_of(p->c, "%d", number), .constant = true,
@@ -76,8 +76,8 @@ static const char *function_call(struct parse *p, enum classic_function function
 	return text_of(p->c, "%s(%s, %s)", p->c->function_name[function], a, b);
 }
 
-/* As an operand of something else. What overflows there goes on with what is left of it,
- * and must not end the expression: a function of its own. */
+/* The part as an operand. One that can overflow wraps in ClassicLadder, while here overflow
+ * would end the expression: it becomes a call of a function. */
 static const char *inside(struct parse *p, struct part part, int rank)
 {
 	if (part.a)
@@ -97,7 +97,7 @@ static bool accept(struct parse *p, const char *word)
 
 /* ---- variables ---- */
 
-/* "200/12" at @text; NULL: it is none. */
+/* "200/12" at @text; returns what follows, NULL: it is none. */
 static const char *read_pair(const char *text, int *type, int *number)
 {
 	char *end;
@@ -116,7 +116,7 @@ static const char *read_pair(const char *text, int *type, int *number)
 	return end;
 }
 
-/* "@200/12[200/4]@" at @text; NULL: it is none. */
+/* "@200/12[200/4]@" at @text; returns what follows, NULL: it is none. */
 static const char *read_variable(const char *text, struct classic_variable *variable)
 {
 	variable->index_type = -1;
@@ -183,7 +183,7 @@ static struct part parse_hex(struct parse *p)
 	return p->at == from ? fail(p) : constant(p, (int64_t)value);
 }
 
-/* 'AB': its bytes, the first one the highest. */
+/* 'AB': its bytes as a number, the first one highest. */
 static struct part parse_character(struct parse *p)
 {
 	uint64_t value = 0;
@@ -219,18 +219,19 @@ static const struct known known_functions[] = {
 };
 enum { KNOWN = sizeof(known_functions) / sizeof(*known_functions) };
 
-/* part_low, part_high - the least and the greatest that it can be. */
+/* The least value it can have. */
 static int32_t part_low(struct part part)
 {
 	return part.known ? part.low : INT32_MIN;
 }
 
+/* The greatest value it can have. */
 static int32_t part_high(struct part part)
 {
 	return part.known ? part.high : INT32_MAX;
 }
 
-/* It lies between these two. What goes beyond 32 bits wraps, and can be any. */
+/* Sets the range of values. A range beyond 32 bits wraps: any value. */
 static void part_keep(struct part *part, int64_t low, int64_t high)
 {
 	part->known = low >= INT32_MIN && high <= INT32_MAX;
@@ -287,13 +288,13 @@ static struct part call(struct parse *p, const struct known *known,
 	return (struct part){ .text = text_of(p->c, "%s(%s)", known->here, list) };
 }
 
-/* A minus in front of one belongs to it, there too. */
+/* ClassicLadder takes a minus as a sign only in front of these. */
 static bool is_literal(char first)
 {
 	return ascii_digit(first) || first == '$' || first == '\'';
 }
 
-/* Of the least number it is that number itself. */
+/* -INT32_MIN wraps to itself. */
 static struct part negate(struct parse *p, struct part part)
 {
 	const char *text = inside(p, part, RANK_OPERAND);
@@ -310,7 +311,8 @@ static struct part negate(struct parse *p, struct part part)
 
 static struct part parse_term(struct parse *p);
 
-/* Behind a minus, which there is 0. Two are none, so that they do not stand one in another. */
+/* A term behind a minus; in ClassicLadder that is 0. Pairs of signs cancel, which keeps the
+ * recursion flat. */
 static struct part negative(struct parse *p)
 {
 	bool odd = true;
@@ -370,7 +372,7 @@ static struct part parse_term(struct parse *p)
 	return part;
 }
 
-/* Division by what cannot be zero needs no help. */
+/* A constant that is not 0 and not -1 needs no function. */
 static struct part divide(struct parse *p, struct part a, struct part b, bool rest)
 {
 	if (b.constant && b.value != 0 && b.value != -1) {
@@ -388,7 +390,7 @@ static struct part divide(struct parse *p, struct part a, struct part b, bool re
 		inside(p, b, RANK_SUM)) };
 }
 
-/* It is @a times @b. */
+/* Range of the product of @a and @b. */
 static void part_keep_product(struct part *part, struct part a, struct part b)
 {
 	const int64_t corner[] = {
@@ -463,7 +465,7 @@ static struct part parse_and(struct parse *p)
 	return part;
 }
 
-/* LinuxCNC has a power here. */
+/* For LinuxCNC, ^ is a power. */
 static struct part parse_xor(struct parse *p)
 {
 	struct part part = parse_and(p), other;
@@ -524,7 +526,7 @@ static const char *not_understood(struct parse *p)
 	return NULL;
 }
 
-/* Longer or deeper than an expression may be here; the original has 49 bytes for one. */
+/* NULL, after a line of the report, if the text is longer or deeper than the reader accepts. */
 static const char *if_fits(struct parse *p, const char *text)
 {
 	int depth = 0, deepest = 0, words = 0;
@@ -545,7 +547,7 @@ static const char *if_fits(struct parse *p, const char *text)
 	return NULL;
 }
 
-/* Blanks are allowed around := alone, but in old files stand elsewhere, too. */
+/* Removes blanks: old files have them anywhere. */
 static struct parse begin(struct conversion *c, const char *text)
 {
 	char *copy = arena_copy(c->arena, text, strlen(text)), *to = copy;
@@ -558,7 +560,7 @@ static struct parse begin(struct conversion *c, const char *text)
 	return (struct parse){ .c = c, .at = copy ? copy : "", .whole = text };
 }
 
-/* What stands between both sides; NULL: nothing. */
+/* The operator of a comparison; NULL: there is none. */
 static const char *comparison(struct parse *p)
 {
 	static const struct { const char *there, *here; } op[] = {

@@ -60,7 +60,7 @@ static const struct element_row *row_of(int code)
 	return NULL;
 }
 
-/* ---- their texts; NULL: it is left out ---- */
+/* ---- texts of elements; NULL: the element is left out ---- */
 
 static const char *block_text(struct grid *grid, struct grid_part *part,
 			      const struct classic_cell *cell, enum classic_kind kind)
@@ -99,7 +99,7 @@ const char *grid_box_text(const struct grid *grid, const struct grid_part *part)
 	return text;
 }
 
-/* A rung that is not there ends the section. */
+/* A jump to a rung that the section does not have ends the section. */
 static const char *jump_text(struct grid *grid, int number)
 {
 	struct conversion *c = grid->c;
@@ -174,11 +174,11 @@ static const char *text_of_part(struct grid *grid, struct grid_part *part,
 	return operand_text(grid, part, cell, row->word);
 }
 
-/* ---- where they stand ---- */
+/* ---- places of elements ---- */
 
-/* The cells of an element are occupied ones but for that with the code; what stands at the
- * edge of the grid may have less of them. In a file that no editor wrote others may stand
- * there, which work for themselves. */
+/* All cells of an element but that with its code are marked as occupied. An element at the
+ * edge of the grid has fewer of them. In a file that no editor wrote, other elements can
+ * stand in their place: then this one is odd. */
 static void settle(struct grid *grid, struct grid_part *part, int alive)
 {
 	if (part->x < 0) {
@@ -230,7 +230,7 @@ static void find_part(struct grid *grid, int y, int x)
 		grid->parts++;
 }
 
-/* Column by column, as they work: in that order they are found. */
+/* Column by column, in the order of evaluation. */
 static void find_parts(struct grid *grid)
 {
 	for (int x = 0; x < CLASSIC_COLUMNS; x++)
@@ -238,7 +238,7 @@ static void find_parts(struct grid *grid)
 			find_part(grid, y, x);
 }
 
-/* Does a part begin at this node, and is it needed? A box has no input in some rows. */
+/* Does a needed part begin at this node? A box has no input in some rows. */
 static bool junction_needed(const struct grid *grid, int y, int x)
 {
 	int from, to;
@@ -280,7 +280,7 @@ static void feed_junction(struct grid *grid, int y, int x)
 		grid->fed[i][x] = true;
 }
 
-/* Parts are ordered by their last column, so what feeds one comes before it. */
+/* Parts are ordered by their last column, so a part comes after those that feed it. */
 static void find_power(struct grid *grid)
 {
 	for (int y = 0; y < CLASSIC_ROWS; y++)
@@ -339,7 +339,7 @@ static bool acts(const struct grid *grid)
 	return false;
 }
 
-/* A rung without an output: a heading, or a place to jump to. */
+/* A rung without an output is a comment, or the target of a jump. */
 static void write_empty(struct grid *grid)
 {
 	struct conversion *c = grid->c;
@@ -352,7 +352,7 @@ static void write_empty(struct grid *grid)
 	}
 }
 
-/* What was told of it from line @first of the report on is of no rung here. */
+/* Lines of the report from @first on do not lead to a rung: none is written. */
 static void lead_nowhere(struct conversion *c, int first)
 {
 	for (int i = first; i < c->report->count; i++)

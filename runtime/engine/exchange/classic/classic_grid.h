@@ -3,9 +3,9 @@
  * classic_grid - one rung of ClassicLadder as elements between nodes. Private to
  * classic_grid.c, classic_piece.c and classic_unfold.c.
  *
- * Node x of row y is the left end of cell (x, y); node 0 is the rail. Linked rows are one
- * node, a run. There, cells work column by column; an element works where its last column
- * stands.
+ * Node x of row y is the left end of cell (x, y); node 0 is the rail. Rows that are linked
+ * at a column are one node there, a run. ClassicLadder evaluates column by column; an
+ * element is evaluated in its last column.
  */
 #ifndef CLASSIC_GRID_H
 #define CLASSIC_GRID_H
@@ -18,7 +18,7 @@ enum part_kind {
 	PART_ACT     /* does something with power alone                        */
 };
 
-struct part_box {            /* what a block looks like                        */
+struct part_box {            /* inputs and outputs of a block, by row          */
 	const char *input[4], *output[4];
 	int rows, columns;
 };
@@ -32,11 +32,11 @@ struct grid_part {
 	const struct part_box *box;
 	bool gives[4];       /* of a box: the rows that have an output         */
 	struct classic_variable reads; /* of a contact                         */
-	int expression;      /* that it reads; -1: none                        */
+	int expression;      /* number of its expression; -1: none             */
 	bool fed;            /* power can reach it (a box: its first row)      */
-	bool needed;         /* something behind it acts                       */
-	bool shared;         /* of a box: the block stands elsewhere, too       */
-	bool odd;            /* not all its cells are its own: drawn by nobody */
+	bool needed;         /* an output depends on it                        */
+	bool shared;         /* of a box: another cell holds the block, too     */
+	bool odd;            /* not all its cells are marked as its own        */
 };
 
 enum { GRID_PARTS = CLASSIC_ROWS * CLASSIC_COLUMNS };
@@ -47,17 +47,17 @@ struct grid {
 	struct grid_part part[GRID_PARTS];
 	int parts;
 	bool fed[CLASSIC_ROWS][CLASSIC_COLUMNS + 1]; /* can this node have power? */
-	bool begun;          /* its label and comment are written              */
+	bool begun;          /* label and comment are written                  */
 };
 
-/** grid_link - is node @x of row @y joined with that of the row above? */
+/** grid_link - true if node @x of row @y is joined with the row above. */
 static inline bool grid_link(const struct grid *grid, int y, int x)
 {
 	return x > 0 && x < CLASSIC_COLUMNS && y > 0 && y < CLASSIC_ROWS &&
 	       grid->rung->cell[y][x].top;
 }
 
-/** grid_run - the first row of the node, and behind its last one. */
+/** grid_run - the rows of the node: from @from to before @to. */
 static inline void grid_run(const struct grid *grid, int y, int x, int *from, int *to)
 {
 	for (*from = y; grid_link(grid, *from, x); (*from)--)
@@ -72,7 +72,7 @@ static inline int part_end(const struct grid_part *part)
 	return part->x + part->columns;
 }
 
-/** part_gives - can it have power at its right end in row @y? */
+/** part_gives - true if its right end in row @y can have power. */
 static inline bool part_gives(const struct grid_part *part, int y)
 {
 	if (part->kind == PART_BOX)
@@ -80,19 +80,19 @@ static inline bool part_gives(const struct grid_part *part, int y)
 	return part->kind <= PART_CONTACT && y == part->y;
 }
 
-/** grid_box_text - of a box, with FALSE at the inputs that nothing feeds but another place
- * may have fed. */
+/** grid_box_text - text of a box. A shared block gets FALSE at the inputs that nothing feeds
+ * here, because another cell may have set them. */
 const char *grid_box_text(const struct grid *grid, const struct grid_part *part);
-/** grid_head - the line with RUNG, once with its label and comment. */
+/** grid_head - writes the line RUNG; the first time with label and comment. */
 void grid_head(struct grid *grid);
-/** grid_called_again - is the block of this part called once more in the rung, after it? Then
- * what it says here is not what it says at the end. */
+/** grid_called_again - true if the rung calls the block of this part again later, which
+ * changes its outputs. */
 bool grid_called_again(const struct grid *grid, const struct grid_part *part);
-/** grid_temporary - a BOOL between the parts of this rung. */
+/** grid_temporary - name of a new BOOL between the parts of this rung. */
 const char *grid_temporary(struct grid *grid);
-/** grid_write_pieces - as it looks there, cut where order matters; false: it cannot be,
- * and nothing was written. */
+/** grid_write_pieces - writes the rung as it is drawn, cut where the order of columns
+ * matters. false: that is not possible, and nothing was written. */
 bool grid_write_pieces(struct grid *grid);
-/** grid_unfold - a rung for each node, in the order of columns: always right. */
+/** grid_unfold - writes a rung for each element, in the order of columns. Always possible. */
 void grid_unfold(struct grid *grid);
 #endif

@@ -2,14 +2,14 @@
  *
  * classic_io - the table of inputs and outputs as an I/O map.
  *
- * Lines of a Raspberry Pi have names that are the same here. Ports of a PC, chips of an
- * AT91 and Comedi have none: they are reported.
+ * Lines of a Raspberry Pi have the same names in both. Ports of a PC, pins of an AT91 and
+ * Comedi have no name in an I/O map: they are reported.
  */
 #include "engine/exchange/classic/classic_convert.h"
 
 enum { RASPBERRY = 2, SAMPLES = 3 }; /* an input must be the same in 3 samples */
 
-/* How long an input has to be steady there, ms. */
+/* How long ClassicLadder wants an input to be steady, ms. */
 static int debounce_of(const struct classic_project *project)
 {
 	const char *text = classic_setting(project, "PERIODIC_INPUTS_REFRESH");

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_keep - what a project has that means nothing to a program here, but to
- * ClassicLadder: Modbus requests, events, who wrote it, texts on pages. An import keeps it
- * in VIEW … END_VIEW, line by line, and an export finds it there again.
+ * classic_keep - lines that only ClassicLadder uses: Modbus requests, events, author, texts
+ * on pages. An import keeps them in VIEW … END_VIEW, and an export writes them again.
  *
- * Not kept are a modem's numbers and passwords for mail: they do not belong into a program.
+ * Numbers of a modem and passwords for mail are not kept.
  */
 #include "engine/exchange/classic/classic_convert.h"
 
@@ -42,7 +41,7 @@ static bool says_something(const char *line, size_t len)
 	return len && *line != '#' && *line != ';';
 }
 
-/* PARAM_AUTHOR=MLD, but no name: that is the title. */
+/* PARAM_AUTHOR=MLD. Not PROJECT_NAME, which becomes the title. */
 static bool says_who(const char *line, size_t len)
 {
 	const char *equals = memchr(line, '=', len);
@@ -61,7 +60,7 @@ static bool is_note(const char *line, size_t len)
 	return len > 2 && (*line == 'N' || *line == 'P') && line[1] >= '0' && line[1] <= '9';
 }
 
-/* As UTF-8, without what is no text. */
+/* As UTF-8, with a blank for each control character. */
 static void put_kept(struct conversion *c, const char *member, const char *line, size_t len)
 {
 	const bool utf8 = utf8_valid(line, len, NULL);

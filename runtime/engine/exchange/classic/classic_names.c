@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_names - what the variables, blocks and steps of a project are called here.
+ * classic_names - names of variables, blocks and steps in the rung file.
  *
- * A symbol becomes the name where it can; else the number is part of it, so that %B3 is
- * Bit3. Blocks and steps begin with what they were called (TM0, X3), because the original
- * names of their pins are found by that. Inputs and outputs without a symbol stay
- * addresses.
+ * A symbol becomes the name if it can; without one, %B3 is Bit3. Names of blocks and steps
+ * begin with the old name (TM0, X3): trial/classic_name.c finds pins by it. Inputs and
+ * outputs without a symbol stay addresses.
  */
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
@@ -40,7 +39,7 @@ enum {
 };
 _Static_assert((int)MEMORY_ROWS == (int)MEMORY_KINDS, "a row for each kind of memory");
 
-/* The names of blocks; a monostable is not %M0 here, which is an address. */
+/* A monostable is not M0: that is an address. */
 static const char *const instance_prefix[CLASSIC_KINDS] = {
 	[CLASSIC_TIMER] = "T", [CLASSIC_MONOSTABLE] = "Mono",
 	[CLASSIC_IEC_TIMER] = "TM", [CLASSIC_COUNTER] = "C", [CLASSIC_REGISTER] = "Reg",
@@ -63,13 +62,12 @@ const struct classic_memory_row *memory_of(int type)
 	return NULL;
 }
 
-/* Which row it is. */
 static int memory_place(const struct classic_memory_row *row)
 {
 	return (int)(row - memory_rows);
 }
 
-/* The system area has its usual size, and holds three kinds; what is beyond is nothing. */
+/* %S, %E and %SW share the system area, whose size is fixed. */
 int memory_numbers(const struct classic_memory_row *row)
 {
 	switch (row->type) {
@@ -104,7 +102,7 @@ enum classic_kind kind_of(int type)
 	return row ? row->kind : CLASSIC_KINDS;
 }
 
-/* The type that stands for a block in the list of names: of its first pin. */
+/* In the list of names the type of its first pin stands for a block. */
 static int block_type(enum classic_kind kind)
 {
 	for (int i = 0; i < PIN_ROWS; i++)
@@ -115,7 +113,7 @@ static int block_type(enum classic_kind kind)
 
 /* ---- symbols ---- */
 
-/* "%TM0" and "%TM0.Q": type and number; false: it is none. */
+/* Type and number of the variable of a symbol. false: it is none, or a pin. */
 static bool parse_symbol(const char *text, int *type, int *number)
 {
 	size_t len = 0;
@@ -144,7 +142,7 @@ static bool parse_symbol(const char *text, int *type, int *number)
 	return len == 1 && *text == 'X' && (!*end || !strcmp(end, ".A"));
 }
 
-/* A symbol with what it names, so that it is found by that. */
+/* A symbol and the variable it names. */
 struct known_symbol { int type, number, index; };
 
 static int by_what(const void *a, const void *b)
@@ -156,7 +154,7 @@ static int by_what(const void *a, const void *b)
 	       x->index < y->index ? -1 : x->index > y->index;
 }
 
-/* ---- what is used ---- */
+/* ---- lookup ---- */
 
 static int by_type(const void *a, const void *b)
 {
@@ -166,8 +164,6 @@ static int by_type(const void *a, const void *b)
 	       x->number < y->number ? -1 : x->number > y->number;
 }
 
-/* ---- what others ask ---- */
-
 struct classic_name *used_name(const struct conversion *c, int type, int number)
 {
 	struct classic_name key = { .type = type, .number = number };
@@ -176,7 +172,7 @@ struct classic_name *used_name(const struct conversion *c, int type, int number)
 					sizeof(key), by_type) : NULL;
 }
 
-/* Of several for one thing the first counts. */
+/* Of several symbols for one variable the first counts. */
 static void find_symbols(struct conversion *c)
 {
 	const struct classic_project *project = c->project;
@@ -210,7 +206,7 @@ static void tell_symbol(struct conversion *c, const struct classic_symbol *symbo
 		     symbol->variable, name);
 }
 
-/* LinuxCNC gives every variable a symbol, %B4 is _B4_; the user did not choose it. */
+/* LinuxCNC gives every variable a symbol: %B4 is _B4_. Nobody chose it. */
 static bool says_nothing(const struct classic_symbol *symbol)
 {
 	const char *name = symbol->name, *variable = symbol->variable;
@@ -224,7 +220,7 @@ static bool says_nothing(const struct classic_symbol *symbol)
 	return !*variable && (!*name || !strcmp(name, "_"));
 }
 
-/* Blocks and steps are found by what they were called, and nothing else looks like it. */
+/* X3 is reserved for steps, which are found by that name. */
 static bool looks_like_step(const char *name)
 {
 	return ascii_upper(name[0]) == 'X' && ascii_digit(name[1]);
@@ -266,7 +262,7 @@ static const char *as_name(struct conversion *c, const char *wish)
 	return name;
 }
 
-/* false: something has it, whatever its spelling. */
+/* Takes @name. false: it is taken, in any spelling. */
 static bool claim(struct conversion *c, const char *name)
 {
 	int before = c->taken.count;
@@ -275,7 +271,7 @@ static bool claim(struct conversion *c, const char *name)
 	return !id || (c->taken.count > before && names_fold(&c->taken, id) == id);
 }
 
-/* The number behind @base that is to be tried next. */
+/* The number to try next behind @base. */
 static int number_behind(struct conversion *c, const char *base)
 {
 	uint32_t id = names_find_any(&c->taken, base, strlen(base));
@@ -336,7 +332,7 @@ static void name_reserve(struct conversion *c, const char *name)
 	claim(c, name);
 }
 
-/* What the text calls a step, its actions, and the block that has its seconds. */
+/* Names of steps, their actions, and the blocks that have their seconds. */
 static void reserve_steps(struct conversion *c)
 {
 	static const char *const prefix[] = { "Step", "Seconds", "XTime", "Tell", "Anew" };
@@ -352,7 +348,7 @@ void find_names(struct conversion *c)
 	names_init(&c->taken, c->arena);
 	reserve_steps(c);
 	find_symbols(c);
-	/* Those first whose names are looked for by their form. */
+	/* Blocks and steps first: they are found by their names. */
 	for (int i = 0; i < c->names.count; i++)
 		if (!memory_of(c->names.list[i].type))
 			give_name(c, &c->names.list[i]);
@@ -437,7 +433,7 @@ static const char *indexed(struct conversion *c, const struct classic_memory_row
 	return text_of(c, "%s[%s + %d]", name_of(c, memory->type, CLASSIC_ALL), index, number);
 }
 
-/* A register of LinuxCNC's has another meaning: its numbers with a point. */
+/* Type 300 of LinuxCNC is %IF. */
 static int known_type(const struct conversion *c, int type)
 {
 	if (c->project->dialect == CLASSIC_LINUXCNC && type == LINUXCNC_IN)
@@ -470,7 +466,7 @@ const char *operand_of(struct conversion *c, struct classic_variable variable,
 	return text;
 }
 
-/* What a program may write there; the rest is an input, or what a block or a chart says. */
+/* Types that a program of ClassicLadder may write. */
 static bool is_writable(int type)
 {
 	static const int row[] = { 0, 60, 65, 70, 75, 200, 230, 231, 240, 250, 251, 260,
@@ -492,7 +488,7 @@ const char *target_of(struct conversion *c, struct classic_variable variable, bo
 	return NULL;
 }
 
-/* One of a kind of variables is enough: @place says which kind. */
+/* Adds a variable to the list of names once. @place: its row of uses->seen. */
 static void add_once(struct conversion *c, int place, int type, int number)
 {
 	struct classic_name *name;
@@ -527,7 +523,7 @@ static void use(struct conversion *c, int type, int number)
 		add_once(c, MEMORY_KINDS + CLASSIC_KINDS + 1, type, number);
 }
 
-/* How far its area must reach. */
+/* Notes how far the area of a variable must reach. */
 static void use_place(struct conversion *c, int type, int number)
 {
 	const struct classic_memory_row *memory = memory_of(type);
@@ -552,7 +548,7 @@ static void use_variable(void *context, struct classic_variable variable)
 	}
 	use_place(c, known_type(c, variable.index_type), variable.index_number);
 	use(c, variable.index_type, variable.index_number);
-	/* Of words there is an array; a bit with an index is an address. */
+	/* A word with an index is an element of an array, a bit an address with an index. */
 	if (is_word(type))
 		use(c, type, CLASSIC_ALL);
 }
@@ -629,7 +625,7 @@ static void use_all(struct conversion *c)
 		use_variable(c, project->transition[i].condition);
 	for (int i = 0; i < project->steps; i++)
 		use(c, STEP_TYPE, project->step[i].number);
-	/* Whoever looks at the original itself may ask for anything that it has. */
+	/* A script for the original itself can name every block and step. */
 	if (!c->options.task)
 		use_more(c);
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_piece - a rung as it looks there, without needless wires; cut into two or more
- * where a block's outputs or the order of columns make it necessary.
+ * classic_piece - a rung as ClassicLadder draws it, without needless wires; cut into two or
+ * more where outputs of a block or the order of columns make it necessary.
  *
- * A cut goes through all rows at one node. What has power there goes on by a BOOL, or as
- * a contact of the block that gave it. Where a cut would go through an element, or power
- * would be lost, nothing is written and classic_unfold.c does it.
+ * A cut goes through all rows at one node. Behind it, a BOOL or a contact of the block has
+ * the power of the node. If a cut would go through an element, or power would be lost,
+ * nothing is written, and classic_unfold.c writes the rung.
  */
 #include "engine/exchange/classic/classic_grid.h"
 
@@ -27,12 +27,12 @@ struct piece {
 	/* Bar @x of this row is joined with that of the row above. */
 	bool link[CLASSIC_ROWS + 1][PIECE_COLUMNS + 1];
 	int rows, columns;
-	bool broken;          /* it cannot be drawn so                         */
+	bool broken;          /* it cannot be written as a drawing             */
 };
 
 struct cuts {
 	bool at[CLASSIC_COLUMNS + 1];
-	/* The BOOL of a node that was cut; by the first row of its run. */
+	/* The BOOL of a node that is cut, by the first row of its run. */
 	const char *power[CLASSIC_ROWS][CLASSIC_COLUMNS + 1];
 };
 
@@ -62,7 +62,7 @@ static void look_at(void *context, struct classic_variable variable)
 		look->found = true;
 }
 
-/* Does @part look at a pin of @box, or is it the same block once more? */
+/* Does @part read a pin of @box, or call its block again? */
 static bool reads_block(struct grid *grid, const struct grid_part *part,
 			const struct grid_part *box)
 {
@@ -79,7 +79,7 @@ static bool reads_block(struct grid *grid, const struct grid_part *part,
 	return look.found;
 }
 
-/* Is anything joined to the right end of row @y of a box? */
+/* Does a part begin at node @x of row @y? */
 static bool is_used(const struct grid *grid, int y, int x)
 {
 	int from, to;
@@ -112,13 +112,13 @@ static void cut_at_box(struct grid *grid, struct cuts *cuts, const struct grid_p
 		cuts->at[end] = true;
 		if (part_end(part) <= end)
 			cuts->at[box->x] = true;
-		/* A block works with its last column: what stands beside it may look before. */
+		/* A block is evaluated in its last column: parts beside it read before that. */
 		if (part->x < end && part_end(part) > box->x)
 			cuts->at[end - 1] = true;
 	}
 }
 
-/* What is written in the middle is seen further right. */
+/* Parts to the right read what an output in the middle writes. */
 static void find_cuts(struct grid *grid, struct cuts *cuts)
 {
 	for (int i = 0; i < grid->parts; i++) {
@@ -140,8 +140,8 @@ static bool gives_any(const struct grid_part *part)
 	return false;
 }
 
-/* No cut and no link of other rows goes through the inside of an element, and what a block
- * says is the same in all columns behind it. */
+/* False if a cut or a link of other rows goes through the inside of an element, or if a block
+ * that gives power is called again. */
 static bool can_cut(const struct grid *grid, const struct cuts *cuts)
 {
 	for (int i = 0; i < grid->parts; i++) {
@@ -204,7 +204,7 @@ static void set_part(struct piece *piece, const struct grid_part *part, int x, b
 		set(piece, part->y, x + i, "---", PART_WIRE);
 }
 
-/* The rows of a run that feed it from the left: other than by an output of a box. */
+/* Is the run fed from the left by anything but a box? @row: gets the first such row. */
 static bool fed_by_power(const struct grid *grid, int x, int from, int to, int *row)
 {
 	for (int i = 0; i < grid->parts; i++) {
@@ -232,7 +232,7 @@ static const char *output_at(const struct grid *grid, int y, int x)
 	return NULL;
 }
 
-/* The last column of a piece: the power of each node that is cut. */
+/* The last column of a piece stores the power of each node that is cut. */
 static void leave(struct piece *piece, struct cuts *cuts, int x, int column)
 {
 	struct grid *grid = piece->grid;
@@ -248,7 +248,7 @@ static void leave(struct piece *piece, struct cuts *cuts, int x, int column)
 	}
 }
 
-/* The first column of a piece: what has power comes in. */
+/* The first column of a piece reads that power. */
 static void enter(struct piece *piece, const struct cuts *cuts, int x)
 {
 	struct grid *grid = piece->grid;
@@ -299,7 +299,7 @@ static void fill(struct piece *piece, struct cuts *cuts, int from, int to)
 		leave(piece, cuts, to, to + shift);
 }
 
-/* ---- what is needed ---- */
+/* ---- cells that are needed ---- */
 
 static bool is_fed(const struct piece *piece, int y, int x)
 {
@@ -353,7 +353,7 @@ static bool works_without_power(const struct piece_cell *cell)
 	return cell->kind == PART_COIL || (cell->kind == PART_BOX && !cell->box_row);
 }
 
-/* A coil, or the first input of a box, that nothing feeds has no power: a contact says so. */
+/* A coil or box that nothing feeds gets a contact that is never closed. */
 static void feed_false(struct piece *piece, int y, int x)
 {
 	for (int i = 0; i < x; i++)
@@ -388,7 +388,7 @@ static void sweep(struct piece *piece)
 				feed_false(piece, y, x);
 }
 
-/* ---- links: only between rows that have something there ---- */
+/* ---- links: only between rows that have something at that bar ---- */
 
 static bool is_attached(const struct piece *piece, int y, int x)
 {
@@ -445,7 +445,7 @@ static bool is_through(const struct piece_cell *cell)
 	       (cell->kind == PART_CONTACT || cell->kind == PART_BOX);
 }
 
-/* What wires and links join is one place. */
+/* Bars that wires and links join get the same number. */
 static void find_bars(const struct piece *piece, struct bars *bars)
 {
 	for (int y = 0; y < CLASSIC_ROWS; y++)
@@ -461,7 +461,8 @@ static void find_bars(const struct piece *piece, struct bars *bars)
 		}
 }
 
-/* Where power goes that is at bar @x of row @y: along links, and wires to the right. */
+/* Marks the bars that power reaches from bar @x of row @y: along links, and through wires to
+ * the right, as in ClassicLadder. */
 static void spread(const struct piece *piece, int y, int x,
 		   bool reached[CLASSIC_ROWS][PIECE_COLUMNS + 1])
 {
@@ -482,7 +483,7 @@ static void spread(const struct piece *piece, int y, int x,
 	}
 }
 
-/* Does all that is joined to this place get the power that goes out from there? */
+/* Is every cell at a bar of number @set reached? */
 static bool reaches_all(const struct piece *piece, const struct bars *bars, uint8_t set,
 			bool reached[CLASSIC_ROWS][PIECE_COLUMNS + 1])
 {
@@ -520,13 +521,12 @@ static bool is_same_power(const struct piece *piece)
 	return true;
 }
 
-/* ---- less of it ---- */
+/* ---- rows and columns that are not needed ---- */
 
 static void drop_row(struct piece *piece, int y)
 {
 	for (int i = y; i + 1 < piece->rows; i++) {
 		memcpy(piece->cell[i], piece->cell[i + 1], sizeof(piece->cell[i]));
-		/* A link that only passed through goes on from the row above. */
 		memcpy(piece->link[i], piece->link[i + 1], sizeof(piece->link[i]));
 	}
 	piece->rows--;
@@ -551,7 +551,7 @@ static bool holds(const struct piece *piece, int y, int x)
 	return is_attached(piece, y, x) || piece->link[y][x] || piece->link[y + 1][x];
 }
 
-/* A column of wires, where nothing comes together that was apart. */
+/* Is it a column of wires that can go without joining nodes that are apart? */
 static bool is_needless(const struct piece *piece, int x)
 {
 	for (int y = 0; y < piece->rows; y++) {
@@ -561,7 +561,7 @@ static bool is_needless(const struct piece *piece, int x)
 			return false;
 		if (!cell->text && x > 0 && holds(piece, y, x) && holds(piece, y, x + 1))
 			return false;
-		/* At the rail a bar of a cell that is gone would get its power. */
+		/* Without the column this bar would be the rail, which has power. */
 		if (!cell->text && x == 0 && holds(piece, y, 1))
 			return false;
 	}
@@ -583,7 +583,7 @@ static void drop_column(struct piece *piece, int x)
 	piece->columns--;
 }
 
-/* One wire stays in front of what would stand at the rail alone. */
+/* Two columns stay: an output must not stand at the rail. */
 static void drop_columns(struct piece *piece)
 {
 	for (int x = piece->columns - 1; x >= 0; x--)
@@ -626,7 +626,7 @@ static void prepare(struct piece *piece)
 		piece->broken = true;
 	drop_rows(piece);
 	drop_columns(piece);
-	/* What was only a wire beside another is nothing now. */
+	/* Without these columns, rows can be left with nothing but links. */
 	trim_links(piece);
 	drop_rows(piece);
 }

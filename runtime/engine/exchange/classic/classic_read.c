@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_read - ClassicLadder projects: containers, packed ones, folders, bare rungs.
+ * classic_read - reads ClassicLadder projects: containers, packed ones, folders, bare rungs.
  *
- * Which reader gets which member, and what is found by its number afterwards. All or
- * nothing: with one error there is no project.
+ * Each member goes to its reader; then the lists are sorted and checked against one another.
+ * After one error there is no project.
  */
 #include "engine/exchange/classic/classic_read.h"
 
@@ -87,7 +87,7 @@ static bool is_blank(char c)
 	return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* A file of a folder is named whole; the member of a container stands in the text. */
+/* @text: without blanks around it. */
 static bool classic_fail_at(struct classic_reader *reader, enum diag_id id,
 			    struct classic_place place, const char *text, size_t len)
 {
@@ -165,7 +165,7 @@ static void read_member(struct classic_reader *reader, const struct classic_memb
 	}
 }
 
-/* A register's line has its mode alone. */
+/* The only number of a register's line is its mode. */
 static void registers_have_modes(struct classic_reader *reader)
 {
 	struct classic_blocks *blocks = &reader->project->reg;
@@ -342,7 +342,7 @@ static bool take_member(struct classic_reader *reader, struct lines *lines)
 	return true;
 }
 
-/** classic_members - parts a container's text into its members. false: told. */
+/* Splits the text of a container into its members. false: reported. */
 static bool classic_members(struct classic_reader *reader, const char *text, size_t len)
 {
 	struct lines lines = { text, text + len, text, 0, 0 };
@@ -503,8 +503,7 @@ static void check_links(struct classic_reader *reader,
 		}
 }
 
-/* Rungs one after the other to the last; each is seen once, or they go in a circle. How
- * many they are. */
+/* Follows the rungs of a section to its last one. Returns how many they are. */
 static int check_chain(struct classic_reader *reader,
 		       const struct classic_section *section)
 {
@@ -538,8 +537,8 @@ static int check_chain(struct classic_reader *reader,
 	}
 }
 
-/* A rung may belong to several sections, but so it does in no project that was drawn: a few
- * lines could stand for millions of rungs. */
+/* Sections can share rungs, though the editor never makes that. A bound on their sum keeps a
+ * few lines from standing for millions of rungs. */
 static void check_sections(struct classic_reader *reader)
 {
 	struct classic_project *project = reader->project;
@@ -556,7 +555,7 @@ static void check_sections(struct classic_reader *reader)
 	}
 }
 
-/* Before there were sections: all rungs, in the order of their numbers. */
+/* Projects from before there were sections: all rungs, by number. */
 static void add_only_section(struct classic_reader *reader)
 {
 	struct classic_project *project = reader->project;
@@ -594,8 +593,8 @@ static bool wide(const struct classic_project *project)
 	return false;
 }
 
-/* Upstream has members and sizes that LinuxCNC has not, and the other way round. What
- * both could have written is taken for upstream's. */
+/* Upstream writes members and sizes that LinuxCNC does not, and the other way round. A project
+ * that both could have written counts as upstream's. */
 static enum classic_dialect dialect_of(const struct classic_project *project)
 {
 	static const char *const upstream[] = {
@@ -613,18 +612,18 @@ static enum classic_dialect dialect_of(const struct classic_project *project)
 
 enum { CALL = 55, DEEPEST = LIMIT_CALLS - 2, UNSEEN = 0, OPEN = -1 };
 
-/* The way from a section to the cell that is looked at in it. */
+/* A section on the way of calls, and the next cell to look at. */
 struct frame {
 	int section;
-	const struct classic_rung *rung; /* NULL: it has been left             */
+	const struct classic_rung *rung; /* NULL: all have been looked at      */
 	int cell;                        /* the next one                       */
-	int depth;                       /* of what it has called              */
+	int depth;                       /* of the sections that it calls      */
 };
 
 struct calls {
 	struct classic_reader *reader;
-	int *target;   /* of each subroutine's number: its section, or -1      */
-	int *depth;    /* of each section: how many call one another           */
+	int *target;   /* by number of a subroutine: its section, or -1        */
+	int *depth;    /* by section: levels of calls; UNSEEN, OPEN            */
 	struct frame *frame;
 	int frames;
 };
@@ -649,7 +648,7 @@ static void fail(struct calls *calls, const struct frame *frame, int y)
 	classic_fail_at(calls->reader, DIAG_IMPORT_CALLS, place, name, strlen(name));
 }
 
-/* The section that the next call of this frame leads to; -1: it has no more. */
+/* The section that the next call of this frame leads to; -1: there is none. */
 static int next_call(struct calls *calls, struct frame *frame, int *row)
 {
 	const struct classic_project *project = calls->reader->project;
@@ -672,7 +671,7 @@ static int next_call(struct calls *calls, struct frame *frame, int *row)
 	return -1;
 }
 
-/* From one section down; each section is looked at once. */
+/* Finds the depth of a section and of all that it calls; each is looked at once. */
 static bool look_from(struct calls *calls, int section)
 {
 	int row = 0;
@@ -683,7 +682,7 @@ static bool look_from(struct calls *calls, int section)
 		int to = next_call(calls, frame, &row);
 
 		if (to >= 0 && calls->depth[to] == UNSEEN) {
-			frame->cell--; /* once more when it is known               */
+			frame->cell--; /* again, when its depth is known           */
 			if (calls->frames > DEEPEST) {
 				fail(calls, frame, row);
 				return false;
@@ -704,8 +703,8 @@ static bool look_from(struct calls *calls, int section)
 	return true;
 }
 
-/* Tells where subroutines call one another in a circle, or deeper than a
- * program can here. Chains of rungs must be good, sections in order. */
+/* Reports subroutines that call one another in a circle, or deeper than LIMIT_CALLS. Needs
+ * sorted sections and good chains of rungs. */
 static void classic_calls(struct classic_reader *reader)
 {
 	struct classic_project *project = reader->project;
@@ -726,8 +725,7 @@ static void classic_calls(struct classic_reader *reader)
 			return;
 }
 
-/** classic_whole - brings everything into its order and looks whether it fits together:
- * chains of rungs, steps, dialect. */
+/* Sorts the lists and checks what refers to what: chains of rungs, steps, calls. */
 static void classic_whole(struct classic_reader *reader)
 {
 	struct classic_project *project = reader->project;
@@ -784,7 +782,7 @@ struct classic_project *classic_read(struct arena *arena, const char *file,
 			return NULL;
 		}
 	} else {
-		/* A NUL behind it, and it lives as long as what is made of it. */
+		/* The project points into the text: a copy, with a NUL behind it. */
 		text = len > CLASSIC_BYTES ? bytes : arena_copy(arena, bytes, len);
 	}
 	if (!text) {
@@ -811,7 +809,7 @@ static int member_order(const void *a, const void *b)
 	return strcmp(x->name, y->name);
 }
 
-/* One file of the folder as a member; @left: bytes that may still come. */
+/* One file of the folder as a member. @left: bytes that may still be read. */
 static bool add_file(struct classic_reader *reader, const char *folder, const char *name,
 		     size_t *left)
 {
@@ -899,7 +897,7 @@ void classic_member_begin(struct classic_reader *reader,
 
 bool classic_line_next(struct classic_reader *reader)
 {
-	/* More errors than the list keeps. */
+	/* Stops when there are more errors than the list keeps. */
 	while (reader->at < reader->end && reader->diags->errors <= LIMIT_DIAGS) {
 		const char *line = reader->at;
 		size_t left = (size_t)(reader->end - line);

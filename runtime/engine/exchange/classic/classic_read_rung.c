@@ -2,9 +2,9 @@
  *
  * classic_read_rung - one rung of a ClassicLadder project, or a bare file of them.
  *
- * Cells as the file has them; what free cells and wires carry besides their top bit is
- * left over from something that stood there, and is dropped. Rows of 10 columns become 12
- * as ClassicLadder itself does it. What a rung means is not asked here.
+ * Cells as the file has them. The variable of a free cell or wire is left over from an
+ * element that stood there, and is dropped. Rows of 10 columns become 12 as ClassicLadder
+ * itself does it. Whether elements have a meaning is checked by classic_grid.c.
  */
 #include "engine/base/ascii.h"
 #include "engine/exchange/classic/classic_read.h"
@@ -14,7 +14,7 @@ enum {
 	WIRE = 9, OPERATE = 60, EMPTY_CELL = 0
 };
 
-/* What a cell's variable is: nothing, a number alone, or a variable with its index. */
+/* What of the variable of a cell has a meaning: nothing, its number, or all of it. */
 enum carries { NOTHING, NUMBER, VARIABLE };
 
 static enum carries carries(int element)
@@ -51,7 +51,7 @@ const char *classic_read_variable(const char *at, const char *end, char slash,
 	return at;
 }
 
-/* What of the variable is of use, and whether its numbers can be. */
+/* Drops what has no meaning; false: a number is out of range, reported. */
 static bool keep_variable(struct classic_reader *reader, struct classic_cell *cell)
 {
 	struct classic_variable *variable = &cell->variable;
@@ -74,7 +74,7 @@ static bool keep_variable(struct classic_reader *reader, struct classic_cell *ce
 		 classic_in_range(reader, variable->index_number, 0, CLASSIC_LIMIT - 1)));
 }
 
-/* TYPE-TOP-VARTYPE/NUMBER up to a comma or the end. NULL: it is none. */
+/* TYPE-TOP-VARTYPE/NUMBER up to a comma or the end. NULL: it is no cell. */
 static const char *read_cell(const char *at, const char *end, char slash,
 			     struct classic_cell *cell, int *top)
 {
@@ -93,7 +93,7 @@ static size_t until_comma(const char *at, const char *end)
 	return (size_t)((comma ? comma : end) - at);
 }
 
-/* The cells of the line under the cursor; how many, or -1. */
+/* Reads the cells of the line under the cursor; returns how many, -1: reported. */
 static int read_row(struct classic_reader *reader, char slash, struct classic_cell *cell)
 {
 	const char *at = reader->line, *end = at + reader->len;
@@ -231,7 +231,7 @@ void classic_read_rung(struct classic_reader *reader, const struct classic_membe
 
 /* ---- the numeric form ---- */
 
-/* Is the line ";WORD", with blanks anywhere and whatever behind it? */
+/* Does the line begin with ";WORD", with blanks anywhere? */
 static bool is_heading(const char *line, size_t len, const char *word)
 {
 	size_t at = 0;
@@ -310,7 +310,7 @@ static void read_timer(struct classic_reader *reader, int *number)
 	}
 }
 
-/* Rungs one behind the other, each with a heading, or one alone without. */
+/* Rungs, each below a heading; the first one may have none. */
 void classic_read_numeric(struct classic_reader *reader,
 			  const struct classic_member *member)
 {

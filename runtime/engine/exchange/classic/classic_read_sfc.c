@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_read_sfc - the sequential pages of a ClassicLadder project.
+ * classic_read_sfc - the sequential pages of a ClassicLadder project: steps, transitions with
+ * their conditions, comments.
  *
- * Steps, transitions with their conditions, comments. Lists that are for drawing only
- * are not taken: the two lists of steps say everything.
+ * The lists of transitions that only the drawing needs are ignored.
  */
 #include "engine/exchange/classic/classic_read.h"
 
@@ -38,7 +38,7 @@ static void add_step(struct classic_reader *reader, int index, const char *at)
 			.x = value[3], .y = value[4] };
 }
 
-/* The engine of the original stops at the first -1, and so does this. */
+/* ClassicLadder ends the list at the first -1; so does this. */
 static int take_links(struct classic_reader *reader, const int *value, int *link)
 {
 	bool open = true;
@@ -80,7 +80,7 @@ static void add_transition(struct classic_reader *reader, int index, const char 
 		*added = transition;
 }
 
-/* "INDEX,PAGE,X,Y,TEXT"; a page's own comment, "PAGE,TEXT", has no place. */
+/* "PAGE,X,Y,TEXT"; the comment of a page, "TEXT", has no place. */
 static void add_note(struct classic_reader *reader, const char *at, int numbers, int page)
 {
 	struct classic_project *project = reader->project;
@@ -110,7 +110,7 @@ static void add_note(struct classic_reader *reader, const char *at, int numbers,
 static struct classic_transition *find_transition(struct classic_project *project,
 						  int index, int *hint)
 {
-	/* Conditions stand in the order of their transitions, nearly always. */
+	/* Conditions nearly always stand in the order of their transitions. */
 	for (int i = 0; i < project->transitions; i++) {
 		int at = (*hint + i) % project->transitions;
 
@@ -122,7 +122,7 @@ static struct classic_transition *find_transition(struct classic_project *projec
 	return NULL;
 }
 
-/* "INDEX,0,TYPE/NUMBER" */
+/* "0,TYPE/NUMBER" */
 static void set_condition(struct classic_reader *reader, int index, const char *at,
 			  int *hint)
 {
@@ -146,7 +146,7 @@ static void set_condition(struct classic_reader *reader, int index, const char *
 		transition->condition = variable;
 }
 
-/* The letter, then a number and a comma; NULL: it is another line. */
+/* @letter, a number and a comma; returns what follows, NULL: it is another line. */
 static const char *begins(const struct classic_reader *reader, const char *letter,
 			  int *index)
 {

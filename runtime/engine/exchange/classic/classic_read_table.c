@@ -2,16 +2,16 @@
  *
  * classic_read_table - blocks, expressions, sections, symbols, I/O lines, settings.
  *
- * Each form that a table ever had: with a letter and a number at the begin of a line, or
- * one line each from 0. What is not known of a table is left in its member.
+ * Tables have two forms: with a letter and a number at the start of each line, or one line
+ * for each number from 0.
  */
 #include "engine/base/ascii.h"
 #include "engine/exchange/classic/classic_read.h"
 
 /* ---- blocks ---- */
 
-/* @values: how many numbers a line has: base, preset, mode; 1: preset alone, or the
- * mode of a register. */
+/* @values: numbers of a line: 3: base, preset, mode; 2: base, preset; 1: preset, or the mode
+ * of a register. */
 void classic_add_block(struct classic_reader *reader, struct classic_blocks *blocks,
 		       int number, const char *at, int values)
 {
@@ -81,7 +81,7 @@ static void add_expression(struct classic_reader *reader, int number, const char
 			.text = classic_text(reader, at, len) };
 }
 
-/* "NNNN,TEXT", four digits; before 2.0 a line each, empty ones counted. */
+/* "NNNN,TEXT"; before #VER=2.0 one line for each number, empty ones count. */
 void classic_read_expressions(struct classic_reader *reader,
 			      const struct classic_member *member)
 {
@@ -121,7 +121,7 @@ static struct classic_section *find_section(struct classic_project *project, int
 	return NULL;
 }
 
-/* Each line but directives goes to @add. */
+/* Gives each line that is no directive to @add. */
 static void read_lines(struct classic_reader *reader, const struct classic_member *member,
 		       void (*add)(struct classic_reader *reader))
 {
@@ -162,7 +162,7 @@ static void add_section(struct classic_reader *reader)
 			.first = value[3], .last = value[4], .page = value[5] };
 }
 
-/* Names stand before the sections; so they are read when those are known. */
+/* Names stand before their sections, so they are read in a second pass. */
 static void name_section(struct classic_reader *reader)
 {
 	const char *end = reader->line + reader->len;
@@ -194,7 +194,7 @@ void classic_read_sections(struct classic_reader *reader,
 
 /* ---- symbols ---- */
 
-/* The text up to the next comma, or to the end; steps over the comma. */
+/* The text up to the next comma or the end; steps over the comma. */
 static const char *take_field(struct classic_reader *reader, const char **at, size_t *len)
 {
 	const char *end = reader->line + reader->len, *from = *at;
@@ -236,7 +236,7 @@ void classic_read_symbols(struct classic_reader *reader,
 
 /* ---- lines of the machine ---- */
 
-/* LinuxCNC writes six numbers and uses none of them. */
+/* LinuxCNC writes lines of six numbers that it does not use. */
 static void add_io(struct classic_reader *reader)
 {
 	struct classic_project *project = reader->project;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_rung - the order of the text: declarations, functions, then the sections as
- * they run. It also holds what all parts write with.
+ * classic_rung - the order of the text: declarations, sections in their order, functions.
+ * Also the functions that all files of the import write with.
  */
 #include "engine/exchange/classic/classic_convert.h"
 
@@ -30,7 +30,7 @@ static bool room_for(struct conversion *c, size_t more)
 	return true;
 }
 
-/* What was written since @from ends lines that come from where we are. */
+/* Notes the place in work for each line that ends behind @from. */
 static void count_lines(struct conversion *c, size_t from)
 {
 	struct classic_text *out = c->out;
@@ -65,7 +65,7 @@ void put(struct conversion *c, const char *format, ...)
 	count_lines(c, from);
 }
 
-/* Takes the last line back. */
+/* Removes the last line. */
 static void unput(struct conversion *c)
 {
 	struct classic_text *out = c->out;
@@ -109,7 +109,7 @@ void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
 
 /* ---- the names of sections and rungs ---- */
 
-/* Only what is jumped to needs a label; what has one keeps it. */
+/* A rung keeps its label; one that a jump leads to gets one. */
 static void name_labels(struct conversion *c)
 {
 	const struct classic_project *project = c->project;
@@ -251,8 +251,8 @@ static bool has_array(const struct conversion *c, int type)
 	return used_name(c, type, CLASSIC_ALL) != NULL;
 }
 
-/* What an area must have beyond its usual size, in bytes; 0: nothing. A few more are there
- * for what stands behind the last that is named. */
+/* Size that an area needs, in bytes; 0: its usual size is enough. A few bytes more than the
+ * highest number in use: an index can lead there. */
 static long beyond(struct conversion *c, const struct classic_memory_row *row, long usual)
 {
 	long numbers = has_array(c, row->type) ? words_of(c, row) : used_numbers(c, row);
@@ -290,7 +290,7 @@ void add_program(struct conversion *c, const char *name)
 		*slot = name;
 }
 
-/* Nothing is said that is so anyway. */
+/* A CONFIGURATION with nothing in it is left out. */
 static void write_configuration(struct conversion *c)
 {
 	size_t before;
@@ -368,7 +368,7 @@ static void tell_faults(struct conversion *c)
 		     "not written to");
 }
 
-/* Members that mean nothing to a program, or not yet. */
+/* Members that have no effect in a rung file. */
 static void tell_members(struct conversion *c)
 {
 	static const struct { const char *name, *text; } row[] = {
@@ -397,7 +397,7 @@ static void write_all(struct conversion *c)
 {
 	struct classic_text sections = { 0 }, *whole = c->out;
 
-	/* What the sections need is known when they are written. */
+	/* Sections first: writing them tells which declarations and functions they need. */
 	c->out = &sections;
 	c->cap = 0;
 	for (int i = 0; i < c->project->sections; i++)

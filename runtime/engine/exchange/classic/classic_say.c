@@ -68,7 +68,7 @@ static void take(void *context, struct classic_variable variable)
 	found->is = true;
 }
 
-/* "@200/0@" at @text by name; behind it, or NULL: there is none. */
+/* The name of the variable "@200/0@" at @text; returns what follows it, NULL: it is none. */
 static const char *say_one(enum classic_dialect dialect, const char *text, char *said)
 {
 	const char *end = strchr(text + 1, '@');

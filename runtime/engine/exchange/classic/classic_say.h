@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_say - variables and expressions of a ClassicLadder project as people read them
- * there: %B3, %W0[%W4], "%W0 := %W1+1". For drawings; it knows nothing of rung files.
+ * classic_say - variables and expressions as ClassicLadder shows them: %B3, %W0[%W4],
+ * "%W0:=%W1+1". For drawings of the original.
  */
 #ifndef CLASSIC_SAY_H
 #define CLASSIC_SAY_H
@@ -14,13 +14,13 @@ enum { CLASSIC_SAID = 256 };
  * @out: of CLASSIC_SAID bytes. Scan-safe: yes. */
 void classic_say_variable(enum classic_dialect dialect, struct classic_variable variable,
 			  char *out);
-/** classic_say_block - "%TM0", of the element that its cell holds. @out: as above. */
+/** classic_say_block - "%TM0". @element: code of the cell. @out: as above. */
 void classic_say_block(int element, int number, char *out);
-/** classic_say_expression - @text with its variables by name; what is none stays, what is
- * too long is cut. @out: as above. Scan-safe: no. */
+/** classic_say_expression - @text with names of variables; text that is no variable stays, a
+ * long one is cut. @out: as above. Scan-safe: no. */
 void classic_say_expression(enum classic_dialect dialect, const char *text, char *out);
-/** classic_say_symbol - what the project's table calls @variable ("%B3"), "" if nothing.
- * Lives as long as @project. */
+/** classic_say_symbol - symbol of @variable ("%B3"); "": it has none. Lives as long as
+ * @project. */
 const char *classic_say_symbol(const struct classic_project *project,
 			       const char *variable);
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_sfc - a sequential page as a chart IN ORDER, which is how pages run there.
+ * classic_sfc - a sequential page as a chart IN ORDER, which is how ClassicLadder runs it.
  *
- * There, each page tells at its end what the steps of all pages are. Here each chart tells
- * of its own steps; only what can be seen of the first scan before a page has run needs
- * more. The seconds of a step (%X3.V), which count the scan in which it became active, are
- * those of a CL_STEP in an action of it.
+ * In ClassicLadder each page sets %X of all pages when it ends. Here each chart sets %X of
+ * its own steps, and extra actions set what can be read in the first scan before that. The
+ * seconds of a step (%X3.V) come from a CL_STEP in an action; they include the scan in which
+ * the step became active.
  */
 #include "engine/exchange/classic/classic_convert.h"
 
@@ -17,7 +17,7 @@ static bool on_page(const struct classic_section *section, int page)
 	return section->page == page;
 }
 
-/* Of sections; -1: there is no page. */
+/* Index of the first section that is a page; -1: there is none. */
 static int first_page(const struct conversion *c)
 {
 	for (int i = 0; i < c->project->sections; i++)
@@ -26,7 +26,7 @@ static int first_page(const struct conversion *c)
 	return -1;
 }
 
-/* The section that shows it; INT_MAX: none does, so it never runs. */
+/* The first section that shows @page; INT_MAX: none, so the page never runs. */
 static int section_of(const struct conversion *c, int page)
 {
 	for (int i = 0; i < c->project->sections; i++)
@@ -43,8 +43,8 @@ static bool is_first(const struct conversion *c, const struct classic_section *s
 
 /* ---- readers of %X3.A ---- */
 
-/* By number of a step: is it read by the first page or before it; the first section behind
- * that reads it. Sub-routines are called from anywhere. */
+/* By number of a step: does the first page or a section before it read %X; the first section
+ * behind that one that reads it. Sub-routines count as called from anywhere. */
 struct readers {
 	bool before[CLASSIC_LIMIT + 1];
 	int behind[CLASSIC_LIMIT + 1];
@@ -122,8 +122,8 @@ static struct readers *find_readers(const struct conversion *c)
 
 /* ---- steps ---- */
 
-/* The page that runs first tells of the others' steps that they are active. Is that seen
- * before their own page tells of them? */
+/* In ClassicLadder the page that runs first sets %X of initial steps of other pages. Can that
+ * be read before their own chart sets it? */
 static bool begins(struct conversion *c, const struct readers *r,
 		   const struct classic_step *step)
 {
@@ -156,7 +156,6 @@ static void find_steps(struct conversion *c)
 	for (int i = 0; c->step && i < project->steps; i++) {
 		const char *name = text_of(c, "Step%d", project->step[i].number);
 
-		/* It was reserved for one of them. */
 		c->step[i].name = c->step[i].publishes ? name : name_new(c, name);
 	}
 }
@@ -188,16 +187,17 @@ static const struct classic_step *step_at(const struct conversion *c, int index)
 	return NULL;
 }
 
-/* Pages before this one have counted already: a fault that is repeated. Only what is left
- * begins anew then, not what begins. */
+/* With --faithful, pages that ran before have already counted the time of an initial step:
+ * it starts again only after the step was left. */
 static bool has_counted(const struct conversion *c, const struct classic_section *section,
 			const struct classic_step *step)
 {
 	return c->options.faithful && step->initial && !is_first(c, section);
 }
 
-/* %X3.A is what it was when the chart came to rest: an action of the step, not its state.
- * Where it is TRUE before, it must be told that the step was left in its first scan, too. */
+/* %X3.A is the state at the end of the evolution: a BOOL that the step holds. If it is TRUE
+ * before the chart runs, an action with P1 also clears it when the step is left in its first
+ * scan. */
 static void write_step(struct conversion *c, const struct classic_section *section,
 		       const struct classic_step *step)
 {
@@ -254,7 +254,7 @@ static bool is_again(const int *index, int at)
 	return false;
 }
 
-/* " FROM Idle", " TO (Fill, Stir)"; "": nothing. */
+/* " FROM Idle", " TO (Fill, Stir)"; "": no step. */
 static const char *step_list(struct conversion *c, const char *word,
 			     const struct classic_section *section, const int *index,
 			     int count)
@@ -319,7 +319,7 @@ static bool has_steps(const struct conversion *c, const struct classic_section *
 	return false;
 }
 
-/* Initial steps, or transitions out of nothing: else nothing ever happens on it. */
+/* False without an initial step and without a transition from no step. */
 static bool ever_runs(const struct conversion *c, const struct classic_section *section)
 {
 	const struct classic_project *project = c->project;
@@ -354,7 +354,7 @@ static void write_one_sfc(struct conversion *c, const struct classic_section *se
 	put(c, "END_PROGRAM\n\n");
 }
 
-/* ---- what a page does for the others ---- */
+/* ---- steps of other pages ---- */
 
 static void begin_more(struct conversion *c, const char **name)
 {
@@ -365,8 +365,8 @@ static void begin_more(struct conversion *c, const char **name)
 	put(c, "PROGRAM %s LD\n", *name);
 }
 
-/* What is FALSE before the first page has run, TRUE before the own one has, and asked in
- * both. And, a fault of the original, each page lets the time of all steps go on. */
+/* A program behind the page: it sets %X of late steps in the first scan. With --faithful it
+ * also advances the time of steps of other pages, as ClassicLadder does. */
 static void convert_others(struct conversion *c, const struct classic_section *section)
 {
 	const char *name = NULL;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_unfold - a rung whose columns cannot be kept as one drawing: every cell that
- * gives power becomes a rung of its own, in the order in which they work there.
+ * classic_unfold - a rung that cannot be written as it is drawn: every element that gives
+ * power becomes a rung of its own, in ClassicLadder's order of evaluation.
  *
- * Power of a node is a BOOL. Longer than the original, but the same in every scan.
+ * The power of a node is a BOOL. The result is longer than the original and does the same
+ * in every scan.
  */
 #include "engine/exchange/classic/classic_grid.h"
 
@@ -13,7 +14,7 @@ struct unfolded {
 	const char *given[CLASSIC_ROWS][CLASSIC_COLUMNS + 1];
 };
 
-/* How the power of a node is asked for: a contact, or, at the rail, nothing. */
+/* The contact that reads the power of a node; at the rail, nothing. */
 static void put_power(struct unfolded *u, int y, int x)
 {
 	struct conversion *c = u->grid->c;
@@ -34,7 +35,7 @@ static void put_power(struct unfolded *u, int y, int x)
 		put(c, " NC SYS_ALWAYS_ON |");
 }
 
-/* The other feeders of the node, as branches below the first row. */
+/* Contacts of the other feeders of the node, as branches below the first row. */
 static void put_branches(struct unfolded *u, int y, int x)
 {
 	struct conversion *c = u->grid->c;
@@ -95,7 +96,7 @@ static void write_part(struct unfolded *u, const struct grid_part *part)
 	put_branches(u, part->y, part->x);
 }
 
-/* What the block says after this call of it. */
+/* Keeps an output as it is after this call of the block. */
 static void keep_output(struct unfolded *u, const char **given)
 {
 	const char *kept = grid_temporary(u->grid);
@@ -105,7 +106,7 @@ static void keep_output(struct unfolded *u, const char **given)
 	*given = kept;
 }
 
-/* Of a box every input has a BOOL of its own, so that its rows stay one below another. */
+/* Each input of a box gets a BOOL of its own and is given by name. */
 static void write_box(struct unfolded *u, const struct grid_part *part)
 {
 	struct conversion *c = u->grid->c;

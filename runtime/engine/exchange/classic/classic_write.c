@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_write - the members of a ClassicLadder project, in the order in which it writes
- * them itself.
+ * classic_write - writes the members of a ClassicLadder project, in the order of
+ * ClassicLadder.
  */
 #include "engine/exchange/classic/classic_write.h"
 
@@ -34,7 +34,7 @@ int classic_cut(const char *text, int most)
 	return len;
 }
 
-/* A text of a field: nothing in it may end the field or the line. */
+/* A field, without characters that would end it or the line. */
 static void put_field(struct writer *w, const char *text, int most, bool comma)
 {
 	int len = classic_cut(text, most);
@@ -64,7 +64,7 @@ static void end(struct writer *w, const char *member)
 	sink_text(w->sink, "\n");
 }
 
-/* What is kept of it, as it is; NULL: nothing. */
+/* The text of a member that an import kept; NULL: none. */
 static const char *kept(const struct writer *w, const char *member)
 {
 	for (int i = 0; i < w->project->members; i++)
@@ -119,7 +119,7 @@ static void put_values(struct writer *w, const struct classic_block *block,
 	sink_text(w->sink, "\n");
 }
 
-/* By number, which LinuxCNC does not know: it takes line by line from 0 on. */
+/* Upstream has a number on each line, LinuxCNC a line for each number from 0. */
 static void write_blocks(struct writer *w, const char *member,
 			 const struct classic_blocks *blocks, const char *letters,
 			 const char *values)
@@ -297,7 +297,7 @@ static void write_io(struct writer *w)
 	end(w, "ioconf.csv");
 }
 
-/* What a program has nothing to say of; a member must not be empty. */
+/* Members that an export has nothing for: a member must not be empty. */
 static void write_rest(struct writer *w)
 {
 	put_member(w, "com_params.txt", w->upstream ? "MODBUS_ELEMENT_OFFSET=0\n" :

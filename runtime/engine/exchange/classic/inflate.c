@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * inflate - what gzip packed, unpacked (RFC 1951, RFC 1952).
+ * inflate - unpacks gzip (RFC 1951, RFC 1952).
  *
- * Codes are canonical, so a table of how many there are of each length is enough to
- * read one bit by bit: projects are small. Every read and every write is bounded; what
- * does not come out as gzip's trailer says is refused.
+ * Reads codes bit by bit, with the number of codes of each length as its only table: slow,
+ * but projects are small. Every read and write is bounded.
  */
 #include "engine/exchange/classic/inflate.h"
 
@@ -26,9 +25,9 @@ struct code {
 
 struct inflate {
 	const uint8_t *at, *end;
-	uint32_t bits;           /* taken from @at, not used                   */
+	uint32_t bits;           /* read from @at, not used yet                */
 	int left;                /* how many                                   */
-	bool cut;                /* more was wanted than there is              */
+	bool cut;                /* the end was reached too early              */
 	uint8_t *out;
 	size_t len, size;
 	struct code literal, distance;
@@ -59,7 +58,7 @@ uint32_t inflate_crc32(uint32_t crc, const void *bytes, size_t len)
 	return ~crc;
 }
 
-/* The next @count bits, lowest first; 0 and cut behind the end. At most 16. */
+/* The next @count bits, lowest first, at most 16; 0 and cut at the end. */
 static uint32_t take_bits(struct inflate *inflate, int count)
 {
 	uint32_t bits;
@@ -78,8 +77,8 @@ static uint32_t take_bits(struct inflate *inflate, int count)
 	return bits;
 }
 
-/* Makes a code of the lengths of its symbols. More codes than fit are refused; fewer
- * are good only if there is one, or none at all that anybody asks for. */
+/* Makes a code of the lengths of its symbols. false: more codes than fit, or fewer and more
+ * than one. */
 static bool make_code(struct code *code, const uint8_t *length, int symbols)
 {
 	uint16_t next[BITS_MAX + 2] = { 0 };
@@ -129,7 +128,7 @@ static bool put_copy(struct inflate *inflate, size_t distance, size_t count)
 	return true;
 }
 
-/* A text that was there before: how long it is and how far back (3.2.5). */
+/* A copy of earlier text: its length and distance (3.2.5). */
 static bool take_copy(struct inflate *inflate, int symbol)
 {
 	static const uint8_t extra[] = { 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
@@ -174,7 +173,7 @@ static bool take_stored(struct inflate *inflate)
 	size_t count;
 
 	inflate->bits = 0;
-	inflate->left = 0; /* less than a byte was left                       */
+	inflate->left = 0; /* the rest of a byte                              */
 	if (inflate->end - inflate->at < 4)
 		return false;
 	count = inflate->at[0] | (size_t)inflate->at[1] << 8;
@@ -268,10 +267,10 @@ static bool take_all(struct inflate *inflate)
 		if (!good)
 			return false;
 	}
-	return true; /* no whole byte was taken too early                     */
+	return true;
 }
 
-/* Over the header and what may follow it: extra field, name, comment, its checksum. */
+/* Skips the header and its optional parts: extra field, name, comment, checksum. */
 static bool skip_head(struct inflate *inflate)
 {
 	uint8_t flags;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * inflate - what gzip packed, unpacked (RFC 1951, RFC 1952).
+ * inflate - unpacks gzip (RFC 1951, RFC 1952), because the engine links nothing but libc.
  *
- * Its own code because the engine needs nothing but libc. It packs nothing, and what it
- * unpacks has a bound that the caller sets.
+ * It does not pack. The caller sets a bound for the unpacked size.
  */
 #ifndef CLASSIC_INFLATE_H
 #define CLASSIC_INFLATE_H
@@ -13,21 +12,21 @@
 
 #include <stdint.h>
 
-/** inflate_is - do these bytes begin as gzip's do? Scan-safe: yes. */
+/** inflate_is - true if the bytes begin as a gzip file does. Scan-safe: yes. */
 bool inflate_is(const void *bytes, size_t len);
 
 /**
- * inflate_gzip - unpacks one gzip member, which must be all there is
- * @limit:   bytes at most, unpacked
- * @out_len: gets their number
- * @why:     gets what is wrong: NO_MEMORY, TOO_LARGE, IMPORT_PACKED
+ * inflate_gzip - unpacks one gzip member; nothing may follow it
+ * @limit:   most bytes of the result
+ * @out_len: gets its length
+ * @why:     gets the error: NO_MEMORY, TOO_LARGE, IMPORT_PACKED
  *
- * Owns: @arena owns the text; a NUL stands behind it.   Scan-safe: no.
- * Fails: NULL. Length and checksum of the text must be those that were packed.
+ * Owns: @arena owns the text; a NUL follows it.   Scan-safe: no.
+ * Fails: NULL, also if length or checksum are wrong.
  */
 char *inflate_gzip(struct arena *arena, const void *bytes, size_t len, size_t limit,
 		   size_t *out_len, enum diag_id *why);
 
-/** inflate_crc32 - gzip's checksum; @crc is 0 or what an earlier part gave. */
+/** inflate_crc32 - gzip's checksum. @crc: 0, or the result for the bytes before. */
 uint32_t inflate_crc32(uint32_t crc, const void *bytes, size_t len);
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * to_classic - sections, settings and the order of a project that goes to ClassicLadder.
+ * to_classic - sections and settings of an export to ClassicLadder, and the order of programs.
  */
 #include "engine/base/ascii.h"
 #include "engine/exchange/classic/to_classic_parts.h"
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- telling ---- */
+/* ---- messages ---- */
 
 const char *out_text(struct leaving *e, const char *format, ...)
 {
@@ -90,7 +90,7 @@ void tell_line(struct leaving *e, int line, const char *format, ...)
 
 /* ---- rungs ---- */
 
-/* Of "the text $"so$"": without its quotes. */
+/* The text of a title without its quotes and `$`. */
 static const char *plain_title(struct leaving *e, const char *text)
 {
 	char *copy = arena_copy(e->arena, text, strlen(text)), *to = copy;
@@ -245,7 +245,6 @@ static void patch_jumps(struct leaving *e)
 	}
 }
 
-/* @drop: not if it has no rung. */
 void section_end(struct leaving *e, bool drop)
 {
 	if (!e->section)
@@ -261,7 +260,7 @@ void section_end(struct leaving *e, bool drop)
 	e->section = NULL;
 }
 
-/* ---- programs that ClassicLadder needs not ---- */
+/* ---- programs that an import adds, and ClassicLadder does not need ---- */
 
 static bool writes_only(struct leaving *e, const struct pou *pou,
 			bool (*may)(struct leaving *e, const struct pou *pou,
@@ -294,7 +293,7 @@ static const struct out_slot *target_slot(struct leaving *e, const struct pou *p
 	return m && m->kind == MEANING_VARIABLE ? slot_find(e, m->var) : NULL;
 }
 
-/* %S0 and its like, which are there anyway. */
+/* Writes a system bit or word, which ClassicLadder sets itself. */
 static bool writes_system(struct leaving *e, const struct pou *pou,
 			  const struct cell *cell)
 {
@@ -313,20 +312,20 @@ static bool is_step(struct leaving *e, const struct pou *pou, const struct cell 
 	return slot && slot->type == CL_STEP_BIT;
 }
 
-/* Bits of steps of other pages, and their times. */
+/* Writes bits of steps of other pages, or their times. */
 static bool writes_steps(struct leaving *e, const struct pou *pou, const struct cell *cell)
 {
 	return cell->word == FB_CL_STEP ||
 	       (cell->word == ELEM_COIL_SET && is_step(e, pou, cell));
 }
 
-/* Steps of a page that sections before it do not see yet. */
+/* Resets bits of steps. */
 static bool hides_steps(struct leaving *e, const struct pou *pou, const struct cell *cell)
 {
 	return cell->word == ELEM_COIL_RESET && is_step(e, pou, cell);
 }
 
-/* Nothing but the first scan and steps is asked. */
+/* Reads nothing but the first scan and steps. */
 static bool asks_steps(struct leaving *e, const struct pou *pou)
 {
 	for (int i = 0; i < pou->rung_count; i++)
@@ -355,7 +354,7 @@ static bool is_needless(struct leaving *e, const struct pou *pou)
 		writes_only(e, pou, hides_steps));
 }
 
-/* ---- programs in the order in which they run ---- */
+/* ---- order of programs ---- */
 
 static const struct config_entry *task_of(const struct config *config, uint32_t name)
 {
@@ -373,7 +372,7 @@ static const struct pou *program_named(const struct project *project, uint32_t n
 	return pou >= 0 ? &project->pou[pou] : NULL;
 }
 
-/* All in one task; false after telling. */
+/* Programs of the task in their order. false: more than one task, reported. */
 static bool find_order(struct leaving *e, const struct pou **list, int *count)
 {
 	const struct config *config = e->project->config;
@@ -406,7 +405,7 @@ static bool find_order(struct leaving *e, const struct pou **list, int *count)
 	return true;
 }
 
-/* As they stand in the file, programs in the order in which they run. */
+/* POUs in the order of the file, programs in the order of their task. */
 static int all_pous(struct leaving *e, const struct pou **out)
 {
 	const struct project *project = e->project;
@@ -430,7 +429,7 @@ static int all_pous(struct leaving *e, const struct pou **out)
 	return count;
 }
 
-/* ---- one of them ---- */
+/* ---- one POU ---- */
 
 static void leave_ladder(struct leaving *e, const struct pou *pou)
 {
@@ -502,7 +501,7 @@ static void leave_all(struct leaving *e)
 
 /* ---- all of it ---- */
 
-/* A bare rung file holds rungs of one section and old timers. */
+/* A bare rung file holds one section, and no blocks but old timers. */
 static void check_numeric(struct leaving *e)
 {
 	const struct classic_project *out = e->out;
@@ -543,7 +542,7 @@ int blocks_end(const struct classic_blocks *blocks)
 	return blocks->count ? blocks->block[blocks->count - 1].number + 1 : 0;
 }
 
-/* An array of all words tells how many there are. */
+/* The length of an array of all words, if it is less than usual. */
 static int word_count(const struct leaving *e, int type, int usual)
 {
 	for (int i = 0; i < e->slots; i++)
@@ -553,7 +552,7 @@ static int word_count(const struct leaving *e, int type, int usual)
 	return usual;
 }
 
-/* A table of 64 lines. LinuxCNC has pins of its own: HAL's. */
+/* ioconf.csv has 32 lines of inputs and 32 of outputs. LinuxCNC has HAL pins instead. */
 static void leave_lines(struct leaving *e)
 {
 	enum { LINES = 32 };
@@ -654,7 +653,7 @@ struct classic_project *to_classic(struct project *project, enum classic_dialect
 	return NULL;
 }
 
-/* The rung whose label a jump names; -1: none. */
+/* The rung that a jump leads to; -1: none. */
 static int target_of(const struct leaving *e, const struct pou *pou, uint32_t label)
 {
 	const struct names *names = &e->project->names;
@@ -703,7 +702,7 @@ static void find_calls(const struct leaving *e, const struct pou *called,
 	}
 }
 
-/* Does a rung before @index lead past it? */
+/* Can a rung before @index jump past it? */
 static bool is_skipped(const struct leaving *e, const struct pou *pou, int index)
 {
 	for (int i = 0; i < index; i++) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * to_classic - a project as one of ClassicLadder's, of LinuxCNC's or as a bare rung file.
+ * to_classic - a project as one of ClassicLadder, of LinuxCNC, or as a bare rung file.
  *
- * Variables get numbers (those of an imported project the ones they came from), rungs a
- * grid of 12 x 8 or 10 x 6; what does not fit so, or would be evaluated in another order
- * there, is cut into several with bits between them. What cannot be said there is a
- * diagnostic with its place (LD730 to LD738): nothing is written then.
+ * Variables get numbers; those of an imported project keep theirs. Rungs get a grid of
+ * 12 x 8 or 10 x 6; one that does not fit, or would be evaluated in another order, is cut
+ * into several with bits between them. What ClassicLadder cannot hold is a diagnostic with
+ * its place (LD730 to LD739), and there is no result.
  */
 #ifndef CLASSIC_TO_CLASSIC_H
 #define CLASSIC_TO_CLASSIC_H
@@ -15,22 +15,22 @@
 #include "engine/exchange/report.h"
 #include "engine/model/project.h"
 
-/* An I/O map in their terms; what it cannot say there was told when it was made. */
+/* An I/O map as lines of ioconf.csv. Whoever makes it reports what these cannot hold. */
 struct classic_lines {
 	const struct classic_io *io;
 	int count;
-	int sample_ms;         /* inputs are looked at so often; 0: as usual    */
+	int sample_ms;         /* time between samples of inputs; 0: the default */
 };
 
-/** classic_sfc_fits - can each chart be a sequential page? Else they are written as
- * ladders first (sfc_ladder.h). Scan-safe: no. */
+/** classic_sfc_fits - true if each chart can be a sequential page. Else sfc_ladder() must
+ * write them as ladders first. Scan-safe: no. */
 bool classic_sfc_fits(const struct project *project);
 /**
- * to_classic - @project as a ClassicLadder project
+ * to_classic - converts @project
  * @project: without errors; its table of names grows
- * @lines:   of its I/O map; NULL: none. Borrowed as long as what is returned lives
- * @arena:   owns what is returned
- * @report:  gets what means something else there
+ * @lines:   of its I/O map; NULL: none. Borrowed as long as the result lives
+ * @arena:   owns the result
+ * @report:  gets what changes its meaning or is not exported
  *
  * Owns: @arena.   Scan-safe: no.   Fails: NULL and at least one diagnostic.
  */

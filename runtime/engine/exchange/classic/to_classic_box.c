@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * to_classic_box - blocks of a rung: ClassicLadder's own, which an import brings, and those
- * of IEC 61131-3 that can stand for one or be made of bits.
+ * to_classic_box - blocks of a rung: those of ClassicLadder, and those of IEC 61131-3 that
+ * become one of these or contacts and coils.
  */
 #include "engine/exchange/classic/to_classic_parts.h"
 
@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-/* The inputs of a block from its first row on; what its first row is called here. */
+/* The inputs of a block, by row in ClassicLadder. */
 struct box_row { enum word word; int code, kind; const char *pin[4]; };
 
 static const struct box_row box_rows[] = {
@@ -33,7 +33,7 @@ static const struct box_row box_rows[] = {
 	{ FB_RS, CL_PART, -1, { "S", "R1" } },
 };
 
-enum { OWN_ROWS = 7, TIMER_ROWS = 3 }; /* of ClassicLadder's own; of IEC 61131-3 */
+enum { OWN_ROWS = 7, TIMER_ROWS = 3 }; /* rows of ClassicLadder; then timers of IEC 61131-3 */
 
 static const struct box_row *row_of(enum word word)
 {
@@ -62,7 +62,7 @@ static struct classic_blocks *blocks_of(struct leaving *e, int kind)
 	}
 }
 
-/* By ascending number. */
+/* The block with this number, made if there is none. */
 static struct classic_block *block_entry(struct leaving *e, int kind, int number)
 {
 	struct classic_blocks *blocks = blocks_of(e, kind);
@@ -127,11 +127,11 @@ static bool base_of(struct leaving *e, int64_t ns, const char *name, int *base)
 	return out_refuse(e, DIAG_EXPORT_TIME, "%s", name);
 }
 
-/* A time as units of the finest base that holds it. */
+/* A time in units of the finest base that holds it. */
 static bool time_units(struct leaving *e, int64_t ns, const char *name,
 		       struct classic_block *block)
 {
-	/* A timer counts one unit a scan at most: its base is no less than a scan. */
+	/* A timer counts at most one unit a scan, so a base must not be shorter than a scan. */
 	for (int i = 2; i >= 0; i--)
 		if (ns > 0 && ns % base_ns[i] == 0 && ns / base_ns[i] <= 9999 &&
 		    base_ns[i] >= e->out->period * INT64_C(1000000)) {
@@ -142,7 +142,7 @@ static bool time_units(struct leaving *e, int64_t ns, const char *name,
 	return out_refuse(e, DIAG_EXPORT_TIME, "%s", name);
 }
 
-/* What the declaration of one of ClassicLadder's own blocks says. */
+/* Preset, base and mode from the declaration of a block of ClassicLadder. */
 static bool own_block(struct leaving *e, const struct out_slot *slot,
 		      struct classic_block *block)
 {
@@ -170,7 +170,7 @@ static bool own_block(struct leaving *e, const struct out_slot *slot,
 	return true;
 }
 
-/* A preset counts even if its block stands in no rung. */
+/* Also of blocks that no rung calls: their presets can be read. */
 void blocks_prepare(struct leaving *e)
 {
 	for (int i = 0; i < e->slots && e->good; i++) {
@@ -198,7 +198,7 @@ static void later(struct leaving *e, struct out_part *item, const char *text, in
 	*last = one;
 }
 
-/* Nothing there can write a TIME: a variable has the value that it is declared with. */
+/* ClassicLadder cannot change a TIME, so a variable counts with its initial value. */
 static bool declared_time(struct leaving *e, const char *name, int64_t *ns)
 {
 	uint32_t id = names_intern(&e->project->names, name, strlen(name));
@@ -253,7 +253,7 @@ static bool counter_preset(struct leaving *e, struct out_part *item, const char 
 	return true;
 }
 
-/* Q=>Lamp, CV=>Count: copied behind the block. */
+/* Q=>Lamp, CV=>Count: a rung behind the block copies it. */
 static bool output_to(struct leaving *e, struct out_part *item, const struct arg *arg)
 {
 	struct out_operand target, pin;
@@ -310,7 +310,7 @@ static bool has_argument(const char *args, const char *pin)
 	return false;
 }
 
-/* What a declaration gives to a block of IEC 61131-3: its preset may stand there. */
+/* Checks the declaration of a block of IEC 61131-3: it can give the preset, nothing else. */
 static bool iec_given(struct leaving *e, struct out_part *item, const char *args)
 {
 	const char *text = project_text(e->project, item->slot->var->init_text);
@@ -328,7 +328,8 @@ static bool iec_given(struct leaving *e, struct out_part *item, const char *args
 	return counter_preset(e, item, value ? value : "0");
 }
 
-/* Time goes on there by itself, and a counter begins with 0. */
+/* Checks the declaration of a block of ClassicLadder: timers need DT:=SYS_CYCLE, counters begin
+ * with 0. */
 static bool own_given(struct leaving *e, struct out_part *item, const char *args)
 {
 	const char *text = project_text(e->project, item->slot->var->init_text);

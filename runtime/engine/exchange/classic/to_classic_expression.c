@@ -2,9 +2,9 @@
  *
  * to_classic_expression - what stands in [ … ] as ClassicLadder's arithmetic.
  *
- * Its texts hold 49 bytes and one comparison; what is longer, or compares inside, is cut:
- * parts are worked out before, in words and bits of their own. The functions that an
- * import brings along go back to the operators that they stand for.
+ * An expression there has at most 49 bytes and one comparison. Rungs before the element
+ * compute parts of longer ones in words and bits of their own. Functions that an import
+ * writes become operators again.
  */
 #include "engine/exchange/classic/to_classic_parts.h"
 
@@ -13,14 +13,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From the strongest to the weakest there. */
+/* Precedence in ClassicLadder, from high to low. */
 enum rank { RANK_TERM, RANK_PRODUCT, RANK_SUM, RANK_AND, RANK_XOR, RANK_OR };
 
 struct term {
 	const char *text;
 	enum rank rank;
 	bool is_bool;
-	const char *compare;   /* "<": left and right are apart               */
+	const char *compare;   /* "<" between left and right; NULL: none      */
 	const char *left, *right;
 	bool constant;
 	int32_t value;
@@ -60,7 +60,7 @@ static struct out_before *before(struct building *b, const char *text, int bit)
 	return one;
 }
 
-/* A part as a word of its own, unless it is short. */
+/* Stores a part in a word of its own, unless it is short. */
 static struct term apart(struct building *b, struct term part)
 {
 	int word;
@@ -73,7 +73,7 @@ static struct term apart(struct building *b, struct term part)
 			      .is_bool = part.is_bool };
 }
 
-/* A comparison becomes a bit. */
+/* Stores a comparison in a bit. */
 static struct term settled(struct building *b, struct term part)
 {
 	int bit;
@@ -93,7 +93,7 @@ static const char *inside(struct building *b, struct term part, enum rank rank)
 	return part.rank > rank || sign ? out_text(b->e, "(%s)", part.text) : part.text;
 }
 
-enum { ROOM = CLASSIC_EXPRESSION - 12 }; /* beside the target, @200/1234@:= */
+enum { ROOM = CLASSIC_EXPRESSION - 12 }; /* without a target, @200/1234@:= */
 
 static struct term binary(struct building *b, struct term left, const char *op,
 			  struct term right, enum rank rank)
@@ -141,7 +141,7 @@ static struct term operand(struct building *b, const struct expr_node *term)
 	return (struct term){ .text = out_encode(b->e, is.variable), .is_bool = is.is_bool };
 }
 
-/* Words[i + 3]: a number and a variable. */
+/* The index i + 3: an offset and a variable. */
 static bool index_of(struct building *b, int term, int *offset,
 		     struct classic_variable *variable)
 {
@@ -168,7 +168,7 @@ static bool index_of(struct building *b, int term, int *offset,
 	return true;
 }
 
-/* An array with an index that is an expression: by its first element. */
+/* An array element whose index is a variable with an offset. */
 static bool element(struct building *b, const char *text, size_t len, int index,
 		    struct out_operand *out)
 {
@@ -195,7 +195,8 @@ static bool element(struct building *b, const char *text, size_t len, int index,
 
 /* ---- functions ---- */
 
-/* @title: what an import writes above it, so that no other function of that name is meant. */
+/* @title: the comment that an import writes above the function: it tells it from others of the
+ * same name. */
 struct known { const char *here, *op; enum rank rank; bool upstream; const char *title; };
 
 static const struct known known[] = {
@@ -214,7 +215,7 @@ static const struct known known[] = {
 	{ "RotateRight", "ROR", RANK_TERM, true, "A, B places round to the right" },
 };
 
-/* An import's own, or of that name with a number. */
+/* The row of a function name, also with a number behind it. */
 static const struct known *known_function(const char *text, size_t len)
 {
 	for (size_t i = 0; i < sizeof(known) / sizeof(*known); i++) {
@@ -262,7 +263,8 @@ static int arguments(struct building *b, const struct expr_node *term, struct te
 	return count;
 }
 
-/* Functions there take variables; upstream's constants, too. Anything else is a word. */
+/* Arguments of functions are variables, for upstream also constants. Other parts are stored in
+ * a word. */
 static struct term atom(struct building *b, struct term part)
 {
 	const char *end = *part.text == '@' ? strchr(part.text + 1, '@') : NULL;
@@ -431,7 +433,7 @@ static struct term build(struct building *b, int term, int depth)
 
 /* ---- cells ---- */
 
-/* `x <> 0` of a number is its own truth there. */
+/* ClassicLadder takes a number for TRUE if it is not 0: `x <> 0` becomes `x`. */
 static const char *truth_value(struct building *b, struct term part)
 {
 	if (part.compare && !strcmp(part.compare, "<>") && !strcmp(part.right, "0"))

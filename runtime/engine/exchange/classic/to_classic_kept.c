@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * to_classic_kept - what an import kept in VIEW (import/classic_keep.c) goes back.
+ * to_classic_kept - writes the lines that an import kept in VIEW (classic_keep.c) again.
  *
- * A line of it is a line of a member. Only members that are known are taken, and nothing
- * that could end one.
+ * Each is a line of a member. Lines of other members are ignored, and lines that would end
+ * their member.
  */
 #include "engine/exchange/classic/to_classic_parts.h"
 
@@ -21,7 +21,8 @@ static bool word_is(const char *word, const char *text, size_t len)
 	return strlen(word) == len && !memcmp(word, text, len);
 }
 
-/* "classicladder modbusioconf.csv S0,…"; false: another line. */
+/* "classicladder modbusioconf.csv S0,…". false: not for this export. @other: it is a line of
+ * something else. */
 static bool take_line(const struct leaving *e, const char *line, size_t len, struct kept *kept,
 		      bool *other)
 {
@@ -42,7 +43,7 @@ static bool take_line(const struct leaving *e, const char *line, size_t len, str
 		return false;
 	*kept = (struct kept){ from, space + 1, (size_t)(space - from),
 			       (size_t)(end - space - 1) };
-	/* Notes and names are the same in both; the rest is of the one that wrote it. */
+	/* Notes and names are the same in both dialects; other lines are of one dialect. */
 	if (word_is("sequential.csv", kept->member, kept->member_len) ||
 	    word_is("project_infos.txt", kept->member, kept->member_len))
 		return true;
@@ -80,7 +81,7 @@ static int pages(const struct leaving *e)
 	return count;
 }
 
-/* The lines of a member that is written as it was. */
+/* Adds a line to a member that is written unchanged. */
 static void keep_member(struct leaving *e, const char *name, const char *text)
 {
 	struct classic_member *member = NULL;
@@ -99,7 +100,7 @@ static void keep_member(struct leaving *e, const char *name, const char *text)
 	member->len = strlen(member->text);
 }
 
-/* N0,page,x,y,text of a page that there is; P0,text is upstream's. */
+/* N0,page,x,y,text and P0,text (only upstream) of a page that exists. */
 static void keep_note(struct leaving *e, const char *text)
 {
 	const int size = e->dialect == CLASSIC_UPSTREAM ? 32 : 16;

@@ -2,8 +2,8 @@
  *
  * to_classic_names - the numbers that variables and blocks have in ClassicLadder.
  *
- * A variable with the address or name that an import gives gets its old number back; any
- * other gets a number behind all used ones. Names become symbols.
+ * A variable with the address or name that an import gives keeps its number; any other gets
+ * a number that is free. Names become symbols.
  */
 #include "engine/base/ascii.h"
 #include "engine/exchange/classic/to_classic_parts.h"
@@ -31,7 +31,7 @@ static const struct memory_row memory_rows[] = {
 enum { PIN_ROWS = sizeof(pin_rows) / sizeof(*pin_rows),
        MEMORY_ROWS = sizeof(memory_rows) / sizeof(*memory_rows) };
 
-/* What an import calls blocks, and what they are called there. */
+/* Prefix of a block in a rung file, and in ClassicLadder. */
 static const char *const block_here[BLOCK_KINDS] = { "T", "Mono", "TM", "C", "Reg" };
 static const char *const block_there[BLOCK_KINDS] = { "T", "M", "TM", "C", "R" };
 
@@ -40,7 +40,7 @@ struct classic_variable variable_of(int type, int number)
 	return (struct classic_variable){ type, number, -1, 0 };
 }
 
-/* 1300 is what the table calls LinuxCNC's 300. */
+/* classic.def has 300 of LinuxCNC as 1300. */
 static int written_type(const struct leaving *e, int type)
 {
 	return e->dialect == CLASSIC_LINUXCNC && type == 1300 ? 300 : type;
@@ -174,7 +174,7 @@ static bool address_variable(struct leaving *e, struct iec_addr addr,
 	return false;
 }
 
-/* ---- what is used ---- */
+/* ---- numbers in use ---- */
 
 static void note_address(struct leaving *e, const char *text, size_t len, bool index)
 {
@@ -198,7 +198,7 @@ static void note_address(struct leaving *e, const char *text, size_t len, bool i
 	}
 }
 
-/* Every text of the project that may hold addresses: operands are interned. */
+/* Notes all addresses in a text of the project. */
 static void note_text(struct leaving *e, const char *text)
 {
 	while (*text) {
@@ -252,7 +252,7 @@ static void note_all(struct leaving *e)
 			note_text(e, text);
 		e->asks_first |= names_first(text);
 	}
-	/* Others may look at low numbers that the program does not use: Modbus, spies. */
+	/* Modbus and spy windows can read low numbers that the program does not use. */
 	if (e->dialect == CLASSIC_UPSTREAM && e->next_bit < 300)
 		e->next_bit = 300;
 	if (e->dialect == CLASSIC_UPSTREAM && e->next_word < 100)
@@ -295,7 +295,7 @@ static bool block_taken(const struct leaving *e, int kind, int number)
 	return false;
 }
 
-/* TM3_Delay is %TM3; -1: the name says nothing. */
+/* TM3_Delay is %TM3; -1: the name has no number. */
 static int number_in(const struct leaving *e, const char *name, int kind)
 {
 	size_t len = strlen(block_here[kind]);
@@ -324,7 +324,7 @@ static void memory_slot(struct leaving *e, struct out_slot *slot)
 	int count = var->array.count ? (int)var->array.count : 1;
 	struct out_operand operand;
 
-	slot->type = -1; /* it has no number: its uses report that */
+	slot->type = -1; /* no number: a use of it is refused */
 	if (count > CLASSIC_LIMIT || (var->type != IEC_BOOL && !whole_number(var->type)))
 		return;
 	slot->count = count;
@@ -369,7 +369,7 @@ static void add_slot(struct leaving *e, const struct pou *pou, const struct var 
 	}
 }
 
-/* Blocks whose names say no number get what is left. */
+/* Blocks without a number in their name get one that is free. */
 static void number_blocks(struct leaving *e)
 {
 	for (int i = 0; i < e->slots; i++) {
@@ -579,7 +579,7 @@ static const char *plain_comment(struct leaving *e, const char *text)
 	       strchr(copy, ' ') ? copy : "";
 }
 
-/* Is the name what an import makes of no symbol? */
+/* Is it the name that an import gives without a symbol? */
 static bool says_number(const struct out_slot *slot, const char *own)
 {
 	char text[LIMIT_NAME + 16];
@@ -596,7 +596,7 @@ static bool symbol_taken(const struct leaving *e, const char *name)
 	return false;
 }
 
-/* At most 9 bytes, and no other has it. */
+/* At most 9 bytes; a number at the end if another symbol has the name. */
 static const char *symbol_name(struct leaving *e, const char *name)
 {
 	const char *cut = out_text(e, "%.*s", classic_cut(name, CLASSIC_SYMBOL), name);
@@ -610,7 +610,8 @@ static const char *symbol_name(struct leaving *e, const char *name)
 	return cut;
 }
 
-/** out_symbol - of a variable that is @prefix and a number there, @own and one here. */
+/* Adds the symbol of a variable: @prefix and a number in ClassicLadder, @own and a number in
+ * an imported file. */
 static void out_symbol(struct leaving *e, const struct out_slot *slot, const char *prefix,
 		       const char *own)
 {
@@ -693,7 +694,7 @@ static struct out_part value_item(struct leaving *e, const struct out_slot *slot
 	return item;
 }
 
-/* Of an array: what each element begins with, as far as its list goes. */
+/* Initial values of an array, as far as its list goes. */
 static void initial_list(struct leaving *e, const struct out_slot *slot)
 {
 	const struct var *var = slot->var;
@@ -748,7 +749,7 @@ void leave_initial(struct leaving *e)
 		const struct var *var = slot->var;
 		struct out_part item;
 
-		/* A page tells itself what its steps are. */
+		/* A page sets bits of steps itself. */
 		if (slot->block >= 0 || slot->type < 0 || slot->type == CL_STEP_BIT ||
 		    !var->has_init || var->type == IEC_NONE || (slot->pou && pou_has_frame(slot->pou)))
 			continue;
@@ -767,7 +768,7 @@ void leave_initial(struct leaving *e)
 	section_end(e, true);
 }
 
-/* The bit that says that a scan has been is set behind all of them. */
+/* The last section sets the bit that ends the first scan. */
 void leave_started(struct leaving *e)
 {
 	struct out_part item = { .code = CL_SET, .width = 1, .height = 1 };

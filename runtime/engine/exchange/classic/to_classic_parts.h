@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * to_classic_parts - what the parts of the way back to ClassicLadder share.
+ * to_classic_parts - types and functions that the files of the export to ClassicLadder share.
  *
- * Private to to_classic*.c: to_classic sections and programs, to_classic_names
- * numbers and symbols, to_classic_expression arithmetic, to_classic_rung one rung as it is
- * drawn, to_classic_split one that must be cut, to_classic_sfc pages.
+ * Private to to_classic*.c: to_classic writes sections and programs, to_classic_names numbers
+ * and symbols, to_classic_expression arithmetic, to_classic_rung a rung as it is drawn,
+ * to_classic_split one that must be cut, to_classic_sfc pages.
  */
 #ifndef CLASSIC_TO_CLASSIC_PARTS_H
 #define CLASSIC_TO_CLASSIC_PARTS_H
@@ -17,7 +17,7 @@
 
 #include <stdarg.h>
 
-/* Codes of elements and variables: classic.def and facts of the format. */
+/* Codes of elements and variables in the files. */
 enum {
 	CL_FREE = 0, CL_NO = 1, CL_NC = 2, CL_RISING = 3, CL_FALLING = 4, CL_WIRE = 9,
 	CL_OLD_TIMER = 10, CL_MONOSTABLE = 11, CL_COUNT = 12, CL_IEC = 13, CL_REGISTER_BOX = 14,
@@ -29,15 +29,15 @@ enum {
 enum block_kind { BLOCK_TIMER, BLOCK_MONO, BLOCK_IEC, BLOCK_COUNTER, BLOCK_REGISTER,
 		  BLOCK_KINDS };
 
-/* A variable or instance, and what it is there. */
+/* A variable or instance, and its number in ClassicLadder. */
 struct out_slot {
 	const struct var *var;
 	const struct pou *pou;
 	int type, number, count;
 	int block;             /* enum block_kind; -1: memory, a step          */
 	const char *name, *comment;
-	int calls;             /* boxes of it                                  */
-	int extra[4];          /* bits of an instance that stands for several;
+	int calls;             /* boxes that call it                           */
+	int extra[4];          /* bits that an instance without a block uses;
 				  -1: none yet                                 */
 };
 
@@ -48,33 +48,33 @@ struct out_operand {
 	int32_t value;
 };
 
-/* Something that must be worked out before an element: a word or a bit. */
+/* A word or bit that a rung computes before or after an element. */
 struct out_before {
 	const char *text;      /* an expression                               */
-	int bit;               /* a comparison gives this %B; -1: text stores  */
+	int bit;               /* %B that gets a comparison; -1: text stores   */
 	struct out_before *next;
 };
 
-/* An element of a rung in ClassicLadder's terms. */
+/* An element of a rung, with codes and numbers of ClassicLadder. */
 struct out_part {
 	int code, width, height;
 	struct classic_variable variable; /* of blocks: number                 */
 	const char *text;      /* of compare, operate                          */
 	struct out_before *before, *after;
 	uint32_t label;        /* of a jump: folded                            */
-	bool leaves;           /* a jump to the end                            */
+	bool leaves;           /* a jump to the end of the section             */
 	bool dead;             /* never gives power                            */
 	bool actor, invert, output;
 	int edge;              /* of a coil: CL_RISING, CL_FALLING; 0: none    */
 	int in, out;           /* nets                                         */
-	int pin[4];            /* nets of the rows of a block, -1: none        */
-	struct classic_variable given[4]; /* instead of a net: a variable; type -1 */
-	bool inverse[4];
-	bool moved;            /* its inputs stand in other rows there          */
+	int pin[4];            /* nets of the rows of a block; -1: none        */
+	struct classic_variable given[4]; /* a variable instead of a net; type -1: none */
+	bool inverse[4];       /* of given                                     */
+	bool moved;            /* ClassicLadder has its inputs in other rows   */
 	struct out_slot *slot;
 	enum word word;
 	int row, col;
-	int order;             /* when it is evaluated; -1: never              */
+	int order;             /* of evaluation; -1: never                     */
 };
 
 struct out_jump { struct classic_cell *cell; uint32_t label; bool leaves; };
@@ -95,14 +95,14 @@ struct leaving {
 	int next_bit, next_word, next_block[BLOCK_KINDS];
 	int sizes[400];        /* by type: highest number + 1                  */
 	bool word_index, bit_index;
-	bool has_period;       /* a task says it                              */
-	bool divides, sums, indexes, clocks; /* what means something else there: told
-				  once for all                                */
+	bool has_period;       /* a task has an interval                       */
+	bool divides, sums, indexes, clocks; /* in use, with other results in
+				  ClassicLadder: one line of the report each   */
 	uint8_t wide[2];       /* widths of %AI, %AQ in use: 1 16 bits, 2 32   */
-	bool asks_first;       /* a text may name SYS_FIRST_SCAN                */
-	int first;             /* a bit that is it; -1: none                   */
-	int free_step;         /* numbers of steps before it are given         */
-	int started, never;    /* bits: a scan has been; never TRUE. -1: not needed */
+	bool asks_first;       /* the project names SYS_FIRST_SCAN             */
+	int first;             /* the bit in its place; -1: none               */
+	int free_step;         /* smaller numbers of steps are taken           */
+	int started, never;    /* bits: TRUE after the first scan; never TRUE; -1: not needed */
 	/* the POU in work */
 	const struct pou *pou;
 	int *spare; int spares, helpers_used;
@@ -117,121 +117,122 @@ struct leaving {
 };
 
 /* ---- to_classic.c ---- */
-/** out_refuse - a diagnostic about the cell in work. Returns false. */
+/** out_refuse - adds a diagnostic about the cell in work. Returns false. */
 bool out_refuse(struct leaving *e, enum diag_id id, const char *format, ...)
 	__attribute__((format(printf, 3, 4)));
-/** tell_change - a line of the report about it. */
+/** tell_change - adds a line to the report about the cell in work. */
 void tell_change(struct leaving *e, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
-/** tell_line - about the project, with a line of its file; 0: none. */
+/** tell_line - adds a line to the report about the project. @line: of its file; 0: none. */
 void tell_line(struct leaving *e, int line, const char *format, ...)
 	__attribute__((format(printf, 3, 4)));
 const char *out_text(struct leaving *e, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
-/** rung_begin - one more rung behind the last of the section. NULL: no memory, or there
- * are too many. */
+/** rung_begin - adds an empty rung to the section. NULL: no memory, or too many. */
 struct classic_rung *rung_begin(struct leaving *e);
-/** section_begin, section_end - one more; @drop: not if it has no rung. */
+/** section_begin, section_end - adds a section. @drop: removes it if it has no rung. */
 void section_begin(struct leaving *e, const char *name, int subroutine, bool sequential);
 void section_end(struct leaving *e, bool drop);
-/** add_expression - its number. */
+/** add_expression - adds an expression once; returns its number. */
 int add_expression(struct leaving *e, const char *text);
-/** blocks_end - the highest number + 1. Scan-safe: yes. */
+/** blocks_end - the highest number + 1; 0: no block. Scan-safe: yes. */
 int blocks_end(const struct classic_blocks *blocks);
-/** routine_number - of a subroutine; -1: it is none. */
+/** routine_number - number of subroutine @name; -1: it is none. */
 int routine_number(struct leaving *e, uint32_t name);
 
 /* ---- to_classic_kept.c ---- */
-/** leave_kept - what an import kept goes back. */
+/** leave_kept - writes what an import kept in VIEW. */
 void leave_kept(struct leaving *e);
 
-/** is_shared - has anything else a part of its memory? Scan-safe: no. */
+/** is_shared - true if another variable or address overlaps the memory of @var. */
 bool is_shared(struct leaving *e, const struct var *var);
 
 /* ---- to_classic_names.c ---- */
 bool names_prepare(struct leaving *e);
 void names_symbols(struct leaving *e);
-/** there_find - what a text means there; false after telling. */
+/** there_find, there_text - the variable or constant that a text means. false: refused. */
 bool there_find(struct leaving *e, uint32_t text, struct out_operand *out);
 bool there_text(struct leaving *e, const char *text, size_t len, struct out_operand *out);
-/** slot_find - of an instance; NULL: none. */
+/** slot_find - slot of a variable or instance; NULL: it has none. */
 struct out_slot *slot_find(struct leaving *e, const struct var *var);
 int new_bit(struct leaving *e);
 int new_word(struct leaving *e);
-/** spare_bit - one that lasts for a rung. */
+/** new_bit, new_word - a number that nothing else has. spare_bit - the same until the end of
+ * the rung. never_bit - a bit that is never TRUE. */
 int spare_bit(struct leaving *e);
 int never_bit(struct leaving *e);
 void size_note(struct leaving *e, int type, int number);
 struct classic_variable variable_of(int type, int number);
-/** extra_bit - bit @index of an instance that is none of ClassicLadder's blocks. */
+/** extra_bit - bit @index of an instance that ClassicLadder has no block for. */
 int extra_bit(struct leaving *e, struct out_slot *slot, int index);
 
 /* ---- to_classic_expression.c ---- */
-/** cell_expression - of a [ … ] cell; false after telling. */
+/** cell_expression - the expression of a `[ … ]` cell. false: refused. */
 bool cell_expression(struct leaving *e, const char *text, struct out_part *item);
-/** out_encode - @200/3@. */
+/** out_encode - "@200/3@", as expressions name a variable. */
 const char *out_encode(struct leaving *e, struct classic_variable variable);
 
-/** pou_is_imported - one of the functions that an import brings along? Scan-safe: yes. */
+/** pou_is_imported - true for a function that an import writes. Scan-safe: yes. */
 bool pou_is_imported(const struct project *project, const struct pou *pou);
 
 /* ---- to_classic_told.c ---- */
-/** leave_told - what has been written nowhere. */
+/** leave_told - adds to the report what is not exported. */
 void leave_told(struct leaving *e);
 
 /* ---- to_classic_box.c ---- */
-/** box_part - an instance in a rung. */
+/** box_part - makes an element of a block. false: refused. */
 bool box_part(struct leaving *e, const struct network *network,
 	      const struct network_element *at, const struct cell *cell,
 	      struct out_part *item);
 
-/** runs_often - may the rung in work run more than once in a scan? Scan-safe: no. */
+/** runs_often - true if the rung in work can run more than once in a scan. */
 bool runs_often(struct leaving *e);
-/** may_rest - may a scan pass it over? Scan-safe: yes. */
+/** may_rest - true if a scan can skip the rung in work. */
 bool may_rest(struct leaving *e);
-/** blocks_prepare - presets and modes of all blocks. */
+/** blocks_prepare - sets presets and modes of all blocks. */
 void blocks_prepare(struct leaving *e);
-/** box_is_plain - can it be drawn as it stands? Scan-safe: yes. */
+/** box_is_plain - true if it needs no rungs before or behind it. Scan-safe: yes. */
 bool box_is_plain(const struct out_part *item);
 
-/* ---- to_classic_rung.c, to_classic_draw.c, to_classic_split.c ---- */
+/* ---- to_classic_rung.c, to_classic_split.c ---- */
 struct out_rung {
 	struct network network;
 	const struct rung *rung;
 	struct out_part *item; /* by element of the network                    */
 	int count, order;
-	bool plain;            /* nothing in it must be worked out before     */
-	bool boxes;            /* something in its middle does more than read  */
+	bool plain;            /* needs no rungs before it                     */
+	bool boxes;            /* has blocks, or elements in its middle that write */
 	bool *net_seen;
 };
 void leave_rung(struct leaving *e, const struct rung *rung);
-/** out_put - an element whose left top cell is at (y, x). */
+/** out_put - puts an element with its upper left cell at (y, x). */
 void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
 	      const struct out_part *item);
-/** note_jump - a jump at that cell: its rung is found when all are there. */
+/** note_jump - notes a jump; section_end() sets its target. */
 void note_jump(struct leaving *e, struct classic_cell *cell, const struct out_part *item);
-/** part_touches - does @item read what @box writes, or is it the same block? */
+/** part_touches - true if @item reads what @box writes, or calls the same block. */
 bool part_touches(const struct out_part *item, const struct out_part *box);
-/** is_block - one of ClassicLadder's own. Scan-safe: yes. */
+/** is_block - true for a block that ClassicLadder has. */
 static inline bool is_block(const struct out_part *item)
 {
 	return item->code >= CL_OLD_TIMER && item->code <= CL_REGISTER_BOX;
 }
 void split_rung(struct leaving *e, struct out_rung *r);
-/** draw_step - a rung of a contact, or the rail (@code CL_WIRE), and an output. */
+/** draw_step - adds a rung of one contact (@code CL_WIRE: none) and an output. */
 void draw_step(struct leaving *e, int code, struct classic_variable variable,
 	       const struct out_part *output);
-/** pin_kind - of which kind of block is this type a pin? -1: of none. */
+/** pin_kind - enum block_kind whose pin @type is; -1: none. */
 int pin_kind(int type);
 
 /* ---- initial values ---- */
-/** leave_initial - what variables begin with; leave_started - that the first scan has been. */
+/** leave_initial - adds rungs that set initial values. leave_started - adds the rung that ends
+ * the first scan. */
 void leave_initial(struct leaving *e);
 void leave_started(struct leaving *e);
-/** leave_temporaries - VAR_TEMP of the POU begin anew each time it runs. */
+/** leave_temporaries - adds rungs that reset VAR_TEMP of the POU. */
 void leave_temporaries(struct leaving *e, const struct pou *pou);
 
-/** sfc_prepare - numbers of steps, before anything is named. */
+/** sfc_prepare - numbers the steps of a chart; before names_prepare(). */
 void sfc_prepare(struct leaving *e, const struct pou *pou, int page);
 void leave_sfc(struct leaving *e, const struct pou *pou, int page);
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * to_classic_rung - what a rung holds, in ClassicLadder's terms: elements, the nets between
- * them, when each is evaluated here; and the rung drawn cell by cell.
+ * to_classic_rung - makes elements, nets and the order of evaluation of a rung, and draws it
+ * cell by cell if ClassicLadder then does the same.
  */
 #include "engine/base/ascii.h"
 #include "engine/exchange/classic/to_classic_parts.h"
@@ -170,7 +170,7 @@ static bool make_part(struct leaving *e, struct out_rung *r, int index)
 
 static void visit_net(struct out_rung *r, int net);
 
-/* As deep as a rung has columns. */
+/* The recursion is as deep as a rung has columns. */
 static void visit(struct out_rung *r, int index)
 {
 	const struct network_element *at = &r->network.element[index];
@@ -196,7 +196,7 @@ static void visit_net(struct out_rung *r, int net)
 		visit(r, n->feeder[i]);
 }
 
-/* ---- what touches what ---- */
+/* ---- elements that read what others write ---- */
 
 static bool reads_pin(struct classic_variable variable, const struct out_part *box)
 {
@@ -387,10 +387,10 @@ static void place_all(struct drawing *d)
 	}
 }
 
-/* Who gives power: items by number, the rail, what should not. */
+/* Sources of power: a bit for each element, the rail, and outputs that must not be read. */
 struct sources { uint64_t bit[2]; };
 
-/* ---- what it means there ---- */
+/* ---- sources of power in the drawing, by the rule of ClassicLadder ---- */
 
 struct power { struct sources out[CLASSIC_ROWS][CLASSIC_COLUMNS]; };
 
@@ -424,7 +424,7 @@ static struct sources left_of(const struct drawing *d, const struct power *power
 	return left;
 }
 
-/* ---- what should be ---- */
+/* ---- sources of power in the network ---- */
 
 static void expected(const struct out_rung *r, int net, struct sources *out, int depth)
 {
@@ -505,7 +505,8 @@ static bool means_the_same(struct drawing *d)
 	return true;
 }
 
-/* Column by column there; here as the walk from the outputs back meets it. */
+/* Do elements that read a block keep their order? ClassicLadder goes column by column, a rung
+ * here from its outputs back. */
 static bool same_order(const struct drawing *d)
 {
 	const struct out_rung *r = d->r;
@@ -520,7 +521,7 @@ static bool same_order(const struct drawing *d)
 			if (k == i || item->actor || item->order < 0 || item->dead ||
 			    item->code == CL_WIRE || !part_touches(item, box))
 				continue;
-			/* What an import would cut is cut here: it stays as it is then. */
+			/* An import would cut here. Cut now, so that the text stays the same. */
 			if ((item->order < box->order) != (there < 0) ||
 			    (d->x[k] <= d->x[i] && item->row < box->row))
 				return false;
@@ -539,7 +540,7 @@ static bool actors_apart(const struct out_rung *r)
 	return true;
 }
 
-/* A jump that nothing feeds would only want a rung to go to. */
+/* A jump that nothing feeds needs no target: such a rung is split. */
 static bool jumps_dead(const struct out_rung *r)
 {
 	for (int i = 0; i < r->count; i++) {
@@ -554,8 +555,8 @@ static bool jumps_dead(const struct out_rung *r)
 	return false;
 }
 
-/* As it is drawn here. False: it does not fit, or would mean something
- * else; nothing was written. */
+/* Draws the rung as it is. false: it does not fit or would do something else; nothing is
+ * written. */
 static bool same_rung(struct leaving *e, struct out_rung *r)
 {
 	struct drawing *d = arena_alloc(e->arena, sizeof(*d));

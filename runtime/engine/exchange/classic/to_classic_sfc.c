@@ -2,11 +2,10 @@
  *
  * to_classic_sfc - a chart as a sequential page.
  *
- * The page runs IN ORDER, as all pages do there, or UNTIL STABLE, which is nearly the same
- * and is reported. Its conditions are one bit each, and its steps only show that they are
- * active. A longer condition becomes a bit that a section before the page computes; a BOOL
- * that several steps hold becomes a coil in a section behind it. Any other chart is written
- * as a ladder first.
+ * All pages of ClassicLadder run IN ORDER; a chart UNTIL STABLE is reported. The condition of
+ * a transition there is one bit, and a step has no actions. A section before the page computes
+ * longer conditions; a section behind it has coils for BOOLs that several steps hold. Any
+ * other chart must be written as a ladder first.
  */
 #include "engine/exchange/classic/to_classic_parts.h"
 
@@ -17,7 +16,7 @@
 
 enum { PAGE_ROWS = 14 };
 
-/* ---- does it fit ---- */
+/* ---- charts that fit ---- */
 
 static bool names_step(const struct project *project, const struct sfc *sfc,
 		       const char *text)
@@ -34,7 +33,7 @@ static bool names_step(const struct project *project, const struct sfc *sfc,
 	return false;
 }
 
-/* What one condition or action is: a rung without a look at its own steps. */
+/* A condition fits if it is an expression or rungs that do not read steps of the chart. */
 static bool condition_fits(const struct project *project, const struct pou *pou,
 			   const struct sfc_body *body)
 {
@@ -53,7 +52,7 @@ static bool condition_fits(const struct project *project, const struct pou *pou,
 	return true;
 }
 
-/* The CL_STEP that an import puts into an action; NULL: it is none. */
+/* The CL_STEP in an action that an import writes; NULL: it is another action. */
 static const struct cell *seconds_of(const struct pou *pou, const struct sfc_body *body)
 {
 	const struct cell *found = NULL;
@@ -73,8 +72,8 @@ static const struct cell *seconds_of(const struct pou *pou, const struct sfc_bod
 	return found;
 }
 
-/* The coil of a step's bit that an import puts into an action, where it must be told in the
- * first scan, too; NULL: it is none. @step: whose it is. */
+/* The coil of the bit of @step in an action that an import writes; NULL: it is another
+ * action. */
 static const struct cell *bit_of(const struct project *project, const struct pou *pou,
 				 const struct sfc_body *body, int step)
 {
@@ -94,7 +93,7 @@ static const struct cell *bit_of(const struct project *project, const struct pou
 	return &rung->cell[1];
 }
 
-/* A line holds a BOOL or an action of an import. */
+/* A line fits if it holds a BOOL or an action that an import writes. */
 static bool line_fits(const struct project *project, const struct pou *pou,
 		      const struct sfc_use *use)
 {
@@ -153,7 +152,7 @@ static bool number_taken(const struct leaving *e, int number)
 	return false;
 }
 
-/* Step7 is %X7. -1: any number will do. */
+/* Step7 is %X7. -1: the name has no number. */
 static int number_wished(const char *name)
 {
 	char *end;
@@ -165,7 +164,7 @@ static int number_wished(const char *name)
 	return !*end && wish < CLASSIC_LIMIT ? (int)wish : -1;
 }
 
-/* By a step of any chart. */
+/* Does the name of any step ask for this number? */
 static bool is_wished(const struct leaving *e, int number)
 {
 	for (int i = 0; i < e->project->pou_count; i++) {
@@ -227,7 +226,7 @@ static int uses_of(const struct sfc *sfc, const struct project *project, uint32_
 	return count;
 }
 
-/* A BOOL that one step alone holds is that step's bit. */
+/* A BOOL that only one step holds becomes the bit of that step. */
 static void use_slots(struct leaving *e, const struct pou *pou, int step, int number)
 {
 	const struct sfc *sfc = pou->sfc;
@@ -286,7 +285,7 @@ void sfc_prepare(struct leaving *e, const struct pou *pou, int page)
 
 /* ---- transitions ---- */
 
-/* An expression that is one operand: it is the condition itself. */
+/* An expression of one operand is the condition. false: it is longer. */
 static bool plain_condition(struct leaving *e, const struct sfc_body *body,
 			    struct classic_variable *out)
 {
@@ -362,7 +361,7 @@ static void transition(struct leaving *e, const struct sfc_transition *from, int
 	condition(e, &from->condition, &to->condition);
 }
 
-/* ---- what several steps hold ---- */
+/* ---- BOOLs that several steps hold ---- */
 
 static bool first_use(const struct leaving *e, int use)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * to_classic_split - a rung that ClassicLadder's grid does not hold, or would evaluate in
- * another order: several, with bits between them, in the order of evaluation here.
+ * to_classic_split - a rung that does not fit the grid of ClassicLadder, or would be evaluated
+ * in another order there, as several rungs with bits between them.
  *
- * The power of a net is a bit; a rung gives it: a row for each way that leads there.
+ * A rung computes the power of a net as a bit, with a row for each way that leads to it.
  */
 #include "engine/exchange/classic/to_classic_parts.h"
 
@@ -11,13 +11,12 @@
 
 enum { CHAIN = 16 };
 
-/* Items are large: their functions share no frame. */
+/* struct out_part is large: not inlined, frames stay under 1 KB. */
 #define APART __attribute__((noinline))
 
 /* Contacts in series, from the rail on. */
 struct way { struct out_part item[CHAIN]; int count, width; bool never; };
 
-/** contact, coil - one of them. Scan-safe: yes. */
 static inline struct out_part contact(int code, struct classic_variable variable)
 {
 	return (struct out_part){ .code = code, .width = 1, .height = 1,
@@ -29,16 +28,16 @@ static inline struct out_part coil(int code, int bit)
 	return contact(code, variable_of(CL_BIT, bit));
 }
 
-/* What has power there: always, never, or while a bit is. */
+/* When a net has power: always, never, or while a bit is TRUE. */
 struct net_power { bool known, always, never; struct classic_variable bit; };
 
 struct splitting {
 	struct leaving *e;
 	struct out_rung *r;
 	struct net_power *net;
-	struct net_power *given;   /* by item: of what was worked out already    */
+	struct net_power *given;   /* by item: power behind it, if computed       */
 	bool *done;
-	struct classic_variable gate[4]; /* of a counter, in the place of an input */
+	struct classic_variable gate[4]; /* inputs of a counter instead of their nets */
 };
 
 static int longest(const struct splitting *s)
@@ -64,7 +63,7 @@ static bool is_simple(const struct splitting *s, int index)
 	       ((item->code >= CL_NO && item->code <= CL_WIRE) || item->code == CL_COMPARE);
 }
 
-/* One more in series; beyond CHAIN it is left out. */
+/* Adds an element in series. */
 static APART void way_add(struct way *way, struct out_part item)
 {
 	if (way->count == CHAIN)
@@ -121,7 +120,7 @@ static void copy_way(struct way *to, const struct way *from)
 	memcpy(to, from, sizeof(*to));
 }
 
-/* In row @y, with wires up to column @to; gives the column behind. */
+/* In row @y, with wires up to column @to. Returns the next column. */
 static int draw_way(struct leaving *e, struct classic_rung *rung, int y,
 		    const struct way *way, int to)
 {
@@ -138,7 +137,7 @@ static int draw_way(struct leaving *e, struct classic_rung *rung, int y,
 	return x;
 }
 
-/* Ways side by side, then an output. */
+/* A rung of parallel ways and an output. */
 static void draw_ways(struct leaving *e, const struct way *way, int ways,
 		      const struct out_part *output)
 {
@@ -159,7 +158,7 @@ static void draw_ways(struct leaving *e, const struct way *way, int ways,
 		note_jump(e, &rung->cell[0][end], output);
 }
 
-/* All ways of a net, at most as many as a rung has rows: what is more gives a bit before. */
+/* All ways of a net. If a rung has too few rows, a rung before it joins some into a bit. */
 static int find_ways(struct splitting *s, int net, struct way *way)
 {
 	const struct network *n = &s->r->network;
@@ -201,7 +200,7 @@ static void give(struct splitting *s, int index, int bit)
 					      .bit = variable_of(CL_BIT, bit) };
 }
 
-/* Its inputs one below the other, its first output a bit. */
+/* A rung of a block: a contact at each input; a coil stores its first output. */
 static APART void draw_block(struct splitting *s, int index)
 {
 	const struct out_part *item = &s->r->item[index];
@@ -245,7 +244,7 @@ static APART void draw_block(struct splitting *s, int index)
 	give(s, index, bit);
 }
 
-/* What must be worked out, a rung each. */
+/* A rung for each word or bit of the list. */
 static void draw_before(struct leaving *e, const struct out_before *before)
 {
 	for (; before && e->good; before = before->next) {
@@ -283,7 +282,7 @@ void draw_step(struct leaving *e, int code, struct classic_variable variable,
 	draw_ways(e, way, 1, output);
 }
 
-/* A bit that is the power of a net. */
+/* The bit with the power of a net. */
 static struct classic_variable net_bit(struct splitting *s, int net, bool *never)
 {
 	struct out_part first, output;
@@ -296,7 +295,7 @@ static struct classic_variable net_bit(struct splitting *s, int net, bool *never
 	return output.variable;
 }
 
-/* An edge of an input counts only while the count can go on: there it would go round. */
+/* %C counts round from 9999 to 0. A gate stops edges of an input at the limit. */
 static APART void gate(struct splitting *s, int row, const struct out_part *item,
 		 const char *limit)
 {
@@ -361,7 +360,7 @@ static struct classic_variable input_bit(struct splitting *s, const struct out_p
 	return output.variable;
 }
 
-/* Edges and bistables: a bit that stays. */
+/* R_TRIG, F_TRIG, SR and RS: rungs and a bit. */
 static APART void draw_bits(struct splitting *s, int index)
 {
 	const struct out_part *item = &s->r->item[index];
@@ -388,7 +387,7 @@ static APART void draw_bits(struct splitting *s, int index)
 	give(s, index, bit);
 }
 
-/* An assignment or call in the middle: power goes on behind it. */
+/* An assignment or call in the middle of a rung: power goes on behind it. */
 static APART void draw_middle(struct splitting *s, int index)
 {
 	const struct out_part *item = &s->r->item[index];
@@ -412,7 +411,7 @@ static APART void draw_inverted(struct splitting *s, int index)
 	give(s, index, output.variable.number);
 }
 
-/* Must it be read at once, before a block changes it? */
+/* Does an element of the rung write what @item reads? Then it is read in its turn. */
 static bool is_changed(const struct splitting *s, const struct out_part *item)
 {
 	for (int i = 0; i < s->r->count; i++) {
@@ -455,7 +454,7 @@ static void work_out(struct splitting *s, int index)
 	if (s->done[index] || item->actor || !s->e->good)
 		return;
 	s->done[index] = true;
-	if (item->dead) { /* what leads there works all the same */
+	if (item->dead) { /* elements before it are evaluated all the same */
 		settle(s, item->in);
 		return;
 	}
@@ -543,7 +542,7 @@ static bool power_contact(struct splitting *s, int net, struct out_part *out, bo
 
 /* ---- outputs ---- */
 
-/* Without power a coil writes, anything else does nothing. */
+/* A coil also writes without power. */
 static bool acts_always(const struct out_part *item)
 {
 	return item->code == CL_COIL || item->code == CL_COIL_NOT;
@@ -601,7 +600,7 @@ static APART void act(struct splitting *s, const struct out_part *item, struct a
 		flush(s, acting);
 }
 
-/* One output, and its ways fit into a rung: no bit is needed. */
+/* A rung with one output whose ways fit into one rung needs no bits. */
 static APART bool act_alone(struct splitting *s, int index)
 {
 	const struct out_part *item = &s->r->item[index];
@@ -648,7 +647,7 @@ void split_rung(struct leaving *e, struct out_rung *r)
 	for (int i = 0; i < r->count; i++) {
 		if (r->item[i].actor)
 			last = i, actors++;
-		/* As here: what leads to an output, then that; outputs act at the end. */
+		/* In order of evaluation: what feeds an output; the outputs act at the end. */
 		if (r->boxes && r->item[i].output && r->item[i].actor &&
 		    r->item[i].in != NET_RAIL)
 			settle(s, r->item[i].in);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * to_classic_told - what a project has that ClassicLadder has not: told, line by line.
+ * to_classic_told - reports what an export leaves out or what changes its meaning in
+ * ClassicLadder: variables, comments, configuration, POUs.
  *
- * Each thing of a project is written, refused with its place, or stands here. What a rung
- * itself changes is told where it is written; this goes through everything else.
+ * Changes inside rungs are reported where the rung is written.
  */
 #include "engine/exchange/classic/to_classic_parts.h"
 
@@ -23,7 +23,7 @@ static bool is_narrow(enum iec_type type)
 	       type == IEC_BYTE || type == IEC_WORD;
 }
 
-/* A TIME is expressed where it is the preset of a timer. */
+/* Is the variable exported? A TIME is, if it is the preset of a timer. */
 static bool is_expressed(const struct out_slot *slot)
 {
 	if (slot->block >= 0 || slot->type >= 0 || slot->calls)
@@ -74,7 +74,7 @@ static void rung_comments(const struct rung *rung, struct comments *comments)
 			     rung_line(rung, i / rung->cols + 1));
 }
 
-/* Of arrays and of what is written without a symbol. */
+/* Comments of arrays, and of variables without a symbol. */
 static void table_comments(struct leaving *e, const struct var_table *table,
 			   struct comments *comments)
 {
@@ -183,7 +183,7 @@ static void told_pous(struct leaving *e)
 			  project_text(project, project->structure[i].name));
 }
 
-/* LinuxCNC takes its sizes from the line that loads it. */
+/* LinuxCNC takes sizes from the line that loads its module. */
 static void told_sizes(struct leaving *e)
 {
 	const struct { const char *name; int count, usual; } row[] = {
@@ -209,7 +209,7 @@ static void told_sizes(struct leaving *e)
 
 static const int base_ms[] = { 60000, 1000, 100 };
 
-/* Its own faults, which an import repairs. */
+/* Faults of ClassicLadder that an import repairs. */
 static void told_faults(struct leaving *e)
 {
 	const struct classic_blocks *mono = &e->out->monostable, *iec = &e->out->iec_timer;
