@@ -148,10 +148,10 @@ struct known_symbol { int type, number, index; };
 static int by_what(const void *a, const void *b)
 {
 	const struct known_symbol *x = a, *y = b;
+	const int type = classic_by_number(&x->type, &y->type);
+	const int number = classic_by_number(&x->number, &y->number);
 
-	return x->type != y->type ? (x->type < y->type ? -1 : 1) :
-	       x->number != y->number ? (x->number < y->number ? -1 : 1) :
-	       x->index < y->index ? -1 : x->index > y->index;
+	return type ? type : number ? number : classic_by_number(&x->index, &y->index);
 }
 
 /* ---- lookup ---- */
@@ -159,9 +159,9 @@ static int by_what(const void *a, const void *b)
 static int by_type(const void *a, const void *b)
 {
 	const struct classic_name *x = a, *y = b;
+	const int type = classic_by_number(&x->type, &y->type);
 
-	return x->type != y->type ? (x->type < y->type ? -1 : 1) :
-	       x->number < y->number ? -1 : x->number > y->number;
+	return type ? type : classic_by_number(&x->number, &y->number);
 }
 
 struct classic_name *used_name(const struct conversion *c, int type, int number)
@@ -326,12 +326,6 @@ static void give_name(struct conversion *c, struct classic_name *name)
 		tell_symbol(c, symbol, name->name);
 }
 
-/* Nothing else gets this name. @name lives as long as the arena. */
-static void name_reserve(struct conversion *c, const char *name)
-{
-	claim(c, name);
-}
-
 /* Names of steps, their actions, and the blocks that have their seconds. */
 static void reserve_steps(struct conversion *c)
 {
@@ -339,8 +333,7 @@ static void reserve_steps(struct conversion *c)
 
 	for (int i = 0; i < c->project->steps; i++)
 		for (size_t k = 0; k < sizeof(prefix) / sizeof(*prefix); k++)
-			name_reserve(c, text_of(c, "%s%d", prefix[k],
-						c->project->step[i].number));
+			claim(c, text_of(c, "%s%d", prefix[k], c->project->step[i].number));
 }
 
 void find_names(struct conversion *c)

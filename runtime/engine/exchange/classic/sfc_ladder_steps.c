@@ -416,9 +416,10 @@ static void write_left(struct lad *e, int step)
 		lad_way(r);
 		lad_cell(r, no(e, &e->arc[i][LAD_FIRES]));
 	}
-	if (!r || !r->ways)
-		lad_cell(r, nc(e, &e->step[step][LAD_LEFT])), lad_cell(r,
-			 no(e, &e->step[step][LAD_LEFT])); /* never */
+	if (!r || !r->ways) { /* never */
+		lad_cell(r, nc(e, &e->step[step][LAD_LEFT]));
+		lad_cell(r, no(e, &e->step[step][LAD_LEFT]));
+	}
 	for (int i = 0; i < arcs_together(e); i++)
 		if (has(&e->net.arc[i].to, step))
 			lad_head(r, nc(e, &e->arc[i][LAD_FIRES]));
@@ -1011,23 +1012,26 @@ static void put_refusals(struct lad *e, struct lad_rung *r, const struct lad_cal
 			lad_head(r, nc(e, &e->step[e->sfc->use[i].step][LAD_X]));
 }
 
-/* @pulses: the lines of P0 and P1 alone, else those without them, or with @all both. */
-static bool put_lines(struct lad *e, struct lad_rung *r, const struct lad_called *called,
-		      bool pulses, bool all)
+/* The lines of @called as ways; without any, a contact that is never closed.
+ * @pulses: also those of P0 and P1. */
+static void put_lines(struct lad *e, struct lad_rung *r, const struct lad_called *called,
+		      bool pulses)
 {
 	bool any = false;
 
-	put_refusals(e, r, called);
 	for (int i = 0; i < e->sfc->use_count; i++) {
 		const struct sfc_use *use = &e->sfc->use[i];
 
 		if (!is_of(e, use, called) || use->qualifier == QUALIFIER_R ||
-		    (!all && is_pulse(use->qualifier) != pulses))
+		    (!pulses && is_pulse(use->qualifier)))
 			continue;
 		put_line(e, r, i);
 		any = true;
 	}
-	return any;
+	if (any)
+		put_refusals(e, r, called);
+	else
+		lad_head(r, lad_text(e, "NC SYS_ALWAYS_ON"));
 }
 
 static bool is_variable(struct lad *e, const struct lad_called *called)
@@ -1059,20 +1063,14 @@ static void write_called(struct lad *e, struct lad_called *called)
 	const char *name = text_of(e, called->operand);
 	const char *what = lad_words(e, name);
 
-	if (!put_lines(e, r, called, false, true)) {
-		r = lad_begin(e);
-		lad_head(r, lad_text(e, "NC SYS_ALWAYS_ON"));
-	}
+	put_lines(e, r, called, true);
 	lad_out(r, called->alone ? lad_text(e, "COIL %s", what) :
 		coil(e, "COIL", &called->var[LAD_CALLED]));
 	lad_write(e, r, "", lad_text(e, called->alone ? "%s" : "%s is called for", name));
 	if (called->action < 0 || !is_mixed(e, called))
 		return;
 	r = lad_begin(e);
-	if (!put_lines(e, r, called, false, false)) {
-		r = lad_begin(e);
-		lad_head(r, lad_text(e, "NC SYS_ALWAYS_ON"));
-	}
+	put_lines(e, r, called, false);
 	lad_out(r, coil(e, "COIL", &called->var[LAD_LEVEL]));
 	lad_write(e, r, "", lad_text(e, "%s is called for, not by P0 or P1 alone", name));
 }
