@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_ladder - a project whose charts are written as ladders: its parts and names.
+ * sfc_ladder - writes a project with ladders instead of its charts: texts, addresses,
+ * declarations.
  */
 #include "engine/exchange/classic/sfc_ladder_parts.h"
 
@@ -14,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PASSES 4      /* what is used may make use of more, at most so often      */
+#define PASSES 4      /* a variable in use can need others, at most so many levels */
 #define FIRST_BYTE 10 /* step bits begin at M10.0, where they are free           */
 
 /* ---- texts ---- */
@@ -59,7 +60,7 @@ bool lad_letter(char c)
 	       (ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z');
 }
 
-/* What a word of the chart is called in the ladder; @len: how much of it was taken. */
+/* The name in the ladder of a word of the chart; NULL: unchanged. @len: gets its length. */
 static const char *word_of(struct lad *e, const char *text, size_t *len)
 {
 	struct names *names = &e->project->names;
@@ -85,7 +86,7 @@ static const char *word_of(struct lad *e, const char *text, size_t *len)
 	return lad_use(e, &e->step[step][ascii_upper(behind[1]) == 'X' ? LAD_X : LAD_T]);
 }
 
-/* Up to the end of a text in quotes or a comment that begins here; 0: none does. */
+/* Length of a quoted text or comment at @at; 0: there is none. */
 static size_t skip_quoted(const char *at)
 {
 	const char *end = NULL;
@@ -120,7 +121,7 @@ char *lad_words(struct lad *e, const char *text)
 		else
 			sink_write(&sink, text, len);
 		text += len;
-		/* A member of something is no step. */
+		/* What follows a point is a member, not a step. */
 		while (!word && *text == '.' && lad_letter(text[1])) {
 			for (len = 1; lad_letter(text[len]); len++)
 				;
@@ -214,7 +215,7 @@ static void declare_all(struct lad *e, const struct sink *out)
 
 /* ---- one chart ---- */
 
-/* Does another chart have a variable of this name? Both become global. */
+/* Does another chart have a variable of this name? Variables of charts become global. */
 static bool is_elsewhere(const struct lad *e, uint32_t fold)
 {
 	for (int i = 0; i < e->project->pou_count; i++) {
@@ -236,7 +237,7 @@ static void check_var(struct lad *e, int index)
 			project_text(e->project, var->name)));
 }
 
-/* Its variables become global: what others have takes another name. */
+/* Renames variables whose names another chart has. */
 static void check_table(struct lad *e)
 {
 	const struct var_table *table = &e->pou->vars;
@@ -254,7 +255,7 @@ static void check_table(struct lad *e)
 	}
 }
 
-/* What FORCE was in the scan before has its type. */
+/* Finds the type of FORCE, for the variable that keeps its last value. */
 static void type_number(struct lad *e)
 {
 	const uint32_t force = e->sfc->control[CONTROL_FORCE];
@@ -316,7 +317,7 @@ static void head(struct lad *e, uint32_t name)
 	sink_text(&e->out, " LD\n");
 }
 
-/* The text of both programs, and their subroutines. */
+/* Writes both programs, and their subroutines. */
 static void write_once(struct lad *e, struct sink_memory *programs,
 		       struct sink_memory *subs)
 {
@@ -368,7 +369,7 @@ static void write_one_sfc(struct lad *e, const struct sink *out)
 
 /* ---- the project ---- */
 
-/* Where POUs stand in the text of the project. */
+/* Places of POUs in the text of the project. */
 struct pou_spans {
 	struct text_span *span;
 	int count;

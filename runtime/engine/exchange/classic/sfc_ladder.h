@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_ladder - a project whose charts are written as ladders.
+ * sfc_ladder - writes a project with ladders instead of its charts.
  *
- * Of each chart a program that moves from step to step and one that does what the steps
- * ask for, over a bit for each step; bodies of lists and rungs become subroutines. It
- * does in each scan what the chart does, as docs/sfc.md has it.
+ * A chart becomes two programs over a bit for each step: one moves from step to step, one
+ * runs the actions. Bodies of lists and rungs become subroutines. In each scan they do what
+ * docs/sfc.md says of the chart.
  */
 #ifndef CLASSIC_SFC_LADDER_H
 #define CLASSIC_SFC_LADDER_H
@@ -14,11 +14,11 @@
 #include "engine/model/project.h"
 
 /**
- * sfc_ladder - the text of @project with ladders in the place of its charts
+ * sfc_ladder - the text of @project with ladders instead of its charts
  * @project: without errors; its table of names grows
  * @sink:    gets the text, which is not canonical
  *
- * Adds LD460 with its place for each part that has no ladder.
+ * A part that a ladder cannot express is a diagnostic LD460 with its place.
  * Owns: nothing.   Scan-safe: no.   Fails: false after a diagnostic.
  */
 bool sfc_ladder(struct project *project, const struct sink *sink,

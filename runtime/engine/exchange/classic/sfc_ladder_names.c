@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_ladder_names - the variables of a chart that becomes a ladder, and what its steps
- * call.
+ * sfc_ladder_names - names the variables of a chart that becomes a ladder, and finds what its
+ * steps call.
  */
 #include "engine/exchange/classic/sfc_ladder_parts.h"
 
@@ -33,7 +33,7 @@ uint32_t lad_fresh(struct lad *e, const char *base)
 	return 0;
 }
 
-/* @text with nothing in it that a name may not have. */
+/* @text with _ for each character that a name cannot have. */
 static char *plain(struct lad *e, const char *text)
 {
 	char *out = lad_text(e, "%s", text + (*text == '%'));
@@ -143,7 +143,7 @@ static void name_sfc(struct lad *e)
 	}
 }
 
-/* ---- what steps call ---- */
+/* ---- actions and BOOLs that steps call ---- */
 
 static bool overlaps(struct iec_addr a, struct iec_addr b)
 {
@@ -162,7 +162,7 @@ static bool is_same(const struct xref_target *a, const struct xref_target *b)
 	return overlaps(a->addr, b->addr);
 }
 
-/* Is it a line of a step, not one of SET or RESET, that this use stands in? */
+/* Is this use in a line of a step other than SET and RESET? */
 static bool is_line(const struct lad *e, const struct xref_use *use)
 {
 	for (int i = 0; i < e->sfc->use_count; i++)
@@ -186,7 +186,7 @@ static bool has_value(const struct lad *e, const struct xref_target *target)
 	       (target->table > e->project->pou_count || table->var[target->index].has_init);
 }
 
-/* Does nothing but lines of steps write what line @number names? */
+/* Do only lines of steps write the variable of line @number? */
 static bool is_alone(const struct lad *e, int number)
 {
 	const struct xref_use *mine = NULL;
@@ -207,7 +207,7 @@ static bool is_alone(const struct lad *e, int number)
 	return true;
 }
 
-/* However it is written. */
+/* For each line, finds the first line with the same BOOL, in any spelling. */
 static bool find_same(struct lad *e)
 {
 	const size_t lines = (size_t)e->sfc->use_count + 1;
@@ -238,7 +238,7 @@ static bool find_same(struct lad *e)
 	return true;
 }
 
-/* Of all lines with this BOOL: no program can change them. */
+/* Are the times of all lines with this BOOL literals? */
 static bool has_fixed_times(const struct lad *e, int line)
 {
 	for (int i = 0; i < e->sfc->use_count; i++) {
@@ -275,7 +275,6 @@ static void find_called(struct lad *e)
 		if (e->sfc->use[i].kind == USE_ACTION && e->sfc->use[i].action < 0)
 			add_called(e, -1, e->sfc->use[i].operand, i);
 }
-
 
 void lad_names(struct lad *e)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_ladder_rung - one rung of a chart that becomes a ladder, as text.
+ * sfc_ladder_rung - collects the cells of one rung and writes it as text.
  */
 #include "engine/exchange/classic/sfc_ladder_parts.h"
 
@@ -75,7 +75,7 @@ static int width_of(const struct lad_rung *r)
 	return width;
 }
 
-/* Column @col of row @row, before its bar. */
+/* Text of the cell in column @col of row @row. */
 static const char *cell_at(const struct lad_rung *r, int row, int col)
 {
 	if (col < r->heads)
@@ -145,7 +145,7 @@ static bool is_plain(const char *text)
 	return true;
 }
 
-/* The words of a plain expression, with blanks between them. */
+/* The next word of a plain expression; 0: none. */
 static size_t next_word(const char **at, const char **word)
 {
 	*at += strspn(*at, " \t\n");
@@ -154,7 +154,7 @@ static size_t next_word(const char **at, const char **word)
 	return (size_t)(*at - *word);
 }
 
-/* One operand, its inverse, or a comparison of two. False: something else. */
+/* A contact for an operand or NOT of it, a cell for a comparison. false: something else. */
 static bool put_term(struct lad *e, struct lad_rung *r, const char *text, size_t len,
 		     int words)
 {
@@ -173,7 +173,7 @@ static bool put_term(struct lad *e, struct lad_rung *r, const char *text, size_t
 	return true;
 }
 
-/* False: it is not made of terms with AND and OR between them. */
+/* Terms with AND as series, with OR as ways. false: something else. */
 static bool put_terms(struct lad *e, struct lad_rung *r, const char *text)
 {
 	const char *at = text, *word, *term = NULL, *end = text;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_ladder_steps - the program that moves from step to step, and that of the actions.
+ * sfc_ladder_steps - writes the program that moves from step to step, and the program of the
+ * actions.
  *
- * Its rungs stand in the order of what a scan does (docs/sfc.md): times, supervision,
- * which transitions fire, which steps begin and end, resets before sets, SET and RESET.
+ * The order of rungs is that of a scan in docs/sfc.md: times, supervision, transitions that
+ * fire, steps that begin and end, resets before sets, SET and RESET.
  */
 #include "engine/exchange/classic/sfc_ladder_parts.h"
 #include "engine/text/text.h"
@@ -45,7 +46,7 @@ static void write_when(struct lad *e, char *when, char *also, char *out, const c
 
 /* ---- times ---- */
 
-/* Is a time counted anywhere? */
+/* Does the chart use a time of a step or line? */
 static bool has_times(const struct lad *e)
 {
 	for (int i = 0; i < e->sfc->step_count; i++)
@@ -139,8 +140,8 @@ static bool may_stand(enum word word)
 	       word == ELEM_CONTACT_NC || word == ELEM_COMPARE;
 }
 
-/* Rows that begin at the rail one below the other, each with its contacts, joined at one
- * bar: these become ways. False: something else. */
+/* Is it a rung of rows from the rail to one bar, without gaps, and a coil? Its rows become
+ * ways. */
 static bool is_simple(const struct rung *rung)
 {
 	for (int row = 0; row < rung->rows; row++) {
@@ -218,7 +219,7 @@ static void write_list(struct lad *e, const struct sfc_body *body, const char *r
 	sink_text(&e->subs, "\n");
 }
 
-/* The body as a subroutine. @result: NULL, or what gets its last result. */
+/* Writes a body as a subroutine. @result: variable that gets its last result; NULL: none. */
 static void lad_body(struct lad *e, int number, const char *result)
 {
 	const struct sfc_body *body = sfc_body(e->sfc, number);
@@ -265,7 +266,7 @@ static bool lad_has_force(const struct lad *e)
 	return e->sfc->control[CONTROL_FORCE];
 }
 
-/* Can it be that nothing fires? */
+/* Is there a control that stops all transitions? */
 static bool lad_has_gate(const struct lad *e)
 {
 	return lad_has_reset(e) || lad_has_force(e) || e->sfc->control[CONTROL_HOLD];
@@ -276,7 +277,7 @@ bool lad_is_in_order(const struct lad *e)
 	return e->sfc->evolution == EVOLVE_IN_ORDER;
 }
 
-/* What has to be before a condition is asked: a cell each. */
+/* A cell for each condition that enables an arc. */
 static void put_enabled(struct lad *e, struct lad_rung *r, int number,
 			void (*put)(struct lad_rung *r, char *cell))
 {
@@ -293,7 +294,7 @@ static void put_enabled(struct lad *e, struct lad_rung *r, int number,
 			put(r, nc(e, &e->arc[k][LAD_FIRES]));
 }
 
-/* By modes: it fires if it is true and may, or by hand. */
+/* With SEMI or MANUAL: the arc fires if it is true and may, or by hand. */
 static void write_fires(struct lad *e, int arc, const char *title)
 {
 	struct lad_rung *r = lad_begin(e);
@@ -309,7 +310,7 @@ static void write_fires(struct lad *e, int arc, const char *title)
 	lad_write(e, r, "", title);
 }
 
-/* Does somebody say when transitions fire? */
+/* Do controls decide when transitions fire? */
 static bool lad_has_modes(const struct lad *e)
 {
 	return e->sfc->control[CONTROL_SEMI] || e->sfc->control[CONTROL_MANUAL];
@@ -339,13 +340,13 @@ static void write_arcs(struct lad *e)
 		lad_arc(e, i, i == 0 ? again : "");
 }
 
-/* Those that act together, behind all of their conditions; IN ORDER each has acted. */
+/* Arcs that act after all conditions; IN ORDER an arc acts right after its condition. */
 static int arcs_together(const struct lad *e)
 {
 	return lad_is_in_order(e) ? 0 : e->net.arc_count;
 }
 
-/* ---- which steps begin and end ---- */
+/* ---- steps that begin and end ---- */
 
 static bool is_initial(const struct lad *e, int step)
 {
@@ -365,7 +366,8 @@ static void put_forced(struct lad *e, struct lad_rung *r, int step)
 	}
 }
 
-/* With UNTIL STABLE actions ask what was gathered; times and SET ask in each round. */
+/* Is the pulse of this evolution read? UNTIL STABLE, actions read the sum over the scan, but
+ * times and SET read each evolution. */
 static bool reads_start(const struct lad *e, int step)
 {
 	const struct sfc_step *at = &e->sfc->step[step];
@@ -376,7 +378,7 @@ static bool reads_start(const struct lad *e, int step)
 	return !sfc_goes_round(e->sfc) || sets || e->step[step][LAD_T].used;
 }
 
-/* Pulses of a step that anything asks for. */
+/* The pulse of a step that becomes active. */
 static void write_start(struct lad *e, int step)
 {
 	struct lad_rung *r = lad_begin(e);
@@ -553,7 +555,7 @@ static void write_sets(struct lad *e)
 	}
 }
 
-/* What a step has to SET and RESET. */
+/* Outputs for SET and RESET of a step. */
 static void lad_once(struct lad *e, struct lad_rung *r, int step)
 {
 	const struct sfc_step *at = &e->sfc->step[step];
@@ -586,7 +588,7 @@ static void write_begins(struct lad *e)
 	}
 }
 
-/* UNTIL STABLE: once more if anything fired. */
+/* UNTIL STABLE: another evolution if something fired. */
 static void write_again(struct lad *e)
 {
 	struct lad_rung *r = lad_begin(e);
@@ -617,7 +619,7 @@ static void write_again(struct lad *e)
 	lad_write(e, r, "", "Until nothing fires");
 }
 
-/* What UNTIL STABLE gathers begins FALSE in each scan. */
+/* UNTIL STABLE: resets the pulses of the scan. */
 static void write_gathered(struct lad *e)
 {
 	for (int i = 0; sfc_goes_round(e->sfc) && i < e->sfc->step_count; i++)
@@ -655,7 +657,8 @@ static void write_force(struct lad *e, const char *reset)
 	lad_write(e, r, "", "A step is forced");
 }
 
-/* SEMI: only when TIP rises. MANUAL: then all that are enabled, and it wins. */
+/* SEMI: transitions fire only when TIP rises. MANUAL: then all enabled ones fire. MANUAL wins
+ * over SEMI. */
 static void write_modes(struct lad *e)
 {
 	const char *semi = lad_words(e, text_of(e, e->sfc->control[CONTROL_SEMI]));
@@ -751,7 +754,7 @@ static void write_enter(struct lad *e, int arc, int step)
 	lad_write(e, r, "", lad_text(e, "Enter %s", lad_name(e, step)));
 }
 
-/* SET and RESET are done step by step in the order of the file. */
+/* Steps in the order of the file, because SET and RESET run in that order. */
 static void write_enters(struct lad *e, int arc)
 {
 	const struct sfc_steps *to = &e->net.arc[arc].to;
@@ -828,7 +831,7 @@ void lad_steps(struct lad *e)
 		   "From now on it runs");
 }
 
-/* The pulse of a step in this scan. */
+/* The pulse of a step that became active in this scan. */
 static struct lad_var *began(struct lad *e, int step)
 {
 	return &e->step[step][sfc_goes_round(e->sfc) ? LAD_STARTED : LAD_START];
@@ -839,7 +842,7 @@ static struct lad_var *ended(struct lad *e, int step)
 	return &e->step[step][sfc_goes_round(e->sfc) ? LAD_ENDED : LAD_END];
 }
 
-/* Does line @use call for @called? */
+/* Is line @use one that calls @called? */
 static bool is_of(const struct lad *e, const struct sfc_use *use,
 		  const struct lad_called *called)
 {
@@ -861,9 +864,9 @@ static bool is_stored(enum qualifier q)
 	       q == QUALIFIER_SL;
 }
 
-/* ---- what is stored ---- */
+/* ---- stored lines ---- */
 
-/* SD, SL: the time since it was stored; HOLD stops it with the others. */
+/* SD, SL: the time since the line was stored. HOLD stops it. */
 static void write_since(struct lad *e, int line)
 {
 	const struct sfc_use *use = &e->sfc->use[line];
@@ -878,7 +881,7 @@ static void write_since(struct lad *e, int line)
 		   lad_text(e, "%s: it begins", title_of(e, use)));
 }
 
-/* DS: as long as its step has been active without a break, and no R. */
+/* DS: the line waits while its step stays active and no R ends it. */
 static void write_armed(struct lad *e, int line)
 {
 	const struct sfc_use *use = &e->sfc->use[line];
@@ -922,7 +925,7 @@ static void write_stored(struct lad *e, int line)
 		   coil(e, "S", &e->line[line][LAD_STORED]), title_of(e, use));
 }
 
-/* An R of @called, in any step, ends line @line. */
+/* R of @called in any step ends line @line. */
 static void write_ended(struct lad *e, int line, const struct lad_called *called)
 {
 	struct lad_rung *r = lad_begin(e);
@@ -949,7 +952,7 @@ static void write_ended(struct lad *e, int line, const struct lad_called *called
 	lad_write(e, r, "", lad_text(e, "%s ends", title_of(e, &e->sfc->use[line])));
 }
 
-/* ---- what is called for ---- */
+/* ---- calls ---- */
 
 static char *time_cell(struct lad *e, const struct sfc_use *use, struct lad_var *var,
 		       const char *sign)
@@ -958,7 +961,7 @@ static char *time_cell(struct lad *e, const struct sfc_use *use, struct lad_var 
 			lad_words(e, text_of(e, use->time)));
 }
 
-/* One line as a way of the rung. */
+/* A line of a step as a way of the rung. */
 static void put_line(struct lad *e, struct lad_rung *r, int line)
 {
 	const struct sfc_use *use = &e->sfc->use[line];
@@ -1003,7 +1006,7 @@ static bool is_pulse(enum qualifier q)
 	return q == QUALIFIER_P0 || q == QUALIFIER_P1;
 }
 
-/* While a step has it with R nothing calls for it. */
+/* A step with R of @called stops all calls. */
 static void put_refusals(struct lad *e, struct lad_rung *r, const struct lad_called *called)
 {
 	for (int i = 0; i < e->sfc->use_count; i++)
@@ -1056,7 +1059,7 @@ static bool is_mixed(const struct lad *e, const struct lad_called *called)
 	return pulse;
 }
 
-/* The bits of what is called for; of a BOOL that is nobody else's, the BOOL itself. */
+/* The bits that say what is called; a BOOL that nothing else writes is its own bit. */
 static void write_called(struct lad *e, struct lad_called *called)
 {
 	struct lad_rung *r = lad_begin(e);
@@ -1075,7 +1078,7 @@ static void write_called(struct lad *e, struct lad_called *called)
 	lad_write(e, r, "", lad_text(e, "%s is called for, not by P0 or P1 alone", name));
 }
 
-/* ---- doing it ---- */
+/* ---- actions ---- */
 
 static void write_bool(struct lad *e, struct lad_called *called)
 {
