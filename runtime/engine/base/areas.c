@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * areas - sizes held against their bounds, places one after another.
+ * areas - checks the sizes of the areas and places them one after another.
  */
 #include "engine/base/areas.h"
 #include "engine/base/limits.h"
@@ -8,7 +8,7 @@
 /* Bits of all areas are counted in 24 bits (scan/code.h). */
 _Static_assert(LIMIT_AREAS * 8 <= 1u << 24, "areas are too large");
 
-#define ALIGN 8u /* so that %MD0 is as quick as it can be                     */
+#define ALIGN 8u /* aligned, so that %MD0 is one load                         */
 
 void areas_init(struct areas *areas)
 {

@@ -2,9 +2,10 @@
  *
  * areas - how large the areas of one program are, and where each begins.
  *
- * The one place that knows. Sizes come from the rows of catalog.def, from a project's
- * CONFIGURATION or from the header of a code image; a process image has the areas one
- * after another, each from a multiple of 8 on. It holds no memory of theirs.
+ * No other file computes this. Sizes come from the rows of catalog.def, from a
+ * project's CONFIGURATION or from the header of a code image; a process image has the
+ * areas one after another, each from a multiple of 8 on. The memory itself belongs to
+ * the caller.
  */
 #ifndef BASE_AREAS_H
 #define BASE_AREAS_H
@@ -26,10 +27,11 @@ void areas_init(struct areas *areas);
  * larger than LIMIT_AREAS together: how large, is in `size` then.
  */
 bool areas_place(struct areas *areas);
-/** areas_find - the area that has the byte at @offset of a process image; AREA_NONE: none
- * has.   Scan-safe: yes. */
+/** areas_find - the area that holds byte @offset of a process image, or AREA_NONE.
+ * Scan-safe: yes. */
 enum iec_area areas_find(const struct areas *areas, uint32_t offset);
-/** areas_have - is an address, with all its bits, inside its area?   Scan-safe: yes. */
+/** areas_have - whether an address lies inside its area with all its bits. Scan-safe:
+ * yes. */
 bool areas_have(const struct areas *areas, struct iec_addr addr);
 /** areas_byte - offset of the first byte of an address.   Scan-safe: yes. */
 static inline uint32_t areas_byte(const struct areas *areas, struct iec_addr addr)

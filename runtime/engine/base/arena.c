@@ -2,8 +2,8 @@
  *
  * arena - one growing block of memory a project, freed whole.
  *
- * The only place of the engine's loader that asks the system for memory. It
- * refuses sizes that overflow, and never moves what it has given.
+ * The only place of the engine's loader that asks the system for memory. A size that
+ * overflows is refused. Memory that was handed out never moves.
  */
 #define _DEFAULT_SOURCE /* madvise(), MAP_ANONYMOUS */
 #include "engine/base/arena.h"
@@ -74,8 +74,8 @@ void arena_reset(struct arena *arena)
 	arena->failed = false;
 }
 
-/* Huge pages from the system, all zero: @whole bytes of them. They are not malloc()'s
- * to keep, which would hand them out again with something in them. */
+/* Huge pages from the system, all zero: @whole bytes of them. malloc() would keep them
+ * and hand them out again with old bytes in them. */
 static struct arena_chunk *map_chunk(size_t whole)
 {
 	size_t asked = whole + HUGE_PAGE, head;
@@ -90,7 +90,7 @@ static struct arena_chunk *map_chunk(size_t whole)
 		munmap(memory, head);
 	munmap(memory + head + whole, HUGE_PAGE - head);
 	chunk = (void *)(memory + head);
-	madvise(chunk, whole, MADV_HUGEPAGE); /* a wish; refused is no fault  */
+	madvise(chunk, whole, MADV_HUGEPAGE); /* only a hint; its failure does not matter */
 	chunk->size = whole - sizeof(*chunk);
 	chunk->mapped = true;
 	return chunk;
@@ -134,9 +134,9 @@ static bool add_chunk(struct arena *arena, size_t wanted)
 	return true;
 }
 
-/* Zeroes @memory, which lies in the newest chunk, up to @size bytes. What the
- * system gave is zero already and is not touched: large tables cost little until
- * they are filled. */
+/* Zeroes @memory, which lies in the newest chunk, up to @size bytes. Bytes fresh from
+ * the system are zero already and are not touched, so a large table costs little until
+ * it is filled. */
 static void zero(struct arena *arena, void *memory, size_t size)
 {
 	struct arena_chunk *chunk = arena->chunk;
@@ -234,7 +234,7 @@ char *arena_copy(struct arena *arena, const char *text, size_t len)
 	return copy;
 }
 
-/* Full at 0, 8, 16, 32 …: then the capacity is used up. */
+/* Doubles the capacity at 0, 8, 16, 32 …: the count alone says when it is used up. */
 static bool is_full(size_t count)
 {
 	return count == 0 || (count >= 8 && (count & (count - 1)) == 0);

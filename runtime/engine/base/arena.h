@@ -2,9 +2,9 @@
  *
  * arena - one growing block of memory a project, freed whole.
  *
- * A load allocates from one arena and from nothing else, so that a failed load
- * leaks nothing and a finished one can say exactly what it took. It never
- * gives memory back piece by piece, and it is never used inside a scan.
+ * A load allocates from one arena only: a failed load leaks nothing, and a finished one
+ * knows how much memory it uses. Single allocations cannot be freed. Not for use inside
+ * a scan.
  */
 #ifndef BASE_ARENA_H
 #define BASE_ARENA_H
@@ -27,8 +27,8 @@ void arena_init(struct arena *arena);
 /** arena_free - gives everything back; @arena is empty again. Scan-safe: no. */
 void arena_free(struct arena *arena);
 
-/** arena_reset - empties it but keeps its first chunk, for scratch memory that
- * is used again and again. What it gave is dead. Scan-safe: yes. */
+/** arena_reset - empties it but keeps its first chunk, for scratch memory that is used
+ * again and again. Pointers into it are invalid afterwards. Scan-safe: yes. */
 void arena_reset(struct arena *arena);
 
 /**
@@ -61,8 +61,8 @@ char *arena_copy(struct arena *arena, const char *text, size_t len);
  * @count:  elements in use; the new one is at that index, and it is counted
  * @size:   bytes of an element
  *
- * Capacity is the next power of two from 8 up, so it needs no variable.
- * Owns: the arena.   Scan-safe: no.
+ * The capacity is the next power of two, at least 8, and is not stored.
+ * Owns: the arena. Scan-safe: no.
  * Fails: NULL when memory is out; the vector is as before.
  */
 void *arena_push(struct arena *arena, void *vector, int *count, size_t size);

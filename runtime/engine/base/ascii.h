@@ -23,8 +23,7 @@ static inline bool ascii_digit(char c)
 	return c >= '0' && c <= '9';
 }
 
-/** ascii_same - are @len bytes the same but for case? Neither side has to end
- * there; both have @len bytes. */
+/** ascii_same - whether @len bytes are equal, ignoring case. No NUL is needed. */
 static inline bool ascii_same(const char *a, const char *b, size_t len)
 {
 	for (size_t i = 0; i < len; i++)
@@ -33,7 +32,7 @@ static inline bool ascii_same(const char *a, const char *b, size_t len)
 	return true;
 }
 
-/** ascii_is - is the NUL-ended @word all @len bytes of @text, but for case? */
+/** ascii_is - whether @text (@len bytes) equals the NUL-ended @word, ignoring case. */
 static inline bool ascii_is(const char *word, const char *text, size_t len)
 {
 	for (size_t i = 0; i < len; i++)

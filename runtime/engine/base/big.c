@@ -75,7 +75,7 @@ static uint32_t word_at(const struct big *big, int at)
 	return at < big->count ? big->word[at] : 0;
 }
 
-/* From the top; what is left below one word is worth less than 4 of it. */
+/* From the top word down; what remains below one word is less than 4 of that word. */
 int big_order(const struct big *a, int times, const struct big *b, const struct big *c)
 {
 	int at = a->count > c->count ? a->count : c->count;

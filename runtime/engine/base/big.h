@@ -3,8 +3,8 @@
  * big - unsigned integers of up to 1984 bits: enough for a REAL or LREAL and its
  * decimal text to be compared exactly, see decimal.c.
  *
- * Callers know their bounds; what does not fit is lost at the top. No division: digits
- * are few, and subtraction finds them.
+ * There is no overflow check: callers stay within 1984 bits. There is no division:
+ * decimal.c finds a digit by subtraction.
  */
 #ifndef BASE_BIG_H
 #define BASE_BIG_H

@@ -2,8 +2,8 @@
  *
  * catalog - the rows of catalog.def as const tables.
  *
- * It only answers what a row says; what a word does stands in scan/. A small board
- * has catalog_small.c in its place.
+ * The functions behind the words are in scan/. A small board links catalog_small.c
+ * instead.
  */
 #include "engine/base/catalog.h"
 #include "engine/base/ascii.h"
@@ -62,7 +62,7 @@ static const struct word_row words[WORD_KNOWN] = {
 #include "engine/catalog.def"
 };
 
-/* Only what begins with a letter is a word a user can write by name. */
+/* Words that begin with another character cannot be written by name. */
 static const uint8_t word_length[WORD_KNOWN] = {
 #define ELEM(id, word, ...) [ELEM_##id] = sizeof(word) - 1,
 #define FB(id, ...) [FB_##id] = sizeof(#id) - 1,
@@ -87,7 +87,7 @@ static const struct sys_row sys_rows[SYS_COUNT] = {
 #include "engine/catalog.def"
 };
 
-/* All that is known of a word of a project without the project. */
+/* Reads the parts of a project's word that do not need the project. */
 static const struct word_row own_word = {
 	.id = "", .word = "", .glyph = "", .family = "",
 	.number = WORD_COUNT, .kind = WORD_FB, .place = PLACE_BOX, .operand = OPND_INSTANCE,
@@ -114,7 +114,7 @@ enum word word_find(const char *text, size_t len)
 	return WORD_COUNT;
 }
 
-/* The digits behind the two letters of IN12, -1: none, or a zero in front. */
+/* The number of a pin such as IN12; -1: it is none, or has a leading zero. */
 static int number_behind(const char *name, size_t len)
 {
 	const size_t letters = 2;
@@ -143,7 +143,7 @@ int word_last_number(const struct word_row *row)
 	return number;
 }
 
-/* INn of an extensible function, behind its named pins: its index or -1. */
+/* Index of pin INn of an extensible function behind its named pins, or -1. */
 static int find_further_input(const struct word_row *row, const char *name,
 			      size_t len)
 {
@@ -187,7 +187,7 @@ bool word_opens(const struct word_row *row)
 	       !row->pin[1].own && (row->result == IEC_BOOL || word_shares(row));
 }
 
-/* Both are spelled as their rows have them. */
+/* Rows spell both in upper case. */
 static bool same_text(const char *a, const char *b)
 {
 	while (*a && *a == *b) {
@@ -205,7 +205,7 @@ enum op word_operator(const struct word_row *row)
 	return OP_COUNT;
 }
 
-/* Those of the operators that are functions, too. */
+/* Only operators that are functions, too. */
 static const uint16_t functions[OP_COUNT] = {
 	[OP_AND] = FN_AND, [OP_OR] = FN_OR, [OP_XOR] = FN_XOR, [OP_NOT] = FN_NOT,
 };

@@ -2,8 +2,8 @@
  *
  * catalog - catalog.def expanded to enums, instance structs and const tables.
  *
- * Whoever must know what a word is asks its row; no other file names a single
- * word but the function that does its work.
+ * Code that depends on what a word is reads its row. A single word is named only in the
+ * function that implements it.
  */
 #ifndef BASE_CATALOG_H
 #define BASE_CATALOG_H
@@ -11,7 +11,7 @@
 #include "engine/base/iec.h"
 #include "engine/base/limits.h"
 
-/* One number space for all that can stand in a cell. */
+/* One range of numbers for every word that can stand in a cell. */
 enum word {
 #define ELEM(id, ...) ELEM_##id,
 #include "engine/catalog.def"
@@ -21,7 +21,7 @@ enum word {
 #define MORE_FN(...)
 #define FN(id, ...) FN_##id,
 #include "engine/catalog.def"
-	WORD_CORE, /* from here on: words that WORDS=core does without        */
+	WORD_CORE, /* from here on: words that WORDS=core leaves out          */
 	WORD_CORE_LAST = WORD_CORE - 1,
 #define MORE_FB(id, ...) FB_##id,
 #include "engine/catalog.def"
@@ -31,7 +31,7 @@ enum word {
 	WORD_MOST = 0xffff /* words of a project follow: model/words.h      */
 };
 
-/* Words this build has rows and functions for. */
+/* Words that this build has rows and functions for. */
 #ifdef RUNGBOARD_CORE_WORDS
 #define WORD_KNOWN WORD_CORE
 #else
@@ -87,7 +87,7 @@ enum op_modifier { MOD_N = 1, MOD_C = 2, MOD_PAREN = 4 };
 /* PIN_VAR: inside, not to be named from outside; PIN_NONE: no part of it. */
 enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR, PIN_IN_OUT, PIN_NONE };
 
-/* ARRAY[low..high]: so many elements in a row; count 0: none, a single value. */
+/* ARRAY[low..high]; count is the number of elements, 0 for a single value. */
 struct var_array {
 	int32_t low;
 	uint32_t count;
@@ -101,8 +101,8 @@ struct var_array {
 #define RESULT_TO(classes) (RESULT_OPEN | (classes) << 8)
 
 #ifdef RUNGBOARD_SMALL
-/* A small board runs programs that were translated elsewhere. It knows of a word what
- * the verifier must know, in rows without pointers: nothing of them is relocated. */
+/* A small board runs programs that were translated elsewhere. It has only the columns
+ * that the verifier needs, and no pointers: rows need no relocation. */
 struct word_pin {
 	union {
 		uint16_t offset;  /* of an FB pin in its struct               */
@@ -126,7 +126,7 @@ struct word_row {
  * its memory. See limits.h for what the numbers can be. */
 struct word_pin {
 	const char *name;
-	uint32_t elements : 26; /* own rows, FB_STORE: of an array; 0: none      */
+	uint32_t elements : 26; /* own rows and FB_STORE: index of its array; 0: none */
 	enum pin_dir dir : 4;
 	bool own : 1;        /* of a function's pin: does not share the type   */
 	bool has_init : 1;   /* has a value until it is given one              */
@@ -146,7 +146,7 @@ struct word_pin {
 	};
 };
 
-/** pin_array - the bounds of what is declared so. Scan-safe: yes. */
+/** pin_array - the bounds of an array pin. Scan-safe: yes. */
 static inline struct var_array pin_array(const struct word_pin *pin)
 {
 	struct var_array array = { pin->elements ? pin->low : 0, pin->elements };
@@ -175,10 +175,10 @@ struct word_row {
 	uint32_t size;       /* bytes of an FB instance                        */
 	/* Of words of a project: */
 	int owner;           /* index of its POU or structure; -1: none        */
-	const uint16_t *order; /* its pins as they lie in memory               */
-	uint16_t ordered;    /* how many those are                             */
+	const uint16_t *order; /* its pins in the order of memory              */
+	uint16_t ordered;    /* how many of them                               */
 	uint8_t depth;       /* of structures and blocks inside one another    */
-	bool retain;         /* something of it is RETAIN                      */
+	bool retain;         /* a part of it is RETAIN                         */
 };
 #endif
 
@@ -187,10 +187,11 @@ struct word_row {
 const struct word_row *word_row(enum word word);
 /** word_pins - its pins, pin_count of them. Scan-safe: yes. */
 const struct word_pin *word_pins(const struct word_row *row);
-/** word_last_number - 2 of a function whose last named pin is IN2.   Scan-safe: yes. */
+/** word_last_number - the number in the name of a function's last named pin: 2 for IN2.
+ * Scan-safe: yes. */
 int word_last_number(const struct word_row *row);
-/** word_input - the pin of input @index of a function; the last one again for those
- * behind it.   Scan-safe: yes. */
+/** word_input - the pin of input @index of a function; inputs past the last pin have the
+ * last pin. Scan-safe: yes. */
 static inline const struct word_pin *word_input(const struct word_row *row,
 						uint32_t index)
 {
@@ -201,13 +202,13 @@ enum word word_find(const char *text, size_t len);
 /** word_pin_find - index of a pin (any case) in the row; a function's INn past
  * its named pins too, up to most_inputs; -1: none. PIN_VAR is never found. */
 int word_pin_find(const struct word_row *row, const char *name, size_t len);
-/** word_is_test - a function whose result is always BOOL: power behind it is EN and the
+/** word_is_test - whether the result is always BOOL. The power behind it is EN AND the
  * result. */
 bool word_is_test(const struct word_row *row);
-/** word_opens - may it stand before a parenthesis in IL, as ADD( does? A function of two
- * values of one type. */
+/** word_opens - whether it may stand before a parenthesis in IL, as ADD( does: a
+ * function of two values of one type. */
 bool word_opens(const struct word_row *row);
-/** word_shares - a function whose result has the type that its inputs share. */
+/** word_shares - whether the result has the type that the inputs share. */
 static inline bool word_shares(const struct word_row *row)
 {
 	return row->result == RESULT_SAME || row->result == (int)RESULT_GATE;

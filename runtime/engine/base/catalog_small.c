@@ -2,7 +2,7 @@
  *
  * catalog_small - the rows of catalog.def as a small board has them.
  *
- * In the place of catalog.c: no names, no drawings, no words of IL.
+ * Replaces catalog.c. It has no names, drawings or IL words.
  */
 #include "engine/base/catalog.h"
 

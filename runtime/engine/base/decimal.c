@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * decimal - REAL and LREAL as decimal digits, and back, in whole numbers of any size
- * that these need. No step rounds but the last.
+ * decimal - converts REAL and LREAL to decimal digits and back, with big integers. Only
+ * the last step rounds.
  */
 #include "engine/base/decimal.h"
 #include "engine/base/ascii.h"
@@ -10,12 +10,13 @@
 
 #include <string.h>
 
-/* A value between its two neighbours: rest / whole, and how far half way to the next
- * lower one is, step / whole; to the next higher it is `up` times as far. */
+/* A value between its two neighbours, as fractions of `whole`: rest / whole is the
+ * value, step / whole is half the distance to the next lower number, and `up` times
+ * that is half the distance to the next higher one. */
 struct between {
 	struct big rest, whole, step;
 	int up;       /* 2 above a power of 2, else 1                         */
-	bool even;    /* a text just half way reads back too                  */
+	bool even;    /* a text exactly half way reads back, too              */
 };
 
 /* Sets the three, in units that make them whole; @part * 2^@power is the value. */
@@ -71,7 +72,7 @@ static int scale(struct between *b, double value)
 	return tens;
 }
 
-/* One digit; what is left becomes the rest. */
+/* Takes one digit off and leaves the remainder in `rest`. */
 static int next_digit(struct between *b)
 {
 	int digit = 0;
@@ -112,7 +113,7 @@ void decimal_of(double value, bool single, struct decimal *out)
 	}
 }
 
-/* ---- back ---- */
+/* ---- digits to a value ---- */
 
 /* Powers of 10 beyond these are infinite or 0 whatever the digits are. */
 #define TENS_MOST 310
@@ -125,7 +126,8 @@ static void take_digits(struct big *big, const char *digit, int count)
 		big_scale(big, 10, (uint32_t)(digit[i] - '0'));
 }
 
-/* 64 bits of @over / @under, which is 1 to 2, the last one set if more follow. */
+/* The top 64 bits of @over / @under, which is 1 to 2; the lowest bit is set if more
+ * follow. */
 static uint64_t divide(struct big *over, const struct big *under)
 {
 	uint64_t bits = 0;
@@ -188,7 +190,7 @@ static void add_digit(struct decimal_text *out, char digit, bool behind)
 		out->more |= digit != '0';
 }
 
-/* Those before the point, or behind it. */
+/* The digits before the point, or those behind it. */
 static const char *take_part(const char *at, const char *end, bool behind,
 			     struct decimal_text *out)
 {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * decimal - REAL and LREAL as decimal digits, and back: exact, so that the same bytes come
- * out on every machine.
+ * decimal - REAL and LREAL as decimal digits, and back: exact, so that the same bytes
+ * come out on every machine.
  *
- * Not printf and strtod: a scan has no libc, and those follow the user's language. Texts
- * of literals and of STRINGs in a running program are read and written by this alone.
+ * Replaces printf and strtod, which follow the user's language and are not allowed in a
+ * scan. Literals and the conversions of STRING use it.
  */
 #ifndef BASE_DECIMAL_H
 #define BASE_DECIMAL_H
@@ -12,8 +12,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define DECIMAL_DIGITS 17 /* tell every LREAL from its neighbours */
-#define DECIMAL_MOST 255  /* digits of a text that can be read    */
+#define DECIMAL_DIGITS 17 /* distinguishes every LREAL */
+#define DECIMAL_MOST 255  /* most digits of a text that can be read */
 
 struct decimal {
 	char digit[DECIMAL_DIGITS]; /* '0' to '9'; the first and last are not 0 */
@@ -25,8 +25,8 @@ struct decimal {
  * decimal_of - the fewest digits that read back as @value
  * @single: as a REAL
  *
- * Of those with as few digits the one nearest to the value. @value is finite and above
- * 0.   Scan-safe: yes; at most a few thousand steps, 1 KB of stack.
+ * Among texts of that length, the one nearest to the value. @value is finite and above
+ * 0. Scan-safe: yes; at most a few thousand steps, 1 KB of stack.
  */
 void decimal_of(double value, bool single, struct decimal *out);
 
@@ -44,15 +44,16 @@ double decimal_value(const char *digit, int count, int64_t exponent, bool single
 struct decimal_text {
 	char digit[DECIMAL_MOST]; /* '0' to '9', the first is not '0'         */
 	int count;
-	bool more;                /* one that is not 0 did not fit            */
+	bool more;                /* a digit other than 0 was cut off         */
 	int64_t exponent;
 };
 
 /**
- * decimal_take - digits with single underscores between them, and a point among them
+ * decimal_take - reads digits with single underscores between them and at most one
+ * point
  *
- * Returns what stands behind them; NULL: there are none, or a point or an underscore has
- * no digit behind it.   Scan-safe: yes.
+ * Returns the end of the digits. NULL: there are none, or no digit follows a point or
+ * an underscore. Scan-safe: yes.
  */
 const char *decimal_take(const char *at, const char *end, struct decimal_text *out);
 #endif

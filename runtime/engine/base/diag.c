@@ -2,8 +2,8 @@
  *
  * diag - what is wrong with a program text, as data with a place.
  *
- * Texts and codes are rows of diag.def. It shows no control characters and no
- * broken UTF-8, whatever a hostile file holds, and it prints nothing itself.
+ * Texts and codes are rows of diag.def. Control characters and broken UTF-8 of a
+ * hostile file are replaced. It prints nothing itself.
  */
 #include "engine/base/diag.h"
 #include "engine/base/lex.h"
@@ -12,8 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Code and text of each row, one behind the other: looked for only to be printed, and
- * without a pointer each that a loader would have to relocate. */
+/* Code and text of each row, one after another. One string needs no relocation; a
+ * pointer a row would. A search is cheap enough, as it happens only when a message is
+ * printed. */
 static const char texts[] =
 #define DIAG(id, code, severity, text) code "\0" DIAG_TEXT(text) "\0"
 #include "engine/diag.def"
@@ -29,7 +30,7 @@ void diag_init(struct diag_list *list)
 	list->count = list->dropped = list->errors = 0;
 }
 
-/* C0, DEL and C1: a terminal might act on them. What separates parts is never printed. */
+/* C0, DEL and C1: a terminal might act on them. DIAG_AND is one of them. */
 static bool is_control(const char *at, size_t len)
 {
 	unsigned char c = (unsigned char)at[0];
@@ -60,7 +61,7 @@ static void copy_clean(char *out, const char *text)
 	out[used] = '\0';
 }
 
-/* Room for an error in a full list: the last warning goes. */
+/* Makes room for an error in a full list: drops the last warning. */
 static bool drop_warning(struct diag_list *list)
 {
 	int at = list->count - 1;
@@ -164,13 +165,13 @@ static const char *part_of(const char *arg, int n, int *len)
 	return arg;
 }
 
-/* The number of a place for a part, %1 to %9; 0: there is none at @text. */
+/* The number after %, 1 to 9; 0: @text does not begin with a place. */
 static int place_at(const char *text)
 {
 	return text[0] == '%' && text[1] >= '1' && text[1] <= '9' ? text[1] - '0' : 0;
 }
 
-/* Has the group {…} at @text all its parts? */
+/* Whether all parts that the group {…} at @text names are there. */
 static bool is_whole(const char *text, const char *arg)
 {
 	int len = 1;
@@ -236,7 +237,7 @@ int diag_print(const struct diag *diag, char *out, size_t size)
 		put(&to, "%d:", diag->column);
 	if (diag->file)
 		put(&to, " ");
-	/* With a line, the POU is clear; an unsaved rung has none. */
+	/* With a line the POU is redundant. An unsaved rung has no line. */
 	if (diag->line <= 0 && diag->pou)
 		put(&to, "%s: ", diag->pou);
 	if (diag->rung > 0 && diag->row > 0)

@@ -38,7 +38,7 @@ struct diag {
 struct diag_list {
 	struct diag diag[LIMIT_DIAGS];
 	int count;           /* kept, at most LIMIT_DIAGS                      */
-	int dropped;         /* did not fit: warnings make room for errors     */
+	int dropped;         /* not kept, as the list is full; errors replace warnings */
 	int errors;          /* errors among all of them, dropped ones too     */
 };
 
@@ -58,8 +58,8 @@ void diag_init(struct diag_list *list);
 bool diag_add(struct diag_list *list, struct diag place, const char *arg, ...)
 	__attribute__((format(printf, 3, 4)));
 
-/** diag_name_length - bytes of the first part of the argument of @diag: mostly the name in
- * question, as it is written in the program. */
+/** diag_name_length - bytes of the first part of @diag's argument, which is usually the
+ * name as it is written in the program. */
 int diag_name_length(const struct diag *diag);
 
 /** diag_code - "LD203" of an id. Lives for ever. */

@@ -2,8 +2,7 @@
  *
  * digest - CRC-32C for stored bytes, SHA-256 for a program's identity.
  *
- * It finds damage and tells two programs apart. It keeps no secrets and proves
- * nothing about who wrote them.
+ * It detects damage and tells two programs apart. It is no signature.
  */
 #include "engine/base/digest.h"
 
@@ -11,7 +10,7 @@
 
 /* RFC 3720 B.4: reflected polynomial 0x82f63b78. */
 #ifdef RUNGBOARD_SMALL
-/* Half a byte a step: a small board has no room for more. */
+/* Half a byte a step: the table of a whole byte is too large for a small board. */
 static const uint32_t crc_of[16] = {
 	0x00000000, 0x105ec76f, 0x20bd8ede, 0x30e349b1, 0x417b1dbc, 0x5125dad3,
 	0x61c69362, 0x7198540d, 0x82f63b78, 0x92a8fc17, 0xa24bb5a6, 0xb21572c9,

@@ -12,7 +12,7 @@ static const char *const words[WORD_COUNT] = {
 #include "engine/catalog.def"
 };
 
-/* Those of all words, one behind the other; where those of a word begin. */
+/* The explanations of all words, one after another, and where each word's begin. */
 static const char *const pins[] = {
 #define FB_DEF(fb, pin, type, value, doc) doc,
 #define FB_IN(fb, pin, type, doc)  doc,

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * explain - what the rows of catalog.def say to people.
+ * explain - the texts of catalog.def for people.
  *
- * Apart from the rows, so that a runtime, which explains nothing, does not carry the
- * texts. All of them live for ever and hold no line break.
+ * Separate from the rows, so that a runtime does not link them. All texts are static
+ * and have no line break.
  */
 #ifndef BASE_EXPLAIN_H
 #define BASE_EXPLAIN_H
@@ -12,7 +12,8 @@
 
 /** explain_word - what a word does; "" of a word of a project. */
 const char *explain_word(const struct word_row *row);
-/** explain_pin - what pin @index of the row is for; "": inside, or of a project. */
+/** explain_pin - the purpose of pin @index of the row; "" for an inner pin and for a
+ * word of a project. */
 const char *explain_pin(const struct word_row *row, int index);
 const char *explain_op(enum op op);
 const char *explain_area(enum iec_area area);

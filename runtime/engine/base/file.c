@@ -28,7 +28,7 @@ static char *fail(struct diag_list *diags, enum diag_id id, const char *path,
 }
 
 /* Reads until the end or one byte beyond @limit. @room: the file's size, or a guess
- * (files of /proc say 0), so that one allocation is enough as a rule. */
+ * (files of /proc say 0), so that one allocation is usually enough. */
 static char *read_all(int fd, size_t limit, size_t room, size_t *len)
 {
 	size_t used = 0;
@@ -83,11 +83,12 @@ char *file_read(const char *path, size_t limit, size_t *len,
 		close(fd);
 		return fail(diags, DIAG_NOT_A_FILE, path, 0);
 	}
-	if (is_over(&status, limit)) { /* told before memory is asked for */
+	if (is_over(&status, limit)) { /* fails before memory is allocated */
 		close(fd);
 		return fail(diags, DIAG_TOO_LARGE, path, 0);
 	}
-	/* One byte more than it has, to see its end without asking for more. */
+	/* One byte more than the file has, so that its end is seen without another
+	 * allocation. */
 	bytes = read_all(fd, limit, status.st_size > 0 ?
 			 (size_t)status.st_size + 1 : 4096, len);
 	error = errno;
@@ -117,8 +118,8 @@ static int write_all(int fd, const char *bytes, size_t len)
 	return 0;
 }
 
-/* The new name in the folder must survive a power cut too. A folder that may be
- * written but not read cannot be told so; the file is there all the same. */
+/* Makes the new name survive a power cut. A folder that cannot be opened for reading
+ * cannot be synced; that is no error. */
 static int sync_folder(const char *path)
 {
 	const char *slash = strrchr(path, '/');
@@ -189,7 +190,7 @@ bool file_save(const char *path, const void *bytes, size_t len,
 	result = fd < 0 ? -errno : replace(target, temporary, fd, bytes, len);
 	if (result < 0)
 		fail(diags, DIAG_CANNOT_WRITE, path, -result);
-	else if (sync_folder(target) < 0) /* the new file is there already */
+	else if (sync_folder(target) < 0) /* the file is saved at this point */
 		fail(diags, DIAG_NOT_SYNCED, path, 0);
 	free(temporary);
 	free(real);

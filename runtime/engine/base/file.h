@@ -2,8 +2,7 @@
  *
  * file - whole files in, whole files out.
  *
- * What is read was there at one moment; what is saved is complete or the old file
- * stays. It knows nothing of what a file holds.
+ * A read sees one version of the file. A save is complete, or the old file stays.
  */
 #ifndef BASE_FILE_H
 #define BASE_FILE_H

@@ -2,8 +2,8 @@
  *
  * iec - the types, areas and direct addresses of IEC 61131-3.
  *
- * What the scan needs of them: this file uses no libc but memory functions, so
- * that the smallest target links it. Text of values is in iec_print.c.
+ * The part that a scan needs: it uses only the memory functions of libc, so that the
+ * smallest target links it. iec_print.c prints values.
  */
 #include "engine/base/iec.h"
 #include "engine/base/ascii.h"
@@ -24,7 +24,7 @@ static const struct iec_type_row types[IEC_TYPE_COUNT] = {
 #include "engine/catalog.def"
 };
 
-/* Other names of types, as IEC 61131-3 has them. */
+/* Other names of types in IEC 61131-3. */
 static const struct { const char *word; enum iec_type type; } alias[] = {
 	{ "TOD", IEC_TIME_OF_DAY }, { "DT", IEC_DATE_AND_TIME },
 	{ "LTIME", IEC_TIME }, { "LTOD", IEC_TIME_OF_DAY },
@@ -91,7 +91,7 @@ const struct iec_area_row *iec_area_row(enum iec_area area)
 	return &areas[area < AREA_COUNT ? area : AREA_NONE];
 }
 
-/* What is left of an address text. */
+/* The rest of an address text. */
 struct rest {
 	const char *at, *end;
 };
@@ -114,7 +114,8 @@ static enum iec_area take_area(struct rest *rest)
 	return found;
 }
 
-/* Digits; a number beyond every area stays beyond it. False: none. */
+/* Reads digits. A number too large for any area is clamped to one that is still too
+ * large. False: no digits. */
 static bool take_number(struct rest *rest, uint32_t *out)
 {
 	const char *start = rest->at;
@@ -238,7 +239,7 @@ enum iec_addr_result iec_addr_parse(const char *text, size_t len,
 	return ADDR_OK;
 }
 
-/* The digits of @value behind @at; returns the end. */
+/* Appends the digits of @value; returns the end. */
 static char *put_number(char *at, uint32_t value)
 {
 	char digit[10];
@@ -252,7 +253,7 @@ static char *put_number(char *at, uint32_t value)
 	return at;
 }
 
-/* Not snprintf: a load prints an address for every declared line. */
+/* Not snprintf: a load prints an address for each declared line, and this is faster. */
 int iec_addr_print(struct iec_addr addr, char *out, size_t size)
 {
 	const char *letters = iec_area_row(addr.area)->letters;
@@ -339,7 +340,7 @@ struct iec_string *iec_text_init(struct iec_text *room, uint16_t length)
 	return text;
 }
 
-/* What fits of a text; the two may be the same. */
+/* Copies as much of a text as fits; the two may be the same. */
 static void store_string(struct iec_string *to, const struct iec_string *from)
 {
 	uint16_t len = from->length < to->capacity ? from->length : to->capacity;

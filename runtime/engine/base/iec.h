@@ -43,14 +43,14 @@ struct iec_string {
 };
 #define IEC_STRING_MOST    255u /* bytes a STRING can hold                    */
 #define IEC_STRING_DEFAULT 80u  /* of a STRING declared without [n]           */
-/* Room for any text, for whoever keeps one. */
+/* Room for a text of any length. */
 struct iec_text {
 	uint32_t word[(sizeof(struct iec_string) + IEC_STRING_MOST + 3) / 4];
 };
 #define IEC_VALUE_TEXT (3 * IEC_STRING_MOST + 3) /* of any value, iec_value_print() */
 
-/* A value of any elementary type; which member holds it is told by its class:
- * r for CLASS_REAL, s for CLASS_STRING, i for all others (BOOL 0/1, bits and unsigned
+/* A value of any elementary type; its class says which member is used: r for
+ * CLASS_REAL, s for CLASS_STRING, i for all others (BOOL 0/1, bits and unsigned
  * zero-extended, signed sign-extended, TIME in ns; LWORD and ULINT as their bits). */
 union iec_value {
 	int64_t i;
@@ -78,12 +78,12 @@ bool iec_is_wide(enum iec_type type);
 uint32_t iec_type_size(enum iec_type type, uint32_t capacity);
 
 /**
- * iec_can_widen - may @from stand where @to is wanted, without a conversion?
+ * iec_can_widen - whether a value of type @from may be used as @to without a conversion
  *
  * Only when every value of @from is a value of @to (IEC 61131-3 ed. 3 figure 12):
  * SINT→INT→DINT→LINT, USINT→UINT→UDINT→ULINT, unsigned into a larger signed, up to 16
  * bits into REAL, up to 32 and REAL into LREAL, BYTE→WORD→DWORD→LWORD. The type itself
- * always.   Scan-safe: yes.
+ * always. Scan-safe: yes.
  */
 bool iec_can_widen(enum iec_type from, enum iec_type to);
 

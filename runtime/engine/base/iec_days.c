@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * iec_days - the Gregorian calendar as numbers. It knows no zones and no leap
- * seconds, and asks no clock.
+ * iec_days - the Gregorian calendar as numbers. No time zones, no leap seconds, no
+ * clock.
  */
 #include "engine/base/iec.h"
 
 /* Year, month and day of a day since 1970-01-01 in the Gregorian calendar: 400 years
- * have 146097 days, and a year that begins in March keeps its leap day last. */
+ * have 146097 days. Counting years from March puts the leap day last. */
 void iec_civil(int64_t day, int *year, int *month, int *day_of_month)
 {
 	int64_t shifted = day + 719468; /* from 0000-03-01 */

@@ -2,8 +2,8 @@
  *
  * iec_print - values as text (see iec.h).
  *
- * The same bytes on every machine: printf follows the user's language, so no decimal
- * point of it is ever used. Not for the scan.
+ * The same bytes on every machine: printf's decimal point depends on the user's
+ * language and is not used. Not for the scan.
  */
 #include "engine/base/iec.h"
 #include "engine/base/decimal.h"
@@ -78,8 +78,8 @@ static int print_date(int64_t day, char *out, size_t size)
 	return snprintf(out, size, "%04d-%02d-%02d", year, month, of_month);
 }
 
-/* 08:30:00, with as many decimals as it takes. What an address gives beyond a day is
- * the clock of it, as functions see it. */
+/* 08:30:00, with as many decimals as it takes. A value of more than a day, read through
+ * an address, shows its time of day, as the functions do. */
 static int print_clock(int64_t beyond, char *out, size_t size)
 {
 	int64_t ns = (beyond % DAY_NS + DAY_NS) % DAY_NS;

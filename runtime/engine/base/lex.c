@@ -2,8 +2,8 @@
  *
  * lex - one scanner for every text of the engine.
  *
- * One pass, a table by byte, no memory. It gives tokens for any bytes at all and
- * leaves it to its caller to refuse them.
+ * One pass, a table by byte, no memory. Any bytes give tokens; the caller refuses wrong
+ * ones.
  */
 #include "engine/base/lex.h"
 #include "engine/base/ascii.h"
@@ -67,7 +67,7 @@ static size_t high_length(const char *at, const char *end)
 	return len;
 }
 
-/* Behind the letters, digits and _ at @at. */
+/* Skips letters, digits and _ at @at. */
 static const char *skip_alnum(const char *at, const char *end)
 {
 	while (at != end &&
@@ -81,7 +81,7 @@ static bool is_digit_at(const char *at, const char *end)
 	return at < end && ascii_digit(*at);
 }
 
-/* Behind a name, its dots included. */
+/* Skips a name with its dots. */
 static const char *skip_name(const char *at, const char *end)
 {
 	for (;;) {
@@ -115,7 +115,7 @@ static const char *skip_name(const char *at, const char *end)
 	}
 }
 
-/* Behind the closing quote; NULL: the line ends first. */
+/* The end behind the closing quote; NULL: the line ends first. */
 static const char *skip_string(const char *at, const char *end)
 {
 	const char quote = *at;
@@ -129,7 +129,7 @@ static const char *skip_string(const char *at, const char *end)
 	return NULL;
 }
 
-/* Does the type before the # have constants with - and : in them? */
+/* Whether constants of the type before the # contain - and :. */
 static bool is_dated(const char *type, size_t len)
 {
 	static const char *const word[] = {
@@ -143,7 +143,7 @@ static bool is_dated(const char *type, size_t len)
 	return false;
 }
 
-/* Behind a date or a time of day: 2026-11-21-08:30:00.5 */
+/* The end of a date or a time of day: 2026-11-21-08:30:00.5 */
 static const char *skip_date(const char *at, const char *end)
 {
 	for (;;) {
@@ -155,8 +155,7 @@ static const char *skip_date(const char *at, const char *end)
 	}
 }
 
-/* Does a decimal number from @start to @at end with E, so that a sign may
- * follow? */
+/* Whether the decimal number from @start to @at ends with E, so that a sign may follow. */
 static bool ends_with_exponent(const char *start, const char *at)
 {
 	if (at - start < 2 || ascii_upper(at[-1]) != 'E')
@@ -176,8 +175,8 @@ static const char *line_end(const char *at, const char *end)
 	return newline != at && newline[-1] == '\r' ? newline - 1 : newline;
 }
 
-/* Behind a quoted constant; one that does not end goes on to the end of the line,
- * and is none. */
+/* The end of a quoted constant. An open one reaches to the end of the line and is
+ * invalid. */
 static const char *skip_quoted(const char *at, const char *end)
 {
 	const char *close = skip_string(at, end);
@@ -185,8 +184,8 @@ static const char *skip_quoted(const char *at, const char *end)
 	return close ? close : line_end(at, end);
 }
 
-/* Behind the number that begins at @start; @at stands inside it. What is behind a
- * # begins anew: INT#16#7F, T#-5ms. */
+/* The end of the number that begins at @start; @at is inside it. A sign and digits may
+ * follow each #: INT#16#7F, T#-5ms. */
 static const char *skip_number(const char *start, const char *at,
 			       const char *end)
 {
@@ -221,7 +220,7 @@ static const char *skip_number(const char *start, const char *at,
 	}
 }
 
-/* Behind a nested comment; NULL: the text ends first. Counts lines. */
+/* The end of a nested comment; NULL: the text ends first. Counts lines. */
 static const char *skip_comment(struct lex *lex, const char *at)
 {
 	const char *end = lex->end;
@@ -261,7 +260,7 @@ static size_t symbol_length(const char *at, const char *end)
 	return 1;
 }
 
-/* Comments, strings, addresses and symbols; gives the kind and moves lex->at. */
+/* Comments, strings, addresses and symbols; returns the kind and moves lex->at. */
 static enum token_kind scan_symbol(struct lex *lex)
 {
 	const char *at = lex->at, *end = lex->end, *close;

@@ -2,9 +2,9 @@
  *
  * lex - one scanner for every text of the engine.
  *
- * Rung files, IL, expressions, I/O maps, scripts and scenarios are read with it.
- * It cannot read past its end, needs no NUL and knows no keywords: any bytes give
- * tokens, the odd ones TOKEN_BAD. It allocates nothing.
+ * Rung files, IL, expressions, I/O maps, scripts and scenarios are read with it. It has
+ * no keywords and allocates nothing. Any bytes give tokens; invalid ones are TOKEN_BAD.
+ * The text needs no NUL.
  */
 #ifndef BASE_LEX_H
 #define BASE_LEX_H
@@ -40,16 +40,17 @@ struct lex {
 	const char *at, *end, *line_start;
 	int line;
 	bool newlines, comments; /* set after lex_init if they are wanted      */
-	struct token token;      /* the one under the cursor                   */
+	struct token token;      /* the current token                          */
 };
 
 /** lex_init - before the first token of @len bytes; skips a UTF-8 BOM. */
 void lex_init(struct lex *lex, const char *text, size_t len);
-/** lex_next - steps to the next token and returns its kind. Always ends. */
+/** lex_next - steps to the next token and returns its kind. Any text ends after finitely
+ * many steps. */
 enum token_kind lex_next(struct lex *lex);
-/** lex_is - is the token this word (any case) or symbol? */
+/** lex_is - whether the token is this word (any case) or symbol. */
 bool lex_is(const struct lex *lex, const char *word);
-/** lex_accept - if lex_is, step over it. */
+/** lex_accept - steps over the token if lex_is; returns lex_is. */
 bool lex_accept(struct lex *lex, const char *word);
 /** lex_skip_line - steps to the first token of the next line. */
 void lex_skip_line(struct lex *lex);
@@ -57,8 +58,8 @@ void lex_skip_line(struct lex *lex);
 /** utf8_length - bytes of the first character, 1 to 4; 0 when @text is empty or
  * does not begin with a valid one. Scan-safe: yes. So are both below. */
 size_t utf8_length(const char *text, size_t len);
-/** utf8_valid - are all @len bytes valid UTF-8 without NUL? Gives the offset of
- * the first bad byte through @bad (may be NULL). */
+/** utf8_valid - whether all @len bytes are valid UTF-8 without NUL. @bad (may be NULL)
+ * gets the offset of the first bad byte. */
 bool utf8_valid(const char *text, size_t len, size_t *bad);
 /** utf8_width - columns a terminal needs: 2 for East Asian wide, 0 for
  * combining, 1 else, also for a byte that is not valid. */

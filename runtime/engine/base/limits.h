@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * limits - every bound of the engine, in one place.
+ * limits - all bounds of the engine, in one place.
  *
- * A bound that stands anywhere else is a mistake. All of them are checked when
- * a program is loaded, so that the scan needs no check of its own.
+ * All of them are checked when a program is loaded, so that the scan needs no check of
+ * its own.
  */
 #ifndef BASE_LIMITS_H
 #define BASE_LIMITS_H
 
-/* What an arena takes from the system at once, at most: a small board has no memory
- * to spare, a large one no time for page faults. */
+/* The most that an arena takes from the system at once: a small board has little
+ * memory, a large one loses time to page faults. */
 #ifdef RUNGBOARD_SMALL
 #define LIMIT_CHUNK       8000
 #else
@@ -47,13 +47,13 @@
 #define LIMIT_MEMORY      (512u << 10) /* bytes of M, and of V                */
 #define LIMIT_AREAS       (1u << 20)   /* bytes of all areas together         */
 #define LIMIT_BUDGET      10000000  /* instructions of one scan               */
-#define LIMIT_STEPS       4096      /* of a chart; transitions twice so many  */
+#define LIMIT_STEPS       4096      /* of a chart; it may have twice as many transitions */
 #define LIMIT_ROUNDS      50        /* of a chart IN ORDER in one scan      */
 #define LIMIT_STEP_USES   256       /* lines of a step                        */
 #define LIMIT_BRANCHES    256       /* steps behind one FROM or TO            */
 #define LIMIT_MACROS      8         /* macro-steps in one another             */
-#define LIMIT_MARKINGS    20000     /* states of a chart that are looked at   */
-#define LIMIT_MARKINGS_BYTES (4u << 20) /* and what they take                 */
+#define LIMIT_MARKINGS    20000     /* states of a chart that are examined    */
+#define LIMIT_MARKINGS_BYTES (4u << 20) /* and the memory for them            */
 #define LIMIT_TASKS       16        /* tasks of a configuration               */
 #define LIMIT_TICK        100000    /* ns: shortest interval of a task        */
 #define LIMIT_INTERVAL    86400000000000 /* ns: longest one, a day            */

@@ -2,8 +2,8 @@
  *
  * literal - constants as IEC 61131-3 writes them (tables 5 to 7).
  *
- * Strict on purpose: an underscore stands between two digits, a time has falling
- * units, and what does not fit is refused, never cut. Knows no names but types.
+ * Strict on purpose: an underscore stands between two digits, the units of a time fall,
+ * and a value that does not fit is refused.
  */
 #include "engine/base/literal.h"
 #include "engine/base/ascii.h"
@@ -61,7 +61,7 @@ static bool is_real(struct rest rest)
 	return false;
 }
 
-/* 12, -7, 16#FF, and 1.5E-3 for which out->real is set. */
+/* 12, -7, 16#FF; 1.5E-3 sets out->real. */
 static enum literal_result parse_number(struct rest rest, struct literal *out)
 {
 	const char *hash = memchr(rest.at, '#', (size_t)(rest.end - rest.at));
@@ -111,7 +111,7 @@ static bool parse_bool(struct rest rest, int64_t *out)
 	return *out || ascii_is("FALSE", rest.at, len);
 }
 
-/* INT#16#7F: what stands behind a type must fit it. */
+/* INT#16#7F: the number must fit the type before it. */
 static enum literal_result parse_typed(enum iec_type type, struct rest rest,
 				       struct literal *out)
 {

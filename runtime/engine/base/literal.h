@@ -3,8 +3,8 @@
  * literal - constants as IEC 61131-3 writes them (tables 5 to 8).
  *
  * `12 -7 1_000 2#1010 8#17 16#FF TRUE 1.5E-3 T#1h2m3.5s INT#16#7F TOD#08:30:00
- * D#2026-11-21 DT#2026-11-21-08:30:00 'it$'s'`. Both ways:
- * text to value and value to canonical text. It refuses to round silently.
+ * D#2026-11-21 DT#2026-11-21-08:30:00 'it$'s'`. Text to value and value to canonical
+ * text. Nothing is rounded silently.
  */
 #ifndef BASE_LITERAL_H
 #define BASE_LITERAL_H
@@ -14,7 +14,7 @@
 enum literal_result {
 	LITERAL_OK,
 	LITERAL_NONE,  /* not a literal at all                               */
-	LITERAL_BAD,   /* begins like one and is not, such as 2#3 or T#5x    */
+	LITERAL_BAD,   /* begins like a literal but is wrong, such as 2#3 or T#5x */
 	LITERAL_RANGE, /* does not fit its own type or 64 bits               */
 };
 

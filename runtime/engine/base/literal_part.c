@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * literal_part - pieces of constants: dates, times of day and quoted texts. What they
- * are put together to is in literal.c.
+ * literal_part - reads pieces of constants: dates, times of day and quoted texts.
+ * literal.c combines them.
  */
 #include "engine/base/literal_part.h"
 #include "engine/base/ascii.h"
@@ -11,7 +11,7 @@
 #define SECOND_NS INT64_C(1000000000)
 #define DAY_NS    (86400 * SECOND_NS)
 
-/* A number of two digits at least (a year: four) up to @most. */
+/* A number of at least two digits (a year: four) and at most @most. */
 static enum literal_result take_part(struct rest *rest, size_t digits,
 				     uint64_t most, uint64_t *out)
 {
@@ -129,7 +129,7 @@ static int escape(const char *at, size_t left, size_t *used)
 	return (int)(literal_digit(at[0]) * 16 + literal_digit(at[1]));
 }
 
-/* Counts the bytes of what stands between two quotes; @out may be NULL. */
+/* Counts the bytes of the text between two quotes; @out may be NULL. */
 static enum literal_result unescape(const char *text, size_t len, char *out,
 				    size_t *count)
 {

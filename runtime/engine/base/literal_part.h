@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * literal_part - what literal.c and literal_time.c are made of. Private to base/.
+ * literal_part - steps that literal.c and literal_time.c share. Private to base/.
  */
 #ifndef BASE_LITERAL_PART_H
 #define BASE_LITERAL_PART_H
@@ -8,7 +8,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
 
-/* What is left of the text. */
+/* The rest of the text. */
 struct rest {
 	const char *at, *end;
 };
@@ -38,7 +38,7 @@ static inline unsigned int literal_digit(char c)
 /** literal_digits - digits of @base with single underscores between them. */
 enum literal_result literal_digits(struct rest *rest, unsigned int base,
 				   uint64_t *out);
-/** literal_places - digits behind the point; zeros at their end do not count. */
+/** literal_places - digits behind the point; trailing zeros do not count. */
 enum literal_result literal_places(struct rest *rest, uint64_t *part, int *places);
 /** literal_fraction - @part / 10^@places of @ns, if that is a whole number; false: it
  * is finer. */
@@ -53,9 +53,9 @@ struct literal_unit {
 extern const struct literal_unit literal_unit[LITERAL_UNITS];
 /** literal_units - 1h2m3.5s in ns. */
 enum literal_result literal_units(struct rest rest, uint64_t *out);
-/** literal_signed - so much, or minus as much, if 64 bits hold it. */
+/** literal_signed - @magnitude with its sign; false if 64 bits do not hold it. */
 enum literal_result literal_signed(uint64_t size, bool minus, int64_t *out);
-/** literal_date - what stands behind TOD#, D# and DT# (IEC 61131-3 table 8). */
+/** literal_date - the text behind TOD#, D# or DT# (IEC 61131-3 table 8). */
 enum literal_result literal_date(enum iec_type type, struct rest rest, int64_t *out);
 /** literal_quoted - a STRING in its quotes. */
 enum literal_result literal_quoted(struct rest rest, struct literal *out);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * literal_time - digits and durations: of the constants, all that an I/O map and the
- * command line of a runtime need. The others are in literal.c.
+ * literal_time - digits and durations: the only constants that an I/O map and a
+ * runtime's command line need. literal.c has the others.
  */
 #include "engine/base/literal_part.h"
 

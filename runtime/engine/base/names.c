@@ -2,8 +2,7 @@
  *
  * names - every string of a project, stored once and known by a number.
  *
- * An open hash of ids, at most half full. It never forgets a string and knows
- * nothing of what one means.
+ * An open hash of ids, at most half full. Strings are never removed.
  */
 #include "engine/base/names.h"
 #include "engine/base/ascii.h"
@@ -19,9 +18,9 @@ struct names_entry {
 
 #define FIRST_SLOTS 256u
 
-/* FNV-1a over the bytes without the bit that tells a from A, so that all spellings
- * of a name stand in one chain. The last step spreads the high bits to those that
- * pick the slot. */
+/* FNV-1a over the bytes without the bit that differs between a and A, so that all
+ * spellings of a name are in one chain. The last step spreads the high bits to those
+ * that pick the slot. */
 static uint32_t hash_bytes(const char *text, size_t len)
 {
 	uint32_t hash = 2166136261u;
@@ -46,8 +45,8 @@ void names_init(struct names *names, struct arena *arena)
 	*empty = (struct names_entry){ .text = "" };
 }
 
-/* The slot of a string, or the free one where it belongs. On the way there stand all
- * other spellings of it, older ids first; @fold gets the first one, 0: there is none. */
+/* The slot of a string, or the free one where it belongs. Its other spellings lie
+ * before that slot, older ids first. @fold gets the oldest, or 0. */
 static uint32_t find_slot(const struct names *names, const char *text, size_t len,
 			  uint32_t hash, uint32_t *fold)
 {
@@ -68,7 +67,7 @@ static uint32_t find_slot(const struct names *names, const char *text, size_t le
 	return at;
 }
 
-/* In the order of the ids, which find_slot() counts on. */
+/* In the order of the ids, which find_slot() needs. */
 static bool double_slots(struct names *names)
 {
 	uint32_t size = (names->mask + 1) * 2;

@@ -2,9 +2,9 @@
  *
  * names - every string of a project, stored once and known by a number.
  *
- * Rungs hold string ids instead of pointers, so that a rung is plain bytes that
- * can be copied and compared. Names of IEC 61131-3 ignore case: `fold` gives one
- * id for all spellings. The table only grows; it dies with its arena.
+ * Rungs hold string ids instead of pointers, so that a rung is plain bytes that can be
+ * copied and compared. Names of IEC 61131-3 ignore case: `fold` gives one id for all
+ * spellings. The table only grows and lives as long as its arena.
  */
 #ifndef BASE_NAMES_H
 #define BASE_NAMES_H
@@ -38,8 +38,8 @@ uint32_t names_intern(struct names *names, const char *text, size_t len);
 /** names_find - as names_intern, but 0 if the string is not in the table. */
 uint32_t names_find(const struct names *names, const char *text, size_t len);
 
-/** names_find_any - the id that all spellings of a text share (names_fold()), though this
- * one may not be in the table; 0: none is. */
+/** names_find_any - the id that all spellings of a text share (names_fold()), even if
+ * this spelling is not in the table; 0: no spelling is. */
 uint32_t names_find_any(const struct names *names, const char *text, size_t len);
 
 /** names_text - the NUL-ended string of @id; lives with the arena. */
@@ -51,7 +51,7 @@ size_t names_len(const struct names *names, uint32_t id);
 /**
  * names_fold - the id that all spellings of a name share (ASCII case ignored)
  *
- * It is that of the spelling that came first.   Scan-safe: yes.
+ * The result is the id of the spelling that was interned first. Scan-safe: yes.
  * Fails: 0 for the empty string and ids that are none.
  */
 uint32_t names_fold(const struct names *names, uint32_t id);

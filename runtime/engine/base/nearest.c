@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * nearest - how far two words are apart: letters that were changed, left out, added,
- * or swapped with their neighbour. What goes on where the wanted word ends is near,
+ * nearest - the edit distance of two words: letters changed, left out, added, or
+ * swapped with the next. A candidate that begins with the wanted word counts as near,
  * too.
  */
 #include "engine/base/nearest.h"
@@ -30,7 +30,7 @@ static bool same(char a, char b)
 	return ascii_upper(a) == ascii_upper(b);
 }
 
-/* Rows of the usual table, of which only the last three are needed. */
+/* The last three rows of the table of distances; no more are needed. */
 static int distance(const char *a, size_t a_len, const char *b, size_t b_len)
 {
 	uint8_t row[3][NEAREST_MOST + 1];
@@ -55,7 +55,7 @@ static int distance(const char *a, size_t a_len, const char *b, size_t b_len)
 	return row[a_len % 3][b_len];
 }
 
-/* A word of three letters may have one wrong, a longer one more. */
+/* A word of three letters may have one wrong letter, a longer one more. */
 static int allowed(size_t len)
 {
 	return len < 2 ? 0 : len < 5 ? 1 : len < 9 ? 2 : 3;

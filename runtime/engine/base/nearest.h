@@ -2,8 +2,7 @@
  *
  * nearest - the words that are spelled most like a misspelled one.
  *
- * Candidates are offered one after another, the nearest few are kept. The meaning of the
- * words does not matter.
+ * Candidates are offered one after another; the nearest few are kept.
  */
 #ifndef BASE_NEAREST_H
 #define BASE_NEAREST_H
@@ -11,7 +10,7 @@
 #include <stddef.h>
 
 #define NEAREST_KEPT 3
-#define NEAREST_MOST 32 /* bytes; a longer word is nobody's misspelling       */
+#define NEAREST_MOST 32 /* bytes; longer words get no suggestion              */
 
 struct nearest {
 	const char *wanted;      /* borrowed                                  */
@@ -20,12 +19,12 @@ struct nearest {
 	int count;
 };
 
-/** nearest_init - nothing was offered yet. Scan-safe: yes. */
+/** nearest_init - no candidates yet. Scan-safe: yes. */
 void nearest_init(struct nearest *nearest, const char *wanted, size_t len);
-/** nearest_offer - a candidate, which lives as long as @nearest. In any case of its
- * letters; twice the same counts once. Scan-safe: yes. */
+/** nearest_offer - a candidate; borrowed as long as @nearest lives. Case is ignored;
+ * duplicates count once. Scan-safe: yes. */
 void nearest_offer(struct nearest *nearest, const char *text);
-/** nearest_print - the wanted word, and as a second part of a diagnostic what may have been
- * meant: "Motor, Rotor". As snprintf, but returns nothing. Scan-safe: no. */
+/** nearest_print - the wanted word and, as a second part of a diagnostic, the
+ * suggestions: "Motor, Rotor". As snprintf, but returns nothing. Scan-safe: no. */
 void nearest_print(const struct nearest *nearest, char *out, size_t size);
 #endif

@@ -42,7 +42,7 @@ double number_double(struct number n)
 	rest = drop < 64 ? n.part - (bits << drop) : n.part;
 	half = drop <= 64 ? (uint64_t)1 << (drop - 1) : ~(uint64_t)0;
 	bits += rest > half || (rest == half && (bits & 1));
-	/* The leading bit, where there is one, adds 1 to the exponent; so may rounding. */
+	/* A leading bit adds 1 to the exponent; rounding may do the same. */
 	bits += (uint64_t)(biased - 1) << 52;
 	if (biased > 2046)
 		bits = (uint64_t)0x7ff << 52;

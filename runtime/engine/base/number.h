@@ -2,9 +2,9 @@
  *
  * number - a double taken apart, with 64 bits' precision, and put together again.
  *
- * Eleven bits more than a double has leave room for the errors of a few steps,
- * and integers are the same on every machine, with or without a unit for floating
- * point. There are no infinities here and no NaN; callers keep them out.
+ * Eleven bits more than a double has leave room for the errors of a few steps, and
+ * integers are the same on every machine, with or without a unit for floating point.
+ * Callers exclude infinities and NaN.
  */
 #ifndef BASE_NUMBER_H
 #define BASE_NUMBER_H

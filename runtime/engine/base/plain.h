@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * plain - a user's text made fit for a terminal: measured, clipped, harmless.
+ * plain - makes a user's text safe for a terminal and measures it.
  *
- * Control characters and broken bytes are shown as `?`,
- * so that no comment can move a cursor. It wraps nothing.
+ * Control characters and broken bytes are shown as `?`, so that no comment can move a
+ * cursor. It wraps nothing.
  */
 #ifndef BASE_PLAIN_H
 #define BASE_PLAIN_H
@@ -13,11 +13,11 @@
 /**
  * plain_clip - how much of @text fits into @columns
  * @width: gets the columns of what fits
- * Returns its bytes; a combining character stays with what it stands on.
+ * Returns its bytes; a combining character stays with its base.
  */
 size_t plain_clip(const char *text, size_t len, int columns, int *width);
 
-/** plain_write - puts it out without control characters. */
+/** plain_write - writes it without control characters. */
 void plain_write(const struct sink *sink, const char *text, size_t len);
 void plain_text(const struct sink *sink, const char *text);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sink - the few ways to put text into one; it opens nothing and keeps nothing.
+ * sink - writes text, numbers and JSON to a sink.
  */
 #include "engine/base/sink.h"
 
@@ -52,7 +52,7 @@ void sink_printf(const struct sink *sink, const char *format, ...)
 	sink_write(sink, buffer, (size_t)len);
 }
 
-/* What JSON wants escaped (RFC 8259 chapter 7); NULL: it stands as it is. */
+/* The escape of a character in JSON (RFC 8259 chapter 7); NULL: it needs none. */
 static const char *json_escape(unsigned char byte)
 {
 	switch (byte) {
@@ -98,7 +98,7 @@ void sink_json_string(const struct sink *sink, const char *text, size_t len)
 	sink_text(sink, "\"");
 	while (len > 0 && !utf8_valid(text, len, &bad)) {
 		json_valid(sink, text, bad);
-		/* NUL is no valid text for utf8_valid, but JSON can say it. */
+		/* utf8_valid() refuses NUL, but JSON can express it. */
 		sink_text(sink, text[bad] ? "\\ufffd" : "\\u0000");
 		text += bad + 1;
 		len -= bad + 1;

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sink - where text goes that the library writes for people or programs.
+ * sink - the destination of text that the library writes.
  *
- * The library prints nothing itself: a caller hands it a sink (its stdout, a
- * file, memory) and decides there what a failed write means. A sink keeps no
- * lines and adds nothing of its own.
+ * The library prints nothing itself. A caller passes a sink (stdout, a file, memory)
+ * and handles failed writes in it.
  */
 #ifndef BASE_SINK_H
 #define BASE_SINK_H
@@ -16,12 +15,12 @@ struct sink {
 	/** Takes @len bytes; any bytes, in pieces of any size. */
 	void (*write)(void *context, const char *text, size_t len);
 	void *context;
-	/** NULL, or is told where the parts of a text begin and end: @kind and
-	 * @number are the writer's. */
+	/** NULL, or called where a part of the text begins and ends; @kind and @number
+	 * are the writer's. */
 	void (*mark)(void *context, int kind, int number, bool begins);
 };
 
-/** sink_mark - a part of the text begins or ends here. */
+/** sink_mark - marks where a part of the text begins or ends. */
 void sink_mark(const struct sink *sink, int kind, int number, bool begins);
 /** sink_write - @len bytes. Scan-safe: as the sink's function. So are all. */
 void sink_write(const struct sink *sink, const char *text, size_t len);
@@ -47,7 +46,7 @@ void sink_json_text(const struct sink *sink, const char *text);
 struct sink_memory {
 	char *text;   /* NUL-ended; NULL: nothing was written yet             */
 	size_t len, size;
-	bool failed;  /* memory was out: the text is not whole                */
+	bool failed;  /* memory ran out: the text is incomplete               */
 };
 
 /** sink_memory_init - empty. Give it back with sink_memory_free. */

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * utf8 - the three questions the engine asks of UTF-8 text (see lex.h).
+ * utf8 - validity of UTF-8 text, length and width of a character (see lex.h).
  *
- * Is it valid, how long is a character, how many columns does it need. It does
- * not convert, compare or normalise.
+ * It does not convert, compare or normalise.
  */
 #include "engine/base/lex.h"
 

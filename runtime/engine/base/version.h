@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * version - of the project, for all its programs.
+ * version - the version of the project, for all programs.
  */
 #ifndef BASE_VERSION_H
 #define BASE_VERSION_H
