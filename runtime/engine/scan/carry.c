@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * carry - values by name and type from one image to another, then what is not a value.
+ * carry - copies values by name and type from one image to another, then forces, tasks
+ * and counters.
  */
 #include "engine/scan/carry.h"
 #include "engine/scan/value.h"
@@ -15,17 +16,17 @@ struct known {
 	struct declared_name name;
 	uint32_t hash;
 	uint32_t next;  /* 1 + index; 0: the last                              */
-	bool taken;     /* of a memory: somebody has it                        */
+	bool taken;     /* of a memory: another one took it                    */
 };
 
 struct work {
 	struct image *to;
 	const struct image *from;
-	struct image to_cold, from_cold; /* as they begin                      */
+	struct image to_cold, from_cold; /* hashes of their initial values     */
 	struct known *known;
 	uint32_t count, mask;
 	uint32_t *first, *last;  /* by hash: 1 + index                         */
-	uint8_t *done;           /* of the new program: a memory has its value */
+	uint8_t *done;           /* of the new program: a memory that has its value */
 };
 
 /* ---- names ---- */
@@ -42,7 +43,7 @@ static bool is_memory(const struct declared_name *name)
 	return name->flags & SYMBOL_HIDDEN && strchr(name->name, ' ');
 }
 
-/* Of a memory, the bytes that tell its element; what rung it stands in comes behind. */
+/* The bytes of a memory's name that identify its element; its rung follows. */
 static size_t element_len(const char *name)
 {
 	const char *rung = strrchr(name, '@');
@@ -83,7 +84,7 @@ static uint32_t count_names(const struct program *program)
 	return count;
 }
 
-/* In the order of the program, so that those of one name are found in it. */
+/* In the order of the program, so that symbols of one name are found in that order. */
 static void enter(struct work *work, uint32_t index)
 {
 	struct known *known = &work->known[index];
@@ -117,7 +118,7 @@ static bool make_names(struct work *work, struct arena *arena)
 	return true;
 }
 
-/* @whole: of a memory, the rung too. */
+/* @whole: compare a memory's rung, too. */
 static struct known *find(const struct work *work, const struct declared_name *name,
 			  bool whole)
 {
@@ -160,7 +161,7 @@ static bool has_room(const struct image *image, struct location at,
 	       image_get(image, at).s->capacity >= value.s->length;
 }
 
-/* A value that was never changed takes its new initial value. */
+/* A value that was never changed gets its new initial value. */
 static void carry_value(const struct work *work, struct location to,
 			struct location from)
 {
@@ -185,7 +186,7 @@ static void carry_array(const struct work *work, const struct declared_name *to,
 	}
 }
 
-/* The inputs of @row whose initial value the edit has changed. */
+/* The inputs of @row whose initial value the edit changed. */
 static void keep_inputs(const struct work *work, const struct word_row *row,
 			uint32_t to, uint32_t from)
 {
@@ -225,7 +226,7 @@ static void carry_name(const struct work *work, const struct declared_name *to,
 		carry_value(work, to->at, from->at);
 }
 
-/* Memories twice: first those whose rung is the same, then those whose element is. */
+/* Memories are matched twice: first by rung, then by element. */
 static void carry_names(struct work *work, bool memories, bool whole)
 {
 	struct declared_cursor cursor = { .memories = true };
@@ -246,8 +247,8 @@ static void carry_names(struct work *work, bool memories, bool whole)
 	}
 }
 
-/* The contact that a new memory is of: its operand, and what stands before it if it is in
- * an instance. */
+/* The contact that a new memory belongs to: its operand, and the path before it if it
+ * is in an instance. */
 static bool is_contact(const char *name, size_t *path, const char **operand, size_t *len)
 {
 	const char *blank = strchr(name, ' '), *word = blank;
@@ -263,7 +264,7 @@ static bool is_contact(const char *name, size_t *path, const char **operand, siz
 	return row->place == PLACE_SERIES && row->edge != EDGE_NONE;
 }
 
-/* Where the operand of a memory is, by the names that are nearest to it first. */
+/* Where the operand of a memory is; the nearest scope first. */
 static struct location find_operand(const struct work *work,
 				    const struct declared_name *memory)
 {
@@ -286,7 +287,7 @@ static struct location find_operand(const struct work *work,
 	return at;
 }
 
-/* A contact that is new has seen no edge: its operand was before what it is now. */
+/* A new contact has seen no edge: its stored value is its operand's present value. */
 static void begin_edges(const struct work *work)
 {
 	struct declared_cursor cursor = { .memories = true };
@@ -305,7 +306,7 @@ static void begin_edges(const struct work *work)
 
 /* ---- areas ---- */
 
-/* Bits that live a byte each in the one may be packed in the other. */
+/* A bit that has its own byte in one image may be packed in the other. */
 static void carry_bits(const struct work *work, const struct program *program)
 {
 	for (uint32_t i = 0; i < program->bits_count; i++) {
@@ -350,7 +351,7 @@ static void force_again(struct image *image, struct location at,
 	image_force(image, at, force->value);
 }
 
-/* What lies in an area is held by its address. */
+/* A variable in an area is forced by its address. */
 static struct location same_address(const struct work *work, struct location at)
 {
 	const struct areas *to = &work->to->program->areas;
@@ -403,9 +404,9 @@ static void carry_forces(const struct work *work)
 		carry_forces_of(work, &symbol);
 }
 
-/* ---- what is no value ---- */
+/* ---- tasks, counters, times ---- */
 
-/* The name that the new program has for it; "": none. */
+/* The name in the new program; "": none. */
 static const char *own_name(const struct program *program, const char *name)
 {
 	for (uint32_t i = 0; name && i < program->entry_count && program->string_bytes;
@@ -443,8 +444,8 @@ static bool same_task(const struct code_task *a, const struct code_task *b)
 					    sizeof(a->interval)) == 0;
 }
 
-/* Those that are new, or of another interval, begin now; an event that is there now is
- * none. */
+/* A task that is new or has another interval begins now. An event variable that is TRUE
+ * already starts no new task. */
 static void carry_tasks(struct resource *to, const struct resource *from,
 			int64_t now_ns)
 {
@@ -509,7 +510,7 @@ static bool make_cold(struct image *cold, const struct program *program,
 	return memory;
 }
 
-/* Only names, comments or drawings have changed: all lies where it lay. */
+/* Only names, comments or drawings changed: all offsets are the same. */
 static bool is_same_code(const struct program *a, const struct program *b)
 {
 	uint8_t one[32], other[32];

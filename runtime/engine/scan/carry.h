@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
- * carry - a program is changed while it runs: the new one goes on where the old one was.
+ * carry - replaces a running program: the new one goes on with the state of the old
+ * one.
  *
- * What has the same name and the same type keeps its value: globals, locals by their POU,
- * instances with all that they keep to themselves, arrays element by element as far as
- * both have them, edges by their element. Areas keep their bytes by address. Time, scan
- * numbers and forces go on; it is no start, so SYS_FIRST_SCAN stays FALSE.
+ * A variable of the same name and type keeps its value: globals, locals by their POU,
+ * instances with their inner state, arrays element by element as far as both have it,
+ * edges by their element. Areas keep their bytes by address. Time, scan numbers and
+ * forces go on; SYS_FIRST_SCAN stays FALSE.
  *
- * What begins anew, with its initial value: what is new; what has another type; a text
- * that has no room any more; an instance that is of another block now; a coil of edges
- * that is new, or is of another kind or operand now. Such a contact takes its operand as
- * it is: it waits for an edge. A value that still was its initial
- * one takes the new initial one, and so does an input of an instance whose constant was
- * edited. Power of cells is unknown until the next scan. It runs nothing.
+ * Initial values go to: new variables; variables with another type; texts that no
+ * longer fit; instances of another block; edge coils that are new or have another kind
+ * or operand. A new edge contact takes the present value of its operand and waits for
+ * an edge. A variable that still has its old initial value gets the new one; so does an
+ * input of an instance whose constant was edited. Power of cells is unknown until the
+ * next scan. No program runs.
  */
 #ifndef SCAN_CARRY_H
 #define SCAN_CARRY_H
@@ -21,13 +22,13 @@
 #include "engine/scan/resource.h"
 
 /**
- * carry - the state of @from into @to, a resource of the changed program
- * @to: freshly initialised; its program and memory stay its own. @from stays as it is
- * @arena: what it needs meanwhile; may be freed afterwards
+ * carry - copies the state of @from into @to, a resource of the changed program
+ * @to: freshly initialised; keeps its program and memory. @from does not change
+ * @arena: for temporary memory; may be freed afterwards
  *
- * Between two scans. Nothing in @to leads to the program of @from afterwards.
- * Owns: nothing.   Scan-safe: no.
- * Fails: false: no memory; @to is to be initialised again.
+ * Between two scans. @to has no pointer into the program of @from afterwards.
+ * Owns: nothing. Scan-safe: no.
+ * Fails: false: no memory; initialise @to again.
  */
 bool carry(struct resource *to, const struct resource *from, struct arena *arena);
 #endif

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * code - the verifier: the only way from bytes to a program that may run.
+ * code - the verifier: nothing else turns bytes into a program that may run.
  *
- * Every byte of data memory gets a mark that tells what may be read or written
- * there as what. Then each instruction is held against the marks. It repairs
- * nothing and guesses nothing.
+ * Every byte of data memory gets a mark: the type that may be read or written there.
+ * Then each instruction is checked against the marks. It repairs nothing.
  */
 #include "engine/scan/verify.h"
 
@@ -220,7 +219,7 @@ static bool check_layout(struct verifier *v)
 	return true;
 }
 
-/* Bytes of the value that begins at @offset, a text's to its end. */
+/* Bytes of the value that begins at @offset; a text up to its end. */
 static uint32_t value_bytes(const struct verifier *v, uint32_t offset)
 {
 	uint32_t size = type_size(v->mark[offset] % MARK_VALUE);
@@ -232,7 +231,8 @@ static uint32_t value_bytes(const struct verifier *v, uint32_t offset)
 	return size;
 }
 
-/* A BOOL is 0 or 1, a text no longer than its room; its bound is set by its run. */
+/* A BOOL is 0 or 1; a text is no longer than its room. The run sets the bound of a
+ * text. */
 static bool is_initial(uint8_t type, const uint8_t *bytes, uint32_t size)
 {
 	uint16_t length;
@@ -319,7 +319,7 @@ static bool check_bits(struct verifier *v)
 
 /* ---- maps ---- */
 
-/* A bit, counted from the first area's start: that of some area. */
+/* A bit of any area, counted from the start of the first area. */
 static bool is_area_bit(const struct verifier *v, uint32_t bit)
 {
 	return areas_find(&v->program->areas, bit / 8) != AREA_NONE;
@@ -362,7 +362,7 @@ static bool check_groups(struct verifier *v)
 	return p->group_count || !p->symbol_count || verify_refuse(v, p->symbol);
 }
 
-/* One string at least for each symbol, and the last one ends. */
+/* At least one string for each symbol; the last string is terminated. */
 static bool check_strings(struct verifier *v)
 {
 	const struct program *p = v->program;
@@ -436,7 +436,7 @@ void code_identity(const struct program *p, uint8_t out[32])
 
 _Static_assert(AREA_COUNT <= CODE_AREAS, "no room for the sizes of all areas");
 
-/* Sizes of the areas, each within its bounds and all together too. */
+/* The size of each area and of all together is within its bounds. */
 static bool check_areas(struct verifier *v)
 {
 	struct program *p = v->program;

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * code - the format of a code image, and the verifier that lets it in.
+ * code - the format of a code image, and its verifier.
  *
- * A program is data: little-endian 32-bit words, position-independent, bounded,
- * with a checksum. Whatever bytes it is given, code_open() either refuses them or
- * gives a program that the VM can run without one check at run time. It does not
- * translate and does not run.
+ * A program is data: little-endian 32-bit words, position-independent, bounded, with a
+ * checksum. code_open() either refuses the bytes or gives a program that the VM can run
+ * without checks.
  *
  * Data memory (`m`): the areas of catalog.def, as large as the header says, one after
  * another (base/areas.h); then the program's own data up to `data_size`. Offset
@@ -65,7 +64,7 @@
 enum code_section_kind {
 	CODE_PROGRAMS = 1, /* struct code_program each                         */
 	CODE_TASKS,        /* struct code_task each, by priority               */
-	CODE_LAYOUT,       /* struct code_run each: what lies where in data    */
+	CODE_LAYOUT,       /* struct code_run each: the layout of data         */
 	CODE_INIT,         /* (offset, bytes, data padded to 4) each           */
 	CODE_BITS,         /* struct code_bits each: bits that live a byte each */
 	CODE_CALLS,        /* indices in CODE_PROGRAMS: what the tasks run     */
@@ -91,8 +90,8 @@ struct code_header {
 	uint32_t data_size; /* bytes of data memory                            */
 	uint32_t retain_offset, retain_size; /* retained variables' range      */
 	uint32_t budget;    /* instructions a scan may take                    */
-	uint32_t core_runs; /* of CODE_LAYOUT; those behind are for watching  */
-	uint32_t words;     /* WORD_COUNT: numbers of words are of its catalogue */
+	uint32_t core_runs; /* of CODE_LAYOUT; runs from here on are for watching */
+	uint32_t words;     /* WORD_COUNT of the catalogue that numbers the words */
 	uint32_t spare;     /* 0                                               */
 	uint32_t area_bytes[CODE_AREAS]; /* by enum iec_area; the others 0     */
 	struct code_section section[CODE_SECTION_COUNT];
@@ -131,15 +130,15 @@ struct code_bits {      /* bits first … first+count-1 of an area live at
 	uint32_t area, first, count, slot;
 };
 
-/* Of a symbol, in the top 8 bits: its type (IEC_NONE: an instance) and marks. The
- * rest is its offset in m. Its name is the string of the same number; that of an array
- * ends with its bounds, and type and offset are its first element's. */
+/* Of a symbol, in the top 8 bits: its type (IEC_NONE: an instance) and marks. The rest
+ * is its offset in m. Its name is the string of the same number. An array's name ends
+ * with its bounds; type and offset are those of its first element. */
 enum symbol_flag {
 	SYMBOL_CONSTANT = 1, SYMBOL_RETAIN = 2, /* of its group            */
 	SYMBOL_TYPE = 0x1f,   /* mask of the type                          */
 	SYMBOL_BIT = 0x20,    /* the offset counts bits of the areas       */
 	SYMBOL_HIDDEN = 0x40, /* a temporary: not shown                    */
-	SYMBOL_SHARED = 0x80, /* a name that stands in several tables      */
+	SYMBOL_SHARED = 0x80, /* a name that is in several tables          */
 };
 struct code_group {     /* symbols from here to the next group             */
 	uint32_t first; /* of the symbols; ascending, 0 first              */
@@ -156,8 +155,8 @@ struct code_power {     /* the cell-to-power map                           */
 	uint32_t out;   /* offset in m: power it lets through              */
 };
 
-/* While watched, the power of a block's cells is copied for each instance: what
- * CODE_POWER has at from … from + size - 1 is at to … then. */
+/* While watched, the power of a block's cells is copied for each instance: the bytes
+ * that CODE_POWER has at from … from + size - 1 are copied to to …. */
 struct code_watched {
 	uint32_t pou;   /* index in CODE_PROGRAMS                          */
 	uint32_t name;  /* offset in CODE_STRINGS: "Belt1", "Line.Belt1.Soft" */
@@ -165,7 +164,7 @@ struct code_watched {
 };
 
 struct code_place {     /* from this word of CODE_TEXT on                  */
-	uint32_t text;      /* words of CODE_WATCH are counted on behind its own */
+	uint32_t text;      /* words of CODE_WATCH are counted after them */
 	uint32_t pou, rung; /* index in CODE_PROGRAMS; 1-based             */
 	uint16_t row, col;  /* 1-based; 0: none. CODE_LINE: rung is a line
 			       of the file, in a list that was written     */
@@ -175,16 +174,16 @@ struct code_place {     /* from this word of CODE_TEXT on                  */
 #define CODE_OFFSET_BITS 24
 #define CODE_OFFSET(word) ((word) & 0xffffffu)
 #define CODE_TYPE(word)   ((word) >> CODE_OFFSET_BITS)
-/* Of an input of FN: it does not share the type of the others. */
+/* Of an input of FN: it has a type of its own. */
 #define CODE_OWN         0x80000000u
 #define CODE_OPERAND(type, offset) ((uint32_t)(type) << 24 | (offset))
 #define CODE_FALSE_AT(areas) ((areas)->size) /* first byte behind the areas */
 #define CODE_TRUE_AT(areas)  ((areas)->size + 1)
 
-/* A code image that was let in: pointers into bytes that the caller keeps. */
+/* A verified code image: pointers into bytes that the caller keeps. */
 struct program {
 	const struct code_header *header;
-	struct areas areas;     /* as the header has them                    */
+	struct areas areas;     /* from the header                           */
 	const uint8_t *base;
 	const struct code_program *entry;
 	const struct code_task *task;
@@ -198,35 +197,34 @@ struct program {
 	const struct code_watched *watched;
 	const uint32_t *text, *watch;
 	const char *string;
-	const struct symbol_index *index; /* NULL: none; set by who opened it */
+	const struct symbol_index *index; /* NULL: none; set by the caller of code_open() */
 	uint32_t entry_count, task_count, call_count, run_count, bits_count,
 		 symbol_count, group_count, power_count, place_count, watched_count, text_words, watch_words,
 		 string_bytes;
-	bool classic;           /* set by who loaded a project of ClassicLadder:
-				   names from outside are those of it first   */
+	bool classic;           /* set by the loader of a ClassicLadder project: */
 };
 
 #define CODE_DIMENSION 4u /* words of an index: its operand, low, count, stride */
 
 /* n of REAL, DINT, INT: the functions of these names. */
 enum math { MATH_ADD, MATH_SUB, MATH_MUL, MATH_DIV, MATH_COUNT };
-#define MATH_ENABLED 4u /* beside it: en has a say; else it is CODE_TRUE       */
+#define MATH_ENABLED 4u /* flag beside it: en is tested; else it is CODE_TRUE  */
 
 /**
  * code_open - verifies an image and gives access to it
  * @bytes:   aligned to 8; kept by the caller as long as @out is used
- * @scratch: what the verifier allocates from; may be freed afterwards
+ * @scratch: temporary memory; may be freed afterwards
  *
- * Checks checksum, version, sections, data layout, every operand (in range, of
- * the right type, not a constant when written), every jump target, and that the
- * code ends. Loops are bounded by the budget at run time.
- * Owns: nothing.   Scan-safe: no.
+ * Checks checksum, version, sections, data layout, every operand (in range, of the
+ * right type, not a constant when written), every jump target, and that the code ends.
+ * Loops are bounded by the budget at run time.
+ * Owns: nothing. Scan-safe: no.
  * Fails: false, a row of diag.def in @why and the byte offset in @where.
  */
 bool code_open(const void *bytes, size_t len, struct arena *scratch,
 	       struct program *out, enum diag_id *why, size_t *where);
 
-/** code_run_size - bytes of one of a run's values or instances. Scan-safe: yes. */
+/** code_run_size - bytes of one value or instance of a run. Scan-safe: yes. */
 static inline uint32_t code_run_size(const struct code_run *run)
 {
 	return run->kind == RUN_INSTANCE ? word_row((enum word)run->word)->size :
@@ -234,7 +232,8 @@ static inline uint32_t code_run_size(const struct code_run *run)
 }
 /** code_run_at - the run that holds this offset; NULL: none. Scan-safe: yes. */
 const struct code_run *code_run_at(const struct program *program, uint32_t offset);
-/** code_bits_find - where one bit of an area has a byte of its own; 0: it has none.
+/** code_bits_find - the offset of the byte that holds a bit of an area; 0: the bit is
+ * packed.
  * @bits: ordered by area and first; @count of them.   Scan-safe: yes. */
 static inline uint32_t code_bits_find(const struct code_bits *bits, uint32_t count,
 				      enum iec_area area, uint32_t bit)
@@ -258,29 +257,29 @@ static inline uint32_t code_bits_find(const struct code_bits *bits, uint32_t cou
 /** code_words - words of the instruction at @code: 1 + its operands.
  * Scan-safe: yes. */
 uint32_t code_words(const uint32_t *code);
-/** code_type - what REAL, DINT, INT and CMP_REAL … compute with; IEC_NONE: @op is none
- * of these. Scan-safe: yes. */
+/** code_type - the type that REAL, DINT, INT and CMP_REAL … compute with; IEC_NONE for
+ * another @op. Scan-safe: yes. */
 uint32_t code_type(uint32_t op);
 /* Bounds in the name of a symbol that is an array: `Table[1..10]`. */
 struct code_bounds {
-	size_t head;     /* bytes before the [; of all else the whole name  */
+	size_t head;     /* bytes before the [; the whole name if there is none */
 	int32_t low;
 	uint32_t count;  /* 0: no array                                     */
 };
-/** code_bounds - of a name, whatever it is. Scan-safe: yes. */
+/** code_bounds - the bounds in a symbol's name. Scan-safe: yes. */
 struct code_bounds code_bounds(const char *name);
 /** code_instance - the FB whose instance is at @offset of data memory; WORD_COUNT:
  * none is. Scan-safe: yes. */
 enum word code_instance(const struct program *program, uint32_t offset);
-/** code_identity - SHA-256 of what runs: code and data layout, without the maps a
- * target may drop. @out gets 32 bytes. Scan-safe: no (slow). */
+/** code_identity - SHA-256 of code and data layout, without the maps that a target may
+ * drop. @out gets 32 bytes. Scan-safe: no (slow). */
 void code_identity(const struct program *program, uint8_t out[32]);
 /**
- * code_strip - the same image without the maps, for small targets
- * @image: a verified one
+ * code_strip - an image without its maps, for small targets
+ * @image: verified
  * @out:   caller's, aligned to 8, at least as large as the result; NULL: none
  *
- * Owns: nothing.   Scan-safe: no.   Returns the bytes of the result.
+ * Owns: nothing. Scan-safe: no. Returns the bytes of the result.
  */
 size_t code_strip(const void *image, void *out);
 /** code_print - one instruction as text, e.g. "lut     8a b100 b101 b102 -> b103"

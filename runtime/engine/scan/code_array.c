@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * code_array - the verifier's look at arrays: every element a place of its type.
+ * code_array - verifies arrays: every element is a place of its type.
  *
- * An image must not make loading slow: elements that lie in one run, or in one area,
- * are one question, however many they are. It reads bounds from names and makes none.
+ * A hostile image must not make loading slow: elements in one run, or in one area, are
+ * checked together, however many there are.
  */
 #include "engine/scan/verify.h"
 
@@ -36,8 +36,8 @@ const struct code_run *code_run_at(const struct program *p, uint32_t offset)
 								     : NULL;
 }
 
-/* All in one run, each at the same place of its unit: what holds for the first holds
- * for all. */
+/* Whether all elements are in one run, each at the same place of its unit. Then a check
+ * of the first is enough. */
 static bool in_run(const struct verifier *v, uint32_t offset, uint64_t end,
 		   uint32_t stride)
 {
@@ -47,7 +47,7 @@ static bool in_run(const struct verifier *v, uint32_t offset, uint64_t end,
 	       end <= run->offset + (uint64_t)run->count * code_run_size(run);
 }
 
-/* Of texts the marks do not tell the room: that is said by their runs. */
+/* Marks do not give the room of a text; its run does. */
 static bool has_room(const struct verifier *v, uint32_t offset, uint32_t room)
 {
 	const struct code_run *run = code_run_at(v->program, offset);
@@ -74,7 +74,7 @@ static bool walk(struct verifier *v, uint32_t first, uint32_t count,
 	return true;
 }
 
-/* The same member of all elements is asked for again and again. */
+/* The same member of all elements is checked again and again, so the result is kept. */
 static struct seen *seen_slot(const struct verifier *v, uint32_t first)
 {
 	return &v->seen[(first * 2654435761u) >> 22 & (VERIFY_SEEN - 1)];
@@ -153,7 +153,7 @@ bool verify_grid_next(struct verifier *v, struct verify_grid *grid)
 	return false;
 }
 
-/* The last index is looked at as a whole, for each combination of the others. */
+/* The last index is checked as a whole, for each combination of the others. */
 bool verify_elements_of(struct verifier *v, uint32_t first, const uint32_t *dim,
 			uint32_t dims, bool write)
 {
@@ -187,7 +187,7 @@ bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
 
 /* ---- bounds in names ---- */
 
-/* A number of at most ten digits, perhaps negative, behind which *at is left. */
+/* A number of at most ten digits, perhaps negative; moves *at behind it. */
 static bool take_number(const char **at, int64_t *out)
 {
 	bool negative = **at == '-';
@@ -225,7 +225,7 @@ struct code_bounds code_bounds(const char *name)
 	return out;
 }
 
-/* ---- values one behind the other ---- */
+/* ---- values one after another ---- */
 
 bool verify_all(const struct verifier *v, uint32_t first, uint32_t n, enum iec_type type,
 		bool write)

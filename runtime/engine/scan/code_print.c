@@ -2,8 +2,8 @@
  *
  * code_print - one instruction of a code image as text, for `ladder code`.
  *
- * Operands are shown as `b123` (BOOL at offset 123) or `INT@456`. It looks up no
- * names and judges nothing.
+ * Operands are shown as `b123` (BOOL at offset 123) or `INT@456`. Names are not looked
+ * up.
  */
 #include "engine/scan/code.h"
 
@@ -37,7 +37,7 @@ static int print_fn(const uint32_t *at, uint32_t n, char *out, size_t size)
 			inputs, typed(at[3]).text, at[2]);
 }
 
-/* `REAL@4 > REAL@8 -> b9`; `… and b5 -> b9`; else the table, as of a LUT. */
+/* `REAL@4 > REAL@8 -> b9`; `… and b5 -> b9`; else the table, as for a LUT. */
 static int print_cmp(const uint32_t *at, uint32_t type, uint32_t n, char *out,
 		     size_t size)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * code_strip - a code image without the maps that a small target can do without:
- * the watched section, names, power of cells, places.
+ * code_strip - removes the maps that a small target does not need: the watched section,
+ * names, power of cells, places.
  *
- * What runs stays the same, and so does the identity. Faults then have no rung.
+ * Instructions and identity stay the same. Faults then have no rung.
  */
 #include "engine/scan/code.h"
 

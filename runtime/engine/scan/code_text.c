@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * code_text - the verifier's look at instructions: each whole, its operands in
- * range and of the right type, jumps onto instructions, an end at the end.
+ * code_text - verifies instructions: each is complete, its operands are in range and of
+ * the right type, jumps lead to instructions, and the code ends.
  *
- * Loops are not looked for: the budget ends them.
+ * Loops are not checked: the budget ends them.
  */
 #include "engine/scan/verify.h"
 
@@ -97,7 +97,7 @@ static bool check_lut(const struct verifier *v, const uint32_t *at, uint32_t n)
 	return n > 0;
 }
 
-/* Is @from a type that COPY and FN may take where @to is wanted? */
+/* Whether COPY and FN may use type @from where @to is required. */
 static bool converts(uint32_t from, uint32_t to)
 {
 	return verify_is_type(from) && verify_is_type(to) &&
@@ -163,14 +163,14 @@ static bool check_bit(const struct verifier *v, const uint32_t *at, uint32_t op,
 	return reads_bool(v, at[0]) && verify_use(v, at[1], IEC_BYTE, true);
 }
 
-/* Does a value or instance begin or end here, or nothing lie here? */
+/* Whether no value or instance lies across this offset. */
 static bool is_edge(const struct verifier *v, uint32_t offset)
 {
 	return offset == v->data_size || (v->mark[offset] != MARK_INSIDE &&
 					  v->mark[offset] != MARK_TEXT);
 }
 
-/* Where to begin to look for what lies at @offset. */
+/* The first run that may hold @offset. */
 static uint32_t run_at(const struct verifier *v, uint32_t offset)
 {
 	uint32_t before = verify_runs_before(v->program, offset);
@@ -178,7 +178,7 @@ static uint32_t run_at(const struct verifier *v, uint32_t offset)
 	return before ? before - 1 : 0;
 }
 
-/* Has @b the same instances as @a? Marks do not tell what is inside them. */
+/* Whether @b has the same instances as @a. Marks do not tell the inside of instances. */
 static bool same_instances(const struct verifier *v, uint32_t a, uint32_t b,
 			   uint32_t size)
 {
@@ -208,7 +208,7 @@ static bool same_instances(const struct verifier *v, uint32_t a, uint32_t b,
 	return true;
 }
 
-/* Both sides must be whole and alike, so that what is a BOOL here is one there. */
+/* Both sides must be whole and alike, so that a BOOL stays a BOOL. */
 static bool are_alike(struct verifier *v, uint32_t to, uint32_t from, uint32_t size)
 {
 	uint32_t first = v->areas + 2;
@@ -264,8 +264,8 @@ static bool check_ablock(struct verifier *v, const uint32_t *at, uint32_t n)
 	return !grid.failed;
 }
 
-/* AGET and APUT. What they write beside the element they write last or first, so
- * that one place for two of them is wrong but harmless. */
+/* AGET and APUT. `ok` is written first or last, so that an image that uses one place
+ * for it and the element does no harm. */
 static bool check_element(struct verifier *v, const uint32_t *at, uint32_t op,
 			  uint32_t n)
 {
@@ -297,7 +297,7 @@ static bool check_copy(const struct verifier *v, const uint32_t *at, uint32_t n)
 	       n == iec_type_row((enum iec_type)to)->size;
 }
 
-/* What a comparison reads and writes beside its two values. */
+/* The operands of a comparison beside its two values. */
 static bool check_order(const struct verifier *v, const uint32_t *at, uint32_t n)
 {
 	return n < 256 && reads_bool(v, at[2]) && writes_bool(v, at[3]);
@@ -384,8 +384,8 @@ static uint32_t words_needed(const uint32_t *code)
 	return code_words(code);
 }
 
-/* The instructions of one program: each whole and right, the last one leaves,
- * jumps land on instructions. @starts has a byte a word. */
+/* The instructions of one program: each is complete and valid, the last one ends the
+ * program, jumps lead to instructions. @starts: a byte a word. */
 static bool check_text(struct verifier *v, const uint32_t *base, uint32_t first,
 		       uint32_t words, uint8_t *starts)
 {
@@ -423,9 +423,8 @@ static bool check_text(struct verifier *v, const uint32_t *base, uint32_t first,
 
 struct calls {
 	struct verifier *v;
-	uint8_t *deep;     /* by program: 0 not looked at, 255 in work, else
-			      1 + calls inside one another from it on          */
-	uint32_t *stack, *at; /* programs in work; the word to look at next  */
+	uint8_t *deep;     /* by program: 0 not visited, 255 in progress, else */
+	uint32_t *stack, *at; /* programs in progress; the next word of each */
 	uint32_t depth;
 };
 #define IN_WORK 255u
@@ -437,7 +436,7 @@ static void begin_calls(struct calls *c, uint32_t entry)
 	c->at[c->depth++] = 0;
 }
 
-/* The next call of the program on top; false: there are no more. */
+/* The next call of the program on top; false: no more. */
 static bool next_call(struct calls *c, const uint32_t *text, uint32_t words,
 		      uint32_t *to)
 {
@@ -451,8 +450,8 @@ static bool next_call(struct calls *c, const uint32_t *text, uint32_t words,
 	return false;
 }
 
-/* Steps through the calls of the programs on the stack until it is empty; a call
- * that was not looked at goes on top. False: a circle, or too deep. */
+/* Steps through the calls of the programs on the stack until it is empty; a program
+ * that was not visited is pushed. False: a circle, or too deep. */
 static bool walk_calls(struct calls *c, bool watch, uint8_t *most)
 {
 	const struct program *p = c->v->program;
@@ -513,7 +512,7 @@ bool verify_programs(struct verifier *v)
 						       : p->watch_words;
 	uint8_t *starts = arena_alloc(v->scratch, most + 1u);
 
-	uint32_t text = 0, watch = 0; /* words of all so far: none is shared */
+	uint32_t text = 0, watch = 0; /* words of all programs so far: they share none */
 
 	if (!starts)
 		return false;
@@ -549,7 +548,7 @@ static bool is_interval(const uint32_t words[2])
 	return ns >= LIMIT_TICK && ns <= LIMIT_INTERVAL;
 }
 
-/* A bit of a byte that a program may read, or a BOOL whole. */
+/* A bit of a byte that a program may read, or a whole BOOL. */
 static bool is_event(const struct verifier *v, uint32_t single)
 {
 	uint32_t offset = CODE_OFFSET(single), bit = CODE_TYPE(single);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * declared - what the programs of an image declared, one by one.
+ * declared - steps through the declared variables and instances of an image.
  *
- * Only the whole of each: its parts and their names are in symbols.c, which a small
- * board does without.
+ * Pins and elements are in symbols.c, which a small board does not link.
  */
 #include "engine/scan/image.h"
 
 #include <string.h>
 
-/* A bit of the areas, counted from the first one's start, as one of its own. */
+/* A bit of the areas, counted from the start of the first area, as a bit of its own
+ * area. */
 static void locate_bit(const struct areas *areas, struct location *at, uint32_t bit)
 {
 	at->area = areas_find(areas, bit / 8);

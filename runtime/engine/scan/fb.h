@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * fb - what the function blocks of fb_*.c share: edges, time since, REAL results.
+ * fb - edges, elapsed time and REAL results for the function blocks of fb_*.c.
  *
- * A block's memory comes from images and retained files, so every byte of it may
- * be anything: nothing here or there indexes by what it has not bounded. For fb_*.c
- * alone; whoever calls a block includes vm.h.
+ * A block's memory comes from images and retained files, so every byte of it may be
+ * anything: check a value before using it as an index. For fb_*.c only; vm.h calls
+ * blocks.
  */
 #ifndef SCAN_FB_H
 #define SCAN_FB_H
@@ -13,7 +13,8 @@
 
 #include <float.h>
 
-/** fb_rises - TRUE now and not at the call before; @seen remembers. Scan-safe: yes. */
+/** fb_rises - TRUE now and not at the previous call; @seen keeps the last value.
+ * Scan-safe: yes. */
 static inline bool fb_rises(uint8_t now, uint8_t *seen)
 {
 	bool edge = (now != 0) & (*seen == 0);
@@ -39,13 +40,14 @@ static inline int64_t fb_elapsed(int64_t now_ns, int64_t start, int64_t preset)
 	return since < (uint64_t)preset ? (int64_t)since : preset;
 }
 
-/** fb_is_number - neither infinite nor NaN as a REAL. */
+/** fb_is_number - finite as a REAL. */
 static inline bool fb_is_number(double value)
 {
 	return value >= -(double)FLT_MAX && value <= (double)FLT_MAX;
 }
 
-/** fb_give - @value as the REAL @out; false, and nothing stored, if it is none. */
+/** fb_give - stores @value as the REAL @out; false, and nothing is stored, if it is not
+ * finite. */
 static inline bool fb_give(float *out, double value)
 {
 	if (!fb_is_number(value))
@@ -59,7 +61,7 @@ static inline double fb_clamp(double value, double low, double high)
 	return value < low ? low : value > high ? high : value;
 }
 
-/** fb_bound - an INT as a number of places, 1 to @most. */
+/** fb_bound - an INT limited to 1 … @most. */
 static inline int fb_bound(int value, int most)
 {
 	return value < 1 ? 1 : value > most ? most : value;

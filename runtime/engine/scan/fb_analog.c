@@ -36,13 +36,13 @@ void fb_DEADBAND_step(struct fb_DEADBAND *fb, int64_t now_ns)
 		  fb_is_number((double)fb->WIDTH) && fb_give(&fb->OUT, out);
 }
 
-/* What one call of so many seconds may move; a negative rate stands still. */
+/* The most that OUT may change in @seconds; 0 for a negative rate. */
 static double at_most(float rate, double seconds)
 {
 	return rate > 0.0f ? (double)rate * seconds : 0.0;
 }
 
-/* OUT is rounded; what is not shown is kept in @exact, or slow ramps would stick. */
+/* OUT is rounded; the rest is kept in @exact, or slow ramps would not move. */
 static void follow(struct fb_RAMP *fb, double seconds)
 {
 	double in = (double)fb->IN, at = fb->exact;
@@ -81,7 +81,8 @@ void fb_SCALE_step(struct fb_SCALE *fb, int64_t now_ns)
 	fb->ENO = fb->EN && fb_give(&fb->OUT, out);
 }
 
-/* Of differences: two REAL may lie further apart than a REAL goes. */
+/* Differences are computed in double: two REAL may be further apart than a REAL can
+ * express. */
 static bool is_finite(double value)
 {
 	return value >= -DBL_MAX && value <= DBL_MAX;
@@ -107,8 +108,8 @@ void fb_SCALE_RANGE_step(struct fb_SCALE_RANGE *fb, int64_t now_ns)
 
 enum { SAMPLES = 64 };
 
-/* The last @count values before place @next. What is no number was not put there
- * by us. */
+/* The last @count values before place @next. A damaged instance may hold values that
+ * are not numbers; they are left out of the sum. */
 static double mean(const float *value, int next, int count)
 {
 	double sum = 0.0;

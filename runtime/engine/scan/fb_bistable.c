@@ -17,7 +17,8 @@ void fb_RS_step(struct fb_RS *fb, int64_t now_ns)
 	fb->Q1 = (fb->S | fb->Q1) & !fb->R1;
 }
 
-/* BUSY tells what was before the call: FALSE with CLAIM TRUE means "yours". */
+/* BUSY is the state before the call: FALSE with CLAIM TRUE means that the caller has it
+ * now. */
 void fb_SEMA_step(struct fb_SEMA *fb, int64_t now_ns)
 {
 	(void)now_ns;

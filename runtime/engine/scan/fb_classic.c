@@ -2,9 +2,9 @@
  *
  * fb_classic - the blocks of ClassicLadder, as an imported project needs them.
  *
- * They count the time that a call is given (DT), not a clock: what is not called does
- * not count. Behaviour is that of its engine as it was observed
- * (docs/from-classicladder.md); faults of it are left out unless FAITHFUL.
+ * They add up the time of each call (DT) and read no clock: a block that is not called
+ * does not count. They behave as its engine does (docs/from-classicladder.md), without
+ * its faults unless FAITHFUL.
  */
 #include "engine/scan/fb.h"
 
@@ -15,7 +15,7 @@ static int64_t not_negative(int64_t value)
 	return value > 0 ? value : 0;
 }
 
-/* @units of @base in ns, held at what fits. */
+/* @units of @base in ns, limited to 64 bits. */
 static int64_t in_ns(int32_t units, int64_t base)
 {
 	int64_t ns;
@@ -35,7 +35,7 @@ struct up {
 	bool faithful;
 };
 
-/* A fault of the original: what is less than a unit stays for the next time. */
+/* A fault of the original: the rest below a unit is kept for the next call. */
 static void rewind_up(const struct up *up)
 {
 	*up->v = 0;
@@ -75,7 +75,7 @@ void fb_CL_TON_step(struct fb_CL_TON *fb, int64_t now_ns)
 	}
 }
 
-/* What ends or counts once it runs: an off-delay without IN, a pulse. */
+/* Timers that run on without IN: an off-delay, a pulse. */
 static uint8_t run_out(const struct up *up)
 {
 	if (*up->v < up->p) {
@@ -106,12 +106,12 @@ void fb_CL_TP_step(struct fb_CL_TP *fb, int64_t now_ns)
 		fb->Q = run_out(UP(fb));
 }
 
-/* ---- what counts down ---- */
+/* ---- blocks that count down ---- */
 
 void fb_CL_TIMER_step(struct fb_CL_TIMER *fb, int64_t now_ns)
 {
 	(void)now_ns;
-	if (!fb->begun) /* V is the preset it began with, whatever P is by now */
+	if (!fb->begun) /* V starts from the preset at the start, not from the present P */
 		fb->rest = in_ns(fb->V, fb->BASE);
 	fb->begun = 1;
 	if (!fb->E)
@@ -129,7 +129,8 @@ void fb_CL_TIMER_step(struct fb_CL_TIMER *fb, int64_t now_ns)
 	fb->V = fb->BASE > 0 ? (int32_t)(fb->rest / fb->BASE) : 0;
 }
 
-/* The fault of the original: a pulse that ends between two calls is the last. */
+/* The fault of the original: after a pulse that ended between two calls, no other one
+ * starts. */
 void fb_CL_MONO_step(struct fb_CL_MONO *fb, int64_t now_ns)
 {
 	bool edge = fb_rises(fb->IN, &fb->seen);

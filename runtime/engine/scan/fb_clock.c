@@ -2,15 +2,14 @@
  *
  * fb_clock - RTC_ALARM, a weekly time switch.
  *
- * The date and time come in through a pin: no block follows a wall clock by itself,
- * and whoever sets the clock decides what the alarm sees.
+ * The date and time come through a pin: no block reads a wall clock itself.
  */
 #include "engine/scan/fb.h"
 
 #define DAY_NS (INT64_C(86400) * 1000000000)
 #define WEEK   7
 
-/* Is the day marked? Day 0, 1970-01-01, was a Thursday: bit 3. */
+/* Whether the day is marked. Day 0, 1970-01-01, was a Thursday: bit 3. */
 static bool is_marked(uint8_t days, int64_t day)
 {
 	int64_t bit = (day + 3) % WEEK;

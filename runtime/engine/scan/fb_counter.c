@@ -2,9 +2,9 @@
  *
  * fb_counter - CTU, CTD and CTUD of each type, IEC 61131-3 table 36.
  *
- * They count at rising edges, beyond PV and below 0, up to the limits of their type.
- * An edge that comes while R or LD is TRUE is consumed; both edges of a CTUD in one
- * call cancel out. The types differ in nothing but their limits.
+ * They count rising edges, beyond PV and below 0, up to the limits of their type. An
+ * edge that comes while R or LD is TRUE is consumed; both edges of a CTUD in one call
+ * cancel out. The types differ only in their limits.
  */
 #include "engine/scan/fb.h"
 

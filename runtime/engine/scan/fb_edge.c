@@ -2,8 +2,7 @@
  *
  * fb_edge - R_TRIG and F_TRIG, IEC 61131-3 table 35.
  *
- * At the first call CLK TRUE is a rising edge; CLK FALSE is no falling one,
- * because no edge was seen.
+ * At the first call CLK TRUE is a rising edge; CLK FALSE is not a falling edge.
  */
 #include "engine/scan/vm.h"
 

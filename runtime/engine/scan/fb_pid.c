@@ -4,9 +4,9 @@
  * formula.
  *
  * The derivative is that of PV, behind a filter of the first order (backward Euler).
- * The integral moves no further than the limit of OUT. In manual, and when EN comes
- * back, the integral is set so that OUT goes on from where it stands. The time step
- * is what really passed between two calls. It does not tune itself.
+ * The integral stops at the limit of OUT. In manual, and when EN returns, the integral
+ * is set so that OUT does not jump. The time step is the measured time between two
+ * calls.
  */
 #include "engine/scan/fb.h"
 
@@ -24,7 +24,7 @@ static bool is_sound(const struct fb_PID *fb)
 	       fb->MIN <= fb->MAX;
 }
 
-/* Filtered PV after @step seconds; PV itself when there is nothing to go on from. */
+/* Filtered PV after @step seconds; PV itself at the first call. */
 static double smoothed(const struct fb_PID *fb, double step, double filter,
 		       bool fresh)
 {
@@ -35,7 +35,7 @@ static double smoothed(const struct fb_PID *fb, double step, double filter,
 	return from + (pv - from) * (step / (filter + step));
 }
 
-/* The integral moves by @by, but no further than takes OUT to its limit. */
+/* The integral moves by @by, but stops where OUT reaches its limit. */
 static double integrated(const struct fb_PID *fb, double integral, double rest,
 			 double by)
 {
@@ -75,7 +75,7 @@ static void control(struct fb_PID *fb, double step, bool resumed)
 	fb->smooth = smooth;
 	fb->integral = integral;
 	fb->started = 1;
-	if (!fb_give(&fb->OUT, out)) { /* only if our memory was nonsense */
+	if (!fb_give(&fb->OUT, out)) { /* only if the instance's memory was damaged */
 		fb->started = 0;
 		fb->ENO = 0;
 	}

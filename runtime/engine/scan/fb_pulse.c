@@ -2,9 +2,9 @@
  *
  * fb_pulse - DEBOUNCE, BLINK and PWM: levels that change with time.
  *
- * All measure against a start on the scan's monotonic clock. A period begins where
- * the one before ended, not in the scan that noticed it, so nothing drifts when a
- * scan is late; whole periods between two scans are left out. TIMEs below 0 count as 0.
+ * All measure against a start on the scan's monotonic clock. A period begins where the
+ * previous one ended, not in the scan that sees it, so a late scan causes no drift;
+ * whole periods between two scans are skipped. TIMEs below 0 count as 0.
  */
 #include "engine/scan/fb.h"
 
@@ -32,7 +32,7 @@ static uint64_t not_negative(int64_t time)
 	return time > 0 ? (uint64_t)time : 0;
 }
 
-/* Moves a start over the whole periods that are past; ns since the new one. */
+/* Moves a start past the elapsed periods; returns the ns since the new start. */
 static uint64_t go_on(int64_t *start, int64_t now_ns, uint64_t period)
 {
 	uint64_t since = fb_since(now_ns, *start);
@@ -59,7 +59,7 @@ void fb_BLINK_step(struct fb_BLINK *fb, int64_t now_ns)
 	fb->Q = go_on(&fb->start, now_ns, high + low) < high;
 }
 
-/* The time TRUE of a period that begins: too short a pulse or pause is left out. */
+/* The TRUE time of a new period: a pulse or pause that is too short is left out. */
 static int64_t pulse(const struct fb_PWM *fb)
 {
 	double duty = fb_clamp((double)fb->DUTY, 0.0, 100.0);

@@ -2,8 +2,8 @@
  *
  * fb_store - FIFO and LIFO of DINT and REAL, and SHIFT.
  *
- * The values live in the instance, at most ROOM of them. A value that finds no room
- * is lost and Q says so; nothing is ever overwritten.
+ * The values live in the instance, at most ROOM of them. A value that does not fit is
+ * dropped, and Q is FALSE; stored values are not overwritten.
  */
 #include "engine/scan/fb.h"
 
@@ -44,8 +44,8 @@ static bool pop(struct store *store)
 	return true;
 }
 
-/* Both at once always find room: what is full gives first, what is not takes first.
- * True if all that was asked for was done. */
+/* Both at once always succeed: a full store gives first, another takes first. True:
+ * everything was done. */
 static bool move(struct store *store, bool in, bool out)
 {
 	bool full = store->used >= store->size, good = in || out;

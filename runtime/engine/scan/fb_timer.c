@@ -2,14 +2,13 @@
  *
  * fb_timer - TON, TOF and TP, IEC 61131-3 table 38 and figure 15; TONR.
  *
- * All measure against the start time on the scan's monotonic clock, so nothing
- * drifts when a scan is late. Exactly ET = PT is elapsed. PT may change while
- * the timer runs.
+ * All measure against the start time on the scan's monotonic clock, so a late scan
+ * causes no drift. ET = PT counts as elapsed. PT may change while the timer runs.
  */
 #include "engine/scan/fb.h"
 
-/* No branch on an input but for its edge: a CPU cannot predict one. Without power nothing
- * changes, or a retained timer would be stored in every scan. */
+/* Branches only on edges of inputs, as a CPU cannot predict inputs. Without power no
+ * byte changes; otherwise a retained timer would be stored in every scan. */
 void fb_TON_step(struct fb_TON *fb, int64_t now_ns)
 {
 	uint8_t in = fb->IN;
@@ -41,8 +40,8 @@ void fb_TOF_step(struct fb_TOF *fb, int64_t now_ns)
 	fb->Q = fb->ET < fb->PT;
 }
 
-/* `running` lasts from the edge of IN until IN is FALSE after the pulse: that is
- * what re-arms it. */
+/* `running` is TRUE from the edge of IN until IN is FALSE after the pulse; then the
+ * next edge starts a pulse. */
 void fb_TP_step(struct fb_TP *fb, int64_t now_ns)
 {
 	if (!fb->running && fb->IN) {
@@ -59,8 +58,8 @@ void fb_TP_step(struct fb_TP *fb, int64_t now_ns)
 	}
 }
 
-/* Time counts from the call that sees IN TRUE to the call that sees it FALSE. What
- * was gathered stands in ET alone, so that it lives where ET does. */
+/* Time counts from the call that sees IN TRUE to the call that sees it FALSE. The sum
+ * is kept in ET only, so that it is retained if ET is. */
 void fb_TONR_step(struct fb_TONR *fb, int64_t now_ns)
 {
 	bool counts = fb->running;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * fn_bits - AND OR XOR NOT on words, shifts, rotations and single bits by number:
- * IEC 61131-3 tables 25 and 26.
+ * fn_bits - AND OR XOR NOT on words, shifts, rotations and single bits by number: IEC
+ * 61131-3 tables 25 and 26.
  *
- * A place below 0 fails; shifted by the width or more everything is gone. Contacts
- * and the IL operators on BOOL use truth tables instead.
+ * A negative number of places fails; a shift by the width or more gives 0. Contacts and
+ * the IL operators on BOOL use truth tables instead.
  */
 #include "engine/scan/value.h"
 #include "engine/scan/vm.h"
@@ -22,8 +22,8 @@ static enum fn_status give(struct fn_args *args, uint64_t bits)
 	return FN_OK;
 }
 
-/* An own integer as a number of places: false if it is negative; UINT64_MAX and the
- * like stay large. */
+/* An integer input as a number of places: false if negative. Large unsigned numbers
+ * stay large. */
 static bool places(const struct fn_args *args, uint64_t *out)
 {
 	*out = (uint64_t)args->in[1].i;
@@ -90,7 +90,7 @@ enum fn_status fn_ROR(struct fn_args *args)
 	return rotate(args, true);
 }
 
-/* The bit of that number; 0: there is none. */
+/* The bit of that number; 0: there is no such bit. */
 static uint64_t mask(const struct fn_args *args)
 {
 	uint64_t n;

@@ -8,7 +8,7 @@
 #include "engine/scan/value.h"
 #include "engine/scan/vm.h"
 
-/* What stands on the two sides of a comparison with 0; REAL is compared as it is. */
+/* The two sides as a comparison with 0; REAL is compared directly. */
 static int order(const struct fn_args *args)
 {
 	int64_t a = args->in[0].i, b = args->in[1].i;

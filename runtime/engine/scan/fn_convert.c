@@ -2,8 +2,8 @@
  *
  * fn_convert - values of one type as values of another, IEC 61131-3 table 22.
  *
- * From and to stand in the instruction, so that one function is all INT_TO_REAL and
- * the like. Whole numbers go through 64 bits. Texts are read and written by fn_text.
+ * Both types are in the instruction, so that one function does all conversions. Whole
+ * numbers go through 64 bits. Texts are read and written by fn_text.
  *
  * REAL to a whole number: ENO FALSE and nothing stored if it has none. A whole number
  * that does not fit another: wrapped, ENO FALSE. Bit strings: the bits, cut or filled
@@ -34,7 +34,7 @@ static uint16_t class_of(enum iec_type type)
 
 /* ---- REAL to whole ---- */
 
-/* A whole number beside @part, what truncation left of it. */
+/* The whole number nearest to a REAL; @part is the fraction that truncation leaves. */
 static int64_t adjust(int64_t whole, double part, enum way way)
 {
 	bool odd = whole & 1;
@@ -53,8 +53,8 @@ static int64_t adjust(int64_t whole, double part, enum way way)
 	return whole;
 }
 
-/* False: no such number. Without libm, so that it is the same everywhere. From 2^52
- * on there are no fractions. */
+/* False: there is none. Without libm, so that it is the same everywhere. From 2^52 on
+ * there are no fractions. */
 static bool whole_of(double real, enum way way, bool wide, int64_t *out)
 {
 	if (wide && real >= TWO_63 && real < TWO_64) {
@@ -192,7 +192,7 @@ static enum fn_status time_to_time(struct fn_args *args)
 
 /* ---- numbers and bits ---- */
 
-/* @whole of the type @from goes out as a value of the result's type. */
+/* Gives @whole, of type @from, as a value of the result's type. */
 static enum fn_status give_whole(struct fn_args *args, enum iec_type from, int64_t whole)
 {
 	bool bits = (class_of(from) | class_of(args->result)) & ANY_BIT;
@@ -310,7 +310,7 @@ enum fn_status fn_CONVERT(struct fn_args *args)
 	return value_is_real(args->type) ? from_real(args) : from_whole(args);
 }
 
-/* Times and dates as the 64-bit numbers of nanoseconds that they are. */
+/* Times and dates as numbers of nanoseconds. */
 enum fn_status fn_CONVERT_NS(struct fn_args *args)
 {
 	const uint16_t times = CLASS_TIME | ANY_DATE;

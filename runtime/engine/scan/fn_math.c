@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * fn_math - MOVE, ADD, SUB, MUL, DIV, MOD, NEG, ABS, INC and DEC, IEC 61131-3
- * tables 23, 24 and 30.
+ * fn_math - MOVE, ADD, SUB, MUL, DIV, MOD, NEG, ABS, INC and DEC, IEC 61131-3 tables
+ * 23, 24 and 30.
  *
- * Integers wrap and give ENO FALSE; division by zero and MIN / -1 leave the result
- * as it was; a REAL result that is infinite or not a number does too. Nothing
- * here can trap.
+ * Integers wrap and give ENO FALSE; division by zero and MIN / -1 leave the result as
+ * it was; a REAL result that is infinite or not a number does too. No operation can
+ * trap.
  */
 #include "engine/scan/value.h"
 #include "engine/scan/vm.h"
@@ -45,8 +45,8 @@ static bool mul64(int64_t a, int64_t b, bool wide, int64_t *out)
 	return over;
 }
 
-/* More than two inputs are a chain, as a row of boxes would be; a step that wraps
- * marks the whole. */
+/* More than two inputs are a chain, as a row of boxes would be; a step that wraps makes
+ * ENO FALSE. */
 static enum fn_status chain(struct fn_args *args, step64 *step)
 {
 	enum fn_status status = FN_OK;
@@ -153,7 +153,7 @@ enum fn_status fn_MOD(struct fn_args *args)
 	return FN_OK;
 }
 
-/* One step, perhaps with a number that is no input. */
+/* One step, perhaps with a constant as the second operand. */
 static enum fn_status step_by(struct fn_args *args, step64 *step, int64_t a, int64_t b)
 {
 	bool over = step(a, b, iec_is_wide(args->type), &a);

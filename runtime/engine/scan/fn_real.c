@@ -3,9 +3,9 @@
  * fn_real - SQRT to ATAN2 and EXPT, the functions of IEC 61131-3 tables 23 and 24 that
  * only REAL and LREAL have.
  *
- * An argument outside a function's domain, and a result that is infinite, fail; what
- * is too small becomes 0. A REAL is the LREAL result, rounded. How they are reckoned
- * stands in math.h.
+ * An argument outside a function's domain, and a result that is infinite, fail; a
+ * result that is too small becomes 0. A REAL is the rounded LREAL result. math.h
+ * describes the algorithms.
  */
 #include "engine/scan/math.h"
 #include "engine/scan/value.h"
@@ -15,7 +15,7 @@
 
 static enum fn_status give(struct fn_args *args, double value)
 {
-	/* Beyond the largest float it is infinite from here on. */
+	/* Beyond the largest REAL it becomes infinite. */
 	if (args->type == IEC_REAL)
 		value = (double)(float)value;
 	if (!isfinite(value))

@@ -2,7 +2,7 @@
  *
  * fn_select - SEL MUX MIN MAX LIMIT on values of any one type, IEC 61131-3 table 27.
  *
- * What is not a number has no place in an order: MIN, MAX and LIMIT fail on it.
+ * NaN cannot be ordered: MIN, MAX and LIMIT fail on it.
  */
 #include "engine/scan/value.h"
 #include "engine/scan/vm.h"
@@ -66,7 +66,7 @@ enum fn_status fn_MAX(struct fn_args *args)
 	return FN_OK;
 }
 
-/* MIN(MAX(IN, MN), MX), as the standard has it: of bounds that cross MX wins. */
+/* MIN(MAX(IN, MN), MX), as in the standard: if the bounds cross, MX wins. */
 enum fn_status fn_LIMIT(struct fn_args *args)
 {
 	union iec_value low = args->in[0], high = args->in[2];

@@ -3,15 +3,15 @@
  * fn_string - texts cut, joined and searched, IEC 61131-3 table 29.
  *
  * A character is a byte; the first has position 1. A position that a text does not have
- * and a negative length are errors: nothing is stored. A length beyond the end takes what
- * there is. A result of more than IEC_STRING_MOST bytes is cut and marked. All of them
+ * and a negative length are errors: nothing is stored. A length beyond the end is cut
+ * there. A result of more than IEC_STRING_MOST bytes is cut and marked. All of them
  * write into args->room, so that a result may go where an input came from.
  */
 #include "engine/scan/vm.h"
 
 #include <string.h>
 
-/* Bytes of a text that somebody else owns. */
+/* Bytes of a text; borrowed. */
 struct piece {
 	const char *at;
 	uint32_t len;
@@ -22,7 +22,7 @@ static struct piece whole(const struct iec_string *s)
 	return (struct piece){ s->text, s->length };
 }
 
-/* What stands behind the first @count bytes, which the text has. */
+/* The rest behind the first @count bytes, which exist. */
 static struct piece behind(const struct iec_string *s, uint32_t count)
 {
 	return (struct piece){ s->text + count, s->length - count };
@@ -61,8 +61,7 @@ static enum fn_status give_one(struct fn_args *args, struct piece piece)
 	return give(args, &piece, 1);
 }
 
-/* A number of bytes: what stands at a pin of any integer type, no more than @most.
- * False: negative. */
+/* A number of bytes from a pin of any integer type, at most @most. False: negative. */
 static bool take_length(const struct fn_args *args, int pin, uint32_t most, uint32_t *out)
 {
 	int64_t length = args->in[pin].i;
@@ -74,7 +73,7 @@ static bool take_length(const struct fn_args *args, int pin, uint32_t most, uint
 	return true;
 }
 
-/* A position of @least to @most; false: there is none such. */
+/* A position of @least to @most; false: there is no such position. */
 static bool take_position(const struct fn_args *args, int pin, uint32_t least,
 			  uint32_t most, uint32_t *out)
 {
@@ -86,7 +85,7 @@ static bool take_position(const struct fn_args *args, int pin, uint32_t least,
 	return true;
 }
 
-/* Bytes L from position P on, as MID, DELETE and REPLACE mean them. */
+/* L bytes from position P on, as in MID, DELETE and REPLACE. */
 struct span {
 	uint32_t start, len;
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * fn_text - values as text. The way back is in fn_text_to.c.
+ * fn_text - converts values to text. fn_text_to.c converts back.
  */
 #include "engine/scan/fn_text.h"
 #include "engine/base/decimal.h"
@@ -21,7 +21,7 @@ static void put(struct pen *pen, const char *text)
 		*pen->at++ = *text++;
 }
 
-/* At least @digits of them. */
+/* At least @digits digits. */
 static void put_number(struct pen *pen, uint64_t number, int digits)
 {
 	char digit[20];
@@ -101,7 +101,7 @@ static void put_real(struct pen *pen, double value, bool single)
 	}
 }
 
-/* T#1d2h3m4s5ms6us7ns: what is 0 is left out. */
+/* T#1d2h3m4s5ms6us7ns without the parts that are 0. */
 static void put_time(struct pen *pen, int64_t ns)
 {
 	static const struct { const char *word; uint64_t ns; } units[] = {
@@ -158,7 +158,7 @@ static void put_dated(struct pen *pen, uint16_t class, int64_t ns)
 
 	put(pen, class == CLASS_TOD ? "TOD#" : class == CLASS_DATE ? "D#" : "DT#");
 	if (class == CLASS_TOD) {
-		/* An address may give more than a day has. */
+		/* A value that was written through an address may be longer than a day. */
 		put_clock(pen, (uint64_t)((ns % DAY_NS + DAY_NS) % DAY_NS));
 		return;
 	}

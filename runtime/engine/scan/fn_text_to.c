@@ -2,8 +2,8 @@
  *
  * fn_text_to - the value that a text spells: literals of one type, read in a scan.
  *
- * base/literal.h reads what stands in a source and may use libc; this reads what comes
- * in while a program runs. It allocates nothing and never rounds but REAL and LREAL.
+ * base/literal.h reads sources and may use libc; this file reads texts while a program
+ * runs. It allocates nothing and rounds only REAL and LREAL.
  */
 #include "engine/scan/fn_text.h"
 #include "engine/base/decimal.h"
@@ -14,7 +14,7 @@
 #define SECOND_NS INT64_C(1000000000)
 #define DAY_NS    (86400 * SECOND_NS)
 
-/* What is left of a text. */
+/* The rest of a text. */
 struct rest {
 	const char *at, *end;
 };
@@ -69,7 +69,7 @@ static bool take_digits(struct rest *rest, unsigned base, uint64_t *out)
 	}
 }
 
-/* TYPE# in front, which may be missing: its own, or T# and D#. */
+/* The type in front, which may be missing: TYPE#, or T# and D#. */
 static void skip_type(struct rest *rest, enum iec_type type)
 {
 	const char *hash = memchr(rest->at, '#', (size_t)(rest->end - rest->at));
@@ -128,7 +128,7 @@ static bool to_whole(enum iec_type type, struct rest rest, int64_t *out)
 
 /* ---- REAL ---- */
 
-/* E-3; what is far out of range stays far out of it. */
+/* E-3; the value is limited, so that a huge exponent stays out of range. */
 static bool take_exponent(struct rest *rest, int64_t *exponent)
 {
 	int64_t power = 0;
@@ -168,7 +168,7 @@ static bool to_real(enum iec_type type, struct rest rest, double *out)
 
 /* ---- times and dates ---- */
 
-/* Digits behind a point: a part of @unit, which must be whole nanoseconds. */
+/* Digits behind a point: a part of @unit, which must give whole nanoseconds. */
 static bool take_fraction(struct rest *rest, int64_t unit, int64_t *ns)
 {
 	bool any = false;

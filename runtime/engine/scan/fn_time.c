@@ -3,9 +3,9 @@
  * fn_time - times, times of day and dates added, taken apart and put together, IEC
  * 61131-3 tables 30 and 35.
  *
- * All of them are nanoseconds in 64 bits. What leaves 64 bits wraps and is marked; a
- * time of day beyond midnight goes on from 00:00:00 and is marked too. A date or time
- * that the calendar does not have is no result. It reads no clock.
+ * All of them are nanoseconds in 64 bits. A result beyond 64 bits, or a time of day
+ * beyond midnight, wraps with ENO FALSE. A date or time that the calendar does not have
+ * stores nothing. No clock is read.
  */
 #include "engine/scan/value.h"
 #include "engine/scan/vm.h"
@@ -37,7 +37,7 @@ static enum fn_status subtract(struct fn_args *args)
 	return give(args, rest, over);
 }
 
-/* Nanoseconds since midnight; a damaged TIME_OF_DAY counts as one within the day. */
+/* Nanoseconds since midnight; a damaged TIME_OF_DAY is reduced to one day. */
 static int64_t of_day(int64_t ns)
 {
 	int64_t rest = ns % DAY_NS;
@@ -45,7 +45,7 @@ static int64_t of_day(int64_t ns)
 	return rest < 0 ? rest + DAY_NS : rest;
 }
 
-/* The clock @shift later, |@shift| less than a day; @days: there are whole days beside. */
+/* The time of day @shift later (less than a day); @days: the shift has whole days, too. */
 static enum fn_status turn_clock(struct fn_args *args, int64_t shift, bool days)
 {
 	int64_t ns = of_day(args->in[0].i) + shift;
@@ -104,7 +104,7 @@ enum fn_status fn_SUB_DT_DT(struct fn_args *args)
 
 /* ---- a time and a number ---- */
 
-/* To the nearest nanosecond, ties to even; what is none is no result. */
+/* To the nearest nanosecond, ties to even; NaN has no result. */
 static enum fn_status give_real(struct fn_args *args, double ns)
 {
 	const double limit = 9223372036854775808.0; /* 2^63 */

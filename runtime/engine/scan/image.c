@@ -28,7 +28,7 @@ static void load_init(struct image *image)
 	}
 }
 
-/* Every text knows its room, whatever its initial bytes said. */
+/* The room of a text is set from the layout, whatever its initial bytes say. */
 static void bound_texts(struct image *image)
 {
 	const struct program *program = image->program;
@@ -50,7 +50,7 @@ static void bound_texts(struct image *image)
 	}
 }
 
-/* Bits with an initial value start in their bytes; areas must agree. */
+/* Bits with an initial value start in their own bytes; the areas must agree. */
 static void pack_all(struct image *image)
 {
 	const struct program *program = image->program;
@@ -132,8 +132,8 @@ bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
 	return true;
 }
 
-/* Eight bits of a byte that all live a byte each: the common case at the edges of
- * the scan, without a loop. Bit k of @byte goes to byte k. */
+/* Unpacks eight bits that all have their own byte: the common case, without a loop. Bit
+ * k of @byte goes to byte k. */
 static void unpack8(uint8_t *slot, uint8_t byte)
 {
 	uint64_t spread = ((uint64_t)byte * 0x0101010101010101u) &
@@ -184,8 +184,8 @@ static void pack(const uint8_t *slot, uint8_t *area, const struct code_bits *bit
 	}
 }
 
-/* Forces, at both edges. What anybody else wrote since the last one is kept
- * aside; the very value it is held at may be nobody's writing. */
+/* Applies forces at both edges. A value written since the last edge is kept aside,
+ * unless it equals the forced value: then perhaps nothing was written. */
 static void hold(struct image *image)
 {
 	for (int i = 0; i < image->force_count; i++) {
@@ -198,8 +198,8 @@ static void hold(struct image *image)
 	}
 }
 
-/* Areas that only the program writes need no unpacking: their bytes are theirs
- * alone, and image_set_bit() writes both. */
+/* Areas that only the program writes need no unpacking: no driver writes their bytes,
+ * and image_set_bit() writes both copies. */
 void image_begin(struct image *image)
 {
 	const struct program *program = image->program;
@@ -240,7 +240,7 @@ union iec_value image_get(const struct image *image, struct location at)
 	return value;
 }
 
-/* Bits below a byte or word that was written: those that live a byte each. */
+/* A byte or word was written: updates the bits in it that have their own byte. */
 static void spread(struct image *image, uint32_t where, uint32_t size)
 {
 	const struct areas *areas = &image->program->areas;
@@ -286,7 +286,7 @@ bool image_force(struct image *image, struct location at, union iec_value value)
 {
 	struct force *force = find_force(image, at);
 
-	/* A text has no room of its own to be kept aside in. */
+	/* A STRING cannot be forced: there is no room to keep its value aside. */
 	if (at.type == IEC_NONE || at.type == IEC_STRING || at.constant)
 		return false;
 	if (!force) {
@@ -296,7 +296,7 @@ bool image_force(struct image *image, struct location at, union iec_value value)
 		force->at = at;
 		force->aside = image_get(image, at);
 	}
-	/* As it can be held: a REAL rounded, a number cut to its type. */
+	/* Rounded or cut to its type. */
 	image_set(image, at, value);
 	force->value = image_get(image, at);
 	return true;

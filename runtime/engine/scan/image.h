@@ -2,10 +2,9 @@
  *
  * image - the process image: %I %Q %M …, a program's data, and forcing.
  *
- * One block of memory. The program sees it; drivers see only the areas, packed as
- * IEC 61131-3 has them. Bits that the program uses live a byte each and are packed
- * and unpacked at the edges of the scan (image_begin, image_end). It does not run
- * anything and does not know a clock.
+ * One block of memory. The program sees it; drivers see only the areas, packed as IEC
+ * 61131-3 has them. Each bit that the program uses has its own byte; bits are packed
+ * and unpacked at the edges of the scan (image_begin, image_end).
  */
 #ifndef SCAN_IMAGE_H
 #define SCAN_IMAGE_H
@@ -44,28 +43,28 @@ size_t image_memory_size(const struct program *program);
  */
 void image_init(struct image *image, const struct program *program, void *memory);
 
-/** image_begin - edge before the program: forces, bits of areas a byte each. */
+/** image_begin - the edge before the program: applies forces, unpacks bits of areas. */
 void image_begin(struct image *image);
-/** image_end - edge behind the program: forces, bits of areas packed. */
+/** image_end - the edge behind the program: applies forces, packs bits of areas. */
 void image_end(struct image *image);
 
 /**
  * image_area - the packed bytes of an area, for drivers
  *
- * As many as image->program->areas.bytes says. Inputs are read from it by image_begin,
- * outputs are in it after image_end.
- * Owns: the image.   Scan-safe: yes.
+ * Their number is in image->program->areas.bytes. image_begin reads inputs from it;
+ * image_end writes outputs to it.
+ * Owns: the image. Scan-safe: yes.
  */
 uint8_t *image_area(struct image *image, enum iec_area area);
 
-/* One bit of an area between scans, wherever it lives. @bit from the area's start;
- * outside the area: false, nothing changes.   Scan-safe: yes. */
+/* One bit of an area between scans. @bit from the area's start; outside the area:
+ * false, nothing changes. Scan-safe: yes. */
 bool image_get_bit(const struct image *image, enum iec_area area, uint32_t bit);
 bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
 		   bool value);
 
-/** image_locate - where a direct address lives in this image; type IEC_NONE: its areas
- * do not reach there.   Scan-safe: yes. */
+/** image_locate - where a direct address lives in this image; type IEC_NONE: outside its
+ * areas. Scan-safe: yes. */
 struct location image_locate(const struct image *image, struct iec_addr addr);
 /** image_find - where a variable or address lives, by its name in the source:
  * `Motor`, `Main.Motor`, `Runout.Q`, `Table[3]`, `%QX0.0`, `Q3`. type IEC_NONE: unknown.
@@ -73,28 +72,27 @@ struct location image_locate(const struct image *image, struct iec_addr addr);
 struct location image_find(const struct image *image, const char *name,
 			   size_t len);
 
-/* A value between scans. Setting a location of an input, output or marker is
- * what the next image_begin (inputs) or the program sees.  Scan-safe: yes. */
+/* A value between scans. The next image_begin (inputs) or the program sees a value that
+ * was set. Scan-safe: yes. */
 union iec_value image_get(const struct image *image, struct location at);
 bool image_set(struct image *image, struct location at, union iec_value value);
 
 /**
  * image_force - hold a value at both edges of every scan until image_unforce()
  *
- * Held from this call on. What the program or a driver wrote meanwhile is kept
- * aside and reappears on release.
- * Owns: nothing.   Scan-safe: yes.
+ * Forced from this call on. The value that the program or a driver writes meanwhile is
+ * kept aside and reappears on release.
+ * Owns: nothing. Scan-safe: yes.
  * Fails: false if @at is nowhere, constant or a STRING, or LIMIT_FORCES are held.
  */
 bool image_force(struct image *image, struct location at, union iec_value value);
 bool image_unforce(struct image *image, struct location at);
 bool image_is_forced(const struct image *image, struct location at);
 
-/* What a program declared: a variable, or an instance as a whole. */
+/* A declared variable, or an instance as a whole. */
 struct declared_name {
 	const char *name, *pou; /* in the program; pou "": a global           */
-	struct code_bounds array; /* of an array; then `name` ends with them,
-				   and `at` is its first element            */
+	struct code_bounds array; /* of an array; then `name` ends with its bounds, */
 	uint32_t stride;        /* bytes to the next one; of bits of areas 1  */
 	struct location at;     /* type IEC_NONE: an instance, at `where`     */
 	uint32_t flags;         /* enum symbol_flag                           */
@@ -107,8 +105,7 @@ struct declared_name {
  */
 struct declared_cursor {
 	uint32_t index, group, string;
-	bool memories;          /* set before: those of edges, too, which have
-				   a blank in their name                      */
+	bool memories;          /* set before: also give memories of edges, which have */
 };
 bool image_next_declared(const struct program *program,
 			 struct declared_cursor *cursor,
@@ -117,8 +114,8 @@ bool image_next_declared(const struct program *program,
 struct location declared_element(const struct declared_name *array,
 				 uint32_t number);
 
-/** image_find_array - the array of this name, as image_find knows names.
- * Scan-safe: no.   Fails: false if there is none. */
+/** image_find_array - the array of this name; names as in image_find.
+ * Scan-safe: no. Fails: false if there is none. */
 bool image_find_array(const struct image *image, const char *name, size_t len,
 		      struct declared_name *out);
 
@@ -131,28 +128,26 @@ bool image_find_array(const struct image *image, const char *name, size_t len,
 bool image_find_members(const struct image *image, const char *head, size_t len,
 			const char *tail, size_t tail_len, struct declared_name *out);
 
-/* The symbols of the image, for whoever shows or records variables. */
+/* The symbols of the image, for displays and recordings of variables. */
 struct symbol {
 	const char *name;       /* "Motor", "Runout.Q"; lives with the program */
 	struct location at;
 	uint32_t flags;         /* enum symbol_flag                           */
 	bool is_input;          /* FB input pin                               */
 	const char *block;      /* word of the FB whose pin it is, or NULL    */
-	uint32_t elements;      /* of what an instance stores, one after another;
-				   0: a single value                          */
+	uint32_t elements;      /* elements of an array that an instance stores; */
 };
 /**
- * image_next_symbol - steps through all declared variables; instances are given
- * pin by pin, as "Name.PIN", arrays element by element, as "Name[3]"
+ * image_next_symbol - steps through all declared variables: instances pin by pin, as
+ * "Name.PIN", arrays element by element, as "Name[3]"
  * @cursor: {0} to begin with; its text buffer backs symbol.name until the next call
  *
- * Owns: nothing.   Scan-safe: no.   Fails: false behind the last one.
+ * Owns: nothing. Scan-safe: no. Fails: false behind the last one.
  */
 struct symbol_cursor {
 	struct declared_cursor declared;
 	uint32_t pin;           /* or element                                 */
-	bool whole;             /* set before: names with their POU, always,
-				   and what an instance keeps to itself too   */
+	bool whole;             /* set before: always put the POU before the name, */
 	char text[2 * LIMIT_NAME + 64];
 };
 bool image_next_symbol(const struct image *image, struct symbol_cursor *cursor,

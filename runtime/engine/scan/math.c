@@ -2,9 +2,9 @@
  *
  * math - powers and logarithms; angles are in math_angle.c.
  *
- * Both ways go over base 2: exp(x) = 2^(x log2 e) and pow(x, y) = 2^(y log2 x), ln x =
- * log2 x * ln 2. An error in the exponent of 2 becomes a relative one of the result,
- * and exponents reach 1074, so that log2 has some 10 bits more than the rest.
+ * Both use base 2: exp(x) = 2^(x log2 e) and pow(x, y) = 2^(y log2 x), ln x = log2 x *
+ * ln 2. An error in the exponent of 2 becomes a relative one of the result, and
+ * exponents reach 1074, so that log2 has some 10 bits more than the rest.
  */
 #include "engine/scan/math.h"
 #include "engine/scan/math_bits.h"
@@ -31,11 +31,11 @@ static struct wide scaled(uint64_t factor, struct wide by)
 }
 
 /*
- * log2(1 ± w), without its sign, of 2^128 and times 2^-@shift
+ * the absolute value of log2(1 ± w), in units of 2^-128, times 2^-@shift
  * @w: of 2^64, not 0 and below 2^-4; it is shifted left until its top bit is set
  *
- * log(1 - w) = -(w + w²/2 + w³/3 + ...) and log(1 + w) = w - w²/2 + w³/3 - ...
- * The first two terms are exact; from the third on 64 bits do.
+ * log(1 - w) = -(w + w²/2 + w³/3 + ...) and log(1 + w) = w - w²/2 + w³/3 - ... The
+ * first two terms are exact; from the third on 64 bits do.
  */
 static struct wide log2_near_1(uint64_t w, bool below, unsigned *shift)
 {
@@ -166,8 +166,8 @@ double math_log10(double x)
 	return log_scaled(x, MATH_LOG10_2, -1);
 }
 
-/* What can be the square or cube of a double may lie just between two of them.
- * What comes that near is taken for it, so that the tie goes to the even one. */
+/* The square or cube of a double may lie exactly halfway between two doubles. A result
+ * that is that close is treated as exact, so that ties round to even. */
 static struct number snapped(struct number n)
 {
 	const uint64_t tie = 0x400, reach = 4;
@@ -192,7 +192,7 @@ static double positive_power(double x, struct number y)
 	return number_double(snapped(exp2_product(y, &log)));
 }
 
-/* Bits of an integer below the point: 0 none are set, 1 none but it is odd. */
+/* Whether an integer is even: 0 no bit below the point is set, 1 it is an odd integer. */
 enum parity { EVEN, ODD, FRACTION };
 
 static enum parity parity_of(struct number y)

@@ -3,14 +3,13 @@
  * math - LN, EXP, SIN and the other functions of IEC 61131-3 tables 23 and 24, with the
  * same bits on every machine.
  *
- * A C library rounds these as it likes, and each does it differently. Here they are made
- * of integers (number.h), so that neither processor nor C library matters; asin and acos
- * begin with sqrt(), of which IEEE 754 fixes every bit. A result is within 0.505 units of
- * the last place of the true value, a subnormal one too. Special values are those of C11
- * Annex F; every NaN that comes out is the same one. Nothing here keeps state or sets
- * errno.
+ * C libraries round these functions differently. Here they are computed with integers
+ * (number.h), so that neither processor nor C library matters; asin and acos begin with
+ * sqrt(), of which IEEE 754 fixes every bit. A result is within 0.505 units of the last
+ * place of the true value, a subnormal one too. Special values are those of C11 Annex
+ * F; every NaN that comes out is the same one. They keep no state and do not set errno.
  *
- * Square root is not here: the one of the machine will do.
+ * Square root is not here: the machine's is exact.
  */
 #ifndef SCAN_MATH_H
 #define SCAN_MATH_H

@@ -2,9 +2,9 @@
  *
  * math - sine to arc tangent; powers and logarithms are in math.c.
  *
- * An angle is brought into -pi/4 .. pi/4 with as many bits of 2/pi as it needs, and a
- * power series does the rest. The inverse functions are all one arc tangent of a
- * quotient, of which neither part is lost when it is small.
+ * An angle is brought into -pi/4 .. pi/4 with as many bits of 2/pi as it needs, then a
+ * power series is used. The inverse functions all use one arc tangent of a quotient,
+ * which keeps the precision of small numerators and denominators.
  */
 #include "engine/scan/math.h"
 #include "engine/scan/math_bits.h"
@@ -172,8 +172,8 @@ static struct number arc(struct number y, struct number x)
 					  0 }, 0, false);
 }
 
-/* The direction of a point, neither of whose coordinates is 0; fixed point of 62
- * bits where quarters of a turn come in. */
+/* The direction of a point, neither of whose coordinates is 0; fixed point of 62 bits
+ * when multiples of a quarter turn are added. */
 static struct number direction(struct number y, struct number x)
 {
 	bool steep = y.power > x.power || (y.power == x.power && y.part > x.part);
@@ -217,8 +217,8 @@ double math_atan(double x)
 	return math_atan2(x, 1);
 }
 
-/* Square root of @n / 2^128, which is 1/4 at least, of 2^64: the one of the machine is
- * right to 53 bits, and one step of Newton's doubles them. */
+/* Square root of @n / 2^128, which is 1/4 at least, of 2^64: the machine's square root
+ * has 53 correct bits, and one Newton step doubles them. */
 static uint64_t root_of(struct wide n)
 {
 	uint64_t root, other;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * math_bits - the kind of a double by its bits, and the special values.
+ * math_bits - classifies a double by its bits; the special values.
  *
- * For math only. isnan() and its kind may be calls of a C library, and a NaN that
- * arithmetic makes has a sign that differs from machine to machine.
+ * For math only. isnan() and the like may call a C library, and the sign of a NaN that
+ * arithmetic produces depends on the machine.
  */
 #ifndef SCAN_MATH_BITS_H
 #define SCAN_MATH_BITS_H
@@ -50,7 +50,7 @@ static inline bool bits_is_nan(double x)
 	return bits_of(x) << 1 > BITS_INFINITY << 1;
 }
 
-/** bits_is_special - 0, infinite or NaN: no number has it. Scan-safe: yes. */
+/** bits_is_special - 0, infinite or NaN: struct number cannot hold it. Scan-safe: yes. */
 static inline bool bits_is_special(double x)
 {
 	return bits_is_zero(x) || bits_of(x) << 1 >= BITS_INFINITY << 1;

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
  * math_number - division and power series in integers.
- *
- * It knows no function of mathematics.
  */
 #include "engine/scan/math_number.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * math_number - what math reckons with between a double that comes in and the one that
- * goes out: division and power series of numbers (base/number.h).
+ * math_number - division and power series of struct number (base/number.h), for math.
  */
 #ifndef SCAN_MATH_NUMBER_H
 #define SCAN_MATH_NUMBER_H

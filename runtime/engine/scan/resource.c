@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * resource - the states of a controller and its one scan.
+ * resource - the states of a controller, and its scan.
  */
 #include "engine/scan/resource.h"
 
@@ -83,7 +83,7 @@ static void store64(uint8_t *at, int64_t value)
 	memcpy(at, &value, sizeof(value));
 }
 
-/* What changes with the second: SMD24 … SMB47 but for the time of day. */
+/* System words that change once a second: SMD24 … SMB47 without the time of day. */
 static void write_calendar(struct resource *resource, uint8_t *sm, int64_t wall_ns)
 {
 	int64_t day = wall_ns / DAY_NS - (wall_ns % DAY_NS < 0);
@@ -110,7 +110,7 @@ static void write_wall(struct resource *resource, uint8_t *sm, int64_t now_ns)
 	uint64_t wall = (uint64_t)now_ns + (uint64_t)resource->wall_offset_ns;
 	int64_t wall_ns = (int64_t)wall;
 
-	/* Days at the ends of time would not fit. */
+	/* Near the limits of 64 bits a whole day would overflow. */
 	if (wall_ns < -INT64_MAX + DAY_NS || wall_ns > INT64_MAX - DAY_NS)
 		wall_ns = 0;
 	store64(sm + 16, wall_ns);
@@ -143,7 +143,7 @@ static void write_system(struct resource *resource, int64_t now_ns)
 	write_wall(resource, sm, now_ns);
 }
 
-/* Of a word of the section that ran. */
+/* The POU, rung and cell of a word of the section that ran. */
 static struct fault_place place_in(const struct resource *resource, uint32_t text,
 				   bool watch)
 {
@@ -181,7 +181,7 @@ struct fault_place resource_place(const struct program *program, uint32_t text)
 	return out;
 }
 
-/* Was it too slow, or late too often? Only a clock can tell. */
+/* Whether a task was too slow, or late too often. Only possible with a clock. */
 static bool is_too_slow(const struct resource *resource, uint32_t index,
 			int64_t took_ns)
 {
@@ -193,7 +193,7 @@ static bool is_too_slow(const struct resource *resource, uint32_t index,
 		resource->tasks.state[index].late_row >= resource->patience);
 }
 
-/* SYS_CYCLE. Who runs for the first time had no run before: as if it were regular. */
+/* SYS_CYCLE: the time since the task's last run. A first run counts as regular. */
 static void write_cycle(struct resource *resource, uint32_t index)
 {
 	struct task_state *state = &resource->tasks.state[index];
@@ -208,7 +208,7 @@ static void write_cycle(struct resource *resource, uint32_t index)
 	store64(image_area(&resource->image, AREA_SM) + 48, cycle_ns);
 }
 
-/* The programs of a task, with a budget of its own. */
+/* Runs the programs of a task; each task has its own budget. */
 static void run_task(struct resource *resource, uint32_t index, bool watch)
 {
 	const struct program *program = resource->image.program;
@@ -244,7 +244,7 @@ static void time_task(struct resource *resource, uint32_t index, bool watch)
 	resource->fault_at.task = task_name(resource->image.program, index);
 }
 
-/* In the first scan all tasks have their turn: they see SYS_FIRST_SCAN. */
+/* All tasks run in the first scan, so that they see SYS_FIRST_SCAN. */
 static bool must_yield(const struct resource *resource, uint32_t task)
 {
 	int64_t now_ns;
@@ -297,7 +297,7 @@ static void clear_area(struct resource *resource, enum iec_area area)
 	}
 }
 
-/* The scan was whole, but its outputs must not be used. */
+/* A STOP completes the scan, but its outputs must not be used. */
 static void halt(struct resource *resource, bool watch)
 {
 	resource->state = STATE_STOP;
@@ -400,7 +400,7 @@ void resource_halt_print(const struct resource *resource, char *out, size_t size
 	append_place(&resource->halt_at, true, out, at, size);
 }
 
-/* Orders places; row and col are small, POUs and rungs have their limits. */
+/* Orders places. Row and column are small; POUs and rungs have limits. */
 static uint64_t place_key(uint64_t pou, uint64_t rung, uint32_t row,
 			  uint32_t col)
 {
@@ -444,7 +444,7 @@ bool resource_power(const struct resource *resource, uint32_t pou, uint32_t rung
 	return true;
 }
 
-/* A byte of power where the instance has it; the rail is everybody's. */
+/* The instance's own byte of power, if it has one; the rail is shared. */
 static bool power_at(const struct resource *resource,
 		     const struct code_watched *watched, uint32_t offset)
 {

@@ -2,8 +2,8 @@
  *
  * resource - a controller at work: state, scan, system bits, faults.
  *
- * (IEC 61131-3: a RESOURCE runs programs.) The one way to run a scan, for the
- * daemon, the simulator and the tests alike. It reads no clock and moves no pin.
+ * (IEC 61131-3: a RESOURCE runs programs.) The daemon, the simulator and the tests all
+ * run a scan with it. It reads no clock and accesses no hardware.
  */
 #ifndef SCAN_RESOURCE_H
 #define SCAN_RESOURCE_H
@@ -27,14 +27,14 @@ struct resource {
 	enum resource_state state;
 	enum fault fault;            /* first one since the reset             */
 	struct fault_place fault_at;
-	bool halted;                 /* in STOP because the program said so   */
+	bool halted;                 /* in STOP because the program executed a STOP */
 	struct fault_place halt_at;  /* its STOP                              */
 	uint64_t scans;              /* since resource_start                  */
 	int64_t start_ns;            /* time of the first scan                */
 	uint32_t errors_before;      /* errors when this scan began           */
 	struct fault_place error_at; /* the first operation that failed       */
 	bool watch;                  /* run the instrumented section          */
-	/* Told by the caller before a scan; shown as SYS_ bits and words. */
+	/* Set by the caller before a scan; shown as SYS_ bits and words. */
 	bool late, io_fault;
 	bool warm, retain_lost, retain_old_copy; /* after resource_start()   */
 	int64_t timers_ns;           /* of function blocks' time - now_ns, that
@@ -42,28 +42,28 @@ struct resource {
 	uint32_t scan_us, scan_max_us;
 	int64_t wall_offset_ns;      /* date and time of the wall - now_ns    */
 	int64_t second_ns, day_ns;   /* what SYS_SECOND and SYS_DATE show     */
-	/* Told by the caller once; not touched by a start. */
-	int64_t (*clock_ns)(void);   /* to time declared tasks; NULL: not     */
+	/* Set once by the caller; a start does not change them. */
+	int64_t (*clock_ns)(void);   /* measures declared tasks; NULL: no times */
 	int64_t tick_ns;             /* from one cycle to the next; 0: unknown */
 	int64_t period_ns;           /* of cycles, where tasks have no INTERVAL */
-	uint32_t patience;           /* a task's watchdog: so many late runs in
-					a row, or one run of so many periods;
-					0: none. WATCHDOG counts anyway.      */
-	int64_t due_ns;              /* when this scan should have begun, not
-					after now; 0: now. Told before each
-					one if tick_ns is                     */
+	uint32_t patience;           /* watchdog of each task: so many late runs in a row,
+				      * or one run that takes so many periods; 0: none.
+				      * WATCHDOG is always active. */
+	int64_t due_ns;              /* when this scan should have begun, not later than
+				      * now; 0: now. Set before each scan if tick_ns is not
+				      * 0 */
 };
 
-/* What SYS_DATE_TIME begins with where nobody tells wall_offset_ns: in virtual time,
+/* The start of SYS_DATE_TIME if wall_offset_ns is not set: in virtual time,
  * DT#2000-01-01-00:00:00 at time 0. */
 #define RESOURCE_WALL INT64_C(946684800000000000)
 
 /** resource_init - in STOP, image as at a cold start. @memory as image_init. */
 void resource_init(struct resource *resource, const struct program *program,
 		   void *memory);
-/** resource_start - to RUN with a cold image; clears a latched fault. */
+/** resource_start - to RUN with a cold image; resets a latched fault. */
 void resource_start(struct resource *resource);
-/** resource_stop - to STOP. The caller drives the safe outputs. */
+/** resource_stop - to STOP. The caller sets the outputs to their safe values. */
 void resource_stop(struct resource *resource);
 /** resource_fail - to FAULT, latched; the first cause is kept. */
 void resource_fail(struct resource *resource, enum fault fault);
@@ -91,14 +91,16 @@ bool resource_power(const struct resource *resource, uint32_t pou, uint32_t rung
 /** resource_fault_print - what went wrong, and in which task if tasks are declared:
  * "task Fast: watchdog: …". @size at least 96. Scan-safe: yes. */
 void resource_fault_print(const struct resource *resource, char *out, size_t size);
-/** resource_power_in - the same of a cell in the body of a function block, for one
- * @instance: "Belt1", "Line.Belt1.Soft" (any case). resource_power() tells of whichever was
- * called last.   Fails: false if there is no such instance or cell.   Scan-safe: no. */
+/** resource_power_in - the same for a cell in the body of a function block, for one
+ * instance
+ * @instance: "Belt1", "Line.Belt1.Soft" (any case). resource_power() gives the power of
+ *            the instance that was called last. Fails: false if there is no such
+ *            instance or cell. Scan-safe: no. */
 bool resource_power_in(const struct resource *resource, const char *instance,
 		       size_t len, uint32_t rung, uint32_t row, uint32_t col,
 		       bool *in, bool *out);
-/** resource_halt_print - that the program asked for STOP, and where: "STOP, outputs
- * are safe: the program says so: Main rung 3". @size at least 96. Scan-safe: yes. */
+/** resource_halt_print - the place where the program executed a STOP: "STOP, outputs are
+ * safe: the program says so: Main rung 3". @size at least 96. Scan-safe: yes. */
 void resource_halt_print(const struct resource *resource, char *out, size_t size);
 /** resource_place - POU, rung and cell of a word of CODE_TEXT; those of CODE_WATCH are
  * counted on behind it. Scan-safe: yes (a search). */

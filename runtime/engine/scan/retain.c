@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * retain - values to a copy and back. What the scan itself takes part in: a copy
- * of bytes, bounded by the program. Names and slots are in retain_plan.c and
- * retain_slot.c.
+ * retain - copies retained values from an image and back. This is the part that runs in
+ * a scan. Names and slots are in retain_plan.c and retain_slot.c.
  */
 #include "engine/scan/retain.h"
 

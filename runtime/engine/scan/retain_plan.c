@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * retain_plan - which variables of a program are retained, and under what names.
+ * retain_plan - finds the retained variables of a program and their names.
  *
- * For whoever loads a program; the scan itself knows no names.
+ * Runs when a program is loaded.
  */
 #include "engine/scan/retain.h"
 
@@ -14,7 +14,7 @@
 #define TYPE_TEXT 128 /* "TON.TIME", "FIFO.DINT[64]" */
 #define TEXT_ALIGN 4u /* of a STRING in memory, and so in a copy */
 
-/* A byte or word of an area that the program cannot write is not its own. */
+/* A program may not retain a byte or word of an area that it cannot write. */
 static bool can_be_kept(const struct areas *areas, struct location at)
 {
 	enum iec_area area = at.area;
@@ -24,7 +24,7 @@ static bool can_be_kept(const struct areas *areas, struct location at)
 	return area == AREA_NONE || iec_area_row(area)->access == ACCESS_WRITE;
 }
 
-/* Room of the text at @where, as the layout has it; 0: none is there. */
+/* Room of the text at @where in the data layout; 0: none is there. */
 static uint32_t text_room(const struct program *program, uint32_t where)
 {
 	uint32_t low = 0, high = program->run_count;
@@ -48,7 +48,7 @@ static uint32_t elements_of(const struct symbol *symbol)
 	return symbol->elements ? symbol->elements : 1;
 }
 
-/* Bytes of its value; 0: nothing that can be kept. */
+/* Bytes of the value; 0: it cannot be retained. */
 static uint32_t value_size(const struct program *program,
 			   const struct symbol *symbol)
 {
@@ -91,7 +91,7 @@ static uint32_t type_text(const struct symbol *symbol, char *out)
 	return len;
 }
 
-/* Sizes of everything, before memory is asked for. */
+/* All sizes, before memory is allocated. */
 static void measure(struct retain *retain, const struct image *image)
 {
 	struct symbol_cursor cursor = { .whole = true };
@@ -120,7 +120,7 @@ static uint32_t hash_name(const char *name, uint32_t len)
 	return hash ^ hash >> 15;
 }
 
-/* Each name once; of two of the same the first is found. */
+/* Puts each name into the index once; of equal names the first one. */
 static void enter(struct retain *retain, int index)
 {
 	struct retain_record record = retain_record_of(retain, index);
@@ -131,7 +131,8 @@ static void enter(struct retain *retain, int index)
 	retain->hashed[at & retain->hash_mask] = (uint32_t)index + 1;
 }
 
-/* Where the value stands in a copy: in the block, as in memory, or behind it. */
+/* The place of the value in a copy: in the block of retained data, as in memory, or
+ * behind it. */
 static void place_copy(struct retain *retain, struct retain_var *var)
 {
 	const struct code_header *header = retain->program->header;
@@ -246,8 +247,8 @@ static bool is_same(const char *a, uint32_t a_len, const char *b, uint32_t b_len
 	return a_len == b_len && ascii_same(a, b, a_len);
 }
 
-/* Into the room of the variable, whatever room it had when it was stored. A text
- * that has become too long is lost, not cut. */
+/* The room of the variable may differ from the room when the text was stored. A text
+ * that no longer fits is dropped, not cut. */
 static bool take_text(const struct retain_var *var,
 		      const struct retain_record *record, uint8_t *copy)
 {

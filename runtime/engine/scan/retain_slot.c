@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * retain_slot - payloads in slots, two slots in a file. Bytes in, bytes out: what
- * a power cut, a worn card or a stranger made of a file is found out here.
+ * retain_slot - payloads in slots, two slots in a file. It detects files that were cut,
+ * damaged or forged.
  */
 #include "engine/scan/retain.h"
 
@@ -72,7 +72,7 @@ bool retain_next(const uint8_t *payload, uint32_t len, uint32_t *at,
 	return true;
 }
 
-/* As many records as it says, and nothing behind them. */
+/* The payload has as many records as its head says, and nothing behind them. */
 static bool is_well_formed(const uint8_t *payload, uint32_t len)
 {
 	struct retain_record record;
@@ -130,7 +130,7 @@ static enum retain_state judge(const uint8_t *file, size_t len, size_t at,
 	return RETAIN_GOOD;
 }
 
-/* Numbers go round: the newer one is less than half the circle ahead. */
+/* Numbers wrap: the newer one is less than half the range ahead. */
 static bool is_newer(uint32_t seq, uint32_t than)
 {
 	return seq != than && seq - than < 0x80000000u;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * symbol_index - where a name may stand among the symbols of a program.
+ * symbol_index - finds a name among the symbols of a program.
  *
- * A hash of chains: each symbol is in it by its name and by that behind its program's. A
- * text is looked for by each beginning of it that may be such a name.
+ * A hash with chains: a symbol is in it by its name with the program and without. A
+ * text is searched by each of its beginnings that may be a name.
  */
 #include "engine/scan/symbol_index.h"
 
@@ -24,7 +24,7 @@ struct symbol_index {
 
 #define HASH_OF_NOTHING 2166136261u
 
-/* FNV-1a over the bytes without the bit that tells a from A. */
+/* FNV-1a over the bytes without the bit that differs between a and A. */
 static uint32_t hash_more(uint32_t hash, const char *text, size_t len)
 {
 	for (size_t i = 0; i < len; i++)
@@ -58,7 +58,7 @@ static void enter_names(struct symbol_index *index, const struct declared_name *
 	enter(index, hash_more(hash, symbol->name, symbol->array.head), number);
 }
 
-/* No fewer chains than there may be names, and a power of two. */
+/* A power of two, and at least as many chains as names. */
 static bool make_room(struct symbol_index *index, size_t symbols, struct arena *arena)
 {
 	size_t chains = 16;
@@ -88,9 +88,9 @@ const struct symbol_index *symbol_index_new(const struct program *program,
 	return index;
 }
 
-/* ---- looking ---- */
+/* ---- search ---- */
 
-/* Behind a name stand a pin, an index, or the blanks before one. */
+/* A pin, an index, or the blanks before one follow a name. */
 static bool may_end(char c)
 {
 	return c == '.' || c == '[' || c == ' ';

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * symbol_index - where a name may stand among the symbols of a program.
+ * symbol_index - finds a name among the symbols of a program.
  *
- * A project that is shown, tried out or traced asks for thousands of names. With an index
- * each costs the length of the name; without one all symbols are gone through, as on a
- * board that is asked seldom.
+ * Displays, simulations and traces look up thousands of names. With an index a lookup
+ * costs the length of the name. Without one all symbols are compared; a board does
+ * that, as it looks up few names.
  */
 #ifndef SCAN_SYMBOL_INDEX_H
 #define SCAN_SYMBOL_INDEX_H
@@ -15,15 +15,15 @@
 struct symbol_index;
 
 /**
- * symbol_index_new - of what @program declares, to be kept in program->index
+ * symbol_index_new - the index of the symbols of @program; store it in program->index
  *
- * Owns: @arena; it lives no longer than the program.   Scan-safe: no.
- * Fails: NULL when memory is out: then all symbols are gone through.
+ * Owns: @arena; it lives no longer than the program. Scan-safe: no.
+ * Fails: NULL no memory; searches then compare all symbols.
  */
 const struct symbol_index *symbol_index_new(const struct program *program,
 					    struct arena *arena);
 
-/* Looks for what @text may begin with; the rest is {0}. */
+/* A search for symbols that @text may begin with; zero the other members. */
 struct symbol_search {
 	const char *text;       /* borrowed                                   */
 	size_t len;
@@ -33,12 +33,12 @@ struct symbol_search {
 	uint32_t hash, entry;
 };
 /**
- * symbol_search_next - the next symbol whose name, perhaps behind that of its program, may
- * be what `text` begins with
+ * symbol_search_next - the next symbol whose name, perhaps with its program's in front,
+ * `text` may begin with
  *
- * Each that is comes at least once; with an index in any order, else as declared. What it
- * gives may also be another: the caller compares.
- * Owns: nothing.   Scan-safe: no.   Fails: false: no more.
+ * Each match comes at least once: with an index in any order, else in the order of
+ * declaration. It may give symbols that do not match, so the caller compares names.
+ * Owns: nothing. Scan-safe: no. Fails: false: no more.
  */
 bool symbol_search_next(const struct program *program, struct symbol_search *search,
 			struct declared_name *out);

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * symbols - names of an image: from a name to a location, and through all variables.
- * declared.c goes through what was declared.
+ * symbols - from a name to a location, and steps through all variables.
  *
- * For whoever shows, records or sets variables between scans. The scan itself
- * knows no names.
+ * Used between scans, to show, record or set variables.
  */
 #include "engine/scan/symbol_index.h"
 
@@ -35,7 +33,7 @@ static void skip_blanks(const char **at, const char *end)
 		(*at)++;
 }
 
-/* `[3]` behind the name of an array; false: none of its elements. */
+/* Reads `[3]` behind the name of an array; false: no such element. */
 static bool parse_index(const struct declared_name *array, const char *text,
 			size_t len, uint32_t *number)
 {
@@ -102,7 +100,7 @@ static struct location match(const struct program *p,
 	return pin < 0 ? none : pin_location(symbol, &row->pin[pin]);
 }
 
-/* Likewise, perhaps behind the name of its program. */
+/* Likewise, perhaps with the name of its program in front. */
 static struct location match_whole(const struct program *p,
 				   const struct declared_name *symbol,
 				   const char *text, size_t len)
@@ -116,7 +114,7 @@ static struct location match_whole(const struct program *p,
 	return at;
 }
 
-/* Of several the one that was declared first. */
+/* If several match, the one that was declared first. */
 static struct location find_declared(const struct program *p, const char *text,
 				     size_t len)
 {
@@ -137,7 +135,7 @@ static struct location find_declared(const struct program *p, const char *text,
 	return first;
 }
 
-/* Is @text this name, perhaps behind that of its program? */
+/* Whether @text is this name, perhaps with its program's in front. */
 static bool is_named(const struct declared_name *symbol, const char *text, size_t len)
 {
 	size_t skip = strlen(symbol->pou), own = symbol->array.head;
@@ -159,8 +157,7 @@ bool image_find_array(const struct image *image, const char *name, size_t len,
 	return false;
 }
 
-/* What stands behind @head and the index of an element in the name of a symbol, if that
- * is `Head[3]…`; the index in @index. */
+/* The rest of a symbol's name behind `Head[3]`, or NULL; @index gets the 3. */
 static bool is_member(const struct declared_name *symbol, const char *head, size_t len,
 		      int64_t *index)
 {
@@ -223,8 +220,8 @@ bool image_find_members(const struct image *image, const char *head, size_t len,
 	};
 	out->stride = find_member(image, head, len, tail, tail_len, low + 1).where -
 		      out->at.where;
-	/* An image may name what it likes: the last one must be there, and of texts,
-	 * which tell their own length, each. */
+	/* The names of an image are not verified: the last element must exist. Elements
+	 * that are texts are all checked, as each has its own length. */
 	for (index = out->at.type == IEC_STRING ? low : high; index <= high; index++) {
 		struct location at = find_member(image, head, len, tail, tail_len,
 						 index);
@@ -236,7 +233,7 @@ bool image_find_members(const struct image *image, const char *head, size_t len,
 	return out->at.type != IEC_NONE;
 }
 
-/* With the type that its row gives it: a date is more than its 64 bits. */
+/* Has the type of the pin's row: a DATE, not just 64 bits. */
 static bool find_system(const struct image *image, const char *text, size_t len,
 			struct location *at)
 {
@@ -269,7 +266,7 @@ struct location image_find(const struct image *image, const char *name,
 	return at;
 }
 
-/* A local is shown by its bare name unless another symbol has it too. */
+/* A local is shown without its POU unless another symbol has the same name. */
 static void print_name(const struct declared_name *symbol, const char *pin,
 		       struct symbol_cursor *cursor)
 {

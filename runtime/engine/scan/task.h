@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * task - when each task of a program runs, and what is known of it.
+ * task - when each task of a program runs, and its statistics.
  *
- * (IEC 61131-3, 2.7.2: periodic tasks and tasks that an event starts, by priority.)
- * One thread runs them one after another; no task interrupts another. This file decides
+ * (IEC 61131-3, 2.7.2: periodic tasks and tasks that an event starts, by priority.) One
+ * thread runs them one after another; no task interrupts another. This file decides
  * which tasks are due; resource.c runs them. It reads no clock: times are arguments.
  */
 #ifndef SCAN_TASK_H
@@ -11,16 +11,16 @@
 
 #include "engine/scan/code.h"
 
-/* All since the start of the resource. */
+/* All counted since the start of the resource. */
 struct task_state {
 	int64_t next_ns;    /* TASK_INTERVAL: its next deadline               */
 	int64_t began_ns;   /* its last run                                   */
 	bool began;
 	uint64_t runs;
-	uint64_t overruns;  /* periods left out; events that came too soon    */
-	uint32_t late_row;  /* runs in a row that left out a period           */
-	bool due, ran;      /* ran: in this cycle                             */
-	bool was;           /* TASK_EVENT: its variable when looked at last   */
+	uint64_t overruns;  /* periods left out; events that came too early   */
+	uint32_t late_row;  /* consecutive runs that left out a period        */
+	bool due, ran;      /* has run in this cycle                          */
+	bool was;           /* TASK_EVENT: last seen value of its variable    */
 	int64_t last_ns, max_ns; /* how long it ran; 0 without a clock        */
 };
 
@@ -31,58 +31,57 @@ struct tasks {
 /** task_interval, task_watchdog - in ns; 0: none. Scan-safe: yes. */
 int64_t task_interval(const struct code_task *task);
 int64_t task_watchdog(const struct code_task *task);
-/** task_limit - how long one run may take: its WATCHDOG, or @patience intervals (one
+/** task_limit - the limit of one run in ns: its WATCHDOG, or @patience intervals (one
  * above a second counts as a second: a hang must be noticed), or, without an interval,
- * @patience times @period_ns. 0: as long as it likes.
+ * @patience times @period_ns. 0: none.
  * Scan-safe: yes. */
 int64_t task_limit(const struct code_task *task, uint32_t patience,
 		   int64_t period_ns);
-/** task_name - as declared; "" of the task that nobody declared, and of an image
- * without names. Lives with the program. Scan-safe: yes. */
+/** task_name - as declared; "" for the implicit task and for an image without names.
+ * Lives with the program. Scan-safe: yes. */
 const char *task_name(const struct program *program, uint32_t task);
-/** tasks_declared - does the program say which tasks it has? Without, one task runs
- * all programs in every cycle. Scan-safe: yes. */
+/** tasks_declared - whether the program declares tasks. Otherwise one task runs all
+ * programs in every cycle. Scan-safe: yes. */
 bool tasks_declared(const struct program *program);
 
 /**
- * tasks_tick - the time from one cycle to the next that a program wants
- * @period_ns: what the user asked for; 0: nothing
- * @preset_ns: when neither the user nor the program says anything
+ * tasks_tick - the cycle time of a program
+ * @period_ns: set by the user; 0: not set
+ * @preset_ns: default if neither the user nor the program sets it
  *
  * The greatest common divisor of all intervals and of @period_ns; of @preset_ns, too,
  * if @period_ns is 0 and there are tasks without an interval, which may run in every
- * cycle. Not less than LIMIT_TICK: then a task runs in the first cycle
- * behind its deadline.
+ * cycle. Not less than LIMIT_TICK: then a task runs in the first cycle behind its
+ * deadline.
  * Scan-safe: yes.
  */
 int64_t tasks_tick(const struct program *program, int64_t period_ns,
 		   int64_t preset_ns);
 
-/** tasks_start - all deadlines begin at @start_ns. Scan-safe: yes. */
+/** tasks_start - sets all deadlines to @start_ns. Scan-safe: yes. */
 void tasks_start(struct tasks *tasks, const struct program *program,
 		 int64_t start_ns);
-/** tasks_begin - a cycle begins: who is due at @now_ns, with memory as it is?
+/** tasks_begin - starts a cycle: finds the tasks that are due at @now_ns.
  * Scan-safe: yes. */
 void tasks_begin(struct tasks *tasks, const struct program *program,
 		 const uint8_t *m, int64_t now_ns);
-/** tasks_look - rising edges of the variables that start tasks, since the last
- * look. Scan-safe: yes. */
+/** tasks_look - records rising edges of the variables that start tasks. Scan-safe: yes. */
 void tasks_look(struct tasks *tasks, const struct program *program,
 		const uint8_t *m);
 /** tasks_next - the due task of the highest priority that did not run in this
  * cycle; task_count: none. Scan-safe: yes. */
 uint32_t tasks_next(const struct tasks *tasks, const struct program *program);
-/** tasks_take - it runs now: counts the periods it missed and sets its next
- * deadline, on the grid of its interval. Scan-safe: yes. */
+/** tasks_take - notes that @task runs now: counts missed periods and sets the next
+ * deadline, a multiple of its interval. Scan-safe: yes. */
 void tasks_take(struct tasks *tasks, const struct program *program, uint32_t task,
 		int64_t now_ns);
 /**
- * tasks_must_yield - must the cycle end before @task, so that a task of higher
- * priority need not wait for more than one other?
+ * tasks_must_yield - whether the cycle must end before @task, so that a task of higher
+ * priority waits for one other at most
  * @late: the next cycle should have begun by now
  *
- * When, at @now_ns, the deadline of such a task is there; or when it is @late, and an
- * event may have come that only a new cycle sees.   Scan-safe: yes.
+ * True if the deadline of such a task has come at @now_ns; or if it is @late, as an
+ * event may have come that only a new cycle sees. Scan-safe: yes.
  */
 bool tasks_must_yield(const struct tasks *tasks, const struct program *program,
 		      uint32_t task, int64_t now_ns, bool late);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * value - typed memory as the VM reads and writes it: inline, without branches
- * that depend on the type where that is possible.
+ * value - typed memory as the VM reads and writes it: inline, without branches that
+ * depend on the type where that is possible.
  *
- * iec_load() and iec_store() do the same for everybody else. A load may read 8
- * bytes from any value on; data memory has a tail for that. Little-endian only.
+ * Other rooms use iec_load() and iec_store(). A load may read 8 bytes from any value
+ * on; data memory has a tail for that. Little-endian only.
  */
 #ifndef SCAN_VALUE_H
 #define SCAN_VALUE_H
@@ -13,7 +13,7 @@
 
 #include <string.h>
 
-/* Bits above a value in 64; neither REAL nor STRING is meant here. */
+/* Number of bits above a value in 64; not for REAL and STRING. */
 static inline unsigned value_spare_bits(uint32_t type)
 {
 	static const uint8_t spare[IEC_TYPE_COUNT] = {
@@ -45,7 +45,7 @@ static inline int64_t value_wrap(uint32_t type, int64_t value)
 				     : (int64_t)(high >> spare);
 }
 
-/** value_integer - what is not REAL: BOOL, bits, integers, TIME. */
+/** value_integer - loads BOOL, bits, integers or TIME. */
 static inline int64_t value_integer(const uint8_t *at, uint32_t type)
 {
 	int64_t raw;
@@ -54,7 +54,7 @@ static inline int64_t value_integer(const uint8_t *at, uint32_t type)
 	return value_wrap(type, raw);
 }
 
-/** value_is_real - REAL or LREAL: r holds it. */
+/** value_is_real - REAL or LREAL: member r holds the value. */
 static inline bool value_is_real(uint32_t type)
 {
 	return type == IEC_REAL || type == IEC_LREAL;
@@ -99,8 +99,8 @@ static inline void value_put(uint8_t *at, uint32_t type, union iec_value value)
 	}
 }
 
-/** value_order - <0, 0, >0 as @a stands before, with or behind @b: byte by byte, a
- * shorter text first.   Scan-safe: yes. */
+/** value_order - <0, 0, >0 as @a sorts before, with or behind @b: byte by byte, a
+ * shorter text first. Scan-safe: yes. */
 static inline int value_order(const struct iec_string *a, const struct iec_string *b)
 {
 	uint16_t len = a->length < b->length ? a->length : b->length;

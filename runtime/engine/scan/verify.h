@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * verify - what the two halves of the verifier share.
+ * verify - the parts of the verifier.
  *
- * Private to scan/. code.c looks at header, data layout and maps, code_text.c at
- * instructions.
+ * Private to scan/. code.c checks header, data layout and maps, code_text.c
+ * instructions, code_array.c arrays.
  */
 #ifndef SCAN_VERIFY_H
 #define SCAN_VERIFY_H
@@ -13,11 +13,11 @@
 /* Marks: MARK_TYPE + type at the first byte of a value; read-only ones too. */
 enum mark {
 	MARK_NONE, MARK_INSIDE, MARK_AREA,
-	MARK_TEXT, /* a STRING behind its first byte: equal marks, equal room */
+	MARK_TEXT, /* a STRING from its second byte on: equal marks, equal room */
 	MARK_VALUE = 32, MARK_FIXED = 64,
 };
 
-/* Elements that were looked at one by one, and found good. */
+/* Elements that were checked singly, and are valid. */
 struct seen {
 	uint32_t first, count, stride;
 	bool write;
@@ -29,23 +29,23 @@ struct verifier {
 	struct arena *scratch;
 	uint8_t *mark;         /* one a byte of data memory                 */
 	uint32_t data_size, areas;
-	uint32_t blocks_left;  /* bytes that BLOCKs may still compare: a bound
-				  on the time it takes to look at them        */
-	size_t where;          /* byte offset of what broke a rule          */
-	uint32_t walked;       /* elements looked at one by one             */
+	uint32_t blocks_left;  /* bytes that BLOCKs may still compare: bounds the time of
+			        * verification */
+	size_t where;          /* byte offset of the first error            */
+	uint32_t walked;       /* elements checked singly                   */
 	struct seen *seen;     /* VERIFY_SEEN of them, by hash              */
 };
 
-/* May a value of @type be read, or written, at this offset? Scan-safe: yes. */
+/* Whether a value of @type may be read, or written, at this offset. Scan-safe: yes. */
 bool verify_use(const struct verifier *v, uint32_t offset, uint32_t type,
 		bool write);
 /**
- * verify_elements - may every element of an array be read, or written?
+ * verify_elements - whether every element of an array may be read, or written
  * @first:  typed operand of the first one
  * @stride: bytes to the next
  *
- * Scan-safe: yes. Fails: also false when an image asks for more than
- * LIMIT_ELEMENT_WALK steps, all its arrays together.
+ * Scan-safe: yes. Fails: also false when an image asks for more than LIMIT_ELEMENT_WALK
+ * steps, all its arrays together.
  */
 bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
 		     uint32_t stride, bool write);
@@ -53,35 +53,35 @@ bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
 struct verify_grid {
 	const uint32_t *dim;   /* index, low, count, stride each            */
 	uint32_t dims, at[LIMIT_INDICES];
-	uint64_t offset;       /* of the element that they lead to now      */
-	bool failed;           /* an image asks for more than it may        */
+	uint64_t offset;       /* of the present element                    */
+	bool failed;           /* more steps than an image may use          */
 };
-/** verify_grid_begin - the first one. Scan-safe: yes. Fails: false if there is none, or a
- * stride leads out of data memory by itself. */
+/** verify_grid_begin - the first combination. Scan-safe: yes. Fails: false if there is
+ * none, or a single stride leads out of data memory. */
 bool verify_grid_begin(const struct verifier *v, struct verify_grid *grid, uint32_t base,
 		       const uint32_t *dim, uint32_t dims);
-/** verify_grid_next - false behind the last one; see grid->failed. Scan-safe: yes. */
+/** verify_grid_next - the next one; false: no more, or grid->failed. Scan-safe: yes. */
 bool verify_grid_next(struct verifier *v, struct verify_grid *grid);
 /** verify_elements_of - verify_elements() with several indices. Scan-safe: yes. */
 bool verify_elements_of(struct verifier *v, uint32_t first, const uint32_t *dim,
 			uint32_t dims, bool write);
-/** verify_bits - the same of @count bits of an area, packed; @first as the areas
- * count them. Scan-safe: yes. */
+/** verify_bits - the same for @count packed bits of an area; @first is counted from the
+ * first area. Scan-safe: yes. */
 bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
 		 bool write);
-/** verify_all - may @n values of a type that lie one behind the other be read, or written?
+/** verify_all - whether @n values of a type, one after another, may be read, or written.
  * Scan-safe: yes. */
 bool verify_all(const struct verifier *v, uint32_t first, uint32_t n, enum iec_type type,
 		bool write);
 /** verify_tick - the operands of TICK. Scan-safe: yes. */
 bool verify_tick(const struct verifier *v, const uint32_t *at, uint32_t n);
-/** verify_refuse - notes the place of what broke a rule; false. */
+/** verify_refuse - records the place of the first error; returns false. */
 bool verify_refuse(struct verifier *v, const void *at);
 /** verify_runs_before - how many runs begin at @offset or before it. Scan-safe: yes. */
 uint32_t verify_runs_before(const struct program *program, uint32_t offset);
-/** verify_programs - the instructions of all programs. */
+/** verify_programs - checks the instructions of all programs. */
 bool verify_programs(struct verifier *v);
-/** verify_tasks - what runs them, and when. */
+/** verify_tasks - checks tasks and the programs they run. */
 bool verify_tasks(struct verifier *v);
 
 static inline bool verify_is_type(uint32_t type)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * vm - the one switch. It refuses nothing: code_open() has refused before.
+ * vm - one switch over all instructions. code_open() has verified them.
  */
 #include "engine/scan/vm.h"
 #include "engine/scan/vm_array.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* What a compiler is to lay out straight on. */
+/* The branch that a compiler places first. */
 #define LIKELY(x) __builtin_expect((x), 1)
 
 /* Calls through the catalogue: a row without its function does not link. */
@@ -39,9 +39,9 @@ const char *fault_text(enum fault fault)
 	return fault < FAULT_COUNT ? text[fault] : "unknown";
 }
 
-/* Every network of contacts ends here: a bit that is a truth table of three
- * others. Without branches, so that its time does not depend on the inputs.
- * Index 0..7, because the verifier lets only 0 and 1 into a BOOL. */
+/* Contacts become these: a bit by a truth table of three others. Without branches, so
+ * that its time does not depend on the inputs. The index is 0..7, as the verifier
+ * admits only 0 and 1 for a BOOL. */
 static inline void look_up(uint8_t *m, const uint32_t *pc)
 {
 	uint32_t i = m[pc[0]] + 2u * m[pc[1]] + 4u * m[pc[2]];
@@ -63,7 +63,7 @@ static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
 	return pc;
 }
 
-/* @size: of a value that is copied as it is; 0: it is widened, or a text. */
+/* @size: bytes to copy; 0: the value is widened, or is a text. */
 static inline void copy(uint8_t *m, const uint32_t *pc, uint32_t size)
 {
 	uint8_t *to = m + CODE_OFFSET(pc[1]);
@@ -88,10 +88,9 @@ static inline void copy(uint8_t *m, const uint32_t *pc, uint32_t size)
 	}
 }
 
-/* ---- two numbers of one type ----
- * What most boxes of a program are about has instructions of its own. They need no
- * struct fn_args; the results are those of the functions, to the bit. Without branches
- * that depend on values: those of a rung with power differ from scan to scan. */
+/* ---- two numbers of one type ---- The most frequent functions have instructions of
+ * their own, which need no struct fn_args. Results are the same bits as those of the
+ * functions. No branch depends on a value, as values change from scan to scan. */
 
 static float single(const uint8_t *at)
 {
@@ -101,7 +100,7 @@ static float single(const uint8_t *at)
 	return value;
 }
 
-/* @size: 2 or 4, known where this is compiled. */
+/* @size: 2 or 4, a constant for the compiler. */
 static inline int32_t whole(const uint8_t *at, size_t size)
 {
 	int16_t half;
@@ -115,17 +114,17 @@ static inline int32_t whole(const uint8_t *at, size_t size)
 	return both;
 }
 
-/* One rounding of the exact result: what double and a second rounding give, too. */
+/* One rounding of the exact result; double and a second rounding give the same. */
 static inline float compute_real(uint32_t math, float a, float b)
 {
 	if (LIKELY(math == MATH_ADD))
 		return a + b;
 	if (math == MATH_SUB)
 		return a - b;
-	return math == MATH_MUL ? a * b : a / b; /* by 0: infinite, or no number */
+	return math == MATH_MUL ? a * b : a / b; /* by 0: infinite or NaN */
 }
 
-/* True when it ran without an error, or not at all. */
+/* True if it ran without an error, or did not run. */
 static inline bool run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
 	float a = single(m + pc[3]), b = single(m + pc[4]);
@@ -134,7 +133,7 @@ static inline bool run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
 	bool en, good;
 
 	memcpy(&bits, &out, sizeof(bits));
-	good = bits << 1 < 0xff000000u; /* no infinity, and a number */
+	good = bits << 1 < 0xff000000u; /* finite */
 	if (LIKELY(n < MATH_ENABLED)) {
 		m[pc[1]] = good;
 		if (LIKELY(good))
@@ -149,7 +148,7 @@ static inline bool run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
 	return good | !en;
 }
 
-/* False: there is no result to store. */
+/* False: there is no result, nothing is stored. */
 static inline bool compute_whole(uint32_t math, int32_t a, int32_t b, int32_t low,
 				 int64_t *out)
 {
@@ -171,7 +170,7 @@ static inline bool compute_whole(uint32_t math, int32_t a, int32_t b, int32_t lo
 	return true;
 }
 
-/* The same of INT and DINT, by their size: they wrap, which is an error, too. */
+/* The same for INT and DINT, by their size: overflow wraps and is an error. */
 static inline bool run_whole(uint8_t *m, const uint32_t *pc, uint32_t n, size_t size)
 {
 	int32_t low = size == 2 ? INT16_MIN : INT32_MIN;
@@ -212,7 +211,7 @@ static uint32_t order(const uint8_t *m, const uint32_t *pc)
 	return ORDER(a, b);
 }
 
-/* As look_up(), with an order in the place of two bits. */
+/* As look_up(), with an order instead of two bits. */
 static inline const uint32_t *put_order(uint8_t *m, const uint32_t *pc, uint32_t n,
 					uint32_t order)
 {
@@ -222,7 +221,7 @@ static inline const uint32_t *put_order(uint8_t *m, const uint32_t *pc, uint32_t
 	return pc + 5;
 }
 
-/* One input: as the shared type has it, or as its own. */
+/* One input: widened to the shared type, or in its own type. */
 static union iec_value fetch(const uint8_t *m, uint32_t word, uint32_t type)
 {
 	union iec_value value;
@@ -236,7 +235,7 @@ static union iec_value fetch(const uint8_t *m, uint32_t word, uint32_t type)
 	return value;
 }
 
-/* Stores what a function gave; false when it did not fit. */
+/* Stores the result of a function; false: it did not fit. */
 static bool store(uint8_t *m, uint32_t word, const struct fn_args *args)
 {
 	union iec_value out = args->out;
@@ -249,7 +248,7 @@ static bool store(uint8_t *m, uint32_t word, const struct fn_args *args)
 	return true;
 }
 
-/* True when it ran without an error. */
+/* True if it ran without an error. */
 static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
 	uint32_t room[(sizeof(struct iec_string) + IEC_STRING_MOST + 3) / 4];
@@ -287,7 +286,7 @@ static void ask_to_stop(struct vm *vm, uint32_t text)
 	vm->stop = true;
 }
 
-/* A jump costs what it goes back over; forward ones end by themselves. */
+/* A jump back costs the words it goes back over. Jumps forward cost nothing. */
 static inline bool spend(uint32_t *budget, const uint32_t *from, const uint32_t *to)
 {
 	uint32_t cost = to <= from ? (uint32_t)(from - to) + 1 : 0;
@@ -298,7 +297,7 @@ static inline bool spend(uint32_t *budget, const uint32_t *from, const uint32_t 
 	return true;
 }
 
-/* Back to an EACH it costs what was run since that led here, at @run. */
+/* A jump back to an EACH costs the words since its target, at @run. */
 static inline bool spend_each(uint32_t *budget, const uint32_t *from, const uint32_t *to,
 		       const uint32_t *run, uint32_t words)
 {
@@ -313,7 +312,7 @@ static inline bool spend_each(uint32_t *budget, const uint32_t *from, const uint
 	return true;
 }
 
-/* A call costs what it may run, but for loops, which cost what they go back over. */
+/* A call costs the words of its program; loops in it cost extra when they jump back. */
 static inline bool pay(uint32_t *budget, uint32_t cost)
 {
 	if (cost > *budget)
@@ -329,9 +328,9 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	const uint32_t *base = watch ? program->watch : program->text;
 	const uint32_t *pc = base + (watch ? at->watch : at->text);
 	uint8_t *m = vm->memory;
-	const uint32_t *back[LIMIT_CALLS]; /* where calls go on afterwards    */
-	const uint32_t *run = pc;          /* where EACH led to              */
-	uint32_t depth = 0, found, budget = vm->budget; /* in a register */
+	const uint32_t *back[LIMIT_CALLS]; /* return addresses                */
+	const uint32_t *run = pc;          /* last target of EACH            */
+	uint32_t depth = 0, found, budget = vm->budget; /* a local for speed */
 
 	for (;;) {
 		uint32_t word = *pc, n = word >> 8;
@@ -387,7 +386,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				count_error(vm, pc, base);
 			pc += 6;
 			n = *pc >> 8;
-			/* A sum is often compared next. */
+			/* A sum is often followed by a comparison. */
 			if (!LIKELY((*pc & 0xff) == VM_CMP_REAL))
 				break;
 			/* fall through */
@@ -430,7 +429,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				goto out_of_budget;
 			pc = base + pc[1];
 			n = *pc >> 8;
-			/* Back to the next active step. */
+			/* Back to EACH, for the next active step. */
 			if ((*pc & 0xff) == VM_EACH)
 				goto each;
 			break;

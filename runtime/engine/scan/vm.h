@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * vm - runs the instructions of a verified program. The one switch.
+ * vm - runs the instructions of a verified program.
  *
- * It trusts the verifier and checks nothing but the budget. It allocates nothing,
- * prints nothing and reads no clock: the time is an argument.
+ * It relies on the verifier and checks only the budget. It allocates nothing, prints
+ * nothing and reads no clock: the time is an argument.
  */
 #ifndef SCAN_VM_H
 #define SCAN_VM_H
@@ -15,10 +15,10 @@ enum fault {
 	FAULT_BUDGET,   /* program loops: watchdog                            */
 	FAULT_WATCHDOG, /* scan too late or too long (cycle)                  */
 	FAULT_IO,       /* a line did not answer three times (hal)            */
-	FAULT_CODE,     /* the image changed under our hands                  */
+	FAULT_CODE,     /* the image was changed in memory                    */
 	FAULT_COUNT
 };
-/** fault_text - "instruction budget exceeded"; lives for ever. */
+/** fault_text - "instruction budget exceeded"; static. */
 const char *fault_text(enum fault fault);
 
 struct vm {
@@ -43,14 +43,14 @@ struct vm {
  */
 enum fault vm_run(struct vm *vm, uint32_t entry, bool watch);
 
-/* What the functions of fn_*.c and blocks of fb_*.c get. */
+/* The arguments of the functions of fn_*.c and blocks of fb_*.c. */
 enum fn_status {
 	FN_OK,
 	FN_WRAPPED,    /* stored, but ENO FALSE and counted                   */
 	FN_FAILED,     /* not stored, ENO FALSE, counted                      */
 };
 struct fn_args {
-	enum iec_type type;    /* that its FN_IN pins share                   */
+	enum iec_type type;    /* the type that its FN_IN pins share          */
 	enum iec_type result;  /* of out                                      */
 	uint32_t count;
 	enum iec_type in_type[LIMIT_FN_INPUTS]; /* of FN_OWN pins its own     */

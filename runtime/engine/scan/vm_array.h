@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * vm_array - elements whose index is found out in the scan.
+ * vm_array - array elements whose index is computed in the scan.
  *
  * Private to vm.c.
  */
@@ -11,12 +11,12 @@
 
 #include <string.h>
 
-/* What AGET and APUT are about; of ABLOCK the SIZE is in between. Then each index. */
+/* Operands of AGET and APUT; ABLOCK has SIZE in between. The indices follow. */
 enum { EN, OK, VALUE, BASE, ELEMENT, SIZE = ELEMENT };
 enum { INDEX, LOW, COUNT, STRIDE };
 
-/* Adds to *where what the index at @at leads to; false: there is no such element. None
- * leads outside: what is below `low` wraps to far above `count`. */
+/* Adds the offset of the element to *where; false: no such element. An index below
+ * `low` wraps to a number far above `count`, so one comparison is enough. */
 static inline bool find_index(const uint8_t *m, const uint32_t *at, uint32_t *where)
 {
 	int64_t index = integer(m, at[INDEX]);
@@ -29,7 +29,7 @@ static inline bool find_index(const uint8_t *m, const uint32_t *at, uint32_t *wh
 	return true;
 }
 
-/* Those behind the first. */
+/* The indices after the first. */
 static inline bool find_more(const uint8_t *m, const uint32_t *at, uint32_t more,
 		      uint32_t *where)
 {
@@ -91,7 +91,7 @@ static inline bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
 	return true;
 }
 
-/* @at[VALUE] and @at[BASE]: where to, where from. */
+/* @at[VALUE] and @at[BASE]: destination and source. */
 static inline bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
 	uint32_t to = at[VALUE], from = at[BASE];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * vm_steps - what a chart costs follows its active steps: the next BOOL of many that is
- * TRUE, and the times of all that are.
+ * vm_steps - finds the next TRUE BOOL of many and adds to the times of all TRUE ones,
+ * so that the cost of a chart depends on its active steps only.
  *
  * Private to vm.c.
  */
@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-/* Which of eight BOOLs, not all FALSE, is the first that is TRUE? */
+/* The first TRUE one of eight BOOLs, not all FALSE. */
 static inline uint32_t first_of_eight(uint64_t eight)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -30,7 +30,7 @@ static inline uint64_t eight_at(const uint8_t *bits)
 	return eight;
 }
 
-/* Past BOOLs that are FALSE, 32 at a time: most steps of a large chart. */
+/* Skips BOOLs that are FALSE, 32 at a time: most steps of a large chart. */
 static inline uint32_t skip_false(const uint8_t *bits, uint32_t from, uint32_t n)
 {
 	while (from < n && n - from >= 32 &&
@@ -56,7 +56,7 @@ static inline uint32_t next_true(const uint8_t *bits, uint32_t from, uint32_t n)
 	return from < n ? from : n;
 }
 
-/* EACH: true if there is one, which is *@found. */
+/* EACH: true if one is TRUE; *@found is its number. */
 static inline bool find_step(uint8_t *m, const uint32_t *at, uint32_t n, uint32_t *found)
 {
 	uint32_t cursor;

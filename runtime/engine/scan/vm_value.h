@@ -20,7 +20,7 @@ static inline int64_t integer(const uint8_t *m, uint32_t word)
 	return value_integer(m + CODE_OFFSET(word), CODE_TYPE(word));
 }
 
-/* An operand as REAL arithmetic needs it: integers that widen are exact. */
+/* An operand for REAL arithmetic: integers that widen are exact. */
 static inline double real(const uint8_t *m, uint32_t word)
 {
 	return is_real(word) ? value_real(m + CODE_OFFSET(word), CODE_TYPE(word))
@@ -37,7 +37,7 @@ static inline void put(uint8_t *m, uint32_t word, union iec_value value)
 	value_put(m + CODE_OFFSET(word), CODE_TYPE(word), value);
 }
 
-/* False when a text did not fit whole. */
+/* False if a text had to be cut. */
 static inline bool put_text(uint8_t *m, uint32_t word, const struct iec_string *from)
 {
 	uint16_t len = from->length;

@@ -2,8 +2,7 @@
  *
  * wide - unsigned integers of 128 bits: shifts and quotient.
  *
- * Functions, not inline like the product: on a small board each place would cost a
- * hundred bytes.
+ * Not inline like the product: each call would cost a hundred bytes on a small board.
  */
 #include "engine/scan/wide.h"
 
@@ -34,8 +33,8 @@ unsigned wide_zeros(struct wide a)
 	return 64 + (unsigned)__builtin_clzll(a.low | 1);
 }
 
-/* Two digits of 32 bits, each guessed with the upper half of the divisor: never too
- * small, at most 2 too large. */
+/* Two digits of 32 bits, each estimated with the upper half of the divisor: the
+ * estimate is never too small and at most 2 too large. */
 uint64_t wide_divided(struct wide n, uint64_t by)
 {
 	uint64_t result = 0, rest = n.high;

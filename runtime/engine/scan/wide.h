@@ -2,8 +2,7 @@
  *
  * wide - unsigned integers of 128 bits out of two of 64, for math.
  *
- * Nothing here can overflow into undefined behaviour; what does not fit is lost at the
- * top, as with uint64_t.
+ * Overflow is defined: high bits are lost, as with uint64_t.
  */
 #ifndef SCAN_WIDE_H
 #define SCAN_WIDE_H
@@ -15,8 +14,8 @@ struct wide {
 	uint64_t high, low;
 };
 
-/* Where a compiler has the type, the product is one instruction and EXP takes a third of
- * the time; otherwise it is made of four. The bits are the same. */
+/* Where a compiler has the type, the product is one instruction and EXP takes a third
+ * of the time; otherwise four products are added. The result is the same. */
 #ifdef __SIZEOF_INT128__
 /** wide_times - the whole product. Scan-safe: yes. */
 static inline struct wide wide_times(uint64_t a, uint64_t b)
