@@ -10,7 +10,7 @@
 
 #include <stdio.h>
 
-/* Messages beyond this number suggest nothing. */
+/* Messages beyond this number have no suggestions. */
 #define SUGGEST_MOST 20
 
 void advice_word(const struct project *project, const struct pou *pou,

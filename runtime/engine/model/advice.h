@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * advice - what messages say only to people at a desk.
+ * advice - services that only programs for people at a desk need.
  *
- * Which word may have been meant; which states a chart can come to. A project has these
- * services or not: the command line and the editor give them to what they load, a
- * `ladderd` does not and so is linked without them. No error depends on them.
+ * Suggestions for misspelled words, and warnings about the states of charts. The
+ * command line and the editor set them; `ladderd` does not, and is linked without them.
+ * No error depends on them.
  */
 #ifndef MODEL_ADVICE_H
 #define MODEL_ADVICE_H
@@ -32,7 +32,7 @@ enum expect_kind {
 	EXPECT_CONSTANT    = 1 << 11, /* TRUE and FALSE                         */
 	EXPECT_STEP        = 1 << 12, /* of a chart                             */
 	EXPECT_ACTION      = 1 << 13, /* likewise                               */
-	EXPECT_QUALIFIER   = 1 << 14, /* N, SD: what a line of a step may have  */
+	EXPECT_QUALIFIER   = 1 << 14, /* N, SD: qualifiers of a line of a step  */
 	EXPECT_STEP_PART   = 1 << 15, /* X, T                                   */
 };
 
@@ -49,8 +49,8 @@ struct advice {
  * advice_word - the argument of a message about an unknown word: "Mtor", "Motor, Rotor"
  * @pou:   NULL: of no POU
  * @kinds: enum expect_kind, or'ed: what it could be
- * @diags: the first few messages say what may have been meant: it takes its time
- * @out:   the word alone if nothing is near, or nobody advises; of @size bytes, clipped
+ * @diags: suggestions are made for the first few messages only, as they take time
+ * @out: of @size bytes, clipped; the word alone if there is no suggestion
  *
  * Scan-safe: no.
  */

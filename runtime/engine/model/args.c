@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * args - the parameters written at a box, taken apart.
+ * args - are allowed. What is malformed ends the list: the readers have reported it
+ * before.=>splits the text of the parameters at a box.
  *
- * Reads the canonical text the readers keep; blanks around := and => are allowed.
+ * Reads the canonical text that the readers keep; blanks around := and => are allowed.
+ * A malformed parameter ends the list: the readers have reported it. => are allowed.
  * What is malformed ends the list: the readers have reported it before.
  */
 #include "engine/model/args.h"
@@ -15,7 +17,7 @@ static const char *skip_blanks(const char *at)
 	return at;
 }
 
-/* Up to the next blank, but for those of a quoted text: 'a $'b'. */
+/* Up to the next blank outside of quotes: 'a $'b'. */
 static const char *skip_value(const char *at)
 {
 	bool quoted = false;

@@ -2,8 +2,8 @@
  *
  * args - the parameters written at a box: "PT:=T#3s CV=>Count".
  *
- * They are kept as canonical text (one blank between, none around := and =>), and
- * taken apart by this one iterator wherever they mean something.
+ * They are kept as canonical text (one blank between, none around := and =>), and split
+ * by this iterator.
  */
 #ifndef MODEL_ARGS_H
 #define MODEL_ARGS_H
@@ -25,9 +25,9 @@ struct arg {
  * Owns: nothing.   Scan-safe: no.   Fails: false at the end.
  */
 bool args_next(const char **at, struct arg *out);
-/** args_find_side - the one for @pin (any case) with => (@output) or with :=. */
+/** args_find_side - the parameter of @pin (any case) with => (@output) or with :=. */
 bool args_find_side(const char *text, bool output, const char *pin, size_t pin_len,
 		    struct arg *out);
-/** args_find - the one for @pin (any case). */
+/** args_find - the parameter of @pin (any case). */
 bool args_find(const char *text, const char *pin, size_t pin_len, struct arg *out);
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * config - what a CONFIGURATION says: tasks, which program runs in which, sizes of
- * areas (IEC 61131-3, 2.7 and tables 49 and 50).
+ * config - a CONFIGURATION: tasks, the programs they run, sizes of areas (IEC 61131-3,
+ * 2.7 and tables 49 and 50).
  *
- * As it was written, line by line. Whether the names in it mean anything is found in
- * check/, when a task runs is decided in scan/.
+ * As it was written, line by line. check/ resolves the names, scan/ decides when a task
+ * runs.
  */
 #ifndef MODEL_CONFIG_H
 #define MODEL_CONFIG_H
@@ -24,15 +24,15 @@ struct config_entry {
 	uint32_t interval, watchdog;      /* string ids, as written           */
 	uint32_t priority;    /* TASK: 0 is the highest                       */
 	enum iec_area area;   /* AREA                                         */
-	uint32_t bytes;       /* AREA: how large it is                        */
+	uint32_t bytes;       /* AREA: its size                               */
 	int block;            /* VARS: index of a block of the globals        */
-	uint32_t comment;     /* behind it                                    */
+	uint32_t comment;     /* its comment                                  */
 	int line;
 };
 
 struct config {
 	uint32_t name;
-	uint32_t comment;     /* behind its first line                        */
+	uint32_t comment;     /* the comment of its first line                */
 	bool has_resource;
 	uint32_t resource, on; /* string ids; on 0: not written               */
 	uint32_t resource_comment;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * convert - words such as INT_TO_REAL, taken apart.
+ * convert - splits words such as INT_TO_REAL.
  *
- * To add a family of conversions: a row in rules[]. What a conversion does stands in
- * scan/fn_convert.c.
+ * A row in rules[] is a family of conversions. scan/fn_convert.c implements them.
  */
 #include "engine/model/convert.h"
 #include "engine/base/ascii.h"
@@ -28,8 +27,9 @@
 #define OF_TEXT "the value of a literal, its type may be missing; ENO FALSE if it is none"
 #define PART    "the same, or the part of it that the type holds"
 
-/* Between two types stands @infix; no type in front means any of @from, none behind
- * (if @open) one of @to, as OUT has it. The first that fits is taken. */
+/* @infix stands between two types. A word without a type in front takes any type of
+ * @from; a word without a type behind (if @open) has one of @to, the type at OUT. The
+ *   first rule that matches is used. */
 static const struct rule {
 	const char *infix;
 	enum word runs;
@@ -57,15 +57,15 @@ static const struct rule {
 	{ "_TO_", FN_CONVERT, ANY_ELEMENTARY, ANY_ELEMENTARY, false, OTHER }, /* TO_INT */
 };
 
-/* LTIME and its like, which are the types without L here, count nanoseconds. */
+/* LTIME and the like count nanoseconds; they are the same types as those without L. */
 static bool is_long(const char *text, enum iec_type type)
 {
 	return text[0] == 'L' && iec_type_row(type)->class & TIMES;
 }
 
 struct parts {
-	enum iec_type from, to; /* IEC_NONE: none is named                    */
-	bool long_time;         /* LTIME and a number                         */
+	enum iec_type from, to; /* IEC_NONE: the word names none              */
+	bool long_time;         /* between LTIME or the like and a number     */
 };
 
 /* @text is "_" and the word. */
@@ -87,7 +87,7 @@ static bool take_apart(const char *text, const struct rule *rule, struct parts *
 	is_time |= out->from == IEC_STRING || out->to == IEC_STRING;
 	out->long_time = !is_time && (is_long(from, out->from) || is_long(to, out->to));
 	if (!out->from && rule->runs == FN_CONVERT && rule->from != ANY_ELEMENTARY)
-		return false; /* the last one takes all */
+		return false; /* matches everything */
 	if (out->from && rule->from == ANY_ELEMENTARY)
 		return false;
 	return (!out->from || iec_type_row(out->from)->class & rule->from) &&

@@ -2,9 +2,9 @@
  *
  * convert - words such as INT_TO_REAL, made by a rule instead of 400 rows.
  *
- * The forms of IEC 61131-3 table 22: A_TO_B and TO_B, A_TRUNC_B and TRUNC_B,
- * A_BCD_TO_B and BCD_TO_B, A_TO_BCD_B, TO_BCD_B and A_TO_BCD, where A and B are
- * types. Which function of the catalogue runs is said by the row. It converts nothing.
+ * The forms of IEC 61131-3 table 22: A_TO_B and TO_B, A_TRUNC_B and TRUNC_B, A_BCD_TO_B
+ * and BCD_TO_B, A_TO_BCD_B, TO_BCD_B and A_TO_BCD, where A and B are types. The row
+ * names the function of the catalogue that runs.
  */
 #ifndef MODEL_CONVERT_H
 #define MODEL_CONVERT_H
@@ -12,9 +12,9 @@
 #include "engine/base/catalog.h"
 
 struct convert_word {
-	struct word_row row; /* first (words_explain); points to pin and name */
+	struct word_row row; /* explanation (words_explain); points to pin and name */
 	struct word_pin pin;
-	const char *doc;     /* what it does; lives for ever                   */
+	const char *doc;     /* explanation; static                            */
 	char name[48];
 };
 

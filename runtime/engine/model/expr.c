@@ -2,8 +2,8 @@
  *
  * expr - infix expressions of IEC 61131-3 table 55, as a tree.
  *
- * Two stacks instead of recursion, so that no text can exhaust the machine's own.
- * It judges neither names nor types.
+ * Two explicit stacks instead of recursion, so that no text can overflow the machine's
+ * stack. Names and types are not checked.
  */
 #include "engine/model/expr.h"
 
@@ -11,11 +11,11 @@
 
 #include <string.h>
 
-#define PENDING (LIMIT_EXPR_DEPTH * 3) /* operators that wait for a right side */
+#define PENDING (LIMIT_EXPR_DEPTH * 3) /* operators that still need a right operand */
 
 struct operator {
 	const char *word;
-	uint8_t strength; /* binds stronger than those with less             */
+	uint8_t strength; /* a higher number binds more strongly             */
 	uint8_t op;       /* enum expr_op                                    */
 	uint16_t fn;      /* enum word of EXPR_FN                            */
 };
@@ -44,9 +44,9 @@ struct parser {
 	struct expr *out;
 	struct diag_list *diags;
 	struct diag place;
-	int shift;         /* column of the text's first byte, less 1; -1: none */
+	int shift;         /* column of the first byte of the text, minus 1; -1: none */
 	int opened;        /* ( and [ not closed yet                         */
-	int nested;        /* ( and [ and signs that wait                    */
+	int nested;        /* entries of the operator stack                  */
 	int indexed;       /* [ not closed yet                               */
 	int called;        /* ( of functions not closed yet                  */
 	int pending_count;
@@ -55,7 +55,8 @@ struct parser {
 	int16_t value[PENDING + 1];
 };
 
-/* Reports @id at the token; false. A token that ends the text has no words. */
+/* Adds diagnostic @id at the token; returns false. At the end of the text, the argument
+ * is empty. */
 static bool refuse(struct parser *parser, enum diag_id id)
 {
 	const struct token *token = &parser->lex->token;
@@ -79,7 +80,7 @@ static bool add_node(struct parser *parser, struct expr_node node)
 	return true;
 }
 
-/* Gives the operator on top its operands. */
+/* Pops the operator on top and gives it its operands. */
 static bool reduce(struct parser *parser)
 {
 	int which = parser->pending[--parser->pending_count];
@@ -96,7 +97,7 @@ static bool reduce(struct parser *parser)
 	return add_node(parser, node);
 }
 
-/* All that waits and binds at least as strongly as @strength; stops at a ( or [. */
+/* Pops all operators that bind at least as strongly as @strength, up to a ( or [. */
 static bool reduce_to(struct parser *parser, int strength)
 {
 	while (parser->pending_count) {
@@ -141,7 +142,7 @@ static bool is_operand(const struct lex *lex)
 	return false;
 }
 
-/* From the [ to the ] of `[ i ]` or `[-3]`: an index that needs no operation. */
+/* Skips `[ i ]` or `[-3]`, an index without operators, from its [ to its ]. */
 static bool skip_simple_index(struct lex *lex)
 {
 	struct lex at = *lex;
@@ -162,8 +163,8 @@ static bool skip_simple_index(struct lex *lex)
 	return true;
 }
 
-/* On the last token of a name or of an index behind it: to that of what follows with
- * simple indices alone, `[2].Times`. An index that is an expression is not gone to. */
+/* From the last token of a name or index, steps over a path with simple indices,
+ * `[2].Times`, to its last token. Stops before an index that is an expression. */
 static void expr_skip_path(struct lex *lex)
 {
 	struct lex at = *lex;
@@ -179,14 +180,14 @@ static void expr_skip_path(struct lex *lex)
 	}
 }
 
-/* What ends at the cursor, on its last token: its text from @text on. */
+/* The text from @text to the end of the current token. */
 static size_t expr_text_len(const char *text, const struct lex *lex)
 {
 	return (size_t)(lex->token.text + lex->token.len - text);
 }
 
-/* On the ] of an index that is an expression: what stands behind it, on the last token
- * of which the cursor is left. */
+/* From the ] of an index that is an expression: takes the path behind it and stops on
+ * its last token. */
 static bool take_tail(struct parser *parser, struct expr_tail *out)
 {
 	const char *text = parser->lex->token.text + 1;
@@ -200,8 +201,8 @@ static bool take_tail(struct parser *parser, struct expr_tail *out)
 	return true;
 }
 
-/* Behind what the lexer is on stands [ and an index that is no simple one: what waits
- * for its ]. */
+/* The next token is [ with an index that is an expression: opens it, to be closed at
+ * its ]. */
 static bool open_index(struct parser *parser, struct expr_open open)
 {
 	if (parser->indexed == LIMIT_EXPR_DEPTH)
@@ -217,7 +218,7 @@ static bool open_index(struct parser *parser, struct expr_open open)
 
 /* ---- functions ---- */
 
-/* Does the cursor stand on the name of a function that is called? */
+/* Whether the token is the name of a function with a ( behind it. */
 static bool is_call(const struct lex *lex)
 {
 	struct lex ahead = *lex;
@@ -233,7 +234,7 @@ static struct expr_tail token_text(const struct lex *lex)
 	return (struct expr_tail){ lex->token.text, (uint16_t)lex->token.len };
 }
 
-/* `MN :=` before an argument, if it stands there. */
+/* `MN :=` before an argument, if it is there. */
 static bool take_pin(struct parser *parser)
 {
 	struct expr_call *call = &parser->out->call[parser->called - 1];
@@ -260,7 +261,7 @@ static bool add_call(struct parser *parser, const struct expr_call *call)
 		.left = call->last, .right = -1 });
 }
 
-/* On the name of a function. @more: its first argument is wanted. */
+/* At the name of a function. @more: its first argument follows. */
 static bool open_call(struct parser *parser, bool *more)
 {
 	struct expr_call call = { token_text(parser->lex), { "", 0 }, -1 };
@@ -285,7 +286,7 @@ static bool open_call(struct parser *parser, bool *more)
 	return add_call(parser, &call);
 }
 
-/* What stands before the , or ) is an argument. */
+/* The operand before the , or ) is an argument. */
 static bool close_argument(struct parser *parser)
 {
 	struct expr_call *call = &parser->out->call[parser->called - 1];
@@ -302,7 +303,7 @@ static bool close_argument(struct parser *parser)
 
 /* ---- operands ---- */
 
-/* @more: it goes on behind a [ or the ( of a function. */
+/* @more: an operand follows, behind a [ or the ( of a function. */
 static bool take_operand(struct parser *parser, bool *more)
 {
 	struct lex *lex = parser->lex;
@@ -336,7 +337,7 @@ static bool take_operand(struct parser *parser, bool *more)
 		       add_node(parser, node);
 }
 
-/* Signs, ( and `Table[` as many as there are, then a name or a constant. */
+/* Any number of signs, ( and `Table[`, then a name or a constant. */
 static bool take_prefix_and_operand(struct parser *parser)
 {
 	for (;;) {
@@ -361,7 +362,7 @@ static bool take_prefix_and_operand(struct parser *parser)
 	}
 }
 
-/* What is in brackets is the index of the array before them. */
+/* The expression in brackets is the index of the array before them. */
 static bool close_index(struct parser *parser)
 {
 	int top = --parser->indexed;
@@ -375,8 +376,7 @@ static bool close_index(struct parser *parser)
 	return take_tail(parser, &node.tail) && add_node(parser, node);
 }
 
-/* Behind the end of an element: does its path go on with an index that is an
- * expression? That one is opened. */
+/* Behind an element: opens the next index of its path, if that is an expression. */
 static bool go_on(struct parser *parser, bool *more)
 {
 	struct expr_open open = { "", 0, -1 };
@@ -388,8 +388,8 @@ static bool go_on(struct parser *parser, bool *more)
 	return open_index(parser, open);
 }
 
-/* The innermost that is open, at what ends it. @more: an operand is wanted: the index of
- * a path that goes on, another argument. */
+/* Closes the innermost bracket at the current token. @more: an operand follows: another
+ * index of the path, or another argument. */
 static bool close_one(struct parser *parser, bool *more)
 {
 	const int top = parser->pending[parser->pending_count - 1];
@@ -427,7 +427,7 @@ static bool close_parens(struct parser *parser, bool *more)
 	return true;
 }
 
-/* The binary operator at the cursor; -1: none, the expression ends. */
+/* The binary operator at the token; -1: none, the expression ends. */
 static int binary_at(const struct lex *lex)
 {
 	if (lex->token.kind != TOKEN_SYMBOL && lex->token.kind != TOKEN_NAME)
@@ -465,7 +465,7 @@ static bool parse(struct parser *parser)
 	return true;
 }
 
-/* Not zeroed whole: the stacks are filled before they are read. */
+/* The stacks are not cleared: they are written before they are read. */
 static void parser_init(struct parser *parser, struct lex *lex,
 			struct expr *out, struct diag_list *diags,
 			struct diag place)
@@ -495,7 +495,7 @@ bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
 	return parse(&parser);
 }
 
-/* What was taken of the target so far leads to an array. */
+/* Makes the part of the target so far an array that an index follows. */
 static bool keep_target(struct parser *parser)
 {
 	struct expr *out = parser->out;
@@ -513,7 +513,7 @@ static bool keep_target(struct parser *parser)
 	return true;
 }
 
-/* From the [ of an index that is an expression to what stands behind its ]. */
+/* From the [ of an index that is an expression to the path behind its ]. */
 static bool take_target_index(struct parser *parser)
 {
 	struct lex *lex = parser->lex;
@@ -534,7 +534,7 @@ static bool take_target_index(struct parser *parser)
 	return true;
 }
 
-/* Behind the ] that closes the [ under the cursor; false: there is none. */
+/* Steps behind the ] that closes the [ at the token; false: there is none. */
 static bool skip_brackets(struct lex *lex)
 {
 	int depth = 0;
@@ -551,7 +551,7 @@ static bool skip_brackets(struct lex *lex)
 	}
 }
 
-/* Is there a := that belongs to what the cursor is on? */
+/* Whether the expression at the token is followed by :=. */
 static bool expr_has_target(struct lex lex)
 {
 	if (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_ADDRESS)
@@ -566,7 +566,7 @@ static bool expr_has_target(struct lex lex)
 	return lex_is(&lex, ":=");
 }
 
-/* `target :=`, if the text begins so; else the lexer stands where it stood. */
+/* `target :=`, if the text begins so; otherwise the lexer does not move. */
 static bool take_target(struct parser *parser)
 {
 	struct lex *lex = parser->lex;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * expr - infix expressions with the operators and precedence of IEC 61131-3
- * table 55, as a tree.
+ * expr - infix expressions with the operators and precedence of IEC 61131-3 table 55,
+ * as a tree.
  *
- * Used by [ … ] cells and by scenarios. It parses and prints; types are found
- * later, and so is what a function is: `LIMIT(0, x + 1, 10)`, `F(A := 1)`. Precedence, strongest first: ( ), - NOT, * / MOD, + -, < > <= >=, = <>,
- * AND &, XOR, OR. All binary operators bind to the left.
+ * Used by [ … ] cells and by scenarios. It parses and prints; types and functions are
+ * resolved later: `LIMIT(0, x + 1, 10)`, `F(A := 1)`. Precedence, strongest first: ( ),
+ * - NOT, * / MOD, + -, < > <= >=, = <>, AND &, XOR, OR. All binary operators bind to
+ * the left.
  */
 #ifndef MODEL_EXPR_H
 #define MODEL_EXPR_H
@@ -29,7 +30,7 @@ enum expr_op {
 			   text: its pin, if it is named: MN := 0             */
 };
 
-/* What stands behind an index that is an expression: `.Speed`; len 0: nothing. */
+/* The path behind an index that is an expression: `.Speed`; len 0: none. */
 struct expr_tail {
 	const char *text;      /* borrowed from the source                    */
 	uint16_t len;
@@ -43,7 +44,7 @@ struct expr_node {
 	struct expr_tail tail; /* of EXPR_INDEX                               */
 	int16_t left, right;   /* nodes; -1: none. Children come before       */
 	bool inner;            /* of EXPR_INDEX: the path goes on from here   */
-	bool whole;            /* for who judges it: may it be an array?      */
+	bool whole;            /* set by the check: it may be an array        */
 };
 
 struct expr {
@@ -64,11 +65,11 @@ struct expr {
 };
 
 /**
- * expr_parse - the expression at the lexer, up to the first token past it
- * @lex: stands on its first token; afterwards on the one that ends it
+ * expr_parse - parses the expression at the lexer
+ * @lex: at its first token; afterwards at the first token behind it
  * @out: caller's memory (about 32 KB: not on a small stack)
  *
- * Owns: nothing; texts are borrowed from the source.   Scan-safe: no.
+ * Owns: nothing; texts are borrowed from the source. Scan-safe: no.
  * Fails: false and one diagnostic with @place and the column.
  */
 bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,

@@ -21,7 +21,8 @@ int expr_pin_name(const struct word_row *row, int index, char *out, size_t size)
 			index - (row->pin_count - 1) + word_last_number(row));
 }
 
-/* A row of the project's own: its pins have a direction, and none is left out of it. */
+/* A row of a word of the project: its pins have a direction, and no input may be left
+ * out. */
 static bool is_own(const struct word_row *row)
 {
 	return row->most_inputs == 0;
@@ -33,7 +34,7 @@ static bool takes(const struct word_row *row, int index)
 	       row->pin[index].dir == PIN_IN_OUT;
 }
 
-/* The pin behind @index that an argument without a name goes to; -1: there is none. */
+/* The next pin after @index for an argument without a name; -1: none. */
 static int next_pin(const struct word_row *row, int index)
 {
 	int most = is_own(row) ? row->pin_count : row->most_inputs;
@@ -53,7 +54,7 @@ static enum diag_id fail(struct expr_args *out, enum diag_id why, int pin,
 	return why;
 }
 
-/* They hang on the call from the right. */
+/* Arguments are linked to the call from right to left. */
 static enum diag_id collect(const struct expr *expr, const struct expr_node *call,
 			    struct expr_args *out)
 {

@@ -2,8 +2,8 @@
  *
  * expr_args - which pins the arguments of a function in an expression go to.
  *
- * `LIMIT(0, x, 10)` gives the inputs in their order, `LIMIT(MX := 10, IN := x, MN := 0)` by
- * name. Asked by the check and by the translation. Types are judged elsewhere.
+ * `LIMIT(0, x, 10)` gives the inputs in their order, `LIMIT(MX := 10, IN := x, MN :=
+ * 0)` by name. Used by the check and by the translation. Types are not checked here.
  */
 #ifndef MODEL_EXPR_ARGS_H
 #define MODEL_EXPR_ARGS_H
@@ -16,7 +16,7 @@ struct expr_args {
 	struct { int at; int pin; } arg[LIMIT_ARGS]; /* from the left: its value,
 				and the index of its pin in the row; of an extensible
 				function also behind the last one         */
-	int wrong;               /* when something is: the pin, or -1        */
+	int wrong;               /* the pin of the error, or -1              */
 	const char *text;        /* or the name as written; borrowed          */
 	int len;
 	int number;              /* of the argument, from 1                   */
@@ -25,16 +25,17 @@ struct expr_args {
 /** expr_function - the function of an EXPR_CALL; WORD_COUNT: it is none. Scan-safe: no. */
 enum word expr_function(struct word_table *words, const struct expr_node *call);
 /**
- * expr_match - the arguments of @call and the pins of @row
+ * expr_match - matches the arguments of @call to the pins of @row
  *
- * Owns: nothing.   Scan-safe: yes.
- * Fails: the diagnostic that is due, about out->wrong or out->text; else DIAG_COUNT.
+ * Owns: nothing. Scan-safe: yes.
+ * Fails: a diagnostic about out->wrong or out->text; DIAG_COUNT on success.
  * DIAG_MIXED_NAMES: some by name and others not. DIAG_NO_PIN, DIAG_DUPLICATE_ARG,
  * DIAG_MISSING_INPUT.
  */
 enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,
 			const struct word_row *row, struct expr_args *out);
-/** expr_pin_name - the name of pin @index, also of IN3 and the like; as snprintf.
+/** expr_pin_name - the name of pin @index, also of extensible inputs such as IN3; as
+ * snprintf.
  * Scan-safe: yes. */
 int expr_pin_name(const struct word_row *row, int index, char *out, size_t size);
 #endif

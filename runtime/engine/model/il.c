@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * il - an instruction list as data.
- *
- * It keeps lines in order and knows nothing of their meaning.
+ * il - an instruction list as data: a vector of lines.
  */
 #include "engine/model/il.h"
 

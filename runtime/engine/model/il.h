@@ -2,8 +2,8 @@
  *
  * il - an instruction list (IEC 61131-3 chapter 3.2) as data.
  *
- * What LD becomes and what a user writes are the same list. It knows operators and
- * their order, not what operands mean: check/check_il.h finds that out.
+ * Lists that users write and lists made from LD have the same form. check/check_il.h
+ * resolves the operands.
  */
 #ifndef MODEL_IL_H
 #define MODEL_IL_H
@@ -20,19 +20,18 @@ enum il_kind {
 	IL_ARG_IN,   /* PIN := operand                                         */
 	IL_ARG_OUT,  /* PIN => operand                                         */
 	IL_COMMENT,  /* (* … *)                                                */
-	/* Only translation makes these, of charts. */
+	/* Lines that only translation makes, for charts. */
 	IL_EACH,     /* operand: the first of the BOOLs; pin: its cursor, a UDINT; as
 			many IL_TARGET follow, each with a label               */
 	IL_TARGET,
-	IL_TICK,     /* operand: what gets the time; pin: the last time; word: how
-			many steps; HOLD, X and T of the first follow          */
+	IL_TICK,     /* operand: TIME that gets the step time; pin: the last time; word: how */
 };
 
 enum il_mark {
 	IL_NAMED = 1,    /* IL_CALL: one of several in a cell, messages name it */
-	IL_IN_ORDER = 2, /* IL_ARG_IN of CAL: written without its pin, which the
-			    check finds by the order of the inputs             */
-	IL_MADE = 4,     /* translation made it, of a chart: it may write steps */
+	IL_IN_ORDER = 2, /* IL_ARG_IN of CAL: written without its pin; the check finds the
+			  * pin by the order of the inputs */
+	IL_MADE = 4,     /* made by the translation of a chart: it may write steps */
 };
 
 struct il_line {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * init - initial values of what has parts, walked without recursion.
+ * init - walks the initial values of arrays and structures without recursion.
  *
- * A constant must fit its type, a member must be there and may be named once, and a
- * list is no longer than its array. It stores nothing.
+ * A constant must fit its type, a member must exist and be named once, and a list is no
+ * longer than its array.
  */
 #include "engine/model/init.h"
 
@@ -36,7 +36,7 @@ static bool fail_token(struct init_walk *walk, enum diag_id why)
 	return fail(walk, why, walk->lex.token.text, walk->lex.token.len);
 }
 
-/* Steps over @symbol; it must be there. */
+/* Steps over @symbol, which is required. */
 static bool take(struct init_walk *walk, const char *symbol)
 {
 	return lex_accept(&walk->lex, symbol) || fail_expected(walk, symbol);
@@ -64,7 +64,7 @@ void init_begin(struct init_walk *walk, const struct project *project,
 
 /* ---- lists and structures ---- */
 
-/* The level above the top, its memory of names kept. */
+/* A new level on top; its room for member names is kept from earlier use. */
 static struct init_level *push(struct init_walk *walk)
 {
 	struct init_level *level;
@@ -99,7 +99,7 @@ static bool open_list(struct init_walk *walk, struct word_pin item, uint32_t bas
 	return true;
 }
 
-/* Room to note which members were named. */
+/* Allocates marks for members that were named. */
 static bool make_room(struct init_walk *walk, struct init_level *level)
 {
 	if (!walk->scratch || level->room >= level->row->pin_count)
@@ -132,7 +132,7 @@ static bool open_members(struct init_walk *walk, enum word word, uint32_t base,
 
 /* ---- values ---- */
 
-/* Would it fit if only it were smaller? Then it is of the right kind. */
+/* Whether a smaller value would fit: then the kind is right. */
 static bool is_kind(const struct literal *literal, enum iec_type type)
 {
 	if (literal->type != IEC_NONE)
@@ -168,8 +168,8 @@ static bool take_constant(struct init_walk *walk, const struct word_pin *pin,
 	return true;
 }
 
-/* The value of @pin at @base. True and @out->type: a constant; true without it: a list
- * or structure was opened. */
+/* The value of @pin at @base. True with @out->type set: a constant. True with IEC_NONE:
+ * a list or structure was opened. */
 static bool take_value(struct init_walk *walk, const struct word_pin *pin,
 		       uint32_t base, struct init_value *out)
 {
@@ -182,7 +182,7 @@ static bool take_value(struct init_walk *walk, const struct word_pin *pin,
 	return take_constant(walk, pin, out);
 }
 
-/* `3(`: so many times what follows. */
+/* `3(`: a repeated value. */
 static bool take_times(struct init_walk *walk, struct init_level *level)
 {
 	struct lex ahead = walk->lex;
@@ -206,7 +206,7 @@ static bool take_times(struct init_walk *walk, struct init_level *level)
 	return true;
 }
 
-/* Do members follow without a ( of their own? */
+/* Whether members follow without a ( of their own. */
 static bool is_bare(const struct init_walk *walk, const struct word_pin *item)
 {
 	struct lex ahead = walk->lex;
@@ -229,13 +229,13 @@ static bool take_element(struct init_walk *walk, struct init_level *level,
 	if ((level->times ? level->times : 1) > left)
 		return fail(walk, DIAG_TOO_MANY_VALUES, "", 0);
 	if (level->times && (walk->scratch || lex_is(&walk->lex, ")"))) {
-		step = level->times; /* all at once */
+		step = level->times; /* all repetitions at once */
 		level->times = 1;
 	}
 	level->element += step;
 	out->type = IEC_NONE;
 	if (level->times && lex_is(&walk->lex, ")"))
-		return true;         /* n(): as declared */
+		return true;         /* n(): the declared value, n times */
 	if (level->times && is_bare(walk, &level->item))
 		return open_members(walk, level->item.word, base, true);
 	return take_value(walk, &level->item, base, out);
@@ -272,9 +272,9 @@ static bool take_member(struct init_walk *walk, struct init_level *level,
 	       take_value(walk, pin, level->base + pin->offset, out);
 }
 
-/* ---- what stands behind a value ---- */
+/* ---- the end of a value ---- */
 
-/* Behind the value of n( … ). False: it comes again, or the ) is missing. */
+/* Behind the value of n( … ). False: the value is repeated, or the ) is missing. */
 static bool end_times(struct init_walk *walk, struct init_level *level)
 {
 	if (!lex_is(&walk->lex, ")"))
@@ -287,8 +287,8 @@ static bool end_times(struct init_walk *walk, struct init_level *level)
 	return true;
 }
 
-/* Steps to the next value of the innermost list or structure that is not at its end.
- * False: there is none, or an error. */
+/* Steps to the next value of the innermost list or structure with more values. False:
+ * no more, or an error. */
 static bool step_on(struct init_walk *walk)
 {
 	while (walk->depth > 0) {
@@ -299,7 +299,7 @@ static bool step_on(struct init_walk *walk)
 		if (lex_accept(&walk->lex, ","))
 			return true;
 		if (level->row && level->bare) {
-			walk->depth--; /* the ) is that of n( … ) */
+			walk->depth--; /* the ) closes n( … ) */
 			continue;
 		}
 		if (!take(walk, level->row ? ")" : "]"))
@@ -311,7 +311,7 @@ static bool step_on(struct init_walk *walk)
 	return false;
 }
 
-/* What the cursor is on; behind it an inner list or structure may be open. */
+/* Takes the value at the token; an inner list or structure may be open afterwards. */
 static bool take_next(struct init_walk *walk, struct init_value *out)
 {
 	const struct word_pin first = walk->level[0].item;
@@ -328,7 +328,7 @@ static bool take_next(struct init_walk *walk, struct init_value *out)
 
 bool init_next(struct init_walk *walk, struct init_value *out)
 {
-	bool inside = !walk->begun; /* no value stands before the next one */
+	bool inside = !walk->begun; /* two values without a comma */
 	int depth;
 
 	memset(out, 0, sizeof(*out));

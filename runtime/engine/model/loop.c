@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * loop - variable, values and step of a FOR.
+ * loop - parses variable, values and step of a FOR.
  */
 #include "engine/model/loop.h"
 
 #include "engine/base/lex.h"
 #include "engine/base/literal.h"
 
-/* A name or address, with [ … ] if it is an element of an array, and members of
- * that. */
+/* A name or address with indices and members. */
 static bool take_variable(struct lex *lex, struct loop_part *out)
 {
 	out->text = lex->token.text;

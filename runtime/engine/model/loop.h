@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * loop - what stands behind FOR: "I := 1 TO Count BY 2", as IEC 61131-3 table 56
- * writes it. It knows the form, not what the names mean.
+ * loop - the text behind FOR: "I := 1 TO Count BY 2" (IEC 61131-3 table 56). Names are
+ * not resolved.
  */
 #ifndef MODEL_LOOP_H
 #define MODEL_LOOP_H
@@ -20,7 +20,7 @@ struct loop {
 	int64_t step;     /* of BY, a whole constant                          */
 };
 
-/** loop_parse - takes the text behind FOR apart. Scan-safe: no.
- * Fails: false if it has not the form. */
+/** loop_parse - parses the text behind FOR. Scan-safe: no. Fails: false if its form is
+ * wrong. */
 bool loop_parse(const char *text, size_t len, struct loop *out);
 #endif

@@ -2,14 +2,14 @@
  *
  * network - the power-flow graph of a rung.
  *
- * A union-find over the bars, then two counting passes: time grows with the number
- * of cells and nothing else. It judges nothing; wrong rungs have graphs too.
+ * A union-find over the bars, then two counting passes: the time is linear in the
+ * number of cells. Rungs with errors have graphs, too.
  */
 #include "engine/model/network.h"
 
 #include <string.h>
 
-/* In both arrays the smaller bar leads: the first bar of a net in reading order. */
+/* In both arrays the root is the smaller bar: the first bar of a net in reading order. */
 static int lead_of(int *bar, int at)
 {
 	while (bar[at] != at) {
@@ -29,7 +29,7 @@ static void join(int *bar, int a, int b)
 		bar[a] = b;
 }
 
-/* Joins what wires and links join, and counts elements and pin rows. */
+/* Joins bars along wires and links; counts elements and pin rows. */
 static void join_bars(const struct rung *rung, struct network *out)
 {
 	int width = rung->cols + 1, *bar = out->bar_net;
@@ -56,7 +56,7 @@ static void join_bars(const struct rung *rung, struct network *out)
 	}
 }
 
-/* A bar's lead stands before it, so it has its number already. */
+/* The root of a bar comes before it, so it has its net number already. */
 static void number_nets(struct network *out)
 {
 	int bars = out->rows * (out->cols + 1), *bar = out->bar_net;
@@ -72,8 +72,8 @@ static bool is_box(enum word word)
 	return row->place == PLACE_BOX || row->operand == OPND_EXPR;
 }
 
-/* Elements in reading order. A pin row belongs to the box above it in its column;
- * here the pins of each box are only counted. */
+/* Elements in reading order. A pin row belongs to the box above it in its column; this
+ * counts the pins of each box. */
 static void list_elements(const struct rung *rung, struct network *out)
 {
 	int box[LIMIT_COLS], count = 0;
@@ -103,7 +103,7 @@ static void list_elements(const struct rung *rung, struct network *out)
 		}
 }
 
-/* The pins of one box side by side, top first. */
+/* Stores the pins of each box together, top first. */
 static void list_pins(const struct rung *rung, struct network *out)
 {
 	int count = 0;
@@ -146,7 +146,7 @@ static void list_feeders(struct network *out)
 		first[net + 1] += first[net];
 	for (int i = out->element_count; i-- > 0;)
 		out->feeder[--first[out->element[i].out + 1]] = i;
-	/* Each end was counted down to its net's begin: shift back by one. */
+	/* Each entry was counted down to the begin of its net: shift back by one. */
 	for (int net = 0; net < out->net_count; net++)
 		first[net] = first[net + 1];
 	first[out->net_count] = out->element_count;

@@ -2,8 +2,8 @@
  *
  * network - the power-flow graph of a rung.
  *
- * Bars joined by wires and links are one net; elements lead from net to net. The
- * graph is what checks, translation and drawing agree on. It judges nothing.
+ * Bars joined by wires and links are one net; elements lead from net to net. Checks,
+ * translation and drawing use this graph. Rungs with errors have one, too.
  */
 #ifndef MODEL_NETWORK_H
 #define MODEL_NETWORK_H
@@ -38,7 +38,7 @@ struct network {
 	/* Elements that lead into net n (coils too), in reading order:
 	 * feeder[first_feeder[n]] … feeder[first_feeder[n + 1] - 1]. */
 	int *first_feeder, *feeder;
-	/* Elements and pins that read it: counts. */
+	/* Number of elements and pins that read net n. */
 	int *reader_count;
 };
 

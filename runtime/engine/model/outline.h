@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * outline - where the parts of a project stand in its canonical text.
+ * outline - the places of the parts of a project in its canonical text.
  *
- * For programs that change parts of a text, such as the editor its declarations.
+ * For programs that replace parts of a text, as the editor does with declarations.
  */
 #ifndef MODEL_OUTLINE_H
 #define MODEL_OUTLINE_H
@@ -17,7 +17,7 @@ enum text_part {
 	TEXT_BODY,  /* of a POU: its rungs or its list; number of the POU     */
 	TEXT_RUNG,  /* number in its POU                                      */
 	TEXT_STRUCT, /* a structure; number in the project                    */
-	TEXT_TITLE, /* PROJECT "…" with its newline, or where it would stand  */
+	TEXT_TITLE, /* PROJECT "…" with its newline, or the place for it      */
 	TEXT_STEP,  /* of a chart, from its comments to END_STEP; its number  */
 	TEXT_TRANSITION, /* likewise                                          */
 	TEXT_ACTION,
@@ -25,7 +25,7 @@ enum text_part {
 struct text_span {
 	enum text_part part;
 	int number;         /* 0-based                                        */
-	int pou;            /* it stands in; -1: in none                      */
+	int pou;            /* that contains it; -1: none                     */
 	int structure;      /* likewise                                       */
 	size_t at, len;     /* bytes                                          */
 };

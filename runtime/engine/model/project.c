@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * project - what a rung file says: variables, POUs, rungs.
+ * project - the contents of a rung file: variables, POUs, rungs.
  *
- * Keeps what readers and editors put in. It neither reads files nor checks that
- * what it holds makes sense.
+ * Readers and editors fill it. It reads no files and checks nothing.
  */
 #include "engine/model/project.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * project - what a rung file says: variables, POUs, rungs.
+ * project - the contents of a rung file: variables, POUs, rungs.
  *
- * Owns everything in it through one arena, but for the rungs, which an editor
- * exchanges one by one (rung_free). It holds what was written, right or wrong.
+ * One arena owns everything except the rungs, which an editor replaces singly
+ * (rung_free). Texts with errors are kept as written.
  */
 #ifndef MODEL_PROJECT_H
 #define MODEL_PROJECT_H
@@ -25,9 +25,9 @@ struct pou {
 	enum pou_language language;
 	enum pou_kind kind;
 	enum word word;         /* of a function or block; WORD_COUNT: none    */
-	enum word temp_word;    /* of its VAR_TEMP as one; WORD_COUNT: none    */
+	enum word temp_word;    /* row of its VAR_TEMP; WORD_COUNT: none       */
 	int edges;              /* cells with a memory: in each instance       */
-	uint32_t edge_offset;   /* in an instance: where those lie             */
+	uint32_t edge_offset;   /* their offset in an instance                 */
 	struct var_table vars;  /* locals                                      */
 	struct rung **rung;     /* of LD, SFC; malloc'ed vector of malloc'ed rungs */
 	int rung_count;
@@ -35,7 +35,7 @@ struct pou {
 	struct sfc *sfc;        /* of SFC; NULL: another language              */
 	uint32_t comment;       /* above it                                    */
 	uint32_t tail;          /* comments before its END_PROGRAM             */
-	const char *file;       /* it stands in; borrowed from the arena       */
+	const char *file;       /* file it is in; borrowed from the arena      */
 	int line;
 	uint8_t included;       /* 1: of a file named by INCLUDE               */
 };
@@ -45,28 +45,28 @@ struct structure {
 	uint32_t name;          /* string id                                   */
 	enum word word;
 	struct var_table vars;  /* its members                                 */
-	uint32_t comment;       /* behind its END_STRUCT                       */
+	uint32_t comment;       /* comments before its END_STRUCT              */
 	const char *file;
 	int line;
 };
 
-/* What stood where in the file, so that writing keeps the order. */
+/* The order of the parts in the file, kept for writing. */
 enum part_kind { PART_VARS, PART_POU, PART_VIEW, PART_INCLUDE,
 		 PART_CONFIG, PART_USES, PART_TYPES };
 struct part {
 	enum part_kind kind;
 	int index;              /* var block of globals, POU, first structure  */
 	int count;              /* structures                                  */
-	uint32_t text;          /* string id: VIEW … END_VIEW whole; file name */
+	uint32_t text;          /* string id: text from VIEW to END_VIEW; file name */
 	uint32_t comment;       /* above it                                    */
 	uint8_t included;       /* came from another file: not written         */
 };
 
 struct project {
 	struct arena arena;
-	const struct advice *advice; /* of who reads its messages; NULL: none    */
+	const struct advice *advice; /* for messages to people; NULL: none       */
 	struct names names;
-	struct word_table words; /* of the catalogue and its own              */
+	struct word_table words; /* words of the catalogue and of the project */
 	const char *file;
 	uint32_t title;         /* PROJECT "…"                                 */
 	uint32_t head;          /* comments above PROJECT or the first part    */
@@ -90,27 +90,27 @@ void project_free(struct project *project);
 
 /* Rungs of a POU: @at 0-based. The project takes over the rung it is given. */
 bool project_add_rung(struct pou *pou, int at, struct rung *rung);
-/** project_take_rung - removes it; the caller owns what is returned. */
+/** project_take_rung - removes a rung; the caller owns it. */
 struct rung *project_take_rung(struct pou *pou, int at);
-/** project_areas - how large the areas of this project are: what its configuration says,
- * or what is usual.   Fails: false if they are too large together. */
+/** project_areas - sizes of this project's areas: from its configuration, or the usual
+ * ones. Fails: false if they are too large together. */
 bool project_areas(const struct project *project, struct areas *out);
-/** project_has - is one address inside them? AREA_NONE always. Who asks for many asks
- * areas_have(). */
+/** project_has - whether an address is inside the areas; true for AREA_NONE. For many
+ * addresses use areas_have(). */
 bool project_has(const struct project *project, struct iec_addr addr);
-/** pou_has_frame - is it called with parameters, on variables that lie elsewhere: a
- * FUNCTION, a FUNCTION_BLOCK? */
+/** pou_has_frame - whether it is a FUNCTION or FUNCTION_BLOCK: called with parameters,
+ * its variables in a frame or instance. */
 bool pou_has_frame(const struct pou *pou);
-/** project_view - VIEW … END_VIEW of the file itself, whole; "" if it has none. */
+/** project_view - the text from VIEW to END_VIEW of the file itself; "" if it has none. */
 const char *project_view(const struct project *project);
-/** project_view_is_last - is it the last part? */
+/** project_view_is_last - whether the view is the last part. */
 bool project_view_is_last(const struct project *project);
-/** project_set_view - that text takes its place, behind all parts if there was none; "":
- * there is none any more. Borrows nothing.   Fails: false: no memory, nothing changed. */
+/** project_set_view - replaces the view; a new one becomes the last part; "" removes it.
+ * @text is copied. Fails: false: no memory, nothing changed. */
 bool project_set_view(struct project *project, const char *text);
-/** pou_word - PROGRAM, FUNCTION, FUNCTION_BLOCK, SUBROUTINE. Lives for ever. */
+/** pou_word - PROGRAM, FUNCTION, FUNCTION_BLOCK, SUBROUTINE. Static. */
 const char *pou_word(enum pou_kind kind);
-/** pou_language_word - LD, IL, SFC. Lives for ever. */
+/** pou_language_word - LD, IL, SFC. Static. */
 const char *pou_language_word(enum pou_language language);
 /** project_find_pou - index of the POU with this name, in any case; -1: none. @len: bytes. */
 int project_find_pou(const struct project *project, const char *name, size_t len);

@@ -2,9 +2,8 @@
  *
  * rung - one grid of ladder: its memory and the edits that change its size.
  *
- * An edit keeps circuits whole where that is possible and makes a new rung, so
- * that undo keeps the old one. It does not know what a rung means. Edits in place
- * are in rung_cell.c.
+ * An edit makes a new rung, so that undo keeps the old one, and keeps connections where
+ * possible. Edits in place are in rung_cell.c.
  */
 #include "engine/model/rung.h"
 
@@ -76,7 +75,7 @@ const struct cell *rung_at(const struct rung *rung, int row, int col)
 	return &rung->cell[(size_t)row * rung->cols + (size_t)col];
 }
 
-/* An empty grid of another size with the same label, title and comment. */
+/* An empty grid of another size with the same label, title and comments. */
 static struct rung *new_like(const struct rung *rung, int rows, int cols)
 {
 	struct rung *made = rung_new(rows, cols);
@@ -99,8 +98,8 @@ static void copy_row(struct rung *to, int to_row, const struct rung *from,
 	       from->cols * sizeof(struct cell));
 }
 
-/* The new row passes on what joins the rows above and below it, and makes a box
- * taller that it cuts. */
+/* The new row has links where the rows above and below were joined. A box that it cuts
+ * gets taller. */
 struct rung *rung_insert_row(const struct rung *rung, int at)
 {
 	struct rung *made;
@@ -123,7 +122,7 @@ struct rung *rung_insert_row(const struct rung *rung, int at)
 	return made;
 }
 
-/* Takes the pin rows of a box away that begin at (@row, @col). */
+/* Removes the pin rows of the box at (@row, @col). */
 static void drop_pins(struct rung *rung, int row, int col)
 {
 	for (; row < rung->rows; row++) {
@@ -136,8 +135,8 @@ static void drop_pins(struct rung *rung, int row, int col)
 	}
 }
 
-/* Rows above and below stay joined where both were joined to the one that goes;
- * a box goes whole. */
+/* Rows above and below stay joined where both were joined to the deleted row. A box in
+ * it is deleted with its pin rows. */
 struct rung *rung_delete_row(const struct rung *rung, int at)
 {
 	struct rung *made;
@@ -165,7 +164,7 @@ static bool is_empty(const struct cell *cell)
 	return cell->word == ELEM_EMPTY && !cell->link && !cell->comment;
 }
 
-/* Does something reach bar @bar of @row from its left, above or below? */
+/* Whether bar @bar of @row is joined to its left, above or below. */
 static bool bar_is_used(const struct rung *rung, int row, int bar)
 {
 	const struct cell *left;
@@ -177,7 +176,7 @@ static bool bar_is_used(const struct rung *rung, int row, int bar)
 	       (row + 1 < rung->rows && rung_at(rung, row + 1, bar - 1)->link);
 }
 
-/* Must the new column carry power to the old cell (@row, @at)? */
+/* Whether the new column must carry power to the old cell (@row, @at). */
 static bool needs_wire(const struct rung *rung, int row, int at)
 {
 	const struct cell *right;
@@ -213,7 +212,7 @@ struct rung *rung_insert_column(const struct rung *rung, int at)
 	return made;
 }
 
-/* The bars on both sides become one, with the links of both. */
+/* The bars on both sides become one and keep the links of both. */
 struct rung *rung_delete_column(const struct rung *rung, int at)
 {
 	struct rung *made;

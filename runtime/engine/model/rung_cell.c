@@ -2,8 +2,8 @@
  *
  * rung_cell - the edits of a rung in place: one cell, one box, one row.
  *
- * Links stay where they are; a box and its pin rows stay together. An edit that
- * cannot be done changes nothing.
+ * Links stay where they are; a box and its pin rows stay together. An edit that fails
+ * changes nothing.
  */
 #include "engine/model/rung.h"
 
@@ -55,8 +55,8 @@ bool rung_set_cell(struct rung *rung, int row, int col, struct cell cell)
 	return true;
 }
 
-/* A box goes with its pin rows; a pin row inside a box stays as a blank one, so
- * that those below it do not lose their box. */
+/* A box is removed with its pin rows. A pin row inside a box becomes a blank pin row,
+ * so that the rows below it still belong to the box. */
 bool rung_clear_cell(struct rung *rung, int row, int col)
 {
 	struct cell blank = { .word = ELEM_EMPTY };

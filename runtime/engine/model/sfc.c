@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc - the words of a chart, what its names mean, and the variables it brings.
+ * sfc - the words of a chart, the resolution of its names, and the variables it
+ * declares.
  *
- * What is wrong with a chart is found in check/check_sfc.c.
+ * check/check_sfc.c reports errors.
  */
 #include "engine/model/sfc.h"
 
@@ -55,7 +56,7 @@ enum control control_find(const char *text, size_t len)
 
 bool sfc_reserved(const char *name)
 {
-	/* They stand where a name may. */
+	/* Words that can stand where a name does. */
 	static const char *const words[] = { SFC_CONDITION, "FROM", "TO" };
 
 	return find(words, 3, name, strlen(name)) < 3;
@@ -82,9 +83,10 @@ int sfc_find_step(const struct sfc *sfc, const struct names *names, uint32_t nam
 	return -1;
 }
 
-/* ---- what names mean ---- */
+/* ---- names ---- */
 
-/* By folded name: the number of a step or action; -1: none. The first of a name counts. */
+/* By folded name: the number of a step or action; -1: none. The first of a name is
+ * used. */
 static int *by_fold(struct names *names, const uint32_t *name, size_t stride, int count)
 {
 	int *out = arena_alloc(names->arena, ((size_t)names->count + 1) * sizeof(*out));
@@ -126,7 +128,7 @@ bool sfc_link(struct sfc *sfc, struct names *names)
 	return true;
 }
 
-/* ---- what it declares ---- */
+/* ---- variables of a chart ---- */
 
 int sfc_x(const struct sfc *sfc, const struct var_table *table, int step)
 {

@@ -2,10 +2,10 @@
  *
  * sfc - a sequential function chart (IEC 61131-3, 6.7) as data.
  *
- * It holds the chart as written, right or wrong, in the order of the file. Conditions and
- * bodies are rungs and lines of the POU's own vectors, so that code for rungs and lists
- * works on them; an expression is a rung of one cell and a coil. docs/sfc.md explains which
- * steps are active, and what that means.
+ * It keeps the chart as written, with errors, in the order of the file. Conditions and
+ * bodies are rungs and lines in the POU's own vectors, so that code for rungs and lists
+ * works on them; an expression is a rung of one cell and a coil. docs/sfc.md explains
+ * how a chart runs.
  */
 #ifndef MODEL_SFC_H
 #define MODEL_SFC_H
@@ -17,12 +17,12 @@
 
 #include <stddef.h>
 
-/* Of the standard's table 58; the order is that of the words in sfc.c. */
+/* IEC 61131-3 table 58; in the order of the words in sfc.c. */
 enum qualifier { QUALIFIER_N, QUALIFIER_S, QUALIFIER_R, QUALIFIER_L, QUALIFIER_D,
 		 QUALIFIER_P, QUALIFIER_P0, QUALIFIER_P1, QUALIFIER_SD, QUALIFIER_DS,
 		 QUALIFIER_SL, QUALIFIER_COUNT };
 
-/* What a condition or an action is made of. */
+/* The language of a condition or an action. */
 enum body_kind {
 	BODY_NONE,       /* nothing was written                                */
 	BODY_EXPRESSION, /* := … ; one rung, [ … ] and the coil                */
@@ -38,7 +38,7 @@ enum step_kind { STEP_PLAIN, STEP_INITIAL, STEP_MACRO };
 struct sfc_step {
 	uint32_t name;      /* string id                                       */
 	enum step_kind kind;
-	int macro;          /* the step it stands in; -1: none                 */
+	int macro;          /* the macro-step that contains it; -1: none       */
 	int end;            /* of a macro-step: piece of its end                */
 	uint32_t min, max;  /* string ids: supervision times, as written; 0    */
 	uint32_t alarm;     /* string id: operand; 0: none                     */
@@ -46,10 +46,10 @@ struct sfc_step {
 	int first_use, use_count;
 	uint32_t comment;   /* above it                                        */
 	uint32_t tail;      /* comments before its end                         */
-	int line, column_at; /* of its name in the file, 1-based               */
+	int line, column_at; /* line of its name in the file, 1-based          */
 };
 
-/* A line of a step: what it does. */
+/* A line of a step: an action with its qualifier. */
 enum use_kind { USE_ACTION, USE_SET, USE_RESET };
 struct sfc_use {
 	enum use_kind kind;
@@ -57,17 +57,17 @@ struct sfc_use {
 	uint32_t operand;   /* string id: action, or a BOOL; one of SET, RESET  */
 	enum qualifier qualifier; /* of USE_ACTION                             */
 	uint32_t time;      /* string id: operand of L D SD DS SL; 0: none     */
-	int action;         /* that of this name; -1: a BOOL. Of SET and RESET
-			       a mistake                                       */
-	uint8_t more;       /* 1: stands in the line of the one before it      */
+	int action;         /* index of the action; -1: a BOOL, or an error for SET and
+			     * RESET */
+	uint8_t more;       /* 1: on the same line as the one before           */
 	uint32_t comment;   /* above it                                        */
 	int line, column;
 };
 
 struct sfc_transition {
 	uint32_t name;      /* string id; 0: none                              */
-	int priority;       /* 1 is the highest; 0: by the order of the file   */
-	int macro;          /* the macro-step it stands in; -1: none           */
+	int priority;       /* 1 is the highest; 0: by the order in the file   */
+	int macro;          /* the macro-step that contains it; -1: none       */
 	int first_from, from_count; /* of sfc.ref                             */
 	int first_to, to_count;
 	struct sfc_body condition;
@@ -85,19 +85,19 @@ struct sfc_action {
 /* A name behind FROM or TO. */
 struct sfc_ref {
 	uint32_t name;      /* string id                                       */
-	int step;           /* -1: there is none of this name                  */
+	int step;           /* -1: no step has this name                       */
 	int line, column;
 };
 
-/* How the chart is operated from outside: CONTROL(RESET := I0.7, …); */
+/* Operands that control the chart from outside: CONTROL(RESET := I0.7, …); */
 enum control { CONTROL_RESET, CONTROL_HOLD, CONTROL_SEMI, CONTROL_MANUAL, CONTROL_TIP,
 	       CONTROL_FORCE, CONTROL_COUNT };
 
 enum piece_kind { PIECE_STEP, PIECE_MACRO_END, PIECE_TRANSITION, PIECE_ACTION, PIECE_CONTROL };
 struct sfc_piece { enum piece_kind kind; int index; };
 
-/* How it goes on in a scan (docs/sfc.md): what is true fires together, once; the same
- * until nothing fires; or one transition after the other, each at once. */
+/* How transitions fire in a scan (docs/sfc.md): all true ones together, once; the same,
+ * until none fires; or one after another, each at once. */
 enum sfc_evolution { EVOLVE_ONCE, EVOLVE_UNTIL_STABLE, EVOLVE_IN_ORDER };
 
 struct sfc {
@@ -115,24 +115,24 @@ struct sfc {
 	int action_count;
 	struct sfc_ref *ref;
 	int ref_count;
-	struct sfc_piece *piece;        /* what stands where in the file      */
+	struct sfc_piece *piece;        /* order of the parts in the file     */
 	int piece_count;
-	int block;                      /* of the POU's variables: what
-					   sfc_declare() declared; -1: nothing */
+	int block;                      /* index of the block of variables that
+					 * sfc_declare() added; -1: none */
 };
 
-/* The variables that a chart has beside the declared ones, found like any other. */
-#define SFC_CONDITION "TRANSITION" /* BOOL: what a condition's coil writes  */
+/* Variables that a chart adds to the declared ones. */
+#define SFC_CONDITION "TRANSITION" /* BOOL: written by a condition's coil   */
 
-/** qualifier_word - "N", "SD". Lives for ever. Scan-safe: yes. */
+/** qualifier_word - "N", "SD". Static. Scan-safe: yes. */
 const char *qualifier_word(enum qualifier qualifier);
-/** qualifier_find - QUALIFIER_COUNT: there is none. Scan-safe: yes. */
+/** qualifier_find - QUALIFIER_COUNT: none. Scan-safe: yes. */
 enum qualifier qualifier_find(const char *text, size_t len);
 /** qualifier_has_time - L D SD DS SL. Scan-safe: yes. */
 bool qualifier_has_time(enum qualifier qualifier);
-/** control_word - "RESET". Lives for ever. Scan-safe: yes. */
+/** control_word - "RESET". Static. Scan-safe: yes. */
 const char *control_word(enum control control);
-/** control_find - CONTROL_COUNT: there is none. Scan-safe: yes. */
+/** control_find - CONTROL_COUNT: none. Scan-safe: yes. */
 enum control control_find(const char *text, size_t len);
 
 /** sfc_x, sfc_t - of step @step: Name.X, Name.T; sfc_condition - SFC_CONDITION: the
@@ -140,7 +140,7 @@ enum control control_find(const char *text, size_t len);
 int sfc_x(const struct sfc *sfc, const struct var_table *table, int step);
 int sfc_t(const struct sfc *sfc, const struct var_table *table, int step);
 int sfc_condition(const struct sfc *sfc, const struct var_table *table);
-/** sfc_reserved - a word that nothing in a chart can be called? Scan-safe: yes. */
+/** sfc_reserved - whether @word cannot be a name in a chart. Scan-safe: yes. */
 bool sfc_reserved(const char *name);
 /** sfc_bodies, sfc_body - the conditions of all transitions, then the bodies of all
  * actions; @body: 0-based. Scan-safe: yes. */
@@ -150,28 +150,29 @@ const struct sfc_body *sfc_body(const struct sfc *sfc, int body);
 int sfc_find_step(const struct sfc *sfc, const struct names *names, uint32_t name);
 
 /**
- * sfc_link - finds what each name means, once all is read
+ * sfc_link - resolves the names of a chart after it was read
  *
- * Sets ref.step, use.action and use_count of steps; says nothing of what it does not find.
- * Scan-safe: no.   Fails: false: no memory.
+ * Sets ref.step, use.action and use_count of steps; names that do not exist get -1.
+ * Scan-safe: no. Fails: false: no memory.
  */
 bool sfc_link(struct sfc *sfc, struct names *names);
 
 /**
  * sfc_declare - declares Name.X and Name.T of every step, and SFC_CONDITION
- * @table: of the POU; a block with VAR_SFC is put behind its blocks
+ * @table: of the POU; gets a block with VAR_SFC behind its blocks
  *
  * All Name.X one after another, in the order of the steps, then all Name.T.
- * Scan-safe: no.   Fails: false: no memory.
+ * Scan-safe: no. Fails: false: no memory.
  */
 bool sfc_declare(struct sfc *sfc, struct names *names, struct var_table *table,
 		   struct arena *arena);
-/** sfc_evolution_words - what stands behind SFC: "UNTIL STABLE", "IN ORDER", "". Lives for
- * ever. Scan-safe: yes. */
+/** sfc_evolution_words - the words behind SFC: "UNTIL STABLE", "IN ORDER", "". Static.
+ * Scan-safe: yes. */
 const char *sfc_evolution_words(enum sfc_evolution evolution);
-/** sfc_goes_round - can it evolve more than once in a scan? Scan-safe: yes. */
-bool sfc_goes_round(const struct sfc *sfc);
-/** sfc_rests_at_once - does it evolve in the first scan, too, until it is stable? Scan-safe:
+/** sfc_goes_round - whether transitions may fire more than once in a scan. Scan-safe:
  * yes. */
+bool sfc_goes_round(const struct sfc *sfc);
+/** sfc_rests_at_once - whether transitions fire in the first scan, too, until the chart
+ * is stable. Scan-safe: yes. */
 bool sfc_rests_at_once(const struct sfc *sfc);
 #endif

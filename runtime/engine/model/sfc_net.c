@@ -36,7 +36,7 @@ int sfc_exit(const struct sfc *sfc, int macro)
 
 /* ---- steps ---- */
 
-/* Room for all steps, of which each is taken once. */
+/* Room for all steps; each is in a list once. */
 struct collector {
 	const struct sfc *sfc;
 	const int *entry, *exit; /* by macro-step                              */
@@ -59,7 +59,7 @@ static bool add(struct collector *c, struct sfc_steps *steps, int step)
 	return slot;
 }
 
-/* @step, and what is active with it at its way in or out. */
+/* Adds @step and the steps that are active with it when it is entered or left. */
 static void add_inside(struct collector *c, struct sfc_steps *steps, int step,
 		       const int *inside)
 {
@@ -116,7 +116,7 @@ static void put_arcs(struct collector *c, struct sfc_net *net)
 	}
 }
 
-/* Few have a priority: they go to the front, one by one. */
+/* Few transitions have a priority: moves these to the front, one by one. */
 static void sort_arcs(const struct sfc *sfc, struct sfc_net *net)
 {
 	for (int i = 1; i < net->arc_count; i++) {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_net - which steps each transition takes and gives, macro-steps resolved.
+ * sfc_net - the steps that each transition deactivates and activates, with macro-steps
+ * resolved.
  *
- * A macro-step is active together with what is inside, so it is a step of its own beside
- * its first one when it is entered, and beside its last one when it is left. What names
- * lead to nothing is left out: check/check_sfc.c says so.
+ * A macro-step is active together with what is inside, so it is a step of its own
+ * beside its first one when it is entered, and beside its last one when it is left.
+ * Names that do not exist are left out: check/check_sfc.c reports them.
  */
 #ifndef MODEL_SFC_NET_H
 #define MODEL_SFC_NET_H
@@ -21,7 +22,7 @@ struct sfc_arc {
 
 struct sfc_net {
 	struct sfc_steps initial;
-	struct sfc_arc *arc; /* the first that is true takes its steps         */
+	struct sfc_arc *arc; /* the first true one deactivates its steps       */
 	int arc_count;
 };
 
@@ -31,14 +32,14 @@ int sfc_entry(const struct sfc *sfc, int macro);
 int sfc_exit(const struct sfc *sfc, int macro);
 
 /**
- * sfc_net_make - the net of a chart that was linked
+ * sfc_net_make - the net of a chart after sfc_link()
  *
- * Owns: @arena.   Scan-safe: no.   Fails: false: no memory.
+ * Owns: @arena. Scan-safe: no. Fails: false: no memory.
  */
 bool sfc_net_make(const struct sfc *sfc, struct arena *arena, struct sfc_net *out);
 
-/** sfc_forced - the steps that are active when @step is made active alone: those around it,
- * and those in which it is entered.   As sfc_net_make(). */
+/** sfc_forced - the steps that are active when @step is made active alone: the
+ * macro-steps around it, and its first inner step. As sfc_net_make(). */
 bool sfc_forced(const struct sfc *sfc, int step, struct arena *arena,
 		struct sfc_steps *out);
 #endif

@@ -2,8 +2,8 @@
  *
  * shape - rows of a project's own words, and the order of their parts in memory.
  *
- * Parts lie by type, as variables do, so that few runs describe them; blocks and
- * structures last. A type that contains itself has no size; this reports it.
+ * Parts are ordered by type, so that few runs describe them; blocks and structures come
+ * last. A type that contains itself has no size and is an error.
  */
 #include "engine/model/shape.h"
 
@@ -18,7 +18,7 @@ struct shaper {
 	struct project *project;
 	struct diag_list *diags;
 	uint8_t *state;      /* by own word                                  */
-	int *stack, *next;   /* own words in work; the pin to look at next   */
+	int *stack, *next;   /* own words in progress; the next pin of each  */
 	int depth;
 	bool good;
 };
@@ -33,7 +33,7 @@ static bool is_block(const struct word_row *row)
 	return row->kind == WORD_FB || row->kind == WORD_FN;
 }
 
-/* The VAR_TEMP of a POU as one: a row without a name. */
+/* The VAR_TEMP of a POU as a row without a name. */
 static bool is_temps(const struct word_row *row)
 {
 	return !*row->word;
@@ -270,7 +270,7 @@ static bool place_pins(struct shaper *s, int index)
 	return true;
 }
 
-/* The next own word that must be placed before this one; -1: none. */
+/* The next own word that must be laid out before this one; -1: none. */
 static int wanted(struct shaper *s)
 {
 	const struct word_row *row = own_row(s, s->stack[s->depth - 1]);

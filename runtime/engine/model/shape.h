@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * shape - what lies where in an instance, a function's frame, a structure.
+ * shape - the memory layout of an instance, a function's frame or a structure.
  *
- * The one place that computes size, alignment and offset of what has parts. It fills
- * in the rows of a project's own words (model/words.h): a pin for each variable of
- * their tables, in that order, then one for each edge memory. Where an instance lies
- * as a whole is decided in translate/.
+ * Only this file computes size, alignment and offsets. It fills in the rows of a
+ * project's own words (model/words.h): a pin for each variable of their tables, in that
+ * order, then one for each edge memory. translate/ places whole instances.
  */
 #ifndef MODEL_SHAPE_H
 #define MODEL_SHAPE_H
@@ -16,21 +15,21 @@
 /**
  * shape_make - the rows of all words of a project, after it was read
  *
- * Asking again after an edit gives them anew.
- * Owns: the project's arena.   Scan-safe: no.
- * Fails: false after LD350 (something contains itself), LD113, LD605, LD606 or
- * LD001; the rows can be used all the same, but not to lay out memory.
+ * A call after an edit makes them again.
+ * Owns: the project's arena. Scan-safe: no.
+ * Fails: false after LD350 (something contains itself), LD113, LD605, LD606 or LD001;
+ * the rows can be used, but have no memory layout.
  */
 bool shape_make(struct project *project, struct diag_list *diags);
 
-/* Bytes of a variable or member, all elements together; from one element to the next,
- * of a single one its own; and what the offset is a multiple of. */
+/* Bytes of a variable or member with all its elements; bytes from one element to the
+ * next; alignment of the offset. */
 struct extent { uint64_t size; uint32_t unit, align; };
-/** shape_of - of what is declared like @pin: type, capacity, word and array count. */
+/** shape_of - of a variable declared like @pin: type, capacity, word and array count. */
 struct extent shape_of(const struct word_table *words, const struct word_pin *pin);
 /** shape_pin - a pin without a name that is declared like @var. */
 struct word_pin shape_pin(const struct var *var);
-/** shape_of_var - the same of a declared variable. */
+/** shape_of_var - the extent of a declared variable. */
 struct extent shape_of_var(const struct word_table *words, const struct var *var);
 /** shape_vars - the table that the word's row was made from; NULL: none. */
 const struct var_table *shape_vars(const struct project *project,

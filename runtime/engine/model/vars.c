@@ -2,7 +2,7 @@
  *
  * vars - declared variables in the order of their declaration.
  *
- * Small look-ups only; names of a whole project are found through check/scope.h.
+ * Only simple searches; check/scope.h finds the names of a whole project.
  */
 #include "engine/model/vars.h"
 
@@ -12,7 +12,7 @@ uint16_t vars_flags(const struct var_table *table, int index)
 {
 	int low = 0, high = table->block_count;
 
-	/* The last block that begins at or before @index; empty blocks begin
+	/* Finds the last block that begins at or before @index; empty blocks begin
 	 * where the next one does. */
 	while (high - low > 1) {
 		int middle = low + (high - low) / 2;
@@ -48,7 +48,7 @@ struct iec_addr vars_shift(struct iec_addr at, uint32_t element)
 	return at;
 }
 
-/* Bits from the begin of the area. */
+/* Bits from the start of the area. */
 static uint64_t bits_from(struct iec_addr addr)
 {
 	return (uint64_t)addr.byte * 8 + addr.bit;

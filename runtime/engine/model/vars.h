@@ -3,7 +3,7 @@
  * vars - declared variables, as IEC 61131-3 tables 16 to 18 have them.
  *
  * A table holds the globals of a project or the locals of a POU, in the order of
- * declaration. Where a variable lives in memory is decided in translate/.
+ * declaration. translate/ places variables in memory.
  */
 #ifndef MODEL_VARS_H
 #define MODEL_VARS_H
@@ -15,13 +15,13 @@
 enum var_flag {
 	VAR_RETAIN = 1, VAR_CONSTANT = 2, VAR_GLOBAL_WORD = 4,
 	VAR_INPUT = 8, VAR_OUTPUT = 16, VAR_IN_OUT = 32, VAR_TEMP = 64,
-	VAR_RESULT = 128,    /* of a function; stands in its heading. Behind it
-				in the same block its ENO               */
-	VAR_SFC = 256,       /* what a chart has beside them: model/sfc.h; programs
-				read it, and nothing of it stands in a file */
+	VAR_RESULT = 128,    /* the result of a function, from its heading; its ENO follows
+			      * in the same block */
+	VAR_SFC = 256,       /* variables of a chart (model/sfc.h): programs can read them;
+			      * they are not in the file */
 };
 
-/* Part of an array's initial values: so many times the same. */
+/* Part of an array's initial values: a value and its repetitions. */
 struct var_init {
 	uint32_t count;
 	union iec_value value;
@@ -44,14 +44,15 @@ struct var {
 		struct var_init *init_list; /* of an array, from its first
 					       element on                     */
 	};
-	uint32_t init_text;  /* string id: as written (16#FF stays so); of what has
-				parts all there is: model/init.h       */
+	uint32_t init_text;  /* string id: as written (16#FF stays so); for arrays of
+			      * structures, structures and instances the whole text:
+			      * model/init.h */
 	uint32_t at_text;    /* string id: canonical address                   */
 	uint32_t comment;    /* string id: trailing, with delimiters           */
 	int line;
 };
 
-/* One VAR … END_VAR; canonical files keep blocks apart. */
+/* One VAR … END_VAR; canonical files keep blocks separate. */
 struct var_block {
 	uint16_t flags;       /* enum var_flag                                  */
 	uint32_t comment;    /* above it                                       */
@@ -66,24 +67,24 @@ struct var_table {
 	int block_count;
 };
 
-/** vars_flags - of the block that var number @index stands in. */
+/** vars_flags - of the block that contains variable @index. */
 uint16_t vars_flags(const struct var_table *table, int index);
-/** vars_is_eno - the BOOL that a function's body may set, which is declared nowhere?
+/** vars_is_eno - whether it is the implicit ENO that a function's body may set.
  * Scan-safe: yes. */
 bool vars_is_eno(const struct var_table *table, int index);
-/** vars_declared - how many of its variables stand in the file, which are the first:
- * without those that a chart brings. Scan-safe: yes. */
+/** vars_declared - number of variables in the file, which come first; without those that
+ * a chart adds. Scan-safe: yes. */
 int vars_declared(const struct var_table *table);
-/** vars_head - the word that a block with these flags begins with: VAR_INPUT. */
+/** vars_head - the first word of a block with these flags: VAR_INPUT. */
 const char *vars_head(uint16_t flags);
 /** var_unit - bytes from one element to the next; without an array the size. Not of
  * an instance. */
 uint32_t var_unit(const struct var *var);
-/** var_bytes - what it takes in data memory, all elements together. */
+/** var_bytes - its size in data memory, with all elements. */
 uint32_t var_bytes(const struct var *var);
 /** vars_shift - the address of element @element, 0-based, behind @at. */
 struct iec_addr vars_shift(struct iec_addr at, uint32_t element);
-/** var_lies_on - has it, or one of its elements, a bit of the address? */
+/** var_lies_on - whether it, or one of its elements, has a bit of the address. */
 bool var_lies_on(const struct var *var, struct iec_addr addr);
 /** var_element - index @index as the number of an element, 0-based; -1: there is
  * none. */
@@ -91,10 +92,10 @@ int64_t var_element(struct var_array array, int64_t index);
 /** vars_find - index by folded name, -1: none. Linear in small tables; large
  * ones are looked up through struct scope (check/scope.h). */
 int vars_find(const struct var_table *table, uint32_t fold);
-/** vars_push - a variable behind the last one of a block; those behind it get other
- * numbers.   Scan-safe: no.   Fails: false: no memory, nothing changed. */
+/** vars_push - adds a variable at the end of a block; later variables get other numbers.
+ * Scan-safe: no. Fails: false: no memory, nothing changed. */
 bool vars_push(struct var_table *table, int block, const struct var *var,
 	       struct arena *arena);
-/** vars_pop - the last one of a block, which must have one, is no more. Scan-safe: no. */
+/** vars_pop - removes the last variable of a block, which has one. Scan-safe: no. */
 void vars_pop(struct var_table *table, int block);
 #endif

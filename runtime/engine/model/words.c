@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * words - rows of a project beside those of the catalogue.
+ * words - the rows of a project beside those of the catalogue.
  *
- * It keeps and finds rows; what is in them comes from whoever reads declarations.
+ * It keeps and finds rows; readers of declarations fill them.
  */
 #include "engine/model/words.h"
 #include "engine/base/ascii.h"
@@ -98,7 +98,7 @@ const struct word_row *words_row(const struct word_table *table, enum word word)
 	return own ? own : word_row(word);
 }
 
-/* At its first use. */
+/* Made at the first use. */
 static enum word find_made(struct word_table *table, const char *text, size_t len)
 {
 	struct convert_word probe, *kept;
@@ -159,8 +159,8 @@ enum word words_find(struct word_table *table, const char *text, size_t len)
 
 const char *words_explain(const struct word_row *row)
 {
-	/* A row with the number of one of the catalogue that is not this one was made
-	 * of it, and is part of more. */
+	/* A made row has the number of its catalogue row, but is another struct; it
+	 * begins a struct convert_word. */
 	if (row->number < WORD_COUNT && row != word_row(row->number))
 		return ((const struct convert_word *)row)->doc;
 	return explain_word(row);

@@ -2,10 +2,9 @@
  *
  * words - the words of a project: those of the catalogue, and its own.
  *
- * A function, function block or structure of the project has a row like any word
- * of catalog.def, so that checks, translation and drawings work from a row and need
- * not ask whose it is. Numbers up to WORD_COUNT are the catalogue's and cost what
- * they did. Rows never move and are never taken away.
+ * A function, function block or structure of the project has a row like any word of
+ * catalog.def, so that checks, translation and drawings treat both alike. Numbers up to
+ * WORD_COUNT are the catalogue's. Rows never move and are never removed.
  */
 #ifndef MODEL_WORDS_H
 #define MODEL_WORDS_H
@@ -14,7 +13,7 @@
 #include "engine/base/catalog.h"
 
 #define WORD_FIRST_OWN (WORD_COUNT + 1) /* WORD_COUNT itself is no word      */
-/* Behind all own words those made by rule: INT_TO_REAL (model/convert.h). */
+/* Words made by rule follow all own words: INT_TO_REAL (model/convert.h). */
 #define WORD_FIRST_MADE (WORD_FIRST_OWN + LIMIT_OWN_WORDS)
 
 struct word_table {
@@ -27,14 +26,14 @@ struct word_table {
 	uint32_t mask;
 };
 
-/** words_init - the catalogue alone. Owns: @arena, what is added later. */
+/** words_init - the catalogue only. @arena owns rows that are added. */
 void words_init(struct word_table *table, struct arena *arena);
 
 /**
  * words_add - a row of the project's own
  * @row: its texts and pins must live as long as the arena; its word is its name
  *
- * Two of one name are both kept; the first is found. Scan-safe: no.
+ * Of two rows with one name both are kept; searches find the first. Scan-safe: no.
  * Fails: WORD_COUNT when memory is out or there are too many.
  */
 enum word words_add(struct word_table *table, struct word_row row);
@@ -47,16 +46,15 @@ const struct word_row *words_row(const struct word_table *table, enum word word)
  * works on (TON_LTIME, CTU_INT). WORD_COUNT: none. */
 enum word words_find(struct word_table *table, const char *text, size_t len);
 
-/** words_find_short - the block of a name such as TON_LTIME or CTU_INT, which says the
- * type that it has anyway; WORD_COUNT: none. Scan-safe: no. */
+/** words_find_short - the block of a name such as TON_LTIME or CTU_INT, which names the
+ * only type it has; WORD_COUNT: none. Scan-safe: no. */
 enum word words_find_short(const char *text, size_t len);
 
-/** words_explain - what a row of any of them does; "" of one of the project. Lives for
- * ever. */
+/** words_explain - the explanation of a row; "" for one of the project. Static. */
 const char *words_explain(const struct word_row *row);
 
-/** words_is_taken - do cells or lists have this word already, perhaps with C or N
- * behind it? Nothing of a project can be called so. Scan-safe: yes. */
+/** words_is_taken - whether cells or lists use this word, perhaps with C or N behind it.
+ * It cannot be a name in a project. Scan-safe: yes. */
 bool words_is_taken(const char *name);
 
 /** word_is_own - declared in the project. */
