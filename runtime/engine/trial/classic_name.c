@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_name - rows of import/classic.def, the other way round.
+ * classic_name - finds a variable by its name in ClassicLadder, with the rows of
+ * classic.def.
  */
 #include "engine/trial/classic_name.h"
 
@@ -83,7 +84,7 @@ static struct location find_memory(const struct image *image, const struct parts
 	return (struct location){ .type = IEC_NONE };
 }
 
-/* "TM0.V", or of a block that has a symbol "TM0_Pause.V". */
+/* "TM0.V", or "TM0_Pause.V" for a block with a symbol. */
 static struct location find_pin(const struct image *image, const struct pin_row *row,
 				long number)
 {
@@ -111,8 +112,8 @@ static struct location find_pin(const struct image *image, const struct pin_row 
 	return at;
 }
 
-/* There, blocks and steps that nothing uses are there all the same, and are 0: a place of
- * the system area that nobody writes. */
+/* In ClassicLadder all blocks and steps exist; unused ones are 0. This is a place of
+ * the system area that is never written. */
 static struct location nothing(const struct image *image, bool is_bool)
 {
 	const char *address = is_bool ? "%SMX56.0" : "%SMD56";

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_name - what a variable of ClassicLadder (%B3, %TM0.V, %X2.A) is called in a
- * program that was imported from it.
+ * classic_name - finds variables of an imported program by their names in ClassicLadder
+ * (%B3, %TM0.V, %X2.A).
  *
- * The names that an import gives are made so that they can be found again: bits and words
- * have fixed addresses, blocks and steps begin with their old name. Other names of such a
- * program win.
+ * An import gives names that allow this: bits and words have fixed addresses, names of
+ * blocks and steps begin with their old name. A name that the program has itself takes
+ * precedence.
  */
 #ifndef TRIAL_CLASSIC_NAME_H
 #define TRIAL_CLASSIC_NAME_H
 
 #include "engine/scan/image.h"
 
-/** classic_name_find - the variable; IEC_NONE: it is no such name, or nothing has it.
+/** classic_name_find - the variable; IEC_NONE: not such a name, or no variable for it.
  * Scan-safe: no. */
 struct location classic_name_find(const struct image *image, const char *name, size_t len);
 #endif

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * formula - expressions of scenarios. One pass over terms that stand in order,
- * so there is no recursion whatever a file holds. It writes nothing to the
- * image.
+ * formula - expressions of scenarios. One pass over the terms in order, without
+ * recursion, so that a hostile file cannot exhaust the stack. The image is not changed.
  */
 #include "engine/trial/formula.h"
 
@@ -91,7 +90,7 @@ static bool take_literal(struct formula_term *term, const char *text,
 	return true;
 }
 
-/* @tail: the path behind its index. */
+/* @tail: the path behind the index. */
 static bool take_array(const struct image *image, const char *text, size_t len,
 		       struct expr_tail tail, struct formula_term *term)
 {
@@ -114,7 +113,7 @@ static bool take_array(const struct image *image, const char *text, size_t len,
 	return true;
 }
 
-/* The first index in a name that is no number; NULL: there is none. */
+/* The first index in a name that is not a number; NULL: none. */
 static const char *open_index(const char *at, const char *end)
 {
 	while (at < end && (at = memchr(at, '[', (size_t)(end - at)))) {
@@ -128,7 +127,7 @@ static const char *open_index(const char *at, const char *end)
 	return NULL;
 }
 
-/* `Table[i]`, `Recipes[i].Speed`: an index that is read each time. */
+/* `Table[i]`, `Recipes[i].Speed`: the index is read at each evaluation. */
 static bool take_element(const struct image *image, const struct expr_node *from,
 			 struct formula_term *term, enum diag_id *why)
 {
@@ -200,7 +199,7 @@ static bool is_number(uint8_t kind)
 	return kind == KIND_BOOL || kind == KIND_INT || kind == KIND_REAL;
 }
 
-/* What ADD and SUB are on times and dates, MUL and DIV on a time and a number:
+/* Result kinds of ADD and SUB with times and dates, MUL and DIV of a time and a number:
  * IEC 61131-3 table 30. */
 static bool join_times(struct formula_term *term, uint8_t left, uint8_t right)
 {
@@ -218,7 +217,7 @@ static bool join_times(struct formula_term *term, uint8_t left, uint8_t right)
 	       (term->fn == FN_ADD || term->fn == FN_SUB);
 }
 
-/* The kind of an operation on two kinds; false: they do not go together. */
+/* The kind of an operation on two kinds; false: not allowed. */
 static bool join_kinds(struct formula_term *term, uint8_t left, uint8_t right)
 {
 	bool real = left == KIND_REAL || right == KIND_REAL;
@@ -259,8 +258,8 @@ static bool take_operation(const struct formula *formula,
 	return left->kind == KIND_BOOL && right->kind == KIND_BOOL;
 }
 
-/* The text to blame for an operation: of its first operand, or of the second
- * if that alone is not BOOL and has to be. */
+/* The text for an error in an operation: its first operand, or the second if only that
+ * is not a required BOOL. */
 static const struct expr_node *blame(const struct formula *formula,
 				     const struct expr *expr, int at,
 				     enum diag_id why)
@@ -346,7 +345,7 @@ static double as_real(const struct formula_term *term)
 	return term->wide ? (double)(uint64_t)term->value.i : (double)term->value.i;
 }
 
-/* <0, 0, >0; above INT64_MAX stands what is unsigned and has its top bit set. */
+/* <0, 0, >0; unsigned values with the top bit set are above INT64_MAX. */
 static int order_of(const struct formula_term *left, const struct formula_term *right)
 {
 	int64_t a = left->value.i, b = right->value.i;
@@ -482,7 +481,7 @@ static bool evaluate(struct formula *formula, struct formula_term *term,
 		term->value = image_get(term->plant ? formula->plant : image, term->at);
 		return true;
 	case EXPR_LITERAL:
-	case EXPR_CALL: /* taken by none */
+	case EXPR_CALL: /* used by no operator */
 	case EXPR_ARG:
 		return true;
 	case EXPR_INDEX:

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * plant - which inputs a plant sets, which variables it stores to, and the exchange of
- * bytes with its program.
+ * plant - finds the inputs that a plant sets, and exchanges bytes with its program.
  */
 #include "engine/trial/plant.h"
 
@@ -23,7 +22,7 @@ const struct plant_pair plant_pairs[PLANT_PAIRS] = {
 	{ AREA_XQ, AREA_XI }, { AREA_XAQ, AREA_XAI },
 };
 
-/* ---- what it gives ---- */
+/* ---- inputs that it sets ---- */
 
 struct find {
 	const struct areas *here;  /* of the program                          */
@@ -57,7 +56,7 @@ static void drive_memory(const struct find *find, uint64_t bit, uint64_t bits)
 		      bits < UINT32_MAX ? (uint32_t)bits : UINT32_MAX);
 }
 
-/* What its rungs write without a name. */
+/* The stores of its instructions, without names. */
 static void drive_store(void *context, const struct store *store)
 {
 	drive_memory(context, store->bit, store->bits);
@@ -107,8 +106,8 @@ static void take_bit(const struct visit *visit, const uint32_t *at, uint32_t n)
 	visit->take(visit->context, &store);
 }
 
-/* All elements that the indices at @dimension could lead to, each of @size; both in
- * units of @unit bits. */
+/* All elements that the indices from @dimension on can select, each of @size; in units
+ * of @unit bits. */
 static void take_elements(const struct visit *visit, uint64_t first, uint64_t size,
 			  const uint32_t *dimension, uint32_t count, uint32_t unit)
 {
@@ -188,8 +187,8 @@ static void visit_code(const struct visit *visit, const uint32_t *code)
 	}
 }
 
-/* All that CODE_TEXT writes, in its order. What a called block keeps in its
- * instance is one store. Scan-safe: no. */
+/* All stores of CODE_TEXT, in order. A call of a block is one store to its whole
+ * instance. Scan-safe: no. */
 static void stores_each(const struct program *program,
 			void (*take)(void *context, const struct store *store), void *context)
 {
@@ -235,7 +234,7 @@ void plant_find(const struct image *plant, const struct areas *areas, uint8_t *d
 	find_used(&find, plant->program);
 }
 
-/* ---- its turn ---- */
+/* ---- a turn ---- */
 
 static uint32_t least(uint32_t a, uint32_t b)
 {
@@ -279,7 +278,7 @@ void plant_turn(struct resource *plant, const uint8_t *drives, struct image *pro
 	from_plant(&plant->image, drives, program);
 }
 
-/* ---- by itself ---- */
+/* ---- a plant with its own resource ---- */
 
 bool plant_init(struct plant *plant, const struct program *program,
 		const struct program *beside)

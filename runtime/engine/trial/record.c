@@ -2,8 +2,8 @@
  *
  * record - frames of a twin's state in a ring, each with the acts until the next one.
  *
- * A frame is the state right after a scan. Acts that were done after that very scan stand
- * in it, too, and come before the next scan.
+ * A frame is the state right after a scan. Acts after that scan are stored in the
+ * frame, too, and are repeated before the next scan.
  */
 #include "engine/trial/record.h"
 
@@ -12,30 +12,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define APART_LEAST 16 /* scans from frame to frame: a copy should cost less than they */
-#define BLOCK 16       /* bytes that the system takes for a block of memory  */
+#define APART_LEAST 16 /* scans between frames: a copy should cost less */
+#define BLOCK 16       /* overhead of a block of malloc()                    */
 
 struct done {
 	uint64_t after;
 	struct act act;
-	struct iec_string *text; /* its own; NULL: the value is no text       */
+	struct iec_string *text; /* owned copy; NULL: the value is no text    */
 };
 struct frame {
 	uint64_t scan;
-	uint8_t *state;          /* trial/keep.h: beside the record's base    */
+	uint8_t *state;          /* difference from the record's base         */
 	size_t size;
 	struct done *done;
 	size_t count, room;
 };
 struct record {
-	struct twin base;        /* as it was when the record began           */
+	struct twin base;        /* the state when the record began           */
 	struct frame *frame;     /* a ring                                    */
 	size_t first, count, room;
 	uint64_t last;           /* scan that was recorded last               */
-	uint64_t serial;         /* another one whenever it begins anew       */
-	uint64_t scans;          /* that should be kept                       */
+	uint64_t serial;         /* a new number whenever it begins anew      */
+	uint64_t scans;          /* number to keep                            */
 	size_t bytes, most;      /* of frames, acts and texts                 */
-	uint8_t *scratch;        /* where a state is put before its size is known */
+	uint8_t *scratch;        /* buffer for a state of unknown size */
 	size_t scratch_size;
 };
 
@@ -89,9 +89,9 @@ static bool make_room(struct record *record)
 
 struct times { int64_t now_ns, period_ns; uint64_t scan; };
 
-/* ---- a twin ---- */
+/* ---- the state of a twin ---- */
 
-/* Those of the plant lie behind those of the program. */
+/* With that of the plant, which follows the program's. */
 static size_t memory_of(const struct twin *twin)
 {
 	return twin->memory_size + twin->plant_size;
@@ -100,11 +100,11 @@ static size_t memory_of(const struct twin *twin)
 /* Bytes that a state takes at most.   Scan-safe: yes. */
 static size_t keep_most(const struct twin *twin)
 {
-	/* Forces are in the two resources. */
+	/* Both resources contain their forces. */
 	const size_t size = memory_of(twin) + 2 * sizeof(twin->resource) +
 			    sizeof(struct times);
 
-	/* A byte for a word and one for a run; words that are not whole. */
+	/* A byte for each word and each run; incomplete words. */
 	return size + size / 4 + 4 * 8 * LIMIT_FORCES;
 }
 
@@ -147,7 +147,7 @@ static uint8_t *put_word(uint8_t *to, uint64_t differs, unsigned kind)
 	return to;
 }
 
-/* Words of a kind, from @at on. */
+/* Writes the words from @at on that are of the same kind. */
 static uint8_t *put_run(uint8_t *to, const uint8_t *a, const uint8_t *b, size_t size,
 			size_t *at)
 {
@@ -177,11 +177,11 @@ static uint8_t *put(uint8_t *to, const void *a, const void *b, size_t size)
 	return to;
 }
 
-/* The state of a resource but for the forces that it could have, and does not. */
+/* The size of a resource's state without unused entries for forces. */
 #define FORCES_AT (offsetof(struct resource, image) + offsetof(struct image, force))
 #define BEHIND_AT (FORCES_AT + sizeof(((struct image *)0)->force))
 
-/* ---- a resource ---- */
+/* ---- the state of a resource ---- */
 
 static const struct force no_force;
 
@@ -197,8 +197,8 @@ static uint8_t *put_resource(uint8_t *to, const struct resource *a,
 	return to;
 }
 
-/* The state of @twin at @to, as it differs from @base
- * @to: keep_most() bytes   Returns how many it took.   Scan-safe: as twin_copy(). */
+/* Writes the difference between @twin and @base to @to
+ * @to: keep_most() bytes Returns the bytes written. Scan-safe: as twin_copy(). */
 static size_t keep_put(const struct twin *twin, const struct twin *base, uint8_t *to)
 {
 	const struct times now = { twin->now_ns, twin->period_ns, twin->scan };
@@ -213,7 +213,7 @@ static size_t keep_put(const struct twin *twin, const struct twin *base, uint8_t
 	return (size_t)(at - to);
 }
 
-/* The state of @twin, as long as it is; NULL: no memory. */
+/* The state of @twin in a block of its size; NULL: no memory. */
 static uint8_t *put_state(struct record *record, const struct twin *twin, size_t *size)
 {
 	const size_t most = keep_most(twin);
@@ -253,7 +253,7 @@ static bool add_frame(struct record *record, const struct twin *twin)
 	return true;
 }
 
-/* Without memory even for one frame it is empty until there is some. */
+/* If there is no memory for one frame, it is empty until there is some. */
 static bool begin_anew(struct record *record, const struct twin *twin)
 {
 	while (record->count)
@@ -317,7 +317,7 @@ static struct frame *last_frame(const struct record *record)
 	return record->count ? frame_at(record, record->count - 1) : NULL;
 }
 
-/* The act with a text of its own. */
+/* Copies the text of the act. */
 static bool own_text(struct record *record, struct done *done)
 {
 	const struct iec_string *text = done->act.value.s;
@@ -345,8 +345,8 @@ bool record_act(struct record *record, const struct twin *twin, const struct act
 	return true;
 }
 
-/* Scans from a frame to the next: in proportion to what it takes, so that as many scans
- * fit as shall be kept, whatever their states look like. Acts may take as much again. */
+/* Scans from a frame to the next: proportional to the size of the frame, so that the
+ * wanted number of scans fits into memory. Acts may take as much memory as frames. */
 static uint64_t apart(const struct record *record, const struct frame *frame)
 {
 	const uint64_t size = frame->size + 2 * BLOCK + sizeof(*frame);
@@ -393,7 +393,7 @@ uint64_t record_apart(const struct record *record)
 	return record->count ? apart(record, last_frame(record)) : APART_LEAST;
 }
 
-/* ---- looking ---- */
+/* ---- reading ---- */
 
 bool replay_init(struct replay *replay, const struct record *record)
 {
@@ -407,7 +407,7 @@ void replay_free(struct replay *replay)
 	replay->serial = 0;
 }
 
-/* The last one that is not behind @scan, which the record reaches. */
+/* The last frame at or before @scan, which is in the record. */
 static const struct frame *frame_of(const struct record *record, uint64_t scan)
 {
 	size_t low = 0, high = record->count;
@@ -428,7 +428,7 @@ static bool reaches(const struct record *record, uint64_t scan)
 	return record->count && scan >= record_first(record) && scan <= record->last;
 }
 
-/* False: one could not be done now, for want of memory. */
+/* False: an act could not be repeated, as memory is out. */
 static bool do_again(struct twin *twin, const struct frame *frame)
 {
 	size_t low = 0, high = frame->count;
@@ -460,7 +460,7 @@ bool replay_next(struct replay *replay, const struct record *record)
 		if (twin->scan != before)
 			return true;
 	}
-	replay->serial = 0; /* it is half on its way: of no scan */
+	replay->serial = 0; /* its state is between two scans */
 	return false;
 }
 
@@ -509,7 +509,7 @@ static const uint8_t *get_resource(const uint8_t *from, struct resource *out,
 	return from;
 }
 
-/* The state at @from into @twin. @base: as it was when it was put.
+/* Restores the state at @from to @twin. @base: the same as in keep_put().
  * Scan-safe: as twin_copy(). */
 static void keep_get(struct twin *twin, const struct twin *base, const uint8_t *from)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenario - runs the steps of a scenario in virtual time and reports what did
- * not hold. It decides nothing else: a program that prints TAP is around it.
+ * scenario - runs the steps of a scenario in virtual time and reports failures. The
+ * caller prints TAP.
  */
 #include "engine/trial/scenario.h"
 
@@ -17,8 +17,8 @@ struct run {
 	const struct sink *out;
 	int64_t now_ns;
 	uint64_t scan;
-	int next;             /* first step whose time has not come           */
-	int first_open;       /* no open step stands before it                */
+	int next;             /* first step whose time is still to come       */
+	int first_open;       /* all steps before it are decided              */
 	bool held;
 };
 
@@ -38,7 +38,7 @@ static void scan(struct run *run)
 	resource_scan(run->resource, run->now_ns);
 }
 
-/* One earlier scan, with the variables that @formula speaks of. */
+/* An earlier scan, with the variables of @formula. */
 static void print_scan(const struct run *run, const struct formula *formula,
 		       uint64_t scan)
 {
@@ -83,7 +83,7 @@ const char *scenario_failure_text(enum scenario_failure failure)
 	return text[failure];
 }
 
-/* "# door.scn:7: at 50 ms: not true: ". @step: NULL: of no step. */
+/* Prints "# door.scn:7: at 50 ms: not true: ". @step: NULL: no step. */
 static void fail(struct run *run, const struct scenario_step *step,
 		 enum scenario_failure failure)
 {
@@ -135,7 +135,7 @@ static void apply(struct run *run, const struct scenario_step *step)
 		report(run, step, FAILURE_RANGE);
 }
 
-/* Settings that are due act; expectations that are due are open from now on. */
+/* Executes settings that are due; expectations that are due are open from now on. */
 static void begin_scan(struct run *run)
 {
 	struct scenario *scenario = run->scenario;
@@ -307,7 +307,7 @@ bool scenario_run(const struct scenario_file *file, int index,
 	return run.held;
 }
 
-/* A setting that cannot be done is left out, as in a run. */
+/* A setting that fails is left out, as in a run. */
 static void act(const struct scenario_step *step, struct twin *twin,
 		void (*take)(void *context, uint64_t after, const struct act *act),
 		void *context)
@@ -368,7 +368,7 @@ bool scenario_is_plant(const struct lex *lex)
 
 bool scenario_plant_token(const char *text, size_t len, struct token *out)
 {
-	bool first = true; /* of its line */
+	bool first = true; /* offset in its line */
 	struct lex lex;
 
 	lex_init(&lex, text, len);

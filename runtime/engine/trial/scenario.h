@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenario - what a program must do, in words of the person who ordered it.
+ * scenario - tests of a program in virtual time.
  *
  *   scenario "stop wins over start"        # any number in a file
  *     period 10ms                          # if not said: of the tasks, or 10ms
  *     plant "door.plant.rung"              # before the first scenario: of all
  *     at 0ms     Open = 1, Stop = 0        # before the first scan at t >= 0
- *     at 20ms    expect Motor = 1          # looked at after that scan
+ *     at 20ms    expect Motor = 1          # checked after that scan
  *     at 1s      Stop = 1
  *     within 10ms expect Motor = 0         # in a scan of [1s, 1s + 10ms]
  *     for 2s     expect Motor = 0          # in every scan of [1s, 1s + 2s)
  *     always     not (Up and Down)         # after every scan of the scenario
  *     never      Heater and not Fan
  *
- * One statement a line, indented as you like; words in any case; comments
- * behind `#` or `//` or in (* *). Lines without `at` belong to the `at` before
- * them, those before the first one to 0; times must not go back. The first
- * scan is at t = period; a scenario ends when all is decided.
+ * One statement a line, with any indentation; words in any case; comments behind `#` or
+ * `//` or in (* *). Lines without `at` belong to the `at` before them, those before the
+ * first one to 0; times must not go back. The first scan is at t = period; a scenario
+ * ends when all expectations are decided.
  */
 #ifndef TRIAL_SCENARIO_H
 #define TRIAL_SCENARIO_H
@@ -34,12 +34,12 @@ enum scenario_verb {
 	VERB_SET, VERB_EXPECT, VERB_WITHIN, VERB_FOR, VERB_ALWAYS, VERB_NEVER,
 };
 
-/* Why one did not hold. */
+/* Why an expectation failed. */
 enum scenario_failure {
 	FAILURE_FALSE, FAILURE_UNKNOWN, FAILURE_RANGE, FAILURE_PROGRAM, FAILURE_PLANT,
 	FAILURE_COUNT
 };
-/** scenario_failure_text - "not true", "the program stopped with a fault". Lives for ever. */
+/** scenario_failure_text - "not true", "the program stopped with a fault". Static. */
 const char *scenario_failure_text(enum scenario_failure failure);
 
 struct scenario_step {
@@ -64,17 +64,17 @@ struct scenario_watch {
 struct scenario {
 	const char *name;        /* in the arena, without its quotes          */
 	int line;
-	int64_t period_ns;       /* 0: not said yet                           */
-	bool with_plant;         /* the plant of its file is beside it        */
+	int64_t period_ns;       /* 0: not given yet                          */
+	bool with_plant;         /* it runs with the plant of its file        */
 	struct scenario_step *step;
 	int step_count;
-	struct scenario_watch *watch; /* variables that expectations speak of */
+	struct scenario_watch *watch; /* variables in expectations */
 	int watch_count;
-	int failed_line;         /* of the last run: where it failed first; 0: it held */
-	uint64_t failed_scan;    /* and when                                  */
+	int failed_line;         /* of the last run: the step that failed first; 0: passed */
+	uint64_t failed_scan;    /* time of the failure                       */
 	int64_t failed_ns;
-	enum scenario_failure failure; /* and why                             */
-	const struct scenario_step *failed_step; /* NULL: a fault             */
+	enum scenario_failure failure; /* reason of the failure               */
+	const struct scenario_step *failed_step; /* value that failed; NULL: a fault */
 };
 
 struct scenario_file {
@@ -82,21 +82,21 @@ struct scenario_file {
 	const struct image *plant; /* borrowed; or NULL                       */
 	struct scenario *scenario;
 	int count;
-	const bool *stop;        /* set by the caller after reading, or NULL: when it
-				    is true, a run ends and has failed        */
+	const bool *stop;        /* set by the caller after reading, or NULL: when it is
+				  * true, a run ends and fails */
 };
 
 /**
- * scenario_find_plant - the plant that a scenario file names, before it can be read
- * @out: gets the name as it is written, the path of a rung file from the scenario file's
- * folder   @place: of it, for diagnostics
+ * scenario_find_plant - the plant that a scenario file names, before scenario_read()
+ * @out: gets the name as it is written, the path of a rung file from the scenario
+ *       file's folder   @place: of it, for diagnostics
  *
- * Owns: @arena.   Scan-safe: no.   Fails: NULL: it names none (or there is no memory).
+ * Owns: @arena. Scan-safe: no. Fails: NULL: it names none (or there is no memory).
  */
 const char *scenario_find_plant(const char *file, const char *text, size_t len,
 				struct arena *arena, struct diag *place);
-/** scenario_plant_token - the name in it, with its quotes; false: there is none.
- * scenario_is_plant - does the statement at @lex name a plant? Scan-safe: no. */
+/** scenario_plant_token - the quoted name in the text; false: none.
+ * scenario_is_plant - whether the statement at @lex names a plant. Scan-safe: no. */
 bool scenario_plant_token(const char *text, size_t len, struct token *out);
 bool scenario_is_plant(const struct lex *lex);
 /**
@@ -118,26 +118,26 @@ bool scenario_read(const char *file, const char *text, size_t len,
 /**
  * scenario_run - runs one scenario from a cold start
  * @resource: of the same program; it is started here
- * @plant:    whose image was read with, or NULL; it is started, too, if the scenario
- *            has one
- * @out:      gets a report of what failed, each line with `# ` before it
+ * @plant: the one whose image was used for reading, or NULL; started if the scenario
+ *         has one
+ * @out: gets a report of failures, each line begins with `# `
  *
- * Returns whether everything held.   Scan-safe: no.
+ * Returns whether everything passed. Scan-safe: no.
  */
 bool scenario_run(const struct scenario_file *file, int index,
 		  struct resource *resource, struct plant *plant,
 		  const struct sink *out);
 
 /**
- * scenario_each_act - what a scenario does, up to a scan
+ * scenario_each_act - the acts of a scenario, up to a scan
  * @file:  read with the images of @twin
  * @twin:  of the same program, with the plant if the scenario has one; initialised,
  *         nothing else; it runs here
  * @scans: how many
- * @take:  gets each act, with the scan after which it is done; what it points to is
- *         borrowed until it returns
+ * @take: gets each act, with the number of the scan before it; its pointers are valid
+ *        until it returns
  *
- * Scan-safe: no.   Fails: false: the twin cannot run so far.
+ * Scan-safe: no. Fails: false: the twin cannot run that far.
  */
 bool scenario_each_act(const struct scenario_file *file, int index, struct twin *twin,
 		       uint64_t scans,

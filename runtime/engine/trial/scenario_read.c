@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenario_read - scenario files to steps. It finds every error it can, a line
- * each, and runs nothing.
+ * scenario_read - reads scenario files. It reports at most one error a line and goes
+ * on.
  */
 #include "engine/scan/task.h"
 #include "engine/trial/scenario.h"
@@ -14,7 +14,7 @@ struct reader {
 	const struct image *image;
 	const struct image *plant; /* NULL: none was given                    */
 	struct token plant_name;   /* the first one; with its quotes          */
-	bool with_plant;           /* named before the first scenario         */
+	bool with_plant;           /* before the first scenario: of all       */
 	struct arena *arena;
 	struct diag_list *diags;
 	struct scenario_file *out;
@@ -22,7 +22,7 @@ struct reader {
 	struct expr *expr;         /* scratch                                 */
 	struct lex lex;
 	int64_t at_ns;
-	const char *statement;     /* where it begins                         */
+	const char *statement;     /* line of its heading                     */
 	int line;
 	bool spoiled;              /* this scenario has an error              */
 };
@@ -55,7 +55,7 @@ static bool complain_here(struct reader *reader, enum diag_id id)
 			token->len < 60 ? (int)token->len : 60, token->text);
 }
 
-/* `#` opens a comment: what follows is not for the lexer. */
+/* `#` begins a comment, which the lexer does not know. */
 static void drop_comment(struct lex *lex)
 {
 	if (lex->token.kind != TOKEN_SYMBOL || !lex_is(lex, "#"))
@@ -95,7 +95,7 @@ static bool take_time(struct reader *reader, int64_t *ns)
 	enum literal_result result =
 		value_parse_time(token->text, token->len, 0, ns);
 
-	/* 0 is 0 in any unit. */
+	/* 0 needs no unit. */
 	if (result == LITERAL_BAD && token->len == 1 && *token->text == '0') {
 		result = LITERAL_OK;
 		*ns = 0;
@@ -108,7 +108,7 @@ static bool take_time(struct reader *reader, int64_t *ns)
 	return true;
 }
 
-/* What is beside this scenario. */
+/* The plant of this scenario. */
 static const struct image *plant_of(const struct reader *reader)
 {
 	return reader->scenario && reader->scenario->with_plant ? reader->plant : NULL;
@@ -130,7 +130,7 @@ static struct formula *take_formula(struct reader *reader)
 			   line_start, reader->diags, place);
 }
 
-/* Texts change where they stand: room for those that were. */
+/* Room for the changed texts of constants. */
 static bool own_texts(struct reader *reader, struct scenario_watch *watch)
 {
 	uint16_t capacity = image_get(watch->plant ? reader->plant : reader->image,
@@ -243,7 +243,7 @@ static bool check_setting(struct reader *reader, const struct token *name,
 			name->len < 60 ? (int)name->len : 60, name->text);
 }
 
-/* `[3]` behind the name of what is set belongs to it, and `.Speed` behind that. */
+/* `[3]` and `.Speed` behind the name of a variable that is set. */
 static bool take_index(struct reader *reader, struct token *name)
 {
 	struct lex *lex = &reader->lex;
@@ -324,7 +324,7 @@ static bool take_span(struct reader *reader, enum scenario_verb verb)
 	return take_expect(reader, verb, span_ns);
 }
 
-/* What may stand behind `at T` or alone. */
+/* Statements behind `at T` or alone. */
 static bool take_action(struct reader *reader)
 {
 	if (accept(reader, "expect"))
@@ -367,7 +367,7 @@ static bool take_period(struct reader *reader)
 	return true;
 }
 
-/* It was read before; here it says which scenarios it is beside. */
+/* The plant is loaded already; the statement says which scenarios use it. */
 static bool take_plant(struct reader *reader)
 {
 	struct scenario *scenario = reader->scenario;
@@ -386,8 +386,8 @@ static bool take_plant(struct reader *reader)
 	return true;
 }
 
-/* A scenario that would not end in a lifetime is refused, and so is one that
- * expects nothing: it would always be good. */
+/* A scenario that would run for too long is refused; so is one without expectations, as
+ * it would always pass. */
 static void close_scenario(struct reader *reader)
 {
 	struct scenario *scenario = reader->scenario;
@@ -494,7 +494,7 @@ static bool check_utf8(struct reader *reader, const char *text, size_t len)
 	return diag_add(reader->diags, place, "%s", "");
 }
 
-/* To the end of the line that an error spoils. */
+/* Skips the rest of a line with an error. */
 static void skip_line(struct reader *reader)
 {
 	while (!at_end(reader))

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * script - stimulus scripts. Each is read twice by the same code: once to find
- * all its errors, once to run. It keeps nothing of a line but four numbers.
+ * script - stimulus scripts. The same code reads each twice: first to find errors, then
+ * to run it.
  */
 #include "engine/trial/script.h"
 #include "engine/trial/value.h"
@@ -25,10 +25,10 @@ struct script {
 	struct trace *trace;
 	struct diag_list *diags;
 	bool dry;             /* find errors only                            */
-	bool scanned;         /* a scan stands above this line               */
+	bool scanned;         /* a line above has a scan                     */
 };
 
-/* What a line asks for besides its settings. */
+/* The scans that a line asks for. */
 struct stroke {
 	int64_t step_ns;      /* -1: a period                                */
 	int64_t repeat;
@@ -53,7 +53,7 @@ static bool next_word(struct script *script, struct script_word *word)
 		if (!quoted && (*at == ' ' || *at == '\t'))
 			break;
 		if (quoted && *at == '$' && script->end - at > 1)
-			at++; /* $' ends no text */
+			at++; /* $' is an escape, not the end */
 		else if (*at == '\'')
 			quoted = !quoted;
 	}
@@ -180,7 +180,7 @@ bool script_fault(const struct resource *resource, const char *file, int line,
 	if (place.pou && !*place.pou)
 		place.pou = NULL;
 	resource_fault_print(resource, text, sizeof(text));
-	/* Of a list the text has POU and line already. */
+	/* A list has POU and line in the text already. */
 	return place.pou && place.rung ?
 	       diag_add(diags, place, "%s" DIAG_AND "%.40s", text, place.pou) :
 	       diag_add(diags, place, "%s", text);
@@ -221,7 +221,7 @@ static void tell_halt(const struct script *script)
 	trace_note(script->trace, text, strlen(text));
 }
 
-/* The scans of one line. */
+/* Runs the scans of one line. */
 static bool run_stroke(struct script *script, const struct stroke *stroke,
 		       struct script_word first)
 {
@@ -233,7 +233,7 @@ static bool run_stroke(struct script *script, const struct stroke *stroke,
 			return complain(script, DIAG_LITERAL_RANGE, first);
 		script->now_ns += step;
 		if (script->resource->halted)
-			continue; /* until a @reset */
+			continue; /* until @reset */
 		script->scan++;
 		script->resource->period_ns = step;
 		bool good = scan(script);
@@ -340,7 +340,7 @@ static bool directive(struct script *script)
 	return good;
 }
 
-/* Goes on behind an error when dry; stops at it when not. */
+/* After an error a dry run goes on, a real run stops. */
 static bool read_lines(struct script *script, const char *text, size_t len)
 {
 	const char *at = text, *end = text + len;
@@ -369,7 +369,7 @@ static bool read_lines(struct script *script, const char *text, size_t len)
 	return good;
 }
 
-/* Control characters would reach a terminal through the trace. */
+/* A trace must not send control characters to a terminal. */
 static bool check_bytes(struct script *script, const char *text, size_t len)
 {
 	size_t bad = 0;

@@ -11,8 +11,7 @@
  *   @warm            the same, but what is VAR RETAIN keeps its value
  *   @echo text       `# text` in the trace
  *
- * The clock is a number. Nothing here waits, and a script that has an error
- * anywhere is not begun.
+ * Time is virtual. A script with an error anywhere does not start.
  */
 #ifndef TRIAL_SCRIPT_H
 #define TRIAL_SCRIPT_H
@@ -24,25 +23,25 @@
 /**
  * script_run - reads a whole script, then runs it
  * @file:      names it in diagnostics; outlives @diags
- * @period_ns: until the script says otherwise; more than 0
+ * @period_ns: until @period; more than 0
  * @resource:  freshly initialised; it is started here
  * @trace:     shows the scans; without @print it shows everything declared
  *
- * Each scan first moves the clock on, from 0, then runs at that time. Owns:
- * nothing.   Scan-safe: no. Fails: false after a diagnostic (a text error, or
- * DIAG_FAULT of the program), or, without one, when trace_stopped().
+ * Each scan first moves the clock on, from 0, then runs at that time. Owns: nothing.
+ * Scan-safe: no. Fails: false after a diagnostic (a text error, or DIAG_FAULT of the
+ * program), or, without one, when trace_stopped().
  */
 bool script_run(const char *file, const char *text, size_t len,
 		int64_t period_ns, struct resource *resource,
 		struct trace *trace, struct diag_list *diags);
 
-/** script_run_with - the same beside a plant, which is started and reset with it; a @warm
- * start it does not notice. @plant: NULL: none */
+/** script_run_with - the same with a plant, which is started and reset with the program;
+ * @warm does not change the plant. @plant: NULL: none */
 bool script_run_with(const char *file, const char *text, size_t len,
 		     int64_t period_ns, struct resource *resource, struct plant *plant,
 		     struct trace *trace, struct diag_list *diags);
 
-/** script_fault - adds the latched fault of @resource as DIAG_FAULT. False. */
+/** script_fault - adds the latched fault of @resource as DIAG_FAULT. Returns false. */
 bool script_fault(const struct resource *resource, const char *file, int line,
 		  struct diag_list *diags);
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * session - a session as a scenario. The first scan is at t = period, and `at` acts before
- * the first scan with t >= T: what is done after scan n stands at the time of scan n + 1.
+ * session - writes a session as a scenario. The first scan is at t = period, and `at T`
+ * acts before the first scan with t >= T. So an act after scan n is written at the time
+ * of scan n + 1.
  */
 #include "engine/trial/session.h"
 
@@ -13,10 +14,10 @@
 #include <string.h>
 
 #define TIME_WIDE 16 /* bytes of "  at 120ms" and blanks                          */
-#define LINE_LONG 84 /* bytes; a longer line is broken                           */
+#define LINE_LONG 84 /* bytes; longer lines are wrapped                          */
 
 struct noted {
-	uint64_t scan;   /* whose time it stands at                             */
+	uint64_t scan;   /* whose time is written                               */
 	bool expect;
 	char *text;      /* "Start = 1"                                         */
 };
@@ -78,7 +79,7 @@ static bool is_found(const struct image *image, const char *name, struct locatio
 	return is_same(value_find(image, name, strlen(name), &why), at);
 }
 
-/* A frame of its own: the cursor holds a name. */
+/* A separate frame: the cursor holds a name. */
 __attribute__((noinline))
 static bool find_symbol(const struct image *image, struct location at, bool whole,
 			char *out)
@@ -115,9 +116,9 @@ static bool print_address(const struct image *image, struct location at, char *o
 	return is_found(image, out, at);
 }
 
-/* What a variable is called in a scenario: the name that value_find()
- * finds it by, else its address. @out: SESSION_NAME bytes.   Scan-safe: no.
- * Fails: false: it has neither. */
+/* The name of a variable in a scenario: one that value_find() finds, else its address.
+ * @out: SESSION_NAME bytes. Scan-safe: no.
+ * Fails: false: it has none. */
 static bool session_name(const struct image *image, struct location at, char *out)
 {
 	return find_symbol(image, at, false, out) || find_symbol(image, at, true, out) ||
@@ -152,7 +153,7 @@ static struct noted *add(struct session *session)
 	return &session->noted[session->count];
 }
 
-/* "Start = 1"; NULL: it cannot be said. */
+/* "Start = 1"; NULL: a scenario cannot express it. */
 static char *say(const struct image *image, struct location at, union iec_value value)
 {
 	const size_t size = SESSION_NAME + 3 + IEC_VALUE_TEXT;
@@ -186,8 +187,8 @@ static bool note(struct session *session, uint64_t scan, bool expect, struct loc
 	return true;
 }
 
-/* Can a scenario say it? The start of the first scan, and the period
- * that is anyway, are nothing to be said. */
+/* Whether a scenario can express the act. A start before the first scan, and an
+ * unchanged period, need no statement. */
 static bool session_can_hold(const struct session *session, uint64_t after,
 			     const struct act *act)
 {
@@ -219,7 +220,7 @@ bool session_expect(struct session *session, uint64_t scan, struct location at,
 
 /* ---- writing ---- */
 
-/* Settings of a scan come before what is expected of it; each kind in its order. */
+/* Settings of a scan come before its expectations; each kind in its order. */
 static int by_time(const void *left, const void *right)
 {
 	const struct noted *a = *(const struct noted *const *)left;
@@ -229,7 +230,7 @@ static int by_time(const void *left, const void *right)
 		return a->scan < b->scan ? -1 : 1;
 	if (a->expect != b->expect)
 		return a->expect ? 1 : -1;
-	return a < b ? -1 : a > b; /* one array: the order they came in */
+	return a < b ? -1 : a > b; /* pointers into one array: their order */
 }
 
 static void write_name(const char *name, const struct sink *out)
@@ -258,7 +259,7 @@ static void write_time(const struct session *session, const struct noted *noted,
 	sink_write(out, text, (size_t)len);
 }
 
-/* In their order; NULL: no memory, or there is nothing. */
+/* The notes in order; NULL: no memory, or there are none. */
 static const struct noted **sorted(const struct session *session)
 {
 	const struct noted **order = session->count ?

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * session - what a person did to a program, and saw, as the text of a scenario.
+ * session - converts a session to the text of a scenario.
  *
- * Acts and expectations go in with the scans they belong to, counted from a cold start; a
- * scenario (trial/scenario.h) comes out that does the same before the same scans. It runs
- * nothing. What a scenario cannot say is refused when it comes: forces, restarts, another
- * period, acts of the plant.
+ * Acts and expectations are added with the number of their scan, counted from a cold
+ * start; the scenario (trial/scenario.h) does the same before the same scans. Acts that
+ * a scenario cannot express are refused: forces, restarts, another period, acts of the
+ * plant.
  */
 #ifndef TRIAL_SESSION_H
 #define TRIAL_SESSION_H
@@ -22,21 +22,22 @@ struct session;
 struct session *session_new(const struct image *image, int64_t period_ns);
 void session_free(struct session *session);
 
-/** session_plant - a plant stood beside it; @name: its file, from the folder of the scenario
- * file, borrowed as long as the session. */
+/** session_plant - names the plant of the session; @name: its file, relative to the
+ * scenario file; borrowed as long as the session. */
 void session_plant(struct session *session, const char *name);
-/** session_act - @act was done after scan @after. Not before an earlier one. Fails: false:
- * session_can_hold() says no, its variable has no name, no memory. */
+/** session_act - adds @act, done after scan @after, which is not before that of an
+ * earlier call. Fails: false: session_can_hold() is false, the variable has no name, no
+ * memory. */
 bool session_act(struct session *session, uint64_t after, const struct act *act);
-/** session_expect - right after scan @scan (1 or more) the variable holds @value. Fails:
- * false: it has no name, the value cannot be written (no number), no memory. */
+/** session_expect - expects the variable to have @value right after scan @scan (1 or
+ * more). Fails: false: it has no name, the value cannot be written (NaN), no memory. */
 bool session_expect(struct session *session, uint64_t scan, struct location at,
 		    union iec_value value);
 int session_acts(const struct session *session);
 int session_expects(const struct session *session);
 
-/** session_write - the scenario, from the line with its @name on. What of the name cannot
- * stand in quotes becomes ' or a blank. Scan-safe: no. Fails: false: no memory. */
+/** session_write - the scenario, from the line with its @name on. A quote or control
+ * character in the name becomes ' or a blank. Scan-safe: no. Fails: false: no memory. */
 bool session_write(const struct session *session, const char *name,
 		   const struct sink *out);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * trace - the columns of a trace, its plain lines and its other forms. It compares with what it showed last, not with the scan before,
- * so that a hidden scan loses no change.
+ * trace - the columns of a trace and its forms: lines, CSV, VCD. It compares with the
+ * values shown last, not with the previous scan, so that a hidden scan loses no change.
  */
 #include "engine/trial/trace.h"
 
@@ -39,7 +39,7 @@ void trace_clear(struct trace *trace)
 	trace->count = 0;
 }
 
-/* Room for the text that was shown last: as much as its variable has. */
+/* Room for the text that was shown last, as large as the variable's. */
 static bool own_text(struct trace *trace, struct trace_column *column)
 {
 	uint16_t capacity = image_get(column->image, column->at).s->capacity;
@@ -54,7 +54,7 @@ static bool own_text(struct trace *trace, struct trace_column *column)
 	return true;
 }
 
-/* Keeps @value as the last one; true if it differs. */
+/* Keeps @value as the last one; true if it changed. */
 static bool trace_update(struct trace_column *column, union iec_value value)
 {
 	bool same = value.i == column->last.i; /* of a REAL its bits */
@@ -132,7 +132,7 @@ static bool show_one(struct trace *trace, const char *name, size_t len,
 	return true;
 }
 
-/* Bytes before the number that @text ends with; *number is -1 without one. */
+/* Length of the text before the number at its end; *number is -1 without one. */
 static size_t split_number(const char *text, size_t len, long *number)
 {
 	size_t stem = len;
@@ -176,7 +176,7 @@ static bool split_bounds(const char *text, size_t len, const char *dots,
 	       take_bound(dots + 2, (size_t)(close - dots) - 2, last);
 }
 
-/* @stem with each number behind it, and @tail behind that. */
+/* Each column: @stem, a number, @tail. */
 static bool show_numbers(struct trace *trace, const char *stem, size_t len,
 			 long first, long last, const char *tail, size_t tail_len,
 			 struct diag_list *diags, struct diag place)
@@ -203,7 +203,7 @@ static bool same_place(struct location a, struct location b)
 	return a.type == b.type && a.area == b.area && a.where == b.where;
 }
 
-/* A frame of its own: the cursor holds a name. */
+/* A separate frame: the cursor holds a name. */
 __attribute__((noinline))
 static bool show_declared(struct trace *trace, struct location first,
 			  struct location last, struct diag_list *diags,
@@ -316,7 +316,7 @@ static void trace_csv_head(struct trace *trace)
 	sink_text(trace->out, "\r\n");
 }
 
-/* In double quotes where a spreadsheet would see two fields. */
+/* In double quotes if it contains a separator. */
 static void csv_field(struct trace *trace, const char *text)
 {
 	bool quoted = strpbrk(text, ",\"") != NULL;
@@ -359,7 +359,7 @@ static void trace_csv(struct trace *trace, uint64_t scan, int64_t now_ns)
 	sink_text(trace->out, "\r\n");
 }
 
-/* The identifier of a column: a number to the base 94, in printables. */
+/* The identifier of a column: a number to base 94, in printable characters. */
 static void vcd_id(int column, char out[8])
 {
 	int n = 0;
@@ -381,7 +381,7 @@ static bool is_real(enum iec_type type)
 	return iec_type_row(type)->class == CLASS_REAL;
 }
 
-/* IEEE 1364 has no texts; viewers take s and bytes, odd ones as \\ooo. */
+/* IEEE 1364 has no texts; viewers accept s and bytes, others as \\ooo. */
 static void vcd_text(struct trace *trace, const struct iec_string *s)
 {
 	sink_text(trace->out, "s");
@@ -481,7 +481,7 @@ void trace_scan(struct trace *trace, uint64_t scan, int64_t now_ns)
 static void trace_vcd_note(struct trace *trace, const char *text, size_t len)
 {
 	if (!trace->begun || memchr(text, '$', len))
-		return; /* before the head, or it would end the comment */
+		return; /* before the head it would end the comment */
 	sink_text(trace->out, "$comment ");
 	sink_write(trace->out, text, len);
 	sink_text(trace->out, " $end\n");
@@ -502,7 +502,8 @@ void trace_note(struct trace *trace, const char *text, size_t len)
 
 void trace_end(struct trace *trace)
 {
-	/* How long nothing changed at the end, or a viewer would not show it. */
+	/* Ends with the time of the last scan; otherwise viewers do not show the time
+	 * without changes. */
 	if (trace->begun && trace->form == TRACE_VCD &&
 	    trace->last_ns > trace->stamp_ns)
 		sink_printf(trace->out, "#%lld\n", (long long)trace->last_ns);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * trace - what the variables of a program were after each scan, as text.
+ * trace - the values of variables after each scan, as text.
  *
- * Lines for people and tests, CSV for spreadsheets, VCD for wave viewers. It
- * looks at an image and writes to a sink; it runs nothing.
+ * Lines for people and tests, CSV for spreadsheets, VCD for wave viewers. It reads an
+ * image and writes to a sink.
  *
  *   12 t=120 Motor=1 Runout.ET=20.5      scan, time in ms, values
  */
@@ -21,20 +21,20 @@ struct trace_column {
 	const char *name;      /* in the trace's arena                       */
 	const struct image *image; /* whose variable it is                    */
 	struct location at;
-	union iec_value last;  /* as shown last; 0 to begin with; a STRING's
-				  bytes are the trace's own                  */
+	union iec_value last;  /* value shown last; 0 to begin with; a STRING's bytes are
+			        * the trace's own */
 };
 
 struct trace {
 	struct arena arena;
 	const struct image *image;
-	const struct image *plant; /* set by the caller after trace_init: what
-				  names such as plant.Level are of; or NULL  */
+	const struct image *plant; /* set by the caller after trace_init: image for names
+				    * such as plant.Level; or NULL */
 	const struct sink *out;
 	enum trace_form form;
 	bool changes;          /* lines and CSV: only what changed           */
-	const bool *stop;      /* set by the caller after trace_init, or NULL:
-				  when it is true, whoever runs scans ends   */
+	const bool *stop;      /* set by the caller after trace_init, or NULL: when it is
+			        * true, running scans ends */
 	bool begun;            /* the head of CSV or VCD is written          */
 	int64_t stamp_ns;      /* VCD: time written last                     */
 	int64_t last_ns;       /* VCD: time of the last scan                 */
@@ -60,9 +60,9 @@ bool trace_show_all(struct trace *trace);
 /**
  * trace_show - columns for `Motor`, `%Q0..7`, `Lamp1..Lamp8`, `First..Last`
  *
- * A range counts up the number at the end of its first name, or, between two
- * names without one in common, takes the declarations from one to the other.
- * Owns: nothing.   Scan-safe: no.   Fails: false and a diagnostic at @place.
+ * A range counts up the number at the end of its first name. If the two names have no
+ * common stem with numbers, it contains the declarations from one to the other.
+ * Owns: nothing. Scan-safe: no. Fails: false and a diagnostic at @place.
  */
 bool trace_show(struct trace *trace, const char *text, size_t len,
 		struct diag_list *diags, struct diag place);
@@ -70,13 +70,13 @@ bool trace_show(struct trace *trace, const char *text, size_t len,
 /**
  * trace_scan - shows the image after scan number @scan at @now_ns
  *
- * Scan-safe: no.   Fails: never; what the sink cannot take is its own matter.
+ * Scan-safe: no. Fails: never; errors of the sink are not seen here.
  */
 void trace_scan(struct trace *trace, uint64_t scan, int64_t now_ns);
 /** trace_note - a remark: `# text` (lines), $comment (VCD), nothing in CSV. */
 void trace_note(struct trace *trace, const char *text, size_t len);
-/** trace_stopped - has the caller had enough? */
+/** trace_stopped - whether the caller asked to stop. */
 bool trace_stopped(const struct trace *trace);
-/** trace_end - the head, if no scan wrote it; of VCD, when the last scan was. */
+/** trace_end - writes the head, if no scan did; for VCD, the time of the last scan. */
 void trace_end(struct trace *trace);
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * twin - the scans of a program and its plant, and what a person does between them.
+ * twin - the scans of a program and its plant, and the acts between them.
  */
 #include "engine/trial/twin.h"
 
@@ -94,7 +94,7 @@ void twin_copy(struct twin *twin, const struct twin *from)
 	twin->scan = from->scan;
 }
 
-/* A plant that is new starts when the program does. */
+/* A new plant starts when the program does. */
 static bool change(struct twin *twin, const struct twin *from, struct arena *arena)
 {
 	if (!carry(&twin->resource, &from->resource, arena))
@@ -158,7 +158,7 @@ static void stop(struct twin *twin)
 	resource_stop(&twin->plant);
 }
 
-/* What a board drives at rest is nothing that it retains. */
+/* Safe outputs are not retained. */
 static bool start_program(struct resource *resource, bool warm)
 {
 	if (warm && resource->state != STATE_RUN)
@@ -181,7 +181,7 @@ static void copy_inputs(struct image *to, const struct image *from)
 	}
 }
 
-/* Switches stay as they are and forces are held, as on a board. */
+/* Inputs and forces stay, as on a board. */
 static bool start_again(struct resource *resource, size_t size, bool warm)
 {
 	struct image *image = &resource->image;
@@ -203,7 +203,7 @@ static bool start_again(struct resource *resource, size_t size, bool warm)
 	return good;
 }
 
-/* A plant that never ran, or stopped by itself, has nothing to go on with. */
+/* A plant that never ran, or has stopped, cannot go on. */
 static bool start_plant(struct twin *twin, bool warm)
 {
 	if (warm && twin->plant.state == STATE_STOP && twin->plant.scans &&
@@ -213,7 +213,7 @@ static bool start_plant(struct twin *twin, bool warm)
 	       start_again(&twin->plant, twin->plant_size, false);
 }
 
-/* The plant first: if that cannot, nothing is lost. */
+/* The plant first: if that fails, nothing has changed. */
 static bool start(struct twin *twin, bool warm)
 {
 	return (!has_plant(twin) || start_plant(twin, warm)) &&
@@ -255,8 +255,8 @@ bool twin_act(struct twin *twin, const struct act *act)
 
 /* ---- scans ---- */
 
-/* The world first: what the program gave in its last scan has worked for a period when
- * it looks again, and its first scan sees switches as they are. */
+/* The plant first: it has a period to react to the last outputs before the program
+ * reads inputs again, and the first scan sees its inputs. */
 bool twin_scan(struct twin *twin)
 {
 	struct resource *resource = &twin->resource;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * value - reads times, names and values. It changes no image: that is up to
- * whoever runs the trial.
+ * value - reads times, names and values. It changes no image.
  */
 #include "engine/trial/value.h"
 
@@ -36,7 +35,7 @@ static bool is_digit(char c)
 	return c >= '0' && c <= '9';
 }
 
-/* The unit at *at, which is stepped over; 0: none. */
+/* The unit at *at, which is skipped; 0: none. */
 static int64_t take_unit(const char **at, const char *end)
 {
 	for (size_t i = 0; i < sizeof(units) / sizeof(units[0]); i++) {
@@ -84,7 +83,7 @@ static enum literal_result add_whole(const char *at, const char *end,
 	return *sum > VALUE_TIME_MAX ? LITERAL_RANGE : LITERAL_OK;
 }
 
-/* One number with its unit; *at steps over it. */
+/* One number with its unit; *at moves behind it. */
 static enum literal_result add_part(const char **at, const char *end,
 				    int64_t bare, int64_t *sum, bool *last)
 {
@@ -163,7 +162,7 @@ static bool is_true_word(const char *text, size_t len, const char *word)
 	return true;
 }
 
-/* A date or time of day without its D#, as traces show it. */
+/* A date or time of day without its D#, as in traces. */
 static enum literal_result parse_bare(enum iec_type type, const char *text, size_t len,
 				      struct literal *out)
 {
@@ -238,7 +237,7 @@ static bool is_own(const struct declared_name *symbol, const char *text,
 	       ascii_same(symbol->name, text, len);
 }
 
-/* A bare name of locals in several programs, and of nothing that all see. */
+/* Whether a bare name is a local of several programs and not a global. */
 static bool is_ambiguous(const struct program *p, const char *name, size_t len)
 {
 	size_t head = 0;
@@ -266,7 +265,7 @@ struct location value_find(const struct image *image, const char *name,
 {
 	struct location at = { .type = IEC_NONE };
 
-	/* In a project of ClassicLadder %QW3 is what it is there. */
+	/* In a project of ClassicLadder %QW3 has its meaning there. */
 	if (image->program->classic)
 		at = classic_name_find(image, name, len);
 	if (at.type == IEC_NONE)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * value - times, names and values as scripts and command lines give them.
+ * value - times, names and values in scripts and command lines.
  *
- * A thin layer over base/literal.h for texts that people type beside a program:
- * `10ms`, `Start=1`, `%I0`. It never rounds and never guesses a type.
+ * A layer over base/literal.h for `10ms`, `Start=1`, `%I0`. It does not round and does
+ * not guess types.
  */
 #ifndef TRIAL_VALUE_H
 #define TRIAL_VALUE_H
@@ -17,12 +17,11 @@
 #define VALUE_MS INT64_C(1000000)
 
 /**
- * value_parse_time - a time that is not negative: `10ms`, `2.5s`, `1m30s`,
- * `T#3s`
- * @unit_ns: what a bare number counts; 0: a unit is needed
+ * value_parse_time - a time that is not negative: `10ms`, `2.5s`, `1m30s`, `T#3s`
+ * @unit_ns: the unit of a bare number; 0: a unit is required
  * @ns:      the time in ns, at most VALUE_TIME_MAX
  *
- * Units: d h m (min) s ms us ns. Owns: nothing.   Scan-safe: no.
+ * Units: d h m (min) s ms us ns. Owns: nothing. Scan-safe: no.
  * Fails: LITERAL_BAD or LITERAL_RANGE (also for parts of a nanosecond).
  */
 enum literal_result value_parse_time(const char *text, size_t len,
@@ -32,36 +31,37 @@ enum literal_result value_parse_time(const char *text, size_t len,
  * value_parse - a constant of a known type
  * @room: gets the bytes of a STRING, which @out then points to
  *
- * TIME may be a bare number of ms, dates and times of day as traces show them:
- * without T#, D#; BOOL is 0, 1, TRUE, FALSE; a STRING stands in '.
- * Owns: nothing.   Scan-safe: no. Fails: false; DIAG_BAD_LITERAL or
- * DIAG_LITERAL_RANGE in @why.
+ * TIME may be a bare number of ms, dates and times of day as in traces: without T#, D#;
+ * BOOL is 0, 1, TRUE, FALSE; a STRING is in '.
+ * Owns: nothing. Scan-safe: no. Fails: false; DIAG_BAD_LITERAL or DIAG_LITERAL_RANGE in
+ * @why.
  */
 bool value_parse(enum iec_type type, const char *text, size_t len,
 		 struct iec_text *room, union iec_value *out, enum diag_id *why);
 
-/** value_has_room - can @at hold all of @value? No text longer than its variable. */
+/** value_has_room - whether @at can hold all of @value: a text must not be longer than
+ * its variable. */
 bool value_has_room(const struct image *image, struct location at,
 		    union iec_value value);
 
 /**
- * value_find - image_find, which also takes a short address with its percent
- * sign (%I0, %Q7) as traces have it
+ * value_find - image_find, and also short addresses with a percent sign (%I0, %Q7) as
+ * in traces
  *
- * A local that several programs have must be named with its program.
- * Owns: nothing.   Scan-safe: no. Fails: IEC_NONE; DIAG_UNKNOWN_NAME or
+ * A local of several programs needs the name of its program.
+ * Owns: nothing. Scan-safe: no. Fails: IEC_NONE; DIAG_UNKNOWN_NAME or
  * DIAG_AMBIGUOUS_NAME in @why.
  */
 struct location value_find(const struct image *image, const char *name,
 			   size_t len, enum diag_id *why);
 
 /**
- * value_side - whose name it is: the program's, or, of `plant.Level`, its plant's
+ * value_side - the image of a name: the program's, or, for `plant.Level`, its plant's
  * @plant: NULL: there is none
- * @name, @len: lose `plant.` if it is the plant's. A program that has such a name itself
- * means its own.
+ * @name, @len: lose `plant.` if it is the plant's. If the program has such a name
+ *              itself, that is meant.
  *
- * Scan-safe: no.   Returns @image or @plant. */
+ * Scan-safe: no. Returns @image or @plant. */
 const struct image *value_side(const struct image *image, const struct image *plant,
 			       const char **name, size_t *len);
 
@@ -72,10 +72,10 @@ struct setting {
 };
 /**
  * setting_parse - `NAME=VALUE`
- * @out:   not to be copied
+ * @out: must not be copied
  * @place: of the text, for the diagnostic; its column is that of @text
  *
- * Owns: nothing.   Scan-safe: no.   Fails: false and one diagnostic.
+ * Owns: nothing. Scan-safe: no. Fails: false and one diagnostic.
  */
 bool setting_parse(const struct image *image, const char *text, size_t len,
 		   struct setting *out, struct diag_list *diags,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * why - walks the network of a rung from a place back to the left rail, way by way.
+ * why - walks the network of a rung from a cell back to the left rail, path by path.
  */
 #include "engine/trial/why.h"
 
@@ -12,9 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define STEPS_MOST 50000 /* elements looked at, so that it ends in a wild rung */
+#define STEPS_MOST 50000 /* bounds the time in a large rung */
 
-/* A contact on the way, and the value that it needs. */
+/* A contact on the path, and the value that it needs. */
 struct need { uint32_t operand; bool value; };
 
 struct walk {
@@ -24,7 +24,7 @@ struct walk {
 	struct arena *arena;
 	struct why *out;
 	bool on;
-	int path[LIMIT_COLS];   /* elements, from the asked place to the left */
+	int path[LIMIT_COLS];   /* elements, from the cell to the left */
 	bool blocks[LIMIT_COLS];
 	struct need need[LIMIT_COLS];
 	int depth, needs, steps;
@@ -93,7 +93,7 @@ static bool is_contact(enum why_kind kind)
 	return kind == WHY_CONTACT || kind == WHY_NEGATED;
 }
 
-/* Does it hold power back, whatever is left of it? What is not known does not. */
+/* Whether it blocks power whatever is to its left. Unknown values do not block. */
 static bool does_block(const struct walk *walk, int element, enum why_kind kind)
 {
 	bool in, out;
@@ -132,7 +132,7 @@ static bool same_cell(const struct why_cell *a, const struct why_cell *b)
 	return a->row == b->row && a->col == b->col && strcmp(a->name, b->name) == 0;
 }
 
-/* Is all of @a in @b, too? */
+/* Whether all of @a is in @b, too. */
 static bool is_within(const struct why_way *a, const struct why_way *b)
 {
 	for (int i = 0; i < a->count; i++) {
@@ -153,7 +153,7 @@ static void drop_way(struct why *why, int index)
 		(size_t)(why->ways - index) * sizeof(why->way[0]));
 }
 
-/* Shortest first; of those as long as another, in the order of the rung. */
+/* Shortest first; ways of one length in the order of the rung. */
 static void add_way(struct why *why, const struct why_way *way, bool on)
 {
 	int at = 0;
@@ -204,8 +204,8 @@ static bool take_apart(struct walk *walk, int element, const struct why_cell *ce
 				 names_len(names, operand), walk->on, walk->arena, *out);
 }
 
-/* What stands from number @left of the path on to the right; an expression may have
- * several ways. Depth: as that of the path. */
+/* Adds the elements from number @left of the path to the right; an expression may have
+ * several ways. Depth: that of the path. */
 static void add_rest(struct walk *walk, struct why_way *way, int left)
 {
 	const int count = way->count;
@@ -236,14 +236,14 @@ static void add_rest(struct walk *walk, struct why_way *way, int left)
 	}
 }
 
-/* The rail was reached. */
+/* The path reached the rail. */
 static void end_way(struct walk *walk, struct why_way *way)
 {
 	way->count = 0;
 	add_rest(walk, way, walk->depth - 1);
 }
 
-/* Two contacts of one operand exclude each other: this way never has power. */
+/* Two contacts of one operand exclude each other: this path never has power. */
 static bool is_possible(struct walk *walk, uint32_t operand, bool value)
 {
 	const struct names *names = &walk->at->project->names;
@@ -262,7 +262,7 @@ static bool is_possible(struct walk *walk, uint32_t operand, bool value)
 
 static void walk_net(struct walk *walk, int net, struct why_way *way);
 
-/* Does power begin here? Whatever is left of it does not matter then. */
+/* Whether power begins here: then nothing to its left matters. */
 static bool is_source(const struct walk *walk, int element, enum why_kind kind)
 {
 	bool in, out;
@@ -323,7 +323,7 @@ static int rung_of_label(const struct pou *pou, const struct names *names,
 	return 0;
 }
 
-/* Where the rung @number leads, if not to the next one: 0: out of the POU. */
+/* The rung that rung @number jumps to; 0: out of the POU. */
 static int next_rung(const struct why_place *at, const struct pou *pou, int number)
 {
 	const struct rung *rung = pou->rung[number - 1];
@@ -343,12 +343,12 @@ static int next_rung(const struct why_place *at, const struct pou *pou, int numb
 		to = row->first == OP_RET ? 0 :
 		     rung_of_label(pou, &at->project->names, cell->operand);
 		if (!to || to > number)
-			return to; /* a way back was the last one round */
+			return to; /* a jump back in its last turn */
 	}
 	return number + 1;
 }
 
-/* The rung that led past @at; 0: none did. */
+/* The rung that jumped over @at; 0: none did. */
 static int skipped_by(const struct why_place *at, const struct pou *pou)
 {
 	int number = 1;
@@ -395,7 +395,7 @@ static bool is_active(const struct why_place *at, const struct pou *pou, int ste
 	return step < 0 || why_operand(at, vars->var[sfc_x(pou->sfc, vars, step)].name);
 }
 
-/* The step without which this condition was not looked at; 0: all are active. */
+/* The step that must be active for this condition to be evaluated; 0: all are. */
 static uint32_t missing_step(const struct why_place *at, const struct pou *pou)
 {
 	const struct sfc *sfc = pou->sfc;
@@ -411,7 +411,7 @@ static uint32_t missing_step(const struct why_place *at, const struct pou *pou)
 	return 0;
 }
 
-/* May it be called for after its step was left? */
+/* Whether the action may run after its step ended. */
 static bool outlives(const struct sfc_use *use)
 {
 	return use->qualifier == QUALIFIER_S || use->qualifier == QUALIFIER_SD ||
@@ -419,7 +419,7 @@ static bool outlives(const struct sfc_use *use)
 	       use->qualifier == QUALIFIER_P0;
 }
 
-/* The action whose body this is, if no step calls for it; 0: one does, or may. */
+/* The action whose body this is, if no step calls it; 0: one does, or may. */
 static uint32_t uncalled_action(const struct why_place *at, const struct pou *pou)
 {
 	const struct sfc *sfc = pou->sfc;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * why_parts - the text of an expression as a tree of AND, OR and NOT, and the smallest
- * sets of its leaves that would have to change, or that hold it.
+ * why_parts - parses an expression to a tree of AND, OR and NOT, and finds the smallest
+ * sets of leaves that must change, or that make it TRUE.
  */
 #include "engine/trial/why_parts.h"
 
@@ -16,14 +16,14 @@
 
 #define LEAVES_MOST 24
 #define TERMS_MOST  96
-#define TRIES_MOST  50000 /* sets of leaves that are tried                     */
+#define TRIES_MOST  50000 /* sets of leaves to try                             */
 
 struct span { const char *text; size_t len; };
 
 enum term_kind { TERM_LEAF, TERM_NOT, TERM_AND, TERM_OR };
 struct term {
 	enum term_kind kind;
-	int left, right;      /* terms; of a leaf its number                  */
+	int left, right;      /* terms; a leaf: its number                    */
 };
 
 struct tree {
@@ -63,7 +63,7 @@ static int depth_change(const struct token *token)
 	return *token->text == ')' || *token->text == ']' ? -1 : 0;
 }
 
-/* Where @word, or @symbol, parts it first, outside of all brackets. */
+/* The first place outside of brackets where @word, or @symbol, splits the text. */
 static bool split(struct span all, const char *word, char symbol, struct span *left,
 		  struct span *right)
 {
@@ -88,7 +88,7 @@ static bool split(struct span all, const char *word, char symbol, struct span *l
 	return false;
 }
 
-/* Without brackets around the whole. */
+/* Without brackets around the whole text. */
 static bool unwrap(struct span *all)
 {
 	struct lex lex;
@@ -169,7 +169,7 @@ static bool is_operand(struct span leaf)
 	return !first;
 }
 
-/* Depth: each level takes a term or a bracket, and expr.c has bounded both. */
+/* Depth: each level needs a term or a bracket; expr.c limits both. */
 static int grow(struct tree *tree, struct span all)
 {
 	struct span left, right, inner = all;
@@ -281,7 +281,7 @@ static void name_part(const struct search *s, struct span leaf, bool value,
 	why_values_of(s->at, leaf.text, leaf.len, part->values, sizeof(part->values));
 }
 
-/* The leaves of a set are a way. */
+/* Adds the leaves of a set as a way. */
 static void add_set(struct search *s, uint32_t set)
 {
 	struct why_way *way = &s->out->way[s->out->ways];
@@ -302,10 +302,10 @@ static bool has_smaller(const struct search *s, uint32_t set)
 	return false;
 }
 
-/* Does it hold whatever all others are? No leaf outside of @set can make it FALSE. */
+/* Whether the leaves of @set decide the result, whatever the values of the others are. */
 static bool holds_by(const struct tree *tree, uint32_t set)
 {
-	/* Three values: sure TRUE, sure FALSE, neither. */
+	/* Three values: TRUE, FALSE, or undecided. */
 	bool yes[TERMS_MOST] = { false }, no[TERMS_MOST] = { false };
 
 	for (int i = 0; i < tree->count; i++) {
@@ -334,7 +334,7 @@ static bool holds_by(const struct tree *tree, uint32_t set)
 	return yes[tree->count - 1];
 }
 
-/* All sets of @size leaves, in order; false when there is no more to be tried. */
+/* Tries all sets of @size leaves, in order; false: no more tries. */
 static bool try_size(struct search *s, int size)
 {
 	const uint32_t end = UINT32_C(1) << s->tree->leaves;

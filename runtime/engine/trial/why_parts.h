@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * why_parts - an expression that does not hold, or holds, taken apart at AND, OR and NOT.
- * It is looked at alone: what else of the rung reads the same names is not thought of.
+ * why_parts - splits an expression at AND, OR and NOT.
+ *
+ * It is examined alone: other elements of the rung that read the same names are not
+ * considered.
  *
  * Private to trial/why.c.
  */
@@ -10,7 +12,7 @@
 
 #include "engine/trial/why.h"
 
-/* Ways: of each all parts must change; of one that holds, all hold. */
+/* Ways: all parts of one must change together; for a TRUE expression, all are TRUE. */
 struct why_parts {
 	struct why_way way[WHY_WAYS];
 	int ways;
@@ -21,7 +23,7 @@ struct why_parts {
  * @cell: names it; each part is a copy with a name, values and a kind of its own
  * @on:   how it was in the scan
  *
- * Scan-safe: no.   Fails: false if it cannot be taken apart, or its parts are not known.
+ * Scan-safe: no. Fails: false if it cannot be split, or a part is not known.
  */
 bool why_parts(const struct why_place *at, const struct why_cell *cell, const char *text,
 	       size_t len, bool on, struct arena *arena, struct why_parts *out);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * why_values - names as a rung means them, looked up in an image.
+ * why_values - looks up names of a rung in an image.
  */
 #include "engine/trial/why_values.h"
 
@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* In the instance, in the POU, among the globals: the nearest has the name. */
+/* Searches the instance, the POU, then the globals. */
 static struct location find(const struct why_place *at, const char *name, size_t len)
 {
 	const struct image *image = &at->resource->image;
@@ -31,7 +31,7 @@ static struct location find(const struct why_place *at, const char *name, size_t
 	return found;
 }
 
-/* The instance or POU whose a name is; NULL: it is no name of theirs. */
+/* The instance or POU that a name belongs to; NULL: neither. */
 static const char *owner_of(const struct why_place *at, const char *name, size_t len)
 {
 	const struct image *image = &at->resource->image;
@@ -64,13 +64,13 @@ static void append(const struct why_place *at, const char *name, size_t len,
 
 	iec_value_print(place.type, image_get(&at->resource->image, place), value,
 			sizeof(value));
-	/* All of it or nothing. */
+	/* Appends all of it or nothing. */
 	if (used + len + strlen(value) + 3 < size)
 		snprintf(out + used, size - used, "%s%.*s=%s", used ? " " : "",
 			 (int)len, name, value);
 }
 
-/* The names in an expression, or in the parameters of a box. */
+/* Appends the names in an expression, or in the parameters of a box. */
 static void append_names(const struct why_place *at, const char *text, size_t size_in,
 			 char *out, size_t size)
 {
