@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * compare - two projects compared: POUs, variables, rungs, lists, charts, configuration.
+ * compare - two projects compared: POUs, variables, rungs, lists, charts,
+ * configuration.
  *
- * The canonical texts are compared last, so that a difference which no part finds, such
- * as another order of declarations, is still reported.
+ * The canonical texts are compared last, to report differences that no part finds, such
+ * as another order of declarations.
  */
 #include "engine/compare/compare.h"
 
@@ -22,30 +23,30 @@
 #include <string.h>
 #include <strings.h>
 
-#define DIFF_CANDIDATES 64   /* rungs of a gap looked at for likeness         */
+#define DIFF_CANDIDATES 64   /* rungs of a gap compared by likeness           */
 
 struct diff {
 	const struct project *a, *b;
 	const struct sink *sink;
 	bool json;
 	bool failed;               /* memory is out                           */
-	bool besides;              /* rungs and lines are counted and not said */
-	const char *pou;           /* and what is not in this; NULL: all is said */
+	bool besides;              /* rungs and lines are counted but not printed */
+	const char *pou;           /* and other POUs are skipped; NULL: print all */
 	int count;                 /* differences so far                      */
-	int said;                  /* and of them                             */
+	int said;                  /* those in printed lines                  */
 	struct arena arena;        /* scratch                                 */
 	struct names names;        /* strings of both projects, by one id     */
 	struct sink_memory bytes;  /* scratch: a rung or line made comparable */
 	char from[1024], to[1024]; /* scratch: texts of two cells, lines, types */
 	char subject[2 * LIMIT_NAME], pin[LIMIT_NAME + 1]; /* scratch: names  */
-	/* Takes the rungs instead of words; NULL: words. */
+	/* Gets pairs of rungs; NULL: differences are printed. */
 	void (*take)(void *context, struct compare_pair pair);
-	void (*take_line)(void *context, struct compare_line line); /* likewise     */
+	void (*take_line)(void *context, struct compare_line line); /* gets pairs of lines */
 	void *context;
-	struct compare_pair pair;     /* for take: its POUs                       */
+	struct compare_pair pair;     /* for take: indices of its POUs            */
 };
 
-/* One difference; what is NULL or 0 is not said. */
+/* One difference; members that are NULL or 0 are not printed. */
 struct difference {
 	const char *pou, *label;
 	int rung, row, col, line;  /* 1-based                                 */
@@ -68,7 +69,7 @@ static uint32_t diff_id(struct diff *diff, const char *text, size_t len)
 	return id;
 }
 
-/* One id for all spellings of a name in either project. */
+/* One id for all spellings of a name, the same for both projects. */
 static uint32_t diff_name(struct diff *diff, const char *name)
 {
 	uint32_t id = diff_id(diff, name, strlen(name));
@@ -83,7 +84,7 @@ static uint32_t diff_name(struct diff *diff, const char *name)
 
 #define TYPE_TEXT (LIMIT_NAME + 64)
 
-/* As it is declared: ARRAY[1..3] OF STRING[20]. */
+/* The declared type: ARRAY[1..3] OF STRING[20]. */
 static const char *type_text(const struct project *project,
 			     const struct var *var, char room[TYPE_TEXT])
 {
@@ -102,7 +103,7 @@ static const char *type_text(const struct project *project,
 	return room;
 }
 
-/* "" of a plain VAR; VAR_GLOBAL says the same. */
+/* "" for a plain VAR; VAR_GLOBAL is not repeated. */
 static const char *flags_text(uint16_t flags)
 {
 	static const char *const text[] = { "", "RETAIN", "CONSTANT",
@@ -239,7 +240,8 @@ static void say_json(const struct sink *sink, const struct difference *what)
 	sink_text(sink, "}");
 }
 
-/* Not what others draw, and nothing of another POU if one is wanted. */
+/* Whether a difference is printed: not one that the caller draws, nor one of another
+ * POU. */
 static bool is_wanted(const struct diff *diff, const struct difference *what)
 {
 	const char *pou = what->pou ? what->pou : what->subject ? what->subject : "";
@@ -248,7 +250,7 @@ static bool is_wanted(const struct diff *diff, const struct difference *what)
 				  (!diff->pou || strcasecmp(diff->pou, pou) == 0));
 }
 
-/* Puts it out and counts it. */
+/* Prints and counts a difference. */
 static void diff_say(struct diff *diff, struct difference what)
 {
 	if (!is_wanted(diff, &what)) {
@@ -265,7 +267,7 @@ static void diff_say(struct diff *diff, struct difference what)
 	diff->count++;
 }
 
-/* Says @what when the texts differ; they become from and to. */
+/* Adds difference @what if the texts differ, as from and to. */
 static void diff_texts(struct diff *diff, struct difference what, const char *property,
 		       const char *from, const char *to)
 {
@@ -296,7 +298,7 @@ static void compare_var(struct diff *diff, struct difference what,
 		   project_text(diff->b, y->comment));
 }
 
-/* Folded names of a table, and where a name stands in it. */
+/* Folded names of a table, and the index of each. */
 static uint32_t *var_names(struct diff *diff, const struct project *project,
 			   const struct var_table *table)
 {
@@ -378,7 +380,7 @@ struct pairing {
 	bool *moved;          /* of rungs of a                                */
 };
 
-/* ---- what belongs together ---- */
+/* ---- matching rungs ---- */
 
 static int *new_numbers(struct diff *diff, int count, int value)
 {
@@ -494,7 +496,7 @@ static bool pair_in_order(struct pairing *pairs)
 	return true;
 }
 
-/* Pairs the rungs left over that have the same key; key 0 pairs with none. */
+/* Pairs the remaining rungs that have the same key; key 0 pairs with none. */
 static bool pair_by_key(struct pairing *pairs, const uint32_t *key_a,
 			const uint32_t *key_b)
 {
@@ -588,7 +590,7 @@ static void pair_by_likeness(struct pairing *pairs)
 	}
 }
 
-/* Inside a gap, what now stands before a rung it followed was moved. */
+/* In a gap, a rung that comes before the partner of a rung above it was moved. */
 static void find_crossed(struct pairing *pairs)
 {
 	int last = -1;
@@ -605,7 +607,7 @@ static void find_crossed(struct pairing *pairs)
 	}
 }
 
-/* ---- telling ---- */
+/* ---- output ---- */
 
 static struct difference of_rung(const struct project *project,
 				 const struct pou *pou, int index)
@@ -651,7 +653,7 @@ static void write_cell(const struct project *project, const struct cell *cell,
 		text_write_cell(project, cell, out, size);
 }
 
-/* One parameter; @value NULL: it is not written there. */
+/* One parameter; @value NULL: it is not there. */
 static void value_text(const struct arg *arg, char *out, size_t size)
 {
 	out[0] = '\0';
@@ -800,12 +802,12 @@ static void diff_rungs(struct diff *diff, const struct pou *a, const struct pou 
 struct lines {
 	char *text;        /* cut into lines, NUL-ended                       */
 	char **line;
-	int *indent;       /* blanks that stood before it                     */
+	int *indent;       /* blanks before it                                */
 	uint32_t *id;
 	int count;
 };
 
-/* Operands stand aligned: how far must make no difference. */
+/* Operands are aligned with blanks; differences in alignment are ignored. */
 static char *one_blank(char *line)
 {
 	char *begin = line + strspn(line, " "), *to = begin;
@@ -843,7 +845,7 @@ static bool cut_lines(struct diff *diff, struct lines *lines)
 
 static const struct config none;
 
-/* The body, between a line before it and one behind it. */
+/* The body of a POU as text, between a first and a last line. */
 static bool write_body(const struct project *project, const struct pou *pou,
 		       const struct sink *sink)
 {
@@ -887,8 +889,8 @@ static bool make_lines(struct diff *diff, const struct project *project,
 	return !diff->failed;
 }
 
-/* The lines from (i, j) up to (i_end, j_end) have no partner: in pairs they
- * changed, the rest was added or removed. */
+/* The lines from (i, j) up to (i_end, j_end) have no match: pairs of them are changes,
+ * the rest was added or removed. */
 static void tell_gap(struct diff *diff, struct difference what,
 		     const struct lines *a, int i, int i_end,
 		     const struct lines *b, int j, int j_end)
@@ -931,7 +933,7 @@ static void give_gap(struct diff *diff, const struct lines *a, int i, int i_end,
 		give_line(diff, a, -1, b, j);
 }
 
-/* Lists and charts; with take_line one may be NULL. */
+/* Lists and charts; with take_line, one of them may be NULL. */
 static void diff_il(struct diff *diff, const struct pou *a, const struct pou *b)
 {
 	struct difference what = { .pou = a ? project_text(diff->a, a->name) : NULL };
@@ -1055,7 +1057,7 @@ static void compare_structures(struct diff *diff)
 	}
 }
 
-/* ---- what the engine only keeps ---- */
+/* ---- sections of other programs ---- */
 
 /* Text of the section of @kind after part @*at; NULL: there is none. */
 static const char *next_part(const struct project *project, enum part_kind kind,
@@ -1119,7 +1121,7 @@ static const char *subject_of(const struct project *project,
 					   project_text(project, entry->name);
 }
 
-/* The line of @project that is about the same; NULL: there is none. */
+/* The matching line of @project; NULL: there is none. */
 static const struct config_entry *same_line(const struct project *project,
 					   const struct config_entry *entry,
 					   const char *subject)
@@ -1236,7 +1238,7 @@ static void compare(struct diff *diff)
 		compare_texts(diff);
 }
 
-/* Ready to compare. Owns: the caller, diff_close(). NULL: no memory. */
+/* Prepares a comparison. Owns: the caller, diff_close(). NULL: no memory. */
 static struct diff *diff_open(const struct project *a, const struct project *b,
 			      const struct sink *sink)
 {
@@ -1253,7 +1255,7 @@ static struct diff *diff_open(const struct project *a, const struct project *b,
 	return diff;
 }
 
-/* False: memory was out, and something is missing. */
+/* False: memory ran out, and the result is incomplete. */
 static bool diff_close(struct diff *diff)
 {
 	bool good = !diff->failed && !diff->arena.failed;

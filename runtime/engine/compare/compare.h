@@ -2,8 +2,8 @@
  *
  * compare - what differs between two projects, in words or as pairs.
  *
- * Nothing is changed or checked, and no difference is judged. Control characters in
- * a user's text are not printed, except newlines.
+ * Nothing is checked. Control characters in a user's text are not printed, except
+ * newlines.
  */
 #ifndef COMPARE_H
 #define COMPARE_H
@@ -12,40 +12,40 @@
 #include "engine/model/project.h"
 
 /**
- * compare_projects - what differs from project @a to project @b, in words, a line each
+ * compare_projects - prints the differences from project @a to project @b, a line each
  * @json: an array of objects instead
  *
- * `Main rung 3 (Seal) cell (2,1): NO Motor -> NC Motor`. Rungs are matched by
- * longest common subsequence, then by content, label and likeness.
- * Returns the number of differences; 0: their canonical text is the same;
- * -1: no memory.   Scan-safe: no.
+ * `Main rung 3 (Seal) cell (2,1): NO Motor -> NC Motor`. Rungs are matched by longest
+ * common subsequence, then by content, label and likeness.
+ * Returns the number of differences; 0: their canonical text is the same; -1: no
+ * memory. Scan-safe: no.
  */
 int compare_projects(const struct project *a, const struct project *b, bool json,
 		     const struct sink *sink);
 
 /**
- * compare_besides - the same without differences in rungs, lists and charts, in words
- * @pou: only what is declared in this POU, any case; NULL: everything
+ * compare_besides - the same without differences in rungs, lists and charts
+ * @pou: only declarations of this POU, any case; NULL: everything
  *
- * For callers that draw the rest. Returns the lines; -1: no memory.   Scan-safe: no.
+ * For callers that draw the rest. Returns the lines; -1: no memory. Scan-safe: no.
  */
 int compare_besides(const struct project *a, const struct project *b, const char *pou,
 		    const struct sink *sink);
 
-/* A rung of project a and what it became in project b. 0-based; -1: there is none. */
+/* A rung of project a and its match in project b. 0-based; -1: there is none. */
 struct compare_pair {
 	int pou_a, pou_b;
 	int rung_a, rung_b; /* both -1: the POUs are lists, or only one of them is */
-	bool moved;         /* it stands elsewhere                            */
+	bool moved;         /* its position among the matched rungs changed   */
 	bool changed;       /* its text differs                               */
 };
 
 /**
- * compare_rungs - which rungs belong together, matched as compare_projects does
+ * compare_rungs - pairs of rungs, matched as compare_projects does
  * @take: gets every rung of either project once, POU by POU, in the order of reading
  *        them side by side; a POU in IL is one pair without rungs
  *
- * Owns: nothing.   Scan-safe: no.   Fails: false: no memory.
+ * Owns: nothing. Scan-safe: no. Fails: false: no memory.
  */
 bool compare_rungs(const struct project *a, const struct project *b,
 		   void (*take)(void *context, struct compare_pair pair),
@@ -53,8 +53,8 @@ bool compare_rungs(const struct project *a, const struct project *b,
 
 /* A line of a list or a chart, without the blanks before it. */
 struct compare_line {
-	int line_a, line_b; /* 1-based, counted from behind the declarations; 0: only
-			     * the other project has it                          */
+	int line_a, line_b; /* 1-based, counted from the end of the declarations; 0: only
+			     * the other project has it */
 	int indent;         /* those blanks                                   */
 	const char *text;   /* until @take returns                            */
 };

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * diff_match - longest common subsequence by E. W. Myers' greedy method ("An
- * O(ND) difference algorithm and its variations", 1986), with a bound on its
- * work.
+ * diff_match - longest common subsequence by E. W. Myers' greedy method ("An O(ND)
+ * difference algorithm and its variations", 1986), with a limit on its work.
  *
- * It compares numbers only; equal numbers mean equal rungs or lines.
+ * It compares numbers; equal numbers stand for equal rungs or lines.
  */
 #include "engine/compare/diff_match.h"
 
@@ -33,7 +32,7 @@ static int slide(const struct search *search, int x, int y)
 	return x;
 }
 
-/* One more change; true when the end of both is reached. */
+/* One more change; true when both ends are reached. */
 static bool advance(const struct search *search, int changes)
 {
 	int *reach = search->reach;

@@ -12,11 +12,11 @@
 #define DIFF_LIMIT 1500      /* insertions and deletions searched at most     */
 
 /**
- * diff_match - which of @a is which of @b
- * @match: of each of the @a_count: its index in @b, or -1
+ * diff_match - matches the elements of @a with those of @b
+ * @match: for each of the @a_count its index in @b, or -1
  *
- * Beyond DIFF_LIMIT changes only what stands at the same index is matched.
- * Scan-safe: no.   Fails: false: no memory.
+ * Beyond DIFF_LIMIT changes only elements at the same index match.
+ * Scan-safe: no. Fails: false: no memory.
  */
 bool diff_match(struct arena *arena, const uint32_t *a, int a_count,
 		const uint32_t *b, int b_count, int *match);

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * draw - what one rung's drawing needs to know; shared by show.c, show_box.c and
- * show_sfc.c.
+ * draw - the state of one rung's drawing; shared by show.c, show_box.c and show_sfc.c.
  *
- * Private to show/. Every text line is put out from left to right;
- * nothing is painted over, so the drawing needs no canvas and wide characters
- * keep their place.
+ * Private to show/. Every text line is written from left to right and nothing is
+ * overwritten, so that no canvas is needed and wide characters keep their place.
  */
 #ifndef SHOW_DRAW_H
 #define SHOW_DRAW_H
@@ -18,11 +16,11 @@
 enum { JOIN_UP = 1, JOIN_DOWN = 2, JOIN_LEFT = 4, JOIN_RIGHT = 8 };
 
 struct strokes {
-	const char *joint[16];      /* by the ways that meet                  */
+	const char *joint[16];      /* by directions that meet                */
 	const char *across, *powered, *rail, *off_rail, *open, *close;
 	const char *corner[4];      /* of a box: top left, right, bottom …    */
-	const char *side;           /* of a box, where nothing is joined      */
-	const char *more;           /* stands for what was clipped            */
+	const char *side;           /* of a box, where nothing is connected   */
+	const char *more;           /* marks a clipped text                   */
 };
 
 #define DRAW_CLIP 48                /* columns of a name or value             */
@@ -32,7 +30,7 @@ struct strokes {
 struct box_pin {
 	const char *name, *value;   /* borrowed; value NULL: not connected    */
 	size_t name_len, value_len;
-	bool inverse;               /* the value goes in inverted             */
+	bool inverse;               /* the value is inverted at the pin       */
 };
 struct box_side {
 	struct box_pin pin[BOX_PINS];
@@ -44,7 +42,7 @@ struct box {
 	const char *args;
 	int top, last, col;         /* rows and column it covers              */
 	const char *power_in, *power_out;
-	struct box_side in, out;    /* but for the pins that carry power      */
+	struct box_side in, out;    /* except pins that carry power           */
 	int lead, inner, tail;      /* columns: before, between, behind sides */
 	int need;                   /* columns of the cell                    */
 };
@@ -60,26 +58,26 @@ struct draw {
 	bool in, out;               /* power of the cell that is drawn        */
 	int margin;                 /* columns before the left rail           */
 	int width[LIMIT_COLS];
-	int above[LIMIT_ROWS], below[LIMIT_ROWS]; /* lines round a power line */
+	int above[LIMIT_ROWS], below[LIMIT_ROWS]; /* lines around it      */
 	int y[LIMIT_ROWS];          /* of the power line                      */
 	int trail[LIMIT_ROWS];      /* column from which power runs to the right
 				       rail; LIMIT_COLS: none                 */
-	struct box box;             /* the one that is drawn just now         */
+	struct box box;             /* the rung that is being drawn           */
 };
 
 void draw_blank(const struct draw *draw, int count);
 /** draw_across - a wire; @on: with power. */
 void draw_across(const struct draw *draw, int count, bool on);
-/** draw_clipped - columns a text takes when clipped to @limit. */
+/** draw_clipped - columns of a text that is clipped to @limit. */
 int draw_clipped(const char *text, size_t len, int limit);
-/** draw_text - the text clipped to @limit; returns its columns. */
+/** draw_text - writes the text clipped to @limit; returns its columns. */
 int draw_text(const struct draw *draw, const char *text, size_t len, int limit);
-/** draw_goes_right - does the cell's right end reach its bar? */
+/** draw_goes_right - whether the cell's right end reaches its bar. */
 bool draw_goes_right(const struct draw *draw, int row, int col);
 
-/** draw_rung - draw->rung with its texts, as wide as draw->options say (show.c). */
+/** draw_rung - draws draw->rung with its texts, as wide as draw->options say (show.c). */
 void draw_rung(struct draw *draw);
-/** draw_sfc - a chart, and below it what stands in it as rungs and lists (show_sfc.c).
+/** draw_sfc - a chart, and below it its rungs and lists (show_sfc.c).
  * Fails: false: no memory. */
 bool draw_sfc(struct draw *draw, const struct pou *pou);
 

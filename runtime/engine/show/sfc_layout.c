@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_layout - a chart put together from its lower end to its upper one.
+ * sfc_layout - lays out a chart from its lower end to its upper end.
  *
- * Every point begins a strip that holds all points it dominates. Its successors stand side
- * by side; successors that lead to the same point are joined below, and the strip of that
- * point is placed there, until every dominated point has its place. So nothing moves once
- * it is placed, and no lines cross.
+ * Every point (step or transition) begins a strip that holds all points it dominates.
+ * Its successors are side by side; successors that lead to the same point are joined
+ * below, and the strip of that point is placed there, until every dominated point is
+ * placed. A placed strip never moves, and no lines cross.
  */
 #include "engine/show/sfc_layout.h"
 
@@ -16,22 +16,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A line that ends in a lane and has still to be led to @point. */
+/* A line that ends in a lane and must still be led to @point. */
 struct sfc_exit {
-	int lane, up;      /* rows between its end and the strip's last row    */
-	int point;          /* of the graph: where it leads                     */
-	int from, ref;     /* and whence, by which name                        */
+	int lane, up;      /* rows between its end and the last row of the strip */
+	int point;          /* edge of the graph                                */
+	int from, ref;     /* the step or transition it comes from, and the reference */
 };
 
 struct sfc_strip {
-	int in;            /* the strip that it is a part of; -1: none         */
-	int lane, row;     /* in it; of one that is in none: in the drawing    */
+	int in;            /* the strip that contains it; -1: none             */
+	int lane, row;     /* offset in that strip, or in the drawing          */
 	int lanes, rows;
-	int entry;         /* lane of its last entry; -1: nothing leads into it */
-	int hint;          /* lane it wishes to have, from that of the first one
-			      beside it                                       */
-	int *reach;        /* lanes that are taken, by row, the last row first */
-	int reach_count;   /* is rows                                          */
+	int entry;         /* lane of its last entry; -1: no line leads into it */
+	int hint;          /* preferred lane, relative to the first strip beside it */
+	int *reach;        /* lanes in use, by row, the last row first */
+	int reach_count;   /* number of rows                                   */
 	struct sfc_exit *exit; /* from left to right                           */
 	int exit_count;
 };
@@ -45,21 +44,21 @@ struct sfc_edge {
 struct sfc_graph {
 	const struct sfc *sfc;
 	int steps, transitions, points; /* points: with the roots               */
-	struct sfc_edge *edge;         /* those out of point n: first[n] …     */
+	struct sfc_edge *edge;         /* edges out of point n begin at first[n] */
 	int *first;                    /* points + 1                           */
 	int *order;                    /* points from top to bottom, with roots */
-	int *ways;                     /* edges to a point that are not far    */
+	int *ways;                     /* edges to a point, without far ones   */
 	int *dominator;                /* -1: a root                          */
-	int *merge;                    /* by dominator: the first point below it
-					  that several ways lead to; -1      */
+	int *merge;                    /* by dominator: its first dominated point with
+				        * several ways; -1 */
 	int *next;                     /* merge: the next of them, downwards  */
 };
 
 struct sfc_weave {
 	struct sfc_graph graph;
 	struct sfc_layout *layout;
-	struct arena arena;      /* for what is needed meanwhile               */
-	struct sfc_strip *strip; /* parts before what they are parts of        */
+	struct arena arena;      /* temporary memory                           */
+	struct sfc_strip *strip; /* inner strips before outer ones             */
 	int strip_count;
 	int *wire_strip;         /* by wire: the strip it is in                */
 	int wire_strip_count;
@@ -69,7 +68,7 @@ struct sfc_weave {
 	int jump_at_count;
 };
 
-#define MOST_BESIDE 4 /* lines that run to one step beside each other          */
+#define MOST_BESIDE 4 /* lines that run side by side to the same step          */
 
 static const struct sfc *sfc_of(const struct sfc_weave *weave)
 {
@@ -96,16 +95,16 @@ static bool is_root(const struct sfc_weave *weave, int point)
 	return point >= weave->graph.steps + weave->graph.transitions;
 }
 
-/* ---- what follows a point ---- */
+/* ---- the strip of a point ---- */
 
 struct sewing {
 	struct sfc_weave *weave;
 	int *of_point;      /* strip, by point                                  */
 	int *base;         /* hint that holds for a point: its own, or that of what
 			      leads to it                                     */
-	int *list;         /* strips beside each other                        */
+	int *list;         /* strips side by side                             */
 	int list_count;
-	int *late;         /* room for as many                                */
+	int *late;         /* capacity of that list                           */
 };
 
 static int hint_of(const struct sewing *sewing, int point)
@@ -138,9 +137,9 @@ static bool push_reach(struct sfc_weave *weave, struct sfc_strip *strip, int lan
 	return true;
 }
 
-/* All of these return -1 or false when memory is out. Strips are known by number. */
+/* All of these return -1 or false when memory is out. Strips are identified by number. */
 
-/** strip_new - of @rows rows, of which lane 0 is taken. */
+/** strip_new - of @rows rows; lane 0 is in use. */
 static int strip_new(struct sfc_weave *weave, int rows)
 {
 	struct sfc_strip *strip = arena_push(&weave->arena, &weave->strip,
@@ -155,7 +154,7 @@ static int strip_new(struct sfc_weave *weave, int rows)
 	return weave->strip_count - 1;
 }
 
-/* A line in it; lanes and rows of @wire are its own. */
+/* Adds a line; lanes and rows of @wire are the strip's. */
 static bool strip_wire(struct sfc_weave *weave, int strip, struct sfc_wire wire)
 {
 	struct sfc_layout *layout = weave->layout;
@@ -174,7 +173,7 @@ static bool strip_wire(struct sfc_weave *weave, int strip, struct sfc_wire wire)
 	return true;
 }
 
-/* A line in lane 0 leads on from its last row. */
+/* Adds a line in lane 0 that continues from its last row. */
 static bool strip_exit(struct sfc_weave *weave, int strip, struct sfc_exit exit)
 {
 	struct sfc_strip *s = &weave->strip[strip];
@@ -215,7 +214,7 @@ static bool strip_jump(struct sfc_weave *weave, int strip, int lane, int row,
 	return true;
 }
 
-/* The strip of one edge: a jump, a line that only leads on, or what it leads to. */
+/* The strip of one edge: a jump, a plain line, or the strip of its target. */
 static int branch(struct sewing *sewing, int point, const struct sfc_edge *edge)
 {
 	struct sfc_weave *weave = sewing->weave;
@@ -236,11 +235,10 @@ static int branch(struct sewing *sewing, int point, const struct sfc_edge *edge)
 
 #define MOST_HINT 64
 
-/* ---- beside each other ---- */
+/* ---- side by side ---- */
 
-/* The first lane that is free for @part at the right of what is there. Both begin in the
- * same row, so that nothing below the last row of @part is in its way, unless lines lead
- * on from it. */
+/* The first free lane for @part to the right of the others. All begin in the same row,
+ * so only the rows of @part matter, unless lines continue below it. */
 static int free_lane(const struct sfc_strip *strip, const struct sfc_strip *part)
 {
 	int rows = part->rows < strip->rows ? part->rows + 1 : strip->rows, lane = 0;
@@ -296,7 +294,7 @@ static bool put_beside(struct sfc_weave *weave, int number, int other)
 	return true;
 }
 
-/* A strip around another one, which takes over all that it has. */
+/* Puts a strip into an outer one, which takes over its entries and exits. */
 static int around(struct sfc_weave *weave, int part)
 {
 	int number = strip_new(weave, 0);
@@ -310,8 +308,7 @@ static int around(struct sfc_weave *weave, int part)
 	return number;
 }
 
-/* Some strips beside each other, their first rows in line.
- * Returns the new strip. */
+/* Puts some strips side by side, their first rows aligned. Returns the new strip. */
 static int strip_beside(struct sfc_weave *weave, const int *part, int count)
 {
 	int number;
@@ -327,7 +324,7 @@ static int strip_beside(struct sfc_weave *weave, const int *part, int count)
 	return number;
 }
 
-/* Puts strips first … last of the list together to one. */
+/* Joins strips first … last of the list into one. */
 static bool together(struct sewing *sewing, int first, int last)
 {
 	int strip = strip_beside(sewing->weave, sewing->list + first, last - first + 1);
@@ -341,7 +338,7 @@ static bool together(struct sewing *sewing, int first, int last)
 	return true;
 }
 
-/* Has it an exit to @point? */
+/* Whether it has an exit to @point. */
 static bool strip_leads(const struct sfc_weave *weave, int strip, int point)
 {
 	const struct sfc_strip *s = &weave->strip[strip];
@@ -352,7 +349,7 @@ static bool strip_leads(const struct sfc_weave *weave, int strip, int point)
 	return false;
 }
 
-/* The exits that lead to @point, from the first to the last of them. */
+/* The range of exits from the first to the last that leads to @point. */
 struct span { int first, last, count; };
 
 static struct span find_span(const struct sfc_strip *strip, int point)
@@ -369,9 +366,9 @@ static struct span find_span(const struct sfc_strip *strip, int point)
 	return span;
 }
 
-/* ---- below each other ---- */
+/* ---- one below another ---- */
 
-/* One more row at the lower end. */
+/* Adds a row at the lower end. */
 static bool grow_below(struct sfc_weave *weave, struct sfc_strip *strip, int reach)
 {
 	if (!push_reach(weave, strip, reach))
@@ -384,7 +381,7 @@ static bool grow_below(struct sfc_weave *weave, struct sfc_strip *strip, int rea
 	return true;
 }
 
-/* Is another exit in the way of what comes below the ones that are joined? */
+/* Whether another exit blocks the place below the joined ones. */
 static bool is_shut(const struct sfc_strip *strip, struct span span, int i, int lanes)
 {
 	return i > span.first &&
@@ -420,7 +417,7 @@ static bool cut(struct sfc_weave *weave, int number, int point, struct span span
 	return true;
 }
 
-/* Lines from the exits down to the row below all, where they meet. */
+/* Lines from the exits down to the row where they meet. */
 static bool join_exits(struct sfc_weave *weave, int number, int point, struct span span,
 		       bool twin)
 {
@@ -446,7 +443,7 @@ static bool join_exits(struct sfc_weave *weave, int number, int point, struct sp
 	return true;
 }
 
-/* The exits that are left, with those of the part below between them. */
+/* The remaining exits, with those of the lower part between them. */
 static bool exits_below(struct sfc_weave *weave, int number, int point, struct span span,
 			const struct sfc_strip *part, int lane)
 {
@@ -474,7 +471,7 @@ static bool exits_below(struct sfc_weave *weave, int number, int point, struct s
 	return true;
 }
 
-/* The rows of @part, then those of the strip above it. */
+/* Appends the rows of @part below those of the strip above it. */
 static bool stack(struct sfc_weave *weave, struct sfc_strip *strip,
 		  struct sfc_strip *part, int lane)
 {
@@ -493,8 +490,8 @@ static bool stack(struct sfc_weave *weave, struct sfc_strip *strip,
 	return true;
 }
 
-/* Leads the exits to @point together, and to @part below them.
- * @twin: by a double line. Exits that it would shut in become jumps. */
+/* Joins the exits to @point and leads them to @part below.
+ * @twin: with a double line. Exits between them that could not get out become jumps. */
 static bool strip_join(struct sfc_weave *weave, int number, int point, int other, bool twin)
 {
 	struct sfc_strip *strip = &weave->strip[number], *part = &weave->strip[other];
@@ -512,7 +509,7 @@ static bool strip_join(struct sfc_weave *weave, int number, int point, int other
 	       stack(weave, strip, part, lane);
 }
 
-/* A point to which several of the list lead, below them. */
+/* Places a point that several strips of the list lead to below them. */
 static bool merge(struct sewing *sewing, int point)
 {
 	struct sfc_weave *weave = sewing->weave;
@@ -523,7 +520,7 @@ static bool merge(struct sewing *sewing, int point)
 			first = first < 0 ? i : first;
 			last = i;
 		}
-	if (first < 0) { /* all ways to it were cut */
+	if (first < 0) { /* all ways to it became jumps */
 		weave->strip[sewing->of_point[point]].entry = -1;
 		weave->strip[sewing->of_point[point]].hint = -1;
 		sewing->list[sewing->list_count++] = sewing->of_point[point];
@@ -552,7 +549,7 @@ static int count_exits(const struct sewing *sewing, int point)
 	return count;
 }
 
-/* Its only exit, in lane 0, becomes an arrow. */
+/* Replaces its only exit, in lane 0, by an arrow. */
 static bool strip_cut(struct sfc_weave *weave, int number)
 {
 	struct sfc_strip *strip = &weave->strip[number];
@@ -567,8 +564,8 @@ static bool strip_cut(struct sfc_weave *weave, int number)
 	return true;
 }
 
-/* Where many lines run down beside each other to one and the same step, a branch that is
- * nothing but another one of them ends in an arrow. */
+/* If many lines run side by side to the same step, a branch that is only such a line
+ * ends in an arrow. */
 static bool cut_short_ones(struct sewing *sewing, int point)
 {
 	struct sfc_weave *weave = sewing->weave;
@@ -587,8 +584,8 @@ static bool cut_short_ones(struct sewing *sewing, int point)
 	return true;
 }
 
-/* What is over at once stands at the right: a chart from each of whose steps one can give
- * up is not wider for it, whatever the order. */
+/* Moves short branches to the right: a chart with an exit at each of its steps does not
+ * get wider by them. */
 static void short_ones_last(struct sewing *sewing)
 {
 	const struct sfc_strip *strip = sewing->weave->strip;
@@ -606,7 +603,7 @@ static void short_ones_last(struct sewing *sewing)
 		sewing->list[kept + i] = late[i];
 }
 
-/* All that follows a point, as one strip. */
+/* The strip of a point with all points it dominates. */
 static int follow(struct sewing *sewing, int point)
 {
 	const struct sfc_graph *graph = &sewing->weave->graph;
@@ -630,8 +627,8 @@ static int follow(struct sewing *sewing, int point)
 	return strip_beside(sewing->weave, sewing->list, sewing->list_count);
 }
 
-/* @rows of one lane above a strip, or (strip -1) alone.
- * @line: with a line to all its entries; @twin: a double one. Returns the new strip. */
+/* Puts @rows of one lane above a strip, or (strip -1) alone.
+ * @line: with a line to all its entries; @twin: a double line. Returns the new strip. */
 static int strip_under(struct sfc_weave *weave, int part, int rows, bool line, bool twin)
 {
 	int number = part < 0 ? strip_new(weave, 0) : around(weave, part);
@@ -698,7 +695,7 @@ static bool sew_all(struct sewing *sewing)
 	return true;
 }
 
-/* ---- from strips to places ---- */
+/* ---- absolute places ---- */
 
 static bool place_frames(struct sewing *sewing)
 {
@@ -730,7 +727,7 @@ static bool place_frames(struct sewing *sewing)
 	return true;
 }
 
-/* Parts stand before what they are parts of. */
+/* Inner strips come before outer ones. */
 static void place_strips(struct sfc_weave *weave)
 {
 	for (int i = weave->strip_count - 1; i >= 0; i--) {
@@ -788,7 +785,7 @@ static bool place_shapes(struct sewing *sewing)
 	return true;
 }
 
-/* ---- what is asked of it ---- */
+/* ---- public functions ---- */
 
 struct sorted { int lane, top, index; };
 
@@ -820,8 +817,8 @@ static bool sort_shapes(struct sfc_weave *weave)
 	return true;
 }
 
-/* Names that no line joins: those of jumps, and those of what leads to a transition from
- * nowhere. */
+/* Marks names without a line: those of jumps, and the sources of transitions that no
+ * line leads to. */
 static bool find_apart(struct sfc_layout *layout, const struct sfc_graph *graph)
 {
 	const struct sfc *sfc = layout->sfc;
@@ -842,8 +839,8 @@ static bool find_apart(struct sfc_layout *layout, const struct sfc_graph *graph)
 	return true;
 }
 
-/* Transitions behind a step are asked from left to right, unless one has a priority or
- * stands elsewhere for being short. */
+/* Transitions behind a step are tested from left to right, unless one has a priority or
+ * was moved because it is short. */
 static bool find_turns(struct sfc_layout *layout, const struct sfc_graph *graph)
 {
 	const struct sfc *sfc = layout->sfc;
@@ -869,7 +866,7 @@ static bool find_turns(struct sfc_layout *layout, const struct sfc_graph *graph)
 	return layout->turn != NULL;
 }
 
-/* What is needed while it is made. */
+/* Temporary data while the graph is made. */
 struct making {
 	struct sfc_graph *graph;
 	const struct sfc *sfc;
@@ -877,10 +874,10 @@ struct making {
 	int *group;        /* of a point: its root                             */
 	int *stamp;        /* by step: the transition that named it last      */
 	int *turn;         /* transitions by priority                         */
-	int *start;        /* points that nothing leads to, as found           */
+	int *start;        /* points without a way to them, in order           */
 	int start_count;
 	int *phase;        /* of a point: 0 not seen; later ones are greater   */
-	int *at;           /* next edge of a point to be walked; -1: done      */
+	int *at;           /* next edge of a point to visit; -1: done          */
 	int *stack;
 	int done;          /* points finished                                  */
 };
@@ -941,7 +938,7 @@ static void put_edge(struct making *making, int point, int to, int ref, bool cou
 			(struct sfc_edge){ to, ref, to < 0 };
 }
 
-/* A name that stands twice in one list counts once. */
+/* A name that is twice in one list counts once. */
 static bool is_again(const struct making *making, int step, int mark)
 {
 	if (step < 0 || step >= making->graph->steps)
@@ -981,8 +978,8 @@ static void put_edges(struct making *making, bool count)
 	}
 }
 
-/* Counts go to first[n + 1]; summed up they are where a point's edges begin, and writing
- * an edge moves the one of its point on to where the next begins. */
+/* first[n + 1] holds the count of edges. The sums are the places where a point's edges
+ * begin; writing an edge advances the place of its point to where the next begins. */
 static void sum_edges(int *first, int points)
 {
 	int sum = 0;
@@ -1023,12 +1020,13 @@ static void walk_from(struct making *making, int point, int phase)
 			making->at[edge->to] = graph->first[edge->to];
 			making->stack[depth++] = edge->to;
 		} else if (making->at[edge->to] >= 0 || making->phase[edge->to] < phase) {
-			edge->far = true; /* up, or into what stands without it */
+			edge->far = true; /* leads up, or out of its macro-step */
 		}
 	}
 }
 
-/* Initial steps first; then what nothing leads to; then loops that nothing leads to. */
+/* Roots: initial steps first; then points without a way to them; then loops without
+ * one. */
 static void walk(struct making *making)
 {
 	const struct sfc_graph *graph = making->graph;
@@ -1049,7 +1047,7 @@ static void walk(struct making *making)
 			walk_from(making, n, ++phase);
 }
 
-/* Roots lead to where the walks began. */
+/* Adds edges from the roots to the points where walks began. */
 static void put_roots(struct making *making)
 {
 	struct sfc_graph *graph = making->graph;
@@ -1083,8 +1081,8 @@ static void put_roots(struct making *making)
 
 /* ---- dominators ---- */
 
-/* Beside its parent, each point knows one far above it, so that two points meet in few
- * steps however deep they are. */
+/* Each point has its parent and an ancestor far above it, so that the common ancestor
+ * of two points is found in few steps. */
 struct above { int depth, jump; };
 
 static void hang(struct sfc_graph *graph, struct above *above, int point)
@@ -1187,10 +1185,10 @@ static bool make_room(struct making *making)
 	return !arena->failed;
 }
 
-/* Of any chart, right or wrong
+/* the graph of any chart, also with errors
  * @arena: for everything in it
  *
- * Scan-safe: no.   Fails: false: no memory.
+ * Scan-safe: no. Fails: false: no memory.
  */
 static bool sfc_graph_make(struct sfc_graph *graph, const struct sfc *sfc, struct arena *arena)
 {

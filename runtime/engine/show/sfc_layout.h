@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_layout - where the steps, transitions and lines of a chart stand, without pixels.
+ * sfc_layout - the places of the steps, transitions and lines of a chart, without
+ * pixels.
  *
- * A chart is laid out upon lanes (from left to right) and rows (downwards), both counted
- * from 0. Boxes stand upon a lane; lines run along lanes, and along rows between them;
- * what belongs to a box (its actions, a condition) stands to the right of its lane,
- * before the next one. How wide a lane and how high a row is decides whoever draws.
+ * A chart is laid out upon lanes (from left to right) and rows (downwards), both
+ * counted from 0. Boxes stand upon a lane; lines run along lanes, and along rows
+ * between them; the texts of a box (its actions, a condition) are to the right of its
+ * lane, before the next one. The drawing decides how wide lanes and how high rows are.
  *
- * No line crosses another one or a box. What could not be drawn so - a way up, or across -
- * is a jump: an arrow with the name it leads to. The same chart always gives the same
- * layout; any chart has one, right or wrong.
+ * No line crosses another one or a box. A connection that would - upwards, or across -
+ * is a jump: an arrow with the name of its target. The same chart always gives the same
+ * layout; charts with errors have one, too.
  */
 #ifndef SHOW_SFC_LAYOUT_H
 #define SHOW_SFC_LAYOUT_H
@@ -19,7 +20,7 @@
 
 enum sfc_part { SFC_NOTHING, SFC_STEP, SFC_TRANSITION, SFC_JUMP };
 
-/* A step covers rows from its upper edge to its lower one: what it does stands between
+/* A step covers rows from its upper edge to its lower one: its actions are between
  * them, a row each. A transition and a jump have one row. */
 struct sfc_shape {
 	enum sfc_part part;
@@ -29,21 +30,21 @@ struct sfc_shape {
 
 /* An arrow with a name. */
 struct sfc_jump {
-	int ref;            /* of sfc.ref: the name that is not joined by a line */
-	int from;           /* transition that leads to a step; or a step, that
-			       waits for a transition                         */
+	int ref;            /* index in sfc.ref of the name without a line */
+	int from;           /* a transition that leads to a step; or a step before a
+			     * transition */
 	bool to_transition;
 	int target;         /* step or transition; -1: there is none           */
 };
 
-/* A piece of a line, its ends included: along a lane downwards, or along a row to the
- * right. It touches boxes at their edges only. */
+/* A segment of a line, including its ends: downwards in a lane, or to the right in a
+ * row. It touches boxes only at their edges. */
 struct sfc_wire {
-	bool twin;          /* double: steps that run side by side             */
+	bool twin;          /* double: simultaneous steps                      */
 	int lane, row, end_lane, end_row;
 };
 
-/* The chart of the program, then those inside macro-steps, below one another. */
+/* The chart of the program, then those of macro-steps, one below another. */
 struct sfc_frame {
 	int macro;          /* step; -1: the program                           */
 	int title;          /* row of its name; -1: it has none                */
@@ -62,9 +63,8 @@ struct sfc_layout {
 	struct sfc_frame *frame;
 	int frame_count;
 	bool *apart;        /* by sfc.ref: no line joins it                    */
-	int *turn;          /* by transition: whose turn it is among those of its
-			       step, from 1, where the drawing does not tell;
-			       else 0                                          */
+	int *turn;          /* by transition: its place in the order of its step's
+			     * transitions, from 1, if the drawing does not show it; else 0 */
 	int lanes, rows;
 	struct arena arena; /* for all of it                                   */
 };
@@ -73,19 +73,19 @@ struct sfc_layout {
  * sfc_layout_new - the layout of a chart
  * @sfc: borrowed by the layout
  *
- * Takes time as the chart is large.
- * Owns: the caller, sfc_layout_free().   Scan-safe: no.   Fails: NULL: no memory.
+ * The time grows with the size of the chart.
+ * Owns: the caller, sfc_layout_free(). Scan-safe: no. Fails: NULL: no memory.
  */
 struct sfc_layout *sfc_layout_new(const struct sfc *sfc);
 void sfc_layout_free(struct sfc_layout *layout);
 
-/** sfc_layout_step, sfc_layout_transition - where it stands. Scan-safe: yes. */
+/** sfc_layout_step, sfc_layout_transition - its shape. Scan-safe: yes. */
 const struct sfc_shape *sfc_layout_step(const struct sfc_layout *layout, int step);
 const struct sfc_shape *sfc_layout_transition(const struct sfc_layout *layout,
 					      int transition);
-/** sfc_layout_at - number of the shape that covers a lane in a row; -1: none does. */
+/** sfc_layout_at - number of the shape at a lane and row; -1: none. */
 int sfc_layout_at(const struct sfc_layout *layout, int lane, int row);
-/** sfc_step_rows - rows inside the box of a step: its name and times, what it does. */
+/** sfc_step_rows - rows inside the box of a step: its name and times, its actions. */
 int sfc_step_rows(const struct sfc *sfc, int step);
 
 #endif

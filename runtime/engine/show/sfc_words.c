@@ -20,7 +20,7 @@ static void put_refs(const struct project *project, const struct sfc *sfc, int f
 	}
 }
 
-/* An expression that is written behind := and nothing else. */
+/* The text of an expression that is written with :=. */
 static const struct cell *expression_of(const struct pou *pou,
 					const struct sfc_body *body)
 {
@@ -31,7 +31,7 @@ static const struct cell *expression_of(const struct pou *pou,
 	       rung->cell[0].word == ELEM_COMPARE ? rung->cell : NULL;
 }
 
-/* `Start`, `rung 3`, `list`; `?` where there is none. */
+/* `Start`, `rung 3`, `list`; `?` if there is no body. */
 static void sfc_words_condition(const struct project *project, const struct pou *pou,
 				int transition, const struct sink *sink)
 {
@@ -48,7 +48,7 @@ static void sfc_words_condition(const struct project *project, const struct pou 
 		sink_printf(sink, "rung %d", body->first + 1);
 }
 
-/* Steps that have to be active too, and that no line leads here. */
+/* The other steps that must be active, too, and that have no line to here. */
 static void put_apart(const struct project *project, const struct sfc_layout *layout,
 		      const struct sfc_transition *transition, const struct sink *sink)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * show - draws rungs and charts as text, the way an electrician draws them.
+ * show - draws rungs and charts as text.
  *
- * First every column and line of a rung is measured, then each text line is put
- * out from left to right. It draws what stands in the grid, right or wrong.
+ * First every column and line of a rung is measured, then each text line is written
+ * from left to right. Rungs with errors are drawn, too.
  */
 #include "engine/show/show.h"
 
@@ -31,7 +31,7 @@ static const struct strokes ascii = {
 	.corner = { "+", "+", "+", "+" }, .side = "|", .more = "~",
 };
 
-/* How an element is put into its cell. */
+/* How an element is drawn in its cell. */
 enum form { FORM_EMPTY, FORM_WIRE, FORM_GLYPH, FORM_TEXT, FORM_BOX };
 
 void draw_blank(const struct draw *draw, int count)
@@ -102,7 +102,7 @@ static enum form form_at(const struct draw *draw, int row, int col)
 	return FORM_TEXT;
 }
 
-/* ---- what is joined to what ---- */
+/* ---- connections ---- */
 
 static bool linked_up(const struct draw *draw, int row, int bar)
 {
@@ -130,7 +130,7 @@ bool draw_goes_right(const struct draw *draw, int row, int col)
 		return col > draw->trail[row];
 	if (place != PLACE_LAST && place != PLACE_BOX)
 		return true;
-	/* An output leads nowhere, unless somebody joined something to it. */
+	/* An output has no wire at its right unless something is joined to it. */
 	return goes_left(draw, row, col + 1) ||
 	       linked_up(draw, row, col + 1) ||
 	       linked_up(draw, row + 1, col + 1);
@@ -155,8 +155,7 @@ static const char *joint(const struct draw *draw, int row, int bar)
 	return draw->strokes->joint[ways];
 }
 
-/* Power of an output that stands free at the end of its row goes on to the
- * right rail, as it is drawn on paper. */
+/* The line of an output with nothing behind it goes on to the right rail, as on paper. */
 static int trail_of(const struct draw *draw, int row)
 {
 	const struct rung *rung = draw->rung;
@@ -375,7 +374,7 @@ static void measure_lines(struct draw *draw)
 	}
 }
 
-/* A column that may grow without moving an element off its middle. */
+/* Widens a column without moving an element out of its middle. */
 static bool can_stretch(const struct draw *draw, int col)
 {
 	for (int row = 0; row < draw->rung->rows; row++) {
@@ -535,7 +534,7 @@ void draw_rung(struct draw *draw)
 	draw_comments(draw);
 }
 
-/* ---- which rungs ---- */
+/* ---- selection ---- */
 
 static int digits(int number)
 {

@@ -2,9 +2,8 @@
  *
  * show - rungs and charts drawn as text in a terminal.
  *
- * Everything goes to a sink and nothing is changed or checked: a wrong rung is
- * drawn as it stands. Control characters in a user's text are not printed, except
- * newlines.
+ * Everything is written to a sink and nothing is checked: rungs with errors are drawn
+ * as they are. Control characters in a user's text are not printed, except newlines.
  */
 #ifndef SHOW_H
 #define SHOW_H
@@ -15,12 +14,12 @@
 struct show_options {
 	bool ascii;   /* - | + instead of box characters                      */
 	int width;    /* narrower rungs are stretched to it, in columns; 0: no */
-	/* Power at the ends of a cell, 1-based as in resource_power(). Where there is
-	 * none, or where it returns false, wires are drawn thin. NULL: not known. */
+	/* Power at the ends of a cell, 1-based as in resource_power(). Wires without
+	 * power, or where it returns false, are thin. NULL: not known. */
 	bool (*power)(void *context, int pou, int rung, int row, int col, bool *in,
 		      bool *out);
-	/* Is a step of a chart active, and for how long ("": not known)? NULL: not
-	 * known. */
+	/* Whether a step of a chart is active, and for how long ("": not known). NULL:
+	 * not known. */
 	bool (*step)(void *context, int pou, int step, char *time, size_t size);
 	void *context;
 	const char *instance; /* of a block whose rungs are drawn; or NULL    */
@@ -32,9 +31,9 @@ struct show_options {
  * @rung:    1-based number in its POU; 0: all
  * @options: NULL: Unicode, not stretched
  *
- * A POU in IL is printed as its list. Rungs wider than a terminal run wide.
- * Returns the rungs drawn (a POU in IL counts as one); 0: there is no such
- * rung; -1: no memory.   Scan-safe: no.
+ * A POU in IL is printed as its list. Rungs are not wrapped to the terminal's width.
+ * Returns the rungs drawn (a POU in IL counts as one); 0: there is no such rung; -1: no
+ * memory. Scan-safe: no.
  */
 int show_rungs(const struct project *project, int pou, int rung,
 	       const struct show_options *options, const struct sink *sink);

@@ -2,9 +2,8 @@
  *
  * show_box - draws a function or function block as a box.
  *
- * The pins that carry power stand in the rows the rung file gives them; all
- * others follow below, with what is connected beside them. It measures and
- * draws, and does not say whether a parameter makes sense.
+ * Pins that carry power are in the rows of the rung file; the others follow below, with
+ * their values beside them. Parameters are not checked.
  */
 #include "engine/show/draw.h"
 #include "engine/model/args.h"
@@ -72,8 +71,8 @@ static bool has_row(const struct draw *draw, const char *name)
 	return false;
 }
 
-/* What was written at pins that the row does not list: IN3, mistakes, and a
- * parameter at a pin that carries power. */
+/* Parameters at pins that the row does not list: IN3, errors, and a parameter at a pin
+ * that carries power. */
 static void add_others(struct draw *draw)
 {
 	const char *at = draw->box.args;
@@ -174,7 +173,7 @@ int box_bottom(const struct draw *draw)
 	return at_least(left, box->out.count) + 1;
 }
 
-/* Columns before the left side of the box: its column may be wider than it. */
+/* Columns before the left side of the box: the column may be wider than the box. */
 static int box_start(const struct draw *draw)
 {
 	const struct box *box = &draw->box;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * show_sfc - a chart as text: boxes, lines, what is done, conditions.
+ * show_sfc - draws a chart as text: boxes, lines, actions, conditions.
  *
- * Each lane gets columns of its own: left of its line as many as half a box takes, right
- * of it what its longest text takes. Every row is put out from left to right. Conditions
- * and actions that are rungs or lists stand below, under their names.
+ * Each lane has its own columns: left of its line half the width of its widest box,
+ * right of it the width of its longest text. Every row is written from left to right.
+ * Conditions and actions that are rungs or lists follow below, under their names.
  */
 #include "engine/show/draw.h"
 #include "engine/base/plain.h"
@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define GAP      3   /* columns between lanes                                   */
-#define LEAD     2   /* columns between a box and what it does                  */
+#define LEAD     2   /* columns between a box and its actions                   */
 #define CLIP_SFC 60  /* columns of a text                                       */
 
 struct edges {               /* of a box                                       */
@@ -65,12 +65,12 @@ struct sketch {
 	struct words *shape;     /* by shape                                   */
 	struct words *times;     /* by step                                    */
 	struct words *what, *does; /* by use: qualifier, name                  */
-	bool *active;            /* by step: what runs has it so               */
+	bool *active;            /* by step                                    */
 	struct lane *lane;
 	struct sfc_wire *down, *across; /* by lane and row; by row and lane    */
 	int down_count, across_count;
 	int next_across;
-	int column;              /* that is put out next                       */
+	int column;              /* terminal column that is written next      */
 };
 
 /* ---- texts ---- */
@@ -105,7 +105,7 @@ static struct words keep(struct sketch *sketch, struct sink_memory *memory)
 	return words;
 }
 
-/* An active step has a mark and its time beside its name. */
+/* An active step has a mark and its time at its name. */
 static void put_name(struct sketch *sketch, int shape, const struct sink *sink)
 {
 	const struct sfc_shape *s = &sketch->layout->shape[shape];
@@ -273,7 +273,7 @@ static unsigned ways_at(struct sketch *sketch, int l, int row)
 	return ways;
 }
 
-/* ---- putting out ---- */
+/* ---- writing ---- */
 
 static void put(struct sketch *sketch, const char *text, int count)
 {
@@ -302,7 +302,7 @@ static void put_edge(struct sketch *sketch, const struct edges *edges, bool top,
 	put(sketch, edges->corner[top ? 1 : 3], 1);
 }
 
-/* The line of a table of what a step does: -1 and count are its edges. */
+/* A line of the table of a step's actions: -1 and count are its edges. */
 static void put_table(struct sketch *sketch, int step, int line)
 {
 	const struct sfc_step *s = &sketch->layout->sfc->step[step];
@@ -358,7 +358,7 @@ static void put_step(struct sketch *sketch, int step, int row, unsigned ways)
 	put_table(sketch, step, line);
 }
 
-/* All steps that it leaves are active. */
+/* Whether all steps before it are active. */
 static bool is_enabled(const struct sketch *sketch, int transition)
 {
 	const struct sfc *sfc = sketch->layout->sfc;
@@ -476,7 +476,7 @@ static void put_row(struct sketch *sketch, int row)
 	sink_text(sketch->draw->sink, "\n");
 }
 
-/* ---- what stands below ---- */
+/* ---- rungs and lists below ---- */
 
 static void put_body(const struct sketch *sketch, struct draw *draw,
 		     const struct sfc_body *body)

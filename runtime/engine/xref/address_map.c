@@ -135,7 +135,8 @@ static int by_first(const void *left, const void *right)
 	return a->use < b->use ? -1 : a->use > b->use;
 }
 
-/* All areas far apart: what is declared beyond the end of one lies in no other. */
+/* Places all areas far apart: a declaration beyond the end of one area overlaps no
+ * other. */
 static uint32_t apart(struct iec_addr addr)
 {
 	return (uint32_t)addr.area << 27 | (addr.byte * 8 + addr.bit);
@@ -143,7 +144,7 @@ static uint32_t apart(struct iec_addr addr)
 _Static_assert(LIMIT_MEMORY * 8 + LIMIT_ELEMENTS * 64 <= 1u << 27 && AREA_COUNT <= 32,
 	       "areas have room");
 
-/* Every variable with an address, and every address that is used, each once. */
+/* Every variable with an address, and every used address, each once. */
 static int ranges_of(struct xref *xref, struct range *range)
 {
 	int count = 0, kept = 0;
@@ -184,21 +185,21 @@ int address_map_clashes(struct xref *xref, struct address_clash *out, int most)
 			if (found < most)
 				out[found] = (struct address_clash){ a < b ? a : b,
 								     a < b ? b : a };
-			if (++found > LIMIT_VARS) /* all of one word: enough */
+			if (++found > LIMIT_VARS) /* all parts of one word: enough */
 				return found;
 		}
 	}
 	return range ? found : -1;
 }
 
-/* Of a text: it was read whole, or as parameters. Of a folded name: it is declared. */
+/* For a text: it was read whole, or as parameters. For a folded name: it is declared. */
 enum mark { SEEN_WHOLE = 1, SEEN_ARGS = 2, GLOBAL = 4, LOCAL = 8 };
 
 struct walk {
 	struct xref *out;
 	const struct project *project;
 	uint8_t *mark;           /* by string id                              */
-	bool own;                /* the text may mean another in another POU  */
+	bool own;                /* the text may mean something else in another POU */
 };
 
 static struct xref_use *add(struct walk *walk, struct xref_target target,
@@ -231,7 +232,7 @@ static void mark_table(struct walk *walk, const struct var_table *table, enum ma
 	}
 }
 
-/* A variable may be called as an address is; then that is what is meant. */
+/* A variable may have the name of an address; then the variable is meant. */
 static bool is_declared(struct walk *walk, const char *text, size_t len)
 {
 	walk->own = true;
@@ -239,7 +240,7 @@ static bool is_declared(struct walk *walk, const char *text, size_t len)
 	       (GLOBAL | LOCAL);
 }
 
-/* An address, or a name of the system that has one. */
+/* An address, or a system name for one. */
 static bool is_address(struct walk *walk, const char *text, size_t len,
 		       struct iec_addr *out)
 {
@@ -255,7 +256,7 @@ static bool is_address(struct walk *walk, const char *text, size_t len,
 	       (text[0] == '%' || !is_declared(walk, text, len));
 }
 
-/* Most texts are one name: they need no scanner. */
+/* Most texts are one name: no scanner is needed. */
 static bool is_plain_name(const char *text, size_t len)
 {
 	for (size_t i = 0; i < len; i++)
@@ -301,7 +302,7 @@ static void scan_whole(struct walk *walk, uint32_t id)
 		walk->mark[id] |= SEEN_WHOLE;
 }
 
-/* Only the values: a parameter may be called as an address is. */
+/* Only the values: the name of a parameter may look like an address. */
 static void scan_args(struct walk *walk, uint32_t id)
 {
 	const char *next;
@@ -317,7 +318,7 @@ static void scan_args(struct walk *walk, uint32_t id)
 		walk->mark[id] |= SEEN_ARGS;
 }
 
-/* Names of labels, routines and parameters are no memory. */
+/* Names of labels, routines and parameters are not memory. */
 static bool is_memory(enum operand_kind operand)
 {
 	return operand != OPND_NONE && operand != OPND_LABEL &&

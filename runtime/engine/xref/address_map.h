@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * address_map - which addresses a project uses, which one is free, which are used under
- * two names. It knows the program only: not what is wired to a board.
+ * address_map - the addresses that a project uses, free ones, and those with two names.
+ * I/O maps are not considered.
  */
 #ifndef XREF_ADDRESS_MAP_H
 #define XREF_ADDRESS_MAP_H
@@ -10,8 +10,8 @@
 
 struct address_map {
 	struct areas areas; /* of the project                                 */
-	uint8_t *used;     /* a bit for each one of all areas                 */
-	uint8_t *reached;  /* those too that an index may lead to: %MW0[i]    */
+	uint8_t *used;     /* a bit for each bit of all areas                 */
+	uint8_t *reached;  /* also those that an index may reach: %MW0[i]     */
 };
 
 /** address_map_make - Owns: @arena. Scan-safe: no. Fails: false: no memory. */
@@ -19,27 +19,28 @@ bool address_map_make(struct address_map *out, const struct xref *xref,
 		      struct arena *arena);
 /**
  * address_map_next - the first free address
- * @bits:  1, 8, 16, 32 or 64; @count: so many in a row, 1 for a single variable
- * @after: NULL, or the first one looked at is that behind it
+ * @bits: 1, 8, 16, 32 or 64; @count: number of elements, 1 for a single variable
+ * @after: NULL, or search from behind this address
  *
- * One of more than a bit stands at a multiple of its bytes. What an index may lead to is
- * given out only when there is nothing else. Inside the area as the project has it.
- * Scan-safe: no.   Fails: false: there is none.
+ * Values of more than a bit are aligned to their size. Addresses that an index may
+ * reach are used only if no other is free. The result is inside the project's area.
+ * Scan-safe: no. Fails: false: there is none.
  */
 bool address_map_next(const struct address_map *map, enum iec_area area, int bits,
 		      uint32_t count, const struct iec_addr *after, struct iec_addr *out);
-/** address_map_is_used - has one of its bits a use or a variable? Not beyond its area. */
+/** address_map_is_used - whether one of its bits is used or declared; false beyond its
+ * area. */
 bool address_map_is_used(const struct address_map *map, struct iec_addr addr);
 
 /* The same memory under two names: variables, or an address and a variable. */
 struct address_clash {
-	int a, b;          /* uses, of which b comes later in the file        */
+	int a, b;          /* uses; b is later in the file                    */
 };
 /**
  * address_map_clashes - pairs of different things with a bit in common, each once
- * @out: gets them, at most @most; of two parts of memory in use only by address those
- *       of different width
- * Returns how many there are in all, or -1: no memory.   Scan-safe: no.
+ * @out: gets at most @most of them; two plain addresses clash only if their widths
+ *       differ
+ * Returns the total number, or -1: no memory. Scan-safe: no.
  */
 int address_map_clashes(struct xref *xref, struct address_clash *out, int most);
 

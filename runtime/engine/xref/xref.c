@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * xref - goes through a project and notes where each name is used, and how.
+ * xref - finds the uses of each name in a project.
  *
- * xref_scan() reads each text that may hold names. Printing is in xref_print.c.
+ * xref_scan() reads each text that may contain names. xref_print.c prints.
  */
 #include "engine/xref/xref.h"
 
@@ -13,22 +13,22 @@
 
 #include <string.h>
 
-/* Of a folded name: the body in which it was a label last, and where, 1-based. */
+/* For a folded name: the last body with it as a label, and its 1-based place. */
 struct xref_label {
 	int body, at;
 };
 
-/* On the way through a project. */
+/* The state of a walk through a project. */
 struct xref_walk {
 	struct xref *out;
 	struct project *project;
 	struct scope *scope;
-	const struct pou *pou;   /* whose names are seen; NULL: globals       */
-	struct xref_use place;   /* where we are                              */
-	uint32_t *slot;          /* the text that is looked at                */
+	const struct pou *pou;   /* scope of names; NULL: globals             */
+	struct xref_use place;   /* the present place                         */
+	uint32_t *slot;          /* the text that is scanned                  */
 	struct xref_label *label; /* by folded name                           */
 	uint32_t labels;
-	int body;                /* of labels: one of each POU, of a chart many */
+	int body;                /* for labels: each POU has one, a chart many */
 	enum word call;          /* of the call in a list whose pins follow   */
 };
 
@@ -89,7 +89,7 @@ bool xref_touches(const struct xref_target *a, const struct xref_target *b)
 	       first < other + b->addr.bits && other < first + a->addr.bits;
 }
 
-/* ---- noting ---- */
+/* ---- adding uses ---- */
 
 static struct xref_use *xref_add(struct xref_walk *walk, struct xref_target target,
 				 enum xref_kind kind, uint32_t at, uint32_t len)
@@ -108,11 +108,11 @@ static struct xref_use *xref_add(struct xref_walk *walk, struct xref_target targ
 	return use;
 }
 
-/* A path, and the indices in its brackets one level deeper. */
+/* A path; the indices in its brackets are one level deeper. */
 struct level {
-	uint16_t word;        /* of what was reached; WORD_COUNT: no parts     */
-	uint8_t kind;         /* what happens to what is named here            */
-	bool used;            /* `use` is the one that ends here               */
+	uint16_t word;        /* of the part so far; WORD_COUNT: no members    */
+	uint8_t kind;         /* kind of use of the name                       */
+	bool used;            /* index of the use that ends here               */
 	int use;
 };
 
@@ -132,8 +132,8 @@ static uint16_t word_of(const struct var *var)
 	return (uint16_t)(var->type == IEC_NONE ? var->fb : WORD_COUNT);
 }
 
-/* Parameter @name of a word: XREF_UNKNOWN if it is not the project's.
- * @dir: gets its direction; of those that are none PIN_NONE. */
+/* Parameter @name of a word: XREF_UNKNOWN if the word is not the project's. @dir: gets
+ * its direction; PIN_NONE if there is no such parameter. */
 static struct xref_target xref_pin(struct xref_walk *walk, enum word word, const char *name,
 				   size_t len, enum pin_dir *dir)
 {
@@ -177,7 +177,7 @@ static bool part(const char **at, const char *end, size_t *len)
 	return true;
 }
 
-/* `.Limit.High` behind what was reached. */
+/* Adds the members behind a name: `.Limit.High`. */
 static void scan_members(struct scan *scan, const char *at, const char *end)
 {
 	struct level *level = &scan->level[scan->depth];
@@ -213,7 +213,7 @@ static void add_address(struct scan *scan, const struct token *token,
 	    token->len);
 }
 
-/* What is no declared name: a constant, a system name, an address, or nothing. */
+/* A name without declaration: a constant, a system name, an address, or unknown. */
 static void scan_other(struct scan *scan, const struct token *token, size_t first)
 {
 	const struct meaning *m = mean(scan, token->text, token->len);
@@ -227,7 +227,7 @@ static void scan_other(struct scan *scan, const struct token *token, size_t firs
 		add(scan, none, token->text, first);
 }
 
-/* Fill.X: speaks of the step. TRANSITION is nobody's name. */
+/* Fill.X is a use of the step. TRANSITION is a reserved name. */
 static bool scan_step(struct scan *scan, const struct token *token)
 {
 	const struct pou *pou = scan->walk->pou;
@@ -274,7 +274,7 @@ static void scan_head(struct scan *scan, const struct token *token)
 		scan_members(scan, dot + 1, end);
 }
 
-/* AND, MOD and the like are no names. */
+/* Operators such as AND and MOD are not names. */
 static bool is_operator(const struct token *token)
 {
 	return op_find(token->text, token->len) != OP_COUNT ||
@@ -298,7 +298,7 @@ static void scan_address(struct scan *scan, const struct token *token)
 		add_address(scan, token, addr);
 }
 
-/* False: too deep for any text that was read. */
+/* False: deeper than any text that a reader accepts. */
 static bool scan_symbol(struct scan *scan)
 {
 	struct level *level = &scan->level[scan->depth];
@@ -319,8 +319,8 @@ static bool scan_symbol(struct scan *scan)
 	return true;
 }
 
-/* The names in @len bytes of the text of walk->slot from @at on
- * @kind: what happens to the first of them, up to `:=` if there is one */
+/* Adds the names in @len bytes of the text of walk->slot from @at on
+ * @kind: use of the first one, or of the target before `:=` */
 static void xref_scan(struct xref_walk *walk, size_t at, size_t len, enum xref_kind kind)
 {
 	struct scan scan = { .walk = walk };
@@ -342,7 +342,7 @@ static void xref_scan(struct xref_walk *walk, size_t at, size_t len, enum xref_k
 	}
 }
 
-/* The names in all of a text; xref_whole - all of it names @target. */
+/* Adds the names in a whole text. */
 static void xref_all(struct xref_walk *walk, uint32_t *slot, enum xref_kind kind)
 {
 	if (!*slot)
@@ -403,7 +403,7 @@ static void begin_place(struct xref_walk *walk, int pou, const char *file, int l
 					 .included = included };
 }
 
-/* The globals of an included file have its name nowhere: their block's part says it. */
+/* Globals of an included file: the name of the file is that of their block's part. */
 static void mark_included(struct xref_walk *walk)
 {
 	const struct project *project = walk->project;
@@ -512,7 +512,7 @@ static void note_label(struct xref_walk *walk, int pou, uint32_t *name, int at)
 
 	if (!fold || fold >= walk->labels)
 		return;
-	if (walk->label[fold].body == walk->body) /* the second one: the first is meant */
+	if (walk->label[fold].body == walk->body) /* of two equal labels the first is used */
 		target.index = walk->label[fold].at - 1;
 	else
 		walk->label[fold] = (struct xref_label){ walk->body, at };
@@ -545,7 +545,7 @@ static void add_routine(struct xref_walk *walk, uint32_t *name)
 
 /* ---- cells ---- */
 
-/* What the box does with the variable at its parameter. */
+/* The kind of use of a variable at a parameter of a box. */
 static enum xref_kind kind_of_value(enum pin_dir dir, bool output)
 {
 	if (dir == PIN_IN_OUT)
@@ -579,7 +579,7 @@ static void walk_args(struct xref_walk *walk, struct cell *cell)
 	}
 }
 
-/* A further row of the box above. */
+/* A PIN row of the box above. */
 static void walk_pin(struct xref_walk *walk, struct rung *rung, int row, int col)
 {
 	struct cell *cell = rung_cell(rung, row, col);
@@ -606,7 +606,7 @@ static enum xref_kind kind_of_write(enum op op, bool list)
 	return list ? XREF_WRITTEN : XREF_COIL;
 }
 
-/* What stands behind FOR. */
+/* The text behind FOR. */
 static void xref_loop(struct xref_walk *walk)
 {
 	const char *text = project_text(walk->project, *walk->slot);
@@ -775,7 +775,7 @@ static void walk_line(struct xref_walk *walk, struct il_line *line)
 	}
 }
 
-/* A place of a text that is no ladder. */
+/* The place in a text that is not a rung. */
 static void xref_begin(struct xref_walk *walk, const struct pou *pou, int line, int column)
 {
 	begin_place(walk, (int)(pou - walk->project->pou), pou->file, line,
@@ -820,7 +820,7 @@ static void xref_body(struct xref_walk *walk, struct pou *pou, const struct sfc_
 
 /* ---- all ---- */
 
-/* Labels and jumps are known by their folded name, which must exist beforehand. */
+/* Labels and jumps are compared by folded name, which must exist before. */
 static bool make_labels(struct xref_walk *walk)
 {
 	struct names *names = &walk->project->names;
@@ -861,7 +861,7 @@ static void declare(struct xref_walk *walk, struct pou *pou)
 	}
 }
 
-/* What a line does with its BOOL. */
+/* The kind of use of the BOOL of a step's line. */
 static enum xref_kind kind_of(const struct sfc_use *use)
 {
 	if (use->kind == USE_SET || (use->kind == USE_ACTION &&
@@ -915,7 +915,7 @@ static void walk_refs(struct xref_walk *walk, struct pou *pou, int first, int co
 	}
 }
 
-/* All of a chart but its declarations. */
+/* A chart without its declarations. */
 static void xref_sfc(struct xref_walk *walk, struct pou *pou)
 {
 	struct sfc *sfc = pou->sfc;

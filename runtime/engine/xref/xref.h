@@ -2,8 +2,8 @@
  *
  * xref - every place where a variable, member, address, label or POU is used.
  *
- * It reads names as check/scope.h does, of projects with errors too: what has no
- * meaning is XREF_UNKNOWN. It judges nothing and changes nothing.
+ * It resolves names as check/scope.h does, also in projects with errors: an unknown
+ * name is XREF_UNKNOWN.
  */
 #ifndef XREF_H
 #define XREF_H
@@ -12,18 +12,18 @@
 #include "engine/model/project.h"
 
 enum xref_what {
-	XREF_UNKNOWN,    /* a name that means nothing                         */
+	XREF_UNKNOWN,    /* an unknown name                                   */
 	XREF_VARIABLE,   /* also an instance, and a member of a structure     */
 	XREF_ADDRESS,
 	XREF_LABEL,
 	XREF_POU,
 	XREF_STRUCTURE,
-	XREF_STEP,       /* of a chart; Fill in Fill.X, too                   */
+	XREF_STEP,       /* of a chart; also Fill in Fill.X                   */
 	XREF_TRANSITION,
 	XREF_ACTION,
 };
 
-/* What is spoken of. */
+/* The thing that a name means. */
 struct xref_target {
 	enum xref_what what;
 	int table;       /* VARIABLE: 0 the globals, n + 1 those of POU n, behind
@@ -56,10 +56,10 @@ struct xref_use {
 	const char *file; /* borrowed from the project                        */
 	bool included;   /* stands in a file that the project names           */
 	bool off;        /* in a rung that is OFF                             */
-	bool open;       /* an address with an index behind it: up to where?  */
-	bool unnamed;    /* the name is made from its declaration: of a block */
-	uint32_t *slot;  /* of the project: id of the text it stands in; NULL:
-			    it is no text. Dies with the next change          */
+	bool open;       /* an address with an index behind it: the end is not known */
+	bool unnamed;    /* made from a declaration, as the name of a block is */
+	uint32_t *slot;  /* in the project: id of the text it is in; NULL: it is not in a
+			  * text. Invalid after a change */
 	uint32_t at, len; /* bytes of that text                               */
 };
 
@@ -79,50 +79,49 @@ struct xref {
  */
 bool xref_make(struct xref *out, struct project *project);
 /**
- * xref_addresses - the memory in use alone: declared variables with an address, and
- * addresses in texts, each text once, without their places
+ * xref_addresses - only the used memory: declared variables with an address, and
+ * addresses in texts, each text once, without places
  *
- * For address_map_make(), to which it means the same, at a tenth of the time. Owns, fails,
- * scan-safe: as xref_make.
+ * For address_map_make(): same result in a tenth of the time. Owns, fails, scan-safe:
+ * as xref_make.
  */
 bool xref_addresses(struct xref *out, struct project *project);
 void xref_free(struct xref *xref);
 
-/** xref_same - do both speak of the same thing? Addresses: of the same bits. */
+/** xref_same - whether both mean the same thing; addresses: the same bits. */
 bool xref_same(const struct xref_target *a, const struct xref_target *b);
-/** xref_touches - the same, or at least one bit of memory in common. */
+/** xref_touches - whether both are the same or share a bit of memory. */
 bool xref_touches(const struct xref_target *a, const struct xref_target *b);
 /** xref_table - the variables of a table number; NULL: there is none. */
 struct var_table *xref_table(struct project *project, int table);
-/** xref_var - of a VARIABLE; NULL: of anything else. */
+/** xref_var - the variable of a VARIABLE; otherwise NULL. */
 struct var *xref_var(struct project *project, const struct xref_target *target);
 /** xref_variable - the target of variable @index of a table. */
 struct xref_target xref_variable(struct project *project, int table, int index);
 /**
  * xref_name - Motor, Main.Delay (of a POU), Recipe.Speed, %QX0.1, Main:Seal (a label)
- * @use: tells the name of what has no declaration; may be NULL
- * Returns as snprintf.
+ * @use: gives the name of an undeclared thing; may be NULL Returns as snprintf.
  */
 int xref_name(const struct project *project, const struct xref_target *target,
 	      const struct xref_use *use, char *out, size_t size);
-/** xref_rank - in which order lists show things: names in that of their declarations,
- * then addresses, then what is unknown. */
+/** xref_rank - the order of things in lists: names in the order of declarations, then
+ * addresses, then unknown names. */
 int64_t xref_rank(const struct xref_target *target);
-/** xref_kind_word - "coil", "read". Lives for ever. */
+/** xref_kind_word - "coil", "read". Static. */
 const char *xref_kind_word(enum xref_kind kind);
-/** xref_text - the whole text that the use stands in; "" for none. */
+/** xref_text - the whole text of the use; "" for none. */
 const char *xref_text(const struct xref *xref, const struct xref_use *use);
 
-/* What a line of a text is called that was made from something else. */
+/* Maps lines of a generated text to lines of its source. */
 struct xref_lines {
 	int (*of)(const void *context, int line);
 	const void *context;
 };
 
 /**
- * xref_print - uses, sorted by what they speak of, a line or JSON object each
- * @name: NULL: all; else of what has this name (any case), with or without its POU, or
- *        of what touches this address
+ * xref_print - prints uses, sorted by thing, a line or JSON object each
+ * @name: NULL: all; else things of this name (any case), with or without the POU, or
+ *        things that share memory with this address
  * @lines: NULL: lines are those of the text
  * Returns how many; -1: no memory.
  */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * xref_print - uses as lines for people and as JSON, sorted by what they speak of.
+ * xref_print - prints uses as lines for people and as JSON, sorted by thing.
  */
 #include "engine/xref/xref.h"
 
@@ -29,7 +29,7 @@ const char *xref_text(const struct xref *xref, const struct xref_use *use)
 
 /* ---- names ---- */
 
-/* The name that qualifies those of a table; "": the globals. */
+/* The name in front of those of a table; "": the globals. */
 static const char *table_name(const struct project *project, int table)
 {
 	if (table == 0)
@@ -40,7 +40,7 @@ static const char *table_name(const struct project *project, int table)
 		project->structure[table - project->pou_count - 1].name);
 }
 
-/* What the text of the use says, of what has no declaration. */
+/* The name in the text of the use, for undeclared things. */
 static int written_name(const struct project *project, const struct xref_use *use,
 			char *out, size_t size)
 {
@@ -66,7 +66,7 @@ static int label_name(const struct project *project, const struct xref_target *t
 			project_text(project, name));
 }
 
-/* Filler.Idle: as a variable of the chart, which cannot have the same name. */
+/* Filler.Idle: like a variable of the chart, which cannot have the same name. */
 static int name_in_sfc(const struct project *project, const struct xref_target *target,
 		       const struct xref_use *use, char *out, size_t size)
 {
@@ -117,7 +117,7 @@ int xref_name(const struct project *project, const struct xref_target *target,
 
 struct wanted {
 	const char *name;          /* NULL: all                               */
-	struct xref_target addr;   /* what is no name                         */
+	struct xref_target addr;   /* a text that is not a name               */
 	bool is_addr;
 };
 
@@ -152,7 +152,7 @@ static bool is_wanted(const struct xref *xref, const struct xref_use *use,
 
 int64_t xref_rank(const struct xref_target *target)
 {
-	/* In units of 1 << 58: tables need less than 18 bits. */
+	/* In units of 1 << 58: numbers of tables need less than 18 bits. */
 	static const int64_t first[] = {
 		[XREF_POU] = 0, [XREF_STRUCTURE] = 4, [XREF_VARIABLE] = 8,
 		[XREF_STEP] = 9, [XREF_TRANSITION] = 10, [XREF_ACTION] = 11,
