@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * complete - the part of the facade that says what could stand at a place.
+ * complete - the part of the facade that completes words.
  *
- * It looks at a project as far as it could be read, and builds nothing.
+ * It uses the project as far as it could be read, and builds nothing.
  */
 #include "engine/ladder_inside.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * ladder - from a file to something that runs, in the one order there is.
+ * ladder - the facade: reads, checks, translates and verifies a program, in this order.
  *
- * read, check, translate, verify. What it made it owns; it prints nothing.
+ * It owns its results and prints nothing.
  */
 #include "engine/ladder_inside.h"
 
@@ -21,7 +21,7 @@
 #include <string.h>
 
 struct ladder {
-	const struct advice *advice; /* of every project; NULL: none           */
+	const struct advice *advice; /* for every project; NULL: none          */
 	struct diag_list diags;
 	struct project *project;
 	struct arena arena;       /* of the translation                     */
@@ -31,7 +31,7 @@ struct ladder {
 	const void *image;
 	size_t image_len;
 	struct program program;
-	bool good, built, unreadable, watch; /* good: the last load was */
+	bool good, built, unreadable, watch; /* good: the last load succeeded */
 	struct foreign *foreign;  /* NULL: rung files and images alone      */
 };
 
@@ -109,7 +109,7 @@ static bool no_memory(struct ladder *ladder, const char *file)
 
 /* ---- loading ---- */
 
-/* A file beside the one that names it. */
+/* Reads a file that is named relative to another one. */
 static char *load_include(void *context, const char *from, const char *name,
 			  size_t *len, struct diag_list *diags,
 			  struct diag place)
@@ -205,8 +205,8 @@ static void place_foreign(struct ladder *ladder)
 		ladder->foreign->place(ladder->foreign, &ladder->diags);
 }
 
-/* Keeps the diagnostics' names: the project goes only when nothing points into
- * it. So a project with errors stays until the next load, but is not given out. */
+/* Diagnostics point to names in the project, so a project with errors is kept until the
+ * next load, but ladder_project() does not return it. */
 bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
 		      size_t len)
 {
@@ -254,7 +254,7 @@ bool ladder_could_read(const struct ladder *ladder)
 
 /* ---- building ---- */
 
-/* Topology; an erring rung gets a 1 and is left out of translation. */
+/* Topology; a rung with errors gets a 1 and is not translated. */
 static bool check_pou(struct ladder *ladder, const struct pou *pou, uint8_t *bad)
 {
 	struct network network;
@@ -274,7 +274,7 @@ static bool check_pou(struct ladder *ladder, const struct pou *pou, uint8_t *bad
 	return true;
 }
 
-/* What charts can come to, if they are whole. */
+/* Warnings about states that charts can reach, if there are no errors. */
 static void check_states(struct ladder *ladder)
 {
 	struct project *project = ladder->project;
@@ -290,7 +290,7 @@ static void check_states(struct ladder *ladder)
 	}
 }
 
-/* A byte a rung, by POU: 1 where an error stands. NULL: no memory. */
+/* A byte a rung, by POU: 1: it has errors. NULL: no memory. */
 static uint8_t **check_all(struct ladder *ladder)
 {
 	struct project *project = ladder->project;
@@ -312,7 +312,7 @@ static uint8_t **check_all(struct ladder *ladder)
 	return ladder->scratch.failed || project->arena.failed ? NULL : bad;
 }
 
-/* The list of a POU, as it runs or as it is watched, and its types. */
+/* The list of a POU, plain or instrumented, and its types. */
 static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 		      const uint8_t *bad)
 {
@@ -431,7 +431,7 @@ bool ladder_build(struct ladder *ladder)
 	return good;
 }
 
-/* ---- what there is ---- */
+/* ---- results ---- */
 
 struct diag_list *ladder_diags(struct ladder *ladder)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * ladder_classic - the facade's way to projects of ClassicLadder.
+ * ladder_classic - the facade's import of ClassicLadder projects.
  *
- * A file of its own, so that a program that does not ask for them does not link them.
+ * A separate file, so that a program that does not use it does not link it.
  */
 #include "engine/ladder_inside.h"
 
@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 
 struct classic_foreign {
-	struct foreign foreign;   /* first: the one is the other               */
+	struct foreign foreign;   /* first: the pointers are equal             */
 	struct arena arena;
 	struct classic_report report;
 	struct classic_options options;
@@ -23,8 +23,8 @@ struct classic_foreign {
 	const char *io;           /* its I/O map; NULL: none                   */
 	const struct classic_project *project; /* NULL: nothing was read       */
 	const char *path;         /* as the user wrote it                      */
-	bool folder;              /* it is one                                 */
-	const char *name;         /* of the text: the same letters elsewhere   */
+	bool folder;              /* it is a folder                            */
+	const char *name;         /* lines of the text: their origin in the project */
 };
 
 static void forget(struct foreign *foreign)
@@ -72,7 +72,7 @@ static const char *read_foreign(struct foreign *foreign, const char *path,
 	return classic->text.text;
 }
 
-/* Projects of before 2008 are folders that have one of these. */
+/* Projects from before 2008 are folders that contain one of these files. */
 static bool is_folder(const char *path)
 {
 	static const char *const name[] = { "sections.csv", "rung_0.csv", "general.txt",
@@ -95,7 +95,7 @@ static int line_of(const struct classic_foreign *classic, int line)
 	       classic->text.place[line - 1].line : 0;
 }
 
-/* Of a folder a line is one of a file in it. */
+/* In a folder, a line belongs to one of its files. */
 static const char *file_of(struct classic_foreign *classic, int line)
 {
 	const char *member = line > 0 && line <= classic->text.lines ?
@@ -117,7 +117,7 @@ static void place_diags(const struct foreign *foreign, struct diag_list *diags)
 	for (int i = 0; i < diags->count; i++) {
 		struct diag *diag = &diags->diag[i];
 
-		/* Those of the project itself, and what has its place, have the path. */
+		/* Files of the project itself have the path of the project. */
 		if (!classic->project || !diag->file || diag->file == classic->path ||
 		    strcmp(diag->file, classic->path))
 			continue;
@@ -191,7 +191,7 @@ const struct classic_project *ladder_import_project(const struct ladder *ladder)
 	return classic ? classic->project : NULL;
 }
 
-/* The line with RUNG knows where it comes from. */
+/* The place of the rung's RUNG line identifies the imported rung. */
 const struct classic_rung *ladder_import_rung(const struct ladder *ladder, int pou,
 					      int rung)
 {
@@ -234,7 +234,7 @@ bool ladder_is_classic(const char *path)
 
 	if (is_folder(path))
 		return true;
-	/* A pipe would wait for somebody to write. */
+	/* Opening a pipe would block. */
 	if (stat(path, &about) != 0 || !S_ISREG(about.st_mode))
 		return false;
 	file = fopen(path, "rb");

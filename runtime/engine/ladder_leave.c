@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * ladder_leave - the facade's way back to ClassicLadder.
+ * ladder_leave - the facade's export to ClassicLadder.
  *
- * A file of its own, so that a program that does not ask for it does not link it.
+ * A separate file, so that a program that does not use it does not link it.
  */
 #include "engine/ladder_inside.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * rename - the facade's way to give a thing another name everywhere.
+ * rename - renames a thing and all its uses.
  *
- * The texts that speak of it are exchanged in the project, the project is written, and
- * the texts are put back. What was written is read again, and each name in it must mean
- * what it meant: so nothing is ever captured, whatever rules of scope there are.
+ * The texts that contain the name are replaced in the project, the project is written,
+ * and the texts are restored. The result is read again, and each name in it must still
+ * mean the same. So no name is captured, whatever the rules of scope.
  */
 #include "engine/ladder_inside.h"
 
@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A text of the project as it was. */
+/* An original text of the project. */
 struct kept {
 	uint32_t *slot;
 	uint32_t old;
@@ -48,7 +48,7 @@ static bool refuse(struct rename *r, enum ladder_refusal why, const struct xref_
 	return false;
 }
 
-/* ---- what is meant ---- */
+/* ---- the target ---- */
 
 static bool is_result(const struct project *project, const struct xref_target *target)
 {
@@ -62,7 +62,7 @@ static bool is_result(const struct project *project, const struct xref_target *t
 	       !vars_is_eno(&pou->vars, target->index);
 }
 
-/* The name of a FUNCTION is that of its result. */
+/* The name of a FUNCTION is also that of its result. */
 static struct xref_target as_named(const struct project *project,
 				   const struct xref_target *target)
 {
@@ -89,7 +89,7 @@ static const struct xref_use *declaration(const struct rename *r)
 	return NULL;
 }
 
-/* ---- may it be called so? ---- */
+/* ---- is the name allowed? ---- */
 
 static uint32_t fold_of(struct rename *r, const char *name)
 {
@@ -98,7 +98,7 @@ static uint32_t fold_of(struct rename *r, const char *name)
 	return names_fold(names, names_intern(names, name, strlen(name)));
 }
 
-/* Of a chart steps, transitions and actions are one family with its variables. */
+/* In a chart, steps, transitions, actions and variables share one scope. */
 static bool is_local(const struct xref_target *target)
 {
 	return (target->what == XREF_VARIABLE && target->table > 0) ||
@@ -106,7 +106,7 @@ static bool is_local(const struct xref_target *target)
 	       target->what == XREF_ACTION;
 }
 
-/* Do both stand where no two may have one name? */
+/* Whether both are in a scope where names must differ. */
 static bool share_space(const struct xref_target *a, const struct xref_target *b)
 {
 	bool a_type = a->what == XREF_POU || a->what == XREF_STRUCTURE;
@@ -136,7 +136,7 @@ static bool is_free(struct rename *r)
 	return true;
 }
 
-/* Words of the language that only some things cannot be called. */
+/* Words that only some things cannot have as a name. */
 static bool is_word(const struct rename *r)
 {
 	const struct project *project = r->project;
@@ -171,8 +171,8 @@ static bool may_be_called(struct rename *r)
 
 /* ---- the texts ---- */
 
-/* The text of use @first with the new name at it and those behind it of the same
- * text; @first is moved behind them. 0: no memory. */
+/* The text of use @first with the new name in it and in later uses of the same text;
+ * @first moves behind them. 0: no memory. */
 static uint32_t new_text(struct rename *r, int *first)
 {
 	uint32_t *slot = r->before.use[*first].slot;
@@ -230,14 +230,14 @@ static bool exchange(struct rename *r)
 	return true;
 }
 
-/* The last one that was exchanged comes first: a text may have been so twice. */
+/* Restores the last replacement first: a text may have been replaced twice. */
 static void put_back(struct rename *r)
 {
 	for (int i = r->count - 1; i >= 0; i--)
 		*r->kept[i].slot = r->kept[i].old;
 }
 
-/* Boxes and declarations get their word from its row. */
+/* Boxes and declarations take the word from its row. */
 static void name_words(struct rename *r, const char *from, const char *to)
 {
 	const struct word_table *table = &r->project->words;
@@ -254,7 +254,7 @@ static void name_words(struct rename *r, const char *from, const char *to)
 	}
 }
 
-/* ---- is it still the same program? ---- */
+/* ---- does the program still mean the same? ---- */
 
 static bool same_meaning(struct rename *r, const struct xref *after)
 {
@@ -287,7 +287,7 @@ static bool is_same_program(struct rename *r, const char *text, size_t len)
 	return good;
 }
 
-/* ---- all ---- */
+/* ---- rename ---- */
 
 static char *written(struct rename *r, size_t *len)
 {

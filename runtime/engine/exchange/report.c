@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * report - what an import took, what means something else now, what it could not take.
+ * report - the lines of an import's or export's report.
  *
- * Only a list: the caller decides how to print it. The texts are its own.
+ * Only a list: the caller prints it. It owns its texts.
  */
 #include "engine/exchange/report.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * report - what an import took, what means something else now, what it could not take.
+ * report - what an import or export converted, changed and lost.
  *
- * A list of lines with places in the file they speak of, for text, JSON and the editor.
- * What makes an import impossible is a diagnostic instead.
+ * A list of lines with places in the foreign file, for text, JSON and the editor. An
+ * error that prevents an import is a diagnostic instead.
  */
 #ifndef EXCHANGE_REPORT_H
 #define EXCHANGE_REPORT_H
@@ -14,8 +14,8 @@
 
 enum report_kind {
 	REPORT_TAKEN,   /* "18 rungs"                                            */
-	REPORT_CHANGED, /* a fault of the original is repaired, a name is another */
-	REPORT_LOST,    /* it has no meaning here and was left out                */
+	REPORT_CHANGED, /* a fault of the original is repaired, a name differs */
+	REPORT_LOST,    /* it was left out, as it has no equivalent               */
 	REPORT_KINDS
 };
 
@@ -23,7 +23,7 @@ struct report_line {
 	enum report_kind kind;
 	const char *member;  /* "rung_3.csv"; "": of the whole project           */
 	int line;            /* 1-based in the file; 0: none                     */
-	const char *pou;     /* here; NULL: nowhere                              */
+	const char *pou;     /* POU of the result; NULL: none                    */
 	int rung;            /* 1-based in @pou; 0: none                         */
 	char *text;
 };
@@ -34,15 +34,15 @@ struct classic_report {
 	int count;
 };
 
-/** report_init - empty. report_free gives back what it holds. */
+/** report_init - an empty report. report_free frees its lines. */
 void report_init(struct classic_report *report);
 void report_free(struct classic_report *report);
 /**
  * report_add - one more line
- * @line: its text is ignored; member and pou must live as long as the report
+ * @line: its text is ignored; member and pou are borrowed as long as the report lives
  * @text: printf format
  *
- * Scan-safe: no.   Fails: never seen; without memory report->arena.failed is set.
+ * Scan-safe: no. Fails: without memory report->arena.failed is set.
  */
 void report_add(struct classic_report *report, struct report_line line,
 		const char *text, ...) __attribute__((format(printf, 3, 4)));
