@@ -47,7 +47,7 @@ static inline bool fb_is_number(double value)
 }
 
 /** fb_give - stores @value as the REAL @out; false, and nothing is stored, if it is not
- * finite. */
+ * finite. Scan-safe: yes. */
 static inline bool fb_give(float *out, double value)
 {
 	if (!fb_is_number(value))
