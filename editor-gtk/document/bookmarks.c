@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* `bookmark Main 3`: its rung, 0-based, if it is one of @pou; else -1. @end: behind it. */
+/* Reads `bookmark Main 3`: the 0-based rung if it is in @pou, else -1. @end: behind the
+ * number. */
 static int bookmark_of(const char *line, const char *pou, const char **end)
 {
 	const gsize len = strlen(pou);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic - projects of ClassicLadder are opened and written.
+ * classic - opens and writes projects of ClassicLadder.
  *
- * What is written is a copy, loaded from the document's text: the document does not change.
+ * It writes a copy, loaded from the document's text; the document does not change.
  */
 #include "editor-gtk/document/classic.h"
 
@@ -91,7 +91,7 @@ static char *export_loaded(struct ladder *ladder, enum classic_dialect dialect, 
 	return text;
 }
 
-/* A chart that can be no page goes there as a ladder. */
+/* A chart that ClassicLadder cannot hold is exported as a ladder. */
 static char *export_ladders(struct ladder *ladder, enum classic_dialect dialect,
 			    size_t *len, GPtrArray *lines)
 {
@@ -140,7 +140,7 @@ static char *export_copy(LadderDocument *document, enum classic_dialect dialect,
 
 /* ---- the file ---- */
 
-/* As gzip does. Caller frees. */
+/* Compresses as gzip does. Caller frees. */
 static char *packed(const char *text, gsize len, gsize *out_len, GError **error)
 {
 	GOutputStream *memory = g_memory_output_stream_new_resizable();
@@ -171,7 +171,7 @@ static gboolean write_file(const char *path, const char *text, gsize len, gboole
 	return good;
 }
 
-/* Its lines stay here: `ladder export --io` takes them along. */
+/* Reports that `ladder export --io` exports the lines of the I/O map; the editor does not. */
 static void tell_map(LadderDocument *document, GPtrArray *lines)
 {
 	const char *path = ladder_document_path(document);

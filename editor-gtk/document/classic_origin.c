@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_origin - follows what came of each rung; see classic_origin.h.
+ * classic_origin - remembers which original rung each rung comes from; see
+ * classic_origin.h.
  */
 #include "editor-gtk/document/classic_origin.h"
 
@@ -8,14 +9,14 @@
 #include <string.h>
 
 struct came {
-	const struct classic_rung *from; /* NULL: of nothing there             */
-	guint text;                      /* its hash                           */
-	bool known;                      /* while two lists are matched        */
+	const struct classic_rung *from; /* NULL: no original                  */
+	guint text;                      /* hash of the rung's text            */
+	bool known;                      /* set while two lists are matched    */
 };
 
 struct origin_pou {
 	char *name;
-	GArray *rung;                    /* of struct came, as the document has them */
+	GArray *rung;                    /* of struct came, in the order of the document */
 };
 
 struct _LadderOrigin {
@@ -24,7 +25,8 @@ struct _LadderOrigin {
 	char *path;
 	struct ladder *ladder;
 	GPtrArray *pous;                 /* of struct origin_pou               */
-	GArray *lost;                    /* of struct came: they may come back */
+	GArray *lost;                    /* of struct came: deleted rungs, which undo or paste
+					    may bring back */
 };
 
 G_DEFINE_FINAL_TYPE(LadderOrigin, ladder_origin, G_TYPE_OBJECT)
@@ -85,7 +87,8 @@ static void lose(LadderOrigin *origin, GArray *was)
 			g_array_append_vals(origin->lost, came_at(was, i), 1);
 }
 
-/* Rungs that read the same are the same; as many as before are those that were edited. */
+/* Rungs with the same text are the same. If the count did not change, the others were
+ * edited. */
 static void match(LadderOrigin *origin, GArray *was, GArray *now)
 {
 	for (guint i = 0; i < now->len; i++)
@@ -148,7 +151,7 @@ static bool is_there(const LadderOrigin *origin, const char *name)
 	return project_find_pou(project, name, strlen(name)) >= 0;
 }
 
-/* By its name, or in its place under another one. */
+/* Finds the POU by its name, else by its number: then it was renamed. */
 static struct origin_pou *was_called(LadderOrigin *origin, int pou)
 {
 	const char *name = name_now(origin, pou);
@@ -163,7 +166,8 @@ static struct origin_pou *was_called(LadderOrigin *origin, int pou)
 	return of && !is_there(origin, of->name) ? of : NULL;
 }
 
-/* A name that changed is in the text of every rung that has it. */
+/* If the count is unchanged, rungs match by number: a renamed symbol changes many texts at
+ * once. */
 static void match_whole(LadderOrigin *origin, GArray *was, GArray *now)
 {
 	for (guint i = 0; i < now->len && was->len == now->len; i++)
@@ -177,7 +181,7 @@ static void project_changed(LadderOrigin *origin)
 	GPtrArray *pous;
 
 	if (!project)
-		return; /* text that cannot be read: until it can */
+		return; /* a text that cannot be read now; a later change may mend it */
 	pous = g_ptr_array_new_with_free_func(pou_free);
 	for (int i = 0; i < project->pou_count; i++) {
 		struct origin_pou *was = was_called(origin, i);
@@ -312,7 +316,7 @@ static void ladder_origin_init(LadderOrigin *origin)
 	origin->lost = g_array_new(FALSE, FALSE, sizeof(struct came));
 }
 
-/* At first POUs and rungs stand where the engine has them. */
+/* At first the rungs stand where the engine put them. */
 static void begin(LadderOrigin *origin)
 {
 	project_changed(origin);

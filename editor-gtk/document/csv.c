@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * csv - tables of symbols as text: records of fields, the table of all symbols, and what an
- * import would do.
+ * csv - tables of symbols as text: records of fields, the table of all symbols, and the
+ * plan of an import.
  *
- * An import is tried on a program in memory, which is checked as any other. Its faults are
- * reported at the lines of the table that bring them.
+ * An import is tried on a program in memory, which is checked as any other. Its errors are
+ * reported at the lines of the table that cause them.
  */
 #include "editor-gtk/document/csv.h"
 
@@ -30,7 +30,7 @@ static bool fail(struct reader *reader, const char *why)
 	return false;
 }
 
-/* What parts the fields of the first line. */
+/* The separator: the candidate that the first line has most of. */
 static char find_separator(const char *text, const char *end)
 {
 	static const char candidates[] = ",;\t";
@@ -50,7 +50,7 @@ static char find_separator(const char *text, const char *end)
 	return candidates[best];
 }
 
-/* Steps over one line end; false: there is none here. */
+/* Skips one line end; false: there is none here. */
 static bool skip_newline(struct reader *reader)
 {
 	if (reader->at == reader->end || (*reader->at != '\n' && *reader->at != '\r'))
@@ -62,14 +62,14 @@ static bool skip_newline(struct reader *reader)
 	return true;
 }
 
-/* The line of the place is where the field begins. */
+/* Fails at the line where the field begins. */
 static bool fail_at(struct reader *reader, int line, const char *why)
 {
 	reader->line = line;
 	return fail(reader, why);
 }
 
-/* The opening quote is behind us. */
+/* Called after the opening quote. */
 static bool read_quoted(struct reader *reader, GString *out)
 {
 	const int first = reader->line;
@@ -134,7 +134,7 @@ static bool read_record(struct reader *reader)
 	}
 }
 
-/* Line of the first byte that is no UTF-8, or a NUL; 0: none. */
+/* Line of the first byte that is not UTF-8, or NUL; 0: none. */
 static int bad_byte(const char *text, gsize len)
 {
 	const char *bad;
@@ -226,15 +226,15 @@ char *csv_export(LadderDocument *document, int *count)
 
 #define CLASHES_MOST 5000
 
-/* The entries that would change something. */
+/* The entries that would change something, and the program they would make. */
 struct checked {
 	struct csv_plan *plan;
-	struct xref xref;    /* of the program as it would be                 */
+	struct xref xref;    /* of the changed program                        */
 	GHashTable *name;    /* "Main.Delay", folded: struct csv_entry *      */
-	GHashTable *line;    /* of its declaration: the same                  */
+	GHashTable *line;    /* line of the declaration: struct csv_entry *   */
 };
 
-/* @text: taken over; the first one is kept. */
+/* Only the first fault of an entry is kept. @text: taken over. */
 static void mark(struct checked *checked, struct csv_entry *entry, bool warning, char *text)
 {
 	if (entry->fault) {
@@ -328,7 +328,7 @@ static bool is_same(const struct diag *a, const struct diag *b)
 	       g_strcmp0(a->pou, b->pou) == 0 && strcmp(a->arg, b->arg) == 0;
 }
 
-/* Of the first @count. */
+/* Counts the diagnostics among the first @count that are equal to @diag. */
 static int count_same(const struct diag_list *diags, int count, const struct diag *diag)
 {
 	int same = 0;
@@ -338,7 +338,7 @@ static int count_same(const struct diag_list *diags, int count, const struct dia
 	return same;
 }
 
-/* Does the text of an error begin with the name that stands there? */
+/* Does the argument of @diag begin with the name used at @use? */
 static bool speaks_of(const struct checked *checked, const struct diag *diag,
 		      const struct xref_use *use)
 {
@@ -368,7 +368,8 @@ static enum near nearness(const struct checked *checked, const struct diag *diag
 	       SAME_LINE;
 }
 
-/* At the symbol it speaks of, else at those of its cell, else at those of its rung or line. */
+/* Marks the symbol that the error names, else those in its cell, else those in its rung or
+ * line. */
 static void mark_uses(struct checked *checked, const struct diag *diag)
 {
 	const struct xref *xref = &checked->xref;
@@ -389,7 +390,7 @@ static void mark_uses(struct checked *checked, const struct diag *diag)
 	}
 }
 
-/* Errors that the program has not yet, where it uses what would be another. */
+/* Marks entries with the new errors that they cause where the program uses them. */
 static void mark_used(struct checked *checked, const struct diag_list *diags)
 {
 	struct symbol_batch *nothing = symbol_batch_new(checked->plan->document);
@@ -409,7 +410,7 @@ static void mark_used(struct checked *checked, const struct diag_list *diags)
 
 /* ---- the check ---- */
 
-/* No program would come of it, and no line is known that is to blame. */
+/* For an error that no line of the table causes: refuses every entry. */
 static void refuse_all(struct csv_plan *plan, const char *why)
 {
 	for (guint i = 0; i < plan->entry->len; i++) {
@@ -451,7 +452,7 @@ static void check_plan(struct csv_plan *plan)
 	ladder_free(ladder);
 }
 
-/* Columns by name, any case. */
+/* Headings of columns are found in any case. */
 enum column {
 	COLUMN_SCOPE = SYMBOL_FIELDS, COLUMN_BLOCK, COLUMNS
 };
@@ -467,8 +468,8 @@ struct import {
 	struct csv_plan *plan;
 	struct symbols *symbols;
 	GHashTable *row;     /* "scope.name", folded: struct symbol_row *     */
-	GHashTable *seen;    /* the same: its line in the table               */
-	int column[COLUMNS]; /* -1: there is none                             */
+	GHashTable *seen;    /* "scope.name", folded: its line in the table   */
+	int column[COLUMNS]; /* -1: the table has no such column              */
 	bool has_header;
 };
 
@@ -531,7 +532,7 @@ static bool read_header(struct import *import, int line, char *const *field, int
 
 /* ---- a record ---- */
 
-/* "" where a record is short; NULL: there is no such column. */
+/* "": the record is too short; NULL: there is no such column. */
 static const char *cell(const struct import *import, int column, char *const *field,
 			int count)
 {
@@ -553,7 +554,7 @@ static const char *yes_or_no(const char *text)
 	return "1";
 }
 
-/* Table number of a scope; -1: there is none. */
+/* -1: there is no such scope. */
 static int table_of(struct project *project, const char *scope)
 {
 	const int pou = project_find_pou(project, scope, strlen(scope));
@@ -571,7 +572,7 @@ static int table_of(struct project *project, const char *scope)
 
 #define KIND_FLAGS (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP)
 
-/* The word of a VAR block as its flags; -1: it is none, or none of this table. */
+/* Flags for the word of a VAR block; -1: unknown, or not allowed in this table. */
 static int flags_of(const char *block, bool member)
 {
 	static const uint8_t kinds[] = { 0, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP };
@@ -594,7 +595,7 @@ static void add_change(GString *out, const char *name, const char *old, const ch
 	g_string_append(out, *new ? new : "–");
 }
 
-/* "Address: %IX0.0 → %IX0.1; Comment: …"; of a new one what it has. */
+/* "Address: %IX0.0 → %IX0.1; Comment: …"; of a new symbol all its fields. */
 static char *changes(const struct symbol_row *old, int flags,
 		     const char *const text[SYMBOL_FIELDS])
 {
@@ -644,7 +645,7 @@ static bool is_seen(struct import *import, const char *key, int line, const char
 	return true;
 }
 
-/* What the symbol is to be. @text: caller frees the comment. */
+/* The fields of the symbol after the import. @text: caller frees the comment. */
 static void read_fields(const struct import *import, const struct symbol_row *old,
 			char *const *field, int count, const char *text[SYMBOL_FIELDS])
 {
@@ -670,7 +671,7 @@ static void import_symbol(struct import *import, int line, char *full, int table
 	g_free((gpointer)text[FIELD_COMMENT]);
 }
 
-/* "" for what is not there. */
+/* As cell(), but "" where there is no such column. */
 static const char *cell_or_none(const struct import *import, int column,
 				char *const *field, int count)
 {

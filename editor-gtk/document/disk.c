@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * disk - files as the engine reads and saves them, with errors a person can read.
+ * disk - reads and saves files as the engine does, with errors for the user.
  */
 #include "editor-gtk/document/disk.h"
 
@@ -20,7 +20,8 @@ char *disk_told_size(const char *path, const struct diag *diag, gsize limit)
 	GStatBuf about;
 	char *size, *most, *told, *text;
 
-	/* Of what comes out of it when it is unpacked nobody knows here. */
+	/* A compressed file within the limit is too large when unpacked: by how much is not
+	 * known. */
 	if (diag->id != DIAG_TOO_LARGE || !path || g_stat(path, &about) != 0 ||
 	    about.st_size <= 0 || (guint64)about.st_size <= limit)
 		return g_strdup("");
@@ -34,7 +35,7 @@ char *disk_told_size(const char *path, const struct diag *diag, gsize limit)
 	return text;
 }
 
-/* @limit: bytes it may have. */
+/* @limit: bytes. */
 static void tell(GError **error, const char *path, const struct diag_list *diags, gsize limit)
 {
 	char *text = diag_said_whole(&diags->diag[0]);
@@ -72,7 +73,7 @@ bool disk_save(const char *path, const char *bytes, gsize len, GError **error)
 	return good;
 }
 
-/* Whom the system lets write anywhere is asked by the mode all the same. */
+/* The mode counts even for root, whom the system lets write any file. */
 bool disk_is_locked(const char *path)
 {
 	struct stat about;

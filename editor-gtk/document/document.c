@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * document - one rung file while a person works on it.
+ * document - one rung file while it is edited.
  *
- * Lists that cannot be read stand beside the project until they can, and are saved with it.
- * The checks work on a copy, so that they can run in a thread.
+ * Lists that cannot be read are kept beside the project and are saved with it. Checks run
+ * in a thread, on a copy.
  */
 #include "editor-gtk/document/document.h"
 
@@ -24,31 +24,32 @@
 #define CHECK_DELAY_MS 120 /* after the last change                            */
 
 struct beside {
-	file_apply apply; /* NULL: the file is not shown any more              */
+	file_apply apply; /* NULL: the file is closed                          */
 	gpointer file;
 };
 
 struct _LadderDocument {
 	GObject parent;
 	struct ladder *ladder;    /* holds the live project                    */
-	char *text;               /* instead, of a file that cannot be read    */
+	char *text;               /* instead of it, if the file cannot be read */
 	gsize text_len;
 	GHashTable *list;         /* POU number -> text that cannot be read    */
 	struct history *history;
-	GArray *files;            /* of struct beside: their steps are in the history */
+	GArray *files;            /* of struct beside: text files whose edits are steps of the
+				     history */
 	char *path;
 	char *disk_sum;           /* digest of the file when it was read or saved */
-	GStatBuf disk_seen;       /* of the file when it was looked at last    */
-	enum disk_state disk;     /* and what it was then                      */
-	int repaired;             /* line of the first byte that is no text; 0: none */
-	bool fixed;               /* nothing changes it                        */
+	GStatBuf disk_seen;       /* the file at the last look                 */
+	enum disk_state disk;     /* the result of that look                   */
+	int repaired;             /* line of the first invalid byte; 0: none */
+	bool fixed;               /* read-only                                 */
 	guint64 version;
 	/* Checks: */
 	struct ladder *checked;
 	struct diag_list diags;
 	guint check_timer;
 	bool checking;            /* a thread is at work                       */
-	guint64 checked_version;  /* that `checked` or the thread is of        */
+	guint64 checked_version;  /* version of `checked`, or of the copy in the thread */
 };
 
 G_DEFINE_FINAL_TYPE(LadderDocument, ladder_document, G_TYPE_OBJECT)
@@ -149,7 +150,7 @@ static void changed(LadderDocument *document)
 
 /* ---- lists that cannot be read ---- */
 
-/* Spans of the POUs, for the lists that stand beside the project. */
+/* Where the POUs stand in a text. */
 struct pou_spans {
 	struct text_span *span;
 	int count;
@@ -197,7 +198,7 @@ char *ladder_document_text(LadderDocument *document, gsize *len)
 		return g_memdup2(document->text, document->text_len + 1);
 	}
 	text = outline(document->ladder, &spans);
-	/* From the last to the first: a replacement moves what is behind it. */
+	/* Backwards: a replacement moves everything behind it. */
 	for (int i = spans.count - 1; i >= 0; i--) {
 		const char *list = g_hash_table_lookup(document->list,
 						       GINT_TO_POINTER(i));
@@ -235,7 +236,7 @@ char *ladder_document_list(LadderDocument *document, int pou)
 	return out;
 }
 
-/* The one of the first POU that has one. */
+/* The first POU that has such a list. */
 static int first_list(LadderDocument *document)
 {
 	GHashTableIter iter;
@@ -249,7 +250,7 @@ static int first_list(LadderDocument *document)
 	return first;
 }
 
-/* The line where the text of POU @pou begins, when no list stands before it. */
+/* The line where the text of POU @pou begins, if no list stands before it. */
 static int first_line(LadderDocument *document, int pou)
 {
 	struct pou_spans spans;
@@ -281,7 +282,7 @@ static void check_lists(LadderDocument *document, const struct project *read,
 		 project_text(read, read->pou[pou + 1].name) : "");
 }
 
-/* Lists beside the project may have other lengths than what they stand for. */
+/* A list beside the project may have another length than the POU it stands for. */
 int ladder_document_lines_before(LadderDocument *document, int pou)
 {
 	char *text, *list, *found;
@@ -346,7 +347,7 @@ static void take_ladder(LadderDocument *document, struct ladder *ladder)
 	g_clear_pointer(&document->text, g_free);
 }
 
-/* Takes over what can be read; else the text itself. */
+/* Takes over the project if the text can be read, else the text. */
 static void take_text(LadderDocument *document, const char *text, gsize len)
 {
 	struct ladder *ladder = read_text(document, text, len, NULL);
@@ -371,8 +372,8 @@ static void take(LadderDocument *document, const char *text, gsize len)
 
 /* ---- where a person types in a list ---- */
 
-/* What stands before and behind a list, as of a version of the document: a key does not
- * write thousands of rungs again. */
+/* The text before and behind a list, for one version of the document, so that a key does
+ * not write thousands of rungs again. */
 struct list_place {
 	int pou;
 	guint64 version;
@@ -426,7 +427,7 @@ static struct list_place *place_of(LadderDocument *document, int pou)
 
 /* ---- one POU, and nothing beside it ---- */
 
-/* @ends: of the word with END_ before it. */
+/* Is it PROGRAM or another word that begins a POU? @ends: with END_ before it. */
 static bool is_pou_word(const struct token *token, bool ends)
 {
 	const size_t skip = ends ? strlen("END_") : 0;
@@ -444,7 +445,7 @@ static bool is_pou_word(const struct token *token, bool ends)
 	return false;
 }
 
-/* A text that begins with the word of a POU and ends with the only word that ends one. */
+/* Does the text begin with such a word, and have exactly one that ends a POU, at its end? */
 static bool is_plainly_one(const char *text)
 {
 	struct lex lex;
@@ -459,7 +460,7 @@ static bool is_plainly_one(const char *text)
 	return ended && lex_next(&lex) == TOKEN_END;
 }
 
-/* All but POU @pou is as it was: there is no POU more in its text, nor none. */
+/* Is everything but POU @pou unchanged, with no POU more or less? */
 static bool same_beside(struct ladder *ladder, const struct list_place *place)
 {
 	struct pou_spans spans;
@@ -476,13 +477,13 @@ static bool same_beside(struct ladder *ladder, const struct list_place *place)
 
 /* ---- applying a change, forwards or backwards ---- */
 
-/* Better a stop than a wrong program. */
+/* An abort is better than a wrong program. */
 static void report_lost(const char *what)
 {
 	g_error("the history does not fit the document: %s", what);
 }
 
-/* Bodies of a chart know their rungs by number. */
+/* Bodies of a chart refer to rungs by number. */
 static void shift_bodies(struct sfc *sfc, int at, int by)
 {
 	for (int i = 0; i < sfc_bodies(sfc); i++) {
@@ -523,7 +524,7 @@ static void apply_rungs(LadderDocument *document, const struct change *change,
 		      (int)change->at, (int)from->len, (int)to->len);
 }
 
-/* A list that can be read goes into the project, another one stands beside it. */
+/* A list that can be read goes into the project; any other is kept beside it. */
 static void apply_list(LadderDocument *document, int pou, const char *text)
 {
 	struct list_place *place = place_of(document, pou);
@@ -641,7 +642,7 @@ static char *plain_text(LadderDocument *document, gsize *len)
 	return copy;
 }
 
-/* A change of text may take the document from text to project and back. */
+/* A change of text may turn a document of text into a project, and back. */
 static void apply_text(LadderDocument *document, const struct change *change,
 		       const char *from, const char *to)
 {
@@ -784,7 +785,7 @@ static char *view_text(LadderDocument *document)
 	return g_strdup(project ? project_view(project) : "");
 }
 
-/* An empty part that is the last one was ours, and goes. */
+/* Removes the part if it is empty and the last one: the editor added it. */
 static void put_view(LadderDocument *document, const char *before, const char *after)
 {
 	char *plain = g_strstrip(g_strdup(after));
@@ -844,7 +845,8 @@ static bool is_taken(LadderDocument *document, int pou, const char *name)
 	return false;
 }
 
-/* While somebody types, a name may be another's for a moment: that one keeps its own. */
+/* While a name is being typed two POUs may have the same one: the other keeps its
+ * bookmarks. */
 static void follow_name(LadderDocument *document, int pou, const char *before)
 {
 	const char *now = pou_name(document, pou);
@@ -922,7 +924,7 @@ void ladder_document_toggle_bookmark(LadderDocument *document, int pou, int rung
 
 /* ---- rungs ---- */
 
-/* Its text, if a file could hold it. */
+/* The text of a rung; NULL, and @why: a file cannot hold it. */
 static char *rung_text(LadderDocument *document, const struct rung *rung,
 		       struct diag_list *why)
 {
@@ -965,8 +967,8 @@ static bool add_texts(LadderDocument *document, GPtrArray *texts,
 	return true;
 }
 
-/* Of a chart: rungs of one body, some before and some after, so that it stays sure which;
- * a condition has one. */
+/* In a chart an edit must stay inside one body and must not empty it; a condition has one
+ * rung. */
 static bool fits_body(const struct sfc *sfc, int at, int removed, int inserted)
 {
 	for (int i = 0; i < sfc_bodies(sfc); i++) {
@@ -1039,8 +1041,8 @@ bool ladder_document_move_rung(LadderDocument *document, int pou, int from, int 
 
 /* ---- text ---- */
 
-/* What @text would be once it is read and written: NULL, and why, if it cannot be read
- * or has another number of POUs while lists stand beside them. */
+/* @text after it was read and written. NULL, and @why: it cannot be read, or it has another
+ * number of POUs while lists are kept beside the project. */
 static char *canonical(LadderDocument *document, const char *text, gsize len,
 		       struct diag_list *why)
 {
@@ -1058,7 +1060,7 @@ static char *canonical(LadderDocument *document, const char *text, gsize len,
 	return out;
 }
 
-/* From one text to the other: what they have in common at both ends is left out. */
+/* Leaves out what both texts have in common at both ends. */
 static struct change *text_change(const char *from, const char *to)
 {
 	gsize from_len = strlen(from), to_len = strlen(to), at = 0, end = 0;
@@ -1095,7 +1097,7 @@ bool ladder_document_replace(LadderDocument *document, gsize at, gsize removed,
 	return good;
 }
 
-/* Not as the file would say it, but as it was typed, if that is known: it is the same. */
+/* The list as it was typed, if that is known, else as the file has it. */
 static char *list_before(LadderDocument *document, int pou)
 {
 	const struct list_place *place = place_kept(document, pou);
@@ -1169,7 +1171,7 @@ static int last_of_pou(const struct pou *pou)
 	return found;
 }
 
-/* What has a frame is a word of the project, with a size. */
+/* A POU with a frame has a size that others use: its variables cannot change in place. */
 static int live_block(const struct project *project, int pou)
 {
 	const struct pou *of = pou < 0 ? NULL : &project->pou[pou];
@@ -1199,7 +1201,7 @@ static bool declare_live(LadderDocument *document, int pou, int block, const cha
 
 /* ---- a variable, as a line of the text ---- */
 
-/* Where a line could go: the end of a plain block, or before something. */
+/* A place for a new line: the end of a plain block, or before another part. */
 struct opening {
 	const struct project *project;
 	int pou;              /* -1: global                                    */
@@ -1292,8 +1294,8 @@ bool ladder_document_knows_place(LadderDocument *document, guint64 place)
 }
 
 enum relation {
-	STEP_EDIT,  /* of that rung, and of declarations with it               */
-	STEP_ASIDE, /* of nothing that it could meet                           */
+	STEP_EDIT,  /* of that rung, perhaps with declarations                 */
+	STEP_ASIDE, /* of nothing that the rung depends on                     */
 	STEP_OTHER,
 };
 
@@ -1325,7 +1327,7 @@ static enum relation relation_of(const struct step *step, int pou, int rung)
 	return edits ? STEP_EDIT : declares ? STEP_OTHER : STEP_ASIDE;
 }
 
-/* Steps since the rung was as it was at the place: then, or when it was given back last. */
+/* Steps since the rung was as it was at @place, or since it was last given back. */
 static int steps_since(LadderDocument *document, guint64 place)
 {
 	const int count = history_since(document->history, place);
@@ -1339,7 +1341,7 @@ static int steps_since(LadderDocument *document, guint64 place)
 	return count;
 }
 
-/* What the last @count steps are: edits of the rung, and nothing that stands on them? */
+/* Do the last @count steps edit only the rung, with nothing that depends on them? */
 static enum back judge(LadderDocument *document, int pou, int rung, int count)
 {
 	enum back back = BACK_NOTHING;
@@ -1423,7 +1425,7 @@ static char *sum_of(const char *text, gsize len)
 	return g_compute_checksum_for_data(G_CHECKSUM_SHA256, (const guchar *)text, len);
 }
 
-/* What stands in the file; NULL: nobody knows. */
+/* Digest of the file; NULL: unknown. */
 static void set_sum(LadderDocument *document, char *sum)
 {
 	g_free(document->disk_sum);
@@ -1446,8 +1448,7 @@ static bool fail(GError **error, GFileError code, const char *text, const char *
 	return false;
 }
 
-/* Bytes that are no text cannot be shown: what stands for them is not what the file
- * holds, so the document differs from it. */
+/* Invalid bytes become U+FFFD, so the document differs from the file. */
 static void open_bytes(LadderDocument *document, const char *path, const char *text,
 		       gsize len)
 {
@@ -1519,7 +1520,7 @@ bool ladder_document_save(LadderDocument *document, const char *path, GError **e
 	return good;
 }
 
-/* The file is read only if it looks another than when it was looked at last. */
+/* The file is read again only if its time, size or inode changed. */
 static bool looks_the_same(LadderDocument *document, const GStatBuf *about)
 {
 	const GStatBuf *seen = &document->disk_seen;
@@ -1531,7 +1532,7 @@ static bool looks_the_same(LadderDocument *document, const GStatBuf *about)
 	return same;
 }
 
-/* A file that cannot be read is there: nobody knows what it says. */
+/* A file that cannot be read counts as there, with unknown contents. */
 static enum disk_state look_at_disk(LadderDocument *document)
 {
 	enum disk_state state = DISK_AS_READ;
@@ -1560,7 +1561,7 @@ enum disk_state ladder_document_disk(LadderDocument *document)
 	if (!document->path || !document->disk_sum)
 		return DISK_AS_READ;
 	document->disk = look_at_disk(document);
-	if (document->disk == DISK_GONE) /* one that comes is looked at, whatever it is */
+	if (document->disk == DISK_GONE) /* a file that appears again is always read */
 		memset(&document->disk_seen, 0, sizeof(document->disk_seen));
 	if ((document->disk == DISK_GONE) != (before == DISK_GONE))
 		tell_state(document);
@@ -1597,7 +1598,7 @@ struct check {
 	const char *file;  /* interned                                         */
 	guint64 version;
 	struct ladder *ladder;
-	bool read;         /* all of it                                        */
+	bool read;         /* the whole project could be read                  */
 };
 
 static void check_free(gpointer pointer)
@@ -1635,7 +1636,7 @@ static void copy_place(int *line, int *column, int to_line, int to_column)
 	*column = to_column;
 }
 
-/* @is, just read, is the same chart as @was. */
+/* @is: the same chart as @was, just read. */
 static void take_chart_lines(struct sfc *was, const struct sfc *is)
 {
 	for (int i = 0; i < was->step_count; i++)
@@ -1666,8 +1667,8 @@ static bool is_same_chart(const struct pou *was, const struct pou *is)
 	       was->il.count == is->il.count;
 }
 
-/* A rung that was edited moves what stands below it, and a file need not be written as it
- * is read: where things are in the canonical text is known when that was read. */
+/* An edited rung moves the lines below it, and a file may be written in another form: the
+ * checked copy knows the lines of the canonical text. */
 static void take_lines(LadderDocument *document)
 {
 	struct project *project = ladder_document_project(document);
@@ -1700,7 +1701,7 @@ static void check_take(LadderDocument *document, struct check *check)
 				     &document->diags);
 	take_lines(document);
 	g_signal_emit(document, signals[CHECKED], 0);
-	memory_give_back(); /* the copy before it was tens of megabytes of a large one */
+	memory_give_back(); /* the freed copy of a large project had tens of megabytes */
 }
 
 static void check_thread(GTask *task, gpointer source, gpointer data,

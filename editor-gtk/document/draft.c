@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * draft - what was not saved, kept where a crash does not reach it.
+ * draft - keeps unsaved text where a crash does not reach it.
  *
- * A draft is a file "PID-RANDOM-NUMBER.draft": a line with the path as a URI, the sum of what
- * stood there and, of a file beside a project, the URI of that, as far as they are known; and
- * the text. A draft whose process is alive belongs to that.
+ * A draft is a file "PID-RANDOM-NUMBER.draft". Its first line has the path as a URI, the
+ * digest of that file and, for a file beside a project, the URI of the project, as far as
+ * they are known. The text follows. A draft whose process is alive belongs to that process.
  */
 #include "editor-gtk/document/draft.h"
 
@@ -24,9 +24,9 @@
 struct keeper {
 	char *file;
 	guint timer;
-	LadderDocument *beside; /* whose file it is; NULL: it is a document    */
-	char *sample;           /* that the document is a copy of; NULL: of none */
-	bool told;              /* that it cannot be kept                      */
+	LadderDocument *beside; /* of a file beside it; NULL: of a document    */
+	char *sample;           /* the sample that the document is a copy of; NULL: none */
+	bool told;              /* the failure was reported                    */
 };
 
 static void (*failed)(gpointer object, const char *why);
@@ -36,8 +36,8 @@ static char *folder(void)
 	return g_build_filename(g_get_user_state_dir(), "rungboard", "drafts", NULL);
 }
 
-/* How the names of its drafts begin. After a restart, and in containers at every start, an
- * editor has the number of one that died: it must not take its drafts for its own. */
+/* How the names of own drafts begin. After a restart, and in containers at every start, an
+ * editor may have the process number of a dead one, whose drafts are not its own. */
 static const char *own_begin(void)
 {
 	static char begin[32];
@@ -98,7 +98,7 @@ static char *file_draft(LadderSideFile *file, LadderDocument *beside)
 	return whole;
 }
 
-/* Told once, until it can be kept again. */
+/* Reports a failure once, until a draft can be written again. */
 static void tell_failed(gpointer object, struct keeper *keeper, const char *why)
 {
 	if (failed && !keeper->told)
@@ -252,8 +252,8 @@ static void draft_free(gpointer pointer)
 	g_free(draft);
 }
 
-/* Numbers of processes come again: only an editor counts as the draft's owner. Where
- * /proc does not tell names, any process does. */
+/* Process numbers are used again: only an editor counts as the owner of a draft. Where
+ * /proc has no names, any process does. */
 static bool is_alive(const char *name)
 {
 	const long pid = strtol(name, NULL, 10);
@@ -274,7 +274,8 @@ static char *path_of(const char *uri)
 	return *uri ? g_filename_from_uri(uri, NULL, NULL) : NULL;
 }
 
-/* "URI SUM beside:URI", "URI SUM sample:URI": any may lack. A URI has no blanks. */
+/* "URI SUM beside:URI", "URI SUM sample:URI": each part may be missing. A URI has no
+ * blanks. */
 static void read_head(struct draft *draft, const char *head)
 {
 	char **words = g_strsplit(head, " ", 3);
@@ -291,7 +292,7 @@ static void read_head(struct draft *draft, const char *head)
 	g_strfreev(words);
 }
 
-/* What has no head, of another version or damaged, is text all of it: nothing is lost. */
+/* Without a valid first line, everything is text, so that nothing is lost. */
 static struct draft *read_draft(const char *file)
 {
 	struct draft *draft;
@@ -339,7 +340,7 @@ GPtrArray *draft_find(void)
 		if (draft)
 			g_ptr_array_add(found, draft);
 		else if (strstr(name, ".draft.") && !is_alive(name))
-			g_unlink(file); /* it died while it wrote that one */
+			g_unlink(file); /* a draft that was not written to its end */
 		g_free(file);
 	}
 	if (names)

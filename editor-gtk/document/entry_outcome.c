@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_outcome - see entry_outcome.h. It looks up only where in the file a declaration
- * stands that the line contradicts.
+ * entry_outcome - see entry_outcome.h.
  */
 #include "editor-gtk/document/entry_outcome.h"
 #include "editor-gtk/kit/i18n.h"
@@ -11,7 +10,7 @@
 /* ---- the line of a declaration ---- */
 
 struct declared {
-	int pou, number;     /* of the table, -1: global; in it                */
+	int pou, number;     /* of the table, -1: global; index in it          */
 	bool found;
 	gsize at;
 };
@@ -35,7 +34,7 @@ static bool stands_in(const struct var_table *table, const struct var *var, int 
 	return *number >= 0;
 }
 
-/* As the file will be saved; 0: it stands in another one. */
+/* Line in the saved file; 0: the variable is declared in another file. */
 static int line_of(LadderDocument *document, int pou, const struct var *var)
 {
 	const struct project *project = ladder_document_project(document);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_outcome - what becomes of a line that entry.h read, for sheets and charts: it is
- * told, and what it declares goes to the document.
+ * entry_outcome - the result of a line that entry.h read, for sheets of ladders and charts:
+ * the message below it, and the declarations in the document.
  */
 #ifndef EDITOR_ENTRY_OUTCOME_H
 #define EDITOR_ENTRY_OUTCOME_H
@@ -9,11 +9,11 @@
 #include "editor-gtk/document/document.h"
 #include "editor-gtk/edit/entry.h"
 
-/** entry_outcome_tell - what is wrong with a @line, or what it would declare. @good: is
- * nothing wrong? Caller frees with g_free(). */
+/** entry_outcome_tell - the error in @line, or what it would declare. @good: gets whether
+ * there is no error. Caller frees with g_free(). */
 char *entry_outcome_tell(LadderDocument *document, int pou, const struct entry *entry,
 			 const char *line, bool *good);
-/** entry_outcome_declare - what is new, in the step of the history that is open: an
- * instance belongs to the POU, a bit of the plant to all. False: not all of it. */
+/** entry_outcome_declare - declares the new variables in the open step of the history: those
+ * with an address globally, others in the POU. False: not all of them. */
 bool entry_outcome_declare(LadderDocument *document, int pou, const struct entry *entry);
 #endif

@@ -11,12 +11,12 @@
 struct file_history {
 	GtkTextBuffer *buffer;
 	LadderDocument *document;
-	int file;          /* its number there                                 */
+	int file;          /* number in the document                           */
 	char *name;
-	char *known;       /* the text when it was looked at last              */
-	int saves;         /* a step does not go past one                      */
-	bool inside;       /* an act of a person, which is one step            */
-	bool applying;     /* what comes is of the history                     */
+	char *known;       /* the text at the last look                        */
+	int saves;         /* saves so far: steps before and after a save do not join */
+	bool inside;       /* inside a user action, which is one step          */
+	bool applying;     /* an undo or redo changes the buffer               */
 	void (*undone)(gpointer data, const char *text);
 	gpointer data;
 };
@@ -34,7 +34,7 @@ static bool is_inside_char(char byte)
 	return (byte & 0xc0) == 0x80;
 }
 
-/* Bytes that both begin with, up to the begin of a character. */
+/* Bytes that both texts begin with, up to the start of a character. */
 static gsize same_begin(const char *from, const char *to)
 {
 	gsize at = 0;
@@ -46,7 +46,7 @@ static gsize same_begin(const char *from, const char *to)
 	return at;
 }
 
-/* Bytes that both end with, none of the first @begin ones. */
+/* Bytes that both texts end with, apart from the first @begin ones. */
 static gsize same_end(const char *from, gsize from_len, const char *to, gsize to_len,
 		      gsize begin)
 {
@@ -61,7 +61,7 @@ static gsize same_end(const char *from, gsize from_len, const char *to, gsize to
 	return end;
 }
 
-/* Characters that are typed or taken away one by one in one line are one step. */
+/* Key for joining: single characters typed or deleted in the same line are one step. */
 static char *key_of(const struct file_history *history, gsize at, const char *before,
 		    const char *after)
 {
@@ -87,7 +87,7 @@ static void note(struct file_history *history, gsize at, const char *before,
 	g_free(name);
 }
 
-/* Takes over @now. */
+/* Takes @now. */
 static void set_known(struct file_history *history, char *now)
 {
 	g_free(history->known);

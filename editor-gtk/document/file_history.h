@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * file_history - what is done to a text file beside a document becomes steps of the
- * document's history. It shows nothing and saves nothing.
+ * file_history - makes edits of a text file beside a document steps of the document's
+ * history. It shows nothing and saves nothing.
  */
 #ifndef EDITOR_FILE_HISTORY_H
 #define EDITOR_FILE_HISTORY_H
@@ -13,9 +13,9 @@
 struct file_history;
 
 /**
- * file_history_new - of @buffer as it is now
+ * file_history_new - for @buffer as it is now
  * @name: of the file, for "Change pump.io"
- * @undone: told when a step was undone or done again, with the text then
+ * @undone: called when a step was undone or redone, with the new text
  *
  * Keeps @document alive and has @buffer borrowed until file_history_free().
  */
@@ -23,9 +23,10 @@ struct file_history *file_history_new(GtkTextBuffer *buffer, LadderDocument *doc
 				      const char *name,
 				      void (*undone)(gpointer data, const char *text),
 				      gpointer data);
-/** file_history_saved - it can be undone to what stands there now. */
+/** file_history_saved - keeps the present text reachable by undo: later edits are new
+ * steps. */
 void file_history_saved(struct file_history *history);
-/** file_history_free - its steps are forgotten. NULL: nothing. */
+/** file_history_free - forgets its steps. NULL is allowed. */
 void file_history_free(struct file_history *history);
 
 #endif

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * find - hits of a text in rungs, lists and declarations, in the order of the file, and their
- * replacement. Rungs, lists, charts and declarations are given to the document anew, which
- * refuses what it could not read again.
+ * find - finds a text in rungs, lists and declarations, in the order of the file, and
+ * replaces it. The document refuses a replacement that it could not read again.
  */
 #include "editor-gtk/document/find.h"
 
@@ -14,7 +13,7 @@
 
 #include <string.h>
 
-/* Which text of a rung or cell: find_hit.field. */
+/* The text of a rung or cell that a hit is in: find_hit.field. */
 enum hit_field {
 	HIT_OPERAND, HIT_ARGS, HIT_COMMENT, HIT_RUNG_COMMENT, HIT_TITLE, HIT_LABEL,
 };
@@ -22,10 +21,10 @@ enum hit_field {
 struct search {
 	struct find *find;
 	struct project *project;
-	char *folded;          /* what is wanted, in one case                  */
-	struct find_hit place; /* where we are                                 */
-	struct iec_addr address; /* that is wanted; AREA_NONE: another text    */
-	struct grid_names *names; /* of the POU, if an address is wanted       */
+	char *folded;          /* the searched text, case folded unless case matters */
+	struct find_hit place; /* the current place                            */
+	struct iec_addr address; /* the searched address; AREA_NONE: a text    */
+	struct grid_names *names; /* of the POU, for an address                */
 };
 
 /* ---- one text ---- */
@@ -42,7 +41,7 @@ static bool stands_alone(const char *text, const char *at, const char *end)
 	return !*end || !is_word_char(g_utf8_get_char(end));
 }
 
-/* Behind what is wanted if it stands at @at, letter by letter; NULL: it does not. */
+/* The end of a match at @at, compared letter by letter; NULL: no match. */
 static const char *match(const struct search *search, const char *at)
 {
 	const char *want = search->folded;
@@ -95,7 +94,7 @@ static void search_id(struct search *search, enum find_where where, int field, u
 
 /* ---- addresses ---- */
 
-/* A short form, as Q5, may as well be a part of a name. */
+/* A short form such as Q5 may also be part of a name, so it is searched as text. */
 static struct iec_addr address_of(const char *text)
 {
 	struct iec_addr address = { .area = AREA_NONE };
@@ -113,7 +112,7 @@ static bool is_wanted(const struct search *search, const char *address)
 	       at.byte == want.byte && at.bit == want.bit;
 }
 
-/* An element that shows the address above its symbol. */
+/* Finds an element whose symbol lies at the searched address. */
 static void search_symbol(struct search *search, const struct cell *cell)
 {
 	const char *name = project_text(search->project, cell->operand);
@@ -236,7 +235,7 @@ static void search_lines(struct search *search, const char *whole,
 	}
 }
 
-/* An expression is a line, and no rung. */
+/* Expressions are searched as lines, not as rungs. */
 static void search_chart(struct search *search, LadderDocument *document, int number)
 {
 	struct chart_parts parts = { .pou = number,
@@ -260,7 +259,7 @@ static void search_chart(struct search *search, LadderDocument *document, int nu
 	g_free(whole);
 }
 
-/* Declarations as they stand in the canonical text. */
+/* Declarations in the canonical text. */
 struct lines {
 	struct search *search;
 	GArray *span;
@@ -284,7 +283,7 @@ static void search_declaration(struct search *search, const char *whole,
 {
 	char *line;
 
-	/* Those of a list are a part of its text. */
+	/* The text of a list includes its declarations. */
 	if (span->pou >= 0 && search->project->pou[span->pou].language == LANGUAGE_IL)
 		return;
 	line = g_strndup(whole + span->at, span->len);
@@ -296,7 +295,7 @@ static void search_declaration(struct search *search, const char *whole,
 	g_free(line);
 }
 
-/* Of the globals and structures (@pou -1), or of one POU. */
+/* @pou: -1: globals and structures. */
 static void search_declarations(struct search *search, const char *whole,
 				const GArray *span, int pou)
 {
@@ -418,7 +417,7 @@ int find_next(const struct find *find, int pou, int rung, int row, int col, bool
 	return !count ? -1 : back ? count - 1 : 0;
 }
 
-/* Some hits of a find, all at one place. */
+/* Hits in one place. */
 struct hits {
 	LadderDocument *document;
 	struct find_hit *const *hit;
@@ -426,7 +425,7 @@ struct hits {
 	const char *with;
 };
 
-/* From the last to the first, so that places before stay what they are. */
+/* Backwards, so that earlier offsets stay valid. */
 static char *replaced(const struct hits *hits, const char *text)
 {
 	GString *out = g_string_new(text);
@@ -438,7 +437,7 @@ static char *replaced(const struct hits *hits, const char *text)
 	return g_string_free(out, FALSE);
 }
 
-/* How many from the first on are at its place, in the same text. */
+/* The leading hits that are in the same text as the first one. */
 static struct hits same_text(struct hits hits)
 {
 	const struct find_hit *first = hits.hit[0];
@@ -457,7 +456,7 @@ static struct hits same_text(struct hits hits)
 
 /* ---- why not ---- */
 
-/* What the first error says of a place. @place: taken over. */
+/* "PLACE: first error". @place: taken over. */
 static char *reason_at(char *place, const struct diag_list *diags)
 {
 	char *what = diags->count ? diag_said_whole(&diags->diag[0]) :
@@ -524,7 +523,7 @@ static char *replace_in_rung(const struct hits *hits, struct diag_list *why)
 
 /* ---- lists ---- */
 
-/* All its lines, with the hits replaced. Caller frees. */
+/* All lines of a list, with the hits replaced. Caller frees. */
 static char *replaced_lines(const struct hits *hits, const char *text)
 {
 	char **line = g_strsplit(text, "\n", -1), *whole;
@@ -567,7 +566,7 @@ static void take_pou(void *context, const struct text_span *span)
 		place->span = *span;
 }
 
-/* Unlike a list it is refused if it cannot be read. */
+/* Refused if it cannot be read: only lists may be unreadable. */
 static char *replace_in_chart(const struct hits *hits, struct diag_list *why)
 {
 	struct pou_place place = { .pou = hits->hit[0]->pou };
@@ -601,7 +600,7 @@ static const struct text_span *span_of(const GArray *spans, const struct project
 	return NULL;
 }
 
-/* All declarations of the project: a replacement may make none and lose none. */
+/* Number of declarations in the project: a replacement must not change it. */
 static int declared(LadderDocument *document)
 {
 	struct project *project = ladder_document_project(document);
@@ -612,7 +611,7 @@ static int declared(LadderDocument *document)
 	return count;
 }
 
-/* The first of those that are in the same declaration as the last one. */
+/* Index of the first hit in the same declaration as the last hit. */
 static int first_of_last(const struct find_hit *const *hit, int count)
 {
 	int at = count - 1;
@@ -623,8 +622,7 @@ static int first_of_last(const struct find_hit *const *hit, int count)
 	return at;
 }
 
-/* One declaration after the other in the one text, from the last one on; NULL: one is not
- * there. Caller frees. */
+/* Replaces in each declaration, backwards. NULL: a declaration was not found. Caller frees. */
 static GString *declarations_replaced(const struct hits *hits, char *whole, GArray *spans)
 {
 	const struct project *project = ladder_document_project(hits->document);
@@ -650,7 +648,7 @@ static GString *declarations_replaced(const struct hits *hits, char *whole, GArr
 	return text;
 }
 
-/* A name that two declarations of a table have now, one of which was replaced; NULL: none. */
+/* A name that a replacement has made a double; NULL: none. */
 static const char *declared_twice(const struct hits *hits)
 {
 	struct project *project = ladder_document_project(hits->document);
@@ -667,7 +665,7 @@ static const char *declared_twice(const struct hits *hits)
 	return NULL;
 }
 
-/* The declaration that it says something of. */
+/* The reason, with the declaration that has the error. */
 static char *declaration_reason(const char *text, const struct diag_list *diags)
 {
 	char **line = g_strsplit(text, "\n", -1), *place;
@@ -713,7 +711,7 @@ static char *replace_declarations(const struct hits *hits, struct diag_list *why
 
 /* ---- any ---- */
 
-/* How many from the first on go in one go. */
+/* The leading hits that are replaced together. */
 static struct hits one_go(struct hits hits)
 {
 	const struct find_hit *first = hits.hit[0];
@@ -736,7 +734,7 @@ static bool is_chart(const struct hits *hits)
 	return project->pou[hits->hit[0]->pou].sfc != NULL;
 }
 
-/* Returns why not, which the caller frees. */
+/* Returns the reason of a failure, which the caller frees, or NULL. */
 static char *replace_go(const struct hits *hits, struct diag_list *why)
 {
 	diag_init(why);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * find - find and replace in all texts of a document. It renames nothing: for a symbol
- * that is used in many places there is rename (symbols.h).
+ * find - find and replace in all texts of a document. It does not rename: see rename in
+ * symbols.h for a symbol that is used in many places.
  */
 #ifndef EDITOR_FIND_H
 #define EDITOR_FIND_H
@@ -21,21 +21,21 @@ enum find_where {
 
 struct find_options {
 	unsigned int where;    /* enum find_where, or'ed                       */
-	bool whole_word;       /* nothing of a name before and behind          */
-	bool match_case;       /* else letters of all scripts are alike        */
+	bool whole_word;       /* no letter or digit before and behind         */
+	bool match_case;       /* else case does not count, in all scripts     */
 };
 
 struct find_hit {
 	enum find_where where;
 	int pou;               /* 0-based; -1: globals and structures          */
-	int rung, row, col;    /* 0-based; -1: the whole. Of a list: row is the line
-				  of its text, col the byte in it              */
+	int rung, row, col;    /* 0-based; -1: the whole. In a list: row is the line of its
+				  text, col the byte in it */
 	int table, index;      /* of a declaration, as in xref                 */
-	int field;             /* private: which text of the cell              */
-	bool by_symbol;        /* its symbol lies at the address that is wanted: there
-				  is nothing to be replaced here               */
+	int field;             /* private: the text of the cell                */
+	bool by_symbol;        /* the symbol lies at the searched address: nothing to replace
+				  */
 	gsize at, len;         /* bytes in the text                            */
-	char *text;            /* all of that text, or its line                */
+	char *text;            /* the whole text, or its line                  */
 };
 
 struct find {
@@ -46,24 +46,25 @@ struct find {
 
 #define FIND_HITS_MOST 100000
 
-/** find_new - all hits in the document as it is; of a whole address (%QX0.0) also the
+/** find_new - all hits in the document as it is. A whole address (%QX0.0) also finds
  * elements whose symbol lies at it. Owns: the caller. */
 struct find *find_new(LadderDocument *document, const char *wanted,
 		      struct find_options options);
 void find_free(struct find *find);
-/** find_next - the first hit behind a place (0-based, -1: before all in it), or before
- * it; around the end. -1: there is none. */
+/** find_next - the first hit behind a place (0-based, -1: before all in it), or before it;
+ * goes on at the other end. -1: there is none. */
 int find_next(const struct find *find, int pou, int rung, int row, int col, bool back);
 
 /**
- * find_replace - one hit becomes @with, as a step of its own
- * The hits are those of before: find_new again. Fails: false, and @why (the caller
- * frees it; may be NULL): what came of it could not be read. Nothing changed.
+ * find_replace - replaces one hit by @with, as a step
+ *
+ * @find is out of date then: call find_new again. Fails: false, and @why (the caller frees
+ * it; may be NULL): the result could not be read. Nothing changed.
  */
 bool find_replace(LadderDocument *document, const struct find *find, int number,
 		  const char *with, char **why);
-/** find_replace_all - all of them that are not by_symbol as one step. Returns how many;
- * -1: as above. */
+/** find_replace_all - replaces all hits that are not by_symbol, as one step. Returns how
+ * many; -1: failed as above. */
 int find_replace_all(LadderDocument *document, const struct find *find, const char *with,
 		     char **why);
 

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: MIT
  *
- * history - what was done to a document, step by step, as text.
+ * history - the steps of a document, as text.
  */
 #include "editor-gtk/document/history.h"
 
 #include <string.h>
 
-#define HISTORY_BYTES (64u << 20) /* of texts; older steps are forgotten       */
+#define HISTORY_BYTES (64u << 20) /* bytes of texts; the oldest steps above it are forgotten */
 #define SAVED_NEVER   (-1)
 
 struct history {
 	GPtrArray *step;   /* of struct step *                                 */
-	int now;           /* steps that are done; those behind it are undone  */
-	int saved;         /* the value of `now` that stands in the file       */
+	int now;           /* number of steps that are done; the others are undone */
+	int saved;         /* the value of `now` when the file was saved       */
 	struct step *open;
 	int depth;
 	gsize bytes;
 	guint64 serial;    /* of the last step that was made                    */
-	guint64 base;      /* of the last one that is forgotten, from the oldest on */
+	guint64 base;      /* of the last step that was forgotten */
 };
 
 /* ---- changes and steps ---- */
@@ -110,13 +110,13 @@ void history_begin(struct history *history, const char *name, const char *key)
 	history->open->change = g_ptr_array_new_with_free_func(change_free);
 }
 
-/* Whole texts are exchanged, not pieces of one. */
+/* Its change exchanges whole texts, not pieces of one. */
 static bool is_whole(const struct change *change)
 {
 	return change->kind != CHANGE_TEXT && change->kind != CHANGE_FILE;
 }
 
-/* The text of the later change of the same place takes the place of the former's. */
+/* A later change of the same text only replaces the result of the former. */
 static bool join_change(struct step *step, struct change *change)
 {
 	struct change *last = step->change->len ?
@@ -152,7 +152,7 @@ bool step_is_aside(const struct step *step)
 	return true;
 }
 
-/* Is the document the same when steps @from to @to - 1 are done and when they are not? */
+/* Is the document the same before step @from and after step @to - 1? */
 static bool are_aside(const struct history *history, int from, int to)
 {
 	for (int i = from; i < to; i++)
@@ -182,7 +182,7 @@ static void forget_step(struct history *history, int index)
 	if (history->now > index)
 		history->now--;
 	if (history->saved > index || (history->saved == index && !aside && index == 0))
-		history->saved--; /* 0 becomes never */
+		history->saved--; /* 0 becomes -1: never */
 	g_ptr_array_remove_index(history->step, index);
 }
 
@@ -215,7 +215,7 @@ void history_forget_file(struct history *history, int file)
 	}
 }
 
-/* Into the step before, if both say so and that one is not what was saved. */
+/* Joins with the step before if both have the same key, unless that one was saved. */
 static bool join_step(struct history *history, struct step *step)
 {
 	struct step *last = history->now > 0 ?

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * iomap_beside - which I/O map is a project's, and what it says of outputs at rest.
+ * iomap_beside - finds the I/O map of a project, and reads the outputs of it that are 1 at
+ * rest.
  */
 #include "editor-gtk/document/iomap_beside.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * iomap_check - what is wrong with an I/O map, line by line, and what this machine has.
+ * iomap_check - errors of an I/O map by line, and the lines of this machine.
  *
- * A map with one error has no points. So that the others are judged, too, lines with
- * errors are taken out of a copy until it can be read.
+ * A map with one error has no points. To judge the others too, lines with errors are
+ * blanked in a copy until it can be read.
  */
 #include "editor-gtk/document/iomap_check.h"
 
@@ -90,8 +90,8 @@ static void blank_line(char *text, size_t len, int line)
 		text[at] = ' ';
 }
 
-/* A board's name is put before, so that a map without one has points; lines count from 2
- * then. */
+/* The copy begins with a board's name, so that a map without one has points; its lines
+ * count from 2. */
 static char *copy_of(const char *text, size_t len, size_t *out_len)
 {
 	static const char board[] = "BOARD \"-\"\n";
@@ -113,7 +113,7 @@ static char *copy_of(const char *text, size_t len, size_t *out_len)
 	return copy;
 }
 
-/* False: no line is to blame. */
+/* False: the error belongs to no line. */
 static bool blank_bad_lines(char *text, size_t len, const struct diag_list *diags)
 {
 	bool any = false;
@@ -126,7 +126,7 @@ static bool blank_bad_lines(char *text, size_t len, const struct diag_list *diag
 	return any;
 }
 
-/* A text with a thousand errors is not read a thousand times. */
+/* Bounds the number of times a text is read. */
 #define ROUNDS 20
 
 static void read_good(struct io_check *check, const char *text, size_t len)
@@ -161,7 +161,7 @@ static int find_line(const struct io_machine *machine, struct line_at at)
 	return -1;
 }
 
-/* The same pin under another spelling. */
+/* Reports a pin that an earlier line has under another name. */
 static void check_twice(struct io_check *check, int index)
 {
 	const struct io_placed *placed = &check->placed[index];

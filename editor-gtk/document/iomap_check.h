@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * iomap_check - what is wrong with an I/O map, line by line, and what this machine has.
+ * iomap_check - errors of an I/O map by line, and the lines of this machine.
  *
- * The reader and the drivers of hal/ judge; here their answers are sorted by lines. It
- * takes no line of a chip. No toolkit.
+ * The reader and the drivers of hal/ judge; this file sorts their answers by lines. It
+ * requests no line of a chip. No toolkit.
  */
 #ifndef EDITOR_IOMAP_CHECK_H
 #define EDITOR_IOMAP_CHECK_H
@@ -21,45 +21,45 @@ struct io_machine {
 	struct arena arena;
 	struct io_found *line;
 	int count;
-	struct diag_list diags; /* chips that could not be looked at           */
+	struct diag_list diags; /* chips that could not be opened              */
 };
 
 /** io_machine_look - the lines of all chips, now. @dev: NULL: "/dev". Owns:
  * io_machine_free(). */
 void io_machine_look(struct io_machine *out, const char *dev);
 void io_machine_free(struct io_machine *machine);
-/** io_machine_name - how a map names a line: "GPIO17", or "label 17" if that name is not
- * there or there twice. As snprintf. */
+/** io_machine_name - the name of a line in a map: "GPIO17", or "label 17" if it has no name
+ * or shares it. Returns as snprintf. */
 int io_machine_name(const struct io_machine *machine, int line, char *out, size_t size);
 
-/* A point that can be read, and where its line is. */
+/* A point of a line without errors. */
 struct io_placed {
 	const struct io_point *point;
-	int found;              /* in the lines of the machine; -1: not here,
-				   or no pin                                   */
+	int found;              /* index in the lines of the machine; -1: not here, or no pin
+				   */
 };
 
 struct io_check {
 	struct arena arena;
-	struct iomap map;          /* of the lines that can be read            */
+	struct iomap map;          /* of the lines without errors              */
 	struct io_placed *placed;  /* of map.point                             */
 	struct diag_list errors;   /* of the text: they hold on every machine  */
 	struct diag_list here;     /* of this machine only                     */
 };
 
 /**
- * io_check_new - judges a text; @areas: of the program
- * @machine: NULL, or one without lines: nothing is said of this machine
+ * io_check_new - checks a text; @areas: of the program
+ * @machine: NULL, or without lines: nothing is checked against this machine
  * @dev: folder of the device files; NULL: "/dev"
  * Owns: io_check_free().   Fails: NULL: no memory.
  */
 struct io_check *io_check_new(const char *text, size_t len, const struct areas *areas,
 			      const struct io_machine *machine, const char *dev);
 void io_check_free(struct io_check *check);
-/** io_check_at - the first message of a line (1-based), errors of the text before what
- * holds here only; NULL: none. @here: is it of this machine only? */
+/** io_check_at - the first message of a line (1-based), errors of the text first; NULL:
+ * none. @here: gets whether it is about this machine. */
 const struct diag *io_check_at(const struct io_check *check, int line, bool *here);
-/** io_check_point - of a line of the text; NULL: it cannot be read. */
+/** io_check_point - the point of a line of the text; NULL: the line has errors. */
 const struct io_placed *io_check_point(const struct io_check *check, int line);
 
 #endif

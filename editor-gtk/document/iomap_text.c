@@ -2,8 +2,8 @@
  *
  * iomap_text - the words of an I/O map, and edits of them.
  *
- * An edited line is written anew in a buffer of its own, word by word; the edit is what
- * differs.
+ * An edited line is written in a buffer, word by word. The edit is the difference to the
+ * old line.
  */
 #include "editor-gtk/document/iomap_text.h"
 
@@ -28,8 +28,8 @@ static bool at_line_end(const struct lex *lex)
 	return kind == TOKEN_END || kind == TOKEN_NEWLINE || lex_is(lex, "#");
 }
 
-/* Tokens without a blank between them, as hal/iomap.c has them. Comments in between are
- * stepped over; one that goes to the end of the line is kept in @row, if there is one. */
+/* Words in this file are tokens without a blank between them, as in hal/iomap.c. Comments
+ * are skipped; one that ends the line is kept in @row (or NULL). */
 static void skip_comments(struct lex *lex, const char *text, struct io_row *row)
 {
 	while (lex->token.kind == TOKEN_COMMENT) {
@@ -93,7 +93,7 @@ static void take(const struct io_text *io, struct io_row *row, enum io_word kind
 
 /* ---- lines ---- */
 
-/* Before the newline, and a carriage return before that. */
+/* The place of the newline, or of a carriage return before it. */
 static size_t end_of_line(const struct io_text *io, size_t at)
 {
 	const char *newline = memchr(io->text + at, '\n', io->len - at);
@@ -111,7 +111,7 @@ static size_t begin_of_line(const struct io_text *io, size_t at, size_t least)
 	return at;
 }
 
-/* At the end of a statement: its comment, and where its line ends. */
+/* Ends a row: finds its comment and the end of its line. */
 static void end_row(struct io_text *io, struct lex *lex, struct io_row *row)
 {
 	row->end = end_of_line(io, row->words_end);
@@ -151,7 +151,7 @@ static void read_board(struct io_text *io, struct lex *lex, const struct word *f
 		;
 }
 
-/* @least: behind what was read before. */
+/* @least: the end of the row before. */
 static bool read_row(struct io_text *io, struct lex *lex, const struct word *first,
 		     size_t least)
 {
@@ -209,7 +209,7 @@ void io_text_free(struct io_text *io)
 
 /* ---- what cells show ---- */
 
-/* The characters of a name, without quotes. */
+/* Copies a name without its quotes. */
 static size_t unquote(const char *value, size_t len, char *out)
 {
 	size_t used = 0;
@@ -239,7 +239,7 @@ static bool has_blank(const char *text, size_t len)
 	return memchr(text, ' ', len) || memchr(text, '\t', len);
 }
 
-/* A name with blanks keeps its quotes, so that label and offset are told from it. */
+/* A name with blanks keeps its quotes: without them it would read as label and offset. */
 static size_t put_name(const struct io_text *io, const struct io_span *word, char *out)
 {
 	const struct io_span value = value_of(io, word);
@@ -326,7 +326,7 @@ char *io_text_board(const struct io_text *io)
 	return out;
 }
 
-/* A line that is being written; spans count from the begin of the text. */
+/* A line that is being written; spans count from the start of the text. */
 struct draft {
 	char *text;
 	size_t len, room;
@@ -340,7 +340,7 @@ static void splice(struct draft *draft, size_t at, size_t removed, const char *w
 
 	if (draft->failed)
 		return;
-	if (draft->len - removed + come >= draft->room) { /* and a NUL */
+	if (draft->len - removed + come >= draft->room) { /* with the NUL */
 		draft->room = draft->len + come + 64;
 		more = realloc(draft->text, draft->room);
 		draft->failed = !more;
@@ -359,7 +359,7 @@ static bool is_blank(char c)
 	return c == ' ' || c == '\t';
 }
 
-/* Blanks at a place of the draft. */
+/* Counts the blanks at a place of the draft. */
 static size_t blanks(const struct draft *draft, size_t at)
 {
 	size_t count = 0;
@@ -374,13 +374,13 @@ static bool is_end(const struct draft *draft, size_t at)
 	return at >= draft->len || draft->text[at] == '\r' || draft->text[at] == '\n';
 }
 
-/* Columns by screen, not bytes. */
+/* Columns on the screen, not bytes. */
 static int width(const char *text, size_t len)
 {
 	return utf8_width(text, len);
 }
 
-/* What follows a word stays in its column, if blanks enough are between. */
+/* Keeps the next word in its column if there are enough blanks. */
 static void keep_column(struct draft *draft, size_t end, int grown)
 {
 	const size_t have = blanks(draft, end);
@@ -416,7 +416,7 @@ static void remove_word(struct draft *draft, size_t at, size_t len)
 	keep_column(draft, from, -gone);
 }
 
-/* Behind what ends at @at. */
+/* Inserts a word behind the word that ends at @at. */
 static void insert_word(struct draft *draft, size_t at, const char *word)
 {
 	const int come = width(word, strlen(word)) + 1;
@@ -441,7 +441,7 @@ static bool draft_open(struct draft *draft, const struct io_text *io,
 	return draft->text != NULL;
 }
 
-/* Only what differs, so that undo and cursor go there. */
+/* Reduces the edit to the bytes that differ, so that undo and cursor go there. */
 static enum io_refusal draft_close(struct draft *draft, const struct io_text *io,
 				   const struct io_row *row, struct io_edit *edit)
 {
@@ -458,7 +458,7 @@ static enum io_refusal draft_close(struct draft *draft, const struct io_text *io
 	while (tail < len - same && tail < draft->len - same &&
 	       was[len - 1 - tail] == draft->text[draft->len - 1 - tail])
 		tail++;
-	/* Never in the middle of a character. */
+	/* not in the middle of a character */
 	while (same > 0 && ((unsigned char)was[same] & 0xc0) == 0x80)
 		same--;
 	while (tail > 0 && ((unsigned char)was[len - tail] & 0xc0) == 0x80)
@@ -471,7 +471,7 @@ static enum io_refusal draft_close(struct draft *draft, const struct io_text *io
 	return IO_GOOD;
 }
 
-/* Behind the last word that stands before words of @kind in a well-ordered line. */
+/* Where a word of @kind goes: behind the words that come before it in the usual order. */
 static size_t place_of(const struct io_row *row, enum io_word kind)
 {
 	size_t at = row->words_end;
@@ -482,7 +482,7 @@ static size_t place_of(const struct io_row *row, enum io_word kind)
 	return at - row->from;
 }
 
-/* @word: "pull-up", "safe=0"; "" takes the word away. */
+/* @word: "pull-up", "safe=0"; "" deletes the word. */
 static void set_word(struct draft *draft, const struct io_row *row, enum io_word kind,
 		     const char *word)
 {
@@ -526,7 +526,7 @@ static bool has_control(const char *text)
 	return false;
 }
 
-/* A name as a map spells it: in quotes if it is more than one bare word. */
+/* Writes a name as a map needs it: in quotes unless it is one bare word. */
 static bool spell_name(char *out, size_t room, const char *name, size_t len)
 {
 	size_t used = 0;
@@ -552,7 +552,7 @@ static bool spell_name(char *out, size_t room, const char *name, size_t len)
 	return true;
 }
 
-/* A name, perhaps in quotes already. */
+/* The same for a name that may already have quotes. */
 static bool spell_typed(char *out, size_t room, const char *name, size_t len)
 {
 	if (len < 2 || name[0] != '"' || name[len - 1] != '"')
@@ -564,7 +564,7 @@ static bool spell_typed(char *out, size_t room, const char *name, size_t len)
 	return is_one_word(out);
 }
 
-/* Where the last word begins; @len: none before it. */
+/* The start of the last word; @len: there is only one. */
 static size_t last_word(const char *text, size_t len)
 {
 	size_t at = len;
@@ -581,7 +581,8 @@ static bool is_number(const char *text, size_t len)
 
 #define NAME_ROOM (2 * LIMIT_NAME + 8)
 
-/* "GPIO17", "\"P9_14 [x]\"", "1c20800.pinctrl 7": the words of the map; @second "": one. */
+/* Splits "GPIO17", "\"P9_14 [x]\"" or "1c20800.pinctrl 7" into the words of the map;
+ * @second "": one word. */
 static enum io_refusal spell_line(const char *value, char *first, char *second)
 {
 	const size_t len = strlen(value), at = last_word(value, len);
@@ -603,8 +604,8 @@ static enum io_refusal spell_line(const char *value, char *first, char *second)
 	return spell_typed(first + 5, NAME_ROOM - 5, value, len) ? IO_GOOD : IO_BAD_NAME;
 }
 
-/* The words of a line's place: one in the place of the other, the rest goes. Those further
- * right first: the places of the others stay true. */
+/* Replaces the words of a line's place. Backwards, so that the places of earlier words stay
+ * valid. */
 static void set_place(struct draft *draft, const struct io_row *row, const char *first,
 		      const char *second)
 {
@@ -793,7 +794,7 @@ enum io_refusal io_text_set_board(const struct io_text *io, const char *name,
 		return put(edit, io->board.at, io->board.len,
 			   (const char *[]){ quoted }, 1);
 	if (io->board_line)
-		return IO_NO_WORD; /* BOARD alone: where, is seen in the text */
+		return IO_NO_WORD; /* BOARD without a name */
 	return put(edit, bom ? 3 : 0, 0, (const char *[]){ "BOARD ", quoted, "\n" }, 3);
 }
 
@@ -810,7 +811,7 @@ enum io_refusal io_text_delete(const struct io_text *io, int number, struct io_e
 	return put(edit, row->from, end - row->from, (const char *[]){ "" }, 1);
 }
 
-/* Behind the newline of a line; 0 bytes of text have none. */
+/* The start of the next line. */
 static size_t behind_line(const struct io_text *io, size_t at)
 {
 	while (at < io->len && io->text[at] != '\n')

@@ -2,9 +2,9 @@
  *
  * iomap_text - the text of an I/O map as rows and fields, for a table that edits it.
  *
- * The text stays the truth: an edit is some bytes in the place of others, and whatever is
- * not touched stays as it was typed, also what cannot be understood. It finds the same
- * words as hal/iomap.c and judges none of them. No toolkit, no files.
+ * The text is the model: an edit replaces some bytes, and everything else stays as it was
+ * typed, even what cannot be read. It finds the same words as hal/iomap.c and judges none
+ * of them. No toolkit, no files.
  */
 #ifndef EDITOR_IOMAP_TEXT_H
 #define EDITOR_IOMAP_TEXT_H
@@ -21,7 +21,7 @@ enum io_field {
 	IO_FIELDS
 };
 
-struct io_span { size_t at, len; }; /* bytes of the text; len 0: it is not there   */
+struct io_span { size_t at, len; }; /* bytes of the text; len 0: missing           */
 
 /* Words of a line that mean something. */
 enum io_word {
@@ -31,10 +31,11 @@ enum io_word {
 };
 
 struct io_row {
-	int line;                      /* 1-based, where the address stands     */
+	int line;                      /* 1-based, the line of the address      */
 	struct io_span word[IO_WORDS]; /* the first of each kind                */
 	struct io_span comment;        /* with its # or //                      */
-	size_t from;                   /* begin of the line, or behind what else stands in it */
+	size_t from;                   /* start of the line, or the end of the statement before
+					  it in the same line */
 	size_t words_end;              /* behind its last word                  */
 	size_t end;                    /* of the line, before its newline       */
 };
@@ -44,12 +45,12 @@ struct io_text {
 	size_t len;
 	struct io_row *row;
 	int count;
-	int board_line;        /* 1-based, of the first statement if it begins with
-				  BOARD; 0: it does not                 */
-	struct io_span board;  /* the name behind it, with its quotes           */
+	int board_line;        /* line of BOARD, 1-based, if it is the first statement; 0: it
+				  is not */
+	struct io_span board;  /* the name of the board, with its quotes        */
 };
 
-/* Bytes in the place of others. */
+/* Replaces bytes of the text. */
 struct io_edit {
 	size_t at, removed;
 	char *with;            /* NUL-ended; free()                             */
@@ -58,29 +59,29 @@ struct io_edit {
 enum io_refusal {
 	IO_GOOD,
 	IO_MANY_WORDS,  /* it must be one word                                  */
-	IO_NO_WORD,     /* none of the words there are; or nothing, but needed   */
+	IO_NO_WORD,     /* not one of the choices; or empty, but needed          */
 	IO_BAD_OFFSET,  /* a label without a number                             */
 	IO_BAD_NAME,    /* control characters, or too long                      */
 	IO_MEMORY,
 };
 
 /** io_text_read - the rows of @text, which must outlive @out. Any bytes. Owns: the caller,
- * io_text_free().   Fails: false: no memory; io_text_free() all the same. */
+ * io_text_free().   Fails: false: no memory; call io_text_free() all the same. */
 bool io_text_read(struct io_text *out, const char *text, size_t len);
 void io_text_free(struct io_text *io);
 
-/** io_text_field - what a cell shows; "" if it is not there. Caller: free(). NULL: no
+/** io_text_field - the text of a cell; "" if the field is missing. Caller: free(). NULL: no
  * memory. */
 char *io_text_field(const struct io_text *io, int row, enum io_field field);
-/** io_text_board - the name of the board, without quotes. Likewise. */
+/** io_text_board - the name of the board, without quotes. As io_text_field. */
 char *io_text_board(const struct io_text *io);
 
 /**
- * io_text_set - the edit that makes a field say @value; "" takes it away
+ * io_text_set - the edit that sets a field to @value; "" deletes the field
  *
- * Values are not judged, but what would break the line into other words is refused.
- * Columns behind the word stay where they are if there are blanks enough.
- * Fails: why; @edit is then empty.
+ * Values are not judged, but one that would split the line into other words is refused.
+ * Later words stay in their columns if there are enough blanks.
+ * Fails: returns the reason; @edit is then empty.
  */
 enum io_refusal io_text_set(const struct io_text *io, int row, enum io_field field,
 			    const char *value, struct io_edit *edit);
@@ -93,8 +94,7 @@ enum io_refusal io_text_delete(const struct io_text *io, int row, struct io_edit
 enum io_refusal io_text_add(const struct io_text *io, int row, const char *address,
 			    const char *driver, const char *comment,
 			    struct io_edit *edit);
-/** io_text_choices - the words there are for a field; NULL: any. NULL-ended, lives for
- * ever. */
+/** io_text_choices - the possible words of a field; NULL: any. NULL-ended, lives for ever. */
 const char *const *io_text_choices(enum io_field field);
 
 #endif

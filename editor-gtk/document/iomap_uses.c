@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * iomap_uses - which inputs and outputs a program has, from its cross reference.
+ * iomap_uses - the inputs and outputs of a program, from its cross reference.
  */
 #include "editor-gtk/document/iomap_uses.h"
 
@@ -29,7 +29,7 @@ static void push(struct io_uses *uses, struct iec_addr addr, const char *name,
 		*use = (struct io_use){ addr, name, comment };
 }
 
-/* All elements of an array of bits, as far as the area goes. */
+/* All elements of an array of bits, up to the end of the area. */
 static void push_array(struct io_uses *uses, const struct project *project,
 		       const struct var *var, const char *name)
 {
@@ -64,7 +64,7 @@ static void take(struct io_uses *uses, struct xref *xref, const struct xref_use 
 		return;
 	}
 	if (use->kind != XREF_DECLARED)
-		return; /* it was declared before */
+		return; /* already added by its declaration */
 	xref_name(xref->project, &use->target, use, name, sizeof(name));
 	if (var->array.count)
 		push_array(uses, xref->project, var, name);
@@ -82,7 +82,7 @@ static int compare_addr(struct iec_addr a, struct iec_addr b)
 	return (int)a.bit - (int)b.bit;
 }
 
-/* What has a name comes before what has none. */
+/* At one address, uses with a name come first. */
 static int by_address(const void *left, const void *right)
 {
 	const struct io_use *a = left, *b = right;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * iomap_uses - which inputs and outputs a program has, bit by bit, and what it calls them.
+ * iomap_uses - the inputs and outputs of a program, bit by bit, and their names.
  *
- * Bits only: words have no pin of their own. No toolkit.
+ * Only bits: words have no pin of their own. No toolkit.
  */
 #ifndef EDITOR_IOMAP_USES_H
 #define EDITOR_IOMAP_USES_H
@@ -13,7 +13,7 @@
 struct io_use {
 	struct iec_addr addr;
 	const char *name;    /* of its variable; "" if there is none           */
-	const char *comment; /* of that, with its delimiters; ""                */
+	const char *comment; /* of the variable, with its delimiters; ""        */
 };
 
 struct io_uses {
@@ -26,7 +26,7 @@ struct io_uses {
  * Owns: io_uses_free(), always.   Fails: false: no memory. */
 bool io_uses_make(struct io_uses *out, struct project *project);
 void io_uses_free(struct io_uses *uses);
-/** io_uses_find - NULL: the program does not have it. */
+/** io_uses_find - NULL: the program does not use it. */
 const struct io_use *io_uses_find(const struct io_uses *uses, struct iec_addr addr);
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * panel - what panels with lists share: lists of rows in columns, and looking again at the
- * document, not too often and not unseen.
+ * panel - lists of rows in columns, and delayed refreshes after changes of the document.
  */
 #include "editor-gtk/document/panel.h"
 
@@ -31,7 +30,7 @@ void panel_speak(GtkWidget *cell, const LadderPanelRow *row)
 			GTK_ACCESSIBLE_PROPERTY_LABEL, row->spoken, -1);
 }
 
-/* A cell shows its row when it gets it, and when that changes. */
+/* Shows the row of a cell now, and again when the row changes. */
 static void follow(GtkListItem *item, void (*show)(LadderPanelRow *row, GtkListItem *item))
 {
 	LadderPanelRow *row = gtk_list_item_get_item(item);
@@ -122,7 +121,7 @@ static void bind_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
 
 /* ---- order ---- */
 
-/* As people sort, whatever the locale: no case, numbers by what they are. Caller: g_free. */
+/* Sort key as in a file manager: case folded, numbers by value. Caller: g_free. */
 static char *order_key(const LadderPanelRow *row, int column)
 {
 	char *folded = g_utf8_casefold(panel_row_text(row, column), -1);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * panel_cells - cells of a panel's list that can be edited.
+ * panel_cells - editable cells of a panel's list.
  */
 #include "editor-gtk/document/panel_cells.h"
 
@@ -50,7 +50,7 @@ static bool set(const struct column *column, LadderPanelRow *row, const char *te
 
 /* ---- an edit of a text ---- */
 
-/* @refused: taken over; NULL: the row has the text of the cell now. */
+/* @refused: the refused text, taken over; NULL: the row has the text of the cell. */
 static void mark(GtkWidget *cell, char *refused, char *why)
 {
 	const char *text = gtk_editable_get_text(GTK_EDITABLE(cell));
@@ -65,7 +65,7 @@ static void mark(GtkWidget *cell, char *refused, char *why)
 	g_object_set_data_full(G_OBJECT(cell), "refused", refused, g_free);
 }
 
-/* What is to be set; NULL: it is as it was, or was refused already. Caller: g_free. */
+/* The new text; NULL: it is unchanged, or was refused already. Caller: g_free. */
 static char *edited(GtkWidget *cell, const LadderPanelRow *row)
 {
 	const struct column *column = column_of(cell);
@@ -93,7 +93,7 @@ static bool apply(GtkWidget *cell, LadderPanelRow *row, const char *text)
 	return good;
 }
 
-/* The text is as it was before the edit. */
+/* Restores the text from before the edit. */
 static void give_up(GtkWidget *cell, LadderPanelRow *row)
 {
 	const struct panel_cells *cells = column_of(cell)->cells;
@@ -114,7 +114,7 @@ static bool is_as_before(GtkWidget *cell, const LadderPanelRow *row)
 			     panel_row_text(row, column_of(cell)->field)) == 0;
 }
 
-/* False: it is refused. What was refused before is not tried again. */
+/* False: it is refused. A text that was refused before is not tried again. */
 static bool commit(GtkWidget *cell, GtkListItem *item)
 {
 	LadderPanelRow *row = gtk_list_item_get_item(item);
@@ -134,7 +134,7 @@ static void activated(GtkEntry *cell, GtkListItem *item)
 	commit(GTK_WIDGET(cell), item);
 }
 
-/* An edit that waits until the focus is where it goes. */
+/* An edit that is set when the focus has moved. */
 struct later {
 	const struct column *column;
 	GtkWidget *cell;
@@ -175,7 +175,7 @@ static void left(GtkEventControllerFocus *focus, GtkListItem *item)
 	struct later *later;
 	char *text;
 
-	/* A window that closes committed the edit before. */
+	/* the window committed the edit before it closes */
 	if (root ? gtk_widget_in_destruction(GTK_WIDGET(root)) :
 		   !column_of(cell)->cells->later)
 		return;
@@ -192,7 +192,7 @@ static void left(GtkEventControllerFocus *focus, GtkListItem *item)
 	g_idle_add_full(G_PRIORITY_HIGH_IDLE, do_later, later, later_free);
 }
 
-/* Actions of the panel are for the row of the cell with the focus. */
+/* Actions of the panel apply to the row whose cell has the focus. */
 static void entered(GtkEventControllerFocus *focus, GtkListItem *item)
 {
 	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
@@ -245,7 +245,7 @@ static void toggled(GtkCheckButton *check, GtkListItem *item)
 
 	if (!row || gtk_check_button_get_active(check) == is)
 		return;
-	/* The list gave the keys to the first cell of the row that was clicked. */
+	/* the list has focused the first cell of the row */
 	gtk_widget_grab_focus(GTK_WIDGET(check));
 	g_object_ref(row);
 	if (set(column, row, is ? "" : "1", &why)) {
@@ -259,11 +259,11 @@ static void toggled(GtkCheckButton *check, GtkListItem *item)
 
 /* ---- choices ---- */
 
-#define MANY 8 /* choices; with more of them one can search                    */
+#define MANY 8 /* choices; longer lists get a search entry                     */
 
 static void popover_closed(GtkWidget *popover)
 {
-	/* Not before its row has been taken. */
+	/* Not before the choice has been taken. */
 	popover_drop_later(popover);
 }
 
@@ -387,7 +387,7 @@ static void icon_pressed(GtkEntry *cell, GtkEntryIconPosition position, GtkListI
 		show_choices(GTK_WIDGET(cell), item);
 }
 
-/* Esc: as it was. Alt+Down: choices. */
+/* Esc restores the text. Alt+Down opens the choices. */
 static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 			GdkModifierType state, GtkListItem *item)
 {
@@ -453,7 +453,7 @@ static void connect_entry(GtkWidget *cell, GtkListItem *item)
 		cells_on_take(cell, commit, item);
 }
 
-/* What a person is typing there stays. */
+/* Keeps the text that is being typed. */
 static void show_text(GtkWidget *cell, const char *text)
 {
 	const char *shown = g_object_get_data(G_OBJECT(cell), "shown");

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * panel_cells - cells of a panel's list that can be edited: text, text with a list of
- * choices, yes or no.
+ * panel_cells - editable cells of a panel's list: text, text with a list of choices, yes or
+ * no.
  *
- * What a cell means is the owner's: an edit is set by it, or refused with a reason that the
- * cell shows. Esc gives an edit up.
+ * The owner gives cells their meaning: it sets an edit or refuses it, with a reason that
+ * the cell shows. Esc restores the text.
  */
 #ifndef EDITOR_PANEL_CELLS_H
 #define EDITOR_PANEL_CELLS_H
@@ -16,30 +16,29 @@ struct panel_cells {
 	GObject *owner;
 	unsigned int checks;    /* a bit for each field that is yes ("1") or no ("") */
 	unsigned int choosable; /* a bit for each field that has choices       */
-	bool later;             /* set when the keys have gone where they go: the owner makes
-				   all rows anew                               */
+	bool later;             /* edits are set after the focus has moved, because the owner
+				   then makes all rows anew */
 	/* Translated. */
 	const char *(*name)(int field);
-	/* A person made @text of a field. False: refused; @why (or NULL) says why. */
+	/* Sets a field to @text. False: refused; @why (or NULL) says why. */
 	bool (*set)(GObject *owner, LadderPanelRow *row, int field, const char *text,
 		    char **why);
-	/* A cell shows what it had before the edit. NULL: then that is set again if the edit
-	 * was refused. */
+	/* The text before the edit, to restore it. NULL: the owner restores by itself. */
 	void (*given_up)(GObject *owner);
-	/* NULL: all can be edited. */
+	/* NULL: all rows can be edited. */
 	bool (*is_fixed)(const LadderPanelRow *row, int field);
-	/* Pairs of a text and what is said of it (or ""). Caller: g_ptr_array_unref. */
+	/* Pairs of a text and its explanation (or ""). Caller: g_ptr_array_unref. */
 	GPtrArray *(*choices)(GObject *owner, int field);
 };
 
 /** panel_cells_add - a column of cells of one field. @cells: outlives the list. @flags,
- * @width: as of panel_list_add(). */
+ * @width: as for panel_list_add(). */
 void panel_cells_add(struct panel_list *list, const struct panel_cells *cells, int field,
 		     unsigned int flags, int width);
-/** panel_cells_commit - the edit in the cell of @view that has the focus is done now. */
+/** panel_cells_commit - ends the edit in the cell of @view that has the focus. */
 void panel_cells_commit(GtkColumnView *view);
-/** panel_cells_focus - the cell of a row (its index) and field gets the focus. @within: a list,
- * or what has one in it. False: it is not to be seen. */
+/** panel_cells_focus - focuses the cell of a row (its index) and field. @within: a list, or
+ * a parent of one. False: it is not visible. */
 bool panel_cells_focus(GtkWidget *within, int row, int field);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * pou_edit - programs and blocks come and go.
+ * pou_edit - adds and deletes programs and blocks.
  */
 #include "editor-gtk/document/pou_edit.h"
 
@@ -35,7 +35,7 @@ static char *free_name(const struct project *project, const char *what)
 	return name;
 }
 
-/* What can be called has an input and gives what that is, until it is drawn otherwise. */
+/* A new function or block has an input, and returns it until it is edited. */
 static char *text_of(const char *what, const char *name)
 {
 	char **words = g_strsplit(what, " ", 2);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * pou_edit - programs and blocks come and go.
+ * pou_edit - adds and deletes programs and blocks.
  *
- * Each is one step of the history, made as a change of the text.
+ * Each edit is one step of the history, made as a change of the text.
  */
 #ifndef EDITOR_POU_EDIT_H
 #define EDITOR_POU_EDIT_H
@@ -11,11 +11,11 @@
 
 #include <gtk/gtk.h>
 
-/** pou_add - @what: "PROGRAM LD", "FUNCTION_BLOCK LD"; named anew, and shown from
- * @widget by "win.go-to". Returns NULL; else why none comes, translated, static. */
+/** pou_add - @what: "PROGRAM LD", "FUNCTION_BLOCK LD"; gives it a new name, and shows it by
+ * "win.go-to" on @widget. Returns NULL, or why it failed, translated, static. */
 const char *pou_add(GtkWidget *widget, LadderDocument *document, const char *what);
-/** pou_delete - with all that is in it; the last one stays, and one of another file.
- * Returns NULL; else why it stays, translated, static. */
+/** pou_delete - deletes a POU, but not the last one or one of another file. Returns NULL,
+ * or why it failed, translated, static. */
 const char *pou_delete(LadderDocument *document, int pou);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * pou_import - programs and blocks of another project, with what they need.
+ * pou_import - imports programs and blocks of another project, with their declarations.
  */
 #include "editor-gtk/document/pou_import.h"
 
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What comes: by number in the other project. */
+/* What to import, by number in the other project. */
 struct wanted {
 	bool *pou, *global, *structure;
 	int pous, globals, structures;
@@ -28,7 +28,7 @@ static bool want(bool *all, int index)
 	return fresh;
 }
 
-/* The structure or block that is a variable's type. */
+/* Adds the structure or block that is a variable's type. */
 static bool want_type(struct wanted *wanted, const struct project *project,
 		      const struct var *var)
 {
@@ -75,7 +75,7 @@ static bool want_target(struct wanted *wanted, const struct xref_target *target)
 	return target->what == XREF_STRUCTURE && want(wanted->structure, target->index);
 }
 
-/* Until nothing more is needed. Fails: no memory. */
+/* Adds uses of uses until nothing is missing. Fails: no memory. */
 static bool want_all(struct wanted *wanted, struct project *project)
 {
 	struct xref xref = { 0 };
@@ -114,7 +114,7 @@ static bool is_taken(const struct project *project, const char *name)
 	return taken;
 }
 
-/* The same name, type and address is the same thing. */
+/* A global with the same name, type and address is shared. */
 static bool is_shared(const struct project *project, const struct project *from,
 		      const struct var *var)
 {
@@ -142,7 +142,7 @@ static char *free_name(const struct project *project, const struct project *from
 	return other;
 }
 
-/* In what comes, everywhere. Numbers stay as they are. */
+/* Renames it everywhere in the import. Numbers stay as they are. */
 static bool rename_in(struct ladder *from, const struct project *project,
 		      const struct xref_target *target, const char *name, GString *told)
 {
@@ -238,7 +238,7 @@ static const char *heading_of(const char *at)
 	return at;
 }
 
-/* A block ends behind its declarations, and its first line says what it is. */
+/* Copies the wanted globals, each block with its own heading. */
 static void append_globals(GString *out, const char *text, const GArray *spans,
 			   const struct wanted *wanted)
 {

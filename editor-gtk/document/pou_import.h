@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * pou_import - programs and blocks of another project, with what they need.
+ * pou_import - imports programs and blocks of another project, with their declarations.
  *
- * The globals, structures and blocks they use come along. What is there already and the
- * same is shared; a name that is taken by something else is changed in what comes, never
- * in what was there, and that is told.
+ * The globals, structures and blocks that they use are imported too. Equal ones are shared.
+ * A name that already means something else is changed in the import, never in the project,
+ * and the result says so.
  */
 #ifndef EDITOR_POU_IMPORT_H
 #define EDITOR_POU_IMPORT_H
@@ -13,9 +13,9 @@
 
 /**
  * pou_import - into the document, as one step
- * @from:   the other project, loaded; borrowed, other names may be given to its parts
- * @chosen: of each of its POUs
- * @told:   what came, what was renamed; or why nothing came
+ * @from:   the other project, loaded; borrowed, its parts may be renamed
+ * @chosen: for each of its POUs
+ * @told:   what was imported and renamed; or why nothing was
  *
  * Fails: false, nothing changed.
  */

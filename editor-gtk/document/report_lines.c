@@ -35,7 +35,7 @@ static char *place_text(LadderDocument *document, const LadderPanelRow *row)
 	return g_strdup_printf(_("%s, rung %d"), pou, row->rung + 1);
 }
 
-/* Texts and place are there. */
+/* Called last: completes a row that has its texts and place. */
 static LadderPanelRow *finish(LadderDocument *document, LadderPanelRow *row)
 {
 	row->text[REPORT_HERE] = place_text(document, row);
@@ -49,7 +49,7 @@ static LadderPanelRow *finish(LadderDocument *document, LadderPanelRow *row)
 
 /* ---- an import ---- */
 
-/* What became of the rung it speaks of; else the POU that it names. */
+/* The place of the rung that came from the reported one; else of the POU that is named. */
 static void find_here(LadderOrigin *origin, const struct project *project,
 		      const struct report_line *line, LadderPanelRow *row)
 {
@@ -89,7 +89,7 @@ GPtrArray *report_lines_import(LadderOrigin *origin, LadderDocument *document)
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
 	const struct classic_report *report = ladder_origin_report(origin);
 
-	/* What needs to be looked at comes first. */
+	/* the most serious kind first */
 	for (int kind = REPORT_KINDS - 1; kind >= 0; kind--)
 		for (int i = 0; report && i < report->count; i++)
 			if ((int)report->line[i].kind == kind)

@@ -2,10 +2,10 @@
  *
  * rung_clip - rungs as text for the clipboard, and rungs from any text that holds some.
  *
- * The declarations of a copy are those of the names in its text, so that no uses of a large
- * project are looked for. A text that is read is cut where lines begin a part. The engine
- * reads each part: rungs in the document, so that its words are known, declarations in a
- * project made for them. A refusal names the line of the text as it came.
+ * A copy has the declarations of the names in its text, which is faster than a search for
+ * uses. A text that is pasted is split where lines begin a part. The engine reads each
+ * part: rungs in the document, so that its words are known, declarations in a project of
+ * their own. An error names the line of the pasted text.
  */
 #include "editor-gtk/document/rung_clip.h"
 
@@ -20,7 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The names of a text, as names_fold(). */
+/* The names in a text, as names_fold(). */
 static GHashTable *names_in(const struct project *project, const char *text)
 {
 	GHashTable *found = g_hash_table_new(NULL, NULL);
@@ -50,8 +50,8 @@ static void add_line(GString *block, const struct project *project,
 	symbol_row_free(symbol);
 }
 
-/* Those of @table among @names, in blocks of their kind, which begin with @head. What a
- * local has is no more among them. */
+/* Adds the declarations of @table that are among @names, in blocks whose heading begins
+ * with @head. A local hides a global: it is removed from @names. */
 static void add_blocks(GString *out, const struct project *project, int table,
 		       uint16_t head, GHashTable *names)
 {
@@ -78,7 +78,7 @@ static void add_blocks(GString *out, const struct project *project, int table,
 	}
 }
 
-/* NULL: one of them cannot be written. */
+/* NULL: a rung cannot be written. */
 static GString *written(LadderDocument *document, struct rung *const *rungs, int count)
 {
 	GString *out = g_string_new(NULL);
@@ -143,11 +143,11 @@ void rung_clip_free(struct rung_clip *clip)
 	g_free(clip);
 }
 
-#define TEXT_MOST 65536 /* bytes: more is no list of mnemonics                 */
+#define TEXT_MOST 65536 /* bytes; longer texts are not read as mnemonics       */
 
 struct typed {
 	char *text;
-	int line;       /* where it stands                                     */
+	int line;       /* line of the clipboard                               */
 };
 
 struct line {
@@ -155,7 +155,7 @@ struct line {
 	struct entry_place place;
 	struct entry *entry;
 	GStrvBuilder *rungs;
-	GString *row;   /* of the rung that is being read; NULL: none          */
+	GString *row;   /* the rung that is being read; NULL: none             */
 	bool ended;     /* by its output                                       */
 	char *why;
 };
@@ -167,7 +167,7 @@ static bool is_begun(const struct line *line, const char *text)
 	return line->entry->sense == ENTRY_PART;
 }
 
-/* A word whose operand follows; of a block that may be missing, too. */
+/* A word that takes an operand. */
 static bool is_word(const struct line *line, const char *text)
 {
 	if (words_find(&line->place.project->words, text, strlen(text)) != WORD_COUNT)
@@ -228,8 +228,8 @@ static char *joined(const struct typed *from, int count)
 	return g_string_free(one, FALSE);
 }
 
-/* How many belong to the word at @from: up to the next one, which begins every line; its
- * operand may be called as one: Stop. */
+/* The number of words that belong to the word at @from: up to the next mnemonic. An operand
+ * may have the name of one, such as Stop. */
 static int count_of(const struct line *line, const struct typed *from)
 {
 	GString *one = g_string_new(from->text);
@@ -243,7 +243,7 @@ static int count_of(const struct line *line, const struct typed *from)
 	return count;
 }
 
-/* What is good without its last words has a word too many that is none. */
+/* If the line is valid without its last words, the first of those is an unknown mnemonic. */
 static bool refuse_last(struct line *line, const struct typed *from, int count)
 {
 	while (--count > 0) {
@@ -278,7 +278,7 @@ static bool add_all(struct line *line, const struct typed *part, int *at)
 	return good;
 }
 
-/* Words with a text of NULL behind them. */
+/* Words, ended by one with text NULL. */
 static GArray *words_of(const char *text)
 {
 	GArray *words = g_array_new(TRUE, TRUE, sizeof(struct typed));
@@ -304,8 +304,8 @@ static void part_clear(gpointer part)
 	g_free(((struct typed *)part)->text);
 }
 
-/* `XIC Start OTE Motor` as the text of a rung for POU @pou, not yet read; what follows an
- * output is another rung. @at: the line of the error. Caller: g_strfreev(). */
+/* `XIC Start OTE Motor` as the text of rungs for POU @pou, not yet parsed; an output ends a
+ * rung. @at: the line of an error. Caller: g_strfreev(). */
 static char **rungs_of_lines(LadderDocument *document, int pou, const char *text, char **why,
 			     int *at)
 {
@@ -337,14 +337,14 @@ static char **rungs_of_lines(LadderDocument *document, int pou, const char *text
 	return NULL;
 }
 
-#define TYPES_ROUNDS 4 /* in each, as many types as a list of diagnostics holds */
+#define TYPES_ROUNDS 4 /* each round adds as many types as a list of diagnostics holds */
 
-/* A part of the text: from its comments on to the end of its last line. */
+/* A part of the text: from the comments above it to the end of its last line. */
 struct span {
 	gsize at, len;
 	int line;           /* of its first byte                               */
 	gsize head;         /* bytes before its first word                     */
-	gsize head_len;     /* of that                                         */
+	gsize head_len;     /* length of that word                             */
 	bool global;        /* of a block: VAR_GLOBAL                          */
 	bool bare;          /* of a rung: the word RUNG is missing             */
 };
@@ -389,10 +389,10 @@ static bool begins_file(const struct lex *lex)
 
 struct cut {
 	struct lex lex;
-	gsize end;          /* behind the last line that had something         */
+	gsize end;          /* behind the last line with text                  */
 	int end_line;
-	struct span *open;  /* what the line belongs to; NULL: nothing          */
-	bool block;         /* and that is a block                             */
+	struct span *open;  /* the part that the line belongs to; NULL: none    */
+	bool block;         /* that part is a block                            */
 };
 
 static void begin(struct cut *cut, GArray *spans, const char *text)
@@ -408,7 +408,7 @@ static void begin(struct cut *cut, GArray *spans, const char *text)
 	cut->open = &g_array_index(spans, struct span, spans->len - 1);
 }
 
-/* False: it is a file, or there are enough. */
+/* False: it is a whole file, or there are too many parts. */
 static bool line_begins(struct reading *r, struct cut *cut)
 {
 	const struct lex *lex = &cut->lex;
@@ -452,7 +452,7 @@ static void cut_text(struct reading *r, gsize len)
 				cut.block = false;
 			continue;
 		}
-		/* What follows on lines of their own belongs to what comes next. */
+		/* Comments on lines of their own belong to the next part. */
 		if (any && (cut.open || kind == TOKEN_END)) {
 			cut.end = kind == TOKEN_END ? len :
 				(gsize)(token->text + token->len - r->text);
@@ -517,7 +517,7 @@ static bool take_rung(struct reading *r, const char *text, gsize len, int line)
 	return rung;
 }
 
-/* RUNG stands where its first row did, so that comments stay above it. */
+/* Inserts RUNG where the first row is, so that comments stay above it. */
 static bool take_bare(struct reading *r, const struct span *span)
 {
 	const char *text = r->text + span->at;
@@ -547,7 +547,7 @@ static bool take_rungs(struct reading *r)
 
 /* ---- declarations ---- */
 
-/* Types that nobody knows: each as a structure, so that what is of it can be read. */
+/* Declares each unknown type as a structure, so that its variables can be read. */
 static bool add_types(GString *types, const struct diag_list *diags)
 {
 	const gsize before = types->len;
@@ -576,8 +576,8 @@ static void add_block(GString *out, const struct reading *r, const struct span *
 		g_string_append_c(out, '\n');
 }
 
-/* The line of the clipboard that line @line of the blocks came from, which stand behind
- * two lines, the local ones behind one more. */
+/* The line of the clipboard for line @line of the blocks. Two lines stand before the
+ * blocks, one more before the local ones. */
 static int line_in(const struct reading *r, int line)
 {
 	int at = 3;
@@ -598,7 +598,7 @@ static int line_in(const struct reading *r, int line)
 	return 1;
 }
 
-/* A file, behind its first two lines. */
+/* The blocks as a file, without its first two lines. */
 static char *blocks_as_file(const struct reading *r)
 {
 	GString *text = g_string_new(NULL);
@@ -625,7 +625,7 @@ static LadderDocument *source_new(const char *text)
 	return source;
 }
 
-/* False: again, with more types. */
+/* False: try again with more types. */
 static bool try_source(const char *body, GString *types, bool last, LadderDocument **source,
 		       struct diag_list *diags)
 {
@@ -678,7 +678,7 @@ static bool is_ladder(const struct pou *pou)
 	return pou->kind == POU_PROGRAM && pou->language == LANGUAGE_LD && !pou->included;
 }
 
-/* What another project's rungs say, said here: its words may be unknown. */
+/* Rungs of another project are written and read again: their words may be unknown here. */
 static bool take_pou(struct reading *r, const struct pou *pou, int most, int before)
 {
 	struct ladder *from = ladder_document_ladder(r->clip->source);
@@ -743,7 +743,7 @@ static bool is_text(struct reading *r, const char *text, gsize len)
 	return true;
 }
 
-/* No row and no word of a rung file. */
+/* For a text without a row or a word of a rung file. */
 static bool take_lines(struct reading *r)
 {
 	char *why = NULL;
@@ -805,13 +805,13 @@ struct declare {
 	struct symbol_batch *batch;
 	int count;
 	int clashes;
-	char *clash;                /* what is told of the first one           */
+	char *clash;                /* message about the first clash           */
 };
 
 /* ---- what is not known ---- */
 
-/* Is there a name in the source that is none here? Most often not: what is pasted was
- * copied near by. */
+/* Does the source have a name that is new here? Mostly not: most text is pasted into the
+ * project it was copied from. */
 static bool has_news(const struct declare *declare)
 {
 	for (int i = 0; i < declare->symbols->count; i++) {
@@ -826,7 +826,7 @@ static bool has_news(const struct declare *declare)
 	return false;
 }
 
-/* Each name once, as it is first written. */
+/* Each unknown name once, as it is first written. */
 static GPtrArray *unknown_names(const struct declare *declare, int at, int count)
 {
 	GHashTable *seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
@@ -850,7 +850,7 @@ static GPtrArray *unknown_names(const struct declare *declare, int at, int count
 	return names;
 }
 
-/* A local wins, as in the source; a member of a structure is none. */
+/* A local hides a global, as in the source; members of structures do not count. */
 static const struct symbol_row *find(const struct declare *declare, const char *name)
 {
 	const struct symbol_row *global = NULL;
@@ -884,7 +884,7 @@ static bool overlaps(const struct var *a, const struct var *b)
 	       first < other + bits_of(b) && other < first + bits_of(a);
 }
 
-/* The name that has memory of a variable of the source; NULL: none. */
+/* The variable here that lies at the address of a variable of the source; NULL: none. */
 static const char *owner_of(const struct declare *declare, const struct var *var)
 {
 	for (int table = 0; table <= declare->project->pou_count; table++) {

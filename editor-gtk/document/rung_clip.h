@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * rung_clip - rungs on their way from project to project, as text of a rung file, with
- * the declarations of what they use.
+ * rung_clip - rungs on their way from project to project, as text of a rung file, with the
+ * declarations of the names they use.
  *
  *   VAR_GLOBAL
  *     Start AT %IX0.0 : BOOL;
@@ -10,62 +10,64 @@
  *     Delay : TON;
  *   END_VAR
  *   RUNG
- *     | NO Start | TON Delay PT:=T#1s | COIL %QX0.0 |
+ * NO Start
+ * TON Delay PT:=T#1s
+ * COIL %QX0.0 |
  *
- * VAR_GLOBAL are those of the project, VAR those of the program. A whole file is read too,
- * a rung without its word, and lines of mnemonics. It puts no rung anywhere, and never changes
- * a declaration that is there.
+ * VAR_GLOBAL are globals of the project, VAR locals of the program. It also reads a whole
+ * file, a rung without the word RUNG, and lines of mnemonics. It inserts no rungs, and
+ * never changes an existing declaration.
  */
 #ifndef EDITOR_RUNG_CLIP_H
 #define EDITOR_RUNG_CLIP_H
 
 #include "editor-gtk/document/symbols.h"
 
-#define RUNG_CLIP_MOST (LIMIT_RUNGS + 1) /* one is too much for any POU: who puts them tells */
+#define RUNG_CLIP_MOST (LIMIT_RUNGS + 1) /* more than a POU can hold: the caller refuses it */
 
 struct rung_clip {
 	struct rung **rung;     /* strings are ids of the document's project   */
 	int count;
-	LadderDocument *source; /* that has the declarations                   */
+	LadderDocument *source; /* the project with the declarations           */
 };
 
 /** rung_clip_text - rungs of POU @pou, or a part of one, for the clipboard, with the
- * declarations of what they name. Caller frees; NULL: one cannot be written. */
+ * declarations of their names. Caller frees; NULL: a rung cannot be written. */
 char *rung_clip_text(LadderDocument *document, int pou, struct rung *const *rungs,
 		     int count);
-/** rung_clip_blocks - the declarations of what a text of POU @pou names, as blocks behind
- * what stands in @globals and @locals. */
+/** rung_clip_blocks - appends the declarations of the names in a text of POU @pou to
+ * @globals and @locals. */
 void rung_clip_blocks(LadderDocument *document, int pou, const char *text, GString *globals,
 		      GString *locals);
 /**
- * rung_clip_source - a project that nobody sees and no check is made of
- * @body:  of its file, behind the first line. Types that nobody declares there become
- *         structures, so that what is of them can be read
- * @diags: gets why it cannot be read, lines counted from two before the body
+ * rung_clip_source - a project for declarations, without checks
+ * @body:  of its file, behind the first line. Unknown types there become structures, so
+ *         that their variables can be read
+ * @diags: gets why it cannot be read; the body begins in line 3
  *
  * Owns: the caller, g_object_unref().   Fails: NULL.
  */
 LadderDocument *rung_clip_source(const char *body, struct diag_list *diags);
 
 /**
- * rung_clip_read - the rungs of a text, to be put into POU @pou of @document
+ * rung_clip_read - the rungs of a text, for POU @pou of @document
  * @text: any @len bytes
  * @why:  gets a translated reason, which the caller frees
  *
- * Owns: the caller, rung_clip_free().   Fails: NULL; nothing but strings was added.
+ * Owns: the caller, rung_clip_free().   Fails: NULL; only strings were added.
  */
 struct rung_clip *rung_clip_read(LadderDocument *document, int pou, const char *text,
 				 gsize len, char **why);
-/** rung_clip_take - the rungs are the caller's from now on. Owns: the caller, g_free(). */
+/** rung_clip_take - moves the rungs to the caller. Owns: the caller, g_free(). */
 struct rung **rung_clip_take(struct rung_clip *clip);
 void rung_clip_free(struct rung_clip *clip);
 
 /**
- * rung_clip_declare - what @count rungs of a POU name from @at on and nobody declared
+ * rung_clip_declare - declares the unknown names in @count rungs of a POU from @at on
  *
- * As far as the source has it, and its type is known here. One whose address is
- * another's here comes without it. Part of an open step, or a step of its own.
- * Returns what was done, translated; NULL: nothing. Owns: the caller, g_free().
+ * Only if the source declares them and the type is known here. A variable whose address is
+ * taken here gets none. Part of an open step, or a step of its own.
+ * Returns a message, translated; NULL: nothing was declared. Owns: the caller, g_free().
  */
 char *rung_clip_declare(const struct rung_clip *clip, LadderDocument *document, int pou,
 			int at, int count);

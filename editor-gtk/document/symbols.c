@@ -2,9 +2,9 @@
  *
  * symbols - declarations as rows, and edits of them.
  *
- * An edited declaration is first read alone, in a project made for it, so that a bad field
- * is reported exactly and nothing else can come in with it. All changes of a batch are made
- * in the canonical text, which then becomes the document's in one step.
+ * An edited declaration is first read alone, in a project of its own, so that an error is
+ * exact and nothing else can be inserted with it. All changes of a batch are made in the
+ * canonical text, which replaces that of the document in one step.
  */
 #include "editor-gtk/document/symbols.h"
 
@@ -113,7 +113,7 @@ void symbol_row_free(struct symbol_row *symbol)
 
 /* ---- the rows ---- */
 
-/* Of each table the number of its first row; results of functions have none. */
+/* Index of the first row of each table; results of functions have none. */
 static int add_table(struct symbols *symbols, const struct project *project,
 		     const struct var_table *vars, int table)
 {
@@ -126,7 +126,7 @@ static int add_table(struct symbols *symbols, const struct project *project,
 	return first;
 }
 
-/* Rows of a table stand in the order of their indices. */
+/* Rows of a table are in the order of their indices. */
 static struct symbol_row *row_of(struct symbols *symbols, const int *first,
 			     const struct xref_target *target)
 {
@@ -382,7 +382,7 @@ static char *reason(const struct diag_list *diags)
 	return g_strdup(_("It cannot be read"));
 }
 
-/* Stand-ins for the words of the project, so that a type is known. */
+/* Empty stand-ins for the words of the project, so that types are known. */
 static void add_words(GString *out, const struct project *project)
 {
 	for (int i = 0; i < project->structure_count; i++)
@@ -396,10 +396,10 @@ static void add_words(GString *out, const struct project *project)
 				project_text(project, project->pou[i].name));
 }
 
-/* A name that no declaration has: it is too long for one that is typed. */
+/* Longer than a name that can be typed, so no declaration has it. */
 #define HERE "Place_of_a_declaration_that_is_tried"
 
-/* The declaration where it is to stand. */
+/* Adds a block with the declaration as it would stand in @table. */
 static void add_place(GString *out, const struct project *project, int table,
 		      uint16_t flags, const char *line)
 {
@@ -420,7 +420,7 @@ static void add_place(GString *out, const struct project *project, int table,
 	g_free(head);
 }
 
-/* Has the project that was made no other declaration than this one? */
+/* Does the made project have this declaration and no other? */
 static bool is_alone(const struct project *made, int table, int pous, const char *name)
 {
 	const struct var_table *vars = table == 0 ? &made->globals : table > pous ?
@@ -453,15 +453,15 @@ static bool reads(const struct project *project, int table, uint16_t flags,
 	return good;
 }
 
-/* A piece of the text that becomes another. */
+/* A replacement in the text. */
 struct piece {
 	gsize at, removed;
 	GString *with;
-	const char *tail;    /* behind that: of a block that comes its end, so that
-				more declarations can come in                  */
-	int order;           /* of those at one place                         */
-	int table;           /* of such a block; -1: it is none                */
-	uint16_t flags;      /* likewise                                       */
+	const char *tail;    /* behind that: the end of a new block, which further declarations
+				go before */
+	int order;           /* among those at one place                      */
+	int table;           /* of a new block; -1: it is none                 */
+	uint16_t flags;      /* of a new block                                 */
 };
 
 struct symbol_batch {
@@ -472,7 +472,7 @@ struct symbol_batch {
 	gsize len;
 	GArray *span;        /* of struct text_span                           */
 	GArray *piece;       /* of struct piece                               */
-	GHashTable *turned;  /* spans of blocks that got another head         */
+	GHashTable *turned;  /* spans of blocks with a new heading            */
 };
 
 /* ---- the text and its parts ---- */
@@ -523,7 +523,7 @@ static void add_piece(struct symbol_batch *batch, gsize at, gsize removed, char 
 	g_array_append_val(batch->piece, piece);
 }
 
-/* The part of this kind and number in a table; NULL: none. */
+/* A part by kind and number in a table; NULL: none. */
 static const struct text_span *find_span(const struct symbol_batch *batch,
 					 enum text_part part, int table, int number)
 {
@@ -551,7 +551,7 @@ static char *name_reason(enum diag_id fault, const char *name)
 	return diag_said_of(fault, name);
 }
 
-/* Does the program say this name and mean an address? It would mean the symbol then. */
+/* Does the program use this name as an address? A symbol of this name would replace it. */
 static bool is_used_address(struct symbol_batch *batch, const char *name)
 {
 	struct xref xref;
@@ -570,7 +570,7 @@ static bool is_used_address(struct symbol_batch *batch, const char *name)
 	return found;
 }
 
-/* @index: of the one that has it and may; -1: none. */
+/* @index: the declaration that may have the name already; -1: none. */
 static bool name_is_free(struct symbol_batch *batch, int table, int index,
 			 const char *name, char **why)
 {
@@ -606,7 +606,7 @@ static uint16_t wanted_flags(uint16_t flags, const char *const text[SYMBOL_FIELD
 	return flags;
 }
 
-/* Of the last block with these flags, that stands in this file; NULL: none. */
+/* The last block with these flags in this file; NULL: none. */
 static const struct text_span *find_block(const struct symbol_batch *batch, int table,
 					  uint16_t flags)
 {
@@ -623,7 +623,7 @@ static const struct text_span *find_block(const struct symbol_batch *batch, int 
 	return NULL;
 }
 
-/* Where a block of globals would stand: before the first POU. */
+/* A new block of globals goes before the first POU. */
 static gsize place_of_globals(const struct symbol_batch *batch)
 {
 	const struct project *project = batch->project;
@@ -639,7 +639,7 @@ static gsize place_of_globals(const struct symbol_batch *batch)
 	return batch->len;
 }
 
-/* Into a block that comes with this batch; false: none does. */
+/* Inserts into a new block of this batch; false: there is none. */
 static bool insert_fresh(struct symbol_batch *batch, int table, uint16_t flags,
 			 const char *line)
 {
@@ -709,7 +709,7 @@ static bool insert(struct symbol_batch *batch, int table, uint16_t flags, const 
 
 /* ---- batches ---- */
 
-/* Of the block that variable @index stands in. */
+/* The block of variable @index. */
 static int block_of(const struct var_table *vars, int index)
 {
 	for (int i = 0; i < vars->block_count; i++)
@@ -719,7 +719,8 @@ static int block_of(const struct var_table *vars, int index)
 	return -1;
 }
 
-/* It leaves its block, or the block, if it has no other one, gets another head. */
+/* Moves a declaration to another block; if it is alone in its block, the block gets another
+ * heading. */
 static bool move(struct symbol_batch *batch, int table, int index, uint16_t flags,
 		 const struct text_span *span, const char *line, char **why)
 {
@@ -799,7 +800,7 @@ static bool batch_delete(struct symbol_batch *batch, int table, int index, char 
 	return true;
 }
 
-/* At one place first what comes, in its order, then what goes. */
+/* At one place insertions come first, in their order, then removals. */
 static int by_place(gconstpointer left, gconstpointer right)
 {
 	const struct piece *a = left, *b = right;
@@ -811,7 +812,7 @@ static int by_place(gconstpointer left, gconstpointer right)
 	return a->order - b->order;
 }
 
-/* The text with all its pieces. Caller frees. */
+/* The text with all replacements. Caller frees. */
 static GString *pieced(struct symbol_batch *batch)
 {
 	GString *text = g_string_sized_new(batch->len);
@@ -918,7 +919,7 @@ static bool set_field(struct symbol_batch *batch, const struct symbol_row *symbo
 	       symbol_batch_apply(batch, step_name(field), why);
 }
 
-/* Is it there, and of this file? */
+/* Does it exist, in this file? */
 static bool may_change(const struct symbol_row *symbol, char **why)
 {
 	if (!symbol)

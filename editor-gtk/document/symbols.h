@@ -2,8 +2,8 @@
  *
  * symbols - all declarations of a document as rows, and edits of their fields.
  *
- * Each edit is a change of the document's text, one step of its history, and refused
- * with the reason if the declaration could not be read again. It shows nothing.
+ * Each edit changes the document's text as one step of its history. It is refused, with the
+ * reason, if the declaration could not be read again. It shows nothing.
  */
 #ifndef EDITOR_SYMBOLS_H
 #define EDITOR_SYMBOLS_H
@@ -19,12 +19,12 @@ enum field {
 struct symbol_row {
 	int table, index;    /* as in struct xref_target                      */
 	char *scope;         /* POU or structure; "": the globals             */
-	char *text[SYMBOL_FIELDS]; /* of RETAIN and CONSTANT "1" or ""; a comment
-				without its delimiters                        */
+	char *text[SYMBOL_FIELDS]; /* RETAIN and CONSTANT: "1" or ""; a comment has no
+				      delimiters */
 	uint16_t flags;       /* enum var_flag of its block                    */
 	int uses;            /* places but the declaration                    */
-	bool included;       /* declared in another file: not to be changed   */
-	bool member;         /* of a structure: no address, no RETAIN         */
+	bool included;       /* declared in another file: read-only           */
+	bool member;         /* member of a structure: no address, no RETAIN  */
 };
 
 struct symbols {
@@ -32,13 +32,13 @@ struct symbols {
 	int count;
 };
 
-/** symbols_new - of the document as it is; of one of text none. Owns: the caller. */
+/** symbols_new - of the document as it is; empty for a document of text. Owns: the caller. */
 struct symbols *symbols_new(LadderDocument *document);
 void symbols_free(struct symbols *symbols);
 /** symbols_at - by table and index; NULL: none. */
 const struct symbol_row *symbols_at(const struct symbols *symbols, int table, int index);
 
-/** symbol_row_new - of variable @index of a table alone, its uses not counted. Owns: the
+/** symbol_row_new - variable @index of a table alone, without counting its uses. Owns: the
  * caller. */
 struct symbol_row *symbol_row_new(const struct project *project,
 				  const struct var_table *vars, int table, int index);
@@ -48,43 +48,42 @@ void symbol_row_free(struct symbol_row *symbol);
 const char *symbol_field_name(enum field field);
 
 /**
- * symbol_set - one field becomes another
+ * symbol_set - changes one field
  * @text: of RETAIN and CONSTANT "" is no, all else yes
  * @why:  gets a translated reason, which the caller frees; may be NULL
  *
- * A name changes wherever it is used. One step of the history.
+ * A name is changed wherever it is used. One step of the history.
  * Fails: false, nothing changed.
  */
 bool symbol_set(LadderDocument *document, int table, int index, enum field field,
 		const char *text, char **why);
-/** SYMBOL_KINDS - the flags that say as what of its block a symbol is declared; none: as
- * its own. */
+/** SYMBOL_KINDS - the flags for the kind of block that a symbol is declared in; none: VAR. */
 #define SYMBOL_KINDS (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP)
-/** symbol_set_kind - it moves to the block with this one of SYMBOL_KINDS, or 0, and stays
- * RETAIN or CONSTANT if it is. One step of the history. Fails: false, nothing changed. */
+/** symbol_set_kind - moves it to the block with this one of SYMBOL_KINDS, or 0; it stays
+ * RETAIN or CONSTANT. One step of the history. Fails: false, nothing changed. */
 bool symbol_set_kind(LadderDocument *document, int table, int index, uint16_t kind,
 		     char **why);
-/** symbol_add - another declaration, behind those of its kind.
- * @flags: of its block, apart from RETAIN and CONSTANT, which @text says: 0: VAR */
+/** symbol_add - adds a declaration behind those of its kind.
+ * @flags: of its block, apart from RETAIN and CONSTANT, which @text has: 0: VAR */
 bool symbol_add(LadderDocument *document, int table, uint16_t flags,
 		const char *const text[SYMBOL_FIELDS], char **why);
-/** symbol_delete - used or not. */
+/** symbol_delete - deletes it, used or not. */
 bool symbol_delete(LadderDocument *document, int table, int index, char **why);
-/** symbol_free_name - a name that @like would become, which no declaration of the table
- * has: Start2. Owns: the caller. */
+/** symbol_free_name - a name made of @like that no declaration of the table has: Start2.
+ * Owns: the caller. */
 char *symbol_free_name(LadderDocument *document, int table, const char *like);
-/** symbol_beside - the first other variable that lies at its address, too; NULL: none.
- * Borrowed until the document changes. */
+/** symbol_beside - the first other variable at the same address; NULL: none. Borrowed until
+ * the document changes. */
 const char *symbol_beside(LadderDocument *document, int table, int index);
-/** symbol_error - what the last check found wrong with a declaration; NULL: nothing.
- * @warning: gets whether it is only that. Owns: the caller. */
+/** symbol_error - the error of the last check in a declaration; NULL: none. @warning: gets
+ * whether it is only a warning. Owns: the caller. */
 char *symbol_error(LadderDocument *document, const struct symbol_row *symbol,
 		   bool *warning);
 
 /* ---- a declaration as text ---- */
 
-/** symbol_text_comment - as it can stand behind a declaration: one line, single blanks, no
- * sign in it that begins or ends a comment. Owns: the caller. */
+/** symbol_text_comment - @text made safe for a comment behind a declaration: one line,
+ * single blanks, no comment delimiters. Owns: the caller. */
 char *symbol_text_comment(const char *text);
 /** symbol_text_line - "  Name AT %IX0.0 : BOOL := 1; (* … *)\n". Owns: the caller. */
 char *symbol_text_line(const char *const text[SYMBOL_FIELDS]);
@@ -95,18 +94,19 @@ char *symbol_text_block(uint16_t flags);
 
 struct symbol_batch;
 
-/** symbol_batch_new - of the document as it is: it must not change meanwhile. */
+/** symbol_batch_new - of the document as it is, which must not change meanwhile. */
 struct symbol_batch *symbol_batch_new(LadderDocument *document);
 void symbol_batch_free(struct symbol_batch *batch);
-/** symbol_batch_put - declaration @index of a table becomes @text; -1: a new one. The
- * name is not followed to where it is used.
+/** symbol_batch_put - replaces declaration @index of a table by @text; -1: adds one. Uses of
+ * a changed name stay.
  * @flags: of its block, as in symbol_add; another kind moves it. Fails: false, and why. */
 bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint16_t flags,
 		      const char *const text[SYMBOL_FIELDS], char **why);
-/** symbol_batch_try - the program as it would be, checked, in memory; the document stays
- * as it is. Owns: the caller, ladder_free(). Fails: NULL, and why: it cannot be read. */
+/** symbol_batch_try - the changed program, checked, in memory; the document stays as it is.
+ * Owns: the caller, ladder_free(). Fails: NULL, and why: it cannot be read. */
 struct ladder *symbol_batch_try(struct symbol_batch *batch, char **why);
-/** symbol_batch_apply - all of it as one step. Fails: false, and why; nothing changed. */
+/** symbol_batch_apply - applies the batch as one step. Fails: false, and why; nothing
+ * changed. */
 bool symbol_batch_apply(struct symbol_batch *batch, const char *step, char **why);
 
 /** rename_reason - why something cannot be renamed, translated. Owns: the caller. */

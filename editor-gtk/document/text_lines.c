@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_lines - which line of a text that a person writes is a line of its canonical form.
+ * text_lines - finds a line of the canonical text in the text as it was typed.
  */
 #include "editor-gtk/document/text_lines.h"
 
@@ -36,7 +36,7 @@ static bool is_space(char c)
 	return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* The same words, with other blanks and in any case. */
+/* Same words, with other blanks and in any case. */
 static bool says_same(const char *a, const char *b)
 {
 	for (;;) {
@@ -51,7 +51,7 @@ static bool says_same(const char *a, const char *b)
 			return true;
 		if (!is_space(*a) && !is_space(*b))
 			return false;
-		/* A blank in one of them only parts what the other has in one. */
+		/* Skips a blank that only one of them has. */
 	}
 }
 
@@ -62,7 +62,7 @@ static const char *line_at(const char *text, int line)
 	return text;
 }
 
-/* Lines before it that are not blank. */
+/* Counts the non-blank lines before it. */
 static int full_before(const char *text, int line)
 {
 	int count = 0;

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_lines - which line of a text that a person writes is a line of its canonical form.
+ * text_lines - finds a line of the canonical text in the text as it was typed.
  *
- * Lists are checked as a file would hold them, without blank lines and with other
- * indents, while the person goes on in the text as it was typed. It reads no file.
+ * Lists are checked in canonical form, without blank lines and with other indents, while
+ * the user edits the text as it was typed. It reads no file.
  */
 #ifndef EDITOR_TEXT_LINES_H
 #define EDITOR_TEXT_LINES_H
 
 /**
- * text_lines_place - where a place of the canonical text is in the one that is shown
- * @line:   0-based, becomes one of @shown; @column: bytes, or NULL
+ * text_lines_place - maps a place of the canonical text to the shown text
+ * @line:   0-based, becomes a line of @shown; @column: bytes, or NULL
  *
- * The line that says the same, the nearest one if there are some; else the one before
- * which as many lines stand that are not blank. Owns: nothing.
+ * Chooses the nearest line with the same words; else the line with as many non-blank lines
+ * before it. Owns: nothing.
  */
 void text_lines_place(const char *shown, const char *canonical, int *line, int *column);
 
-/** text_lines_count - lines of @text that end. */
+/** text_lines_count - number of complete lines of @text. */
 int text_lines_count(const char *text);
 
 #endif
