@@ -8,11 +8,11 @@
 
 #define ELEMENT_WIDTH  64 /* px                                                 */
 #define ELEMENT_HEIGHT 40
-#define RUNG_WIDTH     480 /* px, at most                                       */
+#define RUNG_WIDTH     480 /* px, largest size                                  */
 #define RUNG_HEIGHT    160
 #define OPACITY        0.7
 
-/* Without compositing, transparency would show black. */
+/* Without a compositor transparent areas are black. */
 static double opacity_of(GtkDragSource *source)
 {
 	GtkWidget *widget = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(source));
@@ -20,7 +20,7 @@ static double opacity_of(GtkDragSource *source)
 	return gdk_display_is_composited(gtk_widget_get_display(widget)) ? OPACITY : 1;
 }
 
-/* Takes @drawing; NULL: only the ground. */
+/* Takes @drawing; NULL: only the background. */
 static void show(GtkDragSource *source, GskRenderNode *drawing, const struct theme *theme,
 		 float scale, float width, float height, int hot_x, int hot_y)
 {

@@ -2,7 +2,7 @@
  *
  * ghost - the picture at the pointer while an element or a rung is dragged.
  *
- * It is half transparent on the colour of a sheet, so that both it and what is below it can
+ * It is half transparent on the colour of a sheet, so that it and the sheet below can both
  * be read.
  */
 #ifndef EDITOR_GHOST_H
@@ -15,8 +15,8 @@ void ghost_element(GtkDragSource *source, const struct word_row *word,
 		   const struct theme *theme, struct lettering *lettering);
 /**
  * ghost_rung - the drawing of a rung, at most 480 x 160 px
- * @scale:    of the sheet; a wider rung is drawn smaller, a higher one is cut off
- * @hot_x, hot_y: where the drag began, px of the drawing at 100 %
+ * @scale:    of the sheet; a wider rung is scaled down, a higher one is cut off
+ * @hot_x, hot_y: start of the drag, px of the drawing at 100 %
  */
 void ghost_rung(GtkDragSource *source, const struct drafting *drafting,
 		const struct rung_layout *layout, const struct theme *theme, float scale,

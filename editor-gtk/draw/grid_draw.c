@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_draw - strokes of a rung: ground, rails, wires, elements, boxes, marks, heading; and
- * of an element in the palette. See grid_draw.h.
+ * grid_draw - strokes of a rung: background, rails, wires, elements, boxes, marks, heading;
+ * and of an element in the palette. See grid_draw.h.
  */
 #include "editor-gtk/draw/grid_draw.h"
 #include "editor-gtk/draw/grid_glyph.h"
@@ -14,15 +14,15 @@
 
 #define COMMENT_LINE 17
 #define PADDING   6     /* px inside the frame of a box                         */
-#define MIDDLE    4.5f  /* baseline of a text whose middle is on a line          */
+#define MIDDLE    4.5f  /* from the middle of a line to the baseline of a text on it */
 #define CIRCLE    3     /* radius of an inverting pin                            */
 #define BELOW_BASELINE 30 /* px below the wire: comment, value                  */
-#define EDGE 5          /* px of an icon: between a word and the side; of wire   */
+#define EDGE 5          /* px of an icon: from a word to the side; length of a wire */
 #define ICON_LINE 10    /* px from a line of an icon to the next                */
-#define INSET 3 /* below; above, Chinese names need the room */
+#define INSET 3 /* px below and above: Chinese names need the room */
 #define HATCH 9 /* px from line to line                      */
-#define CORNER 7 /* px of a side, at a corner that is marked  */
-#define CORNER_INSET 3 /* px, inside of other frames          */
+#define CORNER 7 /* px of a side of a marked corner           */
+#define CORNER_INSET 3 /* px inside other frames              */
 
 struct pen {
 	struct nib nib;
@@ -30,7 +30,7 @@ struct pen {
 	const struct drafting *drafting;
 	const struct rung_layout *layout;
 	const struct rung *rung;
-	uint8_t *net_live;   /* enum live_bit of the net of each bar, by row     */
+	uint8_t *net_live;   /* enum live_bit of the net at each bar, by row     */
 };
 
 static struct wire wire_of(const struct pen *pen, unsigned int live)
@@ -147,7 +147,7 @@ static void draw_links(const struct pen *pen)
 		}
 }
 
-/* Power of a box that ends its row goes on to the right rail. */
+/* The power of a box that ends its row goes on to the right rail. */
 static void draw_trails(const struct pen *pen)
 {
 	for (int row = 0; row < pen->rung->rows; row++) {
@@ -229,7 +229,7 @@ static void draw_pin(const struct pen *pen, const struct rung_box *box,
 		     output ? x : x - value.width, y + MIDDLE);
 }
 
-/* Rows of power that lead into the box, and the one that leads out of it. */
+/* The rows whose power enters the box, and the one whose power leaves it. */
 static void draw_power(const struct pen *pen, const struct rung_box *box)
 {
 	const struct rung_layout *layout = pen->layout;
@@ -311,8 +311,7 @@ static void draw_box(const struct pen *pen, int row, int col)
 
 /* ---- elements ---- */
 
-/* How the strokes of an element are drawn. A coil lets no power through, so the power at its
- * left end counts. */
+/* The wire style of an element's strokes. A coil passes no power, so its left end counts. */
 static struct wire shape_wire(const struct pen *pen, const struct word_row *word,
 			      unsigned int live)
 {
@@ -338,7 +337,8 @@ static void draw_label(const struct pen *pen, int row, int col, float x)
 	put_text(pen, TOKEN_COMMENT, LETTER_ADDRESS, label.address, x, r->wire - 17);
 }
 
-/* A coil's comment, and where it is read: from where only its own wire is on the left. */
+/* Draws a coil's comment and the places that read it, in the room that has only the coil's
+ * own wire on the left. */
 static void draw_reference(const struct pen *pen, int row, int col, float x)
 {
 	const struct rung_layout *layout = pen->layout;
@@ -360,7 +360,8 @@ static void draw_reference(const struct pen *pen, int row, int col, float x)
 	picture_text(pen->nib.picture, TOKEN_COMMENT, LETTER_PIN, fits, left, baseline);
 }
 
-/* @up: of the strokes. An expression of many lines leaves room above it only. */
+/* @up: px from the wire to the upper end of the strokes. An expression of many lines has
+ * room only above it. */
 static void draw_below(const struct pen *pen, int row, int col, float x, float room,
 		       float up)
 {
@@ -371,7 +372,7 @@ static void draw_below(const struct pen *pen, int row, int col, float x, float r
 	struct live_value value;
 
 	if (note_of(pen, row, rung_layout_column(pen->layout, row, col)))
-		return; /* the note stands there */
+		return; /* the note has this room */
 	if (scene->live && scene->live->value &&
 	    scene->live->value(scene->live->context, row, col, &value)) {
 		put_text(pen, TOKEN_ACCENT, LETTER_VALUE,
@@ -564,7 +565,7 @@ static graphene_rect_t place_of(const struct pen *pen, const struct grid_mark *m
 				  rect.size.width - 2, rect.size.height - INSET);
 }
 
-/* Slanting lines, faint enough to read the element on them. */
+/* Slanting lines, faint enough to read the element through them. */
 static void draw_hatch(const struct pen *pen, const graphene_rect_t *r)
 {
 	const float width = r->size.width, height = r->size.height;
@@ -602,7 +603,7 @@ static void draw_grounds(const struct pen *pen)
 	}
 }
 
-/* A letter on a small ground, its left upper corner at (x, y); returns its width. */
+/* A letter on a small background, its upper left corner at (x, y); returns its width. */
 static float badge(const struct pen *pen, enum token ground, const char *text, float x,
 		   float y)
 {
@@ -628,7 +629,7 @@ static void mark_wrong(const struct pen *pen, unsigned int marks, float x, float
 			     y + 1);
 }
 
-/* An expression may have several lines: error marks stand below them. */
+/* Error marks stand below all lines of an expression. */
 static void mark_framed(const struct pen *pen, unsigned int marks, const struct cell *cell,
 			float middle, float y)
 {
@@ -643,7 +644,7 @@ static void mark_framed(const struct pen *pen, unsigned int marks, const struct 
 		badge(pen, TOKEN_ERROR, FAILED, x, y + 2);
 }
 
-/* Behind the address if there is room, else below the wire. */
+/* Marks stand behind the address if there is room, else below the wire. */
 static void mark_element(const struct pen *pen, unsigned int marks, int row, int col,
 			 const graphene_rect_t *r)
 {
@@ -669,7 +670,7 @@ static void mark_element(const struct pen *pen, unsigned int marks, int row, int
 		badge(pen, TOKEN_FORCE, TWICE, middle + half + 3, y - 15);
 }
 
-/* Those of a box stand below it. */
+/* Marks of a box stand below it. */
 static void mark_box(const struct pen *pen, unsigned int marks, int row, int col)
 {
 	const struct rung_layout *layout = pen->layout;
@@ -689,7 +690,7 @@ static void mark_box(const struct pen *pen, unsigned int marks, int row, int col
 		badge(pen, TOKEN_ERROR, FAILED, x, y);
 }
 
-/* Where else its value would be. */
+/* Stands in the place of the value. */
 static void draw_note(const struct pen *pen, const struct grid_mark *mark,
 		      const graphene_rect_t *r)
 {
@@ -702,8 +703,8 @@ static void draw_note(const struct pen *pen, const struct grid_mark *mark,
 	      r->origin.y + r->size.height - 17);
 }
 
-/* Only corners: whole frames round so many cells would hide the elements, and each dashed
- * stroke would be an image of its own. */
+/* Only corners: whole frames around many cells would hide the elements, and each dashed
+ * stroke costs an image. */
 static void draw_corners(const struct pen *pen, const graphene_rect_t *r)
 {
 	const float left = r->origin.x + CORNER_INSET, top = r->origin.y + CORNER_INSET;
@@ -830,7 +831,7 @@ struct word_lines {
 	float width;
 };
 
-/* Behind the last `_` of the first half or a little more; without one in the middle. */
+/* Breaks behind the last `_` in the first half or a little more; else in the middle. */
 static size_t break_at(const char *word)
 {
 	size_t len = strlen(word), at = 0;
@@ -857,7 +858,7 @@ static struct word_lines lines_of(struct lettering *lettering, const char *word,
 	return lines;
 }
 
-/* Words of a project may have any letters: they are not cut in two but clipped. */
+/* Words of a project that are not ASCII are clipped, not broken. */
 static bool is_plain(const char *word)
 {
 	for (; *word; word++)

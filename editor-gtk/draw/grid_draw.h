@@ -3,8 +3,9 @@
  * grid_draw - a rung as strokes: wires, elements, marks, live power.
  *
  * The strokes of an element are the three characters of its row in catalog.def. Drawing
- * needs a rung and its layout but no widget and no display, so that screen, print, pictures,
- * palette and tests have the same drawing. It evaluates nothing: the caller gives the power.
+ * needs a rung and its layout but no widget and no display, so that screen, print,
+ * pictures, palette and tests have the same drawing. It evaluates nothing: the caller gives
+ * the power.
  */
 #ifndef EDITOR_GRID_DRAW_H
 #define EDITOR_GRID_DRAW_H
@@ -14,21 +15,21 @@
 
 /* State of a cell while a program runs. */
 enum live_bit {
-	LIVE_KNOWN = 1,  /* else: not scanned; dotted                           */
+	LIVE_KNOWN = 1,  /* else it is not scanned: dotted                      */
 	LIVE_IN = 2,     /* power at its left end                               */
 	LIVE_OUT = 4,    /* power at its right end                              */
-	LIVE_CLOSED = 8, /* a contact that conducts, a coil whose bit is TRUE     */
+	LIVE_CLOSED = 8, /* a contact that is closed, a coil whose bit is TRUE    */
 	LIVE_FRESH = 16, /* its value changed within the last second             */
 };
 struct live_value {
 	char text[48];
-	float part;      /* 0 … 1 of its goal, as a bar in a box; below 0: none   */
+	float part;      /* progress 0 … 1, drawn as a bar in the box; below 0: none */
 };
-/* NULL instead of it: not running; all wires are idle. */
+/* NULL pointer to it: not running; all wires are idle. */
 struct grid_live {
 	const uint8_t *cell; /* enum live_bit, rows * cols of the rung, by row     */
-	/** The value to be shown below an element or inside a box; false: none. NULL: no
-	 * cell has any. */
+	/** Returns the value to show below an element or inside a box; false: none. NULL:
+	 * no cell has one. */
 	bool (*value)(void *context, int row, int col, struct live_value *out);
 	void *context;
 };
@@ -43,41 +44,40 @@ enum mark {
 	MARK_WARNING = 32,
 	MARK_FORCED = 64,
 	MARK_FOUND = 128,    /* by a search                                     */
-	MARK_TWICE = 256,    /* also written elsewhere: the last one wins         */
-	MARK_CHANGED = 512,  /* differs, in a comparison                        */
+	MARK_TWICE = 256,    /* also written elsewhere: the last write wins       */
+	MARK_CHANGED = 512,  /* changed, in a comparison                        */
 	MARK_FAILED = 2048,  /* it failed in the scan that is shown               */
-	MARK_BLOCKS = 1024,  /* it blocks power; scene.note says why             */
+	MARK_BLOCKS = 1024,  /* it blocks power; scene.note gives the reason     */
 };
 struct grid_mark { int row, column; unsigned int marks; };
 
 enum rung_state {
 	RUNG_CURRENT = 1,    /* bar at the left                                 */
 	RUNG_SELECTED = 2,
-	RUNG_EDITED = 4,     /* not confirmed yet                               */
+	RUNG_EDITED = 4,     /* not yet committed                               */
 	RUNG_ADDED = 8, RUNG_REMOVED = 16, RUNG_CHANGED = 32, /* in a comparison  */
 	RUNG_MARKED = 128,   /* a bookmark                                      */
 	RUNG_NO_GUTTER = 64, /* paper                                           */
-	RUNG_STILL = 256,    /* nothing is scanned: live, but no power anywhere  */
-	RUNG_ON_GUTTER = 512, /* a sheet, which has drawn the gutter of all       */
+	RUNG_STILL = 256,    /* running, but nothing is scanned: no power anywhere */
+	RUNG_ON_GUTTER = 512, /* a sheet, which draws the gutter itself           */
 };
 
 struct grid_scene {
 	const struct drafting *drafting;
 	const struct rung_layout *layout;
-	const struct theme *theme;     /* weights; colours come when it is painted */
+	const struct theme *theme;     /* weights now, colours when it is painted */
 	const struct grid_live *live;  /* NULL: not running                       */
 	const struct grid_mark *mark;
 	int mark_count;
-	const bool *takes;             /* cells as shown, by row, that accept the
-					* dragged element; NULL: nothing is dragged */
+	const bool *takes;             /* cells as shown, by row, that accept the dragged
+					  element; NULL: no drag */
 	unsigned int state;            /* enum rung_state, or'ed                  */
-	float scale;                   /* device px of a px; 0: any               */
+	float scale;                   /* device px of a px; 0: unknown           */
 	/** Text below a coil on paper ("read in Main 3, 5"), at most @room px wide in
-	 * LETTER_PIN; NULL: nothing. Owns: the caller, g_free. */
+	 * LETTER_PIN; NULL: none. Owns: the caller, g_free. */
 	char *(*reference)(void *context, int row, int col, float room);
-	float reference_from;          /* x: it begins nowhere before it           */
-	/** Note at a MARK_BLOCKS; NULL: none. Owns: the callee. NULL instead of it: there
-	 * are no notes. */
+	float reference_from;          /* x: its least start                       */
+	/** Note at a MARK_BLOCKS; NULL: none. Owns: the callee. NULL function: no notes. */
 	const char *(*note)(void *context, int row, int column);
 	void *context;
 };

@@ -42,7 +42,7 @@ static void side_stroke(const struct nib *nib, const struct glyph *glyph, char s
 	case '<':
 	case '>':
 		up = RUNG_HALF - 2;
-		if ((stroke == '<') == (side < 0)) { /* its point is outside    */
+		if ((stroke == '<') == (side < 0)) { /* its tip points outwards */
 			shape_line(nib, glyph, x, 0, x - side * TIP, -up);
 			shape_line(nib, glyph, x, 0, x - side * TIP, up);
 		} else {

@@ -8,10 +8,10 @@
 #include "editor-gtk/draw/rung_text.h"
 #include "editor-gtk/kit/picture.h"
 
-/* How a piece of wire is drawn. */
+/* Style of a piece of wire. */
 struct wire { enum token token; enum stroke_style style; float width; };
 
-/* Where glyphs are drawn. */
+/* Target of drawn glyphs. */
 struct nib {
 	struct picture *picture;
 	const struct theme *theme;
@@ -26,7 +26,7 @@ struct glyph {
 	const struct rung_framed *framed; /* lines instead of the middle; NULL: none */
 	float x, y, half;       /* its middle; px to its left and right stroke     */
 	float up;               /* px from its middle to its upper end            */
-	struct wire wire;       /* how its strokes are drawn                      */
+	struct wire wire;       /* style of its strokes                           */
 	bool lit;
 };
 void glyph_draw(const struct nib *nib, const struct glyph *glyph);

@@ -7,8 +7,8 @@
 #include <glib.h>
 #include <string.h>
 
-/* By the id that all spellings of a name share. Numbers, not pointers: a table of variables
- * that grows may move. */
+/* Tables are indexed by the id that all spellings of a name share. They hold numbers, not
+ * pointers, because a table of variables may move when it grows. */
 struct grid_names {
 	const struct project *project;
 	const struct pou *pou;       /* or NULL                                 */
@@ -25,7 +25,7 @@ static const struct var *var_of(const struct grid_names *names, int number)
 	       &names->pou->vars.var[number - globals->count];
 }
 
-/* Locals come last and hide globals; the first of two at one address is its name. */
+/* Added last, locals hide globals. At one address the first variable gives the name. */
 static void add_table(struct grid_names *names, const struct var_table *table, int before)
 {
 	const struct names *ids = &names->project->names;

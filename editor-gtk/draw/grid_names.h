@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_names - the symbol, address and comment that belong to an operand of a POU.
+ * grid_names - the symbol, address and comment of an operand of a POU.
  *
  * An index of declared variables, for drawings. It does not resolve members and elements of
  * arrays: drawings show them as they are written. check/ knows their meaning.
@@ -11,7 +11,7 @@
 #include "engine/model/project.h"
 
 struct grid_name {
-	const char *symbol;  /* "" if the operand is an address without a name  */
+	const char *symbol;  /* "" for an address without a name                */
 	const char *address; /* "%IX0.0"; "" if it has none                     */
 	const char *type;    /* "BOOL", "TON"; "" if it is not declared          */
 	const char *comment; /* of the declaration, with its delimiters; ""      */
@@ -20,15 +20,15 @@ struct grid_name {
 
 struct grid_names;
 /**
- * grid_names_new - of the globals and the locals of a POU
- * @pou: of @project; NULL: the globals alone
+ * grid_names_new - indexes the globals and the locals of a POU
+ * @pou: of @project; NULL: only the globals
  *
- * Owns: the caller, grid_names_free(). @project must live as long and not change.
+ * Owns: the caller, grid_names_free(). @project must outlive it unchanged.
  */
 struct grid_names *grid_names_new(const struct project *project, const struct pou *pou);
 void grid_names_free(struct grid_names *names);
-/** grid_names_find - of an operand as it is written, any case; an address is found by
- * the variable AT it. Borrowed from the project and from @operand. */
+/** grid_names_find - an operand as it is written, in any case; an address finds the
+ * variable AT it. Borrowed from the project and from @operand. */
 struct grid_name grid_names_find(const struct grid_names *names, const char *operand);
 
 #endif

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * listing - IL and symbols as lines of text, and where operands are read; see listing.h.
+ * listing - IL and symbols as lines of text, and the places that read an operand; see
+ * listing.h.
  *
  * Reads are found by names as they are written: a local name belongs to its POU, an address
- * to the global variable AT it. Elements of arrays and members are names of their own here.
+ * to the global variable AT it. Elements of arrays and members count as names of their own.
  */
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/draw/grid_names.h"
@@ -90,13 +91,13 @@ void listing_symbol(const struct project *project, const struct var_table *table
 
 struct listing_reads {
 	const struct project *project;
-	struct grid_names **names;   /* of each POU                             */
+	struct grid_names **names;   /* one for each POU                        */
 	GHashTable *places;          /* key: GArray of struct reader              */
-	int pou, rung;               /* while they are gathered                 */
+	int pou, rung;               /* place of the search                     */
 };
 struct reader { int pou, rung; };
 
-/* One key for all spellings of a place in memory. Owns: g_free. */
+/* One key for all spellings of an operand. Owns: g_free. */
 static char *key_of(const struct listing_reads *reads, int pou, const char *text,
 		    size_t len)
 {
@@ -134,7 +135,7 @@ static bool is_name(char c)
 	return g_ascii_isalnum(c) || c == '_' || c == '.' || c == '%' || (guchar)c >= 0x80;
 }
 
-/* All names in an expression; literals such as T#5s and 'text' are none. */
+/* Notes all names in an expression, but not literals such as T#5s and 'text'. */
 static void note_expression(struct listing_reads *reads, const char *text, size_t len)
 {
 	const char *end = text + len;

@@ -2,11 +2,11 @@
  *
  * pages - breaks a project into pages and paints them; see pages.h.
  *
- * Everything is first drawn as pictures; pieces of them are put on pages, one below the
- * other. A rung that is too wide for a page is folded: its columns go on in strips below
- * each other, and each wire that is cut has a number at both ends. A chart goes on across
- * and down over as many pages as it takes. The title block has the same fields at the same
- * places on all pages; its height is that of the longest text in it.
+ * Everything is first drawn as pictures, whose pieces are placed on pages, one below the
+ * other. A rung that is too wide for a page is folded: its columns continue in strips below
+ * each other, and both ends of each cut wire have the same number. A chart continues across
+ * and down over as many pages as it needs. The title block has the same fields in the same
+ * places on all pages; its longest text sets its height.
  */
 #include "editor-gtk/draw/pages.h"
 #include "editor-gtk/draw/grid_draw.h"
@@ -25,23 +25,23 @@
 #define PAGE_MARGIN 45           /* px: 12 mm                                   */
 #define TEXT_LINE   16           /* px of a line of IL or of a table             */
 #define PAGE_AIR    14           /* px between parts of a page                   */
-#define PAGE_LEAST  0.6f         /* no rung, no chart is made smaller: 5.1 pt        */
+#define PAGE_LEAST  0.6f         /* least scale of rungs and charts: 5.1 pt          */
 #define ABOVE_TITLE 16           /* px above the title block                     */
-#define HEADING_LINE 24          /* px from a line of a heading to the next      */
-#define MOST_PLACES 12 /* places that a coil lists if not all have room          */
+#define HEADING_LINE 24          /* px from line to line of a heading            */
+#define MOST_PLACES 12 /* most places below a coil if not all fit                */
 #define MOST_STRIPS LIMIT_COLS
-#define LINK_AIR    3    /* px behind a wire between rows that stays whole            */
+#define LINK_AIR    3    /* px behind a link that stays with its row                  */
 #define MARK        38   /* px of an arrow with its number                           */
-#define ARROW       12   /* of them the arrow                                        */
-#define HEAD        5    /* of it its point                                          */
-#define FIELD_AIR  16 /* px in a field beside its text                            */
-#define LINE_STEP  10 /* px from a line of small type to the next                 */
-#define LINES_LEAST 2 /* there is always room for these                           */
+#define ARROW       12   /* px of the arrow alone                                    */
+#define HEAD        5    /* px of its tip                                            */
+#define FIELD_AIR  16 /* px beside the text of a field                            */
+#define LINE_STEP  10 /* px from line to line of small type                       */
+#define LINES_LEAST 2 /* lines that always fit                                    */
 #define SHORT_TEXT 80 /* px: a shorter text is not broken                         */
-#define PART_MOST  4  /* of a page are the most lines, as a divisor               */
-#define PAPER_LEAST 240 /* px: on less there is no title block                      */
+#define PART_MOST  4  /* the lines take at most this part of a page, as a divisor */
+#define PAPER_LEAST 240 /* px: a lower page has no title block                      */
 
-/* In the order in which they stand.  */
+/* In the order of the title block. */
 enum { PROJECT, NAME, UNIT, DATE, PAGE, FIELDS };
 
 /* Part of a picture on a page. */
@@ -51,11 +51,11 @@ struct piece {
 	float scale;
 	float from, to;  /* px of the picture: the part that is shown             */
 	float left, right; /* the same across; both 0: all of it                 */
-	float x;         /* of the page: where @left stands, px of the picture    */
+	float x;         /* of the page: where @left is drawn, px of the picture  */
 };
 struct page {
 	GArray *piece;
-	char *subject;   /* the POU, or "Symbols"                                */
+	char *subject;   /* name of the POU, or "Symbols"                        */
 };
 
 struct pages {
@@ -66,21 +66,21 @@ struct pages {
 	char *file, *date;
 	float width, height;           /* px of a page                          */
 	float room_width, room_height; /* px inside the margins, above the title block */
-	float field[FIELDS];      /* px: how wide those of the title block are */
-	int title_lines;               /* of small type in them; 0: not measured */
-	bool title_cut;                /* the name of the project has no room   */
+	float field[FIELDS];      /* px: widths of the fields of the title block */
+	int title_lines;               /* of small type in the fields; 0: not measured */
+	bool title_cut;                /* the name of the project does not fit  */
 	GPtrArray *page, *picture;
 	struct listing_reads *reads;
-	/* While they are made: */
-	float y;                       /* px: the free part of the last page begins here */
-	float left, right, x;          /* of what is put there: struct piece     */
-	const struct picture *beside;  /* put with it, all its width; NULL: nothing */
+	/* While the pages are made: */
+	float y;                       /* px: start of the free part of the last page */
+	float left, right, x;          /* of the next piece: struct piece        */
+	const struct picture *beside;  /* drawn beside it, in full width; NULL: nothing */
 	const char *subject;
 	int pou;
 	const struct rung *rung;
 	const struct drafting *drafting;
-	GPtrArray *reference;          /* lines: references without room below their coil */
-	GPtrArray *remark;             /* lines: comments without room at their element */
+	GPtrArray *reference;          /* lines: references that do not fit below their coil */
+	GPtrArray *remark;             /* lines: comments that do not fit at their element */
 };
 
 bool paper_find(const char *name, struct paper *out)
@@ -247,11 +247,11 @@ static void put_list(struct pages *pages, const char *heading, char **lines)
 
 /* ---- the title block ---- */
 
-/* A field of the title block: its label, and the room that its texts need. */
+/* A field of the title block: its label, and the width of its texts. */
 struct field {
 	const char *what;        /* NULL: there is none                         */
 	float width;             /* px: usual width                              */
-	float need, least;       /* px: in one line, or in all lines of small type */
+	float need, least;       /* px: with one line, or with all lines of small type */
 	float label;             /* px of @what                                 */
 };
 
@@ -265,7 +265,7 @@ static bool fits(const struct pages *pages, const char *text, float room, int li
 	return lettering_lines(pages->lettering, LETTER_BADGE, text, room) <= lines;
 }
 
-/* The least that a text needs in so many lines of small type, to a pixel. */
+/* The least width of a text in so many lines of small type, to a pixel. */
 static float broken_width(const struct pages *pages, const char *text, int lines)
 {
 	float more = ceilf(width_of(pages, LETTER_BADGE, text)), less = floorf(more / (float)lines);
@@ -298,8 +298,7 @@ static void measure_least(const struct pages *pages, struct field *field, const 
 	field->least = MAX(field->least, MAX(field->label, MIN(field->need, broken + FIELD_AIR + 1)));
 }
 
-/* As it is drawn: a tab is a blank, and nothing begins a line of its own. Borrowed until
- * lettering_trim(). */
+/* The text as it is drawn: without tabs and line breaks. Borrowed until lettering_trim(). */
 static const char *drawn(const struct pages *pages, const char *text)
 {
 	return lettering_fit(pages->lettering, LETTER_BADGE, text, -1, 0).text;
@@ -317,7 +316,7 @@ static const char *project_title(const struct pages *pages)
 	return *title ? drawn(pages, title) : file_name(pages);
 }
 
-/* A field has the same width on all pages: texts that differ are measured on each page. */
+/* A field has the same width on all pages: measures its text on each page, if it differs. */
 static void measure_fields(const struct pages *pages, struct field *field,
 			   void (*measured)(const struct pages *pages, struct field *field,
 					    const char *text))
@@ -333,7 +332,7 @@ static void measure_fields(const struct pages *pages, struct field *field,
 		measured(pages, &field[DATE], drawn(pages, pages->date));
 }
 
-/* px that all fields need with pages->title_lines lines. */
+/* px of all fields together, with pages->title_lines lines. */
 static float needed(const struct pages *pages, struct field *field)
 {
 	float sum = 0;
@@ -346,7 +345,7 @@ static float needed(const struct pages *pages, struct field *field)
 	return sum;
 }
 
-/* Fields that need more get it from those that need less than they have. */
+/* Gives spare width of some fields to those that need more. */
 static void share_width(struct field *field, float width)
 {
 	float lacking = 0, spare = 0, over = -width;
@@ -361,15 +360,15 @@ static void share_width(struct field *field, float width)
 			field[i].width = field[i].need;
 		else if (spare > 0)
 			field[i].width -= (field[i].width - field[i].need) * lacking / spare;
-	/* Not enough for all: some get more lines, the name of the project first. */
+	/* Not enough for all: breaks texts into lines, the name of the project first. */
 	for (int i = 0; i < FIELDS && over > 0; i++) {
 		const float less = MIN(over, field[i].need - field[i].least);
 
 		field[i].width -= less;
 		over -= less;
 	}
-	/* Texts that still have no room end in an ellipsis: first the name of the project, which
-	 * then has a page of its own. */
+	/* Cuts texts that still do not fit: first the name of the project, which then gets
+	 * a page of its own. */
 	for (int i = PROJECT; i <= UNIT && over > 0; i++) {
 		const float less = MIN(over, field[i].width - field[i].label);
 
@@ -380,12 +379,12 @@ static void share_width(struct field *field, float width)
 
 static float title_height(const struct pages *pages)
 {
-	const int lines = MAX(pages->title_lines, LINES_LEAST); /* not measured: 0 */
+	const int lines = MAX(pages->title_lines, LINES_LEAST); /* 0: not measured */
 
 	return pages->height < PAPER_LEAST ? 0 : (float)(16 + LINE_STEP * lines);
 }
 
-/* The name of the project has no room, and had before. */
+/* Did the name of the project fit until now, and does not any more? */
 static bool is_cut_now(struct pages *pages)
 {
 	const bool before = pages->title_cut;
@@ -470,7 +469,7 @@ static void draw_title(const struct pages *pages, int page, struct picture *pict
 
 /* ---- rungs ---- */
 
-/* @text is to be read behind the rungs, once for all coils of the same bit. */
+/* Keeps a reference for the list behind the rungs, once for all coils of the same bit. */
 static void note_reference(struct pages *pages, const struct cell *cell, const char *text)
 {
 	const struct rung_label label = rung_label(pages->drafting, cell);
@@ -489,7 +488,7 @@ static bool has_room(const struct pages *pages, const char *text, float room)
 	return lettering_fit(pages->lettering, LETTER_PIN, text, -1, 0).width <= room;
 }
 
-/* All places, or as many as there is room for. */
+/* All places if they fit, else the first ones. */
 static char *reference_of(void *context, int row, int col, float room)
 {
 	struct pages *pages = context;
@@ -577,10 +576,10 @@ struct fold {
 	float scale;
 	float cut[MOST_STRIPS + 1]; /* x of the picture: where strips begin, and the end */
 	int strips;
-	int wires[MOST_STRIPS + 1]; /* that were cut before                            */
+	int wires[MOST_STRIPS + 1]; /* cut there                                       */
 };
 
-/* Is there a stroke through (@x, @y), along a row (@across) or between rows? */
+/* Does a stroke pass (@x, @y), along a row (@across) or between rows? */
 static bool is_wire(const struct picture *picture, float x, float y, bool across)
 {
 	for (int i = 0; i < picture->count; i++) {
@@ -597,8 +596,8 @@ static bool is_wire(const struct picture *picture, float x, float y, bool across
 	return false;
 }
 
-/* Where a strip from @left on ends: between columns, and between no rows that are joined
- * there if that does not leave half of it empty. */
+/* The end of a strip that begins at @left: between columns. It does not cut through links
+ * between rows, unless that would leave half of the strip empty. */
 static float fold_at(const struct fold *fold, float left, float room)
 {
 	const struct rung_layout *layout = fold->layout;
@@ -621,7 +620,7 @@ static float fold_at(const struct fold *fold, float left, float room)
 	return joined > 0 ? joined : left + room;
 }
 
-/* Strips, as wide as the page; the first one begins with the number of the rung. */
+/* Finds the strips, as wide as the page; the first one begins with the number of the rung. */
 static void find_strips(struct fold *fold)
 {
 	const struct rung_layout *layout = fold->layout;
@@ -644,7 +643,7 @@ static bool goes_on(const struct fold *fold, int row, float x)
 	       is_wire(fold->picture, x + 1, y, true);
 }
 
-/* From @x on to the right; its number stands at the end at which no wire is. */
+/* An arrow from @x to the right; its number is at the end without a wire. */
 static void draw_arrow(const struct fold *fold, struct picture *picture, float x, float y,
 		       int number, bool ends)
 {
@@ -663,7 +662,7 @@ static void draw_arrow(const struct fold *fold, struct picture *picture, float x
 		     ends ? to + 4 : x - 4 - fits.width, y + 4);
 }
 
-/* At the end of a strip, or where the next one begins. */
+/* Arrows at the end of a strip, or at the start of the next one. */
 static void draw_arrows(const struct fold *fold, struct picture *picture, int cut, float x,
 			bool ends)
 {
@@ -684,7 +683,7 @@ static void number_wires(struct fold *fold)
 	}
 }
 
-/* The number of the rung, and of its strips which this is. */
+/* The number of the rung, and that of the strip. */
 static void draw_number(const struct fold *fold, struct picture *picture, int strip)
 {
 	struct lettering *lettering = fold->pages->lettering;
@@ -718,7 +717,7 @@ static float stroke_bottom(const struct stroke *stroke)
 	return stroke->y;
 }
 
-/* Below the last row of which there is something in a strip; rails do not count. */
+/* The lower end of the last row with something in the strip; rails do not count. */
 static float strip_bottom(const struct fold *fold, int strip)
 {
 	const struct rung_layout *layout = fold->layout;
@@ -757,7 +756,7 @@ static struct picture *draw_beside(const struct fold *fold, int strip, float x)
 	return beside;
 }
 
-/* @room: px of a page that it may take. */
+/* @room: px of a page it may use. */
 static void put_strip(struct fold *fold, int strip, float room)
 {
 	struct pages *pages = fold->pages;
@@ -766,7 +765,7 @@ static void put_strip(struct fold *fold, int strip, float room)
 	const float top = strip ? 0 : layout->top;
 	float height = (bottom - layout->top + top) * fold->scale;
 
-	if (height > room) /* its title stands with its first row */
+	if (height > room) /* the title stays with the first row */
 		height = (layout->row[0].height + top) * fold->scale;
 	if (pages->y + height > pages->room_height && height <= room)
 		next_page(pages);
@@ -781,7 +780,7 @@ static void put_strip(struct fold *fold, int strip, float room)
 	pages->beside = NULL;
 }
 
-/* A column is not wider than a strip, if it need not be. */
+/* Scales down until no column is wider than a strip, if possible. */
 static float scale_for(const struct pages *pages, const struct rung_layout *layout,
 		       float scale)
 {
@@ -793,8 +792,8 @@ static float scale_for(const struct pages *pages, const struct rung_layout *layo
 								  2 * LINK_AIR + MARK)));
 }
 
-/* First without references: the cuts decide how much room those have. The right rail stands
- * below that of the other rungs. */
+/* Drawn first without references, whose room depends on the cuts. The right rail is in line
+ * with that of the other rungs. */
 static void draw_strips(struct fold *fold, struct grid_scene scene, struct rung_layout *layout,
 		 float rails)
 {
@@ -841,7 +840,7 @@ static void put_folded(struct pages *pages, const struct sheet *sheet, int index
 
 /* ---- the rungs of a POU, all at one scale ---- */
 
-/* The first one always stands on the page of the heading of its POU. */
+/* The first rung always goes on the page of its POU's heading. */
 static void put_rung(struct pages *pages, const struct sheet *sheet, int index,
 		     float scale, bool first)
 {
@@ -878,7 +877,7 @@ static void put_rungs(struct pages *pages, const struct sheet *sheet, const char
 
 /* ---- charts ---- */
 
-/* Is there something to be read? */
+/* Is this part of a picture empty? */
 static bool is_blank(const struct pages *pages, const struct picture *picture, float from,
 		     float to)
 {
@@ -894,8 +893,8 @@ static bool is_blank(const struct pages *pages, const struct picture *picture, f
 	return true;
 }
 
-/* On a page of its own, unless it is the first; returns how much of the next one's room is
- * used: none. Nothing is put where nothing is. */
+/* Puts it on a new page, unless it is the first piece or empty. Returns how much room of
+ * the next page is used: none. */
 static float put_slice(struct pages *pages, const struct picture *picture, float scale,
 		       float from, float to, float room_used)
 {
@@ -907,7 +906,7 @@ static float put_slice(struct pages *pages, const struct picture *picture, float
 	return 0;
 }
 
-/* Rows of a chart, as many as fit on each page; it ends between boxes if it can. */
+/* Puts as many rows of a chart on each page as fit; pages end between boxes if possible. */
 static void put_chart_slices(struct pages *pages, const struct sfc_sheet *chart,
 			     const struct picture *picture, float scale)
 {
@@ -948,7 +947,7 @@ static void put_bodies(struct pages *pages, const struct pou *pou)
 	sheet_free(sheet);
 }
 
-/* As much of a chart as fits beside each other, from @left on. */
+/* The end of the part that fits on a page, from @left on. */
 static float cut_at(const struct picture *picture, float left, float room, float width)
 {
 	float x = left + room;
@@ -986,7 +985,7 @@ static void put_columns(struct pages *pages, const struct sfc_sheet *chart,
 	}
 }
 
-/* A comment for which there was too little room at @x beside its box. */
+/* Puts a comment on paper that did not fit at @x beside its box. */
 static void put_comment(struct pages *pages, const struct sfc_sheet *chart, int shape,
 			const char *comment, float x, bool *any)
 {
@@ -1022,7 +1021,7 @@ static void put_comments(struct pages *pages, const struct sfc_sheet *chart)
 	pages->y += any ? PAGE_AIR : 0;
 }
 
-/* Comments alone do not begin another page: they get the rest of the last one. */
+/* Comments alone get no page of their own: they are cut at the end of the last one. */
 static void narrow(struct sfc_sheet *chart, const struct picture *picture, float room)
 {
 	float width = 0, left = 0;
@@ -1063,7 +1062,7 @@ static void put_chart(struct pages *pages, const char *heading)
 
 static const float share[LISTING_COLUMNS + 1] = { 0, 0.24f, 0.40f, 0.52f, 0.66f, 1 };
 
-/* One cell, in as many lines as it takes; returns them. */
+/* Draws one cell; returns its number of lines. */
 static int put_cell(const struct pages *pages, struct picture *picture, int column,
 		    enum letter letter, enum token token, const char *text)
 {
@@ -1082,7 +1081,7 @@ static int put_cell(const struct pages *pages, struct picture *picture, int colu
 	return lines;
 }
 
-/* A row of the table; returns its height. */
+/* Draws a row of the table; returns its height. */
 static float draw_cells(const struct pages *pages, struct picture *picture,
 			char *cell[LISTING_COLUMNS], bool head)
 {
@@ -1182,7 +1181,7 @@ static void put_pou(struct pages *pages, int index, int rung)
 	g_free(heading);
 }
 
-/* Of a project whose name has no room in the title block. */
+/* A page for the name of the project, if the title block cuts it. */
 static void put_name(struct pages *pages)
 {
 	char **line;
@@ -1196,7 +1195,7 @@ static void put_name(struct pages *pages)
 	put_list(pages, _("Project"), line);
 }
 
-/* Makes all pages anew, above a title block of the measured height. */
+/* Makes all pages again, with the measured height of the title block. */
 static void put_all(struct pages *pages, int pou, int rung)
 {
 	g_ptr_array_set_size(pages->page, 0);
@@ -1298,7 +1297,7 @@ static double points(float mm)
 	return (double)mm / 25.4 * 72;
 }
 
-/* The table of contents that a reader shows beside the pages: POUs, symbols. */
+/* Adds to the table of contents that a reader shows: POUs, symbols. */
 static void add_outline(cairo_surface_t *surface, const struct pages *pages, int page)
 {
 	const char *subject = subject_of(pages, page);

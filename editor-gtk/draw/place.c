@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * place - where a cell is, for a person; see place.h.
+ * place - the name of a place for the user; see place.h.
  */
 #include "editor-gtk/draw/place.h"
 
@@ -25,7 +25,7 @@ const char *place_column(int column, char out[PLACE_LETTERS])
 	return out;
 }
 
-/* The body of a chart that the rung is in; NULL: none. */
+/* The body of a chart that contains the rung; NULL: none. */
 static const struct sfc_body *body_of(const struct sfc *sfc, int rung)
 {
 	for (int i = 0; i < sfc_bodies(sfc); i++) {
@@ -70,7 +70,7 @@ int place_shown(struct place_sheet *sheet, const struct project *project, int po
 
 /* ---- lines ---- */
 
-/* Its name, or else the steps before and behind it: no number of it is shown. */
+/* Its name, or the steps before and behind it: the user sees no numbers of transitions. */
 static char *transition_text(const struct project *project, const struct sfc *sfc, int index)
 {
 	const char *name = project_text(project, sfc->transition[index].name);

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#define EDGE 12 /* px round a rung that is a picture                            */
+#define EDGE 12 /* px around the picture of a rung                              */
 
 struct job {
 	const struct project *project;
@@ -31,7 +31,7 @@ static void job_free(gpointer pointer, GClosure *closure)
 	g_free(job);
 }
 
-/* The setup's sizes are turned already. */
+/* The setup's sizes include the orientation. */
 static struct paper paper_of(GtkPageSetup *setup, const char *date)
 {
 	return (struct paper){

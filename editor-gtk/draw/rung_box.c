@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * rung_box - pins and sizes of boxes; see rung_box.h. The order of pins is that of
+ * rung_box - pins and sizes of boxes; see rung_box.h. Pins have the same order as in
  * show/show_box.c.
  */
 #include "editor-gtk/draw/rung_box.h"
@@ -10,12 +10,13 @@
 #include <string.h>
 #include <strings.h>
 
-#define VALUE_BOUND 180   /* px of a value at a pin; on paper more           */
-#define NAME_BOUND  140   /* px of a pin; of a box twice, on paper four times     */
-#define PADDING     6     /* px between a side and the texts inside             */
+#define VALUE_BOUND 180   /* px, most of a value at a pin; on paper more     */
+#define NAME_BOUND  140   /* px, most of a name of a pin; twice that of a box, on paper four
+			     times */
+#define PADDING     6     /* px from a side to the texts inside                 */
 #define LEAST_INNER 70
-#define VALUE_INNER 86 /* "12.5/20.0 s" has room                          */
-#define LEAD        14    /* of a side with nothing connected                   */
+#define VALUE_INNER 86 /* px: "12.5/20.0 s" fits                          */
+#define LEAD        14    /* px of a side with nothing connected                */
 
 static bool same_name(const char *a, size_t a_len, const char *b, size_t b_len)
 {
@@ -63,7 +64,7 @@ static void add_power(const struct drafting *drafting, struct rung_side *side,
 						    .name_len = strlen(name) });
 }
 
-/* A pin of the row, with the value written for it if there is one. */
+/* Adds a pin of the catalogue's row, with the value written for it if there is one. */
 static void add_named(const struct drafting *drafting, struct rung_box *box, bool output,
 		      const char *name)
 {
@@ -79,8 +80,8 @@ static void add_named(const struct drafting *drafting, struct rung_box *box, boo
 	side_add(drafting, output ? &box->out : &box->in, pin);
 }
 
-/* Values at pins that the row does not list: IN3, mistakes, and parameters of pins that
- * carry power. */
+/* Adds parameters that are not in the row: IN3, mistakes, and those of pins that carry
+ * power. */
 static void add_others(const struct drafting *drafting, struct rung_box *box)
 {
 	const char *at = project_text(drafting->project, box->cell->args);
@@ -144,7 +145,7 @@ static void measure(const struct drafting *drafting, struct rung_box *box)
 			 box->value ? VALUE_INNER : LEAST_INNER);
 	box->lead = value > 0 ? value + BOX_STUB + 10 : LEAD;
 	box->tail = result > 0 ? result + BOX_STUB + 10 : LEAD;
-	/* The name is centred on the frame, not on frame and values. */
+	/* The name is centred on the frame alone, without the values. */
 	float name = width_of(drafting, LETTER_SYMBOL, instance, box->name_most) / 2 + 4;
 	box->left = MAX(box->lead + box->inner / 2, name);
 	box->right = MAX(box->inner / 2 + box->tail, name);
@@ -191,7 +192,7 @@ void rung_box_place(struct rung_box *box, const struct rung_row *row, float colu
 void rung_box_at(const struct drafting *drafting, const struct rung_layout *layout, int row,
 		 int col, struct rung_box *box)
 {
-	/* Only outputs are shown in another column, and a box is none. */
+	/* A box is no output, so its column is the shown one. */
 	rung_box_make(drafting, layout->rung, row, col, box);
 	rung_box_place(box, layout->row, layout->column_x[col], layout->column_width[col]);
 }

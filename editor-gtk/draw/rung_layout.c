@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * rung_layout - measures a rung, places its rows and columns, and finds what stands at a
+ * rung_layout - measures a rung, places its rows and columns, and finds the part at a
  * point; see rung_layout.h.
  */
 #include "editor-gtk/draw/rung_layout.h"
@@ -16,12 +16,12 @@
 #define BARE_HEIGHT  14   /* of a rung without title and comment                */
 #define TITLE_LINE   24   /* baseline of the title                              */
 #define COMMENT_LINE 17
-#define SHORT_LINES  3    /* of a title, of a comment, on the screen             */
+#define SHORT_LINES  3    /* most lines of a title, of a comment, on the screen  */
 #define BELOW        9
-#define BESIDE       16   /* px of air round a name                             */
-#define BOX_AIR      18   /* below a box: its marks stand there                 */
-#define REACH 7   /* px: as near as a pointer must come to a wire               */
-#define GRIP  24  /* px left and right of its middle an element is held        */
+#define BESIDE       16   /* px around a name                                   */
+#define BOX_AIR      18   /* px below a box, for its marks                      */
+#define REACH 7   /* px: how far from a wire the pointer still hits it          */
+#define GRIP  24  /* px left and right of an element's middle that hit the element */
 #define ROUND 12  /* px left and right of the end of an empty cell             */
 
 static const struct word_row *word_at(const struct drafting *drafting,
@@ -44,8 +44,7 @@ static bool linked_behind(const struct rung *rung, int row, int bar)
 	return false;
 }
 
-/* The last element of a row if it stands free, so that nothing is joined behind it; -1:
- * there is none. */
+/* The last element of a row if nothing is joined behind it; -1: there is none. */
 static int free_end(const struct rung *rung, int row)
 {
 	int col = rung->cols - 1;
@@ -147,7 +146,7 @@ static void measure_columns(const struct drafting *drafting, struct rung_layout 
 
 /* ---- heights ---- */
 
-/* How far below the wire of @row boxes reach that end there. */
+/* How far boxes that end in @row reach below its wire. */
 static float box_reach(const struct drafting *drafting, const struct rung_layout *layout,
 		       int row)
 {
@@ -209,7 +208,7 @@ static void find_ends(struct rung_layout *layout)
 	}
 }
 
-/* A short title alone need not be measured: no letter is wider than high by a third. */
+/* A short title alone is not measured: letters are at most a third wider than high. */
 static bool has_short_heading(const struct drafting *drafting, const struct rung *rung,
 			      float room)
 {
@@ -236,7 +235,7 @@ static void break_heading(const struct drafting *drafting, struct rung_layout *l
 	    (layout->title_lines || heading->comment_width + heading->width > room)) {
 		layout->comment_lines = rung_lines(drafting, LETTER_COMMENT,
 						   heading->comment, room, most, NULL, NULL);
-		/* Without a title the first line stands where that would. */
+		/* Without a title the first line of the comment has its place. */
 		int more = layout->comment_lines - (heading->width > 0 ? 0 : 1);
 		layout->top += (float)(more * COMMENT_LINE);
 	}
@@ -351,7 +350,7 @@ static int row_at(const struct rung_layout *layout, float y)
 	return row;
 }
 
-/* The space between the columns belongs to the last one. */
+/* The space between the columns belongs to the right column. */
 static int column_at(const struct rung_layout *layout, float x)
 {
 	int d = 0;
@@ -376,7 +375,7 @@ graphene_rect_t rung_layout_cell(const struct rung_layout *layout, int row, int 
 	int col, top = box_row(layout, row, column, &col), last = row;
 	float x = layout->column_x[column];
 
-	if (top < 0) /* beside a tall box it is as high as elsewhere        */
+	if (top < 0) /* beside a tall box cells have the usual height       */
 		return GRAPHENE_RECT_INIT(x, layout->row[row].y,
 					  layout->column_width[column],
 					  RUNG_CELL_HEIGHT);
@@ -409,7 +408,7 @@ static bool hits_pin(const struct drafting *drafting, const struct rung_layout *
 	return false;
 }
 
-/* Is there something at the cell, or wire? */
+/* Does the cell have an element or a wire? */
 static bool goes_on(const struct rung_layout *layout, int row, int column)
 {
 	const int col = rung_layout_col(layout, row, column);
@@ -419,8 +418,8 @@ static bool goes_on(const struct rung_layout *layout, int row, int column)
 			    PLACE_NONE);
 }
 
-/* A link is drawn at the bar on the right of its cell. Where it meets the wire of a row that
- * is meant, behind the link. */
+/* A link is drawn at the right bar of its cell. Where it crosses the wire of a row, the
+ * wire is hit, behind the link. */
 static bool hits_link(const struct rung_layout *layout, struct rung_hit *hit, float x,
 		      float y)
 {
@@ -500,7 +499,7 @@ void rung_layout_nearest(const struct rung_layout *layout, float x, float y, int
 	*bar = nearest_bar(layout, x);
 }
 
-/* From where to where an element is held; beside that are its wires. */
+/* The part of a cell that hits the element; beside it are its wires. */
 struct held { float from, to; };
 
 static struct held held_of(const struct drafting *drafting,

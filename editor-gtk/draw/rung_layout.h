@@ -2,12 +2,12 @@
  *
  * rung_layout - the places of everything in a rung, and the part at a point.
  *
- * A rung is laid out by itself; rungs of one sheet then get the same right rail
+ * Each rung is laid out alone; then rungs of one sheet get the same right rail
  * (rung_layout_stretch). Places are px at 100 %, from the upper left corner of the rung's
- * strip; the caller that draws applies the zoom.
+ * strip; the caller applies the zoom.
  *
- * Columns are display columns (grid_display.h): an output at the end of a row stands in the
- * last one, with a wire up to it. Rows are those of the rung, and empty ones below.
+ * Columns are display columns (grid_display.h): an output at the end of a row is in the
+ * last column, with a wire up to it. Rows are those of the rung, and empty ones below.
  */
 #ifndef EDITOR_RUNG_LAYOUT_H
 #define EDITOR_RUNG_LAYOUT_H
@@ -36,18 +36,18 @@ struct drafting {
 	struct lettering *lettering;
 	enum drafting_show show;
 	bool comments;     /* also comments of declarations, below elements     */
-	bool all_comments; /* of rungs, however long, and long names: for paper   */
-	float beside;      /* px that comments leave free at both sides: for marks */
+	bool all_comments; /* whole comments of rungs, and long names: for paper  */
+	float beside;      /* px that comments leave free on both sides, for marks */
 	int columns;       /* of the sheet: rung_layout_columns() of its rungs   */
-	float width;       /* px from rail to rail at least; 0: as natural      */
+	float width;       /* px, least distance of the rails; 0: natural       */
 	float most;        /* px of a line above a rung; 0: from rail to rail    */
 };
 
 struct rung_row {
 	float y, height, wire;
-	int output;        /* col whose element stands in the last column; -1    */
-	int trail;         /* col from which power runs on to the right rail; -1 */
-	bool addressed;    /* an element of it has an address to show           */
+	int output;        /* col of the element that is shown in the last column; -1 */
+	int trail;         /* col whose power goes on to the right rail; -1 */
+	bool addressed;    /* one of its elements shows an address              */
 };
 
 struct rung_layout {
@@ -59,43 +59,44 @@ struct rung_layout {
 	float top;               /* y of the first row                          */
 	float height;            /* of the whole strip                          */
 	float title_y;           /* baseline of title and number                */
-	int title_lines;         /* 0: one, or no title                         */
-	int comment_lines;       /* below the title; 0: it stands beside it      */
-	float heading_room;      /* px from the rail on of such lines           */
+	int title_lines;         /* 0: one line, or no title                    */
+	int comment_lines;       /* below the title; 0: beside it                */
+	float heading_room;      /* px of such lines, from the rail on          */
 	float *column_x, *column_width; /* of the columns                       */
 	struct rung_row *row;
 };
 
-/** rung_layout_columns - columns a rung needs on a sheet, at least RUNG_LEAST_COLUMNS. */
+/** rung_layout_columns - columns that a rung needs on a sheet, at least RUNG_LEAST_COLUMNS. */
 int rung_layout_columns(const struct rung *rung);
 
 /**
  * rung_layout_new - lays a rung out
- * @number: as it is shown, from 1
- * @rows:   rows to show at least; empty ones follow those of the rung. 0: as it has
+ * @number: shown, from 1
+ * @rows:   least number of rows; empty ones follow those of the rung. 0: no more
  *
- * Owns: the caller, rung_layout_free(); @rung must live as long. Units: px.
+ * Owns: the caller, rung_layout_free(); @rung must outlive it. Units: px.
  */
 struct rung_layout *rung_layout_new(const struct drafting *drafting,
 				    const struct rung *rung, int number, int rows);
 void rung_layout_free(struct rung_layout *layout);
-/** rung_layout_stretch - right rail @width from the left one; not less than natural. */
+/** rung_layout_stretch - moves the right rail to @width from the left one, or to the
+ * natural distance if that is more. */
 void rung_layout_stretch(struct rung_layout *layout, float width);
 /** rung_layout_width - of the whole strip, with gutter and margin. */
 float rung_layout_width(const struct rung_layout *layout);
 
-/** rung_layout_column - the column in which cell (row, col) of the rung stands. */
+/** rung_layout_column - the column in which cell (row, col) of the rung is shown. */
 int rung_layout_column(const struct rung_layout *layout, int row, int col);
-/** rung_layout_col - the rung's col that stands in @column; -1: wire that was stretched,
- * or nothing. */
+/** rung_layout_col - the rung's col that is shown in @column; -1: stretched wire, or
+ * nothing. */
 int rung_layout_col(const struct rung_layout *layout, int row, int column);
-/** rung_layout_wired - is (row, column) on wire that leads on to an output or the rail? */
+/** rung_layout_wired - is (row, column) on a wire that leads on to an output or the rail? */
 bool rung_layout_wired(const struct rung_layout *layout, int row, int column);
 /** rung_layout_bar - x of bar @bar (0 … cols) of the rung. */
 float rung_layout_bar(const struct rung_layout *layout, int row, int bar);
 
-/** rung_layout_cell - the rectangle of (row, column); for a cell of a box that of the whole
- * box: for the cursor, accessible children and popovers. */
+/** rung_layout_cell - the rectangle of (row, column); in a box that of the whole box. For
+ * the cursor, accessible children and popovers. */
 graphene_rect_t rung_layout_cell(const struct rung_layout *layout, int row, int column);
 
 /** rung_layout_label - px: width of the texts above an element. */
@@ -118,7 +119,7 @@ struct rung_hit {
 	const char *name;  /* of the pin, borrowed, not NUL-ended              */
 	size_t name_len;
 };
-/** rung_layout_hit - the part at a point. */
+/** rung_layout_hit - finds the part at a point. */
 struct rung_hit rung_layout_hit(const struct drafting *drafting,
 				const struct rung_layout *layout, float x, float y);
 
@@ -128,8 +129,8 @@ float rung_layout_end_x(const struct rung_layout *layout, int bar);
 /** rung_layout_nearest - the end nearest to a point; below all rows: the next row. */
 void rung_layout_nearest(const struct rung_layout *layout, float x, float y, int *row,
 			 int *bar);
-/** rung_layout_end - the end at which a drag from a point begins a wire: beside an element,
- * on a wire, at the end of an empty cell. False: a drag from there draws no wire. */
+/** rung_layout_end - the end where a drag from a point begins a wire: beside an element, on
+ * a wire, at the end of an empty cell. False: a drag from there draws no wire. */
 bool rung_layout_end(const struct drafting *drafting, const struct rung_layout *layout,
 		     float x, float y, int *row, int *bar);
 

@@ -24,7 +24,7 @@ static bool has_names(const struct word_row *word)
 	       word->operand == OPND_ANY_R || word->operand == OPND_ANY_W;
 }
 
-/* Paper has no tooltips. */
+/* Paper has no tooltips, so names get more room. */
 static float name_bound(const struct drafting *drafting)
 {
 	return drafting->all_comments ? 2 * LABEL_BOUND : LABEL_BOUND;

@@ -2,7 +2,8 @@
  *
  * rung_text - the texts at an element and above a rung.
  *
- * Measured and cut to their bounds, so that layout and drawing have the same texts.
+ * They are measured and cut to their bounds, so that layout and drawing have the same
+ * texts.
  */
 #ifndef EDITOR_RUNG_TEXT_H
 #define EDITOR_RUNG_TEXT_H
@@ -11,8 +12,8 @@
 
 #define LABEL_BOUND  230   /* px of a name                                      */
 #define FRAMED_BOUND 420   /* px of a line of an expression                     */
-#define FRAMED_LINES 4     /* they fit into a row of common height, with a mark  */
-#define FRAMED_LINE  15    /* px from one to the next                           */
+#define FRAMED_LINES 4     /* lines that fit into a row of usual height, with a mark */
+#define FRAMED_LINE  15    /* px from line to line                              */
 #define TITLE_AIR    10    /* px behind a label or a title                      */
 #define TITLE_STEP   18    /* px from a line of a title to the next             */
 #define FRAMED_SIDE  12    /* px between its text and the outside of a bracket    */
@@ -30,7 +31,7 @@ bool rung_is_framed(const struct word_row *word);
 struct rung_framed {
 	struct lettered line[FRAMED_LINES];
 	int lines;
-	float width;         /* of the widest                                   */
+	float width;         /* of the widest line                              */
 	float up;            /* from the wire to the upper end of its strokes    */
 };
 struct rung_framed rung_framed(const struct drafting *drafting, const struct cell *cell);
@@ -38,7 +39,7 @@ struct rung_framed rung_framed(const struct drafting *drafting, const struct cel
 /* Texts above a rung. */
 struct rung_heading {
 	struct lettered label, title;
-	float indent;        /* px from the rail to the title: behind the label   */
+	float indent;        /* px from the rail to the title: width of the label */
 	float width;         /* of both in one line, with air; 0: neither         */
 	char *comment;       /* one line, without delimiters; owned: g_free      */
 	float comment_width;
@@ -46,8 +47,9 @@ struct rung_heading {
 struct rung_heading rung_heading(const struct drafting *drafting, const struct rung *rung);
 /**
  * rung_lines - breaks a comment or a title into lines of @width px
- * @take: is handed each of them; NULL: they are only counted
- * Returns how many; of more than @most the last one ends in an ellipsis.
+ * @take: gets each line; NULL: only counts
+ *
+ * Returns how many; if there are more than @most, the last one ends in an ellipsis.
  */
 int rung_lines(const struct drafting *drafting, enum letter letter, const char *text,
 	       float width, int most,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_bodies - what stands below a chart; see sfc_bodies.h.
+ * sfc_bodies - the bodies below a chart; see sfc_bodies.h.
  */
 #include "editor-gtk/draw/sfc_bodies.h"
 #include "editor-gtk/kit/i18n.h"
@@ -22,7 +22,7 @@ char *sfc_bodies_ways(const struct project *project, const struct sfc *sfc, int 
 	return text;
 }
 
-/* Of body number @i of the chart: transitions come first, then actions. */
+/* Body number @i of the chart: transitions come first, then actions. */
 static char *heading_of(const struct project *project, const struct sfc *sfc, int i)
 {
 	const char *name;

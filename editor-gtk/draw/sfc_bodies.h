@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_bodies - conditions and actions of a chart that are rungs or lists, in the order of
- * paper, where they follow the chart.
+ * sfc_bodies - conditions and actions of a chart that are rungs or lists, in the order in
+ * which they follow the chart on paper.
  */
 #ifndef EDITOR_SFC_BODIES_H
 #define EDITOR_SFC_BODIES_H
@@ -13,18 +13,18 @@ struct sfc_part_body {
 	char *heading;                 /* "Ready: Idle → Fill", "Count"         */
 };
 
-/** sfc_bodies_new - @count gets how many. Expressions are not included: they stand beside
- * their transition. Owns: the caller, sfc_bodies_free(). */
+/** sfc_bodies_new - @count gets how many. Without expressions, which are drawn beside their
+ * transition. Owns: the caller, sfc_bodies_free(). */
 struct sfc_part_body *sfc_bodies_new(const struct project *project, const struct pou *pou,
 				     int *count);
 void sfc_bodies_free(struct sfc_part_body *bodies, int count);
 /** sfc_bodies_ways - "Idle → Fill": the steps before and behind a transition. Caller frees. */
 char *sfc_bodies_ways(const struct project *project, const struct sfc *sfc, int transition);
-/** sfc_body_heading - of the body whose first rung is @first, expressions too; @count gets
- * its rungs. Caller frees; NULL: no body begins there. */
+/** sfc_body_heading - of the body whose first rung is @first, or of an expression; @count
+ * gets its number of rungs. Caller frees; NULL: no body begins there. */
 char *sfc_body_heading(const struct project *project, const struct pou *pou, int first,
 		       int *count);
-/** sfc_body_lines - of a list. Owns: the caller, g_strfreev. */
+/** sfc_body_lines - the lines of a list. Owns: the caller, g_strfreev. */
 char **sfc_body_lines(const struct project *project, const struct pou *pou,
 		      const struct sfc_body *body);
 

@@ -9,13 +9,13 @@
 
 #define INSET      3.5f  /* from the outer to the inner frame of an initial step  */
 #define TWIN_HALF  2.5f
-#define TWIN_MORE  12    /* a double line reaches beyond its last lanes            */
+#define TWIN_MORE  12    /* px of a double line beyond its outer lanes             */
 #define ARROW      6
 #define BASE       4     /* from the middle of a row to the baseline of its text   */
 #define TOKEN_DOT  4.5f
-#define SIGN_APART 2     /* from a frame to the sign of a comparison               */
+#define SIGN_APART 2     /* px from a frame to the sign of a comparison            */
 #define SIGN_BASE  5
-#define SIGN_ROOM  10    /* px that comments leave for it                         */
+#define SIGN_ROOM  10    /* px of a comment that are left free for it             */
 
 struct nib {
 	const struct sfc_scene *scene;
@@ -23,7 +23,7 @@ struct nib {
 	const struct sfc_layout *layout;
 	const struct theme *theme;
 	struct picture *picture;
-	bool compared;           /* there are signs of a comparison            */
+	bool compared;           /* it has signs of a comparison               */
 };
 
 static void line(const struct nib *nib, enum token token, float width, float x1, float y1,
@@ -76,8 +76,8 @@ static void draw_grounds(const struct nib *nib)
 	}
 }
 
-/* In a comparison, as in rungs: a dotted frame and a sign, not only a colour; before a step or
- * transition, behind a line of a step. */
+/* In a comparison, as in rungs: a dotted frame and a sign beside the colour. The sign
+ * stands before a step or transition, and behind a line of a step. */
 static void draw_difference(const struct nib *nib, const struct sfc_mark *mark)
 {
 	const bool added = mark->signs & SFC_ADDED, removed = mark->signs & SFC_REMOVED;
@@ -181,7 +181,7 @@ static void draw_middle(const struct nib *nib, enum token token, enum letter let
 	picture_text(nib->picture, token, letter, fits, x - fits.width / 2, baseline);
 }
 
-/* Name, times and how long it has been: a row each, in the middle of the box. */
+/* Name, times and active time: a row each, in the middle of the box. */
 static void draw_texts(const struct nib *nib, int step, const graphene_rect_t *box)
 {
 	const struct sfc_live *live = nib->scene->live;
@@ -202,7 +202,7 @@ static void draw_texts(const struct nib *nib, int step, const graphene_rect_t *b
 		draw_middle(nib, TOKEN_ACCENT, LETTER_VALUE, time, x, y + pitch);
 }
 
-/* As much of a comment as there is room for. */
+/* Draws a comment, cut to the room it has. */
 static void draw_aside(const struct nib *nib, int shape, const char *text, float x, float y)
 {
 	const float room = sfc_sheet_room(nib->sheet, nib->layout->shape[shape].lane, x) -
@@ -221,7 +221,7 @@ static void draw_comment(const struct nib *nib, int shape)
 	draw_aside(nib, shape, nib->sheet->comment[shape], at.x, at.y);
 }
 
-/* Actions: a table beside the box, qualifiers on the left. */
+/* Draws the actions: a table beside the box, qualifiers on the left. */
 static void draw_table(const struct nib *nib, int step)
 {
 	const struct sfc_step *s = &nib->layout->sfc->step[step];
@@ -262,7 +262,7 @@ static void draw_step(const struct nib *nib, int step)
 	const bool active = step_bits(nib, step) & SFC_ACTIVE;
 
 	draw_frame(nib, nib->layout->sfc->step[step].kind, &box, active);
-	if (active) /* the token, as on paper: not by colour alone */
+	if (active) /* a token, as on paper: active steps differ not only in colour */
 		picture_disc(nib->picture, TOKEN_POWER, 1, box.origin.x + 13,
 			     box.origin.y + 13, TOKEN_DOT);
 	draw_texts(nib, step, &box);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_draw - a chart as strokes: boxes, lines, texts, marks, what is active.
+ * sfc_draw - a chart as strokes: boxes, lines, texts, marks, active steps.
  *
- * As grid_draw for rungs: the same strokes for screen, paper, pictures and tests; no widget,
- * no display, no colours.
+ * Like grid_draw for rungs: the same strokes for screen, paper, pictures and tests; no
+ * widget, no display, no colours.
  */
 #ifndef EDITOR_SFC_DRAW_H
 #define EDITOR_SFC_DRAW_H
@@ -18,17 +18,17 @@ enum sfc_bit {
 	SFC_ENABLED = 4,   /* a transition: all steps before it are active       */
 	SFC_TRUE = 8,      /* its condition, of an enabled one                   */
 };
-/* NULL instead of it: nothing runs. */
+/* NULL pointer to it: nothing runs. */
 struct sfc_live {
 	const uint8_t *step, *transition; /* enum sfc_bit                      */
-	/** How long a step has been active; false: it is not told. */
+	/** Returns how long a step has been active; false: not shown. */
 	bool (*time)(void *context, int step, char *out, size_t size);
 	void *context;
 };
 
 enum sfc_sign {
 	SFC_CURSOR = 1, SFC_SELECTED = 2, SFC_ERROR = 4, SFC_WARNING = 8,
-	SFC_DROP = 16,     /* the dragged step would go here                    */
+	SFC_DROP = 16,     /* the dragged step may be dropped here              */
 	SFC_FOUND = 32,
 	SFC_CHANGED = 64, SFC_ADDED = 128, SFC_REMOVED = 256, /* in a comparison  */
 };
@@ -40,12 +40,12 @@ struct sfc_scene {
 	const struct sfc_live *live;
 	const struct sfc_mark *mark;
 	int mark_count;
-	float top, bottom;     /* px: only this part is drawn; both 0: all        */
+	float top, bottom;     /* px: draws only this part; both 0: all           */
 };
 
 /** sfc_draw - the strokes, added to @picture at its place. */
 void sfc_draw(const struct sfc_scene *scene, struct picture *picture);
-/** sfc_draw_node - as one render node; NULL: nothing. Owns: the caller,
+/** sfc_draw_node - the chart as one render node; NULL: it is empty. Owns: the caller,
  * gsk_render_node_unref. */
 GskRenderNode *sfc_draw_node(const struct sfc_scene *scene);
 

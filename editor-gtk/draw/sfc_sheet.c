@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_sheet - widths of lanes, texts, and what is hit; see sfc_sheet.h.
+ * sfc_sheet - widths of lanes, texts, and the part at a point; see sfc_sheet.h.
  */
 #include "editor-gtk/draw/sfc_sheet.h"
 #include "editor-gtk/kit/comment_text.h"
@@ -9,9 +9,9 @@
 #include <glib.h>
 
 #define LEAST_HALF 36  /* px: half of a box                                     */
-#define BOX_SIDE   14  /* px beside the name in it                              */
+#define BOX_SIDE   14  /* px beside the name in a box                           */
 #define LANE_GAP   34
-#define TEXT_GAP   7   /* from a bar or arrow to its text                       */
+#define TEXT_GAP   7   /* px from a bar or arrow to its text                    */
 #define TWIN_HALF  2.5f
 
 static float width_of(const struct sfc_sheet *sheet, enum letter letter, const char *text)
@@ -91,7 +91,8 @@ static struct sfc_table measure_table(const struct sfc_sheet *sheet, int step)
 	return table;
 }
 
-/* The room it asks for: comments do not drive branches apart. */
+/* The width that a comment gets in the layout: bounded, so that comments do not spread
+ * branches. */
 static float comment_width(const struct sfc_sheet *sheet, int lane, const char *comment)
 {
 	const float width = *comment ? width_of(sheet, LETTER_COMMENT, comment) : 0;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_sheet - a chart in pixels: the places of its boxes, texts and lines, and the part at a
- * point.
+ * sfc_sheet - a chart in pixels: the places of its boxes, texts and lines, and the part at
+ * a point.
  *
- * Lanes and rows are those of the engine's layout (show/sfc_layout.h); here they get
- * their widths. Places are px at 100 %. It draws nothing and changes nothing.
+ * Lanes and rows are those of the engine's layout (show/sfc_layout.h); here they get their
+ * widths. Places are px at 100 %. It draws nothing and changes nothing.
  */
 #ifndef EDITOR_SFC_SHEET_H
 #define EDITOR_SFC_SHEET_H
@@ -24,7 +24,7 @@
 #define SFC_BOUND  340    /* of a text                                          */
 #define SFC_CELL   7      /* beside the text in a cell of actions                 */
 #define SFC_APART  12     /* before a comment                                    */
-#define SFC_ASIDE  110    /* so much room a comment may ask for between lanes    */
+#define SFC_ASIDE  110    /* px, most room between lanes for a comment           */
 
 struct sfc_lane { float x, half, right; };
 /* Columns of the table of actions. */
@@ -56,7 +56,7 @@ void sfc_sheet_free(struct sfc_sheet *sheet);
 graphene_point_t sfc_sheet_comment(const struct sfc_sheet *sheet, int shape);
 /** sfc_sheet_room - px from @x to the lane right of @lane. */
 float sfc_sheet_room(const struct sfc_sheet *sheet, int lane, float x);
-/** sfc_sheet_y - of a row's middle. */
+/** sfc_sheet_y - the middle of a row. */
 float sfc_sheet_y(int row);
 /** sfc_sheet_box - of a shape: the box of a step, bar and text of a transition, arrow
  * and name of a jump. */
@@ -76,16 +76,16 @@ struct sfc_at {
 /** sfc_sheet_at - the nearest part whose box is within @slack px. */
 struct sfc_at sfc_sheet_at(const struct sfc_sheet *sheet, float x, float y, float slack);
 /**
- * sfc_sheet_of_diag - the part that a diagnostic of this POU is about, by its line; in
- * conditions and actions by its rung
- * @checked: the chart that was checked, which has the lines; ignored if it has other numbers
- *           of steps, transitions or actions than this one
+ * sfc_sheet_of_diag - the part of a diagnostic of this POU, by its line; in conditions and
+ * actions by its rung
+ * @checked: the chart that was checked, which has the lines; ignored if its numbers of
+ *           steps, transitions or actions differ
  *
- * Fails: false: the diagnostic is not about a part of the chart.
+ * Fails: false: the diagnostic belongs to no part of the chart.
  */
 bool sfc_sheet_of_diag(const struct sfc_sheet *sheet, const struct sfc *checked,
 		       const struct diag *diag, int *shape, int *use);
-/** sfc_sheet_can_part - may a page end below row @row? Not inside a box. */
+/** sfc_sheet_can_part - may a page end below row @row, without cutting a box? */
 bool sfc_sheet_can_part(const struct sfc_sheet *sheet, int row);
 
 #endif

@@ -35,7 +35,7 @@ void sheet_free(struct sheet *sheet)
 	g_free(sheet);
 }
 
-/* A long heading was broken into lines before it was known how wide the sheet is. */
+/* Breaks a long heading again, now that the width of the sheet is known. */
 static void use_width(struct sheet *sheet, int index)
 {
 	struct rung_layout *layout = sheet->rung[index];
@@ -56,7 +56,7 @@ bool sheet_is_wide(const struct sheet *sheet, int index)
 	return sheet->most > 0 && sheet->rung[index]->natural > sheet->most;
 }
 
-/* px that the widest rung needs, except those that are too wide. */
+/* px of the widest rung, apart from those that are too wide. */
 static float rails_of(const struct sheet *sheet)
 {
 	float most = sheet->drafting.width;
@@ -67,7 +67,7 @@ static float rails_of(const struct sheet *sheet)
 	return most;
 }
 
-/* The right rail of all of them, and where each begins. */
+/* Sets the right rail of all rungs, and where each begins. */
 static void align(struct sheet *sheet)
 {
 	float y = 0;
@@ -84,7 +84,7 @@ static void align(struct sheet *sheet)
 	sheet->width = RUNG_LEFT + sheet->rails + RUNG_AFTER;
 }
 
-/* Those of all rungs that are not too wide by themselves. */
+/* Most columns of all rungs that are not too wide by themselves. */
 static int columns_of(const struct sheet *sheet)
 {
 	const struct pou *pou = sheet->pou;
@@ -104,7 +104,7 @@ static void lay_out(struct sheet *sheet, int index, int columns)
 					     index + 1, 0);
 }
 
-/* All rungs have the same columns, unless that alone would make the sheet wider. */
+/* All rungs get the same columns, unless that makes the sheet wider. */
 static void share_columns(struct sheet *sheet)
 {
 	const int columns = columns_of(sheet);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * render - `ladder-editor --render`: reads its options, loads a project, draws it, writes a
- * file. Everything is drawn by render_sheet and pages; what is compared by render_diff.
+ * file. render_sheet and pages draw; render_diff compares.
  */
 #include "editor-gtk/render/render.h"
 
@@ -20,7 +20,7 @@
 #include <string.h>
 #include <strings.h>
 
-#define MOST_PIXELS 32000 /* of a side of a PNG; cairo's bound is 32767         */
+#define MOST_PIXELS 32000 /* px of a side of a PNG; cairo's limit is 32767      */
 
 /* ---- the command line ---- */
 
@@ -170,7 +170,7 @@ static bool is_compared(int argc, char **argv)
 	return false;
 }
 
-/* What the options say together. */
+/* Refuses options that contradict each other. */
 static bool judge(const struct render_options *out, int files, bool compare)
 {
 	if (out->help)
@@ -191,7 +191,7 @@ static bool judge(const struct render_options *out, int files, bool compare)
 	return true;
 }
 
-/* @argv[0] is the program. What is wrong is told on stderr. Fails: false. */
+/* @argv[0] is the program. Errors go to stderr. Fails: false. */
 static bool parse(int argc, char **argv, struct render_options *out)
 {
 	bool compare = is_compared(argc, argv), only_files = false;
@@ -296,7 +296,7 @@ static enum render_status failed(const char *path, const char *why)
 	return RENDER_WRONG;
 }
 
-/* Is there a POU of that name, and in it a rung of that number? */
+/* Do the POU and the rung that the options name exist? */
 static bool is_there(const struct project *project, const struct render_options *options,
 		     int pou)
 {
@@ -317,7 +317,7 @@ static bool is_there(const struct project *project, const struct render_options 
 	return false;
 }
 
-/* Whole, or what was there stays. @bytes: taken over; NULL: there was no memory for them. */
+/* Writes all of it, or leaves the old file. @bytes: taken over; NULL: out of memory. */
 static enum render_status write_out(GBytes *bytes, const char *path)
 {
 	enum render_status status = RENDER_GOOD;
@@ -369,7 +369,7 @@ static enum render_status write_picture(struct picture *picture,
 	return write_png(picture, options, theme, lettering);
 }
 
-/* A PDF names neither the day nor the machine it was made on. */
+/* A PDF has no date and no name of a machine. */
 static enum render_status write_pdf(const struct project *project, int pou,
 				    const struct render_options *options,
 				    struct lettering *lettering)
@@ -384,7 +384,7 @@ static enum render_status write_pdf(const struct project *project, int pou,
 	return write_out(pdf, options->out);
 }
 
-/* Rungs as they are, or were there. */
+/* Draws rungs, or their originals. */
 static bool draw_rungs(struct ladder *ladder, int pou, const struct render_options *options,
 		       struct lettering *lettering, struct picture *picture)
 {

@@ -10,14 +10,14 @@
 #include "engine/base/diag.h"
 
 enum render_format { RENDER_SVG, RENDER_PDF, RENDER_PNG };
-/* Of a project of ClassicLadder: as it becomes here, as it is there, both. */
+/* For a project of ClassicLadder: the imported rungs, the original ones, both. */
 enum render_original { ORIGINAL_NO, ORIGINAL_ALONE, ORIGINAL_BOTH };
-/* As `ladder` has them. */
+/* As in `ladder`. */
 enum render_status { RENDER_GOOD, RENDER_NO, RENDER_WRONG };
 
 struct render_options {
-	const char *file;    /* what is drawn; with --diff the newer one          */
-	const char *older;   /* NULL: nothing is compared                        */
+	const char *file;    /* what to draw; with --diff the newer project       */
+	const char *older;   /* NULL: no comparison                              */
 	const char *out;
 	enum render_format format;
 	const char *pou;     /* NULL: all                                        */
@@ -27,17 +27,16 @@ struct render_options {
 	float width, scale;
 	struct paper paper;
 	enum render_original original;
-	bool check;          /* mark what is wrong, and say it                   */
+	bool check;          /* mark errors, and print them                      */
 	bool help;
-	const struct diag_list *diags; /* of the check; NULL: none was wanted    */
+	const struct diag_list *diags; /* of the check; NULL: not wanted         */
 };
 
 /**
- * render_main - all of `ladder-editor --render …`; call it before GTK is started
+ * render_main - runs `ladder-editor --render …`; call it before GTK is started
  *
- * Returns the exit status: 0; 1 when the file has errors that leave nothing to draw;
- * 2: wrong usage, or a file that cannot be read or written. What is wrong is said on
- * stderr.
+ * Returns the exit status: 0; 1: errors in the file leave nothing to draw; 2: wrong usage,
+ * or a file that cannot be read or written. Messages go to stderr.
  */
 int render_main(int argc, char **argv);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * render_diff - two projects compared, in one picture: rungs, lists, charts and, in words,
- * all else. The engine says which of them belong together (compare_rungs).
+ * render_diff - a comparison of two projects as one picture: rungs, lists, charts and, as
+ * text, everything else. The engine finds the pairs of rungs (compare_rungs).
  */
 #include "editor-gtk/render/render_diff.h"
 
@@ -19,13 +19,13 @@
 #include <strings.h>
 
 #define MOST_MARKS 512
-#define MARK_ROOM  16 /* px that the mark of a changed cell takes of its lower edge */
+#define MARK_ROOM  16 /* px of a cell's lower edge that the mark of a changed cell covers */
 #define TEXT_LINE  17
-#define SIGN_X     16   /* where + and - stand                                    */
-#define NUMBER_END 62   /* and to where the number of a line reaches              */
+#define SIGN_X     16   /* x of + and -                                           */
+#define NUMBER_END 62   /* right end of the number of a line                      */
 #define TEXT_X     76
 #define INDENT     7    /* px of a blank before a text                           */
-#define AROUND     3    /* lines that are the same, shown before and after        */
+#define AROUND     3    /* unchanged lines that are shown before and after a change */
 #define TINT       0.10f
 
 #define PLUS  "+"
@@ -34,16 +34,16 @@
 
 /* ---- which steps and transitions of two charts differ ---- */
 
-/* A copy of a chart that has one piece at a time, and steps that do nothing. */
+/* A copy of a chart for one piece at a time, with steps that do nothing. */
 struct plain {
 	const struct sfc_sheet *sheet;
-	const struct sfc *sfc;   /* the whole one                              */
+	const struct sfc *sfc;   /* the original                               */
 	struct pou pou;
 	struct sfc one;
 	struct sfc_piece piece[2];
-	char **text;             /* by shape; of jumps NULL                     */
-	int *like;               /* by shape: the one of the other that is the
-				    same, or was it before; -1: there is none    */
+	char **text;             /* by shape; NULL for jumps                    */
+	int *like;               /* by shape: the matching shape of the other chart; -1: none
+				    */
 	bool *same;
 };
 
@@ -76,7 +76,7 @@ static char *print(struct plain *plain, struct sfc_piece first, int count)
 	return pou_print(plain->sheet->project, &plain->pou);
 }
 
-/* From behind the first line on, with the name of what it stands in. */
+/* The piece without its first line, with the name of the macro-step it is in. */
 static char *text_of_shape(struct plain *plain, int shape)
 {
 	const int index = is_step(plain, shape) ? shape : shape - plain->sfc->step_count;
@@ -161,7 +161,7 @@ static bool is_like(const struct plain *a, int i, const struct plain *b, int k,
 	       (likeness == SAME_FROM || same_side(a, i, b, k, true));
 }
 
-/* The likest first; each has one at most. */
+/* Matches the most alike first; each has at most one match. */
 static void match(struct plain *a, struct plain *b)
 {
 	for (int likeness = ALL; likeness < LIKENESSES; likeness++)
@@ -184,7 +184,7 @@ static char *action_text(struct plain *plain, int use)
 	       print(plain, (struct sfc_piece){ PIECE_ACTION, action }, 1);
 }
 
-/* What such a line calls counts, too. */
+/* The body of a named action counts too. */
 static bool same_action(struct plain *a, int i, struct plain *b, int k)
 {
 	char *x = action_text(a, i), *y = action_text(b, k);
@@ -233,8 +233,7 @@ static void mark_all(struct plain *own, struct plain *other, unsigned int alone,
 	}
 }
 
-/* Marks (struct sfc_mark): SFC_CHANGED for what both have otherwise, SFC_REMOVED or SFC_ADDED
- * for what one of them has. */
+/* Marks (struct sfc_mark): SFC_CHANGED in both charts, SFC_REMOVED or SFC_ADDED in one. */
 static void mark_charts(const struct sfc_sheet *before, const struct sfc_sheet *after,
 		       GArray *removed, GArray *added)
 {
@@ -254,7 +253,7 @@ static void mark_charts(const struct sfc_sheet *before, const struct sfc_sheet *
 /* ---- lists, charts, declarations ---- */
 
 struct listed {
-	GArray *line;           /* struct compare_line; their texts are owned       */
+	GArray *line;           /* struct compare_line; owns the texts              */
 	GStringChunk *texts;
 };
 
@@ -271,7 +270,7 @@ static bool is_same(const struct compare_line *line)
 	return line->line_a && line->line_b;
 }
 
-/* Is a line near enough to one that differs? */
+/* Is a changed line near enough to show this one? */
 static bool is_shown(const GArray *lines, int index)
 {
 	const int from = MAX(0, index - AROUND), to = MIN((int)lines->len - 1,
@@ -347,7 +346,7 @@ static float put_lines(const struct project *a, int pou_a, const struct project 
 	return y + TEXT_LINE;
 }
 
-/* As it was (not @added) or is. */
+/* @added: the newer chart, else the older one. */
 static float put_chart(const struct sfc_sheet *chart, const GArray *marks, bool added,
 		       const struct render_options *options, struct lettering *lettering,
 		       float y, struct picture *picture)
@@ -426,9 +425,9 @@ struct comparison {
 	const struct render_options *options;
 	struct lettering *lettering;
 	struct picture *picture;
-	struct sheet *before, *after; /* of the POUs of the pair; NULL: there is none */
+	struct sheet *before, *after; /* of the two POUs; NULL: there is none */
 	int pou_a, pou_b;
-	bool headed;                  /* the POU is named already                 */
+	bool headed;                  /* the heading of the POU is drawn          */
 	float y;
 };
 
@@ -453,7 +452,7 @@ static struct sheet *sheet_of(const struct comparison *of, const struct project 
 	return sheet;
 }
 
-/* The same width for what was and what is. */
+/* Both versions get the same width. */
 static void start_pou(struct comparison *of, struct compare_pair pair)
 {
 	sheet_free(of->before);
@@ -503,7 +502,7 @@ static bool same_cell(const struct comparison *of, const struct cell *a,
 	       same_text(of, a->comment, b->comment);
 }
 
-/* Has it a column of outputs? That one is drawn at the right, however far it is. */
+/* Does the rung have outputs? They are always drawn in the last column. */
 static bool has_outputs(const struct rung *rung)
 {
 	bool has = false;
@@ -516,7 +515,7 @@ static bool has_outputs(const struct rung *rung)
 	return has;
 }
 
-/* The cell of @rung where @own, which may be wider or narrower, has this one. */
+/* The cell of @rung in the place of a cell of @own, whose width may differ. */
 static const struct cell *cell_like(const struct rung *rung, const struct rung *own,
 				    int row, int col, bool outputs)
 {
@@ -529,11 +528,11 @@ static const struct cell *cell_like(const struct rung *rung, const struct rung *
 		return rung_at(rung, row, rung->cols - 1);
 	if (col < rung->cols - outputs)
 		return rung_at(rung, row, col);
-	/* Wire that only leads on to an output that is farther away is the same. */
+	/* a longer wire to an output is no change */
 	return outputs && rung_at(own, row, col)->word == ELEM_WIRE ? &wire : &nothing;
 }
 
-/* Marks of the cells of @layout that the other rung has otherwise or has not. */
+/* Marks the cells of @layout that differ from the other rung. */
 static int mark_cells(const struct comparison *of, const struct rung *a,
 		      const struct rung *b, const struct rung_layout *layout,
 		      struct grid_mark *mark)
@@ -599,7 +598,7 @@ static void put_moved(struct comparison *of, struct compare_pair pair)
 	g_free(said);
 }
 
-/* All of a POU that is there alone, or in another language than before. */
+/* A POU that only one project has, or that has another language. */
 static void put_all(struct comparison *of, bool added)
 {
 	const struct project *project = added ? of->b : of->a;
@@ -621,7 +620,7 @@ static void put_all(struct comparison *of, bool added)
 				  of->lettering, of->y, of->picture);
 }
 
-/* Lists and charts, and what has changed from one language to another. */
+/* Lists and charts, and POUs whose language changed. */
 static void put_other(struct comparison *of)
 {
 	const struct pou *a = pou_of(of->a, of->pou_a), *b = pou_of(of->b, of->pou_b);

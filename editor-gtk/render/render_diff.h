@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * render_diff - two projects compared, as a picture of what differs.
+ * render_diff - a comparison of two projects as one picture.
  */
 #ifndef EDITOR_RENDER_DIFF_H
 #define EDITOR_RENDER_DIFF_H
@@ -8,9 +8,9 @@
 #include "editor-gtk/kit/picture.h"
 #include "editor-gtk/render/render.h"
 
-/** render_diff - what is other in project @b than in @a: rungs that were removed, added
- * and, above each other with their cells marked, changed; then lists, charts and, in
- * words, all else. */
+/** render_diff - the changes from project @a to project @b: rungs that were removed or
+ * added, changed rungs above each other with marked cells; then lists, charts and, as text,
+ * everything else. */
 void render_diff(const struct project *a, const struct project *b,
 		 const struct render_options *options, struct lettering *lettering,
 		 struct picture *picture);

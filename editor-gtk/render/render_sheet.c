@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * render_sheet - POUs below one another in one picture, or rungs of ClassicLadder as they
- * stand in its files; see render_sheet.h.
+ * render_sheet - POUs below one another in one picture, or the original rungs of a
+ * ClassicLadder project; see render_sheet.h.
  */
 #include "editor-gtk/render/render_sheet.h"
 
@@ -58,7 +58,7 @@ static float put_lines(char **lines, struct lettering *lettering, float y,
 	return y + TEXT_LINE;
 }
 
-/* What the check says of cells of this rung. */
+/* Marks the diagnostics of this rung's cells. */
 static int mark_wrong(const struct diag_list *diags, const struct rung_layout *layout,
 		      const char *pou, struct grid_mark *mark)
 {
@@ -114,7 +114,7 @@ float render_remarks(const struct sheet *sheet, int first, int end, const char *
 	return y;
 }
 
-/* Rungs first … end - 1. */
+/* Draws rungs @first … @end - 1. */
 static float put_rungs(const struct sheet *sheet, const struct render_options *options,
 		       int first, int end, float y, struct picture *picture)
 {
@@ -150,7 +150,7 @@ static float put_ladder(const struct project *project, const struct pou *pou,
 	return y;
 }
 
-/* What the check says of lines of the file in which steps and transitions begin. */
+/* Marks the diagnostics of a chart, by the lines of steps and transitions. */
 static int mark_chart(const struct diag_list *diags, const struct sfc_sheet *sheet,
 		      struct sfc_mark *mark)
 {
@@ -171,7 +171,7 @@ static int mark_chart(const struct diag_list *diags, const struct sfc_sheet *she
 	return count;
 }
 
-/* A chart, and below it what stands in it as rungs and lists. */
+/* Draws a chart, and below it its bodies: rungs and lists. */
 static float put_chart(const struct project *project, const struct pou *pou,
 		       const struct render_options *options,
 		       struct lettering *lettering, float y, struct picture *picture)
@@ -250,7 +250,7 @@ struct before {
 	float y;
 };
 
-/* All of @pou that became of @rung; GArray of int. */
+/* The rungs of @pou that come from @rung; GArray of int. */
 static GArray *became(const struct before *of, int pou, const struct classic_rung *rung)
 {
 	const struct project *project = ladder_project(of->ladder);
@@ -303,7 +303,7 @@ bool render_classic(struct ladder *ladder, int pou, const struct render_options 
 	if (!ladder_import_project(ladder))
 		return false;
 	for (int i = 0; i < ladder_project(ladder)->pou_count; i++)
-		/* A rung's number alone: of the first POU that has such a one. */
+		/* A number without a POU means the first POU with such a rung. */
 		if (pou == i || (pou < 0 && (!options->rung || of.y <= 0)))
 			put_pou(&of, i);
 	render_grow(picture, 1, of.y);
