@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cell_entry - an entry of a table; see cell_entry.h. GtkText draws the text, clipped where
- * the ellipsis begins.
+ * cell_entry - an entry of a table; see cell_entry.h. GtkText draws the text, clipped
+ * before the ellipsis.
  */
 #include "editor-gtk/kit/cell_entry.h"
 
@@ -31,7 +31,7 @@ bool cell_entry_is_cut(LadderCellEntry *entry)
 	return end.origin.x - begin.origin.x > gtk_widget_get_width(GTK_WIDGET(text));
 }
 
-/* As wide as its first characters that are seen whole in @room. */
+/* Width of the characters that fit whole into @room. */
 static float whole_width(GtkWidget *text, float room)
 {
 	const gsize count = gtk_text_get_text_length(GTK_TEXT(text));
@@ -48,7 +48,7 @@ static float whole_width(GtkWidget *text, float room)
 	return width;
 }
 
-/* In the text's own line, at its end. */
+/* At the end of the text's line. */
 static void snapshot_cut(GtkWidget *entry, GtkWidget *text, GtkSnapshot *snapshot)
 {
 	PangoLayout *ellipsis;

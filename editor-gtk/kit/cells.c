@@ -43,8 +43,8 @@ static void put_icon(GtkEntry *cell, const char *icon, const char *tip)
 	hide_empty(cell);
 }
 
-/* A colour alone would not show on an empty text. The icon replaces the one that is there,
- * until the refusal ends, so that no text moves. */
+/* The icon is needed because a colour does not show on an empty text. It replaces the icon
+ * that is there, so that no text moves. */
 static void show_icon(GtkEntry *cell, const char *why)
 {
 	struct sign *was = g_object_get_data(G_OBJECT(cell), "sign");
@@ -94,8 +94,8 @@ void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller
 
 /* ---- focus ---- */
 
-#define FRAMES_SEEN 3  /* until a new row has a place that can be scrolled to   */
-#define FRAMES_MOST 60 /* that a table may need to make it                      */
+#define FRAMES_SEEN 3  /* tries until a new row can be scrolled to              */
+#define FRAMES_MOST 60 /* that a table may need to make the cell                */
 
 struct wanted {
 	int table, index, field;
@@ -181,7 +181,7 @@ LadderPanelRow *cells_focused(GtkColumnView *table, int *field)
 
 struct take {
 	bool (*take)(GtkWidget *cell, GtkListItem *item);
-	GtkListItem *item;   /* borrowed: the cell is bound as long           */
+	GtkListItem *item;   /* borrowed while the cell is bound              */
 };
 
 void cells_on_take(GtkWidget *cell, bool (*take)(GtkWidget *cell, GtkListItem *item),

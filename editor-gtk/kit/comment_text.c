@@ -12,7 +12,7 @@ static bool is_blank(char c)
 	return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/* A blank is one, and none stands before all. */
+/* Adds a single blank between words, none at the beginning. */
 static void add_blank(GString *out)
 {
 	if (out->len && out->str[out->len - 1] != ' ')
@@ -22,7 +22,7 @@ static void add_blank(GString *out)
 char *comment_text(const char *comment)
 {
 	GString *out = g_string_new(NULL);
-	char inside = '\0'; /* '*': of (* *), '/': of a line that begins with // */
+	char inside = '\0'; /* '*': inside (* *), '/': behind // in a line */
 
 	for (; *comment; comment++) {
 		const char *ends = inside == '*' ? "*)" : "\n";

@@ -2,8 +2,8 @@
  *
  * diag_said - a diagnostic of the engine in the language of the session.
  *
- * The text is translated; its parts are mostly names of the user and stay as they are. A
- * part is translated only if it is a text of ours: of several words, or what was expected.
+ * The text is translated. Its parts are mostly names of the user and are not. A part is
+ * translated only if it is a text of ours: several words, or an expected token.
  */
 #include "editor-gtk/kit/diag_said.h"
 
@@ -12,7 +12,7 @@
 #include <glib.h>
 #include <string.h>
 
-/* A part that is a word could also be a name, such as `index`. */
+/* Single words are not translated: `index` could also be a name. */
 static bool is_ours(enum diag_id id, const char *part)
 {
 	return id == DIAG_EXPECTED || id == DIAG_TOO_MANY || id == DIAG_SFC_TOO_MANY ||

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * drop - the names that a drop-down offers; see drop.h.
+ * drop - the entries of a drop-down; see drop.h.
  */
 #include "editor-gtk/kit/drop.h"
 

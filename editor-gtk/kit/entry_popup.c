@@ -22,21 +22,21 @@ struct _LadderEntryPopup {
 	GtkWidget *line, *list, *scroller, *told;
 	struct entry_popup_calls calls;
 	GPtrArray *rows;    /* of struct entry_popup_row *                     */
-	guint made;         /* so many of them are seen, as widgets            */
-	guint making;       /* soon makes the others                           */
-	bool filling;       /* the line is changed by us                       */
+	guint made;         /* rows that are visible without scrolling, as widgets */
+	guint making;       /* timer that makes the others                     */
+	bool filling;       /* the program changes the line, not the user      */
 	guint asking;       /* idle source: asks for candidates                */
 	bool spare;         /* closed, and kept for the next line               */
-	bool done;          /* taken or given up: not left by a click elsewhere */
-	char *first;        /* the line before anything was typed               */
+	bool done;          /* taken or given up: closing is no click elsewhere */
+	char *first;        /* the text before the user typed                   */
 };
 
 G_DEFINE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, GTK_TYPE_POPOVER)
 
 #define LIST_HEIGHT 190
-#define ROWS_SEEN   8    /* at least so many fill the list                     */
+#define ROWS_SEEN   8    /* rows that fill the list                            */
 #define REST_MS     120
-#define TOLD_WIDTH  60   /* characters: most texts fit in a line                */
+#define TOLD_WIDTH  60   /* characters: most texts fit in one line              */
 
 static void row_free(gpointer pointer)
 {
@@ -61,7 +61,7 @@ void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_ro
 	g_ptr_array_add(popup->rows, copy);
 }
 
-/* The widget of a candidate: one that said another before, or a new one. */
+/* The widget for a candidate: a used one with new texts, or a new one. */
 static GtkListBoxRow *widget_of(LadderEntryPopup *popup, int index)
 {
 	GtkListBox *list = GTK_LIST_BOX(popup->list);
@@ -108,7 +108,7 @@ static gboolean make_rest(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-/* Those of candidates that are none any more. */
+/* Hides the widgets without a candidate. */
 static void hide_rest(LadderEntryPopup *popup)
 {
 	GtkListBox *list = GTK_LIST_BOX(popup->list);
@@ -118,7 +118,7 @@ static void hide_rest(LadderEntryPopup *popup)
 		gtk_widget_set_visible(GTK_WIDGET(row), FALSE);
 }
 
-/* The rows that are visible at once. */
+/* Makes the rows that are visible at once. */
 static void make_first(LadderEntryPopup *popup)
 {
 	make_rows(popup, ROWS_SEEN);
@@ -135,7 +135,7 @@ static void clear_rows(LadderEntryPopup *popup)
 	gtk_list_box_unselect_all(GTK_LIST_BOX(popup->list));
 }
 
-/* Of a candidate. */
+/* The row of a candidate. */
 static const char *row_line(LadderEntryPopup *popup, int row)
 {
 	return ((const struct entry_popup_row *)popup->rows->pdata[row])->line;
@@ -175,7 +175,7 @@ static gboolean ask_now(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-/* The letter is seen first: among thousands of symbols the list takes longer. */
+/* Candidates come after the letter is drawn: with thousands of symbols they take longer. */
 static void changed(LadderEntryPopup *popup)
 {
 	if (popup->filling)
@@ -224,7 +224,7 @@ static bool take(LadderEntryPopup *popup)
 	return good;
 }
 
-/* False: not a key of the window. A line that cannot be taken stays and says why. */
+/* False: not a key of the window. A line that cannot be taken stays open and says why. */
 static bool window_key(LadderEntryPopup *popup, GdkEvent *key)
 {
 	GtkWidget *owner = gtk_widget_get_parent(GTK_WIDGET(popup));
@@ -233,7 +233,7 @@ static bool window_key(LadderEntryPopup *popup, GdkEvent *key)
 	if (verb == VERB_COUNT || verb == VERB_undo || verb == VERB_redo)
 		return false;
 	g_object_ref(popup);
-	if (take(popup) || !*line_of(popup)) { /* of an empty one nothing was begun */
+	if (take(popup) || !*line_of(popup)) { /* an empty line is dropped */
 		ladder_entry_popup_close(popup);
 		gtk_widget_activate_action(owner, verb_row(verb)->action, NULL);
 	}
@@ -296,7 +296,7 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 
 /* ---- pasting ---- */
 
-/* Lines as one, with blanks between them. */
+/* Joins lines with blanks. */
 static char *joined(const char *text, gsize len)
 {
 	char *all = g_strstrip(g_strndup(text, len));
@@ -311,7 +311,7 @@ static char *joined(const char *text, gsize len)
 	return g_string_free(out, FALSE);
 }
 
-/* The toolkit would show their ends as signs, and a file could not hold them. */
+/* Removes line ends, which the toolkit would show as signs and a file cannot hold. */
 static void comes(GtkEditable *line, const char *text, int len, int *at)
 {
 	const gsize size = len < 0 ? strlen(text) : (gsize)len;
@@ -327,8 +327,8 @@ static void comes(GtkEditable *line, const char *text, int len, int *at)
 
 /* ---- the widget ---- */
 
-/* After a click elsewhere: takes the typed text. False: it could not be taken, and the owner
- * told so. */
+/* After a click elsewhere: takes the typed text. False: it could not be taken, and the
+ * owner was told. */
 static bool leave(LadderEntryPopup *popup)
 {
 	const struct entry_popup_calls calls = popup->calls;
@@ -343,7 +343,7 @@ static bool leave(LadderEntryPopup *popup)
 	return good;
 }
 
-/* A window that is closed while a line is typed in it: as by a click elsewhere. */
+/* A window that closes while a line is typed takes it as after a click elsewhere. */
 static bool leave_now(GtkWidget *widget, GtkListItem *unused)
 {
 	LadderEntryPopup *popup = LADDER_ENTRY_POPUP(widget);
@@ -445,7 +445,7 @@ static LadderEntryPopup *spare_of(GtkWidget *owner)
 	return child ? LADDER_ENTRY_POPUP(child) : NULL;
 }
 
-/* As if nothing had been typed into it. */
+/* Resets the line to its first text. */
 static void use_again(LadderEntryPopup *popup)
 {
 	popup->spare = false;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_popup - a line to type in at a place, with what could be meant below it.
+ * entry_popup - a line to type in at a place of a widget, with candidates below it.
  *
- * It knows nothing of ladders: its owner gives the candidates, says what a line would do and
- * takes it or not.
+ * It knows nothing of ladders: its owner gives the candidates, says what a line would do,
+ * and takes or refuses it.
  */
 #ifndef EDITOR_ENTRY_POPUP_H
 #define EDITOR_ENTRY_POPUP_H
@@ -16,44 +16,45 @@ G_DECLARE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, LADDER, ENTRY_POPUP, 
 
 struct entry_popup_row {
 	char *text, *address, *note; /* shown, in three columns                */
-	char *kind;                  /* said by a screen reader                */
-	char *line;                  /* the line with it taken                 */
+	char *kind;                  /* for a screen reader                    */
+	char *line;                  /* the line after the candidate is taken  */
 };
 
 struct entry_popup_calls {
-	/** Adds rows with ladder_entry_popup_add(); returns a text for below the line: what
-	 * Enter would do, or with @good false why it would do nothing. Freed with g_free. */
+	/** Adds candidates with ladder_entry_popup_add(). Returns the text below the line:
+	 * what Enter would do, or with @good false why it would do nothing. Freed with
+	 * g_free. */
 	char *(*changed)(void *context, const char *line, int cursor, bool *good);
-	/** Takes the line. False: not taken, the popup stays. */
+	/** Takes the line. False: refused, the popup stays open. */
 	bool (*taken)(void *context, const char *line);
-	/** The popup closed, with its line taken or not. */
+	/** The popup was closed, with its line taken or not. */
 	void (*gone)(void *context);
 	void *context;
-	/** A click elsewhere takes the line as Enter does; if it could not be taken, this is
-	 * called to tell so. NULL: a click elsewhere drops the line. */
+	/** A click elsewhere takes the line as Enter does. Called if that fails, to show
+	 * the reason. NULL: a click elsewhere drops the line. */
 	void (*left)(void *context, const char *line);
-	bool proposes; /* the first text is a proposal: a click elsewhere takes it
-			  even if nothing was typed                            */
+	bool proposes; /* the first text is a proposal: a click elsewhere takes it even if
+			  nothing was typed */
 };
 
-/** ladder_entry_popup_new - @owner: its parent; a popup that @owner kept is used again.
+/** ladder_entry_popup_new - @owner: its parent; the popup that @owner kept is used again.
  * @prompt: what to type; @text: the first text, selected unless @typed. */
 GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const char *text,
 				  bool typed, const struct entry_popup_calls *calls);
-/** ladder_entry_popup_add - one more candidate; its strings are copied. */
+/** ladder_entry_popup_add - adds a candidate; its strings are copied. */
 void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_row *row);
 /** ladder_entry_popup_ask - asks its owner for the candidates again. */
 void ladder_entry_popup_ask(LadderEntryPopup *popup);
-/** ladder_entry_popup_select - of its line, in bytes. */
+/** ladder_entry_popup_select - selects a part of its line, in bytes. */
 void ladder_entry_popup_select(LadderEntryPopup *popup, gsize from, gsize to);
-/** ladder_entry_popup_show - at @cell of its owner. */
+/** ladder_entry_popup_show - opens it at @cell of its owner. */
 void ladder_entry_popup_show(LadderEntryPopup *popup, const GdkRectangle *cell);
-/** ladder_entry_popup_keep - closes it and keeps it for its owner's next line: to make one
- * takes as long as everything else that a key does. It may be called from a callback. */
+/** ladder_entry_popup_keep - closes it and keeps it for its owner's next line: making one
+ * takes as long as all other work of a key. It may be called from a callback. */
 void ladder_entry_popup_keep(LadderEntryPopup *popup);
-/** ladder_entry_popup_close - without taking anything. */
+/** ladder_entry_popup_close - closes it without taking the line. */
 void ladder_entry_popup_close(LadderEntryPopup *popup);
-/** ladder_entry_popup_drop - removes the popup that @owner kept; when @owner is disposed. */
+/** ladder_entry_popup_drop - removes the popup that @owner kept, when @owner is disposed. */
 void ladder_entry_popup_drop(GtkWidget *owner);
 
 #endif

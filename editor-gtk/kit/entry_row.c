@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_row - a candidate in one widget; see entry_row.h. It knows nothing of lists.
+ * entry_row - a candidate in one widget; see entry_row.h.
  */
 #include "editor-gtk/kit/entry_row.h"
 #include "editor-gtk/kit/gtk48/tip.h"
@@ -13,14 +13,14 @@ enum { TEXT, ADDRESS, NOTE, COLUMNS };
 #define GAP    12   /* px between columns                                       */
 #define QUIET  0.75 /* opacity of the note                                      */
 
-/* In characters: a column is never narrower, and wants to be no wider. */
+/* In characters: least and largest natural width of a column. */
 static const int least[COLUMNS] = { 14, 8, 18 }, most[COLUMNS] = { 22, 12, 44 };
 
 struct _LadderEntryRow {
 	GtkWidget parent;
 	PangoLayout *layout[COLUMNS]; /* NULL: not measured yet                */
 	char *text[COLUMNS];
-	int width[COLUMNS];           /* px that they want                     */
+	int width[COLUMNS];           /* px of natural width                   */
 	int letter, height;           /* px of a character, of the row         */
 };
 

@@ -4,7 +4,7 @@
  */
 #include "editor-gtk/kit/installed.h"
 
-/* @path, which it takes; NULL if the test fails. */
+/* Returns @path, or frees it and returns NULL if the test fails. */
 static char *if_is(char *path, GFileTest wanted)
 {
 	if (g_file_test(path, wanted))
@@ -13,7 +13,7 @@ static char *if_is(char *path, GFileTest wanted)
 	return NULL;
 }
 
-/* Of this program. */
+/* Folder of this program. */
 static char *bin_folder(void)
 {
 	char *program = g_file_read_link("/proc/self/exe", NULL);

@@ -13,8 +13,8 @@
 #define LAID_MOST 2000  /* of a style, laid out: 2 KB each                      */
 #define ELLIPSIS "\xe2\x80\xa6"
 
-/* Ascent and descent are those of the room a text gets, not of one font: names may be
- * Chinese, and the font for them is another. */
+/* Ascent and descent are those of the reserved room, not of one font: Chinese names use
+ * another font. */
 static const struct letter_style style[LETTERS] = {
 	[LETTER_SYMBOL]  = { "symbol", 10 * PT, PANGO_WEIGHT_SEMIBOLD, false, 13, 4 },
 	[LETTER_ADDRESS] = { "address", 8.5f * PT, PANGO_WEIGHT_NORMAL, true, 11, 3 },
@@ -31,18 +31,18 @@ static const struct letter_style style[LETTERS] = {
 
 struct known {
 	enum letter letter;
-	int bound;           /* 1/64 px: of two that differ by less one may fit  */
+	int bound;           /* 1/64 px: of two bounds that differ by less one may fit */
 	float width;
-	char *fit;           /* the text that is drawn                         */
+	char *fit;           /* the text as drawn                              */
 	size_t len;
-	char text[];         /* as it was given                                */
+	char text[];         /* the text as given                              */
 };
 
 struct lettering {
 	PangoContext *context;
 	PangoLayout *layout[LETTERS]; /* for measuring                          */
 	GHashTable *known;
-	/* Of drawn texts: shaping them is most of the cost of a drawing. */
+	/* Laid out texts: shaping is most of the cost of a drawing. */
 	GHashTable *laid[LETTERS];
 };
 
@@ -102,7 +102,7 @@ PangoContext *lettering_context(void)
 	PangoContext *context = pango_font_map_create_context(map);
 	cairo_font_options_t *options = cairo_font_options_create();
 
-	/* The same widths at every zoom and on every surface. */
+	/* Widths are the same at every zoom and on every surface. */
 	cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
 	cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
 	cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
@@ -173,7 +173,7 @@ static float measure(struct lettering *lettering, enum letter letter, const char
 	return (float)box.width / PANGO_SCALE;
 }
 
-/* Does a character stand with the one before it, so that nothing is cut between? */
+/* Is the character part of the one before it, so that the text must not be cut there? */
 static bool clings(const char *at)
 {
 	gunichar c = g_utf8_get_char(at);
@@ -182,7 +182,7 @@ static bool clings(const char *at)
 	       (c >= 0x1f3fb && c <= 0x1f3ff);
 }
 
-/* The longest beginning that fits with an ellipsis behind it, found by halving. */
+/* The longest beginning that fits with an ellipsis, found by bisection. */
 static char *shorten(struct lettering *lettering, enum letter letter, const char *text,
 		     float bound)
 {

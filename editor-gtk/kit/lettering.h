@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * lettering - the styles of type, and how wide a text is in one of them.
+ * lettering - the styles of type, and the width of a text in each.
  *
- * Texts are measured with Pango and remembered, because a sheet has the same names over and
- * over. A text that is longer than its bound is cut with an ellipsis here, so that screen,
- * SVG and PDF show the same.
+ * Texts are measured with Pango and remembered, because a sheet repeats the same names. A
+ * text longer than its bound is cut with an ellipsis here, so that screen, SVG and PDF show
+ * the same.
  */
 #ifndef EDITOR_LETTERING_H
 #define EDITOR_LETTERING_H
@@ -22,7 +22,7 @@ enum letter {
 	LETTER_TYPE,    /* TON in its box; the P of |P|                         */
 	LETTER_PIN,
 	LETTER_OPERAND, /* values at pins, expressions: monospace               */
-	LETTER_VALUE,   /* live: monospace, digits do not dance                 */
+	LETTER_VALUE,   /* live values: monospace, so that digits keep their places */
 	LETTER_BADGE,   /* F, 2×                                                */
 	LETTER_HEADING, /* of a page                                            */
 	LETTERS
@@ -37,10 +37,10 @@ struct lettered {
 struct lettering;
 
 /**
- * lettering_new - styles upon a context
- * @context: of a widget, or of lettering_context(); a reference is kept. NULL: no font
- *           at all, every character has the same width: for tests that must say the
- *           same on every machine. Nothing can be painted with it.
+ * lettering_new - styles for a context
+ * @context: of a widget, or of lettering_context(); a reference is kept. NULL: no font at
+ *           all, every character has the same width: for tests that give the same on every
+ *           machine. Nothing can be painted with it.
  * @family:  fonts for all but monospace text; NULL: the usual ones
  *
  * Owns: the caller, lettering_free().
@@ -61,17 +61,18 @@ void lettering_trim(struct lettering *lettering);
 struct lettered lettering_fit(struct lettering *lettering, enum letter letter,
 			      const char *text, ptrdiff_t len, float bound);
 
-/** lettering_wrap - how many bytes of @text fit on one line of @width px, broken
- * between words if it can be; at least one character. */
+/** lettering_wrap - the number of bytes of @text that fit on one line of @width px, broken
+ * between words if possible; at least one character. */
 size_t lettering_wrap(struct lettering *lettering, enum letter letter, const char *text,
 		      float width);
 
-/** lettering_lines - how many lines @text takes when it is broken so; at least one. */
+/** lettering_lines - the number of lines of @text when it is wrapped; at least one. */
 int lettering_lines(struct lettering *lettering, enum letter letter, const char *text,
 		    float width);
 
-/** lettering_line - the next line of a text, without the blanks at its end: those need no
- * room. @text: goes on behind it. @last: all that is left, with an ellipsis if it is more */
+/** lettering_line - the next line of a text, without blanks at its end.
+ * @text: moves behind the line. @last: takes all that is left, with an ellipsis if it is
+ *        too long */
 struct lettered lettering_line(struct lettering *lettering, enum letter letter,
 			       const char **text, float width, bool last);
 
@@ -86,7 +87,7 @@ struct letter_style {
 	float size;         /* px                                              */
 	PangoWeight weight;
 	bool mono;
-	float ascent;       /* px above the baseline that texts may take        */
+	float ascent;       /* px above the baseline that texts may use         */
 	float descent;
 };
 /** letter_style - lives for ever. */

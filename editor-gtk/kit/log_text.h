@@ -7,7 +7,7 @@
 
 #include <gtk/gtk.h>
 
-/** log_text_put - adds a line: the time, @gap, @text. The last thousand lines stay. */
+/** log_text_put - adds a line: the time, @gap, @text. Keeps the last thousand lines. */
 void log_text_put(GtkTextView *view, const char *gap, const char *text);
 
 #endif

@@ -44,7 +44,7 @@ const char *panel_row_text(const LadderPanelRow *row, int column)
 	return row->text[column] ? row->text[column] : "";
 }
 
-/* Would a reader see no difference? */
+/* Are all visible texts equal? */
 static bool is_equal(const LadderPanelRow *a, const LadderPanelRow *b)
 {
 	for (int i = 0; i < PANEL_TEXTS; i++)
@@ -80,7 +80,7 @@ static bool is_same(GListModel *model, guint at, gpointer row)
 	return same;
 }
 
-/* Are they the same declarations in the same order, of which one may be renamed? */
+/* Same declarations in the same order? One of them may be renamed. */
 static bool are_same(GListModel *model, guint first, guint count, GPtrArray *rows)
 {
 	int renamed = 0;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * panel_row - a row of a panel's list: texts and the place that they are about. The lists of
- * problems, uses and symbols hold such rows. Signal: changed (): the row of the same
- * declaration has other texts now.
+ * panel_row - a row of a panel's list: texts, and the place they are about. The lists of
+ * problems, uses and symbols have such rows. Signal: changed (): the same declaration has
+ * other texts now.
  */
 #ifndef EDITOR_PANEL_ROW_H
 #define EDITOR_PANEL_ROW_H
@@ -19,14 +19,14 @@ G_DECLARE_FINAL_TYPE(LadderPanelRow, ladder_panel_row, LADDER, PANEL_ROW, GObjec
 
 struct _LadderPanelRow {
 	GObject parent_instance;
-	char *text[PANEL_TEXTS];   /* a column each; NULL: ""                  */
+	char *text[PANEL_TEXTS];   /* one for each column; NULL: ""            */
 	char *spoken;              /* of the whole row, for a screen reader    */
-	char *note;                /* the problem that it has; NULL: none      */
-	gint64 number;             /* how its place sorts                      */
+	char *note;                /* its problem; NULL: none                  */
+	gint64 number;             /* sort key of its place                    */
 	enum panel_tone tone;
 	int pou, rung, row, col;   /* 0-based; -1: the whole                   */
-	int table, index;          /* of a declaration; -1: it is none         */
-	unsigned int flags;        /* the panel's own                          */
+	int table, index;          /* of a declaration; -1: none               */
+	unsigned int flags;        /* for use by the panel                     */
 };
 
 /** ladder_panel_row_new - without texts and place. */
@@ -35,9 +35,9 @@ LadderPanelRow *ladder_panel_row_new(void);
 const char *panel_row_text(const LadderPanelRow *row, int column);
 /** panel_row_matches - does one of its texts contain @wanted, in any case? */
 bool panel_row_matches(const LadderPanelRow *row, const char *wanted);
-/** panel_rows_update - replaces the rows of a list by @rows. Equal rows at both ends stay, and
- * with them selection and scrolling. Rows of the same declarations are changed, not replaced,
- * so that typing into one goes on and sorting waits. @rows: their contents may be moved. */
+/** panel_rows_update - replaces the rows of a list by @rows. Equal rows at both ends stay,
+ * with selection and scrolling. Rows of the same declarations are changed, not replaced, so
+ * that an open edit stays and sorting waits. @rows: their contents may be moved. */
 void panel_rows_update(GListStore *store, GPtrArray *rows);
 
 #endif

@@ -225,7 +225,7 @@ static graphene_rect_t bounds_of(const struct stroke *s)
 	return GRAPHENE_RECT_INIT(s->x, s->y, s->w, s->h);
 }
 
-/* Half the angle of an arc that is the same above and below its centre; 0: it is not. */
+/* Half the angle of an arc that is symmetric above and below its centre; 0: it is not. */
 static float opening_of(const struct stroke *s)
 {
 	return fabsf(sinf((s->h + s->to) / 2)) < 0.001f ? (s->to - s->h) / 2 : 0;
@@ -251,7 +251,7 @@ static bool wants_cairo(const struct stroke *s)
 	return true;
 }
 
-/* Strokes from @from on that follow one another, as one node. Returns the first behind them. */
+/* Consecutive strokes from @from on as one node. Returns the first behind them. */
 static int by_cairo(GtkSnapshot *snapshot, const struct picture *picture, int from,
 		    const struct theme *theme)
 {
@@ -308,7 +308,7 @@ static void line_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
 		slanting(snapshot, s, color);
 }
 
-/* A ring; of the same width as its radius it is a disc. */
+/* A ring; with a width equal to its radius it is a disc. */
 static void ring(GtkSnapshot *snapshot, const struct stroke *s, float radius, float thick,
 		 const GdkRGBA *color)
 {
@@ -321,7 +321,7 @@ static void ring(GtkSnapshot *snapshot, const struct stroke *s, float radius, fl
 	gtk_snapshot_append_border(snapshot, &circle, width, colors);
 }
 
-/* Bounds of an arc; its ends from the radius @inner on. */
+/* The bounds of an arc. Its ends begin at radius @inner. */
 static graphene_rect_t arc_bounds(const struct stroke *s, float inner)
 {
 	const float opening = opening_of(s), outer = s->w + s->width / 2;
@@ -348,7 +348,7 @@ static void arc_as_ring(GtkSnapshot *snapshot, const struct stroke *s,
 		gtk_snapshot_pop(snapshot);
 }
 
-/* All that an image of an arc depends on: of as many bytes as its members. */
+/* Key of an arc's image, compared as bytes: no padding. */
 struct arc_key {
 	struct { float x, y, radius, from, to, width; } at; /* px of the image  */
 	GdkRGBA color;
@@ -395,7 +395,7 @@ static GdkTexture *arc_draw(const struct arc_key *key, int width, int height)
 	return texture;
 }
 
-/* Rounded to a quarter of a px, which nobody sees, so that there are few images. */
+/* Rounded to a quarter of a px, which is not visible, so that there are few images. */
 static struct stroke arc_placed(const struct stroke *s)
 {
 	struct stroke placed = *s;
@@ -405,8 +405,8 @@ static struct stroke arc_placed(const struct stroke *s)
 	return placed;
 }
 
-/* Painted in a third of the time that a path takes. Images are kept for as long as the
- * program runs: two for each colour, weight and quarter of a px of coils that was seen. */
+/* Painting an image takes a third of the time of a path. Images are never freed: two for
+ * each colour, weight and quarter of a px of coils that was drawn. */
 static void arc_as_image(GtkSnapshot *snapshot, const struct stroke *stroke,
 			 const GdkRGBA *color, float scale)
 {
@@ -430,7 +430,7 @@ static void arc_as_image(GtkSnapshot *snapshot, const struct stroke *stroke,
 	gtk_snapshot_append_texture(snapshot, image, &box);
 }
 
-/* An image looks as sharp as a path where its px are those of the screen. */
+/* An image is as sharp as a path if its px are those of the screen. */
 static void arc_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
 			    const GdkRGBA *color, float scale)
 {

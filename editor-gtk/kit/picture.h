@@ -2,9 +2,9 @@
  *
  * picture - a drawing as a list of strokes.
  *
- * A drawing is made once, as this list. It becomes a render node for the screen, cairo for
- * PDF, print and PNG, or SVG with real text; tests compare it as lines. Strokes have tokens
- * (theme.h) and styles of type (lettering.h) instead of colours and fonts.
+ * A drawing is made once, as this list. It becomes a render node for the screen, cairo
+ * calls for PDF, print and PNG, or SVG with real text; tests compare it as lines. Strokes
+ * have tokens (theme.h) and styles of type (lettering.h) instead of colours and fonts.
  */
 #ifndef EDITOR_PICTURE_H
 #define EDITOR_PICTURE_H
@@ -41,12 +41,12 @@ struct picture {
 	struct stroke *stroke;
 	int count, size;
 	float width, height;     /* px at 100 %                                 */
-	float dx, dy;            /* added to the strokes that follow            */
-	float scale;             /* device px of a px, for nodes; 0: any        */
+	float dx, dy;            /* origin of the strokes that follow           */
+	float scale;             /* device px of a px, for nodes; 0: unknown    */
 	GStringChunk *texts;
 };
 
-/** picture_init - empty. Give it back with picture_clear(). */
+/** picture_init - an empty picture. Free it with picture_clear(). */
 void picture_init(struct picture *picture);
 void picture_clear(struct picture *picture);
 /** picture_move - sets the origin of the strokes that follow. */
@@ -74,7 +74,7 @@ void picture_snapshot(const struct picture *picture, const struct theme *theme,
  * the picture is empty. */
 GskRenderNode *picture_node(const struct picture *picture, const struct theme *theme,
 			    struct lettering *lettering);
-/** picture_cairo - upon any surface; text stays text in a PDF. */
+/** picture_cairo - on any surface; text stays text in a PDF. */
 void picture_cairo(const struct picture *picture, const struct theme *theme,
 		   struct lettering *lettering, cairo_t *cr);
 /** picture_svg - a whole SVG file, text as text. Owns: the caller, g_free.

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * theme - the token table; see theme.h. Ratios are computed by tests/editor/kit/test_theme.c.
+ * theme - the token table; see theme.h. tests/editor/kit/test_theme.c computes the
+ * contrast.
  */
 #include "editor-gtk/kit/theme.h"
 
@@ -16,7 +17,7 @@
 	[TOKEN_GUTTER] = HEX(g), [TOKEN_LINE] = HEX(l), [TOKEN_FOUND] = HEX(y) }
 #define SCREEN .idle_width = 1.5f, .power_width = 3, .shape_width = 2, .rail_width = 3
 
-/* With blue power the accent is violet: one strong colour means one thing. */
+/* With blue power the accent is violet, so that no two meanings share a strong colour. */
 static const struct theme table[THEME_KINDS][THEME_POWERS] = {
 	[THEME_LIGHT] = {
 		{ COLORS(0xffffff, 0x1d2125, 0x77767b, 0x0f8a4c, 0xb35c00, 0xc01c28,

@@ -6,8 +6,8 @@
  * colours from here and not from CSS, so that all of them look the same.
  *
  * Text keeps 4.5 : 1 against the sheet and graphics 3 : 1 (tests/editor/kit/test_theme.c).
- * Power is told by weight and fill as well as by colour: light power and idle wire differ
- * by almost nothing in luminance.
+ * Power is shown by weight and fill as well as by colour: light power and idle wire have
+ * nearly the same luminance.
  */
 #ifndef EDITOR_THEME_H
 #define EDITOR_THEME_H
@@ -21,7 +21,7 @@ enum theme_kind {
 	THEME_PRINT,                         /* black; power is double weight   */
 	THEME_KINDS
 };
-/* The colour of power: most editors', or that of S7-200 and GX Works. */
+/* The colour of power: that of most editors, or of S7-200 and GX Works. */
 enum theme_power { THEME_GREEN, THEME_BLUE, THEME_POWERS };
 
 enum token {
@@ -35,7 +35,7 @@ enum token {
 	TOKEN_COMMENT, /* comments, addresses                                  */
 	TOKEN_BADGE,   /* text on a ground of TOKEN_FORCE or TOKEN_BLOCKS      */
 	TOKEN_BLOCKS,  /* an element that blocks power                         */
-	/* Grounds and hairlines: decoration only. */
+	/* Backgrounds and hairlines: decoration only. */
 	TOKEN_GUTTER,  /* below the rung numbers                               */
 	TOKEN_LINE,    /* between rungs                                        */
 	TOKEN_FOUND,   /* behind a search hit                                  */

@@ -52,7 +52,7 @@ const char *verb_group_label(enum verb_group group)
 
 struct key_row {
 	enum key_scheme scheme;
-	enum verb verb;    /* VERB_COUNT: a word                               */
+	enum verb verb;    /* VERB_COUNT: a word of the catalogue              */
 	const char *word;
 	const char *keys;
 };
@@ -67,7 +67,7 @@ static const struct key_row key_rows[] = {
 #include "editor-gtk/kit/key_schemes.def"
 };
 
-/* The keys that hold; only verbs_use_scheme() changes them. */
+/* The keys in use; only verbs_use_scheme() changes them. */
 static char *keys_now[VERB_COUNT];
 static enum key_scheme scheme_now;
 static GListStore *shortcuts[VERB_BOTH]; /* by verb_where: of sheets and charts */
@@ -87,7 +87,7 @@ static bool same_key(const char *a, const char *b)
 	       state_a == state_b;
 }
 
-/* Keys of sheets and of charts are not in each other's way. */
+/* The same key may have one meaning in sheets and another in charts. */
 static bool is_apart(const struct key_row *row, enum verb verb)
 {
 	const enum verb_where where = row->word ? VERB_SHEET : rows[row->verb].where;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * verbs - the rows of verbs.def as a table.
- *
- * Here are the names, keys and groups of verbs. Windows and sheets do what they name.
+ * verbs - the rows of verbs.def as a table: names, keys and groups. Windows and sheets do
+ * the work.
  */
 #ifndef EDITOR_VERBS_H
 #define EDITOR_VERBS_H
@@ -32,42 +31,42 @@ struct verb_row {
 
 /** verb_row - lives for ever. */
 const struct verb_row *verb_row(enum verb verb);
-/** verb_find - of an action's name, "win.save"; VERB_COUNT: none. */
+/** verb_find - by an action's name, "win.save"; VERB_COUNT: none. */
 enum verb verb_find(const char *action);
 /** verb_group_label - not translated. */
 const char *verb_group_label(enum verb_group group);
-/** verb_keys - the keys of the scheme in use, with | between them; "": none. Borrowed until
- * the scheme changes. */
+/** verb_keys - the keys in the scheme in use, separated by |; "": none. Borrowed until the
+ * scheme changes. */
 const char *verb_keys(enum verb verb);
-/** keys_label - the first key as people read it; "": none. Caller frees. */
+/** keys_label - the first key as shown to the user; "": none. Caller frees. */
 char *keys_label(const char *keys);
-/** verb_keys_label - "Ctrl+S" as people read it; "" if it has none. Caller frees. */
+/** verb_keys_label - "Ctrl+S"; "" if it has none. Caller frees. */
 char *verb_keys_label(enum verb verb);
 
-/** verb_tell - adds "F5: Contact" to a line, if the verb has a key. */
+/** verb_tell - appends "F5: Contact" to a line, if the verb has a key. */
 void verb_tell(GString *line, enum verb verb);
 
-/* Maps of keys, key_schemes.def. */
+/* Schemes of keys, key_schemes.def. */
 enum key_scheme {
 #define SCHEME(id, name) SCHEME_##id,
 #include "editor-gtk/kit/key_schemes.def"
 	KEY_SCHEMES
 };
-/** key_scheme_name - the editor that it follows; never translated. */
+/** key_scheme_name - the editor it comes from; never translated. */
 const char *key_scheme_name(enum key_scheme scheme);
-/** verb_keys_of - in a scheme. Caller frees. */
+/** verb_keys_of - the keys of a verb in a scheme. Caller frees. */
 char *verb_keys_of(enum verb verb, enum key_scheme scheme);
-/** key_scheme_put - word number @index with keys in a scheme; false: there is none. */
+/** key_scheme_put - word number @index with keys in a scheme; false: there are no more. */
 bool key_scheme_put(enum key_scheme scheme, int index, const char **word,
 		    const char **keys);
-/** verbs_use_scheme - all windows and sheets use this scheme from now on. @application may be
+/** verbs_use_scheme - switches all windows and sheets to this scheme. @application may be
  * NULL. */
 void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme);
 /** verb_of_key - the WINDOW verb of a key; VERB_COUNT: none. For widgets that handle keys
  * before the window. */
 enum verb verb_of_key(GdkEvent *key);
-/** verbs_controller - the keys of all SHEET or CHART verbs, and of those of BOTH; follows
- * the scheme. Owns: the widget it is added to. */
+/** verbs_controller - handles the keys of all SHEET or CHART verbs, and of those of BOTH,
+ * in the scheme in use. Owns: the widget it is added to. */
 GtkEventController *verbs_controller(enum verb_where where);
 
 #endif

@@ -15,7 +15,7 @@ void popover_drop(GtkWidget *popover)
 		gtk_widget_unparent(popover);
 }
 
-/* A widget that is disposed unparents only the children that it made itself. */
+/* A disposed widget unparents only the children that it made itself. */
 void popover_put(GtkWidget *popover, GtkWidget *parent)
 {
 	gtk_widget_set_parent(popover, parent);
@@ -80,8 +80,8 @@ static bool is_beside(GtkWidget *focus, gpointer button)
 	return focus && !gtk_widget_is_ancestor(focus, GTK_WIDGET(button));
 }
 
-/* Unless a command moved the focus. gtk_widget_grab_focus() would select the text of an
- * entry. */
+/* Keeps the focus if a command moved it. gtk_widget_grab_focus() would select the text of
+ * an entry. */
 static void give_back(GtkMenuButton *button)
 {
 	GtkWidget *then = g_object_get_data(G_OBJECT(button), "then");
@@ -137,14 +137,15 @@ static gboolean give_up_surface(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-/* Before any frame, but not in the midst of what hides it. */
+/* Before the next frame, but not inside the handlers that hide it. */
 static gboolean closed(GSignalInvocationHint *hint, guint count, const GValue *values,
 		       gpointer data)
 {
 	GtkPopover *popover = g_value_get_object(values);
 
 	(void)hint, (void)count, (void)data;
-	if (gtk_popover_get_autohide(popover)) /* others never have the pointer grabbed */
+	if (gtk_popover_get_autohide(popover)) /* only popovers that close by themselves grab
+						  the pointer */
 		g_idle_add_full(G_PRIORITY_HIGH, give_up_surface, g_object_ref(popover),
 				g_object_unref);
 	return TRUE; /* of the next one, too */

@@ -10,14 +10,14 @@
 #define FOLLOW_MS 100
 
 struct slow_bar {
-	GtkAdjustment *adjustment; /* a reference                             */
-	GtkWidget *scrollbar;      /* which has this                          */
+	GtkAdjustment *adjustment; /* holds a reference                       */
+	GtkWidget *scrollbar;      /* its adjustment                          */
 	gboolean level;
-	double value;              /* that the slider shows                   */
+	double value;              /* the value that the slider shows         */
 	guint timer;
 };
 
-/* Is the slider a pixel or more off? In a long sheet one step of a wheel is less. */
+/* Is the slider a pixel or more off? In a long sheet one wheel step moves it less. */
 static gboolean is_behind(const struct slow_bar *bar)
 {
 	GtkAdjustment *of = bar->adjustment;
@@ -49,7 +49,7 @@ static void moved(struct slow_bar *bar)
 		bar->timer = g_timeout_add(FOLLOW_MS, follow, bar);
 }
 
-/* A person drags the slider, or presses beside it. */
+/* The user drags the slider, or presses beside it. */
 static gboolean by_hand(struct slow_bar *bar)
 {
 	g_clear_handle_id(&bar->timer, g_source_remove);

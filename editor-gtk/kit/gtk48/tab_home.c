@@ -11,10 +11,10 @@
 #include <stdbool.h>
 
 struct home {
-	AdwTabView *view; /* not held: it is only compared                        */
+	AdwTabView *view; /* only compared, no reference                          */
 	AdwTabPage *out;  /* the last tab that was detached; a weak pointer       */
 	int place;        /* where it was                                         */
-	bool begged;      /* libadwaita asked for a new window: it comes back      */
+	bool begged;      /* libadwaita asked for a new window: the tab comes back */
 };
 
 static void forget(gpointer home)
@@ -36,7 +36,7 @@ static void listen(gpointer to, const char *signal, GCallback act, struct home *
 
 /* ---- which tabs are accepted ---- */
 
-/* The dragged tab; NULL: another thing is dragged, or a tab of another program. */
+/* The dragged tab; NULL: something else is dragged, or a tab of another program. */
 static AdwTabPage *dragged(GdkDrop *drop)
 {
 	GdkDrag *drag = gdk_drop_get_drag(drop);

@@ -7,7 +7,7 @@
 #include <pango/pango.h>
 #include <string.h>
 
-#define COLUMNS 60          /* of a line                                       */
+#define COLUMNS 60          /* columns of a line                               */
 #define TIP     "tip"       /* of a widget                                     */
 #define UNSEEN  0x2060      /* WORD JOINER: a character without width          */
 
@@ -123,6 +123,6 @@ void tip_init(void)
 {
 	GtkWidgetClass *class = g_type_class_ref(GTK_TYPE_WIDGET);
 
-	class->query_tooltip = query_tooltip; /* which those below it inherit */
+	class->query_tooltip = query_tooltip; /* inherited by all subclasses */
 	g_type_class_unref(class);
 }
