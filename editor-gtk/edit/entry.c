@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry - what a line of quick entry means.
+ * entry - the meaning of a line of quick entry.
  *
- * It is an expression, a drawn element, a mnemonic with its operand, or just a name: in
- * this order. A name that is declared wins over a mnemonic that stands alone, and so does
- * one that AT or a colon follows.
+ * The line is tried as an expression, a drawn element, a mnemonic with its operand, and a
+ * plain name, in this order. A declared name wins over a mnemonic without operand; so does
+ * a name before AT or a colon.
  */
 #include "editor-gtk/edit/entry_expression.h"
 #include "editor-gtk/edit/grid_edit.h"
@@ -93,9 +93,9 @@ static bool is_operator(const struct lex *lex)
 	return false;
 }
 
-/* Does an operator stand behind the first operand of the line, as in X := Y + 1? A word
- * with parameters has := further on. Behind a type, too, := is one: a line of quick entry
- * gives no initial values. */
+/* Does an operator follow the first operand, as in X := Y + 1? After a word, := belongs to
+ * a parameter. After a type, := makes it an expression too: quick entry sets no initial
+ * values. */
 static bool is_expression(const char *text, size_t len)
 {
 	struct lex lex;
@@ -120,14 +120,14 @@ static bool is_expression(const char *text, size_t len)
 /* ---- parameters of a box: by name, or in their order ---- */
 
 struct value {
-	const char *name;    /* of its pin; name_len 0: the line says none      */
+	const char *name;    /* of the pin; name_len 0: given by position       */
 	size_t name_len;
 	bool output, inverse;
-	const char *text;    /* of a new name with its declaration              */
+	const char *text;    /* with its declaration, if it is a new name       */
 	size_t len;
 };
 
-/* Of a line: there are no more than every other byte. */
+/* A value takes at least two bytes of the line. */
 struct values {
 	struct value value[ENTRY_TEXT / 2];
 	int count;
@@ -142,7 +142,7 @@ static const char *text_end(const char *text, const char *end)
 	return stop < end ? stop + 1 : end;
 }
 
-/* Where the value at the lexer ends: `-5`, `Table[i].X`, `T#5s`, `'text'`, `New AT %MW4`. */
+/* The end of a value: `-5`, `Table[i].X`, `T#5s`, `'text'`, `New AT %MW4`. */
 static const char *value_end(struct lex *lex)
 {
 	const char *text = lex->token.text;
@@ -194,7 +194,7 @@ static const struct word_pin *pin_of(const struct word_row *row, int index)
 	return row->kind == WORD_FN ? word_input(row, (uint32_t)index) : &row->pin[index];
 }
 
-/* A literal as it is kept: 5s becomes T#5s. False: it is none. */
+/* Adds a literal in its stored form: 5s becomes T#5s. False: it is no literal. */
 static bool add_literal(const struct value *value, char *out, size_t size, bool *fits)
 {
 	struct literal literal;
@@ -292,7 +292,7 @@ static bool add_named(const struct entry_place *place, const struct word_row *ro
 	return add_pin(place, &fit, spelled, value, entry);
 }
 
-/* Name of input @index of a function, also past its named pins: IN3 behind IN2. */
+/* Name of input @index of a function; past the named pins: IN3 after IN2. */
 static void input_name(const struct word_row *row, int index, char *out, size_t size)
 {
 	const char *last;
@@ -308,7 +308,7 @@ static void input_name(const struct word_row *row, int index, char *out, size_t 
 		 word_last_number(row) + index - row->pin_count + 1);
 }
 
-/* The last value of a function is where its result goes, unless power is its result. */
+/* The last value of a function is its result, unless the result is its power. */
 static bool add_inputs(const struct entry_place *place, const struct word_row *row,
 		       const struct value *value, int count, enum iec_type shared,
 		       struct entry *entry)
@@ -331,7 +331,7 @@ static bool add_inputs(const struct entry_place *place, const struct word_row *r
 	return !out || add_pin(place, &result, "OUT", &value[inputs], entry);
 }
 
-/* Values of a block in their order: for its inputs that are not BOOL. */
+/* Values of a block by position: its inputs that are not BOOL. */
 static bool add_block_inputs(const struct entry_place *place, const struct word_row *row,
 			     const struct value *value, int count, struct entry *entry)
 {
@@ -350,7 +350,7 @@ static bool add_block_inputs(const struct entry_place *place, const struct word_
 	       entry_wrong(entry, N_("there are more values than inputs of the box"), "", 0);
 }
 
-/* First values of a timer or counter of the catalogue, if the line has none. */
+/* Default values of a timer or counter, if the line has none. */
 static bool add_first_values(const struct word_row *row, struct entry *entry)
 {
 	const bool counts = !strcmp(row->family, "Counters");
@@ -372,7 +372,7 @@ static bool add_first_values(const struct word_row *row, struct entry *entry)
 	return true;
 }
 
-/* Is it at a pin whose type does not depend on the others? */
+/* Does its pin have a type that does not depend on other pins? */
 static bool is_alone(const struct word_row *row, const struct value *value, int number)
 {
 	const int index = value->name_len ? word_pin_find(row, value->name,
@@ -382,7 +382,7 @@ static bool is_alone(const struct word_row *row, const struct value *value, int 
 	       (pin_of(row, index)->own || pin_of(row, index)->type != IEC_NONE);
 }
 
-/* Of one value; IEC_NONE: unknown. Then @guessed gets a possible type. */
+/* The type of a value; IEC_NONE: unknown, and @guessed gets a possible type. */
 static enum iec_type type_of(const struct entry_place *place, const struct value *value,
 			     enum iec_type *guessed)
 {
@@ -401,7 +401,7 @@ static enum iec_type type_of(const struct entry_place *place, const struct value
 	return target.means == MEANS_VALUE && !target.array ? target.type : IEC_NONE;
 }
 
-/* That the inputs of a function have in common, by the first one that is known. */
+/* The type that the inputs of a function share: that of the first known value. */
 static enum iec_type shared_type(const struct entry_place *place,
 				 const struct word_row *row, const struct values *values)
 {
@@ -439,7 +439,7 @@ static bool read_values(const char *text, struct values *out, struct entry *entr
 	return true;
 }
 
-/* Those with a name at once; the others come behind them, in their order. */
+/* Adds named values first, then the others by position. */
 static bool add_all(const struct entry_place *place, const struct word_row *row,
 		    struct values *values, struct entry *entry)
 {
@@ -461,8 +461,8 @@ static bool add_all(const struct entry_place *place, const struct word_row *row,
 		add_block_inputs(place, row, value, count, entry);
 }
 
-/* To @entry->args; a timer or counter without any gets first values. The checks of the engine
- * compare values with the types of pins. */
+/* Reads values into @entry->args; a timer or counter without any gets defaults. Types are
+ * left to the checks of the engine. */
 static bool read_args(const struct entry_place *place, const struct word_row *row,
 		const char *text, struct entry *entry)
 {
@@ -489,7 +489,7 @@ static bool take_name(const char *text, size_t len, struct entry *entry)
 	return keep_operand(entry, text, len);
 }
 
-/* With a / or ! before it the opposite. */
+/* A / or ! before it inverts. */
 static bool take_bool_of(const struct entry_place *place, const struct word_row *row,
 			 const char *text, size_t len, struct entry *entry)
 {
@@ -542,8 +542,7 @@ static bool takes_nothing(const struct word_row *row)
 	       (row->operand == OPND_NONE || row->operand == OPND_LOOP_END);
 }
 
-/* Does the line go on with the name of an instance, rather than with a parameter or a
- * value? Gives its bytes, an index with it. */
+/* The length of the name of an instance, with its index; 0: a parameter or a value follows. */
 static size_t instance_len(const char *text)
 {
 	struct lex lex;
@@ -617,7 +616,7 @@ static bool take_word(const struct entry_place *place, enum word word, const cha
 	return take_element(place, row, text, len, entry);
 }
 
-/* Just a name: a contact, or a coil in the last column. */
+/* A plain name: a contact, or a coil in the last column. */
 static bool take_symbol(const struct entry_place *place, const char *text, size_t len,
 			struct entry *entry)
 {
@@ -658,8 +657,8 @@ static size_t head_len(const char *text, size_t len)
 	return head;
 }
 
-/* `Stop` is the name of a push button, `STOP` the word that ends the program: a word without
- * operand must be written in capitals, as in the catalogue. */
+/* `Stop` is a push button, `STOP` the word that ends the program: a word without operand
+ * counts only in capitals, as in the catalogue. */
 static bool is_name_rather(const struct entry_place *place, enum word word, const char *text,
 			   size_t len)
 {
@@ -695,7 +694,7 @@ static bool read_line(const struct entry_place *place, const char *text, size_t 
 	if (word != WORD_COUNT && rest_len == 0 && is_name_rather(place, word, text, len)) {
 		if (take_symbol(place, text, len, out))
 			return true;
-		*out = (struct entry){ .below = out->below }; /* it can be no name */
+		*out = (struct entry){ .below = out->below }; /* it cannot be a name */
 	}
 	/* AND IN1:=A is the function, AND A the contact. */
 	if (out->below || word < ELEM_PIN) {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_candidates - what the word before the cursor could become, best first.
+ * entry_candidates - candidates for the word before the cursor, best first.
  *
  * All candidates exist, except new names at the end of the list, which say so: taking the
- * first one makes nothing new if anything fits. Which addresses a new name may get, and what
- * the line as it is means, entry_read() says.
+ * first one declares nothing if anything fits. entry_read() finds the addresses of a new
+ * name and the meaning of the line.
  */
 #include "editor-gtk/edit/entry_operand.h"
 #include "editor-gtk/kit/i18n.h"
@@ -28,11 +28,11 @@ struct search {
 	const struct entry_place *place;
 	const char *line;
 	size_t cursor, from;       /* the word is line[from … cursor)          */
-	size_t head;               /* of it: up to its last dot; 0: none       */
+	size_t head;               /* bytes up to its last dot; 0: none        */
 	unsigned int want;
-	uint16_t classes;          /* of values; 0: any                        */
+	uint16_t classes;          /* fitting classes of values; 0: any        */
 	bool write;
-	const struct word_row *row; /* of the line's word; NULL: none          */
+	const struct word_row *row; /* row of the line's word; NULL: none      */
 	enum word word;
 	struct entry_candidate *out;
 	int count, most;
@@ -99,7 +99,7 @@ static void want_value(struct search *s, const char *rest, size_t len)
 				   IEC_NONE, false).classes;
 }
 
-/* Behind a word: its operand, its instance, its parameters. */
+/* Behind a word: an operand, an instance, parameters. */
 static void want_behind(struct search *s, const char *rest, size_t len)
 {
 	size_t end = len;
@@ -170,7 +170,7 @@ static void find_want(struct search *s)
 
 /* ---- ranking ---- */
 
-/* 0 typed just so, 1 begins with it, 2 has it inside; -1: has it not. */
+/* 0: equal, 1: begins with it, 2: contains it, -1: no match. */
 static int fit(const char *text, const char *typed, size_t len)
 {
 	const size_t size = strlen(text);
@@ -183,7 +183,7 @@ static int fit(const char *text, const char *typed, size_t len)
 	return -1;
 }
 
-/* Which of two that fit alike comes first. */
+/* Order of kinds that match equally well. */
 static int kind_rank(const struct search *s, enum entry_kind kind)
 {
 	static const uint8_t ranks[] = {
@@ -214,7 +214,7 @@ static void make_line(const struct search *s, const char *text, char *out, size_
 		 s->line + s->cursor);
 }
 
-/* Bytes of the text, @most at most, that end with a whole character. */
+/* The length of whole characters within @most bytes. */
 static int whole_part(const char *text, int most)
 {
 	int len = (int)strlen(text);
@@ -226,7 +226,7 @@ static int whole_part(const char *text, int most)
 	return most;
 }
 
-/* Kept for a new name: for one with each of its addresses, if that is not most of all. */
+/* Places kept for a new name with each of its addresses; in a short list only one. */
 static int kept(const struct search *s)
 {
 	if (!(s->want & (WANT_NEW | WANT_INSTANCE | WANT_ANY)))
@@ -234,7 +234,7 @@ static int kept(const struct search *s)
 	return s->most > 2 * ENTRY_CHOICES ? ENTRY_CHOICES : 1;
 }
 
-/* Keeps the list sorted; the last one falls off when it is full. */
+/* Keeps the list sorted; drops the last one when the list is full. */
 static void add(struct search *s, enum entry_kind kind, int fits, const char *text,
 		const char *address, const char *note, const char *comment)
 {
@@ -278,7 +278,7 @@ static size_t typed_len(const struct search *s)
 	return s->cursor - s->from;
 }
 
-/* An address as it is typed shortest: I0.3 for %IX0.3. */
+/* The shortest form of an address: I0.3 for %IX0.3. */
 static void shorten(const char *text, size_t len, char *out, size_t size)
 {
 	size_t n = 0;
@@ -442,7 +442,7 @@ static void add_function(void *context, const struct ladder_word *word,
 	char text[ENTRY_NAME];
 
 	if (fits > 1)
-		return; /* there are many */
+		return; /* a large project has too many to list */
 	if (row && s->classes && !(entry_fit_result(row, IEC_NONE).classes & s->classes))
 		return;
 	snprintf(text, sizeof(text), "%s(", word->text);
@@ -512,8 +512,8 @@ static void add_row(struct search *s, const struct entry_new *declared,
 		 more[0] ? ", " : "", more);
 }
 
-/* The new line has the address of the choice, so that it can be changed at once. It replaces
- * the text from @name_end, the end of the name, to the cursor. */
+/* The new line has the chosen address, so that it can be changed at once. It replaces the
+ * text from @name_end, the end of the name, to the cursor. */
 static void add_choices(struct search *s, const struct entry_new *declared,
 			size_t name_end, const char *typed, size_t typed_len)
 {
@@ -539,7 +539,7 @@ static const struct entry_new *declared_as(const struct entry *entry, const char
 	return NULL;
 }
 
-/* If the line with the word before the cursor would declare that. */
+/* Adds the name if the line would declare it. */
 static void add_name(struct search *s, struct entry *entry)
 {
 	const struct entry_new *declared;
@@ -557,7 +557,7 @@ static void add_name(struct search *s, struct entry *entry)
 	add_row(s, declared, declared->address, "");
 }
 
-/* A new name behind the others, if the line would declare it. */
+/* Adds a new name at the end of the list. */
 static void add_new(struct search *s)
 {
 	struct entry *entry = malloc(sizeof(*entry));
@@ -569,7 +569,7 @@ static void add_new(struct search *s)
 
 /* ---- inside the declaration of a name ---- */
 
-/* Where the operand begins: behind a word, a glyph, a sign. */
+/* The start of the operand: behind a word, a glyph or a sign. */
 static size_t operand_at(const struct search *s)
 {
 	static const char blanks[] = " \t";
@@ -590,10 +590,10 @@ static size_t operand_at(const struct search *s)
 	return at;
 }
 
-/* The name that the word at the cursor declares. */
+/* The declaration at the cursor. */
 struct saying {
-	size_t name, name_end; /* in the line; name_end 0: it says nothing     */
-	bool type;             /* else its address                             */
+	size_t name, name_end; /* in the line; name_end 0: no declaration      */
+	bool type;             /* the cursor is in its type, else in its address */
 };
 
 static size_t back_blanks(const char *line, size_t at)
@@ -603,7 +603,7 @@ static size_t back_blanks(const char *line, size_t at)
 	return at;
 }
 
-/* Without the sign before it; the colon in I:0/3 belongs to it. */
+/* The start of the word before @end, without signs; the colon of I:0/3 belongs to it. */
 static size_t back_word(const char *line, size_t end)
 {
 	size_t at = end;
@@ -616,8 +616,8 @@ static size_t back_word(const char *line, size_t end)
 	return at;
 }
 
-/* By the text before the word: `Level AT`, `Level AT %IW0 :`, `Level :`; or the word is AT; or
- * it is the address of a contact or coil. */
+/* Finds `Level AT`, `Level AT %IW0 :` or `Level :` before the word, the word AT itself, or
+ * the address of a contact or coil. */
 static struct saying find_saying(const struct search *s)
 {
 	const char *line = s->line;
@@ -648,7 +648,7 @@ static struct saying find_saying(const struct search *s)
 	return out;
 }
 
-/* All types that will do there. */
+/* Adds all types that fit. */
 static void add_types(struct search *s, const struct saying *saying, struct entry *entry)
 {
 	const size_t len = s->cursor - s->from;
@@ -671,7 +671,7 @@ static void add_types(struct search *s, const struct saying *saying, struct entr
 	}
 }
 
-/* Behind AT or in its place the addresses that begin so. */
+/* Adds addresses that begin with the word, or all behind AT. */
 static void add_addresses(struct search *s, const struct saying *saying,
 			  struct entry *entry)
 {
@@ -741,7 +741,7 @@ static void find_all(struct search *s)
 		add_new(s);
 }
 
-/* Bytes up to the last dot of the word, if an instance or structure stands there. */
+/* Bytes up to the last dot of the word, if an instance or structure is before it. */
 static size_t find_head(const struct search *s)
 {
 	struct entry_target target;

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A name without the number at its end. */
+/* The name without the number at its end. */
 static void base_of(const char *name, char *out, size_t size)
 {
 	size_t len = strlen(name);
@@ -52,7 +52,7 @@ static bool add(const struct entry_place *place, struct entry_instance one,
 	return one.to != 0;
 }
 
-/* The variable of a box that may get another name; NULL: it has none. */
+/* The variable of a box, if it may be renamed; else NULL. */
 static const struct var *instance_of(const struct entry_place *place,
 				     const struct cell *cell, bool *retain)
 {
@@ -80,7 +80,7 @@ static const struct entry_instance *find(const struct project *project,
 	return NULL;
 }
 
-/* Bytes of the name before its first dot; 0: the token is none. */
+/* Bytes of the name before its first dot; 0: the token is no name. */
 static size_t head_of(const struct token *token)
 {
 	const char *dot = memchr(token->text, '.', token->len);
@@ -90,7 +90,7 @@ static size_t head_of(const struct token *token)
 	return dot ? (size_t)(dot - token->text) : token->len;
 }
 
-/* To the next name of an instance that is not in quotes; NULL: none follows. */
+/* Moves to the next name of an instance outside quotes; NULL: none follows. */
 static const struct entry_instance *next(const struct project *project, struct lex *lex,
 					 const struct entry_instance *made, int count)
 {

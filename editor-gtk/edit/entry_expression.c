@@ -15,10 +15,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of each node of an expression. */
+/* One entry for each node of an expression. */
 struct types {
-	uint8_t given[LIMIT_EXPR_NODES];  /* by declarations and typed constants   */
-	uint8_t guessed[LIMIT_EXPR_NODES]; /* else by constants and operators  */
+	uint8_t given[LIMIT_EXPR_NODES];  /* from declarations and typed constants */
+	uint8_t guessed[LIMIT_EXPR_NODES]; /* otherwise from constants and operators */
 	uint8_t wanted[LIMIT_EXPR_NODES]; /* the type of a new name there      */
 	uint8_t target;                   /* of the target of an assignment    */
 };
@@ -26,8 +26,8 @@ struct types {
 /* A name with its declaration, `Level AT %IW0 : INT`. */
 struct said {
 	const char *text;
-	size_t len, name;    /* bytes, and of the name in them                 */
-	enum iec_type type;  /* IEC_NONE: it does not say it                   */
+	size_t len, name;    /* bytes, and those of the name in it             */
+	enum iec_type type;  /* IEC_NONE: not given                            */
 };
 
 /* Too large for a small stack. */
@@ -40,12 +40,12 @@ struct work {
 	int said_count;
 };
 
-/* IEC_NONE for a wrong type: the error is found when the name is declared. */
+/* IEC_NONE for a wrong type, whose error is found when the name is declared. */
 static enum iec_type type_said(const struct said *said)
 {
 	const char *end = said->text + said->len, *at = end;
 
-	while (at > said->text && at[-1] != ':') /* the last one: I:0/3 has one, too */
+	while (at > said->text && at[-1] != ':') /* the last colon: I:0/3 has one, too */
 		at--;
 	while (at < end && (*at == ' ' || *at == '\t'))
 		at++;
@@ -71,8 +71,8 @@ static bool keep_said(struct lex *lex, struct work *w, struct entry *entry)
 	return true;
 }
 
-/* With one blank round := and comparisons, and one where the line has some; without the
- * declarations of names. */
+/* With one blank around := and comparisons, single blanks elsewhere, and without
+ * declarations. */
 static bool print(const char *text, size_t len, struct work *w, struct entry *entry)
 {
 	static const char *const wide[] = { ":=", "<", ">", "<=", ">=", "=", "<>" };
@@ -164,7 +164,7 @@ static const struct word_row *row_of_call(const struct infer *in, int call)
 	return row && row->kind == WORD_FN && row->pin_count > 0 ? row : NULL;
 }
 
-/* Number of an argument, from 0: the last one is found first. */
+/* Number of an argument, from 0: the list begins with the last one. */
 static int argument_number(const struct expr *expr, int argument)
 {
 	int number = 0;
@@ -184,7 +184,7 @@ static const struct word_pin *pin_of(const struct infer *in, const struct word_r
 	return index >= 0 ? word_input(row, (uint32_t)index) : NULL;
 }
 
-/* The common type of the arguments that share one; @guessed: a possible one. */
+/* The type that the arguments share; @guessed: a possible one. */
 static enum iec_type shared_by(const struct infer *in, const struct word_row *row,
 			       int call, bool guessed)
 {
@@ -260,7 +260,7 @@ static void know(const struct infer *in, int i)
 
 /* ---- types: down to new names ---- */
 
-/* Of two that must go together. */
+/* The type of two operands that need the same. */
 static enum iec_type common_type(const struct infer *in, const struct expr_node *node)
 {
 	const uint8_t *given = in->types->given, *guessed = in->types->guessed;
@@ -292,7 +292,7 @@ static void want_of_call(const struct infer *in, int call)
 	}
 }
 
-/* TIME times a number is a TIME, and so it is divided. */
+/* TIME times a number is a TIME; so is TIME divided by a number. */
 static void want_of_fn(const struct infer *in, int i)
 {
 	const struct expr_node *node = &in->expr->node[i];
@@ -347,9 +347,9 @@ static void want_below(const struct infer *in, int i)
 	}
 }
 
-/* Which types new names get: those of what they are compared and calculated with; where all
- * is new, INT, or REAL beside a constant with a point. The engine checks types. Children
- * stand before their parents, so both ways are one loop. */
+/* New names get the type of what they are compared or calculated with. If all names are
+ * new: INT, or REAL beside a constant with a point. The engine checks types. Children have
+ * lower indices than their parents, so a loop up and one down are enough. */
 static void infer_types(const struct entry_place *place, struct work *w)
 {
 	const struct expr *expr = &w->expr;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_names - what a name, a path, an address in any spelling or a mnemonic stands for,
+ * entry_names - the meaning of a name, a path, an address in any spelling or a mnemonic,
  * and names for new variables; see entry_names.h.
  */
 #include "editor-gtk/edit/entry_names.h"
@@ -160,7 +160,7 @@ static void fail(struct entry_target *out, const char *why)
 	out->why = why;
 }
 
-/* `[3]`, `[-3]`, `[i]` at @at; returns its end, NULL: it is not an index. */
+/* The end of `[3]`, `[-3]` or `[i]` at @at; NULL: no index. */
 static const char *index_end(const char *at, const char *end)
 {
 	struct lex lex;
@@ -176,7 +176,7 @@ static const char *index_end(const char *at, const char *end)
 	return lex_is(&lex, "]") ? lex.token.text + 1 : NULL;
 }
 
-/* One step, `[3]` or `.Q`, at @at; returns its end, NULL: wrong. */
+/* The end of a step, `[3]` or `.Q`, at @at; NULL: wrong. */
 static const char *step(const struct entry_place *place, const char *at, const char *end,
 			struct entry_target *out)
 {
@@ -240,7 +240,7 @@ static bool find_system(const char *text, size_t len, struct entry_target *out)
 	return false;
 }
 
-/* The one variable of a plain type that lies on just this address; NULL: none. */
+/* The one variable of a plain type at exactly this address; NULL: none. */
 static const struct var *var_on(const struct var_table *table, struct iec_addr addr)
 {
 	for (int i = 0; i < table->count; i++) {
@@ -283,7 +283,7 @@ static void take_address(const struct entry_place *place, const char *text, size
 		 (int)(len - head), text + head);
 }
 
-/* Without the blanks in brackets, as cells are kept. Returns the length. */
+/* Removes blanks in brackets, as in stored cells. Returns the length. */
 static size_t tighten(const char *text, size_t len, char *out)
 {
 	size_t n = 0;
@@ -432,7 +432,7 @@ enum word entry_word_find(const struct entry_place *place, const char *text, siz
 	return word;
 }
 
-/* A glyph without its blanks: "||" for "| |". */
+/* Compares without blanks: "||" for "| |". */
 static size_t match(const char *glyph, const char *text)
 {
 	size_t n = strlen(glyph);

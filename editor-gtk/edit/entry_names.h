@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_names - what a name, a path, an address in any spelling or a mnemonic stands for,
+ * entry_names - the meaning of a name, a path, an address in any spelling or a mnemonic,
  * and names for new variables.
  *
- * It looks variables up as they are declared; types of expressions are the engine's. It
- * changes nothing in a project but strings and rows of words made by rule.
+ * It looks variables up as they are declared; types of expressions are the engine's. In a
+ * project it changes only strings and rows of generated words.
  */
 #ifndef EDITOR_ENTRY_NAMES_H
 #define EDITOR_ENTRY_NAMES_H
@@ -13,10 +13,10 @@
 
 /* The meaning of a name, path or address. */
 enum entry_means {
-	MEANS_NOTHING,  /* no operand at all                                   */
-	MEANS_VALUE,    /* a value that is there                               */
+	MEANS_NOTHING,  /* no operand                                          */
+	MEANS_VALUE,    /* an existing value                                   */
 	MEANS_INSTANCE, /* an instance or structure as a whole                 */
-	MEANS_NEW,      /* a plain name that nothing has yet                   */
+	MEANS_NEW,      /* an unknown plain name                               */
 	MEANS_WRONG,    /* see why                                             */
 };
 
@@ -40,12 +40,12 @@ static inline struct pou *entry_pou(const struct entry_place *place)
 
 void entry_target_find(const struct entry_place *place, const char *text, size_t len,
 		       struct entry_target *out);
-/** entry_var_find - declared in the POU or globally, any case; NULL: none. @flags gets
+/** entry_var_find - declared in the POU or globally, in any case; NULL: none. @flags gets
  * enum var_flag of its block, may be NULL. */
 const struct var *entry_var_find(const struct entry_place *place, const char *text,
 				 size_t len, uint16_t *flags);
-/** entry_address_parse - in any spelling. False: it is none; a wrong one is one and gets
- * @why, N_() text. */
+/** entry_address_parse - in any spelling. False: no address. An invalid address returns
+ * true and sets @why, N_() text. */
 bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
 			 const char **why);
 /** entry_is_name - may a variable have this name? */
@@ -53,10 +53,10 @@ bool entry_is_name(const char *text, size_t len);
 /** entry_name_taken - by a variable, a POU, a label, or in the line itself. */
 bool entry_name_taken(const struct entry_place *place, const struct entry *entry,
 		      const char *name);
-/** entry_fresh_name - base and the smallest number that makes a new name of it. */
+/** entry_fresh_name - base and the smallest number that makes an unused name. */
 void entry_fresh_name(const struct entry_place *place, const struct entry *entry,
 		      const char *base, char *out, size_t size);
-/** entry_family_base - the begin of names for instances of a word: "Delay". */
+/** entry_family_base - the stem of names for instances of a word: "Delay". */
 const char *entry_family_base(const struct word_row *row);
 
 struct entry_mnemonic {
@@ -66,8 +66,8 @@ struct entry_mnemonic {
 };
 /** entry_mnemonic - number @index of all dialects; NULL: past the last. */
 const struct entry_mnemonic *entry_mnemonic(int index);
-/** entry_word_find - a mnemonic or a word of the catalogue or project; WORD_COUNT:
- * none. @below gets whether it goes in parallel. */
+/** entry_word_find - a mnemonic or a word of the catalogue or project; WORD_COUNT: none.
+ * @below gets whether it goes in parallel. */
 enum word entry_word_find(const struct entry_place *place, const char *text, size_t len,
 			  bool *below);
 /** entry_glyph - a drawn element, -|/|- or -(S)-, at the begin of @line. Returns its

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_operand - one operand of a line, wherever it stands; what the line says of its name,
- * as in `Open AT %IX0.5 : BOOL`; and what is proposed for a new name; see entry_operand.h.
+ * entry_operand - one operand of a line, anywhere in it; the declaration of its name, as in
+ * `Open AT %IX0.5 : BOOL`; and proposals for a new name; see entry_operand.h.
  *
- * What a line says of a new name is declared; of a name that is there already it must be
- * true. The engine knows which addresses are free (xref/address_map.h); the habit of the
- * project says in which area a new one lies.
+ * The declaration of a new name is used; that of an existing name must match. The engine
+ * knows which addresses are free (xref/address_map.h); the project's habit decides in which
+ * area a new one lies.
  */
 #include "editor-gtk/edit/entry_operand.h"
 #include "editor-gtk/kit/i18n.h"
@@ -41,7 +41,7 @@ bool entry_append(char *out, size_t size, const char *text, size_t len)
 
 /* ---- types that fit ---- */
 
-/* Values that go with one: numbers with numbers. */
+/* Any number fits where one class of numbers does. */
 static uint16_t classes_with(uint16_t classes)
 {
 	return classes & ANY_NUM ? classes | ANY_NUM : classes;
@@ -58,7 +58,7 @@ struct entry_fit entry_fit_type(enum iec_type type, bool write)
 				   classes_with(iec_type_row(type)->class), write };
 }
 
-/* The usual type of some classes. */
+/* The default type of some classes. */
 static enum iec_type usual_of(uint16_t classes)
 {
 	static const struct { uint16_t class; enum iec_type type; } usual[] = {
@@ -116,7 +116,7 @@ static int bits_of(enum iec_type type)
 	return iec_type_row(type)->class & ANY_SIMPLE ? iec_type_row(type)->size * 8 : 0;
 }
 
-/* The first one of the catalogue that is signed, else the first one at all. */
+/* The first signed type of the catalogue with this width, else the first one at all. */
 static enum iec_type type_at(const struct entry_fit *fit, struct iec_addr addr)
 {
 	enum iec_type found = IEC_NONE;
@@ -139,7 +139,7 @@ static enum iec_type type_at(const struct entry_fit *fit, struct iec_addr addr)
 
 /* ---- addresses ---- */
 
-/* The addresses of a place, or some made for a while. */
+/* The addresses of a place, or ones made for this call. */
 struct uses {
 	struct xref own;
 	struct xref *xref;
@@ -205,7 +205,7 @@ static bool next_free(const struct address_map *map, enum iec_area area, int bit
 	return found;
 }
 
-/* Contacts to the inputs, coils to the outputs, or to the markers where a project has
+/* Contacts go to the inputs; coils to the outputs, or to the markers if the project has
  * those and no outputs. */
 static enum iec_area habit(const struct xref *xref, bool output)
 {
@@ -280,7 +280,7 @@ static void find_sharer(const struct entry_place *place, struct iec_addr addr, c
 /* ---- declarations ---- */
 
 struct entry_said {
-	enum iec_type type;  /* said, or that of the place; IEC_NONE: no value */
+	enum iec_type type;  /* given, or that of the place; IEC_NONE: no value */
 	char address[ENTRY_ADDRESS_TEXT]; /* canonical, "": none               */
 };
 
@@ -307,14 +307,14 @@ bool entry_declare(const struct entry_place *place, struct entry *entry, const c
 
 struct piece {
 	const char *text;
-	size_t len;          /* 0: the line does not say it                    */
+	size_t len;          /* 0: not given                                   */
 };
 
 struct pieces {
 	struct piece name, address, type;
 };
 
-/* A colon with a digit behind it belongs to an address: I:1/3; := is another sign. */
+/* A colon before a digit belongs to an address (I:1/3), and := is another sign. */
 static bool is_colon(const char *text, size_t len)
 {
 	return len > 0 && *text == ':' &&
@@ -362,7 +362,7 @@ static bool is_assign(const char *text, size_t len)
 	return len > 1 && text[0] == ':' && text[1] == '=';
 }
 
-/* Up to a character that no address contains. */
+/* Length up to a character that no address contains. */
 static size_t address_len(const struct piece *rest)
 {
 	size_t len = 0;
@@ -457,7 +457,7 @@ static bool read_address(const struct entry_place *place, const struct piece *pi
 struct type {
 	enum iec_type type;  /* IEC_NONE: an instance, a structure, an array   */
 	enum word word;
-	struct piece more;    /* text behind the word of the type               */
+	struct piece more;    /* the text behind the type                       */
 };
 
 static bool read_type(const struct entry_place *place, const struct piece *piece,
@@ -535,7 +535,7 @@ static bool fits_type(const struct entry_fit *fit, const struct pieces *pieces,
 			   type->more.text, type->more.len);
 }
 
-/* A wrong width is told with the begin of a right address, such as %IW. */
+/* An error of the width includes the right form, such as %IW. */
 static bool has_width(enum iec_type type, const struct piece *address,
 		      struct iec_addr addr, struct entry *entry)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_operand - one operand of a line, wherever it stands, and what a new name becomes
- * there: its type, its address.
+ * entry_operand - one operand of a line, and the type and address of a new name in its
+ * place.
  *
  * A contact, a pin and a name in an expression differ only by their struct entry_fit.
  */
@@ -10,12 +10,12 @@
 
 #include "editor-gtk/edit/entry_names.h"
 
-/* Types that fit a place of a line, and the type of a new name there. */
+/* The types that fit a place of a line, and the type of a new name there. */
 struct entry_fit {
-	enum iec_type type;      /* if the line does not say it; IEC_NONE: see word */
-	enum word word;          /* an instance or structure of it; WORD_COUNT: no
-				    new name can stand here                    */
-	uint16_t classes;        /* that its type may be of, enum iec_class    */
+	enum iec_type type;      /* default type; IEC_NONE: see word */
+	enum word word;          /* an instance or structure of it; WORD_COUNT: no new name is
+				    possible */
+	uint16_t classes;        /* enum iec_class of types that fit           */
 	bool write;
 };
 
@@ -30,7 +30,7 @@ struct entry_fit entry_fit_pin(const struct word_row *row, const struct word_pin
 /** entry_fit_result - what fits the result of a function. */
 struct entry_fit entry_fit_result(const struct word_row *row, enum iec_type shared);
 /** entry_operand - reads a name, a path or an address. A new name is declared as the line
- * says, else as proposed. Fails: false, the entry says why. */
+ * says, else as proposed. Fails: false, the entry has the reason. */
 bool entry_operand(const struct entry_place *place, const char *text, size_t len,
 		   const struct entry_fit *fit, struct entry_target *out,
 		   struct entry *entry);
@@ -42,12 +42,12 @@ void entry_each_address(const struct entry_place *place,
 /** entry_declare - adds a variable to @entry. Fails: false and WRONG if there are too many. */
 bool entry_declare(const struct entry_place *place, struct entry *entry, const char *name,
 		   size_t len, const char *type, const char *address);
-/** entry_said_len - bytes of the declaration at the begin of a text: name, address, type;
- * 0: there is none. */
+/** entry_said_len - bytes of the declaration at the start of a text: name, address, type;
+ * 0: none. */
 size_t entry_said_len(const char *text, size_t len);
-/** entry_wrong - @entry is ENTRY_WRONG, for this reason. Returns false. */
+/** entry_wrong - makes @entry ENTRY_WRONG, with this reason. Returns false. */
 bool entry_wrong(struct entry *entry, const char *why, const char *what, size_t len);
-/** entry_append - adds to the text in @out; false if it does not fit. */
+/** entry_append - appends to the text in @out; false if it does not fit. */
 bool entry_append(char *out, size_t size, const char *text, size_t len);
 
 #endif

@@ -77,7 +77,7 @@ static bool is_plain(const struct cell *cell)
 	return cell->word == ELEM_EMPTY || cell->word == ELEM_WIRE;
 }
 
-/* The contents of a piece, which decide how it is pasted. */
+/* What a piece contains: it decides how the piece is pasted. */
 struct piece {
 	const struct rung *rung;
 	int elements, outputs, pins;
@@ -102,7 +102,7 @@ static struct piece look_at(const struct rung *rung)
 	return piece;
 }
 
-/* The cells of the piece to (@row, @col); its rows that begin at its rail are joined
+/* Puts the cells of the piece at (@row, @col). Its rows that begin at its rail are joined
  * with the bar there. */
 static void put_piece(struct canvas *c, int row, int col, const struct rung *part)
 {
@@ -136,7 +136,7 @@ static bool insert_rows(struct canvas *c, int at, int count)
 	return true;
 }
 
-/* Cells from @col on that are free or wire, with no link between them. */
+/* Counts cells from @col on that are free or wire, with no link between them. */
 static int free_run(const struct canvas *c, int row, int col, int most)
 {
 	int count = 0;
@@ -199,7 +199,7 @@ static bool paste_parallel(struct canvas *c, int row, int col, const struct rung
 	return true;
 }
 
-/* Whole rows of their own must not come between rows that are joined. */
+/* The first row, from @row on, that is not joined with the row above: new rows go there. */
 static int row_apart(const struct canvas *c, int row)
 {
 	bool joined = true;
@@ -247,7 +247,7 @@ static bool paste_rows(struct canvas *c, int row, const struct rung *part)
 	return true;
 }
 
-/* Nothing but outputs: all of them to the row at the cursor. */
+/* For outputs alone: puts all of them in the row of the cursor. */
 static void paste_outputs(struct canvas *c, int row, const struct rung *part)
 {
 	for (int i = 0; i < part->rows * part->cols; i++)
@@ -312,8 +312,8 @@ bool grid_is_outputs(const struct rung *rung)
 
 /* ---- dropping ---- */
 
-/* The element that a branch at the empty cell (@row, @col) would go round: right above,
- * or the box whose pins stand there; -1: none. */
+/* The element that a branch at the empty cell (@row, @col) would go around: right above, or
+ * the box whose pins are there; -1: none. */
 static int element_above(const struct canvas *c, int row, int col)
 {
 	for (row--; row >= 0 && canvas_word(c, row, col) == ELEM_PIN; row--)
@@ -421,7 +421,7 @@ struct rung *grid_drop(const struct rung *rung, struct grid_at *at, struct cell 
 
 /* ---- moving an element ---- */
 
-/* From the end, so that a branch is deleted before the element in parallel to it. */
+/* Backwards, so that a branch is deleted before the element it is parallel to. */
 static bool delete_last_moved(struct canvas *c)
 {
 	for (int row = c->rung->rows - 1; row >= 0; row--)

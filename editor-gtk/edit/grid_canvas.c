@@ -23,7 +23,7 @@ static bool same_cell(const struct rung *a, const struct network_element *x,
 	       p->args == q->args && p->comment == q->comment && x->pins == y->pins;
 }
 
-/* Nets of two graphs that stand for each other; -1: not known yet. */
+/* Pairs of nets of two graphs; -1: not known yet. */
 struct pairing { int *ab, *ba; };
 
 static bool pair(struct pairing *p, int a, int b)
@@ -100,8 +100,8 @@ static bool is_output(const struct rung *rung, int row, int col)
 	return word_row((enum word)rung_at(rung, row, col)->word)->place == PLACE_LAST;
 }
 
-/* May cell (@row, @col), right before the outputs, be removed? Wires and links that lead to an
- * output may; a link that a person is still drawing stays. */
+/* May cell (@row, @col), right before the outputs, be removed? Wires and links that lead to
+ * an output may; a loose link stays. */
 static bool is_spare(const struct rung *rung, int row, int col)
 {
 	const struct cell *cell = rung_at(rung, row, col);
@@ -207,7 +207,7 @@ bool canvas_open(struct canvas *c, const struct rung *rung, int columns, int row
 	return canvas_rows(c, rows);
 }
 
-/* Takes the marks off; the last one of the cursor tells its place. */
+/* Removes the marks; the last one of the cursor is its place. */
 static void find_mark(struct rung *rung, struct grid_at *at)
 {
 	int row = -1, col = -1;
@@ -319,7 +319,7 @@ bool canvas_left(const struct canvas *c, int row, int bar)
 	return bar > 0 && !canvas_is_empty(c, row, bar - 1);
 }
 
-/* A row of pins without a pin takes nothing. */
+/* A row of pins is used only where it has a pin. */
 bool canvas_right(const struct canvas *c, int row, int bar)
 {
 	return !canvas_is_empty(c, row, bar) &&
@@ -384,8 +384,7 @@ bool canvas_insert_row(struct canvas *c, int at)
 	       replace(c, rung_insert_row(c->rung, at), GRID_NO_MEMORY);
 }
 
-/* If there is no room for one more, a column of nothing but wire before the outputs
- * must go. */
+/* A full rung needs a column of wire before the outputs that can be removed. */
 bool canvas_insert_column(struct canvas *c, int at)
 {
 	if (c->rung->cols == LIMIT_COLS &&
@@ -428,8 +427,8 @@ bool canvas_close_left(struct canvas *c, int row, int col)
 	return true;
 }
 
-/* The bar that wire must reach: that of an element without power, or of a link with nothing
- * else on it; -1: there is none. */
+/* The bar that a wire must reach: at an element without power, or at a link with nothing
+ * else; -1: none. */
 static int waiting_bar(const struct canvas *c, int row, int bar)
 {
 	for (; bar < c->rung->cols; bar++) {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_display - in which column of a sheet a cell is shown; see grid_display.h.
+ * grid_display - the column of a sheet in which a cell is shown; see grid_display.h.
  *
- * It depends on one question: is the last element of a row an output whose wire can be made
- * longer without touching another wire?
+ * All depends on one question: can the wire before the last element of a row, an output, be
+ * made longer without touching another wire?
  */
 #include "editor-gtk/edit/grid_display.h"
 
-/* Does something join the bar at the right end of cell (@row, @col) up or down? */
+/* Is the bar at the right end of cell (@row, @col) linked up or down? */
 static bool is_linked(const struct rung *rung, int row, int col)
 {
 	return (row > 0 && rung_at(rung, row, col)->link) ||
@@ -35,7 +35,7 @@ int grid_display_output(const struct rung *rung, int row)
 	return col;
 }
 
-/* Columns of a row that something stands or is joined in, its output not counted. */
+/* Columns of a row in use, without its output. */
 static int used_columns(const struct rung *rung, int row)
 {
 	const int output = grid_display_output(rung, row);

@@ -14,7 +14,7 @@
 enum grid_seen {
 	GRID_SEEN_EMPTY,   /* nothing; perhaps a link or a comment            */
 	GRID_SEEN_CELL,    /* the cell (row, col): an element, a wire, a pin row */
-	GRID_SEEN_STRETCH, /* wire on its way to the output in (row, col)     */
+	GRID_SEEN_STRETCH, /* part of the longer wire to the output in (row, col) */
 };
 
 struct grid_place {

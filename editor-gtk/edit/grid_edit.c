@@ -2,15 +2,15 @@
  *
  * grid_edit - elements, rows and pins of a rung: putting, changing, branching, deleting.
  *
- * Deleting: where power must pass a wire stays; a branch that became nothing but wire would
- * be a short circuit and goes; rows that become empty go too.
+ * Deleting leaves a wire where power must pass. A branch with nothing but wire would be a
+ * short circuit and is removed; so are rows that become empty.
  *
- * A branch needs a row in which its cells are free and down to which its ends can be
- * linked without touching another circuit; where there is none it gets a new row. Below a
- * box whose pins are fed there is no such row, because what feeds them comes from the left,
- * past the place where the branch would begin: a branch round such a box goes above it.
+ * A branch needs a row with free cells whose ends can be linked to the rung without
+ * touching another circuit; if there is none, a new row is inserted. Below a box whose pins
+ * are fed there is no such row, because their feeding wires come from the left; a branch
+ * around such a box goes above it.
  *
- * Of a word it knows only what its row of the catalogue says.
+ * It knows words only by their rows of the catalogue.
  */
 #include "editor-gtk/edit/grid_canvas.h"
 #include "editor-gtk/kit/i18n.h"
@@ -46,8 +46,7 @@ static bool at_cell(struct canvas *c, const struct rung *rung, struct grid_at *a
 
 /* ---- deleting ---- */
 
-/* The wire to the left and right of a place, up to the next thing that is joined to it:
- * from bar to bar. */
+/* The wire on both sides of a place, from bar to bar, up to the next joint. */
 struct stretch { int left, right; };
 
 static struct stretch stretch_at(const struct canvas *c, int row, int col)
@@ -68,8 +67,8 @@ static int feeders(const struct network *n, int net)
 	return n->first_feeder[net + 1] - n->first_feeder[net];
 }
 
-/* Must power pass (@row, @col), which is empty now? Yes if the net behind it is read and has
- * no other feeder, or if the net before it is fed and leads nowhere else. */
+/* Must power pass (@row, @col), which is empty now? Yes if the net behind it is read and
+ * has no other feeder, or the net before it is fed and leads nowhere else. */
 static bool must_pass(struct canvas *c, int row, int col)
 {
 	const struct network *n = &c->network;
@@ -85,8 +84,8 @@ static bool must_pass(struct canvas *c, int row, int col)
 	       (in != NET_RAIL && n->reader_count[in] == 0 && feeders(n, in) > 0);
 }
 
-/* Wire that ended at bar @bar of @row and now ends in nothing goes, up to its other end;
- * returns the bar there, or -1: none did. */
+/* Erases a wire at bar @bar of @row that ends in nothing. Returns the bar of its other end;
+ * -1: there was none. */
 static int erase_end(struct canvas *c, int row, int bar)
 {
 	const int from = bar;
@@ -104,7 +103,7 @@ static int erase_end(struct canvas *c, int row, int bar)
 	return bar == from ? -1 : bar;
 }
 
-/* Links and wires that led to bar @bar of @row alone. */
+/* Erases links and wires that led only to bar @bar of @row. */
 static void erase_way(struct canvas *c, int row, int bar)
 {
 	while (bar >= 0) {
@@ -121,7 +120,7 @@ static void erase_stretch(struct canvas *c, int row, struct stretch s)
 	erase_way(c, row, s.right);
 }
 
-/* ---- a branch that became the only way moves up ---- */
+/* ---- a remaining branch moves up ---- */
 
 /* Does the row below hold a branch from bar to bar, and nothing beside it? */
 static bool can_pull(const struct canvas *c, int row, struct stretch s)
@@ -149,7 +148,7 @@ static void pull_up(struct canvas *c, int row, struct stretch s)
 		canvas_put(c, row, col, *canvas_cell(c, row + 1, col));
 		canvas_clear(c, row + 1, col);
 	}
-	/* Links from further below now pass the row that was left. */
+	/* Links from further below now lead up to @row. */
 	for (int bar = s.left > 0 ? s.left : 1; bar <= s.right; bar++)
 		canvas_cell(c, row + 1, bar - 1)->link =
 			canvas_down(c, row + 1, bar);
@@ -158,7 +157,7 @@ static void pull_up(struct canvas *c, int row, struct stretch s)
 
 /* ---- one element ---- */
 
-/* The wire that leads to bar @col of @row, and nowhere else. */
+/* Erases the wire that leads only to bar @col of @row. */
 static void erase_left(struct canvas *c, int row, int col)
 {
 	while (col > 0 && !canvas_linked(c, row, col) &&
@@ -188,7 +187,7 @@ static struct stretch take_out(struct canvas *c, int row, int col)
 	return s;
 }
 
-/* Which rows were empty before: those stay. */
+/* Rows that were empty before the edit: those stay. */
 struct bare { bool row[LIMIT_ROWS]; };
 
 static void look_for_bare(const struct canvas *c, struct bare *bare)
@@ -197,7 +196,7 @@ static void look_for_bare(const struct canvas *c, struct bare *bare)
 		bare->row[row] = canvas_is_bare(c, row);
 }
 
-/* Drops the rows that are empty now, but not @keep; returns where that is then. */
+/* Removes rows that are empty now, but not @keep; returns the new index of that. */
 static int drop_rows(struct canvas *c, const struct bare *bare, int keep)
 {
 	for (int row = c->rung->rows - 1; row >= 0; row--) {
@@ -274,7 +273,7 @@ static bool clip(const struct canvas *c, struct grid_area *area)
 	return area->row <= area->last_row && area->col <= area->last_col;
 }
 
-/* From the end, so that a branch is deleted before the element in parallel to it. */
+/* Backwards, so that a branch is deleted before the element it is parallel to. */
 static bool delete_elements(struct canvas *c, const struct grid_area *area)
 {
 	bool any = false;
@@ -329,8 +328,8 @@ struct rung *grid_delete_area(const struct rung *rung, struct grid_at *at,
 
 /* ---- branches ---- */
 
-/* The cells and bars of a branch that is looked for: cells first … last of a row, its
- * ends at bars left and right; right -1: an output ends it. */
+/* A branch to be made: cells first … last of a row, its ends at bars left and right; right
+ * -1: an output ends it. */
 struct reach { int row, first, last, left, right; };
 
 static int net_at(const struct canvas *c, int row, int bar)
@@ -338,7 +337,7 @@ static int net_at(const struct canvas *c, int row, int bar)
 	return network_net(&c->network, row, bar);
 }
 
-/* May bar @bar of @row be joined with the same bar of the branch's own row? */
+/* May bar @bar of @row be joined with the same bar of the branch's row? */
 static bool may_join(const struct canvas *c, const struct reach *reach, int row, int bar)
 {
 	return bar < 0 || !canvas_bar_used(c, row, bar) ||
@@ -363,8 +362,8 @@ static bool is_free(const struct canvas *c, const struct reach *reach, int row)
 	       is_passable(c, reach, row);
 }
 
-/* May a row for the branch be put in before @row: without cutting a box where it goes,
- * or links that it would cross? */
+/* Can a row for the branch be inserted before @row, without cutting a box or crossing
+ * links? */
 static bool may_insert(const struct canvas *c, const struct reach *reach, int row)
 {
 	for (int col = reach->first; col <= reach->last; col++)
@@ -392,7 +391,7 @@ static int row_below(struct canvas *c, const struct reach *reach)
 	return put_in >= 0 && canvas_insert_row(c, put_in) ? put_in : -1;
 }
 
-/* The same above; a row put in there comes right before that of the branch. */
+/* The same above; a new row is inserted right before that of the branch. */
 static int row_above(struct canvas *c, const struct reach *reach)
 {
 	for (int row = reach->row - 1; row >= 0; row--) {
@@ -433,7 +432,7 @@ int canvas_branch_row(struct canvas *c, int *row, int col, int last)
 	return found;
 }
 
-/* Only as far as the first row that is joined with @row there already: no wire twice. */
+/* Only up to the first row that is already joined with @row. */
 void canvas_join_branch(struct canvas *c, int row, int branch, int bar)
 {
 	const bool old = c->rung->rows == c->network.rows;
@@ -452,7 +451,7 @@ void canvas_join_branch(struct canvas *c, int row, int branch, int bar)
 
 /* ---- outputs ---- */
 
-/* An output in a row below @row, on a branch from bar @bar of it. */
+/* Puts an output in a row below @row, on a branch from bar @bar of it. */
 static int branch_output(struct canvas *c, int row, int bar, struct cell cell)
 {
 	const int last = canvas_last(c);
@@ -484,7 +483,7 @@ static int output_below(struct canvas *c, int row, struct cell cell)
 	return branch_output(c, row, output_bar(c, row), cell);
 }
 
-/* Has the row no end that waits for an output: is it bare, or a closed branch? */
+/* Has the row no open end for an output: is it empty, or a closed branch? */
 static bool is_closed(const struct canvas *c, int row)
 {
 	int bar = canvas_last(c);
@@ -494,8 +493,8 @@ static bool is_closed(const struct canvas *c, int row)
 	return bar == 0 || (canvas_left(c, row, bar) && canvas_up(c, row, bar));
 }
 
-/* An output at the end of @row, or in a row below if one stands there. Gives its row; -1: it
- * failed. */
+/* Puts an output at the end of @row, or in a row below if the end has one. Returns its row;
+ * -1: failed. */
 static int put_output(struct canvas *c, int row, struct cell cell)
 {
 	const int last = canvas_last(c);
@@ -564,7 +563,7 @@ bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell c
 	return true;
 }
 
-/* A branch goes round the last column only if the area is nothing else. */
+/* A branch goes around the last column only if the area has no other. */
 static bool take_area(struct canvas *c, const struct grid_area *area, int *row, int *col,
 		      int *last)
 {
@@ -629,8 +628,8 @@ struct rung *grid_close_gaps(const struct rung *rung, struct grid_at *at)
 	return canvas_close(&c, at);
 }
 
-/* Would power have to go leftwards to or from the element at (@row, @col), by wires in other
- * rows? check_rung() asks the same. */
+/* Would power flow leftwards to or from the element at (@row, @col), through other rows?
+ * check_rung() refuses that. */
 static bool is_backwards(struct canvas *c, int row, int col)
 {
 	const struct network *n = &c->network;
@@ -652,7 +651,7 @@ static bool is_backwards(struct canvas *c, int row, int col)
 
 /* ---- room in a row ---- */
 
-/* May the cells @col … @end - 1 move right by one, onto the wire or the end at @end,
+/* Can the cells @col … @end - 1 move right by one, onto the wire or the open end at @end,
  * with no link between them? */
 static bool can_shift(const struct canvas *c, int row, int col, int end)
 {
@@ -668,7 +667,7 @@ static bool can_shift(const struct canvas *c, int row, int col, int end)
 	       canvas_is_empty(c, row, end + 1);
 }
 
-/* Where to the cells from @col on may be shifted; -1: they may not. */
+/* The column up to which cells from @col on can move; -1: they cannot. */
 static int shift_end(const struct canvas *c, int row, int col)
 {
 	int end = col;
@@ -678,7 +677,7 @@ static int shift_end(const struct canvas *c, int row, int col)
 	return end < canvas_last(c) && can_shift(c, row, col, end) ? end : -1;
 }
 
-/* Would the last element that moved be fed from its right, or feed to its left? */
+/* Would the last moved element be fed from its right, or feed to its left? */
 static bool shift_fails(struct canvas *c, int row, int end)
 {
 	return canvas_is_element(c, row, end) && is_backwards(c, row, end);
@@ -706,7 +705,7 @@ static bool room_before(struct canvas *c, int row, int col)
 
 /* ---- put, replace ---- */
 
-/* Another element in the place of one; another box has no use for its rows of pins. */
+/* Replaces an element. Another box does not keep its rows of pins. */
 static void replace(struct canvas *c, int row, int col, struct cell cell)
 {
 	const int height = cell.word == canvas_word(c, row, col) ?
@@ -717,7 +716,7 @@ static void replace(struct canvas *c, int row, int col, struct cell cell)
 	canvas_put(c, row, col, cell);
 }
 
-/* A new element keeps the comment of the old one, unless it has its own. */
+/* A new element without a comment keeps the old one. */
 static struct cell commented(struct canvas *c, int row, int col, struct cell cell)
 {
 	if (!cell.comment)
@@ -768,7 +767,7 @@ static bool place_output(struct canvas *c, int row, int col, struct cell cell,
 	return true;
 }
 
-/* Could the element stand at @col of that wire, without power going leftwards? */
+/* Can the element stand at @col of that wire, without power going leftwards? */
 static bool fits_wire(struct canvas *c, int row, int col, struct cell cell)
 {
 	const struct cell wire = *canvas_cell(c, row, col);
@@ -780,8 +779,8 @@ static bool fits_wire(struct canvas *c, int row, int col, struct cell cell)
 	return fits;
 }
 
-/* The column where an element goes into the wire at (@row, @col): the nearest one without
- * power leftwards, else right before the element at the end of the wire. -1: it failed. */
+/* The column for an element in the wire at (@row, @col): the nearest one without power
+ * leftwards, else the last one of the wire. -1: failed. */
 static int wire_column(struct canvas *c, int row, int col, struct cell cell)
 {
 	const struct stretch s = stretch_at(c, row, col);
@@ -949,7 +948,7 @@ struct rung *grid_delete_column(const struct rung *rung, struct grid_at *at)
 
 /* ---- rows of pins below boxes: an input has one only when a branch feeds it ---- */
 
-/* Why input @name may have no row of its own; GRID_DONE: it may. */
+/* Why input @name cannot have a row of its own; GRID_DONE: it can. */
 static enum grid_refusal judge(const struct word_row *row, const char *name)
 {
 	const int index = word_pin_find(row, name, strlen(name));
@@ -997,7 +996,7 @@ static bool may_add(struct canvas *c, const struct project *project, int row, in
 	return why == GRID_DONE || canvas_fail(c, why);
 }
 
-/* The row right below the box gets free in column @col and before it. */
+/* Makes the row right below the box free up to column @col. */
 static bool room_below(struct canvas *c, int row, int col)
 {
 	if (row == c->rung->rows)
@@ -1034,7 +1033,7 @@ static void add_row(struct canvas *c, struct grid_at *at, uint32_t pin,
 	canvas_mark(c, row, col - 1);
 }
 
-/* A row of pins is a part of the box above it. */
+/* A row of pins belongs to the box above it. */
 static void climb_to_box(const struct rung *rung, struct grid_at *at)
 {
 	if (at->col < 0 || at->col >= rung->cols || at->row >= rung->rows)

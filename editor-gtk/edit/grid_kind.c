@@ -21,7 +21,7 @@ static bool same_family(const struct word_row *a, const struct word_row *b)
 	       !strcmp(a->family, b->family);
 }
 
-/* May an element change from one of these to the other and keep all else? */
+/* Can an element change from one word to the other and keep everything else? */
 static bool can_cycle(const struct word_row *a, const struct word_row *b)
 {
 	if (!same_family(a, b))
@@ -41,7 +41,7 @@ static bool are_opposite(const struct word_row *a, const struct word_row *b)
 	return a->edge == b->edge && a->negate != b->negate;
 }
 
-/* The next word behind @word, round about, that goes with it; itself: there is none. */
+/* The next word after @word, cyclically, that fits; @word itself: none. */
 static enum word next_word(enum word word, bool (*fits)(const struct word_row *,
 							const struct word_row *))
 {
@@ -101,7 +101,7 @@ static const struct var *find_var(const struct var_table *table, uint32_t fold)
 	return i >= 0 ? &table->var[i] : NULL;
 }
 
-/* May a name be a REAL, whose value may be NaN? An unknown name may. */
+/* Can a name be a REAL, whose value can be NaN? An unknown name can. */
 static bool may_be_real(const struct project *project, const struct pou *pou,
 			const struct token *token)
 {
@@ -179,7 +179,7 @@ static void trim(const char **text, size_t *len)
 		--*len;
 }
 
-/* The text with @middle instead of @cut bytes at @at, as a string of the project. */
+/* The text with @cut bytes at @at replaced by @middle, as a string of the project. */
 static uint32_t joined(struct project *project, const char *text, size_t at, size_t cut,
 		       const char *middle, const char *tail)
 {

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_wire - wires drawn and erased by hand: a cell or a link at a time, or with one stroke
- * from one end of a cell to another.
+ * grid_wire - wires drawn and erased by hand: a cell or a link at a time, or with one
+ * stroke from one end of a cell to another.
  *
- * A stroke has one corner at most. Where elements stand between its two ends in one row it
- * goes round them, in a row of its own. A loose end stays as it was drawn.
+ * A stroke has at most one corner. If elements stand between its two ends in one row, it
+ * goes around them in its own row. Loose ends stay as they were drawn.
  */
 #include "editor-gtk/edit/grid_canvas.h"
 
-/* The cell that a wire to the left or right goes through. */
+/* The cell of a wire to the left or right. */
 static int cell_of_wire(const struct canvas *c, const struct grid_at *at,
 		       enum grid_way way)
 {
@@ -85,7 +85,7 @@ static int most(int a, int b)
 
 /* ---- strokes: which way it goes ---- */
 
-/* Is nothing but wire, or nothing, in @row from bar to bar? */
+/* Is @row empty or wire from bar to bar? */
 static bool is_clear(const struct canvas *c, int row, int a, int b)
 {
 	for (int col = least(a, b); col < most(a, b); col++)
@@ -143,7 +143,7 @@ static enum grid_refusal why_not(const struct canvas *c, struct grid_end from,
 
 /* ---- strokes: drawing ---- */
 
-/* Each returns whether anything is another than before. */
+/* These return whether anything changed. */
 static bool draw_across(struct canvas *c, int row, int a, int b)
 {
 	bool any = false;
@@ -170,7 +170,7 @@ static bool draw_along(struct canvas *c, int bar, int a, int b)
 	return any;
 }
 
-/* Returns which side of them it went. */
+/* Returns the side of the elements that it took. */
 static enum grid_course draw_round(struct canvas *c, int row, int a, int b)
 {
 	const int col = least(a, b), last = most(a, b) - 1;

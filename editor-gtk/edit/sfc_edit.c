@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_edit - steps and ways come, go and move; names, conditions, comments, and what steps
- * do; see sfc_edit.h.
+ * sfc_edit - edits of steps and transitions, names, conditions, comments, and actions of
+ * steps; see sfc_edit.h.
  */
 #include "editor-gtk/edit/sfc_edit.h"
 
@@ -28,7 +28,7 @@ bool sfc_edit_refuse(struct sfc_edit *edit, const char *why)
 
 /* ---- the copy ---- */
 
-/* A vector that arena_push() can go on with. */
+/* Copies a vector so that arena_push() can extend it. */
 static bool copy_vector(struct arena *arena, void *vector, const void *old, int count,
 			size_t size)
 {
@@ -146,14 +146,14 @@ void sfc_edit_drop_piece(struct sfc_edit *edit, int at)
 	drop_pieces(edit, at, at);
 }
 
-/* The last piece of a step: of a macro-step that of its END_STEP. */
+/* The last piece of a step; for a macro-step its END_STEP. */
 int sfc_edit_step_end(const struct sfc_edit *edit, int step)
 {
 	return sfc_edit_find_piece(edit, edit->sfc.step[step].kind == STEP_MACRO ?
 			 PIECE_MACRO_END : PIECE_STEP, step);
 }
 
-/* Is it still written? */
+/* Is it still in the file? */
 static bool has_transition(const struct sfc_edit *edit, int transition)
 {
 	return sfc_edit_find_piece(edit, PIECE_TRANSITION, transition) >= 0;
@@ -195,7 +195,7 @@ static bool put_ref(struct sfc_edit *edit, uint32_t name, int step)
 	return true;
 }
 
-/* A copy of the names of one side behind all others, without @skip, where it may grow. */
+/* Copies the names of one side to the end of sfc.ref, where they can grow; without @skip. */
 bool sfc_edit_copy_refs(struct sfc_edit *edit, int transition, bool to, int skip)
 {
 	struct sfc_transition *t = &edit->sfc.transition[transition];
@@ -220,7 +220,7 @@ static bool add_step(struct sfc_edit *edit, int transition, bool to, int step)
 	       (*count_of(&edit->sfc.transition[transition], to))++ >= 0;
 }
 
-/* One name becomes those that another transition leads to. */
+/* Replaces one name by those that another transition leads to. */
 static bool replace_ref(struct sfc_edit *edit, int transition, int ref, int like)
 {
 	struct sfc_transition *t = &edit->sfc.transition[transition];
@@ -284,7 +284,7 @@ const char *sfc_edit_free_name(struct sfc_edit *edit, const char *base)
 	return project_text(edit->project, sfc_edit_id(edit, name));
 }
 
-/* A name as the file has them, that nothing else has. */
+/* Is it a valid and unused name? */
 static bool can_be_called(struct sfc_edit *edit, const char *name)
 {
 	struct lex lex;
@@ -337,7 +337,7 @@ int sfc_edit_new_step(struct sfc_edit *edit, int macro, int behind)
 	       sfc->step_count - 1 : -1;
 }
 
-/* From @from (-1: none) to @to, behind a piece. */
+/* From @from (-1: none) to @to, behind piece @behind. */
 int sfc_edit_new_transition(struct sfc_edit *edit, int macro, int from, int to, int behind)
 {
 	struct sfc *sfc = &edit->sfc;
@@ -358,7 +358,7 @@ int sfc_edit_new_transition(struct sfc_edit *edit, int macro, int from, int to, 
 	return number;
 }
 
-/* Behind a step and all ways out of it, so that a new one is the last of them. */
+/* Behind a step and all its transitions, so that a new one is the last. */
 static int behind_ways(const struct sfc_edit *edit, int step)
 {
 	int at = sfc_edit_step_end(edit, step);
@@ -442,7 +442,7 @@ int sfc_edit_first(struct sfc_edit *edit, int macro)
 	for (int i = 0; i < edit->sfc.step_count; i++)
 		any |= edit->sfc.step[i].macro == macro &&
 		       sfc_edit_find_piece(edit, PIECE_STEP, i) >= 0;
-	/* Before the actions. */
+	/* before the actions */
 	while (macro < 0 && at >= 0 && edit->sfc.piece[at].kind == PIECE_ACTION)
 		at--;
 	made = sfc_edit_new_step(edit, macro, at);
@@ -522,7 +522,7 @@ bool sfc_edit_cut_way(struct sfc_edit *edit, int transition, int ref)
 	return sfc_edit_copy_refs(edit, transition, to, ref);
 }
 
-/* The one way out of a step, if it leaves no other step; -1: none, or several. */
+/* The one transition that leaves only this step; -1: none, or several. */
 static int only_way(const struct sfc_edit *edit, int step)
 {
 	int found = -1;
@@ -540,8 +540,8 @@ static int only_way(const struct sfc_edit *edit, int step)
 	return found;
 }
 
-/* Of a step that is deleted: a transition to it leads to its successors; without any, or if
- * it came from the step, the name is deleted. */
+/* For a deleted step: transitions to it lead to its successors. Without any, or if the
+ * transition came from the step itself, the name is deleted. */
 static bool loosen(struct sfc_edit *edit, int transition, int step, int way)
 {
 	for (int side = 0; side < 2; side++) {
@@ -588,7 +588,7 @@ static void swap_ints(int *a, int *b)
 	*b = other;
 }
 
-/* Does @a come before @b when a step asks its ways on? */
+/* Is transition @a tried before @b? */
 static bool comes_before(const struct sfc_edit *edit, int a, int b)
 {
 	const int x = edit->sfc.transition[a].priority, y = edit->sfc.transition[b].priority;
@@ -599,7 +599,7 @@ static bool comes_before(const struct sfc_edit *edit, int a, int b)
 				sfc_edit_find_piece(edit, PIECE_TRANSITION, b);
 }
 
-/* The nearest way out of the same step before or behind @transition; -1: none. */
+/* The neighbour of @transition among those that leave the same step; -1: none. */
 static int neighbour(const struct sfc_edit *edit, int transition, bool right)
 {
 	const struct sfc_transition *t = &edit->sfc.transition[transition];
@@ -668,7 +668,7 @@ static bool is_letter(char c)
 	       c == '_' || (unsigned char)c >= 0x80;
 }
 
-/* Where @old, a point and X or T stand in @text as a name; NULL: nowhere. */
+/* Finds the name @old with .X or .T in @text; NULL: none. */
 static const char *find_member(const char *text, const char *old)
 {
 	const size_t len = strlen(old);
@@ -685,7 +685,7 @@ static const char *find_member(const char *text, const char *old)
 	return NULL;
 }
 
-/* The text with all of them called @name; 0: no memory. */
+/* The text with all of them renamed; 0: no memory. */
 static uint32_t with_name(struct sfc_edit *edit, uint32_t id, const char *old,
 			  const char *name)
 {
@@ -707,8 +707,8 @@ static uint32_t with_name(struct sfc_edit *edit, uint32_t id, const char *old,
 	return id;
 }
 
-/* A rung that may be changed, in the place of one that may not; it stands behind all
- * others, too, where those are that belong to the edit. NULL: no memory. */
+/* Replaces a shared rung by a copy that may be changed. The copy is also added behind all
+ * rungs, where those of the edit are. NULL: no memory. */
 static struct rung *own_copy(struct sfc_edit *edit, int at)
 {
 	struct rung **to = arena_push(&edit->arena, &edit->pou.rung,
@@ -769,7 +769,7 @@ static bool rename_in_list(struct sfc_edit *edit, const char *old, const char *n
 	return true;
 }
 
-/* Times and bits of steps and of their actions. */
+/* Renames in times of steps and in their actions. */
 static void rename_in_steps(struct sfc_edit *edit, const char *old, const char *name)
 {
 	struct sfc *sfc = &edit->sfc;
@@ -854,7 +854,7 @@ bool sfc_edit_set_kind(struct sfc_edit *edit, int step, enum step_kind kind)
 	return true;
 }
 
-/* One operand or literal, as between commas in the file. */
+/* A single operand or literal, as it stands between commas in the file. */
 static bool is_word(const char *text)
 {
 	return strlen(text) < 200 && !strpbrk(text, ",;()|\n\r\t \"");
@@ -959,7 +959,7 @@ static bool next_word(const char **at, char *out, size_t size)
 	return len > 0 && len < size;
 }
 
-/* `L T#3s`, `SET`, `N`, if it is not the name itself; false: something is missing. */
+/* Takes `L T#3s`, `SET`, `N`, if a name follows; false: something is missing. */
 static bool take_qualifier(const char **at, struct sfc_doing *out)
 {
 	const char *behind = *at;
@@ -984,7 +984,7 @@ static bool take_qualifier(const char **at, struct sfc_doing *out)
 	return next_word(at, out->time, sizeof(out->time)) && *skip(*at);
 }
 
-/* The name, with its declaration. */
+/* Takes the name, with its declaration. */
 static bool take_operand(const char *at, bool qualified, struct sfc_doing *out)
 {
 	char word[LIMIT_NAME + 1];
@@ -1042,7 +1042,7 @@ void sfc_doing_print(const struct project *project, const struct sfc *sfc, int u
 			 project_text(project, u->time), u->time ? " " : "", name);
 }
 
-/* An empty one. */
+/* Adds an action without rungs. */
 static bool new_action(struct sfc_edit *edit, const char *name)
 {
 	struct sfc *sfc = &edit->sfc;
@@ -1068,7 +1068,7 @@ static bool new_action(struct sfc_edit *edit, const char *name)
 				 sfc->action_count - 1);
 }
 
-/* The lines of a step behind all others, with room for one more; without @skip. */
+/* Copies the lines of a step behind all others, with room for one more; without @skip. */
 static bool copy_uses(struct sfc_edit *edit, int step, int skip, bool more)
 {
 	struct sfc *sfc = &edit->sfc;
@@ -1118,7 +1118,7 @@ bool sfc_edit_delete_use(struct sfc_edit *edit, int use)
 
 /* ---- comments ---- */
 
-/* With the delimiters of the file. */
+/* Adds the delimiters of the file. */
 static bool comment_id(struct sfc_edit *edit, const char *text, uint32_t *id)
 {
 	const size_t size = strlen(text) + 8;

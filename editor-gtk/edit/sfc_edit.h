@@ -53,10 +53,10 @@ bool sfc_edit_wait(struct sfc_edit *edit, int transition, int step);
 /** sfc_edit_delete_step - transitions that led to it lead to its only successor, if it has one. */
 bool sfc_edit_delete_step(struct sfc_edit *edit, int step);
 bool sfc_edit_delete_transition(struct sfc_edit *edit, int transition);
-/** sfc_edit_cut_way - deletes one name behind FROM or TO: @ref of sfc.ref. Without any name
- * left, its transition is deleted. */
+/** sfc_edit_cut_way - deletes a name behind FROM or TO: @ref of sfc.ref. A transition that
+ * has no name left on that side is deleted. */
 bool sfc_edit_cut_way(struct sfc_edit *edit, int transition, int ref);
-/** sfc_edit_move - exchanges the branch of @step or of @transition (the other is -1) with its
+/** sfc_edit_move - swaps the branch of @step or of @transition (the other is -1) with its
  * neighbour. */
 bool sfc_edit_move(struct sfc_edit *edit, int step, int transition, bool right);
 
@@ -73,23 +73,23 @@ bool sfc_edit_set_kind(struct sfc_edit *edit, int step, enum step_kind kind);
 /** sfc_edit_set_times - "" for none. */
 bool sfc_edit_set_times(struct sfc_edit *edit, int step, const char *min, const char *max,
 			const char *alarm);
-/** sfc_is_expression - could it stand behind := of a transition? */
+/** sfc_is_expression - can it stand behind := of a transition? */
 bool sfc_is_expression(const char *text);
 /** sfc_edit_set_condition - an expression; "": none. */
 bool sfc_edit_set_condition(struct sfc_edit *edit, int transition, const char *text);
 /** sfc_edit_as_rung - the condition becomes a rung. */
 bool sfc_edit_as_rung(struct sfc_edit *edit, int transition);
 
-/* A line typed for an action of a step. */
+/* The action of a step, as a line of text. */
 struct sfc_doing {
 	enum use_kind kind;
 	enum qualifier qualifier;
 	char time[64];           /* "": none                                   */
 	char name[LIMIT_NAME + 1];
-	const char *operand;     /* in the line, from the name on, with its
-				    declaration: `Horn AT %QX0.5`              */
+	const char *operand;     /* in the line, from the name on, with its declaration: `Horn
+				    AT %QX0.5` */
 	bool says;               /* @operand has a declaration                 */
-	bool action;             /* it begins with ACTION: make a new one      */
+	bool action;             /* it begins with ACTION: makes a new one     */
 	const char *why;         /* N_(): what is missing; NULL: nothing       */
 };
 /** sfc_doing_read - "Valve", "N Valve", "L T#3s Horn", "SET Lamp", "ACTION Count",
@@ -109,7 +109,7 @@ bool sfc_edit_set_comment(struct sfc_edit *edit, enum piece_kind kind, int index
 /** sfc_edit_set_use_comment - of an action of a step. */
 bool sfc_edit_set_use_comment(struct sfc_edit *edit, int use, const char *text);
 
-/* ---- sfc_edit_macro.c: charts in steps ---- */
+/* ---- sfc_edit_macro.c: macro-steps ---- */
 
 /** sfc_edit_macro_make - moves the steps of @chosen (by step) into a new macro-step. They must
  * be entered at one step and left at one step. Returns the macro-step. */
@@ -117,14 +117,14 @@ int sfc_edit_macro_make(struct sfc_edit *edit, const bool *chosen);
 /** sfc_edit_macro_open - replaces a macro-step by the steps inside it. Returns the first of
  * them. */
 int sfc_edit_macro_open(struct sfc_edit *edit, int macro);
-/* ---- sfc_edit_insert.c: a pasted part goes into the sequence ---- */
+/* ---- sfc_edit_insert.c: inserting a pasted part ---- */
 
 /**
- * sfc_edit_insert - moves a part that was added behind the chart into its sequence
+ * sfc_edit_insert - moves a part at the end of the chart into its sequence
  * @step, @way:       the first step and transition of the part; all later numbers belong to
- *                    it. Transitions that leave it name other steps, or unknown ones
+ * it. Transitions that leave it name other steps, or unknown ones
  * @at_step, @at_way: the step or transition to insert it behind, the other is -1; both -1:
- *                    the part stays where it is
+ * the part stays where it is
  *
  * Where two steps or two transitions would meet, an empty transition or step is put between
  * them. A part without exactly one beginning and one end stays where it is, and edit->why
@@ -146,9 +146,9 @@ int sfc_edit_step_end(const struct sfc_edit *edit, int step);
 bool sfc_edit_copy_refs(struct sfc_edit *edit, int transition, bool to, int skip);
 /** sfc_edit_names_step - is @step one of the names behind FROM (@to false) or TO? */
 bool sfc_edit_names_step(const struct sfc_edit *edit, int transition, bool to, int step);
-/** sfc_edit_hand_over - the first @ways transitions that leave @step leave @other instead. */
+/** sfc_edit_hand_over - moves the first @ways transitions that leave @step to @other. */
 bool sfc_edit_hand_over(struct sfc_edit *edit, int step, int other, int ways);
-/** sfc_edit_drop_piece - number @at is written no more; -1: nothing. */
+/** sfc_edit_drop_piece - removes piece @at from the file; -1: nothing. */
 void sfc_edit_drop_piece(struct sfc_edit *edit, int at);
 /** sfc_edit_asks_for - does anything in the chart name @step.X or @step.T? */
 bool sfc_edit_asks_for(const struct sfc_edit *edit, int step);

@@ -14,12 +14,12 @@
 struct passage {
 	struct sfc_edit *edit;
 	int step, way;           /* its first step and transition                */
-	int step_end, way_end;   /* behind its last ones                         */
-	int macro;               /* the macro-step it goes into; -1: none        */
-	int head, head_way;      /* the step or transition at its begin, else -1 */
+	int step_end, way_end;   /* one behind its last ones                     */
+	int macro;               /* the macro-step to insert into; -1: none      */
+	int head, head_way;      /* the step or transition it begins with, else -1 */
 	int heads;
-	int tail, tails;         /* a step that no transition leaves             */
-	int exit, exits;         /* the first transition that leaves it          */
+	int tail, tails;         /* a step that no transition leaves; their number */
+	int exit, exits;         /* the first transition that leaves the part; their number */
 };
 
 static uint32_t name_of(const struct passage *part, int step)
@@ -27,7 +27,7 @@ static uint32_t name_of(const struct passage *part, int step)
 	return part->edit->sfc.step[step].name;
 }
 
-/* ---- its ends ---- */
+/* ---- ends of the part ---- */
 
 /* The names on one side of a transition. */
 static const struct sfc_ref *side_of(const struct passage *part, int transition, bool to,
@@ -40,7 +40,7 @@ static const struct sfc_ref *side_of(const struct passage *part, int transition,
 	return sfc->ref + (to ? t->first_to : t->first_from);
 }
 
-/* Does a transition of the part lead to the step, or from it? */
+/* Does a transition of the part lead to the step (@to), or from it? */
 static bool is_led(const struct passage *part, bool to, int step)
 {
 	for (int t = part->way; t < part->way_end; t++)
@@ -84,7 +84,7 @@ static void look_at(struct passage *part)
 	}
 }
 
-/* ---- it moves ---- */
+/* ---- moving the pieces ---- */
 
 static bool is_of(const struct passage *part, const struct sfc_piece *piece)
 {
@@ -93,7 +93,7 @@ static bool is_of(const struct passage *part, const struct sfc_piece *piece)
 	       piece->index >= part->step;
 }
 
-/* Its pieces stand behind all others; they go behind piece @at. */
+/* Moves its pieces, which are the last ones, behind piece @at. */
 static bool move_pieces(struct passage *part, int at)
 {
 	struct sfc *sfc = &part->edit->sfc;
@@ -132,7 +132,7 @@ static void move_inside(struct passage *part)
 			sfc->transition[i].macro = part->macro;
 }
 
-/* ---- its ways ---- */
+/* ---- joining the transitions ---- */
 
 static bool lead(struct passage *part, int transition, bool to, int step)
 {
@@ -152,7 +152,8 @@ static int step_at(struct passage *part, bool end)
 	return sfc_edit_new_step(edit, part->macro, end ? at : at - 1);
 }
 
-/* Do all names outside mean a step there is where the part stands? Its own do. */
+/* Can the transition name all these steps from the place of the part? Steps of the part
+ * always count as known. */
 static bool is_known(const struct passage *part, int transition, bool to)
 {
 	int count;
@@ -165,8 +166,7 @@ static bool is_known(const struct passage *part, int transition, bool to)
 	return true;
 }
 
-/* The first transition out of the part is joined, those to the same steps, and those to
- * unknown steps. */
+/* Is it the first transition out of the part, or one to the same or to unknown steps? */
 static bool goes_on(const struct passage *part, int transition,
 		    const struct sfc_transition *exit)
 {
@@ -227,7 +227,7 @@ static bool close_ways(struct passage *part)
 	return true;
 }
 
-/* ---- where it comes to ---- */
+/* ---- the place in the sequence ---- */
 
 static int behind_transition(struct passage *part, int transition)
 {
@@ -245,7 +245,7 @@ static int behind_transition(struct passage *part, int transition)
 	return join(part, &old) && lead(part, transition, true, head) ? head : -1;
 }
 
-/* All transitions out of the part lead to one step. */
+/* Makes all transitions out of the part lead to one step. */
 static int last_step(struct passage *part)
 {
 	struct sfc_transition exit, like;
@@ -284,7 +284,8 @@ static int behind_step(struct passage *part, int step, bool goes)
 	       part->head;
 }
 
-/* How many ways leave a step, and the last of them that leaves no other step; -1: none. */
+/* The number of transitions that leave a step; @only: the last that leaves no other step,
+ * -1: none. */
 static int count_ways(const struct passage *part, int step, int *only)
 {
 	int count = 0;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_edit_macro - steps go into a macro-step and come out again; see sfc_edit.h.
+ * sfc_edit_macro - makes macro-steps and dissolves them; see sfc_edit.h.
  *
- * Both change nothing in what the chart does: transitions that led to the first step of the
- * group lead to the macro-step, and those that left its last step leave the macro-step.
+ * Neither changes what the chart does: transitions to the first step of the group lead to
+ * the macro-step, and those from its last step leave the macro-step.
  */
 #include "editor-gtk/edit/sfc_edit.h"
 
@@ -14,13 +14,13 @@
 
 #define NO_MEMORY N_("out of memory")
 
-/* Some steps of a chart, and how they hang in the rest of it. */
+/* Some steps of a chart, and their connections with the rest. */
 struct group {
 	struct sfc_edit *edit;
-	const bool *step;       /* by step: is it one of them?                 */
-	int macro;              /* the macro-step they are in; -1: the chart   */
+	const bool *step;       /* by step: does it belong to the group?       */
+	int macro;              /* the macro-step that they are in; -1: the chart */
 	int entry, exit;        /* -1: not known yet                           */
-	bool *inner;            /* by transition: it goes with them            */
+	bool *inner;            /* by transition: does it belong to the group? */
 };
 
 static bool refuse(struct group *group, const char *why)
@@ -28,7 +28,7 @@ static bool refuse(struct group *group, const char *why)
 	return sfc_edit_refuse(group->edit, why);
 }
 
-/* How many names of one side are steps of the group; the last of them. */
+/* The number of names on one side that are steps of the group; @step: the last of them. */
 static int count_in(const struct group *group, int first, int count, int *step)
 {
 	int found = 0;
@@ -50,7 +50,7 @@ static bool is_written(const struct group *group, int transition)
 	       sfc_edit_find_piece(group->edit, PIECE_TRANSITION, transition) >= 0;
 }
 
-/* One and the same step for all ways that cross the border. */
+/* All transitions across the border must have the same step. */
 static bool take_gate(struct group *group, int count, int step, int *gate,
 		      const char *why)
 {
@@ -65,7 +65,7 @@ static bool take_gate(struct group *group, int count, int step, int *gate,
 #define SEVERAL_IN N_("these steps are entered at several places")
 #define SEVERAL_OUT N_("these steps are left at several places")
 
-/* From the end of the group back to its beginning: from the macro-step to itself. */
+/* A transition from the exit back to the entry leads from the macro-step to itself. */
 static void free_loops(struct group *group)
 {
 	const struct sfc *sfc = &group->edit->sfc;
@@ -81,7 +81,7 @@ static void free_loops(struct group *group)
 	}
 }
 
-/* Which transitions go inside; where those that do not lead in and out. */
+/* Finds the inner transitions, and the entry and exit of the others. */
 static bool find_gates(struct group *group)
 {
 	const struct sfc *sfc = &group->edit->sfc;
@@ -106,7 +106,7 @@ static bool find_gates(struct group *group)
 	return true;
 }
 
-/* Does a transition that goes inside lead away from it? */
+/* Does an inner transition leave it? */
 static bool leads_on(const struct group *group, int step)
 {
 	for (int i = 0; i < group->edit->sfc.transition_count; i++)
@@ -115,7 +115,8 @@ static bool leads_on(const struct group *group, int step)
 	return false;
 }
 
-/* Nothing leads in or out: the first of them, the only one that has no way on. */
+/* Without transitions in or out: the first step, and the only one that no transition
+ * leaves. */
 static bool guess_gates(struct group *group)
 {
 	const struct sfc *sfc = &group->edit->sfc;
@@ -159,9 +160,9 @@ static bool check_chosen(struct group *group)
 	return any || refuse(group, N_("the cursor is not on a step"));
 }
 
-/* ---- into ---- */
+/* ---- making ---- */
 
-/* Names outside that were one of the group are the macro-step. */
+/* Names of the group in outer transitions become the macro-step. */
 static bool lead_to_macro(struct group *group, int macro)
 {
 	struct sfc_edit *edit = group->edit;
@@ -186,7 +187,7 @@ static bool lead_to_macro(struct group *group, int macro)
 	return true;
 }
 
-/* Does this piece, which stands in no macro-step of the group, go inside? */
+/* Does this piece, which is in no macro-step of the group, move inside? */
 static bool goes_inside(const struct group *group, const struct sfc_piece *piece)
 {
 	if (piece->kind == PIECE_STEP || piece->kind == PIECE_MACRO_END)
@@ -194,7 +195,7 @@ static bool goes_inside(const struct group *group, const struct sfc_piece *piece
 	return piece->kind == PIECE_TRANSITION && group->inner[piece->index];
 }
 
-/* All pieces of the group one after another where the first of them stood. */
+/* Moves all pieces of the group to the place of the first. */
 static bool gather(struct group *group, int macro)
 {
 	struct sfc *sfc = &group->edit->sfc;
@@ -265,7 +266,7 @@ static int depth_of(const struct sfc *sfc, int step)
 	return depth;
 }
 
-/* How deep macro-steps would stand in each other. */
+/* Would macro-steps be nested too deep? */
 static bool is_too_deep(const struct group *group)
 {
 	const struct sfc *sfc = &group->edit->sfc;
@@ -290,7 +291,7 @@ static int put_inside(struct group *group)
 	if (is_too_deep(group))
 		return refuse(group, N_("macro-steps are nested too deep")) - 1;
 	macro = new_macro(group);
-	/* @step has no entry for the new one. */
+	/* @step has no entry for the new one */
 	if (macro < 0 || !gather(group, macro) || !lead_to_macro(group, macro))
 		return -1;
 	for (int i = 0; i < count; i++)
@@ -324,7 +325,7 @@ int sfc_edit_macro_make(struct sfc_edit *edit, const bool *chosen)
 	return made;
 }
 
-/* ---- out of ---- */
+/* ---- dissolving ---- */
 
 static bool has_way_on(const struct sfc_edit *edit, int step)
 {
@@ -335,7 +336,8 @@ static bool has_way_on(const struct sfc_edit *edit, int step)
 	return false;
 }
 
-/* Its one initial step, its one step without a way on; false: there are none or more. */
+/* Its only initial step, and its only step that no transition leaves; false: none or
+ * several. */
 static bool inside_gates(const struct sfc_edit *edit, int macro, int *entry, int *leave)
 {
 	int entries = 0, leaves = 0;
