@@ -5,18 +5,18 @@
  * A piece is a rung whose rail is the piece's left edge. Marks while dragging and the drop
  * itself ask the same function, judge().
  */
-#include "editor-gtk/edit/grid_canvas.h"
+#include "editor-gtk/edit/grid_spread.h"
 
 /* ---- copy ---- */
 
-static bool has_box_above(const struct canvas *c, int row, int col, int top)
+static bool has_box_above(const struct spread *c, int row, int col, int top)
 {
-	while (row >= top && canvas_word(c, row, col) == ELEM_PIN)
+	while (row >= top && spread_word(c, row, col) == ELEM_PIN)
 		row--;
 	return row >= top;
 }
 
-static void copy_cells(const struct canvas *c, const struct grid_area *area,
+static void copy_cells(const struct spread *c, const struct grid_area *area,
 		       struct rung *made)
 {
 	for (int row = 0; row < made->rows; row++)
@@ -48,9 +48,9 @@ struct rung *grid_copy(const struct rung *rung, int columns,
 	struct grid_at at = { columns, area->row, area->col, GRID_DONE };
 	struct rung *piece = NULL, *made = NULL;
 	struct grid_area a = *area;
-	struct canvas c;
+	struct spread c;
 
-	if (canvas_open(&c, rung, columns, 1)) {
+	if (spread_open(&c, rung, columns, 1)) {
 		a.last_row = a.last_row < c.rung->rows ? a.last_row : c.rung->rows - 1;
 		a.last_col = a.last_col < c.rung->cols ? a.last_col : c.rung->cols - 1;
 		if (a.row >= 0 && a.col >= 0)
@@ -61,7 +61,7 @@ struct rung *grid_copy(const struct rung *rung, int columns,
 		}
 	}
 	rung_free(piece);
-	rung_free(canvas_close(&c, &at));
+	rung_free(spread_close(&c, &at));
 	return made;
 }
 
@@ -104,103 +104,103 @@ static struct piece look_at(const struct rung *rung)
 
 /* Puts the cells of the piece at (@row, @col). Its rows that begin at its rail are joined
  * with the bar there. */
-static void put_piece(struct canvas *c, int row, int col, const struct rung *part)
+static void put_piece(struct spread *c, int row, int col, const struct rung *part)
 {
 	for (int i = 0; i < part->rows; i++) {
 		for (int k = 0; k < part->cols; k++) {
 			struct cell cell = *rung_at(part, i, k);
 
 			cell.spare = 0;
-			canvas_put(c, row + i, col + k, cell);
+			spread_put(c, row + i, col + k, cell);
 			if (i > 0 && cell.link)
-				canvas_cell(c, row + i, col + k)->link = 1;
+				spread_cell(c, row + i, col + k)->link = 1;
 		}
-		if (i > 0 && canvas_right(c, row + i, col))
-			canvas_join_up(c, row, row + i, col);
+		if (i > 0 && spread_right(c, row + i, col))
+			spread_join_up(c, row, row + i, col);
 	}
 }
 
-static bool insert_columns(struct canvas *c, int at, int count)
+static bool insert_columns(struct spread *c, int at, int count)
 {
 	while (count-- > 0)
-		if (!canvas_insert_column(c, at))
+		if (!spread_insert_column(c, at))
 			return false;
 	return true;
 }
 
-static bool insert_rows(struct canvas *c, int at, int count)
+static bool insert_rows(struct spread *c, int at, int count)
 {
 	while (count-- > 0)
-		if (!canvas_insert_row(c, at))
+		if (!spread_insert_row(c, at))
 			return false;
 	return true;
 }
 
 /* Counts cells from @col on that are free or wire, with no link between them. */
-static int free_run(const struct canvas *c, int row, int col, int most)
+static int free_run(const struct spread *c, int row, int col, int most)
 {
 	int count = 0;
 
-	while (count < most && col + count < canvas_last(c) &&
+	while (count < most && col + count < spread_last(c) &&
 	       is_plain(rung_at(c->rung, row, col + count)) &&
-	       (count == 0 || !canvas_linked(c, row, col + count)))
+	       (count == 0 || !spread_linked(c, row, col + count)))
 		count++;
 	return count;
 }
 
-static bool paste_series(struct canvas *c, int row, int col, const struct rung *part)
+static bool paste_series(struct spread *c, int row, int col, const struct rung *part)
 {
 	const int width = part->cols;
 	int run;
 
-	if (col >= canvas_last(c))
-		return canvas_fail(c, GRID_LAST_COLUMN);
-	if (canvas_word(c, row, col) == ELEM_PIN)
-		return canvas_fail(c, GRID_PIN_CELL);
+	if (col >= spread_last(c))
+		return spread_fail(c, GRID_LAST_COLUMN);
+	if (spread_word(c, row, col) == ELEM_PIN)
+		return spread_fail(c, GRID_PIN_CELL);
 	run = free_run(c, row, col, width);
 	if (!insert_columns(c, col, width - run) ||
 	    !insert_rows(c, row + 1, part->rows - 1))
 		return false;
 	put_piece(c, row, col, part);
-	canvas_close_left(c, row, col);
-	if (!canvas_is_empty(c, row, col + width - 1))
-		canvas_close_right(c, row, col + width - 1);
-	canvas_mark(c, row, col);
+	spread_close_left(c, row, col);
+	if (!spread_is_empty(c, row, col + width - 1))
+		spread_close_right(c, row, col + width - 1);
+	spread_mark(c, row, col);
 	return true;
 }
 
-static bool paste_parallel(struct canvas *c, int row, int col, const struct rung *part)
+static bool paste_parallel(struct spread *c, int row, int col, const struct rung *part)
 {
 	const int width = part->cols;
 	int below;
 
-	if (!canvas_is_element(c, row, col))
-		return canvas_fail(c, GRID_NOTHING_BELOW);
-	if (canvas_is_output(c, row, col))
-		return canvas_fail(c, GRID_ONLY_OUTPUT);
+	if (!spread_is_element(c, row, col))
+		return spread_fail(c, GRID_NOTHING_BELOW);
+	if (spread_is_output(c, row, col))
+		return spread_fail(c, GRID_ONLY_OUTPUT);
 	if (!insert_columns(c, col + 1, width - 1))
 		return false;
-	below = canvas_branch_row(c, &row, col, col + width - 1);
+	below = spread_branch_row(c, &row, col, col + width - 1);
 	if (below < 0)
 		return false;
 	if (below < row && part->rows > 1)
-		return canvas_fail(c, GRID_CROSSING);
+		return spread_fail(c, GRID_CROSSING);
 	if (!insert_rows(c, below + 1, part->rows - 1))
 		return false;
 	put_piece(c, below, col, part);
-	canvas_join_branch(c, row, below, col);
-	canvas_join_branch(c, row, below, col + width);
-	for (int i = col + width - 1; i > col && canvas_is_empty(c, below, i) &&
-				      !canvas_linked(c, below, i); i--)
-		canvas_cell(c, below, i)->word = ELEM_WIRE;
-	if (canvas_is_empty(c, below, col + width - 1))
-		canvas_cell(c, below, col + width - 1)->word = ELEM_WIRE;
-	canvas_mark(c, below, col);
+	spread_join_branch(c, row, below, col);
+	spread_join_branch(c, row, below, col + width);
+	for (int i = col + width - 1; i > col && spread_is_empty(c, below, i) &&
+				      !spread_linked(c, below, i); i--)
+		spread_cell(c, below, i)->word = ELEM_WIRE;
+	if (spread_is_empty(c, below, col + width - 1))
+		spread_cell(c, below, col + width - 1)->word = ELEM_WIRE;
+	spread_mark(c, below, col);
 	return true;
 }
 
 /* The first row, from @row on, that is not joined with the row above: new rows go there. */
-static int row_apart(const struct canvas *c, int row)
+static int row_apart(const struct spread *c, int row)
 {
 	bool joined = true;
 
@@ -208,27 +208,27 @@ static int row_apart(const struct canvas *c, int row)
 		joined = false;
 		for (int col = 0; col < c->rung->cols; col++)
 			joined |= rung_at(c->rung, row, col)->link ||
-				  canvas_word(c, row, col) == ELEM_PIN;
+				  spread_word(c, row, col) == ELEM_PIN;
 		if (!joined)
 			break;
 	}
 	return row;
 }
 
-static bool is_bare_row(const struct canvas *c, int row)
+static bool is_bare_row(const struct spread *c, int row)
 {
 	for (int col = 0; col < c->rung->cols; col++)
-		if (!canvas_is_empty(c, row, col) || canvas_linked(c, row, col + 1))
+		if (!spread_is_empty(c, row, col) || spread_linked(c, row, col + 1))
 			return false;
 	return true;
 }
 
-static bool paste_rows(struct canvas *c, int row, const struct rung *part)
+static bool paste_rows(struct spread *c, int row, const struct rung *part)
 {
 	const int rows = part->rows, columns = grid_display_columns(part, 1);
 	struct rung *spread;
 
-	if (!insert_columns(c, canvas_last(c), columns - c->rung->cols))
+	if (!insert_columns(c, spread_last(c), columns - c->rung->cols))
 		return false;
 	if (is_bare_row(c, row)) {
 		if (!insert_rows(c, row + 1, rows - 1))
@@ -240,34 +240,34 @@ static bool paste_rows(struct canvas *c, int row, const struct rung *part)
 	}
 	spread = grid_spread(part, c->rung->cols);
 	if (!spread)
-		return canvas_fail(c, GRID_NO_MEMORY);
+		return spread_fail(c, GRID_NO_MEMORY);
 	put_piece(c, row, 0, spread);
 	rung_free(spread);
-	canvas_mark(c, row, 0);
+	spread_mark(c, row, 0);
 	return true;
 }
 
 /* For outputs alone: puts all of them in the row of the cursor. */
-static void paste_outputs(struct canvas *c, int row, const struct rung *part)
+static void paste_outputs(struct spread *c, int row, const struct rung *part)
 {
 	for (int i = 0; i < part->rows * part->cols; i++)
 		if (!is_plain(&part->cell[i]) &&
-		    !canvas_place(c, row, canvas_last(c), part->cell[i], GRID_INSERT))
+		    !spread_place(c, row, spread_last(c), part->cell[i], GRID_INSERT))
 			return;
 }
 
-static bool paste(struct canvas *c, int row, int col, const struct piece *piece,
+static bool paste(struct spread *c, int row, int col, const struct piece *piece,
 		  bool parallel)
 {
 	if (row < 0 || col < 0 || col >= c->rung->cols)
-		return canvas_fail(c, GRID_OUTSIDE);
+		return spread_fail(c, GRID_OUTSIDE);
 	if (piece->elements == 0)
-		return canvas_fail(c, GRID_NO_ELEMENT);
-	if (!canvas_rows(c, row + 1))
+		return spread_fail(c, GRID_NO_ELEMENT);
+	if (!spread_rows(c, row + 1))
 		return false;
 	if (piece->elements == 1 && piece->pins == 0)
-		return parallel ? canvas_parallel(c, row, col, col, piece->only) :
-				  canvas_place(c, row, col, piece->only, GRID_INSERT);
+		return parallel ? spread_parallel(c, row, col, col, piece->only) :
+				  spread_place(c, row, col, piece->only, GRID_INSERT);
 	if (piece->outputs == piece->elements)
 		paste_outputs(c, row, piece->rung);
 	else if (piece->outputs > 0)
@@ -278,7 +278,7 @@ static bool paste(struct canvas *c, int row, int col, const struct piece *piece,
 	return c->refusal == GRID_DONE;
 }
 
-static bool paste_piece(struct canvas *c, int row, int col, const struct rung *part,
+static bool paste_piece(struct spread *c, int row, int col, const struct rung *part,
 		  bool parallel)
 {
 	struct rung *normal = grid_normalise(part);
@@ -286,7 +286,7 @@ static bool paste_piece(struct canvas *c, int row, int col, const struct rung *p
 	bool good;
 
 	if (!normal)
-		return canvas_fail(c, GRID_NO_MEMORY);
+		return spread_fail(c, GRID_NO_MEMORY);
 	piece = look_at(normal);
 	good = paste(c, row, col, &piece, parallel);
 	rung_free(normal);
@@ -296,11 +296,11 @@ static bool paste_piece(struct canvas *c, int row, int col, const struct rung *p
 struct rung *grid_paste(const struct rung *rung, struct grid_at *at,
 			const struct rung *part, bool parallel)
 {
-	struct canvas c;
+	struct spread c;
 
-	if (canvas_open(&c, rung, at->columns, 1))
+	if (spread_open(&c, rung, at->columns, 1))
 		paste_piece(&c, at->row, at->col, part, parallel);
-	return canvas_close(&c, at);
+	return spread_close(&c, at);
 }
 
 bool grid_is_outputs(const struct rung *rung)
@@ -314,35 +314,35 @@ bool grid_is_outputs(const struct rung *rung)
 
 /* The element that a branch at the empty cell (@row, @col) would go around: right above, or
  * the box whose pins are there; -1: none. */
-static int element_above(const struct canvas *c, int row, int col)
+static int element_above(const struct spread *c, int row, int col)
 {
-	for (row--; row >= 0 && canvas_word(c, row, col) == ELEM_PIN; row--)
+	for (row--; row >= 0 && spread_word(c, row, col) == ELEM_PIN; row--)
 		;
-	return row >= 0 && canvas_is_element(c, row, col) &&
-	       !canvas_is_output(c, row, col) ? row : -1;
+	return row >= 0 && spread_is_element(c, row, col) &&
+	       !spread_is_output(c, row, col) ? row : -1;
 }
 
-static enum grid_drop judge_series(const struct canvas *c, int row, int col)
+static enum grid_drop judge_series(const struct spread *c, int row, int col)
 {
-	if (col >= canvas_last(c))
+	if (col >= spread_last(c))
 		return GRID_DROP_NOT;
-	if (canvas_word(c, row, col) == ELEM_PIN)
+	if (spread_word(c, row, col) == ELEM_PIN)
 		return GRID_DROP_NOT;
-	if (canvas_word(c, row, col) == ELEM_WIRE)
+	if (spread_word(c, row, col) == ELEM_WIRE)
 		return GRID_DROP_WIRE;
-	if (!canvas_is_empty(c, row, col))
+	if (!spread_is_empty(c, row, col))
 		return GRID_DROP_BEFORE;
 	return element_above(c, row, col) >= 0 ? GRID_DROP_BELOW : GRID_DROP_THERE;
 }
 
-static enum grid_drop judge(const struct canvas *c, int row, int col, enum word word)
+static enum grid_drop judge(const struct spread *c, int row, int col, enum word word)
 {
 	if (row < 0 || row > c->rung->rows || row >= LIMIT_ROWS || col < 0 ||
 	    col >= c->rung->cols)
 		return GRID_DROP_NOT;
 	switch (word_row(word)->place) {
 	case PLACE_LAST:
-		return col == canvas_last(c) ? GRID_DROP_OUTPUT : GRID_DROP_NOT;
+		return col == spread_last(c) ? GRID_DROP_OUTPUT : GRID_DROP_NOT;
 	case PLACE_SERIES:
 	case PLACE_BOX:
 		return judge_series(c, row, col);
@@ -359,12 +359,12 @@ enum grid_drop grid_can_drop(const struct rung *rung, int columns, int row, int 
 {
 	struct grid_at at = { columns, row, col, GRID_DONE };
 	enum grid_drop drop = GRID_DROP_NOT;
-	struct canvas c;
+	struct spread c;
 
-	if (canvas_open(&c, rung, columns, 1))
+	if (spread_open(&c, rung, columns, 1))
 		drop = judge(&c, row, col, word);
 	c.refusal = GRID_OUTSIDE; /* no rung is wanted */
-	canvas_close(&c, &at);
+	spread_close(&c, &at);
 	return drop;
 }
 
@@ -372,72 +372,72 @@ bool grid_takes(const struct rung *rung, int columns, int rows, enum word word, 
 {
 	struct grid_at at = { .columns = columns };
 	const int cells = rows * columns;
-	struct canvas c;
-	const bool open = canvas_open(&c, rung, columns, 1);
+	struct spread c;
+	const bool open = spread_open(&c, rung, columns, 1);
 
 	for (int i = 0; i < cells; i++)
 		takes[i] = open && judge(&c, i / columns, i % columns, word) != GRID_DROP_NOT;
 	c.refusal = GRID_OUTSIDE; /* no rung is wanted */
-	canvas_close(&c, &at);
+	spread_close(&c, &at);
 	return open;
 }
 
-static enum grid_refusal why_not(const struct canvas *c, int row, int col, enum word word)
+static enum grid_refusal why_not(const struct spread *c, int row, int col, enum word word)
 {
 	if (word_row(word)->place == PLACE_LAST)
 		return GRID_OUTPUT_LAST;
-	return canvas_word(c, row, col) == ELEM_PIN ? GRID_PIN_CELL : GRID_LAST_COLUMN;
+	return spread_word(c, row, col) == ELEM_PIN ? GRID_PIN_CELL : GRID_LAST_COLUMN;
 }
 
-static bool drop(struct canvas *c, int row, int col, struct cell cell)
+static bool drop(struct spread *c, int row, int col, struct cell cell)
 {
 	const enum grid_drop how = judge(c, row, col, (enum word)cell.word);
 
-	if (how != GRID_DROP_NOT && !canvas_rows(c, row + 1))
+	if (how != GRID_DROP_NOT && !spread_rows(c, row + 1))
 		return false;
 	switch (how) {
 	case GRID_DROP_NOT:
-		return canvas_fail(c, why_not(c, row, col, (enum word)cell.word));
+		return spread_fail(c, why_not(c, row, col, (enum word)cell.word));
 	case GRID_DROP_BELOW:
-		return canvas_parallel(c, element_above(c, row, col), col, col, cell);
+		return spread_parallel(c, element_above(c, row, col), col, col, cell);
 	case GRID_DROP_THERE:
 	case GRID_DROP_WIRE:
 	case GRID_DROP_BEFORE:
 	case GRID_DROP_OUTPUT:
 		break;
 	}
-	return canvas_place(c, row, col, cell, GRID_INSERT);
+	return spread_place(c, row, col, cell, GRID_INSERT);
 }
 
 struct rung *grid_drop(const struct rung *rung, struct grid_at *at, struct cell cell)
 {
-	struct canvas c;
+	struct spread c;
 
 	cell.spare = 0;
-	if (canvas_open(&c, rung, at->columns, 1))
+	if (spread_open(&c, rung, at->columns, 1))
 		drop(&c, at->row, at->col, cell);
-	return canvas_close(&c, at);
+	return spread_close(&c, at);
 }
 
 /* ---- moving an element ---- */
 
 /* Backwards, so that a branch is deleted before the element it is parallel to. */
-static bool delete_last_moved(struct canvas *c)
+static bool delete_last_moved(struct spread *c)
 {
 	for (int row = c->rung->rows - 1; row >= 0; row--)
-		for (int col = canvas_last(c); col >= 0; col--) {
-			struct cell *cell = canvas_cell(c, row, col);
+		for (int col = spread_last(c); col >= 0; col--) {
+			struct cell *cell = spread_cell(c, row, col);
 
-			if (!(cell->spare & CANVAS_MOVED))
+			if (!(cell->spare & SPREAD_MOVED))
 				continue;
-			cell->spare &= (uint8_t)~CANVAS_MOVED;
-			canvas_delete_whole(c, row, col);
+			cell->spare &= (uint8_t)~SPREAD_MOVED;
+			spread_delete_whole(c, row, col);
 			return true;
 		}
 	return false;
 }
 
-static void delete_moved(struct canvas *c)
+static void delete_moved(struct spread *c)
 {
 	while (c->refusal == GRID_DONE && delete_last_moved(c))
 		;
@@ -446,21 +446,21 @@ static void delete_moved(struct canvas *c)
 static struct rung *move_within(const struct rung *rung, struct grid_at *from,
 				struct grid_at *to)
 {
-	struct canvas c;
+	struct spread c;
 	const struct grid_at start = *from;
 
-	if (canvas_at_element(&c, rung, from)) {
-		struct cell *cell = canvas_cell(&c, from->row, from->col);
+	if (spread_at_element(&c, rung, from)) {
+		struct cell *cell = spread_cell(&c, from->row, from->col);
 		struct cell moved = *cell;
 
 		moved.spare = 0;
-		cell->spare |= CANVAS_MOVED;
+		cell->spare |= SPREAD_MOVED;
 		if (start.row == to->row && start.col == to->col)
-			canvas_mark(&c, to->row, to->col);
+			spread_mark(&c, to->row, to->col);
 		else if (drop(&c, to->row, to->col, moved))
 			delete_moved(&c);
 	}
-	rung = canvas_close(&c, to);
+	rung = spread_close(&c, to);
 	from->refusal = to->refusal;
 	return (struct rung *)rung;
 }
@@ -496,12 +496,12 @@ struct rung *grid_move(const struct rung *rung, struct grid_at *from,
 
 /* ---- moving an area ---- */
 
-static void mark_moved(struct canvas *c, const struct grid_area *area)
+static void mark_moved(struct spread *c, const struct grid_area *area)
 {
 	for (int row = area->row; row <= area->last_row && row < c->rung->rows; row++)
 		for (int col = area->col; col <= area->last_col; col++)
-			if (col < c->rung->cols && canvas_is_element(c, row, col))
-				canvas_cell(c, row, col)->spare |= CANVAS_MOVED;
+			if (col < c->rung->cols && spread_is_element(c, row, col))
+				spread_cell(c, row, col)->spare |= SPREAD_MOVED;
 }
 
 static bool is_within(const struct grid_area *area, const struct grid_at *at)
@@ -515,14 +515,14 @@ static struct rung *move_area_within(const struct rung *rung,
 				     const struct rung *piece, struct grid_at *to,
 				     bool parallel)
 {
-	struct canvas c;
+	struct spread c;
 
-	if (canvas_open(&c, rung, to->columns, 1) && !is_within(area, to)) {
+	if (spread_open(&c, rung, to->columns, 1) && !is_within(area, to)) {
 		mark_moved(&c, area);
 		if (paste_piece(&c, to->row, to->col, piece, parallel))
 			delete_moved(&c);
 	}
-	return canvas_close(&c, to);
+	return spread_close(&c, to);
 }
 
 struct rung *grid_move_area(const struct rung *rung, struct grid_at *from,

@@ -5,7 +5,7 @@
  * The rows of the catalogue say which words belong together. Only the signs of comparisons,
  * which are not words, are listed here.
  */
-#include "editor-gtk/edit/grid_canvas.h"
+#include "editor-gtk/edit/grid_spread.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
@@ -65,17 +65,17 @@ enum word grid_word_negated(enum word word)
 
 struct rung *grid_cycle(const struct rung *rung, struct grid_at *at)
 {
-	struct canvas c;
+	struct spread c;
 
-	if (canvas_at_element(&c, rung, at)) {
-		struct cell *cell = canvas_cell(&c, at->row, at->col);
+	if (spread_at_element(&c, rung, at)) {
+		struct cell *cell = spread_cell(&c, at->row, at->col);
 		const enum word next = next_word((enum word)cell->word, can_cycle);
 
 		if (next == cell->word)
-			canvas_fail(&c, GRID_NO_OTHER);
+			spread_fail(&c, GRID_NO_OTHER);
 		cell->word = (uint16_t)next;
 	}
-	return canvas_close(&c, at);
+	return spread_close(&c, at);
 }
 
 /* ---- comparisons ---- */
@@ -218,20 +218,20 @@ static uint32_t opposite(struct project *project, const struct pou *pou, uint32_
 struct rung *grid_negate(const struct rung *rung, struct grid_at *at,
 			 struct project *project, const struct pou *pou)
 {
-	struct canvas c;
+	struct spread c;
 
-	if (canvas_at_element(&c, rung, at)) {
-		struct cell *cell = canvas_cell(&c, at->row, at->col);
+	if (spread_at_element(&c, rung, at)) {
+		struct cell *cell = spread_cell(&c, at->row, at->col);
 		const enum word word = grid_word_negated((enum word)cell->word);
 
 		if (word_row((enum word)cell->word)->operand == OPND_EXPR) {
 			cell->operand = opposite(project, pou, cell->operand);
 			if (!cell->operand)
-				canvas_fail(&c, GRID_NO_MEMORY);
+				spread_fail(&c, GRID_NO_MEMORY);
 		} else if (word == cell->word) {
-			canvas_fail(&c, GRID_NO_OPPOSITE);
+			spread_fail(&c, GRID_NO_OPPOSITE);
 		}
 		cell->word = (uint16_t)word;
 	}
-	return canvas_close(&c, at);
+	return spread_close(&c, at);
 }

@@ -6,51 +6,51 @@
  * A stroke has at most one corner. If elements stand between its two ends in one row, it
  * goes around them in its own row. Loose ends stay as they were drawn.
  */
-#include "editor-gtk/edit/grid_canvas.h"
+#include "editor-gtk/edit/grid_spread.h"
 
 /* The cell of a wire to the left or right. */
-static int cell_of_wire(const struct canvas *c, const struct grid_at *at,
+static int cell_of_wire(const struct spread *c, const struct grid_at *at,
 		       enum grid_way way)
 {
-	const enum word word = canvas_word(c, at->row, at->col);
+	const enum word word = spread_word(c, at->row, at->col);
 
 	if (word == ELEM_EMPTY || word == ELEM_WIRE)
 		return at->col;
 	return way == GRID_RIGHT ? at->col + 1 : at->col - 1;
 }
 
-static bool toggle_across(struct canvas *c, struct grid_at *at, enum grid_way way)
+static bool toggle_across(struct spread *c, struct grid_at *at, enum grid_way way)
 {
 	const int col = cell_of_wire(c, at, way), step = way == GRID_RIGHT ? 1 : -1;
 	struct cell *cell;
 
-	if (col >= canvas_last(c))
-		return canvas_fail(c, GRID_LAST_COLUMN);
+	if (col >= spread_last(c))
+		return spread_fail(c, GRID_LAST_COLUMN);
 	if (col < 0)
-		return canvas_fail(c, GRID_OUTSIDE);
-	cell = canvas_cell(c, at->row, col);
+		return spread_fail(c, GRID_OUTSIDE);
+	cell = spread_cell(c, at->row, col);
 	if (cell->word == ELEM_PIN)
-		return canvas_fail(c, GRID_PIN_CELL);
+		return spread_fail(c, GRID_PIN_CELL);
 	if (cell->word != ELEM_WIRE && cell->word != ELEM_EMPTY)
-		return canvas_fail(c, GRID_WIRE_BESIDE);
+		return spread_fail(c, GRID_WIRE_BESIDE);
 	cell->word = cell->word == ELEM_WIRE ? ELEM_EMPTY : ELEM_WIRE;
 	if (at->col + step >= 0)
 		at->col += step;
 	return true;
 }
 
-static bool toggle_along(struct canvas *c, struct grid_at *at, enum grid_way way)
+static bool toggle_along(struct spread *c, struct grid_at *at, enum grid_way way)
 {
 	const int row = way == GRID_UP ? at->row : at->row + 1;
 	struct cell *cell;
 
-	if (at->col == canvas_last(c))
-		return canvas_fail(c, GRID_LAST_COLUMN);
+	if (at->col == spread_last(c))
+		return spread_fail(c, GRID_LAST_COLUMN);
 	if (row == 0)
-		return canvas_fail(c, GRID_FIRST_ROW);
-	if (!canvas_rows(c, row + 1))
+		return spread_fail(c, GRID_FIRST_ROW);
+	if (!spread_rows(c, row + 1))
 		return false;
-	cell = canvas_cell(c, row, at->col);
+	cell = spread_cell(c, row, at->col);
 	cell->link = !cell->link;
 	at->row += way == GRID_UP ? -1 : 1;
 	return true;
@@ -58,17 +58,17 @@ static bool toggle_along(struct canvas *c, struct grid_at *at, enum grid_way way
 
 struct rung *grid_wire(const struct rung *rung, struct grid_at *at, enum grid_way way)
 {
-	struct canvas c;
+	struct spread c;
 
-	if (canvas_open(&c, rung, at->columns, at->row + 1)) {
+	if (spread_open(&c, rung, at->columns, at->row + 1)) {
 		if (at->row < 0 || at->col < 0 || at->col >= c.rung->cols)
-			canvas_fail(&c, GRID_OUTSIDE);
+			spread_fail(&c, GRID_OUTSIDE);
 		else if (way == GRID_LEFT || way == GRID_RIGHT)
 			toggle_across(&c, at, way);
 		else
 			toggle_along(&c, at, way);
 	}
-	return canvas_close(&c, at);
+	return spread_close(&c, at);
 }
 
 /* ---- strokes ---- */
@@ -86,30 +86,30 @@ static int most(int a, int b)
 /* ---- strokes: which way it goes ---- */
 
 /* Is @row empty or wire from bar to bar? */
-static bool is_clear(const struct canvas *c, int row, int a, int b)
+static bool is_clear(const struct spread *c, int row, int a, int b)
 {
 	for (int col = least(a, b); col < most(a, b); col++)
-		if (!canvas_is_empty(c, row, col) &&
-		    canvas_word(c, row, col) != ELEM_WIRE)
+		if (!spread_is_empty(c, row, col) &&
+		    spread_word(c, row, col) != ELEM_WIRE)
 			return false;
 	return true;
 }
 
-static bool is_end(const struct canvas *c, struct grid_end end)
+static bool is_end(const struct spread *c, struct grid_end end)
 {
 	return end.row >= 0 && end.row <= c->rung->rows && end.row < LIMIT_ROWS &&
-	       end.bar >= 0 && end.bar <= canvas_last(c);
+	       end.bar >= 0 && end.bar <= spread_last(c);
 }
 
-static bool has_pins(const struct canvas *c, int row, int a, int b)
+static bool has_pins(const struct spread *c, int row, int a, int b)
 {
 	for (int col = least(a, b); col < most(a, b); col++)
-		if (canvas_word(c, row, col) == ELEM_PIN)
+		if (spread_word(c, row, col) == ELEM_PIN)
 			return true;
 	return false;
 }
 
-static enum grid_course course_of(const struct canvas *c, struct grid_end from,
+static enum grid_course course_of(const struct spread *c, struct grid_end from,
 				  struct grid_end to, bool along)
 {
 	const bool across = is_clear(c, from.row, from.bar, to.bar);
@@ -128,10 +128,10 @@ static enum grid_course course_of(const struct canvas *c, struct grid_end from,
 	return is_clear(c, to.row, from.bar, to.bar) ? GRID_ALONG : GRID_NO_COURSE;
 }
 
-static enum grid_refusal why_not(const struct canvas *c, struct grid_end from,
+static enum grid_refusal why_not(const struct spread *c, struct grid_end from,
 				 struct grid_end to)
 {
-	if (from.bar > canvas_last(c) || to.bar > canvas_last(c))
+	if (from.bar > spread_last(c) || to.bar > spread_last(c))
 		return GRID_LAST_COLUMN;
 	if (!is_end(c, from) || !is_end(c, to))
 		return GRID_OUTSIDE;
@@ -144,12 +144,12 @@ static enum grid_refusal why_not(const struct canvas *c, struct grid_end from,
 /* ---- strokes: drawing ---- */
 
 /* These return whether anything changed. */
-static bool draw_across(struct canvas *c, int row, int a, int b)
+static bool draw_across(struct spread *c, int row, int a, int b)
 {
 	bool any = false;
 
 	for (int col = least(a, b); col < most(a, b); col++) {
-		struct cell *cell = canvas_cell(c, row, col);
+		struct cell *cell = spread_cell(c, row, col);
 
 		any |= cell->word != ELEM_WIRE;
 		cell->word = ELEM_WIRE;
@@ -157,12 +157,12 @@ static bool draw_across(struct canvas *c, int row, int a, int b)
 	return any;
 }
 
-static bool draw_along(struct canvas *c, int bar, int a, int b)
+static bool draw_along(struct spread *c, int bar, int a, int b)
 {
 	bool any = false;
 
 	for (int row = least(a, b) + 1; bar > 0 && row <= most(a, b); row++) {
-		struct cell *cell = canvas_cell(c, row, bar - 1);
+		struct cell *cell = spread_cell(c, row, bar - 1);
 
 		any |= !cell->link;
 		cell->link = 1;
@@ -171,21 +171,21 @@ static bool draw_along(struct canvas *c, int bar, int a, int b)
 }
 
 /* Returns the side of the elements that it took. */
-static enum grid_course draw_round(struct canvas *c, int row, int a, int b)
+static enum grid_course draw_round(struct spread *c, int row, int a, int b)
 {
 	const int col = least(a, b), last = most(a, b) - 1;
-	const int branch = canvas_branch_row(c, &row, col, last);
+	const int branch = spread_branch_row(c, &row, col, last);
 
 	if (branch < 0)
 		return GRID_NO_COURSE;
 	draw_across(c, branch, col, last + 1);
-	canvas_join_branch(c, row, branch, col);
-	canvas_join_branch(c, row, branch, last + 1);
-	canvas_mark(c, branch, col);
+	spread_join_branch(c, row, branch, col);
+	spread_join_branch(c, row, branch, last + 1);
+	spread_mark(c, branch, col);
 	return branch < row ? GRID_OVER : GRID_ROUND;
 }
 
-static void draw(struct canvas *c, struct grid_end from, struct grid_end to, bool along)
+static void draw(struct spread *c, struct grid_end from, struct grid_end to, bool along)
 {
 	const enum grid_course course = course_of(c, from, to, along);
 	const int corner = course == GRID_ACROSS ? to.bar : from.bar;
@@ -193,62 +193,62 @@ static void draw(struct canvas *c, struct grid_end from, struct grid_end to, boo
 	bool any;
 
 	if (course == GRID_NO_COURSE) {
-		canvas_fail(c, why_not(c, from, to));
+		spread_fail(c, why_not(c, from, to));
 		return;
 	}
 	if (course == GRID_ROUND) {
 		draw_round(c, from.row, from.bar, to.bar);
 		return;
 	}
-	if (!canvas_rows(c, most(from.row, to.row) + 1))
+	if (!spread_rows(c, most(from.row, to.row) + 1))
 		return;
 	any = draw_along(c, corner, from.row, to.row);
 	any |= draw_across(c, row, from.bar, to.bar);
 	if (!any)
-		canvas_fail(c, GRID_WIRE_THERE);
+		spread_fail(c, GRID_WIRE_THERE);
 	else
-		canvas_mark(c, to.row, to.bar);
+		spread_mark(c, to.row, to.bar);
 }
 
 struct rung *grid_draw_wire(const struct rung *rung, struct grid_at *at,
 			    struct grid_end from, struct grid_end to, bool along)
 {
-	struct canvas c;
+	struct spread c;
 
 	at->row = to.row;
 	at->col = to.bar;
-	if (canvas_open(&c, rung, at->columns, 1))
+	if (spread_open(&c, rung, at->columns, 1))
 		draw(&c, from, to, along);
-	return canvas_close(&c, at);
+	return spread_close(&c, at);
 }
 
 /* ---- strokes: erasing ---- */
 
-static bool erase_across(struct canvas *c, int row, int a, int b)
+static bool erase_across(struct spread *c, int row, int a, int b)
 {
 	bool any = false;
 
 	for (int col = least(a, b); row < c->rung->rows && col < most(a, b); col++)
-		if (canvas_word(c, row, col) == ELEM_WIRE) {
-			canvas_cell(c, row, col)->word = ELEM_EMPTY;
+		if (spread_word(c, row, col) == ELEM_WIRE) {
+			spread_cell(c, row, col)->word = ELEM_EMPTY;
 			any = true;
 		}
 	return any;
 }
 
-static bool erase_along(struct canvas *c, int bar, int a, int b)
+static bool erase_along(struct spread *c, int bar, int a, int b)
 {
 	bool any = false;
 
 	for (int row = least(a, b) + 1; bar > 0 && row <= most(a, b) &&
 					row < c->rung->rows; row++) {
-		any |= canvas_cell(c, row, bar - 1)->link;
-		canvas_cell(c, row, bar - 1)->link = 0;
+		any |= spread_cell(c, row, bar - 1)->link;
+		spread_cell(c, row, bar - 1)->link = 0;
 	}
 	return any;
 }
 
-static bool erase(struct canvas *c, struct grid_end from, struct grid_end to, bool along)
+static bool erase(struct spread *c, struct grid_end from, struct grid_end to, bool along)
 {
 	const bool across = erase_across(c, along ? to.row : from.row, from.bar, to.bar);
 
@@ -258,17 +258,17 @@ static bool erase(struct canvas *c, struct grid_end from, struct grid_end to, bo
 struct rung *grid_erase_wire(const struct rung *rung, struct grid_at *at,
 			     struct grid_end from, struct grid_end to, bool along)
 {
-	struct canvas c;
+	struct spread c;
 
 	at->row = to.row;
 	at->col = to.bar;
-	if (canvas_open(&c, rung, at->columns, 1)) {
+	if (spread_open(&c, rung, at->columns, 1)) {
 		if (!is_end(&c, from) || !is_end(&c, to))
-			canvas_fail(&c, GRID_OUTSIDE);
+			spread_fail(&c, GRID_OUTSIDE);
 		else if (!erase(&c, from, to, along) && !erase(&c, from, to, !along))
-			canvas_fail(&c, GRID_NOTHING);
+			spread_fail(&c, GRID_NOTHING);
 	}
-	return canvas_close(&c, at);
+	return spread_close(&c, at);
 }
 
 /* ---- strokes: for the pointer ---- */
@@ -278,14 +278,14 @@ enum grid_course grid_wire_course(const struct rung *rung, int columns,
 {
 	struct grid_at at = { .columns = columns };
 	enum grid_course course = GRID_NO_COURSE;
-	struct canvas c;
+	struct spread c;
 
-	if (canvas_open(&c, rung, columns, 1))
+	if (spread_open(&c, rung, columns, 1))
 		course = course_of(&c, from, to, along);
 	if (course == GRID_ROUND)
 		course = draw_round(&c, from.row, from.bar, to.bar);
 	c.refusal = GRID_OUTSIDE; /* no rung is wanted */
-	canvas_close(&c, &at);
+	spread_close(&c, &at);
 	return course;
 }
 
@@ -293,8 +293,8 @@ void grid_wire_ends(const struct rung *rung, int columns, struct grid_end from,
 		    int rows, bool *legal)
 {
 	struct grid_at at = { .columns = columns };
-	struct canvas c;
-	const bool open = canvas_open(&c, rung, columns, 1);
+	struct spread c;
+	const bool open = spread_open(&c, rung, columns, 1);
 
 	for (int row = 0; row < rows; row++)
 		for (int bar = 0; bar < columns; bar++)
@@ -302,7 +302,7 @@ void grid_wire_ends(const struct rung *rung, int columns, struct grid_end from,
 				course_of(&c, from, (struct grid_end){ row, bar }, false) !=
 				GRID_NO_COURSE;
 	c.refusal = GRID_OUTSIDE;
-	canvas_close(&c, &at);
+	spread_close(&c, &at);
 	for (int bar = 0; bar < columns && from.row < rows; bar++)
 		if (legal[from.row * columns + bar])
 			legal[from.row * columns + bar] = grid_wire_course(rung, columns,

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_canvas - the normal form of rungs, and a rung spread out as it is shown: its cells,
+ * grid_spread - the normal form of rungs, and a rung spread out as it is shown: its cells,
  * bars, rows and wires. What edits share is here; each edit is in grid_edit.c, grid_wire.c,
  * grid_block.c or grid_kind.c.
  *
  * Normal form: all outputs stand in one column; columns of wire before it are taken out one
  * by one, as long as the circuit stays the same.
  */
-#include "editor-gtk/edit/grid_canvas.h"
+#include "editor-gtk/edit/grid_spread.h"
 
 #include <string.h>
 
@@ -187,24 +187,24 @@ struct rung *grid_normalise(const struct rung *rung)
 	return trimmed;
 }
 
-/* ---- the canvas ---- */
+/* ---- opening and closing ---- */
 
-bool canvas_fail(struct canvas *c, enum grid_refusal refusal)
+bool spread_fail(struct spread *c, enum grid_refusal refusal)
 {
 	if (c->refusal == GRID_DONE)
 		c->refusal = refusal;
 	return false;
 }
 
-bool canvas_open(struct canvas *c, const struct rung *rung, int columns, int rows)
+bool spread_open(struct spread *c, const struct rung *rung, int columns, int rows)
 {
 	memset(c, 0, sizeof(*c));
 	arena_init(&c->arena);
 	columns = columns < LIMIT_COLS ? columns : LIMIT_COLS;
 	c->rung = grid_spread(rung, grid_display_columns(rung, columns));
 	if (!c->rung)
-		return canvas_fail(c, GRID_NO_MEMORY);
-	return canvas_rows(c, rows);
+		return spread_fail(c, GRID_NO_MEMORY);
+	return spread_rows(c, rows);
 }
 
 /* Removes the marks; the last one of the cursor is its place. */
@@ -213,7 +213,7 @@ static void find_mark(struct rung *rung, struct grid_at *at)
 	int row = -1, col = -1;
 
 	for (int i = 0; i < rung->rows * rung->cols; i++) {
-		if (rung->cell[i].spare & CANVAS_CURSOR) {
+		if (rung->cell[i].spare & SPREAD_CURSOR) {
 			row = i / rung->cols;
 			col = i % rung->cols;
 		}
@@ -226,7 +226,7 @@ static void find_mark(struct rung *rung, struct grid_at *at)
 				      row, col);
 }
 
-struct rung *canvas_close(struct canvas *c, struct grid_at *at)
+struct rung *spread_close(struct spread *c, struct grid_at *at)
 {
 	struct rung *made = NULL;
 
@@ -235,7 +235,7 @@ struct rung *canvas_close(struct canvas *c, struct grid_at *at)
 		if (made)
 			find_mark(made, at);
 		else
-			canvas_fail(c, GRID_NO_MEMORY);
+			spread_fail(c, GRID_NO_MEMORY);
 	}
 	at->refusal = c->refusal;
 	rung_free(c->rung);
@@ -244,133 +244,133 @@ struct rung *canvas_close(struct canvas *c, struct grid_at *at)
 	return made;
 }
 
-void canvas_mark(struct canvas *c, int row, int col)
+void spread_mark(struct spread *c, int row, int col)
 {
 	for (int i = 0; i < c->rung->rows * c->rung->cols; i++)
-		c->rung->cell[i].spare &= (uint8_t)~CANVAS_CURSOR;
-	canvas_cell(c, row, col)->spare |= CANVAS_CURSOR;
+		c->rung->cell[i].spare &= (uint8_t)~SPREAD_CURSOR;
+	spread_cell(c, row, col)->spare |= SPREAD_CURSOR;
 }
 
-bool canvas_network(struct canvas *c)
+bool spread_network(struct spread *c)
 {
 	arena_reset(&c->arena);
 	return network_make(c->rung, &c->arena, &c->network) ||
-	       canvas_fail(c, GRID_NO_MEMORY);
+	       spread_fail(c, GRID_NO_MEMORY);
 }
 
 /* ---- cells ---- */
 
-static bool is_inside(const struct canvas *c, int row, int col)
+static bool is_inside(const struct spread *c, int row, int col)
 {
 	return row >= 0 && row < c->rung->rows && col >= 0 && col < c->rung->cols;
 }
 
-struct cell *canvas_cell(struct canvas *c, int row, int col)
+struct cell *spread_cell(struct spread *c, int row, int col)
 {
 	return rung_cell(c->rung, row, col);
 }
 
-int canvas_last(const struct canvas *c)
+int spread_last(const struct spread *c)
 {
 	return c->rung->cols - 1;
 }
 
-enum word canvas_word(const struct canvas *c, int row, int col)
+enum word spread_word(const struct spread *c, int row, int col)
 {
 	if (!is_inside(c, row, col))
 		return ELEM_EMPTY;
 	return (enum word)rung_at(c->rung, row, col)->word;
 }
 
-void canvas_put(struct canvas *c, int row, int col, struct cell content)
+void spread_put(struct spread *c, int row, int col, struct cell content)
 {
-	struct cell *cell = canvas_cell(c, row, col);
+	struct cell *cell = spread_cell(c, row, col);
 
 	content.link = cell->link;
 	*cell = content;
 }
 
-void canvas_clear(struct canvas *c, int row, int col)
+void spread_clear(struct spread *c, int row, int col)
 {
-	canvas_put(c, row, col, (struct cell){ .word = ELEM_EMPTY });
+	spread_put(c, row, col, (struct cell){ .word = ELEM_EMPTY });
 }
 
-bool canvas_is_empty(const struct canvas *c, int row, int col)
+bool spread_is_empty(const struct spread *c, int row, int col)
 {
-	return canvas_word(c, row, col) == ELEM_EMPTY;
+	return spread_word(c, row, col) == ELEM_EMPTY;
 }
 
-bool canvas_is_element(const struct canvas *c, int row, int col)
+bool spread_is_element(const struct spread *c, int row, int col)
 {
-	const enum word word = canvas_word(c, row, col);
+	const enum word word = spread_word(c, row, col);
 
 	return word != ELEM_EMPTY && word != ELEM_WIRE && word != ELEM_PIN;
 }
 
-bool canvas_is_output(const struct canvas *c, int row, int col)
+bool spread_is_output(const struct spread *c, int row, int col)
 {
-	return word_row(canvas_word(c, row, col))->place == PLACE_LAST;
+	return word_row(spread_word(c, row, col))->place == PLACE_LAST;
 }
 
 /* ---- bars ---- */
 
-bool canvas_left(const struct canvas *c, int row, int bar)
+bool spread_left(const struct spread *c, int row, int bar)
 {
-	return bar > 0 && !canvas_is_empty(c, row, bar - 1);
+	return bar > 0 && !spread_is_empty(c, row, bar - 1);
 }
 
 /* A row of pins is used only where it has a pin. */
-bool canvas_right(const struct canvas *c, int row, int bar)
+bool spread_right(const struct spread *c, int row, int bar)
 {
-	return !canvas_is_empty(c, row, bar) &&
-	       (canvas_word(c, row, bar) != ELEM_PIN ||
+	return !spread_is_empty(c, row, bar) &&
+	       (spread_word(c, row, bar) != ELEM_PIN ||
 		rung_at(c->rung, row, bar)->operand);
 }
 
-bool canvas_up(const struct canvas *c, int row, int bar)
+bool spread_up(const struct spread *c, int row, int bar)
 {
 	return row > 0 && is_inside(c, row, bar - 1) &&
 	       rung_at(c->rung, row, bar - 1)->link;
 }
 
-bool canvas_down(const struct canvas *c, int row, int bar)
+bool spread_down(const struct spread *c, int row, int bar)
 {
-	return canvas_up(c, row + 1, bar);
+	return spread_up(c, row + 1, bar);
 }
 
-bool canvas_linked(const struct canvas *c, int row, int bar)
+bool spread_linked(const struct spread *c, int row, int bar)
 {
-	return canvas_up(c, row, bar) || canvas_down(c, row, bar);
+	return spread_up(c, row, bar) || spread_down(c, row, bar);
 }
 
-bool canvas_bar_used(const struct canvas *c, int row, int bar)
+bool spread_bar_used(const struct spread *c, int row, int bar)
 {
-	return bar == 0 || canvas_left(c, row, bar) || canvas_right(c, row, bar) ||
-	       canvas_linked(c, row, bar);
+	return bar == 0 || spread_left(c, row, bar) || spread_right(c, row, bar) ||
+	       spread_linked(c, row, bar);
 }
 
 /* ---- rows and columns ---- */
 
-static bool replace(struct canvas *c, struct rung *made, enum grid_refusal why)
+static bool replace(struct spread *c, struct rung *made, enum grid_refusal why)
 {
 	if (!made)
-		return canvas_fail(c, why);
+		return spread_fail(c, why);
 	rung_free(c->rung);
 	c->rung = made;
 	return true;
 }
 
-bool canvas_replace(struct canvas *c, struct rung *made)
+bool spread_replace(struct spread *c, struct rung *made)
 {
 	return replace(c, made, GRID_NO_MEMORY);
 }
 
-static bool has_room(struct canvas *c, int rows)
+static bool has_room(struct spread *c, int rows)
 {
-	return rows <= LIMIT_ROWS || canvas_fail(c, GRID_FULL_ROWS);
+	return rows <= LIMIT_ROWS || spread_fail(c, GRID_FULL_ROWS);
 }
 
-bool canvas_rows(struct canvas *c, int rows)
+bool spread_rows(struct spread *c, int rows)
 {
 	if (rows <= c->rung->rows)
 		return true;
@@ -378,23 +378,23 @@ bool canvas_rows(struct canvas *c, int rows)
 	       replace(c, rung_resize(c->rung, rows, c->rung->cols), GRID_NO_MEMORY);
 }
 
-bool canvas_insert_row(struct canvas *c, int at)
+bool spread_insert_row(struct spread *c, int at)
 {
 	return has_room(c, c->rung->rows + 1) &&
 	       replace(c, rung_insert_row(c->rung, at), GRID_NO_MEMORY);
 }
 
 /* A full rung needs a column of wire before the outputs that can be removed. */
-bool canvas_insert_column(struct canvas *c, int at)
+bool spread_insert_column(struct spread *c, int at)
 {
 	if (c->rung->cols == LIMIT_COLS &&
-	    (at >= canvas_last(c) ||
+	    (at >= spread_last(c) ||
 	     !replace(c, without_spare(c->rung), GRID_FULL_COLS)))
-		return canvas_fail(c, GRID_FULL_COLS);
+		return spread_fail(c, GRID_FULL_COLS);
 	return replace(c, rung_insert_column(c->rung, at), GRID_NO_MEMORY);
 }
 
-bool canvas_is_bare(const struct canvas *c, int row)
+bool spread_is_bare(const struct spread *c, int row)
 {
 	for (int col = 0; col < c->rung->cols; col++) {
 		const struct cell *cell = rung_at(c->rung, row, col);
@@ -405,73 +405,73 @@ bool canvas_is_bare(const struct canvas *c, int row)
 	return true;
 }
 
-void canvas_drop_row(struct canvas *c, int row)
+void spread_drop_row(struct spread *c, int row)
 {
 	if (c->rung->rows > 1 && row >= 0 && row < c->rung->rows &&
-	    canvas_is_bare(c, row))
+	    spread_is_bare(c, row))
 		replace(c, rung_delete_row(c->rung, row), GRID_NO_MEMORY);
 }
 
 /* ---- wires that close by themselves ---- */
 
-bool canvas_close_left(struct canvas *c, int row, int col)
+bool spread_close_left(struct spread *c, int row, int col)
 {
 	int from = col;
 
-	while (from > 0 && !canvas_left(c, row, from) && !canvas_linked(c, row, from))
+	while (from > 0 && !spread_left(c, row, from) && !spread_linked(c, row, from))
 		from--;
-	if (!canvas_linked(c, row, from) && canvas_word(c, row, from - 1) == ELEM_PIN)
+	if (!spread_linked(c, row, from) && spread_word(c, row, from - 1) == ELEM_PIN)
 		return false;
 	while (from < col)
-		canvas_cell(c, row, from++)->word = ELEM_WIRE;
+		spread_cell(c, row, from++)->word = ELEM_WIRE;
 	return true;
 }
 
 /* The bar that a wire must reach: at an element without power, or at a link with nothing
  * else; -1: none. */
-static int waiting_bar(const struct canvas *c, int row, int bar)
+static int waiting_bar(const struct spread *c, int row, int bar)
 {
 	for (; bar < c->rung->cols; bar++) {
-		if (canvas_right(c, row, bar))
+		if (spread_right(c, row, bar))
 			return bar;
-		if (canvas_linked(c, row, bar))
+		if (spread_linked(c, row, bar))
 			return bar;
-		if (!canvas_is_empty(c, row, bar))
+		if (!spread_is_empty(c, row, bar))
 			return -1;
 	}
 	return -1;
 }
 
-void canvas_close_right(struct canvas *c, int row, int col)
+void spread_close_right(struct spread *c, int row, int col)
 {
 	const int bar = waiting_bar(c, row, col + 1);
 
-	if (bar < 0 || (canvas_right(c, row, bar) && canvas_linked(c, row, bar)))
+	if (bar < 0 || (spread_right(c, row, bar) && spread_linked(c, row, bar)))
 		return;
 	for (int at = col + 1; at < bar; at++)
-		canvas_cell(c, row, at)->word = ELEM_WIRE;
+		spread_cell(c, row, at)->word = ELEM_WIRE;
 }
 
-void canvas_join_up(struct canvas *c, int top, int row, int bar)
+void spread_join_up(struct spread *c, int top, int row, int bar)
 {
 	if (bar == 0)
 		return;
 	for (int i = top + 1; i <= row; i++)
-		canvas_cell(c, i, bar - 1)->link = 1;
+		spread_cell(c, i, bar - 1)->link = 1;
 }
 
-static bool ends_there(const struct canvas *c, int row, int bar)
+static bool ends_there(const struct spread *c, int row, int bar)
 {
-	return !canvas_left(c, row, bar) && !canvas_right(c, row, bar);
+	return !spread_left(c, row, bar) && !spread_right(c, row, bar);
 }
 
-int canvas_prune(struct canvas *c, int row, int bar)
+int spread_prune(struct spread *c, int row, int bar)
 {
-	while (ends_there(c, row, bar) && canvas_up(c, row, bar) &&
-	       !canvas_down(c, row, bar))
-		canvas_cell(c, row--, bar - 1)->link = 0;
-	while (ends_there(c, row, bar) && canvas_down(c, row, bar) &&
-	       !canvas_up(c, row, bar))
-		canvas_cell(c, ++row, bar - 1)->link = 0;
+	while (ends_there(c, row, bar) && spread_up(c, row, bar) &&
+	       !spread_down(c, row, bar))
+		spread_cell(c, row--, bar - 1)->link = 0;
+	while (ends_there(c, row, bar) && spread_down(c, row, bar) &&
+	       !spread_up(c, row, bar))
+		spread_cell(c, ++row, bar - 1)->link = 0;
 	return row;
 }
