@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_beside - which scenarios and I/O maps of a folder belong to a program, and which
- * outputs its map has at 1 while nothing runs.
+ * test_beside - the scenarios and I/O maps in a folder that belong to a program, and the
+ * safe outputs of its map.
  */
 #include "editor-gtk/document/side_file.h"
 #include "editor-gtk/document/iomap_beside.h"
@@ -23,7 +23,7 @@ static void make(const char *name)
 	g_free(path);
 }
 
-/* Their names, one behind the other. */
+/* Compares their names, joined. */
 static bool are(const char *program, const char *ending, bool own, const char *wanted)
 {
 	char *path = g_build_filename(folder, program, NULL);
@@ -102,7 +102,7 @@ static void test_safe(void)
 	CHECK(safe_of("BOARD \"Desk\"\n%IX0.0 sim\n%QX0.0 sim safe=0\n%QX0.7 sim\n") == -1);
 	CHECK(safe_of("BOARD \"Desk\"\n%QX0.0 sim safe=0\n%QX0.6 sim safe=1\n"
 		      "%QX1.1 sim safe=1 active-low\n") == 0x0240);
-	/* ladderd takes none of it. */
+	/* one bad line: ladderd refuses the map */
 	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX0.7 nothing\n") == -1);
 	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX600.7 sim safe=1\n") == -1);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_bookmarks - they are kept in the file, follow their rungs, and are undone.
+ * test_bookmarks - bookmarks are saved in the file, follow their rungs, and can be undone.
  */
 #include "editor-gtk/document/document.h"
 #include "tests/tap.h"
@@ -67,7 +67,7 @@ static void test_set(void)
 	ladder_document_toggle_bookmark(document, 0, 1);
 	CHECK(!ladder_document_is_bookmarked(document, 0, 1));
 	ladder_document_toggle_bookmark(document, 1, 0);
-	CHECK_AS(text_is(sample), "nothing is left of the last one");
+	CHECK_AS(text_is(sample), "clearing the last bookmark removes the VIEW part");
 	undo_all();
 	CHECK(text_is(sample));
 	while (ladder_document_redo(document))
@@ -76,7 +76,7 @@ static void test_set(void)
 	undo_all();
 }
 
-/* Rungs 1 and 3 have one. */
+/* Bookmarks for rungs 1 and 3. */
 static void set_two(void)
 {
 	open_text(sample);
@@ -100,18 +100,18 @@ static void test_follow(void)
 
 	set_two();
 	CHECK(ladder_document_splice(document, 0, 1, 0, &rung, 1, NULL));
-	CHECK_AS(marks_are("x..x"), "one is inserted");
+	CHECK_AS(marks_are("x..x"), "a bookmark moves when a rung is inserted");
 	ladder_document_undo(document);
-	CHECK_AS(marks_are("x.x"), "and undone, in one step");
+	CHECK_AS(marks_are("x.x"), "one undo restores rungs and bookmarks");
 	CHECK(ladder_document_splice(document, 0, 0, 1, NULL, 0, NULL));
-	CHECK_AS(marks_are(".x"), "one is deleted");
+	CHECK_AS(marks_are(".x"), "a deleted rung loses its bookmark");
 	ladder_document_undo(document);
 	CHECK(marks_are("x.x"));
 	CHECK(ladder_document_move_rung(document, 0, 2, 0));
-	CHECK_AS(marks_are("xx."), "one moves up");
+	CHECK_AS(marks_are("xx."), "a bookmark follows its rung up");
 	ladder_document_undo(document);
 	CHECK(ladder_document_move_rung(document, 0, 0, 1));
-	CHECK_AS(marks_are(".xx"), "one moves down");
+	CHECK_AS(marks_are(".xx"), "a bookmark follows its rung down");
 	undo_all();
 	CHECK(text_is(sample));
 }
@@ -123,18 +123,18 @@ static void test_others(void)
 		"  bookmark main 1 \"begin\"\n  bookmark Gone 7\nEND_VIEW\n";
 
 	open_text(kept);
-	CHECK_AS(marks_are("x"), "in any case, with something behind it");
+	CHECK_AS(marks_are("x"), "a bookmark is read in any case, with text behind it");
 	ladder_document_toggle_bookmark(document, 0, 0);
 	CHECK(ends_with("VIEW\n  chart Speed\n  bookmark Gone 7\nEND_VIEW\n"));
 	ladder_document_undo(document);
-	CHECK_AS(text_is(kept), "what others wrote is as it was");
+	CHECK_AS(text_is(kept), "other lines of the VIEW part stay");
 	ladder_document_begin(document, "Rename", NULL);
 	ladder_document_rename_bookmarks(document, "Main", "Pump");
 	ladder_document_end(document);
 	CHECK(ends_with("  bookmark Pump 1 \"begin\"\n  bookmark Gone 7\nEND_VIEW\n"));
 }
 
-/* Its heading is a line of the list: who types another name there means the same POU. */
+/* The heading is a line of the list: another name in it renames the POU. */
 static void test_list(void)
 {
 	char *list, *other;
@@ -151,7 +151,7 @@ static void test_list(void)
 	CHECK_AS(ends_with("\nVIEW\n  bookmark Main 2\n  bookmark Other 1\nEND_VIEW\n"),
 		 "undone, in one step");
 	g_free(other);
-	/* For a moment two have one name: neither loses its own. */
+	/* For a moment two POUs have one name; neither loses its bookmarks. */
 	other = g_strconcat("PROGRAM Other", list + strlen("PROGRAM Main"), NULL);
 	CHECK(ladder_document_put_list(document, 0, other));
 	CHECK(ladder_document_is_bookmarked(document, 1, 0));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_classic - a document that comes from ClassicLadder: its rungs drawn as they were,
- * which rung came of which, whatever is done to them, and the way back. No display.
+ * test_classic - a document imported from ClassicLadder: drawings of the original rungs,
+ * the original of each rung after any edits, and export. No display.
  *
  * Drawings are compared with tests/editor/drawing/classic-*.strokes; --bless writes them.
  */
@@ -62,7 +62,7 @@ static void compare(const struct picture *picture, const char *name)
 	g_free(want);
 }
 
-/* Each rung of it, and that nothing stands outside of the picture. */
+/* Draws each rung, and checks that nothing is outside of the picture. */
 static void draw_project(const char *name, const char *as)
 {
 	struct opened opened = open_project(name);
@@ -83,7 +83,7 @@ static void draw_project(const char *name, const char *as)
 				 picture.stroke[n].y >= 0 &&
 				 picture.stroke[n].x <= picture.width &&
 				 picture.stroke[n].y <= picture.height;
-		CHECK_AS(inside, "all is inside");
+		CHECK_AS(inside, "the drawing is inside its picture");
 		compare(&picture, file);
 		picture_clear(&picture);
 		g_free(file);
@@ -91,9 +91,9 @@ static void draw_project(const char *name, const char *as)
 	close_project(opened);
 }
 
-/* ---- rungs and what they came of ---- */
+/* ---- rungs and their originals ---- */
 
-/* Number of the file that rung @rung of POU @pou came of; -1: of none. */
+/* Number of the original of rung @rung of POU @pou; -1: none. */
 static int from(struct opened opened, int pou, int rung)
 {
 	const struct classic_rung *one = ladder_origin_of(opened.origin, pou, rung);
@@ -101,7 +101,7 @@ static int from(struct opened opened, int pou, int rung)
 	return one ? one->number : -1;
 }
 
-/* "0 0 1 2 2", of a POU. */
+/* Compares the originals of a POU, as "0 0 1 2 2". */
 static bool all_from(struct opened opened, int pou, const char *want)
 {
 	const struct project *project = ladder_document_project(opened.document);
@@ -122,7 +122,7 @@ static void delete_rung(struct opened opened, int rung)
 	CHECK(ladder_document_splice(opened.document, 0, rung, 1, NULL, 0, NULL));
 }
 
-/* The text @what, the first one, becomes @with: a change of the file. */
+/* Replaces the first @what by @with. */
 static void replace(struct opened opened, const char *what, const char *with)
 {
 	gsize len;
@@ -157,7 +157,7 @@ static void test_follows(void)
 	CHECK(ladder_document_splice(document, 0, 1, 0, &empty, 1, NULL));
 	CHECK(all_from(opened, 0, "0 -1 0 1 2 2"));
 	ladder_document_undo(document);
-	/* An edited one is what it was; so is one in whose text a name changed. */
+	/* An edited rung keeps its original; so does one in whose text a name changed. */
 	empty = rung_new(1, 1);
 	CHECK(ladder_document_put_rung(document, 0, 2, empty, NULL));
 	CHECK(all_from(opened, 0, whole));
@@ -173,7 +173,7 @@ static void test_follows(void)
 	close_project(opened);
 }
 
-/* The files' own changes of any kind, then all undone: as at first. */
+/* Random edits of any kind, then all undone: all originals are back. */
 static void test_storm(void)
 {
 	struct opened opened = open_project("elements.clprj");
@@ -210,7 +210,7 @@ static void test_storm(void)
 
 		for (int n = 0; n < pou->rung_count; n++)
 			same = same && from(opened, i, n) == first[i][n];
-		CHECK_AS(same, "all is undone");
+		CHECK_AS(same, "undo restores all originals");
 		g_free(first[i]);
 	}
 	g_rand_free(random);
@@ -237,7 +237,7 @@ static void test_report(void)
 	CHECK_TEXT(panel_row_text(rows->pdata[0], REPORT_HERE), "");
 	g_ptr_array_unref(rows);
 	close_project(opened);
-	/* A file of numbers has no members: lines alone tell. */
+	/* A numeric file has no members: lines alone identify the rung. */
 	opened = open_project("numeric.txt");
 	CHECK(ladder_origin_at(opened.origin, "", 0) == NULL);
 	CHECK(ladder_origin_at(opened.origin, "", 1000000) == NULL);
@@ -245,7 +245,7 @@ static void test_report(void)
 	close_project(opened);
 }
 
-/* ---- the way back ---- */
+/* ---- export ---- */
 
 static bool save(LadderDocument *document, const char *path, GPtrArray *lines)
 {
@@ -272,7 +272,7 @@ static void test_refused(const char *folder)
 	rows = report_lines_export(lines, document);
 	CHECK(rows->len == 1 && ((LadderPanelRow *)rows->pdata[0])->rung == 1);
 	g_ptr_array_unref(rows);
-	/* What is there stays; a name that says nothing is no place. */
+	/* Existing files stay; an unknown ending is refused. */
 	CHECK(g_file_test(path, G_FILE_TEST_EXISTS) && !save(document, "x.rung", lines));
 	ladder_document_open_text(document, NULL, "nonsense", 8, true);
 	CHECK(!save(document, path, lines));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_disk - files are read and saved whole or not at all, links and modes stay, and what
- * somebody else does to a document's file is noticed. No display.
+ * test_disk - files are read and saved whole or not at all, links and modes stay, and
+ * changes by other programs are noticed. No display.
  */
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/document.h"
@@ -17,7 +17,7 @@
 static const char SAMPLE[] =
 	"RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nEND_PROGRAM\n";
 
-/* A folder of its own and a path in it. */
+/* A new folder and a path in it. */
 struct spot {
 	char *folder, *path;
 };
@@ -47,7 +47,7 @@ static bool holds(const char *path, const char *want)
 	return same;
 }
 
-/* Is it told with its name, and with this reason? */
+/* Is the file refused, with its name and this reason? */
 static bool refused(const char *path, gsize limit, const char *why)
 {
 	GError *error = NULL;
@@ -78,11 +78,11 @@ static void test_disk_read(void)
 	g_unlink(spot.path);
 	CHECK(g_file_set_contents(spot.path, "", 0, NULL));
 	text = disk_read(spot.path, 100, &len, NULL);
-	CHECK_AS(text && len == 0 && text[0] == '\0', "an empty one is read");
+	CHECK_AS(text && len == 0 && text[0] == '\0', "an empty file is read");
 	g_free(text);
 	CHECK(g_file_set_contents(spot.path, "a\0b", 3, NULL));
 	text = disk_read(spot.path, 3, &len, NULL);
-	CHECK_AS(text && len == 3 && memcmp(text, "a\0b", 4) == 0, "with its NUL, and one more");
+	CHECK_AS(text && len == 3 && memcmp(text, "a\0b", 4) == 0, "a NUL in a file is kept, and one is added");
 	g_free(text);
 	CHECK_AS(refused(spot.path, 2, "too large: 3 bytes, at most 2 bytes"),
 		 "how large is told");
@@ -116,7 +116,7 @@ static void test_disk_save(void)
 	spot_free(&spot);
 }
 
-/* As it was at @when: for who only looks whether it looks the same. */
+/* Keeps the time of @when, so that the file looks unchanged. */
 static bool write_at(const char *path, const char *text, const GStatBuf *when)
 {
 	const struct timespec times[] = { when->st_atim, when->st_mtim };
@@ -133,30 +133,30 @@ static void test_disk_changed(void)
 	GStatBuf about;
 	char *text;
 
-	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "it has no file");
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "a new document has no file");
 	CHECK(g_file_set_contents(spot.path, SAMPLE, -1, NULL));
 	CHECK(ladder_document_open(document, spot.path, NULL));
 	CHECK(ladder_document_disk(document) == DISK_AS_READ);
 	CHECK(g_utime(spot.path, NULL) == 0);
-	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "another time, the same bytes");
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "a new time with the same bytes is no change");
 	CHECK(g_stat(spot.path, &about) == 0 && write_at(spot.path, "rUNG", &about));
 	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ,
 		 "the same time: it is not read again");
 	CHECK(g_utime(spot.path, NULL) == 0);
 	CHECK(ladder_document_disk(document) == DISK_OTHER);
-	CHECK_AS(ladder_document_disk(document) == DISK_OTHER, "asked again, told again");
+	CHECK_AS(ladder_document_disk(document) == DISK_OTHER, "a change is reported each time");
 	CHECK(g_file_set_contents(spot.path, SAMPLE, -1, NULL));
-	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "and it may come back");
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "a file that has its old text again is unchanged");
 	g_unlink(spot.path);
-	CHECK_AS(ladder_document_disk(document) == DISK_GONE, "gone: nothing is written over");
+	CHECK_AS(ladder_document_disk(document) == DISK_GONE, "a missing file is reported");
 	CHECK(mkfifo(spot.path, 0600) == 0);
-	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "it does not hang at a pipe");
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "a pipe does not block");
 	g_unlink(spot.path);
 	CHECK(g_file_set_contents(spot.path, "other", -1, NULL));
 	CHECK(ladder_document_disk(document) == DISK_OTHER);
 	text = ladder_document_text(document, NULL);
 	CHECK(ladder_document_save(document, NULL, NULL) && holds(spot.path, text));
-	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "saved: it is ours again");
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "a save ends the change");
 	g_free(text);
 	g_object_unref(document);
 	spot_free(&spot);

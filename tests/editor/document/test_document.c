@@ -79,7 +79,7 @@ static void test_rungs(void)
 	CHECK(ladder_document_put_rung(document, 0, 2, rung_of(document,
 		"RUNG There\n  | NO Start | [ Count := Count + 1 ] |\n"), NULL));
 	ladder_document_end(document);
-	CHECK_AS(told_rungs == 211 && told_state > 0, "the place is told");
+	CHECK_AS(told_rungs == 211 && told_state > 0, "rungs-changed has the place");
 	CHECK(!ladder_document_is_saved(document));
 	CHECK_TEXT(ladder_document_undo_name(document), "Negate");
 	after = ladder_document_text(document, NULL);
@@ -138,7 +138,7 @@ static void test_steps(void)
 	CHECK(ladder_document_replace(document, 12, 15, "PROJECT \"New\"\n", NULL));
 	ladder_document_end(document);
 	ladder_document_cancel(document);
-	CHECK_AS(has_text(document, before), "cancelled: as it was");
+	CHECK_AS(has_text(document, before), "cancel restores the text");
 	CHECK(ladder_document_redo_name(document));
 	g_free(before);
 	g_object_unref(document);
@@ -226,7 +226,7 @@ static void test_damaged(void)
 	CHECK(ladder_document_diags(document)->errors > 0);
 	CHECK(ladder_document_replace(document, (gsize)(wrong - bad), 6,
 				      "| COIL Q0 |", NULL));
-	CHECK_AS(ladder_document_project(document), "mended: a project");
+	CHECK_AS(ladder_document_project(document), "a corrected text becomes a project");
 	CHECK(ladder_document_undo(document));
 	CHECK(!ladder_document_project(document) && has_text(document, bad));
 	CHECK(ladder_document_redo(document) && ladder_document_project(document));
@@ -243,7 +243,7 @@ static int pick(int below)
 	return (int)((seed >> 8) % (guint32)below);
 }
 
-/* What stands in the live project, and what a file with its text would hold. */
+/* Compares the live project with one that is read from its text. */
 static bool reads_again(LadderDocument *document)
 {
 	LadderDocument *other = ladder_document_new();
@@ -269,7 +269,8 @@ static void count_variable(LadderDocument *document, int pou, const char *name,
 	*count += name[0] && address;
 }
 
-/* Of a text with one @ where the line must come. @live: without reading all of it. */
+/* @marked: a text with one @ where the line must be inserted. @live: without reading all of
+ * it. */
 static void is_declared(const char *marked, int pou, const char *name, const char *type,
 			const char *address, const char *line, bool live)
 {
@@ -406,7 +407,7 @@ static void random_declaration(LadderDocument *document)
 	g_free(name);
 }
 
-/* One that can be read, one that cannot, one with more than its POU, and none. */
+/* A list that can be read, one that cannot, one with more than its POU, or none. */
 static const char *some_list(void)
 {
 	static const char *const lists[] = {
@@ -490,7 +491,7 @@ static void test_storm(void)
 
 /* ---- files ---- */
 
-/* One that is gone: nobody else has what the document holds. */
+/* A document whose file is gone has the only copy. */
 static void test_gone(void)
 {
 	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);
@@ -520,7 +521,7 @@ static void test_gone(void)
 	g_free(folder);
 }
 
-/* What a draft holds is not what stands in the file, and the file may be another since. */
+/* A restored draft differs from the file, which may have changed since. */
 static void test_restored(void)
 {
 	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_file_history - one Undo for the document and the text files beside it; each is saved by
- * itself.
+ * test_file_history - one history for the document and the text files beside it; each is
+ * saved separately.
  */
 #include "editor-gtk/document/file_history.h"
 #include "tests/tap.h"
@@ -102,7 +102,7 @@ static void test_order(void)
 	told = 0;
 }
 
-/* Letters of a line are one step, those of another or a piece are not. */
+/* Letters typed in one line are one step; a letter in another line or a pasted text is not. */
 static void test_typing(void)
 {
 	start();
@@ -120,7 +120,7 @@ static void test_typing(void)
 	end();
 }
 
-/* The document is what its file holds, whatever is done to those beside it. */
+/* Edits of a file beside it leave the document saved. */
 static void test_saved(void)
 {
 	start();
@@ -140,7 +140,7 @@ static void test_saved(void)
 	end();
 }
 
-/* What was saved can be come back to, in the middle of a word, too. */
+/* Undo can return to the saved text, even in the middle of a word. */
 static void test_save_between(void)
 {
 	start();
@@ -153,7 +153,7 @@ static void test_save_between(void)
 	end();
 }
 
-/* The document is read again: what was done to it is gone, what was done beside it is not. */
+/* Reading the document again forgets its steps, but not those of the files beside it. */
 static void test_read_again(void)
 {
 	start();
@@ -170,7 +170,7 @@ static void test_read_again(void)
 	end();
 }
 
-/* Of one that is closed nothing is undone; the rest is. */
+/* Steps of a closed file are not undone; the others are. */
 static void test_closed(void)
 {
 	start();
@@ -247,7 +247,7 @@ static void redo_all(void)
 		;
 }
 
-/* Is it all what it was? */
+/* Is everything as it was? */
 static bool is_again(const char *wanted)
 {
 	char *now = everything();

@@ -65,7 +65,7 @@ static void test_hits(void)
 	g_object_unref(document);
 }
 
-/* Motor lies at %QX0.0: two elements show that address, and its declaration says it. */
+/* Motor lies at %QX0.0: two elements show that address, and its declaration contains it. */
 static void test_address(void)
 {
 	LadderDocument *document = opened();
@@ -129,7 +129,7 @@ static bool has(LadderDocument *document, const char *part)
 	return found;
 }
 
-/* How many; @wanted becomes @with. */
+/* Returns the number of replacements. */
 static int replace_all(LadderDocument *document, const char *wanted, const char *with,
 		       unsigned int where, bool whole)
 {
@@ -168,7 +168,7 @@ static void test_replace(void)
 	CHECK(has(document, "    Pump : INT;"));
 	CHECK(!has(document, "Motor3"));
 	CHECK(ladder_document_undo(document) && has(document, before));
-	CHECK_AS(!ladder_document_undo_name(document), "all of it was one step");
+	CHECK_AS(!ladder_document_undo_name(document), "all replacements are one step");
 
 	CHECK(replace_all(document, "Motor", "a | b", FIND_OPERANDS, true) == -1);
 	CHECK(replace_all(document, "Start", "x\ny", FIND_OPERANDS, true) == -1);
@@ -185,7 +185,7 @@ static void test_replace(void)
 	g_object_unref(document);
 }
 
-/* Why not is told with the place, and nothing changes. */
+/* The reason names the place, and nothing changes. */
 static void refuses(const char *wanted, const char *with, unsigned int where,
 		    const char *want)
 {
@@ -223,7 +223,7 @@ static const char chart[] =
 	"  END_TRANSITION\n\n  ACTION Do:\n    LD    Full\n    ST    %MX0.0\n"
 	"  END_ACTION\nEND_PROGRAM\n";
 
-/* An expression is a line; a rung is found as a rung, a declaration as one. */
+/* Expressions are found as lines, rungs as rungs, declarations as declarations. */
 static void test_chart(void)
 {
 	LadderDocument *document = ladder_document_new();
@@ -250,7 +250,7 @@ static void test_chart(void)
 	CHECK(ladder_document_undo(document));
 	CHECK(has(document, "    Full(N);\n") && !ladder_document_undo_name(document));
 	find_free(find);
-	/* What could not be read again is refused, and all stays as it was. */
+	/* A result that cannot be read is refused, and nothing changes. */
 	find = find_new(document, "INITIAL_STEP", (struct find_options){ FIND_EVERYWHERE,
 									 true, true });
 	CHECK(find_replace_all(document, find, "STEP STEP", &why) == -1 && why && *why);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_give_back - Esc: a rung as it was at a place in the history, without what its edits
- * declared. No display.
+ * test_give_back - Esc restores a rung as it was at a place in the history, without the
+ * declarations of its edits. No display.
  */
 #include "editor-gtk/document/document.h"
 
@@ -9,7 +9,7 @@
 
 #include <glib/gstdio.h>
 
-/* No declaration yet: the first one is a block more, and the project is read anew. */
+/* Without declarations: the first one adds a block, and the project is read again. */
 static const char SAMPLE[] =
 	"RUNGBOARD 1\n\nPROGRAM Main LD\n"
 	"RUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n"
@@ -53,7 +53,7 @@ static void put(LadderDocument *document, int rung, const char *cell)
 	g_free(text);
 }
 
-/* As quick entry does: the element and its new name are one step. */
+/* As in quick entry: the element and its new name are one step. */
 static void enter(LadderDocument *document, int rung, const char *name, const char *address)
 {
 	ladder_document_begin(document, "Add element", NULL);
@@ -73,17 +73,17 @@ static void test_declared(void)
 	const guint64 place = ladder_document_place(document);
 	char *edited, *before = text_of(document);
 
-	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING, "nothing was done");
+	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING, "without edits nothing is restored");
 	enter(document, 1, "Open", "%IX0.5");
 	enter(document, 1, "Shut", "%IX0.6");
 	enter(document, 1, "Mark", "");
 	put(document, 1, "%IX0.7");
 	edited = text_of(document);
 	CHECK(strstr(edited, "Open AT %IX0.5") && strstr(edited, "Mark : BOOL"));
-	CHECK_AS(back_to(document, 2, place) == BACK_NOTHING, "it is another rung");
+	CHECK_AS(back_to(document, 2, place) == BACK_NOTHING, "the edits are of another rung");
 	CHECK(back_to(document, 1, place) == BACK_DONE);
-	CHECK_AS(has_text(document, before), "without what was declared");
-	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING, "it is as it was");
+	CHECK_AS(has_text(document, before), "the declaration is removed, too");
+	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING, "a restored rung is not restored twice");
 	CHECK(strcmp(ladder_document_undo_name(document), "Give back") == 0);
 	CHECK(ladder_document_undo(document) && has_text(document, edited));
 	CHECK_AS(back_to(document, 1, place) == BACK_DONE && has_text(document, before),
@@ -110,7 +110,7 @@ static void test_other(void)
 
 	enter(document, 1, "Open", "%IX0.5");
 	ladder_document_toggle_bookmark(document, 0, 2);
-	CHECK_AS(back_to(document, 1, place) == BACK_DONE, "a bookmark is aside");
+	CHECK_AS(back_to(document, 1, place) == BACK_DONE, "a bookmark does not prevent it");
 	edited = text_of(document);
 	CHECK_AS(strstr(edited, "VIEW") && !strstr(edited, "Open"), "and stays");
 	g_free(edited);
@@ -119,7 +119,7 @@ static void test_other(void)
 	enter(document, 1, "Open", "%IX0.5");
 	CHECK(ladder_document_declare(document, -1, "Other", "BOOL", "", NULL));
 	edited = text_of(document);
-	CHECK_AS(back_to(document, 1, place) == BACK_OTHER, "a declaration of its own");
+	CHECK_AS(back_to(document, 1, place) == BACK_OTHER, "a separate declaration prevents it");
 	CHECK_AS(has_text(document, edited), "nothing changed");
 	g_free(edited);
 	CHECK(ladder_document_undo(document) && back_to(document, 1, place) == BACK_DONE);
@@ -127,12 +127,12 @@ static void test_other(void)
 	place = ladder_document_place(document);
 	enter(document, 1, "Open", "%IX0.5");
 	put(document, 2, "Open");
-	CHECK_AS(back_to(document, 1, place) == BACK_OTHER, "another rung may need it");
+	CHECK_AS(back_to(document, 1, place) == BACK_OTHER, "an edit of another rung prevents it");
 	CHECK(ladder_document_undo(document) && ladder_document_undo(document));
 	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING, "undone already");
 	CHECK(ladder_document_undo(document));
 	CHECK(!ladder_document_knows_place(document, place));
-	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING, "the place is gone");
+	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING, "an undone place cannot be restored");
 	g_object_unref(document);
 }
 
@@ -153,7 +153,7 @@ static void test_joined(void)
 	CHECK(back_to(document, 1, place) == BACK_NOTHING);
 	place = ladder_document_place(document);
 	ladder_document_open_text(document, NULL, SAMPLE, strlen(SAMPLE), true);
-	CHECK_AS(!ladder_document_knows_place(document, place), "of another document");
+	CHECK_AS(!ladder_document_knows_place(document, place), "a place of another document is unknown");
 	g_object_unref(document);
 }
 
@@ -183,7 +183,7 @@ static void random_step(LadderDocument *document)
 	}
 }
 
-/* Bytes up to the part that is aside. */
+/* Bytes before the VIEW part. */
 static size_t program_len(const char *text)
 {
 	const char *view = strstr(text, "\nVIEW");
@@ -191,7 +191,7 @@ static size_t program_len(const char *text)
 	return view ? (size_t)(view - text) : strlen(text);
 }
 
-/* If it is given back, it is what it was but for bookmarks, which are aside. */
+/* A restored rung gives the text from before, apart from bookmarks. */
 static void test_any(void)
 {
 	int done = 0, bad = 0;

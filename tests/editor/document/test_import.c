@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_import - programs and blocks of another project, with what they need, and names
- * that are taken.
+ * test_import - programs and blocks of another project, with their declarations, and names
+ * that are already used.
  */
 #include "editor-gtk/document/pou_import.h"
 #include "tests/tap.h"
@@ -73,9 +73,9 @@ int main(void)
 	CHECK(import(main_only, told));
 	CHECK_TEXT(told->str, "Imported; Lamp is now Lamp_2; Main is now Main_2");
 	CHECK(has("PROGRAM Main LD\n") && has("PROGRAM Main_2 LD\n"));
-	CHECK_AS(has("FUNCTION_BLOCK Seal"), "the block that it calls");
-	CHECK_AS(has("Batch : STRUCT") && lacks("Unused"), "the structure that it uses");
-	CHECK_AS(has("VAR RETAIN\n  Now : Batch;\nEND_VAR"), "the symbol, retained as it was");
+	CHECK_AS(has("FUNCTION_BLOCK Seal"), "the called block is imported");
+	CHECK_AS(has("Batch : STRUCT") && lacks("Unused"), "the used structure is imported, and no other");
+	CHECK_AS(has("VAR RETAIN\n  Now : Batch;\nEND_VAR"), "the symbol is imported, with RETAIN");
 	CHECK_AS(has("Lamp_2 AT %QX0.5") && has("COIL Lamp_2 |"),
 		 "another thing of the same name");
 	CHECK_AS(lacks("Start_2") && lacks("Other") && lacks("Spare"),
@@ -87,7 +87,7 @@ int main(void)
 	text = ladder_document_text(document, NULL);
 	CHECK_TEXT(text, here);
 	g_free(text);
-	CHECK_AS(import(nothing, told) && lacks("Main_2"), "nothing chosen, nothing done");
+	CHECK_AS(import(nothing, told) && lacks("Main_2"), "an empty choice imports nothing");
 	g_string_free(told, TRUE);
 	g_object_unref(document);
 	return tap_done();

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_plain_iomap - edits of the text of an I/O map: what changes, and what must not.
+ * test_plain_iomap - edits of the text of an I/O map: they change what they should and
+ * nothing else.
  */
 #include "editor-gtk/document/iomap_text.h"
 
@@ -18,7 +19,7 @@ static const char sample[] =
 	"%QX0.1 (* and *) sim nonsense // lamp\n"
 	"%Q what";
 
-/* The text with an edit in it; "(why)" if it was refused. Caller: free(). */
+/* The text after an edit; "(why)" if it was refused. Caller: free(). */
 static char *edited(const char *text, enum io_refusal why, struct io_edit *edit)
 {
 	const size_t room = strlen(text) + (edit->with ? strlen(edit->with) : 0) + 16;
@@ -152,10 +153,10 @@ static void lines(void)
 	CHECK_AS(!strstr(got, "%QX0.0") && strstr(got, "# PA7\n%QX0.1"), "a line is deleted");
 	free(got);
 	got = edited(sample, io_text_delete(&io, 4, &edit), &edit);
-	CHECK_AS(strstr(got, "// lamp\n") + 8 == got + strlen(got), "the last one, too");
+	CHECK_AS(strstr(got, "// lamp\n") + 8 == got + strlen(got), "the last line is deleted");
 	free(got);
 	got = edited(sample, io_text_add(&io, 1, "%IX0.2", "sim", "", &edit), &edit);
-	CHECK_AS(strstr(got, "# PA7\n%IX0.2  sim\n%QX0.0") != NULL, "one is added behind another");
+	CHECK_AS(strstr(got, "# PA7\n%IX0.2  sim\n%QX0.0") != NULL, "a line is added behind another");
 	free(got);
 	got = edited(sample, io_text_add(&io, -1, "%QX0.2", "sim", "Horn", &edit), &edit);
 	CHECK_AS(strstr(got, "%Q what\n%QX0.2  sim  safe=0   # Horn\n") != NULL,
@@ -173,7 +174,7 @@ static void lines(void)
 	io_text_free(&io);
 }
 
-/* A comment may go over lines, before, inside and behind. */
+/* Comments with several lines before, inside and behind a statement. */
 static void spread(void)
 {
 	static const char odd[] = "BOARD \"x\" (* a\n b *)\n(* c\n d *) %IX0.0 (* e\n f *) sim (* g\n"
@@ -193,7 +194,7 @@ static void spread(void)
 	    " h *) debounce=1s\n%QX0.0 sim");
 }
 
-/* Any bytes: rows inside the text, fields, and edits that stay inside it. */
+/* Any bytes give rows inside the text, fields, and edits that stay inside it. */
 static void storm(void)
 {
 	static const char *const piece[] = { "%IX0.0", " ", "gpio", "\n", "#", "(*", "*)", "\"",
@@ -238,8 +239,8 @@ static void storm(void)
 					io_text_free(&after);
 					free(now);
 				}
-				/* What stands there already changes nothing, unless it is
-				 * spelled in another way. */
+				/* setting the present value changes nothing, unless the map
+				 * spells it differently */
 				if (f != IO_LINE && f != IO_COMMENT && *was &&
 				    io_text_set(&io, i, (enum io_field)f, was, &edit) == IO_GOOD) {
 					bad += f != IO_ACTIVE_LOW && (edit.removed || *edit.with);

@@ -15,7 +15,7 @@ static int line_of(const char *shown, const char *canonical, int line)
 	return line;
 }
 
-/* A file of 100,000 lines that all say the same, as somebody indents it. */
+/* 100,000 equal lines, with indents. */
 static void many(void)
 {
 	enum { COUNT = 100000 };
@@ -30,7 +30,7 @@ static void many(void)
 	for (int line = 0; line < COUNT; line += COUNT / 20)
 		good += line_of(shown, canonical, line) == line;
 	CHECK(good == 20);
-	CHECK_AS(clock() - begin < 5 * CLOCKS_PER_SEC, "the time grows with the lines, no more");
+	CHECK_AS(clock() - begin < 5 * CLOCKS_PER_SEC, "the time is linear in the number of lines");
 	free(shown);
 	free(canonical);
 }
@@ -53,10 +53,10 @@ int main(void)
 	CHECK(line_of(typed, canonical, 5) == 9);
 	CHECK(line_of(typed, canonical, 7) == 12);
 	text_lines_place(typed, canonical, &line, &column);
-	CHECK_AS(line == 11 && column == 10, "the nearer of two that say the same, and its "
+	CHECK_AS(line == 11 && column == 10, "the nearest line with the same words, and its "
 		 "column behind another indent");
-	CHECK_AS(line_of("A\n\nB\nC\n", "x\ny\nz\n", 1) == 2, "as many lines before it");
-	CHECK_AS(line_of("A\nB\n", "x\ny\nz\nv\nw\n", 4) == 1, "not behind the last one");
+	CHECK_AS(line_of("A\n\nB\nC\n", "x\ny\nz\n", 1) == 2, "the line with as many lines before it");
+	CHECK_AS(line_of("A\nB\n", "x\ny\nz\nv\nw\n", 4) == 1, "never behind the last line");
 	CHECK_AS(line_of("", "x\ny\n", 1) == 1 && line_of("a\n", "", 7) == 7,
 		 "nothing to go by: left alone");
 	many();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_rung_clip - rungs as text, and back into another project with what they need.
+ * test_rung_clip - rungs as text, and pasted into another project with their declarations.
  */
 #include "editor-gtk/document/rung_clip.h"
 #include "tests/tap.h"
@@ -38,7 +38,8 @@ static char *copied(int rung)
 	return text;
 }
 
-/* As a sheet does it, in the place of the first rung; what was told, or why not. */
+/* Pastes as a sheet does, replacing the first rung. Returns the message, or the reason of a
+ * refusal. */
 static char *pasted(LadderDocument *document, const char *text, gsize len)
 {
 	char *told = NULL;
@@ -60,7 +61,7 @@ static char *pasted(LadderDocument *document, const char *text, gsize len)
 	return told ? told : g_strdup("");
 }
 
-/* Pasted into @into, @told is told and @want stands there; undone once, all is as before. */
+/* Pastes @text into @into, compares the message and the result, and undoes it once. */
 static void becomes(const char *into, const char *text, const char *told, const char *want)
 {
 	LadderDocument *document = opened(into);
@@ -116,7 +117,7 @@ static void test_declared(void)
 	becomes(target, retain, "1 name was declared",
 		"RUNGBOARD 1\n\nVAR RETAIN\n  Parts : UDINT := 7;\nEND_VAR\n\n"
 		"PROGRAM Main LD\nRUNG\n  | [ Parts := Parts + 1 ] |\nEND_PROGRAM\n");
-	/* A type that is not here: the check tells of it. */
+	/* An unknown type: the check reports it. */
 	becomes(target, own, "",
 		"RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | [ Rec.Speed := 3 ] |\nEND_PROGRAM\n");
 	becomes("RUNGBOARD 1\n\nTYPE\n  Recipe : STRUCT\n    Speed : INT;\n  END_STRUCT;\n"
@@ -129,7 +130,7 @@ static void test_declared(void)
 	g_free(own);
 }
 
-/* What is known stays as it is, and no address gets a second name. */
+/* Known names stay as they are, and no address gets a second name. */
 static void test_known(void)
 {
 	char *text = copied(0);
@@ -166,7 +167,7 @@ static void test_typed(void)
 		"(* second *)\nRUNG\n  | NO %IX0.1 | COIL %QX0.1 |\n", "", two);
 	becomes(target, two, "", two);
 	becomes(target, two + strlen("RUNGBOARD 1\n\n"), "", two);
-	/* A line of a comment is none of a rung. */
+	/* A line of a comment does not begin a rung. */
 	becomes(target, "(* a\nRUNG b\n*)\nRUNG\n  | COIL %QX0.0 |\n", "",
 		"RUNGBOARD 1\n\nPROGRAM Main LD\n(* a\nRUNG b\n*)\nRUNG\n  | COIL %QX0.0 |\n"
 		"END_PROGRAM\n");
@@ -180,7 +181,7 @@ static void test_line(void)
 	becomes(target, "LD %I0.0 TON T1 T#5s OUT %Q0.1", "",
 		"RUNGBOARD 1\n\nPROGRAM Main LD\n"
 		"RUNG\n  | NO %IX0.0 | TON T1 PT:=T#5s | COIL %QX0.1 |\nEND_PROGRAM\n");
-	/* A list: behind an output a rung begins. */
+	/* In a list an output ends a rung. */
 	becomes(target, "LD Start\nANDN Stop\r\nST Motor2\n\nLD %I0.5\nOUT %Q0.1\n", "",
 		"RUNGBOARD 1\n\nPROGRAM Main LD\n"
 		"RUNG\n  | NO Start | NC Stop | COIL Motor2 |\n"
@@ -199,7 +200,7 @@ static void test_line(void)
 	refused("LD > 5", "The clipboard, line 1: “LD” cannot be the name of a variable");
 }
 
-/* All rungs of its ladder programs, and of its declarations those that they use. */
+/* Takes the rungs of all ladder programs, and only the declarations that they use. */
 static void test_file(void)
 {
 	becomes(target, "RUNGBOARD 1\nVAR\n  A AT %IX0.0, B : BOOL;\n  C : BOOL;\nEND_VAR\n"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_symbols - declarations as rows, each field edited, hostile input, and tables that
- * come and go as CSV.
+ * test_symbols - declarations as rows, edits of each field, hostile input, and import and
+ * export of CSV.
  */
 #include "editor-gtk/document/csv.h"
 #include "editor-gtk/draw/listing.h"
@@ -55,7 +55,7 @@ static bool has(LadderDocument *document, const char *part)
 	return found;
 }
 
-/* What the tree, the table and the paper list: what is declared, no result, no ENO. */
+/* Tree, table and paper list the declarations, without the result and ENO. */
 static void test_function(void)
 {
 	LadderDocument *document = opened("RUNGBOARD 1\n\nVAR\n  Start : BOOL;\nEND_VAR\n\n"
@@ -113,13 +113,13 @@ static bool set(LadderDocument *document, const char *scope, const char *name,
 
 	if (!good)
 		printf("# %s: %s\n", name, why ? why : "no reason");
-	CHECK_AS(good || (why && *why), "done, or a reason is told");
+	CHECK_AS(good || (why && *why), "an edit succeeds or has a reason");
 	g_free(why);
 	symbols_free(symbols);
 	return good;
 }
 
-/* Single bits, words over them, arrays, in programs too. */
+/* Addresses of single bits, words over them and arrays, also in programs. */
 static void test_beside(void)
 {
 	LadderDocument *document = opened("RUNGBOARD 1\n\nVAR\n"
@@ -134,9 +134,9 @@ static void test_beside(void)
 	CHECK_TEXT(symbol_beside(document, 0, 2), "L");
 	CHECK_TEXT(symbol_beside(document, 1, 0), "A");
 	CHECK_TEXT(symbol_beside(document, 1, 1), "T");
-	CHECK_AS(!symbol_beside(document, 1, 2), "just behind the array");
-	CHECK_AS(!symbol_beside(document, 1, 3), "of another area");
-	CHECK_AS(!symbol_beside(document, 0, 3), "without an address");
+	CHECK_AS(!symbol_beside(document, 1, 2), "an address just behind the array is free");
+	CHECK_AS(!symbol_beside(document, 1, 3), "an address of another area is another");
+	CHECK_AS(!symbol_beside(document, 0, 3), "a symbol without an address shares none");
 	CHECK(!symbol_beside(document, 0, 9) && !symbol_beside(document, 9, 0));
 	g_object_unref(document);
 }
@@ -161,7 +161,7 @@ static void test_fields(void)
 	CHECK(has(document, "VAR RETAIN\n  Hours : UDINT;\n  Count AT %MD4 : DINT;"));
 	CHECK(set(document, "", "Count", FIELD_RETAIN, ""));
 	CHECK(set(document, "", "Hours", FIELD_RETAIN, ""));
-	CHECK_AS(!has(document, "RETAIN"), "the only one turns its block");
+	CHECK_AS(!has(document, "RETAIN"), "the only symbol of a block changes the block");
 	CHECK(set(document, "", "Hours", FIELD_INITIAL, "3"));
 	CHECK(set(document, "", "Hours", FIELD_CONSTANT, "1"));
 	CHECK(has(document, "VAR CONSTANT\n  Hours : UDINT := 3;\nEND_VAR\n"));
@@ -173,7 +173,7 @@ static void test_fields(void)
 	after = ladder_document_text(document, NULL);
 	while (ladder_document_undo(document))
 		;
-	CHECK_AS(has(document, before), "undone: as it was");
+	CHECK_AS(has(document, before), "undo restores the text");
 	while (ladder_document_redo(document))
 		;
 	CHECK(has(document, after));
@@ -199,11 +199,11 @@ static void test_names(void)
 	CHECK(!set(document, "", "Minutes", FIELD_NAME, ""));
 	CHECK(!set(document, "", "Motor", FIELD_NAME, "Delay"));
 	CHECK(set(document, "", "Minutes", FIELD_NAME, "M1"));
-	CHECK_AS(!set(document, "", "M1", FIELD_NAME, "q7"), "what cells mean an address by");
+	CHECK_AS(!set(document, "", "M1", FIELD_NAME, "q7"), "a name that cells use as an address is refused");
 	g_object_unref(document);
 }
 
-/* Nothing of this may come into the file; the reason is told. */
+/* None of these may get into the file; each is refused with a reason. */
 static void test_hostile(void)
 {
 	static const char *const bad[] = {
@@ -290,11 +290,11 @@ static void test_errors(void)
 	CHECK(set(document, "", "Count", FIELD_ADDRESS, "%MX0.3"));
 	ladder_document_check_now(document);
 	text = symbol_error(document, find_symbol(symbols, "", "Count"), &warning);
-	CHECK_AS(text && *text && !warning, "an address of another width is told at its row");
+	CHECK_AS(text && *text && !warning, "an address of another width is an error of its row");
 	g_free(text);
 	CHECK(!symbol_error(document, find_symbol(symbols, "", "Motor"), &warning));
 	text = symbol_error(document, find_symbol(symbols, "", "Hours"), &warning);
-	CHECK_AS(text && warning, "one that is never used");
+	CHECK_AS(text && warning, "an unused symbol is a warning of its row");
 	g_free(text);
 	symbols_free(symbols);
 	g_object_unref(document);
@@ -433,7 +433,7 @@ static void test_import(void)
 
 struct wanted { enum csv_action action; const char *text, *fault; };
 
-/* @want: of each line behind the header; texts are parts of what is told, NULL: nothing. */
+/* @want: of each line behind the header; parts of the messages, NULL: none. */
 static struct csv_plan *planned(LadderDocument *document, const char *table,
 				const struct wanted *want, guint count)
 {
@@ -453,7 +453,8 @@ static struct csv_plan *planned(LadderDocument *document, const char *table,
 	return plan;
 }
 
-/* What a line may not declare where it is to stand is told at it, and the rest comes. */
+/* A declaration that its place does not allow is reported at its line; the others are
+ * imported. */
 static void test_places(void)
 {
 	static const char table[] =
@@ -491,7 +492,7 @@ static void test_places(void)
 	g_object_unref(document);
 }
 
-/* What the program has against it, it tells before it happens. */
+/* Errors that the import would cause are reported before it. */
 static void test_faults(void)
 {
 	static const char table[] = "Scope,Name,Type,Address\n"
@@ -514,8 +515,8 @@ static void test_faults(void)
 	g_object_unref(document);
 }
 
-/* What is declared well, and is used as what it would be no more, is told at its line; what
- * was wrong before at none. */
+/* An error in the use of a changed declaration is reported at its line; errors from before
+ * are not. */
 static void test_uses(void)
 {
 	static const char program[] = "RUNGBOARD 1\n\n"
@@ -543,7 +544,7 @@ static void test_uses(void)
 	g_object_unref(document);
 }
 
-/* More than a project may have: no line is to blame, so none comes. */
+/* More symbols than a project can have: no line causes the error, so none is imported. */
 static void test_too_many(void)
 {
 	LadderDocument *document = opened(sample);
@@ -561,7 +562,7 @@ static void test_too_many(void)
 	g_object_unref(document);
 }
 
-/* Any bytes give a plan, and its execution a program that can be read. */
+/* Any bytes give a plan, and applying it gives a program that can be read. */
 static void test_storm(void)
 {
 	static const char piece[][12] = { "Name,Type\n", "\"", ",", "\n", "\r\n", "Start", "INT",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_drawing - every word of the catalogue and every sample is drawn, and nothing of it
- * lies over anything else; with the fonts of this machine and without any.
+ * test_drawing - every word of the catalogue and every sample is drawn without overlaps,
+ * with the fonts of this machine and without fonts.
  */
 #include "tests/editor/drawn.h"
 #include "tests/tap.h"
@@ -16,7 +16,7 @@ static uint32_t name_id(struct project *project, const char *text)
 	return *text ? names_intern(&project->names, text, strlen(text)) : 0;
 }
 
-/* Something at every pin; in two of @seed's three cases it is long. */
+/* A value at every pin; a long one in two of @seed's three cases. */
 static char *all_args(const struct word_row *row, int seed)
 {
 	GString *out = g_string_new(NULL);
@@ -68,7 +68,7 @@ static const char *operand_of(const struct word_row *row, int seed)
 	return "";
 }
 
-/* The word three times over: alone, beside itself, and below itself. */
+/* The word three times: alone, beside itself, and below itself. */
 static struct rung *rung_of(struct project *project, const struct word_row *row,
 			    uint16_t word, int seed)
 {
@@ -153,7 +153,7 @@ static void check_words(struct lettering *lettering, const char *fonts)
 	}
 	printf("# %d words, %s\n", words, fonts);
 	CHECK(words > 100);
-	CHECK_AS(faults == 0, "no word lies over anything");
+	CHECK_AS(faults == 0, "no word overlaps another part");
 	CHECK_AS(icons == 0, "every word has an icon");
 	ladder_free(ladder);
 }
@@ -202,10 +202,10 @@ static void check_samples(struct lettering *lettering)
 	if (folder)
 		g_dir_close(folder);
 	CHECK(rungs > 400);
-	CHECK_AS(faults == 0, "nothing in a sample lies over anything");
+	CHECK_AS(faults == 0, "samples have no overlaps");
 }
 
-/* ---- whatever a file may hold ---- */
+/* ---- hostile files ---- */
 
 static uint32_t random_seed = 1;
 
@@ -242,7 +242,7 @@ static struct rung *random_rung(struct project *project)
 	return rung;
 }
 
-/* Draws it, and asks for every point. */
+/* Draws it, and hits every point. */
 static int poke_rung(const struct drafting *drafting, const struct rung *rung)
 {
 	struct rung_layout *layout = rung_layout_new(drafting, rung, 1, random_below(14));

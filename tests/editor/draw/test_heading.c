@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_heading - what stands above a rung is not cut, however much room there is: with the
- * fonts of this machine, because it is they that make a line just fit or not.
+ * test_heading - texts above a rung are not cut while there is room. Uses the fonts of this
+ * machine, which decide whether a line just fits.
  */
 #include "editor-gtk/draw/rung_text.h"
 #include "tests/editor/drawn.h"
@@ -40,7 +40,7 @@ static void take(void *context, int line, struct lettered text)
 	read->widest = MAX(read->widest, text.width);
 }
 
-/* All of it is read, and in no more room than there is. */
+/* Is all of the text drawn, inside its width? */
 static bool is_whole(const char *text, float width)
 {
 	const struct drafting drafting = { .lettering = lettering };
@@ -70,7 +70,7 @@ static void check_comment(const char *text, const char *what)
 
 /* ---- title, label and comment on a sheet ---- */
 
-/* What the strokes of a rung say in a style, without blanks. */
+/* The texts of a rung in one style, without blanks. */
 static char *said_in(const struct picture *picture, enum letter letter)
 {
 	GString *all = g_string_new(NULL);
@@ -83,7 +83,7 @@ static char *said_in(const struct picture *picture, enum letter letter)
 	return g_string_free(all, FALSE);
 }
 
-/* Of the only rung of @sheet: nothing over anything, nothing behind the right rail. */
+/* For the only rung of @sheet: no overlaps, nothing behind the right rail. */
 static int heading_faults(const struct sheet *sheet, const char *title, const char *comment)
 {
 	const struct rung_layout *layout = sheet->rung[0];
@@ -110,7 +110,7 @@ static int heading_faults(const struct sheet *sheet, const char *title, const ch
 	return faults;
 }
 
-/* @len: bytes of @text that are its title. @paper: all of it is told */
+/* @len: bytes of @text that are the title. @paper: all of it is drawn */
 static int title_faults(const char *label, const char *text, size_t len, const char *comment,
 			bool paper)
 {
@@ -153,9 +153,9 @@ static void check_titles(void)
 			screen += title_faults(labels[i], all, (size_t)(end - all), comment,
 					       false);
 		}
-	CHECK_AS(paper == 0, "a title goes on in another line on paper");
-	CHECK_AS(screen == 0, "and does not run over the right rail on the screen");
-	/* Lines that were broken for a narrow rung are not, if the sheet is wide. */
+	CHECK_AS(paper == 0, "on paper a title continues in another line");
+	CHECK_AS(screen == 0, "on the screen a title ends before the right rail");
+	/* A wide sheet does not keep the line breaks of a narrow rung. */
 	CHECK(title_faults("", LATIN LATIN LATIN LATIN, strlen(LATIN) * 4, LATIN, true) == 0);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_layout - where things stand, what is hit at a point, and what a change costs.
+ * test_layout - places of a rung's parts, the part at a point, and the cost of a change.
  */
 #include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/draw/rung_box.h"
@@ -25,7 +25,7 @@ static enum rung_part part_at(const struct sheet *sheet, int rung, float x, floa
 	return rung_layout_hit(&sheet->drafting, sheet->rung[rung], x, y).part;
 }
 
-/* The middle of every cell hits it, and its corners do. */
+/* The middle of every cell hits it, and so do its corners. */
 static int missed_cells(const struct sheet *sheet)
 {
 	int missed = 0;
@@ -50,7 +50,7 @@ static int missed_cells(const struct sheet *sheet)
 	return missed;
 }
 
-/* Columns of a row do not overlap, whatever was stretched. */
+/* Columns of a row do not overlap, also when stretched. */
 static int bad_columns(const struct sheet *sheet)
 {
 	int bad = 0;
@@ -99,7 +99,7 @@ static bool begins(const struct sheet *sheet, const struct rung_layout *layout, 
 	       found_row == row && found_bar == bar;
 }
 
-/* Where a pointer begins a wire: beside an element, not on it; on wire; at free ends. */
+/* A drag begins a wire beside an element, on a wire, and at free ends. */
 static void check_ends(const struct sheet *sheet)
 {
 	const struct rung_layout *layout = sheet->rung[0];
@@ -113,7 +113,7 @@ static void check_ends(const struct sheet *sheet)
 	CHECK(!begins(sheet, layout, x + width - 8, wire + 20, 0, 1));
 	CHECK(!begins(sheet, layout, last - 2, wire, 0, layout->columns - 1));
 	CHECK(!begins(sheet, layout, last + 10, wire, 0, layout->columns - 1));
-	/* The link of the branch below: its lower end, too. */
+	/* The lower end of the link to the branch below. */
 	CHECK(begins(sheet, layout, x + width, layout->row[1].wire - 20, 1, 1));
 	/* A free cell: only at its end. */
 	CHECK(begins(sheet, layout, layout->column_x[3], layout->row[1].wire, 1, 3));
@@ -155,7 +155,7 @@ static void check_box(const struct sheet *sheet)
 	graphene_rect_t second = rung_layout_cell(layout, 1, 1);
 	CHECK(graphene_rect_equal(&first, &second));
 	CHECK(first.size.height > 2 * RUNG_CELL_HEIGHT);
-	/* What stands beside it is as high as elsewhere. */
+	/* Cells beside it have the usual height. */
 	CHECK(layout->row[1].height > RUNG_CELL_HEIGHT + 40);
 	CHECK((int)rung_layout_cell(layout, 1, 0).size.height == RUNG_CELL_HEIGHT);
 }
@@ -173,7 +173,7 @@ static void check_more_rows(const struct sheet *sheet)
 	rung_layout_free(layout);
 }
 
-/* One below the other, with one right rail. */
+/* Rungs are below one another, with one right rail. */
 static void check_sheet(struct sheet *sheet)
 {
 	int bad = 0;
@@ -205,7 +205,7 @@ static void check_clipping(void)
 	CHECK_TEXT(part.text, "Motor");
 	CHECK(cut.width <= 60 && g_str_has_suffix(cut.text, "\xe2\x80\xa6"));
 	CHECK(g_utf8_validate(odd.text, -1, NULL) && !strchr(odd.text, 1));
-	/* A mark stays with its letter, however little room there is. */
+	/* A combining mark stays with its letter at any width. */
 	for (float bound = 1; bound < 60; bound++) {
 		const char *text = lettering_fit(lettering, LETTER_SYMBOL,
 			"e\xcc\x81" "e\xcc\x81" "e\xcc\x81" "e\xcc\x81", -1, bound).text;
@@ -230,8 +230,8 @@ static const struct stroke *stroke_of(const struct picture *picture, const char 
 	return NULL;
 }
 
-/* What stands above a box is in its column, so that a rung can be folded beside it,
- * whatever is connected on one side of it. */
+/* The name of a box is in its column, so that a rung can be folded beside it, whatever is
+ * connected on one side. */
 static void check_box_name(struct sheet *sheet, bool paper)
 {
 	sheet->drafting.all_comments = paper;

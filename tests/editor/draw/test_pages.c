@@ -2,7 +2,7 @@
  *
  * test_pages - projects on paper, as `--render` puts them into a PDF.
  *
- * Text in a PDF is looked for with pdftotext where that is installed.
+ * Uses pdftotext where that is installed.
  */
 #include "editor-gtk/draw/pages.h"
 #include "tests/editor/drawn.h"
@@ -22,7 +22,7 @@ static bool has_glyphs(const char *text)
 	return unknown == 0;
 }
 
-/* pt from the top to the bottom of the lowest line of type in a listing of boxes. */
+/* pt from top to bottom of the lowest text in a listing of boxes. */
 static double smallest_type(const char *name)
 {
 	char *path = in_folder(name), *text = NULL;
@@ -69,8 +69,8 @@ static void check_pdf(void)
 	CHECK(!has("a.txt", "Date") && has("c.txt", "2026-03-01"));
 }
 
-/* A chart that is wider than a page is not made smaller than can be read: it goes on, on
- * pages beside each other, and what was cut off stands below. */
+/* A wide chart stays legible: it continues on further pages, and cut texts are listed
+ * below. */
 static void check_wide_chart(void)
 {
 	char *tool = g_find_program_in_path("pdftotext"), *line;
@@ -91,7 +91,7 @@ static void check_wide_chart(void)
 	g_free(tool);
 }
 
-/* pt from the top to the bottom of a word in a listing of boxes; 0: it is not there. */
+/* pt from top to bottom of a word in a listing of boxes; 0: not found. */
 static double type_of(const char *name, const char *word)
 {
 	char *all = content(name, NULL), *end = g_strdup_printf(">%s</word>", word);
@@ -123,8 +123,8 @@ static bool list_boxes(const char *name)
 	return can;
 }
 
-/* A rung of 30 contacts goes on below itself: the others stay as large as they are without
- * it, and every contact is there, once. */
+/* A rung of 30 contacts is folded: other rungs keep their size, and every contact is there,
+ * once. */
 static void check_wide_rung(void)
 {
 	static const char narrow[] = "  | NO %IX0.0 | COIL %QX0.0 |\n";
@@ -162,7 +162,7 @@ static void check_wide_rung(void)
 	g_string_free(rows, TRUE);
 }
 
-/* On which page a word stands, from 1; 0: on none. */
+/* The page of a word, from 1; 0: none. */
 static int page_of(const char *name, const char *word)
 {
 	char *all = content(name, NULL), *end = g_strdup_printf(">%s</word>", word);
@@ -179,8 +179,8 @@ static int page_of(const char *name, const char *word)
 	return at;
 }
 
-/* A rung that is taller than a page and too wide for it has its title above its first row,
- * wherever on a page it begins. */
+/* A rung that is too high and too wide for a page has its title above its first row,
+ * anywhere on a page. */
 static void check_tall_and_wide(void)
 {
 	for (int before = 1; before < 9; before++) {
@@ -206,7 +206,7 @@ static void check_tall_and_wide(void)
 	}
 }
 
-/* Of places that have no room below a coil all stand behind the rungs, once. */
+/* Places that do not fit below a coil are listed behind the rungs, once. */
 static void check_references(void)
 {
 	GString *rows = g_string_new("  | NO %IX0.0 | S %QX0.0 |\n");
@@ -232,7 +232,7 @@ static void check_references(void)
 	g_string_free(rows, TRUE);
 }
 
-/* A rung of 256 rows takes several pages, and none of it is lost. */
+/* A rung of 256 rows takes several pages, and all rows are there. */
 static void check_tall(void)
 {
 	GString *text = g_string_new("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n");
@@ -257,8 +257,8 @@ static void check_tall(void)
 	g_string_free(text, TRUE);
 }
 
-/* Nothing is cut in the title block: a long name gets two lines, what needs more room than
- * its share gets it. */
+/* Nothing is cut in the title block: a long name gets two lines, other fields give up spare
+ * width. */
 static void check_title_block(void)
 {
 	CHECK(render("ladders/packing.rung --date Wednesday,25_November_2026,14:38:05 "
@@ -278,7 +278,7 @@ static void check_title_block(void)
 		char **parts = g_strsplit(all, ">The_unit_that_fills_the_hopper_of_this_line<",
 					  -1);
 
-		CHECK_AS(g_strv_length(parts) == 3, "as heading and in the title block");
+		CHECK_AS(g_strv_length(parts) == 3, "the name is in the heading and in the title block");
 		g_strfreev(parts);
 		g_free(all);
 	}
@@ -287,7 +287,7 @@ static void check_title_block(void)
 #define TWICE LONG "_" LONG
 #define LONG "Sorter_of_the_second_hall_with_both_lifts_and_the_gate_to_the_yard_behind_it"
 
-/* Where the lowest of a word on a page lies, pt; 0: it is not there. */
+/* pt of the lowest occurrence of a word on a page; 0: not found. */
 static double place_of(const char *name, int page, const char *what)
 {
 	char *all = content(name, NULL);
@@ -304,7 +304,7 @@ static double place_of(const char *name, int page, const char *what)
 	return place;
 }
 
-/* Where a word begins, pt. */
+/* pt of the left end of a word. */
 static double left_of(const char *name, const char *what)
 {
 	char *all = content(name, NULL), *mark = g_strdup_printf("\">%s</word>", what);
@@ -317,7 +317,7 @@ static double left_of(const char *name, const char *what)
 	return left;
 }
 
-/* A project of that name, a program of that name, so many rungs. */
+/* Writes a project with this name, a program with this name, and rungs. */
 static void write_named(const char *file, const char *project, const char *program, int rungs)
 {
 	GString *text = g_string_new(NULL);
@@ -330,7 +330,7 @@ static void write_named(const char *file, const char *project, const char *progr
 	g_string_free(text, TRUE);
 }
 
-/* The title block is as high as the longest names need, and no rung lies in it. */
+/* The title block is as high as the longest names need, and no rung overlaps it. */
 static void check_high_title_block(void)
 {
 	write_named(TWICE ".rung", TWICE ", \xe6\x94\xb9\xe8\xa3\x85\xe5\x90\x8e", TWICE, 40);
@@ -341,12 +341,12 @@ static void check_high_title_block(void)
 		CHECK(!has("high.html", "\xe2\x80\xa6"));
 		CHECK_AS(block > 0 && block < 595 - 34 - 27 - 40, "many lines");
 		CHECK(place_of("high.html", 2, "%QX0.0") > 100);
-		CHECK_AS(place_of("high.html", 2, "%QX0.0") < block - 30, "no rung lies in it");
+		CHECK_AS(place_of("high.html", 2, "%QX0.0") < block - 30, "no rung overlaps the title block");
 	}
 }
 
-/* The name of a project that even a high block has no room for stands behind the rest, also
- * if it is cut for no more than the digits of the last page. */
+/* A project name that fits in no title block is printed on a page of its own, even if only
+ * the digits of the last page take the room. */
 static void check_cut_name(void)
 {
 	int told = 0;
@@ -362,10 +362,10 @@ static void check_cut_name(void)
 		told += list_boxes("cut") && page_of("cut.html", "Zend") == 0;
 		g_string_free(name, TRUE);
 	}
-	CHECK_AS(told == 0, "the end of the name is somewhere");
+	CHECK_AS(told == 0, "the end of the name is printed");
 }
 
-/* A tab in a name is a blank: nothing is written over something else. */
+/* A tab in a name is drawn as a blank, without overlaps. */
 static void check_tabs(void)
 {
 	write_named("tabs.rung", "Left\t\t\t\t\t\t\t\t\t\tRight", "Main", 1);
@@ -376,7 +376,8 @@ static void check_tabs(void)
 	}
 }
 
-/* What has no room where it belongs is told behind the rungs; a heading has two lines. */
+/* Texts that do not fit in their place are listed behind the rungs; a heading has two
+ * lines. */
 static void check_told_below(void)
 {
 #define UNIT "The_unit_that_fills_the_hopper_of_this_line_and_that_of_the_next_one_" \
@@ -394,7 +395,7 @@ static void check_told_below(void)
 		   "END_PROGRAM\n");
 	CHECK(render("OUT/head.rung -o OUT/head.pdf") == 0);
 	if (list_boxes("head"))
-		CHECK_AS(!has("head.html", "\xe2\x80\xa6"), "a heading has its end");
+		CHECK_AS(!has("head.html", "\xe2\x80\xa6"), "a heading is not cut");
 #undef UNIT
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_place - which column a person is told for a cell: on sheets, in charts, for what is
- * not there; and which part of a chart.
+ * test_place - the column that is shown for a cell: on sheets, in charts, for missing
+ * cells; and the part of a chart for a line.
  */
 #include "editor-gtk/draw/place.h"
 
@@ -38,8 +38,8 @@ static void test_shown(const struct project *project)
 	struct place_sheet sheet = { 0 };
 	const int last = project->pou[1].rung_count - 1;
 
-	CHECK_AS(place_shown(&sheet, project, 0, 0, 0, 1) == 7, "a coil is seen last");
-	CHECK_AS(place_shown(&sheet, project, 0, 0, 0, 0) == 0, "a contact where it stands");
+	CHECK_AS(place_shown(&sheet, project, 0, 0, 0, 1) == 7, "a coil is shown in the last column");
+	CHECK_AS(place_shown(&sheet, project, 0, 0, 0, 0) == 0, "a contact is shown in its own column");
 	CHECK(place_shown(&sheet, project, 0, 1, 0, 7) == 7);
 	CHECK_AS(place_shown(&sheet, project, 1, last, 0, 1) == 5,
 		 "a body of a chart has its own columns");
@@ -54,7 +54,7 @@ static void check_line(const struct project *project, int pou, int row, const ch
 	g_free(place);
 }
 
-/* Nobody sees lines of a chart. */
+/* In a chart the place is a step or transition, no line. */
 static void test_lines(const struct project *project)
 {
 	check_line(project, 0, 2, "Main, line 3");

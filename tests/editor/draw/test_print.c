@@ -43,7 +43,7 @@ static void check_pdf(const struct project *project)
 	g_bytes_unref(pdf);
 }
 
-/* A picture of more pixels than a PNG may have is none; the drawing is there. */
+/* A picture larger than a PNG can be is NULL; the SVG is there. */
 static void check_too_large(const struct project *project, struct lettering *lettering)
 {
 	struct sheet *sheet = sheet_new(project, &project->pou[0], lettering);
@@ -110,7 +110,7 @@ static void check_node(const struct project *project, struct lettering *letterin
 
 int main(void)
 {
-	gtk_init_check(); /* the types of nodes; there need be no display       */
+	gtk_init_check(); /* for the types of nodes; a display is not needed    */
 	struct ladder *ladder = drawn_load("tests/editor/drawing/shapes.rung", NULL);
 	if (!CHECK(ladder))
 		return tap_done();

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_sfc - charts in the editor: nothing is drawn over anything, every place is hit, what
- * is active is seen without colour, and rungs of bodies are edited and taken back.
+ * test_sfc - charts: drawn without overlaps, every place can be hit, active steps differ
+ * not only in colour, and rungs of bodies can be edited and undone.
  */
 #include "editor-gtk/document/document.h"
 #include "editor-gtk/draw/sfc_draw.h"
@@ -30,7 +30,7 @@ static bool is_inside(const struct stroke *s, const struct sfc_sheet *sheet)
 	return s->x >= 0 && s->y >= 0 && s->x <= sheet->width && s->y <= sheet->height;
 }
 
-/* Texts lie upon no other text and no stroke. */
+/* Texts overlap no other text and no stroke. */
 static int count_faults(const struct picture *picture, const struct sfc_sheet *sheet)
 {
 	int faults = 0;
@@ -85,7 +85,7 @@ static void check_hits(const struct sfc_sheet *sheet)
 
 		missed += at.use != i || at.shape != sheet->layout->sfc->use[i].step;
 	}
-	CHECK_AS(missed == 0, "every box and line is hit in its middle");
+	CHECK_AS(missed == 0, "the middle of every box and line hits it");
 	CHECK(sfc_sheet_at(sheet, -100, -100, 10).shape == -1);
 }
 
@@ -101,7 +101,7 @@ static void check_chart(const char *path)
 	pou = &ladder_project(ladder)->pou[0];
 	sheet = sfc_sheet_new(ladder_project(ladder), pou, lettering);
 	draw(sheet, NULL, &picture);
-	CHECK_AS(count_faults(&picture, sheet) == 0, "nothing lies over anything");
+	CHECK_AS(count_faults(&picture, sheet) == 0, "charts have no overlaps");
 	check_hits(sheet);
 	picture_clear(&picture);
 	sfc_sheet_free(sheet);
@@ -155,7 +155,7 @@ static void check_live(void)
 	ladder_free(ladder);
 }
 
-/* ---- what differs ---- */
+/* ---- differences ---- */
 
 static struct sfc_sheet *sheet_of(struct ladder *ladder)
 {
@@ -163,7 +163,7 @@ static struct sfc_sheet *sheet_of(struct ladder *ladder)
 			     lettering);
 }
 
-/* All is marked: signs and frames stand beside what there is. */
+/* With everything marked: signs and frames do not overlap other parts. */
 static void check_marked(const char *path)
 {
 	struct ladder *ladder = load(path);
@@ -189,7 +189,7 @@ static void check_marked(const char *path)
 	scene.mark_count = count;
 	picture_init(&picture);
 	sfc_draw(&scene, &picture);
-	CHECK_AS(count_faults(&picture, sheet) == 0, "no sign of a difference hides anything");
+	CHECK_AS(count_faults(&picture, sheet) == 0, "signs of differences have no overlaps");
 	CHECK(count_strokes(&picture, STROKE_FRAME, TOKEN_FORCE) == count &&
 	      count_strokes(&picture, STROKE_TEXT, TOKEN_FORCE) == count);
 	picture_clear(&picture);
@@ -244,9 +244,9 @@ static void check_bodies(void)
 	const char *new = "RUNG\n| NO I0.7 | COIL Q0.7 |\n";
 
 	ladder_document_open_text(document, NULL, chart, strlen(chart), true);
-	CHECK_AS(!splice(document, 1, 0, new, NULL), "it is not sure whose rung it is");
-	CHECK_AS(!splice(document, 0, 1, new, new), "a condition is one rung");
-	CHECK_AS(!splice(document, 2, 2, new, NULL), "two bodies are not one");
+	CHECK_AS(!splice(document, 1, 0, new, NULL), "a rung between two bodies is refused");
+	CHECK_AS(!splice(document, 0, 1, new, new), "a second rung of a condition is refused");
+	CHECK_AS(!splice(document, 2, 2, new, NULL), "an edit across two bodies is refused");
 	CHECK(has_text(document, chart));
 	CHECK(splice(document, 1, 1, new, "RUNG\n| NO I0.1 | COIL Q0.1 |\n"));
 	CHECK(has_text(document, "ACTION Count:\n    RUNG\n      | NO I0.7 | COIL Q0.7 |\n"
@@ -260,7 +260,7 @@ static void check_bodies(void)
 		       "    RUNG\n      | NO I0.2 | COIL Q0.2 |\n  END_ACTION\n"));
 	for (int i = 0; i < 4; i++)
 		CHECK(ladder_document_undo(document));
-	CHECK_AS(has_text(document, chart), "all taken back: the same bytes");
+	CHECK_AS(has_text(document, chart), "undo restores the same bytes");
 	for (int i = 0; i < 4; i++)
 		ladder_document_redo(document);
 	CHECK(has_text(document, "| NO I1.0 | COIL TRANSITION |"));

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_strokes - drawings, stroke by stroke, against tests/editor/drawing/. Measured by
- * rule and not with fonts, so that they are the same on every machine.
+ * test_strokes - drawings, stroke by stroke, against tests/editor/drawing/. Widths come
+ * from a rule instead of fonts, so that they are the same on every machine.
  *
- * Then each as the screen has it, of nodes, and as paper has it, of cairo's paths: they are
- * the same.
+ * Each drawing is then painted by render nodes and by cairo's paths, and both must look the
+ * same.
  *
- * With --bless the files are written anew; read the difference.
+ * --bless writes the files again; read the difference.
  */
 #include "tests/editor/drawn.h"
 #include "tests/editor/lines.h"
@@ -62,7 +62,7 @@ static cairo_t *white(int width, int height)
 	return cr;
 }
 
-/* Of the bytes that are not white in either: how many are quite another, in thousandths. */
+/* Of the bytes that are not white in either image, those that differ much, in thousandths. */
 static long differs(cairo_t *one, cairo_t *other)
 {
 	cairo_surface_t *left = cairo_get_target(one), *right = cairo_get_target(other);
@@ -76,7 +76,7 @@ static long differs(cairo_t *one, cairo_t *other)
 	a = cairo_image_surface_get_data(left);
 	b = cairo_image_surface_get_data(right);
 	for (long i = 0; i < size; i++) {
-		if (i % 4 == 3) /* RGB24 has none */
+		if (i % 4 == 3) /* unused byte of RGB24 */
 			continue;
 		inked += a[i] < 250 || b[i] < 250;
 		others += abs(a[i] - b[i]) > 128;
@@ -93,7 +93,7 @@ static bool is_broken(const struct picture *picture)
 	return false;
 }
 
-/* @broken: with what only cairo has. @scale: of the screen; 0: it is not known. */
+/* @broken: has strokes that only cairo draws. @scale: of the screen; 0: unknown. */
 static void as_paper(struct picture *picture, int width, int height, bool broken,
 		     float scale, const char *name)
 {
@@ -107,7 +107,7 @@ static void as_paper(struct picture *picture, int width, int height, bool broken
 	gsk_render_node_draw(node, screen);
 	picture_cairo(picture, theme, with_fonts, paper);
 	part = differs(screen, paper);
-	if (!CHECK_AS(part < 30, "the screen has what paper has"))
+	if (!CHECK_AS(part < 30, "screen and paper show the same"))
 		printf("# %s: %ld of 1000 bytes differ\n", name, part);
 	CHECK_AS(node_has(node, "cairo {") == broken,
 		 "what is not broken needs no image of its own");
@@ -116,7 +116,7 @@ static void as_paper(struct picture *picture, int width, int height, bool broken
 	gsk_render_node_unref(node);
 }
 
-/* Both ways to draw. Where the scale is not known the ends of arcs are not cut alike. */
+/* Paints both ways. With an unknown scale the ends of arcs differ a little. */
 static void both_ways(struct picture *picture, int width, int height, bool broken,
 		      const char *name)
 {
@@ -151,7 +151,7 @@ static bool value_of(void *context, int row, int col, struct live_value *out)
 	return true;
 }
 
-/* Start is open, Motor holds itself, Stop is closed: power comes round below. */
+/* Start is open, Motor closed, Stop closed: power flows through the lower branch. */
 static void draw_live(struct sheet *sheet)
 {
 	const struct rung *rung = sheet->pou->rung[0];
@@ -185,7 +185,7 @@ static void draw_marks(struct sheet *sheet)
 	bool takes[64] = { [1] = true };
 
 	draw(sheet, 0, scene, "marks");
-	takes[sheet->rung[0]->columns + 2] = true; /* of the second row, the third one */
+	takes[sheet->rung[0]->columns + 2] = true; /* second row, third column */
 	draw(sheet, 0, (struct grid_scene){ .takes = takes }, "takes");
 }
 
@@ -195,7 +195,7 @@ static const char *note_of(void *context, int row, int column)
 	return row == 0 && column == 0 ? "must be on" : NULL;
 }
 
-/* With a note, without one, below a value; a box; at its side a force. */
+/* Blockers with a note, without one, below a value, at a box, and beside a force. */
 static void draw_blockers(struct sheet *sheet)
 {
 	static const struct grid_mark mark[] = {
@@ -248,9 +248,9 @@ static void shape(struct picture *picture, int which)
 		picture_line(picture, TOKEN_INK, STROKE_DASHED, 2, 10, 35, 50, 5);
 		return;
 	case 7:
-		picture_arc(picture, TOKEN_INK, 2, 30, 20, 15, 0.3f, 1.9f); /* askew */
+		picture_arc(picture, TOKEN_INK, 2, 30, 20, 15, 0.3f, 1.9f); /* not symmetric */
 		return;
-	default: /* the first is half covered, the second is not */
+	default: /* the first arc has a short angle, the second has not */
 		picture_text(picture, TOKEN_INK, LETTER_SYMBOL,
 			     lettering_fit(with_fonts, LETTER_SYMBOL, "Motor", -1, 0), 5, 30);
 		picture_fill(picture, TOKEN_POWER, 1, 20, 10, 20, 25);
@@ -291,7 +291,7 @@ static GskRenderNode *arc_node(float scale, float dx)
 	return node;
 }
 
-/* Arcs are images where these are as large as they are shown. */
+/* Arcs become images where their size on the screen is known. */
 static void check_images(void)
 {
 	static const float scales[] = { 0, 0.5f, 1, 1.1f, 2 };
@@ -304,7 +304,7 @@ static void check_images(void)
 	}
 }
 
-/* The same for arcs that nobody can tell apart. */
+/* Arcs that look alike share an image. */
 static void check_same_image(void)
 {
 	static const struct { float dx; bool same; } cases[] = {
@@ -329,7 +329,7 @@ int main(int argc, char **argv)
 	struct ladder *ladder = drawn_load(FOLDER "shapes.rung", NULL);
 
 	with_fonts = lettering_new(context, NULL);
-	gtk_init_check(); /* the types of nodes; there need be no display       */
+	gtk_init_check(); /* for the types of nodes; a display is not needed    */
 	bless = argc > 1 && strcmp(argv[1], "--bless") == 0;
 	if (!CHECK(ladder))
 		return tap_done();

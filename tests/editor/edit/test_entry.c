@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_entry - quick entry: what lines mean, and what is offered for them.
+ * test_entry - quick entry: the meaning of lines, and their candidates.
  *
- * A case is the line as typed and the cell it makes, with what would be declared behind
- * `+`, and `below` before it if it goes in parallel; or `!` and why not. A line of the
+ * A case is a line as typed and the cell it makes, with its new declarations behind `+`,
+ * and `below` before it if it goes in parallel; or `!` and the reason. A line typed in the
  * last column begins with `>`.
  */
 #include "editor-gtk/edit/entry_duplicate.h"
@@ -122,12 +122,12 @@ static const struct { const char *line, *means; } lines[] = {
 	{ ">Level := 5", "[ Level := 5 ]" },
 	{ "Level >", "! “Level >” is not a valid expression" },
 	{ "NO Level > 5", "[ Level > 5 ]" },
-	/* what is new is told */
+	/* new names are declared */
 	{ "Open", "NO Open + Open BOOL %IX0.2" }, { ">Horn", "COIL Horn + Horn BOOL %QX0.3" },
 	{ "NO Open", "NO Open + Open BOOL %IX0.2" },
 	{ "S Horn", "S Horn + Horn BOOL %QX0.3" },
 	{ "XIC 启动", "NO 启动 + 启动 BOOL %IX0.2" },
-	/* what is said of it is not proposed */
+	/* given parts of a declaration are used */
 	{ "Open %IX0.5", "NO Open + Open BOOL %IX0.5" },
 	{ "Open AT %IX0.5", "NO Open + Open BOOL %IX0.5" },
 	{ "Open : BOOL", "NO Open + Open BOOL" }, { "Open:bool", "NO Open + Open BOOL" },
@@ -175,7 +175,7 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "PROGRAM : BOOL", "! “PROGRAM” cannot be the name of a variable" },
 	{ "SYS_FIRST_SCAN : BOOL", "! “SYS_FIRST_SCAN” cannot be the name of a variable" },
 	{ "P1.On %IX0.5", "! “P1.On” cannot be the name of a variable" },
-	/* a new name anywhere else: its type is that of what it goes with */
+	/* new names elsewhere get the type of their place */
 	{ "TON D1 Later AT %ML4 : TIME", "TON D1 PT:=Later + D1 TON + Later TIME %ML4" },
 	{ "TON D1 PT:=Later AT %ML4", "TON D1 PT:=Later + D1 TON + Later TIME %ML4" },
 	{ "TON D1 PT:=Later : TIME ET=>Now", "TON D1 PT:=Later ET=>Now + D1 TON + Later TIME + Now TIME" },
@@ -301,7 +301,7 @@ static void check_lines(struct entry_place *place)
 	place->output = false;
 }
 
-/* The list for a line whose cursor stands at `_`; `>` begins one of the last column. */
+/* Candidates for a line with the cursor at `_`; `>` begins a line of the last column. */
 static const struct { const char *line, *offers; } offered[] = {
 	{ "Fan_", "Fan FanDelay" },
 	{ "fa_", "Fan FanDelay new:fa@%IX0.2 new:fa@%MX0.1 new:fa@" },
@@ -327,7 +327,7 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "Level := Fu_", "Full new:Fu@ new:Fu@%IW2 new:Fu@%MW2" },
 	{ "tonr_", "TONR" }, { "xic_", "XIC" },
 	{ "NO Start_", "Start" },
-	/* said of a new name */
+	/* declarations of a new name */
 	{ "/Gate_", "new:Gate@%IX0.2 new:Gate@%MX0.1 new:Gate@" },
 	{ "Open AT_", "new:Open@%IX0.2 new:Open@%MX0.1 new:Open@" },
 	{ "Open AT _", "new:Open@%IX0.2 new:Open@%MX0.1 new:Open@" },
@@ -349,13 +349,13 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "Open AT I:0/5 : b_", "new:Open@%IX0.5" }, { "Start %_", "" }, { "Motor : _", "" },
 };
 
-/* What a row of a new name shows is what its line declares. */
+/* A row for a new name shows what its line declares. */
 static void check_row(const struct entry_place *place, const struct entry_candidate *row)
 {
 	struct entry entry;
 	bool told = false;
 
-	if (!entry_read(place, row->line, &entry)) /* an expression that is not whole */
+	if (!entry_read(place, row->line, &entry)) /* an incomplete expression */
 		return;
 	for (int i = 0; i < entry.declares; i++)
 		told |= !strcmp(entry.declare[i].name, row->text) &&
@@ -401,7 +401,7 @@ static void check_offers(struct entry_place *place)
 	place->output = false;
 }
 
-/* The page that tells of them has them all. */
+/* The page of the documentation has all mnemonics. */
 static void check_page(void)
 {
 	static char page[20000];
@@ -456,7 +456,7 @@ static void make_line(char *out, size_t size)
 				      roll(3) ? " " : "");
 }
 
-/* What is wrong with a reading; NULL: nothing. */
+/* The error in a result; NULL: none. */
 static const char *judge(const struct entry_place *place, const struct entry *e)
 {
 	struct diag_list diags;
@@ -521,7 +521,7 @@ static void check_any(struct entry_place *place)
 	place->output = false;
 }
 
-/* A rung and what it becomes once more, with what is to be declared. */
+/* A rung and its copy, with the new declarations. */
 static const struct { const char *rung, *twice; } rungs[] = {
 	{ "| NO Start | TON FanDelay PT:=T#5s | COIL Motor |",
 	  "| NO Start | TON FanDelay1 PT:=T#5s | COIL Motor | + FanDelay1 TON" },

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_grid - edits of rungs, each as rung before, what is done, rung after.
+ * test_grid - edits of rungs: rung before, edits, rung after.
  *
- * Rows and columns are 1-based here, the sheet has six columns. A line of edits is
- * `verb row column [cell]`; what is refused is `! REFUSAL`. Blanks count for nothing.
+ * Rows and columns are 1-based here, the sheet has six columns. A line of edits is `verb
+ * row column [cell]`; a refusal is `! REFUSAL`. Blanks are ignored.
  */
 #include "tests/editor/grid_words.h"
 #include "tests/tap.h"
@@ -16,15 +16,15 @@ static const struct sample samples[] = {
 #include "tests/editor/grid_cases.def"
 };
 
-/* ---- where something that is dragged may go ---- */
+/* ---- places to drop an element ---- */
 
 #define TAKES_ROWS 4
 
-/* A line for each row of the sheet: x takes it. */
+/* A line for each row of the sheet: x where it can be dropped. */
 static const struct {
 	const char *rung, *cell, *takes;
 } takes[] = {
-	/* Also in the row that would come below, and in none after that. */
+	/* Also in the row below the last one, but in none after it. */
 	{ "| NO A | NC B | COIL Q |\n", "NO X", "xxxxx. xxxxx. ...... ......" },
 	{ "| NO A | NC B | COIL Q |\n", "COIL X", ".....x .....x ...... ......" },
 	{ "| NO A | NC B | COIL Q |\n", "CTU C1", "xxxxx. xxxxx. ...... ......" },
@@ -53,7 +53,7 @@ static void check_takes(struct grid_bench *bench, const char *rung_text, const c
 		}
 		*to++ = row + 1 < TAKES_ROWS ? ' ' : '\0';
 	}
-	CHECK_AS(alike, "each cell by itself is judged alike");
+	CHECK_AS(alike, "grid_takes() and grid_can_drop() agree");
 	if (!CHECK_AS(strcmp(got, want) == 0, cell))
 		printf("# got:  %s\n# want: %s\n", got, want);
 	rung_free(rung);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_normal - the normal form of rungs means what they meant.
+ * test_normal - the normal form of a rung has the same meaning.
  *
- * Every rung of the samples and of the golden cases that build is put into normal form;
- * the program that is translated from it must be the same, instruction by instruction.
+ * Every rung of the samples and of the golden cases that build is put into normal form; the
+ * translated program must be the same, instruction by instruction.
  */
 #include "editor-gtk/edit/grid_edit.h"
 #include "engine/ladder.h"
@@ -36,7 +36,7 @@ static bool same_lists(struct ladder *a, struct ladder *b, int pou)
 	return true;
 }
 
-/* Puts all rungs into normal form; -1: one of them came out wrong. */
+/* Puts all rungs into normal form; -1: a result is wrong. */
 static int normalise_all(struct project *project)
 {
 	int changed = 0;
@@ -61,7 +61,7 @@ static int normalise_all(struct project *project)
 	return changed;
 }
 
-/* NULL: as it should be, or nothing to compare. */
+/* NULL: equal, or nothing to compare. */
 static const char *compare(const char *path, int *rungs_changed, int *files)
 {
 	struct ladder *before = ladder_new(), *after = ladder_new();

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_sfc_edit - edits of charts: known ones by their text, thousands of random ones
- * by what must hold of each: the text reads, is canonical, and the steps and ways are
- * those that there should be.
+ * test_sfc_edit - edits of charts: known ones by their text, thousands of random ones by
+ * invariants: the text can be read, is canonical, and has the expected steps and
+ * transitions.
  */
 #include "engine/show/sfc_layout.h"
 #include "tests/editor/chart_edit.h"
@@ -89,8 +89,8 @@ static void check_texts(void)
 	CHECK(!strstr(body(), "SET"));
 }
 
-/* A line of a step, and what it says: qualifier, time, name, what is said of that; or why
- * not. */
+/* A line of an action and its parts: qualifier, time, name, declaration; or the reason of a
+ * refusal. */
 static void check_doings(void)
 {
 	static const struct { const char *line, *says; } doings[] = {
@@ -125,7 +125,7 @@ static void check_doings(void)
 	}
 }
 
-/* A refusal says why, and the text stays. */
+/* A refusal has a reason and changes nothing. */
 #define REFUSED(call) do { \
 	struct sfc_edit *edit = edit_new(); \
 	CHECK_AS(!(call) && edit->why, #call); \
@@ -180,7 +180,7 @@ static int fold(struct sfc_edit *edit, unsigned int which)
 	return sfc_edit_macro_make(edit, chosen);
 }
 
-/* What it does on random inputs: a sum over all steps and outputs of all scans. */
+/* Behaviour on random inputs: a checksum of all steps and outputs in all scans. */
 static uint64_t traced(void)
 {
 	static const char *const names[] = { "A.X", "B.X", "C.X", "D.X", "E.X", "F.X",
@@ -232,7 +232,7 @@ static void check_macros(void)
 	REFUSED(fold(edit, 1) >= 0);
 	REFUSED(fold(edit, 0) >= 0);
 	REFUSED(sfc_edit_macro_open(edit, 0) >= 0);
-	/* Whatever can be put into one does what it did, also when it is out again. */
+	/* Making and dissolving a macro-step does not change the behaviour. */
 	begin(six);
 	before = traced();
 	CHECK(before != 0);
@@ -243,7 +243,7 @@ static void check_macros(void)
 		begin(six);
 		edit = edit_new();
 		if (fold(edit, which) < 0) {
-			CHECK_AS(edit->why, "a refusal says why");
+			CHECK_AS(edit->why, "a refusal has a reason");
 			sfc_edit_free(edit);
 			continue;
 		}
@@ -256,14 +256,14 @@ static void check_macros(void)
 				       traced() == before;
 				break;
 			}
-		CHECK_AS(good, "a macro-step of some steps");
+		CHECK_AS(good, "a macro-step keeps the behaviour");
 		if (!good)
 			printf("# steps %x\n%s\n", which, text_now);
 	}
 	printf("# %d of 63\n", made);
 	CHECK(made == 6);
 	begin(six);
-	REFUSED(fold(edit, 4 | 8) >= 0);  /* C and D: entered at two */
+	REFUSED(fold(edit, 4 | 8) >= 0);  /* C and D: two entries */
 	REFUSED(fold(edit, 2 | 16) >= 0); /* B and E: likewise */
 	EDIT(fold(edit, 16 | 32) == 6);
 	CHECK(strstr(body(), "FROM Macro1 TO Macro1 := I0.5;"));
@@ -369,7 +369,7 @@ static bool edit_any(struct sfc_edit *edit)
 	}
 }
 
-/* Each name of a way that has been found is one of a step that is there. */
+/* Each name in a transition that was found is that of an existing step. */
 static bool is_whole(void)
 {
 	struct sfc_layout *layout = sfc_layout_new(chart());
@@ -396,7 +396,7 @@ static void check_random(void)
 		most = chart()->step_count > most ? chart()->step_count : most;
 	}
 	printf("# %d edits, up to %d steps\n", done, most);
-	CHECK_AS(bad == 0, "what an edit left reads again, and is canonical");
+	CHECK_AS(bad == 0, "results can be read and are canonical");
 	CHECK(done > EDITS / 2 && most > 20);
 }
 

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_sfc_insert - a part of a chart comes into its sequence: known places by their
- * text, random ones by what must hold: the text reads, is canonical, and no way leads to a
- * step that there is not.
+ * test_sfc_insert - inserting a part of a chart into its sequence: known places by their
+ * text, random ones by invariants: the text can be read, is canonical, and no transition
+ * leads to a missing step.
  */
 #include "engine/show/sfc_layout.h"
 #include "tests/editor/chart_edit.h"
 
 #define INSERTS 3000
 
-/* ---- a part behind the chart comes into its sequence ---- */
+/* ---- a part at the end of the chart is moved into its sequence ---- */
 
 /* A chart of @two and @part, whose first step and transition are 2 and 2. */
 static void begin_with(const char *part)
@@ -40,7 +40,7 @@ static void check_inserts(void)
 	begin_with(cut);
 	EDIT(sfc_edit_insert(edit, 2, 2, -1, 0) == 2);
 	CHECK_TEXT(body(), between);
-	/* It goes round here, and not to where it came from. */
+	/* It joins the loop here, and not where it was copied from. */
 	begin_with("  STEP New:\n  END_STEP\n\n"
 		   "  TRANSITION FROM New TO B := I0.7; END_TRANSITION\n");
 	EDIT(sfc_edit_insert(edit, 2, 2, -1, 1) == 2);
@@ -67,7 +67,7 @@ static void check_inserts(void)
 
 static void check_inserts_at_ends(void)
 {
-	/* Behind the last step; what its way names is there, or is made. */
+	/* Behind the last step; unknown steps are made. */
 	begin("  INITIAL_STEP A:\n  END_STEP\n\n  STEP New:\n  END_STEP\n\n"
 	      "  TRANSITION FROM New TO A := I0.7; END_TRANSITION\n");
 	EDIT(sfc_edit_insert(edit, 1, 0, 0, -1) == 1);
@@ -76,12 +76,12 @@ static void check_inserts_at_ends(void)
 	      "  TRANSITION FROM New TO Gone := I0.7; END_TRANSITION\n");
 	EDIT(sfc_edit_insert(edit, 1, 0, 0, -1) == 1);
 	CHECK(strstr(body(), "FROM New TO Step1 := I0.7;") && strstr(body(), "STEP Step1:"));
-	/* A transition that was cut closes the gap that it left. */
+	/* A pasted transition closes the gap. */
 	begin("  INITIAL_STEP A:\n  END_STEP\n\n  STEP B:\n  END_STEP\n\n"
 	      "  TRANSITION FROM A TO B := I0.7; END_TRANSITION\n");
 	EDIT(sfc_edit_insert(edit, 2, 0, 0, -1) >= 0);
 	CHECK(strstr(body(), "FROM A TO B := I0.7;") && chart()->step_count == 2);
-	/* A step with two ways on: both go on behind what comes. */
+	/* A step with two transitions: both leave the inserted part. */
 	begin("  INITIAL_STEP A:\n  END_STEP\n\n  STEP B:\n  END_STEP\n\n"
 	      "  TRANSITION FROM A TO A := I0.0; END_TRANSITION\n\n"
 	      "  TRANSITION FROM A TO B := I0.1; END_TRANSITION\n\n"
@@ -99,7 +99,7 @@ static void check_inserts_at_ends(void)
 	EDIT(sfc_edit_insert(edit, 3, 0, 2, -1) == 3);
 	CHECK(strstr(body(), "    TRANSITION FROM In TO New:\n") &&
 	      strstr(body(), "    TRANSITION FROM New TO Step1 := I0.7;"));
-	/* Beside: nothing is there, or it has two beginnings. */
+	/* Stays at the end: nothing to insert behind, or two beginnings. */
 	begin_with("  STEP New:\n  END_STEP\n\n"
 		   "  TRANSITION FROM New TO Gone := I0.7; END_TRANSITION\n");
 	EDIT(sfc_edit_insert(edit, 2, 2, -1, -1) == 2);
@@ -194,7 +194,7 @@ static void check_any(void)
 	for (int i = 0; i < INSERTS && !bad; i++)
 		bad += !insert_any(&beside);
 	printf("# %d of %d stand beside\n", beside, INSERTS);
-	CHECK_AS(bad == 0, "what comes anywhere reads again, and is led to what there is");
+	CHECK_AS(bad == 0, "results can be read and name existing steps");
 }
 
 int main(void)

@@ -2,10 +2,10 @@
  *
  * test_storm - thousands of random edits of rungs, by hand and by rule.
  *
- * Wild: anything anywhere; each result must read, be in normal form and say what it is.
- * Tame: edits that close by themselves; the rung must stay one that the checks accept,
- * and power must do what the edit says: a closed contact in series and an open one in
- * parallel change nothing, what is deleted became a wire or nothing.
+ * Wild: any edit anywhere; each result can be read, is in normal form and has the reported
+ * place. Tame: edits that close their wires; the checks must accept the rung, and its power
+ * must match: a closed contact in series and an open one in parallel change nothing, a
+ * deleted element becomes a wire or nothing.
  */
 #include "engine/check/check.h"
 #include "tests/editor/grid_words.h"
@@ -154,7 +154,7 @@ static void storm(struct grid_bench *bench)
 		}
 		if (rung->rows * rung->cols > most)
 			most = rung->rows * rung->cols;
-		/* Now and then anew, or it only grows. */
+		/* sometimes start again, or the rung only grows */
 		if (roll(150) == 0 || rung->rows > 40 || rung->cols > 40) {
 			rung_free(rung);
 			rung = grid_read(bench, "| NO A | COIL Q0 |\n");
@@ -168,7 +168,7 @@ static void storm(struct grid_bench *bench)
 
 /* ---- at the limits ---- */
 
-/* A rung that can grow no more: what does not fit is refused, nothing else happens. */
+/* A full rung: an edit without room is refused and changes nothing. */
 static void crowd(struct grid_bench *bench)
 {
 	struct rung *full = rung_new(LIMIT_ROWS, LIMIT_COLS);
@@ -200,10 +200,10 @@ static void crowd(struct grid_bench *bench)
 
 /* ---- tame ---- */
 
-/* What power does: contacts are closed by a bit of their number, one of them as told. */
+/* Contacts are closed by a bit of their number, one of them as forced. */
 struct flow {
 	uint32_t seed, forced; /* operand that is forced; 0: none             */
-	bool closed;           /* to this                                     */
+	bool closed;           /* its state                                   */
 	uint32_t ignored;      /* an output that does not count               */
 };
 
@@ -216,7 +216,7 @@ static bool is_closed(const struct flow *flow, const struct cell *cell)
 	return (mixed ^ mixed >> 15) & 1;
 }
 
-/* Operands of the outputs that have power, added up in a way that tells them apart. */
+/* A checksum of the outputs that have power. */
 static uint64_t powered(const struct rung *rung, const struct flow *flow)
 {
 	struct network n;
@@ -235,7 +235,7 @@ static uint64_t powered(const struct rung *rung, const struct flow *flow)
 			const struct network_element *e = &n.element[i];
 			const struct cell *cell = rung_at(rung, e->row, e->col);
 
-			/* As wire does, in both directions. */
+			/* as a wire, in both directions */
 			if (live[e->out] && !live[e->in] && flow->closed &&
 			    cell->operand == flow->forced)
 				live[e->in] = again = true;
@@ -256,7 +256,7 @@ static uint64_t powered(const struct rung *rung, const struct flow *flow)
 	return sum;
 }
 
-/* Do both rungs give power to the same outputs, whatever is closed? */
+/* Do both rungs give power to the same outputs, for any state of the contacts? */
 static bool same_power(const struct rung *a, struct flow fa, const struct rung *b,
 		       struct flow fb)
 {
@@ -311,7 +311,7 @@ static bool is_contact(const struct rung *rung, const struct grid_place *place)
 		       OPND_BOOL_R;
 }
 
-/* An output more, on any row and branch, leaves the others alone. */
+/* A new output in any row and branch leaves the others unchanged. */
 static struct rung *tame_output(struct grid_bench *bench, const struct rung *rung,
 				struct grid_at *at, const char **wrong)
 {
@@ -325,8 +325,8 @@ static struct rung *tame_output(struct grid_bench *bench, const struct rung *run
 	return made;
 }
 
-/* Within what is complete a contact leaves a wire or nothing behind, and what it comes
- * to stays complete. */
+/* In a complete rung a moved contact leaves a wire or nothing, and the target stays
+ * complete. */
 static struct rung *tame_move(const struct rung *rung, struct grid_at *at)
 {
 	struct grid_at to = { .columns = at->columns, .row = roll(rung->rows + 1),
@@ -348,8 +348,7 @@ static struct rung *tame_move(const struct rung *rung, struct grid_at *at)
 	return made;
 }
 
-/* Does that wire carry power to the left only? An element would stand in it the wrong
- * way round. */
+/* Does the wire carry power only to the left? An element would be the wrong way around. */
 static bool leads_left(const struct rung *rung, const struct grid_place *place)
 {
 	struct rung *cut = rung_copy(rung);
@@ -418,7 +417,7 @@ static struct rung *tame(struct grid_bench *bench, const struct rung *rung,
 	}
 }
 
-/* Is there a wire beside which others join the same? */
+/* Is there a wire with another one in parallel? */
 static bool has_spare_wire(const struct rung *rung)
 {
 	struct rung *less = rung_copy(rung);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_cell_entry - a text without room in a cell ends with an ellipsis, but not under the
- * hands of who types it.
+ * test_cell_entry - a text that is too long for its cell ends with an ellipsis, but not
+ * while it is edited.
  */
 #include "editor-gtk/kit/cell_entry.h"
 #include "tests/editor/screen.h"
@@ -32,7 +32,7 @@ static bool is_cut(void)
 	return cell_entry_is_cut(LADDER_CELL_ENTRY(cell));
 }
 
-/* The nodes that draw a text. */
+/* Counts the nodes that draw text. */
 static int texts_in(GskRenderNode *node)
 {
 	int count = 0;
@@ -77,9 +77,9 @@ static void test_cut(void)
 	CHECK_SOON(texts_drawn() == 1);
 	gtk_editable_set_text(GTK_EDITABLE(cell), "ARRAY[0..99] OF DINT");
 	CHECK(is_cut());
-	CHECK_SOON(texts_drawn() == 2); /* and the ellipsis */
+	CHECK_SOON(texts_drawn() == 2); /* with the ellipsis */
 	gtk_widget_grab_focus(cell);
-	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0); /* is drawn once more */
+	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
 	CHECK(!is_cut());
 	CHECK_SOON(texts_drawn() == 1);
 	gtk_widget_grab_focus(other);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_keys - the maps of keys: every key is one, none does two things, every word that is
- * put exists. What they do is told by the tests of a person's work.
+ * test_keys - the schemes of keys: every key is valid and has one meaning, every inserted
+ * word exists. tests/editor/person/ tests what they do.
  */
 #include "editor-gtk/kit/verbs.h"
 #include "engine/base/catalog.h"
@@ -39,7 +39,7 @@ static bool takes(GHashTable *taken, const char *keys, const char *what)
 	return good;
 }
 
-/* @apart: the verbs that are not there: those of sheets, or of charts. */
+/* @apart: verbs to leave out: those of ladders, or of charts. */
 static void test_scheme(enum key_scheme scheme, enum verb_where apart)
 {
 	GHashTable *taken = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
@@ -59,7 +59,7 @@ static void test_scheme(enum key_scheme scheme, enum verb_where apart)
 		known = known && word_find(word, strlen(word)) != WORD_COUNT;
 	}
 	CHECK_AS(alone, key_scheme_name(scheme));
-	CHECK_AS(known, "its words are words");
+	CHECK_AS(known, "all words of a scheme exist");
 	g_hash_table_unref(taken);
 }
 
@@ -75,7 +75,7 @@ int main(void)
 	verbs_use_scheme(NULL, SCHEME_MICROWIN);
 	CHECK_TEXT(verb_keys(VERB_contact), "F4");
 	CHECK_TEXT(verb_keys(VERB_step_branch), "F6");
-	CHECK_AS(strcmp(verb_keys(VERB_side), "") == 0, "its key went to the contact");
+	CHECK_AS(strcmp(verb_keys(VERB_side), "") == 0, "the scheme takes the verb's key");
 	CHECK_TEXT(verb_keys(VERB_redo), "<Control><Shift>z");
 	label = verb_keys_label(VERB_block);
 	CHECK_TEXT(label, "F9");

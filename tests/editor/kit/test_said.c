@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_said - messages of the engine in other languages: the text and the words of ours in
- * it are translated, names of the user stay as they are.
+ * test_said - diagnostics in other languages: their text and our words in it are
+ * translated, names of the user are not.
  */
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
@@ -47,15 +47,15 @@ struct golden {
 	int wrong;
 };
 
-/* Two words, one of them of small letters: nobody's name. */
+/* Two words, one of them in small letters: no name. */
 static bool is_sentence(const char *part)
 {
 	return part[0] != '\'' && part[0] != '"' && strchr(part, ' ') &&
 	       g_regex_match_simple("(^|[ ,]+)[a-z]{2,}($|[ ,]+)", part, 0, 0);
 }
 
-/* What was expected, or of what there are too many, if it is a word. What the system says
- * is in the language already. */
+/* Is the part an expected token, or a thing of which there are too many? Texts of the
+ * system are translated already. */
 static bool is_of_ours(enum diag_id id, const char *part, int n)
 {
 	if (n == 0 && (id == DIAG_EXPECTED || id == DIAG_TOO_MANY || id == DIAG_SFC_TOO_MANY))
@@ -140,7 +140,7 @@ static guint try_golden(struct golden *golden)
 	return count;
 }
 
-/* In each language that is built. */
+/* For each language of the build. */
 static void check_golden(void)
 {
 	const char *build = g_getenv("BUILD");
@@ -162,7 +162,7 @@ static void check_golden(void)
 	g_free(locale);
 }
 
-/* What is printed: of no place, of files and lines, of rungs. */
+/* Without a place, in files and lines, in rungs. */
 static const struct diag printed[] = {
 	{ .id = DIAG_NO_MEMORY },
 	{ .id = DIAG_CANNOT_READ, .file = "a.rung", .arg = "No such file" },
@@ -174,7 +174,7 @@ static const struct diag printed[] = {
 	{ .id = DIAG_NOT_SYNCED, .file = "a.rung" },
 };
 
-/* In English editors and scripts read it as what `ladder check` prints. */
+/* In English the lines are those that `ladder check` prints, for editors and scripts. */
 static void check_lines_english(void)
 {
 	for (gsize i = 0; i < G_N_ELEMENTS(printed); i++) {
@@ -221,7 +221,7 @@ int main(void)
 		   "„I“ muss 0 bis 8192 Bytes haben"));
 	CHECK(says(DIAG_EXPECTED, ", or ]", "erwartet: , oder ]"));
 	CHECK(says(DIAG_TOO_MANY, "tasks", "zu viele Tasks in einem Projekt"));
-	/* Names of the user are no texts of ours. */
+	/* Names of the user are not translated. */
 	CHECK(says(DIAG_UNKNOWN_NAME, "index", "„index“ ist nicht deklariert"));
 	CHECK(says(DIAG_UNKNOWN_NAME, "Undo", "„Undo“ ist nicht deklariert"));
 	CHECK(says(DIAG_UNKNOWN_NAME, "Haet" DIAG_AND "Heat",

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_theme - what can be read and told apart, computed from the token table.
+ * test_theme - legibility and contrast, computed from the token table.
  *
  * WCAG 2.1: text 4.5 : 1 (1.4.3), graphics 3 : 1 (1.4.11).
  */
@@ -56,7 +56,7 @@ static void at_least(const char *theme, enum token token, const char *ground,
 	       ratio, wanted);
 }
 
-/* Upon the sheet, and upon all that is laid over it. */
+/* On the sheet, and on everything that is laid over it. */
 static void check_theme(const struct theme *theme, const char *name)
 {
 	const GdkRGBA *c = theme->color, *sheet = &c[TOKEN_SHEET];
@@ -105,7 +105,7 @@ int main(void)
 			failed = 0;
 			check_theme(theme, name[kind]);
 			CHECK_AS(failed == 0, name[kind]);
-			/* Nothing is told by hue alone. */
+			/* No meaning has only a colour. */
 			CHECK(theme->power_width >= 2 * theme->idle_width);
 			CHECK(theme->fill > 0.1f);
 		}

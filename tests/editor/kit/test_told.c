@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_told - what an entry tells below its line is seen whole, however long it is.
+ * test_told - the message below an entry is completely visible, at any length.
  */
 #include "editor-gtk/kit/entry_popup.h"
 #include "tests/editor/screen.h"
@@ -39,7 +39,7 @@ static GtkWidget *label_in(GtkWidget *widget, const char *text)
 	return found;
 }
 
-/* Is what is told as high as it needs to be in its width, and inside of what holds it? */
+/* Is the message as high as it needs in its width, and inside its parent? */
 static bool is_whole(GtkWidget *popup)
 {
 	GtkWidget *label = label_in(popup, telling->str);

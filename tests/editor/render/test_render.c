@@ -10,7 +10,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 
-#define FULL_BYTES 500          /* more than a message, less than a picture     */
+#define FULL_BYTES 500          /* larger than a message, smaller than a picture */
 #define OLD "what was there"
 #define HUGE_BYTES ((off_t)1 << 40)
 
@@ -84,7 +84,7 @@ static int count_of(const char *name, const char *text)
 #define EQUALS_NOT ">\xe2\x89\xa0</text>"
 #define MINUS ">\xe2\x88\x92</text>"
 
-/* Steps, their lines and transitions that differ are marked in the drawing, by signs. */
+/* Changed steps, actions and transitions of a chart are marked by signs. */
 static void check_diff_chart(void)
 {
 	static const char chart[] = "PROGRAM Chart SFC\n  INITIAL_STEP S0:\n    Fill(N);\n"
@@ -96,7 +96,7 @@ static void check_diff_chart(void)
 	static const struct { const char *from, *to; int changed, removed, added; } edit[] = {
 		{ "I0.1", "I0.7", 2, 0, 0 },               /* an expression      */
 		{ "NO I0.2", "NC I0.2", 2, 0, 0 },         /* a rung             */
-		{ "NO I0.3", "NC I0.3", 2, 0, 0 },         /* what a line calls  */
+		{ "NO I0.3", "NC I0.3", 2, 0, 0 },         /* an action that a line calls */
 		{ "%QX0.1(N)", "%QX0.1(P1)", 2, 0, 0 },
 		{ "STEP S1:", "STEP S1 (MIN := T#1s):", 2, 0, 0 },
 		{ "S1", "S7", 4, 1, 1 },                   /* a step, its ways   */
@@ -107,7 +107,8 @@ static void check_diff_chart(void)
 	write_text("a.rung", chart);
 	for (int i = 0; i < (int)G_N_ELEMENTS(edit); i++) {
 		GString *other = g_string_new(chart);
-		/* One at the chart, and one at each line below that came or went. */
+		/* one in the chart, and one in the list below for each added or removed
+		 * line */
 		int added = 1, removed = 1;
 
 		g_string_replace(other, edit[i].from, edit[i].to, 0);
@@ -125,7 +126,7 @@ static void check_diff_chart(void)
 	      count_of("c.svg", EQUALS_NOT) == 0);
 }
 
-/* Nobody can point at a picture to read the rest of a name. */
+/* A picture has no tooltips: names are not cut. */
 static void check_diff_names(void)
 {
 #define NAME "Pump_of_the_northern_well_is_ready_to_run"
@@ -138,7 +139,7 @@ static void check_diff_names(void)
 #undef NAME
 }
 
-/* What is no rung is told in words, lists line by line, a chart as it was and is. */
+/* Declarations are compared as text, lists line by line, a chart before and after. */
 static void check_diff_besides(void)
 {
 	write_text("a.rung", "VAR\n  Stop AT %IX0.1 : BOOL;\nEND_VAR\nPROGRAM Main LD\n"
@@ -174,7 +175,7 @@ static void check_diff_besides(void)
 	g_free(text);
 }
 
-/* A contact more moves the output on, which is the same all the same. */
+/* An added contact moves the output, which is no change. */
 static void check_moved(void)
 {
 	char *text, **parts;
@@ -185,7 +186,7 @@ static void check_moved(void)
 	CHECK(render("--diff OUT/one.rung OUT/two.rung -o OUT/moved.svg") == 0);
 	text = content("moved.svg", NULL);
 	parts = g_strsplit(text, ">\xe2\x89\xa0</text>", -1);
-	CHECK_AS(g_strv_length(parts) == 2, "the new contact alone is marked");
+	CHECK_AS(g_strv_length(parts) == 2, "only the new contact is marked");
 	g_strfreev(parts);
 	g_free(text);
 }
@@ -241,7 +242,7 @@ static int count_files(void)
 	return count;
 }
 
-/* As on a disk that is full: path and reason are told, what was there stays. */
+/* On a full disk path and reason are reported, and the old file stays. */
 static void check_full(const char *name)
 {
 	char *path = in_folder(name), *words = g_strdup_printf(SHAPES " -o OUT/%s", name);
@@ -257,7 +258,7 @@ static void check_full(const char *name)
 		printf("# %s\n", said);
 	char *now = content(name, NULL);
 	CHECK_TEXT(now, OLD);
-	CHECK_AS(count_files() == files, "and nothing else is left");
+	CHECK_AS(count_files() == files, "no temporary file is left");
 	CHECK(render(words) == 0 && !has(name, OLD));
 	g_free(now);
 	g_free(words);
@@ -271,7 +272,7 @@ static void check_large(void)
 	CHECK(g_file_set_contents(path, "", 0, NULL) && truncate(path, HUGE_BYTES) == 0);
 	CHECK(render("OUT/huge.rung -o OUT/a.svg") == 2);
 	CHECK(g_str_has_prefix(said, path));
-	/* GLib puts a blank that breaks no line before a unit. */
+	/* GLib puts a no-break space before the unit. */
 	if (!CHECK(strstr(said, ": error LD004: file is too large: 1.1\302\240TB, "
 			  "at most 67.1\302\240MB\n")))
 		printf("# %s", said);
@@ -295,7 +296,7 @@ static void check_marks(void)
 	g_free(path);
 }
 
-/* Every option of the help is told in the document, and none that is not there. */
+/* The documentation has every option of the help, and no other. */
 static void check_document(void)
 {
 	char *text = NULL, *place;
@@ -321,14 +322,14 @@ static void check_document(void)
 		g_free(option);
 	}
 	CHECK(options > 12);
-	CHECK_AS(missing == 0, "docs/pictures.md tells all options");
+	CHECK_AS(missing == 0, "docs/pictures.md has all options");
 	g_free(help);
 	g_free(path);
 	g_free(text);
 }
 
-/* A comment that is longer than its element has room for stands below the rungs, and below
- * each of those that are compared. */
+/* A comment that does not fit at its element is listed below the rungs, and below each
+ * compared rung. */
 static void check_remarks(void)
 {
 #define REMARK(end) "PROGRAM Main LD\nRUNG\n  | NO %IX0.0 (* closed while the drive of the " \
@@ -345,7 +346,7 @@ static void check_remarks(void)
 #undef REMARK
 }
 
-/* px from the left where a text of a picture begins; -1: it is not there. */
+/* px of the left end of a text in a picture; -1: not found. */
 static double left_of(const char *name, const char *text)
 {
 	char *svg = content(name, NULL), *whole = g_strdup_printf(">%s</text>", text);
@@ -359,7 +360,7 @@ static double left_of(const char *name, const char *text)
 	return left;
 }
 
-/* A comment has its room, below a comparison of values too, and beside the mark that it differs. */
+/* A comment has room below a comparison of values and beside the mark of a difference. */
 static void check_room(void)
 {
 #define ROOM(end) "PROGRAM Main LD\nRUNG\n  | NO %IX0.0 (* closed while the drive of the pump" end \
@@ -376,7 +377,7 @@ static void check_room(void)
 #undef ROOM
 }
 
-/* Of a project of ClassicLadder: as it becomes, as it was, both; of no other. */
+/* A ClassicLadder project: imported, original, both; refused for other projects. */
 static void check_original(void)
 {
 #define CLASSIC "tests/classic/projects/linuxcnc.clp"
@@ -400,7 +401,7 @@ int main(void)
 	folder = g_dir_make_tmp("render-XXXXXX", NULL);
 	if (!CHECK(folder))
 		return tap_done();
-	signal(SIGXFSZ, SIG_IGN); /* as the program does: a file's limit is a full disk */
+	signal(SIGXFSZ, SIG_IGN); /* as in the program: a size limit counts as a full disk */
 	check_svg();
 	check_png();
 	check_diff();

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_popover - a page goes while its menu, or a line to type in, is open there. The
- * toolkit's complaint of a child that is left would end the test.
+ * test_popover - a page is destroyed while its menu or entry is open. The warning of GTK
+ * about a child that is left ends the test.
  */
 #include "editor-gtk/window/app.h"
 #include "editor-gtk/kit/entry_popup.h"
@@ -69,7 +69,7 @@ static void test_pages(LadderDocument *document)
 	}
 }
 
-/* A widget that knows of no popover. */
+/* A parent that does not know of its popover. */
 static void test_any(void)
 {
 	GtkWidget *page = gtk_drawing_area_new();

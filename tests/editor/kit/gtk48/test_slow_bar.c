@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_slow_bar - the slider of a bar comes after what is scrolled, but not for part of a
- * pixel.
+ * test_slow_bar - the slider of a bar follows after scrolling, but not for part of a pixel.
  */
 #include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "tests/editor/screen.h"
@@ -13,7 +12,7 @@
 static GtkScrolledWindow *scroller;
 static GtkAdjustment *down;
 
-/* px from the upper end of the bar. */
+/* px from the top of the bar. */
 static int slider(void)
 {
 	GtkWidget *bar = gtk_scrolled_window_get_vscrollbar(scroller);
@@ -23,7 +22,7 @@ static int slider(void)
 	return start;
 }
 
-/* Where it belongs, give or take a pixel. */
+/* Is it in its place, to a pixel? */
 static bool is_there(void)
 {
 	GtkWidget *bar = gtk_scrolled_window_get_vscrollbar(scroller);
@@ -58,7 +57,7 @@ static void count(int *times)
 	++*times;
 }
 
-/* The window is laid out for a step that is seen, and for no other. */
+/* Only a visible step lays out the window. */
 static void test_less(void)
 {
 	GtkWidget *bar = gtk_scrolled_window_get_vscrollbar(scroller);
@@ -72,11 +71,11 @@ static void test_less(void)
 		turn(10);
 	}
 	turn(200);
-	CHECK_AS(times == 0, "nothing follows 20 steps of a 25th of a pixel");
+	CHECK_AS(times == 0, "20 steps of 1/25 pixel move no slider");
 	for (int i = 21; i <= 500; i++)
 		gtk_adjustment_set_value(down, pixel * i / 25);
 	CHECK_SOON(slider() > before && is_there());
-	CHECK_AS(times > 0, "it follows all of them");
+	CHECK_AS(times > 0, "the slider follows larger steps");
 	g_signal_handlers_disconnect_by_data(down, &times);
 }
 

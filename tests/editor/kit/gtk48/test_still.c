@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_still - a widget at rest is an image, and one that changes is shown at once.
+ * test_still - a widget at rest is drawn as an image, and a change is drawn at once.
  */
 #include "editor-gtk/kit/gtk48/still.h"
 #include "tests/editor/nodes.h"
@@ -26,7 +26,7 @@ static void test_rest(void)
 	}
 }
 
-/* It goes on changing, goes away and comes back. */
+/* Changes repeatedly, is removed and comes back. */
 static void test_change(void)
 {
 	char text[16];

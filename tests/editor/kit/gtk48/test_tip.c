@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_tip - tooltips: as many characters as columns, lines that are not too long.
+ * test_tip - tooltips: as many characters as columns, and lines of bounded width.
  */
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "tests/tap.h"
@@ -37,7 +37,7 @@ static void one_line(void)
 	}
 }
 
-/* @text without what is only there to break its lines is @text. */
+/* Without the added line breaks and joiners the tooltip is @text. */
 static void many_lines(const char *text, int least)
 {
 	char *tip = tip_text(text);
