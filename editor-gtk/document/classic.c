@@ -226,12 +226,9 @@ gboolean classic_is_project(const char *path)
 
 static void fail(struct ladder *ladder, const char *path, GError **error)
 {
-	const struct diag_list *diags = ladder_diags(ladder);
-	char *line = NULL;
+	const struct diag *diag = diag_first_error(ladder_diags(ladder));
+	char *line = diag ? diag_said_line(diag) : NULL;
 
-	for (int i = 0; i < diags->count && !line; i++)
-		if (diag_severity(diags->diag[i].id) == SEVERITY_ERROR)
-			line = diag_said_line(&diags->diag[i]);
 	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_INVAL, "%s", line ? line : path);
 	g_free(line);
 }

@@ -178,6 +178,21 @@ static char *outline(struct ladder *ladder, struct pou_spans *spans)
 	return text;
 }
 
+char *ladder_document_pou(LadderDocument *document, int pou, struct text_span *span)
+{
+	struct pou_spans spans;
+	char *text, *copy;
+
+	if (document->text)
+		return NULL;
+	text = outline(document->ladder, &spans);
+	*span = spans.span[pou];
+	copy = g_strdup(text);
+	free(text);
+	g_free(spans.span);
+	return copy;
+}
+
 /* The canonical text with POU @pou replaced by @text. */
 static char *with_list(const char *whole, const struct text_span *span,
 		       const char *text)
@@ -222,17 +237,16 @@ char *ladder_document_list(LadderDocument *document, int pou)
 {
 	const struct project *project = ladder_document_project(document);
 	const char *list = g_hash_table_lookup(document->list, GINT_TO_POINTER(pou));
-	struct pou_spans spans;
+	struct text_span span;
 	char *text, *out;
 
 	if (list)
 		return g_strdup(list);
 	if (!project || pou < 0 || pou >= project->pou_count)
 		return NULL;
-	text = outline(document->ladder, &spans);
-	out = g_strndup(text + spans.span[pou].at, spans.span[pou].len);
-	free(text);
-	g_free(spans.span);
+	text = ladder_document_pou(document, pou, &span);
+	out = g_strndup(text + span.at, span.len);
+	g_free(text);
 	return out;
 }
 
@@ -253,14 +267,13 @@ static int first_list(LadderDocument *document)
 /* The line where the text of POU @pou begins, if no list stands before it. */
 static int first_line(LadderDocument *document, int pou)
 {
-	struct pou_spans spans;
-	char *text = outline(document->ladder, &spans);
+	struct text_span span;
+	char *text = ladder_document_pou(document, pou, &span);
 	int line = 1;
 
-	for (gsize i = 0; i < spans.span[pou].at; i++)
+	for (gsize i = 0; i < span.at; i++)
 		line += text[i] == '\n';
-	free(text);
-	g_free(spans.span);
+	g_free(text);
 	return line;
 }
 

@@ -121,6 +121,8 @@ bool ladder_document_move_rung(LadderDocument *document, int pou, int from, int 
 char *ladder_document_outline(LadderDocument *document, gsize *len,
 			      void (*take)(void *context, const struct text_span *span),
 			      void *context);
+/** ladder_document_pou - the same text, with the place of POU @pou in it. */
+char *ladder_document_pou(LadderDocument *document, int pou, struct text_span *span);
 /**
  * ladder_document_replace - replaces bytes of the canonical text, or of a document of text
  * @at, @removed: bytes; @with: the new text

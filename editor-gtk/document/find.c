@@ -556,26 +556,15 @@ static char *replace_in_list(const struct hits *hits, struct diag_list *why)
 	return good ? NULL : reason_at(pou_name(hits), why);
 }
 
-struct pou_place { int pou; struct text_span span; };
-
-static void take_pou(void *context, const struct text_span *span)
-{
-	struct pou_place *place = context;
-
-	if (span->part == TEXT_POU && span->number == place->pou)
-		place->span = *span;
-}
-
 /* Refused if it cannot be read: only lists may be unreadable. */
 static char *replace_in_chart(const struct hits *hits, struct diag_list *why)
 {
-	struct pou_place place = { .pou = hits->hit[0]->pou };
-	gsize len;
-	char *text = ladder_document_outline(hits->document, &len, take_pou, &place);
-	char *old = g_strndup(text + place.span.at, place.span.len);
+	struct text_span span;
+	char *text = ladder_document_pou(hits->document, hits->hit[0]->pou, &span);
+	char *old = g_strndup(text + span.at, span.len);
 	char *whole = replaced_lines(hits, old);
-	const bool good = ladder_document_replace(hits->document, place.span.at,
-						  place.span.len, whole, why);
+	const bool good = ladder_document_replace(hits->document, span.at, span.len, whole,
+						  why);
 
 	g_free(whole);
 	g_free(old);

@@ -476,17 +476,9 @@ static bool refuse(struct reading *r, char *why)
 	return false;
 }
 
-static const struct diag *first_error(const struct diag_list *diags)
-{
-	for (int i = 0; i < diags->count; i++)
-		if (diag_severity(diags->diag[i].id) == SEVERITY_ERROR)
-			return &diags->diag[i];
-	return NULL;
-}
-
 static bool refuse_at(struct reading *r, const struct diag_list *diags, int line)
 {
-	const struct diag *diag = first_error(diags);
+	const struct diag *diag = diag_first_error(diags);
 	char *said = diag ? diag_said_whole(diag) : g_strdup(_("It cannot be read"));
 
 	refuse(r, g_strdup_printf(_("The clipboard, line %d: %s"), line, said));
@@ -496,7 +488,7 @@ static bool refuse_at(struct reading *r, const struct diag_list *diags, int line
 
 static int line_of(const struct diag_list *diags)
 {
-	const struct diag *diag = first_error(diags);
+	const struct diag *diag = diag_first_error(diags);
 
 	return diag && diag->line > 0 ? diag->line : 1;
 }

@@ -189,7 +189,7 @@ void symbols_free(struct symbols *symbols)
 	g_free(symbols);
 }
 
-const struct symbol_row *symbols_at(const struct symbols *symbols, int table, int index)
+static const struct symbol_row *row_at(const struct symbols *symbols, int table, int index)
 {
 	for (int i = 0; i < symbols->count; i++)
 		if (symbols->symbol[i].table == table && symbols->symbol[i].index == index)
@@ -373,13 +373,9 @@ char *symbol_text_block(uint16_t flags)
 
 static char *reason(const struct diag_list *diags)
 {
-	for (int i = 0; i < diags->count; i++) {
-		const struct diag *diag = &diags->diag[i];
+	const struct diag *diag = diag_first_error(diags);
 
-		if (diag_severity(diag->id) == SEVERITY_ERROR)
-			return diag_said_whole(diag);
-	}
-	return g_strdup(_("It cannot be read"));
+	return diag ? diag_said_whole(diag) : g_strdup(_("It cannot be read"));
 }
 
 /* Empty stand-ins for the words of the project, so that types are known. */
@@ -758,7 +754,7 @@ bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint16_t
 		      const char *const text[SYMBOL_FIELDS], char **why)
 {
 	const struct symbol_row *old = index < 0 ? NULL :
-		symbols_at(batch->symbols, table, index);
+		row_at(batch->symbols, table, index);
 	const uint16_t wanted = wanted_flags(flags, text);
 	char *line;
 	bool good;
@@ -932,7 +928,7 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
 		const char *text, char **why)
 {
 	struct symbol_batch *batch = symbol_batch_new(document);
-	const struct symbol_row *symbol = symbols_at(batch->symbols, table, index);
+	const struct symbol_row *symbol = row_at(batch->symbols, table, index);
 	char *clean = g_strstrip(g_strdup(text));
 	bool good;
 
@@ -955,7 +951,7 @@ bool symbol_set_kind(LadderDocument *document, int table, int index, uint16_t ki
 		     char **why)
 {
 	struct symbol_batch *batch = symbol_batch_new(document);
-	const struct symbol_row *symbol = symbols_at(batch->symbols, table, index);
+	const struct symbol_row *symbol = row_at(batch->symbols, table, index);
 	bool good = may_change(symbol, why);
 
 	if (good && (symbol->flags & SYMBOL_KINDS) != kind)

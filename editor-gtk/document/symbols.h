@@ -35,8 +35,6 @@ struct symbols {
 /** symbols_new - of the document as it is; empty for a document of text. Owns: the caller. */
 struct symbols *symbols_new(LadderDocument *document);
 void symbols_free(struct symbols *symbols);
-/** symbols_at - by table and index; NULL: none. */
-const struct symbol_row *symbols_at(const struct symbols *symbols, int table, int index);
 
 /** symbol_row_new - variable @index of a table alone, without counting its uses. Owns: the
  * caller. */

@@ -320,10 +320,11 @@ bool sfc_edit_hand_over(struct sfc_edit *edit, int step, int other, int ways)
 
 /* ---- new ones ---- */
 
-int sfc_edit_new_step(struct sfc_edit *edit, int macro, int behind)
+int sfc_edit_push_step(struct sfc_edit *edit, enum step_kind kind, int macro)
 {
 	struct sfc *sfc = &edit->sfc;
-	const uint32_t name = sfc_edit_id(edit, sfc_edit_free_name(edit, "Step"));
+	const uint32_t name = sfc_edit_id(edit, sfc_edit_free_name(edit, kind == STEP_MACRO ?
+									  "Macro" : "Step"));
 	struct sfc_step *step;
 
 	if (sfc->step_count >= LIMIT_STEPS)
@@ -331,10 +332,16 @@ int sfc_edit_new_step(struct sfc_edit *edit, int macro, int behind)
 	step = arena_push(&edit->arena, &sfc->step, &sfc->step_count, sizeof(*step));
 	if (!step || !name)
 		return sfc_edit_refuse(edit, NO_MEMORY) - 1;
-	*step = (struct sfc_step){ .name = name, .macro = macro,
+	*step = (struct sfc_step){ .name = name, .kind = kind, .macro = macro,
 				   .first_use = sfc->use_count };
-	return sfc_edit_put_piece(edit, behind, PIECE_STEP, sfc->step_count - 1) ?
-	       sfc->step_count - 1 : -1;
+	return sfc->step_count - 1;
+}
+
+int sfc_edit_new_step(struct sfc_edit *edit, int macro, int behind)
+{
+	const int made = sfc_edit_push_step(edit, STEP_PLAIN, macro);
+
+	return made >= 0 && sfc_edit_put_piece(edit, behind, PIECE_STEP, made) ? made : -1;
 }
 
 /* From @from (-1: none) to @to, behind piece @behind. */

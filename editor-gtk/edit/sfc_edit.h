@@ -133,6 +133,8 @@ int sfc_edit_macro_open(struct sfc_edit *edit, int macro);
 int sfc_edit_insert(struct sfc_edit *edit, int step, int way, int at_step, int at_way);
 
 /* ---- shared by the files ---- */
+/** sfc_edit_push_step - in a macro-step or -1, without a piece: it is not in the file yet. */
+int sfc_edit_push_step(struct sfc_edit *edit, enum step_kind kind, int macro);
 /** sfc_edit_new_step - in a macro-step or -1, behind piece @behind. */
 int sfc_edit_new_step(struct sfc_edit *edit, int macro, int behind);
 /** sfc_edit_new_transition - from @from to @to (-1: none yet). */

@@ -240,23 +240,6 @@ static bool gather(struct group *group, int macro)
 	return done;
 }
 
-static int new_macro(struct group *group)
-{
-	struct sfc_edit *edit = group->edit;
-	struct sfc *sfc = &edit->sfc;
-	const uint32_t name = sfc_edit_id(edit, sfc_edit_free_name(edit, "Macro"));
-	struct sfc_step *step;
-
-	if (sfc->step_count >= LIMIT_STEPS)
-		return refuse(group, N_("the chart has too many steps")) - 1;
-	step = arena_push(&edit->arena, &sfc->step, &sfc->step_count, sizeof(*step));
-	if (!step || !name)
-		return refuse(group, NO_MEMORY) - 1;
-	*step = (struct sfc_step){ .name = name, .kind = STEP_MACRO,
-				   .macro = group->macro, .first_use = sfc->use_count };
-	return sfc->step_count - 1;
-}
-
 static int depth_of(const struct sfc *sfc, int step)
 {
 	int depth = 0;
@@ -290,7 +273,7 @@ static int put_inside(struct group *group)
 
 	if (is_too_deep(group))
 		return refuse(group, N_("macro-steps are nested too deep")) - 1;
-	macro = new_macro(group);
+	macro = sfc_edit_push_step(group->edit, STEP_MACRO, group->macro);
 	/* @step has no entry for the new one */
 	if (macro < 0 || !gather(group, macro) || !lead_to_macro(group, macro))
 		return -1;

@@ -83,3 +83,11 @@ char *diag_said_line(const struct diag *diag)
 	g_free(whole);
 	return g_string_free(line, FALSE);
 }
+
+const struct diag *diag_first_error(const struct diag_list *diags)
+{
+	for (int i = 0; i < diags->count; i++)
+		if (diag_severity(diags->diag[i].id) == SEVERITY_ERROR)
+			return &diags->diag[i];
+	return NULL;
+}

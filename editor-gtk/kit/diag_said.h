@@ -19,4 +19,7 @@ char *diag_said_whole(const struct diag *diag);
  * Caller frees with g_free(). */
 char *diag_said_line(const struct diag *diag);
 
+/** diag_first_error - NULL: there is none. Borrowed from @diags. */
+const struct diag *diag_first_error(const struct diag_list *diags);
+
 #endif

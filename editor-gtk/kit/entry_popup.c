@@ -207,6 +207,13 @@ static int chosen(LadderEntryPopup *popup)
 	return row ? gtk_list_box_row_get_index(row) : -1;
 }
 
+/* Closes it without taking the line. */
+static void close_line(LadderEntryPopup *popup)
+{
+	popup->done = true;
+	gtk_popover_popdown(GTK_POPOVER(popup));
+}
+
 static bool take(LadderEntryPopup *popup)
 {
 	const int row = chosen(popup);
@@ -216,7 +223,7 @@ static bool take(LadderEntryPopup *popup)
 	g_object_ref(popup);
 	good = popup->calls.taken(popup->calls.context, line);
 	if (good)
-		ladder_entry_popup_close(popup);
+		close_line(popup);
 	else
 		set_line(popup, line);
 	g_object_unref(popup);
@@ -234,7 +241,7 @@ static bool window_key(LadderEntryPopup *popup, GdkEvent *key)
 		return false;
 	g_object_ref(popup);
 	if (take(popup) || !*line_of(popup)) { /* an empty line is dropped */
-		ladder_entry_popup_close(popup);
+		close_line(popup);
 		gtk_widget_activate_action(owner, verb_row(verb)->action, NULL);
 	}
 	g_object_unref(popup);
@@ -286,7 +293,7 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 		set_line(popup, row_line(popup, MAX(chosen(popup), 0)));
 		return TRUE;
 	case GDK_KEY_Escape:
-		ladder_entry_popup_close(popup);
+		close_line(popup);
 		return TRUE;
 	default:
 		return window_key(popup, gtk_event_controller_get_current_event(
@@ -354,7 +361,7 @@ static bool leave_now(GtkWidget *widget, GtkListItem *unused)
 		return true;
 	g_object_ref(popup);
 	good = leave(popup);
-	ladder_entry_popup_close(popup);
+	close_line(popup);
 	g_object_unref(popup);
 	return good;
 }
@@ -495,12 +502,6 @@ void ladder_entry_popup_select(LadderEntryPopup *popup, gsize from, gsize to)
 	gtk_editable_select_region(GTK_EDITABLE(popup->line),
 				   (int)g_utf8_pointer_to_offset(line, line + from),
 				   (int)g_utf8_pointer_to_offset(line, line + to));
-}
-
-void ladder_entry_popup_close(LadderEntryPopup *popup)
-{
-	popup->done = true;
-	gtk_popover_popdown(GTK_POPOVER(popup));
 }
 
 void ladder_entry_popup_drop(GtkWidget *owner)

@@ -52,8 +52,6 @@ void ladder_entry_popup_show(LadderEntryPopup *popup, const GdkRectangle *cell);
 /** ladder_entry_popup_keep - closes it and keeps it for its owner's next line: making one
  * takes as long as all other work of a key. It may be called from a callback. */
 void ladder_entry_popup_keep(LadderEntryPopup *popup);
-/** ladder_entry_popup_close - closes it without taking the line. */
-void ladder_entry_popup_close(LadderEntryPopup *popup);
 /** ladder_entry_popup_drop - removes the popup that @owner kept, when @owner is disposed. */
 void ladder_entry_popup_drop(GtkWidget *owner);
 

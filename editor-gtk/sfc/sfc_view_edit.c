@@ -13,24 +13,14 @@
 
 /* ---- an edit becomes a change of the document ---- */
 
-struct pou_place { int pou; struct text_span span; };
-
-static void take_pou(void *context, const struct text_span *span)
-{
-	struct pou_place *place = context;
-
-	if (span->part == TEXT_POU && span->number == place->pou)
-		place->span = *span;
-}
-
 /* Only the lines that differ are exchanged. */
 static bool exchange(LadderSfcView *view, const char *text)
 {
-	struct pou_place place = { .pou = view->canvas->pou };
-	gsize len, start = 0, end = 0;
-	char *whole = ladder_document_outline(view->canvas->document, &len, take_pou, &place), *with;
-	const char *old = whole + place.span.at;
-	const gsize new_len = strlen(text), old_len = place.span.len;
+	struct text_span span;
+	gsize start = 0, end = 0;
+	char *whole = ladder_document_pou(view->canvas->document, view->canvas->pou, &span), *with;
+	const char *old = whole + span.at;
+	const gsize new_len = strlen(text), old_len = span.len;
 	struct diag_list why;
 	bool good;
 
@@ -46,7 +36,7 @@ static bool exchange(LadderSfcView *view, const char *text)
 	with = g_strndup(text + start, new_len - start - end);
 	diag_init(&why);
 	good = (old_len - start - end == 0 && !with[0]) ||
-	       ladder_document_replace(view->canvas->document, place.span.at + start,
+	       ladder_document_replace(view->canvas->document, span.at + start,
 				       old_len - start - end, with, &why);
 	if (!good)
 		canvas_tell(LADDER_CANVAS(view), _("A rung file cannot hold this."));

@@ -37,14 +37,6 @@ char *sim_fault_words(const struct resource *resource)
 
 /* ---- errors ---- */
 
-static const struct diag *first_error(const struct diag_list *diags)
-{
-	for (int i = 0; i < diags->count; i++)
-		if (diag_severity(diags->diag[i].id) == SEVERITY_ERROR)
-			return &diags->diag[i];
-	return NULL;
-}
-
 /* "undeclared name: Nobody: Main, rung 2 (1,3)". Caller frees. */
 static char *words_of(const struct diag *diag)
 {
@@ -62,7 +54,7 @@ static char *words_of(const struct diag *diag)
 
 void sim_program_say_why(const struct diag_list *diags, GError **error)
 {
-	const struct diag *diag = first_error(diags);
+	const struct diag *diag = diag_first_error(diags);
 	char *text = diag ? words_of(diag) : NULL;
 
 	g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA,

@@ -85,35 +85,21 @@ static int by_text(gconstpointer a, gconstpointer b, gpointer unused)
 	return g_ascii_strcasecmp(one->text, other->text);
 }
 
-struct pou_span {
-	int pou;
-	struct text_span span;
-};
-
-static void take_pou(void *context, const struct text_span *span)
-{
-	struct pou_span *found = context;
-
-	if (span->part == TEXT_POU && span->number == found->pou)
-		found->span = *span;
-}
-
 /* The file as it would be with @text in it; @line becomes one of the file. */
 static char *whole_text(LadderDocument *document, int pou, const char *text, int *line)
 {
-	struct pou_span found = { .pou = pou };
+	struct text_span span;
 	char *outline, *whole;
-	gsize len;
 
 	if (pou < 0)
 		return g_strdup(text);
-	outline = ladder_document_outline(document, &len, take_pou, &found);
+	outline = ladder_document_pou(document, pou, &span);
 	if (!outline)
 		return g_strdup(text);
-	for (gsize i = 0; i < found.span.at; i++)
+	for (gsize i = 0; i < span.at; i++)
 		*line += outline[i] == '\n';
-	whole = g_strdup_printf("%.*s%s%s", (int)found.span.at, outline, text,
-				outline + found.span.at + found.span.len);
+	whole = g_strdup_printf("%.*s%s%s", (int)span.at, outline, text,
+				outline + span.at + span.len);
 	g_free(outline);
 	return whole;
 }
