@@ -8,6 +8,7 @@
 
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/sim_panel_view.h"
@@ -40,7 +41,6 @@ struct _LadderSimPanel {
 	GtkRoot *root;            /* the window; NULL: none                     */
 	gulong root_active;
 	guint last_code;          /* of the key that is down; 0: none           */
-	GtkWidget *menu;          /* NULL: none yet                             */
 	GtkWidget *asking;        /* for a key or a range; NULL: nothing        */
 	GtkWidget *stack, *found, *search, *list;
 };
@@ -490,8 +490,7 @@ static GtkWidget *number_entry(LadderSimPanel *panel, const char *name, double v
 								  "%.15g", value));
 	gtk_editable_set_width_chars(GTK_EDITABLE(entry), 8);
 	gtk_entry_set_placeholder_text(GTK_ENTRY(entry), name);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       name, -1);
+	spoken_name(entry, name);
 	g_signal_connect(entry, "activate", G_CALLBACK(range_given), panel);
 	return entry;
 }
@@ -686,7 +685,7 @@ static void add_window(GMenu *menu, const LadderSimRow *row)
 	g_free(name);
 }
 
-static GMenuModel *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
+static GMenu *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
 {
 	GMenu *menu = g_menu_new(), *values = g_menu_new(), *forces = g_menu_new();
 	GMenuModel *choices = choices_of(row);
@@ -720,27 +719,15 @@ static GMenuModel *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
 	g_object_unref(values);
 	g_object_unref(forces);
 	g_object_unref(choices);
-	return G_MENU_MODEL(menu);
+	return menu;
 }
 
 static void show_menu(LadderSimPanel *panel, const GdkRectangle *at)
 {
 	LadderSimRow *row = selected_row(panel);
-	GMenuModel *model;
 
-	if (!row)
-		return;
-	model = menu_of(panel, row);
-	if (!panel->menu) {
-		panel->menu = gtk_popover_menu_new_from_model(model);
-		gtk_widget_set_parent(panel->menu, GTK_WIDGET(panel));
-		gtk_popover_set_has_arrow(GTK_POPOVER(panel->menu), FALSE);
-		gtk_widget_set_halign(panel->menu, GTK_ALIGN_START);
-	}
-	gtk_popover_menu_set_menu_model(GTK_POPOVER_MENU(panel->menu), model);
-	gtk_popover_set_pointing_to(GTK_POPOVER(panel->menu), at);
-	gtk_popover_popup(GTK_POPOVER(panel->menu));
-	g_object_unref(model);
+	if (row)
+		popover_menu(GTK_WIDGET(panel), menu_of(panel, row), at, panel->list);
 }
 
 static void menu_at_line(LadderSimPanel *panel)
@@ -1039,7 +1026,6 @@ static void dispose(GObject *object)
 		g_signal_handlers_disconnect_by_data(ladder_sim_document(panel->sim), panel);
 	}
 	g_clear_pointer(&panel->views, g_ptr_array_unref);
-	g_clear_pointer(&panel->menu, gtk_widget_unparent);
 	g_clear_pointer(&panel->stack, gtk_widget_unparent);
 	g_clear_object(&panel->selection);
 	g_clear_object(&panel->store);

@@ -5,6 +5,7 @@
 #include "editor-gtk/live/sim_panel_view.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/sim/live_value.h"
 
@@ -60,8 +61,7 @@ static const char *kind_name(const LadderSimRow *row)
 
 static void set_name(GtkWidget *widget, const char *name)
 {
-	gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       name, -1);
+	spoken_name(widget, name);
 }
 
 /* The list item is what a screen reader stops at. */

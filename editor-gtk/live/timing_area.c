@@ -8,6 +8,7 @@
 #include "editor-gtk/live/timing_area.h"
 
 #include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/lettering.h"
 #include "editor-gtk/kit/theme.h"
@@ -831,8 +832,7 @@ static void ladder_timing_area_init(LadderTimingArea *area)
 	area->mark_ns = -1;
 	area->lettering = lettering_new(gtk_widget_get_pango_context(GTK_WIDGET(area)), NULL);
 	gtk_widget_set_focusable(GTK_WIDGET(area), TRUE);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(area),
-		GTK_ACCESSIBLE_PROPERTY_LABEL, _("Timing chart, cursor"), -1);
+	spoken_name(area, _("Timing chart, cursor"));
 	add_drag(area, GDK_BUTTON_PRIMARY, G_CALLBACK(drag_begin), G_CALLBACK(drag_update));
 	add_drag(area, GDK_BUTTON_MIDDLE, G_CALLBACK(pan_begin), G_CALLBACK(pan_update));
 	add_menu(area);

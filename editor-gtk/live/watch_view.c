@@ -15,6 +15,7 @@
 #include "editor-gtk/kit/entry_popup.h"
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/watch_names.h"
@@ -325,8 +326,7 @@ static void name_cell(GtkWidget *cell, const LadderWatchRow *row, enum column co
 {
 	char *name = g_strdup_printf("%s, %s", row->line->name, _(columns[column].title));
 
-	gtk_accessible_update_property(GTK_ACCESSIBLE(cell), GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       name, -1);
+	spoken_name(cell, name);
 	g_free(name);
 }
 
@@ -961,8 +961,7 @@ static void bind_name(GtkWidget *cell, LadderWatchRow *row)
 	set_class(cell, "error", unknown);
 	set_class(cell, "watch-unknown", unknown);
 	tip_set(cell, tip ? tip : row->line->name);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(cell), GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       tip ? tip : row->line->name, -1);
+	spoken_name(cell, tip ? tip : row->line->name);
 	g_free(tip);
 }
 

@@ -5,6 +5,7 @@
 #include "editor-gtk/panels/code_view.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 
 #include "engine/text/pou_print.h"
 
@@ -80,9 +81,7 @@ GtkWidget *ladder_code_view_new(LadderDocument *document)
 	gtk_text_view_set_editable(GTK_TEXT_VIEW(text), FALSE);
 	gtk_text_view_set_monospace(GTK_TEXT_VIEW(text), TRUE);
 	gtk_text_view_set_left_margin(GTK_TEXT_VIEW(text), 14);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(text),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       _("Instruction list"), -1);
+	spoken_name(text, _("Instruction list"));
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), text);
 	g_object_set_data_full(G_OBJECT(scroller), "code", code, code_view_free);
 	g_signal_connect_swapped(document, "checked", G_CALLBACK(show), code);

@@ -220,7 +220,7 @@ static void replace(GtkWidget *widget, const char *action, GVariant *unused)
 	}
 	if (!find_replace(panel_watch_document(bar->watch), bar->find, number,
 			  gtk_editable_get_text(GTK_EDITABLE(bar->with)), &why)) {
-		panel_watch_now(bar->watch); /* updates the count before the reason of a refusal is shown */
+		panel_watch_now(bar->watch); /* sets its message before the reason */
 		set_message(bar, why ? why : _("Refused"), true);
 		g_free(why);
 		return;

@@ -5,6 +5,7 @@
 #include "editor-gtk/panels/log_view.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/log_text.h"
 
 #include <string.h>
@@ -90,8 +91,7 @@ GtkWidget *ladder_log_view_new(LadderDocument *document)
 	gtk_text_view_set_monospace(log->text, TRUE);
 	set_tabs(log->text);
 	gtk_text_view_set_left_margin(log->text, 14);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(text),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Log"), -1);
+	spoken_name(text, _("Log"));
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), text);
 	g_object_set_data_full(G_OBJECT(scroller), "log", log, log_free);
 	g_signal_connect(document, "checked", G_CALLBACK(checked), log);

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/draw/ghost.h"
 #include "editor-gtk/draw/grid_draw.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
@@ -154,8 +155,7 @@ static GtkWidget *tile_new(const struct word_row *row, enum word word)
 	tip = g_strdup_printf("%s: %s%s%s", name, said(words_explain(row)),
 			      key ? " · " : "", key ? key : "");
 	tip_set(button, tip);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+	spoken_name(button, tip);
 	gtk_widget_set_focus_on_click(button, FALSE);
 	g_signal_connect(button, "clicked", G_CALLBACK(clicked), GINT_TO_POINTER(word));
 	gtk_drag_source_set_actions(drag, GDK_ACTION_COPY);
@@ -212,9 +212,7 @@ static void make_tiles(GtkExpander *expander)
 		gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(child),
 					     tile_new(row, word));
 		gtk_widget_set_focusable(child, FALSE);
-		gtk_accessible_update_property(GTK_ACCESSIBLE(child),
-			GTK_ACCESSIBLE_PROPERTY_LABEL,
-			row->word[0] ? row->word : row->id, -1);
+		spoken_name(child, row->word[0] ? row->word : row->id);
 		gtk_flow_box_append(GTK_FLOW_BOX(gtk_expander_get_child(expander)), child);
 	}
 	g_array_set_size(words, 0);
@@ -235,10 +233,8 @@ static GtkWidget *family_new(const char *name)
 			       (GDestroyNotify)g_array_unref);
 	g_signal_connect(expander, "notify::expanded", G_CALLBACK(make_tiles), NULL);
 	gtk_widget_add_css_class(expander, "family");
-	gtk_accessible_update_property(GTK_ACCESSIBLE(expander),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(flow),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	spoken_name(expander, name);
+	spoken_name(flow, name);
 	return expander;
 }
 
@@ -375,11 +371,8 @@ static void ladder_palette_init(LadderPalette *palette)
 	gtk_widget_set_margin_top(palette->search, 6);
 	gtk_search_entry_set_key_capture_widget(GTK_SEARCH_ENTRY(palette->search), NULL);
 	g_object_set(palette->search, "placeholder-text", _("Find an element"), NULL);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(palette->search),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       _("Find an element"), -1);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(scroller),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Elements"), -1);
+	spoken_name(palette->search, _("Find an element"));
+	spoken_name(scroller, _("Elements"));
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
 				       GTK_POLICY_AUTOMATIC);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), palette->families);

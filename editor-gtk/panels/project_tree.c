@@ -5,6 +5,7 @@
 #include "editor-gtk/panels/project_tree.h"
 
 #include "editor-gtk/kit/gtk48/list.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/kit/gtk48/popover.h"
@@ -223,9 +224,7 @@ static GtkWidget *menu_new(void)
 	popover_menu_of(GTK_MENU_BUTTON(button), menu_model);
 	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
 	tip_set(button, _("Add, rename or delete"));
-	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       _("Add, rename or delete"), -1);
+	spoken_name(button, _("Add, rename or delete"));
 	gtk_widget_add_css_class(button, "flat");
 	return button;
 }
@@ -311,11 +310,9 @@ static void speak(LadderTreeRow *row, GtkWidget *expander)
 	char *name = row->note ? g_strdup_printf("%s, %s", row->text, row->note) :
 		     g_strdup(row->text);
 
-	gtk_accessible_update_property(GTK_ACCESSIBLE(expander),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	spoken_name(expander, name);
 	if (of_row)
-		gtk_accessible_update_property(GTK_ACCESSIBLE(of_row),
-					       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+		spoken_name(of_row, name);
 	g_free(name);
 }
 
@@ -417,8 +414,7 @@ static void make_list(struct tree *tree)
 	tree->list = gtk_list_view_new(GTK_SELECTION_MODEL(tree->selection), factory);
 	gtk_widget_add_css_class(tree->list, "navigation-sidebar");
 	gtk_widget_add_css_class(tree->list, "project");
-	gtk_accessible_update_property(GTK_ACCESSIBLE(tree->list),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Project"), -1);
+	spoken_name(tree->list, _("Project"));
 	g_signal_connect_swapped(tree->list, "activate", G_CALLBACK(activated), tree);
 }
 

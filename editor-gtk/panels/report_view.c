@@ -8,6 +8,7 @@
 #include "editor-gtk/document/panel.h"
 #include "editor-gtk/document/report_lines.h"
 #include "editor-gtk/draw/grid_classic.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/settings.h"
@@ -86,8 +87,7 @@ static void name_it(LadderClassicPicture *picture)
 				picture->rung->comment : picture->rung->place.member) :
 		g_strdup(_("This rung does not come from ClassicLadder."));
 
-	gtk_accessible_update_property(GTK_ACCESSIBLE(picture),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, text, -1);
+	spoken_name(picture, text);
 	g_free(text);
 }
 
@@ -283,11 +283,6 @@ bool ladder_report_view_has(LadderReportView *view)
 const char *ladder_report_view_title(LadderReportView *view)
 {
 	return view->said;
-}
-
-GListModel *ladder_report_view_list(LadderReportView *view)
-{
-	return G_LIST_MODEL(view->list.selection);
 }
 
 void ladder_report_view_focus(LadderReportView *view)

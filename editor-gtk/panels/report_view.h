@@ -30,6 +30,4 @@ const char *ladder_report_view_title(LadderReportView *view);
 void ladder_report_view_follow(LadderReportView *view, int pou, int rung, bool sure);
 /** ladder_report_view_focus - focuses the list. */
 void ladder_report_view_focus(LadderReportView *view);
-/** ladder_report_view_list - its rows (LadderPanelRow). Borrowed. */
-GListModel *ladder_report_view_list(LadderReportView *view);
 #endif

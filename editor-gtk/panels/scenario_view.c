@@ -105,11 +105,6 @@ guint64 ladder_scenario_view_version(LadderScenarioView *view)
 	return view->version;
 }
 
-GListModel *ladder_scenario_view_list(LadderScenarioView *view)
-{
-	return G_LIST_MODEL(view->list.selection);
-}
-
 /* ---- running ---- */
 
 static void done(GObject *source, GAsyncResult *task, gpointer data)
@@ -161,7 +156,8 @@ void ladder_scenario_view_run(LadderScenarioView *view, const char *path,
 
 static void activated(GtkColumnView *list, guint at, LadderScenarioView *view)
 {
-	LadderPanelRow *row = g_list_model_get_item(ladder_scenario_view_list(view), at);
+	LadderPanelRow *row = g_list_model_get_item(G_LIST_MODEL(view->list.selection),
+						    at);
 
 	(void)list;
 	if (row && view->results && row->index < (int)view->results->len)

@@ -29,7 +29,5 @@ void ladder_scenario_view_run(LadderScenarioView *view, const char *path,
 GPtrArray *ladder_scenario_view_results(LadderScenarioView *view);
 /** ladder_scenario_view_version - the version of the document that was run. */
 guint64 ladder_scenario_view_version(LadderScenarioView *view);
-/** ladder_scenario_view_list - its rows (LadderPanelRow). Borrowed. */
-GListModel *ladder_scenario_view_list(LadderScenarioView *view);
 
 #endif

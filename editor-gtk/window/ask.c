@@ -5,6 +5,7 @@
 #include "editor-gtk/window/ask.h"
 
 #include "editor-gtk/document/panel.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 
 AdwMessageDialog *ask_new(GtkWindow *window, const char *heading, const char *body,
@@ -40,8 +41,7 @@ GtkWidget *ask_entry(const char *name)
 	GtkWidget *entry = gtk_entry_new();
 
 	gtk_entry_set_activates_default(GTK_ENTRY(entry), TRUE);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       name, -1);
+	spoken_name(entry, name);
 	return entry;
 }
 

@@ -7,6 +7,7 @@
 #include "editor-gtk/window/commands.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/verbs.h"
 
 #include <string.h>
@@ -49,8 +50,7 @@ static GtkWidget *row_new(enum verb verb)
 	gtk_box_append(GTK_BOX(box), group);
 	gtk_box_append(GTK_BOX(box), key);
 	gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(row), box);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(row), GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       _(verb_row(verb)->label), -1);
+	spoken_name(row, _(verb_row(verb)->label));
 	g_object_set_data(G_OBJECT(row), "verb", GINT_TO_POINTER(verb));
 	g_free(keys);
 	return row;

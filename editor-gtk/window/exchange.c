@@ -31,12 +31,9 @@ static void show_panel(struct exchange *exchange)
 
 static void close_panel(struct exchange *exchange)
 {
-	LadderGridView *sheet = front_sheet(exchange->core->front);
-
 	below_show(exchange->core->below, "problems");
 	below_offer(exchange->core->below, "report", false);
-	if (sheet)
-		gtk_widget_grab_focus(GTK_WIDGET(sheet));
+	front_enter_program(exchange->core->front);
 }
 
 static void follow(struct exchange *exchange)
@@ -73,8 +70,6 @@ static void cursor_moved(struct exchange *exchange)
 
 void exchange_show_original(struct exchange *exchange)
 {
-	LadderGridView *sheet = front_sheet(exchange->core->front);
-
 	if (!exchange->origin->classic) {
 		messages_tell(exchange->core->messages, _("This project was not imported "
 							  "from ClassicLadder."));
@@ -83,8 +78,7 @@ void exchange_show_original(struct exchange *exchange)
 	ladder_report_view_import(view_of(exchange), exchange->origin->classic);
 	show_panel(exchange);
 	follow(exchange);
-	if (sheet)
-		gtk_widget_grab_focus(GTK_WIDGET(sheet));
+	front_enter_program(exchange->core->front);
 }
 
 static GtkWidget *panel_new(gpointer data)

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/drop.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/messages.h"
@@ -396,8 +397,7 @@ static GtkWidget *new_bar(struct front *front)
 	gtk_label_set_xalign(front->label, 0);
 	gtk_label_set_wrap(front->label, TRUE);
 	gtk_widget_set_hexpand(GTK_WIDGET(front->label), TRUE);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(front->pous),
-		GTK_ACCESSIBLE_PROPERTY_LABEL, _("Program or block"), -1);
+	spoken_name(front->pous, _("Program or block"));
 	gtk_actionable_set_action_name(GTK_ACTIONABLE(now), "win.sim_now");
 	gtk_widget_set_valign(now, GTK_ALIGN_CENTER);
 	gtk_widget_set_valign(GTK_WIDGET(front->pous), GTK_ALIGN_CENTER);

@@ -419,8 +419,7 @@ static GtkWidget *choice_new(struct renaming *renaming)
 							    i).name);
 	list = gtk_drop_down_new(G_LIST_MODEL(names), NULL);
 	gtk_widget_set_visible(list, renaming->choice->len > 1);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(list), GTK_ACCESSIBLE_PROPERTY_LABEL,
-				       _("Which name"), -1);
+	spoken_name(list, _("Which name"));
 	g_signal_connect(list, "notify::selected", G_CALLBACK(choose), renaming);
 	return list;
 }

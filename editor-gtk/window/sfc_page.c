@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/sfc_bodies.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/text/text_view.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
@@ -263,8 +264,7 @@ static void ladder_sfc_page_init(LadderSfcPage *page)
 	page->heading = GTK_LABEL(gtk_label_new(""));
 	close = gtk_button_new_from_icon_name("window-close-symbolic");
 	tip_set(close, _("Close"));
-	gtk_accessible_update_property(GTK_ACCESSIBLE(close),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Close"), -1);
+	spoken_name(close, _("Close"));
 	gtk_widget_add_css_class(close, "flat");
 	gtk_label_set_xalign(page->heading, 0);
 	gtk_label_set_ellipsize(page->heading, PANGO_ELLIPSIZE_END);

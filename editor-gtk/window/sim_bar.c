@@ -5,6 +5,7 @@
 #include "editor-gtk/window/sim_bar.h"
 
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/sim_panel.h"
 #include "editor-gtk/sim/sim_pace.h"
@@ -56,8 +57,7 @@ static void show_buttons(struct sim_bar *bar)
 	gtk_button_set_icon_name(bar->run_button, run ? "media-playback-pause-symbolic" :
 				 "media-playback-start-symbolic");
 	tip_set(GTK_WIDGET(bar->run_button), name);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(bar->run_button),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	spoken_name(bar->run_button, name);
 	gtk_toggle_button_set_active(on ? bar->simulate_mode : bar->edit_mode, TRUE);
 	core_enable(bar->core, "win.sim_stop", on &&
 		    ladder_sim_state(bar->core->sim) != SIM_STOP);

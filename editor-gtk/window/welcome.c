@@ -14,7 +14,8 @@
 #include <adwaita.h>
 #include <string.h>
 
-char *welcome_samples(void)
+/* The folder of the samples; NULL: none. Caller frees. */
+static char *samples_folder(void)
 {
 	const char *told = g_getenv("RUNGBOARD_LADDERS");
 	char *found = told ? g_strdup(told) : installed_folder("ladders", "rungboard/ladders");
@@ -108,7 +109,7 @@ static int by_name(gconstpointer a, gconstpointer b)
 
 static void add_samples(GtkWidget *page)
 {
-	char *folder = welcome_samples();
+	char *folder = samples_folder();
 	GDir *dir = folder ? g_dir_open(folder, 0, NULL) : NULL;
 	GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
 	GtkWidget *group = dir ? add_group(page, _("Samples, opened as copies")) : NULL;

@@ -12,7 +12,5 @@
 /** welcome_new - its rows do win.new_project, win.open, win.open-path and
  * win.open-sample with a path. */
 GtkWidget *welcome_new(void);
-/** welcome_samples - the folder of the samples; NULL: there is none. Caller frees. */
-char *welcome_samples(void);
 
 #endif

@@ -6,6 +6,12 @@
 
 #include <string.h>
 
+void spoken_name(gpointer widget, const char *name)
+{
+	gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       name, -1);
+}
+
 /* Depth first. */
 static GtkWidget *next(GtkWidget *widget, GtkWidget *root)
 {
@@ -28,8 +34,7 @@ static void name_part(GtkWidget *widget)
 			GTK_ACCESSIBLE_RELATION_LABELLED_BY, parent, NULL, -1);
 	else if (GTK_IS_BUTTON(widget) && tip &&
 		 strcmp(G_OBJECT_TYPE_NAME(parent), "AdwTab") == 0)
-		gtk_accessible_update_property(GTK_ACCESSIBLE(widget),
-			GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+		spoken_name(widget, tip);
 }
 
 /* It stays visible while it moves in or out. */

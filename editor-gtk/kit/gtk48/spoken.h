@@ -15,6 +15,8 @@
 
 #include <gtk/gtk.h>
 
+/** spoken_name - sets the accessible name of @widget. @name: translated. */
+void spoken_name(gpointer widget, const char *name);
 /** spoken_parts - names the parts that are below @root now, and hides closed revealers. */
 void spoken_parts(GtkWidget *root);
 /** spoken_text - from now on @label is visible only while it has a text. */
