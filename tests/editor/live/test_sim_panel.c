@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_sim_panel - the panel of a simulation, in a window: which lines it has, what they show,
- * what a click, a key, the menu does. SIM_PICTURES=FOLDER saves pictures, for a human eye.
+ * test_sim_panel - the simulation panel in a window: its lines, their values, clicks, keys
+ * and menu.
+ *
+ * SIM_PICTURES=FOLDER saves pictures of it.
  */
 #include "editor-gtk/window/app.h"
 #include "tests/editor/panel_shown.h"
@@ -105,7 +107,7 @@ static bool shows(const char *name, const char *want)
 	return is;
 }
 
-/* All lines: "[Inputs] Start Stop [Outputs] …", of a map "[Inputs gpiochip1] Start …". */
+/* All lines: "[Inputs] Start Stop [Outputs] …", with a map "[Inputs gpiochip1] Start …". */
 static char *lines(void)
 {
 	GListModel *list = panel_list(panel);
@@ -203,7 +205,7 @@ static void test_force(void)
 	CHECK_SOON(shows("Stop", "1") && is_forced("Stop"));
 	sim_row_press(row_of("Stop"), sim);
 	CHECK_SOON(shows("Stop", "0"));
-	CHECK_AS(is_forced("Stop"), "a click changes what it is forced to");
+	CHECK_AS(is_forced("Stop"), "a click changes the forced value");
 	act_on("Stop", "sim-panel.force");
 	CHECK_SOON(!is_forced("Stop"));
 	act_on("Temp", "sim-panel.force");
@@ -211,7 +213,7 @@ static void test_force(void)
 	act_on("Name", "sim-panel.force");
 	act_on("Start", "sim-panel.force-off");
 	CHECK_SOON(shows("Start", "0"));
-	CHECK_AS(ladder_sim_forces(sim) == 2, "a text cannot be held");
+	CHECK_AS(ladder_sim_forces(sim) == 2, "a STRING cannot be forced");
 	picture("forced");
 	act_on("Start", "sim-panel.release-all");
 	CHECK_SOON(ladder_sim_forces(sim) == 0);
@@ -302,7 +304,7 @@ static void test_found(void)
 	CHECK(gtk_widget_grab_focus(find_widget(GTK_WIDGET(panel), GTK_TYPE_LIST_VIEW)));
 	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "6 ");
 	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 ");
-	CHECK_AS(keys_arrive(window), "a key that comes at once is not lost");
+	CHECK_AS(keys_arrive(window), "a key right after an edit is not lost");
 	all = lines();
 	CHECK(g_str_has_prefix(all, "[Inputs] [Outputs] ") && g_str_has_suffix(all, "[Values] "));
 	g_free(all);
@@ -311,7 +313,7 @@ static void test_found(void)
 	all = lines();
 	CHECK_TEXT(all, "[Inputs] Start ");
 	g_free(all);
-	gtk_editable_set_text(GTK_EDITABLE(search), "nothing has this");
+	gtk_editable_set_text(GTK_EDITABLE(search), "no symbol has this name");
 	CHECK_SOON(g_list_model_get_n_items(panel_list(panel)) == 0);
 	picture("none");
 	gtk_editable_set_text(GTK_EDITABLE(search), "");
@@ -321,7 +323,7 @@ static void test_found(void)
 	CHECK(row_of("Start") && row_of("Temp"));
 }
 
-/* An edit that builds takes the place of the program, and values stay. */
+/* An edit that builds replaces the program; values stay. */
 static void test_edit(void)
 {
 	LadderSimRow *alarm = row_of("Alarm");
@@ -336,7 +338,7 @@ static void test_edit(void)
 	g_free(why);
 }
 
-/* The tank: its plant gives level and float, and has a level of its own. */
+/* The plant of the tank gives level and float, and has a level of its own. */
 static void test_plant(void)
 {
 	char *text, *all;
@@ -366,7 +368,7 @@ static void test_plant(void)
 	g_free(text);
 }
 
-/* A thousand lines that all change with each scan: what a look at them takes. */
+/* The time to update a thousand lines that all change in each scan. */
 static void test_many(void)
 {
 	GString *text = g_string_new("RUNGBOARD 1\nVAR\n");
@@ -399,12 +401,12 @@ static void test_many(void)
 	}
 	CHECK(shows("N5", "20"));
 	printf("# a look: %d us\n", (int)took);
-	CHECK_AS(took < 20000, "a look at 1,000 lines takes less than a frame");
+	CHECK_AS(took < 20000, "an update of 1,000 lines takes less than a frame");
 	g_string_free(text, TRUE);
 }
 
-/* Inputs and outputs stand by the chips that the I/O map names, in its order, each with
- * its pin. */
+/* Inputs and outputs are grouped by the chips of the I/O map, in its order, each with its
+ * pin. */
 static void test_map(void)
 {
 	static const char map[] = "BOARD \"Oven\"\n%IX0.1  gpio  chip=relays offset=7  # left\n"

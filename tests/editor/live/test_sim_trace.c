@@ -36,7 +36,7 @@ static bool is_running(void)
 	return ladder_sim_twin(sim)->resource.state == STATE_RUN;
 }
 
-/* Turns until that scan is shown; false: it never is. */
+/* Runs the main loop until that scan is shown; false: it never is. */
 static bool wait_for(guint64 scan)
 {
 	const gint64 end = g_get_monotonic_time() + 20 * G_USEC_PER_SEC;
@@ -49,13 +49,13 @@ static bool wait_for(guint64 scan)
 	return ladder_sim_twin(sim)->scan == scan;
 }
 
-/* A new reference; NULL: behind the last. */
+/* A new reference; NULL: after the last. */
 static LadderSimRow *row_at(guint at)
 {
 	return g_list_model_get_item(panel_list(panel), at);
 }
 
-/* " Name=value" as a trace has it, of a text that a widget shows: 1.50s are 1500 there. */
+/* Adds " Name=value" as in a trace, from the text of a widget: 1.50s is 1500 there. */
 static void put(GString *out, const char *name, const char *pin, enum iec_type type,
 		const char *text)
 {
@@ -73,7 +73,7 @@ static void put(GString *out, const char *name, const char *pin, enum iec_type t
 	g_string_append_printf(out, " %s%s=%s", name, pin, plain);
 }
 
-/* @all: also what must be scrolled to. */
+/* @all: also lines that are scrolled out of sight. */
 static void put_row(GString *line, GString *columns, const LadderSimRow *row, bool all)
 {
 	const bool timer = row->group == SIM_TIMERS;
@@ -100,7 +100,7 @@ static void put_row(GString *line, GString *columns, const LadderSimRow *row, bo
 	g_free(text);
 }
 
-/* A line as the trace will have, of what all widgets show. */
+/* Adds the line that a trace has, from the text of all widgets. */
 static void put_panel(GString *out, GString *columns, bool all)
 {
 	const struct twin *twin = ladder_sim_twin(sim);
@@ -123,7 +123,7 @@ static bool can_be_set(const LadderSimRow *row)
 	       row->kind != SIM_PRESET && row->at.type != IEC_STRING;
 }
 
-/* A number that fits every type, or none. */
+/* A random number, inside or outside the range of the type. */
 static void click(struct random_source *random, const LadderSimRow *row, GString *script)
 {
 	union iec_value value = live_value_get(sim, row->plant, row->at);
@@ -170,7 +170,7 @@ static void move_some(struct random_source *random, GString *script, guint64 *sc
 
 /* ---- the trace ---- */
 
-/* What `ladder trace` prints of the program that runs. Caller frees. */
+/* The output of `ladder trace` for the running program. Caller frees. */
 static char *trace_of(const char *script)
 {
 	const struct program *program = ladder_program(ladder_sim_ladder(sim));
@@ -217,7 +217,7 @@ static void tell_difference(const char *what, const char *got, const char *want,
 	g_strfreev(ought);
 }
 
-/* A remark that a program stopped is the trace's alone. */
+/* Drops the remark that the program stopped, which only a trace has. */
 static void drop_remarks(char *trace)
 {
 	char *remark = strstr(trace, "\n# ");
@@ -226,7 +226,7 @@ static void drop_remarks(char *trace)
 		remark[1] = '\0';
 }
 
-/* One program that runs: clicks, and what came of them. */
+/* Runs one program with random clicks and compares. */
 static bool play(const char *what, guint64 seed)
 {
 	GString *got = g_string_new(NULL), *script = g_string_new(NULL);
@@ -264,7 +264,7 @@ static bool play(const char *what, guint64 seed)
 
 /* ---- programs ---- */
 
-/* 1: the same, 0: not, -1: not built. */
+/* 1: equal, 0: not, -1: not built. */
 static int play_text(const char *what, const char *text, gsize len, guint64 seed)
 {
 	int same;
@@ -320,8 +320,8 @@ static void test_random(guint64 first, int count)
 		}
 	}
 	printf("# %d random programs\n", played);
-	CHECK_AS(played == count, "so many were built");
-	CHECK_AS(bad == 0, "random programs: the panel is the trace");
+	CHECK_AS(played == count, "the wanted number of programs was built");
+	CHECK_AS(bad == 0, "random programs: the panel equals the trace");
 	g_free(text);
 	g_free(program);
 }
@@ -344,7 +344,7 @@ int main(int argc, char **argv)
 	test_random(argc > 2 ? (guint64)atoll(argv[2]) : 1, argc > 1 ? atoi(argv[1]) : PROGRAMS);
 	printf("# %" G_GUINT64_FORMAT " texts of widgets compared, %" G_GUINT64_FORMAT
 	       " lines had none\n", compared, unseen);
-	CHECK_AS(compared > 1000 && unseen == 0, "the lines are in sight");
+	CHECK_AS(compared > 1000 && unseen == 0, "the lines are visible");
 	gtk_window_destroy(GTK_WINDOW(window));
 	g_object_unref(sim);
 	g_object_unref(document);

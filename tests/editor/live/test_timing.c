@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_timing - the timing chart over a simulation: which variables it has, what the project
- * keeps of that, what a change of that leaves alone.
+ * test_timing - the timing chart over a simulation: its variables, which of them the
+ * project keeps, and that other lines of the VIEW part stay.
  */
 #include "editor-gtk/live/timing_view.h"
 #include "tests/editor/screen.h"
@@ -100,7 +100,7 @@ static void test_choice(void)
 {
 	CHECK(ladder_sim_begin(sim, NULL));
 	turn(0);
-	CHECK_AS(has("Start Motor") && keeps(""), "inputs and outputs, if nobody chose any");
+	CHECK_AS(has("Start Motor") && keeps(""), "inputs and outputs by default");
 	ladder_sim_scan(sim, 20);
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 20);
 	changes = 0;
@@ -111,7 +111,7 @@ static void test_choice(void)
 	ladder_document_check_now(document);
 	turn(300);
 	CHECK_AS(changes == 0 && ladder_sim_first(sim) == 0,
-		 "it is no other program: the past is there");
+		 "the program is the same: the past stays");
 	ladder_document_undo(document);
 	CHECK(has("Start Motor") && keeps(""));
 	ladder_document_redo(document);
@@ -137,11 +137,11 @@ static void test_file(void)
 	open_text(sample);
 	CHECK(ladder_sim_begin(sim, NULL));
 	turn(0);
-	CHECK_AS(has("Start Motor"), "another file keeps none");
+	CHECK_AS(has("Start Motor"), "another file keeps no lines");
 	g_free(text);
 }
 
-/* One that is made while it runs, or while a scan that was is shown. */
+/* A chart that is made while the simulation runs, or shows the past. */
 static void test_late(void)
 {
 	LadderTimingView *first = view;

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_watch - status charts: how values are shown and read, what a file keeps of a chart,
- * the table over a simulation that runs. WATCH_PICTURES=FOLDER saves pictures of it.
+ * test_watch - status charts: printing and parsing of values, the lines in a file, and the
+ * table over a running simulation.
+ *
+ * WATCH_PICTURES=FOLDER saves pictures of it.
  */
 #include "editor-gtk/window/app.h"
 #include "editor-gtk/live/watch_names.h"
@@ -108,7 +110,7 @@ static void check_parse(void)
 	CHECK(refuses(FORMAT_HEX, IEC_INT, "--"));
 }
 
-/* Whatever is shown can be typed again, and is the same value. */
+/* Every printed value can be parsed again, to the same value. */
 static void check_round(void)
 {
 	guint32 seed = 1;
@@ -131,11 +133,11 @@ static void check_round(void)
 			continue;
 		live_value_format(format, type, value, text, sizeof(text));
 		if (strchr("nN", text[0]) || strstr(text, "inf"))
-			continue; /* the bits of no number */
+			continue; /* not a number */
 		if (!live_value_parse(format, type, text, &room, &back, &why) ||
 		    back.i != value.i) {
 			if (format == FORMAT_TIME && strncmp(text, "T#", 2) != 0)
-				continue; /* more ms than a TIME holds */
+				continue; /* more than a TIME can hold */
 			printf("# %s as %s: %s\n", iec_type_row(type)->word,
 			       live_format_word(format), text);
 			bad++;
@@ -238,7 +240,7 @@ static LadderWatchRow *row_of(const char *name)
 	return NULL;
 }
 
-/* What its cell shows. */
+/* The text in its cell. */
 static const char *shown(const char *name)
 {
 	const LadderWatchRow *found = row_of(name);
@@ -310,7 +312,7 @@ static bool is_unknown(const LadderWatchRow *of)
 	return of->asked && of->at.type == IEC_NONE;
 }
 
-/* Rows can be made while nothing runs; unknown names stay. */
+/* Rows can be made while the simulation is off; unknown names stay. */
 static void check_making(void)
 {
 	CHECK(rows() == 0);
@@ -358,7 +360,7 @@ static void check_running(void)
 	ladder_sim_scan(sim, 1);
 	CHECK_SOON(strcmp(shown("Motor"), "1") == 0 && strcmp(shown("Count"), "1") == 0);
 	CHECK_SOON(strcmp(shown("%QW0"), "1") == 0);
-	CHECK(row_of("Start") == start); /* values make no other rows */
+	CHECK(row_of("Start") == start); /* new values keep the row objects */
 	type_new("Label", "'much too long'");
 	do_action("watch.write-all");
 	CHECK(*message());
@@ -391,7 +393,7 @@ static void check_forces(void)
 	CHECK(!gtk_widget_get_sensitive(row_of("Most")->fresh));
 }
 
-/* The past, another program, off. */
+/* A scan of the past, another program, simulation off. */
 static void check_following(void)
 {
 	CHECK(ladder_sim_show(sim, 1));
@@ -404,7 +406,7 @@ static void check_following(void)
 	CHECK(gtk_widget_grab_focus(row_of("Nobody")->fresh) && ladder_document_undo(document));
 	ladder_document_check_now(document);
 	CHECK_SOON(is_unknown(row_of("Nobody")));
-	CHECK_AS(keys_arrive(window), "a key that comes at once is not lost");
+	CHECK_AS(keys_arrive(window), "a key right after an edit is not lost");
 	CHECK(ladder_document_redo(document));
 	ladder_sim_end(sim);
 	CHECK_SOON(strcmp(shown("Motor"), "") == 0 && strcmp(shown("Nobody"), "") == 0);

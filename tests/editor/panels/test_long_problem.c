@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_long_problem - a problem that is longer than its column shows what it speaks of, at
- * its begin, and its end.
+ * test_long_problem - a problem that is longer than its column shows its beginning, with
+ * the name in quotes, and its end.
  */
 #include "editor-gtk/panels/problems.h"
 #include "tests/editor/screen.h"
@@ -26,7 +26,7 @@ static GtkLabel *label_of(GtkWidget *from, const char *end)
 	return label;
 }
 
-/* Is what is left out neither at the begin nor at the end of the line? */
+/* Is the ellipsis neither at the beginning nor at the end? */
 static bool shows_both_ends(GtkLabel *label)
 {
 	PangoLayout *layout = gtk_label_get_layout(label);

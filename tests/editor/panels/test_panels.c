@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_panels - the panels with lists, in a window: what they show, where they go, what
- * an edit in them does. PANEL_PICTURES=FOLDER saves pictures of them, for a human eye.
+ * test_panels - the panels with lists, in a window: what they show, where they go, what an
+ * edit in them does.
+ *
+ * PANEL_PICTURES=FOLDER saves pictures of them.
  */
 #include "editor-gtk/panels/find_bar.h"
 #include "editor-gtk/panels/import_dialog.h"
@@ -274,7 +276,7 @@ static void test_uses(void)
 	CHECK(g_list_model_get_n_items(list) == 2);
 	ladder_uses_view_set_symbol(view, 0, "%QX0.0");
 	ladder_uses_view_refresh(view);
-	CHECK_AS(g_list_model_get_n_items(list) == 4, "an address: what touches it");
+	CHECK_AS(g_list_model_get_n_items(list) == 4, "an address: uses that overlap it");
 	ladder_uses_view_set_symbol(view, 0, "1 +");
 	ladder_uses_view_refresh(view);
 	CHECK(g_list_model_get_n_items(list) == 0);
@@ -308,7 +310,8 @@ static void test_uses(void)
 	ladder_document_put_list(document, 1,
 		"PROGRAM List IL\n  LD I0\n  ST Q1\n  ST Q2\n  ST Q3\nEND_PROGRAM\n");
 	WAIT(g_list_model_get_n_items(list) != all);
-	CHECK_AS(g_list_model_get_n_items(list) != all, "a change is seen");
+	CHECK_AS(g_list_model_get_n_items(list) != all,
+		 "a change of the document updates the hits");
 	ladder_document_undo(document);
 	CHECK_SOON(g_list_model_get_n_items(list) == all);
 	put(NULL);
@@ -336,7 +339,7 @@ static void type_into(LadderSymbolsView *view, GtkWidget *cell, const char *text
 	gtk_editable_set_text(GTK_EDITABLE(cell), text);
 	g_signal_emit_by_name(cell, "activate");
 	ladder_symbols_view_refresh(view);
-	CHECK_AS(keys_arrive(window), "a key that comes at once is not lost");
+	CHECK_AS(keys_arrive(window), "a key right after an edit is not lost");
 	CHECK_SOON(gtk_root_get_focus(GTK_ROOT(window))); /* in the table again */
 }
 
@@ -366,7 +369,8 @@ static void test_symbols(void)
 	is_row(list, 1, "\xe7\x94\xb5\xe6\x9c\xba|BOOL|%QX0.0||||"
 	       "\xe4\xb8\xbb\xe7\x94\xb5\xe6\x9c\xba|global|2|");
 	row = g_list_model_get_item(list, row_named(list, "Bad"));
-	CHECK_AS(row->note && row->tone == PANEL_ERROR, "what is wrong with a field is told");
+	CHECK_AS(row->note && row->tone == PANEL_ERROR,
+		 "the reason of a refused field is shown");
 	g_object_unref(row);
 	picture(widget, "symbols");
 	type_into(view, cell_of(widget, GTK_TYPE_ENTRY, "Spare"), "Stock");
@@ -374,12 +378,12 @@ static void test_symbols(void)
 	CHECK_TEXT(ladder_symbols_view_message(view), "");
 	type_into(view, cell_of(widget, GTK_TYPE_ENTRY, "Start"), "\xe5\x90\xaf\xe5\x8a\xa8");
 	CHECK(has("| NO \xe5\x90\xaf\xe5\x8a\xa8 |"));
-	ladder_document_check_now(document); /* it is unused: its row changes */
+	ladder_document_check_now(document); /* an unused symbol: its row changes */
 	ladder_symbols_view_refresh(view);
 	WAIT((cell = cell_of(widget, GTK_TYPE_ENTRY, "Stock")) != NULL);
 	type_into(view, cell, "Hours");
 	CHECK_AS(gtk_widget_has_css_class(cell, "error") &&
-		 strstr(ladder_symbols_view_message(view), "Hours"), "a refusal is told");
+		 strstr(ladder_symbols_view_message(view), "Hours"), "a refusal is reported");
 	picture(widget, "symbols-refused");
 	CHECK(gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY));
 	type_into(view, cell, "Stock");
@@ -454,7 +458,7 @@ static void test_find(void)
 	CHECK(!ladder_find_bar_is_open(bar) && !ladder_find_bar_next(bar, false));
 	ladder_find_bar_open(bar, true, "\xe7\x94\xb5\xe6\x9c\xba");
 	CHECK_AS(gtk_widget_get_mapped(nth_widget(widget, GTK_TYPE_TEXT, 0)),
-		 "a letter that comes at once is not lost");
+		 "a letter right after the click is not lost");
 	CHECK(told_hits > 0 && ladder_find_bar_find(bar)->hit->len == 5);
 	CHECK_TEXT(ladder_find_bar_message(bar), "5 hits");
 	ladder_find_bar_set_place(bar, 0, 0, 0, 0);
@@ -478,18 +482,18 @@ static void test_find(void)
 	gtk_editable_set_text(with, "a | b");
 	gtk_widget_activate_action(widget, "find.replace-all", NULL);
 	CHECK_AS(strstr(ladder_find_bar_message(bar), ":") && !ladder_document_undo_name(document),
-		 "why nothing was replaced");
+		 "the reason why nothing was replaced");
 	ladder_find_bar_open(bar, false, "Start");
 	ladder_find_bar_close(bar);
 	ladder_find_bar_set_place(bar, 0, 0, 0, 0);
-	CHECK_AS(ladder_find_bar_next(bar, false), "F3 also while it is closed");
+	CHECK_AS(ladder_find_bar_next(bar, false), "F3 works while the bar is closed");
 	CHECK_TEXT(gone_to, "1 -1 1 8");
 	told_closed = 0;
 	ladder_find_bar_open(bar, false, "nothing at all");
 	CHECK_TEXT(ladder_find_bar_message(bar), "Nothing found");
 	gtk_widget_activate_action(widget, "find.close", NULL);
 	CHECK(told_closed == 1 && !ladder_find_bar_is_open(bar) && !ladder_find_bar_find(bar));
-	WAIT(G_OBJECT(bar)->ref_count == 1); /* the window lets go of the focus */
+	WAIT(G_OBJECT(bar)->ref_count == 1); /* after the window has released the focus */
 	put(NULL);
 }
 
@@ -513,7 +517,7 @@ static GtkTreeListRow *tree_row(GtkWidget *list, guint at)
 	GtkTreeListRow *row = g_list_model_get_item(G_LIST_MODEL(
 		gtk_list_view_get_model(GTK_LIST_VIEW(list))), at);
 
-	g_object_unref(row); /* the list holds it */
+	g_object_unref(row); /* the list has a reference */
 	return row;
 }
 
@@ -521,11 +525,11 @@ static const char *note_of(GtkWidget *list, guint at)
 {
 	LadderTreeRow *row = gtk_tree_list_row_get_item(tree_row(list, at));
 
-	g_object_unref(row); /* the list holds it */
+	g_object_unref(row); /* the list has a reference */
 	return row->note;
 }
 
-/* What a person opened or closed stays so when something in it changes. */
+/* Rows stay expanded or collapsed when one of their children changes. */
 static void test_tree_stays(GtkWidget *list)
 {
 	const guint rows = rows_of(list);
@@ -549,7 +553,7 @@ static void test_tree_stays(GtkWidget *list)
 	CHECK_SOON(strcmp(note_of(list, 1), "3 rungs") == 0);
 }
 
-/* The rows of all programs are others when one of them goes. */
+/* When a program is deleted, the rows of all others change. */
 static void test_tree(void)
 {
 	GtkWidget *tree = ladder_project_tree_new(document);
@@ -563,7 +567,7 @@ static void test_tree(void)
 	CHECK(rows > 3 && gtk_widget_grab_focus(list) && keys_arrive(window));
 	CHECK(!pou_delete(document, 1));
 	WAIT(rows_of(list) != rows);
-	CHECK_AS(keys_arrive(window), "a key that comes at once is not lost");
+	CHECK_AS(keys_arrive(window), "a key right after an edit is not lost");
 	CHECK(rows_of(list) == rows - 1);
 	CHECK_SOON(has_focus(list));
 	CHECK(ladder_document_undo(document));
@@ -571,7 +575,7 @@ static void test_tree(void)
 	CHECK(gtk_widget_grab_focus(list));
 	reopen("RUNGBOARD 9\n");
 	WAIT(rows_of(list) == 0);
-	CHECK_AS(rows_of(list) == 0 && keys_arrive(window), "nor is one when all rows go");
+	CHECK_AS(rows_of(list) == 0 && keys_arrive(window), "nor when all rows are removed");
 	reopen(sample);
 	CHECK_SOON(rows_of(list) == rows);
 	put(NULL);

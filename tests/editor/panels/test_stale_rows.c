@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_stale_rows - the table of symbols is read a moment later than the document changes:
- * what is typed into a row goes to the declaration it shows, or is refused.
+ * test_stale_rows - the symbol table is updated with a delay after a change: text typed
+ * into a row goes to the declaration that the row shows, or is refused.
  */
 #include "editor-gtk/document/symbols.h"
 #include "editor-gtk/panels/symbols_view.h"
@@ -59,7 +59,8 @@ static void test_moved(LadderSymbolsView *view, GtkWidget *cell)
 
 	CHECK(symbol_set(document, 0, 0, FIELD_RETAIN, "1", &why));
 	type_into(cell, "Stock");
-	CHECK_AS(has("Stock : INT;") && !has("Spare"), "its declaration, wherever that is by now");
+	CHECK_AS(has("Stock : INT;") && !has("Spare"),
+		 "the declaration that the row shows, although it moved");
 	type_into(cell, "Spare");
 	CHECK_AS(has("Spare : INT;") && !has("Stock"), "and by its new name");
 	undo_all(view);
@@ -101,7 +102,7 @@ int main(void)
 		test_moved(view, cell);
 		test_gone(view, cell);
 	}
-	CHECK_AS(has(text), "undone, it is as it was");
+	CHECK_AS(has(text), "an undo restores the text");
 	g_free(text);
 	gtk_window_destroy(GTK_WINDOW(window));
 	return tap_done();

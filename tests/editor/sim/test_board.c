@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_board - what surrounds an I/O map and a ladderd that runs with it: the uses of a
- * program, the checks of a text, the status of a child, and children that misbehave.
+ * test_board - running on this machine: uses of a program, checks of an I/O map, the status
+ * of ladderd, and a ladderd that misbehaves.
  */
 #include "editor-gtk/sim/board_run.h"
 #include "editor-gtk/document/document.h"
@@ -83,7 +83,7 @@ static void checks(void)
 	      says(checked, 8, DIAG_COUNT));
 	CHECK_AS(io_check_point(checked, 8) && io_check_point(checked, 8)->point->safe &&
 		 io_check_point(checked, 2) && !io_check_point(checked, 4),
-		 "points of good lines are there in spite of the others");
+		 "correct lines give their points despite wrong ones");
 	io_check_free(checked);
 	checked = check("%IX0.0 sim\n%IX0.1 sim\n");
 	CHECK_AS(says(checked, 1, DIAG_IO_NO_BOARD) && io_check_point(checked, 1) &&
@@ -131,7 +131,7 @@ static void status(void)
 
 static char *folder;
 static GString *log_text;
-static int ended;   /* exit status; -2: not yet                                */
+static int ended;   /* exit status; -2: still running                          */
 
 static void told(LadderBoardRun *run, const char *line)
 {
@@ -145,9 +145,7 @@ static void at_end(LadderBoardRun *run, int with)
 	ended = with;
 }
 
-/* Turns the loop until it is so; generous, only a hang waits long. */
-
-/* A ladderd that is a script. */
+/* Starts a script in place of ladderd. */
 static LadderBoardRun *start(const char *script)
 {
 	char *path = g_build_filename(folder, "ladderd", NULL);
@@ -172,7 +170,8 @@ static void children(void)
 
 	CHECK(ladder_board_run_state(run) == BOARD_STARTING);
 	WAIT(ended != -2);
-	CHECK_AS(ended == 3 && ladder_board_run_state(run) == BOARD_OFF, "one that refuses");
+	CHECK_AS(ended == 3 && ladder_board_run_state(run) == BOARD_OFF,
+		 "a child that refuses the program");
 	CHECK_TEXT(log_text->str,
 		   "--attended --io /c.io -- /a b.rung|\xef\xbf\xbdno newline|");
 	g_object_unref(run);
@@ -188,13 +187,13 @@ static void children(void)
 	g_object_unref(run);
 	run = start("kill -KILL $$");
 	WAIT(ended != -2);
-	CHECK_AS(ended == -1, "one that is killed");
+	CHECK_AS(ended == -1, "a child that is killed");
 	ladder_board_run_stop(run);
-	CHECK_AS(ladder_board_run_state(run) == BOARD_OFF, "nothing to be stopped");
+	CHECK_AS(ladder_board_run_state(run) == BOARD_OFF, "nothing to stop");
 	g_object_unref(run);
 }
 
-/* Nobody looks after it any more: its input ends. */
+/* When the editor drops it, its standard input ends. */
 static void orphan(void)
 {
 	char *mark = g_build_filename(folder, "gone", NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_failed - an operation that fails in a scan is marked there, as long as it does; power
- * that goes not on for another reason is no failure.
+ * test_failed - a cell is marked while its operation fails, and not if power ends there for
+ * another reason.
  */
 #include "editor-gtk/sim/live_map.h"
 #include "editor-gtk/sim/sim.h"
@@ -25,7 +25,6 @@ static uint8_t failed_at(LadderSim *of, int rung)
 	return bits & LIVE_FAILED;
 }
 
-/* Power that came and went not on is a failure only of what has no other reason. */
 static void test_failed(void)
 {
 	static const char text[] =
@@ -48,7 +47,7 @@ static void test_failed(void)
 		g_main_context_iteration(NULL, FALSE);
 	CHECK(failed_at(divides, 0) && failed_at(divides, 1));
 	CHECK_AS(!failed_at(divides, 2) && !failed_at(divides, 3) && !failed_at(divides, 4),
-		 "a comparison that is not so, and what does not run, do not fail");
+		 "a false comparison and an element that does not run are not failures");
 	act.at = image_find(&ladder_sim_twin(divides)->resource.image, "B", 1);
 	ladder_sim_act(divides, &act);
 	ladder_sim_scan(divides, 1);

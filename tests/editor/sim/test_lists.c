@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_lists - the text of a POU that can be read, and is more or less than that POU. No
- * display.
+ * test_lists - typing in the text of a POU: text that cannot be read yet, or holds more or
+ * fewer POUs. No display.
  */
 #include "editor-gtk/sim/sim.h"
 
@@ -25,7 +25,7 @@ static void is_not_simulated(LadderDocument *document)
 	g_object_unref(sim);
 }
 
-/* It touches no other POU, stays as it was written, and is told at its place. */
+/* The change touches no other POU, keeps the text as typed, and is reported at its line. */
 static void test_put(LadderDocument *document, const char *list, enum diag_id id,
 		     const char *about, int line)
 {
@@ -59,7 +59,7 @@ static bool has(LadderDocument *document, const char *part)
 	return found;
 }
 
-/* What is known of the text round a list is not that of before an undo. */
+/* After an undo, positions in the text are computed again. */
 static void test_round_it(LadderDocument *document)
 {
 	ladder_document_begin(document, "both", NULL);
@@ -91,7 +91,7 @@ int main(void)
 	while (ladder_document_undo(document))
 		;
 	test_round_it(document);
-	/* One more and one less: as many as before, and others. */
+	/* One added and one deleted: the same number, but others. */
 	CHECK(ladder_document_put_list(document, 1, "") &&
 	      ladder_document_put_list(document, 0, "PROGRAM Main IL\nEND_PROGRAM\n"
 				       "PROGRAM More IL\nEND_PROGRAM\n"));

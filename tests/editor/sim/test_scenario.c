@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_scenario - recording in the editor, running what was recorded, going to the scan
- * that failed: with a simulation that runs in its thread.
+ * test_scenario - records a scenario, runs it, and goes to the scan that failed, with the
+ * thread of a simulation.
  */
 #include "editor-gtk/sim/scenario_record.h"
 #include "editor-gtk/sim/scenario_run.h"
@@ -74,7 +74,7 @@ static bool expects(const char *name)
 	return good;
 }
 
-/* From STOP it runs at once; it is to stand where a test knows the scan. */
+/* Begins a recording and pauses at once, so that the scan is known. */
 static void begin_paused(void)
 {
 	ladder_sim_begin(sim, NULL);
@@ -151,7 +151,7 @@ static void test_record(void)
 	result = run(text);
 	CHECK(result && result->outcome == SCENARIO_HELD && results->len == 1);
 	CHECK_TEXT(result->name, "by hand");
-	/* One that is not so is shown at its scan. */
+	/* A wrong expectation is shown at its scan. */
 	parts = g_strsplit(text, "Late = 1", 2);
 	wrong = g_strconcat(parts[0], "Late = 0", parts[1], NULL);
 	result = run(wrong);
@@ -168,7 +168,7 @@ static void test_record(void)
 	g_free(text);
 }
 
-/* While it runs by itself the same comes out. */
+/* The same recording while the simulation runs by itself. */
 static void test_running(void)
 {
 	struct scenario_result *result;
@@ -234,7 +234,7 @@ static void test_unread(void)
 	CHECK(image_get(&ladder_sim_twin(sim)->resource.image, place("Label")).s->length == 3);
 }
 
-/* A plant that the file names stands beside it, here and when it is shown again. */
+/* The plant that the file names is found beside it, in a run and when a failure is shown. */
 static void test_plant(void)
 {
 	static const char plant[] =

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_sim - a simulation beside the window: it runs, stands, is stepped, acted upon, shows
- * any scan that was; errors keep it off, faults stop it. A chart of it has every scan.
+ * test_sim - the simulation: run, pause, single scans, acts, scans of the past, errors,
+ * faults, and a timing chart that has every scan.
  */
 #include "editor-gtk/live/timing.h"
 #include "editor-gtk/sim/live_value.h"
@@ -84,14 +84,14 @@ static void test_states(void)
 	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
 }
 
-/* What is shown of it follows when it holds, and not a moment before. */
+/* The shown period changes only when it is in effect. */
 static void test_period(void)
 {
 	const gint64 before = ladder_sim_period(sim);
 	const int told_states = states;
 
 	ladder_sim_set_period(sim, 2 * before);
-	CHECK_AS(states == told_states, "a field that was typed into is not set back");
+	CHECK_AS(states == told_states, "a typed period is not reset before it is in effect");
 	CHECK_SOON(states > told_states && ladder_sim_period(sim) == 2 * before);
 	ladder_sim_set_period(sim, before);
 	CHECK_SOON(ladder_sim_period(sim) == before);
@@ -131,7 +131,7 @@ static void test_past(void)
 	CHECK(!ladder_sim_is_past(sim) && value("Lamp") == 0);
 	CHECK(ladder_sim_show(sim, last - 1));
 	act(ACT_SET, "Go", 1);
-	CHECK_AS(!ladder_sim_is_past(sim), "an act ends the look at the past");
+	CHECK_AS(!ladder_sim_is_past(sim), "an act shows the present again");
 	CHECK_SOON(value("Go") == 1);
 }
 
@@ -141,7 +141,7 @@ static void test_chart(void)
 	bool good = true;
 
 	CHECK(timing_add(timing, "Count") && timing_add(timing, "lamp"));
-	CHECK_AS(!timing_add(timing, "COUNT"), "one line a variable");
+	CHECK_AS(!timing_add(timing, "COUNT"), "one line for each variable");
 	CHECK(timing_add(timing, "Nobody"));
 	while (timing_feed(timing, 1000000))
 		;
@@ -155,7 +155,7 @@ static void test_chart(void)
 		       timing_time(timing, scan) == ladder_sim_twin(sim)->now_ns &&
 		       timing_scan_at(timing, timing_time(timing, scan)) == scan;
 	}
-	CHECK_AS(good, "every scan of the chart is what the scan was");
+	CHECK_AS(good, "every scan of the chart has the recorded values");
 	ladder_sim_show_now(sim);
 	ladder_sim_scan(sim, 30000);
 	CHECK_SOON(ladder_sim_twin(sim)->scan > 30000);
@@ -190,7 +190,7 @@ static void test_fault(void)
 	CHECK(!ladder_sim_twin(sim) && ladder_sim_state(sim) == SIM_OFF);
 }
 
-/* An edit while it runs: another rung, the values of before. */
+/* An edit while it runs: the rung changes, the values stay. */
 static void test_change(void)
 {
 	gint64 count;
@@ -227,7 +227,7 @@ static gboolean nothing_to_do(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-/* Waits until so many acts were refused. */
+/* Waits until @count acts were refused. */
 static void wait_refused(struct sim_thread *thread, struct sim_view *view, guint count)
 {
 	const gint64 until = g_get_monotonic_time() + 10000000;
@@ -246,7 +246,7 @@ static struct sim_program *program_of(const char *text)
 			       NULL);
 }
 
-/* Where Far was is another variable now, or none at all. */
+/* After an edit, the place of Far belongs to another variable, or to none. */
 static void test_stale(void)
 {
 	static const char other[] =
@@ -268,7 +268,7 @@ static void test_stale(void)
 	sim_thread_change(thread, new);
 	while (view.program != new)
 		CHECK(sim_thread_take(thread, &view, &is_other));
-	CHECK_AS(view.refusal.count == 0, "the one before the change was done");
+	CHECK_AS(view.refusal.count == 0, "the act before the change was done");
 	CHECK(twin_clone(&before, &view.twin));
 	sim_thread_act(thread, old, &act);
 	act.kind = ACT_FORCE;
@@ -276,7 +276,7 @@ static void test_stale(void)
 	wait_refused(thread, &view, 2);
 	CHECK(view.refusal.why == SIM_REFUSED_STALE && image->force_count == 0);
 	CHECK_AS(memcmp(image->memory, before.resource.image.memory,
-			view.twin.memory_size) == 0, "no byte is another");
+			view.twin.memory_size) == 0, "no byte differs");
 	act.at = image_find(image, "Near", 4);
 	sim_thread_act(thread, new, &act);
 	sim_thread_act(thread, NULL, &(struct act){ .kind = ACT_RELEASE });
@@ -295,7 +295,7 @@ static void told_is(const char *word)
 	g_clear_pointer(&told, g_free);
 }
 
-/* What is not done is told, each time, and in a new simulation, too. */
+/* Each refusal is reported, also in a new simulation. */
 static void test_refused(void)
 {
 	const struct location nowhere = { .type = IEC_NONE };
@@ -318,7 +318,7 @@ static void test_refused(void)
 	}
 }
 
-/* As on the board a division by zero is no fault; but where it was is told, once a start. */
+/* As on a board, a division by zero is no fault; its place is reported once for each start. */
 static void test_failed(void)
 {
 	open_text("RUNGBOARD 1\n\nVAR\n  Parts, Minutes, Rate : INT := 1;\nEND_VAR\n\n"
@@ -342,8 +342,8 @@ static void test_failed(void)
 	ladder_sim_end(sim);
 }
 
-/* FAULT for the first one of a start, told each time, with outputs off, which come again when
- * it goes on; none in what a person asked for, scan by scan, and none when it is not wanted. */
+/* By default the first failed operation of a start is a FAULT, with outputs off until it
+ * continues. In single scans, or if switched off, it is not. */
 static void test_heeds(void)
 {
 	GArray *acts = g_array_new(FALSE, FALSE, sizeof(struct sim_played));
@@ -370,8 +370,9 @@ static void test_heeds(void)
 	CHECK(value("Lamp") == 0);
 	ladder_sim_run(sim);
 	CHECK_SOON(ladder_sim_twin(sim)->resource.vm.errors > 3);
-	CHECK_AS(!told && ladder_sim_state(sim) == SIM_RUN, "it goes on, and nothing is said anew");
-	CHECK_AS(value("Lamp") == 1, "with the outputs that it had");
+	CHECK_AS(!told && ladder_sim_state(sim) == SIM_RUN,
+		 "it continues without another report");
+	CHECK_AS(value("Lamp") == 1, "with the outputs of the program before");
 	ladder_sim_stop(sim);
 	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
 	ladder_sim_scan(sim, 1);
@@ -392,7 +393,7 @@ static void test_heeds(void)
 	g_array_unref(acts);
 }
 
-/* A start that ends at once is told as often as it is asked for. */
+/* A start that fails at once is reported each time. */
 static void test_fault_again(void)
 {
 	open_text("RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG Again\n  | --- | JMP Again |\n"
@@ -407,7 +408,7 @@ static void test_fault_again(void)
 	ladder_sim_end(sim);
 }
 
-/* A plant that cannot be had is told with the file and the place. */
+/* An error of a plant is reported with file and place. */
 static void test_bad_plant(void)
 {
 	GError *error = NULL;
@@ -426,7 +427,7 @@ static void test_bad_plant(void)
 	g_free(folder);
 }
 
-/* What is held of the plant is counted, and released with the rest. */
+/* Forces of the plant are counted, and released with the others. */
 static void test_plant_forces(void)
 {
 	struct act act = { .kind = ACT_FORCE, .plant = true, .value.r = 50 };

@@ -17,15 +17,15 @@
 #include <string.h>
 
 #define PROGRAMS 200
-#define PARTS 3          /* before the edit, and after it                      */
-#define LINES 4          /* of a chart, of each program                        */
+#define PARTS 3          /* before and after the edit                          */
+#define LINES 4          /* of a chart, for each program                       */
 #define TEXT_MAX (128 * 1024)
-#define EDITS 12         /* of a program of a thousand numbers, and            */
-#define EACH 10000       /* scans between them                                */
+#define EDITS 12         /* of a program with a thousand numbers               */
+#define EACH 10000       /* scans between two edits                           */
 
 static LadderDocument *document;
 static LadderSim *sim;
-static GArray *states;   /* of guint64: what a fresh run computed, scan by scan */
+static GArray *states;   /* of guint64: states of a fresh run, scan by scan */
 static int programs_changed;
 static guint64 compared, olds;
 
@@ -110,7 +110,7 @@ static void play_some(struct run *run, struct random_source *random)
 	}
 }
 
-/* As a person's: it is checked, built in a thread, and takes the place of what runs. */
+/* Edits as a person does: checked, built in a thread, exchanged. */
 static void edit(const char *text)
 {
 	const int before = programs_changed;
@@ -140,7 +140,7 @@ static bool chart_is(const struct timing *timing, guint64 scan)
 	return timing_time(timing, scan) == ladder_sim_twin(sim)->now_ns;
 }
 
-/* Of both programs, so that some are in one of them alone. */
+/* Variables of both programs; some are in one of them only. */
 static struct timing *chart_of(const struct twin *const twins[], int count)
 {
 	struct timing *timing = timing_new(sim);
@@ -185,7 +185,7 @@ static bool show_is(guint64 scan, guint64 edited, const struct timing *timing,
 	return good;
 }
 
-/* Scans here and there, back and forth over the edit. */
+/* Shows random scans on both sides of the edit. */
 static bool look_back(struct random_source *random, guint64 edited, guint64 last,
 		      const struct timing *timing, const char *text)
 {
@@ -226,7 +226,7 @@ static bool builds(const char *text)
 	return program;
 }
 
-/* 1: it is as it should be; 0: not; -1: it cannot be told. */
+/* 1: correct, 0: wrong, -1: not decidable. */
 static int play(const char *before, const char *after, guint64 seed)
 {
 	struct random_source random;
@@ -255,7 +255,7 @@ static int play(const char *before, const char *after, guint64 seed)
 	g_free(text);
 	play_some(&run, &random);
 	text = g_strdup(before);
-	/* The text of before, as the document has it. */
+	/* the text before the edit */
 	ladder_sim_show(sim, edited);
 	if (ladder_sim_older(sim, NULL)) {
 		g_free(text);
@@ -300,8 +300,8 @@ static void test_random(guint64 first, int count)
 	}
 	printf("# %d random programs, %" G_GUINT64_FORMAT " scans compared, %" G_GUINT64_FORMAT
 	       " of them before the edit\n", played, compared, olds);
-	CHECK_AS(played == count, "so many were edited");
-	CHECK_AS(bad == 0, "each scan is what a fresh run computes");
+	CHECK_AS(played == count, "the wanted number of edits was built");
+	CHECK_AS(bad == 0, "each scan equals that of a fresh run");
 	g_free(before);
 	g_free(after);
 	g_free(program);
@@ -326,7 +326,7 @@ static void set(const char *name, gint64 value)
 	ladder_sim_act(sim, &act);
 }
 
-/* The contact that holds the coil off, by the program of that scan. */
+/* The contact that keeps the coil off in that scan. */
 static char *why_at(guint64 scan)
 {
 	struct why *why = g_new0(struct why, 1);
@@ -379,29 +379,29 @@ static void test_by_hand(void)
 	ladder_sim_scan(sim, 5);
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 10);
 	why_is(3, "Guard");
-	/* A click on what was means nothing now. */
+	/* A click while the past is shown has no effect. */
 	set("Guard", 0);
 	CHECK(ladder_sim_is_past(sim) && told && strstr(told, "before an edit"));
 	why_is(8, "Other");
 	CHECK(!ladder_sim_older(sim, NULL));
 	CHECK_AS(!ladder_document_replace(ladder_sim_show(sim, 2) ?
 		 ladder_sim_older(sim, NULL) : document, 0, 0, " ", NULL),
-		 "what was cannot be changed");
-	/* Another edit, while a scan before the first is shown: now is shown. */
+		 "the past cannot be changed");
+	/* Another edit while the past is shown: shows the present. */
 	edit(motor);
 	CHECK(!ladder_sim_is_past(sim));
 	CHECK(ladder_sim_show(sim, 9) && ladder_sim_older(sim, NULL));
 	why_is(9, "Other");
 	why_is(4, "Guard");
 	ladder_sim_show_now(sim);
-	/* Begun anew, nothing of it is left. */
+	/* A restart drops all older programs. */
 	CHECK(ladder_sim_restart(sim, NULL));
 	CHECK(ladder_sim_last(sim) == 0 && !ladder_sim_show(sim, 3));
 	g_signal_handler_disconnect(sim, handler);
 	g_free(told);
 }
 
-/* Nothing that no scan was run with is kept. */
+/* A program that ran no scan is not kept. */
 static void test_edits_in_pause(void)
 {
 	struct sim_edited edited;
@@ -424,7 +424,7 @@ static void test_edits_in_pause(void)
 	ladder_sim_show_now(sim);
 }
 
-/* A thousand numbers that change in every scan, and edits: never more than there may be. */
+/* A thousand numbers that change in every scan, and edits: the memory limit holds. */
 static void test_bound(void)
 {
 	GString *text = g_string_new("RUNGBOARD 1\n\nVAR\n  Many : ARRAY[0..999] OF DINT;\n"
@@ -463,7 +463,7 @@ static void test_bound(void)
 	printf("# %d scans of 1,000 numbers, %d edits: %zu MB at most, scans from %"
 	       G_GUINT64_FORMAT " on\n", EDITS * EACH, EDITS, most >> 20, first);
 	CHECK_AS(most <= SIM_BYTES, "all of them together");
-	CHECK_AS(first > 0, "the oldest went");
+	CHECK_AS(first > 0, "the oldest scans were dropped");
 	sim_eras_free(eras);
 	twin_free(&twin);
 	sim_program_unref(program);
