@@ -1,14 +1,13 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# classic.t - ClassicLadder projects run here as they run there.
+# classic.t - ClassicLadder projects do the same here as in ClassicLadder.
 #
-# tests/classic/projects/ holds every element, member and dialect: PROJECT, its script,
-# and what the second evaluator made of it (NAME.trace; NAME.faithful.trace where the
-# original's faults make it another). With SAMPLES=DIR each *.trace in it and in its folder
-# classicladder, recorded from the original itself, must be had from its project too, except
-# where one of the faults below plays a part. --write writes our own traces anew: read the
-# difference.
+# tests/classic/projects/ holds every element, member and dialect: a project, its script, and
+# the trace of the second evaluator (NAME.trace; NAME.faithful.trace if ClassicLadder's faults
+# change it). With SAMPLES=DIR each project in DIR and DIR/classicladder must give the *.trace
+# beside it that was recorded from ClassicLadder, except where one of the faults below plays a
+# part. --write writes the traces of tests/classic/projects again: read the difference.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -24,8 +23,8 @@ my $ladder = $ENV{LADDER} || "$build/ladder";
 my $second = "$build/tests/bin/classic_trace";
 my $ours = 'tests/classic/projects';
 
-# Where a recorded trace differs from a repaired project, and why: the first differing
-# line of the recorded one. --faithful must give all of it.
+# Recorded traces that a repaired project does not give: the reason, and the first line of the
+# recorded trace that differs. --faithful must give all of it.
 my %fault = (
 	'3pumps.a' => ['F1: a TON interrupted before fires early', '280 t=14000 '],
 	'adam-6051.a' => ['F1: a TON interrupted before fires early', '111 t=5550 '],
@@ -33,17 +32,17 @@ my %fault = (
 	'example.b' => ['F1: a TP that was run before ends early', '281 t=14050 '],
 	'unit-05_iec' => ['F1: a TON interrupted before fires early', '99 t=9900 '],
 );
-# What no setting gives, and why.
+# Recorded traces that --faithful does not give either, and why.
 my %never = (
-	'924-lc.a' => ['the script prints bits that this project has not: what lies behind in memory', '1 t=1 '],
-	'924-lc.b' => ['the script prints bits that this project has not: what lies behind in memory', '1 t=1 '],
+	'924-lc.a' => ['the script prints bits that this project does not have: other memory', '1 t=1 '],
+	'924-lc.b' => ['the script prints bits that this project does not have: other memory', '1 t=1 '],
 );
-# The same of our own projects, with --faithful.
+# The same for tests/classic/projects, with --faithful.
 my %ours_never = (
-	'ring' => ['F6: a ring with a slot that is another register\'s is not repeated', '13 t=1300 '],
+	'ring' => ['F6: a register that writes into another one is not repeated', '13 t=1300 '],
 );
 
-# The line of @_ where the wanted text goes another way; undef: they are the same.
+# The first line of the wanted text that differs; undef: both texts are the same.
 sub first_difference {
 	my ($got, $want) = @_;
 	my @got = split /\n/, $got, -1;
@@ -54,12 +53,12 @@ sub first_difference {
 	return @got > @want ? 'the end' : undef;
 }
 
-# Same text, or another from that line on for a reason.
+# The same text, or with a reason a text that differs from a known line on.
 sub same {
 	my ($what, $got, $want, $reason) = @_;
 	my $line = first_difference($got, $want);
 	if (!$reason) {
-		ok(!defined $line, $what) or diag("first line that differs, as it should be: $line");
+		ok(!defined $line, $what) or diag("first line that differs, as wanted: $line");
 	} else {
 		ok(defined $line && index($line, $reason->[1]) == 0, "$what: not from $reason->[1]on ($reason->[0])")
 			or diag(defined $line ? "differs at: $line" : 'it is the same');

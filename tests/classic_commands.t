@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 #
 # classic_commands.t - every command of `ladder` with a ClassicLadder project in each of its
-# forms: those that read take it, with the names that things have there; those that write it
-# or want a text refuse, say what to do, and leave it as it was. A command that is not in
-# the table fails. What a project does in a scan is told by tests/classic.t.
+# forms. Commands that read accept it, with the old names of variables; commands that write, or
+# need the text of a rung file, refuse it, say what to do, and leave it unchanged. A command
+# that is not in the table fails. tests/classic.t tests scans.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -57,8 +57,8 @@ spill('script', "\@print %Q0..1 %TM0.V %X2.A Motor\n%I0=1\n. x60\n");
 spill('map', "BOARD \"none\"\n");
 
 my $refused = qr/error LD717: .*ladder import/;
-# Of each command: arguments, status, what it prints. FILE is the project. Rows of one
-# command follow one another; `undef`: it takes no program.
+# A command, its arguments, status and output. FILE is the project. `undef`: the command takes
+# no program.
 my @table = (
 	['check', ['FILE'], 0, qr{^FILE(?:/symbols\.csv)?:\d+: warning LD312: "Seven".*\nFILE: good, 1 warning$}],
 	['check', ['--json', 'FILE'], 0, qr/"LD312"/],
@@ -104,7 +104,7 @@ sub test_form {
 	for my $row (@table) {
 		my ($command, $argument, $status, $like) = @$row;
 		next unless $argument;
-		# A folder has no name that a scenario could have, too.
+		# A folder has no scenario beside it.
 		next if $command eq 'test' && -d $file;
 		my @argument = map { s/^FILE$/$file/r } @$argument;
 		my ($text, $got) = said($ladder, $command, @argument);
@@ -114,10 +114,10 @@ sub test_form {
 		like($text, $like, $name);
 		is($got, $status, "$name: status") if $status ne 'any';
 	}
-	is(state_of(), $before, "$file: nothing of it is another");
+	is(state_of(), $before, "$file: is unchanged");
 }
 
-# The line is the project's own.
+# Messages have lines of the project.
 sub test_places {
 	my ($text) = said($ladder, 'check', 'pump.clprj');
 	my ($line) = $text =~ /^pump\.clprj:(\d+): warning LD312/;
@@ -130,16 +130,16 @@ sub test_places {
 	is((split /\n/, slurp('pump.clprj'))[$line - 1], '#VER=3.0', 'a coil where its rung begins');
 }
 
-# What was built has the project's period, and its names.
+# An image has the period and names of the project.
 sub test_image {
 	my ($text) = said($ladder, 'trace', 'out.rungc', 'script', '--changes');
-	like($text, qr/^1 t=40 %Q0=1 Motor=1$/m, 'the image scans as often as the project');
+	like($text, qr/^1 t=40 %Q0=1 Motor=1$/m, 'the image has the project's period');
 	said($ladder, 'import', 'pump.clprj', '-o', 'imported.rung');
 	said($ladder, 'build', 'imported.rung', '-o', 'imported.rungc');
-	is(slurp('imported.rungc') eq slurp('out.rungc') ? 1 : 0, 1, 'and is that of the rung file of it');
+	is(slurp('imported.rungc') eq slurp('out.rungc') ? 1 : 0, 1, 'the image is that of the imported file');
 }
 
-# A board has no import.
+# ladderd does not import.
 sub test_ladderd {
 	for my $file ('pump.clprj', 'packed.clprjz') {
 		my ($text, $status) = said("$build/ladderd", '--io', 'map', $file);

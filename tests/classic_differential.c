@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_differential - random ClassicLadder projects, imported and as they are.
+ * classic_differential - runs random ClassicLadder projects imported and not imported.
  *
  *   classic_differential [--count N] [--seed S] [--keep FOLDER]
  *
- * `ladder trace` imports each and runs what came of it; the second evaluator runs the
- * project itself. Both traces are the same, with the original's faults and without. Every
- * fourth project has what the editor there would not allow. What differs is written to
- * FOLDER, as NAME.clprj and NAME.script.
+ * `ladder trace` imports a project and runs the result; the second evaluator runs the project
+ * itself. Both traces must be the same, with ClassicLadder's faults and without. Every fourth
+ * project has elements in places that the editor of ClassicLadder does not allow. FOLDER gets
+ * the projects that differ, as NAME.clprj and NAME.script.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/classic/random_project.h"
@@ -19,7 +19,7 @@
 
 enum { SHOWN = 5, BATCH = 50 };
 #ifdef __SANITIZE_ADDRESS__
-#define COUNT 50 /* each import in a process of its own, and slow            */
+#define COUNT 50 /* with sanitizers each import is slow                      */
 #else
 #define COUNT 300
 #endif
@@ -41,7 +41,7 @@ static bool write_text(const char *folder, const char *name, const char *text)
 	return file && fputs(text, file) >= 0 && fclose(file) == 0;
 }
 
-/* What a command prints, or its last words when it fails; free(). */
+/* What a command prints. Free it with free(). */
 static char *printed(const char *command)
 {
 	FILE *pipe = popen(command, "r");

@@ -1,15 +1,14 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# classic_export.t - projects go back to ClassicLadder, and run there as they run here.
+# classic_export.t - exports to ClassicLadder do the same as the program.
 #
-# Each project of tests/classic/projects/ is exported; what comes out gives the trace of the
-# original, here and in the second evaluator, which reads the file itself, and a reader that
-# forgives nothing takes it (ClassicTest). Imported and exported again its text stays as it
-# is. Random projects the same, and ladders that were never ClassicLadder's: samples and
-# random ones. What ClassicLadder has not is refused with its place or told, each thing in
-# a row of a table. With SAMPLES=DIR the projects of DIR and DIR/classicladder go there and
-# back, too.
+# Each project of tests/classic/projects/ is exported. The export gives the trace of the
+# original, with `ladder trace` and with the second evaluator, and a strict reader accepts it
+# (ClassicTest). Its text stays the same after another import and export. The same with random
+# projects, samples and random ladders. A table has a row for each thing that ClassicLadder
+# does not have: it is refused with its place, or reported. With SAMPLES=DIR also the projects
+# of DIR and DIR/classicladder.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -30,7 +29,7 @@ my $ours = 'tests/classic/projects';
 my $dir = tempdir(CLEANUP => 1);
 my $many = $ENV{EXPORT_COUNT} || 25; # of each kind of random program
 
-# The export as a file, and what was told; undef: it was refused.
+# The exported file and the messages; undef: it was refused.
 sub export {
 	my ($project, $as, $name, @more) = @_;
 	my $out = "$dir/$name.clprj";
@@ -54,7 +53,7 @@ sub same_trace {
 		"$what: the second evaluator");
 }
 
-# There, back, there: from the second import on the text stays.
+# The text of a second and third import is the same.
 sub stays {
 	my ($what, $project, $as) = @_;
 	my @text;
@@ -75,7 +74,7 @@ sub stays {
 
 # ---- projects of ClassicLadder ----
 
-# Which dialect cannot hold what a project has, and what strict() must know of one.
+# Projects that only LinuxCNC can hold, and options for strict().
 my %as = ('crlf' => 'linuxcnc', 'linuxcnc' => 'linuxcnc'); # numbers with a point
 my %knows = ('charts' => [steps => 1], 'faults' => [steps => 1], 'crlf' => [power => 1],
 	'linuxcnc' => [power => 1]);
@@ -104,7 +103,7 @@ sub test_samples {
 		ok(defined $out, "$name as $as") or next;
 		taken($name, $out, lc => $as eq 'linuxcnc');
 		for my $script (grep { -e } map { $project =~ s/\.clp\w*$/$_.script/r } '', '.a', '.b') {
-			# Bits that a project of LinuxCNC has not may be bits between rungs there.
+			# Bits that the LinuxCNC project does not use can be bits between rungs in the export.
 			my $text = slurp($script);
 			$text =~ s/ %B\d+(\.\.\d+)?//g if $as eq 'linuxcnc';
 			spill("$dir/sample.script", $text);
@@ -131,9 +130,9 @@ sub test_numeric {
 	same_trace('numeric', "$ours/numeric.txt", "$ours/numeric.script", $out) if defined $out;
 }
 
-# ---- ladders that never were ClassicLadder's ----
+# ---- ladders that are no import ----
 
-# What a variable is called there: its symbol.
+# By symbol: the name of the variable in the export.
 sub names_there {
 	my ($out) = @_;
 	my ($members) = members(slurp($out));
@@ -144,7 +143,7 @@ sub names_there {
 	return \%name;
 }
 
-# The same script with names of there; traces with names of here again.
+# Runs the script with names of the export, and compares traces with names of the ladder.
 sub ladder_runs_the_same {
 	my ($what, $rung, $script, $out) = @_;
 	my $name = names_there($out);
@@ -179,10 +178,10 @@ sub test_random_ladders {
 		next if $told =~ /stops in ClassicLadder/;
 		ladder_runs_the_same("ladder $seed as $as", "$dir/l$seed.rung", "$dir/l$seed.script", $out);
 	}
-	cmp_ok($written, '>', $many, 'most random ladders can be said there');
+	cmp_ok($written, '>', $many, 'most random ladders can be exported');
 }
 
-# Samples: inputs at random, outputs and bits looked at by address. @period of the export.
+# Samples: random inputs, outputs by address, with the period of the export.
 sub test_ladders {
 	my $written = 0;
 	for my $rung (sort glob('ladders/*.rung')) {
@@ -194,7 +193,7 @@ sub test_ladders {
 		}
 		$written++;
 		taken($name, $out);
-		next if $told =~ /SYS_CLOCK/; # told: it is in step with something else there
+		next if $told =~ /SYS_CLOCK/; # reported: clocks begin at another time
 		srand 7;
 		my $script = "\@period 50\n\@print %Q0..15\n" . join '', map {
 			sprintf "%%I%d=%d . x%d\n", int rand 12, int rand 2, 1 + int rand 20;
@@ -204,16 +203,16 @@ sub test_ladders {
 		is(run($ladder, 'trace', '--changes', $out, "$dir/$name.script"), $want, "$name: the same trace");
 		is(run($second, '--changes', $out, "$dir/$name.script"), $want, "$name: the second evaluator");
 	}
-	cmp_ok($written, '>=', 5, 'samples that can be said there');
+	cmp_ok($written, '>=', 5, 'samples that can be exported');
 }
 
-# ---- what ClassicLadder has not ----
+# ---- what ClassicLadder does not have ----
 
 my $body = "PROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n";
 sub with_rung { return "VAR\n$_[0]\nEND_VAR\nPROGRAM Main LD\nRUNG\n  $_[1]\nEND_PROGRAM\n" }
 sub with_task { return "CONFIGURATION C\nTASK T (INTERVAL := $_[0]);\n PROGRAM M WITH T : Main;\nEND_CONFIGURATION\n$body" }
 
-# What, the file, what is told or (with LD) refused; -: nothing, and what stands in the file.
+# What, the file, the message (-: none; with LD: it is refused), text in the export.
 my @table = (
 	['RETAIN', "VAR RETAIN\n a : BOOL;\nEND_VAR\n" . with_rung(' b : BOOL;', '| NO a | COIL a |'),
 		':3: changed: a: ClassicLadder retains no values'],
@@ -300,11 +299,11 @@ sub test_table {
 		}
 		ok(defined $out, "$what: written") or diag($said), next;
 		if ($told eq quotemeta '-') {
-			is("@changed", '', "$what: nothing is told");
+			is("@changed", '', "$what: no message");
 		} else {
-			like($said, qr/$told/, "$what: told");
+			like($said, qr/$told/, "$what: message");
 		}
-		like(slurp($out), $there, "$what: what stands there") if $there;
+		like(slurp($out), $there, "$what: text in the export") if $there;
 		taken($what, $out);
 	}
 }
@@ -320,7 +319,7 @@ sub test_io {
 	spill("$dir/io.rung", "RUNGBOARD 1\n$body");
 	spill("$dir/io.io", $map);
 	my ($out, $said) = export("$dir/io.rung", 'classicladder', 'io');
-	unlike($said, qr/io\.io/, 'a map that ClassicLadder can say: nothing is told');
+	unlike($said, qr/io\.io/, 'a map that ClassicLadder can hold: no message');
 	my ($members) = members(slurp($out));
 	is($members->{'ioconf.csv'}, "#VER=1.0\n0,0,2,0,17,2,0,0\n0,8,2,0,4,1,1,0\n"
 		. "1,0,2,0,24,1,0,0\n1,1,2,0,23,1,1,0\n", 'its lines');
@@ -334,17 +333,17 @@ sub test_io {
 	for my $line ('2: changed: %IX0.0: is no pin of a Raspberry', '3: changed: %IX0.1: has a pull-up',
 		'3: changed: %IX0.1: must be steady for 12 ms', '4: changed: %QX0.0: is driven to both',
 		'4: changed: %QX0.0: has no safe value', '5: changed: %QX0.1: is no pin') {
-		like($said, qr/other\.io:\Q$line\E/, "told: $line");
+		like($said, qr/other\.io:\Q$line\E/, "message: $line");
 	}
 	(undef, $said) = export("$dir/io.rung", 'linuxcnc', 'io');
-	like($said, qr/changed: the I\/O map is not exported: LinuxCNC/, 'LinuxCNC has pins of HAL');
+	like($said, qr/changed: the I\/O map is not exported: LinuxCNC/, 'LinuxCNC: HAL pins instead');
 	ok(!defined export("$dir/io.rung", 'classicladder', 'io', '--io', "$dir/none.io"), 'no such map');
 }
 
 # ---- what only ClassicLadder understands ----
 
-# Members of tests/classic/projects that come out again, line by line, whatever there is
-# between them; hostile lines in VIEW end no member.
+# Lines of members that only ClassicLadder uses come back after import and export; a hostile
+# line in VIEW ends no member.
 sub test_kept {
 	my $lines = 0;
 	for my $project (map { project_of(s/\.script$//r) } sort glob("$ours/*.script")) {
@@ -374,9 +373,9 @@ sub test_kept {
 		. "  classicladder\n  linuxcnc config_events.csv 1\nEND_VIEW\n");
 	my $out = export("$dir/kept.rung", 'classicladder', 'kept');
 	my ($members, $order) = members(slurp($out));
-	is($members->{'modbusioconf.csv'}, "S0,1,0,one\n", 'what would end a member is left out');
+	is($members->{'modbusioconf.csv'}, "S0,1,0,one\n", 'a line that would end a member is left out');
 	like($members->{'project_infos.txt'}, qr/^PARAM_AUTHOR=Me$/m, 'an author');
-	unlike(slurp($out), qr/nowhere|9\.9/, 'a note of no page, a member of ours');
+	unlike(slurp($out), qr/nowhere|9\.9/, 'a note of no page and a rung are left out');
 	taken('kept lines', $out);
 }
 

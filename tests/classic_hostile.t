@@ -1,11 +1,9 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# classic_hostile.t - whatever stands in a ClassicLadder project, the text that the importer
-# makes of it is one of ours without an error: names that the importer uses itself, numbers
-# of variables that do not exist, sections that overlap. What cannot be taken is a message
-# about the project (LD7xx) or a line of the report. It runs nothing but a few scans: what
-# projects do is told by tests/classic.t.
+# classic_hostile.t - an import of any ClassicLadder project is a rung file without an error, or
+# is refused with LD7xx: names that the importer uses itself, numbers of variables that do not
+# exist, sections that overlap. It runs only a few scans; tests/classic.t tests scans.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -57,7 +55,7 @@ sub project {
 	close $out or die;
 }
 
-# No message of ours about a text that nobody wrote.
+# No error about the text of the import, which nobody wrote.
 sub fine {
 	my ($what) = @_;
 	my ($text, $status) = said($ladder, 'check', $file);
@@ -91,7 +89,7 @@ sub chart_of {
 		"C$a,0,0/3", "C$b,0,30/$to");
 }
 
-# Every element, so that the importer says all that it ever says itself.
+# Every element, so that the importer uses all names that it has.
 my @everything = (
 	[row('1-0-70/0', '50-0-0/1')], (map { operate($_) } 0 .. 4), compare(5), compare(6),
 	[row('99-0-0/0', '13-0-0/0', '50-0-0/2'), '99-0-0/0 , 99-0-0/0'],
@@ -138,7 +136,6 @@ sub test_names {
 	my ($catalogue) = said($ladder, 'words');
 	my @word = words_of(@said, $catalogue, qw(Words InWords OutWords SysWords x3 X3_a T0_a Rung1_Power Main_1));
 	cmp_ok(scalar @word, '>', 400, 'names that the importer or the language uses');
-	# Without the scan's task, too: read as it is.
 	while (my @part = splice @word, 0, 120) {
 		everything(\@part);
 		fine("symbols $part[0] to $part[-1]");
@@ -167,7 +164,7 @@ sub test_names {
 	}
 }
 
-# The bit that has the name of something else is still that bit.
+# A bit whose symbol is the name of another thing is still that bit.
 sub test_they_work {
 	project(rung => [[row('1-0-70/4', '50-0-60/0')], [row('1-0-0/3', '50-0-60/1')], [row('1-0-30/1', '50-0-60/2')],
 			[row('1-0-0/4', '50-0-60/3')], [row('1-0-70/0', '50-0-60/4')]],
@@ -178,7 +175,7 @@ sub test_they_work {
 	close $script;
 	my ($text) = said($ladder, 'trace', '--changes', $file, "$tmp/script");
 	is(join('', grep { /^\d/ } map { "$_\n" } split /\n/, $text), "1 t=50 %Q4=1 %X1.A=1\n2 t=100 %Q2=1 %Q3=1\n",
-		'steps and bits are found by what they were called');
+		'steps and bits are found by their old names');
 }
 
 # ---- numbers ----
@@ -214,18 +211,18 @@ sub test_numbers {
 		fine("a condition of type $type");
 	}
 	project(rung => [[row('1-0-0/1', '50-0-50/3')], [row('1-0-70/300', '50-0-60/1')]]);
-	my (undef, $report) = fine('what cannot be');
-	like($report, qr/:14: lost: rung_0\.csv: .*%IX0\.3 cannot be written by a program/, 'told with its place');
+	my (undef, $report) = fine('variables that do not exist');
+	like($report, qr/:14: lost: rung_0\.csv: .*%IX0\.3 cannot be written by a program/, 'a line of the report with its place');
 	like($report, qr/lost: rung_1\.csv: .*type 70, number 300/, 'a system bit that does not exist');
-	# Each line names the rung here that it speaks of; of one that became none, none.
+	# Each line names the rung in the import; none if it became no rung.
 	my @good = [row('1-0-50/0', '50-0-60/0')];
 	project(rung => [@good, [row('1-0-70/300', '9-0-0/0')], @good, [row('1-0-70/301', '50-0-60/1')]]);
-	(undef, $report) = fine('rungs that are told of');
+	(undef, $report) = fine('rungs in the report');
 	like($report, qr/: lost: rung_1\.csv: Main: variable of type 70, number 300/, 'a rung that became none');
 	like($report, qr/: lost: rung_3\.csv: Main rung 3: variable of type 70, number 301/, 'the rung that it became');
 }
 
-# Arrays reach as far as the project says, and not beyond.
+# Arrays have the sizes of general.txt.
 sub test_sizes {
 	my @assign = ('@200/10[200/4]@:=@200/1@+1', '@280/2[200/4]@:=@270/1[200/3]@+1');
 	for my $general ('SIZE_NBR_WORDS=5000', 'SIZE_NBR_WORDS=-1', 'SIZE_NBR_WORDS=99999999999999999999',
@@ -262,7 +259,7 @@ sub test_sections {
 	my %with = (rung => \@rung, chart => [chart_of(0, 0, 1, 15)]);
 	project(%with, section => ['#NAME000=A', '#NAME001=B', '#NAME002=C', '000,0,-1,0,3,0', '001,1,-1,0,0,0', '002,1,-1,0,0,0']);
 	my (undef, $report) = fine('two sections that show one page');
-	like($report, qr/changed: sections\.csv: .*shows page 0 once more/, 'are told');
+	like($report, qr/changed: sections\.csv: .*shows page 0 once more/, 'a line of the report');
 	project(%with, section => ['000,0,-1,0,3,0', '001,1,3,0,0,0']);
 	fine('a page as a subroutine');
 	project(%with, section => ['000,0,-1,0,3,0', '001,1,-1,0,0,7']);
@@ -293,7 +290,7 @@ sub test_sections {
 
 # ---- time ----
 
-# Of the processor, s; an eighth of it would be right for the smaller one.
+# Seconds of processor time for an import.
 sub seconds_of {
 	my ($rungs) = @_;
 	project(rung => [map { my $i = $_; [row("1-0-50/$i", "1-0-0/$i", "50-0-0/" . (($i + 1) % 9990)),
@@ -310,7 +307,7 @@ sub seconds_of {
 sub test_time {
 	my $small = seconds_of(1200);
 	my $large = seconds_of(9600);
-	# Squares would be 64 times as long.
+	# Quadratic time would be 64 times as long.
 	cmp_ok($large, '<', 24 * $small + 0.3, sprintf 'eight times as many rungs: %.2f s, %.2f s', $small, $large);
 }
 

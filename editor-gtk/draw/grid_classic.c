@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_classic - rungs of ClassicLadder as strokes, and below them what they became here;
- * see grid_classic.h.
+ * grid_classic - rungs of ClassicLadder as strokes, and below them the rungs of the import; see
+ * grid_classic.h.
  *
- * In the file a block has its code in its upper right cell, an expression in its right one;
- * the other cells of both are marked as taken.
+ * In the file the code of a block is in its upper right cell, that of an expression in its
+ * right one; their other cells are marked as taken.
  */
 #include "editor-gtk/draw/grid_classic.h"
 #include "editor-gtk/draw/grid_draw.h"
@@ -84,7 +84,7 @@ static void put_frame(const struct sketch *sketch, enum stroke_style style, floa
 		      sketch->nib.theme->shape_width, x, y, right - x, bottom - y);
 }
 
-/* @side: -1 ends at @x, 0 is centred, 1 begins there. */
+/* @side: -1: @text ends at @x; 0: is centred; 1: begins. */
 static void put_text(const struct sketch *sketch, enum token token, enum letter letter,
 		     const char *text, float x, float y, int side, float bound)
 {
@@ -112,7 +112,7 @@ static const char *strokes_of(int element)
 	return NULL;
 }
 
-/* Label of the rung to which a jump leads, number of a routine, or a variable. */
+/* Label of the target of a jump, number of a subroutine, or a variable with its symbol. */
 static void name_element(const struct sketch *sketch, const struct classic_cell *cell,
 			 char *name, const char **symbol)
 {
@@ -285,7 +285,7 @@ static void put_block(struct sketch *sketch, int y, int x, const struct block_lo
 
 /* ---- the rung ---- */
 
-/* An element that conducts nothing, in ClassicLadder too: its number in a dotted frame. */
+/* An element that never conducts: its number in a dotted frame. */
 static void put_odd(const struct sketch *sketch, int y, int x, int element)
 {
 	const float wire = wire_of(y);
@@ -365,7 +365,7 @@ float grid_classic_draw(const struct classic_scene *scene, struct picture *pictu
 	return bottom + 8;
 }
 
-/* ---- theirs above ours ---- */
+/* ---- original and import ---- */
 
 static float put_caption(const struct classic_pair *pair, const char *text, float y,
 			 struct picture *picture)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_classic - a rung of ClassicLadder as it is in its file, as strokes; and above the
- * rungs that the import made of it.
+ * grid_classic - a rung of a ClassicLadder file as strokes, above the rungs that an import
+ * made of it.
  *
- * All its cells are drawn in their places, also those that do nothing. Drawing needs no
- * widget and no display.
+ * Every cell is drawn in its place, also one that does nothing. Drawing needs no widget and
+ * no display.
  */
 #ifndef EDITOR_GRID_CLASSIC_H
 #define EDITOR_GRID_CLASSIC_H
@@ -21,23 +21,23 @@ struct classic_scene {
 	const struct theme *theme;
 };
 
-/** grid_classic_draw - added to @picture at its place; says how high it is, and makes the
- * picture wide enough. Units: px at 100 %. */
+/** grid_classic_draw - adds the rung to @picture and makes that wide enough. Returns the height.
+ * Units: px at 100 %. */
 float grid_classic_draw(const struct classic_scene *scene, struct picture *picture);
 
-/* The rung there, above the rungs here. */
+/* A rung of ClassicLadder, and the rungs of the import. */
 struct classic_pair {
 	struct classic_scene there;
 	const char *there_name;      /* "rung_3.csv"                              */
-	const struct project *project; /* here                                    */
+	const struct project *project; /* the import                               */
 	int pou;
 	const int *rung;             /* 0-based, of @pou                          */
-	int rungs;                   /* 0: only the rung there                    */
+	int rungs;                   /* 0: only the original is drawn             */
 	enum drafting_show show;
-	const char *lost;            /* then a text instead; NULL: none           */
+	const char *lost;            /* text if rungs is 0; NULL: none            */
 };
 
-/** grid_classic_pair - added to @picture at @y, which grows with it; gives where it ends. */
+/** grid_classic_pair - adds both to @picture at @y. Returns the y below them. */
 float grid_classic_pair(const struct classic_pair *pair, float y, struct picture *picture);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_random - one random ClassicLadder project and its script, to look at.
+ * classic_random - writes one random ClassicLadder project and its script, to debug the
+ * differential.
  *
  *   classic_random SEED NAME [odd]     writes NAME.clprj and NAME.script
  */

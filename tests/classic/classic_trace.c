@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_trace - a ClassicLadder project and a script, run by the second evaluator.
+ * classic_trace - runs a script on a ClassicLadder project with the second evaluator.
  *
  *   classic_trace [--faithful] [--changes] [--upstream] PROJECT SCRIPT
  *
- * Prints what ClassicLadder's own recorded traces show. --upstream: a LinuxCNC project as
- * upstream's engine runs it, which made those traces.
+ * Prints a trace in the form of those recorded from ClassicLadder. --upstream: runs a LinuxCNC
+ * project as upstream does, which made the recorded traces.
  */
 #include "tests/classic/run.h"
 

@@ -2,8 +2,8 @@
  *
  * engine - rungs, sections, jumps and calls of a ClassicLadder project.
  *
- * A rung goes column by column from the left, each column from the top; what a coil
- * writes is there at once. Blocks, expressions and charts are in files of their own.
+ * A rung is evaluated column by column from the left, a column from the top. A coil writes at
+ * once. Blocks, expressions and charts have files of their own.
  */
 #include "tests/classic/engine.h"
 
@@ -23,7 +23,8 @@ static bool connected(const struct classic_rung *rung, int x, int y)
 	return y > 0 && y < CLASSIC_ROWS && rung->cell[y][x].top;
 }
 
-/* Power where the cell begins: what any row gives that links join with this one. */
+/* Power at the left end of a cell: any output of the column before, in the rows that links of
+ * this column join. */
 static bool left_of(const struct rung_run *run, int x, int y)
 {
 	int top = y, bottom = y;
@@ -121,7 +122,7 @@ static void cell_run(struct engine *engine, struct rung_run *run, int x, int y)
 
 	switch (cell->element) {
 	case 1: case 2: case 3: case 4:
-		result = contact(engine, run, x, y); /* always, powered or not   */
+		result = contact(engine, run, x, y); /* also without power       */
 		run->out[y][x] = left_of(run, x, y) && result;
 		break;
 	case 9:
@@ -146,7 +147,7 @@ static void cell_run(struct engine *engine, struct rung_run *run, int x, int y)
 	}
 }
 
-/* Where a jump leads; -1: none was made. */
+/* Runs a rung. Returns the target of a jump, -1: none. */
 static int run_rung(struct engine *engine, const struct classic_rung *rung, int at)
 {
 	struct rung_run run = { .rung = rung, .edge = engine->edge[at], .jump = -1 };
@@ -192,7 +193,7 @@ static void run_section(struct engine *engine, const struct classic_section *sec
 
 static void system_bits(struct engine *engine)
 {
-	int64_t ms = engine->now + engine->period; /* of its end, as was seen     */
+	int64_t ms = engine->now + engine->period; /* the end of the scan         */
 
 	if (engine->project->dialect == CLASSIC_LINUXCNC)
 		return;

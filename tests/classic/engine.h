@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * engine - ClassicLadder once more, straight from its files: cell by cell.
+ * engine - a second evaluator of ClassicLadder projects, written from the facts of
+ * ClassicLadder, to check the importer.
  *
- * A second evaluator, to disagree with what the importer makes. It takes the project as
- * it was read and knows nothing of rungs, lists and images of this house. Slow, plain,
- * everything interpreted from its text in each scan.
+ * It runs the cells of the files directly and uses nothing of the engine. It is slow: each
+ * scan interprets the text of expressions.
  */
 #ifndef CLASSIC_ENGINE_H
 #define CLASSIC_ENGINE_H
@@ -34,13 +34,13 @@ struct fifo { int mode; int32_t in, out, put, get, count; bool push, pop, empty,
 
 struct engine {
 	const struct classic_project *project;
-	bool faithful;           /* the original's faults, too                 */
-	bool stopped;            /* too many jumps                             */
+	bool faithful;           /* with ClassicLadder's faults                */
+	bool stopped;            /* after too many jumps                       */
 	int scans;
 	int32_t period;          /* ms, of this scan                           */
 	int64_t now;             /* ms, when this scan began                   */
-	uint8_t *bits;           /* all of them; faithful: one behind the other, as
-				    in the original, where %Q15 may be %S0      */
+	uint8_t *bits;           /* of all kinds; faithful: in one array as in
+				    ClassicLadder, where %Q15 can be %S0        */
 	uint8_t *bit, *input, *output, *led, *system, *error, *step_a;
 	int32_t *word, *input_word, *input_number, *output_word, *system_word, *step_v;
 	struct old_timer *timer;
@@ -48,8 +48,8 @@ struct engine {
 	struct iec_timer *iec;
 	struct counter *counter;
 	struct fifo *fifo;
-	int32_t *list;           /* of all registers, one behind the other     */
-	int fifos;               /* that have a list                           */
+	int32_t *list;           /* values of all registers                    */
+	int fifos;               /* registers that have values                 */
 	bool *active;            /* by position in project->step               */
 	int64_t *active_ms;
 	uint8_t (*edge)[CLASSIC_ROWS][CLASSIC_COLUMNS]; /* by position         */
@@ -59,26 +59,26 @@ struct engine {
 /** engine_new - @project must outlive it. NULL: no memory. */
 struct engine *engine_new(const struct classic_project *project, bool faithful);
 void engine_free(struct engine *engine);
-/** engine_reset - all variables 0, everything as the project says. */
+/** engine_reset - sets all variables to 0, blocks and steps to their initial state. */
 void engine_reset(struct engine *engine);
-/** engine_scan - one scan of @ms. */
+/** engine_scan - runs a scan that is @ms long. */
 void engine_scan(struct engine *engine, int ms);
 /** engine_get, engine_set - a variable by its code; outside: 0, and no effect. */
 int32_t engine_get(const struct engine *engine, int type, int64_t number);
 void engine_set(struct engine *engine, int type, int64_t number, int32_t value);
 /** engine_at - the number of a variable with its index. */
 int64_t engine_at(const struct engine *engine, const struct classic_variable *variable);
-/** engine_compare, engine_operate - an expression's text. */
+/** engine_compare, engine_operate - evaluates the text of an expression. */
 bool engine_compare(struct engine *engine, const char *text);
 void engine_operate(struct engine *engine, const char *text);
-/** engine_block - a block with its inputs by row; @out gets its outputs. */
+/** engine_block - runs a block. @in, @out: by row. */
 void engine_block(struct engine *engine, int element, int number, const bool in[4],
 		  bool out[4]);
-/** engine_sfc - one sequential page. */
+/** engine_sfc - runs a sequential page. */
 void engine_sfc(struct engine *engine, int page);
-/** engine_name - "%TM0.Q" as code and number; length, 0: it is none. */
+/** engine_name - code and number of "%TM0.Q". Returns its length; 0: it is no name. */
 int engine_name(const struct engine *engine, const char *text, int *type, int *number);
-/** engine_print - the other way. */
+/** engine_print - name of a code and number. */
 void engine_print(const struct engine *engine, int type, int number, char *out,
 		  size_t size);
 #endif

@@ -2,9 +2,9 @@
  *
  * engine_block - timers, monostables, counters and registers of ClassicLadder.
  *
- * Each as the facts of the original tell it, and with its faults when they are wanted:
- * F1 a remainder that stays, F2 one unit a scan at most, F3 a monostable that dies, F6 a
- * ring with a slot too many.
+ * With engine->faithful also their faults: F1 a timer keeps its remainder, F2 it counts at
+ * most one unit a scan, F3 a monostable cannot start again, F6 a register has a place too
+ * many.
  */
 #include "tests/classic/engine.h"
 
@@ -126,7 +126,7 @@ static void count(struct counter *counter, const bool in[4], bool out[4])
 	out[2] = counter->full;
 }
 
-/* The next place in a register's ring; the original goes one too far. */
+/* The next place in the ring of a register (F6). */
 static int32_t behind(const struct engine *engine, int32_t at)
 {
 	int32_t slots = engine->project->register_list + (engine->faithful ? 1 : 0);

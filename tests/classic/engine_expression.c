@@ -2,9 +2,9 @@
  *
  * engine_expression - comparisons and assignments of ClassicLadder, from their text.
  *
- * What cannot be read ends the expression; what was found so far is its value. Faults of
- * the original, when they are wanted: F4 `!=` is `=`, F7 rotations insert one bit and a
- * shift to the right clears one, F8 no negation of a variable, F9 a power squares.
+ * Text that cannot be read ends the expression; its value is the part before it. With
+ * engine->faithful also ClassicLadder's faults: F4 `!=` is `=`, F7 rotations insert one bit
+ * and a shift to the right clears one, F8 a variable is not negated, F9 a power squares.
  */
 #include "tests/classic/engine.h"
 
@@ -84,7 +84,7 @@ static int32_t letters(struct text *text)
 	return (int32_t)value;
 }
 
-/* "TYPE/NUMBER[TYPE/NUMBER]@" behind its first @; false: it is none. */
+/* "TYPE/NUMBER[TYPE/NUMBER]@". false: it is no variable. */
 static bool variable(struct text *text, int *type, int64_t *at)
 {
 	struct classic_variable read = { .index_type = -1 };
@@ -126,7 +126,7 @@ static void shifted_out(struct engine *engine, bool bit)
 	engine->system[8] = bit;
 }
 
-/* How many bits: what is beyond 32 has the same effect as 32. */
+/* A number of bits: more than 32 act as 32. */
 static int32_t shift(struct engine *engine, bool left, uint32_t a, int32_t n)
 {
 	uint32_t result;
@@ -168,14 +168,14 @@ static int32_t power(int32_t a, int32_t b)
 {
 	uint32_t result = 1;
 
-	/* Bits of the exponent: it may be large.                               */
+	/* By squaring, because the exponent can be large.                      */
 	for (uint32_t base = (uint32_t)a; b > 0; b >>= 1, base *= base)
 		if (b & 1)
 			result *= base;
 	return (int32_t)result;
 }
 
-/* LinuxCNC's ^, as it is: a square for each of b. */
+/* ^ of LinuxCNC: squares b times (F9). */
 static int32_t squares(int32_t a, int32_t b)
 {
 	uint32_t result = (uint32_t)a;
@@ -220,7 +220,7 @@ static int32_t call(struct engine *engine, int word, const int32_t *arg, int cou
 	}
 }
 
-/* The word under the cursor with its arguments; -1 in @word: there is none. */
+/* The function at the cursor with its arguments; -1 in @word: there is none. */
 static int32_t function(struct text *text, int *word)
 {
 	int32_t arg[ARGS] = { 0 };
@@ -265,7 +265,7 @@ static int32_t term(struct text *text)
 		    !text->engine->faithful) { /* F8 */
 			text->at++;
 			result = wrap(-(int64_t)term(text));
-		} else { /* nothing is left of it */
+		} else {
 			text->at++;
 			term(text);
 		}

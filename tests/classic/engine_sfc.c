@@ -2,9 +2,8 @@
  *
  * engine_sfc - sequential pages of ClassicLadder.
  *
- * Transitions in the order of the file, each at once, again and again until none fires
- * or fifty rounds are over. The original lets the times of all steps go on once for each
- * page (F5).
+ * Transitions fire in the order of the file, at once, in rounds until none fires, at most 50.
+ * ClassicLadder advances the times of all steps once for each page (F5).
  */
 #include "tests/classic/engine.h"
 

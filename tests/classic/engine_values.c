@@ -2,8 +2,7 @@
  *
  * engine_values - variables of a ClassicLadder project, by code and by name.
  *
- * What the original reads and writes beyond its arrays is not imitated: outside there is
- * nothing.
+ * Memory behind arrays, which ClassicLadder reads and writes, is not imitated: reads give 0.
  */
 #include "tests/classic/engine.h"
 
@@ -18,7 +17,7 @@ static bool is_lc(const struct engine *engine)
 	return engine->project->dialect == CLASSIC_LINUXCNC;
 }
 
-/* What holds a bit or a number; NULL: something computed, or nothing. */
+/* The array of bits of a type; NULL: it has none. */
 static uint8_t *bit_of(const struct engine *engine, int type)
 {
 	switch (type) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * ladder_random - one random ladder that ClassicLadder can say, and a script for it.
+ * ladder_random - a random ladder that can be exported to ClassicLadder, and a script.
  *
  *   ladder_random SEED NAME     writes NAME.rung and NAME.script
  *
- * It never was ClassicLadder's: what `ladder export` makes of it must run as it does. The
- * script prints its variables by their names here.
+ * The result of `ladder export` must run as the ladder does. The script prints variables by
+ * their names in the rung file.
  */
 #include "tests/classic/ladder_words.h"
 
@@ -25,7 +25,7 @@ static FILE *open_beside(const char *name, const char *end)
 	return file;
 }
 
-/* Of the loop that random.c makes, and STOP; NULL: it stays. */
+/* Replaces STOP and the loop that random.c makes; NULL: unchanged. */
 static const char *in_its_place(const char *text)
 {
 	if (!strcmp(text, "STOP"))
@@ -37,7 +37,7 @@ static const char *in_its_place(const char *text)
 	return strstr(text, ":= 0") ? "[ num_b := 0 ]" : "[ num_b := num_b + 1 ]";
 }
 
-/* Own blocks are none of ClassicLadder's; a stop neither. */
+/* Leaves out what ClassicLadder does not have: function blocks of one's own, STOP, loops. */
 static void leave_out(struct random_program *program)
 {
 	while (program->rungs && program->rung[program->rungs - 1].pou > RANDOM_OTHER)
@@ -55,7 +55,7 @@ static void leave_out(struct random_program *program)
 	program->sized = false;
 }
 
-/* A second call of an instance is mostly one of another. */
+/* Most second calls of an instance become calls of another one. */
 static void name_calls(struct random_source *source, struct random_program *program)
 {
 	int calls[32] = { 0 };

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * ladder_words - random cells that ClassicLadder can say: contacts, coils, blocks of
- * IEC 61131-3 and its own, numbers that stay small.
+ * ladder_words - random cells that can be exported to ClassicLadder: contacts, coils, blocks
+ * of IEC 61131-3 and of ClassicLadder, small numbers.
  *
- * What tests/walker/words.c is for everything else: random.c makes the networks, this what
- * stands in them. Left out is what an export tells to be another there: numbers that leave
- * their type, division by zero, counters below 0.
+ * random.c makes the networks, this file their cells, as tests/walker/words.c does for other
+ * tests. Left out is what ClassicLadder does otherwise: overflow, division by zero, counters
+ * below 0.
  */
 #include "tests/classic/ladder_words.h"
 
@@ -65,7 +65,7 @@ static const char *const boxes[] = {
 	"CL_TON clton_a DT:=SYS_CYCLE", "CL_TOF cltof_a DT:=SYS_CYCLE",
 	"CL_TP cltp_a DT:=SYS_CYCLE", "CL_COUNTER clc_a UP:=bool_e",
 };
-/* Boxes whose further inputs are fed by branches. */
+/* Boxes with inputs that branches feed. */
 static const struct { const char *text, *pin[3]; int pins; } fed[] = {
 	{ "CTU ctu_a PV:=3", { "R" }, 1 }, { "CTD ctd_a PV:=4", { "LD" }, 1 },
 	{ "CTUD ctud_a PV:=3", { "CD", "R", "LD" }, 3 }, { "SR sr_a", { "R" }, 1 },
@@ -91,7 +91,7 @@ static void put(struct text *text, const char *format, ...)
 		text->used = text->size - 1;
 }
 
-/* ---- expressions: no value beyond some thousands ---- */
+/* ---- expressions: values stay below some thousands ---- */
 
 static void small(struct random_source *source, struct text *text, int depth)
 {
@@ -172,7 +172,7 @@ static void assignment(struct random_source *source, struct text *text)
 
 /* ---- cells ---- */
 
-/* Short enough for a cell, and whole. */
+/* An expression that is not too long for a cell. */
 static void whole(struct random_source *source, char *out, size_t size,
 		  void (*make)(struct random_source *source, struct text *text))
 {
@@ -242,7 +242,7 @@ int random_box(struct random_source *source, char *out, size_t size, const char 
 	return 0;
 }
 
-/* ---- what random.c asks for besides ---- */
+/* ---- other functions that random.c needs ---- */
 
 void random_own_call(struct random_source *source, int pou, char *out, size_t size)
 {
@@ -295,7 +295,7 @@ bool random_block(const char *name, size_t len, size_t *which)
 	return false;
 }
 
-/* sr_a, sr_b and so on: each call has an instance of its own. */
+/* sr_a, sr_b, …: an instance for each call. */
 static void declare_blocks(const char *body, struct text *text)
 {
 	for (size_t i = 0; i < COUNT(blocks); i++) {

@@ -2,9 +2,8 @@
  *
  * random_expression - comparisons and assignments of random projects.
  *
- * At most 49 bytes each, as ClassicLadder holds. Divisions by zero and results of more
- * than 32 bits are wanted; what the original cannot read is not, for what it makes of it
- * nobody wrote down.
+ * At most 49 bytes each, as in ClassicLadder. Divisions by zero and overflow are included;
+ * text that ClassicLadder cannot read is not, because its result is not defined.
  */
 #include "tests/classic/random_inside.h"
 
@@ -157,7 +156,7 @@ static void put_operate(struct making *making, int number)
 			add(&expression, "@%d/%d@", targets[making_below(making, making->linuxcnc ? 6 : 7)],
 			    making_below(making, BLOCKS));
 		if (expression.text[expression.len - 1] == '@') {
-			/* Times and counts that are written stay small.              */
+			/* Presets and counters get small numbers.                    */
 			bool block = expression.text[1] == '2' && expression.text[2] > '2' &&
 				     expression.text[2] < '7';
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * random_inside - what the two files that make random projects share.
+ * random_inside - types and functions that the two files of random projects share.
  */
 #ifndef CLASSIC_RANDOM_INSIDE_H
 #define CLASSIC_RANDOM_INSIDE_H
@@ -21,20 +21,20 @@ struct making {
 	bool odd, linuxcnc, failed;
 	char *text;
 	size_t len, size;
-	int compares, operates;  /* expressions: those first, then these       */
+	int compares, operates;  /* numbers of expressions, in this order      */
 	int used[5];             /* blocks of each kind                        */
 	int target;              /* last rung of the section                   */
-	int subroutines, callable; /* those from callable on may be called     */
+	int subroutines, callable; /* subroutines from callable on can be called */
 	int pages, transitions;
-	bool numbered[STEPS];    /* there is a step of this number             */
+	bool numbered[STEPS];    /* a step has this number                     */
 };
 
-/** making_put - more text. */
+/** making_put - adds text. */
 void making_put(struct making *making, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
 /** making_below - 0 to count - 1. */
 int making_below(struct making *making, int count);
 bool making_chance(struct making *making, int percent);
-/** put_expressions - the member, and how many of each kind there are. */
+/** put_expressions - writes the member; sets compares and operates. */
 void put_expressions(struct making *making);
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * random_project - ClassicLadder projects with a script each, from a seed.
+ * random_project - makes a ClassicLadder project and a script from a seed.
  *
- * A rung is drawn into a grid, row by row: elements, wires, blocks with all their rows,
- * links up. Jumps lead forward and calls to later sub-routines, so that a scan ends.
+ * A rung is drawn into a grid, row by row: elements, wires, blocks with all their rows, links.
+ * Jumps lead forward and calls to later subroutines, so that a scan ends.
  */
 #include "tests/classic/random_project.h"
 
@@ -72,7 +72,7 @@ static void read_bit(struct making *making, struct cell *cell)
 		cell->number = making_below(making, STEPS);
 	} else {
 		cell->type = making->linuxcnc ? 75 : making_chance(making, 50) ? 70 : 65;
-		/* %S7 and %S8 tell of divisions and shifts, in what has no power, too. */
+		/* Not %S7 and %S8: here, elements without power do not set them. */
 		cell->number = making_below(making, cell->type == 70 ? 7 : 9);
 	}
 	if (cell->type == 0 && making_chance(making, 10))
@@ -103,7 +103,7 @@ static bool is_free(const struct grid *grid, int x, int y, int columns, int rows
 	return true;
 }
 
-/* Timers and the like, 2 wide: the code stands at the right top. */
+/* A block, 2 columns wide: its code is in the upper right cell. */
 static bool add_block(struct making *making, struct grid *grid, int x, int y)
 {
 	static const int rows[] = { 2, 2, 4, 2, 3 };
@@ -202,7 +202,7 @@ static void add_coil(struct making *making, struct grid *grid, int y, int rung)
 	cell->top = y > 0 && making_chance(making, 15);
 }
 
-/* What the editor would not do: something anywhere. */
+/* Any element anywhere, which the editor does not allow. */
 static void add_odd(struct making *making, struct grid *grid)
 {
 	static const int codes[] = { 0, 1, 2, 3, 9, 99, 103, 50, 53, 20, 60, 51, 4, 200 };
@@ -210,7 +210,7 @@ static void add_odd(struct making *making, struct grid *grid)
 	struct cell *cell = &grid->cell[y][x];
 
 	cell->element = codes[making_below(making, 14)];
-	/* What begins left of the rung has no meaning that was ever seen.      */
+	/* An element that begins left of the rung has no defined meaning.      */
 	if (x < 2 && (cell->element == 20 || cell->element == 60))
 		cell->element = 9;
 	cell->top = making_chance(making, 50);
@@ -275,7 +275,7 @@ static void put_rungs(struct making *making, int first, int count)
 			 i + 1 < count ? first + i + 1 : -1);
 }
 
-/* One of them in front of the others still to come, as long as there are any. */
+/* A random kind of those that are left; -1: none is. */
 static int choose(struct making *making, int *left, int kinds)
 {
 	int total = 0, at;
@@ -295,8 +295,7 @@ static int choose(struct making *making, int *left, int kinds)
 	return -1;
 }
 
-/* Main sections, sub-routines and pages in any order; now and then a page that no section
- * shows. */
+/* Main sections, subroutines and pages in any order; sometimes a page that no section shows. */
 static void put_sections(struct making *making)
 {
 	enum { MAIN, SUBROUTINE, PAGE, KINDS };
@@ -336,7 +335,7 @@ static void put_sections(struct making *making)
 /* A list of up to @most steps of the page, ten numbers. */
 static void put_links(struct making *making, int first, int count, int most)
 {
-	/* None now and then: out of nothing, into nothing.                     */
+	/* Sometimes none: a transition from or to no step.                     */
 	int links = making_chance(making, 75) ? 1 : making_below(making, most + 1);
 	int at = making_below(making, count);
 
@@ -351,7 +350,7 @@ static void put_page(struct making *making, int page, int first_transition)
 	int transitions = steps + making_below(making, 4);
 
 	for (int i = 0; i < steps; i++) {
-		/* Some have a number that another one has, too.                   */
+		/* Some have the number of another step.                           */
 		int number = making_chance(making, 95) ? first + i :
 			     making_below(making, STEPS);
 
@@ -364,7 +363,7 @@ static void put_page(struct making *making, int page, int first_transition)
 		struct cell cell = { .index = -1 };
 
 		making_put(making, "T%d,", first_transition + i);
-		if (i < steps) { /* a way through all of them                      */
+		if (i < steps) { /* a way through all steps                        */
 			for (int k = 0; k < 10; k++)
 				making_put(making, "%d,", k ? -1 : first + (i + 1) % steps);
 			for (int k = 0; k < 10; k++)

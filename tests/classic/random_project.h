@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * random_project - ClassicLadder projects with a script each, from a seed.
+ * random_project - makes a ClassicLadder project and a script from a seed.
  *
- * Mostly what its editor allows; a few things that it does not and that its engine runs
- * all the same. What would not end or has no defined meaning there is not made.
+ * Most of it is what the editor of ClassicLadder allows; some is not, but its engine runs it.
+ * Nothing is made that does not end or has no defined meaning there.
  */
 #ifndef CLASSIC_RANDOM_PROJECT_H
 #define CLASSIC_RANDOM_PROJECT_H
@@ -16,7 +16,7 @@ struct random_texts {
 	char *project, *script;  /* free() each                                */
 };
 
-/** random_project - both texts of a seed; @odd: also what the editor would not allow.
- * false: no memory. */
+/** random_project - both texts of a seed. @odd: also what the editor does not allow. false: no
+ * memory. */
 bool random_project(uint64_t seed, bool odd, struct random_texts *texts);
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * run - scripts for the second evaluator, and traces as ClassicLadder's were recorded.
+ * run - runs scripts with the second evaluator and prints traces.
  */
 #include "tests/classic/run.h"
 #include "tests/classic/engine.h"
@@ -75,7 +75,7 @@ void unload_project(struct loaded *loaded)
 	report_free(&loaded->report);
 }
 
-/* The next word of a line into @word; false: there is none. */
+/* @word gets the next word of a line. false: there is none. */
 static bool next_word(const char **at, char word[WORD])
 {
 	size_t len;
@@ -148,7 +148,7 @@ static struct line set_values(struct engine *engine, const char *at, int period)
 		else if (strcmp(word, ".") != 0)
 			line.good = false;
 		if (!line.good) {
-			fprintf(stderr, "%s: what is this?\n", word);
+			fprintf(stderr, "%s: unknown word\n", word);
 			return line;
 		}
 	}

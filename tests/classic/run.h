@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * run - scripts for the second evaluator, and traces as ClassicLadder's were recorded.
+ * run - runs scripts with the second evaluator and prints traces.
  */
 #ifndef CLASSIC_RUN_H
 #define CLASSIC_RUN_H
@@ -16,17 +16,18 @@ struct loaded {
 	struct classic_project *project;
 };
 
-/** load_project - a file or a folder; what is wrong goes to standard error. */
+/** load_project - reads a file or a folder. false: errors are on standard error. */
 bool load_project(struct loaded *loaded, const char *path);
 void unload_project(struct loaded *loaded);
-/** load_text - a whole file; the caller's, free(). NULL: told. */
+/** load_text - the text of a file; free it with free(). NULL: the error is on standard
+ * error. */
 char *load_text(const char *path);
 /**
- * run_script - each line of the script, and what is to be shown
+ * run_script - runs a script and prints the trace
  *
- * A line sets variables and is a scan: `%I0=1 %W3=-4`, `.`, `+N` it takes N ms, `xN` N of
- * them, `quiet` the last alone is shown. `@print %Q0..7 …`, `@echo …`, `@period N`,
- * `@reset`. With @changes only what changed is shown.
+ * A line sets variables and runs a scan: `%I0=1 %W3=-4`; `.` sets nothing; `+N`: the scan is N
+ * ms long; `xN`: N scans; `quiet`: only the last one is printed. Also `@print %Q0..7 …`,
+ * `@echo …`, `@period N`, `@reset`. @changes: prints only variables that changed.
  */
 bool run_script(const struct classic_project *project, bool faithful, bool changes,
 		const char *script, FILE *out);
