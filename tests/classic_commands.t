@@ -133,7 +133,7 @@ sub test_places {
 # An image has the period and names of the project.
 sub test_image {
 	my ($text) = said($ladder, 'trace', 'out.rungc', 'script', '--changes');
-	like($text, qr/^1 t=40 %Q0=1 Motor=1$/m, 'the image has the project's period');
+	like($text, qr/^1 t=40 %Q0=1 Motor=1$/m, 'the image has the period of the project');
 	said($ladder, 'import', 'pump.clprj', '-o', 'imported.rung');
 	said($ladder, 'build', 'imported.rung', '-o', 'imported.rungc');
 	is(slurp('imported.rungc') eq slurp('out.rungc') ? 1 : 0, 1, 'the image is that of the imported file');
