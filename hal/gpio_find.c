@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * gpio_find - looks for lines on the chips of this machine, by name, or by the
- * label of their chip and an offset, and says what is in the way. Chip numbers
- * move between boots, so they are looked up each time and never stored.
+ * gpio_find - finds lines on the chips of this machine by name, or by chip label and
+ * offset, or reports why it cannot. Chip numbers change between boots, so they are looked
+ * up each time.
  */
 #include "hal/gpio.h"
 
@@ -20,9 +20,9 @@
 #define CHIP_PREFIX "gpiochip"
 #define CHIP_LAST   9999
 #define PATH_BYTES  256
-#define DENIED_MOST 16       /* chips that may not be opened, in one message */
+#define DENIED_MOST 16       /* chips without permission, in one message     */
 #define CHIPS_SHOWN 3        /* of one group                                 */
-#define NO_GROUP    UINT_MAX /* neither is the group of a file               */
+#define NO_GROUP    UINT_MAX /* this and UNSEEN are no group ids             */
 #define UNSEEN      (UINT_MAX - 1)
 #define GROUP_OPENS (S_IRGRP | S_IWGRP)
 
@@ -37,7 +37,7 @@ void gpio_text(char *out, const char *text)
 	snprintf(out, GPIO_TEXT, "%s", text ? text : "");
 }
 
-/* 7 of "gpiochip7"; -1: no name of a chip. */
+/* 7 for "gpiochip7"; -1: not the name of a chip. */
 static int chip_number(const char *name)
 {
 	size_t prefix = strlen(CHIP_PREFIX);
@@ -53,8 +53,8 @@ static int chip_number(const char *name)
 	return number;
 }
 
-/* Where a symbolic link of /dev leads, as Raspberry Pi OS has them; a chip must
- * not be seen under two numbers. -1: @number is no link. */
+/* The number to which a symbolic link in /dev leads (Raspberry Pi OS has such links), so
+ * that no chip is found twice. -1: @number is no link. */
 static int link_target(const char *dev, int number)
 {
 	char path[PATH_BYTES], target[PATH_BYTES];
@@ -79,14 +79,14 @@ static bool is_link(const char *dev, int number)
 	return lstat(path, &status) == 0 && S_ISLNK(status.st_mode);
 }
 
-/* No chip any more, or none at all. */
+/* The chip was removed, or the file is no chip. */
 static bool is_gone(int error)
 {
 	return error == -ENOENT || error == -ENODEV || error == -ENXIO ||
 	       error == -ENOTTY;
 }
 
-/* The next chip in the order of numbers; -1: that was the last. */
+/* The next chip by number; -1: there is none. */
 static int chip_after(const char *dev, int last)
 {
 	DIR *folder = opendir(dev);
@@ -106,7 +106,7 @@ static int chip_after(const char *dev, int last)
 	return best;
 }
 
-/* "gpio" of a line "gpio:x:993:user" of /etc/group, if it is the group @id. */
+/* Cuts a line "gpio:x:993:user" of /etc/group to "gpio". Returns whether it is group @id. */
 static bool is_group(char *line, unsigned int id)
 {
 	char *end = strchr(line, ':'), *at;
@@ -123,8 +123,7 @@ static bool is_group(char *line, unsigned int id)
 	return number == id;
 }
 
-/* Read here: the C library's way needs its shared libraries even in a static
- * program. */
+/* getgrgid() needs the shared C library even in a static program. */
 static void group_print(unsigned int id, char *out, size_t size)
 {
 	FILE *groups = fopen("/etc/group", "re");
@@ -141,10 +140,9 @@ static void group_print(unsigned int id, char *out, size_t size)
 		fclose(groups);
 }
 
-/* Chips that may not be opened: those of one group side by side, and at the end
- * those that their mode opens to no group. */
+/* Chips without permission, sorted by group; chips that no group may open are last. */
 struct denied {
-	int count;               /* may be more than are kept              */
+	int count;               /* also of those that are not kept        */
 	struct {
 		int chip;
 		unsigned int group;
@@ -175,8 +173,8 @@ static void denied_add(struct denied *denied, const char *path)
 	denied->kept[at].group = group;
 }
 
-/* "; 0, 1, 4, ... (gpio)": those of the group of @first; before the very first
- * stands "gpiochip". Gives the index behind them. */
+/* Prints the chips of one group: "; 0, 1, 4, ... (gpio)", for the first group "gpiochip0,
+ * …". Returns the index of the next group. */
 static int denied_group(const struct denied *denied, int first, char *out,
 			size_t size)
 {
@@ -200,8 +198,7 @@ static int denied_group(const struct denied *denied, int first, char *out,
 	return i;
 }
 
-/* Each group is named, as a user has to know which to join; what has no room is
- * not passed over in silence. */
+/* Names each group, so that the user knows which to join; "others" if there is no room. */
 static bool denied_say(const struct denied *denied, struct trouble *why)
 {
 	static const char others[] = "; others";
@@ -225,7 +222,7 @@ static bool denied_say(const struct denied *denied, struct trouble *why)
 			   said < denied->count ? others : "");
 }
 
-/* Why a chip or request could not be had, from -errno. */
+/* The error of a chip or request, from -errno. */
 static bool refused(struct trouble *why, const char *path, int error)
 {
 	struct denied denied = { .count = 0 };
@@ -249,7 +246,7 @@ static bool busy(struct trouble *why, const struct io_point *point,
 			   line->owner[0] ? line->owner : "the kernel");
 }
 
-/* The same for a request: finds the line that is in use. */
+/* The same for a request; for EBUSY, names the line that is in use. */
 static void blame(struct trouble *why, const struct request *request,
 		  struct gpio_chip *chip, const char *path, int error)
 {
@@ -289,7 +286,7 @@ bool gpio_take(struct request *request, struct trouble *why,
 	return !error;
 }
 
-/* What a search has seen so far. */
+/* A search and its result so far. */
 struct search {
 	const struct io_point *point;
 	const char *dev;
@@ -298,8 +295,8 @@ struct search {
 	int second;              /* chip of the second hit                 */
 	struct gpio_line line;   /* at the first hit                       */
 	struct denied denied;
-	int failed, error;       /* the first chip with another error; -1  */
-	uint32_t lines;          /* of the chip that was asked for         */
+	int failed, error;       /* the first chip with another error; -1: none */
+	uint32_t lines;          /* of the wanted chip                     */
 };
 
 static void hit(struct search *search, int chip, uint32_t offset,
@@ -337,7 +334,7 @@ static void search_offset(struct search *search, struct gpio_chip *chip,
 	hit(search, number, point->offset, &line);
 }
 
-/* gpiochip7, /dev/gpiochip7: by its number; -1: @text is a label. */
+/* The number of gpiochip7 or /dev/gpiochip7; -1: @text is a label. */
 static int wanted_number(const char *text, const char *dev)
 {
 	size_t prefix = strlen(dev);

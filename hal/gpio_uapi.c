@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * gpio_uapi - the gpio driver over the kernel's own interface, version 2 of the
- * GPIO character device (linux/gpio.h, Linux 5.10 and later), for boards without
- * libgpiod. Each line of a request has flags of its own; it allocates nothing.
+ * gpio_uapi - the gpio driver for boards without libgpiod: version 2 of the GPIO character
+ * device (linux/gpio.h, Linux 5.10 and later). Each line of a request has its own flags. It
+ * allocates nothing.
  */
 #include "hal/gpio.h"
 
@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 struct uapi_state {
-	int fd;        /* of the lines; the chip is closed again            */
+	int fd;        /* of the lines; the chip is closed                  */
 	uint64_t all;  /* a bit for each line                               */
 };
 
@@ -95,7 +95,7 @@ static uint64_t flags_of(const struct io_point *point, bool output)
 	       (output ? GPIO_V2_LINE_FLAG_OUTPUT : GPIO_V2_LINE_FLAG_INPUT);
 }
 
-/* The attribute of these flags; NULL: the kernel takes no more of them. */
+/* Finds or adds the attribute with these flags; NULL: too many for the kernel. */
 static struct gpio_v2_line_config_attribute *
 attribute_of(struct gpio_v2_line_config *config, uint64_t flags)
 {
@@ -114,7 +114,7 @@ attribute_of(struct gpio_v2_line_config *config, uint64_t flags)
 	return attr;
 }
 
-/* The first line's flags are the request's; lines that differ have attributes. */
+/* The request has the flags of its first line; lines with other flags have attributes. */
 static int set_config(struct gpio_v2_line_config *config,
 		      const struct request *request)
 {
@@ -204,8 +204,7 @@ const char *gpio_version(void)
 }
 
 const struct driver driver_gpio = {
-	.word = "gpio", .doc = "lines of the GPIO character device",
-	.state_size = sizeof(struct uapi_state),
+	.word = "gpio", .state_size = sizeof(struct uapi_state),
 	.needs_line = true,
 	.open = uapi_open, .close = uapi_close,
 	.read = uapi_read, .write = uapi_write,

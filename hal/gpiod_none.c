@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * gpiod_none - stands for the gpio driver where libgpiod was not there to build
- * with. A map that names it is refused with LD516; nothing is guessed.
+ * gpiod_none - replaces the gpio driver in builds with HAL=none. A map that names it is
+ * refused with LD516.
  */
 #include "hal/drivers.h"
 
@@ -16,6 +16,5 @@ const char *gpio_version(void)
 }
 
 const struct driver driver_gpio = {
-	.word = "gpio", .doc = "not built in: libgpiod was missing",
-	.state_size = 1, .needs_line = true,
+	.word = "gpio", .state_size = 1, .needs_line = true,
 };

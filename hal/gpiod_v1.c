@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * gpiod_v1 - the gpio driver over libgpiod 1.6 (Debian 12). A request has one
- * set of flags there, and its chip stays open as long as it has the lines.
+ * gpiod_v1 - the gpio driver with libgpiod 1.6 (Debian 12). A request has one set of flags,
+ * and its chip stays open.
  */
 #include "hal/gpio.h"
 
@@ -162,8 +162,7 @@ const char *gpio_version(void)
 }
 
 const struct driver driver_gpio = {
-	.word = "gpio", .doc = "lines of the GPIO character device",
-	.state_size = sizeof(struct v1_state),
+	.word = "gpio", .state_size = sizeof(struct v1_state),
 	.needs_line = true, .same_flags = true,
 	.open = v1_open, .close = v1_close, .read = v1_read, .write = v1_write,
 	.find = gpio_find, .list = gpio_list,

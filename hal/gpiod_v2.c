@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * gpiod_v2 - the gpio driver over libgpiod 2.x (Debian 13). Each line of a
- * request has settings of its own, and a request lives on without its chip.
+ * gpiod_v2 - the gpio driver with libgpiod 2.x (Debian 13). Each line of a request has its
+ * own settings, and the chip is closed after the request.
  */
 #include "hal/gpio.h"
 
@@ -205,8 +205,7 @@ const char *gpio_version(void)
 }
 
 const struct driver driver_gpio = {
-	.word = "gpio", .doc = "lines of the GPIO character device",
-	.state_size = sizeof(struct v2_state),
+	.word = "gpio", .state_size = sizeof(struct v2_state),
 	.needs_line = true,
 	.open = v2_open, .close = v2_close, .read = v2_read, .write = v2_write,
 	.find = gpio_find, .list = gpio_list,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * hal - moves levels between requests and the process image, once a scan. It
- * allocates nothing and opens nothing; hal_open.c does.
+ * hal - moves levels between requests and the process image in each scan. hal_open.c
+ * allocates and opens.
  */
 #include "hal/request.h"
 
@@ -40,7 +40,7 @@ enum hal_quality hal_quality(const struct hal *hal)
 	return worst;
 }
 
-/* A change counts once it has been seen for the debounce time of its line. */
+/* A line changes its value when the level has differed for its debounce time. */
 static uint64_t debounce(struct hal_request *request, uint64_t level,
 			 int64_t now_ns)
 {
@@ -149,8 +149,7 @@ static bool write_request(struct hal *hal, struct hal_request *request,
 	return true;
 }
 
-/* The first call after an opening only starts the clock of the refresh: the
- * line shows its safe value since it was taken. */
+/* The first call after opening only starts the refresh time: the line has its safe value. */
 static bool must_write(struct hal_request *request, uint64_t value,
 		       int64_t now_ns)
 {
@@ -183,8 +182,8 @@ bool WritePhysicalOutputs(struct hal *hal, struct image *image, int64_t now_ns)
 	return good;
 }
 
-/* A request in fault is tried too, and stays in fault: only hal_reopen() ends
- * that, so that a line that comes and goes does not come back by itself. */
+/* Also writes requests in fault. They stay in fault until hal_reopen(), so that a line
+ * with a loose contact does not come back by itself. */
 bool hal_write_safe(struct hal *hal)
 {
 	bool good = true;
@@ -225,18 +224,4 @@ struct request *hal_find(struct hal *hal, struct iec_addr addr, uint32_t *line)
 		}
 	}
 	return NULL;
-}
-
-enum hal_quality hal_point_quality(const struct hal *hal, int index)
-{
-	const struct io_point *point = &hal->map->point[index];
-
-	for (uint32_t i = 0; i < hal->request_count; i++) {
-		const struct request *ask = &hal->request[i].ask;
-
-		for (uint32_t k = 0; k < ask->count; k++)
-			if (ask->line[k].point == point)
-				return quality_of(&hal->request[i]);
-	}
-	return QUALITY_GOOD;
 }

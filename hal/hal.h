@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * hal - the pins of a board, behind two calls a scan.
+ * hal - the pins of a board: two calls in each scan.
  *
- * It turns an I/O map into requests of drivers and moves levels between them
- * and the process image. Inversion, debounce, failed reads and safe values are
- * here, once for all drivers. It reads no clock, starts no thread and decides
- * nothing: it reports a fault of a line to the caller, which stops the program.
+ * It turns an I/O map into requests of drivers and moves levels between them and the
+ * process image. It handles inversion, debounce, failed reads and safe values for all
+ * drivers. It reads no clock and starts no thread. It reports a fault of a line; the caller
+ * stops the program.
  */
 #ifndef HAL_HAL_H
 #define HAL_HAL_H
@@ -14,13 +14,13 @@
 
 #include "engine/scan/image.h"
 
-#define HAL_REFRESH_NS  1000000000 /* outputs are written at least so often */
-#define HAL_FAILURES    3          /* in a row are a fault                  */
+#define HAL_REFRESH_NS  1000000000 /* longest time between two writes of an output */
+#define HAL_FAILURES    3          /* failed calls in a row that are a fault */
 
 enum hal_quality {
 	QUALITY_GOOD,
-	QUALITY_STALE, /* the last call failed; the value before is kept     */
-	QUALITY_FAULT, /* three in a row; not asked again until hal_reopen   */
+	QUALITY_STALE, /* the last call failed; the previous value is kept   */
+	QUALITY_FAULT, /* HAL_FAILURES in a row; not read until hal_reopen() */
 };
 
 struct hal_request;
@@ -32,55 +32,55 @@ struct hal {
 	uint32_t request_count;
 	volatile int held;      /* outputs are held at their safe values      */
 	uint64_t failed;        /* calls of drivers that failed               */
-	uint64_t reopened;      /* requests that were taken again             */
+	uint64_t reopened;      /* requests that hal_reopen() opened          */
 	size_t bytes;           /* taken from the arena                       */
-	/* Told of each change of an output that a driver took, also from
-	 * hal_write_safe(), so perhaps in a signal handler; may be NULL. */
+	/* Called for each change of an output, also by hal_write_safe(), so perhaps
+	 * in a signal handler; or NULL. */
 	void (*trace)(void *context, const struct io_point *point, bool value);
 	void *trace_context;
 };
 
 /**
- * hal_open - takes all lines of a map
+ * hal_open - requests all lines of a map
  * @map:   from iomap_read(); borrowed until hal_close()
- * @arena: lends memory until hal_close(); nothing is allocated later by us
- *         (a libgpiod may, while hal_reopen() runs)
+ * @arena: memory until hal_close(); nothing is allocated later, except by libgpiod in
+ *         hal_reopen()
  *
- * First finds every line, and touches nothing unless all are there, free, and
- * named once. Takes inputs first and reads them once, so that the first scan
- * sees real values; then outputs, which begin with their safe values.
+ * First finds every line; requests none unless all exist, are free and named once. Then
+ * requests inputs and reads them once, so that the first scan has real values; then
+ * outputs, with their safe values.
  * Owns: the caller, hal_close().   Scan-safe: no.
- * Fails: false and an error for each line; all lines are given back.
+ * Fails: false and an error for each line; all lines are released.
  */
 bool hal_open(struct hal *hal, const struct iomap *map, struct arena *arena,
 	      struct diag_list *diags);
 
-/** hal_close - safe values, then gives all lines back. Scan-safe: no. */
+/** hal_close - writes the safe values and releases all lines. Scan-safe: no. */
 void hal_close(struct hal *hal);
 
 /**
- * ReadPhysicalInputs - levels of all inputs into the process image
- * @now_ns: time of this scan, monotonic; debounce counts with it
+ * ReadPhysicalInputs - reads the levels of all inputs into the process image
+ * @now_ns: time of this scan, monotonic; for debounce
  *
- * One call of a driver a request. A request that fails keeps its values.
+ * One call of a driver per request. A request that fails keeps its values.
  * Scan-safe: yes.   Fails: false while a request is in fault.
  */
 bool ReadPhysicalInputs(struct hal *hal, struct image *image, int64_t now_ns);
 
 /**
- * WritePhysicalOutputs - outputs of the process image to the lines
+ * WritePhysicalOutputs - writes the outputs of the process image to the lines
  *
- * A request is written when one of its values changed, when the write before
- * failed, and every HAL_REFRESH_NS. Does nothing while outputs are held.
+ * A request is written when a value has changed, when the previous write failed, and every
+ * HAL_REFRESH_NS. Does nothing while outputs are held.
  * Scan-safe: yes.   Fails: false while a request is in fault.
  */
 bool WritePhysicalOutputs(struct hal *hal, struct image *image, int64_t now_ns);
 
 /**
- * hal_write_safe - drives all outputs to their safe values and holds them there
+ * hal_write_safe - writes all safe values and holds the outputs there
  *
  * Scan-safe: yes; also in a signal handler that interrupted a scan.
- * Fails: false if a driver refused; call it again.
+ * Fails: false if a driver failed; call it again.
  */
 bool hal_write_safe(struct hal *hal);
 
@@ -88,28 +88,25 @@ bool hal_write_safe(struct hal *hal);
 void hal_release(struct hal *hal);
 
 /**
- * hal_reopen - tries to take the requests in fault again
+ * hal_reopen - tries to request the lines in fault again
  *
- * Looks for each line anew (a chip that came back may have another number);
- * outputs begin with their safe values.
- * Scan-safe: no; call it while nothing runs.   Fails: false: not all answer.
+ * Finds each line again, because a chip that was away may have another number. Outputs
+ * begin with their safe values.
+ * Scan-safe: no; call it while no program runs.   Fails: false if a line is still in fault.
  */
 bool hal_reopen(struct hal *hal);
 
-/** hal_quality - the worst of all points. Scan-safe: yes. */
+/** hal_quality - the worst quality of all requests. Scan-safe: yes. */
 enum hal_quality hal_quality(const struct hal *hal);
-/** hal_point_quality - of point @index of the map. Scan-safe: yes (a
- * search). */
-enum hal_quality hal_point_quality(const struct hal *hal, int index);
-/** hal_find - request and bit of an address, e.g. for sim_set(); NULL: none. */
+/** hal_find - request and bit of an address, for example for sim_set(); NULL: none. */
 struct request *hal_find(struct hal *hal, struct iec_addr addr, uint32_t *line);
 
-/** hal_memory - bytes that hal_open() takes at most for @map. */
+/** hal_memory - the most bytes that hal_open() takes for @map. */
 size_t hal_memory(const struct iomap *map);
 
 /**
- * hal_supported - an error for each point whose driver was not built in
- * hal_check - finds every line of a map on this machine and takes none
+ * hal_supported - adds an error for each point whose driver is not built in
+ * hal_check - finds every line of a map on this machine, without requesting it
  * @scratch: may be freed afterwards
  *
  * Owns: nothing.   Scan-safe: no.   Fails: false and an error for each line.
@@ -121,10 +118,10 @@ bool hal_check(const struct iomap *map, struct arena *scratch,
 /**
  * hal_list - calls @visit for each line of each chip under @dev (NULL: "/dev")
  *
- * struct line_seen is in hal/drivers.h and lives during the call.
+ * struct line_seen (hal/drivers.h) is valid during the call.
  * Owns: nothing.   Scan-safe: no.
- * Fails: false and a diagnostic for what could not be opened; the rest is
- * given.
+ * Fails: false and a diagnostic about chips that could not be opened; lines of the others
+ * are listed.
  */
 bool hal_list(const char *dev,
 	      void (*visit)(void *context, const struct line_seen *line),

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * hal_open - finds the lines of a map, groups them into requests and takes
- * them. All of it happens before the first scan or while nothing runs; it moves
- * no level but for the first read and the safe values.
+ * hal_open - finds the lines of a map, groups them into requests and opens these, before the
+ * first scan or while no program runs.
  */
 #include "hal/request.h"
 
@@ -13,7 +12,7 @@
 const struct driver *driver_row(enum driver_id id)
 {
 	static const struct driver *const rows[DRIVER_COUNT] = {
-#define DRIVER(name, doc) &driver_##name,
+#define DRIVER(id) &driver_##id,
 #include "hal/drivers.def"
 	};
 
@@ -60,7 +59,7 @@ static bool find_line(const struct iomap *map, const struct io_point *point,
 	return diag_add(diags, io_place(map, point, why.id), "%s", why.text);
 }
 
-/* Two spellings of one line, which the map alone cannot show. */
+/* Finds lines that the map names twice in different ways. */
 static bool check_places(const struct iomap *map, const struct line_at *place,
 			 struct diag_list *diags)
 {
@@ -93,7 +92,7 @@ static bool no_memory(const struct iomap *map, struct diag_list *diags)
 					      .file = map->file }, "%s", "");
 }
 
-/* Where every point is now; NULL and errors if one is nowhere. */
+/* The places of all points; NULL and errors if one is missing. */
 static struct line_at *find_all(const struct iomap *map, struct arena *arena,
 			      struct diag_list *diags)
 {
@@ -129,7 +128,7 @@ static bool same_request(const struct io_point *a, const struct line_at *at_a,
 		(a->bias == b->bias && a->drive == b->drive));
 }
 
-/* The request number of each point; inputs come first. Gives their count. */
+/* Sets the request number of each point, inputs first. Returns the number of requests. */
 static uint32_t group(const struct iomap *map, const struct line_at *place,
 		      uint32_t *number)
 {
@@ -237,7 +236,7 @@ size_t hal_memory(const struct iomap *map)
 			 sizeof(struct hal_request) +
 			 sizeof(struct request_line) +
 			 sizeof(struct hal_bit) + sizeof(int64_t) +
-			 8 * sizeof(void *); /* rounding up, seven times */
+			 8 * sizeof(void *); /* seven roundings */
 	return bytes;
 }
 
@@ -254,7 +253,7 @@ static bool refuse(const struct hal *hal, const struct hal_request *request,
 			name, why->text);
 }
 
-/* The first value of an input is taken at once, without a debounce. */
+/* The first value of an input has no debounce. */
 static bool first_read(struct hal_request *request, struct trouble *why)
 {
 	uint64_t level;
@@ -326,7 +325,7 @@ void hal_close(struct hal *hal)
 	hal->request_count = 0;
 }
 
-/* The lines of one request, found anew; all must be on one chip as before. */
+/* Finds the lines of a request again; they must be on one chip. */
 static bool find_again(const struct hal *hal, struct hal_request *request)
 {
 	struct request *ask = &request->ask;

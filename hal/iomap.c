@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
- * iomap - reads the I/O map. A line is an address, a driver and options; words
- * are separated by blanks. It goes on after an error to find the next one, and
- * refuses what contradicts itself: an address, a line or an option twice.
+ * iomap - reads the I/O map. A line of it has an address, a driver and options, separated
+ * by blanks. Reading goes on after an error. An address, a line or an option that occurs
+ * twice is an error.
  */
 #include "hal/drivers.h"
 
+#include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/base/literal.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Bits of an area that have a line; as many bytes as it took so far. */
+/* Bits of an area that have a line; it grows. */
 struct taken { uint8_t *byte; uint32_t size; };
 
 struct reader {
@@ -20,7 +21,7 @@ struct reader {
 	struct iomap map;
 	struct arena *arena;
 	struct diag_list *diags;
-	int errors;              /* of this text                              */
+	int errors;
 	struct taken taken[2];   /* of inputs, outputs                        */
 };
 
@@ -86,32 +87,17 @@ static bool complain(struct reader *reader, enum diag_id id,
 			word->text);
 }
 
-static bool same_word(const char *text, size_t len, const char *word)
-{
-	if (strlen(word) != len)
-		return false;
-	for (size_t i = 0; i < len; i++) {
-		char c = text[i];
-
-		if (c >= 'A' && c <= 'Z')
-			c = (char)(c - 'A' + 'a');
-		if (c != word[i])
-			return false;
-	}
-	return true;
-}
-
 enum driver_id driver_find(const char *word, size_t len)
 {
 	int id = 0;
 
 	while (id < DRIVER_COUNT &&
-	       !same_word(word, len, driver_row((enum driver_id)id)->word))
+	       !ascii_is(driver_row((enum driver_id)id)->word, word, len))
 		id++;
 	return (enum driver_id)id;
 }
 
-/* A name, bare or between quotes ($" and $$ inside). NULL: it is none. */
+/* A name with or without quotes (inside: $" and $$). NULL: it is not valid. */
 static char *read_name(struct reader *reader, const char *value, size_t len)
 {
 	char *name;
@@ -190,14 +176,6 @@ static bool set_safe(struct reader *reader, struct io_point *point,
 	return len == 1 && (value[0] == '0' || value[0] == '1');
 }
 
-static bool set_active_low(struct reader *reader, struct io_point *point,
-			   const char *value, size_t len)
-{
-	(void)reader, (void)value, (void)len;
-	point->active_low = true;
-	return true;
-}
-
 #define SETTER(name, member, constant)                                        \
 	static bool name(struct reader *reader, struct io_point *point,       \
 			 const char *value, size_t len)                       \
@@ -206,6 +184,7 @@ static bool set_active_low(struct reader *reader, struct io_point *point,
 		point->member = constant;                                     \
 		return true;                                                  \
 	}
+SETTER(set_active_low, active_low, true)
 SETTER(set_pull_up, bias, BIAS_UP)
 SETTER(set_pull_down, bias, BIAS_DOWN)
 SETTER(set_no_pull, bias, BIAS_NONE)
@@ -213,7 +192,7 @@ SETTER(set_push_pull, drive, DRIVE_PUSH_PULL)
 SETTER(set_open_drain, drive, DRIVE_OPEN_DRAIN)
 SETTER(set_open_source, drive, DRIVE_OPEN_SOURCE)
 
-/* The three pulls exclude each other, and so do the three drives. */
+/* Only one of the three pulls is allowed, and one of the three drives. */
 enum { FIRST_PULL = 6, FIRST_DRIVE = 9, OPTION_COUNT = 12 };
 static const struct option options[OPTION_COUNT] = {
 	{ "line",        FOR_BOTH,   true,  set_line },
@@ -231,7 +210,7 @@ static const struct option options[OPTION_COUNT] = {
 };
 enum { OPTION_LINE, OPTION_CHIP, OPTION_OFFSET };
 
-/* Options that may not stand beside option @i, itself included, a bit each. */
+/* Options that exclude option @i, including itself; one bit each. */
 static unsigned against(int i)
 {
 	if (i == OPTION_LINE)
@@ -254,8 +233,7 @@ static bool read_option(struct reader *reader, struct io_point *point,
 	const char *value = equal ? equal + 1 : NULL;
 	int i = 0;
 
-	while (i < OPTION_COUNT &&
-	       !same_word(word->text, name, options[i].name))
+	while (i < OPTION_COUNT && !ascii_is(options[i].name, word->text, name))
 		i++;
 	if (i == OPTION_COUNT)
 		return complain(reader, DIAG_IO_OPTION, word);
@@ -272,7 +250,7 @@ static bool read_option(struct reader *reader, struct io_point *point,
 	return true;
 }
 
-/* Room to note the bits of so many bytes; no map is likely to need all there may be. */
+/* Makes room for the bits of so many bytes; the largest areas would take too much. */
 static bool has_room(struct reader *reader, struct taken *taken, uint32_t bytes)
 {
 	uint32_t size = taken->size ? taken->size : 32;
@@ -315,7 +293,7 @@ static bool same_text(const char *a, const char *b)
 	return a && b && strcmp(a, b) == 0;
 }
 
-/* The same line by the same spelling; by different ones hal_open() sees it. */
+/* Finds a line that is named twice in the same way; hal_open() finds the others. */
 static bool check_twice(struct reader *reader, const struct io_point *point,
 			const struct word *word)
 {
@@ -448,7 +426,7 @@ static void read_lines(struct reader *reader)
 	}
 }
 
-/* Bytes that no text has are refused before a line is read. */
+/* Refuses a text that is empty, too large or not UTF-8. */
 static bool check_bytes(struct reader *reader, const char *text, size_t len)
 {
 	struct diag place = { .file = reader->map.file };

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * iomap - the text that says which pin an address of a program is.
+ * iomap - the I/O map, a text that assigns a pin to each address (docs/boards.md).
  *
- * It reads a `.io` file and checks all that can be checked without the machine:
- * every error with line and column, and no half map on an error. It opens no
- * chip and does not know whether a line exists. docs/boards.md describes the
- * text.
+ * It reads a `.io` file and reports every error with line and column. It opens no chip and
+ * does not know whether a line exists.
  */
 #ifndef HAL_IOMAP_H
 #define HAL_IOMAP_H
@@ -15,7 +13,7 @@
 #include "engine/base/diag.h"
 
 enum driver_id {
-#define DRIVER(id, doc) DRIVER_##id,
+#define DRIVER(id) DRIVER_##id,
 #include "hal/drivers.def"
 	DRIVER_COUNT
 };
@@ -24,19 +22,18 @@ enum io_bias { BIAS_AS_IS, BIAS_NONE, BIAS_UP, BIAS_DOWN };
 enum io_drive { DRIVE_AS_IS, DRIVE_PUSH_PULL, DRIVE_OPEN_DRAIN,
 		DRIVE_OPEN_SOURCE };
 
-/* One line of the map. Strings live in the arena that the map was read into. */
+/* One line of the map. The arena owns the strings. */
 struct io_point {
 	struct iec_addr addr;  /* one bit of AREA_I or AREA_Q                 */
 	enum driver_id driver;
 	bool output;
-	const char *line;      /* kernel's name of the line, or NULL          */
+	const char *line;      /* name of the line in the kernel, or NULL     */
 	const char *chip;      /* label, gpiochipN or its path, or NULL       */
 	uint32_t offset;       /* with chip                                   */
 	enum io_bias bias;
 	enum io_drive drive;
 	bool active_low;       /* TRUE is the low level                       */
-	bool safe;             /* value of an output while nothing runs, as a
-				  program would write it                      */
+	bool safe;             /* value of an output while no program runs    */
 	int64_t debounce_ns;   /* of inputs                                   */
 	int text_line, text_column; /* 1-based, in the file                   */
 };
@@ -44,7 +41,7 @@ struct io_point {
 struct iomap {
 	const char *file;      /* as the user wrote it; borrowed              */
 	const char *board;     /* "Raspberry Pi 4"                            */
-	const char *dev;       /* folder of device files; tests change it     */
+	const char *dev;       /* folder of device files: "/dev", except in tests */
 	struct io_point *point;
 	int count;
 };
@@ -53,8 +50,8 @@ struct iomap {
 #define IO_OFFSET_MAX      65535
 
 /**
- * iomap_read - the map that @text spells
- * @arena: strings and points live in it
+ * iomap_read - reads a map from @text
+ * @arena: gets strings and points
  * @file:  names the file in diagnostics; must outlive @diags and @map
  *
  * Owns: the arena.   Scan-safe: no.
@@ -64,10 +61,10 @@ bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
 		const char *text, size_t len, struct diag_list *diags);
 
 /**
- * iomap_fits - is every point inside the areas of a program?
+ * iomap_fits - checks that the areas of a program contain every point
  *
- * Whoever moves levels between a map and a process image asks first.
- * Owns: nothing.   Scan-safe: no.   Fails: false and an error for each point that is not.
+ * Call it before levels are moved between a map and a process image.
+ * Owns: nothing.   Scan-safe: no.   Fails: false and an error for each point outside.
  */
 bool iomap_fits(const struct iomap *map, const struct areas *areas,
 		struct diag_list *diags);
@@ -75,6 +72,6 @@ bool iomap_fits(const struct iomap *map, const struct areas *areas,
 /** io_place - the place of a point in its file, for diag_add. */
 struct diag io_place(const struct iomap *map, const struct io_point *point,
 		     enum diag_id id);
-/** io_line_print - "GPIO17" or "pinctrl-bcm2711 17"; as snprintf. */
+/** io_line_print - prints "GPIO17" or "pinctrl-bcm2711 17", as snprintf(). */
 int io_line_print(const struct io_point *point, char *out, size_t size);
 #endif

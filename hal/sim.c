@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim - a real driver without a pin. An input shows what its owner set, and
- * until then its pull: 1 with pull-up, else 0. An output keeps what was
- * written.
+ * sim - a driver without pins. An input has the level of sim_set(); before the first call
+ * it is 1 with pull-up, else 0. An output keeps the level that was written.
  */
 #include "hal/sim.h"
 
@@ -11,7 +10,7 @@
 struct sim_state {
 	uint64_t level;
 	int error;
-	bool used; /* levels outlive a close and an open, as on a wire */
+	bool used; /* levels stay over close and open, as on a wire */
 };
 
 static bool sim_open(struct request *request, struct trouble *why)
@@ -78,8 +77,7 @@ void sim_fail(struct request *request, int error)
 }
 
 const struct driver driver_sim = {
-	.word = "sim", .doc = "levels held in memory; no pin is touched",
-	.state_size = sizeof(struct sim_state),
+	.word = "sim", .state_size = sizeof(struct sim_state),
 	.open = sim_open, .close = sim_close,
 	.read = sim_read, .write = sim_write,
 };

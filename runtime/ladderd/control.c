@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * control - text for people and scripts: `word: value` lines. No allocation, no
- * stdio stream.
+ * control - prints `word: value` lines. It allocates nothing and uses no stdio stream.
  */
 #include "ladderd/control.h"
-
 
 #include <poll.h>
 #include <stdarg.h>
@@ -12,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define BLOCK_BYTES 880 /* less than a pipe takes at once */
+#define BLOCK_BYTES 880 /* a pipe takes so much in one write */
 
 struct block {
 	char text[BLOCK_BYTES];
@@ -57,7 +55,7 @@ static void add_us(struct block *block, const char *word, int64_t ns)
 	    (long long)(ns % 1000 / 100));
 }
 
-/* Nanoseconds: a program may be done in fewer than a hundred. */
+/* In nanoseconds, because a small program takes less than 0.1 us. */
 static void add_fine(struct block *block, const struct stats *stats)
 {
 	add(block, "body: mean %lld ns, max %lld ns, p50 %lld ns\n",
@@ -86,7 +84,7 @@ static void add_place(struct block *block, const struct fault_place *at)
 		add(block, " (%u,%u)", (unsigned)at->row, (unsigned)at->col);
 }
 
-/* Of a list that was written; a fault's text has it already. */
+/* The line of an instruction list; the text of a fault has it already. */
 static void add_line(struct block *block, const struct fault_place *at)
 {
 	if (at->line)
@@ -140,7 +138,7 @@ static void add_retain(struct block *block, const struct store *store)
 	    (unsigned)status.writes, (unsigned)status.failures);
 }
 
-/* What fills half a block goes out. */
+/* Writes the block if it is half full. */
 static void make_room(struct block *block, bool wait)
 {
 	if (block->len <= BLOCK_BYTES / 2)
@@ -212,20 +210,18 @@ void control_tell(const char *text)
 
 void control_tell_error(const char *text, const char *why)
 {
-	struct block block = { .len = 0 };
+	char line[300];
 
-	add(&block, "ladderd: %.80s: %.200s\n", text, why);
-	put(STDERR_FILENO, block.text, block.len, false);
+	snprintf(line, sizeof(line), "%.80s: %.200s", text, why);
+	control_tell(line);
 }
 
 void control_tell_halt(const struct cycle *cycle)
 {
-	struct block block = { .len = 0 };
 	char text[96];
 
 	resource_halt_print(&cycle->resource, text, sizeof(text));
-	add(&block, "ladderd: %s\n", text);
-	put(STDERR_FILENO, block.text, block.len, false);
+	control_tell(text);
 }
 
 void control_tell_failed(const struct cycle *cycle)

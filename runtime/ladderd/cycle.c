@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: MIT
  *
- * cycle - absolute deadlines, the two thresholds of the watchdog, the latched
- * fault. A fault holds the safe outputs until a reset, and a reset works only
- * when all lines answer.
+ * cycle - absolute deadlines, the watchdog, the latched fault. After a fault the outputs
+ * have their safe values until a reset. A reset is refused while a line does not answer.
  */
 #include "ladderd/control.h"
 
 #include <errno.h>
 #include <time.h>
 
-#define SLICE_NS 100000000  /* longest sleep without a look at requests */
-#define TEND_NS  1000000000 /* lines in FAULT are looked after so often */
+#define SLICE_NS 100000000  /* requests are checked at least so often */
+#define TEND_NS  1000000000 /* in FAULT, time between attempts to repair lines */
 #define SECOND   INT64_C(1000000000)
-#define PERIOD   INT64_C(10000000) /* by default */
+#define PERIOD   INT64_C(10000000) /* default of --period */
 
 static int64_t clock_now(void)
 {
@@ -22,7 +21,7 @@ static int64_t clock_now(void)
 	return now.tv_sec * SECOND + now.tv_nsec;
 }
 
-/* A scan may run all tasks, each as long as its own limit. */
+/* The limit of a scan with tasks is the sum of their limits. */
 int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 {
 	struct resource *resource = &cycle->resource;
@@ -31,7 +30,7 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 
 	cycle->period_ns = tasks_tick(program, period_ns, PERIOD);
 	cycle->watchdog = watchdog;
-	wall_offset(&cycle->wall, 0); /* what it allocates, it does now */
+	wall_offset(&cycle->wall, 0); /* allocates at its first call */
 	cycle->tasks = tasks_declared(program);
 	if (!cycle->tasks)
 		return watchdog * cycle->period_ns;
@@ -56,8 +55,7 @@ static void enter_fault(struct cycle *cycle, enum fault fault)
 	notify_send(&cycle->notify, "STATUS=FAULT, outputs are safe");
 }
 
-/* Lines in FAULT: a safe value that did not arrive is tried again, and so is
- * taking a line that was lost. */
+/* In FAULT: writes the safe values again, and reopens lines that were lost. */
 static void tend_lines(struct cycle *cycle, int64_t now_ns)
 {
 	if (now_ns - cycle->tended_ns < TEND_NS)
@@ -68,7 +66,7 @@ static void tend_lines(struct cycle *cycle, int64_t now_ns)
 		hal_reopen(&cycle->hal);
 }
 
-/* The program asked for it. Only a reset goes on. */
+/* The program executed STOP. Only a reset starts it again. */
 static void enter_stop(struct cycle *cycle)
 {
 	hal_write_safe(&cycle->hal);
@@ -123,7 +121,7 @@ static void serve_requests(struct cycle *cycle)
 	}
 }
 
-/* The program alone. What it retains is handed over after a whole scan only. */
+/* Runs the program without lines. Retained values are copied only after a whole scan. */
 static bool scan_program(struct cycle *cycle, int64_t now_ns)
 {
 	struct resource *resource = &cycle->resource;
@@ -139,8 +137,7 @@ static bool scan_program(struct cycle *cycle, int64_t now_ns)
 	return true;
 }
 
-/* Gives what happened during the reads, the program and the writes of a
- * scan. */
+/* Reads inputs, runs the program, writes outputs. Returns the first fault. */
 static enum fault scan_lines(struct cycle *cycle, int64_t now_ns)
 {
 	struct resource *resource = &cycle->resource;
@@ -183,7 +180,7 @@ static bool is_too_slow(const struct cycle *cycle, int64_t took_ns)
 	       took_ns >= cycle->watchdog * cycle->period_ns;
 }
 
-/* Once a start: the status has the number of them. */
+/* Prints a message once per start; the status counts failed operations. */
 static void tell_failed(struct cycle *cycle)
 {
 	const bool failed = cycle->resource.vm.errors != 0;
@@ -221,7 +218,7 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 	tell_failed(cycle);
 }
 
-/* Sleeps until @due_ns, awake for requests. */
+/* Sleeps until @due_ns and serves requests. */
 static void wait_until(struct cycle *cycle, int64_t due_ns)
 {
 	for (;;) {

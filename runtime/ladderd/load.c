@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * load - reads both files even if the first is wrong, so that one run shows all
- * errors; refuses lines beyond the areas of the program, and warns of inputs and outputs
- * that the map does not have.
+ * load - reads the program and the map, both even if the first has errors, so that one run
+ * shows all. It refuses lines outside the areas of the program and warns about inputs and
+ * outputs without a line.
  */
 #include "ladderd/load.h"
 
@@ -39,7 +39,7 @@ static bool is_mapped(const struct iomap *map, uint32_t area, uint32_t bit)
 	return false;
 }
 
-/* LD515 for one bit that has no line. */
+/* Warns (LD515) if a bit has no line. */
 static void check_bit(struct load *load, uint8_t *named, struct location at,
 		      const char *name)
 {
@@ -66,8 +66,8 @@ static void check_array(struct load *load, uint8_t *named,
 	}
 }
 
-/* LD515 for each input and output variable without a line. Sets its bit in @named,
- * which is as large as all areas. */
+/* Warns (LD515) about each input and output variable without a line. Sets the bits of all
+ * of them in @named, which is as large as all areas. */
 static void check_mapped(struct load *load, uint8_t *named)
 {
 	const struct program *program = &load->source.program;
@@ -82,7 +82,7 @@ static void check_mapped(struct load *load, uint8_t *named)
 	}
 }
 
-/* The same for bits that the program uses by their address. */
+/* The same for bits that the program uses by address. */
 static void check_addresses(struct load *load, const uint8_t *named)
 {
 	const struct program *program = &load->source.program;

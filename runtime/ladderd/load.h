@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * load - a program and its I/O map from their files, checked against each
- * other.
+ * load - reads a program and its I/O map and checks them against each other.
  *
- * Touches no pin. What is wrong is in two lists of diagnostics for the caller.
+ * It opens no line. Diagnostics of the program are in source.diags, those of the map in
+ * diags.
  */
 #ifndef LADDERD_LOAD_H
 #define LADDERD_LOAD_H
@@ -13,13 +13,13 @@
 
 struct load {
 	struct source source;
-	struct arena arena;       /* the map, later the HAL and the image     */
+	struct arena arena;       /* of the map, the HAL and the process image */
 	struct iomap map;
 	struct diag_list diags;   /* of the map                               */
 	bool unreadable;          /* a file could not be read at all          */
 };
 
-/** load_files - Fails: false; load_free() all the same. Scan-safe: no. */
+/** load_files - Owns: load_free(), also after a failure. Scan-safe: no. Fails: false. */
 bool load_files(struct load *load, const char *file, const char *map);
 void load_free(struct load *load);
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * main - ladderd, the runtime: loads a program and an I/O map, takes the lines,
- * scans until a signal ends it, and leaves safe outputs behind. It has no
- * network and needs no user but the one that may open the lines.
+ * main - ladderd, the runtime: loads a program and an I/O map, opens the lines, scans until
+ * a signal, and leaves the outputs at their safe values. It has no network, and needs only
+ * the right to open the lines.
  */
 #define _DEFAULT_SOURCE /* syscall() */
 #include "engine/base/digest.h"
@@ -21,7 +21,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#define STACK_BYTES 8192 /* of the scan; frames are bounded by the build */
+#define STACK_BYTES 8192 /* for a scan; -Wframe-larger-than limits frames */
 
 struct daemon {
 	struct options options;
@@ -72,7 +72,7 @@ static void print_memory(struct daemon *daemon)
 	       load->source.other_bytes);
 }
 
-/* Without --retain, RETAIN is only a word. */
+/* Without --retain, RETAIN variables do not keep their values. */
 static void warn_of_retain(struct daemon *daemon)
 {
 	const struct program *program = &daemon->load.source.program;
@@ -87,9 +87,9 @@ static void warn_of_retain(struct daemon *daemon)
 			.file = daemon->options.file }, "%s", "");
 }
 
-/* Memory was written while loading, deeper stack used than a scan needs: what is
- * locked now is there. Without an MMU nothing can be paged out, and the kernel has
- * no such call. musl refuses sched_setscheduler() itself, the kernel does not. */
+/* Loading has touched all memory and more stack than a scan needs, so mlockall() locks
+ * present pages. Without an MMU nothing is paged out, and the kernel has no mlockall().
+ * sched_setscheduler() of musl always fails, so the system call is used. */
 static void make_real_time(int priority)
 {
 	struct sched_param wanted = { .sched_priority = priority };
@@ -154,7 +154,7 @@ static int run(struct daemon *daemon)
 	digest_hex(identity, sizeof(identity), cycle->identity);
 	cycle->board = load->map.board;
 	limit_ns = cycle_plan(cycle, options->period_ns, options->watchdog);
-	cycle->most_scans = options->scans;
+	cycle->most_scans = (uint64_t)options->scans;
 	cycle->requests = requests_listen();
 	cycle->requests->attended = options->attended;
 	if (options->retain.path) {
@@ -179,7 +179,7 @@ static int run(struct daemon *daemon)
 		cycle->hal.trace = control_trace;
 	safe_on_crash(&cycle->hal, stack);
 	if (options->priority)
-		make_real_time(options->priority);
+		make_real_time((int)options->priority);
 	status = run_lines(daemon, limit_ns);
 	safe_on_crash(NULL, NULL);
 	hal_close(&cycle->hal);

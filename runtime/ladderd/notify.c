@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * notify - datagrams to the service manager. One that cannot be sent at once is
- * lost: a scan never waits for a listener.
+ * notify - sends datagrams to the service manager. One that cannot be sent at once is lost,
+ * so that a scan never waits.
  */
 #include "ladderd/notify.h"
 
@@ -30,7 +30,7 @@ static int64_t number(const char *text)
 	return *text ? -1 : value;
 }
 
-/* Half of what the manager allows, if it is this program that it watches. */
+/* Half of the watchdog time of the manager; 0: it does not watch this process. */
 static int64_t feed_interval(void)
 {
 	int64_t pid = number(getenv("WATCHDOG_PID"));

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * options - reads the arguments from one table. A value may stand behind `=` or
- * be the next argument.
+ * options - reads the arguments by one table. A value follows `=` or is the next argument.
  */
 #include "ladderd/options.h"
 
 #include "engine/base/literal.h"
 
-#include <stdio.h>
+#include <stddef.h>
 #include <string.h>
 
 #define PERIOD_LEAST INT64_C(100000)      /* 100 us */
@@ -43,108 +42,70 @@ const char *options_help(void)
 "Example: ladderd garage.rung --io raspberry-pi.io --period 5ms --rt 40\n";
 }
 
-static bool read_number(const char *text, uint64_t least, uint64_t most,
-			uint64_t *out)
+enum kind { FLAG, TEXT, NUMBER, TIME };
+
+static const struct option_row {
+	const char *name;
+	enum kind kind;
+	size_t at;             /* of the member in struct options            */
+	int64_t least, most;   /* of NUMBER, and of TIME in ns               */
+} rows[] = {
+#define AT(member) offsetof(struct options, member)
+	{ "--io",            TEXT,   AT(map),       0, 0 },
+	{ "--period",        TIME,   AT(period_ns), PERIOD_LEAST, PERIOD_MOST },
+	{ "--watchdog",      NUMBER, AT(watchdog),  1, 1000 },
+	{ "--rt",            NUMBER, AT(priority),  1, 49 },
+	{ "--retain",        TEXT,   AT(retain.path), 0, 0 },
+	{ "--retain-period", TIME,   AT(retain.period_ns), STORE_PERIOD_LEAST,
+	  STORE_PERIOD_MOST },
+	{ "--cold",          FLAG,   AT(retain.cold), 0, 0 },
+	{ "--scans",         NUMBER, AT(scans),     1, INT64_MAX },
+	{ "--check",         FLAG,   AT(check),     0, 0 },
+	{ "--trace-io",      FLAG,   AT(trace_io),  0, 0 },
+	{ "--attended",      FLAG,   AT(attended),  0, 0 },
+	{ "--help",          FLAG,   AT(help),      0, 0 },
+	{ "--version",       FLAG,   AT(version),   0, 0 },
+#undef AT
+};
+
+static bool parse_number(const char *text, int64_t *out)
 {
-	uint64_t value = 0;
 	size_t digits = strspn(text, "0123456789");
 
 	if (digits == 0 || digits > 18 || text[digits])
 		return false;
+	*out = 0;
 	for (size_t i = 0; i < digits; i++)
-		value = value * 10 + (uint64_t)(text[i] - '0');
-	*out = value;
-	return value >= least && value <= most;
-}
-
-static bool set_file_map(struct options *options, const char *value)
-{
-	options->map = value;
-	return *value != 0;
-}
-
-static bool read_time(const char *value, int64_t least, int64_t most,
-		      int64_t *out)
-{
-	return literal_parse_duration(value, strlen(value), out) && *out >= least &&
-	       *out <= most;
-}
-
-static bool set_period(struct options *options, const char *value)
-{
-	return read_time(value, PERIOD_LEAST, PERIOD_MOST, &options->period_ns);
-}
-
-static bool set_retain(struct options *options, const char *value)
-{
-	options->retain.path = value;
-	return *value != 0;
-}
-
-static bool set_retain_period(struct options *options, const char *value)
-{
-	return read_time(value, STORE_PERIOD_LEAST, STORE_PERIOD_MOST,
-			 &options->retain.period_ns);
-}
-
-static bool set_watchdog(struct options *options, const char *value)
-{
-	uint64_t number;
-
-	if (!read_number(value, 1, 1000, &number))
-		return false;
-	options->watchdog = (int64_t)number;
+		*out = *out * 10 + (text[i] - '0');
 	return true;
 }
 
-static bool set_priority(struct options *options, const char *value)
+/* False: the value is bad. */
+static bool set_option(struct options *options, const struct option_row *row,
+		       const char *value)
 {
-	uint64_t number;
+	char *at = (char *)options + row->at;
+	int64_t number;
 
-	if (!read_number(value, 1, 49, &number))
-		return false;
-	options->priority = (int)number;
-	return true;
-}
-
-static bool set_scans(struct options *options, const char *value)
-{
-	return read_number(value, 1, UINT64_MAX, &options->scans);
-}
-
-#define FLAG(name, member)                                                    \
-	static bool name(struct options *options, const char *value)          \
-	{                                                                     \
-		(void)value;                                                  \
-		options->member = true;                                       \
-		return true;                                                  \
+	switch (row->kind) {
+	case FLAG:
+		*(bool *)at = true;
+		return true;
+	case TEXT:
+		*(const char **)at = value;
+		return *value;
+	case NUMBER:
+		if (!parse_number(value, &number))
+			return false;
+		break;
+	case TIME:
+		if (!literal_parse_duration(value, strlen(value), &number))
+			return false;
+		break;
 	}
-FLAG(set_cold, retain.cold)
-FLAG(set_check, check)
-FLAG(set_trace_io, trace_io)
-FLAG(set_attended, attended)
-FLAG(set_help, help)
-FLAG(set_version, version)
-
-static const struct option_row {
-	const char *name;
-	bool has_value;
-	bool (*set)(struct options *options, const char *value);
-} rows[] = {
-	{ "--io",       true,  set_file_map },
-	{ "--period",   true,  set_period },
-	{ "--watchdog", true,  set_watchdog },
-	{ "--rt",       true,  set_priority },
-	{ "--retain",   true,  set_retain },
-	{ "--retain-period", true, set_retain_period },
-	{ "--cold",     false, set_cold },
-	{ "--scans",    true,  set_scans },
-	{ "--check",    false, set_check },
-	{ "--trace-io", false, set_trace_io },
-	{ "--attended", false, set_attended },
-	{ "--help",     false, set_help },
-	{ "--version",  false, set_version },
-};
+	*(int64_t *)at = number;
+	return number >= row->least && number <= row->most;
+}
 
 static bool wrong(struct options *options, const char *argument,
 		  const char *why)
@@ -154,7 +115,7 @@ static bool wrong(struct options *options, const char *argument,
 	return false;
 }
 
-/* Reads argv[*i], and its value if that is the next one. */
+/* Reads the option argv[*i] and its value, which may be the next argument. */
 static bool read_option(struct options *options, int *i, char **argv)
 {
 	const char *name = argv[*i];
@@ -166,13 +127,13 @@ static bool read_option(struct options *options, int *i, char **argv)
 		if (strlen(rows[k].name) != len ||
 		    strncmp(rows[k].name, name, len) != 0)
 			continue;
-		if (!rows[k].has_value && value)
+		if (rows[k].kind == FLAG && value)
 			return wrong(options, name, "takes no value");
-		if (rows[k].has_value && !value)
+		if (rows[k].kind != FLAG && !value)
 			value = argv[++*i];
-		if (rows[k].has_value && !value)
+		if (rows[k].kind != FLAG && !value)
 			return wrong(options, name, "needs a value");
-		if (!rows[k].set(options, value))
+		if (!set_option(options, &rows[k], value))
 			return wrong(options, name, "bad value");
 		return true;
 	}

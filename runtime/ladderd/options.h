@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * options - the arguments of ladderd, as values. Prints and checks no file.
+ * options - the arguments of ladderd as values. It prints nothing and opens no file.
  */
 #ifndef LADDERD_OPTIONS_H
 #define LADDERD_OPTIONS_H
@@ -14,16 +14,16 @@ struct options {
 	const char *file, *map;
 	int64_t period_ns;     /* 0: not given                                */
 	int64_t watchdog;      /* periods                                     */
-	uint64_t scans;        /* 0: for ever                                 */
-	int priority;          /* 0: none                                     */
-	struct store_wish retain; /* path NULL: no                            */
+	int64_t scans;         /* 0: no limit                                 */
+	int64_t priority;      /* 0: none                                     */
+	struct store_wish retain; /* path NULL: no --retain                   */
 	bool check, trace_io, attended, help, version;
-	const char *wrong;     /* the argument that is                        */
+	const char *wrong;     /* the wrong argument                          */
 	const char *why;       /* what is wrong with it                       */
 };
 
-/** options_read - Fails: false; `wrong` and `why` are set. Scan-safe: no. */
+/** options_read - Scan-safe: no. Fails: false; sets `wrong` and `why`. */
 bool options_read(struct options *options, int argc, char **argv);
-/** options_help - the text of --help. Lives for ever. */
+/** options_help - the text of --help. */
 const char *options_help(void);
 #endif

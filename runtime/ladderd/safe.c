@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * safe - signal handlers: requests from outside, the watchdog's timer, crashes.
- * A handler reaches its own objects below and what they point to.
+ * safe - signal handlers: requests, the watchdog timer, crashes. Handlers use only the
+ * static objects below and what these point to.
  */
 #define _XOPEN_SOURCE 700 /* sigaltstack, setitimer */
 
@@ -13,8 +13,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-/* Signals have no argument: these are the only objects with static storage that
- * change. */
+/* A handler has no argument for them. No other static objects of ladderd change. */
 static struct requests requests;
 static struct hal *volatile crash_hal;
 static struct monitor *volatile watched;
@@ -46,7 +45,7 @@ struct requests *requests_listen(void)
 	listen_to(SIGUSR1, on_request);
 	listen_to(SIGHUP, on_request);
 	listen_to(SIGPIPE, SIG_IGN);
-	listen_to(SIGXFSZ, SIG_IGN); /* a write then fails with EFBIG */
+	listen_to(SIGXFSZ, SIG_IGN); /* the write fails with EFBIG instead */
 	return &requests;
 }
 
@@ -61,15 +60,15 @@ void requests_attend(struct requests *asked)
 		asked->stop = 1;
 }
 
-/* The first tick that sees a scan starts its time; the second one after it
- * finds the limit gone. */
+/* The first tick during a scan remembers it. If the same scan still runs two ticks later,
+ * its limit is over. */
 static void on_tick(int signal_number, siginfo_t *about, void *context)
 {
 	struct monitor *monitor = watched;
 	int error = errno;
 
 	(void)signal_number, (void)context;
-	if (about->si_code != SI_KERNEL || !monitor) /* others may send it, too */
+	if (about->si_code != SI_KERNEL || !monitor) /* sent by another process */
 		return;
 	if (!(monitor->scan & 1) || monitor->scan != monitor->seen) {
 		monitor->seen = monitor->scan;
@@ -100,8 +99,8 @@ int monitor_start(struct monitor *monitor, struct hal *hal,
 	sigemptyset(&action.sa_mask);
 	if (sigaction(SIGALRM, &action, NULL) != 0)
 		return -errno;
-	/* Not timer_create: with it C libraries link what starts threads. This one, too,
-	 * runs by the monotonic clock. */
+	/* setitimer() uses the monotonic clock, too; timer_create() would link thread code
+	 * of the C library. */
 	tick.it_value.tv_sec = limit_ns / 2 / 1000000000;
 	tick.it_value.tv_usec = limit_ns / 2 % 1000000000 / 1000;
 	tick.it_interval = tick.it_value;
@@ -127,7 +126,7 @@ void monitor_end(struct monitor *monitor)
 	monitor->scan = (monitor->scan + 1) & 0xffff;
 }
 
-/* The action was set back to the default before the handler ran. */
+/* SA_RESETHAND has restored the default action, so raise() ends the process. */
 static void on_crash(int signal_number)
 {
 	struct hal *hal = crash_hal;

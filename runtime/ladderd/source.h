@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * source - where a program comes from: the file that ladderd was given.
+ * source - loads the program file of ladderd.
  *
- * Linked once: source_any.c takes rung files and code images, source_image.c
- * (SMALL=1) only images and needs no parser. Neither touches a pin.
+ * One of two files is linked: source_any.c loads rung files and code images,
+ * source_image.c (SMALL=1) only images, without a parser.
  */
 #ifndef LADDERD_SOURCE_H
 #define LADDERD_SOURCE_H
@@ -16,18 +16,18 @@ struct source {
 	bool unreadable;       /* the file could not be read at all          */
 	size_t image_bytes;    /* of the code image                          */
 	size_t other_bytes;    /* of text and translation, until settled     */
-	void *own, *image;     /* of the implementation                      */
+	void *own, *image;     /* used by the implementation only            */
 };
 
-/** source_kinds - what this program can load, for --version. */
+/** source_kinds - the kinds of files that can be loaded, for --version. */
 const char *source_kinds(void);
-/** source_load - Fails: false and diagnostics; source_free() all the same.
- * Scan-safe: no. */
+/** source_load - Owns: source_free(), also after a failure. Scan-safe: no.
+ * Fails: false and diagnostics. */
 bool source_load(struct source *source, const char *path);
 /**
- * source_settle - lets go of what only loading and its diagnostics needed
+ * source_settle - frees what was needed only for loading and diagnostics
  *
- * The program moves. Owns: @source.   Scan-safe: no.
+ * The program moves to another address. Owns: @source.   Scan-safe: no.
  * Fails: false when memory is out; the program is as before.
  */
 bool source_settle(struct source *source);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * source_any - a rung file, checked and translated here, or a code image.
+ * source_any - loads a rung file, which it checks and translates, or a code image.
  */
 #include "ladderd/source.h"
 
@@ -35,7 +35,7 @@ bool source_load(struct source *source, const char *path)
 	return true;
 }
 
-/* The image alone runs: text and translation of 1,000 rungs are some megabytes. */
+/* Keeps only the image; text and translation of 1,000 rungs take some megabytes. */
 bool source_settle(struct source *source)
 {
 	struct arena scratch;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * source_image - a code image that `ladder build` made, for small boards: no
- * parser, no translator. It is verified like any other.
+ * source_image - loads and verifies a code image of `ladder build`, for small boards: no
+ * parser, no translator.
  */
 #include "ladderd/source.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * stats - counts times in buckets: below 16 ns one each, above it eight to
- * every doubling, up to some 18 minutes.
+ * stats - counts times in buckets: one per ns below 16 ns, above that eight per doubling,
+ * up to about 18 minutes.
  */
 #include "ladderd/stats.h"
 
@@ -20,7 +20,7 @@ static unsigned bucket_of(uint64_t ns)
 	return bucket < STATS_BUCKETS ? bucket : STATS_BUCKETS - 1;
 }
 
-/* The largest time that falls into a bucket. */
+/* The largest time of a bucket. */
 static int64_t bucket_end(unsigned bucket)
 {
 	unsigned octave;
@@ -50,7 +50,7 @@ int64_t stats_mean(const struct stats *stats)
 
 int64_t stats_share(const struct stats *stats, unsigned thousandths)
 {
-	/* So many may be longer. */
+	/* Number of times that may be longer. */
 	uint64_t above = stats->count / 1000 * (1000 - thousandths) +
 			 stats->count % 1000 * (1000 - thousandths) / 1000;
 	uint64_t seen = 0;

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * stats - how long something took, over all scans, in a fixed amount of memory.
+ * stats - times of all scans, in a fixed amount of memory.
  *
- * Exact for last, mean and maximum; percentiles come from a histogram
- * whose steps are an eighth of their value. It keeps no list and reads no
- * clock.
+ * Last, mean and maximum are exact. Percentiles come from a histogram and are at most one
+ * eighth too large. It reads no clock.
  */
 #ifndef LADDERD_STATS_H
 #define LADDERD_STATS_H
@@ -19,9 +18,9 @@ struct stats {
 	uint32_t bucket[STATS_BUCKETS];
 };
 
-/** stats_add - one more; negative counts as 0. Scan-safe: yes. */
+/** stats_add - adds a time; negative counts as 0. Scan-safe: yes. */
 void stats_add(struct stats *stats, int64_t ns);
 int64_t stats_mean(const struct stats *stats);
-/** stats_share - @thousandths of 1000 took at most so long, or an eighth less. */
+/** stats_share - a percentile: @thousandths of 1000 times are at most so long. */
 int64_t stats_share(const struct stats *stats, unsigned thousandths);
 #endif

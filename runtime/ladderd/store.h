@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * store - retained variables over a power cut: --retain FILE.
+ * store - keeps retained variables over a power cut: --retain FILE.
  *
- * The scan hands its values over and goes on; a thread writes them to the file when
- * they have changed. store_thread.c does so; store_none.c is for boards without
- * threads and refuses. What the bytes mean is scan/retain.h's.
+ * The scan copies its values to a thread, which writes them to the file when they have
+ * changed (store_thread.c). store_none.c is for boards without threads and refuses
+ * --retain. scan/retain.h defines the bytes.
  */
 #ifndef LADDERD_STORE_H
 #define LADDERD_STORE_H
@@ -14,60 +14,60 @@
 
 struct store;
 
-/* From one write to the next, at least; --retain-period. */
+/* Limits of --retain-period, the least time between writes. */
 #define STORE_PERIOD_LEAST INT64_C(10000000)      /* 10 ms */
 #define STORE_PERIOD_MOST  INT64_C(3600000000000) /* 1 h   */
 
-/* What of it the options say. */
+/* The options about it. */
 struct store_wish {
 	const char *path;
 	int64_t period_ns;
-	bool cold;             /* stored values are left alone               */
+	bool cold;             /* stored values are not used                 */
 };
 
 /**
- * store_open - reads the file and says on stderr what was kept and lost
- * @image: of the program; is not changed
- * @arena: lives longer than the store
- * @status: the exit status when it fails
+ * store_open - reads the file and prints to stderr which values were kept and lost
+ * @image: of the program; not changed
+ * @arena: must live longer than the store
+ * @status: gets the exit status after a failure
  *
- * A file that cannot be read or is broken is no failure, nor a disk that cannot be
+ * A file that cannot be read or is damaged is no failure, nor is a disk that cannot be
  * written: the program sees SYS_RETAIN_LOST, the operator a message.
  * Owns: @arena, and store_close().   Scan-safe: no.
- * Fails: NULL, with a message: no such folder, not a file, another ladderd has it,
- * an image without names, memory is out.
+ * Fails: NULL after a message: no such folder, not a file, another ladderd uses it, an image
+ * without names, memory is out.
  */
 struct store *store_open(const struct store_wish *wish,
 			 const struct image *image, struct arena *arena,
 			 int *status);
-/** store_measure - how many values a program retains, and their bytes.
- * Scan-safe: no. Fails: false if memory is out, or this ladderd keeps none. */
+/** store_measure - the number of values that a program retains, and their bytes.
+ * Scan-safe: no. Fails: false if memory is out, or this ladderd stores no values. */
 bool store_measure(const struct program *program, struct arena *arena,
 		   uint32_t *values, uint32_t *bytes);
 /** store_begin - starts the thread. Scan-safe: no. Fails: -errno. */
 int store_begin(struct store *store);
 /**
- * store_restore - a warm start: the values into a resource that was just started
+ * store_restore - sets the retained values in a resource that was just started
  *
- * Those of the file, later those of the last scan that ended. Function blocks' time
- * goes on where the copy was taken, so that timers do not see the power cut.
+ * At the first call with the values of the file, later with those of the last whole scan.
+ * Time of function blocks goes on from the time of the copy, so the power cut does not
+ * count for timers.
  * Owns: nothing.   Scan-safe: between scans.   Fails: never.
  */
 void store_restore(struct store *store, struct resource *resource,
 		   int64_t now_ns);
-/** store_take - the values after a whole scan at @now_ns, for the thread. Never waits.
+/** store_take - copies the values after a whole scan at @now_ns for the thread. Never waits.
  * Scan-safe: yes. */
 void store_take(struct store *store, const struct image *image, int64_t now_ns);
-/** store_hurry - has the thread write now what has changed. Scan-safe: between
- * scans. */
+/** store_hurry - makes the thread write changed values now. Scan-safe: between scans. */
 void store_hurry(struct store *store);
-/** store_close - writes what has changed, ends the thread. Scan-safe: no. */
+/** store_close - writes changed values and ends the thread. Scan-safe: no. */
 void store_close(struct store *store);
 
 struct store_status {
-	uint32_t copy;         /* number of the last one that is on the disk  */
+	uint32_t copy;         /* number of the newest copy on the disk       */
 	uint32_t values, writes, failures;
 };
-/** store_status - Scan-safe: yes. */
+/** store_status - figures for the status. Scan-safe: yes. */
 struct store_status store_status(const struct store *store);
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * store_file - opens, allocates, writes, replaces. Every write is followed by
- * fdatasync(), a new file and its name by fsync(): a value reported as stored is on the disk.
+ * store_file - opens, allocates, writes and replaces the file of --retain. fdatasync()
+ * follows each write, fsync() a new file and its name, so a value reported as stored is on
+ * the disk.
  */
 #define _DEFAULT_SOURCE /* flock() */
 #include "ladderd/store_file.h"
@@ -21,7 +22,7 @@ static int lock(int fd)
 {
 	if (flock(fd, LOCK_EX | LOCK_NB) == 0)
 		return 0;
-	return errno == EWOULDBLOCK ? -EWOULDBLOCK : 0; /* no locks here */
+	return errno == EWOULDBLOCK ? -EWOULDBLOCK : 0; /* 0: cannot be locked */
 }
 
 static int read_all(int fd, uint8_t *bytes, size_t len)
@@ -81,7 +82,7 @@ int store_file_open(struct store_file *file, const char *path,
 		return -ENOMEM;
 	memcpy(file->fresh_path, path, size);
 	memcpy(file->fresh_path + size, ".new", 5);
-	/* A pipe must not hold up the start. */
+	/* O_NONBLOCK: a pipe must not block the start. */
 	file->fd = fd = open(path, O_RDWR | O_CLOEXEC | O_NONBLOCK);
 	if (fd < 0 && errno == ENOENT)
 		return 0;
@@ -125,7 +126,7 @@ static int write_all(int fd, const uint8_t *bytes, size_t len, off_t at)
 	return 0;
 }
 
-/* Zeros and no hole: a disk that is full shall say so now. */
+/* Writes zeros instead of a hole, so that a full disk fails now. */
 static int allocate(int fd, size_t size)
 {
 	static const uint8_t zeros[512];
@@ -188,8 +189,8 @@ int store_file_prepare(struct store_file *file)
 	return file->fits ? 0 : make_fresh(file);
 }
 
-/* The new file takes the old one's name, and the folder knows it for good. From
- * the rename on its first slot is the newest copy, whatever fails then. */
+/* Renames the new file to the old one's name and syncs the folder. After the rename its
+ * first slot is the newest copy, also if a later step fails. */
 static int take_over(struct store_file *file)
 {
 	char *slash = strrchr(file->fresh_path, '/');

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * store_none - no --retain: a ladderd for small boards starts no thread, and a
- * write that waits for flash between two scans would make scans late. It refuses
- * and keeps nothing, so that no operator relies on it.
+ * store_none - refuses --retain: ladderd for small boards starts no thread, and a write to
+ * flash between two scans would make scans late.
  */
 #include "ladderd/store.h"
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * store_thread - the hand-over from the scan, and the thread that writes.
+ * store_thread - copies values from the scan to a thread, which writes them.
  *
- * Three buffers and one atomic word: the scan fills one, the thread reads one, and
- * each exchanges its own for the third. Neither ever waits for the other. The
- * buffer that the scan gave last is not written to before it gives the next, so
- * that a reset can read it, too.
+ * There are three buffers and one atomic word. The scan fills one buffer, the thread reads
+ * another, and each exchanges its buffer for the third one, so neither waits for the other.
+ * Nobody writes to the buffer that the scan gave last until it gives the next one; a reset
+ * reads it.
  */
 #define _GNU_SOURCE /* eventfd() */
 #include "ladderd/store.h"
@@ -26,11 +26,11 @@
 #include <unistd.h>
 
 #define SECOND     INT64_C(1000000000)
-#define TICK_NS    (SECOND / 10) /* the thread looks so often, at most       */
-#define QUIET_NS   SECOND        /* without a change, then it is written     */
-#define FRESH      4u            /* the middle is not read yet               */
+#define TICK_NS    (SECOND / 10) /* longest time between two looks           */
+#define QUIET_NS   SECOND        /* values are written after so long without a change */
+#define FRESH      4u            /* the thread has not read `middle` yet     */
 #define STACK_LEAST 65536u
-#define TOLD_MOST  20            /* names of lost values                     */
+#define TOLD_MOST  20            /* names of lost values that are printed    */
 
 struct copy {
 	int64_t clock_ns;
@@ -42,15 +42,15 @@ struct store {
 	struct store_file file;
 	struct copy copy[3];
 	_Atomic unsigned middle;
-	/* The scan's. */
+	/* Used by the scan. */
 	unsigned back, last;
 	bool warm, lost, old_copy, restored;
 	int64_t offset_ns;
-	/* The thread's. */
+	/* Used by the thread. */
 	unsigned front;
 	struct copy seen, stored;
-	bool any;              /* the scan gave one                          */
-	bool up_to_date;       /* `stored` is what the file holds            */
+	bool any;              /* the scan gave at least one copy            */
+	bool up_to_date;       /* the file holds `stored`                    */
 	bool failing;
 	int64_t period_ns, changed_ns, dirty_ns, wrote_ns;
 	pthread_t thread;
@@ -93,7 +93,7 @@ static void wake(struct store *store)
 {
 	uint64_t one = 1;
 
-	/* It cannot be full, and if it were, the thread would be awake. */
+	/* If the counter were full, the thread would be awake. */
 	if (write(store->wake, &one, sizeof(one)) < 0)
 		return;
 }
@@ -124,7 +124,7 @@ static int64_t clock_now(void)
 	return now.tv_sec * SECOND + now.tv_nsec;
 }
 
-/* What the scan gave since: into `seen`. */
+/* Takes the newest copy of the scan into `seen`. */
 static void look(struct store *store, int64_t now_ns)
 {
 	const struct copy *copy;
@@ -168,7 +168,8 @@ static void save(struct store *store)
 	atomic_fetch_add(&store->writes, 1);
 }
 
-/* Quiet for a while, or never quiet for a period; and a period since the last. */
+/* A period after the last write, and when the values have not changed for a while or have
+ * been changing for a period. */
 static bool is_due(struct store *store, int64_t now_ns)
 {
 	int64_t quiet = store->period_ns / 10;
@@ -217,7 +218,7 @@ static void *write_values(void *argument)
 	return NULL;
 }
 
-/* Signals are the scan's, but for those of the thread's own mistakes. */
+/* The scan's thread handles all signals except those of a crash. */
 static int start_thread(struct store *store, pthread_attr_t *attr)
 {
 	static const int own[] = { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT };
@@ -235,7 +236,7 @@ static int start_thread(struct store *store, pthread_attr_t *attr)
 
 int store_begin(struct store *store)
 {
-	const long least = PTHREAD_STACK_MIN; /* of glibc: it asks the processor */
+	const long least = PTHREAD_STACK_MIN; /* not constant in glibc */
 	pthread_attr_t attr;
 	int error;
 
@@ -244,7 +245,7 @@ int store_begin(struct store *store)
 	error = pthread_attr_init(&attr);
 	if (error)
 		return -error;
-	/* Small, because memory may be locked; and not at the scan's priority. */
+	/* A small stack, because memory may be locked; and not the priority of the scan. */
 	pthread_attr_setstacksize(&attr, least > (long)STACK_LEAST ?
 				  (size_t)least : STACK_LEAST);
 	pthread_attr_setinheritsched(&attr, PTHREAD_EXPLICIT_SCHED);
@@ -274,7 +275,7 @@ static void tell_name(const char *text, uint32_t len)
 		      '?' : text[i], stderr);
 }
 
-/* It may stand on a terminal, and the file is a stranger's. */
+/* Control characters are replaced: the name comes from a file and may go to a terminal. */
 static void tell_lost(const struct retain_record *record, enum retain_fate fate)
 {
 	fputs("ladderd: retained value lost: ", stderr);
@@ -299,7 +300,7 @@ static void tell_new(const struct store *store, int *told)
 	}
 }
 
-/* The newest copy, value by value, into the copy that the first start reads. */
+/* Takes the values of the newest copy in the file into the copy that store_restore() reads. */
 static void take_payload(struct store *store, const struct retain_found *found)
 {
 	struct copy *copy = &store->copy[store->last];
@@ -326,7 +327,7 @@ static void take_payload(struct store *store, const struct retain_found *found)
 	store->lost = lost > 0;
 	store->old_copy = found->old_copy;
 	store->warm = kept > 0;
-	/* The same variables and no others: the file needs no write. */
+	/* The file has exactly these variables, so it need not be written. */
 	store->up_to_date = store->file.fits && lost == 0 && !found->old_copy &&
 			    kept == (uint32_t)store->retain.count;
 	memcpy(store->stored.value, copy->value, store->retain.copy_size);
@@ -404,7 +405,7 @@ static struct store *refuse(const struct store_wish *wish, const char *why)
 	return NULL;
 }
 
-/* Mistakes of whoever wrote the command; a disk that is full or worn is none. */
+/* Is the error one of the command line, not of the disk? */
 static bool is_mistake(int error)
 {
 	return error == -ENOENT || error == -ENOTDIR || error == -ENOTSUP ||

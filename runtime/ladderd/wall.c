@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * wall - CLOCK_REALTIME and the zone. An unknown zone is UTC.
+ * wall - reads CLOCK_REALTIME and the time zone. An unknown zone counts as UTC.
  */
 #include "ladderd/wall.h"
 

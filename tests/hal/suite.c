@@ -85,8 +85,6 @@ static void test_failed_reads(void)
 	fake.chip[0].line[0].level = 0;
 	CHECK_AS(scan(&b, 1) && input(&b, 0), "a failed read keeps the value");
 	CHECK(hal_quality(&b.hal) == QUALITY_STALE);
-	CHECK(hal_point_quality(&b.hal, 0) == QUALITY_STALE);
-	CHECK(hal_point_quality(&b.hal, 1) == QUALITY_GOOD);
 	CHECK(scan(&b, 2));
 	fake.read_error = 0;
 	CHECK_AS(scan(&b, 3) && !input(&b, 0), "a good read ends the count");
