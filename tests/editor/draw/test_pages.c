@@ -84,7 +84,7 @@ static void check_wide_chart(void)
 	CHECK(system(line) == 0);
 	CHECK(has("wide.txt", "PROGRAM Washing, part 1") &&
 	      has("wide.txt", "PROGRAM Washing, part 2") && !has("wide.txt", "part 3"));
-	CHECK(has("wide.txt", "A bolt that does not go in: give up, and free the door."));
+	CHECK(has("wide.txt", "If the bolt does not shut, end and release the door."));
 	CHECK(has("wide.txt", "washing-machine.rung") && has("wide.txt", "5 of 5"));
 	CHECK_AS(smallest_type("wide.html") >= 5.0, "no type is smaller than 5 pt");
 	g_free(line);
