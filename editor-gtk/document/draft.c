@@ -252,20 +252,34 @@ static void draft_free(gpointer pointer)
 	g_free(draft);
 }
 
-/* Process numbers are used again: only an editor counts as the owner of a draft. Where
- * /proc has no names, any process does. */
+/* Name and state of a process, "(ladder-editor) S"; NULL: no /proc. Caller frees. */
+static char *process_text(long pid)
+{
+	char *path = g_strdup_printf("/proc/%ld/stat", pid), *stat = NULL, *text = NULL;
+
+	if (g_file_get_contents(path, &stat, NULL, NULL) && strchr(stat, '('))
+		text = g_strndup(strchr(stat, '('),
+				 (gsize)(strrchr(stat, ')') + 3 - strchr(stat, '(')));
+	g_free(stat);
+	g_free(path);
+	return text;
+}
+
+/* Process numbers are used again: only an editor counts as the owner of a draft. A killed one
+ * keeps its number until its parent has waited for it: then it is a zombie. Without /proc any
+ * process counts. */
 static bool is_alive(const char *name)
 {
 	const long pid = strtol(name, NULL, 10);
-	char *path = g_strdup_printf("/proc/%ld/comm", pid), *comm = NULL, *own = NULL;
 	bool alive = pid > 0 && (kill((pid_t)pid, 0) == 0 || errno == EPERM);
+	char *own = process_text(getpid()), *text = process_text(pid);
+	const gsize len = own ? strlen(own) - 1 : 0;
 
-	if (alive && g_file_get_contents("/proc/self/comm", &own, NULL, NULL) &&
-	    g_file_get_contents(path, &comm, NULL, NULL))
-		alive = strcmp(own, comm) == 0;
+	if (alive && own && text)
+		alive = strlen(text) == len + 1 && strncmp(own, text, len) == 0 &&
+			!strchr("ZX", text[len]);
+	g_free(text);
 	g_free(own);
-	g_free(comm);
-	g_free(path);
 	return alive && (pid != getpid() || g_str_has_prefix(name, own_begin()));
 }
 
