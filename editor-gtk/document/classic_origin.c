@@ -337,6 +337,7 @@ LadderOrigin *ladder_origin_new(LadderDocument *document, char *path,
 	origin->document = g_object_ref(document);
 	origin->path = path;
 	origin->ladder = ladder;
+	ladder_document_set_from(document, path);
 	begin(origin);
 	g_signal_connect_object(document, "rungs-changed", G_CALLBACK(rungs_changed),
 				origin, G_CONNECT_SWAPPED);

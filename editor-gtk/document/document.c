@@ -38,6 +38,7 @@ struct _LadderDocument {
 	GArray *files;            /* of struct beside: text files whose edits are steps of the
 				     history */
 	char *path;
+	char *from;               /* the original of an import that has no path; NULL: none */
 	char *disk_sum;           /* digest of the file when it was read or saved */
 	GStatBuf disk_seen;       /* the file at the last look                 */
 	enum disk_state disk;     /* the result of that look                   */
@@ -89,6 +90,19 @@ guint64 ladder_document_version(LadderDocument *document)
 const char *ladder_document_path(LadderDocument *document)
 {
 	return document->path;
+}
+
+char *ladder_document_folder(LadderDocument *document)
+{
+	const char *path = document->path ? document->path : document->from;
+
+	return path ? g_path_get_dirname(path) : NULL;
+}
+
+void ladder_document_set_from(LadderDocument *document, const char *path)
+{
+	g_free(document->from);
+	document->from = path ? g_canonicalize_filename(path, NULL) : NULL;
 }
 
 char *ladder_document_name(LadderDocument *document)
@@ -1453,6 +1467,7 @@ static void set_path(LadderDocument *document, const char *path)
 
 	g_free(document->path);
 	document->path = copy;
+	ladder_document_set_from(document, NULL);
 }
 
 static bool fail(GError **error, GFileError code, const char *text, const char *path)
@@ -1803,6 +1818,7 @@ static void ladder_document_finalize(GObject *object)
 	g_clear_pointer(&document->files, g_array_unref);
 	g_hash_table_unref(document->list);
 	g_free(document->text);
+	g_free(document->from);
 	g_free(document->path);
 	g_free(document->disk_sum);
 	G_OBJECT_CLASS(ladder_document_parent_class)->finalize(object);

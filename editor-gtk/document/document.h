@@ -75,6 +75,11 @@ int ladder_document_repaired(LadderDocument *document);
 
 /** ladder_document_path - NULL: none yet. Borrowed. */
 const char *ladder_document_path(LadderDocument *document);
+/** ladder_document_folder - of its path, else of the original that it was imported from;
+ * NULL: neither. Caller frees. */
+char *ladder_document_folder(LadderDocument *document);
+/** ladder_document_set_from - sets the original, of a document without a path. */
+void ladder_document_set_from(LadderDocument *document, const char *path);
 /** ladder_document_name - for titles: the project's name, else the file's. Caller frees. */
 char *ladder_document_name(LadderDocument *document);
 bool ladder_document_is_saved(LadderDocument *document);

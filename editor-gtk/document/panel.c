@@ -306,15 +306,14 @@ void panel_go_to(GtkWidget *from, const LadderPanelRow *row)
 
 void panel_choose_beside(GtkFileChooserNative *chooser, LadderDocument *document)
 {
-	const char *path = ladder_document_path(document);
-	GFile *file = path ? g_file_new_for_path(path) : NULL;
-	GFile *folder = file ? g_file_get_parent(file) : NULL;
+	char *place = ladder_document_folder(document);
+	GFile *folder = place ? g_file_new_for_path(place) : NULL;
 
 	if (folder)
 		gtk_file_chooser_set_current_folder(GTK_FILE_CHOOSER(chooser), folder,
 						    NULL);
 	g_clear_object(&folder);
-	g_clear_object(&file);
+	g_free(place);
 }
 
 /* ---- the document ---- */

@@ -306,6 +306,28 @@ static void test_written(const char *folder)
 	g_object_unref(document);
 }
 
+/* File choosers begin in this folder. */
+static void test_folder(const char *folder)
+{
+	struct opened opened = open_project("oldest.clp");
+	char *whole = g_canonicalize_filename(PROJECTS, NULL), *path;
+	char *of = ladder_document_folder(opened.document);
+
+	CHECK_AS(g_strcmp0(of, whole) == 0, "an imported project begins in the original's folder");
+	g_free(of);
+	path = g_build_filename(folder, "x.rung", NULL);
+	CHECK(ladder_document_save(opened.document, path, NULL));
+	of = ladder_document_folder(opened.document);
+	CHECK_AS(g_strcmp0(of, folder) == 0, "a saved project begins in its own folder");
+	g_free(of);
+	ladder_document_open_text(opened.document, NULL, "RUNGBOARD 1\n", 12, false);
+	CHECK_AS(!ladder_document_folder(opened.document), "a new text has no folder");
+	g_unlink(path);
+	g_free(path);
+	g_free(whole);
+	close_project(opened);
+}
+
 int main(int argc, char **argv)
 {
 	char *folder = g_dir_make_tmp("rungboard-classic-XXXXXX", NULL);
@@ -320,6 +342,7 @@ int main(int argc, char **argv)
 	test_report();
 	test_refused(folder);
 	test_written(folder);
+	test_folder(folder);
 	lettering_free(lettering);
 	g_rmdir(folder);
 	g_free(folder);
