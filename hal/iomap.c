@@ -442,7 +442,7 @@ static bool check_bytes(struct reader *reader, const char *text, size_t len)
 	}
 	if (utf8_valid(text, len, &bad))
 		return true;
-	place.id = DIAG_BAD_UTF8;
+	place.id = utf16_text(text, len) ? DIAG_UTF16 : DIAG_BAD_UTF8;
 	place.line = place.column = 1;
 	for (size_t i = 0; i < bad; i++) {
 		place.column++;

@@ -177,23 +177,6 @@ static void place_short(struct iec_addr *addr, uint32_t number, uint32_t *bit)
 	}
 }
 
-static enum iec_addr_result parse_marker_bit(struct rest rest,
-					     struct iec_addr *out)
-{
-	struct iec_addr addr = { .area = AREA_M };
-	uint32_t number, bit = 0;
-
-	rest.at++;
-	if (!take_number(&rest, &number) || rest.at != rest.end)
-		return ADDR_NONE;
-	place_short(&addr, number, &bit);
-	addr.bit = (uint8_t)bit;
-	if (check_range(addr, bit) != ADDR_OK)
-		return ADDR_RANGE;
-	*out = addr;
-	return ADDR_OK;
-}
-
 enum iec_addr_result iec_addr_parse(const char *text, size_t len,
 				    struct iec_addr *out)
 {
@@ -207,8 +190,6 @@ enum iec_addr_result iec_addr_parse(const char *text, size_t len,
 	*out = addr;
 	if (len == 0)
 		return ADDR_NONE;
-	if (!percent && ascii_upper(*rest.at) == 'B')
-		return parse_marker_bit(rest, out);
 	addr.area = take_area(&rest);
 	addr.bits = take_size(&rest);
 	if (addr.area == AREA_NONE || (addr.bits == 64 && !percent) ||
@@ -223,11 +204,13 @@ enum iec_addr_result iec_addr_parse(const char *text, size_t len,
 	if (rest.at != rest.end)
 		return ADDR_NONE;
 	addr.byte = number;
-	if (dot && addr.bits > 1)
+	if (dot && bit >= (addr.bits > 1 ? addr.bits : 8))
 		return ADDR_RANGE;
-	if (dot)
+	if (dot) {
+		addr.byte += bit / 8; /* MW4.11 is bit 3 of byte 5 */
+		bit %= 8;
 		addr.bits = 1;
-	else if (addr.bits == 1) {
+	} else if (addr.bits == 1) {
 		addr.byte = number / 8;
 		bit = number % 8;
 	} else if (addr.bits == 0)

@@ -61,6 +61,8 @@ size_t utf8_length(const char *text, size_t len);
 /** utf8_valid - whether all @len bytes are valid UTF-8 without NUL. @bad (may be NULL)
  * gets the offset of the first bad byte. */
 bool utf8_valid(const char *text, size_t len, size_t *bad);
+/** utf16_text - does @text begin as UTF-16 does: with its mark, or every other byte 0? */
+bool utf16_text(const char *text, size_t len);
 /** utf8_width - columns a terminal needs: 2 for East Asian wide, 0 for
  * combining, 1 else, also for a byte that is not valid. */
 int utf8_width(const char *text, size_t len);

@@ -77,7 +77,7 @@ static enum literal_result parse_number(struct rest rest, struct literal *out)
 	result = literal_digits(&rest, 10, &size);
 	if (hash && result == LITERAL_OK && rest.at == hash) {
 		if (rest.at - start > 2 || !ascii_digit(*start) ||
-		    (size != 2 && size != 8 && size != 16))
+		    (size != 2 && size != 8 && size != 10 && size != 16))
 			return LITERAL_BAD;
 		rest.at++;
 		result = literal_digits(&rest, (unsigned int)size, &size);

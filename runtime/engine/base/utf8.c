@@ -7,6 +7,7 @@
 #include "engine/base/lex.h"
 
 #include <stdint.h>
+#include <string.h>
 
 /* RFC 3629: no overlong forms, no surrogates, nothing past U+10FFFF. */
 size_t utf8_length(const char *text, size_t len)
@@ -60,6 +61,15 @@ bool utf8_valid(const char *text, size_t len, size_t *bad)
 		at += step;
 	}
 	return true;
+}
+
+bool utf16_text(const char *text, size_t len)
+{
+	if (len < 4)
+		return false;
+	if (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0)
+		return true;
+	return !text[0] == !text[2] && !text[1] == !text[3] && !text[0] != !text[1];
 }
 
 struct range {

@@ -29,6 +29,8 @@ struct il_check {
 	uint8_t *label;        /* by folded name: is it a label?            */
 	uint32_t label_count;
 	struct result now;
+	uint32_t ended_at;   /* label that ended a result; 0: no label did  */
+	bool jumps;          /* a conditional jump was seen                 */
 	int depth;           /* of open parentheses                         */
 	struct il_opened {
 		struct result left;
@@ -275,10 +277,20 @@ static bool can_write(struct il_check *c, const struct il_line *line,
 	return true;
 }
 
+static bool no_result(struct il_check *c, const struct il_line *line, const char *what)
+{
+	char text[2 * LIMIT_ARG];
+
+	if (!c->ended_at)
+		return il_report(c, line, DIAG_IL_NO_RESULT, what);
+	snprintf(text, sizeof(text), "%.40s" DIAG_AND "%.40s", what,
+		 scope_text(c->scope, c->ended_at));
+	return il_report(c, line, DIAG_IL_LABEL_RESULT, text);
+}
+
 static bool il_need_result(struct il_check *c, const struct il_line *line)
 {
-	return c->now.there ||
-	       il_report(c, line, DIAG_IL_NO_RESULT, il_operand_text(c, line));
+	return c->now.there || no_result(c, line, il_operand_text(c, line));
 }
 
 /* @what names the value in the message; "": the current result. */
@@ -1206,7 +1218,7 @@ static bool il_check_own_fn(struct il_check *c, int at)
 
 	c->now = (struct result){ .there = true, .type = var ? var->type : IEC_NONE };
 	if (!first.there)
-		return il_report(c, line, DIAG_IL_NO_RESULT, row->word);
+		return no_result(c, line, row->word);
 	if (pin < 0 || row->pin[pin].type == IEC_NONE || !var ||
 	    var->type == IEC_NONE)
 		return il_report(c, line, DIAG_WRONG_TYPE, row->word);
@@ -1269,9 +1281,14 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 	const struct il_line *line = &c->il->line[at];
 	bool good = true;
 
+	if (c->now.there)
+		c->ended_at = 0;
 	switch ((enum il_kind)line->kind) {
 	case IL_OP:
 		good = check_op(c, at);
+		if (line->op == OP_CAL || line->op == OP_JMP)
+			c->ended_at = 0;
+		c->jumps |= line->op == OP_JMP && line->modifiers & MOD_C;
 		break;
 	case IL_FN:
 		if (word_is_own((enum word)line->word))
@@ -1290,6 +1307,7 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 			good = il_report(c, line, DIAG_IL_OPEN_PAREN,
 				      il_operand_text(c, line));
 		c->depth = 0;
+		c->ended_at = c->now.there || c->jumps ? line->operand : 0;
 		c->now.there = false;
 		break;
 	case IL_EACH:

@@ -13,37 +13,24 @@
 
 static const char *const keywords[] = {
 	"RUNGBOARD", "PROJECT", "INCLUDE", "VAR", "VAR_GLOBAL", "RETAIN",
-	"CONSTANT", "AT", "END_VAR", "PROGRAM", "LD", "IL", "END_PROGRAM",
+	"CONSTANT", "AT", "END_VAR", "PROGRAM", "END_PROGRAM",
 	"CONFIGURATION", "END_CONFIGURATION", "ARRAY", "OF",
 	"RUNG", "OFF", "VIEW", "END_VIEW", "TRUE", "FALSE", "EN", "ENO",
 	"FUNCTION", "END_FUNCTION", "FUNCTION_BLOCK", "END_FUNCTION_BLOCK",
 	"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "TYPE",
 	"SUBROUTINE", "END_SUBROUTINE",
-	"END_TYPE", "STRUCT", "END_STRUCT", "USES",
+	"END_TYPE", "STRUCT", "END_STRUCT", "USES", "AND", "OR", "XOR", "NOT", "MOD",
 };
 #define KEYWORDS (int)(sizeof(keywords) / sizeof(keywords[0]))
-#define RESERVED_COUNT \
-	(KEYWORDS + (int)WORD_COUNT + (int)OP_COUNT + IEC_TYPE_COUNT)
 
-/* Names of contacts, coils, blocks and functions may be variables: a cell begins with its
- * word, and a type follows a colon. MOD may not: it is an operator of expressions. */
+/* Words of cells and of lists may be variables: a cell and an instruction begin with their
+ * word, and a type follows a colon. Operators of expressions may not. */
 const char *reserved_word(int i)
 {
-	const struct word_row *row;
-
-	if (i < 0 || i >= RESERVED_COUNT)
+	if (i < 0 || i >= KEYWORDS + IEC_TYPE_COUNT)
 		return NULL;
-	if (i < KEYWORDS)
-		return keywords[i];
-	i -= KEYWORDS;
-	if (i < (int)WORD_COUNT) {
-		row = word_row((enum word)i);
-		return i == FN_MOD ? row->word : "";
-	}
-	i -= (int)WORD_COUNT;
-	if (i < (int)OP_COUNT)
-		return op_row((enum op)i)->word;
-	return iec_type_row((enum iec_type)(i - (int)OP_COUNT))->word;
+	return i < KEYWORDS ? keywords[i] :
+	       iec_type_row((enum iec_type)(i - KEYWORDS))->word;
 }
 
 bool reserved_generated(const char *name)

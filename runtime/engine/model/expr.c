@@ -148,7 +148,7 @@ static bool skip_simple_index(struct lex *lex)
 	struct lex at = *lex;
 
 	lex_next(&at);
-	if (lex_is(&at, "-")) {
+	if (lex_is(&at, "-") || lex_is(&at, "+")) {
 		lex_next(&at);
 		if (at.token.kind != TOKEN_NUMBER)
 			return false;
@@ -337,6 +337,15 @@ static bool take_operand(struct parser *parser, bool *more)
 		       add_node(parser, node);
 }
 
+/* Steps past the + of a constant, such as +5. */
+static void skip_plus(struct lex *lex)
+{
+	struct lex ahead = *lex;
+
+	if (lex_is(lex, "+") && lex_next(&ahead) == TOKEN_NUMBER)
+		*lex = ahead;
+}
+
 /* Any number of signs, ( and `Table[`, then a name or a constant. */
 static bool take_prefix_and_operand(struct parser *parser)
 {
@@ -344,6 +353,7 @@ static bool take_prefix_and_operand(struct parser *parser)
 		bool more = true;
 		int which;
 
+		skip_plus(parser->lex);
 		if (lex_is(parser->lex, "("))
 			which = OPERATOR_PAREN;
 		else if (lex_is(parser->lex, "-"))

@@ -150,7 +150,7 @@ static bool take_constant(struct init_walk *walk, const struct word_pin *pin,
 	enum literal_result result;
 	size_t len;
 
-	if (lex_is(lex, "-"))
+	if (lex_is(lex, "-") || lex_is(lex, "+"))
 		lex_next(lex);
 	if (lex->token.kind != TOKEN_NUMBER && lex->token.kind != TOKEN_NAME)
 		return fail_expected(walk, "constant");

@@ -37,9 +37,11 @@ static bool take_value(struct lex *lex, struct loop_part *out)
 {
 	const char *start = lex->token.text;
 
-	if (lex->token.kind != TOKEN_NUMBER && !lex_is(lex, "-"))
+	const bool sign = lex_is(lex, "-") || lex_is(lex, "+");
+
+	if (lex->token.kind != TOKEN_NUMBER && !sign)
 		return take_variable(lex, out);
-	if (lex_is(lex, "-"))
+	if (sign)
 		lex_next(lex);
 	if (lex->token.kind != TOKEN_NUMBER)
 		return false;

@@ -18,7 +18,7 @@ static bool read_bound(struct reader *r, int64_t *out)
 	bool negative = reader_is(r, '-');
 	struct literal literal;
 
-	if (negative)
+	if (negative || reader_is(r, '+'))
 		reader_step(r);
 	if (token->kind != TOKEN_NUMBER ||
 	    literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
@@ -180,7 +180,7 @@ static void add_part(struct reader *r)
 
 static bool is_part(const struct reader *r)
 {
-	static const char *const symbols[] = { "(", ")", "[", "]", ",", "-", ":=" };
+	static const char *const symbols[] = { "(", ")", "[", "]", ",", "-", "+", ":=" };
 
 	if (r->lex.token.kind == TOKEN_NAME || r->lex.token.kind == TOKEN_NUMBER)
 		return true;

@@ -48,6 +48,19 @@ static enum op find_operator(const struct token *token, uint8_t *modifiers)
 	return op;
 }
 
+/* & and &N, other names of AND and ANDN. */
+static enum op read_ampersand(struct reader *r, uint8_t *modifiers)
+{
+	struct lex ahead = r->lex;
+
+	lex_next(&ahead);
+	if (lex_is(&ahead, "N") && !ahead.token.space_before) {
+		*modifiers |= MOD_N;
+		reader_next(r);
+	}
+	return OP_AND;
+}
+
 /* N alone has no meaning where C may stand: JMPN. */
 static bool may_have(enum op op, uint8_t modifiers)
 {
@@ -326,9 +339,10 @@ static bool read_instruction(struct reader *r)
 		reader_next(r);
 		return true;
 	}
-	if (token.kind != TOKEN_NAME)
+	if (token.kind != TOKEN_NAME && !reader_is(r, '&'))
 		return reader_fail_token(r, DIAG_SYNTAX);
-	op = find_operator(&token, &line.modifiers);
+	op = reader_is(r, '&') ? read_ampersand(r, &line.modifiers) :
+				 find_operator(&token, &line.modifiers);
 	if (op != OP_COUNT) {
 		line.kind = IL_OP;
 		line.op = (uint8_t)op;

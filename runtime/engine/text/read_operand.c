@@ -111,6 +111,15 @@ static bool check_constant(struct reader *r, const char *text, size_t len)
 	return reader_fail(r, DIAG_BAD_LITERAL, text, len);
 }
 
+bool reader_sign(struct reader *r)
+{
+	if (!reader_is(r, '-') && !reader_is(r, '+'))
+		return false;
+	buffer_add(r, &r->text, r->lex.token.text, 1);
+	reader_step(r);
+	return true;
+}
+
 /* Reads `[3]`, `[-3]` or `[i]` after the cursor; leaves it on the ]. */
 static bool add_index(struct reader *r)
 {
@@ -119,12 +128,8 @@ static bool add_index(struct reader *r)
 	reader_step(r);
 	buffer_add(r, &r->text, "[", 1);
 	reader_step(r);
-	if (reader_is(r, '-')) {
-		buffer_add(r, &r->text, "-", 1);
-		reader_step(r);
-		if (token->kind != TOKEN_NUMBER)
-			return reader_fail_token(r, DIAG_BAD_LITERAL);
-	}
+	if (reader_sign(r) && token->kind != TOKEN_NUMBER)
+		return reader_fail_token(r, DIAG_BAD_LITERAL);
 	if (token->kind != TOKEN_NUMBER && token->kind != TOKEN_NAME &&
 	    token->kind != TOKEN_ADDRESS)
 		return reader_fail_word(r, DIAG_EXPECTED, "index");
@@ -183,12 +188,8 @@ bool reader_value(struct reader *r, bool constant, const struct token *word)
 	size_t from = r->text.len;
 	struct iec_addr addr;
 
-	if (constant && reader_is(r, '-')) {
-		buffer_add(r, &r->text, "-", 1);
-		reader_step(r);
-		if (token->kind != TOKEN_NUMBER)
-			return reader_fail_token(r, DIAG_BAD_LITERAL);
-	}
+	if (constant && reader_sign(r) && token->kind != TOKEN_NUMBER)
+		return reader_fail_token(r, DIAG_BAD_LITERAL);
 	buffer_add(r, &r->text, token->text, token->len);
 	if (token->kind == TOKEN_NAME)
 		return check_length(r) && add_path(r);

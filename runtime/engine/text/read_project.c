@@ -374,6 +374,8 @@ static bool read_file(struct reader *r, const char *text, size_t len)
 {
 	if (len > LIMIT_TEXT) /* no line yet: the whole file */
 		return reader_fail_word(r, DIAG_TOO_LARGE, "");
+	if (utf16_text(text, len))
+		return reader_fail_word(r, DIAG_UTF16, "");
 	if (!has_first_line(r, text, len))
 		return false;
 	if (!r->outer)

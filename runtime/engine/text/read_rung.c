@@ -168,7 +168,7 @@ static bool read_loop(struct reader *r, struct cell *cell)
 		if (!glued && !reader_is(r, '[') && !reader_is(r, ']') &&
 		    !reader_is(r, '.'))
 			buffer_add(r, &r->text, " ", 1);
-		glued = reader_is(r, '-') || reader_is(r, '[') || reader_is(r, '.');
+		glued = reader_is(r, '-') || reader_is(r, '+') || reader_is(r, '[') || reader_is(r, '.');
 		buffer_add(r, &r->text, token->text, token->len);
 		reader_next(r);
 	}

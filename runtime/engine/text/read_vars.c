@@ -187,10 +187,7 @@ bool read_constant(struct reader *r, enum iec_type type, union iec_value *out)
 	const struct token *token = &r->lex.token;
 	const size_t from = r->text.len;
 
-	if (reader_is(r, '-')) {
-		buffer_add(r, &r->text, "-", 1);
-		reader_step(r);
-	}
+	reader_sign(r);
 	if (token->kind != TOKEN_NUMBER && token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "constant");
 	buffer_add(r, &r->text, token->text, token->len);

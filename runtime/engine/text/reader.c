@@ -129,7 +129,7 @@ static bool is_blank(char c)
 	return c == ' ' || c == '\t' || c == '\n';
 }
 
-/* Does a comment begin or end in @text? Comments do not nest. */
+/* Does a comment begin or end at @text? These two bytes must be parted inside another. */
 static bool is_mark(const char *text, size_t len)
 {
 	return len >= 2 && ((text[0] == '*' && text[1] == ')') ||

@@ -133,6 +133,8 @@ bool reader_pin(struct reader *r, uint32_t *id);
 /** reader_arg - appends `PIN:=value` to r->text and to r->arg, likewise. */
 bool reader_arg(struct reader *r);
 
+/** reader_sign - appends a sign under the cursor and steps past it; true if there is one. */
+bool reader_sign(struct reader *r);
 /** read_constant - appends a constant of @type to r->text and steps behind it. */
 bool read_constant(struct reader *r, enum iec_type type, union iec_value *out);
 /** read_array - `ARRAY[low..high] OF`, if it stands here. */

@@ -484,6 +484,8 @@ static bool check_utf8(struct reader *reader, const char *text, size_t len)
 
 	if (utf8_valid(text, len, &bad))
 		return true;
+	if (utf16_text(text, len))
+		place.id = DIAG_UTF16;
 	for (size_t i = 0; i < bad; i++) {
 		if (text[i] != '\n')
 			continue;

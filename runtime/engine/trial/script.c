@@ -378,6 +378,8 @@ static bool check_bytes(struct script *script, const char *text, size_t len)
 
 	script->line = 1;
 	script->line_start = text;
+	if (utf16_text(text, len))
+		return complain(script, DIAG_UTF16, (struct script_word){ text, 0 });
 	for (; at < (valid ? len : bad); at++) {
 		unsigned char c = (unsigned char)text[at];
 

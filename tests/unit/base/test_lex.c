@@ -185,6 +185,10 @@ static void utf8(void)
 			 "invalid UTF-8");
 		CHECK(utf8_length(bad[i], strlen(bad[i])) == 0);
 	}
+	CHECK(utf16_text("\xff\xfeR\0", 4) && utf16_text("\xfe\xff\0R", 4));
+	CHECK(utf16_text("R\0U\0", 4) && utf16_text("\0R\0U", 4));
+	CHECK(!utf16_text("RUNG", 4) && !utf16_text("\0\0\0\0", 4) &&
+	      !utf16_text("\xef\xbb\xbfR", 4) && !utf16_text("R\0", 2));
 	CHECK(utf8_length("", 0) == 0);
 	CHECK(utf8_length("\xf0\x9f\x94\xa7x", 5) == 4);
 	CHECK(utf8_width("abc", 3) == 3);

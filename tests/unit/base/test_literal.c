@@ -40,6 +40,8 @@ static void integers(void)
 	CHECK(is("007", IEC_NONE, 7));
 	CHECK(is("9223372036854775807", IEC_NONE, INT64_MAX));
 	CHECK(is("-9223372036854775808", IEC_NONE, INT64_MIN));
+	CHECK(is("10#1000", IEC_NONE, 1000));
+	CHECK(is("INT#10#1_000", IEC_INT, 1000));
 	CHECK(is("INT#16#7F", IEC_INT, 127));
 	CHECK(is("INT#-5", IEC_INT, -5));
 	CHECK(is("word#16#FFFF", IEC_WORD, 65535));
@@ -144,7 +146,7 @@ static void times(void)
 static void malformed(void)
 {
 	static const char *const bad[] = {
-		"2#3", "8#8", "16#G", "16#", "10#5", "3#1", "-16#FF", "1__0",
+		"2#3", "8#8", "16#G", "16#", "10#A", "10#", "3#1", "-16#FF", "1__0",
 		"1_", "1.", "1.5.2", "1e", "1e+", "5x", "T#", "T#5", "T#5x",
 		"T#s", "T#1s1h", "T#1s2s", "T#1.5h2m", "T#1h_", "T#1h__2m",
 		"T#--5s", "T#1. s", "INT#", "INT#x", "INT#1.5", "FOO#5", "#5",

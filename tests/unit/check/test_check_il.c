@@ -199,7 +199,7 @@ static void finds_structure(void)
 	CHECK_FIRST(il("  RETC"), "LD603");
 	CHECK_FIRST(il("  CALC Up"), "LD603 Up");
 	CHECK_FIRST(il("  LD A\n  AND(\n  )\n  ST B"), "LD603");
-	CHECK_FIRST(il("  LD A\nL:\n  ST B"), "LD603 B");
+	CHECK_FIRST(il("  LD A\nL:\n  ST B"), "LD609 B" DIAG_AND "L");
 	CHECK_FIRST(il("  LD A\n  JMP L\n  ST B\nL:"), "LD603 B");
 	CHECK_FIRST(il("  LD A\n  CAL Up\n  ST B"), "LD603 B");
 	CHECK_FIRST(il("  AND( A\n  OR B\n  )\n"), "LD603 A");

@@ -67,7 +67,7 @@ static void test_refused(void)
 		{ "LD603", "  NOT\n  ST X\n" },
 		{ "LD603", "  ADD 1\n  ST N\n" },
 		{ "LD603", "  CAL Delay(IN := A)\n  ST X\n" },
-		{ "LD603", "  LD A\nOn:\n  ST X\n" },
+		{ "LD609", "  LD A\nOn:\n  ST X\n" },
 		{ "LD604", "  LDC A\n  ST X\n" },
 		{ "LD604", "  LD A\n  SN X\n" },
 		{ "LD305", "  LD A\n  ST TRUE\n" },
