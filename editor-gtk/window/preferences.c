@@ -96,6 +96,24 @@ static void add_keys(AdwPreferencesPage *page)
 		   _("Rungboard's own keys, or those of another editor"), names);
 }
 
+static void add_simulation(AdwPreferencesPage *page)
+{
+	GtkWidget *row = adw_action_row_new(), *runs = gtk_switch_new();
+
+	adw_preferences_row_set_title(ADW_PREFERENCES_ROW(row), _("Run at once"));
+	adw_action_row_set_subtitle(ADW_ACTION_ROW(row),
+		_("“Simulate” also runs the program; if off, it stops before the first scan"));
+	gtk_widget_set_valign(runs, GTK_ALIGN_CENTER);
+	gtk_switch_set_active(GTK_SWITCH(runs), settings_flag("simulate-runs", TRUE));
+	gtk_widget_set_sensitive(row, settings_get() != NULL);
+	if (settings_get())
+		g_settings_bind(settings_get(), "simulate-runs", runs, "active",
+				G_SETTINGS_BIND_DEFAULT);
+	adw_action_row_add_suffix(ADW_ACTION_ROW(row), runs);
+	adw_action_row_set_activatable_widget(ADW_ACTION_ROW(row), runs);
+	adw_preferences_group_add(add_group(page, _("Simulation")), row);
+}
+
 void preferences_show(GtkWindow *window)
 {
 	GtkWidget *dialog = adw_preferences_window_new();
@@ -103,6 +121,7 @@ void preferences_show(GtkWindow *window)
 
 	add_looks(ADW_PREFERENCES_PAGE(page));
 	add_keys(ADW_PREFERENCES_PAGE(page));
+	add_simulation(ADW_PREFERENCES_PAGE(page));
 	adw_preferences_window_add(ADW_PREFERENCES_WINDOW(dialog),
 				   ADW_PREFERENCES_PAGE(page));
 	adw_preferences_window_set_search_enabled(ADW_PREFERENCES_WINDOW(dialog), FALSE);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * preferences - light or dark, colour of power, names, keys.
+ * preferences - light or dark, colour of power, names, keys, simulation.
  *
  * All are GSettings; a change applies to all windows at once.
  */

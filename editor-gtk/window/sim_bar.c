@@ -7,10 +7,10 @@
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/settings.h"
 #include "editor-gtk/live/sim_panel.h"
 #include "editor-gtk/sim/sim_pace.h"
 #include "editor-gtk/window/ask.h"
-#include "editor-gtk/window/below.h"
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/tabs.h"
 
@@ -128,21 +128,40 @@ static void told(LadderSim *sim, const char *text, gboolean bad, struct sim_bar 
 
 /* ---- what it does ---- */
 
-/* Errors of the plant are not in the problems list, so a banner shows them. */
+static void offer_errors(struct sim_bar *bar, int errors)
+{
+	char *text = g_strdup_printf(ngettext("Cannot simulate: %d error",
+		"Cannot simulate: %d errors", (unsigned long)errors), errors);
+
+	messages_banner(bar->core->messages, _("simulation"), text, _("Show"),
+			"win.show-error");
+	g_free(text);
+	bar->refused = errors;
+}
+
+/* Errors of the plant are not in the problems list, so the banner has the first. */
 static bool refuse(struct sim_bar *bar, GError *error, bool plant)
 {
+	const int errors = ladder_document_diags(bar->core->document)->errors;
 	char *text = plant ? g_strdup_printf(_("The plant has errors: %s"), error->message) :
 			     g_strdup(error->message);
 
-	if (plant)
-		messages_warn(bar->core->messages, text);
+	if (errors && !plant)
+		offer_errors(bar, errors);
 	else
-		below_show_error(bar->core->below);
+		messages_warn(bar->core->messages, text);
 	messages_tell(bar->core->messages, text);
 	g_free(text);
 	g_error_free(error);
 	show_buttons(bar);
 	return false;
+}
+
+/* A banner with another number of errors is out of date. */
+static void checked(struct sim_bar *bar)
+{
+	if (ladder_document_diags(bar->core->document)->errors != bar->refused)
+		messages_close_offer(bar->core->messages, "win.show-error");
 }
 
 static bool begin(struct sim_bar *bar)
@@ -168,15 +187,19 @@ static void end(struct sim_bar *bar)
 	messages_close_banner(bar->core->messages);
 }
 
-static void mode_toggled(struct sim_bar *bar)
+static void begin_or_end(struct sim_bar *bar)
 {
-	if (gtk_toggle_button_get_active(bar->simulate_mode) ==
-	    ladder_sim_is_on(bar->core->sim))
-		return;
 	if (ladder_sim_is_on(bar->core->sim))
 		end(bar);
-	else
-		begin(bar);
+	else if (begin(bar) && settings_flag("simulate-runs", TRUE))
+		ladder_sim_run(bar->core->sim);
+}
+
+static void mode_toggled(struct sim_bar *bar)
+{
+	if (gtk_toggle_button_get_active(bar->simulate_mode) !=
+	    ladder_sim_is_on(bar->core->sim))
+		begin_or_end(bar);
 }
 
 static void run_or_pause(struct sim_bar *bar)
@@ -223,12 +246,7 @@ bool sim_bar_do(struct sim_bar *bar, enum verb verb)
 	LadderSim *sim = bar->core->sim;
 
 	switch ((int)verb) {
-	case VERB_sim_mode:
-		if (ladder_sim_is_on(sim))
-			end(bar);
-		else
-			begin(bar);
-		return true;
+	case VERB_sim_mode: begin_or_end(bar); return true;
 	case VERB_sim_run: run_or_pause(bar); return true;
 	case VERB_sim_scan:
 		if (begin(bar))
@@ -272,6 +290,8 @@ void sim_bar_init(struct sim_bar *bar, struct core *core, struct origin *origin)
 		     G_CONNECT_SWAPPED);
 	core_connect(core, sim, "shown", G_CALLBACK(shown), bar, G_CONNECT_SWAPPED);
 	core_connect(core, sim, "told", G_CALLBACK(told), bar, 0);
+	core_connect(core, core->document, "checked", G_CALLBACK(checked), bar,
+		     G_CONNECT_SWAPPED);
 	core_connect(core, bar->simulate_mode, "toggled", G_CALLBACK(mode_toggled), bar,
 		     G_CONNECT_SWAPPED);
 	show_buttons(bar);

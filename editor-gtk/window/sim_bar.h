@@ -19,6 +19,7 @@ struct sim_bar {
 	GtkButton *run_button, *forces_button;
 	GtkMenuButton *pace_button;
 	AdwWindowTitle *title;
+	int refused;            /* errors that the banner reports                */
 	guint when_timer;      /* updates the subtitle when it elapses; 0: none */
 };
 

@@ -524,6 +524,13 @@ static void reload(GtkWidget *widget, const char *name, GVariant *unused)
 	files_reload(&LADDER_WINDOW(widget)->files);
 }
 
+static void show_error(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	below_show_error(&LADDER_WINDOW(widget)->below);
+}
+
 static void to_sheet(GtkWidget *widget, const char *name, GVariant *unused)
 {
 	(void)name;
@@ -547,6 +554,7 @@ static void install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.rename-pou", "i", do_rename_pou);
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
+	gtk_widget_class_install_action(class, "win.show-error", NULL, show_error);
 	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
 	/* GTK binds F6 inside panes only, not above them. */
 	gtk_widget_class_add_binding_action(class, GDK_KEY_F6, 0, "win.to-sheet", NULL);

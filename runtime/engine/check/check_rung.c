@@ -474,14 +474,18 @@ bool check_rung(const struct project *project, const struct pou *pou,
 
 	if (rung->off)
 		return true;
+	if (!has_wire(rung)) {
+		/* A jump may end here, and a new program begins so. */
+		if (!rung->label && pou->rung_count > 1)
+			report(&c, DIAG_EMPTY_RUNG, -1, -1, "");
+		return c.good;
+	}
 	c.net = arena_alloc(scratch,
 			    (size_t)network->net_count * sizeof(*c.net));
-	if (!c.net)
+	if (!c.net) {
 		report(&c, DIAG_NO_MEMORY, -1, -1, "");
-	else if (!has_wire(rung))
-		report(&c, DIAG_EMPTY_RUNG, -1, -1, "");
-	if (!c.good)
 		return false;
+	}
 	check_grid(&c);
 	for (int i = 0; i < network->element_count; i++)
 		check_element(&c, i);

@@ -58,6 +58,49 @@ END_PROGRAM
 '''
 
 
+BEGUN = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | COIL Motor |
+RUNG
+  | | |
+RUNG
+  | NO Nowhere | COIL Nothing |
+END_PROGRAM
+'''
+
+
+def errors(screen):
+    """a bar counts the errors that keep the program from running, and leads to the first; empty rungs run"""
+    editor = Editor(screen, new_file(screen, BEGUN))
+    editor.to_sheet()
+    editor.click(editor.find('Simulate'))
+    editor.find('Cannot simulate: 2 errors', 'label')
+    assert not editor.all('SIMULATION'), 'it runs'
+    editor.shot('running-errors')
+    editor.click(editor.find('Show', 'push button'))
+    editor.says('Rung 3 · column A')
+    until(lambda: not editor.all('Cannot simulate'), 'the bar to be closed')
+    editor.keys('ctrl+m')
+    editor.find('Cannot simulate: 2 errors', 'label')
+    editor.to_sheet()
+    editor.keys('ctrl+End', 'ctrl+Delete')
+    until(lambda: not editor.all('Cannot simulate'), 'the bar to go with the errors')
+    editor.click(editor.find('Simulate'))
+    runs(editor)
+    # A new project has one empty rung, and that is no problem.
+    editor = Editor(screen)
+    editor.says('no problems')
+    editor.click(editor.find('Simulate'))
+    runs(editor)
+
+
 def plant(screen):
     """a plant with errors: the message and its place stay; once mended it runs"""
     path = new_file(screen, PROGRAM, 'motor.rung')
@@ -296,4 +339,4 @@ def closing(screen):
     check(path)
 
 
-main([plant, zero, safe, starts, paces, closing])
+main([errors, plant, zero, safe, starts, paces, closing])

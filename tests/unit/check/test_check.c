@@ -172,7 +172,10 @@ static void test_loose_ends(void)
 		   "LD201(2,2)---");
 	CHECK_TEXT(topology("| NO A | CTU C | COIL Q |\n| | .R |"),
 		   "LD201(2,2)R");
+	CHECK_AS(!*topology("| | |\n| | |"), "a POU with nothing drawn yet is correct");
+	pous[0].rung_count = 2;
 	CHECK_TEXT(topology("| | |\n| | |"), "LD207(0,0)");
+	pous[0].rung_count = 0;
 	CHECK_TEXT(topology("| NO A | NO B |"), "LD212(0,0)");
 	CHECK_TEXT(topology("| --- | --- |"), "LD212(0,0)");
 	CHECK_TEXT(topology("| NO A | COIL B |\n| NO C |\n| NO D^|"),
