@@ -1,9 +1,10 @@
 #!/usr/bin/env perl
 # SPDX-License-Identifier: MIT
-# architecture.t - each file, folder, function and make target that ARCHITECTURE.md names exists.
+# architecture.t - every file, folder, function and make target that ARCHITECTURE.md names
+# exists.
 #
-# A name of a file is looked up as a path from the top, below runtime/, runtime/engine/
-# and editor-gtk/, or as the name of exactly one or more files anywhere.
+# A file name is a path from the top, or below runtime/, runtime/engine/ or editor-gtk/, or
+# the name of at least one file anywhere.
 use strict;
 use warnings;
 use File::Find;

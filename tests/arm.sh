@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# arm - the engine on arm64 and armhf, by qemu's user mode: every unit test, the
-# golden cases, the second evaluator, the cases of the standard, and programs whose
-# traces were made here. The programs are
-# built by `make arm`. There is no GPIO here: tests/targets has machines for that.
+# arm - the engine on arm64 and armhf in user mode of qemu: every unit test, the golden
+# cases, the second evaluator, the cases of the standard, and programs with traces from this
+# machine. `make arm` builds the programs. There is no GPIO here; tests/targets has machines
+# for that.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
@@ -26,7 +26,7 @@ run_arch() {
 	if ! command -v "$2" >/dev/null || ! command -v "$3gcc" >/dev/null; then
 		n=$((n + 1))
 		echo "ok $n # SKIP $1 did not run: apt-get install qemu-user $4"
-		# prove counts such a line as good and says nothing of it.
+		# prove counts such a line as good and prints nothing about it.
 		echo "arm.sh: $1 was skipped: apt-get install qemu-user $4" >&2
 		return
 	fi
@@ -46,7 +46,7 @@ run_arch() {
 	return $failed
 }
 
-# Both at once; then the lines are numbered through.
+# Runs both at once and numbers the lines of both.
 run_arch arm64 qemu-aarch64 aarch64-linux-gnu- \
 	'gcc-aarch64-linux-gnu libc6-dev-arm64-cross' >"$tmp/arm64" &
 run_arch armhf qemu-arm arm-linux-gnueabihf- \

@@ -16,8 +16,8 @@
 #   tests/bad/pins.table             pins missing, not there, twice, in the wrong direction
 #   tests/bad/operands.table         every element and operator with operands of each kind
 #
-# golden.t compares what the cases expect; here they run once more in the build with
-# sanitizers, and errors are counted against the power that did not come.
+# golden.t compares the results of the cases; here the cases also run in the build with
+# sanitizers, and each value that did not give power must have been counted as an error.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -34,12 +34,12 @@ use Traced;
 my $tests = abs_path(dirname(__FILE__));
 my $build = $ENV{BUILD} // "$tests/../build";
 my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
-# An old build with sanitizers would judge another program.
+# An old build with sanitizers would test another program.
 my $sanitized = -x "$build/asan/ladder" && -M "$build/asan/ladder" <= -M $ladder;
 my $runner = $sanitized ? abs_path("$build/asan/ladder") : $ladder;
 my $folder = tempdir(CLEANUP => 1);
 my $write = @ARGV && $ARGV[0] eq '--write';
-my $at_once = 40; # only 100 messages of a file are shown
+my $at_once = 40; # a file shows only 100 messages
 
 sub slurp {
 	my ($path) = @_;
@@ -55,7 +55,7 @@ sub spew {
 	close $out or die "$path: $!";
 }
 
-# What a command prints, both streams, and its status.
+# The output of a command, both streams, and its status.
 sub run {
 	my ($where, @command) = @_;
 	my $pid = open my $from, '-|';
@@ -101,16 +101,16 @@ sub cases {
 	return %case;
 }
 
-# The first message of a program, without what it speaks of; "good".
+# The first message of a program, without its name; or "good".
 sub first_message {
 	my ($text) = @_;
 	my ($message) = $text =~ /^\S+ (?:rung .*?\) |.*?: )?error (LD\d+: .*)$/m;
 	return 'good' if !defined $message;
-	$message =~ s/"[^"]*"/"…"/g; # the name: the same message for many operands
+	$message =~ s/"[^"]*"/"…"/g; # the name, so that the message is the same for all operands
 	return $message;
 }
 
-# Blocks of text by their words; words with the same block stand together.
+# Prints blocks of text; words with the same block are listed together.
 sub joined {
 	my (@pairs) = @_;
 	my (%words_of, @order);
@@ -121,7 +121,7 @@ sub joined {
 	return join '', map { "@{$words_of{$_}}\n$_" } @order;
 }
 
-# What is said to programs with something wrong: lines "message: what was wrong".
+# The messages about programs with one error: lines "message: error".
 sub said_to {
 	my ($between, @cases) = @_;
 	my (%said, @order);
@@ -143,7 +143,7 @@ sub operands_table {
 		grep { $named{$_->{kind}} } @$words);
 }
 
-# "WORD  message: what was wrong" for the pins of each function and block.
+# "WORD  message: error" for the pins of each function and block.
 sub pins_table {
 	return joined(map { my $word = $_->{result} ? Refused::of_function($_) : Refused::of_block($_);
 		[$_->{word}, said_to(', ', map { my ($wrong, $rung) = @$_;
@@ -151,13 +151,13 @@ sub pins_table {
 		} Refused::wrong_pins($word))] } @functions, @blocks);
 }
 
-# What one more than the limit gets, for each kind of nesting.
+# The message about one level more than the limit, for each kind of nesting.
 sub deepest_table {
 	return joined(map { [$_, said_to('', ["$limits{$_} is the limit, " . ($limits{$_} + 1) .
 		' are too many', Deepest::program($_ => $limits{$_} + 1)])] } sort keys %limits);
 }
 
-# The messages of many rungs, by the number of the rung.
+# The messages of many rungs, by rung number.
 sub judge {
 	my ($word, @rungs) = @_;
 	my %said;
@@ -190,8 +190,9 @@ sub types_table {
 	return joined(@table);
 }
 
-# What did not give power was counted, in the trace of functions; of a BOOL that may have
-# been its value. Without EN nothing runs, so nothing is counted.
+# Compares the counted errors with the powers in the trace of functions. A result of type
+# BOOL may also give no power because of its value. Without EN nothing runs and nothing is
+# counted.
 sub count_errors {
 	my ($program, $trace) = @_;
 	my %is_bool = map { $_ => 1 } $program =~ /^  r_(\w+) : BOOL;/mg;

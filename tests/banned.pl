@@ -1,9 +1,9 @@
 #!/usr/bin/env perl
 # SPDX-License-Identifier: MIT
-# banned - what the house does not want to see in its sources, a TAP line a rule.
+# banned - checks the rules of the house on the sources; a TAP line for each rule.
 #
-# It reads text, not syntax: comments and strings are taken out first where a rule
-# is about code. Tests keep the rules of heading and layout, not those of calls.
+# It reads text, not syntax: rules about code ignore comments and strings. Tests follow the
+# rules of heading and layout, but not those of calls.
 use strict;
 use warnings;
 use File::Find;
@@ -31,14 +31,14 @@ for my $file (@files) {
 	local $/;
 	$text{$file} = <$in>;
 	my $code = $text{$file};
-	# Comments and strings away, lines kept.
+	# Removes comments and strings, keeps lines.
 	$code =~ s{(/\*.*?\*/|//[^\n]*|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*')}
 		{my $x = $1; my $q = substr($x, 0, 1);
 		 $x =~ s/[^\n]//g; $q eq '"' ? qq("$x") : $q eq "'" ? "0$x" : " $x"}gse;
 	$code{$file} = $code;
 }
 
-# Places where a pattern stands in the code of files that are chosen.
+# The places in the code of selected files where a pattern matches.
 sub places {
 	my ($pattern, $choose) = @_;
 	my @bad;
@@ -69,7 +69,7 @@ say_rule("the library does not print or exit",
 say_rule("the scan reads no clock, takes no lock, allocates nothing",
 	 places(qr/\b(?:clock_gettime|gettimeofday|time|malloc|calloc|realloc|free|pthread_\w+|fopen|write|read)\s*\(/,
 		sub { $_[0] =~ m{^runtime/engine/scan/} }));
-# On one board long has 4 bytes, on another 8.
+# The size of long differs between boards.
 say_rule("the scan's numbers are of one size everywhere",
 	 places(qr/\b(?:long|wchar_t|time_t|intmax_t|ptrdiff_t)\b/,
 		sub { $_[0] =~ m{^runtime/engine/scan/} }));
@@ -94,7 +94,7 @@ say_rule("no unnamed TODO",
 	       map { $l++; /\b(?:TODO|FIXME|XXX)\b/ ? "$f:$l" : () }
 	       split /\n/, $text{$f} } @files);
 
-# A function: a line that begins at the margin, then `{` at the margin.
+# A function begins with a line at the margin, followed by `{` at the margin.
 my @long;
 for my $file (grep { /\.c$/ } @files) {
 	my ($line, $start, $name, $last) = (0, 0, "", "");
@@ -134,7 +134,7 @@ for my $file (@files) {
 }
 say_rule("no path of somebody's machine", @path);
 
-# Scan-safe is never left out of a public function's comment in scan/.
+# The comment of every public function of scan/ must have *Scan-safe*.
 my @safe;
 for my $file (grep { m{^runtime/engine/scan/.*\.h$} } @files) {
 	while ($text{$file} =~ m{/\*\*(.*?)\*/}gs) {

@@ -1,11 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# changed - the rooms in which git sees a change, a path each: what is not committed, and what the
-# branch has that its upstream has not. With nothing changed: the rooms of the last commit.
+# changed - prints the rooms with changes in git, a path each: changes that are not
+# committed, and those of the branch that its upstream does not have. Without changes: the
+# rooms of the last commit.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
-rooms() { # of the files on standard input; a test stands for the room it tests
+rooms() { # of the files on standard input; a test belongs to the room that it tests
 	sed -n -e 's|^tests/editor/\(.*\)/[^/]*\.[ch]$|editor-gtk/\1|p' \
 		-e 's|^tests/unit/\(ladder\)/[^/]*$|runtime/\1|p' \
 		-e 's|^tests/unit/engine/[^/]*$|runtime/engine|p' \

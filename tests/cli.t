@@ -1,9 +1,8 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# cli - the command line from outside, with the real binary: exit status, what is on
-# standard output and what on standard error, bad input, JSON, full disks, closed
-# pipes. It does not test what programs do: that is for the scenarios.
+# cli - tests the command line from outside: exit status, standard output and standard
+# error, bad input, JSON, full disks, closed pipes. Scenarios test what programs do.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -22,9 +21,9 @@ chdir $dir or die;
 sub put { my ($name, $text) = @_; open my $f, '>:raw', $name or die; print $f $text; close $f or die }
 sub get { my ($name) = @_; open my $f, '<:raw', $name or die; local $/; my $text = <$f>; close $f; $text }
 
-# Root may write everywhere, unless it gives that right away.
+# Root may write everywhere, so the test gives up that right.
 my @as_user;
-# Exit status, standard output, standard error.
+# Returns exit status, standard output, standard error.
 sub run {
 	my (@args) = @_;
 	my $in = ref $args[0] ? ${shift @args} : '';
@@ -92,7 +91,7 @@ for my $command (@commands) {
 	like($help, qr/^Usage: ladder $command /, "$command --help: usage");
 	like($help, qr/^Example:\n  .*ladder \Q$command\E/m, "$command --help: an example of it");
 	my ($same) = is_run(0, "help $command", ['help', $command]);
-	is($same, $help, "help $command says the same");
+	is($same, $help, "help $command prints the same");
 	my ($man) = is_run(0, "man page of $command", ['help', '--man', $command]);
 	like($man, qr/^\.TH "LADDER-\U$command\E" 1 /, "man page of $command has a title");
 	is_run(2, "$command --nonsense", [$command, '--nonsense']);
@@ -124,7 +123,7 @@ for my $name (sort keys %inputs) {
 		ok($status eq ($command eq 'diff' ? 2 : 1), "$command of $name: refused") or diag("$status: $err");
 		ok($err =~ /error LD\d{3}/ && pure($err), "$command of $name: says why") or diag($err);
 	}
-	is(get("in-$name"), $inputs{$name}, "$name: still what it was");
+	is(get("in-$name"), $inputs{$name}, "$name: unchanged");
 }
 ok(!-e 'out.rungc', 'no image was built of bad input');
 for my $path ('nothing-here.rung', '.') {
@@ -139,7 +138,7 @@ is_run(0, 'CRLF', ['check', 'crlf.rung']);
 
 # ---- check ----
 ($out, $err) = is_run(0, 'check', ['check', 'good.rung']);
-is($out, "good.rung: good\n", 'check: the sum');
+is($out, "good.rung: good\n", 'check: the last line');
 ($out, $err) = is_run(1, 'check of an error', ['check', 'good.rung', 'bad.rung']);
 like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: "Stopp" .*; did you mean Stop\?$/m, 'check: file, line, rung, cell, code, name');
 like($out, qr/^good\.rung: good\nbad\.rung: 1 error/, 'check: a line for each file');
@@ -184,7 +183,7 @@ SKIP: {
 	@as_user = ('setpriv', '--bounding-set=-dac_override,-dac_read_search') if $> == 0;
 	mkdir 'ro'; put('ro/ugly.rung', $ugly); chmod 0555, 'ro';
 	is_run(2, 'fmt in a read-only folder', ['fmt', 'ro/ugly.rung']);
-	is(get('ro/ugly.rung'), $ugly, 'and the file is what it was');
+	is(get('ro/ugly.rung'), $ugly, 'the file is unchanged');
 	@as_user = ();
 	chmod 0755, 'ro';
 }
@@ -208,7 +207,7 @@ my ($identity) = $out =~ /^identity +(\w+)/;
 ($out) = is_run(0, 'code of the il', ['code', 'il.rung']);
 like($out, qr/^identity +$identity$/m, 'the il gives the same code');
 ($out) = is_run(0, 'code of a loop', ['code', 'loop.rung']);
-like($out, qr/loops/, 'code: says that it loops');
+like($out, qr/loops/, 'code: reports a loop');
 is_run(0, 'build', ['build', 'good.rung', '-o', 'good.rungc']);
 ($out) = is_run(0, 'code of the image', ['code', 'good.rungc']);
 like($out, qr/^identity +$identity$/m, 'the image has the same identity');
@@ -243,8 +242,8 @@ is(scalar @{decode_json($out)}, 1, 'diff --json: one difference');
 is(scalar @{decode_json($out)}, 0, 'diff --json of the same: none');
 is_run(2, 'diff with an error', ['diff', 'good.rung', 'broken.rung']);
 ($out) = is_run(0, 'words', ['words', 'ton']);
-like($out, qr/TON.*\bPT\b.*\bET\b/s, 'words tells the pins');
-like($out, qr/table 46.*TON Box PT:=T#2s.*TON .*CAL +Box\(/s, 'its source, an example, a picture, a list');
+like($out, qr/TON.*\bPT\b.*\bET\b/s, 'words: the pins');
+like($out, qr/table 46.*TON Box PT:=T#2s.*TON .*CAL +Box\(/s, 'words: source, example, picture, list');
 ($out) = is_run(0, 'words --json of one', ['words', '--json', 'ton']);
 like(decode_json($out)->[0]{$_}, qr/TON|CAL|IEC/, "words --json: $_") for qw(source example picture list);
 ($out) = is_run(0, 'complete', ['complete', 'good.rung', '1', '1']);
@@ -301,7 +300,7 @@ put('sub/good.scn', "scenario \"a # b\"\nat 20ms expect Motor\n"); put('sub/belo
 ($out) = is_run(1, 'test of a folder', ['test', 'sub']);
 like($out, qr/^ok 1 - sub\/below\/a\.scn: holds\nnot ok 2 - sub\/good\.scn: a \\# b\n# sub\/good\.scn:2: at 20 ms: .*\n#   1 t=10 Motor=0\n#   2 t=20 Motor=0\n1\.\.2\n\z/, 'test of a folder');
 ($out) = is_run(1, 'test of an image', ['test', 'sub/good.scn', 'good.scn']);
-like($out, qr/^not ok 1 .*^ok 2 /ms, 'test goes on behind a failure');
+like($out, qr/^not ok 1 .*^ok 2 /ms, 'test continues after a failure');
 put('alone.scn', get('good.scn'));
 ($out) = is_run(1, 'scenarios without a program', ['test', 'alone.scn']);
 like($out, qr/^not ok 1 - alone\.scn: its program is good\n1\.\.1\n/, 'scenarios without a program fail');
@@ -324,7 +323,7 @@ like($err, qr/^locals\.scn:2:8: error LD327: "X" .*\n.*:3:8: error LD327: "T\.Q"
 is(() = $err =~ /error LD327/g, 2, 'trace: of which program');
 is_run(2, 'run: of which program', ['run', 'locals.rung', '--set', 'X=1', '--scans', '1']);
 
-# ---- the examples of --help name files that are there ----
+# ---- the examples of --help name files that exist ----
 for my $name (qw(check fmt show il code build run trace test bench words diff io push)) {
 	($out) = is_run(0, "$name --help", [$name, '--help']);
 	is_deeply([grep { !-e "$root/$_" } $out =~ m{\b(ladders/[\w./-]*)}g], [], "$name --help: files of the example");
@@ -364,12 +363,12 @@ is_run(2, 'run with no map', ['run', 'good.rung', '--io', 'nowhere', '--scans', 
 is_run(1, 'run with a bad map', ['run', 'good.rung', '--io', 'bad.io', '--scans', '1']);
 put('far.io', "BOARD \"x\"\n%IX0.0 sim\n%IX512.0 sim\n");
 (undef, $err) = is_run(1, 'run with a line beyond its area', ['run', 'good.rung', '--io', 'far.io', '--scans', '1']);
-like($err, qr/^far\.io:3:1: error LD523: "%IX512\.0" /m, 'which is named with its place');
+like($err, qr/^far\.io:3:1: error LD523: "%IX512\.0" /m, 'run: the line and its place');
 (undef, $err) = is_run(1, 'io --program with such a line', ['io', 'far.io', '--program', 'good.rung']);
-like($err, qr/^far\.io:3:1: error LD523: /m, 'says so too');
-is_run(0, 'io without a program knows no sizes', ['io', 'far.io']);
-($out) = is_run(0, 'code of a program that says nothing of sizes', ['code', 'good.rung']);
-like($out, qr/^areas         20160 bytes: I 512 Q 512 M 8192 V 8192 /m, 'shows the usual ones');
+like($err, qr/^far\.io:3:1: error LD523: /m, 'io --program: the line and its place');
+is_run(0, 'io without a program checks no sizes', ['io', 'far.io']);
+($out) = is_run(0, 'code of a program without AREA', ['code', 'good.rung']);
+like($out, qr/^areas         20160 bytes: I 512 Q 512 M 8192 V 8192 /m, 'code: the default sizes');
 ($out, $err) = is_run(1, 'run of a loop', ['run', 'loop.rung', '--set', 'I0=1', '--scans', '5']);
 like($err, qr/LD008/, 'run of a loop: the fault');
 for my $signal (qw(INT TERM)) {
@@ -394,7 +393,7 @@ SKIP: {
 		like(get('.err'), qr/^standard output: error LD006: .*No space/, "@$args on a full disk: says so");
 	}
 }
-# As a full disk: no file may grow. What was there must still be there.
+# Like a full disk: no file may grow. The old file must be unchanged.
 put('old.rungc', 'old'); put('ugly.rung', $ugly);
 for my $args (['build', 'good.rung', '-o', 'old.rungc'], ['fmt', 'ugly.rung']) {
 	my $what = "$args->[0] on a full disk";
@@ -406,12 +405,12 @@ is(get('ugly.rung'), $ugly, 'fmt on a full disk: the old file is intact');
 ok(!(grep { /^(?:old|ugly)\.rungc?\../ } glob '*'), 'no temporary file is left behind');
 is_run(2, 'build over a folder', ['build', 'good.rung', '-o', 'sub']);
 mkfifo('pipe', 0600);
-is_run(2, 'build over what is no file', ['build', 'good.rung', '-o', 'pipe']);
-ok(-p 'pipe', 'build leaves it alone');
+is_run(2, 'build over a pipe', ['build', 'good.rung', '-o', 'pipe']);
+ok(-p 'pipe', 'build does not replace a pipe');
 for my $args ([qw(words)], ['trace', 'good.rung', '-']) {
 	put('many', ". x100000\n");
 	pipe my $read, my $write or die;
-	close $read; # before the program starts: it may be done in no time
+	close $read; # before the program starts, because it may end at once
 	my $pid = fork // die;
 	if (!$pid) { open STDIN, '<', 'many'; open STDOUT, '>&', $write; open STDERR, '>', '.err'; close $write; exec $ladder, @$args or die }
 	close $write;
@@ -432,18 +431,18 @@ for my $kind (qw(seal mixed)) {
 	cmp_ok(decode_json($out)->{load_bytes}, '<=', 50e6, "10,000 $kind rungs load in 50 MB");
 }
 
-# ---- the live view: what people see when a program stops with a fault ----
+# ---- the live view when a program stops with a fault ----
 SKIP: {
 	skip 'no script(1) to make a terminal', 3 unless grep { -x "$_/script" } split /:/, $ENV{PATH};
 	my $moving = 'AVeryLongNameForAMotorInTheBasement';
 	put('loop.rung', "RUNGBOARD 1\nVAR\n  $moving : BOOL;\nEND_VAR\nPROGRAM Main LD\nRUNG L\n  | NO I0 | S Q0 |\n  |      ^| S $moving |\nRUNG\n  | NO I0 | JMP L |\nEND_PROGRAM\n");
 	put('loop.io', "BOARD \"x\"\n%IX0.0 sim\n%QX0.0 sim safe=0\n%QX0.1 sim safe=1\n");
 	my $screen = `(sleep 0.5; printf q; sleep 1) | TERM=xterm NO_COLOR=1 LC_ALL=C script -qc 'stty cols 60 rows 20; \Q$ladder\E run loop.rung --io loop.io --set I0=1' /dev/null`;
-	like($screen, qr/FAULT: instruction budget/, 'live: a fault is told');
+	like($screen, qr/FAULT: instruction budget/, 'live: a fault is shown');
 	like($screen, qr/o 0 %QX0\.0.*\* 1 %QX0\.1/s, 'live: in a fault outputs have their safe values');
 	like($screen, qr/ AVeryLong\w+ = 1/, 'live: a long name leaves room for the value');
 }
-# Rungs with their power, of an instance, too.
+# Rungs with their power, also of an instance.
 put('own.rung', <<'END');
 RUNGBOARD 1
 VAR
@@ -512,7 +511,7 @@ END_PROGRAM
 END
 my ($moved) = is_run(0, 'trace --plant', ['trace', 'good.rung', '-', '--plant', 'world.rung'],
 	"\@print Motor Stop plant.Way\nOpen=1 x3\nOpen=0 plant.Way=2\n. x2\n\@reset\n.\n");
-is($moved, <<'END', 'the plant moves, and its variables are seen and set');
+is($moved, <<'END', 'trace --plant: the plant runs, and its variables can be shown and set');
 1 t=10 Motor=1 Stop=0 plant.Way=0
 2 t=20 Motor=1 Stop=0 plant.Way=1
 3 t=30 Motor=1 Stop=0 plant.Way=2
@@ -556,7 +555,7 @@ like(said_of_scenarios("scenario \"a\"\n$end  expect plant.Way > 1\n"),
 like(said_of_scenarios("scenario \"a\"\n  plant \"world.rung\"\n$end  expect plant.Nobody > 1\n"),
      qr/p\.scn:5:10: error LD301: .*plant\.Nobody/, 'a plant has no such name');
 my ($why) = is_run(0, 'why', ['why', 'good.rung', '-', 'Motor'], "Stop=1\n");
-like($why, qr/^Motor has no power: \w+ rung 1 \(1,\d\)\n  .*Open/, 'why: what holds it back');
+like($why, qr/^Motor has no power: \w+ rung 1 \(1,\d\)\n  .*Open/, 'why: the condition that blocks the power');
 is_run(2, 'why: no such coil', ['why', 'good.rung', '-', 'Nobody'], ".\n");
 is_run(2, 'why: no script', ['why', 'good.rung', 'none.script', 'Motor']);
 

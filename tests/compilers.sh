@@ -3,13 +3,13 @@
 #
 # compilers - every source compiles without a warning with gcc and with clang.
 #
-# The build has done it with one of them, where a warning is an error; here the other
-# looks at the syntax alone.
+# The build has compiled everything with one of them, with warnings as errors; here the
+# other one checks the syntax.
 set -u
 flags='-std=c11 -I. -Iruntime -Itests -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wshadow
 	-Wstrict-prototypes -Wmissing-prototypes -Wswitch-enum -Wvla -Werror'
-# The editor, where its libraries are; their headers are not ours to judge. They are read once, into a
-# precompiled header.
+# The editor, if its libraries are installed; warnings in their headers do not count. The
+# headers are read once, into a precompiled header.
 editor() { # compiler
 	gtk=$(pkg-config --cflags gtk4 libadwaita-1 gtksourceview-5 2>/dev/null | sed 's/-I/-isystem /g')
 	[ -n "$gtk" ] || return 0

@@ -1,15 +1,16 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# floors - a room includes the rooms below it, never one above or beside it.
+# floors - a room includes only rooms below it, never one above or beside it.
 #
-# One TAP line per room; each wrong include is listed with its file. Tests may include
-# every room. FLOORS_ROOT names another tree to check.
+# Prints a TAP line for each room and lists each wrong include with its file. Tests may
+# include every room. FLOORS_ROOT names another tree to check.
 set -u
 cd "${FLOORS_ROOT:-$(dirname "$0")/..}" || exit 1
 
-# Doors of the engine that the editor and the two programs use. Paths as they are included.
+# Rooms of the engine that the editor and both programs may include, as paths in includes.
 doors='engine/ladder.h engine/base engine/model engine/scan engine/show engine/compare engine/xref engine/trial engine/text/pou_print.h'
-# Each line: a room, then what it may include besides itself: rooms (folders) and single headers.
+# Each line: a room, then what it may include besides itself: rooms (folders) and single
+# headers.
 rooms="
 runtime/engine/base       engine/catalog.def engine/diag.def
 runtime/engine/scan       engine/base engine/catalog.def
@@ -46,9 +47,10 @@ editor-gtk/panels $doors $sheets hal
 editor-gtk/render $doors $sheets hal
 editor-gtk/window $doors $sheets editor-gtk/panels editor-gtk/render hal
 "
-# Libraries that a room may include with < >, by the beginning of the path; all others are libc's.
+# Libraries that a room may include with < >, by the beginning of the path; all others
+# belong to libc.
 foreign='gpiod.h:hal gtk/:editor-gtk/ glib:editor-gtk/ gio/:editor-gtk/ adwaita.h:editor-gtk/ gtksourceview/:editor-gtk/ pango/:editor-gtk/ cairo:editor-gtk/ libintl.h:editor-gtk/'
-# Rooms of the editor that know no toolkit: they are built and tested without one.
+# Rooms of the editor that are built and tested without a toolkit.
 plain='editor-gtk/edit'
 
 n=0 failed=0
@@ -61,7 +63,7 @@ say() { # good text places
 }
 
 check_library() { # file path: may the file's room include <path>?
-	# Our own files come with " ", where the table sees them.
+	# Our own headers are included with " ", where the table applies.
 	[ ! -f "runtime/$2" ] && [ ! -f "$2" ] || return 1
 	for row in $foreign; do
 		case $2 in "${row%%:*}"*)
@@ -84,7 +86,7 @@ check_room() { # room allowed…
 			for may in "$@" "${room#runtime/}"; do
 				[ "${path%/*}" != "$may" ] && [ "$path" != "$may" ] || good=1
 			done
-			# Only the facade's own file stands above all rooms of the engine.
+			# Only the file of the facade is above all rooms of the engine.
 			case $room,$path in runtime/engine/*,engine/ladder.h) good=0;; esac
 			[ $good = 1 ] || bad="$bad
 $file includes $path"
@@ -105,7 +107,7 @@ done <<TABLE
 $rooms
 TABLE
 
-# Folders with sources that the table does not name.
+# Folders with sources that are not in the table.
 unknown=
 for folder in $(find runtime hal editor-gtk -name '*.[ch]' -o -name '*.def' | sed 's|/[^/]*$||' | sort -u); do
 	printf '%s\n' "$rooms" | grep -Eq "^$folder( |\$)" || unknown="$unknown

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # floors.t - floors.sh finds each kind of wrong include, room and library.
 #
-# It works on a copy of the sources. All mistakes are made at once; each must be told.
+# It works on a copy of the sources, with all mistakes at once; each must be reported.
 cd "$(dirname "$0")/.." || exit 2
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
@@ -45,8 +45,8 @@ while read -r line; do
 	else echo "not ok $n - told: $line"; fi
 done <"$copy/expected"
 n=$((n + 1))
-if [ $status -ne 0 ]; then echo "ok $n - it fails"; else echo "not ok $n - it fails"; fi
-# The tree as it is has no mistake, so that what was told above is new.
+if [ $status -ne 0 ]; then echo "ok $n - floors.sh fails"; else echo "not ok $n - it fails"; fi
+# The unchanged tree has no mistake, so the messages above come from the changes.
 n=$((n + 1))
 if sh tests/floors.sh >"$copy/clean"; then echo "ok $n - nothing is told of the tree as it is"
 else

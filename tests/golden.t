@@ -15,8 +15,8 @@
 #   expected.test   what `ladder test main.scn` says on standard error
 #   expected.fault  the same of a program that ends with a fault, and what is said of it
 # The cases together must show every message of diag.def and trace every word of
-# catalog.def. `--bless CASE` rewrites what a case expects and shows the difference:
-# a person reads it. It decides nothing about right and wrong itself.
+# catalog.def. `--bless CASE` rewrites the expected files of a case and shows the difference
+# for a person to read.
 use strict;
 use warnings;
 use Cwd qw(abs_path getcwd);
@@ -69,7 +69,7 @@ sub run_case {
 	return (slurp($out_name), slurp($err_name), $status);
 }
 
-# All answers; the last status is that of all if they are the same.
+# The answers of several runs; the last status is that of all, if they agree.
 sub produce_why {
 	my ($dir) = @_;
 	my ($text, $worst) = ('', 0);
@@ -82,7 +82,7 @@ sub produce_why {
 	return ($text, $worst == $wanted, $worst);
 }
 
-# What kind @_ gives now: the text and whether the exit status is the right one.
+# The present text of an expected file, and whether the exit status is right.
 sub produce {
 	my ($dir, $kind) = @_;
 	return produce_why($dir) if $kind eq 'why';
@@ -127,7 +127,7 @@ if (@ARGV && $ARGV[0] eq '--bless') {
 	exit 0;
 }
 
-# A case shows a word where it can run: in a file that is traced.
+# A case counts for a word if it runs there, in a file that is traced.
 sub traced_text {
 	my $text = '';
 	for my $dir (cases()) {
@@ -138,7 +138,7 @@ sub traced_text {
 	return $text;
 }
 
-# How the row of a word looks in a rung file; undef: it cannot be written.
+# The form of a word in a rung file; undef: it cannot be written.
 sub pattern {
 	my ($kind, $id, $word) = @_;
 	return qr/:\s*\Q$id\E\b/ if $kind eq 'TYPE';
@@ -164,10 +164,11 @@ sub missing_words {
 	return @missing;
 }
 
-# Not to be shown by a small rung file: of the system (LD0), of names in scripts
-# (LD327), of ladderd alone (LD316: tests/hal/retain.t), of I/O maps (LD5), of code images (LD61),
-# of files of many megabytes (LD129: tests/unit/text/test_read_errors.c, LD718: tests/unit/
-# exchange/classic/test_classic_read.c), of a plant nobody gave (LD135: tests/unit/trial/test_scenario.c).
+# These messages cannot come from a small rung file: of the system (LD0), of names in
+# scripts (LD327), of ladderd only (LD316: tests/hal/retain.t), of I/O maps (LD5), of code
+# images (LD61), of files of many megabytes (LD129: tests/unit/text/test_read_errors.c,
+# LD718: tests/unit/exchange/classic/test_classic_read.c), of a missing plant (LD135:
+# tests/unit/trial/test_scenario.c).
 my $elsewhere = qr/^LD(?:0|129|135|316|327|5|61|606|607|718)/;
 
 sub missing_codes {
@@ -188,5 +189,5 @@ for my $dir (cases()) {
 	}
 }
 is_deeply([missing_codes()], [], 'every message has a case');
-is_deeply([missing_words()], [], 'every word has a case that is traced');
+is_deeply([missing_words()], [], 'every word has a traced case');
 done_testing();

@@ -1,12 +1,12 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# iec.t - the cases of tests/iec/cases.txt through the public commands: a generated
+# iec.t - runs the cases of tests/iec/cases.txt with the public commands: a generated
 # program and `ladder trace`.
 #
-# A box a case, many cases a program; a program that is refused is tried again case by
-# case, so that one unknown word fails alone. Numbers are compared as text: those of 64
-# bits are not safe in a double.
+# Each case is a box, and a program has many cases. A refused program is tried again case by
+# case, so that an unknown word fails alone. Numbers are compared as text, because 64 bits
+# do not fit into a double.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -21,7 +21,7 @@ my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
 my $folder = tempdir(CLEANUP => 1);
 my $at_once = 100;
 
-# Types of arguments that are not the case's own.
+# Types of arguments that differ from the type of the case.
 my %own = (SEL => { 0 => 'BOOL' }, MUX => { 0 => 'INT' },
 	map { $_ => { 1 => 'INT' } } qw(SHL SHR ROL ROR));
 
@@ -32,7 +32,7 @@ sub spew {
 	close $out or die "$name: $!";
 }
 
-# Standard output of a command, and both outputs if it fails.
+# Standard output of a command, and both streams if it fails.
 sub run {
 	my (@command) = @_;
 	my $pid = open my $from, '-|';
@@ -90,7 +90,7 @@ sub pin_name {
 	return $head . ($number + $index - $#pins);
 }
 
-# A number as its type is written.
+# A number in the notation of its type.
 sub literal {
 	my ($type, $text) = @_;
 	return $text ? 'TRUE' : 'FALSE' if $type eq 'BOOL';
@@ -158,7 +158,7 @@ sub judge_functions {
 
 # ---- function blocks ----
 
-# Its pins stand in the list under its short name.
+# Its pins are listed under its short name.
 sub row_of {
 	my ($word) = @_;
 	my ($short) = $word =~ /^(\w+?)_(?:LTIME|INT)$/;
@@ -183,7 +183,7 @@ sub block_program {
 		"PROGRAM Main IL\n  CAL Block($call)\nEND_PROGRAM\n";
 }
 
-# Nanoseconds as a trace shows a TIME: milliseconds.
+# Nanoseconds as a TIME in a trace: milliseconds.
 sub milliseconds {
 	my ($ns) = @_;
 	my $text = sprintf '%07d', $ns;
@@ -241,5 +241,5 @@ $_->{name} = 'X' . ++$number for @cases;
 my @functions = grep { $_->{args} } @cases;
 judge_functions(splice @functions, 0, $at_once) while @functions;
 judge_block($_) for grep { $_->{steps} } @cases;
-is(scalar @cases, 597, 'all cases are there');
+is(scalar @cases, 597, 'the number of cases');
 done_testing();

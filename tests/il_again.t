@@ -1,8 +1,8 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# il_again.t - what `ladder il` prints of a program is a program that behaves the same:
-# each sample with its scenarios, and random programs under random inputs.
+# il_again.t - the output of `ladder il` is a program that behaves the same: each sample
+# with its scenarios, and random programs with random inputs.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -32,11 +32,11 @@ sub put {
 	close $out;
 }
 
-# Samples. Files they name come along as lists, too, in the same file.
+# Samples. Included files are lists, too, in the same file.
 for my $sample (sort glob "$tests/../ladders/*.rung") {
 	my $name = basename($sample);
 	my $again = "$dir/$name";
-	# The list of a chart has instructions that no list can be written with: TICK, EACH.
+	# The list of a chart has TICK and EACH, which no rung file can contain.
 	next if slurp($sample) =~ /^PROGRAM \w+ SFC/m;
 	put($again, scalar `$ladder il '$sample' 2>/dev/null`);
 	my $said = `$ladder check '$again' 2>&1`;
@@ -50,7 +50,7 @@ for my $sample (sort glob "$tests/../ladders/*.rung") {
 	ok($? == 0 && $tap =~ /^ok/m, "$name: its scenarios hold") or diag($tap);
 }
 
-# Random programs: names that both have are printed, so that temporaries are left out.
+# Random programs. Only names of both programs are compared, so temporaries do not count.
 sub names_of {
 	my ($text) = @_;
 	my %seen;
@@ -83,7 +83,7 @@ for my $seed (1 .. $count) {
 	put("$dir/s", stimulus($seed, names_of($program)));
 	my $one = `cd $dir && $ladder trace a.rung s 2>/dev/null`;
 	my $two = `cd $dir && $ladder trace b.rung s 2>/dev/null`;
-	# A rung of the one is a line of the other.
+	# A rung of the first program is a line of the other one.
 	s/^# STOP.*\n//mg for $one, $two;
 	if ($one eq $two && $one =~ /^1 t=/) {
 		$same++;
@@ -94,5 +94,5 @@ for my $seed (1 .. $count) {
 }
 is($other, 0, "$same random programs and their lists do the same") or
 	diag("not so: @bad");
-ok($same * 10 > $count * 9, 'few of them are refused');
+ok($same * 10 > $count * 9, 'few random programs are refused');
 done_testing;

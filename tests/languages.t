@@ -1,10 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# languages.t - every text of the editor in every language of editor-gtk/po/.
+# languages.t - every language of editor-gtk/po/ has every text of the editor.
 #
-# The template is made from the sources as they are now. It does not judge how well
-# something is said.
+# The template is made from the present sources. The quality of a translation is not tested.
 cd "$(dirname "$0")/.." || exit 2
 if ! command -v xgettext >/dev/null || ! command -v msgcmp >/dev/null; then
 	echo "1..0 # SKIP xgettext is not here"
@@ -14,7 +13,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 count=0
 
-# told NAME COMMAND... - a test: the command's end, and what it said
+# told NAME COMMAND... - a test: the status of the command, and its output after a failure
 told() {
 	name=$1
 	shift
@@ -27,7 +26,7 @@ told() {
 	fi
 }
 
-# current LANGUAGE - merging the fresh template changes nothing
+# current LANGUAGE - merging the present template changes nothing
 current() {
 	msgmerge -q -N --add-location=file -o "$work/merged.po" "editor-gtk/po/$1.po" \
 		"$work/fresh.pot" &&
@@ -36,13 +35,14 @@ current() {
 		{ head -20 "$work/diff"; echo "make po, then translate what is new"; return 1; }
 }
 
-# whole LANGUAGE - all texts, none of them guessed
+# whole LANGUAGE - all texts are translated, and none is fuzzy
 whole() {
 	msgcmp "editor-gtk/po/$1.po" "$work/fresh.pot" &&
 		test -z "$(msgattrib --only-fuzzy "editor-gtk/po/$1.po")"
 }
 
-# once LANGUAGE - no text has many more lines than its original: it would stand there twice
+# once LANGUAGE - no translation has many more lines than its original: it would contain the
+# text twice
 once() {
 	msgcat --no-wrap "editor-gtk/po/$1.po" | perl -00 -ne '
 		next unless /^msgid ((?:".*"\n)+)msgstr ((?:".*"\n?)+)/m;
@@ -53,7 +53,7 @@ once() {
 		END { exit($bad ? 1 : 0) }'
 }
 
-# noticed LANGUAGE - test the test: one text less is noticed
+# noticed LANGUAGE - tests the test: a missing text is noticed
 noticed() {
 	sed '0,/^msgstr "[^"]/s/^msgstr "[^"].*/msgstr ""/' "editor-gtk/po/$1.po" >"$work/less.po"
 	! msgcmp "$work/less.po" "$work/fresh.pot" 2>/dev/null

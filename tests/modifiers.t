@@ -1,8 +1,8 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# modifiers.t - every operator of an instruction list with every modifier: taken or
-# refused as IEC 61131-3, table 52, has it. `ladder check` is asked, nothing is run.
+# modifiers.t - every operator of an instruction list with every modifier is accepted or
+# refused as in IEC 61131-3, table 52. Uses `ladder check`; nothing runs.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -14,8 +14,8 @@ my $tests = abs_path(dirname(__FILE__));
 my $ladder = abs_path($ENV{LADDER} || "$tests/../build/ladder");
 my $dir = tempdir(CLEANUP => 1);
 
-# Operator, the modifiers that it has, an operand, what is loaded before it. STP is
-# not of the standard; it is as RET is.
+# Operator, its modifiers, an operand, the value to load before it. STP is not in the
+# standard; it behaves like RET.
 my @table = (
 	[LD  => ['N'],                  'A', ''],
 	[ST  => ['N'],                  'A', 'A'],
@@ -43,7 +43,7 @@ sub program {
 	       "PROGRAM Main IL\n${list}Done:\n  LD I\n  ST I\nEND_PROGRAM\n";
 }
 
-# The errors of a program, codes only; warnings do not count.
+# The codes of the errors of a program, without warnings.
 sub errors {
 	my ($text) = @_;
 	open my $out, '>', "$dir/main.rung" or die $!;
@@ -58,7 +58,7 @@ for my $row (@table) {
 	for my $modifier (@modifiers) {
 		my $taken = $modifier eq '' || grep { $_ eq $modifier } @$has;
 		my $got = errors(program($word, $modifier, $operand, $load));
-		# S(, R( and the like: a parenthesis where an operand should be
+		# S(, R( and the like: a parenthesis in place of an operand
 		ok(!!$taken == ($got eq ''), "$word$modifier: " .
 		   ($taken ? 'taken' : 'refused')) or diag("said: $got");
 	}

@@ -1,12 +1,12 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# operands.t - every function with every type at every pin: `ladder check` says that it
-# is good, or what is wrong with it in a message about types; and whatever is good runs
-# on the ends of all types without a finding of the sanitizers.
+# operands.t - every function with every type at every pin: `ladder check` accepts it, or
+# refuses it with a message about types. Accepted calls run with the limits of all types
+# without a finding of the sanitizers.
 #
-# For functions whose result has the type of their inputs it also knows which are good:
-# those of the types that the row of catalog.def names. It knows no results.
+# For functions whose result has the type of their inputs the accepted types must be those
+# of the row of catalog.def. Results are not tested.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -20,13 +20,13 @@ use Rows;
 my $tests = abs_path(dirname(__FILE__));
 my $build = $ENV{BUILD} // "$tests/../build";
 my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
-# An old build with sanitizers would judge another program.
+# An old build with sanitizers would test another program.
 my $sanitized = -x "$build/asan/ladder" && -M "$build/asan/ladder" <= -M $ladder;
 my $runner = $sanitized ? abs_path("$build/asan/ladder") : $ladder;
 my $folder = tempdir(CLEANUP => 1);
-my $at_once = 40; # only 100 messages of a file are shown
+my $at_once = 40; # a file shows only 100 messages
 
-# Each type with values that hurt, one a scan.
+# Each type with difficult values, one per scan.
 my %values = (
 	BOOL => [0, 1], BYTE => [0, 255], WORD => [1, 65535],
 	DWORD => ['16#7F800001', 4294967295], LWORD => [1, '18446744073709551615'],
@@ -59,7 +59,7 @@ sub run {
 	return ($?, $text);
 }
 
-# The rungs of a row: one type at all pins that share, each pin alone, constants.
+# The rungs of a row: one type at all pins that share a type, each pin alone, constants.
 sub combinations {
 	my ($row) = @_;
 	my @pins = @{$row->{pins}};
@@ -97,7 +97,7 @@ sub write_program {
 	close $out or die "main.rung: $!";
 }
 
-# Numbers of the rungs that are wrong; any message must be one about types.
+# The numbers of rungs with errors; every message must be about types.
 sub judge {
 	my ($row, @rungs) = @_;
 	my (%wrong, @odd);

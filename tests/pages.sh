@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# pages - shell scripts and man pages as their own tools judge them.
+# pages - checks shell scripts and man pages with their own tools.
 set -u
 BUILD=${BUILD:-build}
 n=0

@@ -1,7 +1,7 @@
 #!/usr/bin/env perl
 # SPDX-License-Identifier: MIT
-# pathological - what bad input gets: the real programs on files that no person
-# writes. Each must end soon, say why with a place, and leave stdout clean.
+# pathological - bad input that no person writes: the real programs must end soon, report an
+# error with a place, and print nothing to stdout.
 #
 # BUILD names the folder of the programs.
 use strict;
@@ -20,7 +20,7 @@ my $daemon = "$build/ladderd";
 my $dir = tempdir(CLEANUP => 1);
 chdir $dir or die;
 my ($n, $failed) = (0, 0);
-# Generous: it catches a program that hangs, not one that is slow.
+# A long limit that only a program that hangs reaches.
 my $guard = $ENV{GUARD_S} || 60;
 
 sub check {
@@ -78,14 +78,14 @@ sub run {
 	return ($status, $stdout ? "" : read_file('out'), read_file('err'));
 }
 
-# Runs it and looks at all that a refusal must have.
+# Runs it and checks everything that a refusal needs.
 sub refused {
 	my ($text, $want, $name, @command) = @_;
 	my ($status, $out, $err) = run(undef, @command);
 	my $shown = $err =~ s/^((?:.*\n){6}).*/$1/sr;
 
 	check($status eq $want, "$text: exit $want", "exit $status", $shown);
-	# The result of a check is its count; nothing else is a result.
+	# `check` prints only its last line; other commands print nothing.
 	$out =~ s/\A\Q$name\E: \d+ errors?(?:, \d+ warnings?)?\n\z//;
 	check($out eq "", "$text: nothing on stdout", substr($out, 0, 200));
 	check($err =~ /^\Q$name\E(?::\d+)?(?::\d+)?: .*(?:error|warning) LD\d\d\d: \S/m,
@@ -107,11 +107,11 @@ RUNG
   | NO Start | COIL Motor |
 END_PROGRAM
 END
-# A chart of these items.
+# A chart with these items.
 sub chart {
 	return "RUNGBOARD 1\nPROGRAM P SFC\n$_[0]END_PROGRAM\n";
 }
-# A ClassicLadder project of these members, name and text in turn.
+# A ClassicLadder project with these members: name, text, name, text …
 sub classic {
 	my $text = "_FILES_CLASSICLADDER\n";
 	while (my ($name, $lines) = splice @_, 0, 2) {
@@ -203,7 +203,7 @@ for my $text (sort keys %file) {
 	next if length $file{$text} > 500_000 && $ENV{QUICK};
 	for my $command (["fmt"], ["show"], ["il"], ["code"]) {
 		my ($status, $out, $err) = run(undef, $ladder, @$command, $name);
-		# A code image has no text to format or draw: that is wrong usage.
+		# A code image has no text to format or draw, which is wrong usage.
 		my $image = $file{$text} =~ /^RUNGCODE/;
 		check($status eq "1" || ($status eq "2" && $image) ||
 		      ($status eq "0" && $command->[0] =~ /fmt|show|il/ &&
@@ -226,21 +226,21 @@ for my $text (sort keys %file) {
 	      "exit $status", substr($err, 0, 300));
 }
 
-# CRLF is what some editors write: it is read.
+# Some editors write CRLF; it can be read.
 write_file("crlf.rung", $good =~ s/\n/\r\n/gr);
 ($status, $out, $err) = run(undef, $ladder, "check", "crlf.rung");
 check($status eq "0", "CRLF is read", "exit $status", $err);
 
-# ClassicLadder itself has no more than 2,000 members; here they may be more.
+# ClassicLadder reads at most 2,000 members; here more are allowed.
 write_file("many.clprj", classic(map { ("rung_$_.csv", "#NEXTRUNG=" . ($_ + 1) . "\n$row") } 0 .. 2999));
 ($status, $out, $err) = run(undef, $ladder, "check", "many.clprj");
 check($status eq "0", "ClassicLadder: 3,000 members are read", "exit $status", substr($err, 0, 300));
 
-# 100,000 rungs: more than one POU may have, and soon refused or read.
+# 100,000 rungs, more than a POU may have: refused or read soon.
 write_file("many.rung", $good =~ s/RUNG\n.*\n/"RUNG\n  | NO Start | COIL Motor |\n" x 100_000/er);
 refused("100,000 rungs: ladder check", 1, "many.rung", $ladder, "check", "many.rung");
 
-# What cannot be read at all: 2.
+# Files that cannot be read at all: status 2.
 mkdir "folder";
 refused("a directory: ladder check", 2, "folder", $ladder, "check", "folder");
 refused("no such file: ladder check", 2, "nowhere.rung", $ladder, "check", "nowhere.rung");
@@ -251,7 +251,7 @@ for my $command (qw(fmt show il code)) {
 }
 write_file("secret.rung", $good);
 chmod 0, "secret.rung";
-# Root reads everything unless it gives that up.
+# Root can read everything unless it gives that up.
 my @as_user = $> == 0 ? ('setpriv', '--bounding-set=-dac_override,-dac_read_search') : ();
 if (@as_user && !grep { -x "$_/setpriv" } split /:/, $ENV{PATH}) {
 	check(1, "an unreadable file # SKIP nothing is unreadable to root, and no setpriv(1)");
@@ -261,7 +261,7 @@ if (@as_user && !grep { -x "$_/setpriv" } split /:/, $ENV{PATH}) {
 ($status, $out, $err) = run(undef, $ladder, "check", "/dev/zero");
 check($status eq "2", "a device: ladder check: exit 2", "exit $status", $err);
 
-# Scripts, scenarios and maps that are no text.
+# Scripts, scenarios and maps that are not text.
 for my $text ("empty", "binary", "all NUL", "a million letters", "invalid UTF-8") {
 	write_file("bad.script", $file{$text});
 	my ($status, $out, $err) = run(undef, $ladder, "trace", "good.rung", "bad.script");
@@ -285,13 +285,13 @@ for my $text ("empty", "binary", "all NUL", "a million letters", "invalid UTF-8"
 # A full disk while writing: the old file stays.
 if (-e "/dev/full") {
 	my ($status, undef, $err) = run("/dev/full", $ladder, "show", "good.rung");
-	check($status =~ /^[12]$/ && length $err, "a full disk behind stdout is told", "exit $status", $err);
+	check($status =~ /^[12]$/ && length $err, "a full disk behind stdout is reported", "exit $status", $err);
 }
 my $ugly = $good =~ s/  \| NO Start/|    NO   Start/r;
 write_file("ugly.rung", $ugly);
 my $limited = fork;
 if (!$limited) {
-	# No file may grow beyond nothing: as a full disk does, write() fails.
+	# No file may grow: write() fails as on a full disk.
 	$SIG{XFSZ} = 'IGNORE';
 	open STDOUT, '>', '/dev/null';
 	open STDERR, '>', '/dev/null';
@@ -304,7 +304,7 @@ check(read_file("ugly.rung") eq $ugly, "fmt on a full disk leaves the old file")
 my @rest = grep { !/^(?:bad|good|ugly|crlf|many|secret)\.|^(?:folder|out|err)$/ } glob("{*,.[a-z]*}");
 check(!@rest, "fmt on a full disk leaves nothing else", @rest);
 
-# A closed pipe ends the program, quietly.
+# A closed pipe ends the program without a message.
 ($status, $out, $err) = run(undef, 'sh', '-c',
 	'for i in 1 2 3; do "$0" show "$1" || exit; done | true; exit 0', $ladder, "good.rung");
 check($status eq "0" && $err !~ /Sanitizer|Assertion/, "a closed pipe", $err);

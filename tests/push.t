@@ -1,10 +1,10 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# push.t - `ladder push` against a board that is a folder: a real sshd on loopback
-# with keys of its own (without one, a stand-in that runs the remote words here), a
-# real ladderd on simulated pins under ladderd-run, and cuts at each call. What a
-# board refuses or never got whole must leave the running program alone.
+# push.t - tests `ladder push` with a folder as the board: a real sshd on loopback with its
+# own keys (without sshd, a stand-in that runs the remote command here), a real ladderd on
+# simulated pins under ladderd-run, and connections that are cut at each call. A push that
+# the board refuses or that is incomplete must not change the running program.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -19,7 +19,7 @@ my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
 my $run_script = abs_path('packaging/ladderd-run');
 my $dir = tempdir(CLEANUP => 1);
 my $bin = "$dir/board/bin";
-my $etc = "$dir/board/etc"; # what /etc/ladder is on a real one
+my $etc = "$dir/board/etc"; # in place of /etc/ladder
 my (@started, $made_run_sshd);
 chdir $dir or die;
 
@@ -47,7 +47,7 @@ END {
 	$? = $status;
 }
 
-# Exit status, standard output, standard error of `ladder push`.
+# Runs `ladder push`. Returns exit status, standard output, standard error.
 sub push_it {
 	my ($ssh, @args) = @_;
 	my $pid = fork // die;
@@ -96,10 +96,10 @@ sub active { my ($file) = get("$etc/active") =~ /^LADDERD_FILE=(.*)/m; return $f
 sub folders { my @all = glob "$etc/push-*"; return scalar @all }
 sub ask { my $text = `$board_env PATH=$bin:\$PATH ladderd-run status`; return $text }
 
-# A stand-in for ssh: its last word is run here, as a board would.
+# A stand-in for ssh: runs its last word here, as a board does.
 put('local-ssh', "#!/bin/sh\nfor last; do :; done\nPATH=$bin:\$PATH\nexport PATH\nexec sh -c \"\$last\"\n", 0755);
 
-# A real sshd, if there is one and it lets us in.
+# A real sshd, if it is installed and accepts us.
 my ($ssh, $no_sshd) = ("$dir/local-ssh", 'apt-get install openssh-server');
 my ($port, $options);
 sub free_port { my $s = IO::Socket::INET->new(Listen => 1, LocalAddr => '127.0.0.1') or return 0; return $s->sockport }
@@ -133,17 +133,17 @@ SKIP: {
 }
 my @to = ('--folder', $etc);
 
-# ---- what is wrong here is told here, and nobody is called ----
+# ---- errors on this side are reported here, without a call of ssh ----
 put('never', "#!/bin/sh\ntouch $dir/called\n", 0755);
 my ($out, $err) = is_push(1, 'an error in the program', "$dir/never", 'bad.rung', 'desk.io', $board);
-like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: "Lamb" .*; did you mean Lamp\?$/m, 'it is told as `ladder check` tells it');
+like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: "Lamb" .*; did you mean Lamp\?$/m, 'the message of `ladder check`');
 ($out, $err) = is_push(1, 'an error in the map', "$dir/never", 'one.rung', 'bad.io', $board);
 like($err, qr/^bad\.io:2:8: error LD503: /m, 'with its place');
 put('far.io', "BOARD \"x\"\n%IX0.0 sim\n%QX512.0 sim\n");
 ($out, $err) = is_push(1, 'a line beyond its area', "$dir/never", 'one.rung', 'far.io', $board);
-like($err, qr/^far\.io:3:1: error LD523: /m, 'is told before anything is sent');
+like($err, qr/^far\.io:3:1: error LD523: /m, 'the map is checked before anything is sent');
 ($out, $err) = is_push(1, 'errors in both', "$dir/never", 'bad.rung', 'bad.io', $board);
-like($err, qr/LD301.*LD503/s, 'both are told');
+like($err, qr/LD301.*LD503/s, 'both errors are reported');
 is_push(2, 'no such program', "$dir/never", 'nothing.rung', 'desk.io', $board);
 is_push(2, 'no such map', "$dir/never", 'one.rung', 'nothing.io', $board);
 for my $host ('-oProxyCommand=touch', 'pi@-oX', 'a b', 'pi@', '@x', '', 'a;b', 'a`b`', 'a$b', "a\nb", "a'b") {
@@ -155,16 +155,16 @@ is_push(2, "a folder called '$_'", "$dir/never", '--folder', $_, 'one.rung', 'de
 	for '', '/', 'etc', '/a b', '/a;b', '/a/../b', '/a/', '/$HOME', "/a'b", '/' . 'a' x 300;
 is_push(2, 'no word for ssh', '  ', 'one.rung', 'desk.io', $board);
 is_push(2, 'too many words for ssh', 'ssh ' x 40, 'one.rung', 'desk.io', $board);
-ok(!-e 'called', 'nobody was called');
+ok(!-e 'called', 'ssh was not called');
 
-# ---- no board there ----
+# ---- no connection to the board ----
 ($out, $err) = is_push(2, 'no ssh', "$dir/no-such-ssh", 'one.rung', 'desk.io', $board);
-like($err, qr/^\Q$board\E: error LD011: .*No such file/m, 'no ssh: says so');
+like($err, qr/^\Q$board\E: error LD011: .*No such file/m, 'no ssh: a message');
 SKIP: {
 	skip 'no real ssh', 2 if $no_sshd;
 	my $closed = free_port();
 	($out, $err) = is_push(2, 'nobody listens', "ssh $options -p $closed", 'one.rung', 'desk.io', $board);
-	like($err, qr/^\Q$board\E: error LD011: /m, 'nobody listens: says so');
+	like($err, qr/^\Q$board\E: error LD011: /m, 'no connection: a message');
 }
 
 # ---- a good push, and a second and a third ----

@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# quiet - what runs in a scan asks nothing of the system, and the library keeps no
-# state of its own.
+# quiet - code that runs in a scan does not use the system, and the library has no global
+# state.
 #
-# scan/ linked with the few files of base/ that it needs may leave open only
-# mem*, the exact part of libm and the compiler's helpers. BUILD: the folder of the objects.
+# scan/, linked with the few files of base/ that it needs, may leave only mem*, the exact
+# part of libm and compiler helpers undefined. BUILD: the folder of the objects.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 BUILD=${BUILD:-build} CROSS=${CROSS:-}
@@ -19,8 +19,8 @@ say() {
 	printf '%s\n' "$3" | sed '/^$/d; s/^/#   /'
 }
 
-# Files of scan/ that run in a scan; the others look at an image between scans
-# (symbols, carry, text of an instruction, the verifier) and may use more.
+# Files of scan/ that run in a scan; the others are called between scans (symbols, carry,
+# text of an instruction, the verifier) and may use more.
 between='code|code_[a-z]*|declared|carry|symbols|symbol_index|retain_[a-z]*'
 scan=
 for object in "$objects"/scan/*.o; do
@@ -30,7 +30,8 @@ done
 whole=$(mktemp) || exit 1
 trap 'rm -f "$whole"' EXIT
 
-# Of libm, what IEEE 754 fixes to the bit; sin and its kind differ from one to the next.
+# Functions of libm whose results IEEE 754 defines to the last bit; those of sin and others
+# vary.
 libm='(fabs|fmod|sqrt|trunc|floor|ceil|round|rint|l?lrint|nearbyint|isnan|isinf|finite|__isnan|__isinf|__finite|__fpclassify)f?'
 helpers='__aeabi_[a-z0-9]*|__u?divdi3|__u?moddi3|__u?divmoddi4|__(mul|add|sub|neg)v[sd]i3|__stack_chk_fail|__stack_chk_guard|_GLOBAL_OFFSET_TABLE_|__(mulo|ashl|ashr|lshr|mul)[a-z0-9]*|__(fix|float)[a-z0-9]*|__popcount[a-z0-9]*|__clz[a-z0-9]*|__gnu_[a-z0-9_]*'
 # shellcheck disable=SC2086
@@ -44,7 +45,7 @@ else
 	say 1 "scan/ and its few files of base/ can be linked" "$LD -r failed"
 fi
 
-# Those that look at an image between scans: no more than text and an arena.
+# Files that are called between scans: text and an arena only.
 for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
 	printf '%s' "$name" | grep -Eqx "$between" || continue
@@ -53,13 +54,13 @@ for object in "$objects"/scan/*.o; do
 	[ -z "$open" ]; say $? "$name, between scans, asks the system for nothing" "$open"
 done
 
-# No mutable globals anywhere in the library and the HAL.
+# No mutable globals in the library and the HAL.
 for where in "$BUILD/libladder.a" "$BUILD"/hal/*.o; do
 	[ -f "$where" ] || continue
 	state=$($NM "$where" 2>/dev/null |
 		awk -v file="$(basename "$where"):" '/:$/ {file = $0} NF == 3 && $2 ~ /^[bBdDcCsSgG]$/ {print file, $3}' |
 		grep -v '__odr_asan\|__gcov\|__llvm\|\.rel\.ro')
-	# Tables of pointers need relocation: `d` in a read-only section is const.
+	# Tables of pointers need relocation: `d` in a read-only section is constant.
 	state=$(printf '%s\n' "$state" | while read -r file name; do
 		[ -n "$name" ] || continue
 		${CROSS}objdump -t "$where" 2>/dev/null |

@@ -17,8 +17,9 @@ my $top = abs_path(dirname(__FILE__) . '/..');
 my $build = abs_path($ENV{BUILD} // "$top/build");
 my $ladder = $ENV{LADDER} ? abs_path($ENV{LADDER}) : "$build/ladder";
 my $folder = tempdir(CLEANUP => 1);
-my $noticed_least = 0.9; # interlocks that stand twice cannot be noticed
-# What a chart says twice, so that one of both is not missed: how often, in which.
+my $noticed_least = 0.9; # interlocks that are made twice cannot be noticed
+# Lines of a chart that are made twice, so that leaving out one is not noticed: how many,
+# and in which sample.
 my %twice = ('sequence-s0-s8' => 2); # S6 and S7 both reset Q0.5: the drawing has it so
 
 sub run {
@@ -49,7 +50,7 @@ sub write_text {
 	close $out or die "$path: $!";
 }
 
-# An instruction with N where it had none, and the other way round.
+# An instruction with N added or removed.
 sub broken_line {
 	my ($i, @lines) = @_;
 	my $was = $lines[$i];
@@ -59,7 +60,7 @@ sub broken_line {
 	return { line => $i + 1, row => $was, text => join("\n", @lines) };
 }
 
-# A line of a chart: what it can be instead. Empty: without it.
+# The alternatives of a line of a chart; empty: without it.
 sub broken_chart_line {
 	my ($line) = @_;
 
@@ -81,7 +82,7 @@ sub broken_chart_line {
 	return;
 }
 
-# The chart once for each way to break it.
+# The chart, changed once in each way.
 sub broken_chart {
 	my (@lines) = @_;
 	my (@all, $in);
@@ -100,7 +101,7 @@ sub broken_chart {
 	return @all;
 }
 
-# The program once for each contact and each way to break it.
+# The program with each contact changed once in each way.
 sub broken {
 	my ($text) = @_;
 	my @lines = split /\n/, $text, -1;
@@ -149,7 +150,7 @@ for my $program (@programs) {
 	for my $broken (broken(read_text($program))) {
 		write_text("$folder/$name.rung", $broken->{text});
 		($status, $text) = run($ladder, 'check', "$folder/$name.rung");
-		next if $status; # not a program any more
+		next if $status; # no longer a valid program
 		$of++;
 		($status, $text) = run($ladder, 'test', "$folder/$name.scn");
 		next if $status;
@@ -174,7 +175,7 @@ for my $plant (@plants) {
 	my $scenarios = $plant =~ s/\.plant\.rung$/.scn/r;
 	like(read_text($scenarios), qr/^\s*plant "\Q$name.rung\E"/m, "$name: a scenario is beside it");
 
-	# A world that stands still is noticed.
+	# A plant that does not move is noticed.
 	my $other = basename($scenarios, '.scn');
 	my $still = read_text($plant) =~ s/^RUNG\b/RUNG OFF/mgr;
 	write_text("$folder/$_", read_text("$top/ladders/$_"))
@@ -184,7 +185,7 @@ for my $plant (@plants) {
 	isnt($status, 0, "$name: it matters what it does");
 	unlike($text, qr/ error LD\d/, "$name: and it is not the file") or diag($text);
 }
-cmp_ok(@plants, '>=', 3, 'some have a plant');
+cmp_ok(@plants, '>=', 3, 'samples with a plant');
 cmp_ok(@programs, '>=', 8, 'the samples were found');
 cmp_ok($noticed, '>=', $noticed_least * $made,
        "broken contacts are noticed: $noticed of $made");

@@ -22,7 +22,7 @@ sub spew {
 	close $out or die "$path: $!\n";
 }
 
-# One case: what stands between the heading and END_PROGRAM, and the script.
+# One case: the text between the heading and END_PROGRAM, and the script.
 sub case {
 	my ($name, $chart, $stimulus, $head) = @_;
 	mkdir "$to/sfc-$name" unless -d "$to/sfc-$name";
@@ -31,7 +31,7 @@ sub case {
 	spew("$to/sfc-$name/stimulus", $stimulus);
 }
 
-# Inputs from %IX0.0 on, outputs from %QX0.0 on, others as they are.
+# Inputs from %IX0.0 on, outputs from %QX0.0 on, other variables unchanged.
 sub vars {
 	my ($inputs, $outputs, @more) = @_;
 	my $text = "  VAR\n";
@@ -68,7 +68,7 @@ sub counting {
 	       "  END_ACTION\n\n";
 }
 
-# ---- each qualifier: a BOOL, a body, for a short while and for a long one, and an R ----
+# ---- each qualifier: a BOOL, a body, a short and a long step, and an R ----
 for my $q (@qualifiers) {
 	my $chart = vars(['Go', 'End', 'Clear'], ['Out', 'Lamp'], 'Runs : INT');
 	$chart .= step('!Idle');
@@ -83,8 +83,8 @@ for my $q (@qualifiers) {
 	case("qualifier-$q", $chart, "\@print Work.X Work.T Wipe.X Out Runs Lamp\n.\n$short.\n$long.\n");
 }
 
-# ---- two qualifiers: two steps that overlap call the same ----
-# A has the first, B each of the others; then one after the other, then an R.
+# ---- two qualifiers: two overlapping steps call the same action ----
+# A has the first qualifier, B each of the others; then one after the other, then an R.
 for my $kind ('bool', 'body') {
 	for my $q (@qualifiers) {
 		my (@a, @b, @wipe, $bodies);
@@ -112,8 +112,8 @@ for my $kind ('bool', 'body') {
 }
 
 # ---- structures ----
-# Each is a part of a chart from the step it is given to the step it gives; its steps are
-# named after it. @inner, if any, stands inside: once, in its first branch.
+# Each is a part of a chart between two given steps; its steps have its name. @inner, if
+# any, is inside its first branch.
 my ($serial, @names, @deferred);
 
 sub fresh {
@@ -123,7 +123,7 @@ sub fresh {
 	return $name;
 }
 
-# A step and its way from there; gives text and the step.
+# A step and its transition; returns the text and the step.
 sub after {
 	my ($from, $name, $condition, @lines) = @_;
 	my $new = fresh($name);
@@ -146,7 +146,7 @@ $make{sequence} = sub {
 	return ($text . $more . $last, $end);
 };
 
-# Pick: the left one; else the right one.
+# Pick: the left branch; otherwise the right one.
 $make{selective} = sub {
 	my ($from, @inner) = @_;
 	my ($left, $l) = after($from, 'Left', "Pick AND ($from.T >= T#10ms)");
@@ -157,7 +157,7 @@ $make{selective} = sub {
 		arc($r, $join, "$r.T >= T#20ms"), $join);
 };
 
-# Both are true: the number decides, not the order in the file.
+# Both conditions are true: the number decides, not the order in the file.
 $make{priority} = sub {
 	my ($from, @inner) = @_;
 	my ($second, $first, $join) = (fresh('Second'), fresh('First'), fresh('Joined'));
@@ -169,7 +169,7 @@ $make{priority} = sub {
 		arc($then, $join, "$then.T >= T#10ms") . arc($second, $join, "$second.T >= T#10ms"), $join);
 };
 
-# The shorter one waits for the longer one.
+# The shorter branch waits for the longer one.
 $make{simultaneous} = sub {
 	my ($from, @inner) = @_;
 	my ($up, $down, $join) = (fresh('Up'), fresh('Down'), fresh('Joined'));
@@ -180,7 +180,7 @@ $make{simultaneous} = sub {
 		arc("($then, $waits)", $join, "$then.T >= T#10ms"), $join);
 };
 
-# Again while Again.
+# Again while Again is TRUE.
 $make{loop} = sub {
 	my ($from, @inner) = @_;
 	my ($text, $body) = after($from, 'Body');
@@ -190,7 +190,7 @@ $make{loop} = sub {
 	return ($text . $more . $end_text . arc($end, $body, "Again AND ($end.T >= T#10ms)") . $out, $done);
 };
 
-# Past a step when Skip.
+# Skips a step if Skip is TRUE.
 $make{jump} = sub {
 	my ($from, @inner) = @_;
 	my ($text, $way) = after($from, 'Way', "NOT Skip AND ($from.T >= T#10ms)");
@@ -238,8 +238,8 @@ for my $kind (@structures) {
 	}
 }
 
-# ---- UNTIL STABLE, with each structure: only Wait is waited for ----
-# What leads nowhere but on is passed in one scan; what stands there, does its SET.
+# ---- UNTIL STABLE, with each structure: only Wait waits ----
+# Steps that can be left at once are passed in one scan; a step at the end runs its SET.
 for my $kind (@structures) {
 	my $chart = ring(vars([@choices, 'Go'], ['Seen', 'Pulse']), [], $kind);
 	$chart =~ s/\(?\w+\.T >= T#\d+ms\)?/TRUE/g;
@@ -253,11 +253,12 @@ for my $kind (@structures) {
 	case("order-$kind", $chart, "$stimulus.\n.\nGo=1\n.\nGo=0\n.\nPick=1 Skip=1\nGo=1\n.\nGo=0\n.\n", ' IN ORDER');
 }
 
-# ---- qualifiers within structures: one step that calls with all of them ----
+# ---- qualifiers within structures: one step uses all of them ----
 my @all = map { "Out$_" } @qualifiers;
 my @called = map { call("Out$_", $_, 'T#20ms') } @qualifiers;
 
-# Beside another step; the shorter way; twice in a loop; in a macro-step; in passing.
+# Beside another step; in the shorter branch; twice in a loop; in a macro-step; in a step
+# that is passed in one scan.
 for my $kind (qw(selective simultaneous loop macro)) {
 	my $chart = ring(vars([@choices], \@all), [], $kind);
 	my %in = (selective => 'Right', simultaneous => 'Down', loop => 'Body', macro => 'In');
@@ -323,8 +324,8 @@ for my $name (sort keys %control) {
 	}
 }
 
-# ---- what else docs/sfc.md says ----
-# Two tokens in one step are one; what is active is not entered anew.
+# ---- other statements of docs/sfc.md ----
+# Two tokens in one step are one; an active step is not entered again.
 {
 	my $chart = vars(['Go', 'Join', 'Back'], ['Out'], 'Entered : INT', 'Runs : INT') .
 		step('!Idle') . step('A') . step('B') . step('Meet', call('Count', 'P1'), call('Run', 'N')) .
@@ -332,7 +333,8 @@ for my $name (sort keys %control) {
 		arc('Meet', 'Idle', 'Back') . counting('Count', 'Entered') . counting('Run', 'Runs');
 	case('tokens-meet', $chart, "\@print Idle.X A.X B.X Meet.X Meet.T Entered Runs\n.\nGo=1\nGo=0\n.\nJoin=1\n.\nBack=1\n.\n");
 }
-# A step that is left and entered at once: its T goes on, nothing begins anew, no alarm.
+# A step that is left and entered in one scan: its T continues, nothing starts again, no
+# alarm.
 {
 	my $chart = vars(['Self', 'End'], ['Early', 'Left', 'Mark'], 'Entered : INT') .
 		"  INITIAL_STEP Work (MIN := T#500ms, ALARM := Early):\n    SET Mark;\n    Left(P0);\n    Count(P1);\n  END_STEP\n\n" .
@@ -340,7 +342,7 @@ for my $name (sort keys %control) {
 		arc('Work', 'Work', 'Self') . arc('Work', 'Over', 'End') . arc('Over', 'Work', 'NOT End') . counting('Count', 'Entered');
 	case('left-and-entered', $chart, "\@print Work.X Work.T Early Left Mark Entered\n.\n.\nSelf=1\n.\nSelf=0\nEnd=1\n.\nEnd=0\n.\n");
 }
-# Two transitions that want one of two steps each, and one that wants both.
+# Two transitions that need one of two steps each, and one that needs both.
 {
 	my $chart = vars(['A', 'B', 'AB', 'Go'], []) . step('!Idle') . step('Lt') . step('Rt') . step('L2') . step('R2') . step('Both') .
 		arc('Idle', '(Lt, Rt)', 'Go') . arc('Lt', 'L2', 'A') . arc('(Lt, Rt)', 'Both', 'AB') . arc('Rt', 'R2', 'B') .
@@ -350,7 +352,7 @@ for my $name (sort keys %control) {
 	case('wanted-by-two', $chart, $stimulus);
 	case('wanted-by-two-priority', $again, $stimulus);
 }
-# Conditions of steps that are not active stand still: edges, timers.
+# Conditions of inactive steps are not evaluated: edges, timers.
 {
 	my $chart = vars(['Go', 'Edge', 'On'], [], 'Delay : TON') . step('!Idle') . step('Seen') . step('Timed') . step('Over') .
 		arc('Idle', 'Seen', 'Go') .
@@ -360,7 +362,8 @@ for my $name (sort keys %control) {
 	case('conditions', $chart, "\@print Idle.X Seen.X Timed.X Over.X Delay.Q Delay.ET\nEdge=1 On=1\n.\nGo=1\n.\n.\nEdge=0\nEdge=1\n.\n.\n.\nGo=0\nOn=0\n" .
 		"Edge=0\nGo=1\nEdge=1\n.\n");
 }
-# The final scan: a coil by Step.X, a timer, a list; none for a call in passing.
+# The final scan: a coil by Step.X, a timer, a list; none for an action that was only
+# passed.
 {
 	my $chart = vars(['Go', 'End'], ['Lit', 'Kept', 'Late'], 'Over : TOF', 'Runs : INT', 'Lists : INT') . step('!Idle') .
 		step('Work', call('Rungs', 'N'), call('List', 'N'), call('Rungs', 'P0')) .
@@ -370,7 +373,7 @@ for my $name (sort keys %control) {
 		"  ACTION List:\n    LD Lists\n    ADD 1\n    ST Lists\n    LD Work.X\n    JMPC Last\n    LD Lists\n    ADD 100\n    ST Lists\n  Last:\n    LD Go\n    RETC\n    LD Lists\n    ADD 1000\n    ST Lists\n  END_ACTION\n\n";
 	case('final-scan', $chart, "\@print Work.X Lit Kept Late Runs Lists\n.\nGo=1\n.\nGo=0\n.\nEnd=1\nEnd=0\n.\nGo=1\nGo=0 End=1\n.\n");
 }
-# Actions go by the order of the file, then BOOLs; who is called is settled before.
+# Actions run in the order of the file, then BOOLs; calls are determined before.
 {
 	my $chart = vars(['Go'], ['First'], 'N : INT', 'Wait : TIME := T#20ms') . step('!Idle') .
 		step('Work', "    First(L, Wait);\n", call('Second', 'N'), call('Begin', 'N')) .
@@ -379,7 +382,7 @@ for my $name (sort keys %control) {
 		"  ACTION Second:\n    RUNG\n      | [ N := N + 1 ] |\n  END_ACTION\n\n";
 	case('order', $chart, "\@print Work.X First N Wait\n.\nGo=1\n.\n.\nGo=0\n.\n");
 }
-# SET and RESET by the order of the file, in the scan of the entry alone.
+# SET and RESET run in the order of the file, only in the scan of the entry.
 {
 	my $chart = vars(['Go', 'Other'], ['A', 'B', 'C']) .
 		"  STEP Late:\n    RESET A;\n    SET B, C;\n    RESET C;\n  END_STEP\n\n" . step('!Idle', "    SET C;\n") . step('Early', "    SET A;\n    RESET B;\n    Undo();\n") .
@@ -387,7 +390,7 @@ for my $name (sort keys %control) {
 		"  ACTION Undo:\n    RUNG\n      | NO Other | R A |\n  END_ACTION\n\n";
 	case('set-and-reset', $chart, "\@print Idle.X Early.X A B C\n.\nGo=1\n.\nOther=1\nOther=0\nGo=0\nGo=1\n.\n");
 }
-# Macro-steps in one another, each with lines; one that is one step; FORCE into them.
+# Nested macro-steps, each with lines; one with a single step; FORCE into them.
 {
 	my $chart = vars(['Go', 'In', 'Out', 'Hold'], ['Outer', 'Inner', 'Deep'], 'CForce AT %IB2 : USINT', 'Entered : INT') .
 		"  CONTROL(FORCE := CForce);\n\n" . step('!Idle') .
@@ -397,7 +400,8 @@ for my $name (sort keys %control) {
 	case('macro-in-macro', $chart, "\@print Idle.X M.X M.T A.X K.X B.X B.T Over.X Outer Inner Deep Entered\n.\nGo=1\nOut=1\n.\nIn=1\n.\nGo=0\nOut=0 In=0\n" .
 		"CForce=5\n.\nCForce=2\n.\nCForce=4\nCForce=3\nOut=1\n.\n");
 }
-# A chart that never comes to rest: in one line of the file, which the message names.
+# A chart that never becomes stable, because of one line of the file, which the message
+# names.
 {
 	my $chart = vars(['Go'], ['Out']) . step('!Idle', call('Out', 'N')) . step('Round') .
 		arc('Idle', 'Round', 'Go') . arc('Round', 'Idle', 'TRUE');
@@ -406,14 +410,15 @@ for my $name (sort keys %control) {
 	my $text = "RUNGBOARD 1\nPROGRAM Main SFC UNTIL STABLE\n$chart\nEND_PROGRAM\n";
 	spew("$to/sfc-stable-never/main.rung", $text);
 }
-# IN ORDER: the same goes round 50 times a scan, and on. Each round counts.
+# IN ORDER: the same chart goes round 50 times a scan, and continues. Each round counts.
 {
 	my $chart = vars(['Go'], ['Out'], 'Rounds : INT') . step('!Idle', call('Out', 'N')) . step('Round') .
 		arc('Idle', 'Round', 'Go') .
 		"  TRANSITION FROM Round TO Idle:\n    RUNG\n      | [ Rounds := Rounds + 1 ] | COIL TRANSITION |\n  END_TRANSITION\n\n";
 	case('order-never', $chart, "\@print Idle.X Round.X Out Rounds\n.\n.\nGo=1\n.\n.\nGo=0\n.\n", ' IN ORDER');
 }
-# Out of nothing, into nothing; first come, first served; what enters itself begins anew.
+# Without a previous step, without a next step; the order of the file decides; a step that
+# enters itself starts again.
 {
 	my $chart = vars(['New', 'Go', 'Pick', 'Gone', 'Self'], ['Seen', 'Pulse', 'Ended']) .
 		step('A', "    SET Seen;\n", call('Pulse', 'P1'), call('Ended', 'P0')) . step('B') . step('C') .

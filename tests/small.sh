@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# small - what a small board has (make SMALL=1), built for this machine: its rows of
-# words and its smaller checksum do what those of the translator's build do.
+# small - the build for small boards (make SMALL=1) on this machine: its words and its
+# smaller checksum give the same results as those of the full build.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
@@ -16,7 +16,7 @@ say() { # status text
 	echo "not ok $n - $2"
 	sed 's/^/#   /' "$tmp/out" | tail -n 12
 }
-said() { # status wanted text : what the last command said and how it ended
+said() { # status wanted text : a test of the last command: its output and status
 	[ "$1" -eq "$2" ] && grep -q "$3" "$tmp/out"
 }
 

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# bench - the figures of `make bench`: speed, load time and size, as a table with
-# the commit and the machine it was run on. It judges nothing: a busy machine gives
-# other figures, a table of another machine says nothing about this one.
+# bench - the figures of `make bench`: speed, load time and size, as a table with the commit
+# and the machine. It does not fail on slow figures, because they depend on the machine and
+# its load.
 set -eu
 
 build=${BUILD:-build}
@@ -12,7 +12,7 @@ ladder=$build/ladder
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
 
-# field FILE NAME: a number of the JSON that `ladder bench --json` wrote.
+# field FILE NAME: prints a number from the JSON of `ladder bench --json`.
 field() { tr -d '\n' <"$1" | sed -n "s/.*\"$2\": \([0-9.]*\).*/\1/p"; }
 median() { tr -d '\n' <"$1" | sed -n "s/.*\"$2\": {[^}]*\"median\": \([0-9.]*\).*/\1/p"; }
 per() { awk -v a="$1" -v b="$2" -v f="$3" 'BEGIN { printf f, a / b }'; }
@@ -58,7 +58,7 @@ if "$cc" -O2 -std=c11 -D_POSIX_C_SOURCE=200809L "$(dirname "$0")/real.c" -o "$tm
 	echo
 	echo "1,000 REAL additions and comparisons: $vm ns each; the same C with -O2: $c ns; ratio $(per "$vm" "$c" %.1f)."
 fi
-# chart NAME FILE: a line of the table of charts.
+# chart NAME FILE: prints a row of the table of charts.
 chart() {
 	"$ladder" bench --json "$2" >"$tmp/chart.json" 2>/dev/null
 	echo "| $1 | $(median "$tmp/chart.json" body_steady_ns) | $(median "$tmp/chart.json" body_random_ns)" \

@@ -34,12 +34,12 @@
 #define SIM_FRAMES 1000
 
 static struct {
-	gint64 begun, spent; /* us, of the last frame                          */
-	gint64 at, worked;   /* of the processor, of this thread                */
+	gint64 begun, spent; /* us, last frame                                 */
+	gint64 at, worked;   /* processor time of this thread                   */
 	int frames;
 } frame;
 
-/* us of the processor, of this thread. */
+/* Processor time of this thread in us. */
 static gint64 worked(void)
 {
 	struct timespec now;
@@ -67,7 +67,7 @@ static gboolean quit(gpointer loop)
 	return G_SOURCE_REMOVE;
 }
 
-/* As the editor waits: asleep. */
+/* Waits asleep, as the editor does. */
 static void settle(guint ms)
 {
 	GMainLoop *loop = g_main_loop_new(NULL, FALSE);
@@ -86,8 +86,8 @@ static void next_frame(void)
 		g_main_context_iteration(NULL, TRUE);
 }
 
-/* What a person does: @prepare is not measured (NULL: nothing), @act and the frame that
- * shows it are; then it is let come to rest. */
+/* One action: @prepare (or NULL) is not measured; @act and the frame that shows it are.
+ * Then it waits until the editor is idle. */
 struct deed {
 	const char *name, *most;
 	void (*prepare)(LadderGridView *sheet, int round);
@@ -96,7 +96,7 @@ struct deed {
 	guint rest;          /* ms                                             */
 };
 
-/* us by the clock. A function of its own, for profilers. */
+/* us by the clock; not static, so that profilers show its name. */
 static G_GNUC_NO_INLINE gint64 act_and_show(const struct deed *deed,
 					    LadderGridView *sheet, int round)
 {
@@ -146,7 +146,7 @@ static GtkWidget *find(GtkWidget *widget, GType type)
 	return found;
 }
 
-/* ---- what a person does ---- */
+/* ---- actions of a person ---- */
 
 static void scroll(LadderGridView *sheet, int round)
 {
@@ -198,7 +198,7 @@ static GtkWidget *line_of(LadderGridView *sheet)
 	return find(GTK_WIDGET(sheet), GTK_TYPE_ENTRY);
 }
 
-/* Without a line that is open; on the sheet itself Esc would give the rung back. */
+/* Closes an open line; on the sheet itself, Esc would revert the rung. */
 static void free_cell(LadderGridView *sheet, int round)
 {
 	(void)round;
@@ -276,7 +276,7 @@ static const struct deed deeds[] = {
 	{ "a new rung", "16", NULL, add_rung, 20, 250 },
 };
 
-/* ---- what the toolkit takes ---- */
+/* ---- the share of the toolkit ---- */
 
 static void watch_frames(GtkWidget *window)
 {
@@ -297,7 +297,7 @@ static void change_ground(LadderGridView *sheet, int round)
 	ground_change(ground);
 }
 
-/* As many pixels as rungs take in the view, with nothing on them: what is beyond it is ours. */
+/* As many pixels as the rungs in the view, without drawing: the difference is our share. */
 static void measure_ground(LadderGridView *sheet)
 {
 	static const struct deed deed = {
@@ -313,7 +313,7 @@ static void measure_ground(LadderGridView *sheet)
 	settle(500);
 }
 
-/* ---- all of it ---- */
+/* ---- simulation ---- */
 
 static long memory(void)
 {
@@ -342,8 +342,8 @@ static void idle(void)
 	       (double)used / (IDLE_S * 1e6) * 100);
 }
 
-/* Running at its period: what a frame costs the thread that draws, and how much of the
- * processor that thread and all of the editor need. */
+/* Runs at its period: the time of a frame in the thread that draws, and the processor
+ * time of this thread and of the whole editor. */
 static void simulate(GtkWidget *window, LadderGridView *sheet)
 {
 	guint drawn;
@@ -380,14 +380,14 @@ static void simulate(GtkWidget *window, LadderGridView *sheet)
 	gtk_widget_activate_action(window, verb_row(VERB_sim_mode)->action, NULL);
 }
 
-/* ---- the scan thread, and the past ---- */
+/* ---- the scan thread, and earlier scans ---- */
 
 static void print_late(LadderSim *sim, const char *what)
 {
 	struct sim_lateness late;
 
 	settle(1000);
-	ladder_sim_lateness(sim, &late); /* forget the way there */
+	ladder_sim_lateness(sim, &late); /* ignores the frames until here */
 	settle(SIM_S * 1000);
 	if (ladder_sim_lateness(sim, &late))
 		printf("Lateness of the scan thread, %s: median %.2f ms, 99 %% %.2f ms, "
@@ -397,7 +397,7 @@ static void print_late(LadderSim *sim, const char *what)
 	fflush(stdout);
 }
 
-/* Drawing must not delay it: the same with a window that nobody sees. */
+/* Drawing must not delay scans: the same with a hidden window. */
 static void late(GtkWidget *window)
 {
 	LadderSim *sim = ladder_window_sim(LADDER_WINDOW(window));
@@ -410,7 +410,7 @@ static void late(GtkWidget *window)
 	print_late(sim, "while it is drawn again");
 }
 
-/* Any scan of a record of 100,000: from ladder_sim_show() to the frame with it. */
+/* Any scan of a record of 100,000: from ladder_sim_show() until its frame is drawn. */
 static void past(GtkWidget *window, LadderSim *sim)
 {
 	gint64 clock[ROUNDS], shown[ROUNDS], thread[ROUNDS];
@@ -436,7 +436,7 @@ static void past(GtkWidget *window, LadderSim *sim)
 		settle(40);
 	}
 	known = median(shown, ROUNDS);
-	seen = median(clock, ROUNDS); /* they are in order now */
+	seen = median(clock, ROUNDS); /* median() has sorted them */
 	spent = median(thread, ROUNDS);
 	printf("Showing any of %llu scans: median %.2f ms until all views know, %.2f ms with "
 	       "its frame; worst %.2f ms (16); of the thread %.2f, worst %.2f.\n",
@@ -495,7 +495,7 @@ static void type_in_list(GtkWidget *text, int round)
 						     TRUE);
 }
 
-/* A list behind all those rungs. Half of the letters leave it so that it can be read. */
+/* A list after all those rungs. Half of the letters leave it readable. */
 static void measure_list(GtkWidget *window, LadderDocument *document)
 {
 	const int pou = ladder_document_project(document)->pou_count;

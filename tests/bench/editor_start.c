@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * editor_start - how long the editor takes to its first picture, each time in a process of
- * its own; and the numbers that all of tests/bench/editor counts with.
+ * editor_start - measures the time until the first picture of the editor, each time in a
+ * process of its own. Also has the statistics of tests/bench/editor.
  */
 #include "tests/bench/editor_start.h"
 
@@ -14,9 +14,9 @@
 #include <unistd.h>
 
 #define STARTS 9
-#define BEGUN "RUNGBOARD_BENCH_BEGUN" /* us: when a start began                */
+#define BEGUN "RUNGBOARD_BENCH_BEGUN" /* us, start of the process              */
 
-/* us of the processor, of the whole process. */
+/* Processor time of the whole process in us. */
 gint64 process_worked(void)
 {
 	struct rusage used;
@@ -69,7 +69,7 @@ static gboolean shown(GSignalInvocationHint *hint, guint count, const GValue *va
 	_exit(0);
 }
 
-/* The editor itself, up to its first picture. */
+/* The editor itself, until its first picture. */
 int start(int argc, char **argv)
 {
 	g_type_class_ref(GDK_TYPE_FRAME_CLOCK);

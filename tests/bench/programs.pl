@@ -3,17 +3,17 @@
 #
 # programs - writes the ladders that `make bench` measures: programs.pl KIND N
 #
-# seal:   N rungs of a start button, a stop button and a motor that seals in.
-# mixed:  N rungs, by turns a timer, a counter, a comparison and arithmetic.
-# dense:  N rungs of 8 x 6 contacts with a link at every cell.
-# empty:  one rung, as little as there can be.
-# chart:  a chart of N steps, 50 in each of its sequences that go side by side, so that
-#         N / 50 are active; 6 transitions for 5 steps, every fifth step being a choice.
-# others: N rungs of one family of words, as %family says.
+# seal:   N rungs of a start button, a stop button and a motor with seal-in
+# mixed:  N rungs, alternately a timer, a counter, a comparison and arithmetic
+# dense:  N rungs of 8 x 6 contacts with a link at every cell
+# empty:  one rung, as small as possible
+# chart:  a chart of N steps, 50 in each of its simultaneous sequences, so that N / 50 are
+#         active; 6 transitions for 5 steps, every fifth step has a choice
+# others: N rungs of one family of words (%family)
 use strict;
 use warnings;
 
-# What a rung of a family declares, and what stands in it; # is its number.
+# The declarations and the text of a rung of a family; # is its number.
 my %family = (
 	real => ['A# : REAL := 1.5; B# : REAL := 0.25; C# : REAL; Out# : BOOL;',
 		'| ADD IN1:=A# IN2:=B# OUT=>C# | GT IN1:=C# IN2:=A# | COIL Out# |'],
@@ -53,7 +53,7 @@ if ($family{$kind}) {
 	exit;
 }
 
-# Bits: inputs while there are any, then markers, then plain variables.
+# Bits: inputs first, then markers, then variables without an address.
 sub input { my ($i) = @_; return $i < 4096 ? sprintf("AT %%IX%d.%d ", $i >> 3, $i & 7) : "" }
 sub output { my ($i) = @_; return $i < 4096 ? sprintf("AT %%QX%d.%d ", $i >> 3, $i & 7) : "" }
 
@@ -86,7 +86,7 @@ print "END_VAR\n\nPROGRAM Main ", $kind eq 'chart' ? "SFC\n" : "LD\n";
 if ($kind eq 'chart') {
 	my $per = 50;
 	for my $i (0 .. $n - 1) {
-		my $one = int($i / $per) * $per; # the first of its sequence
+		my $one = int($i / $per) * $per; # the first rung of its sequence
 		my ($next, $over) = map { $one + ($i - $one + $_) % $per } 1, 3;
 		my ($in, $else) = map { ($_ * 7 + 3) % 64 } $i, $i + 5;
 

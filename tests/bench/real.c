@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * real - what 1,000 additions and comparisons of REAL take in C: the program that
- * `programs.pl real 1000` writes, with the same checks. bench.sh compiles it with -O2.
+ * real - 1,000 additions and comparisons of REAL in C: the program of `programs.pl real
+ * 1000`, with the same checks. bench.sh compiles it with -O2.
  *
- * ROW(n) is one rung; the statements stand one behind the other, as a ladder's do. As
- * there: a sum that is no number is not stored, ENO is FALSE, and it is counted; the
- * ladder also keeps the place of the first one. The boxes stand at the left rail, so
- * that neither looks at EN.
+ * ROW(n) is one rung. The statements follow each other, as in the ladder. As there, a sum
+ * that is not a number is not stored, ENO is FALSE, and it is counted; the ladder also
+ * keeps the place of the first one. The boxes are at the left rail, so neither version
+ * checks EN.
  */
 #include <math.h>
 #include <stdbool.h>
@@ -24,7 +24,7 @@ uint32_t errors;
 #define DECLARE(n) float a##n = 1.5f, b##n = 0.25f, c##n; uint8_t eno##n, out##n;
 THOUSAND(DECLARE)
 
-/* ENO FALSE and nothing stored when the sum is no number. */
+/* ENO is FALSE and nothing is stored if the sum is not a number. */
 static bool add(float a, float b, float *out)
 {
 	float sum = a + b;
@@ -55,7 +55,7 @@ static double seconds(void)
 	return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
-/* The median of 101 rounds of 200 runs, ns a row. */
+/* The median of 101 rounds of 200 runs, in ns per row. */
 int main(void)
 {
 	double took[101];

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * record - what the recorder of a simulation costs: bytes for 100,000 scans, and how long
- * it takes to show any of them.
+ * record - measures the recorder of a simulation: bytes for 100,000 scans, and the time to
+ * show any of them.
  *
  *   record NAME FILE SCANS
  *
- * Inputs change now and then while it runs. Prints a row of a table; fails if it needed
- * more than 100 MB, or keeps fewer scans than it should.
+ * Inputs change from time to time. Prints a row of a table; fails if it needs more than 100
+ * MB or keeps too few scans.
  */
 #include "engine/ladder.h"
 #include "engine/trial/record.h"
@@ -29,7 +29,7 @@ static uint64_t random_next(void)
 	return state ^= state << 17;
 }
 
-/* Of this process: what others do on the machine is not its time. */
+/* Processor time of this process, so that other programs do not count. */
 static double now_ms(void)
 {
 	struct timespec now;

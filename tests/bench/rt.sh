@@ -1,13 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# rt - the figures of `make bench-rt`: how late ladderd wakes up for its scan, beside
-# cyclictest on the same machine in the same minute. ladderd scans a small program on
-# simulated pins, so what is measured is the clock, the kernel and the scan's own
-# edges. The two take turns, and of each percentile the median turn counts. It
-# judges nothing: a machine that does other work gives other figures.
+# rt - the figures of `make bench-rt`: how late ladderd wakes up for its scan, and how late
+# cyclictest does on the same machine at the same time. ladderd scans a small program on
+# simulated pins, so the figures contain the clock, the kernel and the overhead of a scan.
+# Both programs run alternately, and the median of each percentile counts. Nothing fails:
+# the figures depend on the load of the machine.
 #
-#   TURNS=5 SCANS=4000 PERIOD=1000 PRIORITY=40   SCANS a turn, of PERIOD us
+#   TURNS=5 SCANS=4000 PERIOD=1000 PRIORITY=40   SCANS per turn, at PERIOD us
 set -eu
 
 build=${BUILD:-build}
@@ -51,7 +51,7 @@ BOARD "desk"
 %QX0.1 sim
 END
 
-# Real-time priority and locked memory for both, or for neither.
+# Real-time priority and locked memory for both programs, or for neither.
 real="--rt $priority" cyclic="-m -p $priority" kind="SCHED_FIFO $priority"
 if ! cyclictest -q -m -p "$priority" -l 1 >/dev/null 2>&1; then
 	real='' cyclic='' kind='no real-time priority: not allowed to this user'
@@ -94,7 +94,7 @@ function of(line, word,  at) {
 	at = index(line, word " ")
 	return at ? substr(line, at + length(word) + 1) + 0 : 0
 }
-# The median of figure[1..turns].
+# Prints the median of figure[1..turns].
 function median(  i, k, t) {
 	for (i = 2; i <= turns; i++)
 		for (k = i; k > 1 && figure[k] < figure[k - 1]; k--) {

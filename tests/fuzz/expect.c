@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * expect - how a fuzz target says that a promise was broken.
+ * expect - reports a broken promise and ends the fuzz target.
  */
 #include "tests/fuzz/fuzz.h"
 

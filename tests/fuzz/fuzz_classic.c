@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * fuzz_classic - any bytes as a ClassicLadder project, and what is read is imported.
+ * fuzz_classic - reads any bytes as a ClassicLadder project and imports it.
  *
- * Seeds that are packed are unpacked before they are changed, or the checksum would
- * refuse them all; one that stays packed goes to the unpacker itself.
+ * Packed seeds are unpacked before they are changed, because the checksum would refuse them
+ * all. One seed stays packed, for the unpacker.
  */
 #include "engine/exchange/classic/classic.h"
 #include "engine/exchange/classic/inflate.h"
@@ -48,8 +48,7 @@ static void look_at(const struct classic_project *project)
 		fuzz_expect(strlen(project->symbol[i].name) < 1000, "symbols");
 }
 
-/* With the checksum and the length that the trailer says, whatever they were: so that
- * the text of a changed one is reached. */
+/* Corrects the checksum and the length in the trailer, so that the changed text is read. */
 static void unpack(const uint8_t *bytes, size_t len)
 {
 	enum diag_id why = DIAG_COUNT;
@@ -62,7 +61,7 @@ static void unpack(const uint8_t *bytes, size_t len)
 	arena_free(&arena);
 }
 
-/* And back: a text that is read again, or it is said why not. */
+/* Exports the project again: the result can be read, or there is an error. */
 static void leave(struct ladder *ladder, enum classic_dialect dialect)
 {
 	struct classic_report report;
@@ -85,7 +84,7 @@ static void leave(struct ladder *ladder, enum classic_dialect dialect)
 	report_free(&report);
 }
 
-/* What is good as a file becomes a program, or it is said why not. */
+/* A project without an error becomes a program, or there is an error. */
 static void import(const uint8_t *bytes, size_t len)
 {
 	struct ladder *ladder = ladder_new();

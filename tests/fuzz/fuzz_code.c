@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * fuzz_code - any bytes as a code image, and what the verifier lets in is run.
+ * fuzz_code - reads any bytes as a code image, and runs it if the verifier accepts it.
  *
- * The checksum is made good and the budget small, so that changed images come
- * past the first look. Seeds are rung files, translated here: they stay good when
- * the format changes.
+ * The checksum is corrected and the budget is small, so that changed images get past the
+ * first checks. Seeds are rung files that are translated here, so they stay valid when the
+ * format changes.
  */
 #include "engine/base/digest.h"
 #include "engine/ladder.h"
@@ -78,7 +78,7 @@ static void look_around(struct resource *resource)
 		code_print(program->text + at, 0, text, sizeof(text));
 }
 
-/* Time goes on while tasks run; the same in each run. */
+/* Time advances while tasks run, by the same amounts in each run. */
 static int64_t clock_now;
 
 static int64_t clock_ns(void)

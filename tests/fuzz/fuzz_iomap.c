@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * fuzz_iomap - any bytes as an I/O map. No chip is opened.
+ * fuzz_iomap - reads any bytes as an I/O map.
  */
 #include "hal/iomap.h"
 #include "tests/fuzz/fuzz.h"

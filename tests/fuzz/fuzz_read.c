@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * fuzz_read - any bytes as a rung file: read, checked, translated, written.
- *
- * What was read must be written, and what was written must be read again and be
- * written the same.
+ * fuzz_read - reads any bytes as a rung file, checks, translates and writes it. The written
+ * text must be readable, and writing it again must give the same bytes.
  */
 #include "engine/ladder.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * fuzz_retain - any bytes as a file of retained values. Once as they are, once with
- * good checksums, so that changed records come past the first look.
+ * fuzz_retain - reads any bytes as a file of retained values: once unchanged, once with
+ * corrected checksums, so that changed records get past the first check.
  */
 #include "engine/base/digest.h"
 #include "engine/ladder.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * fuzz_scenario - any bytes as a scenario file; short scenarios are run too.
+ * fuzz_scenario - reads any bytes as a scenario file, and runs short scenarios.
  */
 #include "engine/trial/scenario.h"
 #include "tests/fuzz/fuzz.h"

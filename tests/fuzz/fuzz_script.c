@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * fuzz_script - any bytes as a stimulus script, run where it asks for few scans.
+ * fuzz_script - reads any bytes as a stimulus script, and runs it if it has few scans.
  */
 #include "engine/trial/script.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/sandbox.h"
 
-/* `x` and more than three digits: a script may wish for a thousand million
- * scans, and that is no fault of its reader. */
+/* `x` and more than three digits: a script may ask for a thousand million scans. */
 static bool is_long(const uint8_t *bytes, size_t len)
 {
 	for (size_t i = 0; i + 1 < len; i++) {

@@ -22,8 +22,8 @@
 
 #define INPUT_MAX (1u << 20)
 #define SEEDS_MAX 512
-#define ROUNDS 20000   /* mutations, unless said otherwise                    */
-#define STUCK_S 60    /* a generous guard against hanging, of one input      */
+#define ROUNDS 20000   /* default number of mutations                         */
+#define STUCK_S 60    /* guard against hanging, of one input                 */
 
 struct seed {
 	char name[256];
@@ -36,7 +36,7 @@ struct corpus {
 	int count;
 };
 
-/* For the handler: the input under test. */
+/* The input under test, for the signal handler. */
 static const uint8_t *current;
 static size_t current_len;
 static char crash_path[1024];
@@ -55,7 +55,7 @@ static void on_crash(int number)
 
 static void try_input(const uint8_t *bytes, size_t len)
 {
-	/* Exactly as large as it is, so that a sanitizer sees reads past it. */
+	/* A copy of the exact size, so that a sanitizer finds reads past its end. */
 	uint8_t *copy = malloc(len ? len : 1);
 
 	if (!copy)
@@ -118,7 +118,7 @@ static void read_folder(struct corpus *corpus, const char *folder)
 	free(entry);
 }
 
-/* One change: a byte, a number, a run doubled, dropped or taken from elsewhere. */
+/* Makes one change: a byte, a number, or a range that is doubled, deleted or copied. */
 static size_t mutate_once(struct random_source *source,
 			  const struct corpus *corpus, uint8_t *bytes, size_t len)
 {
@@ -160,7 +160,7 @@ static size_t mutate_once(struct random_source *source,
 	}
 }
 
-/* For images: words change in their places, by a little or to another's value. */
+/* For images: changes a word a little, or to the value of another word. */
 static void change_word(struct random_source *source, uint8_t *bytes, size_t len)
 {
 	uint32_t words = (uint32_t)(len / 4), word, other;
@@ -232,7 +232,7 @@ static void write_seeds(const struct corpus *corpus, const char *folder)
 	}
 }
 
-/* The folder of the target that this program was linked with. */
+/* The corpus folder of the target. */
 static void read_own(struct corpus *corpus, const char *program)
 {
 	const char *name = strrchr(program, '_'), *more = getenv("SAMPLES");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sandbox - variables of every kind, a timer and a counter, and little else.
+ * sandbox - variables of every kind, a timer and a counter.
  */
 #include "tests/fuzz/sandbox.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sandbox - a small program for targets that need one to speak of.
+ * sandbox - a small program for targets that need one.
  */
 #ifndef FUZZ_SANDBOX_H
 #define FUZZ_SANDBOX_H
@@ -10,9 +10,9 @@
 
 struct sandbox {
 	struct resource resource;
-	struct sink sink;  /* swallows what is written                        */
+	struct sink sink;  /* keeps nothing                                   */
 };
 
-/** sandbox_open - the program at a cold start; built once and kept. */
+/** sandbox_open - the program after a cold start; built once and kept. */
 struct sandbox *sandbox_open(void);
 #endif

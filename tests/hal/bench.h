@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * bench - a map, a HAL and an image on the table, for the HAL suite. The device
- * files are empty ones in a folder of the test; the chips behind are fake.
+ * bench - a map, a HAL and an image for the HAL suite. The device files are empty files in
+ * a folder of the test; the chips are fake.
  */
 #ifndef TESTS_HAL_BENCH_H
 #define TESTS_HAL_BENCH_H
@@ -24,14 +24,14 @@ struct bench {
 	struct iomap map;
 	struct hal hal;
 	struct image image;
-	struct program program; /* of which only the areas are known          */
+	struct program program; /* only its areas are set                     */
 	char text[300];       /* of the first diagnostic                    */
 	uint8_t memory[65536];
 };
 
 static char dev_folder[200];
 
-/* A folder with gpiochip0 … gpiochip3; NULL: it cannot be had. */
+/* Makes a folder with gpiochip0 … gpiochip3; NULL: it cannot be made. */
 static inline const char *bench_dev(void)
 {
 	const char *root = getenv("TMPDIR");
@@ -97,7 +97,7 @@ static inline int level(const char *name)
 	return -1;
 }
 
-/* From now on a chip may be opened by @group alone, if @mode says so. */
+/* Lets only @group open a chip, if @mode allows it. */
 static inline bool bench_deny(int chip, mode_t mode, long group)
 {
 	char path[250];
@@ -145,7 +145,7 @@ static inline void bench_end(struct bench *b)
 	arena_free(&b->arena);
 }
 
-/* Opening a map with these lines gives a diagnostic that holds @want. */
+/* Checks that a map with these lines is refused with a diagnostic that contains @want. */
 static inline bool refused_like(struct bench *b, const char *lines,
 				const char *want)
 {

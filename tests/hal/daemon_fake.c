@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * daemon_fake - ladderd over fake chips, for the ways out of RUN that need a
- * line to fail or a driver to hang. The environment says what happens:
- *   FAKE_DEV      folder that stands for /dev
- *   FAKE_FAIL_AT  reads fail from this one on, FAKE_HEAL_AT: until this one
- *   FAKE_DEAF_AT  writes fail from this one on, FAKE_HEAR_AT: until this one
+ * daemon_fake - ladderd with fake chips, for faults in which a line fails or a driver
+ * hangs. The environment controls the chips:
+ *
+ *   FAKE_DEV      folder in place of /dev
+ *   FAKE_FAIL_AT  reads fail from this one on, until FAKE_HEAL_AT
+ *   FAKE_DEAF_AT  writes fail from this one on, until FAKE_HEAR_AT
  *   FAKE_SLOW_AT  reads take 15 ms from this one on
- *   FAKE_SLOW_MS  or as long as this; FAKE_SLOW_EACH: but only every so many
+ *   FAKE_SLOW_MS  takes as long as this; FAKE_SLOW_EACH: only every N-th read
  *   FAKE_HANG_AT  this read never returns
  *   FAKE_CRASH_AT this read ends in SIGSEGV
  */
@@ -37,7 +38,7 @@ static long number(const char *name)
 	return text ? strtol(text, NULL, 10) : 0;
 }
 
-/* The whole time, whatever signals come. */
+/* Sleeps the whole time, also if signals arrive. */
 static void be_slow(void)
 {
 	long ms = number("FAKE_SLOW_MS");

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * fake - the chips of a test. It does what the kernel would: refuses lines that
- * are in use, fails after an unplugging, and gives a returning chip no old
- * request.
+ * fake - the chips of a test. Like the kernel, they refuse lines that are in use, fail
+ * after they were unplugged, and do not know old requests after they were plugged in again.
  */
 #include "tests/hal/fake.h"
 
@@ -46,7 +45,7 @@ void fake_unplug(int chip)
 struct fake_chip *fake_open(const char *path)
 {
 	const char *name = strstr(path, "gpiochip");
-	int number = name ? atoi(name + 8) : -1; /* a test's own path */
+	int number = name ? atoi(name + 8) : -1; /* a path of the test */
 	struct fake_chip *chip;
 
 	if (fake_at_open)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * fake - chips that exist in a test only, under both fakes of libgpiod.
+ * fake - chips that exist in a test only.
  *
- * fake_v1.c and fake_v2.c translate the public calls of a libgpiod to these;
- * the suite sets chips up, counts calls and makes them fail.
+ * fake_v1.c and fake_v2.c implement the calls of libgpiod with them, fake_uapi.c those of
+ * the kernel. The suite sets up chips, counts calls and makes them fail.
  */
 #ifndef TESTS_HAL_FAKE_H
 #define TESTS_HAL_FAKE_H
@@ -53,7 +53,7 @@ void fake_reset(void);
 void fake_clear_calls(void);
 void fake_unplug(int chip);
 
-/* What a libgpiod does. -1 and errno on failure. */
+/* The work of a libgpiod. Return -1 and set errno on failure. */
 struct fake_chip *fake_open(const char *path);
 void fake_close(void);
 int fake_take(struct fake_request *request, struct fake_chip *chip,
@@ -62,7 +62,7 @@ int fake_take(struct fake_request *request, struct fake_chip *chip,
 void fake_release(struct fake_request *request);
 int fake_read(const struct fake_request *request, int *values);
 int fake_write(const struct fake_request *request, const int *values);
-/* Called at each read by a test that wants to; see daemon_fake.c. */
+/* Called at each read, if a test sets it; see daemon_fake.c. */
 extern void (*fake_at_read)(void);
 extern void (*fake_at_open)(void);
 extern void (*fake_at_write)(void);

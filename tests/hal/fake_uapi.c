@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * fake_uapi - the kernel's GPIO uAPI v2 as far as hal/gpio_uapi.c calls it, over
- * the fake chips. Linked with --wrap for open, close and ioctl: what is not a chip
- * or a request of the test goes on to the real call.
+ * fake_uapi - the GPIO uAPI v2 of the kernel, as far as hal/gpio_uapi.c calls it, with the
+ * fake chips. Linked with --wrap for open, close and ioctl; files that are no chip or
+ * request of the test go to the real calls.
  */
 #include "tests/hal/fake.h"
 
@@ -15,7 +15,7 @@
 #include <string.h>
 #include <sys/ioctl.h>
 
-#define FAKE_FD   1000 /* the first number that is no real file          */
+#define FAKE_FD   1000 /* smaller numbers are real files                 */
 #define FAKE_OPEN 64
 
 int __real_open(const char *path, int flags, ...);
@@ -27,7 +27,7 @@ int __wrap_close(int fd);
 int __wrap_ioctl(int fd, unsigned long what, ...);
 int __real_ioctl(int fd, unsigned long what, ...);
 
-/* What a number stands for: a chip, or a request of its lines. */
+/* The object of a file number: a chip, or a request of its lines. */
 static struct opened {
 	struct fake_chip *chip;
 	struct fake_request *request;
@@ -79,7 +79,7 @@ static void copy_text(char *out, const char *text)
 {
 	size_t len = text ? strlen(text) : 0;
 
-	/* The kernel clips, and ends with a NUL. */
+	/* As in the kernel: clipped, and ended with a NUL. */
 	if (len >= GPIO_MAX_NAME_SIZE)
 		len = GPIO_MAX_NAME_SIZE - 1;
 	if (len)
@@ -115,7 +115,8 @@ static int line_about(const struct fake_chip *chip, struct gpio_v2_line_info *ou
 	return 0;
 }
 
-/* Flags of line @i: the last attribute that names it, else the request's. */
+/* The flags of line @i: those of the last attribute that names it, else those of the
+ * request. */
 static uint64_t flags_of(const struct gpio_v2_line_config *config, uint32_t i)
 {
 	uint64_t flags = config->flags;
@@ -213,7 +214,7 @@ int __wrap_ioctl(int fd, unsigned long what, ...)
 	if (what == GPIO_V2_LINE_SET_VALUES_IOCTL && at->request)
 		return set_values(at->request, about);
 	if (fd < FAKE_FD)
-		return __real_ioctl(fd, what, about); /* a terminal */
+		return __real_ioctl(fd, what, about); /* as for a terminal */
 	errno = ENOTTY;
 	return -1;
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * fake_v1 - libgpiod 1.6 as far as hal/gpiod_v1.c calls it, over the fake
- * chips.
+ * fake_v1 - libgpiod 1.6, as far as hal/gpiod_v1.c calls it, with the fake chips.
  */
 #include "tests/hal/fake.h"
 

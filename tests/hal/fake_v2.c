@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * fake_v2 - libgpiod 2.x as far as hal/gpiod_v2.c calls it, over the fake
- * chips.
+ * fake_v2 - libgpiod 2.x, as far as hal/gpiod_v2.c calls it, with the fake chips.
  */
 #include "tests/hal/fake.h"
 
@@ -28,7 +27,7 @@ struct gpiod_line_config {
 
 struct gpiod_line_request { struct fake_request fake; };
 
-/* Counts what must be freed again. */
+/* Counts the objects that must be freed. */
 static void *new_object(size_t size)
 {
 	fake.settings++;

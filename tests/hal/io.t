@@ -1,9 +1,8 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# io.t - what `ladder io` shows, over fake chips and each gpio driver: every line
-# with its owner, pull and level, the names of a program beside them, and the live
-# view. It takes no line, whatever it is asked.
+# io.t - tests `ladder io` with fake chips and each gpio driver: every line with its owner,
+# pull and level, the names of a program, and the live view. It requests no line.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -77,7 +76,7 @@ for my $kind (qw(v1 v2 uapi)) {
 	SKIP: {
 	-x $ladder or skip "$ladder was not built", 1;
 
-	# ---- nobody has a line ----
+	# ---- no line is in use ----
 	unlink 'taken';
 	delete @ENV{qw(FAKE_LEVELS FAKE_DENIED)};
 	my ($status, $out, $err) = io();
@@ -89,7 +88,7 @@ for my $kind (qw(v1 v2 uapi)) {
 	($status, $out) = io('panel.io');
 	like("$status $out", qr/\A0 %IX0\.0 +gpio +IN0 +input +good\n.*good\n\z/ms, "$kind: the map fits");
 
-	# ---- ladderd has them ----
+	# ---- ladderd uses lines ----
 	put('taken', '');
 	$ENV{FAKE_LEVELS} = "$dir/levels";
 	($status, $out, $err) = io('panel.io');
@@ -120,7 +119,7 @@ for my $kind (qw(v1 v2 uapi)) {
 	$json = decode_json($out);
 	is_deeply([map { $_->{level} } @{$json->{lines}}], [1, 0, 1, undef, undef, undef], "$kind: a level is only what the kernel said");
 
-	# ---- what is not there, not allowed, not good ----
+	# ---- missing files, no permission, bad maps ----
 	($status, $out, $err) = io('other.io', '--program', 'lamp.rung');
 	is($status, 1, "$kind: a map of another board");
 	like($out, qr/^%IX0\.1 +Stop +NOWHERE +not on this machine$/m, "$kind: its line is named");

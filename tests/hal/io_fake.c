@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * io_fake - `ladder` over fake chips, for what `ladder io` shows. The environment
- * says what is there:
- *   FAKE_DEV     folder that stands for /dev
- *   FAKE_TAKEN   while there is a file of this name, ladderd has three lines
- *   FAKE_LEVELS  file that stands for the kernel's list of levels
- *   FAKE_DENIED  the second chip may not be opened
+ * io_fake - `ladder` with fake chips, for `ladder io`. The environment controls the chips:
+ *
+ *   FAKE_DEV     folder in place of /dev
+ *   FAKE_TAKEN   while a file of this name exists, ladderd uses three lines
+ *   FAKE_LEVELS  file in place of the kernel's list of levels
+ *   FAKE_DENIED  the second chip cannot be opened
  */
 #include "tests/hal/fake.h"
 

@@ -1,9 +1,9 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# ladderd.t - the runtime from outside: arguments, files, signals, status, and that
-# each way out of RUN leaves the safe values. Pins are the sim driver's, or fake
-# chips where a line must fail. It asserts order and values, never a time.
+# ladderd.t - tests the runtime from outside: arguments, files, signals, status, and that
+# outputs have their safe values after each way out of RUN. It uses the driver sim, or fake
+# chips where a line must fail. It checks order and values, never times.
 use strict;
 use warnings;
 use Test::More;
@@ -49,7 +49,7 @@ sub start {
 	return $pid;
 }
 
-# The same with a pipe for its standard input; the pid, and our end of the pipe.
+# The same with a pipe as standard input; returns the pid and the write end.
 sub start_attended {
 	my ($program, @args) = @_;
 	unlink "$dir/out", "$dir/err";
@@ -68,7 +68,7 @@ sub start_attended {
 	return ($pid, $ours);
 }
 
-# Waits until a file has what is wanted; generous, and only a hang waits long.
+# Waits until a file matches; the limit is long and reached only by a hang.
 sub until_has {
 	my ($name, $want) = @_;
 	for (1 .. 1500) {
@@ -95,7 +95,7 @@ sub finish {
 
 sub run { return finish(start(@_)); }
 
-# What outputs show at last, from the trace: "%QX0.0 1".
+# The last values of outputs in the trace: "%QX0.0 1".
 sub levels {
 	my %level = @_;
 	for (split /\n/, get('err')) {
@@ -160,7 +160,7 @@ BOARD "fake panel"
 %QX0.1 gpio line=OUT1 safe=1
 END
 
-# Motor is switched on in the very scan that never ends.
+# Motor is switched on in the scan that never ends.
 my $once = put('once.rung', <<'END');
 RUNGBOARD 1
 PROJECT "Once"
@@ -204,10 +204,10 @@ my @traced = ('--trace-io', '--watchdog', '200');
 
 # ---- arguments and files ----
 is(run($ladderd, '--help'), 0, '--help');
-like(get('out'), qr/^Usage: ladderd FILE --io MAP.*Example: /s, 'its text');
+like(get('out'), qr/^Usage: ladderd FILE --io MAP.*Example: /s, 'prints the help text');
 is(run($ladderd, '--version'), 0, '--version');
 like(get('out'), qr/^ladderd \d+\.\d+\.\d+, takes rung files and code images, gpio through libgpiod: \S+\n$/,
-	'its text');
+	'prints the help text');
 for (['no arguments'], ['no map', $rung], ['no file', '--io', $map],
      ['two files', $rung, $rung, '--io', $map],
      ['unknown option', $rung, '--io', $map, '--fast'],
@@ -241,7 +241,7 @@ for (['no such program', "$dir/none.rung", $map, 2, qr/none\.rung/],
 	unlike(get('err'), qr/^%Q/m, "$what: no pin is touched");
 	is(get('out'), '', "$what: nothing on stdout");
 }
-# Errors and other warnings are those of `ladder check`; advice is for people at a desk.
+# Errors and other warnings are those of `ladder check`; advice is printed only at the desk.
 my $near = put('near.rung', "RUNGBOARD 1\n\nVAR_GLOBAL\n  Valve : BOOL;\nEND_VAR\n\n".
 	       "PROGRAM M LD\nRUNG\n  | NO Valv | COIL Valve |\nEND_PROGRAM\n");
 for (['LD301 names its word', $near, 1, qr/rung 1 \(1,1\): error LD301: "Valv"/, qr/did you mean/],
@@ -255,14 +255,14 @@ for (['LD301 names its word', $near, 1, qr/rung 1 \(1,1\): error LD301: "Valv"/,
 	like($desk, $_, "$what: ladder check says it") for $told, $advice;
 }
 my $half = put('half.io', "BOARD \"x\"\n%IX0.0 sim\n%QX0.0 sim\n");
-is(run($ladderd, $rung, '--io', $half, '--scans', '1'), 0, 'an output less');
+is(run($ladderd, $rung, '--io', $half, '--scans', '1'), 0, 'a map without a line for an output');
 like(get('err'), qr/half\.io.*warning LD515.*Brake/, 'is a warning');
 my $bare = put('bare.rung', "RUNGBOARD 1\n\nPROGRAM M LD\nRUNG\n".
 	       "  | NO I0 | NO %IX5.0 | COIL %QX7.0 |\nEND_PROGRAM\n");
-is(run($ladderd, $bare, '--io', $half, '--scans', '1'), 0, 'bare addresses');
+is(run($ladderd, $bare, '--io', $half, '--scans', '1'), 0, 'addresses without names and lines');
 like(get('err'), qr/LD515: "%IX5\.0".*\n.*LD515: "%QX7\.0".*\n/,
      'those without a line are told');
-unlike(get('err'), qr/%IX0\.0/, 'those with one are not');
+unlike(get('err'), qr/%IX0\.0/, 'addresses with a line give no warning');
 
 sub sized {
 	my ($name, %bytes) = @_;
@@ -291,7 +291,7 @@ is(get('err'), '', 'and does nothing');
 is(run($ladderd, $rung, '--io', $gpio, '--check'),
 	`$ladderd --version` =~ /none/ ? 1 : 0, '--check opens no chip');
 
-# The maps of docs/boards.md, and that each of them stands there.
+# The maps of docs/boards.md are good, and the page names each of them.
 for my $board (sort glob 'ladders/boards/*.io') {
 	is(run("$build/tests/hal/ladderd_v1", $rung, '--io', $board, '--check'),
 		0, $board);
@@ -304,17 +304,17 @@ for my $board (sort glob 'ladders/boards/*.io') {
 is(run($ladderd, $rung, '--io', $map, '--period', '1ms', '--scans', '25',
 	@traced), 0, '--scans');
 my $status = get('out');
-like($status, qr/^scans: 25$/m, 'so many');
+like($status, qr/^scans: 25$/m, 'the number of scans');
 like($status, qr/^fault: none$/m, 'without a fault');
 like($status, qr/^$_: /m, "status has $_")
 	for qw(state errors forces scans period scan wake-up late io board);
 my ($mean, $most, $middle) = $status =~ /^body: mean (\d+) ns, max (\d+) ns, p50 (\d+) ns$/m;
-ok($mean && $mean <= $most && $middle <= $most, 'and the program by itself: mean and worst');
-like($status, qr/^program: [0-9a-f]{64}\n\n$/m, 'and the SHA-256');
+ok($mean && $mean <= $most && $middle <= $most, 'mean and maximum of the program alone');
+like($status, qr/^program: [0-9a-f]{64}\n\n$/m, 'the SHA-256 of the program');
 like(get('err'), qr/^%QX0\.0 1\n%QX0\.1 0\n/, 'outputs follow the program');
 is_safe('after --scans');
 
-# A code image runs like its rung file.
+# A code image behaves like its rung file.
 SKIP: {
 	skip 'ladder is not built here', 2 unless -x "$build/ladder";
 	is(system("$build/ladder", 'build', $rung, '-o', "$dir/seal.rungc"), 0,
@@ -399,7 +399,7 @@ END
 	like(get('err'), qr/^%QX0\.0 1$/m, 'SYS_YEAR is of this century');
 	is(run($ladderd, $calm, '--io', $map, '--scans', '9', '--period', '1ms'),
 		0, '--period');
-	like(get('out'), qr/^period: 1000\.0 us$/m, 'divides what tasks want');
+	like(get('out'), qr/^period: 1000\.0 us$/m, 'the period divides the intervals of the tasks');
 
 	my $slow = $make->('slow.rung', 100000, ', WATCHDOG := T#100us');
 	is(run($ladderd, $slow, '--io', $map, '--scans', '99', @traced), 1,
@@ -415,7 +415,7 @@ END
 	is_safe('an endless loop in a task');
 }
 
-# ---- ways out: signals ----
+# ---- stopped by signals ----
 for my $signal (qw(TERM INT)) {
 	my $pid = start($ladderd, $rung, '--io', $map, @traced);
 	ok(until_has('err', qr/^%QX0\.1 0$/m), 'runs');
@@ -424,7 +424,7 @@ for my $signal (qw(TERM INT)) {
 	like(get('out'), qr/^state: RUN\n/, 'RUN');
 	kill 'HUP', $pid;
 	ok(until_has('err', qr/nothing to reset/), 'SIGHUP in RUN');
-	kill 'ALRM', $pid; # from outside: not the watchdog's
+	kill 'ALRM', $pid; # sent by another process, not by the watchdog
 	kill $signal, $pid;
 	is(finish($pid), 0, "SIG$signal: exit 0");
 	is_safe("SIG$signal");
@@ -438,7 +438,7 @@ for my $signal (qw(TERM INT)) {
 	is_safe('crash');
 }
 
-# ---- ways out: fault in the program ----
+# ---- a fault in the program ----
 {
 	my $pid = start($ladderd, $loop, '--io', $map, @traced, '--period',
 		'50ms', '--watchdog', '1000');
@@ -451,9 +451,9 @@ for my $signal (qw(TERM INT)) {
 	like(get('out'), qr/^state: FAULT\nfault: .*Main rung 6/, 'has its place');
 	kill 'HUP', $pid;
 	ok(until_has('err', qr/reset, RUN/), 'SIGHUP resets it');
-	ok(until_has('err', qr/reset, RUN.*FAULT/s), 'and it comes again');
+	ok(until_has('err', qr/reset, RUN.*FAULT/s), 'the FAULT comes again');
 	kill 'TERM', $pid;
-	is(finish($pid), 1, 'the exit status is then 1');
+	is(finish($pid), 1, 'the exit status after a FAULT is 1');
 	is_safe('after it');
 	is(run($ladderd, $loop, '--io', $map, '--scans', '1000', @traced), 1,
 		'--scans ends at a FAULT');
@@ -464,7 +464,7 @@ for my $signal (qw(TERM INT)) {
 		'what a scan wrote that did not end is never at a line');
 }
 
-# ---- ways out: the program says STOP ----
+# ---- the program executes STOP ----
 {
 	my $halt = put('halt.rung', <<'EOT');
 RUNGBOARD 1
@@ -491,7 +491,7 @@ RUNG "Enough"
 END_PROGRAM
 EOT
 	my $pid = start($ladderd, $halt, '--io', $map, @traced);
-	ok(until_has('err', qr/STOP/), 'a program that says STOP');
+	ok(until_has('err', qr/STOP/), 'a program executes STOP');
 	like(get('err'), qr/^%QX0\.0 1\n.*^ladderd: STOP, outputs are safe: the program says so: Main rung 4$/ms,
 		'is told with its place');
 	is_safe('STOP');
@@ -501,20 +501,20 @@ EOT
 		'says why');
 	kill 'HUP', $pid;
 	ok(until_has('err', qr/reset, RUN/), 'SIGHUP starts it again');
-	ok(until_has('err', qr/reset, RUN.*STOP/s), 'and it stops again');
+	ok(until_has('err', qr/reset, RUN.*STOP/s), 'it stops again');
 	kill 'TERM', $pid;
 	is(finish($pid), 0, 'SIGTERM ends it: no fault');
 	is(run($ladderd, $halt, '--io', $map, '--scans', '1000'), 0,
 		'--scans ends at a STOP');
 }
 
-# ---- ways out: whoever began it is gone ----
+# ---- --attended: the program that started it has ended ----
 {
 	my ($pid, $pipe) = start_attended($ladderd, $rung, '--io', $map, @traced);
 	ok(until_has('err', qr/^%QX0\.1 0$/m), '--attended: it runs');
 	syswrite $pipe, "what is said to it\n" x 20;
 	kill 'USR1', $pid;
-	ok(until_has('out', qr/^state: RUN$/m), 'whatever is said to it');
+	ok(until_has('out', qr/^state: RUN$/m), 'input is ignored');
 	close $pipe;
 	is(finish($pid), 0, 'it ends when its standard input does');
 	is_safe('input ended');
@@ -526,7 +526,7 @@ EOT
 	is(finish($pid), 0, 'it ends, too');
 }
 
-# ---- ways out: loops of each kind, told with their place ----
+# ---- loops of each kind, reported with their place ----
 {
 	my $out = "VAR\n  Motor AT %QX0.0 : BOOL;\n  Brake AT %QX0.1 : BOOL;\n" .
 		"  I : LINT;\nEND_VAR\n";
@@ -561,7 +561,7 @@ EOT
 	}
 }
 
-# ---- no way out: what fails is no fault, and is told once with its place ----
+# ---- a failed operation is no fault; it is reported once with its place ----
 {
 	my $file = put('divides.rung', "RUNGBOARD 1\nVAR\n  Motor AT %QX0.0 : BOOL;\n" .
 		"  Parts : INT := 12;\n  Minutes : INT;\nEND_VAR\nPROGRAM Main LD\n" .
@@ -570,11 +570,11 @@ EOT
 	is(run($ladderd, $file, '--io', $map, '--scans', '20', '--trace-io'), 0,
 		'a division by zero is no fault');
 	my @told = get('err') =~ /^ladderd: an operation failed, ENO is FALSE, Main rung 2 \(1,\d+\)$/mg;
-	is(@told, 1, 'told once, with rung and cell');
-	like(get('err'), qr/^%QX0\.0 1$/m, 'what is right goes on');
+	is(@told, 1, 'the failed operation is reported once, with rung and cell');
+	like(get('err'), qr/^%QX0\.0 1$/m, 'the other rungs go on');
 }
 
-# ---- ways out: lines that fail, scans that hang, on every gpio driver ----
+# ---- lines that fail, scans that hang, on every gpio driver ----
 for my $version (qw(v1 v2 uapi)) {
 	my $fake = "$build/tests/hal/ladderd_$version";
 	local $ENV{FAKE_DEV} = "$dir/dev";
@@ -604,7 +604,7 @@ for my $version (qw(v1 v2 uapi)) {
 		like(get('out'), qr/^resets: 1\nio: good.* 1 reopened$/m,
 			'status knows');
 		kill 'TERM', $pid;
-		is(finish($pid), 0, 'a reset fault is forgotten');
+		is(finish($pid), 0, 'exit 0 after a reset');
 	}
 	{
 		local $ENV{FAKE_HANG_AT} = 10;
@@ -614,13 +614,13 @@ for my $version (qw(v1 v2 uapi)) {
 			"$version: the watchdog acts though the scan hangs");
 		is_safe("$version: watchdog");
 		kill 'TERM', $pid;
-		is(finish($pid), 1, 'and it can be ended');
+		is(finish($pid), 1, 'it can be ended');
 		is_safe('then');
 		($pid, my $pipe) = start_attended($fake, $rung, '--io', $gpio,
 			'--trace-io', '--watchdog', '20');
 		ok(until_has('err', qr/^%QX0\.1 1$/m), "$version: --attended, a scan hangs");
 		close $pipe;
-		is(finish($pid), 1, 'it ends when whoever began it is gone');
+		is(finish($pid), 1, 'it ends when its standard input is closed');
 		is_safe('then');
 	}
 	{
@@ -645,17 +645,17 @@ for my $version (qw(v1 v2 uapi)) {
 			'50ms', '--watchdog', '4'), 0,
 			"$version: late scans that are not in a row");
 		get('out') =~ /^late: (\d+)$/m;
-		ok($1 >= 5, 'are counted only') or diag(get('out'));
+		ok($1 >= 5, 'late scans are counted') or diag(get('out'));
 	}
 	{
 		local $ENV{FAKE_FAIL_AT} = 5;
 		local $ENV{FAKE_HEAL_AT} = 6;
 		is(run($fake, $told, '--io', $gpio, '--scans', '20', @traced), 0,
 			"$version: a read that fails once is no FAULT");
-		like(get('err'), qr/^%QX0\.0 1$/m, 'but the program is told');
+		like(get('err'), qr/^%QX0\.0 1$/m, 'SYS_WD_LATE is TRUE');
 	}
 	{
-		# The first write is the program's; all others stay without answer.
+		# Only the first write works; all others fail.
 		local $ENV{FAKE_DEAF_AT} = 2;
 		my $pid = start($fake, $loop, '--io', $gpio, @traced, '--period',
 			'50ms', '--watchdog', '1000');
@@ -689,7 +689,7 @@ for my $version (qw(v1 v2 uapi)) {
 	like(get('err'), qr/wrong\.io:2:1: error LD508.*OUT9/, 'is named');
 }
 
-# ---- a service manager that listens ----
+# ---- a service manager ----
 for my $name ("$dir/notify", "\0ladderd-test-$$") {
 	my $socket = IO::Socket::UNIX->new(Type => SOCK_DGRAM, Local => $name);
 	SKIP: {
@@ -710,7 +710,7 @@ for my $name ("$dir/notify", "\0ladderd-test-$$") {
 	}
 }
 
-# ---- a reader that does not read, and one that went away ----
+# ---- a reader that does not read, and one that is gone ----
 {
 	pipe my $read, my $write or die;
 	my $blink = put('blink.rung', <<'END');
@@ -750,7 +750,7 @@ END
 		exec $ladderd, $rung, '--io', $map, '--scans', '5', @traced;
 	}
 	close $write;
-	is(finish($pid), 0, 'nor a closed one');
+	is(finish($pid), 0, 'a closed pipe does not stop it');
 	is_safe('closed pipe');
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * map - the I/O map's reader: what it takes, and every way to refuse; and the
- * sim driver, which needs no fake.
+ * map - tests the reader of I/O maps: everything that it accepts, and every reason to
+ * refuse. Also tests the driver sim, which needs no fake.
  */
 #include "hal/sim.h"
 #include "tests/hal/bench.h"
@@ -110,7 +110,7 @@ static void test_goes_on(void)
 	bench_begin(&b);
 	CHECK(!bench_map(&b, "BOARD \"x\"\n%IX0.0 modem a b c\n"
 			 "%IX0.1 gpio what line= offset=z\n%QX0.0 gpio\n"));
-	CHECK_AS(b.diags.errors == 5, "every error is told");
+	CHECK_AS(b.diags.errors == 5, "every error is reported");
 	CHECK(b.diags.diag[4].line == 4);
 	bench_end(&b);
 }
@@ -185,7 +185,7 @@ static void test_limit(void)
 	free(text);
 }
 
-/* Lines beyond the areas of a program are refused with their places. */
+/* Lines outside the areas of a program are refused with their places. */
 static void test_fits(void)
 {
 	struct bench b;
@@ -234,7 +234,7 @@ static void test_sim(void)
 	scan(&b, 0);
 	CHECK_TEXT(traced, "0.0=0 ");
 	CHECK_AS(input(&b, 0) && !input(&b, 1) && !input(&b, 2),
-		 "an input shows its pull");
+		 "an input has the level of its pull");
 	in = hal_find(&b.hal, (struct iec_addr){ AREA_I, 1, 1, 0 }, &bit);
 	CHECK(in && bit == 1);
 	sim_set(in, bit, true);

@@ -1,9 +1,9 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# retain.t - ladderd --retain from outside: what a kill, a cut, a full disk, a broken
-# file or an edited program leaves. The file is read here by other code than
-# ladderd's. RETAIN_KILLS says how many times it is killed (400).
+# retain.t - tests ladderd --retain from outside: after a kill, a cut file, a full disk, a
+# damaged file or an edited program. The test reads the file with its own code. RETAIN_KILLS
+# is the number of kills (400).
 use strict;
 use warnings;
 use Test::More;
@@ -72,7 +72,7 @@ sub until_true {
 	return 0;
 }
 
-# ---- the file, read by other code: seq, and values by "NAME TYPE" ----
+# ---- reads the file: seq, and values by "NAME TYPE" ----
 my @crc_table = map {
 	my $crc = $_;
 	$crc = $crc & 1 ? $crc >> 1 ^ 0x82f63b78 : $crc >> 1 for 1 .. 8;
@@ -153,7 +153,7 @@ my $io = put('sim.io', join '', "BOARD \"on a table\"\n",
 my @run = ('--io', $io, '--period', '1ms', '--trace-io', '--watchdog', '1000');
 my @keep = (@run, '--retain', $keep);
 
-# ---- arguments, and what is told ----
+# ---- arguments and messages ----
 is(run($ladderd, $count, '--io', $io, '--check'), 0, '--check');
 like(out(), qr/^retain: 40 bytes in 10 values$/m, 'says how much is retained');
 like(err(), qr/warning LD316: RETAIN needs/, 'without --retain: told');
@@ -206,7 +206,7 @@ is(run($ladderd, $still, @keep, '--scans', '300', '--retain-period', '10ms'), 0,
 like(out(), qr/ 0 writes/, 'writes nothing');
 is(best($keep)->{seq}, $copy, 'the same copy');
 
-# A, now INT, is lost, so is C, now called E, and D is new.
+# A, now an INT, and C, now named E, are lost; D is new.
 run($ladderd, $count, @keep, '--cold', '--scans', '7');
 my $edited = put('edited.rung', program("VAR RETAIN\n  A : INT := 3;\n" .
 	"  E : DINT;\n  D : DINT := 8;\n  Mark AT %MX9.1 : BOOL;\nEND_VAR\n",
@@ -221,7 +221,7 @@ is(unpack('s<', kept('A INT')), 3, 'and not half of one');
 is(run($ladderd, $edited, @keep, '--scans', '1'), 0, 'again');
 is(flags(), '100', 'nothing was lost this time');
 
-# ---- a constant of an edited program counts, though the pin it goes to is retained ----
+# ---- a constant of an edited program has priority over a retained pin ----
 sub timer_program {
 	return put('timer.rung', "RUNGBOARD 1\n\nVAR RETAIN\n  Delay : TON;\nEND_VAR\n\n" .
 		"PROGRAM Main LD\nRUNG\n  | TON Delay PT:=$_[0] | COIL Q3 |\n$tell");
@@ -233,7 +233,7 @@ is(run($ladderd, timer_program('T#5ms'), @keep, '--scans', '20'), 0, 'edited: of
 is(flags(), '100', 'nothing was lost');
 like(err(), qr/^%QX0\.3 1/m, 'ends');
 
-# ---- what a FIFO holds goes on; one of another type begins empty, and that is told ----
+# ---- a FIFO keeps its values; one of another type begins empty, which is reported ----
 sub store_program {
 	my ($block, $size) = @_;
 	return put("store.rung", "RUNGBOARD 1\n\nVAR RETAIN\n  Queue : $block;\n  Number : DINT;\nEND_VAR\n" .
@@ -254,13 +254,13 @@ is(flags(), '110', 'lost, and it is told');
 like(err(), qr/lost: Queue\.value FIFO\.DINT\[64\]: now of another type\n/, 'by its name');
 is(unpack('s<', kept('Queue.COUNT FIFO_REAL.INT')), 1, 'it began empty');
 
-# ---- at once on SIGTERM and in a FAULT; a reset keeps what a whole scan left ----
+# ---- written at once at SIGTERM and in a FAULT; a reset keeps the values of a whole scan ----
 unlink $keep;
 my @slow = (@keep, '--retain-period', '1h');
 for my $signal (qw(TERM INT)) {
 	my $pid = start($ladderd, $count, @slow);
 	until_true(sub { err() =~ /^%QX0\.0 1$/m or err() =~ /new file/ });
-	# On a busy machine some scans may take a while: the status says how many there were.
+	# On a busy machine some scans take long: the status has the number of scans.
 	until_true(sub { kill 'USR1', $pid; sleep 0.02; (out() . err()) =~ /^scans: (?:1[2-9]|[2-9]\d|\d{3,})$/m });
 	kill $signal, $pid;
 	is(finish($pid), 0, "SIG$signal");
@@ -293,8 +293,8 @@ END
 	is(number(kept('Main.B DINT')), 49, 'still of the last whole scan');
 }
 
-# ---- tasks and the wall's clock: only timers go on where they were ----
-# The copy is as of a machine that ran for 100 days; this one did not.
+# ---- tasks and wall clock: only timers continue ----
+# The copy is from a machine that ran for 100 days.
 sub date { return POSIX::strftime('DT#%Y-%m-%d-00:00:00', localtime(time + $_[0])); }
 my ($yesterday, $tomorrow) = (date(-86400), date(2 * 86400));
 my $tasks = put('tasks.rung', <<"END");
@@ -352,7 +352,7 @@ END
 	ok($et > 0.3e9 && $et < 60e9, 'a timer goes on') or diag($et);
 }
 
-# ---- files that are broken ----
+# ---- damaged files ----
 unlink $keep;
 run($ladderd, $count, @keep, '--scans', '30', '--retain-period', '10ms') for 1 .. 2;
 my $good = get($keep);
@@ -458,7 +458,7 @@ my $wide = put('wide.rung', program($wide_vars, $count_rungs .
 	rmdir "$keep.new";
 }
 
-# A real one, where this process may mount. 24 KB: one file, and no second.
+# A real full disk, where this process may mount. 24 KB: room for one file only.
 SKIP: {
 	my $disk = "$dir/disk";
 	mkdir $disk;
@@ -483,17 +483,14 @@ SKIP: {
 		'a disk that can only be read');
 }
 
-# ---- killed at random instants ----
-# Each lane: 1 of the counters, 600 more values, so that a copy is some pages.
-# After each kill the newest copy is whole, of one scan, and none older than the one
-# that was on the disk before; the next start says it begins with that one.
+# ---- killed at random moments ----
 sub lane {
 	my ($lane, $rounds, $file) = @_;
 	my $where = "$dir/lane$lane";
 	my ($seq, $value, $torn, $told, $read) = (0, 0, 0, 0, 0);
 	srand($$);
 	mkdir $where;
-	# How long a start takes here, and a first copy.
+	# Measures the time of a start and a first copy.
 	my $begin = time;
 	finish(start_in($where, $ladderd, $file, @run, '--retain', "$where/keep",
 		'--scans', '2'));

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * suite - what every gpio driver must do, against fake chips that count calls.
+ * suite - the tests of every gpio driver, with fake chips that count calls.
  *
- * Built once with each version of libgpiod that the project knows. It checks
- * what the kernel would see: which calls, in which order, how many, with which
- * flags.
+ * It is built once for each version of libgpiod and for the uAPI. It checks what the kernel
+ * would see: which calls, in which order, how many, with which flags.
  */
 #include "tests/hal/bench.h"
 
@@ -19,9 +18,9 @@ static void test_order(void)
 	CHECK(b.hal.request_count == 2);
 	CHECK(fake.takes == 2 && fake.reads == 1 && fake.writes == 0);
 	CHECK_AS(strchr(fake.calls, 'I') < strchr(fake.calls, 'O'),
-		 "inputs are taken before outputs");
+		 "inputs are requested before outputs");
 	CHECK_AS(strchr(fake.calls, 'r') < strchr(fake.calls, 'O'),
-		 "inputs have answered before an output is taken");
+		 "inputs are read before an output is requested");
 	CHECK_AS(level("OUT0") == 1 && level("OUT1") == 0,
 		 "outputs begin with their safe values");
 	fake_clear_calls();
@@ -50,24 +49,24 @@ static void test_changes(void)
 			 "%QX0.1 gpio line=OUT1\n%QX9.0 gpio line=FAR0\n"));
 	CHECK(b.hal.request_count == 2);
 	scan(&b, 0);
-	CHECK_AS(fake.writes == 0, "nothing to write: all are as they began");
+	CHECK_AS(fake.writes == 0, "unchanged outputs are not written");
 	output(&b, 1, true);
 	scan(&b, 10 * MS);
-	CHECK_AS(fake.writes == 1, "only the request that changed is written");
+	CHECK_AS(fake.writes == 1, "only the request with a changed output is written");
 	CHECK(level("OUT0") == 0 && level("OUT1") == 1);
 	for (int i = 2; i < 100; i++)
 		scan(&b, i * 10 * MS);
 	CHECK_AS(fake.writes == 1, "unchanged outputs are not written");
 	scan(&b, 1000 * MS);
-	CHECK_AS(fake.writes == 2, "refresh of the request not written so far");
+	CHECK_AS(fake.writes == 2, "a request that was never written is refreshed");
 	scan(&b, 1009 * MS);
 	CHECK(fake.writes == 2);
 	scan(&b, 1010 * MS);
-	CHECK_AS(fake.writes == 3, "refresh a second after its last write");
+	CHECK_AS(fake.writes == 3, "a request is refreshed a second after its last write");
 	output(&b, 72, true);
 	fake.chip[0].line[101].level = 0;
 	scan(&b, 2010 * MS);
-	CHECK_AS(level("OUT1") == 1, "a refresh puts a disturbed line right");
+	CHECK_AS(level("OUT1") == 1, "a refresh corrects a disturbed line");
 	CHECK(level("FAR0") == 1);
 	bench_end(&b);
 }
@@ -95,11 +94,11 @@ static void test_failed_reads(void)
 	CHECK(hal_quality(&b.hal) == QUALITY_FAULT && b.hal.failed == 5);
 	fake_clear_calls();
 	CHECK(!scan(&b, 7));
-	CHECK_AS(fake.reads == 0, "a line in fault is not asked again");
-	CHECK_AS(!hal_reopen(&b.hal), "it still does not answer");
+	CHECK_AS(fake.reads == 0, "a line in fault is not read again");
+	CHECK_AS(!hal_reopen(&b.hal), "reopening fails while the line fails");
 	fake.read_error = 0;
-	CHECK_AS(!scan(&b, 8), "and does not come back by itself");
-	CHECK_AS(hal_reopen(&b.hal) && b.hal.reopened == 1, "until reopened");
+	CHECK_AS(!scan(&b, 8), "a line in fault does not come back by itself");
+	CHECK_AS(hal_reopen(&b.hal) && b.hal.reopened == 1, "hal_reopen() ends the fault");
 	CHECK(scan(&b, 9) && hal_quality(&b.hal) == QUALITY_GOOD);
 	bench_end(&b);
 }
@@ -113,7 +112,7 @@ static void test_failed_writes(void)
 	output(&b, 0, true);
 	fake.write_error = EIO;
 	CHECK(scan(&b, 0) && scan(&b, 1));
-	CHECK_AS(fake.writes == 2, "a write that failed is tried again");
+	CHECK_AS(fake.writes == 2, "a failed write is repeated");
 	fake.write_error = 0;
 	CHECK(scan(&b, 2) && level("OUT0") == 1);
 	output(&b, 0, false);
@@ -124,7 +123,7 @@ static void test_failed_writes(void)
 	fake_clear_calls();
 	CHECK(scan(&b, 2));
 	CHECK_AS(fake.writes == 1,
-		 "nobody knows what a write that failed left: it is made good");
+		 "after a failed write the line is written again, also with the old value");
 	output(&b, 0, false);
 	fake.write_error = EIO;
 	CHECK(scan(&b, 3) && scan(&b, 4) && !scan(&b, 5));
@@ -132,7 +131,7 @@ static void test_failed_writes(void)
 	fake.write_error = 0;
 	CHECK_AS(hal_write_safe(&b.hal) && level("OUT0") == 0,
 		 "safe values are tried on a line in fault too");
-	CHECK_AS(hal_quality(&b.hal) == QUALITY_FAULT, "which stays in fault");
+	CHECK_AS(hal_quality(&b.hal) == QUALITY_FAULT, "the request stays in fault");
 	CHECK(hal_reopen(&b.hal));
 	bench_end(&b);
 }
@@ -152,16 +151,16 @@ static void test_unplug(void)
 	CHECK(hal_quality(&b.hal) == QUALITY_FAULT);
 	hal_write_safe(&b.hal);
 	CHECK_AS(!hal_reopen(&b.hal), "the chip is gone");
-	/* It comes back with another number and its lines at their reset
-	 * level. */
+	/* The chip comes back with another number, and its lines with the level of a
+	 * reset. */
 	fake.chip[2] = fake.chip[0];
 	fake.chip[2].present = true;
 	fake.chip[2].line[100].level = 0;
 	hal_write_safe(&b.hal);
 	hal_write_safe(&b.hal);
-	CHECK_AS(hal_reopen(&b.hal), "found again under another number");
-	CHECK_AS(fake.chip[2].line[100].level == 1, "with its safe value");
-	CHECK_AS(b.hal.held, "outputs are still held");
+	CHECK_AS(hal_reopen(&b.hal), "a chip with another number is found again");
+	CHECK_AS(fake.chip[2].line[100].level == 1, "a reopened output has its safe value");
+	CHECK_AS(b.hal.held, "reopened outputs are held");
 	output(&b, 0, false);
 	scan(&b, 5);
 	CHECK(fake.chip[2].line[100].level == 1);
@@ -239,7 +238,7 @@ static void test_many(void)
 	}
 	chips();
 	CHECK(bench_open(&b, text));
-	CHECK_AS(b.hal.request_count == 4, "64 lines a request at most");
+	CHECK_AS(b.hal.request_count == 4, "a request has at most 64 lines");
 	fake_clear_calls();
 	fake.chip[0].line[63].level = fake.chip[0].line[69].level = 1;
 	output(&b, 0, true);
@@ -265,25 +264,25 @@ static void test_debounce(void)
 	CHECK(bench_open(&b, "BOARD \"x\"\n%IX0.0 gpio line=IN0 debounce=5ms\n"
 			 "%IX0.1 gpio line=IN1\n"));
 	scan(&b, 100 * MS);
-	CHECK_AS(input(&b, 0), "the first value counts at once");
+	CHECK_AS(input(&b, 0), "the first value has no debounce");
 	*key = 0;
 	scan(&b, 101 * MS);
 	fake.chip[0].line[1].level = 1;
 	scan(&b, 105 * MS);
-	CHECK_AS(input(&b, 0) && input(&b, 1), "4 ms are not enough");
+	CHECK_AS(input(&b, 0) && input(&b, 1), "a change does not count after 4 ms of 5");
 	*key = 1;
 	scan(&b, 106 * MS);
 	*key = 0;
 	scan(&b, 107 * MS);
 	scan(&b, 112 * MS - 1);
-	CHECK_AS(input(&b, 0), "a bounce starts the time again");
+	CHECK_AS(input(&b, 0), "a bounce restarts the debounce time");
 	scan(&b, 112 * MS);
-	CHECK_AS(!input(&b, 0), "exactly 5 ms are enough");
+	CHECK_AS(!input(&b, 0), "a change counts after exactly 5 ms");
 	*key = 1;
 	scan(&b, 113 * MS);
-	CHECK_AS(!input(&b, 0), "a change right behind one has its own time");
+	CHECK_AS(!input(&b, 0), "the next change has its own debounce time");
 	scan(&b, 118 * MS);
-	CHECK_AS(input(&b, 0), "and counts after it");
+	CHECK_AS(input(&b, 0), "the next change counts after its debounce time");
 	bench_end(&b);
 }
 
@@ -316,7 +315,7 @@ static void test_places(void)
 		      "LD518: \"/dev/gpiochip0 1\" is used as an input and as an "
 		      "output, first for %QX0.0"));
 	CHECK_AS(fake.takes == 0 && fake.opens == fake.closes,
-		 "a map that is refused touches no line");
+		 "a refused map requests no line");
 }
 
 static void test_owners(void)
@@ -353,7 +352,7 @@ static void test_owners(void)
 	CHECK(fake.opens == fake.closes && fake.settings == 0);
 }
 
-/* Nobody is sent to the group of a chip that is not the one: all are named. */
+/* All groups are named, so that no user joins the wrong one. */
 static void test_denied(void)
 {
 	const char *nope = "%IX0.0 gpio line=NOPE";
@@ -373,7 +372,7 @@ static void test_denied(void)
 	CHECK(refused(&b, nope, "its group: gpiochip1, 2, 3 (no group)"));
 }
 
-/* Numbers that /etc/group has no names for. */
+/* Groups that are not in /etc/group. */
 static void test_groups(void)
 {
 	const char *nope = "%IX0.0 gpio line=NOPE";
@@ -440,7 +439,7 @@ static void test_list(void)
 	CHECK(seen_lines == 208 && seen_used == 1);
 	fake.chip[0].open_error = EACCES;
 	CHECK(!hal_list(bench_dev(), visit, NULL, &b.diags));
-	CHECK_AS(seen_lines == 216, "the other chip is listed all the same");
+	CHECK_AS(seen_lines == 216, "the other chip is listed");
 	CHECK(b.diags.diag[0].id == DIAG_IO_PERMISSION);
 	bench_end(&b);
 	bench_begin(&b);
@@ -460,7 +459,7 @@ static void test_check(void)
 	CHECK(bench_map(&b, "BOARD \"x\"\n%IX0.0 gpio line=IN0\n"
 			"%QX0.0 gpio line=NOPE\n%QX0.1 gpio line=NOPE2\n"));
 	CHECK(!hal_check(&b.map, &b.arena, &b.diags));
-	CHECK_AS(b.diags.errors == 2, "every error of the map is told");
+	CHECK_AS(b.diags.errors == 2, "every error of the map is reported");
 	CHECK(b.diags.diag[1].line == 4 && b.diags.diag[1].column == 1);
 	CHECK(fake.takes == 0 && fake.opens == fake.closes);
 	bench_end(&b);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""points - writes points.txt beside it: python3 tests/math/points.py
+"""points - writes points.txt: python3 tests/math/points.py
 
 One line a point: the function, its arguments and the correctly rounded result, as the
 bits of doubles in hexadecimal (a function of one argument has 0 for the second), and how

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * gpiod.h of a fake libgpiod 1.6: the calls that hal/gpiod_v1.c makes, declared
- * anew from the public interface. The values of constants need not be the real
- * ones; nothing here is ever linked with a real libgpiod.
+ * gpiod.h of a fake libgpiod 1.6: the calls of hal/gpiod_v1.c, declared again from the
+ * public interface. Values of constants may differ from the real ones, because no real
+ * libgpiod is ever linked.
  */
 #ifndef TESTS_FAKE_GPIOD_V1_H
 #define TESTS_FAKE_GPIOD_V1_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * bank - gpio-sim through configfs (the chip) and sysfs (its lines). A step that
- * fails ends the suite: then the guest is broken, not ladderd.
+ * bank - controls gpio-sim through configfs (the chip) and sysfs (its lines). A step that
+ * fails ends the suite, because then the guest is broken, not ladderd.
  */
 #include "tests/targets/guest/bank.h"
 
@@ -145,7 +145,7 @@ void bank_unplug(struct bank *bank)
 	put(path, "0");
 }
 
-/* Folders must go from the inside out; those that were not made fail. */
+/* Folders must be removed from the inside out; missing ones are ignored. */
 void bank_down(struct bank *bank)
 {
 	char path[PATH_MOST];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * child - posix_spawn, because it works without an MMU. ladderd tells that its
- * first scan is done through NOTIFY_SOCKET, as it tells a service manager.
+ * child - starts programs with posix_spawn, which works without an MMU. ladderd reports its
+ * first scan through NOTIFY_SOCKET, as to a service manager.
  */
 #define _GNU_SOURCE /* pipe2 */
 
@@ -23,7 +23,7 @@
 
 static char text[TEXT_BYTES];
 
-/* One abstract socket for the whole run; NUL, then a name. */
+/* One abstract socket for the whole run: a NUL, then a name. */
 static int notify_socket(char *name, size_t size)
 {
 	static int fd = -1;
@@ -131,7 +131,7 @@ void child_start_pipe(struct child *child, const char *const *argv)
 
 #define ARGS 12
 
-/* Fills @argv from the arguments behind @map. */
+/* Fills @argv with the arguments after @map. */
 static void collect(const char **argv, const char *file, const char *map,
 		    va_list more)
 {
@@ -267,7 +267,7 @@ bool child_says(struct child *child, const char *want)
 	return true;
 }
 
-/* Blocks end with an empty line; the last one is the fresh one. */
+/* Status blocks end with an empty line; the last one is the newest. */
 static const char *last_block(const char *all, unsigned *count)
 {
 	const char *block = "", *at = all, *end;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * child - a ladderd at work: started, asked, signalled, waited for.
+ * child - runs a ladderd: starts it, reads its status, sends signals, waits for its end.
  *
- * What it prints goes to files of the work folder. Every wait has a limit that
- * is generous and only a hang reaches.
+ * Its output goes to files in the work folder. Every wait has a long limit that only a hang
+ * reaches.
  */
 #ifndef GUEST_CHILD_H
 #define GUEST_CHILD_H
@@ -12,41 +12,40 @@
 
 #include <sys/types.h>
 
-#define CHILD_HANGS  1000 /* not ended in time; it was killed                 */
-#define NO_PTRACE    77   /* what `guest --held` then gives                   */
-#define CHILD_SIGNAL 256  /* added to the number of a signal that ended it    */
+#define CHILD_HANGS  1000 /* did not end in time and was killed               */
+#define NO_PTRACE    77   /* exit status of `guest --held`                    */
+#define CHILD_SIGNAL 256  /* added to the signal that ended it                */
 #define LIMIT_MS     20000
 
 struct child {
-	int slot;              /* 0 or 1: names its files                     */
+	int slot;              /* 0 or 1; part of the names of its files      */
 	pid_t pid;
 	bool ended;
 	int status;
 	int pipe;              /* read end of its stderr; -1: a file          */
-	bool traced;           /* by this program                             */
+	bool traced;           /* held by ptrace                              */
 };
 
-/** child_start - runs @argv[0]; readiness of slot 0 goes to child_ready(). */
+/** child_start - runs @argv[0]. child_ready() reports the readiness of slot 0. */
 void child_start(struct child *child, int slot, const char *const *argv);
-/** child_start_pipe - the same with stderr in a pipe that the caller reads. */
+/** child_start_pipe - the same with stderr in a pipe for the caller. */
 void child_start_pipe(struct child *child, const char *const *argv);
-/** ladderd_start - ladderd FILE --io MAP and up to six more arguments. */
+/** ladderd_start - runs ladderd FILE --io MAP with up to six more arguments. */
 void ladderd_start(struct child *child, const char *file, const char *map, ...)
 	__attribute__((sentinel));
-/** ladderd_run - the same to its end; gives the exit status. */
+/** ladderd_run - the same, and waits for its end. Returns the exit status. */
 int ladderd_run(const char *file, const char *map, ...)
 	__attribute__((sentinel));
-/** child_ready - time at which ladderd said that its first scan is done; 0: it
- * did not. */
+/** child_ready - the time at which ladderd reported its first scan; 0: it did not. */
 int64_t child_ready(void);
-/** child_is_ready - has it said so already? Does not wait. */
+/** child_is_ready - whether it has reported already. Does not wait. */
 bool child_is_ready(void);
-/** child_end - exit status, CHILD_SIGNAL + N, or CHILD_HANGS. */
+/** child_end - waits. Returns the exit status, CHILD_SIGNAL + N, or CHILD_HANGS. */
 int child_end(struct child *child);
 void child_signal(struct child *child, int signal_number);
-/** child_stop - SIGTERM, then child_end(). */
+/** child_stop - sends SIGTERM, then calls child_end(). */
 int child_stop(struct child *child);
-/** child_out, child_err - what it printed so far; lives until the next call. */
+/** child_out, child_err - the output so far; valid until the next call. */
 const char *child_out(const struct child *child);
 const char *child_err(const struct child *child);
 /**
@@ -59,15 +58,15 @@ const char *child_err(const struct child *child);
 bool child_hold(struct child *child, bool (*there)(void *context),
 		void *context);
 void child_let_go(struct child *child);
-/** child_start_held - as child_start(), but nothing of it has run yet; false: there
- * is no ptrace here. Use child_hold() next. */
+/** child_start_held - child_start() with the child stopped at its start. Call
+ * child_hold() next. False: there is no ptrace. */
 bool child_start_held(struct child *child, const char *const *argv);
-/** child_line - has the pipe had a line with @text by now? Does not wait. */
+/** child_line - whether the pipe had a line with @text so far. Does not wait. */
 bool child_line(struct child *child, const char *text);
-/** child_says - waits until stderr has @text. */
+/** child_says - waits until stderr contains @text. */
 bool child_says(struct child *child, const char *text);
-/** child_status - a fresh status block; "" if there is none. */
+/** child_status - a new status block; "": none. */
 const char *child_status(struct child *child);
-/** child_number - N of a line `WORD N` of a text; -1: no such line. */
+/** child_number - N of a line `WORD N` in a text; -1: no such line. */
 long child_number(const char *text, const char *word);
 #endif

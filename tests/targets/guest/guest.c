@@ -207,7 +207,7 @@ static int with_memory(const char *bytes, char **command)
 	give_up(command[0]);
 }
 
-/* Stands still at the very start, for its parent to step it. */
+/* Stops at its start, so that the parent can step it. */
 static int held(char **command)
 {
 	if (ptrace(PTRACE_TRACEME, 0, NULL, NULL) != 0)
@@ -224,7 +224,7 @@ static int usage(void)
 	return 2;
 }
 
-/* Gives the index behind the options; -1: wrong. */
+/* Returns the index after the options; -1: wrong. */
 static int read_options(int argc, char **argv)
 {
 	int i = 1;
@@ -286,7 +286,7 @@ static void run_all(const char *ladderd)
 	}
 }
 
-/* A guest's files may be files of the machine around it. */
+/* In a guest, files may be those of the host. */
 static void empty(const char *folder)
 {
 	DIR *files = opendir(folder);

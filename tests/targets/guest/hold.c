@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * hold - stops a ladderd in the middle of a scan, or between taking its lines
- * and its first scan, to look at what lines show in passing.
+ * hold - stops a ladderd in the middle of a scan, or between requesting its lines and its
+ * first scan, to read the lines at this moment.
  *
- * It goes from system call to system call by ptrace and asks after each. So the
- * place is exact, whatever the scheduler does. No register is read: it works on
- * every processor.
+ * It steps from system call to system call with ptrace and asks after each. So the place is
+ * exact, whatever the scheduler does. It reads no register, so it works on every processor.
  */
 #define _GNU_SOURCE /* PTRACE_SEIZE */
 
@@ -18,7 +17,7 @@
 #define STEPS 20000
 #define SYSCALL_STOP (SIGTRAP | 0x80)
 
-/* Waits for the next stop; gives the signal to hand on, or -1: it ended. */
+/* Waits for the next stop. Returns the signal to pass on, or -1: it ended. */
 static int next_stop(struct child *child)
 {
 	int signal_number;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * panel - the bank that most tests use: four inputs and four outputs, for
- * programs/panel.rung.
+ * panel - the bank of most tests: four inputs and four outputs, for programs/panel.rung.
  */
 #ifndef GUEST_PANEL_H
 #define GUEST_PANEL_H
@@ -24,10 +23,10 @@ extern struct bank panel;
 	"%QX0.2 gpio line=OUT2 " out2 "\n%QX0.3 gpio line=OUT3 " out3 "\n"
 #define PANEL_PLAIN PANEL_MAP("", "", "", "", "")
 
-/** panel_up - all pulls are down. @hog as bank_up(). */
+/** panel_up - creates it with all pulls down. @hog as for bank_up(). */
 void panel_up(int hog);
 void panel_down(void);
-/** panel_shows - waits until the four outputs show @want, a bit each. */
+/** panel_shows - waits until the four outputs have the levels @want, one bit each. */
 bool panel_shows(uint32_t want);
 /** panel_image - the code image of programs/panel.rung. */
 const char *panel_image(void);

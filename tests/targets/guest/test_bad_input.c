@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_bad_input - maps of another board, images that are damaged, foreign or
- * too large: refused with the reason, and no line is ever requested. The kernel
- * itself tells: it reports each request of a line of the panel.
+ * test_bad_input - maps of another board, and images that are damaged, foreign or too
+ * large, are refused with a reason, and no line is ever requested: the kernel reports each
+ * request of a line of the panel.
  */
 #include "tests/targets/guest/panel.h"
 
@@ -15,8 +15,8 @@ static char image[TEXT_BYTES];
 static size_t image_len;
 static const struct child last;
 
-/* One run that must be refused (2: the file could not be read at all); @code is
- * empty if the reason may vary. */
+/* One run that must be refused (2: the file cannot be read at all). @code: "" if the
+ * reason may vary. */
 static bool is_refused(const char *file, const char *map, const char *code)
 {
 	int status = ladderd_run(file, map, "--scans", "3", NULL);
@@ -73,7 +73,7 @@ static void foreign(const char *map)
 	      "an image with more outputs than its header says: LD613, no line was taken");
 }
 
-/* At most @most lengths, from nothing to one byte less. */
+/* At most @most lengths, from 0 to one byte less. */
 static void truncated(const char *map, size_t most)
 {
 	size_t step = image_len > most ? image_len / most : 1, tried = 0;
@@ -113,8 +113,7 @@ static void flipped(const char *map, size_t most)
 	      (unsigned long)image_len);
 }
 
-/* Nothing of it is on a disk. It is more than a file may have, or more than there
- * is memory for: both are good reasons. */
+/* A sparse file. It is too large for a file, or for memory; both reasons are accepted. */
 static void huge_file(const char *map)
 {
 	const char *path = file_put("huge.rungc", image, image_len);
@@ -131,7 +130,7 @@ static void huge_file(const char *map)
 	unlink(path);
 }
 
-/* A good image that wants more data than there is memory: 8 MB. */
+/* A good image that needs more data than there is memory: 8 MB. */
 static void too_much_data(const char *map)
 {
 	const char *argv[] = { guest.self, "--memory", "6000000",
@@ -162,7 +161,7 @@ void test_bad_input(void)
 	bank_watch(&panel);
 	maps();
 	foreign(file_text("panel.io", PANEL_PLAIN));
-	/* Paths are lent for a short while only: this one must last. */
+	/* file_put() keeps only four paths, and this one is needed longer. */
 	static char kept[PATH_MOST];
 
 	map = file_text("panel.io", PANEL_PLAIN);

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_calls - one ioctl a scan and input request, at most one for outputs.
+ * test_calls - a scan makes one ioctl per input request and at most one for outputs.
  *
- * `LADDERD-count` is the same program, linked so that it counts (count/). Two
- * runs of different lengths are compared: what a scan costs is exact, whatever
- * starting and ending cost. Both are shorter than the second after which
- * outputs are written again though nothing changed.
+ * `LADDERD-count` is the same program, linked with a counter (count/). Two runs of
+ * different lengths are compared, so that starting and ending do not count. Both are
+ * shorter than the second after which unchanged outputs are written again.
  */
 #include "tests/targets/guest/panel.h"
 
@@ -14,7 +13,7 @@
 
 struct cost {
 	long get, set, other;
-	long requests; /* input and output ones together                     */
+	long requests; /* inputs and outputs together                        */
 };
 
 static char counting[PATH_MOST];
@@ -50,7 +49,7 @@ static void compare(const char *what, const char *image, const char *map,
 	panel_up(-1);
 	few = run_for(image, map, "100");
 	many = run_for(image, map, "300");
-	reads = many.requests - 1; /* one request has the outputs           */
+	reads = many.requests - 1; /* one request has all outputs           */
 	check(few.get > 0 && many.get - few.get == 200 * reads,
 	      "%s: one ioctl a scan for each of %ld input requests", what,
 	      reads);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_faults - lines that somebody else has, that go away, that may not be
- * opened.
+ * test_faults - lines that are in use, are unplugged, or may not be opened.
  */
 #include "tests/targets/guest/panel.h"
 
@@ -13,7 +12,7 @@
 
 #define STRANGER 4242 /* a group without a name                              */
 
-/* Refused, with both texts on stderr, and no line was ever taken. */
+/* Refused, with both texts on stderr, and no line was requested. */
 static void refused(const struct child *child, int status, const char *what,
 		    const char *code, const char *who)
 {
@@ -73,7 +72,7 @@ static bool lamps_show(uint32_t want)
 	return bank_shows(&lamps, 0, OUTS, want, LIMIT_MS);
 }
 
-/* Plugged in again under another number, because somebody else has its own. */
+/* Plugged in again under another number, because another chip has its number. */
 static void plug_elsewhere(struct bank *bank)
 {
 	bank_up(&spare, "spare", NULL, 4, -1);
@@ -155,7 +154,7 @@ static void unplugged(void)
 
 static int run_as_user(void)
 {
-	/* In the work folder, where an ordinary user may read. */
+	/* In the work folder, which an ordinary user can read. */
 	static char image[TEXT_BYTES];
 	long len = file_take(panel_image(), image, sizeof(image));
 	const char *argv[] = {

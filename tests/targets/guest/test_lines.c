@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_lines - lines are found by name and by the label of their chip and an
- * offset; the map of the S3C44B0X board; 16 inputs and 16 outputs.
+ * test_lines - lines are found by name, and by chip label and offset; the map of the
+ * S3C44B0X board; 16 inputs and 16 outputs.
  */
 #include "tests/targets/guest/panel.h"
 
@@ -36,7 +36,7 @@ const char *panel_image(void)
 	return file_case("panel.rungc");
 }
 
-/* Q0 and Q1 follow, Q2 is Q0 turned round, Q3 is on. */
+/* Q0 and Q1 follow the inputs, Q2 is Q0 inverted, Q3 is on. */
 static bool follows(void)
 {
 	bool good = true;
@@ -62,7 +62,7 @@ static void found_by(const char *how, const char *map)
 	panel_down();
 }
 
-/* Keys and LEDs are on at the low level; keys have a debounce. */
+/* Keys and LEDs are active low; keys have a debounce. */
 static void board_44b0x(void)
 {
 	static const char *const names[] = {

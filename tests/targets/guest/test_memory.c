@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_memory - a program of 1,000 rungs: it runs, and takes no more memory and no
- * more stack than a small board has.
+ * test_memory - a program of 1,000 rungs runs in the memory and the stack of a small board.
  */
 #define _DEFAULT_SOURCE /* pread() */
 #include "tests/targets/guest/panel.h"
@@ -13,8 +12,8 @@
 #include <unistd.h>
 
 #define RSS_KB      2048
-#define STACK_BYTES 8192 /* all there is without an MMU                     */
-#define SPARE_BYTES 256  /* that nothing has touched                        */
+#define STACK_BYTES 8192 /* the whole memory without an MMU                 */
+#define SPARE_BYTES 256  /* never touched                                   */
 #define LOOK_BYTES  (256 * 1024)
 
 static long about(const struct child *child, const char *file, char *out,
@@ -73,7 +72,7 @@ static bool mapping_of(const struct child *child, unsigned long address,
 }
 
 /* Bytes from the end of the stack down to the lowest one that is not zero. The kernel
- * gives it zeroed; what a call left behind stays. 0: cannot be seen here. */
+ * provides a zeroed stack, and calls leave bytes behind. 0: cannot be read here. */
 static unsigned long stack_used(const struct child *child)
 {
 	static unsigned char bytes[LOOK_BYTES];
@@ -102,7 +101,7 @@ static void look_at_stack(struct child *child)
 	unsigned long used;
 
 	for (int i = 0; i < 3; i++)
-		child_status(child); /* prints: that is where it is deep */
+		child_status(child); /* prints, which needs most stack   */
 	used = stack_used(child);
 	if (!used)
 		skip("no /proc/PID/mem here", "stack");

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_options - what the options of a line do on a real one: active-low, bias,
- * drive, debounce.
+ * test_options - the options of a line on real lines: active-low, bias, drive, debounce.
  */
 #include "tests/targets/guest/panel.h"
 
@@ -28,7 +27,7 @@ static void active_low(void)
 {
 	struct child child;
 
-	/* At rest all inputs but I3 are TRUE: Q0 Q1 on, Q2 off, Q3 on. */
+	/* Without a wire all inputs except I3 are TRUE: Q0 and Q1 on, Q2 off, Q3 on. */
 	panel_up(-1);
 	bank_pull(&panel, IN0 + 3, true);
 	ladderd_start(&child, panel_image(),
@@ -52,7 +51,7 @@ static void bias(void)
 	};
 	struct child child;
 
-	/* The kernel's driver does as it is told: the pull moves the line. */
+	/* The driver of the kernel sets the pull, which moves the line. */
 	run_with(&child, PANEL_MAP("pull-down", "", "", "", ""));
 	check(panel_shows(0xc), "pull-down: inputs are FALSE");
 	done_with(&child, "pull-down");
@@ -71,7 +70,7 @@ static void bias(void)
 		      i ? "push-pull" : "no-pull");
 		done_with(&child, "and");
 	}
-	/* An open drain pulls down or lets go; then the pull shows. */
+	/* An open drain pulls down or releases; then the line has the level of its pull. */
 	run_with(&child, PANEL_MAP("", "open-drain", "", "", "open-drain"));
 	check(panel_shows(0x4), "open-drain: without a pull-up all is low");
 	bank_pull(&panel, OUT0 + 3, true);
@@ -80,10 +79,10 @@ static void bias(void)
 	done_with(&child, "open-drain");
 }
 
-/* Pulses of 1 ms on IN0 for @ms. Gives the longest one in ms: if the guest was
- * kept from running, they were longer than they should have been. They must not
- * keep step with the scans: so their period is odd, and the kernel may not wake
- * up both programs together, which it does with timers that are near. */
+/* Makes pulses of 1 ms on IN0 for @ms. Returns the longest one in ms: if the guest was
+ * not scheduled, they are longer. Pulses must not be in step with scans, so their period
+ * is odd and the kernel must not wake both programs together, as it does with timers
+ * that are near. */
 static int64_t bounce(int64_t ms, bool *moved, bool rest)
 {
 	int64_t end_ns = clock_now() + ms * MS, longest_ns = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_picture - `ladder io` on a real kernel: which line is which variable, who has
- * it, and, where the kernel has debugfs, its level.
+ * test_picture - `ladder io` on a real kernel: the variable and the owner of each line and,
+ * if the kernel has debugfs, its level.
  */
 #define _DEFAULT_SOURCE /* mount() */
 #include "tests/targets/guest/panel.h"
@@ -12,7 +12,7 @@
 #define LADDER "/ladder"
 #define LEVELS "/sys/kernel/debug/gpio"
 
-/* The line of the picture that begins with an address; it ends at its own end. */
+/* The line of the picture that begins with an address. */
 static const char *row(const char *picture, const char *address)
 {
 	static char text[160];
@@ -37,7 +37,7 @@ static const char *take_picture(const char *map)
 	return child_out(&child);
 }
 
-/* The output shows its level; the input does, if the kernel's driver tells it. */
+/* The output has a level; the input has one if the driver of the kernel reports it. */
 static bool shows(const char *picture, const char *in, const char *out)
 {
 	const char *text = row(picture, "%QX0.2");

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_samples - the scenarios of ladders/ through real lines.
+ * test_samples - the scenarios of ladders/ with real lines.
  *
- * A plan (cases/plan.c) says which inputs change before which scan, and what
- * outputs show after which scan, with a mask: 0 where it depends on the scan in
- * which an edge is seen. Scan 1 is when ladderd says that it is ready; inputs
- * change half a period before the scan that shall see them, outputs are looked
- * at a quarter behind it.
+ * A plan (cases/plan.c) says which inputs change before which scan, and which outputs are
+ * checked after which scan, with a mask: 0 where the result depends on the scan that sees
+ * an edge. ladderd reports scan 1; inputs change half a period before their scan, outputs
+ * are checked a quarter of a period after it.
  */
 #include "tests/targets/guest/bank.h"
 #include "tests/targets/guest/child.h"
@@ -24,9 +23,9 @@ struct plan {
 	char name[64], map[64];
 	char text[LINES][32];      /* names of lines, inputs first            */
 	const char *names[LINES];
-	uint32_t low;              /* active low, a bit a line                */
+	uint32_t low;              /* active low, one bit a line              */
 	unsigned inputs, lines;
-	/* Of the scenario that runs. */
+	/* Of the running scenario. */
 	struct bank bank;
 	struct child child;
 	int64_t first_ns, period_ns;
@@ -42,7 +41,7 @@ static bool next_line(struct plan *plan)
 	return true;
 }
 
-/* What stands behind a word; NULL: the line begins with another. */
+/* The text after a word; NULL: the line begins with another word. */
 static char *behind(struct plan *plan, const char *word)
 {
 	size_t len = strlen(word);
@@ -120,7 +119,7 @@ static void look(struct plan *plan, unsigned long scan, uint32_t want,
 			 (unsigned)got, (unsigned)want, (unsigned)mask);
 }
 
-/* From the line behind `scenario` to `end`. */
+/* The lines from `scenario` to `end`. */
 static void play(struct plan *plan, char *name, bool skipped)
 {
 	uint32_t inputs = 0;
@@ -205,7 +204,7 @@ static void run_plan(const char *name)
 	fclose(plan.from);
 }
 
-/* The list of plans, a name a line. */
+/* The list of plans, one name a line. */
 void test_samples(void)
 {
 	static char names[2048];

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_steady - 10,000 scans of 1 ms: no page fault once it is warm, and no
- * memory more. Times are shown beside those of cyclictest, where the vehicle has
- * brought it along, and of a bare sleep: cyclictest's loop without its thread.
- * They are never judged.
+ * test_steady - 10,000 scans of 1 ms: no page fault and no more memory after the start. It
+ * prints the wake-up times and, for comparison, those of cyclictest, if the guest has it,
+ * and of a plain sleep, which is the loop of cyclictest without its thread. They never fail
+ * a test.
  */
 #include "tests/targets/guest/panel.h"
 
@@ -15,9 +15,9 @@
 #define SCANS 10000
 #define CYCLICTEST "/cyclictest"
 #define WAKES 5000
-#define WAIT_MOST 2000 /* us; a longer one counts as this                 */
+#define WAIT_MOST 2000 /* us; longer ones count as this                   */
 
-static uint16_t waits[WAIT_MOST + 1]; /* how many wake-ups were so late   */
+static uint16_t waits[WAIT_MOST + 1]; /* number of wake-ups by delay      */
 
 struct memory {
 	unsigned long faults; /* minor and major                             */
@@ -25,8 +25,8 @@ struct memory {
 	bool known;
 };
 
-/* Number @at (1-based) of /proc/PID/stat; names may have blanks, so it is
- * counted from behind the name. */
+/* Number @at (1-based) of /proc/PID/stat, counted after the name, which may contain
+ * blanks. */
 static unsigned long stat_number(const char *text, int at)
 {
 	const char *field = strrchr(text, ')');
@@ -101,7 +101,7 @@ static void run_for(struct child *child)
 	show(status, "late: ");
 }
 
-/* The wait that @share of the wake-ups did not pass; -1: longer than was seen. */
+/* The delay that a @share of the wake-ups did not exceed; -1: beyond the histogram. */
 static long within(double share)
 {
 	long sum = 0;
@@ -141,7 +141,7 @@ static void *no_work(void *nothing)
 	return nothing;
 }
 
-/* Which of the two it is decides what can be compared. */
+/* The kind of cyclictest decides what can be compared. */
 static void why_no_cyclictest(void)
 {
 	pthread_t thread;
@@ -158,7 +158,7 @@ static void why_no_cyclictest(void)
 		     "libraries, which want an MMU" : "it was not brought along");
 }
 
-/* The same period and the same kind of priority as ladderd had. */
+/* The same period and priority as ladderd. */
 static void beside_cyclictest(void)
 {
 	static const char *const argv[] = {
@@ -177,7 +177,7 @@ static void beside_cyclictest(void)
 	show_waits("cyclictest (-1: over 800)");
 }
 
-/* What any program gets here that does nothing but sleep to its next deadline. */
+/* A program that only sleeps until its next deadline. */
 static void beside_bare_sleep(void)
 {
 	int64_t deadline_ns = clock_now();
@@ -191,7 +191,7 @@ static void beside_bare_sleep(void)
 		late_ns = clock_now() - deadline_ns;
 		waits[late_ns < WAIT_MOST * 1000 ? late_ns / 1000 :
 						   WAIT_MOST]++;
-		/* Missed deadlines are passed over, as cyclictest does. */
+		/* Missed deadlines are skipped, as by cyclictest. */
 		deadline_ns += late_ns / MS * MS;
 	}
 	show_waits("bare sleep of this guest");

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_ways_out - outputs have their safe values before the first scan and on
- * each way out of RUN.
+ * test_ways_out - outputs have their safe values before the first scan and after each way
+ * out of RUN.
  *
- * What a line shows in passing is seen by holding ladderd right there (hold.c):
- * when the kernel says that a line was taken, or when a traced output comes
- * through the pipe. RUN, safe and released lines show different patterns.
+ * To see short states of a line, ladderd is held at this moment (hold.c): when the kernel
+ * reports a requested line, or when a traced output comes through the pipe. RUN, safe and
+ * released lines have different levels.
  */
 #include "tests/targets/guest/panel.h"
 
@@ -15,7 +15,7 @@
 
 #define SAFE  0xau
 #define RUN   0x5u /* with I0                                                */
-#define PULLS 0xcu /* of outputs that nobody drives                          */
+#define PULLS 0xcu /* of outputs that are not driven                         */
 #define SAFE_MAP PANEL_MAP("", "safe=0", "safe=1", "active-low safe=1",       \
 			   "active-low safe=0")
 
@@ -32,7 +32,7 @@ static void set_up(void)
 		bank_pull(&panel, OUT0 + i, PULLS >> i & 1);
 }
 
-/* With every change of an output in the pipe. */
+/* Every change of an output goes to the pipe. */
 static void start_traced(struct child *child)
 {
 	const char *argv[] = { guest.ladderd, panel_image(), "--io",
@@ -101,7 +101,7 @@ static bool q0_is_on(void *context)
 	return child_line(traced, "%QX0.0 1");
 }
 
-/* Held with the safe values written and the lines not given back yet. */
+/* Held after the safe values were written and before the lines are released. */
 static void by_signal(int signal_number, const char *name)
 {
 	struct child child;
@@ -111,7 +111,7 @@ static void by_signal(int signal_number, const char *name)
 	start_traced(&child);
 	traced = &child;
 	check(panel_shows(RUN), "%s: runs", name);
-	q1_is_safe(NULL); /* what was traced so far is read */
+	q1_is_safe(NULL); /* reads the trace so far         */
 	child_hold(&child, at_once, NULL);
 	child_signal(&child, signal_number);
 	if (child.traced && child_hold(&child, q1_is_safe, NULL)) {
@@ -155,8 +155,8 @@ static void by_fault(void)
 	panel_down();
 }
 
-/* Held in the middle of a scan, behind the write of an output, for longer than
- * the watchdog has patience. */
+/* Held in the middle of a scan, after an output was written, for longer than the
+ * watchdog allows. */
 static void by_watchdog(void)
 {
 	struct child child;

@@ -1,15 +1,14 @@
 #!/usr/bin/env perl
 # SPDX-License-Identifier: MIT
-# pins - presses the keys of an emulated board and looks at its LEDs from outside, by
-# the emulator's machine protocol (QMP).
+# pins - presses the keys of an emulated board and reads its LEDs from outside, with the
+# machine protocol of the emulator (QMP).
 #
 #   pins.pl LADDER PROGRAM FOLDER NAME... -- EMULATOR...
 #
-# The guest runs PROGRAM once for each NAME, one after the other. Each step sets the
-# keys; what the LEDs must show then is what `LADDER trace` says for the same keys at
-# the same times. A step waits until the LEDs show it, far longer than a board needs,
-# and then looks that they stay so. FOLDER has the socket `qmp`; the guest's console
-# goes to `serial` there.
+# The guest runs PROGRAM once for each NAME. Each step sets the keys. The LEDs must then be
+# as in the output of `LADDER trace` for the same keys at the same times. A step waits until
+# they are, far longer than a board needs, and then checks that they stay so. FOLDER
+# contains the socket `qmp`; the console of the guest goes to `serial` there.
 use strict;
 use warnings;
 use IO::Socket::UNIX;
@@ -105,7 +104,7 @@ sub wait_for {
 	}
 	return 0;
 }
-# The LEDs show @want, and do so for @ms.
+# Checks that the LEDs become @want, and stay so for @ms.
 sub shows {
 	my ($want, $ms, $text) = @_;
 	my $now = '';
@@ -146,14 +145,14 @@ $qmp->autoflush(1);
 ask('qmp_capabilities');
 keys_are('000');
 for my $run (0 .. $#names) {
-	# The keys' debounce begins with the first scan.
+	# The debounce of the keys begins with the first scan.
 	my $name = $names[$run];
 	my $good = shows($leds[0], $steps[0][1], "$name: $steps[0][2]");
 	for my $i (1 .. $#steps) {
 		last unless $good;
 		keys_are($steps[$i][0]);
-		# From both keys to 0 it takes two seconds: that they show the count until
-		# then is looked at for less, as a guest may be late but never early.
+		# Both keys reset the count after two seconds. The count is checked for less, because a
+		# guest may be late but never early.
 		$good = shows($leds[$i], $steps[$i][1] * ($steps[$i][1] > 1000 ? 0.7 : 1),
 			"$name: $steps[$i][2]");
 	}
@@ -162,7 +161,7 @@ for my $run (0 .. $#names) {
 	my $ended = wait_for(sub { (() = console() =~ /^RC=\d/mg) > $run });
 	my ($code) = (console() =~ /^RC=(\d+)/mg)[$run];
 	ok($ended && defined $code && $code == 0, "$name: ladderd ended well on SIGTERM", $code);
-	# Then the next one may begin at once: it shows its own when the line is its own.
+	# Then the next program may begin at once: it has the lines when its own LEDs are lit.
 	last unless $ended;
 }
 ok(wait_for(sub { console() =~ /^END/m }), 'the guest came to its end');

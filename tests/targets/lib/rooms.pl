@@ -1,9 +1,9 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# rooms - what each room of the house costs in a program: rooms.pl MAP-OF-THE-LINKER
+# rooms - prints the size of each room in a program: rooms.pl MAP-OF-THE-LINKER
 #
-# Adds up the sections that were kept, by the folder of the object they come from.
+# Adds up the sections of the program by the folder of their objects.
 use strict;
 use warnings;
 
@@ -11,7 +11,7 @@ my (%bytes, $kept, $name);
 while (<>) {
 	$kept = 1 if /^Linker script and memory map/;
 	next unless $kept;
-	# A long name of a section has its numbers on the next line.
+	# A long section name has its numbers on the next line.
 	if (/^ (\.\S+)$/) { $name = $1; next }
 	if (/^ (\.\S+)?\s+0x[0-9a-f]+\s+0x([0-9a-f]+)\s+(\S+)$/) {
 		my ($section, $size, $from) = ($1 // $name // '', hex $2, $3);
@@ -27,7 +27,7 @@ while (<>) {
 }
 printf "  %-18s %7d\n", $_, $bytes{$_} for sort { $bytes{$b} <=> $bytes{$a} } keys %bytes;
 
-# An archive has no folders: where the source of this name is.
+# An archive has no folders: finds the source with this name.
 sub room_of {
 	my ($object) = @_;
 	my ($source) = (glob("runtime/engine/*/$object.c"), glob("runtime/engine/$object.c"));

@@ -1,12 +1,12 @@
 # shellcheck shell=sh
 # SPDX-License-Identifier: MIT
-# vehicle - what every vehicle shares: its name, its folders, how it skips, fails and
-# ends, and how it boots a guest and gives back what the guest said. Sourced by them.
+# vehicle - the common part of all vehicles: names, folders, skipping, failing, booting a
+# guest and printing its output. Sourced by them.
 #
-# A vehicle ends in one of four ways, each with a last line in $out/result that says
-# which: passed, FAILED, skipped (something is missing here), or broken while building.
+# A vehicle ends in one of four ways, with a last line in $out/result: passed, FAILED,
+# skipped (a package is missing), or broken while building.
 set -u
-# What this was called with is not meant for the builds in here.
+# Variables of the caller do not affect the builds here.
 unset MAKEFLAGS MFLAGS MAKEOVERRIDES CC AR CROSS HAL SMALL STATIC CFLAGS CPPFLAGS LDFLAGS
 vehicle=$(basename "$0")
 cd "$(dirname "$0")/../.." || exit 1
@@ -19,7 +19,7 @@ mkdir -p "$out" "$cache" || exit 1
 rm -f "$out/result"
 began=$(date +%s)
 
-# Every end comes through here, so that the last line is always written.
+# Writes the last line at every end.
 ended() {
 	code=$?
 	took=$(($(date +%s) - began))
@@ -38,9 +38,9 @@ skip() {
 	echo "SKIPPED: $*" >"$out/result"
 	exit 0
 }
-# broken WHAT [LOG] : a build of ours failed, which is no reason to skip.
+# broken WHAT [LOG] : a build failed, which is no reason to skip.
 broken() {
-	# Not `Bail out!`: prove would leave the machines beside this one running.
+	# Not `Bail out!`, after which prove would leave the other machines running.
 	echo "not ok 1 - $1"
 	echo 1..1
 	echo "FAILED: $1" >"$out/result"
@@ -48,7 +48,7 @@ broken() {
 	exit 1
 }
 
-# needs PROGRAM=PACKAGE... : all of what is missing in one command.
+# needs PROGRAM=PACKAGE... : prints all missing packages in one command.
 needs() {
 	lacking=
 	for pair in "$@"; do
@@ -63,8 +63,8 @@ needs() {
 	[ -z "$lacking" ] || skip "something is missing: apt-get install$lacking"
 }
 
-# boot EMULATOR... : run an emulator until it ends. What the guests said gathers in
-# $out/console; guest_said makes one TAP of it and ends the vehicle.
+# boot EMULATOR... : runs an emulator until it ends. $out/console collects the output of the
+# guests; guest_said prints it as one TAP and ends the vehicle.
 : >"$out/console"
 boot() {
 	booted=$(date +%s)
@@ -74,11 +74,11 @@ boot() {
 	note "the guest ran for $(($(date +%s) - booted)) s"
 	[ $emulator -ne 124 ] || note "the guest did not end within $HANGS s"
 }
-# Far more than any guest needs, on a slow machine, too.
+# Far more than any guest needs, also on a slow machine.
 HANGS=1800
 
-# Each command of a guest is a part with a plan of its own; one line more says
-# whether the part kept its plan and ended well.
+# Each command of a guest has its own plan; one more line reports whether the plan was kept
+# and the command ended well.
 guest_said() {
 	tr -d '\r' <"$out/console" | awk '
 		function verdict(good, text) {

@@ -1,7 +1,7 @@
 # shellcheck shell=sh disable=SC2154,SC2086,SC2034
 # SPDX-License-Identifier: MIT
-# virt - the two vehicles that are emulated `virt` machines under Debian's own kernel.
-# Sourced after build.sh. GPIO_DRIVERS: which of the three gpio drivers are tried.
+# virt - the two vehicles that are emulated `virt` machines with Debian's kernel. Sourced
+# after build.sh. GPIO_DRIVERS: the gpio drivers to test.
 
 # virt ARCH FLAVOUR KARCH TRIPLET EMULATOR
 virt() {
@@ -22,7 +22,7 @@ virt() {
 	guest_runs /guest /cases $(printf '/ladderd-%s ' $drivers)
 	guest_runs /replay /cases/programs.bundle
 	disk_close
-	# Without the machine's own gpio chip: the suite's are the first and only ones.
+	# Without the gpio chip of the machine, so that those of the suite come first.
 	boot $5 -M virt -m 256 -nographic -nodefaults -no-reboot -serial stdio -monitor none \
 		-icount shift=0,sleep=off -kernel "$cache/stock-$1/vmlinuz" -initrd "$out/initrd" \
 		-append "console=ttyAMA0 quiet loglevel=1 panic=-1 initcall_blacklist=pl061_gpio_driver_init"

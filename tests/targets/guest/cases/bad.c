@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * bad - images that are wrong in one thing and right in all others: their
- * checksum is good, so that it is not the checksum that refuses them.
+ * bad - makes images with one error each. Their checksums are correct, so the other checks
+ * must refuse them.
  */
 #include "tests/targets/guest/cases/cases.h"
 
@@ -40,7 +40,7 @@ static bool save(const char *folder, const char *name, const void *bytes,
 	return good;
 }
 
-/* All behind the magic is words of four bytes, but for names. */
+/* After the magic all data is words of four bytes, except names. */
 static void turn_words(uint8_t *bytes, size_t len)
 {
 	for (size_t i = sizeof(((struct code_header *)0)->magic); i + 4 <= len;

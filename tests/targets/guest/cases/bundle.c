@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * bundle - random programs and what they do on the machine that builds, for
- * `replay` to do again on the target. The programs are those of the
- * differential test, where a second evaluator judges them.
+ * bundle - records random programs on the machine that builds, for `replay` to repeat on
+ * the target. The programs are those of the differential test, which a second evaluator
+ * checks.
  */
 #include "tests/targets/guest/bundle.h"
 
@@ -117,7 +117,7 @@ static void count_words(const char *text)
 	recorder.counters += strstr(text, "CTU") || strstr(text, "CTD");
 }
 
-/* False: this seed gives no program for the bundle. */
+/* False: this seed gives no suitable program. */
 static bool add_program(uint64_t seed)
 {
 	static struct random_program random;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cases - makes what the guest suite and `replay` play, on the machine that
- * builds: its answers are those that every target must give.
+ * cases - makes the cases of the guest suite and of `replay` on the machine that builds:
+ * every target must give the same results.
  */
 #include "tests/targets/guest/cases/cases.h"
 

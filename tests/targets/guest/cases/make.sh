@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# make.sh BUILD CASES PROGRAMS - all that the guest suite plays, into CASES: each
-# sample of ladders/ that uses only bits, the suite's own programs, maps, images
-# that are wrong, and the bundle of random programs.
+# make.sh BUILD CASES PROGRAMS - writes all cases of the guest suite to CASES: the samples
+# of ladders/ that use only bits, the programs of the suite, maps, images with errors, and
+# the bundle of random programs.
 set -eu
 build=$1 done=$2 programs=$3
-cases=$done.new # renamed at the end: nobody sees half of it
+cases=$done.new # renamed at the end, so that it is complete
 guest=tests/targets/guest
 rm -rf "$cases"
 mkdir -p "$cases"
@@ -37,7 +37,7 @@ done
 for rung in "$guest"/programs/*.rung; do
     build_image "$rung"
 done
-# A thousand motors that seal themselves in, for the memory they take.
+# A thousand motors with seal-in, to measure memory.
 perl tests/bench/programs.pl seal 1000 >"$cases/thousand.rung"
 "$build/ladder" build "$cases/thousand.rung" -o "$cases/thousand.rungc" 2>/dev/null
 cp "$guest"/programs/*.io "$cases"

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * plan - turns the scenarios of a program into what a guest can do with lines:
- * inputs that change before a scan, outputs to be seen after one.
+ * plan - turns the scenarios of a program into a plan for lines: inputs that change before
+ * a scan, outputs to be checked after a scan.
  *
- * Expected outputs are those of the engine in virtual time, as `ladder trace`
- * has them. A real line shows them a scan sooner or later. So the scenario is
- * also run with inputs that come some scans late, each line by itself, and with
- * a clock that is never exact, and an output is expected only where all these
- * runs agree. That leaves nearly everything, and is told.
+ * The expected outputs are those of the engine in virtual time, as `ladder trace` prints
+ * them. A real line may change a scan sooner or later. So the scenario also runs with
+ * inputs that come some scans late, each line separately, and with a clock that is not
+ * exact. An output is expected only where all these runs agree. The share that remains,
+ * nearly everything, is printed.
  */
 #include "tests/targets/guest/cases/cases.h"
 
@@ -23,10 +23,10 @@
 
 #define LINES     32
 #define EVENTS    4096
-#define SCANS_MOST 12000 /* wanted                                            */
+#define SCANS_MOST 12000 /* as in the scenario                                */
 #define VARIANTS  40
-#define LATE      1  /* scans that an input may come late, without debounce   */
-#define LOOK_EACH 1000 /* scans between two looks at the same outputs, at most */
+#define LATE      1  /* the most scans that an input comes late, without debounce */
+#define LOOK_EACH 1000 /* the most scans between two checks of the same outputs */
 
 struct event {
 	uint32_t scan, delay;
@@ -53,7 +53,7 @@ struct maker {
 	unsigned events;
 	uint32_t scans;
 	uint32_t *want, *mask;
-	/* Of all. */
+	/* Of all scenarios. */
 	unsigned long bits, kept;
 };
 
@@ -71,7 +71,7 @@ static bool tell(const char *what)
 	return false;
 }
 
-/* A word of an area lives in memory at its area's place. */
+/* The byte of an area in memory. */
 static bool is_word_of_lines(struct location at)
 {
 	enum iec_area area = areas_find(&ladder_program(maker.ladder)->areas,
@@ -81,7 +81,7 @@ static bool is_word_of_lines(struct location at)
 	       area != AREA_SM;
 }
 
-/* Of inputs and outputs, that is. */
+/* Of inputs and outputs. */
 static bool uses_only_bits(void)
 {
 	const struct program *program = ladder_program(maker.ladder);
@@ -160,7 +160,7 @@ static uint32_t bit_of(const struct io_point *point)
 	return point->addr.byte * 8 + point->addr.bit;
 }
 
-/* Which line a setting moves; LINES: it is no input. */
+/* The line that a setting moves; LINES: it sets no input. */
 static unsigned line_of(struct location at)
 {
 	unsigned i = 0;
@@ -179,8 +179,8 @@ static uint32_t scan_at(int64_t at_ns)
 	return scan < 1 ? 1 : (uint32_t)scan;
 }
 
-/* Up to the first setting of something else. NULL: that is at the start; else
- * "" or what is set there. */
+/* Reads settings up to the first one of a variable that is no input. NULL: it is at the
+ * start; else "" or the name of the variable. */
 static const char *collect(void)
 {
 	static char text[80];
@@ -212,8 +212,8 @@ static const char *collect(void)
 	return "";
 }
 
-/* One run, with its delays; @out gets the outputs after each scan. Time is
- * exact, or @slow, or not exact at all. */
+/* Runs once with these delays; @out gets the outputs after each scan. The clock is
+ * exact, or @slow, or varies. */
 static void simulate(uint32_t *out, bool slow, struct random_source *chance)
 {
 	struct image *image = &maker.resource.image;
@@ -240,8 +240,8 @@ static void simulate(uint32_t *out, bool slow, struct random_source *chance)
 	}
 }
 
-/* Events of one line stay in their order; what is set at the start is there
- * before ladderd is. */
+/* Events of one line keep their order; settings at the start are made before ladderd
+ * starts. */
 static void delay(struct random_source *chance, uint32_t most, int all)
 {
 	uint32_t last[LINES] = { 0 };
@@ -270,7 +270,7 @@ static void run_variants(void)
 	uint32_t *other = calloc(maker.scans + 2, sizeof(*other));
 	uint32_t all = (uint32_t)((UINT64_C(1) << maker.outs) - 1);
 	uint32_t late = LATE + scan_at(maker.debounce_ns) * !!maker.debounce_ns;
-	int exact = 2 * (int)late + 1; /* variants without chance           */
+	int exact = 2 * (int)late + 1; /* variants without random delays    */
 	struct random_source chance;
 
 	random_seed(&chance, 4400);
@@ -285,7 +285,7 @@ static void run_variants(void)
 	}
 	if (!other)
 		exit(tell("out of memory") + 1);
-	/* And a look that comes a scan too soon or too late. */
+	/* Also accepts a check that comes a scan too soon or too late. */
 	memcpy(other + 1, maker.want + 1, maker.scans * sizeof(*other));
 	other[0] = maker.want[0] = other[1];
 	for (uint32_t scan = 2; scan <= maker.scans; scan++)
@@ -311,8 +311,8 @@ static void write_events(uint32_t scan, uint32_t *inputs, unsigned *next)
 			(unsigned)*inputs);
 }
 
-/* Looks at the start and the end of each stretch in which nothing changes, and
- * between them: often at first, then now and then. */
+/* Checks at the start and the end of each range without a change, and between them:
+ * often at first, then rarely. */
 static void write_plan(const char *until)
 {
 	uint32_t inputs = 0, since = 0;
@@ -343,7 +343,7 @@ static void write_plan(const char *until)
 	fprintf(maker.plan, "end\n");
 }
 
-/* Does it hold? If so, scans are counted. */
+/* Whether the scenario holds; then counts its scans. */
 static bool holds(const struct scenario_file *file, int index)
 {
 	struct sink_memory report;
@@ -358,8 +358,8 @@ static bool holds(const struct scenario_file *file, int index)
 	return good;
 }
 
-/* Hours are scanned less often: with the longest period for which the scenario
- * holds just the same, but no longer than is wanted. */
+/* Scenarios of hours are scanned less often: with the longest period for which the
+ * scenario still holds, up to a limit. */
 static bool choose_period(struct scenario_file *file, int index)
 {
 	static const int times[] = { 2, 5, 10, 20, 50 };
@@ -416,7 +416,7 @@ static void write_head(const char *map)
 			maker.out[i]->active_low ? " low" : "");
 }
 
-/* Its plant is only there to be named. */
+/* The plant is loaded only because the scenario names it. */
 static bool read_scenarios(const char *scn, const char *text, size_t len,
 			   struct scenario_file *file)
 {
@@ -450,7 +450,7 @@ static bool make_all(const char *scn)
 
 	if (!good)
 		return tell(scn);
-	/* A board has a world of its own. */
+	/* On a board there is no simulated plant. */
 	for (int i = 0; good && i < file.count; i++)
 		good = file.scenario[i].with_plant || make_scenario(&file, i);
 	free(text);
@@ -458,7 +458,7 @@ static bool make_all(const char *scn)
 	       maker.name, file.count,
 	       maker.bits ? 100.0 * (double)maker.kept / (double)maker.bits :
 			    0.0);
-	/* A plan that expects next to nothing proves nothing. */
+	/* A plan must contain enough checks. */
 	return good && (maker.kept * 10 >= maker.bits * 8 ||
 			tell("too little can be expected"));
 }
@@ -482,7 +482,7 @@ int make_plan(const char *folder, const char *rung, const char *scn,
 	    !ladder_build(maker.ladder) ||
 	    image_memory_size(ladder_program(maker.ladder)) > sizeof(memory))
 		return !tell("does not build");
-	/* Tasks set a pace of their own, too quick for an emulated machine. */
+	/* The intervals of tasks are too short for an emulated machine. */
 	if (!uses_only_bits() || tasks_declared(ladder_program(maker.ladder)))
 		return 3;
 	resource_init(&maker.resource, ladder_program(maker.ladder), memory);

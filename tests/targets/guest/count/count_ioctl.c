@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * count_ioctl - linked into `ladderd-count`: every ioctl goes through here and is
- * counted by what it is for; the counts are printed at the end.
+ * count_ioctl - linked into `ladderd-count`: counts every ioctl by its purpose and prints
+ * the counts at the end.
  *
- * Linked with --wrap=ioctl, which reaches into a static libgpiod, and with
- * --wrap=__ioctl_time64, the name that a libgpiod for 32 bits may call.
+ * Linked with --wrap=ioctl, which also reaches a static libgpiod, and with
+ * --wrap=__ioctl_time64, the name in a libgpiod for 32 bits.
  */
 #define _GNU_SOURCE /* syscall */
 
@@ -14,7 +14,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-/* The C library's type of a request is int or long: the number is the same. */
+/* In the C library a request is an int or a long; the number is the same. */
 #define NUMBER(request) ((unsigned long)(request) & 0xffffffffUL)
 
 int __wrap_ioctl(int fd, unsigned long request, ...);

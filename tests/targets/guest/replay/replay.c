@@ -1,17 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * replay - random programs do here what they did on the machine that built them:
- * `replay BUNDLE`, TAP on stdout. It links base/ and scan/ and nothing else, so
- * it is also the smallest target there is.
+ * replay - repeats random programs that were recorded on the machine that built them:
+ * `replay BUNDLE` prints TAP. It links only base/ and scan/, so it is the smallest target.
  *
- * The whole process image is compared after every scan, byte for byte, REAL
- * included. What makes REAL equal everywhere: it has 32 bits, IEEE 754, and each
- * operation is rounded once to them. `-std=c11 -ffp-contract=off` keeps a
- * compiler from fusing a product and a sum; no target computes in registers
- * that are wider (FLT_EVAL_METHOD is 0, which is checked below); sums and
- * products that go through double are exact there before they are rounded; a
- * result that is infinite or not a number is never stored, so that no bits of
- * a NaN can differ; and nothing of libm is called whose last bit may vary.
+ * After every scan the whole process image is compared byte for byte, also REAL. REAL is
+ * equal everywhere because it has 32 bits of IEEE 754 and each operation is rounded once:
+ * `-std=c11 -ffp-contract=off` keeps a compiler from fusing a product and a sum; no target
+ * computes in wider registers (FLT_EVAL_METHOD is 0, which is checked below); sums and
+ * products in double are exact before they are rounded; a result that is infinite or not a
+ * number is never stored; and no function of libm is called whose last bit may vary.
  */
 #include "tests/targets/guest/bundle.h"
 
@@ -25,7 +22,7 @@
 #error "REAL would be computed with more bits than it has"
 #endif
 
-#define BATCH 100 /* programs of one result line                             */
+#define BATCH 100 /* programs per result line                                */
 
 struct player {
 	FILE *in;
@@ -187,8 +184,7 @@ static bool play_program(void)
 	return player.at == player.end || wrong("the record is long");
 }
 
-/* Every byte of the image that was read last: a bit of it turned round, and the
- * image cut there. */
+/* Changes a bit of every byte of the last image, and cuts the image there. */
 static void damage(void)
 {
 	uint32_t refused = 0;
