@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * differential - the engine and the walker run the same random programs, and
- * every variable, output, marker and cell's power must be the same.
+ * differential - the engine and the walker run the same random programs; every
+ * variable, output, marker and cell's power must be the same.
  *
  *   differential [--seed S] [--count N] [--long] [--refused] [--values]
  *
- * --values leaves out the power of cells, --refused tells why a program was not built.
+ * --values leaves out the power of cells, --refused prints why a program was not built.
  *
- * A program on which they differ is cut down to the smallest that still does,
- * and printed with its seed. It decides nothing about who is right: that is
- * what docs/language.md is for.
+ * A program with a difference is reduced to the smallest one that still differs, and
+ * printed with its seed. docs/language.md decides which side is wrong.
  */
 #include "tests/tap.h"
 #include "tests/walker/duel.h"
@@ -66,7 +65,7 @@ static void drop_rung(struct random_program *program, int at)
 		(size_t)(program->rungs - at) * sizeof(program->rung[0]));
 }
 
-/* One smaller program after the other; true if one of them still fails. */
+/* Tries smaller programs; true if one of them still fails. */
 static bool shrink_cells(struct random_program *program, uint64_t seed, int at)
 {
 	static struct random_program trial;

@@ -5,9 +5,9 @@
  *
  *   exhaustion [FILE…]
  *
- * Linked with --wrap, so that every allocation of the engine comes by here. Each
- * failure must be told as LD001, and nothing may be left behind. Likewise a simulation and
- * its record, which must go on, and show nothing that never was.
+ * Linked with --wrap, so that every allocation of the engine comes through here. Each
+ * failure must give LD001, without leaks. A simulation and its record must go on, and
+ * must not show states that never existed.
  */
 #include "engine/ladder.h"
 #include "engine/base/file.h"
@@ -35,8 +35,8 @@ void *__wrap_mmap64(void *at, size_t size, int prot, int flags, int fd, off_t of
 int __real_munmap(void *at, size_t size);
 int __wrap_munmap(void *at, size_t size);
 
-static long live;         /* blocks given and not taken back                  */
-static long mapped;       /* bytes, likewise                                  */
+static long live;         /* blocks that are allocated                        */
+static long mapped;       /* bytes that are allocated                         */
 static long left = -1;    /* allocations that still succeed; -1: all          */
 static long refused;
 
@@ -118,7 +118,7 @@ static bool has_no_memory(struct ladder *ladder)
 	return false;
 }
 
-/* How far it comes, and whether it says why it came no further. */
+/* How far it gets, and whether it reports the failure. */
 static enum stage try_all(const char *file, const char *text, size_t len,
 			  bool *told)
 {
@@ -165,7 +165,7 @@ static void starve(const char *file, const char *text, size_t len)
 		left = -1;
 		untold += !told;
 		leaks += live + mapped - before;
-		/* Refused, and yet all went well: somebody ignored a NULL. */
+		/* Refused, but nothing is missing: a NULL was ignored. */
 		lies += refused && stage == STAGE_DONE;
 	}
 	printf("# %s: %ld allocations\n", file, n - 1);
@@ -214,8 +214,8 @@ static void act(struct twin *twin, struct record *record, enum act_kind kind,
 		record_act(record, twin, &what);
 }
 
-/* Scans and acts of all kinds; the sums of all scans. False: the start failed, which is
- * where a person would hear of it. */
+/* Scans and acts of all kinds; the sums of all scans. False: the start failed, which a
+ * person would see. */
 static bool play(struct twin *twin, struct record *record, uint64_t *sum)
 {
 	struct iec_text room;
@@ -237,7 +237,7 @@ static bool play(struct twin *twin, struct record *record, uint64_t *sum)
 	return twin->scan == 60;
 }
 
-/* What can be had is what was; false: something was shown that never was. */
+/* Each replayed scan equals the original; false: a wrong state was shown. */
 static bool is_true(const struct record *record, const uint64_t *sum)
 {
 	struct replay replay;

@@ -4,8 +4,8 @@
  *
  *   iec_cases [FILE]
  *
- * It calls the blocks and functions of scan/ directly: no text, no translation
- * and no image stand between the table and the code that is judged.
+ * It calls the blocks and functions of scan/ directly: without text, translation or
+ * image.
  */
 #include "engine/scan/vm.h"
 #include "tests/tap.h"
@@ -61,7 +61,7 @@ static int64_t read_number(const char **at)
 	return value;
 }
 
-/* `PIN=VALUE` at *@at; false if none stands there. */
+/* `PIN=VALUE` at *@at; false: there is none. */
 static bool read_pin(const char **at, const struct word_row *row,
 		     const struct word_pin **pin, int64_t *value)
 {
@@ -157,7 +157,7 @@ static bool run_function(enum word fn, const char *at)
 	result = read_number(&at);
 	if (strcmp(skip_blanks(at), "wraps") == 0)
 		want = FN_WRAPPED;
-	/* Stored and read back: what a variable of the type then holds. */
+	/* Stored and read back: the value in a variable of the type. */
 	iec_store(stored, args.type, args.out);
 	if (!word_is_test(word_row(fn)))
 		args.out = iec_load(stored, args.type);

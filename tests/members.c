@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * members - arrays as members, against the same arrays by themselves.
+ * members - arrays as members, against the same arrays alone.
  *
- * Random programs are written anew with their arrays inside a structure, inside
- * elements of an array of structures, and with a structure for each element. All must
- * do the same, scan by scan. It knows nothing of what is right: the differential test
- * does that for arrays by themselves.
+ * Random programs are rewritten with their arrays inside a structure, inside elements
+ * of an array of structures, and with a structure for each element. All must do the
+ * same, scan by scan. The differential test checks arrays alone.
  */
 #include "engine/ladder.h"
 #include "tests/tap.h"
@@ -18,7 +17,7 @@
 #define TEXT_MAX (192u * 1024)
 #define PERIOD   INT64_C(10000000)
 
-/* How an array is written: where it stands, and what is behind its index. */
+/* How an array is written: its prefix, and the text behind its index. */
 struct form {
 	const char *name, *before, *after;
 	bool each; /* a structure for each element: no initial values        */
@@ -54,7 +53,7 @@ static void add_text(struct page *page, const char *text)
 	add(page, text, strlen(text));
 }
 
-/* Does one of the arrays stand here as a name of its own? */
+/* Whether one of the arrays is here as a name of its own. */
 static const char *moved_at(const char *start, const char *at)
 {
 	if (at > start && (at[-1] == '_' || (at[-1] >= 'a' && at[-1] <= 'z')))
@@ -65,7 +64,7 @@ static const char *moved_at(const char *start, const char *at)
 	return NULL;
 }
 
-/* Behind the ] that closes the [ at @at. */
+/* The end of the index that begins at @at, behind its ]. */
 static const char *closing(const char *at)
 {
 	int depth = 0;
@@ -78,7 +77,7 @@ static const char *closing(const char *at)
 	abort();
 }
 
-/* Operands of a body, which may stand in the index of another. */
+/* Operands of a body, also inside indices of others. */
 static void add_body(struct page *page, const char *text, size_t len,
 		     const struct form *form)
 {
@@ -210,7 +209,7 @@ static void stop(struct side *side)
 	ladder_free(side->ladder);
 }
 
-/* A variable of the first side as the second has it. */
+/* The variable of the second side for one of the first. */
 static struct location other(const struct side *side, const char *name,
 			     const struct form *form)
 {

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * room - one program for the tests of a folder: it runs the test by whose name it is called.
+ * room - one program for the tests of a folder: it runs the test whose name it was
+ * started with.
  *
- * The Makefile renames the main() of each test and lists the tests in TESTS: TEST(test_fb) TEST(test_fn) …
- * For each test it makes a link to the program.
+ * The Makefile renames the main() of each test and lists the tests in TESTS:
+ * TEST(test_fb) TEST(test_fn) … For each test it makes a link to the program.
  */
 #include <stdio.h>
 #include <string.h>

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * saving - a save is cut off at its 1st, 2nd, 3rd … call of the system, by an
- * error and by a kill: what stands there is the old file or the new one, whole.
+ * saving - a save is cut off at its 1st, 2nd, 3rd … call of the system, by an error and
+ * by a kill: the result is the complete old file or the complete new one.
  *
- * Linked with --wrap, so that the calls of file_save() come by here. The
- * power of the machine cannot be cut; that the file is on the disk before it gets
- * its name, and the name before the save is told good, is seen by the order.
+ * Linked with --wrap, so that the calls of file_save() come through here. A power cut
+ * cannot be tested directly; the order of calls shows that the file is on the disk
+ * before it gets its name, and the name before the save succeeds.
  */
 #include "engine/ladder.h"
 #include "engine/base/file.h"
@@ -36,7 +36,7 @@ static const char old_text[] = "the old file\n";
 static const char new_text[] = "the new file, which is longer\n";
 static char folder[200], path[250];
 
-/* One call of the system: false when it is to fail. */
+/* One call of the system: false if it must fail. */
 static bool pass(char name)
 {
 	if (step < STEPS_MAX)
@@ -80,7 +80,7 @@ static void put_old(void)
 	fclose(file);
 }
 
-/* What stands there: 'o', 'n', or '?' for anything else. */
+/* The content: 'o', 'n', or '?' for anything else. */
 static char look(void)
 {
 	char text[100] = "";
@@ -96,7 +96,7 @@ static char look(void)
 	       strcmp(text, new_text) == 0 ? 'n' : '?';
 }
 
-/* Files in the folder; @clear: takes away all but the one. */
+/* Number of files in the folder; @clear: removes all but one. */
 static int count_files(bool clear)
 {
 	DIR *dir = opendir(folder);

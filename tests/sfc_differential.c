@@ -6,9 +6,9 @@
  *   sfc_differential [--seed S] [--count N] [--long] [--refused] [--values] [--text]
  *   sfc_differential FILE.rung …
  *
- * A chart on which they differ is cut down to the smallest that still does, and printed
- * with its seed; --text prints the chart of a seed. Files are run on random inputs. Who
- * is right is told by docs/sfc.md.
+ * A chart with a difference is reduced to the smallest one that still differs, and
+ * printed with its seed; --text prints the chart of a seed. Files are run on random
+ * inputs. docs/sfc.md decides which side is wrong.
  */
 #include "tests/tap.h"
 #include "tests/walker/duel.h"
@@ -31,7 +31,7 @@ struct options {
 	int file; /* of argv; 0: none                                         */
 };
 
-/* One input changes now and then; a control less often, and not for long. */
+/* An input changes sometimes; a control less often, and not for long. */
 static void change_inputs(struct random_source *source, uint8_t *inputs)
 {
 	for (int i = 0; i < 4; i++)
@@ -77,7 +77,7 @@ static enum verdict judge(struct random_sfc *chart, bool values, char *why, size
 	return judge_text(text, len, chart->seed, values, why, size);
 }
 
-/* Without one more of its parts, if it still fails then. */
+/* Without another part, if it still fails then. */
 static bool shrink_once(struct random_sfc *chart, bool values)
 {
 	static struct random_sfc trial;
@@ -155,7 +155,7 @@ static int print_chart(uint64_t seed)
 	return 0;
 }
 
-/* A file of a person, on the inputs of many seeds. */
+/* A file, on the inputs of many seeds. */
 static bool run_file(const char *path, const struct options *options, char *why, size_t size)
 {
 	static char text[TEXT_MAX];

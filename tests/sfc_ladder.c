@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_ladder - a chart and the ladder that is made of it do the same in each scan.
+ * sfc_ladder - a chart and the ladder made from it do the same in each scan.
  *
  *   sfc_ladder                          some of both: all of ladders/
  *   sfc_ladder --seed S --count N
  *   sfc_ladder FILE.rung …
  *
- * Random charts, and files, on random inputs and times. What has no ladder (LD460) is
- * counted. Who is right about charts, sfc_differential tells.
+ * Random charts, and files, on random inputs and times. Charts without a ladder (LD460)
+ * are counted. sfc_differential checks charts themselves.
  */
 #include "engine/ladder.h"
 #include "engine/base/file.h"
@@ -92,7 +92,7 @@ static int sfcs(const struct project *project)
 	return count;
 }
 
-/* A chart before it has a step of this name, too: that one has the name without a number. */
+/* Whether the chart before has a step of this name, too; then this one has a number. */
 static bool is_second(struct side *ladder, const struct project *project,
 		      const struct pou *pou, const char *name)
 {
@@ -107,7 +107,7 @@ static bool is_second(struct side *ladder, const struct project *project,
 	return false;
 }
 
-/* All that is declared; NULL: the same. */
+/* Compares everything declared; NULL: the same. */
 static const char *differs(struct side *chart, struct side *ladder)
 {
 	const struct project *project = ladder_project(chart->ladder);
@@ -175,7 +175,7 @@ static void change(struct random_source *source, uint8_t *inputs, bool calm)
 		inputs[2] = (uint8_t)random_below(source, 24);
 }
 
-/* False, and says where, if they differ in a scan. */
+/* False, with the place, if they differ in a scan. */
 static bool run_both(struct side *chart, struct side *ladder, uint64_t seed, int scans)
 {
 	struct random_source source;
@@ -279,7 +279,7 @@ static void run_file(const char *path, uint64_t seeds, int scans)
 	free(text);
 }
 
-/* More steps than the type of FORCE has numbers: the others cannot be forced. */
+/* More steps than FORCE has numbers: the others cannot be forced. */
 static void run_many(void)
 {
 	static char text[TEXT_MAX];

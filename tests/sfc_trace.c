@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_trace - the walker plays the golden cases sfc-*, and its trace must be the expected
- * one, byte by byte: what stands there is what two evaluators say.
+ * sfc_trace - the walker plays the golden cases sfc-*; its trace must equal the
+ * expected one byte by byte, so that two evaluators agree on it.
  *
  *   sfc_trace           all of tests/golden/sfc-*
  *   sfc_trace DIR       prints the walker's trace of one
  *
- * Of a stimulus it knows what these cases use: inputs by name, `.`, @print, @period,
- * +ms and xN. It compares nothing but BOOL, TIME and whole numbers.
+ * It supports the parts of a stimulus that these cases use: inputs by name, `.`,
+ * @print, @period, +ms and xN. It compares only BOOL, TIME and whole numbers.
  */
 #include "engine/ladder.h"
 #include "tests/tap.h"
@@ -32,7 +32,7 @@ struct player {
 	bool failed;      /* a scan                                           */
 	char out[TEXT_MAX];
 	size_t used;
-	char why[128];    /* what was not understood                          */
+	char why[128];    /* the text that was not understood                 */
 };
 
 static size_t slurp(const char *dir, const char *name, char *out)
@@ -50,7 +50,7 @@ static size_t slurp(const char *dir, const char *name, char *out)
 	return len;
 }
 
-/* Of all, or behind the name of its program. */
+/* A global, or a variable behind the name of its program. */
 static int find(const struct player *player, const char *name)
 {
 	for (int i = 0; i < walker_count(player->walker); i++) {
@@ -213,7 +213,7 @@ static bool play(const char *dir, struct player *player)
 	return !*player->why;
 }
 
-/* A trace that ends with a fault has a message behind it. */
+/* A trace that ends with a fault has a message after it. */
 static bool is_expected(const char *dir, const struct player *player)
 {
 	static char text[TEXT_MAX];

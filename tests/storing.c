@@ -2,11 +2,11 @@
  *
  * storing - the file of --retain, cut at each step of each system call.
  *
- * A small program stores three copies into a new file, a larger one needs a larger
- * file and stores three more. After so many steps (64 bytes of a write are one, any
- * other call too) nothing that it does reaches the disk, as if the power were gone;
- * then the file is read again. It holds the last copy that was told to be stored, or
- * the one behind it, whole.
+ * A small program stores three copies into a new file, a larger one needs a larger file
+ * and stores three more. After a number of steps (64 bytes of a write, or any other
+ * call) nothing reaches the disk any more, as in a power cut; then the file is read
+ * again. It must contain the last copy that was reported as stored, or the next one,
+ * complete.
  */
 #define _DEFAULT_SOURCE /* mkdtemp() */
 #include "ladderd/store_file.h"
@@ -46,7 +46,7 @@ int __wrap_rename(const char *from, const char *to);
 int __real_unlink(const char *path);
 int __wrap_unlink(const char *path);
 
-/* What reaches the disk is told, so that the rest is asked for again. */
+/* Returns the bytes that reach the disk, so that the rest is written again. */
 ssize_t __wrap_pwrite64(int fd, const void *bytes, size_t len, off_t at)
 {
 	if (is_cut())
@@ -64,7 +64,7 @@ ssize_t __wrap_pwrite(int fd, const void *bytes, size_t len, off_t at)
 int __wrap_fsync(int fd)
 {
 	(void)fd;
-	return is_cut() ? -1 : 0; /* nobody cuts the power here */
+	return is_cut() ? -1 : 0; /* the disk is checked without a cut */
 }
 
 int __wrap_fdatasync(int fd)
@@ -83,7 +83,7 @@ int __wrap_unlink(const char *path)
 	return is_cut() ? -1 : __real_unlink(path);
 }
 
-/* Programs: @wide has values for some pages more. */
+/* @wide needs more pages. */
 struct bench {
 	struct rig rig;
 	struct arena arena;
@@ -125,7 +125,7 @@ static void close_bench(struct bench *bench)
 	rig_close(&bench->rig);
 }
 
-/* Stores @first, @first + 1, …; gives the last one that was told to be stored. */
+/* Stores @first, @first + 1, …; returns the last one that was reported as stored. */
 static int store_copies(struct bench *bench, int first, int stored)
 {
 	struct store_file file;
@@ -155,7 +155,7 @@ static int store_copies(struct bench *bench, int first, int stored)
 	return stored;
 }
 
-/* What the file gives: its A, if that is its B, too; 0: no copy; -1: a mix. */
+/* The A in the file, if its B is equal; 0: no copy; -1: a mix. */
 static int read_again(struct retain_found *found, bool *exists)
 {
 	struct store_file file;
@@ -210,11 +210,11 @@ static void cut_everywhere(void)
 		wrong += got != stored && got != stored + 1;
 		none += exists && found.best < 0;
 		behind += got == stored + 1;
-		/* A torn copy beside it is told. */
+		/* A torn copy beside it is reported. */
 		unsaid += got == stored && stored && found.best >= 0 &&
 			  found.state[!found.best] == RETAIN_BAD &&
 			  !found.old_copy;
-		/* And it goes on from there. */
+		/* And storing goes on from there. */
 		after = store_copies(&wide, 100, 0);
 		wrong += after != 100 + COPIES - 1 ||
 			 read_again(&found, &exists) != after;

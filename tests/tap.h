@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * tap - the few lines a unit test needs to speak TAP.
+ * tap - TAP output of a unit test.
  *
- * Include it in one file a program. CHECK never stops the test; tap_done() prints
- * the plan, and a program that checked nothing fails.
+ * Include it in one file of a program. CHECK does not stop the test; tap_done() prints
+ * the plan; a program without checks fails.
  */
 #ifndef TESTS_TAP_H
 #define TESTS_TAP_H

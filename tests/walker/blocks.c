@@ -30,7 +30,7 @@ void block_set(struct block *block, const char *name, int64_t value)
 	block->pin[block_pin(block, name)].i = value;
 }
 
-/* A level that was FALSE in the call before. */
+/* Whether the level was FALSE in the previous call. */
 bool block_rises(bool now, bool *was)
 {
 	bool rising = now && !*was;
@@ -39,7 +39,7 @@ bool block_rises(bool now, bool *was)
 	return rising;
 }
 
-/* A time before now cannot be waited for. */
+/* A negative time counts as 0. */
 static int64_t preset(const struct block *block)
 {
 	return block_get(block, "PT") > 0 ? block_get(block, "PT") : 0;
@@ -111,7 +111,7 @@ static void call_tp(struct block *block, int64_t now_ns)
 	}
 }
 
-/* Before @b in the order of the type of CV. */
+/* Whether @a is below @b in the type of CV. */
 static bool is_below(const struct block *block, int64_t a, int64_t b)
 {
 	if (block->pin[block_pin(block, "CV")].type == IEC_ULINT)
@@ -119,7 +119,7 @@ static bool is_below(const struct block *block, int64_t a, int64_t b)
 	return a < b;
 }
 
-/* One more or one less, unless the type of CV ends there. */
+/* One more or one less, up to the limit of CV's type. */
 static int64_t counted(const struct block *block, bool up)
 {
 	enum iec_type type = block->pin[block_pin(block, "CV")].type;

@@ -2,8 +2,8 @@
  *
  * blocks_more - the walker's own blocks beyond the standard.
  *
- * Written from docs/blocks.md, not from the engine: the obvious way, with loops and
- * moving values where the engine computes. It does not judge what a pin may be given.
+ * Written from docs/blocks.md, not from the engine: with loops and shifted values where
+ * the engine computes directly. Values at pins are not checked.
  */
 #include "tests/walker/inside.h"
 
@@ -16,7 +16,7 @@ static double real(const struct block *block, const char *name)
 	return (double)block->pin[block_pin(block, name)].r;
 }
 
-/* All REALs among the inputs that @names tells are finite. */
+/* Whether all REAL inputs in @names are finite. */
 static bool are_numbers(const struct block *block, const char *const *names)
 {
 	for (; *names; names++)
@@ -25,7 +25,7 @@ static bool are_numbers(const struct block *block, const char *const *names)
 	return true;
 }
 
-/* Stores a result and ENO, or no result and no ENO. */
+/* Stores a result and ENO TRUE, or only ENO FALSE. */
 static void give(struct block *block, bool good, double out)
 {
 	good = good && fabs(out) <= (double)3.40282346638528859812e38f;
@@ -168,7 +168,7 @@ static bool push(struct block *block)
 	return true;
 }
 
-/* The oldest stands first; the others move up. */
+/* The oldest is first; the others move up. */
 static bool pop(struct block *block, bool newest)
 {
 	int at = newest ? block->count - 1 : 0;
@@ -312,7 +312,7 @@ static void call_ramp(struct block *block, int64_t now_ns)
 	give(block, true, at);
 }
 
-/* The newest value stands first. */
+/* The newest value is first. */
 static void call_average(struct block *block)
 {
 	int most = at_most_64(block_get(block, "N")), count;

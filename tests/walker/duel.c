@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * duel - the engine and the walker run one program, side by side.
+ * duel - runs one program in the engine and in the walker.
  */
 #include "tests/walker/duel.h"
 
@@ -94,7 +94,7 @@ static bool same_area(struct duel *duel, int side, enum iec_area area, int size)
 	return true;
 }
 
-/* Of a POU, or of a block in an instance of it. */
+/* Compares the cells of a POU, or of an instance of a block. */
 struct body {
 	const struct pou *pou;
 	int number;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * expression - the walker's own computing of [ … ] cells.
+ * expression - the walker's own evaluation of [ … ] cells.
  *
- * An expression is a chain of functions in the order of its tree, left before
- * right: the first gets EN from the power of the cell, each other from the ENO
- * of the one before. Only the parser is the engine's.
+ * An expression is a chain of functions in the order of its tree, left before right:
+ * the first gets EN from the power of the cell, each other from the ENO of the one
+ * before. Only the parser is the engine's.
  */
 #include "tests/walker/inside.h"
 
@@ -15,7 +15,7 @@ struct term {
 	enum word fn;
 	int left, right;
 	enum iec_type type;     /* of its value; IEC_NONE: untyped literal    */
-	enum iec_type inputs;   /* common type of what an operation works on  */
+	enum iec_type inputs;   /* common type of an operation's inputs       */
 	bool timely;            /* each input has its own: times and dates    */
 	struct placed placed;   /* of a leaf                                  */
 	struct value value;     /* of the last run                            */
@@ -119,7 +119,7 @@ static bool make_terms(struct walker *walker, const struct frame *frame,
 			term->placed = walker_place(walker, frame, from->text,
 						    from->len);
 			term->type = term->placed.type;
-			/* TRUE and FALSE are names to the parser, maybe. */
+			/* The parser may take TRUE and FALSE for names. */
 			if (term->placed.kind == PLACED_LITERAL)
 				term->op = EXPR_LITERAL;
 		} else if (term->op == EXPR_INDEX) {
@@ -171,8 +171,8 @@ struct run {
 	const struct term *wrapped; /* the operation that overflowed          */
 };
 
-/* One operation on values that are there; a failed or disabled one leaves its
- * value as it was, and nobody uses it then. */
+/* One operation on known values; a failed or disabled one does not change its value,
+ * which is not used then. */
 static void operate(struct run *run, struct term *term, struct value a,
 		    struct value b)
 {
@@ -219,7 +219,7 @@ static void operate(struct run *run, struct term *term, struct value a,
 	}
 }
 
-/* An element, while nothing has failed; else nobody asks for it. */
+/* An element, unless an operation failed; then it is not used. */
 static struct value element(struct run *run, const struct placed *placed)
 {
 	struct value value = { .type = placed->type };
@@ -233,7 +233,7 @@ static struct value element(struct run *run, const struct placed *placed)
 	return value;
 }
 
-/* The same where the index was computed. */
+/* The same with a computed index. */
 static bool find_computed(struct run *run, const struct placed *array,
 			  struct value index, struct placed *out)
 {
@@ -304,8 +304,8 @@ bool expression_run(struct walker *walker, struct expression *expression, bool p
 		there = placed_element(&expression->target, index.i, &target);
 	}
 	value = compute(&run, expression->root, expression->target.type);
-	/* The last operation stores; a result that wrapped is stored too. Without
-	 * its element it does not run: one error, whatever it would have been. */
+	/* The last operation stores, even a wrapped result. If its element does not
+	 * exist it does not run: one error, whatever the operation. */
 	stored = run.enabled || run.wrapped == &expression->term[expression->root];
 	if (stored && there)
 		placed_write(&target, value);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * frame - the walker's variables: those of all, of a program, of a function, of each
- * instance of a block, of each structure; found by name.
+ * frame - the walker's variables: globals, and those of a program, a function, each
+ * instance of a block, each structure; found by name.
  *
- * A body is made anew for each instance, on its own variables: nothing is copied there
- * and back, as the engine does.
+ * Each instance has its own copy of the body, on its own variables: the engine copies
+ * variables instead.
  */
 #include "tests/walker/grid.h"
 
@@ -32,7 +32,7 @@ static uint32_t count_of(const struct var *var)
 	return var->array.count ? var->array.count : 1;
 }
 
-/* Element @number as its declaration has it. */
+/* Element @number with its declared initial value. */
 static struct value initial(const struct var *var, uint32_t number)
 {
 	if (var->has_init && !var->array.count)
@@ -110,7 +110,7 @@ void frame_reset(struct walker *walker, struct frame *frame, bool temporary)
 	}
 }
 
-/* What of a variable holds others: the instance of a block, a structure, or many. */
+/* The inner frames of a variable: for the instance of a block, a structure, or many. */
 static bool make_inner(struct walker *walker, struct variable *variable)
 {
 	const struct var *var = variable->var;
@@ -125,7 +125,7 @@ static bool make_inner(struct walker *walker, struct variable *variable)
 	return variable->inner;
 }
 
-/* Depth: of what is declared in one another, at most LIMIT_NESTING. */
+/* Depth: nested declarations, at most LIMIT_NESTING. */
 bool frame_make(struct walker *walker, struct frame *frame, const struct pou *pou,
 		const struct var_table *table)
 {
@@ -170,7 +170,7 @@ int frame_find(const struct walker *walker, const struct frame *frame, const cha
 		const char *name = project_text(walker->project,
 						frame->variable[i].var->name);
 
-		/* The letter first: most names differ there. */
+		/* The first letter differs for most names. */
 		if ((name[0] | 32) == (text[0] | 32) &&
 		    strncasecmp(name, text, len) == 0 && name[len] == '\0')
 			return i;
@@ -209,7 +209,7 @@ static struct placed of_pin(struct block *block, const char *text, size_t len)
 	return placed;
 }
 
-/* A path that is being followed: what is left of it, and where its indices are named. */
+/* A path that is being resolved: the rest of it, and where its indices are stored. */
 struct path {
 	const struct frame *frame;
 	const char *at, *end;
@@ -232,7 +232,7 @@ static struct placed of_member(struct walker *walker, struct path path,
 			   follow(walker, path, &inner->variable[found]);
 }
 
-/* `[i].Member…`: with an index that is found out in the scan one of many places. */
+/* `[i].Member…`: with a computed index, one of many places. */
 static struct placed of_elements(struct walker *walker, struct path path,
 				 struct variable *variable)
 {
@@ -291,7 +291,7 @@ struct placed frame_place(struct walker *walker, const struct frame *frame,
 	struct path path = { frame, text, text + len };
 	struct variable *variable;
 
-	/* Fill.X of a step is one name. */
+	/* Fill.X of a step is one variable. */
 	if (frame && frame_find(walker, frame, text, len) >= 0)
 		path.at = path.end;
 	while (path.at < path.end && *path.at != '.' && *path.at != '[')
@@ -301,7 +301,7 @@ struct placed frame_place(struct walker *walker, const struct frame *frame,
 			  (struct placed){ .kind = PLACED_NOWHERE };
 }
 
-/* ---- what others may look at ---- */
+/* ---- for comparison ---- */
 
 static struct shown *show(struct walker *walker, const char *name, const char *more)
 {
@@ -355,7 +355,7 @@ static void show_pins(struct walker *walker, struct block *block, const char *na
 	}
 }
 
-/* What a call copies there and back is not looked at between scans. */
+/* Parameters that a call copies are not compared between scans. */
 static void show_frame(struct walker *walker, const struct frame *frame,
 		       const char *before)
 {
@@ -421,7 +421,7 @@ bool walker_declare(struct walker *walker)
 	for (int i = 0; i < project->pou_count; i++) {
 		const struct pou *pou = &project->pou[i];
 
-		/* A block has variables in its instances alone. */
+		/* A block has variables only in its instances. */
 		if (pou->kind != POU_BLOCK &&
 		    !frame_make(walker, &walker->frame[i], pou, &pou->vars))
 			return false;

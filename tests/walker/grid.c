@@ -2,8 +2,8 @@
  *
  * grid - from the cells of a rung to nets and elements, for the walker.
  *
- * Every bar starts as its own net; the rail, wires and links join them. It
- * judges nothing: ladder_build() did.
+ * Every bar starts as its own net; the rail, wires and links join them. ladder_build()
+ * has checked the rung.
  */
 #include "tests/walker/grid.h"
 
@@ -216,7 +216,7 @@ static bool make_call(struct walker *walker, const struct frame *frame,
 	return at->parameter;
 }
 
-/* In the body of a chart that it stands in, or else in the POU. */
+/* In the body of a chart that contains it, or else in the POU. */
 static int rung_labelled(const struct pou *pou, const struct sfc_body *body,
 			 uint32_t label, struct names *names)
 {
@@ -299,7 +299,7 @@ static bool is_element(const struct cell *cell)
 	       cell->word != ELEM_PIN;
 }
 
-/* Is there an element or a connected pin with its left end on the net? */
+/* Whether an element or a connected pin has its left end on the net. */
 static bool net_is_read(const struct walked_rung *walked, int net)
 {
 	for (int i = 0; i < walked->count; i++) {

@@ -10,7 +10,7 @@
 /* A parameter of a box, or a pin fed by a row of its own. */
 struct parameter {
 	int pin;              /* of an FB: number in its row; else input      */
-	bool output, inverse; /* inverse: /, goes in inverted                 */
+	bool output, inverse; /* inverse: /, the value is inverted            */
 	struct placed placed;
 	int net;              /* of a fed pin; -1: a written parameter        */
 };
@@ -19,7 +19,7 @@ struct walked {
 	int row, col;
 	enum word word;
 	int in, out;          /* nets                                         */
-	bool read;            /* somebody reads the power behind it           */
+	bool read;            /* the power behind it is used                  */
 	struct placed operand;
 	struct block *block;
 	struct frame *callee; /* of a function or block of the project        */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * inside - what the parts of the walker share. Nobody else includes it.
+ * inside - data of the walker, for its own files only.
  */
 #ifndef WALKER_INSIDE_H
 #define WALKER_INSIDE_H
@@ -18,11 +18,11 @@ struct block {
 	struct value pin[PINS_MAX]; /* by pin number of its row              */
 	int64_t start_ns;
 	bool busy, spent;           /* timing; pulse over, IN still TRUE     */
-	bool was, was_too;          /* levels of the call before             */
+	bool was, was_too;          /* levels of the previous call           */
 	bool called;                /* since the start                       */
 	struct value held[64];      /* of a store or an average              */
 	int count;                  /* of them                               */
-	double exact, smooth;       /* what a REAL is too short for          */
+	double exact, smooth;       /* the part that a REAL cannot hold      */
 };
 
 /* A declared variable: one of three. */
@@ -35,7 +35,7 @@ struct variable {
 				       of the project, a structure           */
 };
 
-/* Variables that belong together, and the body that works on them. */
+/* Variables of one scope, and the body that works on them. */
 struct frame {
 	const struct pou *pou;      /* NULL: globals, a structure            */
 	struct variable *variable;
@@ -55,20 +55,20 @@ struct placed {
 	uint8_t *byte;
 	uint8_t bit;                /* of a BOOL in an area                  */
 	struct literal literal;
-	/* Of an array, and of an element whose index is found out in a scan: all
-	 * above is its first element's. */
+	/* For an array, and for an element with a computed index: the members above are
+	 * those of the first element. */
 	uint32_t count;
-	uint32_t rest;              /* of an address: as many up to the end  */
+	uint32_t rest;              /* of an address: elements up to the end */
 	int32_t low;
 	struct placed *index;       /* NULL: the array itself                */
 	struct placed *choice;      /* its elements, if they are not in a row */
 };
 
-/* A value that others may look at, and the name they know it by. */
+/* A value to compare, and its name. */
 struct shown {
 	char name[128];
 	struct placed placed;
-	const struct block *block;  /* whose input pin it is; else NULL       */
+	const struct block *block;  /* the block whose input pin it is; else NULL */
 };
 
 struct walker {
@@ -85,16 +85,16 @@ struct walker {
 	uint64_t scans;
 	uint32_t errors, errors_before;
 	uint32_t steps;
-	bool lost;                  /* more steps than there may be          */
-	bool halted;                /* a STOP had power                      */
+	bool lost;                  /* more steps than allowed               */
+	bool halted;                /* a STOP was executed                   */
 	struct walked_pou *pou;
-	const struct sfc_body *body; /* whose rungs are made; NULL: all of a POU */
-	const char *why;            /* of what cannot be walked              */
+	const struct sfc_body *body; /* whose rungs are made; NULL: of the POU */
+	const char *why;            /* why the program cannot be walked      */
 };
 
 /* value.c */
 enum outcome { OUTCOME_GOOD, OUTCOME_WRAPPED, OUTCOME_FAILED };
-/** wide_type - the one among the types that holds all others; IEC_NONE: none. */
+/** wide_type - the widest of the types; IEC_NONE: none. */
 enum iec_type wide_type(const enum iec_type *type, int count);
 struct value value_widen(struct value value, enum iec_type type);
 bool value_is_true(struct value value);
@@ -105,8 +105,8 @@ bool value_is_logic(enum word fn);
 enum outcome value_compute(enum word fn, const struct value *in, int count,
 			   struct value *out);
 
-/** value_time_type - what an operation on times and dates gives (table 30 of the
- * standard); IEC_NONE: it is none. @right IEC_NONE: a number without a type. */
+/** value_time_type - the result type of an operation on times and dates (table 30 of the
+ * standard); IEC_NONE: not allowed. @right IEC_NONE: a number without a type. */
 enum iec_type value_time_type(enum word fn, enum iec_type left, enum iec_type right);
 /** value_compute_time - the same, computed. */
 enum outcome value_compute_time(enum word fn, struct value left, struct value right,
@@ -115,7 +115,7 @@ enum outcome value_compute_time(enum word fn, struct value left, struct value ri
 /* text.c */
 int text_order(struct value a, struct value b);
 bool text_is_function(enum word fn);
-/** text_compute - LEN, LEFT … FIND; what it gives may be longer than its variable. */
+/** text_compute - LEN, LEFT … FIND; the result may be longer than its variable. */
 enum outcome text_compute(enum word fn, const struct value *in, int count,
 			  struct value *out);
 
@@ -126,33 +126,34 @@ bool frame_make(struct walker *walker, struct frame *frame, const struct pou *po
 		const struct var_table *table);
 /** frame_reset - initial values again; @temporary: only of VAR_TEMP. */
 void frame_reset(struct walker *walker, struct frame *frame, bool temporary);
-/** frame_find - the index of one of its own; -1: it has none of this name. */
+/** frame_find - index of one of its own variables; -1: none. */
 int frame_find(const struct walker *walker, const struct frame *frame, const char *text,
 	       size_t len);
-/** frame_variable - one of its own or a global; NULL: none. */
+/** frame_variable - one of its own variables, or a global; NULL: none. */
 struct variable *frame_variable(struct walker *walker, const struct frame *frame,
 				const char *text, size_t len);
-/** frame_place - what a name, with members, pins and indices behind it, means there. */
+/** frame_place - the place of a name with members, pins and indices. */
 struct placed frame_place(struct walker *walker, const struct frame *frame,
 			  const char *text, size_t len);
 
 /* place.c */
-/** walker_place - what an operand names; PLACED_NOWHERE: the walker cannot. */
+/** walker_place - the place of an operand; PLACED_NOWHERE: the walker does not support
+ * it. */
 struct placed walker_place(struct walker *walker, const struct frame *frame,
 			   const char *text, size_t len);
 struct placed placed_at(struct walker *walker, struct iec_addr addr,
 			enum iec_type type);
-/** placed_index - an array with the index that stands between @at and @end. */
+/** placed_index - an array with the index between @at and @end. */
 struct placed placed_index(struct walker *walker, const struct frame *frame,
 			   struct placed array, const char *at, const char *end);
 /** placed_take_text - the bytes between the quotes, as many as there is room. */
 void placed_take_text(struct value *value, const struct literal *literal);
-/** placed_read - as @type; a literal takes it, all else is widened to it.
- * IEC_NONE: as it is. */
+/** placed_read - as @type: a literal gets it, other values are widened. IEC_NONE:
+ * unchanged. */
 struct value placed_read(const struct placed *placed, enum iec_type type);
 void placed_write(const struct placed *placed, struct value value);
-/** placed_find - the element that @placed names now; what is none is itself. False
- * and one error counted: there is none. */
+/** placed_find - the element that @placed means now; a plain variable is itself. False,
+ * and an error is counted: no such element. */
 bool placed_find(struct walker *walker, const struct placed *placed,
 		 struct placed *out);
 /** placed_element - element @index of an array; false: there is none. */
@@ -163,7 +164,7 @@ int block_pin(const struct block *block, const char *name);
 void block_call(struct block *block, int64_t now_ns);
 int64_t block_get(const struct block *block, const char *name);
 void block_set(struct block *block, const char *name, int64_t value);
-/** block_rises - a level that was FALSE in the call before. */
+/** block_rises - whether the level was FALSE in the previous call. */
 bool block_rises(bool now, bool *was);
 
 /* blocks_more.c */
@@ -172,11 +173,11 @@ void block_call_more(struct block *block, int64_t now_ns);
 
 /* expression.c */
 struct expression;
-/** expression_new - an expression ready to be computed; NULL: cannot. */
+/** expression_new - an expression ready to be computed; NULL: not supported. */
 struct expression *expression_new(struct walker *walker, const struct frame *frame,
 			    const char *text);
 bool expression_assigns(const struct expression *expression);
-/** expression_run - computes it with @power at its first EN; stores its target.
- * Gives what it lets through. */
+/** expression_run - evaluates it with @power at its first EN; stores its target. Returns
+ * its ENO. */
 bool expression_run(struct walker *walker, struct expression *expression, bool power);
 #endif

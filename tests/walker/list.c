@@ -4,7 +4,7 @@
  *
  * Operators, parentheses, jumps, functions with one operand, calls of blocks of the
  * catalogue: what the cases of tests/golden need. A number without a type takes that of
- * the result; with LD it is an INT. It judges nothing: ladder_build() did.
+ * the result; with LD it is an INT. ladder_build() has checked the list.
  */
 #include "tests/walker/sfc.h"
 
@@ -13,7 +13,7 @@
 #define DEPTH_MAX 16
 #define LINES_MAX 100000
 
-/* What stands before an open parenthesis. */
+/* The state before an open parenthesis. */
 struct opened {
 	struct value result;
 	enum word word;
@@ -42,7 +42,7 @@ static bool find(struct lists *run, uint32_t name, struct placed *out)
 	return run->good && placed_find(run->walker, &place, out);
 }
 
-/* As the type of the result, if it is a number without one. */
+/* A number without a type gets the type of the result. */
 static struct value operand(struct lists *run, const struct il_line *line, bool load)
 {
 	struct value value = { .type = IEC_BOOL };

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * place - what an operand names, read and written. Variables are found in frame.c.
+ * place - resolves, reads and writes operands. frame.c finds variables.
  *
- * Direct addresses live in plain byte arrays, so whatever overlays is seen at
- * once. Linear searches: the programs it walks are small.
+ * Direct addresses are in plain byte arrays, so that overlaps work. Linear searches:
+ * the programs are small.
  */
 #include "tests/walker/inside.h"
 
@@ -86,7 +86,7 @@ struct placed walker_place(struct walker *walker, const struct frame *frame,
 	placed = of_system(walker, text, len);
 	if (placed.kind != PLACED_NOWHERE)
 		return placed;
-	/* `%MX0.0[i]`: what stands before the brackets, and its index. */
+	/* `%MX0.0[i]`: the address, and its index. */
 	if (open && text[len - 1] == ']')
 		return placed_index(walker, frame, walker_place(walker, frame, text,
 				    (size_t)(open - text)), open + 1, text + len - 1);

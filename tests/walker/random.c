@@ -2,10 +2,9 @@
  *
  * random - networks of random shape, column by column.
  *
- * Power is led from bar to bar: each live row gets an element, a wire, or ends
- * where another row carries its net on; links join what stands one above the
- * other. That gives series, parallels, splits and bridges alike. What breaks a
- * rule of topology is thrown away.
+ * Power is led from bar to bar: each live row gets an element or a wire, or ends if
+ * another row continues its net; links join neighbouring rows. That gives series,
+ * parallels, splits and bridges. A rung that breaks a rule of topology is discarded.
  */
 #include "tests/walker/random.h"
 
@@ -87,7 +86,7 @@ static bool is_below(const struct random_cell *cell)
 	return cell->kind == RANDOM_PIN || cell->kind == RANDOM_BLANK;
 }
 
-/* Is anything but a link at this bar? */
+/* Whether an element or a wire is at this bar. */
 static bool bar_is_used(const struct random_rung *rung, int row, int bar)
 {
 	bool left = bar > 0 && (rung->cell[row][bar - 1].kind == RANDOM_WIRE ||
@@ -128,7 +127,7 @@ static bool bar_is_linked(const struct random_rung *rung, int row, int bar)
 			    rung->cell[row + 1][bar - 1].link));
 }
 
-/* A wire goes on at both its ends. */
+/* A wire continues at both its ends. */
 static bool wires_are_sound(const struct random_rung *rung)
 {
 	for (int row = 0; row < rung->rows; row++) {
@@ -171,8 +170,8 @@ static void find_nets(struct sketch *sketch)
 	}
 }
 
-/* Nets that power can reach, round by round: what feeds a net must be fed
- * before. A cycle never gets its turn. */
+/* Nets that power can reach, round by round: the elements that feed a net must be fed
+ * first. A cycle is never reached. */
 static bool everything_is_fed(struct sketch *sketch)
 {
 	const struct random_rung *rung = sketch->rung;
@@ -221,7 +220,7 @@ static bool everything_is_fed(struct sketch *sketch)
 	return all;
 }
 
-/* Nowhere may power have to flow from right to left along a wire. */
+/* Power must not have to flow from right to left along a wire. */
 static bool all_flows_right(struct sketch *sketch)
 {
 	const struct random_rung *rung = sketch->rung;
@@ -280,11 +279,11 @@ bool random_sound(const struct random_rung *rung)
 struct drawing {
 	struct random_source *source;
 	struct random_rung *rung;
-	bool live[RANDOM_ROWS];  /* power may come at the bar left of `col`    */
+	bool live[RANDOM_ROWS];  /* the bar left of `col` may have power       */
 	int col, later;
 };
 
-/* A box at this row; false when its pins find no room. */
+/* A box at this row; false if there is no room for its pins. */
 static bool draw_box(struct drawing *drawing, int row)
 {
 	struct random_cell *cell = &drawing->rung->cell[row][drawing->col];
@@ -370,7 +369,7 @@ static void draw_rung(struct random_source *source, struct random_rung *rung,
 	int rows = 1, cols = 2;
 
 	do {
-		/* A large shape is hard to meet: insist for a while. */
+		/* A large shape is rare: tries for a while. */
 		if (tries++ % 100 == 0) {
 			rows = 1 + (int)random_below(source, RANDOM_ROWS);
 			cols = 2 + (int)random_below(source, RANDOM_COLS - 1);
@@ -417,7 +416,7 @@ static void make_loop(struct random_program *program)
 	first->off = back->off = clear->off = false;
 }
 
-/* Some cells of the programs become calls of the subroutine, ends and stops. */
+/* Some cells become calls of the subroutine, ends and stops. */
 static void add_flow(struct random_source *source, struct random_program *program,
 		     struct random_rung *rung)
 {
@@ -439,15 +438,15 @@ static void add_flow(struct random_source *source, struct random_program *progra
 	}
 }
 
-/* A body that looks at the very instance that it works on, by its name outside, sees what
- * docs/language.md says; programs here leave that alone. */
+/* Whether a body reads its own instance by its global name. docs/language.md defines
+ * that, but it is not generated here. */
 static bool names_global(const char *text)
 {
 	return strstr(text, "inner_a") || strstr(text, "inner_b") ||
 	       strstr(text, "outer_");
 }
 
-/* Some boxes of a rung become calls of what is the program's own. */
+/* Some boxes of a rung become calls of the program's own blocks. */
 static void add_own(struct random_source *source, struct random_rung *rung)
 {
 	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
@@ -465,7 +464,7 @@ static void add_own(struct random_source *source, struct random_rung *rung)
 	}
 }
 
-/* A function: no edges, no instances, no calls of what keeps something. */
+/* A function: no edges, no instances, no calls of blocks with a state. */
 static void forget(struct random_source *source, struct random_rung *rung)
 {
 	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
@@ -516,8 +515,8 @@ static void make_own(struct random_source *source, struct random_program *progra
 	}
 }
 
-/* Small ones, of any number of bytes, or larger than usual. What programs name by a
- * fixed address stays inside; what they index does not. */
+/* Small areas, of any number of bytes, or larger than usual. Fixed addresses of
+ * programs stay inside; indexed ones do not. */
 static void draw_areas(struct random_source *source, struct random_program *program)
 {
 	static const struct { uint32_t least, more; } bounds[RANDOM_AREAS] = {

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * random - valid ladder programs by the thousand, from a seed.
+ * random - random valid ladder programs, from a seed.
  *
- * A program is kept as a grid of cell texts, so that a failing one can be cut
- * down cell by cell. It makes programs; it does not run or judge them beyond
- * the rules of topology.
+ * A program is a grid of cell texts, so that a failing one can be reduced cell by cell.
  */
 #ifndef WALKER_RANDOM_H
 #define WALKER_RANDOM_H
@@ -19,7 +17,7 @@
 #define RANDOM_RUNGS 16
 #define RANDOM_AREAS 5 /* I, Q, M, V, XAQ                                     */
 
-/* Where a rung stands. */
+/* The POU of a rung. */
 enum random_pou {
 	RANDOM_MAIN, RANDOM_OTHER, RANDOM_INNER, RANDOM_OUTER, RANDOM_RECKON,
 	RANDOM_POUS
@@ -27,8 +25,8 @@ enum random_pou {
 
 enum random_kind {
 	RANDOM_EMPTY, RANDOM_WIRE, RANDOM_SERIES, RANDOM_BOX, RANDOM_LAST,
-	RANDOM_PIN,   /* a further row of the box above, fed by a branch      */
-	RANDOM_BLANK, /* one without a pin                                    */
+	RANDOM_PIN,   /* a PIN row of the box above, fed by a branch          */
+	RANDOM_BLANK, /* a PIN row without a pin                              */
 };
 
 struct random_cell {
@@ -68,26 +66,26 @@ void random_make(struct random_program *program, uint64_t seed);
 /** random_print - its text with just the declarations it uses; length. */
 size_t random_print(const struct random_program *program, char *out,
 		    size_t size);
-/** random_sound - does the rung keep the rules of topology? */
+/** random_sound - whether the rung keeps the rules of topology. */
 bool random_sound(const struct random_rung *rung);
 
 /* words.c: the text of one cell. @later: label a jump may go to; 0: none. */
 void random_series(struct random_source *source, char *out, size_t size);
 void random_last(struct random_source *source, int later, char *out,
 		 size_t size);
-/** random_box - gives the pins it wants fed, from the top down. */
+/** random_box - returns the pins that need a feeding row, from the top. */
 int random_box(struct random_source *source, char *out, size_t size,
 	       const char *pin[3]);
 /* words_own.c: functions, blocks and structures of the program's own. */
-/** random_own_call - the text of a box that calls one from a rung of @pou. */
+/** random_own_call - the text of a box that calls one of them from a rung of @pou. */
 void random_own_call(struct random_source *source, int pou, char *out, size_t size);
-/** random_without_memory - edges in the text of a cell become plain. */
+/** random_without_memory - replaces edges in the text of a cell by plain contacts. */
 void random_without_memory(struct random_source *source, char *text, size_t size);
-/** random_own_head, random_own_tail - what stands around the rungs. Live for ever. */
+/** random_own_head, random_own_tail - the text around the rungs. Static. */
 const char *random_own_head(int pou);
 const char *random_own_tail(int pou);
-/** random_types - the types that @body needs. Lives for ever. */
+/** random_types - the types that @body needs. Static. */
 const char *random_types(const char *body);
-/** random_declare - declarations of the variables that stand in @body. */
+/** random_declare - declarations of the variables in @body. */
 size_t random_declare(const char *body, char *out, size_t size);
 #endif

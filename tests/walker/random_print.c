@@ -63,7 +63,7 @@ static void print_rung(const struct random_program *program,
 	}
 }
 
-/* Is there something of its own that it calls or looks into? */
+/* Whether it calls or reads something of the program's own. */
 static bool is_own(const struct random_program *program, const char *body)
 {
 	return program->rung[program->rungs - 1].pou > RANDOM_OTHER ||

@@ -4,7 +4,7 @@
  */
 #include "tests/walker/random_sfc.h"
 
-#define DEEPEST 3      /* structures in one another                            */
+#define DEEPEST 3      /* nested structures                                    */
 #define MANY_STEPS 20  /* from here on there are only plain sequences          */
 
 uint64_t sfc_key(uint64_t of, uint32_t number)
@@ -58,7 +58,7 @@ static void connect(struct random_sfc *sfc, int from, int to, uint64_t key)
 
 static int sequence(struct random_sfc *sfc, int from, int depth, uint64_t key);
 
-/* One of several ways, and together again. */
+/* Alternative branches, joined again. */
 static int alternatives(struct random_sfc *sfc, int from, int depth, uint64_t key)
 {
 	struct random_source source = sfc_source(key);
@@ -82,7 +82,7 @@ static int alternatives(struct random_sfc *sfc, int from, int depth, uint64_t ke
 	return after;
 }
 
-/* Side by side; now and then once more before they are joined. */
+/* Simultaneous branches; sometimes with another split before the join. */
 static int together(struct random_sfc *sfc, int from, int depth, uint64_t key)
 {
 	struct random_source source = sfc_source(key);
@@ -150,7 +150,7 @@ static int plain(struct random_sfc *sfc, int from, uint64_t key)
 	return next;
 }
 
-/* From where the token is to where it comes to, which nothing leaves yet. */
+/* From the step with the token to a new step without transitions. */
 static int element(struct random_sfc *sfc, int from, int depth, uint64_t key)
 {
 	struct random_source source = sfc_source(sfc_key(key, 0));
@@ -199,7 +199,7 @@ static bool is_left(const struct random_sfc *sfc, int step)
 	return false;
 }
 
-/* Another step of the same macro-step; @left: one that is left already. -1: not found. */
+/* Another step of the same macro-step; @left: a step with a transition. -1: none. */
 static int pick(const struct random_sfc *sfc, struct random_source *source, int macro,
 		int not, bool left)
 {
@@ -213,7 +213,7 @@ static int pick(const struct random_sfc *sfc, struct random_source *source, int 
 	return -1;
 }
 
-/* A transition from anywhere to anywhere. */
+/* A transition between any two steps. */
 static void make_unsafe(struct random_sfc *sfc, uint64_t key)
 {
 	struct random_source source = sfc_source(key);

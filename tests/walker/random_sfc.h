@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * random_sfc - valid sequential function charts by the thousand, from a seed.
+ * random_sfc - random valid sequential function charts, from a seed.
  *
- * A chart is grown from sequences in which one token goes from a step to another, so no
- * two ever meet; a share of charts gets some transitions more, in which they do. Each part
- * has a key of its own, and can be left out without changing the others, so that a chart
- * that fails can be cut down. It makes charts; it does not run or judge them.
+ * A chart grows from sequences in which one token moves from step to step, so tokens
+ * never meet; some charts get more transitions, in which they do. Each part has a key,
+ * and can be left out without changing the others, so that a failing chart can be
+ * reduced.
  */
 #ifndef WALKER_RANDOM_SFC_H
 #define WALKER_RANDOM_SFC_H
@@ -19,7 +19,7 @@
 
 struct random_step {
 	uint64_t key;
-	int macro;               /* it stands in; -1: none                     */
+	int macro;               /* macro-step that contains it; -1: none      */
 	bool initial, is_macro;
 };
 
@@ -32,9 +32,9 @@ struct random_arc {
 
 struct random_sfc {
 	uint64_t seed;
-	uint64_t dropped[SFC_PARTS]; /* keys of what is left out             */
+	uint64_t dropped[SFC_PARTS]; /* keys of parts that are left out      */
 	int dropped_count;
-	uint64_t part[SFC_PARTS];    /* keys of what is in it, by printing    */
+	uint64_t part[SFC_PARTS];    /* keys of its parts, set by printing    */
 	int part_count;
 	/* made by printing */
 	struct random_step step[SFC_STEPS];
@@ -44,15 +44,15 @@ struct random_sfc {
 	bool unsafe;
 };
 
-/** random_sfc_print - its text; the parts that may be left out get into @chart. */
+/** random_sfc_print - its text; @chart gets the keys of parts that may be left out. */
 size_t random_sfc_print(struct random_sfc *sfc, char *out, size_t size);
 
 /* Between the parts of the generator. */
 /** sfc_grow - steps and transitions. */
 void sfc_grow(struct random_sfc *sfc);
-/** sfc_key - that of part @number of what has key @of. */
+/** sfc_key - the key of part @number of the part with key @of. */
 uint64_t sfc_key(uint64_t of, uint32_t number);
-/** sfc_has - is this part in it? */
+/** sfc_has - whether the chart has this part. */
 bool sfc_has(struct random_sfc *sfc, uint64_t key);
 struct random_source sfc_source(uint64_t key);
 #endif

@@ -2,7 +2,7 @@
  *
  * random_sfc_print - a random chart as text: its lines, conditions and bodies.
  *
- * All of it stands on one set of variables, so that one part sees what another does.
+ * All parts share one set of variables, so that they affect each other.
  */
 #include "tests/walker/random_sfc.h"
 
@@ -86,7 +86,7 @@ static const char *some_time(struct random_source *source)
 	return times[random_below(source, sizeof(times) / sizeof(*times))];
 }
 
-/* Something that is TRUE or FALSE, for an expression. */
+/* A BOOL condition for an expression. */
 static void put_atom(struct page *page, struct random_source *source, int step)
 {
 	char name[32];
@@ -107,7 +107,7 @@ static void put_atom(struct page *page, struct random_source *source, int step)
 	}
 }
 
-/* Comparisons stand in parentheses. */
+/* Comparisons are in parentheses. */
 static void put_expression(struct page *page, struct random_source *source, int step)
 {
 	int atoms = random_chance(source, 50) ? 1 : 2 + (int)random_below(source, 2);
@@ -139,7 +139,7 @@ static void put_timer(struct page *page, struct random_source *source)
 
 /* ---- conditions ---- */
 
-/* Another way to be TRUE, so that charts seldom stand still: some time, an input. */
+/* An alternative that becomes TRUE, so that charts seldom stop: a time or an input. */
 static void put_way_out(struct page *page, struct random_source *source, int step)
 {
 	if (random_chance(source, 60))
@@ -229,7 +229,7 @@ static void put_arc(struct page *page, const struct random_arc *arc, int number)
 	if (random_chance(&source, 30) &&
 	    sfc_has(page->sfc, sfc_key(arc->key, 3)))
 		put(page, " (PRIORITY := %d)", 1 + (int)random_below(&source, 3));
-	/* IN ORDER: out of nothing, into nothing. */
+	/* IN ORDER: source and sink transitions. */
 	if (page->in_order && arc->macro < 0 && random_chance(&source, 8))
 		open_end = 1 + (int)random_below(&source, 2);
 	if (open_end != 1) {
@@ -332,8 +332,8 @@ static void put_step(struct page *page, int number)
 	put(page, "  END_STEP\n");
 }
 
-/* Steps and transitions of a macro-step, or of the chart: in order, or mixed. Depth: of
- * macro-steps in one another. */
+/* Steps and transitions of a macro-step, or of the chart: in order, or mixed. Depth:
+ * nested macro-steps. */
 static void put_inside(struct page *page, int macro)
 {
 	struct random_sfc *sfc = page->sfc;
@@ -526,7 +526,7 @@ static void put_head(struct page *page, const char *name, const char *evolution)
 	put(page, "  END_VAR\n\n");
 }
 
-/* What chart->seed makes. */
+/* The text for chart->seed. */
 static void put_program(struct page *whole, const char *name)
 {
 	static char body[96 * 1024];

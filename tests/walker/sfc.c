@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc - a token game over a chart, word for word as docs/sfc.md tells it.
+ * sfc - plays a chart as a token game, as docs/sfc.md describes it.
  *
- * Every step, transition and line is looked at in every scan; a macro-step is followed
- * inwards each time one asks. What the lines of steps ask for is in sfc_lines.c.
+ * Every step, transition and line is evaluated in every scan; macro-steps are searched
+ * each time. sfc_lines.c handles the lines of steps.
  */
 #include "tests/walker/sfc_inside.h"
 
@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define ROUNDS_MAX 50        /* of a scan, IN ORDER                           */
-#define EVOLUTIONS_MAX 1000  /* of a scan; a chart that needs more never rests */
+#define EVOLUTIONS_MAX 1000  /* of a scan; a chart with more of them is a fault */
 
 /* ---- macro-steps ---- */
 
@@ -44,7 +44,7 @@ static int exit_of(const struct sfc *sfc, int macro)
 	return i;
 }
 
-/* Depth of these three: macro-steps in one another, at most 8. */
+/* Depth of these three: nested macro-steps, at most 8. */
 static bool can_be_left(const struct played_sfc *played, int step)
 {
 	if (!value_is_true(*played->step[step].x))
@@ -53,7 +53,7 @@ static bool can_be_left(const struct played_sfc *played, int step)
 	       can_be_left(played, exit_of(played->sfc, step));
 }
 
-/* Nobody who came before takes it. */
+/* Whether no earlier transition takes it. */
 static bool is_free(const struct played_sfc *played, int step)
 {
 	if (played->step[step].leaving)
@@ -132,7 +132,7 @@ static int rank(const struct sfc_transition *transition)
 	return transition->priority ? transition->priority : INT_MAX;
 }
 
-/* Does @a come before @b? */
+/* Whether @a comes before @b. */
 static bool is_before(const struct sfc *sfc, int a, int b)
 {
 	int high = rank(&sfc->transition[a]), low = rank(&sfc->transition[b]);
@@ -140,7 +140,7 @@ static bool is_before(const struct sfc *sfc, int a, int b)
 	return high < low || (high == low && a < b);
 }
 
-/* The place of each: so many come before it. */
+/* The rank of each: the number of those before it. */
 static void make_order(struct played_sfc *played)
 {
 	const struct sfc *sfc = played->sfc;
@@ -220,8 +220,9 @@ static void activate(struct played_sfc *played, int step)
 	played->step[step].begins = true;
 }
 
-/* What it waited for is evaluated no more, and has no power that one may look at. With
- * the last step of a macro-step goes what that waited for. Depth: macro-steps. */
+/* The conditions behind the step are no longer evaluated, and have no power to compare.
+ * The last step of a macro-step includes the conditions behind the macro-step. Depth:
+ * macro-steps. */
 static void forget_power(struct played_sfc *played, int step)
 {
 	const struct sfc *sfc = played->sfc;
@@ -254,7 +255,7 @@ static void do_list(struct walker *walker, struct played_sfc *played, int step)
 	played->step[step].begins = false;
 }
 
-/* SET and RESET of the steps that became active just now. */
+/* SET and RESET of the steps that just became active. */
 static void do_lists(struct walker *walker, struct played_sfc *played)
 {
 	for (int i = 0; i < played->sfc->step_count; i++)
@@ -281,13 +282,13 @@ static bool evaluate(struct walker *walker, struct played_sfc *played,
 	return good;
 }
 
-/* What the controls say in this scan. */
+/* The values of the controls in this scan. */
 struct orders {
 	bool reset, held_reset, hold, semi, manual, tip;
 	int force; /* number of a step, from 0; -1: none                      */
 };
 
-/* All it wants is active, and nobody who came before takes it. */
+/* Whether all its steps are active, and no earlier transition takes one. */
 static bool is_enabled(const struct played_sfc *played, const struct sfc_transition *transition)
 {
 	for (int k = 0; k < transition->from_count; k++) {
@@ -306,7 +307,7 @@ static bool may_fire(struct orders orders, bool is_true)
 	return is_true && (!orders.semi || orders.tip);
 }
 
-/* The first that may takes its steps. */
+/* The first enabled transition takes its steps. */
 static bool choose(struct walker *walker, struct played_sfc *played, struct orders orders,
 		   bool *any)
 {
@@ -387,7 +388,7 @@ static void fire_at_once(struct walker *walker, struct played_sfc *played,
 	}
 }
 
-/* Transition after transition, each at once, until a round brings nothing. */
+/* One transition after another, each at once, until a round fires none. */
 static bool evolve_in_order(struct walker *walker, struct played_sfc *played, struct orders orders)
 {
 	bool any = true;
@@ -441,7 +442,7 @@ static struct orders read_orders(struct walker *walker, struct played_sfc *playe
 	return orders;
 }
 
-/* All steps are left; what is marked becomes active anew. */
+/* Deactivates all steps; marked ones are activated anew. */
 static void begin_anew(struct walker *walker, struct played_sfc *played)
 {
 	for (int i = 0; i < played->sfc->step_count; i++)
@@ -490,7 +491,7 @@ static void pass_time(struct walker *walker, struct played_sfc *played, bool hol
 	lines_pass_time(played, passed);
 }
 
-/* With UNTIL STABLE the chart is looked at until nothing fires; one TIP is for one
+/* With UNTIL STABLE evolutions repeat until nothing fires; one TIP allows one
  * evolution. */
 static bool evolve(struct walker *walker, struct played_sfc *played, struct orders orders)
 {

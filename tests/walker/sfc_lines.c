@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_lines - the walker's qualifiers: which actions and BOOLs the lines of steps call
- * for, and doing it (docs/sfc.md, Qualifiers).
+ * sfc_lines - the walker's qualifiers: the actions and BOOLs that the lines of steps
+ * call, and their execution (docs/sfc.md, Qualifiers).
  */
 #include "tests/walker/sfc_inside.h"
 
@@ -14,7 +14,7 @@ static struct target *new_target(struct played_sfc *played)
 	return &played->target[played->target_count++];
 }
 
-/* Two texts for the same bit? */
+/* Whether two texts mean the same bit. */
 static bool is_one(const struct placed *a, const struct placed *b)
 {
 	if (a->kind != b->kind || a->index || b->index)
@@ -24,7 +24,7 @@ static bool is_one(const struct placed *a, const struct placed *b)
 	return a->kind == PLACED_AREA && a->byte == b->byte && a->bit == b->bit;
 }
 
-/* The BOOL of this name, which may have been named before. */
+/* The BOOL of this name, perhaps from an earlier line. */
 static int bool_named(struct walker *walker, struct played_sfc *played, uint32_t name)
 {
 	const char *text = project_text(walker->project, name);
@@ -96,7 +96,7 @@ bool lines_make(struct walker *walker, struct played_sfc *played)
 	return true;
 }
 
-/* ---- what begins and what ends ---- */
+/* ---- activation and deactivation ---- */
 
 void lines_once(struct walker *walker, struct played_sfc *played, int step)
 {
@@ -145,7 +145,7 @@ static void begin_line(struct played_line *line, const struct played_step *step)
 	}
 }
 
-/* Of this target, by an R. */
+/* Whether an R of this target is active. */
 static void end_lines(struct played_sfc *played, int target)
 {
 	for (int i = 0; i < played->line_count; i++)
@@ -167,7 +167,7 @@ static void begin_and_end(struct played_sfc *played)
 	}
 }
 
-/* ---- what is called for ---- */
+/* ---- calls ---- */
 
 static bool calls(const struct played_sfc *played, const struct played_line *line)
 {
@@ -205,7 +205,7 @@ static bool reads_late(const struct played_line *line)
 	return line->use->qualifier == QUALIFIER_SD || line->use->qualifier == QUALIFIER_SL;
 }
 
-/* Is the target called for; *@in_passing: by P0 and P1 alone? */
+/* Whether the target is called; *@in_passing: only by P0 and P1. */
 static bool is_called(const struct played_sfc *played, int target, bool *in_passing)
 {
 	bool called = false;
@@ -239,7 +239,7 @@ static bool run_body(struct walker *walker, struct played_sfc *played,
 	return walk_rungs(walker, played->walked, body->first, body->count);
 }
 
-/* One target: in the scan in which it is called for no more, once again. */
+/* One target: it runs once more in the scan after its last call. */
 static bool act(struct walker *walker, struct played_sfc *played, struct target *target)
 {
 	bool last = target->was_called && !target->called, good = true;
@@ -257,8 +257,8 @@ static bool act(struct walker *walker, struct played_sfc *played, struct target 
 	return good;
 }
 
-/* Who calls is settled before anything is done, but for the times of SD and SL, which are
- * read as late as can be. */
+/* The calls are determined before any action runs, except for the times of SD and SL,
+ * which are read as late as possible. */
 bool lines_act(struct walker *walker, struct played_sfc *played)
 {
 	begin_and_end(played);

@@ -14,7 +14,7 @@ static void append(struct value *out, const struct value *from, int first, int l
 		out->text[out->len++] = from->text[i];
 }
 
-/* A number that may be an unsigned one beyond all bounds. */
+/* A number; perhaps an unsigned one that is very large. */
 static bool is_below_0(struct value number)
 {
 	return number.type != IEC_ULINT && number.i < 0;
@@ -53,7 +53,7 @@ bool text_is_function(enum word fn)
 	       fn == FN_DELETE || fn == FN_REPLACE;
 }
 
-/* MID, DELETE, REPLACE: what becomes of the bytes from one place to another. */
+/* MID, DELETE, REPLACE: the bytes from one place to another. */
 static enum outcome around(enum word fn, const struct value *in, struct value *out)
 {
 	int pin = fn == FN_REPLACE ? 2 : 1, first, last;

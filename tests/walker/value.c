@@ -2,7 +2,7 @@
  *
  * value - the walker's own arithmetic: widening, wrapping, failing.
  *
- * docs/language.md, "Arithmetic". It knows nothing of rungs.
+ * docs/language.md, "Arithmetic". No rungs here.
  */
 #include "tests/walker/inside.h"
 
@@ -22,7 +22,7 @@ bool value_is_true(struct value value)
 static bool widens(enum iec_type from, enum iec_type to)
 {
 	static const char *const chain[] = {
-		/* from each word to those behind it */
+		/* each type and those it widens to */
 		"SINT INT DINT LINT", "USINT UINT UDINT ULINT",
 		"BYTE WORD DWORD LWORD", "USINT INT DINT LINT", "UINT DINT LINT",
 		"UDINT LINT", "SINT REAL LREAL", "INT REAL LREAL",
@@ -241,8 +241,8 @@ static struct value choose(enum word fn, const struct value *in, int count)
 	return best;
 }
 
-/* More than two inputs: the function of the first two, then of that and the
- * next; a wrap anywhere is a wrap. */
+/* More than two inputs: the function of the first two, then of the result and the next;
+ * a wrap anywhere wraps the whole. */
 enum outcome value_compute(enum word fn, const struct value *in, int count,
 			   struct value *out)
 {
@@ -286,7 +286,7 @@ enum outcome value_compute(enum word fn, const struct value *in, int count,
 
 #define DAY_NS INT64_C(86400000000000)
 
-/* A clock that goes on past midnight, and then says so. */
+/* A time of day that wraps at midnight with an error. */
 static enum outcome turn(int64_t clock, int64_t by, bool back, int64_t *out)
 {
 	int64_t whole = by / DAY_NS, part = by % DAY_NS;
@@ -301,7 +301,7 @@ static enum outcome turn(int64_t clock, int64_t by, bool back, int64_t *out)
 	return over ? OUTCOME_WRAPPED : OUTCOME_GOOD;
 }
 
-/* A time and a ULINT: the sizes, then the sign. */
+/* A time and a ULINT: multiplies sizes, then applies the sign. */
 static enum outcome scale_unsigned(enum word fn, int64_t time, uint64_t by, int64_t *out)
 {
 	uint64_t size = time < 0 ? 0 - (uint64_t)time : (uint64_t)time;

@@ -105,7 +105,7 @@ static bool net_power(const struct walked_rung *walked, int net)
 	return false;
 }
 
-/* Stores where there is such a place. */
+/* Stores, if the place exists. */
 static bool put(struct walker *walker, const struct placed *to, struct value value)
 {
 	struct placed here;
@@ -116,7 +116,7 @@ static bool put(struct walker *walker, const struct placed *to, struct value val
 	return true;
 }
 
-/* A written input; behind a / its inverse. */
+/* A parameter of an input; inverted behind a /. */
 static struct value read_input(const struct parameter *from, const struct placed *at,
 			       enum iec_type type)
 {
@@ -166,7 +166,7 @@ static bool call_block(struct walker *walker, struct walked_rung *walked,
 	return value_is_true(pin[word_first_bool(row, PIN_OUT)]);
 }
 
-/* What an input is read as: a pin of its own takes what stands there. */
+/* The value of an input: an own pin takes it unchanged. */
 static enum iec_type type_at(const struct walked *at, const struct parameter *from)
 {
 	if (!word_input(word_row(at->word), (uint32_t)from->pin)->own)
@@ -174,7 +174,7 @@ static enum iec_type type_at(const struct walked *at, const struct parameter *fr
 	return from->placed.type == IEC_NONE ? IEC_DINT : from->placed.type;
 }
 
-/* Does a text find room where it goes? */
+/* Whether a text fits its destination. */
 static bool has_room(const struct placed *to, struct value value)
 {
 	return value.type != IEC_STRING || value.len <= to->value->room;
@@ -224,7 +224,7 @@ static bool call_function(struct walker *walker, struct walked_rung *walked,
 	return outcome == OUTCOME_GOOD;
 }
 
-/* An edge is looked at without power too. */
+/* Edges are updated without power, too. */
 static bool contact(struct walker *walker, struct walked *at, bool power)
 {
 	bool edge = at->word == ELEM_CONTACT_P || at->word == ELEM_CONTACT_N;
@@ -276,7 +276,8 @@ static int first_bool(const struct frame *callee, uint8_t flag)
 	return -1;
 }
 
-/* What goes in, read before anything of the callee is written; false: it is not there. */
+/* Reads the inputs, before the callee writes anything; false: an element does not
+ * exist. */
 static bool read_parameters(struct walker *walker, const struct walked *at, bool outputs,
 			    struct value *given)
 {
@@ -306,8 +307,8 @@ static void write_back(struct walker *walker, const struct walked *at)
 	}
 }
 
-/* A block of the project is called whatever its power; what gives no power on is one
- * without a BOOL to take it. A function runs with power alone, and begins anew. */
+/* A block of the project is called with and without power; without a BOOL output it
+ * gives no power. A function runs only with power, and its variables start anew. */
 static bool call_own(struct walker *walker, struct walked *at, bool power)
 {
 	struct frame *callee = at->callee;
@@ -342,7 +343,7 @@ static void call_routine(struct walker *walker, struct walked *at, bool power)
 		walker->lost = true;
 }
 
-/* Phase 1 of one element, its feeders being done. */
+/* Phase 1 of one element, after its feeders. */
 static void pass(struct walker *walker, struct walked_rung *walked,
 		 struct walked *at)
 {
@@ -370,7 +371,7 @@ static void pass(struct walker *walker, struct walked_rung *walked,
 		at->power_out = contact(walker, at, power);
 }
 
-/* Depth: a path of a rung, at most its elements; grids of tests are small. */
+/* Depth: a path of a rung has at most its elements; grids of tests are small. */
 static void visit(struct walker *walker, struct walked_rung *walked,
 		  struct walked *at)
 {
@@ -417,7 +418,7 @@ static void drive(struct walker *walker, struct walked *at)
 
 #define RUNG_NEXT -1
 #define RUNG_LEAVE -2
-/* Gives the rung to go on at, RUNG_NEXT or RUNG_LEAVE. */
+/* Returns the next rung, RUNG_NEXT or RUNG_LEAVE. */
 static int walk_rung(struct walker *walker, struct walked_rung *walked)
 {
 	walked->scan = walker->scans;

@@ -2,8 +2,8 @@
  *
  * words - random contents of cells: contacts, coils, boxes, expressions.
  *
- * A pool of variables of every type, with initial values near the limits; the
- * declarations of those that a program uses are printed in front of it.
+ * A pool of variables of every type, with initial values near the limits; those that a
+ * program uses are declared in front of it.
  */
 #include "tests/walker/words.h"
 
@@ -139,7 +139,7 @@ static const char *const computed[][2] = {
 
 #define POOL (sizeof(pool) / sizeof(*pool))
 
-/* What an operation of type `type` may also take: it is widened. */
+/* Other types that an operation of type `type` accepts: they are widened. */
 static const char *const narrower[][2] = {
 	{ "INT", "SINT" }, { "INT", "USINT" }, { "DINT", "INT" },
 	{ "DINT", "UINT" }, { "DINT", "SINT" }, { "UINT", "USINT" },
@@ -151,7 +151,7 @@ static const char *const narrower[][2] = {
 	{ "LWORD", "DWORD" },
 };
 
-#define PLAIN_NARROWER 16 /* of them numbers, the rest bits                   */
+#define PLAIN_NARROWER 16 /* numbers first, then bits                         */
 
 static const char *const numbers[] = {
 	"SINT", "INT", "INT", "DINT", "DINT", "USINT", "UINT", "UDINT", "INT",
@@ -164,7 +164,7 @@ static const char *any_number(struct random_source *source)
 	return numbers[random_below(source, sizeof(numbers) / sizeof(*numbers))];
 }
 
-/* A variable of just this type; the pool has at least one of each. */
+/* A variable of exactly this type; the pool has at least one of each. */
 const char *variable(struct random_source *source, const char *type,
 			    bool write)
 {
@@ -188,7 +188,7 @@ const char *term(struct random_source *source, const char *type, bool write)
 	return variable(source, type, write);
 }
 
-/* Something that may stand beside a value of @type in one operation. */
+/* An operand that may be beside a value of @type in one operation. */
 static const char *beside(struct random_source *source, const char *type)
 {
 	size_t count = sizeof(narrower) / sizeof(*narrower);
@@ -453,7 +453,7 @@ static void function(struct builder *builder)
 	if (strstr(type, "REAL") && strcmp(fn, "MOD") == 0)
 		type = "DINT";
 	if (is_dated(type) && !compare && strcmp(fn, "MOVE") != 0)
-		type = "LINT"; /* dates add up in expressions */
+		type = "LINT"; /* dates can be added in expressions */
 	if (strcmp(fn, "MOVE") == 0 && random_chance(source, 30))
 		type = random_chance(source, 40) ? "WORD" :
 		       random_chance(source, 50) ? "LWORD" : "BOOL";
@@ -507,7 +507,7 @@ int random_box(struct random_source *source, char *out, size_t size,
 	return random_block(&builder, pin);
 }
 
-/* Does @name stand in @body as a word of its own? */
+/* Whether @name is in @body as a word of its own. */
 bool is_used(const char *body, const char *name)
 {
 	size_t len = strcspn(name, ".");

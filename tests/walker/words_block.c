@@ -2,7 +2,7 @@
  *
  * words_block - random function blocks and their pins.
  *
- * The parameters are such that a program is accepted, and near where behaviour turns.
+ * The parameters are valid, and near the limits of behaviour.
  */
 #include "tests/walker/words.h"
 
@@ -35,7 +35,7 @@ static const char *const more[][2] = {
 };
 #define MORE (sizeof(more) / sizeof(*more))
 
-/* A Boolean input: fed by a branch, written, or left alone. */
+/* A Boolean input: fed by a branch, written, or not connected. */
 static int bool_pin(struct builder *builder, const char *name,
 		    const char *pin[3], int fed)
 {
@@ -49,7 +49,7 @@ static int bool_pin(struct builder *builder, const char *name,
 	return fed;
 }
 
-/* PV and CV of a counter, whose type stands in its name. */
+/* PV and CV of a counter; the type is in its name. */
 static void preset(struct builder *builder, const char *fb)
 {
 	struct random_source *source = builder->source;
@@ -64,7 +64,7 @@ static void preset(struct builder *builder, const char *fb)
 		words_put(builder, " CV=>%s", variable(source, type, true));
 }
 
-/* What may stand at an input that is not BOOL. */
+/* A value for an input that is not BOOL. */
 static const char *input(struct random_source *source, enum iec_type type)
 {
 	const char *word = iec_type_row(type)->word;
@@ -79,7 +79,7 @@ static const char *input(struct random_source *source, enum iec_type type)
 	return variable(source, word, false);
 }
 
-/* Inputs that have a value are mostly left alone; a cell is not endless. */
+/* Inputs with an initial value are mostly not connected; a cell has limited length. */
 static int any_block(struct builder *builder, const char *const *which,
 		     const char *pin[3])
 {

@@ -2,9 +2,9 @@
  *
  * words_own - functions, function blocks and structures of a random program's own.
  *
- * Their declarations are fixed, their rungs are random. Variables inside have names of
- * the pool, so that the texts of any cell are good in them: what is local wins. A
- * function block calls another and a function; nothing calls itself.
+ * Their declarations are fixed, their rungs are random. Their variables have names of
+ * the pool, so that the text of any cell is valid in them. A function block calls
+ * another one and a function; there is no recursion.
  */
 #include "tests/walker/words.h"
 
@@ -66,7 +66,7 @@ const char *random_own_tail(int pou)
 	return tail[pou];
 }
 
-/* A parameter that is given with a chance of @percent. */
+/* A parameter with a probability of @percent. */
 static void maybe(struct builder *builder, uint32_t percent, const char *pin,
 		  const char *type, bool write)
 {
@@ -128,7 +128,7 @@ void random_own_call(struct random_source *source, int pou, char *out, size_t si
 		call_inner(&builder, kind < 8 ? "inner_a" : "inner_b");
 }
 
-/* A function keeps nothing: no edges, and no instance to work on. */
+/* A function has no state: no edges, and no instance. */
 void random_without_memory(struct random_source *source, char *text, size_t size)
 {
 	struct builder builder = { source, text, size, 0 };

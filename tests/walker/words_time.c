@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* A TIME out of dates, or of a time and a number. */
+/* A TIME made of dates, or of a time and a number. */
 void random_timely(struct builder *builder, int depth)
 {
 	static const char *const dated[] = { "TIME_OF_DAY", "DATE", "DATE_AND_TIME" };
@@ -51,7 +51,7 @@ static const char *text_of(struct random_source *source)
 			false);
 }
 
-/* A length or position: mostly one that a text has. */
+/* A length or position: mostly a valid one. */
 static const char *place_of(struct random_source *source)
 {
 	static const char *const usual[] = { "1", "2", "3", "0", "4" };
@@ -60,7 +60,7 @@ static const char *place_of(struct random_source *source)
 	       variable(source, random_chance(source, 50) ? "SINT" : "ULINT", false);
 }
 
-/* Each letter a pin: T a text, N a length or position. */
+/* A letter for each pin: T a text, N a length or position. */
 void random_text(struct builder *builder)
 {
 	static const struct { const char *word, *pins[4]; } words[] = {

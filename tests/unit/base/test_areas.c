@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_areas - places of areas of all sizes, what is inside them, and images that have
- * just so much memory.
+ * test_areas - areas of all sizes: their places, what is inside them, and images with
+ * exactly that memory.
  */
 #include "engine/base/areas.h"
 #include "engine/base/limits.h"
@@ -22,7 +22,7 @@ static void test_usual(void)
 	CHECK(areas.size == 20160 && areas.size % 8 == 0);
 }
 
-/* Each byte belongs to one area or to none, whatever the sizes. */
+/* Each byte belongs to at most one area, whatever the sizes. */
 static bool is_sound(const struct areas *areas)
 {
 	uint32_t at = 0, offset = 0;
@@ -143,7 +143,7 @@ static void test_memory(void)
 	      usual - 8192 - 8192 + 8 + 16);
 }
 
-/* What is asked of an image between scans knows its areas too. */
+/* Functions that access an image between scans know its areas, too. */
 static void test_image(void)
 {
 	struct rig rig;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_arena - memory is zeroed, aligned, kept, grown in place and refused when
- * there cannot be so much. It does not measure speed.
+ * test_arena - memory is zeroed, aligned, kept and grown in place; impossible sizes are
+ * refused.
  */
 #include "engine/base/arena.h"
 #include "tests/tap.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_catalog - the rows are whole, and words, pins and operators are found.
+ * test_catalog - the rows are complete, and words, pins and operators are found.
  */
 #include "engine/base/catalog.h"
 #include "engine/base/explain.h"
@@ -11,7 +11,7 @@ static bool is_name(const char *word)
 	return (word[0] >= 'A' && word[0] <= 'Z');
 }
 
-/* Each word and each pin that a user may name says what it is. */
+/* Each word and each pin with a name has an explanation. */
 static void rows_are_explained(void)
 {
 	const struct word_row own = { .number = WORD_COUNT };
@@ -49,7 +49,7 @@ static void rows_are_whole(void)
 		whole &= row->id && row->word && row->family &&
 			 row->number == (enum word)i;
 		whole &= strlen(row->glyph) == (row->kind == WORD_ELEM ? 3 : 0);
-		/* NOT is an element first; the reader finds the function. */
+		/* NOT is also an element; the reader finds the function. */
 		if (i == FN_NOT)
 			found &= word_find(row->word, strlen(row->word)) == ELEM_NOT;
 		else if (is_name(row->word))

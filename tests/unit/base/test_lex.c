@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_lex - the tokens of good text, and an end for every other.
+ * test_lex - the tokens of valid text; any other text ends, too.
  */
 #include "engine/base/lex.h"
 #include "tests/tap.h"
@@ -200,7 +200,7 @@ static void utf8(void)
 	CHECK(utf8_width("a\xff", 2) == 2);
 }
 
-/* Any bytes: tokens lie in the text, one behind the other, and it ends. */
+/* Any bytes: tokens lie in the text, one after another, and the text ends. */
 static bool ends(const char *text, size_t len, bool all)
 {
 	struct lex lex;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_literal - constants are read strictly, fit only where they are exact, and
- * print as text that reads back.
+ * test_literal - constants are read strictly, fit a type only exactly, and print as
+ * text that reads back.
  */
 #include "engine/base/literal.h"
 #include "tests/tap.h"
@@ -15,7 +15,7 @@ static enum literal_result parse(const char *text)
 	return literal_parse(text, strlen(text), &last);
 }
 
-/* An untyped or typed integer with this value? */
+/* Whether it is an untyped or typed integer with this value. */
 static bool is(const char *text, enum iec_type type, int64_t value)
 {
 	return parse(text) == LITERAL_OK && last.type == type && !last.real &&
@@ -96,7 +96,7 @@ static void long_reals(void)
 	CHECK(parse("1._5") == LITERAL_BAD && parse("1.5_") == LITERAL_BAD);
 }
 
-/* As libc reads them, which is exact, too. */
+/* As libc reads them; libc is exact, too. */
 static void reals_of_libc(void)
 {
 	uint64_t seed = 4711;
@@ -247,7 +247,7 @@ static void prints(void)
 	CHECK_TEXT(text_of(IEC_TIME, (union iec_value){ .i = 1000 }), "T#1us");
 }
 
-/* What is printed reads back as the same value. */
+/* The printed text reads back as the same value. */
 static void round_trip(void)
 {
 	uint64_t seed = 1;
@@ -342,7 +342,7 @@ static void dates(void)
 	CHECK(becomes("D#2_024-01-01", LITERAL_BAD) && becomes("D#-2024-01-01", LITERAL_BAD));
 }
 
-/* What the quotes hold, or "?" where it is no constant. */
+/* The text between the quotes, or "?" if it is not a constant. */
 static const char *quoted(const char *text)
 {
 	static char bytes[IEC_STRING_MOST + 1];

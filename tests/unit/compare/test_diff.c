@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_diff - two programs and what is said of them.
+ * test_diff - two programs and their differences.
  */
 #include "engine/model/project.h"
 #include "engine/text/text.h"
@@ -96,7 +96,7 @@ static void test_rungs(void)
 		   "Main rung 1 (L1): moved to rung 4\n"
 		   "Main rung 1 (L1) cell (1,1): NO I1 -> NO X\n"
 		   "Main rung 1 (L1) cell (1,2): COIL Q1 -> COIL Y\n");
-	/* In one gap: one became another, one is new, one has gone. */
+	/* In one gap: one changed, one added, one removed. */
 	CHECK_TEXT(rungs(R(1) R(2) R(3),
 			 R(1) R(7) "RUNG\n| NC I2 | COIL Q2 |\n"),
 		   "Main rung 2: added\n"
@@ -134,7 +134,7 @@ static void test_variables(void)
 	CHECK_TEXT(compare("VAR\nA : STRING[8];\nB : STRING;\nEND_VAR\n",
 			   "VAR\nA : STRING[9];\nB : STRING[80];\nEND_VAR\n", false),
 		   "variable A: type STRING[8] -> STRING[9]\n");
-	/* The order alone. */
+	/* Only the order differs. */
 	CHECK_TEXT(compare("VAR\nA : BOOL;\nB : BOOL;\nEND_VAR\n",
 			   "VAR\nB : BOOL;\nA : BOOL;\nEND_VAR\n", false),
 		   "order, layout or comments: changed\n");
@@ -170,7 +170,7 @@ static void test_json(void)
 	CHECK_TEXT(compare("", "", true), "[]\n");
 }
 
-/* Many rungs: a few changes are found, a whole other program does not hang. */
+/* Many rungs: a few changes are found; a completely different program does not hang. */
 static void test_large(void)
 {
 	enum { RUNGS = 5000, SIZE = RUNGS * 60 };
@@ -288,7 +288,7 @@ static const char *pairs(const char *a, const char *b)
 	return sink_memory_text(&memory);
 }
 
-/* Each rung once, -1 where there is none. */
+/* Each rung once, -1 if it has no match. */
 static void test_pairs(void)
 {
 	static const char one[] = "PROGRAM Main LD\n"
@@ -332,7 +332,7 @@ static const char *lines(const char *a, const char *b)
 	return sink_memory_text(&memory);
 }
 
-/* Each line once, what was before what is. */
+/* Each line once, removed lines before added ones. */
 static void test_lines(void)
 {
 	static const char one[] = "PROGRAM P IL\nLD X\nST Y\nLD Z\nST W\nEND_PROGRAM\n";

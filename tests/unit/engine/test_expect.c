@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What could stand at a place, asked through the facade as an editor does: in lists,
- * cells and declarations, of texts with errors too; and which words are near.
+ * completion through the facade, as the editor uses it: in lists, cells and
+ * declarations, also in texts with errors; and suggestions for misspelled words.
  */
 #include "engine/base/nearest.h"
 #include "engine/ladder.h"
@@ -123,7 +123,7 @@ static void test_cells(struct ladder *ladder)
 		 "words of a cell");
 }
 
-/* Words made by rule: those of a type that stands there already. */
+/* Words made by rule whose first type is typed already. */
 static void test_made(struct ladder *ladder)
 {
 	const char *words = at(ladder, 26, 12);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_ladder - the facade: loads of every kind one after another, includes,
- * and saves that leave the old file or the new one.
+ * test_ladder - the facade: all kinds of loads in sequence, includes, and saves that
+ * leave the old file or the new one.
  */
 #define _XOPEN_SOURCE 700 /* mkdtemp, symlink, setrlimit */
 #include "engine/ladder.h"
@@ -24,7 +24,7 @@ static const char broken[] = "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO | |\n
 static char folder[64];
 static struct diag_list diags;
 
-/* A path in the folder of this test; eight of them live at a time. */
+/* A path in the folder of this test; eight are valid at a time. */
 static const char *in_folder(const char *name)
 {
 	static char path[8][160];
@@ -78,7 +78,7 @@ static bool load(struct ladder *ladder, const char *text)
 	return ladder_load_text(ladder, "text.rung", text, strlen(text));
 }
 
-/* Nothing of a load is left in the next one. */
+/* A load leaves nothing behind for the next one. */
 static void loads_again_and_again(void)
 {
 	struct ladder *ladder = ladder_new();
@@ -247,7 +247,7 @@ static void keeps_the_old_file(void)
 	CHECK_AS(files() == before, "nothing is left beside it");
 }
 
-/* Where this cannot be tried, as root, nothing is checked. */
+/* Skipped where it cannot be tried, as by root. */
 static void takes_closed_folders(void)
 {
 	if (geteuid() == 0)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_rename - each name of each sample is exchanged for a fresh one: the program must
- * be the same, and with the old name back the same bytes. And what must be refused.
+ * test_rename - each name of each sample is replaced by a new one: the program must
+ * stay the same, and renaming it back gives the same bytes. And refusals.
  */
 #include "engine/ladder.h"
 #include "engine/xref/xref.h"
@@ -23,7 +23,7 @@ static struct ladder *loaded(const char *text)
 	return ladder;
 }
 
-/* The one that is declared with this name; what XREF_UNKNOWN: none. */
+/* The declared thing of this name; XREF_UNKNOWN: none. */
 static struct xref_target target_of(struct ladder *ladder, const char *name)
 {
 	struct xref_target target = { .what = XREF_UNKNOWN };
@@ -59,7 +59,7 @@ static bool identity_of(const char *file, const char *text, uint8_t out[32])
 	return good;
 }
 
-/* There and back; true if all is well. */
+/* Renames and renames back; true if all is well. */
 static bool renames(struct ladder *ladder, const char *file,
 		    const struct xref_target *target, const char *old, const char *text,
 		    const uint8_t identity[32])
@@ -238,7 +238,7 @@ static void test_refusals(void)
 	refused(ladder, "Main:One", "two", RENAME_TAKEN, 2);
 	refused(ladder, "A", "C", RENAME_MEANING, 1);      /* Main's C captures it  */
 	refused(ladder, "Main.C", "A", RENAME_MEANING, 1); /* the global is captured */
-	refused(ladder, "B", "Lost", RENAME_MEANING, 3);   /* what meant nothing     */
+	refused(ladder, "B", "Lost", RENAME_MEANING, 3);   /* an unknown name gets a meaning */
 	refused(ladder, "B", "A", RENAME_TAKEN, 0);
 	refused(ladder, "A", "", RENAME_FORM, 0);
 	refused(ladder, "A", "1x", RENAME_FORM, 0);

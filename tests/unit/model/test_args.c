@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_args - parameters of a box are taken apart; malformed ones end the list.
+ * test_args - parameters of a box are split; malformed ones end the list.
  */
 #include "engine/model/args.h"
 #include "tests/tap.h"

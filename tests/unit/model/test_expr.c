@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_expr - precedence, places of errors, and texts without end.
+ * test_expr - precedence, places of errors, and very long texts.
  */
 #include "engine/model/expr.h"
 #include "tests/tap.h"
@@ -236,7 +236,7 @@ static void stops_behind_it(void)
 	CHECK_AS(lex_is(&lex, ")"), "not its own parenthesis");
 }
 
-/* @count times @piece, then "a" and @count times @close. */
+/* @piece @count times, then "a" and @close @count times. */
 static const char *repeated(const char *piece, int count, const char *close)
 {
 	static char text[1 << 20];

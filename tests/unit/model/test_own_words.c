@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_own_words - words of a project stand beside those of the catalogue.
+ * test_own_words - words of a project beside those of the catalogue.
  */
 #include "engine/model/words.h"
 #include "engine/base/limits.h"

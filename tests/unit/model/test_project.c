@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_project - rungs go in, out and elsewhere; flags and names of variables
- * and lines of IL are kept. Reading of files is tested elsewhere.
+ * test_project - rungs are inserted, removed and moved; flags and names of variables
+ * and lines of IL are kept.
  */
 #include "engine/model/project.h"
 #include "tests/tap.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_rung - every edit of a grid, drawn: what was joined stays joined, and what
- * cannot be done changes nothing.
+ * test_rung - every edit of a grid, drawn: connections stay, and a failed edit changes
+ * nothing.
  */
 #include "engine/model/rung.h"
 #include "tests/tap.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_array - images with AGET and APUT: bounds of names, what the verifier lets in,
- * and that no damaged image reads or writes outside its elements.
+ * test_array - images with AGET and APUT: bounds in names, the verifier, and that no
+ * damaged image accesses memory outside its elements.
  */
 #include "engine/base/digest.h"
 #include "tests/unit/rig.h"
@@ -31,7 +31,7 @@ static const char source[] =
 	"  LD Lamps[i]\n  ST Bits[u]\n"
 	"END_PROGRAM\n";
 
-/* Members of elements: what an index leads to lies further apart than it is large. */
+/* Members of elements: the stride is larger than the value. */
 static const char members[] =
 	"TYPE\n  Part : STRUCT\n    On : BOOL;\n    N : INT := 3;\n"
 	"    T : STRING[5] := 'ab';\n    L : ARRAY[1..2] OF DINT;\n  END_STRUCT;\n"
@@ -58,7 +58,7 @@ static const char members[] =
 	"  MOVE(IN := Z[1], OUT => Z[0])\n"
 	"END_PROGRAM\n";
 
-/* Several indices, and wholes behind them. */
+/* Several indices, and whole structures behind them. */
 static const char grids[] =
 	"TYPE\n  Part : STRUCT\n    On : BOOL;\n    N : INT := 3;\n"
 	"    T : STRING[5] := 'ab';\n    L : ARRAY[1..2] OF DINT;\n  END_STRUCT;\n"
@@ -108,7 +108,7 @@ static void set_index(struct image *at, const char *name, int64_t index)
 		image_set(at, where, (union iec_value){ .i = index });
 }
 
-/* Whatever the names of an image say, what they lead to is there to be read. */
+/* Whatever the names of an image are, the memory they lead to can be read. */
 static void read_members(const struct image *at)
 {
 	static const struct { const char *head, *tail; } of[] = {
@@ -129,7 +129,7 @@ static void read_members(const struct image *at)
 			}
 }
 
-/* Runs the copy if it is let in, for a few scans with indices of all kinds. */
+/* If the copy is accepted, runs it for a few scans with indices of all kinds. */
 static bool let_in(void)
 {
 	static const int64_t index[] = { 0, 1, -1, 5, INT64_MAX, INT64_MIN, 100000 };
@@ -174,8 +174,8 @@ static uint32_t *find(enum vm_op op, int number)
 	abort();
 }
 
-/* Sets one operand (1: en, 2: ok, 3: value, 4: base, 5: index, 6: low, 7: count,
- * 8: stride) and tells whether the image is refused. */
+/* Sets one operand (1: en, 2: ok, 3: value, 4: base, 5: index, 6: low, 7: count, 8:
+ * stride); true if the image is refused. */
 static bool refuses(enum vm_op op, int number, int operand, uint32_t value)
 {
 	find(op, number)[operand] = value;
@@ -231,13 +231,13 @@ static void test_refused(void)
 			 CODE_OPERAND(IEC_INT, usual_areas()->at[AREA_I])),
 		 "an input is written");
 	CHECK(CODE_TYPE(put[4]) == IEC_INT && refuses(VM_APUT, 1, 4, areas->size - 2));
-	/* Bits of areas: to the end of the area, and not one more. */
+	/* Bits of areas: up to the end of the area, not one more. */
 	CHECK((find(VM_APUT, 0)[0] >> 8) == 1);
 	CHECK(refuses(VM_APUT, 0, 7, usual_areas()->bytes[AREA_Q] * 8));
 	CHECK(refuses(VM_APUT, 0, 7, 0) && refuses(VM_APUT, 0, 8, 2));
 	CHECK(refuses(VM_APUT, 0, 4, CODE_OPERAND(IEC_BOOL, areas->size * 8)));
 	CHECK(refuses(VM_APUT, 0, 4, CODE_OPERAND(IEC_BOOL, 0)));
-	/* Texts: a stride that is not their room. */
+	/* Texts: a stride other than their room. */
 	CHECK(CODE_TYPE(find(VM_AGET, 4)[4]) == IEC_STRING);
 	CHECK(refuses(VM_AGET, 4, 8, 4) && refuses(VM_AGET, 4, 7, 400));
 }
@@ -331,7 +331,7 @@ static int64_t value_of(struct rig *rig, const char *name)
 			 image_find(&rig->resource.image, name, strlen(name))).i;
 }
 
-/* Names with members, and ranges of them as scenarios read them. */
+/* Names with members, and ranges of them as in scenarios. */
 static void test_member_names(void)
 {
 	static const char *const none[] = {
@@ -357,7 +357,8 @@ static void test_member_names(void)
 	rig_close(&rig);
 }
 
-/* Each byte in turn, with a right checksum: refused, or it runs without harm. */
+/* Each byte changed in turn, with a correct checksum: the image is refused, or runs
+ * without harm. */
 static void test_every_byte(void)
 {
 	static const uint8_t flip[] = { 0x01, 0x80, 0xff };
@@ -371,8 +372,8 @@ static void test_every_byte(void)
 	CHECK(refused > 0);
 }
 
-/* Loading must not get slow: many accesses to one large array, and an image that
- * asks for more single steps than it may. */
+/* Loading must stay fast: many accesses to one large array, and an image with more
+ * single steps than allowed. */
 static void test_effort(void)
 {
 	static char program[64 * 1024];
@@ -422,7 +423,7 @@ static void test_names(void)
 	rig_close(&rig);
 }
 
-/* The tests of one image, of which each works on a copy. */
+/* The tests of one image; each works on a copy. */
 static void test_image(const char *text, void (*refused)(void))
 {
 	struct rig rig;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_carry - a program is changed while it runs: what goes on and what begins anew, by
- * hand; and random programs with a rung more, which must do what they did without it.
+ * test_carry - changes a running program: values that are kept and values that begin
+ * anew, by hand; and random programs with an added rung, which must behave as without
+ * it.
  */
 #include "engine/scan/carry.h"
 #include "tests/unit/rig.h"
@@ -11,7 +12,7 @@
 #define TEXT_MAX (128 * 1024)
 #define NAMES 4096
 
-/* Goes on in @to where @from is. */
+/* Continues @to with the state of @from. */
 static void change(struct rig *to, const struct rig *from)
 {
 	struct arena arena;
@@ -41,7 +42,7 @@ static void change(struct rig *to, const struct rig *from)
 	"RUNG\n  | NO Start | Counter Inner |\n" \
 	"END_PROGRAM\n"
 static const char edges[] = EDGES("", "");
-/* Rungs before and between, a new edge among them. */
+/* Rungs are added before and between, with a new edge. */
 static const char more_edges[] = EDGES(
 	"RUNG\n  | P Start | S %MX8.0 |\n", "RUNG\n  | N %IX0.1 | R %MX8.1 |\n");
 
@@ -61,7 +62,7 @@ static void test_edges(void)
 	CHECK(rig_get(&new, "Ups") == 1);
 	CHECK(rig_get(&new, "Powers") == 1);
 	CHECK(rig_get(&new, "Inner.N") == 1);
-	/* A contact that is new waits for an edge. */
+	/* A new contact waits for an edge. */
 	CHECK(rig_get(&new, "%MX8.0") == 0);
 	rig_set(&new, "Start", 0);
 	rig_scan(&new);
@@ -92,7 +93,7 @@ static const char before[] =
 	"RUNG\n  | NO SYS_FIRST_SCAN | [ Own := Own + 10 ] |\n"
 	"RUNG\n  | [ Own := Own + 1 ] |\n"
 	"END_PROGRAM\n";
-/* Another order, other types, sizes, addresses and constants; areas of other sizes. */
+/* Changes order, types, sizes, addresses, constants, and sizes of areas. */
 static const char after[] =
 	"TYPE\n  Item : STRUCT\n    Name : STRING[8];\n    New : INT := 3;\n"
 	"    Speed : INT;\n  END_STRUCT;\nEND_TYPE\n"
@@ -168,7 +169,7 @@ static void test_values(void)
 	CHECK(rig_get(&new, "Kept") == 12345 && rig_get(&new, "New") == 9);
 	CHECK(rig_get(&new, "Typed") == 5);
 	CHECK(rig_real(&new, "Level") == 2.5);
-	/* As it began: it takes the value that it begins with now. */
+	/* It had its old initial value, so it gets the new one. */
 	CHECK(rig_get(&new, "Wait") == 70000000);
 	CHECK(has_text(&new, "Text", "hello") && has_text(&new, "Long", "abc"));
 	CHECK(rig_get(&new, "List[0]") == 0 && rig_get(&new, "List[1]") == 101 &&
@@ -213,7 +214,7 @@ static void test_forces(void)
 	      rig_force(&old, "%MD8", 3));
 	rig_scan(&old);
 	change(&new, &old);
-	/* Not those of what is gone, of another type, or of no address any more. */
+	/* Forces of removed variables, changed types and lost addresses are gone. */
 	CHECK(new.resource.image.force_count == 5);
 	CHECK(image_is_forced(&new.resource.image, rig_at(&new, "%QX0.0")));
 	CHECK(image_is_forced(&new.resource.image, rig_at(&new, "Delay.ET")));
@@ -272,7 +273,7 @@ static void test_fault(void)
 	CHECK(!rig_scan(&old));
 	change(&new, &old);
 	CHECK(new.resource.state == STATE_FAULT && new.resource.fault == FAULT_BUDGET);
-	/* Its name is the new program's: the old one may go. */
+	/* The name comes from the new program: the old one may be freed. */
 	CHECK_TEXT(new.resource.fault_at.pou, "Main");
 	rig_close(&old);
 	CHECK_TEXT(new.resource.fault_at.pou, "Main");
@@ -302,8 +303,8 @@ static bool build(struct rig *rig, const struct random_program *program)
 	return true;
 }
 
-/* Another rung before the others, with edges of its own: all
- * that the program has lies elsewhere then. It writes what no other rung uses. */
+/* Adds a rung before the others, with its own edges, so that all offsets change. It
+ * writes a variable that no other rung uses. */
 static void add_rung(struct random_program *program)
 {
 	static const char *const text[] = { "P %IX7.7", "NC %IX7.6",
@@ -340,7 +341,7 @@ struct pair { struct location a, b; char name[80]; };
 static struct pair pairs[NAMES];
 static int pair_count;
 
-/* All that both declare, in the same order. */
+/* Compares everything that both declare, in the same order. */
 static bool find_pairs(const struct rig *a, const struct rig *b)
 {
 	static struct symbol_cursor one, other;
@@ -383,7 +384,7 @@ static bool same_pairs(const struct rig *a, const struct rig *b)
 	       a->resource.state == b->resource.state;
 }
 
-/* The old one goes on beside the new one: nobody can tell them apart. */
+/* The old program runs on beside the new one: both give the same. */
 static bool go_on(struct rig *old, struct rig *new)
 {
 	if (!find_pairs(old, new))
@@ -461,7 +462,7 @@ static void test_random(void)
 	"END_PROGRAM\n"
 static const char sfc[] = CHART("", "", "");
 static const char sfc_in_order[] = CHART(" IN ORDER", "", "");
-/* Steps before and behind, one of them initial; and it is operated from outside. */
+/* Adds steps before and behind, one of them initial, and CONTROL. */
 #define MORE(evolution) CHART(evolution, \
 	"CONTROL(HOLD := %MX7.0);\nINITIAL_STEP Other:\n  %MX8.0(N);\nEND_STEP\n", \
 	"STEP Else:\nEND_STEP\n" \
@@ -483,7 +484,7 @@ static bool same_sfc(struct rig *a, struct rig *b)
 	return same;
 }
 
-/* Wherever the chart stands when it is changed, it goes on as it would have. */
+/* The chart goes on in the same way, whatever its state at the change. */
 static void test_sfc(const char *from, const char *to)
 {
 	bool same = true, alone = true;
@@ -511,7 +512,7 @@ static void test_sfc(const char *from, const char *to)
 		rig_close(&new);
 	}
 	CHECK(same);
-	CHECK(alone); /* a start is no part of a change */
+	CHECK(alone); /* a change is not a start */
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_code - the verifier: a good image is let in, and every kind of damage is
- * refused, with the right message and a place.
+ * test_code - the verifier accepts a valid image and refuses every kind of damage, with
+ * the right message and place.
  */
 #include "engine/base/digest.h"
 #include "tests/unit/rig.h"
@@ -76,7 +76,7 @@ static bool open_bytes(size_t size, enum diag_id *why)
 	return open;
 }
 
-/* Is the damaged copy, with a right checksum, refused by the verifier? */
+/* Whether the verifier refuses the damaged copy, which has a correct checksum. */
 static bool refused(void)
 {
 	enum diag_id why = DIAG_COUNT;
@@ -221,7 +221,7 @@ static void refuses_layouts(void)
 	CHECK_AS(refused(), "what the last run held is used");
 }
 
-/* Byte of an initial BOOL that is TRUE; NULL: none of them begins so. */
+/* Byte of an initial BOOL that is TRUE; NULL: none. */
 static uint8_t *initial_true(uint32_t *init, const uint32_t *end)
 {
 	for (; init < end; init += 2 + (init[1] + 3) / 4)
@@ -476,7 +476,7 @@ static void refuses_maps(void)
 	CHECK_AS(refused(), "the last string does not end");
 }
 
-/* Every symbol is found again by its name, where stepping through them has it. */
+/* Every symbol is found by its name, at the same place as by stepping. */
 static void names_symbols(void)
 {
 	struct arena scratch;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_code_text - texts in code images: each wrong room or length is refused, and with
- * any one byte changed an image is refused or runs within its memory.
+ * test_code_text - texts in code images: wrong rooms and lengths are refused; an image
+ * with one byte changed is refused or stays within its memory.
  */
 #include "engine/base/digest.h"
 #include "tests/unit/rig.h"
@@ -122,7 +122,7 @@ static void refuses_lengths(void)
 	CHECK(refused());
 }
 
-/* Every text lies whole in its room, whatever the image said. */
+/* Every text fits its room, whatever the image contains. */
 static bool texts_fit(const struct program *p)
 {
 	for (uint32_t i = 0; i < p->run_count; i++) {
@@ -138,7 +138,7 @@ static bool texts_fit(const struct program *p)
 	return true;
 }
 
-/* Runs the damaged image if it is let in; false: a text left its room. */
+/* Runs the damaged image if it is accepted; false: a text left its room. */
 static bool survives(void)
 {
 	enum diag_id why = DIAG_COUNT;

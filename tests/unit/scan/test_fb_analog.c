@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_fb_analog - HYSTERESIS, DEADBAND, RAMP, SCALE, SCALE_RANGE, AVERAGE and PID:
- * their formulas, their limits, and what is no number.
+ * formulas, limits, NaN and infinity.
  */
 #include "engine/scan/vm.h"
 #include "tests/tap.h"

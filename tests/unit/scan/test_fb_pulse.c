@@ -150,7 +150,7 @@ static void blink_keeps_its_beat(void)
 	CHECK_AS(blink.Q, "the longest times do not overflow");
 }
 
-/* How many of 100 calls, one unit apart from @from on, are TRUE. */
+/* How many of 100 calls, one unit apart, starting at @from, are TRUE. */
 static int count_on(struct fb_PWM *pwm, int64_t from)
 {
 	int on = 0;
@@ -223,7 +223,7 @@ static void pwm_holds_a_pulse(void)
 	CHECK_AS(pwm.Q <= 1, "whatever its memory holds");
 }
 
-/* Q at so many ns since Monday, 2024-01-01, 0:00. */
+/* Q, @ns after Monday, 2024-01-01, 0:00. */
 static bool alarm(struct fb_RTC_ALARM *alarm_clock, int64_t since_monday)
 {
 	alarm_clock->NOW = 19723 * DAY + since_monday;

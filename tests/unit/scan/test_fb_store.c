@@ -200,7 +200,7 @@ static void sema_gives_it_once(void)
 	CHECK(sema.BUSY == 1);
 }
 
-/* Up at the highest value, down at the lowest, both ways, R and LD. */
+/* Counts up at the highest value, down at the lowest, both, R and LD. */
 #define LIMITS(type, low, high) do { \
 	struct fb_CTU##type up = { .CU = 1, .CV = (high) - 1, .PV = high }; \
 	struct fb_CTD##type down = { .CD = 1, .CV = (low) + 1 }; \

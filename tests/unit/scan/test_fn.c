@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_fn - every function at the limits of every type: what wraps, what fails,
- * what is exact.
+ * test_fn - every function at the limits of every type: wrapped, failed and exact
+ * results.
  */
 #include "engine/scan/vm.h"
 #include "tests/tap.h"
@@ -12,7 +12,7 @@ static struct fn_args args;
 
 typedef enum fn_status (*fn)(struct fn_args *);
 
-/* Runs @f and looks at status and result. */
+/* Runs @f and checks status and result. */
 static bool gives(fn f, enum iec_type type, int64_t a, int64_t b,
 		  enum fn_status status, int64_t out)
 {
@@ -42,7 +42,7 @@ static bool is_integer(enum iec_type type)
 	return iec_type_row(type)->class & (ANY_INT | CLASS_TIME);
 }
 
-/* What holds of every integer type, and of TIME. */
+/* Tests for every integer type, and for TIME. */
 static void keeps_to_its_type(enum iec_type type)
 {
 	const struct iec_type_row *row = iec_type_row(type);
@@ -150,7 +150,7 @@ static void compares_reals(void)
 	CHECK(compared(fn_GT, NAN, 0) == 0 && compared(fn_LT, NAN, 0) == 0);
 }
 
-/* Products of UDINT leave 64 signed bits: their low 32 are right all the same. */
+/* Products of UDINT may exceed 64 signed bits: their low 32 bits are still right. */
 static void multiplies_beyond_64_bits(void)
 {
 	CHECK(gives(fn_MUL, IEC_UDINT, UINT32_MAX, UINT32_MAX, WRAPS, 1));

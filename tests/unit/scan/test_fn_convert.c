@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_fn_convert - every pair of types at the ends of both, against rules written
- * down once more; roundings, bits and digits by hand.
+ * test_fn_convert - every pair of types at the ends of both, against independent rules;
+ * roundings, bits and digits by hand.
  */
 #include "engine/scan/vm.h"
 #include "tests/tap.h"
@@ -69,7 +69,7 @@ static bool has_sign(enum iec_type type)
 	return class_of(type) & CLASS_SIGNED;
 }
 
-/* A number of 65 bits: those of the union, and whether they mean one below 0. */
+/* A number of 65 bits: the bits of the union, and its sign. */
 struct number { uint64_t u; bool minus; };
 
 static bool is_in(enum iec_type type, struct number in)
@@ -187,7 +187,7 @@ static void test_range(void)
 	CHECK(run(fn_CONVERT, IEC_LREAL, IEC_REAL, (union iec_value){ .r = 1e39 }) == FAILS);
 	CHECK(run(fn_CONVERT, IEC_LREAL, IEC_REAL, (union iec_value){ .r = 0.1 }) == OK &&
 	      args.out.r == (double)0.1f);
-	/* Rounded once: by way of a double it would be even, here it is above. */
+	/* Rounded once: by way of a double the result would be the lower neighbour. */
 	CHECK(run(fn_CONVERT, IEC_LINT, IEC_REAL,
 		  (union iec_value){ .i = INT64_C(9007199791611905) }) == OK &&
 	      args.out.r == 9007200328482816.0);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_fn_string - text functions where lengths and positions hurt: 255 bytes, numbers of
- * any size and sign, bytes of every value, inputs that are the result's own.
+ * test_fn_string - text functions at the limits: 255 bytes, positions of any size and
+ * sign, bytes of every value, results that overwrite an input.
  */
 #include "engine/scan/vm.h"
 #include "tests/tap.h"

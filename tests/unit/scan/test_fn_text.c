@@ -37,8 +37,8 @@ static bool same(enum iec_type type, union iec_value a, union iec_value b)
 	return a.i == b.i;
 }
 
-/* The text is the literal, and reads back. Of a REAL there may be a text with fewer
- * digits than printf finds: where its neighbours are not equally far. */
+/* The text is the literal and reads back. For a REAL it may have fewer digits than
+ * printf's, if its neighbours are not equally far. */
 static bool agrees(enum iec_type type, union iec_value value)
 {
 	char text[FN_TEXT_MOST + 1], literal[80];
@@ -187,7 +187,7 @@ static void reals(void)
 	CHECK_AS(good, "numbers of everyday");
 }
 
-/* The nearest there is, as libc has it. */
+/* The nearest value, as libc gives it. */
 static bool nearest(const char *text)
 {
 	union iec_value value = { .i = 0 };
@@ -205,7 +205,7 @@ static bool nearest(const char *text)
 	return good;
 }
 
-/* Half way between two: one digit far behind decides. */
+/* Half way between two values: one digit far behind decides. */
 static void ties(void)
 {
 	CHECK(nearest("9007199254740993") && nearest("9007199254740993.0000000000001") &&

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_image - areas packed and a byte a bit, names to places, forces that hold
- * and let go.
+ * test_image - areas packed and unpacked, names to places, forces and their release.
  */
 #include "tests/unit/rig.h"
 
@@ -46,7 +45,7 @@ static void starts_cold(void)
 	CHECK(rig_get(&rig, "Motor") == 0);
 }
 
-/* What a driver writes the program sees, and the other way round. */
+/* The program sees writes of a driver, and the driver those of the program. */
 static void moves_bits_at_the_edges(void)
 {
 	bytes(AREA_I)[0] = 1;
@@ -69,7 +68,7 @@ static void moves_bits_at_the_edges(void)
 	CHECK_AS(rig_get(&rig, "M0") == 1, "a BOOL is 0 or 1");
 }
 
-/* A byte or word written from outside is seen by the bits below it. */
+/* A byte or word written from outside changes its bits. */
 static void writes_wide(void)
 {
 	CHECK(rig_set(&rig, "%MB0", 0x82) && rig_get(&rig, "M0") == 0);
@@ -172,11 +171,11 @@ static void forces_inputs(void)
 	CHECK(rig_force(&rig, "Go", 1) && rig_scan(&rig));
 	CHECK(rig_get(&rig, "Motor") == 1 && rig_get(&rig, "SYS_FORCED_ANY"));
 	CHECK(image_is_forced(&rig.resource.image, rig_at(&rig, "I0")));
-	bytes(AREA_I)[0] = 0; /* the pin goes on */
+	bytes(AREA_I)[0] = 0; /* the pin changes meanwhile */
 	CHECK(rig_scan(&rig) && rig_get(&rig, "Motor") == 1);
 	CHECK(rig_release(&rig, "Go") && rig_scan(&rig));
 	CHECK(rig_get(&rig, "Motor") == 0 && !rig_get(&rig, "SYS_FORCED_ANY"));
-	/* What the pin was when it was let go, not when it was caught. */
+	/* The value of the pin at the release, not at the force. */
 	CHECK(rig_force(&rig, "Go", 0));
 	bytes(AREA_I)[0] = 1;
 	CHECK(rig_scan(&rig) && rig_get(&rig, "Motor") == 0);

@@ -14,8 +14,8 @@
 
 #include "tests/tap.h"
 
-/* Only where the true value is this near to the middle between two doubles may the
- * wrong one of them come out: millionths of a unit of the last place. */
+/* A result may be the other of two doubles only if the true value is this near to their
+ * middle: millionths of a unit of the last place. */
 #define REACH 4000
 
 struct function {
@@ -54,7 +54,7 @@ static double call(const struct function *f, double x, double y)
 	return f->one ? f->one(x) : f->two(x, y);
 }
 
-/* Reals in a row, as integers in a row: how many doubles lie between two. */
+/* Orders doubles as integers: the difference is the number of doubles between two. */
 static int64_t place(double x)
 {
 	uint64_t size = bits_of(x) << 1 >> 1;

@@ -3,7 +3,7 @@
  * test_own_blocks - functions and function blocks of a project at work: faults and
  * errors inside a body, what a call costs, power of an instance's cells.
  *
- * What they do is in tests/golden/own-*.
+ * Behaviour is tested in tests/golden/own-*.
  */
 #include "tests/unit/rig.h"
 
@@ -74,7 +74,7 @@ static void instances_have_their_own_power(void)
 	CHECK(rig_open(&rig, source, true));
 	CHECK(rig_set(&rig, "I0", 1) && rig_scan(&rig));
 	CHECK(rig_get(&rig, "Q0") == 1 && rig_get(&rig, "Q1") == 0);
-	/* A is on, B was called last and is off. */
+	/* A is on; B was called last and is off. */
 	CHECK(power("A", 1, 1) == 3 && power("a", 1, 2) == 3);
 	CHECK(power("B", 1, 1) == 2 && power("B", 1, 2) == 0);
 	CHECK(power("A.Deep", 1, 1) == 2 && power("A.Deep", 2, 1) == 3);
@@ -119,8 +119,8 @@ static void elements_have_their_own_power(void)
 	rig_close(&rig);
 }
 
-/* A call costs what it runs: blocks in blocks, each calling the next ten times, would
- * take for ever, and are a fault. */
+/* A call costs the words that it runs: nested blocks, each calling the next ten times,
+ * exceed the budget and are a fault. */
 static void calls_cost(void)
 {
 	char text[8000] = "PROGRAM Main IL\nVAR\n  X : B0;\nEND_VAR\n";

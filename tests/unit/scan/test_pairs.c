@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_pairs - the instructions for two numbers of one type: on values at all edges
- * they do what the functions do, bit by bit; and a comparison that takes the bits
- * around it along is still there for whoever else reads it.
+ * test_pairs - the instructions for two numbers of one type: on limits of all types
+ * they give the bits of the functions; and a fused comparison still has its result for
+ * other readers.
  */
 #include "tests/unit/rig.h"
 
@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdarg.h>
 
-#define OLD 77 /* what a result is before                                       */
+#define OLD 77 /* value before the operation                                    */
 
 static const char *const function[] = { "ADD", "SUB", "MUL", "DIV" };
 static enum fn_status (*const run[])(struct fn_args *) = {
@@ -78,7 +78,7 @@ static void set(struct rig *rig, const char *name, union iec_value to)
 	image_set(&rig->resource.image, rig_at(rig, name), to);
 }
 
-/* What the function gives for the same two values; true: ENO. */
+/* The result of the function for the same two values; true: ENO. */
 static bool expect(enum iec_type type, int i, const union iec_value in[2],
 		   union iec_value *out)
 {
@@ -111,7 +111,7 @@ static bool compare(enum iec_type type, int i, const union iec_value in[2])
 	return is[i];
 }
 
-/* One scan on two values; false: something is not as it must be. */
+/* One scan on two values; false: a result is wrong. */
 static bool agrees(struct rig *rig, enum iec_type type, const union iec_value in[2],
 		   bool en)
 {
@@ -165,7 +165,7 @@ static void runs_all(enum iec_type type, bool watch, const union iec_value *in,
 	rig_close(&rig);
 }
 
-/* How many instructions of the only program are this one. */
+/* How many of the program's instructions are this one. */
 static int count_of(struct rig *rig, enum vm_op op)
 {
 	const struct program *p = ladder_program(rig->ladder);
@@ -176,7 +176,7 @@ static int count_of(struct rig *rig, enum vm_op op)
 	return count;
 }
 
-/* Each box is one instruction, each comparison with what stands around it, too. */
+/* Each box is one instruction; so is each comparison with its neighbours. */
 static void is_short(const char *type, enum vm_op math, enum vm_op cmp)
 {
 	struct rig rig;

@@ -69,7 +69,7 @@ static void shows_first_scan(void)
 	CHECK(rig_get(&rig, "SYS_ALWAYS_ON") == 1);
 }
 
-/* Clocks begin with the first scan, whenever that is: first half TRUE. */
+/* Clocks begin with the first scan: first half TRUE. */
 static void has_clocks(void)
 {
 	static const struct { int64_t ms; int fast, second, minute; } want[] = {
@@ -176,7 +176,7 @@ static void tells_power(void)
 	CHECK(rig_scan(&rig) && power_of(0, 1, 1, 2) == 0);
 }
 
-/* Watched or not: the same place. */
+/* The same place, watched or not. */
 static void tells_places_while_watched(void)
 {
 	struct resource *r = &rig.resource;
@@ -212,7 +212,7 @@ static void runs_without_maps(void)
 	void *memory = calloc(1, image_memory_size(&program));
 
 	resource_init(&r, &program, memory);
-	r.watch = true; /* there is nothing to watch with */
+	r.watch = true; /* the image has no watched section */
 	resource_start(&r);
 	image_area(&r.image, AREA_I)[0] = 1;
 	CHECK(resource_scan(&r, 0) && image_area(&r.image, AREA_Q)[0] == 5);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_retain - retained values as bytes and back: by name and type, in two slots,
- * cut at each byte, with each bit turned. What comes back is a whole copy or none.
+ * test_retain - retained values as bytes and back: by name and type, in two slots, cut
+ * at each byte, with each bit inverted. The result is a complete copy or none.
  */
 #include "engine/scan/retain.h"
 #include "tests/unit/rig.h"
@@ -86,7 +86,7 @@ static void close_bench(struct bench *bench)
 	rig_close(&bench->rig);
 }
 
-/* As long as the value is odd or even, so that what is behind it differs, too. */
+/* While the value is odd or even, so that the byte behind it differs, too. */
 static void set_text(struct rig *rig, int64_t value)
 {
 	enum { ROOM = 12 };
@@ -152,7 +152,7 @@ static uint32_t write_slot(struct bench *bench, uint8_t *file, int slot,
 	return size;
 }
 
-/* All records of what was found; how many of each fate. */
+/* Takes all records of the copy; counts each result. */
 static void take_all(struct bench *bench, const struct retain_found *found,
 		     int fate[3])
 {
@@ -201,7 +201,7 @@ static void plans(void)
 	close_bench(&b);
 }
 
-/* Values at both edges: what image_get() shows is what is kept. */
+/* Values at their limits: the retained value is that of image_get(). */
 static void copies(void)
 {
 	struct bench b;
@@ -276,7 +276,7 @@ static void round_trip(struct bench *b, uint8_t *file, size_t len)
 		 "an empty slot beside a later copy");
 }
 
-/* The file ends at each byte: the first copy as long as it is whole. */
+/* The file is cut at each byte: the first copy is found as long as it is complete. */
 static void cut_file(struct bench *b, const uint8_t *file, size_t len,
 		     uint32_t size, uint32_t room)
 {
@@ -297,7 +297,7 @@ static void cut_file(struct bench *b, const uint8_t *file, size_t len,
 	CHECK_AS(!mixed && !wrong && !unsaid, "cut at each byte");
 }
 
-/* A write that stops at each byte, over the older copy: new up to there. */
+/* A write stops at each byte of the older copy: the new one is found up to there. */
 static void cut_write(struct bench *b, const uint8_t *file, size_t len,
 		      uint32_t size)
 {
@@ -438,7 +438,7 @@ static void keeps_stores(void)
 
 	open_bench(&b, stores);
 	rig_set(&b.rig, "%IX0.2", 1);
-	for (int i = 1; i <= 70; i++) /* round the end of the ring; four are left */
+	for (int i = 1; i <= 70; i++) /* past the end of the ring; four are left */
 		step_stores(&b.rig, i <= 5 || i % 2, 100 + i);
 	rig_set(&b.rig, "%IX0.2", 0);
 	step_stores(&b.rig, true, 171);
@@ -473,8 +473,8 @@ static void keeps_stores(void)
 	close_bench(&after);
 }
 
-/* Bytes of a stranger, with a good checksum, in what instances keep to themselves: a scan
- * stays within its own (the sanitizers see to that). */
+/* Forged inner state of instances, with a correct checksum: a scan stays within the
+ * instance (the sanitizers check that). */
 static void believes_no_store(void)
 {
 	struct bench b;
@@ -497,7 +497,7 @@ static void believes_no_store(void)
 	close_bench(&b);
 }
 
-/* Bytes of a stranger, with a good checksum. */
+/* Forged bytes with a correct checksum. */
 static void believes_nothing(void)
 {
 	struct bench b;

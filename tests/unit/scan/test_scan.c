@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_scan - one scan as a whole: what ends it, what it tells of itself, and
- * values that are held. Programs are written as text; no driver stands beside.
+ * test_scan - one scan as a whole: its end, its system variables, and forces. Programs
+ * are written as text; no driver is used.
  */
 #include "engine/ladder.h"
 #include "tests/tap.h"
@@ -16,7 +16,7 @@ struct scan_bed {
 	struct resource resource;
 };
 
-/* NULL-safe: a program that does not build fails the test by its name. */
+/* A program that does not build fails the test by its name; NULL is allowed. */
 static bool open_bed(struct scan_bed *bed, const char *text)
 {
 	const struct program *program;
@@ -90,9 +90,8 @@ static void test_loops(void)
 	}
 }
 
-/* A jump back costs the words it goes over and one; the last one that the
- * budget pays for is made, the next is not. The code that runs is known by
- * its length: a loop of one JMP costs 1. */
+/* A jump back costs the words it goes back over, plus one; the budget allows a last
+ * one, and not the next. The code has a known length: a loop of one JMP costs 1. */
 static void test_budget(void)
 {
 	struct scan_bed bed;
@@ -116,7 +115,7 @@ static void test_budget(void)
 	vm.budget = 100000;
 	CHECK(vm_run(&vm, 0, false) == FAULT_NONE);
 	CHECK(get(&bed, "N") == 4);
-	/* Three times back, all of one price. */
+	/* Three jumps back, all of one cost. */
 	uint32_t spent = 100000 - vm.budget;
 
 	CHECK(spent > 0 && spent % 3 == 0);
@@ -171,7 +170,7 @@ static void test_first_fault(void)
 	close_bed(&bed);
 }
 
-/* ---- what a scan tells of itself ---- */
+/* ---- system variables ---- */
 
 static void test_errors(void)
 {
@@ -264,7 +263,7 @@ static void test_told(void)
 	close_bed(&bed);
 }
 
-/* ---- values that are held ---- */
+/* ---- forces ---- */
 
 static const char held[] =
 	"RUNGBOARD 1\n"
@@ -324,7 +323,7 @@ static void test_force(void)
 	close_bed(&bed);
 }
 
-/* A variable that nobody writes keeps what it had, however long it is held. */
+/* A variable that is not written keeps its value, however long it is forced. */
 static void test_aside(void)
 {
 	struct scan_bed bed;

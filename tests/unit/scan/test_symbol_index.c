@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_symbol_index - a name is found with an index exactly where it is found by going
- * through all symbols: of each sample, and of a program whose names look like one another.
+ * test_symbol_index - a search with an index gives the same as one without: for each
+ * sample, and for a program with similar names.
  */
 #include "tests/unit/rig.h"
 
@@ -46,7 +46,7 @@ static void ask(struct pair *pair, const char *text)
 		printf("# not the same: \"%s\"\n", text);
 }
 
-/* The name, in another case, and cut short: each with what may stand behind one. */
+/* The name, in another case, and shortened: each with every possible text behind it. */
 static void ask_like(struct pair *pair, const char *name)
 {
 	char text[2 * LIMIT_NAME + 96];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_task - who runs when: exact deadlines, periods left out, events, priorities,
- * what a slow task does to others. Time is a number; so is how long a task takes.
+ * test_task - when tasks run: exact deadlines, missed periods, events, priorities,
+ * delays by slow tasks. Time and durations are virtual.
  */
 #include "tests/unit/rig.h"
 
@@ -93,7 +93,7 @@ static void has_order(void)
 	CHECK_AS(tasks_tick(p, MS / 1000, 7) == LIMIT_TICK, "not too short");
 }
 
-/* At start + k * interval and never else, whatever the time of a scan is. */
+/* At start + k * interval only, whatever the time of a scan is. */
 static void keeps_deadlines(void)
 {
 	start();
@@ -129,7 +129,7 @@ static void leaves_periods_out(void)
 	CHECK(scan_at(1002) && task(FAST)->late_row == 0);
 }
 
-/* Deadlines count from when the first scan should have begun. */
+/* Deadlines count from the planned time of the first scan. */
 static void has_own_start(void)
 {
 	start();
@@ -171,7 +171,7 @@ static void keeps_an_event(void)
 	CHECK(task(BELL)->runs == 2 && task(BELL)->overruns == 0);
 }
 
-/* Each look at this clock takes what the test says. */
+/* Each read of this clock advances it by the test's number. */
 static int64_t clock_ns, clock_step;
 
 static int64_t slow_clock(void)
@@ -196,8 +196,8 @@ static void is_timed(void)
 	CHECK(task(FAST)->max_ns == 5000 && task(SLOW)->max_ns == 1000);
 }
 
-/* A task waits for one slower one at most: the cycle ends between two tasks when
- * its deadline is there. What did not run is due in the next cycle. */
+/* A task waits for at most one slower task: the cycle ends between two tasks when its
+ * deadline has come. The others are due in the next cycle. */
 static void yields(void)
 {
 	start();
@@ -212,7 +212,7 @@ static void yields(void)
 	CHECK(task(LATE)->overruns == 0 && task(LATE)->next_ns == 20 * MS);
 }
 
-/* An event may have come while a slow task ran: the next cycle looks. */
+/* An event may have come while a slow task ran: the next cycle checks. */
 static void yields_to_events(void)
 {
 	start();
@@ -264,7 +264,7 @@ static void has_watchdogs(void)
 	CHECK_AS(scan_at(0) && rig.resource.fault == FAULT_NONE, "reset");
 }
 
-/* An endless loop is the fault of its task; each has a budget of its own. */
+/* An endless loop is a fault of its own task; each task has its own budget. */
 static void has_budgets(void)
 {
 	static const char loop[] =

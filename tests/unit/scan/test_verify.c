@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_verify - the image of draft.h, and one wrong word at a time: the verifier refuses
- * each. A rule that it forgets fails here by name.
+ * test_verify - the image of draft.h with one wrong word at a time: the verifier
+ * refuses each. A missing rule fails here by name.
  */
 #include "tests/unit/draft.h"
 
@@ -49,7 +49,7 @@ static void test_layout(void)
 	REFUSED(d.header.budget = LIMIT_BUDGET + 1);
 }
 
-/* A header that lies: larger or smaller than what lies there, or what cannot be. */
+/* A wrong header: sizes that do not match, or impossible values. */
 static void test_areas(void)
 {
 	uint32_t last = usual_areas()->size - 4;
@@ -67,7 +67,7 @@ static void test_areas(void)
 	REFUSED(d.header.area_bytes[AREA_COUNT] = 1);
 	REFUSED(d.header.area_bytes[AREA_SM] = 63);
 	REFUSED(d.header.area_bytes[AREA_M] = d.header.area_bytes[AREA_V] = LIMIT_MEMORY);
-	/* The byte behind the last one is nobody's, even where nothing else lies. */
+	/* The byte behind the last one is outside, even if no other data follows. */
 	draft_good(&whole);
 	whole.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, last);
 	CHECK_AS(judge(&whole) == DIAG_COUNT, "the last word of the last area");
@@ -80,7 +80,7 @@ static void test_areas(void)
 	REFUSED(d.symbol[3] = CODE_OPERAND(IEC_BOOL | SYMBOL_BIT, (last + 3) * 8);
 		d.header.area_bytes[AREA_XAQ]--);
 	REFUSED(d.init[0] = last + 3; d.header.area_bytes[AREA_XAQ]--);
-	/* From one area into the next, which may be written too. */
+	/* From one area into the next, which may be written, too. */
 	REFUSED(d.text[AT_COPY + 2] =
 		CODE_OPERAND(IEC_DINT, usual_areas()->at[AREA_V] - 2));
 	REFUSED(d.bits[1].first = 511 * 8 + 6; d.header.area_bytes[AREA_Q]--);
@@ -216,10 +216,10 @@ static void test_flow(void)
 	REFUSED(d.text[AT_END] = op(VM_FB, FB_CTU));
 	REFUSED(d.text[AT_END] = op(VM_LUT, 1));
 	REFUSED(d.text[AT_LUT] = op(VM_LUT, 0xffffff));
-	/* A jump without its target; what lies behind it could be one. */
+	/* A jump without a target operand; the word behind it could be one. */
 	REFUSED(d.text[AT_END] = op(VM_JMP, 0); d.symbol[0] = AT_BITPUT);
-	/* Programs that run out of their end: after a block, a copy, a jump
-	 * that may not jump. */
+	/* Programs that run out of their end: after a block, a copy, a conditional
+	 * jump. */
 	REFUSED(d.entry[0].text_words = AT_FN;
 		d.place[1].text = 0);
 	REFUSED(d.text_words = d.entry[0].text_words = AT_JMPC;
@@ -331,7 +331,7 @@ static void test_tasks(void)
 
 /* ---- BLOCK and CALL ---- */
 
-/* One more program, which is called, with these words and END. */
+/* Adds a program that is called, with these words and END. */
 static void append(struct draft *d, const uint32_t *words, uint32_t count)
 {
 	struct code_program *entry = &d->entry[d->entries++];
@@ -367,7 +367,7 @@ static void test_blocks(void)
 	ALLOWED(append_block(&d, own(NUMBER), own(NUMBER) + 4, 4));
 	ALLOWED(append_block(&d, own(FLAG), own(FLAG) + 4, 4));
 	ALLOWED(append_block(&d, own(COUNTER), own(COUNTER) + size, size));
-	/* Nothing, one over the other, too far, out of memory. */
+	/* Size 0, overlap, out of range. */
 	REFUSED(append_block(&d, own(NUMBER), own(NUMBER) + 4, 0));
 	REFUSED(append_block(&d, own(FLAG), own(FLAG) + 3, 4));
 	REFUSED(append_block(&d, own(FLAG), own(FLAG) + 4, UINT32_MAX));
@@ -381,7 +381,7 @@ static void test_blocks(void)
 	REFUSED(append_block(&d, own(0), own(1), 1));
 	REFUSED(append_block(&d, usual_areas()->at[AREA_M],
 			     usual_areas()->at[AREA_M] + 8, 4));
-	/* Half an instance, another block, none at the other side. */
+	/* Half an instance, another block, no instance at the other side. */
 	REFUSED(append_block(&d, own(COUNTER), own(COUNTER) + size, 4));
 	REFUSED(append_block(&d, own(COUNTER) + 1, own(COUNTER) + size + 1,
 			     size - 1));
@@ -389,7 +389,7 @@ static void test_blocks(void)
 		d.text[WORDS] = op(VM_BLOCK, 1));
 }
 
-/* TON, TOF and TP have the same marks, but not the same inside. */
+/* TON, TOF and TP have the same marks but other contents. */
 static void test_other_blocks(void)
 {
 	uint32_t size = word_row(FB_TON)->size, at = own(COUNTER);
@@ -423,14 +423,14 @@ static void test_call_graph(void)
 	REFUSED(append_call(&d, 1));                          /* itself */
 	REFUSED(append_call(&d, 2); append_call(&d, 1));      /* each other */
 	REFUSED(append_call(&d, 2); append_call(&d, 3); append_call(&d, 1));
-	REFUSED(append_call(&d, 0); d.entry[1].text = 0); /* into another one */
+	REFUSED(append_call(&d, 0); d.entry[1].text = 0); /* into the middle of another one */
 }
 
 static void test_deep_calls(void)
 {
 	struct draft d;
 
-	/* As many in one another as the VM keeps, and one more. */
+	/* The deepest nesting that the VM allows, and one more. */
 	draft_good(&d);
 	append(&d, NULL, 0);
 	for (uint32_t i = 1; i <= LIMIT_CALLS; i++)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_sfc_layout - charts, thousands of random ones and ones of garbage: nothing crosses,
- * nothing overlaps, and the lines of the drawing lead where the chart leads.
+ * test_sfc_layout - thousands of random charts, valid and invalid: nothing crosses,
+ * nothing overlaps, and the lines of the drawing connect what the chart connects.
  */
 #include "engine/show/sfc_layout.h"
 #include "tests/tap.h"
@@ -69,7 +69,7 @@ static void lead(int a, int b)
 	to(b);
 }
 
-/* ---- what must be true of every layout ---- */
+/* ---- rules for every layout ---- */
 
 static const char *wrong;
 
@@ -84,7 +84,7 @@ static bool is_down(const struct sfc_wire *wire)
 	return wire->lane == wire->end_lane;
 }
 
-/* Boxes apart from each other, lines touch them at their edges in their lane only. */
+/* Boxes do not touch; lines touch them only at their edges in their lane. */
 static void check_boxes(const struct sfc_layout *layout)
 {
 	for (int i = 0; i < layout->shape_count; i++) {
@@ -130,7 +130,7 @@ static void check_wires(const struct sfc_layout *layout)
 			if (i == k || a->lane > b->end_lane || b->lane > a->end_lane ||
 			    a->row > b->end_row || b->row > a->end_row)
 				continue;
-			/* They touch: at an end of those that lead down. */
+			/* Two lines down may touch only at their ends. */
 			if (!is_down(a) && !is_down(b))
 				wrong = "lines along each other";
 			else if (is_down(a) && is_down(b) && a->end_row != b->row &&
@@ -143,7 +143,7 @@ static void check_wires(const struct sfc_layout *layout)
 	}
 }
 
-/* Where lines lead from (lane, row): shapes, into the list. */
+/* Adds the shapes that the lines from (lane, row) lead to. */
 static int found[MOST], found_count;
 static bool through[8 * MOST];
 
@@ -185,7 +185,7 @@ static void walk(const struct sfc_layout *layout, int lane, int row)
 	}
 }
 
-/* Is shape @at what a line drawn for @r leads to? */
+/* Whether shape @at belongs to the line of @r. */
 static bool is_end(const struct sfc_layout *layout, int at, int r, bool down_to_step,
 		   int transition)
 {
@@ -295,7 +295,7 @@ static int below(int count)
 	return count > 0 ? (int)((seed >> 8) % (uint32_t)count) : 0;
 }
 
-/* A chart as people draw them: sequences, branches of both kinds, in one another. */
+/* A typical chart: sequences and branches of both kinds, nested. */
 static int grow(int at, int depth, int macro)
 {
 	int count = 1 + below(3), next;
@@ -403,7 +403,7 @@ static void check_many(void (*make)(uint32_t number), int count, const char *wha
 	CHECK_AS(bad == 0 && jumps > count / 2, what);
 }
 
-/* ---- charts that are known ---- */
+/* ---- fixed charts ---- */
 
 static void check_sequence(void)
 {
@@ -470,7 +470,7 @@ static void check_reference(void)
 	steps[4].column = 0;
 }
 
-/* Each of sixty steps may give up: that takes two lanes, not sixty. */
+/* Each of sixty steps has an exit: that takes two lanes, not sixty. */
 static void check_narrow(bool first)
 {
 	struct sfc_layout *layout;
@@ -538,7 +538,7 @@ static void thousand(void)
 		at = grow(at, 2, -1);
 }
 
-/* All steps but the first have a way to one and the same. */
+/* All steps but the first lead to the same step. */
 static void stairs(int count)
 {
 	clear();

@@ -83,7 +83,7 @@ static void test_joints(void)
 	" │       └──┤ ├──┬──┤ ├──────────┼──┤/├──┴──(/)───┤\n"
 	" │           G   │           H   │                │\n"
 	" │       ───┤ ├──┴──────────┤ ├──┘                │\n");
-	/* A bridge: no series and parallel could draw it. */
+	/* A bridge: not a combination of series and parallel. */
 	CHECK_TEXT(rung("RUNG\n"
 	"| NO A | NO B | COIL X |\n"
 	"| NO C ^| NO D ^| |\n"
@@ -107,7 +107,7 @@ static void test_outputs(void)
 	" │               │    Two   │\n"
 	" │               ├────( )───┤\n"
 	" │               └──<RET>   │\n");
-	/* Not last on its branch: drawn as it stands, no way to the rail. */
+	/* Not last on its branch: drawn without a line to the rail. */
 	CHECK_TEXT(rung("RUNG\n| COIL A | NO B |\n"),
 	" │   A       B    │\n"
 	"1├──( )─────┤ ├───│\n");
@@ -203,7 +203,7 @@ static void test_choice(void)
 	CHECK(drawn == 0 && memory.len == 0);
 }
 
-/* Every line of a rung has the same width, whatever stands in it. */
+/* All lines of a rung have the same width, whatever it contains. */
 static bool is_even(const char *text)
 {
 	int width = -1;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_record - what a record shows of a scan is what that scan was: random programs with
- * random plants and random acts, against a run of its own that stops there, over all
- * memory, power, forces, states and counters; in any order, after the oldest is gone.
+ * test_record - a replayed scan equals the original: random programs with random plants
+ * and acts, against a separate run that stops there; compares memory, power, forces,
+ * states and counters, in any order, also after the oldest were dropped.
  */
 #include "engine/trial/record.h"
 #include "tests/unit/rig.h"
@@ -187,7 +187,7 @@ static enum act_kind random_kind(void)
 	       dice < 94 ? ACT_WARM : dice < 95 ? ACT_STOP : ACT_PERIOD;
 }
 
-/* What a person may do; false: it was nothing that can be done. */
+/* A random act; false: it was refused. */
 static bool random_act(struct step *step)
 {
 	struct act *act = &step->act;
@@ -213,7 +213,7 @@ static bool random_act(struct step *step)
 	return twin_act(&run.twin, act);
 }
 
-/* As random_act() made it; in STOP or FAULT it must be started again. */
+/* The random act; in STOP or FAULT a start. */
 static void act_now(struct record *record, bool start)
 {
 	struct step *step = &run.step[run.steps];
@@ -249,7 +249,7 @@ static void play(struct record *record)
 	}
 }
 
-/* The same acts without a record: is every scan as it was? */
+/* The same acts without a record: every scan must be the same. */
 static bool play_again(void)
 {
 	struct twin fresh;
@@ -306,7 +306,7 @@ static uint64_t forgotten, faults, with_plant;
 
 static bool test_seed(uint64_t seed)
 {
-	/* With little room, so that the oldest goes. */
+	/* Sometimes with little memory, so that the oldest are dropped. */
 	const size_t room = seed % 3 ? 6000 : 1 << 24;
 	struct record *record;
 	bool good;

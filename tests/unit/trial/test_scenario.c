@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_scenario - scenario files: what is read, what holds, what a report says.
+ * test_scenario - scenario files: reading, expectations, reports.
  */
 #include "engine/trial/scenario.h"
 
@@ -8,9 +8,9 @@
 #include "tests/unit/trial.h"
 
 static struct bed bed;
-static struct scenario failed; /* the first one, after its run: numbers alone   */
+static struct scenario failed; /* the first one, after its run: only its numbers */
 
-/* The reports of all scenarios of a text; "held" when there is none. */
+/* The reports of all scenarios of a text; "held" if all passed. */
 static const char *run(const char *text)
 {
 	struct scenario_file file;
@@ -61,17 +61,17 @@ static void test_times(void)
 		       "Level = 14\n"), "held");
 	CHECK_TEXT(run(S "at 11ms Open=1\nexpect Level = 7\nat 30ms expect "
 		       "Level = 14\n"), "held");
-	/* `within 10ms` from 1 s looks at 1 s and 1.01 s, not at 1.02 s. */
+	/* `within 10ms` from 1 s checks 1 s and 1.01 s, not 1.02 s. */
 	CHECK_TEXT(run(S "at 1s Open=1\nwithin 10ms expect Level = 14\n"),
 		   "held");
 	CHECK(strstr(run(S "at 1s Open=1\nwithin 10ms expect Level = 21\n"),
 		     "at 1010 ms: not true: within 10ms expect Level = 21"));
-	/* `for 20ms` from 1 s looks at 1 s and 1.01 s, not at 1.02 s. */
+	/* `for 20ms` from 1 s checks 1 s and 1.01 s, not 1.02 s. */
 	CHECK_TEXT(run(S "at 1s Open=1\nfor 20ms expect Level < 15\n"), "held");
 	CHECK(strstr(run(S "at 1s Open=1\nfor 21ms expect Level < 15\n"),
 		     "at 1020 ms: not true:"));
 	CHECK_TEXT(run(S "at 1s for 0 expect Level = 0\n"), "held");
-	/* What is still open is not forgotten behind what is judged. */
+	/* An open expectation behind decided ones is still checked. */
 	CHECK(strstr(run(S "at 10ms within 50ms expect Lamp\n"
 			 "at 20ms expect not Motor\nat 30ms expect not Lamp\n"),
 		     "at 60 ms: not true: at 10ms within 50ms expect Lamp"));

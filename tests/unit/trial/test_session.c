@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_session - a recorded session is a scenario that does and sees the same: random
- * clicks on all samples, every expectation holds when it is run again, and none holds that
- * was made false. Run it from the root of the tree.
+ * test_session - a session becomes a scenario that does the same: random clicks on all
+ * samples; all expectations pass when it is run, and each fails when it is inverted.
+ * Run it from the root of the tree.
  */
 #include "engine/base/file.h"
 #include "engine/ladder.h"
@@ -14,7 +14,7 @@
 
 #include <glob.h>
 
-#define SESSIONS 12 /* of each sample                                          */
+#define SESSIONS 12 /* for each sample                                         */
 #define SCANS    400
 #define NAMES    400
 
@@ -26,7 +26,7 @@ static uint32_t chance(uint32_t of)
 	return (seed >> 8) % of;
 }
 
-/* ---- what one writes ---- */
+/* ---- text of a scenario ---- */
 
 static const char *write_of(struct session *session, const char *name)
 {
@@ -87,7 +87,7 @@ static void test_text(void)
 	bed_close(&bed);
 }
 
-/* What a scenario cannot say. */
+/* Acts that a scenario cannot express. */
 static void test_refused(void)
 {
 	static const struct act acts[] = {
@@ -161,7 +161,7 @@ static union iec_value any_value(struct location at, struct iec_text *room)
 	return value;
 }
 
-/* Inputs mostly; now and then any variable, also of a timer. */
+/* Mostly inputs; sometimes any variable, also of a timer. */
 static void click(struct session *session, struct twin *twin, const struct places *names)
 {
 	const int which = (int)chance((uint32_t)names->count);
@@ -216,7 +216,7 @@ static void do_again(void *context, uint64_t after, const struct act *act)
 	((struct replay_acts *)context)->count++;
 }
 
-/* 0: it holds; else the line that does not. -1: it cannot be read. */
+/* 0: it passes; else the line that fails. -1: it cannot be read. */
 static int run_text(const char *text, const struct program *program, uint64_t *scan)
 {
 	struct diag_list *diags = calloc(1, sizeof(*diags));
@@ -253,7 +253,7 @@ static int run_text(const char *text, const struct program *program, uint64_t *s
 	return line;
 }
 
-/* The acts that come out of the scenario again lead where the session did. */
+/* The acts of the scenario lead to the same state as the session. */
 static bool same_end(const char *text, const struct twin *there)
 {
 	struct diag_list *diags = calloc(1, sizeof(*diags));
@@ -279,7 +279,7 @@ static bool same_end(const char *text, const struct twin *there)
 	return same;
 }
 
-/* Makes one expectation of a BOOL false. @line: gets its line. */
+/* Inverts one expectation of a BOOL. @line: gets its line. */
 static char *falsified(const char *text, int *line)
 {
 	char *wrong = malloc(strlen(text) + 1), *at = wrong, *found = NULL;

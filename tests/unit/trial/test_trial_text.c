@@ -115,7 +115,7 @@ static void tables(void)
 	CHECK(strstr(wave, "sa\\040b\\134\\007 !\nr0.10000000000000001 \"\n") != NULL);
 }
 
-/* The reports of all scenarios of a text; "held" when there is none. */
+/* The reports of all scenarios of a text; "held" if all passed. */
 static const char *judge(const char *text)
 {
 	struct scenario_file file;

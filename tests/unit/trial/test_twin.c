@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_twin - a program and its plant: which inputs the plant gives, whose turn it is, what
- * a start, a stop and a fault leave; and a change of the program beside it.
+ * test_twin - a program and its plant: inputs that the plant sets, the order of scans,
+ * state after a start, a stop and a fault; and a change of the program.
  */
 #include "engine/trial/twin.h"
 #include "tests/unit/rig.h"
@@ -19,7 +19,7 @@ static const char program[] =
 	"RUNG\n  | --- | [ Set := Level + 1 ] |\n"
 	"RUNG Again\n  | NO Loop | JMP Again |\n"
 	"END_PROGRAM\n";
-/* It declares Q0.1, uses Q2.2 in a coil, writes AQW2 with no name, Q3 by an index. */
+/* It declares Q0.1, uses Q2.2 in a coil, writes AQW2 without a name and Q3 by an index. */
 static const char world[] =
 	"RUNGBOARD 1\n"
 	"VAR\n  Motor AT %IX0.0 : BOOL;\n  End AT %QX0.1 : BOOL;\n  Way : INT;\n"
@@ -79,13 +79,13 @@ static void test_plant(void)
 	CHECK(do_act(&twin, ACT_SET, false, "%IX0.5", 1));
 	CHECK(do_act(&twin, ACT_SET, false, "%IX4.7", 1));
 	CHECK(twin_scan(&twin));
-	/* The first scan sees the world as it is. */
+	/* The first scan sees inputs that the plant has set. */
 	CHECK(get(&twin, false, "Seen") == 100 && get(&twin, false, "Out") == 1);
 	CHECK(get(&twin, true, "Way") == 0);
 	scan(&twin, 1);
 	CHECK(get(&twin, true, "Way") == 1 && get(&twin, true, "Told") == 101);
 	CHECK(get(&twin, false, "%IX4.2") == 1 && get(&twin, false, "%IX2.2") == 1);
-	/* What it does not use is a person's. */
+	/* Inputs that it does not set are left to a person. */
 	CHECK(get(&twin, false, "%IX0.5") == 1 && get(&twin, false, "%IX4.7") == 1);
 	CHECK(do_act(&twin, ACT_SET, false, "%IX2.2", 0));
 	scan(&twin, 1);
@@ -93,7 +93,7 @@ static void test_plant(void)
 	scan(&twin, 1);
 	CHECK(get(&twin, false, "Out") == 0 && get(&twin, true, "Way") == 3);
 	CHECK(twin.scan == 4 && twin.now_ns == 4 * PERIOD);
-	/* A force holds against it. */
+	/* A force overrides the plant. */
 	CHECK(do_act(&twin, ACT_FORCE, false, "End", 0));
 	scan(&twin, 2);
 	CHECK(get(&twin, false, "Out") == 1 && get(&twin, true, "Way") == 4);
@@ -119,7 +119,7 @@ static void test_states(void)
 	CHECK(do_act(&twin, ACT_STOP, false, "", 0));
 	CHECK(!twin_scan(&twin) && twin.scan == 2 && get(&twin, false, "Out") == 0);
 	CHECK(do_act(&twin, ACT_START, false, "", 0));
-	/* Cold, but switches and forces stay. */
+	/* A cold start keeps inputs and forces. */
 	CHECK(get(&twin, false, "Go") == 1 && get(&twin, true, "Way") == 0);
 	CHECK(twin_scan(&twin) && twin.scan == 3 && get(&twin, false, "Seen") == 7);
 	CHECK(get(&twin, false, "Out") == 1);
@@ -138,7 +138,7 @@ static void test_states(void)
 	ladder_free(plant);
 }
 
-/* Q0.1 is 1 while nothing runs, so are two that the program does not use. */
+/* Q0.1 is 1 in STOP; so are two outputs that the program does not use. */
 static void test_safe(void)
 {
 	static const uint8_t safe[512] = { 0x02, 0x81 };
@@ -185,7 +185,7 @@ static void test_safe(void)
 	ladder_free(plant);
 }
 
-/* The controller alone had no power: the world goes on where it is. */
+/* Only the controller lost power: the plant goes on. */
 static void test_warm(void)
 {
 	struct ladder *ladder = build(program), *plant = build(world);
@@ -212,7 +212,7 @@ static void test_warm(void)
 	ladder_free(plant);
 }
 
-/* The program gets a rung more; the plant stays where it is. */
+/* The program gets another rung; the plant keeps its state. */
 static void test_change(void)
 {
 	static char more[sizeof(program) + 64];
@@ -240,7 +240,7 @@ static void test_change(void)
 	ladder_free(plant);
 }
 
-/* An edit at rest: the board drives what the map says of the new program. */
+/* An edit in STOP: outputs follow the map for the new program. */
 static void test_safe_change(void)
 {
 	static const uint8_t before[512] = { 0x02 }, after[512] = { 0x04 };

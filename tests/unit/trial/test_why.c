@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_why - what is named turns the coil on, and less of it does not: random circuits of
- * contacts, asked and then tried. What says why is not what evaluates.
+ * test_why - changing the listed contacts turns the coil on, changing fewer does not:
+ * random circuits of contacts, explained and then tried in the VM.
  */
 #include "engine/trial/why.h"
 #include "tests/unit/rig.h"
@@ -9,14 +9,14 @@
 
 #define CIRCUITS 3000
 #define INPUTS   8
-#define ASKS     24 /* inputs that a circuit is asked with                    */
+#define ASKS     24 /* inputs that each circuit is tried with                 */
 
 static struct random_source source;
 static struct why why;
 
 /* ---- random circuits ---- */
 
-/* `[ a AND NOT (b OR c) ]`: parts that are contacts, too. */
+/* `[ a AND NOT (b OR c) ]`: its parts are contacts, too. */
 static void put_expression(char *out, size_t size)
 {
 	const int parts = 1 + (int)random_below(&source, 4);
@@ -39,7 +39,7 @@ static void put_expression(char *out, size_t size)
 	snprintf(out + used, size - used, "%.*s ]", open, "))))");
 }
 
-/* Contacts, expressions and wires, which a coil ends; links at random. */
+/* Contacts, expressions and wires with random links; a coil at the end. */
 static void make_rung(struct random_rung *rung)
 {
 	memset(rung, 0, sizeof(*rung));
@@ -98,7 +98,7 @@ static size_t print_rung(const struct random_rung *rung, char *out, size_t size)
 	return used + (size_t)snprintf(out + used, size - used, "END_PROGRAM\n");
 }
 
-/* As rig_open(), but what is refused is no failure. */
+/* As rig_open(), but a refused program is no failure. */
 static bool open_circuit(struct rig *rig, const char *text)
 {
 	char file[8192];
@@ -141,7 +141,7 @@ static bool ask(struct rig *rig, int rung, int row, int col)
 	return good;
 }
 
-/* The inputs that a way names. */
+/* The inputs in a way. */
 static unsigned inputs_of(const struct why_way *way)
 {
 	unsigned inputs = 0;
@@ -153,7 +153,7 @@ static unsigned inputs_of(const struct why_way *way)
 
 static int asked_off, asked_on, ways, never, whole;
 
-/* Turned over: exactly these, and then less. */
+/* Changes exactly these, and then fewer. */
 static bool is_way(struct rig *rig, unsigned inputs, unsigned flip)
 {
 	ways++;
@@ -165,7 +165,7 @@ static bool is_way(struct rig *rig, unsigned inputs, unsigned flip)
 	return true;
 }
 
-/* Everything else may be as it likes. */
+/* All other inputs have random values. */
 static bool is_held(struct rig *rig, unsigned inputs, unsigned by)
 {
 	ways++;
@@ -196,7 +196,7 @@ static bool try_inputs(struct rig *rig, unsigned inputs, int coil)
 		never++;
 		return !can_ever(rig);
 	}
-	/* An expression that no change of its parts makes TRUE is named as a whole. */
+	/* An expression that no change of its parts makes TRUE is listed as a whole. */
 	if (copy.ways == 1 && copy.way[0].cell[0].kind == WHY_COMPARE) {
 		whole++;
 		return !on && !can_ever(rig);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_xref - uses of names and addresses: what, how, where; free and doubled addresses.
+ * test_xref - uses of names and addresses: thing, kind, place; free addresses and
+ * clashes.
  */
 #include "engine/ladder.h"
 #include "engine/xref/address_map.h"
@@ -103,7 +104,7 @@ static void is_next(const struct address_map *map, const char *like, uint32_t co
 	CHECK_TEXT(got, want);
 }
 
-/* What is quick to make gives the same map. */
+/* xref_addresses() gives the same map. */
 static void is_same_map(struct ladder *ladder, const struct address_map *map)
 {
 	struct address_map quick;
@@ -132,7 +133,7 @@ static void test_free(struct ladder *ladder)
 	is_next(&map, "%QD0", 1, NULL, "%QD4");
 	is_next(&map, "%MX0.0", 1, NULL, "%MX0.0");
 	is_next(&map, "%MW0", 4, NULL, "%MW0");
-	is_next(&map, "%MW0", 5, NULL, "%MW10"); /* only where an index may lead to */
+	is_next(&map, "%MW0", 5, NULL, "%MW10"); /* only where an index may reach */
 	is_next(&map, "%MW0", 4092, NULL, "none");
 	is_next(&map, "%SW126", 1, "%SW126", "none");
 	CHECK(address_map_is_used(&map, address("%QX2.1")));
@@ -142,7 +143,7 @@ static void test_free(struct ladder *ladder)
 	xref_free(&xref);
 }
 
-/* Areas of other sizes, and what lies behind their ends: a program may be wrong. */
+/* Areas of other sizes, and addresses behind their ends, as in a program with errors. */
 static void test_sizes(void)
 {
 	static const char sizes[] = "RUNGBOARD 1\n\nVAR\n  Far AT %VW65532 : WORD;\n"
@@ -172,7 +173,7 @@ static void test_sizes(void)
 	ladder_free(ladder);
 }
 
-/* Names that look like addresses and are none, and addresses where few look for them. */
+/* Names that look like addresses, and addresses in unusual places. */
 static void test_quick(void)
 {
 	static const char odd[] = "RUNGBOARD 1\n\nVAR\n  Delay : TON;\n  Old : COUNTED;\n"
@@ -201,7 +202,7 @@ static void test_quick(void)
 	is_same_map(ladder, &map);
 	CHECK(address_map_is_used(&map, address("%MX40.1")));
 	CHECK(address_map_is_used(&map, address("%MX71.0")));
-	CHECK(address_map_is_used(&map, address("%QX0.6"))); /* by Main alone */
+	CHECK(address_map_is_used(&map, address("%QX0.6"))); /* used only by Main */
 	CHECK(!address_map_is_used(&map, address("%QX0.7")));
 	CHECK(!address_map_is_used(&map, address("%IX1.1")));
 	xref_free(&xref);
