@@ -57,6 +57,16 @@ struct difference {
 	const char *change;        /* "added", when there is no from and to   */
 };
 
+/* @count elements, at least one. NULL and diff->failed: memory is out. */
+static void *diff_alloc(struct diff *diff, int count, size_t size)
+{
+	void *memory = arena_alloc(&diff->arena, (size_t)(count + 1) * size);
+
+	if (!memory)
+		diff->failed = true;
+	return memory;
+}
+
 /* One id for the same bytes; 0 and diff->failed: memory is out. */
 static uint32_t diff_id(struct diff *diff, const char *text, size_t len)
 {
@@ -279,23 +289,27 @@ static void diff_texts(struct diff *diff, struct difference what, const char *pr
 	diff_say(diff, what);
 }
 
+static void compare_ids(struct diff *diff, struct difference what,
+			const char *property, uint32_t a, uint32_t b)
+{
+	diff_texts(diff, what, property, project_text(diff->a, a),
+		   project_text(diff->b, b));
+}
+
 static void compare_var(struct diff *diff, struct difference what,
 			const struct var_table *a, int i,
 			const struct var_table *b, int j)
 {
 	const struct var *x = &a->var[i], *y = &b->var[j];
-	diff_texts(diff, what, "name", project_text(diff->a, x->name),
-		   project_text(diff->b, y->name));
+	compare_ids(diff, what, "name", x->name, y->name);
 	diff_texts(diff, what, "type", type_text(diff->a, x, diff->from),
 		   type_text(diff->b, y, diff->to));
-	diff_texts(diff, what, "address", project_text(diff->a, x->at_text),
-		   project_text(diff->b, y->at_text));
+	compare_ids(diff, what, "address", x->at_text, y->at_text);
 	diff_texts(diff, what, "initial value", init_text(diff->a, x),
 		   init_text(diff->b, y));
 	diff_texts(diff, what, "block", flags_text(vars_flags(a, i)),
 		   flags_text(vars_flags(b, j)));
-	diff_texts(diff, what, "comment", project_text(diff->a, x->comment),
-		   project_text(diff->b, y->comment));
+	compare_ids(diff, what, "comment", x->comment, y->comment);
 }
 
 /* Folded names of a table, and the index of each. */
@@ -303,23 +317,17 @@ static uint32_t *var_names(struct diff *diff, const struct project *project,
 			   const struct var_table *table)
 {
 	const int count = vars_declared(table);
-	uint32_t *name = arena_alloc(&diff->arena, (size_t)(count + 1) * sizeof(*name));
+	uint32_t *name = diff_alloc(diff, count, sizeof(*name));
 
-	if (!name)
-		diff->failed = true;
 	for (int i = 0; name && i < count; i++)
-		name[i] = diff_name(diff, project_text(project,
-						       table->var[i].name));
+		name[i] = diff_name(diff, project_text(project, table->var[i].name));
 	return name;
 }
 
 static int *var_index(struct diff *diff, const uint32_t *name, int count)
 {
-	int *index = arena_alloc(&diff->arena, (size_t)(diff->names.count + 1) *
-					       sizeof(int));
+	int *index = diff_alloc(diff, diff->names.count, sizeof(*index));
 
-	if (!index)
-		diff->failed = true;
 	for (int i = count - 1; index && i >= 0; i--)
 		index[name[i]] = i + 1;
 	return index;
@@ -361,16 +369,6 @@ static const struct pou *pou_named(const struct project *project,
 	return i < 0 ? NULL : &project->pou[i];
 }
 
-static const char *language(const struct pou *pou)
-{
-	return pou_language_word(pou->language);
-}
-
-static const char *evolution(const struct pou *pou)
-{
-	return sfc_evolution_words(pou->sfc->evolution);
-}
-
 struct pairing {
 	struct diff *diff;
 	const struct pou *a, *b;
@@ -384,11 +382,8 @@ struct pairing {
 
 static int *new_numbers(struct diff *diff, int count, int value)
 {
-	int *numbers = arena_alloc(&diff->arena,
-				   (size_t)(count + 1) * sizeof(int));
+	int *numbers = diff_alloc(diff, count, sizeof(*numbers));
 
-	if (!numbers)
-		diff->failed = true;
 	for (int i = 0; numbers && i < count; i++)
 		numbers[i] = value;
 	return numbers;
@@ -446,11 +441,8 @@ static uint32_t rung_id(struct diff *diff, const struct project *project,
 static uint32_t *ids_of(struct diff *diff, const struct project *project,
 			const struct pou *pou)
 {
-	uint32_t *id = arena_alloc(&diff->arena, (size_t)(pou->rung_count + 1) *
-						 sizeof(*id));
+	uint32_t *id = diff_alloc(diff, pou->rung_count, sizeof(*id));
 
-	if (!id)
-		diff->failed = true;
 	for (int i = 0; id && i < pou->rung_count; i++)
 		id[i] = rung_id(diff, project, pou->rung[i]);
 	return id;
@@ -465,11 +457,9 @@ static bool pairing_start(struct pairing *pairs)
 	pairs->to_a = new_numbers(diff, b_count, -1);
 	pairs->gap_a = new_numbers(diff, a_count, -1);
 	pairs->gap_b = new_numbers(diff, b_count, -1);
-	pairs->moved = arena_alloc(&diff->arena, (size_t)a_count + 1);
+	pairs->moved = diff_alloc(diff, a_count, sizeof(*pairs->moved));
 	pairs->id_a = ids_of(diff, diff->a, pairs->a);
 	pairs->id_b = ids_of(diff, diff->b, pairs->b);
-	if (!pairs->moved)
-		diff->failed = true;
 	return !diff->failed;
 }
 
@@ -526,14 +516,10 @@ static bool pair_by_key(struct pairing *pairs, const uint32_t *key_a,
 static uint32_t *labels_of(struct diff *diff, const struct project *project,
 			   const struct pou *pou)
 {
-	size_t size = (size_t)(pou->rung_count + 1) * sizeof(uint32_t);
-	uint32_t *key = arena_alloc(&diff->arena, size);
+	uint32_t *key = diff_alloc(diff, pou->rung_count, sizeof(*key));
 
-	if (!key)
-		diff->failed = true;
 	for (int i = 0; key && i < pou->rung_count; i++)
-		key[i] = diff_name(diff, project_text(project,
-						      pou->rung[i]->label));
+		key[i] = diff_name(diff, project_text(project, pou->rung[i]->label));
 	return key;
 }
 
@@ -716,8 +702,7 @@ static void compare_cells(struct diff *diff, struct difference what,
 	} else {
 		compare_args(diff, what, a, b);
 	}
-	diff_texts(diff, what, "comment", project_text(diff->a, a->comment),
-		   project_text(diff->b, b->comment));
+	compare_ids(diff, what, "comment", a->comment, b->comment);
 	if (!a->link != !b->link) {
 		what.property = "link";
 		what.change = b->link ? "added" : "removed";
@@ -731,12 +716,9 @@ static void say_changes(struct diff *diff, struct difference what,
 	int rows = a->rows > b->rows ? a->rows : b->rows;
 	int cols = a->cols > b->cols ? a->cols : b->cols;
 
-	diff_texts(diff, what, "label", project_text(diff->a, a->label),
-		   project_text(diff->b, b->label));
-	diff_texts(diff, what, "title", project_text(diff->a, a->title),
-		   project_text(diff->b, b->title));
-	diff_texts(diff, what, "comment", project_text(diff->a, a->comment),
-		   project_text(diff->b, b->comment));
+	compare_ids(diff, what, "label", a->label, b->label);
+	compare_ids(diff, what, "title", a->title, b->title);
+	compare_ids(diff, what, "comment", a->comment, b->comment);
 	if (!a->off != !b->off) {
 		what.change = b->off ? "switched off" : "switched on";
 		diff_say(diff, what);
@@ -873,10 +855,8 @@ static bool make_lines(struct diff *diff, const struct project *project,
 				 diff->bytes.len);
 	if (!lines->text || !cut_lines(diff, lines))
 		return false;
-	lines->id = arena_alloc(&diff->arena, (size_t)(lines->count + 1) *
-					      sizeof(*lines->id));
-	lines->indent = arena_alloc(&diff->arena, (size_t)(lines->count + 1) *
-						  sizeof(*lines->indent));
+	lines->id = diff_alloc(diff, lines->count, sizeof(*lines->id));
+	lines->indent = diff_alloc(diff, lines->count, sizeof(*lines->indent));
 	if (!lines->id || !lines->indent)
 		return false;
 	for (int i = 0; i < lines->count; i++) {
@@ -942,8 +922,7 @@ static void diff_il(struct diff *diff, const struct pou *a, const struct pou *b)
 
 	if (make_lines(diff, diff->a, a, &x) &&
 	    make_lines(diff, diff->b, b, &y))
-		match = arena_alloc(&diff->arena, (size_t)(x.count + 1) *
-						  sizeof(int));
+		match = diff_alloc(diff, x.count, sizeof(*match));
 	if (!match || !diff_match(&diff->arena, x.id, x.count, y.id, y.count,
 				  match)) {
 		diff->failed = true;
@@ -973,16 +952,15 @@ static void compare_pou(struct diff *diff, const struct pou *a,
 
 	diff_texts(diff, what, "name", name, project_text(diff->b, b->name));
 	diff_texts(diff, what, "kind", pou_word(a->kind), pou_word(b->kind));
-	diff_texts(diff, what, "comment", project_text(diff->a, a->comment),
-		   project_text(diff->b, b->comment));
-	diff_texts(diff, what, "closing comment",
-		   project_text(diff->a, a->tail),
-		   project_text(diff->b, b->tail));
+	compare_ids(diff, what, "comment", a->comment, b->comment);
+	compare_ids(diff, what, "closing comment", a->tail, b->tail);
 	compare_vars(diff, name, &a->vars, &b->vars);
 	if (a->sfc && b->sfc)
-		diff_texts(diff, what, "evolution", evolution(a), evolution(b));
+		diff_texts(diff, what, "evolution", sfc_evolution_words(a->sfc->evolution),
+			   sfc_evolution_words(b->sfc->evolution));
 	if (a->language != b->language)
-		diff_texts(diff, what, "language", language(a), language(b));
+		diff_texts(diff, what, "language", pou_language_word(a->language),
+			   pou_language_word(b->language));
 	else if (a->language == LANGUAGE_LD)
 		diff_rungs(diff, a, b);
 	else
@@ -1139,13 +1117,6 @@ static const struct config_entry *same_line(const struct project *project,
 	return NULL;
 }
 
-static void compare_ids(struct diff *diff, struct difference what,
-			const char *property, uint32_t a, uint32_t b)
-{
-	diff_texts(diff, what, property, project_text(diff->a, a),
-		   project_text(diff->b, b));
-}
-
 static void compare_numbers(struct diff *diff, struct difference what,
 			    const char *property, uint32_t a, uint32_t b)
 {
@@ -1221,12 +1192,9 @@ static void compare(struct diff *diff)
 	struct difference what = { .kind = "project" };
 	const struct project *a = diff->a, *b = diff->b;
 
-	diff_texts(diff, what, "title", project_text(a, a->title),
-		   project_text(b, b->title));
-	diff_texts(diff, what, "opening comment", project_text(a, a->head),
-		   project_text(b, b->head));
-	diff_texts(diff, what, "closing comment", project_text(a, a->tail),
-		   project_text(b, b->tail));
+	compare_ids(diff, what, "title", a->title, b->title);
+	compare_ids(diff, what, "opening comment", a->head, b->head);
+	compare_ids(diff, what, "closing comment", a->tail, b->tail);
 	compare_parts(diff, PART_INCLUDE, "INCLUDE");
 	compare_parts(diff, PART_USES, "USES");
 	diff_config(diff);
