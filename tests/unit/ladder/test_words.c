@@ -8,7 +8,6 @@
  * `test_words --print` prints the page instead; `make words` writes it.
  */
 #include "engine/base/catalog.h"
-#include "engine/base/explain.h"
 #include "ladder/words.h"
 #include "tests/tap.h"
 #include "tests/unit/rig.h"
@@ -104,10 +103,10 @@ static void test_one(void)
 		   "AND: IL operator: result and operand\n"
 		   "  AND ANDN AND( ANDN(\n");
 	CHECK_TEXT(facts("JMP", &count) + strlen(
-		   "JMP: element (Flow): goes on at a rung's label "
+		   "JMP: element (Flow): jumps to the label of a rung "
 		   "while powered\n"
 		   "  drawn >>>\n  a label, last in its row\n"),
-		   "JMP: IL operator: goes on at a label; "
+		   "JMP: IL operator: jumps to a label; "
 		   "C: if TRUE; CN: if FALSE\n"
 		   "  JMP JMPC JMPCN\n");
 	CHECK_TEXT(words("nonsense", false, &count), "");
