@@ -10,7 +10,7 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/ascii.h"
-#include "engine/base/explain.h"
+#include "engine/base/catalog.h"
 #include "engine/base/lex.h"
 #include "engine/ladder.h"
 

@@ -14,7 +14,7 @@
 #include "editor-gtk/edit/entry_names.h"
 #include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/kit/entry_popup.h"
-#include "engine/base/explain.h"
+#include "engine/base/catalog.h"
 #include "engine/model/args.h"
 #include "engine/xref/xref.h"
 

@@ -4,7 +4,7 @@
  *
  * It uses the project as far as it could be read, and builds nothing.
  */
-#include "engine/ladder_inside.h"
+#include "engine/ladder.h"
 
 #include "engine/base/ascii.h"
 #include "engine/check/expect.h"

@@ -4,7 +4,7 @@
  *
  * It owns its results and prints nothing.
  */
-#include "engine/ladder_inside.h"
+#include "engine/ladder.h"
 
 #include "engine/base/file.h"
 #include "engine/check/check.h"

@@ -10,7 +10,6 @@
 
 #include "engine/base/diag.h"
 #include "engine/base/version.h"
-#include "engine/model/outline.h"
 #include "engine/exchange/classic/classic.h"
 #include "engine/model/project.h"
 #include "engine/scan/resource.h"
@@ -238,4 +237,29 @@ struct ladder_rename {
  */
 char *ladder_rename(struct ladder *ladder, const struct xref_target *target,
 		    const char *name, size_t *len, struct ladder_rename *how);
+
+/* ---- for the files of the facade itself ---- */
+
+/** ladder_read_project - the project of the last load, also with errors; NULL: none, or
+ * an image. Valid until the next load. */
+struct project *ladder_read_project(struct ladder *ladder);
+
+/* A reader of another tool's files: it converts them to the text of a rung file. */
+struct foreign {
+	bool (*is)(const void *bytes, size_t len);
+	bool (*is_folder)(const char *path);
+	/* The text and its name for diagnostics, both valid until the next call; NULL
+	 * after a diagnostic. @bytes NULL: @path is a folder. */
+	const char *(*read)(struct foreign *foreign, const char *path, const void *bytes,
+			    size_t len, size_t *text_len, const char **name,
+			    struct diag_list *diags);
+	/* Changes places in that text to places in the file. */
+	void (*place)(struct foreign *foreign, struct diag_list *diags);
+	void (*forget)(struct foreign *foreign); /* frees the results of the last read */
+	void (*free)(struct foreign *foreign);
+	bool loaded;      /* the last load used it                            */
+};
+/** ladder_set_foreign - the reader for later loads; NULL: none. Owns: @ladder. */
+void ladder_set_foreign(struct ladder *ladder, struct foreign *foreign);
+struct foreign *ladder_foreign(const struct ladder *ladder);
 #endif

@@ -4,7 +4,7 @@
  *
  * A separate file, so that a program that does not use it does not link it.
  */
-#include "engine/ladder_inside.h"
+#include "engine/ladder.h"
 
 #include "engine/exchange/classic/classic_rung.h"
 
@@ -26,6 +26,11 @@ struct classic_foreign {
 	bool folder;              /* it is a folder                            */
 	const char *name;         /* lines of the text: their origin in the project */
 };
+
+static struct classic_foreign *classic_of(const struct ladder *ladder)
+{
+	return (struct classic_foreign *)ladder_foreign(ladder);
+}
 
 static void forget(struct foreign *foreign)
 {
@@ -110,9 +115,9 @@ static const char *file_of(struct classic_foreign *classic, int line)
 	return whole;
 }
 
-static void place_diags(const struct foreign *foreign, struct diag_list *diags)
+static void place_diags(struct foreign *foreign, struct diag_list *diags)
 {
-	const struct classic_foreign *classic = (const struct classic_foreign *)foreign;
+	struct classic_foreign *classic = (struct classic_foreign *)foreign;
 
 	for (int i = 0; i < diags->count; i++) {
 		struct diag *diag = &diags->diag[i];
@@ -121,7 +126,7 @@ static void place_diags(const struct foreign *foreign, struct diag_list *diags)
 		if (!classic->project || !diag->file || diag->file == classic->path ||
 		    strcmp(diag->file, classic->path))
 			continue;
-		diag->file = file_of((struct classic_foreign *)(uintptr_t)classic, diag->line);
+		diag->file = file_of(classic, diag->line);
 		diag->column = 0;
 		diag->line = line_of(classic, diag->line);
 	}
@@ -144,7 +149,7 @@ bool ladder_take_classic(struct ladder *ladder, bool faithful)
 
 void ladder_classic_task(struct ladder *ladder, bool task)
 {
-	struct classic_foreign *classic = (struct classic_foreign *)ladder_foreign(ladder);
+	struct classic_foreign *classic = classic_of(ladder);
 
 	if (classic)
 		classic->options.task = task;
@@ -152,32 +157,28 @@ void ladder_classic_task(struct ladder *ladder, bool task)
 
 const struct classic_report *ladder_import_report(const struct ladder *ladder)
 {
-	const struct classic_foreign *classic =
-		(const struct classic_foreign *)ladder_foreign(ladder);
+	const struct classic_foreign *classic = classic_of(ladder);
 
 	return classic && classic->project ? &classic->report : NULL;
 }
 
 const char *ladder_import_io(const struct ladder *ladder)
 {
-	const struct classic_foreign *classic =
-		(const struct classic_foreign *)ladder_foreign(ladder);
+	const struct classic_foreign *classic = classic_of(ladder);
 
 	return classic ? classic->io : NULL;
 }
 
 int ladder_import_line(const void *ladder, int line)
 {
-	const struct classic_foreign *classic =
-		(const struct classic_foreign *)ladder_foreign(ladder);
+	const struct classic_foreign *classic = classic_of(ladder);
 
 	return classic && classic->project ? line_of(classic, line) : line;
 }
 
 void ladder_import_places(const struct ladder *ladder, struct diag_list *diags)
 {
-	const struct classic_foreign *classic =
-		(const struct classic_foreign *)ladder_foreign(ladder);
+	struct classic_foreign *classic = classic_of(ladder);
 
 	if (classic)
 		place_diags(&classic->foreign, diags);
@@ -185,8 +186,7 @@ void ladder_import_places(const struct ladder *ladder, struct diag_list *diags)
 
 const struct classic_project *ladder_import_project(const struct ladder *ladder)
 {
-	const struct classic_foreign *classic =
-		(const struct classic_foreign *)ladder_foreign(ladder);
+	const struct classic_foreign *classic = classic_of(ladder);
 
 	return classic ? classic->project : NULL;
 }
@@ -195,8 +195,7 @@ const struct classic_project *ladder_import_project(const struct ladder *ladder)
 const struct classic_rung *ladder_import_rung(const struct ladder *ladder, int pou,
 					      int rung)
 {
-	const struct classic_foreign *classic =
-		(const struct classic_foreign *)ladder_foreign(ladder);
+	const struct classic_foreign *classic = classic_of(ladder);
 	const struct project *project = ladder_project((struct ladder *)ladder);
 	const struct classic_place *place;
 	uint32_t line;
@@ -219,8 +218,7 @@ const struct classic_rung *ladder_import_rung(const struct ladder *ladder, int p
 
 int64_t ladder_period(const struct ladder *ladder)
 {
-	const struct classic_foreign *classic =
-		(const struct classic_foreign *)ladder_foreign(ladder);
+	const struct classic_foreign *classic = classic_of(ladder);
 
 	return classic && classic->project ? classic->project->period * INT64_C(1000000) : 0;
 }

@@ -4,7 +4,7 @@
  *
  * A separate file, so that a program that does not use it does not link it.
  */
-#include "engine/ladder_inside.h"
+#include "engine/ladder.h"
 
 #include "engine/exchange/classic/classic_write.h"
 #include "engine/exchange/classic/to_classic.h"

@@ -6,7 +6,7 @@
  * and the texts are restored. The result is read again, and each name in it must still
  * mean the same. So no name is captured, whatever the rules of scope.
  */
-#include "engine/ladder_inside.h"
+#include "engine/ladder.h"
 
 #include "engine/check/reserved.h"
 #include "engine/text/text.h"

@@ -23,9 +23,9 @@ static enum status run(struct call *call, struct machine *machine,
 		trace_init(&trace, &machine->resource.image, &call->out, form,
 			   call_flag(call, "--changes"));
 		trace.stop = &call->out_failed;
-		status = script_run_with(call->arg[1], text, len, period_ns,
-					 &machine->resource, machine_plant(machine),
-					 &trace, diags) ? STATUS_GOOD : STATUS_NO;
+		status = script_run(call->arg[1], text, len, period_ns,
+				    &machine->resource, machine_plant(machine), &trace,
+				    diags) ? STATUS_GOOD : STATUS_NO;
 		trace_free(&trace);
 		report_end(diags);
 	}

@@ -294,8 +294,8 @@ enum status machine_play(struct machine *machine, const char *script, const char
 		return STATUS_WRONG;
 	machine->resource.watch = true;
 	trace_init(&trace, &machine->resource.image, &nowhere, TRACE_LINES, false);
-	good = script_run_with(script, text, len, program_period(machine->ladder, 0),
-			       &machine->resource, machine_plant(machine), &trace, diags);
+	good = script_run(script, text, len, program_period(machine->ladder, 0),
+			  &machine->resource, machine_plant(machine), &trace, diags);
 	trace_free(&trace);
 	report_end(diags);
 	return good ? STATUS_GOOD : STATUS_NO;

@@ -5,7 +5,7 @@
  */
 #include "ladder/words.h"
 
-#include "engine/base/explain.h"
+#include "engine/base/catalog.h"
 #include "engine/model/convert.h"
 #include "engine/model/words.h"
 

@@ -2,7 +2,7 @@
  *
  * words_page - prints the page docs/words.md from the catalogue.
  */
-#include "engine/base/explain.h"
+#include "engine/base/catalog.h"
 #include "ladder/words.h"
 
 #include <string.h>

@@ -36,7 +36,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 	trace_init(&trace, &sandbox->resource.image, &sandbox->sink,
 		   (enum trace_form)(len % 3), len & 1);
 	if (!script_run("fuzz.script", (const char *)bytes, len, 10000000,
-			&sandbox->resource, &trace, &diags))
+			&sandbox->resource, NULL, &trace, &diags))
 		fuzz_expect(diags.errors > 0, "a refused script has an error");
 	trace_end(&trace);
 	trace_free(&trace);

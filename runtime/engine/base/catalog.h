@@ -245,4 +245,16 @@ enum sys_id {
 	SYS_COUNT
 };
 const struct sys_row *sys_row(enum sys_id id);
+
+/* Explanations for people, in explain.c, so that a runtime does not link them. Static,
+ * without line breaks. */
+
+/** explain_word - what a word does; "" of a word of a project. */
+const char *explain_word(const struct word_row *row);
+/** explain_pin - the purpose of pin @index of the row; "" for an inner pin and for a
+ * word of a project. */
+const char *explain_pin(const struct word_row *row, int index);
+const char *explain_op(enum op op);
+const char *explain_area(enum iec_area area);
+const char *explain_sys(enum sys_id id);
 #endif

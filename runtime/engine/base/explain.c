@@ -2,7 +2,7 @@
  *
  * explain - the column of catalog.def that is for people.
  */
-#include "engine/base/explain.h"
+#include "engine/base/catalog.h"
 
 static const char *const words[WORD_COUNT] = {
 #define ELEM(id, word, glyph, family, place, operand, edge, first, next, negate, doc) \

@@ -54,9 +54,5 @@ extern const struct literal_unit literal_unit[LITERAL_UNITS];
 /** literal_units - 1h2m3.5s in ns. */
 enum literal_result literal_units(struct rest rest, uint64_t *out);
 /** literal_signed - @magnitude with its sign; false if 64 bits do not hold it. */
-enum literal_result literal_signed(uint64_t size, bool minus, int64_t *out);
-/** literal_date - the text behind TOD#, D# or DT# (IEC 61131-3 table 8). */
-enum literal_result literal_date(enum iec_type type, struct rest rest, int64_t *out);
-/** literal_quoted - a STRING in its quotes. */
-enum literal_result literal_quoted(struct rest rest, struct literal *out);
+enum literal_result literal_signed(uint64_t magnitude, bool minus, int64_t *out);
 #endif

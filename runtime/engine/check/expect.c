@@ -5,7 +5,7 @@
 #include "engine/check/expect.h"
 
 #include "engine/base/ascii.h"
-#include "engine/base/explain.h"
+#include "engine/base/catalog.h"
 #include "engine/base/lex.h"
 #include "engine/base/nearest.h"
 #include "engine/model/convert.h"

@@ -10,11 +10,43 @@
 
 #include "engine/base/areas.h"
 #include "engine/model/sfc.h"
-#include "engine/model/config.h"
 #include "engine/model/il.h"
 #include "engine/model/rung.h"
 #include "engine/model/vars.h"
 #include "engine/model/words.h"
+
+/* A CONFIGURATION as it was written, line by line (IEC 61131-3, 2.7 and tables 49 and
+ * 50). check/ resolves the names, scan/ decides when a task runs. */
+enum config_kind { CONFIG_VARS, CONFIG_AREA, CONFIG_TASK, CONFIG_PROGRAM };
+
+/* One line; members of other kinds are 0. */
+struct config_entry {
+	enum config_kind kind;
+	bool inside;          /* of the RESOURCE                              */
+	uint32_t name;        /* TASK, PROGRAM: string id                     */
+	uint32_t pou, task;   /* PROGRAM: string ids; task 0: none            */
+	uint32_t single;      /* TASK: string id of an operand; 0: none       */
+	int64_t interval_ns, watchdog_ns; /* TASK; 0: none                    */
+	uint32_t interval, watchdog;      /* string ids, as written           */
+	uint32_t priority;    /* TASK: 0 is the highest                       */
+	enum iec_area area;   /* AREA                                         */
+	uint32_t bytes;       /* AREA: its size                               */
+	int block;            /* VARS: index of a block of the globals        */
+	uint32_t comment;     /* its comment                                  */
+	int line;
+};
+
+struct config {
+	uint32_t name;
+	uint32_t comment;     /* the comment of its first line                */
+	bool has_resource;
+	uint32_t resource, on; /* string ids; on 0: not written               */
+	uint32_t resource_comment;
+	struct config_entry *entry;
+	int count;
+	const char *file;     /* it stands in; borrowed from the arena        */
+	int line;
+};
 
 struct advice;
 enum pou_language { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC };
@@ -116,4 +148,27 @@ const char *pou_language_word(enum pou_language language);
 int project_find_pou(const struct project *project, const char *name, size_t len);
 /** project_text - the string of an id. */
 const char *project_text(const struct project *project, uint32_t id);
+
+/* The places of the parts of a project in its canonical text, for programs that replace
+ * parts of it, as the editor does with declarations. */
+enum text_part {
+	TEXT_PART,  /* number of the part, its comments too                   */
+	TEXT_POU,   /* number of the POU, from its heading to END_…           */
+	TEXT_BLOCK, /* VAR … END_VAR; number in its table                     */
+	TEXT_VAR,   /* one declaration, its newline too; number in its table  */
+	TEXT_BODY,  /* of a POU: its rungs or its list; number of the POU     */
+	TEXT_RUNG,  /* number in its POU                                      */
+	TEXT_STRUCT, /* a structure; number in the project                    */
+	TEXT_TITLE, /* PROJECT "…" with its newline, or the place for it      */
+	TEXT_STEP,  /* of a chart, from its comments to END_STEP; its number  */
+	TEXT_TRANSITION, /* likewise                                          */
+	TEXT_ACTION,
+};
+struct text_span {
+	enum text_part part;
+	int number;         /* 0-based                                        */
+	int pou;            /* that contains it; -1: none                     */
+	int structure;      /* likewise                                       */
+	size_t at, len;     /* bytes                                          */
+};
 #endif

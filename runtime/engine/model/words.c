@@ -6,7 +6,7 @@
  */
 #include "engine/model/words.h"
 #include "engine/base/ascii.h"
-#include "engine/base/explain.h"
+#include "engine/base/catalog.h"
 #include "engine/base/limits.h"
 #include "engine/model/convert.h"
 

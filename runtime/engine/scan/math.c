@@ -7,7 +7,6 @@
  * exponents reach 1074, so that log2 has some 10 bits more than the rest.
  */
 #include "engine/scan/math.h"
-#include "engine/scan/math_bits.h"
 #include "engine/scan/math_table.h"
 #include "engine/scan/math_number.h"
 

@@ -7,7 +7,6 @@
  * which keeps the precision of small numerators and denominators.
  */
 #include "engine/scan/math.h"
-#include "engine/scan/math_bits.h"
 #include "engine/scan/math_table.h"
 #include "engine/scan/math_number.h"
 

@@ -3,10 +3,242 @@
  * vm - one switch over all instructions. code_open() has verified them.
  */
 #include "engine/scan/vm.h"
-#include "engine/scan/vm_array.h"
-#include "engine/scan/vm_steps.h"
+#include "engine/scan/code.h"
+#include "engine/scan/value.h"
 
 #include <string.h>
+
+/* ---- operands ---- */
+
+static inline bool is_real(uint32_t word)
+{
+	return value_is_real(CODE_TYPE(word));
+}
+
+static inline int64_t integer(const uint8_t *m, uint32_t word)
+{
+	return value_integer(m + CODE_OFFSET(word), CODE_TYPE(word));
+}
+
+/* An operand for REAL arithmetic: integers that widen are exact. */
+static inline double real(const uint8_t *m, uint32_t word)
+{
+	return is_real(word) ? value_real(m + CODE_OFFSET(word), CODE_TYPE(word))
+			     : (double)integer(m, word);
+}
+
+static inline const struct iec_string *text(const uint8_t *m, uint32_t word)
+{
+	return (const void *)(m + CODE_OFFSET(word));
+}
+
+static inline void put(uint8_t *m, uint32_t word, union iec_value value)
+{
+	value_put(m + CODE_OFFSET(word), CODE_TYPE(word), value);
+}
+
+/* False if a text had to be cut. */
+static inline bool put_text(uint8_t *m, uint32_t word, const struct iec_string *from)
+{
+	uint16_t len = from->length;
+
+	iec_store(m + CODE_OFFSET(word), IEC_STRING, (union iec_value){ .s = from });
+	return text(m, word)->length == len;
+}
+
+static inline void run_copy(uint8_t *m, const uint32_t *pc)
+{
+	union iec_value value;
+
+	if (CODE_TYPE(pc[1]) == IEC_STRING) {
+		put_text(m, pc[1], text(m, pc[2]));
+		return;
+	}
+	if (is_real(pc[1]))
+		value.r = real(m, pc[2]);
+	else
+		value.i = integer(m, pc[2]);
+	put(m, pc[1], value);
+}
+
+/* ---- elements whose index is computed in the scan ---- */
+
+/* Operands of AGET and APUT; ABLOCK has SIZE in between. The indices follow. */
+enum { EN, OK, VALUE, BASE, ELEMENT, SIZE = ELEMENT };
+enum { INDEX, LOW, COUNT, STRIDE };
+
+/* Adds the offset of the element to *where; false: no such element. An index below
+ * `low` wraps to a number far above `count`, so one comparison is enough. */
+static inline bool find_index(const uint8_t *m, const uint32_t *at, uint32_t *where)
+{
+	int64_t index = integer(m, at[INDEX]);
+	uint64_t element = (uint64_t)index - (uint64_t)(int32_t)at[LOW];
+
+	if (element >= at[COUNT] ||
+	    (index < 0 && !value_is_signed(CODE_TYPE(at[INDEX]))))
+		return false;
+	*where += (uint32_t)element * at[STRIDE];
+	return true;
+}
+
+/* The indices after the first. */
+static inline bool find_more(const uint8_t *m, const uint32_t *at, uint32_t more,
+		      uint32_t *where)
+{
+	for (; more > 0; more--) {
+		at += CODE_DIMENSION;
+		if (!find_index(m, at, where))
+			return false;
+	}
+	return true;
+}
+
+static inline bool find_element(const uint8_t *m, const uint32_t *at, uint32_t more,
+				uint32_t *where)
+{
+	return find_index(m, at, where) && (!more || find_more(m, at, more, where));
+}
+
+static inline void clear_value(uint8_t *m, const uint32_t *at)
+{
+	static const struct iec_string none = { 0, 0 };
+
+	if (CODE_TYPE(at[VALUE]) == IEC_STRING)
+		put_text(m, at[VALUE], &none);
+	else
+		put(m, at[VALUE], (union iec_value){ .i = 0 });
+}
+
+static inline bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
+{
+	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, at[VALUE], 0 };
+
+	if (!find_element(m, at + ELEMENT, n >> 1, &where))
+		return false;
+	if (n & 1) {
+		m[CODE_OFFSET(at[VALUE])] = m[where / 8] >> where % 8 & 1u;
+		return true;
+	}
+	copy[2] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
+	run_copy(m, copy);
+	return true;
+}
+
+static inline bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
+{
+	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, 0, at[VALUE] };
+
+	if (!find_element(m, at + ELEMENT, n >> 1, &where))
+		return false;
+	if (n & 1) {
+		uint8_t *byte = &m[where / 8];
+
+		*byte = (uint8_t)((*byte & ~(1u << where % 8)) |
+				  (uint32_t)m[CODE_OFFSET(at[VALUE])]
+				  << where % 8);
+		return true;
+	}
+	copy[1] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
+	run_copy(m, copy);
+	return true;
+}
+
+/* @at[VALUE] and @at[BASE]: destination and source. */
+static inline bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
+{
+	uint32_t to = at[VALUE], from = at[BASE];
+
+	if (!find_element(m, at + SIZE + 1, n >> 1, n & 1 ? &to : &from))
+		return false;
+	memcpy(m + to, m + from, at[SIZE]);
+	return true;
+}
+
+/* ---- steps: the cost of a chart depends on its active steps only ---- */
+
+/* The first TRUE one of eight BOOLs, not all FALSE. */
+static inline uint32_t first_of_eight(uint64_t eight)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+	return (uint32_t)__builtin_ctzll(eight) / 8;
+#else
+	return (uint32_t)__builtin_clzll(eight) / 8;
+#endif
+}
+
+static inline uint64_t eight_at(const uint8_t *bits)
+{
+	uint64_t eight;
+
+	memcpy(&eight, bits, sizeof(eight));
+	return eight;
+}
+
+/* Skips BOOLs that are FALSE, 32 at a time: most steps of a large chart. */
+static inline uint32_t skip_false(const uint8_t *bits, uint32_t from, uint32_t n)
+{
+	while (from < n && n - from >= 32 &&
+	       !(eight_at(bits + from) | eight_at(bits + from + 8) |
+		 eight_at(bits + from + 16) | eight_at(bits + from + 24)))
+		from += 32;
+	return from;
+}
+
+/* The number of the first of @n BOOLs that is TRUE, from @from on; @n: none. */
+static inline uint32_t next_true(const uint8_t *bits, uint32_t from, uint32_t n)
+{
+	uint64_t eight;
+
+	from = skip_false(bits, from, n);
+	for (; from < n && n - from >= sizeof(eight); from += sizeof(eight)) {
+		eight = eight_at(bits + from);
+		if (eight)
+			return from + first_of_eight(eight);
+	}
+	while (from < n && !bits[from])
+		from++;
+	return from < n ? from : n;
+}
+
+/* EACH: true if one is TRUE; *@found is its number. */
+static inline bool find_step(uint8_t *m, const uint32_t *at, uint32_t n, uint32_t *found)
+{
+	uint32_t cursor;
+
+	memcpy(&cursor, m + at[0], sizeof(cursor));
+	*found = next_true(m + at[1], cursor, n);
+	cursor = *found < n ? *found + 1 : 0;
+	memcpy(m + at[0], &cursor, sizeof(cursor));
+	return *found < n;
+}
+
+/* Operands of TICK. */
+enum { TICK_HOLD, TICK_LAST, TICK_DT, TICK_X, TICK_T, TICK_WORDS };
+
+static inline void add_time(uint8_t *at, int64_t dt)
+{
+	int64_t value;
+
+	memcpy(&value, at, sizeof(value));
+	value = (int64_t)((uint64_t)value + (uint64_t)dt);
+	memcpy(at, &value, sizeof(value));
+}
+
+static inline void tick(uint8_t *m, const uint32_t *at, uint32_t n, int64_t now_ns)
+{
+	const uint8_t *x = m + at[TICK_X];
+	uint8_t *t = m + at[TICK_T];
+	int64_t last, dt;
+
+	memcpy(&last, m + at[TICK_LAST], sizeof(last));
+	memcpy(m + at[TICK_LAST], &now_ns, sizeof(now_ns));
+	dt = m[at[TICK_HOLD]] ? 0 : (int64_t)((uint64_t)now_ns - (uint64_t)last);
+	memcpy(m + at[TICK_DT], &dt, sizeof(dt));
+	for (uint32_t i = next_true(x, 0, n); i < n; i = next_true(x, i + 1, n))
+		add_time(t + i * sizeof(dt), dt);
+}
+
+/* ---- calls through the catalogue ---- */
 
 /* The branch that a compiler places first. */
 #define LIKELY(x) __builtin_expect((x), 1)

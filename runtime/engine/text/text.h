@@ -10,7 +10,6 @@
 
 #include "engine/base/diag.h"
 #include "engine/base/sink.h"
-#include "engine/model/outline.h"
 #include "engine/model/project.h"
 
 /* Where INCLUDE gets its files from. */

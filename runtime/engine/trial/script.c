@@ -396,15 +396,8 @@ static bool check_bytes(struct script *script, const char *text, size_t len)
 }
 
 bool script_run(const char *file, const char *text, size_t len,
-		int64_t period_ns, struct resource *resource,
+		int64_t period_ns, struct resource *resource, struct plant *plant,
 		struct trace *trace, struct diag_list *diags)
-{
-	return script_run_with(file, text, len, period_ns, resource, NULL, trace, diags);
-}
-
-bool script_run_with(const char *file, const char *text, size_t len,
-		     int64_t period_ns, struct resource *resource, struct plant *plant,
-		     struct trace *trace, struct diag_list *diags)
 {
 	struct script script = { .file = file, .resource = resource, .plant = plant,
 				 .trace = trace, .diags = diags, .dry = true };

@@ -25,6 +25,7 @@
  * @file:      names it in diagnostics; outlives @diags
  * @period_ns: until @period; more than 0
  * @resource:  freshly initialised; it is started here
+ * @plant:     NULL: none; started and reset with the program; @warm does not change it
  * @trace:     shows the scans; without @print it shows everything declared
  *
  * Each scan first moves the clock on, from 0, then runs at that time. Owns: nothing.
@@ -32,14 +33,8 @@
  * program), or, without one, when trace_stopped().
  */
 bool script_run(const char *file, const char *text, size_t len,
-		int64_t period_ns, struct resource *resource,
+		int64_t period_ns, struct resource *resource, struct plant *plant,
 		struct trace *trace, struct diag_list *diags);
-
-/** script_run_with - the same with a plant, which is started and reset with the program;
- * @warm does not change the plant. @plant: NULL: none */
-bool script_run_with(const char *file, const char *text, size_t len,
-		     int64_t period_ns, struct resource *resource, struct plant *plant,
-		     struct trace *trace, struct diag_list *diags);
 
 /** script_fault - adds the latched fault of @resource as DIAG_FAULT. Returns false. */
 bool script_fault(const struct resource *resource, const char *file, int line,

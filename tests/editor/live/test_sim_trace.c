@@ -187,8 +187,8 @@ static char *trace_of(const char *script)
 	sink_memory_init(&text);
 	sink = sink_to_memory(&text);
 	trace_init(&trace, &resource.image, &sink, TRACE_LINES, false);
-	script_run("clicks", script, strlen(script), ladder_sim_period(sim), &resource, &trace,
-		   &diags);
+	script_run("clicks", script, strlen(script), ladder_sim_period(sim), &resource, NULL,
+		   &trace, &diags);
 	for (int i = 0; i < diags.count && diags.diag[i].id != DIAG_FAULT; i++)
 		printf("# %s\n", diags.diag[i].arg);
 	out = g_strdup(sink_memory_text(&text));

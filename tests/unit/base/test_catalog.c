@@ -3,7 +3,6 @@
  * test_catalog - the rows are complete, and words, pins and operators are found.
  */
 #include "engine/base/catalog.h"
-#include "engine/base/explain.h"
 #include "tests/tap.h"
 
 static bool is_name(const char *word)

@@ -19,7 +19,7 @@ static const char *run_form(const char *script, enum trace_form form,
 
 	bed_clear(&bed);
 	trace_init(&trace, &bed.resource.image, &bed.out, form, changes);
-	script_run("s", script, strlen(script), 10 * MS, &bed.resource, &trace,
+	script_run("s", script, strlen(script), 10 * MS, &bed.resource, NULL, &trace,
 		   &bed.diags);
 	trace_free(&trace);
 	return sink_memory_text(&bed.text);
@@ -236,7 +236,7 @@ static void test_stop(void)
 	bed_clear(&bed);
 	trace_init(&trace, &bed.resource.image, &bed.out, TRACE_LINES, false);
 	trace.stop = &stop;
-	CHECK(!script_run("s", text, strlen(text), MS, &bed.resource, &trace,
+	CHECK(!script_run("s", text, strlen(text), MS, &bed.resource, NULL, &trace,
 			  &bed.diags));
 	CHECK(bed.diags.count == 0);
 	trace_free(&trace);

@@ -41,7 +41,7 @@ static const char *run_form(const char *script, enum trace_form form, bool chang
 
 	bed_clear(&bed);
 	trace_init(&trace, &bed.resource.image, &bed.out, form, changes);
-	script_run("s", script, strlen(script), 10 * MS, &bed.resource, &trace,
+	script_run("s", script, strlen(script), 10 * MS, &bed.resource, NULL, &trace,
 		   &bed.diags);
 	trace_free(&trace);
 	return sink_memory_text(&bed.text);
