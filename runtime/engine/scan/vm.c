@@ -159,11 +159,7 @@ static inline bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
 /* The first TRUE one of eight BOOLs, not all FALSE. */
 static inline uint32_t first_of_eight(uint64_t eight)
 {
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 	return (uint32_t)__builtin_ctzll(eight) / 8;
-#else
-	return (uint32_t)__builtin_clzll(eight) / 8;
-#endif
 }
 
 static inline uint64_t eight_at(const uint8_t *bits)
