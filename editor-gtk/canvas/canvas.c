@@ -73,9 +73,6 @@ struct canvas_input {
 
 struct canvas_own {
 	struct canvas_state state;
-	gulong handler[5];      /* of the document's signals                   */
-	gulong sim_handler[3];
-	gulong scrolled[2];
 	GtkScrollablePolicy policy[2];
 	bool allocating;
 	bool reveal;            /* the cursor, as soon as there is a size       */
@@ -586,17 +583,22 @@ static void scrolled(LadderCanvas *canvas)
 	gtk_widget_queue_draw(GTK_WIDGET(canvas));
 }
 
+static void forget_adjustment(LadderCanvas *canvas, int which)
+{
+	GtkAdjustment **adjustment = &state_of(canvas)->adjustment[which];
+
+	if (*adjustment)
+		g_signal_handlers_disconnect_by_data(*adjustment, canvas);
+	g_clear_object(adjustment);
+}
+
 static void set_adjustment(LadderCanvas *canvas, int which, GtkAdjustment *adjustment)
 {
-	struct canvas_own *own = own_of(canvas);
-
-	if (state_of(canvas)->adjustment[which])
-		g_signal_handler_disconnect(state_of(canvas)->adjustment[which], own->scrolled[which]);
+	forget_adjustment(canvas, which);
 	if (!adjustment)
 		adjustment = gtk_adjustment_new(0, 0, 0, 0, 0, 0);
 	g_set_object(&state_of(canvas)->adjustment[which], adjustment);
-	own->scrolled[which] = g_signal_connect_swapped(state_of(canvas)->adjustment[which],
-		"value-changed", G_CALLBACK(scrolled), canvas);
+	g_signal_connect_swapped(adjustment, "value-changed", G_CALLBACK(scrolled), canvas);
 	gtk_widget_queue_resize(GTK_WIDGET(canvas));
 }
 
@@ -1113,20 +1115,16 @@ static void checked(LadderCanvas *canvas)
 
 void canvas_show(LadderCanvas *canvas, LadderDocument *document, int pou)
 {
-	gulong *handler = own_of(canvas)->handler;
-
 	state_of(canvas)->document = g_object_ref(document);
 	state_of(canvas)->pou = pou;
-	handler[0] = g_signal_connect_swapped(document, "rungs-changed",
-					      G_CALLBACK(rungs_changed), canvas);
-	handler[1] = g_signal_connect_swapped(document, "project-changed",
-					      G_CALLBACK(project_changed), canvas);
-	handler[2] = g_signal_connect_swapped(document, "variable-changed",
-					      G_CALLBACK(variable_changed), canvas);
-	handler[3] = g_signal_connect_swapped(document, "bookmarks-changed",
-					      G_CALLBACK(bookmarks_changed), canvas);
-	handler[4] = g_signal_connect_swapped(document, "checked", G_CALLBACK(checked),
-					      canvas);
+	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(rungs_changed), canvas);
+	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(project_changed),
+				 canvas);
+	g_signal_connect_swapped(document, "variable-changed", G_CALLBACK(variable_changed),
+				 canvas);
+	g_signal_connect_swapped(document, "bookmarks-changed", G_CALLBACK(bookmarks_changed),
+				 canvas);
+	g_signal_connect_swapped(document, "checked", G_CALLBACK(checked), canvas);
 	project_changed(canvas);
 	checked(canvas);
 }
@@ -1174,27 +1172,23 @@ static void state_changed(LadderCanvas *canvas)
 
 static void forget_sim(LadderCanvas *canvas)
 {
-	const gulong *handler = own_of(canvas)->sim_handler;
-
-	for (int i = 0; state_of(canvas)->sim && i < (int)G_N_ELEMENTS(own_of(canvas)->sim_handler); i++)
-		g_signal_handler_disconnect(state_of(canvas)->sim, handler[i]);
+	if (state_of(canvas)->sim)
+		g_signal_handlers_disconnect_by_data(state_of(canvas)->sim, canvas);
 	g_clear_object(&state_of(canvas)->sim);
 }
 
 void ladder_canvas_set_sim(LadderCanvas *canvas, LadderSim *sim)
 {
-	gulong *handler = own_of(canvas)->sim_handler;
 	const bool was_on = canvas_is_live(canvas);
 
 	forget_sim(canvas);
 	if (sim) {
 		state_of(canvas)->sim = g_object_ref(sim);
-		handler[0] = g_signal_connect_swapped(sim, "shown",
-			G_CALLBACK(values_changed), canvas);
-		handler[1] = g_signal_connect_swapped(sim, "program-changed",
-			G_CALLBACK(program_changed), canvas);
-		handler[2] = g_signal_connect_swapped(sim, "state-changed",
-			G_CALLBACK(state_changed), canvas);
+		g_signal_connect_swapped(sim, "shown", G_CALLBACK(values_changed), canvas);
+		g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(program_changed),
+					 canvas);
+		g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(state_changed),
+					 canvas);
 	}
 	if (was_on || canvas_is_live(canvas))
 		program_changed(canvas);
@@ -1255,13 +1249,10 @@ static void ladder_canvas_dispose(GObject *object)
 	canvas_end_drag(canvas);
 	forget_sim(canvas);
 	clear_cells(canvas);
-	for (int i = 0; i < 2; i++) {
-		if (state_of(canvas)->adjustment[i])
-			g_signal_handler_disconnect(state_of(canvas)->adjustment[i], own->scrolled[i]);
-		g_clear_object(&state_of(canvas)->adjustment[i]);
-	}
-	for (int i = 0; state_of(canvas)->document && i < (int)G_N_ELEMENTS(own->handler); i++)
-		g_signal_handler_disconnect(state_of(canvas)->document, own->handler[i]);
+	forget_adjustment(canvas, 0);
+	forget_adjustment(canvas, 1);
+	if (state_of(canvas)->document)
+		g_signal_handlers_disconnect_by_data(state_of(canvas)->document, canvas);
 	forget_uses(canvas);
 	g_clear_object(&own->input.method);
 	g_clear_object(&state_of(canvas)->document);

@@ -21,18 +21,6 @@ static graphene_size_t size(LadderCanvas *canvas)
 	return GRAPHENE_SIZE_INIT(strips_width(view), strips_height(view) + BELOW);
 }
 
-static void lay_out(LadderCanvas *canvas, double page)
-{
-	strips_lay_out(LADDER_GRID_VIEW(canvas), page);
-}
-
-static void push_mark(GArray *marks, int row, int column, unsigned int mark)
-{
-	const struct grid_mark one = { row, column, mark };
-
-	g_array_append_val(marks, one);
-}
-
 static void mark_selection(LadderGridView *view, int rung, GArray *marks)
 {
 	struct grid_area area;
@@ -42,11 +30,11 @@ static void mark_selection(LadderGridView *view, int rung, GArray *marks)
 	if (cursor_area(view, &area))
 		for (int row = area.row; row <= area.last_row; row++)
 			for (int col = area.col; col <= area.last_col; col++)
-				push_mark(marks, row, col, MARK_SELECTED);
+				mark_push(marks, row, col, MARK_SELECTED);
 	if (gtk_widget_has_focus(GTK_WIDGET(view)) || view->canvas->entry)
-		push_mark(marks, view->cursor.at.row, view->cursor.at.col, MARK_CURSOR);
+		mark_push(marks, view->cursor.at.row, view->cursor.at.col, MARK_CURSOR);
 	else
-		push_mark(marks, view->cursor.at.row, view->cursor.at.col, MARK_SELECTED);
+		mark_push(marks, view->cursor.at.row, view->cursor.at.col, MARK_SELECTED);
 }
 
 static void mark_checks(LadderGridView *view, int rung, GArray *marks)
@@ -59,7 +47,7 @@ static void mark_checks(LadderGridView *view, int rung, GArray *marks)
 
 		if (mark->rung == rung && mark->row >= 0 && mark->row < shown->rows &&
 		    mark->col >= 0 && mark->col < shown->cols)
-			push_mark(marks, mark->row,
+			mark_push(marks, mark->row,
 				  grid_display_column(shown, view->columns, mark->row,
 						      mark->col), mark->marks);
 	}
@@ -70,7 +58,7 @@ static void marks_push(LadderGridView *view, int rung, GArray *marks)
 	mark_selection(view, rung, marks);
 	mark_checks(view, rung, marks);
 	if (rung == view->found.rung)
-		push_mark(marks, view->found.row, view->found.col, MARK_FOUND);
+		mark_push(marks, view->found.row, view->found.col, MARK_FOUND);
 }
 
 static unsigned int marks_state(LadderGridView *view, int rung)
@@ -337,11 +325,6 @@ static void checked(LadderCanvas *canvas)
 
 /* ---- the simulation ---- */
 
-static void values_changed(LadderCanvas *canvas)
-{
-	live_values_changed(LADDER_GRID_VIEW(canvas));
-}
-
 /* Variables are at other places: a question for a value ends. */
 static void program_changed(LadderCanvas *canvas)
 {
@@ -444,21 +427,6 @@ static char *cursor_name(LadderCanvas *canvas, bool values)
 	return view->names ? tell_cursor(view, values) : NULL;
 }
 
-static char *place(LadderCanvas *canvas)
-{
-	return tell_place(LADDER_GRID_VIEW(canvas));
-}
-
-static char *next_keys(LadderCanvas *canvas)
-{
-	return tell_keys(LADDER_GRID_VIEW(canvas));
-}
-
-static char *tip(LadderCanvas *canvas, int x, int y, bool by_keys)
-{
-	return tell_tip(LADDER_GRID_VIEW(canvas), x, y, by_keys);
-}
-
 /* ---- giving up ---- */
 
 static void give_back(LadderGridView *view)
@@ -547,11 +515,6 @@ static void do_verb(LadderCanvas *canvas, enum verb verb)
 
 /* ---- keys ---- */
 
-static bool move_by_key(LadderCanvas *canvas, guint key, GdkModifierType state)
-{
-	return cursor_key(LADDER_GRID_VIEW(canvas), key, state);
-}
-
 /* Names, addresses, expressions; `= Motor`, `!Stop`, `-(S)- Lamp`. A slash is a verb's. */
 static bool begins_entry(LadderCanvas *canvas, gunichar c)
 {
@@ -562,11 +525,6 @@ static bool begins_entry(LadderCanvas *canvas, gunichar c)
 static void type(LadderCanvas *canvas, const char *text)
 {
 	entry_begin(LADDER_GRID_VIEW(canvas), text);
-}
-
-static void closed(LadderCanvas *canvas, bool was_open)
-{
-	entry_closed(LADDER_GRID_VIEW(canvas), was_open);
 }
 
 /* ---- the pointer ---- */
@@ -838,27 +796,27 @@ static void ladder_grid_view_class_init(LadderGridViewClass *class)
 	canvas->keys = VERB_SHEET;
 	canvas->name = N_("Sheet");
 	canvas->size = size;
-	canvas->lay_out = lay_out;
+	canvas->lay_out = strips_lay_out;
 	canvas->scrolled = draw_ahead_later;
 	canvas->paint = paint;
 	canvas->restyle = restyle;
 	canvas->cursor_box = box_at_cursor;
 	canvas->reveal = reveal;
 	canvas->cursor_name = cursor_name;
-	canvas->place = place;
-	canvas->next_keys = next_keys;
+	canvas->place = tell_place;
+	canvas->next_keys = tell_keys;
 	canvas->do_verb = do_verb;
-	canvas->key = move_by_key;
+	canvas->key = cursor_key;
 	canvas->begins_entry = begins_entry;
 	canvas->type = type;
-	canvas->closed = closed;
+	canvas->closed = entry_closed;
 	canvas->press = press;
 	canvas->release = release;
 	canvas->can_drag = can_drag;
 	canvas->drag = drag;
 	canvas->drag_end = drag_end;
 	canvas->menu = make_menu;
-	canvas->tip = tip;
+	canvas->tip = tell_tip;
 	canvas->list_cells = list_cells;
 	canvas->cell_name = cell_name;
 	canvas->cell_box = cell_box;
@@ -868,7 +826,7 @@ static void ladder_grid_view_class_init(LadderGridViewClass *class)
 	canvas->variable_changed = variable_changed;
 	canvas->bookmarks_changed = restyle;
 	canvas->checked = checked;
-	canvas->values_changed = values_changed;
+	canvas->values_changed = live_values_changed;
 	canvas->program_changed = program_changed;
 	canvas->state_changed = state_changed;
 }

@@ -25,7 +25,7 @@ static const struct live_cell *cell_of(const struct live_rung *live, int row, in
 	       &live->cell[row * live->cols + col] : NULL;
 }
 
-/* The cell at the cursor; NULL: it has no value in the program that runs. */
+/* The cell at the cursor; NULL: nothing runs, or the cell has no value in what runs. */
 static const struct live_cell *cell_here(LadderGridView *view)
 {
 	const struct live_rung *live = live_rung_of(view, view->cursor.at.rung);
@@ -283,21 +283,14 @@ void act_forget(LadderGridView *view)
 
 bool act_do(LadderGridView *view, enum verb verb)
 {
-	const struct live_cell *cell;
+	const struct live_cell *cell = cell_here(view);
 
-	if (verb == VERB_force || verb == VERB_set_value) {
-		if (verb == VERB_force)
-			force(view);
-		else
-			set_here(view);
-		return true;
-	}
-	if (!canvas_is_live(LADDER_CANVAS(view)) || (verb != VERB_cycle && verb != VERB_enter))
-		return false;
-	cell = cell_here(view);
-	if (verb == VERB_cycle && is_switch(cell))
+	if (verb == VERB_force)
+		force(view);
+	else if (verb == VERB_cycle && is_switch(cell))
 		toggle(view, cell);
-	else if (verb == VERB_enter && is_number(cell) && cell->kind == LIVE_TEXT)
+	else if (verb == VERB_set_value ||
+		 (verb == VERB_enter && is_number(cell) && cell->kind == LIVE_TEXT))
 		set_here(view);
 	else
 		return false;
@@ -310,7 +303,7 @@ bool act_do(LadderGridView *view, enum verb verb)
 
 bool act_is_click(LadderGridView *view, float x, float y)
 {
-	const struct live_cell *cell = canvas_is_live(LADDER_CANVAS(view)) ? cell_here(view) : NULL;
+	const struct live_cell *cell = cell_here(view);
 	const struct strip *strip;
 	const struct rung_layout *layout;
 	const struct cell *shown = cursor_cell(view, NULL, NULL);
@@ -334,7 +327,7 @@ bool act_is_click(LadderGridView *view, float x, float y)
 
 void act_click(LadderGridView *view)
 {
-	const struct live_cell *cell = canvas_is_live(LADDER_CANVAS(view)) ? cell_here(view) : NULL;
+	const struct live_cell *cell = cell_here(view);
 
 	if (is_switch(cell))
 		toggle(view, cell);
@@ -413,7 +406,7 @@ static void add_instances(LadderGridView *view, GMenu *menu)
 
 GMenuModel *act_menu(LadderGridView *view)
 {
-	const struct live_cell *cell = canvas_is_live(LADDER_CANVAS(view)) ? cell_here(view) : NULL;
+	const struct live_cell *cell = cell_here(view);
 	GMenu *menu = g_menu_new();
 
 	if (is_switch(cell))
@@ -470,7 +463,7 @@ static void add_key(GString *text, enum verb verb, const char *what)
 
 bool act_keys(LadderGridView *view, GString *text)
 {
-	const struct live_cell *cell = canvas_is_live(LADDER_CANVAS(view)) ? cell_here(view) : NULL;
+	const struct live_cell *cell = cell_here(view);
 	const bool held = cell && is_held(view, cell->at);
 
 	if (!cell || cell->at.constant)

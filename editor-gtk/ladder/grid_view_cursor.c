@@ -284,8 +284,9 @@ static bool step_rungs(LadderGridView *view, guint key, struct grid_cursor *to)
 	return true;
 }
 
-bool cursor_key(LadderGridView *view, guint key, GdkModifierType state)
+bool cursor_key(LadderCanvas *canvas, guint key, GdkModifierType state)
 {
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
 	const bool control = state & GDK_CONTROL_MASK;
 	struct grid_cursor to = view->cursor.at;
 

@@ -214,11 +214,9 @@ bool *drop_takes(LadderGridView *view, int rung, const struct rung_layout *layou
 
 void drop_mark(LadderGridView *view, int rung, GArray *marks)
 {
-	const struct grid_mark meant = { view->drop.at.row, view->drop.at.col,
-					 view->drop.legal ? MARK_DROP : MARK_ILLEGAL };
-
 	if (rung == view->drop.at.rung)
-		g_array_append_val(marks, meant);
+		mark_push(marks, view->drop.at.row, view->drop.at.col,
+			  view->drop.legal ? MARK_DROP : MARK_ILLEGAL);
 }
 
 /* ---- a rung ---- */

@@ -719,8 +719,10 @@ void entry_begin_text(LadderGridView *view, enum verb verb)
 
 /* ---- the end ---- */
 
-void entry_closed(LadderGridView *view, bool was_open)
+void entry_closed(LadderCanvas *canvas, bool was_open)
 {
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+
 	view->asks_value = false;
 	if (view->preview) {
 		g_clear_pointer(&view->preview, rung_free);

@@ -134,13 +134,20 @@ int strips_at(LadderGridView *view, float y);
 /** strips_get - laid out. */
 struct strip *strips_get(LadderGridView *view, int rung);
 /** strips_lay_out - what is seen in a page of @page px, before it is drawn. */
-void strips_lay_out(LadderGridView *view, double page);
+void strips_lay_out(LadderCanvas *canvas, double page);
 /** strips_resize_later - the sheet needs another size; safe while it is allocated. */
 void strips_resize_later(LadderGridView *view);
 float strips_width(LadderGridView *view);
 float strips_height(LadderGridView *view);
 /** strip_forget_live - the places of its values are others, or not needed. */
 void strip_forget_live(struct strip *strip);
+/** mark_push - adds a mark of a cell as shown to those of a drawing. */
+static inline void mark_push(GArray *marks, int row, int column, unsigned int mark)
+{
+	const struct grid_mark one = { row, column, mark };
+
+	g_array_append_val(marks, one);
+}
 static inline struct strip *strip_of(LadderGridView *view, int rung)
 {
 	return &g_array_index(view->strips, struct strip, rung);
@@ -169,7 +176,7 @@ bool cursor_rungs(LadderGridView *view, int *first, int *last);
 bool cursor_selects(LadderGridView *view, int rung, int row, int col);
 /** cursor_cell - the element below it; row and col of the rung too (or NULL). NULL: none. */
 const struct cell *cursor_cell(LadderGridView *view, int *row, int *col);
-bool cursor_key(LadderGridView *view, guint key, GdkModifierType state);
+bool cursor_key(LadderCanvas *canvas, guint key, GdkModifierType state);
 /** sheet_point - what is at a point of the widget; the rung, or -1. */
 int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit);
 /** hit_is_cell - is it a cell, or something in one? */
@@ -183,7 +190,7 @@ bool sheet_put(LadderGridView *view, struct rung *rung, const struct grid_at *at
 /* ---- grid_view_live.c ---- */
 void live_init(LadderGridView *view);
 void live_clear(LadderGridView *view);
-void live_values_changed(LadderGridView *view);
+void live_values_changed(LadderCanvas *canvas);
 void live_program_changed(LadderGridView *view);
 void live_state_changed(LadderGridView *view);
 /** live_look - a rung that is laid out is looked at, if it was not since values changed.
@@ -235,7 +242,7 @@ void entry_begin_pin(LadderGridView *view, const char *pin, gsize len, bool outp
 /** entry_begin_text - for a title, label, comment, pin. */
 void entry_begin_text(LadderGridView *view, enum verb verb);
 /** entry_closed - the popup closed, or would if it was open: the preview goes. */
-void entry_closed(LadderGridView *view, bool was_open);
+void entry_closed(LadderCanvas *canvas, bool was_open);
 
 /* ---- grid_view_edit.c ---- */
 /** edit_do - a verb that changes rungs, selects or copies; false: it is another verb. */
@@ -272,8 +279,8 @@ char *tell_cell(LadderGridView *view, int rung, int row, int col, const struct c
 /** tell_cursor - "Rung 3, empty cell, row 1, column B"; of an element its name and where it
  * is, so that two of the same name differ. @values: of what runs, too. Caller frees. */
 char *tell_cursor(LadderGridView *view, bool values);
-char *tell_tip(LadderGridView *view, int x, int y, bool by_keys);
-char *tell_place(LadderGridView *view);
-char *tell_keys(LadderGridView *view);
+char *tell_tip(LadderCanvas *canvas, int x, int y, bool by_keys);
+char *tell_place(LadderCanvas *canvas);
+char *tell_keys(LadderCanvas *canvas);
 
 #endif

@@ -183,10 +183,12 @@ static void notice_state(LadderGridView *view)
 	strips_redraw(view, -1);
 }
 
-void live_values_changed(LadderGridView *view)
+void live_values_changed(LadderCanvas *canvas)
 {
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+
 	view->live.stamp++;
-	if (!canvas_is_live(LADDER_CANVAS(view)))
+	if (!canvas_is_live(canvas))
 		return;
 	notice_state(view);
 	look_at_seen(view);
@@ -288,13 +290,6 @@ static unsigned int marks_of(uint8_t bits)
 	       (bits & LIVE_FAILED ? MARK_FAILED : 0);
 }
 
-static void push(GArray *marks, int row, int column, unsigned int mark)
-{
-	const struct grid_mark one = { row, column, mark };
-
-	g_array_append_val(marks, one);
-}
-
 void live_marks(LadderGridView *view, int rung, GArray *marks)
 {
 	const struct live_rung *live = strip_of(view, rung)->live;
@@ -304,19 +299,19 @@ void live_marks(LadderGridView *view, int rung, GArray *marks)
 		return;
 	for (int i = 0; live && i < live->rows * live->cols; i++)
 		if (marks_of(live->bits[i]))
-			push(marks, i / live->cols,
-			     grid_display_column(shown, view->columns, i / live->cols,
-						 i % live->cols),
-			     marks_of(live->bits[i]));
+			mark_push(marks, i / live->cols,
+				  grid_display_column(shown, view->columns, i / live->cols,
+						      i % live->cols),
+				  marks_of(live->bits[i]));
 	for (guint i = 0; rung == view->live.blocked && i < view->live.blockers->len; i++) {
 		const struct grid_blocker *one =
 			&g_array_index(view->live.blockers, struct grid_blocker, i);
 
 		if (one->row >= 0 && one->row < shown->rows && one->col >= 0 &&
 		    one->col < shown->cols)
-			push(marks, one->row,
-			     grid_display_column(shown, view->columns, one->row, one->col),
-			     MARK_BLOCKS);
+			mark_push(marks, one->row,
+				  grid_display_column(shown, view->columns, one->row, one->col),
+				  MARK_BLOCKS);
 	}
 }
 

@@ -212,10 +212,13 @@ static gboolean lay_out_more(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
+/* Also asks for another size, which redraws. */
 static void lay_out_later(LadderGridView *view)
 {
 	if (!view->idle)
 		view->idle = g_idle_add_full(G_PRIORITY_LOW, lay_out_more, view, NULL);
+	gtk_widget_queue_resize(GTK_WIDGET(view));
+	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
 /* ---- what changes ---- */
@@ -234,8 +237,6 @@ void strips_reset(LadderGridView *view)
 		guess(view, i);
 	stack(view, 0);
 	lay_out_later(view);
-	gtk_widget_queue_resize(GTK_WIDGET(view));
-	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
 static void forget_some(LadderGridView *view, int at, int count)
@@ -283,8 +284,6 @@ void strips_splice(LadderGridView *view, int at, int removed, int inserted)
 		renumber(view, i);
 	stack(view, at);
 	lay_out_later(view);
-	gtk_widget_queue_resize(GTK_WIDGET(view));
-	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
 static bool names_one(LadderGridView *view, int rung, uint32_t name, uint32_t address)
@@ -313,8 +312,6 @@ void strips_renamed(LadderGridView *view, const char *name, const char *address)
 			guess(view, i);
 	stack(view, 0);
 	lay_out_later(view);
-	gtk_widget_queue_resize(GTK_WIDGET(view));
-	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
 void strips_dirty(LadderGridView *view, int rung)
@@ -328,8 +325,6 @@ void strips_dirty(LadderGridView *view, int rung)
 	guess(view, rung);
 	stack(view, rung);
 	lay_out_later(view);
-	gtk_widget_queue_resize(GTK_WIDGET(view));
-	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
 void strips_redraw(LadderGridView *view, int rung)
@@ -401,8 +396,10 @@ struct strip *strips_get(LadderGridView *view, int rung)
 	return strip;
 }
 
-void strips_lay_out(LadderGridView *view, double page)
+void strips_lay_out(LadderCanvas *canvas, double page)
 {
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
+
 	for (int i = 0; i < (int)view->strips->len; i++) {
 		const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]);
 		const int first = strips_at(view, (float)(top / view->canvas->zoom));
@@ -449,7 +446,6 @@ void ladder_grid_view_set_show(LadderGridView *view, enum drafting_show show)
 {
 	view->drafting.show = show;
 	strips_reset(view);
-	gtk_widget_queue_resize(GTK_WIDGET(view));
 }
 
 static void show_chosen(LadderGridView *view)

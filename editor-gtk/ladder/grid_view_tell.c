@@ -188,8 +188,9 @@ static char *tip_of_rung(LadderGridView *view, int rung)
 	return g_string_free(text, text->len == 0);
 }
 
-char *tell_tip(LadderGridView *view, int x, int y, bool by_keys)
+char *tell_tip(LadderCanvas *canvas, int x, int y, bool by_keys)
 {
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
 	struct rung_hit hit = { .part = RUNG_PART_CELL, .row = view->cursor.at.row,
 				.column = view->cursor.at.col };
 	const int rung = by_keys ? view->cursor.at.rung : sheet_point(view, x, y, &hit);
@@ -233,8 +234,9 @@ static const enum verb *verbs_of(LadderGridView *view, const struct cell *cell)
 	return row->operand == OPND_BOOL_R ? contact : other;
 }
 
-char *tell_keys(LadderGridView *view)
+char *tell_keys(LadderCanvas *canvas)
 {
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
 	const struct cell *cell = cursor_cell(view, NULL, NULL);
 	GString *text = g_string_new(NULL);
 	const enum verb *verb;
@@ -266,8 +268,9 @@ static char *place_of(LadderGridView *view)
 }
 
 /* In a function block with the instance that is shown. */
-char *tell_place(LadderGridView *view)
+char *tell_place(LadderCanvas *canvas)
 {
+	LadderGridView *view = LADDER_GRID_VIEW(canvas);
 	const char *instance = ladder_grid_view_instance(view);
 	char *place = place_of(view), *whole;
 

@@ -39,32 +39,24 @@ static graphene_size_t size(LadderCanvas *canvas)
 		       GRAPHENE_SIZE_INIT(0, 0);
 }
 
+static void push_mark(GArray *marks, int shape, int use, unsigned int signs)
+{
+	const struct sfc_mark mark = { shape, use, signs };
+
+	if (shape >= 0)
+		g_array_append_val(marks, mark);
+}
+
 static GArray *all_marks(LadderSfcView *view)
 {
 	GArray *marks = g_array_new(FALSE, FALSE, sizeof(struct sfc_mark));
 
-	for (int i = 0; i < view->sheet->layout->shape_count; i++) {
-		struct sfc_mark mark = { i, -1, SFC_SELECTED };
-
-		if (view->selected[i])
-			g_array_append_val(marks, mark);
-	}
-	if (view->found.shape >= 0) {
-		struct sfc_mark mark = { view->found.shape, view->found.use, SFC_FOUND };
-
-		g_array_append_val(marks, mark);
-	}
+	for (int i = 0; i < view->sheet->layout->shape_count; i++)
+		push_mark(marks, view->selected[i] ? i : -1, -1, SFC_SELECTED);
+	push_mark(marks, view->found.shape, view->found.use, SFC_FOUND);
 	g_array_append_vals(marks, view->marks->data, view->marks->len);
-	if (view->cursor.shape >= 0) {
-		struct sfc_mark mark = { view->cursor.shape, view->cursor.use, SFC_CURSOR };
-
-		g_array_append_val(marks, mark);
-	}
-	if (view->stroke.drawn && view->stroke.to.shape >= 0) {
-		struct sfc_mark mark = { view->stroke.to.shape, -1, SFC_DROP };
-
-		g_array_append_val(marks, mark);
-	}
+	push_mark(marks, view->cursor.shape, view->cursor.use, SFC_CURSOR);
+	push_mark(marks, view->stroke.drawn ? view->stroke.to.shape : -1, -1, SFC_DROP);
 	return marks;
 }
 
@@ -458,7 +450,7 @@ static void try_place(LadderSfcView *view, struct sfc_at at, const graphene_poin
 	const graphene_point_t to = anchor_of(view, at);
 	const float far = way_to_place(from, &to, dx, dy);
 
-	if (at.shape == view->cursor.shape && at.use == view->cursor.use)
+	if (is_same(at, view->cursor))
 		return;
 	if (far < *least) {
 		*least = far;
@@ -811,8 +803,7 @@ bool ladder_sfc_view_is_at(LadderSfcView *view, int row)
 	if (!view->sheet)
 		return false;
 	at = at_line(view, sfc_pou(view)->line + row);
-	return at.shape < 0 || (at.shape == view->cursor.shape &&
-				at.use == view->cursor.use);
+	return at.shape < 0 || is_same(at, view->cursor);
 }
 
 /* ---- what find has come to ---- */

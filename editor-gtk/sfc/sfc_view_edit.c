@@ -108,24 +108,15 @@ static void put_step(LadderSfcView *view, struct sfc_edit *edit, int step, enum 
 static void step_below(LadderSfcView *view)
 {
 	struct sfc_edit *edit = sfc_edit_begin(view);
-	int index, made;
+	enum sfc_part part;
+	int index;
 
 	if (!edit)
 		return;
-	switch (sfc_part_here(view, &index)) {
-	case SFC_STEP:
-		made = sfc_edit_step_below(edit, index);
-		break;
-	case SFC_TRANSITION:
-		made = sfc_edit_step_after(edit, index);
-		break;
-	case SFC_NOTHING:
-	case SFC_JUMP:
-	default:
-		made = sfc_edit_first(edit, -1);
-		break;
-	}
-	put_step(view, edit, made, VERB_step_below);
+	part = sfc_part_here(view, &index);
+	put_step(view, edit, part == SFC_STEP ? sfc_edit_step_below(edit, index) :
+		 part == SFC_TRANSITION ? sfc_edit_step_after(edit, index) :
+		 sfc_edit_first(edit, -1), VERB_step_below);
 }
 
 static void branch(LadderSfcView *view)
@@ -260,17 +251,13 @@ static bool delete_shape(LadderSfcView *view, struct sfc_edit *edit, int number)
 {
 	const struct sfc_shape *shape = &view->sheet->layout->shape[number];
 
-	switch (shape->part) {
-	case SFC_STEP:
+	if (shape->part == SFC_STEP)
 		return sfc_edit_delete_step(edit, shape->index);
-	case SFC_TRANSITION: /* it may have gone with a step */
-		return sfc_edit_delete_transition(edit, shape->index) || true;
-	case SFC_JUMP:
+	if (shape->part == SFC_JUMP)
 		return delete_jump(view, edit, shape->index);
-	case SFC_NOTHING:
-	default:
-		return false;
-	}
+	/* A deleted step may have taken the transition with it. */
+	sfc_edit_delete_transition(edit, shape->index);
+	return shape->part == SFC_TRANSITION;
 }
 
 static bool delete_selected(LadderSfcView *view, struct sfc_edit *edit, bool *any)
@@ -365,29 +352,22 @@ static void macro_open(LadderSfcView *view)
 static void as_rung(LadderSfcView *view)
 {
 	const struct pou *pou = sfc_pou(view);
+	const int use = view->cursor.use;
 	struct sfc_edit *edit;
 	int index;
+	const enum sfc_part part = sfc_part_here(view, &index);
 
-	switch (sfc_part_here(view, &index)) {
-	case SFC_TRANSITION:
+	if (part == SFC_TRANSITION) {
 		edit = sfc_edit_begin(view);
 		if (sfc_put(view, edit, sfc_edit_as_rung(edit, index),
 			      _(verb_row(VERB_as_rung)->label), PIECE_TRANSITION, index) &&
 		    sfc_part_at_cursor(view, &index) == SFC_TRANSITION)
 			sfc_want_body(view,
 				&sfc_pou(view)->sfc->transition[index].condition);
-		break;
-	case SFC_STEP:
-		if (view->cursor.use >= 0 && pou->sfc->use[view->cursor.use].action >= 0)
-			sfc_want_body(view, &pou->sfc->action[
-				pou->sfc->use[view->cursor.use].action].body);
-		else
-			canvas_tell(LADDER_CANVAS(view), _("Select a condition or an action first."));
-		break;
-	case SFC_NOTHING:
-	case SFC_JUMP:
-	default:
-		break;
+	} else if (part == SFC_STEP && use >= 0 && pou->sfc->use[use].action >= 0) {
+		sfc_want_body(view, &pou->sfc->action[pou->sfc->use[use].action].body);
+	} else if (part == SFC_STEP) {
+		canvas_tell(LADDER_CANVAS(view), _("Select a condition or an action first."));
 	}
 }
 
@@ -418,17 +398,9 @@ static bool is_left(LadderSfcView *view, const struct sfc *sfc, int transition)
 
 static bool is_kept(LadderSfcView *view, const struct sfc *sfc, const struct sfc_piece *piece)
 {
-	switch (piece->kind) {
-	case PIECE_STEP:
-	case PIECE_MACRO_END:
-		return is_chosen(view, piece->index);
-	case PIECE_TRANSITION:
-		return is_left(view, sfc, piece->index);
-	case PIECE_ACTION:
-	case PIECE_CONTROL:
-	default:
-		return false;
-	}
+	return piece->kind == PIECE_STEP || piece->kind == PIECE_MACRO_END ?
+	       is_chosen(view, piece->index) :
+	       piece->kind == PIECE_TRANSITION && is_left(view, sfc, piece->index);
 }
 
 /* The chart, with the declarations of what it names: globals before it, its own in it.
@@ -555,12 +527,11 @@ static bool put_pieces(LadderSfcView *view, const char *pieces, LadderDocument *
 	const struct rung_clip clip = { .source = source };
 	struct end_of_pou end = { .pou = view->canvas->pou };
 	gsize len;
-	char *whole = ladder_document_outline(view->canvas->document, &len, take_end, &end), *with;
-	bool good;
+	char *whole = ladder_document_outline(view->canvas->document, &len, take_end, &end);
+	char *with = g_strdup_printf("\n%s", pieces);
+	const bool good = whole && ladder_document_replace(view->canvas->document, end.span.at +
+							   end.span.len, 0, with, NULL);
 
-	with = g_strdup_printf("\n%s", pieces);
-	good = whole && ladder_document_replace(view->canvas->document, end.span.at + end.span.len,
-						0, with, NULL);
 	*told = good ? rung_clip_declare(&clip, view->canvas->document, view->canvas->pou, -1,
 					 LIMIT_RUNGS + 1) : NULL;
 	g_free(with);

@@ -136,27 +136,13 @@ static void offer(LadderSfcView *view, enum sfc_asked what, const char *line, gs
 {
 	const gsize start = word_start(line, at);
 
-	switch (what) {
-	case ASK_CONDITION:
+	if (what == ASK_CONDITION) {
 		offer_members(view, line, start, at);
 		offer_names(view, "[", line, 0, at);
-		break;
-	case ASK_DOES:
-	case ASK_ANOTHER:
+	} else if (what == ASK_DOES || what == ASK_ANOTHER) {
 		offer_doing(view, line, start, at);
-		break;
-	case ASK_LEAD:
-	case ASK_WAIT:
-	case ASK_GO:
+	} else if (what == ASK_LEAD || what == ASK_WAIT || what == ASK_GO) {
 		offer_steps(view, line, start, at);
-		break;
-	case ASK_STEP:
-	case ASK_TIMES:
-	case ASK_NAME:
-	case ASK_PRIORITY:
-	case ASK_COMMENT:
-	default:
-		break;
 	}
 }
 
@@ -372,13 +358,11 @@ static bool take_times(struct asked *asked, const char *line)
 static bool take_name(struct asked *asked, const char *line, bool step)
 {
 	struct sfc_edit *edit = sfc_edit_begin(asked->view);
+	const bool good = step ? sfc_edit_name_step(edit, asked->index, line) :
+			  sfc_edit_name_transition(edit, asked->index, line);
 
-	return step ? sfc_put(asked->view, edit, sfc_edit_name_step(edit, asked->index,
-								      line),
-				_("Name a step"), PIECE_STEP, asked->index) :
-		sfc_put(asked->view, edit,
-			  sfc_edit_name_transition(edit, asked->index, line),
-			  _("Name a transition"), PIECE_TRANSITION, asked->index);
+	return sfc_put(asked->view, edit, good, step ? _("Name a step") : _("Name a transition"),
+		       step ? PIECE_STEP : PIECE_TRANSITION, asked->index);
 }
 
 /* The transition also waits for the named step. */
@@ -503,7 +487,7 @@ static char *text_now(const struct asked *asked)
 	const struct project *project = asked->view->sheet->project;
 	char line[LIMIT_NAME + 100];
 
-	switch (asked->what) {
+	switch ((int)asked->what) {
 	case ASK_STEP:
 		return g_strdup(project_text(project, pou->sfc->step[asked->index].name));
 	case ASK_NAME:
@@ -522,63 +506,33 @@ static char *text_now(const struct asked *asked)
 			pou->sfc->transition[asked->index].priority) : g_strdup("");
 	case ASK_COMMENT:
 		return comment_now(asked);
-	case ASK_GO:
-	case ASK_ANOTHER:
-	case ASK_LEAD:
-	case ASK_WAIT:
 	default:
 		return g_strdup("");
 	}
 }
 
-static const char *prompt_of(enum sfc_asked what)
-{
-	static const char *const prompts[] = {
-		[ASK_STEP] = N_("Name of the step"),
-		[ASK_CONDITION] = N_("Condition"),
-		[ASK_DOES] = N_("What the step does: N Valve, L T#3s Horn, SET Lamp, "
-				"ACTION Count"),
-		[ASK_ANOTHER] = N_("What the step does: N Valve, L T#3s Horn, SET Lamp, "
-				   "ACTION Count"),
-		[ASK_LEAD] = N_("Lead to the step"),
-		[ASK_WAIT] = N_("Also wait for the step"),
-		[ASK_TIMES] = N_("MIN time, MAX time, ALARM bit"),
-		[ASK_NAME] = N_("Name of the transition"),
-		[ASK_PRIORITY] = N_("Priority: 1 is asked first"),
-		[ASK_COMMENT] = N_("Comment"),
-		[ASK_GO] = N_("Go to the step"),
-	};
+#define DOES N_("What the step does: N Valve, L T#3s Horn, SET Lamp, ACTION Count")
 
-	return prompts[what];
-}
-
-/* Which part it is asked of; SFC_NOTHING: of step or transition. */
-static enum sfc_part part_of(enum sfc_asked what)
-{
-	switch (what) {
-	case ASK_STEP:
-	case ASK_DOES:
-	case ASK_ANOTHER:
-	case ASK_TIMES:
-		return SFC_STEP;
-	case ASK_CONDITION:
-	case ASK_WAIT:
-	case ASK_NAME:
-	case ASK_PRIORITY:
-		return SFC_TRANSITION;
-	case ASK_LEAD:
-	case ASK_COMMENT:
-	case ASK_GO:
-	default:
-		return SFC_NOTHING;
-	}
-}
+/* @part: where the question makes sense; SFC_NOTHING: at a step or a transition. */
+static const struct { const char *prompt; enum sfc_part part; } questions[] = {
+	[ASK_STEP] = { N_("Name of the step"), SFC_STEP },
+	[ASK_CONDITION] = { N_("Condition"), SFC_TRANSITION },
+	[ASK_DOES] = { DOES, SFC_STEP },
+	[ASK_ANOTHER] = { DOES, SFC_STEP },
+	[ASK_LEAD] = { N_("Lead to the step"), SFC_NOTHING },
+	[ASK_WAIT] = { N_("Also wait for the step"), SFC_TRANSITION },
+	[ASK_TIMES] = { N_("MIN time, MAX time, ALARM bit"), SFC_STEP },
+	[ASK_NAME] = { N_("Name of the transition"), SFC_TRANSITION },
+	[ASK_PRIORITY] = { N_("Priority: 1 is asked first"), SFC_TRANSITION },
+	[ASK_COMMENT] = { N_("Comment"), SFC_NOTHING },
+	[ASK_GO] = { N_("Go to the step"), SFC_NOTHING },
+};
 
 /* Why it cannot be asked for at the cursor; NULL: it can. */
 static const char *refusal(LadderSfcView *view, enum sfc_asked what)
 {
 	int index;
-	const enum sfc_part part = sfc_part_at_cursor(view, &index), of = part_of(what);
+	const enum sfc_part part = sfc_part_at_cursor(view, &index), of = questions[what].part;
 
 	if (what == ASK_GO || (part != SFC_NOTHING && part != SFC_JUMP &&
 			       (of == SFC_NOTHING || of == part)))
@@ -590,7 +544,7 @@ static const char *refusal(LadderSfcView *view, enum sfc_asked what)
 void sfc_ask_for(LadderSfcView *view, enum sfc_asked what, const char *typed)
 {
 	struct canvas_question question = {
-		.prompt = _(prompt_of(what)), .typed = typed != NULL, .drops = what == ASK_GO,
+		.prompt = _(questions[what].prompt), .typed = typed != NULL, .drops = what == ASK_GO,
 		.changed = line_changed, .taken = line_taken, .free = g_free,
 	};
 	struct asked *asked;
