@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * canvas - the widget below all sheets; see canvas.h.
+ * canvas - the base class of all sheets; see canvas.h.
  *
- * GTK 4.8 makes only widgets accessible, so there is a child that draws nothing for each
- * thing on the screen. The child at the cursor is selected. GTK 4.8 tells nobody of an
- * active descendant: the sheet keeps the focus and the keys, and its description is the
- * name of what the cursor is on, which screen readers read. The children follow a moment
- * later, never while the window is laid out or scrolled.
+ * GTK 4.8 makes only widgets accessible, so each visible thing has a child widget that draws
+ * nothing. The child at the cursor is selected. GTK 4.8 does not announce an active descendant:
+ * the sheet keeps the focus, and its description, which screen readers read, is the name of
+ * the thing at the cursor. The children are updated later, never during allocation or
+ * scrolling.
  *
- * Keys of verbs come first (verbs.h), unless an input method composes something: Space
- * chooses a Chinese name and must not be a verb then. The text composed so far is drawn at
- * the cursor; the result begins the entry.
+ * Keys of verbs (verbs.h) come first, except while an input method composes: Space chooses a
+ * Chinese name then. The composed text is drawn at the cursor; the result opens the entry.
  */
 #include "editor-gtk/canvas/canvas.h"
 
@@ -27,10 +26,10 @@ enum { CURSOR_MOVED, TOLD, ZOOM_CHANGED, SIGNALS };
 static guint signals[SIGNALS];
 
 #define ZOOM_MOST  3.0
-#define FOLLOW_MS  60  /* after which accessible children follow               */
-#define COMPOSED   4   /* px round what is composed                            */
+#define FOLLOW_MS  60  /* delay of accessible children                         */
+#define COMPOSED   4   /* px around the composed text                          */
 #define EDGE       28  /* px from an edge where a drag scrolls                 */
-#define SLOWEST    3   /* px a step of that                                    */
+#define SLOWEST    3   /* px a step of this scrolling                          */
 #define FASTEST    24
 #define STEP_MS    30
 
@@ -43,16 +42,16 @@ struct canvas_cell {
 /* Accessible children. */
 struct canvas_cells {
 	GArray *cell;           /* of struct canvas_cell                       */
-	guint listed;           /* of them, while they are listed              */
-	GtkWidget *blank;       /* of a place without a cell; NULL: not needed yet */
-	char *said;             /* what the sheet was described by, without values */
+	guint listed;           /* number of them that list_cells() has added  */
+	GtkWidget *blank;       /* for an empty place; NULL: not needed yet    */
+	char *said;             /* last description, without values            */
 	guint timer;
-	int height;             /* px of the widget, when they were listed      */
+	int height;             /* px of the widget at the last allocation      */
 };
 
-/* The button is down. */
+/* The last press of the button. */
 struct canvas_press {
-	double x, y;            /* where it went down, px of the widget         */
+	double x, y;            /* px of the widget                            */
 	bool dragging;
 	struct {
 		guint timer;    /* 0: the sheet does not scroll                */
@@ -66,19 +65,19 @@ struct canvas_press {
 /* Input methods. */
 struct canvas_input {
 	GtkIMContext *method;
-	gunichar key;           /* that it looks at now                        */
-	bool plain;             /* and returned unchanged                      */
-	char *composed;         /* so far; NULL: nothing                       */
+	gunichar key;           /* passed to the method                        */
+	bool plain;             /* the method returned @key unchanged          */
+	char *composed;         /* text so far; NULL: none                     */
 };
 
 struct canvas_own {
 	struct canvas_state state;
 	GtkScrollablePolicy policy[2];
 	bool allocating;
-	bool reveal;            /* the cursor, as soon as there is a size       */
+	bool reveal;            /* scroll to the cursor at the next allocation  */
 	const struct theme *theme; /* NULL: to be looked up                    */
-	struct xref *xref;      /* NULL: not asked for since something changed  */
-	struct canvas_question question; /* of the popup that is open           */
+	struct xref *xref;      /* NULL: not needed since the last change       */
+	struct canvas_question question; /* of the open entry                   */
 	struct canvas_cells cells;
 	struct canvas_press press;
 	struct canvas_input input;
@@ -109,7 +108,7 @@ static LadderCanvasClass *class_of(LadderCanvas *canvas)
 	return LADDER_CANVAS_GET_CLASS(canvas);
 }
 
-/* ---- what is told ---- */
+/* ---- messages ---- */
 
 void canvas_tell(LadderCanvas *canvas, const char *text)
 {
@@ -124,7 +123,7 @@ bool canvas_is_fixed(LadderCanvas *canvas)
 	return true;
 }
 
-/* The candidates of an input method are shown beside the cursor. */
+/* The input method shows its candidates beside the cursor. */
 static void place_input(LadderCanvas *canvas)
 {
 	graphene_rect_t rect;
@@ -146,7 +145,7 @@ void canvas_moved(LadderCanvas *canvas)
 
 /* ---- colours ---- */
 
-/* A setting is looked up by names, which takes as long as to draw a few wires: once. */
+/* Cached: to look up a setting takes as long as to draw a few wires. */
 const struct theme *canvas_theme(LadderCanvas *canvas)
 {
 	struct canvas_own *own = own_of(canvas);
@@ -202,7 +201,7 @@ graphene_rect_t canvas_page(LadderCanvas *canvas)
 	return page;
 }
 
-/* Before the next allocation the adjustment may be too small for a sheet that grew. */
+/* The sheet may have grown since the last allocation: the adjustment grows first. */
 static void reveal_along(GtkAdjustment *adjustment, double from, double to, double upper)
 {
 	const double page = gtk_adjustment_get_page_size(adjustment);
@@ -224,7 +223,7 @@ void canvas_reveal(LadderCanvas *canvas, graphene_rect_t box, double aside, doub
 	const double right = x + (double)box.size.width * zoom;
 	const double end = y + (double)box.size.height * zoom;
 
-	/* On a page without a height it would come to stand above the edge. */
+	/* A page without height would scroll too far. */
 	own->reveal = gtk_adjustment_get_page_size(state_of(canvas)->adjustment[1]) <= 0;
 	if (own->reveal)
 		return;
@@ -239,7 +238,7 @@ double ladder_canvas_zoom(LadderCanvas *canvas)
 	return state_of(canvas)->zoom;
 }
 
-/* What is in the middle stays there. */
+/* The middle of the page stays in the middle. */
 static void zoom_to(LadderCanvas *canvas, double zoom)
 {
 	GtkAdjustment *vertical = state_of(canvas)->adjustment[1];
@@ -253,7 +252,7 @@ static void zoom_to(LadderCanvas *canvas, double zoom)
 	gtk_adjustment_set_upper(vertical, (double)class_of(canvas)->size(canvas).height * zoom);
 	gtk_adjustment_set_value(vertical, at * zoom - middle);
 	gtk_widget_queue_resize(GTK_WIDGET(canvas));
-	restyle(canvas); /* images in drawings have the size of the zoom */
+	restyle(canvas); /* images in drawings have the zoom's size */
 	g_signal_emit(canvas, signals[ZOOM_CHANGED], 0);
 }
 
@@ -305,7 +304,7 @@ static struct canvas_cell *cell_at(LadderCanvas *canvas, guint index)
 	return &g_array_index(own_of(canvas)->cells.cell, struct canvas_cell, index);
 }
 
-/* Assistive technology acts on a cell as a click would. */
+/* The actions of a cell for assistive technology. */
 static void cell_go(GtkWidget *widget, const char *name, GVariant *unused)
 {
 	LadderCanvas *canvas = LADDER_CANVAS(gtk_widget_get_parent(widget));
@@ -375,7 +374,7 @@ void canvas_add_cell(LadderCanvas *canvas, struct canvas_spot spot, bool current
 				    GTK_ACCESSIBLE_STATE_SELECTED, current, -1);
 }
 
-/* Its widget stays and is hidden: nothing is laid out anew. */
+/* The widget is hidden, not removed: no new layout. */
 void canvas_set_blank(LadderCanvas *canvas, const char *name)
 {
 	struct canvas_cells *cells = &own_of(canvas)->cells;
@@ -400,8 +399,8 @@ static void drop_cells(LadderCanvas *canvas, guint from)
 	g_array_set_size(cells, from);
 }
 
-/* When the cursor is elsewhere, or something else is there; not for each new value: a
- * timer would never be silent. While a popup is open, that is heard. */
+/* Announces a new place or thing, not new values: a timer would never be silent. Not while
+ * the entry is open, which is announced itself. */
 static void say_cursor(LadderCanvas *canvas)
 {
 	struct canvas_cells *cells = &own_of(canvas)->cells;
@@ -412,7 +411,7 @@ static void say_cursor(LadderCanvas *canvas)
 	said = class_of(canvas)->cursor_name(canvas, false);
 	if (said && g_strcmp0(said, cells->said) != 0) {
 		text = class_of(canvas)->cursor_name(canvas, true);
-		/* Another thing may have the same name. */
+		/* GTK ignores the same text. */
 		gtk_accessible_reset_property(GTK_ACCESSIBLE(canvas),
 					      GTK_ACCESSIBLE_PROPERTY_DESCRIPTION);
 		gtk_accessible_update_property(GTK_ACCESSIBLE(canvas),
@@ -511,7 +510,7 @@ static void lay_out(LadderCanvas *canvas, double page)
 		class_of(canvas)->lay_out(canvas, page);
 }
 
-/* The popup, and a menu. */
+/* The entry and the context menu. */
 static void present_popovers(GtkWidget *widget)
 {
 	GtkWidget *child = gtk_widget_get_first_child(widget);
@@ -537,7 +536,7 @@ static void ladder_canvas_size_allocate(GtkWidget *widget, int width, int height
 	if (own->reveal) {
 		class_of(canvas)->reveal(canvas);
 		lay_out(canvas, height);
-		class_of(canvas)->reveal(canvas); /* what is above may have grown */
+		class_of(canvas)->reveal(canvas); /* rungs above may have grown */
 	}
 	if (height != own->cells.height)
 		canvas_cells_later(canvas);
@@ -561,8 +560,7 @@ static void ladder_canvas_measure(GtkWidget *widget, GtkOrientation orientation,
 	*least_base = *natural_base = -1;
 }
 
-/* Only the drawing follows at once: to allocate the window and the accessible children
- * takes longer than to draw. */
+/* Redraws at once, allocates later: allocation takes longer than drawing. */
 static void scrolled(LadderCanvas *canvas)
 {
 	struct canvas_own *own = own_of(canvas);
@@ -572,7 +570,7 @@ static void scrolled(LadderCanvas *canvas)
 	g_clear_handle_id(&own->cells.timer, g_source_remove);
 	canvas_cells_later(canvas);
 	if (!own->allocating) {
-		own->allocating = true; /* what grows above may scroll it */
+		own->allocating = true; /* rungs above may grow and scroll */
 		lay_out(canvas, gtk_widget_get_height(GTK_WIDGET(canvas)));
 		own->allocating = false;
 		if (state_of(canvas)->entry)
@@ -665,7 +663,7 @@ static char *line_changed(void *data, const char *line, int cursor, bool *good)
 
 	*good = true;
 	if (!state_of(canvas)->entry)
-		return NULL; /* it is being made, and asks again when it is ready */
+		return NULL; /* in its constructor; ladder_entry_popup_ask() follows */
 	return question->changed(question->context, line, cursor, good);
 }
 
@@ -735,8 +733,7 @@ void canvas_close_entry(LadderCanvas *canvas)
 
 /* ---- keys ---- */
 
-/* Input methods have the first look at a key: what they make of it, unless they return the
- * key unchanged, is what the person typed. */
+/* Passes a key to the input method; false: the method returned it unchanged. */
 static bool is_composed(LadderCanvas *canvas, GtkEventControllerKey *controller, gunichar key)
 {
 	struct canvas_input *input = &own_of(canvas)->input;
@@ -748,7 +745,7 @@ static bool is_composed(LadderCanvas *canvas, GtkEventControllerKey *controller,
 	       !input->plain;
 }
 
-/* While something is composed every key belongs to that. */
+/* During composition all keys go to the input method. */
 static gboolean key_captured(GtkEventControllerKey *controller, guint key, guint code,
 			     GdkModifierType state, LadderCanvas *canvas)
 {
@@ -771,7 +768,7 @@ static void show_composed(LadderCanvas *canvas)
 	gtk_widget_queue_draw(GTK_WIDGET(canvas));
 }
 
-/* Chinese names, letters with accents: what is no key. */
+/* A character without a key: Chinese, or with an accent. */
 static void key_composed(GtkIMContext *method, const char *text, LadderCanvas *canvas)
 {
 	struct canvas_input *input = &own_of(canvas)->input;
@@ -845,14 +842,14 @@ static void add_keys(LadderCanvas *canvas)
 	g_signal_connect(canvas, "notify::has-focus", G_CALLBACK(focus_changed), NULL);
 	gtk_widget_add_controller(GTK_WIDGET(canvas), captured);
 	gtk_widget_add_controller(GTK_WIDGET(canvas), keys);
-	/* Added last, it is asked first: before the letters that begin an entry. */
+	/* Added last, called first: before the letters that open the entry. */
 	gtk_widget_add_controller(GTK_WIDGET(canvas),
 				  verbs_controller(class_of(canvas)->keys));
 }
 
 /* ---- a drag near an edge ---- */
 
-/* px a step, more of them nearer to the edge; 0: not near. */
+/* px a step, more near the edge; 0: not near. */
 static double edge_speed(double at, double size)
 {
 	const double depth = at < EDGE ? EDGE - at : at > size - EDGE ?
@@ -880,7 +877,7 @@ static gboolean edge_step(gpointer data)
 	const bool moved = scroll_by(state_of(canvas)->adjustment[0], by_x);
 
 	if (!scroll_by(state_of(canvas)->adjustment[1], by_y) && !moved) {
-		press->edge.timer = 0; /* the sheet ends there */
+		press->edge.timer = 0; /* the end of the sheet */
 		return G_SOURCE_REMOVE;
 	}
 	press->edge.again(canvas, press->edge.x, press->edge.y, press->edge.state);
@@ -1006,7 +1003,7 @@ static void drag_cancel(GtkGesture *gesture, GdkEventSequence *sequence,
 	class_of(canvas)->drag_end(canvas, true);
 }
 
-/* What has popped up over the sheet must not be hidden by a tooltip. */
+/* A tooltip must not cover the entry or a menu. */
 static bool is_covered(LadderCanvas *canvas)
 {
 	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(canvas));
@@ -1271,7 +1268,7 @@ static void ladder_canvas_finalize(GObject *object)
 	G_OBJECT_CLASS(ladder_canvas_parent_class)->finalize(object);
 }
 
-/* The type of a subclass is not known yet in ladder_canvas_init(). */
+/* Not in ladder_canvas_init(): the class of the subclass is unknown there. */
 static void ladder_canvas_constructed(GObject *object)
 {
 	LadderCanvas *canvas = LADDER_CANVAS(object);

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: MIT
  *
- * canvas - what the sheets of ladders and of charts share: scrolling, zoom, the popup that
- * asks for a line, keys, the pointer, and the children that assistive technology sees.
+ * canvas - the base class of the sheets of ladders and charts: scrolling, zoom, the entry,
+ * keys, the pointer, accessible children.
  *
- * Each kind of sheet is a subclass. It says how large it is, where its cursor is and what
- * keys and clicks mean; the canvas calls the functions of its class. The canvas itself knows
- * neither rungs nor steps, and changes no document.
+ * A subclass knows the size, the cursor and the meaning of keys and clicks; the canvas calls the
+ * functions of its class. The canvas knows neither rungs nor steps, and changes no document.
  *
  * Places are in "px at 100 %", of the sheet, or in "px of the widget", on the screen.
  *
  * Signals:
  *   cursor-moved ()
- *   told (const char *text)  why something was not done, or what the next key does
+ *   told (const char *text)  a message for the status bar: a refusal, or a hint
  *   zoom-changed ()
  */
 #ifndef EDITOR_CANVAS_H
@@ -30,18 +29,18 @@
 #define LADDER_TYPE_CANVAS (ladder_canvas_get_type())
 G_DECLARE_DERIVABLE_TYPE(LadderCanvas, ladder_canvas, LADDER, CANVAS, GtkWidget)
 
-/* What subclasses read; the canvas alone sets it. */
+/* Read by subclasses, set by the canvas alone. */
 struct canvas_state {
 	LadderDocument *document;
 	int pou;
-	LadderSim *sim;               /* NULL: none was given                      */
+	LadderSim *sim;               /* NULL: none                                */
 	double zoom;
 	struct lettering *lettering;
 	GtkAdjustment *adjustment[2]; /* horizontal, vertical                      */
 	GtkWidget *entry;             /* the popup while it is open; NULL           */
 };
 
-/* What an accessible child stands for, in the numbers of the sheet. */
+/* The thing that an accessible child stands for, in numbers of the subclass. */
 struct canvas_spot {
 	int number, row, col;
 };
@@ -49,15 +48,15 @@ struct canvas_spot {
 struct _LadderCanvasClass {
 	GtkWidgetClass parent_class;
 	double least_zoom;
-	enum verb_where keys;     /* the verbs whose keys the sheet has            */
+	enum verb_where keys;     /* the verbs of this kind of sheet               */
 	const char *name;         /* of the widget, for assistive technology; N_() */
 
-	/* ---- what is drawn ---- */
+	/* ---- drawing ---- */
 	/** Size of the sheet with the free margin behind it, px at 100 %. */
 	graphene_size_t (*size)(LadderCanvas *canvas);
-	/** Lays out what a page of @page px shows. NULL: the size is always known. */
+	/** Lays out a page of @page px. NULL: the size is always known. */
 	void (*lay_out)(LadderCanvas *canvas, double page);
-	/** After it scrolled and before it is drawn. NULL: nothing to do. */
+	/** After scrolling and before drawing. NULL: nothing to do. */
 	void (*scrolled)(LadderCanvas *canvas);
 	void (*paint)(LadderCanvas *canvas, GtkSnapshot *snapshot, const struct theme *theme);
 	/** Colours, the focus or the zoom changed: drop drawings. NULL: there are none. */
@@ -66,10 +65,10 @@ struct _LadderCanvasClass {
 	/* ---- the cursor ---- */
 	/** Where it is, px at 100 %. */
 	graphene_rect_t (*cursor_box)(LadderCanvas *canvas);
-	/** Scrolls until it is seen, by canvas_reveal(). */
+	/** Scrolls to it by canvas_reveal(). */
 	void (*reveal)(LadderCanvas *canvas);
-	/** Its name. @values: with the values of a running program; without, the text must
-	 * tell it from any other place. NULL: nothing is there. Caller frees. */
+	/** Its accessible name. @values: with values of the running program; without, the
+	 * text must be unique on the sheet. NULL: no name. Caller frees. */
 	char *(*cursor_name)(LadderCanvas *canvas, bool values);
 
 	/** "Rung 3 · column C", for the status bar. Caller frees. */
@@ -80,35 +79,35 @@ struct _LadderCanvasClass {
 	/* ---- keys and the pointer; x, y: px of the widget ---- */
 	/** A verb of the rows that `keys` names. */
 	void (*do_verb)(LadderCanvas *canvas, enum verb verb);
-	/** A key that moves the cursor; false: it is another key. */
+	/** A key that moves the cursor; false: another key. */
 	bool (*key)(LadderCanvas *canvas, guint key, GdkModifierType state);
-	/** Does a typed letter begin an entry? */
+	/** Does a typed letter open the entry? */
 	bool (*begins_entry)(LadderCanvas *canvas, gunichar letter);
-	/** Begins an entry with @text. */
+	/** Opens the entry with @text. */
 	void (*type)(LadderCanvas *canvas, const char *text);
 	void (*press)(LadderCanvas *canvas, double x, double y, int count,
 		      GdkModifierType state);
-	/** The button went up. NULL: that means nothing. @moved: it was a drag. */
+	/** The button was released. NULL: nothing to do. @moved: after a drag. */
 	void (*release)(LadderCanvas *canvas, double x, double y, int count, bool moved);
-	/** May a drag begin where the button went down? */
+	/** May a drag begin at the last press? */
 	bool (*can_drag)(LadderCanvas *canvas);
-	/** The pointer goes on with the button down; false: it means nothing there. */
+	/** The pointer moves with the button down; false: ignored there. */
 	bool (*drag)(LadderCanvas *canvas, double x, double y, GdkModifierType state);
-	/** @cancelled: it ended without effect. */
+	/** @cancelled: the drag must have no effect. */
 	void (*drag_end)(LadderCanvas *canvas, bool cancelled);
-	/** The menu of what the cursor is on. Caller unrefs. */
+	/** The context menu of the cursor. Caller unrefs. */
 	GMenu *(*menu)(LadderCanvas *canvas);
-	/** What to say of a point, or of the cursor (@by_keys). NULL: nothing. Caller frees. */
+	/** The tooltip of a point, or of the cursor (@by_keys). NULL: none. Caller frees. */
 	char *(*tip)(LadderCanvas *canvas, int x, int y, bool by_keys);
-	/** The popup closed, or would if it was open. NULL: nothing to do. */
+	/** The entry closes; @was_open: FALSE: it was closed. NULL: nothing to do. */
 	void (*closed)(LadderCanvas *canvas, bool was_open);
 
 	/* ---- accessible children ---- */
-	/** Calls canvas_add_cell() for all that is on the screen. */
+	/** Calls canvas_add_cell() for each visible thing. */
 	void (*list_cells)(LadderCanvas *canvas);
-	/** NULL: nothing stands there any more. Caller frees. */
+	/** NULL: it is gone. Caller frees. */
 	char *(*cell_name)(LadderCanvas *canvas, struct canvas_spot spot);
-	/** Px at 100 %; false: it is not laid out, or gone. */
+	/** Px at 100 %; false: not laid out, or gone. */
 	bool (*cell_box)(LadderCanvas *canvas, struct canvas_spot spot, graphene_rect_t *box);
 	void (*go_to_cell)(LadderCanvas *canvas, struct canvas_spot spot);
 
@@ -116,110 +115,108 @@ struct _LadderCanvasClass {
 	void (*project_changed)(LadderCanvas *canvas);
 	void (*rungs_changed)(LadderCanvas *canvas, int pou, int at, int removed,
 			      int inserted);
-	/** NULL, as bookmarks_changed: the sheet does not show this. */
+	/** This and bookmarks_changed may be NULL: the sheet does not show them. */
 	void (*variable_changed)(LadderCanvas *canvas, int pou, const char *name,
 				 const char *address);
 	void (*bookmarks_changed)(LadderCanvas *canvas);
 	void (*checked)(LadderCanvas *canvas);
-	/** The simulation shows other values. */
+	/** After values of the simulation changed. */
 	void (*values_changed)(LadderCanvas *canvas);
-	/** Another program runs, or none. */
+	/** After another program, or none, began to run. */
 	void (*program_changed)(LadderCanvas *canvas);
-	/** It started, stopped, paused. NULL: as values_changed. */
+	/** After start, stop, pause. NULL: as values_changed. */
 	void (*state_changed)(LadderCanvas *canvas);
 };
 
 /* ---- for everybody ---- */
 
-/** ladder_canvas_pou - the POU that is shown; its document. Borrowed. */
+/** ladder_canvas_pou - the shown POU; ladder_canvas_document - its document. Borrowed. */
 int ladder_canvas_pou(LadderCanvas *canvas);
 LadderDocument *ladder_canvas_document(LadderCanvas *canvas);
-/** ladder_canvas_set_pou - after POUs were added or removed before it. */
+/** ladder_canvas_set_pou - the number of the POU changed. */
 void ladder_canvas_set_pou(LadderCanvas *canvas, int pou);
-/** ladder_canvas_set_sim - shows what @sim runs; NULL: nothing. A reference is kept. */
+/** ladder_canvas_set_sim - shows the program of @sim; NULL: none. Keeps a reference. */
 void ladder_canvas_set_sim(LadderCanvas *canvas, LadderSim *sim);
-/** ladder_canvas_do - a verb of the sheet. */
+/** ladder_canvas_do - does a verb of the sheet. */
 void ladder_canvas_do(LadderCanvas *canvas, enum verb verb);
-/** ladder_canvas_place - where the cursor is; ladder_canvas_next_keys - what the next key
- * could do there. Caller frees. */
+/** ladder_canvas_place - the place of the cursor; ladder_canvas_next_keys - keys for it; for
+ * the status bar. Caller frees. */
 char *ladder_canvas_place(LadderCanvas *canvas);
 char *ladder_canvas_next_keys(LadderCanvas *canvas);
 double ladder_canvas_zoom(LadderCanvas *canvas);
-/** ladder_canvas_set_zoom - up to 3; a cursor that is seen stays in sight. */
+/** ladder_canvas_set_zoom - up to 3; a visible cursor stays in sight. */
 void ladder_canvas_set_zoom(LadderCanvas *canvas, double zoom);
 
 /* ---- for subclasses ---- */
 
 /** canvas_state - lives as long as the widget. Borrowed. */
 const struct canvas_state *canvas_state(LadderCanvas *canvas);
-/** canvas_show - shows POU @pou of @document; once, when the widget is new. */
+/** canvas_show - shows POU @pou of @document; called once, by the constructor. */
 void canvas_show(LadderCanvas *canvas, LadderDocument *document, int pou);
-/** canvas_is_fixed - is it the program before an edit? Then it says that this cannot be
- * changed. */
+/** canvas_is_fixed - is the document the program before an edit, which is read-only? Tells so. */
 bool canvas_is_fixed(LadderCanvas *canvas);
-/** canvas_is_live - does a program run, or stand, whose values can be shown? */
+/** canvas_is_live - is there a simulation, running or not, with values to show? */
 bool canvas_is_live(LadderCanvas *canvas);
-/** canvas_uses - the cross reference of the project as it is; NULL: no memory, or no
- * project. Borrowed until something changes. */
+/** canvas_uses - the cross reference of the present project; NULL: out of memory, or no
+ * project. Borrowed until the next change. */
 struct xref *canvas_uses(LadderCanvas *canvas);
 /** canvas_tell - emits "told". */
 void canvas_tell(LadderCanvas *canvas, const char *text);
 /** canvas_moved - emits "cursor-moved"; accessible children and input methods follow. */
 void canvas_moved(LadderCanvas *canvas);
-/** canvas_theme - light or dark, with more contrast or not, as the desktop is now. */
+/** canvas_theme - the colours that fit the desktop: light or dark, high contrast. */
 const struct theme *canvas_theme(LadderCanvas *canvas);
-/** canvas_point - px of the widget become px at 100 %. */
+/** canvas_point - converts px of the widget to px at 100 %. */
 graphene_point_t canvas_point(LadderCanvas *canvas, double x, double y);
-/** canvas_rect - px at 100 % become px of the widget. */
+/** canvas_rect - converts px at 100 % to px of the widget. */
 graphene_rect_t canvas_rect(LadderCanvas *canvas, graphene_rect_t box);
-/** canvas_page - what is on the screen, px at 100 %. */
+/** canvas_page - the visible part, px at 100 %. */
 graphene_rect_t canvas_page(LadderCanvas *canvas);
-/** canvas_reveal - scrolls until @box, px at 100 %, is seen, with @aside px of the widget
- * to its left and right, @above over and under it. Before the widget has a size: then. */
+/** canvas_reveal - scrolls until @box, px at 100 %, is visible, with @aside px of the widget
+ * left and right, @above px over and under it. A widget without size does it later. */
 void canvas_reveal(LadderCanvas *canvas, graphene_rect_t box, double aside, double above);
-/** canvas_show_menu - the menu of what the cursor is on, at the cursor. */
+/** canvas_show_menu - opens the context menu at the cursor. */
 void canvas_show_menu(LadderCanvas *canvas);
-/** canvas_end_drag - no drag goes on, and the sheet scrolls no more. */
+/** canvas_end_drag - ends a drag, and the scrolling by canvas_scroll_at_edge(). */
 void canvas_end_drag(LadderCanvas *canvas);
-/** canvas_scroll_at_edge - something is dragged to (@x, @y), px of the widget: near an edge
- * the sheet scrolls, until it is elsewhere, and calls @again with the same place in each
- * step. */
+/** canvas_scroll_at_edge - a drag is at (@x, @y), px of the widget: near an edge the sheet
+ * scrolls until the next call or canvas_end_drag(), and calls @again after each step. */
 void canvas_scroll_at_edge(LadderCanvas *canvas, double x, double y, GdkModifierType state,
 			   void (*again)(LadderCanvas *canvas, double x, double y,
 					 GdkModifierType state));
-/** canvas_snapshot_hint - what an empty sheet says, at a point in px of the widget. */
+/** canvas_snapshot_hint - draws the hint of an empty sheet at a point, px of the widget. */
 void canvas_snapshot_hint(LadderCanvas *canvas, GtkSnapshot *snapshot,
 			  const struct theme *theme, const char *text,
 			  graphene_point_t at);
 
-/* A line that is asked for at the cursor. */
+/* What the entry at the cursor asks for. */
 struct canvas_question {
 	const char *prompt;
-	const char *text;       /* that stands there at first                      */
-	bool typed;             /* by the person: it is not selected                 */
-	bool proposes;          /* a click elsewhere takes it, too                   */
-	bool drops;             /* and drops what cannot be taken, without a word    */
+	const char *text;       /* in the entry at first                           */
+	bool typed;             /* the person typed @text: it is not selected        */
+	bool proposes;          /* a click elsewhere takes an unchanged text, too    */
+	bool drops;             /* a click elsewhere drops a wrong text silently     */
 	/** Adds candidates to the popup (canvas_state.entry); as in entry_popup.h. */
 	char *(*changed)(void *context, const char *line, int cursor, bool *good);
 	bool (*taken)(void *context, const char *line);
 	void *context;          /* taken over                                      */
-	GDestroyNotify free;    /* of it, when something else is asked, or at the end */
+	GDestroyNotify free;    /* frees @context at the next question or the end    */
 };
-/** canvas_ask - opens the popup at the cursor. What was open is closed. */
+/** canvas_ask - opens the entry at the cursor and closes an open one. */
 void canvas_ask(LadderCanvas *canvas, const struct canvas_question *question);
-/** canvas_close_entry - closes the popup without taking its line. */
+/** canvas_close_entry - closes the entry without taking its line. */
 void canvas_close_entry(LadderCanvas *canvas);
 
-/** canvas_add_cell - in list_cells: one more child. @current: the cursor is on it. */
+/** canvas_add_cell - in list_cells: adds an accessible child. @current: at the cursor. */
 void canvas_add_cell(LadderCanvas *canvas, struct canvas_spot spot, bool current);
-/** canvas_set_blank - in list_cells: the cursor is on a place without a cell, of this name;
- * NULL: it is not. */
+/** canvas_set_blank - in list_cells: names the empty place at the cursor; NULL: the cursor is
+ * on a cell. */
 void canvas_set_blank(LadderCanvas *canvas, const char *name);
-/** canvas_cells_later - the accessible children follow in a moment. */
+/** canvas_cells_later - updates the accessible children after a short delay. */
 void canvas_cells_later(LadderCanvas *canvas);
-/** canvas_cells_rename - those that there are get the names that they have now. */
+/** canvas_cells_rename - updates only the names of the accessible children. */
 void canvas_cells_rename(LadderCanvas *canvas);
-/** canvas_say_again - another thing is at the cursor, though it may have the same name. */
+/** canvas_say_again - announces the cursor again: another thing may have the same name. */
 void canvas_say_again(LadderCanvas *canvas);
 
 #endif

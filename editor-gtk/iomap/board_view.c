@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * board_view - the page below the sheets that shows what runs on this machine.
+ * board_view - the page below the sheets for the program on this machine.
  */
 #include "editor-gtk/iomap/board_view.h"
 
@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-#define LEFT_WIDTH 400  /* px of what stands beside the log                    */
+#define LEFT_WIDTH 400  /* px left of the log                                  */
 
 enum row { ROW_SCANS, ROW_PERIOD, ROW_TIME, ROW_LATE, ROW_IO, ROW_ERRORS, ROWS };
 
@@ -24,9 +24,9 @@ struct _LadderBoardView {
 	GtkWidget *run_button, *reset_button, *stop_button, *state, *about, *grid, *log;
 	GtkWidget *value[ROWS];
 	GPtrArray *paths;   /* of the maps in the list                         */
-	char *map;          /* the one that is used; NULL: none                */
-	bool chosen;        /* by a person: it stays, whatever comes beside it */
-	guint64 version;    /* of the document when it was started             */
+	char *map;          /* path of the selected map; NULL: none            */
+	bool chosen;        /* a person chose @map: new files do not change it */
+	guint64 version;    /* of the document when the program was started    */
 	bool busy;          /* the list is being filled                        */
 };
 
@@ -152,14 +152,14 @@ static guint index_of(const GPtrArray *paths, const char *path)
 	return GTK_INVALID_LIST_POSITION;
 }
 
-/* The files may be others than when it was looked last. */
+/* Lists the files of the folder again. */
 static void fill(LadderBoardView *view)
 {
 	const char *path = ladder_document_path(view->document);
 	GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
 
 	g_ptr_array_unref(view->paths);
-	/* Those of the program before others. */
+	/* The program's own maps first. */
 	view->paths = side_file_list(path, ".io", true);
 	g_ptr_array_extend_and_steal(view->paths, side_file_list(path, ".io", false));
 	if (view->map && g_file_test(view->map, G_FILE_TEST_EXISTS) &&
@@ -175,8 +175,7 @@ static void fill(LadderBoardView *view)
 	g_ptr_array_unref(names);
 }
 
-/* Unless a person chose, one of the program's own takes the place of another's as soon as it
- * is there. */
+/* Without a choice by the person: the first map, which is the program's own if it has one. */
 static void select_map(LadderBoardView *view)
 {
 	const guint at = view->chosen ? index_of(view->paths, view->map) :

@@ -34,7 +34,7 @@ char *iomap_field(const struct io_text *io, int row, enum io_field field)
 	return out;
 }
 
-/* What is wrong with it, else where it is here. */
+/* The error of the row, else its line on this machine. */
 static char *state_of(const struct io_machine *machine, const struct io_placed *placed,
 		      const struct diag *diag)
 {
@@ -105,7 +105,7 @@ LadderPanelRow *iomap_row_new(const struct io_uses *uses, const struct io_machin
 	return row;
 }
 
-/* ---- what the map lacks ---- */
+/* ---- points missing in the map ---- */
 
 bool iomap_has(const struct io_text *io, struct iec_addr addr)
 {
@@ -120,7 +120,7 @@ bool iomap_has(const struct io_text *io, struct iec_addr addr)
 	return false;
 }
 
-#define LACKS_SHOWN 4 /* by name; the others are counted                       */
+#define LACKS_SHOWN 4 /* missing points to name; others are counted            */
 
 char *iomap_lacks(const struct io_uses *uses, const struct io_text *io)
 {
@@ -174,7 +174,7 @@ char *iomap_first_error(const struct io_check *check, const struct io_text *io, 
 	return NULL;
 }
 
-/* ---- what there is to choose ---- */
+/* ---- choices ---- */
 
 static void offer(GPtrArray *choices, const char *text, const char *about)
 {
@@ -199,7 +199,7 @@ static void offer_lines(const struct io_machine *machine, GPtrArray *choices)
 		offer(choices, "", _("no GPIO lines on this machine"));
 }
 
-/* What the program uses and the map lacks. */
+/* Addresses of the program that are missing in the map. */
 static void offer_addresses(const struct io_uses *uses, const struct io_text *io,
 			    GPtrArray *choices)
 {
@@ -256,8 +256,7 @@ GPtrArray *iomap_choices(const struct io_uses *uses, const struct io_machine *ma
 
 /* ---- a new map ---- */
 
-/* What the machine calls itself, if it is a board; else the project's name. Caller:
- * g_free. */
+/* The model of the machine if it is a board, else the project's name. Caller: g_free. */
 static char *board_name(LadderDocument *document, bool board)
 {
 	char *name = NULL;
@@ -269,7 +268,7 @@ static char *board_name(LadderDocument *document, bool board)
 	return ladder_document_name(document);
 }
 
-/* The line of @text that an edit makes; taken over. */
+/* Applies @edit to @text; takes its text over. */
 static void apply_new(GString *text, enum io_refusal why, struct io_edit *edit)
 {
 	if (why == IO_GOOD) {

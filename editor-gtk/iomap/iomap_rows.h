@@ -2,7 +2,7 @@
  *
  * iomap_rows - what the table of an I/O map shows: rows, messages, choices.
  *
- * It joins the text, what was said of it, the program and this machine, and changes none.
+ * It reads the map, its check, the program and this machine, and changes none of them.
  */
 #ifndef EDITOR_IOMAP_ROWS_H
 #define EDITOR_IOMAP_ROWS_H
@@ -13,13 +13,13 @@
 #include "editor-gtk/document/iomap_uses.h"
 #include "editor-gtk/kit/panel_row.h"
 
-/* Texts of a row behind its fields, which have their own numbers. */
+/* Texts of a row, numbered after its fields. */
 enum { IOMAP_SYMBOL = IO_FIELDS, IOMAP_STATE };
 
-/** io_field_name - of a column, translated. */
+/** io_field_name - title of a column, translated. */
 const char *io_field_name(enum io_field field);
 /** iomap_row_new - of row @number of @io; its texts are the fields, IOMAP_SYMBOL and
- * IOMAP_STATE, its index is @number. @check: NULL: nothing is wrong. */
+ * IOMAP_STATE, its index is @number. @check: NULL: no errors. */
 LadderPanelRow *iomap_row_new(const struct io_uses *uses, const struct io_machine *machine,
 			      const struct io_text *io, const struct io_check *check,
 			      int number);
@@ -32,7 +32,7 @@ char *iomap_lacks(const struct io_uses *uses, const struct io_text *io);
 /** iomap_first_error - "Line 4: ..."; @all: also of lines that have a row. NULL: none.
  * Caller: g_free. */
 char *iomap_first_error(const struct io_check *check, const struct io_text *io, bool all);
-/** iomap_choices - what could stand in a field: pairs of a text and what is said of it.
+/** iomap_choices - the values of a field to choose from: pairs of a text and its description.
  * Caller: g_ptr_array_unref. */
 GPtrArray *iomap_choices(const struct io_uses *uses, const struct io_machine *machine,
 			 const struct io_text *io, enum io_field field);

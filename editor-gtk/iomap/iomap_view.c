@@ -23,10 +23,10 @@ struct _LadderIomapView {
 	struct panel_cells cells;
 	struct io_machine machine;
 	struct io_uses uses;
-	guint64 version;        /* of the document the uses are of, + 1; 0: none */
-	char *refused;          /* what was refused last; NULL: nothing        */
-	char *said;             /* of the whole map; NULL: nothing             */
-	char *board_shown;      /* as the text had it last                     */
+	guint64 version;        /* of the document that @uses is of, + 1; 0: none */
+	char *refused;          /* the last refusal; NULL: none                */
+	char *said;             /* message about the whole map; NULL: none     */
+	char *board_shown;      /* board name last read from the text          */
 	bool said_wrong, as_text;
 };
 
@@ -50,7 +50,7 @@ static void iter_at(GtkTextBuffer *buffer, const char *text, size_t at, GtkTextI
 					   (int)g_utf8_strlen(text, (gssize)at));
 }
 
-/* One step of the undo. @edit: its text is freed. */
+/* Applies an edit as one step of the undo. @edit: its text is freed. */
 static void apply(LadderIomapView *view, const char *text, struct io_edit *edit)
 {
 	GtkTextIter from, to;
@@ -80,7 +80,7 @@ static const char *refusal(enum io_refusal why)
 	return _(text[why]);
 }
 
-/* What cannot be done is told below, until something can. */
+/* Shows a refusal below the table until the next edit succeeds. */
 static void tell(LadderIomapView *view, const char *text)
 {
 	g_free(view->refused);
@@ -100,7 +100,7 @@ static bool done(LadderIomapView *view, const char *text, enum io_refusal why,
 
 /* ---- edits ---- */
 
-/* The rows were made of an older text, perhaps. */
+/* A row may be older than the text. */
 static bool is_same_row(const struct io_text *io, const LadderPanelRow *row)
 {
 	bool same = row->index < io->count;
@@ -158,7 +158,7 @@ static void set_board(LadderIomapView *view)
 
 	io_text_read(&io, text, strlen(text));
 	board = io_text_board(&io);
-	/* Nothing was shown yet, or it is as it was. */
+	/* Nothing was shown yet, or nothing changed. */
 	if (view->board_shown && g_strcmp0(view->board_shown, name) != 0 &&
 	    g_strcmp0(board, name) != 0)
 		done(view, text, io_text_set_board(&io, name, &edit), &edit);
@@ -185,7 +185,7 @@ static void commit(LadderIomapView *view)
 	set_board(view);
 }
 
-/* ---- points come and go ---- */
+/* ---- points are added and deleted ---- */
 
 /* The last row of the same area; -1: none. */
 static int last_of(const struct io_text *io, enum iec_area area)
@@ -203,7 +203,7 @@ static int last_of(const struct io_text *io, enum iec_area area)
 	return last;
 }
 
-/* That of the others: a map is for a board or for a desk. */
+/* The driver of the other points: a map is for a board or for a desk. */
 static const char *driver_for(const LadderIomapView *view, const struct io_text *io)
 {
 	for (int i = 0; i < io->count; i++) {
@@ -336,8 +336,8 @@ static void show_lacks(LadderIomapView *view, const struct io_text *io)
 	g_free(text);
 }
 
-/* What was refused, else what is wrong with the selected row, else what there is to say of
- * the whole map. */
+/* Shows the last refusal, else the error of the selected row, else the message about the
+ * whole map. */
 static void show_message(LadderIomapView *view)
 {
 	const LadderPanelRow *row = panel_list_row(&view->list);
@@ -370,7 +370,7 @@ static void find_said(LadderIomapView *view, const struct io_check *check,
 	show_message(view);
 }
 
-/* Wrong lines of the text are underlined. */
+/* Underlines wrong lines of the text. */
 static void mark_lines(LadderIomapView *view, const struct io_check *check)
 {
 	GtkTextIter start, end;
@@ -388,7 +388,7 @@ static void mark_lines(LadderIomapView *view, const struct io_check *check)
 	}
 }
 
-/* ---- looking again ---- */
+/* ---- refresh ---- */
 
 static void take_uses(LadderIomapView *view)
 {
@@ -420,7 +420,7 @@ static void show_board(LadderIomapView *view, const struct io_text *io)
 {
 	char *board = io_text_board(io);
 
-	/* What a person types there stays. */
+	/* Does not replace a name that is being typed. */
 	if (board && g_strcmp0(board, view->board_shown) != 0) {
 		gtk_editable_set_text(GTK_EDITABLE(view->board), board);
 		g_free(view->board_shown);
@@ -429,7 +429,7 @@ static void show_board(LadderIomapView *view, const struct io_text *io)
 	free(board);
 }
 
-/* -1: none. */
+/* Index of the selected row; -1: none. */
 static int selected(LadderIomapView *view)
 {
 	const LadderPanelRow *row = panel_list_row(&view->list);
@@ -437,7 +437,7 @@ static int selected(LadderIomapView *view)
 	return row ? row->index : -1;
 }
 
-/* The row of the cell with the focus is the one that is meant. */
+/* Selects the row of the focused cell. */
 static void select_row(LadderIomapView *view, int index)
 {
 	GListModel *model = G_LIST_MODEL(view->list.selection);

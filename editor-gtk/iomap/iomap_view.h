@@ -2,9 +2,9 @@
  *
  * iomap_view - an I/O map as a table, or as its text: one row a point, edited in place.
  *
- * The text of the buffer stays the truth; every edit is one step of its undo. What is wrong
- * with a line, or what this machine does not have, stands in its row; what the program uses
- * and the map lacks, below. It reads and writes no file but the chips' lists of lines.
+ * The text of the buffer is the only state; each edit is one step of its undo. A row shows its
+ * error, or that this machine lacks its line; points missing in the map are listed below. It
+ * reads no file except the chips' lists of lines, and writes none.
  */
 #ifndef EDITOR_IOMAP_VIEW_H
 #define EDITOR_IOMAP_VIEW_H

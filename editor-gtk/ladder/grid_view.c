@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view - the widget of a sheet of rungs: what it draws, and what it does at keys, clicks
- * and changes.
+ * grid_view - the class of the sheet of rungs: drawing, keys, clicks, changes of the document.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
@@ -140,7 +139,7 @@ static void snapshot_rungs(LadderGridView *view, GtkSnapshot *snapshot)
 		if (strip->layout && live_look(view, i))
 			g_clear_pointer(&strip->node, gsk_render_node_unref);
 		if (!strip->layout)
-			strips_resize_later(view); /* and it will be drawn */
+			strips_resize_later(view); /* the allocation lays it out */
 		else if (!strip->node)
 			draw_strip(view, i, strip);
 		if (!strip->node)
@@ -232,8 +231,8 @@ static void reveal(LadderCanvas *canvas)
 	cursor_reveal_head(LADDER_GRID_VIEW(canvas));
 }
 
-/* ---- the document: first the rungs and the cursor are what they are now; then the popup
- * closes, since it gives the keys back and others ask where the cursor is */
+/* ---- the document. Rungs and cursor are updated first: closing the popup moves the focus,
+ * and the window then reads the place of the cursor. ---- */
 
 static void forget_edit(LadderGridView *view)
 {
@@ -251,7 +250,7 @@ static void rungs_changed(LadderCanvas *canvas, int pou, int at, int removed, in
 		return;
 	at -= view->first;
 	if (view->count >= 0 && (at < 0 || at + removed > view->count)) {
-		if (at < 0 && inserted != removed) { /* of a body above */
+		if (at < 0 && inserted != removed) { /* in a body above */
 			view->first += inserted - removed;
 			strips_renumber(view);
 		}
@@ -325,7 +324,7 @@ static void checked(LadderCanvas *canvas)
 
 /* ---- the simulation ---- */
 
-/* Variables are at other places: a question for a value ends. */
+/* Variables may be at other places. */
 static void program_changed(LadderCanvas *canvas)
 {
 	act_forget(LADDER_GRID_VIEW(canvas));
@@ -382,7 +381,7 @@ static void list_cells(LadderCanvas *canvas)
 	g_free(blank);
 }
 
-/* NULL: the children are older than the rungs, and nothing stands there now. */
+/* NULL: the children are older than the rungs, and the cell is gone. */
 static const struct cell *cell_at(LadderGridView *view, struct canvas_spot spot)
 {
 	const struct rung *rung = sheet_rung(view, spot.number);
@@ -446,7 +445,7 @@ bool ladder_grid_view_has_begun(LadderGridView *view)
 	       view->cursor.selecting;
 }
 
-/* Esc: a stroke or the entry first, then the edits of this rung since the cursor came. */
+/* Esc cancels a wire, the entry or the selection, else the edits since the cursor came. */
 static void do_cancel(LadderGridView *view)
 {
 	view->press.given_up = true;
@@ -515,7 +514,8 @@ static void do_verb(LadderCanvas *canvas, enum verb verb)
 
 /* ---- keys ---- */
 
-/* Names, addresses, expressions; `= Motor`, `!Stop`, `-(S)- Lamp`. A slash is a verb's. */
+/* Names, addresses, expressions; `= Motor`, `!Stop`, `-(S)- Lamp`. A slash is a key of
+ * "Negate". */
 static bool begins_entry(LadderCanvas *canvas, gunichar c)
 {
 	(void)canvas;
@@ -565,7 +565,7 @@ static void press_on(LadderGridView *view, int rung, const struct rung_hit *hit,
 		do_verb(LADDER_CANVAS(view), VERB_rung_title);
 }
 
-/* The selection stays while the button is down: it may be dragged, or get a menu. */
+/* A press on the selection keeps it until the release: it may be dragged, or get a menu. */
 static bool is_kept(LadderGridView *view, int rung, const struct rung_hit *hit, int count,
 		    GdkModifierType state)
 {
@@ -621,7 +621,7 @@ static bool can_drag(LadderCanvas *canvas)
 	return !press->takes && !press->given_up;
 }
 
-/* A wire grows to there, or the selection does; false: neither. */
+/* Extends the wire or the selection to the pointer; false: neither. */
 static bool drag(LadderCanvas *canvas, double x, double y, GdkModifierType state)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(canvas);
@@ -647,7 +647,7 @@ static void drag_end(LadderCanvas *canvas, bool cancelled)
 		wire_release(LADDER_GRID_VIEW(canvas));
 }
 
-/* Sections; with a name, they open at the side. */
+/* Sections; one with a name is a submenu. */
 static const struct {
 	const char *name;
 	enum verb verb[14];
@@ -757,7 +757,7 @@ void ladder_grid_view_set_found(LadderGridView *view, int rung, int row, int col
 
 void ladder_grid_view_put(LadderGridView *view, enum word word)
 {
-	gtk_widget_grab_focus(GTK_WIDGET(view)); /* before a line opens, which takes it  */
+	gtk_widget_grab_focus(GTK_WIDGET(view)); /* before the entry takes it            */
 	entry_begin_word(view, word, false);
 }
 

@@ -2,9 +2,9 @@
  *
  * grid_view - a sheet: the rungs of one POU, with a cursor.
  *
- * It shows what rung_layout and grid_draw make, turns keys and gestures into the edits of
- * grid_edit, and hands the new rungs to the document. The meaning of elements is the
- * engine's; questions about an element are asked in the popup at its place.
+ * It shows rungs by rung_layout and grid_draw, turns keys and gestures into edits of grid_edit,
+ * and gives the new rungs to the document. It knows no element by name: the catalogue of the
+ * engine does.
  */
 #ifndef EDITOR_GRID_VIEW_H
 #define EDITOR_GRID_VIEW_H
@@ -23,61 +23,61 @@ struct grid_cursor {
 /** ladder_grid_view_new - shows POU @pou of @document; scrolls by itself, in a
  * GtkScrolledWindow. */
 GtkWidget *ladder_grid_view_new(LadderDocument *document, int pou);
-/** ladder_grid_view_set_range - only these rungs of its POU are shown and edited, as rungs 0
- * … @count - 1 of the sheet: a body of a chart. @count -1: all, as at first. */
+/** ladder_grid_view_set_range - shows only @count rungs of the POU from @first on, as rungs 0
+ * … @count - 1 of the sheet: a body of a chart. @count -1: all, the default. */
 void ladder_grid_view_set_range(LadderGridView *view, int first, int count);
 /** ladder_grid_view_range - the first one; @count gets how many, -1: all. */
 int ladder_grid_view_range(LadderGridView *view, int *count);
-/** ladder_grid_view_first - the same: what a cursor's rung is counted from. */
+/** ladder_grid_view_first - the same, without the count. */
 int ladder_grid_view_first(LadderGridView *view);
 
 struct grid_cursor ladder_grid_view_cursor(LadderGridView *view);
-/** ladder_grid_view_go - moves the cursor and shows it; @row, @col: cells of the rung,
+/** ladder_grid_view_go - moves the cursor and scrolls to it; @row, @col: cells of the rung,
  * as diagnostics have them, 0-based; -1: its first element. */
 void ladder_grid_view_go(LadderGridView *view, int rung, int row, int col);
-/** ladder_grid_view_cell - the cell of the rung that the cursor is on, 0-based; false:
- * no element stands there. */
+/** ladder_grid_view_cell - the cell of the element at the cursor, 0-based; false: there is
+ * no element. */
 bool ladder_grid_view_cell(LadderGridView *view, int *row, int *col);
-/** ladder_grid_view_tip - what there is to know of a cell of a rung, 0-based: name,
- * address, type, comment, why it is wrong; NULL: nothing. Caller frees. */
+/** ladder_grid_view_tip - the tooltip of a cell of a rung, 0-based: name, address, type,
+ * comment, value, errors; NULL: none. Caller frees. */
 char *ladder_grid_view_tip(LadderGridView *view, int rung, int row, int col);
 
-/** ladder_grid_view_has_begun - a line, a wire or a selection, that Esc ends. */
+/** ladder_grid_view_has_begun - is there an entry, a wire or a selection that Esc ends? */
 bool ladder_grid_view_has_begun(LadderGridView *view);
-/** ladder_grid_view_put - an element of the palette at the cursor. */
+/** ladder_grid_view_put - puts an element of the palette at the cursor. */
 void ladder_grid_view_put(LadderGridView *view, enum word word);
 
 void ladder_grid_view_set_show(LadderGridView *view, enum drafting_show show);
 enum drafting_show ladder_grid_view_show(LadderGridView *view);
-/** ladder_grid_view_set_found - marks what a search found; @rung -1: nothing. */
+/** ladder_grid_view_set_found - marks a hit of a search; @rung -1: none. */
 void ladder_grid_view_set_found(LadderGridView *view, int rung, int row, int col);
 
-/** ladder_grid_view_drag - what a palette tile offers to be dropped on a sheet. */
+/** ladder_grid_view_drag - the drag content of a palette tile. */
 GdkContentProvider *ladder_grid_view_drag(enum word word);
 
-/* ---- while it simulates ---- */
+/* ---- while simulating ---- */
 
-/** ladder_grid_view_set_instance - whose body is shown, of a function block: "Line.Belt1";
- * NULL: the first one. */
+/** ladder_grid_view_set_instance - of a function block: the instance whose values are shown,
+ * "Line.Belt1"; NULL: the first one. */
 void ladder_grid_view_set_instance(LadderGridView *view, const char *instance);
-/** ladder_grid_view_instance - NULL: it is no block, has no instance, or nothing runs.
+/** ladder_grid_view_instance - NULL: no block, no instance, or nothing runs.
  * Borrowed until the program changes. */
 const char *ladder_grid_view_instance(LadderGridView *view);
 
-/* A cell that keeps power from where it is wanted, 0-based, of the rung. */
+/* A cell that blocks the power, 0-based, of the rung. */
 struct grid_blocker {
 	int row, col;
 	const char *note;   /* short: "must be on"; NULL: none                  */
 };
-/** ladder_grid_view_set_blockers - marks these cells of a rung, and no others; of rung -1:
- * none. Copies are made. They stay until the rung is edited or others are set. */
+/** ladder_grid_view_set_blockers - marks only these cells, in @rung; -1: none. Copies them.
+ * The marks stay until the rung is edited or others are set. */
 void ladder_grid_view_set_blockers(LadderGridView *view, int rung,
 				   const struct grid_blocker *cells, int count);
 
-/** ladder_grid_view_drawn - how many rungs were drawn since the view was made. */
+/** ladder_grid_view_drawn - number of rungs drawn since the view was made, for tests. */
 guint ladder_grid_view_drawn(LadderGridView *view);
-/** ladder_grid_view_live - LIVE_… bits (grid_draw.h) of a cell as it is shown, and its
- * value's text, if there is one; false: nothing of it is shown. @text: 48 bytes. */
+/** ladder_grid_view_live - the LIVE_… bits (grid_draw.h) of a cell as shown, and the text of
+ * its value, or ""; false: none is shown. @text: 48 bytes. For tests. */
 bool ladder_grid_view_live(LadderGridView *view, int rung, int row, int col,
 			   unsigned int *bits, char *text);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_act - what a person does on a sheet to the values of the program that runs.
+ * grid_view_act - changes values of the running program from the sheet: toggle, set, force.
  *
- * Everything goes to the simulation as an act, so that it is recorded. Space, and Enter on a
- * number, have another meaning while it simulates.
+ * Each change is an act of the simulation, so that it is recorded. While simulating, Space
+ * toggles and Enter on a number sets it.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-/* ---- what is meant ---- */
+/* ---- the value at the cursor ---- */
 
 static const struct image *image_of(LadderGridView *view)
 {
@@ -50,7 +50,7 @@ static bool is_number(const struct live_cell *cell)
 	return cell && cell->at.type != IEC_BOOL && !cell->at.constant;
 }
 
-/* The operand at the cursor; of a box its instance. */
+/* The operand at the cursor; for a box its instance. */
 static const char *name_here(LadderGridView *view)
 {
 	const struct cell *cell = cursor_cell(view, NULL, NULL);
@@ -64,7 +64,7 @@ static bool is_place(struct location a, struct location b)
 	return a.type == b.type && a.area == b.area && a.where == b.where;
 }
 
-/* The last act may not have reached the simulation yet: its value counts. */
+/* The value of the last act, which may not have reached the simulation yet. */
 static union iec_value value_now(LadderGridView *view, struct location at)
 {
 	const struct sheet_live *live = &view->live;
@@ -148,7 +148,7 @@ static void release(LadderGridView *view, const struct live_cell *cell)
 	g_free(text);
 }
 
-/* Forces the present value, so that nothing jumps. */
+/* Forces the present value: no output changes. */
 static void force(LadderGridView *view)
 {
 	const struct live_cell *cell = cell_here(view);
@@ -163,7 +163,7 @@ static void force(LadderGridView *view)
 		force_at(view, cell, value_now(view, cell->at));
 }
 
-/* ---- a new value, asked for at its place ---- */
+/* ---- the entry for a new value ---- */
 
 struct asked {
 	LadderGridView *view;
@@ -214,7 +214,7 @@ static char *set_changed(void *context, const char *line, int cursor, bool *good
 
 	(void)cursor;
 	*good = why == NULL;
-	if (!why && asked->at.type == IEC_TIME) { /* a bare number is of ms */
+	if (!why && asked->at.type == IEC_TIME) { /* a bare number is in ms */
 		live_value_print(IEC_TIME, value, shown, sizeof(shown));
 		why = g_strdup_printf("= %s", shown);
 	}
@@ -236,7 +236,7 @@ static bool set_taken(void *context, const char *line)
 
 		order(view, held ? ACT_FORCE : ACT_SET, asked->at, value);
 		tell_value(view, asked->name, asked->at, value, held);
-		view->live.ordered = 0; /* it may be a text */
+		view->live.ordered = 0; /* a text would not outlive @room */
 	}
 	g_free(why);
 	g_free(room);
@@ -258,7 +258,7 @@ static void ask(LadderGridView *view, const char *name, struct location at)
 	view->asks_value = true;
 }
 
-/* Asks for a new value; of a box for that of its counting pin. */
+/* Asks for a new value; for a box that of its counting pin. */
 static void set_here(LadderGridView *view)
 {
 	const struct live_cell *cell = cell_here(view);
@@ -299,7 +299,7 @@ bool act_do(LadderGridView *view, enum verb verb)
 
 /* ---- a click ---- */
 
-#define REACH 14 /* px from the middle of an element, if its name is not wider    */
+#define REACH 14 /* px from the middle of an element; a wider name is hit, too    */
 
 bool act_is_click(LadderGridView *view, float x, float y)
 {
@@ -450,7 +450,7 @@ void act_init(LadderGridView *view)
 	g_object_unref(group);
 }
 
-/* ---- what is told ---- */
+/* ---- texts ---- */
 
 static void add_key(GString *text, enum verb verb, const char *what)
 {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_cursor - where the cursor is, where it goes, what is selected; and the rung at the
- * cursor, when another one replaces it.
+ * grid_view_cursor - the cursor and the selection of a sheet, and the exchange of its rung.
  *
  * The cursor moves over display cells, from rung to rung as if there were no border.
  */
@@ -9,9 +8,9 @@
 
 #include "editor-gtk/kit/diag_said.h"
 
-#define PAGE_RUNGS 5 /* that Page Down goes on                                 */
-#define ASIDE     24 /* px left and right of the cursor that are seen, too        */
-#define MARGIN    40 /* px above and below the cursor that are seen, too        */
+#define PAGE_RUNGS 5 /* rungs of a Page Down                                   */
+#define ASIDE     24 /* px shown left and right of the cursor                   */
+#define MARGIN    40 /* px shown above and below the cursor                     */
 
 static int rows_of(LadderGridView *view, int rung)
 {
@@ -40,7 +39,7 @@ static void cursor_remember(LadderGridView *view)
 	view->cursor.came = ladder_document_place(view->canvas->document);
 }
 
-/* A selection of several rungs redraws all: when it begins, changes and ends. */
+/* All rungs are redrawn when a selection of several rungs begins, changes or ends. */
 static void redraw_moved(LadderGridView *view, int from, bool several)
 {
 	int first, last;
@@ -79,7 +78,7 @@ void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend)
 		view->cursor.anchor = view->cursor.at;
 	to.rung = CLAMP(to.rung, 0, MAX(sheet_rungs(view) - 1, 0));
 	if (from != to.rung)
-		canvas_close_entry(LADDER_CANVAS(view)); /* it is of the rung before */
+		canvas_close_entry(LADDER_CANVAS(view)); /* it belongs to the old rung */
 	view->cursor.at = to;
 	cursor_fit(view);
 	view->cursor.selecting = extend;
@@ -155,15 +154,15 @@ graphene_rect_t cursor_cell_box(LadderGridView *view)
 	if (view->cursor.at.rung >= (int)view->strips->len)
 		return GRAPHENE_RECT_INIT(0, 0, 0, 0);
 	strip = strips_get(view, view->cursor.at.rung);
-	if (!strip->layout) /* it is gone, and the strips do not know it yet */
+	if (!strip->layout) /* the rung is deleted, the strips are not updated yet */
 		return GRAPHENE_RECT_INIT(0, 0, 0, 0);
 	rect = rung_layout_cell(strip->layout, view->cursor.at.row, view->cursor.at.col);
 	rect.origin.y += strip->y;
 	return rect;
 }
 
-/* Upper end of what is shown together with the cell: for the first row also the
- * title and the comment of the rung, if there is room. */
+/* Upper end of the area to show: in the first row it includes title and comment of the
+ * rung if the page has room. */
 static double head_of(LadderGridView *view, const graphene_rect_t *cell)
 {
 	const double page = gtk_adjustment_get_page_size(view->canvas->adjustment[1]);
@@ -303,7 +302,7 @@ bool cursor_key(LadderCanvas *canvas, guint key, GdkModifierType state)
 	return true;
 }
 
-/* ---- one rung becomes another ---- */
+/* ---- the rung at the cursor is exchanged ---- */
 
 struct grid_at sheet_at(LadderGridView *view)
 {

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_drag - elements and rungs are dragged: what is taken, where it may be dropped, what
- * the sheet shows meanwhile, and what the drop does.
+ * grid_view_drag - drag and drop of elements and rungs on a sheet.
  *
- * A selection is dragged as a whole if the pointer takes a part of it. An element is also text,
- * the names of its variables, for status charts and timing charts.
+ * A drag from a selection drags all of it. The drag content of an element is also text, the
+ * names of its variables, for status charts and timing charts.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
@@ -13,17 +12,17 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- what is dragged ---- */
+/* ---- the drag content ---- */
 
 #define LADDER_TYPE_DRAG (ladder_drag_get_type())
 
-/* An element of the palette, or of a sheet one, several, or whole rungs. */
+/* An element of the palette; or one element, several, or whole rungs of a sheet. */
 struct ladder_drag {
-	enum word word;            /* of several: one that goes where they do  */
-	LadderGridView *view;      /* it comes from; NULL: the palette         */
-	struct grid_cursor from;   /* of rungs: row -1                         */
-	int last;                  /* of rungs: the last one                   */
-	bool several;              /* elements: those in the area              */
+	enum word word;            /* for several: a word with the same targets */
+	LadderGridView *view;      /* source; NULL: the palette                */
+	struct grid_cursor from;   /* row -1: whole rungs, from here           */
+	int last;                  /* to this one                              */
+	bool several;              /* the elements in @area                    */
 	struct grid_area area;
 };
 
@@ -67,7 +66,7 @@ static bool is_word(char c)
 	return g_ascii_isalnum(c) || c == '_' || c & 0x80;
 }
 
-/* A name with its members and constant indices, or an address; 0: something else. */
+/* Length of a name with members and constant indices, or of an address; 0: neither. */
 static gsize name_length(const char *text)
 {
 	gsize len = *text == '%';
@@ -137,7 +136,7 @@ static void take_names(LadderGridView *view, const char *text, bool args, GPtrAr
 			g_ptr_array_add(names, g_steal_pointer(&full));
 		g_free(full);
 		g_free(name);
-		/* Letters behind a number are no name. */
+		/* Skip T#5s and the like: letters behind a number are no name. */
 		text += len ? len : MAX(strspn(text, "0123456789#_."), 1);
 	}
 }
@@ -158,7 +157,7 @@ static char *variables_of(LadderGridView *view, const struct cell *cell)
 	return all;
 }
 
-/* ---- what is shown: an element ---- */
+/* ---- marks of the drop target ---- */
 
 #define LINE      3 /* px thick; odd, so that its middle is a pixel            */
 #define KNOB     11 /* px square, at the ends of the line                      */
@@ -189,12 +188,12 @@ static void drop_at_cell(LadderGridView *view, int rung, int row, int col, bool 
 		return;
 	view->drop.at = (struct grid_cursor){ rung, row, col };
 	view->drop.legal = legal;
-	if (rung >= 0) /* it stays when it is let go there */
+	if (rung >= 0) /* the message stays after a refused drop */
 		canvas_tell(LADDER_CANVAS(view), legal ? "" : why_not(view, rung, row, col));
 	if (before >= 0)
 		strips_dirty(view, before);
 	if (rung >= 0)
-		strips_dirty(view, rung); /* it may need a row more */
+		strips_dirty(view, rung); /* may show one more row */
 }
 
 bool *drop_takes(LadderGridView *view, int rung, const struct rung_layout *layout)
@@ -208,7 +207,7 @@ bool *drop_takes(LadderGridView *view, int rung, const struct rung_layout *layou
 	grid_takes(sheet_rung(view, rung), layout->columns, layout->rows, view->drop.word,
 		   takes);
 	if (rung == meant->rung && meant->row < layout->rows && meant->col < layout->columns)
-		takes[meant->row * layout->columns + meant->col] = false; /* it has a frame */
+		takes[meant->row * layout->columns + meant->col] = false; /* drawn with a frame */
 	return takes;
 }
 
@@ -258,7 +257,7 @@ void drop_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct the
 		return;
 	y = view->drop.line < sheet_rungs(view) ? strips_get(view, view->drop.line)->y :
 						  strips_height(view);
-	y = MAX(roundf((float)((double)y * view->canvas->zoom - top)), LINE / 2); /* the first one */
+	y = MAX(roundf((float)((double)y * view->canvas->zoom - top)), LINE / 2); /* at the top */
 	fill(snapshot, theme, 0, y - LINE / 2, width, LINE);
 	fill(snapshot, theme, 0, y - KNOB / 2, KNOB, KNOB);
 	fill(snapshot, theme, width - KNOB, y - KNOB / 2, KNOB, KNOB);
@@ -372,7 +371,7 @@ unset:
 
 /* ---- dropping ---- */
 
-#define DROP_BELOW 18 /* px under the wire, from where on it is meant          */
+#define DROP_BELOW 18 /* px under the wire where the row below begins          */
 
 static const struct ladder_drag *dragged(GtkDropTarget *target)
 {
@@ -392,8 +391,8 @@ static bool is_below(LadderGridView *view, int rung, const struct rung_hit *hit,
 	return at > strip->y + row->wire + DROP_BELOW;
 }
 
-/* The cell that the pointer means: below an element the free cell of a new branch;
- * below the last row a new row. */
+/* The target cell: below an element the free cell of a new branch; below the last row a new
+ * row. */
 static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hit,
 		   enum word word)
 {
@@ -429,7 +428,7 @@ static bool takes_rung(LadderGridView *view, const struct ladder_drag *drag)
 	return drag->view == view && view->count < 0;
 }
 
-/* Marks where it would be dropped; 0: it may not. */
+/* Marks the target of the drop; 0: refused. */
 static GdkDragAction show_drop(LadderGridView *view, double x, double y)
 {
 	const struct ladder_drag *drag = dragged(view->drop.target);
@@ -487,7 +486,7 @@ static bool move_rungs(LadderGridView *view, const struct ladder_drag *drag, int
 	       rungs_move(view, drag->from.rung, drag->last, before);
 }
 
-/* NULL: it is refused, and @at or @from says why. */
+/* NULL: refused, with the reason in @at or @from. */
 static struct rung *moved(const struct ladder_drag *drag, const struct rung *from_rung,
 			  struct grid_at *from, const struct rung *to_rung,
 			  struct grid_at *at, struct rung **source)
@@ -498,7 +497,7 @@ static struct rung *moved(const struct ladder_drag *drag, const struct rung *fro
 		return grid_move(from_rung, from, to_rung, at, source);
 	below = grid_can_drop(to_rung, at->columns, at->row, at->col, drag->word) ==
 		GRID_DROP_BELOW;
-	at->row -= below; /* of the element that it is a branch of */
+	at->row -= below; /* the row of the element that the branch goes round */
 	return grid_move_area(from_rung, from, &drag->area, to_rung, at, below, source);
 }
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_edit - what verbs do to the rungs of a sheet, and the clipboard.
+ * grid_view_edit - the verbs that change the rungs of a sheet, and the clipboard.
  *
- * Each takes the rung of the cursor, or all that are selected, lets grid_edit make others of
- * them, and gives those to the document as one named step. What is refused is told.
+ * A verb acts on the selected rungs, or on that of the cursor: grid_edit makes new ones, which
+ * the document gets as one named step. A refusal is told.
  *
  * The clipboard holds text of a rung file (rung_clip.h), for text editors and other windows. A
- * rung with outputs is pasted as a rung of its own; a part without, and outputs alone, into the
- * circuit.
+ * rung with outputs is pasted as a new rung; a part without outputs, and outputs alone, into
+ * the circuit.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
@@ -62,7 +62,7 @@ static void do_new(LadderGridView *view, enum verb verb)
 		cursor_set(view, (struct grid_cursor){ at, 0, 0 }, false);
 }
 
-/* If all rungs go, an empty one stays: there must be a place to type. */
+/* Deleting all rungs leaves an empty one as a place to type. */
 static void delete_rungs(LadderGridView *view)
 {
 	struct rung *left = NULL;
@@ -78,7 +78,7 @@ static void delete_rungs(LadderGridView *view)
 		cursor_set(view, (struct grid_cursor){ first, 0, 0 }, false);
 }
 
-/* ---- once more ---- */
+/* ---- duplicates ---- */
 
 /* Copies, since the ids and rows of a project end when it is read again. */
 struct instance {
@@ -152,7 +152,7 @@ static void put_twice(LadderGridView *view, int at, struct rung **rungs, int cou
 	g_free(told);
 }
 
-/* The copies get instances of their own: two rungs must not share a timer. */
+/* The copies get new instances: two rungs must not share a timer. */
 static void do_duplicate(LadderGridView *view)
 {
 	const struct entry_place place = {
@@ -171,7 +171,7 @@ static void do_duplicate(LadderGridView *view)
 		copies[i - first] = sheet_rung(view, i);
 	if (entry_duplicate(&place, copies, last - first + 1, &made, &count)) {
 		for (int i = 0; i <= last - first; i++)
-			copies[i]->label = 0; /* it could not stand twice */
+			copies[i]->label = 0; /* a label is unique */
 		instances = instances_new(place.project, made, count);
 		put_twice(view, last + 1, copies, last - first + 1, instances);
 		instances_free(instances);
@@ -180,7 +180,7 @@ static void do_duplicate(LadderGridView *view)
 	g_free(copies);
 }
 
-/* ---- elsewhere ---- */
+/* ---- moving ---- */
 
 /* In the body of a chart the contents of the rungs change places. */
 static bool move_in_body(LadderGridView *view, int from, int to)
@@ -484,7 +484,7 @@ static void paste_text(LadderGridView *view, const char *text, gsize len, bool p
 	g_free(why);
 }
 
-/* ---- what the clipboard holds: bytes, until they were looked at ---- */
+/* ---- reading the clipboard ---- */
 
 struct paste {
 	LadderGridView *view;
@@ -493,7 +493,7 @@ struct paste {
 	GByteArray *bytes;
 };
 
-/* Bytes that are read; a rung file cannot be longer. */
+/* Bytes to read: one more than a rung file may have. */
 #define READ_MOST (LIMIT_TEXT + 1)
 #define READ_AT_ONCE 65536
 
@@ -593,7 +593,7 @@ static void do_copy_picture(LadderGridView *view)
 
 /* ---- the table ---- */
 
-/* Of whole rungs, and the clipboard. */
+/* The verbs for whole rungs and the clipboard. */
 static bool do_rungs(LadderGridView *view, enum verb verb)
 {
 	switch ((int)verb) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_entry - what is asked at a cell of a sheet: an element and its operand; title,
- * label, comments, one more pin.
+ * grid_view_entry - the entry at the cursor of a sheet: an element and its operand; title,
+ * label, comments, a pin.
  *
- * While a word still lacks its operand, the sheet shows a preview of the rung. The document
- * learns of it when the line is taken, in one step with the variables that it declares. A line
- * that a file could not hold stays open and says why.
+ * While a word lacks its operand the sheet shows a preview of the rung. The document gets the
+ * rung when the line is taken, in one step with the variables that the line declares. A line
+ * that a file cannot hold stays open and says why.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
@@ -23,16 +23,16 @@
 
 #define CANDIDATES 40
 
-/* What is asked for. It lives until something else is asked. */
+/* The open question; it lives until the next one. */
 struct asked {
 	LadderGridView *view;
 	enum word word;       /* fixed; ELEM_EMPTY: the line begins with it     */
-	bool edit;            /* of what stands there; its comment is kept      */
+	bool edit;            /* changes the present element, keeps its comment */
 	bool parallel;
-	bool before;          /* it comes before the output at the cursor       */
-	enum verb verb;       /* of a text: title, label, comment, pin          */
+	bool before;          /* insert before the output at the cursor         */
+	enum verb verb;       /* for a text: title, label, comment, pin         */
 	struct grid_at at;    /* of the element in the preview                 */
-	struct grid_cursor cursor; /* when it began                            */
+	struct grid_cursor cursor; /* when the entry opened                    */
 };
 
 static struct entry_place place_of(const struct asked *asked)
@@ -65,7 +65,7 @@ static char *whole_line(const struct asked *asked, const char *line, size_t *ski
 	return whole;
 }
 
-/* ---- while it is typed ---- */
+/* ---- each letter ---- */
 
 static void add_candidate(const struct asked *asked, const struct entry_candidate *one,
 			  size_t skipped)
@@ -105,7 +105,7 @@ static char *element_changed(void *context, const char *line, int cursor, bool *
 	return told;
 }
 
-/* ---- when it is taken ---- */
+/* ---- Enter ---- */
 
 static struct rung *put_element(const struct asked *asked, struct cell cell,
 				bool below, struct grid_at *at)
@@ -126,7 +126,7 @@ static struct rung *put_element(const struct asked *asked, struct cell cell,
 				.col = asked->cursor.col };
 	old = asked->edit ? cursor_cell(view, &row, NULL) : NULL;
 	if (old) {
-		at->row = row; /* of a box the first, also from one of its pins */
+		at->row = row; /* the first row of a box, also from a pin */
 		cell.comment = old->comment;
 		edited = grid_set(rung, at, cell);
 	}
@@ -196,7 +196,7 @@ static void open_entry(struct asked *asked, struct canvas_question question)
 	strips_redraw(asked->view, asked->view->cursor.at.rung);
 }
 
-/* For what is asked at the cursor; an open entry is closed. */
+/* Closes an open entry. */
 static struct asked *asked_new(LadderGridView *view)
 {
 	struct asked *asked = g_new0(struct asked, 1);
@@ -241,7 +241,7 @@ static bool show_preview(struct asked *asked, struct rung *preview)
 	return true;
 }
 
-/* The text that is proposed: an instance, parameters; "": none. */
+/* The proposed text: an instance, parameters; "": none. @whole: it needs no operand. */
 static char *proposal(const struct asked *asked, bool *whole)
 {
 	const struct entry_place place = place_of(asked);
@@ -267,7 +267,7 @@ static void begin_word(struct asked *asked, struct rung *preview)
 	bool whole;
 	char *text = proposal(asked, &whole), *prompt;
 
-	if (whole && !text[0]) { /* nothing to ask for */
+	if (whole && !text[0]) { /* no operand to ask for */
 		rung_free(preview);
 		if (element_taken(asked, ""))
 			canvas_tell(LADDER_CANVAS(view), "");
@@ -293,7 +293,7 @@ void entry_begin_word(LadderGridView *view, enum word word, bool parallel)
 	if (!rung || canvas_is_fixed(LADDER_CANVAS(view)))
 		return;
 	asked = asked_new(view);
-	rung = sheet_rung(view, view->cursor.at.rung); /* the preview is gone */
+	rung = sheet_rung(view, view->cursor.at.rung); /* not the preview, which is freed */
 	asked->word = word;
 	asked->parallel = parallel;
 	/* An output at the cursor must not be replaced by another kind of element. */
@@ -321,7 +321,7 @@ void entry_begin_drop(LadderGridView *view, enum word word, int row, int col)
 				    cell));
 }
 
-/* As it stands in the cell at the cursor. */
+/* Operand and parameters of the element at the cursor. */
 static char *line_now(LadderGridView *view)
 {
 	const struct project *project = ladder_document_project(view->canvas->document);
@@ -511,7 +511,7 @@ static bool add_pin(LadderGridView *view, const char *name)
 			 _(verb_row(VERB_add_pin)->label));
 }
 
-/* As it stands in the file now. */
+/* The present text. */
 static char *text_now(LadderGridView *view, enum verb verb)
 {
 	const struct project *project = ladder_document_project(view->canvas->document);
@@ -589,8 +589,7 @@ static bool text_taken(void *context, const char *line)
 	return sheet_put(view, copy, &at, _(verb_row(asked->verb)->label));
 }
 
-/* Is it a Boolean input without a wire? Whether there is room is checked when it is
- * taken. */
+/* Is it a Boolean input without a wire? grid_add_pin() checks later whether there is room. */
 static bool may_feed(LadderGridView *view, const char *name)
 {
 	struct project *project = ladder_document_project(view->canvas->document);
@@ -638,7 +637,7 @@ static const char *further_input(LadderGridView *view, const struct word_row *ro
 	}
 }
 
-/* How many inputs can be fed; @popup, if not NULL, offers those that begin as @line. */
+/* Number of inputs that can be fed; @popup, if not NULL, gets those that begin as @line. */
 static int offer_inputs(LadderGridView *view, GtkWidget *popup, const char *line)
 {
 	const struct word_row *row = word_here(view);
@@ -669,7 +668,7 @@ static char *pin_changed(void *context, const char *line, int cursor, bool *good
 	return NULL;
 }
 
-/* Why nothing is asked for at the cursor; NULL: it can be. */
+/* Why the cursor's place has no such text; NULL: it has. */
 static const char *nothing_to_ask(LadderGridView *view, enum verb verb)
 {
 	if (verb != VERB_comment && verb != VERB_add_pin)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_inside - the parts of a sheet's widget. Each may call those before it: strips;
- * cursor; live; act; entry; edit; wire; drag; tell; the widget itself (grid_view.c).
+ * grid_view_inside - the files of the widget grid_view. A file may call only files before it:
+ * strips, cursor, live, act, entry, edit, wire, drag, tell, grid_view.c.
  */
 #ifndef EDITOR_GRID_VIEW_INSIDE_H
 #define EDITOR_GRID_VIEW_INSIDE_H
@@ -12,45 +12,45 @@
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sim/live_map.h"
 
-/* A rung on its way across the sheet. Until it is laid out its height is a guess. */
+/* A rung of the sheet. Its height is a guess until it is laid out. */
 struct strip {
 	struct rung_layout *layout; /* NULL: not yet                           */
 	GskRenderNode *node;        /* NULL: to be drawn                       */
 	float y, height;            /* px at 100 %                             */
-	bool measured;              /* the height is no guess                  */
+	bool measured;              /* FALSE: the height is a guess            */
 	struct live_rung *live;     /* NULL: not yet, or nothing runs           */
-	guint looked;               /* sheet_live.stamp when it was looked at   */
+	guint looked;               /* sheet_live.stamp of the values in @live  */
 };
 
 struct sheet_cursor {
 	struct grid_cursor at;
 	struct grid_cursor anchor;  /* other corner of the selection           */
-	bool selecting;             /* from anchor to here; of several rungs all */
+	bool selecting;             /* from anchor to at; several rungs: whole ones */
 	guint64 came;               /* place in the history when the cursor came */
-	int came_rung;              /* to this rung; -1: not known              */
+	int came_rung;              /* to this rung; -1: unknown                */
 };
 
-/* What runs, and what of it is shown. */
+/* The running program, and what the sheet shows of it. */
 struct sheet_live {
 	struct live_map *map;       /* NULL: nothing runs, or it is not made yet */
 	char *instance;             /* chosen; NULL: the first one             */
-	guint stamp;                /* another one whenever values change       */
-	guint timer;                /* for the end of what is marked as new     */
-	guint say, say_values;      /* timers: names of cells follow            */
-	guint drawn;                /* rungs, since the view was made           */
-	bool still;                 /* nothing is scanned                      */
-	guint ordered;              /* stamp when this was ordered: */
+	guint stamp;                /* counts changes of values                 */
+	guint timer;                /* ends the marks of new values             */
+	guint say, say_values;      /* timers: rename the accessible children   */
+	guint drawn;                /* rungs drawn since the view was made      */
+	bool still;                 /* SIM_STOP: no power is drawn              */
+	guint ordered;              /* stamp of the last act; 0: none           */
 	struct location ordered_at;
 	union iec_value ordered_value;
-	int blocked;                /* rung; -1: none                          */
-	GArray *blockers;           /* of struct grid_blocker, notes owned      */
+	int blocked;                /* rung with blockers; -1: none             */
+	GArray *blockers;           /* struct grid_blocker, owns the notes      */
 };
 
-/* A stroke of wire: where it could begin, and while it is drawn. */
+/* A wire drawn with the pointer: where it could begin, and while it is drawn. */
 struct sheet_wire {
 	int hover;                  /* rung where one could begin; -1: not here */
 	int rung;                   /* -1: none                                */
-	bool pressed, drawing;      /* the button is down there; and moved       */
+	bool pressed, drawing;      /* the button is down; the pointer moved    */
 	bool erase, along;
 	struct grid_end from, to;
 	enum grid_course course;
@@ -58,21 +58,21 @@ struct sheet_wire {
 	int rows;
 };
 
-/* What is dragged over the sheet. */
+/* A drag over the sheet. */
 struct sheet_drop {
-	struct grid_cursor at;      /* the cell that is meant; rung -1: none     */
-	bool legal;                 /* it may be dropped there                  */
-	enum word word;             /* ELEM_EMPTY: no element                   */
-	int line;                   /* a rung would come before this one; -1: none */
+	struct grid_cursor at;      /* target cell; rung -1: none               */
+	bool legal;                 /* the cell accepts the drop                */
+	enum word word;             /* the dragged element; ELEM_EMPTY: none    */
+	int line;                   /* a dragged rung goes before this one; -1: none */
 	GtkDropTarget *target;
 };
 
-/* Where the button went down. */
+/* A press of the button. */
 struct sheet_press {
 	double x, y;                /* px of the widget                        */
 	bool takes;                 /* on something that can be dragged         */
-	bool toggles;               /* its release toggles a value              */
-	bool keeps;                 /* on the selection, which stays till then   */
+	bool toggles;               /* the release toggles a value              */
+	bool keeps;                 /* on the selection, kept until the release */
 	bool given_up;              /* Esc since then: no wire, no selection     */
 };
 
@@ -92,12 +92,12 @@ struct _LadderGridView {
 	float rail;                 /* distance of the rails                   */
 	struct drafting drafting;
 	struct grid_names *names;
-	guint idle;                 /* lays out what is not seen               */
-	guint ahead;                /* draws what is seen next                  */
-	int forgot_at;              /* the first rung kept, when others were forgotten */
-	guint resize;               /* asks for another size, soon             */
-	struct rung *preview;       /* of the cursor's rung, until its entry is done */
-	bool asks_value;            /* the popup asks for a value of what runs   */
+	guint idle;                 /* lays out rungs out of sight              */
+	guint ahead;                /* draws rungs before they scroll into view */
+	int forgot_at;              /* the first rung that forget_far() kept     */
+	guint resize;               /* asks for another size when idle           */
+	struct rung *preview;       /* of the cursor's rung while the entry is open */
+	bool asks_value;            /* the popup asks for a value of the running program */
 	struct sheet_cursor cursor;
 	GArray *marks;              /* of struct sheet_mark                     */
 	struct grid_cursor found;   /* rung -1: nothing                        */
@@ -110,36 +110,36 @@ struct _LadderGridView {
 /* ---- grid_view_strips.c: the rungs that are shown, and their layouts ---- */
 struct pou *sheet_pou(LadderGridView *view);
 int sheet_rungs(LadderGridView *view);
-/** sheet_rung - as it is shown: the preview, if that one is edited. NULL: none. */
+/** sheet_rung - a rung as shown: the preview while it is edited. NULL: no such rung. */
 struct rung *sheet_rung(LadderGridView *view, int rung);
 /** sheet_splice - as ladder_document_splice, of rungs of the sheet. */
 bool sheet_splice(LadderGridView *view, int at, int removed, struct rung **rungs,
 		  int inserted, struct diag_list *why);
 void strips_init(LadderGridView *view);
 void strips_clear(LadderGridView *view);
-/** strips_reset - all rungs may be others. */
+/** strips_reset - after any rung may have changed. */
 void strips_reset(LadderGridView *view);
-/** strips_splice - some are. */
+/** strips_splice - after rungs were exchanged. */
 void strips_splice(LadderGridView *view, int at, int removed, int inserted);
-/** strips_renumber - the same rungs have other numbers. */
+/** strips_renumber - after rungs before the sheet's were added or removed. */
 void strips_renumber(LadderGridView *view);
-/** strips_renamed - a variable of this name, at this address or "", came or went. */
+/** strips_renamed - after a variable was declared or deleted. @address: "": it has none. */
 void strips_renamed(LadderGridView *view, const char *name, const char *address);
-/** strips_dirty - one is to be laid out anew. */
+/** strips_dirty - lays a rung out again when it is shown next. */
 void strips_dirty(LadderGridView *view, int rung);
-/** strips_redraw - one is to be drawn anew. -1: all. */
+/** strips_redraw - draws a rung again. -1: all. */
 void strips_redraw(LadderGridView *view, int rung);
-/** strips_at - the rung at height @y px at 100 %; the nearest one. -1: there is none. */
+/** strips_at - the rung at height @y px at 100 %, or the nearest one. -1: no rungs. */
 int strips_at(LadderGridView *view, float y);
-/** strips_get - laid out. */
+/** strips_get - a strip, laid out. */
 struct strip *strips_get(LadderGridView *view, int rung);
-/** strips_lay_out - what is seen in a page of @page px, before it is drawn. */
+/** strips_lay_out - lays out the strips of a page of @page px before they are drawn. */
 void strips_lay_out(LadderCanvas *canvas, double page);
-/** strips_resize_later - the sheet needs another size; safe while it is allocated. */
+/** strips_resize_later - asks for another size when idle; safe during allocation. */
 void strips_resize_later(LadderGridView *view);
 float strips_width(LadderGridView *view);
 float strips_height(LadderGridView *view);
-/** strip_forget_live - the places of its values are others, or not needed. */
+/** strip_forget_live - after the places of its values changed. */
 void strip_forget_live(struct strip *strip);
 /** mark_push - adds a mark of a cell as shown to those of a drawing. */
 static inline void mark_push(GArray *marks, int row, int column, unsigned int mark)
@@ -154,36 +154,37 @@ static inline struct strip *strip_of(LadderGridView *view, int rung)
 }
 
 /* ---- grid_view_cursor.c ---- */
-/** cursor_set - moves and shows it; @extend: the selection reaches there. An entry in
- * another rung is closed. */
+/** cursor_set - moves the cursor and scrolls to it; @extend: with the selection. Closes an
+ * entry in another rung. */
 void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend);
-/** cursor_fit - back into what there is. */
+/** cursor_fit - moves the cursor back into the sheet. */
 void cursor_fit(LadderGridView *view);
-/** cursor_reveal - scrolls so far that it is seen. */
+/** cursor_reveal - scrolls to the cursor. */
 void cursor_reveal(LadderGridView *view);
-/** cursor_reveal_head - the same; in the first row with the title and the comment of its
- * rung. Not for a click: there the sheet stays below the pointer. */
+/** cursor_reveal_head - the same; in the first row also to the title and comment of its
+ * rung. Not for a click: the sheet must not move below the pointer. */
 void cursor_reveal_head(LadderGridView *view);
-/** cursor_cell_box - its cell, px at 100 %. */
+/** cursor_cell_box - the cell of the cursor, px at 100 %. */
 graphene_rect_t cursor_cell_box(LadderGridView *view);
-/** cursor_area - the selection, or its own cell. False: nothing is selected, or several
- * rungs are. */
+/** cursor_area - the selection within a rung, else the cell of the cursor. False: nothing
+ * or several rungs are selected. */
 bool cursor_area(LadderGridView *view, struct grid_area *area);
-/** cursor_rungs - from the first to the last rung that is selected, or that of the cursor.
- * True: several are. */
+/** cursor_rungs - the first and the last selected rung, or that of the cursor. True: they
+ * differ. */
 bool cursor_rungs(LadderGridView *view, int *first, int *last);
-/** cursor_selects - is (rung, row, col) part of what is selected? Of several rungs all is. */
+/** cursor_selects - is (rung, row, col) selected? */
 bool cursor_selects(LadderGridView *view, int rung, int row, int col);
-/** cursor_cell - the element below it; row and col of the rung too (or NULL). NULL: none. */
+/** cursor_cell - the element at the cursor; NULL: none. @row, @col: get its cell; NULL: not
+ * needed. */
 const struct cell *cursor_cell(LadderGridView *view, int *row, int *col);
 bool cursor_key(LadderCanvas *canvas, guint key, GdkModifierType state);
-/** sheet_point - what is at a point of the widget; the rung, or -1. */
+/** sheet_point - the rung at a point, px of the widget; -1: none. @hit: the part of it. */
 int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit);
-/** hit_is_cell - is it a cell, or something in one? */
+/** hit_is_cell - is it a cell or a part of one? */
 bool hit_is_cell(const struct rung_hit *hit);
 struct grid_at sheet_at(LadderGridView *view);
-/** sheet_put - the cursor's rung becomes @rung (taken over), the cursor goes to @at; of a
- * NULL it tells why. @name: of the step. */
+/** sheet_put - replaces the cursor's rung by @rung (taken over) as step @name of the history,
+ * and moves the cursor to @at. @rung NULL: says why, by @at->refusal. */
 bool sheet_put(LadderGridView *view, struct rung *rung, const struct grid_at *at,
 	       const char *name);
 
@@ -193,91 +194,91 @@ void live_clear(LadderGridView *view);
 void live_values_changed(LadderCanvas *canvas);
 void live_program_changed(LadderGridView *view);
 void live_state_changed(LadderGridView *view);
-/** live_look - a rung that is laid out is looked at, if it was not since values changed.
- * True: its drawing is not what it should be. */
+/** live_look - updates the values of a rung that is laid out. True: it must be redrawn. */
 bool live_look(LadderGridView *view, int rung);
-/** live_rung_of - looked at; NULL: nothing runs, or the rung is being edited. */
+/** live_rung_of - the present values; NULL: nothing runs, or the rung is being edited. */
 const struct live_rung *live_rung_of(LadderGridView *view, int rung);
-/** live_forget_all - the places of all rungs, and names. */
+/** live_forget_all - forgets where the values of all rungs are. */
 void live_forget_all(LadderGridView *view);
-/** live_marks - adds those of forces and blockers. */
+/** live_marks - adds the marks of forces and blockers. */
 void live_marks(LadderGridView *view, int rung, GArray *marks);
 struct live_place { LadderGridView *view; int rung; };
-/** live_note - what a blocker says of a cell as shown; @place: struct live_place. NULL:
- * nothing. */
+/** live_note - the note of a blocker at a cell as shown; @place: struct live_place. NULL:
+ * none. */
 const char *live_note(void *place, int row, int column);
 
-/* ---- grid_view_act.c: what a person does to what runs ---- */
+/* ---- grid_view_act.c: values of the running program are changed ---- */
 void act_init(LadderGridView *view);
-/** act_is_click - is a point, px of the sheet at 100 %, on the shape or the name of the
- * contact or coil at the cursor, and can that be toggled? */
+/** act_is_click - would a click at a point, px of the sheet at 100 %, toggle the contact or
+ * coil at the cursor? It must be on its shape or name. */
 bool act_is_click(LadderGridView *view, float x, float y);
 /** act_click - toggles it. */
 void act_click(LadderGridView *view);
-/** act_forget - places are others: a question for a value ends. */
+/** act_forget - closes a question for a value: its place may be another. */
 void act_forget(LadderGridView *view);
-/** act_do - a verb that means something else while it simulates; false: it does not. */
+/** act_do - a verb with another meaning while simulating; false: it has none. */
 bool act_do(LadderGridView *view, enum verb verb);
 /** act_menu - a section for the element at the cursor, empty while nothing runs. Caller
  * unrefs. */
 GMenuModel *act_menu(LadderGridView *view);
-/** act_keys - adds what keys do there; false: nothing. */
+/** act_keys - adds the keys for the value at the cursor; false: none. */
 bool act_keys(LadderGridView *view, GString *text);
-/** act_tip - adds what a cell of a rung holds. */
+/** act_tip - adds the value of a cell of a rung. */
 void act_tip(LadderGridView *view, int rung, int row, int col, GString *text);
 /** act_said - adds ", on", ", forced" to the name of a cell. */
 void act_said(LadderGridView *view, int rung, int row, int col, GString *text);
 
-/* ---- grid_view_entry.c: questions at the cursor ---- */
-/** entry_begin - for an element. @text: typed so far */
+/* ---- grid_view_entry.c: the entry at the cursor ---- */
+/** entry_begin - asks for an element. @text: typed so far. */
 void entry_begin(LadderGridView *view, const char *text);
-/** entry_begin_word - for what a word still needs; its preview is shown. */
+/** entry_begin_word - asks for the operand of a word and shows its preview. */
 void entry_begin_word(LadderGridView *view, enum word word, bool parallel);
-/** entry_begin_drop - the same of a word that was dropped on a cell. */
+/** entry_begin_drop - the same for a word that was dropped on a cell. */
 void entry_begin_drop(LadderGridView *view, enum word word, int row, int col);
-/** entry_begin_edit - for what stands at the cursor. */
+/** entry_begin_edit - asks for the operand of the element at the cursor. */
 void entry_begin_edit(LadderGridView *view);
-/** entry_begin_pin - the same; the value at a pin of the box is selected, or typed next. */
+/** entry_begin_pin - the same, with the value at a pin selected, or the cursor behind its
+ * name. */
 void entry_begin_pin(LadderGridView *view, const char *pin, gsize len, bool output);
-/** entry_begin_text - for a title, label, comment, pin. */
+/** entry_begin_text - asks for a title, label, comment, pin. */
 void entry_begin_text(LadderGridView *view, enum verb verb);
-/** entry_closed - the popup closed, or would if it was open: the preview goes. */
+/** entry_closed - removes the preview. @was_open: the popup was open. */
 void entry_closed(LadderCanvas *canvas, bool was_open);
 
 /* ---- grid_view_edit.c ---- */
-/** edit_do - a verb that changes rungs, selects or copies; false: it is another verb. */
+/** edit_do - a verb that changes, selects or copies rungs; false: another verb. */
 bool edit_do(LadderGridView *view, enum verb verb);
-/** rungs_move - from @first to @last they come to stand before @before, as it is now; the
- * cursor goes with them. False: they stand there. */
+/** rungs_move - moves rungs @first to @last before the present rung @before; the cursor goes
+ * with them. False: they are there already. */
 bool rungs_move(LadderGridView *view, int first, int last, int before);
 
 /* ---- grid_view_wire.c ---- */
 void wire_init(LadderGridView *view);
-/** wire_press - the button went down; true: where a wire can begin. */
+/** wire_press - the button went down; true: a wire can begin there. */
 bool wire_press(LadderGridView *view, double x, double y);
-/** wire_drag - it moves on. @state: with Ctrl it erases */
+/** wire_drag - the pointer moved. @state: with Ctrl the wire is erased. */
 void wire_drag(LadderGridView *view, double x, double y, GdkModifierType state);
-/** wire_release - it is let go; false: nothing was drawn. */
+/** wire_release - the button was released; false: nothing was drawn. */
 bool wire_release(LadderGridView *view);
-/** wire_forget - nothing is drawn after all. */
+/** wire_forget - drops the wire. */
 void wire_forget(LadderGridView *view);
 void wire_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme);
 
 /* ---- grid_view_drag.c ---- */
 void drag_init(LadderGridView *view);
-/** drop_takes - the cells of a rung as laid out that take what is dragged, by row, but for
- * the one that is meant; NULL: no element is dragged. Owns: the caller, g_free. */
+/** drop_takes - which cells of a rung as laid out accept the drag, row by row, without the
+ * target; NULL: no element is dragged. Owns: the caller, g_free. */
 bool *drop_takes(LadderGridView *view, int rung, const struct rung_layout *layout);
-/** drop_mark - adds that of the one that is meant. */
+/** drop_mark - adds the mark of the target cell. */
 void drop_mark(LadderGridView *view, int rung, GArray *marks);
-/** drop_snapshot - the line where a rung would come. */
+/** drop_snapshot - draws the line where a dragged rung would go. */
 void drop_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme);
 
 /* ---- grid_view_tell.c ---- */
 /** tell_cell - "Rung 3, contact, closed while TRUE: Start, %IX0.0". Caller frees. */
 char *tell_cell(LadderGridView *view, int rung, int row, int col, const struct cell *cell);
-/** tell_cursor - "Rung 3, empty cell, row 1, column B"; of an element its name and where it
- * is, so that two of the same name differ. @values: of what runs, too. Caller frees. */
+/** tell_cursor - "Rung 3, empty cell, row 1, column B"; an element has its name and place,
+ * so that two of one name differ. @values: with the running value. Caller frees. */
 char *tell_cursor(LadderGridView *view, bool values);
 char *tell_tip(LadderCanvas *canvas, int x, int y, bool by_keys);
 char *tell_place(LadderCanvas *canvas);

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_live - what a sheet shows of the program that runs.
+ * grid_view_live - values and power of the running program on a sheet.
  *
- * It shows what the program computed and evaluates nothing. When values change, the rungs on
- * the screen are looked at, and those that show another value are drawn anew. Other rungs are
- * looked at when they come to the screen.
+ * It shows results of the program and evaluates nothing. When values change, it redraws the
+ * visible rungs that show another value; other rungs are updated when they become visible.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
-#define SAY_MS 300 /* names of cells follow so late: reading them takes longer   */
-#define VALUES_MS 1000 /* and so late if there are other numbers in them alone    */
+#define SAY_MS 300 /* delay of accessible names: a reader needs longer for one   */
+#define VALUES_MS 1000 /* the same if only numbers in them change                 */
 
 static bool flashes(LadderGridView *view)
 {
@@ -49,8 +48,8 @@ static bool same_text(const struct project *a, uint32_t x, const struct project 
 	return g_str_equal(project_text(a, x), project_text(b, y));
 }
 
-/* Number of the rung in the program that runs; -1: it is not the same rung, and must
- * not show the power of another one. */
+/* Number of the rung in the running program; -1: it has another circuit there, whose power
+ * must not be shown. */
 static int number_of(LadderGridView *view, const struct rung *shown, int rung)
 {
 	const struct project *mine = ladder_document_project(view->canvas->document);
@@ -74,7 +73,7 @@ static int number_of(LadderGridView *view, const struct rung *shown, int rung)
 	return number;
 }
 
-/* ---- looking ---- */
+/* ---- updating ---- */
 
 static void say_later(LadderGridView *view);
 static void say_values_later(LadderGridView *view);
@@ -118,7 +117,7 @@ const struct live_rung *live_rung_of(LadderGridView *view, int rung)
 
 static gboolean look_again(gpointer view);
 
-/* Looks again at @until, when the marks of new values end. */
+/* Updates again at @until, when the marks of new values end. */
 static void look_later(LadderGridView *view, gint64 until)
 {
 	const gint64 now = g_get_monotonic_time();
@@ -128,7 +127,7 @@ static void look_later(LadderGridView *view, gint64 until)
 						 look_again, view);
 }
 
-/* The rungs on the screen. */
+/* Updates the visible rungs. */
 static void look_at_seen(LadderGridView *view)
 {
 	const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]);
@@ -169,9 +168,9 @@ static gboolean look_again(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-/* ---- what is heard of the simulation ---- */
+/* ---- signals of the simulation ---- */
 
-/* Power is drawn while the program is scanned, or paused; not when it is stopped. */
+/* Power is drawn in RUN and PAUSE, not in STOP. */
 static void notice_state(LadderGridView *view)
 {
 	const enum sim_state state = ladder_sim_state(view->canvas->sim);

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_strips - the rungs that a sheet shows, one below the other.
+ * grid_view_strips - the strips of a sheet: a rung each, one below the other.
  *
- * A rung is laid out when it is seen, or when nothing else is to be done; until then its
- * height is guessed. It is drawn into one render node, which lives until something of it
- * changes or it is far away, so that scrolling draws nothing anew. Of a rung far away the
- * height alone is kept.
+ * A rung is laid out when it becomes visible or when the program is idle; until then its height
+ * is a guess. It is drawn into one render node, kept until the rung changes or is far away, so
+ * that scrolling redraws nothing. A strip far away keeps only its height.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
@@ -14,8 +13,8 @@
 #include <string.h>
 
 #define TITLE_GUESS  32 /* px above the first row of a rung                    */
-#define IDLE_RUNGS   64 /* laid out at a time while nothing else is done       */
-#define NEAR_RUNGS   40 /* kept above and below what is seen                   */
+#define IDLE_RUNGS   64 /* laid out in one idle call                           */
+#define NEAR_RUNGS   40 /* kept above and below the visible ones               */
 
 /* ---- which rungs ---- */
 
@@ -48,8 +47,8 @@ struct rung *sheet_rung(LadderGridView *view, int rung)
 	       pou->rung[view->first + rung];
 }
 
-/* In a chart a copy of a rung beside the place is part of each change, so that the document
- * knows whose body changes. */
+/* A change in a body of a chart includes a copy of the rung beside it, so that the document
+ * knows which body changes. */
 static bool splice_body(LadderGridView *view, int at, int removed, struct rung **rungs,
 			int inserted, struct diag_list *why)
 {
@@ -85,7 +84,7 @@ bool sheet_splice(LadderGridView *view, int at, int removed, struct rung **rungs
 				      view->first + at, removed, rungs, inserted, why);
 }
 
-/* ---- what is remembered ---- */
+/* ---- strips ---- */
 
 void strip_forget_live(struct strip *strip)
 {
@@ -183,7 +182,7 @@ static void forget_far(LadderGridView *view)
 	view->forgot_at = first;
 }
 
-/* Not at each step of the wheel: it looks at all rungs, which takes time of a frame. */
+/* Not at each step of the wheel: forget_far() visits all rungs. */
 static void forget_behind(LadderGridView *view)
 {
 	const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]) / view->canvas->zoom;
@@ -221,7 +220,7 @@ static void lay_out_later(LadderGridView *view)
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
-/* ---- what changes ---- */
+/* ---- changes ---- */
 
 void strips_reset(LadderGridView *view)
 {
@@ -245,7 +244,7 @@ static void forget_some(LadderGridView *view, int at, int count)
 		forget(strip_of(view, i));
 }
 
-/* Rungs before it came or went; only its number changed. */
+/* Only the number of the rung changed. */
 static void renumber(LadderGridView *view, int rung)
 {
 	struct strip *strip = strip_of(view, rung);
@@ -337,7 +336,7 @@ void strips_redraw(LadderGridView *view, int rung)
 
 /* ---- laying out ---- */
 
-/* All rungs have the same right rail: the widest one's. */
+/* All rungs have the right rail of the widest one. */
 static void widen(LadderGridView *view, float rail)
 {
 	view->rail = rail;
@@ -379,7 +378,7 @@ struct strip *strips_get(LadderGridView *view, int rung)
 	if (rung == view->drop.at.rung)
 		rows = MAX(rows, view->drop.at.row + 1);
 	if (rung == view->wire.rung && view->wire.drawing)
-		rows = MAX(rows, view->wire.rows); /* one may come below */
+		rows = MAX(rows, view->wire.rows); /* the wire may end in a new row */
 	strip->layout = rung_layout_new(&view->drafting, shown,
 					view->first + rung + 1, rows);
 	if (strip->layout->natural > view->rail)

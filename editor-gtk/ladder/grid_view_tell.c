@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_tell - what a sheet says of an element: its name, its tooltip, its place and its
- * keys.
+ * grid_view_tell - texts about an element of a sheet: accessible name, tooltip, place, keys.
  *
- * The texts come from the declarations, the catalogue and the checks; keys are those of the
- * verbs.
+ * They come from the declarations, the catalogue, the checks and the table of verbs.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
@@ -13,7 +11,7 @@
 
 #include <string.h>
 
-/* ---- names, for those who hear them ---- */
+/* ---- accessible names ---- */
 
 /* "Rung 3, contact, closed while TRUE: Start, %IX0.0". */
 static void say_element(LadderGridView *view, int rung, const struct cell *cell,
@@ -83,7 +81,7 @@ char *tell_cursor(LadderGridView *view, bool values)
 	return g_string_free(text, FALSE);
 }
 
-/* ---- below the pointer ---- */
+/* ---- the tooltip ---- */
 
 static void add_line(GString *text, const char *line)
 {
@@ -249,7 +247,7 @@ char *tell_keys(LadderCanvas *canvas)
 	if (!cell)
 		g_string_append(text, _("type a name or a word"));
 	for (int i = 0; i < VERBS_TOLD; i++)
-		/* Those mean something else now. */
+		/* act_keys() has named these two. */
 		if (!live || (verb[i] != VERB_cycle && verb[i] != VERB_enter))
 			verb_tell(text, verb[i]);
 	return g_string_free(text, FALSE);
@@ -267,7 +265,7 @@ static char *place_of(LadderGridView *view)
 	       g_strdup_printf(_("Rung %d · column %s"), rung, column);
 }
 
-/* In a function block with the instance that is shown. */
+/* In a function block with the shown instance. */
 char *tell_place(LadderCanvas *canvas)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(canvas);

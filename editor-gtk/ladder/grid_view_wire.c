@@ -3,20 +3,20 @@
  * grid_view_wire - wires drawn on a sheet with the pointer.
  *
  * Near the end of an element, on a wire and at the ends of free cells the pointer is a cross,
- * and a drag from there is a stroke of wire (grid_draw_wire()); with Ctrl it erases. Until the
- * button is released the sheet shows the way of the wire and where it may end; then the document
- * gets it. grid_wire.c defines what a stroke means.
+ * and a drag from there draws a wire (grid_draw_wire()), or erases one with Ctrl. The sheet
+ * shows its way and where it may end; the document gets it at the release. grid_wire.c defines
+ * the way of a wire.
  */
 #include "editor-gtk/ladder/grid_view_inside.h"
 
 #include <math.h>
 #include <string.h>
 
-#define RING   5   /* px: half of the mark where a wire would begin           */
-#define DOT    2.5f /* and where it may end                                   */
-#define GHOST  3   /* px: its width                                            */
-#define DASH   7   /* px of a ghost that erases, or that cannot be             */
-#define ASIDE  50  /* px from a wire to the ghost of the branch below it        */
+#define RING   5   /* px; half size of the mark where a wire would begin       */
+#define DOT    2.5f /* px; half size of the marks where it may end             */
+#define GHOST  3   /* px; width of the drawn wire                              */
+#define DASH   7   /* px; dashes of a wire that erases or is refused           */
+#define ASIDE  50  /* px from a wire to the branch below it                     */
 
 /* ---- where ---- */
 
@@ -41,7 +41,7 @@ static graphene_point_t in_strip(LadderGridView *view, int rung, double x, doubl
 	return at;
 }
 
-/* The rung and the end of a cell where a wire can begin; -1: not here. */
+/* Rung and cell end where a wire can begin; -1: none near. */
 static int begin_at(LadderGridView *view, double x, double y, struct grid_end *end)
 {
 	struct rung_hit hit;
@@ -268,7 +268,7 @@ static void draw_legal(LadderGridView *view, const struct brush *brush)
 				       DOT);
 }
 
-/* The way it takes: over one corner, or beside what it goes round. */
+/* Over one corner, or around the elements between its ends. */
 static void draw_way(LadderGridView *view, const struct brush *brush)
 {
 	const enum grid_course course = view->wire.course;

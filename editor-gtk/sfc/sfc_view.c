@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_view - the widget of a chart: what it draws, says and does at keys and clicks.
+ * sfc_view - the class of the sheet of a chart: drawing, names, keys, clicks.
  */
 #include "editor-gtk/sfc/sfc_view_inside.h"
 
@@ -14,7 +14,7 @@ G_DEFINE_FINAL_TYPE(LadderSfcView, ladder_sfc_view, LADDER_TYPE_CANVAS)
 
 #define NOWHERE ((struct sfc_at){ -1, -1, false })
 #define BELOW   60 /* px of free sheet below the chart                          */
-#define SLACK   6  /* px round a box where a click means it                     */
+#define SLACK   6  /* px around a box where a click hits it                     */
 #define TIP_SLACK 4
 
 static bool is_same(struct sfc_at a, struct sfc_at b)
@@ -60,7 +60,7 @@ static GArray *all_marks(LadderSfcView *view)
 	return marks;
 }
 
-/* The way that is drawn with the pointer. */
+/* The way drawn with the pointer. */
 static void snapshot_stroke(LadderSfcView *view, GtkSnapshot *snapshot,
 			    const struct theme *theme)
 {
@@ -143,8 +143,7 @@ static void rungs_changed(LadderCanvas *canvas, int pou, int at, int removed, in
 		sfc_make_sheet(LADDER_SFC_VIEW(canvas));
 }
 
-/* The chart as it was checked: edits of rungs may have moved lines since. NULL: not
- * known. */
+/* The chart at the last check: edits of rungs may have moved lines since. NULL: unknown. */
 static const struct sfc *checked_chart(LadderSfcView *view)
 {
 	struct ladder *ladder = ladder_document_checked(view->canvas->document);
@@ -230,7 +229,7 @@ static void say_transition(LadderSfcView *view, GString *text, int index)
 	g_string_free(to, TRUE);
 }
 
-/* @live: with its state in the program that runs. */
+/* @live: with its state in the running program. */
 static char *name_of(LadderSfcView *view, struct sfc_at at, bool live)
 {
 	const struct sfc_shape *shape = &view->sheet->layout->shape[at.shape];
@@ -280,7 +279,7 @@ static char *place(LadderCanvas *canvas)
 	return name ? name : g_strdup("");
 }
 
-/* Its comment, and what is wrong with it; NULL: nothing. Caller frees. */
+/* Comment and errors; NULL: none. Caller frees. */
 static char *tip_of(LadderSfcView *view, int shape, int use)
 {
 	const struct diag_list *diags = ladder_document_diags(view->canvas->document);
@@ -341,7 +340,7 @@ static char *next_keys(LadderCanvas *canvas)
 
 /* ---- accessible children ---- */
 
-/* They may be older than the chart. */
+/* An accessible child may be older than the chart. */
 static bool is_there(LadderSfcView *view, struct sfc_at at)
 {
 	return view->sheet && at.shape < view->sheet->layout->shape_count &&
@@ -369,7 +368,7 @@ static void list_cells(LadderCanvas *canvas)
 	struct sfc_live now;
 
 	sfc_fresh(view);
-	sfc_live_look(view, &now); /* names have the values that are shown now */
+	sfc_live_look(view, &now); /* updates the states in the names */
 	layout = view->sheet ? view->sheet->layout : NULL;
 	for (int i = 0; layout && i < layout->shape_count; i++) {
 		const struct sfc_shape *shape = &layout->shape[i];
@@ -418,10 +417,9 @@ static void reveal(LadderCanvas *canvas)
 
 /* ---- keys: the cursor goes to the nearest box in the direction of the arrow ---- */
 
-#define ASIDE 2.5f /* a px aside counts as so many ahead                       */
+#define ASIDE 2.5f /* weight of a px aside against a px ahead                  */
 
-/* The point from which arrows measure: on the lane of a box, in the middle of a line
- * of a step. */
+/* The point from which arrows measure: on the lane of a box; the middle of a step's line. */
 static graphene_point_t anchor_of(LadderSfcView *view, struct sfc_at at)
 {
 	const graphene_rect_t box = sfc_box(view, at);
@@ -433,7 +431,7 @@ static graphene_point_t anchor_of(LadderSfcView *view, struct sfc_at at)
 	return point;
 }
 
-/* Distance of a place in a direction; INFINITY: it lies elsewhere. */
+/* Distance of a place in a direction; INFINITY: not in this direction. */
 static float way_to_place(const graphene_point_t *from, const graphene_point_t *to, int dx,
 			  int dy)
 {
@@ -468,13 +466,13 @@ static void go(LadderSfcView *view, int dx, int dy, bool extend)
 	for (int i = 0; i < layout->shape_count; i++) {
 		const struct sfc_shape *shape = &layout->shape[i];
 
-		/* From a line of a step one goes to its lines, and aside. */
+		/* Lines of steps are reached only from a line or from aside. */
 		try_place(view, (struct sfc_at){ i, -1, false }, &from, dx, dy, &least,
 			  &best);
 		for (int u = 0; !extend && shape->part == SFC_STEP &&
 		     u < layout->sfc->step[shape->index].use_count; u++) {
 			if (dy && view->cursor.use < 0)
-				continue; /* down the lane, not into the table */
+				continue; /* stay on the lane */
 			try_place(view, (struct sfc_at){ i,
 				layout->sfc->step[shape->index].first_use + u, false },
 				&from, dx, dy, &least, &best);
@@ -560,7 +558,7 @@ static bool drag(LadderCanvas *canvas, double x, double y, GdkModifierType state
 	struct sfc_stroke *stroke = &view->stroke;
 
 	(void)state;
-	if (!can_drag(canvas)) /* the chart changed meanwhile */
+	if (!can_drag(canvas)) /* the chart changed since the press */
 		return false;
 	stroke->drawn = true;
 	stroke->at = canvas_point(canvas, x, y);
@@ -619,7 +617,7 @@ static bool has_neighbour(LadderSfcView *view, enum sfc_part part, int index)
 	return ways > 1;
 }
 
-/* Does the verb apply to the thing at the cursor? */
+/* Does the verb apply at the cursor? */
 static bool applies(LadderSfcView *view, enum verb verb)
 {
 	int index;
@@ -806,7 +804,7 @@ bool ladder_sfc_view_is_at(LadderSfcView *view, int row)
 	return at.shape < 0 || is_same(at, view->cursor);
 }
 
-/* ---- what find has come to ---- */
+/* ---- hits of a search ---- */
 
 void ladder_sfc_view_set_found(LadderSfcView *view, int row)
 {
@@ -819,7 +817,7 @@ void ladder_sfc_view_set_found(LadderSfcView *view, int row)
 
 /* ---- the name at the cursor ---- */
 
-/* The first name of a condition's rung, but for the coil of the condition itself. */
+/* The first name in a condition's rungs, except the coil of the condition itself. */
 static const struct xref_use *name_in(const struct xref *xref, int pou,
 				      const struct sfc_body *body)
 {

@@ -2,12 +2,12 @@
  *
  * sfc_view - the sheet of a chart, with a cursor.
  *
- * It shows what sfc_sheet and sfc_draw make, turns keys and gestures into the edits of
- * sfc_edit, and hands their texts to the document. It stands in a GtkScrolledWindow.
+ * It draws by sfc_sheet and sfc_draw, turns keys and gestures into edits of sfc_edit, and gives
+ * their texts to the document. It needs a GtkScrolledWindow around it.
  *
  * Signals, besides those of the canvas:
- *   body-wanted (int first, int count)  rungs of the POU to be shown and edited; count 0:
- *                                       those of a list, or none
+ *   body-wanted (int first, int count)  show these rungs of the POU for editing; count 0: a
+ *                                       list, or no rungs
  */
 #ifndef EDITOR_SFC_VIEW_H
 #define EDITOR_SFC_VIEW_H
@@ -23,16 +23,16 @@ GtkWidget *ladder_sfc_view_new(LadderDocument *document, int pou);
 /** ladder_sfc_view_why - asks for the condition of the transition at the cursor as rungs,
  * by "body-wanted"; false: the cursor is on none. */
 bool ladder_sfc_view_why(LadderSfcView *view);
-/** ladder_sfc_view_go - moves the cursor to what stands in @rung (0-based). */
+/** ladder_sfc_view_go - moves the cursor to the shape with @rung (0-based). */
 void ladder_sfc_view_go(LadderSfcView *view, int rung);
-/** ladder_sfc_view_go_row - to what stands in a line of the POU's text, 0-based from its
- * heading. A line without a step, transition or action moves nothing. */
+/** ladder_sfc_view_go_row - moves it to the shape of a line of the POU's text, 0-based from its
+ * heading. Does nothing for a line without step, transition or action. */
 void ladder_sfc_view_go_row(LadderSfcView *view, int row);
-/** ladder_sfc_view_row - the line of the cursor, counted so; -1: it has none. */
+/** ladder_sfc_view_row - the line of the cursor, counted so; -1: none. */
 int ladder_sfc_view_row(LadderSfcView *view);
 /** ladder_sfc_view_is_at - is the cursor where ladder_sfc_view_go_row() would move it? */
 bool ladder_sfc_view_is_at(LadderSfcView *view, int row);
-/** ladder_sfc_view_set_found - marks what stands in a line; -1: nothing. */
+/** ladder_sfc_view_set_found - marks a hit of a search in a line; -1: none. */
 void ladder_sfc_view_set_found(LadderSfcView *view, int row);
 /** ladder_sfc_view_use - of the name at the cursor: a step, what a line does, the first
  * name of a condition, a transition; NULL: there is none. Borrowed from @xref. */

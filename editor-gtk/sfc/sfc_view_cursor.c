@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_view_cursor - the chart that is shown, and where the cursor is in it.
+ * sfc_view_cursor - the shown chart and its cursor.
  *
- * The sheet is made anew when the chart changed. Until its cursor is valid again nothing is
- * closed or told, since closing a popup gives the keys back, and the window then asks for
- * the place of the cursor.
+ * After a change of the chart the sheet is made again. The cursor is made valid before the
+ * entry closes: closing it moves the focus, and the window then reads the cursor's place.
  */
 #include "editor-gtk/sfc/sfc_view_inside.h"
 
 #include <string.h>
 
-#define AROUND 30 /* px at 100 % round the cursor that are seen with it           */
+#define AROUND 30 /* px at 100 % shown around the cursor                         */
 
 struct pou *sfc_pou(LadderSfcView *view)
 {
@@ -41,7 +40,7 @@ void sfc_forget_places(LadderSfcView *view)
 	g_clear_pointer(&places->transition, g_free);
 }
 
-/* Back into what there is. */
+/* Moves the cursor back into the chart. */
 static void fit_cursor(LadderSfcView *view)
 {
 	const int shapes = view->sheet ? view->sheet->layout->shape_count : 0;
@@ -86,7 +85,7 @@ void sfc_fresh(LadderSfcView *view)
 		sfc_make_sheet(view);
 }
 
-/* ---- what is there ---- */
+/* ---- the shape at the cursor ---- */
 
 enum sfc_part sfc_part_at_cursor(LadderSfcView *view, int *index)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_view_edit - what the verbs of a chart change, and the clipboard.
+ * sfc_view_edit - the verbs that change a chart, and the clipboard.
  *
- * To copy is to write a chart without what is not selected. To paste is to read one, to give
- * its steps unused names, and to put its pieces into this chart.
+ * Copy writes a chart that holds only the selection. Paste reads one, gives its steps unused
+ * names, and puts its pieces into this chart.
  */
 #include "editor-gtk/document/rung_clip.h"
 #include "editor-gtk/sfc/sfc_view_inside.h"
@@ -13,7 +13,7 @@
 
 /* ---- an edit becomes a change of the document ---- */
 
-/* Only the lines that differ are exchanged. */
+/* Replaces only the lines that differ. */
 static bool exchange(LadderSfcView *view, const char *text)
 {
 	struct text_span span;
@@ -45,7 +45,7 @@ static bool exchange(LadderSfcView *view, const char *text)
 	return good;
 }
 
-/* Its number after the file is read again. */
+/* The number of a piece after the file is read again. */
 static int rank_of(const struct sfc_edit *edit, enum piece_kind kind, int index)
 {
 	int rank = 0;
@@ -226,7 +226,7 @@ static int step_of(const struct sfc *sfc, int transition)
 	       sfc->ref[sfc->transition[transition].first_from].step : -1;
 }
 
-/* The step before the cursor that is not deleted: the cursor moves there. -1: none. */
+/* The nearest step before the cursor that stays: the cursor moves there. -1: none. */
 static int step_before(LadderSfcView *view, const struct sfc *sfc, enum sfc_part part,
 		       int index)
 {
@@ -316,7 +316,7 @@ static void change_kind(LadderSfcView *view)
 
 /* ---- macro-steps ---- */
 
-/* The steps that are selected, else the one at the cursor. */
+/* Of the selected steps, else of the one at the cursor. */
 static void macro_make(LadderSfcView *view)
 {
 	struct sfc_edit *edit = sfc_edit_begin(view);
@@ -382,8 +382,7 @@ static bool is_chosen(LadderSfcView *view, int shape)
 	return any ? view->selected[shape] : shape == view->cursor.shape;
 }
 
-/* A transition is copied with the steps before it. sfc_edit_insert() finds a new
- * step behind it. */
+/* A transition is copied with the steps before it; sfc_edit_insert() adds a step behind it. */
 static bool is_left(LadderSfcView *view, const struct sfc *sfc, int transition)
 {
 	const struct sfc_transition *t = &sfc->transition[transition];
@@ -403,7 +402,7 @@ static bool is_kept(LadderSfcView *view, const struct sfc *sfc, const struct sfc
 	       piece->kind == PIECE_TRANSITION && is_left(view, sfc, piece->index);
 }
 
-/* The chart, with the declarations of what it names: globals before it, its own in it.
+/* The chart with the declarations of its names: globals before it, others in it.
  * Caller: g_free. */
 static char *with_declarations(LadderSfcView *view, const char *chart)
 {
@@ -430,7 +429,7 @@ static void copy(LadderSfcView *view)
 		const bool macro = piece.kind == PIECE_STEP &&
 				   edit->sfc.step[piece.index].kind == STEP_MACRO;
 
-		/* What stands in a macro-step goes with it. */
+		/* A macro-step is copied with its content. */
 		if (inside >= 0 || is_kept(view, sfc_pou(view)->sfc, &piece))
 			edit->sfc.piece[kept++] = piece;
 		else
@@ -473,7 +472,7 @@ static bool begins(const struct sfc_edit *edit)
 	return false;
 }
 
-/* Gives steps names that neither chart has. */
+/* Gives the steps of @other names that neither chart has. */
 static void rename_steps(struct sfc_edit *here, struct sfc_edit *other)
 {
 	for (int i = 0; i < other->sfc.step_count; i++) {
@@ -497,7 +496,7 @@ static void rename_steps(struct sfc_edit *here, struct sfc_edit *other)
 			other->sfc.step[i].kind = STEP_PLAIN;
 }
 
-/* What stands between its first line and its last one. */
+/* The text between the first and the last line of a chart. */
 static char *pieces_of(const struct sfc_edit *edit)
 {
 	char *text = sfc_edit_text(edit);
@@ -547,7 +546,7 @@ static bool holds_chart(LadderDocument *source)
 	       project->pou[0].sfc->step_count + project->pou[0].sfc->transition_count > 0;
 }
 
-/* A whole chart, or pieces alone: then a chart is made of them. */
+/* @text: a chart, or only pieces, which get a chart around them. */
 static LadderDocument *read_chart(const char *text)
 {
 	struct diag_list *diags = g_new0(struct diag_list, 1);
@@ -566,7 +565,8 @@ static LadderDocument *read_chart(const char *text)
 	return source;
 }
 
-/* Its pieces, by names that no step has here; NULL: it is none. Caller: g_free. */
+/* The pieces of the chart in @source, with names unused in @here; NULL: no chart. Caller:
+ * g_free. */
 static char *pieces_for(struct sfc_edit *here, LadderDocument *source)
 {
 	struct project *project = ladder_document_project(source);

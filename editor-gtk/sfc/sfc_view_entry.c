@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_view_entry - the questions that a chart asks at its cursor: names, conditions, what a
- * step does, where ways lead; and the candidates for each.
+ * sfc_view_entry - the entry at the cursor of a chart, for names, conditions, lines of steps,
+ * targets of ways; and its candidates.
  */
 #include "editor-gtk/sfc/sfc_view_inside.h"
 
@@ -14,7 +14,7 @@
 
 #define CANDIDATES 40
 
-/* What is asked for. It lives until something else is asked. */
+/* The open question; it lives until the next one. */
 struct asked {
 	LadderSfcView *view;
 	enum sfc_asked what;
@@ -40,7 +40,7 @@ static gsize word_start(const char *line, gsize cursor)
 	return cursor;
 }
 
-/* @put: it takes the place of what stands from @start to @cursor. */
+/* @put: replaces the line from @start to @cursor. */
 static void add_row(LadderSfcView *view, const char *line, gsize start, gsize cursor,
 		    const char *put, const char *text, const char *address,
 		    const char *note, const char *kind)
@@ -59,8 +59,8 @@ static bool begins(const char *text, const char *line, gsize start, gsize cursor
 	return g_ascii_strncasecmp(text, line + start, cursor - start) == 0;
 }
 
-/* Variables, addresses and new names for the part of the line from @from on, as on the
- * sheet of rungs behind @head; no words that are elements. */
+/* Variables, addresses and new names for the line from @from on, as in the entry of a rung
+ * behind @head; no words of elements. */
 static void offer_names(LadderSfcView *view, const char *head, const char *line,
 			gsize from, gsize cursor)
 {
@@ -146,7 +146,7 @@ static void offer(LadderSfcView *view, enum sfc_asked what, const char *line, gs
 	}
 }
 
-/* ---- while it is typed ---- */
+/* ---- each letter ---- */
 
 static bool is_action(LadderSfcView *view, const char *name)
 {
@@ -159,7 +159,7 @@ static bool is_action(LadderSfcView *view, const char *name)
 	return false;
 }
 
-/* The bit of a line of a step, as on the sheet of rungs. @doing: it was read. */
+/* Reads the bit of a step's line as the coil of a rung. */
 static void read_bit(LadderSfcView *view, const struct sfc_doing *doing,
 		     struct entry *entry)
 {
@@ -172,8 +172,8 @@ static void read_bit(LadderSfcView *view, const struct sfc_doing *doing,
 	g_free(line);
 }
 
-/* The outcome of the line, to be shown. An unknown name is not refused, since its
- * step may be added later; a declaration in the line must be right. */
+/* The outcome to show. Unknown names are allowed, since steps may be added later; a
+ * declaration in the line must be right. */
 static char *outcome(const struct asked *asked, const char *line, struct entry *entry,
 		     bool *good)
 {
@@ -222,7 +222,7 @@ static char *line_changed(void *context, const char *line, int cursor, bool *goo
 	return told;
 }
 
-/* ---- when it is taken ---- */
+/* ---- Enter ---- */
 
 static bool put_doing(struct asked *asked, const struct sfc_doing *doing,
 		      const struct entry *entry)
@@ -377,7 +377,7 @@ static bool take_wait(struct asked *asked, const char *line)
 			 PIECE_TRANSITION, asked->index);
 }
 
-/* 1 is evaluated first; an empty line: in the order of the file. */
+/* Priority 1 is evaluated first; an empty line: the order of the file. */
 static bool take_priority(struct asked *asked, const char *line)
 {
 	struct sfc_edit *edit = sfc_edit_begin(asked->view);
@@ -528,7 +528,7 @@ static const struct { const char *prompt; enum sfc_part part; } questions[] = {
 	[ASK_GO] = { N_("Go to the step"), SFC_NOTHING },
 };
 
-/* Why it cannot be asked for at the cursor; NULL: it can. */
+/* Why the question makes no sense at the cursor; NULL: it does. */
 static const char *refusal(LadderSfcView *view, enum sfc_asked what)
 {
 	int index;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * sfc_view_live - what a chart shows of the program that runs: steps that are active, how
- * long, and which transitions wait for their conditions.
+ * sfc_view_live - states of the running program on a chart: active steps, their times,
+ * transitions that wait for their conditions.
  *
- * It shows what the program computed and evaluates nothing: Step.X and Step.T are
- * variables of the program, and what a condition was is the power of its rung.
+ * It shows results of the program and evaluates nothing: Step.X and Step.T are variables of
+ * the program, the value of a condition is the power of its rung.
  */
 #include "editor-gtk/sfc/sfc_view_inside.h"
 
@@ -21,7 +21,7 @@ static struct location find(LadderSfcView *view, const char *step, const char *m
 	return at;
 }
 
-/* Places of all steps, once a program. */
+/* The places of all steps, looked up once a program. */
 static bool find_places(LadderSfcView *view)
 {
 	struct sfc_places *live = &view->places;
@@ -42,7 +42,7 @@ static bool find_places(LadderSfcView *view)
 	return live->map;
 }
 
-/* Was the condition of an enabled transition true? That of its last rung's coil. */
+/* The condition of an enabled transition: the power at the coil of its last rung. */
 static bool was_true(LadderSfcView *view, const struct sfc_body *body)
 {
 	const struct resource *resource = &ladder_sim_twin(view->canvas->sim)->resource;
@@ -142,8 +142,8 @@ static bool is_among(const struct sfc_steps *steps, int step)
 	return false;
 }
 
-/* Between two scans: only the steps of @index become active, as with FORCE. Pulses
- * and stored actions begin in a scan only. */
+/* Activates only the steps of @index, between two scans, as FORCE does. Pulses and stored
+ * actions begin only in a scan. */
 static void force_between(LadderSfcView *view, int index)
 {
 	const struct sfc *sfc = view->sheet->layout->sfc;

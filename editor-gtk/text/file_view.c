@@ -6,7 +6,7 @@
 
 #include <gtksourceview/gtksource.h>
 
-/* What is wrong with a line. The mark goes with it while a person types. */
+/* An error in a line. The mark follows the line. */
 struct flaw {
 	GtkTextMark *at;
 	char *text;
@@ -17,7 +17,7 @@ struct _LadderFileView {
 	LadderSideFile *file;
 	GtkTextBuffer *buffer;  /* the file's                                  */
 	GtkWidget *text, *table;
-	GtkLabel *told;         /* what is wrong with the line of the cursor   */
+	GtkLabel *told;         /* the error in the line of the cursor         */
 	GtkTextTag *wrong;
 	GArray *flaws;          /* of struct flaw                              */
 };
@@ -46,7 +46,7 @@ void ladder_file_view_go(LadderFileView *view, int line)
 	gtk_widget_grab_focus(view->text);
 }
 
-/* ---- what is wrong with lines ---- */
+/* ---- errors in lines ---- */
 
 static int line_of(LadderFileView *view, GtkTextMark *mark)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_complete - colours of IL and rung files, and what could stand at the cursor.
+ * text_complete - syntax colours of IL and rung files, and completion.
  */
 #include "editor-gtk/text/text_complete.h"
 
@@ -21,7 +21,7 @@ GtkSourceLanguage *text_language(void)
 	return gtk_source_language_manager_get_language(manager, "rung");
 }
 
-/* ---- a word that is offered ---- */
+/* ---- a candidate ---- */
 
 #define LADDER_TYPE_PROPOSAL (ladder_proposal_get_type())
 G_DECLARE_FINAL_TYPE(LadderProposal, ladder_proposal, LADDER, PROPOSAL, GObject)
@@ -64,7 +64,7 @@ static void ladder_proposal_init(LadderProposal *proposal)
 	(void)proposal;
 }
 
-/* ---- what could stand there ---- */
+/* ---- all candidates ---- */
 
 static void take_word(void *context, const struct ladder_word *word)
 {
@@ -85,7 +85,7 @@ static int by_text(gconstpointer a, gconstpointer b, gpointer unused)
 	return g_ascii_strcasecmp(one->text, other->text);
 }
 
-/* The file as it would be with @text in it; @line becomes one of the file. */
+/* The file with @text as the POU; @line becomes a line of the file. */
 static char *whole_text(LadderDocument *document, int pou, const char *text, int *line)
 {
 	struct text_span span;
@@ -144,7 +144,7 @@ static char *text_before(GtkTextBuffer *buffer, int *line, int *column)
 	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
 }
 
-/* A word that stands there whole is left alone: Enter then ends the line. */
+/* A complete word is not offered: Enter then ends the line. */
 static bool is_whole(GListStore *found, const char *prefix, gsize len)
 {
 	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(found)); i++) {
@@ -206,7 +206,7 @@ static GListModel *populate_finish(GtkSourceCompletionProvider *provider,
 	return g_task_propagate_pointer(G_TASK(result), error);
 }
 
-/* One letter more: what could stand there is asked anew. */
+/* Each letter asks the engine again. */
 static void refilter(GtkSourceCompletionProvider *provider,
 		     GtkSourceCompletionContext *context, GListModel *model)
 {
@@ -244,7 +244,7 @@ static void display(GtkSourceCompletionProvider *provider,
 	}
 }
 
-/* The word takes the place of what is typed of it. */
+/* Replaces the typed beginning by the word. */
 static void activate(GtkSourceCompletionProvider *provider,
 		     GtkSourceCompletionContext *context,
 		     GtkSourceCompletionProposal *proposal)

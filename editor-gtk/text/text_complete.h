@@ -12,7 +12,7 @@
 
 #include <gtksourceview/gtksource.h>
 
-/** text_language - of rung files; NULL: there is none on this machine. Borrowed. */
+/** text_language - the language of rung files; NULL: not installed. Borrowed. */
 GtkSourceLanguage *text_language(void);
 /** text_complete_attach - offers words while one types in @view
  * @pou: whose number of a POU of @document the text is, -1: all of it; read each time,

@@ -15,10 +15,10 @@
 
 #include <string.h>
 
-#define SEEN_MS 25   /* more than it takes until a letter is seen               */
-#define REST 2000000 /* us without a key: what follows is another step            */
+#define SEEN_MS 25   /* longer than a frame: the letter is drawn first          */
+#define REST 2000000 /* us without a key: the next key begins a step              */
 
-/* Where a line is wrong, in the text that is shown. */
+/* An error or warning in the shown text. */
 struct flaw {
 	int line, column; /* 0-based; column -1: none                          */
 	char *text;
@@ -34,11 +34,11 @@ struct _LadderTextView {
 	GtkTextTag *error, *warning;
 	GtkLabel *told;          /* why the line of the cursor is wrong         */
 	GArray *faults;          /* of struct flaw, as of the last check       */
-	bool ours;               /* the change that is heard is our own         */
-	int typed_line;          /* of the last step of typing, when, which     */
+	bool ours;               /* the view itself changes the text            */
+	int typed_line;          /* line, time and number of the last step of typing */
 	gint64 typed_at;
 	guint typed_step;
-	guint taking;            /* soon what was typed goes into the document  */
+	guint taking;            /* timer: puts the text into the document      */
 };
 
 G_DEFINE_FINAL_TYPE(LadderTextView, ladder_text_view, GTK_TYPE_BOX)
@@ -60,7 +60,7 @@ static char *text_of_buffer(LadderTextView *view)
 	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
 }
 
-/* Bytes that both have at their beginning, whole characters. */
+/* Length of the common beginning, whole characters. */
 static gsize common_start(const char *a, const char *b)
 {
 	gsize len = 0;
@@ -72,7 +72,7 @@ static gsize common_start(const char *a, const char *b)
 	return len;
 }
 
-/* Bytes that both have at their end, behind the first @start ones. */
+/* Length of the common end behind the first @start bytes. */
 static gsize common_end(const char *a, const char *b, gsize start)
 {
 	const gsize len_a = strlen(a), len_b = strlen(b);
@@ -86,8 +86,8 @@ static gsize common_end(const char *a, const char *b, gsize start)
 	return len;
 }
 
-/* Only what differs is exchanged: the cursor, the selection and the page stay where they
- * are, or go there. */
+/* Replaces only the part that differs: the cursor, the selection and the page stay, or move
+ * there. */
 static void exchange(LadderTextView *view, const char *now, const char *text)
 {
 	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
@@ -130,9 +130,9 @@ static int cursor_line(LadderTextView *view)
 	return gtk_text_iter_get_line(&at);
 }
 
-/* ---- what is typed ---- */
+/* ---- typing ---- */
 
-/* What is typed in one line without a rest is one step. */
+/* Typing in one line without a rest is one step. */
 static char *step_key(LadderTextView *view)
 {
 	const gint64 now = g_get_monotonic_time();
@@ -145,7 +145,7 @@ static char *step_key(LadderTextView *view)
 	return g_strdup_printf("text %p %u", (void *)view, view->typed_step);
 }
 
-/* A file that can be read again has no page of its text any more: the view may go. */
+/* This may destroy the view: a file that can be read again loses the page of its text. */
 static void put(LadderTextView *view, LadderDocument *document)
 {
 	char *text = text_of_buffer(view), *before, *key = step_key(view);
@@ -185,15 +185,15 @@ static gboolean take_now(gpointer view)
 	return G_SOURCE_REMOVE;
 }
 
-/* The letter is seen first: with thousands of rungs beside it, to read the list again takes
- * longer than a frame may. */
+/* Delayed until the letter is drawn: reading a list beside thousands of rungs takes longer than
+ * a frame. */
 static void typed(LadderTextView *view)
 {
 	if (!view->ours && !view->taking && !ladder_document_is_fixed(view->document))
 		view->taking = g_timeout_add(SEEN_MS, take_now, view);
 }
 
-/* What was typed meanwhile is not written over. */
+/* Does not replace text typed since. */
 static void document_changed(LadderTextView *view)
 {
 	if (!view->ours && !view->taking)
@@ -208,7 +208,7 @@ static void variable_changed(LadderTextView *view, int pou)
 
 /* ---- errors ---- */
 
-/* A name or value is marked to its end, else the rest of the line. */
+/* Marks a name or value to its end, else the rest of the line. */
 static void end_of_word(const struct diag *diag, GtkTextIter *end)
 {
 	const int len = diag->column > 0 ? diag_name_length(diag) : 0;
@@ -251,7 +251,7 @@ static char *reason(const struct diag *diag)
 	return text;
 }
 
-/* Reasons of a line, one below the other; NULL: it is well. Caller frees. */
+/* The errors of a line, one below the other; NULL: none. Caller frees. */
 static char *reasons_of(LadderTextView *view, int line)
 {
 	GString *text = NULL;
@@ -310,8 +310,8 @@ static char *values_of_parts(GArray *parts, const struct image *image)
 	return g_string_free(text, FALSE);
 }
 
-/* "Start = TRUE · Level = 12"; NULL: nothing is simulated, or the line has no variable. Names
- * are looked up anew each time: a person points at few lines. Caller frees. */
+/* "Start = TRUE · Level = 12"; NULL: no simulation, or no variable in the line. Names are
+ * looked up each time: tooltips are rare. Caller frees. */
 static char *live_line(LadderSim *sim, const char *pou, const char *line)
 {
 	const struct twin *twin = sim ? ladder_sim_twin(sim) : NULL;
@@ -448,7 +448,7 @@ static gboolean ends_name(gunichar c, gpointer address)
 	return !(g_unichar_isalnum(c) || c == '_' || (address && (c == '%' || c == '.')));
 }
 
-/* From @at back to where what it is in begins, and on to where it ends. */
+/* The word around @at. */
 static char *word_at(const GtkTextIter *at, gpointer address)
 {
 	GtkTextIter from = *at, to = *at;
@@ -470,7 +470,7 @@ char *ladder_text_view_name(LadderTextView *view)
 	char *word;
 
 	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
-	word = word_at(&at, buffer); /* an address, if it begins as one */
+	word = word_at(&at, buffer); /* may be an address */
 	if (*word != '%') {
 		g_free(word);
 		word = word_at(&at, NULL);
@@ -542,7 +542,7 @@ static void ladder_text_view_finalize(GObject *object)
 	G_OBJECT_CLASS(ladder_text_view_parent_class)->finalize(object);
 }
 
-/* A box has no use for the keys. */
+/* The focus goes to the text inside. */
 static gboolean ladder_text_view_grab_focus(GtkWidget *widget)
 {
 	return gtk_widget_grab_focus(GTK_WIDGET(LADDER_TEXT_VIEW(widget)->view));
@@ -562,7 +562,7 @@ static void make_buffer(LadderTextView *view)
 	view->buffer = gtk_source_buffer_new(NULL);
 	buffer = GTK_TEXT_BUFFER(view->buffer);
 	gtk_source_buffer_set_language(view->buffer, text_language());
-	/* There is one history, the document's. */
+	/* Undo is the document's. */
 	gtk_text_buffer_set_enable_undo(buffer, FALSE);
 	view->error = gtk_text_buffer_create_tag(buffer, NULL, "underline",
 						 PANGO_UNDERLINE_ERROR, NULL);

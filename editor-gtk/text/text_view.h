@@ -22,15 +22,15 @@ void ladder_text_view_set_pou(LadderTextView *view, int pou);
 /** ladder_text_view_set_sim - whose values the tooltip of a line tells; a reference is
  * kept. NULL: none. */
 void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim);
-/** ladder_text_view_tip - what the tooltip of line @line, 1-based, of the text that is shown
- * says: why it is wrong, and values; NULL: nothing. Caller frees. */
+/** ladder_text_view_tip - the tooltip of line @line, 1-based, of the shown text: errors and
+ * values; NULL: none. Caller frees. */
 char *ladder_text_view_tip(LadderTextView *view, int line);
-/** ladder_text_view_take - what was just typed is in the document now; else it will be as
- * soon as it is seen. */
+/** ladder_text_view_take - puts the last letters into the document at once, without the usual
+ * delay. */
 void ladder_text_view_take(LadderTextView *view);
-/** ladder_text_view_buffer - what is shown. Borrowed. */
+/** ladder_text_view_buffer - the shown text. Borrowed. */
 GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view);
-/** ladder_text_view_name - the name or address that the cursor is on; NULL: none. Owns: the
+/** ladder_text_view_name - the name or address at the cursor; NULL: none. Owns: the
  * caller, g_free(). */
 char *ladder_text_view_name(LadderTextView *view);
 /** ladder_text_view_is_at - whether line @line, 1-based, of the list as a file holds it, is
