@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * text_complete - colours of IL and rung files, and what could stand at the cursor.
+ * text_complete - syntax colours of IL and rung files, and completion.
  *
- * The words are the catalogue's (packaging/rung_language.c), what could follow is what
- * the engine says.
+ * The words come from the catalogue (packaging/rung_language.c), the candidates from the
+ * engine.
  */
 #ifndef EDITOR_TEXT_COMPLETE_H
 #define EDITOR_TEXT_COMPLETE_H

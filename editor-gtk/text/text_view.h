@@ -2,8 +2,8 @@
  *
  * text_view - a program in IL, or a file that cannot be read, as text.
  *
- * With colours, completion from the engine, and errors as one types. Every change goes
- * into the document and its history.
+ * With syntax colours, completion, and errors while typing. Each change goes into the document
+ * and its history.
  */
 #ifndef EDITOR_TEXT_VIEW_H
 #define EDITOR_TEXT_VIEW_H
@@ -19,8 +19,8 @@ G_DECLARE_FINAL_TYPE(LadderTextView, ladder_text_view, LADDER, TEXT_VIEW, GtkBox
 GtkWidget *ladder_text_view_new(LadderDocument *document, int pou);
 int ladder_text_view_pou(LadderTextView *view);
 void ladder_text_view_set_pou(LadderTextView *view, int pou);
-/** ladder_text_view_set_sim - whose values the tooltip of a line tells; a reference is
- * kept. NULL: none. */
+/** ladder_text_view_set_sim - the values in tooltips of lines come from @sim; keeps a
+ * reference. NULL: none. */
 void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim);
 /** ladder_text_view_tip - the tooltip of line @line, 1-based, of the shown text: errors and
  * values; NULL: none. Caller frees. */

@@ -154,7 +154,7 @@ int main(void)
 	struct grid_live live = { cell, NULL, NULL };
 	char *text = program();
 
-	gtk_init_check(); /* the types of nodes; there need be no display       */
+	gtk_init_check(); /* registers the node types; needs no display         */
 	memset(cell, LIVE_KNOWN | LIVE_IN | LIVE_OUT | LIVE_CLOSED, sizeof(cell));
 	start();
 	struct ladder *ladder = drawn_load("bench.rung", text);

@@ -47,7 +47,7 @@ static struct sfc_edit *edit_new(void)
 	return sfc_edit_new(project, &project->pou[0]);
 }
 
-/* The edit's text takes the place of the POU's. */
+/* Replaces the POU by the text of the edit. */
 static bool take(struct sfc_edit *edit)
 {
 	char *pou = sfc_edit_text(edit), *whole;

@@ -36,7 +36,7 @@ static inline struct ladder *drawn_load(const char *file, const char *text)
 
 struct area { float x, y, right, bottom; };
 
-/* What of a text is ink: digits and capitals are about seven tenths of its size high. */
+/* The area of a text's ink: digits and capitals have about seven tenths of the font size. */
 static inline struct area ink_of(const struct stroke *s)
 {
 	float size = letter_style(s->letter)->size;
@@ -54,7 +54,7 @@ static inline bool crosses(struct area ink, const struct stroke *s)
 {
 	float half = s->width / 2;
 
-	if (s->kind == STROKE_LINE) /* of slanting ones the middle counts       */
+	if (s->kind == STROKE_LINE) /* of slanting ones only the middle counts       */
 		return meet(ink, s->x == s->w || s->y == s->h ?
 			(struct area){ fminf(s->x, s->w) - half, fminf(s->y, s->h) - half,
 				       fmaxf(s->x, s->w) + half,

@@ -101,7 +101,7 @@ static inline void grid_write(struct grid_bench *bench, const struct rung *rung,
 	free(text);
 }
 
-/* What is wrong with a result, whatever was done; NULL: nothing. */
+/* The rule that a result breaks; NULL: none. */
 static inline const char *grid_wrong(struct grid_bench *bench, const struct rung *rung)
 {
 	char text[GRID_TEXT * 4];

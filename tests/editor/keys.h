@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * keys - where they go.
+ * keys - the keyboard focus of a window, for tests.
  */
 #ifndef TESTS_EDITOR_KEYS_H
 #define TESTS_EDITOR_KEYS_H
@@ -8,7 +8,7 @@
 #include <gtk/gtk.h>
 #include <stdbool.h>
 
-/** keys_arrive - at something in @window; without a focus it has them itself. */
+/** keys_arrive - does a widget in @window have the focus, or the window itself none? */
 static inline bool keys_arrive(GtkWidget *window)
 {
 	GtkWidget *focus = gtk_root_get_focus(GTK_ROOT(window));

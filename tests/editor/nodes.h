@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * nodes - what a drawing is made of: "text {", "cairo {", as the toolkit writes its nodes.
+ * nodes - the render nodes of a drawing as text: "text {", "cairo {".
  */
 #ifndef TESTS_EDITOR_NODES_H
 #define TESTS_EDITOR_NODES_H
@@ -18,7 +18,7 @@ static inline bool node_has(GskRenderNode *node, const char *kind)
 	return found;
 }
 
-/** widget_node - its last drawing; NULL: it waits to be drawn. Owned by the caller. */
+/** widget_node - the last drawing of a widget; NULL: it is not drawn yet. Owned by the caller. */
 static inline GskRenderNode *widget_node(GtkWidget *widget)
 {
 	GdkPaintable *paintable = gtk_widget_paintable_new(widget);
@@ -30,7 +30,7 @@ static inline GskRenderNode *widget_node(GtkWidget *widget)
 	return gtk_snapshot_free_to_node(snapshot);
 }
 
-/** widget_is_drawn - nothing in it waits to be drawn. */
+/** widget_is_drawn - are the widget and its children drawn? */
 static inline bool widget_is_drawn(GtkWidget *widget)
 {
 	GskRenderNode *node = widget_node(widget);
@@ -40,7 +40,7 @@ static inline bool widget_is_drawn(GtkWidget *widget)
 	return drawn;
 }
 
-/** widget_has - its last drawing; false: there is none. */
+/** widget_has - does the last drawing have a node of @kind? false: it is not drawn. */
 static inline bool widget_has(GtkWidget *widget, const char *kind)
 {
 	GskRenderNode *node = widget_node(widget);

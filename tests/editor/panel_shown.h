@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * panel_shown - what the widgets of the simulation panel show, for tests.
+ * panel_shown - the texts in the widgets of the simulation panel, for tests.
  */
 #ifndef TESTS_EDITOR_PANEL_SHOWN_H
 #define TESTS_EDITOR_PANEL_SHOWN_H
@@ -8,7 +8,7 @@
 #include "editor-gtk/live/sim_panel.h"
 #include "editor-gtk/live/sim_panel_view.h"
 
-/* The first descendant for which @is is true; NULL: none. It does not look into row views. */
+/* The first descendant for which @is is true, not inside row views; NULL: none. */
 static GtkWidget *panel_find(GtkWidget *widget, bool (*is)(GtkWidget *widget, const void *data),
 			     const void *data)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * rendered - what the tests of pictures and paper share: `ladder-editor --render` in this
+ * rendered - for tests of pictures and paper: runs `ladder-editor --render` in this
  * process, without a display, into a scratch folder.
  */
 #ifndef TESTS_EDITOR_RENDERED_H
@@ -19,7 +19,7 @@
 #define SHAPES "tests/editor/drawing/shapes.rung"
 
 static char *folder;
-static char *said; /* what the last call said on stderr                         */
+static char *said; /* stderr of the last call                                   */
 
 static inline char *in_folder(const char *name)
 {
@@ -36,7 +36,7 @@ static inline char *content(const char *name, size_t *len)
 	return text;
 }
 
-/* @words, blanks between them; OUT/ is the scratch folder. */
+/* @words: arguments, separated by blanks; OUT/ is the scratch folder. */
 static inline int render(const char *words)
 {
 	char *place = g_strdup_printf("%s/", folder), *log = in_folder("said");
@@ -92,7 +92,7 @@ static inline void write_text(const char *name, const char *text)
 	g_free(path);
 }
 
-/* Of a program with these rows. */
+/* Writes a rung file with these rows. */
 static inline void write_rung(const char *name, const char *rows)
 {
 	char *text = g_strdup_printf("\nPROGRAM Main LD\nRUNG\n%sEND_PROGRAM\n", rows);

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <unistd.h>
 
-/* For this test alone, whatever the desktop around it. */
+/* An environment that does not depend on the desktop. */
 static inline void screen_environment(const char *display)
 {
 	static const char *const set[][2] = {
@@ -27,7 +27,7 @@ static inline void screen_environment(const char *display)
 	g_setenv("DISPLAY", display, TRUE);
 }
 
-/* Its end of the pipe is number 3; the server ends with its last client. */
+/* In the server's process: its end of the pipe is number 3. It ends with its last client. */
 static inline void screen_pipe(gpointer pipe)
 {
 	dup2(((int *)pipe)[1], 3);
@@ -56,7 +56,7 @@ static inline bool screen_start(void)
 	return len > 1;
 }
 
-/** screen_show - @window, until its child has its place there: rows are made then. */
+/** screen_show - shows @window and waits until its child is allocated: rows exist then. */
 static inline void screen_show(GtkWidget *window)
 {
 	GtkWidget *child = gtk_window_get_child(GTK_WINDOW(window));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * soon - what comes a little later: the main context turns until it is there. Tests wait
- * for conditions, never for times, but for what must be seen not to happen.
+ * soon - runs the main context until a condition holds. Tests wait for a time only to see that
+ * something does not happen.
  */
 #ifndef TESTS_EDITOR_SOON_H
 #define TESTS_EDITOR_SOON_H
@@ -10,7 +10,7 @@
 
 #include <glib.h>
 
-/** turn - the main context, for so many ms; 0: what waits there now. */
+/** turn - runs the main context for so many ms; 0: only what is pending. */
 static inline void turn(int ms)
 {
 	const gint64 end = g_get_monotonic_time() + ms * 1000;
@@ -24,7 +24,7 @@ static inline void turn(int ms)
 	} while (g_get_monotonic_time() < end);
 }
 
-/** WAIT - until it holds, for as long as a slow machine may take. */
+/** WAIT - until the condition holds, or a slow machine's time limit. */
 #define WAIT(condition) \
 	do { \
 		const gint64 wait_end = g_get_monotonic_time() + 60 * G_USEC_PER_SEC; \
@@ -32,7 +32,7 @@ static inline void turn(int ms)
 			if (!g_main_context_iteration(NULL, FALSE)) \
 				g_usleep(300); \
 	} while (0)
-/** CHECK_SOON - it holds now, or then. */
+/** CHECK_SOON - checks that the condition holds after WAIT. */
 #define CHECK_SOON(condition) do { WAIT(condition); CHECK_AS(condition, #condition); } while (0)
 
 #endif

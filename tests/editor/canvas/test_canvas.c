@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_canvas - what sheets of rungs and of charts share: zoom, scrolling, accessible
- * children, the popup. Both kinds pass the same checks.
+ * test_canvas - zoom, scrolling, accessible children and the entry: the same checks for
+ * sheets of rungs and of charts.
  */
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sfc/sfc_view.h"
@@ -28,7 +28,7 @@ static void count_zoom(LadderCanvas *canvas)
 	zoomed++;
 }
 
-/* The window asks for the place of the cursor whenever it moved, or the focus did. */
+/* As the window does when the cursor or the focus moves. */
 static void ask_place(LadderCanvas *canvas)
 {
 	char *place = ladder_canvas_place(canvas);
@@ -64,7 +64,7 @@ static void test_zoom(LadderCanvas *canvas, double least)
 	CHECK(zoomed == 3);
 }
 
-/* Another program comes while a line is typed. */
+/* The program is exchanged while the entry is open. */
 static void test_change(LadderCanvas *canvas, LadderDocument *document, enum verb verb)
 {
 	const char *added = "\nPROGRAM More LD\nRUNG\nEND_PROGRAM\n";

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_live - a sheet while it simulates: what it shows is what the program computed, only
- * what changed is drawn, and what a person does reaches the program.
+ * test_live - a sheet while simulating: it shows the values of the program, redraws only
+ * what changed, and its acts reach the program.
  */
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sim/live_map.h"
@@ -89,7 +89,7 @@ static void count_frame(void)
 	drawn_frames++;
 }
 
-/* All that is to be drawn is drawn, also what was asked for beside the last frame. */
+/* Everything is drawn, also what was queued during the last frame. */
 static bool is_drawn(void)
 {
 	settle();
@@ -149,7 +149,7 @@ static unsigned int bits_of(LadderGridView *of, int rung, int row, int col)
 	return bits;
 }
 
-/* But for what was new a moment ago. */
+/* Without the mark of a new value. */
 static unsigned int steady(int rung, int row, int col)
 {
 	return bits_of(view, rung, row, col) & ~(unsigned int)LIVE_FRESH;
@@ -166,7 +166,7 @@ static const char *text_of(int rung, int row, int col)
 
 /* ---- tests ---- */
 
-/* Every cell of every rung says what resource_power() says. */
+/* Compares each cell of each rung with resource_power(). */
 static int differences(void)
 {
 	const struct resource *resource = &ladder_sim_twin(sim)->resource;
@@ -195,9 +195,9 @@ static void test_stop(void)
 {
 	CHECK(ladder_sim_begin(sim, NULL));
 	settle();
-	CHECK_AS(bits_of(view, 0, 0, 0) == 0, "nothing is known in STOP");
+	CHECK_AS(bits_of(view, 0, 0, 0) == 0, "no power is known in STOP");
 	set("Start", 1);
-	CHECK_AS(steady(0, 0, 0) == LIVE_CLOSED, "but what is on");
+	CHECK_AS(steady(0, 0, 0) == LIVE_CLOSED, "values are");
 	set("Start", 0);
 }
 
@@ -232,7 +232,7 @@ static void test_values(void)
 
 static const char *wanted_text;
 
-/* Some element has it in its accessible name. */
+/* Is the value in the accessible name of an element? */
 static bool is_heard(void)
 {
 	bool found = false;
@@ -248,7 +248,7 @@ static bool is_heard(void)
 	return found;
 }
 
-/* A number that changes nothing else is heard, too. */
+/* A number that changes nothing else is announced, too. */
 static void test_heard(void)
 {
 	set("Level", 7);
@@ -274,7 +274,7 @@ static void test_forced(void)
 	CHECK(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN));
 	ladder_sim_act(sim, &act);
 	CHECK(comes("High", 1));
-	CHECK_AS(steady(5, 0, 0) & LIVE_CLOSED, "set, and not scanned since");
+	CHECK_AS(steady(5, 0, 0) & LIVE_CLOSED, "set, not scanned yet");
 	scan(1);
 	CHECK(value_of("High") == 1 && value_of("%QX0.2") == 0);
 	CHECK(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN | LIVE_FORCED));
@@ -285,7 +285,7 @@ static void test_forced(void)
 	scan(1);
 	CHECK(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN));
 	CHECK(ladder_sim_show(sim, ladder_sim_last(sim) - 1));
-	CHECK_AS(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN | LIVE_FORCED), "likewise then");
+	CHECK_AS(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN | LIVE_FORCED), "the same after a scan");
 	ladder_sim_show_now(sim);
 	set("Level", 512);
 }
@@ -303,24 +303,24 @@ static void test_bodies(void)
 	scan(1);
 }
 
-/* Of all rungs on the screen those are drawn of which something changed. */
+/* Only visible rungs that changed are redrawn. */
 static void test_drawn(void)
 {
 	guint before;
 
-	g_usleep(1100000); /* nothing is new any more */
+	g_usleep(1100000); /* the marks of new values have ended */
 	draw();
 	before = ladder_grid_view_drawn(view);
 	scan(1);
 	draw();
-	CHECK_AS(ladder_grid_view_drawn(view) <= before + 1, "at most the timer's");
+	CHECK_AS(ladder_grid_view_drawn(view) <= before + 1, "at most the rung of the timer");
 	before = ladder_grid_view_drawn(view);
 	set("Level", 3);
 	draw();
-	CHECK_AS(ladder_grid_view_drawn(view) == before + 1, "the rung with Level alone");
+	CHECK_AS(ladder_grid_view_drawn(view) == before + 1, "only the rung with Level");
 	before = ladder_grid_view_drawn(view);
 	draw();
-	CHECK_AS(ladder_grid_view_drawn(view) == before, "nothing of what did not change");
+	CHECK_AS(ladder_grid_view_drawn(view) == before, "no unchanged rung");
 }
 
 static bool tells(LadderTextView *of, int line, const char *want)
@@ -334,7 +334,7 @@ static bool tells(LadderTextView *of, int line, const char *want)
 	return good;
 }
 
-/* A list tells what the variables of a line hold. */
+/* The tooltip of a list's line has the values of its variables. */
 static void test_list(void)
 {
 	LadderTextView *list = LADDER_TEXT_VIEW(g_object_ref_sink(
@@ -356,7 +356,7 @@ static void test_list(void)
 		g_free(text);
 	}
 	CHECK(line > 0);
-	CHECK_AS(tells(list, line, NULL), "not of a simulation it was not given");
+	CHECK_AS(tells(list, line, NULL), "no values without a simulation");
 	ladder_text_view_set_sim(list, sim);
 	g_snprintf(count, sizeof(count), "Count = %d", (int)value_of("List.Count"));
 	CHECK(tells(list, line, count));
@@ -392,7 +392,7 @@ static void test_keys(void)
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
-	CHECK_AS(comes("Start", 0), "each key counts, whether it was seen or not");
+	CHECK_AS(comes("Start", 0), "each key counts, also before the next frame");
 	ladder_grid_view_go(view, 0, 0, 2);
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_force);
 	scan(1);
@@ -401,7 +401,7 @@ static void test_keys(void)
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
 	CHECK(comes("Motor", 0));
 	scan(2);
-	CHECK_AS(value_of("Motor") == 0, "held against the program");
+	CHECK_AS(value_of("Motor") == 0, "the force holds against the program");
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_force);
 	scan(2);
 	CHECK(!live_value_is_forced(sim, false, find("Motor")));
@@ -432,7 +432,7 @@ static bool has_aged(void)
 	return ladder_grid_view_live(view, 2, 0, 1, &bits, text) && !(bits & LIVE_FRESH);
 }
 
-/* What has just changed is marked for a second, and not if motion is not wanted. */
+/* A changed value is marked for a second, unless animations are off. */
 static void test_fresh(void)
 {
 	g_usleep(1100000);
@@ -446,7 +446,7 @@ static void test_fresh(void)
 	scan(1);
 	CHECK(bits_of(view, 2, 0, 0) & LIVE_FRESH && bits_of(view, 2, 0, 1) & LIVE_FRESH);
 	CHECK(!(bits_of(view, 0, 0, 1) & LIVE_FRESH));
-	CHECK_AS(until(has_aged), "though nothing is scanned");
+	CHECK_AS(until(has_aged), "the mark ends without a scan");
 }
 
 static void test_blockers(void)
@@ -462,7 +462,7 @@ static void test_blockers(void)
 	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	draw();
 	CHECK(ladder_grid_view_drawn(view) == before + 2);
-	/* What is no cell is no harm. */
+	/* Cells that do not exist are ignored. */
 	ladder_grid_view_set_blockers(view, 99, cells, 2);
 	ladder_grid_view_set_blockers(view, 3, cells, 2);
 	draw();
@@ -481,7 +481,7 @@ static bool has_changed(void)
 	return program_changes > 0;
 }
 
-/* An edited rung is not known until a program with it runs; the others stay. */
+/* An edited rung shows no values until its program runs; the others do. */
 static void test_edit(void)
 {
 	struct rung *edited = rung_copy(ladder_document_project(document)->pou[1].rung[0]);
@@ -491,8 +491,8 @@ static void test_edit(void)
 	ladder_document_begin(document, "edit", NULL);
 	CHECK(ladder_document_put_rung(document, 1, 0, edited, NULL));
 	ladder_document_end(document);
-	CHECK_AS(!(bits_of(view, 0, 0, 0) & LIVE_KNOWN), "the edited rung");
-	CHECK_AS(bits_of(view, 1, 0, 0) & LIVE_KNOWN, "the one below it");
+	CHECK_AS(!(bits_of(view, 0, 0, 0) & LIVE_KNOWN), "the edited rung shows nothing");
+	CHECK_AS(bits_of(view, 1, 0, 0) & LIVE_KNOWN, "the rung below does");
 	CHECK(until(has_changed));
 	scan(1);
 	CHECK(bits_of(view, 0, 0, 0) & LIVE_KNOWN);
@@ -507,7 +507,7 @@ static void test_end(void)
 	ladder_sim_end(sim);
 	settle();
 	CHECK(!ladder_grid_view_live(view, 0, 0, 0, &bits, text));
-	ladder_canvas_do(LADDER_CANVAS(view), VERB_force); /* tells, and does nothing */
+	ladder_canvas_do(LADDER_CANVAS(view), VERB_force); /* only a message */
 }
 
 /* ---- a window ---- */

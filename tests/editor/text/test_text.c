@@ -56,7 +56,7 @@ static bool has_class(int line, int column, const char *name)
 							name);
 }
 
-/* Styles of what is at a place; the scheme gives them, so any tag will do. */
+/* Has the place a style? The scheme defines it, so any tag will do. */
 static bool is_coloured(int line, int column)
 {
 	GtkTextIter start, end, at;
@@ -171,7 +171,7 @@ static void test_errors(void)
 	put_cursor(8, 13);
 	type("\n  BLAH ) 7\n");
 	ladder_document_check_now(document);
-	CHECK_AS(wrong_at(9, "LD"), "a list that cannot be read: the line that is why");
+	CHECK_AS(wrong_at(9, "LD"), "a list that cannot be read: the wrong line");
 	CHECK(ladder_document_project(document) != NULL);
 	while (ladder_document_undo(document))
 		;
@@ -227,7 +227,7 @@ static bool has(const char *part)
 	return found;
 }
 
-/* A letter goes into the document when it was seen, or somebody asks for it: once. */
+/* A letter goes into the document once: after it was drawn, or on request. */
 static void test_soon(void)
 {
 	put_cursor(4, 13);
@@ -239,7 +239,7 @@ static void test_soon(void)
 	CHECK(has("Start89"));
 	CHECK(ladder_document_undo(document) && !ladder_document_undo_name(document));
 	ladder_text_view_take(view);
-	CHECK_AS(!has("Start8"), "what was undone does not come again");
+	CHECK_AS(!has("Start8"), "undone text does not return");
 }
 
 int main(void)
