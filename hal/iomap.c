@@ -237,6 +237,8 @@ static bool read_option(struct reader *reader, struct io_point *point,
 		i++;
 	if (i == OPTION_COUNT)
 		return complain(reader, DIAG_IO_OPTION, word);
+	if (*seen & 1u << i)
+		return complain(reader, DIAG_IO_OPTION_TWICE, word);
 	if (*seen & against(i))
 		return complain(reader, DIAG_IO_CONFLICT, word);
 	*seen |= 1u << i;

@@ -40,5 +40,11 @@ check small-core "$tmp/ton.rungc"
 said $? 0 'data:'; say $? 'WORDS=core: the second is accepted'
 "$build/small/ladderd" tests/golden/word-timers/main.rung --io "$tmp/io" --check >"$tmp/out" 2>&1
 said $? 1 LD610; say $? 'a rung file is not a code image'
+: >"$tmp/io"
+check small "$tmp/ton.rungc"
+said $? 1 'LD101: file is empty'; say $? 'an empty I/O map: the text beside the code'
+printf 'BOARD "sim"\n# \377\n' >"$tmp/io"
+check small "$tmp/ton.rungc"
+said $? 1 'LD104: not valid UTF-8'; say $? 'an I/O map that is not UTF-8: the same'
 echo "1..$n"
 exit $failed

@@ -416,7 +416,7 @@ static bool is_blank(const struct rung *rung)
 
 static void tell_too_many(LadderGridView *view)
 {
-	char *said = diag_said_of(DIAG_TOO_MANY, "rungs");
+	char *said = diag_said_of(DIAG_TOO_MANY, "rungs" DIAG_AND G_STRINGIFY(LIMIT_RUNGS));
 
 	canvas_tell(LADDER_CANVAS(view), said);
 	g_free(said);

@@ -94,11 +94,11 @@ static void test_refusals(void)
 	BAD("%IX0.0 gpio", "LD517");
 	BAD("%IX0.0 gpio chip=A", "LD517");
 	BAD("%IX0.0 gpio offset=1", "LD517");
-	BAD("%IX0.0 gpio line=A line=B", "LD520");
+	BAD("%IX0.0 gpio line=A line=B", "LD526");
 	BAD("%IX0.0 gpio line=A chip=B offset=1", "LD520");
 	BAD("%IX0.0 gpio line=A pull-up no-pull", "LD520");
 	BAD("%QX0.0 gpio line=A open-drain push-pull", "LD520");
-	BAD("%QX0.0 gpio line=A active-low active-low", "LD520");
+	BAD("%QX0.0 gpio line=A active-low active-low", "LD526");
 	BAD("%IX0.0 gpio line=\"A\n", "error");
 	BAD("%IX0.0 \001 sim", "error");
 }

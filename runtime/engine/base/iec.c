@@ -236,6 +236,29 @@ static char *put_number(char *at, uint32_t value)
 	return at;
 }
 
+enum diag_id iec_addr_fault(const char *text, size_t len, struct iec_addr *out)
+{
+	struct rest rest = { text, text + len };
+	uint32_t number, bit = 0;
+	uint8_t bits;
+
+	switch (iec_addr_parse(text, len, out)) {
+	case ADDR_OK:
+		return DIAG_COUNT;
+	case ADDR_NONE:
+		return DIAG_NOT_ADDRESS;
+	case ADDR_RANGE:
+		break;
+	}
+	rest.at += *text == '%';
+	take_area(&rest);
+	bits = take_size(&rest);
+	take_number(&rest, &number);
+	if (rest.at++ != rest.end) /* the dot */
+		take_number(&rest, &bit);
+	return bit >= (bits > 8 ? bits : 8) ? DIAG_BAD_BIT : DIAG_BAD_ADDRESS;
+}
+
 /* Not snprintf: a load prints an address for each declared line, and this is faster. */
 int iec_addr_print(struct iec_addr addr, char *out, size_t size)
 {

@@ -8,6 +8,8 @@
 #ifndef BASE_IEC_H
 #define BASE_IEC_H
 
+#include "engine/base/diag.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -120,6 +122,13 @@ enum iec_addr_result { ADDR_OK, ADDR_NONE, ADDR_RANGE };
  */
 enum iec_addr_result iec_addr_parse(const char *text, size_t len,
 				    struct iec_addr *out);
+/**
+ * iec_addr_fault - iec_addr_parse() that says why not
+ *
+ * DIAG_COUNT: it is an address. DIAG_NOT_ADDRESS; DIAG_BAD_BIT: a bit above 7;
+ * DIAG_BAD_ADDRESS: beyond the most bytes.   Scan-safe: yes.
+ */
+enum diag_id iec_addr_fault(const char *text, size_t len, struct iec_addr *out);
 /** iec_addr_print - canonical "%QX1.2"; returns as snprintf. */
 int iec_addr_print(struct iec_addr addr, char *out, size_t size);
 /** iec_addr_type - BOOL, BYTE, WORD, DWORD or LWORD by its width. */

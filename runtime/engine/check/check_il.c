@@ -5,6 +5,7 @@
 #include "engine/check/check_il.h"
 
 #include "engine/model/advice.h"
+#include "engine/model/convert.h"
 #include "engine/model/shape.h"
 
 #include <stdio.h>
@@ -84,6 +85,18 @@ static bool il_report_wrong(struct il_check *c, const struct il_line *line, cons
 	return il_report(c, line, DIAG_WRONG_TYPE, text);
 }
 
+/* Is there a word such as INT_TO_REAL for it? */
+static enum diag_id mismatch(enum iec_type from, enum iec_type to)
+{
+	struct convert_word made;
+	char word[48];
+	int len = snprintf(word, sizeof(word), "%s_TO_%s", iec_type_row(from)->word,
+			   iec_type_row(to)->word);
+
+	return convert_make(word, (size_t)len, &made) ? DIAG_NEEDS_CONVERSION :
+							DIAG_NO_CONVERSION;
+}
+
 static bool il_report_types(struct il_check *c, const struct il_line *line,
 			 enum iec_type from, enum iec_type to)
 {
@@ -99,13 +112,13 @@ static bool il_report_types(struct il_check *c, const struct il_line *line,
 			 scope_row(c->scope, (enum word)call->word)->word,
 			 scope_text(c->scope, line->pin), iec_type_row(from)->word,
 			 iec_type_row(to)->word);
-		return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
+		return il_report(c, line, mismatch(from, to), text);
 	}
 	if (is_made(c, operand))
 		operand = "";
 	snprintf(text, sizeof(text), "%.24s" DIAG_AND "%s" DIAG_AND "%s", operand,
 		 iec_type_row(from)->word, iec_type_row(to)->word);
-	return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
+	return il_report(c, line, mismatch(from, to), text);
 }
 
 static const char *il_operand_text(struct il_check *c, const struct il_line *line)
@@ -509,7 +522,7 @@ static bool report_join(struct il_check *c, const struct il_line *line, int inde
 	input_name(line, scope_row(c->scope, (enum word)line->word), index, name);
 	snprintf(text, sizeof(text), "%s" DIAG_AND "%s" DIAG_AND "%s", name,
 		 iec_type_row(a)->word, iec_type_row(b)->word);
-	return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
+	return il_report(c, line, mismatch(a, b), text);
 }
 
 static bool report_literal(struct il_check *c, const struct il_line *line, int index,
@@ -888,10 +901,12 @@ static bool il_check_pin(struct il_check *c, const struct word_row *row,
 		return false;
 	if (index < 0)
 		return is_plain(c, arg, m) &&
-		       il_report(c, arg, DIAG_NO_PIN, arg->mark & IL_IN_ORDER ?
-				 operand_text(c, arg) : name);
+		       (arg->mark & IL_IN_ORDER ?
+			il_report(c, arg, DIAG_TOO_MANY_OPERANDS, operand_text(c, arg)) :
+			il_report(c, arg, DIAG_NO_PIN, name));
 	if ((row->pin[index].dir == PIN_OUT) != (arg->kind == IL_ARG_OUT))
-		return il_report(c, arg, DIAG_PIN_DIRECTION, name);
+		return il_report(c, arg, arg->kind == IL_ARG_OUT ? DIAG_INPUT_READ :
+				 DIAG_PIN_DIRECTION, name);
 	return check_value(c, arg, m, &row->pin[index]);
 }
 

@@ -206,8 +206,10 @@ static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
 		return is_numbered(row, arg) ? DIAG_TOO_MANY_OPERANDS : DIAG_NO_PIN;
 	if (arg->inverse && index >= 0 && index < row->pin_count &&
 	    row->pin[index].dir == PIN_IN_OUT)
-		return DIAG_PIN_DIRECTION; /* nothing comes back through a / */
-	return output == arg->output ? DIAG_COUNT : DIAG_PIN_DIRECTION;
+		return DIAG_IN_OUT_INVERTED; /* nothing comes back through a / */
+	if (output == arg->output)
+		return DIAG_COUNT;
+	return output ? DIAG_PIN_DIRECTION : DIAG_INPUT_READ;
 }
 
 /* A parameter for VAR_IN_OUT. */
@@ -367,6 +369,18 @@ static void check_inputs(struct operand_check *c, struct operand_spot at,
 	}
 }
 
+static void refuse_instance(struct operand_check *c, struct operand_spot at,
+			    const struct cell *cell, const struct meaning *m)
+{
+	char text[LIMIT_ARG];
+
+	snprintf(text, sizeof(text), "%.30s" DIAG_AND "%.30s",
+		 project_text(c->project, cell->operand),
+		 scope_row(c->scope, (enum word)cell->word)->word);
+	operand_report(c, DIAG_NOT_INSTANCE, at, text);
+	uses_add(c->uses, m, USE_READ | USE_WRITTEN);
+}
+
 static void check_instance(struct operand_check *c, struct operand_spot at,
 			   const struct cell *cell)
 {
@@ -376,7 +390,7 @@ static void check_instance(struct operand_check *c, struct operand_spot at,
 	if (!m)
 		return;
 	if (m->kind != MEANING_INSTANCE || m->word != (enum word)cell->word)
-		operand_refuse(c, DIAG_NOT_INSTANCE, at, cell->operand, m);
+		refuse_instance(c, at, cell, m);
 	else if (uses_add(c->uses, m, USE_CALLED))
 		operand_report(c, DIAG_INSTANCE_TWICE, at, name);
 }

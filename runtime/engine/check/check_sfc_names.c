@@ -38,6 +38,16 @@ static void report(struct sfc_names *c, enum diag_id id, struct spot at, const c
 	c->good &= diag_add(c->diags, place, "%s", arg);
 }
 
+/* @needed: NULL: BOOL. */
+static void report_type(struct sfc_names *c, struct spot at, const char *name,
+			const char *needed)
+{
+	char text[LIMIT_ARG];
+
+	snprintf(text, sizeof(text), "%.40s" DIAG_AND "%s", name, needed ? needed : "");
+	report(c, needed ? DIAG_WRONG_TYPE : DIAG_NOT_BOOL, at, needed ? text : name);
+}
+
 /* ---- names that it gives ---- */
 
 static void add_name(struct sfc_names *c, uint32_t name, struct spot at, bool own)
@@ -165,9 +175,9 @@ static void check_written(struct sfc_names *c, uint32_t id, struct spot at,
 	uses_add(c->uses, m, USE_READ | USE_WRITTEN);
 }
 
-/* A value of one of these classes. */
+/* A value of one of these classes; @needed: a type of them, NULL: BOOL. */
 static void check_read(struct sfc_names *c, uint32_t id, struct spot at,
-		       unsigned int class, enum diag_id wrong)
+		       unsigned int class, const char *needed)
 {
 	const struct meaning *m = id ? find(c, id, at, EXPECT_VARIABLE) : NULL;
 	const char *name = project_text(c->project, id);
@@ -177,7 +187,7 @@ static void check_read(struct sfc_names *c, uint32_t id, struct spot at,
 	if (value_fault(m) != DIAG_COUNT)
 		report(c, value_fault(m), at, name);
 	else if (m->type == IEC_NONE || !(iec_type_row(m->type)->class & class))
-		report(c, wrong, at, name);
+		report_type(c, at, name, needed);
 	uses_add(c->uses, m, USE_READ);
 }
 
@@ -190,7 +200,7 @@ static void check_uses(struct sfc_names *c)
 		if (use->action < 0)
 			check_written(c, use->operand, at, EXPECT_VARIABLE |
 				      (use->kind == USE_ACTION ? EXPECT_ACTION : 0u));
-		check_read(c, use->time, at, CLASS_TIME, DIAG_WRONG_TYPE);
+		check_read(c, use->time, at, CLASS_TIME, "TIME");
 	}
 }
 
@@ -200,8 +210,8 @@ static void check_steps(struct sfc_names *c)
 		const struct sfc_step *step = &c->sfc->step[i];
 		const struct spot at = { step->line, step->column_at };
 
-		check_read(c, step->min, at, CLASS_TIME, DIAG_WRONG_TYPE);
-		check_read(c, step->max, at, CLASS_TIME, DIAG_WRONG_TYPE);
+		check_read(c, step->min, at, CLASS_TIME, "TIME");
+		check_read(c, step->max, at, CLASS_TIME, "TIME");
 		check_written(c, step->alarm, at, EXPECT_VARIABLE);
 	}
 }
@@ -213,7 +223,7 @@ static void check_control(struct sfc_names *c)
 	for (int i = 0; i < CONTROL_COUNT; i++)
 		check_read(c, c->sfc->control[i], at,
 			   i == CONTROL_FORCE ? ANY_INT : CLASS_BOOL,
-			   i == CONTROL_FORCE ? DIAG_WRONG_TYPE : DIAG_NOT_BOOL);
+			   i == CONTROL_FORCE ? "INT" : NULL);
 }
 
 /* Lists outside conditions cannot use TRANSITION. */

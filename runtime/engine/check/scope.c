@@ -321,19 +321,19 @@ static bool mean_literal(const char *text, size_t len, struct meaning *out,
 static bool scope_mean_address(const struct scope *scope, const char *text, size_t len,
 			       struct meaning *out, enum diag_id *why)
 {
-	enum iec_addr_result result = iec_addr_parse(text, len, &out->addr);
+	enum diag_id fault = iec_addr_fault(text, len, &out->addr);
 
-	if (result == ADDR_OK && !areas_have(&scope->areas, out->addr))
-		result = ADDR_RANGE;
-	if (result == ADDR_OK) {
+	if (fault == DIAG_COUNT && !areas_have(&scope->areas, out->addr))
+		fault = DIAG_BAD_ADDRESS;
+	if (fault == DIAG_COUNT) {
 		out->kind = MEANING_ADDRESS;
 		out->type = iec_addr_type(out->addr);
 		out->writable = may_write(out->addr);
 		return true;
 	}
 	out->addr = (struct iec_addr){ .area = AREA_NONE };
-	if (result == ADDR_RANGE || *text == '%')
-		*why = DIAG_BAD_ADDRESS;
+	if (fault != DIAG_NOT_ADDRESS || *text == '%')
+		*why = fault;
 	return false;
 }
 

@@ -208,7 +208,7 @@ static struct config_entry *add_entry(struct reader *r, struct config *config,
 	struct config_entry *slot = NULL;
 
 	if (config->count == 2 * LIMIT_POUS)
-		reader_fail_word(r, DIAG_TOO_MANY, "lines of a configuration");
+		reader_fail_many(r, DIAG_TOO_MANY, "lines of a configuration", 2 * LIMIT_POUS);
 	else if (!(slot = arena_push(&r->project->arena, &config->entry,
 				     &config->count, sizeof(entry))))
 		r->no_memory = true;
@@ -243,7 +243,7 @@ static void read_entry(struct reader *r, struct config *config, bool inside)
 		entry.kind = CONFIG_TASK;
 		/* One of LIMIT_TASKS is for programs without a task. */
 		if (has_tasks(config, LIMIT_TASKS - 1))
-			reader_fail_word(r, DIAG_TOO_MANY, "tasks");
+			reader_fail_many(r, DIAG_TOO_MANY, "tasks", LIMIT_TASKS - 1);
 		reader_step(r);
 		good = read_task(r, &entry);
 	} else if (lex_is(&r->lex, "PROGRAM")) {
@@ -299,7 +299,7 @@ static void read_resource(struct reader *r, struct config *config)
 	const struct token head = r->lex.token;
 
 	if (config->has_resource)
-		reader_fail_word(r, DIAG_TOO_MANY, "resources");
+		reader_fail_many(r, DIAG_TOO_MANY, "resources", 1);
 	reader_next(r);
 	if (reader_name(r, "name of the resource", &config->resource)) {
 		config->has_resource = true;

@@ -81,12 +81,18 @@ static bool read_value(struct reader *r, const struct token *word)
 				.value_at = r->text.len };
 
 	if (r->arg_count == LIMIT_ARGS)
-		return reader_fail_word(r, DIAG_TOO_MANY, "parameters");
+		return reader_fail_many(r, DIAG_TOO_MANY, "parameters", LIMIT_ARGS);
 	if (!reader_value(r, true, word))
 		return false;
 	arg.value_len = r->text.len - arg.value_at;
 	r->arg[r->arg_count++] = arg;
 	return true;
+}
+
+static bool is_formal_arg(const struct reader *r)
+{
+	return r->lex.token.kind == TOKEN_NAME &&
+	       (reader_peek(r, ":=") || reader_peek(r, "=>"));
 }
 
 /* Reads parameters. @word: NULL if they have names; else the word whose inputs they are, in
@@ -97,6 +103,8 @@ static bool read_args(struct reader *r, const struct token *word)
 	r->arg_count = 0;
 	reader_step(r);
 	while (!reader_is(r, ')') || (word && r->arg_count)) {
+		if (!word && !is_formal_arg(r))
+			return reader_fail_token(r, DIAG_MIXED_NAMES);
 		if (!(word ? read_value(r, word) : reader_arg(r)))
 			return false;
 		reader_step(r);
@@ -426,7 +434,7 @@ void read_il(struct reader *r, struct pou *pou)
 			break;
 		/* A list beyond the budget of a scan cannot run. */
 		if (pou->il.count >= LIMIT_BUDGET) {
-			reader_fail_word(r, DIAG_TOO_MANY, "instructions");
+			reader_fail_many(r, DIAG_TOO_MANY, "instructions", LIMIT_BUDGET);
 			r->lex.at = r->lex.end;
 			reader_next(r);
 			break;

@@ -194,8 +194,10 @@ bool reader_value(struct reader *r, bool constant, const struct token *word)
 	if (token->kind == TOKEN_NAME)
 		return check_length(r) && add_path(r);
 	if (token->kind == TOKEN_ADDRESS) {
-		if (iec_addr_parse(token->text, token->len, &addr) != ADDR_OK)
-			return reader_fail_token(r, DIAG_BAD_ADDRESS);
+		const enum diag_id why = iec_addr_fault(token->text, token->len, &addr);
+
+		if (why != DIAG_COUNT)
+			return reader_fail_token(r, why);
 		return add_path(r);
 	}
 	if (token->kind == TOKEN_NUMBER && constant)
@@ -251,7 +253,7 @@ bool reader_arg(struct reader *r)
 	if (pin.kind != TOKEN_NAME || memchr(pin.text, '.', pin.len))
 		return reader_fail_token(r, DIAG_EXTRA_TEXT);
 	if (r->arg_count == LIMIT_ARGS)
-		return reader_fail_word(r, DIAG_TOO_MANY, "parameters");
+		return reader_fail_many(r, DIAG_TOO_MANY, "parameters", LIMIT_ARGS);
 	if (r->text.len > 0)
 		buffer_add(r, &r->text, " ", 1);
 	arg.pin_at = r->text.len;

@@ -43,7 +43,7 @@ void reader_add_rung(struct reader *r, struct pou *pou)
 		    r->all_cells > LIMIT_TEXT / 4;
 
 	if (full && r->place.rung <= pou->rung_count + 1)
-		reader_fail_word(r, DIAG_TOO_MANY, "rungs");
+		reader_fail_many(r, DIAG_TOO_MANY, "rungs", LIMIT_RUNGS);
 	struct rung *rung = read_rung(r);
 
 	if (!rung)
@@ -236,7 +236,7 @@ void read_pou(struct reader *r, enum pou_kind kind)
 	struct pou *pou = NULL;
 
 	if (index == LIMIT_POUS)
-		reader_fail_word(r, DIAG_TOO_MANY, kinds[kind].many);
+		reader_fail_many(r, DIAG_TOO_MANY, kinds[kind].many, LIMIT_POUS);
 	else
 		pou = arena_push(&project->arena, &project->pou,
 				 &project->pou_count, sizeof(*pou));

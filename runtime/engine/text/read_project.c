@@ -143,15 +143,18 @@ const char *reader_path(struct reader *r, const char *from, const char *name)
 	return path;
 }
 
-/* Refuses a file that includes itself, directly or through others, or too deep. */
-static bool may_include(const struct reader *r, const char *path)
+/* Why a file may not be included here; DIAG_COUNT: it may. */
+static enum diag_id include_fault(const struct reader *r, const char *path)
 {
 	int depth = 0;
 
-	for (; r; r = r->outer)
-		if (!strcmp(r->place.file, path) || ++depth > LIMIT_INCLUDES)
-			return false;
-	return true;
+	for (; r; r = r->outer) {
+		if (!strcmp(r->place.file, path))
+			return DIAG_INCLUDE_CIRCLE;
+		if (++depth > LIMIT_INCLUDES)
+			return DIAG_INCLUDE_DEEP;
+	}
+	return DIAG_COUNT;
 }
 
 static void read_included(struct reader *r, const char *path, bool library,
@@ -197,6 +200,7 @@ static void include_file(struct reader *r, uint32_t name, bool library,
 {
 	const char *text_name = names_text(&r->project->names, name);
 	const char *path = reader_path(r, r->place.file, text_name);
+	enum diag_id why;
 	size_t len = 0;
 
 	if (!path || r->no_memory) {
@@ -206,8 +210,9 @@ static void include_file(struct reader *r, uint32_t name, bool library,
 	place.id = DIAG_BAD_INCLUDE;
 	if (library && was_used(r, path))
 		return;
-	if (!may_include(r, path)) {
-		place.id = DIAG_INCLUDE_CIRCLE;
+	why = include_fault(r, path);
+	if (why != DIAG_COUNT) {
+		place.id = why;
 		diag_add(r->diags, place, "%.64s", text_name);
 		return;
 	}
@@ -296,7 +301,7 @@ static void read_configuration(struct reader *r)
 	bool second = project->config;
 
 	if (second)
-		reader_fail_word(r, DIAG_TOO_MANY, "configurations");
+		reader_fail_many(r, DIAG_TOO_MANY, "configurations", 1);
 	if (!config) {
 		r->no_memory = true;
 		return;
@@ -477,7 +482,7 @@ static bool push_var(struct reader *r, struct var_table *table, int block,
 	reader_skip_newlines(r);
 	good = read_var(r, table->block[block].flags, &var);
 	if (good && table->count == LIMIT_VARS)
-		good = reader_fail_word(r, DIAG_TOO_MANY, "variables");
+		good = reader_fail_many(r, DIAG_TOO_MANY, "variables", LIMIT_VARS);
 	if (good && !vars_push(table, block, &var, &r->project->arena))
 		r->no_memory = true;
 	free(copy);

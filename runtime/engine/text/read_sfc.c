@@ -177,7 +177,7 @@ static void *push_room(struct sfc_reader *in, void *vector, int *count, size_t s
 	void *slot;
 
 	if (*count >= most) {
-		reader_fail_word(r, DIAG_SFC_TOO_MANY, what);
+		reader_fail_many(r, DIAG_SFC_TOO_MANY, what, most);
 		return NULL;
 	}
 	slot = arena_push(&r->project->arena, vector, count, size);
@@ -361,7 +361,7 @@ static void add_use(struct sfc_reader *in, struct sfc_use use)
 
 	use.step = sfc->step_count - 1;
 	if (step->use_count == LIMIT_STEP_USES) /* reported once */
-		reader_fail_word(in->r, DIAG_SFC_TOO_MANY, "lines of a step");
+		reader_fail_many(in->r, DIAG_SFC_TOO_MANY, "lines of a step", LIMIT_STEP_USES);
 	step->use_count++;
 	if (step->use_count > LIMIT_STEP_USES)
 		return;
@@ -616,7 +616,7 @@ static bool read_ref(struct sfc_reader *in, int count)
 	if (!reader_name(r, "name of a step", &ref.name))
 		return false;
 	if (count == LIMIT_BRANCHES)
-		return reader_fail_word(r, DIAG_SFC_TOO_MANY, "steps of a transition");
+		return reader_fail_many(r, DIAG_SFC_TOO_MANY, "steps of a transition", LIMIT_BRANCHES);
 	slot = arena_push(&r->project->arena, &sfc->ref, &sfc->ref_count, sizeof(*slot));
 	if (!slot) {
 		r->no_memory = true;
@@ -753,7 +753,7 @@ static void add_expression(struct sfc_reader *in, struct sfc_body *body, uint32_
 	struct rung *rung = r->no_memory ? NULL : rung_new(1, 2);
 
 	if (rung && pou->rung_count >= LIMIT_RUNGS) {
-		reader_fail_word(r, DIAG_TOO_MANY, "rungs");
+		reader_fail_many(r, DIAG_TOO_MANY, "rungs", LIMIT_RUNGS);
 		rung_free(rung);
 		return;
 	}

@@ -18,7 +18,7 @@ static bool add_name(struct reader *r, struct var_table *table)
 		return false;
 	if (r->project->globals.count == LIMIT_VARS ||
 	    table->count == LIMIT_VARS)
-		return reader_fail_word(r, DIAG_TOO_MANY, "variables");
+		return reader_fail_many(r, DIAG_TOO_MANY, "variables", LIMIT_VARS);
 	struct var *var = arena_push(&r->project->arena, &table->var,
 				     &table->count, sizeof(*var));
 
@@ -47,6 +47,7 @@ static bool read_names(struct reader *r, struct var_table *table)
 static bool read_at(struct reader *r, struct var *var)
 {
 	const struct token *token = &r->lex.token;
+	enum diag_id why;
 	char text[32];
 
 	if (!lex_is(&r->lex, "AT"))
@@ -54,16 +55,11 @@ static bool read_at(struct reader *r, struct var *var)
 	reader_step(r);
 	if (token->kind != TOKEN_ADDRESS && token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "address");
-	switch (iec_addr_parse(token->text, token->len, &var->at)) {
-	case ADDR_OK:
-		break;
-	case ADDR_RANGE:
-		return reader_fail_token(r, DIAG_BAD_ADDRESS);
-	case ADDR_NONE:
-		if (token->kind == TOKEN_ADDRESS)
-			return reader_fail_token(r, DIAG_BAD_ADDRESS);
+	why = iec_addr_fault(token->text, token->len, &var->at);
+	if (why == DIAG_NOT_ADDRESS && token->kind != TOKEN_ADDRESS)
 		return reader_fail_word(r, DIAG_EXPECTED, "address");
-	}
+	if (why != DIAG_COUNT)
+		return reader_fail_token(r, why);
 	int len = iec_addr_print(var->at, text, sizeof(text));
 
 	var->at_text = reader_intern(r, text, (size_t)len);

@@ -64,7 +64,7 @@ enum word reader_own_word(struct reader *r, uint32_t name, enum word_kind kind)
 	enum word word = words_add(&r->project->words, row);
 
 	if (word == WORD_COUNT)
-		reader_fail_word(r, DIAG_TOO_MANY, "functions, blocks and types");
+		reader_fail_many(r, DIAG_TOO_MANY, "functions, blocks and types", LIMIT_OWN_WORDS);
 	return word;
 }
 

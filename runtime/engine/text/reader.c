@@ -6,6 +6,7 @@
  */
 #include "engine/text/reader.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -59,6 +60,14 @@ bool reader_fail(struct reader *r, enum diag_id id, const char *arg, size_t len)
 bool reader_fail_word(struct reader *r, enum diag_id id, const char *arg)
 {
 	return reader_fail(r, id, arg, strlen(arg));
+}
+
+bool reader_fail_many(struct reader *r, enum diag_id id, const char *what, long most)
+{
+	char text[LIMIT_ARG];
+
+	snprintf(text, sizeof(text), "%s" DIAG_AND "%ld", what, most);
+	return reader_fail_word(r, id, text);
 }
 
 bool reader_fail_token(struct reader *r, enum diag_id id)
@@ -271,8 +280,10 @@ static void fail_bad(struct reader *r)
 
 	while (len < token->len && token->text[len] != '\n' && token->text[len] != '\r')
 		len++;
-	if (first == '"' || first == '(')
-		reader_fail(r, DIAG_OPEN_STRING, token->text, len);
+	if (first == '"')
+		reader_fail(r, DIAG_OPEN_STRING, token->text + 1, len - 1);
+	else if (first == '(')
+		reader_fail(r, DIAG_OPEN_COMMENT, token->text, len);
 	else
 		reader_fail_word(r, DIAG_BAD_BYTE, "");
 }

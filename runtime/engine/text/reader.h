@@ -99,6 +99,8 @@ bool reader_fail(struct reader *r, enum diag_id id, const char *arg,
 		 size_t len);
 /** reader_fail_word - the same with a NUL-ended argument. */
 bool reader_fail_word(struct reader *r, enum diag_id id, const char *arg);
+/** reader_fail_many - the same: more of @what than @most. */
+bool reader_fail_many(struct reader *r, enum diag_id id, const char *what, long most);
 /** reader_fail_token - the same about the token under the cursor. */
 bool reader_fail_token(struct reader *r, enum diag_id id);
 

@@ -251,7 +251,7 @@ def many(screen):
     rung = 'RUNG\n  | NO Start | COIL Motor |\n'
     editor.put_clipboard(rung * 50001)
     editor.keys('ctrl+v')
-    editor.says('too many rungs in one project')
+    editor.says('too many rungs (at most 50000)')
     assert open(path).read() == TARGET
     editor.put_clipboard(rung * 3000)
     editor.keys('ctrl+v')

@@ -20,7 +20,8 @@ static void prints(void)
 	CHECK(!diag_add(&list, place, "%s", "%QX0.1"));
 	len = diag_print(&list.diag[0], text, sizeof(text));
 	CHECK_TEXT(text, "pump.rung:14: rung 3 (2,5): error LD203: "
-			 "\"%QX0.1\" must be last on its branch");
+			 "\"%QX0.1\" must be last on its branch; "
+			 "put what follows on a branch of its own");
 	CHECK(len == (int)strlen(text));
 	CHECK(diag_print(&list.diag[0], cut, sizeof(cut)) == len);
 	CHECK_TEXT(cut, "pump.rung");

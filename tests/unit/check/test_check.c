@@ -317,7 +317,7 @@ static void test_operands(void)
 	forget();
 	declare("A", IEC_BOOL, ELEM_EMPTY, "%IX0.0");
 	declare("T", IEC_NONE, FB_TON, NULL);
-	CHECK_TEXT(name("| NO A | CTU T |"), "LD309(1,2)T");
+	CHECK_TEXT(name("| NO A | CTU T |"), "LD309(1,2)T" DIAG_AND "CTU");
 	CHECK_TEXT(name("| NO T | COIL A |"), "LD308(1,1)T LD304(1,2)A");
 	CHECK_TEXT(name("| NO A | TON T PT:=X Q:=A Z:=1 ET=>A |"),
 		   "LD301(1,2)X LD320(1,2)Q LD319(1,2)Z LD304(1,2)A");

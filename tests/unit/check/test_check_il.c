@@ -115,7 +115,7 @@ static void finds_names_and_pins(void)
 	CHECK_FIRST(il("  ADD(IN1 := I, IN2 := I, IN17 := I, OUT => I)"), "LD319 IN17");
 	CHECK_FIRST(il("  MOVE(IN := I, RESULT => K)"), "LD319 RESULT");
 	CHECK_FIRST(il("  CAL Delay(Q := A)"), "LD320 Q");
-	CHECK_FIRST(il("  CAL Delay(IN => A)"), "LD320 IN");
+	CHECK_FIRST(il("  CAL Delay(IN => A)"), "LD357 IN");
 	CHECK_FIRST(il("  LD A\n  ST Delay.Q"), "LD320 Delay.Q");
 	CHECK_FIRST(il("  CAL Delay(Q => %IX0.0)"), "LD304 %IX0.0");
 	CHECK_FIRST(il("  MOVE(IN := 1, OUT => Seven)"), "LD305 Seven");

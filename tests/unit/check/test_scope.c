@@ -123,7 +123,7 @@ static void test_addresses(struct scope *scope)
 	CHECK(m && m->addr.bit == 1 && !m->writable);
 	CHECK(reason(scope, "SYS_NOTHING") == DIAG_UNKNOWN_NAME);
 	CHECK(reason(scope, "%IX99999.0") == DIAG_BAD_ADDRESS);
-	CHECK(reason(scope, "%ZX0.0") == DIAG_BAD_ADDRESS);
+	CHECK(reason(scope, "%ZX0.0") == DIAG_NOT_ADDRESS);
 	CHECK(reason(scope, "Nobody") == DIAG_UNKNOWN_NAME);
 	CHECK(reason(scope, "") == DIAG_UNKNOWN_NAME);
 }

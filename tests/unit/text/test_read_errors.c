@@ -74,8 +74,8 @@ static void test_bytes(void)
 	CHECK(diags.diag[0].id == DIAG_BAD_BYTE);
 	CHECK(diags.diag[0].line == 2 && diags.diag[0].column == 1);
 	fails("RUNGBOARD 1\r\n\rVAR\r\nEND_VAR", "LD105 2 0 (0,0) 1 ");
-	fails("RUNGBOARD 1\n(* open", "LD108 2 0 (0,0) 1 (* open");
-	fails("RUNGBOARD 1\nPROJECT \"open\n", "LD108 2 0 (0,0) 9 \"open");
+	fails("RUNGBOARD 1\n(* open", "LD146 2 0 (0,0) 1 (* open");
+	fails("RUNGBOARD 1\nPROJECT \"open\n", "LD108 2 0 (0,0) 9 open");
 	fails("RUNGBOARD 1\nPROJECT \"a$x\"\n", "LD106 2 0 (0,0) 9 $x");
 }
 
@@ -151,7 +151,7 @@ static void test_cell_errors(void)
 	CHECK(diags.count == 1);
 	fails(LD("RUNG\n|\n"), "LD119 5 1 (1,0) 2 ");
 	fails(LD("RUNG\n| NO A ^| RET |\n"), "LD219 5 1 (1,1) 8 ");
-	fails(LD("RUNG\n| NO %IX0.9 |\n"), "LD117 5 1 (1,1) 6 %IX0.9");
+	fails(LD("RUNG\n| NO %IX0.9 |\n"), "LD143 5 1 (1,1) 6 %IX0.9");
 	fails(LD("RUNG\n| TON PT:=T#3s |\n"), "LD127 5 1 (1,1) 7 TON");
 	fails(LD("RUNG\n| TON T1 PT:=T#3x |\n"), "LD115 5 1 (1,1) 14 T#3x");
 	fails(LD("RUNG\n| TON T1 PT:=T#3s pt:=T#4s |\n"),

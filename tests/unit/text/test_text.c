@@ -403,7 +403,7 @@ static void test_include(void)
 	CHECK(!read_with("RUNGBOARD 1\nINCLUDE \"self\"\n"));
 	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_INCLUDE_CIRCLE);
 	CHECK(!read_with("RUNGBOARD 1\nINCLUDE \"deep\"\n"));
-	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_INCLUDE_CIRCLE);
+	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_INCLUDE_DEEP);
 	CHECK(!read_with("RUNGBOARD 1\nINCLUDE \"missing\"\nINCLUDE 5\n"));
 	CHECK(diags.count == 2 && diags.diag[1].id == DIAG_EXPECTED);
 }

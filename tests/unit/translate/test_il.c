@@ -78,7 +78,7 @@ static void test_refused(void)
 		{ "LD309", "  CAL A(IN := B)\n" },
 		{ "LD319", "  CAL Delay(GO := A)\n" },
 		{ "LD320", "  CAL Delay(Q := A)\n" },
-		{ "LD320", "  CAL Delay(IN => A)\n" },
+		{ "LD357", "  CAL Delay(IN => A)\n" },
 		{ "LD320", "  LD A\n  ST Delay.Q\n" },
 		{ "LD321", "  ADD(IN1 := N, OUT => M)\n" },
 		{ "LD321", "  ADD(IN1 := N, IN3 := 2, OUT => M)\n" },
