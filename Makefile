@@ -393,7 +393,7 @@ $(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
 $(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c)
 $(BIN)/storing: WRAP := -Wl,--wrap=pwrite,--wrap=pwrite64,--wrap=fsync,--wrap=fdatasync,--wrap=rename,--wrap=unlink
 # ClassicLadder once more, from its files, to disagree with what is imported.
-CLASSIC_O := $(call obj,$(wildcard tests/classic/engine*.c) tests/classic/run.c)
+CLASSIC_O := $(call obj,$(wildcard tests/classic/engine*.c) tests/classic/own_read.c tests/classic/run.c)
 $(BIN)/classic_trace: $(BUILD)/tests/classic/classic_trace.o $(CLASSIC_O) $(BUILD)/libladder.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm

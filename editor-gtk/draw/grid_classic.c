@@ -37,17 +37,9 @@ struct sketch {
 
 /* ---- the cells ---- */
 
-/* As the file has it: rows of ten are widened when they are read. */
 static const struct classic_cell *cell_at(const struct sketch *sketch, int y, int x)
 {
-	const struct classic_cell *row = sketch->scene->rung->cell[y];
-	const int last = CLASSIC_COLUMNS - 1;
-
-	if (sketch->columns != 10 || !row[last].element)
-		return &row[x];
-	if (row[last].element == OPERATE)
-		return &row[x >= 7 ? x + 2 : x];
-	return &row[x == 9 ? last : x];
+	return &sketch->scene->rung->cell[y][x];
 }
 
 static int rows_of(const struct classic_rung *rung)
@@ -343,7 +335,7 @@ static void put_rails(const struct sketch *sketch, float bottom)
 float grid_classic_draw(const struct classic_scene *scene, struct picture *picture)
 {
 	struct sketch sketch = {
-		.scene = scene, .columns = scene->rung->columns == 10 ? 10 : CLASSIC_COLUMNS,
+		.scene = scene, .columns = scene->rung->columns,
 		.rows = rows_of(scene->rung),
 		.nib = { picture, scene->theme, scene->lettering, TOKEN_INK },
 	};

@@ -6,6 +6,7 @@
  * once. Blocks, expressions and charts have files of their own.
  */
 #include "tests/classic/engine.h"
+#include "tests/classic/own_read.h"
 
 #include <stdlib.h>
 
@@ -117,7 +118,7 @@ static void coil(struct engine *engine, struct rung_run *run, int x, int y)
 static void cell_run(struct engine *engine, struct rung_run *run, int x, int y)
 {
 	const struct classic_cell *cell = &run->rung->cell[y][x];
-	const char *text = classic_expression(engine->project, cell->variable.number);
+	const char *text = own_expression(engine->project, cell->variable.number);
 	bool result;
 
 	switch (cell->element) {
@@ -240,7 +241,7 @@ static bool zeroed(void *pointer, size_t count, size_t size)
 
 static size_t size_of(const struct engine *engine, const char *key, long usual)
 {
-	const char *value = classic_setting(engine->project, key);
+	const char *value = own_setting(engine->project, key);
 	long size = value ? strtol(value, NULL, 10) : usual;
 
 	if (!engine->faithful || size < 0 || size > CLASSIC_LIMIT)

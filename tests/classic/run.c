@@ -4,10 +4,10 @@
  */
 #include "tests/classic/run.h"
 #include "tests/classic/engine.h"
+#include "tests/classic/own_read.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { SHOWN = 2000, WORD = 64 };
 
@@ -36,43 +36,18 @@ char *load_text(const char *path)
 
 bool load_project(struct loaded *loaded, const char *path)
 {
-	struct stat stat_of;
-	FILE *file;
-
 	arena_init(&loaded->arena);
-	report_init(&loaded->report);
-	diag_init(&loaded->diags);
-	loaded->project = NULL;
-	if (stat(path, &stat_of) == 0 && S_ISDIR(stat_of.st_mode)) {
-		loaded->project = classic_read_folder(&loaded->arena, path, &loaded->report,
-						      &loaded->diags);
-	} else if ((file = fopen(path, "rb"))) {
-		size_t size = CLASSIC_BYTES, len;
-		char *bytes = malloc(size);
-
-		len = bytes ? fread(bytes, 1, size, file) : 0;
-		fclose(file);
-		loaded->project = classic_read(&loaded->arena, path, bytes ? bytes : "", len,
-					       &loaded->report, &loaded->diags);
-		free(bytes);
-	} else {
-		perror(path);
-	}
-	for (int i = 0; i < loaded->diags.count; i++) {
-		char text[512];
-
-		diag_print(&loaded->diags.diag[i], text, sizeof(text));
-		fprintf(stderr, "%s\n", text);
-	}
-	if (!loaded->project)
-		unload_project(loaded);
-	return loaded->project;
+	loaded->project = own_read(&loaded->arena, path);
+	if (loaded->project)
+		return true;
+	fprintf(stderr, "%s: cannot read it\n", path);
+	unload_project(loaded);
+	return false;
 }
 
 void unload_project(struct loaded *loaded)
 {
 	arena_free(&loaded->arena);
-	report_free(&loaded->report);
 }
 
 /* @word gets the next word of a line. false: there is none. */

@@ -11,8 +11,6 @@
 
 struct loaded {
 	struct arena arena;
-	struct classic_report report;
-	struct diag_list diags;
 	struct classic_project *project;
 };
 

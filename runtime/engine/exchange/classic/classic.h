@@ -50,9 +50,8 @@ struct classic_rung {
 	struct classic_place place;
 	const char *label, *comment; /* UTF-8; "": none                        */
 	int previous, next;      /* -1: none                                   */
-	int rows, columns;       /* as the file had them                       */
+	int rows, columns;       /* of the file                                */
 	int row_line[CLASSIC_ROWS];
-	/* Rows of 10 columns are widened to 12 as ClassicLadder itself does. */
 	struct classic_cell cell[CLASSIC_ROWS][CLASSIC_COLUMNS];
 };
 

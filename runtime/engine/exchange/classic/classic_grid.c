@@ -233,7 +233,7 @@ static void find_part(struct grid *grid, int y, int x)
 /* Column by column, in the order of evaluation. */
 static void find_parts(struct grid *grid)
 {
-	for (int x = 0; x < CLASSIC_COLUMNS; x++)
+	for (int x = 0; x < grid->columns; x++)
 		for (int y = 0; y < CLASSIC_ROWS; y++)
 			find_part(grid, y, x);
 }
@@ -243,7 +243,7 @@ static bool junction_needed(const struct grid *grid, int y, int x)
 {
 	int from, to;
 
-	if (x >= CLASSIC_COLUMNS)
+	if (x >= grid->columns)
 		return false;
 	grid_run(grid, y, x, &from, &to);
 	for (int i = 0; i < grid->parts; i++) {
@@ -273,7 +273,7 @@ static void feed_junction(struct grid *grid, int y, int x)
 {
 	int from, to;
 
-	if (x >= CLASSIC_COLUMNS)
+	if (x >= grid->columns)
 		return;
 	grid_run(grid, y, x, &from, &to);
 	for (int i = from; i < to; i++)
@@ -370,6 +370,7 @@ void convert_rung(struct conversion *c, const struct classic_rung *rung)
 		return;
 	grid->c = c;
 	grid->rung = rung;
+	grid->columns = rung->columns;
 	c->rung = c->rungs_written + 1;
 	find_parts(grid);
 	find_power(grid);

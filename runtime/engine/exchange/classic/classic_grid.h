@@ -44,6 +44,7 @@ enum { GRID_PARTS = CLASSIC_ROWS * CLASSIC_COLUMNS };
 struct grid {
 	struct conversion *c;
 	const struct classic_rung *rung;
+	int columns;         /* of the rung: 10 of LinuxCNC, 12 of upstream    */
 	struct grid_part part[GRID_PARTS];
 	int parts;
 	bool fed[CLASSIC_ROWS][CLASSIC_COLUMNS + 1]; /* can this node have power? */
@@ -53,7 +54,7 @@ struct grid {
 /** grid_link - true if node @x of row @y is joined with the row above. */
 static inline bool grid_link(const struct grid *grid, int y, int x)
 {
-	return x > 0 && x < CLASSIC_COLUMNS && y > 0 && y < CLASSIC_ROWS &&
+	return x > 0 && x < grid->columns && y > 0 && y < CLASSIC_ROWS &&
 	       grid->rung->cell[y][x].top;
 }
 

@@ -84,7 +84,7 @@ static bool is_used(const struct grid *grid, int y, int x)
 {
 	int from, to;
 
-	if (x >= CLASSIC_COLUMNS)
+	if (x >= grid->columns)
 		return false;
 	grid_run(grid, y, x, &from, &to);
 	for (int i = 0; i < grid->parts; i++) {
@@ -107,7 +107,7 @@ static void cut_at_box(struct grid *grid, struct cuts *cuts, const struct grid_p
 		const struct grid_part *part = &grid->part[i];
 
 		if (!reads_block(grid, part, box) ||
-		    (part->kind > PART_BOX && part_end(part) == CLASSIC_COLUMNS))
+		    (part->kind > PART_BOX && part_end(part) == grid->columns))
 			continue;
 		cuts->at[end] = true;
 		if (part_end(part) <= end)
@@ -129,7 +129,7 @@ static void find_cuts(struct grid *grid, struct cuts *cuts)
 		else if (part->kind > PART_BOX)
 			cuts->at[part_end(part)] = true;
 	}
-	cuts->at[0] = cuts->at[CLASSIC_COLUMNS] = true;
+	cuts->at[0] = cuts->at[grid->columns] = true;
 }
 
 static bool gives_any(const struct grid_part *part)
@@ -279,7 +279,7 @@ static void fill(struct piece *piece, struct cuts *cuts, int from, int to)
 {
 	struct grid *grid = piece->grid;
 	int shift = (from > 0) - from;
-	bool cut = to < CLASSIC_COLUMNS;
+	bool cut = to < grid->columns;
 
 	piece->rows = CLASSIC_ROWS;
 	piece->columns = to + shift + cut;
@@ -291,7 +291,7 @@ static void fill(struct piece *piece, struct cuts *cuts, int from, int to)
 				 cut && part_end(part) == to);
 	}
 	for (int y = 1; y < CLASSIC_ROWS; y++)
-		for (int x = from ? from : 1; x <= to && x < CLASSIC_COLUMNS; x++)
+		for (int x = from ? from : 1; x <= to && x < grid->columns; x++)
 			piece->link[y][x + shift] = grid_link(grid, y, x);
 	if (from > 0)
 		enter(piece, cuts, from);
@@ -643,7 +643,7 @@ bool grid_write_pieces(struct grid *grid)
 	find_cuts(grid, cuts);
 	if (!can_cut(grid, cuts))
 		return false;
-	for (int from = 0, to; from < CLASSIC_COLUMNS; from = to) {
+	for (int from = 0, to; from < grid->columns; from = to) {
 		for (to = from + 1; !cuts->at[to]; to++)
 			;
 		pieces[count].grid = grid;

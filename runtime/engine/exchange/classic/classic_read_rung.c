@@ -3,15 +3,15 @@
  * classic_read_rung - one rung of a ClassicLadder project, or a bare file of them.
  *
  * Cells as the file has them. The variable of a free cell or wire is left over from an
- * element that stood there, and is dropped. Rows of 10 columns become 12 as ClassicLadder
- * itself does it. Whether elements have a meaning is checked by classic_grid.c.
+ * element that stood there, and is dropped. Rows of 10 columns stay as they were drawn:
+ * ClassicLadder 0.9 moves their last elements to column 12, where links can be lost. Whether
+ * elements have a meaning is checked by classic_grid.c.
  */
 #include "engine/base/ascii.h"
 #include "engine/exchange/classic/classic_read.h"
 
 enum {
-	NARROW = 10,             /* columns of LinuxCNC, and of old projects   */
-	WIRE = 9, OPERATE = 60, EMPTY_CELL = 0
+	OPERATE = 60, EMPTY_CELL = 0
 };
 
 /* What of the variable of a cell has a meaning: nothing, its number, or all of it. */
@@ -123,21 +123,6 @@ static int read_row(struct classic_reader *reader, char slash, struct classic_ce
 	return columns;
 }
 
-/* What stands last, be it a coil or the three cells of an operation, comes to the right
- * edge, and wires lead there. A free last cell stays, with its link. */
-static void widen_row(struct classic_cell *cell)
-{
-	int width = cell[NARROW - 1].element == OPERATE ? 3 : 1;
-	int from = NARROW - width;
-
-	if (cell[NARROW - 1].element == EMPTY_CELL)
-		return;
-	memmove(&cell[CLASSIC_COLUMNS - width], &cell[from], (size_t)width * sizeof(*cell));
-	for (int x = from; x < CLASSIC_COLUMNS - width; x++)
-		cell[x] = (struct classic_cell){ .element = WIRE,
-						 .variable = { .index_type = -1 } };
-}
-
 static void add_row(struct classic_reader *reader, struct classic_rung *rung, char slash)
 {
 	struct classic_cell beyond[CLASSIC_COLUMNS] = { { 0 } };
@@ -147,8 +132,6 @@ static void add_row(struct classic_reader *reader, struct classic_rung *rung, ch
 
 	if (columns < 0)
 		return;
-	if (columns == NARROW && fits)
-		widen_row(row);
 	if (columns > rung->columns)
 		rung->columns = columns;
 	if (fits)
