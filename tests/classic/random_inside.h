@@ -19,6 +19,7 @@ struct grid { int rows, columns; struct cell cell[ROWS][COLUMNS]; };
 struct making {
 	struct random_source random;
 	bool odd, linuxcnc, failed;
+	bool narrow;             /* rungs of 10 x 6                            */
 	char *text;
 	size_t len, size;
 	int compares, operates;  /* numbers of expressions, in this order      */

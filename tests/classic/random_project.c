@@ -2,7 +2,8 @@
  *
  * random_project - makes a ClassicLadder project and a script from a seed.
  *
- * A rung is drawn into a grid, row by row: elements, wires, blocks with all their rows, links.
+ * Half of the rungs are drawn row by row, as people do: elements, wires, blocks with all their
+ * rows, links. In the other half elements stand anywhere, with links that nobody would draw.
  * Jumps lead forward and calls to later subroutines, so that a scan ends.
  */
 #include "tests/classic/random_project.h"
@@ -202,6 +203,80 @@ static void add_coil(struct making *making, struct grid *grid, int y, int rung)
 	cell->top = y > 0 && making_chance(making, 15);
 }
 
+/* ---- elements anywhere ---- */
+
+/* A coil, jump, call or operation, in any column. */
+static void scatter_output(struct making *making, struct grid *grid, int y, int x, int rung)
+{
+	struct cell *cell = &grid->cell[y][x];
+
+	if (making->operates && x >= 2 && making_chance(making, 25) &&
+	    !cell[-1].element && !cell[-2].element) {
+		cell[-1].element = cell[-2].element = 99;
+		cell->element = 60;
+		cell->number = making->compares + making_below(making, making->operates);
+	} else if (making->target > rung && making_chance(making, 8)) {
+		cell->element = 54;
+		cell->number = rung + 1 + making_below(making, making->target - rung);
+	} else if (making->callable < making->subroutines && making_chance(making, 8)) {
+		cell->element = 55;
+		cell->number = making->callable +
+			       making_below(making, making->subroutines - making->callable);
+	} else {
+		cell->element = 50 + making_below(making, 4);
+		written_bit(making, cell);
+	}
+}
+
+static void scatter_cell(struct making *making, struct grid *grid, int y, int x, int rung)
+{
+	int kind = making_below(making, 100);
+
+	if (grid->cell[y][x].element)
+		return;
+	if (kind < 12)
+		scatter_output(making, grid, y, x, rung);
+	else if (kind < 18 && x > 0)
+		add_block(making, grid, x, y);
+	else if (kind < 24)
+		add_compare(making, grid, x, y);
+	else if (kind < 60)
+		add_contact(making, &grid->cell[y][x]);
+	else
+		grid->cell[y][x].element = 9;
+}
+
+/* A run of links up or down a column, whatever its cells hold. */
+static void scatter_chain(struct making *making, struct grid *grid)
+{
+	int x = making_below(making, grid->columns), y = making_below(making, grid->rows);
+	int rows = 1 + making_below(making, grid->rows);
+
+	for (; rows > 0 && y < grid->rows; rows--, y++)
+		grid->cell[y][x].top = true;
+}
+
+/* Some or most cells have an element, some or most have a link: also in the first row and
+ * column, where links mean nothing, and in the last column. */
+static void scatter(struct making *making, struct grid *grid, int rung)
+{
+	static const int densities[] = { 10, 30, 60, 95 }, chances[] = { 0, 4, 15, 50 };
+	int density = densities[making_below(making, 4)], link = chances[making_below(making, 4)];
+	int rows = 1 + making_below(making, grid->rows);
+
+	for (int y = 0; y < rows; y++)
+		for (int x = 0; x < grid->columns; x++) {
+			if (making_chance(making, density))
+				scatter_cell(making, grid, y, x, rung);
+			grid->cell[y][x].top = making_chance(making, link);
+		}
+	for (int chains = making_below(making, 4); chains > 0; chains--)
+		scatter_chain(making, grid);
+	for (int y = 0; y < rows; y++)
+		if (making_chance(making, 50) && !grid->cell[y][grid->columns - 1].element)
+			scatter_output(making, grid, y, grid->columns - 1, rung);
+}
+
 /* Any element anywhere, which the editor does not allow. */
 static void add_odd(struct making *making, struct grid *grid)
 {
@@ -237,29 +312,37 @@ static void put_grid(struct making *making, const struct grid *grid)
 		}
 }
 
+/* As people draw: rows from the left to a coil. */
+static void draw_rows(struct making *making, struct grid *grid, int rung)
+{
+	int rows = making_chance(making, 30) ? grid->rows : 1 + making_below(making, 5);
+
+	for (int y = 0; y < rows; y++) {
+		add_row(making, grid, y);
+		if (grid->cell[y][grid->columns - 2].element == 9 || making_chance(making, 50))
+			add_coil(making, grid, y, rung);
+	}
+}
+
 static void put_rung(struct making *making, int number, int previous, int next)
 {
 	struct grid grid;
-	int rows = 1 + making_below(making, 5);
 
 	memset(&grid, 0, sizeof(grid));
-	grid.rows = making->linuxcnc ? ROWS - 2 : ROWS;
-	grid.columns = making->linuxcnc ? COLUMNS - 2 : COLUMNS;
-	if (making_chance(making, 30))
-		rows = grid.rows;
+	grid.rows = making->narrow ? ROWS - 2 : ROWS;
+	grid.columns = making->narrow ? COLUMNS - 2 : COLUMNS;
 	for (int y = 0; y < ROWS; y++)
 		for (int x = 0; x < COLUMNS; x++)
 			grid.cell[y][x].index = -1;
-	for (int y = 0; y < rows; y++) {
-		add_row(making, &grid, y);
-		if (grid.cell[y][grid.columns - 2].element == 9 || making_chance(making, 50))
-			add_coil(making, &grid, y, number);
-	}
+	if (making_chance(making, 50))
+		scatter(making, &grid, number);
+	else
+		draw_rows(making, &grid, number);
 	if (making->odd && making_chance(making, 20))
 		for (int i = making_below(making, 4); i >= 0; i--)
 			add_odd(making, &grid);
 	making_put(making, "_FILE-rung_%d.csv\n#VER=%d.0\n#LABEL=%s\n#COMMENT=\n#PREVRUNG=%d\n"
-		   "#NEXTRUNG=%d\n", number, making->linuxcnc ? 2 : 3,
+		   "#NEXTRUNG=%d\n", number, making->narrow ? 2 : 3,
 		   making_chance(making, 20) ? "L" : "", previous, next);
 	put_grid(making, &grid);
 	making_put(making, "_/FILE-rung_%d.csv\n", number);
@@ -507,7 +590,8 @@ static void put_script(struct making *making)
 
 bool random_project(uint64_t seed, bool odd, struct random_texts *texts)
 {
-	struct making making = { .odd = odd, .linuxcnc = seed % 5 == 3 };
+	struct making making = { .odd = odd, .linuxcnc = seed % 5 == 3,
+				.narrow = seed % 5 == 3 || seed % 7 == 2 };
 
 	random_seed(&making.random, seed);
 	put_project(&making);

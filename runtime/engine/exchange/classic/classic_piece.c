@@ -617,12 +617,24 @@ static bool has_output(const struct piece *piece)
 	return false;
 }
 
+/* Does a link pass the right end of an output? ClassicLadder ends power there; in a rung file
+ * the output would not be the last on its branch. */
+static bool joins_output(const struct piece *piece)
+{
+	for (int y = 0; y < piece->rows; y++)
+		for (int x = 0; x < piece->columns; x++)
+			if (piece->cell[y][x].text && piece->cell[y][x].kind > PART_BOX &&
+			    (piece->link[y][x + 1] || piece->link[y + 1][x + 1]))
+				return true;
+	return false;
+}
+
 static void prepare(struct piece *piece)
 {
 	mark(piece);
 	sweep(piece);
 	trim_links(piece);
-	if (!is_same_power(piece))
+	if (joins_output(piece) || !is_same_power(piece))
 		piece->broken = true;
 	drop_rows(piece);
 	drop_columns(piece);
