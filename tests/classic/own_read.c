@@ -68,17 +68,37 @@ static int numbers(const char *at, int *out, int most)
 
 /* ---- rungs ---- */
 
+/* Numbers with one character between them, up to a comma or the end; how many. */
+static int parts(const char *at, int *out, int most)
+{
+	int count = 0;
+
+	for (char *end; count < most; at = end + strspn(end, " \t") + 1) {
+		out[count] = (int)strtol(at, &end, 10);
+		if (end == at)
+			break;
+		count++;
+		if (!end[strspn(end, " \t")] || end[strspn(end, " \t")] == ',')
+			break;
+	}
+	return count;
+}
+
+/* "200/19[200/4]" in @value; the index can be missing. */
+static struct classic_variable variable(const int *value, int count)
+{
+	return (struct classic_variable){ value[0], value[1], count == 4 ? value[2] : -1,
+					  count == 4 ? value[3] : 0 };
+}
+
 /* "3-0-0/19[200/4]"; a bare rung file has "3-0-0-19". */
 static void cell(const char *text, struct classic_cell *out)
 {
-	int top = 0;
-	char slash;
+	int value[6] = { 0 }, count = parts(text, value, 6);
 
-	out->variable.index_type = -1;
-	sscanf(text, "%d - %d - %d %c %d [ %d / %d ]", &out->element, &top, &out->variable.type,
-	       &slash, &out->variable.number, &out->variable.index_type,
-	       &out->variable.index_number);
-	out->top = top;
+	out->element = value[0];
+	out->top = value[1];
+	out->variable = variable(value + 2, count - 2);
 }
 
 static void row(struct classic_rung *rung, const char *line)
@@ -222,17 +242,19 @@ static void page_line(struct reading *r, const char *line)
 	}
 }
 
+/* "C0,0,200/19" */
 static void condition_line(struct reading *r, const char *line)
 {
-	struct classic_variable variable = { .index_type = -1 };
-	int index;
+	const char *at = *line == 'C' ? strchr(line, ',') : NULL;
+	int value[4] = { 0 }, index = atoi(line + (*line != '\0')), count;
 
-	if (sscanf(line, "C%d,%*d,%d/%d[%d/%d]", &index, &variable.type, &variable.number,
-		   &variable.index_type, &variable.index_number) < 3)
+	at = at ? strchr(at + 1, ',') : NULL;
+	if (!at)
 		return;
+	count = parts(at + 1, value, 4);
 	for (int i = 0; i < r->project->transitions; i++)
 		if (r->project->transition[i].index == index)
-			r->project->transition[i].condition = variable;
+			r->project->transition[i].condition = variable(value, count);
 }
 
 static void setting_line(struct reading *r, char *line)
