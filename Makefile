@@ -12,7 +12,7 @@ PKG_CONFIG ?= pkg-config
 prefix   ?= /usr/local
 WERROR   ?= -Werror
 CFLAGS   ?= $(if $(filter 1,$(SMALL)),-Os,-O2) -g
-# time_t of 64 bits on 32-bit boards, too: they will run in 2038.
+# time_t has 64 bits also on 32-bit boards, for dates after 2038.
 CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -D_TIME_BITS=64 $(SMALL:1=-DRUNGBOARD_SMALL) $(if $(filter core,$(WORDS)),-DRUNGBOARD_CORE_WORDS)
 # No fused multiply-add, or REAL would differ from board to board.
 STD      := -std=c11 -ffp-contract=off
@@ -22,19 +22,19 @@ WARN     := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes \
 # Frames under 1 KB in what runs on a board: it may have a stack of 8 KB.
 FRAME    := $(if $(filter -O2 -Os,$(CFLAGS)),-Wframe-larger-than=1024)
 
-# What a program does not call is left out of it.
+# The linker leaves out functions that a program does not call.
 comma    := ,
 LEAN     := -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables
-# A static program stands where it was linked; without MMU (SMALL=1) it stands anywhere.
+# A static program has a fixed address; without MMU (SMALL=1) it can be loaded anywhere.
 LEAN     += $(if $(filter 1,$(STATIC)),$(if $(filter 1,$(SMALL)),,-fno-pie))
 LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code
-# Tables of names are full of pointers: packed, their relocations take 1 KB instead of 60.
+# Tables of names have many pointers; packed, their relocations take 1 KB instead of 60.
 LEAN_LD  += $(if $(STATIC),,$(if $(shell $(CC) -Wl,--help 2>/dev/null | grep -- '-z pack-relative-relocs'),-Wl$(comma)-z$(comma)pack-relative-relocs))
 
 obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
 ENGINE   := $(filter-out %/catalog_small.c,$(wildcard runtime/engine/*.c runtime/engine/*/*.c runtime/engine/exchange/*/*.c))
-# What is left of the engine on a small board: nothing that reads or translates, or that
-# finds, prints or stores something by its name.
+# The engine of a small board: without the files that read or translate, or that find, print or
+# store something by name.
 CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
 CORE     := $(filter-out $(if $(filter 1,$(SMALL)),$(addprefix runtime/engine/base/,catalog.c explain.c iec_print.c literal.c \
             names.c nearest.c plain.c sink.c) $(addprefix runtime/engine/scan/,carry.c code_print.c code_strip.c retain.c \
@@ -48,7 +48,7 @@ CORE     := $(filter-out $(addprefix runtime/engine/base/,big.c decimal.c number
 endif
 LIBRARY  := $(if $(filter 1,$(SMALL)),$(CORE),$(ENGINE))
 $(call obj,$(ENGINE)): WARN += $(FRAME)
-# What runs once a load is better small than fast; for a board, also what makes loading fast here.
+# Files that run once per load are compiled for size; for boards, also some that make loading fast here.
 OFTEN    := $(addprefix runtime/ladderd/,cycle.c stats.c wall.c)
 ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c \
             $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/code*.c scan/declared.c \
@@ -71,9 +71,9 @@ $(BUILD)/%.o: %.c Makefile
 	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(LEAN) $(CFLAGS) $(COLD) -MMD -MP -c -o $@ $<
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
 
-# Tests stand in folders like those of what they test: tests/unit/scan/test_fb.c. A new one is found by its name.
+# Tests are in folders like those of the sources: tests/unit/scan/test_fb.c. A new one is found by its name.
 UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/*/test_*.c tests/unit/*/*/test_*.c))
-# The tests of a folder are one program; tests/room.c tells how. Compiling a test takes longer than running it: -O0, but not in an emulator.
+# The tests of a folder are one program (tests/room.c). Compiling them takes longer than running them: -O0, but not for an emulator.
 TEST_C    = $(if $(CROSS),,$(if $(filter -O2,$(CFLAGS)),-O0 -U_FORTIFY_SOURCE))
 ROOM_TEST = $(TEST_C) -Dmain=main_$(notdir $*) -Wno-missing-prototypes
 ROOM_C    = $(STD) $(CPPFLAGS) $(WARN) $(CFLAGS) -DTESTS='$(patsubst %,TEST(%),$(filter test_%,$(basename $(notdir $(filter %.o,$^)))))'
@@ -97,9 +97,9 @@ words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the cata
 	$< --print > docs/words.md
 
 # ---- HAL and runtime ----
-# HAL=gpiod|uapi|none: the gpio driver goes through libgpiod, the kernel's uAPI, or
-# nowhere. Unless told, libgpiod if it is here for the machine that is built for:
-# a cross build sees one only through PKG_CONFIG_LIBDIR.
+# HAL=gpiod|uapi|none: the gpio driver uses libgpiod, the uAPI of the kernel, or is left out. By
+# default it uses libgpiod if it is installed for the target; a cross build finds it only through
+# PKG_CONFIG_LIBDIR.
 GPIOD    ?= $(if $(filter uapi none,$(HAL))$(filter 1,$(SMALL)),,$(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),here),$(shell $(PKG_CONFIG) --modversion libgpiod 2>/dev/null | cut -d. -f1)))
 override HAL := $(or $(HAL),$(if $(filter 1 2,$(GPIOD)),gpiod,uapi))
 GPIO_C_gpiod := hal/gpiod_v$(GPIOD).c hal/gpio_find.c
@@ -112,7 +112,7 @@ HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/sim.c
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
 LADDERD_NOT := $(if $(filter 1,$(SMALL)),source_any store_thread store_file,source_image store_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
-# One thread, for --retain; older C libraries want to be told.
+# One thread, for --retain; older C libraries need the option.
 THREADS  := $(if $(filter 1,$(SMALL)),,-pthread)
 $(DRIVERS) $(LADDERD): WARN += $(FRAME)
 $(DRIVERS): CPPFLAGS += $(GPIO_CPP)
@@ -120,10 +120,10 @@ $(DRIVERS): CPPFLAGS += $(GPIO_CPP)
 all: $(BUILD)/ladderd
 $(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(THREADS) -o $@ $^ $(GPIO_LIB) -lm
-# Bytes of stack, for compilers that make programs for a machine without MMU.
+# Bytes of stack, for compilers for machines without MMU.
 $(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
 
-# All gpio drivers against fakes of what is below them: one suite, built three times.
+# All gpio drivers with fakes of libgpiod and the kernel: one suite, built three times.
 HAL_TEST := $(BUILD)/tests/hal
 HAL_FAKE  = $(call obj,$(HAL_CORE)) $(HAL_TEST)/$(1)/$(2).o \
             $(HAL_TEST)/$(1)/gpio_find.o $(HAL_TEST)/$(1)/fake_$(1).o $(HAL_TEST)/fake.o
@@ -161,7 +161,7 @@ $(HAL_TEST)/ladderd_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
 HAL_KINDS := v1 v2 uapi
 HAL_TESTS := $(HAL_TEST)/map $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
 HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%)
-hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(BUILD)/ladder $(HAL_DAEMONS) ## all gpio drivers against fake chips; ladderd from outside
+hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(BUILD)/ladder $(HAL_DAEMONS) ## all gpio drivers with fake chips; ladderd from outside
 	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/retain.t
 check-retain: all ## ladderd --retain killed 1,000 times; `check` does 400 of them
 	BUILD=$(BUILD) RETAIN_KILLS=1000 prove -v -e '' tests/hal/retain.t
@@ -176,8 +176,7 @@ all: $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder)
 $(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
 
-# From the rows of runtime/ladder/commands.def. A cross build has them from programs
-# that run here.
+# From the rows of runtime/ladder/commands.def, by a program that runs here, also in a cross build.
 HERE := $(if $(CROSS),build/here,$(BUILD))
 ifneq ($(HERE),$(BUILD))
 $(HERE)/%: FORCE
@@ -194,8 +193,7 @@ install-ladder: $(BUILD)/ladder man
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/share/man/man1
 	install -m 755 $(BUILD)/ladder $(DESTDIR)$(prefix)/bin/ladder
 	install -m 644 $(BUILD)/man/*.1 $(DESTDIR)$(prefix)/share/man/man1/
-# ladderd's page is what its --help says. The unit and its defaults go where
-# Debian looks for them.
+# The page of ladderd is made from its --help. The unit and its defaults go to the places of Debian.
 $(BUILD)/man/ladderd.8: $(HERE)/ladderd
 	@mkdir -p $(@D)
 	@{ printf '.TH LADDERD 8 "" "Rungboard" "Rungboard"\n.SH NAME\nladderd \\- runs a ladder program on the pins of this machine\n'; \
@@ -217,8 +215,8 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 # ---- end of the command line ----
 
 # ---- the editor: GTK 4, libadwaita, GtkSourceView ----
-# Without those libraries, and in a build for another machine, it is left out. Its plain
-# files need none of them; nor do the tests of those, tests/editor/edit/ and test_plain_*.c.
+# Without those libraries, and in a cross build, it is left out. Its plain files and their tests
+# (tests/editor/edit/ and test_plain_*.c) need none of them.
 EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
 EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
 EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim canvas ladder sfc text iomap live panels render window)
@@ -229,7 +227,7 @@ EDITOR_TESTS := $(EDITOR_TESTS_PLAIN)
 $(BUILD)/libeditor-plain.a: $(call obj,$(EDITOR_PLAIN))
 	@rm -f $@
 	$(AR) rcs $@ $^
-# One named test_plain_* stands beside others that need the toolkit: it is a program of its own.
+# A test_plain_* is in a folder of tests that need the toolkit, so it is a separate program.
 PLAIN_ALONE := $(foreach t,$(EDITOR_TESTS_PLAIN),$(if $(findstring /test_plain_,$t),$t))
 PLAIN_ROOM  := $(filter-out $(PLAIN_ALONE),$(EDITOR_TESTS_PLAIN))
 $(PLAIN_ALONE:%=%.o): COLD = $(TEST_C)
@@ -240,7 +238,7 @@ $(patsubst %,%/tests,$(call folders,$(PLAIN_ROOM))): $(BUILD)/libeditor-plain.a 
 	$(CC) $(ROOM_C) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o,$^) $(filter %.a,$^) -lm
 $(PLAIN_ROOM): ; @ln -sf tests $@
 ifneq ($(EDITOR),)
-# Their headers are not ours to warn about.
+# No warnings about headers of libraries.
 EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags gtk4 libadwaita-1 gtksourceview-5)) -I$(BUILD)
 EDITOR_LIB := $(shell $(PKG_CONFIG) --libs gtk4 libadwaita-1 gtksourceview-5) $(GPIO_LIB)
 EDITOR_TESTS += $(filter-out $(EDITOR_TESTS_PLAIN),$(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/*/test_*.c tests/editor/*/*/test_*.c)))
@@ -249,7 +247,7 @@ EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/window/main.c,$(EDITOR_C))) $(B
 EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
 $(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)) $(BUILD)/editor-gtk/resources.o) \
   $(EDITOR_TESTS:%=%.o) $(EDITOR_BENCH).o: CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"'
-# Colours of rung files and lists, for GtkSourceView: made of the catalogue's words.
+# Colours of rung files and lists for GtkSourceView, made from the words of the catalogue.
 $(BUILD)/rung-language: $(call obj,packaging/rung_language.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 $(BUILD)/rung.lang: $(BUILD)/rung-language
@@ -263,7 +261,7 @@ $(BUILD)/libeditor.a: $(EDITOR_OBJ)
 	@rm -f $@
 	$(AR) rcs $@ $^
 all: $(BUILD)/ladder-editor $(BUILD)/ladders
-# Samples lie beside the program, wherever BUILD is.
+# The samples are beside the program, whatever BUILD is.
 $(BUILD)/ladders:
 	ln -sfn '$(CURDIR)/ladders' $@
 $(BUILD)/ladder-editor: $(BUILD)/editor-gtk/window/main.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
@@ -281,9 +279,9 @@ all: no-editor
 no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
 .PHONY: no-editor
 endif
-# A person's work, with pointer and keys on a screen of its own: PICTURES=folder keeps what was seen.
+# Scripts that use pointer and keys like a person, on a screen of their own. PICTURES=folder keeps screenshots.
 EDITOR_PERSON := $(if $(EDITOR),$(shell grep -l '^\#!' tests/editor/person/*.py))
-# Its languages: editor-gtk/po/. In the build they lie beside the program, in build/locale/.
+# Its languages: editor-gtk/po/. In the build they are beside the program, in build/locale/.
 MSGFMT   := $(if $(EDITOR),$(shell command -v msgfmt))
 MO       := $(if $(MSGFMT),$(patsubst %,$(BUILD)/locale/%/LC_MESSAGES/rungboard.mo,$(shell cat editor-gtk/po/LINGUAS)))
 all: $(MO)
@@ -308,7 +306,7 @@ $(BUILD)/man/ladder-editor.1: $(BUILD)/ladder-editor
 	@LC_ALL=C.UTF-8 $< --man >$@
 man: $(BUILD)/man/ladder-editor.1
 endif
-# What a desktop needs to find it.
+# Files that a desktop needs to find the editor.
 install: $(if $(EDITOR),install-editor)
 appdir = $(DESTDIR)$(prefix)/share
 install-editor: $(BUILD)/ladder-editor $(MO)
@@ -327,19 +325,19 @@ install-editor: $(BUILD)/ladder-editor $(MO)
 	$(foreach m,$(MO),install -Dm 644 $m $(appdir)/$(m:$(BUILD)/%=%);)
 	$(if $(DESTDIR),,-glib-compile-schemas $(appdir)/glib-2.0/schemas; update-mime-database $(appdir)/mime; update-desktop-database $(appdir)/applications)
 .PHONY: install-editor
-# In the build the schema lies beside the program: GSETTINGS_SCHEMA_DIR=build/schemas.
+# In the build the schema is beside the program: GSETTINGS_SCHEMA_DIR=build/schemas.
 $(BUILD)/schemas/gschemas.compiled: packaging/org.rungboard.Editor.gschema.xml
 	@mkdir -p $(@D)
 	glib-compile-schemas --strict --targetdir=$(@D) packaging
 all: $(if $(EDITOR),$(BUILD)/schemas/gschemas.compiled)
-pictures: $(BUILD)/ladder-editor ## docs/tutorial/*.svg anew, of the rung files beside them
+pictures: $(BUILD)/ladder-editor ## draw docs/tutorial/*.svg again, from the rung files beside them
 	$(foreach r,$(wildcard docs/tutorial/*.rung),$< --render $r -o $(r:.rung=.svg) &&) :
-screenshots: pictures $(BUILD)/schemas/gschemas.compiled ## the same, docs/editor.png, the windows of the tutorial and the pictures of charts
+screenshots: pictures $(BUILD)/schemas/gschemas.compiled ## the same, and docs/editor.png, the windows of the tutorial and the pictures of charts
 	$(BUILD)/ladder-editor --render ladders/sequence-s0-s8.rung -o docs/sequence-s0-s8.png
 	$(BUILD)/ladder-editor --render tests/classic/projects/linuxcnc.clp --rung 3 --before-after -o docs/from-classicladder.png
 	$(foreach p,editor tutorial/empty tutorial/sealed,BUILD=$(BUILD) tests/editor/screenshot.py docs/$p.png &&) :
 .PHONY: pictures screenshots
-# The editor over the fake chips of the HAL's tests, for what it finds on a machine.
+# The editor with the fake chips of the HAL tests, for the lines of a machine.
 EDITOR_FAKE := $(HAL_TEST)/editor_v2
 $(EDITOR_FAKE): $(BUILD)/editor-gtk/window/main.o $(HAL_TEST)/v2/io_fake.o $(call HAL_FAKE,v2,gpiod_v2) $(BUILD)/libeditor.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64 -o $@ $(filter %.o,$^) \
@@ -350,7 +348,7 @@ BENCH_EDITOR := $(addprefix $(BUILD)/tests/bench/,editor.o editor_ground.o edito
 $(BENCH_EDITOR): CPPFLAGS += $(EDITOR_CPP)
 $(BUILD)/tests/bench/editor: $(BENCH_EDITOR) $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
-bench-editor: $(BUILD)/tests/bench/editor $(EDITOR_BENCH) ## what drawing 5,000 rungs costs, and the whole editor with them
+bench-editor: $(BUILD)/tests/bench/editor $(EDITOR_BENCH) ## measure drawing 5,000 rungs, and the whole editor with them
 	@perl tests/bench/programs.pl mixed 5000 >$(BUILD)/bench-editor.rung
 	@perl tests/bench/programs.pl lively 5000 >$(BUILD)/bench-lively.rung
 	@perl tests/bench/programs.pl chart 1000 >$(BUILD)/bench-chart.rung
@@ -362,15 +360,15 @@ bench-editor: $(BUILD)/tests/bench/editor $(EDITOR_BENCH) ## what drawing 5,000 
 # ---- end of the editor ----
 
 # ---- golden cases ----
-golden: $(BUILD)/ladder ## every case of tests/golden, byte by byte
+golden: $(BUILD)/ladder ## compare every case of tests/golden byte by byte
 	LADDER=$(BUILD)/ladder prove tests/golden.t
-bless: $(BUILD)/ladder ## rewrite what CASE=name expects and show the difference
+bless: $(BUILD)/ladder ## rewrite the expected files of CASE=name and show the difference
 	@LADDER=$(BUILD)/ladder perl tests/golden.t --bless $(CASE)
 .PHONY: golden bless
 # ---- end of golden cases ----
 
 # ---- second evaluator, fuzz targets, exhaustion, house checks ----
-# Programs that speak TAP, and scripts that do; `check` runs both lists.
+# Programs and scripts that print TAP; `check` runs both lists.
 BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap retain classic
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
@@ -392,7 +390,7 @@ $(BIN)/saving: $(BUILD)/tests/saving.o
 $(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
 $(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c)
 $(BIN)/storing: WRAP := -Wl,--wrap=pwrite,--wrap=pwrite64,--wrap=fsync,--wrap=fdatasync,--wrap=rename,--wrap=unlink
-# ClassicLadder once more, from its files, to disagree with what is imported.
+# A second evaluator for ClassicLadder projects, to compare with the import.
 CLASSIC_O := $(call obj,$(wildcard tests/classic/engine*.c) tests/classic/own_read.c tests/classic/run.c)
 $(BIN)/classic_trace: $(BUILD)/tests/classic/classic_trace.o $(CLASSIC_O) $(BUILD)/libladder.a
 	@mkdir -p $(@D)
@@ -402,7 +400,7 @@ $(BIN)/classic_random: $(BUILD)/tests/classic/classic_random.o $(CLASSIC_RANDOM)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 $(BIN)/classic_differential: $(BUILD)/tests/classic_differential.o $(CLASSIC_O) $(CLASSIC_RANDOM)
-# Ladders that never were ClassicLadder's, of what it has.
+# Random ladders that use only what ClassicLadder has.
 $(BIN)/ladder_random: $(call obj,$(wildcard tests/classic/ladder_*.c) tests/walker/random.c tests/walker/random_print.c)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^
@@ -415,13 +413,13 @@ $(TESTS_BIN): $(BUILD)/libladder.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 
-house: $(BUILD)/libladder.a $(DRIVERS) ## floors, headers, quiet, banned: the rules of the house
+house: $(BUILD)/libladder.a $(DRIVERS) ## check the rules of the house: floors, headers, quiet, banned
 	BUILD=$(BUILD) CROSS=$(CROSS) CC='$(CC)' prove -e '' $(HOUSE)
 differential: $(BIN)/differential ## engine and walker run 20,000 random programs
 	$<
-check-long: $(BIN)/differential ## the same from a new seed, as long as you like
+check-long: $(BIN)/differential ## the same with new seeds, until it is stopped
 	$< --long
-pathological: $(BUILD)/ladder $(BUILD)/ladderd ## what bad input gets
+pathological: $(BUILD)/ladder $(BUILD)/ladderd ## test bad input
 	BUILD=$(BUILD) prove -e '' tests/pathological.t
 # With clang's libFuzzer: make fuzz TARGET=read SECONDS=600
 TARGET  ?= read
@@ -438,7 +436,7 @@ fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|scri
 # ---- end of second evaluator … house checks ----
 
 # ---- ARM, by user-mode emulation ----
-# What tests/arm.sh runs, for each ARM whose compiler is here.
+# The programs of tests/arm.sh, for each ARM with an installed compiler.
 CROSS_arm64 := aarch64-linux-gnu-
 CROSS_armhf := arm-linux-gnueabihf-
 ARM := $(foreach a,arm64 armhf,$(if $(shell command -v $(CROSS_$a)gcc),$a))
@@ -450,10 +448,10 @@ arm-programs: $(UNIT) $(BIN)/differential $(BIN)/iec_cases $(BUILD)/ladder $(BUI
 # ---- end of ARM ----
 
 # ---- guest: the suite that runs on emulated kernels ----
-# All static: a guest has no libraries. ladderd-count is ladderd, counting ioctls.
+# All programs are static, because a guest has no libraries. ladderd-count is ladderd that counts ioctls.
 GUEST     := tests/targets/guest
 GUEST_LD   = $(LEAN_LD) $(LDFLAGS) $(if $(findstring -static,$(LDFLAGS)),,-static)
-guest: $(BUILD)/guest $(BUILD)/replay $(BUILD)/ladderd-count ## the guest suite, replay and ladderd-count, for the machine that is built for
+guest: $(BUILD)/guest $(BUILD)/replay $(BUILD)/ladderd-count ## the guest suite, replay and ladderd-count, for the target
 $(BUILD)/guest: $(call obj,$(wildcard $(GUEST)/*.c))
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^
 $(BUILD)/replay: $(call obj,$(GUEST)/replay/replay.c $(CORE))
@@ -461,7 +459,7 @@ $(BUILD)/replay: $(call obj,$(GUEST)/replay/replay.c $(CORE))
 $(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(GUEST_LD) $(THREADS) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) -lm
 
-# What they play, made natively: build/cases/.
+# The cases for them, made on this machine: build/cases/.
 CASES     := $(BUILD)/cases
 PROGRAMS  ?= 1000
 $(BUILD)/make_cases: $(call obj,$(wildcard $(GUEST)/cases/*.c) $(wildcard tests/walker/random*.c tests/walker/words*.c) $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
@@ -474,7 +472,7 @@ $(CASES)/stamp: $(BUILD)/make_cases $(BUILD)/ladder $(wildcard ladders/*.rung la
 # ---- end of guest ----
 
 # ---- targets: the runtime on real kernels, in emulators ----
-# tests/targets/ has a script for each; a missing package is told, not passed over.
+# tests/targets/ has a script for each target. A missing package is reported.
 VEHICLES  ?= uml arm64 armhf ast2600 m3 riscv
 AT_ONCE   ?= 1
 check-targets: ## the guest suite on emulated boards: VEHICLES="uml arm64 armhf ast2600 m3 riscv" AT_ONCE=1
@@ -482,13 +480,13 @@ check-targets: ## the guest suite on emulated boards: VEHICLES="uml arm64 armhf 
 	  BUILD=$(BUILD) prove $(if $(filter 1,$(AT_ONCE)),-v) -j$(AT_ONCE) -e '' $(VEHICLES:%=tests/targets/%) || status=$$?; \
 	  [ $$status -eq 0 ] || grep -a '^not ok' $(VEHICLES:%=$(BUILD)/targets/%/console) /dev/null; \
 	  cat $(VEHICLES:%=$(BUILD)/targets/%/result); exit $$status
-sizes: ## how large the runtime is for small boards, and what each room costs
+sizes: ## the size of the runtime for small boards, and of each room
 	@BUILD=$(BUILD) tests/targets/sizes
 .PHONY: check-targets sizes
 # ---- end of targets ----
 
-# ---- board: what a board needs besides ladderd, and its figures ----
-# /etc/ladder/active says what runs, and `ladder push` writes it anew: an old one stays.
+# ---- board: files that a board needs besides ladderd, and its figures ----
+# /etc/ladder/active names the running program. `ladder push` rewrites it, so an existing one stays.
 udevdir     ?= /lib/udev/rules.d
 sysusersdir ?= /usr/lib/sysusers.d
 install: install-board
@@ -498,9 +496,9 @@ install-board: install-ladderd
 	install -m 644 packaging/60-gpio.rules $(DESTDIR)$(udevdir)/60-ladderd-gpio.rules
 	install -m 644 packaging/ladderd.sysusers $(DESTDIR)$(sysusersdir)/ladderd.conf
 	test -e $(DESTDIR)/etc/ladder/active || install -m 644 packaging/ladderd.active $(DESTDIR)/etc/ladder/active
-push-tests: $(BUILD)/ladder $(BUILD)/ladderd ## ladder push against a real sshd on loopback
+push-tests: $(BUILD)/ladder $(BUILD)/ladderd ## test ladder push with a real sshd on loopback
 	BUILD=$(BUILD) prove tests/push.t
-# `ladder` over the fake chips of the HAL's tests, for what `ladder io` shows.
+# `ladder` with the fake chips of the HAL tests, for `ladder io`.
 $(HAL_TEST)/ladder_%: $(LADDER) $(HAL_TEST)/%/io_fake.o $(BUILD)/libladder.a Makefile
 	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64 -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 $(HAL_TEST)/ladder_v1: $(call HAL_FAKE,v1,gpiod_v1)
@@ -508,22 +506,22 @@ $(HAL_TEST)/ladder_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/ladder_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
 $(HAL_TEST)/ladder_uapi: WRAP := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wrap=ioctl
 tests: $(HAL_KINDS:%=$(HAL_TEST)/ladder_%)
-bench-rt: $(BUILD)/ladderd ## how late ladderd wakes up, beside cyclictest
+bench-rt: $(BUILD)/ladderd ## measure how late ladderd wakes up, compared with cyclictest
 	@BUILD=$(BUILD) tests/bench/rt.sh
 .PHONY: install-board push-tests bench-rt
 # ---- end of board ----
 
 # ---- small ----
-# What a small board has, for this machine: all words, and those of WORDS=core.
-small: ## ladderd and replay as SMALL=1 has them, for this machine: build/small/ and build/small-core/
+# The builds for small boards, for this machine: with all words, and with WORDS=core.
+small: ## ladderd and replay of SMALL=1, for this machine: build/small/ and build/small-core/
 	$(MAKE) BUILD=$(BUILD)/small SMALL=1 HAL=uapi $(BUILD)/small/ladderd $(BUILD)/small/replay
 	$(MAKE) BUILD=$(BUILD)/small-core SMALL=1 WORDS=core HAL=uapi $(BUILD)/small-core/ladderd
 .PHONY: small
 # ---- end of small ----
 
 # ---- everything ----
-# One list for prove. A second build with sanitizers runs the tests that read and
-# run what strangers write. Their char is unsigned, as it is on ARM.
+# One list for prove. A second build with sanitizers runs the tests that read and run files. Its
+# char is unsigned, as on ARM.
 SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-recover=undefined
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
@@ -540,24 +538,23 @@ asan-editor: ## the editor and its tests with sanitizers: in process, and as a p
 asan-editor-run: $(EDITOR_TESTS) $(EDITOR_FAKE) all
 	BUILD=$(BUILD) G_SLICE=always-malloc ASAN_OPTIONS=detect_leaks=0 PATIENCE=180 \
 	  prove -j$$(nproc) -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
-# The editor ends in good order at a TERM, and what leaks is told. Libraries have no frame
-# pointers, so each allocation is unwound slowly: it takes hours. What others leak is in
-# tests/editor/leaks.supp.
-leaks-editor: ## the same for what leaks; PERSON=tests/editor/person/tree.py: of these alone
+# The editor ends cleanly at SIGTERM, so leaks are reported. Libraries have no frame pointers, so
+# unwinding each allocation is slow: it takes hours. tests/editor/leaks.supp lists leaks of libraries.
+leaks-editor: ## the same for leaks; PERSON=tests/editor/person/tree.py: only these scripts
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' leaks-editor-run
 leaks-editor-run: $(EDITOR_TESTS) $(EDITOR_FAKE) all
 	BUILD=$(BUILD) G_SLICE=always-malloc ASAN_OPTIONS=fast_unwind_on_malloc=0 PATIENCE=600 \
 	  LSAN_OPTIONS=suppressions=tests/editor/leaks.supp:print_suppressions=0 \
 	  prove -j$$(nproc) -e '' $(if $(PERSON),$(PERSON),$(EDITOR_TESTS) $(EDITOR_PERSON))
-# Some two minutes a test. The toolkits' own lists of what they keep are used where they are.
+# About two minutes a test. Suppressions of the toolkits are used if they are installed.
 VALGRIND := valgrind -q --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
             --error-exitcode=9 --num-callers=60 $(addprefix --suppressions=,$(wildcard \
             /usr/share/glib-2.0/valgrind/glib.supp /usr/share/gtk-4.0/valgrind/gtk.supp) tests/editor/valgrind.supp)
-valgrind-editor: all ## editor tests as a person under valgrind: lost memory, what was never written; PERSON=… as above
+valgrind-editor: all ## scripts of the editor under valgrind: lost and uninitialised memory; PERSON=… as above
 	BUILD=$(BUILD) GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas G_SLICE=always-malloc PATIENCE=600 WRAPPER='$(VALGRIND)' \
 	  prove -e '' $(if $(PERSON),$(PERSON),$(EDITOR_PERSON))
 # Scripts that use the editor mostly wait for it. So more tests run at once than there are processors, and each
-# script runs beside one that computes. Those that take longest are first.
+# script runs beside a test that computes. The longest tests are first.
 JOBS     ?= $$(($$(nproc) * 2))
 LONGEST  := tests/arm.sh tests/compilers.sh
 COMPUTING := $(sort $(filter-out $(LONGEST) $(EDITOR_PERSON),$(TESTS_T) $(TESTS_SH) tests/small.sh)) \
@@ -565,12 +562,12 @@ COMPUTING := $(sort $(filter-out $(LONGEST) $(EDITOR_PERSON),$(TESTS_T) $(TESTS_
 in_turn   = $(subst |, ,$(join $(addsuffix |,$(1)),$(2)))
 IN_ORDER  = $(LONGEST) $(call in_turn,$(EDITOR_PERSON),$(filter-out $(ASAN)/%/exhaustion,$(COMPUTING))) \
             $(filter-out $(TESTS_BIN),$(BUILT)) $(filter-out $(COMPUTING),$(ASAN_RUN))
-check: tests asan arm small cases ## build, then every test; what failed at a desk is told once more at the end
+check: tests asan arm small cases ## build, then run every test; failures of scripts of the editor are printed again at the end
 	rm -rf $(BUILD)/failed
 	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' prove -j$(JOBS) -e '' $(IN_ORDER) || \
 	  { head -vn 9 $(BUILD)/failed/* 2>/dev/null; exit 1; }
-# What a change of one room needs. A script has one test for a room where it says TEST.quick = 'ROOM'; other
-# rooms have those of editor-gtk/window.
+# The tests for a change of one room. A script with TEST.quick = 'ROOM' has a test for that room; for other
+# rooms those of editor-gtk/window run.
 ifneq ($(filter quick,$(MAKECMDGOALS)),)
 QUICK    := $(patsubst %/,%,$(or $(ROOM),$(shell tests/changed.sh)))
 $(foreach r,$(QUICK),$(if $(wildcard $r/),,$(error ROOM=$r: no such folder; for example editor-gtk/live or runtime/engine/scan)))
@@ -581,7 +578,7 @@ with_test = $(if $(EDITOR),$(shell grep -lE "\.quick = '($(subst $() ,|,$(strip 
 JOURNEYS := $(or $(call with_test,$(QUICK)),$(call with_test,editor-gtk/window))
 QUICK_ENV = BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' QUICK='$(or $(QUICK),editor-gtk/window)'
 endif
-quick: all $(QUICK_TESTS) ## what a change of one room needs, in a minute: ROOM=editor-gtk/live, or the rooms that git says changed
+quick: all $(QUICK_TESTS) ## test a change of one room in a minute: ROOM=editor-gtk/live, or the rooms with changes in git
 	@echo "quick: $(or $(QUICK),no room)"
 	$(QUICK_ENV) prove -j$(JOBS) -e '' $(JOURNEYS) tests/golden.t tests/floors.sh tests/quiet.sh tests/banned.pl $(QUICK_TESTS)
 $(BUILD)/tests/bench/record: $(BUILD)/tests/bench/record.o $(BUILD)/libladder.a

@@ -2,9 +2,9 @@
  *
  * rung_language - prints the language file of rung files and lists for GtkSourceView.
  *
- * Run by the build. Its words are the catalogue's and the reader's, so that none is
- * written twice; what a word is depends on where it stands, as in a file: an element
- * behind a bar, an operator at the beginning of a line, a type behind a colon.
+ * The build runs it. The words come from the catalogue and the reader. The colour of a word
+ * depends on its place, as its meaning does: an element after a bar, an operator at the
+ * beginning of a line, a type after a colon.
  */
 #include "engine/base/catalog.h"
 #include "engine/check/reserved.h"
@@ -23,7 +23,7 @@ static bool is_word(const char *word)
 	return true;
 }
 
-/* "LD" or "|LD": one more of an alternation. */
+/* "LD" or "|LD": the next word of an alternation. */
 static void also(bool *first, const char *word, const char *behind)
 {
 	if (!is_word(word))
