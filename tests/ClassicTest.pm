@@ -9,7 +9,8 @@ package ClassicTest;
 use strict;
 use warnings;
 use Exporter 'import';
-our @EXPORT = qw(run said slurp spill project_of members strict);
+use Files;
+our @EXPORT = qw(run said slurp spew project_of members strict);
 
 # What a command prints; warnings are not what is compared, an error is seen by its status.
 sub run {
@@ -34,21 +35,6 @@ sub said {
 	my $text = <$out>;
 	close $out;
 	return (defined $text ? $text : '', $? & 127 ? 128 + ($? & 127) : $? >> 8);
-}
-
-sub slurp {
-	my ($path) = @_;
-	open my $in, '<:raw', $path or return undef;
-	local $/;
-	my $text = <$in>;
-	return defined $text ? $text : '';
-}
-
-sub spill {
-	my ($path, $text) = @_;
-	open my $out, '>:raw', $path or die "$path: $!\n";
-	print $out $text;
-	close $out or die "$path: $!\n";
 }
 
 sub project_of {

@@ -25,8 +25,9 @@ use File::Basename qw(dirname basename);
 use File::Temp qw(tempdir);
 use JSON::PP;
 use Test::More;
-use lib abs_path(dirname(__FILE__)) . '/bad';
+use lib map { abs_path(dirname(__FILE__)) . $_ } '', '/bad';
 use Deepest;
+use Files;
 use Refused;
 use Rows;
 use Traced;
@@ -41,37 +42,7 @@ my $folder = tempdir(CLEANUP => 1);
 my $write = @ARGV && $ARGV[0] eq '--write';
 my $at_once = 40; # a file shows only 100 messages
 
-sub slurp {
-	my ($path) = @_;
-	open my $in, '<:raw', $path or return undef;
-	local $/;
-	return scalar(<$in>) // '';
-}
-
-sub spew {
-	my ($path, $text) = @_;
-	open my $out, '>:raw', $path or die "$path: $!";
-	print $out $text;
-	close $out or die "$path: $!";
-}
-
-# The output of a command, both streams, and its status.
-sub run {
-	my ($where, @command) = @_;
-	my $pid = open my $from, '-|';
-	die "fork: $!" if !defined $pid;
-	if (!$pid) {
-		chdir $where or exit 126;
-		open STDERR, '>&', \*STDOUT or die;
-		exec @command or die "$command[0]: $!";
-	}
-	local $/;
-	my $text = <$from> // '';
-	close $from;
-	return ($?, $text);
-}
-
-my $words = decode_json((run($folder, $ladder, 'words', '--json'))[1]);
+my $words = decode_json((answer($folder, $ladder, 'words', '--json'))[1]);
 my @functions = Rows::functions("$tests/../runtime/engine/catalog.def");
 my @blocks = grep { $_->{kind} eq 'function block' } @$words;
 my %limits = Deepest::limits("$tests/../runtime/engine/base/limits.h");
@@ -127,7 +98,7 @@ sub said_to {
 	my (%said, @order);
 	for my $case (@cases) {
 		spew("$folder/main.rung", $case->[1]);
-		my ($status, $text) = run($folder, $ladder, 'check', 'main.rung');
+		my ($status, $text) = answer($folder, $ladder, 'check', 'main.rung');
 		my $message = $status & 127 ? "signal $status" : first_message($text);
 		push @order, $message if !$said{$message};
 		push @{$said{$message}}, $case->[0];
@@ -162,7 +133,7 @@ sub judge {
 	my ($word, @rungs) = @_;
 	my %said;
 	spew("$folder/main.rung", Refused::program('types', $word->{declared}->(), @rungs));
-	my ($status, $text) = run($folder, $ladder, 'check', 'main.rung');
+	my ($status, $text) = answer($folder, $ladder, 'check', 'main.rung');
 	for my $line (split /\n/, $text) {
 		$said{$1 - 1} //= $2 if $line =~ /: rung (\d+) .*error (LD\d+)/;
 	}
@@ -234,7 +205,7 @@ for my $name (sort keys %case) {
 	my $kind = $case{$name}{stimulus} ? 'trace' : 'diag';
 	my $expected = slurp("$dir/expected.$kind");
 	isnt($expected, undef, "$name: expects something") or next;
-	my ($status, $text) = run($dir, $runner, $kind eq 'trace' ?
+	my ($status, $text) = answer($dir, $runner, $kind eq 'trace' ?
 		('trace', 'main.rung', 'stimulus') : ('check', 'main.rung'));
 	$text =~ s/^main\.rung: \d+ errors?(?:, \d+ warnings?)?\n//m;
 	$text =~ s/^.*: warning LD.*\n//mg if $kind eq "trace";
@@ -245,7 +216,7 @@ for my $name (sort keys %case) {
 		if $expected =~ /ok_/;
 }
 for my $dir (glob "$tests/golden/bad-fault-*") {
-	my ($status, $text) = run($dir, $runner, 'trace', 'main.rung', 'stimulus');
+	my ($status, $text) = answer($dir, $runner, 'trace', 'main.rung', 'stimulus');
 	my %lines = map { $_ => 1 } split /\n/, $text;
 	is_deeply([grep { !$lines{$_} } split /\n/, slurp("$dir/expected.fault")], [],
 		basename($dir) . ': the same with sanitizers');

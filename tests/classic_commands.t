@@ -46,15 +46,15 @@ my %member = (
 
 my $text = join '', "_FILES_CLASSICLADDER\n", (map { "_FILE-$_\n$member{$_}_/FILE-$_\n" } sort keys %member),
 	"_/FILES_CLASSICLADDER\n";
-spill('pump.clprj', $text);
-spill('old.clp', $text);
+spew('pump.clprj', $text);
+spew('old.clp', $text);
 gzip \$text => 'packed.clprjz' or die;
 mkdir 'folder' or die;
-spill("folder/$_", $member{$_}) for keys %member;
-spill("$_.scn", "scenario \"runs\"\n  at 100ms %I0 = 1\n  within 40ms expect %Q0\n"
+spew("folder/$_", $member{$_}) for keys %member;
+spew("$_.scn", "scenario \"runs\"\n  at 100ms %I0 = 1\n  within 40ms expect %Q0\n"
 	. "  within 3s expect %Q1, %TM0.V = 2, %X2.A\n") for 'pump', 'old', 'packed';
-spill('script', "\@print %Q0..1 %TM0.V %X2.A Motor\n%I0=1\n. x60\n");
-spill('map', "BOARD \"none\"\n");
+spew('script', "\@print %Q0..1 %TM0.V %X2.A Motor\n%I0=1\n. x60\n");
+spew('map', "BOARD \"none\"\n");
 
 my $refused = qr/error LD717: .*ladder import/;
 # A command, its arguments, status and output. FILE is the project. `undef`: the command takes

@@ -106,7 +106,7 @@ sub test_samples {
 			# Bits that the LinuxCNC project does not use can be bits between rungs in the export.
 			my $text = slurp($script);
 			$text =~ s/ %B\d+(\.\.\d+)?//g if $as eq 'linuxcnc';
-			spill("$dir/sample.script", $text);
+			spew("$dir/sample.script", $text);
 			same_trace($name, $project, "$dir/sample.script", $out);
 		}
 		stays($name, $project, $as);
@@ -171,7 +171,7 @@ sub ladder_runs_the_same {
 	is(scalar(grep { !/^%/ && !exists $name->{$_} } split ' ', $shown), 0, "$what: symbols");
 	$back{ $name->{$_} } = $_ for grep { exists $name->{$_} } split ' ', $shown;
 	$text =~ s/^\@print .*$/'@print ' . join ' ', @there/me;
-	spill("$dir/there.script", $text);
+	spew("$dir/there.script", $text);
 	my $want = run($ladder, 'trace', '--changes', $rung, $script);
 	for my $with ([$ladder, 'trace'], [$second]) {
 		my $got = run(@$with, '--changes', $out, "$dir/there.script");
@@ -215,7 +215,7 @@ sub test_ladders {
 		my $script = "\@period 50\n\@print %Q0..15\n" . join '', map {
 			sprintf "%%I%d=%d . x%d\n", int rand 12, int rand 2, 1 + int rand 20;
 		} 1 .. 80;
-		spill("$dir/$name.script", $script);
+		spew("$dir/$name.script", $script);
 		my $want = run($ladder, 'trace', '--changes', $rung, "$dir/$name.script");
 		is(run($ladder, 'trace', '--changes', $out, "$dir/$name.script"), $want, "$name: the same trace");
 		is(run($second, '--changes', $out, "$dir/$name.script"), $want, "$name: the second evaluator");
@@ -306,7 +306,7 @@ my @table = (
 sub test_table {
 	for my $row (@table) {
 		my ($what, $text, $told, $there) = @$row;
-		spill("$dir/table.rung", "RUNGBOARD 1\n$text");
+		spew("$dir/table.rung", "RUNGBOARD 1\n$text");
 		my ($out, $said) = export("$dir/table.rung", 'classicladder', 'table');
 		my @changed = grep { !/no task gives/ } $said =~ /^(\S*changed: .*)$/mg;
 		$told = quotemeta($told) =~ s/\\\.\\\*/.*/gr;
@@ -333,8 +333,8 @@ sub test_io {
 		. "%IX0.1  gpio  line=GPIO18 pull-up debounce=15ms\n"
 		. "%IX1.0  gpio  line=GPIO4 pull-up active-low debounce=15ms\n"
 		. "%QX0.0  gpio  line=GPIO24 safe=0\n%QX0.1  gpio  line=GPIO23 active-low safe=0\n";
-	spill("$dir/io.rung", "RUNGBOARD 1\n$body");
-	spill("$dir/io.io", $map);
+	spew("$dir/io.rung", "RUNGBOARD 1\n$body");
+	spew("$dir/io.io", $map);
 	my ($out, $said) = export("$dir/io.rung", 'classicladder', 'io');
 	unlike($said, qr/io\.io/, 'a map that ClassicLadder can hold: no message');
 	my ($members) = members(slurp($out));
@@ -344,7 +344,7 @@ sub test_io {
 	taken('an I/O map', $out);
 	run($ladder, 'import', $out, '-o', "$dir/back.rung");
 	is(slurp("$dir/back.io"), $map, 'an import gives the map again');
-	spill("$dir/other.io", "BOARD \"Any\"\n%IX0.0  gpio  line=P9_12\n%IX0.1  gpio  line=GPIO5 debounce=10ms\n"
+	spew("$dir/other.io", "BOARD \"Any\"\n%IX0.0  gpio  line=P9_12\n%IX0.1  gpio  line=GPIO5 debounce=10ms\n"
 		. "%QX0.0  gpio  line=GPIO6 open-drain safe=1\n%QX0.1  sim  safe=0\n");
 	($out, $said) = export("$dir/io.rung", 'classicladder', 'io', '--io', "$dir/other.io");
 	for my $line ('2: changed: %IX0.0: is no pin of a Raspberry', '3: changed: %IX0.1: has a pull-up',
@@ -384,7 +384,7 @@ sub test_kept {
 		}
 	}
 	cmp_ok($lines, '>', 5, 'lines that are kept');
-	spill("$dir/kept.rung", "RUNGBOARD 1\n${body}VIEW\n  classicladder modbusioconf.csv _/FILE-modbusioconf.csv\n"
+	spew("$dir/kept.rung", "RUNGBOARD 1\n${body}VIEW\n  classicladder modbusioconf.csv _/FILE-modbusioconf.csv\n"
 		. "  classicladder modbusioconf.csv S0,1,0,one\n  classicladder rung_0.csv #VER=9.9\n"
 		. "  classicladder sequential.csv N0,99,1,1,nowhere\n  classicladder project_infos.txt PARAM_AUTHOR=Me\n"
 		. "  classicladder\n  linuxcnc config_events.csv 1\nEND_VIEW\n");

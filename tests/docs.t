@@ -16,33 +16,22 @@ use Cwd qw(abs_path);
 use File::Basename qw(dirname basename);
 use File::Temp qw(tempdir);
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Files;
 
 binmode $_, ':encoding(UTF-8)'
 	for *STDOUT, Test::More->builder->output, Test::More->builder->failure_output;
 
+my $utf8 = ':encoding(UTF-8)';
 my $top = abs_path(dirname(__FILE__) . '/..');
 my $build = abs_path($ENV{BUILD} // "$top/build");
 $ENV{PATH} = "$build:$ENV{PATH}";
 $ENV{LC_ALL} = 'C.UTF-8';
 delete @ENV{qw(COLUMNS NO_COLOR CLICOLOR_FORCE)};
 
-sub read_text {
-	my ($path) = @_;
-	open my $in, '<:encoding(UTF-8)', $path or die "$path: $!";
-	local $/;
-	return <$in>;
-}
-
-sub write_text {
-	my ($path, $text) = @_;
-	open my $out, '>:encoding(UTF-8)', $path or die "$path: $!";
-	print $out $text;
-	close $out or die "$path: $!";
-}
-
 sub run_in {
 	my ($folder, $command) = @_;
-	write_text("$folder/.command", $command);
+	spew("$folder/.command", $command, $utf8);
 	my $pid = open my $from, '-|:encoding(UTF-8)', 'sh', '-c',
 		'cd "$1" && exec 2>&1 </dev/null && . ./.command', 'sh', $folder;
 	die "sh: $!" if !$pid;
@@ -57,7 +46,7 @@ sub blocks_of {
 	my ($path) = @_;
 	my (@blocks, $open);
 	my $line = 0;
-	for (split /\n/, read_text($path), -1) {
+	for (split /\n/, slurp($path, $utf8), -1) {
 		$line++;
 		if (!$open && /^```(\S*)\s*(\S*)/) {
 			$open = { kind => $1, name => $2, line => $line, text => '' };
@@ -74,7 +63,7 @@ sub blocks_of {
 
 sub check_rung {
 	my ($folder, $file, $where) = @_;
-	write_text("$folder/.one", ".\n");
+	spew("$folder/.one", ".\n", $utf8);
 	for my $command ("ladder check $file", "ladder fmt --check $file",
 			 "ladder trace $file .one") {
 		my ($text, $status, $signal) = run_in($folder, $command);
@@ -126,7 +115,7 @@ sub check_console {
 
 sub check_links {
 	my ($path) = @_;
-	my $text = read_text($path);
+	my $text = slurp($path, $utf8);
 	while ($text =~ /\]\(([^)#\s]+)[^)]*\)/g) {
 		my $link = $1;
 		next if $link =~ /^\w+:/;
@@ -149,7 +138,7 @@ for my $path (glob("$top/docs/*.md"), "$top/README.md") {
 
 		$name = sprintf 'block%d.rung', ++$number
 			if $kind eq 'rung' && $name eq '';
-		write_text("$folder/$name", $block->{text}) if $name ne '';
+		spew("$folder/$name", $block->{text}, $utf8) if $name ne '';
 		$count{$kind}++ if exists $count{$kind};
 		check_rung($folder, $name, "$doc:$block->{line}")
 			if $kind eq 'rung';

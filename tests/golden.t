@@ -24,6 +24,8 @@ use Cwd qw(abs_path getcwd);
 use File::Basename qw(dirname basename);
 use File::Temp qw(tempdir tempfile);
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Files;
 
 my $tests = abs_path(dirname(__FILE__));
 my $engine = "$tests/../runtime/engine";
@@ -43,15 +45,7 @@ my %command = (
 	why   => [],
 );
 
-sub slurp {
-	my ($path) = @_;
-	open my $in, '<:raw', $path or return undef;
-	local $/;
-	my $text = <$in>;
-	return defined $text ? $text : '';
-}
-
-# Where the files of a case are.
+# The folder with the files of a case.
 my %made;
 sub place_of {
 	my ($dir) = @_;

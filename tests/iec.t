@@ -14,6 +14,8 @@ use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
 use JSON::PP;
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Files;
 
 my $tests = abs_path(dirname(__FILE__));
 my $build = $ENV{BUILD} // "$tests/../build";
@@ -24,13 +26,6 @@ my $at_once = 100;
 # Types of arguments that differ from the type of the case.
 my %own = (SEL => { 0 => 'BOOL' }, MUX => { 0 => 'INT' },
 	map { $_ => { 1 => 'INT' } } qw(SHL SHR ROL ROR));
-
-sub spew {
-	my ($name, $text) = @_;
-	open my $out, '>', "$folder/$name" or die "$name: $!";
-	print $out $text;
-	close $out or die "$name: $!";
-}
 
 # Standard output of a command, and both streams if it fails.
 sub run {
@@ -122,8 +117,8 @@ sub function_program {
 # The results of some cases by name; undef and the reason if there are none.
 sub trace_functions {
 	my (@cases) = @_;
-	spew('main.rung', function_program(@cases));
-	spew('script', '@print ' . join(' ', map { $_->{name} } @cases) . "\n.\n");
+	spew("$folder/main.rung", function_program(@cases));
+	spew("$folder/script", '@print ' . join(' ', map { $_->{name} } @cases) . "\n.\n");
 	my ($text, $errors) = run($ladder, 'trace', "$folder/main.rung", "$folder/script");
 	return (undef, $errors) if !defined $text;
 	return ({ $text =~ /(\w+)=(\S+)/g }, '');
@@ -217,8 +212,8 @@ sub judge_block {
 		diag("no function block $word");
 		return;
 	}
-	spew('main.rung', block_program($case, $word));
-	spew('script', block_script($case));
+	spew("$folder/main.rung", block_program($case, $word));
+	spew("$folder/script", block_script($case));
 	my ($text, $errors) = run($ladder, 'trace', "$folder/main.rung", "$folder/script");
 	my @lines = split /\n/, $text // '';
 	my $wrong = $errors;

@@ -10,6 +10,8 @@ use File::Basename qw(dirname basename);
 use File::Copy qw(copy);
 use File::Temp qw(tempdir);
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Files;
 
 my $tests = abs_path(dirname(__FILE__));
 my $build = abs_path($ENV{BUILD} // "$tests/../build");
@@ -18,27 +20,13 @@ my $random = "$build/tests/bin/differential";
 my $count = $ENV{IL_AGAIN_COUNT} // 300;
 my $dir = tempdir(CLEANUP => 1);
 
-sub slurp {
-	my ($path) = @_;
-	open my $in, '<:raw', $path or die "$path: $!";
-	local $/;
-	return scalar <$in>;
-}
-
-sub put {
-	my ($path, $text) = @_;
-	open my $out, '>:raw', $path or die "$path: $!";
-	print $out $text;
-	close $out;
-}
-
 # Samples. Included files are lists, too, in the same file.
 for my $sample (sort glob "$tests/../ladders/*.rung") {
 	my $name = basename($sample);
 	my $again = "$dir/$name";
 	# The list of a chart has TICK and EACH, which no rung file can contain.
 	next if slurp($sample) =~ /^PROGRAM \w+ SFC/m;
-	put($again, scalar `$ladder il '$sample' 2>/dev/null`);
+	spew($again, scalar `$ladder il '$sample' 2>/dev/null`);
 	my $said = `$ladder check '$again' 2>&1`;
 	unlike($said, qr/ error LD/, "$name: its list is a program") or next;
 	is(scalar `$ladder il '$again' 2>/dev/null`, slurp($again),
@@ -76,11 +64,11 @@ my ($same, $other) = (0, 0);
 my @bad;
 for my $seed (1 .. $count) {
 	my $program = `$random --seed $seed --text`;
-	put("$dir/a.rung", $program);
+	spew("$dir/a.rung", $program);
 	my $list = `$ladder il $dir/a.rung 2>/dev/null`;
 	next unless $? == 0;
-	put("$dir/b.rung", $list);
-	put("$dir/s", stimulus($seed, names_of($program)));
+	spew("$dir/b.rung", $list);
+	spew("$dir/s", stimulus($seed, names_of($program)));
 	my $one = `cd $dir && $ladder trace a.rung s 2>/dev/null`;
 	my $two = `cd $dir && $ladder trace b.rung s 2>/dev/null`;
 	# A rung of the first program is a line of the other one.

@@ -14,7 +14,8 @@ use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
 use JSON::PP;
 use Test::More;
-use lib abs_path(dirname(__FILE__)) . '/bad';
+use lib map { abs_path(dirname(__FILE__)) . $_ } '', '/bad';
+use Files;
 use Rows;
 
 my $tests = abs_path(dirname(__FILE__));
@@ -44,20 +45,6 @@ my %values = (
 );
 my @types = sort keys %values;
 my @some = qw(BOOL INT REAL DWORD LINT STRING TIME);
-
-sub run {
-	my (@command) = @_;
-	my $pid = open my $from, '-|';
-	die "fork: $!" if !defined $pid;
-	if (!$pid) {
-		open STDERR, '>&', \*STDOUT or die;
-		exec @command or die "$command[0]: $!";
-	}
-	local $/;
-	my $text = <$from> // '';
-	close $from;
-	return ($?, $text);
-}
 
 # The rungs of a row: one type at all pins that share a type, each pin alone, constants.
 sub combinations {
@@ -102,7 +89,7 @@ sub judge {
 	my ($row, @rungs) = @_;
 	my (%wrong, @odd);
 	write_program(@rungs);
-	my ($status, $text) = run($ladder, 'check', "$folder/main.rung");
+	my ($status, $text) = answer('.', $ladder, 'check', "$folder/main.rung");
 	for my $line (split /\n/, $text) {
 		next if $line !~ / error /;
 		$line =~ /: rung (\d+) .*error (?:LD303|LD322|LD324|LD328|LD33[1-4]|LD116)\b/ ?
@@ -131,7 +118,7 @@ sub run_good {
 			"v$_=$list->[$scan % @$list]" } @types), "\n";
 	}
 	close $out or die "script: $!";
-	my ($status, $text) = run($runner, 'trace', "$folder/main.rung", "$folder/script");
+	my ($status, $text) = answer('.', $runner, 'trace', "$folder/main.rung", "$folder/script");
 	my $lines = () = $text =~ /^\d+ t=/mg;
 	ok($status == 0 && $lines == $scans, "$row->{word}: what is good runs") or
 		diag(substr $text, 0, 2000);

@@ -12,6 +12,8 @@ use Cwd qw(abs_path);
 use File::Basename qw(dirname basename);
 use File::Temp qw(tempdir);
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Files;
 
 my $top = abs_path(dirname(__FILE__) . '/..');
 my $build = abs_path($ENV{BUILD} // "$top/build");
@@ -21,34 +23,6 @@ my $noticed_least = 0.9; # interlocks that are made twice cannot be noticed
 # Lines of a chart that are made twice, so that leaving out one is not noticed: how many,
 # and in which sample.
 my %twice = ('sequence-s0-s8' => 2); # S6 and S7 both reset Q0.5: the drawing has it so
-
-sub run {
-	my (@command) = @_;
-	my $pid = open my $from, '-|';
-	die "fork: $!" if !defined $pid;
-	if (!$pid) {
-		open STDERR, '>&', \*STDOUT or die;
-		exec @command or die "$command[0]: $!";
-	}
-	local $/;
-	my $text = <$from> // '';
-	close $from;
-	return ($?, $text);
-}
-
-sub read_text {
-	my ($path) = @_;
-	open my $in, '<', $path or die "$path: $!";
-	local $/;
-	return <$in>;
-}
-
-sub write_text {
-	my ($path, $text) = @_;
-	open my $out, '>', $path or die "$path: $!";
-	print $out $text;
-	close $out or die "$path: $!";
-}
 
 # An instruction with N added or removed.
 sub broken_line {
@@ -131,34 +105,34 @@ my @programs = grep { !/\.plant\.rung$/ } glob("$top/ladders/*.rung");
 for my $program (@programs) {
 	my $name = basename($program, '.rung');
 	my $scenarios = $program =~ s/\.rung$/.scn/r;
-	my ($status, $text) = run($ladder, 'check', $program);
+	my ($status, $text) = answer('.', $ladder, 'check', $program);
 
 	ok($status == 0 && $text !~ /warning|error/, "$name: good, no warning")
 		or diag($text);
-	($status, $text) = run($ladder, 'fmt', '--check', $program);
+	($status, $text) = answer('.', $ladder, 'fmt', '--check', $program);
 	is($status, 0, "$name: canonical") or diag($text);
-	($status, $text) = run($ladder, 'test', $scenarios);
+	($status, $text) = answer('.', $ladder, 'test', $scenarios);
 	is($status, 0, "$name: does what its scenarios say") or diag($text);
 	my $count = () = $text =~ /^ok /mg;
 	cmp_ok($count, '>=', 3, "$name: has scenarios");
 
 	my $plant = $program =~ s/\.rung$/.plant.rung/r;
-	write_text("$folder/$name.plant.rung", read_text($plant)) if -e $plant;
-	write_text("$folder/$name.scn", read_text($scenarios));
+	spew("$folder/$name.plant.rung", slurp($plant)) if -e $plant;
+	spew("$folder/$name.scn", slurp($scenarios));
 	my (@missed, @missed_chart);
 	my $of = 0;
-	for my $broken (broken(read_text($program))) {
-		write_text("$folder/$name.rung", $broken->{text});
-		($status, $text) = run($ladder, 'check', "$folder/$name.rung");
+	for my $broken (broken(slurp($program))) {
+		spew("$folder/$name.rung", $broken->{text});
+		($status, $text) = answer('.', $ladder, 'check', "$folder/$name.rung");
 		next if $status; # no longer a valid program
 		$of++;
-		($status, $text) = run($ladder, 'test', "$folder/$name.scn");
+		($status, $text) = answer('.', $ladder, 'test', "$folder/$name.scn");
 		next if $status;
 		push @missed, "$broken->{line}: $broken->{row}";
 		push @missed_chart, $missed[-1] if $broken->{chart};
 	}
 	is(scalar @missed_chart, $twice{$name} // 0, "$name: its scenarios notice every change of the chart")
-		or diag(join "\n", @missed_chart) if read_text($program) =~ /^PROGRAM \w+ SFC/m;
+		or diag(join "\n", @missed_chart) if slurp($program) =~ /^PROGRAM \w+ SFC/m;
 	$made += $of;
 	$noticed += $of - @missed;
 	cmp_ok(@missed, '<', $of / 2, "$name: its scenarios notice broken contacts")
@@ -166,22 +140,22 @@ for my $program (@programs) {
 }
 for my $plant (@plants) {
 	my $name = basename($plant, '.rung');
-	my ($status, $text) = run($ladder, 'check', $plant);
+	my ($status, $text) = answer('.', $ladder, 'check', $plant);
 
 	ok($status == 0 && $text !~ /warning|error/, "$name: good, no warning")
 		or diag($text);
-	($status, $text) = run($ladder, 'fmt', '--check', $plant);
+	($status, $text) = answer('.', $ladder, 'fmt', '--check', $plant);
 	is($status, 0, "$name: canonical") or diag($text);
 	my $scenarios = $plant =~ s/\.plant\.rung$/.scn/r;
-	like(read_text($scenarios), qr/^\s*plant "\Q$name.rung\E"/m, "$name: a scenario is beside it");
+	like(slurp($scenarios), qr/^\s*plant "\Q$name.rung\E"/m, "$name: a scenario is beside it");
 
 	# A plant that does not move is noticed.
 	my $other = basename($scenarios, '.scn');
-	my $still = read_text($plant) =~ s/^RUNG\b/RUNG OFF/mgr;
-	write_text("$folder/$_", read_text("$top/ladders/$_"))
+	my $still = slurp($plant) =~ s/^RUNG\b/RUNG OFF/mgr;
+	spew("$folder/$_", slurp("$top/ladders/$_"))
 		for "$other.rung", "$other.scn";
-	write_text("$folder/$name.rung", $still);
-	($status, $text) = run($ladder, 'test', "$folder/$other.scn");
+	spew("$folder/$name.rung", $still);
+	($status, $text) = answer('.', $ladder, 'test', "$folder/$other.scn");
 	isnt($status, 0, "$name: it matters what it does");
 	unlike($text, qr/ error LD\d/, "$name: and it is not the file") or diag($text);
 }

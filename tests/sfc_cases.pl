@@ -10,17 +10,14 @@
 # walker) must say the same, and a person reads it against docs/sfc.md.
 use strict;
 use warnings;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname);
+use lib abs_path(dirname(__FILE__));
+use Files;
 
 my $to = $ARGV[0] // 'tests/golden';
 my @qualifiers = qw(N S R L D P P0 P1 SD DS SL);
 my %timed = map { $_ => 1 } qw(L D SD DS SL);
-
-sub spew {
-	my ($path, $text) = @_;
-	open my $out, '>:raw', $path or die "$path: $!\n";
-	print $out $text;
-	close $out or die "$path: $!\n";
-}
 
 # One case: the text between the heading and END_PROGRAM, and the script.
 sub case {

@@ -15,7 +15,10 @@ use Cwd qw(abs_path);
 use File::Basename qw(dirname basename);
 use File::Temp qw(tempdir);
 use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Files;
 
+my $utf8 = ':encoding(UTF-8)';
 my $top = abs_path(dirname(__FILE__) . '/..');
 my $build = abs_path($ENV{BUILD} // "$top/build");
 my $editor = "$build/ladder-editor";
@@ -24,13 +27,6 @@ plan skip_all => 'there is no ladder-editor' if !-x $editor;
 $ENV{LC_ALL} = 'C.UTF-8';
 $ENV{LANGUAGE} = '';
 my $work = tempdir(CLEANUP => 1);
-
-sub read_text {
-	my ($path) = @_;
-	open my $in, '<:encoding(UTF-8)', $path or die "$path: $!";
-	local $/;
-	return <$in>;
-}
 
 # Each horizontal place of a tag goes through @place->(); widths are places of right ends.
 sub with_places {
@@ -62,23 +58,15 @@ sub rendered {
 	my $path = "$work/picture.svg";
 	unlink $path;
 	system($editor, '--render', $rung, '-o', $path) == 0 or die "$rung is not drawn";
-	return read_text($path);
+	return slurp($path, $utf8);
 }
 
-sub written {
-	my ($name, $text) = @_;
-	open my $out, '>:encoding(UTF-8)', "$work/$name" or die "$name: $!";
-	print $out $text;
-	close $out or die "$name: $!";
-	return "$work/$name";
-}
-
-my $tutorial = read_text("$top/docs/tutorial.md");
+my $tutorial = slurp("$top/docs/tutorial.md", $utf8);
 my %drawn;
 for my $rung (glob("$folder/*.rung")) {
 	my $name = basename($rung, '.rung');
-	$drawn{$name} = read_text($rung);
-	is(shown(rendered($rung)), shown(read_text("$folder/$name.svg")),
+	$drawn{$name} = slurp($rung, $utf8);
+	is(shown(rendered($rung)), shown(slurp("$folder/$name.svg", $utf8)),
 	   "$name.svg is $name.rung; if not: make pictures, and look at them");
 	ok(index($tutorial, "](tutorial/$name.svg)") >= 0, "$name.svg is shown");
 }
@@ -98,7 +86,7 @@ my %other = (
 	'where a branch ends' => $seal =~ s/NO Motor \^\|/NO Motor | --- ^|/r,
 );
 for my $what (sort keys %other) {
-	isnt(shown(rendered(written('other.rung', $other{$what}))), shown(read_text("$folder/4-seal-in.svg")),
+	isnt(shown(rendered(spew("$work/other.rung", $other{$what}, $utf8))), shown(slurp("$folder/4-seal-in.svg", $utf8)),
 	     "$what is noticed");
 }
 done_testing();

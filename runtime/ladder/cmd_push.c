@@ -358,26 +358,22 @@ static enum status send_file(const struct push *push, const char *name,
 
 static enum status judge(const struct push *push, int end)
 {
-	switch (end) {
-	case PUSH_DONE:
+	static const struct { int end; enum diag_id id; } known[] = {
+		{ PUSH_REFUSED, DIAG_BOARD_REFUSED },
+		{ PUSH_WENT_BACK, DIAG_BOARD_NOT_STARTED },
+		{ PUSH_NOTHING_RUNS, DIAG_BOARD_STOPPED },
+		{ PUSH_NOT_WHOLE, DIAG_BOARD_NOT_WHOLE },
+		{ PUSH_NO_LADDERD, DIAG_BOARD_NO_LADDERD },
+		{ PUSH_NO_SERVICE, DIAG_BOARD_NO_SERVICE },
+		{ PUSH_NO_ROOM, DIAG_BOARD_CANNOT },
+	};
+
+	if (end == PUSH_DONE)
 		return STATUS_GOOD;
-	case PUSH_REFUSED:
-		return tell(push, DIAG_BOARD_REFUSED, "");
-	case PUSH_WENT_BACK:
-		return tell(push, DIAG_BOARD_NOT_STARTED, "");
-	case PUSH_NOTHING_RUNS:
-		return tell(push, DIAG_BOARD_STOPPED, "");
-	case PUSH_NOT_WHOLE:
-		return tell(push, DIAG_BOARD_NOT_WHOLE, "");
-	case PUSH_NO_LADDERD:
-		return tell(push, DIAG_BOARD_NO_LADDERD, "");
-	case PUSH_NO_SERVICE:
-		return tell(push, DIAG_BOARD_NO_SERVICE, "");
-	case PUSH_NO_ROOM:
-		return tell(push, DIAG_BOARD_CANNOT, "");
-	default:
-		return tell(push, DIAG_BOARD_CUT, "");
-	}
+	for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
+		if (known[i].end == end)
+			return tell(push, known[i].id, "");
+	return tell(push, DIAG_BOARD_CUT, "");
 }
 
 static enum status send_all(struct push *push)

@@ -183,16 +183,12 @@ enum status cmd_run(struct call *call)
 	struct pace pace = { 0 };
 	struct machine machine;
 	const char *rungs = call_option(call, "--rungs");
-	const char *plant = call_option(call, "--plant");
 	enum status status = take_pace(call, &pace);
 
 	if (status != STATUS_GOOD)
 		return status;
-	status = machine_open(&machine, call->arg[0],
-			      rungs ? MACHINE_WATCHED : MACHINE_AS_FILE);
-	if (status == STATUS_GOOD && plant)
-		status = machine_add_plant(&machine, plant,
-					   (struct diag){ .file = "--plant" });
+	status = machine_open_call(&machine, call,
+				   rungs ? MACHINE_WATCHED : MACHINE_AS_FILE);
 	if (status == STATUS_GOOD && rungs)
 		status = watch_rungs(call, &machine, rungs);
 	if (status == STATUS_GOOD) {

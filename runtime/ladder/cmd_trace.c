@@ -36,7 +36,6 @@ static enum status run(struct call *call, struct machine *machine,
 enum status cmd_trace(struct call *call)
 {
 	bool csv = call_flag(call, "--csv"), vcd = call_flag(call, "--vcd");
-	const char *plant = call_option(call, "--plant");
 	struct machine machine;
 	enum status status;
 	int64_t period_ns;
@@ -45,11 +44,8 @@ enum status cmd_trace(struct call *call)
 		return report_usage(call, "--csv and --vcd cannot be used together");
 	if (!report_period(call, "--period", 0, &period_ns))
 		return STATUS_WRONG;
-	status = machine_open(&machine, call->arg[0],
-			      call_flag(call, "--faithful") ? MACHINE_FAITHFUL : 0);
-	if (status == STATUS_GOOD && plant)
-		status = machine_add_plant(&machine, plant,
-					   (struct diag){ .file = "--plant" });
+	status = machine_open_call(&machine, call,
+				   call_flag(call, "--faithful") ? MACHINE_FAITHFUL : 0);
 	if (status == STATUS_GOOD)
 		status = run(call, &machine, csv ? TRACE_CSV :
 			     vcd ? TRACE_VCD : TRACE_LINES,

@@ -27,29 +27,30 @@ static bool has_ending(const char *path, const char *ending)
 	return len > tail && !strcmp(path + len - tail, ending);
 }
 
-char *path_with_ending(const char *path, const char *ending)
+/* @len bytes of @path, then @slash and @name. NULL: no memory. */
+static char *join(const char *path, size_t len, const char *slash, const char *name)
 {
-	const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
-	size_t stem = dot && (!slash || dot > slash + 1) && dot > path ?
-			      (size_t)(dot - path) : strlen(path);
-	size_t size = stem + strlen(ending) + 1;
+	size_t size = len + strlen(slash) + strlen(name) + 1;
 	char *out = malloc(size);
 
 	if (out)
-		snprintf(out, size, "%.*s%s", (int)stem, path, ending);
+		snprintf(out, size, "%.*s%s%s", (int)len, path, slash, name);
 	return out;
+}
+
+char *path_with_ending(const char *path, const char *ending)
+{
+	const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+
+	return join(path, dot && (!slash || dot > slash + 1) && dot > path ?
+		    (size_t)(dot - path) : strlen(path), "", ending);
 }
 
 char *path_beside(const char *path, const char *name)
 {
 	const char *slash = *name == '/' ? NULL : strrchr(path, '/');
-	size_t folder = slash ? (size_t)(slash + 1 - path) : 0;
-	size_t size = folder + strlen(name) + 1;
-	char *out = malloc(size);
 
-	if (out)
-		snprintf(out, size, "%.*s%s", (int)folder, path, name);
-	return out;
+	return join(path, slash ? (size_t)(slash + 1 - path) : 0, "", name);
 }
 
 /* Takes over @copy. */
@@ -74,25 +75,14 @@ static int order(const void *a, const void *b)
 	return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-static char *join(const char *folder, const char *name)
-{
-	size_t len = strlen(folder);
-	bool slash = len && folder[len - 1] == '/';
-	size_t size = len + strlen(name) + 2;
-	char *out = malloc(size);
-
-	if (out)
-		snprintf(out, size, "%s%s%s", folder, slash ? "" : "/", name);
-	return out;
-}
-
 static bool search(struct paths *paths, const char *folder, const char *ending,
 		   int depth);
 
 static bool search_name(struct paths *paths, const char *folder,
 			const char *name, const char *ending, int depth)
 {
-	char *path = join(folder, name);
+	size_t len = strlen(folder);
+	char *path = join(folder, len, len && folder[len - 1] == '/' ? "" : "/", name);
 	struct stat status;
 	bool good = true;
 
@@ -154,11 +144,7 @@ bool paths_collect(struct paths *paths, const char *path, const char *ending,
 	}
 	if (!has_ending(path, ending))
 		return complain(path, DIAG_WRONG_KIND, "");
-	char *copy = malloc(strlen(path) + 1);
-
-	if (copy)
-		memcpy(copy, path, strlen(path) + 1);
-	return add(paths, copy);
+	return add(paths, join(path, strlen(path), "", ""));
 }
 
 void paths_free(struct paths *paths)

@@ -277,6 +277,16 @@ enum status machine_add_plant(struct machine *machine, const char *path,
 	return status;
 }
 
+enum status machine_open_call(struct machine *machine, const struct call *call, int how)
+{
+	const char *plant = call_option(call, "--plant");
+	enum status status = machine_open(machine, call->arg[0], how);
+
+	if (status == STATUS_GOOD && plant)
+		status = machine_add_plant(machine, plant, (struct diag){ .file = "--plant" });
+	return status;
+}
+
 struct plant *machine_plant(struct machine *machine)
 {
 	return machine->plant.memory ? &machine->plant : NULL;

@@ -75,6 +75,8 @@ enum {
 /** machine_open - loads and builds @path; @how: bits as above.
  * Owns: machine_close(), always.   Fails: a status after diagnostics. */
 enum status machine_open(struct machine *machine, const char *path, int how);
+/** machine_open_call - machine_open() of the first argument of @call, with its --plant. */
+enum status machine_open_call(struct machine *machine, const struct call *call, int how);
 /** machine_add_plant - loads the plant at @path (trial/plant.h).
  * Fails: a status after diagnostics, the last one LD016 at @place. */
 enum status machine_add_plant(struct machine *machine, const char *path,
