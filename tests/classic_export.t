@@ -126,7 +126,7 @@ sub only_shown_steps {
 	for my $step (grep { !$kept{$_} } keys %lost) {
 		$text =~ s/ %X$step\.[AV]\b//g;
 	}
-	spill($script, $text);
+	spew($script, $text);
 }
 
 sub test_random {
