@@ -39,6 +39,7 @@ struct option {
 	const char *name;
 	enum option_for use;
 	bool has_value;
+	const char *form;     /* how it is written                            */
 	/* False: the value is bad. */
 	bool (*set)(struct reader *reader, struct io_point *point,
 		    const char *value, size_t len);
@@ -195,18 +196,18 @@ SETTER(set_open_source, drive, DRIVE_OPEN_SOURCE)
 /* Only one of the three pulls is allowed, and one of the three drives. */
 enum { FIRST_PULL = 6, FIRST_DRIVE = 9, OPTION_COUNT = 12 };
 static const struct option options[OPTION_COUNT] = {
-	{ "line",        FOR_BOTH,   true,  set_line },
-	{ "chip",        FOR_BOTH,   true,  set_chip },
-	{ "offset",      FOR_BOTH,   true,  set_offset },
-	{ "debounce",    FOR_INPUT,  true,  set_debounce },
-	{ "safe",        FOR_OUTPUT, true,  set_safe },
-	{ "active-low",  FOR_BOTH,   false, set_active_low },
-	{ "pull-up",     FOR_BOTH,   false, set_pull_up },
-	{ "pull-down",   FOR_BOTH,   false, set_pull_down },
-	{ "no-pull",     FOR_BOTH,   false, set_no_pull },
-	{ "push-pull",   FOR_OUTPUT, false, set_push_pull },
-	{ "open-drain",  FOR_OUTPUT, false, set_open_drain },
-	{ "open-source", FOR_OUTPUT, false, set_open_source },
+	{ "line",        FOR_BOTH,   true,  "line=GPIO17", set_line },
+	{ "chip",        FOR_BOTH,   true,  "chip=gpiochip0", set_chip },
+	{ "offset",      FOR_BOTH,   true,  "offset=17", set_offset },
+	{ "debounce",    FOR_INPUT,  true,  "debounce=5ms", set_debounce },
+	{ "safe",        FOR_OUTPUT, true,  "safe=1", set_safe },
+	{ "active-low",  FOR_BOTH,   false, "active-low", set_active_low },
+	{ "pull-up",     FOR_BOTH,   false, "pull-up", set_pull_up },
+	{ "pull-down",   FOR_BOTH,   false, "pull-down", set_pull_down },
+	{ "no-pull",     FOR_BOTH,   false, "no-pull", set_no_pull },
+	{ "push-pull",   FOR_OUTPUT, false, "push-pull", set_push_pull },
+	{ "open-drain",  FOR_OUTPUT, false, "open-drain", set_open_drain },
+	{ "open-source", FOR_OUTPUT, false, "open-source", set_open_source },
 };
 enum { OPTION_LINE, OPTION_CHIP, OPTION_OFFSET };
 
@@ -223,6 +224,19 @@ static unsigned against(int i)
 	if (i >= FIRST_PULL)
 		return 7u << FIRST_PULL;
 	return 1u << i;
+}
+
+/* The value of the option @word is bad: how it is written. */
+static bool complain_form(struct reader *reader, const struct word *word, const char *form)
+{
+	struct diag place = {
+		.id = DIAG_IO_VALUE, .file = reader->map.file,
+		.line = word->line, .column = word->column,
+	};
+
+	reader->errors++;
+	return diag_add(reader->diags, place, "%.*s" DIAG_AND "%s",
+			(int)(word->len < 40 ? word->len : 40), word->text, form);
 }
 
 static bool read_option(struct reader *reader, struct io_point *point,
@@ -242,13 +256,14 @@ static bool read_option(struct reader *reader, struct io_point *point,
 	if (*seen & against(i))
 		return complain(reader, DIAG_IO_CONFLICT, word);
 	*seen |= 1u << i;
-	if ((options[i].use == FOR_INPUT && point->output) ||
-	    (options[i].use == FOR_OUTPUT && !point->output))
-		return complain(reader, DIAG_IO_DIRECTION, word);
+	if (options[i].use == FOR_INPUT && point->output)
+		return complain(reader, DIAG_IO_FOR_INPUT, word);
+	if (options[i].use == FOR_OUTPUT && !point->output)
+		return complain(reader, DIAG_IO_FOR_OUTPUT, word);
 	if (options[i].has_value != (value != NULL) ||
 	    !options[i].set(reader, point, value,
 			    value ? word->len - name - 1 : 0))
-		return complain(reader, DIAG_IO_VALUE, word);
+		return complain_form(reader, word, options[i].form);
 	return true;
 }
 
@@ -380,6 +395,8 @@ static void read_board(struct reader *reader)
 		word = (struct word){ "", 0, reader->lex.token.line,
 				      reader->lex.token.column, false };
 		complain(reader, DIAG_IO_NO_BOARD, &word);
+		if (*reader->lex.token.text != '%') /* not the line of an address either */
+			skip_words(reader);
 		return;
 	}
 	if (!next_word(reader, &word)) {

@@ -39,9 +39,10 @@ static const struct option_row *find_option(const struct command_row *row,
 	return NULL;
 }
 
-static bool wrong(const struct call *call, const char *what, const char *text)
+/* @what: "needs a value", behind the quoted @text. */
+static bool wrong(const struct call *call, const char *text, const char *what)
 {
-	report_usage(call, "%s %.30s", what, text);
+	report_usage(call, "\"%.30s\" %s", text, what);
 	return false;
 }
 
@@ -54,16 +55,16 @@ static bool take_option(struct call *call, int argc, char **argv, int *i)
 	struct given *given = &call->given[call->given_count];
 
 	if (!row)
-		return wrong(call, "unknown option", text);
+		return wrong(call, text, "is not an option of this command");
 	if (call->given_count == COMMAND_GIVEN)
-		return wrong(call, "too many options:", text);
+		return wrong(call, text, "is one option too many");
 	if (!row->value && equals)
-		return wrong(call, "this option takes no value:", text);
+		return wrong(call, text, "takes no value");
 	given->row = row;
 	given->value = equals ? equals + 1 : NULL;
 	if (row->value && !equals) {
 		if (*i + 1 == argc)
-			return wrong(call, "this option needs a value:", text);
+			return wrong(call, text, "needs a value");
 		given->value = argv[++*i];
 	}
 	call->given_count++;
@@ -85,11 +86,13 @@ bool command_parse(struct call *call, int argc, char **argv)
 			call->arg[call->arg_count++] = argv[i];
 		}
 	}
-	if (call->arg_count < call->row->least)
-		return wrong(call, "what is missing:", call->row->arguments);
+	if (call->arg_count < call->row->least) {
+		report_usage(call, "this command needs %.30s", call->row->arguments);
+		return false;
+	}
 	if (call->row->most >= 0 && call->arg_count > call->row->most)
-		return wrong(call, "too many arguments:",
-			     call->arg[call->row->most]);
+		return wrong(call, call->arg[call->row->most],
+			     "is one argument too many");
 	return true;
 }
 

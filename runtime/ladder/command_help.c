@@ -216,7 +216,7 @@ enum status cmd_help(struct call *call)
 	if (call->arg_count) {
 		row = command_find(call->arg[0]);
 		if (!row)
-			return report_usage(call, "there is no command %.24s",
+			return report_usage(call, "\"%.24s\" is not a command",
 					    call->arg[0]);
 	}
 	if (call_flag(call, "--man"))

@@ -37,7 +37,7 @@ static enum status run_command(struct call *call, int argc, char **argv)
 {
 	call->row = command_find(argv[0]);
 	if (!call->row)
-		return report_usage(call, "there is no command %.24s",
+		return report_usage(call, "\"%.24s\" is not a command",
 				    argv[0]);
 	if (asks_help(argc - 1, argv + 1)) {
 		command_help(call->row, &call->out);

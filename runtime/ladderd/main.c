@@ -217,7 +217,7 @@ int main(int argc, char **argv)
 		return 1;
 	}
 	if (!options_read(&daemon->options, argc, argv)) {
-		fprintf(stderr, "ladderd: %s: %s\nTry `ladderd --help`.\n",
+		fprintf(stderr, "ladderd: %s %s\nTry `ladderd --help`.\n",
 			daemon->options.wrong, daemon->options.why);
 		status = 2;
 	} else if (daemon->options.help) {

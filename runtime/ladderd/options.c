@@ -134,10 +134,14 @@ static bool read_option(struct options *options, int *i, char **argv)
 		if (rows[k].kind != FLAG && !value)
 			return wrong(options, name, "needs a value");
 		if (!set_option(options, &rows[k], value))
-			return wrong(options, name, "bad value");
+			return wrong(options, name, rows[k].kind == TIME ?
+				     "needs a time between its limits, such as 10ms" :
+				     rows[k].kind == NUMBER ?
+				     "needs a whole number between its limits" :
+				     "needs a value");
 		return true;
 	}
-	return wrong(options, name, "no such option");
+	return wrong(options, name, "is not an option");
 }
 
 bool options_read(struct options *options, int argc, char **argv)

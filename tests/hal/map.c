@@ -90,7 +90,7 @@ static void test_refusals(void)
 	BAD("%IX0.0 gpio line=A\n%QX0.1 gpio line=A", "LD518");
 	BAD("%IX0.0 gpio line=A safe=1", "LD514");
 	BAD("%IX0.0 gpio line=A open-drain", "LD514");
-	BAD("%QX0.0 gpio line=A debounce=1ms", "LD514");
+	BAD("%QX0.0 gpio line=A debounce=1ms", "LD527");
 	BAD("%IX0.0 gpio", "LD517");
 	BAD("%IX0.0 gpio chip=A", "LD517");
 	BAD("%IX0.0 gpio offset=1", "LD517");

@@ -62,7 +62,7 @@ def table(screen):
     path, io = garage(screen)
     editor = Editor(screen, path)
     open_map(editor)
-    until(lambda: editor.all('this option does not take this value'), 'the problem of its row')
+    until(lambda: editor.all('is not understood; write it like'), 'the problem of its row')
     editor.says('Used by the program, missing in the map: %IX0.2 StopOk')
     editor.click(cell(editor, '%IX0.1, Debounce'))
     editor.keys('ctrl+a')
