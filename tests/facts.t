@@ -1,0 +1,310 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# facts.t - numbers, names and lists in the documents are those of the sources. tests/docs.t runs
+# what the documents show, tests/architecture.t looks for the names of ARCHITECTURE.md.
+#
+# A fact is a pattern with one group, which must occur in a document, and the value that the
+# sources have for it. Who changes a sentence that holds a fact changes the pattern here, too.
+use strict;
+use warnings;
+use utf8;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname basename);
+use JSON::PP;
+use Test::More;
+use lib abs_path(dirname(__FILE__));
+use Files;
+
+binmode $_, ':encoding(UTF-8)' for Test::More->builder->output, Test::More->builder->failure_output;
+chdir dirname(__FILE__) . '/..' or die;
+my $build = $ENV{BUILD} // 'build';
+my $ladder = $ENV{LADDER} // "$build/ladder";
+my @documents = ('README.md', 'ARCHITECTURE.md', glob('docs/*.md'));
+my %text = map { $_ => slurp($_, ':encoding(UTF-8)') } @documents;
+# A document without its blocks.
+my %prose = map { $_ => $text{$_} =~ s/^```.*?^```//gmsr } @documents;
+my %word = (eight => 8, third => 3, two => 2, 'once' => 1);
+
+# The value of a C expression of numbers, such as (64u << 20).
+sub value {
+	my ($expression) = @_;
+	$expression =~ s{/\*.*}{};
+	$expression =~ s/\b(?:INT64_C|UINT64_C|G_GINT64_CONSTANT)\b//g;
+	$expression =~ s/\b(\d+)[uUlL]+\b/$1/g;
+	return $expression =~ /^[\d\s()<*+-]+$/ ? eval $expression : undef;
+}
+
+# NAME of a #define, or of an enumerator with a number, in a file.
+sub constant {
+	my ($path, $name) = @_;
+	my $source = slurp($path) // die "$path: $!";
+	return value($1) if $source =~ /^#define\s+\Q$name\E\s+(.+)$/m || $source =~ /\b\Q$name\E\s*=\s*(\d+)/;
+	die "$path has no number for $name\n";
+}
+sub limit { return constant('runtime/engine/base/limits.h', "LIMIT_$_[0]") }
+
+# @pattern: its group is a number, with commas or as a word.
+sub fact {
+	my ($path, $pattern, $want) = @_;
+	my ($got) = $text{$path} =~ $pattern;
+	if (!defined $got) {
+		fail("$path: $pattern is there");
+		return;
+	}
+	$got =~ tr/,//d if $got =~ /^[\d,]+$/;
+	is($word{$got} // $got, $want, "$path: $pattern");
+}
+
+sub list_is {
+	my ($what, $got, $want) = @_;
+	is(join(' ', sort @$got), join(' ', sort @$want), $what);
+}
+
+# ---- limits ----
+fact('README.md', qr/up to (\d+) columns by \d+ rows a rung/, limit('COLS'));
+fact('README.md', qr/up to \d+ columns by (\d+) rows a rung/, limit('ROWS'));
+fact('docs/rung-file.md', qr/and at most (\d+) elements/, limit('ELEMENTS'));
+fact('docs/rung-file.md', qr/Up to (\w+) indices of an operand/, limit('INDICES'));
+fact('docs/rung-file.md', qr/^up to (\d+) deep\./m, limit('EXPR_DEPTH'));
+fact('docs/rung-file.md', qr/Parentheses nest, (\d+) deep/, limit('IL_DEPTH'));
+fact('docs/rung-file.md', qr/At most (\d+) tasks/, limit('TASKS') - 1); # one is for programs without a task
+fact('docs/rung-file.md', qr/\((\d+) µs to 24 h\)/, limit('TICK') / 1000);
+fact('docs/rung-file.md', qr/µs to (\d+) h\)/, limit('INTERVAL') / 3600e9);
+fact('docs/rung-file.md', qr/All areas together have at most (\d+) MiB/, limit('AREAS') >> 20);
+fact('docs/rung-file.md', qr/is at most (\d+) bytes long/, limit('NAME'));
+fact('docs/language.md', qr/Loops may nest, (\w+) deep/, limit('LOOPS'));
+fact('docs/language.md', qr/Subroutines may call one another, (\d+) deep/, limit('CALLS'));
+fact('docs/language.md', qr/Calls nest up to (\d+) deep/, limit('CALLS'));
+fact('docs/language.md', qr/as boxes with 2 to (\d+) inputs/, limit('FN_INPUTS'));
+fact('docs/language.md', qr/`MAX` take up to (\d+) inputs/, limit('FN_INPUTS'));
+fact('docs/language.md', qr/It is never below (\d+) µs/, limit('TICK') / 1000);
+fact('docs/sfc.md', qr/at most (\d+) times a scan; then come the actions/, limit('ROUNDS'));
+fact('docs/sfc.md', qr/up to (\d+); LD455/, limit('MARKINGS'));
+fact('docs/from-classicladder.md', qr/until none fires, at most (\d+) times a scan/, limit('ROUNDS'));
+fact('docs/code-image.md', qr/position-independent, at most (\d+) MiB/, limit('IMAGE') >> 20);
+fact('docs/code-image.md', qr/together at most (\d+) MiB/, limit('AREAS') >> 20);
+fact('docs/code-image.md', qr/not recursive and at most (\d+) deep/, limit('CALLS'));
+
+# Messages that name a limit.
+for (['LD140', qr/at most (\d+) elements/, 'ELEMENTS'], ['LD145', qr/more than (\d+) files/, 'INCLUDES']) {
+	my ($code, $pattern, $limit) = @$_;
+	my ($message) = slurp('runtime/engine/diag.def') =~ /^DIAG\(\w+,\s*"$code",.*?"((?:[^"\\]|\\.)*)"\)/m;
+	is(($message =~ $pattern)[0], limit($limit), "$code: LIMIT_$limit");
+}
+
+# ---- other numbers ----
+fact('docs/sfc.md', qr/more than (\d+) contacts in a row/,
+     constant('runtime/engine/exchange/classic/sfc_ladder_parts.h', 'LAD_COLS'));
+fact('docs/from-classicladder-export.md', qr/\*\*Expressions\*\* of more than (\d+) bytes/,
+     constant('runtime/engine/exchange/classic/classic_write.h', 'CLASSIC_EXPRESSION'));
+fact('docs/editor.md', qr/keeps its last ([\d,]+) scans/, constant('editor-gtk/sim/sim.h', 'SIM_SCANS'));
+fact('docs/editor.md', qr/All programs together take (\d+) MB at most/,
+     constant('editor-gtk/sim/sim.h', 'SIM_BYTES') >> 20);
+fact('docs/editor.md', qr/at the latest (\w+) seconds after a change/,
+     constant('editor-gtk/document/draft.c', 'DRAFT_SECONDS'));
+fact('docs/editor.md', qr/slow motion \(1 to (\d+) scans a second\)/,
+     (slurp('editor-gtk/ui/sim_pace.ui') =~ /id="speed".*?name="upper">(\d+)</s)[0]);
+fact('docs/pictures.md', qr/type is smaller than (\d+) pt/,
+     int((slurp('editor-gtk/draw/pages.c') =~ /PAGE_LEAST .*?([\d.]+) pt/)[0]));
+fact('docs/boards.md', qr/keeps the last value; the (\w+) in a row is a FAULT/, constant('hal/hal.h', 'HAL_FAILURES'));
+fact('docs/boards.md', qr/tries (\w+) a second to take the/, 1e9 / constant('runtime/ladderd/cycle.c', 'TEND_NS'));
+fact('docs/boards.md', qr/call for all inputs of a chip and one for all its outputs, up to (\d+) lines/,
+     constant('hal/drivers.h', 'REQUEST_LINES'));
+fact('docs/boards.md', qr/two places of (\d+) KB or more/, constant('runtime/engine/scan/retain.h', 'RETAIN_PAGE') >> 10);
+fact('docs/boards.md', qr/needs (\d+) KB of stack/, constant('runtime/ladderd/main.c', 'STACK_BYTES') >> 10);
+my $unit = slurp('packaging/ladderd.service');
+fact('docs/boards.md', qr/with `WatchdogSec=(\d+)` in the unit/, $unit =~ /^WatchdogSec=(\d+)$/m);
+fact('docs/boards.md', qr/The unit allows up to (\d+) \|/, $unit =~ /^LimitRTPRIO=(\d+)$/m);
+fact($_, qr/at most (\d+) KB/, (slurp('tests/targets/sizes') =~ /SMALL=1, all words' (\d+)/)[0] >> 10)
+	for 'README.md', 'docs/boards.md';
+
+# ---- ladderd --help: options, ranges, defaults ----
+my $options = slurp('runtime/ladderd/options.c');
+my ($help) = $options =~ /^"Usage: ladderd(.*?)^}/ms;
+my %row;
+while ($options =~ /^\t\{ "(--[a-z-]+)",\s+(\w+),\s+AT\([\w.]+\),\s+(\w+),\s+(\w+) \}/mg) {
+	$row{$1} = { kind => $2, least => $3, most => $4 };
+}
+list_is('ladderd --help names every option', [$help =~ /^"  (?:--help, )?(--[a-z-]+)/mg, '--help'], [keys %row]);
+my %ns = (us => 1e3, ms => 1e6, s => 1e9, m => 60e9, h => 3600e9);
+sub bound { return $_[0] =~ /^\d+$/ ? $_[0] : constant($_[0] =~ /^STORE/ ? 'runtime/ladderd/store.h' : 'runtime/ladderd/options.c', $_[0]) }
+for my $option (sort keys %row) {
+	my ($kind, $least, $most) = @{$row{$option}}{qw(kind least most)};
+	my ($about) = $help =~ /^"  \Q$option\E (.*?)(?=^"  --|^"\\n")/ms;
+	next if $kind eq 'FLAG' || $kind eq 'TEXT' || $option eq '--scans';
+	my ($from, $unit, $to, $until) = $about =~ /(\d+)(us|ms|s|m|h)? to (\d+)(us|ms|s|m|h)?/;
+	is($from * ($ns{$unit // ''} // 1), bound($least), "ladderd --help: the least $option");
+	is($to * ($ns{$until // ''} // 1), bound($most), "ladderd --help: the most $option");
+}
+my ($watchdog) = $options =~ /options->watchdog = (\d+);/;
+my ($retain_ns) = $options =~ /options->retain\.period_ns = (INT64_C\(\d+\));/;
+like($help, qr/default $watchdog\\n/, 'ladderd --help: the default of --watchdog');
+my $retain_s = value($retain_ns) / 1e9;
+like($help, qr/10ms to 1h; default ${retain_s}s\\n/, 'ladderd --help: the default of --retain-period');
+fact('docs/boards.md', qr/not sooner than `--retain-period` \((\d+) s\)/, $retain_s);
+fact('docs/language.md', qr/one of `--watchdog` \((\d+)\) intervals/, $watchdog);
+
+# ---- the code image ----
+my $code = slurp('runtime/engine/scan/code.h');
+fact('docs/code-image.md', qr/^\| 8 \| 4 \| version, (\d+) \|/m, constant('runtime/engine/scan/code.h', 'CODE_VERSION'));
+my ($kinds) = $code =~ /^enum code_section_kind \{(.*?)^\}/ms;
+my @kinds = $kinds =~ /^\t(CODE_\w+)/mg;
+my $sections = @kinds; # the first is 1, the last is the count
+my %size = (char => 1, uint32_t => 4, 'struct code_section' => 8);
+my %count = (CODE_AREAS => constant('runtime/engine/scan/code.h', 'CODE_AREAS'), CODE_SECTION_COUNT => $sections);
+my ($header) = $code =~ /^struct code_header \{(.*?)^\}/ms;
+my ($at, %field) = (0);
+while ($header =~ /^\t(char|uint32_t|struct code_section) ([^;]+);/mg) {
+	my ($type, $names) = ($1, $2);
+	for (split /, */, $names) {
+		$field{$at} = $_;
+		$at += $size{$type} * (/\[(\w+)\]/ ? $count{$1} // $1 : 1);
+	}
+}
+my $end = 0;
+while ($text{'docs/code-image.md'} =~ /^\| (\d+) \| (\d+)(?: × (\d+))? \| /mg) {
+	my ($offset, $bytes) = ($1, $2 * ($3 // 1));
+	ok($offset == $end && defined $field{$offset}, "docs/code-image.md: a field of the header at $offset");
+	$end += $bytes;
+}
+is($end, $at, 'docs/code-image.md: the size of the header');
+my @shown = $text{'docs/code-image.md'} =~ /^\| \d+ ([a-z][a-z ,]*) \| [^\n]*\|$/mg;
+my $names = slurp('runtime/ladder/cmd_code.c');
+my %name = $names =~ /\[(CODE_\w+)\] = "([^"]+)"/g;
+is(join('; ', @shown), join('; ', map { $name{$_} } @kinds[0 .. $sections - 2]), 'docs/code-image.md: the sections, as `ladder code` names them');
+my ($first) = grep { $kinds[$_ - 1] eq 'CODE_WATCH' } 1 .. $sections;
+is(join(' ', $text{'docs/code-image.md'} =~ /^\| (\d+) [^\n]*\| yes \|$/mg), join(' ', $first .. $sections - 1), 'docs/code-image.md: the optional sections');
+fact('docs/code-image.md', qr/`ladder build --small` drops sections (\d+ to \d+)/, "$first to " . ($sections - 1));
+my ($table) = $text{'docs/code-image.md'} =~ /^\| instruction \|.*?\n(.*?)\n\n/ms;
+my @instructions = map { s/ [a-z].*//r } map { split /, (?=[A-Z])/ } map { s/^\| ([^|]+) \|.*/$1/r } grep { !/^\|-/ } split /\n/, $table;
+list_is('docs/code-image.md: the instructions', [map { split /, / } @instructions],
+	[slurp('runtime/engine/catalog.def') =~ /^VM\((\w+),/mg]);
+
+# ---- words ----
+my $words = decode_json(scalar `$ladder words --json`);
+my %words = map { $_ => 0 } 'function', 'function block';
+$words{$_->{kind}}++ for grep { $_->{word} !~ /^CL_/ } @$words; # those are for imports
+fact('README.md', qr/of your own; (\d+)\n  functions/, $words{function});
+fact('README.md', qr/and (\d+) function blocks, from SR to PID/, $words{'function block'});
+my $usual = 0;
+$usual += $_->{bytes} for grep { $_->{kind} eq 'area' } @$words;
+fact('docs/rung-file.md', qr/\(#addresses\): (\d+) bytes in all/, $usual);
+my %system = map { $_->{word} => 1 } @$words;
+for my $path (@documents) {
+	my @unknown = grep { !$system{$_} } $text{$path} =~ /\b(SYS_[A-Z][A-Z0-9_]*[A-Z0-9])\b/g;
+	is("@unknown", '', "$path: system names");
+}
+
+# ---- messages ----
+my %message = slurp('runtime/engine/diag.def') =~ /^DIAG\(\w+,\s*"(LD\d+)",\s*\w+,\s*"((?:[^"\\]|\\.)*)"\)/mg;
+for my $path (@documents) {
+	is(join(' ', grep { !defined $message{$_} } $text{$path} =~ /\b(LD\d{3})\b/g), '', "$path: codes of messages");
+	while ($prose{$path} =~ /`(LD\d{3}): ([^`\n]+)`/g) {
+		my ($code, $said) = ($1, $2);
+		my ($begin) = $message{$code} =~ /^([^%{"\\]*)/;
+		is(substr($said, 0, length $begin), $begin, "$path: the text of $code");
+	}
+}
+
+# ---- options, make targets, files ----
+my @help = map { scalar `$ladder help $_` } split ' ', `$ladder help --names`;
+my $usages = join "\n", @help, scalar `$build/ladderd --help`,
+	map { slurp($_) } 'editor-gtk/window/usage.c', 'editor-gtk/render/render.c';
+my %foreign = map { $_ => 1 } qw(--system --reload --subsystem-match --write); # of other programs
+for my $path (@documents) {
+	my @unknown = grep { !$foreign{$_} && $usages !~ /\Q$_\E\b/ } $prose{$path} =~ /(?<![\w-])(--[a-z][a-z-]+)/g;
+	is("@unknown", '', "$path: options");
+}
+my %target = map { $_ => 1 } slurp('Makefile') =~ /^([a-z][a-z-]*):/mg;
+my %variable = map { $_ => 1 } slurp('Makefile') =~ /\$[({]([A-Z_]+)/g;
+for my $path (@documents) {
+	my @unknown = grep { !$target{$_} } $text{$path} =~ /`make(?: [A-Z_]+=[^\s`]+)* ([a-z][a-z-]*)[^`\n]*`/g;
+	is("@unknown", '', "$path: targets of make");
+	@unknown = grep { !$variable{$_} } map { /([A-Z_]+)=/g } $text{$path} =~ /\bmake((?: [A-Z_]+=[^\s`]+)+)/g;
+	is("@unknown", '', "$path: variables of make");
+	my @gone;
+	while ($text{$path} =~ m{`((?:packaging|ladders|tests|runtime|hal|editor-gtk|docs)/[\w./*-]*)`}g) {
+		my @found = glob $1;
+		push @gone, $1 if !@found || !-e $found[0];
+	}
+	is("@gone", '', "$path: files") if $path ne 'ARCHITECTURE.md';
+}
+
+# ---- lists ----
+my @samples = map { basename($_, '.rung') } glob 'ladders/*.rung';
+list_is('README.md: the samples', [$text{'README.md'} =~ /^\| \[([\w-]+)\]\(ladders\//mg], [grep { !/\.plant$/ } @samples]);
+my @plants = map { s/\.plant$//r } grep { /\.plant$/ } @samples;
+list_is('README.md: the samples with a plant', [$text{'README.md'} =~ /\(ladders\/([\w-]+)\.plant\.rung\)/g], \@plants);
+my ($with) = $text{'docs/scenarios.md'} =~ /^(`ladders\/garage-door\.rung`.*? come with one.*)$/m;
+list_is('docs/scenarios.md: the samples with a plant', [$with =~ /`(?:ladders\/)?([\w-]+)\.rung`/g], \@plants);
+list_is('README.md: the documents', [$text{'README.md'} =~ /^\| \[(docs\/[\w-]+\.md)\]/mg],
+	[grep { m{^docs/} && !m{/from-classicladder-export} } @documents]);
+my %maps = map { $_ => 1 } $text{'docs/boards.md'} =~ /\b([\w-]+\.io)\b/g;
+is(join(' ', grep { !$maps{$_} } map { basename($_) } glob 'ladders/boards/*.io'), '', 'docs/boards.md: every map of ladders/boards');
+my ($map_options) = slurp('hal/iomap.c') =~ /^static const struct option options\[.*?\{(.*?)^\};/ms;
+my ($map_table) = $text{'docs/boards.md'} =~ /^\| option \| for \|.*?\n(.*?)\n\n/ms;
+my %map_option = map { $_ => 1 } map { s/=.*//r } map { split ' ' } map { /`([^`]+)`/g } map { (split /\|/)[1] } grep { !/^\|-/ } split /\n/, $map_table;
+list_is('docs/boards.md: the options of a line', [keys %map_option], [$map_options =~ /\{ "([a-z-]+)",/g]);
+my @drivers = slurp('hal/drivers.def') =~ /^DRIVER\((\w+)\)/mg;
+my ($driver_list) = $text{'docs/boards.md'} =~ /^Drivers: (.*?)\n\n/ms;
+is(join(' ', grep { $driver_list !~ /`\Q$_\E`/ } @drivers), '', 'docs/boards.md: the drivers');
+my ($push_table) = $text{'docs/boards.md'} =~ /^\| exit status \| means \|\n\|---\|---\|\n(.*?)\n\n/ms;
+is(join(' ', $push_table =~ /^\| (\d+) /mg), '0 1 2', 'docs/boards.md: the exit status of ladder push');
+
+my %language = (de => 'German', fr => 'French', zh_CN => 'Chinese');
+my @languages = split ' ', slurp('editor-gtk/po/LINGUAS');
+list_is('the languages of the editor have names here', [keys %language], \@languages);
+for my $path ('README.md', 'docs/editor.md', 'docs/languages.md') {
+	my ($line) = $prose{$path} =~ /^(.*\bGerman\b.*)$/m;
+	is(join(' ', grep { $line !~ /\b$language{$_}\b/ } @languages), '', "$path: the languages");
+}
+
+my $render = slurp('editor-gtk/render/render.c');
+my ($render_help) = $render =~ /"  --pou NAME(.*?)^}/ms;
+my %render_option = map { $_ => 1 } '--pou', '--help', $render_help =~ /(--[a-z-]+)/g;
+my ($picture_table) = $text{'docs/pictures.md'} =~ /^\| option \| \|\n\|---\|---\|\n(.*?)\n\n/ms;
+my %picture_option = map { $_ => 1 } map { /`(--[a-z-]+)/g } map { (split /\|/)[1] } split /\n/, $picture_table;
+list_is('docs/pictures.md: the options', [keys %picture_option], [keys %render_option]);
+fact('docs/pictures.md', qr/^\| `--scale S` \| ([\d.]+ to \d+);/m, ($render =~ /--scale S +([\d.]+ to \d+);/)[0]);
+fact('docs/pictures.md', qr/^\| `--paper SIZE` \| of a PDF: (.*) \|$/m,
+     join ', ', map { $_ eq 'a4' ? '`a4` (default)' : "`$_`" } split /, /, ($render =~ /of a PDF: ([a-z0-9, ]+)\\n/)[0]);
+
+# ---- the editor ----
+# Labels in the documents are texts of the editor, or keys, or a heading of a report.
+my $texts = slurp('editor-gtk/po/de.po', ':encoding(UTF-8)') =~ s/"\n"//gr;
+my %label = map { $_ => 1 } map { s/_|\\n.*//gr } $texts =~ /^msgid "((?:[^"\\]|\\.)*)"/mg;
+for my $path (grep { $_ ne 'ARCHITECTURE.md' } @documents) {
+	my @unknown = grep { !$label{$_} && !$label{"$_…"} && !/^(?:F\d|Lost)$/ }
+		$prose{$path} =~ /(?<![*\w\\])\*([A-Z][^*\n]{1,60})\*(?![*\w])/g;
+	is(join('; ', @unknown), '', "$path: labels of the editor");
+}
+# Keys with a letter or a function key; arrows, Enter and others have no row of their own.
+SKIP: {
+	skip 'there is no ladder-editor', scalar @documents if !-x "$build/ladder-editor";
+	local $ENV{LC_ALL} = 'C.UTF-8';
+	my %key = map { join('+', sort split /\+/) => 1 } map { split /, / }
+		join("\n", map { scalar `$build/ladder-editor --keys '$_'` } 'rungboard', 'micro/win', 'gx works', 'ldmicro') =~ /^  (\S.*?)  /mg;
+	for my $path (@documents) {
+		my @unknown = grep { !$key{join '+', sort split /\+/} && $_ ne 'F10' } # GTK opens the menu
+			$prose{$path} =~ /`((?:(?:Ctrl|Shift|Alt)\+)*(?:F\d+|(?<=\+)[A-Z;.,\/]))`/g;
+		is("@unknown", '', "$path: keys of the editor");
+	}
+}
+
+# ---- words of scenarios and scripts ----
+my $scenarios = slurp('runtime/engine/trial/scenario_read.c');
+my ($lines) = $text{'docs/scenarios.md'} =~ /^\| line \| means \|\n\|---\|---\|\n(.*?)\n\n/ms;
+my %said = map { $_ => 1 } $lines =~ /^\| `([a-z]+)/mg;
+is(join(' ', grep { !$said{$_} } grep { /^[a-z]+$/ } $scenarios =~ /accept\(reader, "(\w+)"\)/g), '', 'docs/scenarios.md: the words of a scenario');
+my $script = slurp('runtime/engine/trial/script.c');
+my ($script_table) = $text{'docs/scenarios.md'} =~ /^\| in a line \| means \|\n\|---\|---\|\n(.*?)\n\n/ms;
+is(join(' ', grep { $script_table !~ /`\Q$_\E\b/ } $script =~ /is_word\(\w+, "(\@?[a-z]+)"\)/g), '', 'docs/scenarios.md: the words of a script');
+
+# ---- versions ----
+my ($version) = slurp('runtime/engine/base/version.h') =~ /LADDER_VERSION "([\d.]+)"/;
+my @releases = slurp('packaging/org.rungboard.Editor.metainfo.xml') =~ /<release version="([\d.]+)"/g;
+is($releases[0], $version, 'the newest release of the metainfo is this version');
+fact('docs/editor.md', qr/if GTK (\d+) is installed/, (slurp('Makefile') =~ /^EDITOR_NEEDS := gtk(\d+)/m)[0]);
+
+done_testing();
