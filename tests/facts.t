@@ -190,6 +190,21 @@ fact('README.md', qr/and (\d+) function blocks, from SR to PID/, $words{'functio
 my $usual = 0;
 $usual += $_->{bytes} for grep { $_->{kind} eq 'area' } @$words;
 fact('docs/rung-file.md', qr/\(#addresses\): (\d+) bytes in all/, $usual);
+my %area = map { $_->{word} => $_ } grep { $_->{kind} eq 'area' } @$words;
+my ($area_table) = $text{'docs/rung-file.md'} =~ /^\| area \| letters \|.*?\n\|-.*?\n(.*?)\n\n/ms;
+my %described;
+for (split /\n/, $area_table) {
+	my (undef, undef, $letters, undef, $bytes, $range) = split / *\| */;
+	for my $area ($letters =~ /`(\w+)`/g) {
+		my ($usual, $most) = ($bytes =~ /^(\d+)/, $range =~ /^\d+ to (\d+)/ ? $1 : $bytes);
+		is("$usual $most", "$area{$area}{bytes} $area{$area}{most_bytes}", "docs/rung-file.md: the sizes of area $area");
+		$described{$area} = 1;
+	}
+}
+list_is('docs/rung-file.md: the areas', [keys %described], [keys %area]);
+my ($qualifiers) = $text{'docs/rung-file.md'} =~ /^qualifier += (.*)$/m;
+my ($sfc) = slurp('runtime/engine/model/sfc.c') =~ /^\t("N", "S", [^\n]*),$/m;
+is(join(' ', $qualifiers =~ /'(\w+)'/g), join(' ', $sfc =~ /"(\w+)"/g), 'docs/rung-file.md: the qualifiers');
 my %system = map { $_->{word} => 1 } @$words;
 for my $path (@documents) {
 	my @unknown = grep { !$system{$_} } $text{$path} =~ /\b(SYS_[A-Z][A-Z0-9_]*[A-Z0-9])\b/g;
@@ -300,6 +315,16 @@ is(join(' ', grep { !$said{$_} } grep { /^[a-z]+$/ } $scenarios =~ /accept\(read
 my $script = slurp('runtime/engine/trial/script.c');
 my ($script_table) = $text{'docs/scenarios.md'} =~ /^\| in a line \| means \|\n\|---\|---\|\n(.*?)\n\n/ms;
 is(join(' ', grep { $script_table !~ /`\Q$_\E\b/ } $script =~ /is_word\(\w+, "(\@?[a-z]+)"\)/g), '', 'docs/scenarios.md: the words of a script');
+
+# ---- ARCHITECTURE.md ----
+my ($rooms) = slurp('tests/floors.sh') =~ /^rooms="\n(.*?)^"/ms;
+my @rooms = map { m{([\w-]+)$} ? "$1/" : () } map { (split ' ')[0] } split /\n/, $rooms;
+is(join(' ', grep { index($text{'ARCHITECTURE.md'}, $_) < 0 } @rooms), '', 'ARCHITECTURE.md: every room of tests/floors.sh');
+my %hundred = map { /LD(\d)/; $1 => 1 } keys %message;
+my ($ranges) = $text{'ARCHITECTURE.md'} =~ /(LD0xx system.*?)\n\n/s;
+list_is('ARCHITECTURE.md: the ranges of codes', [map { /^LD(\d)/ ? $1 : /^(\d)xx/ } split /, /, $ranges =~ s/\n\s*/ /gr], [keys %hundred]);
+like($text{'ARCHITECTURE.md'}, qr/those of a scenario are evaluated between scans by/, 'ARCHITECTURE.md: expressions of a scenario');
+like(slurp('runtime/engine/trial/scenario.c'), qr/\bformula_value\(/, 'trial/scenario.c evaluates them');
 
 # ---- versions ----
 my ($version) = slurp('runtime/engine/base/version.h') =~ /LADDER_VERSION "([\d.]+)"/;
