@@ -8,6 +8,8 @@
 
 #include "engine/base/sink.h"
 #include "engine/ladder.h"
+#include "engine/trial/scenario.h"
+#include "engine/trial/script.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,5 +101,45 @@ static inline const char *bed_first(const struct bed *bed)
 		snprintf(text, sizeof(text), "%s:%d:%d", diag_code(diag->id),
 			 diag->line, diag->column);
 	return text;
+}
+
+/* The trace of a script with scans 10 ms apart. */
+static inline const char *bed_trace(struct bed *bed, const char *script,
+				    enum trace_form form, bool changes)
+{
+	struct trace trace;
+
+	bed_clear(bed);
+	trace_init(&trace, &bed->resource.image, &bed->out, form, changes);
+	script_run("s", script, strlen(script), INT64_C(10000000), &bed->resource, NULL,
+		   &trace, &bed->diags);
+	trace_free(&trace);
+	return sink_memory_text(&bed->text);
+}
+
+/* The reports of all scenarios of a text; "held" if all passed.
+ * @first: NULL, or gets the first one after its run; only its numbers are valid */
+static inline const char *bed_judge(struct bed *bed, const char *text,
+				    struct scenario *first)
+{
+	struct scenario_file file;
+	struct arena arena;
+	bool held = true;
+
+	bed_clear(bed);
+	arena_init(&arena);
+	if (!scenario_read("s.scn", text, strlen(text), &bed->resource.image, NULL,
+			   &arena, &file, &bed->diags)) {
+		arena_free(&arena);
+		return bed_first(bed);
+	}
+	for (int i = 0; i < file.count; i++)
+		held = scenario_run(&file, i, &bed->resource, NULL, &bed->out) && held;
+	if (first)
+		*first = file.scenario[0];
+	arena_free(&arena);
+	CHECK_AS(held == !*sink_memory_text(&bed->text),
+		 "a report exactly when something failed");
+	return held ? "held" : sink_memory_text(&bed->text);
 }
 #endif

@@ -25,29 +25,15 @@ static const struct {
 	{ "s", 1000000000 },
 };
 
-static char lower(char c)
-{
-	return c >= 'A' && c <= 'Z' ? (char)(c + 32) : c;
-}
-
-static bool is_digit(char c)
-{
-	return c >= '0' && c <= '9';
-}
-
 /* The unit at *at, which is skipped; 0: none. */
 static int64_t take_unit(const char **at, const char *end)
 {
 	for (size_t i = 0; i < sizeof(units) / sizeof(units[0]); i++) {
-		size_t len = strlen(units[i].word), n = 0;
+		size_t len = ascii_prefix(units[i].word, *at, (size_t)(end - *at));
 
-		while (n < len && *at + n < end &&
-		       lower((*at)[n]) == units[i].word[n])
-			n++;
-		if (n == len) {
-			*at += len;
+		*at += len;
+		if (len)
 			return units[i].ns;
-		}
 	}
 	return 0;
 }
@@ -89,7 +75,7 @@ static enum literal_result add_part(const char **at, const char *end,
 {
 	const char *whole = *at, *point, *digits;
 
-	while (*at < end && is_digit(**at))
+	while (*at < end && ascii_digit(**at))
 		(*at)++;
 	point = *at;
 	if (*at < end && **at == '.') {
@@ -97,7 +83,7 @@ static enum literal_result add_part(const char **at, const char *end,
 		*last = true;
 	}
 	digits = *at;
-	while (*at < end && is_digit(**at))
+	while (*at < end && ascii_digit(**at))
 		(*at)++;
 	if (point == whole || (*last && digits == *at))
 		return LITERAL_BAD;
@@ -152,16 +138,6 @@ enum literal_result value_parse_time(const char *text, size_t len,
 	return LITERAL_OK;
 }
 
-static bool is_true_word(const char *text, size_t len, const char *word)
-{
-	if (len != strlen(word))
-		return false;
-	for (size_t i = 0; i < len; i++)
-		if (lower(text[i]) != word[i])
-			return false;
-	return true;
-}
-
 /* A date or time of day without its D#, as in traces. */
 static enum literal_result parse_bare(enum iec_type type, const char *text, size_t len,
 				      struct literal *out)
@@ -178,7 +154,7 @@ static enum literal_result parse_bare(enum iec_type type, const char *text, size
 static enum literal_result parse_constant(enum iec_type type, const char *text,
 					  size_t len, struct literal *out)
 {
-	if (iec_type_row(type)->class & ANY_DATE && is_digit(*text))
+	if (iec_type_row(type)->class & ANY_DATE && ascii_digit(*text))
 		return parse_bare(type, text, len, out);
 	return literal_parse(text, len, out);
 }
@@ -192,12 +168,11 @@ bool value_parse(enum iec_type type, const char *text, size_t len,
 	*why = DIAG_BAD_LITERAL;
 	if (!len)
 		return false;
-	if (type == IEC_BOOL && (is_true_word(text, len, "true") ||
-				 is_true_word(text, len, "false"))) {
+	if (type == IEC_BOOL && (ascii_is("TRUE", text, len) || ascii_is("FALSE", text, len))) {
 		out->i = len == 4;
 		return true;
 	}
-	if (type == IEC_TIME && is_digit(*text)) {
+	if (type == IEC_TIME && ascii_digit(*text)) {
 		result = value_parse_time(text, len, VALUE_MS, &out->i);
 		if (result == LITERAL_RANGE)
 			*why = DIAG_LITERAL_RANGE;

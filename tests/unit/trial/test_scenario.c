@@ -2,35 +2,15 @@
  *
  * test_scenario - scenario files: reading, expectations, reports.
  */
-#include "engine/trial/scenario.h"
-
 #include "tests/tap.h"
 #include "tests/unit/trial.h"
 
 static struct bed bed;
 static struct scenario failed; /* the first one, after its run: only its numbers */
 
-/* The reports of all scenarios of a text; "held" if all passed. */
 static const char *run(const char *text)
 {
-	struct scenario_file file;
-	struct arena arena;
-	bool held = true;
-
-	bed_clear(&bed);
-	arena_init(&arena);
-	if (!scenario_read("s.scn", text, strlen(text), &bed.resource.image, NULL,
-			   &arena, &file, &bed.diags)) {
-		arena_free(&arena);
-		return bed_first(&bed);
-	}
-	for (int i = 0; i < file.count; i++)
-		held = scenario_run(&file, i, &bed.resource, NULL, &bed.out) && held;
-	failed = file.scenario[0];
-	arena_free(&arena);
-	CHECK_AS(held == !*sink_memory_text(&bed.text),
-		 "a report exactly when something failed");
-	return held ? "held" : sink_memory_text(&bed.text);
+	return bed_judge(&bed, text, &failed);
 }
 
 #define S "scenario \"s\"\n"

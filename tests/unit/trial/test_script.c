@@ -2,7 +2,6 @@
  *
  * test_script - stimulus scripts and the three forms of a trace.
  */
-#include "engine/trial/script.h"
 #include "engine/trial/value.h"
 
 #include "tests/tap.h"
@@ -12,17 +11,9 @@
 
 static struct bed bed;
 
-static const char *run_form(const char *script, enum trace_form form,
-			    bool changes)
+static const char *run_form(const char *script, enum trace_form form, bool changes)
 {
-	struct trace trace;
-
-	bed_clear(&bed);
-	trace_init(&trace, &bed.resource.image, &bed.out, form, changes);
-	script_run("s", script, strlen(script), 10 * MS, &bed.resource, NULL, &trace,
-		   &bed.diags);
-	trace_free(&trace);
-	return sink_memory_text(&bed.text);
+	return bed_trace(&bed, script, form, changes);
 }
 
 static const char *run(const char *script)

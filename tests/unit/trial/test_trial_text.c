@@ -3,13 +3,8 @@
  * test_trial_text - texts, dates, LREAL and 64 unsigned bits in scripts, traces and
  * scenarios.
  */
-#include "engine/trial/scenario.h"
-#include "engine/trial/script.h"
-
 #include "tests/tap.h"
 #include "tests/unit/trial.h"
-
-#define MS INT64_C(1000000)
 
 static const char source[] =
 	"RUNGBOARD 1\n"
@@ -37,14 +32,7 @@ static struct bed bed;
 
 static const char *run_form(const char *script, enum trace_form form, bool changes)
 {
-	struct trace trace;
-
-	bed_clear(&bed);
-	trace_init(&trace, &bed.resource.image, &bed.out, form, changes);
-	script_run("s", script, strlen(script), 10 * MS, &bed.resource, NULL, &trace,
-		   &bed.diags);
-	trace_free(&trace);
-	return sink_memory_text(&bed.text);
+	return bed_trace(&bed, script, form, changes);
 }
 
 static const char *run(const char *script)
@@ -115,24 +103,9 @@ static void tables(void)
 	CHECK(strstr(wave, "sa\\040b\\134\\007 !\nr0.10000000000000001 \"\n") != NULL);
 }
 
-/* The reports of all scenarios of a text; "held" if all passed. */
 static const char *judge(const char *text)
 {
-	struct scenario_file file;
-	struct arena arena;
-	bool held = true;
-
-	bed_clear(&bed);
-	arena_init(&arena);
-	if (!scenario_read("s.scn", text, strlen(text), &bed.resource.image, NULL,
-			   &arena, &file, &bed.diags)) {
-		arena_free(&arena);
-		return bed_first(&bed);
-	}
-	for (int i = 0; i < file.count; i++)
-		held = scenario_run(&file, i, &bed.resource, NULL, &bed.out) && held;
-	arena_free(&arena);
-	return held ? "held" : sink_memory_text(&bed.text);
+	return bed_judge(&bed, text, NULL);
 }
 
 #define S "scenario \"s\"\n"
