@@ -53,7 +53,7 @@ OFTEN    := $(addprefix runtime/ladderd/,cycle.c stats.c wall.c)
 ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c \
             $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/code*.c scan/declared.c \
             scan/retain_*.c scan/symbols.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
-            hal/gpio_find.c hal/hal_open.c hal/iomap.c)
+            hal/gpio_find.c hal/hal_open.c hal/iomap*.c)
 ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*.c model/*.c translate/*.c ladder.c \
             scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_pid.c scan/fb_store.c scan/fn_bits.c scan/fn_convert.c \
             scan/fn_real.c scan/fn_select.c scan/fn_string.c scan/fn_text*.c scan/fn_time.c scan/math*.c scan/retain*.c) \
@@ -108,7 +108,7 @@ GPIO_C_none  := hal/gpiod_none.c
 GPIO_C   := $(or $(GPIO_C_$(HAL)),$(error HAL=$(HAL): it is gpiod, uapi or none))
 GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PKG_CONFIG) --cflags libgpiod),$(error HAL=gpiod, but pkg-config finds no libgpiod 1 or 2)))
 GPIO_LIB := $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
-HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/sim.c
+HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
 LADDERD_NOT := $(if $(filter 1,$(SMALL)),source_any store_thread store_file,source_image store_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))

@@ -12,6 +12,8 @@
 #include "engine/base/arena.h"
 #include "engine/base/diag.h"
 
+struct program;
+
 enum driver_id {
 #define DRIVER(id) DRIVER_##id,
 #include "hal/drivers.def"
@@ -68,6 +70,19 @@ bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
  */
 bool iomap_fits(const struct iomap *map, const struct areas *areas,
 		struct diag_list *diags);
+
+/**
+ * iomap_check_program - checks a map and a program against each other
+ * @program: verified
+ * @arena:   temporary memory
+ *
+ * As iomap_fits(). Also warns (LD515) about inputs and outputs that the program declares
+ * or uses by address, of any area and width, without a line; a value of several bits
+ * needs one line.
+ * Owns: nothing.   Scan-safe: no.   Fails: false after an error.
+ */
+bool iomap_check_program(const struct iomap *map, const struct program *program,
+			 struct arena *arena, struct diag_list *diags);
 
 /** io_place - the place of a point in its file, for diag_add. */
 struct diag io_place(const struct iomap *map, const struct io_point *point,

@@ -25,7 +25,7 @@ runtime/engine/exchange   engine/base
 runtime/engine/exchange/classic engine/base engine/model engine/check engine/text engine/translate engine/xref engine/exchange engine/classic.def
 runtime/engine/trial      engine/base engine/model engine/scan engine/check engine/text engine/translate engine/classic.def
 runtime/engine            engine engine/base engine/model engine/scan engine/check engine/text engine/translate engine/show engine/xref engine/compare engine/exchange engine/exchange/classic engine/trial
-hal                       engine/base engine/scan/image.h
+hal                       engine/base engine/scan/image.h engine/scan/code_access.h
 runtime/ladder            $doors engine/exchange engine/exchange/classic hal engine/text engine/catalog.def
 runtime/ladderd           engine/ladder.h engine/base engine/model engine/scan hal
 editor-gtk/kit/gtk48      $doors

@@ -175,8 +175,8 @@ static enum status read_map(struct board *board, const char *path)
 		return STATUS_WRONG;
 	}
 	board->mapped = iomap_read(&board->map, &board->arena, path, text, len, diags) &&
-			iomap_fits(&board->map, &board->resource->image.program->areas,
-				   diags);
+			iomap_check_program(&board->map, board->resource->image.program,
+					    &board->arena, diags);
 	for (int i = 0; board->mapped && i < board->map.count; i++)
 		board->map.point[i].driver = DRIVER_sim;
 	board->mapped = board->mapped && hal_open(&board->hal, &board->map,

@@ -5,6 +5,10 @@
  */
 #include "ladder/report.h"
 
+#include "hal/iomap.h"
+
+#include <stdlib.h>
+
 static int warnings_of(const struct diag_list *diags)
 {
 	return diags->count + diags->dropped - diags->errors;
@@ -39,30 +43,48 @@ static void print_json(const char *path, const struct diag_list *diags,
 	sink_text(out, "}");
 }
 
+/* Adds errors of the map, and inputs and outputs that it lacks. */
+static enum status check_map(struct ladder *ladder, const char *path, struct arena *arena)
+{
+	struct diag_list *diags = ladder_diags(ladder);
+	struct iomap map;
+	size_t len;
+	char *text = report_read(path, &len);
+	bool good;
+
+	if (!text)
+		return STATUS_WRONG;
+	good = iomap_read(&map, arena, path, text, len, diags) &&
+	       iomap_check_program(&map, ladder_program(ladder), arena, diags);
+	free(text);
+	return good ? STATUS_GOOD : STATUS_NO;
+}
+
 static enum status check_one(struct call *call, const char *path, bool json,
 			     bool first)
 {
+	const char *map = call_option(call, "--io");
 	struct ladder *ladder = program_new(false);
-	enum status status = STATUS_WRONG;
+	enum status status = STATUS_GOOD;
+	struct arena arena;
 
 	if (!ladder)
 		return report_no_memory(path);
-	if (!json) {
-		status = report_load(ladder, path, true);
-	} else {
-		bool good = ladder_load(ladder, path) && ladder_build(ladder);
-
-		if (good)
-			status = STATUS_GOOD;
-		else if (ladder_could_read(ladder))
-			status = STATUS_NO;
-	}
-	if (json)
+	arena_init(&arena);
+	if (!ladder_load(ladder, path) || !ladder_build(ladder))
+		status = ladder_could_read(ladder) ? STATUS_NO : STATUS_WRONG;
+	else if (map)
+		status = check_map(ladder, map, &arena);
+	if (json) {
 		print_json(path, ladder_diags(ladder), status == STATUS_GOOD,
 			   first, &call->out);
-	else if (status != STATUS_WRONG)
-		print_sum(path, ladder_diags(ladder), &call->out);
+	} else {
+		report_diags(ladder_diags(ladder));
+		if (status != STATUS_WRONG)
+			print_sum(path, ladder_diags(ladder), &call->out);
+	}
 	ladder_free(ladder);
+	arena_free(&arena);
 	return status;
 }
 

@@ -152,7 +152,7 @@ static enum status check_map(struct call *call, const struct iomap *map,
 
 /* Shows the state of the map's lines, with the names of --program. */
 static enum status show_map(struct call *call, const struct iomap *map,
-			    struct diag_list *diags)
+			    struct arena *arena, struct diag_list *diags)
 {
 	const char *file = call_option(call, "--program");
 	struct picture picture = { .map = map };
@@ -165,7 +165,7 @@ static enum status show_map(struct call *call, const struct iomap *map,
 	if (status == STATUS_GOOD) {
 		if (file) {
 			picture.program = ladder_program(machine.ladder);
-			fits = iomap_fits(map, &picture.program->areas, diags);
+			fits = iomap_check_program(map, picture.program, arena, diags);
 		}
 		status = show(call, &picture, diags);
 		if (!fits)
@@ -190,7 +190,7 @@ static enum status with_map(struct call *call, struct diag_list *diags)
 		return STATUS_WRONG;
 	arena_init(&arena);
 	if (iomap_read(&map, &arena, call->arg[0], text, len, diags))
-		status = picture ? show_map(call, &map, diags) :
+		status = picture ? show_map(call, &map, &arena, diags) :
 				   check_map(call, &map, diags);
 	else if (call_flag(call, "--json"))
 		json_points(call, &map, diags);

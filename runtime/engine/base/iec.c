@@ -91,6 +91,12 @@ const struct iec_area_row *iec_area_row(enum iec_area area)
 	return &areas[area < AREA_COUNT ? area : AREA_NONE];
 }
 
+bool iec_area_is_io(enum iec_area area)
+{
+	return area > AREA_NONE && area < AREA_COUNT && area != AREA_M && area != AREA_V &&
+	       area != AREA_S && area != AREA_SM;
+}
+
 /* The rest of an address text. */
 struct rest {
 	const char *at, *end;

@@ -103,6 +103,9 @@ struct iec_area_row {
 	enum iec_access access;
 };
 const struct iec_area_row *iec_area_row(enum iec_area area);
+/** iec_area_is_io - whether it holds inputs or outputs, also analog ones and those of
+ * expansion modules.   Scan-safe: yes. */
+bool iec_area_is_io(enum iec_area area);
 
 struct iec_addr {
 	enum iec_area area;  /* AREA_NONE: no address                          */
