@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 #
-# ClassicTest - what the tests of ClassicLadder's projects share: running programs, finding
-# projects, and a reader of an exported project that forgives nothing.
+# ClassicTest - for the tests of ClassicLadder projects: runs programs, finds projects, and
+# strictly reads an exported project.
 #
-# strict() knows the rules by which ClassicLadder loads (and what it crashes on), and no more
-# of what a project means than they need. It returns what is wrong, line by line.
+# strict() checks the rules by which ClassicLadder loads a project, including inputs on
+# which it crashes. It returns the errors, line by line.
 package ClassicTest;
 use strict;
 use warnings;
@@ -12,7 +12,7 @@ use Exporter 'import';
 use Files;
 our @EXPORT = qw(run said slurp spew project_of members strict);
 
-# What a command prints; warnings are not what is compared, an error is seen by its status.
+# The standard output of a command, and its status if it failed.
 sub run {
 	my (@command) = @_;
 	open my $out, '-|', 'sh', '-c', 'exec "$@" 2>/dev/null', 'sh', @command
@@ -26,7 +26,8 @@ sub run {
 	return $text;
 }
 
-# What a command says, wherever it prints it, and its exit status; 128 and more: by a signal.
+# The output of a command, both streams, and its exit status; from 128 on: ended by a
+# signal.
 sub said {
 	my (@command) = @_;
 	open my $out, '-|', 'sh', '-c', 'exec "$@" 2>&1 </dev/null', 'sh', @command or die;
@@ -45,7 +46,7 @@ sub project_of {
 	return undef;
 }
 
-# ---- what ClassicLadder takes ----
+# ---- the rules of ClassicLadder ----
 
 my @upstream = qw(project_infos.txt general.txt timers.csv monostables.csv counters.csv
 	timers_iec.csv registers.csv arithmetic_expressions.csv rung sections.csv sequential.csv
@@ -53,7 +54,7 @@ my @upstream = qw(project_infos.txt general.txt timers.csv monostables.csv count
 	remote_alarms.txt spy_vars.csv);
 my %only_upstream = map { $_ => 1 } qw(project_infos.txt registers.csv config_events.csv
 	modem_config.txt remote_alarms.txt spy_vars.csv);
-# Type of a variable: the setting that says how many there are; which may be written.
+# The type of a variable: the setting with their number; the types that may be written.
 my %sizes = (0 => 'BITS', 10 => 'TIMERS', 11 => 'TIMERS', 15 => 'TIMERS_IEC', 20 => 'MONOSTABLES',
 	25 => 'COUNTERS', 26 => 'COUNTERS', 27 => 'COUNTERS', 50 => 'PHYS_INPUTS',
 	60 => 'PHYS_OUTPUTS', 80 => 'REGISTERS', 81 => 'REGISTERS', 200 => 'WORDS',
@@ -68,7 +69,7 @@ my %block = (10 => [2, 2, 'TIMERS'], 11 => [2, 2, 'MONOSTABLES'], 12 => [2, 4, '
 	13 => [2, 2, 'TIMERS_IEC'], 14 => [2, 3, 'REGISTERS'], 20 => [3, 1, undef],
 	60 => [3, 1, undef]);
 
-my (%p, @faults); # the project at hand
+my (%p, @faults); # the current project
 
 sub fault { push @faults, join('', @_); return }
 
@@ -97,7 +98,7 @@ sub check_variable {
 	check_variable("$where index", $1, $2, undef);
 }
 
-# ---- expressions: as long as they are strong, left to right ----
+# ---- expressions: by precedence, left to right ----
 
 my $var = qr{@(\d+)/(\d+)(?:\[(\d+/\d+)\])?@};
 
@@ -353,9 +354,9 @@ sub check_io {
 	}
 }
 
-# What is wrong with an exported project: () if ClassicLadder takes it. lc: of LinuxCNC;
-# power: ^ of LinuxCNC is meant as a power; steps: the project writes bits of steps, which the
-# editor there does not allow.
+# The errors of an exported project; (): ClassicLadder accepts it. lc: for LinuxCNC; power:
+# ^ is a power, as in LinuxCNC; steps: the project writes bits of steps, which the editor of
+# ClassicLadder does not allow.
 sub strict {
 	my ($text, %option) = @_;
 	my $lc = $option{lc};

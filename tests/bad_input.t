@@ -1,19 +1,19 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# bad_input.t - every word with every kind of bad input has a case whose result stands in
-# a file. The programs are made from the rows of the catalogue, so a word without its
-# cases fails here: `tests/bad_input.t --write` makes them anew, `make bless CASE=…` fills
-# in what they expect, and a person reads the difference.
+# bad_input.t - every word has a case for every kind of bad input, and its result is in a file.
+# The programs are made from the rows of the catalogue, so a word without cases fails here:
+# `tests/bad_input.t --write` writes them, `make bless CASE=…` writes the expected results, and
+# a person reads the difference.
 #
-#   tests/golden/bad-values-FAMILY   results, power and errors of values that hurt
+#   tests/golden/bad-values-FAMILY   results, power and errors of difficult values
 #   tests/golden/bad-types-FAMILY    a wrong type at each pin
 #   tests/golden/bad-range-FAMILY    constants beyond the range of their type
-#   tests/golden/bad-deepest         all kinds of nesting, as deep as they may be
+#   tests/golden/bad-deepest         all kinds of nesting, as deep as allowed
 #   tests/golden/bad-fault-*         programs that never end; these are written by hand
-#   tests/bad/deepest.table          what is said to one more of each
-#   tests/bad/types.table            every pin with every type: what is refused, and why
-#   tests/bad/pins.table             pins missing, not there, twice, in the wrong direction
+#   tests/bad/deepest.table          the message about one level more of each kind
+#   tests/bad/types.table            every pin with every type: refused types and messages
+#   tests/bad/pins.table             pins missing, unknown, twice, in the wrong direction
 #   tests/bad/operands.table         every element and operator with operands of each kind
 #
 # golden.t compares the results of the cases; here the cases also run in the build with

@@ -1,14 +1,13 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# What the documents show is true. Each ```rung block is a whole file that checks
-# without an error, is canonical and runs; each ```console block is typed again and
-# must answer as printed; what a link names is there. It does not judge prose.
+# docs.t - the examples of the documents work. Each ```rung block is a whole file without an
+# error, canonical, and runs. Each command of a ```console block is run and must print the shown
+# output. Files that links name exist. tests/facts.t tests facts in the prose.
 #
 # A second word on a fence (```rung lamp.rung, ```text steps) is a file name: the block is
-# written under it, so that later commands find it. Each document has a folder of
-# its own with a copy of ladders/ in it. In shown output, `…` stands for any text in a
-# line, and alone in a line for any lines.
+# written to this file for later commands. Each document has its own folder with a copy of
+# ladders/. In shown output, `…` means any text in a line, and alone in a line any lines.
 use strict;
 use warnings;
 use utf8;
@@ -41,7 +40,7 @@ sub run_in {
 	return ($text, $? >> 8, $? & 127);
 }
 
-# The blocks of a document: what the fence says, where it stands, its text.
+# The blocks of a document: text of the fence, line, content.
 sub blocks_of {
 	my ($path) = @_;
 	my (@blocks, $open);
@@ -72,7 +71,7 @@ sub check_rung {
 	}
 }
 
-# A regular expression that the shown text is.
+# A regular expression for the shown text.
 sub pattern_of {
 	my ($shown) = @_;
 	my $pattern = '';
@@ -103,7 +102,7 @@ sub check_console {
 	}
 	ok(@steps > 0, "$where: has commands");
 	for my $step (@steps) {
-		# Machines without GTK have no editor.
+		# There is no editor without GTK.
 		next if $step->{command} =~ /^ladder-editor\b/ && !-x "$build/ladder-editor";
 		my ($text, undef, $signal) = run_in($folder, $step->{command});
 		$text =~ s/[ \t]+$//mg;
@@ -145,7 +144,7 @@ for my $path (glob("$top/docs/*.md"), "$top/README.md") {
 		check_console($folder, $block, $doc) if $kind eq 'console';
 	}
 }
-# A parser that finds nothing would be content with everything.
+# At least some blocks must be found.
 cmp_ok($count{rung}, '>=', 20, 'examples were found');
 cmp_ok($count{console}, '>=', 10, 'commands were found');
 done_testing();

@@ -5,7 +5,7 @@
 # what the documents show, tests/architecture.t looks for the names of ARCHITECTURE.md.
 #
 # A fact is a pattern with one group, which must occur in a document, and the value that the
-# sources have for it. Who changes a sentence that holds a fact changes the pattern here, too.
+# sources have for it. If a sentence with a fact changes, change its pattern here.
 use strict;
 use warnings;
 use utf8;

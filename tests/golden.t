@@ -3,18 +3,18 @@
 #
 # golden.t - runs every case of tests/golden and compares byte by byte.
 #
-# A case is a folder with main.rung, or make.pl that writes one too large to keep, and at
-# least one of
-#   expected.diag   what `ladder check` says on standard error
-#   expected.il     what `ladder il` prints
-#   expected.trace  what `ladder trace main.rung stimulus` prints
-#   expected.why    what `ladder why main.rung stimulus COIL` prints, of each line in `ask`
-#   expected.show   what `ladder show main.rung` draws; expected.ascii: with --ascii
-#   expected.ladder what `ladder export --as ld` prints, and what is said of it
-#   expected.classic what `ladder export --as classicladder` prints, and what is said of it;
+# A case is a folder with main.rung, or with make.pl that writes a large one, and at least one
+# of
+#   expected.diag   standard error of `ladder check`
+#   expected.il     output of `ladder il`
+#   expected.trace  output of `ladder trace main.rung stimulus`
+#   expected.why    output of `ladder why main.rung stimulus COIL` for each line in `ask`
+#   expected.show   output of `ladder show main.rung`; expected.ascii: with --ascii
+#   expected.ladder output of `ladder export --as ld`, and its messages
+#   expected.classic output of `ladder export --as classicladder`, and its messages;
 #                   expected.numeric: --as numeric
-#   expected.test   what `ladder test main.scn` says on standard error
-#   expected.fault  the same of a program that ends with a fault, and what is said of it
+#   expected.test   standard error of `ladder test main.scn`
+#   expected.fault  trace and messages of a program that ends with a fault
 # The cases together must show every message of diag.def and trace every word of
 # catalog.def. `--bless CASE` rewrites the expected files of a case and shows the difference
 # for a person to read.

@@ -227,7 +227,7 @@ is(get("$etc/active"), $before, 'the old files stand again');
 like(ask(), qr/^state: RUN\n.*^program: $runs$/ms, 'the old program runs again');
 is(folders(), 2, 'nothing is left behind');
 
-# ---- cut at each call, in the middle of what is sent ----
+# ---- the connection is cut in each call ----
 put('cutting-ssh', <<'END', 0755);
 #!/usr/bin/perl
 # Calls $ENV{REAL_SSH}; in call $ENV{CUT_CALL} sends half and kills it, or, if
@@ -273,7 +273,7 @@ is(identity(active()), $many, 'cut while it switches: the new files stand, whole
 my $status = '';
 for (1 .. 20) { last if ($status = ask()) =~ /^program: $many$/m; sleep 0.5 }
 like($status, qr/^state: RUN\n.*^program: $many$/ms, 'cut while it switches: the new program comes up all the same');
-# The script over there ends by itself; its last act is to remove what is old.
+# The script on the board ends by itself; its last step removes old folders.
 for (1 .. 40) { last if folders() == 2; sleep 0.5 }
 is(folders(), 2, 'what the cuts left behind goes with the next push');
 }

@@ -1,11 +1,10 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# Every program in ladders/ is good, canonical and does what its scenarios say, and
-# the scenarios are worth something: they notice nearly every contact that is turned
-# round or bridged; of a chart every condition that is another, every line of a step, every
-# priority, supervision and control that is left out. A sample is found by its name; there
-# is no list.
+# samples.t - every program in ladders/ has no error, is canonical and passes its scenarios. The
+# scenarios must notice nearly every contact that is inverted or bridged, and in a chart every
+# changed condition and every line, priority, supervision and control that is left out. Samples
+# are found by their names.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -22,7 +21,7 @@ my $folder = tempdir(CLEANUP => 1);
 my $noticed_least = 0.9; # interlocks that are made twice cannot be noticed
 # Lines of a chart that are made twice, so that leaving out one is not noticed: how many,
 # and in which sample.
-my %twice = ('sequence-s0-s8' => 2); # S6 and S7 both reset Q0.5: the drawing has it so
+my %twice = ('sequence-s0-s8' => 2); # S6 and S7 both reset Q0.5, as in the published chart
 
 # An instruction with N added or removed.
 sub broken_line {

@@ -1,13 +1,11 @@
 #!/usr/bin/perl
 # SPDX-License-Identifier: MIT
 #
-# The pictures of docs/tutorial.md are what ladder-editor draws of the rung files beside
-# them: each is rendered anew. `make pictures` writes them. The keys of the tutorial are
-# pressed in tests/editor/person/tutorial.py.
+# tutorial.t - renders the pictures of docs/tutorial.md again from the rung files beside them.
+# `make pictures` writes them. tests/editor/person/tutorial.py presses the keys of the tutorial.
 #
-# How wide a text is depends on the fonts of a machine, and with it where boxes stand. So of
-# a text counts what it says, in which style and in which line, and of all horizontal places
-# only their order.
+# The widths of texts, and so the places of boxes, depend on the fonts of a machine. So only
+# the content, style and line of texts are compared, and the order of horizontal places.
 use strict;
 use warnings;
 use utf8;
@@ -28,7 +26,8 @@ $ENV{LC_ALL} = 'C.UTF-8';
 $ENV{LANGUAGE} = '';
 my $work = tempdir(CLEANUP => 1);
 
-# Each horizontal place of a tag goes through @place->(); widths are places of right ends.
+# Applies $place->() to each horizontal place of a tag; a width counts as the place of its
+# right end.
 sub with_places {
 	my ($tag, $place) = @_;
 	my $left = $tag =~ / x="([-.\d]+)"/ ? $1 : 0;
@@ -38,7 +37,7 @@ sub with_places {
 	return $tag;
 }
 
-# What a picture shows, whatever the fonts are.
+# The content of a picture that does not depend on fonts.
 sub shown {
 	my ($svg) = @_;
 	my (%rank, @lines);
@@ -72,12 +71,12 @@ for my $rung (glob("$folder/*.rung")) {
 }
 cmp_ok(scalar keys %drawn, '>=', 5, 'pictures were found');
 is_deeply([map { basename($_, '.svg') } glob("$folder/*.svg")], [sort keys %drawn], 'each has its rung file');
-# The others are what a person comes to: tutorial.py.
+# The results of both halves of the tutorial; tutorial.py draws them.
 for my $name ('4-seal-in', 'fan') {
 	ok(index($tutorial, $drawn{$name}) >= 0, "$name.rung is told in the tutorial");
 }
 
-# Test the test: another program is another picture.
+# Tests the test: a changed program gives another picture.
 my $seal = $drawn{'4-seal-in'};
 my %other = (
 	'an element' => $seal =~ s/NC Stop/NO Stop/r,

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 #
-# Deepest.pm - programs nested as deep as limits.h lets them be, and deeper: "bad-deepest",
-# which runs, and for a table what is said to one more of each kind.
+# Deepest.pm - programs nested to the limits of limits.h, and deeper: "bad-deepest", which
+# runs, and for a table the message about one level more of each kind.
 package Deepest;
 use strict;
 use warnings;
 
-# Of each kind by its depth: types, variables, POUs besides Main, rungs of Main.
+# Each kind for a given depth: types, variables, POUs besides Main, rungs of Main.
 my %kinds = (
 	EXPR_DEPTH => sub { my ($n) = @_;
 		return ('', '  Expr : INT;', '',

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 #
-# Refused.pm - programs that `ladder check` must refuse, a wrong use of a word in each
-# rung: "bad-types-FAMILY", a pin of the wrong type; "bad-range-FAMILY", a constant
-# beyond its type. For tables: all pairs of a pin and a type, pins that are missing, not
-# there, in the wrong direction, and elements and operators with each kind of operand. What
-# the messages say is blessed, and read by a person.
+# Refused.pm - programs that `ladder check` must refuse, with a wrong use of a word in each
+# rung: "bad-types-FAMILY", a pin of the wrong type; "bad-range-FAMILY", a constant outside
+# its type. For tables: all pairs of a pin and a type; pins that are missing, unknown or in
+# the wrong direction; elements and operators with each kind of operand. A person reads the
+# messages and blesses them.
 package Refused;
 use strict;
 use warnings;
@@ -27,13 +27,13 @@ sub program {
 	return $text . "${more}END_VAR\n\nPROGRAM Main LD\n${body}END_PROGRAM\n";
 }
 
-# Of a function: what its pins take, as names of variables.
+# The types of a function's pins, as names of variables.
 sub usual {
 	my ($pin) = @_;
 	return (grep { $pin->{takes}{$_} } qw(INT REAL TIME WORD), @Values::types)[0];
 }
 
-# All words as: how its rung begins, its inputs (name, the types it takes), its outputs.
+# All words: the beginning of their rung, their inputs (name and types), their outputs.
 sub of_function {
 	my ($row) = @_;
 	my ($shared) = grep { !$_->{own} } @{$row->{pins}};
@@ -50,7 +50,7 @@ sub of_block {
 	my @pins = map { { name => $_->{pin}, takes => { $_->{type} => 1 },
 		default => $_->{default}, direction => $_->{direction} } } @{$word->{pins}};
 	my @in = grep { $_->{direction} eq 'in' } @pins;
-	# The first pin takes the power of the row.
+	# The first pin has the power of the row.
 	shift @in if $in[0]{takes}{BOOL};
 	my $count = 0;
 	return { begin => sub { $count++; "$word->{word} b$count" . "_$word->{word}" },
@@ -68,7 +68,7 @@ sub good {
 	return map { [$_, 'x_' . usual($_)] } @{$word->{inputs}};
 }
 
-# A type that a pin does not take, as far from it as there is.
+# A type that a pin does not accept, as different as possible.
 sub wrong {
 	my ($pin) = @_;
 	return (grep { !$pin->{takes}{$_} } qw(STRING BOOL LREAL DATE TIME), @Values::types)[0];
@@ -89,7 +89,7 @@ sub wrong_types {
 	return @rungs;
 }
 
-# [what is wrong, the rung]
+# [the error, the rung]
 sub wrong_pins {
 	my ($word) = @_;
 	my @good = good($word);
@@ -119,7 +119,7 @@ sub wrong_range {
 			$good[$_] } 0 .. $#good]) } 0 .. $#good;
 }
 
-# Texts of main.rung of a family, for each kind.
+# The texts of main.rung of a family, for each kind.
 sub family {
 	my ($family, @words) = @_;
 	my %made;
@@ -127,7 +127,7 @@ sub family {
 		range => ['Constants beyond the range of their type', \&wrong_range]);
 	for my $kind (sort keys %kinds) {
 		my ($title, $make) = @{$kinds{$kind}};
-		# Each has counted its instances anew.
+		# Each family numbers its instances from the start.
 		my @fresh = map { $_->() } @words;
 		my @rungs = map { $make->($_) } @fresh;
 		$made{$kind} = program("$family: $title", join('', map { $_->{declared}->() } @fresh),
@@ -136,7 +136,7 @@ sub family {
 	return %made;
 }
 
-# Operands of all kinds, right for some and wrong for others.
+# Operands of all kinds, correct for some words and wrong for others.
 my @operands = ('', qw(x_BOOL o_BOOL x_INT o_INT x_STRING Table Table[9] Table[x_BOOL] Group
 	Timer Fixed 1 TRUE 'text'), 'T#1s', qw(Nowhere TON ADD Main Sub Here %IX511.0 %QB0 SYS_FIRST_SCAN),
 	'x_BOOL x_BOOL');
@@ -145,8 +145,8 @@ my $declared = "  Table : ARRAY[1..3] OF BOOL;\n  Group : Pair;\n  Timer : TON;\
 my $around = "TYPE\n  Pair : STRUCT\n    A : BOOL;\n    B : BOOL;\n  END_STRUCT;\nEND_TYPE\n\n";
 my $sub = "\nSUBROUTINE Sub LD\nRUNG\n  | COIL Table[1] |\nEND_SUBROUTINE\n";
 
-# An element or operator with each operand, each in a program of its own: a mistake of
-# reading ends the check before mistakes of types are seen. Pairs of operand and text.
+# An element or operator with each operand, each in its own program, because an error of
+# reading ends the check before types are checked. Pairs of operand and text.
 sub with_operands {
 	my ($word) = @_;
 	return map { [$_ eq '' ? '(none)' : $_, $word->{kind} eq 'element' ?
@@ -178,7 +178,7 @@ sub in_list {
 		s/PROGRAM Main LD\n.*?END_PROGRAM/PROGRAM Main IL\n${list}END_PROGRAM/sr;
 }
 
-# All pairs of a pin and a type, good ones too: [word's rung, pin, type].
+# All pairs of a pin and a type, also correct ones: [rung of the word, pin, type].
 sub all_types {
 	my ($word) = @_;
 	my @good = good($word);

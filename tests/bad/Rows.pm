@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# Rows.pm - the words of catalog.def for tests that try each of them: functions with
-# the types their pins take, function blocks with their pins. It knows no results
-# and judges nothing.
+# Rows.pm - the words of catalog.def for tests of all words: functions with the types of
+# their pins, function blocks with their pins.
 package Rows;
 use strict;
 use warnings;
@@ -21,15 +20,15 @@ $classes{ANY_MAGNITUDE} = [@{$classes{ANY_NUM}}, 'TIME'];
 $classes{ANY_SIMPLE} = [map { @{$classes{$_}} } qw(ANY_MAGNITUDE ANY_BIT ANY_DATE)];
 $classes{ANY_ELEMENTARY} = [@{$classes{ANY_SIMPLE}}, 'STRING'];
 
-# The types that "CLASS_A | CLASS_B" names, in the order of the catalogue.
+# The types in "CLASS_A | CLASS_B", in the order of the catalogue.
 sub types_of {
 	my ($text) = @_;
 	return map { @{$classes{$_} // die "class $_ has no types here\n"} }
 		split / \| /, $text;
 }
 
-# The rows of functions: word, family, result, most inputs, pins; of a pin its name,
-# whether its type is its own, and the types it takes (a list and a set).
+# The rows of functions: word, family, result, most inputs, pins; for each pin its name,
+# whether its type is its own, and its types (as a list and a set).
 sub functions {
 	my ($path) = @_;
 	my @rows;

@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: MIT
 #
-# Traced.pm - programs that run words on values that hurt, and scripts that give them:
-# "bad-values-FAMILY", main.rung and stimulus. A line of the trace shows the inputs, and
-# of each word of their types what is in its result (r_) and whether it gave power (ok_).
-# Before each call the result is 7, 'before' or TRUE: so is what stayed as it was. What
-# is expected is blessed, and read by a person.
+# Traced.pm - programs that call words with difficult values, and their scripts:
+# "bad-values-FAMILY", main.rung and stimulus. A line of the trace shows the inputs, and for
+# each word with these types its result (r_) and whether it gave power (ok_). Before each
+# call the result is 7, 'before' or TRUE, so an unchanged result can be seen. A person reads
+# the traces and blesses them.
 package Traced;
 use strict;
 use warnings;
 use Rows;
 use Values;
 
-# Lines of one combination of types, by the number of its pins.
+# Lines for one combination of types, by the number of pins.
 my @most_lines = (1, 25, 25, 12);
 
-# Types of the pins, one of each kind of pin at a time through all that it takes.
+# The types of the pins: one kind of pin at a time gets all of its types.
 sub typings {
 	my ($row) = @_;
 	my @pins = @{$row->{pins}};
@@ -32,7 +32,7 @@ sub typings {
 	return grep { !$seen{"@$_"}++ } @made;
 }
 
-# The types that a result may have.
+# The types of the result.
 sub results {
 	my ($row, @types) = @_;
 	my ($shared) = grep { !$row->{pins}[$_]{own} } 0 .. $#types;
@@ -40,12 +40,12 @@ sub results {
 	return $1 if $row->{result} =~ /^IEC_(\w+)$/;
 	$row->{result} =~ /^RESULT_TO\((.*)\)$/ or die "$row->{word}: result $row->{result}";
 	my @results = grep { $_ ne $types[0] } Rows::types_of($1);
-	# Only of times is CONVERT_NS another function than CONVERT.
+	# CONVERT_NS differs from CONVERT only for times.
 	return grep { "$_ $types[0]" =~ /TIME|DATE/ } @results if $row->{word} eq 'CONVERT_NS';
 	return @results;
 }
 
-# A name for an input; values that are bits go to a second one, at the same address.
+# A name for an input; values given as bits go to a second variable at the same address.
 sub input_name {
 	my ($pin, $type) = @_;
 	return 'x' . ($pin + 1) . "_$type";
@@ -76,8 +76,8 @@ sub given {
 	return $value =~ /^bits:(.*)/ ? "${name}_bits=$1" : "$name=$value";
 }
 
-# All calls of a family, together where the inputs have the same types; words with many
-# types of results by themselves, or lines would be too long to read.
+# All calls of a family; words with the same types of inputs together. Words with many types
+# of results are separate, to keep lines short.
 sub groups {
 	my (@rows) = @_;
 	my (%group, @order);
@@ -103,7 +103,7 @@ sub call_name {
 	return $name;
 }
 
-# Texts of main.rung and stimulus of a family of functions.
+# The texts of main.rung and stimulus of a family of functions.
 sub functions {
 	my ($family, @rows) = @_;
 	my (%inputs, $declared, $rungs, $script);
@@ -146,8 +146,8 @@ sub program {
 		"END_VAR\n\nPROGRAM Main LD\n${rungs}END_PROGRAM\n";
 }
 
-# The same of a family of function blocks: each input's values in turn, each with power
-# and without.
+# The same for a family of function blocks: the values of each input in turn, with and
+# without power.
 sub blocks {
 	my ($family, @words) = @_;
 	my (%inputs, $declared, $rungs, $script);

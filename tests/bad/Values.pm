@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 #
-# Values.pm - for each type the values that hurt: its ends, 0 and -1, what is no number,
-# times that no clock shows. It knows nothing of words.
+# Values.pm - difficult values of each type: its limits, 0 and -1, values that are no
+# number, times outside a clock.
 package Values;
 use strict;
 use warnings;
 
-# What a script gives to a variable. A value that no literal spells is given as bits, to
-# a variable of the same address: "bits:...".
+# The value for a variable in a script. A value without a literal is given as bits, to a
+# variable at the same address: "bits:...".
 our %hurt = (
 	BOOL => [0, 1], BYTE => [0, 255], WORD => [0, 65535],
 	DWORD => [0, 4294967295], LWORD => [0, '18446744073709551615'],
@@ -28,8 +28,8 @@ our %hurt = (
 	STRING => ["''", "'\$00€'", "'12345678'"],
 );
 
-# Inputs that are harmless, and what stands in a result before: whoever reads the trace
-# sees that nothing was stored.
+# Harmless inputs, and the value of a result before the call, which shows that nothing was
+# stored.
 our %before = (
 	BOOL => 'TRUE', STRING => "'before'", TIME => 'T#7s', TIME_OF_DAY => 'TOD#07:07:07',
 	DATE => 'D#2007-07-07', DATE_AND_TIME => 'DT#2007-07-07-07:07:07',
@@ -37,7 +37,7 @@ our %before = (
 	(map { $_ => '7' } qw(SINT INT DINT LINT USINT UINT UDINT ULINT)),
 );
 
-# Constants beyond the range of a type, as cells have them.
+# Constants outside the range of a type, as in cells.
 our %beyond = (
 	BOOL => 'BOOL#2', BYTE => 'BYTE#256', WORD => 'WORD#16#10000', DWORD => 'DWORD#16#100000000',
 	LWORD => 'LWORD#16#10000000000000000', SINT => 'SINT#128', INT => 'INT#-32769',
@@ -51,8 +51,8 @@ our @types = sort keys %hurt;
 our %bytes = (BYTE => 1, SINT => 1, USINT => 1, WORD => 2, INT => 2, UINT => 2,
 	DWORD => 4, DINT => 4, UDINT => 4, REAL => 4);
 
-# Lists of values, one of each pin: all combinations, or if these are too many each pin's
-# in turn beside the first of the others, and all ends together.
+# Lists of values, one per pin: all combinations, or if there are too many, the values of
+# each pin with the first values of the others, and all limits together.
 sub combinations {
 	my ($most, @lists) = @_;
 	my $all = 1;

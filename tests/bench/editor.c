@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * editor - how long the editor takes with a large program, measured inside it.
+ * editor - measures the editor with a large program, inside the process.
  *
- * usage: editor FILE SAMPLE [WORD]: of what a person does only what WORD stands in, and how
- * late scans are, and what it takes to show one that was. It
- * prints medians beside what is asked for and judges nothing: the start with the sample,
- * opening the file, frames while scrolling, what a key costs until its picture is there
- * (without the wait for the screen's next frame), memory, what is done while nothing is,
- * and what it takes while the program is simulated. Beside time by the clock stands the time of
- * the processor, which a busy machine changes little: of a start that of the process, of
- * keys that of the thread that draws.
+ * usage: editor FILE SAMPLE [WORD]
+ *   WORD: only actions whose name contains it, and the simulation
+ *
+ * Prints medians beside the targets, and never fails: the start with the sample, opening
+ * the file, frames while scrolling, the time from a key to the picture (without waiting for
+ * the next frame of the screen), memory, work while idle, and the simulation. Beside the
+ * time by the clock it prints processor time, which depends less on other programs: of the
+ * process for a start, of the drawing thread for keys.
  */
 #include "editor-gtk/window/app.h"
 #include "editor-gtk/window/window.h"

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * replay - runs a fuzz target over its saved corpus, without libFuzzer.
+ * replay - runs a fuzz target on its saved corpus, without libFuzzer.
  *
  *   fuzz_X [--rounds N] [--seed S] [--write FOLDER] [FOLDER…]
  *
- * Without a folder: tests/fuzz/corpus/X and the samples; for ClassicLadder's projects those
- * in the folder SAMPLES says, too. FUZZ_ROUNDS is N.
- * Every file of the folders is one TAP line; then N mutations of them follow
- * with a fixed seed, so that each `make check` fuzzes a little. --write puts the
- * seeds as the target wants them into a folder, for libFuzzer to begin with. A
- * crash stops it: the input that did it is left beside the program, fuzz_X.crash.
+ * Without a folder it reads tests/fuzz/corpus/X and the samples; the target for
+ * ClassicLadder also reads the folder in SAMPLES. FUZZ_ROUNDS sets N. Each file is one TAP
+ * line; then N mutations follow with a fixed seed, so that each `make check` fuzzes a
+ * little. --write writes the seeds to a folder, as inputs for libFuzzer. After a crash, the
+ * input is in fuzz_X.crash beside the program.
  */
 #include "tests/fuzz/fuzz.h"
 #include "tests/tap.h"

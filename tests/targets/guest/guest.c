@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * guest - the suite that proves ladderd on a real kernel with real lines.
+ * guest - tests ladderd on a real kernel with real lines.
  *
  *   guest [--tier full|small] [--only N] [--longest S] [--flips N]
  *         [--work DIR] CASES LADDERD...
@@ -8,8 +8,8 @@
  *   guest --memory BYTES COMMAND...    helper: runs it with little memory
  *   guest --held COMMAND...            helper: runs it under ptrace, held
  *
- * Every LADDERD runs through the same tests; its name says what a result is
- * called (`ladderd-uapi`: "uapi: ..."). The tier `small` is for a ladderd that
+ * Every LADDERD runs through the same tests; results begin with the end of its
+ * name (`ladderd-uapi`: "uapi: ..."). The tier `small` is for a ladderd that
  * reads code images only, on a kernel without users. TAP goes to stdout; the
  * exit status is 0 if all passed.
  */
