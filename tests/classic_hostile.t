@@ -66,6 +66,7 @@ sub fine {
 		my ($own) = said($ladder, 'check', "$tmp/out.rung");
 		push @wrong, grep { /error LD/ } split /\n/, $own;
 	}
+	push @wrong, grep { /are missing/ } split /\n/, $report;
 	push @wrong, "ended by signal $status" if $status >= 128;
 	ok(!@wrong, $what) or diag(join "\n", @wrong[0 .. ($#wrong < 3 ? $#wrong : 3)]);
 	return ($text, $report);

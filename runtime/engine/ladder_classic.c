@@ -119,6 +119,14 @@ static void place_diags(struct foreign *foreign, struct diag_list *diags)
 {
 	struct classic_foreign *classic = (struct classic_foreign *)foreign;
 
+	int kept = 0;
+
+	/* The import declares everything that a script can name: nobody left it unused. */
+	for (int i = 0; i < diags->count; i++)
+		if (!classic->project || classic->options.task ||
+		    diags->diag[i].id != DIAG_UNUSED)
+			diags->diag[kept++] = diags->diag[i];
+	diags->count = kept;
 	for (int i = 0; i < diags->count; i++) {
 		struct diag *diag = &diags->diag[i];
 

@@ -228,17 +228,18 @@ static const struct { const char *word; enum classic_dialect dialect; } classic_
 };
 enum { CLASSIC_WORDS = sizeof(classic_words) / sizeof(*classic_words) };
 
-/* Prints what has another meaning there; to standard error, because the result may go to
- * standard output. */
+/* Prints what has another meaning there or is left out; to standard error, because the result
+ * may go to standard output. */
 static void print_changes(const char *path, const struct classic_report *report)
 {
 	for (int i = 0; i < report->count; i++) {
 		const struct report_line *line = &report->line[i];
+		const char *kind = line->kind == REPORT_LOST ? "lost" : "changed";
 
 		if (line->line)
-			fprintf(stderr, "%s:%d: changed: %s\n", path, line->line, line->text);
+			fprintf(stderr, "%s:%d: %s: %s\n", path, line->line, kind, line->text);
 		else
-			fprintf(stderr, "%s: changed: %s\n", path, line->text);
+			fprintf(stderr, "%s: %s: %s\n", path, kind, line->text);
 	}
 }
 

@@ -226,7 +226,7 @@ static void test_report(void)
 	const LadderPanelRow *row = rows->pdata[0];
 	char *title = report_lines_title("x.clp", rows);
 
-	CHECK_TEXT(title, "x.clp: 6 changed, 2 left out");
+	CHECK_TEXT(title, "x.clp: 1 changed, 3 left out");
 	CHECK_TEXT(panel_row_text(row, REPORT_THERE), "rung_1.csv:24");
 	CHECK_TEXT(panel_row_text(row, REPORT_HERE), "Prog1, rung 3");
 	CHECK(row->pou == 0 && row->rung == 2 && row->tone == PANEL_WARNING);

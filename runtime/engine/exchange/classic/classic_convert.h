@@ -29,6 +29,7 @@ struct classic_name {
 	const char *name;
 	const struct classic_symbol *symbol; /* NULL: it has none                  */
 	const char *comment;   /* of its symbol; ""                                */
+	bool written;          /* the sections have this name                      */
 };
 
 struct classic_names {
@@ -90,8 +91,10 @@ const char *label_of(const struct conversion *c, int rung);
 void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
 	__attribute__((format(printf, 3, 4)));
 
-/** write_kept - members that only ClassicLadder uses, in VIEW … END_VIEW (classic_keep.c). */
+/** write_kept - members that only ClassicLadder uses, in VIEW … END_VIEW; report_kept - their
+ * lines of the report (classic_keep.c). */
 void write_kept(struct conversion *c);
+void report_kept(struct conversion *c);
 
 /** add_program - adds a program to the end of the task. */
 void add_program(struct conversion *c, const char *name);
@@ -141,14 +144,16 @@ bool find_uses(struct conversion *c);
 struct classic_name *used_name(const struct conversion *c, int type, int number);
 /** used_numbers - one more than the highest number in use of a row; 0: none. */
 int used_numbers(const struct conversion *c, const struct classic_memory_row *memory);
-/** is_shared_block - true if more than one cell holds this block. */
-bool is_shared_block(const struct conversion *c, enum classic_kind kind, int number);
+/** block_cells - how many cells hold this block: 0, 1, or 2 for more. */
+int block_cells(const struct conversion *c, enum classic_kind kind, int number);
 /** is_jumped_to - true if a jump of any section leads to rung number @rung. */
 bool is_jumped_to(const struct conversion *c, int rung);
 /** has_step - true if a step has this number. */
 bool has_step(const struct conversion *c, int number);
 
 /* ---- names: classic_names.c ---- */
+/** symbol_is_none - true if it is empty or the own name of its variable. */
+bool symbol_is_none(const struct classic_symbol *symbol);
 /** find_names - names everything that find_uses() found. */
 void find_names(struct conversion *c);
 /** operand_of - text of @variable in a rung file; NULL after a line of the report.
@@ -193,6 +198,8 @@ void write_functions(struct conversion *c);
 /* ---- rungs: classic_grid.c, charts: classic_sfc.c ---- */
 void convert_rung(struct conversion *c, const struct classic_rung *rung);
 void convert_sfc(struct conversion *c, const struct classic_section *section);
+/** report_pages - reports pages that no section shows. */
+void report_pages(struct conversion *c);
 /** step_begins - true if %X@number is TRUE before the first scan. */
 bool step_begins(struct conversion *c, int number);
 #endif

@@ -131,6 +131,14 @@ int words_of(struct conversion *c, const struct classic_memory_row *memory)
 	return count < 1 ? 1 : count > most ? most : (int)count;
 }
 
+/* A file declares what its sections use, the text for a script all that a project has. */
+static bool is_declared(const struct conversion *c, const struct classic_name *name)
+{
+	if (name->type == STEP_TIME)
+		return true;
+	return name->name && (name->written || !c->options.task);
+}
+
 static void put_step(struct conversion *c, const struct classic_name *name)
 {
 	if (name->type == STEP_TIME)
@@ -149,7 +157,7 @@ void write_declarations(struct conversion *c)
 		const struct classic_memory_row *memory = memory_of(name->type);
 		const struct classic_pin_row *pin = pin_of(name->type);
 
-		if (name->type != STEP_TIME && !name->name)
+		if (!is_declared(c, name))
 			continue;
 		c->at = (struct classic_place){ "", 0 };
 		if (!any)
@@ -203,7 +211,10 @@ enum { SYSTEM_ROWS = sizeof(system_rows) / sizeof(*system_rows), FLASH_ROWS = 4 
 
 static bool uses_row(struct conversion *c, int row)
 {
-	return uses(c, system_rows[row].type, system_rows[row].number);
+	const struct classic_name *name = used_name(c, system_rows[row].type,
+						    system_rows[row].number);
+
+	return name && is_declared(c, name);
 }
 
 /* The time includes the first scan. */
@@ -268,8 +279,7 @@ struct body { const char *title, *rungs, *faithful; };
 
 #define BITS(op) \
 	"RUNG\n  | [ @ := DWORD_TO_DINT(DINT_TO_DWORD(A) " op " DINT_TO_DWORD(B)) ] |\n"
-#define LEFT_OUT  "RUNG\n  | BIT_TEST IN:=Bits N:=Left | COIL %%SX1.0 |\n"
-#define RIGHT_OUT "RUNG\n  | BIT_TEST IN:=Bits N:=Right | COIL %%SX1.0 |\n"
+#define OUT_BIT "RUNG\n  | BIT_TEST IN:=Bits N:=Last | COIL %%SX1.0 |\n"
 #define MOVED(op) "RUNG\n  | [ @ := DWORD_TO_DINT(" op "(Bits, B)) ] |\n"
 /* ClassicLadder's fault: all bits but the highest are filled with the sign. */
 #define FILLED \
@@ -303,18 +313,18 @@ static const struct body bodies[CLASSIC_FUNCTIONS] = {
 	[CLASSIC_XOR] = { "the bits that one of them has", BITS("XOR"), NULL },
 	[CLASSIC_OR] = { "the bits that any of them has", BITS("OR"), NULL },
 	[CLASSIC_SHIFT_LEFT] = { "A, B places to the left; %%S8 is what falls out",
-		MOVED("SHL") LEFT_OUT, NULL },
+		MOVED("SHL") OUT_BIT, NULL },
 	[CLASSIC_SHIFT_RIGHT] = { "A, B places to the right; %%S8 is what falls out",
-		MOVED("SHR") RIGHT_OUT,
-		RIGHT_OUT FILLED "RUNG\n  | [ @ := DWORD_TO_DINT(Bits) ] |\n" },
+		MOVED("SHR") OUT_BIT,
+		OUT_BIT FILLED "RUNG\n  | [ @ := DWORD_TO_DINT(Bits) ] |\n" },
 	[CLASSIC_ROTATE_LEFT] = { "A, B places round to the left; %%S8 is the last one",
-		MOVED("ROL") LEFT_OUT,
-		LEFT_OUT "RUNG\n  | [ Bits := SHL(Bits, B) ] |\n"
+		MOVED("ROL") OUT_BIT,
+		OUT_BIT "RUNG\n  | [ Bits := SHL(Bits, B) ] |\n"
 		"RUNG\n  | NO %%SX1.0 | [ Bits := Bits OR 16#1 ] |\n"
 		"RUNG\n  | [ @ := DWORD_TO_DINT(Bits) ] |\n" },
 	[CLASSIC_ROTATE_RIGHT] = { "A, B places round to the right; %%S8 is the last one",
-		MOVED("ROR") RIGHT_OUT,
-		RIGHT_OUT FILLED "RUNG\n  | NO %%SX1.0 | [ Bits := Bits OR 16#80000000 ] |\n"
+		MOVED("ROR") OUT_BIT,
+		OUT_BIT FILLED "RUNG\n  | NO %%SX1.0 | [ Bits := Bits OR 16#80000000 ] |\n"
 		"RUNG\n  | [ @ := DWORD_TO_DINT(Bits) ] |\n" },
 };
 
@@ -333,6 +343,7 @@ static void write_function(struct conversion *c, enum classic_function function)
 	const struct body *body = &bodies[function];
 	const char *name = c->function_name[function];
 	bool shift = function >= CLASSIC_SHIFT_LEFT;
+	bool left = function == CLASSIC_SHIFT_LEFT || function == CLASSIC_ROTATE_LEFT;
 	bool faithful = c->options.faithful && body->faithful &&
 			(function != CLASSIC_POWER ||
 			 c->project->dialect == CLASSIC_LINUXCNC);
@@ -342,9 +353,9 @@ static void write_function(struct conversion *c, enum classic_function function)
 	put(c, " *)\nFUNCTION %s : DINT LD\nVAR_INPUT\n  A : DINT;\n  B : DINT;\nEND_VAR\n",
 	    name);
 	if (shift)
-		put(c, "VAR\n  Bits : DWORD;\n  Left : DINT;\n  Right : DINT;\nEND_VAR\n"
+		put(c, "VAR\n  Bits : DWORD;\n  Last : DINT;\nEND_VAR\n"
 		    "RUNG\n  | [ Bits := DINT_TO_DWORD(A) ] |\n"
-		    "RUNG\n  | [ Left := 32 - B ] |\nRUNG\n  | [ Right := B - 1 ] |\n");
+		    "RUNG\n  | [ Last := %s ] |\n", left ? "32 - B" : "B - 1");
 	if (function == CLASSIC_POWER)
 		put(c, "VAR\n  Bit : DINT;\n  Base : DINT;\n  Rest : DINT;\nEND_VAR\n"
 		    "RUNG\n  | [ Base := A ] |\nRUNG\n  | [ Rest := B ] |\n");

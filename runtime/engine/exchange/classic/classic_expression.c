@@ -592,7 +592,7 @@ const char *comparison_of(struct conversion *c, const char *text)
 	if (p.failed)
 		return not_understood(&p);
 	if (*p.at)
-		tell(c, REPORT_CHANGED, "what stands behind the first comparison of \"%.40s\" "
+		tell(c, REPORT_TAKEN, "what stands behind the first comparison of \"%.40s\" "
 		     "does not count, as in ClassicLadder", text);
 	return if_fits(&p, text_of(c, "%s %s %s", inside(&p, left, RANK_SUM), op,
 				   inside(&p, right, RANK_SUM)));
@@ -605,7 +605,7 @@ static const char *stored(struct parse *p, const char *target, bool is_bool)
 	if (p->failed)
 		return not_understood(p);
 	if (*p->at)
-		tell(p->c, REPORT_CHANGED, "\"%.20s\" at the end of an expression does not "
+		tell(p->c, REPORT_TAKEN, "\"%.20s\" at the end of an expression does not "
 		     "count, as in ClassicLadder", p->at);
 	if (is_bool)
 		return if_fits(p, text_of(p->c, "%s := %s <> 0", target,

@@ -5,7 +5,9 @@
  * An element without a meaning here is reported and does not conduct, as in ClassicLadder.
  */
 #include "engine/exchange/classic/classic_grid.h"
+#include "engine/exchange/classic/classic_say.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* ---- elements ---- */
@@ -29,7 +31,7 @@ struct element_row {
 	int columns;
 };
 
-enum { COMPARE = 20, OPERATE = 60, JUMP = 54, CALL = 55, OCCUPIED = 99 };
+enum { WIRE = 9, COMPARE = 20, OPERATE = 60, JUMP = 54, CALL = 55, OCCUPIED = 99 };
 
 static const struct element_row rows[] = {
 	{ 1, PART_CONTACT, "NO", NULL, CLASSIC_KINDS, 1 },
@@ -74,7 +76,7 @@ static const char *block_text(struct grid *grid, struct grid_part *part,
 	bool timed = kind != CLASSIC_COUNTER && kind != CLASSIC_REGISTER;
 
 	part->instance = instance_of(grid->c, kind, cell->variable.number);
-	part->shared = is_shared_block(grid->c, kind, cell->variable.number);
+	part->shared = block_cells(grid->c, kind, cell->variable.number) > 1;
 	if (!part->instance)
 		return NULL;
 	return text_of(grid->c, "%s %s%s", name, part->instance,
@@ -108,8 +110,8 @@ static const char *jump_text(struct grid *grid, int number)
 
 	if (label)
 		return text_of(c, "JMP %s", label);
-	tell(c, REPORT_CHANGED, "a jump to rung %d, which this section has not, ends it, "
-	     "as in ClassicLadder", number);
+	tell(c, REPORT_TAKEN, "a jump to rung %d, which this section does not have, ends the "
+	     "section, as in ClassicLadder", number);
 	return "RET";
 }
 
@@ -121,8 +123,7 @@ static const char *call_text(struct grid *grid, int number)
 		if (c->project->section[i].subroutine == number &&
 		    !c->project->section[i].sequential)
 			return text_of(c, "CALL %s", c->pou[i]);
-	tell(c, REPORT_CHANGED, "a call of subroutine %d, which does not exist, does "
-	     "nothing, as in ClassicLadder", number);
+	tell(c, REPORT_LOST, "a call of subroutine %d, which does not exist", number);
 	return NULL;
 }
 
@@ -212,6 +213,7 @@ static void find_part(struct grid *grid, int y, int x)
 	grid->c->at.line = grid->rung->row_line[y];
 	if (!row) {
 		tell(grid->c, REPORT_LOST, "element %d does not conduct", cell->element);
+		grid->reported++;
 		return;
 	}
 	*part = (struct grid_part){
@@ -222,6 +224,7 @@ static void find_part(struct grid *grid, int y, int x)
 	};
 	settle(grid, part, x);
 	part->text = text_of_part(grid, part, cell, row);
+	grid->reported += !part->text;
 	if (part->text)
 		grid->parts++;
 	else if (row->kind == PART_CONTACT && cell->element == 2)
@@ -352,6 +355,68 @@ static void write_empty(struct grid *grid)
 	}
 }
 
+/* ---- elements that are left out ---- */
+
+/* An element as ClassicLadder shows it. */
+static const char *said(struct conversion *c, const struct classic_cell *cell)
+{
+	const int number = cell->variable.number;
+	char text[CLASSIC_SAID];
+
+	if (cell->element == JUMP)
+		return text_of(c, "jump to rung %d", number);
+	if (cell->element == CALL)
+		return text_of(c, "call of subroutine %d", number);
+	if (cell->element == COMPARE || cell->element == OPERATE)
+		classic_say_expression(c->project->dialect,
+				       classic_expression(c->project, number), text);
+	else if (row_of(cell->element)->box)
+		classic_say_block(cell->element, number, text);
+	else
+		classic_say_variable(c->project->dialect, cell->variable, text);
+	return text_of(c, "%s", text);
+}
+
+/* A line of the report for each element that the text does not have. Wires are none. */
+static int report_left_out(struct grid *grid)
+{
+	int count = 0;
+
+	for (int i = 0; i < grid->parts; i++) {
+		const struct grid_part *part = &grid->part[i];
+		const int x = part_end(part) - 1;
+
+		if (part->written || part->kind == PART_WIRE)
+			continue;
+		grid->c->at.line = grid->rung->row_line[part->y];
+		tell(grid->c, REPORT_LOST, "\"%s\" in row %d, column %d, %s",
+		     said(grid->c, &grid->rung->cell[part->y][x]), part->y + 1, x + 1,
+		     part->fed ? "leads to no output" : "never has power");
+		count++;
+	}
+	return count;
+}
+
+/* Each element of the file must be in the text or in the report: a rung that breaks this rule
+ * is reported, too. */
+static void check_count(struct grid *grid, int left_out)
+{
+	int count = 0, known = grid->reported + left_out;
+
+	for (int i = 0; i < grid->parts; i++)
+		known += grid->part[i].written && grid->part[i].kind != PART_WIRE;
+	for (int y = 0; y < CLASSIC_ROWS; y++)
+		for (int x = 0; x < CLASSIC_COLUMNS; x++) {
+			const int element = grid->rung->cell[y][x].element;
+
+			count += element && element != WIRE && element != OCCUPIED;
+		}
+	grid->c->at = grid->rung->place;
+	if (count != known)
+		tell(grid->c, REPORT_LOST, "%d of %d elements of this rung are missing: "
+		     "an error of the import, please report it", count - known, count);
+}
+
 /* Lines of the report from @first on do not lead to a rung: none is written. */
 static void lead_nowhere(struct conversion *c, int first)
 {
@@ -361,7 +426,7 @@ static void lead_nowhere(struct conversion *c, int first)
 
 void convert_rung(struct conversion *c, const struct classic_rung *rung)
 {
-	const int first = c->report->count;
+	const int first = c->report->count, first_rung = c->rungs_written + 1;
 	struct grid *grid;
 
 	arena_reset(&c->scratch);
@@ -371,7 +436,7 @@ void convert_rung(struct conversion *c, const struct classic_rung *rung)
 	grid->c = c;
 	grid->rung = rung;
 	grid->columns = rung->columns;
-	c->rung = c->rungs_written + 1;
+	c->rung = first_rung;
 	find_parts(grid);
 	find_power(grid);
 	find_need(grid);
@@ -381,5 +446,7 @@ void convert_rung(struct conversion *c, const struct classic_rung *rung)
 	} else if (!grid_write_pieces(grid)) {
 		grid_unfold(grid);
 	}
+	c->rung = c->rungs_written < first_rung ? 0 : first_rung;
+	check_count(grid, report_left_out(grid));
 	c->rung = 0;
 }

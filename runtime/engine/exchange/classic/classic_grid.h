@@ -37,6 +37,7 @@ struct grid_part {
 	bool needed;         /* an output depends on it                        */
 	bool shared;         /* of a box: another cell holds the block, too     */
 	bool odd;            /* not all its cells are marked as its own        */
+	bool written;        /* the text has it                                */
 };
 
 enum { GRID_PARTS = CLASSIC_ROWS * CLASSIC_COLUMNS };
@@ -49,6 +50,7 @@ struct grid {
 	int parts;
 	bool fed[CLASSIC_ROWS][CLASSIC_COLUMNS + 1]; /* can this node have power? */
 	bool begun;          /* label and comment are written                  */
+	int reported;        /* elements that are no part: the report has each */
 };
 
 /** grid_link - true if node @x of row @y is joined with the row above. */

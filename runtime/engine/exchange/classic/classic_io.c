@@ -35,7 +35,8 @@ static void put_line(struct conversion *c, const struct classic_io *io, int i)
 
 static const char *device_name(int device)
 {
-	return device >= 100 ? "Comedi" : device == 3 ? "pins of an AT91" : "ports of a PC";
+	return device >= 100 ? "Comedi" : device == 3 ? "pins of an AT91" :
+	       device == RASPBERRY ? "pins of a Raspberry Pi" : "ports of a PC";
 }
 
 static bool put_lines(struct conversion *c)
@@ -46,8 +47,12 @@ static bool put_lines(struct conversion *c)
 		const struct classic_io *io = &c->project->io[i];
 
 		c->at = io->place;
-		if (io->first < 0 || io->device < 0)
+		if (io->device < 0)
 			continue;
+		if (io->first < 0) {
+			tell(c, REPORT_LOST, "a line that sets up %s", device_name(io->device));
+			continue;
+		}
 		if (io->device != RASPBERRY) {
 			tell(c, REPORT_LOST, "%s: name the lines of %s%d in an I/O map",
 			     device_name(io->device), io->output ? "%Q" : "%I", io->first);

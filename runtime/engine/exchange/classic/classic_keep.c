@@ -131,3 +131,37 @@ void write_kept(struct conversion *c)
 	if (any)
 		put(c, "END_VIEW\n");
 }
+
+static bool has_setting(const struct conversion *c, const char *name, const char *setting)
+{
+	const struct classic_member *member = member_named(c, name);
+	const char *at = member ? member->text : NULL, *line;
+	size_t len;
+
+	while (member && next_line(&at, member->text + member->len, &line, &len))
+		if (len == strlen(setting) && !memcmp(line, setting, len))
+			return true;
+	return false;
+}
+
+/* ClassicLadder always writes these members: only one with something in it is reported. */
+void report_kept(struct conversion *c)
+{
+	static const struct { const char *name, *setting, *text; } row[] = {
+		{ "modbusioconf.csv", NULL, "Modbus requests: they are kept for an export, and "
+		  "not made here" },
+		{ "config_events.csv", NULL, "the log of events: its list is kept for an export" },
+		{ "modem_config.txt", "MODEM_USED=1", "the modem" },
+		{ "remote_alarms.txt", "GLOBAL_ENABLED=1", "alarms by SMS and mail" },
+	};
+
+	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {
+		const struct classic_member *member = member_named(c, row[i].name);
+
+		if (!member || !(row[i].setting ? has_setting(c, row[i].name, row[i].setting) :
+						 has_lines(c, row[i].name)))
+			continue;
+		c->at = (struct classic_place){ member->name, member->line };
+		tell(c, REPORT_LOST, "%s", row[i].text);
+	}
+}

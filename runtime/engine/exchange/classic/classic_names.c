@@ -123,6 +123,7 @@ static bool parse_symbol(const char *text, int *type, int *number)
 		text++;
 	while (text[len] >= 'A' && text[len] <= 'Z')
 		len++;
+	*type = -1;
 	*number = (int)strtol(text + len, &end, 10);
 	if (end == text + len || *number < 0 || *number > CLASSIC_LIMIT)
 		return false;
@@ -138,8 +139,10 @@ static bool parse_symbol(const char *text, int *type, int *number)
 			*type = block_type(pin_rows[i].kind);
 			return *end == '\0';
 		}
+	if (len != 1 || *text != 'X')
+		return false;
 	*type = STEP_TYPE;
-	return len == 1 && *text == 'X' && (!*end || !strcmp(end, ".A"));
+	return !*end || !strcmp(end, ".A");
 }
 
 /* A symbol and the variable it names. */
@@ -172,6 +175,31 @@ struct classic_name *used_name(const struct conversion *c, int type, int number)
 					sizeof(key), by_type) : NULL;
 }
 
+/* LinuxCNC gives every variable a symbol that is its own name: _B4_ of %B4, %B4 or B4. */
+bool symbol_is_none(const struct classic_symbol *symbol)
+{
+	const char *name = symbol->name, *variable = symbol->variable;
+	const bool line = *name == '_';
+	size_t len;
+
+	name += line || *name == '%';
+	variable += *variable == '%';
+	len = strlen(variable);
+	return !*symbol->name || (!strncmp(name, variable, len) &&
+				  (!name[len] || (line && !strcmp(name + len, "_"))));
+}
+
+/* A symbol of a pin, or of nothing that ClassicLadder has. */
+static void report_symbol(struct conversion *c, const struct classic_symbol *symbol, int type,
+			  int number)
+{
+	c->at = symbol->place;
+	if (symbol_is_none(symbol) || (type >= 0 && !used_name(c, type, number)))
+		return;
+	tell(c, REPORT_LOST, "symbol \"%s\" of %s: %s", symbol->name, symbol->variable,
+	     type >= 0 ? "pins have no names of their own" : "there is no such variable");
+}
+
 /* Of several symbols for one variable the first counts. */
 static void find_symbols(struct conversion *c)
 {
@@ -180,9 +208,11 @@ static void find_symbols(struct conversion *c)
 	int count = 0;
 
 	for (int i = 0; i < project->symbols; i++) {
-		what.index = i;
-		if (!parse_symbol(project->symbol[i].variable, &what.type, &what.number))
+		what = (struct known_symbol){ -1, 0, i };
+		if (!parse_symbol(project->symbol[i].variable, &what.type, &what.number)) {
+			report_symbol(c, &project->symbol[i], what.type, what.number);
 			continue;
+		}
 		added = arena_push(c->arena, &list, &count, sizeof(what));
 		if (added)
 			*added = what;
@@ -191,9 +221,17 @@ static void find_symbols(struct conversion *c)
 		qsort(list, (size_t)count, sizeof(*list), by_what);
 	for (int i = count - 1; i >= 0; i--) {
 		struct classic_name *name = used_name(c, list[i].type, list[i].number);
+		const struct classic_symbol *symbol = &project->symbol[list[i].index];
 
-		if (name)
-			name->symbol = &project->symbol[list[i].index];
+		if (!name)
+			continue;
+		if (name->symbol && !symbol_is_none(name->symbol) &&
+		    strcmp(name->symbol->name, symbol->name)) {
+			c->at = name->symbol->place;
+			tell(c, REPORT_LOST, "symbol \"%s\" of %s, which \"%s\" names, too",
+			     name->symbol->name, symbol->variable, symbol->name);
+		}
+		name->symbol = symbol;
 	}
 }
 
@@ -202,22 +240,8 @@ static void tell_symbol(struct conversion *c, const struct classic_symbol *symbo
 {
 	c->at = symbol->place;
 	if (strcmp(name, symbol->name))
-		tell(c, REPORT_CHANGED, "symbol \"%s\" of %s is %s here", symbol->name,
+		tell(c, REPORT_TAKEN, "symbol \"%s\" of %s is %s here", symbol->name,
 		     symbol->variable, name);
-}
-
-/* LinuxCNC gives every variable a symbol: %B4 is _B4_. Nobody chose it. */
-static bool says_nothing(const struct classic_symbol *symbol)
-{
-	const char *name = symbol->name, *variable = symbol->variable;
-
-	if (!*name)
-		return true;
-	if (*name++ != '_' || *variable++ != '%')
-		return false;
-	while (*variable && *name == *variable)
-		name++, variable++;
-	return !*variable && (!*name || !strcmp(name, "_"));
 }
 
 /* X3 is reserved for steps, which are found by that name. */
@@ -304,10 +328,10 @@ static void give_name(struct conversion *c, struct classic_name *name)
 			  memory ? memory->name : "X";
 	const char *wish;
 
-	if (symbol && says_nothing(symbol))
-		symbol = NULL;
 	if (symbol)
 		name->comment = symbol->comment;
+	if (symbol && symbol_is_none(symbol))
+		symbol = NULL;
 	if (!memory && !pin && name->type != STEP_TYPE)
 		return; /* the time of a step has an instance of its own */
 	if (name->number == CLASSIC_ALL)
@@ -315,8 +339,14 @@ static void give_name(struct conversion *c, struct classic_name *name)
 	else if (memory && symbol)
 		wish = looks_like_step(symbol->name) ? text_of(c, "N%s", symbol->name) :
 						       symbol->name;
-	else if (memory && !own)
+	else if (memory && !own) {
+		if (*name->comment) {
+			c->at = name->symbol->place;
+			tell(c, REPORT_LOST, "comment \"%s\" of %s, which has no symbol",
+			     name->comment, name->symbol->variable);
+		}
 		return; /* %IX0.3 */
+	}
 	else if (symbol)
 		wish = text_of(c, "%s%d_%s", own, name->number, symbol->name);
 	else
@@ -640,9 +670,9 @@ int used_numbers(const struct conversion *c, const struct classic_memory_row *me
 	return c->uses->most[memory_place(memory)];
 }
 
-bool is_shared_block(const struct conversion *c, enum classic_kind kind, int number)
+int block_cells(const struct conversion *c, enum classic_kind kind, int number)
 {
-	return c->uses->blocks[kind][number] > 1;
+	return c->uses->blocks[kind][number];
 }
 
 bool is_jumped_to(const struct conversion *c, int rung)

@@ -16,6 +16,7 @@ enum { PIECE_COLUMNS = CLASSIC_COLUMNS + 2 };
 struct piece_cell {
 	const char *text;     /* NULL: empty                                   */
 	enum part_kind kind;
+	struct grid_part *part; /* in its first cell; NULL: made here          */
 	bool box_row;         /* a further row of a box                        */
 	bool gives;           /* of a box: its first output is used            */
 	bool needed, fed;
@@ -192,7 +193,7 @@ static void set_box(struct piece *piece, const struct grid_part *part, int x, bo
 	}
 }
 
-static void set_part(struct piece *piece, const struct grid_part *part, int x, bool cut)
+static void set_part(struct piece *piece, struct grid_part *part, int x, bool cut)
 {
 	if (part->kind == PART_ACT && !part->fed)
 		return;
@@ -200,6 +201,7 @@ static void set_part(struct piece *piece, const struct grid_part *part, int x, b
 		set_box(piece, part, x, cut);
 	else
 		set(piece, part->y, x, part->text, part->kind);
+	piece->cell[part->y][x].part = part;
 	for (int i = 1; i < part->columns && part->kind <= PART_BOX; i++)
 		set(piece, part->y, x + i, "---", PART_WIRE);
 }
@@ -284,7 +286,7 @@ static void fill(struct piece *piece, struct cuts *cuts, int from, int to)
 	piece->rows = CLASSIC_ROWS;
 	piece->columns = to + shift + cut;
 	for (int i = 0; i < grid->parts; i++) {
-		const struct grid_part *part = &grid->part[i];
+		struct grid_part *part = &grid->part[i];
 
 		if (part->x >= from && part_end(part) <= to)
 			set_part(piece, part, part->x + shift,
@@ -602,9 +604,14 @@ static void write_row(const struct piece *piece, int y)
 		if (piece->cell[y][x].text || piece->link[y][x + 1])
 			last = x;
 	put(c, "  |");
-	for (int x = 0; x <= last; x++)
-		put(c, " %s %s", piece->cell[y][x].text ? piece->cell[y][x].text : "",
+	for (int x = 0; x <= last; x++) {
+		const struct piece_cell *cell = &piece->cell[y][x];
+
+		put(c, " %s %s", cell->text ? cell->text : "",
 		    piece->link[y][x + 1] ? "^|" : "|");
+		if (cell->text && cell->part)
+			cell->part->written = true;
+	}
 	put(c, "\n");
 }
 

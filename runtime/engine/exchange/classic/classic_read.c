@@ -403,7 +403,7 @@ static bool begin(struct classic_reader *reader, struct arena *arena, const char
 		return false;
 	}
 	reader->project->file = file;
-	reader->project->period = 50;
+	reader->project->period = CLASSIC_USUAL_PERIOD;
 	reader->project->register_list = 500;
 	return true;
 }
@@ -547,7 +547,7 @@ static void check_sections(struct classic_reader *reader)
 	for (int i = 0; i < project->sections && rungs <= CLASSIC_LIMIT; i++) {
 		struct classic_section *section = &project->section[i];
 
-		if (!section->sequential)
+		if (!section->sequential && section->first >= 0)
 			rungs += check_chain(reader, section);
 		if (rungs > CLASSIC_LIMIT)
 			classic_fail_at(reader, DIAG_IMPORT_OVERLAP, section->place,
@@ -737,7 +737,8 @@ static void classic_whole(struct classic_reader *reader)
 		return;
 	if (project->rungs && !project->sections)
 		add_only_section(reader);
-	if (!project->sections) {
+	/* A container of ClassicLadder can be empty; a folder can hold anything. */
+	if (!project->sections && (reader->folder || project->dialect == CLASSIC_NUMERIC)) {
 		classic_fail_at(reader, DIAG_IMPORT_NOTHING, (struct classic_place){ "", 0 },
 				"", 0);
 		return;
@@ -860,8 +861,10 @@ struct classic_project *classic_read_folder(struct arena *arena, const char *fol
 {
 	struct classic_reader reader;
 
-	if (!begin(&reader, arena, folder, report, diags) ||
-	    (!add_files(&reader, folder) && !arena->failed))
+	if (!begin(&reader, arena, folder, report, diags))
+		return NULL;
+	reader.folder = true;
+	if (!add_files(&reader, folder) && !arena->failed)
 		return NULL;
 	if (reader.project->members == 0 && !arena->failed) {
 		classic_fail_at(&reader, DIAG_NOT_A_FILE, (struct classic_place){ "", 0 },

@@ -14,7 +14,8 @@
 enum {
 	CLASSIC_LINE = 2000,     /* bytes of a line; ClassicLadder has 298     */
 	CLASSIC_PRESET = 32767,  /* of a block                                 */
-	CLASSIC_PERIOD = 3600000 /* ms: longest time between scans             */
+	CLASSIC_PERIOD = 3600000, /* ms: longest time between scans            */
+	CLASSIC_USUAL_PERIOD = 50
 };
 
 struct classic_reader {

@@ -146,8 +146,8 @@ static void add_section(struct classic_reader *reader)
 	    !classic_in_range(reader, value[2], -1, CLASSIC_LIMIT - 1) ||
 	    !classic_in_range(reader, value[5], 0, CLASSIC_LIMIT - 1))
 		return;
-	if (!value[1] && (!classic_in_range(reader, value[3], 0, CLASSIC_LIMIT - 1) ||
-			  !classic_in_range(reader, value[4], 0, CLASSIC_LIMIT - 1)))
+	if (!value[1] && (!classic_in_range(reader, value[3], -1, CLASSIC_LIMIT - 1) ||
+			  !classic_in_range(reader, value[4], -1, CLASSIC_LIMIT - 1)))
 		return;
 	if (find_section(project, value[0])) {
 		classic_twice(reader, classic_here(reader), "section", value[0]);
@@ -247,10 +247,8 @@ static void add_io(struct classic_reader *reader)
 		commas += reader->line[i] == ',';
 	if (!classic_numbers(reader, reader->line, value, 1, 8))
 		return;
-	if (commas < 6) {
-		classic_lost(reader, "a line of LinuxCNC's I/O table, which it does not use");
+	if (commas < 6)
 		return;
-	}
 	if (!classic_in_range(reader, value[0], 0, 1) ||
 	    !classic_in_range(reader, value[1], -1, CLASSIC_LIMIT - 1) ||
 	    !classic_in_range(reader, value[5], 0, CLASSIC_LIMIT - 1) ||
@@ -279,7 +277,7 @@ static bool read_setting(struct classic_reader *reader, const char *key, int low
 	const char *at = classic_line_after(reader, key);
 	int number;
 
-	if (!at)
+	if (!at || at == end)
 		return false;
 	if (!classic_number(&at, end, &number))
 		return classic_fail(reader, DIAG_IMPORT_FIELDS, reader->line, reader->len);
@@ -304,9 +302,10 @@ void classic_read_settings(struct classic_reader *reader,
 				classic_lost(reader, "a line without =");
 			continue;
 		}
-		read_setting(reader, "PERIODIC_REFRESH=", 1, CLASSIC_PERIOD,
+		read_setting(reader, "PERIODIC_REFRESH=", 0, CLASSIC_PERIOD,
 			     &project->period);
-		read_setting(reader, "SIZE_REGISTER_LIST=", 1, CLASSIC_LIMIT,
+		project->period = project->period ? project->period : CLASSIC_USUAL_PERIOD;
+		read_setting(reader, "SIZE_REGISTER_LIST=", 0, CLASSIC_LIMIT,
 			     &project->register_list);
 		added = arena_push(reader->arena, &project->setting, &project->settings,
 				   sizeof(*added));

@@ -7,6 +7,7 @@
 
 #include "engine/base/limits.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -330,12 +331,14 @@ static void tell_counts(struct conversion *c)
 	struct { int count; const char *what; } part[] = {
 		{ project->rungs, "rung" }, { 0, "program" }, { 0, "subroutine" },
 		{ project->steps, "step" }, { project->transitions, "transition" },
-		{ project->expressions, "expression" }, { project->symbols, "symbol" },
+		{ project->expressions, "expression" }, { 0, "symbol" },
 	};
 	const char *text = dialect[project->dialect], *comma = ": ";
 
 	for (int i = 0; i < project->sections; i++)
 		part[project->section[i].subroutine < 0 ? 1 : 2].count++;
+	for (int i = 0; i < project->symbols; i++)
+		part[6].count += !symbol_is_none(&project->symbol[i]);
 	for (size_t i = 0; i < sizeof(part) / sizeof(*part); i++) {
 		if (!part[i].count)
 			continue;
@@ -348,50 +351,112 @@ static void tell_counts(struct conversion *c)
 	tell(c, REPORT_TAKEN, "the scan's period, %d ms", project->period);
 }
 
-static void tell_faults(struct conversion *c)
+/* ms of a unit, by base. */
+static int unit_of(const struct classic_block *block)
 {
-	const struct classic_project *project = c->project;
+	static const int unit[] = { 60000, 1000, 100 };
 
-	if (c->options.faithful) {
-		tell(c, REPORT_TAKEN, "faults of ClassicLadder are repeated");
-		return;
-	}
-	if (project->iec_timer.count)
-		tell(c, REPORT_CHANGED, "timers (%%TM): what was left of a unit when a time "
-		     "was cut short does not shorten the next one, and a scan longer than a "
-		     "unit counts whole");
-	if (project->monostable.count)
-		tell(c, REPORT_CHANGED, "monostables (%%M): one whose time is no multiple of "
-		     "the period can be started again");
-	if (project->reg.count)
-		tell(c, REPORT_CHANGED, "registers (%%R): the place behind the last one is "
-		     "not written to");
+	return unit[block ? block->base : 1];
 }
 
-/* Members that have no effect in a rung file. */
-static void tell_members(struct conversion *c)
+/* A timer whose unit is the period has no remainder and never counts more than a unit. */
+static bool timer_differs(const struct conversion *c, int number)
 {
-	static const struct { const char *name, *text; } row[] = {
-		{ "modbusioconf.csv", "no Modbus requests are made: they are kept for an "
-				      "export, and for a driver of Modbus" },
-		{ "config_events.csv", "no events are logged: their list is kept for an "
-				       "export" },
-		{ "spy_vars.csv", "the list of watched variables" },
+	return unit_of(classic_block(&c->project->iec_timer, number)) != c->project->period;
+}
+
+static bool monostable_differs(const struct conversion *c, int number)
+{
+	const struct classic_block *block = classic_block(&c->project->monostable, number);
+
+	return block && block->preset * (int64_t)unit_of(block) % c->project->period;
+}
+
+static bool register_differs(const struct conversion *c, int number)
+{
+	return classic_block(&c->project->reg, number) != NULL;
+}
+
+/* Faults of ClassicLadder that the project could notice: of blocks that stand in rungs. */
+static void tell_faults(struct conversion *c)
+{
+	static const struct {
+		enum classic_kind kind;
+		bool (*differs)(const struct conversion *c, int number);
+		const char *text;
+	} row[] = {
+		{ CLASSIC_IEC_TIMER, timer_differs, "timers (%TM): what was left of a unit when "
+		  "a time was cut short does not shorten the next one, and a scan longer than a "
+		  "unit counts whole" },
+		{ CLASSIC_MONOSTABLE, monostable_differs, "monostables (%M): one whose time is no "
+		  "multiple of the period can be started again" },
+		{ CLASSIC_REGISTER, register_differs, "registers (%R): the place behind the last "
+		  "one is not written to" },
 	};
 
-	for (int i = 0; i < c->project->members; i++) {
-		const struct classic_member *member = &c->project->member[i];
-		const char *line = memchr(member->text, '\n', member->len);
-		bool empty = !line || (size_t)(line - member->text) + 1 >= member->len;
+	if (c->options.faithful)
+		tell(c, REPORT_TAKEN, "faults of ClassicLadder are repeated");
+	for (size_t i = 0; i < sizeof(row) / sizeof(*row) && !c->options.faithful; i++)
+		for (int number = 0; number < CLASSIC_LIMIT; number++)
+			if (block_cells(c, row[i].kind, number) && row[i].differs(c, number)) {
+				tell(c, REPORT_CHANGED, "%s", row[i].text);
+				if (row[i].kind == CLASSIC_REGISTER && !c->project->register_list)
+					tell(c, REPORT_CHANGED, "registers (%%R) have one place "
+					     "here, where SIZE_REGISTER_LIST is 0");
+				break;
+			}
+}
 
-		c->at = (struct classic_place){ member->name, member->line };
-		for (size_t k = 0; k < sizeof(row) / sizeof(*row); k++)
-			if (!strcmp(member->name, row[k].name) && !empty)
-				tell(c, REPORT_LOST, "%s", row[k].text);
+static bool has_elements(const struct classic_rung *rung)
+{
+	for (int i = 0; i < CLASSIC_ROWS * CLASSIC_COLUMNS; i++)
+		if (rung->cell[i / CLASSIC_COLUMNS][i % CLASSIC_COLUMNS].element)
+			return true;
+	return false;
+}
+
+static void report_rungs(struct conversion *c)
+{
+	for (int i = 0; i < c->project->rungs; i++) {
+		c->at = c->project->rung[i]->place;
+		if (!c->section_of[i] && has_elements(c->project->rung[i]))
+			tell(c, REPORT_LOST, "a rung that no section has");
 	}
 }
 
 /* ---- all of it ---- */
+
+static uint32_t taken_id(const struct conversion *c, const char *name)
+{
+	return name ? names_find_any(&c->taken, name, strlen(name)) : 0;
+}
+
+/* Finds the names and functions that the sections use: elements that are left out need no
+ * declarations. */
+static void find_written(struct conversion *c, const char *text)
+{
+	bool *word = arena_alloc(c->arena, (size_t)c->taken.count + 1);
+	int temps = 0;
+	size_t len;
+
+	if (!word)
+		return;
+	for (; *text; text += len ? len : 1) {
+		len = strcspn(text, " .,()[]|\n:;");
+		if (len)
+			word[names_find_any(&c->taken, text, len)] = true;
+	}
+	word[0] = false;
+	for (int i = 0; i < c->names.count; i++)
+		c->names.list[i].written = word[taken_id(c, c->names.list[i].name)];
+	for (int i = 0; i < CLASSIC_FUNCTIONS; i++)
+		if (!word[taken_id(c, c->function_name[i])])
+			c->function_name[i] = NULL;
+	for (int i = 0; i < c->temps.count; i++)
+		if (word[taken_id(c, c->temps.name[i])])
+			c->temps.name[temps++] = c->temps.name[i];
+	c->temps.count = temps;
+}
 
 static void write_all(struct conversion *c)
 {
@@ -404,6 +469,7 @@ static void write_all(struct conversion *c)
 		write_section(c, i);
 	if (!c->out->len)
 		put(c, "PROGRAM %s LD\nEND_PROGRAM\n\n", name_new(c, "Nothing"));
+	find_written(c, c->out->text ? c->out->text : "");
 	c->out = whole;
 	c->cap = 0;
 	c->at = (struct classic_place){ "", 0 };
@@ -446,7 +512,9 @@ bool classic_to_rung(const struct classic_project *project,
 	tell_counts(&c);
 	tell_faults(&c);
 	write_all(&c);
-	tell_members(&c);
+	report_rungs(&c);
+	report_pages(&c);
+	report_kept(&c);
 	good = !arena->failed && !c.scratch.failed && !report->arena.failed && out->text;
 	arena_free(&c.scratch);
 	return good;

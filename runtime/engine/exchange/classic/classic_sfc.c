@@ -295,7 +295,7 @@ static void write_transition(struct conversion *c, const struct classic_section 
 	if (transition->condition.type >= 0)
 		condition = operand_of(c, transition->condition, &is_bool);
 	else
-		tell(c, REPORT_CHANGED, "a transition without a condition never fires");
+		tell(c, REPORT_TAKEN, "a transition without a condition never fires");
 	put(c, "  TRANSITION%s%s := %s%s; END_TRANSITION\n\n", from, to,
 	    condition ? condition : "FALSE", is_bool ? "" : " <> 0");
 }
@@ -390,6 +390,24 @@ static void convert_others(struct conversion *c, const struct classic_section *s
 	}
 	if (name)
 		put(c, "END_PROGRAM\n\n");
+}
+
+void report_pages(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+
+	for (int i = 0; i < project->steps + project->transitions; i++) {
+		const struct classic_step *step = i < project->steps ? &project->step[i] : NULL;
+		const struct classic_transition *transition =
+			step ? NULL : &project->transition[i - project->steps];
+		const int page = step ? step->page : transition->page;
+
+		c->at = step ? step->place : transition->place;
+		if (section_of(c, page) == INT_MAX)
+			tell(c, REPORT_LOST, "%s %d of page %d, which no section shows",
+			     step ? "step" : "transition",
+			     step ? step->number : transition->index, page);
+	}
 }
 
 void convert_sfc(struct conversion *c, const struct classic_section *section)

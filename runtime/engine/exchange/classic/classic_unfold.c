@@ -71,7 +71,7 @@ static const char *only_power(const struct unfolded *u, int y, int x)
 	return only;
 }
 
-static void write_part(struct unfolded *u, const struct grid_part *part)
+static void write_part(struct unfolded *u, struct grid_part *part)
 {
 	struct conversion *c = u->grid->c;
 	const char *power = only_power(u, part->y, part->x);
@@ -80,6 +80,7 @@ static void write_part(struct unfolded *u, const struct grid_part *part)
 
 	if (!part->needed)
 		return;
+	part->written = true;
 	if (part->kind == PART_WIRE && power) {
 		u->given[part->y][end] = power;
 		return;
@@ -107,7 +108,7 @@ static void keep_output(struct unfolded *u, const char **given)
 }
 
 /* Each input of a box gets a BOOL of its own and is given by name. */
-static void write_box(struct unfolded *u, const struct grid_part *part)
+static void write_box(struct unfolded *u, struct grid_part *part)
 {
 	struct conversion *c = u->grid->c;
 	const char *in[4] = { NULL };
@@ -122,6 +123,7 @@ static void write_box(struct unfolded *u, const struct grid_part *part)
 		put(c, " COIL %s |\n", in[i]);
 		put_branches(u, part->y + i, part->x);
 	}
+	part->written = true;
 	grid_head(u->grid);
 	put(c, "  | NO %s | %s", in[0], grid_box_text(u->grid, part));
 	for (int i = 1; i < part->rows; i++)
@@ -146,7 +148,7 @@ void grid_unfold(struct grid *grid)
 	if (!u)
 		return;
 	u->grid = grid;
-	tell(grid->c, REPORT_CHANGED, "its columns depend on one another: it became several "
+	tell(grid->c, REPORT_TAKEN, "its columns depend on one another: it became several "
 	     "rungs");
 	for (int i = 0; i < grid->parts; i++) {
 		if (grid->part[i].kind == PART_BOX)

@@ -56,10 +56,11 @@ bool out_refuse(struct leaving *e, enum diag_id id, const char *format, ...)
 	return false;
 }
 
-static __attribute__((format(printf, 3, 0)))
-void tell_at(struct leaving *e, struct diag place, const char *format, va_list args)
+static __attribute__((format(printf, 4, 0)))
+void tell_at(struct leaving *e, enum report_kind kind, struct diag place, const char *format,
+	     va_list args)
 {
-	struct report_line line = { .kind = REPORT_CHANGED, .member = "",
+	struct report_line line = { .kind = kind, .member = "",
 		.line = place.line, .pou = place.pou, .rung = place.rung };
 	char text[400];
 
@@ -75,7 +76,16 @@ void tell_change(struct leaving *e, const char *format, ...)
 	va_list args;
 
 	va_start(args, format);
-	tell_at(e, place_of(e, DIAG_NO_MEMORY), format, args);
+	tell_at(e, REPORT_CHANGED, place_of(e, DIAG_NO_MEMORY), format, args);
+	va_end(args);
+}
+
+void tell_lost(struct leaving *e, const char *format, ...)
+{
+	va_list args;
+
+	va_start(args, format);
+	tell_at(e, REPORT_LOST, place_of(e, DIAG_NO_MEMORY), format, args);
 	va_end(args);
 }
 
@@ -84,7 +94,7 @@ void tell_line(struct leaving *e, int line, const char *format, ...)
 	va_list args;
 
 	va_start(args, format);
-	tell_at(e, (struct diag){ .line = line }, format, args);
+	tell_at(e, REPORT_CHANGED, (struct diag){ .line = line }, format, args);
 	va_end(args);
 }
 

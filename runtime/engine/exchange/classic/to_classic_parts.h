@@ -75,6 +75,7 @@ struct out_part {
 	enum word word;
 	int row, col;
 	int order;             /* of evaluation; -1: never                     */
+	int id;                /* 1 + its number in the rung; 0: made here     */
 };
 
 struct out_jump { struct classic_cell *cell; uint32_t label; bool leaves; };
@@ -107,6 +108,7 @@ struct leaving {
 	const struct pou *pou;
 	int *spare; int spares, helpers_used;
 	int rung_index, row, col;
+	bool *written;         /* by id: the export has it; NULL: no rung in work */
 	struct classic_section *section;
 	struct out_label *label; int labels;
 	struct out_jump *jump; int jumps;
@@ -122,6 +124,9 @@ bool out_refuse(struct leaving *e, enum diag_id id, const char *format, ...)
 	__attribute__((format(printf, 3, 4)));
 /** tell_change - adds a line to the report about the cell in work. */
 void tell_change(struct leaving *e, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+/** tell_lost - the same: an element is left out. */
+void tell_lost(struct leaving *e, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
 /** tell_line - adds a line to the report about the project. @line: of its file; 0: none. */
 void tell_line(struct leaving *e, int line, const char *format, ...)
@@ -205,6 +210,12 @@ struct out_rung {
 	bool *net_seen;
 };
 void leave_rung(struct leaving *e, const struct rung *rung);
+/** out_mark - notes that the export has this element. */
+static inline void out_mark(struct leaving *e, const struct out_part *item)
+{
+	if (e->written)
+		e->written[item->id] = true;
+}
 /** out_put - puts an element with its upper left cell at (y, x). */
 void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
 	      const struct out_part *item);

@@ -152,7 +152,7 @@ static bool make_part(struct leaving *e, struct out_rung *r, int index)
 	e->row = at->row + 1;
 	e->col = at->col + 1;
 	*item = (struct out_part){ .width = 1, .height = 1, .row = at->row,
-		.col = at->col, .in = at->in, .out = at->out, .order = -1,
+		.col = at->col, .in = at->in, .out = at->out, .order = -1, .id = index + 1,
 		.variable = variable_of(0, 0) };
 	for (int i = 0; i < 4; i++) {
 		item->pin[i] = NET_NONE;
@@ -328,6 +328,7 @@ void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
 	int alive = item->width - 1;
 	struct classic_cell *cell;
 
+	out_mark(e, item);
 	for (int i = 0; i < item->height; i++)
 		for (int k = 0; k < item->width; k++)
 			rung->cell[y + i][x + k].element = CL_PART;
@@ -589,6 +590,24 @@ static bool same_rung(struct leaving *e, struct out_rung *r)
 	return true;
 }
 
+/* Reports the elements that neither drawing has: nothing is lost silently. A constant is no
+ * element of ClassicLadder but a wire or a gap. */
+static void report_left_out(struct leaving *e, const struct out_rung *r)
+{
+	for (int i = 0; i < r->count && e->good; i++) {
+		const struct out_part *item = &r->item[i];
+		const struct cell *cell = rung_at(r->rung, item->row, item->col);
+
+		if (e->written[item->id] || item->code == CL_WIRE)
+			continue;
+		e->row = item->row + 1;
+		e->col = item->col + 1;
+		tell_lost(e, "\"%s %s\" never has power",
+			  scope_row(e->scope, (enum word)cell->word)->word,
+			  project_text(e->project, cell->operand));
+	}
+}
+
 void leave_rung(struct leaving *e, const struct rung *rung)
 {
 	struct out_rung r = { .rung = rung };
@@ -612,8 +631,15 @@ void leave_rung(struct leaving *e, const struct rung *rung)
 	}
 	if (!prepare(e, &r))
 		return;
-	if (!same_rung(e, &r))
+	e->written = arena_alloc(e->arena, (size_t)r.count + 1);
+	if (!e->written)
+		return;
+	if (!same_rung(e, &r)) {
+		memset(e->written, 0, (size_t)r.count + 1);
 		split_rung(e, &r);
+	}
+	report_left_out(e, &r);
+	e->written = NULL;
 	if (e->good && e->out->rungs == first)
 		rung_begin(e);
 }

@@ -372,6 +372,7 @@ static APART void draw_bits(struct splitting *s, int index)
 
 	if (!way)
 		return;
+	out_mark(s->e, item);
 	if (item->word == FB_R_TRIG || item->word == FB_F_TRIG) {
 		draw_step(s->e, item->word == FB_R_TRIG ? CL_RISING : CL_FALLING, a,
 			  &output);
@@ -407,6 +408,7 @@ static APART void draw_inverted(struct splitting *s, int index)
 	struct classic_variable bit = net_bit(s, s->r->item[index].in, &never);
 	struct out_part output = coil(CL_COIL, spare_bit(s->e));
 
+	out_mark(s->e, &s->r->item[index]);
 	draw_step(s->e, CL_NC, bit, &output);
 	give(s, index, output.variable.number);
 }

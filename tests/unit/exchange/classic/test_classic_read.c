@@ -167,8 +167,7 @@ static void test_tables(void)
 	CHECK_TEXT(project->symbol[1].comment, "what");
 	CHECK(project->ios == 2 && project->io[0].inverted && project->io[0].sub_device == 889 &&
 	      project->io[1].output && project->io[1].first == -1 && project->io[1].setup == 5);
-	CHECK_AS(report.count == 1 && report.line[0].kind == REPORT_LOST &&
-		 report.line[0].line == 22, "LinuxCNC's I/O lines are reported");
+	CHECK_AS(report.count == 0, "I/O lines that LinuxCNC does not use are no news");
 	CHECK(project->period == 20 && project->register_list == 7);
 	CHECK_TEXT(classic_setting(project, "PERIODIC_REFRESH"), "20");
 	CHECK(!classic_setting(project, "PERIODIC"));
@@ -275,7 +274,7 @@ static void test_messages(void)
 	CHECK_TEXT(told(BOX(RUNG RUNG)), "LD704 5: rung_0.csv");
 	CHECK_TEXT(told(BOX(RUNG MEMBER("rung_00.csv", ""))), "LD704 6: rung_00.csv: rung 0");
 	CHECK_TEXT(told(BOX(RUNG "what\n")), "LD713 5: what");
-	CHECK_TEXT(told(BOX("")), "LD711 0: ");
+	CHECK_AS(read_text(BOX("")) != NULL, "an empty container is a project");
 	CHECK_TEXT(told(BOX(MEMBER("timers.csv", "T1,1,2\nT1,2,3\n") RUNG)),
 		   "LD704 4: timers.csv: timer 1");
 	CHECK_TEXT(told(BOX(MEMBER("timers.csv", "T1,3,2\n") RUNG)), "LD707 3: timers.csv: 3");
