@@ -73,7 +73,7 @@ static void tell_new(GString *out, const struct entry_new *declare)
 			       declare->name, declare->address[0] ? " AT " : "",
 			       declare->address, declare->type);
 	if (declare->shares[0])
-		g_string_append_printf(out, _(" (%s lies there, too)"), declare->shares);
+		g_string_append_printf(out, _(" (%s has the same address)"), declare->shares);
 }
 
 char *entry_outcome_tell(LadderDocument *document, int pou, const struct entry *entry,

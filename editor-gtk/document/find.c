@@ -460,7 +460,7 @@ static struct hits same_text(struct hits hits)
 static char *reason_at(char *place, const struct diag_list *diags)
 {
 	char *what = diags->count ? diag_said_whole(&diags->diag[0]) :
-		     g_strdup(_("It could not be read again"));
+		     g_strdup(_("The program cannot be read after this change"));
 	char *reason = g_strdup_printf("%s: %s", place, what);
 
 	g_free(what);

@@ -715,7 +715,7 @@ static enum io_refusal set_option(struct draft *draft, const struct io_row *row,
 	if (strlen(value) > LIMIT_NAME)
 		return IO_BAD_NAME;
 	if (!*value && (field == IO_ADDRESS || field == IO_DRIVER))
-		return IO_NO_WORD;
+		return IO_EMPTY;
 	if (*value)
 		snprintf(word, sizeof(word), "%s%s", words[field].before, value);
 	if (*word && !is_one_word(word))
@@ -794,7 +794,7 @@ enum io_refusal io_text_set_board(const struct io_text *io, const char *name,
 		return put(edit, io->board.at, io->board.len,
 			   (const char *[]){ quoted }, 1);
 	if (io->board_line)
-		return IO_NO_WORD; /* BOARD without a name */
+		return IO_NO_BOARD;
 	return put(edit, bom ? 3 : 0, 0, (const char *[]){ "BOARD ", quoted, "\n" }, 3);
 }
 

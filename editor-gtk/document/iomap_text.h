@@ -59,7 +59,9 @@ struct io_edit {
 enum io_refusal {
 	IO_GOOD,
 	IO_MANY_WORDS,  /* it must be one word                                  */
-	IO_NO_WORD,     /* not one of the choices; or empty, but needed          */
+	IO_NO_WORD,     /* not one of the choices                               */
+	IO_EMPTY,       /* an address and a driver are needed                   */
+	IO_NO_BOARD,    /* the BOARD line has no name                           */
 	IO_BAD_OFFSET,  /* a label without a number                             */
 	IO_BAD_NAME,    /* control characters, or too long                      */
 	IO_MEMORY,

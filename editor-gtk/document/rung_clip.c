@@ -175,9 +175,10 @@ static bool is_word(const struct line *line, const char *text)
 	return is_begun(line, text);
 }
 
+/* @why: a format for the word. */
 static bool refuse_word(struct line *line, const char *text, const char *why)
 {
-	line->why = g_strdup_printf("%s: %s", why, text);
+	line->why = g_strdup_printf(why, text);
 	return false;
 }
 
@@ -206,7 +207,7 @@ static bool add(struct line *line, const char *text)
 	if (entry->below || row->operand == OPND_EXPR || row->operand == OPND_ASSIGN ||
 	    row->operand == OPND_LOOP || (output && line->ended))
 		return refuse_word(line, text,
-			      _("this can only be pasted as a row of a rung file"));
+			      _("“%s” can only be pasted as a row of a rung file"));
 	if (line->ended)
 		end_rung(line);
 	if (!line->row)
@@ -253,7 +254,7 @@ static bool refuse_last(struct line *line, const struct typed *from, int count)
 		g_free(less);
 		if (good) {
 			g_free(line->why);
-			return refuse_word(line, from[count].text, _("there is no such word"));
+			return refuse_word(line, from[count].text, _("“%s” is not a known word"));
 		}
 	}
 	return false;
@@ -269,7 +270,7 @@ static bool add_all(struct line *line, const struct typed *part, int *at)
 
 		*at = part->line;
 		good = is_word(line, part->text) ? add(line, one) :
-			refuse_word(line, part->text, _("there is no such word"));
+			refuse_word(line, part->text, _("“%s” is not a known word"));
 		if (!good && count > 1 && line->entry->sense == ENTRY_WRONG)
 			refuse_last(line, part, count);
 		part += count;

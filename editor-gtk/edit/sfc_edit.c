@@ -848,7 +848,7 @@ bool sfc_edit_name_transition(struct sfc_edit *edit, int transition, const char 
 bool sfc_edit_set_priority(struct sfc_edit *edit, int transition, int priority)
 {
 	if (priority < 0 || priority > 65535)
-		return sfc_edit_refuse(edit, N_("the priority is a number from 0 to 65535"));
+		return sfc_edit_refuse(edit, N_("the priority is a number from 1 to 65535"));
 	edit->sfc.transition[transition].priority = priority;
 	return true;
 }

@@ -45,7 +45,7 @@ static bool number(const char *option, const char *text, double least, double mo
 	*out = g_ascii_strtod(text, &end);
 	if (end != text && !*end && *out >= least && *out <= most)
 		return true;
-	return wrong(_("%s wants a number from %g to %g, not %.24s"), option, least, most,
+	return wrong(_("%s needs a number from %g to %g, not %.24s"), option, least, most,
 		     text);
 }
 
@@ -60,7 +60,7 @@ static bool format_of(const char *name, enum render_format *format)
 	else if (dot && g_ascii_strcasecmp(dot, ".png") == 0)
 		*format = RENDER_PNG;
 	else
-		return wrong(_("-o wants a name that ends in .svg, .pdf or .png, "
+		return wrong(_("-o needs a name that ends in .svg, .pdf or .png, "
 			       "not %.80s"), name);
 	return true;
 }
@@ -211,11 +211,11 @@ static bool parse(int argc, char **argv, struct render_options *out)
 			continue;
 		} else if (wants_value(word)) {
 			if (i + 1 == argc)
-				return wrong(_("%s wants a value"), word);
+				return wrong(_("%s needs a value"), word);
 			if (!take_value(word, argv[++i], out))
 				return false;
 		} else if (!take_flag(word, out)) {
-			return wrong(_("there is no option %.24s"), word);
+			return wrong(_("“%.24s” is not an option"), word);
 		}
 	}
 	return judge(out, files, compare);

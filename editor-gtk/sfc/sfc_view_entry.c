@@ -523,7 +523,7 @@ static const struct { const char *prompt; enum sfc_part part; } questions[] = {
 	[ASK_WAIT] = { N_("Also wait for the step"), SFC_TRANSITION },
 	[ASK_TIMES] = { N_("MIN time, MAX time, ALARM bit"), SFC_STEP },
 	[ASK_NAME] = { N_("Name of the transition"), SFC_TRANSITION },
-	[ASK_PRIORITY] = { N_("Priority: 1 is asked first"), SFC_TRANSITION },
+	[ASK_PRIORITY] = { N_("Priority: 1 is checked first"), SFC_TRANSITION },
 	[ASK_COMMENT] = { N_("Comment"), SFC_NOTHING },
 	[ASK_GO] = { N_("Go to the step"), SFC_NOTHING },
 };

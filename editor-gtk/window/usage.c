@@ -150,7 +150,7 @@ static int keys_main(const char *name)
 			print_keys((enum key_scheme)i);
 			return 0;
 		}
-	fprintf(stderr, _("ladder-editor: there is no scheme of keys %.40s; see "
+	fprintf(stderr, _("ladder-editor: “%.40s” is not a key scheme; see "
 			  "ladder-editor --help\n"), name);
 	return 2;
 }
@@ -184,7 +184,7 @@ bool usage_main(int argc, char **argv, int *status)
 		} else if (strcmp(argv[i], "--man") == 0) {
 			print_man();
 		} else if (!is_known(argv[i])) {
-			fprintf(stderr, _("ladder-editor: there is no option %.24s; see "
+			fprintf(stderr, _("ladder-editor: “%.24s” is not an option; see "
 					  "ladder-editor --help\n"), argv[i]);
 			*status = 2;
 		} else {

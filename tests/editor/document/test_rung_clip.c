@@ -189,14 +189,14 @@ static void test_line(void)
 	refused("XIC", "The clipboard, line 1: the operand is still missing");
 	refused("XIC Start OTE", "The clipboard, line 1: the operand is still missing");
 	refused("LD Start\nFROB Stop\nST Motor\n",
-		"The clipboard, line 2: there is no such word: FROB");
+		"The clipboard, line 2: “FROB” is not a known word");
 	refused("XIC Start BST XIO Stop NXB XIC Over BND OTE Motor",
-		"The clipboard, line 1: there is no such word: BST");
+		"The clipboard, line 1: “BST” is not a known word");
 	refused("LD Start\nOR Stop\nST Motor\n", "The clipboard, line 2: this can only be "
 		"pasted as a row of a rung file: OR Stop");
 	refused("LD Start\nST Motor\nST Lamp\n", "The clipboard, line 3: this can only be "
 		"pasted as a row of a rung file: ST Lamp");
-	refused("Start XIC Stop", "The clipboard, line 1: there is no such word: Start");
+	refused("Start XIC Stop", "The clipboard, line 1: “Start” is not a known word");
 	refused("LD > 5", "The clipboard, line 1: “LD” cannot be the name of a variable");
 }
 
@@ -230,7 +230,7 @@ static void test_refused(void)
 	char *why, *large = g_malloc0(LIMIT_TEXT + 2), *after;
 
 	refused("", "The clipboard holds no rungs.");
-	refused("\nthis is no rung", "The clipboard, line 2: there is no such word: this");
+	refused("\nthis is no rung", "The clipboard, line 2: “this” is not a known word");
 	refused("VAR\n  A : BOOL;\nEND_VAR\n", "The clipboard holds no rungs.");
 	refused("RUNGBOARD 1\nPROGRAM A IL\n  LD TRUE\nEND_PROGRAM\n",
 		"The clipboard holds no rungs.");

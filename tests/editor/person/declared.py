@@ -71,7 +71,7 @@ def refused(screen):
     editor.gone()
     editor.keys('Home')
     editor.type('Begin %IX0.0')
-    editor.says('new: Begin AT %IX0.0 : BOOL (Start_of_belt lies there, too)')
+    editor.says('new: Begin AT %IX0.0 : BOOL (Start_of_belt has the same address)')
     editor.shot('declared-shared')
     editor.keys('Return')
     editor.gone()

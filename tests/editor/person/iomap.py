@@ -160,11 +160,11 @@ def given_up(screen):
         editor.keys('ctrl+a')
         editor.type('7')
         editor.keys(way)
-        editor.says('%QX0.0, Safe: There is no such word')
+        editor.says('%QX0.0, Safe: This is not one of the choices')
         editor.shot('iomap-refused-' + way)
         editor.click(cell(editor, '%QX0.0, Safe'))
         editor.keys('Escape')
-        until(lambda: not editor.all('There is no such word'), 'nothing to be told')
+        until(lambda: not editor.all('This is not one of the choices'), 'nothing to be told')
         shows(editor, '%QX0.0, Safe', '0')
     assert cell(editor, '%QX0.0, Safe').box() == before
     # The arrow shows the choices; it is back at its place and whole.

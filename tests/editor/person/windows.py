@@ -193,7 +193,7 @@ def from_text(screen):
     check(path)
     assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
     saved = open(path).read()
-    for text, why in ('this is no rung', 'The clipboard, line 1: there is no such word: this'), \
+    for text, why in ('this is no rung', 'The clipboard, line 1: “this” is not a known word'), \
             ('RUNG\n  | NO Start | COIL Motor |\nRUNG\n  | BADWORD Start |\n', 'line 4: "BADWORD" is not a known word'), \
             ('RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO Start\nEND_PROGRAM\n', 'The clipboard, line 4: '):
         editor.put_clipboard(text)
@@ -231,8 +231,8 @@ def hostile(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     rung = b'RUNG\n  | NO Start | COIL Motor |\n'
-    for text, why in (rung + b'\0' + rung, 'not valid UTF-8 text'), (b'this', 'The clipboard, line 1: there is no such word: this'), \
-            (rung.replace(b'Start', b'St\xffrt'), 'not valid UTF-8 text'), (b'this', 'The clipboard, line 1: there is no such word: this'), \
+    for text, why in (rung + b'\0' + rung, 'not valid UTF-8 text'), (b'this', 'The clipboard, line 1: “this” is not a known word'), \
+            (rung.replace(b'Start', b'St\xffrt'), 'not valid UTF-8 text'), (b'this', 'The clipboard, line 1: “this” is not a known word'), \
             (b' ' * (65 << 20), 'file is too large'):
         put_bytes(text)
         editor.keys('ctrl+v')
