@@ -202,6 +202,21 @@ static void settle(struct grid *grid, struct grid_part *part, int alive)
 		part->rows = CLASSIC_ROWS - part->y;
 }
 
+/* Old files have cells with codes of tools of the editor. One line for all of a code. */
+static void report_unknown(struct grid *grid, int element)
+{
+	const struct classic_rung *rung = grid->rung;
+	int count = 0;
+
+	for (int i = 0; i < CLASSIC_ROWS * CLASSIC_COLUMNS; i++)
+		count += rung->cell[i / CLASSIC_COLUMNS][i % CLASSIC_COLUMNS].element == element;
+	if (!grid->unknown[element])
+		tell(grid->c, REPORT_LOST, count > 1 ? "element %d, in %d cells, does not conduct" :
+		     "element %d does not conduct", element, count);
+	grid->unknown[element] = true;
+	grid->reported++;
+}
+
 static void find_part(struct grid *grid, int y, int x)
 {
 	const struct classic_cell *cell = &grid->rung->cell[y][x];
@@ -212,8 +227,7 @@ static void find_part(struct grid *grid, int y, int x)
 		return;
 	grid->c->at.line = grid->rung->row_line[y];
 	if (!row) {
-		tell(grid->c, REPORT_LOST, "element %d does not conduct", cell->element);
-		grid->reported++;
+		report_unknown(grid, cell->element);
 		return;
 	}
 	*part = (struct grid_part){

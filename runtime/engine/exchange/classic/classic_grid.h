@@ -51,6 +51,7 @@ struct grid {
 	bool fed[CLASSIC_ROWS][CLASSIC_COLUMNS + 1]; /* can this node have power? */
 	bool begun;          /* label and comment are written                  */
 	int reported;        /* elements that are no part: the report has each */
+	bool unknown[1000];  /* codes without a meaning that the report has    */
 };
 
 /** grid_link - true if node @x of row @y is joined with the row above. */

@@ -141,8 +141,8 @@ static bool parse_symbol(const char *text, int *type, int *number)
 		}
 	if (len != 1 || *text != 'X')
 		return false;
-	*type = STEP_TYPE;
-	return !*end || !strcmp(end, ".A");
+	*type = !*end || !strcmp(end, ".A") ? STEP_TYPE : STEP_TIME;
+	return *type == STEP_TYPE;
 }
 
 /* A symbol and the variable it names. */
@@ -229,7 +229,7 @@ static void find_symbols(struct conversion *c)
 		    strcmp(name->symbol->name, symbol->name)) {
 			c->at = name->symbol->place;
 			tell(c, REPORT_LOST, "symbol \"%s\" of %s, which \"%s\" names, too",
-			     name->symbol->name, symbol->variable, symbol->name);
+			     name->symbol->name, name->symbol->variable, symbol->name);
 		}
 		name->symbol = symbol;
 	}
