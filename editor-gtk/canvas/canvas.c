@@ -801,7 +801,7 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 	if (class_of(canvas)->key(canvas, key, state) ||
 	    is_composed(canvas, controller, letter))
 		return TRUE;
-	if (state & others || !class_of(canvas)->begins_entry(canvas, letter))
+	if (state & others || !g_unichar_isgraph(letter))
 		return FALSE;
 	text[g_unichar_to_utf8(letter, text)] = '\0';
 	class_of(canvas)->type(canvas, text);
@@ -842,7 +842,7 @@ static void add_keys(LadderCanvas *canvas)
 	g_signal_connect(canvas, "notify::has-focus", G_CALLBACK(focus_changed), NULL);
 	gtk_widget_add_controller(GTK_WIDGET(canvas), captured);
 	gtk_widget_add_controller(GTK_WIDGET(canvas), keys);
-	/* Added last, called first: before the letters that open the entry. */
+	/* Added last, called first: before the characters that open the entry. */
 	gtk_widget_add_controller(GTK_WIDGET(canvas),
 				  verbs_controller(class_of(canvas)->keys));
 }

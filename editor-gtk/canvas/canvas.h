@@ -81,9 +81,8 @@ struct _LadderCanvasClass {
 	void (*do_verb)(LadderCanvas *canvas, enum verb verb);
 	/** A key that moves the cursor; false: another key. */
 	bool (*key)(LadderCanvas *canvas, guint key, GdkModifierType state);
-	/** Does a typed letter open the entry? */
-	bool (*begins_entry)(LadderCanvas *canvas, gunichar letter);
-	/** Opens the entry with @text. */
+	/** Opens the entry with @text. Each printed character that is no key of a verb does, so
+	 * that none is lost; the entry says what is wrong with it. */
 	void (*type)(LadderCanvas *canvas, const char *text);
 	void (*press)(LadderCanvas *canvas, double x, double y, int count,
 		      GdkModifierType state);

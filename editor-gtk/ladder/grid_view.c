@@ -514,14 +514,6 @@ static void do_verb(LadderCanvas *canvas, enum verb verb)
 
 /* ---- keys ---- */
 
-/* Names, addresses, expressions; `= Motor`, `!Stop`, `-(S)- Lamp`. A slash is a key of
- * "Negate". */
-static bool begins_entry(LadderCanvas *canvas, gunichar c)
-{
-	(void)canvas;
-	return g_unichar_isalpha(c) || (c > 0 && c < 128 && strchr("%[_=!(-|", (int)c));
-}
-
 static void type(LadderCanvas *canvas, const char *text)
 {
 	entry_begin(LADDER_GRID_VIEW(canvas), text);
@@ -807,7 +799,6 @@ static void ladder_grid_view_class_init(LadderGridViewClass *class)
 	canvas->next_keys = tell_keys;
 	canvas->do_verb = do_verb;
 	canvas->key = cursor_key;
-	canvas->begins_entry = begins_entry;
 	canvas->type = type;
 	canvas->closed = entry_closed;
 	canvas->press = press;

@@ -217,9 +217,24 @@ static void open_element(struct asked *asked, const char *prompt, const char *te
 	});
 }
 
+/* A program without rungs gets one. */
+static bool has_rung(LadderGridView *view)
+{
+	struct rung *rung;
+	bool good;
+
+	if (!sheet_pou(view) || sheet_rungs(view) > 0)
+		return sheet_pou(view);
+	rung = rung_new(1, 1);
+	ladder_document_begin(view->canvas->document, _(verb_row(VERB_rung_below)->label), NULL);
+	good = sheet_splice(view, 0, 0, &rung, 1, NULL);
+	ladder_document_end(view->canvas->document);
+	return good;
+}
+
 void entry_begin(LadderGridView *view, const char *text)
 {
-	if (sheet_pou(view) && sheet_rungs(view) > 0 && !canvas_is_fixed(LADDER_CANVAS(view)))
+	if (!canvas_is_fixed(LADDER_CANVAS(view)) && has_rung(view))
 		open_element(asked_new(view), _("element and operand"), text, true);
 }
 

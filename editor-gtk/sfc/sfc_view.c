@@ -516,12 +516,6 @@ static bool move_by_key(LadderCanvas *canvas, guint key, GdkModifierType state)
 	}
 }
 
-static bool begins_entry(LadderCanvas *canvas, gunichar c)
-{
-	return LADDER_SFC_VIEW(canvas)->sheet &&
-	       (g_unichar_isalnum(c) || c == '%' || c == '_' || c == '(');
-}
-
 static void type(LadderCanvas *canvas, const char *text)
 {
 	if (LADDER_SFC_VIEW(canvas)->sheet)
@@ -907,7 +901,6 @@ static void ladder_sfc_view_class_init(LadderSfcViewClass *class)
 	canvas->next_keys = next_keys;
 	canvas->do_verb = do_verb;
 	canvas->key = move_by_key;
-	canvas->begins_entry = begins_entry;
 	canvas->type = type;
 	canvas->press = press;
 	canvas->can_drag = can_drag;

@@ -35,7 +35,7 @@ static struct entry_place place_of(LadderSfcView *view, bool output)
 /* Where the word before the cursor begins. */
 static gsize word_start(const char *line, gsize cursor)
 {
-	while (cursor > 0 && !strchr(" ,\t()", line[cursor - 1]))
+	while (cursor > 0 && !strchr(" ,\t()!/", line[cursor - 1]))
 		cursor--;
 	return cursor;
 }
@@ -172,6 +172,16 @@ static void read_bit(LadderSfcView *view, const struct sfc_doing *doing,
 	g_free(line);
 }
 
+/* A condition as a file has it: `!Sensor` and `/Sensor` are `NOT Sensor`, as in a rung. Caller:
+ * g_free. */
+static char *condition_of(const char *line)
+{
+	const bool negated = *line == '!' || *line == '/';
+
+	line += negated;
+	return g_strconcat(negated ? "NOT " : "", line + strspn(line, " "), NULL);
+}
+
 /* The outcome to show. Unknown names are allowed, since steps may be added later; a
  * declaration in the line must be right. */
 static char *outcome(const struct asked *asked, const char *line, struct entry *entry,
@@ -180,7 +190,7 @@ static char *outcome(const struct asked *asked, const char *line, struct entry *
 	LadderSfcView *view = asked->view;
 	const struct entry_place place = place_of(view, false);
 	struct sfc_doing doing;
-	char *told;
+	char *told, *condition;
 	bool lenient;
 
 	*good = true;
@@ -195,8 +205,10 @@ static char *outcome(const struct asked *asked, const char *line, struct entry *
 		read_bit(view, &doing, entry);
 		lenient = !doing.says;
 	} else if (asked->what == ASK_CONDITION) {
-		entry_condition(&place, line, entry);
-		lenient = sfc_is_expression(line);
+		condition = condition_of(line);
+		entry_condition(&place, condition, entry);
+		lenient = sfc_is_expression(condition);
+		g_free(condition);
 	} else {
 		return g_strdup("");
 	}
@@ -264,7 +276,7 @@ static bool take_doing(struct asked *asked, const char *line)
 static bool put_condition(struct asked *asked, const char *line, const struct entry *entry)
 {
 	LadderSfcView *view = asked->view;
-	const char *text = entry->sense == ENTRY_ELEMENT ? entry->operand : line;
+	char *text = entry->sense == ENTRY_ELEMENT ? g_strdup(entry->operand) : condition_of(line);
 	struct sfc_edit *edit;
 	bool good;
 
@@ -274,6 +286,7 @@ static bool put_condition(struct asked *asked, const char *line, const struct en
 			 PIECE_TRANSITION, asked->index) &&
 	       entry_outcome_declare(view->canvas->document, view->canvas->pou, entry);
 	ladder_document_end(view->canvas->document);
+	g_free(text);
 	return good;
 }
 
@@ -365,6 +378,16 @@ static bool take_name(struct asked *asked, const char *line, bool step)
 		       step ? PIECE_STEP : PIECE_TRANSITION, asked->index);
 }
 
+/* The first step of an empty chart. */
+static bool take_first(struct asked *asked, const char *line)
+{
+	struct sfc_edit *edit = sfc_edit_begin(asked->view);
+	const int made = edit ? sfc_edit_first(edit, -1) : -1;
+
+	return sfc_put(asked->view, edit, made >= 0 && sfc_edit_name_step(edit, made, line),
+		       _(verb_row(VERB_step_below)->label), PIECE_STEP, made);
+}
+
 /* The transition also waits for the named step. */
 static bool take_wait(struct asked *asked, const char *line)
 {
@@ -443,6 +466,7 @@ static bool line_taken(void *context, const char *text)
 		case ASK_PRIORITY: good = take_priority(&kept, line); break;
 		case ASK_COMMENT: good = take_comment(&kept, line); break;
 		case ASK_GO: good = take_go(&kept, line); break;
+		case ASK_FIRST: good = take_first(&kept, line); break;
 		default: break;
 		}
 	g_free(line);
@@ -526,6 +550,7 @@ static const struct { const char *prompt; enum sfc_part part; } questions[] = {
 	[ASK_PRIORITY] = { N_("Priority: 1 is checked first"), SFC_TRANSITION },
 	[ASK_COMMENT] = { N_("Comment"), SFC_NOTHING },
 	[ASK_GO] = { N_("Go to the step"), SFC_NOTHING },
+	[ASK_FIRST] = { N_("Name of the step"), SFC_NOTHING },
 };
 
 /* Why the question makes no sense at the cursor; NULL: it does. */
@@ -534,7 +559,7 @@ static const char *refusal(LadderSfcView *view, enum sfc_asked what)
 	int index;
 	const enum sfc_part part = sfc_part_at_cursor(view, &index), of = questions[what].part;
 
-	if (what == ASK_GO || (part != SFC_NOTHING && part != SFC_JUMP &&
+	if (what == ASK_GO || what == ASK_FIRST || (part != SFC_NOTHING && part != SFC_JUMP &&
 			       (of == SFC_NOTHING || of == part)))
 		return NULL;
 	return of == SFC_STEP ? _("Select a step first.") :
@@ -602,6 +627,8 @@ void sfc_ask_here(LadderSfcView *view, const char *typed)
 		sfc_ask_for(view, ASK_LEAD, typed);
 		return;
 	}
+	if (part == SFC_NOTHING && typed)
+		sfc_ask_for(view, ASK_FIRST, typed);
 	if (part == SFC_NOTHING || (!typed && show_body(view, index, part)))
 		return;
 	sfc_ask_for(view, part == SFC_TRANSITION ? ASK_CONDITION :

@@ -86,7 +86,8 @@ bool sfc_edit_do(LadderSfcView *view, enum verb verb);
 
 /* ---- sfc_view_entry.c: the entry ---- */
 enum sfc_asked { ASK_STEP, ASK_CONDITION, ASK_DOES, ASK_ANOTHER, ASK_LEAD, ASK_WAIT,
-		 ASK_TIMES, ASK_NAME, ASK_PRIORITY, ASK_COMMENT, ASK_GO };
+		 ASK_TIMES, ASK_NAME, ASK_PRIORITY, ASK_COMMENT, ASK_GO,
+		 ASK_FIRST };
 /** sfc_ask_for - opens the entry for the shape at the cursor. @typed: the first letters; NULL:
  * the entry has the present text. */
 void sfc_ask_for(LadderSfcView *view, enum sfc_asked what, const char *typed);

@@ -281,6 +281,29 @@ END_PROGRAM
 '''
 
 
+def first_key(screen):
+    """the first key of an entry is kept, whatever it is: a negated condition, a time, a wrong character"""
+    path = new_file(screen, RUNS)
+    editor = Editor(screen, path)
+    on_chart(editor)
+    editor.click(upon(editor, shape(editor, 'from Start to')))
+    for line, kept in (('!Sensor', ':= NOT Sensor;'), ('Start.T > 5s', ':= Start.T > T#5s;'), ('/Sensor', ':= NOT Sensor;')):
+        typed(editor, line)
+        assert kept in editor.save(path), open(path).read()
+    editor.shot('charts-first-key')
+    for key in '&+=[\'5#':
+        editor.type(key)
+        line = until(editor.asked, 'the entry of ' + key)[0]
+        until(lambda: line.text() == key, key)
+        editor.keys('Escape')
+        editor.gone()
+        on_chart(editor)
+    # The place of a mistake is a transition.
+    typed(editor, 'Nobody.T > 5s')
+    editor.says('Main, transition Start \u2192 ')
+    editor.shot('charts-place')
+
+
 def simulated(screen):
     """a running chart shows the active step and why a transition waits; a step is forced"""
     path = new_file(screen, RUNS)
@@ -493,4 +516,4 @@ def long_texts(screen):
 
 
 bodies.quick = 'editor-gtk/sfc'
-main([by_keyboard, by_pointer, bodies, clipped, zoomed, simulated, forced, long_texts])
+main([by_keyboard, by_pointer, first_key, bodies, clipped, zoomed, simulated, forced, long_texts])
