@@ -78,6 +78,8 @@ struct canvas_own {
 	const struct theme *theme; /* NULL: to be looked up                    */
 	struct xref *xref;      /* NULL: not needed since the last change       */
 	struct canvas_question question; /* of the open entry                   */
+	bool taking;            /* question.taken() runs                       */
+	char *refusal;          /* said by it, for the entry; NULL: none       */
 	struct canvas_cells cells;
 	struct canvas_press press;
 	struct canvas_input input;
@@ -112,6 +114,12 @@ static LadderCanvasClass *class_of(LadderCanvas *canvas)
 
 void canvas_tell(LadderCanvas *canvas, const char *text)
 {
+	struct canvas_own *own = own_of(canvas);
+
+	if (own->taking) {
+		g_free(own->refusal);
+		own->refusal = text[0] ? g_strdup(text) : NULL;
+	}
 	g_signal_emit(canvas, signals[TOLD], 0, text);
 }
 
@@ -659,19 +667,31 @@ static void ladder_canvas_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 static char *line_changed(void *data, const char *line, int cursor, bool *good)
 {
 	LadderCanvas *canvas = data;
-	const struct canvas_question *question = &own_of(canvas)->question;
+	struct canvas_own *own = own_of(canvas);
+	char *told;
 
 	*good = true;
 	if (!state_of(canvas)->entry)
 		return NULL; /* in its constructor; ladder_entry_popup_ask() follows */
-	return question->changed(question->context, line, cursor, good);
+	told = own->question.changed(own->question.context, line, cursor, good);
+	if (!own->refusal)
+		return told;
+	*good = false;
+	g_free(told);
+	return g_steal_pointer(&own->refusal);
 }
 
 static bool line_taken(void *data, const char *line)
 {
-	const struct canvas_question *question = &own_of(data)->question;
+	struct canvas_own *own = own_of(data);
+	bool good;
 
-	return question->taken(question->context, line);
+	own->taking = true;
+	good = own->question.taken(own->question.context, line);
+	own->taking = false;
+	if (good)
+		g_clear_pointer(&own->refusal, g_free);
+	return good;
 }
 
 static void line_gone(void *data)
@@ -710,6 +730,7 @@ void canvas_ask(LadderCanvas *canvas, const struct canvas_question *question)
 	if (state_of(canvas)->entry)
 		canvas_close_entry(canvas);
 	forget_question(canvas);
+	g_clear_pointer(&own_of(canvas)->refusal, g_free);
 	own_of(canvas)->question = *question;
 	entry = ladder_entry_popup_new(GTK_WIDGET(canvas), question->prompt, question->text,
 				       question->typed, &calls);
@@ -718,6 +739,30 @@ void canvas_ask(LadderCanvas *canvas, const struct canvas_question *question)
 	ladder_entry_popup_show(LADDER_ENTRY_POPUP(entry), &(GdkRectangle){
 		(int)rect.origin.x, (int)rect.origin.y, (int)rect.size.width,
 		(int)rect.size.height });
+}
+
+static char *say_why(void *why, const char *line, int cursor, bool *good)
+{
+	(void)line;
+	(void)cursor;
+	*good = false;
+	return g_strdup(why);
+}
+
+static bool take_nothing(void *why, const char *line)
+{
+	(void)why;
+	(void)line;
+	return false;
+}
+
+void canvas_refuse(LadderCanvas *canvas, const char *prompt, const char *why)
+{
+	canvas_ask(canvas, &(struct canvas_question){
+		.prompt = prompt, .text = "", .drops = true, .changed = say_why,
+		.taken = take_nothing, .context = g_strdup(why), .free = g_free,
+	});
+	canvas_tell(canvas, why);
 }
 
 void canvas_close_entry(LadderCanvas *canvas)
@@ -1264,6 +1309,7 @@ static void ladder_canvas_finalize(GObject *object)
 	forget_question(canvas);
 	g_array_unref(own->cells.cell);
 	g_free(own->input.composed);
+	g_free(own->refusal);
 	g_clear_pointer(&state_of(canvas)->lettering, lettering_free);
 	G_OBJECT_CLASS(ladder_canvas_parent_class)->finalize(object);
 }

@@ -197,12 +197,16 @@ struct canvas_question {
 	bool drops;             /* a click elsewhere drops a wrong text silently     */
 	/** Adds candidates to the popup (canvas_state.entry); as in entry_popup.h. */
 	char *(*changed)(void *context, const char *line, int cursor, bool *good);
+	/** Takes the line. False: the entry stays open and shows what canvas_tell() said. */
 	bool (*taken)(void *context, const char *line);
 	void *context;          /* taken over                                      */
 	GDestroyNotify free;    /* frees @context at the next question or the end    */
 };
 /** canvas_ask - opens the entry at the cursor and closes an open one. */
 void canvas_ask(LadderCanvas *canvas, const struct canvas_question *question);
+/** canvas_refuse - opens an entry at the cursor that only says @why, as an error: what is typed
+ * next must not change another cell. */
+void canvas_refuse(LadderCanvas *canvas, const char *prompt, const char *why);
 /** canvas_close_entry - closes the entry without taking its line. */
 void canvas_close_entry(LadderCanvas *canvas);
 

@@ -67,42 +67,49 @@ static char *whole_line(const struct asked *asked, const char *line, size_t *ski
 
 /* ---- each letter ---- */
 
+/* @head: the first @head_len bytes of the line, before the element. */
 static void add_candidate(const struct asked *asked, const struct entry_candidate *one,
-			  size_t skipped)
+			  size_t skipped, const char *head, size_t head_len)
 {
+	char *line = g_strdup_printf("%.*s%s", (int)head_len, head,
+				     one->line + MIN(skipped, strlen(one->line)));
 	struct entry_popup_row row = {
 		.text = (char *)one->text, .address = (char *)one->address,
-		.note = (char *)one->note, .kind = _(entry_kind_text(one->kind)),
-		.line = (char *)one->line + MIN(skipped, strlen(one->line)),
+		.note = (char *)one->note, .kind = _(entry_kind_text(one->kind)), .line = line,
 	};
 
 	ladder_entry_popup_add(LADDER_ENTRY_POPUP(asked->view->canvas->entry), &row);
+	g_free(line);
 }
 
-static char *element_changed(void *context, const char *line, int cursor, bool *good)
+/* The outcome of an element from byte @from of the line on, and its candidates. */
+static char *element_outcome(const struct asked *asked, const char *line, size_t from, int cursor,
+			     bool *good)
 {
-	struct asked *asked = context;
-	struct entry_place place;
-	struct entry_candidate *found;
-	struct entry *entry;
-	size_t skipped, at;
-	char *whole, *told;
+	const struct entry_place place = place_of(asked);
+	struct entry_candidate *found = g_new(struct entry_candidate, CANDIDATES);
+	struct entry *entry = g_new0(struct entry, 1);
+	const size_t at = (size_t)(g_utf8_offset_to_pointer(line, cursor) - line);
+	size_t skipped;
+	char *whole = whole_line(asked, line + from, &skipped), *told;
 	int count;
 
-	place = place_of(asked);
-	found = g_new(struct entry_candidate, CANDIDATES);
-	entry = g_new0(struct entry, 1);
-	whole = whole_line(asked, line, &skipped);
-	at = skipped + (size_t)(g_utf8_offset_to_pointer(line, cursor) - line);
 	entry_read(&place, whole, entry);
-	told = entry_outcome_tell(asked->view->canvas->document, place.pou, entry, line, good);
-	count = entry_candidates(&place, whole, at, found, CANDIDATES);
+	told = entry_outcome_tell(asked->view->canvas->document, place.pou, entry, line + from,
+				  good);
+	count = at < from ? 0 : entry_candidates(&place, whole, skipped + at - from, found,
+						 CANDIDATES);
 	for (int i = 0; i < count; i++)
-		add_candidate(asked, &found[i], skipped);
+		add_candidate(asked, &found[i], skipped, line, from);
 	g_free(whole);
 	g_free(entry);
 	g_free(found);
 	return told;
+}
+
+static char *element_changed(void *context, const char *line, int cursor, bool *good)
+{
+	return element_outcome(context, line, 0, cursor, good);
 }
 
 /* ---- Enter ---- */
@@ -238,22 +245,16 @@ void entry_begin(LadderGridView *view, const char *text)
 		open_element(asked_new(view), _("element and operand"), text, true);
 }
 
-/* Shows the element where it will be; false: it cannot stand there. */
-static bool show_preview(struct asked *asked, struct rung *preview)
+/* Shows the element where it will be. */
+static void show_preview(const struct asked *asked, struct rung *preview)
 {
 	LadderGridView *view = asked->view;
 
-	if (!preview) {
-		canvas_tell(LADDER_CANVAS(view), _(grid_refusal_text(asked->at.refusal)));
-		g_free(asked);
-		return false;
-	}
 	view->preview = preview;
 	strips_dirty(view, view->cursor.at.rung);
 	view->cursor.at.row = asked->at.row;
 	view->cursor.at.col = asked->at.col;
 	cursor_reveal(view);
-	return true;
 }
 
 /* The proposed text: an instance, parameters; "": none. @whole: it needs no operand. */
@@ -282,7 +283,7 @@ static void begin_word(struct asked *asked, struct rung *preview)
 	bool whole;
 	char *text = proposal(asked, &whole), *prompt;
 
-	if (whole && !text[0]) { /* no operand to ask for */
+	if (preview && whole && !text[0]) { /* no operand to ask for */
 		rung_free(preview);
 		if (element_taken(asked, ""))
 			canvas_tell(LADDER_CANVAS(view), "");
@@ -291,8 +292,14 @@ static void begin_word(struct asked *asked, struct rung *preview)
 		return;
 	}
 	prompt = g_strdup_printf(_("%s: operand"), row->word);
-	if (show_preview(asked, preview))
+	if (preview) {
+		show_preview(asked, preview);
 		open_element(asked, prompt, text, false);
+	} else {
+		canvas_refuse(LADDER_CANVAS(view), prompt,
+			      _(grid_refusal_text(asked->at.refusal)));
+		g_free(asked);
+	}
 	g_free(prompt);
 	g_free(text);
 }
@@ -371,33 +378,258 @@ void entry_begin_edit(LadderGridView *view)
 	g_free(text);
 }
 
+/* ---- inputs of a box ---- */
+
+/* Why the input cannot be fed by a wire; GRID_DONE: it can. */
+static enum grid_refusal feed_refusal(LadderGridView *view, const char *name, size_t len)
+{
+	struct project *project = ladder_document_project(view->canvas->document);
+	struct grid_at at = sheet_at(view);
+	const uint32_t pin = names_intern(&project->names, name, len);
+
+	rung_free(grid_add_pin(sheet_rung(view, view->cursor.at.rung), &at, project, pin, NULL));
+	return at.refusal;
+}
+
+/* Is it a refusal of the input itself? Others are of its place, where there may be room later. */
+static bool is_lasting(enum grid_refusal why)
+{
+	return why == GRID_NO_BOX || why == GRID_BAD_PIN || why == GRID_PIN_TAKEN ||
+	       why == GRID_FIRST_PIN;
+}
+
+static bool may_feed(LadderGridView *view, const char *name)
+{
+	return !is_lasting(feed_refusal(view, name, strlen(name)));
+}
+
+/* The word at the cursor; a row of pins is a part of the box above it. */
+static const struct word_row *word_here(LadderGridView *view)
+{
+	const struct project *project = ladder_document_project(view->canvas->document);
+	int row, col;
+	const struct cell *cell = cursor_cell(view, &row, &col);
+
+	while (cell->word == ELEM_PIN && row > 0)
+		cell = rung_at(sheet_rung(view, view->cursor.at.rung), --row, col);
+	return words_row(&project->words, (enum word)cell->word);
+}
+
+static void offer(GtkWidget *popup, const struct word_row *row, int index, const char *name)
+{
+	struct entry_popup_row one = { (char *)name, "", (char *)said(explain_pin(row, index)),
+				       _("input"), (char *)name };
+
+	ladder_entry_popup_add(LADDER_ENTRY_POPUP(popup), &one);
+}
+
+/* The next input of a function with any number of inputs; NULL: it has a fixed
+ * number. */
+static const char *further_input(LadderGridView *view, const struct word_row *row, char *name,
+				 size_t size)
+{
+	if (row->kind != WORD_FN)
+		return NULL;
+	for (int i = word_last_number(row) + 1; ; i++) {
+		snprintf(name, size, "IN%d", i);
+		if (word_pin_find(row, name, strlen(name)) < 0)
+			return NULL;
+		if (may_feed(view, name))
+			return name;
+	}
+}
+
+/* Number of inputs that can be fed and begin with @text; @popup, if not NULL, gets them. */
+static int offer_inputs(LadderGridView *view, GtkWidget *popup, const char *text, gsize len)
+{
+	const struct word_row *row = word_here(view);
+	char further[LIMIT_NAME + 1];
+	int count = 0;
+
+	for (int i = 0; i <= row->pin_count; i++) {
+		const char *name = i < row->pin_count ? row->pin[i].name :
+				   further_input(view, row, further, sizeof(further));
+
+		if (!name || g_ascii_strncasecmp(name, text, len) != 0 || !may_feed(view, name))
+			continue;
+		count++;
+		if (popup)
+			offer(popup, row, MIN(i, row->pin_count - 1), name);
+	}
+	return count;
+}
+
+/* A line `R ResetCount`: an input, and what feeds it. */
+struct pin_line {
+	const char *name, *feed; /* feed: "": nothing                          */
+	gsize len;               /* of the name                                */
+};
+
+static struct pin_line read_pin(const char *line)
+{
+	struct pin_line pin = { .name = line + strspn(line, " ") };
+
+	pin.len = strcspn(pin.name, " :");
+	pin.feed = pin.name + pin.len;
+	pin.feed += strspn(pin.feed, " ");
+	pin.feed += g_str_has_prefix(pin.feed, ":=") ? 2 : 0;
+	pin.feed += strspn(pin.feed, " ");
+	return pin;
+}
+
+/* Is it an input that gets its value as a parameter, not by a wire? */
+static bool takes_value(LadderGridView *view, const struct pin_line *pin)
+{
+	const struct word_row *row = word_here(view);
+	const int index = word_pin_find(row, pin->name, pin->len);
+
+	return index >= 0 && index < row->pin_count && row->pin[index].dir == PIN_IN &&
+	       feed_refusal(view, pin->name, pin->len) == GRID_BAD_PIN;
+}
+
+/* The line of the box with @value at a pin instead of its present one, or more. @from, @to: its
+ * bytes. Caller: g_free. */
+static char *line_with(LadderGridView *view, const char *pin, gsize len, const char *sign,
+		       const char *value, gsize *from, gsize *to)
+{
+	char *text = line_now(view), *line;
+	const char *args = project_text(ladder_document_project(view->canvas->document),
+					cursor_cell(view, NULL, NULL)->args);
+	struct arg arg;
+
+	if (args_find(args, pin, len, &arg)) {
+		*from = strlen(text) - strlen(args) + (gsize)(arg.value - args) - arg.inverse;
+		*to = *from + arg.value_len + arg.inverse;
+		line = value ? g_strdup_printf("%.*s%s%s", (int)*from, text, value, text + *to) :
+			       g_strdup(text);
+	} else {
+		line = g_strdup_printf("%s%s%.*s%s%s", text, *text ? " " : "", (int)len, pin, sign,
+				       value ? value : "");
+		*from = *to = strlen(line);
+	}
+	g_free(text);
+	return line;
+}
+
+/* The box as it would be changed by `PV 20`; @line gets its line. Caller: both g_free. */
+static struct asked *value_at(const struct asked *asked, const struct pin_line *pin, char **line)
+{
+	struct asked *box = g_memdup2(asked, sizeof(*asked));
+	gsize from, to;
+
+	box->word = (enum word)cursor_cell(asked->view, NULL, NULL)->word;
+	box->edit = true;
+	*line = line_with(asked->view, pin->name, pin->len, ":=", pin->feed, &from, &to);
+	return box;
+}
+
+static char *value_outcome(const struct asked *asked, const struct pin_line *pin, bool *good)
+{
+	const struct entry_place place = place_of(asked);
+	struct entry *entry = g_new0(struct entry, 1);
+	char *line, *whole, *told;
+	struct asked *box = value_at(asked, pin, &line);
+	size_t skipped;
+
+	whole = whole_line(box, line, &skipped);
+	entry_read(&place, whole, entry);
+	told = entry_outcome_tell(asked->view->canvas->document, place.pou, entry, line, good);
+	g_free(whole);
+	g_free(line);
+	g_free(entry);
+	g_free(box);
+	return told;
+}
+
+static bool value_taken(const struct asked *asked, const struct pin_line *pin)
+{
+	char *line;
+	struct asked *box = value_at(asked, pin, &line);
+	const bool good = element_taken(box, line);
+
+	g_free(line);
+	g_free(box);
+	return good;
+}
+
+static char *pin_changed(void *context, const char *line, int cursor, bool *good)
+{
+	struct asked *asked = context;
+	LadderGridView *view = asked->view;
+	const struct pin_line pin = read_pin(line);
+	enum grid_refusal why;
+
+	if (!cursor_cell(view, NULL, NULL) ||
+	    (!*pin.feed && offer_inputs(view, view->canvas->entry, pin.name, pin.len) > 0))
+		return NULL;
+	if (takes_value(view, &pin))
+		return *pin.feed ? value_outcome(asked, &pin, good) : NULL;
+	why = feed_refusal(view, pin.name, pin.len);
+	if (!is_lasting(why))
+		return element_outcome(asked, line, (size_t)(pin.feed - line), cursor, good);
+	*good = false;
+	return g_strdup(_(grid_refusal_text(why)));
+}
+
+static bool pin_taken(void *context, const char *line)
+{
+	struct asked *asked = context;
+	LadderGridView *view = asked->view;
+	struct project *project = ladder_document_project(view->canvas->document);
+	const struct entry_place place = place_of(asked);
+	const struct pin_line pin = read_pin(line);
+	struct grid_at at = sheet_at(view);
+	struct entry *entry;
+	struct cell feed;
+	bool good;
+
+	if (*pin.feed && takes_value(view, &pin))
+		return value_taken(asked, &pin);
+	entry = g_new0(struct entry, 1);
+	good = !*pin.feed || (entry_read(&place, pin.feed, entry) &&
+			      entry_cell(project, entry, &feed));
+	if (good) {
+		ladder_document_begin(view->canvas->document, _(verb_row(VERB_add_pin)->label),
+				      NULL);
+		good = sheet_put(view, grid_add_pin(sheet_rung(view, view->cursor.at.rung), &at,
+				 project, names_intern(&project->names, pin.name, pin.len),
+				 *pin.feed ? &feed : NULL), &at, "") &&
+		       entry_outcome_declare(view->canvas->document, view->canvas->pou, entry);
+		ladder_document_end(view->canvas->document);
+	}
+	g_free(entry);
+	return good;
+}
+
+static void ask_pin(LadderGridView *view, const char *text)
+{
+	struct asked *asked = asked_new(view);
+
+	asked->before = true; /* an output cannot feed it */
+	open_entry(asked, (struct canvas_question){
+		.prompt = _("input and operand, such as R ResetCount"), .text = text,
+		.changed = pin_changed, .taken = pin_taken,
+	});
+	ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->canvas->entry), strlen(text),
+				  strlen(text));
+}
+
 void entry_begin_pin(LadderGridView *view, const char *pin, gsize len, bool output)
 {
-	struct arg arg;
-	char *text, *line;
-	const char *args;
+	char *line;
+	gsize from, to;
 
 	if (canvas_is_fixed(LADDER_CANVAS(view)) || !cursor_cell(view, NULL, NULL))
 		return;
-	text = line_now(view);
-	args = project_text(ladder_document_project(view->canvas->document),
-			    cursor_cell(view, NULL, NULL)->args);
-	if (args_find(args, pin, len, &arg)) {
-		const gsize from = strlen(text) - strlen(args) + (gsize)(arg.value - args) -
-				   arg.inverse;
-
-		begin_edit(view, text);
-		ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->canvas->entry), from,
-					  from + arg.value_len + arg.inverse);
+	if (!output && !is_lasting(feed_refusal(view, pin, len))) {
+		line = g_strdup_printf("%.*s ", (int)len, pin);
+		ask_pin(view, line);
 	} else {
-		line = g_strdup_printf("%s%s%.*s%s", text, *text ? " " : "", (int)len, pin,
-				       output ? "=>" : ":=");
+		line = line_with(view, pin, len, output ? "=>" : ":=", NULL, &from, &to);
 		begin_edit(view, line);
-		ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->canvas->entry), strlen(line),
-					  strlen(line));
-		g_free(line);
+		ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->canvas->entry), from, to);
 	}
-	g_free(text);
+	g_free(line);
 }
 
 /* ---- a label, and the jumps to it ---- */
@@ -481,7 +713,7 @@ static bool label_set(LadderGridView *view, const char *name)
 	return good;
 }
 
-/* ---- texts and pins ---- */
+/* ---- texts ---- */
 
 static uint32_t intern_comment(struct project *project, const char *text)
 {
@@ -513,17 +745,6 @@ static bool set_text(LadderGridView *view, enum verb verb, const char *text,
 			cell->comment = intern_comment(project, text);
 		return cell != NULL;
 	}
-}
-
-static bool add_pin(LadderGridView *view, const char *name)
-{
-	struct project *project = ladder_document_project(view->canvas->document);
-	const struct rung *rung = sheet_rung(view, view->cursor.at.rung);
-	struct grid_at at = sheet_at(view);
-	const uint32_t pin = names_intern(&project->names, name, strlen(name));
-
-	return sheet_put(view, grid_add_pin(rung, &at, project, pin, NULL), &at,
-			 _(verb_row(VERB_add_pin)->label));
 }
 
 /* The present text. */
@@ -587,8 +808,6 @@ static bool text_taken(void *context, const char *line)
 	struct rung *copy;
 	int row, col;
 
-	if (asked->verb == VERB_add_pin)
-		return add_pin(view, line);
 	if (is_as_before(asked, line))
 		return true;
 	if (is_refused(asked, line))
@@ -604,85 +823,6 @@ static bool text_taken(void *context, const char *line)
 	return sheet_put(view, copy, &at, _(verb_row(asked->verb)->label));
 }
 
-/* Is it a Boolean input without a wire? grid_add_pin() checks later whether there is room. */
-static bool may_feed(LadderGridView *view, const char *name)
-{
-	struct project *project = ladder_document_project(view->canvas->document);
-	struct grid_at at = sheet_at(view);
-	const uint32_t pin = names_intern(&project->names, name, strlen(name));
-
-	rung_free(grid_add_pin(sheet_rung(view, view->cursor.at.rung), &at, project, pin, NULL));
-	return at.refusal != GRID_NO_BOX && at.refusal != GRID_BAD_PIN &&
-	       at.refusal != GRID_PIN_TAKEN && at.refusal != GRID_FIRST_PIN;
-}
-
-/* The word at the cursor; a row of pins is a part of the box above it. */
-static const struct word_row *word_here(LadderGridView *view)
-{
-	const struct project *project = ladder_document_project(view->canvas->document);
-	int row, col;
-	const struct cell *cell = cursor_cell(view, &row, &col);
-
-	while (cell->word == ELEM_PIN && row > 0)
-		cell = rung_at(sheet_rung(view, view->cursor.at.rung), --row, col);
-	return words_row(&project->words, (enum word)cell->word);
-}
-
-static void offer(GtkWidget *popup, const struct word_row *row, int index, const char *name)
-{
-	struct entry_popup_row one = { (char *)name, "", (char *)said(explain_pin(row, index)),
-				       _("input"), (char *)name };
-
-	ladder_entry_popup_add(LADDER_ENTRY_POPUP(popup), &one);
-}
-
-/* The next input of a function with any number of inputs; NULL: it has a fixed
- * number. */
-static const char *further_input(LadderGridView *view, const struct word_row *row, char *name,
-				 size_t size)
-{
-	if (row->kind != WORD_FN)
-		return NULL;
-	for (int i = word_last_number(row) + 1; ; i++) {
-		snprintf(name, size, "IN%d", i);
-		if (word_pin_find(row, name, strlen(name)) < 0)
-			return NULL;
-		if (may_feed(view, name))
-			return name;
-	}
-}
-
-/* Number of inputs that can be fed; @popup, if not NULL, gets those that begin as @line. */
-static int offer_inputs(LadderGridView *view, GtkWidget *popup, const char *line)
-{
-	const struct word_row *row = word_here(view);
-	char further[LIMIT_NAME + 1];
-	int count = 0;
-
-	for (int i = 0; i <= row->pin_count; i++) {
-		const char *name = i < row->pin_count ? row->pin[i].name :
-				   further_input(view, row, further, sizeof(further));
-
-		if (!name || !may_feed(view, name))
-			continue;
-		count++;
-		if (popup && g_ascii_strncasecmp(name, line, strlen(line)) == 0)
-			offer(popup, row, MIN(i, row->pin_count - 1), name);
-	}
-	return count;
-}
-
-static char *pin_changed(void *context, const char *line, int cursor, bool *good)
-{
-	struct asked *asked = context;
-
-	(void)cursor;
-	(void)good;
-	if (cursor_cell(asked->view, NULL, NULL))
-		offer_inputs(asked->view, asked->view->canvas->entry, line);
-	return NULL;
-}
-
 /* Why the cursor's place has no such text; NULL: it has. */
 static const char *nothing_to_ask(LadderGridView *view, enum verb verb)
 {
@@ -690,7 +830,7 @@ static const char *nothing_to_ask(LadderGridView *view, enum verb verb)
 		return NULL;
 	if (!cursor_cell(view, NULL, NULL))
 		return _("there is no element here");
-	if (verb == VERB_comment || offer_inputs(view, NULL, "") > 0)
+	if (verb == VERB_comment || offer_inputs(view, NULL, "", 0) > 0)
 		return NULL;
 	return word_here(view)->place == PLACE_BOX ?
 		_("The box has no further Boolean input.") :
@@ -709,7 +849,6 @@ static char *text_changed(void *context, const char *line, int cursor, bool *goo
 
 void entry_begin_text(LadderGridView *view, enum verb verb)
 {
-	const bool pin = verb == VERB_add_pin;
 	struct asked *asked;
 	const char *why;
 	char *text;
@@ -718,15 +857,19 @@ void entry_begin_text(LadderGridView *view, enum verb verb)
 		return;
 	why = nothing_to_ask(view, verb);
 	if (why) {
-		canvas_tell(LADDER_CANVAS(view), why);
+		canvas_refuse(LADDER_CANVAS(view), _(verb_row(verb)->label), why);
+		return;
+	}
+	if (verb == VERB_add_pin) {
+		ask_pin(view, "");
 		return;
 	}
 	asked = asked_new(view);
 	asked->verb = verb;
-	text = pin ? g_strdup("") : text_now(view, verb);
+	text = text_now(view, verb);
 	open_entry(asked, (struct canvas_question){
 		.prompt = _(verb_row(verb)->label), .text = text,
-		.changed = pin ? pin_changed : text_changed, .taken = text_taken,
+		.changed = text_changed, .taken = text_taken,
 	});
 	g_free(text);
 }

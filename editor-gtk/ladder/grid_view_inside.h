@@ -238,7 +238,7 @@ void entry_begin_drop(LadderGridView *view, enum word word, int row, int col);
 /** entry_begin_edit - asks for the operand of the element at the cursor. */
 void entry_begin_edit(LadderGridView *view);
 /** entry_begin_pin - the same, with the value at a pin selected, or the cursor behind its
- * name. */
+ * name; for a free Boolean input asks for the element that feeds it. */
 void entry_begin_pin(LadderGridView *view, const char *pin, gsize len, bool output);
 /** entry_begin_text - asks for a title, label, comment, pin. */
 void entry_begin_text(LadderGridView *view, enum verb verb);

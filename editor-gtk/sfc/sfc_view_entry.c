@@ -580,7 +580,7 @@ void sfc_ask_for(LadderSfcView *view, enum sfc_asked what, const char *typed)
 	    (what != ASK_GO && canvas_is_fixed(LADDER_CANVAS(view))))
 		return;
 	if (refusal(view, what)) {
-		canvas_tell(LADDER_CANVAS(view), refusal(view, what));
+		canvas_refuse(LADDER_CANVAS(view), question.prompt, refusal(view, what));
 		return;
 	}
 	sfc_part_at_cursor(view, &index);

@@ -155,17 +155,59 @@ def inputs(screen):
     check(path)
 
 
+def refused(editor, why):
+    """The entry says why; what is typed and Enter change nothing, Esc closes it."""
+    editor.says(why)
+    editor.type('Back')
+    editor.keys('Return')
+    editor.says(why)
+    assert editor.asked(), 'the entry is closed'
+    editor.keys('Escape')
+    editor.gone()
+
+
+def one_line(screen):
+    """one line feeds an input: pin and operand, by key or by a double click on the pin; a refusal changes nothing"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    before = open(path).read()
+    editor.keys('Down', 'Home', 'Right', 'ctrl+i')
+    editor.opened()
+    editor.type('Z Start')
+    editor.says('the box has no Boolean input of this name')
+    editor.keys('Return')
+    editor.says('the box has no Boolean input of this name')
+    editor.shot('boxes-refused')
+    editor.keys('Escape')
+    editor.gone()
+    editor.keys('ctrl+i')
+    editor.opened()
+    editor.entry('PV 9')
+    assert editor.save(path) == before.replace('PV:=7', 'PV:=9')
+    x, y, width, height = editor.place(editor.element('CTU'))
+    line = twice(editor, (x + 20, y + 46 + 16))
+    assert line.text() == 'R ', line.text()
+    editor.entry('!ResetCount')
+    text = editor.save(path)
+    assert re.search(r'CTU Parts PV:=9 +\| COIL %QX0.1 \|\n +\| NC ResetCount +\| \.R', text), text
+    assert 'ResetCount AT %IX0.1 : BOOL;' in text, text
+    editor.shot('boxes-one-line')
+    check(path)
+    editor.keys('ctrl+z', 'ctrl+z')
+    assert editor.save(path) == before, 'one step each'
+
+
 def nothing_left(screen):
-    """Ctrl+I says that no input is left and opens no entry; on a row of pins it acts on the box"""
+    """Ctrl+I says at the entry that no input is left; on a row of pins it acts on the box"""
     path = new_file(screen, COUNTER.replace('| COIL %QX0.1 |', '| TON Long PT:=T#5s | COIL %QX0.1 |')
                     .replace('END_VAR', '  Long : TON;\nEND_VAR'))
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('Home', 'ctrl+i')
-    editor.says('there is no box here')
+    refused(editor, 'there is no box here')
     editor.keys('Right', 'Right', 'ctrl+i')
-    editor.says('The box has no further Boolean input')
-    assert not editor.asked()
+    refused(editor, 'The box has no further Boolean input')
     editor.keys('Left')
     feed(editor, 'CD', 'Back')
     editor.keys('ctrl+i')
@@ -175,7 +217,7 @@ def nothing_left(screen):
     feed(editor, 'R', 'Zero')
     feed(editor, 'LD', 'Back')
     editor.keys('ctrl+i')
-    editor.says('The box has no further Boolean input')
+    refused(editor, 'The box has no further Boolean input')
     text = editor.save(path)
     assert all(re.search(r'NO %s +\| \.%s ' % pair, text) for pair in (('Back', 'CD'), ('Zero', 'R'), ('Back', 'LD'))), text
     check(path)
@@ -196,4 +238,4 @@ def below(screen):
     check(path)
 
 
-main([instance, values, twice_there, inputs, nothing_left, below])
+main([instance, values, twice_there, inputs, one_line, nothing_left, below])

@@ -91,6 +91,10 @@ def on_a_coil(screen):
     # An empty last column refuses a contact, too, with a message.
     editor.keys('Insert', 'End', 'F5')
     editor.says('the last column is for outputs only')
+    # What is typed next changes no other cell.
+    editor.type('Stop')
+    editor.keys('Return', 'Escape')
+    editor.gone()
     editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z', 'ctrl+z')
     assert '| NO Start | COIL Lamp |' in editor.save(path)
     check(path)
