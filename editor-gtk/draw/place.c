@@ -116,3 +116,34 @@ char *place_line(const struct project *project, int pou, int row)
 	return of->sfc ? chart_text(project, of->sfc, name, of->line + row) :
 			 g_strdup_printf(_("%s, line %d"), name, row + 1);
 }
+
+/* ---- rungs ---- */
+
+static bool holds(const struct sfc_body *body, int rung)
+{
+	return (body->kind == BODY_RUNGS || body->kind == BODY_EXPRESSION) &&
+	       rung >= body->first && rung < body->first + body->count;
+}
+
+char *place_rung(const struct project *project, int pou, int rung, bool *whole)
+{
+	const struct sfc *sfc = project->pou[pou].sfc;
+	const char *name = project_text(project, project->pou[pou].name);
+	char *transition, *text;
+
+	*whole = false;
+	for (int i = 0; sfc && i < sfc->transition_count; i++) {
+		if (!holds(&sfc->transition[i].condition, rung))
+			continue;
+		*whole = sfc->transition[i].condition.kind == BODY_EXPRESSION;
+		transition = transition_text(project, sfc, i);
+		text = g_strdup_printf(_("%s, transition %s"), name, transition);
+		g_free(transition);
+		return text;
+	}
+	for (int i = 0; sfc && i < sfc->action_count; i++)
+		if (holds(&sfc->action[i].body, rung))
+			return g_strdup_printf(_("%s, action %s"), name,
+					       project_text(project, sfc->action[i].name));
+	return g_strdup(name);
+}

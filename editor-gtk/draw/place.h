@@ -37,5 +37,14 @@ int place_shown(struct place_sheet *sheet, const struct project *project, int po
  * In the language of the session. Owns: the caller, g_free().
  */
 char *place_line(const struct project *project, int pou, int row);
+/**
+ * place_rung - the part of a POU that a rung belongs to: "Main"; in a chart "Main, transition
+ * Idle → Fill", "Main, action Count"
+ * @rung: 0-based; @whole: gets whether the rung is an expression beside its transition, so that
+ *        a rung number means nothing
+ *
+ * In the language of the session. Owns: the caller, g_free().
+ */
+char *place_rung(const struct project *project, int pou, int rung, bool *whole);
 
 #endif

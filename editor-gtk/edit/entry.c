@@ -194,20 +194,18 @@ static const struct word_pin *pin_of(const struct word_row *row, int index)
 	return row->kind == WORD_FN ? word_input(row, (uint32_t)index) : &row->pin[index];
 }
 
-/* Adds a literal in its stored form: 5s becomes T#5s. False: it is no literal. */
-static bool add_literal(const struct value *value, char *out, size_t size, bool *fits)
+bool entry_literal(const char *text, size_t len, char *out, size_t size, bool *fits)
 {
 	struct literal literal;
 	int64_t ns;
 
 	*fits = true;
-	if (value->len > 0 && *value->text == '+')
+	if (len > 0 && *text == '+')
 		return false;
-	if (literal_parse(value->text, value->len, &literal) == LITERAL_OK)
-		*fits = entry_append(out, size, value->text, value->len);
-	else if (literal_parse_duration(value->text, value->len, &ns))
-		*fits = entry_append(out, size, "T#", 2) &&
-			entry_append(out, size, value->text, value->len);
+	if (literal_parse(text, len, &literal) == LITERAL_OK)
+		*fits = entry_append(out, size, text, len);
+	else if (literal_parse_duration(text, len, &ns))
+		*fits = entry_append(out, size, "T#", 2) && entry_append(out, size, text, len);
 	else
 		return false;
 	return true;
@@ -224,12 +222,12 @@ static bool add_value(const struct entry_place *place, const struct entry_fit *f
 		return entry_wrong(entry, N_("“%s” cannot be written"), value->text,
 				   value->len);
 	if ((fit->write || value->inverse) &&
-	    add_literal(value, number, sizeof(number), &fits))
+	    entry_literal(value->text, value->len, number, sizeof(number), &fits))
 		return entry_wrong(entry, fit->write ? N_("“%s” cannot be written") :
 				   N_("“%s” is not an operand"), value->text, value->len);
 	if (value->inverse && !entry_append(entry->args, sizeof(entry->args), "/", 1))
 		return entry_wrong(entry, too_long, "", 0);
-	if (add_literal(value, entry->args, sizeof(entry->args), &fits))
+	if (entry_literal(value->text, value->len, entry->args, sizeof(entry->args), &fits))
 		return fits || entry_wrong(entry, too_long, "", 0);
 	if (!entry_operand(place, value->text, value->len, fit, &target, entry))
 		return false;

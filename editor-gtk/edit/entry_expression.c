@@ -71,6 +71,15 @@ static bool keep_said(struct lex *lex, struct work *w, struct entry *entry)
 	return true;
 }
 
+static bool add_token(const struct token *token, char *out, size_t size)
+{
+	bool fits;
+
+	return token->kind == TOKEN_NUMBER &&
+	       entry_literal(token->text, token->len, out, size, &fits) ? fits :
+	       entry_append(out, size, token->text, token->len);
+}
+
 /* With one blank around := and comparisons, single blanks elsewhere, and without
  * declarations. */
 static bool print(const char *text, size_t len, struct work *w, struct entry *entry)
@@ -89,7 +98,7 @@ static bool print(const char *text, size_t len, struct work *w, struct entry *en
 			sign |= lex.token.kind == TOKEN_SYMBOL && lex_is(&lex, wide[i]);
 		if (!first && (before || sign || lex.token.space_before))
 			good = entry_append(out, size, " ", 1);
-		good = good && entry_append(out, size, lex.token.text, lex.token.len);
+		good = good && add_token(&lex.token, out, size);
 		before = sign;
 		first = false;
 		if (!keep_said(&lex, w, entry))

@@ -240,6 +240,27 @@ static bool find_system(const char *text, size_t len, struct entry_target *out)
 	return false;
 }
 
+/* `Fill.X` or `Fill.T` of a step of this chart. @head: bytes of the name before the dot. */
+static bool find_step(const struct entry_place *place, const char *text, size_t head, size_t len,
+		      struct entry_target *out)
+{
+	const struct pou *pou = entry_pou(place);
+	const char member = len == head + 2 ? (char)(text[head + 1] & ~0x20) : 0;
+
+	for (int i = 0; pou && pou->sfc && i < pou->sfc->step_count; i++) {
+		const char *name = project_text(place->project, pou->sfc->step[i].name);
+
+		if (text[head] != '.' || (member != 'X' && member != 'T') ||
+		    !ascii_is(name, text, head))
+			continue;
+		out->means = MEANS_VALUE;
+		out->type = member == 'X' ? IEC_BOOL : IEC_TIME;
+		snprintf(out->text, sizeof(out->text), "%s.%c", name, member);
+		return true;
+	}
+	return false;
+}
+
 /* The one variable of a plain type at exactly this address; NULL: none. */
 static const struct var *var_on(const struct var_table *table, struct iec_addr addr)
 {
@@ -314,6 +335,8 @@ void entry_target_find(const struct entry_place *place, const char *typed, size_
 		head++;
 	while (whole < len && text[whole] != '[')
 		whole++;
+	if (find_step(place, text, head, len, out))
+		return;
 	out->var = entry_var_find(place, text, head, &flags);
 	if (out->var) {
 		out->type = out->var->type;

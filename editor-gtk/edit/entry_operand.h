@@ -47,6 +47,9 @@ bool entry_declare(const struct entry_place *place, struct entry *entry, const c
 size_t entry_said_len(const char *text, size_t len);
 /** entry_wrong - makes @entry ENTRY_WRONG, with this reason. Returns false. */
 bool entry_wrong(struct entry *entry, const char *why, const char *what, size_t len);
+/** entry_literal - appends a literal as a file has it: 5s becomes T#5s. False: no literal.
+ * @fits: there was room. */
+bool entry_literal(const char *text, size_t len, char *out, size_t size, bool *fits);
 /** entry_append - appends to the text in @out; false if it does not fit. */
 bool entry_append(char *out, size_t size, const char *text, size_t len);
 

@@ -6,6 +6,7 @@
 #include "editor-gtk/edit/sfc_edit.h"
 
 #include "editor-gtk/edit/entry.h"
+#include "editor-gtk/edit/entry_operand.h"
 #include "editor-gtk/kit/i18n.h"
 #include "engine/text/pou_print.h"
 #include "engine/base/ascii.h"
@@ -867,15 +868,28 @@ static bool is_word(const char *text)
 	return strlen(text) < 200 && !strpbrk(text, ",;()|\n\r\t \"");
 }
 
+/* 5s becomes T#5s; a name stays. */
+static void spell_time(const char *word, char *out, size_t size)
+{
+	bool fits;
+
+	out[0] = '\0';
+	if (!entry_literal(word, strlen(word), out, size, &fits) || !fits)
+		snprintf(out, size, "%s", word);
+}
+
 bool sfc_edit_set_times(struct sfc_edit *edit, int step, const char *min, const char *max,
 			const char *alarm)
 {
 	struct sfc_step *s = &edit->sfc.step[step];
+	char time[ENTRY_NAME];
 
 	if (!is_word(min) || !is_word(max) || !is_word(alarm))
 		return sfc_edit_refuse(edit, N_("write a time, such as T#5s, or the name of a bit"));
-	s->min = sfc_edit_id(edit, min);
-	s->max = sfc_edit_id(edit, max);
+	spell_time(min, time, sizeof(time));
+	s->min = sfc_edit_id(edit, time);
+	spell_time(max, time, sizeof(time));
+	s->max = sfc_edit_id(edit, time);
 	s->alarm = sfc_edit_id(edit, alarm);
 	return true;
 }
@@ -988,7 +1002,11 @@ static bool take_qualifier(const char **at, struct sfc_doing *out)
 	if (out->kind != USE_ACTION || !qualifier_has_time(found))
 		return true;
 	out->why = N_("this qualifier needs a time and a name, as in L T#5s Motor");
-	return next_word(at, out->time, sizeof(out->time)) && *skip(*at);
+	if (!next_word(at, word, sizeof(word)) || !*skip(*at) ||
+	    strlen(word) + sizeof("T#") > sizeof(out->time))
+		return false;
+	spell_time(word, out->time, sizeof(out->time));
+	return true;
 }
 
 /* Takes the name, with its declaration. */

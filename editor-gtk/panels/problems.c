@@ -45,13 +45,19 @@ static char *declaration_text(const struct diag *diag)
 static char *place_text(const struct diag *diag, const struct project *project, int pou, int row,
 			int col)
 {
-	char column[PLACE_LETTERS];
+	char column[PLACE_LETTERS], *part, *text;
+	bool whole = false;
 
-	if (diag->rung && diag->row)
-		return g_strdup_printf(_("%s, rung %d, row %d, column %s"), diag->pou,
-				       diag->rung, diag->row, place_column(col, column));
-	if (diag->rung)
-		return g_strdup_printf(_("%s, rung %d"), diag->pou, diag->rung);
+	if (diag->rung) {
+		part = project && pou >= 0 ? place_rung(project, pou, diag->rung - 1, &whole) :
+		       g_strdup(diag->pou);
+		text = whole ? g_strdup(part) : diag->row ?
+			g_strdup_printf(_("%s, rung %d, row %d, column %s"), part, diag->rung,
+					diag->row, place_column(col, column)) :
+			g_strdup_printf(_("%s, rung %d"), part, diag->rung);
+		g_free(part);
+		return text;
+	}
 	if (project && pou >= 0 && row >= 0)
 		return place_line(project, pou, row);
 	if (diag->pou)

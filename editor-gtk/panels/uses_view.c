@@ -49,15 +49,21 @@ static const char *kind_text(const struct xref_use *use)
 
 /* ---- one row ---- */
 
-static char *cell_text(struct maker *maker, const char *pou, const struct xref_use *use)
+static char *cell_text(struct maker *maker, const struct xref_use *use)
 {
 	const int seen = place_shown(&maker->sheet, maker->xref.project, use->pou,
 				     use->rung - 1, use->row - 1, use->col - 1);
-	char column[PLACE_LETTERS];
+	char column[PLACE_LETTERS], *text;
+	bool whole;
+	char *part = place_rung(maker->xref.project, use->pou, use->rung - 1, &whole);
 
-	return g_strdup_printf(use->off ? _("%s, rung %d, row %d, column %s, off") :
-			       _("%s, rung %d, row %d, column %s"), pou, use->rung, use->row,
+	if (whole)
+		return part;
+	text = g_strdup_printf(use->off ? _("%s, rung %d, row %d, column %s, off") :
+			       _("%s, rung %d, row %d, column %s"), part, use->rung, use->row,
 			       place_column(seen, column));
+	g_free(part);
+	return text;
 }
 
 static char *place_text(struct maker *maker, const struct xref_use *use)
@@ -67,7 +73,7 @@ static char *place_text(struct maker *maker, const struct xref_use *use)
 		project_text(project, project->pou[use->pou].name);
 
 	if (use->rung && use->row)
-		return cell_text(maker, pou, use);
+		return cell_text(maker, use);
 	if (use->rung)
 		return g_strdup_printf(_("%s, rung %d"), pou, use->rung);
 	if (use->row)

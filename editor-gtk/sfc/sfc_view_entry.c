@@ -276,7 +276,8 @@ static bool take_doing(struct asked *asked, const char *line)
 static bool put_condition(struct asked *asked, const char *line, const struct entry *entry)
 {
 	LadderSfcView *view = asked->view;
-	char *text = entry->sense == ENTRY_ELEMENT ? g_strdup(entry->operand) : condition_of(line);
+	char *text = sfc_is_expression(entry->operand) ? g_strdup(entry->operand) :
+							 condition_of(line);
 	struct sfc_edit *edit;
 	bool good;
 

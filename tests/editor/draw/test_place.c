@@ -54,6 +54,26 @@ static void check_line(const struct project *project, int pou, int row, const ch
 	g_free(place);
 }
 
+static void check_rung(const struct project *project, int pou, int rung, const char *told,
+		       bool alone)
+{
+	bool whole;
+	char *place = place_rung(project, pou, rung, &whole);
+
+	CHECK_TEXT(place, told);
+	CHECK(whole == alone);
+	g_free(place);
+}
+
+/* Each rung of the file is a place that a person sees. */
+static void test_rungs(const struct project *project)
+{
+	check_rung(project, 0, 1, "Main", false);
+	check_rung(project, 1, 0, "Chart, transition A \xe2\x86\x92 B", true);
+	check_rung(project, 1, 1, "Chart, transition Back", true);
+	check_rung(project, 1, project->pou[1].rung_count - 1, "Chart, action Act", false);
+}
+
 /* In a chart the place is a step or transition, no line. */
 static void test_lines(const struct project *project)
 {
@@ -91,6 +111,7 @@ int main(void)
 	if (project && project->pou_count == 2) {
 		test_shown(project);
 		test_lines(project);
+		test_rungs(project);
 		test_nowhere(project);
 	}
 	CHECK(project && project->pou_count == 2);

@@ -566,6 +566,36 @@ static void check_duplicates(const struct entry_place *place)
 	}
 }
 
+/* A step's X and T are known; 5s is a time. A step may have the name of a variable. */
+static void check_conditions(void)
+{
+	static const char chart[] =
+		"RUNGBOARD 1\nVAR\nHeat AT %IX0.0 : BOOL;\nWait : TIME;\nEND_VAR\n"
+		"PROGRAM Way SFC\nINITIAL_STEP Boil:\nEND_STEP\nSTEP Heat:\nEND_STEP\n"
+		"TRANSITION FROM Boil TO Heat := Heat; END_TRANSITION\n"
+		"TRANSITION FROM Heat TO Boil := TRUE; END_TRANSITION\nEND_PROGRAM\n";
+	static const struct { const char *line, *means; } cases[] = {
+		{ "Heat.T > 5s", "Heat.T > T#5s" }, { "heat.t>=1m30s", "heat.t >= T#1m30s" },
+		{ "Wait < 2.5s", "Wait < T#2.5s" }, { "Wait < T#5s", "Wait < T#5s" },
+		{ "NOT Boil.X", "NOT Boil.X" }, { "Boil.X AND Heat", "Boil.X AND Heat" },
+	};
+	struct ladder *ladder = ladder_new();
+	struct entry_place place = { 0 };
+	struct entry *entry = calloc(1, sizeof(*entry));
+
+	if (!CHECK(entry && ladder_load_text(ladder, "chart", chart, strlen(chart))))
+		return;
+	place.project = ladder_project(ladder);
+	for (size_t i = 0; i < sizeof(cases) / sizeof(*cases); i++) {
+		CHECK_AS(entry_condition(&place, cases[i].line, entry), cases[i].line);
+		CHECK_TEXT(entry->operand, cases[i].means);
+		CHECK_AS(entry->declares == 0, cases[i].line);
+	}
+	CHECK(!entry_condition(&place, "Boil.Z", entry));
+	free(entry);
+	ladder_free(ladder);
+}
+
 int main(int argc, char **argv)
 {
 	struct ladder *ladder = ladder_new();
@@ -583,6 +613,7 @@ int main(int argc, char **argv)
 	check_lines(&place);
 	check_offers(&place);
 	check_duplicates(&place);
+	check_conditions();
 	check_any(&place);
 	check_page();
 	ladder_free(ladder);

@@ -72,7 +72,7 @@ static void check_texts(void)
 	CHECK(strstr(body(), "| [ I0.1 AND Heat.X ] | COIL TRANSITION |"));
 	EDIT(sfc_edit_name_transition(edit, 0, "Go"));
 	EDIT(sfc_edit_set_priority(edit, 0, 2));
-	EDIT(sfc_edit_set_times(edit, 0, "T#1s", "", "M0.0"));
+	EDIT(sfc_edit_set_times(edit, 0, "1s", "", "M0.0"));
 	CHECK(strstr(body(), "INITIAL_STEP A (MIN := T#1s, ALARM := M0.0):"));
 	CHECK(strstr(body(), "TRANSITION Go (PRIORITY := 2) FROM A TO Heat:"));
 	EDIT(sfc_edit_set_kind(edit, 0, STEP_PLAIN));
@@ -95,6 +95,7 @@ static void check_doings(void)
 {
 	static const struct { const char *line, *says; } doings[] = {
 		{ "Horn", "N  Horn|Horn" }, { "L T#3s, Horn", "L T#3s Horn|Horn" },
+		{ "L 3s Horn", "L T#3s Horn|Horn" }, { "D Delay Horn", "D Delay Horn|Horn" },
 		{ "N Horn AT %QX0.5", "N  Horn|Horn AT %QX0.5" },
 		{ "Horn AT %QX0.5 : BOOL", "N  Horn|Horn AT %QX0.5 : BOOL" },
 		{ "SET Horn : BOOL", "SET  Horn|Horn : BOOL" },
