@@ -1005,6 +1005,37 @@ void canvas_show_menu(LadderCanvas *canvas)
 		     GTK_WIDGET(canvas));
 }
 
+static GMenuModel *those_that_apply(LadderCanvas *canvas, const enum verb *verbs,
+				    bool (*applies)(LadderCanvas *canvas, enum verb verb))
+{
+	GMenu *menu = g_menu_new();
+
+	for (; *verbs != VERB_COUNT; verbs++)
+		if (applies(canvas, *verbs))
+			g_menu_append(menu, _(verb_row(*verbs)->label), verb_row(*verbs)->action);
+	return G_MENU_MODEL(menu);
+}
+
+void canvas_append_section(LadderCanvas *canvas, GMenu *menu, const enum verb *verbs,
+			   bool (*applies)(LadderCanvas *canvas, enum verb verb))
+{
+	GMenuModel *section = those_that_apply(canvas, verbs, applies);
+
+	g_menu_append_section(menu, NULL, section);
+	g_object_unref(section);
+}
+
+void canvas_append_submenu(LadderCanvas *canvas, GMenu *menu, const char *name,
+			   const enum verb *verbs,
+			   bool (*applies)(LadderCanvas *canvas, enum verb verb))
+{
+	GMenuModel *submenu = those_that_apply(canvas, verbs, applies);
+
+	if (g_menu_model_get_n_items(submenu) > 0)
+		g_menu_append_submenu(menu, _(name), submenu);
+	g_object_unref(submenu);
+}
+
 static void drag_again(LadderCanvas *canvas, double x, double y, GdkModifierType state)
 {
 	class_of(canvas)->drag(canvas, x, y, state);

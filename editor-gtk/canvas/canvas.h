@@ -176,6 +176,13 @@ graphene_rect_t canvas_page(LadderCanvas *canvas);
 void canvas_reveal(LadderCanvas *canvas, graphene_rect_t box, double aside, double above);
 /** canvas_show_menu - opens the context menu at the cursor. */
 void canvas_show_menu(LadderCanvas *canvas);
+/** canvas_append_section - adds those of @verbs, up to VERB_COUNT, that apply to a menu. */
+void canvas_append_section(LadderCanvas *canvas, GMenu *menu, const enum verb *verbs,
+			   bool (*applies)(LadderCanvas *canvas, enum verb verb));
+/** canvas_append_submenu - the same as a submenu @name, N_(); without any: nothing. */
+void canvas_append_submenu(LadderCanvas *canvas, GMenu *menu, const char *name,
+			   const enum verb *verbs,
+			   bool (*applies)(LadderCanvas *canvas, enum verb verb));
 /** canvas_end_drag - ends a drag, and the scrolling by canvas_scroll_at_edge(). */
 void canvas_end_drag(LadderCanvas *canvas);
 /** canvas_scroll_at_edge - a drag is at (@x, @y), px of the widget: near an edge the sheet

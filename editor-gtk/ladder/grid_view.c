@@ -639,14 +639,18 @@ static void drag_end(LadderCanvas *canvas, bool cancelled)
 		wire_release(LADDER_GRID_VIEW(canvas));
 }
 
-/* Sections; one with a name is a submenu. */
+static const enum verb of_element[] = { VERB_edit_operand, VERB_negate, VERB_cycle, VERB_comment,
+	VERB_add_pin, VERB_COUNT };
+static const enum verb of_symbol[] = { VERB_show_uses, VERB_go_coil, VERB_rename, VERB_watch_add,
+	VERB_expect, VERB_COUNT };
+static const enum verb of_clipboard[] = { VERB_cut, VERB_copy, VERB_paste, VERB_delete,
+	VERB_COUNT };
 static const struct {
 	const char *name;
 	enum verb verb[14];
-} menu_parts[] = {
-	{ NULL, { VERB_edit_operand, VERB_negate, VERB_cycle, VERB_comment, VERB_COUNT } },
+} submenus[] = {
 	{ N_("Put here"), { VERB_contact, VERB_contact_not, VERB_coil, VERB_block,
-		VERB_parallel, VERB_parallel_not, VERB_add_pin, VERB_COUNT } },
+		VERB_parallel, VERB_parallel_not, VERB_paste_parallel, VERB_COUNT } },
 	{ N_("Wires"), { VERB_wire_left, VERB_wire_right, VERB_wire_up, VERB_wire_down,
 		VERB_wire_here, VERB_link_here, VERB_COUNT } },
 	{ N_("Rows and columns"), { VERB_insert_row, VERB_delete_row,
@@ -655,33 +659,64 @@ static const struct {
 		VERB_rung_up, VERB_rung_down, VERB_rung_title, VERB_rung_label,
 		VERB_rung_comment, VERB_rung_off, VERB_bookmark, VERB_copy_picture,
 		VERB_rung_delete, VERB_COUNT } },
-	{ NULL, { VERB_cut, VERB_copy, VERB_paste, VERB_paste_parallel, VERB_delete,
-		VERB_COUNT } },
-	{ NULL, { VERB_go_coil, VERB_show_uses, VERB_rename, VERB_watch_add, VERB_expect,
-		VERB_COUNT } },
 };
 
-static GMenu *make_menu(LadderCanvas *canvas)
+/* Does the verb do something at the cursor? While simulating, the key of VERB_cycle toggles. */
+static bool applies(LadderCanvas *canvas, enum verb verb)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(canvas);
-	GMenu *menu = g_menu_new();
-	GMenuModel *live = act_menu(view);
+	const struct project *project = ladder_document_project(view->canvas->document);
+	const struct cell *cell = cursor_cell(view, NULL, NULL);
+	const struct word_row *row = cell ? words_row(&project->words, (enum word)cell->word) : NULL;
+	const bool live = canvas_is_live(canvas);
+
+	switch ((int)verb) {
+	case VERB_edit_operand: case VERB_comment: return cell;
+	case VERB_negate: return cell && (cell->word == ELEM_COMPARE ||
+			grid_word_negated((enum word)cell->word) != (enum word)cell->word);
+	case VERB_cycle: return cell && !live && (row->operand == OPND_BOOL_R ||
+						  row->operand == OPND_BOOL_W);
+	case VERB_add_pin: return cell && (row->kind == WORD_FB || row->kind == WORD_FN ||
+					   cell->word == ELEM_PIN);
+	case VERB_show_uses: case VERB_go_coil: case VERB_watch_add:
+		return cell && (cell->operand || cell->args);
+	case VERB_rename: return cell && cell->operand && !live;
+	case VERB_expect: return live;
+	default: return true;
+	}
+}
+
+static void append_edit(LadderCanvas *canvas, GMenu *menu)
+{
+	GMenu *parts = g_menu_new();
+
+	canvas_append_section(canvas, menu, of_element, applies);
+	for (gsize i = 0; i < G_N_ELEMENTS(submenus); i++)
+		canvas_append_submenu(canvas, parts, submenus[i].name, submenus[i].verb, applies);
+	if (!canvas_is_live(canvas))
+		canvas_append_submenu(canvas, parts, N_("Symbol"), of_symbol, applies);
+	g_menu_append_section(menu, NULL, G_MENU_MODEL(parts));
+	g_object_unref(parts);
+	canvas_append_section(canvas, menu, of_clipboard, applies);
+}
+
+/* While simulating: the values first, and what changes the program in a submenu. */
+static GMenu *make_menu(LadderCanvas *canvas)
+{
+	GMenu *menu = g_menu_new(), *edit;
+	GMenuModel *live = act_menu(LADDER_GRID_VIEW(canvas));
 
 	g_menu_append_section(menu, NULL, live);
 	g_object_unref(live);
-	for (gsize i = 0; i < G_N_ELEMENTS(menu_parts); i++) {
-		GMenu *part = g_menu_new();
-
-		for (const enum verb *verb = menu_parts[i].verb; *verb != VERB_COUNT; verb++)
-			g_menu_append(part, _(verb_row(*verb)->label),
-				      verb_row(*verb)->action);
-		if (menu_parts[i].name)
-			g_menu_append_submenu(menu, _(menu_parts[i].name),
-					      G_MENU_MODEL(part));
-		else
-			g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
-		g_object_unref(part);
+	if (!canvas_is_live(canvas)) {
+		append_edit(canvas, menu);
+		return menu;
 	}
+	edit = g_menu_new();
+	canvas_append_section(canvas, menu, of_symbol, applies);
+	append_edit(canvas, edit);
+	g_menu_append_submenu(menu, _("Edit"), G_MENU_MODEL(edit));
+	g_object_unref(edit);
 	return menu;
 }
 

@@ -578,15 +578,15 @@ static void drag_end(LadderCanvas *canvas, bool cancelled)
 
 /* ---- the menu ---- */
 
-static const enum verb menu_parts[][9] = {
-	{ VERB_enter, VERB_step_does, VERB_as_rung, VERB_COUNT },
-	{ VERB_step_below, VERB_step_branch, VERB_step_parallel, VERB_lead_to,
-		  VERB_wait_for, VERB_branch_left, VERB_branch_right, VERB_COUNT },
-	{ VERB_step_kind, VERB_step_times, VERB_way_name, VERB_way_priority,
-		  VERB_chart_comment, VERB_macro_make, VERB_macro_open, VERB_COUNT },
-	{ VERB_rename, VERB_show_uses, VERB_watch_add, VERB_force, VERB_COUNT },
-	{ VERB_cut, VERB_copy, VERB_paste, VERB_delete, VERB_COUNT },
-};
+static const enum verb of_shape[] = { VERB_enter, VERB_step_does, VERB_as_rung, VERB_force,
+	VERB_COUNT };
+static const enum verb of_structure[] = { VERB_step_below, VERB_step_branch, VERB_step_parallel,
+	VERB_lead_to, VERB_wait_for, VERB_branch_left, VERB_branch_right, VERB_COUNT };
+static const enum verb of_properties[] = { VERB_step_kind, VERB_step_times, VERB_way_name,
+	VERB_way_priority, VERB_chart_comment, VERB_macro_make, VERB_macro_open, VERB_COUNT };
+static const enum verb of_symbol[] = { VERB_rename, VERB_show_uses, VERB_watch_add, VERB_COUNT };
+static const enum verb of_clipboard[] = { VERB_cut, VERB_copy, VERB_paste, VERB_delete,
+	VERB_COUNT };
 
 /* Is there another branch beside it? */
 static bool has_neighbour(LadderSfcView *view, enum sfc_part part, int index)
@@ -612,8 +612,9 @@ static bool has_neighbour(LadderSfcView *view, enum sfc_part part, int index)
 }
 
 /* Does the verb apply at the cursor? */
-static bool applies(LadderSfcView *view, enum verb verb)
+static bool applies(LadderCanvas *canvas, enum verb verb)
 {
+	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
 	int index;
 	const enum sfc_part part = sfc_part_at_cursor(view, &index);
 
@@ -629,10 +630,13 @@ static bool applies(LadderSfcView *view, enum verb verb)
 		return sfc_macro_here(view) >= 0;
 	case VERB_as_rung:
 		return part == SFC_TRANSITION || view->cursor.use >= 0;
-	case VERB_chart_comment:
+	case VERB_enter: case VERB_chart_comment: case VERB_rename: case VERB_show_uses:
+	case VERB_watch_add: case VERB_cut: case VERB_copy: case VERB_delete:
+		return part != SFC_NOTHING && (verb != VERB_chart_comment || part != SFC_JUMP);
+	case VERB_lead_to:
 		return part == SFC_STEP || part == SFC_TRANSITION;
 	case VERB_force:
-		return part == SFC_STEP && canvas_is_live(LADDER_CANVAS(view));
+		return part == SFC_STEP && canvas_is_live(canvas);
 	default:
 		return true;
 	}
@@ -640,19 +644,15 @@ static bool applies(LadderSfcView *view, enum verb verb)
 
 static GMenu *make_menu(LadderCanvas *canvas)
 {
-	LadderSfcView *view = LADDER_SFC_VIEW(canvas);
-	GMenu *menu = g_menu_new();
+	GMenu *menu = g_menu_new(), *parts = g_menu_new();
 
-	for (gsize i = 0; i < G_N_ELEMENTS(menu_parts); i++) {
-		GMenu *part = g_menu_new();
-
-		for (const enum verb *verb = menu_parts[i]; *verb != VERB_COUNT; verb++)
-			if (applies(view, *verb))
-				g_menu_append(part, _(verb_row(*verb)->label),
-					      verb_row(*verb)->action);
-		g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
-		g_object_unref(part);
-	}
+	canvas_append_section(canvas, menu, of_shape, applies);
+	canvas_append_section(canvas, menu, of_structure, applies);
+	canvas_append_submenu(canvas, parts, N_("Properties"), of_properties, applies);
+	canvas_append_submenu(canvas, parts, N_("Symbol"), of_symbol, applies);
+	g_menu_append_section(menu, NULL, G_MENU_MODEL(parts));
+	g_object_unref(parts);
+	canvas_append_section(canvas, menu, of_clipboard, applies);
 	return menu;
 }
 

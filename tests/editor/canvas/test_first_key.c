@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_first_key - the entry that a key opens on a sheet: at each kind of place each character
+ * opens it and stays in it; a refusal is shown there; inputs of a box are fed by one line. And the
+ * context menus, which must be short.
+ */
+#include "editor-gtk/ladder/grid_view.h"
+#include "editor-gtk/sfc/sfc_view.h"
+#include "editor-gtk/window/app.h"
+#include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+#include <gtksourceview/gtksource.h>
+#include <string.h>
+
+#define MENU_MOST 14 /* rows of a context menu                                      */
+
+static const char sample[] =
+	"RUNGBOARD 1\n\nVAR\n  A AT %IX0.0 : BOOL;\n  B AT %IX0.1 : BOOL;\n  C1 : CTU;\n"
+	"  Q AT %QX0.0 : BOOL;\nEND_VAR\n\n"
+	"PROGRAM Main LD\nRUNG\n  | NO A | CTU C1 PV:=10 | COIL Q |\n"
+	"RUNG\n  | NO A | CTU C1 PV:=10 | COIL Q |\n  | NO B | .R |\n"
+	"RUNG\nEND_PROGRAM\n\n"
+	"PROGRAM Bare LD\nEND_PROGRAM\n\n"
+	"PROGRAM Way SFC\n  INITIAL_STEP Start:\n    Q(N);\n  END_STEP\n"
+	"  TRANSITION FROM Start TO Run := A; END_TRANSITION\n  STEP Run:\n  END_STEP\n"
+	"  TRANSITION FROM Run TO Start := B; END_TRANSITION\nEND_PROGRAM\n\n"
+	"PROGRAM Nothing SFC\nEND_PROGRAM\n";
+
+static GtkWidget *window;
+static LadderDocument *document;
+static LadderCanvas *canvas;
+
+/* ---- the entry ---- */
+
+static GtkWidget *find(GtkWidget *widget, bool (*is)(GtkWidget *widget))
+{
+	GtkWidget *found = widget && is(widget) ? widget : NULL;
+
+	for (GtkWidget *child = widget ? gtk_widget_get_first_child(widget) : NULL; child && !found;
+	     child = gtk_widget_get_next_sibling(child))
+		found = find(child, is);
+	return found;
+}
+
+static bool is_entry(GtkWidget *widget)
+{
+	return GTK_IS_ENTRY(widget);
+}
+
+static bool is_error(GtkWidget *widget)
+{
+	return GTK_IS_LABEL(widget) && gtk_widget_has_css_class(widget, "error") &&
+	       *gtk_label_get_text(GTK_LABEL(widget));
+}
+
+static GtkWidget *entry(void)
+{
+	return find(canvas_state(canvas)->entry, is_entry);
+}
+
+static bool is_refused(void)
+{
+	return find(canvas_state(canvas)->entry, is_error);
+}
+
+static void enter(const char *text)
+{
+	if (!CHECK_AS(entry() != NULL, text))
+		return;
+	gtk_editable_set_text(GTK_EDITABLE(entry()), text);
+	turn(0);
+	g_signal_emit_by_name(entry(), "activate");
+}
+
+static bool file_has(const char *part)
+{
+	char *text = ladder_document_text(document, NULL);
+	const bool has = strstr(text, part) != NULL;
+
+	g_free(text);
+	return has;
+}
+
+static void show(GtkWidget *sheet)
+{
+	GtkWidget *scroller = gtk_scrolled_window_new();
+
+	canvas = LADDER_CANVAS(sheet);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
+	gtk_window_set_child(GTK_WINDOW(window), scroller);
+	WAIT(gtk_widget_get_width(sheet) > 0 && gtk_widget_grab_focus(sheet));
+}
+
+/* ---- at a place ---- */
+
+static int rows_of(GMenuModel *menu)
+{
+	int rows = 0;
+
+	for (int i = 0; i < g_menu_model_get_n_items(menu); i++) {
+		GMenuModel *section = g_menu_model_get_item_link(menu, i, G_MENU_LINK_SECTION);
+
+		rows += section ? g_menu_model_get_n_items(section) : 1;
+		g_clear_object(&section);
+	}
+	return rows;
+}
+
+static void check_menu(const char *place)
+{
+	GMenu *menu = LADDER_CANVAS_GET_CLASS(canvas)->menu(canvas);
+	const int rows = rows_of(G_MENU_MODEL(menu));
+
+	if (!CHECK_AS(rows > 1 && rows <= MENU_MOST, place))
+		printf("# %d rows in the menu\n", rows);
+	g_object_unref(menu);
+}
+
+static void check_place(const char *place)
+{
+	check_menu(place);
+	for (char c = '!'; c <= '~'; c++) {
+		const char text[] = { c, '\0' };
+
+		LADDER_CANVAS_GET_CLASS(canvas)->type(canvas, text);
+		if (!CHECK_AS(entry() && strcmp(gtk_editable_get_text(GTK_EDITABLE(entry())),
+						text) == 0, place)) {
+			printf("# lost: %s\n", text);
+			return;
+		}
+		canvas_close_entry(canvas);
+	}
+}
+
+static void test_ladder(void)
+{
+	static const struct { int rung, row, col; const char *place; } places[] = {
+		{ 0, 0, 0, "a contact" }, { 0, 0, 1, "a box" }, { 0, 0, 2, "a coil" },
+		{ 1, 1, 0, "a contact before a pin" }, { 1, 1, 1, "a row of pins" },
+		{ 2, 0, 0, "an empty cell" }, { 2, 0, 5, "an empty last cell" },
+	};
+
+	show(ladder_grid_view_new(document, 0));
+	for (gsize i = 0; i < G_N_ELEMENTS(places); i++) {
+		ladder_grid_view_go(LADDER_GRID_VIEW(canvas), places[i].rung, places[i].row,
+				    places[i].col);
+		check_place(places[i].place);
+	}
+}
+
+/* ---- charts ---- */
+
+static void test_chart(void)
+{
+	struct canvas_spot spot = { 0, -1, 0 };
+	char *name;
+
+	show(ladder_sfc_view_new(document, 2));
+	for (; (name = LADDER_CANVAS_GET_CLASS(canvas)->cell_name(canvas, spot)); spot.number++) {
+		LADDER_CANVAS_GET_CLASS(canvas)->go_to_cell(canvas, spot);
+		check_place(name);
+		g_free(name);
+	}
+	CHECK(spot.number == 5);
+	spot = (struct canvas_spot){ 0, 0, 0 };
+	LADDER_CANVAS_GET_CLASS(canvas)->go_to_cell(canvas, spot);
+	check_place("a line of a step");
+}
+
+static void test_condition(const char *line, const char *kept)
+{
+	LADDER_CANVAS_GET_CLASS(canvas)->go_to_cell(canvas, (struct canvas_spot){ 2, -1, 0 });
+	LADDER_CANVAS_GET_CLASS(canvas)->type(canvas, "x");
+	enter(line);
+	CHECK_AS(entry() == NULL && file_has(kept), line);
+}
+
+static void test_conditions(void)
+{
+	test_condition("!B", "TO Run := NOT B;");
+	test_condition("A", "TO Run := A;");
+	test_condition("/ B", "TO Run := NOT B;");
+	test_condition("Start.T > 5s", "TO Run := Start.T > T#5s;");
+	LADDER_CANVAS_GET_CLASS(canvas)->type(canvas, "=");
+	enter("= 7");
+	CHECK_AS(entry() && is_refused() && file_has("TO Run := Start.T > T#5s;"), "= 7");
+	canvas_close_entry(canvas);
+	ladder_canvas_do(canvas, VERB_step_times);
+	CHECK_AS(entry() && is_refused(), "times of a transition");
+	enter("5s");
+	CHECK_AS(entry() && is_refused(), "Enter after a refusal");
+	canvas_close_entry(canvas);
+}
+
+static void test_empty(void)
+{
+	show(ladder_sfc_view_new(document, 3));
+	check_place("an empty chart");
+	LADDER_CANVAS_GET_CLASS(canvas)->type(canvas, "F");
+	enter("First");
+	CHECK(entry() == NULL && file_has("INITIAL_STEP First:"));
+	show(ladder_grid_view_new(document, 1));
+	LADDER_CANVAS_GET_CLASS(canvas)->type(canvas, "A");
+	enter("A");
+	CHECK(entry() == NULL && file_has("PROGRAM Bare LD\nRUNG\n  | NO A |"));
+}
+
+/* ---- inputs of a box ---- */
+
+static void feed(const char *line)
+{
+	ladder_grid_view_go(LADDER_GRID_VIEW(canvas), 0, 0, 1);
+	ladder_canvas_do(canvas, VERB_add_pin);
+	enter(line);
+}
+
+static void test_feed(void)
+{
+	show(ladder_grid_view_new(document, 0));
+	feed("Z B");
+	CHECK_AS(entry() && is_refused(), "no such input");
+	feed("CV B");
+	CHECK_AS(entry() && is_refused(), "an output");
+	feed("R B C");
+	CHECK_AS(entry() && is_refused() && file_has("COIL Q |\nRUNG\n"), "no operand");
+	feed("PV 20");
+	CHECK_AS(!entry() && file_has("CTU C1 PV:=20 |"), "a value");
+	feed("R !B");
+	CHECK_AS(!entry() && file_has("PV:=20 | COIL Q |\n  | NC B | .R "), "an operand");
+	feed("R B");
+	CHECK_AS(entry() && is_refused(), "fed already");
+	ladder_grid_view_go(LADDER_GRID_VIEW(canvas), 0, 0, 0);
+	ladder_canvas_do(canvas, VERB_add_pin);
+	CHECK_AS(entry() && is_refused(), "no box");
+	enter("R B");
+	CHECK_AS(entry() && is_refused() && !file_has("NO B ^"), "nothing else changes");
+	canvas_close_entry(canvas);
+}
+
+int main(void)
+{
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
+		return 0;
+	}
+	adw_init();
+	gtk_source_init();
+	app_style();
+	document = ladder_document_new();
+	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
+	window = gtk_window_new();
+	gtk_window_set_default_size(GTK_WINDOW(window), 900, 500);
+	gtk_window_set_child(GTK_WINDOW(window), gtk_box_new(GTK_ORIENTATION_VERTICAL, 0));
+	screen_show(window);
+	test_ladder();
+	test_chart();
+	test_conditions();
+	test_empty();
+	test_feed();
+	gtk_window_destroy(GTK_WINDOW(window));
+	turn(0);
+	g_object_unref(document);
+	return tap_done();
+}
