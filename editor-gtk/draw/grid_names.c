@@ -75,7 +75,7 @@ struct grid_name grid_names_find(const struct grid_names *names, const char *ope
 	const struct project *project = names->project;
 	const uint32_t id = names_find_any(&project->names, operand, strlen(operand));
 	const struct var *var = look_up(names, names->by_name, id);
-	struct grid_name found = { operand, "", "", "", false };
+	struct grid_name found = { operand, "", "", "", "", false };
 
 	if (!var && *operand == '%') {
 		var = look_up(names, names->by_address, id);
@@ -90,6 +90,8 @@ struct grid_name grid_names_find(const struct grid_names *names, const char *ope
 		found.type = var->type != IEC_NONE ? iec_type_row(var->type)->word :
 			     words_row(&project->words, var->fb)->word;
 		found.comment = project_text(project, var->comment);
+		found.init = var->type == IEC_NONE && var->has_init && !var->array.count ?
+			     project_text(project, var->init_text) : "";
 		found.local = own && own->count && var >= own->var &&
 			      var < own->var + own->count;
 	}

@@ -15,6 +15,7 @@ struct grid_name {
 	const char *address; /* "%IX0.0"; "" if it has none                     */
 	const char *type;    /* "BOOL", "TON"; "" if it is not declared          */
 	const char *comment; /* of the declaration, with its delimiters; ""      */
+	const char *init;    /* of an instance: "(P := 20)", as declared; ""    */
 	bool local;          /* declared in the POU                             */
 };
 

@@ -4,6 +4,7 @@
  * show/show_box.c.
  */
 #include "editor-gtk/draw/rung_box.h"
+#include "engine/base/lex.h"
 #include "engine/model/args.h"
 
 #include <glib.h>
@@ -64,9 +65,52 @@ static void add_power(const struct drafting *drafting, struct rung_side *side,
 						    .name_len = strlen(name) });
 }
 
+/* The initial value of an input in the declaration of the instance: 20 of `(P := 20)`. */
+static void take_declared(const struct drafting *drafting, const struct rung_box *box,
+			  struct rung_pin *pin)
+{
+	const char *name = project_text(drafting->project, box->cell->operand);
+	const char *init = drafting->names ? grid_names_find(drafting->names, name).init : "";
+	struct lex lex;
+	int depth = 0;
+
+	lex_init(&lex, init, strlen(init));
+	while (!pin->value && lex_next(&lex) != TOKEN_END) {
+		depth += lex_is(&lex, "(") - lex_is(&lex, ")");
+		if (depth != 1 || !same_name(lex.token.text, lex.token.len, pin->name, pin->name_len))
+			continue;
+		lex_next(&lex);
+		if (!lex_accept(&lex, ":="))
+			continue;
+		for (pin->value = lex.token.text; lex.token.kind != TOKEN_END &&
+		     (depth > 1 || (!lex_is(&lex, ",") && !lex_is(&lex, ")"))); lex_next(&lex)) {
+			depth += lex_is(&lex, "(") - lex_is(&lex, ")");
+			pin->value_len = (size_t)(lex.token.text + lex.token.len - pin->value);
+		}
+	}
+}
+
+/* The time of the scan, which an import passes to its timers. */
+static bool is_scan_time(const char *value, size_t len)
+{
+	const char *word = sys_row(SYS_CYCLE)->name;
+
+	return value && same_name(value, len, word, strlen(word));
+}
+
+/* An input that a person does not set: the time of the scan, or an option of a word of the
+ * catalogue that has its usual value. */
+static bool is_inner(const struct rung_box *box, const struct word_pin *of,
+		     const struct rung_pin *pin)
+{
+	return is_scan_time(pin->value, pin->value_len) ||
+	       (box->row->kind == WORD_FB && box->cell->word < WORD_COUNT && !pin->value &&
+		of && of->type == IEC_BOOL && of->has_init);
+}
+
 /* Adds a pin of the catalogue's row, with the value written for it if there is one. */
 static void add_named(const struct drafting *drafting, struct rung_box *box, bool output,
-		      const char *name)
+		      const char *name, const struct word_pin *of)
 {
 	struct rung_pin pin = { .name = name, .name_len = strlen(name) };
 	struct arg arg;
@@ -76,8 +120,11 @@ static void add_named(const struct drafting *drafting, struct rung_box *box, boo
 		pin.value = arg.value;
 		pin.value_len = arg.value_len;
 		pin.inverse = arg.inverse;
+	} else if (!output && box->row->kind == WORD_FB) {
+		take_declared(drafting, box, &pin);
 	}
-	side_add(drafting, output ? &box->out : &box->in, pin);
+	if (output || !is_inner(box, of, &pin))
+		side_add(drafting, output ? &box->out : &box->in, pin);
 }
 
 /* Adds parameters that are not in the row: IN3, mistakes, and those of pins that carry
@@ -89,7 +136,7 @@ static void add_others(const struct drafting *drafting, struct rung_box *box)
 
 	while (args_next(&at, &arg)) {
 		struct rung_side *side = arg.output ? &box->out : &box->in;
-		bool shown = false;
+		bool shown = !arg.output && is_scan_time(arg.value, arg.value_len);
 
 		for (int i = 0; i < side->count; i++)
 			shown |= side->pin[i].value == arg.value;
@@ -120,11 +167,11 @@ static void add_pins(const struct drafting *drafting, struct rung_box *box)
 
 		if (pin->dir != PIN_VAR && pin->dir != PIN_NONE &&
 		    !side_has(side, pin->name, strlen(pin->name)))
-			add_named(drafting, box, output, pin->name);
+			add_named(drafting, box, output, pin->name, pin);
 		box->value |= row->kind == WORD_FB && output && pin->type != IEC_BOOL;
 	}
 	if (row->kind == WORD_FN && !word_is_test(row))
-		add_named(drafting, box, true, "OUT");
+		add_named(drafting, box, true, "OUT", NULL);
 	add_others(drafting, box);
 }
 

@@ -299,6 +299,47 @@ static void check_random(struct lettering *lettering)
 	ladder_free(ladder);
 }
 
+/* ---- boxes of an import ---- */
+
+static bool has_text(const struct picture *picture, const char *text)
+{
+	for (int i = 0; i < picture->count; i++)
+		if (picture->stroke[i].text && strcmp(picture->stroke[i].text, text) == 0)
+			return true;
+	return false;
+}
+
+/* A box shows the values of its declaration, and no input that a person does not set. */
+static void check_declared(struct lettering *lettering)
+{
+	static const char text[] = "RUNGBOARD 1\nVAR\n  T0 : CL_TON := (P := 20, BASE := T#100ms);\n"
+		"  T1 : CL_TOF := (P := 7, FAITHFUL := TRUE);\n  T2 : TON := (PT := T#3s);\nEND_VAR\n"
+		"PROGRAM Main LD\nRUNG\n| NO %IX0.0 | CL_TON T0 DT:=SYS_CYCLE | TON T2 | COIL %QX0.0 |\n"
+		"RUNG\n| NO %IX0.0 | CL_TOF T1 DT:=SYS_CYCLE | COIL %QX0.1 |\nEND_PROGRAM\n";
+	struct ladder *ladder = drawn_load("declared", text);
+	struct sheet *sheet = ladder ? sheet_new(ladder_project(ladder),
+						 &ladder_project(ladder)->pou[0], lettering) : NULL;
+
+	if (!CHECK(sheet))
+		return;
+	sheet_layout(sheet);
+	for (int i = 0; i < sheet->count; i++) {
+		struct grid_scene scene = { .drafting = &sheet->drafting, .layout = sheet->rung[i],
+					    .theme = theme_get(THEME_LIGHT, THEME_GREEN) };
+		struct picture picture;
+
+		picture_init(&picture);
+		grid_draw(&scene, &picture);
+		CHECK(has_text(&picture, i ? "7" : "20"));
+		CHECK(i || (has_text(&picture, "T#100ms") && has_text(&picture, "T#3s")));
+		CHECK(!has_text(&picture, "DT") && !has_text(&picture, "SYS_CYCLE"));
+		CHECK(has_text(&picture, "FAITHFUL") == (i == 1));
+		picture_clear(&picture);
+	}
+	sheet_free(sheet);
+	ladder_free(ladder);
+}
+
 int main(void)
 {
 	PangoContext *context = lettering_context();
@@ -310,6 +351,7 @@ int main(void)
 	check_samples(rule);
 	check_samples(real);
 	check_random(rule);
+	check_declared(rule);
 	lettering_free(real);
 	lettering_free(rule);
 	g_object_unref(context);
