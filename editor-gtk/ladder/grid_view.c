@@ -123,6 +123,39 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	g_free(takes);
 }
 
+static void append_strip(GtkSnapshot *snapshot, const struct strip *strip, float x, float y,
+			 float zoom)
+{
+	gtk_snapshot_save(snapshot);
+	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(x, y));
+	gtk_snapshot_scale(snapshot, zoom, zoom);
+	gtk_snapshot_append_node(snapshot, strip->node);
+	gtk_snapshot_restore(snapshot);
+}
+
+/* The outputs once more at the edge of a narrow page, behind a line. @x, @y: scroll position and
+ * top of the strip, px of the widget. */
+static void snapshot_pinned(LadderGridView *view, GtkSnapshot *snapshot,
+			    const struct strip *strip, float x, float y)
+{
+	const struct theme *theme = canvas_theme(LADDER_CANVAS(view));
+	const float zoom = (float)view->canvas->zoom, by = strips_pinned(view, strip);
+	const float page = (float)gtk_widget_get_width(GTK_WIDGET(view));
+	float left;
+
+	if (by <= 0)
+		return;
+	left = strip->layout->column_x[strip->layout->columns - 1] * zoom - x - by;
+	gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(left, y, page - left,
+							     strip->height * zoom));
+	gtk_snapshot_append_color(snapshot, &theme->color[TOKEN_SHEET],
+		&GRAPHENE_RECT_INIT(left, y, page - left, strip->height * zoom));
+	append_strip(snapshot, strip, -x - by, y, zoom);
+	gtk_snapshot_append_color(snapshot, &theme->color[TOKEN_GUTTER],
+		&GRAPHENE_RECT_INIT(left, y, 2, strip->height * zoom));
+	gtk_snapshot_pop(snapshot);
+}
+
 static void snapshot_rungs(LadderGridView *view, GtkSnapshot *snapshot)
 {
 	const float zoom = (float)view->canvas->zoom;
@@ -144,12 +177,8 @@ static void snapshot_rungs(LadderGridView *view, GtkSnapshot *snapshot)
 			draw_strip(view, i, strip);
 		if (!strip->node)
 			continue;
-		gtk_snapshot_save(snapshot);
-		gtk_snapshot_translate(snapshot,
-			&GRAPHENE_POINT_INIT(-x, strip->y * zoom - top));
-		gtk_snapshot_scale(snapshot, zoom, zoom);
-		gtk_snapshot_append_node(snapshot, strip->node);
-		gtk_snapshot_restore(snapshot);
+		append_strip(snapshot, strip, -x, strip->y * zoom - top, zoom);
+		snapshot_pinned(view, snapshot, strip, x, strip->y * zoom - top);
 	}
 }
 
@@ -535,8 +564,7 @@ static void press_on(LadderGridView *view, int rung, const struct rung_hit *hit,
 		  GdkModifierType state)
 {
 	/* Found before the sheet scrolls to the cursor. */
-	const graphene_point_t at = canvas_point(LADDER_CANVAS(view), view->press.x,
-						 view->press.y);
+	const graphene_point_t at = sheet_where(view, view->press.x, view->press.y);
 
 	if (hit_is_cell(hit)) {
 		cursor_set(view, (struct grid_cursor){ rung, hit->row, hit->column },

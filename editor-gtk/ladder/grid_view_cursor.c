@@ -193,9 +193,21 @@ void cursor_reveal_head(LadderGridView *view)
 	canvas_reveal(LADDER_CANVAS(view), box, ASIDE, MARGIN);
 }
 
+graphene_point_t sheet_where(LadderGridView *view, double x, double y)
+{
+	graphene_point_t at = canvas_point(LADDER_CANVAS(view), x, y);
+	const int rung = strips_at(view, at.y);
+	const struct strip *strip = rung >= 0 ? strips_get(view, rung) : NULL;
+	const float by = strip ? strips_pinned(view, strip) / (float)view->canvas->zoom : 0;
+
+	if (by > 0 && at.x + by >= strip->layout->column_x[strip->layout->columns - 1])
+		at.x += by;
+	return at;
+}
+
 int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit)
 {
-	const graphene_point_t at = canvas_point(LADDER_CANVAS(view), x, y);
+	const graphene_point_t at = sheet_where(view, x, y);
 	const int rung = strips_at(view, at.y);
 	struct strip *strip;
 

@@ -89,7 +89,7 @@ struct _LadderGridView {
 	int first, count;           /* rungs of the POU that are shown; -1: all  */
 	GArray *strips;             /* of struct strip                         */
 	int columns;                /* of the sheet                            */
-	float rail;                 /* distance of the rails                   */
+	float natural, rail;        /* distance of the rails: of the widest rung, as shown */
 	struct drafting drafting;
 	struct grid_names *names;
 	guint idle;                 /* lays out rungs out of sight              */
@@ -137,6 +137,9 @@ struct strip *strips_get(LadderGridView *view, int rung);
 void strips_lay_out(LadderCanvas *canvas, double page);
 /** strips_resize_later - asks for another size when idle; safe during allocation. */
 void strips_resize_later(LadderGridView *view);
+/** strips_pinned - px of the widget that the outputs of a rung are moved left: while simulating
+ * they stay visible at the edge of a page that is narrower than the rungs; 0: they are not. */
+float strips_pinned(LadderGridView *view, const struct strip *strip);
 float strips_width(LadderGridView *view);
 float strips_height(LadderGridView *view);
 /** strip_forget_live - after the places of its values changed. */
@@ -178,6 +181,8 @@ bool cursor_selects(LadderGridView *view, int rung, int row, int col);
  * needed. */
 const struct cell *cursor_cell(LadderGridView *view, int *row, int *col);
 bool cursor_key(LadderCanvas *canvas, guint key, GdkModifierType state);
+/** sheet_where - px at 100 % of a point, px of the widget, as shown: outputs may be pinned. */
+graphene_point_t sheet_where(LadderGridView *view, double x, double y);
 /** sheet_point - the rung at a point, px of the widget; -1: none. @hit: the part of it. */
 int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit);
 /** hit_is_cell - is it a cell or a part of one? */

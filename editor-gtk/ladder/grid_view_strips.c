@@ -10,11 +10,13 @@
 
 #include "editor-gtk/kit/settings.h"
 
+#include <math.h>
 #include <string.h>
 
 #define TITLE_GUESS  32 /* px above the first row of a rung                    */
 #define IDLE_RUNGS   64 /* laid out in one idle call                           */
 #define NEAR_RUNGS   40 /* kept above and below the visible ones               */
+#define WIDE         1600 /* px at 100 %: rails are not wider apart for the page alone */
 
 /* ---- which rungs ---- */
 
@@ -231,7 +233,7 @@ void strips_reset(LadderGridView *view)
 	g_array_set_size(view->strips, (guint)rungs);
 	share_names(view);
 	share_columns(view);
-	view->rail = 0;
+	view->natural = view->rail = 0;
 	for (int i = 0; i < rungs; i++)
 		guess(view, i);
 	stack(view, 0);
@@ -336,9 +338,15 @@ void strips_redraw(LadderGridView *view, int rung)
 
 /* ---- laying out ---- */
 
-/* All rungs have the right rail of the widest one. */
-static void widen(LadderGridView *view, float rail)
+/* All rungs have the same right rail: at the edge of the page, or that of the widest rung. */
+static void widen(LadderGridView *view)
 {
+	const double page = gtk_widget_get_width(GTK_WIDGET(view)) / view->canvas->zoom;
+	const float rail = MAX(view->natural, MIN((float)floor(page) - RUNG_LEFT - RUNG_AFTER,
+						  WIDE));
+
+	if (rail == view->rail)
+		return;
 	view->rail = rail;
 	for (guint i = 0; i < view->strips->len; i++) {
 		struct strip *strip = strip_of(view, (int)i);
@@ -381,8 +389,8 @@ struct strip *strips_get(LadderGridView *view, int rung)
 		rows = MAX(rows, view->wire.rows); /* the wire may end in a new row */
 	strip->layout = rung_layout_new(&view->drafting, shown,
 					view->first + rung + 1, rows);
-	if (strip->layout->natural > view->rail)
-		widen(view, strip->layout->natural);
+	view->natural = MAX(view->natural, strip->layout->natural);
+	widen(view);
 	rung_layout_stretch(strip->layout, view->rail);
 	strip->measured = true;
 	grown = strip->layout->height - strip->height;
@@ -399,6 +407,7 @@ void strips_lay_out(LadderCanvas *canvas, double page)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(canvas);
 
+	widen(view);
 	for (int i = 0; i < (int)view->strips->len; i++) {
 		const double top = gtk_adjustment_get_value(view->canvas->adjustment[1]);
 		const int first = strips_at(view, (float)(top / view->canvas->zoom));
@@ -423,6 +432,18 @@ int strips_at(LadderGridView *view, float y)
 			high = middle - 1;
 	}
 	return high < 0 ? -1 : low;
+}
+
+float strips_pinned(LadderGridView *view, const struct strip *strip)
+{
+	const float page = (float)gtk_widget_get_width(GTK_WIDGET(view));
+	const float x = (float)gtk_adjustment_get_value(view->canvas->adjustment[0]);
+	const float by = strips_width(view) * (float)view->canvas->zoom - x - page;
+	const struct rung_layout *layout = strip->layout;
+
+	return canvas_is_live(LADDER_CANVAS(view)) && by > 0 && layout &&
+	       (strips_width(view) - layout->column_x[layout->columns - 1]) *
+	       (float)view->canvas->zoom < page / 2 ? by : 0;
 }
 
 float strips_width(LadderGridView *view)

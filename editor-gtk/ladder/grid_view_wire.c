@@ -35,7 +35,7 @@ static graphene_point_t place_of(LadderGridView *view, struct grid_end end)
 /* A point of the widget as one of the strip of @rung, at 100 %. */
 static graphene_point_t in_strip(LadderGridView *view, int rung, double x, double y)
 {
-	graphene_point_t at = canvas_point(LADDER_CANVAS(view), x, y);
+	graphene_point_t at = sheet_where(view, x, y);
 
 	at.y -= strips_get(view, rung)->y;
 	return at;

@@ -365,8 +365,51 @@ static void test_list(void)
 	g_object_unref(list);
 }
 
+/* Finds an action in a menu or its submenus; @accel gets its key, "": none. */
+static bool has_action(GMenuModel *menu, const char *action, char *accel, gsize size)
+{
+	bool has = false;
+
+	for (int i = 0; i < g_menu_model_get_n_items(menu) && !has; i++) {
+		GMenuModel *section = g_menu_model_get_item_link(menu, i, G_MENU_LINK_SECTION);
+		GMenuModel *submenu = g_menu_model_get_item_link(menu, i, G_MENU_LINK_SUBMENU);
+		char *name = NULL, *key = NULL;
+
+		g_menu_model_get_item_attribute(menu, i, "action", "s", &name);
+		g_menu_model_get_item_attribute(menu, i, "accel", "s", &key);
+		has = g_strcmp0(name, action) == 0;
+		if (has)
+			g_strlcpy(accel, key ? key : "", size);
+		has = has || (section && has_action(section, action, accel, size)) ||
+		      (submenu && has_action(submenu, action, accel, size));
+		g_free(name);
+		g_free(key);
+		g_clear_object(&section);
+		g_clear_object(&submenu);
+	}
+	return has;
+}
+
+/* The menu names keys as they are while simulating. */
+static void test_menu_keys(void)
+{
+	GMenu *menu;
+	char accel[40];
+
+	ladder_grid_view_go(view, 0, 0, 0);
+	menu = LADDER_CANVAS_GET_CLASS(view)->menu(LADDER_CANVAS(view));
+	CHECK(has_action(G_MENU_MODEL(menu), "live.toggle", accel, sizeof(accel)));
+	CHECK_TEXT(accel, "space");
+	CHECK(!has_action(G_MENU_MODEL(menu), verb_row(VERB_cycle)->action, accel, sizeof(accel)));
+	CHECK(has_action(G_MENU_MODEL(menu), verb_row(VERB_edit_operand)->action, accel,
+			 sizeof(accel)));
+	CHECK(g_menu_model_get_n_items(G_MENU_MODEL(menu)) == 3);
+	g_object_unref(menu);
+}
+
 static void test_menu(void)
 {
+	test_menu_keys();
 	ladder_grid_view_go(view, 0, 0, 1);
 	gtk_widget_activate_action(GTK_WIDGET(view), "live.on", NULL);
 	CHECK(comes("Stop", 1) && live_value_is_forced(sim, false, find("Stop")));
@@ -551,6 +594,38 @@ static void test_zoom(void)
 	}
 }
 
+/* The coil of the first rung, px of the widget. */
+static graphene_rect_t coil_box(void)
+{
+	graphene_rect_t box = { 0 };
+
+	CHECK(LADDER_CANVAS_GET_CLASS(view)->cell_box(LADDER_CANVAS(view),
+						      (struct canvas_spot){ 0, 0, 2 }, &box));
+	return canvas_rect(LADDER_CANVAS(view), box);
+}
+
+/* Rungs are as wide as the page; wider ones show their coils at its edge. */
+static void test_width(void)
+{
+	const float page = (float)gtk_widget_get_width(GTK_WIDGET(view));
+	graphene_rect_t box = coil_box();
+	char *tip;
+
+	CHECK(box.origin.x + box.size.width < page && box.origin.x + box.size.width > page - 60);
+	ladder_grid_view_go(view, 0, 0, 0);
+	ladder_canvas_set_zoom(LADDER_CANVAS(view), 3);
+	draw();
+	box = coil_box();
+	CHECK_AS(box.origin.x > page, "the coil itself is out of sight");
+	tip = LADDER_CANVAS_GET_CLASS(view)->tip(LADDER_CANVAS(view),
+		(int)(page - 3 * (RUNG_AFTER + RUNG_CELL_WIDTH / 2)),
+		(int)(box.origin.y + 3 * RUNG_WIRE), false);
+	CHECK_AS(tip && strstr(tip, "Motor"), "it is at the edge of the page");
+	g_free(tip);
+	ladder_canvas_set_zoom(LADDER_CANVAS(view), 1);
+	draw();
+}
+
 int main(void)
 {
 	if (!screen_start() || !gtk_init_check()) {
@@ -567,6 +642,7 @@ int main(void)
 	test_stop();
 	test_power();
 	test_values();
+	test_width();
 	test_heard();
 	test_forced();
 	test_bodies();
