@@ -46,5 +46,8 @@ said $? 1 'LD101: file is empty'; say $? 'an empty I/O map: the text beside the 
 printf 'BOARD "sim"\n# \377\n' >"$tmp/io"
 check small "$tmp/ton.rungc"
 said $? 1 'LD104: not valid UTF-8'; say $? 'an I/O map that is not UTF-8: the same'
+printf '\377\376B\0O\0' >"$tmp/io"
+check small "$tmp/ton.rungc"
+said $? 1 'LD142: this is UTF-16'; say $? 'an I/O map in UTF-16: the same'
 echo "1..$n"
 exit $failed
