@@ -96,7 +96,7 @@ sub test_elements {
 		}
 		is($out, $in, "seed $seed: each element is written or reported");
 		unlike($report, qr/are missing/, "seed $seed: the import counts the same");
-		unlike($report, qr/LD325/, "seed $seed: all that it declares is used");
+		unlike($report, $seed % 4 ? qr/LD325|LD313.*_Power/ : qr/LD325/, "seed $seed: all that it declares is used");
 		my ($members) = members($source);
 		my $page = $members->{'sequential.csv'};
 		for my $what (['S', 'STEP', 'step'], ['T', 'TRANSITION', 'transition']) {

@@ -650,6 +650,33 @@ static void prepare(struct piece *piece)
 	drop_rows(piece);
 }
 
+static bool reads(const struct piece *piece, const char *name)
+{
+	for (int y = 0; y < piece->rows; y++) {
+		const char *text = piece->cell[y][0].text;
+
+		if (text && !strncmp(text, "NO ", 3) && !strcmp(text + 3, name))
+			return true;
+	}
+	return false;
+}
+
+/* Takes power out of a piece that no later one reads. */
+static void drop_unread(struct piece *piece, const struct piece *later, int count)
+{
+	for (int y = 0; y < piece->rows; y++) {
+		struct piece_cell *cell = &piece->cell[y][piece->columns - 1];
+		bool is_read = false;
+
+		if (!cell->text || cell->part || cell->kind != PART_COIL)
+			continue;
+		for (int i = 0; i < count; i++)
+			is_read |= reads(&later[i], cell->text + strlen("COIL "));
+		if (!is_read)
+			*cell = (struct piece_cell){ .text = NULL };
+	}
+}
+
 bool grid_write_pieces(struct grid *grid)
 {
 	struct arena *scratch = &grid->c->scratch;
@@ -666,9 +693,12 @@ bool grid_write_pieces(struct grid *grid)
 		for (to = from + 1; !cuts->at[to]; to++)
 			;
 		pieces[count].grid = grid;
-		fill(&pieces[count], cuts, from, to);
-		prepare(&pieces[count]);
-		if (pieces[count++].broken)
+		fill(&pieces[count++], cuts, from, to);
+	}
+	for (int i = count - 1; i >= 0; i--) {
+		drop_unread(&pieces[i], &pieces[i + 1], count - 1 - i);
+		prepare(&pieces[i]);
+		if (pieces[i].broken)
 			return false;
 	}
 	for (int i = 0; i < count; i++) {
