@@ -76,6 +76,12 @@ static void cancel(GtkWidget *widget, const char *action, GVariant *unused)
 	gtk_window_close(GTK_WINDOW(widget));
 }
 
+/* Enter imports, also while a row has the focus. */
+static void row_activated(GtkWidget *dialog)
+{
+	gtk_widget_activate_action(dialog, "import.apply", NULL);
+}
+
 /* Caller frees. */
 static char *summary_of(const struct csv_plan *plan)
 {
@@ -115,6 +121,9 @@ static void ladder_import_dialog_class_init(LadderImportDialogClass *class)
 	gtk_widget_class_bind_template_child_full(widget, "view", FALSE, 0);
 	gtk_widget_class_install_action(widget, "import.apply", NULL, apply);
 	gtk_widget_class_install_action(widget, "import.cancel", NULL, cancel);
+	gtk_widget_class_bind_template_callback(widget, row_activated);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_Return, 0, "import.apply", NULL);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_KP_Enter, 0, "import.apply", NULL);
 	gtk_widget_class_add_binding_action(widget, GDK_KEY_Escape, 0, "import.cancel",
 					    NULL);
 }

@@ -13,7 +13,7 @@
 G_DECLARE_FINAL_TYPE(LadderImportDialog, ladder_import_dialog, LADDER, IMPORT_DIALOG, GtkWindow)
 
 /** ladder_import_dialog_new - @plan: taken over; @from: file name, for the title. Actions:
- * import.apply (also closes it), import.cancel; Escape cancels. */
+ * import.apply (also closes it), import.cancel; Enter imports, Escape cancels. */
 GtkWidget *ladder_import_dialog_new(struct csv_plan *plan, const char *from);
 
 #endif

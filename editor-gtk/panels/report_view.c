@@ -227,8 +227,8 @@ static guint close_wanted;
 static void show_picture(LadderReportView *view, const struct classic_rung *rung)
 {
 	view->shown = rung;
-	picture_show(LADDER_CLASSIC_PICTURE(view->picture), view->origin,
-				    view->document, rung);
+	picture_show(LADDER_CLASSIC_PICTURE(view->picture), view->origin, view->document, rung);
+	gtk_widget_set_visible(view->picture, TRUE);
 }
 
 static void refresh(GtkWidget *widget)
@@ -290,13 +290,14 @@ void ladder_report_view_focus(LadderReportView *view)
 	gtk_widget_grab_focus(GTK_WIDGET(view->list.view));
 }
 
-void ladder_report_view_follow(LadderReportView *view, int pou, int rung, bool sure)
+void ladder_report_view_follow(LadderReportView *view, int pou, int rung)
 {
 	const struct classic_rung *from = view->origin ?
 		ladder_origin_of(view->origin, pou, rung) : NULL;
 
-	if (view->origin && from != view->shown && (from || sure))
+	if (view->origin && from != view->shown)
 		show_picture(view, from);
+	gtk_widget_set_visible(view->picture, from || rung >= 0);
 }
 
 /* ---- its rows ---- */
@@ -370,16 +371,26 @@ static GtkListItemFactory *text_factory(void)
 
 #define LIST_MOST 620 /* initial width of the list in px, at most; the picture gets the rest */
 
-/* Once; then the divider stays where a person moves it. */
+static gboolean share_now(gpointer data)
+{
+	LadderReportView *view = data;
+
+	if (view->paned)
+		gtk_paned_set_position(GTK_PANED(view->paned), MIN(
+			gtk_widget_get_width(view->paned) / 2, LIST_MOST));
+	g_object_unref(view);
+	return G_SOURCE_REMOVE;
+}
+
+/* Once; then the divider stays where a person moves it. The signal comes during layout: a
+ * position that is set then leaves GTK with a widget without allocation, and a blank window. */
 static void share_room(GtkPaned *paned, GParamSpec *spec, LadderReportView *view)
 {
-	const int width = gtk_widget_get_width(GTK_WIDGET(paned));
-
 	(void)spec;
-	if (width < 2 || view->shared)
+	if (gtk_widget_get_width(GTK_WIDGET(paned)) < 2 || view->shared)
 		return;
 	view->shared = true;
-	gtk_paned_set_position(paned, MIN(width / 2, LIST_MOST));
+	g_idle_add(share_now, g_object_ref(view));
 }
 
 static void copy(GtkWidget *widget, const char *name, GVariant *unused)

@@ -25,9 +25,9 @@ void ladder_report_view_export(LadderReportView *view, const char *name, GPtrArr
 bool ladder_report_view_has(LadderReportView *view);
 /** ladder_report_view_title - "pump.clprj: 3 changed, 1 left out". Borrowed. */
 const char *ladder_report_view_title(LadderReportView *view);
-/** ladder_report_view_follow - shows the original of that rung, 0-based; -1: none. @sure:
- * if it has no original, clears the picture and says so. */
-void ladder_report_view_follow(LadderReportView *view, int pou, int rung, bool sure);
+/** ladder_report_view_follow - shows the original of that rung, 0-based, or that it has none;
+ * -1: shows nothing. */
+void ladder_report_view_follow(LadderReportView *view, int pou, int rung);
 /** ladder_report_view_focus - focuses the list. */
 void ladder_report_view_focus(LadderReportView *view);
 #endif

@@ -13,6 +13,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/installed.h"
 #include "editor-gtk/kit/memory.h"
+#include "editor-gtk/kit/theme.h"
 #include "editor-gtk/kit/gtk48/gl.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/window/preferences.h"
@@ -357,13 +358,45 @@ static void open_files(AdwApplication *application, GFile **files, int count,
 	}
 }
 
-void app_style(void)
+static void add_css(GtkCssProvider *css)
 {
-	GtkCssProvider *css = gtk_css_provider_new();
-
-	gtk_css_provider_load_from_resource(css, "/org/rungboard/Editor/ui/style.css");
 	gtk_style_context_add_provider_for_display(gdk_display_get_default(),
 		GTK_STYLE_PROVIDER(css), GTK_STYLE_PROVIDER_PRIORITY_APPLICATION);
+}
+
+/* Widgets have the colours of the sheets for a force. */
+static void define_colors(GtkCssProvider *css)
+{
+	AdwStyleManager *manager = adw_style_manager_get_default();
+	const bool dark = adw_style_manager_get_dark(manager);
+	const struct theme *theme = theme_get(adw_style_manager_get_high_contrast(manager) ?
+		dark ? THEME_CONTRAST_DARK : THEME_CONTRAST : dark ? THEME_DARK : THEME_LIGHT,
+		THEME_GREEN);
+	char *force = gdk_rgba_to_string(&theme->color[TOKEN_FORCE]);
+	char *text = gdk_rgba_to_string(&theme->color[TOKEN_BADGE]);
+	char *rules = g_strdup_printf("@define-color force_color %s;\n"
+				      "@define-color force_text_color %s;\n", force, text);
+
+	gtk_css_provider_load_from_data(css, rules, -1);
+	g_free(rules);
+	g_free(text);
+	g_free(force);
+}
+
+void app_style(void)
+{
+	GtkCssProvider *css = gtk_css_provider_new(), *colors = gtk_css_provider_new();
+	AdwStyleManager *manager = adw_style_manager_get_default();
+
+	define_colors(colors);
+	add_css(colors);
+	g_signal_connect_object(manager, "notify::dark", G_CALLBACK(define_colors), colors,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(manager, "notify::high-contrast", G_CALLBACK(define_colors),
+				colors, G_CONNECT_SWAPPED);
+	gtk_css_provider_load_from_resource(css, "/org/rungboard/Editor/ui/style.css");
+	add_css(css);
+	g_object_unref(colors);
 	g_object_unref(css);
 }
 

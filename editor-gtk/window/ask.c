@@ -8,6 +8,29 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 
+/* Enter in a check box gives the answer, as in an entry; Space checks it. */
+static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
+			    GdkModifierType state, GtkWindow *dialog)
+{
+	(void)keys;
+	(void)code;
+	if ((key != GDK_KEY_Return && key != GDK_KEY_KP_Enter) ||
+	    state & gtk_accelerator_get_default_mod_mask() ||
+	    !GTK_IS_CHECK_BUTTON(gtk_window_get_focus(dialog)))
+		return FALSE;
+	gtk_widget_activate_default(GTK_WIDGET(dialog));
+	return TRUE;
+}
+
+static void answer_by_enter(AdwMessageDialog *dialog)
+{
+	GtkEventController *keys = gtk_event_controller_key_new();
+
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), dialog);
+	gtk_widget_add_controller(GTK_WIDGET(dialog), keys);
+}
+
 AdwMessageDialog *ask_new(GtkWindow *window, const char *heading, const char *body,
 			  const char *answer, const char *label,
 			  AdwResponseAppearance appearance)
@@ -19,6 +42,7 @@ AdwMessageDialog *ask_new(GtkWindow *window, const char *heading, const char *bo
 	adw_message_dialog_set_response_appearance(dialog, answer, appearance);
 	adw_message_dialog_set_default_response(dialog, answer);
 	adw_message_dialog_set_close_response(dialog, "cancel");
+	answer_by_enter(dialog);
 	return dialog;
 }
 

@@ -40,10 +40,9 @@ static void follow(struct exchange *exchange)
 {
 	LadderGridView *sheet = front_sheet(exchange->core->front);
 
-	if (sheet)
-		ladder_report_view_follow(view_of(exchange), ladder_canvas_pou(LADDER_CANVAS(sheet)),
-					  ladder_grid_view_first(sheet) +
-					  ladder_grid_view_cursor(sheet).rung, true);
+	ladder_report_view_follow(view_of(exchange),
+		sheet ? ladder_canvas_pou(LADDER_CANVAS(sheet)) : -1,
+		sheet ? ladder_grid_view_first(sheet) + ladder_grid_view_cursor(sheet).rung : -1);
 }
 
 void exchange_show(struct exchange *exchange)
@@ -193,5 +192,7 @@ void exchange_init(struct exchange *exchange, struct core *core, struct origin *
 	below_add(core->below, "report", N_("Report"), panel_new, exchange);
 	below_offer(core->below, "report", false);
 	core_connect(core, core->window, "cursor-moved", G_CALLBACK(cursor_moved), exchange,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->window, "page-changed", G_CALLBACK(cursor_moved), exchange,
 		     G_CONNECT_SWAPPED);
 }

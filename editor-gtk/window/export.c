@@ -221,6 +221,54 @@ static GtkPrintOperation *operation_new(struct export *export)
 	return operation;
 }
 
+/* Does GTK find the program that it starts for a preview? */
+static bool has_viewer(void)
+{
+	char *command = NULL, **words = NULL, *program = NULL;
+
+	g_object_get(gtk_settings_get_default(), "gtk-print-preview-command", &command, NULL);
+	if (command && g_shell_parse_argv(command, NULL, &words, NULL))
+		program = g_find_program_in_path(words[0]);
+	g_strfreev(words);
+	g_free(command);
+	g_free(program);
+	return program != NULL;
+}
+
+static gboolean end_preview(gpointer operation)
+{
+	gtk_print_operation_preview_end_preview(GTK_PRINT_OPERATION_PREVIEW(operation));
+	g_object_unref(operation);
+	return G_SOURCE_REMOVE;
+}
+
+/* GTK wants one from who shows a preview, also if nothing is drawn on it. */
+static void give_canvas(GtkPrintContext *context)
+{
+	cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, 1, 1);
+	cairo_t *canvas = cairo_create(surface);
+
+	gtk_print_context_set_cairo_context(context, canvas, 72, 72);
+	cairo_destroy(canvas);
+	cairo_surface_destroy(surface);
+}
+
+/* True: there is no preview; GTK would close its dialog without a word. */
+static gboolean preview(GtkPrintOperation *operation, GtkPrintOperationPreview *pages,
+			GtkPrintContext *context, GtkWindow *parent, struct export *export)
+{
+	(void)pages;
+	(void)parent;
+	if (has_viewer())
+		return FALSE;
+	messages_banner(export->core->messages, NULL, _("Cannot show a preview: no viewer for "
+			"print previews is installed, such as Evince. Export the pages as a PDF "
+			"instead."), _("Export as PDF…"), "win.export_pdf");
+	give_canvas(context);
+	g_idle_add(end_preview, g_object_ref(operation));
+	return TRUE;
+}
+
 void export_print(struct export *export)
 {
 	GtkPrintOperation *operation;
@@ -229,6 +277,7 @@ void export_print(struct export *export)
 	if (!has_pages(export))
 		return;
 	operation = operation_new(export);
+	core_connect(export->core, operation, "preview", G_CALLBACK(preview), export, 0);
 	if (gtk_print_operation_run(operation, GTK_PRINT_OPERATION_ACTION_PRINT_DIALOG,
 				    export->core->window, &error) ==
 	    GTK_PRINT_OPERATION_RESULT_ERROR)

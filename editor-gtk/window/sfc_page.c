@@ -8,6 +8,7 @@
 #include "editor-gtk/draw/sfc_bodies.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/text/text_view.h"
+#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
 struct _LadderSfcPage {
@@ -117,6 +118,7 @@ static void put_below(LadderSfcPage *page, GtkWidget *widget, const char *headin
 		child = gtk_scrolled_window_new();
 		gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(child), FALSE);
 		gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(child), widget);
+		slow_bar_choose(GTK_SCROLLED_WINDOW(child));
 	}
 	gtk_widget_set_vexpand(child, TRUE);
 	gtk_box_append(GTK_BOX(page->place), child);
@@ -298,6 +300,7 @@ GtkWidget *ladder_sfc_page_new(LadderDocument *document, int pou, LadderSim *sim
 	page->chart = ladder_sfc_view_new(document, pou);
 	ladder_canvas_set_sim(LADDER_CANVAS(page->chart), sim);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), page->chart);
+	slow_bar_choose(GTK_SCROLLED_WINDOW(scroller));
 	gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(scroller), FALSE);
 	gtk_paned_set_start_child(GTK_PANED(page->paned), scroller);
 	follow_focus(page, page->chart, G_CALLBACK(chart_entered));

@@ -88,8 +88,47 @@ static void make(GtkScrollbar *scrollbar)
 	g_signal_connect_swapped(range, "change-value", G_CALLBACK(by_hand), bar);
 }
 
+/* ---- which bars are shown ---- */
+
+static GtkPolicyType policy_of(GtkAdjustment *along)
+{
+	return gtk_adjustment_get_upper(along) - gtk_adjustment_get_lower(along) >
+	       gtk_adjustment_get_page_size(along) ? GTK_POLICY_ALWAYS : GTK_POLICY_EXTERNAL;
+}
+
+static gboolean choose_bars(gpointer data)
+{
+	GtkScrolledWindow *scroller = data;
+	GtkAdjustment *level = gtk_scrolled_window_get_hadjustment(scroller);
+	GtkAdjustment *down = gtk_scrolled_window_get_vadjustment(scroller);
+
+	g_object_set_data(data, "bars-due", NULL);
+	if (level && down)
+		gtk_scrolled_window_set_policy(scroller, policy_of(level), policy_of(down));
+	return G_SOURCE_REMOVE;
+}
+
+static void bars_changed(GtkScrolledWindow *scroller)
+{
+	if (g_object_get_data(G_OBJECT(scroller), "bars-due"))
+		return;
+	g_object_set_data(G_OBJECT(scroller), "bars-due", scroller);
+	g_idle_add_full(G_PRIORITY_HIGH_IDLE, choose_bars, g_object_ref(scroller),
+			g_object_unref);
+}
+
+void slow_bar_choose(GtkScrolledWindow *scroller)
+{
+	gtk_scrolled_window_set_policy(scroller, GTK_POLICY_EXTERNAL, GTK_POLICY_EXTERNAL);
+	g_signal_connect_object(gtk_scrolled_window_get_hadjustment(scroller), "changed",
+				G_CALLBACK(bars_changed), scroller, G_CONNECT_SWAPPED);
+	g_signal_connect_object(gtk_scrolled_window_get_vadjustment(scroller), "changed",
+				G_CALLBACK(bars_changed), scroller, G_CONNECT_SWAPPED);
+}
+
 void slow_bar_make(GtkScrolledWindow *scroller)
 {
+	slow_bar_choose(scroller);
 	gtk_scrolled_window_set_overlay_scrolling(scroller, FALSE);
 	make(GTK_SCROLLBAR(gtk_scrolled_window_get_hscrollbar(scroller)));
 	make(GTK_SCROLLBAR(gtk_scrolled_window_get_vscrollbar(scroller)));

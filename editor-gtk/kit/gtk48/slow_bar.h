@@ -11,13 +11,20 @@
  * To see it: remove a call of slow_bar_make() and compare "Scrolling" of `make bench-editor`.
  * Compare so on each new floor. It works only as long as the bar listens to the adjustment
  * with itself as data; otherwise nothing is blocked and the bar follows at once.
+ *
+ * - Blank window, slow_bar_choose(): with automatic policy GtkScrolledWindow shows or hides a
+ *   bar while it is allocated. Widgets above it may then be left without allocation, and what
+ *   they hold is not drawn until their size changes. To see it: tests/editor/person/panes.py
+ *   without the calls.
  */
 #ifndef EDITOR_SLOW_BAR_H
 #define EDITOR_SLOW_BAR_H
 
 #include <gtk/gtk.h>
 
-/** slow_bar_make - makes both bars of @scroller slow, as long as it lives. */
+/** slow_bar_choose - shows the bars that are needed; decided after the layout, not in it. */
+void slow_bar_choose(GtkScrolledWindow *scroller);
+/** slow_bar_make - slow_bar_choose(), and makes both bars of @scroller slow, as long as it lives. */
 void slow_bar_make(GtkScrolledWindow *scroller);
 
 #endif

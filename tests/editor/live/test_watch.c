@@ -5,6 +5,7 @@
  *
  * WATCH_PICTURES=FOLDER saves pictures of it.
  */
+#include "editor-gtk/kit/theme.h"
 #include "editor-gtk/window/app.h"
 #include "editor-gtk/live/watch_names.h"
 #include "editor-gtk/live/watch_view.h"
@@ -412,6 +413,26 @@ static void check_following(void)
 	CHECK_SOON(strcmp(shown("Motor"), "") == 0 && strcmp(shown("Nobody"), "") == 0);
 }
 
+/* Widgets mark a force in the colours of the sheets, light and dark. */
+static void check_colors(void)
+{
+	AdwStyleManager *manager = adw_style_manager_get_default();
+	GtkStyleContext *context = gtk_widget_get_style_context(GTK_WIDGET(view));
+
+	for (int dark = 0; dark < 2; dark++) {
+		const struct theme *theme = theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
+		GdkRGBA ground, text;
+
+		adw_style_manager_set_color_scheme(manager, dark ?
+			ADW_COLOR_SCHEME_FORCE_DARK : ADW_COLOR_SCHEME_FORCE_LIGHT);
+		CHECK(gtk_style_context_lookup_color(context, "force_color", &ground) &&
+		      gtk_style_context_lookup_color(context, "force_text_color", &text));
+		CHECK(gdk_rgba_equal(&ground, &theme->color[TOKEN_FORCE]) &&
+		      gdk_rgba_equal(&text, &theme->color[TOKEN_BADGE]));
+	}
+	adw_style_manager_set_color_scheme(manager, ADW_COLOR_SCHEME_DEFAULT);
+}
+
 static void check_charts(void)
 {
 	do_action("watch.new-chart");
@@ -461,6 +482,7 @@ int main(void)
 	check_forces();
 	check_following();
 	check_charts();
+	check_colors();
 	gtk_window_destroy(GTK_WINDOW(window));
 	g_object_unref(sim);
 	WAIT(G_OBJECT(document)->ref_count == 1);

@@ -62,6 +62,10 @@ def mouse(screen):
     editor.to_sheet()
     editor.says('Rung 3 · column A')
     editor.shot('classic-place')
+    editor.find('Original of the rung: ')
+    editor.keys('ctrl+alt+s')  # the symbols have no original
+    until(lambda: not editor.all('Original of the rung: '), 'the original to go with its sheet')
+    editor.shot('classic-none')
 
 
 def keyboard(screen):

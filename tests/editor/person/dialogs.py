@@ -171,7 +171,7 @@ def replaced(screen):
 
 
 def imported(screen):
-    """import from another project: Esc in the file chooser, and in the choice of parts"""
+    """import from another project: Esc in the file chooser, and in the choice of parts; Enter in a check box imports"""
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     other = new_file(screen, OTHER, 'other.rung')
     editor.click([node for node in editor.all('Main', 'label') if node.name == 'Main'][0])
@@ -191,6 +191,22 @@ def imported(screen):
             editor.find('Other', 'check box')
         escape(editor, before, 'import-%d' % chosen)
     assert not editor.all('Other', 'label')
+    editor.give_path(other, lambda: editor.command('Import from another project'), 'Import from another project')
+    until(lambda: editor.find('Other', 'check box').has(12) or editor.keys('Tab'), 'the focus on the check box')
+    assert editor.find('Other', 'check box').has(4), 'the only program is not chosen'
+    editor.keys('Return')
+    until(lambda: [node for node in editor.all('Other', 'label') if node.name == 'Other'], 'the program')
+
+
+def preview(screen):
+    """a print preview without a viewer: a message says what is missing"""
+    editor = Editor(screen, new_file(screen, ONE_RUNG), PATH='/nowhere')
+    editor.to_sheet()
+    editor.brought('ctrl+p')
+    editor.find('Preview', 'push button').press()
+    editor.find('Cannot show a preview', 'label')
+    editor.shot('dialogs-preview')
+    editor.find('Export as PDF…', 'push button')
 
 
 def board(screen):
@@ -212,4 +228,4 @@ def board(screen):
 
 dialogs.quick = 'editor-gtk/kit'
 popups.quick = 'editor-gtk/kit/gtk48'
-main([dialogs, popups, give_back, close, commands, writers, replaced, imported, board])
+main([dialogs, popups, give_back, close, commands, writers, replaced, imported, preview, board])
