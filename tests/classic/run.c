@@ -145,8 +145,6 @@ static void command(struct engine *engine, struct shown *shown, const char *at, 
 		fprintf(out, "# %.*s\n", (int)strcspn(at, "\r\n"), at);
 	} else if (strcmp(word, "@period") == 0 && next_word(&at, word)) {
 		*period = atoi(word);
-	} else if (strcmp(word, "@reset") == 0) {
-		engine_reset(engine);
 	}
 }
 

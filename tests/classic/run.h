@@ -25,7 +25,7 @@ char *load_text(const char *path);
  *
  * A line sets variables and runs a scan: `%I0=1 %W3=-4`; `.` sets nothing; `+N`: the scan is N
  * ms long; `xN`: N scans; `quiet`: only the last one is printed. Also `@print %Q0..7 …`,
- * `@echo …`, `@period N`, `@reset`. @changes: prints only variables that changed.
+ * `@echo …`, `@period N`. @changes: prints only variables that changed.
  */
 bool run_script(const struct classic_project *project, bool faithful, bool changes,
 		const char *script, FILE *out);

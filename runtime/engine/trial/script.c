@@ -4,10 +4,10 @@
  * to run it.
  */
 #include "engine/trial/script.h"
+#include "engine/trial/twin.h"
 #include "engine/trial/value.h"
 
 #include "engine/base/lex.h"
-#include "engine/scan/retain.h"
 
 #include <string.h>
 
@@ -213,6 +213,14 @@ static void start(struct script *script)
 		resource_start(&script->plant->resource);
 }
 
+/* A plant goes on in a warm start: only the controller lost power. */
+static bool restart(struct script *script, bool warm)
+{
+	return (warm || !script->plant ||
+		twin_restart(&script->plant->resource, false)) &&
+	       twin_restart(script->resource, warm);
+}
+
 static void tell_halt(const struct script *script)
 {
 	char text[96];
@@ -328,13 +336,11 @@ static bool directive(struct script *script)
 	}
 	if (is_word(head, "@period"))
 		good = set_period(script, head);
-	else if (is_word(head, "@warm"))
-		good = script->dry || retain_start(script->resource) ||
+	else if (is_word(head, "@warm") || is_word(head, "@reset"))
+		good = script->dry || restart(script, is_word(head, "@warm")) ||
 		       complain(script, DIAG_NO_MEMORY, head);
-	else if (!is_word(head, "@reset"))
+	else
 		return complain(script, DIAG_UNKNOWN_WORD, head);
-	else if (!script->dry)
-		start(script);
 	if (good && next_word(script, &rest))
 		return complain(script, DIAG_SYNTAX, rest);
 	return good;

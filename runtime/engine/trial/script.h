@@ -7,8 +7,8 @@
  *   +25 x10 quiet    10 scans 25 ms apart, show only the last one
  *   @print %Q0..7    what is shown from here on; alone: everything declared
  *   @period 20       time from scan to scan, ms (or 20us, 1s, …)
- *   @reset           cold start; the clock and the scan number go on
- *   @warm            the same, but what is VAR RETAIN keeps its value
+ *   @reset           cold start; inputs, the clock and the scan number stay
+ *   @warm            the same, but VAR RETAIN keeps its values, too
  *   @echo text       `# text` in the trace
  *
  * Time is virtual. A script with an error anywhere does not start.

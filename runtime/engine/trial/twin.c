@@ -181,10 +181,10 @@ static void copy_inputs(struct image *to, const struct image *from)
 	}
 }
 
-/* Inputs and forces stay, as on a board. */
-static bool start_again(struct resource *resource, size_t size, bool warm)
+bool twin_restart(struct resource *resource, bool warm)
 {
 	struct image *image = &resource->image;
+	const size_t size = image_memory_size(image->program);
 	struct image *before = malloc(sizeof(*before));
 	uint8_t *memory = malloc(size);
 	bool good = before && memory;
@@ -210,14 +210,14 @@ static bool start_plant(struct twin *twin, bool warm)
 	    !twin->plant.halted)
 		twin->plant.state = STATE_RUN;
 	return (warm && twin->plant.state == STATE_RUN) ||
-	       start_again(&twin->plant, twin->plant_size, false);
+	       twin_restart(&twin->plant, false);
 }
 
 /* The plant first: if that fails, nothing has changed. */
 static bool start(struct twin *twin, bool warm)
 {
 	return (!has_plant(twin) || start_plant(twin, warm)) &&
-	       start_again(&twin->resource, twin->memory_size, warm);
+	       twin_restart(&twin->resource, warm);
 }
 
 static void release_all(struct image *image)

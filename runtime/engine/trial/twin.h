@@ -69,6 +69,11 @@ void twin_copy(struct twin *twin, const struct twin *from);
  */
 bool twin_change(struct twin *twin, const struct twin *from);
 
+/** twin_restart - starts any resource again, cold or warm; inputs and forces stay, as
+ * they come from outside.   Scan-safe: no.   Fails: false: no memory; nothing has
+ * changed. */
+bool twin_restart(struct resource *resource, bool warm);
+
 /** twin_act - between two scans. Scan-safe: no. Fails: false: no such place, it cannot
  * be set or forced, too many forces, no memory; nothing has changed. */
 bool twin_act(struct twin *twin, const struct act *act);

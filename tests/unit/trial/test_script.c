@@ -133,12 +133,6 @@ static void test_ranges(void)
 	CHECK_TEXT(wrong("@print Level..Motor\n"), "LD116:1:8");
 }
 
-static void test_reset(void)
-{
-	CHECK_TEXT(run("@print Level Motor\nOpen=1 x2 quiet\n@reset\n.\n"),
-		   "2 t=20 Level=14 Motor=1\n3 t=30 Level=0 Motor=0\n");
-}
-
 static void test_changes(void)
 {
 	CHECK_TEXT(run_form("@print Motor Level Heat\n.\n.\nOpen=1\nOpen=0\n"
@@ -233,6 +227,40 @@ static void test_stop(void)
 	trace_free(&trace);
 }
 
+static int64_t value_at(const char *address)
+{
+	const struct image *image = &bed.resource.image;
+
+	return image_get(image, image_find(image, address, strlen(address))).i;
+}
+
+/* Inputs come from outside: a restart keeps them, in each area and width. All else
+ * begins anew. */
+static void test_restarts(void)
+{
+	static const char *const area[] = { "I", "AI", "XI", "XAI", "Q", "AQ", "XQ", "XAQ",
+					    "M", "V", "S" };
+	static const char *const width[] = { "X16.5", "B16", "W16", "D16", "L16" };
+	static const char *const restart[] = { "@reset", "@warm", "@warm\n.\n@reset" };
+	char address[32], script[120];
+
+	for (int i = 0; i < 11 * 5 * 3; i++) {
+		const char *how = restart[i % 3];
+		bool input = i / 15 < 4;
+
+		snprintf(address, sizeof(address), "%%%s%s", area[i / 15], width[i / 3 % 5]);
+		snprintf(script, sizeof(script), "%s=1\n. x2\n%s\n.\n", address, how);
+		run(script);
+		snprintf(script, sizeof(script), "restart %d: %s %s", i % 3, address,
+			 input ? "stays" : "begins anew");
+		CHECK_AS(value_at(address) == input, script);
+	}
+	CHECK_TEXT(run("@print Open Motor Level\nOpen=1 x2 quiet\n@warm\n. x2\n"
+		       "@reset\nOpen=0\n"),
+		   "2 t=20 Open=1 Motor=1 Level=14\n3 t=30 Open=1 Motor=1 Level=7\n"
+		   "4 t=40 Open=1 Motor=1 Level=14\n5 t=50 Open=0 Motor=0 Level=0\n");
+}
+
 int main(void)
 {
 	test_times();
@@ -249,13 +277,13 @@ int main(void)
 	test_lines();
 	test_values();
 	test_ranges();
-	test_reset();
 	test_changes();
 	test_csv();
 	test_vcd();
 	test_wrong();
 	test_fault();
 	test_stop();
+	test_restarts();
 	bed_close(&bed);
 	return tap_done();
 }
