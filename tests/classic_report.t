@@ -126,7 +126,7 @@ my @table = (
 		qr/lost: symbols\.csv: symbol "Two" of %I0, which "One" names, too/],
 	['the same symbol twice', [['rung_0.csv', $rung], ['symbols.csv', "%I0,One,\n%I0,One,\n"]], undef],
 	['a symbol of a pin', [['rung_0.csv', "#VER=2.0\n1-0-10/0 , 50-0-60/0\n"], ['symbols.csv', "%T0.D,Done,\n"]],
-		qr/lost: symbols\.csv: symbol "Done" of %T0\.D: pins have no names of their own/],
+		qr/lost: symbols\.csv: symbol "Done" of %T0\.D: pins and times of steps have no names/],
 	['a symbol of nothing', [['rung_0.csv', $rung], ['symbols.csv', "%Z0,What,\n"]], qr/symbol "What" of %Z0: there is no such/],
 	['a comment without a symbol', [['rung_0.csv', $rung], ['symbols.csv', "%I0,%I0,the button\n"]],
 		qr/lost: symbols\.csv: comment "the button" of %I0, which has no symbol/],

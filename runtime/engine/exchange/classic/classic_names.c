@@ -197,7 +197,8 @@ static void report_symbol(struct conversion *c, const struct classic_symbol *sym
 	if (symbol_is_none(symbol) || (type >= 0 && !used_name(c, type, number)))
 		return;
 	tell(c, REPORT_LOST, "symbol \"%s\" of %s: %s", symbol->name, symbol->variable,
-	     type >= 0 ? "pins have no names of their own" : "there is no such variable");
+	     type >= 0 ? "pins and times of steps have no names of their own" :
+	     "there is no such variable");
 }
 
 /* Of several symbols for one variable the first counts. */
