@@ -602,9 +602,13 @@ static void report_left_out(struct leaving *e, const struct out_rung *r)
 			continue;
 		e->row = item->row + 1;
 		e->col = item->col + 1;
-		tell_lost(e, "\"%s %s\" never has power",
-			  scope_row(e->scope, (enum word)cell->word)->word,
-			  project_text(e->project, cell->operand));
+		if (item->text)
+			tell_lost(e, "\"[ %s ]\" never has power",
+				  project_text(e->project, cell->operand));
+		else
+			tell_lost(e, "\"%s %s\" never has power",
+				  scope_row(e->scope, (enum word)cell->word)->word,
+				  project_text(e->project, cell->operand));
 	}
 }
 
