@@ -437,9 +437,8 @@ static bool cell_box(LadderCanvas *canvas, struct canvas_spot spot, graphene_rec
 	if (!cell_at(view, spot))
 		return false;
 	strip = strips_get(view, spot.number);
-	*box = rung_layout_cell(strip->layout, spot.row,
-				rung_layout_column(strip->layout, spot.row, spot.col));
-	box->origin.y += strip->y;
+	*box = strip_box(view, strip, spot.row,
+			 rung_layout_column(strip->layout, spot.row, spot.col));
 	return true;
 }
 

@@ -9,7 +9,6 @@
 #include "editor-gtk/kit/diag_said.h"
 
 #define PAGE_RUNGS 5 /* rungs of a Page Down                                   */
-#define ASIDE     24 /* px shown left and right of the cursor                   */
 #define MARGIN    40 /* px shown above and below the cursor                     */
 
 static int rows_of(LadderGridView *view, int rung)
@@ -149,16 +148,13 @@ const struct cell *cursor_cell(LadderGridView *view, int *row, int *col)
 graphene_rect_t cursor_cell_box(LadderGridView *view)
 {
 	struct strip *strip;
-	graphene_rect_t rect;
 
 	if (view->cursor.at.rung >= (int)view->strips->len)
 		return GRAPHENE_RECT_INIT(0, 0, 0, 0);
 	strip = strips_get(view, view->cursor.at.rung);
 	if (!strip->layout) /* the rung is deleted, the strips are not updated yet */
 		return GRAPHENE_RECT_INIT(0, 0, 0, 0);
-	rect = rung_layout_cell(strip->layout, view->cursor.at.row, view->cursor.at.col);
-	rect.origin.y += strip->y;
-	return rect;
+	return strip_box(view, strip, view->cursor.at.row, view->cursor.at.col);
 }
 
 /* Upper end of the area to show: in the first row it includes title and comment of the
@@ -175,9 +171,15 @@ static double head_of(LadderGridView *view, const graphene_rect_t *cell)
 			     end + 2 * MARGIN - page));
 }
 
+/* Px shown left and right of the cursor: a little less than there is behind a pinned output. */
+static double aside(LadderGridView *view)
+{
+	return RUNG_AFTER * view->canvas->zoom - 1;
+}
+
 void cursor_reveal(LadderGridView *view)
 {
-	canvas_reveal(LADDER_CANVAS(view), cursor_cell_box(view), ASIDE, MARGIN);
+	canvas_reveal(LADDER_CANVAS(view), cursor_cell_box(view), aside(view), MARGIN);
 }
 
 void cursor_reveal_head(LadderGridView *view)
@@ -190,7 +192,7 @@ void cursor_reveal_head(LadderGridView *view)
 	head = (float)(head_of(view, &box) / view->canvas->zoom);
 	box.size.height += box.origin.y - head;
 	box.origin.y = head;
-	canvas_reveal(LADDER_CANVAS(view), box, ASIDE, MARGIN);
+	canvas_reveal(LADDER_CANVAS(view), box, aside(view), MARGIN);
 }
 
 graphene_point_t sheet_where(LadderGridView *view, double x, double y)

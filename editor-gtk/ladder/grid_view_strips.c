@@ -446,6 +446,16 @@ float strips_pinned(LadderGridView *view, const struct strip *strip)
 	       (float)view->canvas->zoom < page / 2 ? by : 0;
 }
 
+graphene_rect_t strip_box(LadderGridView *view, const struct strip *strip, int row, int column)
+{
+	graphene_rect_t box = rung_layout_cell(strip->layout, row, column);
+
+	box.origin.y += strip->y;
+	if (column == strip->layout->columns - 1)
+		box.origin.x -= strips_pinned(view, strip) / (float)view->canvas->zoom;
+	return box;
+}
+
 float strips_width(LadderGridView *view)
 {
 	return RUNG_LEFT + MAX(view->rail, RUNG_LEAST_COLUMNS * RUNG_CELL_WIDTH) +

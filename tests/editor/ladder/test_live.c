@@ -616,12 +616,16 @@ static void test_width(void)
 	ladder_canvas_set_zoom(LADDER_CANVAS(view), 3);
 	draw();
 	box = coil_box();
-	CHECK_AS(box.origin.x > page, "the coil itself is out of sight");
+	CHECK_AS(box.origin.x < page && box.origin.x > page - 3 * (RUNG_AFTER + RUNG_CELL_WIDTH + 1),
+		 "the coil is at the edge of the page");
 	tip = LADDER_CANVAS_GET_CLASS(view)->tip(LADDER_CANVAS(view),
 		(int)(page - 3 * (RUNG_AFTER + RUNG_CELL_WIDTH / 2)),
 		(int)(box.origin.y + 3 * RUNG_WIRE), false);
-	CHECK_AS(tip && strstr(tip, "Motor"), "it is at the edge of the page");
+	CHECK_AS(tip && strstr(tip, "Motor"), "the pointer finds it there");
 	g_free(tip);
+	ladder_grid_view_go(view, 0, 0, 2);
+	CHECK_AS(canvas_rect(LADDER_CANVAS(view), GRAPHENE_RECT_INIT(0, 0, 0, 0)).origin.x == 0,
+		 "the cursor on it does not scroll");
 	ladder_canvas_set_zoom(LADDER_CANVAS(view), 1);
 	draw();
 }
