@@ -9,6 +9,7 @@
 #include "editor-gtk/document/symbols.h"
 
 #include "editor-gtk/draw/listing.h"
+#include "editor-gtk/edit/entry_operand.h"
 #include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
@@ -345,17 +346,32 @@ char *symbol_text_comment(const char *text)
 	return g_strchomp(g_string_free(out, FALSE));
 }
 
+/* 5s becomes T#5s, as in an entry. Caller: g_free. */
+static char *initial_of(const char *text)
+{
+	const gsize size = strlen(text) + sizeof("T#");
+	char *out = g_malloc0(size);
+	bool fits;
+
+	if (!entry_literal(text, strlen(text), out, size, &fits))
+		g_strlcpy(out, text, size);
+	return out;
+}
+
 char *symbol_text_line(const char *const text[SYMBOL_FIELDS])
 {
 	GString *out = g_string_new("  ");
-	char *comment = symbol_text_comment(text[FIELD_COMMENT]);
+	char *comment = symbol_text_comment(text[FIELD_COMMENT]), *initial;
 
 	g_string_append(out, text[FIELD_NAME]);
 	if (*text[FIELD_ADDRESS])
 		g_string_append_printf(out, " AT %s", text[FIELD_ADDRESS]);
 	g_string_append_printf(out, " : %s", text[FIELD_TYPE]);
-	if (*text[FIELD_INITIAL])
-		g_string_append_printf(out, " := %s", text[FIELD_INITIAL]);
+	if (*text[FIELD_INITIAL]) {
+		initial = initial_of(text[FIELD_INITIAL]);
+		g_string_append_printf(out, " := %s", initial);
+		g_free(initial);
+	}
 	g_string_append(out, ";");
 	if (*comment)
 		g_string_append_printf(out, " (* %s *)", comment);

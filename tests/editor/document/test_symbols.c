@@ -590,6 +590,19 @@ static void test_storm(void)
 	g_object_unref(document);
 }
 
+/* A time needs no T# here, as in an entry. */
+static void test_time(void)
+{
+	LadderDocument *document = opened(sample);
+
+	CHECK(set(document, "", "Count", FIELD_INITIAL, ""));
+	CHECK(set(document, "", "Count", FIELD_TYPE, "TIME"));
+	CHECK(set(document, "", "Count", FIELD_INITIAL, "1m30s"));
+	CHECK(has(document, "Count : TIME := T#1m30s;"));
+	CHECK(!set(document, "", "Hours", FIELD_INITIAL, "5s"));
+	g_object_unref(document);
+}
+
 int main(void)
 {
 	test_csv();
@@ -604,6 +617,7 @@ int main(void)
 	test_function();
 	test_beside();
 	test_fields();
+	test_time();
 	test_names();
 	test_hostile();
 	test_add();
