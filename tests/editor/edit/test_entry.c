@@ -61,7 +61,7 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "OTU Motor", "R Motor" }, { "R Motor", "R Motor" }, { "PLS Motor", "COILP Motor" },
 	{ "INV", "NOT" }, { "NOT", "NOT" }, { "RET", "RET" }, { "TND", "END" },
 	{ "END", "END" }, { "End", "NO End + End BOOL %IX0.2" },
-	{ "ret", "RET" },
+	{ "ret", "NO ret + ret BOOL %IX0.2" },
 	{ "JMP Top", "JMP Top" }, { "CALL Alarm", "CALL Alarm" }, { "JSR Alarm", "CALL Alarm" },
 	/* names alone */
 	{ "Start", "NO Start" }, { "start", "NO Start" }, { "/Stop", "NC Stop" },
