@@ -81,7 +81,7 @@ struct classic_section {
 	const char *name;
 	bool sequential;
 	int subroutine;          /* its number; -1: it runs in each scan       */
-	int first, last;         /* rungs                                      */
+	int first, last;         /* rungs; -1: it has none                     */
 	int page;
 };
 

@@ -560,19 +560,23 @@ static void add_only_section(struct classic_reader *reader)
 {
 	struct classic_project *project = reader->project;
 	struct classic_section *section;
+	const int final = project->rungs - 1;
 
 	for (int i = 0; i < project->rungs; i++) {
 		project->rung[i]->previous = i ? project->rung[i - 1]->number : -1;
-		project->rung[i]->next = i + 1 < project->rungs ?
-					 project->rung[i + 1]->number : -1;
+		project->rung[i]->next = i < final ? project->rung[i + 1]->number : -1;
 	}
 	section = arena_push(reader->arena, &project->section, &project->sections,
 			     sizeof(*section));
-	if (section)
-		*section = (struct classic_section){
-			.place = project->rung[0]->place, .name = "", .subroutine = -1,
-			.first = project->rung[0]->number,
-			.last = project->rung[project->rungs - 1]->number };
+	if (!section)
+		return;
+	*section = (struct classic_section){ .place = { "", 0 }, .name = "", .subroutine = -1,
+					     .first = -1, .last = -1 };
+	if (final >= 0) {
+		section->place = project->rung[0]->place;
+		section->first = project->rung[0]->number;
+		section->last = project->rung[final]->number;
+	}
 }
 
 /* ---- the program that wrote it ---- */
@@ -735,14 +739,15 @@ static void classic_whole(struct classic_reader *reader)
 		project->dialect = dialect_of(project);
 	if (!reader->good)
 		return;
-	if (project->rungs && !project->sections)
-		add_only_section(reader);
 	/* A container of ClassicLadder can be empty; a folder can hold anything. */
-	if (!project->sections && (reader->folder || project->dialect == CLASSIC_NUMERIC)) {
+	if (!project->rungs && !project->sections &&
+	    (reader->folder || project->dialect == CLASSIC_NUMERIC)) {
 		classic_fail_at(reader, DIAG_IMPORT_NOTHING, (struct classic_place){ "", 0 },
 				"", 0);
 		return;
 	}
+	if (!project->sections)
+		add_only_section(reader);
 	check_sections(reader);
 	for (int i = 0; i < project->transitions; i++) {
 		const struct classic_transition *transition = &project->transition[i];
