@@ -205,6 +205,14 @@ list_is('docs/rung-file.md: the areas', [keys %described], [keys %area]);
 my ($qualifiers) = $text{'docs/rung-file.md'} =~ /^qualifier += (.*)$/m;
 my ($sfc) = slurp('runtime/engine/model/sfc.c') =~ /^\t("N", "S", [^\n]*),$/m;
 is(join(' ', $qualifiers =~ /'(\w+)'/g), join(' ', $sfc =~ /"(\w+)"/g), 'docs/rung-file.md: the qualifiers');
+my %default;
+for my $entry (@$words) {
+	$default{"$entry->{word}.$_->{pin}"} = $_->{default} for @{$entry->{pins} // []};
+}
+fact('docs/blocks.md', qr/^\*\*DEBOUNCE\*\*.*?(\d+) ms/m, $default{'DEBOUNCE.T_ON'} =~ /(\d+)/);
+fact('docs/blocks.md', qr/^\*\*FIFO\*\*.*?SIZE.*?1 to (\d+)/m, $default{'FIFO.SIZE'});
+fact('docs/blocks.md', qr/\bN, (\d+) if not given/, $default{'PID.N'});
+fact('docs/blocks.md', qr/\bMIN and MAX are (\d+ and \d+)/, "$default{'PID.MIN'} and $default{'PID.MAX'}");
 my %system = map { $_->{word} => 1 } @$words;
 for my $path (@documents) {
 	my @unknown = grep { !$system{$_} } $text{$path} =~ /\b(SYS_[A-Z][A-Z0-9_]*[A-Z0-9])\b/g;
@@ -224,7 +232,7 @@ for my $path (@documents) {
 
 # ---- options, make targets, files ----
 my @help = map { scalar `$ladder help $_` } split ' ', `$ladder help --names`;
-my $usages = join "\n", @help, scalar `$build/ladderd --help`,
+my $usages = join "\n", @help, $help,
 	map { slurp($_) } 'editor-gtk/window/usage.c', 'editor-gtk/render/render.c';
 my %foreign = map { $_ => 1 } qw(--system --reload --subsystem-match --write); # of other programs
 for my $path (@documents) {
@@ -274,6 +282,23 @@ for my $path ('README.md', 'docs/editor.md', 'docs/languages.md') {
 	my ($line) = $prose{$path} =~ /^(.*\bGerman\b.*)$/m;
 	is(join(' ', grep { $line !~ /\b$language{$_}\b/ } @languages), '', "$path: the languages");
 }
+
+for my $path (glob 'packaging/*.desktop packaging/*.metainfo.xml packaging/rungboard.xml') {
+	my $written = slurp($path);
+	is(join(' ', grep { $written !~ /\[$_\]=|xml:lang="$_"/ } @languages), '', "$path: the languages");
+}
+my ($mime) = slurp('packaging/rungboard.xml') =~ /<mime-type type="([^"]+)"/;
+like(slurp('packaging/org.rungboard.Editor.desktop'), qr/^MimeType=\Q$mime\E;$/m, 'the desktop file names the type of rung files');
+my $keys = slurp('packaging/org.rungboard.Editor.gschema.xml');
+my $editor = join '', map { slurp($_) } glob 'editor-gtk/*/*.c editor-gtk/*/*.h';
+is(join(' ', grep { $editor !~ /"\Q$_\E"/ } $keys =~ /<key name="([a-z-]+)"/g), '', 'the editor uses every setting of the schema');
+
+my @vehicles = grep { $_ ne 'sizes' } map { basename($_) } grep { -f && -x } glob 'tests/targets/*';
+list_is('Makefile: the vehicles', [split ' ', (slurp('Makefile') =~ /^VEHICLES +\?= (.*)$/m)[0]], \@vehicles);
+list_is('./run help: the vehicles', [split ' ', (slurp('run') =~ /in emulators:\n\s+(.*?);/)[0]], \@vehicles);
+
+my ($live_keys) = slurp('runtime/ladder/live.c') =~ /keys\[\] = "(\w+)"/;
+is($live_keys, join('', 1 .. 9, grep { !/[sq]/ } 'a' .. 'z'), 'ladder run --help: the keys of inputs');
 
 my $render = slurp('editor-gtk/render/render.c');
 my ($render_help) = $render =~ /"  --pou NAME(.*?)^}/ms;
