@@ -10,6 +10,44 @@
 #include <stdlib.h>
 #include <string.h>
 
+const struct classic_memory_row classic_memory_rows[CLASSIC_MEMORY_ROWS] = {
+#define CLASSIC_MEMORY(type, prefix, area, first, size, name) \
+	{ type, prefix, area, first, size, name },
+#include "engine/classic.def"
+};
+const struct classic_pin_row classic_pin_rows[CLASSIC_PIN_ROWS] = {
+#define CLASSIC_PIN(type, prefix, attribute, kind, pin, is_bool) \
+	{ type, prefix, attribute, kind, pin, is_bool },
+#include "engine/classic.def"
+};
+const char *const classic_kind_names[CLASSIC_KINDS] = {
+	[CLASSIC_TIMER] = "T", [CLASSIC_MONOSTABLE] = "Mono",
+	[CLASSIC_IEC_TIMER] = "TM", [CLASSIC_COUNTER] = "C", [CLASSIC_REGISTER] = "Reg",
+};
+
+const struct classic_memory_row *classic_memory_of(int type)
+{
+	for (int i = 0; i < CLASSIC_MEMORY_ROWS; i++)
+		if (classic_memory_rows[i].type == type)
+			return &classic_memory_rows[i];
+	return NULL;
+}
+
+const struct classic_pin_row *classic_pin_of(int type)
+{
+	for (int i = 0; i < CLASSIC_PIN_ROWS; i++)
+		if (classic_pin_rows[i].type == type)
+			return &classic_pin_rows[i];
+	return NULL;
+}
+
+enum classic_kind classic_kind_of(int type)
+{
+	const struct classic_pin_row *row = classic_pin_of(type);
+
+	return row ? row->kind : CLASSIC_KINDS;
+}
+
 int classic_by_number(const void *a, const void *b)
 {
 	const int x = *(const int *)a, y = *(const int *)b;

@@ -155,6 +155,37 @@ struct classic_project {
 	int register_list;       /* SIZE_REGISTER_LIST; 500 without it         */
 };
 
+/* ---- rows of classic.def: classic.c ---- */
+
+enum classic_kind {
+	CLASSIC_TIMER, CLASSIC_MONOSTABLE, CLASSIC_IEC_TIMER, CLASSIC_COUNTER,
+	CLASSIC_REGISTER, CLASSIC_KINDS
+};
+struct classic_memory_row {
+	int type;
+	const char *prefix, *area;
+	int first, size;
+	const char *name;
+};
+struct classic_pin_row {
+	int type;
+	const char *prefix, *attribute;
+	enum classic_kind kind;
+	const char *pin;
+	bool is_bool;
+};
+enum { CLASSIC_MEMORY_ROWS = 12, CLASSIC_PIN_ROWS = 20 };
+extern const struct classic_memory_row classic_memory_rows[CLASSIC_MEMORY_ROWS];
+extern const struct classic_pin_row classic_pin_rows[CLASSIC_PIN_ROWS];
+/** classic_kind_names - "TM" of an instance TM0. A monostable is not M0: that is an address. */
+extern const char *const classic_kind_names[CLASSIC_KINDS];
+
+/** classic_memory_of, classic_pin_of - the row of @type; NULL: it is no memory, no pin. */
+const struct classic_memory_row *classic_memory_of(int type);
+const struct classic_pin_row *classic_pin_of(int type);
+/** classic_kind_of - the kind of block that @type is a pin of; CLASSIC_KINDS: none. */
+enum classic_kind classic_kind_of(int type);
+
 /** classic_is - true if these can be the first bytes of a project or a bare rung file, packed
  * or not. Scan-safe: yes. */
 bool classic_is(const void *bytes, size_t len);

@@ -11,11 +11,6 @@
 
 #include <stdarg.h>
 
-enum classic_kind {
-	CLASSIC_TIMER, CLASSIC_MONOSTABLE, CLASSIC_IEC_TIMER, CLASSIC_COUNTER,
-	CLASSIC_REGISTER, CLASSIC_KINDS
-};
-
 /* Operators and functions of ClassicLadder that become functions of the rung file. */
 enum classic_function {
 	CLASSIC_SUM, CLASSIC_DIFFERENCE, CLASSIC_PRODUCT, CLASSIC_DIVIDE, CLASSIC_REMAINDER, CLASSIC_POWER, CLASSIC_AND, CLASSIC_XOR,
@@ -100,28 +95,11 @@ void report_kept(struct conversion *c);
 void add_program(struct conversion *c, const char *name);
 
 /* ---- rows of classic.def: classic_names.c ---- */
-struct classic_memory_row {
-	int type;
-	const char *prefix, *area;
-	int first, size;
-	const char *name;
-};
-struct classic_pin_row {
-	int type;
-	const char *prefix;
-	enum classic_kind kind;
-	const char *pin;
-	bool is_bool;
-};
 enum {
 	STEP_TYPE = 30, STEP_TIME = 220, /* %X3.A, %X3.V                           */
 	LINUXCNC_IN = 300, LINUXCNC_INPUT = 1300, /* classic.def                   */
-	MEMORY_KINDS = 12,               /* rows of CLASSIC_MEMORY                 */
 	CLASSIC_ALL = CLASSIC_LIMIT + 1  /* stands for the array of a type         */
 };
-/** memory_of, pin_of - the row of @type; NULL: it is no memory, no pin. */
-const struct classic_memory_row *memory_of(int type);
-const struct classic_pin_row *pin_of(int type);
 /** memory_numbers - one more than the highest number that a rung file can hold. */
 int memory_numbers(const struct classic_memory_row *row);
 /** is_word - true for memory of 32 bits. */
@@ -169,8 +147,6 @@ const char *instance_of(struct conversion *c, enum classic_kind kind, int number
 const char *iec_word(const struct classic_block *block);
 /** step_of - name of %X@number; NULL: nothing uses it. */
 const char *step_of(struct conversion *c, int number);
-/** kind_of - the kind of block that @type is a pin of; CLASSIC_KINDS: none. */
-enum classic_kind kind_of(int type);
 /** words_of - length of the array of a row: the size that general.txt gives, or the
  * highest number in use if that is more. */
 int words_of(struct conversion *c, const struct classic_memory_row *memory);

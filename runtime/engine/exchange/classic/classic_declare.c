@@ -83,8 +83,8 @@ static void put_instance(struct conversion *c, enum classic_kind kind, int numbe
 /* "%TM0" */
 static const char *original(struct conversion *c, const struct classic_name *name)
 {
-	const struct classic_memory_row *memory = memory_of(name->type);
-	const struct classic_pin_row *pin = pin_of(name->type);
+	const struct classic_memory_row *memory = classic_memory_of(name->type);
+	const struct classic_pin_row *pin = classic_pin_of(name->type);
 
 	return text_of(c, "%%%s%d", memory ? memory->prefix : pin ? pin->prefix : "X",
 		       name->number);
@@ -154,8 +154,8 @@ void write_declarations(struct conversion *c)
 
 	for (int i = 0; i < c->names.count; i++) {
 		const struct classic_name *name = &c->names.list[i];
-		const struct classic_memory_row *memory = memory_of(name->type);
-		const struct classic_pin_row *pin = pin_of(name->type);
+		const struct classic_memory_row *memory = classic_memory_of(name->type);
+		const struct classic_pin_row *pin = classic_pin_of(name->type);
 
 		if (!is_declared(c, name))
 			continue;

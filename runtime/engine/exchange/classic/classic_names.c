@@ -17,54 +17,25 @@
 
 struct step_row { int type; const char *name, *pin; };
 
-static const struct classic_memory_row memory_rows[] = {
-#define CLASSIC_MEMORY(type, prefix, area, first, size, name) \
-	{ type, prefix, area, first, size, name },
-#include "engine/classic.def"
-};
-static const struct classic_pin_row pin_rows[] = {
-#define CLASSIC_PIN(type, prefix, attribute, kind, pin, is_bool) \
-	{ type, prefix, kind, pin, is_bool },
-#include "engine/classic.def"
-};
 static const struct step_row step_rows[] = {
 #define CLASSIC_STEP(type, attribute, name, pin) { type, name, pin },
 #include "engine/classic.def"
 };
 
-enum {
-	MEMORY_ROWS = sizeof(memory_rows) / sizeof(*memory_rows),
-	PIN_ROWS = sizeof(pin_rows) / sizeof(*pin_rows),
-	STEP_ROWS = sizeof(step_rows) / sizeof(*step_rows),
-};
-_Static_assert((int)MEMORY_ROWS == (int)MEMORY_KINDS, "a row for each kind of memory");
-
-/* A monostable is not M0: that is an address. */
-static const char *const instance_prefix[CLASSIC_KINDS] = {
-	[CLASSIC_TIMER] = "T", [CLASSIC_MONOSTABLE] = "Mono",
-	[CLASSIC_IEC_TIMER] = "TM", [CLASSIC_COUNTER] = "C", [CLASSIC_REGISTER] = "Reg",
-};
+enum { STEP_ROWS = sizeof(step_rows) / sizeof(*step_rows) };
 
 struct classic_uses {
 	/* Of each row: memory, then blocks, then bits and times of steps.     */
-	bool seen[MEMORY_KINDS + CLASSIC_KINDS + 2][CLASSIC_ALL + 1];
-	int most[MEMORY_KINDS];
+	bool seen[CLASSIC_MEMORY_ROWS + CLASSIC_KINDS + 2][CLASSIC_ALL + 1];
+	int most[CLASSIC_MEMORY_ROWS];
 	bool step[CLASSIC_LIMIT];
 	bool jumped_to[CLASSIC_LIMIT];
 	unsigned char blocks[CLASSIC_KINDS][CLASSIC_LIMIT]; /* 2: and more */
 };
 
-const struct classic_memory_row *memory_of(int type)
-{
-	for (int i = 0; i < MEMORY_ROWS; i++)
-		if (memory_rows[i].type == type)
-			return &memory_rows[i];
-	return NULL;
-}
-
 static int memory_place(const struct classic_memory_row *row)
 {
-	return (int)(row - memory_rows);
+	return (int)(row - classic_memory_rows);
 }
 
 /* %S, %E and %SW share the system area, whose size is fixed. */
@@ -82,32 +53,17 @@ int memory_numbers(const struct classic_memory_row *row)
 
 bool is_word(int type)
 {
-	const struct classic_memory_row *row = memory_of(type);
+	const struct classic_memory_row *row = classic_memory_of(type);
 
 	return row && row->size > 1;
-}
-
-const struct classic_pin_row *pin_of(int type)
-{
-	for (int i = 0; i < PIN_ROWS; i++)
-		if (pin_rows[i].type == type)
-			return &pin_rows[i];
-	return NULL;
-}
-
-enum classic_kind kind_of(int type)
-{
-	const struct classic_pin_row *row = pin_of(type);
-
-	return row ? row->kind : CLASSIC_KINDS;
 }
 
 /* In the list of names the type of its first pin stands for a block. */
 static int block_type(enum classic_kind kind)
 {
-	for (int i = 0; i < PIN_ROWS; i++)
-		if (pin_rows[i].kind == kind)
-			return pin_rows[i].type;
+	for (int i = 0; i < CLASSIC_PIN_ROWS; i++)
+		if (classic_pin_rows[i].kind == kind)
+			return classic_pin_rows[i].type;
 	return -1;
 }
 
@@ -127,16 +83,16 @@ static bool parse_symbol(const char *text, int *type, int *number)
 	*number = (int)strtol(text + len, &end, 10);
 	if (end == text + len || *number < 0 || *number > CLASSIC_LIMIT)
 		return false;
-	for (int i = 0; i < MEMORY_ROWS; i++)
-		if (strlen(memory_rows[i].prefix) == len &&
-		    !strncmp(memory_rows[i].prefix, text, len)) {
-			*type = memory_rows[i].type;
+	for (int i = 0; i < CLASSIC_MEMORY_ROWS; i++)
+		if (strlen(classic_memory_rows[i].prefix) == len &&
+		    !strncmp(classic_memory_rows[i].prefix, text, len)) {
+			*type = classic_memory_rows[i].type;
 			return *end == '\0';
 		}
-	for (int i = 0; i < PIN_ROWS; i++)
-		if (strlen(pin_rows[i].prefix) == len &&
-		    !strncmp(pin_rows[i].prefix, text, len)) {
-			*type = block_type(pin_rows[i].kind);
+	for (int i = 0; i < CLASSIC_PIN_ROWS; i++)
+		if (strlen(classic_pin_rows[i].prefix) == len &&
+		    !strncmp(classic_pin_rows[i].prefix, text, len)) {
+			*type = block_type(classic_pin_rows[i].kind);
 			return *end == '\0';
 		}
 	if (len != 1 || *text != 'X')
@@ -323,9 +279,9 @@ const char *name_new(struct conversion *c, const char *wish)
 static void give_name(struct conversion *c, struct classic_name *name)
 {
 	const struct classic_symbol *symbol = name->symbol;
-	const struct classic_memory_row *memory = memory_of(name->type);
-	const struct classic_pin_row *pin = pin_of(name->type);
-	const char *own = pin ? instance_prefix[pin->kind] :
+	const struct classic_memory_row *memory = classic_memory_of(name->type);
+	const struct classic_pin_row *pin = classic_pin_of(name->type);
+	const char *own = pin ? classic_kind_names[pin->kind] :
 			  memory ? memory->name : "X";
 	const char *wish;
 
@@ -374,10 +330,10 @@ void find_names(struct conversion *c)
 	find_symbols(c);
 	/* Blocks and steps first: they are found by their names. */
 	for (int i = 0; i < c->names.count; i++)
-		if (!memory_of(c->names.list[i].type))
+		if (!classic_memory_of(c->names.list[i].type))
 			give_name(c, &c->names.list[i]);
 	for (int i = 0; i < c->names.count; i++)
-		if (memory_of(c->names.list[i].type))
+		if (classic_memory_of(c->names.list[i].type))
 			give_name(c, &c->names.list[i]);
 }
 
@@ -419,8 +375,8 @@ bool has_step(const struct conversion *c, int number)
 static const char *plain_operand(struct conversion *c, int type, int number,
 				 bool *is_bool)
 {
-	const struct classic_memory_row *memory = memory_of(type);
-	const struct classic_pin_row *pin = pin_of(type);
+	const struct classic_memory_row *memory = classic_memory_of(type);
+	const struct classic_pin_row *pin = classic_pin_of(type);
 	const char *name;
 
 	*is_bool = memory ? memory->size == 1 : pin ? pin->is_bool : type == STEP_TYPE;
@@ -469,7 +425,7 @@ const char *operand_of(struct conversion *c, struct classic_variable variable,
 		       bool *is_bool)
 {
 	int type = known_type(c, variable.type);
-	const struct classic_memory_row *memory = memory_of(type);
+	const struct classic_memory_row *memory = classic_memory_of(type);
 	const char *text, *index;
 	bool index_bool;
 
@@ -532,25 +488,25 @@ static void use(struct conversion *c, int type, int number)
 	const struct classic_pin_row *pin;
 
 	type = known_type(c, type);
-	memory = memory_of(type);
-	pin = pin_of(type);
+	memory = classic_memory_of(type);
+	pin = classic_pin_of(type);
 	if (number < 0 || number > CLASSIC_ALL || (memory && number < CLASSIC_ALL &&
 						   number >= memory_numbers(memory)))
 		return;
 	if (memory)
 		add_once(c, memory_place(memory), type, number);
 	else if (pin)
-		add_once(c, MEMORY_KINDS + (int)pin->kind, block_type(pin->kind), number);
+		add_once(c, CLASSIC_MEMORY_ROWS + (int)pin->kind, block_type(pin->kind), number);
 	else if (type == STEP_TYPE)
-		add_once(c, MEMORY_KINDS + CLASSIC_KINDS, type, number);
+		add_once(c, CLASSIC_MEMORY_ROWS + CLASSIC_KINDS, type, number);
 	else if (type == STEP_TIME && has_step(c, number))
-		add_once(c, MEMORY_KINDS + CLASSIC_KINDS + 1, type, number);
+		add_once(c, CLASSIC_MEMORY_ROWS + CLASSIC_KINDS + 1, type, number);
 }
 
 /* Notes how far the area of a variable must reach. */
 static void use_place(struct conversion *c, int type, int number)
 {
-	const struct classic_memory_row *memory = memory_of(type);
+	const struct classic_memory_row *memory = classic_memory_of(type);
 	int *most;
 
 	if (!memory || number < 0 || number >= memory_numbers(memory))

@@ -55,7 +55,7 @@ struct looked_for { struct grid *grid; const char *instance; bool found; };
 static void look_at(void *context, struct classic_variable variable)
 {
 	struct looked_for *look = context;
-	enum classic_kind kind = kind_of(variable.type);
+	enum classic_kind kind = classic_kind_of(variable.type);
 	const char *name = kind == CLASSIC_KINDS ? NULL :
 			   instance_of(look->grid->c, kind, variable.number);
 

@@ -274,7 +274,7 @@ static void write_areas(struct conversion *c)
 	};
 
 	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {
-		const struct classic_memory_row *memory = memory_of(row[i].type);
+		const struct classic_memory_row *memory = classic_memory_of(row[i].type);
 		long bytes = beyond(c, memory, row[i].usual);
 
 		if (bytes)

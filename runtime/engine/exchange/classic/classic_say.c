@@ -8,28 +8,24 @@
 #include <stdio.h>
 #include <string.h>
 
-struct said_row { int type; const char *prefix, *attribute; };
-
-static const struct said_row rows[] = {
-#define CLASSIC_MEMORY(type, prefix, area, first, size, name) { type, prefix, "" },
-#define CLASSIC_PIN(type, prefix, attribute, kind, pin, is_bool) \
-	{ type, prefix, attribute },
-#define CLASSIC_STEP(type, attribute, name, pin) { type, "X", attribute },
-#include "engine/classic.def"
-};
-
 static void say_plain(enum classic_dialect dialect, int type, int number, char *out,
 		      size_t size)
 {
+	const struct classic_memory_row *memory;
+	const struct classic_pin_row *pin;
+
 	if (dialect == CLASSIC_LINUXCNC && type == LINUXCNC_IN)
 		type = LINUXCNC_INPUT;
-	for (size_t i = 0; i < sizeof(rows) / sizeof(*rows); i++)
-		if (rows[i].type == type) {
-			snprintf(out, size, "%%%s%d%s%s", rows[i].prefix, number,
-				 *rows[i].attribute ? "." : "", rows[i].attribute);
-			return;
-		}
-	snprintf(out, size, "?%d/%d", type, number);
+	memory = classic_memory_of(type);
+	pin = classic_pin_of(type);
+	if (memory)
+		snprintf(out, size, "%%%s%d", memory->prefix, number);
+	else if (pin)
+		snprintf(out, size, "%%%s%d.%s", pin->prefix, number, pin->attribute);
+	else if (type == STEP_TYPE || type == STEP_TIME)
+		snprintf(out, size, "%%X%d.%s", number, type == STEP_TYPE ? "A" : "V");
+	else
+		snprintf(out, size, "?%d/%d", type, number);
 }
 
 void classic_say_variable(enum classic_dialect dialect, struct classic_variable variable,

@@ -14,19 +14,19 @@
 struct box_row { enum word word; int code, kind; const char *pin[4]; };
 
 static const struct box_row box_rows[] = {
-	{ FB_CL_TIMER, CL_OLD_TIMER, BLOCK_TIMER, { "E", "C" } },
-	{ FB_CL_MONO, CL_MONOSTABLE, BLOCK_MONO, { "IN" } },
-	{ FB_CL_TON, CL_IEC, BLOCK_IEC, { "IN" } },
-	{ FB_CL_TOF, CL_IEC, BLOCK_IEC, { "IN" } },
-	{ FB_CL_TP, CL_IEC, BLOCK_IEC, { "IN" } },
-	{ FB_CL_COUNTER, CL_COUNT, BLOCK_COUNTER, { "RESET", "LOAD", "UP", "DOWN" } },
-	{ FB_CL_REGISTER, CL_REGISTER_BOX, BLOCK_REGISTER, { "RESET", "PUSH", "POP" } },
-	{ FB_TON, CL_IEC, BLOCK_IEC, { "IN" } },
-	{ FB_TOF, CL_IEC, BLOCK_IEC, { "IN" } },
-	{ FB_TP, CL_IEC, BLOCK_IEC, { "IN" } },
-	{ FB_CTU, CL_COUNT, BLOCK_COUNTER, { "R", NULL, "CU", NULL } },
-	{ FB_CTD, CL_COUNT, BLOCK_COUNTER, { NULL, "LD", NULL, "CD" } },
-	{ FB_CTUD, CL_COUNT, BLOCK_COUNTER, { "R", "LD", "CU", "CD" } },
+	{ FB_CL_TIMER, CL_OLD_TIMER, CLASSIC_TIMER, { "E", "C" } },
+	{ FB_CL_MONO, CL_MONOSTABLE, CLASSIC_MONOSTABLE, { "IN" } },
+	{ FB_CL_TON, CL_IEC, CLASSIC_IEC_TIMER, { "IN" } },
+	{ FB_CL_TOF, CL_IEC, CLASSIC_IEC_TIMER, { "IN" } },
+	{ FB_CL_TP, CL_IEC, CLASSIC_IEC_TIMER, { "IN" } },
+	{ FB_CL_COUNTER, CL_COUNT, CLASSIC_COUNTER, { "RESET", "LOAD", "UP", "DOWN" } },
+	{ FB_CL_REGISTER, CL_REGISTER_BOX, CLASSIC_REGISTER, { "RESET", "PUSH", "POP" } },
+	{ FB_TON, CL_IEC, CLASSIC_IEC_TIMER, { "IN" } },
+	{ FB_TOF, CL_IEC, CLASSIC_IEC_TIMER, { "IN" } },
+	{ FB_TP, CL_IEC, CLASSIC_IEC_TIMER, { "IN" } },
+	{ FB_CTU, CL_COUNT, CLASSIC_COUNTER, { "R", NULL, "CU", NULL } },
+	{ FB_CTD, CL_COUNT, CLASSIC_COUNTER, { NULL, "LD", NULL, "CD" } },
+	{ FB_CTUD, CL_COUNT, CLASSIC_COUNTER, { "R", "LD", "CU", "CD" } },
 	{ FB_R_TRIG, CL_PART, -1, { "CLK" } },
 	{ FB_F_TRIG, CL_PART, -1, { "CLK" } },
 	{ FB_SR, CL_PART, -1, { "S1", "R" } },
@@ -54,10 +54,10 @@ static int pin_row(const struct box_row *row, const char *pin, size_t len)
 static struct classic_blocks *blocks_of(struct leaving *e, int kind)
 {
 	switch (kind) {
-	case BLOCK_TIMER: return &e->out->timer;
-	case BLOCK_MONO: return &e->out->monostable;
-	case BLOCK_IEC: return &e->out->iec_timer;
-	case BLOCK_COUNTER: return &e->out->counter;
+	case CLASSIC_TIMER: return &e->out->timer;
+	case CLASSIC_MONOSTABLE: return &e->out->monostable;
+	case CLASSIC_IEC_TIMER: return &e->out->iec_timer;
+	case CLASSIC_COUNTER: return &e->out->counter;
 	default: return &e->out->reg;
 	}
 }
@@ -221,7 +221,7 @@ static bool declared_time(struct leaving *e, const char *name, int64_t *ns)
 /* PT:=T#3s of a timer of IEC 61131-3. */
 static bool iec_time(struct leaving *e, struct out_part *item, const char *text)
 {
-	struct classic_block *block = block_entry(e, BLOCK_IEC, item->slot->number);
+	struct classic_block *block = block_entry(e, CLASSIC_IEC_TIMER, item->slot->number);
 	int64_t ns;
 
 	if (!block || (!number_of(text, IEC_TIME, &ns) && !declared_time(e, text, &ns)))
@@ -235,7 +235,7 @@ static bool iec_time(struct leaving *e, struct out_part *item, const char *text)
 
 static bool counter_preset(struct leaving *e, struct out_part *item, const char *text)
 {
-	struct classic_block *block = block_entry(e, BLOCK_COUNTER, item->slot->number);
+	struct classic_block *block = block_entry(e, CLASSIC_COUNTER, item->slot->number);
 	struct out_operand operand;
 
 	if (!block || !there_text(e, text, strlen(text), &operand))
@@ -347,7 +347,7 @@ bool box_part(struct leaving *e, const struct network *network,
 	      const struct network_element *at, const struct cell *cell,
 	      struct out_part *item)
 {
-	static const int height[BLOCK_KINDS] = { 2, 2, 2, 4, 3 };
+	static const int height[CLASSIC_KINDS] = { 2, 2, 2, 4, 3 };
 	const struct box_row *row = row_of((enum word)cell->word);
 	const struct word_row *word = scope_row(e->scope, (enum word)cell->word);
 	const char *args = project_text(e->project, cell->args);
@@ -359,7 +359,7 @@ bool box_part(struct leaving *e, const struct network *network,
 
 	item->word = (enum word)cell->word;
 	if (!row || word->kind != WORD_FB ||
-	    (row->kind == BLOCK_REGISTER && e->dialect != CLASSIC_UPSTREAM))
+	    (row->kind == CLASSIC_REGISTER && e->dialect != CLASSIC_UPSTREAM))
 		return out_refuse(e, DIAG_EXPORT_WORD, "%s", word->word);
 	m = scope_find(e->scope, e->pou, cell->operand, &why);
 	item->slot = m && m->var ? slot_find(e, m->var) : NULL;

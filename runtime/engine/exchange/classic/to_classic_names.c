@@ -12,28 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CLASSIC_TIMER = BLOCK_TIMER, CLASSIC_MONOSTABLE = BLOCK_MONO,
-       CLASSIC_IEC_TIMER = BLOCK_IEC, CLASSIC_COUNTER = BLOCK_COUNTER,
-       CLASSIC_REGISTER = BLOCK_REGISTER };
-
-struct pin_row { int type, kind; const char *pin; bool is_bool; };
-struct memory_row { int type; const char *prefix, *name; int size; };
-
-static const struct pin_row pin_rows[] = {
-#define CLASSIC_PIN(type, prefix, attribute, kind, pin, is_bool) \
-	{ type, kind, pin, is_bool },
-#include "engine/classic.def"
-};
-static const struct memory_row memory_rows[] = {
-#define CLASSIC_MEMORY(type, prefix, area, first, size, name) { type, prefix, name, size },
-#include "engine/classic.def"
-};
-enum { PIN_ROWS = sizeof(pin_rows) / sizeof(*pin_rows),
-       MEMORY_ROWS = sizeof(memory_rows) / sizeof(*memory_rows) };
-
-/* Prefix of a block in a rung file, and in ClassicLadder. */
-static const char *const block_here[BLOCK_KINDS] = { "T", "Mono", "TM", "C", "Reg" };
-static const char *const block_there[BLOCK_KINDS] = { "T", "M", "TM", "C", "R" };
+/* Prefix of a block in ClassicLadder. */
+static const char *const block_there[CLASSIC_KINDS] = { "T", "M", "TM", "C", "R" };
 
 struct classic_variable variable_of(int type, int number)
 {
@@ -90,14 +70,6 @@ int extra_bit(struct leaving *e, struct out_slot *slot, int index)
 	if (slot->extra[index] < 0)
 		slot->extra[index] = new_bit(e);
 	return slot->extra[index];
-}
-
-int pin_kind(int type)
-{
-	for (int i = 0; i < PIN_ROWS; i++)
-		if (pin_rows[i].type == type)
-			return pin_rows[i].kind;
-	return -1;
 }
 
 /* ---- addresses ---- */
@@ -277,12 +249,12 @@ struct out_slot *slot_find(struct leaving *e, const struct var *var)
 static int block_of(enum word fb)
 {
 	switch ((int)fb) {
-	case FB_CL_TIMER: return BLOCK_TIMER;
-	case FB_CL_MONO: return BLOCK_MONO;
+	case FB_CL_TIMER: return CLASSIC_TIMER;
+	case FB_CL_MONO: return CLASSIC_MONOSTABLE;
 	case FB_CL_TON: case FB_CL_TOF: case FB_CL_TP:
-	case FB_TON: case FB_TOF: case FB_TP: return BLOCK_IEC;
-	case FB_CL_COUNTER: case FB_CTU: case FB_CTD: case FB_CTUD: return BLOCK_COUNTER;
-	case FB_CL_REGISTER: return BLOCK_REGISTER;
+	case FB_TON: case FB_TOF: case FB_TP: return CLASSIC_IEC_TIMER;
+	case FB_CL_COUNTER: case FB_CTU: case FB_CTD: case FB_CTUD: return CLASSIC_COUNTER;
+	case FB_CL_REGISTER: return CLASSIC_REGISTER;
 	}
 	return -1;
 }
@@ -298,11 +270,11 @@ static bool block_taken(const struct leaving *e, int kind, int number)
 /* TM3_Delay is %TM3; -1: the name has no number. */
 static int number_in(const struct leaving *e, const char *name, int kind)
 {
-	size_t len = strlen(block_here[kind]);
+	size_t len = strlen(classic_kind_names[kind]);
 	char *end;
 	long number;
 
-	if (strncmp(name, block_here[kind], len) != 0 || !ascii_digit(name[len]))
+	if (strncmp(name, classic_kind_names[kind], len) != 0 || !ascii_digit(name[len]))
 		return -1;
 	number = strtol(name + len, &end, 10);
 	if ((*end && *end != '_') || number >= CLASSIC_LIMIT ||
@@ -440,12 +412,13 @@ static bool pin_operand(struct leaving *e, const struct meaning *m, const char *
 							      !strcmp(pin, "QD")));
 		return true;
 	}
-	if (slot->block == BLOCK_COUNTER && !strcmp(pin, "CV"))
+	if (slot->block == CLASSIC_COUNTER && !strcmp(pin, "CV"))
 		pin = "V";
-	for (int i = 0; i < PIN_ROWS; i++)
-		if (pin_rows[i].kind == slot->block && !strcmp(pin_rows[i].pin, pin)) {
-			out->variable = variable_of(pin_rows[i].type, slot->number);
-			out->is_bool = pin_rows[i].is_bool;
+	for (const struct classic_pin_row *row_of = classic_pin_rows;
+	     row_of < classic_pin_rows + CLASSIC_PIN_ROWS; row_of++)
+		if ((int)row_of->kind == slot->block && !strcmp(row_of->pin, pin)) {
+			out->variable = variable_of(row_of->type, slot->number);
+			out->is_bool = row_of->is_bool;
 			return true;
 		}
 	return no_number(e, text);
@@ -652,18 +625,16 @@ void names_symbols(struct leaving *e)
 {
 	for (int i = 0; i < e->slots; i++) {
 		const struct out_slot *slot = &e->slot[i];
+		const struct classic_memory_row *row;
 
 		if (slot->block >= 0) {
 			out_symbol(e, slot, block_there[slot->block],
-				   block_here[slot->block]);
+				   classic_kind_names[slot->block]);
 			continue;
 		}
-		for (int k = 0; k < MEMORY_ROWS; k++)
-			if (slot->type >= 0 &&
-			    written_type(e, memory_rows[k].type) == slot->type &&
-			    slot->count == 1)
-				out_symbol(e, slot, memory_rows[k].prefix,
-					   memory_rows[k].name ? memory_rows[k].name : "");
+		row = classic_memory_of(slot->type == written_type(e, 1300) ? 1300 : slot->type);
+		if (row && slot->count == 1)
+			out_symbol(e, slot, row->prefix, row->name ? row->name : "");
 	}
 }
 

@@ -26,15 +26,12 @@ enum {
 	CL_BIT = 0, CL_STEP_BIT = 30, CL_SYSTEM_BIT = 70, CL_WORD = 200, CL_STEP_TIME = 220,
 	CL_INPUT_SYSTEM_WORD = 290,
 };
-enum block_kind { BLOCK_TIMER, BLOCK_MONO, BLOCK_IEC, BLOCK_COUNTER, BLOCK_REGISTER,
-		  BLOCK_KINDS };
-
 /* A variable or instance, and its number in ClassicLadder. */
 struct out_slot {
 	const struct var *var;
 	const struct pou *pou;
 	int type, number, count;
-	int block;             /* enum block_kind; -1: memory, a step          */
+	int block;             /* enum classic_kind; -1: memory, a step          */
 	const char *name, *comment;
 	int calls;             /* boxes that call it                           */
 	int extra[4];          /* bits that an instance without a block uses;
@@ -93,7 +90,7 @@ struct leaving {
 	struct classic_project *out;
 	struct expr *expr;
 	struct out_slot *slot; int slots;
-	int next_bit, next_word, next_block[BLOCK_KINDS];
+	int next_bit, next_word, next_block[CLASSIC_KINDS];
 	int sizes[400];        /* by type: highest number + 1                  */
 	bool word_index, bit_index;
 	bool has_period;       /* a task has an interval                       */
@@ -232,8 +229,6 @@ void split_rung(struct leaving *e, struct out_rung *r);
 /** draw_step - adds a rung of one contact (@code CL_WIRE: none) and an output. */
 void draw_step(struct leaving *e, int code, struct classic_variable variable,
 	       const struct out_part *output);
-/** pin_kind - enum block_kind whose pin @type is; -1: none. */
-int pin_kind(int type);
 
 /* ---- initial values ---- */
 /** leave_initial - adds rungs that set initial values. leave_started - adds the rung that ends

@@ -200,9 +200,7 @@ static void visit_net(struct out_rung *r, int net)
 
 static bool reads_pin(struct classic_variable variable, const struct out_part *box)
 {
-	int kind = pin_kind(variable.type);
-
-	return kind >= 0 && kind == box->slot->block &&
+	return (int)classic_kind_of(variable.type) == box->slot->block &&
 	       variable.number == box->slot->number;
 }
 
@@ -466,9 +464,9 @@ static bool check_part(struct drawing *d, const struct power *power, int index, 
 	if (!is_block(item))
 		return is_expected(d, left_of(d, power, y, x), item->in);
 	for (int i = 0; i < item->height; i++)
-		if ((item->slot->block != BLOCK_IEC && item->slot->block != BLOCK_MONO) ||
+		if ((item->slot->block != CLASSIC_IEC_TIMER && item->slot->block != CLASSIC_MONOSTABLE) ||
 		    i == 0)
-			if ((item->slot->block != BLOCK_TIMER || i < 2) &&
+			if ((item->slot->block != CLASSIC_TIMER || i < 2) &&
 			    !is_expected(d, left_of(d, power, y + i, x), item->pin[i]))
 				return false;
 	return true;
