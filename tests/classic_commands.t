@@ -91,7 +91,7 @@ my @table = (
 
 sub test_table {
 	my %known = map { $_->[0] => 1 } @table;
-	my @command = $commands =~ /^\{ "([a-z]+)",/mg;
+	my @command = $commands =~ /^COMMAND\((\w+),/mg;
 	cmp_ok(scalar @command, '>', 15, 'commands are found');
 	ok($known{$_}, "$_ is in the table") for @command;
 }

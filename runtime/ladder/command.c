@@ -11,6 +11,8 @@
 #include <string.h>
 
 static const struct command_row rows[] = {
+#define COMMAND(name, arguments, purpose, text, example, least, most, ...) \
+	{ #name, arguments, purpose, text, example, least, most, cmd_##name, { __VA_ARGS__ } },
 #include "ladder/commands.def"
 	{ .name = NULL },
 };

@@ -71,24 +71,6 @@ bool call_flag(const struct call *call, const char *name);
 /** command_help - prints what --help prints; @row NULL: for `ladder` itself. */
 void command_help(const struct command_row *row, const struct sink *out);
 
-enum status cmd_check(struct call *call);
-enum status cmd_complete(struct call *call);
-enum status cmd_export(struct call *call);
-enum status cmd_fmt(struct call *call);
-enum status cmd_show(struct call *call);
-enum status cmd_import(struct call *call);
-enum status cmd_il(struct call *call);
-enum status cmd_code(struct call *call);
-enum status cmd_build(struct call *call);
-enum status cmd_run(struct call *call);
-enum status cmd_trace(struct call *call);
-enum status cmd_why(struct call *call);
-enum status cmd_test(struct call *call);
-enum status cmd_bench(struct call *call);
-enum status cmd_words(struct call *call);
-enum status cmd_diff(struct call *call);
-enum status cmd_xref(struct call *call);
-enum status cmd_io(struct call *call);
-enum status cmd_push(struct call *call);
-enum status cmd_help(struct call *call);
+#define COMMAND(name, ...) enum status cmd_##name(struct call *call);
+#include "ladder/commands.def"
 #endif
