@@ -230,6 +230,108 @@ for my $path (@documents) {
 	}
 }
 
+# ---- tables of words ----
+# The first column of the table under a line, as words in `…`.
+sub column_of {
+	my ($path, $heading, $column) = @_;
+	my ($table) = $text{$path} =~ /^\Q$heading\E.*\n\|[-|]+\n((?:\|.*\n)+)/m;
+	return [] if !defined $table;
+	return [map { (split /\s*\|\s*/)[$column // 1] } split /\n/, $table];
+}
+my $catalog = slurp('runtime/engine/catalog.def');
+my @types = $catalog =~ /^(?:TEXT_)?TYPE\((\w+),/mg;
+list_is('docs/rung-file.md: the types', [map { s/\[n\]//r } map { /`([^`]+)`/g } @{column_of('docs/rung-file.md', '| type | holds |')}],
+	[@types, 'TOD', 'DT']);
+my ($signed, $unsigned) = ($text{'docs/rung-file.md'} =~ /^\| `SINT` [^|]*\| (.*?) \(/m, $text{'docs/rung-file.md'} =~ /^\| `USINT` [^|]*\| (.*?) \|/m);
+is("$signed", join(', ', '−128…127', map { '±' . ((1 << ($_ - 1)) - 1) } 16, 32, 64), 'docs/rung-file.md: the range of SINT to LINT');
+is("$unsigned", join(', ', map { '0…' . ($_ == 64 ? ~0 : (1 << $_) - 1) } 8, 16, 32, 64), 'docs/rung-file.md: the range of USINT to ULINT');
+fact('docs/rung-file.md', qr/n from 1 to (\d+); without/, constant('runtime/engine/base/iec.h', 'IEC_STRING_MOST'));
+fact('docs/rung-file.md', qr/without `\[n\]`: (\d+) \|/, constant('runtime/engine/base/iec.h', 'IEC_STRING_DEFAULT'));
+fact('docs/rung-file.md', qr/`PRIORITY := 0…(\d+)`/, constant('runtime/engine/text/read_sfc.c', 'PRIORITY_MOST'));
+
+my %modifiers = $catalog =~ /^OP\((\w+),\s*\w+,\s*([^"]*?),\s*"/mg;
+my (%listed, @functions);
+for (split /\n/, ($text{'docs/rung-file.md'} =~ /^\| operator \| modifiers .*\n\|[-|]+\n((?:\|.*\n)+)/m)[0]) {
+	my (undef, $operators, $modifiers) = split /\|/;
+	for my $operator ($operators =~ /`([A-Z]+)`/g) {
+		$listed{$operator} = 1;
+		if (!defined $modifiers{$operator}) {
+			push @functions, $operator;
+			next;
+		}
+		my $want = join ' ', $modifiers{$operator} =~ /MOD_C/ ? ('C', 'CN') : $modifiers{$operator} =~ /MOD_N/ ? 'N' : (),
+			$modifiers{$operator} =~ /MOD_PAREN/ ? '(' : ();
+		is(join(' ', split ' ', $modifiers), $want, "docs/rung-file.md: the modifiers of $operator");
+	}
+}
+is(join(' ', grep { !$listed{$_} } keys %modifiers), '', 'docs/rung-file.md: the operators of lists');
+is(join(' ', grep { !$system{$_} } @functions), '', 'docs/rung-file.md: functions as operators of lists');
+
+my @elements = map { /`(?:(\[.*?\])|(---|\w+))/ ? $1 // $2 : () } map { split m{ / } }
+	@{column_of('docs/language.md', '| element | drawn |')}, @{column_of('docs/language.md', '| coil | drawn |')};
+list_is('docs/language.md: the elements', [map { /^\[.*:=/ ? '[:=]' : /^\[/ ? '[ ]' : $_ } @elements],
+	[grep { !/^(?:---|\.|)$/ } $catalog =~ /^ELEM\(\w+,\s*"([^"]*)"/mg]);
+my @times = map { /`(\w+)`/g } @{column_of('docs/language.md', '| written | is |', 2)};
+ok(@times > 8 && !grep({ !$system{$_} } @times), 'docs/language.md: the functions of times');
+
+list_is('docs/sfc.md: the qualifiers', [map { /`(\w+)`/ } @{column_of('docs/sfc.md', '| qualifier | calls')}], [$sfc =~ /"(\w+)"/g]);
+
+my ($uses) = slurp('runtime/engine/xref/xref_print.c') =~ /kind_words\[.*?\] = \{(.*?)\}/s;
+list_is('docs/symbols.md: the uses', [map { split /, / } @{column_of('docs/symbols.md', '| use | means')}],
+	[$uses =~ /"([^"]+)"/g, 'unknown']);
+
+# The grammar: its words are those that the reader looks for.
+my ($grammar) = $text{'docs/rung-file.md'} =~ /^## Grammar\n.*?^```\n(.*?)^```/ms;
+$grammar =~ s/\(\* .*? \*\)//g;
+my %literal = map { $_ => 1 } $grammar =~ /'([A-Z_]+)'/g;
+my $reader = join '', map { slurp($_) } glob 'runtime/engine/text/*.c runtime/engine/model/*.c';
+my ($ends) = $reader =~ /bool read_ends_block.*?\{(.*?)\}/s;
+my %read = map { $_ => 1 } $reader =~ /\b(?:lex_is|\w*accept\w*|\w*expect\w*|\w*peek\w*)\([^,()]*, "([A-Z][A-Z_]+)"\)/g,
+	$ends =~ /"([A-Z_]+)"/g, grep { /^[A-Z]+$/ } $catalog =~ /^ELEM\(\w+,\s*"([^"]*)"/mg;
+delete @read{qw(AND OR XOR MOD TRUE FALSE)}; # of expressions and constants
+is(join(' ', sort grep { !$literal{$_} } keys %read), '', 'docs/rung-file.md: the grammar has the words of the reader');
+is(join(' ', sort grep { !$read{$_} && $reader !~ /"\Q$_\E"/ } keys %literal), '', 'docs/rung-file.md: the reader has the words of the grammar');
+my %defined = map { $_ => 1 } $grammar =~ /^([a-z][a-z-]*) +=/mg;
+my $used = $grammar =~ s/'[^']*'//gr;
+my %plain = map { $_ => 1 } qw(name integer number letters time constant address variable label pin member instance function
+	function-block index operator expression qualifier text end of line an elementary type a structure function block);
+is(join(' ', sort grep { !$defined{$_} && !$plain{$_} } map { /([a-z][a-z-]+)/g } $used), '', 'docs/rung-file.md: the grammar defines its terms');
+
+# ---- ClassicLadder ----
+my $classic = slurp('runtime/engine/classic.def');
+my %bits = (1 => 'X', 32 => 'D');
+my ($address_table) = $text{'docs/from-classicladder.md'} =~ /^\| ClassicLadder \| name without a symbol .*\n\|[-|]+\n((?:\|.*\n)+)/m;
+my $memories = 0;
+for my $row (split /\n/, $address_table) {
+	my (undef, $old, $new, $where) = split /\s*\|\s*/, $row;
+	my @new = $new =~ /`([^`]+)`/g;
+	my @where = ($where // '') =~ /`([^`]+)`/g;
+	@where = @new if $where && $where eq 'the same';
+	for my $index (0 .. ($old =~ tr/%//) - 1) {
+		my ($prefix, $number) = ($old =~ /`%([A-Z]+)(\d+)`/g)[2 * $index, 2 * $index + 1];
+		next if !defined $prefix;
+		my ($area, $first, $size, $name) = $classic =~ /^CLASSIC_MEMORY\(\d+,\s*"$prefix",\s*"(\w+)",\s*(\d+),\s*(\d+),\s*(?:"(\w+)"|NULL)\)/m or next;
+		my $bit = $first + $number * $size;
+		my $at = "%$area$bits{$size}" . int($bit / 8) . ($size == 1 ? '.' . $bit % 8 : '');
+		is("$new[$index] $where[$index]", (defined $name ? "$name$number" : $at) . " $at", "docs/from-classicladder.md: %$prefix$number");
+		$memories++;
+	}
+}
+is($memories, () = $classic =~ /^CLASSIC_MEMORY\(\d/mg, 'docs/from-classicladder.md: every memory of ClassicLadder');
+fact('docs/from-classicladder.md', qr/as are more than (\d+) that call one another/, limit('CALLS') - 2);
+fact('docs/blocks.md', qr/0 to (\d+) and round; D: V is P/, constant('runtime/engine/scan/fb_classic.c', 'COUNT_MOST'));
+fact('docs/blocks.md', qr/SIZE at most (\d+); LAST_OUT/, constant('runtime/engine/scan/fb_classic.c', 'REGISTER_ROOM'));
+my @codes = map { /(LD\d+)/g } @{column_of('docs/from-classicladder-export.md', '| message |')};
+list_is('docs/from-classicladder-export.md: the messages', \@codes, [grep { /^LD73/ } keys %message]);
+my %cut = map { $_ => constant('runtime/engine/exchange/classic/classic_write.h', "CLASSIC_$_") }
+	qw(SYMBOL SECTION_NAME COMMENT_LONG COMMENT SYMBOL_COMMENT);
+is(join(' ', $text{'docs/from-classicladder-export.md'} =~ /names have (\d+) bytes, programs (\d+), titles (\d+) \(LinuxCNC (\d+)\), comments of symbols (\d+) \((\d+)\)/),
+   join(' ', @cut{qw(SYMBOL SECTION_NAME COMMENT_LONG COMMENT COMMENT SYMBOL_COMMENT)}), 'docs/from-classicladder-export.md: lengths');
+fact('docs/from-classicladder-export.md', qr/symbols of at most (\d+) bytes/, $cut{SYMBOL});
+my ($next_bit, $next_word) = slurp('runtime/engine/exchange/classic/to_classic_names.c') =~ /CLASSIC_UPSTREAM && e->next_bit < (\d+)\).*?CLASSIC_UPSTREAM && e->next_word < (\d+)\)/s;
+fact('docs/from-classicladder-export.md', qr/from `%B(\d+)` and `%W\d+` on/, $next_bit);
+fact('docs/from-classicladder-export.md', qr/from `%B\d+` and `%W(\d+)` on/, $next_word);
+
 # ---- options, make targets, files ----
 my @help = map { scalar `$ladder help $_` } split ' ', `$ladder help --names`;
 my $usages = join "\n", @help, $help,

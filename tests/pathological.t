@@ -11,6 +11,8 @@ use File::Temp qw(tempdir);
 use IO::Compress::Gzip qw(gzip);
 use FindBin;
 use POSIX qw(:sys_wait_h);
+use lib $FindBin::Bin;
+use Files;
 
 my $root = abs_path("$FindBin::Bin/..");
 my $build = $ENV{BUILD} || "build";
@@ -33,23 +35,7 @@ sub check {
 	print map { "#   $_\n" } map { split /\n/ } @why;
 }
 
-sub write_file {
-	my ($name, $bytes) = @_;
-
-	open my $out, '>:raw', $name or die "$name: $!";
-	print $out $bytes;
-	close $out or die;
-	return $name;
-}
-
-sub read_file {
-	my ($name) = @_;
-
-	open my $in, '<:raw', $name or return "";
-	local $/;
-	my $bytes = <$in>;
-	return defined $bytes ? $bytes : "";
-}
+sub read_file { return slurp(@_) // '' }
 
 # Exit status (or "signal N", "hangs"), stdout, stderr.
 sub run {
@@ -126,9 +112,9 @@ sub packed {
 	return $packed;
 }
 my $row = "1-0-50/0 , 9-0-0/0 , 50-0-60/0\n";
-write_file("good.rung", $good);
-write_file("good.script", "Start=1\n.\n");
-write_file("good.io", "BOARD \"sim\"\n%IX0.0 sim\n%QX0.0 sim\n");
+spew("good.rung", $good);
+spew("good.script", "Start=1\n.\n");
+spew("good.io", "BOARD \"sim\"\n%IX0.0 sim\n%QX0.0 sim\n");
 my ($status, $out, $err) = run(undef, $ladder, "check", "good.rung");
 check($status eq "0", "a good file is good", $err);
 
@@ -198,7 +184,7 @@ my %file = (
 	"numeric rungs: half a cell" => ";Rung:\n1-0-50-\n",
 );
 for my $text (sort keys %file) {
-	my $name = write_file("bad.rung", $file{$text});
+	my $name = spew("bad.rung", $file{$text});
 	refused("$text: ladder check", 1, $name, $ladder, "check", $name);
 	next if length $file{$text} > 500_000 && $ENV{QUICK};
 	for my $command (["fmt"], ["show"], ["il"], ["code"]) {
@@ -227,17 +213,17 @@ for my $text (sort keys %file) {
 }
 
 # Some editors write CRLF; it can be read.
-write_file("crlf.rung", $good =~ s/\n/\r\n/gr);
+spew("crlf.rung", $good =~ s/\n/\r\n/gr);
 ($status, $out, $err) = run(undef, $ladder, "check", "crlf.rung");
 check($status eq "0", "CRLF is read", "exit $status", $err);
 
 # ClassicLadder reads at most 2,000 members; here more are allowed.
-write_file("many.clprj", classic(map { ("rung_$_.csv", "#NEXTRUNG=" . ($_ + 1) . "\n$row") } 0 .. 2999));
+spew("many.clprj", classic(map { ("rung_$_.csv", "#NEXTRUNG=" . ($_ + 1) . "\n$row") } 0 .. 2999));
 ($status, $out, $err) = run(undef, $ladder, "check", "many.clprj");
 check($status eq "0", "ClassicLadder: 3,000 members are read", "exit $status", substr($err, 0, 300));
 
 # 100,000 rungs, more than a POU may have: refused or read soon.
-write_file("many.rung", $good =~ s/RUNG\n.*\n/"RUNG\n  | NO Start | COIL Motor |\n" x 100_000/er);
+spew("many.rung", $good =~ s/RUNG\n.*\n/"RUNG\n  | NO Start | COIL Motor |\n" x 100_000/er);
 refused("100,000 rungs: ladder check", 1, "many.rung", $ladder, "check", "many.rung");
 
 # Files that cannot be read at all: status 2.
@@ -249,7 +235,7 @@ for my $command (qw(fmt show il code)) {
 	check($status eq "2" && $out eq "" && $err =~ /nowhere\.rung/,
 	      "no such file: ladder $command: exit 2", "exit $status", $err);
 }
-write_file("secret.rung", $good);
+spew("secret.rung", $good);
 chmod 0, "secret.rung";
 # Root can read everything unless it gives that up.
 my @as_user = $> == 0 ? ('setpriv', '--bounding-set=-dac_override,-dac_read_search') : ();
@@ -263,20 +249,20 @@ check($status eq "2", "a device: ladder check: exit 2", "exit $status", $err);
 
 # Scripts, scenarios and maps that are not text.
 for my $text ("empty", "binary", "all NUL", "a million letters", "invalid UTF-8") {
-	write_file("bad.script", $file{$text});
+	spew("bad.script", $file{$text});
 	my ($status, $out, $err) = run(undef, $ladder, "trace", "good.rung", "bad.script");
 	check($text eq "empty" ? $status =~ /^[01]$/ : $status eq "1",
 	      "$text as a script: exit 1", "exit $status", substr($err, 0, 300));
 	check($out eq "" || $status eq "0", "$text as a script: nothing on stdout");
 	check($status eq "0" || $err =~ /bad\.script(:\d+)?.*LD\d\d\d/,
 	      "$text as a script: a message with a place", substr($err, 0, 300));
-	write_file("good.scn", $file{$text});
+	spew("good.scn", $file{$text});
 	($status, $out, $err) = run(undef, $ladder, "test", "good.rung");
 	check($text eq "empty" ? $status =~ /^[012]$/ : $status =~ /^[12]$/,
 	      "$text as a scenario: refused", "exit $status", substr("$out$err", 0, 300));
 	unlink "good.scn";
 	next unless -x $daemon;
-	write_file("bad.io", $file{$text});
+	spew("bad.io", $file{$text});
 	($status, $out, $err) = run(undef, $daemon, "good.rung", "--io", "bad.io", "--check");
 	check($text eq "empty" || ($status =~ /^[12]$/ && $err =~ /bad\.io(:\d+)?.*LD\d\d\d/),
 	      "$text as a map: refused with a place", "exit $status", substr($err, 0, 300));
@@ -288,7 +274,7 @@ if (-e "/dev/full") {
 	check($status =~ /^[12]$/ && length $err, "a full disk behind stdout is reported", "exit $status", $err);
 }
 my $ugly = $good =~ s/  \| NO Start/|    NO   Start/r;
-write_file("ugly.rung", $ugly);
+spew("ugly.rung", $ugly);
 my $limited = fork;
 if (!$limited) {
 	# No file may grow: write() fails as on a full disk.

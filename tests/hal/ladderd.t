@@ -8,30 +8,20 @@ use strict;
 use warnings;
 use Test::More;
 use File::Temp qw(tempdir);
+use FindBin;
 use IO::Socket::UNIX;
 use POSIX qw(:sys_wait_h);
 use Time::HiRes qw(sleep time);
+use lib "$FindBin::Bin/..";
+use Files;
 
 my $build = $ENV{BUILD} || 'build';
 my $ladderd = "$build/ladderd";
 my $dir = tempdir(CLEANUP => 1);
 delete @ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC WATCHDOG_PID)};
 
-sub put {
-	my ($name, $text) = @_;
-	open my $file, '>', "$dir/$name" or die "$name: $!";
-	print $file $text;
-	close $file;
-	return "$dir/$name";
-}
-
-sub get {
-	my ($name) = @_;
-	open my $file, '<', "$dir/$name" or return '';
-	local $/;
-	my $text = <$file>;
-	return defined $text ? $text : '';
-}
+sub put { return spew("$dir/$_[0]", $_[1]) }
+sub get { return slurp("$dir/$_[0]") // '' }
 
 # Starts a daemon; its output goes to the files out and err.
 sub start {

@@ -8,8 +8,11 @@ use strict;
 use warnings;
 use Test::More;
 use File::Temp qw(tempdir);
+use FindBin;
 use POSIX qw(:sys_wait_h);
 use Time::HiRes qw(sleep time);
+use lib "$FindBin::Bin/..";
+use Files;
 
 my $build = $ENV{BUILD} || 'build';
 my $ladderd = "$build/ladderd";
@@ -19,21 +22,8 @@ my $dir = tempdir(CLEANUP => 1);
 my $keep = "$dir/keep";
 delete @ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC WATCHDOG_PID)};
 
-sub put {
-	my ($name, $text) = @_;
-	open my $file, '>:raw', "$dir/$name" or die "$name: $!";
-	print $file $text;
-	close $file;
-	return "$dir/$name";
-}
-
-sub get {
-	my ($path) = @_;
-	open my $file, '<:raw', $path or return '';
-	local $/;
-	my $text = <$file>;
-	return $text // '';
-}
+sub put { return spew("$dir/$_[0]", $_[1]) }
+sub get { return slurp(@_) // '' }
 sub out { return get("$dir/out"); }
 sub err { return get("$dir/err"); }
 
