@@ -71,7 +71,7 @@ my @table = (
 	['code', ['FILE'], 0, qr/^identity .*\n(?s:.*)every 40 ms/m],
 	['export', ['--as', 'ld', 'FILE'], 1, qr/^FILE.*: Chart: error LD460/m],
 	['export', ['--as', 'classicladder', 'FILE'], 0, qr/_FILES_CLASSICLADDER\n(?s:.*)%I0,Start,/],
-	['import', ['FILE'], 0, qr/FILE(?::\d+)?: taken: symbols\.csv: .*"Pause" of %TM0 is TM0_Pause here/],
+	['import', ['FILE'], 0, qr/FILE(?::\d+)?: taken: symbols\.csv: .*"Pause" of %TM0 becomes TM0_Pause/],
 	['build', ['FILE', '-o', 'out.rungc'], 0, qr/LD312/],
 	['run', ['FILE', '--scans', 2, '--plain', '--set', 'Start=1'], 0, qr/^1 t=40 .*Motor=1/m],
 	['run', ['FILE', '--scans', 2, '--plain', '--set', '%I0=1'], 0, qr/^1 t=40 .*Motor=1/m],

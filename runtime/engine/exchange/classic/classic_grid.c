@@ -152,7 +152,7 @@ static const char *operand_text(struct grid *grid, struct grid_part *part,
 
 	part->reads = cell->variable;
 	if (text && !is_bool) {
-		tell(grid->c, REPORT_LOST, "%s is no bit", text);
+		tell(grid->c, REPORT_LOST, "\"%s\" is not a bit", text);
 		return NULL;
 	}
 	return text ? text_of(grid->c, "%s %s", word, text) : NULL;

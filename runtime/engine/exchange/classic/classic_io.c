@@ -50,7 +50,7 @@ static bool put_lines(struct conversion *c)
 		if (io->device < 0)
 			continue;
 		if (io->first < 0) {
-			tell(c, REPORT_LOST, "a line that sets up %s", device_name(io->device));
+			tell(c, REPORT_LOST, "%s are not set up", device_name(io->device));
 			continue;
 		}
 		if (io->device != RASPBERRY) {

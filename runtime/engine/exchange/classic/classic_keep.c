@@ -148,11 +148,12 @@ static bool has_setting(const struct conversion *c, const char *name, const char
 void report_kept(struct conversion *c)
 {
 	static const struct { const char *name, *setting, *text; } row[] = {
-		{ "modbusioconf.csv", NULL, "Modbus requests: they are kept for an export, and "
-		  "not made here" },
-		{ "config_events.csv", NULL, "the log of events: its list is kept for an export" },
-		{ "modem_config.txt", "MODEM_USED=1", "the modem" },
-		{ "remote_alarms.txt", "GLOBAL_ENABLED=1", "alarms by SMS and mail" },
+		{ "modbusioconf.csv", NULL, "Modbus requests are not made; they are kept for an "
+		  "export" },
+		{ "config_events.csv", NULL, "events are not logged; their list is kept for an "
+		  "export" },
+		{ "modem_config.txt", "MODEM_USED=1", "the modem is not used" },
+		{ "remote_alarms.txt", "GLOBAL_ENABLED=1", "alarms by SMS and mail are not sent" },
 	};
 
 	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {

@@ -185,7 +185,7 @@ static void find_symbols(struct conversion *c)
 		if (name->symbol && !symbol_is_none(name->symbol) &&
 		    strcmp(name->symbol->name, symbol->name)) {
 			c->at = name->symbol->place;
-			tell(c, REPORT_LOST, "symbol \"%s\" of %s, which \"%s\" names, too",
+			tell(c, REPORT_LOST, "symbol \"%s\" of %s is left out: \"%s\" names it",
 			     name->symbol->name, name->symbol->variable, symbol->name);
 		}
 		name->symbol = symbol;
@@ -197,7 +197,7 @@ static void tell_symbol(struct conversion *c, const struct classic_symbol *symbo
 {
 	c->at = symbol->place;
 	if (strcmp(name, symbol->name))
-		tell(c, REPORT_TAKEN, "symbol \"%s\" of %s is %s here", symbol->name,
+		tell(c, REPORT_TAKEN, "symbol \"%s\" of %s becomes %s", symbol->name,
 		     symbol->variable, name);
 }
 
@@ -299,7 +299,7 @@ static void give_name(struct conversion *c, struct classic_name *name)
 	else if (memory && !own) {
 		if (*name->comment) {
 			c->at = name->symbol->place;
-			tell(c, REPORT_LOST, "comment \"%s\" of %s, which has no symbol",
+			tell(c, REPORT_LOST, "comment \"%s\" of %s is left out: it has no symbol",
 			     name->comment, name->symbol->variable);
 		}
 		return; /* %IX0.3 */

@@ -161,7 +161,7 @@ static void read_member(struct classic_reader *reader, const struct classic_memb
 		   strcmp(name, "project_infos.txt") == 0) {
 		classic_read_settings(reader, member);
 	} else if (!is_kept(name)) {
-		classic_lost(reader, "a member that is not known");
+		classic_lost(reader, "this member is not known");
 	}
 }
 

@@ -191,7 +191,7 @@ static void read_directive(struct classic_reader *reader, struct classic_rung *r
 	else if (classic_line_after(reader, "#VER="))
 		classic_version(reader, 3);
 	else if (!classic_line_after(reader, "#NBRLINES="))
-		classic_lost(reader, "a directive that is not known");
+		classic_lost(reader, "this directive is not known");
 }
 
 void classic_read_rung(struct classic_reader *reader, const struct classic_member *member,

@@ -385,9 +385,8 @@ static void tell_faults(struct conversion *c)
 		bool (*differs)(const struct conversion *c, int number);
 		const char *text;
 	} row[] = {
-		{ CLASSIC_IEC_TIMER, timer_differs, "timers (%TM): what was left of a unit when "
-		  "a time was cut short does not shorten the next one, and a scan longer than a "
-		  "unit counts whole" },
+		{ CLASSIC_IEC_TIMER, timer_differs, "timers (%TM): an interrupted time does not "
+		  "shorten the next one, and a scan that is longer than a unit counts in full" },
 		{ CLASSIC_MONOSTABLE, monostable_differs, "monostables (%M): one whose time is no "
 		  "multiple of the period can be started again" },
 		{ CLASSIC_REGISTER, register_differs, "registers (%R): the place behind the last "
@@ -401,8 +400,8 @@ static void tell_faults(struct conversion *c)
 			if (block_cells(c, row[i].kind, number) && row[i].differs(c, number)) {
 				tell(c, REPORT_CHANGED, "%s", row[i].text);
 				if (row[i].kind == CLASSIC_REGISTER && !c->project->register_list)
-					tell(c, REPORT_CHANGED, "registers (%%R) have one place "
-					     "here, where SIZE_REGISTER_LIST is 0");
+					tell(c, REPORT_CHANGED, "registers (%%R) have one place, "
+					     "although SIZE_REGISTER_LIST is 0");
 				break;
 			}
 }
@@ -420,7 +419,7 @@ static void report_rungs(struct conversion *c)
 	for (int i = 0; i < c->project->rungs; i++) {
 		c->at = c->project->rung[i]->place;
 		if (!c->section_of[i] && has_elements(c->project->rung[i]))
-			tell(c, REPORT_LOST, "a rung that no section has");
+			tell(c, REPORT_LOST, "no section has this rung");
 	}
 }
 

@@ -404,7 +404,7 @@ void report_pages(struct conversion *c)
 
 		c->at = step ? step->place : transition->place;
 		if (section_of(c, page) == INT_MAX)
-			tell(c, REPORT_LOST, "%s %d of page %d, which no section shows",
+			tell(c, REPORT_LOST, "%s %d: no section shows page %d",
 			     step ? "step" : "transition",
 			     step ? step->number : transition->index, page);
 	}
