@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_classic_read - what ClassicLadder's files tell, and what bad ones get.
- *
- * Every form of every member, each message with its member and line. What a project
- * does is tested in tests/classic/.
+ * test_classic_read - the reader of ClassicLadder projects: every form of every member, and
+ * each error with its member and line. tests/classic/ tests what a project does.
  */
 #include "engine/exchange/classic/classic.h"
 #include "engine/exchange/classic/inflate.h"
@@ -88,7 +86,7 @@ static void test_rung(void)
 	      rung->cell[0][0].variable.index_number == 7);
 	CHECK(rung->cell[0][1].element == 9 && rung->cell[0][1].variable.type == 0);
 	CHECK_AS(rung->cell[1][0].top && rung->cell[1][0].variable.number == 0,
-		 "of a free cell the top bit alone is taken");
+		 "a free cell keeps only its link");
 	CHECK(rung->cell[1][1].element == 103);
 	CHECK(rung->cell[1][2].element == 54 && rung->cell[1][2].top &&
 	      rung->cell[1][2].variable.number == 2 && rung->cell[1][2].variable.type == 0);
@@ -114,8 +112,8 @@ static void test_ten_columns(void)
 		 !cell[0][11].element, "the coil of a rung of ten columns stays in its column");
 	CHECK(cell[0][8].element == 2 && cell[0][8].variable.number == 8);
 	CHECK_AS(cell[1][9].element == 60 && cell[1][8].element == 99 && cell[1][7].top,
-		 "so does an operation, with its link");
-	CHECK_AS(cell[2][9].element == 0 && cell[2][9].top, "so does the link of a free cell");
+		 "an operation keeps its columns and its link");
+	CHECK_AS(cell[2][9].element == 0 && cell[2][9].top, "a free cell keeps its link");
 	CHECK(project->rung[0]->columns == 10);
 }
 
@@ -323,13 +321,13 @@ static void test_cells(void)
 	CHECK_TEXT(told(BOX(MEMBER("rung_0.csv", "1-0-50/1[200/1000000000]\n"))),
 		   "LD707 3: rung_0.csv: 1000000000");
 	CHECK_AS(*told(BOX(MEMBER("rung_0.csv", "0-0-50/-1\n9-0-0/1000000000\n"))) == '\0',
-		 "what is left over is not looked at");
+		 "leftover variables of free cells and wires are not checked");
 	CHECK_TEXT(told(BOX(MEMBER("rung_0.csv", "0-0-0/0,0-0-0/0,0-0-0/0,0-0-0/0,0-0-0/0,0-0-0/0,"
 		"0-0-0/0,0-0-0/0,0-0-0/0,0-0-0/0,0-0-0/0,0-0-0/0,0-0-0/0\n"))),
 		   "LD706 3: rung_0.csv");
 	read_text(BOX(MEMBER("rung_0.csv", "0-0-0/0\n0-0-0/0\n0-0-0/0\n0-0-0/0\n0-0-0/0\n"
 			     "0-0-0/0\n0-0-0/0\n0-0-0/0\n0-0-0/0\n1-0-50/0\n")));
-	CHECK_AS(report.count == 1 && report.line[0].line == 12, "rows too many are reported");
+	CHECK_AS(report.count == 1 && report.line[0].line == 12, "rows that ClassicLadder does not have are reported");
 }
 
 static void test_whole(void)
@@ -380,7 +378,7 @@ static void test_cut(void)
 		taken += read_bytes(text, len) != NULL;
 		silent += diags.errors == 0;
 	}
-	CHECK_AS(taken == 0 && silent == 0, "a project that is cut is refused, wherever");
+	CHECK_AS(taken == 0 && silent == 0, "a project that is cut at any byte is refused");
 	CHECK(read_bytes(text, sizeof(text) - 2));
 }
 
@@ -492,7 +490,7 @@ static void test_packed(void)
 	for (size_t i = 0; i < sizeof(dynamic) - 1; i++)
 		taken += unpack(dynamic, i, 10000, &len, &why) != NULL;
 	CHECK_AS(taken == 0, "packed and cut: refused");
-	/* The same text may be had from other bits: a repetition copied from elsewhere. */
+	/* A changed bit can give the same text: a copy from another place. */
 	for (size_t i = 10; i < sizeof(dynamic); i++) {
 		memcpy(changed, dynamic, sizeof(dynamic));
 		changed[i] ^= 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_classic_say - variables, blocks, expressions and symbols as ClassicLadder says them.
+ * test_classic_say - variables, blocks, expressions and symbols as ClassicLadder shows them.
  */
 #include "engine/exchange/classic/classic_say.h"
 #include "tests/tap.h"
@@ -34,7 +34,7 @@ static void test_variables(void)
 	CHECK_TEXT(variable(CLASSIC_UPSTREAM, 30, 7, -1, 0), "%X7.A");
 	CHECK_TEXT(variable(CLASSIC_UPSTREAM, 220, 7, -1, 0), "%X7.V");
 	CHECK_TEXT(variable(CLASSIC_UPSTREAM, 200, 0, 200, 4), "%W0[%W4]");
-	/* The same number is something else in the other dialect. */
+	/* Type 300 has another meaning in LinuxCNC. */
 	CHECK_TEXT(variable(CLASSIC_UPSTREAM, 300, 2, -1, 0), "%R2.I");
 	CHECK_TEXT(variable(CLASSIC_LINUXCNC, 300, 2, -1, 0), "%IF2");
 	CHECK_TEXT(variable(CLASSIC_UPSTREAM, 999, -5, -1, 0), "?999/-5");
@@ -48,7 +48,7 @@ static void test_expressions(void)
 	CHECK_TEXT(expression("@200/0@:=@200/1@*2"), "%W0:=%W1*2");
 	CHECK_TEXT(expression("@200/0[200/4]@>$1F"), "%W0[%W4]>$1F");
 	CHECK_TEXT(expression(""), "");
-	/* What is no variable stays. */
+	/* Text that is no variable stays. */
 	CHECK_TEXT(expression("@"), "@");
 	CHECK_TEXT(expression("@@"), "@@");
 	CHECK_TEXT(expression("@200/@+@200/1@"), "@200/@+%W1");
