@@ -134,6 +134,14 @@ my @table = (
 	['a call of nothing', [['rung_0.csv', "#VER=2.0\n9-0-0/0 , 55-0-0/4\n"]], qr/lost: .*a call of subroutine 4/],
 	['lines that set up ports', [['rung_0.csv', $rung], ['ioconf.csv', "#VER=1.0\n0,-1,1,890,0,1,0,5\n"]],
 		qr/lost: ioconf\.csv: ports of a PC are not set up/],
+	['an empty page', [['rung_0.csv', $rung], ['sections.csv', "${sections}001,1,-1,0,0,0\n"]], undef],
+	['a transition alone', [['rung_0.csv', $rung], ['sections.csv', "${sections}001,1,-1,0,0,0\n"],
+		['sequential.csv', "#VER=1.0\nT0" . ',-1' x 40 . ",0,1,2\nC0,0,50/1\n"]],
+		qr/lost: sequential\.csv: .*transition 0: page 0 has no steps/],
+	['a page that never runs', [['rung_0.csv', $rung], ['sections.csv', "${sections}001,1,-1,0,0,0\n"],
+		['sequential.csv', "#VER=1.0\nS0,0,1,0,1,1\n"]], qr/lost: sections\.csv: .*without an initial step/],
+	['a page that no section shows', [['rung_0.csv', $rung], ['sections.csv', $sections],
+		['sequential.csv', "#VER=1.0\nS0,1,7,2,1,1\n"]], qr/lost: sequential\.csv: step 7: no section shows page 2/],
 	['a modem', [['rung_0.csv', $rung], ['modem_config.txt', "MODEM_USED=1\n"]], qr/lost: modem_config\.txt: the modem is not used/],
 );
 

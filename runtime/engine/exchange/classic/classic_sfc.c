@@ -410,13 +410,23 @@ void report_pages(struct conversion *c)
 	}
 }
 
+/* Transitions of a page that has nothing else. */
+static void report_transitions(struct conversion *c, const struct classic_section *section)
+{
+	for (int i = 0; i < c->project->transitions; i++) {
+		const struct classic_transition *transition = &c->project->transition[i];
+
+		c->at = transition->place;
+		if (on_page(section, transition->page))
+			tell(c, REPORT_LOST, "transition %d: page %d has no steps",
+			     transition->index, transition->page);
+	}
+}
+
 void convert_sfc(struct conversion *c, const struct classic_section *section)
 {
-	if (section_of(c, section->page) != section - c->project->section)
-		tell(c, REPORT_LOST, "a page runs once in a scan: section \"%s\" shows it "
-		     "again", section->name);
-	else if (!has_steps(c, section))
-		tell(c, REPORT_LOST, "section \"%s\" is an empty page", section->name);
+	if (!has_steps(c, section))
+		report_transitions(c, section);
 	else if (!ever_runs(c, section))
 		tell(c, REPORT_LOST, "section \"%s\" is a page without an initial step: "
 		     "nothing happens on it", section->name);
