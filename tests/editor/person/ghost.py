@@ -31,9 +31,11 @@ def pixels(x, y, width, height):
 
 def marked(editor, rung_y, accent, row=0):
     """The columns of a row whose upper left corner is marked."""
-    x, y, _, _ = editor.place(editor.sheet())
+    x, y, width, _ = editor.place(editor.sheet())
+    # The last column is at the right edge.
+    left = [x + 61 + 98 * column for column in COLUMNS[:-1]] + [x + width - 24 - 98]
     return [column for column in COLUMNS
-            if pixels(x + 61 + 98 * column + 2, y + rung_y + ROW + 84 * row + 1, 9, 6).count(accent) >= 5]
+            if pixels(left[column] + 2, y + rung_y + ROW + 84 * row + 1, 9, 6).count(accent) >= 5]
 
 
 def luminance(color):
@@ -92,7 +94,7 @@ def cells(screen):
             marked(editor, 0, accent) == [0, 1, 2, 3, 4] and marked(editor, RUNG, accent) == [0, 1, 2, 4]))
         until(lambda: not marked(editor, 0, accent), 'the marks to go')
         to = editor.grid(ROW + 46, 2)
-        editor.drag(editor.grid(RUNG + ROW + 46, 5), to, look='takes-coil-' + name, ready=lambda: (
+        editor.drag(editor.middle(editor.element('Rung 2, COIL')), to, look='takes-coil-' + name, ready=lambda: (
             marked(editor, 0, accent) == [5] and marked(editor, RUNG, accent) == [5]))
 
 
