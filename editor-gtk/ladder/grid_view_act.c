@@ -264,10 +264,11 @@ static void set_here(LadderGridView *view)
 	const struct live_cell *cell = cell_here(view);
 	const char *name = name_here(view);
 
-	if (!canvas_is_live(LADDER_CANVAS(view)))
-		canvas_tell(LADDER_CANVAS(view), _("The simulation is not running."));
-	else if (!cell || cell->at.constant)
-		canvas_tell(LADDER_CANVAS(view), _("Nothing here has a value that can be set."));
+	if (!cell || cell->at.constant)
+		canvas_refuse(LADDER_CANVAS(view), _(verb_row(VERB_set_value)->label),
+			      canvas_is_live(LADDER_CANVAS(view)) ?
+			      _("Nothing here has a value that can be set.") :
+			      _("The simulation is not running."));
 	else
 		ask(view, cell->parts ? cell->name : name, cell->at);
 }

@@ -238,6 +238,9 @@ static void test_feed(void)
 	enter("R B");
 	CHECK_AS(entry() && is_refused() && !file_has("NO B ^"), "nothing else changes");
 	canvas_close_entry(canvas);
+	ladder_canvas_do(canvas, VERB_set_value);
+	CHECK_AS(entry() && is_refused(), "no value: what is typed next is no element");
+	canvas_close_entry(canvas);
 }
 
 int main(void)
