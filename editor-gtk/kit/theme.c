@@ -5,6 +5,8 @@
  */
 #include "editor-gtk/kit/theme.h"
 
+#include <adwaita.h>
+
 #define HEX(rgb) { (float)((rgb) >> 16 & 0xff) / 255, (float)((rgb) >> 8 & 0xff) / 255, \
 		   (float)((rgb) & 0xff) / 255, 1 }
 
@@ -66,6 +68,16 @@ static const struct theme table[THEME_KINDS][THEME_POWERS] = {
 const struct theme *theme_get(enum theme_kind kind, enum theme_power power)
 {
 	return &table[kind][power];
+}
+
+const struct theme *theme_screen(void)
+{
+	AdwStyleManager *manager = adw_style_manager_get_default();
+	const bool dark = adw_style_manager_get_dark(manager);
+
+	return theme_get(adw_style_manager_get_high_contrast(manager) ?
+			 dark ? THEME_CONTRAST_DARK : THEME_CONTRAST :
+			 dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
 }
 
 const char *token_name(enum token token)

@@ -54,6 +54,8 @@ struct theme {
 
 /** theme_get - one row of the table. Owns: nothing; it lives for ever. */
 const struct theme *theme_get(enum theme_kind kind, enum theme_power power);
+/** theme_screen - as the desktop has it now: light or dark, high contrast; green power. */
+const struct theme *theme_screen(void);
 /** token_name - "power"; names in SVG pictures and tests. Lives for ever. */
 const char *token_name(enum token token);
 

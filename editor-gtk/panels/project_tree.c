@@ -418,6 +418,33 @@ static void make_list(struct tree *tree)
 	g_signal_connect_swapped(tree->list, "activate", G_CALLBACK(activated), tree);
 }
 
+static bool is_of(const LadderTreeRow *row, int pou, const char *path, bool symbols)
+{
+	return (row->kind == ROW_POU && row->pou == pou) ||
+	       (row->kind == ROW_FILE && path && g_strcmp0(row->path, path) == 0) ||
+	       (row->kind == ROW_SYMBOLS && symbols);
+}
+
+void ladder_project_tree_select(GtkWidget *box, int pou, const char *path, bool symbols)
+{
+	struct tree *tree = g_object_get_data(G_OBJECT(box), "tree");
+	GListModel *rows = G_LIST_MODEL(tree->selection);
+	guint found = GTK_INVALID_LIST_POSITION;
+
+	for (guint i = 0; i < g_list_model_get_n_items(rows); i++) {
+		GtkTreeListRow *at = g_list_model_get_item(rows, i);
+		LadderTreeRow *row = gtk_tree_list_row_get_item(at);
+
+		if (is_of(row, pou, path, symbols))
+			found = i;
+		g_object_unref(row);
+		g_object_unref(at);
+	}
+	gtk_single_selection_set_selected(tree->selection, found);
+	if (found != GTK_INVALID_LIST_POSITION)
+		list_scroll_to(tree->list, found);
+}
+
 void ladder_project_tree_look(GtkWidget *box)
 {
 	refill(g_object_get_data(G_OBJECT(box), "tree"));

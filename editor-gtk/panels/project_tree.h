@@ -14,6 +14,9 @@
 #include <gtk/gtk.h>
 
 GtkWidget *ladder_project_tree_new(LadderDocument *document);
+/** ladder_project_tree_select - selects the row of POU @pou, else of the file @path, else that
+ * of the symbols; -1 and NULL: of none. The focus stays. */
+void ladder_project_tree_select(GtkWidget *tree, int pou, const char *path, bool symbols);
 /** ladder_project_tree_look - looks for new files beside the project. */
 void ladder_project_tree_look(GtkWidget *tree);
 

@@ -34,16 +34,6 @@ struct _LadderClassicPicture {
 
 G_DEFINE_FINAL_TYPE(LadderClassicPicture, ladder_classic_picture, GTK_TYPE_WIDGET)
 
-static const struct theme *theme_now(void)
-{
-	AdwStyleManager *manager = adw_style_manager_get_default();
-	const bool dark = adw_style_manager_get_dark(manager);
-
-	return theme_get(adw_style_manager_get_high_contrast(manager) ?
-			 dark ? THEME_CONTRAST_DARK : THEME_CONTRAST :
-			 dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
-}
-
 /* ---- strokes ---- */
 
 static void put_nothing(LadderClassicPicture *picture)
@@ -65,7 +55,7 @@ static void put_pair(LadderClassicPicture *picture)
 		g_path_get_basename(ladder_origin_path(picture->origin));
 	struct classic_pair pair = {
 		.there = { ladder_origin_project(picture->origin), rung, picture->lettering,
-			   theme_now() },
+			   theme_screen() },
 		.there_name = name,
 		.project = ladder_document_project(picture->document),
 		.show = (enum drafting_show)settings_enum("show", SHOW_BOTH),
@@ -156,7 +146,7 @@ static void snapshot(GtkWidget *widget, GtkSnapshot *shot)
 	const float width = (float)gtk_widget_get_width(widget);
 	const float height = (float)gtk_widget_get_height(widget);
 	const float scale = scale_for(picture, (int)width);
-	const struct theme *theme = theme_now();
+	const struct theme *theme = theme_screen();
 
 	gtk_snapshot_append_color(shot, &theme->color[TOKEN_SHEET],
 				  &GRAPHENE_RECT_INIT(0, 0, width, height));

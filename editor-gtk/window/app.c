@@ -367,11 +367,7 @@ static void add_css(GtkCssProvider *css)
 /* Widgets have the colours of the sheets for a force. */
 static void define_colors(GtkCssProvider *css)
 {
-	AdwStyleManager *manager = adw_style_manager_get_default();
-	const bool dark = adw_style_manager_get_dark(manager);
-	const struct theme *theme = theme_get(adw_style_manager_get_high_contrast(manager) ?
-		dark ? THEME_CONTRAST_DARK : THEME_CONTRAST : dark ? THEME_DARK : THEME_LIGHT,
-		THEME_GREEN);
+	const struct theme *theme = theme_screen();
 	char *force = gdk_rgba_to_string(&theme->color[TOKEN_FORCE]);
 	char *text = gdk_rgba_to_string(&theme->color[TOKEN_BADGE]);
 	char *rules = g_strdup_printf("@define-color force_color %s;\n"

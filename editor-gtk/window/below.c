@@ -8,6 +8,10 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/problems.h"
 
+#define PANEL_ROOM  195 /* px of a panel that is shown, if the sheets keep       */
+#define SHEET_ROOM  180
+#define SHEET_FIRST 620 /* px of the sheets before the window has a size         */
+
 /* How to make the panel of a page of the stack. */
 struct maker {
 	below_make *make;
@@ -49,6 +53,7 @@ GtkWidget *below_show(struct below *below, const char *name)
 {
 	gtk_widget_set_visible(GTK_WIDGET(below->box), TRUE);
 	gtk_stack_set_visible_child_name(below->stack, name);
+	below_open(below);
 	return below_panel(below, name);
 }
 
@@ -70,10 +75,15 @@ void below_set_title(struct below *below, const char *name, const char *title)
 void below_make_room(struct below *below, int panel, int sheet)
 {
 	const int height = gtk_widget_get_height(GTK_WIDGET(below->paned));
-	const int most = MAX(height - panel, sheet);
+	const int most = height ? MAX(height - panel, sheet) : SHEET_FIRST;
 
-	if (height && gtk_paned_get_position(below->paned) > most)
+	if (gtk_paned_get_position(below->paned) > most)
 		gtk_paned_set_position(below->paned, most);
+}
+
+void below_open(struct below *below)
+{
+	below_make_room(below, PANEL_ROOM, SHEET_ROOM);
 }
 
 void below_add(struct below *below, const char *name, const char *title, below_make *make,
@@ -154,11 +164,23 @@ static void room_changed(struct below *below)
 	g_idle_add(look_at_room, below);
 }
 
+static void follow_clicks(struct below *below)
+{
+	GtkGesture *click = gtk_gesture_click_new();
+
+	gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(click),
+						   GTK_PHASE_CAPTURE);
+	g_signal_connect_swapped(click, "pressed", G_CALLBACK(below_open), below);
+	gtk_widget_add_controller(below->switcher, GTK_EVENT_CONTROLLER(click));
+}
+
 void below_init(struct below *below, struct core *core)
 {
 	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(below->tabs);
 
 	below->core = core;
+	follow_clicks(below);
+	gtk_paned_set_position(below->paned, G_MAXINT16);
 	gtk_menu_button_set_create_popup_func(below->more, fill_more, below, NULL);
 	core_connect(core, along, "changed", G_CALLBACK(room_changed), below,
 		     G_CONNECT_SWAPPED);

@@ -38,6 +38,9 @@ void below_show_error(struct below *below);
 void below_offer(struct below *below, const char *name, bool offered);
 /** below_set_title - @title: translated. */
 void below_set_title(struct below *below, const char *name, const char *title);
+/** below_open - gives the panels their usual room. Before that they have a line below the tabs;
+ * below_show() and a click on a tab do it too. */
+void below_open(struct below *below);
 /** below_make_room - gives the panels @panel px if @sheet px are left for the sheets. */
 void below_make_room(struct below *below, int panel, int sheet);
 

@@ -156,7 +156,7 @@ bool exchange_export_to(struct exchange *exchange, const char *path)
 
 /* ---- asking where ---- */
 
-void exchange_add_filter(GtkFileChooser *chooser, bool numbers)
+void exchange_add_filter(GtkFileChooser *chooser, bool numbers, bool chosen)
 {
 	GtkFileFilter *filter = gtk_file_filter_new();
 
@@ -167,7 +167,7 @@ void exchange_add_filter(GtkFileChooser *chooser, bool numbers)
 	if (numbers)
 		gtk_file_filter_add_pattern(filter, "*.txt");
 	gtk_file_chooser_add_filter(chooser, filter);
-	if (numbers)
+	if (chosen)
 		gtk_file_chooser_set_filter(chooser, filter);
 	g_object_unref(filter);
 }
@@ -182,7 +182,7 @@ void exchange_export(struct exchange *exchange)
 	GtkFileChooser *chooser = export_ask(exchange->export,
 		_("Export as ClassicLadder"), ".clprj|.*", export_chosen, exchange);
 
-	exchange_add_filter(chooser, true);
+	exchange_add_filter(chooser, true, true);
 }
 
 void exchange_init(struct exchange *exchange, struct core *core, struct origin *origin,

@@ -32,7 +32,7 @@ void exchange_export(struct exchange *exchange);
 /** exchange_export_to - false: writing failed, and a banner says why. */
 bool exchange_export_to(struct exchange *exchange, const char *path);
 /** exchange_add_filter - adds a filter for ClassicLadder files. @numbers: it also has
- * rung_N.txt, and is selected. */
-void exchange_add_filter(GtkFileChooser *chooser, bool numbers);
+ * rung_N.txt. @chosen: it is the one that is chosen. */
+void exchange_add_filter(GtkFileChooser *chooser, bool numbers, bool chosen);
 
 #endif

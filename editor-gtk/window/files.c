@@ -46,16 +46,27 @@ static void add_all(GtkFileChooser *chooser)
 	g_object_unref(filter);
 }
 
-void files_open(struct files *files)
+static void ask_open(struct files *files, const char *title, bool import)
 {
 	struct core *core = files->core;
-	GtkFileChooserNative *chooser = ask_rung_file(core->window, core->document, _("Open"),
+	GtkFileChooserNative *chooser = ask_rung_file(core->window, core->document, title,
 		GTK_FILE_CHOOSER_ACTION_OPEN, _("Open"));
 
-	add_all(GTK_FILE_CHOOSER(chooser));
-	exchange_add_filter(GTK_FILE_CHOOSER(chooser), false);
+	if (!import)
+		add_all(GTK_FILE_CHOOSER(chooser));
+	exchange_add_filter(GTK_FILE_CHOOSER(chooser), false, import);
 	core_connect(core, chooser, "response", G_CALLBACK(open_response), files, 0);
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
+
+void files_open(struct files *files)
+{
+	ask_open(files, _("Open"), false);
+}
+
+void files_import(struct files *files)
+{
+	ask_open(files, _("Import"), true);
 }
 
 /* ---- files that are dropped ---- */
@@ -236,7 +247,7 @@ static void ask_path(struct files *files, bool close_when_saved)
 		origin_name(files->origin, ".rung") : g_strdup(_("program.rung"));
 
 	files->close_when_saved = close_when_saved;
-	exchange_add_filter(GTK_FILE_CHOOSER(chooser), false);
+	exchange_add_filter(GTK_FILE_CHOOSER(chooser), false, false);
 	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), name);
 	g_free(name);
 	core_connect(core, chooser, "response", G_CALLBACK(save_response), files, 0);

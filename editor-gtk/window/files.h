@@ -26,6 +26,8 @@ void files_init(struct files *files, struct core *core, struct origin *origin,
 		struct exchange *exchange);
 /** files_open - asks for a file and emits "open-wanted". */
 void files_open(struct files *files);
+/** files_import - the same, for a project of another program. */
+void files_import(struct files *files);
 /** files_save - saves the file in front, else the program. */
 void files_save(struct files *files);
 void files_save_as(struct files *files);

@@ -109,6 +109,8 @@ static AdwTabPage *insert_page(struct tabs *tabs, int at, GtkWidget *child,
 	AdwTabPage *page = adw_tab_view_insert(tabs->view, child, at);
 
 	page_set_name(page, name, title);
+	if (page == adw_tab_view_get_selected_page(tabs->view)) /* the first has a name now */
+		g_signal_emit_by_name(tabs->core->window, "page-changed");
 	page_follow(tabs->core, page);
 	spoken_parts(child);
 	spoken_parts(GTK_WIDGET(tabs->core->front->tab_bar));
@@ -541,6 +543,36 @@ static void page_selected(struct tabs *tabs)
 	front_enter_program(tabs->core->front);
 }
 
+static gboolean enter_now(gpointer data)
+{
+	struct core *core = data;
+
+	if (core->document) {
+		g_signal_emit_by_name(core->window, "page-changed");
+		front_enter(core->front);
+	}
+	g_object_unref(core->window);
+	return G_SOURCE_REMOVE;
+}
+
+/* After the click, which gives the focus to the tab; also a click on the tab in front. */
+static void tab_pressed(struct tabs *tabs)
+{
+	g_object_ref(tabs->core->window);
+	g_idle_add(enter_now, tabs->core);
+}
+
+static void follow_clicks(struct tabs *tabs)
+{
+	GtkGesture *click = gtk_gesture_click_new();
+
+	gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(click),
+						   GTK_PHASE_CAPTURE);
+	g_signal_connect_swapped(click, "pressed", G_CALLBACK(tab_pressed), tabs);
+	gtk_widget_add_controller(GTK_WIDGET(tabs->core->front->tab_bar),
+				  GTK_EVENT_CONTROLLER(click));
+}
+
 void tabs_init(struct tabs *tabs, struct core *core)
 {
 	tabs->core = core;
@@ -553,6 +585,7 @@ void tabs_init(struct tabs *tabs, struct core *core)
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_UP |
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_DOWN);
 	tab_home_make(core->front->tab_bar);
+	follow_clicks(tabs);
 	core_connect(core, core->document, "project-changed", G_CALLBACK(update), tabs,
 		     G_CONNECT_SWAPPED);
 	core_connect(core, tabs->view, "notify::selected-page", G_CALLBACK(page_selected), tabs,

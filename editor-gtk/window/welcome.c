@@ -5,8 +5,11 @@
 #include "editor-gtk/window/welcome.h"
 
 #include "editor-gtk/document/disk.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/installed.h"
+#include "editor-gtk/kit/theme.h"
+#include "editor-gtk/render/render_sheet.h"
 #include "editor-gtk/window/recent.h"
 
 #include "engine/base/limits.h"
@@ -82,24 +85,190 @@ static void add_recent(GtkWidget *page)
 	g_ptr_array_unref(paths);
 }
 
-/* The text after PROJECT; NULL: none. Caller frees. */
-static char *title_of(const char *path)
+/* ---- samples ---- */
+
+#define CARD_WIDE 176 /* px of a card's picture                                 */
+#define CARD_HIGH 104
+#define CARD_SCALE 0.5f
+
+/* The first program of a sample, its upper left part; drawn after the page is shown. */
+#define LADDER_TYPE_SAMPLE (ladder_sample_get_type())
+G_DECLARE_FINAL_TYPE(LadderSample, ladder_sample, LADDER, SAMPLE, GtkWidget)
+
+struct _LadderSample {
+	GtkWidget parent_instance;
+	char *path;
+	struct lettering *lettering;
+	struct picture strokes;
+	guint idle;             /* loads and draws it; 0: done                    */
+};
+
+G_DEFINE_FINAL_TYPE(LadderSample, ladder_sample, GTK_TYPE_WIDGET)
+
+static gboolean draw_sample(gpointer data)
 {
-	char *found, *end, *title = NULL;
+	LadderSample *sample = data;
+	const struct render_options options = { .scale = 1, .show = SHOW_SYMBOLS };
+	struct ladder *ladder = ladder_new();
+
+	sample->idle = 0;
+	if (ladder && ladder_load(ladder, g_intern_string(sample->path)) &&
+	    ladder_project(ladder) && ladder_project(ladder)->pou_count > 0) {
+		sample->lettering = lettering_new(gtk_widget_get_pango_context(
+			GTK_WIDGET(sample)), NULL);
+		render_sheets(ladder_project(ladder), 0, &options, sample->lettering,
+			      &sample->strokes);
+		gtk_widget_queue_draw(GTK_WIDGET(sample));
+	}
+	ladder_free(ladder);
+	return G_SOURCE_REMOVE;
+}
+
+static void sample_snapshot(GtkWidget *widget, GtkSnapshot *shot)
+{
+	LadderSample *sample = LADDER_SAMPLE(widget);
+	const graphene_rect_t all = GRAPHENE_RECT_INIT(0, 0,
+		(float)gtk_widget_get_width(widget), (float)gtk_widget_get_height(widget));
+	const struct theme *theme = theme_screen();
+
+	gtk_snapshot_append_color(shot, &theme->color[TOKEN_SHEET], &all);
+	gtk_snapshot_push_clip(shot, &all);
+	gtk_snapshot_scale(shot, CARD_SCALE, CARD_SCALE);
+	if (sample->lettering)
+		picture_snapshot(&sample->strokes, theme, sample->lettering, shot);
+	gtk_snapshot_pop(shot);
+}
+
+static void sample_dispose(GObject *object)
+{
+	LadderSample *sample = LADDER_SAMPLE(object);
+
+	g_clear_handle_id(&sample->idle, g_source_remove);
+	picture_clear(&sample->strokes);
+	g_clear_pointer(&sample->lettering, lettering_free);
+	g_clear_pointer(&sample->path, g_free);
+	G_OBJECT_CLASS(ladder_sample_parent_class)->dispose(object);
+}
+
+static void ladder_sample_class_init(LadderSampleClass *class)
+{
+	G_OBJECT_CLASS(class)->dispose = sample_dispose;
+	GTK_WIDGET_CLASS(class)->snapshot = sample_snapshot;
+	gtk_widget_class_set_accessible_role(GTK_WIDGET_CLASS(class), GTK_ACCESSIBLE_ROLE_IMG);
+}
+
+static void ladder_sample_init(LadderSample *sample)
+{
+	picture_init(&sample->strokes);
+	gtk_widget_set_size_request(GTK_WIDGET(sample), CARD_WIDE, CARD_HIGH);
+}
+
+static GtkWidget *sample_new(const char *path)
+{
+	LadderSample *sample = g_object_new(LADDER_TYPE_SAMPLE, NULL);
+
+	sample->path = g_strdup(path);
+	sample->idle = g_idle_add_full(G_PRIORITY_LOW, draw_sample, sample, NULL);
+	return GTK_WIDGET(sample);
+}
+
+/* What a file says of itself: the text after PROJECT, and the first sentence of its first
+ * comment. NULL: nothing. */
+struct about {
+	char *title, *line;
+};
+
+/* A copy of @text up to one of @ends, with single blanks. NULL of NULL. Caller frees. */
+static char *up_to(const char *text, const char *ends)
+{
+	char *part = text ? g_strndup(text, strcspn(text, ends)) : NULL;
+	char **words = part ? g_strsplit_set(part, " \n", -1) : NULL;
+	GString *line = g_string_new(NULL);
+
+	for (char **word = words; word && *word; word++)
+		if (**word)
+			g_string_append_printf(line, "%s%s", line->len ? " " : "", *word);
+	g_strfreev(words);
+	g_free(part);
+	return g_string_free(line, line->len == 0);
+}
+
+static struct about about_of(const char *path)
+{
+	static const char head[] = "\nPROJECT \"", comment[] = "(*";
+	struct about about = { NULL, NULL };
 	gsize len;
-	char *text = disk_read(path, LIMIT_TEXT, &len, NULL);
+	char *text = disk_read(path, LIMIT_TEXT, &len, NULL), *at;
 
 	if (!text)
-		return NULL;
-	found = strstr(text, "\nPROJECT \"");
-	if (found) {
-		found += strlen("\nPROJECT \"");
-		end = strchr(found, '"');
-		if (end)
-			title = g_strndup(found, (gsize)(end - found));
-	}
+		return about;
+	at = strstr(text, head);
+	about.title = up_to(at ? at + strlen(head) : NULL, "\"");
+	at = strstr(text, comment);
+	about.line = up_to(at ? at + strlen(comment) : NULL, ".:*");
 	g_free(text);
-	return title;
+	return about;
+}
+
+static GtkWidget *label_new(const char *text, const char *class)
+{
+	GtkWidget *label = gtk_label_new(text);
+
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_label_set_wrap(GTK_LABEL(label), TRUE);
+	gtk_label_set_max_width_chars(GTK_LABEL(label), 1);
+	gtk_label_set_lines(GTK_LABEL(label), 3);
+	gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+	gtk_widget_add_css_class(label, class);
+	return label;
+}
+
+static GtkWidget *card_new(const char *path)
+{
+	GtkWidget *card = gtk_flow_box_child_new(), *sample = sample_new(path);
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
+	char *name = g_path_get_basename(path);
+	struct about about = about_of(path);
+	char *spoken = g_strdup_printf("%s. %s", about.title ? about.title : name,
+				       about.line ? about.line : "");
+
+	spoken_name(sample, about.title ? about.title : name);
+	gtk_box_append(GTK_BOX(box), sample);
+	gtk_box_append(GTK_BOX(box), label_new(about.title ? about.title : name, "heading"));
+	if (about.line)
+		gtk_box_append(GTK_BOX(box), label_new(about.line, "caption"));
+	gtk_box_append(GTK_BOX(box), label_new(name, "dim-label"));
+	gtk_widget_add_css_class(card, "card");
+	gtk_widget_add_css_class(card, "activatable");
+	gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(card), box);
+	g_object_set_data_full(G_OBJECT(card), "path", g_strdup(path), g_free);
+	spoken_name(card, spoken);
+	g_free(spoken);
+	g_free(about.title);
+	g_free(about.line);
+	g_free(name);
+	return card;
+}
+
+static void card_activated(GtkWidget *cards, GtkWidget *card)
+{
+	gtk_widget_activate_action(cards, "win.open-sample", "s",
+				   g_object_get_data(G_OBJECT(card), "path"));
+}
+
+static GtkWidget *cards_new(void)
+{
+	GtkWidget *cards = gtk_flow_box_new();
+
+	gtk_flow_box_set_selection_mode(GTK_FLOW_BOX(cards), GTK_SELECTION_NONE);
+	gtk_flow_box_set_homogeneous(GTK_FLOW_BOX(cards), TRUE);
+	gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(cards), 3);
+	gtk_flow_box_set_column_spacing(GTK_FLOW_BOX(cards), 12);
+	gtk_flow_box_set_row_spacing(GTK_FLOW_BOX(cards), 12);
+	gtk_widget_add_css_class(cards, "samples");
+	spoken_name(cards, _("Samples, opened as copies"));
+	g_signal_connect(cards, "child-activated", G_CALLBACK(card_activated), NULL);
+	return cards;
 }
 
 static int by_name(gconstpointer a, gconstpointer b)
@@ -107,27 +276,29 @@ static int by_name(gconstpointer a, gconstpointer b)
 	return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
+/* Plants are opened with their programs. */
+static bool is_sample(const char *name)
+{
+	return g_str_has_suffix(name, ".rung") && !g_str_has_suffix(name, ".plant.rung");
+}
+
 static void add_samples(GtkWidget *page)
 {
 	char *folder = samples_folder();
 	GDir *dir = folder ? g_dir_open(folder, 0, NULL) : NULL;
 	GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
-	GtkWidget *group = dir ? add_group(page, _("Samples, opened as copies")) : NULL;
+	GtkWidget *cards = dir ? cards_new() : NULL;
 	const char *name;
 
 	while (dir && (name = g_dir_read_name(dir)))
-		if (g_str_has_suffix(name, ".rung"))
-			g_ptr_array_add(names, g_strdup(name));
+		if (is_sample(name))
+			g_ptr_array_add(names, g_build_filename(folder, name, NULL));
 	g_ptr_array_sort(names, by_name);
-	for (guint i = 0; i < names->len; i++) {
-		char *path = g_build_filename(folder, names->pdata[i], NULL);
-		char *title = title_of(path);
-
-		add_row(group, title ? title : names->pdata[i], names->pdata[i],
-			"win.open-sample", path);
-		g_free(title);
-		g_free(path);
-	}
+	for (guint i = 0; i < names->len; i++)
+		gtk_flow_box_append(GTK_FLOW_BOX(cards), card_new(names->pdata[i]));
+	if (cards)
+		adw_preferences_group_add(ADW_PREFERENCES_GROUP(add_group(page,
+			_("Samples, opened as copies"))), cards);
 	if (dir)
 		g_dir_close(dir);
 	g_ptr_array_unref(names);
@@ -141,8 +312,12 @@ GtkWidget *welcome_new(void)
 
 	add_row(begin, _("New project"), _("An empty sheet. Type a name to make a contact."),
 		"win.begin", NULL);
+	add_row(begin, _("New project with a chart"), _("A sequence of steps and transitions."),
+		"win.begin-chart", NULL);
 	add_row(begin, _("Open a file…"), _("Rung files. A damaged file opens as text."),
 		"win.open", NULL);
+	add_row(begin, _("Import…"), _("ClassicLadder projects: .clprj, .clprjz, .clp"),
+		"win.import-project", NULL);
 	add_recent(page);
 	add_samples(page);
 	return page;

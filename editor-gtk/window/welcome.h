@@ -9,8 +9,8 @@
 
 #include <gtk/gtk.h>
 
-/** welcome_new - its rows do win.new_project, win.open, win.open-path and
- * win.open-sample with a path. */
+/** welcome_new - its rows activate win.begin, win.begin-chart, win.open, win.import-project,
+ * win.open-path and win.open-sample. */
 GtkWidget *welcome_new(void);
 
 #endif

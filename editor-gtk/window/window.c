@@ -40,6 +40,8 @@
 
 #include <string.h>
 
+/* A new project with a chart. */
+#define CHART "RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n"
 #define DISK_SECONDS 2 /* between checks for changed files                     */
 
 struct _LadderWindow {
@@ -485,16 +487,27 @@ static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter
 				      strcmp(name, "win.open-sample") == 0);
 }
 
-/* From the welcome page to the empty sheet. */
+/* From the welcome page to the empty sheet, or to an empty chart in its place. */
 static void begin(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderWindow *window = LADDER_WINDOW(widget);
 	AdwTabPage *page = front_tab(&window->front);
 
-	(void)action;
 	(void)unused;
+	if (strcmp(action, "win.begin-chart") == 0 && ladder_window_is_untouched(window)) {
+		ladder_document_open_text(window->core.document, NULL, CHART, strlen(CHART), true);
+		ladder_window_opened(window);
+		return;
+	}
 	tabs_show(&window->tabs, 0);
 	adw_tab_view_close_page(window->front.tabs, page);
+}
+
+static void import_project(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	(void)action;
+	(void)unused;
+	files_import(&LADDER_WINDOW(widget)->files);
 }
 
 static void place_word(GtkWidget *widget, const char *name, GVariant *word)
@@ -553,6 +566,8 @@ static void install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
 	gtk_widget_class_install_action(class, "win.rename-pou", "i", do_rename_pou);
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
+	gtk_widget_class_install_action(class, "win.begin-chart", NULL, begin);
+	gtk_widget_class_install_action(class, "win.import-project", NULL, import_project);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 	gtk_widget_class_install_action(class, "win.show-error", NULL, show_error);
 	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
@@ -634,10 +649,27 @@ static void show_state(LadderWindow *window)
 	g_free(name);
 }
 
+/* The tree shows which page is in front. */
+static void select_in_tree(LadderWindow *window)
+{
+	const struct project *project = ladder_document_project(window->core.document);
+	AdwTabPage *page = front_tab(&window->front);
+	LadderSideFile *file = page_file(page);
+	const char *name = page && page_name(page) ? page_name(page) : " "; /* not named yet */
+
+	ladder_project_tree_select(window->core.tree,
+		project ? project_find_pou(project, name, strlen(name)) : -1,
+		file ? ladder_side_file_path(file) : NULL, strcmp(name, " symbols") == 0);
+}
+
 static void page_changed(LadderWindow *window)
 {
 	LadderGridView *sheet = front_sheet(&window->front);
 	GtkWidget *list = sheet ? below_made(&window->below, "list") : NULL;
+
+	if (!window->core.document) /* the pages of a closing window go one by one */
+		return;
+	select_in_tree(window);
 
 	if (list)
 		ladder_code_view_set_pou(list, ladder_canvas_pou(LADDER_CANVAS(sheet)));
@@ -649,6 +681,10 @@ static void page_changed(LadderWindow *window)
 static void title_changed(LadderWindow *window, LadderProblems *problems)
 {
 	below_set_title(&window->below, "problems", ladder_problems_title(problems));
+	/* Those of a file are shown; those of an edit do not move the sheet. */
+	if (ladder_problems_count(problems, false) &&
+	    !ladder_document_undo_name(window->core.document))
+		below_open(&window->below);
 }
 
 static GtkWidget *make_problems(gpointer data)
@@ -731,7 +767,6 @@ static void add_sides(LadderWindow *window)
 	window->palette = ladder_palette_new(window->core.document);
 	gtk_paned_set_end_child(window->side, ladder_still_new(window->palette));
 	gtk_paned_set_position(window->side, 230);
-	gtk_paned_set_position(window->below.paned, 620);
 }
 
 /* ---- settings ---- */

@@ -3,6 +3,7 @@
 """begin - the welcome page, the palette's search and families, and tables of symbols in files."""
 import os
 import shutil
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -28,7 +29,7 @@ def sample(screen):
     """a sample opens as a copy without a file; once saved it is the first of the recent files"""
     editor = Editor(screen)
     editor.shot('begin-welcome')
-    editor.click(editor.find('dosing.rung', 'label'))
+    editor.click(editor.find('board-44b0x.rung', 'label'))
     first = editor.element('Rung 1, ').name
     assert editor.all('not saved yet'), [node.name for node in editor.all(role='label')]
     path = os.path.join(screen.home, 'mine.rung')
@@ -41,6 +42,27 @@ def sample(screen):
     again.click(again.find(path, 'label'))
     again.says('mine')
     again.element(first)
+
+
+def cards(screen):
+    """each sample is a card with its drawing, its title and a line; no problem is shown; a chart is begun from here, too"""
+    editor = Editor(screen)
+    editor.says('no problems')
+    names = sorted(name for name in os.listdir(os.path.join(ROOT, 'ladders')) if name.endswith('.rung') and '.plant' not in name)
+    assert sorted(node.name for node in editor.all('.rung', 'label')) == names
+    editor.find('Goods lift. A goods lift for three floors')
+    picture = editor.find('44B0X board', 'picture')
+    x, y, width, height = editor.place(picture)
+
+    def drawn():
+        out = subprocess.run(['import', '-window', 'root', '-depth', '8', '-crop', '%dx%d+%d+%d' % (width, height, x, y), 'rgb:-'],
+                             capture_output=True).stdout
+        return len(set(out)) > 40
+    until(drawn, 'the drawing of a sample')
+    editor.shot('begin-cards')
+    editor.click(editor.find('New project with a chart', 'label'))
+    editor.find('Step Start, initial')
+    until(lambda: not editor.all('Samples, opened as copies'), 'the page to be gone')
 
 
 def proposes(editor):
@@ -301,4 +323,4 @@ def tables(screen):
     assert editor.save(path) == PROGRAM
 
 
-main([sample, belongings, killed, lately, only_projects, empty, searched, folded, tables])
+main([sample, cards, belongings, killed, lately, only_projects, empty, searched, folded, tables])

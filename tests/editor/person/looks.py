@@ -75,7 +75,7 @@ def high(screen):
     editor = draw(screen, 'looks-high', ADW_DEBUG_COLOR_SCHEME='prefer-dark', ADW_DEBUG_HIGH_CONTRAST='1')
     left, top, width, height = editor.place(editor.sheet())
     for x in left + 6, left + width - 60:
-        ground = subprocess.run(['import', '-window', 'root', '-crop', '20x30+%d+%d' % (x, top + height // 3),
+        ground = subprocess.run(['import', '-window', 'root', '-crop', '20x30+%d+%d' % (x, top + height - 40),
                                  '-depth', '8', 'rgb:-'], capture_output=True, check=True).stdout
         # The line below a rung is #8b8b92.
         assert set(ground) <= {0, 0x8b, 0x92} and ground.count(0) > 1500, set(ground)

@@ -45,11 +45,12 @@ def whole(editor, what):
     until(lambda: colours(editor) >= COLOURS, 'a picture in the window after ' + ', '.join(what[-4:]), 3)
 
 
-def sheets(editor):
+def sheets(editor, least=2):
     """The labels of the tabs of sheets; AdwTab has no role."""
-    top = editor.place(editor.all(role='frame')[0])[1]
-    return [node for node in editor.all(role='label') if node.name and node.has(25) and
-            45 < editor.place(node)[1] - top < 90 and editor.place(node)[0] > 220]
+    found = [node for node in editor.all(role='label') if node.name and node.has(30) and
+             50 < node.box()[1] < 85 and node.box()[0] > 220]
+    assert len(found) >= least, 'no tabs'
+    return found
 
 
 class Hand:
@@ -60,7 +61,7 @@ class Hand:
         """Does something; returns what."""
         editor, chance = self.editor, self.dice.random()
         if chance < 0.35:
-            tabs = [node for node in editor.all(role='page tab') if node.has(25)] + sheets(editor)
+            tabs = [node for node in editor.all(role='page tab') if node.has(30)] + sheets(editor, 0)
             if tabs:
                 tab = self.dice.choice(tabs)
                 editor.click(tab)
@@ -108,6 +109,28 @@ def report(screen):
     editor.shot('panes-other')
 
 
+def in_page(node):
+    """A widget below the tabs, right of the tree."""
+    x, y, width, height = node.box()
+    return x > 215 and y > 85 and height > 0
+
+
+def tabs(screen):
+    """a click on any tab gives its page the keys, also on the one in front; the tree selects what is in front"""
+    editor = opened(screen)
+    for tab in sheets(editor):
+        for _ in range(2):  # the second click finds the tab in front and the focus in the tree
+            tree = [node for node in editor.all('Prog1', 'list item') if node.name.startswith('Prog1')][0]
+            editor.click(tree)
+            editor.click(tab)
+            until(lambda: (node := editor.focused()) and in_page(node), 'the focus in the page of ' + tab.name)
+            if tab.name == 'Prog1':
+                editor.keys('x')
+                editor.find('element and operand', 'text')
+                editor.keys('Escape')
+        until(lambda: [node for node in editor.all(tab.name) if node.has(23) and node.box()[0] < 215], 'its row in the tree')
+
+
 def storm(screen, number):
     editor = opened(screen)
     hand, done = Hand(editor, number), []
@@ -125,6 +148,7 @@ def of(number):
 
 
 numbers = [int(number) for number in sys.argv[1:] if number.isdigit()] or (2, 3)
-tests = [report] if sys.argv[1:] == ['report'] else [*([] if sys.argv[1:] else [report]), *(of(number) for number in numbers)]
+tests = [test for test in (report, tabs) if test.__name__ in sys.argv[1:]] or \
+        [*([] if sys.argv[1:] else [report, tabs]), *(of(number) for number in numbers)]
 del sys.argv[1:]
 main(tests)
