@@ -192,12 +192,12 @@ static void test_line(void)
 		"The clipboard, line 2: “FROB” is not a known word");
 	refused("XIC Start BST XIO Stop NXB XIC Over BND OTE Motor",
 		"The clipboard, line 1: “BST” is not a known word");
-	refused("LD Start\nOR Stop\nST Motor\n", "The clipboard, line 2: this can only be "
-		"pasted as a row of a rung file: OR Stop");
-	refused("LD Start\nST Motor\nST Lamp\n", "The clipboard, line 3: this can only be "
-		"pasted as a row of a rung file: ST Lamp");
+	refused("LD Start\nOR Stop\nST Motor\n", "The clipboard, line 2: “OR Stop” can only be "
+		"pasted as a row of a rung file");
+	refused("LD Start\nST Motor\nST Lamp\n", "The clipboard, line 3: “ST Lamp” can only be "
+		"pasted as a row of a rung file");
 	refused("Start XIC Stop", "The clipboard, line 1: “Start” is not a known word");
-	refused("LD > 5", "The clipboard, line 1: “LD” cannot be the name of a variable");
+	refused("LD > 5", "The clipboard, line 1: “LD > 5” can only be pasted as a row of a rung file");
 }
 
 /* Takes the rungs of all ladder programs, and only the declarations that they use. */

@@ -128,7 +128,8 @@ static guint try_golden(struct golden *golden)
 		char *case_path = g_build_filename("tests/golden", name, "expected.diag", NULL);
 		char *path = g_build_filename("tests/golden", name, "main.rung", NULL);
 
-		if (g_file_test(case_path, G_FILE_TEST_EXISTS))
+		/* The program of some cases is made by a script. */
+		if (g_file_test(case_path, G_FILE_TEST_EXISTS) && g_file_test(path, G_FILE_TEST_EXISTS))
 			try_file(golden, path);
 		g_free(case_path);
 		g_free(path);
@@ -212,15 +213,15 @@ int main(void)
 	}
 	CHECK(says(DIAG_TYPE_NOT_TAKEN, "ADD" DIAG_AND "BOOL", "„ADD“ nimmt BOOL nicht an"));
 	CHECK(says(DIAG_NEEDS_CONVERSION, "Level" DIAG_AND "INT" DIAG_AND "REAL",
-		   "„Level“: INT und REAL sind verschiedene Typen und brauchen eine Umwandlung"));
+		   "„Level“: INT und REAL sind verschiedene Typen; mit INT_TO_REAL umwandeln"));
 	CHECK(says(DIAG_NEEDS_CONVERSION, DIAG_AND "INT" DIAG_AND "REAL",
-		   "INT und REAL sind verschiedene Typen und brauchen eine Umwandlung"));
+		   "INT und REAL sind verschiedene Typen; mit INT_TO_REAL umwandeln"));
 	CHECK(says(DIAG_DUPLICATE_NAME, "OPEN" DIAG_AND "4",
 		   "„OPEN“ ist zweimal deklariert, zuerst in Zeile 4"));
 	CHECK(says(DIAG_AREA_SIZE, "I" DIAG_AND "0" DIAG_AND "8192",
 		   "„I“ muss 0 bis 8192 Bytes haben"));
 	CHECK(says(DIAG_EXPECTED, ", or ]", "erwartet: , oder ]"));
-	CHECK(says(DIAG_TOO_MANY, "tasks", "zu viele Tasks in einem Projekt"));
+	CHECK(says(DIAG_TOO_MANY, "tasks", "zu viele Tasks"));
 	/* Names of the user are not translated. */
 	CHECK(says(DIAG_UNKNOWN_NAME, "index", "„index“ ist nicht deklariert"));
 	CHECK(says(DIAG_UNKNOWN_NAME, "Undo", "„Undo“ ist nicht deklariert"));

@@ -97,7 +97,7 @@ static void test_transitions(void)
 static void test_lines(void)
 {
 	CHECK_TEXT(check("I A; L Q0 D; L Q1 N T#1s; L Q2 L 5; L Q3 SL Later; T A>A"),
-		   "LD303:303 5 LD301:304 Later LD440:301 D LD441:302 N");
+		   "LD303:303 5" DIAG_AND "TIME LD301:304 Later LD440:301 D LD441:302 N");
 	CHECK_TEXT(check("I A; L I0 N; L MW0 N; L TRUE SET; L None S; T A>A"),
 		   "LD304:301 I0 LD324:302 MW0 LD305:303 TRUE LD301:304 None");
 	CHECK_TEXT(check("I A; L Count SET; L Count N; A Count; A Stand; T A>A"),
@@ -124,7 +124,7 @@ static void test_supervision(void)
 	CHECK_TEXT(supervise("T#1s", "T#2s", "M0"), "");
 	CHECK_TEXT(supervise("T#1s", "T#1s", "Q0"), "");
 	CHECK_TEXT(supervise("T#2s", "T#1999ms", "M0"), "LD442:11 A");
-	CHECK_TEXT(supervise("3", "TRUE", "M0"), "LD303:11 3 LD303:11 TRUE");
+	CHECK_TEXT(supervise("3", "TRUE", "M0"), "LD303:11 3" DIAG_AND "TIME LD303:11 TRUE" DIAG_AND "TIME");
 	CHECK_TEXT(supervise("", "T#1s", ""), "LD443:11 A");
 	CHECK_TEXT(supervise("", "", "M0"), "LD448:11 A");
 	CHECK_TEXT(supervise("", "A.T", "I0"), "LD304:11 I0");
@@ -144,7 +144,7 @@ static void test_control(void)
 {
 	CHECK_TEXT(operate(CONTROL_RESET, "I0", false), "");
 	CHECK_TEXT(operate(CONTROL_HOLD, "MW0", false), "LD324:7 MW0");
-	CHECK_TEXT(operate(CONTROL_FORCE, "A.T", false), "LD303:7 A.T");
+	CHECK_TEXT(operate(CONTROL_FORCE, "A.T", false), "LD303:7 A.T" DIAG_AND "INT");
 	CHECK_TEXT(operate(CONTROL_SEMI, "I0", true), "");
 	CHECK_TEXT(operate(CONTROL_MANUAL, "I0", false), "LD447:7 ");
 	CHECK_TEXT(operate(CONTROL_RESET, "Nobody", false), "LD301:7 Nobody");
