@@ -59,6 +59,18 @@ static bool begins(const char *text, const char *line, gsize start, gsize cursor
 	return g_ascii_strncasecmp(text, line + start, cursor - start) == 0;
 }
 
+/* Is it `Fill.X` or `Fill.T`? offer_members() has them. */
+static bool is_member(LadderSfcView *view, const char *text)
+{
+	const char *dot = strrchr(text, '.');
+
+	for (int i = 0; dot && dot[1] && !dot[2] && i < view->sheet->layout->sfc->step_count; i++)
+		if (strncmp(view->sheet->name[i], text, (size_t)(dot - text)) == 0 &&
+		    !view->sheet->name[i][dot - text])
+			return dot[1] == 'X' || dot[1] == 'T';
+	return false;
+}
+
 /* Variables, addresses and new names for the line from @from on, as in the entry of a rung
  * behind @head; no words of elements. */
 static void offer_names(LadderSfcView *view, const char *head, const char *line,
@@ -75,7 +87,8 @@ static void offer_names(LadderSfcView *view, const char *head, const char *line,
 		const struct entry_candidate *one = &found[i];
 
 		if (one->kind != ENTRY_WORD && one->kind != ENTRY_ROUTINE &&
-		    one->kind != ENTRY_LABEL && strlen(one->line) >= skip)
+		    one->kind != ENTRY_LABEL && strlen(one->line) >= skip &&
+		    !is_member(view, one->text))
 			add_row(view, line, from, strlen(line), one->line + skip, one->text,
 				one->address, one->note, _(entry_kind_text(one->kind)));
 	}

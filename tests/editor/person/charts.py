@@ -291,6 +291,15 @@ def first_key(screen):
         typed(editor, line)
         assert kept in editor.save(path), open(path).read()
     editor.shot('charts-first-key')
+    editor.type('S')
+    editor.opened()
+    editor.type('tart.')
+    editor.candidate('Start.T')
+    names = [node.name.split(',')[0] for node in editor.all('Start.', 'list item')]
+    assert sorted(names) == ['Start.T', 'Start.X'], 'each candidate once: %s' % names
+    editor.keys('Escape')
+    editor.gone()
+    on_chart(editor)
     for key in '&+=[\'5#':
         editor.type(key)
         line = until(editor.asked, 'the entry of ' + key)[0]
