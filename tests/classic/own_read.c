@@ -56,7 +56,9 @@ static int numbers(const char *at, int *out, int most)
 			break;
 		count++;
 		at = end + strspn(end, " \t");
-		if (*at++ != ',')
+		if (*at == ',')
+			at++;
+		else if (*at < '0' || *at > '9')
 			break;
 	}
 	return count;
@@ -103,13 +105,17 @@ static void cell(const char *text, struct classic_cell *out)
 
 static void row(struct classic_rung *rung, const char *line)
 {
+	/* A bare rung file can have blanks alone between cells. */
+	const char *between = strchr(line, ',') ? "," : " \t";
+	char text[80];
 	int x = 0;
 
 	if (rung->rows == CLASSIC_ROWS)
 		return;
-	for (; line && x < CLASSIC_COLUMNS; line = strchr(line, ',')) {
-		line += *line == ',';
-		cell(line + strspn(line, " \t"), &rung->cell[rung->rows][x++]);
+	for (; line && x < CLASSIC_COLUMNS; line = strpbrk(line, between)) {
+		line += strspn(line, " \t,");
+		snprintf(text, sizeof(text), "%.*s", (int)strcspn(line, between), line);
+		cell(text, &rung->cell[rung->rows][x++]);
 	}
 	rung->rows++;
 	if (x > rung->columns)

@@ -996,10 +996,12 @@ bool classic_numbers(struct classic_reader *reader, const char *at, int *out, in
 		count++;
 		if (at == end)
 			break;
-		if (*at != ',')
+		/* A bare rung file can have blanks alone between numbers. */
+		if (*at == ',')
+			at++;
+		else if (reader->project->dialect != CLASSIC_NUMERIC || !ascii_digit(*at))
 			return classic_fail(reader, DIAG_IMPORT_FIELDS, at,
 					    (size_t)(end - at));
-		at++;
 	}
 	if (count < least || (at < end && count < max))
 		return classic_fail(reader, DIAG_IMPORT_FIELDS, reader->line, reader->len);

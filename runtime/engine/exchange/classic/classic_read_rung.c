@@ -74,7 +74,8 @@ static bool keep_variable(struct classic_reader *reader, struct classic_cell *ce
 		 classic_in_range(reader, variable->index_number, 0, CLASSIC_LIMIT - 1)));
 }
 
-/* TYPE-TOP-VARTYPE/NUMBER up to a comma or the end. NULL: it is no cell. */
+/* TYPE-TOP-VARTYPE/NUMBER up to a comma or the end; in a bare rung file (@slash '-') also up
+ * to a blank. NULL: it is no cell. */
 static const char *read_cell(const char *at, const char *end, char slash,
 			     struct classic_cell *cell, int *top)
 {
@@ -83,7 +84,8 @@ static const char *read_cell(const char *at, const char *end, char slash,
 	if (!classic_number(&at, end, top) || at == end || *at++ != '-')
 		return NULL;
 	at = classic_read_variable(at, end, slash, &cell->variable);
-	return at && (at == end || *at == ',') ? at : NULL;
+	return at && (at == end || *at == ',' ||
+		      (slash == '-' && ascii_digit(*at) && !ascii_digit(at[-1]))) ? at : NULL;
 }
 
 static size_t until_comma(const char *at, const char *end)
@@ -118,7 +120,7 @@ static int read_row(struct classic_reader *reader, char slash, struct classic_ce
 			return -1;
 		read.top = top;
 		cell[columns++] = read;
-		at += at < end;
+		at += at < end && *at == ',';
 	}
 	return columns;
 }

@@ -228,6 +228,12 @@ static void test_numeric(void)
 	CHECK(project->rung[0]->next == 1 && project->section[0].last == 1);
 	CHECK(project->timer.count == 3 && project->timer.block[1].base == 0 &&
 	      project->timer.block[2].base == 2 && project->timer.block[2].preset == 7);
+	project = read_text(";Rung:\n3-0-0-19 1-0-0-39\t9-0-0-0 , 50-0-60-0\n"
+		"99-0-0-0 99-0-0-0 20-0-0-1 9-0-0-0\n;Timers:\n0 2\n1 5\n");
+	CHECK_AS(project && project->rung[0]->columns == 4 &&
+		 project->rung[0]->cell[0][1].variable.number == 39 &&
+		 project->rung[0]->cell[1][2].element == 20 && project->timer.count == 2 &&
+		 project->timer.block[0].preset == 2, "blanks alone between cells and numbers");
 	CHECK_TEXT(told("1-0-0-3 , 50-0-60-1\n"), "");
 	CHECK_TEXT(told(";Rung:\n1-0-0-3 ; 50-0-60-1\n"), "LD705 2: 1-0-0-3 ; 50-0-60-1");
 	CHECK_TEXT(told(";Timers:\n1,2\n"), "LD711 0: ");
