@@ -24,7 +24,7 @@ my @documents = ('README.md', 'ARCHITECTURE.md', glob('docs/*.md'));
 my %text = map { $_ => slurp($_, ':encoding(UTF-8)') } @documents;
 # A document without its blocks.
 my %prose = map { $_ => $text{$_} =~ s/^```.*?^```//gmsr } @documents;
-my %word = (eight => 8, third => 3, two => 2, 'once' => 1);
+my %word = (once => 1, two => 2, third => 3, eight => 8, ten => 10, hundred => 100);
 
 # The value of a C expression of numbers, such as (64u << 20).
 sub value {
@@ -73,6 +73,7 @@ fact('docs/rung-file.md', qr/\((\d+) µs to 24 h\)/, limit('TICK') / 1000);
 fact('docs/rung-file.md', qr/µs to (\d+) h\)/, limit('INTERVAL') / 3600e9);
 fact('docs/rung-file.md', qr/All areas together have at most (\d+) MiB/, limit('AREAS') >> 20);
 fact('docs/rung-file.md', qr/is at most (\d+) bytes long/, limit('NAME'));
+fact('docs/language.md', qr/longer than its variable, or than (\d+) bytes/, constant('runtime/engine/base/iec.h', 'IEC_STRING_MOST'));
 fact('docs/language.md', qr/Loops may nest, (\w+) deep/, limit('LOOPS'));
 fact('docs/language.md', qr/Subroutines may call one another, (\d+) deep/, limit('CALLS'));
 fact('docs/language.md', qr/Calls nest up to (\d+) deep/, limit('CALLS'));
@@ -80,6 +81,7 @@ fact('docs/language.md', qr/as boxes with 2 to (\d+) inputs/, limit('FN_INPUTS')
 fact('docs/language.md', qr/`MAX` take up to (\d+) inputs/, limit('FN_INPUTS'));
 fact('docs/language.md', qr/It is never below (\d+) µs/, limit('TICK') / 1000);
 fact('docs/sfc.md', qr/at most (\d+) times a scan; then come the actions/, limit('ROUNDS'));
+fact('docs/sfc.md', qr/At most (\d+) stand in one another/, limit('MACROS'));
 fact('docs/sfc.md', qr/up to (\d+); LD455/, limit('MARKINGS'));
 fact('docs/from-classicladder.md', qr/until none fires, at most (\d+) times a scan/, limit('ROUNDS'));
 fact('docs/code-image.md', qr/position-independent, at most (\d+) MiB/, limit('IMAGE') >> 20);
@@ -99,6 +101,9 @@ fact('docs/sfc.md', qr/more than (\d+) contacts in a row/,
 fact('docs/from-classicladder-export.md', qr/\*\*Expressions\*\* of more than (\d+) bytes/,
      constant('runtime/engine/exchange/classic/classic_write.h', 'CLASSIC_EXPRESSION'));
 fact('docs/editor.md', qr/keeps its last ([\d,]+) scans/, constant('editor-gtk/sim/sim.h', 'SIM_SCANS'));
+my ($control_scans, $shift_scans) = slurp('editor-gtk/live/timing_area.c') =~ /CONTROL_MASK \? (\d+) : state & GDK_SHIFT_MASK \? (\d+)/;
+fact('docs/editor.md', qr/from scan to scan \(with `Shift` (\w+), with/, $shift_scans);
+fact('docs/editor.md', qr/with\s`Ctrl` a (\w+)\), `Home`/, $control_scans);
 fact('docs/editor.md', qr/All programs together take (\d+) MB at most/,
      constant('editor-gtk/sim/sim.h', 'SIM_BYTES') >> 20);
 fact('docs/editor.md', qr/at the latest (\w+) seconds after a change/,
@@ -211,6 +216,10 @@ for my $entry (@$words) {
 }
 fact('docs/blocks.md', qr/^\*\*DEBOUNCE\*\*.*?(\d+) ms/m, $default{'DEBOUNCE.T_ON'} =~ /(\d+)/);
 fact('docs/blocks.md', qr/^\*\*FIFO\*\*.*?SIZE.*?1 to (\d+)/m, $default{'FIFO.SIZE'});
+is($default{'FIFO.SIZE'}, constant('runtime/engine/scan/fb_store.c', 'ROOM'), 'FIFO: the most values');
+fact('docs/blocks.md', qr/^\*\*SHIFT\*\* is a shift register of N bits, 1 to (\d+)\./m,
+     (slurp('runtime/engine/scan/fb_store.c') =~ /fb_bound\(fb->N, (\d+)\)/)[0]);
+fact('docs/blocks.md', qr/^\*\*AVERAGE\*\*.*? N \(1 to (\d+)\)/m, constant('runtime/engine/scan/fb_analog.c', 'SAMPLES'));
 fact('docs/blocks.md', qr/\bN, (\d+) if not given/, $default{'PID.N'});
 fact('docs/blocks.md', qr/\bMIN and MAX are (\d+ and \d+)/, "$default{'PID.MIN'} and $default{'PID.MAX'}");
 my %system = map { $_->{word} => 1 } @$words;
@@ -327,10 +336,42 @@ my %cut = map { $_ => constant('runtime/engine/exchange/classic/classic_write.h'
 	qw(SYMBOL SECTION_NAME COMMENT_LONG COMMENT SYMBOL_COMMENT);
 is(join(' ', $text{'docs/from-classicladder-export.md'} =~ /names have (\d+) bytes, programs (\d+), titles (\d+) \(LinuxCNC (\d+)\), comments of symbols (\d+) \((\d+)\)/),
    join(' ', @cut{qw(SYMBOL SECTION_NAME COMMENT_LONG COMMENT COMMENT SYMBOL_COMMENT)}), 'docs/from-classicladder-export.md: lengths');
+my ($columns, $rows) = slurp('runtime/engine/exchange/classic/classic_write.c') =~ /CLASSIC_COLUMNS : (\d+);.*?CLASSIC_ROWS : (\d+);/s;
+fact('docs/from-classicladder-export.md', qr/\(rungs of (\d+) columns and \d+ rows\)/, $columns);
+fact('docs/from-classicladder-export.md', qr/\(rungs of \d+ columns and (\d+) rows\)/, $rows);
 fact('docs/from-classicladder-export.md', qr/symbols of at most (\d+) bytes/, $cut{SYMBOL});
 my ($next_bit, $next_word) = slurp('runtime/engine/exchange/classic/to_classic_names.c') =~ /CLASSIC_UPSTREAM && e->next_bit < (\d+)\).*?CLASSIC_UPSTREAM && e->next_word < (\d+)\)/s;
 fact('docs/from-classicladder-export.md', qr/from `%B(\d+)` and `%W\d+` on/, $next_bit);
 fact('docs/from-classicladder-export.md', qr/from `%B\d+` and `%W(\d+)` on/, $next_word);
+
+# ---- boards ----
+my ($core_list) = $text{'docs/boards.md'} =~ /knows contacts, coils and jumps, all types, (.*?); an image/s;
+my %core = map { $_ => 1 } grep { !/^REAL$/ } map { split ' ' } $core_list =~ /`([^`]+)`/g;
+$core{$_} = 1 for qw(GT GE EQ LE LT NE); # "comparisons"
+list_is('docs/boards.md: the words of WORDS=core', [keys %core], [$catalog =~ /^F[BN]\((\w+),/mg]);
+my $push = slurp('runtime/ladder/cmd_push.c');
+my ($sudoers) = $text{'docs/boards.md'} =~ /NOPASSWD: (.*?)\n\n/s;
+list_is('docs/boards.md: the commands of ladder push that need root', [map { s/\s+$//r } $sudoers =~ m{/usr/bin/(systemctl [^,\\\n]+)}g],
+	[$push =~ /\$root (systemctl .*? ladderd)/g]);
+my ($order) = $text{'docs/boards.md'} =~ /restarted by the first of these that exists: (.*?)\. `--folder`/s;
+my ($how) = $push =~ /^"if \[ -x \.\/service \](.*?)^"else/ms;
+is(join(' ', map { s{/etc/ladder/}{./}r =~ s/^the //r } $order =~ m{(`/[^`]+`|the systemd unit|`ladderd-run`)}g) =~ tr/`//dr =~ s/ unit//r,
+   join(' ', './service', map { /ladderd-run/ ? 'ladderd-run' : $_ } $how =~ /how=(systemd|\/\S+?|\$\(command -v ladderd-run\))(?:\\n|;)/mg),
+   'docs/boards.md: what ladder push restarts');
+for (qr/(retain: copy 12, .*?)[`;]/, qr/`(body: mean .*?)`/, qr/^    (period: .*)$/m, qr/^    task \w+: (on event.*)$/m, qr/^    task \w+: (every .*)$/m) {
+	my ($shown) = $text{'docs/boards.md'} =~ $_;
+	my $control = join ' ', slurp('runtime/ladderd/control.c') =~ /"((?:[^"\\]|\\.)*)"/g;
+	$control =~ s/%\.?\d*(?:ll)?[uds](?:\.%lld us)?|\\n/ /g;
+	my @unknown = grep { !/^us$/ && $control !~ /(?<!\w)\Q$_\E(?!\w)/ } ($shown // 'no line') =~ /([a-z][\w-]*(?: [a-z][\w-]*)*)/g;
+	is("@unknown", '', 'docs/boards.md: a line of the status: ' . ($shown // $_));
+}
+my $period = constant('runtime/ladderd/cycle.c', 'PERIOD') / 1e6;
+fact('docs/language.md', qr/Without `--period` (\d+) ms take its place/, $period);
+like($help, qr/or ${period}ms\\n/, 'ladderd --help: the default of --period');
+fact('docs/scenarios.md', qr/of the program, or (\d+) ms \|/, (slurp('runtime/engine/trial/scenario_read.c') =~ /(\d+) \* VALUE_MS/)[0]);
+my ($quiet) = slurp('runtime/ladderd/store_thread.c') =~ /period_ns \/ (\d+);/;
+is($quiet, 10, 'docs/boards.md: a tenth of --retain-period') if $text{'docs/boards.md'} =~ /\(a tenth of `--retain-period`/;
+like(slurp('packaging/ladderd.default'), qr/--retain /, 'packaging/ladderd.default has --retain');
 
 # ---- options, make targets, files ----
 my @help = map { scalar `$ladder help $_` } split ' ', `$ladder help --names`;
