@@ -24,7 +24,7 @@ my @documents = ('README.md', 'ARCHITECTURE.md', glob('docs/*.md'));
 my %text = map { $_ => slurp($_, ':encoding(UTF-8)') } @documents;
 # A document without its blocks.
 my %prose = map { $_ => $text{$_} =~ s/^```.*?^```//gmsr } @documents;
-my %word = (once => 1, two => 2, third => 3, eight => 8, ten => 10, hundred => 100);
+my %word = (once => 1, two => 2, third => 3, four => 4, eight => 8, ten => 10, hundred => 100);
 
 # The value of a C expression of numbers, such as (64u << 20).
 sub value {
@@ -185,6 +185,24 @@ my ($table) = $text{'docs/code-image.md'} =~ /^\| instruction \|.*?\n(.*?)\n\n/m
 my @instructions = map { s/ [a-z].*//r } map { split /, (?=[A-Z])/ } map { s/^\| ([^|]+) \|.*/$1/r } grep { !/^\|-/ } split /\n/, $table;
 list_is('docs/code-image.md: the instructions', [map { split /, / } @instructions],
 	[slurp('runtime/engine/catalog.def') =~ /^VM\((\w+),/mg]);
+
+my ($cases) = slurp('runtime/engine/scan/code_text.c') =~ /^uint32_t code_words.*?switch.*?\{(.*?)^\t\}/ms;
+my %length = (END => 1);
+while ($cases =~ /((?:\s*case VM_\w+:)+)\s*return (.*?);/g) {
+	my ($operations, $length) = ($1, $2);
+	$length{$_} = $length for $operations =~ /VM_(\w+)/g;
+}
+for (grep { !/^\|-/ } split /\n/, $table) {
+	my (undef, $operations, $operands) = split /\s*\|\s*/;
+	my $more = $operands =~ s/(?:, )?\w+ …| ?n × (\(.*\))// ? $1 // '(1)' : '';
+	my $length = 1 + (() = $operands =~ /[^,]+/g);
+	my $each = () = $more =~ /\w+/g;
+	for my $operation (map { s/ [a-z].*//r } split /, (?=[A-Z])/, $operations) {
+		my ($fixed, $plus, $times) = $length{$operation} =~ /^(\d+)( \+ (?:(\d+) \* )?(?:n$|\(n >> 8))?/;
+		is("$length $each", "$fixed " . ($plus ? $times // 1 : 0), "docs/code-image.md: the operands of $operation");
+	}
+}
+fact('docs/code-image.md', qr/have (\w+) more operands at the end/, ($length{AGET} =~ /(\d+) \* \(n >> 1\)/)[0]);
 
 # ---- words ----
 my $words = decode_json(scalar `$ladder words --json`);
