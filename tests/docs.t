@@ -3,7 +3,7 @@
 #
 # docs.t - the examples of the documents work. Each ```rung block is a whole file without an
 # error, canonical, and runs. Each command of a ```console block is run and must print the shown
-# output. Files that links name exist. tests/facts.t tests facts in the prose.
+# output. Files and headings that links name exist. tests/facts.t tests facts in the prose.
 #
 # A second word on a fence (```rung lamp.rung, ```text steps) is a file name: the block is
 # written to this file for later commands. Each document has its own folder with a copy of
@@ -112,13 +112,30 @@ sub check_console {
 	}
 }
 
+# The places of a document that a link can name: `# Elements of arrays` is elements-of-arrays.
+sub places_of {
+	my $text = slurp($_[0], $utf8) =~ s/^```.*?^```//gmsr;
+	my (%place, %seen);
+	for ($text =~ /^#+ (.*)$/mg) {
+		my $place = lc s/\[([^\]]*)\]\([^)]*\)/$1/gr;
+		$place =~ s/[^\w\s-]//g;
+		$place =~ tr/ /-/;
+		my $before = $seen{$place}++;
+		$place{$before ? "$place-$before" : $place} = 1;
+	}
+	return \%place;
+}
+
 sub check_links {
 	my ($path) = @_;
-	my $text = slurp($path, $utf8);
-	while ($text =~ /\]\(([^)#\s]+)[^)]*\)/g) {
-		my $link = $1;
+	my $text = slurp($path, $utf8) =~ s/^```.*?^```//gmsr;
+	while ($text =~ /\]\(([^)#\s]*)(?:#([^)\s]*))?[^)]*\)/g) {
+		my ($link, $place) = ($1, $2);
 		next if $link =~ /^\w+:/;
-		ok(-e dirname($path) . "/$link", basename($path) . " links to $link");
+		my $file = $link eq '' ? $path : dirname($path) . "/$link";
+		ok(-e $file, basename($path) . " links to $link") if $link ne '';
+		ok(places_of($file)->{$place}, basename($path) . " links to $link#$place")
+			if defined $place && -e $file;
 	}
 }
 
