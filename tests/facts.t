@@ -298,6 +298,13 @@ my @elements = map { /`(?:(\[.*?\])|(---|\w+))/ ? $1 // $2 : () } map { split m{
 	@{column_of('docs/language.md', '| element | drawn |')}, @{column_of('docs/language.md', '| coil | drawn |')};
 list_is('docs/language.md: the elements', [map { /^\[.*:=/ ? '[:=]' : /^\[/ ? '[ ]' : $_ } @elements],
 	[grep { !/^(?:---|\.|)$/ } $catalog =~ /^ELEM\(\w+,\s*"([^"]*)"/mg]);
+my %picture = map { $_->{word} => $_->{picture} // '' } grep { $_->{kind} eq 'element' } @$words;
+for my $row (map { split /\n/ } $text{'docs/language.md'} =~ /^\| (?:element|coil) \| drawn .*\n\|[-|]+\n((?:\|.*\n)+)/mg) {
+	my (undef, $words_of, $drawn) = split /(?<!\/)\s*\|\s*/, $row;
+	my @drawn = map { s/^([A-Z]+) .*/$1/r =~ s/^─|─$//gr } $drawn =~ /`([^`]+)`/g or next;
+	my @of = $words_of =~ /`([A-Z]+)\b/g;
+	is_deeply([grep { index($picture{$of[$_]} // '', $drawn[$_]) < 0 } 0 .. $#drawn], [], "docs/language.md: the drawing of @of");
+}
 my @times = map { /`(\w+)`/g } @{column_of('docs/language.md', '| written | is |', 2)};
 ok(@times > 8 && !grep({ !$system{$_} } @times), 'docs/language.md: the functions of times');
 
