@@ -513,6 +513,8 @@ is(join(' ', grep { $script_table !~ /`\Q$_\E\b/ } $script =~ /is_word\(\w+, "(\
 my ($rooms) = slurp('tests/floors.sh') =~ /^rooms="\n(.*?)^"/ms;
 my @rooms = map { m{([\w-]+)$} ? "$1/" : () } map { (split ' ')[0] } split /\n/, $rooms;
 is(join(' ', grep { index($text{'ARCHITECTURE.md'}, $_) < 0 } @rooms), '', 'ARCHITECTURE.md: every room of tests/floors.sh');
+my @allowed = map { m{^(?:engine|hal|editor-gtk)(?:/|$)} ? $_ : () } map { split } slurp('tests/floors.sh') =~ /^(?:rooms|doors|sheets)=["'](.*?)["']$/msg;
+is(join(' ', grep { !-e && !-e "runtime/$_" } @allowed), '', 'tests/floors.sh: the table names what is there');
 my %hundred = map { /LD(\d)/; $1 => 1 } keys %message;
 my ($ranges) = $text{'ARCHITECTURE.md'} =~ /(LD0xx system.*?)\n\n/s;
 list_is('ARCHITECTURE.md: the ranges of codes', [map { /^LD(\d)/ ? $1 : /^(\d)xx/ } split /, /, $ranges =~ s/\n\s*/ /gr], [keys %hundred]);

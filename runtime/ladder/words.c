@@ -382,7 +382,7 @@ static void one_word(const struct words_entry *entry, const struct sink *sink)
 		sink_printf(sink, ": %s", entry->doc);
 	sink_text(sink, "\n");
 	if (entry->kind == WORDS_ELEMENT)
-		sink_printf(sink, "  drawn %s\n", entry->row->glyph);
+		sink_printf(sink, "  symbol %s\n", entry->row->glyph);
 	if (entry->kind != WORDS_BLOCK) {
 		sink_text(sink, "  ");
 		words_note(entry, sink);

@@ -12,7 +12,7 @@ static const struct {
 	const char *heading, *columns;
 } of_kind[WORDS_KIND_COUNT] = {
 	[WORDS_ELEMENT] = { "Elements of a rung",
-		"\n| word | drawn | family | stands with | effect | source | more |\n"
+		"\n| word | symbol | family | stands with | effect | source | more |\n"
 		"|---|---|---|---|---|---|---|\n" },
 	[WORDS_BLOCK] = { "Function blocks", "" },
 	[WORDS_FUNCTION] = { "Functions", "" },

@@ -85,7 +85,7 @@ static void test_one(void)
 		   "  in  IN2  ANY_MAGNITUDE  next\n");
 	CHECK_TEXT(facts("R", &count),
 		   "R: element (Coils): resets while powered\n"
-		   "  drawn (R)\n"
+		   "  symbol (R)\n"
 		   "  a BOOL it writes, last in its row\n"
 		   "R: IL operator: resets the operand if the result is TRUE\n"
 		   "  R\n");
