@@ -410,7 +410,7 @@ for my $path (@documents) {
 my %target = map { $_ => 1 } slurp('Makefile') =~ /^([a-z][a-z-]*):/mg;
 my %variable = map { $_ => 1 } slurp('Makefile') =~ /\$[({]([A-Z_]+)/g;
 for my $path (@documents) {
-	my @unknown = grep { !$target{$_} } $text{$path} =~ /`make(?: [A-Z_]+=[^\s`]+)* ([a-z][a-z-]*)[^`\n]*`/g;
+	my @unknown = grep { !$target{$_} } $text{$path} =~ /(?:`|^ *)make(?: [A-Z_]+=[^\s`]+)* ([a-z][a-z-]*)(?=`| *#|\n|[ A-Z=]*`)/mg;
 	is("@unknown", '', "$path: targets of make");
 	@unknown = grep { !$variable{$_} } map { /([A-Z_]+)=/g } $text{$path} =~ /\bmake((?: [A-Z_]+=[^\s`]+)+)/g;
 	is("@unknown", '', "$path: variables of make");
@@ -431,6 +431,12 @@ my ($with) = $text{'docs/scenarios.md'} =~ /^(`ladders\/garage-door\.rung`.*? co
 list_is('docs/scenarios.md: the samples with a plant', [$with =~ /`(?:ladders\/)?([\w-]+)\.rung`/g], \@plants);
 list_is('README.md: the documents', [$text{'README.md'} =~ /^\| \[(docs\/[\w-]+\.md)\]/mg],
 	[grep { m{^docs/} && !m{/from-classicladder-export} } @documents]);
+my $run = slurp('run');
+my %package = map { $_ => 1 } map { split } $run =~ /^\w+_packages="(.*?)"$/msg;
+for my $path (@documents) {
+	is(join(' ', grep { !$package{$_} } map { split } $text{$path} =~ /apt-get install ([a-z0-9 +-]+)/g), '', "$path: packages");
+	is(join(' ', grep { $run !~ /^\Q$_\E\)/m } $text{$path} =~ /\.\/run ([a-z]+)/g), '', "$path: ./run");
+}
 my %maps = map { $_ => 1 } $text{'docs/boards.md'} =~ /\b([\w-]+\.io)\b/g;
 is(join(' ', grep { !$maps{$_} } map { basename($_) } glob 'ladders/boards/*.io'), '', 'docs/boards.md: every map of ladders/boards');
 my ($map_options) = slurp('hal/iomap.c') =~ /^static const struct option options\[.*?\{(.*?)^\};/ms;
@@ -463,7 +469,7 @@ is(join(' ', grep { $editor !~ /"\Q$_\E"/ } $keys =~ /<key name="([a-z-]+)"/g), 
 
 my @vehicles = grep { $_ ne 'sizes' } map { basename($_) } grep { -f && -x } glob 'tests/targets/*';
 list_is('Makefile: the vehicles', [split ' ', (slurp('Makefile') =~ /^VEHICLES +\?= (.*)$/m)[0]], \@vehicles);
-list_is('./run help: the vehicles', [split ' ', (slurp('run') =~ /in emulators:\n\s+(.*?);/)[0]], \@vehicles);
+list_is('./run help: the vehicles', [split ' ', ($run =~ /in emulators:\n\s+(.*?);/)[0]], \@vehicles);
 
 my ($live_keys) = slurp('runtime/ladder/live.c') =~ /keys\[\] = "(\w+)"/;
 is($live_keys, join('', 1 .. 9, grep { !/[sq]/ } 'a' .. 'z'), 'ladder run --help: the keys of inputs');
