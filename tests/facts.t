@@ -515,6 +515,20 @@ my $script = slurp('runtime/engine/trial/script.c');
 my ($script_table) = $text{'docs/scenarios.md'} =~ /^\| in a line \| means \|\n\|---\|---\|\n(.*?)\n\n/ms;
 is(join(' ', grep { $script_table !~ /`\Q$_\E\b/ } $script =~ /is_word\(\w+, "(\@?[a-z]+)"\)/g), '', 'docs/scenarios.md: the words of a script');
 
+# ---- the help of commands ----
+my $rows_of_commands = slurp('runtime/ladder/commands.def');
+my $commands = join '', map { slurp($_) } glob 'runtime/ladder/*.c';
+is(join(' ', grep { $commands !~ /"\Q$_\E"/ } $rows_of_commands =~ /\{ "(--?[a-z-]+)",/g), '', 'runtime/ladder/commands.def: the options are looked for');
+for my $help (grep { /--period/ } @help) {
+	my ($command) = $help =~ /^ladder (\w+):/m;
+	my ($default) = $help =~ /or\s+(\d+)ms/;
+	is($default, $_, "ladder $command --help: the default of --period") for $commands =~ /(?:tasks_tick|period).*? (\d+) \* VALUE_MS/g;
+}
+my ($scans) = slurp('runtime/ladder/cmd_bench.c') =~ /report_count\(call, "--scans", (\d+),/;
+like($rows_of_commands, qr/"scans of each kind, default $scans"/, 'ladder bench --help: the default of --scans');
+my ($of_trace) = grep { /^ladder trace:/m } @help;
+is(join(' ', grep { $of_trace !~ /(?<![\w@])\Q$_\E\b/ } $script =~ /is_word\(\w+, "(\@?[a-z]+)"\)/g), '', 'ladder trace --help: the words of a script');
+
 # ---- ARCHITECTURE.md ----
 my ($rooms) = slurp('tests/floors.sh') =~ /^rooms="\n(.*?)^"/ms;
 my @rooms = map { m{([\w-]+)$} ? "$1/" : () } map { (split ' ')[0] } split /\n/, $rooms;
