@@ -212,8 +212,15 @@ static bool read_members(struct classic_reader *reader)
 	struct classic_project *project = reader->project;
 
 	look_for_twice(reader);
-	for (int i = 0; i < project->members; i++)
-		read_member(reader, &project->member[i]);
+	for (int i = 0; i < project->members; i++) {
+		const struct classic_member *member = &project->member[i];
+
+		if (memchr(member->text, 0, member->len))
+			classic_fail_at(reader, DIAG_BAD_BYTE,
+					(struct classic_place){ member->name, 0 }, "", 0);
+		else
+			read_member(reader, member);
+	}
 	registers_have_modes(reader);
 	return true;
 }
@@ -879,16 +886,7 @@ struct classic_project *classic_read_folder(struct arena *arena, const char *fol
 	if (reader.project->members > 1)
 		qsort(reader.project->member, (size_t)reader.project->members,
 		      sizeof(*reader.project->member), member_order);
-	for (int i = 0; i < reader.project->members; i++) {
-		const struct classic_member *member = &reader.project->member[i];
-
-		if (memchr(member->text, 0, member->len))
-			classic_fail_at(&reader, DIAG_BAD_BYTE,
-					(struct classic_place){ member->name, 0 }, "", 0);
-		else
-			read_member(&reader, member);
-	}
-	registers_have_modes(&reader);
+	read_members(&reader);
 	return end(&reader);
 }
 

@@ -329,12 +329,6 @@ static bool writes_steps(struct leaving *e, const struct pou *pou, const struct 
 	       (cell->word == ELEM_COIL_SET && is_step(e, pou, cell));
 }
 
-/* Resets bits of steps. */
-static bool hides_steps(struct leaving *e, const struct pou *pou, const struct cell *cell)
-{
-	return cell->word == ELEM_COIL_RESET && is_step(e, pou, cell);
-}
-
 /* Reads nothing but the first scan and steps. */
 static bool asks_steps(struct leaving *e, const struct pou *pou)
 {
@@ -359,9 +353,7 @@ static bool is_needless(struct leaving *e, const struct pou *pou)
 
 	return (!strncmp(name, "SystemBits", 10) && writes_only(e, pou, writes_system)) ||
 	       (strstr(name, "_Others") && asks_steps(e, pou) &&
-		writes_only(e, pou, writes_steps)) ||
-	       (strstr(name, "_Begin") && asks_steps(e, pou) &&
-		writes_only(e, pou, hides_steps));
+		writes_only(e, pou, writes_steps));
 }
 
 /* ---- order of programs ---- */
