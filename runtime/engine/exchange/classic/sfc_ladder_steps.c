@@ -504,17 +504,23 @@ static void write_leaving(struct lad *e, struct lad_var *when, const char *title
 	}
 }
 
+/* @word: R or S, for the bit of each of @steps. */
+static void write_bits(struct lad *e, struct lad_var *when, const char *word,
+		       const struct sfc_steps *steps, const char *title)
+{
+	struct lad_rung *r = lad_begin(e);
+
+	lad_head(r, no(e, when));
+	for (int i = 0; i < steps->count; i++)
+		lad_out(r, coil(e, word, &e->step[steps->step[i]][LAD_X]));
+	lad_write(e, r, "", title);
+}
+
 static void write_resets(struct lad *e)
 {
-	for (int i = 0; i < arcs_together(e); i++) {
-		const struct sfc_arc *arc = &e->net.arc[i];
-		struct lad_rung *r = lad_begin(e);
-
-		lad_head(r, no(e, &e->arc[i][LAD_FIRES]));
-		for (int k = 0; k < arc->from.count; k++)
-			lad_out(r, coil(e, "R", &e->step[arc->from.step[k]][LAD_X]));
-		lad_write(e, r, "", lad_text(e, "Leave %s", lad_steps_text(e, &arc->from)));
-	}
+	for (int i = 0; i < arcs_together(e); i++)
+		write_bits(e, &e->arc[i][LAD_FIRES], "R", &e->net.arc[i].from,
+			   lad_text(e, "Leave %s", lad_steps_text(e, &e->net.arc[i].from)));
 	if (lad_has_reset(e))
 		write_leaving(e, &e->whole[LAD_ANEW], "RESET leaves all steps");
 	if (lad_has_force(e))
@@ -523,18 +529,11 @@ static void write_resets(struct lad *e)
 
 static void write_sets(struct lad *e)
 {
-	struct lad_rung *r;
+	struct lad_rung *r = lad_begin(e);
 
-	for (int i = 0; i < arcs_together(e); i++) {
-		const struct sfc_arc *arc = &e->net.arc[i];
-
-		r = lad_begin(e);
-		lad_head(r, no(e, &e->arc[i][LAD_FIRES]));
-		for (int k = 0; k < arc->to.count; k++)
-			lad_out(r, coil(e, "S", &e->step[arc->to.step[k]][LAD_X]));
-		lad_write(e, r, "", lad_text(e, "Enter %s", lad_steps_text(e, &arc->to)));
-	}
-	r = lad_begin(e);
+	for (int i = 0; i < arcs_together(e); i++)
+		write_bits(e, &e->arc[i][LAD_FIRES], "S", &e->net.arc[i].to,
+			   lad_text(e, "Enter %s", lad_steps_text(e, &e->net.arc[i].to)));
 	lad_cell(r, no(e, &e->whole[LAD_FIRST]));
 	if (lad_has_reset(e)) {
 		lad_way(r);
@@ -547,11 +546,8 @@ static void write_sets(struct lad *e)
 		struct sfc_steps steps;
 
 		e->good &= sfc_forced(e->sfc, i, e->arena, &steps);
-		r = lad_begin(e);
-		lad_head(r, no(e, &e->step[i][LAD_FORCED]));
-		for (int k = 0; k < steps.count; k++)
-			lad_out(r, coil(e, "S", &e->step[steps.step[k]][LAD_X]));
-		lad_write(e, r, "", lad_text(e, "FORCE enters %s", lad_name(e, i)));
+		write_bits(e, &e->step[i][LAD_FORCED], "S", &steps,
+			   lad_text(e, "FORCE enters %s", lad_name(e, i)));
 	}
 }
 
