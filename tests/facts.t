@@ -535,6 +535,30 @@ my @rooms = map { m{([\w-]+)$} ? "$1/" : () } map { (split ' ')[0] } split /\n/,
 is(join(' ', grep { index($text{'ARCHITECTURE.md'}, $_) < 0 } @rooms), '', 'ARCHITECTURE.md: every room of tests/floors.sh');
 my @allowed = map { m{^(?:engine|hal|editor-gtk)(?:/|$)} ? $_ : () } map { split } slurp('tests/floors.sh') =~ /^(?:rooms|doors|sheets)=["'](.*?)["']$/msg;
 is(join(' ', grep { !-e && !-e "runtime/$_" } @allowed), '', 'tests/floors.sh: the table names what is there');
+# A room includes only rooms behind it in the chains of ARCHITECTURE.md.
+my ($setup) = slurp('tests/floors.sh') =~ /\A(.*?)^# Libraries/ms;
+my (undef, $listing) = answer('.', 'sh', '-c', "$setup\nprintf '%s\\n' \"\$rooms\"");
+my @upwards;
+for my $home ('editor-gtk', 'engine') {
+	my ($level, %level) = (0);
+	my $floor = $home =~ s/-gtk//r;
+	for my $group (split /→/, ($text{'ARCHITECTURE.md'} =~ /^\| $floor \| ([^|]+)/m)[0]) {
+		$level++;
+		$level{"$home/$_"} = $level for map { s{/$}{}r } map { split } $group =~ /`([^`]+)`/g;
+	}
+	for (grep { /\S/ } split /\n/, $listing) {
+		my ($room, @below) = map { s{^runtime/}{}r =~ s{/classic$}{}r } split;
+		push @upwards, map { "$room -> $_" } grep { defined $level{$_} && defined $level{$room} && $_ ne $room && $level{$_} <= $level{$room} } @below;
+	}
+	cmp_ok(scalar keys %level, '>', 8, "ARCHITECTURE.md: the rooms of $home/");
+}
+for (['the doors of the engine', $setup =~ /^doors='([^']+)'/m, qr/the engine's doors: (.*?) \|/],
+     ['what hal/ may include', $setup =~ /^hal +(.*)$/m, qr/^\| hal \| `hal\/` \| (.*?) \|/m]) {
+	my ($what, $allowed, $pattern) = @$_;
+	list_is("ARCHITECTURE.md: $what", [map { s{/$}{}r } map { split } ($text{'ARCHITECTURE.md'} =~ $pattern)[0] =~ /`([^`]+)`/g],
+		[map { s{^engine/}{}r } split ' ', $allowed]);
+}
+is("@upwards", '', 'ARCHITECTURE.md: the order of rooms is that of tests/floors.sh');
 my %hundred = map { /LD(\d)/; $1 => 1 } keys %message;
 my ($ranges) = $text{'ARCHITECTURE.md'} =~ /(LD0xx system.*?)\n\n/s;
 list_is('ARCHITECTURE.md: the ranges of codes', [map { /^LD(\d)/ ? $1 : /^(\d)xx/ } split /, /, $ranges =~ s/\n\s*/ /gr], [keys %hundred]);
