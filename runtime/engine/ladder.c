@@ -12,6 +12,7 @@
 #include "engine/check/check_tokens.h"
 #include "engine/check/expect.h"
 #include "engine/scan/symbol_index.h"
+#include "engine/text/mend.h"
 #include "engine/text/text.h"
 #include "engine/translate/translate.h"
 #include "engine/exchange/classic/sfc_ladder.h"
@@ -37,7 +38,7 @@ struct ladder {
 
 struct ladder *ladder_new(void)
 {
-	static const struct advice desk = { expect_nearest, check_tokens };
+	static const struct advice desk = { mend_line, expect_nearest, check_tokens };
 	struct ladder *ladder = ladder_new_terse();
 
 	if (ladder)

@@ -39,16 +39,17 @@ static bool is_control(const char *at, size_t len)
 	       (c == 0xc2 && len > 1 && (unsigned char)at[1] < 0xa0);
 }
 
-/* Whole characters of @text, as many as @out of LIMIT_ARG bytes takes. */
+/* Whole characters of @text, up to LIMIT_PARTS bytes; of a single part LIMIT_ARG. */
 static void copy_clean(char *out, const char *text)
 {
+	const size_t most = strchr(text, DIAG_AND[0]) ? LIMIT_PARTS : LIMIT_ARG;
 	size_t left = strlen(text), used = 0;
 
 	while (left) {
 		size_t len = utf8_length(text, left);
 		bool shown = len && !is_control(text, len);
 
-		if (used + (shown ? len : 1) >= LIMIT_ARG)
+		if (used + (shown ? len : 1) >= most)
 			break;
 		if (shown)
 			memcpy(out + used, text, len);
@@ -80,7 +81,7 @@ static bool drop_warning(struct diag_list *list)
 bool diag_add(struct diag_list *list, struct diag place, const char *arg, ...)
 {
 	bool error = diag_severity(place.id) == SEVERITY_ERROR;
-	char text[LIMIT_ARG + 4]; /* room to end the last whole character    */
+	char text[LIMIT_PARTS + 4]; /* room to end the last whole character    */
 	struct diag *added;
 	va_list args;
 

@@ -32,7 +32,7 @@ struct diag {
 	const char *pou;     /* name, or NULL; borrowed from the project       */
 	int rung, row, col;  /* 1-based, as the editor numbers; 0: the whole   */
 	int column;          /* 1-based byte in the line, for text; 0: none    */
-	char arg[LIMIT_ARG]; /* names and values for its text, clipped         */
+	char arg[LIMIT_PARTS]; /* names and values for its text, clipped         */
 };
 
 struct diag_list {

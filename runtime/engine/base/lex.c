@@ -55,16 +55,12 @@ void lex_init(struct lex *lex, const char *text, size_t len)
 	lex->token.line = lex->token.column = 1;
 }
 
-/* Bytes of the character beyond ASCII at @at that may stand in a name, else 0.
- * C1 controls are none. */
+/* Bytes of the character beyond ASCII at @at that may stand in a name, else 0. */
 static size_t high_length(const char *at, const char *end)
 {
 	size_t len = utf8_length(at, (size_t)(end - at));
 
-	if (len == 2 && (unsigned char)at[0] == 0xc2 &&
-	    (unsigned char)at[1] < 0xa0)
-		return 0;
-	return len;
+	return len && utf8_is_letter(at, len) ? len : 0;
 }
 
 /* Skips letters, digits and _ at @at. */
@@ -314,6 +310,7 @@ static enum token_kind scan_name(struct lex *lex)
 static enum token_kind scan(struct lex *lex)
 {
 	const char *at = lex->at;
+	size_t high;
 
 	switch (class_at(at)) {
 	case IS_LETTER:
@@ -336,7 +333,8 @@ static enum token_kind scan(struct lex *lex)
 	case IS_BAD:
 		break;
 	}
-	lex->at++;
+	high = utf8_length(at, (size_t)(lex->end - at));
+	lex->at += high ? high : 1;
 	return TOKEN_BAD;
 }
 

@@ -11,6 +11,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 enum token_kind {
 	TOKEN_END,        /* end of the text                                   */
@@ -24,7 +25,8 @@ enum token_kind {
 	TOKEN_COMMENT,    /* (* … *) nested or // …; only when lex->comments,
 			     else skipped                                     */
 	TOKEN_SYMBOL,     /* := => <= >= <> ** or one character               */
-	TOKEN_BAD,        /* control or invalid UTF-8 byte, open string or
+	TOKEN_BAD,        /* control or invalid UTF-8 byte, another character
+			     beyond ASCII that is no letter, open string or
 			     comment; goes on behind it                       */
 };
 
@@ -61,6 +63,10 @@ size_t utf8_length(const char *text, size_t len);
 /** utf8_valid - whether all @len bytes are valid UTF-8 without NUL. @bad (may be NULL)
  * gets the offset of the first bad byte. */
 bool utf8_valid(const char *text, size_t len, size_t *bad);
+/** utf8_code - the code point of a valid character of @len bytes, 1 to 4. */
+uint32_t utf8_code(const char *text, size_t len);
+/** utf8_is_letter - may this valid character beyond ASCII stand in a name? */
+bool utf8_is_letter(const char *text, size_t len);
 /** utf16_text - does @text begin as UTF-16 does: with its mark, or every other byte 0? */
 bool utf16_text(const char *text, size_t len);
 /** utf8_width - columns a terminal needs: 2 for East Asian wide, 0 for

@@ -19,7 +19,8 @@
 #define LIMIT_ROWS        256       /* rows of a rung                         */
 #define LIMIT_DIAGS       100       /* diagnostics kept; the rest are counted */
 #define LIMIT_NAME        255       /* bytes of a name                        */
-#define LIMIT_ARG         64        /* bytes of a diagnostic's argument       */
+#define LIMIT_ARG         64        /* bytes of a part of a diagnostic         */
+#define LIMIT_PARTS       160       /* bytes of all its parts                  */
 #define LIMIT_TEXT        (64u << 20) /* bytes of one source file             */
 #define LIMIT_INCLUDES    8         /* files that include one another         */
 #define LIMIT_RUNGS       50000     /* rungs of one POU                       */

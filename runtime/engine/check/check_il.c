@@ -8,6 +8,7 @@
 #include "engine/model/convert.h"
 #include "engine/model/shape.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -19,7 +20,16 @@ struct result {
 	enum iec_type type;
 	const struct literal *literal;
 	const struct meaning *whole; /* a structure or array; else NULL    */
+	const struct meaning *of;    /* the operand it was read from, or NULL */
 };
+
+/* A temporary that holds a constant. */
+struct folded {
+	const struct var *var;
+	enum iec_type type;
+	union iec_value value;
+};
+#define FOLDED_MOST 4
 
 struct il_check {
 	struct scope *scope;
@@ -32,6 +42,9 @@ struct il_check {
 	struct result now;
 	uint32_t ended_at;   /* label that ended a result; 0: no label did  */
 	bool jumps;          /* a conditional jump was seen                 */
+	bool has_constant;   /* the last function has a constant result:    */
+	union iec_value constant;
+	struct folded folded[FOLDED_MOST]; /* var NULL: free                */
 	int depth;           /* of open parentheses                         */
 	struct il_opened {
 		struct result left;
@@ -200,7 +213,7 @@ static const struct meaning *il_value_of(struct il_check *c,
 
 static struct result il_result_of(const struct meaning *m)
 {
-	struct result out = { .there = true, .type = m->type };
+	struct result out = { .there = true, .type = m->type, .of = m };
 
 	if (m->kind == MEANING_LITERAL && m->type == IEC_NONE)
 		out.literal = &m->literal;
@@ -275,9 +288,19 @@ static bool can_store(struct il_check *c, const struct il_line *line,
 	return il_report_types(c, line, from.type, to);
 }
 
+/* @var, or every temporary if it is NULL, holds no constant from here on. */
+static void forget(struct il_check *c, const struct var *var)
+{
+	for (int i = 0; i < FOLDED_MOST; i++)
+		if (!var || c->folded[i].var == var)
+			c->folded[i].var = NULL;
+}
+
 static bool can_write(struct il_check *c, const struct il_line *line,
 		      const struct meaning *m)
 {
+	if (m->var)
+		forget(c, m->var);
 	if (line->mark & IL_MADE && m->var && m->pou == c->pou &&
 	    vars_flags(&c->pou->vars, m->index) & VAR_SFC)
 		return true;
@@ -540,6 +563,135 @@ static bool report_literal(struct il_check *c, const struct il_line *line, int i
 	return il_report(c, line, DIAG_LITERAL_RANGE, text);
 }
 
+/* ---- constants ---- */
+
+static void remember(struct il_check *c, const struct meaning *m, enum iec_type type)
+{
+	int i = 0;
+
+	while (i < FOLDED_MOST && c->folded[i].var)
+		i++;
+	if (i < FOLDED_MOST && m->kind == MEANING_VARIABLE && c->has_constant)
+		c->folded[i] = (struct folded){ m->var, type, c->constant };
+}
+
+/* The value of a constant, a CONSTANT variable or a temporary, as @type. */
+static bool constant_value(const struct il_check *c, struct result in, enum iec_type type,
+			   union iec_value *out)
+{
+	const struct meaning *m = in.of;
+	enum iec_type from = in.type;
+
+	if (!m || type == IEC_STRING)
+		return false;
+	if (m->kind == MEANING_LITERAL)
+		return literal_fit(&m->literal, type, out);
+	if (m->kind != MEANING_VARIABLE)
+		return false;
+	if (m->constant && m->var->has_init) {
+		*out = m->var->init;
+	} else {
+		int i = 0;
+
+		while (i < FOLDED_MOST && c->folded[i].var != m->var)
+			i++;
+		if (i == FOLDED_MOST)
+			return false;
+		*out = c->folded[i].value;
+		from = c->folded[i].type;
+	}
+	if (iec_type_row(type)->class == CLASS_REAL && iec_type_row(from)->class != CLASS_REAL)
+		out->r = (double)out->i;
+	return true;
+}
+
+static const struct { enum word word; const char *sign; } folds[] = {
+	{ FN_ADD, "+" }, { FN_SUB, "-" }, { FN_MUL, "*" }, { FN_DIV, "/" }, { FN_MOD, "MOD" },
+};
+
+/* The sign of a function that can be folded; NULL: it cannot. */
+static const char *sign_of(enum word word)
+{
+	for (size_t i = 0; i < sizeof(folds) / sizeof(*folds); i++)
+		if (folds[i].word == word)
+			return folds[i].sign;
+	return NULL;
+}
+
+/* "100 * 1000"; an operand that is no constant is "...". */
+static void print_operation(enum word word, enum iec_type type, const union iec_value value[2],
+			    const bool known[2], char out[LIMIT_ARG])
+{
+	char number[2][28];
+
+	for (int i = 0; i < 2; i++) {
+		snprintf(number[i], sizeof(number[i]), "...");
+		if (known[i])
+			iec_value_print(type, value[i], number[i], sizeof(number[i]));
+	}
+	snprintf(out, LIMIT_ARG, "%.26s %s %.26s", number[0], sign_of(word), number[1]);
+}
+
+enum folding { FOLD_DONE, FOLD_FAILS, FOLD_UNKNOWN };
+
+static enum folding fold_real(enum word word, enum iec_type type, double a, double b,
+			      union iec_value *out)
+{
+	out->r = word == FN_ADD ? a + b : word == FN_SUB ? a - b : word == FN_MUL ? a * b : a / b;
+	if (type == IEC_REAL)
+		out->r = (double)(float)out->r;
+	return isfinite(out->r) ? FOLD_DONE : FOLD_FAILS;
+}
+
+static enum folding fold_integer(enum word word, enum iec_type type, int64_t a, int64_t b,
+				 union iec_value *out)
+{
+	const struct iec_type_row *row = iec_type_row(type);
+	bool over = false;
+
+	if (iec_is_wide(type))
+		return FOLD_UNKNOWN;
+	if (word == FN_ADD)
+		over = __builtin_add_overflow(a, b, &out->i);
+	else if (word == FN_SUB)
+		over = __builtin_sub_overflow(a, b, &out->i);
+	else if (word == FN_MUL)
+		over = __builtin_mul_overflow(a, b, &out->i);
+	else if (b == -1)
+		over = __builtin_sub_overflow((int64_t)0, word == FN_MOD ? 0 : a, &out->i);
+	else
+		out->i = word == FN_MOD ? a % b : a / b;
+	return over || out->i < row->low || out->i > row->high ? FOLD_FAILS : FOLD_DONE;
+}
+
+/* Computes ADD SUB MUL DIV MOD of two constants, and warns if that can only fail. */
+static void fold(struct il_check *c, const struct il_line *line, const struct result *in,
+		 enum iec_type type)
+{
+	const enum word word = (enum word)line->word;
+	const bool real = iec_type_row(type)->class == CLASS_REAL;
+	const bool divides = word == FN_DIV || word == FN_MOD;
+	enum folding folding = FOLD_UNKNOWN;
+	union iec_value value[2];
+	bool known[2], zero;
+	char text[LIMIT_ARG + 16];
+
+	for (int i = 0; i < 2; i++)
+		known[i] = constant_value(c, in[i], type, &value[i]);
+	zero = divides && known[1] && (real ? value[1].r == 0 : value[1].i == 0);
+	if (known[0] && known[1] && !zero)
+		folding = real ? fold_real(word, type, value[0].r, value[1].r, &c->constant) :
+				 fold_integer(word, type, value[0].i, value[1].i, &c->constant);
+	c->has_constant = folding == FOLD_DONE;
+	if (!zero && folding != FOLD_FAILS)
+		return;
+	print_operation(word, type, value, known, text);
+	if (!zero)
+		snprintf(text + strlen(text), sizeof(text) - strlen(text), DIAG_AND "%s",
+			 iec_type_row(type)->word);
+	il_report(c, line, zero ? DIAG_DIVIDES_BY_ZERO : DIAG_NO_RESULT_IN, text);
+}
+
 /* Finds the type that the inputs share, and whether the function takes it. */
 static bool check_shared(struct il_check *c, const struct il_line *line,
 			 const struct result *in, int count,
@@ -572,13 +724,15 @@ static bool il_check_inputs(struct il_check *c, const struct il_line *line,
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	const struct word_pin *shared = NULL;
 	const struct result *first = NULL;
-	enum iec_type type = IEC_NONE;
+	enum iec_type type = IEC_NONE, real;
+	int point = -1;
 
 	for (int i = 0; i < count; i++) {
 		const struct word_pin *pin = word_input(row, (uint32_t)i);
-		bool point = in[i].literal && in[i].literal->real;
-		enum iec_type own = point ? IEC_REAL : in[i].type;
-		enum iec_type join = types_join(type, own);
+		enum iec_type own = in[i].type, join = types_join(type, own);
+
+		if (in[i].literal && in[i].literal->real && !pin->own)
+			point = i;
 
 		if (pin->own && !check_own(c, line, pin, &in[i]))
 			return false;
@@ -594,13 +748,26 @@ static bool il_check_inputs(struct il_check *c, const struct il_line *line,
 	}
 	if (!shared)
 		return true;
+	/* A constant with a point is of the wanted type, as one without. */
+	if (point >= 0 && iec_type_row(type)->class != CLASS_REAL) {
+		real = iec_type_row(hint)->class == CLASS_REAL ? hint : IEC_REAL;
+		if (types_join(type, real) == IEC_TYPE_COUNT)
+			return point ? report_join(c, line, point, type, real) :
+				       report_join(c, line, point, real, type);
+		type = types_join(type, real);
+	}
 	if (shared->type != IEC_NONE && (type == IEC_NONE ||
 					 iec_can_widen(type, shared->type)))
 		type = shared->type; /* INT_TO_REAL: made an INT first */
 	if (type == IEC_NONE)
 		type = constants_type(shared, first, hint);
 	*common = type;
-	return check_shared(c, line, in, count, shared, type);
+	if (!check_shared(c, line, in, count, shared, type))
+		return false;
+	c->has_constant = false;
+	if (count == 2 && type != IEC_STRING && sign_of((enum word)line->word))
+		fold(c, line, in, type);
+	return true;
 }
 
 /* AND( or ADD( : the result waits. @good: so far. */
@@ -652,7 +819,8 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 	runs = overloaded(line, in, count);
 	row = scope_row(c->scope, (enum word)runs.word);
 	stored = il_stored_type(c->scope, c->pou, c->il, at);
-	if (!il_check_inputs(c, &runs, in, count, IEC_NONE, common))
+	if (!il_check_inputs(c, &runs, in, count, word_shares(row) ? stored : IEC_NONE,
+			     common))
 		return false;
 	c->now = (struct result){
 		.there = true, .type = fn_result(row, *common, stored),
@@ -737,9 +905,11 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 		else if (strcasecmp(pin, "ENO") == 0)
 			good &= il_need_bool(c, arg, il_result_of(m),
 					  il_operand_text(c, arg));
-		else if (strcasecmp(pin, "OUT") == 0)
+		else if (strcasecmp(pin, "OUT") == 0) {
 			good &= can_store(c, arg, out, m->type);
-		else
+			if (is_made(c, il_operand_text(c, arg)))
+				remember(c, m, out.type);
+		} else
 			good = il_report(c, arg, DIAG_NO_PIN, pin);
 	}
 	c->now.there = false;
@@ -1322,6 +1492,7 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 			good = il_report(c, line, DIAG_IL_OPEN_PAREN,
 				      il_operand_text(c, line));
 		c->depth = 0;
+		forget(c, NULL);
 		c->ended_at = c->now.there || c->jumps ? line->operand : 0;
 		c->now.there = false;
 		break;
@@ -1371,19 +1542,21 @@ bool check_il(struct scope *scope, const struct pou *pou, const struct il *il,
 	      struct arena *scratch, enum iec_type *types,
 	      struct diag_list *diags)
 {
-	struct il_check c = {
-		.scope = scope, .pou = pou, .il = il, .types = types,
-		.diags = diags,
-	};
-	bool good = find_labels(&c, scratch);
+	struct il_check *c = arena_alloc(scratch, sizeof(*c));
+	bool good;
 
-	c.opened = arena_alloc(scratch, LIMIT_IL_DEPTH * sizeof(*c.opened));
-	if (!c.label || !c.opened)
+	if (!c)
+		return false;
+	*c = (struct il_check){ .scope = scope, .pou = pou, .il = il, .types = types,
+				.diags = diags };
+	good = find_labels(c, scratch);
+	c->opened = arena_alloc(scratch, LIMIT_IL_DEPTH * sizeof(*c->opened));
+	if (!c->label || !c->opened)
 		return false;
 	for (int i = 0; i < il->count; i++)
-		good &= check_line(&c, i, &types[i]);
-	if (c.depth > 0 && il->count > 0)
-		good = il_report(&c, &il->line[il->count - 1], DIAG_IL_OPEN_PAREN,
+		good &= check_line(c, i, &types[i]);
+	if (c->depth > 0 && il->count > 0)
+		good = il_report(c, &il->line[il->count - 1], DIAG_IL_OPEN_PAREN,
 			      "(");
 	return good;
 }

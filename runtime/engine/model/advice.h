@@ -36,7 +36,12 @@ enum expect_kind {
 	EXPECT_STEP_PART   = 1 << 15, /* X, T                                   */
 };
 
+struct mend_line;
+struct mended;
+
 struct advice {
+	/* mend_line() of text/mend.h */
+	bool (*mend)(const struct mend_line *line, struct mended *out);
 	/* expect_nearest() of check/expect.h */
 	void (*nearest)(const struct project *project, const struct pou *pou,
 			unsigned int kinds, const char *wanted, char *out, size_t size);

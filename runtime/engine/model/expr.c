@@ -43,7 +43,7 @@ struct parser {
 	struct lex *lex;
 	struct expr *out;
 	struct diag_list *diags;
-	struct diag place;
+	const struct diag *place; /* of the text                            */
 	int shift;         /* column of the first byte of the text, minus 1; -1: none */
 	int opened;        /* ( and [ not closed yet                         */
 	int nested;        /* entries of the operator stack                  */
@@ -62,10 +62,12 @@ static bool refuse(struct parser *parser, enum diag_id id)
 	const struct token *token = &parser->lex->token;
 	size_t len = token->kind == TOKEN_NEWLINE ? 0 : token->len;
 
-	parser->place.id = id;
+	struct diag place = *parser->place;
+
+	place.id = id;
 	if (parser->shift >= 0)
-		parser->place.column = token->column + parser->shift;
-	return diag_add(parser->diags, parser->place, "%.*s",
+		place.column = token->column + parser->shift;
+	return diag_add(parser->diags, place, "%.*s",
 			(int)(len < LIMIT_ARG ? len : LIMIT_ARG), token->text);
 }
 
@@ -478,7 +480,7 @@ static bool parse(struct parser *parser)
 /* The stacks are not cleared: they are written before they are read. */
 static void parser_init(struct parser *parser, struct lex *lex,
 			struct expr *out, struct diag_list *diags,
-			struct diag place)
+			const struct diag *place)
 {
 	parser->lex = lex;
 	parser->out = out;
@@ -501,7 +503,7 @@ bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
 {
 	struct parser parser;
 
-	parser_init(&parser, lex, out, diags, place);
+	parser_init(&parser, lex, out, diags, &place);
 	return parse(&parser);
 }
 
@@ -608,7 +610,7 @@ bool expr_parse_cell(struct lex *lex, struct expr *out, struct diag_list *diags,
 {
 	struct parser parser;
 
-	parser_init(&parser, lex, out, diags, place);
+	parser_init(&parser, lex, out, diags, &place);
 	return parse_cell(&parser);
 }
 
@@ -620,7 +622,7 @@ bool expr_parse_text(const char *text, size_t len, struct expr *out,
 
 	lex_init(&lex, text, len);
 	lex_next(&lex);
-	parser_init(&parser, &lex, out, diags, place);
+	parser_init(&parser, &lex, out, diags, &place);
 	parser.shift = place.column - 1;
 	if (!parse_cell(&parser))
 		return false;

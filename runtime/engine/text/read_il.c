@@ -440,6 +440,8 @@ void read_il(struct reader *r, struct pou *pou)
 			break;
 		}
 		read_line(r);
+		if (r->closed)
+			break;
 	}
 	r->comments = COMMENT_ABOVE;
 	r->il = NULL;

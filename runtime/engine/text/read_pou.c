@@ -63,6 +63,7 @@ static void read_rungs(struct reader *r, struct pou *pou)
 		if (r->lex.token.kind == TOKEN_END)
 			return;
 		if (lex_is(&r->lex, "RUNG")) {
+			r->lost = false;
 			r->place.rung++;
 			reader_add_rung(r, pou);
 		} else if (reader_is_vars(r)) {
@@ -73,6 +74,8 @@ static void read_rungs(struct reader *r, struct pou *pou)
 			return;
 		} else {
 			reader_skip_odd_line(r);
+			if (r->closed)
+				return;
 		}
 	}
 }
@@ -265,7 +268,12 @@ void read_pou(struct reader *r, enum pou_kind kind)
 		reader_end_line(r);
 		return;
 	}
-	reader_fail_open(r, &head);
+	if (r->closed)
+		r->closed = false;
+	else if (r->lex.token.kind == TOKEN_END)
+		reader_fail_open(r, &head);
+	else
+		reader_fail_word(r, DIAG_MISSING_ABOVE, kinds[kind].end);
 	r->place.pou = NULL;
 }
 

@@ -281,14 +281,27 @@ bool read_ends_block(const struct reader *r)
 /* Reports a word or sign that begins no part, rung or declaration. */
 void reader_skip_odd_line(struct reader *r)
 {
-	if (r->lex.token.kind == TOKEN_NAME)
+	const bool row = reader_is(r, '|'), rung = lex_is(&r->lex, "RUNG");
+
+	const bool ladder = !r->pou || r->pou->language == LANGUAGE_LD;
+
+	if (r->lost && ladder && (row || rung || lex_is(&r->lex, "END_PROGRAM"))) {
+		r->lost = row || rung;
+		reader_skip_line(r);
+		return;
+	}
+	r->lost = ladder && (row || rung);
+	if (!r->pou && rung)
+		reader_fail_word(r, DIAG_MISSING_ABOVE, "PROGRAM Main LD");
+	else if (r->lex.token.kind == TOKEN_NAME)
 		reader_fail_token(r, read_ends_block(r) ||
 				  lex_is(&r->lex, "END_VAR") ||
 				  lex_is(&r->lex, "END_VIEW") ?
 				  DIAG_MISPLACED : DIAG_UNKNOWN_WORD);
+	else if (row && ladder)
+		reader_fail_word(r, DIAG_MISSING_ABOVE, r->pou ? "RUNG" : "PROGRAM Main LD");
 	else
-		reader_fail_token(r, reader_is(r, '|') ? DIAG_MISPLACED :
-						       DIAG_SYNTAX);
+		reader_fail_token(r, row ? DIAG_MISPLACED : DIAG_SYNTAX);
 	reader_skip_line(r);
 }
 

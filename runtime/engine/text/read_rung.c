@@ -7,6 +7,7 @@
  */
 #include "engine/text/reader.h"
 
+#include "engine/base/literal.h"
 #include "engine/model/loop.h"
 
 #include <stdlib.h>
@@ -76,6 +77,18 @@ static bool read_args(struct reader *r, struct cell *cell)
 	return true;
 }
 
+/* Constants are judged in check/; here only for a line that can be mended. */
+static bool has_bad_literal(const struct expr *expr)
+{
+	struct literal literal;
+
+	for (int i = 0; i < expr->count; i++)
+		if (expr->node[i].op == EXPR_LITERAL &&
+		    literal_parse(expr->node[i].text, expr->node[i].len, &literal) != LITERAL_OK)
+			return true;
+	return false;
+}
+
 /* Reads an expression with a cursor of its own, so that an error has the right column. Returns
  * the word; WORD_COUNT: an error. */
 static enum word check_expression(struct reader *r)
@@ -88,10 +101,26 @@ static enum word check_expression(struct reader *r)
 	place.line = lex.token.line;
 	place.column = lex.token.column;
 	place.id = DIAG_BAD_EXPRESSION;
-	if (!expr_parse_cell(&lex, &r->expr, r->diags, place))
+	if (!expr_parse_cell(&lex, &r->expr, r->diags, place)) {
+		struct diag_list *diags = r->diags;
+
+		if (diags->dropped || !diags->count ||
+		    diags->diag[diags->count - 1].id != DIAG_BAD_EXPRESSION)
+			return WORD_COUNT;
+		diags->count--;
+		diags->errors--;
+		if (!reader_mend(r, DIAG_BAD_EXPRESSION)) {
+			diags->count++;
+			diags->errors++;
+		}
+		return WORD_COUNT;
+	}
+	if (has_bad_literal(&r->expr) && reader_mend(r, DIAG_BAD_LITERAL))
 		return WORD_COUNT;
 	if (lex_is(&lex, "]"))
 		return r->expr.target ? ELEM_ASSIGN : ELEM_COMPARE;
+	if (reader_mend(r, DIAG_BAD_EXPRESSION))
+		return WORD_COUNT;
 	place.column = lex.token.column;
 	diag_add(r->diags, place, "%.*s",
 		 lex.token.len > LIMIT_ARG ? LIMIT_ARG : (int)lex.token.len,

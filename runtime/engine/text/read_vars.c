@@ -225,8 +225,11 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 		return reader_fail_token(r, DIAG_MISPLACED);
 	if (!read_at(r, &like) || !reader_type(r, &like) || !read_init(r, &like))
 		return false;
-	if (!reader_is(r, ';'))
-		return reader_fail_word(r, DIAG_EXPECTED, ";");
+	const bool closed = reader_is(r, ';');
+	const bool next = !closed && r->lex.token.line > r->begun;
+
+	if (!closed && !reader_fail_word(r, DIAG_EXPECTED, ";") && !next)
+		return false;
 	for (int i = first; i < table->count; i++) {
 		like.name = table->var[i].name;
 		like.fold = table->var[i].fold;
@@ -234,7 +237,8 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 		table->var[i] = like;
 	}
 	/* A comment on the same line belongs to this declaration. */
-	reader_next(r);
+	if (closed)
+		reader_next(r);
 	table->var[table->count - 1].comment = buffer_take(r, &r->note);
 	return true;
 }
@@ -261,11 +265,16 @@ static void read_declarations(struct reader *r, struct var_table *table)
 		    (r->members && lex_is(&r->lex, "END_STRUCT")))
 			return;
 		r->across_lines = true;
+		r->begun = r->lex.token.line;
 		bool good = read_declaration(r, table);
 
 		r->across_lines = false;
+		if (!good && r->closed && r->lex.token.line != r->mended)
+			return;
 		if (!good)
 			skip_declaration(r);
+		if (r->closed)
+			return;
 	}
 }
 
@@ -349,7 +358,12 @@ static void close_block(struct reader *r, const struct token *head)
 		reader_end_line(r);
 		return;
 	}
-	reader_fail_open(r, head);
+	if (r->closed)
+		r->closed = false;
+	else if (r->lex.token.kind == TOKEN_END)
+		reader_fail_open(r, head);
+	else
+		reader_fail_word(r, DIAG_MISSING_ABOVE, "END_VAR");
 }
 
 void read_vars(struct reader *r, struct var_table *table, bool global)

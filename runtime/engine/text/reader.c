@@ -6,6 +6,10 @@
  */
 #include "engine/text/reader.h"
 
+#include "engine/base/ascii.h"
+#include "engine/model/advice.h"
+#include "engine/text/mend.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,13 +41,122 @@ void reader_free(struct reader *r)
 
 /* ---- diagnostics ---- */
 
+/* Messages beyond this number show no mended line. */
+#define MEND_MOST 20
+
+static bool is_form(enum diag_id id)
+{
+	static const enum diag_id ids[] = {
+		DIAG_SYNTAX, DIAG_EXPECTED, DIAG_UNKNOWN_WORD, DIAG_BAD_LITERAL, DIAG_BAD_ROW,
+		DIAG_MISSING_OPERAND, DIAG_EXTRA_TEXT, DIAG_BAD_EXPRESSION, DIAG_BAD_TYPE,
+		DIAG_BAD_ADDRESS, DIAG_NOT_ADDRESS, DIAG_BAD_BIT, DIAG_MISPLACED,
+		DIAG_OPEN_STRING, DIAG_OPEN_COMMENT, DIAG_MISSING_INSTANCE, DIAG_BAD_BOUNDS,
+		DIAG_LOOP_FORM, DIAG_NOT_A_LETTER,
+	};
+
+	for (size_t i = 0; i < sizeof(ids) / sizeof(*ids); i++)
+		if (ids[i] == id)
+			return true;
+	return false;
+}
+
+/* Start of the line of @at; with @before of the last line above it that is not empty. */
+static const char *line_of(const struct reader *r, const char *at, bool before, int *line)
+{
+	for (;;) {
+		while (at > r->begin && at[-1] != '\n')
+			at--;
+		if (!before || at == r->begin)
+			return at;
+		at--;
+		--*line;
+		before = at == r->begin || at[-1] == '\n';
+	}
+}
+
+/* Does a jump name the word under the cursor? */
+static bool is_label(const struct reader *r)
+{
+	const struct token *token = &r->lex.token;
+
+	for (int i = 0; token->kind == TOKEN_NAME && i < r->il->count; i++) {
+		const struct il_line *line = &r->il->line[i];
+
+		if (line->kind == IL_OP && line->op == OP_JMP &&
+		    ascii_is(names_text(&r->project->names, line->operand), token->text,
+			     token->len))
+			return true;
+	}
+	return false;
+}
+
+static bool mend_as(struct reader *r, enum mend_kind kind, const char *text, int line,
+		    struct diag place)
+{
+	const char *end = memchr(text, '\n', (size_t)(r->lex.end - text));
+	struct mend_line in = { r->project, kind, r->var_flags, r->members,
+				kind == MEND_LIST && is_label(r), text,
+				(size_t)((end ? end : r->lex.end) - text) };
+	struct mended out;
+
+	if (!r->project->advice->mend(&in, &out))
+		return false;
+	place.id = out.id;
+	place.line = r->mended = line;
+	place.column = out.column;
+	r->closed = strcmp(out.line, kind == MEND_VAR ? "END_VAR" : "END_PROGRAM") == 0;
+	r->lost |= kind == MEND_HEAD && strncmp(out.line, "RUNG", 4) == 0;
+	if (kind == MEND_ROW) {
+		place.col = 1;
+		for (int i = 1; i < out.column - 1; i++)
+			place.col += text[i] == '|' && memchr(text, '|', (size_t)i);
+	}
+	if (out.id == DIAG_WRITE_INSTEAD)
+		diag_add(r->diags, place, "%s" DIAG_AND "%s" DIAG_AND "%s", out.from, out.to,
+			 out.line);
+	else
+		diag_add(r->diags, place, "%s" DIAG_AND "%s",
+			 out.id == DIAG_MISSING ? out.to : out.from, out.line);
+	return true;
+}
+
+bool reader_mend(struct reader *r, enum diag_id id)
+{
+	const struct token *token = &r->lex.token;
+	const bool declares = r->comments == COMMENT_NOTE;
+	int line = token->line;
+	const char *text;
+
+	if (!r->project->advice || !r->begin || r->outer)
+		return false;
+	if (line == r->mended)
+		return true;
+	if (!is_form(id) || r->diags->count >= MEND_MOST)
+		return false;
+	text = line_of(r, token->text, declares && r->across_lines && line > r->begun,
+		       &line);
+	if (line == r->mended)
+		return true;
+	if (r->place.row)
+		return mend_as(r, MEND_ROW, text, line, r->place);
+	if (r->il && r->comments == COMMENT_IL)
+		return mend_as(r, MEND_LIST, text, line, r->place) ||
+		       mend_as(r, MEND_HEAD, text, line, r->place);
+	if (declares)
+		return mend_as(r, MEND_VAR, text, line, r->place);
+	if (r->pou && r->place.rung && r->pou->language == LANGUAGE_LD &&
+	    mend_as(r, MEND_ROW, text, line, r->place))
+		return true;
+	return mend_as(r, MEND_HEAD, text, line, r->place);
+}
+
 static bool fail_at(struct reader *r, enum diag_id id, int line, int column,
 		    const char *arg, size_t len)
 {
 	struct diag place = r->place;
 
 	/* Out of memory is reported at the end, without its consequences. */
-	if (r->no_memory)
+	if (r->no_memory || reader_mend(r, id))
 		return false;
 	place.id = id;
 	place.line = line;
@@ -270,6 +383,15 @@ static void comment_keep(struct reader *r)
 
 /* ---- stepping ---- */
 
+static void fail_character(struct reader *r, const struct token *token)
+{
+	char text[32];
+
+	snprintf(text, sizeof(text), "%.*s" DIAG_AND "U+%04X", (int)token->len, token->text,
+		 (unsigned int)utf8_code(token->text, token->len));
+	reader_fail_word(r, DIAG_NOT_A_LETTER, text);
+}
+
 /* A comment that is not closed reaches the end of the file: the diagnostic names its first
  * line. */
 static void fail_bad(struct reader *r)
@@ -284,6 +406,8 @@ static void fail_bad(struct reader *r)
 		reader_fail(r, DIAG_OPEN_STRING, token->text + 1, len - 1);
 	else if (first == '(')
 		reader_fail(r, DIAG_OPEN_COMMENT, token->text, len);
+	else if (utf8_length(token->text, token->len) > 1)
+		fail_character(r, token);
 	else
 		reader_fail_word(r, DIAG_BAD_BYTE, "");
 }
@@ -438,6 +562,7 @@ char *reader_open(struct reader *r, const char *text, size_t len)
 		}
 	}
 	lex_init(&r->lex, text, len);
+	r->begin = r->lex.at;
 	r->lex.newlines = true;
 	r->lex.comments = true;
 	reader_next(r);

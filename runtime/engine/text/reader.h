@@ -48,6 +48,11 @@ struct reader {
 	size_t *total;              /* bytes read, included files too         */
 	struct diag place;          /* file, POU, rung, row and column so far */
 	enum comment_place comments;
+	const char *begin; /* of the text                              */
+	int begun;         /* line of the declaration being read       */
+	int mended;        /* line that was reported with its mended text */
+	bool closed;       /* the mended line is an END_…                 */
+	bool lost;         /* rows follow whose RUNG or PROGRAM is missing */
 	bool across_lines;          /* reader_step passes ends of lines       */
 	bool no_memory;
 	struct buffer above, note, rung_note, text;
@@ -104,6 +109,9 @@ bool reader_fail_many(struct reader *r, enum diag_id id, const char *what, long 
 /** reader_fail_token - the same about the token under the cursor. */
 bool reader_fail_token(struct reader *r, enum diag_id id);
 
+/** reader_mend - reports the line of an error of form as it should be written. False: nobody
+ * can mend it, or its message needs no such line. */
+bool reader_mend(struct reader *r, enum diag_id id);
 /** reader_fail_open - the block that began at @head is not closed. */
 void reader_fail_open(struct reader *r, const struct token *head);
 

@@ -26,6 +26,7 @@ struct chain {
 	uint32_t en;            /* of the next operation; 0: none so far      */
 	bool can_fail;
 	int calls;              /* calls of functions of the project still to come */
+	bool pointless;         /* constants with a point have no type        */
 };
 
 static uint32_t chain_intern(struct chain *c, const char *text, size_t len)
@@ -73,7 +74,7 @@ static enum iec_type type_of(struct chain *c, uint32_t operand)
 	const struct meaning *m = meaning(c, operand);
 
 	if (m && m->kind == MEANING_LITERAL && m->literal.real)
-		return IEC_REAL; /* a point makes it one */
+		return c->pointless ? IEC_NONE : IEC_REAL;
 	return m ? m->type : IEC_NONE;
 }
 
@@ -211,6 +212,19 @@ static enum iec_type chain_infer(struct chain *c, int index)
 				 IEC_NONE);
 	left = types_join(left, right);
 	return left == IEC_TYPE_COUNT ? right : left;
+}
+
+/* The same where @hint is wanted: an LREAL, if only constants make it a REAL. */
+static enum iec_type infer_wanted(struct chain *c, int index, enum iec_type hint)
+{
+	enum iec_type type = chain_infer(c, index), others;
+
+	if (type != IEC_REAL || hint != IEC_LREAL)
+		return type;
+	c->pointless = true;
+	others = chain_infer(c, index);
+	c->pointless = false;
+	return others == IEC_REAL ? type : hint;
 }
 
 /* Is this a constant of @type? If not, the message shows it without a type. */
@@ -383,7 +397,7 @@ static struct value compute_overload(struct chain *c, const struct expr_node *no
 static struct value compute_fn(struct chain *c, const struct expr_node *node,
 			       int index, enum iec_type hint, uint32_t target)
 {
-	enum iec_type type = chain_infer(c, index);
+	enum iec_type type = infer_wanted(c, index, hint);
 	struct value left, right;
 	enum word word;
 
@@ -521,12 +535,15 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 
 /* Of the catalogue. */
 static struct value call_known(struct chain *c, enum word word, const struct expr_args *args,
-			       enum iec_type hint, uint32_t target)
+			       int index, enum iec_type hint, uint32_t target)
 {
 	const struct word_row *row = ld_row(c->ld, word);
 	enum word runs = overloaded(c, word, args);
 	enum iec_type type = shared_type(c, row, args), given;
 	struct value in[LIMIT_ARGS], out = { target, IEC_NONE };
+
+	if (type == IEC_REAL && word_shares(row))
+		type = infer_wanted(c, index, hint);
 
 	given = type ? type : word_shares(row) ? hint : IEC_NONE;
 	for (int i = 0; i < args->count; i++) {
@@ -547,9 +564,10 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	return emit_call(c, word, args, in, out);
 }
 
-static struct value chain_call(struct chain *c, const struct expr_node *node,
-			       enum iec_type hint, uint32_t target)
+static struct value chain_call(struct chain *c, int index, enum iec_type hint,
+			       uint32_t target)
 {
+	const struct expr_node *node = &c->expr->node[index];
 	enum word word = function_of(c->ld, node);
 	struct value none = { 0, IEC_NONE };
 	struct expr_args args;
@@ -560,7 +578,7 @@ static struct value chain_call(struct chain *c, const struct expr_node *node,
 		return none;
 	}
 	return word_is_own(word) ? call_own(c, word, &args, target) :
-				   call_known(c, word, &args, hint, target);
+				   call_known(c, word, &args, index, hint, target);
 }
 
 static struct value compute_neg(struct chain *c, const struct expr_node *node,
@@ -578,7 +596,7 @@ static struct value chain_compute(struct chain *c, int index, enum iec_type hint
 	case EXPR_INDEX:
 		return keep_value(c, chain_place(c, index));
 	case EXPR_CALL:
-		return chain_call(c, node, hint, target);
+		return chain_call(c, index, hint, target);
 	case EXPR_ARG:
 		return value;
 	case EXPR_LITERAL:

@@ -48,7 +48,7 @@ static void names(void)
 		   "N:T\xc3\xbcr N:\xe9\x96\x80");
 	CHECK_TEXT(tokens("a.\xc3\xbc"), "N:a.\xc3\xbc");
 	CHECK_TEXT(tokens("a\xff" "b"), "N:a !:\xff N:b");
-	CHECK_TEXT(tokens("a\xc2\x9b"), "N:a !:\xc2 !:\x9b");
+	CHECK_TEXT(tokens("a\xc2\x9b"), "N:a !:\xc2\x9b");
 	CHECK_TEXT(tokens("a.\xff"), "N:a Y:. !:\xff");
 }
 
@@ -185,6 +185,15 @@ static void utf8(void)
 			 "invalid UTF-8");
 		CHECK(utf8_length(bad[i], strlen(bad[i])) == 0);
 	}
+	CHECK(utf8_is_letter("\u00e9", 2) && utf8_is_letter("\u00aa", 2) &&
+	      utf8_is_letter("\u0301", 2) && utf8_is_letter("\u6e29", 3) &&
+	      utf8_is_letter("\u0663", 2) && utf8_is_letter("\U00020000", 4));
+	CHECK(!utf8_is_letter("\u00a0", 2) && !utf8_is_letter("\u00b2", 2) &&
+	      !utf8_is_letter("\u00d7", 2) && !utf8_is_letter("\u200b", 3) &&
+	      !utf8_is_letter("\u3000", 3) && !utf8_is_letter("\u2014", 3) &&
+	      !utf8_is_letter("\u201c", 3) && !utf8_is_letter("\u2192", 3) &&
+	      !utf8_is_letter("\U0001f600", 4) && !utf8_is_letter("\ue000", 3));
+	CHECK(utf8_code("\u6e29", 3) == 0x6e29 && utf8_code("\U0001f600", 4) == 0x1f600);
 	CHECK(utf16_text("\xff\xfeR\0", 4) && utf16_text("\xfe\xff\0R", 4));
 	CHECK(utf16_text("R\0U\0", 4) && utf16_text("\0R\0U", 4));
 	CHECK(!utf16_text("RUNG", 4) && !utf16_text("\0\0\0\0", 4) &&

@@ -18,7 +18,7 @@ static const char declared[] =
 /* "LD303:20" of the first error of this program, "" when it is good. */
 static const char *first(const char *head, const char *body, const char *tail)
 {
-	static char found[64];
+	static char found[256];
 	static char text[20000];
 	struct ladder *ladder = ladder_new();
 	const struct diag_list *diags = ladder_diags(ladder);

@@ -33,7 +33,7 @@ static bool read_text(const char *text)
 /* The first diagnostic of @text, as `LD110 5 1 (1,2) 5 FOO`. */
 static void fails(const char *text, const char *want)
 {
-	char got[160] = "no error";
+	char got[256] = "no error";
 
 	read_text(text);
 	if (diags.count > 0) {
@@ -96,7 +96,7 @@ static void test_var_errors(void)
 	fails(V("A BOOL;"), "LD107 3 0 (0,0) 3 :");
 	fails(V("A.B : BOOL;"), "LD107 3 0 (0,0) 1 name of a variable");
 	fails("RUNGBOARD 1\nVAR\nA : BOOL;\nPROGRAM P\nEND_PROGRAM\n",
-	      "LD109 2 0 (0,0) 1 VAR");
+	      "LD154 4 0 (0,0) 1 END_VAR");
 	CHECK(diags.count == 1);
 	fails("RUNGBOARD 1\nVAR A : BOOL;", "LD109 2 0 (0,0) 1 VAR");
 	read_text(V("A : FOO;\nB : FOO; C : BAR;\nD : INT"));
@@ -161,8 +161,8 @@ static void test_cell_errors(void)
 	      "LD116 5 1 (1,1) 12 99999999999999999999");
 	fails(LD("RUNG\n| -- |\n"), "LD110 5 1 (1,1) 3 -");
 	fails(LD("RUNG a.b\n"), "LD107 4 1 (0,0) 6 label");
-	fails(LD("| NO A |\n"), "LD126 4 0 (0,0) 1 |");
-	fails("RUNGBOARD 1\nRUNG\n", "LD126 2 0 (0,0) 1 RUNG");
+	fails(LD("| NO A |\n"), "LD154 4 0 (0,0) 1 RUNG");
+	fails("RUNGBOARD 1\nRUNG\n", "LD154 2 0 (0,0) 1 PROGRAM Main LD");
 	fails(LD("") "junk\n", "LD110 5 0 (0,0) 1 junk");
 	fails("RUNGBOARD 1\nPROGRAM P\nEND_PROGRAM x\n",
 	      "LD106 3 0 (0,0) 13 x");

@@ -1,0 +1,948 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * mend - tables of what people write in other tools, and a few rules about missing parts.
+ *
+ * Words and signs are replaced by rows of `rules`, then the steps of a kind of line run in
+ * order until the line reads. It never changes the project.
+ */
+#include "engine/text/mend.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/literal.h"
+#include "engine/text/reader.h"
+#include "engine/text/text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where a row of `rules` holds. */
+enum {
+	IN_CELL = 1 << 0,   /* the first word of a cell                       */
+	IN_ROW = 1 << 1,    /* behind it                                      */
+	IN_EXPR = 1 << 2,   /* in [ … ] of a cell                             */
+	IN_NAME = 1 << 3,   /* a declaration before its colon                 */
+	IN_TYPE = 1 << 4,   /* behind the colon                               */
+	IN_VALUE = 1 << 5,  /* behind the :=                                  */
+	IN_OPER = 1 << 6,   /* the first word of an instruction               */
+	IN_LIST = 1 << 7,   /* behind it                                      */
+	IN_FIRST = 1 << 8,  /* the first word of any other line               */
+	IN_HEAD = 1 << 9,   /* behind it                                      */
+	ROWS = IN_CELL | IN_ROW | IN_EXPR,
+	VARS = IN_NAME | IN_TYPE | IN_VALUE,
+	LISTS = IN_OPER | IN_LIST,
+	ANY = ROWS | VARS | LISTS | IN_FIRST | IN_HEAD,
+};
+
+/* The first row that fits counts. A row whose texts are the same protects a sign from the
+ * rows below it. */
+static const struct rule {
+	const char *from, *to;
+	uint16_t where;
+} rules[] = {
+	{ "/*", "(*", ANY }, { "*/", "*)", ANY },
+	/* signs that look like others, or like nothing */
+	{ "\u00a0", " ", ANY }, { "\u2007", " ", ANY }, { "\u202f", " ", ANY },
+	{ "\u3000", " ", ANY }, { "\u200b", "", ANY }, { "\u200c", "", ANY },
+	{ "\u200d", "", ANY }, { "\u2060", "", ANY }, { "\ufeff", "", ANY },
+	{ "\u2502", "|", ROWS | IN_FIRST }, { "\u2503", "|", ROWS | IN_FIRST },
+	{ "\u2551", "|", ROWS | IN_FIRST }, { "\u00a6", "|", ROWS | IN_FIRST },
+	{ "\uff5c", "|", ROWS | IN_FIRST }, { "\u251c", "|", ROWS }, { "\u2524", "|", ROWS },
+	{ "\u2500\u2500\u2500", "---", ROWS }, { "\u2500\u2500", "---", ROWS },
+	{ "\u2500", "---", ROWS }, { "\u2014", "---", IN_CELL }, { "\u2013", "-", ANY },
+	{ "\u2212", "-", ANY },
+	{ "\u201c", "\"", ANY }, { "\u201d", "\"", ANY }, { "\u201e", "\"", ANY },
+	{ "\u00ab", "\"", ANY }, { "\u00bb", "\"", ANY },
+	{ "\u2018", "'", ANY }, { "\u2019", "'", ANY }, { "\u201a", "'", ANY },
+	{ "`", "'", IN_EXPR | IN_VALUE },
+	{ "\uff1a", ":", ANY }, { "\uff1b", ";", ANY }, { "\uff0c", ",", ANY },
+	{ "\uff08", "(", ANY }, { "\uff09", ")", ANY }, { "\uff1d", "=", ANY },
+	/* operators */
+	{ "+=", "+=", IN_EXPR }, { "-=", "-=", IN_EXPR }, { "++", "++", IN_EXPR },
+	{ "===", "=", IN_EXPR }, { "==", "=", IN_EXPR },
+	{ "!=", "<>", IN_EXPR }, { "/=", "<>", IN_EXPR }, { "><", "<>", IN_EXPR },
+	{ "=<", "<=", IN_EXPR }, { "=>", ">=", IN_EXPR }, { "\u2264", "<=", IN_EXPR },
+	{ "\u2265", ">=", IN_EXPR }, { "\u2260", "<>", IN_EXPR },
+	{ "\u00d7", "*", IN_EXPR }, { "\u00f7", "/", IN_EXPR },
+	{ "&&", "AND", IN_EXPR }, { "||", "OR", IN_EXPR }, { "!", "NOT ", IN_EXPR },
+	{ "~", "NOT ", IN_EXPR }, { "%%", "MOD", IN_EXPR }, { "% ", "MOD ", IN_EXPR },
+	{ "DIV", "/", IN_EXPR },
+	{ ":=", ":=", ANY }, { "<=", "<=", ANY }, { ">=", ">=", ANY },
+	{ "->", "=>", IN_ROW | LISTS }, { "=>", "=>", ANY },
+	{ "==", ":=", IN_ROW | VARS | IN_LIST }, { "=:", ":=", ANY },
+	{ "=", ":=", IN_ROW | VARS | IN_LIST },
+	{ ";", "", ROWS | IN_LIST | IN_HEAD },
+	/* words of cells */
+	{ "XIC", "NO", IN_CELL }, { "XIO", "NC", IN_CELL }, { "OTE", "COIL", IN_CELL },
+	{ "OTL", "S", IN_CELL }, { "OTU", "R", IN_CELL }, { "SET", "S", IN_CELL },
+	{ "RESET", "R", IN_CELL }, { "RST", "R", IN_CELL }, { "LATCH", "S", IN_CELL },
+	{ "UNLATCH", "R", IN_CELL }, { "OUT", "COIL", IN_CELL },
+	{ "OUTPUT", "COIL", IN_CELL }, { "CONTACT", "NO", IN_CELL },
+	{ "ONS", "P", IN_CELL }, { "OSR", "P", IN_CELL }, { "OSF", "N", IN_CELL },
+	{ "TIMER", "TON", IN_CELL }, { "TMR", "TON", IN_CELL }, { "RTO", "TONR", IN_CELL },
+	{ "COUNTER", "CTU", IN_CELL }, { "CTR", "CTU", IN_CELL },
+	{ "GOTO", "JMP", IN_CELL }, { "JUMP", "JMP", IN_CELL },
+	{ "RETURN", "RET", IN_CELL }, { "JSR", "CALL", IN_CELL },
+	{ "MOV", "MOVE", IN_CELL }, { "COPY", "MOVE", IN_CELL }, { "EQU", "EQ", IN_CELL },
+	{ "NEQ", "NE", IN_CELL }, { "GRT", "GT", IN_CELL }, { "GEQ", "GE", IN_CELL },
+	{ "LES", "LT", IN_CELL }, { "LEQ", "LE", IN_CELL },
+	{ "( S )", "S ", IN_CELL }, { "(S)", "S ", IN_CELL }, { "(R)", "R ", IN_CELL },
+	{ "(/)", "COILNOT ", IN_CELL }, { "( )", "COIL ", IN_CELL }, { "()", "COIL ", IN_CELL },
+	{ "!", "NC ", IN_CELL }, { "/", "NC ", IN_CELL },
+	/* types and values */
+	{ "BOOLEAN", "BOOL", IN_TYPE }, { "BIT", "BOOL", IN_TYPE }, { "FLAG", "BOOL", IN_TYPE },
+	{ "INTEGER", "INT", IN_TYPE }, { "SHORT", "INT", IN_TYPE }, { "LONG", "DINT", IN_TYPE },
+	{ "INT8", "SINT", IN_TYPE }, { "INT16", "INT", IN_TYPE }, { "INT32", "DINT", IN_TYPE },
+	{ "INT64", "LINT", IN_TYPE }, { "UINT8", "USINT", IN_TYPE },
+	{ "UINT16", "UINT", IN_TYPE }, { "UINT32", "UDINT", IN_TYPE },
+	{ "FLOAT", "REAL", IN_TYPE }, { "SINGLE", "REAL", IN_TYPE },
+	{ "DOUBLE", "LREAL", IN_TYPE }, { "TEXT", "STRING", IN_TYPE },
+	{ "CHAR", "STRING[1]", IN_TYPE }, { "TIMER", "TON", IN_TYPE },
+	{ "COUNTER", "CTU", IN_TYPE },
+	{ "ON", "TRUE", IN_VALUE }, { "OFF", "FALSE", IN_VALUE },
+	{ "YES", "TRUE", IN_VALUE }, { "NO", "FALSE", IN_VALUE },
+	/* instructions */
+	{ "LDI", "LDN", IN_OPER }, { "ANI", "ANDN", IN_OPER }, { "ORI", "ORN", IN_OPER },
+	{ "AN", "ANDN", IN_OPER }, { "ON", "ORN", IN_OPER }, { "A", "AND", IN_OPER },
+	{ "U", "AND", IN_OPER }, { "UN", "ANDN", IN_OPER }, { "O", "OR", IN_OPER },
+	{ "OUT", "ST", IN_OPER }, { "=", "ST", IN_OPER }, { "SET", "S", IN_OPER },
+	{ "RST", "R", IN_OPER }, { "RESET", "R", IN_OPER }, { "CALL", "CAL", IN_OPER },
+	{ "GOTO", "JMP", IN_OPER }, { "JC", "JMPC", IN_OPER }, { "JCN", "JMPCN", IN_OPER },
+	{ "END", "RET", IN_OPER }, { "MOV", "MOVE", IN_OPER },
+	/* lines that begin or end something */
+	{ "#", "//", IN_FIRST | IN_NAME | IN_OPER }, { "--", "//", IN_FIRST | IN_NAME | IN_OPER },
+	{ "PROG", "PROGRAM", IN_FIRST }, { "NETWORK", "RUNG", IN_FIRST },
+	{ "NET", "RUNG", IN_FIRST }, { "END PROGRAM", "END_PROGRAM", IN_FIRST | IN_OPER },
+	{ "ENDPROGRAM", "END_PROGRAM", IN_FIRST | IN_OPER },
+	{ "END_PROG", "END_PROGRAM", IN_FIRST | IN_OPER },
+	{ "END_RUNG", "", IN_FIRST }, { "END", "END_PROGRAM", IN_FIRST },
+	{ "END VAR", "END_VAR", IN_FIRST | IN_NAME }, { "ENDVAR", "END_VAR", IN_FIRST | IN_NAME },
+	{ "END_VARS", "END_VAR", IN_FIRST | IN_NAME }, { "VARS", "VAR", IN_FIRST },
+	{ "VAR GLOBAL", "VAR_GLOBAL", IN_FIRST }, { "VAR INPUT", "VAR_INPUT", IN_FIRST },
+	{ "VAR OUTPUT", "VAR_OUTPUT", IN_FIRST }, { "VARIABLES", "VAR", IN_FIRST },
+	{ "FUNCTION BLOCK", "FUNCTION_BLOCK", IN_FIRST },
+	{ "LADDER", "LD", IN_HEAD }, { "LAD", "LD", IN_HEAD }, { "CONST", "CONSTANT", IN_HEAD },
+	{ "AWL", "IL", IN_HEAD }, { "KOP", "LD", IN_HEAD },
+};
+
+/* Behind a number: units of other tools. */
+static const struct { const char *from, *to; } units[] = {
+	{ "ms", "ms" }, { "msec", "ms" }, { "s", "s" }, { "sec", "s" }, { "secs", "s" },
+	{ "second", "s" }, { "seconds", "s" }, { "m", "m" }, { "min", "m" }, { "mins", "m" },
+	{ "minute", "m" }, { "minutes", "m" }, { "h", "h" }, { "hour", "h" }, { "hours", "h" },
+	{ "us", "us" }, { "d", "d" }, { "days", "d" },
+};
+#define COUNT(table) (sizeof(table) / sizeof((table)[0]))
+
+/* Longer than any line. */
+#define MADE 200
+
+struct mender {
+	const struct mend_line *in;
+	struct mended *out;
+	char text[160];
+	size_t len;
+	uint16_t where; /* of the cursor                                      */
+	int depth;      /* of [ in a row, of [ and ( elsewhere                */
+	bool changed, full;
+};
+
+/* ---- changes ---- */
+
+/* A character that cannot be seen is shown by its number. */
+static void show(char *out, size_t size, const char *text, size_t len)
+{
+	const unsigned char *byte = (const unsigned char *)text;
+
+	if (len == 2 && byte[0] == 0xc2 && byte[1] == 0xa0)
+		snprintf(out, size, "U+00A0");
+	else if (len == 3 && (byte[0] == 0xe2 || byte[0] == 0xef || byte[0] == 0xe3) &&
+		 (utf8_width(text, len) != 1 || utf8_code(text, len) == 0x2007 ||
+		  utf8_code(text, len) == 0x202f))
+		snprintf(out, size, "U+%04X", (unsigned int)utf8_code(text, len));
+	else
+		snprintf(out, size, "%.*s", (int)(len && text[len - 1] == ' ' ? len - 1 : len),
+			 text);
+}
+
+/* The new text of the first change, without blanks around it. */
+static void show_new(struct mender *m, const char *to)
+{
+	size_t len = strlen(to);
+
+	while (len > 1 && to[len - 1] == ' ')
+		len--;
+	while (len > 1 && *to == ' ')
+		to++, len--;
+	snprintf(m->out->to, sizeof(m->out->to), "%.*s", len == 1 && *to == ' ' ? 7 : (int)len,
+		 len == 1 && *to == ' ' ? "a blank" : to);
+}
+
+/* Puts @to in the place of @len bytes at @at. The first change is told. */
+static void change(struct mender *m, size_t at, size_t len, const char *to)
+{
+	const size_t add = strlen(to);
+
+	if (at > m->len || len > m->len - at || m->len - len + add >= sizeof(m->text)) {
+		m->full = true;
+		return;
+	}
+	if (!m->changed) {
+		m->out->column = (int)at + 1;
+		show(m->out->from, sizeof(m->out->from), m->text + at, len);
+		show_new(m, to);
+		m->out->id = !len ? DIAG_MISSING : !*to ? DIAG_SURPLUS :
+						    DIAG_WRITE_INSTEAD;
+	}
+	m->changed = true;
+	memmove(m->text + at + add, m->text + at + len, m->len - at - len);
+	memcpy(m->text + at, to, add);
+	m->len += add - len;
+	m->text[m->len] = '\0';
+}
+
+static bool is_word(char c)
+{
+	return ascii_digit(c) || c == '_' || (ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z') ||
+	       (unsigned char)c >= 0x80;
+}
+
+static size_t word_length(const char *text)
+{
+	size_t len = 0;
+
+	while (is_word(text[len]))
+		len++;
+	return len;
+}
+
+/* ---- words and signs ---- */
+
+/* Is the word at @at one that may stand here? */
+static bool is_known(const struct mender *m, size_t at)
+{
+	const char *text = m->text + at;
+	const size_t len = word_length(text);
+	struct word_table *words = &m->in->project->words;
+
+	if (m->where & (IN_CELL | IN_TYPE))
+		return words_find(words, text, len) != WORD_COUNT ||
+		       (m->where & IN_TYPE && iec_type_find(text, len) != IEC_NONE);
+	return m->where & IN_OPER && op_find(text, len) != OP_COUNT;
+}
+
+static const struct rule *rule_at(const struct mender *m, size_t at)
+{
+	const char *text = m->text + at;
+
+	for (size_t i = 0; i < COUNT(rules); i++) {
+		const struct rule *rule = &rules[i];
+		const size_t len = strlen(rule->from);
+		const bool word = is_word(rule->from[0]) && (unsigned char)rule->from[0] < 0x80;
+
+		if (!(rule->where & m->where) || m->len - at < len ||
+		    !ascii_same(rule->from, text, len))
+			continue;
+		if (at && strcmp(rule->to, "//") == 0)
+			continue;
+		if (word && ((at && is_word(text[-1])) || is_word(text[len]) ||
+			     is_known(m, at)))
+			continue;
+		return rule;
+	}
+	return NULL;
+}
+
+/* What the cursor has passed changes where it is. */
+static void pass(struct mender *m, const char *text, size_t len)
+{
+	const bool assign = len == 2 && text[0] == ':' && text[1] == '=';
+
+	switch (m->in->kind) {
+	case MEND_ROW:
+		m->depth += *text == '[' ? 1 : *text == ']' && m->depth ? -1 : 0;
+		m->where = m->depth ? IN_EXPR : *text == '|' ? IN_CELL : IN_ROW;
+		break;
+	case MEND_VAR:
+		if (assign)
+			m->where = IN_VALUE;
+		else if (*text == ':')
+			m->where = IN_TYPE;
+		break;
+	case MEND_LIST:
+		m->where = IN_LIST;
+		break;
+	case MEND_HEAD:
+		m->where = IN_HEAD;
+		break;
+	}
+}
+
+/* A number in the manner of C, of assemblers, or with a comma; a time without T#. Returns the
+ * place behind it. */
+static size_t take_number(struct mender *m, size_t at)
+{
+	const char *text = m->text + at;
+	size_t len = 0, unit, gap;
+	char made[MADE];
+
+	if (text[0] == '0' && (text[1] == 'x' || text[1] == 'X' || text[1] == 'b') &&
+	    is_word(text[2])) {
+		const char *base = text[1] == 'b' ? "2#" : "16#";
+
+		change(m, at, 2, base);
+		return at + strlen(base) + word_length(m->text + at + strlen(base));
+	}
+	while (ascii_digit(text[len]) || (text[len] == '.' && ascii_digit(text[len + 1])) ||
+	       (text[len] == '_' && ascii_digit(text[len + 1])))
+		len++;
+	if (text[len] == ',' && ascii_digit(text[len + 1]) && m->depth < 2 &&
+	    m->where & (IN_EXPR | IN_ROW | IN_VALUE | IN_LIST)) {
+		change(m, at + len, 1, ".");
+		return take_number(m, at);
+	}
+	gap = text[len] == ' ';
+	unit = word_length(text + len + gap);
+	for (size_t i = 0; unit && i < COUNT(units) && len < 12; i++) {
+		if (!ascii_is(units[i].from, text + len + gap, unit))
+			continue;
+		snprintf(made, sizeof(made), "%s%.*s%s", at > 1 && text[-1] == '#' ? "" : "T#",
+			 (int)len, text, units[i].to);
+		if (memcmp(made, text, len + unit) != 0 || gap)
+			change(m, at, len + gap + unit, made);
+		return at + strlen(made);
+	}
+	return at + len + word_length(text + len);
+}
+
+/* Behind a quoted text, which becomes one in single quotes. */
+static size_t take_quoted(struct mender *m, size_t at)
+{
+	const char *close = strchr(m->text + at + 1, m->text[at]);
+	size_t end = close ? (size_t)(close - m->text) : m->len;
+
+	if (close && m->text[at] == '"' && m->in->kind != MEND_HEAD) {
+		char made[MADE];
+
+		snprintf(made, sizeof(made), "'%.*s'", (int)(end - at - 1), m->text + at + 1);
+		change(m, at, end - at + 1, made);
+	}
+	return end < m->len ? end + 1 : m->len;
+}
+
+/* Behind a comment; @at if none begins there. */
+static size_t skip_comment(const struct mender *m, size_t at)
+{
+	const char *text = m->text + at, *end;
+
+	if (text[0] == '/' && text[1] == '/')
+		return m->len;
+	if (text[0] != '(' || text[1] != '*')
+		return at;
+	end = strstr(text, "*)");
+	return end ? (size_t)(end - m->text) + 2 : m->len;
+}
+
+static size_t take_one(struct mender *m, size_t at)
+{
+	const struct rule *rule;
+	const char *text = m->text + at;
+	size_t len;
+
+	if (skip_comment(m, at) != at)
+		return skip_comment(m, at);
+	rule = rule_at(m, at);
+	if (rule && strcmp(rule->from, rule->to) != 0) {
+		len = strlen(rule->from);
+		if (!*rule->to && m->where & (IN_CELL | IN_FIRST) && m->text[at + len] == ' ')
+			len++;
+		change(m, at, len, rule->to);
+		if (strcmp(rule->from, "/*") == 0 && strstr(text, "*/"))
+			change(m, (size_t)(strstr(text, "*/") - m->text), 2, "*)");
+		/* Quotes and bars have more to be looked at. */
+		if (!is_word(*rule->to) || m->full)
+			return m->full ? m->len : *rule->to == ' ' ? at + 1 :
+			       *rule->to == '-' ? at + strlen(rule->to) : at;
+		pass(m, rule->to, strlen(rule->to));
+		return at + strlen(rule->to);
+	}
+	if (*text == '\'' || *text == '"') {
+		pass(m, "'", 1);
+		return take_quoted(m, at);
+	}
+	if (ascii_digit(*text)) {
+		pass(m, "0", 1);
+		return take_number(m, at);
+	}
+	len = word_length(text);
+	if (len && text[len] == '#')
+		len++;
+	if (!len)
+		len = rule ? strlen(rule->from) : *text == '%' ? 1 + word_length(text + 1) : 1;
+	if (*text == '.' && len == 1)
+		len += word_length(text + 1);
+	pass(m, text, len);
+	return at + len;
+}
+
+/* Signs beyond ASCII first: they are part of no word. */
+static void replace_signs(struct mender *m)
+{
+	static const uint16_t where[] = {
+		[MEND_HEAD] = IN_FIRST | IN_HEAD, [MEND_ROW] = ROWS, [MEND_VAR] = VARS,
+		[MEND_LIST] = LISTS,
+	};
+	const struct rule *rule;
+	size_t at = 0;
+
+	while (at < m->len && !m->full) {
+		const char *close = m->text[at] == '"' || m->text[at] == '\'' ?
+				    strchr(m->text + at + 1, m->text[at]) : NULL;
+
+		m->where = where[m->in->kind];
+		rule = (unsigned char)m->text[at] >= 0x80 ? rule_at(m, at) : NULL;
+		if (rule)
+			change(m, at, strlen(rule->from), rule->to);
+		else if (close)
+			at = (size_t)(close - m->text) + 1;
+		else
+			at = skip_comment(m, at) != at ? skip_comment(m, at) : at + 1;
+	}
+}
+
+static void replace_words(struct mender *m)
+{
+	static const uint16_t start[] = {
+		[MEND_HEAD] = IN_FIRST, [MEND_ROW] = IN_CELL, [MEND_VAR] = IN_NAME,
+		[MEND_LIST] = IN_OPER,
+	};
+	size_t at = 0;
+
+	m->where = start[m->in->kind];
+	m->depth = 0;
+	while (at < m->len && !m->full) {
+		if (m->text[at] == ' ' || m->text[at] == '\t')
+			at++;
+		else
+			at = take_one(m, at);
+	}
+}
+
+/* ---- does it read? ---- */
+
+static bool row_reads(const struct mender *m, struct diag_list *diags)
+{
+	static const char head[] = "RUNG\n| NO I0 |\n";
+	char text[sizeof(head) + sizeof(m->text)];
+	int len = snprintf(text, sizeof(text), "%s%s\n", head, m->text);
+	struct rung *rung = text_read_rung(m->in->project, text, (size_t)len, diags);
+
+	rung_free(rung);
+	return rung;
+}
+
+static bool other_reads(const struct mender *m, struct diag_list *diags)
+{
+	struct reader *r = reader_new(m->in->project, "", diags);
+	struct pou pou = { .language = LANGUAGE_IL, .il.arena = &m->in->project->arena };
+	struct var var;
+	char *copy;
+
+	if (!r)
+		return false;
+	copy = reader_open(r, m->text, m->len);
+	r->members = m->in->members;
+	if (m->in->kind == MEND_LIST)
+		read_il(r, &pou);
+	else
+		read_var(r, m->in->var_flags, &var);
+	free(copy);
+	reader_free(r);
+	return true;
+}
+
+/* A head has no probe: its first word tells. */
+static bool is_head(const char *text)
+{
+	static const char *const words[] = {
+		"//", "RUNG", "PROGRAM", "VAR", "END_", "FUNCTION", "RUNGBOARD", "PROJECT",
+		"SUBROUTINE", "TYPE", "CONFIGURATION", "INCLUDE", "USES",
+	};
+
+	for (size_t i = 0; i < COUNT(words); i++)
+		if (ascii_same(text, words[i], strlen(words[i])))
+			return true;
+	return false;
+}
+
+static bool line_reads(const struct mender *m)
+{
+	struct project *project = m->in->project;
+	const struct advice *advice = project->advice;
+	struct diag_list *diags;
+	bool good;
+
+	if (m->full || m->in->kind == MEND_HEAD || strncmp(m->text, "END_", 4) == 0 ||
+	    strncmp(m->text, "//", 2) == 0)
+		return !m->full && m->changed && is_head(m->text);
+	diags = calloc(1, sizeof(*diags));
+	if (!diags)
+		return false;
+	project->advice = NULL;
+	good = (m->in->kind == MEND_ROW ? row_reads(m, diags) : other_reads(m, diags)) &&
+	       !diags->errors;
+	project->advice = advice;
+	free(diags);
+	return good;
+}
+
+/* ---- what is missing ---- */
+
+/* Cell @n of a row: its bytes without blanks around. False: there is no more. */
+static bool cell_at(const struct mender *m, int n, size_t *from, size_t *to)
+{
+	size_t at = 0, start = 0;
+	int depth = 0, bars = 0;
+
+	for (; at < m->len; at++) {
+		depth += m->text[at] == '[' ? 1 : m->text[at] == ']' ? -1 : 0;
+		if (m->text[at] != '|' || depth > 0)
+			continue;
+		if (bars++ == n + 1)
+			break;
+		start = at + 1;
+	}
+	if (bars < n + 2)
+		return false;
+	while (start < at && m->text[start] == ' ')
+		start++;
+	while (at > start && (m->text[at - 1] == ' ' || m->text[at - 1] == '^'))
+		at--;
+	*from = start;
+	*to = at;
+	return true;
+}
+
+static void add_bars(struct mender *m)
+{
+	size_t end = m->len;
+
+	if (m->text[0] != '|')
+		change(m, 0, 0, "| ");
+	if (m->changed && m->out->id == DIAG_MISSING)
+		snprintf(m->out->to, sizeof(m->out->to), "|");
+	if (!strstr(m->text, "//") && !strstr(m->text, "(*") && m->text[(end = m->len) - 1] != '|')
+		change(m, end, 0, m->text[end - 1] == ' ' ? "|" : " |");
+}
+
+static bool is_operator(char c)
+{
+	return c && strchr(":=<>+*", c);
+}
+
+static bool operator_follows(const struct mender *m, size_t at)
+{
+	while (m->text[at] == ' ')
+		at++;
+	return is_operator(m->text[at]);
+}
+
+/* Start → NO Start, (Motor) → COIL Motor, N := 1 → [ N := 1 ], TON(D, PT := …) → TON D PT:=… */
+static void mend_cell(struct mender *m, size_t from, size_t to, bool last)
+{
+	const size_t word = word_length(m->text + from);
+	const bool known = word && !operator_follows(m, from + word) &&
+			   words_find(&m->in->project->words, m->text + from, word) !=
+				   WORD_COUNT;
+	size_t at = from;
+
+	if (m->text[from] == '(' && m->text[to - 1] == ')') {
+		char made[MADE];
+
+		snprintf(made, sizeof(made), "COIL %.*s", (int)(to - from) - 2,
+			 m->text + from + 1);
+		change(m, from, to - from, made);
+		return;
+	}
+	if (m->text[from] == '-' && to - from < 3) {
+		change(m, from, to - from, "---");
+		return;
+	}
+	if (known && m->text[from + word] == '(' && m->text[to - 1] == ')') {
+		change(m, from + word, 1, " ");
+		change(m, to - 1, 1, "");
+		for (at = from; at < to && m->text[at] != '|'; at++)
+			if (m->text[at] == ',')
+				change(m, at, 1, "");
+		return;
+	}
+	if (ascii_same(m->text + from, "NOT ", 4) && word_length(m->text + from + 4) &&
+	    from + 4 + word_length(m->text + from + 4) == to) {
+		change(m, from, 3, "NC");
+		return;
+	}
+	if (known || m->text[from] == '[' || m->text[from] == '.' || from == to)
+		return;
+	while (at < to && !is_operator(m->text[at]))
+		at++;
+	if (at < to) {
+		change(m, to, 0, " ]");
+		change(m, from, 0, "[ ");
+		snprintf(m->out->to, sizeof(m->out->to), "[ ]");
+		m->out->column = (int)from + 1;
+	} else if (!memchr(m->text + from, ' ', to - from)) {
+		change(m, from, 0, last ? "COIL " : "NO ");
+		snprintf(m->out->to, sizeof(m->out->to), last ? "COIL" : "NO");
+	}
+}
+
+/* N++ → N := N + 1, N += 2 → N := N + 2. */
+static void mend_steps(struct mender *m)
+{
+	char made[MADE];
+	size_t start, name;
+	char *at = strstr(m->text, "++");
+	const bool one = at;
+
+	if (!at)
+		at = strstr(m->text, "+=");
+	if (!at)
+		at = strstr(m->text, "-=");
+	if (!at)
+		return;
+	for (start = (size_t)(at - m->text); start && m->text[start - 1] != '['; start--)
+		;
+	while (m->text[start] == ' ')
+		start++;
+	for (name = (size_t)(at - m->text) - start; name && m->text[start + name - 1] == ' '; name--)
+		;
+	if (name > 30)
+		return;
+	snprintf(made, sizeof(made), "%.*s := %.*s %c%s", (int)name, m->text + start,
+		 (int)name, m->text + start, *at, one ? " 1" : "");
+	change(m, start, (size_t)(at - m->text) + 2 - start, made);
+}
+
+static void mend_row(struct mender *m)
+{
+	size_t from, to, more;
+
+	mend_steps(m);
+	add_bars(m);
+	for (int n = 0; cell_at(m, n, &from, &to) && !m->full && n < LIMIT_COLS; n++)
+		if (to > from)
+			mend_cell(m, from, to, n > 0 && !cell_at(m, n + 1, &more, &more));
+}
+
+/* ---- declarations ---- */
+
+struct piece {
+	size_t at, len;
+};
+
+/* Up to @most tokens of the line. */
+static int split(const struct mender *m, struct piece *piece, int most)
+{
+	struct lex lex;
+	int count = 0;
+
+	lex_init(&lex, m->text, m->len);
+	while (count < most && lex_next(&lex) != TOKEN_END)
+		piece[count++] = (struct piece){ (size_t)(lex.token.text - m->text),
+						 lex.token.len };
+	return count;
+}
+
+static bool piece_is(const struct mender *m, struct piece piece, const char *text)
+{
+	return ascii_is(text, m->text + piece.at, piece.len);
+}
+
+static bool is_type(const struct mender *m, struct piece piece)
+{
+	const char *text = m->text + piece.at;
+	enum word word;
+
+	if (iec_type_find(text, piece.len) != IEC_NONE || piece_is(m, piece, "ARRAY"))
+		return true;
+	word = words_find(&m->in->project->words, text, piece.len);
+	return word != WORD_COUNT &&
+	       (words_row(&m->in->project->words, word)->kind == WORD_FB ||
+		words_row(&m->in->project->words, word)->kind == WORD_STRUCT);
+}
+
+/* Type first: BOOL Start → Start : BOOL. */
+static void turn_type(struct mender *m, const struct piece *piece, int count)
+{
+	char made[MADE];
+
+	if (count < 2 || !is_type(m, piece[0]) || !is_word(m->text[piece[1].at]) ||
+	    (count > 2 && piece_is(m, piece[2], ":")))
+		return;
+	snprintf(made, sizeof(made), "%.*s : %.*s", (int)piece[1].len, m->text + piece[1].at,
+		 (int)piece[0].len, m->text + piece[0].at);
+	change(m, piece[0].at, piece[1].at + piece[1].len - piece[0].at, made);
+}
+
+/* Start button → Start_button, Start-button likewise; 1Start → _1Start. */
+static void join_name(struct mender *m, const struct piece *piece, int count)
+{
+	char made[MADE];
+	int last = 0;
+
+	if (!count)
+		return;
+	if (ascii_digit(m->text[piece[0].at])) {
+		change(m, piece[0].at, 0, "_");
+		return;
+	}
+	for (int i = 1; i < count; i++) {
+		if (piece_is(m, piece[i], ":") || piece_is(m, piece[i], "AT"))
+			break;
+		if (is_type(m, piece[i]) || m->text[piece[i].at] == '%')
+			return;
+		if (!is_word(m->text[piece[i].at]) && !piece_is(m, piece[i], "-"))
+			return;
+		last = i;
+	}
+	if (!last)
+		return;
+	snprintf(made, sizeof(made), "%.*s", (int)(piece[last].at + piece[last].len -
+						   piece[0].at), m->text + piece[0].at);
+	for (char *at = made; *at; at++)
+		if (!is_word(*at))
+			*at = '_';
+	change(m, piece[0].at, piece[last].at + piece[last].len - piece[0].at, made);
+}
+
+/* An address stands behind AT, between name and colon. */
+static void move_address(struct mender *m, const struct piece *piece, int count)
+{
+	char made[MADE];
+
+	for (int i = 1; i < count; i++) {
+		const bool at = piece_is(m, piece[i - 1], "AT");
+
+		if (m->text[piece[i].at] != '%')
+			continue;
+		if (i == 1 && !at) { /* Name %IX0.0 : BOOL */
+			change(m, piece[i].at, 0, "AT ");
+			snprintf(m->out->to, sizeof(m->out->to), "AT");
+		} else if (memchr(m->text, ':', piece[i].at)) { /* Name : BOOL AT %IX0.0 */
+			size_t from = piece[i - at].at, len = piece[i].at + piece[i].len - from;
+
+			snprintf(made, sizeof(made), " AT %.*s", (int)piece[i].len,
+				 m->text + piece[i].at);
+			while (from && m->text[from - 1] == ' ')
+				from--, len++;
+			change(m, from, len, "");
+			change(m, piece[0].at + piece[0].len, 0, made);
+			m->out->id = DIAG_MISPLACED_PART;
+			snprintf(m->out->from, sizeof(m->out->from), "%.20s", made + 1);
+		}
+		return;
+	}
+}
+
+/* Name BOOL → Name : BOOL; Name := BOOL likewise. */
+static void add_colon(struct mender *m, const struct piece *piece, int count)
+{
+	for (int i = 1; i < count && !piece_is(m, piece[i], ":"); i++) {
+		if (!is_type(m, piece[i]))
+			continue;
+		if (piece_is(m, piece[i - 1], ":="))
+			change(m, piece[i - 1].at, 2, ":");
+		else
+			change(m, piece[i].at, 0, ": ");
+		if (m->out->id == DIAG_MISSING)
+			snprintf(m->out->to, sizeof(m->out->to), ":");
+		return;
+	}
+}
+
+/* STRING(20) → STRING[20], INT[10] and ARRAY[10] OF → ARRAY[0..9] OF, 1-10 → 1..10. */
+static void mend_bounds(struct mender *m, const struct piece *piece, int count)
+{
+	struct literal size;
+	char made[MADE];
+	int i = 0;
+
+	while (i < count && !piece_is(m, piece[i], ":"))
+		i++;
+	if (i + 4 >= count || !is_type(m, piece[i + 1]) ||
+	    !(piece_is(m, piece[i + 2], "[") || piece_is(m, piece[i + 2], "(")))
+		return;
+	const struct piece *type = &piece[i + 1], *low = &piece[i + 3];
+	const bool array = piece_is(m, *type, "ARRAY"), text = piece_is(m, *type, "STRING");
+	const bool one = piece_is(m, piece[i + 4], "]") || piece_is(m, piece[i + 4], ")");
+
+	if (low->len > 6 ||
+	    literal_parse(m->text + low->at, low->len, &size) != LITERAL_OK || size.real || (!one && (i + 6 >= count || !array ||
+	    !ascii_digit(m->text[piece[i + 5].at]))) || piece_is(m, piece[i + 4], "."))
+		return;
+	if (text)
+		snprintf(made, sizeof(made), "STRING[%.*s]", (int)low->len, m->text + low->at);
+	else if (one)
+		snprintf(made, sizeof(made), "ARRAY[0..%d]%s%.*s", (int)size.value.i - 1,
+			 array ? "" : " OF ", array ? 0 : (int)type->len, m->text + type->at);
+	else
+		snprintf(made, sizeof(made), "ARRAY[%.*s..%.*s]", (int)low->len,
+			 m->text + low->at, (int)piece[i + 5].len, m->text + piece[i + 5].at);
+	if (text && piece_is(m, piece[i + 2], "["))
+		return;
+	change(m, type->at, piece[i + (one ? 4 : 6)].at + 1 - type->at, made);
+}
+
+/* T : TIME := 5000 → T#5000ms, N : INT 5 → N : INT := 5. */
+static void mend_value(struct mender *m, const struct piece *piece, int count)
+{
+	char made[MADE];
+
+	for (int i = 2; i < count; i++) {
+		const char *text = m->text + piece[i].at;
+
+		if (!ascii_digit(*text) || piece_is(m, piece[i - 1], "["))
+			continue;
+		if (is_type(m, piece[i - 1])) {
+			change(m, piece[i].at, 0, ":= ");
+			snprintf(m->out->to, sizeof(m->out->to), ":=");
+		} else if (i > 2 && piece_is(m, piece[i - 1], ":=") &&
+			   piece_is(m, piece[i - 2], "TIME") && piece[i].len < 12) {
+			snprintf(made, sizeof(made), "T#%.*sms", (int)piece[i].len, text);
+			change(m, piece[i].at, piece[i].len, made);
+		}
+		return;
+	}
+}
+
+static void add_semicolon(struct mender *m, const struct piece *piece, int count)
+{
+	const struct piece *last = &piece[count - 1];
+	size_t end;
+
+	if (!count || piece_is(m, *last, ";"))
+		return;
+	end = last->at + last->len;
+	if (piece_is(m, *last, ",") || piece_is(m, *last, "."))
+		change(m, last->at, 1, ";");
+	else
+		change(m, end, 0, ";");
+}
+
+static void mend_var(struct mender *m)
+{
+	static void (*const steps[])(struct mender *, const struct piece *, int) = {
+		turn_type, move_address, add_colon, join_name, mend_bounds, mend_value,
+		add_semicolon,
+	};
+	struct piece piece[24];
+
+	for (size_t i = 0; i < COUNT(steps) && !m->full && !line_reads(m); i++)
+		steps[i](m, piece, split(m, piece, 24));
+}
+
+/* ---- lists and heads ---- */
+
+static void mend_list(struct mender *m)
+{
+	struct piece piece[8];
+	int count = split(m, piece, 8);
+
+	if (count == 1 && m->in->label) {
+		change(m, piece[0].len + piece[0].at, 0, ":");
+	} else if (count == 3 && piece_is(m, piece[2], ":")) {
+		change(m, piece[2].at, 1, "");
+	} else if (count == 3 && piece_is(m, piece[1], ":=")) {
+		change(m, piece[1].at, 3, "");
+	}
+}
+
+/* RUNG Start the motor → RUNG "Start the motor"; PROGRAM "Main" LD → PROGRAM Main LD. */
+static void mend_head(struct mender *m)
+{
+	struct piece piece[8];
+	char made[MADE];
+	int count = split(m, piece, 8);
+	size_t end = m->len;
+
+	if (count < 2)
+		return;
+	if (piece_is(m, piece[0], "RUNG") && m->text[piece[1].at] != '"') {
+		size_t from = piece[1].at + (m->text[piece[1].at] == ':' ||
+					     m->text[piece[1].at] == '\'');
+
+		while (from < end && m->text[from] == ' ')
+			from++;
+		while (end > from && (m->text[end - 1] == ' ' || m->text[end - 1] == '\''))
+			end--;
+		if (!memchr(m->text + from, '"', end - from)) {
+			snprintf(made, sizeof(made), " \"%.*s\"", (int)(end - from),
+				 m->text + from);
+			change(m, piece[0].len, m->len - piece[0].len, made);
+			m->out->id = DIAG_MISSING;
+			m->out->column = (int)piece[1].at + 1;
+			snprintf(m->out->to, sizeof(m->out->to), "\"");
+		}
+	} else if (m->text[piece[1].at] == '"' && !piece_is(m, piece[0], "PROJECT") &&
+		   !piece_is(m, piece[0], "RUNG") && piece[1].len > 2) {
+		snprintf(made, sizeof(made), "%.*s", (int)piece[1].len - 2,
+			 m->text + piece[1].at + 1);
+		change(m, piece[1].at, piece[1].len, made);
+	}
+}
+
+/* ---- all of it ---- */
+
+/* The line with single blanks, cut at a whole character. */
+static void put_line(const struct mender *m, struct mended *out)
+{
+	size_t used = 0, step;
+
+	for (size_t at = 0; at < m->len; at += step) {
+		step = utf8_length(m->text + at, m->len - at);
+		step = step ? step : 1;
+		if (m->text[at] == ' ' && (!used || out->line[used - 1] == ' '))
+			continue;
+		if (used + step >= sizeof(out->line))
+			break;
+		memcpy(out->line + used, m->text + at, step);
+		used += step;
+	}
+	while (used && out->line[used - 1] == ' ')
+		used--;
+	out->line[used] = '\0';
+}
+
+bool mend_line(const struct mend_line *line, struct mended *out)
+{
+	static void (*const mend[])(struct mender *) = {
+		[MEND_HEAD] = mend_head, [MEND_ROW] = mend_row, [MEND_VAR] = mend_var,
+		[MEND_LIST] = mend_list,
+	};
+	struct mender m = { .in = line, .out = out, .len = line->len };
+	size_t lead = 0;
+
+	if (line->len >= sizeof(m.text) - 32 || memchr(line->text, '\037', line->len))
+		return false;
+	while (lead < line->len && (line->text[lead] == ' ' || line->text[lead] == '\t'))
+		lead++;
+	m.len -= lead;
+	memcpy(m.text, line->text + lead, m.len);
+	for (size_t i = 0; i < m.len; i++)
+		if (m.text[i] == '\t')
+			m.text[i] = ' ';
+	while (m.len && m.text[m.len - 1] == ' ')
+		m.len--;
+	m.text[m.len] = '\0';
+	if (!m.len)
+		return false;
+	replace_signs(&m);
+	replace_words(&m);
+	if (!m.full && (line->kind == MEND_HEAD ? !m.changed : !line_reads(&m)))
+		mend[line->kind](&m);
+	if (!m.changed || !line_reads(&m))
+		return false;
+	out->column += (int)lead;
+	put_line(&m, out);
+	return true;
+}
