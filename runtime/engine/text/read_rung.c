@@ -10,6 +10,7 @@
 #include "engine/base/literal.h"
 #include "engine/model/loop.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -155,6 +156,40 @@ static bool read_expression(struct reader *r, struct cell *cell)
 	return true;
 }
 
+/* The element that does with an operand what @row does with its inverse: NC of NO, N of P,
+ * COILNOT of COIL; "": none. */
+static const char *inverse_of(const struct word_row *row)
+{
+	const bool contact = row->operand == OPND_BOOL_R;
+
+	for (int i = 0; i < WORD_COUNT; i++) {
+		const struct word_row *other = word_row((enum word)i);
+
+		if (other->operand == row->operand && other->place == row->place &&
+		    other->first == row->first && other != row &&
+		    (row->edge == EDGE_NONE ? other->edge == EDGE_NONE :
+		     contact && other->edge != EDGE_NONE))
+			return other->word;
+	}
+	return "";
+}
+
+/* `P NOT Door`, `NC /Door`, `NO !Door`. */
+static bool refuse_negated(struct reader *r, const struct word_row *row)
+{
+	const char *mate = inverse_of(row), *name;
+	char text[LIMIT_ARG + 1];
+	int len = 0;
+
+	reader_next(r);
+	name = r->lex.token.text;
+	while (len < 24 && name + len < r->lex.end && !strchr(" |^\r\n", name[len]))
+		len++;
+	snprintf(text, sizeof(text), "NOT %.*s" DIAG_AND "%s%s%.*s", len, name, mate,
+		 *mate ? " " : "", *mate ? len : 0, name);
+	return reader_fail_word(r, DIAG_NEGATED, text);
+}
+
 /* The operand or instance after a word. Without this a box that lacks its instance would take
  * its first parameter for one. */
 static bool read_operand(struct reader *r, struct cell *cell,
@@ -164,6 +199,9 @@ static bool read_operand(struct reader *r, struct cell *cell,
 	bool plain = row->kind == WORD_FB || row->operand == OPND_LABEL ||
 		     row->operand == OPND_ROUTINE;
 
+	if ((row->operand == OPND_BOOL_R || row->operand == OPND_BOOL_W) &&
+	    (lex_is(&r->lex, "NOT") || reader_is(r, '/') || reader_is(r, '!')))
+		return refuse_negated(r, row);
 	if ((token->kind != TOKEN_NAME && token->kind != TOKEN_ADDRESS) ||
 	    (row->kind == WORD_FB &&
 	     (reader_peek(r, ":=") || reader_peek(r, "=>"))))
