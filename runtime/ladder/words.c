@@ -226,8 +226,8 @@ static void note_element(const struct word_row *row, const struct sink *sink)
 
 	sink_text(sink, operand);
 	if (row->place == PLACE_LAST)
-		sink_text(sink, *operand ? ", last in its row" :
-					   "last in its row");
+		sink_text(sink, row->operand == OPND_BOOL_W ? ", only outputs behind it" :
+				*operand ? ", last in its row" : "last in its row");
 	if (row->edge != EDGE_NONE)
 		sink_text(sink, ", one memory a cell");
 }

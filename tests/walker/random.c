@@ -43,6 +43,7 @@ struct sketch {
 	const struct random_rung *rung;
 	int net[BARS];
 	bool fed[BARS], read[BARS]; /* by net                                 */
+	bool inner[BARS];           /* read by an element that is no output   */
 	int from[BARS], to[BARS];   /* rightmost bar that feeds it, leftmost
 				       that reads it                          */
 };
@@ -78,7 +79,8 @@ static bool has_left(const struct random_cell *cell)
 
 static bool is_through(const struct random_cell *cell)
 {
-	return cell->kind == RANDOM_SERIES || cell->kind == RANDOM_BOX;
+	return cell->kind == RANDOM_SERIES || cell->kind == RANDOM_BOX ||
+	       cell->kind == RANDOM_COIL;
 }
 
 static bool is_below(const struct random_cell *cell)
@@ -259,15 +261,20 @@ bool random_sound(const struct random_rung *rung)
 		int row = i / rung->cols, col = i % rung->cols;
 		const struct random_cell *cell = &rung->cell[row][col];
 
-		if (has_left(cell) && cell->kind != RANDOM_WIRE)
-			sketch.read[net_at(&sketch, row, col)] = true;
+		if (!has_left(cell) || cell->kind == RANDOM_WIRE)
+			continue;
+		sketch.read[net_at(&sketch, row, col)] = true;
+		if (cell->kind != RANDOM_LAST && cell->kind != RANDOM_COIL)
+			sketch.inner[net_at(&sketch, row, col)] = true;
 	}
 	for (int i = 0; i < rung->rows * rung->cols; i++) {
 		int row = i / rung->cols, col = i % rung->cols;
 		const struct random_cell *cell = &rung->cell[row][col];
 		bool read = sketch.read[net_at(&sketch, row, col + 1)];
 
-		outputs += cell->kind == RANDOM_LAST ||
+		if (cell->kind == RANDOM_COIL && sketch.inner[net_at(&sketch, row, col + 1)])
+			return false;
+		outputs += cell->kind == RANDOM_LAST || cell->kind == RANDOM_COIL ||
 			   (cell->kind == RANDOM_BOX && !read);
 		if (!read && (cell->link || cell->kind == RANDOM_WIRE ||
 			      cell->kind == RANDOM_SERIES))
@@ -280,6 +287,7 @@ struct drawing {
 	struct random_source *source;
 	struct random_rung *rung;
 	bool live[RANDOM_ROWS];  /* the bar left of `col` may have power       */
+	bool behind[RANDOM_ROWS]; /* that of a coil: only outputs follow      */
 	int col, later;
 };
 
@@ -310,21 +318,31 @@ static bool draw_box(struct drawing *drawing, int row)
 	return true;
 }
 
+static bool is_coil(const char *text)
+{
+	return strncmp(text, "COIL", 4) == 0 || strncmp(text, "S ", 2) == 0 ||
+	       strncmp(text, "R ", 2) == 0;
+}
+
 static void draw_cell(struct drawing *drawing, int row)
 {
 	struct random_cell *cell = &drawing->rung->cell[row][drawing->col];
 	struct random_source *source = drawing->source;
 	bool last = drawing->col == drawing->rung->cols - 1;
+	bool behind = drawing->behind[row];
 
 	if (cell->kind != RANDOM_EMPTY || !drawing->live[row])
 		return;
-	if (random_chance(source, last ? 12 : 18) && draw_box(drawing, row))
+	if (!behind && random_chance(source, last ? 12 : 18) && draw_box(drawing, row))
 		return;
 	memset(cell->text, 0, sizeof(cell->text));
-	if (last ? random_chance(source, 75) : random_chance(source, 5)) {
-		cell->kind = RANDOM_LAST;
+	if (last || behind ? random_chance(source, 75) : random_chance(source, 8)) {
 		random_last(source, drawing->later, cell->text,
 			    sizeof(cell->text));
+		cell->kind = !last && is_coil(cell->text) && random_chance(source, 60) ?
+			     RANDOM_COIL : RANDOM_LAST;
+	} else if (behind) {
+		cell->kind = last ? RANDOM_EMPTY : RANDOM_WIRE;
 	} else if (!last && random_chance(source, 55)) {
 		cell->kind = RANDOM_SERIES;
 		random_series(source, cell->text, sizeof(cell->text));
@@ -345,6 +363,8 @@ static void draw_column(struct drawing *drawing)
 
 		drawing->live[row] = is_through(cell) ||
 				     cell->kind == RANDOM_WIRE;
+		drawing->behind[row] = cell->kind == RANDOM_COIL ||
+			(cell->kind == RANDOM_WIRE && drawing->behind[row]);
 	}
 	for (int row = 1; row < rung->rows && col + 1 < rung->cols; row++) {
 		struct random_cell *cell = &rung->cell[row][col];
@@ -355,8 +375,11 @@ static void draw_column(struct drawing *drawing)
 			continue;
 		cell->link = (drawing->live[row] || drawing->live[row - 1]) &&
 			     random_chance(drawing->source, 35);
-		if (cell->link)
-			drawing->live[row] = drawing->live[row - 1] = true;
+		if (!cell->link)
+			continue;
+		drawing->live[row] = drawing->live[row - 1] = true;
+		drawing->behind[row] |= drawing->behind[row - 1];
+		drawing->behind[row - 1] = drawing->behind[row];
 	}
 }
 
@@ -379,9 +402,11 @@ static void draw_rung(struct random_source *source, struct random_rung *rung,
 		rung->label = label;
 		rung->rows = rows;
 		rung->cols = cols;
-		for (int row = 0; row < rung->rows; row++)
+		for (int row = 0; row < rung->rows; row++) {
 			drawing.live[row] = row == 0 ||
 					    random_chance(source, 70);
+			drawing.behind[row] = false;
+		}
 		for (int col = 0; col < rung->cols; col++) {
 			drawing.col = col;
 			draw_column(&drawing);

@@ -25,6 +25,7 @@ enum random_pou {
 
 enum random_kind {
 	RANDOM_EMPTY, RANDOM_WIRE, RANDOM_SERIES, RANDOM_BOX, RANDOM_LAST,
+	RANDOM_COIL,  /* a coil that other outputs may follow                 */
 	RANDOM_PIN,   /* a PIN row of the box above, fed by a branch          */
 	RANDOM_BLANK, /* a PIN row without a pin                              */
 };

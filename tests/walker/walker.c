@@ -353,8 +353,10 @@ static void pass(struct walker *walker, struct walked_rung *walked,
 	at->power_out = false;
 	at->done = true;
 	walker->steps++;
-	if (acts_last(at))
+	if (acts_last(at)) {
+		at->power_out = power && at->read; /* a coil with outputs behind it */
 		return;
+	}
 	if (at->word == ELEM_CALL)
 		call_routine(walker, at, power);
 	else if (at->callee)

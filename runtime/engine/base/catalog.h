@@ -69,7 +69,7 @@ enum place {
 	PLACE_WIRE,   /* joins its two ends                                  */
 	PLACE_SERIES, /* power in, power out                                 */
 	PLACE_BOX,    /* like series; may stand last, and is then an output  */
-	PLACE_LAST,   /* power in only                                       */
+	PLACE_LAST,   /* acts after all others; a coil passes power to outputs */
 	PLACE_PIN,    /* a further row of the box above                      */
 };
 

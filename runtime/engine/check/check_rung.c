@@ -20,6 +20,7 @@ struct net_mark {
 	int feeder;     /* that element */
 	bool said;      /* a loose end of this net was reported */
 	bool wired;     /* a wire belongs to it */
+	bool inner;     /* an element that is no output reads it */
 };
 
 struct rung_check {
@@ -268,6 +269,12 @@ static bool is_last(const struct network_element *e)
 	return word_row((enum word)e->word)->place == PLACE_LAST;
 }
 
+/* A coil passes its power on to other outputs. */
+static bool is_coil(const struct network_element *e)
+{
+	return is_last(e) && word_row((enum word)e->word)->operand == OPND_BOOL_W;
+}
+
 static bool may_be_last(const struct network_element *e)
 {
 	return word_row((enum word)e->word)->place == PLACE_BOX;
@@ -290,6 +297,34 @@ static bool has_output(const struct network *network)
 	return false;
 }
 
+/* Acts after all powers are known, so it may follow a coil. */
+static bool acts_last(const struct network *n, const struct network_element *e)
+{
+	enum operand_kind operand = word_row((enum word)e->word)->operand;
+
+	return is_last(e) || ((operand == OPND_ASSIGN || operand == OPND_ROUTINE) &&
+			      n->reader_count[e->out] == 0);
+}
+
+static void mark_readers(struct rung_check *c)
+{
+	const struct network *n = c->network;
+
+	for (int i = 0; i < n->element_count; i++)
+		c->net[n->element[i].in].inner |= !acts_last(n, &n->element[i]);
+	for (int i = 0; i < n->pin_count; i++)
+		c->net[n->pin[i].in].inner = true;
+}
+
+/* An output with something behind it. */
+static void check_followed(struct rung_check *c, const struct network_element *e)
+{
+	if (!is_coil(e))
+		report_cell(c, DIAG_NOT_LAST, e->row, e->col);
+	else if (c->net[e->out].inner)
+		report_cell(c, DIAG_COIL_FOLLOWED, e->row, e->col);
+}
+
 static void check_element(struct rung_check *c, int number)
 {
 	const struct network_element *e = &c->network->element[number];
@@ -305,12 +340,13 @@ static void check_element(struct rung_check *c, int number)
 	}
 	if (is_shorted(e)) {
 		report_cell(c, DIAG_SHORT_CIRCUIT, e->row, e->col);
-	} else if (is_last(e)) {
-		if (read)
-			report_cell(c, DIAG_NOT_LAST, e->row, e->col);
-	} else if (out->last_bar < e->col + 1) {
-		out->last_bar = e->col + 1;
-		out->feeder = number;
+	} else {
+		if (is_last(e) && read)
+			check_followed(c, e);
+		if ((!is_last(e) || is_coil(e)) && out->last_bar < e->col + 1) {
+			out->last_bar = e->col + 1;
+			out->feeder = number;
+		}
 	}
 	if (c->outputs && !read && !out->said && !is_last(e) && !may_be_last(e))
 		report_cell(c, DIAG_OPEN_RIGHT, e->row, e->col);
@@ -349,7 +385,7 @@ static bool ring_init(struct ring *ring, const struct network *n,
 
 static bool is_feeder(const struct network_element *e)
 {
-	return !is_shorted(e) && !is_last(e);
+	return !is_shorted(e) && (!is_last(e) || is_coil(e));
 }
 
 /* Two passes over all readers: count them by net, then put them there. */
@@ -487,6 +523,7 @@ bool check_rung(const struct project *project, const struct pou *pou,
 		return false;
 	}
 	check_grid(&c);
+	mark_readers(&c);
 	for (int i = 0; i < network->element_count; i++)
 		check_element(&c, i);
 	if (!c.outputs)

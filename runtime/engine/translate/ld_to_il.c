@@ -462,6 +462,19 @@ static void ld_settle_element(struct ld *ld, int element)
 	};
 }
 
+/* Outputs behind a coil have its power, which is kept as an operand. */
+static void pass_on(struct ld *ld, int element)
+{
+	struct element_state *state = &ld->element[element];
+
+	if (row_of(ld, element)->operand != OPND_BOOL_W || is_unread(ld, element))
+		return;
+	state->leaf = ld_operand(ld, ld->network.element[element].in);
+	state->powered = true;
+	if (state->leaf != ld->true_id)
+		ld_read(ld, element);
+}
+
 static void evaluate(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
@@ -469,8 +482,10 @@ static void evaluate(struct ld *ld, int element)
 	const struct word_row *row = row_of(ld, element);
 
 	ld_place(ld, at->row, at->col);
-	if (is_actor(ld, element))
+	if (is_actor(ld, element)) {
+		pass_on(ld, element);
 		return;
+	}
 	if (row->kind != WORD_ELEM)
 		ld_box(ld, element);
 	else if (row->operand == OPND_EXPR)

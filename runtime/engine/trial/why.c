@@ -279,6 +279,10 @@ static void walk_element(struct walk *walk, int element, struct why_way *way)
 	bool in, out;
 
 	power_of(walk, element, &in, &out);
+	if (row_of(walk, element)->place == PLACE_LAST) { /* a coil passes power on */
+		walk_net(walk, walk->network.element[element].in, way);
+		return;
+	}
 	if (walk->depth == LIMIT_COLS || ++walk->steps > STEPS_MOST) {
 		walk->out->more = true;
 		return;

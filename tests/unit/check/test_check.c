@@ -189,9 +189,13 @@ static void test_loose_ends(void)
 
 static void test_wrong_ways(void)
 {
-	CHECK_TEXT(topology("| NO A | COIL B | COIL C |"), "LD203(1,2)B");
+	CHECK_TEXT(topology("| NO A | COIL B | COIL C |"), "");
+	CHECK_TEXT(topology("| NO A | COIL B | --- | S C | RET |"), "");
+	CHECK_TEXT(topology("| NO A | COIL B |\n| NO C | COIL D^|\n| | ^| COIL E |"), "");
+	CHECK_TEXT(topology("| NO A | COIL B | [ n := 1 ] |"), "");
 	CHECK_TEXT(topology("| NO A | COIL B | NO C | COIL D |"),
-		   "LD203(1,2)B");
+		   "LD221(1,2)B");
+	CHECK_TEXT(topology("| NO A | RET | COIL D |"), "LD203(1,2)RET");
 	CHECK_TEXT(topology("| NO A | COIL B |\n| ---^|"), "LD204(1,1)A");
 	CHECK_TEXT(topology("| NO A | NO B | COIL C |\n| --- | ---^|"),
 		   "LD204(1,2)B");

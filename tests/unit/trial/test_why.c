@@ -256,7 +256,7 @@ static const char program[] =
 	"END_VAR\nVAR_OUTPUT\n  Run : BOOL;\nEND_VAR\n"
 	"RUNG\n  | NO On | NO Ready | COIL Run |\nEND_FUNCTION_BLOCK\n"
 	"PROGRAM Main LD\n"
-	"RUNG\n  | NO A | TON Wait PT:=T#50ms | COIL %QX0.0 |\n"
+	"RUNG\n  | NO A | TON Wait PT:=T#50ms | COIL %QX0.0 | COIL %QX0.7 |\n"
 	"RUNG\n  | [ N > 5 ] | NO B | COIL %QX0.1 |\n"
 	"RUNG\n  | P A | COIL %QX0.2 |\n"
 	"RUNG\n  | NO A | NC A | COIL %QX0.3 |\n"
@@ -284,6 +284,8 @@ static void test_by_hand(void)
 	CHECK(ask(&rig, 1, 1, 3) && !why.on && why.ways == 1 && why.way[0].count == 1);
 	CHECK(first()->kind == WHY_BLOCK && first()->powered);
 	CHECK_TEXT(first()->values, "IN=1 Q=0 PT=50 ET=10");
+	CHECK(ask(&rig, 1, 1, 4) && !why.on && why.ways == 1 && why.way[0].count == 1 &&
+	      first()->kind == WHY_BLOCK);
 	CHECK(ask(&rig, 2, 1, 3) && why.way[0].count == 2);
 	CHECK(first()->kind == WHY_COMPARE && first()->powered &&
 	      !why.way[0].cell[1].powered);
@@ -300,7 +302,7 @@ static void test_by_hand(void)
 	rig_set(&rig, "B", 1);
 	rig_scan(&rig);
 	CHECK(ask(&rig, 7, 1, 2) && why.whole == WHY_SKIPPED && why.by_rung == 6);
-	CHECK(!ask(&rig, 99, 1, 1) && !ask(&rig, 1, 2, 1) && !ask(&rig, 1, 1, 4));
+	CHECK(!ask(&rig, 99, 1, 1) && !ask(&rig, 1, 2, 1) && !ask(&rig, 1, 1, 5));
 	resource_stop(&rig.resource);
 	CHECK(ask(&rig, 7, 1, 2) && why.whole == WHY_STOPPED);
 	resource_fail(&rig.resource, FAULT_IO);

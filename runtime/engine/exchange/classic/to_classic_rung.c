@@ -226,6 +226,39 @@ bool part_touches(const struct out_part *item, const struct out_part *box)
 				     item->variable.index_number), box);
 }
 
+/* ---- outputs behind a coil ---- */
+
+/* The net whose power an output behind coils has. */
+static int before_coils(const struct out_rung *r, int net)
+{
+	const struct network *n = &r->network;
+
+	while (net != NET_RAIL && n->first_feeder[net + 1] == n->first_feeder[net] + 1) {
+		const struct network_element *only = &n->element[n->feeder[n->first_feeder[net]]];
+
+		if (word_row((enum word)only->word)->operand != OPND_BOOL_W)
+			break;
+		net = only->in;
+	}
+	return net;
+}
+
+/* Connects outputs behind a coil to the net before it. Other elements may lead to a net, too;
+ * then the coil stays one of its feeders. */
+static void part_coils(struct out_rung *r)
+{
+	struct network *n = &r->network;
+
+	for (int i = 0; i < n->element_count; i++) {
+		struct network_element *at = &n->element[i];
+		const int net = before_coils(r, at->in);
+
+		n->reader_count[at->in]--;
+		n->reader_count[net]++;
+		at->in = net;
+	}
+}
+
 /* ---- a rung ---- */
 
 static bool prepare(struct leaving *e, struct out_rung *r)
@@ -234,6 +267,7 @@ static bool prepare(struct leaving *e, struct out_rung *r)
 
 	if (!network_make(r->rung, e->arena, &r->network))
 		return false;
+	part_coils(r);
 	r->count = n->element_count;
 	r->item = arena_alloc(e->arena, ((size_t)r->count + 1) * sizeof(*r->item));
 	r->net_seen = arena_alloc(e->arena, ((size_t)n->net_count + 1));
@@ -440,9 +474,9 @@ static void expected(const struct out_rung *r, int net, struct sources *out, int
 
 		if (item->dead)
 			continue;
-		if (item->code == CL_WIRE)
+		if (item->code == CL_WIRE || item->actor)
 			expected(r, item->in, out, depth + 1);
-		else if (!item->actor)
+		else
 			sources_add(out, n->feeder[i]);
 	}
 }

@@ -115,6 +115,16 @@ static APART void find_way(struct splitting *s, int index, struct way *way)
 	}
 }
 
+/* A coil passes power on: the way to it. */
+static APART void way_to(struct splitting *s, int net, struct way *way)
+{
+	struct out_part first;
+
+	memset(way, 0, sizeof(*way));
+	if (power_contact(s, net, &first, &way->never))
+		way_add(way, first);
+}
+
 static void copy_way(struct way *to, const struct way *from)
 {
 	memcpy(to, from, sizeof(*to));
@@ -168,9 +178,12 @@ static int find_ways(struct splitting *s, int net, struct way *way)
 		const struct out_part *item = &s->r->item[n->feeder[i]];
 		struct way *next = arena_alloc(s->e->arena, sizeof(*next));
 
-		if (!next || item->dead || item->actor)
+		if (!next || item->dead)
 			continue;
-		find_way(s, n->feeder[i], next);
+		if (item->actor)
+			way_to(s, item->in, next);
+		else
+			find_way(s, n->feeder[i], next);
 		if (next->never)
 			continue;
 		if (count == s->e->rows) {
