@@ -85,10 +85,8 @@ static void test_one(void)
 		   "  in  IN2  ANY_MAGNITUDE  next\n");
 	CHECK_TEXT(facts("R", &count),
 		   "R: element (Coils): resets while powered\n"
-		   "  symbol (R)
-"
-		   "  a BOOL it writes, only outputs behind it
-"
+		   "  symbol (R)\n"
+		   "  a BOOL it writes, only outputs behind it\n"
 		   "R: IL operator: resets the operand if the result is TRUE\n"
 		   "  R\n");
 	CHECK(count == 2);
