@@ -99,6 +99,21 @@ static void want_value(struct search *s, const char *rest, size_t len)
 				   IEC_NONE, false).classes;
 }
 
+/* Classes of values by position: of a block its inputs that are not BOOL; 0: any. */
+static uint16_t classes_of_inputs(const struct word_row *row)
+{
+	uint16_t classes = 0;
+
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *pin = &row->pin[i];
+
+		if ((pin->dir == PIN_IN || pin->dir == PIN_IN_OUT) &&
+		    (row->kind == WORD_FN || pin->type != IEC_BOOL))
+			classes |= entry_fit_pin(row, pin, IEC_NONE, false).classes;
+	}
+	return classes;
+}
+
 /* Behind a word: an operand, an instance, parameters. */
 static void want_behind(struct search *s, const char *rest, size_t len)
 {
@@ -115,27 +130,87 @@ static void want_behind(struct search *s, const char *rest, size_t len)
 		return;
 	}
 	s->want = WANT_PIN_NAME;
-	if (s->row->kind == WORD_FN)
-		s->want |= WANT_ANY;
-	else if (end == 0)
+	if (s->row->kind == WORD_FB && end == 0) {
 		s->want |= WANT_INSTANCE;
-	else
-		s->want |= WANT_ANY;
+		return;
+	}
+	s->want |= WANT_ANY;
+	s->classes = classes_of_inputs(s->row);
 }
 
-/* In an expression: values that fit its first operand. */
-static void want_operand_like(struct search *s, const char *text)
+/* The part of an expression before the word. */
+struct before {
+	enum { SIGN_NONE, SIGN_ASSIGN, SIGN_COMPARE, SIGN_SUM } sign; /* the last one */
+	uint16_t target, left; /* classes of the target, of the first value since; 0: unknown */
+};
+
+static uint16_t classes_of(const struct search *s, const struct token *token)
 {
 	struct entry_target target;
-	size_t len = 0;
 
-	while (is_part(text[len]))
-		len++;
-	s->want = WANT_ANY | WANT_FUNCTION;
+	entry_target_find(s->place, token->text, token->len, &target);
+	return target.means == MEANS_VALUE && !target.array ?
+	       entry_fit_type(target.type, false).classes : 0;
+}
+
+static void take_sign(struct before *before, const struct lex *lex)
+{
+	static const char *const compare[] = { "<", ">", "<=", ">=", "=", "<>" };
+	static const char *const sum[] = { "+", "-", "*", "/", "**" };
+
+	for (size_t i = 0; i < sizeof(compare) / sizeof(*compare); i++)
+		if (lex_is(lex, compare[i])) {
+			before->sign = SIGN_COMPARE;
+			return;
+		}
+	for (size_t i = 0; i < sizeof(sum) / sizeof(*sum); i++)
+		if (lex_is(lex, sum[i])) {
+			before->sign = SIGN_SUM;
+			return;
+		}
+	before->sign = SIGN_NONE;
+	if (lex_is(lex, ":=")) {
+		before->sign = SIGN_ASSIGN;
+		before->target = before->left;
+	}
+	before->left = 0;
+}
+
+static struct before read_before(const struct search *s, const char *text, size_t len)
+{
+	static const char *const logic[] = { "AND", "OR", "XOR", "NOT" };
+	struct before before = { .sign = SIGN_NONE };
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	while (lex_next(&lex) != TOKEN_END) {
+		bool is_logic = false;
+
+		for (size_t i = 0; i < sizeof(logic) / sizeof(*logic); i++)
+			is_logic = is_logic || lex_is(&lex, logic[i]);
+		if (is_logic || lex.token.kind == TOKEN_SYMBOL)
+			take_sign(&before, &lex);
+		else if (lex_is(&lex, "MOD"))
+			before.sign = SIGN_SUM;
+		else if (!before.left && lex.token.kind != TOKEN_NUMBER)
+			before.left = classes_of(s, &lex.token);
+	}
+	return before;
+}
+
+/* In an expression: values that fit what stands before them. A number is not a name. */
+static void want_value_in(struct search *s, const char *text)
+{
+	const struct before before = read_before(s, text, (size_t)(s->line + s->from - text));
+
 	s->write = false;
-	entry_target_find(s->place, text, len, &target);
-	if (target.means == MEANS_VALUE)
-		s->classes = entry_fit_type(target.type, false).classes;
+	s->want = ascii_digit(s->line[s->from]) ? 0 : WANT_ANY | WANT_FUNCTION;
+	if (before.sign == SIGN_ASSIGN)
+		s->classes = before.target;
+	else if (before.sign == SIGN_COMPARE)
+		s->classes = before.left;
+	else if (before.sign == SIGN_SUM)
+		s->classes = before.left ? before.left : before.target ? before.target : ANY_NUM;
 }
 
 static void find_want(struct search *s)
@@ -164,7 +239,7 @@ static void find_want(struct search *s)
 		s->write = false;
 		want_behind(s, line + end, s->from - end);
 	} else if (s->from > at && line[at] != '/' && line[at] != '!') {
-		want_operand_like(s, line + at + (line[at] == '['));
+		want_value_in(s, line + at + (line[at] == '['));
 	}
 }
 

@@ -22,6 +22,7 @@ struct _LadderEntryPopup {
 	GtkWidget *line, *list, *scroller, *told;
 	struct entry_popup_calls calls;
 	GPtrArray *rows;    /* of struct entry_popup_row *                     */
+	GHashTable *known;  /* the same: no candidate is there twice           */
 	guint made;         /* rows that are visible without scrolling, as widgets */
 	guint making;       /* timer that makes the others                     */
 	bool filling;       /* the program changes the line, not the user      */
@@ -50,15 +51,34 @@ static void row_free(gpointer pointer)
 	g_free(row);
 }
 
+/* Text and effect of a candidate. */
+static guint row_hash(gconstpointer pointer)
+{
+	const struct entry_popup_row *row = pointer;
+
+	return g_str_hash(row->text) ^ g_str_hash(row->line);
+}
+
+static gboolean row_equal(gconstpointer a, gconstpointer b)
+{
+	const struct entry_popup_row *one = a, *other = b;
+
+	return strcmp(one->text, other->text) == 0 && strcmp(one->line, other->line) == 0;
+}
+
 void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_row *row)
 {
-	struct entry_popup_row *copy = g_new(struct entry_popup_row, 1);
+	struct entry_popup_row *copy;
 
+	if (g_hash_table_contains(popup->known, row))
+		return;
+	copy = g_new(struct entry_popup_row, 1);
 	*copy = (struct entry_popup_row){
 		g_strdup(row->text), g_strdup(row->address), g_strdup(row->note),
 		g_strdup(row->kind), g_strdup(row->line),
 	};
 	g_ptr_array_add(popup->rows, copy);
+	g_hash_table_add(popup->known, copy);
 }
 
 /* The widget for a candidate: a used one with new texts, or a new one. */
@@ -130,6 +150,7 @@ static void make_first(LadderEntryPopup *popup)
 static void clear_rows(LadderEntryPopup *popup)
 {
 	g_clear_handle_id(&popup->making, g_source_remove);
+	g_hash_table_remove_all(popup->known);
 	g_ptr_array_set_size(popup->rows, 0);
 	popup->made = 0;
 	gtk_list_box_unselect_all(GTK_LIST_BOX(popup->list));
@@ -162,6 +183,10 @@ void ladder_entry_popup_ask(LadderEntryPopup *popup)
 		gtk_widget_remove_css_class(popup->told, "error");
 	else
 		gtk_widget_add_css_class(popup->told, "error");
+	/* A scroll bar, even a hidden one, needs the height of two rows. */
+	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(popup->scroller), GTK_POLICY_NEVER,
+				       popup->rows->len < ROWS_SEEN ? GTK_POLICY_NEVER :
+				       GTK_POLICY_AUTOMATIC);
 	gtk_widget_set_visible(popup->scroller, popup->rows->len > 0);
 	g_free(told);
 }
@@ -387,6 +412,7 @@ static void ladder_entry_popup_finalize(GObject *object)
 
 	g_clear_handle_id(&popup->asking, g_source_remove);
 	g_clear_handle_id(&popup->making, g_source_remove);
+	g_hash_table_unref(popup->known);
 	g_ptr_array_unref(popup->rows);
 	g_free(popup->first);
 	G_OBJECT_CLASS(ladder_entry_popup_parent_class)->finalize(object);
@@ -403,6 +429,7 @@ static void ladder_entry_popup_init(LadderEntryPopup *popup)
 	GtkEventController *keys = gtk_event_controller_key_new();
 
 	popup->rows = g_ptr_array_new_with_free_func(row_free);
+	popup->known = g_hash_table_new(row_hash, row_equal);
 	popup->line = gtk_entry_new();
 	popup->told = gtk_label_new(NULL);
 	popup->list = gtk_list_box_new();

@@ -41,7 +41,8 @@ struct entry_popup_calls {
  * @prompt: what to type; @text: the first text, selected unless @typed. */
 GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const char *text,
 				  bool typed, const struct entry_popup_calls *calls);
-/** ladder_entry_popup_add - adds a candidate; its strings are copied. */
+/** ladder_entry_popup_add - adds a candidate, if it is not there already: the same text and
+ * line. Its strings are copied. */
 void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_row *row);
 /** ladder_entry_popup_ask - asks its owner for the candidates again. */
 void ladder_entry_popup_ask(LadderEntryPopup *popup);

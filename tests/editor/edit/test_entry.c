@@ -313,7 +313,8 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "NO FanDelay.q_", "FanDelay.Q" },
 	{ "TON _", "FanDelay Q=> PT:= ET=>" },
 	{ "TON Fa_", "FanDelay new:Fa@" },
-	{ "TON FanDelay P_", "PT:= P1 Lamps Stop new:P@ new:P@%IL8 new:P@%ML8" },
+	{ "TON FanDelay P_", "PT:= new:P@ new:P@%IL8 new:P@%ML8" },
+	{ "TON FanDelay W_", "Wait new:W@ new:W@%IL8 new:W@%ML8" },
 	{ "TON FanDelay PT:=W_", "Wait new:W@ new:W@%IL8 new:W@%ML8" },
 	{ "JMP _", "Top" }, { "CALL A_", "Alarm" },
 	{ "NO I0.0_", "Start" }, { "NO %IX0.0_", "Start" }, { "NO %IX0_", "Start Stop %IX0.7" },
@@ -323,6 +324,14 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "[ Level + AB_", "ABS( new:AB@ new:AB@%IW2 new:AB@%MW2" },
 	{ "Level := INT_TO_RE_", "INT_TO_REAL( new:INT_TO_RE@ new:INT_TO_RE@%IW2 new:INT_TO_RE@%MW2" },
 	{ "Level > LE_", "Level LEN( new:LE@ new:LE@%IW2 new:LE@%MW2" },
+	/* only values of a type that fits */
+	{ "Total := Total + 1_", "" }, { "Level := Level + 1_", "" },
+	{ "Total := Total + h_", "Heat HOUR_OF( new:h@ new:h@%IW2 new:h@%MW2" },
+	{ "Heat := Le_", "Level LEN( new:Le@ new:Le@%ID4 new:Le@%MD4" },
+	{ "Wait := Wa_", "Wait new:Wa@ new:Wa@%IL8 new:Wa@%ML8" },
+	{ "Wait > Fa_", "new:Fa@ new:Fa@%IL8 new:Fa@%ML8" },
+	{ "Start AND Fa_", "Fan FanDelay new:Fa@%IX0.2 new:Fa@%MX0.1 new:Fa@" },
+	{ "Level > 5 AND Le_", "LE( Level LEFT( LEN( new:Le@%IX0.2 new:Le@%MX0.1 new:Le@" },
 	{ "NO SQ_", "new:SQ@%IX0.2 new:SQ@%MX0.1 new:SQ@" },
 	{ "Level := Fu_", "Full new:Fu@ new:Fu@%IW2 new:Fu@%MW2" },
 	{ "tonr_", "TONR" }, { "xic_", "XIC" },
@@ -345,7 +354,7 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "Temp : L_ > 5", "new:Temp@ new:Temp@ new:Temp@" },
 	{ "Sum AT %m_ := 5", "new:Sum@%MW2" }, { "Sum : RE_ := 5.5", "new:Sum@" },
 	{ "Sum : REAL := SQ_", "SQRT( new:SQ@ new:SQ@%ID4 new:SQ@%MD4" },
-	{ "Level > 5 AND Op_", "new:Op@%IX0.2 new:Op@%MX0.1 new:Op@" },
+	{ "Level > 5 AND Op_", "Stop new:Op@%IX0.2 new:Op@%MX0.1 new:Op@" },
 	{ "Open AT I:0/5 : b_", "new:Open@%IX0.5" }, { "Start %_", "" }, { "Motor : _", "" },
 };
 

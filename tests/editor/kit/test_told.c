@@ -72,6 +72,69 @@ static void test_lengths(GtkWidget *owner, const char *const *word, int words)
 	ladder_entry_popup_keep(LADDER_ENTRY_POPUP(popup));
 }
 
+static int candidates;
+
+static char *offer(void *popup, const char *line, int cursor, bool *good)
+{
+	(void)line, (void)cursor;
+	*good = true;
+	for (int i = 0; i < candidates; i++) {
+		char text[] = { (char)('A' + i), '\0' };
+
+		for (int twice = 0; twice < 2; twice++)
+			ladder_entry_popup_add(*(LadderEntryPopup **)popup,
+				&(struct entry_popup_row){ text, (char *)"", (char *)"note",
+							   (char *)"variable", text });
+	}
+	return NULL;
+}
+
+static GtkWidget *inside(GtkWidget *widget, GType type)
+{
+	GtkWidget *found = NULL;
+
+	if (G_TYPE_CHECK_INSTANCE_TYPE(widget, type))
+		return widget;
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found;
+	     child = gtk_widget_get_next_sibling(child))
+		found = inside(child, type);
+	return found;
+}
+
+static int visible_rows(GtkWidget *list)
+{
+	int count = 0;
+
+	for (GtkWidget *row = gtk_widget_get_first_child(list); row;
+	     row = gtk_widget_get_next_sibling(row))
+		count += gtk_widget_get_visible(row);
+	return count;
+}
+
+/* The list has the height of its candidates, each of which is there once. */
+static void test_list(GtkWidget *owner)
+{
+	LadderEntryPopup *popup;
+	const struct entry_popup_calls calls = { .context = &popup, .changed = offer,
+						 .taken = taken };
+	GtkWidget *list, *scroller;
+	int needed, taken_up;
+
+	popup = LADDER_ENTRY_POPUP(ladder_entry_popup_new(owner, "Name", "", false, &calls));
+	list = inside(GTK_WIDGET(popup), GTK_TYPE_LIST_BOX);
+	scroller = inside(GTK_WIDGET(popup), GTK_TYPE_SCROLLED_WINDOW);
+	ladder_entry_popup_show(popup, &(GdkRectangle){ 10, 10, 50, 50 });
+	for (candidates = 1; candidates < 6; candidates++) {
+		ladder_entry_popup_ask(popup);
+		gtk_widget_measure(list, GTK_ORIENTATION_VERTICAL, -1, NULL, &needed, NULL, NULL);
+		gtk_widget_measure(scroller, GTK_ORIENTATION_VERTICAL, -1, NULL, &taken_up, NULL,
+				   NULL);
+		CHECK_AS(visible_rows(list) == candidates, "no candidate is there twice");
+		CHECK_AS(needed > 0 && taken_up == needed, "there is no room for an empty row");
+	}
+	ladder_entry_popup_keep(popup);
+}
+
 int main(void)
 {
 	static const char *const english[] = { "a new ", "input ", "Pump ", "%IX0.5 ", "or any ",
@@ -92,6 +155,7 @@ int main(void)
 	telling = g_string_new("");
 	test_lengths(owner, english, G_N_ELEMENTS(english));
 	test_lengths(owner, chinese, G_N_ELEMENTS(chinese));
+	test_list(owner);
 	ladder_entry_popup_drop(owner);
 	g_string_free(telling, TRUE);
 	gtk_window_destroy(GTK_WINDOW(window));
