@@ -9,7 +9,6 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/kit/gtk48/popover.h"
-#include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/panels/tree_rows.h"
 #include "editor-gtk/kit/verbs.h"
@@ -182,7 +181,7 @@ static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
 	else if (renames)
 		gtk_widget_activate_action(tree->list, "win.rename-pou", "i", pou);
 	else
-		why = pou_delete(tree->document, pou);
+		gtk_widget_activate_action(tree->list, "win.delete-pou", "i", pou);
 	if (why)
 		gtk_widget_activate_action(tree->list, "win.tell", "s", why);
 }

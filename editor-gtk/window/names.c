@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/window/names.h"
 
+#include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/document/symbols.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
@@ -567,6 +568,77 @@ void names_rename_pou(struct core *core, int pou)
 	else
 		g_array_unref(choice);
 	xref_free(&xref);
+}
+
+/* ---- deleting a POU ---- */
+
+struct deleting {
+	struct core *core;
+	char *name;
+};
+
+static void deleting_free(gpointer data, GClosure *closure)
+{
+	struct deleting *deleting = data;
+
+	(void)closure;
+	g_free(deleting->name);
+	g_free(deleting);
+}
+
+static void delete_now(struct core *core, int pou)
+{
+	const char *why = pou_delete(core->document, pou);
+
+	if (why)
+		messages_tell(core->messages, why);
+}
+
+static void delete_answered(AdwMessageDialog *dialog, const char *answer,
+			    struct deleting *deleting)
+{
+	const struct project *project = ladder_document_project(deleting->core->document);
+	const int pou = project ? project_find_pou(project, deleting->name,
+						   strlen(deleting->name)) : -1;
+
+	(void)dialog;
+	if (strcmp(answer, "uses") == 0)
+		names_show_uses_of(deleting->core, deleting->name);
+	else if (strcmp(answer, "delete") == 0 && pou >= 0)
+		delete_now(deleting->core, pou);
+}
+
+static void ask_delete(struct core *core, const char *name, int uses)
+{
+	struct deleting *deleting = g_new(struct deleting, 1);
+	char *heading = g_strdup_printf(_("Delete “%s”?"), name);
+	char *body = g_strdup_printf(ngettext(
+		"It is used in %d place. Its boxes and instances are deleted, too.",
+		"It is used in %d places. Its boxes and instances are deleted, too.",
+		(unsigned long)uses), uses);
+	AdwMessageDialog *dialog = ask_new(core->window, heading, body, "uses", _("Show uses"),
+					   ADW_RESPONSE_DEFAULT);
+
+	adw_message_dialog_add_response(dialog, "delete", _("Delete anyway"));
+	adw_message_dialog_set_response_appearance(dialog, "delete",
+						   ADW_RESPONSE_DESTRUCTIVE);
+	*deleting = (struct deleting){ core, g_strdup(name) };
+	g_signal_connect_data(dialog, "response", G_CALLBACK(delete_answered), deleting,
+			      deleting_free, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+	g_free(body);
+	g_free(heading);
+}
+
+void names_delete_pou(struct core *core, int pou)
+{
+	const struct project *project = ladder_document_project(core->document);
+	const int uses = project ? pou_uses(core->document, pou) : 0;
+
+	if (uses > 0 && project->pou_count > 1 && !project->pou[pou].included)
+		ask_delete(core, project_text(project, project->pou[pou].name), uses);
+	else
+		delete_now(core, pou);
 }
 
 /* ---- the panel ---- */

@@ -27,6 +27,8 @@ void names_show_uses_of(struct core *core, const char *name);
 /** names_rename - asks for a new name and changes all uses. The dialog shows why a name is
  * refused; the engine decides that. */
 void names_rename(struct core *core);
+/** names_delete_pou - deletes a POU; if it is used, asks first, with its uses. */
+void names_delete_pou(struct core *core, int pou);
 /** names_rename_pou - the same for a POU. */
 void names_rename_pou(struct core *core, int pou);
 

@@ -457,10 +457,14 @@ static void go_to(GtkWidget *widget, const char *name, GVariant *place)
 	tabs_go(&LADDER_WINDOW(widget)->tabs, pou, rung, row, col);
 }
 
-static void do_rename_pou(GtkWidget *widget, const char *name, GVariant *pou)
+static void act_on_pou(GtkWidget *widget, const char *name, GVariant *pou)
 {
-	(void)name;
-	names_rename_pou(&LADDER_WINDOW(widget)->core, g_variant_get_int32(pou));
+	struct core *core = &LADDER_WINDOW(widget)->core;
+
+	if (strcmp(name, "win.rename-pou") == 0)
+		names_rename_pou(core, g_variant_get_int32(pou));
+	else
+		names_delete_pou(core, g_variant_get_int32(pou));
 }
 
 static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter)
@@ -564,7 +568,8 @@ static void install_actions(GtkWidgetClass *class)
 	for (gsize i = 0; i < G_N_ELEMENTS(on_text); i++)
 		gtk_widget_class_install_action(class, on_text[i], "s", act_on_text);
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
-	gtk_widget_class_install_action(class, "win.rename-pou", "i", do_rename_pou);
+	gtk_widget_class_install_action(class, "win.rename-pou", "i", act_on_pou);
+	gtk_widget_class_install_action(class, "win.delete-pou", "i", act_on_pou);
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.begin-chart", NULL, begin);
 	gtk_widget_class_install_action(class, "win.import-project", NULL, import_project);

@@ -179,6 +179,47 @@ def of_others(screen):
     check(path)
 
 
+USED = TEXT.replace('  Delay : TON;', '  Delay : TON;\n  Hold  : Seal;').replace(
+    '| NO %IX0.1 | COIL', '| NO %IX0.1 | Seal Hold | COIL') + """
+FUNCTION_BLOCK Seal LD
+VAR_INPUT
+  IN : BOOL;
+END_VAR
+VAR_OUTPUT
+  Q : BOOL;
+END_VAR
+RUNG
+  | NO IN | COIL Q |
+END_FUNCTION_BLOCK
+"""
+
+
+def used(screen):
+    """Delete of a block that is used asks first: its uses are shown, or it is deleted with its boxes; one undo"""
+    path = new_file(screen, USED)
+    editor = Editor(screen, path)
+
+    def row():
+        return [n for n in editor.all('Seal', 'label') if n.name == 'Seal' and n.box()[0] < 200]
+    editor.click(until(row, 'the block')[0])
+    editor.brought('Delete')
+    editor.says('It is used in 2 places')
+    editor.shot('tree-used')
+    editor.answer('Show uses')
+    until(lambda: editor.all('Seal', 'table row'), 'its uses')
+    editor.shot('tree-uses')
+    assert row()
+    editor.click(row()[0])
+    editor.brought('Delete')
+    editor.answer('Delete anyway')
+    until(lambda: not row(), 'the block to be gone')
+    text = editor.save(path)
+    assert 'Seal' not in text and '| NO %IX0.1 | COIL %QX0.1 |' in text, text
+    check(path)
+    editor.keys('ctrl+z')
+    assert editor.save(path) == USED
+
+
 def in_front(screen):
     """Delete of the program in front leaves the keys in the tree; the only one cannot be deleted, with the reason"""
     path = new_file(screen, TEXT)
@@ -346,4 +387,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, in_front, nothing_open, keys, menus, stop, beside])
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, beside])
