@@ -767,6 +767,17 @@ void ladder_document_cancel(LadderDocument *document)
 	history_cancel(document->history);
 }
 
+void ladder_document_set_cursor(LadderDocument *document,
+				struct step_cursor (*cursor)(gpointer data), gpointer data)
+{
+	history_set_cursor(document->history, cursor, data);
+}
+
+struct step_cursor ladder_document_undo_cursor(LadderDocument *document)
+{
+	return history_undo_cursor(document->history);
+}
+
 bool ladder_document_undo(LadderDocument *document)
 {
 	const struct step *step = history_undo(document->history);

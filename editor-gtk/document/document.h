@@ -20,6 +20,8 @@
 #ifndef EDITOR_DOCUMENT_H
 #define EDITOR_DOCUMENT_H
 
+#include "editor-gtk/document/history.h"
+
 #include <gio/gio.h>
 
 #include "engine/ladder.h"
@@ -176,6 +178,12 @@ void ladder_document_detach(LadderDocument *document, int file);
 void ladder_document_note(LadderDocument *document, int file, const char *name,
 			  const char *key, gsize at, const char *before, const char *after);
 
+/** ladder_document_set_cursor - sets the function that gives the cursor of the window when a
+ * step begins, so that undo can move it back there. NULL: none. */
+void ladder_document_set_cursor(LadderDocument *document,
+				struct step_cursor (*cursor)(gpointer data), gpointer data);
+/** ladder_document_undo_cursor - the cursor when the step began that Undo would undo. */
+struct step_cursor ladder_document_undo_cursor(LadderDocument *document);
 /** ladder_document_undo, ladder_document_redo - false: there is nothing to undo or redo. */
 bool ladder_document_undo(LadderDocument *document);
 bool ladder_document_redo(LadderDocument *document);

@@ -15,6 +15,8 @@ struct history {
 	int saved;         /* the value of `now` when the file was saved       */
 	struct step *open;
 	int depth;
+	struct step_cursor (*cursor)(gpointer data);
+	gpointer data;     /* of cursor                                        */
 	gsize bytes;
 	guint64 serial;    /* of the last step that was made                    */
 	guint64 base;      /* of the last step that was forgotten */
@@ -98,6 +100,13 @@ void history_free(struct history *history)
 	g_free(history);
 }
 
+void history_set_cursor(struct history *history,
+			struct step_cursor (*cursor)(gpointer data), gpointer data)
+{
+	history->cursor = cursor;
+	history->data = data;
+}
+
 /* ---- doing ---- */
 
 void history_begin(struct history *history, const char *name, const char *key)
@@ -108,6 +117,8 @@ void history_begin(struct history *history, const char *name, const char *key)
 	history->open->name = g_strdup(name);
 	history->open->key = g_strdup(key);
 	history->open->change = g_ptr_array_new_with_free_func(change_free);
+	history->open->cursor = history->cursor ? history->cursor(history->data) :
+		(struct step_cursor){ .pou = -1 };
 }
 
 /* Its change exchanges whole texts, not pieces of one. */
@@ -324,6 +335,12 @@ const struct step *history_redo(struct history *history)
 {
 	return history->now < (int)history->step->len && !history->open ?
 	       history->step->pdata[history->now++] : NULL;
+}
+
+struct step_cursor history_undo_cursor(const struct history *history)
+{
+	return history->now > 0 ? history_done(history, 0)->cursor :
+	       (struct step_cursor){ .pou = -1 };
 }
 
 const char *history_undo_name(const struct history *history)

@@ -29,6 +29,12 @@ struct change {
 				      other kinds one text */
 };
 
+/* The cursor in a sheet, 0-based; pou -1: it is in none. */
+struct step_cursor {
+	int pou, rung;    /* rung -1: in a chart                               */
+	int row, col;     /* display cell; of a chart: line of its text        */
+};
+
 struct step {
 	char *name;       /* "Delete rung": shown behind Undo                  */
 	char *key;        /* consecutive steps with the same key join; NULL: never */
@@ -36,6 +42,7 @@ struct step {
 	guint64 serial;   /* grows from step to step                           */
 	bool is_back;     /* it restored the state of place @back_to           */
 	guint64 back_to;
+	struct step_cursor cursor; /* where it was when the step began         */
 };
 
 struct history;
@@ -43,6 +50,9 @@ struct history;
 /** history_new - empty. Owns: the caller, history_free(). */
 struct history *history_new(void);
 void history_free(struct history *history);
+/** history_set_cursor - sets the function that gives the cursor when a step begins. */
+void history_set_cursor(struct history *history,
+			struct step_cursor (*cursor)(gpointer data), gpointer data);
 /** history_restart - for another document, which is saved; the steps of files beside it
  * stay. */
 void history_restart(struct history *history);
@@ -66,6 +76,8 @@ bool history_end(struct history *history);
 const struct step *history_undo(struct history *history);
 /** history_redo - the step to redo, from its first change to its last. */
 const struct step *history_redo(struct history *history);
+/** history_undo_cursor - of the step to undo; pou -1: none. */
+struct step_cursor history_undo_cursor(const struct history *history);
 /** history_undo_name, history_redo_name - NULL: nothing to undo, to redo. */
 const char *history_undo_name(const struct history *history);
 const char *history_redo_name(const struct history *history);

@@ -787,6 +787,11 @@ void ladder_grid_view_go(LadderGridView *view, int rung, int row, int col)
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 }
 
+void ladder_grid_view_move(LadderGridView *view, struct grid_cursor to)
+{
+	cursor_set(view, to, false);
+}
+
 bool ladder_grid_view_cell(LadderGridView *view, int *row, int *col)
 {
 	return cursor_cell(view, row, col) != NULL;

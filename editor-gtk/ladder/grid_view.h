@@ -35,6 +35,8 @@ struct grid_cursor ladder_grid_view_cursor(LadderGridView *view);
 /** ladder_grid_view_go - moves the cursor and scrolls to it; @row, @col: cells of the rung,
  * as diagnostics have them, 0-based; -1: its first element. */
 void ladder_grid_view_go(LadderGridView *view, int rung, int row, int col);
+/** ladder_grid_view_move - moves the cursor to a display cell and scrolls to it. */
+void ladder_grid_view_move(LadderGridView *view, struct grid_cursor to);
 /** ladder_grid_view_cell - the cell of the element at the cursor, 0-based; false: there is
  * no element. */
 bool ladder_grid_view_cell(LadderGridView *view, int *row, int *col);

@@ -375,23 +375,22 @@ void tabs_close(struct tabs *tabs)
 /* The first place that a step changed. */
 struct changed {
 	int pou, rung; /* -1: neither rung nor list; in a list, rung is -1     */
+	int end;       /* behind the last rung, before and afterwards          */
 };
 
 static void rungs_changed(LadderDocument *document, int pou, int at, int removed, int added,
 			  struct changed *changed)
 {
 	(void)document;
-	(void)removed;
-	(void)added;
 	if (changed->pou < 0)
-		*changed = (struct changed){ pou, at };
+		*changed = (struct changed){ pou, at, at + MAX(removed, added) };
 }
 
 static void list_changed(LadderDocument *document, int pou, struct changed *changed)
 {
 	(void)document;
 	if (changed->pou < 0)
-		*changed = (struct changed){ pou, -1 };
+		*changed = (struct changed){ pou, -1, -1 };
 }
 
 /* Is the cursor of the page in front there? */
@@ -418,10 +417,60 @@ static void show(struct tabs *tabs, const struct changed *changed)
 	tabs_go(tabs, changed->pou, MIN(changed->rung, count - 1), -1, -1);
 }
 
+/* The cursor in the sheet in front. */
+static struct step_cursor cursor_now(gpointer data)
+{
+	struct front *front = ((struct tabs *)data)->core->front;
+	LadderGridView *sheet = front_sheet(front);
+	LadderSfcView *chart = front_chart(front);
+
+	if (sheet) {
+		const struct grid_cursor at = ladder_grid_view_cursor(sheet);
+
+		return (struct step_cursor){ ladder_canvas_pou(LADDER_CANVAS(sheet)),
+			ladder_grid_view_first(sheet) + at.rung, at.row, at.col };
+	}
+	if (chart)
+		return (struct step_cursor){ ladder_canvas_pou(LADDER_CANVAS(chart)), -1,
+			ladder_sfc_view_row(chart), 0 };
+	return (struct step_cursor){ .pou = -1 };
+}
+
+static bool has_rung(LadderGridView *sheet, struct step_cursor at)
+{
+	int count, first;
+
+	if (!sheet || ladder_canvas_pou(LADDER_CANVAS(sheet)) != at.pou)
+		return false;
+	first = ladder_grid_view_range(sheet, &count);
+	return at.rung >= first && (count < 0 || at.rung < first + count);
+}
+
+/* Moves the cursor to where the undone step began. False: what it changed is elsewhere. */
+static bool go_back(struct tabs *tabs, struct step_cursor to, const struct changed *changed)
+{
+	const struct project *project = ladder_document_project(tabs->core->document);
+	LadderGridView *sheet;
+
+	if (!project || to.pou < 0 || to.pou >= project->pou_count ||
+	    to.rung >= project->pou[to.pou].rung_count ||
+	    (changed->pou >= 0 && (changed->pou != to.pou || (to.rung >= 0 &&
+	     (to.rung < changed->rung - 1 || to.rung > changed->end)))))
+		return false;
+	if (!has_rung(front_sheet(tabs->core->front), to))
+		tabs_go(tabs, to.pou, to.rung, to.rung < 0 ? to.row : -1, -1);
+	sheet = front_sheet(tabs->core->front);
+	if (has_rung(sheet, to))
+		ladder_grid_view_move(sheet, (struct grid_cursor){
+			to.rung - ladder_grid_view_first(sheet), to.row, to.col });
+	return true;
+}
+
 void tabs_step(struct tabs *tabs, bool redo)
 {
 	LadderDocument *document = tabs->core->document;
-	struct changed changed = { -1, -1 };
+	struct changed changed = { -1, -1, -1 };
+	struct step_cursor cursor;
 	gulong rungs, list;
 	char *name, *text;
 	bool done;
@@ -432,11 +481,13 @@ void tabs_step(struct tabs *tabs, bool redo)
 	rungs = g_signal_connect(document, "rungs-changed", G_CALLBACK(rungs_changed),
 				 &changed);
 	list = g_signal_connect(document, "list-changed", G_CALLBACK(list_changed), &changed);
+	cursor = ladder_document_undo_cursor(document);
 	done = redo ? ladder_document_redo(document) : ladder_document_undo(document);
 	g_signal_handler_disconnect(document, rungs);
 	g_signal_handler_disconnect(document, list);
 	if (done) {
-		show(tabs, &changed);
+		if (redo || !go_back(tabs, cursor, &changed))
+			show(tabs, &changed);
 		text = g_strdup_printf(redo ? _("Redone: %s") : _("Undone: %s"), name);
 		messages_tell(tabs->core->messages, text);
 		g_free(text);
@@ -586,6 +637,7 @@ void tabs_init(struct tabs *tabs, struct core *core)
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_DOWN);
 	tab_home_make(core->front->tab_bar);
 	follow_clicks(tabs);
+	ladder_document_set_cursor(core->document, cursor_now, tabs);
 	core_connect(core, core->document, "project-changed", G_CALLBACK(update), tabs,
 		     G_CONNECT_SWAPPED);
 	core_connect(core, tabs->view, "notify::selected-page", G_CALLBACK(page_selected), tabs,

@@ -846,6 +846,7 @@ static void ladder_window_dispose(GObject *object)
 	g_clear_object(&core->board);
 	if (core->document) { /* drafts of files are removed with their tabs     */
 		g_signal_handlers_disconnect_by_data(core->document, window);
+		ladder_document_set_cursor(core->document, NULL, NULL);
 		draft_stop(core->document);
 	}
 	g_clear_object(&core->document);

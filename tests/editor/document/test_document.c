@@ -144,6 +144,41 @@ static void test_steps(void)
 	g_object_unref(document);
 }
 
+static struct step_cursor cursor_of(gpointer data)
+{
+	return (struct step_cursor){ 0, *(const int *)data, 2, 3 };
+}
+
+/* Undo can move the cursor back to where the step began. */
+static void test_cursor(void)
+{
+	LadderDocument *document = open_sample();
+	int rung = 0;
+
+	CHECK(ladder_document_undo_cursor(document).pou == -1);
+	ladder_document_set_cursor(document, cursor_of, &rung);
+	for (; rung < 2; rung++) {
+		ladder_document_begin(document, "Type", "operand");
+		ladder_document_put_rung(document, 0, 0, rung_of(document, rung ?
+			"RUNG\n  | NO I1 | COIL Q0 |\n" : "RUNG\n  | NO I2 | COIL Q0 |\n"),
+			NULL);
+		rung += 10;
+		ladder_document_end(document);
+		rung -= 10;
+	}
+	CHECK_AS(ladder_document_undo_cursor(document).rung == 0 &&
+		 ladder_document_undo_cursor(document).col == 3,
+		 "joined steps have the cursor of the first one, when it began");
+	ladder_document_begin(document, "Move", NULL);
+	ladder_document_move_rung(document, 0, 0, 1);
+	ladder_document_end(document);
+	CHECK(ladder_document_undo_cursor(document).rung == 2);
+	CHECK(ladder_document_undo(document));
+	CHECK(ladder_document_undo_cursor(document).rung == 0);
+	ladder_document_set_cursor(document, NULL, NULL);
+	g_object_unref(document);
+}
+
 /* ---- text ---- */
 
 static void find_motor(void *context, const struct text_span *span)
@@ -585,6 +620,7 @@ int main(void)
 	test_rungs();
 	test_unwritable();
 	test_steps();
+	test_cursor();
 	test_text();
 	test_list();
 	test_damaged();

@@ -155,5 +155,24 @@ def dragged(screen):
 
 
 coil.quick = 'editor-gtk/ladder'
+def back(screen):
+    """Undo moves the cursor to where the edit began"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+Home', 'Right')
+    place = until(lambda: editor.all('Rung 1 ', 'label'), 'the place')[0].name
+    editor.entry('Extra')
+    until(lambda: not editor.all(place, 'label'), 'the cursor to go on')
+    editor.keys('ctrl+z')
+    editor.says(place)
+    editor.entry('Extra')
+    editor.keys('ctrl+End')
+    until(lambda: not editor.all(place, 'label'), 'the cursor elsewhere')
+    editor.keys('ctrl+z')
+    editor.says(place)
+    editor.shot('cells-back')
+
+
 on_a_coil.quick = 'editor-gtk/edit'
-main([coil, on_a_coil, branch, dragged])
+main([coil, on_a_coil, branch, dragged, back])
