@@ -56,7 +56,7 @@ struct _LadderDocument {
 G_DEFINE_FINAL_TYPE(LadderDocument, ladder_document, G_TYPE_OBJECT)
 
 enum { RUNGS_CHANGED, VARIABLE_CHANGED, PROJECT_CHANGED, LIST_CHANGED, BOOKMARKS_CHANGED,
-       CHECKED, STATE_CHANGED, SIGNALS };
+       CHECKED, STATE_CHANGED, FILE_OPENED, SIGNALS };
 static guint signals[SIGNALS];
 
 static void check_later(LadderDocument *document);
@@ -1854,6 +1854,8 @@ static void ladder_document_class_init(LadderDocumentClass *class)
 		NULL, NULL, NULL, G_TYPE_NONE, 0);
 	signals[CHECKED] = g_signal_new("checked", type, flags, 0, NULL, NULL, NULL,
 		G_TYPE_NONE, 0);
+	signals[FILE_OPENED] = g_signal_new("file-opened", type, flags, 0, NULL, NULL, NULL,
+		G_TYPE_NONE, 1, G_TYPE_OBJECT);
 	signals[STATE_CHANGED] = g_signal_new("state-changed", type, flags, 0, NULL,
 		NULL, NULL, G_TYPE_NONE, 0);
 }

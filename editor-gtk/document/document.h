@@ -15,6 +15,7 @@
  *   list-changed (int pou)  the text of a list that cannot be read changed
  *   bookmarks-changed ()  or other lines of the VIEW part
  *   checked ()           ladder_document_diags() are new
+ *   file-opened (LadderSideFile file)  an edit of the project opened a file beside it
  *   state-changed ()     saved or not, path, the step that Undo would undo
  */
 #ifndef EDITOR_DOCUMENT_H

@@ -96,6 +96,13 @@ char *ladder_side_file_sum(LadderSideFile *file)
 	return g_compute_checksum_for_string(G_CHECKSUM_SHA256, file->read, -1);
 }
 
+void ladder_side_file_set(LadderSideFile *file, const char *text)
+{
+	gtk_text_buffer_begin_user_action(file->buffer);
+	gtk_text_buffer_set_text(file->buffer, text, -1);
+	gtk_text_buffer_end_user_action(file->buffer);
+}
+
 void ladder_side_file_append(LadderSideFile *file, const char *text)
 {
 	GtkTextIter end;
@@ -161,10 +168,35 @@ bool ladder_side_file_save(LadderSideFile *file, GError **error)
 
 /* ---- life ---- */
 
+/* The open files of a document, borrowed. */
+static GPtrArray *open_files(LadderDocument *document)
+{
+	GPtrArray *files = g_object_get_data(G_OBJECT(document), "side-files");
+
+	if (!files) {
+		files = g_ptr_array_new();
+		g_object_set_data_full(G_OBJECT(document), "side-files", files,
+				       (GDestroyNotify)g_ptr_array_unref);
+	}
+	return files;
+}
+
+LadderSideFile *side_file_find(LadderDocument *document, const char *path)
+{
+	GPtrArray *files = open_files(document);
+
+	for (guint i = 0; i < files->len; i++)
+		if (disk_same(path, ladder_side_file_path(files->pdata[i])))
+			return files->pdata[i];
+	return NULL;
+}
+
 static void ladder_side_file_dispose(GObject *object)
 {
 	LadderSideFile *file = LADDER_SIDE_FILE(object);
 
+	if (file->document)
+		g_ptr_array_remove(open_files(file->document), file);
 	g_clear_pointer(&file->history, file_history_free);
 	g_clear_object(&file->document);
 	G_OBJECT_CLASS(ladder_side_file_parent_class)->dispose(object);
@@ -245,6 +277,7 @@ static LadderSideFile *file_of(const char *path, char *text, LadderDocument *doc
 	file->path = g_strdup(path);
 	file->read = text;
 	file->document = g_object_ref(document);
+	g_ptr_array_add(open_files(document), file);
 	set_text(file->buffer, text);
 	file->history = file_history_new(file->buffer, document, name, step_undone, file);
 	g_free(name);
@@ -263,9 +296,7 @@ void ladder_side_file_put(LadderSideFile *file, const char *text, const char *su
 {
 	char *now = ladder_side_file_sum(file);
 
-	gtk_text_buffer_begin_user_action(file->buffer);
-	gtk_text_buffer_set_text(file->buffer, text, -1);
-	gtk_text_buffer_end_user_action(file->buffer);
+	ladder_side_file_set(file, text);
 	gtk_text_buffer_set_modified(file->buffer, TRUE);
 	if (g_strcmp0(now, sum) != 0) {
 		g_free(file->read);

@@ -43,6 +43,8 @@ char *ladder_side_file_name(LadderSideFile *file);
 char *ladder_side_file_text(LadderSideFile *file);
 /** ladder_side_file_sum - of the file when it was read or saved last. Caller frees. */
 char *ladder_side_file_sum(LadderSideFile *file);
+/** ladder_side_file_set - replaces the whole text, as a step. */
+void ladder_side_file_set(LadderSideFile *file, const char *text);
 /** ladder_side_file_append - adds @text at the end, as a step. */
 void ladder_side_file_append(LadderSideFile *file, const char *text);
 
@@ -62,6 +64,9 @@ bool ladder_side_file_is_saved(LadderSideFile *file);
 bool ladder_side_file_differs(LadderSideFile *file);
 /** ladder_side_file_look - checks whether the file is there. @file: a LadderSideFile */
 void ladder_side_file_look(gpointer file);
+
+/** side_file_find - the open file at @path, of this document; NULL: not open. Borrowed. */
+LadderSideFile *side_file_find(LadderDocument *document, const char *path);
 
 /* ---- which files belong to a project ---- */
 

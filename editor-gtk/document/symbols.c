@@ -11,6 +11,7 @@
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/edit/entry_operand.h"
 #include "editor-gtk/kit/comment_text.h"
+#include "editor-gtk/document/rename.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
@@ -275,50 +276,6 @@ char *symbol_error(LadderDocument *document, const struct symbol_row *symbol,
 			return diag_said_whole(&diags->diag[i]);
 		}
 	return NULL;
-}
-
-static char *place_of(struct project *project, const struct ladder_rename *how)
-{
-	const char *pou = how->pou < 0 ? "" :
-		project_text(project, project->pou[how->pou].name);
-
-	if (how->rung)
-		return g_strdup_printf(_("%s, rung %d"), pou, how->rung);
-	return g_strdup(*pou ? pou : _("the globals"));
-}
-
-char *rename_reason(LadderDocument *document, const struct ladder_rename *how,
-		    const char *name)
-{
-	char *place = place_of(ladder_document_project(document), how), *text = NULL;
-
-	switch (how->why) {
-	case RENAME_GOOD:
-	case RENAME_NOTHING:
-		text = g_strdup(_("This has no name to change"));
-		break;
-	case RENAME_FORM:
-		text = g_strdup_printf(_("“%s” is not a name"), name);
-		break;
-	case RENAME_RESERVED:
-		text = g_strdup_printf(_("“%s” is a word of the language"), name);
-		break;
-	case RENAME_TAKEN:
-		text = g_strdup_printf(_("“%s” is declared already (%s)"), name, place);
-		break;
-	case RENAME_MEANING:
-		text = g_strdup_printf(_("“%s” would mean something else in %s"), name,
-				       place);
-		break;
-	case RENAME_OTHER_FILE:
-		text = g_strdup_printf(_("It is used in another file (%s)"), place);
-		break;
-	case RENAME_MEMORY:
-		text = g_strdup(_("Out of memory"));
-		break;
-	}
-	g_free(place);
-	return text;
 }
 
 static bool refuse(char **why, char *text)
@@ -878,30 +835,30 @@ bool symbol_batch_apply(struct symbol_batch *batch, const char *step, char **why
 
 /* ---- single changes ---- */
 
-static bool rename_everywhere(LadderDocument *document, int table, int index,
-			      const char *name, char **why)
+static bool rename_symbol(LadderDocument *document, int table, int index, const char *name,
+			  char **why)
 {
 	struct project *project = ladder_document_project(document);
 	const struct xref_target target = xref_variable(project, table, index);
-	struct ladder_rename how;
-	struct diag_list *diags;
-	gsize len, old_len;
-	char *text = ladder_rename(ladder_document_ladder(document), &target, name, &len,
-				   &how);
-	bool good;
+	char *reason = NULL;
 
-	if (!text)
-		return refuse(why, rename_reason(document, &how, name));
-	diags = g_new0(struct diag_list, 1);
-	free(ladder_write(ladder_document_ladder(document), &old_len));
-	ladder_document_begin(document, _("Rename symbol"), NULL);
-	good = ladder_document_replace(document, 0, old_len, text, diags);
-	ladder_document_end(document);
-	if (!good)
-		refuse(why, reason(diags));
-	g_free(diags);
-	free(text);
-	return good;
+	return rename_everywhere(document, &target, name, _("Rename symbol"), NULL, &reason) ||
+	       refuse(why, reason);
+}
+
+/* Is the symbol in a file beside the project? */
+static bool is_beside(LadderDocument *document, int table, int index)
+{
+	const struct xref_target target = xref_variable(ladder_document_project(document), table,
+							index);
+	char *why = NULL;
+	GPtrArray *files = rename_files(document, &target, NULL, &why);
+	const bool is = !files || files->len > 0;
+
+	if (files)
+		g_ptr_array_unref(files);
+	g_free(why);
+	return is;
 }
 
 static const char *step_name(enum field field)
@@ -954,8 +911,9 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
 		good = true;
 	else if (field == FIELD_COMMENT && (strstr(clean, "(*") || strstr(clean, "*)")))
 		good = refuse(why, g_strdup(_("a comment is one line without (* and *)")));
-	else if (field == FIELD_NAME && symbol->uses > 0)
-		good = rename_everywhere(document, table, index, clean, why);
+	else if (field == FIELD_NAME &&
+		 (symbol->uses > 0 || is_beside(document, table, index)))
+		good = rename_symbol(document, table, index, clean, why);
 	else
 		good = set_field(batch, symbol, field, clean, why);
 	g_free(clean);

@@ -107,8 +107,4 @@ struct ladder *symbol_batch_try(struct symbol_batch *batch, char **why);
  * changed. */
 bool symbol_batch_apply(struct symbol_batch *batch, const char *step, char **why);
 
-/** rename_reason - why something cannot be renamed, translated. Owns: the caller. */
-char *rename_reason(LadderDocument *document, const struct ladder_rename *how,
-		    const char *name);
-
 #endif

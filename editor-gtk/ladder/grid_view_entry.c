@@ -10,7 +10,7 @@
 #include "editor-gtk/ladder/grid_view_inside.h"
 
 #include "editor-gtk/document/entry_outcome.h"
-#include "editor-gtk/document/symbols.h"
+#include "editor-gtk/document/rename.h"
 #include "editor-gtk/edit/entry_names.h"
 #include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/kit/entry_popup.h"

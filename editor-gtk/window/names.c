@@ -5,7 +5,7 @@
 #include "editor-gtk/window/names.h"
 
 #include "editor-gtk/document/pou_edit.h"
-#include "editor-gtk/document/symbols.h"
+#include "editor-gtk/document/rename.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
@@ -300,49 +300,25 @@ struct renaming {
 
 static void rename_target(struct core *core, const struct named *named, const char *name)
 {
-	LadderDocument *document = core->document;
-	struct ladder_rename how;
-	size_t len, old_len;
-	char *text = ladder_rename(ladder_document_ladder(document), &named->target, name,
-				   &len, &how);
 	char *step = g_strdup_printf(_("Rename %s to %s"), named->name, name);
-	char *before = ladder_document_outline(document, &old_len, NULL, NULL);
-	char *told;
+	char *told = NULL;
+	int places;
 
-	if (text) {
-		ladder_document_begin(document, step, NULL);
-		ladder_document_replace(document, 0, old_len, text, NULL);
-		if (named->target.what == XREF_POU)
-			ladder_document_rename_bookmarks(document, named->name, name);
-		ladder_document_end(document);
+	if (rename_everywhere(core->document, &named->target, name, step, &places, &told))
 		told = g_strdup_printf(ngettext("%d place changed", "%d places changed",
-			(unsigned long)how.places), how.places);
-	} else {
-		told = rename_reason(document, &how, name);
-	}
+						(unsigned long)places), places);
 	messages_tell(core->messages, told);
 	g_free(told);
-	g_free(before);
 	g_free(step);
-	free(text);
 }
 
 /* Why the name is refused; NULL: it is not. Caller frees. */
 static char *refusal(LadderDocument *document, const struct named *named, const char *name)
 {
-	struct ladder_rename how;
-	size_t len;
-	char *text, *why;
-
 	if (strcmp(name, named->name) == 0)
 		return NULL;
-	if (!*name)
-		return g_strdup(_("Enter a name"));
-	text = ladder_rename(ladder_document_ladder(document), &named->target, name, &len,
-			     &how);
-	why = text ? NULL : rename_reason(document, &how, name);
-	free(text);
-	return why;
+	return *name ? rename_refusal(document, &named->target, name) :
+		       g_strdup(_("Enter a name"));
 }
 
 static const struct named *chosen_of(const struct renaming *renaming)
@@ -367,13 +343,38 @@ static void typed(GtkEditable *line, struct renaming *renaming)
 	g_free(name);
 }
 
+/* The files beside the project that have the name, a line each. */
+static void list_files(struct renaming *renaming, GString *body)
+{
+	const struct named *named = chosen_of(renaming);
+	char *why = NULL;
+	GPtrArray *files = rename_files(renaming->core->document, &named->target, NULL, &why);
+
+	for (guint i = 0; files && i < files->len; i++) {
+		const struct rename_file *file = files->pdata[i];
+		char *name = g_path_get_basename(file->path);
+
+		g_string_append_c(body, '\n');
+		g_string_append_printf(body, ngettext("%s: %d place", "%s: %d places",
+						      (unsigned long)file->places), name,
+				       file->places);
+		g_free(name);
+	}
+	if (files)
+		g_ptr_array_unref(files);
+	g_free(why);
+}
+
 static void show_chosen(struct renaming *renaming)
 {
 	const struct named *named = chosen_of(renaming);
+	GString *body = g_string_new(NULL);
 
-	adw_message_dialog_format_body(renaming->dialog,
-		ngettext("“%s” is used in %d place.", "“%s” is used in %d places.",
-			 (unsigned long)named->uses), named->name, named->uses);
+	g_string_printf(body, ngettext("“%s” is used in %d place.", "“%s” is used in %d places.",
+				       (unsigned long)named->uses), named->name, named->uses);
+	list_files(renaming, body);
+	adw_message_dialog_set_body(renaming->dialog, body->str);
+	g_string_free(body, TRUE);
 	gtk_editable_set_text(GTK_EDITABLE(renaming->line), named->name);
 }
 

@@ -228,7 +228,7 @@ static void show_undone(LadderSideFile *file, struct tabs *tabs)
 	tabs_show_file(tabs, ladder_side_file_path(file));
 }
 
-void tabs_put_file(struct tabs *tabs, LadderSideFile *file)
+static AdwTabPage *add_file(struct tabs *tabs, LadderSideFile *file)
 {
 	char *name = ladder_side_file_name(file);
 	AdwTabPage *page = add_page(tabs, ladder_file_view_new(file,
@@ -239,8 +239,20 @@ void tabs_put_file(struct tabs *tabs, LadderSideFile *file)
 	core_connect(tabs->core, file, "undone", G_CALLBACK(show_undone), tabs, 0);
 	show_file_state(page, file);
 	draft_keep_file(file, tabs->core->document);
-	select_page(tabs, page);
 	g_free(name);
+	return page;
+}
+
+void tabs_put_file(struct tabs *tabs, LadderSideFile *file)
+{
+	select_page(tabs, add_file(tabs, file));
+}
+
+/* An edit of the project opened the file. */
+static void file_opened(LadderDocument *document, LadderSideFile *file, struct tabs *tabs)
+{
+	(void)document;
+	add_file(tabs, file);
 }
 
 void tabs_show_file(struct tabs *tabs, const char *path)
@@ -466,11 +478,21 @@ static bool go_back(struct tabs *tabs, struct step_cursor to, const struct chang
 	return true;
 }
 
+/* An undone step of the project may have shown a file in which it changed something, too. */
+static void stay(struct tabs *tabs, AdwTabPage *page)
+{
+	for (int i = 0; i < adw_tab_view_get_n_pages(tabs->view); i++)
+		if (nth(tabs, i) == page)
+			adw_tab_view_set_selected_page(tabs->view, page);
+}
+
 void tabs_step(struct tabs *tabs, bool redo)
 {
 	LadderDocument *document = tabs->core->document;
 	struct changed changed = { -1, -1, -1 };
 	struct step_cursor cursor;
+	AdwTabPage *page;
+	guint64 version;
 	gulong rungs, list;
 	char *name, *text;
 	bool done;
@@ -482,10 +504,14 @@ void tabs_step(struct tabs *tabs, bool redo)
 				 &changed);
 	list = g_signal_connect(document, "list-changed", G_CALLBACK(list_changed), &changed);
 	cursor = ladder_document_undo_cursor(document);
+	page = front_tab(tabs->core->front);
+	version = ladder_document_version(document);
 	done = redo ? ladder_document_redo(document) : ladder_document_undo(document);
 	g_signal_handler_disconnect(document, rungs);
 	g_signal_handler_disconnect(document, list);
 	if (done) {
+		if (version != ladder_document_version(document))
+			stay(tabs, page);
 		if (redo || !go_back(tabs, cursor, &changed))
 			show(tabs, &changed);
 		text = g_strdup_printf(redo ? _("Redone: %s") : _("Undone: %s"), name);
@@ -638,6 +664,7 @@ void tabs_init(struct tabs *tabs, struct core *core)
 	tab_home_make(core->front->tab_bar);
 	follow_clicks(tabs);
 	ladder_document_set_cursor(core->document, cursor_now, tabs);
+	core_connect(core, core->document, "file-opened", G_CALLBACK(file_opened), tabs, 0);
 	core_connect(core, core->document, "project-changed", G_CALLBACK(update), tabs,
 		     G_CONNECT_SWAPPED);
 	core_connect(core, tabs->view, "notify::selected-page", G_CALLBACK(page_selected), tabs,

@@ -363,4 +363,41 @@ def address(screen):
     assert editor.save(path) == JUMPS
 
 
-if __name__ == "__main__": main([rename, find, hits, address, refused, jumps, labels, calls, operands])
+def beside(screen):
+    """rename everywhere lists scenario and plant before, changes them, too, and one undo takes all back"""
+    path = new_file(screen, PROJECT)
+    scenario, plant = path.replace('.rung', '.scn'), path.replace('.rung', '.plant.rung')
+    tests = 'scenario "Motor runs"\n  at 0ms Start = 1\n  at 20ms expect Motor = 1\n'
+    world = ('RUNGBOARD 1\n\nVAR\n  Motor AT %IX0.0 : BOOL;\nEND_VAR\n\nPROGRAM World LD\nRUNG\n'
+             '  | NO Motor | COIL %QX0.5 |\nEND_PROGRAM\n')
+    for file, text in (scenario, tests), (plant, world):
+        with open(file, 'w') as out:
+            out.write(text)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    question(editor, 'ctrl+Home', 'End')
+    editor.says(os.path.basename(scenario) + ': 1 place')
+    editor.says(os.path.basename(plant) + ': 2 places')
+    editor.shot('names-beside')
+    name_it(editor, 'Pump')
+    editor.keys('Return')
+    editor.says('6 places changed')
+    until(lambda: editor.all('\u2022 ' + os.path.basename(scenario)), 'the tab of the scenario')
+    editor.to_sheet()
+    editor.shot('names-beside-done')
+    text = editor.save(path)
+    assert text.count('Pump') == 3 and 'Motor' not in text, text
+    assert open(scenario).read() == tests
+    editor.keys('ctrl+Page_Down', 'ctrl+Page_Down', 'ctrl+Page_Down')
+    until(lambda: 'expect Pump' in editor.find(os.path.basename(scenario), 'text').text(), 'the scenario')
+    assert editor.save(scenario) == tests.replace('Motor = 1', 'Pump = 1')
+    editor.keys('ctrl+z')
+    editor.to_sheet()
+    text = editor.save(path)
+    assert text.count('Motor') == 3 and 'Pump' not in text, text
+    editor.keys('ctrl+Page_Down', 'ctrl+Page_Down', 'ctrl+Page_Down')
+    until(lambda: 'expect Motor' in editor.find(os.path.basename(scenario), 'text').text(), 'the old name')
+    assert editor.save(scenario) == tests
+
+
+if __name__ == "__main__": main([rename, beside, find, hits, address, refused, jumps, labels, calls, operands])

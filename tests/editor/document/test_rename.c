@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_rename - a symbol, program or step gets another name in the project, its scenarios and
+ * its plant, in one step. No display.
+ */
+#include "editor-gtk/document/rename.h"
+#include "editor-gtk/document/side_file.h"
+#include "editor-gtk/document/symbols.h"
+
+#include "tests/tap.h"
+
+#include <glib/gstdio.h>
+#include <string.h>
+
+static const char PROGRAM[] =
+	"RUNGBOARD 1\n\n"
+	"TYPE\n  Recipe : STRUCT\n    Speed : INT;\n  END_STRUCT;\nEND_TYPE\n\n"
+	"VAR\n"
+	"  Start AT %IX0.0 : BOOL;\n"
+	"  Motor AT %QX0.0 : BOOL;\n"
+	"  Within : INT;\n"
+	"  Unused AT %IX0.5 : BOOL;\n"
+	"  Table : ARRAY[1..4] OF Recipe;\n"
+	"END_VAR\n\n"
+	"PROGRAM Main LD\nVAR\n  Delay : TON;\nEND_VAR\n"
+	"RUNG\n  | NO Start | TON Delay PT:=T#1s | COIL Motor |\n"
+	"RUNG\n  | [ Table[Within].Speed > 3 ] | COIL %QX0.1 |\n"
+	"END_PROGRAM\n";
+
+static const char PLANT[] =
+	"RUNGBOARD 1\n(* Motor turns the belt. *)\n\n"
+	"VAR\n"
+	"  Motor  AT  %IX0.0 : BOOL;\n"
+	"  Start AT %QX0.0 : BOOL;\n"
+	"  Within AT %QX0.7 : BOOL;\n"
+	"END_VAR\n\n"
+	"PROGRAM Line LD\nRUNG \"Motor\"\n  | NO Motor | COIL %QX0.3 |\nEND_PROGRAM\n";
+
+static const char SCENARIO[] =
+	"# Motor follows Start\n"
+	"plant \"pump.plant.rung\"\n"
+	"scenario \"Motor\"\n"
+	"  at 0ms start = 1, Within = 2, Main.Delay.PT = T#5s\n"
+	"  at 10ms expect Motor = 0, not (plant.Motor) and Delay.Q = 0\n"
+	"  within 10ms expect Within = 2\n"
+	"  always Table[Within].Speed < 5 // Motor\n"
+	"  for 2s expect Within > 1\n"
+	"  at 3s Table[2].Speed = 3, Unused = 1\n";
+
+static char *folder, *program, *scenario, *plant;
+static LadderDocument *document;
+static GPtrArray *opened;
+
+static void file_opened(LadderDocument *of, LadderSideFile *file)
+{
+	(void)of;
+	g_ptr_array_add(opened, g_object_ref(file));
+}
+
+static void start(void)
+{
+	CHECK(g_file_set_contents(program, PROGRAM, -1, NULL));
+	CHECK(g_file_set_contents(scenario, SCENARIO, -1, NULL));
+	CHECK(g_file_set_contents(plant, PLANT, -1, NULL));
+	document = ladder_document_new();
+	opened = g_ptr_array_new_with_free_func(g_object_unref);
+	g_signal_connect(document, "file-opened", G_CALLBACK(file_opened), NULL);
+	CHECK(ladder_document_open(document, program, NULL));
+}
+
+static void end(void)
+{
+	g_ptr_array_unref(opened);
+	g_object_unref(document);
+}
+
+/* @text with the first @count pairs of texts exchanged, one place each. */
+static char *with(const char *text, const char *const *pairs)
+{
+	GString *out = g_string_new(text);
+
+	for (; *pairs; pairs += 2)
+		CHECK_AS(g_string_replace(out, pairs[0], pairs[1], 1) == 1, pairs[0]);
+	return g_string_free(out, FALSE);
+}
+
+static bool holds(const char *path, const char *want)
+{
+	LadderSideFile *file = side_file_find(document, path);
+	char *text = file ? ladder_side_file_text(file) : NULL;
+	const bool same = file ? strcmp(text, want) == 0 : false;
+
+	if (text && !same)
+		printf("# %s\n", text);
+	g_free(text);
+	return same;
+}
+
+static bool has(const char *text)
+{
+	char *whole = ladder_document_text(document, NULL);
+	const bool found = strstr(whole, text);
+
+	g_free(whole);
+	return found;
+}
+
+static struct xref_target target_of(int table, const char *name)
+{
+	struct project *project = ladder_document_project(document);
+	const struct var_table *vars = xref_table(project, table);
+
+	for (int i = 0; i < vars->count; i++)
+		if (strcmp(project_text(project, vars->var[i].name), name) == 0)
+			return xref_variable(project, table, i);
+	CHECK_AS(false, name);
+	return (struct xref_target){ 0 };
+}
+
+static bool rename_to(const struct xref_target *target, const char *name, int want)
+{
+	char *why = NULL;
+	int places = 0;
+	const bool good = rename_everywhere(document, target, name, "Rename", &places, &why);
+
+	CHECK_AS(!good || places == want, name);
+	if (good && places != want)
+		printf("# %d places\n", places);
+	CHECK(good == !why);
+	g_free(why);
+	return good;
+}
+
+/* A variable that the plant has on the other side: listed, changed, undone, redone. */
+static void test_output(void)
+{
+	static const char *const in_scenario[] = { "expect Motor", "expect Pump", "plant.Motor",
+						   "plant.Pump", NULL };
+	static const char *const in_plant[] = { "  Motor  AT", "  Pump  AT", "NO Motor",
+						"NO Pump", NULL };
+	struct xref_target target;
+	GPtrArray *files;
+	char *why = NULL, *text, *other;
+
+	start();
+	target = target_of(0, "Motor");
+	files = rename_files(document, &target, NULL, &why);
+	CHECK_AS(files && files->len == 2, "files are listed before");
+	for (guint i = 0; files && i < files->len; i++)
+		CHECK(((struct rename_file *)files->pdata[i])->places == 2);
+	CHECK(opened->len == 0);
+	g_ptr_array_unref(files);
+	CHECK(rename_to(&target, "Pump", 2 + 2 + 2));
+	text = with(SCENARIO, in_scenario);
+	other = with(PLANT, in_plant);
+	CHECK_AS(opened->len == 2 && has("COIL Pump") && !has("Motor"), "the program changes");
+	CHECK_AS(holds(scenario, text), "the scenario changes");
+	CHECK_AS(holds(plant, other), "the plant changes, and only its names");
+	CHECK_AS(ladder_document_undo(document) && has("COIL Motor") &&
+		 holds(scenario, SCENARIO) && holds(plant, PLANT), "one undo restores all files");
+	CHECK(!ladder_document_undo_name(document));
+	CHECK_AS(ladder_document_redo(document) && holds(scenario, text) && holds(plant, other) &&
+		 opened->len == 2, "redo changes all files");
+	g_free(other);
+	g_free(text);
+	end();
+}
+
+static void renames(int table, const char *from, const char *to, int places,
+		    const char *const *pairs)
+{
+	struct xref_target target;
+	char *text;
+
+	start();
+	target = target_of(table, from);
+	CHECK(rename_to(&target, to, places));
+	text = with(SCENARIO, pairs);
+	CHECK_AS(holds(scenario, text), from);
+	CHECK_AS(!side_file_find(document, plant), "the plant has nothing to change");
+	g_free(text);
+	end();
+}
+
+static void test_kinds(void)
+{
+	static const char *const local[] = { "Main.Delay.PT", "Main.Wait.PT", "and Delay.Q",
+					     "and Wait.Q", NULL };
+	static const char *const word[] = { ", Within = 2", ", Row = 2", "expect Within", "expect Row",
+					    "Table[Within]", "Table[Row]",
+					    "2s expect Within", "2s expect Row", NULL };
+	static const char *const member[] = { "Table[Within].Speed", "Table[Within].Rate",
+					      "Table[2].Speed", "Table[2].Rate", NULL };
+	static const char *const pou[] = { "Main.Delay", "Line.Delay", NULL };
+	const struct xref_target target = { .what = XREF_POU, .index = 0 };
+	char *text;
+
+	renames(1, "Delay", "Wait", 2 + 2, local);
+	renames(0, "Within", "Row", 2 + 4, word);
+	renames(2, "Speed", "Rate", 2 + 2, member);
+	start();
+	CHECK(rename_to(&target, "Line", 1 + 1));
+	text = with(SCENARIO, pou);
+	CHECK_AS(holds(scenario, text), "a program");
+	g_free(text);
+	end();
+}
+
+/* The table of symbols renames everywhere, too; a name that only a scenario uses follows. */
+static void test_symbols(void)
+{
+	static const char *const pairs[] = { "Unused = 1", "Spare = 1", NULL };
+	char *text = with(SCENARIO, pairs);
+
+	start();
+	CHECK(symbol_set(document, 0, target_of(0, "Unused").index, FIELD_NAME, "Spare", NULL));
+	CHECK_AS(holds(scenario, text), "the scenario follows the table of symbols");
+	g_free(text);
+	end();
+}
+
+/* What is typed in an open file counts, not what is saved. */
+static void test_open(void)
+{
+	struct xref_target target;
+	LadderSideFile *file;
+
+	start();
+	target = target_of(0, "Motor");
+	file = ladder_side_file_open(scenario, document, NULL);
+	ladder_side_file_set(file, "scenario \"a\"\n  expect Motor\n");
+	CHECK(rename_to(&target, "Pump", 2 + 1 + 2));
+	CHECK_AS(holds(scenario, "scenario \"a\"\n  expect Pump\n"), "an open file keeps its edits");
+	CHECK(opened->len == 1);
+	g_object_unref(file);
+	end();
+}
+
+static void test_refused(void)
+{
+	struct xref_target target;
+	char *why;
+
+	start();
+	target = target_of(0, "Motor");
+	why = rename_refusal(document, &target, "Pump_2");
+	CHECK(!why);
+	CHECK(g_file_set_contents(plant, "RUNGBOARD 1\nVAR\n  Motor AT %IX0.0 : BOOL;\n"
+		"  Pump : BOOL;\nEND_VAR\nPROGRAM Line LD\nRUNG\nEND_PROGRAM\n", -1, NULL));
+	why = rename_refusal(document, &target, "Pump");
+	CHECK_AS(why && strstr(why, "pump.plant.rung"), "a plant that has the name refuses it");
+	CHECK_AS(!rename_to(&target, "Pump", 0) && has("COIL Motor") && opened->len == 0,
+		 "nothing changes");
+	g_free(why);
+	end();
+}
+
+int main(void)
+{
+	folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);
+	program = g_build_filename(folder, "pump.rung", NULL);
+	scenario = g_build_filename(folder, "pump.scn", NULL);
+	plant = g_build_filename(folder, "pump.plant.rung", NULL);
+	test_output();
+	test_kinds();
+	test_symbols();
+	test_open();
+	test_refused();
+	g_unlink(program);
+	g_unlink(scenario);
+	g_unlink(plant);
+	g_rmdir(folder);
+	g_free(plant);
+	g_free(scenario);
+	g_free(program);
+	g_free(folder);
+	return tap_done();
+}
