@@ -25,7 +25,9 @@ static const char PROGRAM[] =
 	"PROGRAM Main LD\nVAR\n  Delay : TON;\nEND_VAR\n"
 	"RUNG\n  | NO Start | TON Delay PT:=T#1s | COIL Motor |\n"
 	"RUNG\n  | [ Table[Within].Speed > 3 ] | COIL %QX0.1 |\n"
-	"END_PROGRAM\n";
+	"END_PROGRAM\n\n"
+	"PROGRAM Chart SFC\n INITIAL_STEP Idle:\n END_STEP\n\n"
+	" TRANSITION FROM Idle TO Idle := Start; END_TRANSITION\nEND_PROGRAM\n";
 
 static const char PLANT[] =
 	"RUNGBOARD 1\n(* Motor turns the belt. *)\n\n"
@@ -45,6 +47,7 @@ static const char SCENARIO[] =
 	"  within 10ms expect Within = 2\n"
 	"  always Table[Within].Speed < 5 // Motor\n"
 	"  for 2s expect Within > 1\n"
+	"  at 2s expect Chart.Idle.X and Idle.T < 1s\n"
 	"  at 3s Table[2].Speed = 3, Unused = 1\n";
 
 static char *folder, *program, *scenario, *plant;
@@ -191,6 +194,8 @@ static void test_kinds(void)
 					    "2s expect Within", "2s expect Row", NULL };
 	static const char *const member[] = { "Table[Within].Speed", "Table[Within].Rate",
 					      "Table[2].Speed", "Table[2].Rate", NULL };
+	static const char *const step[] = { "Chart.Idle", "Chart.Rest", "and Idle.T", "and Rest.T",
+					    NULL };
 	static const char *const pou[] = { "Main.Delay", "Line.Delay", NULL };
 	const struct xref_target target = { .what = XREF_POU, .index = 0 };
 	char *text;
@@ -198,6 +203,12 @@ static void test_kinds(void)
 	renames(1, "Delay", "Wait", 2 + 2, local);
 	renames(0, "Within", "Row", 2 + 4, word);
 	renames(2, "Speed", "Rate", 2 + 2, member);
+	start();
+	CHECK(rename_to(&(struct xref_target){ .what = XREF_STEP, .table = 2 }, "Rest", 3 + 2));
+	text = with(SCENARIO, step);
+	CHECK_AS(holds(scenario, text), "a step");
+	g_free(text);
+	end();
 	start();
 	CHECK(rename_to(&target, "Line", 1 + 1));
 	text = with(SCENARIO, pou);
