@@ -129,7 +129,7 @@ static void refused(void)
 {
 	static const char one[] = "%IX0.0 gpio line=A\n";
 
-	SET(one, 0, IO_ADDRESS, "", "(2)");
+	SET(one, 0, IO_ADDRESS, "", "(3)");
 	SET(one, 0, IO_ADDRESS, "%IX0.0 sim", "(1)");
 	SET(one, 0, IO_DRIVER, "# no", "(1)");
 	SET(one, 0, IO_DEBOUNCE, "5 ms", "(1)");
@@ -137,9 +137,9 @@ static void refused(void)
 	SET(one, 0, IO_DEBOUNCE, "(*", "(1)");
 	SET(one, 0, IO_PULL, "up", "(2)");
 	SET(one, 0, IO_SAFE, "2", "(2)");
-	SET(one, 0, IO_COMMENT, "two\nlines", "(4)");
-	SET(one, 0, IO_LINE, "A\nB", "(4)");
-	SET(one, 0, IO_LINE, "\"A\" \"", "(4)");
+	SET(one, 0, IO_COMMENT, "two\nlines", "(6)");
+	SET(one, 0, IO_LINE, "A\nB", "(6)");
+	SET(one, 0, IO_LINE, "\"A\" \"", "(6)");
 }
 
 static void lines(void)

@@ -202,7 +202,7 @@ static void test_kinds(void)
 
 	renames(1, "Delay", "Wait", 2 + 2, local);
 	renames(0, "Within", "Row", 2 + 4, word);
-	renames(2, "Speed", "Rate", 2 + 2, member);
+	renames(3, "Speed", "Rate", 2 + 2, member);
 	start();
 	CHECK(rename_to(&(struct xref_target){ .what = XREF_STEP, .table = 2 }, "Rest", 3 + 2));
 	text = with(SCENARIO, step);
