@@ -11,6 +11,8 @@
 #include "engine/trial/scenario.h"
 #include "engine/trial/script.h"
 
+#include "tests/tap.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
