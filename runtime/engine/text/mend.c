@@ -629,9 +629,15 @@ static void mend_row(struct mender *m)
 
 	mend_steps(m);
 	add_bars(m);
-	for (int n = 0; cell_at(m, n, &from, &to) && !m->full && n < LIMIT_COLS; n++)
+	for (int n = 0; cell_at(m, n, &from, &to) && !m->full && n < LIMIT_COLS; n++) {
+		for (size_t at = from; at + 1 < to; at++)
+			if (skip_comment(m, at) != at)
+				to = at;
+		while (to > from && m->text[to - 1] == ' ')
+			to--;
 		if (to > from)
 			mend_cell(m, from, to, n > 0 && !cell_at(m, n + 1, &more, &more));
+	}
 }
 
 /* ---- declarations ---- */
