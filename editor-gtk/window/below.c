@@ -164,22 +164,12 @@ static void room_changed(struct below *below)
 	g_idle_add(look_at_room, below);
 }
 
-static void follow_clicks(struct below *below)
-{
-	GtkGesture *click = gtk_gesture_click_new();
-
-	gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(click),
-						   GTK_PHASE_CAPTURE);
-	g_signal_connect_swapped(click, "pressed", G_CALLBACK(below_open), below);
-	gtk_widget_add_controller(below->switcher, GTK_EVENT_CONTROLLER(click));
-}
-
 void below_init(struct below *below, struct core *core)
 {
 	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(below->tabs);
 
 	below->core = core;
-	follow_clicks(below);
+	core_on_press(below->switcher, G_CALLBACK(below_open), below);
 	gtk_paned_set_position(below->paned, G_MAXINT16);
 	gtk_menu_button_set_create_popup_func(below->more, fill_more, below, NULL);
 	core_connect(core, along, "changed", G_CALLBACK(room_changed), below,

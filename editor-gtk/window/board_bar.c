@@ -27,9 +27,9 @@ static LadderBoardView *board_view(struct board_bar *bar)
 /* The map may have been made in this editor or elsewhere; closing the banner records that. */
 void board_bar_look(struct board_bar *bar)
 {
-	if (messages_has_banner(bar->core->messages) &&
+	if (messages_offers(bar->core->messages, "win.new_iomap") &&
 	    ladder_board_view_map(board_view(bar)))
-		messages_close_offer(bar->core->messages, "win.new_iomap");
+		messages_close_banner(bar->core->messages);
 }
 
 static void make_map(gpointer part, const char *path)

@@ -38,6 +38,18 @@ static inline void core_connect(struct core *core, gpointer instance, const char
 	g_signal_connect_closure(instance, signal, closure, FALSE);
 }
 
+/** core_on_press - calls @handler(@part) when a button is pressed on @widget, before its
+ * children act. */
+static inline void core_on_press(GtkWidget *widget, GCallback handler, gpointer part)
+{
+	GtkGesture *click = gtk_gesture_click_new();
+
+	gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(click),
+						   GTK_PHASE_CAPTURE);
+	g_signal_connect_swapped(click, "pressed", handler, part);
+	gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(click));
+}
+
 /** core_do - activates an action of the window, such as "win.save". */
 static inline void core_do(struct core *core, const char *action)
 {

@@ -242,7 +242,7 @@ static gboolean end_preview(gpointer operation)
 	return G_SOURCE_REMOVE;
 }
 
-/* GTK wants one from who shows a preview, also if nothing is drawn on it. */
+/* GTK requires one from the handler of "preview", even if nothing is drawn on it. */
 static void give_canvas(GtkPrintContext *context)
 {
 	cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, 1, 1);

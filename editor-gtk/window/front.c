@@ -59,6 +59,13 @@ LadderSfcView *front_seen_chart(struct front *front)
 	       ladder_sfc_page_chart(LADDER_SFC_PAGE(content)) : NULL;
 }
 
+LadderCanvas *front_seen_canvas(struct front *front)
+{
+	LadderGridView *sheet = front_seen_sheet(front);
+
+	return sheet ? LADDER_CANVAS(sheet) : LADDER_CANVAS(front_seen_chart(front));
+}
+
 LadderGridView *front_sheet(struct front *front)
 {
 	return front_is_older(front) ? NULL : front_seen_sheet(front);
@@ -95,14 +102,11 @@ LadderSideFile *front_file(struct front *front)
 
 bool front_enter_program(struct front *front)
 {
-	LadderGridView *sheet = front_seen_sheet(front);
-	LadderSfcView *chart = front_seen_chart(front);
+	LadderCanvas *canvas = front_seen_canvas(front);
 	GtkWidget *page = seen_page(front);
 
-	if (sheet)
-		gtk_widget_grab_focus(GTK_WIDGET(sheet));
-	else if (chart)
-		gtk_widget_grab_focus(GTK_WIDGET(chart));
+	if (canvas)
+		gtk_widget_grab_focus(GTK_WIDGET(canvas));
 	else if (LADDER_IS_TEXT_VIEW(page))
 		gtk_widget_grab_focus(page);
 	else

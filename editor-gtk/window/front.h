@@ -38,6 +38,8 @@ AdwTabPage *front_tab(struct front *front);
  * NULL: none. */
 LadderGridView *front_seen_sheet(struct front *front);
 LadderSfcView *front_seen_chart(struct front *front);
+/** front_seen_canvas - the visible sheet, else the visible chart; NULL: none. */
+LadderCanvas *front_seen_canvas(struct front *front);
 /** front_sheet, front_chart - the same, of the document of the window only. */
 LadderGridView *front_sheet(struct front *front);
 LadderSfcView *front_chart(struct front *front);

@@ -92,6 +92,12 @@ bool messages_has_banner(const struct messages *messages)
 	return gtk_revealer_get_reveal_child(messages->banner);
 }
 
+bool messages_offers(const struct messages *messages, const char *action)
+{
+	return messages_has_banner(messages) &&
+	       g_strcmp0(messages->banner_action, action) == 0;
+}
+
 bool messages_close_offer(struct messages *messages, const char *action)
 {
 	if (g_strcmp0(messages->banner_action, action) != 0)

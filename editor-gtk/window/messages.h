@@ -41,6 +41,8 @@ void messages_warn(struct messages *messages, const char *text);
 void messages_close_banner(struct messages *messages);
 /** messages_has_banner - is a banner open? */
 bool messages_has_banner(const struct messages *messages);
+/** messages_offers - is a banner open whose button has @action? */
+bool messages_offers(const struct messages *messages, const char *action);
 /** messages_close_offer - closes the banner if its button has @action. False: it has
  * another. */
 bool messages_close_offer(struct messages *messages, const char *action);

@@ -103,16 +103,12 @@ static char *percent(double zoom)
 static void show_place(struct status *status)
 {
 	struct front *front = status->core->front;
-	LadderGridView *sheet = front_seen_sheet(front);
-	LadderSfcView *chart = front_seen_chart(front);
+	LadderCanvas *canvas = front_seen_canvas(front);
 	GtkTextBuffer *text = page_text(front_tab(front));
 
-	if (sheet)
-		show(status, ladder_canvas_place(LADDER_CANVAS(sheet)),
-		     percent(ladder_canvas_zoom(LADDER_CANVAS(sheet))), ladder_canvas_next_keys(LADDER_CANVAS(sheet)));
-	else if (chart)
-		show(status, ladder_canvas_place(LADDER_CANVAS(chart)),
-		     percent(ladder_canvas_zoom(LADDER_CANVAS(chart))), ladder_canvas_next_keys(LADDER_CANVAS(chart)));
+	if (canvas)
+		show(status, ladder_canvas_place(canvas), percent(ladder_canvas_zoom(canvas)),
+		     ladder_canvas_next_keys(canvas));
 	else
 		show(status, text ? place_in(text) : g_strdup(""), g_strdup(""),
 		     front_list(front) ? keys_in_list() : g_strdup(""));

@@ -639,17 +639,6 @@ static void tab_pressed(struct tabs *tabs)
 	g_idle_add(enter_now, tabs->core);
 }
 
-static void follow_clicks(struct tabs *tabs)
-{
-	GtkGesture *click = gtk_gesture_click_new();
-
-	gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(click),
-						   GTK_PHASE_CAPTURE);
-	g_signal_connect_swapped(click, "pressed", G_CALLBACK(tab_pressed), tabs);
-	gtk_widget_add_controller(GTK_WIDGET(tabs->core->front->tab_bar),
-				  GTK_EVENT_CONTROLLER(click));
-}
-
 void tabs_init(struct tabs *tabs, struct core *core)
 {
 	tabs->core = core;
@@ -662,7 +651,7 @@ void tabs_init(struct tabs *tabs, struct core *core)
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_UP |
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_DOWN);
 	tab_home_make(core->front->tab_bar);
-	follow_clicks(tabs);
+	core_on_press(GTK_WIDGET(core->front->tab_bar), G_CALLBACK(tab_pressed), tabs);
 	ladder_document_set_cursor(core->document, cursor_now, tabs);
 	core_connect(core, core->document, "file-opened", G_CALLBACK(file_opened), tabs, 0);
 	core_connect(core, core->document, "project-changed", G_CALLBACK(update), tabs,

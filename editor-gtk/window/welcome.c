@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * welcome - what an editor without a file shows: begin anew, go on, look at a sample.
+ * welcome - the page of an editor without a file; see welcome.h.
  */
 #include "editor-gtk/window/welcome.h"
 

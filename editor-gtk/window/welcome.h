@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * welcome - what an editor without a file shows: begin anew, go on, look at a sample.
+ * welcome - the page of an editor without a file: begin a project, open one, open a sample.
  *
- * A sample is opened as a copy that has no file yet, so that nobody spoils it.
+ * A sample opens as a copy without a file, so that it stays as it is.
  */
 #ifndef EDITOR_WELCOME_H
 #define EDITOR_WELCOME_H

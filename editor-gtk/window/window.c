@@ -196,15 +196,11 @@ static void do_sheet_by(LadderWindow *window, bool next)
 
 static void zoom(LadderWindow *window, double factor)
 {
-	LadderGridView *sheet = front_seen_sheet(&window->front);
-	LadderSfcView *chart = front_seen_chart(&window->front);
+	LadderCanvas *canvas = front_seen_canvas(&window->front);
 
-	if (sheet)
-		ladder_canvas_set_zoom(LADDER_CANVAS(sheet), factor == 0 ? 1 :
-					  ladder_canvas_zoom(LADDER_CANVAS(sheet)) * factor);
-	else if (chart)
-		ladder_canvas_set_zoom(LADDER_CANVAS(chart), factor == 0 ? 1 :
-					 ladder_canvas_zoom(LADDER_CANVAS(chart)) * factor);
+	if (canvas)
+		ladder_canvas_set_zoom(canvas, factor == 0 ? 1 :
+				       ladder_canvas_zoom(canvas) * factor);
 }
 
 static void do_show_as(LadderWindow *window)
