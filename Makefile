@@ -75,7 +75,7 @@ $(BUILD)/%.o: %.c Makefile
 UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/*/test_*.c tests/unit/*/*/test_*.c))
 # The tests of a folder are one program (tests/room.c). Compiling them takes longer than running them: -O0, but not for an emulator.
 TEST_C    = $(if $(CROSS),,$(if $(filter -O2,$(CFLAGS)),-O0 -U_FORTIFY_SOURCE))
-ROOM_TEST = $(TEST_C) -Dmain=main_$(notdir $*) -Wno-missing-prototypes
+ROOM_TEST = $(TEST_C) -DTEST_MAIN=main_$(notdir $*) -include tests/room.h -Wno-missing-prototypes
 ROOM_C    = $(STD) $(CPPFLAGS) $(WARN) $(CFLAGS) -DTESTS='$(patsubst %,TEST(%),$(filter test_%,$(basename $(notdir $(filter %.o,$^)))))'
 folders   = $(sort $(patsubst %/,%,$(dir $(1))))
 define room # folder, its tests, their objects
@@ -245,8 +245,20 @@ EDITOR_TESTS += $(filter-out $(EDITOR_TESTS_PLAIN),$(patsubst %.c,$(BUILD)/%,$(w
 EDITOR_BENCH := $(BUILD)/tests/editor/bench_drawing
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/window/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
 EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
-$(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)) $(BUILD)/editor-gtk/resources.o) \
-  $(EDITOR_TESTS:%=%.o) $(EDITOR_BENCH).o: CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"'
+EDITOR_O := $(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)))
+EDITOR_TEST_O := $(patsubst %,%.o,$(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)))
+$(EDITOR_O) $(BUILD)/editor-gtk/resources.o $(EDITOR_TEST_O) $(EDITOR_BENCH).o: CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"'
+# The libraries' headers are compiled once for the sources, once for the tests, which have other flags.
+EDITOR_H := $(BUILD)/toolkit.h $(BUILD)/tests/toolkit.h
+EDITOR_H_C := $(STD) $(CPPFLAGS) $(EDITOR_CPP) $(LEAN) $(CFLAGS)
+$(EDITOR_H): ; @mkdir -p $(@D) && echo '#include <adwaita.h>' >$@
+$(BUILD)/tests/toolkit.h.gch: private EDITOR_H_C += $(TEST_C)
+$(EDITOR_H:%=%.gch): %.gch: % Makefile
+	$(CC) $(EDITOR_H_C) -MD -MP -MF $*.d -MT $@ -x c-header -o $@ $<
+$(EDITOR_O): private CPPFLAGS += -include $(BUILD)/toolkit.h
+$(EDITOR_O): | $(BUILD)/toolkit.h.gch
+$(EDITOR_TEST_O): private CPPFLAGS += -include $(BUILD)/tests/toolkit.h
+$(EDITOR_TEST_O): | $(BUILD)/tests/toolkit.h.gch
 # Colours of rung files and lists for GtkSourceView, made from the words of the catalogue.
 $(BUILD)/rung-language: $(call obj,packaging/rung_language.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm

@@ -3,7 +3,7 @@
  * room - one program for the tests of a folder: it runs the test whose name it was
  * started with.
  *
- * The Makefile renames the main() of each test and lists the tests in TESTS:
+ * The Makefile gives main() of each test its own name and lists the tests in TESTS:
  * TEST(test_fb) TEST(test_fn) … For each test it makes a link to the program.
  */
 #include <stdio.h>
