@@ -44,6 +44,8 @@ sed -n 's/.*\.family = \("[A-Za-z]*"\).*/N_(\1)/p' runtime/engine/text/read_word
 	>"$work/runtime/engine/text/read_words.c"
 sed -n 's/^\t*\(.*? \)\?\("[a-z ]*"\|") or \]"\)\();\| :\)$/N_(\2)/p' runtime/engine/text/read_array.c \
 	>"$work/runtime/engine/text/read_array.c" # of an expression, which xgettext misses
+sed -n 's/^static const char blank\[\] = \(".*"\);$/N_(\1)/p' runtime/engine/text/mend.c \
+	>"$work/runtime/engine/text/mend.c"
 mkdir "$work/runtime/engine/trial"
 sed -n 's/^WHY(\w*, *\("[^"]*"\), *\("[^"]*"\))$/N_(\1) N_(\2)/p' runtime/engine/trial/why.def |
 	sed 's/ N_("")//' >"$work/runtime/engine/trial/why.def"
@@ -54,7 +56,7 @@ sed -n 's/^\t*\[FAULT_[A-Z]*\] = \(".*"\),$/N_(\1)/p' runtime/engine/scan/vm.c \
 	>"$work/runtime/engine/scan/vm.c"
 (cd "$work" && $take -L C -k -kN_ -o catalog.pot runtime/engine/catalog.def \
 	runtime/engine/model/convert.c runtime/engine/text/read_words.c \
-	runtime/engine/text/read_array.c runtime/engine/trial/why.def \
+	runtime/engine/text/read_array.c runtime/engine/text/mend.c runtime/engine/trial/why.def \
 	runtime/engine/trial/scenario.c runtime/engine/scan/vm.c)
 
 # What was expected, or too many: arguments of messages, those of them that are words.

@@ -34,6 +34,9 @@ enum {
 	ANY = ROWS | VARS | LISTS | IN_FIRST | IN_HEAD,
 };
 
+/* What a message calls a blank; pot.sh looks for it. */
+static const char blank[] = "a blank";
+
 /* The first row that fits counts. A row whose texts are the same protects a sign from the
  * rows below it. */
 static const struct rule {
@@ -174,8 +177,9 @@ static void show_new(struct mender *m, const char *to)
 		len--;
 	while (len > 1 && *to == ' ')
 		to++, len--;
-	snprintf(m->out->to, sizeof(m->out->to), "%.*s", len == 1 && *to == ' ' ? 7 : (int)len,
-		 len == 1 && *to == ' ' ? "a blank" : to);
+	snprintf(m->out->to, sizeof(m->out->to), "%.*s", (int)len, to);
+	if (strcmp(m->out->to, " ") == 0)
+		snprintf(m->out->to, sizeof(m->out->to), "%s", blank);
 }
 
 /* Puts @to in the place of @len bytes at @at. The first change is told. */

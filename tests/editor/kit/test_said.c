@@ -55,11 +55,13 @@ static bool is_sentence(const char *part)
 }
 
 /* Is the part an expected token, or a thing of which there are too many? Texts of the
- * system are translated already. */
+ * system are translated already; lines of the user are not ours. */
 static bool is_of_ours(enum diag_id id, const char *part, int n)
 {
 	if (n == 0 && (id == DIAG_EXPECTED || id == DIAG_TOO_MANY || id == DIAG_SFC_TOO_MANY))
 		return g_regex_match_simple("[a-z]{3}| or ", part, 0, 0);
+	if (id >= DIAG_WRITE_INSTEAD && id <= DIAG_MISSING_ABOVE)
+		return id == DIAG_WRITE_INSTEAD && n == 1 && is_sentence(part);
 	return id != DIAG_BAD_INCLUDE && is_sentence(part);
 }
 
