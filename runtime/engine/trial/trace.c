@@ -203,11 +203,10 @@ static bool same_place(struct location a, struct location b)
 	return a.type == b.type && a.area == b.area && a.where == b.where;
 }
 
-/* A separate frame: the cursor holds a name. */
+/* A separate frame: the cursor holds a name. False: *@why is the reason. */
 __attribute__((noinline))
 static bool show_declared(struct trace *trace, struct location first,
-			  struct location last, struct diag_list *diags,
-			  struct diag place)
+			  struct location last, enum diag_id *why)
 {
 	struct symbol_cursor cursor = { 0 };
 	struct symbol symbol;
@@ -217,15 +216,15 @@ static bool show_declared(struct trace *trace, struct location first,
 		if (symbol.flags & SYMBOL_HIDDEN)
 			continue;
 		inside = inside || same_place(symbol.at, first);
-		if (!inside)
-			continue;
-		if (!add_column(trace, trace->image, symbol.name, strlen(symbol.name),
-				symbol.at))
-			return complain(diags, place, DIAG_NO_MEMORY, "", 0);
-		if (same_place(symbol.at, last))
+		*why = DIAG_NO_MEMORY;
+		if (inside && !add_column(trace, trace->image, symbol.name,
+					  strlen(symbol.name), symbol.at))
+			return false;
+		if (inside && same_place(symbol.at, last))
 			return true;
 	}
-	return complain(diags, place, DIAG_LITERAL_RANGE, "", 0);
+	*why = DIAG_LITERAL_RANGE;
+	return false;
 }
 
 bool trace_show(struct trace *trace, const char *text, size_t len,
@@ -259,7 +258,8 @@ bool trace_show(struct trace *trace, const char *text, size_t len,
 
 	if (to.type == IEC_NONE)
 		return complain(diags, place, why, dots + 2, right);
-	return show_declared(trace, from, to, diags, place);
+	return show_declared(trace, from, to, &why) ||
+	       complain(diags, place, why, "", 0);
 }
 
 static void write_value(struct trace *trace, const struct trace_column *column)
