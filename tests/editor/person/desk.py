@@ -215,10 +215,18 @@ class Editor(Finder):
         until(lambda: window not in self.windows(), 'the end of the list')
 
     def type_path(self, path):
-        """Types a path into the focused file chooser; it takes over the keys before it shows the line."""
-        self.keys('ctrl+a')
-        self.type(path)
-        until(lambda: any(node.text() == path for node in self.all(role='text')), 'the path in the chooser')
+        """Types a path into the focused file chooser. It takes over the keys before it shows the line, and on a busy
+        machine a folder that is read meanwhile empties the line: then the path is typed once more."""
+        def is_there():
+            return any(node.text() == path for node in self.all(role='text'))
+        for seconds in (10, PATIENCE):
+            self.keys('ctrl+a')
+            self.type(path)
+            try:
+                return until(is_there, 'the path in the chooser', seconds)
+            except AssertionError:
+                if seconds == PATIENCE:
+                    raise
 
     def front(self):
         """Brings its window to the front."""
