@@ -35,7 +35,7 @@ def empty(screen):
     editor.focus_on('New project')
     editor.keys('Return')
     editor.to_sheet()
-    editor.says('1 error')
+    editor.says('no problems')
 
 
 def sealed(screen):
