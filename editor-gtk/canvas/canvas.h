@@ -195,7 +195,7 @@ void canvas_snapshot_hint(LadderCanvas *canvas, GtkSnapshot *snapshot,
 			  const struct theme *theme, const char *text,
 			  graphene_point_t at);
 
-/* What the entry at the cursor asks for. */
+/* The prompt of the entry at the cursor, its first text, and how it closes. */
 struct canvas_question {
 	const char *prompt;
 	const char *text;       /* in the entry at first                           */

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What to import, by number in the other project. */
+/* The POUs, globals and types to import, by their numbers in the other project. */
 struct wanted {
 	bool *pou, *global, *structure;
 	int pous, globals, structures;

@@ -77,7 +77,7 @@ static bool is_plain(const struct cell *cell)
 	return cell->word == ELEM_EMPTY || cell->word == ELEM_WIRE;
 }
 
-/* What a piece contains: it decides how the piece is pasted. */
+/* Counts of the elements of a piece; they decide how it is pasted. */
 struct piece {
 	const struct rung *rung;
 	int elements, outputs, pins;

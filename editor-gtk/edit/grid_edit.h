@@ -40,7 +40,7 @@ enum grid_way { GRID_LEFT, GRID_RIGHT, GRID_UP, GRID_DOWN };
 
 /* ---- elements ---- */
 
-/* What happens to an element that stands there. */
+/* Where the element that is in the cell goes. */
 enum grid_how {
 	GRID_REPLACE, /* it is replaced                                       */
 	GRID_INSERT,  /* it moves to the right                                */
@@ -189,7 +189,7 @@ struct rung *grid_paste(const struct rung *rung, struct grid_at *at,
  * on. */
 bool grid_is_outputs(const struct rung *rung);
 
-/* What happens to a dropped element. */
+/* Where a dropped element goes. */
 enum grid_drop {
 	GRID_DROP_NOT,      /* nothing: no legal place                         */
 	GRID_DROP_THERE,    /* goes into the empty cell                        */

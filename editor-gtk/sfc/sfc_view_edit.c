@@ -316,7 +316,7 @@ static void change_kind(LadderSfcView *view)
 
 /* ---- macro-steps ---- */
 
-/* Of the selected steps, else of the one at the cursor. */
+/* Makes a macro-step of the selected steps, or of the step at the cursor if none is selected. */
 static void macro_make(LadderSfcView *view)
 {
 	struct sfc_edit *edit = sfc_edit_begin(view);

@@ -175,7 +175,7 @@ void export_symbols(struct export *export)
 
 /* ---- on paper ---- */
 
-/* What a print needs: project, title block, and what is shown above elements. */
+/* The contents of a print: project, title block, and what is shown above elements. */
 struct printing {
 	const struct project *project;
 	char *file, *date;

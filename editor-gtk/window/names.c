@@ -262,7 +262,7 @@ static bool at_step(struct core *core)
 	return is;
 }
 
-/* Of a step, adds whether it is active. */
+/* Adds the name at the cursor to the status chart; for a step, Step.X. */
 void names_watch(struct core *core)
 {
 	char *name = names_at_cursor(core);

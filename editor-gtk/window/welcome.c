@@ -172,7 +172,7 @@ static GtkWidget *sample_new(const char *path)
 	return GTK_WIDGET(sample);
 }
 
-/* What a file says of itself: the text after PROJECT, and the first sentence of its first
+/* Title and description of a file: the text after PROJECT, and the first sentence of its first
  * comment. NULL: nothing. */
 struct about {
 	char *title, *line;

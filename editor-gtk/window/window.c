@@ -682,7 +682,7 @@ static void page_changed(LadderWindow *window)
 static void title_changed(LadderWindow *window, LadderProblems *problems)
 {
 	below_set_title(&window->below, "problems", ladder_problems_title(problems));
-	/* Those of a file are shown; those of an edit do not move the sheet. */
+	/* Problems of an opened file open the panel. Problems of an edit do not: it would move the sheet. */
 	if (ladder_problems_count(problems, false) &&
 	    !ladder_document_undo_name(window->core.document))
 		below_open(&window->below);
