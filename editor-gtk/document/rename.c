@@ -244,20 +244,28 @@ static void rewrite(struct rewriting *rewriting, const char *text, size_t len)
 	g_string_append(rewriting->out, rewriting->done);
 }
 
+/* The path of the plant that a scenario names; NULL: it names none. Caller frees. */
+static char *named_plant(const char *path, const char *text, gsize len)
+{
+	struct token token;
+
+	if (!scenario_plant_token(text, len, &token) || token.len <= 2)
+		return NULL;
+	char *folder = g_path_get_dirname(path);
+	char *name = g_strndup(token.text + 1, token.len - 2);
+	char *plant = g_canonicalize_filename(name, folder);
+
+	g_free(name);
+	g_free(folder);
+	return plant;
+}
+
 static bool names_plant(const char *path, const char *text, gsize len, const char *plant)
 {
-	char *folder = g_path_get_dirname(path), *name, *whole;
-	struct token token;
-	bool same = false;
+	char *named = plant ? named_plant(path, text, len) : NULL;
+	const bool same = named && disk_same(named, plant);
 
-	if (plant && scenario_plant_token(text, len, &token) && token.len > 2) {
-		name = g_strndup(token.text + 1, token.len - 2);
-		whole = g_canonicalize_filename(name, folder);
-		same = disk_same(whole, plant);
-		g_free(whole);
-		g_free(name);
-	}
-	g_free(folder);
+	g_free(named);
 	return same;
 }
 
@@ -389,18 +397,12 @@ static char *find_plant(LadderDocument *document, const char *path, const GPtrAr
 		return plant;
 	g_clear_pointer(&plant, g_free);
 	for (guint i = 0; i < scenarios->len && !plant; i++) {
-		char *folder = g_path_get_dirname(scenarios->pdata[i]), *name;
 		gsize len;
 		char *text = text_of(document, scenarios->pdata[i], &len);
-		struct token token;
 
-		if (text && scenario_plant_token(text, len, &token) && token.len > 2) {
-			name = g_strndup(token.text + 1, token.len - 2);
-			plant = g_canonicalize_filename(name, folder);
-			g_free(name);
-		}
+		if (text)
+			plant = named_plant(scenarios->pdata[i], text, len);
 		g_free(text);
-		g_free(folder);
 	}
 	return plant;
 }
