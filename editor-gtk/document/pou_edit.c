@@ -1,98 +1,158 @@
 /* SPDX-License-Identifier: MIT
  *
- * pou_edit - adds and deletes programs and blocks.
+ * pou_edit - adds, duplicates, moves and deletes programs and blocks.
  */
 #include "editor-gtk/document/pou_edit.h"
 
+#include "editor-gtk/document/rename.h"
 #include "editor-gtk/edit/grid_display.h"
 #include "editor-gtk/edit/grid_edit.h"
+#include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/xref/xref.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-/* ---- adding ---- */
+/* ---- names ---- */
 
-static bool is_taken(const struct project *project, const char *name)
+static bool is_global(const struct project *project, const char *name)
 {
-	if (project_find_pou(project, name, strlen(name)) >= 0)
-		return true;
 	for (int i = 0; i < project->globals.count; i++)
 		if (g_ascii_strcasecmp(project_text(project, project->globals.var[i].name),
 				       name) == 0)
 			return true;
-	return words_is_taken(name);
+	return false;
 }
 
-static char *free_name(const struct project *project, const char *what)
+static bool is_structure(const struct project *project, const char *name)
 {
-	const char *base = g_str_has_prefix(what, "PROGRAM") ? "Program" :
-		g_str_has_prefix(what, "FUNCTION_BLOCK") ? "Block" :
-		g_str_has_prefix(what, "FUNCTION") ? "Function" : "Routine";
+	for (int i = 0; i < project->structure_count; i++)
+		if (g_ascii_strcasecmp(project_text(project, project->structure[i].name),
+				       name) == 0)
+			return true;
+	return false;
+}
+
+static bool is_taken(const struct project *project, const char *name)
+{
+	return project_find_pou(project, name, strlen(name)) >= 0 ||
+	       is_global(project, name) || is_structure(project, name) || words_is_taken(name);
+}
+
+char *pou_free_name(LadderDocument *document, enum pou_kind kind)
+{
+	static const char *const base[] = {
+		[POU_PROGRAM] = "Program", [POU_FUNCTION] = "Function", [POU_BLOCK] = "Block",
+		[POU_SUBROUTINE] = "Routine",
+	};
+	const struct project *project = ladder_document_project(document);
 	char *name = NULL;
 
-	for (int i = 1; !name || is_taken(project, name); i++) {
+	for (int i = 1; !name || (project && is_taken(project, name)); i++) {
 		g_free(name);
-		name = g_strdup_printf("%s%d", base, i);
+		name = g_strdup_printf("%s%d", base[kind], i);
 	}
 	return name;
 }
 
-/* A new function or block has an input, and returns it until it is edited. */
-static char *text_of(const char *what, const char *name)
+/* "Motor_2" of "Motor" and of "Motor_1". */
+char *pou_copy_name(LadderDocument *document, int pou)
 {
-	char **words = g_strsplit(what, " ", 2);
-	const bool list = strcmp(words[1], "IL") == 0;
-	const bool function = strcmp(words[0], "FUNCTION") == 0;
-	const bool block = strcmp(words[0], "FUNCTION_BLOCK") == 0;
-	const bool chart = strcmp(words[1], "SFC") == 0;
-	char *called = g_strdup_printf("RUNG\n  | NO In | COIL %s |\n", function ? name : "Out");
-	char *text = g_strdup_printf("\n%s %s%s %s\n%s%s%sEND_%s\n", words[0], name,
-		function ? " : BOOL" : "", words[1],
+	const struct project *project = ladder_document_project(document);
+	char *base = g_strdup(project_text(project, project->pou[pou].name)), *name = NULL;
+	char *digits = base + strlen(base);
+
+	while (digits > base && g_ascii_isdigit(digits[-1]))
+		digits--;
+	if (*digits && digits > base + 1 && digits[-1] == '_')
+		digits[-1] = '\0';
+	for (int i = 2; !name || is_taken(project, name); i++) {
+		g_free(name);
+		name = g_strdup_printf("%s_%d", base, i);
+	}
+	g_free(base);
+	return name;
+}
+
+char *pou_name_refusal(LadderDocument *document, enum pou_kind kind, const char *name)
+{
+	const struct project *project = ladder_document_project(document);
+	const enum diag_id fault = ladder_name_fault(name);
+	const bool called = kind == POU_FUNCTION || kind == POU_BLOCK;
+
+	if (!project || !ladder_document_is_whole(document))
+		return g_strdup(_("Nothing can be added while a text of the project cannot be "
+				  "read"));
+	if (!*name)
+		return g_strdup(_("Enter a name"));
+	if (fault == DIAG_RESERVED_NAME || (called && words_is_taken(name)))
+		return g_strdup_printf(_("“%s” is a word of the language"), name);
+	if (fault == DIAG_EXPECTED)
+		return g_strdup_printf(_("“%s” is not a name"), name);
+	if (project_find_pou(project, name, strlen(name)) >= 0)
+		return g_strdup_printf(_("“%s” is a program or block of this project"), name);
+	if (is_global(project, name))
+		return g_strdup_printf(_("“%s” is a symbol of this project"), name);
+	if (is_structure(project, name))
+		return g_strdup_printf(_("“%s” is a data type of this project"), name);
+	return NULL;
+}
+
+/* ---- adding ---- */
+
+/* A new function or block has an input, and returns it until it is edited. */
+static char *text_of(enum pou_kind kind, enum pou_language language, const char *name)
+{
+	const bool list = language == LANGUAGE_IL, chart = language == LANGUAGE_SFC;
+	const bool function = kind == POU_FUNCTION, block = kind == POU_BLOCK;
+	const char *result = function ? name : "Out";
+	char *called = list ? g_strdup_printf("  LD In\n  ST %s\n", result) :
+		       g_strdup_printf("RUNG\n  | NO In | COIL %s |\n", result);
+	char *text = g_strdup_printf("\n%s %s%s %s\n%s%s%sEND_%s\n", pou_word(kind), name,
+		function ? " : BOOL" : "", pou_language_word(language),
 		function || block ? "VAR_INPUT\n  In : BOOL;\nEND_VAR\n" : "",
 		block ? "VAR_OUTPUT\n  Out : BOOL;\nEND_VAR\n" : "",
-		list ? "  LD FALSE\n" : chart ? "  INITIAL_STEP Start:\n  END_STEP\n" :
-			function || block ? called : "RUNG\n", words[0]);
+		function || block ? called : list ? "  LD FALSE\n" :
+			chart ? "  INITIAL_STEP Start:\n  END_STEP\n" : "RUNG\n",
+		pou_word(kind));
 
 	g_free(called);
-	g_strfreev(words);
 	return text;
 }
 
-static const char *why_none(void)
+static char *why_of(const struct diag_list *diags)
 {
-	return _("Nothing can be added while a text of the project cannot be read");
+	return diags->count ? diag_said_whole(&diags->diag[0]) :
+			      g_strdup(_("It cannot be read"));
 }
 
-const char *pou_add(GtkWidget *widget, LadderDocument *document, const char *what)
+char *pou_add(LadderDocument *document, enum pou_kind kind, enum pou_language language,
+	      const char *name)
 {
-	const struct project *project = ladder_document_project(document);
-	char *name, *text, *all;
-	bool good;
+	char *why = pou_name_refusal(document, kind, name), *text, *all;
+	struct diag_list *diags;
 	gsize len;
 
-	if (!project)
-		return why_none();
-	name = free_name(project, what);
-	text = text_of(what, name);
+	if (why)
+		return why;
+	diags = g_new0(struct diag_list, 1);
+	text = text_of(kind, language, name);
 	all = ladder_document_outline(document, &len, NULL, NULL);
 	ladder_document_begin(document, _("New program or block"), NULL);
-	good = all && ladder_document_replace(document, len, 0, text, NULL);
-	if (good) {
-		project = ladder_document_project(document);
-		gtk_widget_activate_action(widget, "win.go-to", "(iiii)",
-					   project->pou_count - 1, 0, -1, -1);
-	}
+	if (!ladder_document_replace(document, len, 0, text, diags))
+		why = why_of(diags);
 	ladder_document_end(document);
 	g_free(all);
 	g_free(text);
-	g_free(name);
-	return good ? NULL : why_none();
+	g_free(diags);
+	return why;
 }
 
-/* ---- deleting ---- */
+/* ---- the text of a POU, with the comments above it ---- */
 
+/* A POU as a part of the canonical text. */
 struct part_of_pou {
 	const struct project *project;
 	int pou;
@@ -111,6 +171,169 @@ static void take_part(void *context, const struct text_span *span)
 		part->found = true;
 	}
 }
+
+/* NULL: it is declared in another file. Caller frees. */
+static char *part_of(LadderDocument *document, int pou, struct text_span *span)
+{
+	struct part_of_pou part = { ladder_document_project(document), pou, { 0 }, false };
+	gsize len;
+	char *text = ladder_document_outline(document, &len, take_part, &part);
+
+	*span = part.span;
+	if (part.found)
+		return text;
+	g_free(text);
+	return NULL;
+}
+
+/* ---- duplicating ---- */
+
+/* The part with another name in its heading. Caller frees. */
+static char *part_called(LadderDocument *document, int pou, const char *all,
+			 const struct text_span *part, const char *name)
+{
+	const struct project *project = ladder_document_project(document);
+	struct text_span span;
+	gsize at, old = strlen(project_text(project, project->pou[pou].name));
+
+	g_free(ladder_document_pou(document, pou, &span));
+	at = span.at + strlen(pou_word(project->pou[pou].kind)) + 1;
+	return g_strdup_printf("%.*s%s%.*s", (int)(at - part->at), all + part->at, name,
+			       (int)(part->at + part->len - at - old), all + at + old);
+}
+
+/* The part of a POU after it was renamed, in a copy of the project. The engine renames the
+ * result of a function, too. NULL, and @why: it is refused. Caller frees. */
+static char *renamed_part(LadderDocument *document, int pou, const char *name, char **why)
+{
+	const struct xref_target target = { .what = XREF_POU, .index = pou };
+	struct ladder *copy = ladder_new();
+	struct ladder_rename how;
+	struct part_of_pou part = { NULL, pou, { 0 }, false };
+	char *whole, *text = NULL;
+	size_t len;
+
+	whole = ladder_rename(ladder_document_ladder(document), &target, name, &len, &how);
+	if (!whole) {
+		*why = rename_reason(document, &how, name);
+	} else if (copy && ladder_load_text(copy, g_intern_string(
+			   ladder_document_path(document) ? ladder_document_path(document) : ""),
+					    whole, len)) {
+		char *again;
+
+		part.project = ladder_project(copy);
+		again = ladder_outline(copy, &len, take_part, &part);
+		text = part.found ? g_strndup(again + part.span.at, part.span.len) : NULL;
+		free(again);
+	}
+	if (!text && !*why)
+		*why = g_strdup(_("It cannot be read"));
+	free(whole);
+	ladder_free(copy);
+	return text;
+}
+
+char *pou_duplicate(LadderDocument *document, int pou, const char *name)
+{
+	const struct project *project = ladder_document_project(document);
+	char *why = pou_name_refusal(document, project ? project->pou[pou].kind : POU_PROGRAM,
+				     name);
+	struct diag_list *diags;
+	struct text_span span;
+	char *all, *part, *more;
+
+	if (why)
+		return why;
+	all = part_of(document, pou, &span);
+	if (!all)
+		return g_strdup(_("It is declared in another file"));
+	/* Only a function uses its own name. */
+	part = project->pou[pou].kind == POU_FUNCTION ?
+		renamed_part(document, pou, name, &why) :
+		part_called(document, pou, all, &span, name);
+	if (part) {
+		diags = g_new0(struct diag_list, 1);
+		more = g_strconcat("\n", part, NULL);
+		ladder_document_begin(document, _("Duplicate program or block"), NULL);
+		if (!ladder_document_replace(document, span.at + span.len, 0, more, diags))
+			why = why_of(diags);
+		ladder_document_end(document);
+		g_free(more);
+		g_free(diags);
+	}
+	g_free(part);
+	g_free(all);
+	return why;
+}
+
+/* ---- order ---- */
+
+static bool is_program(const struct project *project, int pou)
+{
+	return project->pou[pou].kind == POU_PROGRAM;
+}
+
+int pou_beside(LadderDocument *document, int pou, int by)
+{
+	const struct project *project = ladder_document_project(document);
+
+	for (int i = pou + by; project && i >= 0 && i < project->pou_count; i += by)
+		if (is_program(project, i) == is_program(project, pou) &&
+		    !project->pou[i].included)
+			return i;
+	return -1;
+}
+
+bool pou_order_counts(LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+
+	for (int i = 0; project && project->config && i < project->config->count; i++)
+		if (project->config->entry[i].kind == CONFIG_PROGRAM)
+			return false;
+	return true;
+}
+
+/* The text from the first to the last of both parts, with the part that moves at its new
+ * place. A blank line stands before each part. */
+static char *moved_text(const char *all, const struct text_span *moves,
+			const struct text_span *stays, bool behind)
+{
+	const gsize to = behind ? stays->at + stays->len : stays->at - 1;
+	const gsize from = moves->at - 1, len = moves->len + 1;
+
+	return from < to ? g_strdup_printf("%.*s%.*s", (int)(to - from - len),
+			all + from + len, (int)len, all + from) :
+		g_strdup_printf("%.*s%.*s", (int)len, all + from, (int)(from - to), all + to);
+}
+
+const char *pou_move(LadderDocument *document, int pou, int beside, bool behind)
+{
+	const struct project *project = ladder_document_project(document);
+	struct text_span moves, stays;
+	char *all, *there, *text;
+	bool good;
+	gsize at;
+
+	if (!project || !ladder_document_is_whole(document))
+		return _("Nothing can be moved while a text of the project cannot be read");
+	all = part_of(document, pou, &moves);
+	there = part_of(document, beside, &stays);
+	good = all && there && pou != beside;
+	if (good) {
+		at = MIN(moves.at - 1, behind ? stays.at + stays.len : stays.at - 1);
+		text = moved_text(all, &moves, &stays, behind);
+		ladder_document_begin(document, _("Move program or block"), NULL);
+		good = ladder_document_replace(document, at, strlen(text), text, NULL);
+		ladder_document_end(document);
+		g_free(text);
+	}
+	g_free(there);
+	g_free(all);
+	return good ? NULL : _("It is declared in another file");
+}
+
+/* ---- deleting ---- */
 
 int pou_uses(LadderDocument *document, int pou)
 {

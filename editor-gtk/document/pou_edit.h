@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * pou_edit - adds and deletes programs and blocks.
+ * pou_edit - adds, duplicates, moves and deletes programs and blocks.
  *
  * Each edit is one step of the history, made as a change of the text.
  */
@@ -9,11 +9,29 @@
 
 #include "editor-gtk/document/document.h"
 
-#include <gtk/gtk.h>
-
-/** pou_add - @what: "PROGRAM LD", "FUNCTION_BLOCK LD"; gives it a new name, and shows it by
- * "win.go-to" on @widget. Returns NULL, or why it failed, translated, static. */
-const char *pou_add(GtkWidget *widget, LadderDocument *document, const char *what);
+/** pou_free_name - for a new one: Program1, Block1. Owns: the caller. */
+char *pou_free_name(LadderDocument *document, enum pou_kind kind);
+/** pou_copy_name - for a copy of a POU: Motor_2. Owns: the caller. */
+char *pou_copy_name(LadderDocument *document, int pou);
+/** pou_name_refusal - why a new POU of this kind cannot have the name, translated; NULL: it
+ * can. Owns: the caller. */
+char *pou_name_refusal(LadderDocument *document, enum pou_kind kind, const char *name);
+/** pou_add - adds one at the end of the file. Returns NULL, or why it failed, translated,
+ * which the caller frees. */
+char *pou_add(LadderDocument *document, enum pou_kind kind, enum pou_language language,
+	      const char *name);
+/** pou_duplicate - adds a copy with another name behind it, with its comments and local
+ * variables. Returns as pou_add(). */
+char *pou_duplicate(LadderDocument *document, int pou, const char *name);
+/** pou_beside - the next (@by 1) or previous (-1) one of this file in the same list of the
+ * project tree: programs, or functions and blocks. -1: none. */
+int pou_beside(LadderDocument *document, int pou, int by);
+/** pou_order_counts - do programs run in the order of the file? Else a CONFIGURATION lists
+ * them. */
+bool pou_order_counts(LadderDocument *document);
+/** pou_move - moves its text, with the comments above it, before or behind that of POU
+ * @beside. Returns NULL, or why it failed, translated, static. */
+const char *pou_move(LadderDocument *document, int pou, int beside, bool behind);
 /** pou_uses - the number of places outside of a POU that use it. */
 int pou_uses(LadderDocument *document, int pou);
 /** pou_delete - deletes a POU, but not the last one or one of another file, and with it what

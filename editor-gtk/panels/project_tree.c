@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/panels/project_tree.h"
 
+#include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
@@ -27,6 +28,8 @@ struct tree {
 	guint timer;       /* compares `shape` when it elapses                 */
 	LadderTreeRow *going; /* the row that was activated                    */
 	guint going_soon;  /* idle that goes there                             */
+	LadderTreeRow *dragged;
+	GtkWidget *marked; /* the row with the line of a drop; weak            */
 };
 
 /* Expands new headings. */
@@ -168,23 +171,245 @@ static int selected_pou(struct tree *tree)
 	return row && row->kind == ROW_POU ? row->pou : -1;
 }
 
+static void tell(struct tree *tree, const char *text)
+{
+	gtk_widget_activate_action(tree->list, "win.tell", "s", text);
+}
+
+/* What the window does with a POU: "tree.rename" becomes "win.rename-pou". */
 static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
 {
 	struct tree *tree = data;
 	const int pou = selected_pou(tree);
-	const bool renames = strcmp(g_action_get_name(G_ACTION(action)), "rename") == 0;
-	const char *why = NULL;
+	char *name = g_strdup_printf("win.%s-pou", g_action_get_name(G_ACTION(action)));
 
 	(void)unused;
 	if (pou < 0)
-		why = _("Select a program or block first");
-	else if (renames)
-		gtk_widget_activate_action(tree->list, "win.rename-pou", "i", pou);
+		tell(tree, _("Select a program or block first"));
 	else
-		gtk_widget_activate_action(tree->list, "win.delete-pou", "i", pou);
-	if (why)
-		gtk_widget_activate_action(tree->list, "win.tell", "s", why);
+		gtk_widget_activate_action(tree->list, name, "i", pou);
+	g_free(name);
 }
+
+/* ---- order ---- */
+
+/* The selected row gets the focus, if another row of the tree has it. */
+static void focus_selected(struct tree *tree)
+{
+	GtkRoot *root = gtk_widget_get_root(tree->list);
+	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
+	const guint at = gtk_single_selection_get_selected(tree->selection);
+
+	if (!focus || (focus != tree->list && !gtk_widget_is_ancestor(focus, tree->list)))
+		return;
+	for (GtkWidget *child = gtk_widget_get_first_child(tree->list); child;
+	     child = gtk_widget_get_next_sibling(child)) {
+		GtkWidget *expander = gtk_widget_get_first_child(child);
+		GtkTreeListRow *row = GTK_IS_TREE_EXPANDER(expander) ?
+			gtk_tree_expander_get_list_row(GTK_TREE_EXPANDER(expander)) : NULL;
+
+		if (row && gtk_tree_list_row_get_position(row) == at)
+			gtk_widget_grab_focus(child);
+	}
+}
+
+static void select_pou(struct tree *tree, const char *name)
+{
+	const struct project *project = ladder_document_project(tree->document);
+
+	ladder_project_tree_select(tree->panel, project_find_pou(project, name, strlen(name)),
+				   NULL, false);
+	focus_selected(tree);
+}
+
+/* The order of programs is the order in which they run, unless a CONFIGURATION lists them. */
+static void tell_order(struct tree *tree, const char *name)
+{
+	const struct project *project = ladder_document_project(tree->document);
+	const int pou = project_find_pou(project, name, strlen(name));
+	const int before = pou_beside(tree->document, pou, -1);
+	char *text = NULL;
+
+	if (project->pou[pou].kind != POU_PROGRAM)
+		return;
+	if (!pou_order_counts(tree->document))
+		text = g_strdup(_("The order in which programs run stays: the CONFIGURATION "
+				  "says it"));
+	else if (before < 0)
+		text = g_strdup_printf(_("“%s” now runs first in each scan"), name);
+	else
+		text = g_strdup_printf(_("“%s” now runs after “%s” in each scan"), name,
+				       project_text(project, project->pou[before].name));
+	tell(tree, text);
+	g_free(text);
+}
+
+static void move(struct tree *tree, int pou, int beside, bool behind)
+{
+	const struct project *project = ladder_document_project(tree->document);
+	char *name = g_strdup(project_text(project, project->pou[pou].name));
+	const char *why = pou_move(tree->document, pou, beside, behind);
+
+	if (why) {
+		tell(tree, why);
+	} else {
+		select_pou(tree, name);
+		tell_order(tree, name);
+	}
+	g_free(name);
+}
+
+static void move_by(struct tree *tree, int by)
+{
+	const int pou = selected_pou(tree);
+	const int beside = pou < 0 ? -1 : pou_beside(tree->document, pou, by);
+
+	if (pou < 0)
+		tell(tree, _("Select a program or block first"));
+	else if (beside < 0)
+		tell(tree, by < 0 ? _("It is the first one already") :
+				    _("It is the last one already"));
+	else
+		move(tree, pou, beside, by > 0);
+}
+
+static void move_selected(GSimpleAction *action, GVariant *unused, gpointer data)
+{
+	(void)unused;
+	move_by(data, strcmp(g_action_get_name(G_ACTION(action)), "up") == 0 ? -1 : 1);
+}
+
+/* ---- dragging ---- */
+
+/* The list item at a point of the list; NULL: none. */
+static GtkWidget *item_at(struct tree *tree, double x, double y)
+{
+	GtkWidget *picked = gtk_widget_pick(tree->list, x, y, GTK_PICK_DEFAULT);
+	GtkWidget *expander = picked ?
+		gtk_widget_get_ancestor(picked, GTK_TYPE_TREE_EXPANDER) : NULL;
+
+	if (picked && picked != tree->list && !expander)
+		expander = gtk_widget_get_first_child(picked);
+	return expander && GTK_IS_TREE_EXPANDER(expander) ? expander : NULL;
+}
+
+static LadderTreeRow *row_of(GtkWidget *item)
+{
+	GtkTreeListRow *row = item ?
+		gtk_tree_expander_get_list_row(GTK_TREE_EXPANDER(item)) : NULL;
+	LadderTreeRow *of = row ? gtk_tree_list_row_get_item(row) : NULL;
+
+	if (of)
+		g_object_unref(of); /* the model has a reference */
+	return of;
+}
+
+static GdkContentProvider *drag_prepare(struct tree *tree, double x, double y)
+{
+	LadderTreeRow *row = row_of(item_at(tree, x, y));
+	const struct project *project = ladder_document_project(tree->document);
+
+	if (!row || row->kind != ROW_POU || project->pou[row->pou].included)
+		return NULL;
+	return gdk_content_provider_new_typed(LADDER_TYPE_TREE_ROW, row);
+}
+
+static void drag_begin(GtkDragSource *source, GdkDrag *drag, struct tree *tree)
+{
+	GdkContentProvider *content = gdk_drag_get_content(drag);
+	GValue value = G_VALUE_INIT;
+
+	(void)source;
+	g_value_init(&value, LADDER_TYPE_TREE_ROW);
+	if (gdk_content_provider_get_value(content, &value, NULL)) {
+		LadderTreeRow *row = g_value_get_object(&value);
+		GtkWidget *label = gtk_label_new(row->text);
+
+		gtk_widget_add_css_class(label, "dragged-row");
+		gtk_drag_icon_set_child(GTK_DRAG_ICON(gtk_drag_icon_get_for_drag(drag)), label);
+		g_set_object(&tree->dragged, row);
+	}
+	g_value_unset(&value);
+}
+
+/* A line shows where it would go. */
+static void mark(struct tree *tree, GtkWidget *item, bool behind)
+{
+	GtkWidget *of_row = item ? gtk_widget_get_parent(item) : NULL;
+
+	if (tree->marked) {
+		gtk_widget_remove_css_class(tree->marked, "drop-above");
+		gtk_widget_remove_css_class(tree->marked, "drop-below");
+	}
+	g_set_weak_pointer(&tree->marked, of_row);
+	if (of_row)
+		gtk_widget_add_css_class(of_row, behind ? "drop-below" : "drop-above");
+}
+
+/* The POU at the point, if what is dragged can go there; -1: it cannot. */
+static int place_at(struct tree *tree, double x, double y, GtkWidget **item, bool *behind)
+{
+	const struct project *project = ladder_document_project(tree->document);
+	LadderTreeRow *row;
+	graphene_rect_t box;
+
+	*item = item_at(tree, x, y);
+	row = row_of(*item);
+	if (!project || !row || row->kind != ROW_POU || !tree->dragged ||
+	    row == tree->dragged || project->pou[row->pou].included ||
+	    (project->pou[row->pou].kind == POU_PROGRAM) !=
+	    (project->pou[tree->dragged->pou].kind == POU_PROGRAM) ||
+	    !gtk_widget_compute_bounds(gtk_widget_get_parent(*item), tree->list, &box))
+		return -1;
+	*behind = y > box.origin.y + box.size.height / 2;
+	return row->pou;
+}
+
+static GdkDragAction drag_over(struct tree *tree, double x, double y)
+{
+	GtkWidget *item;
+	bool behind = false;
+	const int at = place_at(tree, x, y, &item, &behind);
+
+	mark(tree, at < 0 ? NULL : item, behind);
+	return at < 0 ? 0 : GDK_ACTION_MOVE;
+}
+
+static void drag_leave(struct tree *tree)
+{
+	mark(tree, NULL, false);
+}
+
+static gboolean dropped(struct tree *tree, const GValue *value, double x, double y)
+{
+	GtkWidget *item;
+	bool behind = false;
+	const int at = place_at(tree, x, y, &item, &behind);
+
+	(void)value;
+	mark(tree, NULL, false);
+	if (at < 0)
+		return FALSE;
+	move(tree, tree->dragged->pou, at, behind);
+	return TRUE;
+}
+
+static void add_drag(struct tree *tree)
+{
+	GtkDragSource *source = gtk_drag_source_new();
+	GtkDropTarget *target = gtk_drop_target_new(LADDER_TYPE_TREE_ROW, GDK_ACTION_MOVE);
+
+	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
+	g_signal_connect_swapped(source, "prepare", G_CALLBACK(drag_prepare), tree);
+	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), tree);
+	g_signal_connect_swapped(target, "motion", G_CALLBACK(drag_over), tree);
+	g_signal_connect_swapped(target, "leave", G_CALLBACK(drag_leave), tree);
+	g_signal_connect_swapped(target, "drop", G_CALLBACK(dropped), tree);
+	gtk_widget_add_controller(tree->list, GTK_EVENT_CONTROLLER(source));
+	gtk_widget_add_controller(tree->list, GTK_EVENT_CONTROLLER(target));
+}
+
+/* ---- menus and actions ---- */
 
 static GMenu *menu_model(void)
 {
@@ -196,8 +421,32 @@ static GMenu *menu_model(void)
 
 	for (gsize i = 0; i < G_N_ELEMENTS(verbs); i++)
 		g_menu_append(menu, _(verb_row(verbs[i])->label), verb_row(verbs[i])->action);
+	return menu;
+}
+
+/* With what the rows of POUs have, too: of the selected one. */
+static GMenu *button_menu(void)
+{
+	GMenu *menu = menu_model();
+
 	g_menu_append(menu, _("Rename…"), "tree.rename");
 	g_menu_append(menu, _("Delete"), "tree.delete");
+	return menu;
+}
+
+static GMenu *pou_menu(void)
+{
+	static const struct { const char *label, *action; } entries[] = {
+		{ N_("Duplicate…"), "tree.duplicate" }, { N_("Move up"), "tree.up" },
+		{ N_("Move down"), "tree.down" }, { N_("Rename…"), "tree.rename" },
+		{ N_("Delete"), "tree.delete" },
+	};
+	GMenu *menu = g_menu_new(), *fresh = menu_model();
+
+	for (gsize i = 0; i < G_N_ELEMENTS(entries); i++)
+		g_menu_append(menu, _(entries[i].label), entries[i].action);
+	g_menu_append_submenu(menu, _("New"), G_MENU_MODEL(fresh));
+	g_object_unref(fresh);
 	return menu;
 }
 
@@ -207,6 +456,9 @@ static void add_actions(struct tree *tree, GtkWidget *panel)
 	const GActionEntry entries[] = {
 		{ .name = "rename", .activate = act_on_pou },
 		{ .name = "delete", .activate = act_on_pou },
+		{ .name = "duplicate", .activate = act_on_pou },
+		{ .name = "up", .activate = move_selected },
+		{ .name = "down", .activate = move_selected },
 	};
 	GSimpleActionGroup *group = g_simple_action_group_new();
 
@@ -220,7 +472,7 @@ static GtkWidget *menu_new(void)
 {
 	GtkWidget *button = gtk_menu_button_new();
 
-	popover_menu_of(GTK_MENU_BUTTON(button), menu_model);
+	popover_menu_of(GTK_MENU_BUTTON(button), button_menu);
 	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
 	tip_set(button, _("Add, rename or delete"));
 	spoken_name(button, _("Add, rename or delete"));
@@ -234,21 +486,17 @@ static void show_menu(struct tree *tree, double x, double y)
 {
 	/* not on the scrolled window, which takes the arrow keys */
 	gtk_widget_translate_coordinates(tree->list, tree->panel, x, y, &x, &y);
-	popover_menu(tree->panel, menu_model(), &(GdkRectangle){ (int)x, (int)y, 1, 1 },
+	popover_menu(tree->panel, selected_pou(tree) < 0 ? menu_model() : pou_menu(), &(GdkRectangle){ (int)x, (int)y, 1, 1 },
 		     tree->list);
 }
 
 /* The menu is for the row below the pointer. */
 static void right_pressed(struct tree *tree, int count, double x, double y)
 {
-	GtkWidget *picked = gtk_widget_pick(tree->list, x, y, GTK_PICK_DEFAULT);
-	GtkWidget *expander = picked ?
-		gtk_widget_get_ancestor(picked, GTK_TYPE_TREE_EXPANDER) : NULL;
+	GtkWidget *expander = item_at(tree, x, y);
 
 	(void)count;
-	if (picked && !expander)
-		expander = gtk_widget_get_first_child(picked);
-	if (expander && GTK_IS_TREE_EXPANDER(expander))
+	if (expander)
 		gtk_single_selection_set_selected(tree->selection,
 			gtk_tree_list_row_get_position(gtk_tree_expander_get_list_row(
 				GTK_TREE_EXPANDER(expander))));
@@ -257,11 +505,17 @@ static void right_pressed(struct tree *tree, int count, double x, double y)
 
 static gboolean key_pressed(struct tree *tree, guint key, guint code, GdkModifierType state)
 {
+	const GdkModifierType held = state & gtk_accelerator_get_default_mod_mask();
+
 	(void)code;
 	if (key == GDK_KEY_Menu || (key == GDK_KEY_F10 && state & GDK_SHIFT_MASK))
 		show_menu(tree, 20, 20);
-	else if (key == GDK_KEY_Delete && !(state & gtk_accelerator_get_default_mod_mask()))
+	else if (key == GDK_KEY_Delete && !held)
 		gtk_widget_activate_action(tree->list, "tree.delete", NULL);
+	else if (gdk_keyval_to_lower(key) == GDK_KEY_d && held == GDK_CONTROL_MASK)
+		gtk_widget_activate_action(tree->list, "tree.duplicate", NULL);
+	else if ((key == GDK_KEY_Up || key == GDK_KEY_Down) && held == GDK_ALT_MASK)
+		move_by(tree, key == GDK_KEY_Up ? -1 : 1);
 	else
 		return FALSE;
 	return TRUE;
@@ -376,6 +630,8 @@ static void tree_free(gpointer pointer)
 	g_clear_handle_id(&tree->timer, g_source_remove);
 	g_clear_handle_id(&tree->going_soon, g_source_remove);
 	g_clear_object(&tree->going);
+	g_clear_object(&tree->dragged);
+	g_clear_weak_pointer(&tree->marked);
 	g_signal_handlers_disconnect_by_data(tree->document, tree);
 	g_object_unref(tree->document);
 	g_free(tree->shape);
@@ -459,6 +715,7 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 	tree->panel = box;
 	make_list(tree);
 	add_controllers(tree);
+	add_drag(tree);
 	add_actions(tree, box);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), tree->list);
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,

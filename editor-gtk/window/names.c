@@ -6,7 +6,6 @@
 
 #include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/document/rename.h"
-#include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/watch_view.h"
@@ -20,8 +19,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-
-#define WHY_LINES 4 /* lines reserved for the reason of a refusal              */
 
 static const char no_name[] = N_("There is no name at the cursor.");
 
@@ -337,9 +334,7 @@ static void typed(GtkEditable *line, struct renaming *renaming)
 	char *name = name_typed(renaming);
 	char *why = refusal(renaming->core->document, chosen_of(renaming), name);
 
-	gtk_label_set_text(GTK_LABEL(renaming->why), why ? why : "");
-	adw_message_dialog_set_response_enabled(renaming->dialog, "rename", !why);
-	cells_refuse(GTK_WIDGET(line), why);
+	ask_refuse(renaming->dialog, "rename", GTK_WIDGET(line), renaming->why, why);
 	g_free(name);
 }
 
@@ -434,26 +429,12 @@ static GtkWidget *line_new(struct renaming *renaming)
 	return line;
 }
 
-/* The empty label keeps its height, so that the dialog does not jump. */
-static GtkWidget *why_new(void)
-{
-	GtkWidget *why = gtk_label_new("");
-
-	gtk_label_set_xalign(GTK_LABEL(why), 0);
-	gtk_label_set_wrap(GTK_LABEL(why), TRUE);
-	gtk_label_set_wrap_mode(GTK_LABEL(why), PANGO_WRAP_WORD_CHAR);
-	gtk_label_set_lines(GTK_LABEL(why), WHY_LINES);
-	gtk_label_set_ellipsize(GTK_LABEL(why), PANGO_ELLIPSIZE_END);
-	gtk_widget_add_css_class(why, "error");
-	return why;
-}
-
 static GtkWidget *parts_new(struct renaming *renaming)
 {
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
 
 	renaming->line = line_new(renaming);
-	renaming->why = why_new();
+	renaming->why = ask_why();
 	gtk_box_append(GTK_BOX(box), choice_new(renaming));
 	gtk_box_append(GTK_BOX(box), renaming->line);
 	gtk_box_append(GTK_BOX(box), renaming->why);

@@ -7,7 +7,6 @@
  */
 #include "editor-gtk/window/window.h"
 
-#include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/still.h"
@@ -30,6 +29,7 @@
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/names.h"
 #include "editor-gtk/window/pou_import_dialog.h"
+#include "editor-gtk/window/pou_new.h"
 #include "editor-gtk/window/preferences.h"
 #include "editor-gtk/window/recent.h"
 #include "editor-gtk/window/scenarios.h"
@@ -259,14 +259,6 @@ static void do_about(LadderWindow *window)
 
 /* ---- what the project is made of ---- */
 
-static void add_pou(LadderWindow *window, const char *what)
-{
-	const char *why = pou_add(GTK_WIDGET(window), window->core.document, what);
-
-	if (why)
-		messages_tell(&window->messages, why);
-}
-
 /* The page with the table makes the dialog, so it is shown first. */
 static void import_symbols(LadderWindow *window)
 {
@@ -283,13 +275,15 @@ static void import_symbols(LadderWindow *window)
 
 static bool do_project(LadderWindow *window, enum verb verb)
 {
+	struct core *core = &window->core;
+
 	switch ((int)verb) {
-	case VERB_new_program: add_pou(window, "PROGRAM LD"); return true;
-	case VERB_new_list: add_pou(window, "PROGRAM IL"); return true;
-	case VERB_new_chart: add_pou(window, "PROGRAM SFC"); return true;
-	case VERB_new_block: add_pou(window, "FUNCTION_BLOCK LD"); return true;
-	case VERB_new_function: add_pou(window, "FUNCTION LD"); return true;
-	case VERB_new_subroutine: add_pou(window, "SUBROUTINE LD"); return true;
+	case VERB_new_program: pou_new_ask(core, POU_PROGRAM, LANGUAGE_LD); return true;
+	case VERB_new_list: pou_new_ask(core, POU_PROGRAM, LANGUAGE_IL); return true;
+	case VERB_new_chart: pou_new_ask(core, POU_PROGRAM, LANGUAGE_SFC); return true;
+	case VERB_new_block: pou_new_ask(core, POU_BLOCK, LANGUAGE_LD); return true;
+	case VERB_new_function: pou_new_ask(core, POU_FUNCTION, LANGUAGE_LD); return true;
+	case VERB_new_subroutine: pou_new_ask(core, POU_SUBROUTINE, LANGUAGE_LD); return true;
 	case VERB_import:
 		pou_import_ask(GTK_WIDGET(window), window->core.document);
 		return true;
@@ -459,6 +453,8 @@ static void act_on_pou(GtkWidget *widget, const char *name, GVariant *pou)
 
 	if (strcmp(name, "win.rename-pou") == 0)
 		names_rename_pou(core, g_variant_get_int32(pou));
+	else if (strcmp(name, "win.duplicate-pou") == 0)
+		pou_duplicate_ask(core, g_variant_get_int32(pou));
 	else
 		names_delete_pou(core, g_variant_get_int32(pou));
 }
@@ -557,6 +553,9 @@ static void install_actions(GtkWidgetClass *class)
 		"win.show-uses", "win.expect-value", "win.watch-value", "win.show-panel",
 		"win.open-text", "win.open-path", "win.open-sample", "win.tell", "win.warn",
 	};
+	static const char *const on_pou[] = {
+		"win.rename-pou", "win.delete-pou", "win.duplicate-pou",
+	};
 
 	for (int i = 0; i < VERB_COUNT; i++)
 		gtk_widget_class_install_action(class, verb_row((enum verb)i)->action,
@@ -564,8 +563,8 @@ static void install_actions(GtkWidgetClass *class)
 	for (gsize i = 0; i < G_N_ELEMENTS(on_text); i++)
 		gtk_widget_class_install_action(class, on_text[i], "s", act_on_text);
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
-	gtk_widget_class_install_action(class, "win.rename-pou", "i", act_on_pou);
-	gtk_widget_class_install_action(class, "win.delete-pou", "i", act_on_pou);
+	for (gsize i = 0; i < G_N_ELEMENTS(on_pou); i++)
+		gtk_widget_class_install_action(class, on_pou[i], "i", act_on_pou);
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.begin-chart", NULL, begin);
 	gtk_widget_class_install_action(class, "win.import-project", NULL, import_project);

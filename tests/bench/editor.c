@@ -503,7 +503,8 @@ static void measure_list(GtkWidget *window, LadderDocument *document)
 	GtkTextIter at;
 	GtkWidget *text;
 
-	pou_add(window, document, "PROGRAM IL");
+	g_free(pou_add(document, POU_PROGRAM, LANGUAGE_IL, "Measured"));
+	gtk_widget_activate_action(window, "win.go-to", "(iiii)", pou, 0, -1, -1);
 	settle(1000);
 	text = find(find(window, LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW);
 	buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(text));

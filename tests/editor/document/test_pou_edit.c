@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_pou_edit - a block that is used is deleted with what cannot be read without it.
+ * test_pou_edit - programs and blocks are added, duplicated, moved and deleted: each as one
+ * step, and the text of all others stays as it is, byte by byte.
  */
 #include "editor-gtk/document/pou_edit.h"
 
@@ -64,6 +65,211 @@ static void test_function(void)
 	CHECK(ladder_document_undo(document) && has("Twice "));
 }
 
+/* ---- order ---- */
+
+/* POUs of all kinds with comments in all places, and other parts between them. */
+static const char *const PARTS[] = {
+	"VAR\n  Lamp  AT %QX0.0 : BOOL;\n  Total : INT;\nEND_VAR\n",
+	"(* the first *)\nPROGRAM One LD\nVAR\n  D : TON; // delay\nEND_VAR\n"
+	"(* seal *)\nRUNG Here \"Title\"\n  | NO %IX0.0 (* in *) | TON D PT:=T#1s | COIL Lamp |\n"
+	"(* the end *)\nEND_PROGRAM\n",
+	"// a line\nPROGRAM Two IL\n  LD    %IX0.1 (* typed *)\n  ST    %QX0.1\nEND_PROGRAM\n",
+	"(* adds *)\n(* twice *)\nFUNCTION Sum : INT LD\nVAR_INPUT\n  A : INT;\n  B : INT;\n"
+	"END_VAR\nRUNG\n  | ADD IN1:=A IN2:=B OUT=>Sum |\nEND_FUNCTION\n",
+	"TYPE\n  Pair : STRUCT\n    X : INT; (* left *)\n  END_STRUCT;\nEND_TYPE\n",
+	"FUNCTION_BLOCK Seal LD\nVAR_INPUT\n  On : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Q : BOOL;\n"
+	"END_VAR\nRUNG\n  | NO On | COIL Q |\nEND_FUNCTION_BLOCK\n",
+	"PROGRAM Three SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n",
+	"SUBROUTINE Sub LD\nRUNG\n  | NO %IX0.2 | COIL %QX0.2 |\nEND_SUBROUTINE\n",
+	"VIEW\n  bookmark One 1\nEND_VIEW\n",
+};
+enum { PARTS_COUNT = G_N_ELEMENTS(PARTS) };
+/* Its parts: those of POUs by the number of the POU. */
+static const int part_of[] = { 1, 2, 3, 5, 6, 7 };
+
+static char *joined(const int *order)
+{
+	GString *text = g_string_new("RUNGBOARD 1\nPROJECT \"Order\"\n");
+
+	for (int i = 0; i < PARTS_COUNT; i++)
+		g_string_append_printf(text, "\n%s", PARTS[order[i]]);
+	return g_string_free(text, FALSE);
+}
+
+/* What the move is, for the model: an order of parts. */
+static void move_part(int *order, int part, int beside, bool behind)
+{
+	int others[PARTS_COUNT], count = 0, to = 0;
+
+	for (int i = 0; i < PARTS_COUNT; i++)
+		if (order[i] != part)
+			others[count++] = order[i];
+	for (int i = 0; i < count; i++) {
+		if (others[i] == beside && !behind)
+			order[to++] = part;
+		order[to++] = others[i];
+		if (others[i] == beside && behind)
+			order[to++] = part;
+	}
+}
+
+static char *text_now(void)
+{
+	return ladder_document_text(document, NULL);
+}
+
+static bool is_text(const char *text)
+{
+	char *now = text_now();
+	const bool same = strcmp(now, text) == 0;
+
+	if (!same)
+		printf("# is:\n%s\n# expected:\n%s\n", now, text);
+	g_free(now);
+	return same;
+}
+
+static int part_of_pou_now(int pou)
+{
+	static const char *const name[] = { "One", "Two", "Sum", "Seal", "Three", "Sub" };
+	const struct project *project = ladder_document_project(document);
+
+	for (int i = 0; i < (int)G_N_ELEMENTS(name); i++)
+		if (strcmp(project_text(project, project->pou[pou].name), name[i]) == 0)
+			return part_of[i];
+	return -1;
+}
+
+static void test_order(void)
+{
+	GRand *chance = g_rand_new_with_seed(7);
+	int order[PARTS_COUNT];
+	char *first, *before, *after;
+	bool good = true;
+
+	for (int i = 0; i < PARTS_COUNT; i++)
+		order[i] = i;
+	first = joined(order);
+	ladder_document_open_text(document, NULL, first, strlen(first), true);
+	CHECK_AS(is_text(first), "the example is in canonical form");
+	for (int i = 0; good && i < 200; i++) {
+		const int pou = g_rand_int_range(chance, 0, 6);
+		const int beside = g_rand_int_range(chance, 0, 6);
+		const bool behind = g_rand_boolean(chance);
+
+		if (pou == beside)
+			continue;
+		before = text_now();
+		move_part(order, part_of_pou_now(pou), part_of_pou_now(beside), behind);
+		after = joined(order);
+		good = !pou_move(document, pou, beside, behind) && is_text(after);
+		if (good && strcmp(before, after) != 0)
+			good = ladder_document_undo(document) && is_text(before) &&
+			       ladder_document_redo(document) && is_text(after);
+		g_free(before);
+		g_free(after);
+	}
+	CHECK_AS(good, "any order, byte by byte, with one undo each");
+	while (ladder_document_undo(document))
+		;
+	CHECK_AS(is_text(first), "all undone");
+	CHECK_AS(pou_beside(document, 0, -1) < 0 && pou_beside(document, 0, 1) == 1 &&
+		 pou_beside(document, 1, 1) == 4 && pou_beside(document, 4, 1) < 0 &&
+		 pou_beside(document, 2, -1) < 0 && pou_beside(document, 2, 1) == 3 &&
+		 pou_beside(document, 3, 1) == 5, "programs stand beside programs");
+	CHECK_AS(pou_order_counts(document), "without a CONFIGURATION the order counts");
+	g_free(first);
+	g_rand_free(chance);
+}
+
+/* ---- duplicates ---- */
+
+static char *with_copy(int part, const char *copy)
+{
+	GString *text = g_string_new("RUNGBOARD 1\nPROJECT \"Order\"\n");
+
+	for (int i = 0; i < PARTS_COUNT; i++)
+		g_string_append_printf(text, i == part ? "\n%s\n%s" : "\n%s", PARTS[i], copy);
+	return g_string_free(text, FALSE);
+}
+
+static void test_duplicates(void)
+{
+	static const struct { const char *heading, *copied; } copies[] = {
+		{ "PROGRAM One ", "PROGRAM One_2 " }, { "PROGRAM Two ", "PROGRAM Two_2 " },
+		{ "FUNCTION Sum ", "FUNCTION Sum_2 " }, { "BLOCK Seal ", "BLOCK Seal_2 " },
+		{ "PROGRAM Three ", "PROGRAM Three_2 " }, { "SUBROUTINE Sub ", "SUBROUTINE Sub_2 " },
+	};
+	char *first = text_now();
+
+	for (int i = 0; i < (int)G_N_ELEMENTS(copies); i++) {
+		GString *copy = g_string_new(PARTS[part_of[i]]);
+		char *name = pou_copy_name(document, i), *expected, *why;
+
+		g_string_replace(copy, copies[i].heading, copies[i].copied, 0);
+		g_string_replace(copy, "OUT=>Sum ", "OUT=>Sum_2 ", 0);
+		expected = with_copy(part_of[i], copy->str);
+		why = pou_duplicate(document, i, name);
+		CHECK_AS(!why && is_text(expected), "the same with another name");
+		ladder_document_check_now(document);
+		CHECK_AS(!ladder_document_diags(document)->errors, "the copy builds");
+		CHECK(ladder_document_undo(document) && is_text(first));
+		g_free(why);
+		g_free(expected);
+		g_free(name);
+		g_string_free(copy, TRUE);
+	}
+	g_free(first);
+}
+
+/* ---- names ---- */
+
+static bool is_refused(enum pou_kind kind, const char *name, const char *part)
+{
+	char *why = pou_name_refusal(document, kind, name);
+	char *first = text_now();
+	char *added = pou_add(document, kind, LANGUAGE_LD, name);
+	const bool good = why && strstr(why, part) && added && is_text(first);
+
+	g_free(added);
+	g_free(first);
+	g_free(why);
+	return good;
+}
+
+static void test_names(void)
+{
+	static const enum pou_kind kinds[] = { POU_PROGRAM, POU_FUNCTION, POU_BLOCK,
+					       POU_SUBROUTINE };
+	char *first = text_now();
+
+	CHECK(is_refused(POU_PROGRAM, "", "Enter a name"));
+	CHECK(is_refused(POU_PROGRAM, "2nd", "not a name"));
+	CHECK(is_refused(POU_PROGRAM, "a b", "not a name"));
+	CHECK(is_refused(POU_PROGRAM, "END_VAR", "word of the language"));
+	CHECK(is_refused(POU_BLOCK, "ton", "word of the language"));
+	CHECK(is_refused(POU_PROGRAM, "ONE", "a program or block"));
+	CHECK(is_refused(POU_FUNCTION, "lamp", "a symbol"));
+	CHECK(is_refused(POU_BLOCK, "Pair", "a data type"));
+	for (int kind = 0; kind < (int)G_N_ELEMENTS(kinds); kind++)
+		for (int language = LANGUAGE_LD; language <= LANGUAGE_SFC; language++) {
+			char *name = pou_free_name(document, kinds[kind]), *why;
+
+			if (language == LANGUAGE_SFC && kinds[kind] != POU_PROGRAM) {
+				g_free(name);
+				continue;
+			}
+			why = pou_add(document, kinds[kind], (enum pou_language)language, name);
+			CHECK_AS(!why && has(name), name);
+			ladder_document_check_now(document);
+			CHECK_AS(!ladder_document_diags(document)->errors, "the new one builds");
+			CHECK(ladder_document_undo(document) && is_text(first));
+			g_free(why);
+			g_free(name);
+		}
+	g_free(first);
+}
+
 int main(void)
 {
 	document = ladder_document_new();
@@ -72,6 +278,9 @@ int main(void)
 		test_block();
 		test_function();
 	}
+	test_order();
+	test_duplicates();
+	test_names();
 	g_object_unref(document);
 	return tap_done();
 }

@@ -75,6 +75,8 @@ def by_name(screen):
     # Enter right behind the last letter runs the command for the typed text, not the one selected before.
     editor.type('new program (il')
     sh('xdotool', 'key', 'Return')
+    until(lambda: [n for n in editor.all('Name', 'text') if n.text() == 'Program1' and n.has(12)], 'a name to be asked for')
+    editor.keys('Return')
     until(lambda: editor.all('Program1', 'label'), 'the program in the tree')
     text = editor.save(path)
     assert 'PROGRAM Program1 IL\n' in text, text
@@ -298,12 +300,16 @@ def menus(screen):
         editor.to_sheet()
     editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other'][0])
     editor.keys('Menu')
-    until(lambda: menu_item(editor, 'New program (LD)'), 'the menu of the tree')
+    until(lambda: menu_item(editor, 'Duplicate…'), 'the menu of the row')
     editor.keys('Escape')
-    until(lambda: not menu_item(editor, 'New program (LD)'), 'it to be gone')
+    until(lambda: not menu_item(editor, 'Duplicate…'), 'it to be gone')
+    editor.keys('Up', 'Up')
+    editor.focus_on('Programs')
     editor.keys('Menu')
-    until(lambda: menu_item(editor, 'New program (LD)'), 'the menu of the tree again')
-    until(lambda: menu_item(editor, 'New function') or editor.keys('Down'), 'the row of a new function')
+    until(lambda: menu_item(editor, 'New program (LD)…'), 'the menu of the tree')
+    until(lambda: menu_item(editor, 'New function…') or editor.keys('Down'), 'the row of a new function')
+    editor.keys('Return')
+    until(lambda: [n for n in editor.all('Name', 'text') if n.text() == 'Function1' and n.has(12)], 'a name to be asked for')
     editor.keys('Return')
     until(lambda: editor.all('Function1', 'label'), 'the function in the tree')
     sheet_of(editor)
@@ -321,7 +327,7 @@ def stop(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.click(editor.find('Add, rename or delete', 'push button'))
-    until(lambda: menu_item(editor, 'New program (LD)') or editor.focused(), 'the menu')
+    until(lambda: menu_item(editor, 'New program (LD)…') or editor.focused(), 'the menu')
     editor.keys('Escape', 'Tab')
     editor.focus_on('Programs')
     editor.keys('Down', 'Down')
@@ -340,6 +346,116 @@ def stop(screen):
     sheet_of(editor)
     editor.keys('Down', 'ctrl+Delete')
     until(lambda: editor.all('Main, 1 rung', 'list item'), 'another name of the row')
+
+
+MORE = TEXT + """
+(* the alarm *)
+PROGRAM Third LD
+RUNG
+  | NO %IX0.3 | COIL %QX0.3 |
+END_PROGRAM
+
+FUNCTION Half : INT IL
+VAR_INPUT
+  A : INT;
+END_VAR
+  LD    A
+  DIV   2
+  ST    Half
+END_FUNCTION
+"""
+
+
+def order(screen):
+    """programs are moved by keys, menu and drag; each is one undo; their order is the order of running"""
+    path = new_file(screen, MORE)
+    editor = Editor(screen, path)
+    parts = MORE.split('\n\n', 1)[1].removesuffix('\n').split('\nEND_PROGRAM\n\n')
+    main_, other, third, half = [part + '\nEND_PROGRAM' for part in parts[:3]] + [parts[3]]
+
+    def row(name):
+        return [n for n in editor.all(name, 'label') if n.name == name and n.box()[0] < 200][0]
+
+    def is_saved(*order):
+        editor.save(path)
+        assert open(path).read() == 'RUNGBOARD 1\n\n' + '\n\n'.join(order) + '\n', open(path).read()
+    editor.click(row('Third'))
+    editor.keys('alt+Up')
+    editor.says('“Third” now runs after “Main” in each scan')
+    is_saved(main_, third, other, half)
+    editor.keys('alt+Up')
+    editor.says('“Third” now runs first in each scan')
+    editor.focus_on('Third')
+    is_saved(third, main_, other, half)
+    editor.keys('alt+Up')
+    editor.says('It is the first one already')
+    editor.shot('tree-order')
+    editor.keys('ctrl+z')
+    is_saved(main_, third, other, half)
+    editor.keys('ctrl+z')
+    is_saved(main_, other, third, half)
+    editor.click(row('Main'))
+    editor.keys('Menu')
+    until(lambda: menu_item(editor, 'Duplicate…'), 'the menu of the row')
+    until(lambda: menu_item(editor, 'Move down') or editor.keys('Down'), 'the entry')
+    editor.keys('Return')
+    editor.says('“Main” now runs after “Other” in each scan')
+    is_saved(other, main_, third, half)
+    x, y = editor.centre(row('Third'))
+    editor.drag((x, y), (editor.centre(row('Other'))[0], editor.place(row('Other'))[1] + 2), look='tree-drag')
+    editor.says('“Third” now runs first in each scan')
+    is_saved(third, other, main_, half)
+    editor.drag(row('Third'), row('Half'))  # functions are another list
+    editor.keys('ctrl+z')
+    is_saved(other, main_, third, half)
+    check(path)
+
+
+def made(screen):
+    """a new program asks for its name and refuses a bad one; a duplicate has a free name; Esc makes nothing"""
+    path = new_file(screen, MORE)
+    editor = Editor(screen, path)
+
+    def name_is(text):
+        until(lambda: [n for n in editor.all('Name', 'text') if n.text() == text and n.has(12)], 'the name ' + text)
+
+    def refused(text):
+        until(lambda: [n for n in editor.all(text, 'label') if n.box()[2] > 0], 'the reason ' + text)
+    editor.command('new program (sfc')
+    name_is('Program1')
+    editor.type('Main')
+    refused('“Main” is a program or block of this project')
+    editor.shot('tree-name-refused')
+    editor.keys('Return')
+    name_is('Main')
+    editor.keys('ctrl+a')
+    editor.type('end_var')
+    refused('“end_var” is a word of the language')
+    editor.keys('ctrl+a')
+    editor.type('Wash cycle')
+    refused('“Wash cycle” is not a name')
+    editor.keys('ctrl+a')
+    editor.type('Wash')
+    editor.keys('Return')
+    until(lambda: editor.all('Wash', 'label'), 'the chart in the tree')
+    assert editor.save(path) == MORE + '\nPROGRAM Wash SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n'
+    editor.keys('ctrl+z')
+    assert editor.save(path) == MORE
+    editor.click([n for n in editor.all('Half', 'label') if n.name == 'Half'][0])
+    editor.keys('ctrl+d')
+    name_is('Half_2')
+    editor.shot('tree-duplicate')
+    editor.keys('Return')
+    until(lambda: editor.all('Half_2', 'label'), 'the copy in the tree')
+    half = MORE[MORE.index('\nFUNCTION Half'):]
+    assert editor.save(path) == MORE + half.replace('Half', 'Half_2')
+    editor.keys('ctrl+z')
+    editor.command('new subroutine')
+    name_is('Routine1')
+    editor.keys('Escape')
+    until(lambda: not editor.all(role='dialog') and editor.focused(), 'the end of the dialog')
+    assert editor.save(path) == MORE
+    check(path)
 
 
 def beside(screen):
@@ -387,4 +503,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, beside])
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, beside])
