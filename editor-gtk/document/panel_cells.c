@@ -419,8 +419,6 @@ static GtkWidget *entry_new(const struct column *column)
 	cells_add(cell, "keys", gtk_event_controller_key_new());
 	gtk_editable_set_width_chars(GTK_EDITABLE(cell), 4);
 	if (has_choices(column)) {
-		gtk_entry_set_icon_from_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY,
-						  "pan-down-symbolic");
 		gtk_entry_set_icon_tooltip_text(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY,
 						_("Choices (Alt+Down)"));
 	}
@@ -476,8 +474,14 @@ static void show(LadderPanelRow *row, GtkListItem *item)
 	char *name = g_strdup_printf("%s, %s", panel_row_text(row, 0),
 				     cells->name(column->field));
 
-	gtk_widget_set_sensitive(cell, !cells->is_fixed ||
-				 !cells->is_fixed(row, column->field));
+	const bool fixed = cells->is_fixed && cells->is_fixed(row, column->field);
+
+	gtk_widget_set_sensitive(cell, !fixed);
+	if (has_choices(column))
+		gtk_entry_set_icon_from_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY,
+						  fixed ? NULL : "pan-down-symbolic");
+	if (cells->indent)
+		gtk_widget_set_margin_start(cell, cells->indent(row, column->field));
 	if (is_check(column))
 		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);
 	else

@@ -33,6 +33,17 @@ enum verb verb_find(const char *action)
 	return VERB_COUNT;
 }
 
+const char *verb_found(enum verb verb)
+{
+	static const char *const found[VERB_COUNT] = {
+#define VERB(id, where, keys, label, group)
+#define FOUND(id, words) [VERB_##id] = words,
+#include "editor-gtk/kit/verbs.def"
+	};
+
+	return found[verb];
+}
+
 const char *verb_group_label(enum verb_group group)
 {
 	static const char *const labels[VERBS_GROUPS] = {

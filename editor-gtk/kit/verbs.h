@@ -33,6 +33,8 @@ struct verb_row {
 const struct verb_row *verb_row(enum verb verb);
 /** verb_find - by an action's name, "win.save"; VERB_COUNT: none. */
 enum verb verb_find(const char *action);
+/** verb_found - further words by which it is found, not translated: _() them; NULL: none. */
+const char *verb_found(enum verb verb);
 /** verb_group_label - not translated. */
 const char *verb_group_label(enum verb_group group);
 /** verb_keys - the keys in the scheme in use, separated by |; "": none. Borrowed until the

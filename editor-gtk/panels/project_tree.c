@@ -146,6 +146,9 @@ static gboolean go(gpointer data)
 		gtk_widget_activate_action(tree->list, "win.open-text", "s", row->path);
 	else if (row->kind == ROW_SYMBOLS)
 		gtk_widget_activate_action(tree->list, "win.symbols", NULL);
+	else if (row->kind == ROW_TASKS || row->kind == ROW_TASK)
+		gtk_widget_activate_action(tree->list, "win.show-task", "s",
+					   row->kind == ROW_TASK ? row->text : "");
 	g_clear_object(&tree->going);
 	return G_SOURCE_REMOVE;
 }
@@ -673,14 +676,15 @@ static void make_list(struct tree *tree)
 	g_signal_connect_swapped(tree->list, "activate", G_CALLBACK(activated), tree);
 }
 
-static bool is_of(const LadderTreeRow *row, int pou, const char *path, bool symbols)
+static bool is_of(const LadderTreeRow *row, int pou, const char *path, const char *page)
 {
 	return (row->kind == ROW_POU && row->pou == pou) ||
 	       (row->kind == ROW_FILE && path && g_strcmp0(row->path, path) == 0) ||
-	       (row->kind == ROW_SYMBOLS && symbols);
+	       (row->kind == ROW_SYMBOLS && strcmp(page, " symbols") == 0) ||
+	       (row->kind == ROW_TASKS && strcmp(page, " tasks") == 0);
 }
 
-void ladder_project_tree_select(GtkWidget *box, int pou, const char *path, bool symbols)
+void ladder_project_tree_select(GtkWidget *box, int pou, const char *path, const char *page)
 {
 	struct tree *tree = g_object_get_data(G_OBJECT(box), "tree");
 	GListModel *rows = G_LIST_MODEL(tree->selection);
@@ -690,7 +694,7 @@ void ladder_project_tree_select(GtkWidget *box, int pou, const char *path, bool 
 		GtkTreeListRow *at = g_list_model_get_item(rows, i);
 		LadderTreeRow *row = gtk_tree_list_row_get_item(at);
 
-		if (is_of(row, pou, path, symbols))
+		if (is_of(row, pou, path, page))
 			found = i;
 		g_object_unref(row);
 		g_object_unref(at);

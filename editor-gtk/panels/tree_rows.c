@@ -7,6 +7,7 @@
 #include "editor-gtk/panels/tree_rows.h"
 
 #include "editor-gtk/document/side_file.h"
+#include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/listing.h"
 
@@ -125,6 +126,30 @@ static void add_structures(GListStore *root, const struct project *project)
 	}
 }
 
+/* The period of a task, or "on" and its variable. */
+static char *task_note(const struct task_row *row)
+{
+	const char *when = row->text[TASKS_WHEN];
+
+	if (row->what == TASKS_EACH_SCAN)
+		return NULL;
+	return row->event ? g_strdup_printf(_("on %s"), when) : g_strdup(when);
+}
+
+static void add_tasks(GListStore *root, LadderDocument *document)
+{
+	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
+	struct task_rows *tasks = task_rows_new(document);
+
+	add(root, ROW_TASKS, _("Tasks"), NULL, rows);
+	for (int i = 0; i < tasks->count; i++)
+		if (tasks->row[i].what == TASKS_TASK ||
+		    (tasks->row[i].what == TASKS_EACH_SCAN && task_rows_programs(tasks, i)))
+			add_row(rows, ROW_TASK, tasks->row[i].text[TASKS_NAME],
+				task_note(&tasks->row[i]));
+	task_rows_free(tasks);
+}
+
 /* Adds text files beside the project. */
 static void add_texts(GListStore *root, LadderDocument *document, const char *title,
 		      const char *ending, bool own)
@@ -191,6 +216,7 @@ static void add_all(GListStore *root, LadderDocument *document)
 	add_pous(root, project, _("Functions and blocks"), false);
 	add_row(root, ROW_SYMBOLS, _("Symbols"),
 		g_strdup_printf("%d", listing_symbol_count(project)));
+	add_tasks(root, document);
 	add_structures(root, project);
 	add_bookmarks(root, document);
 	add_texts(root, document, _("Scenarios"), ".scn", true);

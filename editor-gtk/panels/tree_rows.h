@@ -13,7 +13,7 @@
 G_DECLARE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, LADDER, TREE_ROW, GObject)
 
 enum row_kind { ROW_HEADING, ROW_BOOKMARK, ROW_POU, ROW_SYMBOLS, ROW_FILE,
-		ROW_STRUCTURE, ROW_VARIABLE, ROW_TEXT };
+		ROW_STRUCTURE, ROW_VARIABLE, ROW_TEXT, ROW_TASKS, ROW_TASK };
 
 struct _LadderTreeRow {
 	GObject parent_instance;

@@ -22,8 +22,9 @@ struct commands {
 
 static bool fits(enum verb verb, const char *want)
 {
-	char *all = g_strdup_printf("%s %s", _(verb_group_label(verb_row(verb)->group)),
-				    _(verb_row(verb)->label));
+	const char *more = verb_found(verb);
+	char *all = g_strdup_printf("%s %s %s", _(verb_group_label(verb_row(verb)->group)),
+				    _(verb_row(verb)->label), more ? _(more) : "");
 	char *fold = g_utf8_casefold(all, -1), *folded = g_utf8_casefold(want, -1);
 	bool found = strstr(fold, folded);
 

@@ -11,6 +11,7 @@
 #include "editor-gtk/kit/gtk48/tab_home.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/symbols_view.h"
+#include "editor-gtk/panels/tasks_view.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/welcome.h"
@@ -202,6 +203,8 @@ static AdwTabPage *open_widget(struct tabs *tabs, const char *name)
 
 	if (!page && strcmp(name, "symbols") == 0)
 		page = add_page(tabs, symbols_page(tabs), key, _("Symbols"));
+	else if (!page && strcmp(name, "tasks") == 0)
+		page = add_page(tabs, ladder_tasks_view_new(tabs->core->document), key, _("Tasks"));
 	else if (!page && strcmp(name, "welcome") == 0)
 		page = add_page(tabs, welcome_new(), key, _("Welcome"));
 	else if (!page && strcmp(name, "text") == 0)
@@ -282,6 +285,28 @@ GtkWidget *tabs_show_widget(struct tabs *tabs, const char *name)
 		return NULL;
 	select_page(tabs, page);
 	return page_content(page);
+}
+
+void tabs_show_task(struct tabs *tabs, const char *task)
+{
+	GtkWidget *page;
+
+	if (!ladder_document_project(tabs->core->document)) {
+		messages_toast(tabs->core->messages, _("The file cannot be read as a program"));
+		return;
+	}
+	page = tabs_show_widget(tabs, "tasks");
+	if (task)
+		ladder_tasks_view_show(LADDER_TASKS_VIEW(page), task);
+	else
+		front_enter(tabs->core->front);
+}
+
+void tabs_new_task(struct tabs *tabs)
+{
+	tabs_show_task(tabs, NULL);
+	if (ladder_document_project(tabs->core->document))
+		gtk_widget_activate_action(tabs_show_widget(tabs, "tasks"), "tasks.add", NULL);
 }
 
 static void go_in_chart(LadderSfcPage *page, int rung, int row, int col)

@@ -292,6 +292,8 @@ static bool do_project(LadderWindow *window, enum verb verb)
 		tabs_show_widget(&window->tabs, "symbols");
 		front_enter(&window->front);
 		return true;
+	case VERB_tasks: tabs_show_task(&window->tabs, NULL); return true;
+	case VERB_new_task: tabs_new_task(&window->tabs); return true;
 	case VERB_import_symbols: import_symbols(window); return true;
 	case VERB_export_symbols: export_symbols(&window->export); return true;
 	default: return false;
@@ -472,6 +474,8 @@ static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter
 		names_watch_this(&window->core, text);
 	else if (strcmp(name, "win.show-panel") == 0)
 		below_show(&window->below, text);
+	else if (strcmp(name, "win.show-task") == 0)
+		tabs_show_task(&window->tabs, *text ? text : NULL);
 	else if (strcmp(name, "win.open-text") == 0)
 		tabs_show_file(&window->tabs, text);
 	else if (strcmp(name, "win.tell") == 0)
@@ -550,7 +554,7 @@ static void to_sheet(GtkWidget *widget, const char *name, GVariant *unused)
 static void install_actions(GtkWidgetClass *class)
 {
 	static const char *const on_text[] = {
-		"win.show-uses", "win.expect-value", "win.watch-value", "win.show-panel",
+		"win.show-task", "win.show-uses", "win.expect-value", "win.watch-value", "win.show-panel",
 		"win.open-text", "win.open-path", "win.open-sample", "win.tell", "win.warn",
 	};
 	static const char *const on_pou[] = {
@@ -659,7 +663,7 @@ static void select_in_tree(LadderWindow *window)
 
 	ladder_project_tree_select(window->core.tree,
 		project ? project_find_pou(project, name, strlen(name)) : -1,
-		file ? ladder_side_file_path(file) : NULL, strcmp(name, " symbols") == 0);
+		file ? ladder_side_file_path(file) : NULL, name);
 }
 
 static void page_changed(LadderWindow *window)

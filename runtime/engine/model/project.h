@@ -160,6 +160,8 @@ enum text_part {
 	TEXT_RUNG,  /* number in its POU                                      */
 	TEXT_STRUCT, /* a structure; number in the project                    */
 	TEXT_TITLE, /* PROJECT "…" with its newline, or the place for it      */
+	TEXT_ENTRY, /* a line of the CONFIGURATION, its comments too; its number */
+	TEXT_RESOURCE, /* from RESOURCE to END_RESOURCE                       */
 	TEXT_STEP,  /* of a chart, from its comments to END_STEP; its number  */
 	TEXT_TRANSITION, /* likewise                                          */
 	TEXT_ACTION,

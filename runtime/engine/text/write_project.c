@@ -340,11 +340,14 @@ static void put_program(const struct config_writer *w,
 static void put_entry(const struct config_writer *w,
 		     const struct config_entry *entry)
 {
+	const int number = (int)(entry - w->project->config->entry);
+
 	if (entry->kind == CONFIG_VARS) {
 		write_block(w->sink, w->project, &w->project->globals,
 			    entry->block);
 		return;
 	}
+	sink_mark(w->sink, TEXT_ENTRY, number, true);
 	sink_text(w->sink, entry->inside ? "    " : "  ");
 	if (entry->kind == CONFIG_TASK)
 		put_task(w, entry);
@@ -355,6 +358,7 @@ static void put_entry(const struct config_writer *w,
 			    iec_area_row(entry->area)->letters,
 			    (unsigned)entry->bytes);
 	put_comment(w, entry->comment);
+	sink_mark(w->sink, TEXT_ENTRY, number, false);
 }
 
 /* Lines outside the RESOURCE stay before or after it. */
@@ -371,6 +375,7 @@ static void write_config(const struct sink *sink, const struct project *project)
 		bool inside = i < config->count && entry->inside;
 
 		if (!done && !open && (inside || i == config->count)) {
+			sink_mark(sink, TEXT_RESOURCE, 0, true);
 			put_id(&w, "  RESOURCE ", config->resource);
 			if (config->on)
 				put_id(&w, " ON ", config->on);
@@ -379,6 +384,7 @@ static void write_config(const struct sink *sink, const struct project *project)
 		}
 		if (open && !done && !inside) {
 			sink_text(sink, "  END_RESOURCE\n");
+			sink_mark(sink, TEXT_RESOURCE, 0, false);
 			done = true;
 		}
 		if (i < config->count)

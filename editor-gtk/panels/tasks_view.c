@@ -1,0 +1,836 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * tasks_view - the page of the tasks; see tasks_view.h.
+ */
+#include "editor-gtk/panels/tasks_view.h"
+
+#include "editor-gtk/document/panel_cells.h"
+#include "editor-gtk/document/task_rows.h"
+#include "editor-gtk/kit/cells.h"
+#include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
+
+#include <adwaita.h>
+#include <string.h>
+
+#define INDENT 24 /* px of a program below its task                            */
+
+/* LadderPanelRow: table is enum task_what, index the number of the row, number that of its
+ * heading. */
+enum { TASKS_FIXED = 1 }; /* LadderPanelRow.flags */
+
+struct _LadderTasksView {
+	GtkWidget parent_instance;
+	GtkWidget *box, *program_button, *hint, *bar, *message;
+	struct panel_list list;
+	struct panel_cells cells;
+	struct panel_watch *watch;
+	GtkWidget *marked;      /* the row below what is dragged; NULL: none   */
+	guint64 told_of;        /* version of the document when the message was set */
+};
+
+G_DEFINE_FINAL_TYPE(LadderTasksView, ladder_tasks_view, GTK_TYPE_WIDGET)
+
+static LadderDocument *document_of(LadderTasksView *view)
+{
+	return panel_watch_document(view->watch);
+}
+
+/* @text: taken over; NULL: clears the message. */
+static void tell(LadderTasksView *view, char *text)
+{
+	LadderDocument *document = document_of(view);
+
+	view->told_of = document ? ladder_document_version(document) : 0;
+	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
+	gtk_revealer_set_reveal_child(GTK_REVEALER(view->bar), text != NULL);
+	g_free(text);
+}
+
+/* ---- rows ---- */
+
+static char *spoken(const struct task_rows *tasks, const struct task_row *row, const char *error)
+{
+	GString *text = g_string_new(row->text[TASKS_NAME]);
+	const char *head = tasks->row[row->head].text[TASKS_NAME];
+
+	for (int i = TASKS_PROGRAM; i < TASKS_FIELDS; i++)
+		if (*row->text[i])
+			g_string_append_printf(text, ", %s %s",
+				task_rows_field_name((enum task_field)i), row->text[i]);
+	if (row->what == TASKS_INSTANCE)
+		g_string_append_printf(text, ", %s", head);
+	if (error)
+		g_string_append_printf(text, ". %s", error);
+	return g_string_free(text, FALSE);
+}
+
+static LadderPanelRow *row_new(LadderDocument *document, const struct task_rows *tasks, int number)
+{
+	const struct task_row *of = &tasks->row[number];
+	LadderPanelRow *row = ladder_panel_row_new();
+	bool warning = false;
+
+	for (int i = 0; i < TASKS_FIELDS; i++)
+		row->text[i] = g_strdup(of->text[i]);
+	row->table = (int)of->what;
+	row->index = number;
+	row->number = of->head;
+	row->pou = of->pou;
+	row->flags = tasks->fixed ? TASKS_FIXED : 0;
+	row->note = task_rows_error(document, of, &warning);
+	row->tone = !row->note ? PANEL_PLAIN : warning ? PANEL_WARNING : PANEL_ERROR;
+	row->spoken = spoken(tasks, of, row->note);
+	return row;
+}
+
+static bool is_like(const LadderPanelRow *row, gconstpointer what)
+{
+	const LadderPanelRow *other = what;
+
+	return row->table == other->table && strcmp(panel_row_text(row, TASKS_NAME),
+		panel_row_text(other, TASKS_NAME)) == 0;
+}
+
+/* An edit may move a row: the focus follows it. */
+static void update(LadderTasksView *view, GPtrArray *rows)
+{
+	int field, now;
+	LadderPanelRow *row = cells_focused(view->list.view, &field);
+	LadderPanelRow *chosen = panel_list_row(&view->list);
+
+	if (row)
+		g_object_ref(row);
+	if (chosen)
+		g_object_ref(chosen);
+	panel_list_update(&view->list, rows);
+	if (row && cells_focused(view->list.view, &now) != row &&
+	    panel_list_select(&view->list, is_like, row))
+		cells_enter(view->list.view, panel_list_row(&view->list), field);
+	else if (chosen && !panel_list_row(&view->list))
+		panel_list_select(&view->list, is_like, chosen);
+	g_clear_object(&row);
+	g_clear_object(&chosen);
+}
+
+static void show_hint(LadderTasksView *view, const struct task_rows *tasks, bool project)
+{
+	const char *text = !project ? "" : tasks->fixed ?
+		_("The CONFIGURATION is in another file. Open that file to change it.") :
+		!tasks->written ?
+		_("The file does not say which programs run: all of them run in each scan, in the "
+		  "order of the file. Your first change here writes that into the file.") : "";
+
+	gtk_label_set_text(GTK_LABEL(view->hint), text);
+	gtk_widget_set_visible(view->hint, *text);
+}
+
+/* The buttons fit the selected row. */
+static void show_actions(LadderTasksView *view)
+{
+	GtkWidget *widget = GTK_WIDGET(view);
+	LadderDocument *document = document_of(view);
+	const LadderPanelRow *row = panel_list_row(&view->list);
+	struct task_rows *tasks = document ? task_rows_new(document) : NULL;
+	const bool can = row && tasks && row->index < tasks->count && !tasks->fixed;
+	const bool line = can && row->table != TASKS_EACH_SCAN && row->table != TASKS_IDLE &&
+			  tasks->row[tasks->row[row->index].head].what != TASKS_IDLE;
+
+	gtk_widget_action_set_enabled(widget, "tasks.add", tasks && !tasks->fixed);
+	gtk_widget_action_set_enabled(widget, "tasks.delete", line);
+	gtk_widget_action_set_enabled(widget, "tasks.up",
+				      can && task_rows_can_step(tasks, row->index, -1));
+	gtk_widget_action_set_enabled(widget, "tasks.down",
+				      can && task_rows_can_step(tasks, row->index, 1));
+	gtk_widget_action_set_enabled(widget, "tasks.open", row && row->pou >= 0);
+	gtk_widget_set_sensitive(view->program_button, can);
+	task_rows_free(tasks);
+}
+
+static void refresh(GtkWidget *widget)
+{
+	LadderTasksView *view = LADDER_TASKS_VIEW(widget);
+	LadderDocument *document = document_of(view);
+	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
+	struct task_rows *tasks = document ? task_rows_new(document) : NULL;
+
+	/* the message was about an older version */
+	if (document && ladder_document_version(document) != view->told_of)
+		tell(view, NULL);
+	for (int i = 0; tasks && i < tasks->count; i++)
+		g_ptr_array_add(rows, row_new(document, tasks, i));
+	update(view, rows);
+	if (tasks)
+		show_hint(view, tasks, ladder_document_project(document) != NULL);
+	show_actions(view);
+	task_rows_free(tasks);
+	g_ptr_array_unref(rows);
+}
+
+/* ---- edits of cells ---- */
+
+/* The current number of a row, which may be older than the document; -1: gone. */
+static int number_of(LadderTasksView *view, const LadderPanelRow *row)
+{
+	struct task_rows *tasks = task_rows_new(document_of(view));
+	const int number = task_rows_find(tasks, (enum task_what)row->table,
+				      panel_row_text(row, TASKS_NAME));
+
+	task_rows_free(tasks);
+	return number;
+}
+
+static const char *field_name(int field)
+{
+	return task_rows_field_name((enum task_field)field);
+}
+
+static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char *text, char **why)
+{
+	LadderTasksView *view = LADDER_TASKS_VIEW(owner);
+	const bool good = task_rows_set(document_of(view), number_of(view, row),
+				    (enum task_field)field, text, why);
+
+	tell(view, good ? NULL : g_strdup_printf("%s, %s: %s", panel_row_text(row, TASKS_NAME),
+		field_name(field), why && *why ? *why : ""));
+	if (good) { /* Found by name again. */
+		g_free(row->text[field]);
+		row->text[field] = g_strstrip(g_strdup(text));
+		panel_watch_later(view->watch);
+	}
+	return good;
+}
+
+static bool is_fixed(const LadderPanelRow *row, int field)
+{
+	return row->flags & TASKS_FIXED ||
+	       !task_rows_has((enum task_what)row->table, (enum task_field)field);
+}
+
+static int indent(const LadderPanelRow *row, int field)
+{
+	return field == TASKS_NAME && row->table == TASKS_INSTANCE ? INDENT : 0;
+}
+
+static GPtrArray *choices(GObject *owner, int field)
+{
+	const struct project *project =
+		ladder_document_project(document_of(LADDER_TASKS_VIEW(owner)));
+	GPtrArray *all = g_ptr_array_new_with_free_func(g_free);
+
+	for (int event = 0; field == TASKS_KIND && event < 2; event++) {
+		g_ptr_array_add(all, g_strdup(task_rows_kind_name(event)));
+		g_ptr_array_add(all, g_strdup(event ? _("when a variable becomes TRUE") :
+					      _("with a period")));
+	}
+	for (int i = 0; field == TASKS_PROGRAM && project && i < project->pou_count; i++)
+		if (project->pou[i].kind == POU_PROGRAM) {
+			g_ptr_array_add(all, g_strdup(project_text(project,
+								   project->pou[i].name)));
+			g_ptr_array_add(all, g_strdup(""));
+		}
+	return all;
+}
+
+/* ---- edits of rows ---- */
+
+/* Shows a row of this kind and name, and gives its cell the focus. */
+static void go_to(LadderTasksView *view, enum task_what what, const char *name, int field)
+{
+	LadderPanelRow *like = ladder_panel_row_new();
+
+	like->table = (int)what;
+	like->text[TASKS_NAME] = g_strdup(name);
+	panel_watch_later(view->watch);
+	panel_watch_now(view->watch);
+	if (panel_list_select(&view->list, is_like, like) && field >= 0)
+		cells_enter(view->list.view, panel_list_row(&view->list), field);
+	g_object_unref(like);
+}
+
+/* Shows why an edit was refused, if it was. @why: taken over. */
+static bool done(LadderTasksView *view, bool good, char *why)
+{
+	tell(view, good ? NULL : why ? why : g_strdup(""));
+	if (good)
+		g_free(why);
+	return good;
+}
+
+static void add(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderTasksView *view = LADDER_TASKS_VIEW(widget);
+	char *name = NULL, *why = NULL;
+
+	(void)action;
+	(void)unused;
+	if (document_of(view) && done(view, task_rows_add(document_of(view), &name, &why), why))
+		go_to(view, TASKS_TASK, name, TASKS_NAME);
+	g_free(name);
+}
+
+static void add_program(GtkWidget *widget, const char *action, GVariant *program)
+{
+	LadderTasksView *view = LADDER_TASKS_VIEW(widget);
+	const char *text = g_variant_get_string(program, NULL);
+	struct project *project = ladder_document_project(document_of(view));
+	LadderPanelRow *row = panel_list_row(&view->list);
+	char *name = NULL, *why = NULL;
+	struct task_rows *tasks;
+	int head;
+
+	(void)action;
+	if (!row || !project)
+		return;
+	tasks = task_rows_new(document_of(view));
+	head = number_of(view, row);
+	head = head >= 0 ? tasks->row[head].head : -1;
+	task_rows_free(tasks);
+	if (done(view, task_rows_add_program(document_of(view), head,
+			project_find_pou(project, text, strlen(text)), &name, &why), why))
+		go_to(view, TASKS_INSTANCE, name, TASKS_NAME);
+	g_free(name);
+}
+
+static void delete_now(LadderTasksView *view, const LadderPanelRow *row)
+{
+	char *why = NULL;
+
+	if (done(view, task_rows_delete(document_of(view), number_of(view, row), &why), why)) {
+		panel_watch_later(view->watch);
+		panel_watch_now(view->watch);
+	}
+}
+
+struct deleting {
+	LadderTasksView *view;
+	LadderPanelRow *row;
+};
+
+static void deleting_free(gpointer data, GClosure *closure)
+{
+	struct deleting *deleting = data;
+
+	(void)closure;
+	g_object_unref(deleting->view);
+	g_object_unref(deleting->row);
+	g_free(deleting);
+}
+
+static void delete_answered(AdwMessageDialog *dialog, const char *answer,
+			    struct deleting *deleting)
+{
+	(void)dialog;
+	if (strcmp(answer, "delete") == 0 && document_of(deleting->view))
+		delete_now(deleting->view, deleting->row);
+}
+
+/* Says which programs of the task then run in each scan. */
+static void ask_delete(LadderTasksView *view, LadderPanelRow *row, const char *programs, int count)
+{
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
+	struct deleting *deleting = g_new(struct deleting, 1);
+	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(root), NULL, NULL);
+	AdwMessageDialog *ask = ADW_MESSAGE_DIALOG(dialog);
+
+	adw_message_dialog_format_heading(ask, _("Delete “%s”?"),
+					  panel_row_text(row, TASKS_NAME));
+	adw_message_dialog_format_body(ask, ngettext(
+		"Its program then runs in each scan: %s.",
+		"Its programs then run in each scan: %s.", (gulong)count), programs);
+	adw_message_dialog_add_responses(ask, "cancel", _("Cancel"), "delete", _("Delete"), NULL);
+	adw_message_dialog_set_response_appearance(ask, "delete", ADW_RESPONSE_DESTRUCTIVE);
+	adw_message_dialog_set_default_response(ask, "delete");
+	adw_message_dialog_set_close_response(ask, "cancel");
+	*deleting = (struct deleting){ g_object_ref(view), g_object_ref(row) };
+	g_signal_connect_data(dialog, "response", G_CALLBACK(delete_answered), deleting,
+			      deleting_free, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+}
+
+static void delete(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderTasksView *view = LADDER_TASKS_VIEW(widget);
+	LadderPanelRow *row = panel_list_row(&view->list);
+	const int number = row ? number_of(view, row) : -1;
+	GString *programs = g_string_new(NULL);
+	struct task_rows *tasks;
+	int count = 0;
+
+	(void)action;
+	(void)unused;
+	if (number < 0) {
+		g_string_free(programs, TRUE);
+		return;
+	}
+	tasks = task_rows_new(document_of(view));
+	if (tasks->row[number].what == TASKS_TASK)
+		count = task_rows_programs(tasks, number);
+	for (int i = number + 1; i <= number + count; i++)
+		g_string_append_printf(programs, "%s%s", programs->len ? ", " : "",
+				       tasks->row[i].text[TASKS_PROGRAM]);
+	task_rows_free(tasks);
+	if (count)
+		ask_delete(view, row, programs->str, count);
+	else
+		delete_now(view, row);
+	g_string_free(programs, TRUE);
+}
+
+static void step(LadderTasksView *view, int by)
+{
+	LadderPanelRow *row = panel_list_row(&view->list);
+	int field = TASKS_NAME;
+	char *name, *why = NULL;
+	int what;
+
+	if (!row)
+		return;
+	cells_focused(view->list.view, &field);
+	panel_cells_commit(view->list.view);
+	name = g_strdup(panel_row_text(row, TASKS_NAME));
+	what = row->table;
+	if (done(view, task_rows_step(document_of(view), number_of(view, row), by, &why), why))
+		go_to(view, (enum task_what)what, name, field);
+	g_free(name);
+}
+
+static void up(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	(void)action;
+	(void)unused;
+	step(LADDER_TASKS_VIEW(widget), -1);
+}
+
+static void down(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	(void)action;
+	(void)unused;
+	step(LADDER_TASKS_VIEW(widget), 1);
+}
+
+static void open_program(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderPanelRow *row = panel_list_row(&LADDER_TASKS_VIEW(widget)->list);
+
+	(void)action;
+	(void)unused;
+	if (row && row->pou >= 0)
+		gtk_widget_activate_action(widget, "win.go-to", "(iiii)", row->pou, -1, -1, -1);
+}
+
+/* ---- menus ---- */
+
+/* Where a program runs now: "Lazy (now in Slow)". Caller frees. */
+static char *label_of(const struct task_rows *tasks, int row)
+{
+	const struct task_row *of = &tasks->row[row];
+
+	return tasks->row[of->head].what == TASKS_IDLE ? g_strdup(of->text[TASKS_PROGRAM]) :
+	       g_strdup_printf(_("%s (now in %s)"), of->text[TASKS_PROGRAM],
+			       tasks->row[of->head].text[TASKS_NAME]);
+}
+
+/* The programs that are not below the selected heading; NULL: none. */
+static GMenu *programs_menu(LadderTasksView *view)
+{
+	const LadderPanelRow *row = panel_list_row(&view->list);
+	struct task_rows *tasks = task_rows_new(document_of(view));
+	GMenu *menu = g_menu_new();
+
+	for (int i = 0; row && i < tasks->count; i++) {
+		const struct task_row *of = &tasks->row[i];
+		GMenuItem *item;
+		char *label;
+
+		if (of->what != TASKS_INSTANCE || of->pou < 0 || of->head == row->number)
+			continue;
+		label = label_of(tasks, i);
+		item = g_menu_item_new(label, NULL);
+		g_menu_item_set_action_and_target(item, "tasks.add-program", "s",
+						  of->text[TASKS_PROGRAM]);
+		g_menu_append_item(menu, item);
+		g_object_unref(item);
+		g_free(label);
+	}
+	task_rows_free(tasks);
+	if (!g_menu_model_get_n_items(G_MENU_MODEL(menu)))
+		g_clear_object(&menu);
+	return menu;
+}
+
+static void program_clicked(GtkButton *button, LadderTasksView *view)
+{
+	GMenu *menu = programs_menu(view);
+	GtkWidget *widget = GTK_WIDGET(button);
+
+	if (menu)
+		popover_menu(GTK_WIDGET(view), menu, &(GdkRectangle){ 0, 0, 1, 1 }, widget);
+	else
+		tell(view, g_strdup(_("All programs run in this task already")));
+}
+
+static GMenu *row_menu(LadderTasksView *view)
+{
+	GMenu *menu = g_menu_new(), *programs = programs_menu(view);
+
+	g_menu_append(menu, _("New task"), "tasks.add");
+	if (programs) {
+		g_menu_append_submenu(menu, _("Add program"), G_MENU_MODEL(programs));
+		g_object_unref(programs);
+	}
+	g_menu_append(menu, _("Open program"), "tasks.open");
+	g_menu_append(menu, _("Move up"), "tasks.up");
+	g_menu_append(menu, _("Move down"), "tasks.down");
+	g_menu_append(menu, _("Delete"), "tasks.delete");
+	return menu;
+}
+
+/* The row below a point of the table; NULL: none. @at: gets its widget. */
+static LadderPanelRow *row_at(LadderTasksView *view, double x, double y, GtkWidget **at)
+{
+	GtkWidget *table = GTK_WIDGET(view->list.view);
+	GtkWidget *picked = gtk_widget_pick(table, x, y, GTK_PICK_DEFAULT);
+	GtkListItem *item = NULL;
+
+	while (picked && picked != table && (!gtk_widget_get_parent(picked) ||
+	       !GTK_IS_LIST_VIEW(gtk_widget_get_parent(picked))))
+		picked = gtk_widget_get_parent(picked);
+	if (!picked || picked == table)
+		return NULL;
+	for (GtkWidget *cell = gtk_widget_get_first_child(picked); cell && !item;
+	     cell = gtk_widget_get_next_sibling(cell)) {
+		GtkWidget *inside = gtk_widget_get_first_child(cell);
+
+		item = inside ? g_object_get_data(G_OBJECT(inside), "item") : NULL;
+	}
+	*at = picked;
+	return item ? gtk_list_item_get_item(item) : NULL;
+}
+
+static void show_menu(LadderTasksView *view, double x, double y)
+{
+	GtkWidget *table = GTK_WIDGET(view->list.view);
+	GtkRoot *root = gtk_widget_get_root(table);
+	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
+
+	gtk_widget_translate_coordinates(table, GTK_WIDGET(view), x, y, &x, &y);
+	popover_menu(GTK_WIDGET(view), row_menu(view), &(GdkRectangle){ (int)x, (int)y, 1, 1 },
+		     focus ? focus : table);
+}
+
+/* Before the entry of a cell opens its own menu. */
+static void right_pressed(GtkGestureClick *click, int count, double x, double y,
+			  LadderTasksView *view)
+{
+	GtkWidget *at;
+	LadderPanelRow *row = row_at(view, x, y, &at);
+
+	(void)count;
+	gtk_gesture_set_state(GTK_GESTURE(click), GTK_EVENT_SEQUENCE_CLAIMED);
+	if (row) {
+		panel_list_select(&view->list, is_like, row);
+		show_menu(view, x, y);
+	}
+}
+
+static gboolean menu_key(GtkEventControllerKey *keys, guint key, guint code,
+			 GdkModifierType state, LadderTasksView *view)
+{
+	(void)keys;
+	(void)code;
+	if (key != GDK_KEY_Menu && !(key == GDK_KEY_F10 && state & GDK_SHIFT_MASK))
+		return FALSE;
+	show_menu(view, INDENT, INDENT);
+	return TRUE;
+}
+
+/* Behind the cells: Alt+Down opens the choices of a cell that has some. */
+static gboolean step_key(GtkEventControllerKey *keys, guint key, guint code,
+			 GdkModifierType state, LadderTasksView *view)
+{
+	const int by = key == GDK_KEY_Up ? -1 : key == GDK_KEY_Down ? 1 : 0;
+
+	(void)keys;
+	(void)code;
+	if (!by || (state & gtk_accelerator_get_default_mod_mask()) != GDK_ALT_MASK)
+		return FALSE;
+	gtk_widget_activate_action(GTK_WIDGET(view), by < 0 ? "tasks.up" : "tasks.down", NULL);
+	return TRUE;
+}
+
+/* ---- dragging ---- */
+
+static GdkContentProvider *drag_prepared(GtkDragSource *source, double x, double y,
+					 GtkListItem *item)
+{
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	GtkWidget *handle = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(source));
+	GtkWidget *of_row = gtk_widget_get_parent(gtk_widget_get_parent(handle));
+	GdkPaintable *picture;
+
+	if (!row || row->flags & TASKS_FIXED || row->table == TASKS_EACH_SCAN ||
+	    row->table == TASKS_IDLE)
+		return NULL;
+	picture = gtk_widget_paintable_new(of_row);
+	gtk_drag_source_set_icon(source, picture, (int)x, (int)y);
+	g_object_unref(picture);
+	return gdk_content_provider_new_typed(LADDER_TYPE_PANEL_ROW, row);
+}
+
+static void unmark(LadderTasksView *view)
+{
+	if (!view->marked)
+		return;
+	gtk_widget_remove_css_class(view->marked, "drop-above");
+	gtk_widget_remove_css_class(view->marked, "drop-below");
+	g_clear_weak_pointer(&view->marked);
+}
+
+static void mark(LadderTasksView *view, GtkWidget *row, bool below)
+{
+	unmark(view);
+	if (!row)
+		return;
+	g_set_weak_pointer(&view->marked, row);
+	gtk_widget_add_css_class(row, below ? "drop-below" : "drop-above");
+}
+
+struct target {
+	int head, before;  /* as for task_rows_move()                              */
+	GtkWidget *at;     /* the row that shows it                            */
+	bool below;
+};
+
+static bool target_at(LadderTasksView *view, const LadderPanelRow *dragged, double x, double y,
+		      struct target *to)
+{
+	struct task_rows *tasks = task_rows_new(document_of(view));
+	GtkWidget *at = NULL;
+	LadderPanelRow *row = row_at(view, x, y, &at);
+	const int number = row && row->index < tasks->count ? row->index : -1;
+	const int head = number >= 0 ? tasks->row[number].head : -1;
+	const int last = number >= 0 ? head + task_rows_programs(tasks, head) : -1;
+	const bool task = dragged->table == TASKS_TASK;
+	graphene_rect_t bounds;
+	bool found = number >= 0 && gtk_widget_compute_bounds(at, GTK_WIDGET(view->list.view),
+							      &bounds);
+
+	if (found) {
+		const bool heading = number == head;
+		const bool below = y > bounds.origin.y + bounds.size.height / 2;
+
+		*to = (struct target){ head, -1, at, below || (heading && !task) };
+		if (task && !to->below && heading)
+			to->before = number;
+		else if (task)
+			to->before = last + 1;
+		else
+			to->before = to->below ? number + 1 : number;
+		if (!task && to->before > last)
+			to->before = -1;
+		if (task && (to->before >= tasks->count ||
+			     tasks->row[to->before].what != TASKS_TASK))
+			to->before = -1;
+	}
+	task_rows_free(tasks);
+	return found;
+}
+
+static const LadderPanelRow *dragged_of(GtkDropTarget *target)
+{
+	const GValue *value = gtk_drop_target_get_value(target);
+
+	return value ? g_value_get_object(value) : NULL;
+}
+
+static GdkDragAction drag_moved(GtkDropTarget *target, double x, double y, LadderTasksView *view)
+{
+	const LadderPanelRow *dragged = dragged_of(target);
+	struct target to;
+	const bool found = dragged && target_at(view, dragged, x, y, &to);
+
+	mark(view, found ? to.at : NULL, found && to.below);
+	return found ? GDK_ACTION_MOVE : 0;
+}
+
+static void drag_left(GtkDropTarget *target, LadderTasksView *view)
+{
+	(void)target;
+	unmark(view);
+}
+
+static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
+			LadderTasksView *view)
+{
+	const LadderPanelRow *dragged = g_value_get_object(value);
+	struct target to;
+	char *name, *why = NULL;
+	bool good;
+
+	(void)target;
+	unmark(view);
+	if (!dragged || !target_at(view, dragged, x, y, &to))
+		return FALSE;
+	name = g_strdup(panel_row_text(dragged, TASKS_NAME));
+	good = done(view, task_rows_move(document_of(view), number_of(view, dragged), to.head,
+				     to.before, &why), why);
+	if (good)
+		go_to(view, (enum task_what)dragged->table, name, -1);
+	g_free(name);
+	return good;
+}
+
+static void setup_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	GtkWidget *handle = gtk_image_new_from_icon_name("list-drag-handle-symbolic");
+	GtkDragSource *source = gtk_drag_source_new();
+
+	(void)factory;
+	gtk_widget_add_css_class(handle, "dim-label");
+	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
+	g_signal_connect(source, "prepare", G_CALLBACK(drag_prepared), item);
+	gtk_widget_add_controller(handle, GTK_EVENT_CONTROLLER(source));
+	gtk_list_item_set_child(item, handle);
+}
+
+static void bind_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	const LadderPanelRow *row = gtk_list_item_get_item(item);
+	GtkWidget *handle = gtk_list_item_get_child(item);
+	char *name = g_strdup_printf(_("Drag %s"), panel_row_text(row, TASKS_NAME));
+
+	(void)factory;
+	gtk_widget_set_visible(handle, !(row->flags & TASKS_FIXED) &&
+			       row->table != TASKS_EACH_SCAN && row->table != TASKS_IDLE);
+	spoken_name(handle, name);
+	g_free(name);
+}
+
+static void add_handles(LadderTasksView *view)
+{
+	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+	GtkColumnViewColumn *column = gtk_column_view_column_new("", factory);
+
+	g_signal_connect(factory, "setup", G_CALLBACK(setup_handle), NULL);
+	g_signal_connect(factory, "bind", G_CALLBACK(bind_handle), NULL);
+	gtk_column_view_append_column(view->list.view, column);
+	g_object_unref(column);
+}
+
+/* ---- the widget ---- */
+
+void ladder_tasks_view_show(LadderTasksView *view, const char *task)
+{
+	go_to(view, TASKS_TASK, task, TASKS_NAME);
+}
+
+static void dispose(GObject *object)
+{
+	LadderTasksView *view = LADDER_TASKS_VIEW(object);
+
+	unmark(view);
+	g_clear_pointer(&view->watch, panel_watch_free);
+	g_clear_pointer(&view->box, gtk_widget_unparent);
+	panel_list_clear(&view->list);
+	G_OBJECT_CLASS(ladder_tasks_view_parent_class)->dispose(object);
+}
+
+static void ladder_tasks_view_class_init(LadderTasksViewClass *class)
+{
+	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+
+	G_OBJECT_CLASS(class)->dispose = dispose;
+	gtk_widget_class_set_layout_manager_type(widget, GTK_TYPE_BIN_LAYOUT);
+	gtk_widget_class_install_action(widget, "tasks.add", NULL, add);
+	gtk_widget_class_install_action(widget, "tasks.add-program", "s", add_program);
+	gtk_widget_class_install_action(widget, "tasks.delete", NULL, delete);
+	gtk_widget_class_install_action(widget, "tasks.up", NULL, up);
+	gtk_widget_class_install_action(widget, "tasks.down", NULL, down);
+	gtk_widget_class_install_action(widget, "tasks.open", NULL, open_program);
+	gtk_widget_class_set_template_from_resource(widget,
+		"/org/rungboard/Editor/ui/tasks_view.ui");
+#define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderTasksView, name)
+	CHILD(box); CHILD(program_button); CHILD(hint); CHILD(bar); CHILD(message);
+#undef CHILD
+	gtk_widget_class_bind_template_child_full(widget, "view", FALSE, 0);
+	gtk_widget_class_bind_template_callback(widget, program_clicked);
+}
+
+static void add_columns(LadderTasksView *view)
+{
+	static const struct { enum task_field field; int width; } column[] = {
+		{ TASKS_NAME, 170 }, { TASKS_PROGRAM, 130 }, { TASKS_KIND, 100 },
+		{ TASKS_WHEN, 120 }, { TASKS_PRIORITY, 70 }, { TASKS_WATCHDOG, 90 },
+		{ TASKS_COMMENT, 140 },
+	};
+	GListModel *columns;
+
+	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
+		.choosable = 1u << TASKS_KIND | 1u << TASKS_PROGRAM, .choices = choices,
+		.set = set_field, .is_fixed = is_fixed, .indent = indent };
+	add_handles(view);
+	panel_list_column(&view->list, "", TASKS_NAME, PANEL_ICON, 0);
+	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
+		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
+				column[i].field == TASKS_COMMENT ? PANEL_EXPAND : 0,
+				column[i].width);
+	/* the order of the rows means something */
+	columns = gtk_column_view_get_columns(view->list.view);
+	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
+		GtkColumnViewColumn *each = g_list_model_get_item(columns, i);
+
+		gtk_column_view_column_set_sorter(each, NULL);
+		g_object_unref(each);
+	}
+}
+
+static void add_controllers(LadderTasksView *view)
+{
+	GtkWidget *table = GTK_WIDGET(view->list.view);
+	GtkGesture *click = gtk_gesture_click_new();
+	GtkEventController *menu = gtk_event_controller_key_new();
+	GtkEventController *keys = gtk_event_controller_key_new();
+	GtkDropTarget *drop = gtk_drop_target_new(LADDER_TYPE_PANEL_ROW, GDK_ACTION_MOVE);
+
+	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(click), GDK_BUTTON_SECONDARY);
+	gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(click),
+						   GTK_PHASE_CAPTURE);
+	gtk_event_controller_set_propagation_phase(menu, GTK_PHASE_CAPTURE);
+	gtk_drop_target_set_preload(drop, TRUE);
+	g_signal_connect(click, "pressed", G_CALLBACK(right_pressed), view);
+	g_signal_connect(menu, "key-pressed", G_CALLBACK(menu_key), view);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(step_key), view);
+	g_signal_connect(drop, "motion", G_CALLBACK(drag_moved), view);
+	g_signal_connect(drop, "enter", G_CALLBACK(drag_moved), view);
+	g_signal_connect(drop, "leave", G_CALLBACK(drag_left), view);
+	g_signal_connect(drop, "drop", G_CALLBACK(dropped), view);
+	gtk_widget_add_controller(table, GTK_EVENT_CONTROLLER(click));
+	gtk_widget_add_controller(table, menu);
+	gtk_widget_add_controller(table, keys);
+	gtk_widget_add_controller(table, GTK_EVENT_CONTROLLER(drop));
+}
+
+static void ladder_tasks_view_init(LadderTasksView *view)
+{
+	GtkWidget *widget = GTK_WIDGET(view);
+
+	gtk_widget_init_template(widget);
+	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
+		widget, LADDER_TYPE_TASKS_VIEW, "view")));
+	add_columns(view);
+	add_controllers(view);
+	g_signal_connect_object(view->list.selection, "notify::selected-item",
+				G_CALLBACK(show_actions), view, G_CONNECT_SWAPPED);
+	view->watch = panel_watch_new(widget, true, refresh);
+}
+
+GtkWidget *ladder_tasks_view_new(LadderDocument *document)
+{
+	LadderTasksView *view = g_object_new(LADDER_TYPE_TASKS_VIEW, NULL);
+
+	panel_watch_set(view->watch, document);
+	return GTK_WIDGET(view);
+}
