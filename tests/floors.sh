@@ -16,7 +16,7 @@ runtime/engine/base       engine/catalog.def engine/diag.def
 runtime/engine/scan       engine/base engine/catalog.def
 runtime/engine/model      engine/base engine/catalog.def
 runtime/engine/text       engine/base engine/model
-runtime/engine/check      engine/base engine/model
+runtime/engine/check      engine/base engine/model engine/scan/vm.h
 runtime/engine/translate  engine/base engine/model engine/check engine/scan/code.h engine/catalog.def
 runtime/engine/show       engine/base engine/model engine/scan engine/check engine/text engine/translate
 runtime/engine/xref       engine/base engine/model engine/scan engine/check engine/text engine/translate

@@ -201,6 +201,17 @@ static const char *beside(struct random_source *source, const char *type)
 	return variable(source, type, false);
 }
 
+/* A divisor: a constant 0 would be refused, a variable may be 0. */
+static const char *divisor(struct random_source *source, const char *type)
+{
+	const char *text;
+
+	do
+		text = beside(source, type);
+	while (strcmp(text, "0") == 0 || strcmp(text, "0.0") == 0);
+	return text;
+}
+
 void words_put(struct builder *builder, const char *format, ...)
 {
 	size_t left = builder->size - builder->used;
@@ -254,7 +265,8 @@ void number(struct builder *builder, const char *type, int depth, bool tight)
 	if (swap || random_chance(source, 30))
 		number(builder, type, depth - 1, true);
 	else
-		words_put(builder, "%s", beside(source, type));
+		words_put(builder, "%s", op == '/' || op == 'M' ? divisor(source, type) :
+								   beside(source, type));
 	if (tight)
 		words_put(builder, ")");
 }
@@ -462,7 +474,8 @@ static void function(struct builder *builder)
 	} else {
 		words_put(builder, "%s IN1:=%s", fn, variable(source, type, false));
 		for (int i = 2; i <= count; i++)
-			words_put(builder, " IN%d:=%s", i, beside(source, type));
+			words_put(builder, " IN%d:=%s", i, *fn == 'D' || strcmp(fn, "MOD") == 0 ?
+				  divisor(source, type) : beside(source, type));
 	}
 	if (!compare && random_chance(source, 15) &&
 	    strcmp(type, narrower[wide][1]) == 0)

@@ -7,8 +7,8 @@
 #include "engine/model/advice.h"
 #include "engine/model/convert.h"
 #include "engine/model/shape.h"
+#include "engine/scan/vm.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -17,10 +17,12 @@
  * has no type yet. */
 struct result {
 	bool there;
+	bool known;                  /* a constant that has a type: its value  */
 	enum iec_type type;
+	uint32_t text;               /* the operand it was read from, or 0     */
+	union iec_value value;
 	const struct literal *literal;
 	const struct meaning *whole; /* a structure or array; else NULL    */
-	const struct meaning *of;    /* the operand it was read from, or NULL */
 };
 
 /* A temporary that holds a constant. */
@@ -29,7 +31,7 @@ struct folded {
 	enum iec_type type;
 	union iec_value value;
 };
-#define FOLDED_MOST 4
+#define FOLDED_MOST 8
 
 struct il_check {
 	struct scope *scope;
@@ -42,8 +44,9 @@ struct il_check {
 	struct result now;
 	uint32_t ended_at;   /* label that ended a result; 0: no label did  */
 	bool jumps;          /* a conditional jump was seen                 */
-	bool has_constant;   /* the last function has a constant result:    */
-	union iec_value constant;
+	bool has_constant;   /* the last function has a constant result, args.out */
+	struct fn_args args; /* of it                                       */
+	struct result in[LIMIT_FN_INPUTS]; /* inputs of the function of this line */
 	struct folded folded[FOLDED_MOST]; /* var NULL: free                */
 	int depth;           /* of open parentheses                         */
 	struct il_opened {
@@ -211,12 +214,42 @@ static const struct meaning *il_value_of(struct il_check *c,
 	return as_value(c, line, find(c, line));
 }
 
-static struct result il_result_of(const struct meaning *m)
+/* The value of a constant that has a type: of a literal such as INT#5, of a CONSTANT, of a
+ * temporary that an operation on constants was stored in. */
+static void find_value(const struct il_check *c, const struct meaning *m, struct result *out)
 {
-	struct result out = { .there = true, .type = m->type, .of = m };
+	if (m->type == IEC_NONE || m->type == IEC_STRING)
+		return;
+	if (m->kind == MEANING_LITERAL) {
+		out->known = true;
+		out->value = m->literal.value;
+		return;
+	}
+	if (m->kind != MEANING_VARIABLE)
+		return;
+	if (m->constant && m->var->has_init) {
+		out->known = true;
+		out->value = m->var->init;
+		return;
+	}
+	for (int i = 0; i < FOLDED_MOST; i++)
+		if (c->folded[i].var == m->var) {
+			out->known = true;
+			out->type = c->folded[i].type;
+			out->value = c->folded[i].value;
+		}
+}
+
+/* The value of the operand of @line. */
+static struct result il_result_of(const struct il_check *c, const struct il_line *line,
+				  const struct meaning *m)
+{
+	struct result out = { .there = true, .type = m->type, .text = line->operand };
 
 	if (m->kind == MEANING_LITERAL && m->type == IEC_NONE)
 		out.literal = &m->literal;
+	else
+		find_value(c, m, &out);
 	return out;
 }
 
@@ -294,6 +327,17 @@ static void forget(struct il_check *c, const struct var *var)
 	for (int i = 0; i < FOLDED_MOST; i++)
 		if (!var || c->folded[i].var == var)
 			c->folded[i].var = NULL;
+}
+
+/* @m is a temporary that gets @from. */
+static void remember(struct il_check *c, const struct meaning *m, struct result from)
+{
+	int i = 0;
+
+	while (i < FOLDED_MOST && c->folded[i].var)
+		i++;
+	if (i < FOLDED_MOST && m->kind == MEANING_VARIABLE && from.known)
+		c->folded[i] = (struct folded){ m->var, from.type, from.value };
 }
 
 static bool can_write(struct il_check *c, const struct il_line *line,
@@ -396,9 +440,9 @@ static bool check_load(struct il_check *c, int at)
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (!m)
 		return false;
-	if (line->modifiers & MOD_N && !il_is_bits(il_result_of(m)))
-		return il_need_bool(c, line, il_result_of(m), il_operand_text(c, line));
-	c->now = il_result_of(m);
+	if (line->modifiers & MOD_N && !il_is_bits(il_result_of(c, line, m)))
+		return il_need_bool(c, line, il_result_of(c, line, m), il_operand_text(c, line));
+	c->now = il_result_of(c, line, m);
 	return true;
 }
 
@@ -406,13 +450,15 @@ static bool check_store(struct il_check *c, const struct il_line *line)
 {
 	const struct meaning *m = il_value_of(c, line);
 	bool bits = line->op != OP_ST ||
-		    (line->modifiers & MOD_N && !(m && il_is_bits(il_result_of(m))));
+		    (line->modifiers & MOD_N && !(m && il_is_bits(il_result_of(c, line, m))));
 
 	if (!m || !il_need_result(c, line) || !can_write(c, line, m))
 		return false;
 	if (bits && (!il_need_bool(c, line, c->now, "") ||
-		     !il_need_bool(c, line, il_result_of(m), il_operand_text(c, line))))
+		     !il_need_bool(c, line, il_result_of(c, line, m), il_operand_text(c, line))))
 		return false;
+	if (is_made(c, il_operand_text(c, line)) && !line->modifiers && line->op == OP_ST)
+		remember(c, m, c->now);
 	return can_store(c, line, c->now, m->type);
 }
 
@@ -458,7 +504,7 @@ static int read_inputs(struct il_check *c, int at, struct result *in)
 				  il_operand_text(c, &c->il->line[i]));
 			return -1;
 		}
-		in[count++] = il_result_of(m);
+		in[count++] = il_result_of(c, &c->il->line[i], m);
 	}
 	return count;
 }
@@ -565,131 +611,274 @@ static bool report_literal(struct il_check *c, const struct il_line *line, int i
 
 /* ---- constants ---- */
 
-static void remember(struct il_check *c, const struct meaning *m, enum iec_type type)
+/* The result of the function that was checked last. */
+static struct result function_result(const struct il_check *c, enum iec_type type)
 {
-	int i = 0;
-
-	while (i < FOLDED_MOST && c->folded[i].var)
-		i++;
-	if (i < FOLDED_MOST && m->kind == MEANING_VARIABLE && c->has_constant)
-		c->folded[i] = (struct folded){ m->var, type, c->constant };
+	return (struct result){ .there = true, .type = type, .known = c->has_constant,
+				.value = c->args.out };
 }
 
-/* The value of a constant, a CONSTANT variable or a temporary, as @type. */
-static bool constant_value(const struct il_check *c, struct result in, enum iec_type type,
-			   union iec_value *out)
+/* The value of an input as the function gets it; false: it is known in a scan only.
+ * @type: of the inputs that share one; becomes that of an input with its own */
+static bool input_value(const struct result *in, const struct word_pin *pin,
+			enum iec_type *type, union iec_value *out)
 {
-	const struct meaning *m = in.of;
-	enum iec_type from = in.type;
-
-	if (!m || type == IEC_STRING)
+	out->i = 0;
+	if (pin->own)
+		*type = in->literal ? fn_own_type(pin, in->literal) : in->type;
+	if (in->literal)
+		return literal_fit(in->literal, *type, out);
+	if (!in->known)
 		return false;
-	if (m->kind == MEANING_LITERAL)
-		return literal_fit(&m->literal, type, out);
-	if (m->kind != MEANING_VARIABLE)
-		return false;
-	if (m->constant && m->var->has_init) {
-		*out = m->var->init;
-	} else {
-		int i = 0;
-
-		while (i < FOLDED_MOST && c->folded[i].var != m->var)
-			i++;
-		if (i == FOLDED_MOST)
-			return false;
-		*out = c->folded[i].value;
-		from = c->folded[i].type;
-	}
-	if (iec_type_row(type)->class == CLASS_REAL && iec_type_row(from)->class != CLASS_REAL)
-		out->r = (double)out->i;
+	*out = in->value;
+	if (iec_type_row(*type)->class == CLASS_REAL &&
+	    iec_type_row(in->type)->class != CLASS_REAL)
+		out->r = (double)in->value.i;
 	return true;
 }
 
-static const struct { enum word word; const char *sign; } folds[] = {
-	{ FN_ADD, "+" }, { FN_SUB, "-" }, { FN_MUL, "*" }, { FN_DIV, "/" }, { FN_MOD, "MOD" },
+/* Functions that take only some values of a type. @input decides alone whether they succeed;
+ * -1: all inputs together do. */
+static const struct need {
+	enum word word;
+	int input;
+	enum diag_id id;
+	const char *pin, *range; /* of DIAG_INPUT_RANGE; range NULL: 0 to the last bit or input */
+} needs[] = {
+	{ FN_SHL, 1, DIAG_INPUT_RANGE, "N", ">= 0" }, { FN_SHR, 1, DIAG_INPUT_RANGE, "N", ">= 0" },
+	{ FN_ROL, 1, DIAG_INPUT_RANGE, "N", ">= 0" }, { FN_ROR, 1, DIAG_INPUT_RANGE, "N", ">= 0" },
+	{ FN_BIT_TEST, 1, DIAG_INPUT_RANGE, "N", NULL }, { FN_BIT_SET, 1, DIAG_INPUT_RANGE, "N", NULL },
+	{ FN_BIT_RESET, 1, DIAG_INPUT_RANGE, "N", NULL }, { FN_MUX, 0, DIAG_INPUT_RANGE, "K", NULL },
+	{ FN_SQRT, -1, DIAG_INPUT_RANGE, "IN", ">= 0" }, { FN_LN, -1, DIAG_INPUT_RANGE, "IN", "> 0" },
+	{ FN_LOG, -1, DIAG_INPUT_RANGE, "IN", "> 0" }, { FN_ASIN, -1, DIAG_INPUT_RANGE, "IN", "-1..1" },
+	{ FN_ACOS, -1, DIAG_INPUT_RANGE, "IN", "-1..1" },
+	{ FN_FROM_BCD, -1, DIAG_BCD_DIGIT, NULL, NULL },
+	{ FN_CONCAT_DATE, -1, DIAG_NO_SUCH_DATE, NULL, NULL },
+	{ FN_CONCAT_TOD, -1, DIAG_NO_SUCH_DATE, NULL, NULL },
+	{ FN_CONCAT_DT, -1, DIAG_NO_SUCH_DATE, NULL, NULL },
 };
 
-/* The sign of a function that can be folded; NULL: it cannot. */
-static const char *sign_of(enum word word)
+static const struct need *need_of(enum word word)
 {
-	for (size_t i = 0; i < sizeof(folds) / sizeof(*folds); i++)
-		if (folds[i].word == word)
-			return folds[i].sign;
+	for (size_t i = 0; i < sizeof(needs) / sizeof(*needs); i++)
+		if (needs[i].word == word)
+			return &needs[i];
 	return NULL;
 }
 
-/* "100 * 1000"; an operand that is no constant is "...". */
-static void print_operation(enum word word, enum iec_type type, const union iec_value value[2],
-			    const bool known[2], char out[LIMIT_ARG])
+static bool divides(enum word word)
 {
-	char number[2][28];
+	return word == FN_DIV || word == FN_MOD || word == FN_DIVTIME;
+}
 
-	for (int i = 0; i < 2; i++) {
-		snprintf(number[i], sizeof(number[i]), "...");
-		if (known[i])
-			iec_value_print(type, value[i], number[i], sizeof(number[i]));
+/* The input that decides whether the function can succeed, whatever the others are. */
+static int deciding_input(enum word word)
+{
+	const struct need *need = need_of(word);
+
+	return need ? need->input : divides(word) ? 1 : -1;
+}
+
+/* The sign of a function in an expression; NULL: it has none. */
+static const char *sign_of(enum word word)
+{
+	static const struct { enum word word; const char *sign; } signs[] = {
+		{ FN_ADD, "+" }, { FN_SUB, "-" }, { FN_MUL, "*" }, { FN_DIV, "/" },
+		{ FN_MOD, "MOD" }, { FN_MULTIME, "*" }, { FN_DIVTIME, "/" },
+		{ FN_ADD_TOD_TIME, "+" }, { FN_ADD_DT_TIME, "+" }, { FN_SUB_TOD_TIME, "-" },
+		{ FN_SUB_TOD_TOD, "-" }, { FN_SUB_DATE_DATE, "-" }, { FN_SUB_DT_TIME, "-" },
+		{ FN_SUB_DT_DT, "-" }, { FN_GT, ">" }, { FN_GE, ">=" }, { FN_EQ, "=" },
+		{ FN_LE, "<=" }, { FN_LT, "<" }, { FN_NE, "<>" },
+	};
+
+	for (size_t i = 0; i < sizeof(signs) / sizeof(*signs); i++)
+		if (signs[i].word == word)
+			return signs[i].sign;
+	return NULL;
+}
+
+/* An input as a message shows it: the name of a variable, the value of a constant, "..." of
+ * anything else. */
+static void print_input(const struct il_check *c, const struct result *in, char out[28])
+{
+	const char *text = in->text ? scope_text(c->scope, in->text) : "";
+	char number[NUMBER_TEXT];
+
+	if (in->literal && in->literal->real) {
+		literal_print(IEC_LREAL, in->literal->value, out, 28);
+	} else if (in->literal) {
+		il_print_constant(in->literal, number);
+		snprintf(out, 28, "%.27s", number);
+	} else if (in->known && (!*text || is_made(c, text) || strchr(text, '#'))) {
+		literal_print(in->type, in->value, out, 28);
+	} else {
+		snprintf(out, 28, "%.27s", !*text || is_made(c, text) ? "..." : text);
 	}
-	snprintf(out, LIMIT_ARG, "%.26s %s %.26s", number[0], sign_of(word), number[1]);
 }
 
-enum folding { FOLD_DONE, FOLD_FAILS, FOLD_UNKNOWN };
-
-static enum folding fold_real(enum word word, enum iec_type type, double a, double b,
-			      union iec_value *out)
+/* "100 * 1000", "SQRT(-1.0)". */
+static void print_operation(const struct il_check *c, const struct word_row *row, enum word word,
+			    const struct result *in, int count, char out[LIMIT_ARG])
 {
-	out->r = word == FN_ADD ? a + b : word == FN_SUB ? a - b : word == FN_MUL ? a * b : a / b;
-	if (type == IEC_REAL)
-		out->r = (double)(float)out->r;
-	return isfinite(out->r) ? FOLD_DONE : FOLD_FAILS;
+	const char *sign = count == 2 ? sign_of(word) : NULL;
+	char number[28];
+	int len = sign ? 0 : snprintf(out, LIMIT_ARG, "%.20s(", row->word);
+
+	for (int i = 0; i < count; i++) {
+		if (word == FN_FROM_BCD && in[i].literal)
+			snprintf(number, sizeof(number), "16#%llX",
+				 (unsigned long long)in[i].literal->value.i);
+		else
+			print_input(c, &in[i], number);
+		if (!sign && len + strlen(number) > LIMIT_ARG - 10) {
+			len += snprintf(out + len, LIMIT_ARG - (size_t)len, "...");
+			break;
+		}
+		len += snprintf(out + len, LIMIT_ARG - (size_t)len, "%s%s%s%s", number,
+				i + 1 < count && !sign ? ", " : "",
+				i + 1 < count && sign ? " " : "", i == 0 && sign ? sign : "");
+		if (i == 0 && sign)
+			len += snprintf(out + len, LIMIT_ARG - (size_t)len, " ");
+	}
+	if (!sign)
+		snprintf(out + len, LIMIT_ARG - (size_t)len, ")");
 }
 
-static enum folding fold_integer(enum word word, enum iec_type type, int64_t a, int64_t b,
-				 union iec_value *out)
+/* "IN must be > 0" as parts of a message. */
+static void print_need(const struct il_check *c, const struct need *need, char *out, size_t size)
 {
-	const struct iec_type_row *row = iec_type_row(type);
-	bool over = false;
+	const int last = need->word == FN_MUX ? (int)c->args.count - 2 :
+						iec_type_row(c->args.type)->size * 8 - 1;
 
-	if (iec_is_wide(type))
-		return FOLD_UNKNOWN;
-	if (word == FN_ADD)
-		over = __builtin_add_overflow(a, b, &out->i);
-	else if (word == FN_SUB)
-		over = __builtin_sub_overflow(a, b, &out->i);
-	else if (word == FN_MUL)
-		over = __builtin_mul_overflow(a, b, &out->i);
-	else if (b == -1)
-		over = __builtin_sub_overflow((int64_t)0, word == FN_MOD ? 0 : a, &out->i);
+	if (need->range)
+		snprintf(out, size, DIAG_AND "%s" DIAG_AND "%s", need->pin, need->range);
 	else
-		out->i = word == FN_MOD ? a % b : a / b;
-	return over || out->i < row->low || out->i > row->high ? FOLD_FAILS : FOLD_DONE;
+		snprintf(out, size, DIAG_AND "%s" DIAG_AND "0..%d", need->pin, last);
 }
 
-/* Computes ADD SUB MUL DIV MOD of two constants, and warns if that can only fail. */
-static void fold(struct il_check *c, const struct il_line *line, const struct result *in,
-		 enum iec_type type)
+static bool divides_by_zero(const struct il_check *c, const struct il_line *line,
+			    const struct result *in, enum word word)
 {
-	const enum word word = (enum word)line->word;
-	const bool real = iec_type_row(type)->class == CLASS_REAL;
-	const bool divides = word == FN_DIV || word == FN_MOD;
-	enum folding folding = FOLD_UNKNOWN;
-	union iec_value value[2];
-	bool known[2], zero;
-	char text[LIMIT_ARG + 16];
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
+	enum iec_type type = c->args.type;
+	union iec_value by;
 
-	for (int i = 0; i < 2; i++)
-		known[i] = constant_value(c, in[i], type, &value[i]);
-	zero = divides && known[1] && (real ? value[1].r == 0 : value[1].i == 0);
-	if (known[0] && known[1] && !zero)
-		folding = real ? fold_real(word, type, value[0].r, value[1].r, &c->constant) :
-				 fold_integer(word, type, value[0].i, value[1].i, &c->constant);
-	c->has_constant = folding == FOLD_DONE;
-	if (!zero && folding != FOLD_FAILS)
+	return divides(word) && input_value(&in[1], word_input(row, 1), &type, &by) &&
+	       (iec_type_row(type)->class == CLASS_REAL ? by.r == 0 : by.i == 0);
+}
+
+static bool report_failing(struct il_check *c, const struct il_line *line,
+			   const struct result *in, enum word word)
+{
+	const struct need *need = need_of(word);
+	char text[2 * LIMIT_ARG];
+	size_t len;
+
+	print_operation(c, scope_row(c->scope, (enum word)line->word), word, in,
+			(int)c->args.count, text);
+	if (divides_by_zero(c, line, in, word))
+		return il_report(c, line, DIAG_DIVIDES_BY_ZERO, text);
+	len = strlen(text);
+	if (!need)
+		snprintf(text + len, sizeof(text) - len, DIAG_AND "%s",
+			 iec_type_row(c->args.result)->word);
+	else if (need->pin)
+		print_need(c, need, text + len, sizeof(text) - len);
+	return il_report(c, line, need ? need->id : DIAG_NO_RESULT_IN, text);
+}
+
+/* <0, 0, >0 as @a is below, equal to or above @b, values of @type. */
+static int compare(enum iec_type type, union iec_value a, union iec_value b)
+{
+	if (iec_type_row(type)->class == CLASS_REAL)
+		return (a.r > b.r) - (a.r < b.r);
+	if (iec_is_wide(type))
+		return ((uint64_t)a.i > (uint64_t)b.i) - ((uint64_t)a.i < (uint64_t)b.i);
+	return (a.i > b.i) - (a.i < b.i);
+}
+
+/* Warns of a comparison of an integer with a constant at which, or beyond which, its type
+ * ends: it always has the same result. */
+static void check_compare(struct il_check *c, const struct il_line *line,
+			  const struct result *in, const bool known[2])
+{
+	static const enum word mirrored[] = { FN_LT, FN_LE, FN_EQ, FN_GE, FN_GT, FN_NE };
+	const struct result *open = &in[known[0]];
+	const struct iec_type_row *row = iec_type_row(open->type);
+	const enum iec_type type = c->args.type;
+	const union iec_value value = c->args.in[known[1]];
+	union iec_value low = { .i = row->low }, high = { .i = row->high };
+	enum word word = (enum word)line->word;
+	char text[3 * LIMIT_ARG], from[28], to[28];
+	int below, above;
+	bool always, never;
+
+	if (known[0] == known[1] || !(row->class & (ANY_INT | CLASS_BITS)) ||
+	    line->mark & IL_MADE)
 		return;
-	print_operation(word, type, value, known, text);
-	if (!zero)
-		snprintf(text + strlen(text), sizeof(text) - strlen(text), DIAG_AND "%s",
-			 iec_type_row(type)->word);
-	il_report(c, line, zero ? DIAG_DIVIDES_BY_ZERO : DIAG_NO_RESULT_IN, text);
+	if (iec_is_wide(open->type))
+		high.i = -1;
+	literal_print(open->type, low, from, sizeof(from));
+	literal_print(open->type, high, to, sizeof(to));
+	if (iec_type_row(type)->class == CLASS_REAL) {
+		low.r = (double)low.i;
+		high.r = (double)high.i;
+	}
+	below = compare(type, low, value);
+	above = compare(type, high, value);
+	if (known[0])
+		word = mirrored[word - FN_GT];
+	always = word == FN_GT ? below > 0 : word == FN_GE ? below >= 0 :
+		 word == FN_LT ? above < 0 : word == FN_LE ? above <= 0 :
+		 word == FN_NE && (below > 0 || above < 0);
+	never = word == FN_GT ? above <= 0 : word == FN_GE ? above < 0 :
+		word == FN_LT ? below >= 0 : word == FN_LE ? below > 0 :
+		word == FN_EQ && (below > 0 || above < 0);
+	if (!always && !never)
+		return;
+	print_operation(c, NULL, (enum word)line->word, in, 2, text);
+	snprintf(text + strlen(text), sizeof(text) - strlen(text),
+		 DIAG_AND "%s" DIAG_AND "%s" DIAG_AND "%s..%s", always ? "TRUE" : "FALSE",
+		 row->word, from, to);
+	il_report(c, line, DIAG_ALWAYS_SAME, text);
+}
+
+/* Computes a function of constants as a scan would, and reports one that can never succeed.
+ * @type: what its inputs share
+ * @stored: of the variable that gets the result
+ */
+static bool fold(struct il_check *c, const struct il_line *line, const struct result *in,
+		 int count, enum iec_type type, enum iec_type stored)
+{
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
+	const enum word word = row->runs ? row->runs : (enum word)line->word;
+	const int deciding = deciding_input(word);
+	struct fn_args *args = &c->args;
+	bool known[LIMIT_FN_INPUTS], all = true;
+	enum fn_status status;
+
+	c->has_constant = false;
+	*args = (struct fn_args){ .type = type, .result = fn_result(row, type, stored),
+				  .count = (uint32_t)count };
+	if (type == IEC_STRING || args->result == IEC_STRING)
+		return true;
+	for (int i = 0; i < count; i++) {
+		args->in_type[i] = type;
+		known[i] = input_value(&in[i], word_input(row, (uint32_t)i), &args->in_type[i],
+				       &args->in[i]);
+		if (args->in_type[i] == IEC_STRING)
+			return true;
+		all &= known[i];
+	}
+	if (!all && word >= FN_GT && word <= FN_NE)
+		check_compare(c, line, in, known);
+	if (!all && (deciding < 0 || !known[deciding]))
+		return true;
+	status = vm_function(word, args);
+	c->has_constant = all && status == FN_OK;
+	if (status == FN_OK)
+		return true;
+	return report_failing(c, line, in, word);
 }
 
 /* Finds the type that the inputs share, and whether the function takes it. */
@@ -712,16 +901,18 @@ static bool check_shared(struct il_check *c, const struct il_line *line,
 }
 
 /* The type that inputs of a function share, and whether it takes them
- * @hint:   what constants alone should be, or IEC_NONE
+ * @stored: of the variable that gets the result, or IEC_NONE
  * @common: gets that type; unchanged if none is shared
  *
  * Fails: false after a diagnostic, or where one was told before.
  */
 static bool il_check_inputs(struct il_check *c, const struct il_line *line,
 			 const struct result *in, int count,
-			 enum iec_type hint, enum iec_type *common)
+			 enum iec_type stored, enum iec_type *common)
 {
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
+	/* Of constants alone. */
+	const enum iec_type hint = word_shares(row) ? stored : IEC_NONE;
 	const struct word_pin *shared = NULL;
 	const struct result *first = NULL;
 	enum iec_type type = IEC_NONE, real;
@@ -747,7 +938,7 @@ static bool il_check_inputs(struct il_check *c, const struct il_line *line,
 		first = in[i].literal && !first ? &in[i] : first;
 	}
 	if (!shared)
-		return true;
+		return fold(c, line, in, count, IEC_NONE, stored);
 	/* A constant with a point is of the wanted type, as one without. */
 	if (point >= 0 && iec_type_row(type)->class != CLASS_REAL) {
 		real = iec_type_row(hint)->class == CLASS_REAL ? hint : IEC_REAL;
@@ -764,10 +955,7 @@ static bool il_check_inputs(struct il_check *c, const struct il_line *line,
 	*common = type;
 	if (!check_shared(c, line, in, count, shared, type))
 		return false;
-	c->has_constant = false;
-	if (count == 2 && type != IEC_STRING && sign_of((enum word)line->word))
-		fold(c, line, in, type);
-	return true;
+	return fold(c, line, in, count, type, stored);
 }
 
 /* AND( or ADD( : the result waits. @good: so far. */
@@ -789,7 +977,7 @@ static bool il_open_paren(struct il_check *c, const struct il_line *line, bool g
 	m = il_value_of(c, line); /* AND( Level, followed by GT 10 */
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (m)
-		c->now = il_result_of(m);
+		c->now = il_result_of(c, line, m);
 	return m && good;
 }
 
@@ -799,10 +987,11 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 	const struct il_line *line = &c->il->line[at];
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	struct il_line runs;
-	struct result in[LIMIT_FN_INPUTS] = { c->now };
+	struct result *in = c->in;
 	enum iec_type stored;
 	int count;
 
+	in[0] = c->now;
 	if (!il_need_result(c, line))
 		return false;
 	if (line->modifiers & MOD_PAREN)
@@ -819,12 +1008,9 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 	runs = overloaded(line, in, count);
 	row = scope_row(c->scope, (enum word)runs.word);
 	stored = il_stored_type(c->scope, c->pou, c->il, at);
-	if (!il_check_inputs(c, &runs, in, count, word_shares(row) ? stored : IEC_NONE,
-			     common))
+	if (!il_check_inputs(c, &runs, in, count, stored, common))
 		return false;
-	c->now = (struct result){
-		.there = true, .type = fn_result(row, *common, stored),
-	};
+	c->now = function_result(c, fn_result(row, *common, stored));
 	return true;
 }
 
@@ -851,13 +1037,15 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 {
 	const struct il_line *line = &c->il->line[at];
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
-	struct result in[LIMIT_FN_INPUTS] = { { .there = false } };
+	struct result *in = c->in;
 	struct il_line runs;
 	struct result out;
 	enum iec_type stored;
 	int count = 0, last = 0;
 	bool good = true;
 
+	for (int i = 0; i < LIMIT_FN_INPUTS; i++)
+		in[i].there = false;
 	for (int i = at + 1; is_arg(c, i); i++) {
 		const struct il_line *arg = &c->il->line[i];
 		const char *pin = scope_text(c->scope, arg->pin);
@@ -870,13 +1058,13 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 		if (!m) {
 			good = false;
 		} else if (strcasecmp(pin, "EN") == 0) {
-			good &= il_need_bool(c, arg, il_result_of(m),
+			good &= il_need_bool(c, arg, il_result_of(c, arg, m),
 					  il_operand_text(c, arg));
 		} else if (index < 0 || index >= LIMIT_FN_INPUTS) {
 			good = il_report(c, arg, DIAG_NO_PIN, pin);
 		} else {
 			count += !in[index].there;
-			in[index] = il_result_of(m);
+			in[index] = il_result_of(c, arg, m);
 			last = index > last ? index : last;
 		}
 	}
@@ -887,11 +1075,9 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	runs = overloaded(line, in, count);
 	row = scope_row(c->scope, (enum word)runs.word);
 	stored = out_type(c, at);
-	if (!il_check_inputs(c, &runs, in, count, word_shares(row) ? stored :
-			  IEC_NONE, common))
+	if (!il_check_inputs(c, &runs, in, count, stored, common))
 		return false;
-	out = (struct result){ .there = true,
-			       .type = fn_result(row, *common, stored) };
+	out = function_result(c, fn_result(row, *common, stored));
 	for (int i = at + 1; is_arg(c, i); i++) {
 		const struct il_line *arg = &c->il->line[i];
 		const char *pin = scope_text(c->scope, arg->pin);
@@ -903,12 +1089,12 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 		if (!m || !can_write(c, arg, m))
 			good = false;
 		else if (strcasecmp(pin, "ENO") == 0)
-			good &= il_need_bool(c, arg, il_result_of(m),
+			good &= il_need_bool(c, arg, il_result_of(c, arg, m),
 					  il_operand_text(c, arg));
 		else if (strcasecmp(pin, "OUT") == 0) {
 			good &= can_store(c, arg, out, m->type);
 			if (is_made(c, il_operand_text(c, arg)))
-				remember(c, m, out.type);
+				remember(c, m, out);
 		} else
 			good = il_report(c, arg, DIAG_NO_PIN, pin);
 	}
@@ -1147,7 +1333,7 @@ static bool combine(struct il_check *c, const struct il_line *line, enum op op,
 	c->now.type = IEC_NONE;
 	if (!il_check_inputs(c, &function, in, 2, IEC_NONE, &type))
 		return false;
-	c->now.type = type;
+	c->now = function_result(c, type);
 	return true;
 }
 
@@ -1162,7 +1348,7 @@ static bool il_check_logic(struct il_check *c, const struct il_line *line)
 		return il_open_paren(c, line, good);
 	m = il_value_of(c, line);
 	if (m && good)
-		return combine(c, line, (enum op)line->op, c->now, il_result_of(m),
+		return combine(c, line, (enum op)line->op, c->now, il_result_of(c, line, m),
 			       il_operand_text(c, line));
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	return false;
@@ -1269,7 +1455,7 @@ static bool close_function(struct il_check *c, int at, struct result left,
 	c->now.type = word_is_test(row) ? IEC_BOOL : IEC_NONE;
 	if (!il_check_inputs(c, &function, in, 2, IEC_NONE, common))
 		return false;
-	c->now.type = fn_result(row, *common, stored);
+	c->now = function_result(c, fn_result(row, *common, stored));
 	return true;
 }
 

@@ -31,7 +31,8 @@ enum il_mark {
 	IL_NAMED = 1,    /* IL_CALL: one of several in a cell, messages name it */
 	IL_IN_ORDER = 2, /* IL_ARG_IN of CAL: written without its pin; the check finds the
 			  * pin by the order of the inputs */
-	IL_MADE = 4,     /* made by the translation of a chart: it may write steps */
+	IL_MADE = 4,     /* made by the translation of a chart or a loop: it may write steps,
+			  * and a comparison that never changes is no news */
 };
 
 struct il_line {

@@ -254,6 +254,11 @@ static enum fn_status (*const fn_table[WORD_KNOWN])(struct fn_args *) = {
 #include "engine/catalog.def"
 };
 
+enum fn_status vm_function(enum word word, struct fn_args *args)
+{
+	return fn_table[word](args);
+}
+
 const char *fault_text(enum fault fault)
 {
 	static const char *const text[FAULT_COUNT] = {

@@ -60,6 +60,8 @@ struct fn_args {
 				  cut (ENO FALSE) where there is no room      */
 	struct iec_string *room; /* of IEC_STRING_MOST bytes, for such a text */
 };
+/** vm_function - runs one function of the catalogue, as a scan does. Scan-safe: yes. */
+enum fn_status vm_function(enum word word, struct fn_args *args);
 #define FN(id, ...) enum fn_status fn_##id(struct fn_args *args);
 #include "engine/catalog.def"
 #define FB(id, ...) void fb_##id##_step(struct fb_##id *fb, int64_t now_ns);

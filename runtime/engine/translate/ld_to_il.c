@@ -725,8 +725,8 @@ static uint32_t part(struct ld *ld, const struct loop_part *part)
 
 static void emit_fn(struct ld *ld, enum word fn, uint32_t operand)
 {
-	ld_emit_line(ld, (struct il_line){ .kind = IL_FN, .word = (uint16_t)fn,
-					   .operand = operand });
+	ld_emit_line(ld, (struct il_line){ .kind = IL_FN, .mark = IL_MADE,
+					   .word = (uint16_t)fn, .operand = operand });
 }
 
 /* Leaves the loop when @value is beyond its end. */
