@@ -221,7 +221,7 @@ static void select_pou(struct tree *tree, const char *name)
 	const struct project *project = ladder_document_project(tree->document);
 
 	ladder_project_tree_select(tree->panel, project_find_pou(project, name, strlen(name)),
-				   NULL, false);
+				   NULL, "");
 	focus_selected(tree);
 }
 
