@@ -454,8 +454,10 @@ CROSS_armhf := arm-linux-gnueabihf-
 ARM := $(foreach a,arm64 armhf,$(if $(shell command -v $(CROSS_$a)gcc),$a))
 arm: $(ARM:%=arm-%) ## the tests of the engine for arm64 and armhf, in build/arm64/ and build/armhf/
 $(ARM:%=arm-%): arm-%:
-	$(MAKE) BUILD=$(BUILD)/$* CROSS=$(CROSS_$*) STATIC=1 HAL=uapi arm-programs
-arm-programs: $(UNIT) $(BIN)/differential $(BIN)/iec_cases $(BUILD)/ladder $(BUILD)/replay
+	$(MAKE) BUILD=$(BUILD)/$* CROSS=$(CROSS_$*) STATIC=1 HAL=uapi CFLAGS='$(filter-out -g,$(CFLAGS))' arm-programs
+$(BUILD)/tests/ladder_batch: $(BUILD)/tests/ladder_batch.o $(filter-out %/main.o,$(LADDER)) $(DRIVERS) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
+arm-programs: $(UNIT) $(BIN)/differential $(BIN)/iec_cases $(BUILD)/tests/ladder_batch $(BUILD)/replay
 .PHONY: arm arm-programs $(ARM:%=arm-%)
 # ---- end of ARM ----
 

@@ -17,12 +17,14 @@
 #   expected.fault  trace and messages of a program that ends with a fault
 # The cases together must show every message of diag.def and trace every word of
 # catalog.def. `--bless CASE` rewrites the expected files of a case and shows the difference
-# for a person to read.
+# for a person to read. With LADDER_BATCH, a command that starts ladder_batch, all commands
+# run in that one process: an emulator then starts once.
 use strict;
 use warnings;
 use Cwd qw(abs_path getcwd);
 use File::Basename qw(dirname basename);
 use File::Temp qw(tempdir tempfile);
+use IPC::Open2;
 use Test::More;
 use lib abs_path(dirname(__FILE__));
 use Files;
@@ -58,23 +60,39 @@ sub place_of {
 	return $made{$dir};
 }
 
-# Runs one command of a case in its folder: standard output, error, exit status.
-sub run_case {
-	my ($dir, @args) = @_;
-	my ($out, $out_name) = tempfile(UNLINK => 1);
-	my ($err, $err_name) = tempfile(UNLINK => 1);
-	my $place = place_of($dir);
+# Exit status of a command in the folder $place.
+my ($batch, $batch_in, $batch_out);
+sub run_in_batch {
+	my ($place, @words) = @_;
+	$batch //= open2($batch_out, $batch_in, $ENV{LADDER_BATCH});
+	print $batch_in join("\t", $place, @words), "\n";
+	my $status = <$batch_out>;
+	die "$ENV{LADDER_BATCH} has ended\n" unless defined $status;
+	return 0 + $status;
+}
+
+sub run_alone {
+	my ($place, $out_name, $err_name, @args) = @_;
 	my $pid = fork;
 	die "fork: $!" unless defined $pid;
 	if (!$pid) {
 		chdir $place or exit 126;
 		open STDIN, '<', '/dev/null';
-		open STDOUT, '>&', $out;
-		open STDERR, '>&', $err;
+		open STDOUT, '>', $out_name;
+		open STDERR, '>', $err_name;
 		exec $ladder, @args or exit 127;
 	}
 	waitpid $pid, 0;
-	my $status = $? & 127 ? -1 : $? >> 8;
+	return $? & 127 ? -1 : $? >> 8;
+}
+
+# Runs one command of a case in its folder: standard output, error, exit status.
+sub run_case {
+	my ($dir, @args) = @_;
+	my (undef, $out_name) = tempfile(UNLINK => 1);
+	my (undef, $err_name) = tempfile(UNLINK => 1);
+	my $run = $ENV{LADDER_BATCH} ? \&run_in_batch : \&run_alone;
+	my $status = $run->(place_of($dir), $out_name, $err_name, @args);
 	return (slurp($out_name), slurp($err_name), $status);
 }
 
@@ -197,6 +215,11 @@ for my $dir (cases()) {
 		is($text, slurp("$dir/expected.$kind"), "$name: $kind");
 		ok($good, "$name: $kind: exit status $status");
 	}
+}
+if ($batch) {
+	close $batch_in;
+	waitpid $batch, 0;
+	is($?, 0, 'ladder_batch ended well');
 }
 is_deeply([missing_codes()], [], 'every message has a case');
 is_deeply([missing_words()], [], 'every word has a traced case');

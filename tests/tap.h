@@ -9,6 +9,7 @@
 #define TESTS_TAP_H
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static int tap_count, tap_failed;
@@ -29,6 +30,13 @@ static inline int tap_check(int good, const char *what, const char *file, int li
 	if (!tap_check(strcmp((got), (want)) == 0, #got, __FILE__, __LINE__)) \
 		printf("# got:  %s\n# want: %s\n", (got), (want)); \
 } while (0)
+
+/* How many random cases to try: n, or a tenth in an emulator (EMULATED is set), which is slow
+ * and looks for faults of the processor, not for rare cases. */
+static inline int tap_rounds(int n)
+{
+	return getenv("EMULATED") ? (n + 9) / 10 : n;
+}
 
 /* What cannot be seen here is said. */
 static inline void tap_skip(const char *why)

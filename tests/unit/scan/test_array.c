@@ -365,7 +365,7 @@ static void test_every_byte(void)
 	int refused = 0;
 
 	for (size_t at = sizeof(struct code_header); at < len; at++)
-		for (int k = 0; k < 3; k++) {
+		for (int k = 0; k < tap_rounds(3); k++) {
 			image[at] ^= flip[k];
 			refused += !let_in();
 		}

@@ -144,7 +144,7 @@ static bool random_whole(enum iec_type type, int64_t mask)
 {
 	bool good = true;
 
-	for (int i = 0; i < 20000 && good; i++)
+	for (int i = 0; i < tap_rounds(20000) && good; i++)
 		good = agrees(type, whole((int64_t)(chance() >> (chance() & 63)) & mask));
 	return good;
 }
@@ -171,7 +171,7 @@ static void reals(void)
 	for (int e = -1074; e < 1024 && good; e++)
 		good = agrees(IEC_LREAL, real(ldexp(1, e)));
 	CHECK_AS(good, "powers of 2");
-	for (int i = 0; i < 60000 && good; i++) {
+	for (int i = 0; i < tap_rounds(60000) && good; i++) {
 		union iec_value value = { .i = (int64_t)(chance() & ~(UINT64_C(1) << 63)) };
 		uint32_t bits = (uint32_t)chance();
 		float single;
@@ -181,7 +181,7 @@ static void reals(void)
 		       (!isfinite(single) || agrees(IEC_REAL, real((double)single)));
 	}
 	CHECK_AS(good, "random bits");
-	for (int i = 0; i < 60000 && good; i++)
+	for (int i = 0; i < tap_rounds(60000) && good; i++)
 		good = agrees(IEC_LREAL, real((double)(chance() % 1000000000) /
 					      (double)(1 << chance() % 24)));
 	CHECK_AS(good, "numbers of everyday");
@@ -225,7 +225,7 @@ static void random_texts(void)
 {
 	bool good = true;
 
-	for (int i = 0; i < 40000 && good; i++) {
+	for (int i = 0; i < tap_rounds(40000) && good; i++) {
 		char text[280];
 		int n = 1 + (int)(chance() % (i % 16 ? 25 : 200)), at = 0;
 

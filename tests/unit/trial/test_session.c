@@ -346,7 +346,7 @@ static void test_sample(const char *path, int *falses)
 		memory = calloc(1, image_memory_size(ladder_program(ladder)));
 		image_init(image, ladder_program(ladder), memory);
 		find_names(image, names);
-		for (int i = 0; i < SESSIONS; i++)
+		for (int i = 0; i < tap_rounds(SESSIONS); i++)
 			one_session(path, ladder_program(ladder), names, falses);
 		free(memory);
 	}

@@ -218,10 +218,11 @@ static void test_circuits(void (*make)(struct random_rung *rung))
 	static struct random_rung rung;
 	char text[4096];
 	struct rig rig;
+	const int circuits = tap_rounds(CIRCUITS);
 	int built = 0, wrong = 0;
 
 	random_seed(&source, 7);
-	for (int i = 0; i < 400000 && built < CIRCUITS; i++) {
+	for (int i = 0; i < 400000 && built < circuits; i++) {
 		make(&rung);
 		if (!random_sound(&rung))
 			continue;
@@ -243,8 +244,8 @@ static void test_circuits(void (*make)(struct random_rung *rung))
 	printf("# %d circuits: asked %d times while off, %d while on; %d ways tried, "
 	       "%d times there was none, %d times an expression can never hold\n", built,
 	       asked_off, asked_on, ways, never, whole);
-	CHECK(built == CIRCUITS && wrong == 0);
-	CHECK(asked_off > 2000 && asked_on > 1000 && ways > 5000);
+	CHECK(built == circuits && wrong == 0);
+	CHECK(asked_off > tap_rounds(2000) && asked_on > tap_rounds(1000) && ways > tap_rounds(5000));
 }
 
 /* ---- by hand ---- */
