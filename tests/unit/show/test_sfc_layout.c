@@ -579,8 +579,8 @@ int main(void)
 	CHECK(layout && layout->lanes < 8);
 	sfc_layout_free(layout);
 	check_macro();
-	check_many(random_sfc, 2000, "random charts");
-	check_many(random_garbage, 4000, "charts of garbage");
+	check_many(random_sfc, tap_rounds(2000), "random charts");
+	check_many(random_garbage, tap_rounds(4000), "charts of garbage");
 	check_time();
 	return tap_done();
 }
