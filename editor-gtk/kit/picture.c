@@ -38,6 +38,12 @@ void picture_move(struct picture *picture, float dx, float dy)
 	picture->dy = dy;
 }
 
+void picture_grow(struct picture *picture, float x, float y)
+{
+	picture->width = MAX(picture->width, x);
+	picture->height = MAX(picture->height, y);
+}
+
 static void add(struct picture *picture, struct stroke stroke)
 {
 	if (picture->count == picture->size) {

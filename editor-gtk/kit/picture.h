@@ -51,6 +51,8 @@ void picture_init(struct picture *picture);
 void picture_clear(struct picture *picture);
 /** picture_move - sets the origin of the strokes that follow. */
 void picture_move(struct picture *picture, float dx, float dy);
+/** picture_grow - makes the picture reach at least to (@x, @y). */
+void picture_grow(struct picture *picture, float x, float y);
 
 void picture_fill(struct picture *picture, enum token token, float alpha,
 		  float x, float y, float w, float h);

@@ -11,192 +11,15 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/picture_view.h"
 #include "editor-gtk/kit/settings.h"
-
-#include <adwaita.h>
-#include <math.h>
-
-/* ---- the picture ---- */
-
-#define LADDER_TYPE_CLASSIC_PICTURE (ladder_classic_picture_get_type())
-G_DECLARE_FINAL_TYPE(LadderClassicPicture, ladder_classic_picture, LADDER, CLASSIC_PICTURE,
-		     GtkWidget)
-
-/* A rung of ClassicLadder above the rung it became, scaled to the width. */
-struct _LadderClassicPicture {
-	GtkWidget parent_instance;
-	LadderOrigin *origin;
-	LadderDocument *document;
-	const struct classic_rung *rung; /* of @origin                          */
-	struct lettering *lettering;
-	struct picture strokes;
-};
-
-G_DEFINE_FINAL_TYPE(LadderClassicPicture, ladder_classic_picture, GTK_TYPE_WIDGET)
-
-/* ---- strokes ---- */
-
-static void put_nothing(LadderClassicPicture *picture)
-{
-	const char *text = _("This rung does not come from ClassicLadder.");
-	const struct lettered fits = lettering_fit(picture->lettering, LETTER_COMMENT, text,
-						   -1, 0);
-
-	picture_text(&picture->strokes, TOKEN_COMMENT, LETTER_COMMENT, fits, 16, 24);
-	picture->strokes.width = fits.width + 32;
-	picture->strokes.height = 40;
-}
-
-static void put_pair(LadderClassicPicture *picture)
-{
-	const struct classic_rung *rung = picture->rung;
-	const char *member = rung->place.member;
-	char *name = *member ? g_strdup(member) :
-		g_path_get_basename(ladder_origin_path(picture->origin));
-	struct classic_pair pair = {
-		.there = { ladder_origin_project(picture->origin), rung, picture->lettering,
-			   theme_screen() },
-		.there_name = name,
-		.project = ladder_document_project(picture->document),
-		.show = (enum drafting_show)settings_enum("show", SHOW_BOTH),
-		.lost = _("This rung was deleted after the import."),
-	};
-	GArray *ours = ladder_origin_became(picture->origin, rung, &pair.pou);
-
-	pair.rung = (const int *)(const void *)ours->data;
-	pair.rungs = pair.project ? (int)ours->len : 0;
-	grid_classic_pair(&pair, 0, &picture->strokes);
-	g_array_unref(ours);
-	g_free(name);
-}
-
-static void name_it(LadderClassicPicture *picture)
-{
-	char *text = picture->rung ?
-		g_strdup_printf(_("Original of the rung: %s"), *picture->rung->comment ?
-				picture->rung->comment : picture->rung->place.member) :
-		g_strdup(_("This rung does not come from ClassicLadder."));
-
-	spoken_name(picture, text);
-	g_free(text);
-}
-
-static void draw_again(LadderClassicPicture *picture)
-{
-	picture_clear(&picture->strokes);
-	picture_init(&picture->strokes);
-	if (!picture->lettering)
-		picture->lettering = lettering_new(gtk_widget_get_pango_context(
-			GTK_WIDGET(picture)), NULL);
-	lettering_trim(picture->lettering);
-	if (picture->rung && picture->origin)
-		put_pair(picture);
-	else
-		put_nothing(picture);
-	gtk_widget_queue_resize(GTK_WIDGET(picture));
-	gtk_widget_queue_draw(GTK_WIDGET(picture));
-}
-
-static void picture_show(LadderClassicPicture *picture, LadderOrigin *origin,
-				 LadderDocument *document, const struct classic_rung *rung)
-{
-	g_set_object(&picture->origin, origin);
-	g_set_object(&picture->document, document);
-	picture->rung = origin ? rung : NULL;
-	name_it(picture);
-	draw_again(picture);
-}
-
-/* ---- the widget ---- */
-
-#define SCALE_LEAST 0.55f /* names stay readable; a wider picture scrolls       */
-
-/* Fits the width; at most the natural size. */
-static float scale_for(LadderClassicPicture *picture, int width)
-{
-	return width > 0 && picture->strokes.width > 0 ?
-	       CLAMP((float)width / picture->strokes.width, SCALE_LEAST, 1) : 1;
-}
-
-static GtkSizeRequestMode request_mode(GtkWidget *widget)
-{
-	(void)widget;
-	return GTK_SIZE_REQUEST_HEIGHT_FOR_WIDTH;
-}
-
-static void measure(GtkWidget *widget, GtkOrientation orientation, int for_size,
-		    int *minimum, int *natural, int *minimum_baseline,
-		    int *natural_baseline)
-{
-	LadderClassicPicture *picture = LADDER_CLASSIC_PICTURE(widget);
-
-	*minimum_baseline = *natural_baseline = -1;
-	if (orientation == GTK_ORIENTATION_HORIZONTAL) {
-		*minimum = (int)ceilf(picture->strokes.width * SCALE_LEAST);
-		*natural = (int)ceilf(picture->strokes.width);
-		return;
-	}
-	*minimum = *natural = (int)ceilf(picture->strokes.height *
-					 scale_for(picture, for_size));
-}
-
-static void snapshot(GtkWidget *widget, GtkSnapshot *shot)
-{
-	LadderClassicPicture *picture = LADDER_CLASSIC_PICTURE(widget);
-	const float width = (float)gtk_widget_get_width(widget);
-	const float height = (float)gtk_widget_get_height(widget);
-	const float scale = scale_for(picture, (int)width);
-	const struct theme *theme = theme_screen();
-
-	gtk_snapshot_append_color(shot, &theme->color[TOKEN_SHEET],
-				  &GRAPHENE_RECT_INIT(0, 0, width, height));
-	gtk_snapshot_scale(shot, scale, scale);
-	if (picture->lettering)
-		picture_snapshot(&picture->strokes, theme, picture->lettering, shot);
-}
-
-static void picture_dispose(GObject *object)
-{
-	LadderClassicPicture *picture = LADDER_CLASSIC_PICTURE(object);
-
-	g_clear_object(&picture->origin);
-	g_clear_object(&picture->document);
-	picture_clear(&picture->strokes);
-	g_clear_pointer(&picture->lettering, lettering_free);
-	G_OBJECT_CLASS(ladder_classic_picture_parent_class)->dispose(object);
-}
-
-static void ladder_classic_picture_class_init(LadderClassicPictureClass *class)
-{
-	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
-
-	G_OBJECT_CLASS(class)->dispose = picture_dispose;
-	widget->get_request_mode = request_mode;
-	widget->measure = measure;
-	widget->snapshot = snapshot;
-	gtk_widget_class_set_accessible_role(widget, GTK_ACCESSIBLE_ROLE_IMG);
-}
-
-static void ladder_classic_picture_init(LadderClassicPicture *picture)
-{
-	picture_init(&picture->strokes);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(draw_again), picture, G_CONNECT_SWAPPED);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::high-contrast",
-				G_CALLBACK(draw_again), picture, G_CONNECT_SWAPPED);
-}
-
-static GtkWidget *picture_new(void)
-{
-	return g_object_new(LADDER_TYPE_CLASSIC_PICTURE, NULL);
-}
 
 /* ---- the view ---- */
 
 struct _LadderReportView {
 	GtkWidget parent_instance;
 	GtkWidget *paned, *title, *picture_place;
-	GtkWidget *picture;
+	GtkWidget *picture;        /* a rung of ClassicLadder above the rung it became */
 	struct panel_list list;
 	struct panel_watch *watch;
 	LadderDocument *document;
@@ -212,13 +35,65 @@ G_DEFINE_FINAL_TYPE(LadderReportView, ladder_report_view, GTK_TYPE_WIDGET)
 
 static guint close_wanted;
 
+/* ---- the picture ---- */
+
+static void put_nothing(struct picture *picture, struct lettering *lettering)
+{
+	const char *text = _("This rung does not come from ClassicLadder.");
+	const struct lettered fits = lettering_fit(lettering, LETTER_COMMENT, text, -1, 0);
+
+	picture_text(picture, TOKEN_COMMENT, LETTER_COMMENT, fits, 16, 24);
+	picture->width = fits.width + 32;
+	picture->height = 40;
+}
+
+static void put_pair(LadderReportView *view, struct picture *picture,
+		     struct lettering *lettering)
+{
+	const struct classic_rung *rung = view->shown;
+	const char *member = rung->place.member;
+	char *name = *member ? g_strdup(member) :
+		g_path_get_basename(ladder_origin_path(view->origin));
+	struct classic_pair pair = {
+		.there = { ladder_origin_project(view->origin), rung, lettering,
+			   theme_screen() },
+		.there_name = name,
+		.project = ladder_document_project(view->document),
+		.show = (enum drafting_show)settings_enum("show", SHOW_BOTH),
+		.lost = _("This rung was deleted after the import."),
+	};
+	GArray *ours = ladder_origin_became(view->origin, rung, &pair.pou);
+
+	pair.rung = (const int *)(const void *)ours->data;
+	pair.rungs = pair.project ? (int)ours->len : 0;
+	grid_classic_pair(&pair, 0, picture);
+	g_array_unref(ours);
+	g_free(name);
+}
+
+static void draw(gpointer data, struct picture *picture, struct lettering *lettering)
+{
+	LadderReportView *view = data;
+
+	if (view->shown && view->origin)
+		put_pair(view, picture, lettering);
+	else
+		put_nothing(picture, lettering);
+}
+
 /* ---- what it tells ---- */
 
 static void show_picture(LadderReportView *view, const struct classic_rung *rung)
 {
+	char *text = rung ? g_strdup_printf(_("Original of the rung: %s"), *rung->comment ?
+					    rung->comment : rung->place.member) :
+		     g_strdup(_("This rung does not come from ClassicLadder."));
+
 	view->shown = rung;
-	picture_show(LADDER_CLASSIC_PICTURE(view->picture), view->origin, view->document, rung);
+	spoken_name(view->picture, text);
+	ladder_picture_view_again(LADDER_PICTURE_VIEW(view->picture));
 	gtk_widget_set_visible(view->picture, TRUE);
+	g_free(text);
 }
 
 static void refresh(GtkWidget *widget)
@@ -452,7 +327,7 @@ static void ladder_report_view_init(LadderReportView *view)
 	panel_list_column(&view->list, _("Here"), REPORT_HERE, PANEL_NUMBER, 104);
 	g_signal_connect_object(view->list.selection, "selection-changed",
 				G_CALLBACK(selected), view, G_CONNECT_SWAPPED);
-	view->picture = picture_new();
+	view->picture = ladder_picture_view_new(draw, view);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(view->picture_place),
 				      view->picture);
 	view->watch = panel_watch_new(widget, false, refresh);

@@ -18,12 +18,6 @@
 #define TEXT_LINE 17
 #define SIDE      16 /* px beside a text                                        */
 
-void render_grow(struct picture *picture, float x, float y)
-{
-	picture->width = MAX(picture->width, x);
-	picture->height = MAX(picture->height, y);
-}
-
 float render_heading(struct lettering *lettering, const char *text, float y,
 		     struct picture *picture)
 {
@@ -32,14 +26,14 @@ float render_heading(struct lettering *lettering, const char *text, float y,
 	picture_move(picture, 0, y);
 	picture_text(picture, TOKEN_INK, LETTER_HEADING, fits, SIDE, 27);
 	picture_move(picture, 0, 0);
-	render_grow(picture, fits.width + 2 * SIDE, y + HEADING);
+	picture_grow(picture, fits.width + 2 * SIDE, y + HEADING);
 	return HEADING;
 }
 
 static float put_line(struct lettered text, float y, struct picture *picture)
 {
 	picture_text(picture, TOKEN_INK, LETTER_OPERAND, text, SIDE, y + 13);
-	render_grow(picture, text.width + 2 * SIDE, y + TEXT_LINE);
+	picture_grow(picture, text.width + 2 * SIDE, y + TEXT_LINE);
 	return y + TEXT_LINE;
 }
 
@@ -132,7 +126,7 @@ static float put_rungs(const struct sheet *sheet, const struct render_options *o
 		picture_move(picture, 0, y);
 		grid_draw(&scene, picture);
 		y += sheet->rung[i]->height;
-		render_grow(picture, sheet->width, y);
+		picture_grow(picture, sheet->width, y);
 	}
 	picture_move(picture, 0, 0);
 	return render_remarks(sheet, first, end, _("Comments"), y, picture);
@@ -189,7 +183,7 @@ static float put_chart(const struct project *project, const struct pou *pou,
 	sfc_draw(&scene, picture);
 	picture_move(picture, 0, 0);
 	y += chart->height;
-	render_grow(picture, chart->width, y);
+	picture_grow(picture, chart->width, y);
 	bodies = sfc_bodies_new(project, pou, &count);
 	if (count)
 		sheet = new_sheet(project, pou, options, lettering);
@@ -217,7 +211,7 @@ void render_sheets(const struct project *project, int pou,
 	bool several = pou < 0 && project->pou_count > 1;
 	float y = 0;
 
-	render_grow(picture, 1, 1);
+	picture_grow(picture, 1, 1);
 	for (int i = 0; i < project->pou_count; i++) {
 		const struct pou *one = &project->pou[i];
 		char *heading;
@@ -237,7 +231,7 @@ void render_sheets(const struct project *project, int pou,
 		else
 			y = put_ladder(project, one, options, lettering, y, picture);
 	}
-	render_grow(picture, 1, y);
+	picture_grow(picture, 1, y);
 }
 
 /* ---- rungs of ClassicLadder ---- */
@@ -306,6 +300,6 @@ bool render_classic(struct ladder *ladder, int pou, const struct render_options 
 		/* A number without a POU means the first POU with such a rung. */
 		if (pou == i || (pou < 0 && (!options->rung || of.y <= 0)))
 			put_pou(&of, i);
-	render_grow(picture, 1, of.y);
+	picture_grow(picture, 1, of.y);
 	return of.y > 0;
 }

@@ -22,8 +22,6 @@ float render_heading(struct lettering *lettering, const char *text, float y,
  * if all fit. @heading: above them; NULL: none. Returns the y below. */
 float render_remarks(const struct sheet *sheet, int first, int end, const char *heading,
 		     float y, struct picture *picture);
-/** render_grow - makes the picture reach at least to (@x, @y). */
-void render_grow(struct picture *picture, float x, float y);
 /** render_classic - original rungs of a ClassicLadder project, alone or with the imported
  * ones: of POU @pou (-1: all), or only its rung options->rung. Fails: false: @ladder has
  * loaded no such project, or no such rung has an original. */

@@ -364,17 +364,20 @@ static void add_css(GtkCssProvider *css)
 		GTK_STYLE_PROVIDER(css), GTK_STYLE_PROVIDER_PRIORITY_APPLICATION);
 }
 
-/* Widgets have the colours of the sheets for a force. */
+/* Widgets have the colours of the sheets for a force and for what was added. */
 static void define_colors(GtkCssProvider *css)
 {
 	const struct theme *theme = theme_screen();
 	char *force = gdk_rgba_to_string(&theme->color[TOKEN_FORCE]);
 	char *text = gdk_rgba_to_string(&theme->color[TOKEN_BADGE]);
+	char *power = gdk_rgba_to_string(&theme->color[TOKEN_POWER]);
 	char *rules = g_strdup_printf("@define-color force_color %s;\n"
-				      "@define-color force_text_color %s;\n", force, text);
+				      "@define-color force_text_color %s;\n"
+				      "@define-color power_color %s;\n", force, text, power);
 
 	gtk_css_provider_load_from_data(css, rules, -1);
 	g_free(rules);
+	g_free(power);
 	g_free(text);
 	g_free(force);
 }

@@ -10,6 +10,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tab_home.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/compare_view.h"
 #include "editor-gtk/panels/symbols_view.h"
 #include "editor-gtk/panels/tasks_view.h"
 #include "editor-gtk/window/ask.h"
@@ -207,6 +208,9 @@ static AdwTabPage *open_widget(struct tabs *tabs, const char *name)
 		page = add_page(tabs, ladder_tasks_view_new(tabs->core->document), key, _("Tasks"));
 	else if (!page && strcmp(name, "welcome") == 0)
 		page = add_page(tabs, welcome_new(), key, _("Welcome"));
+	else if (!page && strcmp(name, "compare") == 0)
+		page = add_page(tabs, ladder_compare_view_new(tabs->core->document), key,
+				_("Compare"));
 	else if (!page && strcmp(name, "text") == 0)
 		page = add_page(tabs, ladder_text_view_new(tabs->core->document, -1), key,
 				_("Text of the file"));
@@ -307,6 +311,15 @@ void tabs_new_task(struct tabs *tabs)
 	tabs_show_task(tabs, NULL);
 	if (ladder_document_project(tabs->core->document))
 		gtk_widget_activate_action(tabs_show_widget(tabs, "tasks"), "tasks.add", NULL);
+}
+
+GtkWidget *tabs_find_widget(struct tabs *tabs, const char *name)
+{
+	char *key = g_strdup_printf(" %s", name);
+	GtkWidget *content = page_content(find_page(tabs, key));
+
+	g_free(key);
+	return content;
 }
 
 static void go_in_chart(LadderSfcPage *page, int rung, int row, int col)
@@ -561,6 +574,8 @@ static bool update_page(AdwTabPage *page, const struct project *project, bool re
 		return false; /* a file was opened */
 	if (LADDER_IS_FILE_VIEW(widget))
 		return true; /* it does not depend on the project */
+	if (strcmp(name, " compare") == 0)
+		return true; /* it also compares what cannot be read */
 	if (name[0] == ' ')
 		return (strcmp(name, " text") == 0) == !project;
 	pou = project_find_pou(project, name, strlen(name));

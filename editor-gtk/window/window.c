@@ -25,6 +25,7 @@
 #include "editor-gtk/window/blockers.h"
 #include "editor-gtk/window/board_bar.h"
 #include "editor-gtk/window/commands.h"
+#include "editor-gtk/window/compare.h"
 #include "editor-gtk/window/finder.h"
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/names.h"
@@ -55,6 +56,7 @@ struct _LadderWindow {
 	struct finder finder;
 	struct origin origin;
 	struct export export;
+	struct compare compare;
 	struct exchange exchange;
 	struct files files;
 	struct sim_bar sim_bar;
@@ -332,6 +334,9 @@ static bool do_in_file(LadderWindow *window, enum verb verb)
 	case VERB_open: files_open(&window->files); return true;
 	case VERB_save: files_save(&window->files); return true;
 	case VERB_save_as: files_save_as(&window->files); return true;
+	case VERB_compare: compare_ask(&window->compare); return true;
+	case VERB_next_difference: compare_step(&window->compare, false); return true;
+	case VERB_previous_difference: compare_step(&window->compare, true); return true;
 	case VERB_export_classic: exchange_export(&window->exchange); return true;
 	case VERB_print: export_print(&window->export); return true;
 	case VERB_export_pdf: export_pdf(&window->export); return true;
@@ -746,6 +751,7 @@ static void add_parts(LadderWindow *window)
 	status_init(&window->status, core);
 	origin_init(&window->origin, core);
 	export_init(&window->export, core, &window->origin);
+	compare_init(&window->compare, core);
 	sim_bar_init(&window->sim_bar, core, &window->origin);
 	blockers_init(&window->blockers, core);
 	finder_init(&window->finder, core);
@@ -837,6 +843,7 @@ static void ladder_window_dispose(GObject *object)
 	g_clear_handle_id(&window->disk_timer, g_source_remove);
 	board_bar_clear(&window->board_bar);
 	scenarios_clear(&window->scenarios);
+	compare_clear(&window->compare);
 	blockers_clear(&window->blockers);
 	sim_bar_clear(&window->sim_bar);
 	origin_clear(&window->origin);

@@ -32,6 +32,7 @@ struct diff {
 	bool failed;               /* memory is out                           */
 	bool besides;              /* rungs and lines are counted but not printed */
 	const char *pou;           /* and other POUs are skipped; NULL: print all */
+	enum compare_group group;  /* of the differences to come              */
 	int count;                 /* differences so far                      */
 	int said;                  /* those in printed lines                  */
 	struct arena arena;        /* scratch                                 */
@@ -42,19 +43,10 @@ struct diff {
 	/* Gets pairs of rungs; NULL: differences are printed. */
 	void (*take)(void *context, struct compare_pair pair);
 	void (*take_line)(void *context, struct compare_line line); /* gets pairs of lines */
+	/* Gets differences instead of their being printed. */
+	void (*take_difference)(void *context, const struct compare_difference *what);
 	void *context;
 	struct compare_pair pair;     /* for take: indices of its POUs            */
-};
-
-/* One difference; members that are NULL or 0 are not printed. */
-struct difference {
-	const char *pou, *label;
-	int rung, row, col, line;  /* 1-based                                 */
-	const char *kind;          /* "variable", "view section"              */
-	const char *subject;       /* its name, or the element in a cell      */
-	const char *property;      /* "address"                               */
-	const char *from, *to;     /* either may be "": nothing               */
-	const char *change;        /* "added", when there is no from and to   */
 };
 
 /* @count elements, at least one. NULL and diff->failed: memory is out. */
@@ -167,7 +159,7 @@ static void say_word(const struct sink *sink, const char **gap,
 	*gap = " ";
 }
 
-static void say_place(const struct sink *sink, const struct difference *what)
+static void say_place(const struct sink *sink, const struct compare_difference *what)
 {
 	const char *gap = "";
 
@@ -193,7 +185,7 @@ static void say_place(const struct sink *sink, const struct difference *what)
 	say_word(sink, &gap, what->subject);
 }
 
-static void say_words(const struct sink *sink, const struct difference *what)
+static void say_words(const struct sink *sink, const struct compare_difference *what)
 {
 	say_place(sink, what);
 	sink_text(sink, ": ");
@@ -228,7 +220,7 @@ static void json_field(const struct sink *sink, const char **gap,
 	}
 }
 
-static void say_json(const struct sink *sink, const struct difference *what)
+static void say_json(const struct sink *sink, const struct compare_difference *what)
 {
 	const char *gap = "";
 
@@ -252,7 +244,7 @@ static void say_json(const struct sink *sink, const struct difference *what)
 
 /* Whether a difference is printed: not one that the caller draws, nor one of another
  * POU. */
-static bool is_wanted(const struct diff *diff, const struct difference *what)
+static bool is_wanted(const struct diff *diff, const struct compare_difference *what)
 {
 	const char *pou = what->pou ? what->pou : what->subject ? what->subject : "";
 
@@ -260,25 +252,33 @@ static bool is_wanted(const struct diff *diff, const struct difference *what)
 				  (!diff->pou || strcasecmp(diff->pou, pou) == 0));
 }
 
-/* Prints and counts a difference. */
-static void diff_say(struct diff *diff, struct difference what)
+static void give_difference(struct diff *diff, struct compare_difference what)
 {
-	if (!is_wanted(diff, &what)) {
+	what.group = diff->group;
+	diff->take_difference(diff->context, &what);
+}
+
+/* Prints and counts a difference. */
+static void diff_say(struct diff *diff, const struct compare_difference *what)
+{
+	if (!is_wanted(diff, what)) {
 		diff->count++;
 		return;
 	}
 	diff->said++;
-	if (diff->json) {
+	if (diff->take_difference) {
+		give_difference(diff, *what);
+	} else if (diff->json) {
 		sink_text(diff->sink, diff->count ? ",\n " : "\n ");
-		say_json(diff->sink, &what);
+		say_json(diff->sink, what);
 	} else {
-		say_words(diff->sink, &what);
+		say_words(diff->sink, what);
 	}
 	diff->count++;
 }
 
 /* Adds difference @what if the texts differ, as from and to. */
-static void diff_texts(struct diff *diff, struct difference what, const char *property,
+static void diff_texts(struct diff *diff, struct compare_difference what, const char *property,
 		       const char *from, const char *to)
 {
 	if (strcmp(from, to) == 0)
@@ -286,17 +286,17 @@ static void diff_texts(struct diff *diff, struct difference what, const char *pr
 	what.property = property;
 	what.from = from;
 	what.to = to;
-	diff_say(diff, what);
+	diff_say(diff, &what);
 }
 
-static void compare_ids(struct diff *diff, struct difference what,
+static void compare_ids(struct diff *diff, struct compare_difference what,
 			const char *property, uint32_t a, uint32_t b)
 {
 	diff_texts(diff, what, property, project_text(diff->a, a),
 		   project_text(diff->b, b));
 }
 
-static void compare_var(struct diff *diff, struct difference what,
+static void compare_var(struct diff *diff, struct compare_difference what,
 			const struct var_table *a, int i,
 			const struct var_table *b, int j)
 {
@@ -336,7 +336,7 @@ static int *var_index(struct diff *diff, const uint32_t *name, int count)
 static void compare_vars(struct diff *diff, const char *pou,
 			 const struct var_table *a, const struct var_table *b)
 {
-	struct difference what = { .pou = pou, .kind = "variable" };
+	struct compare_difference what = { .pou = pou, .kind = "variable" };
 	uint32_t *name_a = var_names(diff, diff->a, a);
 	uint32_t *name_b = var_names(diff, diff->b, b);
 
@@ -349,7 +349,7 @@ static void compare_vars(struct diff *diff, const char *pou,
 		what.subject = project_text(diff->a, a->var[i].name);
 		what.change = in_b[name_a[i]] ? NULL : "removed";
 		if (what.change)
-			diff_say(diff, what);
+			diff_say(diff, &what);
 		else
 			compare_var(diff, what, a, i, b, in_b[name_a[i]] - 1);
 	}
@@ -357,7 +357,7 @@ static void compare_vars(struct diff *diff, const char *pou,
 	for (int j = 0; !diff->failed && j < b_count; j++)
 		if (!in_a[name_b[j]]) {
 			what.subject = project_text(diff->b, b->var[j].name);
-			diff_say(diff, what);
+			diff_say(diff, &what);
 		}
 }
 
@@ -595,10 +595,10 @@ static void find_crossed(struct pairing *pairs)
 
 /* ---- output ---- */
 
-static struct difference of_rung(const struct project *project,
+static struct compare_difference of_rung(const struct project *project,
 				 const struct pou *pou, int index)
 {
-	return (struct difference){
+	return (struct compare_difference){
 		.pou = project_text(project, pou->name), .rung = index + 1,
 		.label = project_text(project, pou->rung[index]->label),
 	};
@@ -621,10 +621,11 @@ static int tell_added(const struct pairing *pairs, int from, int end)
 		if (pairs->to_a[j] < 0 && pairs->diff->take) {
 			give(pairs->diff, -1, j, false, true);
 		} else if (pairs->to_a[j] < 0) {
-			struct difference what = of_rung(pairs->diff->b,
-							 pairs->b, j);
+			struct compare_difference what = of_rung(pairs->diff->b,
+								 pairs->b, j);
 			what.change = "added";
-			diff_say(pairs->diff, what);
+			what.at_b = j + 1;
+			diff_say(pairs->diff, &what);
 		}
 	return end > from ? end : from;
 }
@@ -649,7 +650,7 @@ static void value_text(const struct arg *arg, char *out, size_t size)
 			 (int)arg->value_len, arg->value);
 }
 
-static void compare_arg(struct diff *diff, struct difference what,
+static void compare_arg(struct diff *diff, struct compare_difference what,
 			const struct arg *a, const struct arg *b)
 {
 	const struct arg *pin = a ? a : b;
@@ -661,7 +662,7 @@ static void compare_arg(struct diff *diff, struct difference what,
 	diff_texts(diff, what, diff->pin, diff->from, diff->to);
 }
 
-static void compare_args(struct diff *diff, struct difference what,
+static void compare_args(struct diff *diff, struct compare_difference what,
 			 const struct cell *a, const struct cell *b)
 {
 	const char *in_a = project_text(diff->a, a->args);
@@ -688,7 +689,7 @@ static void compare_args(struct diff *diff, struct difference what,
 		diff_texts(diff, what, "parameters", in_a, in_b);
 }
 
-static void compare_cells(struct diff *diff, struct difference what,
+static void compare_cells(struct diff *diff, struct compare_difference what,
 			  const struct cell *a, const struct cell *b)
 {
 	bool same = a->word == b->word &&
@@ -706,11 +707,11 @@ static void compare_cells(struct diff *diff, struct difference what,
 	if (!a->link != !b->link) {
 		what.property = "link";
 		what.change = b->link ? "added" : "removed";
-		diff_say(diff, what);
+		diff_say(diff, &what);
 	}
 }
 
-static void say_changes(struct diff *diff, struct difference what,
+static void say_changes(struct diff *diff, struct compare_difference what,
 			  const struct rung *a, const struct rung *b)
 {
 	int rows = a->rows > b->rows ? a->rows : b->rows;
@@ -721,7 +722,7 @@ static void say_changes(struct diff *diff, struct difference what,
 	compare_ids(diff, what, "comment", a->comment, b->comment);
 	if (!a->off != !b->off) {
 		what.change = b->off ? "switched off" : "switched on";
-		diff_say(diff, what);
+		diff_say(diff, &what);
 		what.change = NULL;
 	}
 	for (what.row = 1; what.row <= rows; what.row++)
@@ -734,8 +735,10 @@ static void say_changes(struct diff *diff, struct difference what,
 static void tell(const struct pairing *pairs, int i)
 {
 	struct diff *diff = pairs->diff;
-	struct difference what = of_rung(diff->a, pairs->a, i);
+	struct compare_difference what = of_rung(diff->a, pairs->a, i);
 	int j = pairs->to_b[i];
+	what.at_a = i + 1;
+	what.at_b = j + 1;
 	bool changed = j < 0 || pairs->id_a[i] != pairs->id_b[j];
 	char moved[40];
 
@@ -746,11 +749,11 @@ static void tell(const struct pairing *pairs, int i)
 	if (j >= 0 && pairs->moved[i]) {
 		snprintf(moved, sizeof(moved), "moved to rung %d", j + 1);
 		what.change = moved;
-		diff_say(diff, what);
+		diff_say(diff, &what);
 		what.change = NULL;
 	} else if (j < 0) {
 		what.change = "removed";
-		diff_say(diff, what);
+		diff_say(diff, &what);
 	}
 	if (j >= 0 && changed)
 		say_changes(diff, what, pairs->a->rung[i], pairs->b->rung[j]);
@@ -871,25 +874,28 @@ static bool make_lines(struct diff *diff, const struct project *project,
 
 /* The lines from (i, j) up to (i_end, j_end) have no match: pairs of them are changes,
  * the rest was added or removed. */
-static void tell_gap(struct diff *diff, struct difference what,
+static void tell_gap(struct diff *diff, struct compare_difference what,
 		     const struct lines *a, int i, int i_end,
 		     const struct lines *b, int j, int j_end)
 {
 	for (; i < i_end && j < j_end; i++, j++) {
-		what.line = i + 1;
+		what.line = what.at_a = i + 1;
+		what.at_b = j + 1;
 		diff_texts(diff, what, NULL, a->line[i], b->line[j]);
 	}
+	what.at_b = 0;
 	for (; i < i_end; i++) {
-		what.line = i + 1;
+		what.line = what.at_a = i + 1;
 		what.change = "removed";
 		what.subject = a->line[i];
-		diff_say(diff, what);
+		diff_say(diff, &what);
 	}
+	what.at_a = 0;
 	for (; j < j_end; j++) {
-		what.line = j + 1;
+		what.line = what.at_b = j + 1;
 		what.change = "added";
 		what.subject = b->line[j];
-		diff_say(diff, what);
+		diff_say(diff, &what);
 	}
 }
 
@@ -916,7 +922,7 @@ static void give_gap(struct diff *diff, const struct lines *a, int i, int i_end,
 /* Lists and charts; with take_line, one of them may be NULL. */
 static void diff_il(struct diff *diff, const struct pou *a, const struct pou *b)
 {
-	struct difference what = { .pou = a ? project_text(diff->a, a->name) : NULL };
+	struct compare_difference what = { .pou = a ? project_text(diff->a, a->name) : NULL };
 	struct lines x = { 0 }, y = { 0 };
 	int i = 0, j = 0, *match = NULL;
 
@@ -948,7 +954,7 @@ static void compare_pou(struct diff *diff, const struct pou *a,
 			const struct pou *b)
 {
 	const char *name = project_text(diff->a, a->name);
-	struct difference what = { .pou = name };
+	struct compare_difference what = { .pou = name };
 
 	diff_texts(diff, what, "name", name, project_text(diff->b, b->name));
 	diff_texts(diff, what, "kind", pou_word(a->kind), pou_word(b->kind));
@@ -976,7 +982,7 @@ static const char *kind_text(const struct pou *pou)
 
 static void compare_pous(struct diff *diff)
 {
-	struct difference what = { 0 };
+	struct compare_difference what = { 0 };
 
 	for (int i = 0; i < diff->a->pou_count; i++) {
 		const struct pou *a = &diff->a->pou[i];
@@ -989,14 +995,14 @@ static void compare_pous(struct diff *diff)
 		if (b)
 			compare_pou(diff, a, b);
 		else
-			diff_say(diff, what);
+			diff_say(diff, &what);
 	}
 	for (int j = 0; j < diff->b->pou_count; j++) {
 		what.subject = project_text(diff->b, diff->b->pou[j].name);
 		what.kind = kind_text(&diff->b->pou[j]);
 		what.change = "added";
 		if (!pou_named(diff->a, what.subject))
-			diff_say(diff, what);
+			diff_say(diff, &what);
 	}
 }
 
@@ -1014,7 +1020,7 @@ static const struct structure *structure_named(const struct project *project,
 
 static void compare_structures(struct diff *diff)
 {
-	struct difference what = { .kind = "type" };
+	struct compare_difference what = { .kind = "type" };
 
 	for (int i = 0; i < diff->a->structure_count; i++) {
 		const struct structure *a = &diff->a->structure[i], *b;
@@ -1025,13 +1031,13 @@ static void compare_structures(struct diff *diff)
 		if (b)
 			compare_vars(diff, what.subject, &a->vars, &b->vars);
 		else
-			diff_say(diff, what);
+			diff_say(diff, &what);
 	}
 	for (int j = 0; j < diff->b->structure_count; j++) {
 		what.subject = project_text(diff->b, diff->b->structure[j].name);
 		what.change = "added";
 		if (!structure_named(diff->a, what.subject))
-			diff_say(diff, what);
+			diff_say(diff, &what);
 	}
 }
 
@@ -1053,7 +1059,7 @@ static const char *next_part(const struct project *project, enum part_kind kind,
 static void compare_parts(struct diff *diff, enum part_kind kind,
 			  const char *word)
 {
-	struct difference what = { .kind = word };
+	struct compare_difference what = { .kind = word };
 	int at_a = 0, at_b = 0;
 
 	for (;;) {
@@ -1066,7 +1072,7 @@ static void compare_parts(struct diff *diff, enum part_kind kind,
 			continue;
 		what.change = !a ? "added" : !b ? "removed" : "changed";
 		what.subject = kind == PART_VIEW ? NULL : b ? b : a;
-		diff_say(diff, what);
+		diff_say(diff, &what);
 	}
 }
 
@@ -1079,7 +1085,7 @@ static void compare_texts(struct diff *diff)
 	if (!a || !b)
 		diff->failed = true;
 	else if (a_len != b_len || memcmp(a, b, a_len) != 0)
-		diff_say(diff, (struct difference){
+		diff_say(diff, &(struct compare_difference){
 			.kind = "order, layout or comments",
 			.change = "changed",
 		});
@@ -1117,7 +1123,7 @@ static const struct config_entry *same_line(const struct project *project,
 	return NULL;
 }
 
-static void compare_numbers(struct diff *diff, struct difference what,
+static void compare_numbers(struct diff *diff, struct compare_difference what,
 			    const char *property, uint32_t a, uint32_t b)
 {
 	char from[16], to[16];
@@ -1127,7 +1133,7 @@ static void compare_numbers(struct diff *diff, struct difference what,
 	diff_texts(diff, what, property, from, to);
 }
 
-static void compare_entry(struct diff *diff, struct difference what,
+static void compare_entry(struct diff *diff, struct compare_difference what,
 			 const struct config_entry *a,
 			 const struct config_entry *b)
 {
@@ -1155,7 +1161,7 @@ static const char *kind_of(const struct config_entry *entry)
 static void diff_config(struct diff *diff)
 {
 	const struct config *a = config_of(diff->a), *b = config_of(diff->b);
-	struct difference what = { .kind = "configuration" };
+	struct compare_difference what = { .kind = "configuration" };
 
 	compare_ids(diff, what, "name", a->name, b->name);
 	compare_ids(diff, what, "comment", a->comment, b->comment);
@@ -1175,7 +1181,7 @@ static void diff_config(struct diff *diff)
 		if (other)
 			compare_entry(diff, what, entry, other);
 		else
-			diff_say(diff, what);
+			diff_say(diff, &what);
 	}
 	what.change = "added";
 	for (int i = 0; i < b->count; i++) {
@@ -1183,13 +1189,13 @@ static void diff_config(struct diff *diff)
 		what.subject = subject_of(diff->b, &b->entry[i]);
 		if (b->entry[i].kind != CONFIG_VARS &&
 		    !same_line(diff->a, &b->entry[i], what.subject))
-			diff_say(diff, what);
+			diff_say(diff, &what);
 	}
 }
 
 static void compare(struct diff *diff)
 {
-	struct difference what = { .kind = "project" };
+	struct compare_difference what = { .kind = "project" };
 	const struct project *a = diff->a, *b = diff->b;
 
 	compare_ids(diff, what, "title", a->title, b->title);
@@ -1197,10 +1203,15 @@ static void compare(struct diff *diff)
 	compare_ids(diff, what, "closing comment", a->tail, b->tail);
 	compare_parts(diff, PART_INCLUDE, "INCLUDE");
 	compare_parts(diff, PART_USES, "USES");
+	diff->group = COMPARE_CONFIG;
 	diff_config(diff);
+	diff->group = COMPARE_TYPES;
 	compare_structures(diff);
+	diff->group = COMPARE_GLOBALS;
 	compare_vars(diff, NULL, &a->globals, &b->globals);
+	diff->group = COMPARE_POU;
 	compare_pous(diff);
+	diff->group = COMPARE_PROJECT;
 	compare_parts(diff, PART_VIEW, "VIEW section");
 	if (diff->count == 0 && !diff->failed)
 		compare_texts(diff);
@@ -1245,6 +1256,22 @@ int compare_projects(const struct project *a, const struct project *b, bool json
 	sink_text(sink, json ? "[" : "");
 	compare(diff);
 	sink_text(sink, json ? (diff->count ? "\n]\n" : "]\n") : "");
+
+	int count = diff->count;
+	return diff_close(diff) ? count : -1;
+}
+
+int compare_each(const struct project *a, const struct project *b,
+		 void (*take)(void *context, const struct compare_difference *what),
+		 void *context)
+{
+	struct diff *diff = diff_open(a, b, NULL);
+
+	if (!diff)
+		return -1;
+	diff->take_difference = take;
+	diff->context = context;
+	compare(diff);
 
 	int count = diff->count;
 	return diff_close(diff) ? count : -1;

@@ -23,6 +23,34 @@
 int compare_projects(const struct project *a, const struct project *b, bool json,
 		     const struct sink *sink);
 
+/* The part of a project that a difference belongs to. */
+enum compare_group {
+	COMPARE_PROJECT, COMPARE_CONFIG, COMPARE_TYPES, COMPARE_GLOBALS, COMPARE_POU
+};
+/* One difference; members that are NULL or 0 do not apply. Texts in English are words of
+ * compare.c: kind, property (also a pin), change. */
+struct compare_difference {
+	enum compare_group group;
+	const char *pou, *label;   /* of TYPES, @pou is the structure          */
+	int rung, row, col, line;  /* 1-based; in project a, of what was added in b */
+	int at_a, at_b;            /* the rung in each project; the line of a list or chart */
+	const char *kind;          /* "variable", "view section"              */
+	const char *subject;       /* its name, or the element in a cell      */
+	const char *property;      /* "address"                               */
+	const char *from, *to;     /* either may be "": nothing               */
+	const char *change;        /* "added", when there is no from and to   */
+};
+
+/**
+ * compare_each - the same differences as data
+ * @take: gets each, those of a rung one after another; its texts are valid until it returns
+ *
+ * Returns the number of differences; -1: no memory. Scan-safe: no.
+ */
+int compare_each(const struct project *a, const struct project *b,
+		 void (*take)(void *context, const struct compare_difference *what),
+		 void *context);
+
 /**
  * compare_besides - the same without differences in rungs, lists and charts
  * @pou: only declarations of this POU, any case; NULL: everything

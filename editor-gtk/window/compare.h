@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * compare - compares the document with another version: asks which, reads it, shows the page.
+ */
+#ifndef EDITOR_WINDOW_COMPARE_H
+#define EDITOR_WINDOW_COMPARE_H
+
+#include "editor-gtk/window/core.h"
+
+struct compare {
+	struct core *core;
+	GCancellable *cancel;   /* of git; NULL: nothing is awaited               */
+	char *name;             /* of the revision that is awaited               */
+};
+
+void compare_init(struct compare *compare, struct core *core);
+void compare_clear(struct compare *compare);
+/** compare_ask - asks with what, and shows the page. */
+void compare_ask(struct compare *compare);
+/** compare_step - shows the next or previous difference; of a page that is not in front, the
+ * one that is selected. */
+void compare_step(struct compare *compare, bool back);
+
+#endif

@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_comparison - the rows of a comparison, without a display.
+ */
+#include "editor-gtk/document/comparison.h"
+#include "editor-gtk/document/git_log.h"
+#include "tests/tap.h"
+
+#include <gio/gio.h>
+#include <glib/gstdio.h>
+#include <string.h>
+
+#define HEAD "RUNGBOARD 1\n\n"
+#define RUNG(text) "RUNG\n  | " text " |\n"
+#define MAIN(rungs) "PROGRAM Main LD\n" rungs "END_PROGRAM\n"
+
+static struct compare_side side(const char *name, const char *text)
+{
+	return (struct compare_side){ g_strdup(name), NULL, g_strdup(text), strlen(text) };
+}
+
+static struct comparison *compare(const char *older, const char *newer)
+{
+	struct compare_side a = side("old", older), b = side("new", newer);
+
+	return comparison_new(&a, &b);
+}
+
+/* "group|title|change|words" of all rows, a line each. */
+static char *rows_of(const struct comparison *of)
+{
+	GString *text = g_string_new(NULL);
+
+	for (guint i = 0; i < of->rows->len; i++) {
+		const struct compare_row *row = of->rows->pdata[i];
+		char **lines = g_strsplit(row->words, "\n", -1);
+		char *words = g_strjoinv(" ; ", lines);
+
+		g_string_append_printf(text, "%s|%s|%s|%s\n", row->group, row->title,
+				       compare_change_text(row->change), words);
+		g_free(words);
+		g_strfreev(lines);
+	}
+	return g_string_free(text, FALSE);
+}
+
+static void check_rows(const char *older, const char *newer, const char *want)
+{
+	struct comparison *of = compare(older, newer);
+	char *got = rows_of(of);
+
+	CHECK(of->read_a && of->read_b && !of->failed);
+	CHECK_TEXT(got, want);
+	g_free(got);
+	comparison_free(of);
+}
+
+static void check_rungs(void)
+{
+	check_rows(HEAD MAIN(RUNG("NO %IX0.0 | COIL %QX0.0") RUNG("NO %IX0.1 | COIL %QX0.1")),
+		   HEAD MAIN(RUNG("NC %IX0.0 | COILNOT %QX0.0") RUNG("NO %IX0.1 | COIL %QX0.1")
+			     RUNG("NO %IX0.2 | COIL %QX0.2")),
+		   "PROGRAM Main|Rung 1|changed|row 1, column A: NO %IX0.0 → NC %IX0.0 ; "
+		   "row 1, column F: COIL %QX0.0 → COILNOT %QX0.0\n"
+		   "PROGRAM Main|Rung 3|added|\n");
+	check_rows(HEAD MAIN("RUNG \"One\"\n  | NO %IX0.0 | COIL %QX0.0 |\n"
+			     RUNG("NO %IX0.1 | COIL %QX0.1") RUNG("NO %IX0.2 | COIL %QX0.2")),
+		   HEAD MAIN(RUNG("NO %IX0.1 | COIL %QX0.1") RUNG("NO %IX0.2 | COIL %QX0.2")
+			     "RUNG \"One\"\n  | NO %IX0.0 | COIL %QX0.0 |\n"),
+		   "PROGRAM Main|Rung 3 (One)|moved|moved from 1 to 3\n");
+}
+
+static void check_names(void)
+{
+	check_rows(HEAD "VAR\n  A AT %IX0.0 : BOOL;\n  B : INT;\nEND_VAR\n" MAIN(RUNG("NO A | COIL %QX0.0")),
+		   HEAD "VAR\n  A AT %IX0.1 : BOOL; (* key *)\n  C : INT;\nEND_VAR\n"
+		   MAIN(RUNG("NO A | COIL %QX0.0")),
+		   "Symbols|A|changed|address: %IX0.0 → %IX0.1 ; comment: nothing → (* key *)\n"
+		   "Symbols|B|removed|\nSymbols|C|added|\n");
+	check_rows(HEAD MAIN(RUNG("NO %IX0.0 | COIL %QX0.0")),
+		   HEAD MAIN(RUNG("NO %IX0.0 | COIL %QX0.0"))
+		   "PROGRAM Other LD\n" RUNG("NO %IX0.0 | COIL %QX0.1") "END_PROGRAM\n",
+		   "PROGRAM Other|the whole POU|added|\n");
+}
+
+static void check_lists(void)
+{
+	check_rows(HEAD "PROGRAM Main IL\n  LD %IX0.0\n  AND %IX0.1\n  OR %IX0.2\n  ST %QX0.0\nEND_PROGRAM\n",
+		   HEAD "PROGRAM Main IL\n  LD %IX0.0\n  ANDN %IX0.1\n  ORN %IX0.2\n  ST %QX0.0\n  ST %QX0.1\nEND_PROGRAM\n",
+		   "PROGRAM Main|Line 2|changed|− AND %IX0.1 ; + ANDN %IX0.1 ; − OR %IX0.2 ; + ORN %IX0.2\n"
+		   "PROGRAM Main|Line 5|added|+ ST %QX0.1\n");
+}
+
+#define CHART(action, condition, more) HEAD "PROGRAM Tank SFC\n  INITIAL_STEP S0:\n" \
+	"    %QX0.0(" action ");\n  END_STEP\n  STEP S1:\n  END_STEP\n" \
+	"  TRANSITION FROM S0 TO S1 := " condition "; END_TRANSITION\n" \
+	"  TRANSITION FROM S1 TO S0 := %IX0.1; END_TRANSITION\n" more "END_PROGRAM\n"
+
+static void check_charts(void)
+{
+	struct comparison *of = compare(CHART("N", "%IX0.0", ""), CHART("S", "%IX0.7", ""));
+	char *got = rows_of(of);
+	const struct compare_row *row;
+	int place[4];
+
+	CHECK(strstr(got, "PROGRAM Tank|Step S0|changed|− N %QX0.0 ; + S %QX0.0\n"));
+	CHECK(strstr(got, "PROGRAM Tank|Transition") && strstr(got, "%IX0.7"));
+	CHECK(of->rows->len == 2);
+	row = of->rows->pdata[0];
+	CHECK(compare_row_place(row, ladder_project(of->of_b), place) && place[0] == 0 &&
+	      place[1] == -1 && place[2] == 1);
+	g_free(got);
+	comparison_free(of);
+	of = compare(CHART("N", "%IX0.0", ""), CHART("N", "%IX0.0", "  STEP S2:\n  END_STEP\n"
+		"  TRANSITION FROM S2 TO S1 := %IX0.2; END_TRANSITION\n"));
+	got = rows_of(of);
+	CHECK(strstr(got, "Step S2|added|") && of->rows->len == 2);
+	g_free(got);
+	comparison_free(of);
+}
+
+/* Where a row leads in the newer version. */
+static void check_places(void)
+{
+	struct comparison *of = compare(
+		HEAD "VAR\n  A : BOOL;\nEND_VAR\n" MAIN(RUNG("NO A | COIL %QX0.0") RUNG("NO A | COIL %QX0.1"))
+		"PROGRAM List IL\nVAR\n  X : INT;\nEND_VAR\n  LD A\n  ST %QX0.2\nEND_PROGRAM\n",
+		HEAD "VAR\n  B : BOOL;\n  A : INT;\nEND_VAR\n" MAIN(RUNG("NC A | COIL %QX0.0"))
+		"PROGRAM List IL\nVAR\n  X : INT;\nEND_VAR\n  LD A\n  ST %QX0.3\nEND_PROGRAM\n");
+	static const struct { const char *title; int good, place[4]; } want[] = {
+		{ "A", 1, { -1, -1, 0, 1 } }, { "B", 1, { -1, -1, 0, 0 } },
+		{ "Rung 1", 1, { 0, 0, -1, -1 } }, { "Rung 2", 0, { 0, 0, 0, 0 } },
+		{ "Line 2", 1, { 1, -1, 5, -1 } },
+	};
+
+	for (guint i = 0; i < of->rows->len; i++) {
+		const struct compare_row *row = of->rows->pdata[i];
+		int place[4];
+		const bool good = compare_row_place(row, ladder_project(of->of_b), place);
+
+		for (gsize k = 0; k < G_N_ELEMENTS(want); k++)
+			if (strcmp(want[k].title, row->title) == 0)
+				CHECK(good == want[k].good && (!good ||
+				      memcmp(place, want[k].place, sizeof(place)) == 0));
+	}
+	CHECK(of->rows->len == G_N_ELEMENTS(want));
+	comparison_free(of);
+}
+
+/* A version that cannot be read gives its diagnostics. */
+static void check_unreadable(void)
+{
+	struct comparison *of = compare("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | what I |\nEND_PROGRAM\n",
+					HEAD MAIN(RUNG("NO %IX0.0 | COIL %QX0.0")));
+	char *why = comparison_diags(of->of_a);
+
+	CHECK(!of->read_a && of->read_b && of->rows->len == 0);
+	CHECK(strstr(why, "error LD"));
+	g_free(why);
+	comparison_free(of);
+}
+
+/* ---- git ---- */
+
+struct answer { GPtrArray *revisions; char *text, *why; gsize len; bool come; };
+
+static void take_log(gpointer data, GPtrArray *revisions, const char *why)
+{
+	struct answer *answer = data;
+
+	answer->revisions = revisions;
+	answer->why = g_strdup(why);
+	answer->come = true;
+}
+
+static void take_text(gpointer data, char *text, gsize len, const char *why)
+{
+	struct answer *answer = data;
+
+	answer->text = text;
+	answer->len = len;
+	answer->why = g_strdup(why);
+	answer->come = true;
+}
+
+static void wait_for(const struct answer *answer)
+{
+	while (!answer->come)
+		g_main_context_iteration(NULL, TRUE);
+}
+
+static void clear(struct answer *answer)
+{
+	g_clear_pointer(&answer->revisions, g_ptr_array_unref);
+	g_free(answer->text);
+	g_free(answer->why);
+	*answer = (struct answer){ 0 };
+}
+
+static bool git(const char *folder, const char *const *words)
+{
+	GPtrArray *all = g_ptr_array_new();
+	int status;
+	bool good;
+
+	for (const char *const *word = (const char *const[]){ "git", "-C", folder, "-c",
+	     "user.name=A", "-c", "user.email=a@b.c", NULL }; *word; word++)
+		g_ptr_array_add(all, (gpointer)*word);
+	for (; *words; words++)
+		g_ptr_array_add(all, (gpointer)*words);
+	g_ptr_array_add(all, NULL);
+	good = g_spawn_sync(NULL, (char **)all->pdata, NULL, G_SPAWN_SEARCH_PATH |
+		G_SPAWN_STDOUT_TO_DEV_NULL | G_SPAWN_STDERR_TO_DEV_NULL, NULL, NULL, NULL, NULL,
+		&status, NULL) && status == 0;
+	g_ptr_array_unref(all);
+	return good;
+}
+
+/* A name that looks like an option or a pattern is only a name. */
+static void check_git(void)
+{
+	char *folder = g_dir_make_tmp("git-XXXXXX", NULL);
+	char *path = g_build_filename(folder, "--a*.rung", NULL);
+	char *other = g_build_filename(folder, "other.rung", NULL);
+	struct answer answer = { 0 };
+
+	g_file_set_contents(path, "one", -1, NULL);
+	git_log_read(path, NULL, take_log, &answer);
+	wait_for(&answer);
+	CHECK(!answer.revisions && strstr(answer.why, "is not in a git repository"));
+	clear(&answer);
+	if (!git(folder, (const char *const[]){ "init", "-q", NULL })) {
+		tap_skip("git is not installed");
+	} else {
+		git(folder, (const char *const[]){ "add", ".", NULL });
+		git(folder, (const char *const[]){ "commit", "-q", "-m", "First\x1f\xc3\xa4", NULL });
+		g_file_set_contents(path, "two", -1, NULL);
+		g_file_set_contents(other, "", -1, NULL);
+		git(folder, (const char *const[]){ "commit", "-q", "-a", "-m", "Second", NULL });
+		git_log_read(path, NULL, take_log, &answer);
+		wait_for(&answer);
+		CHECK(answer.revisions && answer.revisions->len == 2);
+		struct git_revision *first = answer.revisions->pdata[1];
+		char *hash = g_strdup(first->hash);
+		CHECK(g_str_has_prefix(first->subject, "First") && strlen(hash) >= 40);
+		CHECK(g_str_has_prefix(hash, first->brief));
+		clear(&answer);
+		git_log_show(path, hash, NULL, take_text, &answer);
+		wait_for(&answer);
+		CHECK(answer.text && answer.len == 3 && strcmp(answer.text, "one") == 0);
+		clear(&answer);
+		git_log_show(other, hash, NULL, take_text, &answer);
+		wait_for(&answer);
+		CHECK(!answer.text && strstr(answer.why, "git cannot read"));
+		clear(&answer);
+		git_log_read(other, NULL, take_log, &answer);
+		wait_for(&answer);
+		CHECK(!answer.revisions && strstr(answer.why, "No revision in git has"));
+		clear(&answer);
+		g_free(hash);
+	}
+	g_spawn_sync(NULL, (char *[]){ "rm", "-r", folder, NULL }, NULL, G_SPAWN_SEARCH_PATH,
+		     NULL, NULL, NULL, NULL, NULL, NULL);
+	g_free(other);
+	g_free(path);
+	g_free(folder);
+}
+
+int main(void)
+{
+	check_rungs();
+	check_names();
+	check_lists();
+	check_charts();
+	check_places();
+	check_unreadable();
+	check_git();
+	return tap_done();
+}
