@@ -418,15 +418,8 @@ static void dispose(GObject *object)
 
 static void add_keys(GtkWidgetClass *widget)
 {
-	static const struct { guint key; GdkModifierType with; const char *action; } keys[] = {
-		{ GDK_KEY_F7, 0, "compare.next" }, { GDK_KEY_n, 0, "compare.next" },
-		{ GDK_KEY_F7, GDK_SHIFT_MASK, "compare.previous" },
-		{ GDK_KEY_p, 0, "compare.previous" },
-	};
-
-	for (gsize i = 0; i < G_N_ELEMENTS(keys); i++)
-		gtk_widget_class_add_binding_action(widget, keys[i].key, keys[i].with,
-						    keys[i].action, NULL);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_n, 0, "compare.next", NULL);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_p, 0, "compare.previous", NULL);
 }
 
 static void ladder_compare_view_class_init(LadderCompareViewClass *class)
