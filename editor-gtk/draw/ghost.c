@@ -6,8 +6,6 @@
 
 #include <math.h>
 
-#define ELEMENT_WIDTH  64 /* px                                                 */
-#define ELEMENT_HEIGHT 40
 #define RUNG_WIDTH     480 /* px, largest size                                  */
 #define RUNG_HEIGHT    160
 #define OPACITY        0.7
@@ -50,15 +48,21 @@ static void show(GtkDragSource *source, GskRenderNode *drawing, const struct the
 	g_object_unref(paintable);
 }
 
+void ghost_tile(GtkDragSource *source, const struct picture *picture,
+		const struct theme *theme, struct lettering *lettering)
+{
+	show(source, picture_node(picture, theme, lettering), theme, 1, GHOST_WIDTH,
+	     GHOST_HEIGHT, GHOST_WIDTH / 2, GHOST_HEIGHT / 2);
+}
+
 void ghost_element(GtkDragSource *source, const struct word_row *word,
 		   const struct theme *theme, struct lettering *lettering)
 {
 	struct picture picture;
 
 	picture_init(&picture);
-	grid_draw_icon(word, theme, lettering, ELEMENT_WIDTH, ELEMENT_HEIGHT, &picture);
-	show(source, picture_node(&picture, theme, lettering), theme, 1, ELEMENT_WIDTH,
-	     ELEMENT_HEIGHT, ELEMENT_WIDTH / 2, ELEMENT_HEIGHT / 2);
+	grid_draw_icon(word, theme, lettering, GHOST_WIDTH, GHOST_HEIGHT, &picture);
+	ghost_tile(source, &picture, theme, lettering);
 	picture_clear(&picture);
 }
 

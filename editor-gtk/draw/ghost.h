@@ -10,6 +10,11 @@
 
 #include "editor-gtk/draw/grid_draw.h"
 
+#define GHOST_WIDTH  64 /* px, of a tile                                       */
+#define GHOST_HEIGHT 40
+/** ghost_tile - the picture of a tile, GHOST_WIDTH x GHOST_HEIGHT. */
+void ghost_tile(GtkDragSource *source, const struct picture *picture,
+		const struct theme *theme, struct lettering *lettering);
 /** ghost_element - its icon; @word: of the catalogue or of a project. */
 void ghost_element(GtkDragSource *source, const struct word_row *word,
 		   const struct theme *theme, struct lettering *lettering);

@@ -247,6 +247,16 @@ static void draw_power(const struct pen *pen, const struct rung_box *box)
 		 rung_layout_bar(layout, box->top, box->col + 1), y);
 }
 
+/* "0:12:05 / 2:00:00 h" without its goal if there is no room for both. */
+static struct lettered fit_count(struct lettering *lettering, const char *text, float room)
+{
+	const char *goal = strstr(text, " / ");
+
+	if (goal && lettering_fit(lettering, LETTER_VALUE, text, -1, 0).width > room)
+		return lettering_fit(lettering, LETTER_VALUE, text, goal - text, room);
+	return lettering_fit(lettering, LETTER_VALUE, text, -1, room);
+}
+
 static void draw_value(const struct pen *pen, const struct rung_box *box, float bottom)
 {
 	const struct grid_live *live = pen->scene->live;
@@ -256,8 +266,7 @@ static void draw_value(const struct pen *pen, const struct rung_box *box, float 
 	    !live->value(live->context, box->top, box->col, &value))
 		return;
 	float room = box->inner - 2 * PADDING;
-	struct lettered text = lettering_fit(pen->drafting->lettering, LETTER_VALUE,
-					     value.text, -1, room);
+	struct lettered text = fit_count(pen->drafting->lettering, value.text, room);
 	put_text(pen, TOKEN_ACCENT, LETTER_VALUE, text, box->x + box->inner / 2,
 		 bottom - 12);
 	if (value.part < 0)

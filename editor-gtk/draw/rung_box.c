@@ -16,7 +16,7 @@
 			     times */
 #define PADDING     6     /* px from a side to the texts inside                 */
 #define LEAST_INNER 70
-#define VALUE_INNER 86 /* px: "12.5/20.0 s" fits                          */
+#define VALUE_INNER 100 /* px: "12.5 s / 20 s" fits                       */
 #define LEAD        14    /* px of a side with nothing connected                */
 
 static bool same_name(const char *a, size_t a_len, const char *b, size_t b_len)

@@ -246,15 +246,16 @@ static bool set_taken(void *context, const char *line)
 static void ask(LadderGridView *view, const char *name, struct location at)
 {
 	struct asked *asked = g_new0(struct asked, 1);
-	char now[IEC_VALUE_TEXT + 1], *prompt = g_strdup_printf(_("value of %s"), name);
+	char *now = live_value_literal(at.type, image_get(image_of(view), at));
+	char *prompt = g_strdup_printf(_("value of %s"), name);
 	const struct canvas_question question = {
 		.prompt = prompt, .text = now, .drops = true, .changed = set_changed,
 		.taken = set_taken, .context = asked, .free = asked_free,
 	};
 
 	*asked = (struct asked){ view, at, g_strdup(name) };
-	iec_value_print(at.type, image_get(image_of(view), at), now, sizeof(now));
 	canvas_ask(LADDER_CANVAS(view), &question);
+	g_free(now);
 	view->asks_value = true;
 }
 

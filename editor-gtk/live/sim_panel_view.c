@@ -128,17 +128,13 @@ static void show_preset(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
 	const union iec_value now = view->value_seen.value, preset = view->preset_seen.value;
-	char *now_text = live_value_text(row->at.type, now);
-	char *preset_text = live_value_text(row->preset.type, preset);
-	char *text = g_strdup_printf("%s / %s", now_text, preset_text);
+	char text[80];
 
+	live_count_print(row->at.type, now, preset, text, sizeof(text));
 	gtk_label_set_text(GTK_LABEL(view->value), text);
 	show_fraction(view, live_value_number(row->at.type, now),
 		      live_value_number(row->preset.type, preset));
 	show_lamp(view, view->done_seen.value.i);
-	g_free(text);
-	g_free(preset_text);
-	g_free(now_text);
 }
 
 /* The simulation shows a value that the slider set some updates later: until then the slider
@@ -155,10 +151,10 @@ static void show_value(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
 	const double number = live_value_number(row->at.type, view->value_seen.value);
-	char *text = live_value_text(row->at.type, view->value_seen.value);
+	char text[IEC_VALUE_TEXT + 1];
 
+	live_value_print(row->at.type, view->value_seen.value, text, sizeof(text));
 	gtk_label_set_text(GTK_LABEL(view->value), text);
-	g_free(text);
 	if (row->kind == SIM_LEVEL)
 		show_fraction(view, number - row->low, row->high - row->low);
 	if (row->kind == SIM_SLIDER)
@@ -328,7 +324,7 @@ void ladder_sim_row_view_edit(LadderSimRowView *view, enum sim_edit what)
 		return;
 	if (!view->entry)
 		add_entry(view);
-	text = live_value_text(at.type, live_value_get(view->sim, view->row->plant, at));
+	text = live_value_literal(at.type, live_value_get(view->sim, view->row->plant, at));
 	name = field_name(view);
 	gtk_editable_set_text(GTK_EDITABLE(view->entry), text);
 	set_name(view->entry, name);

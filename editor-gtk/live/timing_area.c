@@ -145,12 +145,12 @@ static gboolean fill_idle(gpointer data)
 static void tell_cursor(LadderTimingArea *area)
 {
 	const struct twin *twin = ladder_sim_twin(area->sim);
-	char *text;
+	char *text, time[32];
 
 	if (!twin)
 		return;
-	text = g_strdup_printf(_("scan %llu, %.2f s"), (unsigned long long)twin->scan,
-			       (double)twin->now_ns / 1e9);
+	live_time_print(twin->now_ns, time, sizeof(time));
+	text = g_strdup_printf(_("scan %llu, %s"), (unsigned long long)twin->scan, time);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(area),
 		GTK_ACCESSIBLE_PROPERTY_VALUE_NOW, (double)twin->scan,
 		GTK_ACCESSIBLE_PROPERTY_VALUE_TEXT, text, -1);
@@ -415,17 +415,6 @@ static void fill(struct drawing *drawing, enum token token, float alpha, double 
 
 /* ---- times ---- */
 
-static void time_text(double ns, double step, char *out, gsize size)
-{
-	if (step < 1e6)
-		g_snprintf(out, size, "%.3f ms", ns / 1e6);
-	else if (step < 1e9 && ns < 1e9)
-		g_snprintf(out, size, "%.0f ms", ns / 1e6);
-	else
-		g_snprintf(out, size, "%.*f s", step < 1e7 ? 3 : step < 1e8 ? 2 :
-			   step < 1e9 ? 1 : 0, ns / 1e9);
-}
-
 static double tick_step(double least)
 {
 	const double power = pow(10, floor(log10(least)));
@@ -450,7 +439,7 @@ static void draw_ruler(struct drawing *drawing)
 		if (x > drawing->width)
 			return;
 		fill(drawing, TOKEN_LINE, 1, x, 0, 1, top + 5);
-		time_text(ns, step, label, sizeof(label));
+		live_time_print((gint64)(round(ns / step) * step), label, sizeof(label));
 		text(drawing, LETTER_ADDRESS, TOKEN_COMMENT, label, x + 4, top + 15, 0);
 	}
 }
@@ -649,16 +638,18 @@ static void draw_cursors(struct drawing *drawing)
 {
 	const struct twin *twin = ladder_sim_twin(drawing->area->sim);
 	const gint64 mark = drawing->area->mark_ns;
-	char label[64];
+	char label[80], now[32], since[32];
 
 	if (mark >= 0)
 		draw_cursor(drawing, (double)mark, TOKEN_ACCENT, "");
 	if (!ladder_sim_is_past(drawing->area->sim))
 		return;
-	g_snprintf(label, sizeof(label), "%.2f s", (double)twin->now_ns / 1e9);
+	live_time_print(twin->now_ns, now, sizeof(now));
+	live_time_print(twin->now_ns - mark, since, sizeof(since));
 	if (mark >= 0)
-		g_snprintf(label, sizeof(label), "%.2f s  Δ %g ms",
-			   (double)twin->now_ns / 1e9, (double)(twin->now_ns - mark) / 1e6);
+		g_snprintf(label, sizeof(label), "%s  Δ %s", now, since);
+	else
+		g_strlcpy(label, now, sizeof(label));
 	draw_cursor(drawing, (double)twin->now_ns, TOKEN_FORCE, label);
 }
 

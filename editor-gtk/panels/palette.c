@@ -4,14 +4,14 @@
  */
 #include "editor-gtk/panels/palette.h"
 
-#include "editor-gtk/draw/ghost.h"
 #include "editor-gtk/draw/grid_draw.h"
+#include "editor-gtk/draw/sfc_icon.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
-#include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/kit/i18n.h"
-#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/ladder/grid_view.h"
+#include "editor-gtk/panels/tile.h"
+#include "editor-gtk/sfc/sfc_view.h"
 
-#include <adwaita.h>
 #include <string.h>
 
 #define LADDER_TYPE_PALETTE (ladder_palette_get_type())
@@ -20,87 +20,35 @@ G_DECLARE_FINAL_TYPE(LadderPalette, ladder_palette, LADDER, PALETTE, GtkBox)
 /* How well a word fits the search text: equal, begins with it, its explanation contains it. */
 enum rank { RANK_IS, RANK_BEGINS, RANK_TOLD, RANK_NONE };
 
+/* What a tile offers. */
+struct offer {
+	int id;                     /* enum word, or enum sfc_tool               */
+	const struct word_row *row; /* NULL: a tool of a chart. Of a word of the project: as long
+				       as it is shown */
+	GArray *more;               /* of struct offer: its kinds for other types; or NULL */
+};
+
 struct _LadderPalette {
 	GtkBox parent;
 	LadderDocument *document;
 	GtkWidget *search, *families;
+	enum palette_kind kind;
 	int own;                    /* number of words of the project shown    */
-	enum word best;             /* best match of the search                */
+	struct offer best;          /* best match of the search                */
 	enum rank rank;             /* how well it fits                        */
 };
 
 G_DEFINE_FINAL_TYPE(LadderPalette, ladder_palette, GTK_TYPE_BOX)
 
-#define ICON_WIDTH  56
-#define ICON_HEIGHT 34
-
-/* ---- the icon of a tile: drawn, so that it follows the theme ---- */
-
-#define LADDER_TYPE_ICON (ladder_icon_get_type())
-G_DECLARE_FINAL_TYPE(LadderIcon, ladder_icon, LADDER, ICON, GtkWidget)
-
-struct _LadderIcon {
-	GtkWidget parent;
-	const struct word_row *row; /* of the catalogue, or of the project while it is shown */
-	struct lettering *lettering;
-};
-
-G_DEFINE_FINAL_TYPE(LadderIcon, ladder_icon, GTK_TYPE_WIDGET)
-
-static const struct theme *icon_theme(void)
-{
-	AdwStyleManager *manager = adw_style_manager_get_default();
-	const bool dark = adw_style_manager_get_dark(manager);
-
-	if (adw_style_manager_get_high_contrast(manager))
-		return theme_get(dark ? THEME_CONTRAST_DARK : THEME_CONTRAST, THEME_GREEN);
-	return theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
-}
-
-static void ladder_icon_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
-{
-	LadderIcon *icon = LADDER_ICON(widget);
-	const struct theme *theme = icon_theme();
-	struct picture picture;
-
-	picture_init(&picture);
-	grid_draw_icon(icon->row, theme, icon->lettering,
-		       (float)gtk_widget_get_width(widget),
-		       (float)gtk_widget_get_height(widget), &picture);
-	picture_snapshot(&picture, theme, icon->lettering, snapshot);
-	picture_clear(&picture);
-}
-
-static void ladder_icon_finalize(GObject *object)
-{
-	lettering_free(LADDER_ICON(object)->lettering);
-	G_OBJECT_CLASS(ladder_icon_parent_class)->finalize(object);
-}
-
-static void ladder_icon_class_init(LadderIconClass *class)
-{
-	G_OBJECT_CLASS(class)->finalize = ladder_icon_finalize;
-	GTK_WIDGET_CLASS(class)->snapshot = ladder_icon_snapshot;
-}
-
-static void ladder_icon_init(LadderIcon *icon)
-{
-	icon->lettering = lettering_new(
-		gtk_widget_get_pango_context(GTK_WIDGET(icon)), NULL);
-	gtk_widget_set_size_request(GTK_WIDGET(icon), ICON_WIDTH, ICON_HEIGHT);
-	gtk_widget_set_halign(GTK_WIDGET(icon), GTK_ALIGN_CENTER);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(gtk_widget_queue_draw), icon,
-				G_CONNECT_SWAPPED);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::high-contrast",
-				G_CALLBACK(gtk_widget_queue_draw), icon,
-				G_CONNECT_SWAPPED);
-}
-
 /* ---- tiles ---- */
 
-/* The key that enters this word; NULL: none. */
-static char *key_of(enum word word)
+static const char *name_of(const struct word_row *row)
+{
+	return row->word[0] ? row->word : row->id;
+}
+
+/* The key that enters this word. Caller frees. */
+static char *key_of_word(enum word word)
 {
 	static const struct { enum word word; enum verb verb; } keys[] = {
 		{ ELEM_CONTACT_NO, VERB_contact }, { ELEM_CONTACT_NC, VERB_contact_not },
@@ -110,81 +58,107 @@ static char *key_of(enum word word)
 	for (gsize i = 0; i < G_N_ELEMENTS(keys); i++)
 		if (keys[i].word == word)
 			return verb_keys_label(keys[i].verb);
-	return NULL;
+	return g_strdup("");
 }
 
-static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double y,
-					gpointer word)
+static void draw_word(const struct tile *tile, const struct theme *theme,
+		      struct lettering *lettering, float width, float height,
+		      struct picture *picture)
 {
-	(void)source;
-	(void)x;
-	(void)y;
-	return ladder_grid_view_drag((enum word)GPOINTER_TO_INT(word));
+	grid_draw_icon(tile->of, theme, lettering, width, height, picture);
 }
 
-static void drag_begin(GtkDragSource *source, GdkDrag *unused, LadderIcon *icon)
+static void draw_tool(const struct tile *tile, const struct theme *theme,
+		      struct lettering *lettering, float width, float height,
+		      struct picture *picture)
 {
-	(void)unused;
-	ghost_element(source, icon->row, icon_theme(), icon->lettering);
+	sfc_icon_draw((enum sfc_tool)tile->id, theme, lettering, width, height, picture);
 }
 
-static void clicked(GtkButton *button, gpointer word)
+static GdkContentProvider *drag_word(int word)
 {
-	gtk_widget_activate_action(GTK_WIDGET(button), "win.place", "i",
-				   GPOINTER_TO_INT(word));
+	return ladder_grid_view_drag((enum word)word);
 }
 
-static GtkWidget *tile_new(const struct word_row *row, enum word word)
+static GtkWidget *word_tile(const struct offer *offer)
 {
-	GtkWidget *button = gtk_button_new(), *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-	LadderIcon *icon = g_object_new(LADDER_TYPE_ICON, NULL);
-	GtkDragSource *drag = gtk_drag_source_new();
-	const char *name = row->word[0] ? row->word : row->id;
-	char *key = key_of(word), *tip;
-	GtkWidget *label = gtk_label_new(key ? key : name);
+	char *key = key_of_word((enum word)offer->id);
+	const struct tile tile = {
+		.name = name_of(offer->row), .told = said(words_explain(offer->row)),
+		.key = key, .draw = draw_word, .of = offer->row, .action = "win.place",
+		.drag = drag_word, .id = offer->id,
+	};
+	GtkWidget *widget = tile_new(&tile);
 
-	icon->row = row;
-	gtk_widget_add_css_class(button, "flat");
-	gtk_widget_add_css_class(button, "tile");
-	gtk_widget_add_css_class(label, "tile-key");
-	gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
-	gtk_label_set_max_width_chars(GTK_LABEL(label), 8);
-	gtk_box_append(GTK_BOX(box), GTK_WIDGET(icon));
-	gtk_box_append(GTK_BOX(box), label);
-	gtk_button_set_child(GTK_BUTTON(button), box);
-	tip = g_strdup_printf("%s: %s%s%s", name, said(words_explain(row)),
-			      key ? " · " : "", key ? key : "");
-	tip_set(button, tip);
-	spoken_name(button, tip);
-	gtk_widget_set_focus_on_click(button, FALSE);
-	g_signal_connect(button, "clicked", G_CALLBACK(clicked), GINT_TO_POINTER(word));
-	gtk_drag_source_set_actions(drag, GDK_ACTION_COPY);
-	g_signal_connect(drag, "prepare", G_CALLBACK(drag_prepare), GINT_TO_POINTER(word));
-	g_signal_connect(drag, "drag-begin", G_CALLBACK(drag_begin), icon);
-	gtk_widget_add_controller(button, GTK_EVENT_CONTROLLER(drag));
-	g_free(tip);
 	g_free(key);
-	return button;
+	return widget;
+}
+
+static GtkWidget *tool_tile(enum sfc_tool tool)
+{
+	const enum verb verb = sfc_tool_verb(tool);
+	char *key = verb == VERB_COUNT ? g_strdup("") : verb_keys_label(verb);
+	const struct tile tile = {
+		.name = sfc_tool_name(tool), .told = sfc_tool_told(tool), .key = key,
+		.draw = draw_tool, .action = "win.place-part", .drag = ladder_sfc_view_drag,
+		.id = (int)tool,
+	};
+	GtkWidget *widget = tile_new(&tile);
+
+	g_free(key);
+	return widget;
+}
+
+static GMenu *menu_of(GArray *more)
+{
+	GMenu *menu = g_menu_new();
+
+	for (guint i = 0; i < more->len; i++) {
+		const struct offer *offer = &g_array_index(more, struct offer, i);
+		GMenuItem *item = g_menu_item_new(name_of(offer->row), NULL);
+
+		g_menu_item_set_action_and_target(item, "win.place", "i", offer->id);
+		g_menu_append_item(menu, item);
+		g_object_unref(item);
+	}
+	return menu;
+}
+
+static GtkWidget *tile_of(const struct offer *offer)
+{
+	GtkWidget *tile = offer->row ? word_tile(offer) : tool_tile((enum sfc_tool)offer->id);
+
+	return offer->more ? tile_with(tile, name_of(offer->row), menu_of(offer->more)) : tile;
 }
 
 /* ---- families ---- */
 
-static bool fits(const struct word_row *row, const char *search)
-{
-	char *all, *fold, *want;
-	bool found;
+static bool has(const char *search, ...) G_GNUC_NULL_TERMINATED;
 
-	if (!search[0])
-		return true;
-	all = g_strdup_printf("%s %s %s %s %s %s", row->word, row->id, row->family,
-			      words_explain(row), said(row->family), said(words_explain(row)));
-	fold = g_utf8_casefold(all, -1);
-	want = g_utf8_casefold(search, -1);
-	found = strstr(fold, want);
-	g_free(all);
-	g_free(fold);
+/* Is @search in one of the texts? */
+static bool has(const char *search, ...)
+{
+	char *want = g_utf8_casefold(search, -1);
+	bool found = !want[0];
+	const char *text;
+	va_list texts;
+
+	va_start(texts, search);
+	while (!found && (text = va_arg(texts, const char *)) != NULL) {
+		char *fold = g_utf8_casefold(text, -1);
+
+		found = strstr(fold, want);
+		g_free(fold);
+	}
+	va_end(texts);
 	g_free(want);
 	return found;
+}
+
+static bool fits(const struct word_row *row, const char *search)
+{
+	return has(search, row->word, row->id, row->family, words_explain(row),
+		   said(row->family), said(words_explain(row)), NULL);
 }
 
 static bool is_offered(const struct word_row *row)
@@ -193,29 +167,37 @@ static bool is_offered(const struct word_row *row)
 	       row->place != PLACE_PIN && row->kind != WORD_STRUCT;
 }
 
+static void offer_clear(gpointer offer)
+{
+	g_clear_pointer(&((struct offer *)offer)->more, g_array_unref);
+}
+
+static GArray *offers_new(void)
+{
+	GArray *offers = g_array_new(FALSE, FALSE, sizeof(struct offer));
+
+	g_array_set_clear_func(offers, offer_clear);
+	return offers;
+}
+
 /* Tiles are made when their family is opened: they are most of the window's widgets. */
 static void make_tiles(GtkExpander *expander)
 {
-	GArray *words = g_object_get_data(G_OBJECT(expander), "words");
-	LadderPalette *palette = LADDER_PALETTE(gtk_widget_get_ancestor(
-		GTK_WIDGET(expander), LADDER_TYPE_PALETTE));
-	const struct project *project = ladder_document_project(palette->document);
+	GArray *offers = g_object_get_data(G_OBJECT(expander), "offers");
 
 	if (!gtk_expander_get_expanded(expander))
 		return;
-	for (guint i = 0; i < words->len; i++) {
-		const enum word word = g_array_index(words, enum word, i);
-		const struct word_row *row = word_is_own(word) ?
-			words_row(&project->words, word) : word_row(word);
+	for (guint i = 0; i < offers->len; i++) {
+		const struct offer *offer = &g_array_index(offers, struct offer, i);
 		GtkWidget *child = gtk_flow_box_child_new();
 
-		gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(child),
-					     tile_new(row, word));
+		gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(child), tile_of(offer));
 		gtk_widget_set_focusable(child, FALSE);
-		spoken_name(child, row->word[0] ? row->word : row->id);
+		spoken_name(child, offer->row ? name_of(offer->row) :
+			    sfc_tool_name((enum sfc_tool)offer->id));
 		gtk_flow_box_append(GTK_FLOW_BOX(gtk_expander_get_child(expander)), child);
 	}
-	g_array_set_size(words, 0);
+	g_array_set_size(offers, 0);
 }
 
 static GtkWidget *family_new(const char *name)
@@ -228,8 +210,7 @@ static GtkWidget *family_new(const char *name)
 	gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(flow), 8);
 	gtk_flow_box_set_homogeneous(GTK_FLOW_BOX(flow), TRUE);
 	gtk_expander_set_child(GTK_EXPANDER(expander), flow);
-	g_object_set_data_full(G_OBJECT(expander), "words",
-			       g_array_new(FALSE, FALSE, sizeof(enum word)),
+	g_object_set_data_full(G_OBJECT(expander), "offers", offers_new(),
 			       (GDestroyNotify)g_array_unref);
 	g_signal_connect(expander, "notify::expanded", G_CALLBACK(make_tiles), NULL);
 	gtk_widget_add_css_class(expander, "family");
@@ -241,7 +222,9 @@ static GtkWidget *family_new(const char *name)
 /* Families that are open at first. */
 static bool is_common(const char *family)
 {
-	static const char *const common[] = { "Contacts", "Coils", "Timers", "Counters" };
+	static const char *const common[] = {
+		"Contacts", "Coils", "Timers", "Counters", "Steps", "Transitions", "Actions",
+	};
 
 	for (gsize i = 0; i < G_N_ELEMENTS(common); i++)
 		if (strcmp(family, common[i]) == 0)
@@ -249,33 +232,68 @@ static bool is_common(const char *family)
 	return false;
 }
 
-static enum rank rank_of(const struct word_row *row, const char *search)
+static enum rank rank_of(const char *word, const char *search)
 {
 	const gsize len = strlen(search);
-	const char *word = row->word[0] ? row->word : row->id;
 
 	if (g_ascii_strncasecmp(word, search, len) != 0)
 		return RANK_TOLD;
 	return word[len] ? RANK_BEGINS : RANK_IS;
 }
 
-static void add_word(LadderPalette *palette, GHashTable *families,
-		     const struct word_row *row, enum word word)
+static const char *search_of(const LadderPalette *palette)
 {
-	const enum rank fit = rank_of(row, gtk_editable_get_text(GTK_EDITABLE(palette->search)));
-	GtkWidget *family = g_hash_table_lookup(families, row->family);
-	GArray *words;
+	return gtk_editable_get_text(GTK_EDITABLE(palette->search));
+}
+
+/* The offers of a family, which is made for the first of them. */
+static GArray *offers_of(LadderPalette *palette, GHashTable *families, const char *name)
+{
+	GtkWidget *family = g_hash_table_lookup(families, name);
 
 	if (!family) {
-		family = family_new(_(row->family));
+		family = family_new(_(name));
 		gtk_box_append(GTK_BOX(palette->families), family);
-		g_hash_table_insert(families, (gpointer)row->family, family);
+		g_hash_table_insert(families, (gpointer)name, family);
 	}
-	words = g_object_get_data(G_OBJECT(family), "words");
-	g_array_append_val(words, word);
+	return g_object_get_data(G_OBJECT(family), "offers");
+}
+
+/* CTU of CTU_DINT: the block of which @row is the kind for another type. NULL: none. */
+static struct offer *kind_of(GArray *offers, const struct word_row *row)
+{
+	const char *under = strrchr(row->word, '_');
+	const gsize len = under ? (gsize)(under - row->word) : 0;
+
+	if (!under || row->kind != WORD_FB ||
+	    iec_type_find(under + 1, strlen(under + 1)) == IEC_NONE)
+		return NULL;
+	for (guint i = 0; i < offers->len; i++) {
+		struct offer *offer = &g_array_index(offers, struct offer, i);
+
+		if (strlen(offer->row->word) == len &&
+		    strncmp(offer->row->word, row->word, len) == 0)
+			return offer;
+	}
+	return NULL;
+}
+
+static void add_offer(LadderPalette *palette, GHashTable *families, const char *family,
+		      const struct offer *offer)
+{
+	const char *search = search_of(palette);
+	const enum rank fit = rank_of(offer->row ? name_of(offer->row) :
+				      sfc_tool_name((enum sfc_tool)offer->id), search);
+	GArray *offers = offers_of(palette, families, family);
+	/* A search shows every kind that fits. */
+	struct offer *of = offer->row && !search[0] ? kind_of(offers, offer->row) : NULL;
+
+	if (of && !of->more)
+		of->more = offers_new();
+	g_array_append_val(of ? of->more : offers, *offer);
 	if (fit < palette->rank) {
 		palette->rank = fit;
-		palette->best = word;
+		palette->best = *offer;
 	}
 }
 
@@ -290,31 +308,55 @@ static void open_families(GHashTable *families, bool all)
 			gtk_expander_set_expanded(family, TRUE);
 }
 
+static void add_words(LadderPalette *palette, GHashTable *families)
+{
+	const struct project *project = ladder_document_project(palette->document);
+	const char *search = search_of(palette);
+
+	for (int i = 0; i < WORD_COUNT; i++) {
+		const struct word_row *row = word_row((enum word)i);
+
+		if (is_offered(row) && fits(row, search))
+			add_offer(palette, families, row->family, &(struct offer){ i, row, NULL });
+	}
+	palette->own = project ? project->words.count : 0;
+	for (int i = 0; i < palette->own; i++) {
+		const int word = WORD_FIRST_OWN + i;
+		const struct word_row *row = words_row(&project->words, (enum word)word);
+
+		if (is_offered(row) && fits(row, search))
+			add_offer(palette, families, row->family,
+				  &(struct offer){ word, row, NULL });
+	}
+}
+
+static void add_tools(LadderPalette *palette, GHashTable *families)
+{
+	const char *search = search_of(palette);
+
+	for (int i = 0; i < TOOL_COUNT; i++) {
+		const char *family = sfc_tool_family((enum sfc_tool)i);
+
+		if (has(search, sfc_tool_name((enum sfc_tool)i), sfc_tool_told((enum sfc_tool)i),
+			_(family), NULL))
+			add_offer(palette, families, family, &(struct offer){ i, NULL, NULL });
+	}
+	palette->own = 0;
+}
+
 static void fill(LadderPalette *palette)
 {
-	const char *search = gtk_editable_get_text(GTK_EDITABLE(palette->search));
-	const struct project *project = ladder_document_project(palette->document);
 	GHashTable *families = g_hash_table_new(g_str_hash, g_str_equal);
 	GtkWidget *family;
 
 	palette->rank = RANK_NONE;
 	while ((family = gtk_widget_get_first_child(palette->families)))
 		gtk_box_remove(GTK_BOX(palette->families), family);
-	for (int i = 0; i < WORD_COUNT; i++) {
-		const struct word_row *row = word_row((enum word)i);
-
-		if (is_offered(row) && fits(row, search))
-			add_word(palette, families, row, (enum word)i);
-	}
-	for (int i = 0; project && i < project->words.count; i++) {
-		const enum word word = (enum word)(WORD_FIRST_OWN + i);
-		const struct word_row *row = words_row(&project->words, word);
-
-		if (is_offered(row) && fits(row, search))
-			add_word(palette, families, row, word);
-	}
-	open_families(families, search[0]);
-	palette->own = project ? project->words.count : 0;
+	if (palette->kind == PALETTE_CHART)
+		add_tools(palette, families);
+	else
+		add_words(palette, families);
+	open_families(families, search_of(palette)[0]);
 	g_hash_table_unref(families);
 }
 
@@ -327,16 +369,17 @@ static void leave(LadderPalette *palette)
 /* Uses the text in the entry: "search-changed" comes with a delay. */
 static void place_best(LadderPalette *palette)
 {
-	enum word best;
+	struct offer best;
 
-	if (!gtk_editable_get_text(GTK_EDITABLE(palette->search))[0])
+	if (!search_of(palette)[0])
 		return;
 	fill(palette);
 	if (palette->rank == RANK_NONE)
 		return;
 	best = palette->best; /* placing changes palette->best               */
 	gtk_editable_set_text(GTK_EDITABLE(palette->search), "");
-	gtk_widget_activate_action(GTK_WIDGET(palette), "win.place", "i", (int)best);
+	gtk_widget_activate_action(GTK_WIDGET(palette), best.row ? "win.place" :
+				   "win.place-part", "i", best.id);
 }
 
 /* Rows of words of the project are freed with it. */
@@ -344,7 +387,8 @@ static void project_changed(LadderPalette *palette)
 {
 	const struct project *project = ladder_document_project(palette->document);
 
-	if (palette->own > 0 || (project && project->words.count > 0))
+	if (palette->kind == PALETTE_LADDER &&
+	    (palette->own > 0 || (project && project->words.count > 0)))
 		fill(palette);
 }
 
@@ -387,9 +431,27 @@ static void ladder_palette_init(LadderPalette *palette)
 				 palette);
 }
 
-void ladder_palette_find(GtkWidget *palette)
+bool ladder_palette_find(GtkWidget *palette)
 {
-	gtk_widget_grab_focus(LADDER_PALETTE(palette)->search);
+	return gtk_widget_is_visible(palette) &&
+	       gtk_widget_grab_focus(LADDER_PALETTE(palette)->search);
+}
+
+void ladder_palette_show(GtkWidget *widget, enum palette_kind kind)
+{
+	LadderPalette *palette = LADDER_PALETTE(widget);
+	const char *prompt = kind == PALETTE_CHART ? _("Find a part of a chart") :
+			     _("Find an element");
+
+	/* the still picture around it would keep the room */
+	gtk_widget_set_visible(gtk_widget_get_parent(widget), kind != PALETTE_NONE);
+	if (kind == PALETTE_NONE || kind == palette->kind)
+		return;
+	palette->kind = kind;
+	gtk_editable_set_text(GTK_EDITABLE(palette->search), "");
+	g_object_set(palette->search, "placeholder-text", prompt, NULL);
+	spoken_name(palette->search, prompt);
+	fill(palette);
 }
 
 GtkWidget *ladder_palette_new(LadderDocument *document)
@@ -397,6 +459,7 @@ GtkWidget *ladder_palette_new(LadderDocument *document)
 	LadderPalette *palette = g_object_new(LADDER_TYPE_PALETTE, NULL);
 
 	palette->document = g_object_ref(document);
+	palette->kind = PALETTE_LADDER;
 	g_signal_connect_object(document, "project-changed", G_CALLBACK(project_changed),
 				palette, G_CONNECT_SWAPPED);
 	fill(palette);

@@ -217,9 +217,9 @@ static void ladder_scenario_view_init(LadderScenarioView *view)
 	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
 		widget, LADDER_TYPE_SCENARIO_VIEW, "list")));
 	panel_list_column(&view->list, "", RESULT, PANEL_ICON, 0);
-	panel_list_column(&view->list, _("Scenario"), NAME, 0, 220);
+	panel_list_column(&view->list, _("Scenario"), NAME, PANEL_EXPAND, 180);
 	panel_list_column(&view->list, _("File"), FILE_NAME, 0, 140);
-	panel_list_column(&view->list, _("Result"), RESULT, PANEL_EXPAND, 0);
+	panel_list_column(&view->list, _("Result"), RESULT, PANEL_EXPAND, 180);
 }
 
 GtkWidget *ladder_scenario_view_new(LadderDocument *document, LadderRecorder *recorder)

@@ -56,7 +56,8 @@ static GArray *all_marks(LadderSfcView *view)
 	push_mark(marks, view->found.shape, view->found.use, SFC_FOUND);
 	g_array_append_vals(marks, view->marks->data, view->marks->len);
 	push_mark(marks, view->cursor.shape, view->cursor.use, SFC_CURSOR);
-	push_mark(marks, view->stroke.drawn ? view->stroke.to.shape : -1, -1, SFC_DROP);
+	push_mark(marks, view->stroke.drawn ? view->stroke.to.shape : view->drop.shape, -1,
+		  SFC_DROP);
 	return marks;
 }
 
@@ -698,6 +699,109 @@ static void do_verb(LadderCanvas *canvas, enum verb verb)
 	}
 }
 
+/* ---- the palette ---- */
+
+static void place_action(LadderSfcView *view, enum qualifier qualifier)
+{
+	char *typed = g_strdup_printf("%s ", qualifier_word(qualifier));
+
+	sfc_ask_for(view, ASK_ANOTHER, typed);
+	g_free(typed);
+}
+
+void ladder_sfc_view_place(LadderSfcView *view, enum sfc_tool tool)
+{
+	int index;
+
+	sfc_fresh(view);
+	if (!view->sheet || canvas_is_fixed(LADDER_CANVAS(view)))
+		return;
+	gtk_widget_grab_focus(GTK_WIDGET(view));
+	if (tool >= TOOL_ACTION) {
+		place_action(view, (enum qualifier)(tool - TOOL_ACTION));
+	} else if (tool == TOOL_TRANSITION) {
+		if (sfc_new_way(view) &&
+		    sfc_part_at_cursor(view, &index) == SFC_TRANSITION)
+			sfc_ask_for(view, ASK_CONDITION, NULL);
+	} else if (tool == TOOL_INITIAL && !view->sheet->layout->shape_count) {
+		do_verb(LADDER_CANVAS(view), VERB_step_below); /* the first step is initial */
+	} else {
+		do_verb(LADDER_CANVAS(view), sfc_tool_verb(tool));
+	}
+}
+
+#define LADDER_TYPE_PART (ladder_part_get_type())
+
+/* A tool that is dragged. */
+static int *ladder_part_copy(int *part)
+{
+	return g_memdup2(part, sizeof(*part));
+}
+
+static GType ladder_part_get_type(void)
+{
+	static GType type;
+
+	if (g_once_init_enter(&type))
+		g_once_init_leave(&type, g_boxed_type_register_static("LadderPart",
+			(GBoxedCopyFunc)ladder_part_copy, g_free));
+	return type;
+}
+
+GdkContentProvider *ladder_sfc_view_drag(int tool)
+{
+	return gdk_content_provider_new_typed(LADDER_TYPE_PART, &tool);
+}
+
+static void drop_at(LadderSfcView *view, struct sfc_at at)
+{
+	if (is_same(at, view->drop))
+		return;
+	view->drop = at;
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+static GdkDragAction drop_motion(GtkDropTarget *target, double x, double y,
+				 LadderSfcView *view)
+{
+	(void)target;
+	sfc_fresh(view);
+	if (!view->sheet || canvas_is_fixed(LADDER_CANVAS(view)))
+		return 0;
+	drop_at(view, at_point(view, x, y, SLACK));
+	return view->drop.shape >= 0 || !view->sheet->layout->shape_count ? GDK_ACTION_COPY : 0;
+}
+
+static void drop_leave(GtkDropTarget *target, LadderSfcView *view)
+{
+	(void)target;
+	drop_at(view, NOWHERE);
+}
+
+static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
+			LadderSfcView *view)
+{
+	const int tool = *(const int *)g_value_get_boxed(value);
+
+	if (!drop_motion(target, x, y, view))
+		return FALSE;
+	if (view->drop.shape >= 0)
+		sfc_go(view, view->drop, false);
+	drop_at(view, NOWHERE);
+	ladder_sfc_view_place(view, (enum sfc_tool)tool);
+	return TRUE;
+}
+
+static void take_drops(LadderSfcView *view)
+{
+	GtkDropTarget *target = gtk_drop_target_new(LADDER_TYPE_PART, GDK_ACTION_COPY);
+
+	g_signal_connect(target, "motion", G_CALLBACK(drop_motion), view);
+	g_signal_connect(target, "leave", G_CALLBACK(drop_leave), view);
+	g_signal_connect(target, "drop", G_CALLBACK(dropped), view);
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(target));
+}
+
 bool ladder_sfc_view_why(LadderSfcView *view)
 {
 	int index;
@@ -924,7 +1028,8 @@ static void ladder_sfc_view_class_init(LadderSfcViewClass *class)
 static void ladder_sfc_view_init(LadderSfcView *view)
 {
 	view->canvas = canvas_state(LADDER_CANVAS(view));
-	view->cursor = view->found = NOWHERE;
+	view->cursor = view->found = view->drop = NOWHERE;
+	take_drops(view);
 	view->stroke = (struct sfc_stroke){ NOWHERE, NOWHERE, false, { 0, 0 } };
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct sfc_mark));
 }

@@ -13,6 +13,7 @@
 #define EDITOR_SFC_VIEW_H
 
 #include "editor-gtk/canvas/canvas.h"
+#include "editor-gtk/draw/sfc_tool.h"
 
 #define LADDER_TYPE_SFC_VIEW (ladder_sfc_view_get_type())
 G_DECLARE_FINAL_TYPE(LadderSfcView, ladder_sfc_view, LADDER, SFC_VIEW, LadderCanvas)
@@ -20,6 +21,10 @@ G_DECLARE_FINAL_TYPE(LadderSfcView, ladder_sfc_view, LADDER, SFC_VIEW, LadderCan
 /** ladder_sfc_view_new - shows POU @pou of @document, a chart. */
 GtkWidget *ladder_sfc_view_new(LadderDocument *document, int pou);
 
+/** ladder_sfc_view_place - what a person does with a tool of the palette, at the cursor. */
+void ladder_sfc_view_place(LadderSfcView *view, enum sfc_tool tool);
+/** ladder_sfc_view_drag - the drag content of a tool. Owns: the caller. */
+GdkContentProvider *ladder_sfc_view_drag(int tool);
 /** ladder_sfc_view_why - asks for the condition of the transition at the cursor as rungs,
  * by "body-wanted"; false: the cursor is on none. */
 bool ladder_sfc_view_why(LadderSfcView *view);

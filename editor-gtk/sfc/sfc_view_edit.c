@@ -119,6 +119,25 @@ static void step_below(LadderSfcView *view)
 		 sfc_edit_first(edit, -1), VERB_step_below);
 }
 
+bool sfc_new_way(LadderSfcView *view)
+{
+	struct sfc_edit *edit = sfc_edit_begin(view);
+	int index, made = -1, way;
+	enum sfc_part part;
+
+	if (!edit)
+		return false;
+	part = sfc_part_here(view, &index);
+	way = edit->sfc.transition_count; /* the number of the next one */
+	if (part == SFC_NOTHING)
+		edit->why = N_("Select a step first.");
+	else
+		made = part == SFC_STEP ? sfc_edit_step_below(edit, index) :
+		       sfc_edit_step_after(edit, index);
+	return sfc_put(view, edit, made >= 0, _(verb_row(VERB_step_below)->label),
+		       PIECE_TRANSITION, way);
+}
+
 static void branch(LadderSfcView *view)
 {
 	const struct pou *pou = sfc_pou(view);

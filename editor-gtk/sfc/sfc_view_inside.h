@@ -37,6 +37,7 @@ struct _LadderSfcView {
 	GArray *marks;              /* struct sfc_mark: errors and warnings      */
 	struct sfc_at found;        /* hit of a search; shape -1: none          */
 	struct sfc_stroke stroke;
+	struct sfc_at drop;         /* where a tool of the palette would be dropped */
 	struct sfc_places places;
 };
 
@@ -81,6 +82,9 @@ bool sfc_put(LadderSfcView *view, struct sfc_edit *edit, bool good, const char *
 	     enum piece_kind kind, int index);
 /** sfc_lead - adds a way from the shape at @from to the shape at @to. */
 void sfc_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to);
+/** sfc_new_way - a new transition behind the step or transition at the cursor, and a step behind
+ * it; the cursor moves to the transition. */
+bool sfc_new_way(LadderSfcView *view);
 /** sfc_edit_do - a verb that changes or copies; false: another verb. */
 bool sfc_edit_do(LadderSfcView *view, enum verb verb);
 

@@ -46,6 +46,10 @@ GArray *live_parts(const struct live_map *map, const char *text);
 /** live_parts_print - the text with values in the place of their names. Caller frees. */
 char *live_parts_print(GArray *parts, const struct image *image);
 
+/** live_word_counts - does a block count up to a preset: ET to PT, CV to PV, V to P? The names of
+ * both pins; they live for ever. */
+bool live_word_counts(const struct word_row *word, const char **now, const char **goal);
+
 /* A cell of a rung that is shown. */
 struct live_cell {
 	uint32_t in, out;      /* where its power is; LIVE_NOWHERE: not known     */

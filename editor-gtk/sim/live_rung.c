@@ -115,11 +115,6 @@ static void take_first(struct live_cell *cell)
 	}
 }
 
-static bool is_count(enum iec_type type)
-{
-	return type == IEC_TIME || iec_type_row(type)->class & ANY_INT;
-}
-
 static struct location pin_of(const struct live_map *map, const char *instance,
 			      const char *pin)
 {
@@ -130,18 +125,44 @@ static struct location pin_of(const struct live_map *map, const char *instance,
 	return at;
 }
 
-/* A box counts in its first output that is no BOOL, up to PT or PV of the same type. */
+static const struct word_pin *pin_named(const struct word_row *word, const char *name)
+{
+	const int index = word_pin_find(word, name, strlen(name));
+
+	return index >= 0 ? &word->pin[index] : NULL;
+}
+
+bool live_word_counts(const struct word_row *word, const char **now, const char **goal)
+{
+	static const char *const pair[][2] = { { "ET", "PT" }, { "CV", "PV" }, { "V", "P" } };
+
+	for (gsize i = 0; i < G_N_ELEMENTS(pair); i++) {
+		const struct word_pin *counted = pin_named(word, pair[i][0]);
+		const struct word_pin *preset = pin_named(word, pair[i][1]);
+
+		if (!counted || !preset || counted->type != preset->type ||
+		    preset->dir != PIN_IN)
+			continue;
+		*now = pair[i][0];
+		*goal = pair[i][1];
+		return true;
+	}
+	return false;
+}
+
+/* What counts in a box, or else its first output that is no BOOL. */
 static void find_count(const struct live_map *map, const struct word_row *word,
 		       const char *instance, struct live_cell *cell)
 {
+	const char *now, *goal;
+
+	if (live_word_counts(word, &now, &goal)) {
+		cell->at = pin_of(map, instance, now);
+		cell->goal = pin_of(map, instance, goal);
+	}
 	for (int i = 0; i < word->pin_count && cell->at.type == IEC_NONE; i++)
 		if (word->pin[i].dir == PIN_OUT && word->pin[i].type != IEC_BOOL)
 			cell->at = pin_of(map, instance, word->pin[i].name);
-	for (int i = 0; i < word->pin_count && is_count(cell->at.type); i++)
-		if (word->pin[i].dir == PIN_IN && word->pin[i].type == cell->at.type &&
-		    (g_str_equal(word->pin[i].name, "PT") ||
-		     g_str_equal(word->pin[i].name, "PV")))
-			cell->goal = pin_of(map, instance, word->pin[i].name);
 }
 
 static void find_text(const struct live_map *map, const struct word_row *word,

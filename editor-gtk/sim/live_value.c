@@ -197,6 +197,147 @@ static enum iec_type real_of(enum iec_type type)
 	return width_of(type) == 64 ? IEC_LREAL : IEC_REAL;
 }
 
+/* ---- times ---- */
+
+#define SECOND INT64_C(1000000000)
+
+/* The unit of a time: ms below a second, s below a minute, "2:05 min", "1:02:05 h". */
+enum unit { UNIT_MS, UNIT_S, UNIT_MIN, UNIT_H };
+#define ALL_DIGITS (-1) /* as many as the time has                              */
+
+static const char *const unit_name[] = {
+	[UNIT_MS] = "ms", [UNIT_S] = "s", [UNIT_MIN] = "min", [UNIT_H] = "h",
+};
+
+static guint64 size_of(int64_t ns)
+{
+	return ns < 0 ? 0 - (guint64)ns : (guint64)ns;
+}
+
+static enum unit unit_of(int64_t ns)
+{
+	const guint64 size = size_of(ns);
+
+	return size == 0 || (size >= SECOND && size < 60 * SECOND) ? UNIT_S :
+	       size < SECOND ? UNIT_MS : size < 3600 * SECOND ? UNIT_MIN : UNIT_H;
+}
+
+/* A decimal point and @digits of @rest of @whole ns, cut; ALL_DIGITS: without zeros at its end. */
+static void put_fraction(GString *text, guint64 rest, guint64 whole, int digits)
+{
+	for (int i = 0; digits == ALL_DIGITS ? rest != 0 : i < digits; i++) {
+		if (i == 0)
+			g_string_append_c(text, '.');
+		whole /= 10;
+		g_string_append_c(text, (char)('0' + rest / whole));
+		rest %= whole;
+	}
+}
+
+/* "3.25" for the unit s, "2:05" for min. */
+static void put_time(GString *text, int64_t ns, enum unit unit, int digits)
+{
+	const guint64 size = size_of(ns), ms = VALUE_MS, s = size / SECOND;
+
+	if (ns < 0)
+		g_string_append_c(text, '-');
+	if (unit == UNIT_MS)
+		g_string_append_printf(text, "%" G_GUINT64_FORMAT, size / ms);
+	else if (unit == UNIT_S)
+		g_string_append_printf(text, "%" G_GUINT64_FORMAT, s);
+	else if (unit == UNIT_MIN)
+		g_string_append_printf(text, "%" G_GUINT64_FORMAT ":%02d", s / 60,
+				       (int)(s % 60));
+	else
+		g_string_append_printf(text, "%" G_GUINT64_FORMAT ":%02d:%02d", s / 3600,
+				       (int)(s / 60 % 60), (int)(s % 60));
+	put_fraction(text, unit == UNIT_MS ? size % ms : size % SECOND,
+		     unit == UNIT_MS ? ms : SECOND, digits);
+}
+
+/* Digits of a time that has little room. A time below 1 ms keeps all. */
+static int few_digits(int64_t ns, enum unit unit)
+{
+	if (unit == UNIT_MS)
+		return size_of(ns) < VALUE_MS ? ALL_DIGITS : 0;
+	return unit == UNIT_S && size_of(ns) % SECOND >= SECOND / 10 ? 1 : 0;
+}
+
+static int print_time(int64_t ns, int digits, char *out, size_t size)
+{
+	GString *text = g_string_new(NULL);
+
+	put_time(text, ns, unit_of(ns), digits);
+	g_string_append_printf(text, " %s", unit_name[unit_of(ns)]);
+	const int length = g_snprintf(out, size, "%s", text->str);
+
+	g_string_free(text, TRUE);
+	return length;
+}
+
+int live_time_print(int64_t ns, char *out, size_t size)
+{
+	return print_time(ns, ALL_DIGITS, out, size);
+}
+
+void live_time_print_short(int64_t ns, char *out, size_t size)
+{
+	print_time(ns, few_digits(ns, unit_of(ns)), out, size);
+}
+
+/* Both have the unit of the goal; that of hours and minutes stands once. */
+static void print_times(int64_t ns, int64_t goal, char *out, size_t size)
+{
+	const enum unit unit = unit_of(goal);
+	GString *text = g_string_new(NULL);
+
+	put_time(text, ns, unit, unit == UNIT_S && goal ? 1 : 0);
+	if (unit <= UNIT_S)
+		g_string_append_printf(text, " %s", unit_name[unit]);
+	g_string_append(text, " / ");
+	put_time(text, goal, unit, ALL_DIGITS);
+	g_string_append_printf(text, " %s", unit_name[unit]);
+	g_strlcpy(out, text->str, size);
+	g_string_free(text, TRUE);
+}
+
+/* "2:05.5 min" and "1:02:05 h" as a literal; NULL: another form. Caller frees. */
+static char *clock_literal(const char *text)
+{
+	static const char *const units[] = { "s", "m", "h" };
+	const bool minus = *text == '-';
+	char **part = g_strsplit(text + minus, ":", 4);
+	const int parts = (int)g_strv_length(part);
+	char *last = parts ? part[parts - 1] : NULL;
+	GString *out = g_string_new(minus ? "T#-" : "T#");
+	bool good = parts == 2 || parts == 3;
+
+	if (good && (g_str_has_suffix(last, "min") || g_str_has_suffix(last, "h")))
+		last[strlen(last) - (g_str_has_suffix(last, "h") ? 1 : 3)] = '\0';
+	for (int i = 0; good && i < parts; i++) {
+		good = part[i][0] && strspn(part[i], i + 1 < parts ? "0123456789" :
+					    "0123456789.") == strlen(part[i]) &&
+		       (i == 0 || g_ascii_strtod(part[i], NULL) < 60);
+		g_string_append_printf(out, "%s%s", part[i], units[parts - 1 - i]);
+	}
+	g_strfreev(part);
+	return g_string_free(out, !good);
+}
+
+/* A literal: the T# may be missing, as may the blanks of the form that is shown. Caller frees. */
+static char *time_literal(const char *text)
+{
+	char **words = g_strsplit(text, " ", -1), *plain = g_strjoinv("", words);
+	char *clock = strchr(plain, '#') ? NULL : clock_literal(plain), *literal;
+
+	literal = clock ? g_strdup(clock) : strchr(plain, '#') ? g_strdup(plain) :
+		  g_strconcat("T#", plain, NULL);
+	g_free(clock);
+	g_free(plain);
+	g_strfreev(words);
+	return literal;
+}
+
 /* ---- print: the status chart ---- */
 
 /* "2#0001_0010": a group for each digit that hexadecimal has. */
@@ -217,7 +358,7 @@ static int print_bin(uint64_t bits, int width, char *out, size_t size)
 static int print_auto(enum iec_type type, union iec_value value, char *out, size_t size)
 {
 	if (iec_type_row(type)->class == CLASS_TIME)
-		return literal_print(type, value, out, size);
+		return live_time_print(value.i, out, size);
 	return iec_value_print(type, value, out, size);
 }
 
@@ -228,8 +369,7 @@ static int print_ms(enum iec_type type, union iec_value value, char *out, size_t
 
 	if (large || value.i > INT64_MAX / VALUE_MS || value.i < INT64_MIN / VALUE_MS)
 		return print_auto(type, value, out, size);
-	value.i *= VALUE_MS;
-	return literal_print(IEC_TIME, value, out, size);
+	return live_time_print(value.i * VALUE_MS, out, size);
 }
 
 int live_value_format(enum live_format format, enum iec_type type, union iec_value value,
@@ -298,11 +438,11 @@ static bool parse_digits(const char *base, enum iec_type type, const char *text,
 	return true;
 }
 
-/* 1m30s, -2.5s, 20ms: a literal without its T#. */
+/* 1m30s, -2.5 s, 20ms, 2:05 min: a literal without its T#, or a time as it is shown. */
 static bool parse_time(enum iec_type type, const char *text, struct iec_text *room,
 		       union iec_value *out, enum diag_id *why)
 {
-	char *whole = strchr(text, '#') ? g_strdup(text) : g_strconcat("T#", text, NULL);
+	char *whole = time_literal(text);
 	struct literal literal;
 	const bool good = literal_parse(whole, strlen(whole), &literal) == LITERAL_OK &&
 			  literal.type == IEC_TIME;
@@ -365,88 +505,18 @@ bool live_value_parse(enum live_format format, enum iec_type type, const char *t
 	return good;
 }
 
-/* ---- print: the panel ---- */
-
-#define SECOND INT64_C(1000000000)
-
-/* Digits after the point: usually two, so that the text keeps its width while it counts. */
-static int digits_of(guint64 ns)
-{
-	static const guint step[] = { 10000000, 1000000, 1000, 1 };
-	static const int digits[] = { 2, 3, 6, 9 };
-	int i = 0;
-
-	while (ns % step[i])
-		i++;
-	return digits[i];
-}
-
-static char *time_text(gint64 ns)
-{
-	const guint64 size = ns < 0 ? -(guint64)ns : (guint64)ns;
-	const char *sign = ns < 0 ? "-" : "";
-	const int digits = digits_of(size);
-	guint64 fraction = size % SECOND;
-	const guint s = (guint)(size / SECOND % 60), m = (guint)(size / SECOND / 60 % 60);
-	const guint64 h = size / SECOND / 3600;
-
-	for (int i = digits; i < 9; i++)
-		fraction /= 10;
-	if (h)
-		return g_strdup_printf("%s%" G_GUINT64_FORMAT "h%02um%02u.%0*"
-				       G_GUINT64_FORMAT "s", sign, h, m, s, digits, fraction);
-	if (m)
-		return g_strdup_printf("%s%um%02u.%0*" G_GUINT64_FORMAT "s", sign, m, s,
-				       digits, fraction);
-	return g_strdup_printf("%s%u.%0*" G_GUINT64_FORMAT "s", sign, s, digits, fraction);
-}
-
-char *live_value_text(enum iec_type type, union iec_value value)
+char *live_value_literal(enum iec_type type, union iec_value value)
 {
 	char text[IEC_VALUE_TEXT + 1];
 
 	if (type == IEC_TIME)
-		return time_text(value.i);
-	iec_value_print(type, value, text, sizeof(text));
+		literal_print(type, value, text, sizeof(text));
+	else
+		iec_value_print(type, value, text, sizeof(text));
 	return g_utf8_make_valid(text, -1);
 }
 
-/* ---- print: sheets ---- */
-
-/* The unit that suits the size of a time. */
-enum unit { UNIT_MS, UNIT_S, UNIT_MINUTES, UNIT_HOURS };
-
-static enum unit unit_of(int64_t ns)
-{
-	const guint64 size = ns < 0 ? 0 - (guint64)ns : (guint64)ns;
-
-	return size < SECOND ? UNIT_MS : size < 100 * SECOND ? UNIT_S :
-	       size < 3600 * SECOND ? UNIT_MINUTES : UNIT_HOURS;
-}
-
-static void print_time(int64_t ns, enum unit unit, char *out, size_t size)
-{
-	const guint64 ms = (ns < 0 ? 0 - (guint64)ns : (guint64)ns) / VALUE_MS;
-	const char *sign = ns < 0 ? "-" : "";
-	const guint64 s = ms / 1000;
-
-	if (unit == UNIT_MS)
-		g_snprintf(out, size, "%s%" G_GUINT64_FORMAT, sign, ms);
-	else if (unit == UNIT_S)
-		g_snprintf(out, size, "%s%" G_GUINT64_FORMAT ".%d", sign, s,
-			   (int)(ms % 1000 / 100));
-	else if (unit == UNIT_MINUTES)
-		g_snprintf(out, size, "%s%" G_GUINT64_FORMAT ":%02d", sign, s / 60,
-			   (int)(s % 60));
-	else
-		g_snprintf(out, size, "%s%" G_GUINT64_FORMAT ":%02d:%02d", sign, s / 3600,
-			   (int)(s / 60 % 60), (int)(s % 60));
-}
-
-static const char *unit_name(enum unit unit)
-{
-	return unit == UNIT_MS ? " ms" : unit == UNIT_S ? " s" : "";
-}
+/* ---- print: sheets and the panel ---- */
 
 static void print_real(double value, char *out, size_t size)
 {
@@ -470,35 +540,27 @@ static void print_long(enum iec_type type, union iec_value value, char *out, siz
 
 void live_value_print(enum iec_type type, union iec_value value, char *out, size_t size)
 {
-	char time[32];
-
 	if (type == IEC_BOOL)
 		g_strlcpy(out, value.i ? "TRUE" : "FALSE", size);
 	else if (type == IEC_REAL || type == IEC_LREAL)
 		print_real(value.r, out, size);
-	else if (type == IEC_TIME) {
-		print_time(value.i, unit_of(value.i), time, sizeof(time));
-		g_snprintf(out, size, "%s%s", time, unit_name(unit_of(value.i)));
-	} else
+	else if (type == IEC_TIME)
+		live_time_print_short(value.i, out, size);
+	else
 		print_long(type, value, out, size);
 }
 
 void live_count_print(enum iec_type type, union iec_value value, union iec_value goal,
 		      char *out, size_t size)
 {
-	const enum unit unit = unit_of(goal.i);
 	char now[32], aim[32];
 
-	if (type == IEC_TIME && unit == UNIT_HOURS) { /* no room for both */
-		print_time(value.i, unit, out, size);
-	} else if (type == IEC_TIME) {
-		print_time(value.i, unit, now, sizeof(now));
-		print_time(goal.i, unit, aim, sizeof(aim));
-		g_snprintf(out, size, "%s/%s%s", now, aim, unit_name(unit));
+	if (type == IEC_TIME) {
+		print_times(value.i, goal.i, out, size);
 	} else {
 		live_value_print(type, value, now, sizeof(now));
 		live_value_print(type, goal, aim, sizeof(aim));
-		g_snprintf(out, size, "%s/%s", now, aim);
+		g_snprintf(out, size, "%s / %s", now, aim);
 	}
 }
 
@@ -519,7 +581,8 @@ void live_number_print(enum iec_type type, double number, char *out, size_t size
 	if (type == IEC_NONE)
 		g_strlcpy(out, "?", size);
 	else if (iec_type_row(type)->class == CLASS_TIME)
-		g_snprintf(out, size, "%.2f s", number / 1e3);
+		live_time_print((int64_t)CLAMP(number * (double)VALUE_MS, -9.2e18, 9.2e18),
+				out, size);
 	else
 		g_snprintf(out, size, "%.10g", number);
 }

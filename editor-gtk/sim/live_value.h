@@ -64,6 +64,17 @@ const char *live_format_label(enum live_format format);
 /** live_format_fits - can a value of @type be shown so? */
 bool live_format_fits(enum live_format format, enum iec_type type);
 
+/**
+ * live_time_print - the form of a time that is shown, wherever that is
+ *
+ * "250 ms" below a second, "3.25 s" below a minute, "2:05 min" below an hour, "1:02:05 h".
+ * live_value_parse() reads it back. As snprintf; 32 bytes are enough.
+ */
+int live_time_print(int64_t ns, char *out, size_t size);
+/** live_time_print_short - with at most one digit after the point: "3.2 s". Cut, not rounded: a
+ * time that is not over does not look so. */
+void live_time_print_short(int64_t ns, char *out, size_t size);
+
 /** live_value_format - in a format; FORMAT_AUTO if @format does not fit the type. As
  * snprintf; IEC_VALUE_TEXT bytes are enough. */
 int live_value_format(enum live_format format, enum iec_type type, union iec_value value,
@@ -72,18 +83,19 @@ int live_value_format(enum live_format format, enum iec_type type, union iec_val
  * live_value_parse - what a person types for a value in this format
  * @room: gets the bytes of a STRING, which @out then points to
  *
- * A literal with a base (16#FF) is accepted in any format; a TIME needs no T#.
+ * A literal with a base (16#FF) is accepted in any format; a TIME needs no T#, and may be as
+ * live_time_print() writes it.
  * Owns: nothing.   Scan-safe: no.   Fails: false; DIAG_BAD_LITERAL or DIAG_LITERAL_RANGE
  * in @why.
  */
 bool live_value_parse(enum live_format format, enum iec_type type, const char *text,
 		      struct iec_text *room, union iec_value *out, enum diag_id *why);
-/** live_value_text - for the panel: times as 1m03.50s, all else as in traces.
- * live_value_parse() reads it back. Caller frees. */
-char *live_value_text(enum iec_type type, union iec_value value);
-/** live_value_print - short, for sheets: "3.2 s", "1250", "TRUE", 'text'. */
+/** live_value_literal - for an entry: a time as T#5s, all else as in traces. Caller frees. */
+char *live_value_literal(enum iec_type type, union iec_value value);
+/** live_value_print - short, for sheets and the panel: "3.2 s", "1250", "TRUE", 'text'. */
 void live_value_print(enum iec_type type, union iec_value value, char *out, size_t size);
-/** live_count_print - "3.2/5.0 s", "7/10": how far it is on the way to @goal. */
+/** live_count_print - "3.2 s / 5 s", "1:05 / 2:00 min", "7 / 10": how far it is on the way to
+ * @goal. */
 void live_count_print(enum iec_type type, union iec_value value, union iec_value goal,
 		      char *out, size_t size);
 /** live_value_number - for curves and bars: BOOL 0 and 1, TIME in ms, STRING its length. */

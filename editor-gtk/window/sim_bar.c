@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/settings.h"
 #include "editor-gtk/live/sim_panel.h"
+#include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/sim/sim_pace.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/messages.h"
@@ -23,13 +24,14 @@
 static void show_when(struct sim_bar *bar)
 {
 	const struct twin *twin = ladder_sim_twin(bar->core->sim);
-	char *text;
+	char *text, period[32], now[32];
 
 	if (!twin)
 		return;
-	text = g_strdup_printf(_("Simulating · %g ms · scan %llu · %.2f s"),
-			       (double)twin->period_ns / 1e6,
-			       (unsigned long long)twin->scan, (double)twin->now_ns / 1e9);
+	live_time_print(twin->period_ns, period, sizeof(period));
+	live_time_print_short(twin->now_ns, now, sizeof(now));
+	text = g_strdup_printf(_("Simulating · %s · scan %llu · %s"), period,
+			       (unsigned long long)twin->scan, now);
 	adw_window_title_set_subtitle(bar->title, text);
 	g_free(text);
 }

@@ -43,6 +43,7 @@
 
 /* A new project with a chart. */
 #define CHART "RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n"
+#define ABOVE_SIDE 80 /* px of heading and status bar                              */
 #define DISK_SECONDS 2 /* between checks for changed files                     */
 
 struct _LadderWindow {
@@ -355,7 +356,9 @@ static bool do_find(LadderWindow *window, enum verb verb)
 		return true;
 	case VERB_find_element:
 		gtk_widget_set_visible(GTK_WIDGET(window->side), TRUE);
-		ladder_palette_find(window->palette);
+		if (!ladder_palette_find(window->palette))
+			messages_tell(&window->messages, _("Elements are placed in rungs. Open a "
+							   "sheet first."));
 		return true;
 	case VERB_rename: do_rename(window); return true;
 	case VERB_watch_add: names_watch(&window->core); return true;
@@ -528,6 +531,15 @@ static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 						   "sheet first."));
 }
 
+static void place_part(GtkWidget *widget, const char *name, GVariant *tool)
+{
+	LadderSfcView *chart = front_chart(&LADDER_WINDOW(widget)->front);
+
+	(void)name;
+	if (chart)
+		ladder_sfc_view_place(chart, (enum sfc_tool)g_variant_get_int32(tool));
+}
+
 /* Actions "win.save-over", "win.save-locked". */
 static void save_over(GtkWidget *widget, const char *name, GVariant *unused)
 {
@@ -578,6 +590,7 @@ static void install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.begin-chart", NULL, begin);
 	gtk_widget_class_install_action(class, "win.import-project", NULL, import_project);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
+	gtk_widget_class_install_action(class, "win.place-part", "i", place_part);
 	gtk_widget_class_install_action(class, "win.show-error", NULL, show_error);
 	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
 	/* GTK binds F6 inside panes only, not above them. */
@@ -671,6 +684,13 @@ static void select_in_tree(LadderWindow *window)
 		file ? ladder_side_file_path(file) : NULL, name);
 }
 
+/* The tiles for what has the keys; beside a chart, its rungs may have them. */
+static void show_palette(LadderWindow *window)
+{
+	ladder_palette_show(window->palette, front_sheet(&window->front) ? PALETTE_LADDER :
+			    front_chart(&window->front) ? PALETTE_CHART : PALETTE_NONE);
+}
+
 static void page_changed(LadderWindow *window)
 {
 	LadderGridView *sheet = front_sheet(&window->front);
@@ -679,7 +699,7 @@ static void page_changed(LadderWindow *window)
 	if (!window->core.document) /* the pages of a closing window go one by one */
 		return;
 	select_in_tree(window);
-
+	show_palette(window);
 	if (list)
 		ladder_code_view_set_pou(list, ladder_canvas_pou(LADDER_CANVAS(sheet)));
 }
@@ -776,15 +796,17 @@ static void add_sides(LadderWindow *window)
 	gtk_paned_set_start_child(window->side, ladder_still_new(window->core.tree));
 	window->palette = ladder_palette_new(window->core.document);
 	gtk_paned_set_end_child(window->side, ladder_still_new(window->palette));
-	gtk_paned_set_position(window->side, 230);
 }
 
 /* ---- settings ---- */
 
 static void load_settings(LadderWindow *window)
 {
-	gtk_window_set_default_size(GTK_WINDOW(window), settings_int("width", 1440),
-				    settings_int("height", 900));
+	const int height = settings_int("height", 900);
+
+	gtk_window_set_default_size(GTK_WINDOW(window), settings_int("width", 1440), height);
+	/* the tree gets nearly half of the side; both grow with the window */
+	gtk_paned_set_position(window->side, (height - ABOVE_SIDE) * 9 / 20);
 	if (settings_flag("maximized", FALSE))
 		gtk_window_maximize(GTK_WINDOW(window));
 	gtk_widget_set_visible(GTK_WIDGET(window->side), settings_flag("side", TRUE));
@@ -933,6 +955,8 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 	g_signal_connect_object(window->core.sim, "state-changed", G_CALLBACK(show_state),
 				window, G_CONNECT_SWAPPED);
 	g_signal_connect(window, "page-changed", G_CALLBACK(page_changed), NULL);
+	g_signal_connect(window, "place-changed", G_CALLBACK(show_palette), NULL);
+	g_signal_connect(window, "cursor-moved", G_CALLBACK(show_palette), NULL);
 	load_settings(window);
 	add_sides(window);
 	add_parts(window);

@@ -113,7 +113,7 @@ static inline bool drawn_value(void *context, int row, int col, struct live_valu
 	(void)context;
 	(void)row;
 	(void)col;
-	snprintf(out->text, sizeof(out->text), "3.2/5.0 s");
+	snprintf(out->text, sizeof(out->text), "3.2 s / 5 s");
 	out->part = 0.5f;
 	return true;
 }

@@ -50,7 +50,7 @@ static GListModel *panel_list(LadderSimPanel *panel)
 	return G_LIST_MODEL(gtk_list_view_get_model(GTK_LIST_VIEW(list)));
 }
 
-/* The text of a row's widget, as if it were visible: "0" or "1" of a bit, "1.00s / 2.00s" of a
+/* The text of a row's widget, as if it were visible: "0" or "1" of a bit, "1.0 s / 2 s" of a
  * timer, else the value. NULL: no widget shows it. Caller frees. */
 static char *panel_shown(LadderSimPanel *panel, const LadderSimRow *row)
 {

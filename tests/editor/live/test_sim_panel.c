@@ -153,8 +153,9 @@ static void test_values(void)
 	ladder_sim_scan(sim, 1);
 	CHECK_SOON(shows("\xe7\x94\xb5\xe6\x9c\xba", "1"));
 	ladder_sim_scan(sim, 3);
-	CHECK_SOON(shows("Delay", "0.03s / 5.00s"));
-	CHECK(shows("Fixed", "0.03s / 0.10s") && shows("Parts", "1 / 4"));
+	CHECK_SOON(shows("Delay", "0.0 s / 5 s"));
+	CHECK_SOON(shows("Fixed", "30 ms / 100 ms"));
+	CHECK(shows("Parts", "1 / 4"));
 }
 
 /* ---- what is done ---- */
@@ -229,14 +230,14 @@ static void test_typed(void)
 	type("Level", "sim-panel.edit-value", "120");
 	CHECK_SOON(shows("Level", "120"));
 	type("Delay", "sim-panel.edit-preset", "1m2.5s");
-	CHECK_SOON(shows("Wait", "1m02.50s"));
+	CHECK_SOON(shows("Wait", "1:02 min"));
 	type("Parts", "sim-panel.edit-value", "3");
 	CHECK_SOON(shows("Parts", "3 / 4"));
 	type("Fixed", "sim-panel.edit-value", "60ms");
-	CHECK_SOON(shows("Fixed", "0.06s / 0.10s"));
+	CHECK_SOON(shows("Fixed", "60 ms / 100 ms"));
 	ladder_sim_scan(sim, 1);
-	CHECK_SOON(shows("Fixed", "0.07s / 0.10s"));
-	CHECK_SOON(shows("Delay", "0.04s / 1m02.50s"));
+	CHECK_SOON(shows("Fixed", "70 ms / 100 ms"));
+	CHECK_SOON(shows("Delay", "0:00 / 1:02.5 min"));
 	CHECK(shows("Speed", "120"));
 	type("Count", "sim-panel.edit-value", "40000");
 	CHECK_AS(gtk_widget_has_css_class(find_widget(GTK_WIDGET(panel), GTK_TYPE_ENTRY),

@@ -58,8 +58,8 @@ static void check_print(void)
 	CHECK(prints(FORMAT_HEX, IEC_DWORD, 0xbeef, "16#0000BEEF"));
 	CHECK(prints(FORMAT_BIN, IEC_BYTE, 0x12, "2#0001_0010"));
 	CHECK(prints(FORMAT_FLOAT, IEC_DWORD, 0x3fc00000, "1.5"));
-	CHECK(prints(FORMAT_TIME, IEC_UINT, 1500, "T#1s500ms"));
-	CHECK(prints(FORMAT_AUTO, IEC_TIME, 2500000000, "T#2s500ms"));
+	CHECK(prints(FORMAT_TIME, IEC_UINT, 1500, "1.5 s"));
+	CHECK(prints(FORMAT_AUTO, IEC_TIME, 2500000000, "2.5 s"));
 	CHECK(prints(FORMAT_SIGNED, IEC_LWORD, -1, "-1"));
 	CHECK(prints(FORMAT_UNSIGNED, IEC_ULINT, -1, "18446744073709551615"));
 	CHECK(prints(FORMAT_HEX, IEC_BOOL, 1, "1"));
@@ -99,6 +99,12 @@ static void check_parse(void)
 	CHECK(reads(FORMAT_AUTO, IEC_TIME, "2s", 2000000000));
 	CHECK(reads(FORMAT_AUTO, IEC_TIME, "T#2s", 2000000000));
 	CHECK(reads(FORMAT_AUTO, IEC_TIME, "20", 20000000));
+	CHECK(reads(FORMAT_AUTO, IEC_TIME, "2.5 s", 2500000000));
+	CHECK(reads(FORMAT_AUTO, IEC_TIME, "2:05 min", 125000000000));
+	CHECK(reads(FORMAT_AUTO, IEC_TIME, "-1:00:00.5 h", -3600500000000));
+	CHECK(refuses(FORMAT_AUTO, IEC_TIME, "2:65 min"));
+	CHECK(refuses(FORMAT_AUTO, IEC_TIME, "1:2:3:4"));
+	CHECK(refuses(FORMAT_AUTO, IEC_TIME, "2: min"));
 	CHECK(reads(FORMAT_AUTO, IEC_BOOL, "TRUE", 1));
 	CHECK(refuses(FORMAT_AUTO, IEC_INT, "40000"));
 	CHECK(refuses(FORMAT_HEX, IEC_BYTE, "100"));
@@ -137,7 +143,7 @@ static void check_round(void)
 			continue; /* not a number */
 		if (!live_value_parse(format, type, text, &room, &back, &why) ||
 		    back.i != value.i) {
-			if (format == FORMAT_TIME && strncmp(text, "T#", 2) != 0)
+			if (format == FORMAT_TIME && strchr(text, ' ') == NULL)
 				continue; /* more than a TIME can hold */
 			printf("# %s as %s: %s\n", iec_type_row(type)->word,
 			       live_format_word(format), text);

@@ -55,7 +55,7 @@ class Editor(Finder):
         self.palette = None
         self.name, self.root = until(self.application, 'the editor on the accessibility bus')
         self.window = until(self.windows, 'a window')[0]
-        until(lambda: self.all('Find an element'), 'the palette')
+        until(lambda: self.all('Project'), 'the project')
         self.lines = {node.path for node in self.all(role='text')}
 
     def application(self):

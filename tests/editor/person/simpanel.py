@@ -71,8 +71,7 @@ def pointer(screen):
     editor.click(switch(editor, 'Start, %IX0.0'))
     line(editor, 'Input Start, %IX0.0, off')
     line(editor, 'Output 电机, %QX0.0, on')
-    until(lambda: any(' / 1m00.00s' in node.name and not node.name.startswith('0.00s')
-                      for node in editor.all('1m00.00s', 'label')), 'the timer to count')
+    until(lambda: any(not node.name.startswith('0:00') for node in editor.all('/ 1:00 min', 'label')), 'the timer to count')
     editor.shot('simpanel-light')
     editor.click(switch(editor, 'Stop, %IX0.1'))
     line(editor, 'Output 电机, %QX0.0, off')
@@ -81,7 +80,7 @@ def pointer(screen):
     line(editor, 'Output 电机, %QX0.0, on, forced')
     editor.says('1 force')
     editor.shot('simpanel-forced')
-    value = editor.find('/ 1m00.00s', 'label')
+    value = editor.find('/ 1:00 min', 'label')
 
     def field():
         """Clicks again: GTK 4.8 under X11 loses some clicks where a popover was, while the window redraws in each
@@ -93,7 +92,7 @@ def pointer(screen):
     editor.keys('ctrl+a')
     editor.type('2m30s')
     editor.keys('Return')
-    editor.says('/ 2m30.00s')
+    editor.says('/ 2:30 min')
 
 
 def keyboard(screen):
