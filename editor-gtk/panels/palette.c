@@ -115,11 +115,16 @@ static GMenu *menu_of(GArray *more)
 
 	for (guint i = 0; i < more->len; i++) {
 		const struct offer *offer = &g_array_index(more, struct offer, i);
-		GMenuItem *item = g_menu_item_new(name_of(offer->row), NULL);
+		/* one "_" would mark a letter as the key of the entry */
+		char **parts = g_strsplit(name_of(offer->row), "_", -1);
+		char *label = g_strjoinv("__", parts);
+		GMenuItem *item = g_menu_item_new(label, NULL);
 
 		g_menu_item_set_action_and_target(item, "win.place", "i", offer->id);
 		g_menu_append_item(menu, item);
 		g_object_unref(item);
+		g_free(label);
+		g_strfreev(parts);
 	}
 	return menu;
 }

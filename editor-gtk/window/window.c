@@ -805,8 +805,8 @@ static void load_settings(LadderWindow *window)
 	const int height = settings_int("height", 900);
 
 	gtk_window_set_default_size(GTK_WINDOW(window), settings_int("width", 1440), height);
-	/* the tree gets nearly half of the side; both grow with the window */
-	gtk_paned_set_position(window->side, (height - ABOVE_SIDE) * 9 / 20);
+	/* both grow with the window */
+	gtk_paned_set_position(window->side, (height - ABOVE_SIDE) * 2 / 5);
 	if (settings_flag("maximized", FALSE))
 		gtk_window_maximize(GTK_WINDOW(window));
 	gtk_widget_set_visible(GTK_WIDGET(window->side), settings_flag("side", TRUE));

@@ -4,8 +4,6 @@
  */
 #include "editor-gtk/kit/gtk48/popover.h"
 
-#include <stdbool.h>
-
 void popover_drop(GtkWidget *popover)
 {
 	/* An event may have brought the pointer back since it was hidden. GTK does not look
@@ -151,11 +149,37 @@ static gboolean closed(GSignalInvocationHint *hint, guint count, const GValue *v
 	return TRUE; /* of the next one, too */
 }
 
+/* ---- an open menu hides tooltips ---- */
+
+static int open_count;
+static void (*map_popover)(GtkWidget *popover), (*unmap_popover)(GtkWidget *popover);
+
+static void mapped(GtkWidget *popover)
+{
+	open_count += gtk_popover_get_autohide(GTK_POPOVER(popover));
+	map_popover(popover);
+}
+
+static void unmapped(GtkWidget *popover)
+{
+	open_count -= gtk_popover_get_autohide(GTK_POPOVER(popover));
+	unmap_popover(popover);
+}
+
+bool popover_is_above(GtkWidget *widget)
+{
+	return open_count > 0 && (!widget || !gtk_widget_get_ancestor(widget, GTK_TYPE_POPOVER));
+}
+
 void popover_init(void)
 {
-	gpointer class = g_type_class_ref(GTK_TYPE_POPOVER); /* stays: its signals live in it */
+	/* stays: its signals live in it */
+	GtkWidgetClass *class = g_type_class_ref(GTK_TYPE_POPOVER);
 
-	(void)class;
+	map_popover = class->map;
+	unmap_popover = class->unmap;
+	class->map = mapped;
+	class->unmap = unmapped;
 	g_signal_add_emission_hook(g_signal_lookup("closed", GTK_TYPE_POPOVER), 0, closed,
 				   NULL, NULL);
 }

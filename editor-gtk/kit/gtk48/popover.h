@@ -15,6 +15,8 @@
  * - Cut text, popover_tell(): a popover measures its height for more width than its child
  *   gets, so that the last line of a wrapped label is cut off. To see it: a refusal that
  *   needs just two lines at a line of quick entry.
+ * - Covered menu, popover_is_above(): the tooltip of a button is drawn above the menu that the
+ *   button opened. To see it: click an arrow of the palette and wait.
  * - Focus, popover_menu() and popover_menu_of(): when a menu closes, GTK gives the focus back
  *   only to the widget that had it when the menu was first drawn.
  * Remove each of them on a new floor, and run test_popover and tests/editor/person/seal_in.py.
@@ -23,10 +25,13 @@
 #define EDITOR_POPOVER_H
 
 #include <gtk/gtk.h>
+#include <stdbool.h>
 
 /** popover_init - from now on a popover that closes gives up its surface. Call once, in the
  * main thread. */
 void popover_init(void);
+/** popover_is_above - is a menu open that @widget is not in? Tooltips ask. NULL: of a sheet. */
+bool popover_is_above(GtkWidget *widget);
 /** popover_put - sets the parent of @popover, which is removed when @parent is destroyed: a key
  * may close the page below an open menu. */
 void popover_put(GtkWidget *popover, GtkWidget *parent);

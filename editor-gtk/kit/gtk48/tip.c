@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/kit/gtk48/tip.h"
 
+#include "editor-gtk/kit/gtk48/popover.h"
+
 #include <pango/pango.h>
 #include <string.h>
 
@@ -78,7 +80,7 @@ char *tip_text(const char *text)
 
 gboolean tip_show(GtkTooltip *tooltip, const char *text)
 {
-	char *tip = text && *text ? tip_text(text) : NULL;
+	char *tip = text && *text && !popover_is_above(NULL) ? tip_text(text) : NULL;
 
 	gtk_tooltip_set_text(tooltip, tip);
 	g_free(tip);
@@ -94,10 +96,15 @@ static gboolean query_tooltip(GtkWidget *widget, int x, int y, gboolean by_keys,
 	(void)x;
 	(void)y;
 	(void)by_keys;
-	if (text)
-		return tip_show(tooltip, text);
-	if (gtk_widget_get_tooltip_text(widget))
-		return tip_show(tooltip, gtk_widget_get_tooltip_text(widget));
+	if (popover_is_above(widget))
+		return FALSE;
+	if (text || (text = gtk_widget_get_tooltip_text(widget)) != NULL) {
+		char *tip = tip_text(text);
+
+		gtk_tooltip_set_text(tooltip, tip);
+		g_free(tip);
+		return TRUE;
+	}
 	gtk_tooltip_set_markup(tooltip, markup);
 	return markup != NULL;
 }

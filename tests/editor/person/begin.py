@@ -259,13 +259,13 @@ def searched(screen):
 def folded(screen):
     """a family folds by pointer and by key; the sides of the window fold"""
     editor = Editor(screen, new_file(screen, PROGRAM))
-    editor.tile('TON')
-    x, y, width, _ = editor.place(editor.all('Timers', 'push button', editor.palette)[0])
+    editor.tile('NO: ')
+    x, y, width, _ = editor.place(editor.all('Contacts', 'push button', editor.palette)[0])
     title = x + width // 2, y + 10
     editor.click(title)
-    until(lambda: not editor.all('TON:', 'push button', editor.palette), 'the tiles to be gone')
+    until(lambda: not editor.all('NO: ', 'push button', editor.palette), 'the tiles to be gone')
     editor.click(title)
-    editor.tile('TON:')
+    editor.tile('NO: ')
     editor.keys('ctrl+shift+e')
     editor.focus_on('Find an element')
     editor.keys('Tab')  # to the wires, which are folded at first

@@ -210,6 +210,53 @@ def by_pointer(screen):
     shape(editor, 'Drain does: L T#5s Q0.1')
 
 
+def palette(screen):
+    """tiles of the palette: clicked at the cursor, dragged onto a shape; none of them beside a list or a table"""
+    path = new_file(screen, EMPTY + '\nPROGRAM Text IL\n  LD    I0.0\n  ST    Q0.5\nEND_PROGRAM\n\n'
+                    'PROGRAM Rungs LD\nRUNG\n  | NO I0.0 | COIL Q0.6 |\nEND_PROGRAM\n')
+    editor = Editor(screen, path)
+    editor.click(editor.tile('Transition: '))  # the step at the cursor gets a transition, which asks for its condition
+    editor.opened()
+    editor.entry('I0.0')
+    shape(editor, 'from Start to Step1, condition I0.0')
+    editor.keys('ctrl+shift+e')
+    editor.focus_on('Find a part of a chart')
+    editor.type('at most')
+    until(lambda: not editor.all('Transition: ', 'push button', editor.palette), 'that tile alone')
+    editor.drag(editor.tile('L: '), upon(editor, shape(editor, 'Step Step1')), look='charts-drop')
+    editor.opened()
+    assert [node.text() for node in editor.asked()] == ['L '], [node.text() for node in editor.asked()]
+    editor.type('T#2s Q0.1')
+    editor.keys('Return')
+    shape(editor, 'Step1 does: L T#2s Q0.1')
+    editor.click(editor.find('Find a part of a chart'))
+    editor.keys('Escape')
+    editor.tile('Transition: ')
+    editor.drag(editor.tile('Alternative: '), upon(editor, shape(editor, 'Step Start')))
+    shape(editor, 'from Start to Step2')
+    editor.drag(editor.tile('Initial step: '), upon(editor, shape(editor, 'Step Step2')))
+    until(lambda: 'INITIAL_STEP Step2' in editor.save(path), 'the initial step')
+    editor.keys('ctrl+z')
+    editor.keys('ctrl+shift+e')
+    editor.focus_on('Find a part of a chart')
+    editor.type('jump')
+    editor.keys('Return')
+    editor.opened()
+    editor.entry('Start')
+    shape(editor, 'from Step2 to Start')
+    editor.keys('ctrl+Page_Down')
+    until(lambda: not editor.all('Find a part of a chart') and not editor.all('Find an element'), 'no palette beside a list')
+    editor.keys('ctrl+Page_Down')
+    editor.find('Find an element')
+    for family in 'Contacts', 'Coils', 'Timers':
+        x, y, width, _ = editor.place(editor.all(family, 'push button', editor.palette)[0])
+        editor.click((x + width // 2, y + 10))
+    until(lambda: not editor.all('TON: ', 'push button', editor.palette), 'the timers to be folded')
+    editor.click(editor.tile('More kinds of CTU'))
+    until(lambda: editor.all('CTU_DINT', 'menu item', editor.palette), 'the kinds of CTU')
+    assert not editor.all('CTU_DINT:', 'push button', editor.palette), 'a kind for another type crowds the counters'
+
+
 def bodies(screen):
     """a condition becomes a rung below the chart, an action gets rungs; pasted steps get new names"""
     path = new_file(screen, EMPTY)
@@ -525,4 +572,4 @@ def long_texts(screen):
 
 
 bodies.quick = 'editor-gtk/sfc'
-main([by_keyboard, by_pointer, first_key, bodies, clipped, zoomed, simulated, forced, long_texts])
+main([by_keyboard, by_pointer, palette, first_key, bodies, clipped, zoomed, simulated, forced, long_texts])
