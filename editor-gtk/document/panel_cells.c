@@ -473,15 +473,14 @@ static void show(LadderPanelRow *row, GtkListItem *item)
 	const char *text = panel_row_text(row, column->field);
 	char *name = g_strdup_printf("%s, %s", panel_row_text(row, 0),
 				     cells->name(column->field));
-
 	const bool fixed = cells->is_fixed && cells->is_fixed(row, column->field);
 
 	gtk_widget_set_sensitive(cell, !fixed);
 	if (has_choices(column))
 		gtk_entry_set_icon_from_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY,
 						  fixed ? NULL : "pan-down-symbolic");
-	if (cells->indent)
-		gtk_widget_set_margin_start(cell, cells->indent(row, column->field));
+	if (cells->dress)
+		cells->dress(cell, row, column->field);
 	if (is_check(column))
 		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);
 	else

@@ -27,8 +27,8 @@ struct panel_cells {
 	void (*given_up)(GObject *owner);
 	/* NULL: all rows can be edited. */
 	bool (*is_fixed)(const LadderPanelRow *row, int field);
-	/* px that a cell is indented. NULL: none. */
-	int (*indent)(const LadderPanelRow *row, int field);
+	/* Style of a cell, which shows one row after another. NULL: none. */
+	void (*dress)(GtkWidget *cell, const LadderPanelRow *row, int field);
 	/* Pairs of a text and its explanation (or ""). Caller: g_ptr_array_unref. */
 	GPtrArray *(*choices)(GObject *owner, int field);
 };

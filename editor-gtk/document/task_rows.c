@@ -967,7 +967,8 @@ bool task_rows_has(enum task_what what, enum task_field field)
 
 	return what == TASKS_INSTANCE ? text || field == TASKS_PROGRAM :
 	       what == TASKS_TASK ? field != TASKS_PROGRAM :
-	       what == TASKS_EACH_SCAN && !text && field != TASKS_PROGRAM;
+	       what == TASKS_EACH_SCAN && (field == TASKS_WHEN || field == TASKS_PRIORITY ||
+					   field == TASKS_WATCHDOG);
 }
 
 bool task_rows_set(LadderDocument *document, int row, enum task_field field, const char *text,
@@ -1043,12 +1044,11 @@ static const char *task_of(const struct task_rows *tasks, int head)
 	return tasks->row[head].what == TASKS_TASK ? line_of(tasks, head)->name : "";
 }
 
-/* Puts a program's line behind the others of the task. */
+/* Puts a program's line behind the others of the task. The first one stays where it is. */
 static void append_to(struct task_text *t, struct line *line, const char *task)
 {
-	struct line *last = last_of(t, LINE_PROGRAM, task, line);
+	const struct line *last = last_of(t, LINE_PROGRAM, task, line);
 
-	last = last ? last : last_of(t, LINE_PROGRAM, NULL, line);
 	give(t, line, &line->task, task);
 	if (last)
 		move_to(t, line, last, true);

@@ -11,11 +11,13 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/task_chart.h"
 
 #include <adwaita.h>
 #include <string.h>
 
 #define INDENT 24 /* px of a program below its task                            */
+#define BESIDE_PANE 10 /* px that the handle of a pane reaches into the page   */
 
 /* LadderPanelRow: table is enum task_what, index the number of the row, number that of its
  * heading. */
@@ -23,7 +25,7 @@ enum { TASKS_FIXED = 1 }; /* LadderPanelRow.flags */
 
 struct _LadderTasksView {
 	GtkWidget parent_instance;
-	GtkWidget *box, *program_button, *hint, *bar, *message;
+	GtkWidget *box, *program_button, *hint, *bar, *message, *chart;
 	struct panel_list list;
 	struct panel_cells cells;
 	struct panel_watch *watch;
@@ -149,6 +151,15 @@ static void show_actions(LadderTasksView *view)
 	task_rows_free(tasks);
 }
 
+static void show_chart(LadderTasksView *view, const struct task_rows *tasks)
+{
+	struct ladder *checked = ladder_document_checked(document_of(view));
+	const struct program *program = checked ? ladder_program(checked) : NULL;
+
+	ladder_task_chart_set(LADDER_TASK_CHART(view->chart), program ?
+		schedule_new(program, TASKS_PERIOD_NS) : NULL, tasks);
+}
+
 static void refresh(GtkWidget *widget)
 {
 	LadderTasksView *view = LADDER_TASKS_VIEW(widget);
@@ -165,6 +176,8 @@ static void refresh(GtkWidget *widget)
 	if (tasks)
 		show_hint(view, tasks, ladder_document_project(document) != NULL);
 	show_actions(view);
+	if (tasks)
+		show_chart(view, tasks);
 	task_rows_free(tasks);
 	g_ptr_array_unref(rows);
 }
@@ -209,9 +222,17 @@ static bool is_fixed(const LadderPanelRow *row, int field)
 	       !task_rows_has((enum task_what)row->table, (enum task_field)field);
 }
 
-static int indent(const LadderPanelRow *row, int field)
+static void dress(GtkWidget *cell, const LadderPanelRow *row, int field)
 {
-	return field == TASKS_NAME && row->table == TASKS_INSTANCE ? INDENT : 0;
+	const bool instance = row->table == TASKS_INSTANCE;
+
+	if (field != TASKS_NAME)
+		return;
+	gtk_widget_set_margin_start(cell, instance ? INDENT : 0);
+	if (instance)
+		gtk_widget_remove_css_class(cell, "task-head");
+	else
+		gtk_widget_add_css_class(cell, "task-head");
 }
 
 static GPtrArray *choices(GObject *owner, int field)
@@ -296,12 +317,17 @@ static void add_program(GtkWidget *widget, const char *action, GVariant *program
 
 static void delete_now(LadderTasksView *view, const LadderPanelRow *row)
 {
+	const guint at = gtk_single_selection_get_selected(view->list.selection);
+	guint count;
 	char *why = NULL;
 
-	if (done(view, task_rows_delete(document_of(view), number_of(view, row), &why), why)) {
-		panel_watch_later(view->watch);
-		panel_watch_now(view->watch);
-	}
+	if (!done(view, task_rows_delete(document_of(view), number_of(view, row), &why), why))
+		return;
+	panel_watch_later(view->watch);
+	panel_watch_now(view->watch);
+	count = g_list_model_get_n_items(G_LIST_MODEL(view->list.selection));
+	panel_list_go(&view->list, MIN(at, count - 1));
+	gtk_widget_grab_focus(GTK_WIDGET(view->list.view));
 }
 
 struct deleting {
@@ -418,7 +444,7 @@ static void open_program(GtkWidget *widget, const char *action, GVariant *unused
 	(void)action;
 	(void)unused;
 	if (row && row->pou >= 0)
-		gtk_widget_activate_action(widget, "win.go-to", "(iiii)", row->pou, -1, -1, -1);
+		gtk_widget_activate_action(widget, "win.go-to", "(iiii)", row->pou, 0, -1, -1);
 }
 
 /* ---- menus ---- */
@@ -690,6 +716,7 @@ static void setup_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
 
 	(void)factory;
 	gtk_widget_add_css_class(handle, "dim-label");
+	gtk_widget_set_margin_start(handle, BESIDE_PANE);
 	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
 	g_signal_connect(source, "prepare", G_CALLBACK(drag_prepared), item);
 	gtk_widget_add_controller(handle, GTK_EVENT_CONTROLLER(source));
@@ -742,6 +769,7 @@ static void ladder_tasks_view_class_init(LadderTasksViewClass *class)
 {
 	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
 
+	g_type_ensure(LADDER_TYPE_TASK_CHART);
 	G_OBJECT_CLASS(class)->dispose = dispose;
 	gtk_widget_class_set_layout_manager_type(widget, GTK_TYPE_BIN_LAYOUT);
 	gtk_widget_class_install_action(widget, "tasks.add", NULL, add);
@@ -754,6 +782,7 @@ static void ladder_tasks_view_class_init(LadderTasksViewClass *class)
 		"/org/rungboard/Editor/ui/tasks_view.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderTasksView, name)
 	CHILD(box); CHILD(program_button); CHILD(hint); CHILD(bar); CHILD(message);
+	CHILD(chart);
 #undef CHILD
 	gtk_widget_class_bind_template_child_full(widget, "view", FALSE, 0);
 	gtk_widget_class_bind_template_callback(widget, program_clicked);
@@ -770,7 +799,7 @@ static void add_columns(LadderTasksView *view)
 
 	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
 		.choosable = 1u << TASKS_KIND | 1u << TASKS_PROGRAM, .choices = choices,
-		.set = set_field, .is_fixed = is_fixed, .indent = indent };
+		.set = set_field, .is_fixed = is_fixed, .dress = dress };
 	add_handles(view);
 	panel_list_column(&view->list, "", TASKS_NAME, PANEL_ICON, 0);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)

@@ -268,7 +268,7 @@ static void test_rows_come_and_go(void)
 	check_order(document, "Fast: BSlow:Task1: Spare AEach scan: C");
 	CHECK(task_rows_delete(document, row_of(document, "Spare"), NULL));
 	CHECK(task_rows_delete(document, row_of(document, "Task1"), NULL));
-	check_order(document, "Fast: BSlow:Each scan: C ADo not run: Spare");
+	check_order(document, "Fast: BSlow:Each scan: A CDo not run: Spare");
 	for (int i = 0; i < 4; i++)
 		CHECK(ladder_document_undo(document));
 	after = text_of(document);

@@ -1,0 +1,206 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""tasks - the page of the tasks: cells, rows that come, go and move, a project without a CONFIGURATION, what runs
+when."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+
+PROGRAMS = '''
+PROGRAM Quick LD
+RUNG
+  | NO Door | COIL %QX0.0 |
+END_PROGRAM
+
+PROGRAM Lazy LD
+RUNG
+  | NO %IX0.1 | COIL %QX0.1 |
+END_PROGRAM
+
+PROGRAM Other LD
+RUNG
+  | NO %IX0.2 | COIL %QX0.2 |
+END_PROGRAM
+'''
+PLANT = '''RUNGBOARD 1
+
+CONFIGURATION Plant (* head *)
+VAR_GLOBAL
+  Door AT %IX0.0 : BOOL;
+END_VAR
+  RESOURCE Cpu ON LINUX (* the board *)
+    TASK Fast (INTERVAL := T#5ms, PRIORITY := 1); (* counts *)
+    TASK Slow (INTERVAL := T#20ms, PRIORITY := 2);
+    PROGRAM A WITH Fast : Quick; (* first *)
+    PROGRAM B WITH Fast : Lazy;
+  END_RESOURCE
+  PROGRAM C : Other; (* last *)
+END_CONFIGURATION
+''' + PROGRAMS
+PLAIN = 'RUNGBOARD 1\n\nVAR\n  Door AT %IX0.0 : BOOL;\nEND_VAR\n' + PROGRAMS
+QUESTION = 'Its programs then run in each scan: Quick, Lazy.'
+
+
+def cell(editor, name):
+    return editor.find(name, 'text')
+
+
+def put(editor, name, text):
+    """Types a text into a cell."""
+    editor.click(cell(editor, name))
+    editor.keys('ctrl+a')
+    editor.type(text)
+    editor.keys('Return')
+
+
+def shows(editor, name, value):
+    until(lambda: cell(editor, name).text() == value, '%s to be "%s"' % (name, value))
+
+
+def opened(screen, text=PLANT):
+    path = new_file(screen, text)
+    editor = Editor(screen, path)
+    editor.command('priority')
+    editor.find('Period or event')
+    return editor, path
+
+
+def is_saved(editor, path, *changes, text=PLANT):
+    """Does the file have these changes and no other?"""
+    for old, new in changes:
+        assert old in text, old
+        text = text.replace(old, new)
+    editor.keys('ctrl+s')
+    until(lambda: open(path).read() == text, 'the file:\n%s\nbut:\n%s' % (text, open(path).read()))
+
+
+def table(screen):
+    """cells are edited in place and refused in red; each edit changes its line of the file, and one undo takes it back"""
+    editor, path = opened(screen)
+    put(editor, 'Fast, Period or event', '10ms')
+    shows(editor, 'Fast, Period or event', 'T#10ms')
+    is_saved(editor, path, ('T#5ms', 'T#10ms'))
+    put(editor, 'Fast, Period or event', '25h')
+    editor.says('Fast, Period or event: "T#25h"')
+    editor.shot('tasks-refused')
+    editor.keys('Escape')
+    until(lambda: not editor.all('Fast, Period or event: "'), 'the end of the message')
+    put(editor, 'Slow, Period or event', 'Door')
+    shows(editor, 'Slow, Kind', 'Event')
+    put(editor, 'Slow, Watchdog', '1s')
+    put(editor, 'Slow, Priority', '0')
+    put(editor, 'B, Name', 'Second')
+    is_saved(editor, path, ('T#5ms', 'T#10ms'), ('PROGRAM B', 'PROGRAM Second'),
+             ('Slow (INTERVAL := T#20ms, PRIORITY := 2)', 'Slow (SINGLE := Door, PRIORITY := 0, WATCHDOG := T#1s)'))
+    check(path)
+    for _ in range(4):
+        editor.keys('ctrl+z')
+    shows(editor, 'Slow, Kind', 'Cyclic')
+    editor.keys('ctrl+z')
+    is_saved(editor, path)
+    editor.click(cell(editor, 'Slow, Kind'))
+    editor.keys('alt+Down')
+    editor.find('Event when a variable becomes TRUE', 'list item')
+    editor.keys('Down', 'Return')
+    shows(editor, 'Slow, Period or event', 'Door')
+    put(editor, 'Fast, Name', 'Quickly')
+    is_saved(editor, path, ('INTERVAL := T#20ms', 'SINGLE := Door'), ('TASK Fast', 'TASK Quickly'), ('WITH Fast', 'WITH Quickly'))
+    until(lambda: editor.all('Quickly, T#5ms', 'list item') and editor.all('Slow, on Door', 'list item'), 'the tasks in the tree')
+
+
+def rows(screen):
+    """programs move by handle and key, tasks come and go; what a deletion takes along is said before"""
+    editor, path = opened(screen)
+    editor.drag(editor.find('Drag A'), cell(editor, 'Slow, Name'), look='tasks-drag')
+    is_saved(editor, path, ('A WITH Fast', 'A WITH Slow'))
+    editor.keys('ctrl+z')
+    is_saved(editor, path)
+    editor.click(cell(editor, 'B, Name'))
+    editor.keys('alt+Up')
+    swapped = ('    PROGRAM A WITH Fast : Quick; (* first *)\n    PROGRAM B WITH Fast : Lazy;\n',
+               '    PROGRAM B WITH Fast : Lazy;\n    PROGRAM A WITH Fast : Quick; (* first *)\n')
+    is_saved(editor, path, swapped)
+    editor.keys('alt+Down', 'alt+Down')
+    is_saved(editor, path, ('B WITH Fast', 'B WITH Slow'))
+    editor.click(cell(editor, 'C, Name'), button=3)
+    until(lambda: editor.all('Open program'), 'the menu of the row')
+    editor.shot('tasks-menu')
+    editor.keys('Escape')
+    for _ in range(3):
+        editor.keys('ctrl+z')
+    editor.click(cell(editor, 'Fast, Name'))
+    editor.click(editor.find('Delete the task or remove the program', 'push button'))
+    editor.says(QUESTION)
+    editor.shot('tasks-delete')
+    editor.answer('Delete')
+    is_saved(editor, path, ('    TASK Fast (INTERVAL := T#5ms, PRIORITY := 1); (* counts *)\n', ''),
+             (' WITH Fast', ''))
+    editor.click(editor.find('New task', 'push button'))
+    editor.focus_on('Task1, Name')
+    editor.type('Idle')
+    editor.keys('Return')
+    shows(editor, 'Idle, Priority', '3')
+    editor.click(editor.find('Add program…', 'push button'))
+    until(lambda: editor.all('Quick (now in Each scan)'), 'the programs')
+    editor.keys('Down', 'Return')
+    until(lambda: 'WITH Idle' in (editor.keys('ctrl+s') or open(path).read()), 'the program in the task')
+    check(path)
+
+
+def implicit(screen):
+    """a project without a CONFIGURATION runs all in each scan; the first change writes one, undo takes it away"""
+    editor, path = opened(screen, PLAIN)
+    editor.says('all of them run in each scan')
+    shows(editor, 'Each scan, Period or event', 'T#10ms')
+    editor.shot('tasks-implicit')
+    put(editor, 'Each scan, Period or event', '20 ms')
+    editor.says('Each scan, Period or event: ')
+    put(editor, 'Each scan, Period or event', '20ms')
+    shows(editor, 'Task1, Period or event', 'T#20ms')
+    until(lambda: not editor.all('all of them run in each scan'), 'the end of the hint')
+    is_saved(editor, path, ('END_VAR\n', '''END_VAR
+
+CONFIGURATION Config
+  TASK Task1 (INTERVAL := T#20ms, PRIORITY := 0);
+  PROGRAM Quick WITH Task1 : Quick;
+  PROGRAM Lazy WITH Task1 : Lazy;
+  PROGRAM Other WITH Task1 : Other;
+END_CONFIGURATION
+'''), text=PLAIN)
+    check(path)
+    editor.keys('ctrl+z')
+    is_saved(editor, path, text=PLAIN)
+    editor.says('all of them run in each scan')
+
+
+def picture(screen):
+    """what runs when: lanes by priority; the pointer and the keys say what runs at a time; the picture zooms"""
+    editor, path = opened(screen)
+    fast = editor.find('Fast: every 5 ms, at 0, 5, 10 … ms. Priority 1', 'list item')
+    slow = editor.find('Slow: every 20 ms, at 0, 20 … ms. Priority 2', 'list item')
+    editor.find('Each scan: every 5 ms, at 0, 5, 10 … ms, behind all tasks', 'list item')
+    editor.says('40 ms: after half of it everything repeats')
+    assert editor.place(fast)[1] < editor.place(slow)[1]
+    x, y, width, height = editor.place(slow)
+    sh('xdotool', 'mousemove', str(x + width * 3 // 5), str(y + height // 2))
+    until(lambda: editor.all('Fast, then Each scan', 'label') or editor.all('Fast, then Slow, then Each scan', 'label'),
+          'what runs at the pointer')
+    editor.shot('tasks-picture')
+    editor.click(editor.find('WHAT RUNS WHEN'))
+    editor.click((x + 20, y + height // 2))
+    editor.focus_on('Slow: every')
+    editor.keys('Right')
+    editor.says('At 0: Fast, then Slow, then Each scan')
+    editor.keys('Right')
+    editor.says('At 20 ms: Fast, then Slow, then Each scan')
+    editor.click(editor.find('Zoom in', 'push button'))
+    until(lambda: editor.find('Zoom out', 'push button').has(24), 'a part of the time')
+    editor.shot('tasks-zoomed')
+    put(editor, 'Slow, Period or event', '10ms')
+    editor.find('Slow: every 10 ms, at 0, 10 … ms. Priority 2', 'list item')
+    assert lines(path, '@print %QX0.0\nDoor=1\n') is not None
+
+
+main([table, rows, implicit, picture])
