@@ -409,6 +409,12 @@ sub test_kept {
 	my ($members, $order) = members(slurp($out));
 	is($members->{'modbusioconf.csv'}, "S0,1,0,one\n", 'a line that would end a member is left out');
 	like($members->{'project_infos.txt'}, qr/^PARAM_AUTHOR=Me$/m, 'an author');
+	spew("$dir/about.rung", "RUNGBOARD 1\nPROJECT \"P\"\nAUTHOR \"You\"\nDESCRIPTION \"one\$Ntwo\"\n"
+		. "${body}VIEW\n  classicladder project_infos.txt PARAM_AUTHOR=Me\nEND_VIEW\n");
+	my $about = (members(slurp(export("$dir/about.rung", 'classicladder', 'about'))))[0]->{'project_infos.txt'};
+	like($about, qr/^PARAM_AUTHOR=You$/m, 'the author of the project wins over a line that was kept');
+	unlike($about, qr/=Me/, 'and is written once');
+	like($about, qr/^PARAM_COMMENT=one\\ntwo$/m, 'a line break of the description');
 	unlike(slurp($out), qr/nowhere|9\.9/, 'a note of no page and a rung are left out');
 	taken('kept lines', $out);
 }

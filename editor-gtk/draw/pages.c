@@ -41,8 +41,8 @@
 #define PART_MOST  4  /* the lines take at most this part of a page, as a divisor */
 #define PAPER_LEAST 240 /* px: a lower page has no title block                      */
 
-/* In the order of the title block. */
-enum { PROJECT, NAME, UNIT, DATE, PAGE, FIELDS };
+/* In the order of the title block. MAKER and STATE are properties of the project. */
+enum { PROJECT, NAME, UNIT, MAKER, STATE, DATE, PAGE, FIELDS };
 
 /* Part of a picture on a page. */
 struct piece {
@@ -64,6 +64,7 @@ struct pages {
 	const struct theme *theme;
 	enum drafting_show show;
 	char *file, *date;
+	char *maker, *state;           /* of the properties; NULL: none are given */
 	float width, height;           /* px of a page                          */
 	float room_width, room_height; /* px inside the margins, above the title block */
 	float field[FIELDS];      /* px: widths of the fields of the title block */
@@ -328,6 +329,10 @@ static void measure_fields(const struct pages *pages, struct field *field,
 	for (int i = 0; i < count; i++)
 		if (i == 0 || strcmp(subject_of(pages, i), subject_of(pages, i - 1)) != 0)
 			measured(pages, &field[UNIT], subject_of(pages, i));
+	if (pages->maker)
+		measured(pages, &field[MAKER], drawn(pages, pages->maker));
+	if (pages->state)
+		measured(pages, &field[STATE], drawn(pages, pages->state));
 	if (pages->date)
 		measured(pages, &field[DATE], drawn(pages, pages->date));
 }
@@ -369,7 +374,7 @@ static void share_width(struct field *field, float width)
 	}
 	/* Cuts texts that still do not fit: first the name of the project, which then gets
 	 * a page of its own. */
-	for (int i = PROJECT; i <= UNIT && over > 0; i++) {
+	for (int i = PROJECT; i <= STATE && over > 0; i++) {
 		const float less = MIN(over, field[i].width - field[i].label);
 
 		field[i].width -= less;
@@ -404,6 +409,8 @@ static bool measure_title(struct pages *pages)
 		[PROJECT] = { _("Project"), 34 * part, 0, 0, 0 },
 		[NAME] = { _("File"), 22 * part, 0, 0, 0 },
 		[UNIT] = { _("Program unit"), (pages->date ? 14 : 30) * part, 0, 0, 0 },
+		[MAKER] = { pages->maker ? _("Author") : NULL, 0, 0, 0, 0 },
+		[STATE] = { pages->state ? _("Version") : NULL, 0, 0, 0, 0 },
 		[DATE] = { pages->date ? _("Date") : NULL, pages->date ? 16 * part : 0, 0, 0, 0 },
 		[PAGE] = { _("Page"), 14 * part, 0, 0, 0 },
 	};
@@ -450,11 +457,14 @@ static void draw_title(const struct pages *pages, int page, struct picture *pict
 {
 	const float height = title_height(pages);
 	char *count = g_strdup_printf(_("%d of %d"), page + 1, pages_count(pages));
-	const char *what[FIELDS] = { _("Project"), _("File"), _("Program unit"), _("Date"),
-				     _("Page") };
-	const char *date = pages->date ? drawn(pages, pages->date) : NULL;
-	const char *text[FIELDS] = { project_title(pages), file_name(pages),
-				     subject_of(pages, page), date, count };
+	const char *what[FIELDS] = { _("Project"), _("File"), _("Program unit"), _("Author"),
+				     _("Version"), _("Date"), _("Page") };
+	const char *text[FIELDS] = {
+		project_title(pages), file_name(pages), subject_of(pages, page),
+		pages->maker ? drawn(pages, pages->maker) : NULL,
+		pages->state ? drawn(pages, pages->state) : NULL,
+		pages->date ? drawn(pages, pages->date) : NULL, count,
+	};
 	float x = 0;
 
 	picture_move(picture, PAGE_MARGIN, pages->height - PAGE_MARGIN - height);
@@ -1212,10 +1222,27 @@ static void put_all(struct pages *pages, int pou, int rung)
 		next_page(pages);
 }
 
+/* The properties that are given, with commas between them; NULL: none. Caller frees. */
+static char *properties(const struct project *project, const enum property *property, int count)
+{
+	GString *out = g_string_new(NULL);
+
+	for (int i = 0; i < count; i++) {
+		const char *text = project_text(project, project->property[property[i]]);
+
+		if (*text)
+			g_string_append_printf(out, "%s%s", out->len ? ", " : "", text);
+	}
+	return g_string_free(out, out->len == 0);
+}
+
 struct pages *pages_new(const struct project *project, const char *file, int pou, int rung,
 			enum drafting_show show, const struct paper *paper,
 			struct lettering *lettering)
 {
+	static const enum property maker[] = { PROPERTY_AUTHOR, PROPERTY_COMPANY };
+	static const enum property state[] = { PROPERTY_VERSION, PROPERTY_REVISION,
+					       PROPERTY_DATE };
 	struct pages *pages = g_new0(struct pages, 1);
 	float width = paper->landscape ? paper->height : paper->width;
 	float height = paper->landscape ? paper->width : paper->height;
@@ -1226,6 +1253,8 @@ struct pages *pages_new(const struct project *project, const char *file, int pou
 	pages->show = show;
 	pages->file = g_path_get_basename(file);
 	pages->date = g_strdup(paper->date);
+	pages->maker = properties(project, maker, G_N_ELEMENTS(maker));
+	pages->state = properties(project, state, G_N_ELEMENTS(state));
 	pages->width = width * PAGE_PX;
 	pages->height = height * PAGE_PX;
 	pages->room_width = pages->width - 2 * PAGE_MARGIN;
@@ -1251,6 +1280,8 @@ void pages_free(struct pages *pages)
 	g_ptr_array_unref(pages->picture);
 	g_free(pages->file);
 	g_free(pages->date);
+	g_free(pages->maker);
+	g_free(pages->state);
 	g_free(pages);
 }
 
@@ -1334,6 +1365,9 @@ GBytes *pages_pdf(const struct pages *pages, const struct paper *paper, const ch
 	if (made)
 		cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, made);
 	cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
+	if (pages->project->property[PROPERTY_AUTHOR])
+		cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_AUTHOR,
+			project_text(pages->project, pages->project->property[PROPERTY_AUTHOR]));
 	paint_all(surface, pages);
 	cairo_surface_finish(surface);
 	good = cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS;

@@ -442,7 +442,7 @@ static GMenu *pou_menu(void)
 	static const struct { const char *label, *action; } entries[] = {
 		{ N_("Duplicate…"), "tree.duplicate" }, { N_("Move up"), "tree.up" },
 		{ N_("Move down"), "tree.down" }, { N_("Rename…"), "tree.rename" },
-		{ N_("Delete"), "tree.delete" },
+		{ N_("Delete"), "tree.delete" }, { N_("Properties…"), "tree.about" },
 	};
 	GMenu *menu = g_menu_new(), *fresh = menu_model();
 
@@ -460,6 +460,7 @@ static void add_actions(struct tree *tree, GtkWidget *panel)
 		{ .name = "rename", .activate = act_on_pou },
 		{ .name = "delete", .activate = act_on_pou },
 		{ .name = "duplicate", .activate = act_on_pou },
+		{ .name = "about", .activate = act_on_pou },
 		{ .name = "up", .activate = move_selected },
 		{ .name = "down", .activate = move_selected },
 	};
@@ -517,6 +518,8 @@ static gboolean key_pressed(struct tree *tree, guint key, guint code, GdkModifie
 		gtk_widget_activate_action(tree->list, "tree.delete", NULL);
 	else if (gdk_keyval_to_lower(key) == GDK_KEY_d && held == GDK_CONTROL_MASK)
 		gtk_widget_activate_action(tree->list, "tree.duplicate", NULL);
+	else if (key == GDK_KEY_Return && held == GDK_ALT_MASK)
+		gtk_widget_activate_action(tree->list, "tree.about", NULL);
 	else if ((key == GDK_KEY_Up || key == GDK_KEY_Down) && held == GDK_ALT_MASK)
 		move_by(tree, key == GDK_KEY_Up ? -1 : 1);
 	else

@@ -32,6 +32,7 @@
 #include "editor-gtk/window/pou_import_dialog.h"
 #include "editor-gtk/window/pou_new.h"
 #include "editor-gtk/window/preferences.h"
+#include "editor-gtk/window/properties_dialog.h"
 #include "editor-gtk/window/recent.h"
 #include "editor-gtk/window/scenarios.h"
 #include "editor-gtk/window/status.h"
@@ -341,6 +342,7 @@ static bool do_in_file(LadderWindow *window, enum verb verb)
 	case VERB_export_classic: exchange_export(&window->exchange); return true;
 	case VERB_print: export_print(&window->export); return true;
 	case VERB_export_pdf: export_pdf(&window->export); return true;
+	case VERB_properties: project_properties_show(&window->core); return true;
 	case VERB_preferences: preferences_show(GTK_WINDOW(window)); return true;
 	case VERB_close_tab: tabs_close(&window->tabs); return true;
 	case VERB_close: gtk_window_close(GTK_WINDOW(window)); return true;
@@ -465,6 +467,8 @@ static void act_on_pou(GtkWidget *widget, const char *name, GVariant *pou)
 		names_rename_pou(core, g_variant_get_int32(pou));
 	else if (strcmp(name, "win.duplicate-pou") == 0)
 		pou_duplicate_ask(core, g_variant_get_int32(pou));
+	else if (strcmp(name, "win.about-pou") == 0)
+		pou_properties_show(core, g_variant_get_int32(pou));
 	else
 		names_delete_pou(core, g_variant_get_int32(pou));
 }
@@ -575,7 +579,7 @@ static void install_actions(GtkWidgetClass *class)
 		"win.open-text", "win.open-path", "win.open-sample", "win.tell", "win.warn",
 	};
 	static const char *const on_pou[] = {
-		"win.rename-pou", "win.delete-pou", "win.duplicate-pou",
+		"win.rename-pou", "win.delete-pou", "win.duplicate-pou", "win.about-pou",
 	};
 
 	for (int i = 0; i < VERB_COUNT; i++)

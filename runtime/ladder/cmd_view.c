@@ -12,12 +12,33 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Title and properties, if the file has properties. */
+static void show_head(const struct sink *out, const struct project *project)
+{
+	bool any = false;
+
+	for (int i = 0; i < PROPERTY_COUNT; i++)
+		any = any || project->property[i];
+	if (any && project->title)
+		sink_printf(out, "project: %s\n", project_text(project, project->title));
+	for (int i = 0; i < PROPERTY_COUNT; i++)
+		if (project->property[i])
+			sink_printf(out, "%s: %s\n", property_row(i)->name,
+				    project_text(project, project->property[i]));
+	if (any)
+		sink_text(out, "\n");
+}
+
 static enum status show(struct call *call, const struct project *project,
 			const struct resource *resource,
 			const struct show_options *options)
 {
 	const char *name = call->arg_count < 2 ? NULL : call->arg[1];
-	int shown = rungs_show(project, name, resource, *options, &call->out);
+	int shown;
+
+	if (!name)
+		show_head(&call->out, project);
+	shown = rungs_show(project, name, resource, *options, &call->out);
 
 	if (shown < 0)
 		return report_no_memory(call->arg[0]);

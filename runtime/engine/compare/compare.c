@@ -1199,6 +1199,8 @@ static void compare(struct diff *diff)
 	const struct project *a = diff->a, *b = diff->b;
 
 	compare_ids(diff, what, "title", a->title, b->title);
+	for (int i = 0; i < PROPERTY_COUNT; i++)
+		compare_ids(diff, what, property_row(i)->name, a->property[i], b->property[i]);
 	compare_ids(diff, what, "opening comment", a->head, b->head);
 	compare_ids(diff, what, "closing comment", a->tail, b->tail);
 	compare_parts(diff, PART_INCLUDE, "INCLUDE");

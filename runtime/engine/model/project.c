@@ -142,6 +142,15 @@ int project_find_pou(const struct project *project, const char *name, size_t len
 	return -1;
 }
 
+bool project_has_head(const struct project *project)
+{
+	bool any = project->title;
+
+	for (int i = 0; i < PROPERTY_COUNT; i++)
+		any = any || project->property[i];
+	return any;
+}
+
 const char *project_text(const struct project *project, uint32_t id)
 {
 	return names_text(&project->names, id);

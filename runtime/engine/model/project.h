@@ -11,6 +11,7 @@
 #include "engine/base/areas.h"
 #include "engine/model/sfc.h"
 #include "engine/model/il.h"
+#include "engine/model/property.h"
 #include "engine/model/rung.h"
 #include "engine/model/vars.h"
 #include "engine/model/words.h"
@@ -101,6 +102,7 @@ struct project {
 	struct word_table words; /* words of the catalogue and of the project */
 	const char *file;
 	uint32_t title;         /* PROJECT "…"                                 */
+	uint32_t property[PROPERTY_COUNT]; /* string ids; 0: not given         */
 	uint32_t head;          /* comments above PROJECT or the first part    */
 	uint32_t tail;          /* comments at the end                         */
 	struct var_table globals;
@@ -146,6 +148,8 @@ const char *pou_word(enum pou_kind kind);
 const char *pou_language_word(enum pou_language language);
 /** project_find_pou - index of the POU with this name, in any case; -1: none. @len: bytes. */
 int project_find_pou(const struct project *project, const char *name, size_t len);
+/** project_has_head - whether it has a title or a property. */
+bool project_has_head(const struct project *project);
 /** project_text - the string of an id. */
 const char *project_text(const struct project *project, uint32_t id);
 
@@ -159,7 +163,7 @@ enum text_part {
 	TEXT_BODY,  /* of a POU: its rungs or its list; number of the POU     */
 	TEXT_RUNG,  /* number in its POU                                      */
 	TEXT_STRUCT, /* a structure; number in the project                    */
-	TEXT_TITLE, /* PROJECT "…" with its newline, or the place for it      */
+	TEXT_TITLE, /* PROJECT "…" and the properties, or the place for them  */
 	TEXT_ENTRY, /* a line of the CONFIGURATION, its comments too; its number */
 	TEXT_RESOURCE, /* from RESOURCE to END_RESOURCE                       */
 	TEXT_STEP,  /* of a chart, from its comments to END_STEP; its number  */

@@ -36,22 +36,58 @@ static bool read_first_line(struct reader *r)
 	return true;
 }
 
-static void read_title(struct reader *r)
+/* PROPERTY_COUNT: the line begins with no word of a property. */
+static enum property property_here(const struct reader *r)
 {
-	uint32_t title = 0;
+	enum property at = 0;
 
-	if (!lex_is(&r->lex, "PROJECT"))
-		return;
+	while (at < PROPERTY_COUNT && !lex_is(&r->lex, property_row(at)->word))
+		at++;
+	return at;
+}
+
+/* The string behind PROJECT or the word of a property. */
+static void read_quoted(struct reader *r, const char *what, uint32_t *out)
+{
+	uint32_t text = 0;
+
 	reader_next(r);
-	if (r->lex.token.kind != TOKEN_STRING)
-		reader_fail_word(r, DIAG_EXPECTED, "title in \"…\"");
-	else if (reader_string(r, &title))
+	if (r->lex.token.kind != TOKEN_STRING) {
+		reader_fail_word(r, DIAG_EXPECTED, what);
+		reader_skip_line(r);
+		return;
+	}
+	if (reader_string(r, &text))
 		reader_next(r);
 	reader_end_line(r);
-	if (r->outer || title == 0)
+	if (r->outer || text == 0)
 		return;
-	r->project->title = title;
-	r->project->head = buffer_take(r, &r->above);
+	if (!project_has_head(r->project))
+		r->project->head = buffer_take(r, &r->above);
+	*out = text;
+}
+
+/* PROJECT and the properties, in this order or another. A file that is included has its own. */
+static void read_head(struct reader *r)
+{
+	bool seen[PROPERTY_COUNT] = { false };
+	uint32_t unused;
+
+	if (lex_is(&r->lex, "PROJECT"))
+		read_quoted(r, "title in \"…\"", &r->project->title);
+	for (;;) {
+		enum property at;
+
+		reader_skip_newlines(r);
+		at = property_here(r);
+		if (at == PROPERTY_COUNT)
+			return;
+		if (seen[at])
+			reader_fail_token(r, DIAG_DUPLICATE_ARG);
+		read_quoted(r, "text in \"…\"", seen[at] ? &unused :
+			    &r->project->property[at]);
+		seen[at] = true;
+	}
 }
 
 /* ---- parts ---- */
@@ -296,7 +332,8 @@ void reader_skip_odd_line(struct reader *r)
 	else if (r->lex.token.kind == TOKEN_NAME)
 		reader_fail_token(r, read_ends_block(r) ||
 				  lex_is(&r->lex, "END_VAR") ||
-				  lex_is(&r->lex, "END_VIEW") ?
+				  lex_is(&r->lex, "END_VIEW") ||
+				  (!r->pou && property_here(r) < PROPERTY_COUNT) ?
 				  DIAG_MISPLACED : DIAG_UNKNOWN_WORD);
 	else if (row && ladder)
 		reader_fail_word(r, DIAG_MISSING_ABOVE, r->pou ? "RUNG" : "PROGRAM Main LD");
@@ -402,7 +439,7 @@ static bool read_file(struct reader *r, const char *text, size_t len)
 
 	if (read_first_line(r)) {
 		reader_skip_newlines(r);
-		read_title(r);
+		read_head(r);
 		read_parts(r);
 		if (!r->outer)
 			r->project->tail = buffer_take(r, &r->above);

@@ -424,21 +424,31 @@ static void write_part(const struct sink *sink, const struct project *project,
 	}
 }
 
-/* Without a title there is no PROJECT line, so the reader gives the head to the first part. */
+static void write_property(const struct sink *sink, const struct project *project,
+			   const char *word, uint32_t text)
+{
+	if (!text)
+		return;
+	sink_text(sink, word);
+	sink_text(sink, " ");
+	write_string(sink, project_text(project, text), names_len(&project->names, text));
+	sink_text(sink, "\n");
+}
+
+/* Without a title and properties the reader gives the head to the first part. */
 static void write_project(const struct sink *sink, const struct project *project)
 {
 	uint32_t head = project->head;
 
 	sink_text(sink, "RUNGBOARD 1\n");
 	sink_mark(sink, TEXT_TITLE, 0, true);
-	if (project->title) {
+	if (project_has_head(project)) {
 		write_above(sink, project, head);
 		head = 0;
-		sink_text(sink, "PROJECT ");
-		write_string(sink, project_text(project, project->title),
-			     names_len(&project->names, project->title));
-		sink_text(sink, "\n");
 	}
+	write_property(sink, project, "PROJECT", project->title);
+	for (int i = 0; i < PROPERTY_COUNT; i++)
+		write_property(sink, project, property_row(i)->word, project->property[i]);
 	sink_mark(sink, TEXT_TITLE, 0, false);
 	for (int i = 0; i < project->part_count; i++) {
 		if (project->part[i].included)

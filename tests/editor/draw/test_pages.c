@@ -330,6 +330,22 @@ static void write_named(const char *file, const char *project, const char *progr
 	g_string_free(text, TRUE);
 }
 
+/* Author, company, version, revision and date of the project stand in the title block. */
+static void check_properties(void)
+{
+	write_text("about.rung", "PROJECT \"Door\"\nAUTHOR \"Miller\"\nCOMPANY \"Gates\"\n"
+		   "VERSION \"1.3\"\nREVISION \"B7\"\nDATE \"2026-11-20\"\n\nPROGRAM Main LD\n"
+		   "RUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n");
+	CHECK(render("OUT/about.rung --date 2026-11-26 -o OUT/about.pdf") == 0);
+	if (list_boxes("about")) {
+		CHECK(has("about.html", ">Author</word>") && has("about.html", ">Miller,</word>") &&
+		      has("about.html", ">Gates</word>"));
+		CHECK(has("about.html", ">1.3,</word>") && has("about.html", ">B7,</word>") &&
+		      has("about.html", ">2026-11-20</word>"));
+		CHECK(has("about.html", ">2026-11-26</word>") && has("about.html", ">Door</word>"));
+	}
+}
+
 /* The title block is as high as the longest names need, and no rung overlaps it. */
 static void check_high_title_block(void)
 {
@@ -411,6 +427,7 @@ int main(void)
 	check_references();
 	check_tall();
 	check_title_block();
+	check_properties();
 	check_high_title_block();
 	check_cut_name();
 	check_tabs();

@@ -458,6 +458,49 @@ def made(screen):
     check(path)
 
 
+def properties(screen):
+    """properties of a program and of the project: shown, edited, refused at the entry, one undo each"""
+    path = new_file(screen, MORE)
+    editor = Editor(screen, path)
+    editor.click([n for n in editor.all('Third', 'label') if n.name == 'Third'][0])
+    window = editor.brought('alt+Return')
+    for fact in 'in every scan, as number 3 of 3', '1 rung', 'Ladder (LD)':
+        until(lambda: editor.all(fact, 'label'), fact)
+    assert [n for n in editor.all('Comment', 'text') if n.text() == 'the alarm']
+    editor.keys('ctrl+a')
+    editor.type('Main')
+    until(lambda: [n for n in editor.all('“Main” is declared already', 'label') if n.box()[2] > 0], 'the refusal')
+    editor.shot('properties-refused')
+    editor.keys('Return')
+    editor.keys('ctrl+a')
+    editor.type('Alarm')
+    until(lambda: not [n for n in editor.all('is declared already', 'label') if n.box()[2] > 0], 'its end')
+    editor.keys('Tab')
+    editor.focus_on('Comment')
+    editor.keys('ctrl+End', 'Return')
+    editor.type('of the pump')
+    editor.shot('properties-program')
+    editor.find('Apply', 'push button').press()
+    until(lambda: window not in editor.windows(), 'the end of the dialog')
+    changed = MORE.replace('PROGRAM Third', 'PROGRAM Alarm').replace('(* the alarm *)', '(* the alarm\n   of the pump *)')
+    assert editor.save(path) == changed, open(path).read()
+    editor.keys('ctrl+z')
+    assert editor.save(path) == MORE
+    window = editor.brought(lambda: editor.command('project properties'))
+    editor.type('Pumps')
+    editor.keys('Tab')
+    editor.focus_on('Author')
+    editor.type('A. "Al" Miller')
+    editor.shot('properties-project')
+    editor.keys('Return')
+    until(lambda: window not in editor.windows(), 'the end of the dialog')
+    head = 'RUNGBOARD 1\nPROJECT "Pumps"\nAUTHOR "A. $"Al$" Miller"\n'
+    assert editor.save(path) == MORE.replace('RUNGBOARD 1\n', head), open(path).read()
+    check(path)
+    editor.keys('ctrl+z')
+    assert editor.save(path) == MORE
+
+
 def beside(screen):
     """a scenario beside the file is opened from the tree, edited and saved"""
     path = new_file(screen, TEXT)
@@ -503,4 +546,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, beside])
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, beside])

@@ -6,6 +6,7 @@
  * Numbers of a modem and passwords for mail are not kept.
  */
 #include "engine/exchange/classic/classic_convert.h"
+#include "engine/model/property.h"
 
 #include "engine/base/lex.h"
 
@@ -41,13 +42,25 @@ static bool says_something(const char *line, size_t len)
 	return len && *line != '#' && *line != ';';
 }
 
-/* PARAM_AUTHOR=MLD. Not PROJECT_NAME, which becomes the title. */
+static bool is_property(const char *line, const char *equals)
+{
+	for (int i = 0; i < PROPERTY_COUNT; i++) {
+		const char *key = property_row(i)->key;
+
+		if (key && strlen(key) == (size_t)(equals - line) &&
+		    !memcmp(key, line, strlen(key)))
+			return true;
+	}
+	return false;
+}
+
+/* MODIF_DATE=… Not PROJECT_NAME and the keys of properties, which the file says itself. */
 static bool says_who(const char *line, size_t len)
 {
 	const char *equals = memchr(line, '=', len);
 
 	return says_something(line, len) && equals && equals + 1 < line + len &&
-	       strncmp(line, "PROJECT_NAME=", 13) != 0;
+	       strncmp(line, "PROJECT_NAME=", 13) != 0 && !is_property(line, equals);
 }
 
 static bool is_serial(const char *line, size_t len)

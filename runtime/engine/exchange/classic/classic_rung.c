@@ -4,6 +4,7 @@
  * Also the functions that all files of the import write with.
  */
 #include "engine/exchange/classic/classic_convert.h"
+#include "engine/model/property.h"
 
 #include "engine/base/limits.h"
 
@@ -239,6 +240,36 @@ void put_quoted(struct conversion *c, const char *text)
 	put(c, "\"");
 }
 
+/* In ClassicLadder a line break of a text is the two characters \n. */
+static void put_lines(struct conversion *c, const char *text)
+{
+	put(c, "\"");
+	for (; *text; text++) {
+		if (text[0] == '\\' && text[1] == 'n') {
+			put(c, "$N");
+			text++;
+		} else if ((unsigned char)*text < ' ') {
+			put(c, " ");
+		} else {
+			put(c, "%s%c", *text == '"' || *text == '$' ? "$" : "", *text);
+		}
+	}
+	put(c, "\"");
+}
+
+static void put_properties(struct conversion *c)
+{
+	for (int i = 0; i < PROPERTY_COUNT; i++) {
+		const struct property_row *row = property_row(i);
+		const char *text = row->key ? classic_setting(c->project, row->key) : NULL;
+
+		if (!text || !*text)
+			continue;
+		put(c, "\n%s ", row->word);
+		put_lines(c, text);
+	}
+}
+
 static const char *title_of(struct conversion *c)
 {
 	const char *name = classic_setting(c->project, "PROJECT_NAME");
@@ -318,6 +349,7 @@ static void write_head(struct conversion *c)
 {
 	put(c, "RUNGBOARD 1\nPROJECT ");
 	put_quoted(c, title_of(c));
+	put_properties(c);
 	put(c, "\n\n");
 }
 

@@ -101,7 +101,7 @@ static void write_settings(struct writer *w, const char *member, bool about)
 		sink_text(w->sink, setting->key);
 		sink_text(w->sink, "=");
 		put_field(w, setting->value, strcmp(setting->key, "PARAM_COMMENT") ?
-			  CLASSIC_COMMENT : 270, true);
+			  CLASSIC_COMMENT : CLASSIC_ABOUT, true);
 		sink_text(w->sink, "\n");
 	}
 	end(w, member);

@@ -13,7 +13,7 @@
 #include "engine/exchange/classic/classic.h"
 
 enum classic_length { /* bytes that ClassicLadder has room for */
-	CLASSIC_LABEL = 9, CLASSIC_SYMBOL = 9, CLASSIC_COMMENT = 29,
+	CLASSIC_LABEL = 9, CLASSIC_SYMBOL = 9, CLASSIC_COMMENT = 29, CLASSIC_ABOUT = 270,
 	CLASSIC_COMMENT_LONG = 99, CLASSIC_SECTION_NAME = 19, CLASSIC_EXPRESSION = 49,
 	CLASSIC_NOTE = 50, CLASSIC_SYMBOL_COMMENT = 49,
 };

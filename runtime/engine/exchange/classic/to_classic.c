@@ -585,6 +585,42 @@ static void leave_lines(struct leaving *e)
 	}
 }
 
+/* A line break of a text is the two characters \n there. */
+static const char *in_one_line(struct leaving *e, const char *text)
+{
+	char *copy = arena_alloc(e->arena, 2 * strlen(text) + 1), *to = copy;
+
+	for (; copy && *text; text++) {
+		if (*text == '\n')
+			*to++ = '\\';
+		*to++ = *text == '\n' ? 'n' : *text;
+	}
+	if (copy)
+		*to = '\0';
+	return copy ? copy : "";
+}
+
+static void leave_properties(struct leaving *e)
+{
+	for (int i = 0; i < PROPERTY_COUNT; i++) {
+		const struct property_row *row = property_row(i);
+		const uint32_t id = e->project->property[i];
+		const int most = i == PROPERTY_DESCRIPTION ? CLASSIC_ABOUT : CLASSIC_COMMENT;
+		const char *text;
+
+		if (!id)
+			continue;
+		if (!row->key || e->dialect != CLASSIC_UPSTREAM) {
+			tell_line(e, 0, "the project's %s is left out", row->name);
+			continue;
+		}
+		text = in_one_line(e, project_text(e->project, id));
+		setting(e, row->key, text);
+		if (strlen(text) > (size_t)most)
+			tell_line(e, 0, "the project's %s is cut to %d bytes", row->name, most);
+	}
+}
+
 static void leave_settings(struct leaving *e)
 {
 	struct classic_project *out = e->out;
@@ -595,6 +631,7 @@ static void leave_settings(struct leaving *e)
 	setting(e, "PROJECT_NAME", title);
 	if (strlen(title) > CLASSIC_COMMENT)
 		tell_line(e, 0, "the project's name is cut to %d bytes", CLASSIC_COMMENT);
+	leave_properties(e);
 	setting(e, "PERIODIC_REFRESH", out_text(e, "%d", out->period));
 	setting(e, "PERIODIC_INPUTS_REFRESH", out_text(e, "%d", e->lines &&
 		e->lines->sample_ms ? e->lines->sample_ms : 10));

@@ -51,6 +51,18 @@ static bool take_line(const struct leaving *e, const char *line, size_t len, str
 	return !*other;
 }
 
+/* A property of the project wins over a line that was kept. */
+static bool is_set(const struct leaving *e, const char *key)
+{
+	for (int i = 0; i < PROPERTY_COUNT; i++) {
+		const char *own = property_row(i)->key;
+
+		if (own && !strcmp(own, key))
+			return e->project->property[i];
+	}
+	return false;
+}
+
 static void keep_setting(struct leaving *e, const char *text)
 {
 	static const char *const known[] = { "PROJECT_SITE", "PARAM_VERSION", "PARAM_AUTHOR",
@@ -61,7 +73,8 @@ static void keep_setting(struct leaving *e, const char *text)
 	const char *equals = strchr(text, '=');
 
 	for (size_t i = 0; equals && i < sizeof(known) / sizeof(*known); i++)
-		if (word_is(known[i], text, (size_t)(equals - text))) {
+		if (word_is(known[i], text, (size_t)(equals - text)) &&
+		    !is_set(e, known[i])) {
 			struct classic_setting *one = arena_push(e->arena, &e->out->setting,
 				&e->out->settings, sizeof(*one));
 
