@@ -134,6 +134,33 @@ static void activated(GtkEntry *cell, GtkListItem *item)
 	commit(GTK_WIDGET(cell), item);
 }
 
+/* The rest of a word stands behind the cursor, dim, until another key comes. It is not
+ * selected: GTK drops a selection when X tells that an older one is lost. */
+struct rest {
+	int at;          /* where it begins, in characters; -1: there is none     */
+	bool busy;       /* the text is being changed here                        */
+};
+
+static struct rest *rest_of(GtkWidget *cell)
+{
+	return g_object_get_data(G_OBJECT(cell), "rest");
+}
+
+static void show_rest(GtkWidget *cell, int at)
+{
+	PangoAttrList *list = at < 0 ? NULL : pango_attr_list_new();
+	const char *text = gtk_editable_get_text(GTK_EDITABLE(cell));
+	PangoAttribute *dim = list ? pango_attr_foreground_alpha_new(0xC000) : NULL;
+
+	rest_of(cell)->at = at;
+	if (list) {
+		dim->start_index = (guint)(g_utf8_offset_to_pointer(text, at) - text);
+		pango_attr_list_insert(list, dim);
+	}
+	gtk_entry_set_attributes(GTK_ENTRY(cell), list);
+	g_clear_pointer(&list, pango_attr_list_unref);
+}
+
 /* An edit that is set when the focus has moved. */
 struct later {
 	const struct column *column;
@@ -180,6 +207,8 @@ static void left(GtkEventControllerFocus *focus, GtkListItem *item)
 		   !column_of(cell)->cells->later)
 		return;
 	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
+	if (rest_of(cell))
+		show_rest(cell, -1);
 	text = column_of(cell)->cells->later ? edited(cell, row) : NULL;
 	if (!text) {
 		commit(cell, item);
@@ -267,16 +296,71 @@ static void popover_closed(GtkWidget *popover)
 	popover_drop_later(popover);
 }
 
+bool panel_cells_take(GtkWidget *cell, const char *text)
+{
+	GtkListItem *item = item_of(cell);
+	LadderPanelRow *row = item ? gtk_list_item_get_item(item) : NULL;
+
+	if (!row)
+		return false;
+	gtk_editable_set_text(GTK_EDITABLE(cell), text);
+	return apply(cell, row, text);
+}
+
 static void chosen(GtkWidget *popover, GtkListBoxRow *choice)
 {
 	const struct column *column = column_of(popover);
 	LadderPanelRow *row = g_object_get_data(G_OBJECT(popover), "row");
+	GtkWidget *cell = g_object_get_data(G_OBJECT(popover), "cell");
+	GtkListItem *item = item_of(cell);
 	char *why = NULL;
 
 	gtk_popover_popdown(GTK_POPOVER(popover));
 	panel_cells_focus(gtk_widget_get_parent(popover), row->index, column->field);
-	set(column, row, g_object_get_data(G_OBJECT(choice), "text"), &why);
+	if (!column->cells->later && item && gtk_list_item_get_item(item) == row)
+		panel_cells_take(cell, g_object_get_data(G_OBJECT(choice), "text"));
+	else
+		set(column, row, g_object_get_data(G_OBJECT(choice), "text"), &why);
 	g_free(why);
+}
+
+static void open_form(GtkWidget *cell)
+{
+	const struct column *column = column_of(cell);
+	GtkListItem *item = item_of(cell);
+	LadderPanelRow *row = item ? gtk_list_item_get_item(item) : NULL;
+
+	if (row)
+		column->cells->open_form(column->cells->owner, row, column->field, cell);
+}
+
+static gboolean form_later(gpointer cell)
+{
+	open_form(cell);
+	return G_SOURCE_REMOVE;
+}
+
+/* Below the choices. The popover must be closed first. */
+static void form_wanted(GtkWidget *popover)
+{
+	GtkWidget *cell = g_object_get_data(G_OBJECT(popover), "cell");
+
+	gtk_popover_popdown(GTK_POPOVER(popover));
+	g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, form_later, g_object_ref(cell),
+			g_object_unref);
+}
+
+/* Enter in the search takes the first choice that is left. */
+static void search_activated(GtkWidget *popover)
+{
+	GtkWidget *list = g_object_get_data(G_OBJECT(popover), "list");
+
+	for (GtkWidget *row = gtk_widget_get_first_child(list); row;
+	     row = gtk_widget_get_next_sibling(row))
+		if (GTK_IS_LIST_BOX_ROW(row) && gtk_widget_get_child_visible(row)) {
+			chosen(popover, GTK_LIST_BOX_ROW(row));
+			return;
+		}
 }
 
 static gboolean is_wanted(GtkListBoxRow *row, gpointer search)
@@ -327,7 +411,22 @@ static GtkWidget *choice_list(GPtrArray *choices, const char *now)
 	return list;
 }
 
-static GtkWidget *choice_popover(GPtrArray *choices, const char *now)
+static bool has_form(const struct column *column, const LadderPanelRow *row)
+{
+	return row && column->cells->has_form &&
+	       column->cells->has_form(row, column->field);
+}
+
+static GtkWidget *form_button(const struct column *column, GtkWidget *popover)
+{
+	GtkWidget *button = gtk_button_new_with_label(column->cells->form_name(column->field));
+
+	g_signal_connect_swapped(button, "clicked", G_CALLBACK(form_wanted), popover);
+	return button;
+}
+
+static GtkWidget *choice_popover(GPtrArray *choices, const char *now,
+				 const struct column *column, const LadderPanelRow *row)
 {
 	GtkWidget *popover = gtk_popover_new(), *scroller = gtk_scrolled_window_new();
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
@@ -341,6 +440,8 @@ static GtkWidget *choice_popover(GPtrArray *choices, const char *now)
 		g_signal_connect_swapped(search, "search-changed",
 			G_CALLBACK(gtk_list_box_invalidate_filter), list);
 		gtk_list_box_set_filter_func(GTK_LIST_BOX(list), is_wanted, search, NULL);
+		g_signal_connect_swapped(search, "activate", G_CALLBACK(search_activated),
+					 popover);
 		gtk_box_append(GTK_BOX(box), search);
 	}
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
@@ -349,6 +450,9 @@ static GtkWidget *choice_popover(GPtrArray *choices, const char *now)
 	gtk_scrolled_window_set_max_content_height(GTK_SCROLLED_WINDOW(scroller), 280);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), list);
 	gtk_box_append(GTK_BOX(box), scroller);
+	if (has_form(column, row))
+		gtk_box_append(GTK_BOX(box), form_button(column, popover));
+	g_object_set_data(G_OBJECT(popover), "list", list);
 	gtk_popover_set_child(GTK_POPOVER(popover), box);
 	gtk_popover_set_position(GTK_POPOVER(popover), GTK_POS_BOTTOM);
 	g_signal_connect_swapped(list, "row-activated", G_CALLBACK(chosen), popover);
@@ -368,7 +472,8 @@ static void show_choices(GtkWidget *cell, GtkListItem *item)
 	if (!row || !scroller)
 		return;
 	choices = column->cells->choices(column->cells->owner, column->field);
-	popover = choice_popover(choices, panel_row_text(row, column->field));
+	popover = choice_popover(choices, panel_row_text(row, column->field), column, row);
+	g_object_set_data_full(G_OBJECT(popover), "cell", g_object_ref(cell), g_object_unref);
 	g_object_set_data(G_OBJECT(popover), "column", (gpointer)column);
 	g_object_set_data_full(G_OBJECT(popover), "row", g_object_ref(row), g_object_unref);
 	popover_put(popover, scroller);
@@ -385,9 +490,112 @@ static void icon_pressed(GtkEntry *cell, GtkEntryIconPosition position, GtkListI
 	(void)position;
 	if (has_choices(column_of(GTK_WIDGET(cell))))
 		show_choices(GTK_WIDGET(cell), item);
+	else if (has_form(column_of(GTK_WIDGET(cell)), gtk_list_item_get_item(item)))
+		open_form(GTK_WIDGET(cell));
 }
 
-/* Esc restores the text. Alt+Down opens the choices. */
+/* ---- completion ---- */
+
+/* The text for the word that was begun, or NULL. */
+static const char *completion(const struct column *column, const char *word, gsize len)
+{
+	GPtrArray *choices = column->cells->choices(column->cells->owner, column->field);
+	const char *found = NULL;
+
+	for (guint i = 0; len && i + 1 < choices->len; i += 2) {
+		const char *text = choices->pdata[i];
+
+		if (g_ascii_strncasecmp(text, word, len) != 0)
+			continue;
+		if (strlen(text) == len) { /* it is whole */
+			found = NULL;
+			break;
+		}
+		found = found ? found : text;
+	}
+	found = found ? g_intern_string(found) : NULL;
+	g_ptr_array_unref(choices);
+	return found;
+}
+
+/* Behind each insertion: @at is the end of what was inserted. */
+static void inserted(GtkEditable *line, const char *added, int len, int *at, GtkWidget *cell)
+{
+	struct rest *rest = rest_of(cell);
+	const int start = *at - (int)g_utf8_strlen(added, len);
+	const char *text, *begun, *word;
+	int end = *at;
+
+	if (rest->busy)
+		return;
+	rest->busy = true;
+	if (rest->at == start)
+		gtk_editable_delete_text(line, *at, -1);
+	show_rest(cell, -1);
+	text = gtk_editable_get_text(line);
+	begun = strrchr(text, ' ') ? strrchr(text, ' ') + 1 : text;
+	word = *at == (int)g_utf8_strlen(text, -1) && item_of(cell) &&
+	       gtk_widget_has_focus(GTK_WIDGET(line)) ?
+	       completion(column_of(cell), begun, strlen(begun)) : NULL;
+	if (word) {
+		gtk_editable_insert_text(line, word + strlen(begun), -1, &end);
+		show_rest(cell, *at);
+	}
+	rest->busy = false;
+}
+
+/* A deletion takes the rest, too. */
+static void deleted(GtkEditable *line, int from, int to, GtkWidget *cell)
+{
+	struct rest *rest = rest_of(cell);
+
+	(void)to;
+	if (rest->busy || rest->at < 0)
+		return;
+	rest->busy = true;
+	if (from <= rest->at)
+		gtk_editable_delete_text(line, from, -1);
+	show_rest(cell, -1);
+	rest->busy = false;
+}
+
+/* Keys that move the cursor keep the rest; Right goes behind it. */
+static gboolean key_comes(GtkEventControllerKey *keys, guint key, guint code,
+			  GdkModifierType state, GtkWidget *cell)
+{
+	const bool right = key == GDK_KEY_Right && rest_of(cell)->at >= 0;
+
+	(void)keys;
+	(void)code;
+	(void)state;
+	switch (key) {
+	case GDK_KEY_Right: case GDK_KEY_Left: case GDK_KEY_Home: case GDK_KEY_End:
+	case GDK_KEY_Tab: case GDK_KEY_ISO_Left_Tab: case GDK_KEY_Return:
+	case GDK_KEY_KP_Enter: case GDK_KEY_Up: case GDK_KEY_Down:
+		show_rest(cell, -1);
+		break;
+	}
+	if (right)
+		gtk_editable_set_position(GTK_EDITABLE(cell), -1);
+	return right;
+}
+
+static void complete_words(GtkWidget *cell)
+{
+	GtkEventController *keys = gtk_event_controller_key_new();
+	GtkEditable *line = gtk_editable_get_delegate(GTK_EDITABLE(cell));
+	struct rest *rest = g_new0(struct rest, 1);
+
+	rest->at = -1;
+	g_object_set_data_full(G_OBJECT(cell), "rest", rest, g_free);
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_comes), cell);
+	gtk_widget_add_controller(cell, keys);
+	g_signal_connect_after(line, "insert-text", G_CALLBACK(inserted), cell);
+	g_signal_connect_after(line, "delete-text", G_CALLBACK(deleted), cell);
+}
+
+/* Esc restores the text. Alt+Down and Ctrl+Space open the choices or the form. */
 static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 			GdkModifierType state, GtkListItem *item)
 {
@@ -397,8 +605,14 @@ static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 	const char *text = row ? panel_row_text(row, column->field) : "";
 
 	(void)code;
-	if (key == GDK_KEY_Down && state & GDK_ALT_MASK && has_choices(column)) {
-		show_choices(cell, item);
+	if ((key == GDK_KEY_Down && state & GDK_ALT_MASK) ||
+	    (key == GDK_KEY_space && state & GDK_CONTROL_MASK)) {
+		if (has_choices(column))
+			show_choices(cell, item);
+		else if (has_form(column, row))
+			open_form(cell);
+		else
+			return FALSE;
 		return TRUE;
 	}
 	if (key != GDK_KEY_Escape ||
@@ -420,8 +634,10 @@ static GtkWidget *entry_new(const struct column *column)
 	gtk_editable_set_width_chars(GTK_EDITABLE(cell), 4);
 	if (has_choices(column)) {
 		gtk_entry_set_icon_tooltip_text(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY,
-						_("Choices (Alt+Down)"));
+						_("Choices (Ctrl+Space)"));
 	}
+	if (column->cells->completing >> column->field & 1)
+		complete_words(cell);
 	return cell;
 }
 
@@ -465,6 +681,18 @@ static void show_text(GtkWidget *cell, const char *text)
 	tip_set(cell, text);
 }
 
+/* The icon of a cell without choices opens its form. A refused cell has another icon. */
+static void show_form_icon(GtkWidget *cell, const struct column *column,
+			   const LadderPanelRow *row)
+{
+	const bool has = has_form(column, row);
+
+	if (!column->cells->has_form || has_choices(column) || refused_text(cell))
+		return;
+	cells_icon(GTK_ENTRY(cell), has ? "view-list-symbolic" : NULL,
+		   has ? column->cells->form_name(column->field) : NULL);
+}
+
 static void show(LadderPanelRow *row, GtkListItem *item)
 {
 	GtkWidget *cell = gtk_list_item_get_child(item);
@@ -485,6 +713,8 @@ static void show(LadderPanelRow *row, GtkListItem *item)
 		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);
 	else
 		show_text(cell, text);
+	if (!is_check(column))
+		show_form_icon(cell, column, row);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(cell),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 	panel_speak(cell, row);

@@ -16,6 +16,8 @@ struct panel_cells {
 	GObject *owner;
 	unsigned int checks;    /* a bit for each field that is yes ("1") or no ("") */
 	unsigned int choosable; /* a bit for each field that has choices       */
+	unsigned int completing; /* a bit for each field with choices that are completed while
+				    they are typed */
 	bool later;             /* edits are set after the focus has moved, because the owner
 				   then makes all rows anew */
 	/* Translated. */
@@ -31,12 +33,21 @@ struct panel_cells {
 	void (*dress)(GtkWidget *cell, const LadderPanelRow *row, int field);
 	/* Pairs of a text and its explanation (or ""). Caller: g_ptr_array_unref. */
 	GPtrArray *(*choices)(GObject *owner, int field);
+	/* Can the text also be made in a form? NULL: none can. */
+	bool (*has_form)(const LadderPanelRow *row, int field);
+	/* "Array…", translated. */
+	const char *(*form_name)(int field);
+	/* Opens the form, at @cell; it sets the text by panel_cells_take() or otherwise. */
+	void (*open_form)(GObject *owner, LadderPanelRow *row, int field, GtkWidget *cell);
 };
 
 /** panel_cells_add - a column of cells of one field. @cells: outlives the list. @flags,
  * @width: as for panel_list_add(). */
 void panel_cells_add(struct panel_list *list, const struct panel_cells *cells, int field,
 		     unsigned int flags, int width);
+/** panel_cells_take - sets the text of a cell as if it had been typed; a refusal is shown in
+ * the cell. False: refused. */
+bool panel_cells_take(GtkWidget *cell, const char *text);
 /** panel_cells_commit - ends the edit in the cell of @view that has the focus. */
 void panel_cells_commit(GtkColumnView *view);
 /** panel_cells_focus - focuses the cell of a row (its index) and field. @within: a list, or

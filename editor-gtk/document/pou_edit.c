@@ -425,7 +425,7 @@ static bool delete_lines(GString *text, const char *name)
 	return any;
 }
 
-static bool delete_text(LadderDocument *document, const struct text_span *span, const char *name)
+bool pou_delete_text(LadderDocument *document, const struct text_span *span, const char *name)
 {
 	gsize len;
 	char *whole = ladder_document_outline(document, &len, NULL, NULL);
@@ -458,7 +458,7 @@ const char *pou_delete(LadderDocument *document, int pou)
 	ladder_document_begin(document, _("Delete program or block"), NULL);
 	delete_boxes(document, pou);
 	g_free(ladder_document_outline(document, &len, take_part, &part));
-	good = delete_text(document, &part.span, name);
+	good = pou_delete_text(document, &part.span, name);
 	if (good)
 		ladder_document_end(document);
 	else

@@ -38,5 +38,8 @@ int pou_uses(LadderDocument *document, int pou);
  * cannot be read without it: its boxes, its instances, and lines of lists that call it.
  * Returns NULL, or why it failed, translated, static. */
 const char *pou_delete(LadderDocument *document, int pou);
+/** pou_delete_text - deletes a part of the canonical text, and the lines that cannot be read
+ * without its @name. Part of an open step. Fails: false, nothing changed. */
+bool pou_delete_text(LadderDocument *document, const struct text_span *span, const char *name);
 
 #endif

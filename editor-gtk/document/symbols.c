@@ -35,22 +35,7 @@ const char *symbol_field_name(enum field field)
 
 /* ---- the fields ---- */
 
-static char *type_text(const struct project *project, const struct var *var)
-{
-	GString *text = g_string_new("");
-
-	if (var->array.count)
-		g_string_printf(text, "ARRAY[%ld..%lld] OF ", (long)var->array.low,
-				(long long)var->array.low + var->array.count - 1);
-	g_string_append(text, var->type == IEC_NONE ?
-			words_row(&project->words, var->fb)->word :
-			iec_type_row(var->type)->word);
-	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
-		g_string_append_printf(text, "[%u]", var->capacity);
-	return g_string_free(text, FALSE);
-}
-
-static char *initial_text(const struct project *project, const struct var *var)
+char *symbol_initial(const struct project *project, const struct var *var)
 {
 	char text[64];
 
@@ -83,9 +68,9 @@ static void fill(struct symbol_row *symbol, const struct project *project,
 	symbol->member = table > project->pou_count;
 	symbol->flags = symbol->member ? 0 : vars_flags(vars, index);
 	symbol->text[FIELD_NAME] = g_strdup(project_text(project, var->name));
-	symbol->text[FIELD_TYPE] = type_text(project, var);
+	symbol->text[FIELD_TYPE] = listing_type(project, var);
 	symbol->text[FIELD_ADDRESS] = g_strdup(project_text(project, var->at_text));
-	symbol->text[FIELD_INITIAL] = initial_text(project, var);
+	symbol->text[FIELD_INITIAL] = symbol_initial(project, var);
 	symbol->text[FIELD_RETAIN] = g_strdup(symbol->flags & VAR_RETAIN ? "1" : "");
 	symbol->text[FIELD_CONSTANT] = g_strdup(symbol->flags & VAR_CONSTANT ? "1" : "");
 	symbol->text[FIELD_COMMENT] = comment_text(project_text(project, var->comment));

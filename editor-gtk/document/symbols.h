@@ -42,6 +42,8 @@ struct symbol_row *symbol_row_new(const struct project *project,
 				  const struct var_table *vars, int table, int index);
 void symbol_row_free(struct symbol_row *symbol);
 
+/** symbol_initial - the initial value as text; "": none. Owns: the caller. */
+char *symbol_initial(const struct project *project, const struct var *var);
 /** symbol_field_name - "Address", translated. Lives for ever. */
 const char *symbol_field_name(enum field field);
 

@@ -71,7 +71,7 @@ static const char *refusal(enum io_refusal why)
 {
 	static const char *const text[] = {
 		[IO_GOOD] = "", [IO_MANY_WORDS] = N_("It must be one word, without blanks"),
-		[IO_NO_WORD] = N_("This is not one of the choices; Alt+Down shows them"),
+		[IO_NO_WORD] = N_("This is not one of the choices; Ctrl+Space shows them"),
 		[IO_EMPTY] = N_("A value is needed here"),
 		[IO_NO_BOARD] = N_("The BOARD line has no name; correct it as text"),
 		[IO_BAD_OFFSET] = N_("The number of a line is too large"),

@@ -35,7 +35,7 @@ static void sign_free(gpointer data)
 	g_free(sign);
 }
 
-static void put_icon(GtkEntry *cell, const char *icon, const char *tip)
+void cells_icon(GtkEntry *cell, const char *icon, const char *tip)
 {
 	gtk_entry_set_icon_from_icon_name(cell, PLACE, icon);
 	if (icon)
@@ -56,9 +56,9 @@ static void show_icon(GtkEntry *cell, const char *why)
 		g_object_set_data_full(G_OBJECT(cell), "sign", was, sign_free);
 	}
 	if (why) {
-		put_icon(cell, "dialog-error-symbolic", why);
+		cells_icon(cell, "dialog-error-symbolic", why);
 	} else if (was) {
-		put_icon(cell, was->icon, was->tip);
+		cells_icon(cell, was->icon, was->tip);
 		g_object_set_data(G_OBJECT(cell), "sign", NULL);
 	}
 }

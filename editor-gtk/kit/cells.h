@@ -15,6 +15,8 @@
 void cells_refuse(GtkWidget *cell, char *why);
 /** cells_refused - marks a cell after a failed edit; @why NULL: "Refused". Takes @why. */
 void cells_refused(GtkWidget *cell, char *why);
+/** cells_icon - the icon at the end of a cell; NULL: none. */
+void cells_icon(GtkEntry *cell, const char *icon, const char *tip);
 /** cells_add - adds a controller to @cell, and as its data @name. */
 void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller);
 

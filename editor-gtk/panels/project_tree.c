@@ -149,6 +149,10 @@ static gboolean go(gpointer data)
 	else if (row->kind == ROW_TASKS || row->kind == ROW_TASK)
 		gtk_widget_activate_action(tree->list, "win.show-task", "s",
 					   row->kind == ROW_TASK ? row->text : "");
+	else if (row->kind == ROW_TYPES)
+		gtk_widget_activate_action(tree->list, "win.types", NULL);
+	else if (row->kind == ROW_STRUCTURE)
+		gtk_widget_activate_action(tree->list, "win.show-type", "s", row->text);
 	g_clear_object(&tree->going);
 	return G_SOURCE_REMOVE;
 }
@@ -174,24 +178,53 @@ static int selected_pou(struct tree *tree)
 	return row && row->kind == ROW_POU ? row->pou : -1;
 }
 
+/* Its name; NULL: no structure is selected. */
+static const char *selected_type(struct tree *tree)
+{
+	LadderTreeRow *row = row_at(tree,
+		gtk_single_selection_get_selected(tree->selection));
+
+	return row && row->kind == ROW_STRUCTURE ? row->text : NULL;
+}
+
 static void tell(struct tree *tree, const char *text)
 {
 	gtk_widget_activate_action(tree->list, "win.tell", "s", text);
 }
 
-/* What the window does with a POU: "tree.rename" becomes "win.rename-pou". */
-static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
+/* What the window does with a POU or a structure: "tree.rename" becomes "win.rename-pou" or
+ * "win.rename-type". */
+static void act_on_row(GSimpleAction *action, GVariant *unused, gpointer data)
 {
 	struct tree *tree = data;
 	const int pou = selected_pou(tree);
-	char *name = g_strdup_printf("win.%s-pou", g_action_get_name(G_ACTION(action)));
+	const char *type = selected_type(tree);
+	char *name = g_strdup_printf("win.%s-%s", g_action_get_name(G_ACTION(action)),
+				     type ? "type" : "pou");
 
 	(void)unused;
-	if (pou < 0)
-		tell(tree, _("Select a program or block first"));
+	if (type)
+		gtk_widget_activate_action(tree->list, name, "s", type);
+	else if (pou < 0)
+		tell(tree, _("Select a program, a block or a data type first"));
 	else
 		gtk_widget_activate_action(tree->list, name, "i", pou);
 	g_free(name);
+}
+
+/* Where the selected POU or structure is used. */
+static void show_uses(GSimpleAction *action, GVariant *unused, gpointer data)
+{
+	struct tree *tree = data;
+	LadderTreeRow *row = row_at(tree,
+		gtk_single_selection_get_selected(tree->selection));
+
+	(void)action;
+	(void)unused;
+	if (row && (row->kind == ROW_POU || row->kind == ROW_STRUCTURE))
+		gtk_widget_activate_action(tree->list, "win.show-uses", "s", row->text);
+	else
+		tell(tree, _("Select a program, a block or a data type first"));
 }
 
 /* ---- order ---- */
@@ -418,7 +451,8 @@ static GMenu *menu_model(void)
 {
 	static const enum verb verbs[] = {
 		VERB_new_program, VERB_new_list, VERB_new_chart, VERB_new_block,
-		VERB_new_function, VERB_new_subroutine, VERB_import, VERB_new_iomap,
+		VERB_new_function, VERB_new_subroutine, VERB_new_structure, VERB_import,
+		VERB_new_iomap,
 	};
 	GMenu *menu = g_menu_new();
 
@@ -437,17 +471,22 @@ static GMenu *button_menu(void)
 	return menu;
 }
 
-static GMenu *pou_menu(void)
+/* Of a POU, or of a structure, whose order means nothing. */
+static GMenu *row_menu(bool type)
 {
-	static const struct { const char *label, *action; } entries[] = {
-		{ N_("Duplicate…"), "tree.duplicate" }, { N_("Move up"), "tree.up" },
-		{ N_("Move down"), "tree.down" }, { N_("Rename…"), "tree.rename" },
-		{ N_("Delete"), "tree.delete" }, { N_("Properties…"), "tree.about" },
+	static const struct { const char *label, *action; bool pou; } entries[] = {
+		{ N_("Duplicate…"), "tree.duplicate", false },
+		{ N_("Move up"), "tree.up", true }, { N_("Move down"), "tree.down", true },
+		{ N_("Rename…"), "tree.rename", false },
+		{ N_("Where it is used"), "tree.uses", false },
+		{ N_("Delete"), "tree.delete", false },
+		{ N_("Properties…"), "tree.about", true },
 	};
 	GMenu *menu = g_menu_new(), *fresh = menu_model();
 
 	for (gsize i = 0; i < G_N_ELEMENTS(entries); i++)
-		g_menu_append(menu, _(entries[i].label), entries[i].action);
+		if (!type || !entries[i].pou)
+			g_menu_append(menu, _(entries[i].label), entries[i].action);
 	g_menu_append_submenu(menu, _("New"), G_MENU_MODEL(fresh));
 	g_object_unref(fresh);
 	return menu;
@@ -457,10 +496,11 @@ static GMenu *pou_menu(void)
 static void add_actions(struct tree *tree, GtkWidget *panel)
 {
 	const GActionEntry entries[] = {
-		{ .name = "rename", .activate = act_on_pou },
-		{ .name = "delete", .activate = act_on_pou },
-		{ .name = "duplicate", .activate = act_on_pou },
-		{ .name = "about", .activate = act_on_pou },
+		{ .name = "rename", .activate = act_on_row },
+		{ .name = "delete", .activate = act_on_row },
+		{ .name = "duplicate", .activate = act_on_row },
+		{ .name = "about", .activate = act_on_row },
+		{ .name = "uses", .activate = show_uses },
 		{ .name = "up", .activate = move_selected },
 		{ .name = "down", .activate = move_selected },
 	};
@@ -490,8 +530,9 @@ static void show_menu(struct tree *tree, double x, double y)
 {
 	/* not on the scrolled window, which takes the arrow keys */
 	gtk_widget_translate_coordinates(tree->list, tree->panel, x, y, &x, &y);
-	popover_menu(tree->panel, selected_pou(tree) < 0 ? menu_model() : pou_menu(), &(GdkRectangle){ (int)x, (int)y, 1, 1 },
-		     tree->list);
+	popover_menu(tree->panel, selected_pou(tree) < 0 && !selected_type(tree) ? menu_model() :
+		     row_menu(selected_type(tree) != NULL),
+		     &(GdkRectangle){ (int)x, (int)y, 1, 1 }, tree->list);
 }
 
 /* The menu is for the row below the pointer. */
@@ -684,7 +725,8 @@ static bool is_of(const LadderTreeRow *row, int pou, const char *path, const cha
 	return (row->kind == ROW_POU && row->pou == pou) ||
 	       (row->kind == ROW_FILE && path && g_strcmp0(row->path, path) == 0) ||
 	       (row->kind == ROW_SYMBOLS && strcmp(page, " symbols") == 0) ||
-	       (row->kind == ROW_TASKS && strcmp(page, " tasks") == 0);
+	       (row->kind == ROW_TASKS && strcmp(page, " tasks") == 0) ||
+	       (row->kind == ROW_TYPES && strcmp(page, " types") == 0);
 }
 
 void ladder_project_tree_select(GtkWidget *box, int pou, const char *path, const char *page)
@@ -693,6 +735,8 @@ void ladder_project_tree_select(GtkWidget *box, int pou, const char *path, const
 	GListModel *rows = G_LIST_MODEL(tree->selection);
 	guint found = GTK_INVALID_LIST_POSITION;
 
+	if (strcmp(page, " types") == 0 && selected_type(tree))
+		return; /* the page shows this one */
 	for (guint i = 0; i < g_list_model_get_n_items(rows); i++) {
 		GtkTreeListRow *at = g_list_model_get_item(rows, i);
 		LadderTreeRow *row = gtk_tree_list_row_get_item(at);

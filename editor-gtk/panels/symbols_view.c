@@ -12,6 +12,7 @@
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/import_dialog.h"
+#include "editor-gtk/panels/type_cells.h"
 #include "engine/xref/xref.h"
 
 #include <string.h>
@@ -36,6 +37,8 @@ struct _LadderSymbolsView {
 	guint64 told_of;        /* version of the document when the message was set */
 	bool busy;              /* a drop-down is being filled: ignore its signal */
 	bool turning;           /* the kind of the symbol is being changed     */
+	GtkColumnViewColumn *types; /* the column of types, borrowed           */
+	int types_width;        /* that it was given last                      */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
@@ -104,7 +107,8 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 	row->index = symbol->index;
 	row->flags = (symbol->included ? SYMBOLS_FIXED : 0u) |
 		     (symbol->member ? SYMBOLS_MEMBER : 0u) |
-		     (symbol->flags & SYMBOL_KINDS);
+		     (symbol->flags & SYMBOL_KINDS) | (symbol->included ? 0u :
+		      type_cells_flags(document, symbol->table, symbol->index));
 	row->note = symbol_error(document, symbol, &warning);
 	row->tone = !row->note ? PANEL_PLAIN : warning ? PANEL_WARNING : PANEL_ERROR;
 	row->spoken = spoken(symbol, row->note);
@@ -175,6 +179,37 @@ static void show_kind(LadderSymbolsView *view)
 			       !(row->flags & (SYMBOLS_FIXED | SYMBOLS_MEMBER)));
 }
 
+#define TYPES_LEAST 110 /* px of the column of types                           */
+#define TYPES_MOST  260
+#define TYPES_ROOM  44  /* of a cell, beside its text                          */
+
+/* Makes the column of types wide enough for the longest one, unless a person made it another
+ * width. */
+static void fit_types(LadderSymbolsView *view, const struct symbols *symbols)
+{
+	GHashTable *seen = g_hash_table_new(g_str_hash, g_str_equal);
+	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(view->list.view), NULL);
+	int most = TYPES_LEAST, width;
+
+	for (int i = 0; symbols && i < symbols->count; i++) {
+		char *type = symbols->symbol[i].text[FIELD_TYPE];
+
+		if (strlen(type) < 8 || !g_hash_table_add(seen, type))
+			continue;
+		pango_layout_set_text(layout, type, -1);
+		pango_layout_get_pixel_size(layout, &width, NULL);
+		most = MAX(most, width + TYPES_ROOM);
+	}
+	most = MIN(most, TYPES_MOST);
+	width = gtk_column_view_column_get_fixed_width(view->types);
+	if (most != view->types_width && (!view->types_width || width == view->types_width)) {
+		gtk_column_view_column_set_fixed_width(view->types, most);
+		view->types_width = most;
+	}
+	g_object_unref(layout);
+	g_hash_table_unref(seen);
+}
+
 static void fill_rows(LadderSymbolsView *view)
 {
 	LadderDocument *document = panel_watch_document(view->watch);
@@ -185,6 +220,7 @@ static void fill_rows(LadderSymbolsView *view)
 		if (view->table < 0 || symbols->symbol[i].table == view->table)
 			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i]));
 	update(view, rows);
+	fit_types(view, symbols);
 	show_kind(view);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
@@ -530,6 +566,22 @@ static void ladder_symbols_view_class_init(LadderSymbolsViewClass *class)
 	bind_children(widget);
 }
 
+static GPtrArray *choices_of(GObject *owner, int field)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(owner);
+	const LadderPanelRow *row = panel_list_row(&view->list);
+
+	(void)field;
+	return type_cells_choices(panel_watch_document(view->watch),
+				  row && row->flags & SYMBOLS_MEMBER);
+}
+
+static void open_form(GObject *owner, LadderPanelRow *row, int field, GtkWidget *cell)
+{
+	type_cells_open(panel_watch_document(LADDER_SYMBOLS_VIEW(owner)->watch), row, field,
+			cell);
+}
+
 static bool is_fixed(const LadderPanelRow *row, int field)
 {
 	if (row->flags & SYMBOLS_FIXED)
@@ -542,17 +594,22 @@ static void add_columns(LadderSymbolsView *view)
 {
 	static const struct { enum field field; int width; } column[] = {
 		{ FIELD_NAME, 150 }, { FIELD_TYPE, 110 }, { FIELD_ADDRESS, 90 },
-		{ FIELD_INITIAL, 100 }, { FIELD_RETAIN, 0 }, { FIELD_CONSTANT, 0 },
+		{ FIELD_INITIAL, 120 }, { FIELD_RETAIN, 0 }, { FIELD_CONSTANT, 0 },
 		{ FIELD_COMMENT, 180 },
 	};
 
 	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .checks = CHECKS,
-		.name = field_name, .set = set_field, .is_fixed = is_fixed };
+		.name = field_name, .set = set_field, .is_fixed = is_fixed,
+		.choices = choices_of, .open_form = open_form };
+	type_cells_join(&view->cells);
 	panel_list_column(&view->list, "", SYMBOLS_USES, PANEL_ICON, 0);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
 				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
 				column[i].width);
+	view->types = g_list_model_get_item(gtk_column_view_get_columns(view->list.view),
+					    1 + FIELD_TYPE);
+	g_object_unref(view->types); /* the list has a reference */
 	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 150);
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
 }

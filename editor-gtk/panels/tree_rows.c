@@ -110,17 +110,18 @@ static void add_files(GListStore *root, const struct project *project)
 	}
 }
 
+/* The page of data types, with the structures below it. */
 static void add_structures(GListStore *root, const struct project *project)
 {
-	LadderTreeRow *heading = NULL;
+	GListStore *rows = project->structure_count ?
+		g_list_store_new(LADDER_TYPE_TREE_ROW) : NULL;
 
+	add(root, ROW_TYPES, _("Data types"), g_strdup_printf("%d", project->structure_count),
+	    rows);
 	for (int i = 0; i < project->structure_count; i++) {
-		LadderTreeRow *row;
+		LadderTreeRow *row = add_row(rows, ROW_STRUCTURE,
+			project_text(project, project->structure[i].name), NULL);
 
-		if (!heading)
-			heading = add_heading(root, _("Structures"));
-		row = add_row(heading->rows, ROW_STRUCTURE,
-			      project_text(project, project->structure[i].name), NULL);
 		row->pou = i;
 		row->parent = true;
 	}

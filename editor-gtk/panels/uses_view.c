@@ -42,6 +42,7 @@ static const char *kind_text(const struct xref_use *use)
 		[XREF_CALLED] = N_("called"), [XREF_JUMPED] = N_("jumped to"),
 		[XREF_RUN] = N_("run by a task"),
 		[XREF_LEFT] = N_("left"), [XREF_ENTERED] = N_("entered"),
+		[XREF_INITIAL] = N_("initial value"),
 	};
 
 	return use->target.what == XREF_UNKNOWN ? _("unknown name") : _(text[use->kind]);

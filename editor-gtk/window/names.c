@@ -6,6 +6,7 @@
 
 #include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/document/rename.h"
+#include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/watch_view.h"
@@ -535,10 +536,10 @@ void names_rename(struct core *core)
 	xref_free(&xref);
 }
 
-void names_rename_pou(struct core *core, int pou)
+static void rename_declared(struct core *core, enum xref_what what, int index)
 {
 	struct project *project = ladder_document_project(core->document);
-	const struct xref_target target = { .what = XREF_POU, .index = pou };
+	const struct xref_target target = { .what = what, .index = index };
 	struct xref xref = { 0 };
 	GArray *choice = choice_start();
 
@@ -552,11 +553,22 @@ void names_rename_pou(struct core *core, int pou)
 	xref_free(&xref);
 }
 
-/* ---- deleting a POU ---- */
+void names_rename_pou(struct core *core, int pou)
+{
+	rename_declared(core, XREF_POU, pou);
+}
+
+void names_rename_type(struct core *core, int structure)
+{
+	rename_declared(core, XREF_STRUCTURE, structure);
+}
+
+/* ---- deleting a POU or a structure ---- */
 
 struct deleting {
 	struct core *core;
 	char *name;
+	bool type;           /* a structure                                    */
 };
 
 static void deleting_free(gpointer data, GClosure *closure)
@@ -568,7 +580,7 @@ static void deleting_free(gpointer data, GClosure *closure)
 	g_free(deleting);
 }
 
-static void delete_now(struct core *core, int pou)
+static void delete_pou(struct core *core, int pou)
 {
 	const char *why = pou_delete(core->document, pou);
 
@@ -576,25 +588,46 @@ static void delete_now(struct core *core, int pou)
 		messages_tell(core->messages, why);
 }
 
+static void delete_type(struct core *core, int structure)
+{
+	char *why;
+
+	if (!type_delete(core->document, structure, &why))
+		messages_tell(core->messages, why);
+	g_free(why);
+}
+
+static void delete_named(const struct deleting *deleting)
+{
+	const struct project *project = ladder_document_project(deleting->core->document);
+	const int number = !project ? -1 : deleting->type ?
+		type_find(deleting->core->document, deleting->name) :
+		project_find_pou(project, deleting->name, strlen(deleting->name));
+
+	if (number >= 0 && deleting->type)
+		delete_type(deleting->core, number);
+	else if (number >= 0)
+		delete_pou(deleting->core, number);
+}
+
 static void delete_answered(AdwMessageDialog *dialog, const char *answer,
 			    struct deleting *deleting)
 {
-	const struct project *project = ladder_document_project(deleting->core->document);
-	const int pou = project ? project_find_pou(project, deleting->name,
-						   strlen(deleting->name)) : -1;
-
 	(void)dialog;
 	if (strcmp(answer, "uses") == 0)
 		names_show_uses_of(deleting->core, deleting->name);
-	else if (strcmp(answer, "delete") == 0 && pou >= 0)
-		delete_now(deleting->core, pou);
+	else if (strcmp(answer, "delete") == 0)
+		delete_named(deleting);
 }
 
-static void ask_delete(struct core *core, const char *name, int uses)
+static void ask_delete(struct core *core, const char *name, bool type, int uses)
 {
 	struct deleting *deleting = g_new(struct deleting, 1);
 	char *heading = g_strdup_printf(_("Delete “%s”?"), name);
-	char *body = g_strdup_printf(ngettext(
+	char *body = g_strdup_printf(type ? ngettext(
+		"It is used in %d place. Variables and members of this type are deleted, too.",
+		"It is used in %d places. Variables and members of this type are deleted, too.",
+		(unsigned long)uses) : ngettext(
 		"It is used in %d place. Its boxes and instances are deleted, too.",
 		"It is used in %d places. Its boxes and instances are deleted, too.",
 		(unsigned long)uses), uses);
@@ -604,7 +637,7 @@ static void ask_delete(struct core *core, const char *name, int uses)
 	adw_message_dialog_add_response(dialog, "delete", _("Delete anyway"));
 	adw_message_dialog_set_response_appearance(dialog, "delete",
 						   ADW_RESPONSE_DESTRUCTIVE);
-	*deleting = (struct deleting){ core, g_strdup(name) };
+	*deleting = (struct deleting){ core, g_strdup(name), type };
 	g_signal_connect_data(dialog, "response", G_CALLBACK(delete_answered), deleting,
 			      deleting_free, 0);
 	gtk_window_present(GTK_WINDOW(dialog));
@@ -618,9 +651,21 @@ void names_delete_pou(struct core *core, int pou)
 	const int uses = project ? pou_uses(core->document, pou) : 0;
 
 	if (uses > 0 && project->pou_count > 1 && !project->pou[pou].included)
-		ask_delete(core, project_text(project, project->pou[pou].name), uses);
+		ask_delete(core, project_text(project, project->pou[pou].name), false, uses);
 	else
-		delete_now(core, pou);
+		delete_pou(core, pou);
+}
+
+void names_delete_type(struct core *core, int structure)
+{
+	const struct project *project = ladder_document_project(core->document);
+	const int uses = type_uses(core->document, structure);
+
+	if (uses > 0 && !type_is_included(core->document, structure))
+		ask_delete(core, project_text(project, project->structure[structure].name), true,
+			   uses);
+	else
+		delete_type(core, structure);
 }
 
 /* ---- the panel ---- */

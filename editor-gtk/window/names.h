@@ -31,5 +31,8 @@ void names_rename(struct core *core);
 void names_delete_pou(struct core *core, int pou);
 /** names_rename_pou - the same for a POU. */
 void names_rename_pou(struct core *core, int pou);
+/** names_delete_type, names_rename_type - the same for a structure, by its number. */
+void names_delete_type(struct core *core, int structure);
+void names_rename_type(struct core *core, int structure);
 
 #endif

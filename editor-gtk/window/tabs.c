@@ -6,6 +6,7 @@
 
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/draft.h"
+#include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/iomap/iomap_view.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tab_home.h"
@@ -13,6 +14,7 @@
 #include "editor-gtk/panels/compare_view.h"
 #include "editor-gtk/panels/symbols_view.h"
 #include "editor-gtk/panels/tasks_view.h"
+#include "editor-gtk/panels/types_view.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/welcome.h"
@@ -206,6 +208,9 @@ static AdwTabPage *open_widget(struct tabs *tabs, const char *name)
 		page = add_page(tabs, symbols_page(tabs), key, _("Symbols"));
 	else if (!page && strcmp(name, "tasks") == 0)
 		page = add_page(tabs, ladder_tasks_view_new(tabs->core->document), key, _("Tasks"));
+	else if (!page && strcmp(name, "types") == 0)
+		page = add_page(tabs, ladder_types_view_new(tabs->core->document), key,
+				_("Data types"));
 	else if (!page && strcmp(name, "welcome") == 0)
 		page = add_page(tabs, welcome_new(), key, _("Welcome"));
 	else if (!page && strcmp(name, "compare") == 0)
@@ -320,6 +325,21 @@ GtkWidget *tabs_find_widget(struct tabs *tabs, const char *name)
 
 	g_free(key);
 	return content;
+}
+
+void tabs_show_type(struct tabs *tabs, const char *name)
+{
+	GtkWidget *page;
+
+	if (!ladder_document_project(tabs->core->document)) {
+		messages_toast(tabs->core->messages, _("The file cannot be read as a program"));
+		return;
+	}
+	page = tabs_show_widget(tabs, "types");
+	if (name)
+		ladder_types_view_show(LADDER_TYPES_VIEW(page),
+				       type_find(tabs->core->document, name));
+	ladder_types_view_enter(LADDER_TYPES_VIEW(page));
 }
 
 static void go_in_chart(LadderSfcPage *page, int rung, int row, int col)

@@ -19,15 +19,17 @@ void tabs_init(struct tabs *tabs, struct core *core);
 void tabs_open_anew(struct tabs *tabs);
 /** tabs_show - brings the page of a POU to the front; opens it if need be. */
 void tabs_show(struct tabs *tabs, int pou);
-/** tabs_show_widget - a page without a POU: "symbols", "tasks", "welcome", "text",
- * "compare". */
-GtkWidget *tabs_show_widget(struct tabs *tabs, const char *name);
 /** tabs_show_task - the page of the tasks, with this one selected; NULL: none. */
 void tabs_show_task(struct tabs *tabs, const char *task);
 /** tabs_new_task - makes a task in that page. */
 void tabs_new_task(struct tabs *tabs);
+/** tabs_show_widget - a page without a POU: "symbols", "tasks", "types", "compare",
+ * "welcome", "text". */
+GtkWidget *tabs_show_widget(struct tabs *tabs, const char *name);
 /** tabs_find_widget - the same if it is open; NULL: it is not. */
 GtkWidget *tabs_find_widget(struct tabs *tabs, const char *name);
+/** tabs_show_type - the page of data types, with the structure of this name; NULL: any. */
+void tabs_show_type(struct tabs *tabs, const char *name);
 /** tabs_show_file - the page of a text file beside the project. */
 void tabs_show_file(struct tabs *tabs, const char *path);
 /** tabs_put_file - the page of a file that is not open yet. */

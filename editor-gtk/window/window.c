@@ -7,6 +7,7 @@
  */
 #include "editor-gtk/window/window.h"
 
+#include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/still.h"
@@ -37,6 +38,7 @@
 #include "editor-gtk/window/scenarios.h"
 #include "editor-gtk/window/status.h"
 #include "editor-gtk/window/tabs.h"
+#include "editor-gtk/window/type_new.h"
 
 #include "engine/base/version.h"
 
@@ -160,8 +162,19 @@ static void do_rename(LadderWindow *window)
 {
 	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
 
-	if (!focus || !gtk_widget_activate_action(focus, "tree.rename", NULL))
+	if (!focus || (!gtk_widget_activate_action(focus, "tree.rename", NULL) &&
+		       !gtk_widget_activate_action(focus, "types.rename-type", NULL)))
 		names_rename(&window->core);
+}
+
+/* Of the structure on the page of data types if that has the focus. */
+static void do_show_uses(LadderWindow *window)
+{
+	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
+
+	if (!focus || (!gtk_widget_activate_action(focus, "tree.uses", NULL) &&
+		       !gtk_widget_activate_action(focus, "types.uses", NULL)))
+		names_show_uses(&window->core);
 }
 
 /* ---- going ---- */
@@ -298,6 +311,8 @@ static bool do_project(LadderWindow *window, enum verb verb)
 		return true;
 	case VERB_tasks: tabs_show_task(&window->tabs, NULL); return true;
 	case VERB_new_task: tabs_new_task(&window->tabs); return true;
+	case VERB_types: tabs_show_type(&window->tabs, NULL); return true;
+	case VERB_new_structure: type_new_ask(core, NULL); return true;
 	case VERB_import_symbols: import_symbols(window); return true;
 	case VERB_export_symbols: export_symbols(&window->export); return true;
 	default: return false;
@@ -364,7 +379,7 @@ static bool do_find(LadderWindow *window, enum verb verb)
 		return true;
 	case VERB_rename: do_rename(window); return true;
 	case VERB_watch_add: names_watch(&window->core); return true;
-	case VERB_show_uses: names_show_uses(&window->core); return true;
+	case VERB_show_uses: do_show_uses(window); return true;
 	case VERB_go_coil: names_go_driver(&window->core); return true;
 	case VERB_next_bookmark: do_next_bookmark(window); return true;
 	case VERB_next_problem: do_next_problem(window); return true;
@@ -471,6 +486,25 @@ static void act_on_pou(GtkWidget *widget, const char *name, GVariant *pou)
 		pou_properties_show(core, g_variant_get_int32(pou));
 	else
 		names_delete_pou(core, g_variant_get_int32(pou));
+}
+
+/* Actions "win.show-type" and the like, with the name of a structure. */
+static void act_on_type(GtkWidget *widget, const char *action, GVariant *parameter)
+{
+	struct core *core = &LADDER_WINDOW(widget)->core;
+	const char *name = g_variant_get_string(parameter, NULL);
+	const int structure = type_find(core->document, name);
+
+	if (structure < 0)
+		return;
+	if (strcmp(action, "win.show-type") == 0)
+		tabs_show_type(core->tabs, name);
+	else if (strcmp(action, "win.rename-type") == 0)
+		names_rename_type(core, structure);
+	else if (strcmp(action, "win.duplicate-type") == 0)
+		type_new_ask(core, name);
+	else
+		names_delete_type(core, structure);
 }
 
 static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter)
@@ -581,6 +615,9 @@ static void install_actions(GtkWidgetClass *class)
 	static const char *const on_pou[] = {
 		"win.rename-pou", "win.delete-pou", "win.duplicate-pou", "win.about-pou",
 	};
+	static const char *const on_type[] = {
+		"win.show-type", "win.rename-type", "win.duplicate-type", "win.delete-type",
+	};
 
 	for (int i = 0; i < VERB_COUNT; i++)
 		gtk_widget_class_install_action(class, verb_row((enum verb)i)->action,
@@ -590,6 +627,8 @@ static void install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
 	for (gsize i = 0; i < G_N_ELEMENTS(on_pou); i++)
 		gtk_widget_class_install_action(class, on_pou[i], "i", act_on_pou);
+	for (gsize i = 0; i < G_N_ELEMENTS(on_type); i++)
+		gtk_widget_class_install_action(class, on_type[i], "s", act_on_type);
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.begin-chart", NULL, begin);
 	gtk_widget_class_install_action(class, "win.import-project", NULL, import_project);

@@ -164,6 +164,8 @@ static bool take_constant(struct init_walk *walk, const struct word_pin *pin,
 	if (result != LITERAL_OK ||
 	    !literal_fit(&out->literal, pin->type, &out->value))
 		return fail(walk, why, text, len);
+	out->text = text;
+	out->len = len;
 	lex_next(lex);
 	return true;
 }

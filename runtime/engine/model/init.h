@@ -37,6 +37,8 @@ struct init_value {
 	uint32_t capacity;          /* of a STRING                            */
 	struct literal literal;
 	union iec_value value;      /* of its type; not of a STRING           */
+	const char *text;           /* as written; borrowed from the project  */
+	size_t len;
 };
 
 struct init_walk {

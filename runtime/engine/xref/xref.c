@@ -9,6 +9,7 @@
 #include "engine/base/lex.h"
 #include "engine/check/scope.h"
 #include "engine/model/args.h"
+#include "engine/model/init.h"
 #include "engine/model/loop.h"
 
 #include <string.h>
@@ -379,6 +380,45 @@ static void add_word(struct xref_walk *walk, enum word word, enum xref_kind kind
 
 /* ---- declarations ---- */
 
+#define INIT_LEVELS (2 * INIT_DEPTH) /* brackets inside one another, with those of n( … ) */
+
+/* Adds the members that initial values name: `[(Speed := 5), 2(Wait := T#2s)]`. */
+static void walk_initial(struct xref_walk *walk, struct var *var)
+{
+	uint16_t word[INIT_LEVELS + 1] = { 0 }, next = word_of(var);
+	const char *text = project_text(walk->project, var->init_text);
+	int depth = 0;
+	struct lex lex;
+
+	walk->slot = &var->init_text;
+	word[0] = next;
+	lex_init(&lex, text, names_len(&walk->project->names, var->init_text));
+	lex_next(&lex);
+	while (lex.token.kind != TOKEN_END && depth < INIT_LEVELS) {
+		const struct token token = lex.token;
+		struct xref_target target;
+		enum pin_dir dir;
+
+		lex_next(&lex);
+		if (*token.text == '(' || *token.text == '[') {
+			word[++depth] = next;
+		} else if (*token.text == ')' || *token.text == ']') {
+			depth -= depth > 0;
+		} else if (*token.text == ',') {
+			next = word[depth];
+		} else if (token.kind == TOKEN_NAME && lex_is(&lex, ":=")) {
+			target = xref_pin(walk, (enum word)word[depth], token.text,
+					  token.len, &dir);
+			next = WORD_COUNT;
+			if (target.what == XREF_UNKNOWN)
+				continue;
+			next = word_of(xref_var(walk->project, &target));
+			xref_add(walk, target, XREF_INITIAL, (uint32_t)(token.text - text),
+				 (uint32_t)token.len);
+		}
+	}
+}
+
 static void walk_table(struct xref_walk *walk, int number)
 {
 	struct var_table *table = xref_table(walk->project, number);
@@ -386,13 +426,18 @@ static void walk_table(struct xref_walk *walk, int number)
 	for (int i = 0; i < vars_declared(table); i++) {
 		struct var *var = &table->var[i];
 
-		if (vars_flags(table, i) & VAR_RESULT)
-			continue;
 		walk->place.line = var->line;
+		if (vars_flags(table, i) & VAR_RESULT) { /* from the heading */
+			if (var->type == IEC_NONE)
+				add_word(walk, var->fb, XREF_TYPE);
+			continue;
+		}
 		xref_whole(walk, &var->name, xref_variable(walk->project, number, i),
 			  XREF_DECLARED);
 		if (var->type == IEC_NONE)
 			add_word(walk, var->fb, XREF_TYPE);
+		if (init_has_parts(var))
+			walk_initial(walk, var);
 	}
 }
 

@@ -42,6 +42,7 @@ enum xref_kind {
 	XREF_SET, XREF_RESET, XREF_CALLED, XREF_JUMPED,
 	XREF_RUN,        /* a program that a configuration names              */
 	XREF_LEFT, XREF_ENTERED, /* a step, by a transition                   */
+	XREF_INITIAL,    /* a member or parameter in initial values           */
 	XREF_KINDS
 };
 

@@ -15,6 +15,7 @@ static const char *const kind_words[XREF_KINDS] = {
 	[XREF_SET] = "set", [XREF_RESET] = "reset", [XREF_CALLED] = "called",
 	[XREF_JUMPED] = "jumped to", [XREF_RUN] = "run",
 	[XREF_LEFT] = "left", [XREF_ENTERED] = "entered",
+	[XREF_INITIAL] = "initial",
 };
 
 const char *xref_kind_word(enum xref_kind kind)

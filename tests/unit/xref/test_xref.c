@@ -229,6 +229,37 @@ static void test_clashes(struct ladder *ladder)
 	xref_free(&xref);
 }
 
+/* Members and inputs that initial values name; the type of a function's result. */
+static void test_initial(void)
+{
+	static const char initial[] =
+		"RUNGBOARD 1\n\nTYPE\n  Bounds : STRUCT\n    Low : INT;\n    High : INT;\n"
+		"  END_STRUCT;\n  Recipe : STRUCT\n    Speed : INT;\n"
+		"    Limit : Bounds := (High := 9);\n  END_STRUCT;\nEND_TYPE\n\n"
+		"VAR\n  One : Recipe := (Speed := 1, Limit := (Low := 2, High := 3));\n"
+		"  All : ARRAY[1..9] OF Recipe := [(Limit := (Low := 1)), 2(Speed := 3), "
+		"2((Limit := (High := 2), Speed := 4)), 3()];\n  Fan : Seal := (Low := TRUE);\n"
+		"  Delay : TON := (PT := T#1s);\nEND_VAR\n\n"
+		"FUNCTION_BLOCK Seal LD\nVAR_INPUT\n  Low : BOOL;\nEND_VAR\n"
+		"RUNG\n  | NO Low | COIL Q0 |\nEND_FUNCTION_BLOCK\n\n"
+		"FUNCTION Least : Bounds LD\nVAR_INPUT\n  X : Bounds;\nEND_VAR\n"
+		"RUNG\n  | MOVE IN:=X OUT=>Least |\nEND_FUNCTION\n";
+	struct ladder *ladder = ladder_new();
+
+	CHECK(ladder_load_text(ladder, "initial.rung", initial, strlen(initial)));
+	is_used(ladder, "Bounds.Low", "- 0 (0,0) initial\n- 0 (0,0) initial\n"
+		"- 0 (0,0) declared\n");
+	is_used(ladder, "Bounds.High", "- 0 (0,0) initial\n- 0 (0,0) initial\n"
+		"- 0 (0,0) declared\n- 0 (0,0) initial\n");
+	is_used(ladder, "Recipe.Speed", "- 0 (0,0) initial\n- 0 (0,0) initial\n"
+		"- 0 (0,0) initial\n- 0 (0,0) declared\n");
+	is_used(ladder, "Seal.Low", "- 0 (0,0) initial\nSeal 0 (0,0) declared\n"
+		"Seal 1 (1,1) read\n");
+	is_used(ladder, "Bounds", "- 0 (0,0) declared\n- 0 (0,0) type\n"
+		"Least 0 (0,0) type\nLeast 0 (0,0) type\n");
+	ladder_free(ladder);
+}
+
 int main(void)
 {
 	struct ladder *ladder = ladder_new();
@@ -241,6 +272,7 @@ int main(void)
 	test_sizes();
 	test_quick();
 	test_clashes(ladder);
+	test_initial();
 	ladder_free(ladder);
 	return tap_done();
 }

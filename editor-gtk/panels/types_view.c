@@ -1,0 +1,670 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * types_view - the page of data types; see types_view.h.
+ */
+#include "editor-gtk/panels/types_view.h"
+
+#include "editor-gtk/document/panel_cells.h"
+#include "editor-gtk/document/symbols.h"
+#include "editor-gtk/document/type_edit.h"
+#include "editor-gtk/kit/cells.h"
+#include "editor-gtk/kit/drop.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/type_cells.h"
+
+#include "engine/xref/xref.h"
+
+#include <adwaita.h>
+#include <string.h>
+
+/* A column behind the fields. */
+enum { TYPES_USES = SYMBOL_FIELDS };
+#define TYPES_FIXED 1u /* in LadderPanelRow.flags: of another file              */
+
+struct _LadderTypesView {
+	GtkBox parent_instance;
+	GtkWidget *stack, *types, *message;
+	struct panel_list list;
+	struct panel_cells cells;
+	struct panel_watch *watch;
+	char *type;             /* name of the structure that is shown; NULL: none */
+	guint64 told_of;        /* version of the document when the message was set */
+	bool busy;              /* the drop-down is being filled: ignore its signal */
+	LadderPanelRow *dragged;
+	GtkWidget *marked;      /* the row with the line of a drop; weak         */
+};
+
+G_DEFINE_FINAL_TYPE(LadderTypesView, ladder_types_view, GTK_TYPE_BOX)
+
+static LadderDocument *document_of(LadderTypesView *view)
+{
+	return panel_watch_document(view->watch);
+}
+
+int ladder_types_view_type(LadderTypesView *view)
+{
+	return view->type ? type_find(document_of(view), view->type) : -1;
+}
+
+/* @text: taken over; NULL: clears the message. */
+static void tell(LadderTypesView *view, char *text)
+{
+	view->told_of = ladder_document_version(document_of(view));
+	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
+	g_free(text);
+}
+
+/* ---- rows ---- */
+
+static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row *symbol,
+			      bool fixed)
+{
+	LadderPanelRow *row = ladder_panel_row_new();
+	bool warning = false;
+
+	for (int i = 0; i < SYMBOL_FIELDS; i++)
+		row->text[i] = g_strdup(symbol->text[i]);
+	row->text[TYPES_USES] = g_strdup_printf("%d", symbol->uses);
+	row->number = symbol->uses;
+	row->table = symbol->table;
+	row->index = symbol->index;
+	row->flags = fixed ? TYPES_FIXED :
+		     type_cells_flags(document, symbol->table, symbol->index);
+	row->note = symbol_error(document, symbol, &warning);
+	row->tone = !row->note ? PANEL_PLAIN : warning ? PANEL_WARNING : PANEL_ERROR;
+	row->spoken = g_strjoin(", ", symbol->text[FIELD_NAME], symbol->text[FIELD_TYPE],
+				*symbol->text[FIELD_INITIAL] ? symbol->text[FIELD_INITIAL] :
+				_("no initial value"), symbol->text[FIELD_COMMENT], NULL);
+	return row;
+}
+
+static bool is_member(const LadderPanelRow *row, gconstpointer name)
+{
+	return strcmp(panel_row_text(row, FIELD_NAME), name) == 0;
+}
+
+/* The focus stays on its member, wherever it moved. */
+static void update(LadderTypesView *view, GPtrArray *rows)
+{
+	int field = FIELD_NAME, now;
+	LadderPanelRow *row = cells_focused(view->list.view, &field);
+	char *name = row ? g_strdup(panel_row_text(row, FIELD_NAME)) : NULL;
+
+	panel_list_update(&view->list, rows);
+	row = name ? cells_focused(view->list.view, &now) : NULL;
+	if (name && (!row || !is_member(row, name)) &&
+	    panel_list_select(&view->list, is_member, name))
+		cells_enter(view->list.view, panel_list_row(&view->list), field);
+	g_free(name);
+}
+
+static void fill_rows(LadderTypesView *view)
+{
+	LadderDocument *document = document_of(view);
+	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
+	const int type = ladder_types_view_type(view);
+	struct symbols *symbols = type >= 0 ? symbols_new(document) : NULL;
+	const bool fixed = type >= 0 && type_is_included(document, type);
+
+	for (int i = 0; symbols && i < symbols->count; i++)
+		if (symbols->symbol[i].table == type_table(document, type))
+			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i], fixed));
+	update(view, rows);
+	symbols_free(symbols);
+	g_ptr_array_unref(rows);
+}
+
+static void fill_types(LadderTypesView *view, const struct project *project)
+{
+	GPtrArray *names = g_ptr_array_new();
+	const int count = project ? project->structure_count : 0;
+	const int now = ladder_types_view_type(view);
+
+	for (int i = 0; i < count; i++)
+		g_ptr_array_add(names, (gpointer)project_text(project,
+							      project->structure[i].name));
+	view->busy = true;
+	drop_fill(GTK_DROP_DOWN(view->types), names);
+	if (now >= 0)
+		gtk_drop_down_set_selected(GTK_DROP_DOWN(view->types), (guint)now);
+	view->busy = false;
+	gtk_stack_set_visible_child_name(GTK_STACK(view->stack), count ? "type" : "none");
+	g_ptr_array_unref(names);
+}
+
+static void set_type(LadderTypesView *view, int structure)
+{
+	const struct project *project = ladder_document_project(document_of(view));
+
+	g_free(view->type);
+	view->type = project && structure >= 0 && structure < project->structure_count ?
+		g_strdup(project_text(project, project->structure[structure].name)) : NULL;
+}
+
+static void refresh(GtkWidget *widget)
+{
+	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
+	LadderDocument *document = document_of(view);
+	const struct project *project = ladder_document_project(document);
+	const guint was = gtk_drop_down_get_selected(GTK_DROP_DOWN(view->types));
+
+	if (ladder_document_version(document) != view->told_of)
+		tell(view, NULL);
+	/* A renamed structure keeps its number. */
+	if (project && ladder_types_view_type(view) < 0)
+		set_type(view, was == GTK_INVALID_LIST_POSITION ? 0 :
+			 MIN((int)was, project->structure_count - 1));
+	fill_types(view, project);
+	fill_rows(view);
+}
+
+void ladder_types_view_show(LadderTypesView *view, int structure)
+{
+	if (structure >= 0)
+		set_type(view, structure);
+	refresh(GTK_WIDGET(view));
+}
+
+void ladder_types_view_enter(LadderTypesView *view)
+{
+	if (!g_list_model_get_n_items(G_LIST_MODEL(view->list.selection)))
+		return;
+	panel_list_go(&view->list, 0);
+	cells_enter(view->list.view, panel_list_row(&view->list), FIELD_NAME);
+}
+
+static void type_changed(GtkDropDown *types, GParamSpec *spec, LadderTypesView *view)
+{
+	const guint at = gtk_drop_down_get_selected(types);
+
+	(void)spec;
+	if (view->busy || at == GTK_INVALID_LIST_POSITION)
+		return;
+	set_type(view, (int)at);
+	fill_rows(view);
+}
+
+/* ---- fields ---- */
+
+/* The index of a row now: rows are updated with a delay. -1: deleted. */
+static int index_of(LadderTypesView *view, const LadderPanelRow *row)
+{
+	struct project *project = ladder_document_project(document_of(view));
+	const struct var_table *vars = project ? xref_table(project, row->table) : NULL;
+
+	for (int i = 0; vars && i < vars->count; i++)
+		if (strcmp(project_text(project, vars->var[i].name),
+			   panel_row_text(row, FIELD_NAME)) == 0)
+			return i;
+	return -1;
+}
+
+static const char *field_name(int field)
+{
+	return symbol_field_name((enum field)field);
+}
+
+static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char *text,
+		      char **why)
+{
+	LadderTypesView *view = LADDER_TYPES_VIEW(owner);
+	const bool good = symbol_set(document_of(view), row->table, index_of(view, row),
+				     (enum field)field, text, why);
+
+	tell(view, good ? NULL : g_strdup_printf("%s, %s: %s", panel_row_text(row, FIELD_NAME),
+		field_name(field), why && *why ? *why : ""));
+	if (good) { /* found by its name again */
+		g_free(row->text[field]);
+		row->text[field] = g_strstrip(g_strdup(text));
+		panel_watch_later(view->watch);
+	}
+	return good;
+}
+
+static bool is_fixed(const LadderPanelRow *row, int field)
+{
+	(void)field;
+	return row->flags & TYPES_FIXED;
+}
+
+static GPtrArray *choices_of(GObject *owner, int field)
+{
+	LadderTypesView *view = LADDER_TYPES_VIEW(owner);
+	GPtrArray *choices = type_cells_choices(document_of(view), true);
+
+	(void)field;
+	for (guint i = 0; view->type && i + 1 < choices->len; i += 2)
+		if (strcmp(choices->pdata[i], view->type) == 0) { /* not in itself */
+			g_ptr_array_remove_range(choices, i, 2);
+			break;
+		}
+	return choices;
+}
+
+static void open_form(GObject *owner, LadderPanelRow *row, int field, GtkWidget *cell)
+{
+	type_cells_open(document_of(LADDER_TYPES_VIEW(owner)), row, field, cell);
+}
+
+/* ---- members ---- */
+
+static LadderPanelRow *row_here(LadderTypesView *view)
+{
+	int field;
+	LadderPanelRow *row = cells_focused(view->list.view, &field);
+
+	return row ? row : panel_list_row(&view->list);
+}
+
+static void add(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
+	const int type = ladder_types_view_type(view);
+	const LadderPanelRow *row = row_here(view);
+	char *name, *why;
+
+	(void)action;
+	(void)unused;
+	if (type < 0)
+		return;
+	if (type_add_member(document_of(view), type, row ? index_of(view, row) :
+			    (int)g_list_model_get_n_items(G_LIST_MODEL(view->list.store)) - 1,
+			    &name, &why)) {
+		refresh(widget);
+		if (panel_list_select(&view->list, is_member, name))
+			cells_enter(view->list.view, panel_list_row(&view->list), FIELD_NAME);
+	}
+	tell(view, why);
+	g_free(name);
+}
+
+static void delete(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
+	LadderPanelRow *row = row_here(view);
+	char *why = NULL, *name;
+	int uses;
+
+	(void)action;
+	(void)unused;
+	if (!row)
+		return;
+	name = g_strdup(panel_row_text(row, FIELD_NAME));
+	uses = (int)row->number;
+	if (symbol_delete(document_of(view), row->table, index_of(view, row), &why)) {
+		refresh(widget);
+		if (uses)
+			why = g_strdup_printf(ngettext("“%s” is still used in %d place",
+				"“%s” is still used in %d places", (gulong)uses), name, uses);
+	}
+	tell(view, why);
+	g_free(name);
+}
+
+static void move(LadderTypesView *view, LadderPanelRow *row, int to)
+{
+	const int type = ladder_types_view_type(view), from = index_of(view, row);
+	const int count = (int)g_list_model_get_n_items(G_LIST_MODEL(view->list.store));
+	char *why = NULL;
+
+	if (type < 0 || from < 0 || to < 0 || to >= count || to == from)
+		return;
+	g_object_ref(row);
+	panel_cells_commit(view->list.view);
+	if (type_move_member(document_of(view), type, from, to, &why)) {
+		refresh(GTK_WIDGET(view));
+		panel_list_select(&view->list, is_member, panel_row_text(row, FIELD_NAME));
+	}
+	tell(view, why);
+	g_object_unref(row);
+}
+
+static void move_by(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
+	LadderPanelRow *row = row_here(view);
+
+	(void)unused;
+	if (row)
+		move(view, row, index_of(view, row) + (strcmp(action, "types.up") == 0 ? -1 : 1));
+}
+
+/* Before the cell, which would open its choices. */
+static gboolean key_pressed(GtkWidget *view, guint key, guint code, GdkModifierType state)
+{
+	(void)code;
+	if ((key != GDK_KEY_Up && key != GDK_KEY_Down) ||
+	    (state & gtk_accelerator_get_default_mod_mask()) != GDK_ALT_MASK)
+		return FALSE;
+	gtk_widget_activate_action(view, key == GDK_KEY_Up ? "types.up" : "types.down", NULL);
+	return TRUE;
+}
+
+/* ---- moving by drag ---- */
+
+static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double y,
+					GtkListItem *item)
+{
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+
+	(void)source;
+	(void)x;
+	(void)y;
+	return row && !(row->flags & TYPES_FIXED) ?
+	       gdk_content_provider_new_typed(LADDER_TYPE_PANEL_ROW, row) : NULL;
+}
+
+static void drag_begin(GtkDragSource *source, GdkDrag *drag, GtkListItem *item)
+{
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	GtkWidget *handle = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(source));
+	LadderTypesView *view = LADDER_TYPES_VIEW(gtk_widget_get_ancestor(handle,
+		LADDER_TYPE_TYPES_VIEW));
+	GtkWidget *label = gtk_label_new(row ? panel_row_text(row, FIELD_NAME) : "");
+
+	gtk_widget_add_css_class(label, "dragged-row");
+	gtk_drag_icon_set_child(GTK_DRAG_ICON(gtk_drag_icon_get_for_drag(drag)), label);
+	g_set_object(&view->dragged, row);
+}
+
+static void setup_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	GtkWidget *handle = gtk_image_new_from_icon_name("list-drag-handle-symbolic");
+	GtkDragSource *source = gtk_drag_source_new();
+
+	(void)factory;
+	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
+	g_signal_connect(source, "prepare", G_CALLBACK(drag_prepare), item);
+	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), item);
+	gtk_widget_add_controller(handle, GTK_EVENT_CONTROLLER(source));
+	gtk_widget_add_css_class(handle, "dim-label");
+	g_object_set_data(G_OBJECT(handle), "handle", item);
+	gtk_list_item_set_child(item, handle);
+}
+
+static void bind_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	GtkWidget *handle = gtk_list_item_get_child(item);
+	char *name = g_strdup_printf(_("Move %s (Alt+Up, Alt+Down)"),
+				     panel_row_text(row, FIELD_NAME));
+
+	(void)factory;
+	tip_set(handle, name);
+	spoken_name(handle, name);
+	gtk_widget_set_visible(handle, !(row->flags & TYPES_FIXED));
+	g_free(name);
+}
+
+/* The row at a place of the list, found by its handle or a cell. @of_row: gets its widget.
+ * NULL: none. */
+static LadderPanelRow *row_at(LadderTypesView *view, double x, double y, GtkWidget **of_row)
+{
+	GtkWidget *list = GTK_WIDGET(view->list.view);
+	GtkWidget *at = gtk_widget_pick(list, x, y, GTK_PICK_DEFAULT);
+
+	for (; at && at != list; at = gtk_widget_get_parent(at)) {
+		GtkListItem *item = g_object_get_data(G_OBJECT(at), "handle");
+
+		item = item ? item : g_object_get_data(G_OBJECT(at), "item");
+		if (!item)
+			continue;
+		*of_row = gtk_widget_get_parent(gtk_widget_get_parent(at));
+		return gtk_list_item_get_item(item);
+	}
+	return NULL;
+}
+
+/* A line shows where the member would go. */
+static void mark(LadderTypesView *view, GtkWidget *of_row, bool below)
+{
+	if (view->marked) {
+		gtk_widget_remove_css_class(view->marked, "drop-above");
+		gtk_widget_remove_css_class(view->marked, "drop-below");
+	}
+	g_set_weak_pointer(&view->marked, of_row);
+	if (of_row)
+		gtk_widget_add_css_class(of_row, below ? "drop-below" : "drop-above");
+}
+
+static GdkDragAction drag_over(LadderTypesView *view, double x, double y)
+{
+	GtkWidget *of_row = NULL;
+	const LadderPanelRow *row = row_at(view, x, y, &of_row);
+	const bool good = row && view->dragged && row != view->dragged;
+
+	mark(view, good ? of_row : NULL, good && row->index > view->dragged->index);
+	return good ? GDK_ACTION_MOVE : 0;
+}
+
+static void drag_leave(LadderTypesView *view)
+{
+	mark(view, NULL, false);
+}
+
+static gboolean dropped(LadderTypesView *view, const GValue *value, double x, double y)
+{
+	LadderPanelRow *row = g_value_get_object(value), *target;
+	GtkWidget *of_row = NULL;
+
+	mark(view, NULL, false);
+	target = row_at(view, x, y, &of_row);
+	if (!target || index_of(view, row) < 0)
+		return FALSE;
+	move(view, row, index_of(view, target));
+	return TRUE;
+}
+
+static void add_handles(LadderTypesView *view)
+{
+	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+	GtkDropTarget *target = gtk_drop_target_new(LADDER_TYPE_PANEL_ROW, GDK_ACTION_MOVE);
+
+	g_signal_connect(factory, "setup", G_CALLBACK(setup_handle), NULL);
+	g_signal_connect(factory, "bind", G_CALLBACK(bind_handle), NULL);
+	panel_list_add(&view->list, "", FIELD_NAME, PANEL_ICON, 0, factory);
+	g_signal_connect_swapped(target, "motion", G_CALLBACK(drag_over), view);
+	g_signal_connect_swapped(target, "leave", G_CALLBACK(drag_leave), view);
+	g_signal_connect_swapped(target, "drop", G_CALLBACK(dropped), view);
+	gtk_widget_add_controller(GTK_WIDGET(view->list.view), GTK_EVENT_CONTROLLER(target));
+}
+
+/* ---- the structure ---- */
+
+static void act_on_type(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
+	const int type = ladder_types_view_type(view);
+	const char *verb = strchr(action, '.') + 1;
+	char *name;
+
+	(void)unused;
+	if (type < 0)
+		return;
+	if (strcmp(verb, "uses") == 0) {
+		gtk_widget_activate_action(widget, "win.show-uses", "s", view->type);
+		return;
+	}
+	name = g_strdup_printf("win.%s", verb);
+	gtk_widget_activate_action(widget, name, "s", view->type);
+	g_free(name);
+}
+
+/* ---- the widget ---- */
+
+static GtkWidget *button_new(const char *icon, const char *name, const char *action)
+{
+	GtkWidget *button = gtk_button_new_from_icon_name(icon);
+
+	tip_set(button, name);
+	spoken_name(button, name);
+	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+	return button;
+}
+
+static GtkWidget *new_button(void)
+{
+	GtkWidget *button = gtk_button_new_with_label(_("New structure…"));
+
+	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "win.new_structure");
+	return button;
+}
+
+static GtkWidget *bar_new(LadderTypesView *view)
+{
+	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *gap;
+
+	view->types = gtk_drop_down_new(NULL, NULL);
+	spoken_name(view->types, _("Data type"));
+	g_signal_connect(view->types, "notify::selected", G_CALLBACK(type_changed), view);
+	gap = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+	gtk_widget_set_hexpand(gap, TRUE);
+	gtk_box_append(GTK_BOX(bar), view->types);
+	gtk_box_append(GTK_BOX(bar), new_button());
+	gtk_box_append(GTK_BOX(bar), button_new("document-edit-symbolic",
+		_("Rename the structure everywhere (F2)"), "types.rename-type"));
+	gtk_box_append(GTK_BOX(bar), button_new("edit-copy-symbolic",
+		_("Duplicate the structure"), "types.duplicate-type"));
+	gtk_box_append(GTK_BOX(bar), button_new("user-trash-symbolic",
+		_("Delete the structure"), "types.delete-type"));
+	gtk_box_append(GTK_BOX(bar), button_new("edit-find-symbolic",
+		_("Where the structure is used (Shift+F12)"), "types.uses"));
+	gtk_box_append(GTK_BOX(bar), gap);
+	gtk_box_append(GTK_BOX(bar), button_new("list-add-symbolic", _("Add a member"),
+						"types.add"));
+	gtk_box_append(GTK_BOX(bar), button_new("list-remove-symbolic", _("Delete the member"),
+						"types.delete"));
+	gtk_box_append(GTK_BOX(bar), button_new("go-up-symbolic", _("Move the member up (Alt+Up)"),
+						"types.up"));
+	gtk_box_append(GTK_BOX(bar), button_new("go-down-symbolic",
+		_("Move the member down (Alt+Down)"), "types.down"));
+	gtk_widget_set_margin_top(bar, 6);
+	gtk_widget_set_margin_bottom(bar, 6);
+	gtk_widget_set_margin_start(bar, 6);
+	gtk_widget_set_margin_end(bar, 6);
+	return bar;
+}
+
+static void add_columns(LadderTypesView *view)
+{
+	static const struct { enum field field; int width; } column[] = {
+		{ FIELD_NAME, 150 }, { FIELD_TYPE, 210 }, { FIELD_INITIAL, 150 },
+		{ FIELD_COMMENT, 120 },
+	};
+	GListModel *columns;
+
+	/* The handles are not the first column: a press near the divider of panes moves that. */
+	panel_list_column(&view->list, "", TYPES_USES, PANEL_ICON, 0);
+	add_handles(view);
+	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
+		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
+				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
+				column[i].width);
+	panel_list_column(&view->list, _("Uses"), TYPES_USES, PANEL_NUMBER, 60);
+	columns = gtk_column_view_get_columns(view->list.view);
+	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
+		GtkColumnViewColumn *each = g_list_model_get_item(columns, i);
+
+		gtk_column_view_column_set_sorter(each, NULL); /* their order counts */
+		g_object_unref(each);
+	}
+}
+
+static GtkWidget *list_new(LadderTypesView *view)
+{
+	GtkWidget *list = gtk_column_view_new(NULL), *scroller = gtk_scrolled_window_new();
+	GtkEventController *keys = gtk_event_controller_key_new();
+
+	panel_list_init(&view->list, GTK_COLUMN_VIEW(list));
+	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
+		.set = set_field, .is_fixed = is_fixed, .choices = choices_of,
+		.open_form = open_form };
+	type_cells_join(&view->cells);
+	add_columns(view);
+	gtk_widget_add_css_class(list, "data-table");
+	spoken_name(list, _("Members"));
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	g_signal_connect_swapped(keys, "key-pressed", G_CALLBACK(key_pressed), view);
+	gtk_widget_add_controller(list, keys);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), list);
+	gtk_widget_set_vexpand(scroller, TRUE);
+	return scroller;
+}
+
+/* While the project has no structure. */
+static GtkWidget *none_new(void)
+{
+	GtkWidget *page = adw_status_page_new(), *button = new_button();
+
+	adw_status_page_set_title(ADW_STATUS_PAGE(page), _("No data types"));
+	adw_status_page_set_description(ADW_STATUS_PAGE(page),
+		_("A structure holds several values under one name, such as a recipe with a "
+		  "speed and a time. Variables can then have this type."));
+	gtk_widget_set_halign(button, GTK_ALIGN_CENTER);
+	gtk_widget_add_css_class(button, "pill");
+	gtk_widget_add_css_class(button, "suggested-action");
+	adw_status_page_set_child(ADW_STATUS_PAGE(page), button);
+	return page;
+}
+
+static void dispose(GObject *object)
+{
+	LadderTypesView *view = LADDER_TYPES_VIEW(object);
+
+	g_clear_pointer(&view->watch, panel_watch_free);
+	g_clear_pointer(&view->type, g_free);
+	g_clear_object(&view->dragged);
+	g_clear_weak_pointer(&view->marked);
+	G_OBJECT_CLASS(ladder_types_view_parent_class)->dispose(object);
+	panel_list_clear(&view->list);
+}
+
+static void ladder_types_view_class_init(LadderTypesViewClass *class)
+{
+	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+
+	G_OBJECT_CLASS(class)->dispose = dispose;
+	gtk_widget_class_install_action(widget, "types.add", NULL, add);
+	gtk_widget_class_install_action(widget, "types.delete", NULL, delete);
+	gtk_widget_class_install_action(widget, "types.up", NULL, move_by);
+	gtk_widget_class_install_action(widget, "types.down", NULL, move_by);
+	gtk_widget_class_install_action(widget, "types.rename-type", NULL, act_on_type);
+	gtk_widget_class_install_action(widget, "types.duplicate-type", NULL, act_on_type);
+	gtk_widget_class_install_action(widget, "types.delete-type", NULL, act_on_type);
+	gtk_widget_class_install_action(widget, "types.uses", NULL, act_on_type);
+}
+
+static void ladder_types_view_init(LadderTypesView *view)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+
+	view->message = gtk_label_new("");
+	gtk_label_set_xalign(GTK_LABEL(view->message), 0);
+	gtk_label_set_wrap(GTK_LABEL(view->message), TRUE);
+	gtk_widget_add_css_class(view->message, "error");
+	gtk_widget_set_margin_start(view->message, 12);
+	gtk_widget_set_margin_end(view->message, 12);
+	gtk_widget_set_margin_top(view->message, 6);
+	gtk_widget_set_margin_bottom(view->message, 6);
+	spoken_text(GTK_LABEL(view->message));
+	gtk_box_append(GTK_BOX(box), bar_new(view));
+	gtk_box_append(GTK_BOX(box), list_new(view));
+	gtk_box_append(GTK_BOX(box), view->message);
+	view->stack = gtk_stack_new();
+	gtk_stack_add_named(GTK_STACK(view->stack), box, "type");
+	gtk_stack_add_named(GTK_STACK(view->stack), none_new(), "none");
+	gtk_widget_set_hexpand(view->stack, TRUE);
+	gtk_box_append(GTK_BOX(view), view->stack);
+	view->watch = panel_watch_new(GTK_WIDGET(view), true, refresh);
+}
+
+GtkWidget *ladder_types_view_new(LadderDocument *document)
+{
+	LadderTypesView *view = g_object_new(LADDER_TYPE_TYPES_VIEW, NULL);
+
+	panel_watch_set(view->watch, document);
+	refresh(GTK_WIDGET(view));
+	return GTK_WIDGET(view);
+}

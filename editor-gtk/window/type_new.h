@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * type_new - asks for the name of a new structure, or of a copy of one, makes it, and shows
+ * it on the page of data types.
+ */
+#ifndef EDITOR_TYPE_NEW_H
+#define EDITOR_TYPE_NEW_H
+
+#include "editor-gtk/window/core.h"
+
+/** type_new_ask - @original: the structure that is copied; NULL: a new one. */
+void type_new_ask(struct core *core, const char *original);
+
+#endif

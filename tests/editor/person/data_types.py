@@ -1,0 +1,192 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""data_types - a person makes structures and arrays, and gives them initial values."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+
+PROGRAM = '''RUNGBOARD 1
+
+TYPE
+  Bounds : STRUCT
+    Low  : INT := 10;
+    High : INT;
+  END_STRUCT;
+END_TYPE
+
+VAR
+  Limit : Bounds := (High := 90);
+  Level : INT;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | [ Level > Limit.High ] | COIL %QX0.0 |
+END_PROGRAM
+'''
+
+
+def label(editor, text):
+    return until(lambda: editor.all(text, 'label'), 'the text "%s"' % text)[0]
+
+
+def seen(editor, name, role='text'):
+    """The visible one."""
+    return until(lambda: [node for node in editor.all(name, role) if node.box()[2] > 0], name)[0]
+
+
+def ordered(editor, *names):
+    def rows():
+        tops = [(node.box()[1], name) for name in names for node in editor.all(name + ', Name', 'text') if node.box()[2] > 0]
+        return [name for _, name in sorted(tops)]
+    until(lambda: rows() == list(names), 'the order ' + ' '.join(names))
+
+
+def structure(screen):
+    """a structure is made, its members typed, moved by keys and by pointer, renamed everywhere, duplicated; each undoes"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.command('New structure')
+    until(lambda: editor.all(role='dialog'), 'the question for a name')
+    editor.keys('ctrl+a')
+    editor.type('Bounds')
+    label(editor, '“Bounds” is declared already')
+    editor.keys('ctrl+a')
+    editor.type('Recipe')
+    until(lambda: not editor.all('is declared already', 'label'), 'no refusal')
+    editor.keys('Return')
+    editor.focus_on('Member1, Name', 'text')
+    editor.type('Speed')
+    editor.keys('Tab', 'ctrl+a')
+    editor.type('UI')
+    until(lambda: editor.find('Speed, Type', 'text').text() == 'UINT', 'the rest of the word')
+    editor.keys('Tab')
+    editor.type('100')
+    editor.keys('Tab')
+    editor.type('rpm')
+    editor.keys('Return')
+    editor.click(editor.find('Add a member', 'push button'))
+    editor.focus_on('Speed2, Name', 'text')
+    editor.type('Limit')
+    editor.keys('Tab', 'ctrl+a')
+    editor.type('Bou')
+    until(lambda: seen(editor, 'Limit, Type').text() == 'Bounds', 'the name of the other structure')
+    editor.keys('Return')
+    text = editor.save(path)
+    made = '  Recipe : STRUCT\n    Speed : UINT := 100; (* rpm *)\n    Limit : Bounds;\n  END_STRUCT;\n'
+    assert made in text, text
+    check(path)
+    editor.keys('alt+Up')
+    ordered(editor, 'Limit', 'Speed')
+    editor.focus_on('Limit, Type', 'text')
+    editor.keys('alt+Down')
+    ordered(editor, 'Speed', 'Limit')
+    editor.shot('types-members')
+    editor.drag(editor.centre(editor.find('Move Limit')), editor.centre(editor.find('Speed, Name', 'text')))
+    ordered(editor, 'Limit', 'Speed')
+    assert '    Limit : Bounds;\n    Speed : UINT := 100; (* rpm *)\n' in editor.save(path)
+    editor.keys('ctrl+z')
+    ordered(editor, 'Speed', 'Limit')
+    editor.into('Speed, Type')
+    editor.keys('ctrl+a')
+    editor.type('Nothing')
+    editor.keys('Return')
+    label(editor, 'Speed, Type: ')
+    editor.keys('Escape')
+    editor.click(editor.find('Duplicate the structure', 'push button'))
+    until(lambda: editor.all(role='dialog'), 'the question for a name')
+    editor.keys('Return')
+    until(lambda: editor.all('Recipe2', 'label'), 'the copy')
+    text = editor.save(path)
+    assert made + made.replace('Recipe', 'Recipe2') in text, text
+    check(path)
+
+
+def everywhere(screen):
+    """a structure and a member get other names, also in initial values; a used one is deleted after a question"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.click(editor.find('Bounds', 'label'), count=2)
+    editor.focus_on('Low, Name', 'text')
+    editor.into('High, Name')
+    editor.keys('ctrl+a')
+    editor.type('Top')
+    editor.keys('Return')
+    text = editor.save(path)
+    assert 'Limit : Bounds := (Top := 90);' in text and 'Level > Limit.Top' in text, text
+    editor.brought('F2')
+    editor.keys('ctrl+a')
+    editor.type('Span')
+    editor.keys('Return')
+    label(editor, '2 places changed')
+    text = editor.save(path)
+    assert '  Span : STRUCT\n' in text and 'Limit : Span := (Top := 90);' in text, text
+    check(path)
+    editor.focus_on('Top, Name', 'text')
+    editor.keys('shift+F12')
+    until(lambda: editor.all('type', 'table row'), 'the uses')
+    editor.click(editor.find('Delete the structure', 'push button'))
+    label(editor, 'It is used in 1 place. Variables and members of this type are deleted, too.')
+    editor.shot('types-delete')
+    editor.answer('Delete anyway')
+    until(lambda: editor.all('No data types', 'label'), 'the empty page')
+    text = editor.save(path)
+    assert 'TYPE' not in text and 'Limit :' not in text and 'Level : INT' in text, text
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z')
+    assert editor.save(path) == PROGRAM
+
+
+def array(screen):
+    """an array is made without knowing how it is written; wrong bounds are refused at the entry; its values get a form"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    editor.into('Level, Type')
+    editor.keys('ctrl+space')
+    until(lambda: editor.all('Array…', 'push button'), 'the button')[0].press()
+    last = until(lambda: editor.all('Last index', 'text'), 'the form of the array')[0]
+    editor.keys('ctrl+a')
+    editor.type('1')
+    editor.keys('Tab')
+    until(lambda: last.has(12), 'the focus on the last index')
+    editor.keys('ctrl+a')
+    editor.type('0')
+    label(editor, 'The last index is below the first')
+    editor.shot('types-array')
+    editor.keys('ctrl+a')
+    editor.type('6')
+    editor.keys('Return')
+    assert '  Level : ARRAY[1..6] OF INT;\n' in editor.save(path)
+    editor.into('Level, Initial value')
+    editor.brought('ctrl+space', 'Initial values of Level')
+    editor.focus_on('[1], Value', 'text')
+    for value in '1', '7', '7', '7', '':
+        editor.type(value)
+        editor.keys('Down')
+    editor.type('70000')
+    editor.keys('Return')
+    label(editor, 'out of range')
+    editor.keys('ctrl+a')
+    editor.type('-5')
+    editor.keys('Return')
+    label(editor, '[1, 3(7), 0, -5]')
+    editor.shot('types-values')
+    editor.keys('ctrl+Return')
+    editor.focus_on('Level, Initial value', 'text')
+    text = editor.save(path)
+    assert '  Level : ARRAY[1..6] OF INT := [1, 3(7), 0, -5];\n' in text, text
+    editor.brought('ctrl+space', 'Initial values of Level')
+    editor.focus_on('[1], Value', 'text')
+    editor.keys('ctrl+a')
+    editor.type('3')
+    editor.keys('Return', 'Escape')
+    editor.focus_on('Level, Initial value', 'text')
+    editor.keys('ctrl+z')
+    assert '  Level : ARRAY[1..6] OF INT;\n' in editor.save(path)
+    editor.keys('ctrl+z')
+    assert editor.save(path) == PROGRAM
+
+
+main([structure, everywhere, array])
