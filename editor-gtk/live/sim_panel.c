@@ -34,6 +34,7 @@ struct _LadderSimPanel {
 	bool again;               /* values changed since that round began      */
 	char *wanted;             /* text of the filter; never NULL             */
 	GHashTable *folded;       /* folded sections, sim_row_section()         */
+	GHashTable *unfolded;     /* lines that show their parts, likewise       */
 	bool on;
 	LadderSimRow *held;       /* by the space bar; NULL: none               */
 	GPtrArray *bound;         /* of struct held                             */
@@ -52,6 +53,16 @@ G_DEFINE_FINAL_TYPE(LadderSimPanel, ladder_sim_panel, GTK_TYPE_WIDGET)
 
 /* ---- the lines ---- */
 
+/* Does the line show its parts? */
+static bool is_unfolded(LadderSimPanel *panel, const LadderSimRow *row)
+{
+	char *section = sim_row_section(row);
+	const bool is = g_hash_table_contains(panel->unfolded, section);
+
+	g_free(section);
+	return is;
+}
+
 static bool is_folded(LadderSimPanel *panel, const LadderSimRow *row)
 {
 	char *section = sim_row_section(row);
@@ -66,6 +77,27 @@ static bool is_section(const LadderSimRow *row, const LadderSimRow *other)
 	return row->group == other->group && g_strcmp0(row->place, other->place) == 0;
 }
 
+/* Adds a line with its parts if it is unfolded, or with those that a search finds. */
+static void add_line(LadderSimPanel *panel, GPtrArray *out, LadderSimRow *row)
+{
+	const bool wants = panel->wanted[0] != '\0';
+	const bool open = row->parts && !wants && is_unfolded(panel, row);
+	const guint before = out->len;
+
+	row->folded = !open;
+	g_ptr_array_add(out, g_object_ref(row));
+	for (guint i = 0; row->parts && (open || wants) && i < row->parts->len; i++) {
+		LadderSimRow *part = row->parts->pdata[i];
+
+		if (open || sim_row_matches(part, panel->wanted))
+			g_ptr_array_add(out, g_object_ref(part));
+	}
+	if (out->len > before + 1)
+		row->folded = false;
+	else if (wants && !sim_row_matches(row, panel->wanted))
+		g_ptr_array_set_size(out, (gint)before);
+}
+
 /* Adds a heading and its lines: rows from @from to before @to, of one group and place. */
 static void add_section(LadderSimPanel *panel, GPtrArray *out, guint from, guint to)
 {
@@ -78,8 +110,8 @@ static void add_section(LadderSimPanel *panel, GPtrArray *out, guint from, guint
 	for (guint i = from; i < to && !folded; i++) {
 		LadderSimRow *row = g_ptr_array_index(panel->rows, i);
 
-		if (!wants || sim_row_matches(row, panel->wanted))
-			g_ptr_array_add(out, g_object_ref(row));
+		if (!row->owner)
+			add_line(panel, out, row);
 	}
 	if (out->len == before + 1 && !folded)
 		g_ptr_array_set_size(out, (gint)before);
@@ -568,6 +600,25 @@ static bool press(LadderSimPanel *panel)
 	return true;
 }
 
+/* Right unfolds a line or a group, Left folds it; from a part, Left goes to its line. */
+static gboolean fold_by_key(LadderSimPanel *panel, bool folds)
+{
+	LadderSimRow *row = gtk_single_selection_get_selected_item(panel->selection);
+
+	/* a slider moves with these keys */
+	if (!row || GTK_IS_RANGE(gtk_root_get_focus(gtk_widget_get_root(GTK_WIDGET(panel)))))
+		return GDK_EVENT_PROPAGATE;
+	if (folds && row->owner) {
+		char *owner = g_strdup(row->owner);
+
+		ladder_sim_panel_select(panel, owner);
+		g_free(owner);
+	} else if ((row->kind == SIM_HEADING || row->parts) && row->folded != folds) {
+		ladder_sim_row_view_fold(GTK_WIDGET(panel), row);
+	}
+	return GDK_EVENT_STOP;
+}
+
 static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
 			    GdkModifierType state, LadderSimPanel *panel)
 {
@@ -579,6 +630,10 @@ static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
 		return GDK_EVENT_PROPAGATE;
 	if (key == GDK_KEY_space && !held && press(panel))
 		return GDK_EVENT_STOP;
+	if ((key == GDK_KEY_Right || key == GDK_KEY_KP_Right) && !held)
+		return fold_by_key(panel, false);
+	if ((key == GDK_KEY_Left || key == GDK_KEY_KP_Left) && !held)
+		return fold_by_key(panel, true);
 	return GDK_EVENT_PROPAGATE;
 }
 
@@ -599,7 +654,7 @@ static void activated(GtkListView *list, guint at, LadderSimPanel *panel)
 	LadderSimRowView *view = view_of(panel, row);
 
 	(void)list;
-	if (row && row->kind == SIM_HEADING)
+	if (row && (row->kind == SIM_HEADING || row->kind == SIM_WHOLE))
 		ladder_sim_row_view_fold(GTK_WIDGET(panel), row);
 	else if (view)
 		ladder_sim_row_view_edit(view, row->given.type != IEC_NONE ?
@@ -625,7 +680,7 @@ static void force(LadderSimPanel *panel)
 		return;
 	if (sim_row_is_forced(row, panel->sim))
 		sim_row_release(row, panel->sim);
-	else
+	else if (row->at.type != IEC_NONE)
 		live_value_force(panel->sim, row->plant, row->at,
 				 live_value_get(panel->sim, row->plant, row->at));
 }
@@ -678,10 +733,13 @@ static void add_named(GMenu *menu, const char *text, const char *action, const c
 static void add_window(GMenu *menu, const LadderSimRow *row)
 {
 	char *name = row->kind == SIM_PRESET ? g_strconcat(row->name, ".Q", NULL) :
+		     row->kind == SIM_STEP ? g_strconcat(row->name, ".X", NULL) :
 		     g_strdup(row->name);
 
-	add_named(menu, _("Expect this value"), "win.expect-value", name);
-	add_named(menu, _("Add to the status chart"), "win.watch-value", row->name);
+	if (row->kind != SIM_WHOLE)
+		add_named(menu, _("Expect this value"), "win.expect-value", name);
+	if (row->group != SIM_CHARTS)
+		add_named(menu, _("Add to the status chart"), "win.watch-value", row->name);
 	g_free(name);
 }
 
@@ -694,9 +752,9 @@ static GMenu *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
 	if (row->kind == SIM_PRESET) {
 		if (row->given.type != IEC_NONE)
 			g_menu_append(values, _("Change preset…"), "sim-panel.edit-preset");
-		g_menu_append(values, row->group == SIM_COUNTERS ? _("Change count…") :
+		g_menu_append(values, row->at.type != IEC_TIME ? _("Change count…") :
 		    _("Change elapsed time…"), "sim-panel.edit-value");
-	} else if (!sim_row_is_bit(row) && !row->at.constant) {
+	} else if (!sim_row_is_bit(row) && !row->at.constant && row->kind < SIM_STEP) {
 		g_menu_append(values, _("Change value…"), "sim-panel.edit-value");
 	}
 	if (sim_row_is_forced(row, panel->sim))
@@ -704,7 +762,8 @@ static GMenu *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
 	if (sim_row_is_bit(row)) {
 		g_menu_append(forces, _("Force on"), "sim-panel.force-on");
 		g_menu_append(forces, _("Force off"), "sim-panel.force-off");
-	} else if (row->at.type != IEC_STRING && !sim_row_is_forced(row, panel->sim)) {
+	} else if (row->at.type != IEC_STRING && row->kind < SIM_STEP &&
+		   !sim_row_is_forced(row, panel->sim)) {
 		g_menu_append(forces, _("Force at this value"), "sim-panel.force");
 	}
 	if (ladder_sim_forces(panel->sim))
@@ -797,17 +856,22 @@ static void look_at_program(LadderSimPanel *panel)
 	show_lines(panel);
 }
 
-static void read_choices(LadderSimPanel *panel)
+/* Arrows of lines that stayed in the list. */
+static void show_again(LadderSimPanel *panel)
 {
-	LadderDocument *document = ladder_sim_document(panel->sim);
-
-	if (!sim_row_read_choices(ladder_document_view(document), panel->rows))
-		return;
 	for (guint i = 0; i < panel->views->len; i++) {
 		LadderSimRowView *view = g_ptr_array_index(panel->views, i);
 
 		ladder_sim_row_view_bind(view, ladder_sim_row_view_row(view));
 	}
+}
+
+static void read_choices(LadderSimPanel *panel)
+{
+	LadderDocument *document = ladder_sim_document(panel->sim);
+
+	if (sim_row_read_choices(ladder_document_view(document), panel->rows))
+		show_again(panel);
 }
 
 /* ---- updates ---- */
@@ -896,6 +960,7 @@ static void search_changed(GtkSearchEntry *entry, LadderSimPanel *panel)
 	g_free(panel->wanted);
 	panel->wanted = g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(entry))));
 	show_lines(panel);
+	show_again(panel);
 }
 
 static void fold(GtkWidget *widget, const char *name, GVariant *section)
@@ -904,9 +969,13 @@ static void fold(GtkWidget *widget, const char *name, GVariant *section)
 	const char *key = g_variant_get_string(section, NULL);
 
 	(void)name;
-	if (!g_hash_table_remove(panel->folded, key))
-		g_hash_table_add(panel->folded, g_strdup(key));
+	/* the key of a group begins with a number */
+	GHashTable *set = g_ascii_isdigit(key[0]) ? panel->folded : panel->unfolded;
+
+	if (!g_hash_table_remove(set, key))
+		g_hash_table_add(set, g_strdup(key));
 	show_lines(panel);
+	show_again(panel);
 }
 
 /* The window's action also reports why a program cannot be built. */
@@ -916,10 +985,26 @@ static void simulate(LadderSimPanel *panel)
 		ladder_sim_begin(panel->sim, NULL);
 }
 
+/* Unfolds the line whose part has that name. */
+static void unfold_owner(LadderSimPanel *panel, const char *name)
+{
+	for (guint i = 0; i < panel->rows->len; i++) {
+		const LadderSimRow *row = panel->rows->pdata[i];
+
+		if (!row->owner || strcmp(row->name, name) != 0)
+			continue;
+		if (g_hash_table_add(panel->unfolded, g_strdup_printf("%s%s", row->plant ? "@" : "",
+								      row->owner)))
+			show_lines(panel);
+		return;
+	}
+}
+
 bool ladder_sim_panel_select(LadderSimPanel *panel, const char *name)
 {
+	if (!panel->wanted[0])
+		unfold_owner(panel, name);
 	GListModel *list = G_LIST_MODEL(panel->store);
-
 	for (guint i = 0; i < g_list_model_get_n_items(list); i++) {
 		LadderSimRow *row = g_list_model_get_item(list, i);
 		const bool is = row->kind != SIM_HEADING && strcmp(row->name, name) == 0;
@@ -1033,6 +1118,7 @@ static void dispose(GObject *object)
 	g_clear_object(&panel->sim);
 	g_clear_pointer(&panel->wanted, g_free);
 	g_clear_pointer(&panel->folded, g_hash_table_unref);
+	g_clear_pointer(&panel->unfolded, g_hash_table_unref);
 	G_OBJECT_CLASS(ladder_sim_panel_parent_class)->dispose(object);
 }
 
@@ -1101,6 +1187,7 @@ static void ladder_sim_panel_init(LadderSimPanel *panel)
 	gtk_widget_init_template(GTK_WIDGET(panel));
 	panel->wanted = g_strdup("");
 	panel->folded = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+	panel->unfolded = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
 	panel->views = g_ptr_array_new();
 	panel->rows = g_ptr_array_new_with_free_func(g_object_unref);
 	make_list(panel, panel->list);

@@ -20,6 +20,8 @@ static void finalize(GObject *object)
 	g_free(row->address);
 	g_free(row->comment);
 	g_free(row->block);
+	g_free(row->owner);
+	g_clear_pointer(&row->parts, g_ptr_array_unref);
 	g_free(row->place);
 	g_free(row->pin);
 	g_free(row->pin_told);
@@ -50,6 +52,8 @@ LadderSimRow *sim_row_heading(const LadderSimRow *first, bool folded)
 
 char *sim_row_section(const LadderSimRow *row)
 {
+	if (row->kind != SIM_HEADING && row->parts)
+		return g_strdup_printf("%s%s", row->plant ? "@" : "", row->name);
 	return g_strdup_printf("%d %s", (int)row->group, row->place ? row->place : "");
 }
 
@@ -58,7 +62,8 @@ const char *sim_group_name(enum sim_group group)
 	static const char *const name[SIM_GROUPS] = {
 		[SIM_INPUTS] = N_("Inputs"), [SIM_OUTPUTS] = N_("Outputs"),
 		[SIM_MEMORY] = N_("Memory"), [SIM_TIMERS] = N_("Timers"),
-		[SIM_COUNTERS] = N_("Counters"), [SIM_ANALOGUE] = N_("Analogue"),
+		[SIM_COUNTERS] = N_("Counters"), [SIM_BLOCKS] = N_("Blocks"),
+		[SIM_CHARTS] = N_("Charts"), [SIM_ANALOGUE] = N_("Analogue"),
 		[SIM_VALUES] = N_("Values"), [SIM_PLANT] = N_("Plant"),
 	};
 
@@ -79,6 +84,7 @@ bool sim_row_is(const LadderSimRow *row, const LadderSimRow *other)
 	       g_strcmp0(row->address, other->address) == 0 &&
 	       g_strcmp0(row->comment, other->comment) == 0 &&
 	       g_strcmp0(row->block, other->block) == 0 &&
+	       g_strcmp0(row->owner, other->owner) == 0 && !row->parts == !other->parts &&
 	       g_strcmp0(row->place, other->place) == 0 &&
 	       g_strcmp0(row->pin, other->pin) == 0 &&
 	       g_strcmp0(row->pin_told, other->pin_told) == 0;
@@ -112,10 +118,32 @@ static bool has(const char *text, const char *folded)
 	return is;
 }
 
+const char *sim_row_label(const LadderSimRow *row)
+{
+	const char *rest = row->owner ? row->name + strlen(row->owner) : row->name;
+
+	return row->owner && *rest == '.' ? rest + 1 : rest;
+}
+
+char *sim_row_told(const LadderSimRow *row, LadderSim *sim)
+{
+	GString *text = row->group == SIM_CHARTS && row->parts ? g_string_new(NULL) : NULL;
+
+	for (guint i = 0; text && i < row->parts->len; i++) {
+		const LadderSimRow *step = row->parts->pdata[i];
+
+		if (live_value_get(sim, step->plant, step->done).i)
+			g_string_append_printf(text, "%s%s", text->len ? ", " : "",
+					       sim_row_label(step));
+	}
+	return text ? g_string_free(text, FALSE) : NULL;
+}
+
 bool sim_row_matches(const LadderSimRow *row, const char *wanted)
 {
 	char *folded = g_utf8_casefold(wanted, -1);
-	const bool is = has(row->name, folded) || has(row->address, folded) ||
+	const char *name = strchr(wanted, '.') ? row->name : sim_row_label(row);
+	const bool is = has(name, folded) || has(row->address, folded) ||
 			has(row->comment, folded) || has(row->block, folded) ||
 			has(row->pin_told, folded);
 

@@ -10,8 +10,8 @@
 #include "editor-gtk/sim/sim.h"
 
 enum sim_group {
-	SIM_INPUTS, SIM_OUTPUTS, SIM_MEMORY, SIM_TIMERS, SIM_COUNTERS, SIM_ANALOGUE,
-	SIM_VALUES, SIM_PLANT, SIM_GROUPS
+	SIM_INPUTS, SIM_OUTPUTS, SIM_MEMORY, SIM_TIMERS, SIM_COUNTERS, SIM_BLOCKS, SIM_CHARTS,
+	SIM_ANALOGUE, SIM_VALUES, SIM_PLANT, SIM_GROUPS
 };
 
 enum sim_kind {
@@ -22,6 +22,9 @@ enum sim_kind {
 	SIM_SLIDER,    /* a number that is an input                            */
 	SIM_LEVEL,     /* a number that is an output                           */
 	SIM_VALUE,     /* anything else                                        */
+	SIM_STEP,      /* of a chart: is it active, and how long                */
+	SIM_WHOLE,     /* an instance, a chart, an array or a structure: its parts have lines
+			  of their own                                         */
 };
 
 #define LADDER_TYPE_SIM_ROW (ladder_sim_row_get_type())
@@ -40,15 +43,18 @@ struct _LadderSimRow {
 	char *pin;              /* "GPIO17", "12" of a chip; NULL: unknown     */
 	char *pin_told;         /* both, and the comment of the map; or NULL   */
 	int place_number;       /* in the order of the map                     */
-	char *block;            /* type of the timer or counter; else NULL     */
+	char *block;            /* type of the instance; else NULL             */
+	char *owner;            /* name of the line whose part it is; else NULL */
+	GPtrArray *parts;       /* of LadderSimRow: what it unfolds to; NULL: nothing */
 	bool plant;             /* of the plant                                */
 	bool driven;            /* by the plant                                */
-	bool folded;            /* of a SIM_HEADING                            */
-	struct location at;     /* the value; of a SIM_PRESET its ET or CV     */
-	/* Of a SIM_PRESET; type IEC_NONE: there is none. */
+	bool folded;            /* of a SIM_HEADING, and of a line with parts   */
+	struct location at;     /* the value; of a SIM_PRESET its ET or CV, of a SIM_STEP its
+				   T, of a SIM_WHOLE its first output           */
+	/* Of SIM_PRESET, SIM_STEP, SIM_WHOLE; type IEC_NONE: there is none. */
 	struct location preset;
 	struct location given;  /* the variable or pin to set the preset with  */
-	struct location done;   /* its Q                                       */
+	struct location done;   /* its Q, or its X                             */
 	struct location start;  /* of a timer: when it began to run            */
 	/* Choices of a person. */
 	bool push;              /* a push button instead of a switch           */
@@ -63,8 +69,8 @@ struct _LadderSimRow {
 GPtrArray *sim_rows_new(LadderSim *sim);
 /** sim_row_heading - the heading above @first. Caller: g_object_unref(). */
 LadderSimRow *sim_row_heading(const LadderSimRow *first, bool folded);
-/** sim_row_section - a key of the heading and of the lines below it: "0 gpiochip0". Caller
- * frees. */
+/** sim_row_section - a key of the heading and of the lines below it: "0 gpiochip0"; of a line
+ * with parts: "Delay" of the program, "@Delay" of the plant. Caller frees. */
 char *sim_row_section(const LadderSimRow *row);
 /** sim_row_is - is it the same line, apart from its places? */
 bool sim_row_is(const LadderSimRow *row, const LadderSimRow *other);
@@ -72,7 +78,13 @@ bool sim_row_is(const LadderSimRow *row, const LadderSimRow *other);
 void sim_row_become(LadderSimRow *row, const LadderSimRow *from);
 /** sim_row_set_range - of SIM_SLIDER, SIM_LEVEL; @ranged false: that of its type. */
 void sim_row_set_range(LadderSimRow *row, bool ranged, double low, double high);
-/** sim_row_matches - is @wanted in name, address, pin, place, comment or block? Ignores case. */
+/** sim_row_label - the name in its line: of a part without that of its owner. Borrowed. */
+const char *sim_row_label(const LadderSimRow *row);
+/** sim_row_told - of a chart: "Fill, Heat", the steps that are active. NULL: another row. Caller
+ * frees. */
+char *sim_row_told(const LadderSimRow *row, LadderSim *sim);
+/** sim_row_matches - is @wanted in name, address, pin, place, comment or block? Ignores case. The
+ * name of a part is that of its line, unless @wanted has a dot. */
 bool sim_row_matches(const LadderSimRow *row, const char *wanted);
 
 /** sim_group_name - translated. Lives for ever. */

@@ -12,6 +12,7 @@
 #include "editor-gtk/document/iomap_beside.h"
 #include "editor-gtk/document/iomap_text.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/sim/live_map.h"
 
 #include "engine/base/limits.h"
 #include "engine/model/args.h"
@@ -29,8 +30,10 @@ struct maker {
 	GHashTable *comments;       /* of folded names                         */
 	GHashTable *starts;         /* by place of ET: place of the timer's start */
 	GHashTable *taken;          /* places that have a line                 */
-	LadderSimRow *last;         /* timer or counter whose pins follow      */
+	GHashTable *steps;          /* places of steps: they have lines of their chart */
+	LadderSimRow *last;         /* instance whose pins follow               */
 	gsize last_len;             /* length of its name                      */
+	LadderSimRow *whole;        /* own block, array or structure whose parts follow */
 };
 
 /* ---- comments ---- */
@@ -199,7 +202,19 @@ static LadderSimRow *new_row(struct maker *maker, const char *name, gsize len,
 	return row;
 }
 
-static void add_value(struct maker *maker, const char *name, struct location at)
+/* Adds a line as a part of @owner. */
+static void become_part(LadderSimRow *row, LadderSimRow *owner)
+{
+	row->owner = g_strdup(owner->name);
+	row->group = owner->group;
+	if (!owner->parts)
+		owner->parts = g_ptr_array_new_with_free_func(g_object_unref);
+	g_ptr_array_add(owner->parts, g_object_ref(row));
+}
+
+/* @of: the line whose part it is; NULL: none. */
+static void add_value(struct maker *maker, const char *name, struct location at,
+		      LadderSimRow *of)
 {
 	const struct iec_addr addr = address_of(maker, at);
 	char text[32];
@@ -214,6 +229,8 @@ static void add_value(struct maker *maker, const char *name, struct location at)
 		place_value(row, addr.area);
 	if (maker->plant)
 		row->group = SIM_PLANT;
+	if (of)
+		become_part(row, of);
 	if (addr.area == AREA_NONE)
 		return;
 	iec_addr_print(addr, text, sizeof(text));
@@ -281,78 +298,206 @@ static struct location given_of(const struct maker *maker, const LadderSimRow *r
 	return row->preset;
 }
 
+static const struct word_row *word_of(const char *block)
+{
+	const enum word word = word_find(block, strlen(block));
+
+	return word < WORD_COUNT ? word_row(word) : NULL;
+}
+
 static void end_block(struct maker *maker)
 {
 	LadderSimRow *row = maker->last;
+	const struct word_row *word = row ? word_of(row->block) : NULL;
+	const char *now, *goal;
 
-	if (row && row->preset.type != IEC_NONE)
-		row->given = given_of(maker, row, row->group == SIM_COUNTERS ? "PV" : "PT");
-	if (row && maker->plant)
-		row->group = SIM_PLANT;
+	if (row && row->preset.type != IEC_NONE && live_word_counts(word, &now, &goal))
+		row->given = given_of(maker, row, goal);
 	maker->last = NULL;
 }
 
-static bool is_counted(const char *block, bool *timer)
+static enum sim_group group_of(const struct word_row *word, bool counts)
 {
-	static const char *const timers[] = { "TON", "TOF", "TP", "TONR" };
-
-	for (gsize i = 0; i < G_N_ELEMENTS(timers); i++)
-		if (strcmp(block, timers[i]) == 0) {
-			*timer = true;
-			return true;
-		}
-	*timer = false;
-	return g_str_has_prefix(block, "CTU") || g_str_has_prefix(block, "CTD");
+	if (strcmp(word->family, "Counters") == 0 || strstr(word->word, "COUNTER"))
+		return SIM_COUNTERS;
+	return counts || strcmp(word->family, "Timers") == 0 ? SIM_TIMERS : SIM_BLOCKS;
 }
 
-static void begin_block(struct maker *maker, const struct symbol *symbol, gsize len,
-			bool timer)
+static LadderSimRow *whole_new(struct maker *maker, const char *name, gsize len,
+			       enum sim_group group, const char *type)
 {
-	LadderSimRow *row = new_row(maker, symbol->name, len,
-				    (struct location){ .type = IEC_NONE });
+	LadderSimRow *row = new_row(maker, name, len, (struct location){ .type = IEC_NONE });
 
-	end_block(maker);
-	row->group = timer ? SIM_TIMERS : SIM_COUNTERS;
-	row->kind = SIM_PRESET;
-	row->block = g_strdup(symbol->block);
+	row->group = maker->plant ? SIM_PLANT : group;
+	row->kind = SIM_WHOLE;
+	row->block = g_strdup(type);
+	return row;
+}
+
+static void begin_block(struct maker *maker, const struct symbol *symbol, gsize len)
+{
+	const struct word_row *word = word_of(symbol->block);
+	const char *now, *goal;
+	const bool counts = word && live_word_counts(word, &now, &goal);
+	LadderSimRow *row = whole_new(maker, symbol->name, len,
+				      word ? group_of(word, counts) : SIM_BLOCKS,
+				      symbol->block);
+
+	if (counts)
+		row->kind = SIM_PRESET;
+	if (maker->whole)
+		become_part(row, maker->whole);
 	maker->last = row;
 	maker->last_len = len;
 }
 
-static void add_pin(struct maker *maker, const struct symbol *symbol, const char *pin)
+static bool is_pin(const char *pin, const char *name)
+{
+	return name && g_ascii_strcasecmp(pin, name) == 0;
+}
+
+/* Where the line of the instance has its value, its preset, its lamp. */
+static void take_pin(struct maker *maker, const struct symbol *symbol, const char *pin)
 {
 	LadderSimRow *row = maker->last;
 	const gint64 key = place_key(symbol->at);
 	const struct location *start;
+	const char *now = NULL, *goal = NULL;
 
-	if (strcmp(pin, "PT") == 0 || strcmp(pin, "PV") == 0) {
+	live_word_counts(word_of(symbol->block), &now, &goal);
+	if (is_pin(pin, goal)) {
 		row->preset = symbol->at;
-	} else if (strcmp(pin, "ET") == 0 || strcmp(pin, "CV") == 0) {
+	} else if (is_pin(pin, now)) {
 		row->at = symbol->at;
 		start = g_hash_table_lookup(maker->starts, &key);
 		if (start)
 			row->start = *start;
-	} else if (strcmp(pin, "Q") == 0 || strcmp(pin, "QU") == 0) {
+	} else if (!symbol->is_input && symbol->at.type == IEC_BOOL &&
+		   row->done.type == IEC_NONE) {
 		row->done = symbol->at;
+	} else if (!symbol->is_input && symbol->at.type != IEC_BOOL && !now &&
+		   row->at.type == IEC_NONE) {
+		row->at = symbol->at;
+	}
+}
+
+static void add_pin(struct maker *maker, const struct symbol *symbol, const char *pin)
+{
+	LadderSimRow *part;
+
+	take_pin(maker, symbol, pin);
+	if (maker->last->owner) /* two levels are enough */
+		return;
+	add_value(maker, symbol->name, symbol->at, maker->last);
+	part = maker->last->parts ? maker->last->parts->pdata[maker->last->parts->len - 1] : NULL;
+	if (part && part->kind == SIM_SWITCH && !symbol->is_input)
+		part->kind = SIM_LAMP;
+}
+
+/* ---- charts ---- */
+
+static struct location find_in(const struct maker *maker, const char *pou, const char *step,
+			       const char *what)
+{
+	char *name = g_strdup_printf("%s.%s.%s", pou, step, what);
+	struct location at = image_find(maker->image, name, strlen(name));
+
+	if (at.type == IEC_NONE)
+		at = image_find(maker->image, name + strlen(pou) + 1,
+				strlen(name) - strlen(pou) - 1);
+	g_free(name);
+	return at;
+}
+
+static void add_step(struct maker *maker, LadderSimRow *chart, const char *step)
+{
+	const struct location x = find_in(maker, chart->name, step, "X");
+	const struct location t = find_in(maker, chart->name, step, "T");
+	char *name = g_strdup_printf("%s.%s", chart->name, step);
+	LadderSimRow *row;
+
+	if (x.type != IEC_NONE) {
+		row = new_row(maker, name, strlen(name), t);
+		row->kind = SIM_STEP;
+		row->done = x;
+		become_part(row, chart);
+		g_hash_table_add(maker->steps, key_copy(place_key(x)));
+		g_hash_table_add(maker->steps, key_copy(place_key(t)));
+	}
+	g_free(name);
+}
+
+/* Charts of programs; one of a block has its steps among the parts of the instance. */
+static void add_charts(struct maker *maker)
+{
+	for (int p = 0; p < maker->project->pou_count; p++) {
+		const struct pou *pou = &maker->project->pou[p];
+		const char *name = project_text(maker->project, pou->name);
+		LadderSimRow *chart;
+
+		if (!pou->sfc || pou->kind != POU_PROGRAM)
+			continue;
+		chart = whole_new(maker, name, strlen(name), SIM_CHARTS, NULL);
+		for (int i = 0; i < pou->sfc->step_count; i++)
+			add_step(maker, chart, project_text(maker->project,
+							    pou->sfc->step[i].name));
 	}
 }
 
 /* ---- all ---- */
 
+/* Length of the declared name at the beginning of @name, with its POU if that is before it. */
+static gsize head_len(const struct maker *maker, const char *name)
+{
+	const gsize len = strcspn(name, ".[");
+
+	return name[len] == '.' && project_find_pou(maker->project, name, len) >= 0 ?
+	       len + 1 + strcspn(name + len + 1, ".[") : len;
+}
+
+/* Arrays of inputs and outputs have a line for each, as other inputs and outputs. */
+static bool is_part(const struct maker *maker, const struct symbol *symbol, gsize head)
+{
+	const enum iec_area area = address_of(maker, symbol->at).area;
+
+	return symbol->name[head] && !comes_in(area) && !goes_out(area);
+}
+
+/* The line of an own block, an array or a structure when its first part comes. */
+static void begin_whole(struct maker *maker, const struct symbol *symbol, gsize head)
+{
+	const bool is = symbol->name[head] == '.' || symbol->block;
+
+	if (maker->whole && strlen(maker->whole->name) == head &&
+	    strncmp(maker->whole->name, symbol->name, head) == 0)
+		return;
+	maker->whole = whole_new(maker, symbol->name, head, is ? SIM_BLOCKS :
+				 SIM_VALUES, NULL);
+}
+
 static void add_symbol(struct maker *maker, const struct symbol *symbol)
 {
 	const char *dot = symbol->block ? strrchr(symbol->name, '.') : NULL;
 	const gsize len = dot ? (gsize)(dot - symbol->name) : 0;
-	bool timer;
+	const gsize head = head_len(maker, symbol->name);
+	const gint64 key = place_key(symbol->at);
 
-	if (!dot || !is_counted(symbol->block, &timer)) {
+	if (g_hash_table_contains(maker->steps, &key))
+		return;
+	if (is_part(maker, symbol, head) && (!dot || len > head))
+		begin_whole(maker, symbol, head);
+	else
+		maker->whole = NULL;
+	if (!dot) {
 		end_block(maker);
-		add_value(maker, symbol->name, symbol->at);
+		add_value(maker, symbol->name, symbol->at, maker->whole);
 		return;
 	}
 	if (!maker->last || maker->last_len != len ||
-	    strncmp(maker->last->name, symbol->name, len) != 0)
-		begin_block(maker, symbol, len, timer);
+	    strncmp(maker->last->name, symbol->name, len) != 0) {
+		end_block(maker);
+		begin_block(maker, symbol, len);
+	}
 	add_pin(maker, symbol, dot + 1);
 }
 
@@ -365,6 +510,7 @@ static void add_symbols(struct maker *maker)
 		if (!(symbol.flags & SYMBOL_HIDDEN))
 			add_symbol(maker, &symbol);
 	end_block(maker);
+	maker->whole = NULL;
 }
 
 static void add_addresses(struct maker *maker)
@@ -384,7 +530,7 @@ static void add_addresses(struct maker *maker)
 		if (at.type == IEC_NONE || g_hash_table_contains(maker->taken, &key))
 			continue;
 		iec_addr_print(use->target.addr, text, sizeof(text));
-		add_value(maker, text, at);
+		add_value(maker, text, at, NULL);
 	}
 	xref_free(&xref);
 }
@@ -396,13 +542,16 @@ static void add_program(struct maker *maker)
 	maker->comments = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
 	maker->starts = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, g_free);
 	maker->taken = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
+	maker->steps = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
 	find_comments(maker);
 	find_starts(maker);
+	add_charts(maker);
 	add_symbols(maker);
 	add_addresses(maker);
 	g_hash_table_unref(maker->comments);
 	g_hash_table_unref(maker->starts);
 	g_hash_table_unref(maker->taken);
+	g_hash_table_unref(maker->steps);
 }
 
 /* ---- pins and places of the I/O map beside the project ---- */
@@ -542,7 +691,8 @@ static void take_map(const char *path, GPtrArray *rows)
 /* NULL: it has no address and keeps the order of its declaration. */
 static const char *order_key(const LadderSimRow *row)
 {
-	return row->address ? row->address : row->name[0] == '%' ? row->name : NULL;
+	return row->owner ? NULL : row->address ? row->address :
+	       row->name[0] == '%' ? row->name : NULL;
 }
 
 static int by_group(gconstpointer left, gconstpointer right)

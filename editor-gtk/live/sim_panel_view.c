@@ -14,6 +14,7 @@
 #include <math.h>
 #include <string.h>
 
+#define PART_INDENT 20 /* px                                                  */
 #define LOOKS 20 /* updates during which a slider waits for the value it set   */
 
 struct _LadderSimRowView {
@@ -27,7 +28,7 @@ struct _LadderSimRowView {
 	double sent;             /* the value that the slider set last          */
 	int waiting;             /* updates left until the slider gives that up */
 	GtkWidget *heading, *arrow, *title, *where;
-	GtkWidget *line, *lamp, *address, *name, *pin, *tag, *badge, *value, *toggle, *push;
+	GtkWidget *line, *unfold, *lamp, *address, *name, *pin, *tag, *badge, *value, *toggle, *push;
 	GtkWidget *entry;        /* NULL: none yet                              */
 	enum sim_edit editing;
 	GtkWidget *bar, *scale;
@@ -52,7 +53,8 @@ static const char *kind_name(const LadderSimRow *row)
 	static const char *const name[SIM_GROUPS] = {
 		[SIM_INPUTS] = N_("Input"), [SIM_OUTPUTS] = N_("Output"),
 		[SIM_MEMORY] = N_("Bit"), [SIM_TIMERS] = N_("Timer"),
-		[SIM_COUNTERS] = N_("Counter"), [SIM_ANALOGUE] = N_("Analogue"),
+		[SIM_COUNTERS] = N_("Counter"), [SIM_BLOCKS] = N_("Block"),
+		[SIM_CHARTS] = N_("Chart"), [SIM_ANALOGUE] = N_("Analogue"),
 		[SIM_VALUES] = N_("Value"), [SIM_PLANT] = N_("Plant"),
 	};
 
@@ -77,12 +79,16 @@ static void name_line(LadderSimRowView *view, const char *name)
 static void speak(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
-	const char *state = !sim_row_is_bit(row) ? "" : view->value_seen.value.i ? _("on") : _("off");
+	const bool step = row->kind == SIM_STEP;
+	const char *state = !sim_row_is_bit(row) && !step ? "" :
+		(step ? view->done_seen.value.i : view->value_seen.value.i) ? _("on") : _("off");
 	char *name = g_strdup_printf("%s %s%s%s%s%s", kind_name(row), row->name,
 				     row->address ? ", " : "",
 				     row->address ? row->address : "",
 				     row->pin ? ", " : "", row->pin ? row->pin : "");
-	char *all = g_strdup_printf("%s%s%s%s%s", name, *state ? ", " : "", state,
+	const char *folds = !row->parts ? "" : row->folded ? _("folded") : _("unfolded");
+	char *all = g_strdup_printf("%s%s%s%s%s%s%s", name, *state ? ", " : "", state,
+				    *folds ? ", " : "", folds,
 				    is_forced(view) ? ", " : "", is_forced(view) ? _("forced") : "");
 
 	name_line(view, all);
@@ -153,8 +159,13 @@ static void show_value(LadderSimRowView *view)
 	const double number = live_value_number(row->at.type, view->value_seen.value);
 	char text[IEC_VALUE_TEXT + 1];
 
-	live_value_print(row->at.type, view->value_seen.value, text, sizeof(text));
+	text[0] = '\0';
+	if (row->at.type != IEC_NONE)
+		live_value_print(row->at.type, view->value_seen.value, text, sizeof(text));
 	gtk_label_set_text(GTK_LABEL(view->value), text);
+	show_lamp(view, view->done_seen.value.i);
+	if (row->kind == SIM_STEP)
+		speak(view);
 	if (row->kind == SIM_LEVEL)
 		show_fraction(view, number - row->low, row->high - row->low);
 	if (row->kind == SIM_SLIDER)
@@ -164,6 +175,16 @@ static void show_value(LadderSimRowView *view)
 static bool look(LadderSimRowView *view, struct live_seen *seen, struct location at)
 {
 	return live_value_look(seen, view->sim, view->row->plant, at);
+}
+
+/* The steps of a chart that are active. */
+static void show_told(LadderSimRowView *view)
+{
+	char *told = sim_row_told(view->row, view->sim);
+
+	if (told && strcmp(told, gtk_label_get_text(GTK_LABEL(view->value))) != 0)
+		gtk_label_set_text(GTK_LABEL(view->value), told);
+	g_free(told);
 }
 
 void ladder_sim_row_view_update(LadderSimRowView *view)
@@ -188,6 +209,8 @@ void ladder_sim_row_view_update(LadderSimRowView *view)
 		show_preset(view);
 	else if (changed)
 		show_value(view);
+	if (view->row->kind == SIM_WHOLE)
+		show_told(view);
 	view->telling = false;
 }
 
@@ -307,7 +330,7 @@ static char *field_name(const LadderSimRowView *view)
 {
 	return view->row->kind != SIM_PRESET ? g_strdup(view->row->name) :
 	       g_strdup_printf(view->editing == SIM_EDIT_PRESET ? _("%s, preset") :
-			       view->row->group == SIM_COUNTERS ? _("%s, count") :
+			       view->row->at.type != IEC_TIME ? _("%s, count") :
 			       _("%s, elapsed"), view->row->name);
 }
 
@@ -316,7 +339,8 @@ void ladder_sim_row_view_edit(LadderSimRowView *view, enum sim_edit what)
 	struct location at;
 	char *text, *name;
 
-	if (!view->row || view->row->kind == SIM_HEADING || sim_row_is_bit(view->row))
+	if (!view->row || view->row->kind == SIM_HEADING || view->row->kind >= SIM_STEP ||
+	    sim_row_is_bit(view->row))
 		return;
 	view->editing = what;
 	at = place_of(view);
@@ -383,8 +407,9 @@ static char *tooltip_of(const LadderSimRow *row)
 
 	if (row->address)
 		g_string_append_printf(out, "  %s", row->address);
-	g_string_append_printf(out, "  %s", row->block ? row->block :
-			       iec_type_row(row->at.type)->word);
+	if (row->block || row->at.type != IEC_NONE)
+		g_string_append_printf(out, "  %s", row->block ? row->block :
+				       iec_type_row(row->at.type)->word);
 	if (row->pin_told)
 		g_string_append_printf(out, "\n%s", row->pin_told);
 	if (row->comment)
@@ -420,7 +445,11 @@ static void show_line(LadderSimRowView *view)
 	const bool bit = sim_row_is_bit(row), given = row->kind == SIM_SWITCH;
 	char *tooltip = tooltip_of(row);
 
-	gtk_label_set_text(GTK_LABEL(view->name), row->name);
+	gtk_label_set_text(GTK_LABEL(view->name), sim_row_label(row));
+	gtk_widget_set_margin_start(view->line, row->owner ? PART_INDENT : 0);
+	gtk_widget_set_visible(view->unfold, row->parts != NULL);
+	gtk_image_set_from_icon_name(GTK_IMAGE(view->unfold), row->folded ?
+				     "pan-end-symbolic" : "pan-down-symbolic");
 	gtk_label_set_text(GTK_LABEL(view->address), row->address ? row->address : "");
 	gtk_widget_set_visible(view->address, row->address != NULL);
 	gtk_label_set_text(GTK_LABEL(view->pin), row->pin ? row->pin : "");
@@ -520,7 +549,7 @@ static gboolean fold_later(gpointer data)
 {
 	LadderSimRowView *view = data;
 
-	if (view->row && view->row->kind == SIM_HEADING)
+	if (view->row && (view->row->kind == SIM_HEADING || view->row->parts))
 		ladder_sim_row_view_fold(GTK_WIDGET(view), view->row);
 	g_object_unref(view);
 	return G_SOURCE_REMOVE;
@@ -626,7 +655,13 @@ static void add_controls(LadderSimRowView *view)
 
 static void add_line(LadderSimRowView *view)
 {
+	GtkGesture *click = gtk_gesture_click_new();
+
 	view->line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+	view->unfold = gtk_image_new();
+	gtk_box_append(GTK_BOX(view->line), view->unfold);
+	g_signal_connect_swapped(click, "released", G_CALLBACK(heading_released), view);
+	gtk_widget_add_controller(view->unfold, GTK_EVENT_CONTROLLER(click));
 	view->lamp = g_object_new(GTK_TYPE_BOX, "css-name", "lamp", "accessible-role",
 				  GTK_ACCESSIBLE_ROLE_IMG, NULL);
 	gtk_widget_set_valign(view->lamp, GTK_ALIGN_CENTER);

@@ -303,7 +303,7 @@ static void test_found(void)
 
 	CHECK(ladder_sim_panel_select(panel, "Start"));
 	CHECK(gtk_widget_grab_focus(find_widget(GTK_WIDGET(panel), GTK_TYPE_LIST_VIEW)));
-	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "6 ");
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "8 ");
 	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 ");
 	CHECK_AS(keys_arrive(window), "a key right after an edit is not lost");
 	all = lines();
@@ -320,7 +320,7 @@ static void test_found(void)
 	gtk_editable_set_text(GTK_EDITABLE(search), "");
 	CHECK_SOON(row_of("Alarm"));
 	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 ");
-	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "6 ");
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "8 ");
 	CHECK(row_of("Start") && row_of("Temp"));
 }
 
@@ -450,6 +450,77 @@ static void test_end(void)
 	CHECK_SOON(g_list_model_get_n_items(panel_list(panel)) == 0);
 }
 
+static const char wholes[] =
+	"RUNGBOARD 1\n\n"
+	"VAR\n  Line : Belt;\n  Table : ARRAY[1..3] OF INT;\n  Free : BOOL;\n"
+	"END_VAR\n\n"
+	"FUNCTION_BLOCK Belt LD\nVAR_INPUT\n  Run : BOOL; (* from the door *)\nEND_VAR\n"
+	"VAR_OUTPUT\n  Motor : BOOL;\nEND_VAR\nVAR\n  Soft : TON;\nEND_VAR\n"
+	"RUNG\n  | NO Run | TON Soft PT:=T#1s | COIL Motor |\nEND_FUNCTION_BLOCK\n\n"
+	"PROGRAM Main SFC\n  INITIAL_STEP Start:\n    Q0.0(N);\n  END_STEP\n"
+	"  STEP Fill:\n    Q0.1(N);\n  END_STEP\n"
+	"  TRANSITION FROM Start TO Fill := I0.0;\n  END_TRANSITION\n"
+	"  TRANSITION FROM Fill TO Start := I0.1;\n  END_TRANSITION\n"
+	"END_PROGRAM\n\n"
+	"PROGRAM Other LD\nVAR\n  Latch : SR;\n  Wait : TON;\nEND_VAR\n"
+	"RUNG\n  | NO I0.0 | Belt Line | COIL Q0.2 |\n"
+	"RUNG\n  | NO I0.0 | SR Latch R:=I0.1 | COIL Free |\n"
+	"RUNG\n  | NO Free | TON Wait PT:=T#2s | COIL Q0.3 |\nEND_PROGRAM\n";
+
+static bool lists(const char *expected)
+{
+	char *all = lines();
+	const bool is = strcmp(all, expected) == 0;
+
+	if (!is)
+		printf("# %s\n", all);
+	g_free(all);
+	return is;
+}
+
+static void search(const char *text)
+{
+	gtk_editable_set_text(GTK_EDITABLE(find_widget(GTK_WIDGET(panel),
+						       GTK_TYPE_SEARCH_ENTRY)), text);
+}
+
+#define IN_OUT "[Inputs] %IX0.0 %IX0.1 [Outputs] %QX0.0 %QX0.1 %QX0.2 %QX0.3 [Memory] Free "
+
+/* An instance, a chart, an array is one line; it unfolds to its parts, which a search finds. */
+static void test_wholes(void)
+{
+	ladder_sim_end(sim);
+	ladder_document_open_text(document, NULL, wholes, strlen(wholes), true);
+	CHECK(ladder_sim_begin(sim, NULL));
+	CHECK(lists(IN_OUT "[Timers] Wait [Blocks] Line Latch [Charts] Main "
+			    "[Values] Table "));
+	ladder_sim_scan(sim, 2);
+	CHECK_SOON(shows("Main", "Start"));
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "Main");
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "Line");
+	CHECK(lists(IN_OUT "[Timers] Wait [Blocks] Line Line.Run Line.Motor Line.Soft "
+			    "Latch [Charts] Main Main.Start Main.Fill [Values] Table "));
+	CHECK(shows("Main.Start", "10 ms"));
+	/* what is unfolded stays so when another program runs */
+	ladder_document_open_text(document, NULL, wholes, strlen(wholes) - 1, true);
+	CHECK_SOON(row_of("Line.Soft") && row_of("Main.Fill"));
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "Main");
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "Line");
+	CHECK(!row_of("Line.Soft") && !row_of("Main.Fill"));
+	search("fill");
+	WAIT(!row_of("Free"));
+	CHECK(lists("[Charts] Main Main.Fill "));
+	search("from the door");
+	WAIT(!row_of("Main"));
+	CHECK(lists("[Blocks] Line Line.Run "));
+	search("wait.pt");
+	WAIT(!row_of("Line"));
+	CHECK(lists("[Timers] Wait Wait.PT "));
+	search("");
+	WAIT(row_of("Free"));
+	CHECK(ladder_sim_panel_select(panel, "Table[2]") && row_of("Table[3]"));
+}
+
 int main(int argc, char **argv)
 {
 	if (!screen_start()) {
@@ -486,6 +557,7 @@ int main(int argc, char **argv)
 	test_plant();
 	test_many();
 	test_map();
+	test_wholes();
 	test_end();
 	gtk_window_destroy(GTK_WINDOW(window));
 	g_object_unref(sim);

@@ -129,6 +129,29 @@ def keyboard(screen):
     line(editor, 'Input Start, %IX0.0, off')
 
 
+def unfolded(screen):
+    """a timer unfolds to its pins by pointer and by keys; a folded one is found; Left goes back to its line"""
+    editor = begin(screen, PROGRAM)
+    timer = line(editor, 'Timer Delay', 'folded')
+    assert not editor.all('Delay.IN', 'list item')
+    x, y, _, height = editor.place(timer)
+    editor.click((x + 18, y + height // 2))
+    line(editor, 'Delay.IN')
+    editor.shot('simpanel-unfolded')
+    editor.keys('Down', 'Left')
+    until(lambda: line(editor, 'Timer Delay').has(23), 'the line of the timer')
+    editor.keys('Left')
+    until(lambda: not editor.all('Delay.IN', 'list item'), 'the pins to be folded')
+    editor.keys('Right')
+    line(editor, 'Delay.IN')
+    editor.keys('Left')
+    editor.click(editor.find('Filter the variables'))
+    editor.focus_on(role='entry')
+    editor.type('delay.et')
+    line(editor, 'Delay.ET')
+    until(lambda: not editor.all('Input Start', 'list item'), 'the filter')
+
+
 def small(screen):
     """1024 x 700, dark, Chinese: everything is visible and folds"""
     editor = Chinese(screen, new_file(screen, PROGRAM + CHOSEN), ADW_DEBUG_COLOR_SCHEME='prefer-dark')
@@ -147,4 +170,4 @@ def small(screen):
 
 small.size = '1024x700x24'
 pointer.quick = 'editor-gtk/live'
-main([pointer, keyboard, small])
+main([pointer, keyboard, unfolded, small])
