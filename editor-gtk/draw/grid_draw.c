@@ -252,8 +252,15 @@ static struct lettered fit_count(struct lettering *lettering, const char *text, 
 {
 	const char *goal = strstr(text, " / ");
 
-	if (goal && lettering_fit(lettering, LETTER_VALUE, text, -1, 0).width > room)
-		return lettering_fit(lettering, LETTER_VALUE, text, goal - text, room);
+	if (goal && lettering_fit(lettering, LETTER_VALUE, text, -1, 0).width > room) {
+		/* the unit of both is behind the goal */
+		const char *unit = memchr(text, ' ', (size_t)(goal - text)) ? "" : strrchr(text, ' ');
+		char now[48];
+
+		g_snprintf(now, sizeof(now), "%.*s%s", (int)(goal - text), text,
+			   g_ascii_isalpha(unit[0] ? unit[1] : 0) ? unit : "");
+		return lettering_fit(lettering, LETTER_VALUE, now, -1, room);
+	}
 	return lettering_fit(lettering, LETTER_VALUE, text, -1, room);
 }
 

@@ -229,8 +229,11 @@ static void add_value(struct maker *maker, const char *name, struct location at,
 		place_value(row, addr.area);
 	if (maker->plant)
 		row->group = SIM_PLANT;
-	if (of)
+	if (of) {
 		become_part(row, of);
+		if (!row->comment) /* that of the variable in its block */
+			row->comment = comment_of(maker, sim_row_label(row));
+	}
 	if (addr.area == AREA_NONE)
 		return;
 	iec_addr_print(addr, text, sizeof(text));

@@ -135,7 +135,7 @@ def unfolded(screen):
     timer = line(editor, 'Timer Delay', 'folded')
     assert not editor.all('Delay.IN', 'list item')
     x, y, _, height = editor.place(timer)
-    editor.click((x + 18, y + height // 2))
+    editor.click((x + 8, y + height // 2))
     line(editor, 'Delay.IN')
     editor.shot('simpanel-unfolded')
     editor.keys('Down', 'Left')
