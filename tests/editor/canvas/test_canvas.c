@@ -5,13 +5,10 @@
  */
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sfc/sfc_view.h"
-#include "editor-gtk/window/app.h"
-#include "tests/editor/screen.h"
+#include "tests/editor/sheet_window.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 
-#include <adwaita.h>
-#include <gtksourceview/gtksource.h>
 #include <string.h>
 
 static const char sample[] =
@@ -97,21 +94,10 @@ static void test_sheet(LadderDocument *document, GtkWidget *sheet, double least,
 
 int main(void)
 {
-	LadderDocument *document;
+	LadderDocument *document = sheet_window(sample, 500, 200, &window);
 
-	if (!screen_start() || !gtk_init_check()) {
-		printf("1..0 # SKIP needs Xvfb\n");
+	if (!document)
 		return 0;
-	}
-	adw_init();
-	gtk_source_init();
-	app_style();
-	document = ladder_document_new();
-	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
-	window = gtk_window_new();
-	gtk_window_set_default_size(GTK_WINDOW(window), 500, 200);
-	gtk_window_set_child(GTK_WINDOW(window), gtk_box_new(GTK_ORIENTATION_VERTICAL, 0));
-	screen_show(window);
 	test_sheet(document, ladder_grid_view_new(document, 0), 0.5, VERB_comment);
 	test_sheet(document, ladder_sfc_view_new(document, 1), 0.3, VERB_chart_comment);
 	gtk_window_destroy(GTK_WINDOW(window));

@@ -6,13 +6,10 @@
  */
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sfc/sfc_view.h"
-#include "editor-gtk/window/app.h"
-#include "tests/editor/screen.h"
+#include "tests/editor/sheet_window.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 
-#include <adwaita.h>
-#include <gtksourceview/gtksource.h>
 #include <string.h>
 
 #define MENU_MOST 14 /* rows of a context menu                                      */
@@ -245,19 +242,9 @@ static void test_feed(void)
 
 int main(void)
 {
-	if (!screen_start() || !gtk_init_check()) {
-		printf("1..0 # SKIP needs Xvfb\n");
+	document = sheet_window(sample, 900, 500, &window);
+	if (!document)
 		return 0;
-	}
-	adw_init();
-	gtk_source_init();
-	app_style();
-	document = ladder_document_new();
-	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
-	window = gtk_window_new();
-	gtk_window_set_default_size(GTK_WINDOW(window), 900, 500);
-	gtk_window_set_child(GTK_WINDOW(window), gtk_box_new(GTK_ORIENTATION_VERTICAL, 0));
-	screen_show(window);
 	test_ladder();
 	test_chart();
 	test_conditions();

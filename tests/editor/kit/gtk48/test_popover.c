@@ -3,17 +3,14 @@
  * test_popover - a page is destroyed while its menu or entry is open. The warning of GTK
  * about a child that is left ends the test.
  */
-#include "editor-gtk/window/app.h"
 #include "editor-gtk/kit/entry_popup.h"
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/sfc/sfc_view.h"
-#include "tests/editor/screen.h"
+#include "tests/editor/sheet_window.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 
-#include <adwaita.h>
-#include <gtksourceview/gtksource.h>
 #include <string.h>
 
 static const char sample[] =
@@ -84,21 +81,10 @@ static void test_any(void)
 
 int main(void)
 {
-	LadderDocument *document;
+	LadderDocument *document = sheet_window(sample, 900, 600, &window);
 
-	if (!screen_start() || !gtk_init_check()) {
-		printf("1..0 # SKIP needs Xvfb\n");
+	if (!document)
 		return 0;
-	}
-	adw_init();
-	gtk_source_init();
-	app_style();
-	document = ladder_document_new();
-	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
-	window = gtk_window_new();
-	gtk_window_set_default_size(GTK_WINDOW(window), 900, 600);
-	gtk_window_set_child(GTK_WINDOW(window), gtk_box_new(GTK_ORIENTATION_VERTICAL, 0));
-	screen_show(window);
 	test_pages(document);
 	test_any();
 	gtk_window_destroy(GTK_WINDOW(window));
