@@ -102,8 +102,11 @@ sub check_console {
 	}
 	ok(@steps > 0, "$where: has commands");
 	for my $step (@steps) {
-		# There is no editor without GTK.
-		next if $step->{command} =~ /^ladder-editor\b/ && !-x "$build/ladder-editor";
+		# There is no editor without GTK. The commands behind it read what it draws.
+		if ($step->{command} =~ /^ladder-editor\b/ && !-x "$build/ladder-editor") {
+			SKIP: { skip("$where:$step->{line}: there is no ladder-editor", 1) }
+			last;
+		}
 		my ($text, undef, $signal) = run_in($folder, $step->{command});
 		$text =~ s/[ \t]+$//mg;
 		ok($signal == 0 && $text =~ pattern_of($step->{shown}),
