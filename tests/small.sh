@@ -49,5 +49,12 @@ said $? 1 'LD104: not valid UTF-8'; say $? 'an I/O map that is not UTF-8: the sa
 printf '\377\376B\0O\0' >"$tmp/io"
 check small "$tmp/ton.rungc"
 said $? 1 'LD142: this is UTF-16'; say $? 'an I/O map in UTF-16: the same'
+# The messages of its sources must have a code and a text there.
+(cd "$build/small" && find runtime hal -name '*.o') | sed 's/o$/c/' | xargs grep -oh 'DIAG_[A-Z0-9_]*' |
+	sed 's/DIAG_//' | sort -u >"$tmp/given"
+printf '#define DIAG(id, code, severity, text) id DIAG_TEXT(code)\n#include "engine/diag.def"\n' |
+	${CC:-cc} -E -P -Iruntime -DRUNGBOARD_SMALL - | sed -n 's/^ *\([A-Z0-9_]*\) "\\0"$/\1/p' | sort >"$tmp/left"
+grep -q . "$tmp/left" && ! comm -12 "$tmp/given" "$tmp/left" | tee "$tmp/out" | grep -q .
+say $? 'each message that it can give has its text'
 echo "1..$n"
 exit $failed

@@ -85,7 +85,7 @@ static bool set_option(struct options *options, const struct option_row *row,
 		       const char *value)
 {
 	char *at = (char *)options + row->at;
-	int64_t number;
+	int64_t number = 0;
 
 	switch (row->kind) {
 	case FLAG:

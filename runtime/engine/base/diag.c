@@ -16,7 +16,7 @@
  * pointer a row would. A search is cheap enough, as it happens only when a message is
  * printed. */
 static const char texts[] =
-#define DIAG(id, code, severity, text) code "\0" DIAG_TEXT(text) "\0"
+#define DIAG(id, code, severity, text) DIAG_TEXT(code "\0" text) "\0"
 #include "engine/diag.def"
 ;
 
