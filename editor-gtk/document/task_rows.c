@@ -282,11 +282,35 @@ static void write_programs(struct task_text *t)
 			new_program(t, index_of(t, closing_line(t)), i, "");
 }
 
+/* Is the CONFIGURATION in another file? */
+static bool is_included(const struct project *project)
+{
+	for (int i = 0; project && i < project->part_count; i++)
+		if (project->part[i].kind == PART_CONFIG)
+			return project->part[i].included;
+	return false;
+}
+
+static void add_closing(struct task_text *t, const char *text)
+{
+	struct line *line = line_new(LINE_FIXED, g_strdup(text));
+
+	line->closes = true;
+	g_ptr_array_add(t->line, line);
+}
+
+/* The lines of another file, to be shown. */
+static void take_included(struct task_text *t)
+{
+	for (int i = 0; i < t->project->config->count; i++)
+		add_entry(t, &(struct text_span){ .number = i });
+	add_closing(t, "");
+}
+
 static struct task_text *text_new(LadderDocument *document, bool *written)
 {
 	struct task_text *t = g_new0(struct task_text, 1);
 	struct places places = { .t = t };
-	struct line *line;
 
 	t->document = document;
 	t->project = ladder_document_project(document);
@@ -300,14 +324,13 @@ static struct task_text *text_new(LadderDocument *document, bool *written)
 		t->at = places.part.at;
 		t->removed = places.part.len;
 		take_apart(t, &places);
+	} else if (is_included(t->project)) {
+		take_included(t);
 	} else {
 		t->at = places.first.len ? places.first.at : t->len;
-		line = line_new(LINE_FIXED, g_strdup(places.first.len ?
-			"CONFIGURATION Config\n" : "\nCONFIGURATION Config\n"));
-		g_ptr_array_add(t->line, line);
-		line = line_new(LINE_FIXED, g_strdup("END_CONFIGURATION\n\n"));
-		line->closes = true;
-		g_ptr_array_add(t->line, line);
+		g_ptr_array_add(t->line, line_new(LINE_FIXED, g_strdup(places.first.len ?
+			"CONFIGURATION Config\n" : "\nCONFIGURATION Config\n")));
+		add_closing(t, "END_CONFIGURATION\n\n");
 	}
 	g_array_unref(places.entry);
 	*written = has(t, LINE_PROGRAM);
@@ -391,7 +414,7 @@ static void name_line(struct task_row *row, const struct task_text *t, struct li
 	put(&row->text[TASKS_NAME], line->name);
 	if (line->changed)
 		return; /* it is not in the file */
-	row->line = line_number(t, index);
+	row->line = is_included(t->project) ? 0 : line_number(t, index);
 	for (int i = 0; i < config->count; i++)
 		if (same(project_text(t->project, config->entry[i].name), line->name)) {
 			g_free(row->text[TASKS_COMMENT]);
@@ -487,14 +510,6 @@ static void add_idle(struct task_rows *tasks)
 		put(&row->text[TASKS_PROGRAM], name);
 		row->pou = i;
 	}
-}
-
-static bool is_included(const struct project *project)
-{
-	for (int i = 0; project && i < project->part_count; i++)
-		if (project->part[i].kind == PART_CONFIG)
-			return project->part[i].included;
-	return false;
 }
 
 struct task_rows *task_rows_new(LadderDocument *document)
@@ -798,15 +813,18 @@ static struct line *task_of_rest(struct task_rows *tasks, const struct task_row 
 
 /* ---- fields ---- */
 
-/* 10ms becomes T#10ms. Caller frees. */
+/* 10ms and 10 ms become T#10ms. Caller frees. */
 static char *time_of(const char *text)
 {
 	const gsize size = strlen(text) + sizeof("T#");
+	char **part = g_strsplit(text, " ", -1), *whole = g_strjoinv("", part);
 	char *out = g_malloc0(size);
 	bool fits;
 
-	if (!entry_literal(text, strlen(text), out, size, &fits) || !fits)
+	if (!entry_literal(whole, strlen(whole), out, size, &fits) || !fits)
 		g_strlcpy(out, text, size);
+	g_strfreev(part);
+	g_free(whole);
 	return out;
 }
 

@@ -8,6 +8,7 @@
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/task_lane.h"
+#include "editor-gtk/sim/live_value.h"
 
 #define NAMES_PX 150   /* names left of the lanes                              */
 #define ZOOM 1.5
@@ -33,12 +34,11 @@ static LadderTaskLane *lane_of(GtkListBoxRow *row)
 /* "Two rounds of all periods: 40 ms". Caller frees. */
 static char *span_text(const struct schedule *schedule)
 {
-	char *span = schedule_time(schedule->span_ns);
-	char *text = g_strdup_printf(schedule->whole ? _("%s: after half of it everything repeats") :
-				     _("the first %s"), span);
+	char span[32];
 
-	g_free(span);
-	return text;
+	live_time_print(schedule->span_ns, span, sizeof(span));
+	return g_strdup_printf(schedule->whole ? _("%s: after half of it everything repeats") :
+			       _("the first %s"), span);
 }
 
 static void show_text(LadderTaskChart *chart)
@@ -240,10 +240,13 @@ static char *when_text(const struct schedule *schedule, const struct schedule_la
 		       const struct task_rows *tasks)
 {
 	const int row = task_rows_find(tasks, TASKS_TASK, lane->name);
+	char period[32];
 
 	if (lane->kind == TASK_EVENT)
 		return g_strdup_printf(_("on %s"), row >= 0 ? tasks->row[row].text[TASKS_WHEN] : "");
-	return schedule_time(lane->kind == TASK_INTERVAL ? lane->interval_ns : schedule->tick_ns);
+	live_time_print(lane->kind == TASK_INTERVAL ? lane->interval_ns : schedule->tick_ns,
+			period, sizeof(period));
+	return g_strdup(period);
 }
 
 static void fill_row(LadderTaskChart *chart, GtkListBoxRow *row, int number,
@@ -311,6 +314,7 @@ static GtkWidget *heading_new(LadderTaskChart *chart)
 	gtk_widget_add_css_class(label, "panel-heading");
 	chart->text = label_new();
 	gtk_widget_set_hexpand(chart->text, TRUE);
+	gtk_widget_set_margin_top(chart->text, 6); /* that of the heading */
 	chart->tools = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
 	gtk_box_append(GTK_BOX(chart->tools), button_new("zoom-out-symbolic", _("Zoom out"),
 							 "task-chart.zoom-out"));

@@ -9,7 +9,7 @@
 
 #include <gtk/gtk.h>
 
-#include "editor-gtk/document/schedule.h"
+#include "editor-gtk/sim/schedule.h"
 #include "editor-gtk/document/task_rows.h"
 
 #define LADDER_TYPE_TASK_CHART (ladder_task_chart_get_type())

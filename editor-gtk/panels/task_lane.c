@@ -8,6 +8,7 @@
 #include "editor-gtk/panels/task_lane.h"
 
 #include "editor-gtk/kit/theme.h"
+#include "editor-gtk/sim/live_value.h"
 
 #include <adwaita.h>
 #include <math.h>
@@ -113,10 +114,13 @@ static double step_of(double least)
 
 static void draw_time(struct drawing *drawing, double ns)
 {
-	char *text = schedule_time((gint64)ns);
-	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(drawing->lane), text);
 	const double x = x_of(drawing, ns);
+	PangoLayout *layout;
+	char text[32];
 	int width;
+
+	live_time_print((gint64)ns, text, sizeof(text));
+	layout = gtk_widget_create_pango_layout(GTK_WIDGET(drawing->lane), text);
 
 	pango_layout_get_pixel_size(layout, &width, NULL);
 	fill(drawing, TOKEN_LINE, x, 0, 1, 5);
@@ -128,7 +132,6 @@ static void draw_time(struct drawing *drawing, double ns)
 		gtk_snapshot_restore(drawing->snapshot);
 	}
 	g_object_unref(layout);
-	g_free(text);
 }
 
 static void draw_ruler(struct drawing *drawing)

@@ -9,7 +9,7 @@
 
 #include <gtk/gtk.h>
 
-#include "editor-gtk/document/schedule.h"
+#include "editor-gtk/sim/schedule.h"
 
 #define LADDER_TYPE_TASK_LANE (ladder_task_lane_get_type())
 G_DECLARE_FINAL_TYPE(LadderTaskLane, ladder_task_lane, LADDER, TASK_LANE, GtkWidget)

@@ -593,17 +593,24 @@ static GdkContentProvider *drag_prepared(GtkDragSource *source, double x, double
 					 GtkListItem *item)
 {
 	LadderPanelRow *row = gtk_list_item_get_item(item);
-	GtkWidget *handle = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(source));
-	GtkWidget *of_row = gtk_widget_get_parent(gtk_widget_get_parent(handle));
-	GdkPaintable *picture;
 
+	(void)source;
+	(void)x;
+	(void)y;
 	if (!row || row->flags & TASKS_FIXED || row->table == TASKS_EACH_SCAN ||
 	    row->table == TASKS_IDLE)
 		return NULL;
-	picture = gtk_widget_paintable_new(of_row);
-	gtk_drag_source_set_icon(source, picture, (int)x, (int)y);
-	g_object_unref(picture);
 	return gdk_content_provider_new_typed(LADDER_TYPE_PANEL_ROW, row);
+}
+
+static void drag_begun(GtkDragSource *source, GdkDrag *drag, GtkListItem *item)
+{
+	const LadderPanelRow *row = gtk_list_item_get_item(item);
+	GtkWidget *label = gtk_label_new(row ? panel_row_text(row, TASKS_NAME) : "");
+
+	(void)source;
+	gtk_widget_add_css_class(label, "dragged-row");
+	gtk_drag_icon_set_child(GTK_DRAG_ICON(gtk_drag_icon_get_for_drag(drag)), label);
 }
 
 static void unmark(LadderTasksView *view)
@@ -719,6 +726,7 @@ static void setup_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_widget_set_margin_start(handle, BESIDE_PANE);
 	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
 	g_signal_connect(source, "prepare", G_CALLBACK(drag_prepared), item);
+	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begun), item);
 	gtk_widget_add_controller(handle, GTK_EVENT_CONTROLLER(source));
 	gtk_list_item_set_child(item, handle);
 }

@@ -18,6 +18,7 @@
 #define EDITOR_SIM_H
 
 #include "editor-gtk/document/document.h"
+#include "editor-gtk/document/task_rows.h"
 
 #include "engine/trial/record.h"
 
@@ -26,7 +27,7 @@ G_DECLARE_FINAL_TYPE(LadderSim, ladder_sim, LADDER, SIM, GObject)
 
 #define SIM_SCANS 100000            /* that are recorded, at most              */
 #define SIM_BYTES (100u << 20)      /* of all records, at most                 */
-#define SIM_PERIOD G_GINT64_CONSTANT(10000000) /* ns, if no task has one        */
+#define SIM_PERIOD TASKS_PERIOD_NS /* if no task has one                      */
 
 /** ladder_sim_new - off. @document: referenced. */
 LadderSim *ladder_sim_new(LadderDocument *document);

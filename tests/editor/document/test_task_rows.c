@@ -140,6 +140,7 @@ static void test_fields(void)
 	CHECK_TEXT(text, plant);
 	check_order(document, "Fast: A BSlow:Each scan: CDo not run: Spare");
 	set(document, "Fast", TASKS_WHEN, "10ms", "INTERVAL := T#5ms", "INTERVAL := T#10ms");
+	set(document, "Fast", TASKS_WHEN, "2.5 s", "INTERVAL := T#5ms", "INTERVAL := T#2.5s");
 	set(document, "Fast", TASKS_WHEN, " T#1s500ms ", "INTERVAL := T#5ms",
 	    "INTERVAL := T#1s500ms");
 	set(document, "Fast", TASKS_WHEN, "Door", "INTERVAL := T#5ms", "SINGLE := Door");
@@ -338,6 +339,40 @@ static void test_errors(void)
 	}
 	CHECK(found == 2);
 	task_rows_free(tasks);
+	g_object_unref(document);
+}
+
+/* A CONFIGURATION in another file is shown and cannot be changed. */
+static void test_included(void)
+{
+	static const char other[] = "RUNGBOARD 1\n\nCONFIGURATION Plant\n"
+		"  TASK Fast (INTERVAL := T#5ms, PRIORITY := 1);\n"
+		"  PROGRAM A WITH Fast : Main;\nEND_CONFIGURATION\n";
+	static const char program[] = "RUNGBOARD 1\n\nINCLUDE \"plant.rung\"\n\n"
+		"PROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n";
+	char *folder = g_dir_make_tmp("rungboard-tasks-XXXXXX", NULL);
+	char *path = g_build_filename(folder, "plant.rung", NULL);
+	char *main_path = g_build_filename(folder, "main.rung", NULL);
+	LadderDocument *document = ladder_document_new();
+	struct task_rows *tasks;
+	char *why = NULL;
+
+	g_file_set_contents(path, other, -1, NULL);
+	g_file_set_contents(main_path, program, -1, NULL);
+	CHECK(ladder_document_open(document, main_path, NULL));
+	tasks = task_rows_new(document);
+	CHECK(tasks->fixed);
+	task_rows_free(tasks);
+	check_order(document, "Fast: AEach scan:");
+	CHECK(!task_rows_set(document, 0, TASKS_PRIORITY, "3", &why) && why);
+	CHECK(!ladder_document_undo_name(document));
+	remove(path);
+	remove(main_path);
+	remove(folder);
+	g_free(why);
+	g_free(main_path);
+	g_free(path);
+	g_free(folder);
 	g_object_unref(document);
 }
 
@@ -610,6 +645,7 @@ int main(void)
 	test_rows_come_and_go();
 	test_implicit();
 	test_errors();
+	test_included();
 	test_random();
 	return tap_done();
 }

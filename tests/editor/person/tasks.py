@@ -155,9 +155,9 @@ def implicit(screen):
     editor.says('all of them run in each scan')
     shows(editor, 'Each scan, Period or event', 'T#10ms')
     editor.shot('tasks-implicit')
-    put(editor, 'Each scan, Period or event', '20 ms')
+    put(editor, 'Each scan, Period or event', 'fast')
     editor.says('Each scan, Period or event: ')
-    put(editor, 'Each scan, Period or event', '20ms')
+    put(editor, 'Each scan, Period or event', '20 ms')
     shows(editor, 'Task1, Period or event', 'T#20ms')
     until(lambda: not editor.all('all of them run in each scan'), 'the end of the hint')
     is_saved(editor, path, ('END_VAR\n', '''END_VAR
@@ -178,9 +178,9 @@ END_CONFIGURATION
 def picture(screen):
     """what runs when: lanes by priority; the pointer and the keys say what runs at a time; the picture zooms"""
     editor, path = opened(screen)
-    fast = editor.find('Fast: every 5 ms, at 0, 5, 10 … ms. Priority 1', 'list item')
-    slow = editor.find('Slow: every 20 ms, at 0, 20 … ms. Priority 2', 'list item')
-    editor.find('Each scan: every 5 ms, at 0, 5, 10 … ms, behind all tasks', 'list item')
+    fast = editor.find('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms …', 'list item')
+    slow = editor.find('Slow: priority 2, every 20 ms, at 0 s, 20 ms …', 'list item')
+    editor.find('Each scan: behind all tasks, every 5 ms, at 0 s, 5 ms, 10 ms …', 'list item')
     editor.says('40 ms: after half of it everything repeats')
     assert editor.place(fast)[1] < editor.place(slow)[1]
     x, y, width, height = editor.place(slow)
@@ -190,16 +190,16 @@ def picture(screen):
     editor.shot('tasks-picture')
     editor.click(editor.find('WHAT RUNS WHEN'))
     editor.click((x + 20, y + height // 2))
-    editor.focus_on('Slow: every')
+    editor.focus_on('Slow: priority')
     editor.keys('Right')
-    editor.says('At 0: Fast, then Slow, then Each scan')
+    editor.says('At 0 s: Fast, then Slow, then Each scan')
     editor.keys('Right')
     editor.says('At 20 ms: Fast, then Slow, then Each scan')
     editor.click(editor.find('Zoom in', 'push button'))
     until(lambda: editor.find('Zoom out', 'push button').has(24), 'a part of the time')
     editor.shot('tasks-zoomed')
     put(editor, 'Slow, Period or event', '10ms')
-    editor.find('Slow: every 10 ms, at 0, 10 … ms. Priority 2', 'list item')
+    editor.find('Slow: priority 2, every 10 ms, at 0 s, 10 ms …', 'list item')
     assert lines(path, '@print %QX0.0\nDoor=1\n') is not None
 
 

@@ -2,11 +2,10 @@
  *
  * schedule - which task runs when: the loop of a scan without its programs.
  */
-#include "editor-gtk/document/schedule.h"
+#include "editor-gtk/sim/schedule.h"
 
 #include "editor-gtk/kit/i18n.h"
-
-#include <string.h>
+#include "editor-gtk/sim/live_value.h"
 
 #define ROUNDS 2
 
@@ -49,15 +48,6 @@ static void set_span(struct schedule *schedule, const struct program *program)
 
 /* ---- the runs ---- */
 
-static void add_run(struct schedule *schedule, struct schedule_run run)
-{
-	struct schedule_lane *lane = &schedule->lane[run.lane];
-
-	if (run.at_ns > 0 && lane->next_ns == 0)
-		lane->next_ns = run.at_ns;
-	g_array_append_val(schedule->run, run);
-}
-
 static void run_cycle(struct schedule *schedule, const struct program *program,
 		      struct tasks *tasks, const guint8 *data, gint64 now)
 {
@@ -65,7 +55,9 @@ static void run_cycle(struct schedule *schedule, const struct program *program,
 
 	tasks_begin(tasks, program, data, now);
 	for (int order = 0; (i = tasks_next(tasks, program)) < program->task_count; order++) {
-		add_run(schedule, (struct schedule_run){ now, (int)i, order });
+		const struct schedule_run run = { now, (int)i, order };
+
+		g_array_append_val(schedule->run, run);
 		tasks_take(tasks, program, i, now);
 		tasks_look(tasks, program, data);
 	}
@@ -84,7 +76,7 @@ struct schedule *schedule_new(const struct program *program, gint64 period_ns)
 		schedule->lane[i] = (struct schedule_lane){
 			g_strdup(task_name(program, (guint32)i)),
 			(enum task_kind)program->task[i].kind,
-			task_interval(&program->task[i]), program->task[i].priority, 0 };
+			task_interval(&program->task[i]), program->task[i].priority };
 	schedule->tick_ns = tasks_tick(program, 0, period_ns);
 	set_span(schedule, program);
 	tasks_start(tasks, program, 0);
@@ -108,83 +100,48 @@ void schedule_free(struct schedule *schedule)
 
 /* ---- texts ---- */
 
-static const struct { gint64 ns; const char *name; } units[] = {
-	{ 1000000000, "s" }, { 1000000, "ms" }, { 1000, "µs" }, { 1, "ns" },
-};
-
-/* The largest unit that is not larger than a time. */
-static int unit_of(gint64 ns)
-{
-	int i = 0;
-
-	while (i < (int)G_N_ELEMENTS(units) - 1 && units[i].ns > ns)
-		i++;
-	return i;
-}
-
-static char *number_in(gint64 ns, int unit)
-{
-	return g_strdup_printf("%.6g", (double)ns / (double)units[unit].ns);
-}
-
-char *schedule_time(gint64 ns)
-{
-	const int unit = unit_of(ns);
-	char *number = number_in(ns, unit);
-	char *text = ns ? g_strdup_printf("%s %s", number, units[unit].name) : g_strdup("0");
-
-	g_free(number);
-	return text;
-}
-
 const char *schedule_lane_name(const struct schedule_lane *lane)
 {
 	return *lane->name ? lane->name : _("Each scan");
 }
 
-/* "0, 1, 2 … ms" */
+/* "0 s, 1 ms, 2 ms …" */
 static char *times_of(const struct schedule *schedule, int lane)
 {
-	const gint64 next = schedule->lane[lane].next_ns;
-	const int unit = unit_of(next ? next : schedule->lane[lane].interval_ns);
 	GString *text = g_string_new(NULL);
 	int count = 0;
 
 	for (guint i = 0; i < schedule->run->len && count < 3; i++) {
 		const struct schedule_run *run = &g_array_index(schedule->run,
 								struct schedule_run, i);
-		char *number;
+		char time[32];
 
 		if (run->lane != lane)
 			continue;
-		number = number_in(run->at_ns, unit);
-		g_string_append_printf(text, "%s%s", count++ ? ", " : "", number);
-		g_free(number);
+		live_time_print(run->at_ns, time, sizeof(time));
+		g_string_append_printf(text, "%s%s", count++ ? ", " : "", time);
 	}
-	g_string_append_printf(text, " … %s", units[unit].name);
+	g_string_append(text, " …");
 	return g_string_free(text, FALSE);
 }
 
 char *schedule_lane_text(const struct schedule *schedule, int number)
 {
 	const struct schedule_lane *lane = &schedule->lane[number];
-	char *period = schedule_time(lane->kind == TASK_INTERVAL ? lane->interval_ns :
-				     schedule->tick_ns);
-	char *times, *text;
+	char period[32], *times, *text;
 
-	if (lane->kind == TASK_EVENT) {
-		text = g_strdup_printf(_("%s: when its variable becomes TRUE. Priority %u"),
+	if (lane->kind == TASK_EVENT)
+		return g_strdup_printf(_("%s: priority %u, when its variable becomes TRUE"),
 				       lane->name, lane->priority);
-	} else {
-		times = times_of(schedule, number);
-		text = lane->kind == TASK_INTERVAL ?
-			g_strdup_printf(_("%s: every %s, at %s. Priority %u"), lane->name, period,
-					times, lane->priority) :
-			g_strdup_printf(_("%s: every %s, at %s, behind all tasks"),
-					schedule_lane_name(lane), period, times);
-		g_free(times);
-	}
-	g_free(period);
+	live_time_print(lane->kind == TASK_INTERVAL ? lane->interval_ns : schedule->tick_ns,
+			period, sizeof(period));
+	times = times_of(schedule, number);
+	text = lane->kind == TASK_INTERVAL ?
+		g_strdup_printf(_("%s: priority %u, every %s, at %s"), lane->name,
+				lane->priority, period, times) :
+		g_strdup_printf(_("%s: behind all tasks, every %s, at %s"),
+				schedule_lane_name(lane), period, times);
+	g_free(times);
 	return text;
 }
 
@@ -193,7 +150,7 @@ char *schedule_at_text(const struct schedule *schedule, gint64 ns)
 	const gint64 at = CLAMP(ns, 0, schedule->span_ns - 1) / schedule->tick_ns *
 			  schedule->tick_ns;
 	GString *names = g_string_new(NULL);
-	char *time, *text;
+	char time[32], *text;
 
 	for (guint i = 0; i < schedule->run->len; i++) {
 		const struct schedule_run *run = &g_array_index(schedule->run,
@@ -205,9 +162,8 @@ char *schedule_at_text(const struct schedule *schedule, gint64 ns)
 			g_string_append(names, _(", then "));
 		g_string_append(names, schedule_lane_name(&schedule->lane[run->lane]));
 	}
-	time = schedule_time(at);
+	live_time_print(at, time, sizeof(time));
 	text = g_strdup_printf(_("At %s: %s"), time, names->len ? names->str : _("nothing runs"));
-	g_free(time);
 	g_string_free(names, TRUE);
 	return text;
 }

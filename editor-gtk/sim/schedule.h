@@ -26,7 +26,6 @@ struct schedule_lane {
 	enum task_kind kind;
 	gint64 interval_ns;   /* of TASK_INTERVAL                              */
 	guint32 priority;
-	gint64 next_ns;       /* time of the second run; 0: none in the schedule */
 };
 
 struct schedule {
@@ -42,10 +41,8 @@ struct schedule {
  * @period_ns: period of the cycles if no task gives one */
 struct schedule *schedule_new(const struct program *program, gint64 period_ns);
 void schedule_free(struct schedule *schedule);
-/** schedule_time - "1.5 ms", translated. Caller frees. */
-char *schedule_time(gint64 ns);
-/** schedule_lane_text - "Fast: every 1 ms, at 0, 1, 2 … ms. Priority 1", translated. Caller
- * frees. */
+/** schedule_lane_text - "Fast: priority 1, every 1 ms, at 0 s, 1 ms, 2 ms …", translated.
+ * Caller frees. */
 char *schedule_lane_text(const struct schedule *schedule, int lane);
 /** schedule_at_text - what runs in the cycle at or before @ns: "At 20 ms: Fast, then Slow",
  * translated. Caller frees. */

@@ -2,7 +2,7 @@
  *
  * test_schedule - the schedule has the runs that a scan in virtual time has.
  */
-#include "editor-gtk/document/schedule.h"
+#include "editor-gtk/sim/schedule.h"
 #include "engine/ladder.h"
 #include "tests/tap.h"
 
@@ -88,14 +88,14 @@ static void test_mixed(void)
 	CHECK(schedule->lane_count == 4 && schedule->whole);
 	CHECK(schedule->tick_ns == 5000000 && schedule->span_ns == 40000000);
 	check_text(schedule_lane_text(schedule, 0),
-		   "Alarm: when its variable becomes TRUE. Priority 0");
+		   "Alarm: priority 0, when its variable becomes TRUE");
 	check_text(schedule_lane_text(schedule, 1),
-		   "Fast: every 5 ms, at 0, 5, 10 … ms. Priority 1");
+		   "Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms …");
 	check_text(schedule_lane_text(schedule, 2),
-		   "Slow: every 20 ms, at 0, 20 … ms. Priority 2");
+		   "Slow: priority 2, every 20 ms, at 0 s, 20 ms …");
 	check_text(schedule_lane_text(schedule, 3),
-		   "Each scan: every 5 ms, at 0, 5, 10 … ms, behind all tasks");
-	check_text(schedule_at_text(schedule, 0), "At 0: Fast, then Slow, then Each scan");
+		   "Each scan: behind all tasks, every 5 ms, at 0 s, 5 ms, 10 ms …");
+	check_text(schedule_at_text(schedule, 0), "At 0 s: Fast, then Slow, then Each scan");
 	check_text(schedule_at_text(schedule, 7000000), "At 5 ms: Fast, then Each scan");
 	schedule_free(schedule);
 	ladder_free(ladder);
