@@ -39,7 +39,7 @@ ENGINE   := $(filter-out %/catalog_small.c,$(wildcard runtime/engine/*.c runtime
 # store something by name.
 CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
 CORE     := $(filter-out $(if $(filter 1,$(SMALL)),$(addprefix runtime/engine/base/,catalog.c explain.c iec_print.c literal.c \
-            names.c nearest.c plain.c sink.c) $(addprefix runtime/engine/scan/,carry.c code_print.c code_strip.c retain.c \
+            name.c names.c nearest.c plain.c sink.c) $(addprefix runtime/engine/scan/,carry.c code_print.c code_strip.c retain.c \
             retain_plan.c retain_slot.c symbols.c symbol_index.c),%/catalog_small.c),$(CORE))
 # SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def.
 ifeq ($(WORDS),core)

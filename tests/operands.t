@@ -93,7 +93,7 @@ sub judge {
 	my ($status, $text) = answer('.', $ladder, 'check', "$folder/main.rung");
 	for my $line (split /\n/, $text) {
 		next if $line !~ / error /;
-		$line =~ /: rung (\d+) .*error (?:LD303|LD322|LD324|LD328|LD33[1-8]|LD116)\b/ ?
+		$line =~ /: rung (\d+) .*error (?:LD303|LD322|LD324|LD328|LD33[1-8]|LD34[78]|LD116)\b/ ?
 			$wrong{$1} = 1 : push @odd, $line;
 	}
 	is_deeply(\@odd, [], "$row->{word}: messages about types");

@@ -3,8 +3,8 @@
 # quiet - code that runs in a scan does not use the system, and the library has no global
 # state.
 #
-# scan/, linked with the few files of base/ that it needs, may leave only mem*, the exact
-# part of libm and compiler helpers undefined. BUILD: the folder of the objects.
+# scan/, linked with the few files of base/ that it needs, may leave only mem*, strlen, the
+# exact part of libm and compiler helpers undefined. BUILD: the folder of the objects.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 BUILD=${BUILD:-build} CROSS=${CROSS:-}
@@ -37,10 +37,11 @@ helpers='__aeabi_[a-z0-9]*|__u?divdi3|__u?moddi3|__u?divmoddi4|__(mul|add|sub|ne
 # shellcheck disable=SC2086
 if $LD -r -o "$whole" $scan "$objects"/base/areas.o "$objects"/base/iec.o "$objects"/base/iec_days.o \
 	"$objects"/base/catalog.o "$objects"/base/digest.o "$objects"/base/big.o \
-	"$objects"/base/decimal.o "$objects"/base/number.o 2>/dev/null; then
+	"$objects"/base/decimal.o "$objects"/base/number.o "$objects"/base/name.o \
+	"$objects"/base/utf8.o 2>/dev/null; then
 	open=$($NM -u "$whole" | awk '{print $NF}' |
-	       grep -Evx "mem(cpy|move|set|cmp|chr)|$libm|$helpers")
-	[ -z "$open" ]; say $? "scan/ leaves only mem*, exact libm and helpers open" "$open"
+	       grep -Evx "mem(cpy|move|set|cmp|chr)|strlen|$libm|$helpers")
+	[ -z "$open" ]; say $? "scan/ leaves only mem*, strlen, exact libm and helpers open" "$open"
 else
 	say 1 "scan/ and its few files of base/ can be linked" "$LD -r failed"
 fi
@@ -50,7 +51,7 @@ for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
 	printf '%s' "$name" | grep -Eqx "$between" || continue
 	open=$($NM -u "$object" | awk '{print $NF}' |
-	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|r?chr|n?cmp|n?casecmp)|arena_[a-z]*|(areas|iec|word|digest|code|verify|image|resource|retain|declared|symbol|task|tasks|vm_row|sys)[a-z0-9_]*")
+	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|r?chr|n?cmp|n?casecmp)|arena_[a-z]*|(areas|iec|word|name|digest|code|verify|image|resource|retain|declared|symbol|task|tasks|vm_row|sys)[a-z0-9_]*")
 	[ -z "$open" ]; say $? "$name, between scans, asks the system for nothing" "$open"
 done
 

@@ -4,6 +4,7 @@
  * classic_origin.h.
  */
 #include "editor-gtk/document/classic_origin.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -159,7 +160,7 @@ static struct origin_pou *was_called(LadderOrigin *origin, int pou)
 
 	for (guint i = 0; i < origin->pous->len; i++) {
 		of = origin->pous->pdata[i];
-		if (!g_ascii_strcasecmp(of->name, name))
+		if (name_equal(of->name, name))
 			return of;
 	}
 	of = pou < (int)origin->pous->len ? origin->pous->pdata[pou] : NULL;

@@ -12,6 +12,7 @@
 #include "engine/compare/compare.h"
 #include "engine/text/pou_print.h"
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -266,7 +267,7 @@ static void find_declaration(struct making *making, const struct compare_differe
 	int table = what->group == COMPARE_GLOBALS ? 0 : row->pou_b + 1;
 
 	for (int i = 0; what->group == COMPARE_TYPES && i < b->structure_count; i++)
-		if (g_ascii_strcasecmp(project_text(b, b->structure[i].name), what->pou) == 0)
+		if (name_equal(project_text(b, b->structure[i].name), what->pou))
 			table = b->pou_count + 1 + i;
 	if (!id || (what->group != COMPARE_GLOBALS && table == 0))
 		return;

@@ -10,9 +10,11 @@
 
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/name_fold.h"
 
 #include "engine/ladder.h"
 #include "engine/xref/address_map.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -254,7 +256,7 @@ static struct csv_entry *entry_of(const struct checked *checked, const struct xr
 	if (use->target.what != XREF_VARIABLE)
 		return NULL;
 	xref_name(checked->xref.project, &use->target, use, name, sizeof(name));
-	key = g_ascii_strdown(name, -1);
+	key = name_fold(name);
 	entry = g_hash_table_lookup(checked->name, key);
 	g_free(key);
 	return entry;
@@ -268,7 +270,7 @@ static void find_entries(struct checked *checked)
 		struct csv_entry *entry = plan->entry->pdata[i];
 
 		if (entry->action == CSV_ADD || entry->action == CSV_CHANGE)
-			g_hash_table_insert(checked->name, g_ascii_strdown(entry->name, -1),
+			g_hash_table_insert(checked->name, name_fold(entry->name),
 					    entry);
 	}
 	for (int i = 0; i < checked->xref.count; i++) {
@@ -477,7 +479,7 @@ static char *key_of(const char *scope, const char *name)
 {
 	char *text = g_strconcat(scope, ".", name, NULL), *key;
 
-	key = g_ascii_strdown(text, -1);
+	key = name_fold(text);
 	g_free(text);
 	return key;
 }
@@ -564,8 +566,8 @@ static int table_of(struct project *project, const char *scope)
 	if (pou >= 0)
 		return pou + 1;
 	for (int i = 0; i < project->structure_count; i++)
-		if (g_ascii_strcasecmp(scope, project_text(project,
-				project->structure[i].name)) == 0)
+		if (name_equal(scope, project_text(project,
+				project->structure[i].name)))
 			return project->pou_count + 1 + i;
 	return -1;
 }

@@ -16,6 +16,7 @@
 
 #include "engine/base/lex.h"
 #include "engine/scan/code.h"
+#include "engine/base/name.h"
 
 #include <glib/gstdio.h>
 #include <stdlib.h>
@@ -878,7 +879,7 @@ static bool is_taken(LadderDocument *document, int pou, const char *name)
 	const int pous = ladder_document_project(document)->pou_count;
 
 	for (int i = 0; i < pous; i++)
-		if (i != pou && g_ascii_strcasecmp(pou_name(document, i), name) == 0)
+		if (i != pou && name_equal(pou_name(document, i), name))
 			return true;
 	return false;
 }

@@ -11,6 +11,7 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,8 +21,8 @@
 static bool is_global(const struct project *project, const char *name)
 {
 	for (int i = 0; i < project->globals.count; i++)
-		if (g_ascii_strcasecmp(project_text(project, project->globals.var[i].name),
-				       name) == 0)
+		if (name_equal(project_text(project, project->globals.var[i].name),
+				       name))
 			return true;
 	return false;
 }
@@ -29,8 +30,8 @@ static bool is_global(const struct project *project, const char *name)
 static bool is_structure(const struct project *project, const char *name)
 {
 	for (int i = 0; i < project->structure_count; i++)
-		if (g_ascii_strcasecmp(project_text(project, project->structure[i].name),
-				       name) == 0)
+		if (name_equal(project_text(project, project->structure[i].name),
+				       name))
 			return true;
 	return false;
 }

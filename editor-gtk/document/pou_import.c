@@ -8,6 +8,7 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -97,8 +98,8 @@ static bool want_all(struct wanted *wanted, struct project *project)
 static int find_global(const struct project *project, const char *name)
 {
 	for (int i = 0; i < project->globals.count; i++)
-		if (g_ascii_strcasecmp(project_text(project, project->globals.var[i].name),
-				       name) == 0)
+		if (name_equal(project_text(project, project->globals.var[i].name),
+				       name))
 			return i;
 	return -1;
 }
@@ -109,8 +110,8 @@ static bool is_taken(const struct project *project, const char *name)
 		     project_find_pou(project, name, strlen(name)) >= 0;
 
 	for (int i = 0; i < project->structure_count; i++)
-		taken = taken || g_ascii_strcasecmp(project_text(project,
-			project->structure[i].name), name) == 0;
+		taken = taken || name_equal(project_text(project,
+			project->structure[i].name), name);
 	return taken;
 }
 

@@ -10,6 +10,7 @@
 
 #include "engine/base/lex.h"
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -253,8 +254,8 @@ static const struct config_entry *entry_named(const struct project *project,
 		const struct config_entry *entry = &project->config->entry[i];
 		const uint32_t id = kind == CONFIG_PROGRAM ? entry->pou : entry->name;
 
-		if (entry->kind == kind && g_ascii_strcasecmp(project_text(project, id),
-							      name) == 0)
+		if (entry->kind == kind && name_equal(project_text(project, id),
+							      name))
 			return entry;
 	}
 	return NULL;

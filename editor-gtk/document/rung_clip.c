@@ -13,9 +13,11 @@
 #include "editor-gtk/edit/entry.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/name_fold.h"
 
 #include "engine/base/lex.h"
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -835,7 +837,7 @@ static GPtrArray *unknown_names(const struct declare *declare, int at, int count
 		if (use->target.what != XREF_UNKNOWN || use->pou != declare->pou ||
 		    use->rung <= at || use->rung > at + count || !use->slot)
 			continue;
-		if (g_hash_table_add(seen, g_ascii_strdown(text, use->len)))
+		if (g_hash_table_add(seen, name_fold_len(text, use->len)))
 			g_ptr_array_add(names, g_strndup(text, use->len));
 	}
 	xref_free(&xref);
@@ -852,7 +854,7 @@ static const struct symbol_row *find(const struct declare *declare, const char *
 		const struct symbol_row *symbol = &declare->symbols->symbol[i];
 
 		if (symbol->member ||
-		    g_ascii_strcasecmp(symbol->text[FIELD_NAME], name) != 0)
+		    !name_equal(symbol->text[FIELD_NAME], name))
 			continue;
 		if (symbol->table > 0)
 			return symbol;

@@ -18,6 +18,7 @@
 #include "engine/base/literal.h"
 #include "engine/xref/address_map.h"
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -191,7 +192,7 @@ static bool has_name(struct project *project, int table, const char *name)
 	const struct var_table *vars = xref_table(project, table);
 
 	for (int i = 0; vars && i < vars->count; i++)
-		if (g_ascii_strcasecmp(project_text(project, vars->var[i].name), name) == 0)
+		if (name_equal(project_text(project, vars->var[i].name), name))
 			return true;
 	if (table == 0 && project_find_pou(project, name, strlen(name)) >= 0)
 		return true;
@@ -538,8 +539,8 @@ static bool name_is_free(struct symbol_batch *batch, int table, int index,
 	if (fault != DIAG_COUNT && fault != DIAG_SHADOWS_ADDRESS)
 		return refuse(why, name_reason(fault, name));
 	for (int i = 0; i < vars->count; i++)
-		if (i != index && g_ascii_strcasecmp(name,
-				project_text(project, vars->var[i].name)) == 0)
+		if (i != index && name_equal(name,
+				project_text(project, vars->var[i].name)))
 			return refuse(why, g_strdup_printf(
 				_("“%s” is declared already"), name));
 	if (table == 0 && project_find_pou(project, name, strlen(name)) >= 0)

@@ -7,6 +7,7 @@
 #include "editor-gtk/draw/grid_draw.h"
 
 #include "engine/text/pou_print.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -123,8 +124,8 @@ static bool same_names(const struct plain *a, int first_a, int count_a,
 		       const struct plain *b, int first_b, int count_b)
 {
 	for (int i = 0; i < count_a && count_a == count_b; i++)
-		if (strcasecmp(text_of(a, a->sfc->ref[first_a + i].name),
-			       text_of(b, b->sfc->ref[first_b + i].name)) != 0)
+		if (!name_equal(text_of(a, a->sfc->ref[first_a + i].name),
+			       text_of(b, b->sfc->ref[first_b + i].name)))
 			return false;
 	return count_a == count_b;
 }
@@ -148,8 +149,8 @@ static bool is_like(const struct plain *a, int i, const struct plain *b, int k,
 	if (likeness == ALL)
 		return strcmp(a->text[i], b->text[k]) == 0;
 	if (is_step(a, i))
-		return strcasecmp(text_of(a, a->sfc->step[i].name),
-				  text_of(b, b->sfc->step[k].name)) == 0;
+		return name_equal(text_of(a, a->sfc->step[i].name),
+				  text_of(b, b->sfc->step[k].name));
 	return (likeness == SAME_TO || same_side(a, i, b, k, false)) &&
 	       (likeness == SAME_FROM || same_side(a, i, b, k, true));
 }
@@ -405,7 +406,7 @@ static bool same_cell(const struct diff_rungs *of, const struct cell *a,
 	const char *word_a = words_row(&of->a->words, a->word)->word;
 	const char *word_b = words_row(&of->b->words, b->word)->word;
 
-	return strcasecmp(word_a, word_b) == 0 && a->link == b->link &&
+	return name_equal(word_a, word_b) && a->link == b->link &&
 	       same_text(of, a->operand, b->operand) && same_text(of, a->args, b->args) &&
 	       same_text(of, a->comment, b->comment);
 }

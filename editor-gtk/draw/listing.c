@@ -10,6 +10,7 @@
 #include "editor-gtk/draw/grid_names.h"
 #include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/name_fold.h"
 #include "engine/text/pou_print.h"
 #include "engine/model/args.h"
 
@@ -103,7 +104,7 @@ static char *key_of(const struct listing_reads *reads, int pou, const char *text
 {
 	char *name = g_strndup(text, len), *stem = g_strndup(text, strcspn(name, ".["));
 	struct grid_name known = grid_names_find(reads->names[pou], name);
-	char *lower = g_ascii_strdown(*known.symbol ? known.symbol : name, -1);
+	char *lower = name_fold(*known.symbol ? known.symbol : name);
 	bool local = grid_names_find(reads->names[pou], stem).local;
 	char *key = local ? g_strdup_printf("%d:%s", pou, lower) : g_strdup(lower);
 

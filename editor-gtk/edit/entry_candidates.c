@@ -13,6 +13,7 @@
 #include "engine/base/catalog.h"
 #include "engine/base/lex.h"
 #include "engine/ladder.h"
+#include "engine/base/name.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -250,10 +251,10 @@ static int fit(const char *text, const char *typed, size_t len)
 {
 	const size_t size = strlen(text);
 
-	if (len <= size && ascii_same(text, typed, len))
-		return size == len ? 0 : 1;
-	for (size_t i = 1; i + len <= size; i++)
-		if (ascii_same(text + i, typed, len))
+	if (name_begins(typed, len, text, size))
+		return name_same(typed, len, text, size) ? 0 : 1;
+	for (size_t i = 1; i < size; i++)
+		if (name_begins(typed, len, text + i, size - i))
 			return 2;
 	return -1;
 }
@@ -609,7 +610,7 @@ static const struct entry_new *declared_as(const struct entry *entry, const char
 					   size_t len)
 {
 	for (int i = 0; i < entry->declares; i++)
-		if (ascii_is(entry->declare[i].name, name, len))
+		if (name_is(entry->declare[i].name, name, len))
 			return &entry->declare[i];
 	return NULL;
 }

@@ -10,6 +10,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
+#include "engine/base/name.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +30,7 @@ static bool is_new(const struct project *project, const struct entry_instance *m
 		   int count, const char *name)
 {
 	for (int i = 0; i < count; i++)
-		if (ascii_is(project_text(project, made[i].to), name, strlen(name)))
+		if (name_equal(project_text(project, made[i].to), name))
 			return false;
 	return true;
 }
@@ -75,7 +76,7 @@ static const struct entry_instance *find(const struct project *project,
 					 const char *name, size_t len)
 {
 	for (int i = 0; i < count; i++)
-		if (ascii_is(project_text(project, made[i].from), name, len))
+		if (name_is(project_text(project, made[i].from), name, len))
 			return &made[i];
 	return NULL;
 }

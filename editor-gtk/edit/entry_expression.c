@@ -7,10 +7,10 @@
 #include "editor-gtk/edit/entry_expression.h"
 #include "editor-gtk/kit/i18n.h"
 
-#include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/base/literal.h"
 #include "engine/model/expr.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -110,7 +110,7 @@ static bool print(const char *text, size_t len, struct work *w, struct entry *en
 static const struct said *said_of(const struct work *w, const char *name, size_t len)
 {
 	for (int i = 0; i < w->said_count; i++)
-		if (w->said[i].name == len && ascii_same(w->said[i].text, name, len))
+		if (name_same(w->said[i].text, w->said[i].name, name, len))
 			return &w->said[i];
 	return NULL;
 }

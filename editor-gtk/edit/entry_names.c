@@ -9,6 +9,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/ladder.h"
+#include "engine/base/name.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -251,7 +252,7 @@ static bool find_step(const struct entry_place *place, const char *text, size_t 
 		const char *name = project_text(place->project, pou->sfc->step[i].name);
 
 		if (text[head] != '.' || (member != 'X' && member != 'T') ||
-		    !ascii_is(name, text, head))
+		    !name_is(name, text, head))
 			continue;
 		out->means = MEANS_VALUE;
 		out->type = member == 'X' ? IEC_BOOL : IEC_TIME;
@@ -377,10 +378,10 @@ bool entry_name_taken(const struct entry_place *place, const struct entry *entry
 	if (project_find_pou(project, name, len) >= 0)
 		return true;
 	for (int i = 0; pou && i < pou->rung_count; i++)
-		if (ascii_is(project_text(project, pou->rung[i]->label), name, len))
+		if (name_is(project_text(project, pou->rung[i]->label), name, len))
 			return true;
 	for (int i = 0; entry && i < entry->declares; i++)
-		if (ascii_is(entry->declare[i].name, name, len))
+		if (name_is(entry->declare[i].name, name, len))
 			return true;
 	return false;
 }

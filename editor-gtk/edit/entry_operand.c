@@ -13,6 +13,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/xref/address_map.h"
+#include "engine/base/name.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -291,7 +292,7 @@ bool entry_declare(const struct entry_place *place, struct entry *entry, const c
 	struct iec_addr addr;
 
 	for (int i = 0; i < entry->declares; i++)
-		if (ascii_is(entry->declare[i].name, name, len))
+		if (name_is(entry->declare[i].name, name, len))
 			return true;
 	if (entry->declares == ENTRY_NEW_MOST)
 		return entry_wrong(entry, N_("“%s” is not declared: one line declares "

@@ -13,6 +13,7 @@
 #include "engine/base/lex.h"
 #include "engine/base/sink.h"
 #include "engine/model/expr.h"
+#include "engine/base/name.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -249,7 +250,7 @@ static bool replace_ref(struct sfc_edit *edit, int transition, int ref, int like
 
 static bool is_called(const struct sfc_edit *edit, uint32_t id, const char *name)
 {
-	return id && strcasecmp(project_text(edit->project, id), name) == 0;
+	return id && name_equal(project_text(edit->project, id), name);
 }
 
 static bool is_taken(const struct sfc_edit *edit, const char *name)

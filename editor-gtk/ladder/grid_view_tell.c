@@ -8,6 +8,7 @@
 
 #include "editor-gtk/draw/place.h"
 #include "editor-gtk/kit/diag_said.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -28,9 +29,9 @@ static void say_element(LadderGridView *view, int rung, const struct cell *cell,
 		g_string_append_printf(text, ", %s", _(words_explain(word)));
 	if (operand[0])
 		g_string_append_printf(text, ": %s", operand);
-	if (name.symbol[0] && g_ascii_strcasecmp(name.symbol, operand) != 0)
+	if (name.symbol[0] && !name_equal(name.symbol, operand))
 		g_string_append_printf(text, ", %s", name.symbol);
-	if (name.address[0] && g_ascii_strcasecmp(name.address, operand) != 0)
+	if (name.address[0] && !name_equal(name.address, operand))
 		g_string_append_printf(text, ", %s", name.address);
 	if (cell->args)
 		g_string_append_printf(text, ", %s", project_text(project, cell->args));
@@ -118,7 +119,7 @@ static void add_name(LadderGridView *view, GString *text, const struct cell *cel
 	const struct grid_name name = grid_names_find(view->names, operand);
 	GString *line = g_string_new(name.symbol[0] ? name.symbol : operand);
 
-	if (name.address[0] && g_ascii_strcasecmp(name.address, line->str) != 0)
+	if (name.address[0] && !name_equal(name.address, line->str))
 		g_string_append_printf(line, " · %s", name.address);
 	if (name.type[0])
 		g_string_append_printf(line, " · %s", name.type);

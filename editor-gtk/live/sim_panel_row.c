@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_value.h"
+#include "engine/base/name.h"
 
 #include <gdk/gdk.h>
 #include <string.h>
@@ -289,7 +290,7 @@ static bool line_read(const char *line, struct choices *out)
 static bool is_of(const struct choices *choices, const LadderSimRow *row)
 {
 	return choices->plant == row->plant &&
-	       g_ascii_strcasecmp(choices->name, row->name) == 0;
+	       name_equal(choices->name, row->name);
 }
 
 /* @choices: NULL: none. True: the row changed. */

@@ -13,10 +13,12 @@
 #include "editor-gtk/document/iomap_text.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_map.h"
+#include "editor-gtk/kit/name_fold.h"
 
 #include "engine/base/limits.h"
 #include "engine/model/args.h"
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -56,11 +58,11 @@ static void add_comment(struct maker *maker, const char *pou, const struct var *
 	if (!*comment)
 		return;
 	whole = g_strconcat(pou, *pou ? "." : "", name, NULL);
-	g_hash_table_insert(maker->comments, g_ascii_strdown(whole, -1),
+	g_hash_table_insert(maker->comments, name_fold(whole),
 			    plain_comment(comment));
 	g_free(whole);
 	if (*pou)
-		g_hash_table_insert(maker->comments, g_ascii_strdown(name, -1),
+		g_hash_table_insert(maker->comments, name_fold(name),
 				    plain_comment(comment));
 }
 
@@ -80,7 +82,7 @@ static void find_comments(struct maker *maker)
 /* Table[3] has the comment of Table, Main.Recipe.Speed that of Main.Recipe. */
 static char *comment_of(struct maker *maker, const char *name)
 {
-	char *key = g_ascii_strdown(name, -1);
+	char *key = name_fold(name);
 	const char *found = g_hash_table_lookup(maker->comments, key);
 
 	for (gsize len = strlen(key); !found && len--;) {
@@ -237,7 +239,7 @@ static void add_value(struct maker *maker, const char *name, struct location at,
 	if (addr.area == AREA_NONE)
 		return;
 	iec_addr_print(addr, text, sizeof(text));
-	if (g_ascii_strcasecmp(text, name) != 0)
+	if (!name_equal(text, name))
 		row->address = g_strdup(text);
 	row->driven = is_driven(maker, addr);
 	g_hash_table_add(maker->taken, key_copy(place_key(at)));

@@ -7,6 +7,7 @@
 
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_value.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -79,7 +80,7 @@ bool timing_add(struct timing *timing, const char *name)
 	if (timing->lines->len >= TIMING_LINES)
 		return false;
 	for (int i = 0; i < timing_lines(timing); i++)
-		if (g_ascii_strcasecmp(timing_name(timing, i), name) == 0)
+		if (name_equal(timing_name(timing, i), name))
 			return false;
 	line = g_new0(struct line, 1);
 	line->name = g_strdup(name);

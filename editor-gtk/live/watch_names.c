@@ -9,6 +9,7 @@
 
 #include "editor-gtk/edit/entry.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/name_fold.h"
 
 #include "engine/scan/code.h"
 #include "engine/trial/trace.h"
@@ -103,7 +104,7 @@ static void put(struct offer *offer, const char *text, const char *address,
 	};
 
 	if (g_hash_table_size(offer->seen) < OFFERED &&
-	    g_hash_table_add(offer->seen, g_ascii_strdown(text, -1)))
+	    g_hash_table_add(offer->seen, name_fold(text)))
 		ladder_entry_popup_add(offer->popup, &row);
 	g_free(line);
 }
@@ -129,13 +130,13 @@ static void offer_entries(struct offer *offer, struct project *project)
 static void offer_symbols(struct offer *offer, const struct image *image, bool inside)
 {
 	char *typed = g_strndup(offer->line + offer->from, offer->cursor - offer->from);
-	char *folded = g_utf8_casefold(typed, -1);
+	char *folded = name_fold(typed);
 	struct symbol_cursor cursor = { 0 };
 	struct symbol symbol;
 
 	while (g_hash_table_size(offer->seen) < OFFERED &&
 	       image_next_symbol(image, &cursor, &symbol)) {
-		char *name = g_utf8_casefold(symbol.name, -1);
+		char *name = name_fold(symbol.name);
 
 		if (!(symbol.flags & SYMBOL_HIDDEN) && (inside ? strstr(name, folded) != NULL :
 							g_str_has_prefix(name, folded)))

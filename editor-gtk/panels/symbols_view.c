@@ -14,6 +14,7 @@
 #include "editor-gtk/panels/import_dialog.h"
 #include "editor-gtk/panels/type_cells.h"
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -338,7 +339,7 @@ static int last_index(LadderDocument *document, int table, const char *name)
 
 	for (int i = 0; i < symbols->count; i++)
 		if (symbols->symbol[i].table == table &&
-		    g_ascii_strcasecmp(symbols->symbol[i].text[FIELD_NAME], name) == 0)
+		    name_equal(symbols->symbol[i].text[FIELD_NAME], name))
 			index = symbols->symbol[i].index;
 	symbols_free(symbols);
 	return index;

@@ -8,9 +8,9 @@
 #include "editor-gtk/draw/place.h"
 #include "editor-gtk/kit/i18n.h"
 
-#include "engine/base/ascii.h"
 #include "engine/xref/address_map.h"
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -139,7 +139,7 @@ static const struct xref_use *find_whole(struct maker *maker, const char *symbol
 		if (use->kind != XREF_DECLARED)
 			continue;
 		xref_name(maker->xref.project, &use->target, use, name, sizeof(name));
-		if (ascii_is(name, symbol, strlen(symbol)))
+		if (name_equal(name, symbol))
 			return use;
 	}
 	return NULL;
@@ -157,7 +157,7 @@ static const struct xref_use *find_symbol(struct maker *maker, int pou, const ch
 		const bool variable = use->target.what == XREF_VARIABLE;
 
 		if (use->kind != XREF_DECLARED || !use->slot ||
-		    !ascii_is(project_text(maker->xref.project, *use->slot), symbol, len) ||
+		    !name_is(project_text(maker->xref.project, *use->slot), symbol, len) ||
 		    (variable && use->target.table && use->target.table != pou + 1) ||
 		    (use->target.what == XREF_LABEL && use->target.table != pou + 1))
 			continue;

@@ -13,6 +13,7 @@
 #include "editor-gtk/render/render_sheet.h"
 
 #include "engine/compare/compare.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 #include <strings.h>
@@ -298,7 +299,7 @@ static void take_pair(void *context, struct compare_pair pair)
 	const struct project *project = pair.pou_b < 0 ? of->a : of->b;
 	const struct pou *pou = pou_of(project, pair.pou_b < 0 ? pair.pou_a : pair.pou_b);
 
-	if (wanted && strcasecmp(wanted, project_text(project, pou->name)) != 0)
+	if (wanted && !name_equal(wanted, project_text(project, pou->name)))
 		return;
 	if (pair.pou_a != of->pou_a || pair.pou_b != of->pou_b)
 		start_pou(of, pair);

@@ -11,6 +11,7 @@
 #include "editor-gtk/draw/sfc_bodies.h"
 #include "editor-gtk/draw/sfc_draw.h"
 #include "editor-gtk/kit/i18n.h"
+#include "engine/base/name.h"
 
 #include <glib.h>
 
@@ -63,7 +64,7 @@ static int mark_wrong(const struct diag_list *diags, const struct rung_layout *l
 		const struct diag *diag = &diags->diag[i];
 		int row = diag->row - 1, col = diag->col - 1;
 
-		if (!diag->pou || g_ascii_strcasecmp(diag->pou, pou) != 0 ||
+		if (!diag->pou || !name_equal(diag->pou, pou) ||
 		    diag->rung != layout->number || row < 0 || row >= rung->rows ||
 		    col < 0 || col >= rung->cols)
 			continue;
@@ -155,7 +156,7 @@ static int mark_chart(const struct diag_list *diags, const struct sfc_sheet *she
 		const char *name = project_text(sheet->project, sheet->pou->name);
 		struct sfc_mark at;
 
-		if (!diag->pou || g_ascii_strcasecmp(diag->pou, name) != 0 ||
+		if (!diag->pou || !name_equal(diag->pou, name) ||
 		    !sfc_sheet_of_diag(sheet, NULL, diag, &at.shape, &at.use))
 			continue;
 		at.signs = diag_severity(diag->id) == SEVERITY_ERROR ? SFC_ERROR :

@@ -7,6 +7,7 @@
  */
 #include "editor-gtk/document/rung_clip.h"
 #include "editor-gtk/sfc/sfc_view_inside.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -476,8 +477,8 @@ static void copy(LadderSfcView *view)
 static bool is_taken(const struct sfc_edit *here, const char *name)
 {
 	for (int i = 0; i < here->sfc.step_count; i++)
-		if (g_ascii_strcasecmp(project_text(here->project, here->sfc.step[i].name),
-				       name) == 0)
+		if (name_equal(project_text(here->project, here->sfc.step[i].name),
+				       name))
 			return true;
 	return false;
 }

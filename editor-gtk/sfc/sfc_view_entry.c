@@ -8,6 +8,7 @@
 #include "editor-gtk/document/entry_outcome.h"
 #include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/kit/entry_popup.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -166,8 +167,8 @@ static bool is_action(LadderSfcView *view, const char *name)
 	const struct sfc *sfc = sfc_pou(view)->sfc;
 
 	for (int i = 0; i < sfc->action_count; i++)
-		if (g_ascii_strcasecmp(project_text(view->sheet->project,
-						    sfc->action[i].name), name) == 0)
+		if (name_equal(project_text(view->sheet->project,
+						    sfc->action[i].name), name))
 			return true;
 	return false;
 }
@@ -319,7 +320,7 @@ static bool take_condition(struct asked *asked, const char *line)
 static int step_named(LadderSfcView *view, const char *name)
 {
 	for (int i = 0; i < sfc_pou(view)->sfc->step_count; i++)
-		if (g_ascii_strcasecmp(view->sheet->name[i], name) == 0)
+		if (name_equal(view->sheet->name[i], name))
 			return i;
 	return -1;
 }

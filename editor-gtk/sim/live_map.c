@@ -3,8 +3,9 @@
  * live_map - names and cells of the program that runs: see live_map.h.
  */
 #include "editor-gtk/sim/live_map.h"
+#include "editor-gtk/kit/name_fold.h"
+#include "engine/base/name.h"
 
-#include "engine/base/ascii.h"
 
 #include <string.h>
 
@@ -14,7 +15,7 @@ struct live_map {
 	int unit;                    /* of CODE_PROGRAMS; -1: none              */
 	char *pou;
 	const struct code_watched *watched; /* the instance that is shown        */
-	GHashTable *names;           /* lower case, with POU -> struct location *  */
+	GHashTable *names;           /* name_fold(), with POU -> struct location *  */
 };
 
 /* ---- names ---- */
@@ -22,10 +23,10 @@ struct live_map {
 static char *key_of(const char *pou, const char *name, size_t len)
 {
 	char *text = g_strdup_printf("%s%s%.*s", pou, *pou ? "." : "", (int)len, name);
+	char *key = name_fold(text);
 
-	for (char *at = text; *at; at++)
-		*at = g_ascii_tolower(*at);
-	return text;
+	g_free(text);
+	return key;
 }
 
 /* Single values and instances. Others are used rarely: image_find() finds them. */
@@ -176,8 +177,8 @@ static const struct code_watched *choose(const struct live_map *map, const char 
 			continue;
 		if (!first)
 			first = watched;
-		if (instance && g_ascii_strcasecmp(map->program->string + watched->name,
-						   instance) == 0)
+		if (instance && name_equal(map->program->string + watched->name,
+						   instance))
 			return watched;
 	}
 	return first;
@@ -188,7 +189,7 @@ static const struct code_watched *choose(const struct live_map *map, const char 
 static int find_unit(const struct program *program, const char *pou)
 {
 	for (uint32_t i = 0; i < program->entry_count; i++)
-		if (g_ascii_strcasecmp(program->string + program->entry[i].name, pou) == 0)
+		if (name_equal(program->string + program->entry[i].name, pou))
 			return (int)i;
 	return -1;
 }

@@ -11,6 +11,7 @@
 #include "editor-gtk/sim/live_map.h"
 #include "editor-gtk/kit/text_scheme.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "engine/base/name.h"
 
 
 #include <string.h>
@@ -286,7 +287,7 @@ static bool was_before(GArray *parts, guint index)
 	for (guint i = 0; i < index; i++) {
 		const struct live_part *part = &g_array_index(parts, struct live_part, i);
 
-		if (part->at.type != IEC_NONE && g_ascii_strcasecmp(part->text, name) == 0)
+		if (part->at.type != IEC_NONE && name_equal(part->text, name))
 			return true;
 	}
 	return false;

@@ -5,9 +5,11 @@
  * It uses the project as far as it could be read, and builds nothing.
  */
 #include "engine/ladder.h"
+#include "engine/base/name.h"
 
-#include "engine/base/ascii.h"
 #include "engine/check/expect.h"
+
+#include <string.h>
 
 struct filter {
 	const struct expect_place *at;
@@ -24,10 +26,8 @@ static void pass(void *context, const struct expect_word *word)
 	};
 	size_t len = filter->at->prefix_len;
 
-	for (size_t i = 0; i < len; i++)
-		if (!word->text[i] ||
-		    ascii_upper(word->text[i]) != ascii_upper(filter->at->prefix[i]))
-			return;
+	if (!name_begins(filter->at->prefix, len, word->text, strlen(word->text)))
+		return;
 	filter->words++;
 	if (filter->take)
 		filter->take(filter->context, &out);

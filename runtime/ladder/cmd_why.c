@@ -5,7 +5,7 @@
  */
 #include "ladder/report.h"
 
-#include "engine/base/ascii.h"
+#include "engine/base/name.h"
 #include "engine/trial/value.h"
 #include "engine/trial/why.h"
 
@@ -102,18 +102,21 @@ static bool is_asked(const struct asked *asked, const char *body, int rung,
 		     const char *operand, bool inside)
 {
 	const char *coil = asked->coil;
-	const size_t len = strlen(body);
+	/* The body may be spelled otherwise there: up to the colon or the point behind it. */
+	const size_t named = strcspn(coil, ":");
+	const size_t len = coil[named] && name_is(body, coil, named) ? named :
+			   name_head(body, strlen(body), coil, strlen(coil));
 	char number[16];
 
 	snprintf(number, sizeof(number), ":%d", rung);
-	if (strlen(coil) > len && ascii_same(coil, body, len)) {
+	if (len > 0) {
 		if (strcmp(coil + len, number) == 0)
 			return true;
 		if (coil[len] == '.' && *operand &&
-		    ascii_is(operand, coil + len + 1, strlen(coil) - len - 1))
+		    name_is(operand, coil + len + 1, strlen(coil) - len - 1))
 			return true;
 	}
-	return !inside && ((*operand && ascii_is(operand, coil, strlen(coil))) ||
+	return !inside && ((*operand && name_is(operand, coil, strlen(coil))) ||
 			   is_same(asked, operand));
 }
 

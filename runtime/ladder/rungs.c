@@ -4,7 +4,7 @@
  */
 #include "ladder/rungs.h"
 
-#include "engine/base/ascii.h"
+#include "engine/base/name.h"
 #include "engine/trial/value.h"
 
 #include <stdio.h>
@@ -110,7 +110,7 @@ static const struct code_watched *find_instance(const struct program *program,
 						const char *name, size_t len)
 {
 	for (uint32_t i = 0; i < program->watched_count; i++)
-		if (ascii_is(program->string + program->watched[i].name, name, len))
+		if (name_is(program->string + program->watched[i].name, name, len))
 			return &program->watched[i];
 	return NULL;
 }

@@ -6,6 +6,7 @@
  * instead.
  */
 #include "engine/base/catalog.h"
+#include "engine/base/name.h"
 #include "engine/base/ascii.h"
 
 #define FB_PIN(fb, pin, way, kind) \
@@ -165,7 +166,7 @@ int word_pin_find(const struct word_row *row, const char *name, size_t len)
 		const struct word_pin *pin = &row->pin[i];
 
 		if (pin->dir != PIN_VAR && pin->dir != PIN_NONE &&
-		    ascii_is(pin->name, name, len))
+		    name_is(pin->name, name, len))
 			return i;
 	}
 	return find_further_input(row, name, len);

@@ -5,7 +5,7 @@
  * An open hash of ids, at most half full. Strings are never removed.
  */
 #include "engine/base/names.h"
-#include "engine/base/ascii.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -17,18 +17,6 @@ struct names_entry {
 };
 
 #define FIRST_SLOTS 256u
-
-/* FNV-1a over the bytes without the bit that differs between a and A, so that all
- * spellings of a name are in one chain. The last step spreads the high bits to those
- * that pick the slot. */
-static uint32_t hash_bytes(const char *text, size_t len)
-{
-	uint32_t hash = 2166136261u;
-
-	for (size_t i = 0; i < len; i++)
-		hash = (hash ^ ((uint8_t)text[i] & 0xdfu)) * 16777619u;
-	return hash ^ hash >> 15;
-}
 
 void names_init(struct names *names, struct arena *arena)
 {
@@ -57,11 +45,11 @@ static uint32_t find_slot(const struct names *names, const char *text, size_t le
 		const struct names_entry *entry =
 			&names->entry[names->slot[at]];
 
-		if (entry->hash != hash || entry->len != len)
+		if (entry->hash != hash)
 			continue;
-		if (memcmp(entry->text, text, len) == 0)
+		if (entry->len == len && memcmp(entry->text, text, len) == 0)
 			break;
-		if (!*fold && ascii_same(entry->text, text, len))
+		if (!*fold && name_same(entry->text, entry->len, text, len))
 			*fold = names->slot[at];
 	}
 	return at;
@@ -100,7 +88,7 @@ uint32_t names_intern(struct names *names, const char *text, size_t len)
 
 	if (len == 0 || len >= UINT32_MAX || !names->count || !has_room(names))
 		return 0;
-	hash = hash_bytes(text, len);
+	hash = name_hash(text, len);
 	slot = find_slot(names, text, len, hash, &fold);
 	if (names->slot[slot])
 		return names->slot[slot];
@@ -125,7 +113,7 @@ uint32_t names_find(const struct names *names, const char *text, size_t len)
 
 	if (len == 0 || len >= UINT32_MAX || !names->count)
 		return 0;
-	return names->slot[find_slot(names, text, len, hash_bytes(text, len),
+	return names->slot[find_slot(names, text, len, name_hash(text, len),
 				     &fold)];
 }
 
@@ -135,7 +123,7 @@ uint32_t names_find_any(const struct names *names, const char *text, size_t len)
 
 	if (len == 0 || len >= UINT32_MAX || !names->count)
 		return 0;
-	slot = find_slot(names, text, len, hash_bytes(text, len), &fold);
+	slot = find_slot(names, text, len, name_hash(text, len), &fold);
 	return fold ? fold : names_fold(names, names->slot[slot]);
 }
 

@@ -3,8 +3,8 @@
  * names - every string of a project, stored once and known by a number.
  *
  * Rungs hold string ids instead of pointers, so that a rung is plain bytes that can be
- * copied and compared. Names of IEC 61131-3 ignore case: `fold` gives one id for all
- * spellings. The table only grows and lives as long as its arena.
+ * copied and compared. The names of a program ignore case (name.h): `fold` gives one id
+ * for all spellings. The table only grows and lives as long as its arena.
  */
 #ifndef BASE_NAMES_H
 #define BASE_NAMES_H
@@ -49,7 +49,7 @@ const char *names_text(const struct names *names, uint32_t id);
 size_t names_len(const struct names *names, uint32_t id);
 
 /**
- * names_fold - the id that all spellings of a name share (ASCII case ignored)
+ * names_fold - the id that all spellings of a name share (name.h)
  *
  * The result is the id of the spelling that was interned first. Scan-safe: yes.
  * Fails: 0 for the empty string and ids that are none.

@@ -79,7 +79,9 @@ static const uint16_t letters_low[] = {
 #undef LETTERS_LOW
 };
 static const uint32_t letters_high[] = {
+#define LETTERS_HIGH
 #include "engine/base/letters.def"
+#undef LETTERS_HIGH
 };
 
 uint32_t utf8_code(const char *text, size_t len)

@@ -3,6 +3,7 @@
  * check_il - walks an instruction list with the type of its current result.
  */
 #include "engine/check/check_il.h"
+#include "engine/base/name.h"
 
 #include "engine/model/advice.h"
 #include "engine/model/convert.h"
@@ -1270,7 +1271,7 @@ static bool il_check_pin(struct il_check *c, const struct word_row *row,
 static bool has_arg(struct il_check *c, int at, const char *name)
 {
 	for (int i = at + 1; is_arg(c, i); i++)
-		if (strcasecmp(pin_text(c, &c->il->line[i]), name) == 0)
+		if (name_is(pin_text(c, &c->il->line[i]), name, strlen(name)))
 			return true;
 	return false;
 }

@@ -5,6 +5,7 @@
  * It notes good operands in uses. It does not judge labels or topology.
  */
 #include "engine/check/check_operand.h"
+#include "engine/base/name.h"
 
 #include "engine/base/ascii.h"
 #include "engine/model/advice.h"
@@ -315,7 +316,7 @@ static bool has_pin_row(const struct operand_check *c, struct operand_spot at,
 
 		if (below->word != ELEM_PIN)
 			break;
-		if (ascii_is(text, name, strlen(name)))
+		if (name_is(text, name, strlen(name)))
 			return true;
 	}
 	return false;

@@ -7,8 +7,8 @@
  * as another order of declarations.
  */
 #include "engine/compare/compare.h"
+#include "engine/base/name.h"
 
-#include "engine/base/ascii.h"
 #include "engine/base/limits.h"
 #include "engine/base/plain.h"
 #include "engine/base/sink.h"
@@ -249,7 +249,7 @@ static bool is_wanted(const struct diff *diff, const struct compare_difference *
 	const char *pou = what->pou ? what->pou : what->subject ? what->subject : "";
 
 	return !diff->besides || (!what->rung && !what->line &&
-				  (!diff->pou || strcasecmp(diff->pou, pou) == 0));
+				  (!diff->pou || name_is(diff->pou, pou, strlen(pou))));
 }
 
 static void give_difference(struct diff *diff, struct compare_difference what)
@@ -1012,8 +1012,8 @@ static const struct structure *structure_named(const struct project *project,
 					       const char *name)
 {
 	for (int i = 0; i < project->structure_count; i++)
-		if (strcasecmp(project_text(project, project->structure[i].name),
-			       name) == 0)
+		if (name_is(project_text(project, project->structure[i].name), name,
+			    strlen(name)))
 			return &project->structure[i];
 	return NULL;
 }
@@ -1116,8 +1116,7 @@ static const struct config_entry *same_line(const struct project *project,
 		const struct config_entry *other = &config->entry[i];
 		const char *text = subject_of(project, other);
 
-		if (other->kind == entry->kind && strlen(text) == strlen(subject) &&
-		    ascii_same(text, subject, strlen(text)))
+		if (other->kind == entry->kind && name_is(text, subject, strlen(subject)))
 			return other;
 	}
 	return NULL;

@@ -8,7 +8,7 @@
  * What is malformed ends the list: the readers have reported it before.
  */
 #include "engine/model/args.h"
-#include "engine/base/ascii.h"
+#include "engine/base/name.h"
 
 static const char *skip_blanks(const char *at)
 {
@@ -60,8 +60,7 @@ bool args_find(const char *text, const char *pin, size_t pin_len,
 	       struct arg *out)
 {
 	while (args_next(&text, out))
-		if (out->pin_len == pin_len &&
-		    ascii_same(out->pin, pin, pin_len))
+		if (name_same(out->pin, out->pin_len, pin, pin_len))
 			return true;
 	return false;
 }
@@ -70,8 +69,7 @@ bool args_find_side(const char *text, bool output, const char *pin, size_t pin_l
 		    struct arg *out)
 {
 	while (args_next(&text, out))
-		if (out->output == output && out->pin_len == pin_len &&
-		    ascii_same(out->pin, pin, pin_len))
+		if (out->output == output && name_same(out->pin, out->pin_len, pin, pin_len))
 			return true;
 	return false;
 }

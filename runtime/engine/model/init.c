@@ -6,8 +6,8 @@
  * longer than its array.
  */
 #include "engine/model/init.h"
+#include "engine/base/name.h"
 
-#include "engine/base/ascii.h"
 #include "engine/model/shape.h"
 
 #include <stdio.h>
@@ -374,7 +374,7 @@ bool init_names_pin(const char *text, size_t len, const char *pin)
 		struct lex ahead = lex;
 
 		if (lex.token.kind == TOKEN_NAME &&
-		    ascii_is(pin, lex.token.text, lex.token.len) &&
+		    name_is(pin, lex.token.text, lex.token.len) &&
 		    (lex_next(&ahead), lex_is(&ahead, ":=")))
 			return true;
 	}

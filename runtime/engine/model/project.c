@@ -5,8 +5,8 @@
  * Readers and editors fill it. It reads no files and checks nothing.
  */
 #include "engine/model/project.h"
+#include "engine/base/name.h"
 
-#include "engine/base/ascii.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -137,7 +137,7 @@ const char *pou_language_word(enum pou_language language)
 int project_find_pou(const struct project *project, const char *name, size_t len)
 {
 	for (int i = 0; i < project->pou_count; i++)
-		if (ascii_is(project_text(project, project->pou[i].name), name, len))
+		if (name_is(project_text(project, project->pou[i].name), name, len))
 			return i;
 	return -1;
 }

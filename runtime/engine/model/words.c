@@ -5,6 +5,7 @@
  * It keeps and finds rows; readers of declarations fill them.
  */
 #include "engine/model/words.h"
+#include "engine/base/name.h"
 #include "engine/base/ascii.h"
 #include "engine/base/catalog.h"
 #include "engine/base/limits.h"
@@ -17,23 +18,14 @@ void words_init(struct word_table *table, struct arena *arena)
 	*table = (struct word_table){ .arena = arena };
 }
 
-static uint32_t hash_of(const char *text, size_t len)
-{
-	uint32_t hash = 2166136261u;
-
-	for (size_t i = 0; i < len; i++)
-		hash = (hash ^ (uint8_t)ascii_upper(text[i])) * 16777619u;
-	return hash ^ hash >> 15;
-}
-
 /* The slot of a name, or the free one where it belongs. */
 static uint16_t *slot_of(const struct word_table *table, const char *text,
 			 size_t len)
 {
-	uint32_t at = hash_of(text, len) & table->mask;
+	uint32_t at = name_hash(text, len) & table->mask;
 
 	while (table->slot[at] &&
-	       !ascii_is(table->row[table->slot[at] - 1]->word, text, len))
+	       !name_is(table->row[table->slot[at] - 1]->word, text, len))
 		at = (at + 1) & table->mask;
 	return &table->slot[at];
 }

@@ -4,9 +4,9 @@
  * and counters.
  */
 #include "engine/scan/carry.h"
+#include "engine/base/name.h"
 #include "engine/scan/value.h"
 
-#include "engine/base/ascii.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -33,9 +33,7 @@ struct work {
 
 static uint32_t mix(uint32_t hash, const char *text, size_t len)
 {
-	for (size_t i = 0; i < len; i++)
-		hash = (hash ^ (uint8_t)ascii_upper(text[i])) * 16777619u;
-	return (hash ^ 255u) * 16777619u;
+	return (name_hash_more(hash, text, len) ^ 255u) * 16777619u;
 }
 
 static bool is_memory(const struct declared_name *name)
@@ -58,7 +56,7 @@ static size_t key_len(const struct declared_name *name)
 
 static uint32_t hash_name(const struct declared_name *name)
 {
-	uint32_t hash = mix(2166136261u, name->pou, strlen(name->pou));
+	uint32_t hash = mix(NAME_HASH, name->pou, strlen(name->pou));
 
 	hash = mix(hash, name->name, key_len(name));
 	return hash ^ hash >> 15;
@@ -68,9 +66,8 @@ static bool same_name(const struct declared_name *a, const struct declared_name 
 {
 	const size_t len = key_len(a), pou = strlen(a->pou);
 
-	return len == key_len(b) && pou == strlen(b->pou) &&
-	       ascii_same(a->name, b->name, len) && ascii_same(a->pou, b->pou, pou) &&
-	       is_memory(a) == is_memory(b);
+	return name_same(a->name, len, b->name, key_len(b)) &&
+	       name_same(a->pou, pou, b->pou, strlen(b->pou)) && is_memory(a) == is_memory(b);
 }
 
 static uint32_t count_names(const struct program *program)

@@ -3,8 +3,8 @@
  * resource - the states of a controller, and its scan.
  */
 #include "engine/scan/resource.h"
+#include "engine/base/name.h"
 
-#include "engine/base/ascii.h"
 
 #include <string.h>
 
@@ -463,7 +463,7 @@ bool resource_power_in(const struct resource *resource, const char *instance,
 		const struct code_watched *watched = &program->watched[i];
 		const struct code_power *at;
 
-		if (!ascii_is(program->string + watched->name, instance, len))
+		if (!name_is(program->string + watched->name, instance, len))
 			continue;
 		at = find_power(program, watched->pou, rung, row, col);
 		if (!at)

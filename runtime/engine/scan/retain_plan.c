@@ -5,8 +5,8 @@
  * Runs when a program is loaded.
  */
 #include "engine/scan/retain.h"
+#include "engine/base/name.h"
 
-#include "engine/base/ascii.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -111,20 +111,11 @@ static void measure(struct retain *retain, const struct image *image)
 							(uint32_t)payload;
 }
 
-static uint32_t hash_name(const char *name, uint32_t len)
-{
-	uint32_t hash = 2166136261u;
-
-	for (uint32_t i = 0; i < len; i++)
-		hash = (hash ^ (uint8_t)ascii_upper(name[i])) * 16777619u;
-	return hash ^ hash >> 15;
-}
-
 /* Puts each name into the index once; of equal names the first one. */
 static void enter(struct retain *retain, int index)
 {
 	struct retain_record record = retain_record_of(retain, index);
-	uint32_t at = hash_name(record.name, record.name_len);
+	uint32_t at = name_hash(record.name, record.name_len);
 
 	while (retain->hashed[at & retain->hash_mask])
 		at++;
@@ -244,7 +235,7 @@ bool retain_start(struct resource *resource)
 
 static bool is_same(const char *a, uint32_t a_len, const char *b, uint32_t b_len)
 {
-	return a_len == b_len && ascii_same(a, b, a_len);
+	return name_same(a, a_len, b, b_len);
 }
 
 /* The room of the variable may differ from the room when the text was stored. A text
@@ -283,7 +274,7 @@ static bool take_value(const struct retain_var *var,
 enum retain_fate retain_take(struct retain *retain,
 			     const struct retain_record *record, uint8_t *copy)
 {
-	uint32_t at = hash_name(record->name, record->name_len), found;
+	uint32_t at = name_hash(record->name, record->name_len), found;
 	enum retain_fate fate = RETAIN_NO_NAME;
 
 	for (; (found = retain->hashed[at & retain->hash_mask]) != 0; at++) {

@@ -6,6 +6,7 @@
  * text is searched by each of its beginnings that may be a name.
  */
 #include "engine/scan/symbol_index.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -21,16 +22,6 @@ struct symbol_index {
 	uint32_t *chain;        /* likewise, by the low bits of the hash      */
 	uint32_t mask, count;
 };
-
-#define HASH_OF_NOTHING 2166136261u
-
-/* FNV-1a over the bytes without the bit that differs between a and A. */
-static uint32_t hash_more(uint32_t hash, const char *text, size_t len)
-{
-	for (size_t i = 0; i < len; i++)
-		hash = (hash ^ ((uint8_t)text[i] & 0xdfu)) * 16777619u;
-	return hash;
-}
 
 static uint32_t *chain_of(const struct symbol_index *index, uint32_t hash)
 {
@@ -50,12 +41,12 @@ static void enter_names(struct symbol_index *index, const struct declared_name *
 {
 	uint32_t hash;
 
-	enter(index, hash_more(HASH_OF_NOTHING, symbol->name, symbol->array.head), number);
+	enter(index, name_hash_more(NAME_HASH, symbol->name, symbol->array.head), number);
 	if (!*symbol->pou)
 		return;
-	hash = hash_more(HASH_OF_NOTHING, symbol->pou, strlen(symbol->pou));
-	hash = hash_more(hash, ".", 1);
-	enter(index, hash_more(hash, symbol->name, symbol->array.head), number);
+	hash = name_hash_more(NAME_HASH, symbol->pou, strlen(symbol->pou));
+	hash = name_hash_more(hash, ".", 1);
+	enter(index, name_hash_more(hash, symbol->name, symbol->array.head), number);
 }
 
 /* A power of two, and at least as many chains as names. */
@@ -104,11 +95,11 @@ static bool next_chain(const struct symbol_index *index, struct symbol_search *s
 	if (begin == search->len)
 		return false;
 	if (begin == 0)
-		search->hash = HASH_OF_NOTHING;
+		search->hash = NAME_HASH;
 	do
 		search->end++;
 	while (search->end < search->len && !may_end(search->text[search->end]));
-	search->hash = hash_more(search->hash, search->text + begin, search->end - begin);
+	search->hash = name_hash_more(search->hash, search->text + begin, search->end - begin);
 	search->entry = *chain_of(index, search->hash);
 	return true;
 }

@@ -5,6 +5,7 @@
  * Used between scans, to show, record or set variables.
  */
 #include "engine/scan/symbol_index.h"
+#include "engine/base/name.h"
 
 #include "engine/base/ascii.h"
 
@@ -82,11 +83,11 @@ static struct location match(const struct program *p,
 {
 	struct location none = { .type = IEC_NONE };
 	const struct word_row *row;
-	size_t own = symbol->array.head;
+	size_t own = name_head(symbol->name, symbol->array.head, text, len);
 	uint32_t number;
 	int pin;
 
-	if (len < own || !ascii_same(symbol->name, text, own))
+	if (own == 0)
 		return none;
 	if (symbol->array.count)
 		return parse_index(symbol, text + own, len - own, &number) ?
@@ -106,10 +107,9 @@ static struct location match_whole(const struct program *p,
 				   const char *text, size_t len)
 {
 	struct location at = match(p, symbol, text, len);
-	size_t skip = strlen(symbol->pou);
+	size_t skip = name_head(symbol->pou, strlen(symbol->pou), text, len);
 
-	if (at.type == IEC_NONE && skip && len > skip + 1 && text[skip] == '.' &&
-	    ascii_same(symbol->pou, text, skip))
+	if (at.type == IEC_NONE && skip && len > skip + 1 && text[skip] == '.')
 		at = match(p, symbol, text + skip + 1, len - skip - 1);
 	return at;
 }
@@ -138,12 +138,13 @@ static struct location find_declared(const struct program *p, const char *text,
 /* Whether @text is this name, perhaps with its program's in front. */
 static bool is_named(const struct declared_name *symbol, const char *text, size_t len)
 {
-	size_t skip = strlen(symbol->pou), own = symbol->array.head;
+	size_t skip = name_head(symbol->pou, strlen(symbol->pou), text, len);
+	size_t own = symbol->array.head;
 
-	if (skip && len == skip + 1 + own && text[skip] == '.' &&
-	    ascii_same(symbol->pou, text, skip))
-		text += skip + 1, len = own;
-	return len == own && ascii_same(symbol->name, text, own);
+	if (skip && len > skip + 1 && text[skip] == '.' &&
+	    name_same(symbol->name, own, text + skip + 1, len - skip - 1))
+		return true;
+	return name_same(symbol->name, own, text, len);
 }
 
 bool image_find_array(const struct image *image, const char *name, size_t len,
@@ -161,18 +162,16 @@ bool image_find_array(const struct image *image, const char *name, size_t len,
 static bool is_member(const struct declared_name *symbol, const char *head, size_t len,
 		      int64_t *index)
 {
-	size_t skip = strlen(symbol->pou);
-	const char *at = symbol->name + len;
+	size_t skip = name_head(symbol->pou, strlen(symbol->pou), head, len);
+	const char *at;
 	bool negative;
 
-	if (skip && len > skip && head[skip] == '.' &&
-	    ascii_same(symbol->pou, head, skip)) {
+	if (skip && len > skip && head[skip] == '.') {
 		head += skip + 1;
 		len -= skip + 1;
-		at = symbol->name + len;
 	}
-	if (strlen(symbol->name) <= len || !ascii_same(symbol->name, head, len) ||
-	    *at++ != '[')
+	at = symbol->name + name_head(head, len, symbol->name, strlen(symbol->name));
+	if (at == symbol->name || *at++ != '[')
 		return false;
 	negative = *at == '-';
 	at += negative;

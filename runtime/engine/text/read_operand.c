@@ -5,6 +5,7 @@
  * It judges form only; check/ finds the meaning of a name.
  */
 #include "engine/text/reader.h"
+#include "engine/base/name.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
@@ -237,9 +238,8 @@ static bool is_twice(const struct reader *r, const struct read_arg *arg)
 	const char *pin = r->text.text + arg->pin_at;
 
 	for (int i = 0; i < r->arg_count; i++)
-		if (r->arg[i].pin_len == arg->pin_len &&
-		    ascii_same(r->text.text + r->arg[i].pin_at, pin,
-			       arg->pin_len))
+		if (name_same(r->text.text + r->arg[i].pin_at, r->arg[i].pin_len, pin,
+			      arg->pin_len))
 			return true;
 	return false;
 }

@@ -5,8 +5,8 @@
  * It knows tokens, names, values and parameters. Parts and rungs are read in read_*.c.
  */
 #include "engine/text/reader.h"
+#include "engine/base/name.h"
 
-#include "engine/base/ascii.h"
 #include "engine/model/advice.h"
 #include "engine/text/mend.h"
 
@@ -83,8 +83,8 @@ static bool is_label(const struct reader *r)
 		const struct il_line *line = &r->il->line[i];
 
 		if (line->kind == IL_OP && line->op == OP_JMP &&
-		    ascii_is(names_text(&r->project->names, line->operand), token->text,
-			     token->len))
+		    name_is(names_text(&r->project->names, line->operand), token->text,
+			    token->len))
 			return true;
 	}
 	return false;

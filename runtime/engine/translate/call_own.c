@@ -7,6 +7,7 @@
  * all waiting values are stored before the call.
  */
 #include "engine/translate/lists.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 #include <strings.h>
@@ -31,7 +32,7 @@ static const struct il_line *find_arg(const struct list *list, const char *name,
 				      int *at)
 {
 	for (int i = list->at + 1; is_arg(list, i); i++)
-		if (strcasecmp(pin_text(list, &list->il->line[i]), name) == 0) {
+		if (name_is(pin_text(list, &list->il->line[i]), name, strlen(name))) {
 			*at = i;
 			return &list->il->line[i];
 		}

@@ -3,6 +3,7 @@
  * value - reads times, names and values. It changes no image.
  */
 #include "engine/trial/value.h"
+#include "engine/base/name.h"
 
 #include "engine/trial/classic_name.h"
 
@@ -202,14 +203,13 @@ bool value_has_room(const struct image *image, struct location at,
 
 static bool is_head(const char *word, const char *text, size_t len)
 {
-	return strlen(word) == len && ascii_same(word, text, len);
+	return name_is(word, text, len);
 }
 
 static bool is_own(const struct declared_name *symbol, const char *text,
 		   size_t len)
 {
-	return strcspn(symbol->name, ".[") == len &&
-	       ascii_same(symbol->name, text, len);
+	return name_same(symbol->name, strcspn(symbol->name, ".["), text, len);
 }
 
 /* Whether a bare name is a local of several programs and not a global. */

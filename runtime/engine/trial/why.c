@@ -3,8 +3,8 @@
  * why - walks the network of a rung from a cell back to the left rail, path by path.
  */
 #include "engine/trial/why.h"
+#include "engine/base/name.h"
 
-#include "engine/base/ascii.h"
 #include "engine/model/network.h"
 #include "engine/trial/why_parts.h"
 #include "engine/trial/why_values.h"
@@ -128,7 +128,7 @@ static void name_cell(const struct walk *walk, int element, struct why_cell *cel
 static bool same_cell(const struct why_cell *a, const struct why_cell *b)
 {
 	if (is_contact(a->kind) && is_contact(b->kind))
-		return ascii_is(a->name, b->name, strlen(b->name));
+		return name_is(a->name, b->name, strlen(b->name));
 	return a->row == b->row && a->col == b->col && strcmp(a->name, b->name) == 0;
 }
 
@@ -253,7 +253,7 @@ static bool is_possible(struct walk *walk, uint32_t operand, bool value)
 		const char *other = names_text(names, walk->need[i].operand);
 
 		if (walk->need[i].value != value &&
-		    ascii_is(other, text, names_len(names, operand)))
+		    name_is(other, text, names_len(names, operand)))
 			return false;
 	}
 	walk->need[walk->needs++] = (struct need){ operand, value };
@@ -321,8 +321,8 @@ static int rung_of_label(const struct pou *pou, const struct names *names,
 {
 	for (int i = 0; i < pou->rung_count; i++)
 		if (pou->rung[i]->label &&
-		    ascii_is(names_text(names, pou->rung[i]->label),
-			     names_text(names, label), names_len(names, label)))
+		    name_is(names_text(names, pou->rung[i]->label),
+			    names_text(names, label), names_len(names, label)))
 			return i + 1;
 	return 0;
 }

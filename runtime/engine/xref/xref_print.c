@@ -3,8 +3,8 @@
  * xref_print - prints uses as lines for people and as JSON, sorted by thing.
  */
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
-#include "engine/base/ascii.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -144,9 +144,9 @@ static bool is_wanted(const struct xref *xref, const struct xref_use *use,
 		return true;
 	xref_name(xref->project, &use->target, use, name, sizeof(name));
 	last = name + strcspn(name, ".:");
-	return ascii_is(wanted->name, name, strlen(name)) ||
+	return name_is(wanted->name, name, strlen(name)) ||
 	       (*last && use->target.what != XREF_ADDRESS &&
-		ascii_is(wanted->name, last + 1, strlen(last + 1)));
+		name_is(wanted->name, last + 1, strlen(last + 1)));
 }
 
 /* ---- order ---- */

@@ -207,18 +207,16 @@ static bool looks_like_step(const char *name)
 	return ascii_upper(name[0]) == 'X' && ascii_digit(name[1]);
 }
 
-/* Bytes of the character at @text if a name may hold it, else 0. */
-static size_t name_char(const char *text, size_t len)
+/* May a name hold this character of @len bytes? */
+static bool is_name_char(const char *text, size_t len)
 {
-	size_t step = utf8_length(text, len);
-	char upper = ascii_upper(*text);
+	const char upper = ascii_upper(*text);
 
-	if (step > 1)
-		return step;
-	return (upper >= 'A' && upper <= 'Z') || ascii_digit(upper) || upper == '_';
+	return len > 1 ? utf8_is_letter(text, len) :
+	       (upper >= 'A' && upper <= 'Z') || ascii_digit(upper) || upper == '_';
 }
 
-/* Letters, digits and _ of @wish; anything else becomes _. */
+/* Letters, digits and _ of @wish; any other character becomes _. */
 static const char *as_name(struct conversion *c, const char *wish)
 {
 	size_t len = strlen(wish), at = 0, out = 0;
@@ -231,14 +229,15 @@ static const char *as_name(struct conversion *c, const char *wish)
 	if (!len || ascii_digit(wish[0]))
 		name[out++] = 'N';
 	while (at < len) {
-		size_t step = name_char(wish + at, len - at);
+		const size_t found = utf8_length(wish + at, len - at), step = found ? found : 1;
 
-		if (step)
+		if (is_name_char(wish + at, step)) {
 			memcpy(name + out, wish + at, step);
-		else
-			name[out] = '_';
-		out += step ? step : 1;
-		at += step ? step : 1;
+			out += step;
+		} else {
+			name[out++] = '_';
+		}
+		at += step;
 	}
 	return name;
 }
