@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * rename - finds names in scenarios and plants, and renames; see rename.h.
+ * rename - finds names in scenarios, plants and charts, and renames; see rename.h.
  */
 #include "editor-gtk/document/rename.h"
 
@@ -13,6 +13,7 @@
 #include "engine/model/sfc.h"
 #include "engine/trial/plant.h"
 #include "engine/trial/scenario.h"
+#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -27,12 +28,27 @@ struct naming {
 	struct xref_target target;
 };
 
+struct plant_file {
+	char *path;
+	struct ladder *ladder;
+	struct naming naming;       /* project NULL: it does not have the name  */
+};
+
 struct renaming {
-	struct naming own, plant;   /* plant.project NULL: nothing in a plant   */
-	const char *plant_path;
+	struct naming own, plant;   /* plant: of the text that is read; project NULL: none */
 	const char *name;           /* the new one                              */
 	GPtrArray *files;
+	GPtrArray *plants;          /* of struct plant_file                     */
 };
+
+static void plant_file_free(gpointer data)
+{
+	struct plant_file *plant = data;
+
+	ladder_free(plant->ladder);
+	g_free(plant->path);
+	g_free(plant);
+}
 
 static void file_free(gpointer data)
 {
@@ -75,7 +91,7 @@ static bool is_name(const struct project *project, uint32_t id, const char *text
 {
 	const char *name = project_text(project, id);
 
-	return strlen(name) == len && g_ascii_strncasecmp(name, text, len) == 0;
+	return name_is(name, text, len);
 }
 
 static int members_of(const struct project *project, const struct var *var)
@@ -260,13 +276,21 @@ static char *named_plant(const char *path, const char *text, gsize len)
 	return plant;
 }
 
-static bool names_plant(const char *path, const char *text, gsize len, const char *plant)
+/* The name in the plant of a scenario. */
+static struct naming plant_naming(const struct renaming *renaming, const char *path,
+				  const char *text, gsize len)
 {
-	char *named = plant ? named_plant(path, text, len) : NULL;
-	const bool same = named && disk_same(named, plant);
+	char *named = named_plant(path, text, len);
+	struct naming naming = { .project = NULL };
 
+	for (guint i = 0; named && i < renaming->plants->len; i++) {
+		const struct plant_file *plant = renaming->plants->pdata[i];
+
+		if (disk_same(named, plant->path))
+			naming = plant->naming;
+	}
 	g_free(named);
-	return same;
+	return naming;
 }
 
 static void rename_in_scenario(struct renaming *renaming, LadderDocument *document,
@@ -279,8 +303,7 @@ static void rename_in_scenario(struct renaming *renaming, LadderDocument *docume
 
 	if (!text)
 		return;
-	if (!names_plant(path, text, len, renaming->plant_path))
-		own.plant.project = NULL;
+	own.plant = plant_naming(renaming, path, text, len);
 	rewriting.out = g_string_new(NULL);
 	rewrite(&rewriting, text, len);
 	if (rewriting.places > 0)
@@ -356,17 +379,17 @@ static char *written(const char *text, gsize len)
 
 /* Adds the plant with the new name. False: it refuses the name, and @why says so. */
 static bool rename_in_plant(struct renaming *renaming, const char *text, gsize len,
-			    struct ladder *plant, char **why)
+			    const struct plant_file *plant, char **why)
 {
-	const struct xref_target *target = &renaming->plant.target;
-	const struct project *project = renaming->plant.project;
+	const struct xref_target *target = &plant->naming.target;
+	const struct project *project = plant->naming.project;
 	const char *old = project_text(project, project->globals.var[target->index].name);
 	struct ladder_rename how;
 	size_t size;
-	char *whole = ladder_rename(plant, target, renaming->name, &size, &how), *typed, *again;
+	char *whole = ladder_rename(plant->ladder, target, renaming->name, &size, &how), *typed, *again;
 
 	if (!whole) {
-		char *file = g_path_get_basename(renaming->plant_path);
+		char *file = g_path_get_basename(plant->path);
 
 		*why = g_strdup_printf(_("“%s” cannot be its name in %s"), renaming->name, file);
 		g_free(file);
@@ -378,7 +401,7 @@ static bool rename_in_plant(struct renaming *renaming, const char *text, gsize l
 		g_free(typed);
 		typed = g_strdup(whole);
 	}
-	add_file(renaming, renaming->plant_path, typed, how.places);
+	add_file(renaming, plant->path, typed, how.places);
 	free(again);
 	free(whole);
 	return true;
@@ -386,47 +409,127 @@ static bool rename_in_plant(struct renaming *renaming, const char *text, gsize l
 
 /* ---- all files ---- */
 
-/* "pump.plant.rung" of "pump.rung", else the plant that a scenario names. Caller frees. */
-static char *find_plant(LadderDocument *document, const char *path, const GPtrArray *scenarios)
+static void add_plant(GPtrArray *plants, char *path)
+{
+	struct plant_file *plant;
+
+	for (guint i = 0; i < plants->len; i++)
+		if (disk_same(path, ((struct plant_file *)plants->pdata[i])->path)) {
+			g_free(path);
+			return;
+		}
+	plant = g_new0(struct plant_file, 1);
+	plant->path = path;
+	plant->ladder = ladder_new();
+	g_ptr_array_add(plants, plant);
+}
+
+/* "pump.plant.rung" of "pump.rung", and the plants that scenarios name. */
+static void find_plants(struct renaming *renaming, LadderDocument *document, const char *path,
+			const GPtrArray *scenarios)
 {
 	const char *dot = strrchr(path, '.');
 	char *plant = g_strdup_printf("%.*s.plant.rung", (int)(dot ? dot - path :
 							       (long)strlen(path)), path);
 
 	if (g_file_test(plant, G_FILE_TEST_EXISTS))
-		return plant;
-	g_clear_pointer(&plant, g_free);
-	for (guint i = 0; i < scenarios->len && !plant; i++) {
+		add_plant(renaming->plants, g_steal_pointer(&plant));
+	g_free(plant);
+	for (guint i = 0; i < scenarios->len; i++) {
 		gsize len;
 		char *text = text_of(document, scenarios->pdata[i], &len);
 
-		if (text)
-			plant = named_plant(scenarios->pdata[i], text, len);
+		plant = text ? named_plant(scenarios->pdata[i], text, len) : NULL;
+		if (plant)
+			add_plant(renaming->plants, plant);
 		g_free(text);
 	}
-	return plant;
 }
 
 static bool take_plant(struct renaming *renaming, LadderDocument *document,
-		       struct ladder *plant, char **why)
+		       struct plant_file *plant, char **why)
 {
 	const struct var *var = xref_var(renaming->own.project, &renaming->own.target);
 	gsize len;
 	char *text = renaming->own.target.what == XREF_VARIABLE && var &&
-		     var->at.area != AREA_NONE && renaming->plant_path ?
-		     text_of(document, renaming->plant_path, &len) : NULL;
+		     var->at.area != AREA_NONE ? text_of(document, plant->path, &len) : NULL;
 	bool good = true;
 	int twin = -1;
 
-	if (text && ladder_load_text(plant, renaming->plant_path, text, len))
-		twin = find_twin(ladder_project(plant), renaming->own.project, var);
+	if (text && ladder_load_text(plant->ladder, plant->path, text, len))
+		twin = find_twin(ladder_project(plant->ladder), renaming->own.project, var);
 	if (twin >= 0) {
-		renaming->plant.project = ladder_project(plant);
-		renaming->plant.target = xref_variable(renaming->plant.project, 0, twin);
+		plant->naming.project = ladder_project(plant->ladder);
+		plant->naming.target = xref_variable(plant->naming.project, 0, twin);
 		good = rename_in_plant(renaming, text, len, plant, why);
 	}
 	g_free(text);
 	return good;
+}
+
+/* ---- status and timing charts ---- */
+
+/* The name in a line of the VIEW part, "watch hex Name comment" or "timing Name", as
+ * live/watch.h and live/timing.h describe them; NULL: the line has none. */
+static const char *name_in_view(const char *line, gsize *len)
+{
+	const char *at = line + strspn(line, " \t");
+	const gsize word = strcspn(at, " \t");
+	const bool watch = word == 5 && strncmp(at, "watch", 5) == 0;
+
+	if (!watch && !(word == 6 && strncmp(at, "timing", 6) == 0))
+		return NULL;
+	at += word + strspn(at + word, " \t");
+	if (watch) {
+		const gsize format = strcspn(at, " \t");
+
+		at += format + strspn(at + format, " \t");
+	}
+	*len = strcspn(at, " \t\r");
+	return *len ? at : NULL;
+}
+
+static void rename_in_line(struct renaming *renaming, const char *line, GString *out, int *places)
+{
+	struct rewriting rewriting = { .renaming = renaming, .out = out,
+				       .at = { .members = -1 } };
+	gsize len;
+	const char *name = name_in_view(line, &len);
+	char *alone;
+
+	if (!name) {
+		g_string_append(out, line);
+		return;
+	}
+	g_string_append_len(out, line, name - line);
+	alone = g_strndup(name, len);
+	rewriting.done = alone;
+	rewrite(&rewriting, alone, len);
+	g_string_append(out, name + len);
+	*places += rewriting.places;
+	g_free(alone);
+}
+
+/* Adds the VIEW part, without a path, if a chart has the name. */
+static void rename_in_view(struct renaming *renaming, LadderDocument *document)
+{
+	char **lines = g_strsplit(ladder_document_view(document), "\n", -1);
+	const struct plant_file *plant = renaming->plants->len ? renaming->plants->pdata[0] : NULL;
+	struct renaming own = *renaming;
+	GString *out = g_string_new(NULL);
+	int places = 0;
+
+	own.plant = plant ? plant->naming : (struct naming){ .project = NULL };
+	for (char **line = lines; *line; line++) {
+		if (line != lines)
+			g_string_append_c(out, '\n');
+		rename_in_line(&own, *line, out, &places);
+	}
+	if (places > 0)
+		add_file(renaming, NULL, g_string_free(out, FALSE), places);
+	else
+		g_string_free(out, TRUE);
+	g_strfreev(lines);
 }
 
 GPtrArray *rename_files(LadderDocument *document, const struct xref_target *target,
@@ -435,18 +538,22 @@ GPtrArray *rename_files(LadderDocument *document, const struct xref_target *targ
 	struct project *project = ladder_document_project(document);
 	const char *path = ladder_document_path(document);
 	GPtrArray *scenarios = side_file_list(path, ".scn", true);
-	char *plant_path = path ? find_plant(document, path, scenarios) : NULL;
-	struct renaming renaming = { .own = { project, *target }, .plant_path = plant_path,
-		.name = name ? name : ANY_NAME, .files = g_ptr_array_new_with_free_func(file_free) };
-	struct ladder *plant = ladder_new();
+	struct renaming renaming = { .own = { project, *target },
+		.name = name ? name : ANY_NAME, .files = g_ptr_array_new_with_free_func(file_free),
+		.plants = g_ptr_array_new_with_free_func(plant_file_free) };
+	bool good = true;
 
-	if (take_plant(&renaming, document, plant, why))
-		for (guint i = 0; i < scenarios->len; i++)
-			rename_in_scenario(&renaming, document, scenarios->pdata[i]);
+	if (path)
+		find_plants(&renaming, document, path, scenarios);
+	for (guint i = 0; good && i < renaming.plants->len; i++)
+		good = take_plant(&renaming, document, renaming.plants->pdata[i], why);
+	for (guint i = 0; good && i < scenarios->len; i++)
+		rename_in_scenario(&renaming, document, scenarios->pdata[i]);
+	if (good)
+		rename_in_view(&renaming, document);
 	else
 		g_clear_pointer(&renaming.files, g_ptr_array_unref);
-	ladder_free(plant);
-	g_free(plant_path);
+	g_ptr_array_unref(renaming.plants);
 	g_ptr_array_unref(scenarios);
 	return renaming.files;
 }
@@ -517,10 +624,12 @@ char *rename_refusal(LadderDocument *document, const struct xref_target *target,
 
 static void put_file(LadderDocument *document, const struct rename_file *file)
 {
-	LadderSideFile *there = side_file_find(document, file->path);
-	LadderSideFile *side = there ? g_object_ref(there) :
-			       ladder_side_file_open(file->path, document, NULL);
+	LadderSideFile *there = file->path ? side_file_find(document, file->path) : NULL;
+	LadderSideFile *side = there ? g_object_ref(there) : file->path ?
+			       ladder_side_file_open(file->path, document, NULL) : NULL;
 
+	if (!file->path)
+		ladder_document_set_view(document, file->text);
 	if (!side)
 		return;
 	if (!there)

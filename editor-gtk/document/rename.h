@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
  * rename - gives a name of the project another name, wherever it is used: in the program, in
- * its scenarios, and in the plants that these or the program's name choose.
+ * its scenarios, in each plant that these or the program's name choose, and in the status and
+ * timing charts of its VIEW part.
  *
- * The engine renames programs; here names in scenarios are found. All files change in one
+ * The engine renames programs; here names in scenarios and charts are found. All files change in one
  * step of the history. Files beside the project are not saved here.
  */
 #ifndef EDITOR_RENAME_H
@@ -13,9 +14,9 @@
 
 #include "engine/xref/xref.h"
 
-/* A file beside the project that has the name. */
+/* A file beside the project that has the name, or the charts of the VIEW part. */
 struct rename_file {
-	char *path;
+	char *path;      /* NULL: the VIEW part                               */
 	char *text;      /* with the new name                                 */
 	int places;
 };

@@ -339,7 +339,7 @@ static void typed(GtkEditable *line, struct renaming *renaming)
 	g_free(name);
 }
 
-/* The files beside the project that have the name, a line each. */
+/* The files beside the project that have the name, and its charts, a line each. */
 static void list_files(struct renaming *renaming, GString *body)
 {
 	const struct named *named = chosen_of(renaming);
@@ -348,7 +348,8 @@ static void list_files(struct renaming *renaming, GString *body)
 
 	for (guint i = 0; files && i < files->len; i++) {
 		const struct rename_file *file = files->pdata[i];
-		char *name = g_path_get_basename(file->path);
+		char *name = file->path ? g_path_get_basename(file->path) :
+					  g_strdup(_("Status and timing charts"));
 
 		g_string_append_c(body, '\n');
 		g_string_append_printf(body, ngettext("%s: %d place", "%s: %d places",
@@ -522,7 +523,7 @@ void names_rename(struct core *core)
 	struct xref xref = { 0 };
 	int here;
 
-	if (begin(core, &xref, &here)) {
+	if (find_label(core, &xref, &here)) {
 		GArray *choice = choice_here(core, &xref, here);
 
 		if (choice->len) {
@@ -532,6 +533,8 @@ void names_rename(struct core *core)
 							"this name has no declaration."));
 			g_array_unref(choice);
 		}
+	} else if (ladder_document_project(core->document)) {
+		messages_tell(core->messages, _(no_name));
 	}
 	xref_free(&xref);
 }

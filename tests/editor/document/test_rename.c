@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_rename - a symbol, program or step gets another name in the project, its scenarios and
- * its plant, in one step. No display.
+ * test_rename - a symbol, program, step or label gets another name in the project, its scenarios,
+ * its plants and its charts, in one step. No display.
  */
 #include "editor-gtk/document/rename.h"
 #include "editor-gtk/document/side_file.h"
@@ -60,15 +60,20 @@ static void file_opened(LadderDocument *of, LadderSideFile *file)
 	g_ptr_array_add(opened, g_object_ref(file));
 }
 
-static void start(void)
+static void start_with(const char *text)
 {
-	CHECK(g_file_set_contents(program, PROGRAM, -1, NULL));
+	CHECK(g_file_set_contents(program, text, -1, NULL));
 	CHECK(g_file_set_contents(scenario, SCENARIO, -1, NULL));
 	CHECK(g_file_set_contents(plant, PLANT, -1, NULL));
 	document = ladder_document_new();
 	opened = g_ptr_array_new_with_free_func(g_object_unref);
 	g_signal_connect(document, "file-opened", G_CALLBACK(file_opened), NULL);
 	CHECK(ladder_document_open(document, program, NULL));
+}
+
+static void start(void)
+{
+	start_with(PROGRAM);
 }
 
 static void end(void)
@@ -266,6 +271,107 @@ static void test_refused(void)
 	end();
 }
 
+/* Each plant that a scenario names has the new name, and each scenario means its own plant. */
+static void test_plants(void)
+{
+	char *second = g_build_filename(folder, "pump_2.scn", NULL);
+	char *other = g_build_filename(folder, "other.plant.rung", NULL);
+	static const char TEXT[] = "plant \"other.plant.rung\"\nscenario \"b\"\n"
+				   "  expect Motor and plant.Motor\n";
+	static const char *const both[] = { "and plant.Motor", "and plant.Pump", "expect Motor",
+					    "expect Pump", NULL };
+	static const char *const in_plant[] = { "  Motor  AT", "  Pump  AT", "NO Motor",
+						"NO Pump", NULL };
+	struct xref_target target;
+	GPtrArray *files;
+	char *why = NULL, *text = with(TEXT, both), *changed = with(PLANT, in_plant);
+
+	start();
+	CHECK(g_file_set_contents(second, TEXT, -1, NULL));
+	CHECK(g_file_set_contents(other, PLANT, -1, NULL));
+	target = target_of(0, "Motor");
+	files = rename_files(document, &target, NULL, &why);
+	CHECK_AS(files && files->len == 4, "two scenarios and two plants are listed");
+	g_ptr_array_unref(files);
+	CHECK(rename_to(&target, "Pump", 2 + 2 * 2 + 2 * 2));
+	CHECK_AS(holds(second, text) && holds(other, changed) && holds(plant, changed),
+		 "both plants change");
+	CHECK(ladder_document_undo(document));
+	CHECK_AS(holds(second, TEXT) && holds(other, PLANT) && holds(plant, PLANT),
+		 "one undo restores both plants");
+	end();
+	g_unlink(second);
+	g_unlink(other);
+	g_free(second);
+	g_free(other);
+	g_free(text);
+	g_free(changed);
+}
+
+/* Names in status charts and timing charts. Comments of a chart stay. */
+static void test_charts(void)
+{
+	static const char VIEW[] = "\nVIEW\n  bookmark Main 1\n  status-chart Motor\n"
+		"    watch auto MOTOR Motor of the belt\n    watch hex Main.Delay.ET\n"
+		"    watch auto plant.Motor\n    watch auto Table[Within].Speed\n"
+		"  timing Motor\n  timing Delay.Q\n  timing %QX0.0\nEND_VIEW\n";
+	static const char *const motor[] = { "auto MOTOR Motor", "auto Pump Motor", "plant.Motor",
+					     "plant.Pump", "timing Motor", "timing Pump", NULL };
+	static const char *const delay[] = { "Main.Delay.ET", "Main.Wait.ET", "timing Delay.Q",
+					     "timing Wait.Q", NULL };
+	char *whole = g_strconcat(PROGRAM, VIEW, NULL);
+	char *view, *text = with(VIEW, motor), *local;
+	struct xref_target target;
+	GPtrArray *files;
+	char *why = NULL;
+	bool listed = false;
+
+	start_with(whole);
+	view = g_strdup(ladder_document_view(document));
+	target = target_of(0, "Motor");
+	files = rename_files(document, &target, NULL, &why);
+	for (guint i = 0; files && i < files->len; i++) {
+		const struct rename_file *file = files->pdata[i];
+
+		listed |= !file->path && file->places == 3;
+	}
+	CHECK_AS(listed, "the charts are listed before");
+	g_ptr_array_unref(files);
+	CHECK(rename_to(&target, "Pump", 2 + 2 + 2 + 3));
+	CHECK_AS(strstr(text, ladder_document_view(document)), "the charts change");
+	CHECK(ladder_document_undo(document));
+	CHECK_AS(strcmp(ladder_document_view(document), view) == 0 && has("COIL Motor"),
+		 "one undo restores the charts");
+	target = target_of(1, "Delay");
+	CHECK(rename_to(&target, "Wait", 2 + 2 + 2));
+	local = with(VIEW, delay);
+	CHECK_AS(strstr(local, ladder_document_view(document)), "a local in charts");
+	g_free(local);
+	g_free(text);
+	g_free(view);
+	g_free(whole);
+	end();
+}
+
+/* A label: its rung and its jumps. */
+static void test_label(void)
+{
+	struct xref xref = { 0 };
+	int found = -1;
+
+	start_with("RUNGBOARD 1\n\nPROGRAM Main LD\n"
+		   "RUNG\n  | NO I0 | JMP Past |\nRUNG\n  | NO I1 | COIL Q0 |\n"
+		   "RUNG Past\n  | NO I2 | COIL Q1 |\nEND_PROGRAM\n");
+	CHECK(xref_make(&xref, ladder_document_project(document)));
+	for (int i = 0; i < xref.count; i++)
+		if (xref.use[i].target.what == XREF_LABEL && xref.use[i].kind == XREF_DECLARED)
+			found = i;
+	CHECK(found >= 0 && rename_to(&xref.use[found].target, "Behind", 2));
+	CHECK_AS(has("JMP Behind") && has("RUNG Behind"), "a label and its jump");
+	xref_free(&xref);
+	end();
+}
+
 int main(void)
 {
 	folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);
@@ -277,6 +383,9 @@ int main(void)
 	test_symbols();
 	test_open();
 	test_refused();
+	test_plants();
+	test_charts();
+	test_label();
 	g_unlink(program);
 	g_unlink(scenario);
 	g_unlink(plant);
