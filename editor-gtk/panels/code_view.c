@@ -6,6 +6,9 @@
 
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/text_scheme.h"
+#include "editor-gtk/text/line_values.h"
+#include "editor-gtk/text/text_complete.h"
 
 #include "engine/text/pou_print.h"
 
@@ -15,6 +18,7 @@ struct code_view {
 	LadderDocument *document;
 	GtkTextBuffer *buffer;
 	GtkWidget *text;
+	LadderLineValues *values;
 	int pou;
 	bool stale;         /* the list changed since it was shown             */
 };
@@ -40,6 +44,8 @@ static void show_now(struct code_view *code)
 	int count;
 
 	code->stale = false;
+	line_values_set_pou(code->values, il ? project_text(project, project->pou[code->pou].name) :
+			    "");
 	if (!il) {
 		gtk_text_buffer_set_text(code->buffer,
 			_("Fix the errors of the program to see its instruction list."),
@@ -69,15 +75,21 @@ static void seen(struct code_view *code)
 		show_now(code);
 }
 
-GtkWidget *ladder_code_view_new(LadderDocument *document)
+GtkWidget *ladder_code_view_new(LadderDocument *document, LadderSim *sim)
 {
-	GtkWidget *scroller = gtk_scrolled_window_new(), *text = gtk_text_view_new();
+	GtkSourceBuffer *buffer = gtk_source_buffer_new(NULL);
+	GtkWidget *scroller = gtk_scrolled_window_new();
+	GtkWidget *text = gtk_source_view_new_with_buffer(buffer);
 	struct code_view *code = g_new0(struct code_view, 1);
 
 	code->document = g_object_ref(document);
 	code->text = text;
 	code->stale = true;
-	code->buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(text));
+	code->buffer = GTK_TEXT_BUFFER(buffer);
+	code->values = line_values_add(GTK_SOURCE_VIEW(text), sim);
+	gtk_source_buffer_set_language(buffer, text_language());
+	text_scheme_follow(buffer);
+	g_object_unref(buffer);
 	gtk_text_view_set_editable(GTK_TEXT_VIEW(text), FALSE);
 	gtk_text_view_set_monospace(GTK_TEXT_VIEW(text), TRUE);
 	gtk_text_view_set_left_margin(GTK_TEXT_VIEW(text), 14);

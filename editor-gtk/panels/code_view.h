@@ -8,12 +8,12 @@
 #ifndef EDITOR_CODE_VIEW_H
 #define EDITOR_CODE_VIEW_H
 
-#include "editor-gtk/document/document.h"
+#include "editor-gtk/sim/sim.h"
 
 #include <gtk/gtk.h>
 
-/** ladder_code_view_new - shows the first program. */
-GtkWidget *ladder_code_view_new(LadderDocument *document);
+/** ladder_code_view_new - shows the first program; beside its lines the values of @sim. */
+GtkWidget *ladder_code_view_new(LadderDocument *document, LadderSim *sim);
 void ladder_code_view_set_pou(GtkWidget *view, int pou);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/text/line_values.h"
 #include "editor-gtk/text/text_complete.h"
 #include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/sim/live_map.h"
@@ -29,6 +30,7 @@ struct _LadderTextView {
 	GtkBox parent;
 	LadderDocument *document;
 	LadderSim *sim;          /* NULL: none                                 */
+	LadderLineValues *values; /* beside the lines; NULL: no simulation       */
 	int pou;
 	GtkSourceView *view;
 	GtkSourceBuffer *buffer;
@@ -194,11 +196,23 @@ static void typed(LadderTextView *view)
 		view->taking = g_timeout_add(SEEN_MS, take_now, view);
 }
 
+/* The POU may have got another name. */
+static void name_pou(LadderTextView *view)
+{
+	const struct project *project = ladder_document_project(view->document);
+
+	if (view->values)
+		line_values_set_pou(view->values, !project || view->pou < 0 ||
+				    view->pou >= project->pou_count ? "" :
+				    project_text(project, project->pou[view->pou].name));
+}
+
 /* Does not replace text typed since. */
 static void document_changed(LadderTextView *view)
 {
 	if (!view->ours && !view->taking)
 		show_text(view);
+	name_pou(view);
 }
 
 static void variable_changed(LadderTextView *view, int pou)
@@ -368,6 +382,14 @@ char *ladder_text_view_tip(LadderTextView *view, int line)
 void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim)
 {
 	g_set_object(&view->sim, sim);
+	if (sim && !view->values)
+		view->values = line_values_add(view->view, sim);
+	name_pou(view);
+}
+
+const char *ladder_text_view_value(LadderTextView *view, int line)
+{
+	return view->values ? line_values_text(view->values, line - 1) : NULL;
 }
 
 static gboolean tell_pointed(GtkWidget *widget, int x, int y, gboolean by_keys,
@@ -437,6 +459,7 @@ void ladder_text_view_set_pou(LadderTextView *view, int pou)
 {
 	view->pou = pou;
 	show_text(view);
+	name_pou(view);
 }
 
 GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view)

@@ -19,9 +19,12 @@ G_DECLARE_FINAL_TYPE(LadderTextView, ladder_text_view, LADDER, TEXT_VIEW, GtkBox
 GtkWidget *ladder_text_view_new(LadderDocument *document, int pou);
 int ladder_text_view_pou(LadderTextView *view);
 void ladder_text_view_set_pou(LadderTextView *view, int pou);
-/** ladder_text_view_set_sim - the values in tooltips of lines come from @sim; keeps a
- * reference. NULL: none. */
+/** ladder_text_view_set_sim - the values beside the lines and in their tooltips come from @sim;
+ * keeps a reference. NULL: none. */
 void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim);
+/** ladder_text_view_value - what is shown beside line @line, 1-based; NULL: nothing. Borrowed until
+ * the text, the program or the scan changes. */
+const char *ladder_text_view_value(LadderTextView *view, int line);
 /** ladder_text_view_tip - the tooltip of line @line, 1-based, of the shown text: errors and
  * values; NULL: none. Caller frees. */
 char *ladder_text_view_tip(LadderTextView *view, int line);

@@ -787,7 +787,7 @@ static GtkWidget *make_timing(gpointer data)
 static GtkWidget *make_list(gpointer data)
 {
 	struct core *core = data;
-	GtkWidget *list = ladder_code_view_new(core->document);
+	GtkWidget *list = ladder_code_view_new(core->document, core->sim);
 	LadderGridView *sheet = front_sheet(core->front);
 
 	if (sheet)

@@ -4,6 +4,7 @@
  * lines, typing and undoing in the one history.
  */
 #include "editor-gtk/text/text_complete.h"
+#include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/text/text_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
@@ -242,6 +243,50 @@ static void test_soon(void)
 	CHECK_AS(!has("Start8"), "undone text does not return");
 }
 
+/* What is beside a line, by its text. */
+static bool has_beside(const char *line, const char *value)
+{
+	char *text = shown(), **lines = g_strsplit(text, "\n", -1);
+	const char *beside = NULL;
+	bool found = false;
+
+	for (int i = 0; lines[i]; i++)
+		if (g_str_has_prefix(g_strchug(lines[i]), line)) {
+			beside = ladder_text_view_value(view, i + 1);
+			found = true;
+		}
+	if (!found || g_strcmp0(beside, value) != 0)
+		printf("# %s: %s\n", line, beside ? beside : found ? "nothing" : "no line");
+	g_strfreev(lines);
+	g_free(text);
+	return found && g_strcmp0(beside, value) == 0;
+}
+
+static void test_values(void)
+{
+	LadderSim *sim = ladder_sim_new(document);
+	const struct act on = { .kind = ACT_SET, .value.i = 1 };
+	struct act start = on;
+
+	ladder_text_view_set_sim(view, sim);
+	CHECK(ladder_text_view_value(view, 5) == NULL);
+	CHECK(ladder_sim_begin(sim, NULL));
+	CHECK(has_beside("LD    Start", "FALSE") && has_beside("ST    Motor", "FALSE"));
+	start.at = live_value_find(live_image(sim, false), "Start");
+	ladder_sim_act(sim, &start);
+	ladder_sim_scan(sim, 31);
+	CHECK_SOON(has_beside("LD    Start", "TRUE"));
+	CHECK_SOON(has_beside("CAL   Delay", "0.3 s / 1 s"));
+	CHECK(has_beside("ST    Motor", "TRUE") && has_beside("END_VAR", NULL) &&
+	      has_beside("ANDN  Stop", "FALSE"));
+	CHECK(ladder_sim_show(sim, 3));
+	CHECK_AS(has_beside("CAL   Delay", "0.0 s / 1 s"), "an earlier scan");
+	CHECK(ladder_sim_show(sim, 0) && has_beside("LD    Start", "FALSE"));
+	ladder_sim_end(sim);
+	CHECK(has_beside("LD    Start", NULL));
+	g_object_unref(sim);
+}
+
 int main(void)
 {
 	GtkWidget *window;
@@ -266,6 +311,7 @@ int main(void)
 	test_errors();
 	test_typing();
 	test_soon();
+	test_values();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);
