@@ -10,6 +10,7 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -26,8 +27,8 @@ int type_find(LadderDocument *document, const char *name)
 	const struct project *project = ladder_document_project(document);
 
 	for (int i = 0; project && i < project->structure_count; i++)
-		if (g_ascii_strcasecmp(project_text(project, project->structure[i].name),
-				       name) == 0)
+		if (name_equal(project_text(project, project->structure[i].name),
+				       name))
 			return i;
 	return -1;
 }
@@ -148,8 +149,8 @@ char *type_name_refusal(LadderDocument *document, const char *name)
 	if (words_is_taken(name))
 		return g_strdup_printf(_("“%s” is a word of the language"), name);
 	for (int i = 0; i < project->globals.count; i++)
-		if (g_ascii_strcasecmp(name, project_text(project,
-				project->globals.var[i].name)) == 0)
+		if (name_equal(name, project_text(project,
+				project->globals.var[i].name)))
 			return g_strdup_printf(_("“%s” is declared already"), name);
 	return NULL;
 }

@@ -487,14 +487,23 @@ static bool take_name(const char *text, size_t len, struct entry *entry)
 	return keep_operand(entry, text, len);
 }
 
-/* A / or ! before it inverts. */
+/* Bytes of / ! or NOT before an operand. */
+static size_t inverts(const char *text, size_t len)
+{
+	if (len > 0 && (*text == '/' || *text == '!'))
+		return 1;
+	return len > 4 && ascii_is("NOT", text, 3) && text[3] == ' ' ? 3 : 0;
+}
+
 static bool take_bool_of(const struct entry_place *place, const struct word_row *row,
 			 const char *text, size_t len, struct entry *entry)
 {
-	if (*text == '/' || *text == '!') {
+	const size_t sign = inverts(text, len);
+
+	if (sign > 0) {
 		entry->word = grid_word_negated(entry->word);
-		text++;
-		len--;
+		text += sign;
+		len -= sign;
 		trim(&text, &len);
 	}
 	return take_bool(place, text, len, row->operand == OPND_BOOL_W, entry);

@@ -297,6 +297,24 @@ static bool read_label_operand(struct reader *r, const struct token *word,
 	return true;
 }
 
+/* `LD NOT Door`, `AND /Door`, `ST !Lamp`: N at the operator inverts. */
+static bool refuse_negated(struct reader *r, const struct op_row *row, uint8_t modifiers)
+{
+	const bool inverts = row->modifiers & MOD_N;
+	const char *name;
+	char text[LIMIT_ARG + 1];
+	int len = 0;
+
+	reader_next(r);
+	name = r->lex.token.text;
+	while (len < 20 && name + len < r->lex.end && !strchr(" \t\r\n", name[len]))
+		len++;
+	snprintf(text, sizeof(text), "NOT %.*s" DIAG_AND "%s%s%s%.*s", len, name,
+		 inverts ? row->word : "", inverts && !(modifiers & MOD_N) ? "N" : "",
+		 inverts ? " " : "", inverts ? len : 0, name);
+	return reader_fail_word(r, DIAG_NEGATED, text);
+}
+
 static bool read_operator(struct reader *r, struct il_line line)
 {
 	const struct token word = r->lex.token;
@@ -319,7 +337,11 @@ static bool read_operator(struct reader *r, struct il_line line)
 	if (row->operand == OPND_NONE && !add_line(r, line))
 		return false;
 	reader_next(r);
-	return row->operand == OPND_NONE || read_operand(r, &word, &line);
+	if (row->operand == OPND_NONE)
+		return true;
+	if (lex_is(&r->lex, "NOT") || reader_is(r, '/') || reader_is(r, '!'))
+		return refuse_negated(r, row, line.modifiers);
+	return read_operand(r, &word, &line);
 }
 
 /* Neither an operator nor a function: suggests one. */

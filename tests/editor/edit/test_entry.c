@@ -67,6 +67,8 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "Start", "NO Start" }, { "start", "NO Start" }, { "/Stop", "NC Stop" },
 	{ "/ Stop", "NC Stop" }, { ">Motor", "COIL Motor" }, { ">/Motor", "COILNOT Motor" },
 	{ "NO /Start", "NC Start" }, { "COIL /Motor", "COILNOT Motor" },
+	{ "P /Start", "N Start" }, { "P NOT Start", "N Start" }, { "N NOT Start", "P Start" },
+	{ "NC NOT Start", "NO Start" }, { "COIL NOT Motor", "COILNOT Motor" },
 	{ "FanDelay", "NO FanDelay.Q" }, { "FanDelay.Q", "NO FanDelay.Q" },
 	{ "Lamps[3]", "NO Lamps[3]" }, { ">lamps[i]", "COIL Lamps[i]" },
 	{ "P1.On", "NO P1.On" },
