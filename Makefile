@@ -223,7 +223,9 @@ EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
 EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
 EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim canvas ladder sfc text iomap live panels render window)
 EDITOR_PLAIN := $(wildcard editor-gtk/edit/*.c) $(addprefix editor-gtk/document/,text_lines.c iomap_text.c iomap_uses.c iomap_check.c)
-EDITOR_C := $(wildcard $(EDITOR_ROOMS:%=%/*.c))
+# MD4C=no: without the library for the pages of the manual, which another program shows then.
+MD4C     ?= $(shell $(PKG_CONFIG) --exists md4c 2>/dev/null && echo yes)
+EDITOR_C := $(filter-out $(if $(filter yes,$(MD4C)),%/markdown_none.c,%/markdown_md4c.c),$(wildcard $(EDITOR_ROOMS:%=%/*.c)))
 EDITOR_TESTS_PLAIN := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/edit/test_*.c tests/editor/*/test_plain_*.c))
 EDITOR_TESTS := $(EDITOR_TESTS_PLAIN)
 $(BUILD)/libeditor-plain.a: $(call obj,$(EDITOR_PLAIN))
@@ -241,8 +243,9 @@ $(patsubst %,%/tests,$(call folders,$(PLAIN_ROOM))): $(BUILD)/libeditor-plain.a 
 $(PLAIN_ROOM): ; @ln -sf tests $@
 ifneq ($(EDITOR),)
 # No warnings about headers of libraries.
-EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags gtk4 libadwaita-1 gtksourceview-5)) -I$(BUILD)
-EDITOR_LIB := $(shell $(PKG_CONFIG) --libs gtk4 libadwaita-1 gtksourceview-5) $(GPIO_LIB)
+EDITOR_PKG := gtk4 libadwaita-1 gtksourceview-5 $(if $(filter yes,$(MD4C)),md4c)
+EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags $(EDITOR_PKG))) -I$(BUILD)
+EDITOR_LIB := $(shell $(PKG_CONFIG) --libs $(EDITOR_PKG)) $(GPIO_LIB)
 EDITOR_TESTS += $(filter-out $(EDITOR_TESTS_PLAIN),$(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/*/test_*.c tests/editor/*/*/test_*.c)))
 EDITOR_BENCH := $(BUILD)/tests/editor/bench_drawing
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/window/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
@@ -274,10 +277,10 @@ $(BUILD)/editor-gtk/resources.o: $(BUILD)/editor-gtk/resources.c
 $(BUILD)/libeditor.a: $(EDITOR_OBJ)
 	@rm -f $@
 	$(AR) rcs $@ $^
-all: $(BUILD)/ladder-editor $(BUILD)/ladders
-# The samples are beside the program, whatever BUILD is.
-$(BUILD)/ladders:
-	ln -sfn '$(CURDIR)/ladders' $@
+all: $(BUILD)/ladder-editor $(BUILD)/ladders $(BUILD)/docs
+# Samples and manual are beside the program, whatever BUILD is.
+$(BUILD)/ladders $(BUILD)/docs:
+	ln -sfn '$(CURDIR)/$(@F)' $@
 $(BUILD)/ladder-editor: $(BUILD)/editor-gtk/window/main.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 GTK_TESTS := $(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS))
@@ -325,7 +328,7 @@ install: $(if $(EDITOR),install-editor)
 appdir = $(DESTDIR)$(prefix)/share
 install-editor: $(BUILD)/ladder-editor $(MO)
 	install -d $(DESTDIR)$(prefix)/bin $(appdir)/applications $(appdir)/metainfo $(appdir)/mime/packages \
-	  $(appdir)/icons/hicolor/scalable/apps $(appdir)/glib-2.0/schemas $(appdir)/rungboard/ladders/boards \
+	  $(appdir)/icons/hicolor/scalable/apps $(appdir)/glib-2.0/schemas $(appdir)/rungboard/ladders/boards $(appdir)/rungboard/docs/tutorial \
 	  $(appdir)/gtksourceview-5/language-specs
 	install -m 755 $(BUILD)/ladder-editor $(DESTDIR)$(prefix)/bin/ladder-editor
 	install -m 644 packaging/org.rungboard.Editor.desktop $(appdir)/applications/
@@ -336,6 +339,8 @@ install-editor: $(BUILD)/ladder-editor $(MO)
 	install -m 644 $(BUILD)/rung.lang $(appdir)/gtksourceview-5/language-specs/
 	install -m 644 ladders/*.rung ladders/*.scn $(appdir)/rungboard/ladders/
 	install -m 644 ladders/boards/*.io $(appdir)/rungboard/ladders/boards/
+	install -m 644 docs/*.md docs/*.png $(appdir)/rungboard/docs/
+	install -m 644 docs/tutorial/* $(appdir)/rungboard/docs/tutorial/
 	$(foreach m,$(MO),install -Dm 644 $m $(appdir)/$(m:$(BUILD)/%=%);)
 	$(if $(DESTDIR),,-glib-compile-schemas $(appdir)/glib-2.0/schemas; update-mime-database $(appdir)/mime; update-desktop-database $(appdir)/applications)
 .PHONY: install-editor

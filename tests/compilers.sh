@@ -13,13 +13,14 @@ flags='-std=c11 -I. -Iruntime -Itests -D_POSIX_C_SOURCE=200809L -Wall -Wextra -W
 editor() { # compiler
 	gtk=$(pkg-config --cflags gtk4 libadwaita-1 gtksourceview-5 2>/dev/null | sed 's/-I/-isystem /g')
 	[ -n "$gtk" ] || return 0
+	pkg-config --exists md4c && md4c= || md4c=markdown_md4c.c
 	set -- "$1" -DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='""' -DDATADIR='""'
 	printf '#include <adwaita.h>\n#include <gtksourceview/gtksource.h>\n' >"$tmp/gtk.h"
 	case $1 in clang) made=$tmp/gtk.h.pch ;; *) made=$tmp/gtk.h.gch ;; esac
 	# Their words are meant to be split.
 	# shellcheck disable=SC2086
 	"$@" $flags $gtk -x c-header -o "$made" "$tmp/gtk.h" &&
-		find editor-gtk tests/editor tests/bench/editor*.c -name '*.c' -print0 |
+		find editor-gtk tests/editor tests/bench/editor*.c -name '*.c' ! -name "$md4c" -print0 |
 		xargs -0 -P 2 -n 8 "$@" -fsyntax-only $flags $gtk -include "$tmp/gtk.h"
 }
 case $(${CC:-cc} --version) in *clang*) cc=gcc ;; *) cc=clang ;; esac

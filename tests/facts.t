@@ -507,6 +507,14 @@ SKIP: {
 	}
 }
 
+# F1: each panel and each page of a tab has a page of the manual.
+my %help = map { $_ => 1 } slurp('editor-gtk/window/help_places.def') =~ /^PLACE\("([^"]+)"/mg;
+my $window = join '', map { slurp($_) } glob 'editor-gtk/window/*.c';
+my @helped = ((map { "below $_" } $window =~ /below_add\([^;"]*"(\w+)", N_\(/g),
+	      map { "page $_" } slurp('editor-gtk/window/tabs.c') =~ /strcmp\(name, "(\w+)"\) == 0\)\n\t\tpage = /g);
+cmp_ok(scalar @helped, '>', 10, 'panels and pages are found');
+is(join(' ', grep { !$help{$_} } @helped), '', 'help_places.def: a row for each panel and page');
+
 # ---- words of scenarios and scripts ----
 my $scenarios = slurp('runtime/engine/trial/scenario_read.c');
 my ($lines) = $text{'docs/scenarios.md'} =~ /^\| line \| means \|\n\|---\|---\|\n(.*?)\n\n/ms;

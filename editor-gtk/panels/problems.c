@@ -213,6 +213,13 @@ bool ladder_problems_next(LadderProblems *problems, bool back)
 	return true;
 }
 
+const char *ladder_problems_code(LadderProblems *problems)
+{
+	LadderPanelRow *row = panel_list_row(&problems->list);
+
+	return row ? panel_row_text(row, COLUMN_CODE) : "";
+}
+
 const char *ladder_problems_current(LadderProblems *problems)
 {
 	const LadderPanelRow *row = panel_list_row(&problems->list);

@@ -26,6 +26,9 @@ int ladder_problems_count(LadderProblems *problems, bool errors);
 /** ladder_problems_next - selects the next or previous problem, after the last the first,
  * and goes there. False: none. */
 bool ladder_problems_next(LadderProblems *problems, bool back);
+/** ladder_problems_code - "LD203" of the selected problem; "": none. Borrowed until the next
+ * `checked`. */
+const char *ladder_problems_code(LadderProblems *problems);
 /** ladder_problems_current - "Error: … Main, rung 3" of the selected problem; "": none.
  * Borrowed until the next `checked`. */
 const char *ladder_problems_current(LadderProblems *problems);

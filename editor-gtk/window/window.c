@@ -28,6 +28,7 @@
 #include "editor-gtk/window/commands.h"
 #include "editor-gtk/window/compare.h"
 #include "editor-gtk/window/finder.h"
+#include "editor-gtk/window/help.h"
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/names.h"
 #include "editor-gtk/window/pou_import_dialog.h"
@@ -61,6 +62,7 @@ struct _LadderWindow {
 	struct origin origin;
 	struct export export;
 	struct compare compare;
+	struct help help;
 	struct exchange exchange;
 	struct files files;
 	struct sim_bar sim_bar;
@@ -403,6 +405,9 @@ static void do_view(LadderWindow *window, enum verb verb)
 	case VERB_appearance: do_appearance(window); break;
 	case VERB_fullscreen: do_fullscreen(window); break;
 	case VERB_palette: commands_show(GTK_WINDOW(window)); break;
+	case VERB_help: help_here(&window->help); break;
+	case VERB_manual: help_show(&window->help, NULL); break;
+	case VERB_tutorial: help_show(&window->help, "tutorial.md"); break;
 	case VERB_shortcuts: keys_show(GTK_WINDOW(window)); break;
 	case VERB_welcome: tabs_show_widget(&window->tabs, "welcome"); break;
 	case VERB_about: do_about(window); break;
@@ -815,6 +820,7 @@ static void add_parts(LadderWindow *window)
 	origin_init(&window->origin, core);
 	export_init(&window->export, core, &window->origin);
 	compare_init(&window->compare, core);
+	help_init(&window->help, core);
 	sim_bar_init(&window->sim_bar, core, &window->origin);
 	blockers_init(&window->blockers, core);
 	finder_init(&window->finder, core);
@@ -909,6 +915,7 @@ static void ladder_window_dispose(GObject *object)
 	board_bar_clear(&window->board_bar);
 	scenarios_clear(&window->scenarios);
 	compare_clear(&window->compare);
+	help_clear(&window->help);
 	blockers_clear(&window->blockers);
 	sim_bar_clear(&window->sim_bar);
 	origin_clear(&window->origin);

@@ -14,7 +14,7 @@ OTHER = ONE_RUNG.replace('Main', 'Other').replace('Motor', 'Pump')
 # the key, and a text of the dialog
 DIALOGS = [
     ('ctrl+o', 'Open'), ('ctrl+shift+s', 'Save as'), ('F2', 'Rename everywhere'), ('ctrl+g', 'Go to rung'),
-    ('F1', None), ('ctrl+p', 'Print'),
+    ('ctrl+question', None), ('ctrl+p', 'Print'),
 ]
 # popups of the window
 POPUPS = ['F8', 'F5', 'Return', 'ctrl+shift+t', 'ctrl+l', 'semicolon', 'ctrl+k', 'ctrl+f', 'ctrl+h']

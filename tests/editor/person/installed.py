@@ -50,7 +50,7 @@ def validators(screen):
 
 
 def moved(screen):
-    """installed, then moved: the language of the session, the samples, I/O maps and a man page are found"""
+    """installed, then moved: the language of the session, the samples, I/O maps, the manual and a man page are found"""
     old, new = install(screen), os.path.join(screen.home, 'opt')
     os.rename(old, new)
     desk.EDITOR = os.path.join(new, 'bin', 'ladder-editor')
@@ -65,6 +65,10 @@ def moved(screen):
     until(lambda: editor.all(role='table cell'), 'its first rung')
     editor.says('EDIT')
     editor.shot('installed-sheet')
+    editor.brought('F1')
+    editor.find('Page of the manual', 'text')
+    editor.shot('installed-manual')
+    assert os.path.exists(os.path.join(share, 'rungboard', 'docs', 'tutorial', 'empty.png'))
     said = done(os.path.join(new, 'bin', 'ladder'), 'check', os.path.join(share, 'rungboard', 'ladders', 'garage-door.rung'))
     assert 'error' not in said, said
     assert os.path.exists(os.path.join(share, 'rungboard', 'ladders', 'boards', 'beaglebone-black.io'))

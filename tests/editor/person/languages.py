@@ -122,7 +122,7 @@ def headings_fit(editor, language):
 def keys_fit(editor, language):
     """The window of all keys is no larger than the screen."""
     until(lambda: len(editor.windows()) == 1, 'one window')
-    editor.brought('F1')
+    editor.brought('ctrl+question')
     editor.shot('language-%s-keys' % language)
     for window in editor.windows():
         size = dict(line.split('=') for line in sh('xdotool', 'getwindowgeometry', '--shell', window).split())
