@@ -5,6 +5,7 @@
 #include "editor-gtk/document/pou_edit.h"
 
 #include "editor-gtk/document/rename.h"
+#include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/edit/grid_display.h"
 #include "editor-gtk/edit/grid_edit.h"
 #include "editor-gtk/kit/diag_said.h"
@@ -442,6 +443,20 @@ bool pou_delete_text(LadderDocument *document, const struct text_span *span, con
 	return good;
 }
 
+/* Deletes its PROGRAM line in the CONFIGURATION. The only one stays: without it all run. */
+static void delete_program_line(LadderDocument *document, int pou)
+{
+	struct task_rows *tasks = task_rows_new(document);
+	int row = -1;
+
+	for (int i = 0; i < tasks->count; i++)
+		if (tasks->row[i].pou == pou && tasks->row[i].line)
+			row = i;
+	task_rows_free(tasks);
+	if (row >= 0)
+		task_rows_delete(document, row, NULL);
+}
+
 const char *pou_delete(LadderDocument *document, int pou)
 {
 	struct part_of_pou part = { ladder_document_project(document), pou,
@@ -458,6 +473,8 @@ const char *pou_delete(LadderDocument *document, int pou)
 	name = g_strdup(project_text(part.project, part.project->pou[pou].name));
 	ladder_document_begin(document, _("Delete program or block"), NULL);
 	delete_boxes(document, pou);
+	delete_program_line(document, pou);
+	part.project = ladder_document_project(document);
 	g_free(ladder_document_outline(document, &len, take_part, &part));
 	good = pou_delete_text(document, &part.span, name);
 	if (good)

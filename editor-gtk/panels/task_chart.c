@@ -31,13 +31,13 @@ static LadderTaskLane *lane_of(GtkListBoxRow *row)
 	return LADDER_TASK_LANE(gtk_widget_get_last_child(gtk_list_box_row_get_child(row)));
 }
 
-/* "Two rounds of all periods: 40 ms". Caller frees. */
+/* "the first 40 ms; then everything repeats". Caller frees. */
 static char *span_text(const struct schedule *schedule)
 {
 	char span[32];
 
 	live_time_print(schedule->span_ns, span, sizeof(span));
-	return g_strdup_printf(schedule->whole ? _("%s: after half of it everything repeats") :
+	return g_strdup_printf(schedule->whole ? _("the first %s; then everything repeats") :
 			       _("the first %s"), span);
 }
 

@@ -31,6 +31,7 @@ struct _LadderTasksView {
 	struct panel_watch *watch;
 	GtkWidget *marked;      /* the row below what is dragged; NULL: none   */
 	guint64 told_of;        /* version of the document when the message was set */
+	bool busy;              /* rows are replaced: a selection means nothing */
 };
 
 G_DEFINE_FINAL_TYPE(LadderTasksView, ladder_tasks_view, GTK_TYPE_WIDGET)
@@ -130,12 +131,10 @@ static void show_hint(LadderTasksView *view, const struct task_rows *tasks, bool
 }
 
 /* The buttons fit the selected row. */
-static void show_actions(LadderTasksView *view)
+static void show_actions_of(LadderTasksView *view, const struct task_rows *tasks)
 {
 	GtkWidget *widget = GTK_WIDGET(view);
-	LadderDocument *document = document_of(view);
 	const LadderPanelRow *row = panel_list_row(&view->list);
-	struct task_rows *tasks = document ? task_rows_new(document) : NULL;
 	const bool can = row && tasks && row->index < tasks->count && !tasks->fixed;
 	const bool line = can && row->table != TASKS_EACH_SCAN && row->table != TASKS_IDLE &&
 			  tasks->row[tasks->row[row->index].head].what != TASKS_IDLE;
@@ -148,6 +147,15 @@ static void show_actions(LadderTasksView *view)
 				      can && task_rows_can_step(tasks, row->index, 1));
 	gtk_widget_action_set_enabled(widget, "tasks.open", row && row->pou >= 0);
 	gtk_widget_set_sensitive(view->program_button, can);
+}
+
+static void show_actions(LadderTasksView *view)
+{
+	LadderDocument *document = document_of(view);
+	struct task_rows *tasks = document && !view->busy ? task_rows_new(document) : NULL;
+
+	if (tasks)
+		show_actions_of(view, tasks);
 	task_rows_free(tasks);
 }
 
@@ -172,10 +180,12 @@ static void refresh(GtkWidget *widget)
 		tell(view, NULL);
 	for (int i = 0; tasks && i < tasks->count; i++)
 		g_ptr_array_add(rows, row_new(document, tasks, i));
+	view->busy = true;
 	update(view, rows);
+	view->busy = false;
 	if (tasks)
 		show_hint(view, tasks, ladder_document_project(document) != NULL);
-	show_actions(view);
+	show_actions_of(view, tasks);
 	if (tasks)
 		show_chart(view, tasks);
 	task_rows_free(tasks);

@@ -7,7 +7,6 @@
 #include "editor-gtk/panels/tree_rows.h"
 
 #include "editor-gtk/document/side_file.h"
-#include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/listing.h"
 
@@ -128,27 +127,31 @@ static void add_structures(GListStore *root, const struct project *project)
 }
 
 /* The period of a task, or "on" and its variable. */
-static char *task_note(const struct task_row *row)
+static char *task_note(const struct project *project, const struct config_entry *task)
 {
-	const char *when = row->text[TASKS_WHEN];
-
-	if (row->what == TASKS_EACH_SCAN)
-		return NULL;
-	return row->event ? g_strdup_printf(_("on %s"), when) : g_strdup(when);
+	return task->single ? g_strdup_printf(_("on %s"), project_text(project, task->single)) :
+	       g_strdup(project_text(project, task->interval));
 }
 
-static void add_tasks(GListStore *root, LadderDocument *document)
+/* As task_rows.h, without the text of the whole project. */
+static void add_tasks(GListStore *root, const struct project *project)
 {
 	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
-	struct task_rows *tasks = task_rows_new(document);
+	const struct config *config = project->config;
+	bool any = false, rest = false; /* PROGRAM lines; one without a task   */
 
 	add(root, ROW_TASKS, _("Tasks"), NULL, rows);
-	for (int i = 0; i < tasks->count; i++)
-		if (tasks->row[i].what == TASKS_TASK ||
-		    (tasks->row[i].what == TASKS_EACH_SCAN && task_rows_programs(tasks, i)))
-			add_row(rows, ROW_TASK, tasks->row[i].text[TASKS_NAME],
-				task_note(&tasks->row[i]));
-	task_rows_free(tasks);
+	for (int i = 0; config && i < config->count; i++) {
+		const struct config_entry *entry = &config->entry[i];
+
+		if (entry->kind == CONFIG_TASK)
+			add_row(rows, ROW_TASK, project_text(project, entry->name),
+				task_note(project, entry));
+		any |= entry->kind == CONFIG_PROGRAM;
+		rest |= entry->kind == CONFIG_PROGRAM && !entry->task;
+	}
+	if (!any || rest)
+		add_row(rows, ROW_TASK, _("Each scan"), NULL);
 }
 
 /* Adds text files beside the project. */
@@ -217,7 +220,7 @@ static void add_all(GListStore *root, LadderDocument *document)
 	add_pous(root, project, _("Functions and blocks"), false);
 	add_row(root, ROW_SYMBOLS, _("Symbols"),
 		g_strdup_printf("%d", listing_symbol_count(project)));
-	add_tasks(root, document);
+	add_tasks(root, project);
 	add_structures(root, project);
 	add_bookmarks(root, document);
 	add_texts(root, document, _("Scenarios"), ".scn", true);

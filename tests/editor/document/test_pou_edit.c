@@ -270,6 +270,26 @@ static void test_names(void)
 	g_free(first);
 }
 
+/* A program goes with its PROGRAM line. */
+static void test_program(void)
+{
+	static const char text[] = "RUNGBOARD 1\n\nCONFIGURATION Plant\n"
+		"  TASK Fast (INTERVAL := T#5ms, PRIORITY := 1);\n"
+		"  PROGRAM A WITH Fast : Main;\n  PROGRAM B : Other;\nEND_CONFIGURATION\n\n"
+		"PROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n\n"
+		"PROGRAM Other LD\nRUNG\n  | NO %IX0.1 | COIL %QX0.1 |\nEND_PROGRAM\n";
+	LadderDocument *kept = document;
+
+	document = ladder_document_new();
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
+	CHECK(!pou_delete(document, pou_of("Other")));
+	CHECK_AS(!has("Other") && has("PROGRAM A WITH Fast : Main;\nEND_CONFIGURATION"),
+		 "a program is deleted with its PROGRAM line");
+	CHECK(ladder_document_undo(document) && has(text) && !ladder_document_undo_name(document));
+	g_object_unref(document);
+	document = kept;
+}
+
 int main(void)
 {
 	document = ladder_document_new();
@@ -277,6 +297,7 @@ int main(void)
 	if (CHECK(ladder_document_project(document))) {
 		test_block();
 		test_function();
+		test_program();
 	}
 	test_order();
 	test_duplicates();

@@ -181,7 +181,7 @@ def picture(screen):
     fast = editor.find('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms …', 'list item')
     slow = editor.find('Slow: priority 2, every 20 ms, at 0 s, 20 ms …', 'list item')
     editor.find('Each scan: behind all tasks, every 5 ms, at 0 s, 5 ms, 10 ms …', 'list item')
-    editor.says('40 ms: after half of it everything repeats')
+    editor.says('the first 40 ms; then everything repeats')
     assert editor.place(fast)[1] < editor.place(slow)[1]
     x, y, width, height = editor.place(slow)
     sh('xdotool', 'mousemove', str(x + width * 3 // 5), str(y + height // 2))
