@@ -6,6 +6,7 @@
 
 #include "editor-gtk/iomap/iomap_view.h"
 #include "editor-gtk/kit/gtk48/slow_bar.h"
+#include "editor-gtk/panels/interface_view.h"
 #include "editor-gtk/text/file_view.h"
 #include "editor-gtk/window/messages.h"
 
@@ -13,6 +14,8 @@
 
 GtkWidget *page_inside(GtkWidget *child)
 {
+	if (GTK_IS_BOX(child) && LADDER_IS_INTERFACE_VIEW(gtk_widget_get_first_child(child)))
+		child = gtk_widget_get_last_child(child);
 	return GTK_IS_SCROLLED_WINDOW(child) ?
 	       gtk_scrolled_window_get_child(GTK_SCROLLED_WINDOW(child)) : child;
 }
@@ -139,13 +142,19 @@ static void listen(struct core *core, gpointer view)
 static GtkWidget *new_sheet(struct core *core, LadderDocument *document, int pou)
 {
 	GtkWidget *sheet = ladder_grid_view_new(document, pou);
-	GtkWidget *scroller = gtk_scrolled_window_new();
+	GtkWidget *scroller = gtk_scrolled_window_new(), *box;
 
 	ladder_canvas_set_sim(LADDER_CANVAS(sheet), core->sim);
 	listen(core, sheet);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
 	slow_bar_make(GTK_SCROLLED_WINDOW(scroller));
-	return scroller;
+	if (ladder_document_is_fixed(document))
+		return scroller;
+	box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	gtk_widget_set_vexpand(scroller, TRUE);
+	gtk_box_append(GTK_BOX(box), ladder_interface_view_new(document, LADDER_CANVAS(sheet)));
+	gtk_box_append(GTK_BOX(box), scroller);
+	return box;
 }
 
 GtkWidget *page_new(struct core *core, LadderDocument *document, int pou)

@@ -16,7 +16,8 @@
 /** page_new - a sheet, a chart or a list for POU @pou of @document, in a scrolled window if
  * it needs one. Its messages and cursor moves go to the window. */
 GtkWidget *page_new(struct core *core, LadderDocument *document, int pou);
-/** page_inside - the child of @child if that is a scrolled window, else @child. */
+/** page_inside - the sheet, chart … in @child, without the scrolled window around it and the
+ * interface above it. */
 GtkWidget *page_inside(GtkWidget *child);
 /** page_content - the widget that a page shows, without its scrolled window; NULL of NULL. */
 GtkWidget *page_content(AdwTabPage *page);

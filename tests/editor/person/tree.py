@@ -501,6 +501,98 @@ def properties(screen):
     assert editor.save(path) == MORE
 
 
+MOTOR = """RUNGBOARD 1
+
+VAR
+  FanM : Motor;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO %IX0.0 | Motor FanM Wait:=T#2s | COIL %QX0.0 |
+  | NO %IX0.1 | .Stop                 |
+END_PROGRAM
+
+FUNCTION_BLOCK Motor LD
+VAR_INPUT
+  Start : BOOL; (* begins *)
+  Stop  : BOOL;
+  Wait  : TIME := T#500ms;
+END_VAR
+VAR_OUTPUT
+  Run  : BOOL;
+  Late : BOOL;
+END_VAR
+RUNG
+  | NO Start | NC Stop | COIL Run |
+END_FUNCTION_BLOCK
+"""
+
+
+def interface(screen):
+    """the pins of a block above its sheet: edited, added, moved, deleted, folded; the sheet keeps its keys"""
+    path = new_file(screen, MOTOR)
+    editor = Editor(screen, path)
+    editor.click([n for n in editor.all('Motor', 'label') if n.name == 'Motor'][0], count=2)
+    sheet_of(editor)
+    until(lambda: editor.all('3 inputs, 2 outputs', 'label'), 'the summary')
+
+    def cell(text):
+        return until(lambda: [n for n in editor.all('Wait', 'text') if n.text() == text and n.box()[2] > 0],
+                     'the cell with ' + text)[0]
+
+    def said(text):
+        until(lambda: [n for n in editor.all(text, 'label') if n.box()[2] > 0], 'the message ' + text)
+    cell('T#500ms')
+    editor.shot('interface')
+    editor.click(cell('T#500ms'))
+    editor.keys('ctrl+a')
+    editor.type('1s')
+    editor.keys('Return')
+    assert editor.save(path) == MOTOR.replace('T#500ms', 'T#1s')
+    editor.keys('ctrl+z')
+    editor.click(cell('T#500ms'))
+    editor.keys('alt+Up')
+    stop, wait = '  Stop  : BOOL;\n', '  Wait  : TIME := T#500ms;\n'
+    assert editor.save(path) == MOTOR.replace(stop + wait, wait + stop), open(path).read()
+    check(path)
+    editor.keys('alt+Up')  # callers draw Wait first, but the power still goes to Start
+    start = '  Start : BOOL; (* begins *)\n'
+    assert editor.save(path) == MOTOR.replace(start + stop + wait, wait + start + stop), open(path).read()
+    editor.keys('ctrl+z', 'ctrl+z')
+    cell('T#500ms')
+    editor.click([n for n in editor.all('Stop', 'text') if n.text() == 'Stop' and n.box()[2] > 0][0])
+    editor.keys('alt+Up')
+    said('The power of the row is connected to “Start”')
+    editor.shot('interface-refused')
+    editor.find('Delete the pin', 'push button').press()
+    editor.reply('Cancel')
+    until(lambda: not editor.all(role='dialog'), 'the end of the question')
+    editor.find('Delete the pin', 'push button').press()
+    editor.reply('Delete anyway')
+    until(lambda: editor.all('2 inputs, 2 outputs', 'label'), 'one pin less')
+    editor.keys('ctrl+z')
+    until(lambda: editor.all('3 inputs, 2 outputs', 'label'), 'the pin again')
+    editor.click([n for n in editor.all('Stop', 'text') if n.text() == 'Stop' and n.box()[2] > 0][0])
+    editor.keys('ctrl+a')
+    editor.type('Halt')
+    editor.keys('Return')
+    text = editor.save(path)
+    assert '| NO Start | NC Halt | COIL Run |' in text and '.Halt' in text, text
+    check(path)
+    editor.keys('ctrl+z')
+    sheet_of(editor)  # undo leads to what it changed
+    assert editor.save(path) == MOTOR
+    editor.click(cell('T#500ms'))
+    until(lambda: cell('T#500ms').has(12), 'the keys in the cell')
+    editor.keys('F6')
+    sheet_of(editor)
+    editor.click(editor.find('Interface', 'push button'))
+    until(lambda: not [n for n in editor.all('Delete the pin', 'push button') if n.box()[2] > 0], 'it to be folded')
+    sheet_of(editor)
+    editor.shot('interface-folded')
+
+
 def beside(screen):
     """a scenario beside the file is opened from the tree, edited and saved"""
     path = new_file(screen, TEXT)
@@ -546,4 +638,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, beside])
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, beside])

@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * pins - the interface of a function or function block; see pins.h.
+ */
+#include "editor-gtk/document/pins.h"
+
+#include "editor-gtk/kit/diag_said.h"
+#include "editor-gtk/kit/i18n.h"
+
+#include "engine/base/lex.h"
+
+#include <string.h>
+
+#define PINS (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT)
+
+uint16_t pins_kind(const struct pou *pou, int index)
+{
+	return index >= 0 && index < vars_declared(&pou->vars) ?
+	       vars_flags(&pou->vars, index) & PINS : 0;
+}
+
+int pins_count(const struct pou *pou, uint16_t kind)
+{
+	int count = 0;
+
+	for (int i = 0; i < vars_declared(&pou->vars); i++)
+		count += pins_kind(pou, i) == kind;
+	return count;
+}
+
+/* ---- callers that depend on the order ---- */
+
+static bool is_name(const struct token *token, const char *name)
+{
+	return token->kind == TOKEN_NAME && token->len == strlen(name) &&
+	       g_ascii_strncasecmp(token->text, name, token->len) == 0;
+}
+
+/* From "(" on: operands, and none of them with the name of a pin? */
+static bool is_positional(struct lex *lex)
+{
+	bool any = false, named = false;
+
+	for (int depth = 0; lex_next(lex) != TOKEN_END;) {
+		depth += lex_is(lex, "(") - lex_is(lex, ")");
+		if (depth < 0)
+			break;
+		any = true;
+		named = named || lex_is(lex, ":=") || lex_is(lex, "=>");
+	}
+	return any && !named;
+}
+
+static void skip_index(struct lex *lex)
+{
+	while (!lex_is(lex, "]") && lex->token.kind != TOKEN_END)
+		lex_next(lex);
+	lex_next(lex);
+}
+
+/* Is the function or instance @name called in a text with operands by position? In a list the
+ * first input of a function without parentheses is the result. */
+static bool calls_by_position(const char *text, const char *name, bool list, bool function)
+{
+	struct lex lex;
+
+	lex_init(&lex, text, strlen(text));
+	for (lex_next(&lex); lex.token.kind != TOKEN_END;) {
+		const bool here = is_name(&lex.token, name);
+
+		lex_next(&lex);
+		if (!here)
+			continue;
+		if (lex_is(&lex, "["))
+			skip_index(&lex);
+		if (lex_is(&lex, "(") ? is_positional(&lex) : list && function)
+			return true;
+	}
+	return false;
+}
+
+/* Does POU @caller call it so, by its own name or that of an instance in @vars? */
+static bool is_called(const struct project *project, int pou, const char *text, bool list,
+		      const struct var_table *vars)
+{
+	const struct pou *of = &project->pou[pou];
+
+	if (of->kind == POU_FUNCTION)
+		return calls_by_position(text, project_text(project, of->name), list, true);
+	for (int i = 0; i < vars->count; i++)
+		if (vars->var[i].type == IEC_NONE && vars->var[i].fb == of->word &&
+		    calls_by_position(text, project_text(project, vars->var[i].name), list,
+				      false))
+			return true;
+	return false;
+}
+
+/* The first POU that gives operands by position; -1: none does. */
+static int caller_by_position(LadderDocument *document, int pou)
+{
+	const struct project *project = ladder_document_project(document);
+
+	for (int n = 0; n < project->pou_count; n++) {
+		const struct pou *caller = &project->pou[n];
+		char *text = n == pou ? NULL : ladder_document_list(document, n);
+		const bool list = caller->language != LANGUAGE_LD;
+		const bool found = text &&
+			(is_called(project, pou, text, list, &caller->vars) ||
+			 is_called(project, pou, text, list, &project->globals));
+
+		g_free(text);
+		if (found)
+			return n;
+	}
+	return -1;
+}
+
+static bool has_boxes(const struct project *project, enum word word)
+{
+	for (int n = 0; n < project->pou_count; n++)
+		for (int i = 0; i < project->pou[n].rung_count; i++) {
+			const struct rung *rung = project->pou[n].rung[i];
+
+			for (int k = 0; k < rung->rows * rung->cols; k++)
+				if (rung->cell[k].word == word)
+					return true;
+		}
+	return false;
+}
+
+/* The pin that power goes to or comes from, with variables @a and @b exchanged. -1: none. */
+static int power_pin(const struct pou *pou, uint16_t kind, int a, int b)
+{
+	for (int i = 0; i < vars_declared(&pou->vars); i++) {
+		const int at = i == a ? b : i == b ? a : i;
+		const struct var *var = &pou->vars.var[at];
+
+		if (pins_kind(pou, at) == kind && var->type == IEC_BOOL && !var->array.count)
+			return at;
+	}
+	return -1;
+}
+
+/* Why two pins cannot change places; NULL: they can. */
+static char *why_not(LadderDocument *document, int pou, int a, int b)
+{
+	const struct project *project = ladder_document_project(document);
+	const struct pou *of = &project->pou[pou];
+	const uint16_t kind = pins_kind(of, a);
+	const int caller = caller_by_position(document, pou);
+
+	if (caller >= 0)
+		return g_strdup_printf(_("“%s” gives operands by position: they would go to "
+			"other pins. Name the pins there first."),
+			project_text(project, project->pou[caller].name));
+	if (of->kind == POU_BLOCK && kind != VAR_IN_OUT &&
+	    power_pin(of, kind, a, b) != power_pin(of, kind, -1, -1) &&
+	    has_boxes(project, of->word))
+		return g_strdup_printf(_("The power of the row is connected to “%s” where the "
+			"block is used: it must stay the first of type BOOL"),
+			project_text(project, of->vars.var[power_pin(of, kind, -1, -1)].name));
+	return NULL;
+}
+
+/* ---- moving ---- */
+
+struct two_spans {
+	int pou, index[2];
+	struct text_span span[2];
+};
+
+static void take_pin(void *context, const struct text_span *span)
+{
+	struct two_spans *two = context;
+
+	for (int i = 0; i < 2; i++)
+		if (span->part == TEXT_VAR && span->pou == two->pou && span->structure < 0 &&
+		    span->number == two->index[i])
+			two->span[i] = *span;
+}
+
+static bool same_block(const struct var_table *vars, int a, int b)
+{
+	for (int i = 0; i < vars->block_count; i++) {
+		const struct var_block *block = &vars->block[i];
+
+		if (a >= block->first && a < block->first + block->count)
+			return b >= block->first && b < block->first + block->count;
+	}
+	return false;
+}
+
+static char *replace(LadderDocument *document, gsize at, gsize removed, const char *text,
+		     const char *step)
+{
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	char *why = NULL;
+
+	ladder_document_begin(document, step, NULL);
+	if (!ladder_document_replace(document, at, removed, text, diags))
+		why = diags->count ? diag_said_whole(&diags->diag[0]) :
+				     g_strdup(_("It cannot be read"));
+	ladder_document_end(document);
+	g_free(diags);
+	return why;
+}
+
+char *pin_move(LadderDocument *document, int pou, int index, int by)
+{
+	const struct project *project = ladder_document_project(document);
+	const struct var_table *vars = &project->pou[pou].vars;
+	struct two_spans two = { .pou = pou, .index = { MIN(index, index + by),
+							MAX(index, index + by) } };
+	char *why, *all, *text;
+	gsize len;
+
+	if (project->pou[pou].included)
+		return g_strdup(_("It is declared in another file"));
+	if (!same_block(vars, index, index + by))
+		return g_strdup(by < 0 ? _("It is the first one already") :
+					 _("It is the last one already"));
+	why = why_not(document, pou, index, index + by);
+	if (why)
+		return why;
+	all = ladder_document_outline(document, &len, take_pin, &two);
+	text = g_strdup_printf("%.*s%.*s", (int)two.span[1].len, all + two.span[1].at,
+			       (int)two.span[0].len, all + two.span[0].at);
+	why = replace(document, two.span[0].at, two.span[0].len + two.span[1].len, text,
+		      _("Move pin"));
+	g_free(text);
+	g_free(all);
+	return why;
+}
+
+char *pins_set_result(LadderDocument *document, int pou, const char *type)
+{
+	struct text_span span;
+	char *all = ladder_document_pou(document, pou, &span), *why;
+	char *heading = g_strndup(all + span.at, strcspn(all + span.at, "\n"));
+	const char *colon = strstr(heading, " : "), *end = strrchr(heading, ' ');
+
+	why = !colon || end < colon + 3 ? g_strdup(_("It cannot be read")) :
+		replace(document, span.at + (gsize)(colon + 3 - heading),
+			(gsize)(end - colon - 3), type, _("Change type"));
+	g_free(heading);
+	g_free(all);
+	return why;
+}

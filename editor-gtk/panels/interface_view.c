@@ -1,0 +1,607 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * interface_view - the interface of a function or block; see interface_view.h.
+ */
+#include "editor-gtk/panels/interface_view.h"
+
+#include "editor-gtk/document/panel_cells.h"
+#include "editor-gtk/document/pins.h"
+#include "editor-gtk/document/symbols.h"
+#include "editor-gtk/draw/grid_draw.h"
+#include "editor-gtk/draw/sheet.h"
+#include "editor-gtk/kit/cells.h"
+#include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/picture_view.h"
+#include "editor-gtk/kit/settings.h"
+
+#include <adwaita.h>
+#include <string.h>
+
+#define LOW_SCREEN 800  /* px: on a lower one it is folded at first              */
+#define TABLE_HIGH 168  /* px                                                    */
+#define PIN_KIND SYMBOL_FIELDS /* column behind the fields                      */
+#define RESULT (1 << 15) /* LadderPanelRow.flags: the result of a function      */
+
+/* Of the key "interface". */
+enum { BY_SCREEN, SHOWN, FOLDED };
+
+struct _LadderInterfaceView {
+	GtkWidget parent_instance;
+	LadderCanvas *canvas;    /* borrowed                                      */
+	GtkWidget *box, *arrow, *title, *summary, *body, *picture, *message;
+	struct panel_list list;
+	struct panel_cells cells;
+	struct panel_watch *watch;
+	bool placed;             /* its first state was set                       */
+};
+
+G_DEFINE_FINAL_TYPE(LadderInterfaceView, ladder_interface_view, GTK_TYPE_WIDGET)
+
+static LadderDocument *document_of(LadderInterfaceView *view)
+{
+	return view->watch ? panel_watch_document(view->watch) : NULL;
+}
+
+/* The function or block; NULL: the sheet shows another POU. */
+static const struct pou *pou_of(LadderInterfaceView *view)
+{
+	const struct project *project = document_of(view) ?
+		ladder_document_project(document_of(view)) : NULL;
+	const int pou = ladder_canvas_pou(view->canvas);
+
+	return project && pou >= 0 && pou < project->pou_count &&
+	       pou_has_frame(&project->pou[pou]) ? &project->pou[pou] : NULL;
+}
+
+static int index_of_pou(LadderInterfaceView *view)
+{
+	return (int)(pou_of(view) - ladder_document_project(document_of(view))->pou);
+}
+
+/* @text: taken over; NULL: clears the message. */
+static void tell(LadderInterfaceView *view, char *text)
+{
+	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
+	gtk_widget_set_visible(view->message, text != NULL);
+	g_free(text);
+}
+
+/* ---- the box ---- */
+
+/* A rung with the box alone; its names are only in the text. */
+static struct rung *box_alone(LadderInterfaceView *view, const struct pou *pou)
+{
+	struct ladder *ladder = ladder_document_ladder(document_of(view));
+	const char *name = project_text(ladder_document_project(document_of(view)), pou->name);
+	char *text = pou->kind == POU_FUNCTION ? g_strdup_printf("RUNG\n  | %s |\n", name) :
+		     g_strdup_printf("RUNG\n  | %s %s1 |\n", name, name);
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	struct rung *rung = ladder_read_rung(ladder, text, strlen(text), diags);
+
+	g_free(diags);
+	g_free(text);
+	return rung;
+}
+
+static void draw_box(gpointer data, struct picture *picture, struct lettering *lettering)
+{
+	LadderInterfaceView *view = data;
+	const struct pou *pou = pou_of(view);
+	struct rung *rung = pou ? box_alone(view, pou) : NULL;
+	struct pou alone = { .rung = &rung, .rung_count = 1 };
+	struct sheet *sheet;
+
+	if (!rung)
+		return;
+	sheet = sheet_new(ladder_document_project(document_of(view)), &alone, lettering);
+	sheet_layout(sheet);
+	{
+		const struct rung_layout *layout = sheet->rung[0];
+		const struct grid_scene scene = { .drafting = &sheet->drafting,
+			.layout = layout, .theme = theme_screen(), .state = RUNG_NO_GUTTER };
+
+		picture_move(picture, 12 - layout->column_x[0], 0);
+		grid_draw(&scene, picture);
+		picture_move(picture, 0, 0);
+		picture_grow(picture, layout->column_width[0] + 24, layout->height);
+	}
+	sheet_free(sheet);
+	rung_free(rung);
+}
+
+/* ---- rows ---- */
+
+static const char *kind_word(uint16_t kind)
+{
+	return kind == VAR_INPUT ? _("input") : kind == VAR_OUTPUT ? _("output") :
+	       kind == VAR_IN_OUT ? _("in and out") : _("result");
+}
+
+static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row *symbol,
+			      uint16_t kind)
+{
+	LadderPanelRow *row = ladder_panel_row_new();
+	bool warning = false;
+
+	for (int i = 0; i < SYMBOL_FIELDS; i++)
+		row->text[i] = g_strdup(symbol->text[i]);
+	row->text[PIN_KIND] = g_strdup(kind_word(kind));
+	row->number = symbol->uses;
+	row->table = symbol->table;
+	row->index = symbol->index;
+	row->flags = symbol->included ? 1 : 0;
+	row->note = symbol_error(document, symbol, &warning);
+	row->tone = !row->note ? PANEL_PLAIN : warning ? PANEL_WARNING : PANEL_ERROR;
+	row->spoken = g_strdup_printf("%s, %s, %s", symbol->text[FIELD_NAME],
+				      row->text[PIN_KIND], symbol->text[FIELD_TYPE]);
+	return row;
+}
+
+/* A function has its result first, with its own name. */
+static void add_result(GPtrArray *rows, LadderDocument *document, const struct pou *pou, int n)
+{
+	const struct project *project = ladder_document_project(document);
+	struct symbol_row *symbol = symbol_row_new(project, &pou->vars, n + 1, 0);
+	LadderPanelRow *row = row_of(document, symbol, 0);
+
+	row->flags |= RESULT;
+	row->index = 0;
+	g_ptr_array_add(rows, row);
+	symbol_row_free(symbol);
+}
+
+static void fill_rows(LadderInterfaceView *view, const struct pou *pou)
+{
+	static const uint16_t order[] = { VAR_INPUT, VAR_IN_OUT, VAR_OUTPUT };
+	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
+	struct symbols *symbols = symbols_new(document_of(view));
+	const int table = index_of_pou(view) + 1;
+
+	if (pou->kind == POU_FUNCTION && pou->vars.count > 0)
+		add_result(rows, document_of(view), pou, table - 1);
+	for (gsize k = 0; k < G_N_ELEMENTS(order); k++)
+		for (int i = 0; i < symbols->count; i++)
+			if (symbols->symbol[i].table == table &&
+			    pins_kind(pou, symbols->symbol[i].index) == order[k])
+				g_ptr_array_add(rows, row_of(document_of(view),
+							     &symbols->symbol[i], order[k]));
+	panel_list_update(&view->list, rows);
+	symbols_free(symbols);
+	g_ptr_array_unref(rows);
+}
+
+static void show_summary(LadderInterfaceView *view, const struct pou *pou)
+{
+	const int in = pins_count(pou, VAR_INPUT), out = pins_count(pou, VAR_OUTPUT);
+	const int both = pins_count(pou, VAR_IN_OUT);
+	char *inputs = g_strdup_printf(ngettext("%d input", "%d inputs", (gulong)in), in);
+	char *outputs = g_strdup_printf(ngettext("%d output", "%d outputs", (gulong)out), out);
+	char *text = both ? g_strdup_printf("%s, %s, VAR_IN_OUT: %d", inputs, outputs, both) :
+		     g_strdup_printf("%s, %s", inputs, outputs);
+
+	gtk_label_set_text(GTK_LABEL(view->summary), text);
+	g_free(text);
+	g_free(outputs);
+	g_free(inputs);
+}
+
+static void refresh(GtkWidget *widget)
+{
+	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(widget);
+	const struct pou *pou = pou_of(view);
+
+	gtk_widget_set_visible(view->box, pou != NULL);
+	if (!pou)
+		return;
+	show_summary(view, pou);
+	if (!gtk_widget_get_visible(view->body))
+		return;
+	fill_rows(view, pou);
+	ladder_picture_view_again(LADDER_PICTURE_VIEW(view->picture));
+}
+
+/* ---- folding ---- */
+
+static void set_shown(LadderInterfaceView *view, bool shown)
+{
+	gtk_widget_set_visible(view->body, shown);
+	gtk_image_set_from_icon_name(GTK_IMAGE(view->arrow), shown ? "pan-down-symbolic" :
+				     "pan-end-symbolic");
+	gtk_accessible_update_state(GTK_ACCESSIBLE(gtk_widget_get_ancestor(view->arrow,
+		GTK_TYPE_BUTTON)), GTK_ACCESSIBLE_STATE_EXPANDED, shown, -1);
+	if (shown)
+		refresh(GTK_WIDGET(view));
+}
+
+static void fold(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(widget);
+	const bool shown = !gtk_widget_get_visible(view->body);
+
+	(void)action;
+	(void)unused;
+	if (!shown && gtk_widget_get_focus_child(view->box) == view->body)
+		gtk_widget_grab_focus(GTK_WIDGET(view->canvas));
+	set_shown(view, shown);
+	if (settings_get())
+		g_settings_set_int(settings_get(), "interface", shown ? SHOWN : FOLDED);
+}
+
+static bool is_low(GtkWidget *widget)
+{
+	GdkSurface *surface = gtk_native_get_surface(gtk_widget_get_native(widget));
+	GdkMonitor *monitor = surface ? gdk_display_get_monitor_at_surface(
+		gtk_widget_get_display(widget), surface) : NULL;
+	GdkRectangle box = { 0, 0, 0, LOW_SCREEN };
+
+	if (monitor)
+		gdk_monitor_get_geometry(monitor, &box);
+	return box.height < LOW_SCREEN;
+}
+
+static void mapped(GtkWidget *widget)
+{
+	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(widget);
+	const int kept = settings_int("interface", BY_SCREEN);
+
+	if (view->placed)
+		return;
+	view->placed = true;
+	set_shown(view, kept == SHOWN || (kept == BY_SCREEN && !is_low(widget)));
+}
+
+/* ---- edits ---- */
+
+static bool set_field(GObject *owner, LadderPanelRow *row, int number, const char *text,
+		      char **why)
+{
+	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(owner);
+	bool good;
+
+	if (row->flags & RESULT) {
+		*why = pins_set_result(document_of(view), row->table - 1, text);
+		good = !*why;
+	} else {
+		good = symbol_set(document_of(view), row->table, row->index,
+				  (enum field)number, text, why);
+	}
+	tell(view, good || !*why ? NULL : g_strdup_printf("%s: %s",
+		panel_row_text(row, FIELD_NAME), *why));
+	if (good) { /* for an undo before the next refresh */
+		g_free(row->text[number]);
+		row->text[number] = g_strstrip(g_strdup(text));
+		panel_watch_later(view->watch);
+	}
+	return good;
+}
+
+static bool is_fixed(const LadderPanelRow *row, int field)
+{
+	return row->flags & 1 || (row->flags & RESULT && field != FIELD_TYPE);
+}
+
+static const char *field_name(int field)
+{
+	return symbol_field_name((enum field)field);
+}
+
+static bool is_named(const LadderPanelRow *row, gconstpointer name)
+{
+	return strcmp(panel_row_text(row, FIELD_NAME), name) == 0;
+}
+
+/* The selected pin; NULL: none, or the result. */
+static LadderPanelRow *selected(LadderInterfaceView *view)
+{
+	LadderPanelRow *row = panel_list_row(&view->list);
+
+	return row && !(row->flags & RESULT) ? row : NULL;
+}
+
+static void add(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(widget);
+	const uint16_t kind = strcmp(action, "interface.add-input") == 0 ? VAR_INPUT :
+		strcmp(action, "interface.add-output") == 0 ? VAR_OUTPUT : VAR_IN_OUT;
+	const char *text[SYMBOL_FIELDS] = { "", "BOOL", "", "", "", "", "" };
+	const int table = index_of_pou(view) + 1;
+	char *name, *why = NULL;
+
+	(void)unused;
+	name = symbol_free_name(document_of(view), table, kind == VAR_INPUT ? "In" :
+				kind == VAR_OUTPUT ? "Out" : "Both");
+	text[FIELD_NAME] = name;
+	if (symbol_add(document_of(view), table, kind, text, &why)) {
+		refresh(widget);
+		if (panel_list_select(&view->list, is_named, name))
+			cells_enter(view->list.view, panel_list_row(&view->list), FIELD_NAME);
+	}
+	tell(view, why);
+	g_free(name);
+}
+
+static void move(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(widget);
+	LadderPanelRow *row = selected(view);
+	char *name, *why;
+	int field = -1;
+
+	(void)unused;
+	if (!row)
+		return;
+	cells_focused(view->list.view, &field);
+	name = g_strdup(panel_row_text(row, FIELD_NAME));
+	why = pin_move(document_of(view), row->table - 1, row->index,
+		       strcmp(action, "interface.up") == 0 ? -1 : 1);
+	if (!why) {
+		refresh(widget);
+		if (panel_list_select(&view->list, is_named, name) && field >= 0)
+			cells_enter(view->list.view, panel_list_row(&view->list), field);
+	}
+	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL);
+	g_free(why);
+	g_free(name);
+}
+
+/* ---- deleting: a pin that is used is deleted after a question ---- */
+
+static void delete_now(LadderInterfaceView *view, int table, const char *name)
+{
+	const struct pou *pou = pou_of(view);
+	const struct project *project = ladder_document_project(document_of(view));
+	char *why = NULL;
+
+	for (int i = 0; pou && i < vars_declared(&pou->vars); i++)
+		if (strcmp(project_text(project, pou->vars.var[i].name), name) == 0) {
+			symbol_delete(document_of(view), table, i, &why);
+			break;
+		}
+	refresh(GTK_WIDGET(view));
+	tell(view, why);
+}
+
+static void answered(AdwMessageDialog *dialog, const char *answer, LadderInterfaceView *view)
+{
+	const char *name = g_object_get_data(G_OBJECT(dialog), "pin");
+	char *scope;
+
+	if (strcmp(answer, "delete") == 0 && pou_of(view)) {
+		delete_now(view, index_of_pou(view) + 1, name);
+	} else if (strcmp(answer, "uses") == 0 && pou_of(view)) {
+		scope = g_strdup_printf("%s.%s", project_text(ladder_document_project(
+			document_of(view)), pou_of(view)->name), name);
+		gtk_widget_activate_action(GTK_WIDGET(view), "win.show-uses", "s", scope);
+		g_free(scope);
+	}
+}
+
+static void ask_delete(LadderInterfaceView *view, const char *name, int uses)
+{
+	char *heading = g_strdup_printf(_("Delete “%s”?"), name);
+	char *body = g_strdup_printf(ngettext(
+		"It is used in %d place, which then has an error.",
+		"It is used in %d places, which then have errors.", (gulong)uses), uses);
+	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(gtk_widget_get_root(
+		GTK_WIDGET(view))), heading, body);
+
+	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog), "cancel", _("Cancel"),
+					 "uses", _("Show uses"), "delete", _("Delete anyway"),
+					 NULL);
+	adw_message_dialog_set_response_appearance(ADW_MESSAGE_DIALOG(dialog), "delete",
+						   ADW_RESPONSE_DESTRUCTIVE);
+	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "uses");
+	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
+	g_object_set_data_full(G_OBJECT(dialog), "pin", g_strdup(name), g_free);
+	g_signal_connect_object(dialog, "response", G_CALLBACK(answered), view, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+	g_free(body);
+	g_free(heading);
+}
+
+static void delete(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(widget);
+	LadderPanelRow *row = selected(view);
+
+	(void)action;
+	(void)unused;
+	if (!row)
+		return;
+	if (row->number > 0)
+		ask_delete(view, panel_row_text(row, FIELD_NAME), (int)row->number);
+	else
+		delete_now(view, row->table, panel_row_text(row, FIELD_NAME));
+}
+
+static void to_sheet(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	(void)action;
+	(void)unused;
+	gtk_widget_grab_focus(GTK_WIDGET(LADDER_INTERFACE_VIEW(widget)->canvas));
+}
+
+/* ---- the widget ---- */
+
+static GtkWidget *button_new(const char *icon, const char *text, const char *action)
+{
+	GtkWidget *button = gtk_button_new_from_icon_name(icon);
+
+	gtk_widget_add_css_class(button, "flat");
+	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+	tip_set(button, text);
+	spoken_name(button, text);
+	return button;
+}
+
+static GMenu *add_menu(void)
+{
+	GMenu *menu = g_menu_new();
+
+	g_menu_append(menu, _("Input"), "interface.add-input");
+	g_menu_append(menu, _("Output"), "interface.add-output");
+	g_menu_append(menu, _("In and out"), "interface.add-in-out");
+	return menu;
+}
+
+static GtkWidget *tools_new(void)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	GtkWidget *more = gtk_menu_button_new();
+
+	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(more), "list-add-symbolic");
+	gtk_widget_add_css_class(more, "flat");
+	popover_menu_of(GTK_MENU_BUTTON(more), add_menu);
+	tip_set(more, _("Add a pin"));
+	spoken_name(more, _("Add a pin"));
+	gtk_box_append(GTK_BOX(box), more);
+	gtk_box_append(GTK_BOX(box), button_new("list-remove-symbolic", _("Delete the pin"),
+						"interface.delete"));
+	gtk_box_append(GTK_BOX(box), button_new("go-up-symbolic", _("Move the pin up"),
+						"interface.up"));
+	gtk_box_append(GTK_BOX(box), button_new("go-down-symbolic", _("Move the pin down"),
+						"interface.down"));
+	return box;
+}
+
+static GtkWidget *header_new(LadderInterfaceView *view)
+{
+	GtkWidget *button = gtk_button_new();
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+
+	view->arrow = gtk_image_new_from_icon_name("pan-end-symbolic");
+	view->title = gtk_label_new(_("Interface"));
+	view->summary = gtk_label_new("");
+	gtk_widget_add_css_class(view->summary, "dim-label");
+	gtk_label_set_ellipsize(GTK_LABEL(view->summary), PANGO_ELLIPSIZE_END);
+	gtk_box_append(GTK_BOX(box), view->arrow);
+	gtk_box_append(GTK_BOX(box), view->title);
+	gtk_box_append(GTK_BOX(box), view->summary);
+	gtk_button_set_child(GTK_BUTTON(button), box);
+	gtk_widget_add_css_class(button, "flat");
+	gtk_widget_add_css_class(button, "interface-header");
+	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "interface.fold");
+	gtk_widget_set_focus_on_click(button, FALSE);
+	spoken_name(button, _("Interface"));
+	return button;
+}
+
+static void add_columns(LadderInterfaceView *view)
+{
+	static const struct { enum field field; int width; } column[] = {
+		{ FIELD_NAME, 140 }, { FIELD_TYPE, 120 }, { FIELD_INITIAL, 110 },
+		{ FIELD_COMMENT, 160 },
+	};
+
+	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
+		.set = set_field, .is_fixed = is_fixed };
+	panel_list_column(&view->list, _("Kind"), PIN_KIND, PANEL_DIM, 100);
+	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
+		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
+				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
+				column[i].width);
+}
+
+static GtkWidget *table_new(LadderInterfaceView *view)
+{
+	GtkWidget *scroller = gtk_scrolled_window_new();
+	GtkWidget *table = gtk_column_view_new(NULL);
+
+	gtk_widget_add_css_class(table, "data-table");
+	spoken_name(table, _("Pins"));
+	panel_list_init(&view->list, GTK_COLUMN_VIEW(table));
+	add_columns(view);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), table);
+	gtk_scrolled_window_set_min_content_height(GTK_SCROLLED_WINDOW(scroller), TABLE_HIGH);
+	gtk_widget_set_hexpand(scroller, TRUE);
+	return scroller;
+}
+
+static GtkWidget *body_new(LadderInterfaceView *view)
+{
+	GtkWidget *body = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+	GtkWidget *around = gtk_scrolled_window_new();
+
+	view->picture = ladder_picture_view_new(draw_box, view);
+	gtk_widget_set_valign(view->picture, GTK_ALIGN_START);
+	gtk_widget_set_halign(view->picture, GTK_ALIGN_START);
+	gtk_widget_set_overflow(view->picture, GTK_OVERFLOW_HIDDEN);
+	spoken_name(view->picture, _("The box as callers see it"));
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(around), view->picture);
+	gtk_scrolled_window_set_propagate_natural_width(GTK_SCROLLED_WINDOW(around), TRUE);
+	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(around), GTK_POLICY_NEVER,
+				       GTK_POLICY_AUTOMATIC);
+	view->message = gtk_label_new("");
+	gtk_label_set_xalign(GTK_LABEL(view->message), 0);
+	gtk_label_set_wrap(GTK_LABEL(view->message), TRUE);
+	gtk_widget_add_css_class(view->message, "error");
+	gtk_widget_add_css_class(view->message, "interface-message");
+	gtk_widget_set_visible(view->message, FALSE);
+	gtk_box_append(GTK_BOX(row), around);
+	gtk_box_append(GTK_BOX(row), tools_new());
+	gtk_box_append(GTK_BOX(row), table_new(view));
+	gtk_box_append(GTK_BOX(body), row);
+	gtk_box_append(GTK_BOX(body), view->message);
+	return body;
+}
+
+static void dispose(GObject *object)
+{
+	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(object);
+
+	g_clear_pointer(&view->watch, panel_watch_free);
+	if (view->box) {
+		g_clear_pointer(&view->box, gtk_widget_unparent);
+		panel_list_clear(&view->list);
+	}
+	G_OBJECT_CLASS(ladder_interface_view_parent_class)->dispose(object);
+}
+
+static void ladder_interface_view_class_init(LadderInterfaceViewClass *class)
+{
+	static const char *const adds[] = { "interface.add-input", "interface.add-output",
+					    "interface.add-in-out" };
+	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+
+	G_OBJECT_CLASS(class)->dispose = dispose;
+	gtk_widget_class_set_layout_manager_type(widget, GTK_TYPE_BIN_LAYOUT);
+	for (gsize i = 0; i < G_N_ELEMENTS(adds); i++)
+		gtk_widget_class_install_action(widget, adds[i], NULL, add);
+	gtk_widget_class_install_action(widget, "interface.fold", NULL, fold);
+	gtk_widget_class_install_action(widget, "interface.delete", NULL, delete);
+	gtk_widget_class_install_action(widget, "interface.up", NULL, move);
+	gtk_widget_class_install_action(widget, "interface.down", NULL, move);
+	gtk_widget_class_install_action(widget, "interface.to-sheet", NULL, to_sheet);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_F6, 0, "interface.to-sheet", NULL);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_Up, GDK_ALT_MASK, "interface.up",
+					    NULL);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_Down, GDK_ALT_MASK,
+					    "interface.down", NULL);
+}
+
+static void ladder_interface_view_init(LadderInterfaceView *view)
+{
+	view->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	gtk_widget_add_css_class(view->box, "interface");
+	gtk_box_append(GTK_BOX(view->box), header_new(view));
+	view->body = body_new(view);
+	gtk_widget_set_visible(view->body, FALSE);
+	gtk_box_append(GTK_BOX(view->box), view->body);
+	gtk_widget_set_parent(view->box, GTK_WIDGET(view));
+	g_signal_connect(view, "map", G_CALLBACK(mapped), NULL);
+}
+
+GtkWidget *ladder_interface_view_new(LadderDocument *document, LadderCanvas *canvas)
+{
+	LadderInterfaceView *view = g_object_new(LADDER_TYPE_INTERFACE_VIEW, NULL);
+
+	view->canvas = canvas;
+	view->watch = panel_watch_new(GTK_WIDGET(view), true, refresh);
+	panel_watch_set(view->watch, document);
+	refresh(GTK_WIDGET(view));
+	return GTK_WIDGET(view);
+}

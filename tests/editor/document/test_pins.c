@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_pins - pins change their order only where callers go on to mean the same: random moves
+ * leave every operand at its pin, and are refused where operands have no names.
+ */
+#include "editor-gtk/document/pins.h"
+
+#include "editor-gtk/document/symbols.h"
+
+#include "tests/tap.h"
+
+#include <string.h>
+
+static const char BLOCK[] =
+	"FUNCTION_BLOCK Motor LD\nVAR_INPUT\n  Level : INT;\n  Start : BOOL; (* begins *)\n"
+	"  Stop  : BOOL;\n  Wait  : TIME := T#500ms;\nEND_VAR\nVAR_OUTPUT\n  Run  : BOOL;\n"
+	"  Late : BOOL;\n  Sum  : INT;\nEND_VAR\nVAR_IN_OUT\n  Total : DINT;\n  Other : DINT;\n"
+	"END_VAR\nVAR\n  Inner : INT;\nEND_VAR\nRUNG\n  | NO Start | NC Stop | COIL Run |\n"
+	"END_FUNCTION_BLOCK\n\n"
+	"FUNCTION Scaled : INT IL\nVAR_INPUT\n  X : INT;\n  A : INT;\n  B : INT := 0;\nEND_VAR\n"
+	"  LD    X\n  MUL   A\n  ADD   B\n  ST    Scaled\nEND_FUNCTION\n";
+static const char BOX[] = "RUNG\n  | NO %IX0.0 | Motor M Level:=R Wait:=T#2s Total:=T Other:=U"
+	" Sum=>R | COIL %QX0.0 |\n  | NO %IX0.1 | .Stop                                       "
+	"                 |\n";
+
+static LadderDocument *document;
+
+static void open_with(const char *language, const char *body)
+{
+	char *text = g_strdup_printf("RUNGBOARD 1\n\nVAR\n  M : Motor;\n  T : DINT;\n  U : DINT;\n"
+		"  R : INT;\nEND_VAR\n\nPROGRAM Main %s\n%sEND_PROGRAM\n\n%s", language, body, BLOCK);
+
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
+	CHECK(ladder_document_project(document));
+	g_free(text);
+}
+
+static const struct pou *pou_named(const char *name)
+{
+	const struct project *project = ladder_document_project(document);
+
+	return &project->pou[project_find_pou(project, name, strlen(name))];
+}
+
+static int number_of(const struct pou *pou)
+{
+	return (int)(pou - ladder_document_project(document)->pou);
+}
+
+/* The pins of a kind in their order: "Level Start Stop Wait". */
+static char *order_of(const char *pou_name, uint16_t kind)
+{
+	const struct pou *pou = pou_named(pou_name);
+	GString *out = g_string_new(NULL);
+
+	for (int i = 0; i < vars_declared(&pou->vars); i++)
+		if (pins_kind(pou, i) == kind)
+			g_string_append_printf(out, "%s%s", out->len ? " " : "",
+				project_text(ladder_document_project(document),
+					     pou->vars.var[i].name));
+	return g_string_free(out, FALSE);
+}
+
+static bool is_order(const char *pou, uint16_t kind, const char *order)
+{
+	char *is = order_of(pou, kind);
+	const bool same = strcmp(is, order) == 0;
+
+	if (!same)
+		printf("# is: %s\n", is);
+	g_free(is);
+	return same;
+}
+
+static int pin(const char *pou_name, const char *name)
+{
+	const struct pou *pou = pou_named(pou_name);
+
+	for (int i = 0; i < pou->vars.count; i++)
+		if (strcmp(project_text(ladder_document_project(document),
+					pou->vars.var[i].name), name) == 0)
+			return i;
+	return -1;
+}
+
+static char *move(const char *pou, const char *name, int by)
+{
+	return pin_move(document, number_of(pou_named(pou)), pin(pou, name), by);
+}
+
+static bool is_refused(const char *pou, const char *name, int by, const char *part)
+{
+	char *before = ladder_document_text(document, NULL), *after;
+	char *why = move(pou, name, by);
+	bool good;
+
+	after = ladder_document_text(document, NULL);
+	good = why && strstr(why, part) && strcmp(before, after) == 0;
+	if (!good)
+		printf("# %s\n", why ? why : "it moved");
+	g_free(why);
+	g_free(before);
+	g_free(after);
+	return good;
+}
+
+/* The list of Main, in which each operand is stored to a pin by its name. */
+static char *meaning(void)
+{
+	const struct il *il;
+	GString *out = g_string_new(NULL);
+	struct ladder *ladder;
+	size_t len;
+	char *text;
+
+	ladder_document_check_now(document);
+	ladder = ladder_document_checked(document);
+	if (ladder_diags(ladder)->errors)
+		return g_string_free(out, FALSE);
+	il = ladder_il(ladder, 0);
+	g_string_printf(out, "%d\n", il ? il->count : -1);
+	text = ladder_document_list(document, 0);
+	len = strlen(text);
+	g_string_append_len(out, text, (gssize)len);
+	g_free(text);
+	return g_string_free(out, FALSE);
+}
+
+static void test_moves(void)
+{
+	GRand *chance = g_rand_new_with_seed(3);
+	char *first, *mine;
+	bool good = true;
+	int moved = 0;
+
+	open_with("LD", BOX);
+	first = ladder_document_text(document, NULL);
+	mine = meaning();
+	CHECK_AS(*mine, "the example builds");
+	for (int i = 0; good && i < 120; i++) {
+		const struct pou *motor = pou_named("Motor");
+		const int at = g_rand_int_range(chance, 0, vars_declared(&motor->vars));
+		char *before = ladder_document_text(document, NULL), *after, *now, *why;
+
+		if (!pins_kind(motor, at)) {
+			g_free(before);
+			continue;
+		}
+		why = pin_move(document, number_of(motor), at, g_rand_boolean(chance) ? 1 : -1);
+		after = ladder_document_text(document, NULL);
+		now = meaning();
+		good = strcmp(now, mine) == 0 && strlen(before) == strlen(after) &&
+		       (strcmp(before, after) == 0) == (why != NULL);
+		moved += !why;
+		g_free(before);
+		if (good && !why) {
+			good = ladder_document_undo(document);
+			before = ladder_document_text(document, NULL);
+			good = good && ladder_document_redo(document) &&
+			       strcmp(before, after) != 0;
+			g_free(before);
+		}
+		g_free(why);
+		g_free(now);
+		g_free(after);
+	}
+	CHECK_AS(good && moved > 20, "pins of boxes move, and callers stay as they are");
+	while (ladder_document_undo(document))
+		;
+	g_free(mine);
+	mine = ladder_document_text(document, NULL);
+	CHECK_AS(strcmp(first, mine) == 0, "all undone");
+	g_free(mine);
+	g_free(first);
+	g_rand_free(chance);
+}
+
+static void test_power(void)
+{
+	open_with("LD", BOX);
+	CHECK(is_refused("Motor", "Start", 1, "connected to “Start”"));
+	CHECK(is_refused("Motor", "Stop", -1, "connected to “Start”"));
+	CHECK(is_refused("Motor", "Run", 1, "connected to “Run”"));
+	CHECK(is_refused("Motor", "Level", -1, "first one already"));
+	CHECK(is_refused("Motor", "Sum", 1, "last one already"));
+	CHECK(!move("Motor", "Level", 1) && is_order("Motor", VAR_INPUT, "Start Level Stop Wait"));
+	open_with("LD", "RUNG\n");
+	CHECK_AS(!move("Motor", "Start", 1), "without a box any order is good");
+	CHECK(is_order("Motor", VAR_INPUT, "Level Stop Start Wait"));
+}
+
+static void test_positions(void)
+{
+	open_with("IL", "  CAL   M(1, TRUE)\n");
+	CHECK(is_refused("Motor", "Wait", -1, "“Main” gives operands by position"));
+	open_with("IL", "  CAL   M(Level := 1, Start := TRUE, Total := T, Other := U)\n");
+	CHECK_AS(!move("Motor", "Wait", -1), "operands with names go on to their pins");
+	open_with("IL", "  LD    1\n  Scaled 3, 10\n  ST    R\n");
+	CHECK(is_refused("Scaled", "A", 1, "by position"));
+	open_with("IL", "  Scaled(X := 1, A := 3, OUT => R)\n");
+	CHECK(!move("Scaled", "A", 1) && is_order("Scaled", VAR_INPUT, "X B A"));
+	open_with("LD", "RUNG\n  | [ R := Scaled(1, 2, 3) ] |\n");
+	CHECK(is_refused("Scaled", "A", 1, "by position"));
+	open_with("LD", "RUNG\n  | [ R := Scaled(X := 1, A := (2)) ] |\n");
+	CHECK(!move("Scaled", "A", 1));
+	open_with("LD", "RUNG\n  | NO %IX0.0 | Scaled X:=1 A:=2 OUT=>R |\n");
+	CHECK(!move("Scaled", "X", 1) && is_order("Scaled", VAR_INPUT, "A X B"));
+}
+
+static void test_result(void)
+{
+	char *why;
+
+	open_with("LD", "RUNG\n");
+	why = pins_set_result(document, number_of(pou_named("Scaled")), "ARRAY");
+	CHECK_AS(why, "a type that is none");
+	g_free(why);
+	CHECK(!pins_set_result(document, number_of(pou_named("Scaled")), "DINT") &&
+	      pou_named("Scaled")->vars.var[0].type == IEC_DINT);
+	CHECK(ladder_document_undo(document) && pou_named("Scaled")->vars.var[0].type == IEC_INT);
+	CHECK(pins_count(pou_named("Motor"), VAR_IN_OUT) == 2 &&
+	      pins_count(pou_named("Scaled"), VAR_INPUT) == 3 && !pins_kind(pou_named("Scaled"), 0));
+}
+
+int main(void)
+{
+	document = ladder_document_new();
+	test_moves();
+	test_power();
+	test_positions();
+	test_result();
+	g_object_unref(document);
+	return tap_done();
+}
