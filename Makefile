@@ -34,13 +34,13 @@ LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code
 LEAN_LD  += $(if $(STATIC),,$(if $(shell $(CC) -Wl,--help 2>/dev/null | grep -- '-z pack-relative-relocs'),-Wl$(comma)-z$(comma)pack-relative-relocs))
 
 obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
-ENGINE   := $(filter-out %/catalog_small.c,$(wildcard runtime/engine/*.c runtime/engine/*/*.c runtime/engine/exchange/*/*.c))
+ENGINE   := $(filter-out %_small.c,$(wildcard runtime/engine/*.c runtime/engine/*/*.c runtime/engine/exchange/*/*.c))
 # The engine of a small board: without the files that read or translate, or that find, print or
 # store something by name.
 CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
 CORE     := $(filter-out $(if $(filter 1,$(SMALL)),$(addprefix runtime/engine/base/,catalog.c explain.c iec_print.c literal.c \
             name.c names.c nearest.c plain.c sink.c) $(addprefix runtime/engine/scan/,carry.c code_print.c code_strip.c retain.c \
-            retain_plan.c retain_slot.c symbols.c symbol_index.c),%/catalog_small.c),$(CORE))
+            retain_plan.c retain_slot.c symbols.c symbol_index.c),%_small.c),$(CORE))
 # SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def.
 ifeq ($(WORDS),core)
 CORE     := $(filter-out $(addprefix runtime/engine/base/,big.c decimal.c number.c) \

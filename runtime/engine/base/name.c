@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * name - whether two spellings are one name.
+ * name - which characters a name may have, and whether two spellings are one name.
  *
  * Names of ASCII alone take a short way. All others are compared code point by code point: each
  * is decomposed, marks behind a letter are put into canonical order, then each is folded.
@@ -10,6 +10,36 @@
 #include "engine/base/lex.h"
 
 #include <string.h>
+
+/* The first 64 Ki characters, then the others. */
+static const uint16_t letters_low[] = {
+#define LETTERS_LOW
+#include "engine/base/letters.def"
+#undef LETTERS_LOW
+};
+static const uint32_t letters_high[] = {
+#define LETTERS_HIGH
+#include "engine/base/letters.def"
+#undef LETTERS_HIGH
+};
+
+bool utf8_is_letter(const char *text, size_t len)
+{
+	const uint32_t code = utf8_code(text, len);
+	const bool low = code < 0x10000;
+	size_t from = 0, to = low ? sizeof(letters_low) / sizeof(*letters_low) :
+				    sizeof(letters_high) / sizeof(*letters_high);
+
+	while (from < to) {
+		const size_t middle = (from + to) / 2;
+
+		if ((low ? letters_low[middle] : letters_high[middle]) <= code)
+			from = middle + 1;
+		else
+			to = middle;
+	}
+	return from % 2;
+}
 
 static const struct fold {
 	uint32_t first, last;

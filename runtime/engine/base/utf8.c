@@ -72,18 +72,6 @@ bool utf16_text(const char *text, size_t len)
 	return !text[0] == !text[2] && !text[1] == !text[3] && !text[0] != !text[1];
 }
 
-/* The first 64 Ki characters, then the others. */
-static const uint16_t letters_low[] = {
-#define LETTERS_LOW
-#include "engine/base/letters.def"
-#undef LETTERS_LOW
-};
-static const uint32_t letters_high[] = {
-#define LETTERS_HIGH
-#include "engine/base/letters.def"
-#undef LETTERS_HIGH
-};
-
 uint32_t utf8_code(const char *text, size_t len)
 {
 	static const unsigned char first[] = { 0, 0x7f, 0x1f, 0x0f, 0x07 };
@@ -92,24 +80,6 @@ uint32_t utf8_code(const char *text, size_t len)
 	for (size_t i = 1; i < len; i++)
 		code = code << 6 | ((unsigned char)text[i] & 0x3f);
 	return code;
-}
-
-bool utf8_is_letter(const char *text, size_t len)
-{
-	const uint32_t code = utf8_code(text, len);
-	const bool low = code < 0x10000;
-	size_t from = 0, to = low ? sizeof(letters_low) / sizeof(*letters_low) :
-				    sizeof(letters_high) / sizeof(*letters_high);
-
-	while (from < to) {
-		const size_t middle = (from + to) / 2;
-
-		if ((low ? letters_low[middle] : letters_high[middle]) <= code)
-			from = middle + 1;
-		else
-			to = middle;
-	}
-	return from % 2;
 }
 
 struct range {
