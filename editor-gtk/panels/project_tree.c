@@ -149,6 +149,8 @@ static gboolean go(gpointer data)
 	else if (row->kind == ROW_TASKS || row->kind == ROW_TASK)
 		gtk_widget_activate_action(tree->list, "win.show-task", "s",
 					   row->kind == ROW_TASK ? row->text : "");
+	else if (row->kind == ROW_ADDRESSES)
+		gtk_widget_activate_action(tree->list, "win.address_map", NULL);
 	else if (row->kind == ROW_TYPES)
 		gtk_widget_activate_action(tree->list, "win.types", NULL);
 	else if (row->kind == ROW_STRUCTURE)
@@ -726,7 +728,8 @@ static bool is_of(const LadderTreeRow *row, int pou, const char *path, const cha
 	       (row->kind == ROW_FILE && path && g_strcmp0(row->path, path) == 0) ||
 	       (row->kind == ROW_SYMBOLS && strcmp(page, " symbols") == 0) ||
 	       (row->kind == ROW_TASKS && strcmp(page, " tasks") == 0) ||
-	       (row->kind == ROW_TYPES && strcmp(page, " types") == 0);
+	       (row->kind == ROW_TYPES && strcmp(page, " types") == 0) ||
+	       (row->kind == ROW_ADDRESSES && strcmp(page, " addresses") == 0);
 }
 
 void ladder_project_tree_select(GtkWidget *box, int pou, const char *path, const char *page)

@@ -222,6 +222,7 @@ static void add_all(GListStore *root, LadderDocument *document)
 		g_strdup_printf("%d", listing_symbol_count(project)));
 	add_tasks(root, project);
 	add_structures(root, project);
+	add_row(root, ROW_ADDRESSES, _("Address map"), NULL);
 	add_bookmarks(root, document);
 	add_texts(root, document, _("Scenarios"), ".scn", true);
 	add_texts(root, document, _("I/O maps"), ".io", true);

@@ -11,6 +11,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tab_home.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/address_view.h"
 #include "editor-gtk/panels/compare_view.h"
 #include "editor-gtk/panels/symbols_view.h"
 #include "editor-gtk/panels/tasks_view.h"
@@ -211,6 +212,9 @@ static AdwTabPage *open_widget(struct tabs *tabs, const char *name)
 	else if (!page && strcmp(name, "types") == 0)
 		page = add_page(tabs, ladder_types_view_new(tabs->core->document), key,
 				_("Data types"));
+	else if (!page && strcmp(name, "addresses") == 0)
+		page = add_page(tabs, ladder_address_view_new(tabs->core->document), key,
+				_("Address map"));
 	else if (!page && strcmp(name, "welcome") == 0)
 		page = add_page(tabs, welcome_new(), key, _("Welcome"));
 	else if (!page && strcmp(name, "compare") == 0)

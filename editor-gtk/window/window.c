@@ -17,6 +17,7 @@
 #include "editor-gtk/kit/verbs.h"
 #include "editor-gtk/live/timing_view.h"
 #include "editor-gtk/live/watch_view.h"
+#include "editor-gtk/panels/address_view.h"
 #include "editor-gtk/panels/code_view.h"
 #include "editor-gtk/panels/log_view.h"
 #include "editor-gtk/panels/palette.h"
@@ -234,6 +235,16 @@ static void do_show_as(LadderWindow *window)
 				    (int)ladder_grid_view_show(sheet));
 }
 
+static void show_addresses(LadderWindow *window)
+{
+	if (!ladder_document_project(window->core.document)) {
+		messages_toast(&window->messages, _("The file cannot be read as a program"));
+		return;
+	}
+	ladder_address_view_enter(LADDER_ADDRESS_VIEW(tabs_show_widget(&window->tabs,
+								       "addresses")));
+}
+
 static void toggle(GtkWidget *widget)
 {
 	gtk_widget_set_visible(widget, !gtk_widget_get_visible(widget));
@@ -396,6 +407,7 @@ static void do_view(LadderWindow *window, enum verb verb)
 	switch ((int)verb) {
 	case VERB_show_report: exchange_show(&window->exchange); break;
 	case VERB_show_original: exchange_show_original(&window->exchange); break;
+	case VERB_address_map: show_addresses(window); break;
 	case VERB_show_as: do_show_as(window); break;
 	case VERB_zoom_in: zoom(window, 1.25); break;
 	case VERB_zoom_out: zoom(window, 0.8); break;

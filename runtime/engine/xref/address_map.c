@@ -192,6 +192,82 @@ int address_map_clashes(struct xref *xref, struct address_clash *out, int most)
 	return range ? found : -1;
 }
 
+/* ---- all things ---- */
+
+static int ranges_of_all(struct xref *xref, struct range *range)
+{
+	int count = 0;
+
+	for (int i = 0; i < xref->count; i++) {
+		const struct xref_target *target = &xref->use[i].target;
+
+		if (target->addr.area == AREA_NONE ||
+		    (target->what != XREF_VARIABLE && target->what != XREF_ADDRESS))
+			continue;
+		range[count].first = apart(target->addr);
+		range[count].end = range[count].first + bits_of(xref->project, target);
+		range[count++].use = i;
+	}
+	qsort(range, (size_t)count, sizeof(*range), by_first);
+	return count;
+}
+
+static void count_use(struct address_thing *thing, const struct xref_use *use, int number)
+{
+	if (use->kind == XREF_DECLARED) {
+		thing->use = number;
+		return;
+	}
+	thing->uses++;
+	thing->open |= use->target.what == XREF_ADDRESS && use->open;
+	if (use->off)
+		return;
+	thing->coils += use->kind == XREF_COIL;
+	thing->writes += use->kind == XREF_WRITTEN || use->kind == XREF_CHANGED;
+}
+
+/* The thing of a range among those with the same bits; NULL: it is new. */
+static struct address_thing *same_thing(const struct xref *xref, struct address_thing *thing,
+					int count, const struct range *range)
+{
+	const struct xref_target *target = &xref->use[range->use].target;
+
+	for (int i = count - 1; i >= 0; i--) {
+		const struct xref_target *other = &xref->use[thing[i].use].target;
+
+		if (apart(other->addr) != range->first)
+			return NULL;
+		if (xref_same(other, target))
+			return &thing[i];
+	}
+	return NULL;
+}
+
+int address_map_things(struct xref *xref, struct address_thing **out)
+{
+	struct range *range = arena_alloc(&xref->arena,
+					  sizeof(*range) * ((size_t)xref->count + 1));
+	int ranges = range ? ranges_of_all(xref, range) : 0, count = 0;
+	struct address_thing *thing = range ? arena_alloc(&xref->arena,
+		sizeof(*thing) * ((size_t)ranges + 1)) : NULL;
+
+	for (int i = 0; thing && i < ranges; i++) {
+		const struct xref_use *use = &xref->use[range[i].use];
+		const struct iec_addr addr = use->target.addr;
+		struct address_thing *at = same_thing(xref, thing, count, &range[i]);
+
+		if (!at) {
+			at = &thing[count++];
+			*at = (struct address_thing){ .use = range[i].use, .area = addr.area,
+				.first = addr.byte * 8 + addr.bit };
+			at->end = at->first + (range[i].end - range[i].first);
+		}
+		count_use(at, use, range[i].use);
+	}
+	*out = thing;
+	return thing ? count : -1;
+}
+
 /* For a text: it was read whole, or as parameters. For a folded name: it is declared. */
 enum mark { SEEN_WHOLE = 1, SEEN_ARGS = 2, GLOBAL = 4, LOCAL = 8 };
 

@@ -44,4 +44,22 @@ struct address_clash {
  */
 int address_map_clashes(struct xref *xref, struct address_clash *out, int most);
 
+/* A variable with an address, or an address without a variable. */
+struct address_thing {
+	int use;           /* its declaration, else its first use             */
+	enum iec_area area;
+	uint32_t first, end; /* its bits in the area, all elements            */
+	int uses;          /* places without the declaration                  */
+	int coils, writes; /* of them coils; other places that write it in a
+			      scan. Rungs that are OFF do not count, nor S and R */
+	bool open;         /* an index behind it leads to the end of the area */
+};
+/**
+ * address_map_things - all things at addresses, by area and first bit
+ * @out: gets them; owned by the arena of @xref
+ *
+ * Returns their number, or -1: no memory. Scan-safe: no.
+ */
+int address_map_things(struct xref *xref, struct address_thing **out);
+
 #endif

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""data_types - a person makes structures and arrays, and gives them initial values."""
+"""data_types - a person makes structures and arrays, gives them initial values, and looks at the address map."""
 import os
 import sys
 
@@ -189,4 +189,50 @@ def array(screen):
     assert editor.save(path) == PROGRAM
 
 
-main([structure, everywhere, array])
+MEMORY = '''RUNGBOARD 1
+
+VAR
+  Speed AT %MW4   : WORD;
+  Over  AT %MX4.1 : BOOL;
+  Idle  AT %QX0.7 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Over | [ Speed > %MW20 ] | COIL %QX0.0 |
+RUNG
+  | NO %IX0.0 | COIL %QX0.0 |
+END_PROGRAM
+'''
+
+
+def addresses(screen):
+    """the map names each bit; arrows and Enter go to a symbol or to the uses; an edit is shown at once; shared memory alone"""
+    path = new_file(screen, MEMORY)
+    editor = Editor(screen, path)
+    editor.command('Address map')
+    editor.focus_on('%IX0.7: free', 'push button')
+    editor.keys('Down', 'Down')
+    editor.focus_on('%QX0.7: Idle, 0 uses, Declared, never used', 'push button')
+    editor.keys('End', 'Left', 'Left', 'Left', 'Left')
+    editor.focus_on('%QX0.0: 2 uses, written in 2 places, Written twice', 'push button')
+    editor.shot('address-map')
+    editor.keys('Return')
+    editor.find('%QX0.0 %QX0.0 coil, Main, rung 2', 'table row')
+    editor.click(editor.find('%MX4.1: Over', 'push button'))
+    editor.find('Speed %MW4 read, Main, rung 1', 'table row')
+    kinds = editor.find('Rows that are shown', 'combo box')
+    editor.click(kinds)
+    editor.keys('Down', 'Return')
+    until(lambda: not editor.all('%MW20: 1 use'), 'only shared memory')
+    editor.click(editor.find('%MW4: Speed', 'push button'))
+    editor.focus_on('Speed, Name', 'text')
+    editor.type('Rate')
+    editor.keys('Return')
+    editor.command('Address map')
+    until(lambda: editor.all('%MW4: Rate'), 'the new name in the map')
+    assert 'Rate AT %MW4' in editor.save(path)
+    check(path)
+
+
+main([structure, everywhere, array, addresses])

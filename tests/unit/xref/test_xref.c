@@ -229,6 +229,27 @@ static void test_clashes(struct ladder *ladder)
 	xref_free(&xref);
 }
 
+static void test_things(struct ladder *ladder)
+{
+	struct address_thing *thing;
+	struct xref xref;
+	char out[2000] = "", name[600];
+	size_t len = 0;
+	int count;
+
+	CHECK(xref_make(&xref, ladder_project(ladder)));
+	count = address_map_things(&xref, &thing);
+	for (int i = 0; i < count; i++) {
+		xref_name(xref.project, &xref.use[thing[i].use].target, NULL, name, sizeof(name));
+		len += (size_t)snprintf(out + len, sizeof(out) - len, "%.90s %u-%u %d %d %d%s\n",
+			name, (unsigned)thing[i].first, (unsigned)thing[i].end, thing[i].uses,
+			thing[i].coils, thing[i].writes, thing[i].open ? " open" : "");
+	}
+	CHECK_TEXT(out, "Start 0-1 2 0 0\n%IX0.0 0-1 2 0 0\nMotor 0-1 3 1 1\nWide 0-8 0 0 0\n"
+		"%QW0 0-16 1 0 0\nLamps 8-18 0 0 0\n%MW8 64-80 1 0 0 open\n");
+	xref_free(&xref);
+}
+
 /* Members and inputs that initial values name; the type of a function's result. */
 static void test_initial(void)
 {
@@ -272,6 +293,7 @@ int main(void)
 	test_sizes();
 	test_quick();
 	test_clashes(ladder);
+	test_things(ladder);
 	test_initial();
 	ladder_free(ladder);
 	return tap_done();
