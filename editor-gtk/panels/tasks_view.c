@@ -769,7 +769,14 @@ static void add_handles(LadderTasksView *view)
 
 void ladder_tasks_view_show(LadderTasksView *view, const char *task)
 {
-	go_to(view, TASKS_TASK, task, TASKS_NAME);
+	struct task_rows *tasks = task_rows_new(document_of(view));
+	const bool found = task_rows_find(tasks, TASKS_TASK, task) >= 0;
+
+	task_rows_free(tasks);
+	if (found)
+		go_to(view, TASKS_TASK, task, TASKS_NAME);
+	else
+		go_to(view, TASKS_EACH_SCAN, _("Each scan"), TASKS_WHEN);
 }
 
 static void dispose(GObject *object)

@@ -18,7 +18,7 @@
 G_DECLARE_FINAL_TYPE(LadderTasksView, ladder_tasks_view, LADDER, TASKS_VIEW, GtkWidget)
 
 GtkWidget *ladder_tasks_view_new(LadderDocument *document);
-/** ladder_tasks_view_show - selects the task of this name. */
+/** ladder_tasks_view_show - selects the task of this name, or the programs without a task. */
 void ladder_tasks_view_show(LadderTasksView *view, const char *task);
 
 #endif

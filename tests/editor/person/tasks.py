@@ -108,6 +108,10 @@ def table(screen):
     put(editor, 'Fast, Name', 'Quickly')
     is_saved(editor, path, ('INTERVAL := T#20ms', 'SINGLE := Door'), ('TASK Fast', 'TASK Quickly'), ('WITH Fast', 'WITH Quickly'))
     until(lambda: editor.all('Quickly, T#5ms', 'list item') and editor.all('Slow, on Door', 'list item'), 'the tasks in the tree')
+    editor.click(editor.find('Slow, on Door', 'list item'), count=2)
+    editor.focus_on('Slow, Name')
+    editor.click(until(lambda: [n for n in editor.all('Each scan', 'label') if n.box()[0] < 200], 'the row in the tree')[0], count=2)
+    editor.focus_on('Each scan, Period or event')
 
 
 def rows(screen):
@@ -137,7 +141,7 @@ def rows(screen):
     editor.answer('Delete')
     is_saved(editor, path, ('    TASK Fast (INTERVAL := T#5ms, PRIORITY := 1); (* counts *)\n', ''),
              (' WITH Fast', ''))
-    editor.click(editor.find('New task', 'push button'))
+    editor.command('New task')
     editor.focus_on('Task1, Name')
     editor.type('Idle')
     editor.keys('Return')
