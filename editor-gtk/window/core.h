@@ -19,6 +19,7 @@ struct core {
 	LadderDocument *document;  /* NULL: the window is closing                 */
 	LadderSim *sim;            /* off while editing                           */
 	LadderBoardRun *board;     /* the program on this machine                 */
+	GtkPageSetup *paper;       /* of prints and their preview                 */
 	GtkWidget *tree;
 	struct messages *messages;
 	struct below *below;

@@ -9,10 +9,12 @@
 #include "editor-gtk/document/panel.h"
 #include "editor-gtk/draw/print.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/preview_view.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/below.h"
 #include "editor-gtk/window/front.h"
 #include "editor-gtk/window/messages.h"
+#include "editor-gtk/window/tabs.h"
 
 #include <errno.h>
 #include <string.h>
@@ -215,24 +217,11 @@ static GtkPrintOperation *operation_new(struct export *export)
 	GtkPrintOperation *operation = print_operation_new(printing.project, printing.file,
 							   -1, printing.show, printing.date);
 
+	gtk_print_operation_set_default_page_setup(operation, export->core->paper);
 	/* the operation borrows both while it runs */
 	g_object_set_data_full(G_OBJECT(operation), "file", printing.file, g_free);
 	g_object_set_data_full(G_OBJECT(operation), "date", printing.date, g_free);
 	return operation;
-}
-
-/* Does GTK find the program that it starts for a preview? */
-static bool has_viewer(void)
-{
-	char *command = NULL, **words = NULL, *program = NULL;
-
-	g_object_get(gtk_settings_get_default(), "gtk-print-preview-command", &command, NULL);
-	if (command && g_shell_parse_argv(command, NULL, &words, NULL))
-		program = g_find_program_in_path(words[0]);
-	g_strfreev(words);
-	g_free(command);
-	g_free(program);
-	return program != NULL;
 }
 
 static gboolean end_preview(gpointer operation)
@@ -253,17 +242,25 @@ static void give_canvas(GtkPrintContext *context)
 	cairo_surface_destroy(surface);
 }
 
-/* True: there is no preview; GTK would close its dialog without a word. */
+void export_preview(struct export *export)
+{
+	if (has_pages(export))
+		tabs_show_widget(export->core->tabs, "preview");
+}
+
+/* *Preview* of the print dialog, with its paper. True: nobody else shows one. */
 static gboolean preview(GtkPrintOperation *operation, GtkPrintOperationPreview *pages,
 			GtkPrintContext *context, GtkWindow *parent, struct export *export)
 {
+	GtkPageSetup *chosen = gtk_print_context_get_page_setup(context);
+	GtkPageSetup *paper = export->core->paper;
+
 	(void)pages;
 	(void)parent;
-	if (has_viewer())
-		return FALSE;
-	messages_banner(export->core->messages, NULL, _("Cannot show a preview: no viewer for "
-			"print previews is installed, such as Evince. Export the pages as a PDF "
-			"instead."), _("Export as PDF…"), "win.export_pdf");
+	gtk_page_setup_set_paper_size(paper, gtk_page_setup_get_paper_size(chosen));
+	gtk_page_setup_set_orientation(paper, gtk_page_setup_get_orientation(chosen));
+	ladder_preview_view_again(LADDER_PREVIEW_VIEW(tabs_show_widget(export->core->tabs,
+								       "preview")));
 	give_canvas(context);
 	g_idle_add(end_preview, g_object_ref(operation));
 	return TRUE;

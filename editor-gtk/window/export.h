@@ -31,5 +31,7 @@ GtkFileChooser *export_ask(struct export *export, const char *title, const char 
 void export_symbols(struct export *export);
 void export_pdf(struct export *export);
 void export_print(struct export *export);
+/** export_preview - the page that shows what would be printed. */
+void export_preview(struct export *export);
 
 #endif

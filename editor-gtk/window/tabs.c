@@ -13,6 +13,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/address_view.h"
 #include "editor-gtk/panels/compare_view.h"
+#include "editor-gtk/panels/preview_view.h"
 #include "editor-gtk/panels/symbols_view.h"
 #include "editor-gtk/panels/tasks_view.h"
 #include "editor-gtk/panels/types_view.h"
@@ -220,6 +221,9 @@ static AdwTabPage *open_widget(struct tabs *tabs, const char *name)
 	else if (!page && strcmp(name, "compare") == 0)
 		page = add_page(tabs, ladder_compare_view_new(tabs->core->document), key,
 				_("Compare"));
+	else if (!page && strcmp(name, "preview") == 0)
+		page = add_page(tabs, ladder_preview_view_new(tabs->core->document,
+			tabs->core->paper), key, _("Print preview"));
 	else if (!page && strcmp(name, "text") == 0)
 		page = add_page(tabs, ladder_text_view_new(tabs->core->document, -1), key,
 				_("Text of the file"));
@@ -598,8 +602,8 @@ static bool update_page(AdwTabPage *page, const struct project *project, bool re
 		return false; /* a file was opened */
 	if (LADDER_IS_FILE_VIEW(widget))
 		return true; /* it does not depend on the project */
-	if (strcmp(name, " compare") == 0)
-		return true; /* it also compares what cannot be read */
+	if (strcmp(name, " compare") == 0 || strcmp(name, " preview") == 0)
+		return true; /* they say what cannot be read                      */
 	if (name[0] == ' ')
 		return (strcmp(name, " text") == 0) == !project;
 	pou = project_find_pou(project, name, strlen(name));

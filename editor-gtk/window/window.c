@@ -21,6 +21,7 @@
 #include "editor-gtk/panels/code_view.h"
 #include "editor-gtk/panels/log_view.h"
 #include "editor-gtk/panels/palette.h"
+#include "editor-gtk/panels/preview_view.h"
 #include "editor-gtk/panels/problems.h"
 #include "editor-gtk/panels/project_tree.h"
 #include "editor-gtk/window/below.h"
@@ -217,8 +218,11 @@ static void do_sheet_by(LadderWindow *window, bool next)
 static void zoom(LadderWindow *window, double factor)
 {
 	LadderCanvas *canvas = front_seen_canvas(&window->front);
+	GtkWidget *page = page_content(front_tab(&window->front));
 
-	if (canvas)
+	if (LADDER_IS_PREVIEW_VIEW(page))
+		ladder_preview_view_zoom(LADDER_PREVIEW_VIEW(page), factor);
+	else if (canvas)
 		ladder_canvas_set_zoom(canvas, factor == 0 ? 1 :
 				       ladder_canvas_zoom(canvas) * factor);
 }
@@ -369,6 +373,7 @@ static bool do_in_file(LadderWindow *window, enum verb verb)
 	case VERB_previous_difference: compare_step(&window->compare, true); return true;
 	case VERB_export_classic: exchange_export(&window->exchange); return true;
 	case VERB_print: export_print(&window->export); return true;
+	case VERB_print_preview: export_preview(&window->export); return true;
 	case VERB_export_pdf: export_pdf(&window->export); return true;
 	case VERB_properties: project_properties_show(&window->core); return true;
 	case VERB_preferences: preferences_show(GTK_WINDOW(window)); return true;
@@ -932,6 +937,7 @@ static void ladder_window_dispose(GObject *object)
 	sim_bar_clear(&window->sim_bar);
 	origin_clear(&window->origin);
 	front_clear(&window->front);
+	g_clear_object(&core->paper);
 	g_clear_object(&core->sim);
 	g_clear_object(&core->board);
 	if (core->document) { /* drafts of files are removed with their tabs     */
@@ -1001,6 +1007,7 @@ static void ladder_window_init(LadderWindow *window)
 	window->core = (struct core){
 		.window = GTK_WINDOW(window), .messages = &window->messages,
 		.below = &window->below, .front = &window->front, .tabs = &window->tabs,
+		.paper = gtk_page_setup_new(),
 	};
 }
 

@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, until  # noqa: E402
+from desk import ROOT, Editor, check, main, new_file, until, sh  # noqa: E402
 from projects import ONE_RUNG  # noqa: E402
 
 MAP = 'BOARD "Desk"\n%IX0.0  gpio  line=NOWHERE\n%QX0.0  sim  safe=0\n'
@@ -199,14 +199,30 @@ def imported(screen):
 
 
 def preview(screen):
-    """a print preview without a viewer: a message says what is missing"""
-    editor = Editor(screen, new_file(screen, ONE_RUNG), PATH='/nowhere')
+    """the print preview, also from the print dialog, needs no viewer; it has paper, zoom and pages, and follows edits"""
+    editor = Editor(screen, os.path.join(ROOT, 'ladders', 'garage-door.rung'), PATH='/nowhere')
     editor.to_sheet()
     editor.brought('ctrl+p')
     editor.find('Preview', 'push button').press()
-    editor.find('Cannot show a preview', 'label')
+    editor.find('Page 1 of ', 'picture')
+    until(lambda: len(editor.windows()) == 1, 'the end of the print dialog')
     editor.shot('dialogs-preview')
-    editor.find('Export as PDF…', 'push button')
+    upright = editor.find('Page 1 of ', 'label').name
+    editor.click(editor.find('Landscape'))
+    until(lambda: editor.find('Page 1 of ', 'label').name != upright, 'pages across')
+    editor.shot('dialogs-preview-across')
+    editor.click(editor.find('Landscape'))
+    until(lambda: editor.find('Page 1 of ', 'label').name == upright, 'upright pages')
+    editor.click(editor.find('Zoom in', 'push button'))
+    x, y, width, height = editor.place(editor.find('Page 1 of ', 'picture'))
+    sh('xdotool', 'mousemove', str(x + 300), str(y + 200), 'click', '--repeat', '30', '5')
+    until(lambda: 'Page 1 of' not in editor.find('Page ', 'label').name, 'another page')
+    editor.keys('ctrl+Page_Up', 'ctrl+Page_Up', 'ctrl+Page_Up')
+    editor.to_sheet()
+    editor.keys('ctrl+a', 'ctrl+a', 'ctrl+Delete')
+    until(lambda: not editor.all('MotorOk', 'table cell'), 'the rungs to go')
+    editor.command('Print preview')
+    until(lambda: not editor.find('Page ', 'label').name.endswith(upright[-2:]), 'fewer pages')
 
 
 def board(screen):
