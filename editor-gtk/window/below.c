@@ -86,6 +86,15 @@ void below_open(struct below *below)
 	below_make_room(below, PANEL_ROOM, SHEET_ROOM);
 }
 
+void below_rest(struct below *below)
+{
+	const char *name = gtk_stack_get_visible_child_name(below->stack);
+
+	if (g_strcmp0(name, "problems") == 0 &&
+	    !ladder_problems_count(LADDER_PROBLEMS(below_panel(below, name)), false))
+		gtk_paned_set_position(below->paned, G_MAXINT16);
+}
+
 void below_add(struct below *below, const char *name, const char *title, below_make *make,
 	       gpointer part)
 {

@@ -41,6 +41,8 @@ void below_set_title(struct below *below, const char *name, const char *title);
 /** below_open - gives the panels their usual room. Before that they have a line below the tabs;
  * below_show() and a click on a tab do it too. */
 void below_open(struct below *below);
+/** below_rest - gives the panels the least room if the problems are in front and there is none. */
+void below_rest(struct below *below);
 /** below_make_room - gives the panels @panel px if @sheet px are left for the sheets. */
 void below_make_room(struct below *below, int panel, int sheet);
 

@@ -12,11 +12,13 @@
 #include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/sim/sim_pace.h"
 #include "editor-gtk/window/ask.h"
+#include "editor-gtk/window/below.h"
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/tabs.h"
 
 #include <string.h>
 
+#define NARROW 1200 /* px of a window that has no room for both sides             */
 #define WHEN_US 200000 /* us between updates of the title                        */
 
 /* ---- what it says ---- */
@@ -166,6 +168,18 @@ static void checked(struct sim_bar *bar)
 		messages_close_offer(bar->core->messages, "win.show-error");
 }
 
+/* In a narrow window the panel takes the room of the left side, not that of the rungs. An empty
+ * list of problems gives its room to them. */
+static void make_room(struct sim_bar *bar)
+{
+	const int width = gtk_widget_get_width(GTK_WIDGET(bar->core->window));
+
+	below_rest(bar->core->below);
+	bar->side_hidden = width > 0 && width < NARROW && gtk_widget_get_visible(bar->side);
+	if (bar->side_hidden)
+		gtk_widget_set_visible(bar->side, FALSE);
+}
+
 static bool begin(struct sim_bar *bar)
 {
 	GError *error = NULL;
@@ -178,6 +192,7 @@ static bool begin(struct sim_bar *bar)
 		return refuse(bar, error, false);
 	messages_close_banner(bar->core->messages);
 	messages_tell(bar->core->messages, ""); /* clears an earlier refusal */
+	make_room(bar);
 	sim_bar_show_panel(bar);
 	return true;
 }
@@ -186,6 +201,9 @@ static void end(struct sim_bar *bar)
 {
 	ladder_sim_end(bar->core->sim);
 	gtk_widget_set_visible(GTK_WIDGET(bar->right), FALSE);
+	if (bar->side_hidden)
+		gtk_widget_set_visible(bar->side, TRUE);
+	bar->side_hidden = false;
 	messages_close_banner(bar->core->messages);
 }
 

@@ -15,6 +15,8 @@ struct sim_bar {
 	struct core *core;
 	struct origin *origin;
 	GtkBox *right, *buttons;
+	GtkWidget *side;        /* the left side of the window                   */
+	bool side_hidden;       /* while this simulates, for want of room         */
 	GtkToggleButton *edit_mode, *simulate_mode;
 	GtkButton *run_button, *forces_button;
 	GtkMenuButton *pace_button;

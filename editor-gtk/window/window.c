@@ -830,6 +830,7 @@ static void add_parts(LadderWindow *window)
 	struct core *core = &window->core;
 
 	window->sim_bar.title = window->title;
+	window->sim_bar.side = GTK_WIDGET(window->side);
 	messages_init(&window->messages, core);
 	below_init(&window->below, core);
 	front_init(&window->front, core);
@@ -892,7 +893,8 @@ static void keep_settings(LadderWindow *window)
 	g_settings_set_boolean(settings, "maximized",
 			       gtk_window_is_maximized(GTK_WINDOW(window)));
 	g_settings_set_boolean(settings, "side",
-			       gtk_widget_get_visible(GTK_WIDGET(window->side)));
+			       gtk_widget_get_visible(GTK_WIDGET(window->side)) ||
+			       window->sim_bar.side_hidden);
 	g_settings_set_boolean(settings, "below",
 			       gtk_widget_get_visible(GTK_WIDGET(window->below.box)));
 }

@@ -68,6 +68,16 @@ def small(screen):
     editor = draw(screen, 'looks-small')
     _, _, width, height = editor.place(editor.sheet())
     assert width >= 600 and height >= 250, 'the sheet is %d x %d' % (width, height)
+    editor.keys('ctrl+Home', 'ctrl+m')
+    editor.find('Input Start, %IX0.0', 'check box')
+    until(lambda: editor.place(editor.sheet())[2] >= 700, 'room for the rungs')
+    left, top, width, height = editor.place(editor.sheet())
+    for what in ('Rung 1, COIL', 'Motor'), ('Rung 2, COIL', 'Lamp'), ('Rung 3, COIL', 'Idle'):
+        x, y, wide, high = editor.place(editor.element(*what))
+        assert left < x and x + wide <= left + width and top < y and y + high <= top + height, (what, x, y, wide, high)
+    editor.shot('looks-small-simulated')
+    editor.keys('ctrl+m')
+    editor.find('Find an element')
 
 
 def high(screen):

@@ -12,8 +12,10 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import ROOT, Editor, check, main, new_file, sh, until  # noqa: E402
+import rooms  # noqa: E402
 
 ACTS, AT_ONCE = 96, 16
+ROOMS = 2  # acts in the rooms of the window after each AT_ONCE
 # Keys that open another window, which would get the rest of the keys; a printer; any command.
 LEFT_OUT = {'new_project', 'open', 'save_as', 'close', 'print', 'palette', 'preferences', 'shortcuts', 'fullscreen'}
 NAMES = {'Control': 'ctrl', 'Shift': 'shift', 'Alt': 'alt'}
@@ -68,6 +70,15 @@ def faults(editor):
             not re.search(r'Trying to snapshot (?!GtkPaned|GtkBox|GtkOverlay|AdwTabView)\w+ \w+ without a current allocation', line)]
 
 
+def go_round(editor, place, acts):
+    """Tabs, pages, panels, dividers and sizes of the window; it is never blank."""
+    editor.keys('Escape', 'Escape', 'Escape', 'Escape')
+    until(lambda: editor.windows() == [editor.window] or editor.keys('Escape'), 'other windows to go')
+    for _ in range(ROOMS):
+        acts = [*acts, place.act()]
+        rooms.whole(editor, acts, faults)
+
+
 def calm(editor):
     """Closes what is open and stops what runs."""
     editor.keys('Escape', 'Escape', 'Escape', 'Escape')
@@ -107,12 +118,13 @@ def storm(screen, number):
     path = new_file(screen, first)
     editor = Editor(screen, path)
     editor.focus_on()
-    hand = Hand(editor, number)
+    hand, place = Hand(editor, number), rooms.Hand(editor, number)
     for at in range(0, ACTS, AT_ONCE):
         acts = hand.acts(AT_ONCE)
         sh('xdotool', *acts)
         editor.alive()
         assert not faults(editor), (at, acts, faults(editor))
+        go_round(editor, place, acts)
     editor.shot('storm-%d' % number)
     calm(editor)
     last = all_the_way(editor, 'Redo', 'ctrl+y', path)

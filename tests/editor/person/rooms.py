@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: MIT
+"""rooms - what a storm does with the rooms of the window: tabs, pages, panels, dividers and sizes; and whether the middle of
+the window shows something.
+"""
+import random
+import re
+import subprocess
+
+from desk import sh, until
+
+COLOURS = 12  # a page with any text has more, a blank one has two or three
+SIZES = ['1440 900', '1024 700', '1200 640', '1340 820']
+KEYS = ['F4', 'shift+F4', 'ctrl+F4', 'ctrl+m', 'ctrl+f', 'Escape', 'ctrl+alt+o', 'ctrl+alt+s', 'shift+F12', 'ctrl+Page_Down',
+        'ctrl+Page_Up', 'ctrl+shift+w', 'ctrl+r', 'ctrl+period', 'ctrl+plus', 'ctrl+minus', 'ctrl+z', 'Down', 'alt+Left']
+
+
+def warnings(editor):
+    """GTK 4.8 warns of its own selection in an entry when it loses the focus; nothing is wrong there."""
+    return [line for line in editor.logged().splitlines() if re.search('WARNING|CRITICAL|ERROR', line) and
+            'unexpected blinking selection' not in line]
+
+
+def colours(editor):
+    """Number of colours between the header and the status bar, from the tree to the right edge."""
+    x, y, width, height = editor.place(editor.all(role='frame')[0])
+    picture = subprocess.run(['import', '-window', 'root', '-depth', '8', '-crop', '%dx%d+%d+%d' % (
+        width * 6 // 10, height * 7 // 10, x + width // 4, y + height * 3 // 20), 'rgb:-'], capture_output=True).stdout
+    return len({picture[at:at + 3] for at in range(0, len(picture), 3)})
+
+
+def whole(editor, what, faults=warnings):
+    """Waits for the middle of the window to show something; GTK may take a frame or two."""
+    editor.alive()
+    assert not faults(editor), (what, faults(editor))
+    until(lambda: colours(editor) >= COLOURS, 'a picture in the window after ' + ', '.join(what[-4:]), 3)
+
+
+def sheets(editor, least=2):
+    """The labels of the tabs of sheets; AdwTab has no role."""
+    found = [node for node in editor.all(role='label') if node.name and node.has(30) and
+             50 < node.box()[1] < 85 and node.box()[0] > 220]
+    assert len(found) >= least, 'no tabs'
+    return found
+
+
+PAGES = ['Tasks', 'Data types', 'Symbols', 'Welcome and samples', 'Compare', 'Import or export report']
+
+
+class Hand:
+    def __init__(self, editor, number):
+        self.editor, self.dice = editor, random.Random(number)
+
+    def act(self):
+        """Does something; returns what."""
+        editor, chance = self.editor, self.dice.random()
+        if chance < 0.35:
+            tabs = [node for node in editor.all(role='page tab') if node.has(30)] + sheets(editor, 0)
+            if tabs:
+                tab = self.dice.choice(tabs)
+                editor.click(tab)
+                return 'a click on the tab ' + tab.name
+        if chance < 0.45 and (report := editor.all('Show report', 'push button')):
+            editor.click(report[0])
+            return 'Show report'
+        if chance < 0.55:
+            size = self.dice.choice(SIZES)
+            sh('xdotool', 'windowsize', '--sync', editor.window, *size.split())
+            return 'the size ' + size
+        if chance < 0.7:
+            return self.divide()
+        if chance < 0.78:
+            return self.page()
+        key = self.dice.choice(KEYS)
+        editor.keys(key)
+        return key
+
+    def page(self):
+        """Opens a page by its command; closes a chooser that asks for a file."""
+        name = self.dice.choice(PAGES)
+        self.editor.command(name)
+        until(lambda: self.editor.windows() == [self.editor.window] or self.editor.keys('Escape'), 'other windows to go')
+        return 'the command ' + name
+
+    def divide(self):
+        """Drags where a divider may be."""
+        x, y, width, height = self.editor.place(self.editor.all(role='frame')[0])
+        start = self.dice.choice([(x + width // 2, y + height * 7 // 10), (x + 225, y + height // 2), (x + width - 260, y + height // 2)])
+        end = (start[0] + self.dice.randrange(-200, 200), start[1] + self.dice.randrange(-200, 120))
+        self.editor.drag(start, end, steps=4)
+        return 'a drag from %d %d to %d %d' % (*start, *end)
+
+
