@@ -16,7 +16,7 @@
 #define HIGH 26       /* px of a lane                                          */
 #define RULER_HIGH 20
 #define BAR_HIGH 14
-#define BAR_LEAST 1.5 /* px of a bar                                           */
+#define BAR_LEAST 2   /* px of a bar                                           */
 #define BAR_MOST 12
 #define DASH 5        /* px of a dash of an event's line, and between two      */
 #define TICK_APART 80 /* px between two times of the ruler, at least           */
@@ -89,7 +89,7 @@ static void draw_runs(struct drawing *drawing)
 		if (x > drawing->width)
 			return;
 		if (run->lane == drawing->lane->number && x + wide >= 0)
-			fill(drawing, TOKEN_ACCENT, x, HIGH - 6 - BAR_HIGH, MAX(wide - 1, 1),
+			fill(drawing, TOKEN_ACCENT, x, HIGH - 6 - BAR_HIGH, MAX(wide - 1, BAR_LEAST),
 			     BAR_HIGH);
 	}
 }
