@@ -511,6 +511,12 @@ static bool is_long(const struct word_pin *pin, const char *text)
 						  IEC_STRING_MOST);
 }
 
+/* A mistake in the form of a text, not in its values. */
+static bool is_form(enum diag_id fault)
+{
+	return fault == DIAG_EXPECTED || fault == DIAG_SIGN_MISSING || fault == DIAG_SYNTAX;
+}
+
 static bool fits(struct init_form *form, const struct init_detail *detail, const char *text,
 		 char **why)
 {
@@ -520,9 +526,8 @@ static bool fits(struct init_form *form, const struct init_detail *detail, const
 	const bool good = take_values(form, &detail->pin, text, values, &fault, &what);
 
 	if (!good)
-		*why = diag_said_of(fault == DIAG_EXPECTED || fault == DIAG_SYNTAX ?
-				    DIAG_BAD_LITERAL : fault, fault == DIAG_EXPECTED ||
-				    fault == DIAG_SYNTAX ? text : what);
+		*why = is_form(fault) ? diag_said_of(DIAG_BAD_LITERAL, text) :
+					diag_said_of(fault, what);
 	g_hash_table_unref(values);
 	g_free(what);
 	if (good && is_long(&detail->pin, text)) {

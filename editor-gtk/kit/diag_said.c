@@ -12,11 +12,12 @@
 #include <glib.h>
 #include <string.h>
 
-/* Single words are not translated: `index` could also be a name. */
-static bool is_ours(enum diag_id id, const char *part)
+/* Single words are not translated: `index` could also be a name. The first part of some messages
+ * is always ours. */
+static bool is_ours(enum diag_id id, int index, const char *part)
 {
-	return id == DIAG_EXPECTED || id == DIAG_TOO_MANY || id == DIAG_SFC_TOO_MANY ||
-	       strchr(part, ' ');
+	return (index == 0 && (id == DIAG_EXPECTED || id == DIAG_TOO_MANY ||
+			       id == DIAG_SFC_TOO_MANY)) || strchr(part, ' ');
 }
 
 char *diag_said_of(enum diag_id id, const char *arg)
@@ -28,7 +29,7 @@ char *diag_said_of(enum diag_id id, const char *arg)
 	for (int i = 0; part[i]; i++) {
 		char *of_user = part[i];
 
-		if (*of_user && is_ours(id, of_user)) {
+		if (*of_user && is_ours(id, i, of_user)) {
 			part[i] = g_strdup(said(of_user));
 			g_free(of_user);
 		}

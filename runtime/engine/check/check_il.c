@@ -522,18 +522,35 @@ static struct il_line overloaded(const struct il_line *line, const struct result
 	return out;
 }
 
+/* "SINT..LINT, REAL, LREAL": the types of a pin. */
+static void print_classes(uint16_t classes, char out[LIMIT_ARG])
+{
+	static const struct { uint16_t class; const char *types; } kind[] = {
+		{ CLASS_BOOL, "BOOL" }, { CLASS_BITS, "BYTE..LWORD" },
+		{ CLASS_SIGNED, "SINT..LINT" }, { CLASS_UNSIGNED, "USINT..ULINT" },
+		{ CLASS_REAL, "REAL, LREAL" }, { CLASS_TIME, "TIME" }, { CLASS_TOD, "TIME_OF_DAY" },
+		{ CLASS_DATE, "DATE" }, { CLASS_DT, "DATE_AND_TIME" }, { CLASS_STRING, "STRING" },
+	};
+	size_t len = 0;
+
+	*out = '\0';
+	for (size_t i = 0; i < sizeof(kind) / sizeof(*kind); i++)
+		if (classes & kind[i].class && len + strlen(kind[i].types) + 3 < LIMIT_ARG)
+			len += (size_t)snprintf(out + len, LIMIT_ARG - len, "%s%s",
+						len ? ", " : "", kind[i].types);
+}
+
 static bool report_pin(struct il_check *c, const struct il_line *line,
 		       const struct word_pin *pin, enum iec_type type)
 {
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
-	char text[LIMIT_ARG];
+	char text[2 * LIMIT_ARG], classes[LIMIT_ARG] = "";
 
-	if (pin->own)
-		snprintf(text, sizeof(text), "%.16s.%.8s" DIAG_AND "%s",
-			 row->word, pin->name, iec_type_row(type)->word);
-	else
-		snprintf(text, sizeof(text), "%s" DIAG_AND "%s", row->word,
-			 iec_type_row(type)->word);
+	if (pin->type == IEC_NONE)
+		print_classes(pin->classes, classes);
+	snprintf(text, sizeof(text), "%.16s%s%.8s" DIAG_AND "%s" DIAG_AND "%s", row->word,
+		 pin->own ? "." : "", pin->own ? pin->name : "", iec_type_row(type)->word,
+		 pin->type == IEC_NONE ? classes : iec_type_row(pin->type)->word);
 	return il_report(c, line, DIAG_TYPE_NOT_TAKEN, text);
 }
 

@@ -31,6 +31,11 @@ static bool fail_expected(struct init_walk *walk, const char *what)
 	return fail(walk, DIAG_EXPECTED, what, strlen(what));
 }
 
+static bool fail_sign(struct init_walk *walk, const char *sign)
+{
+	return fail(walk, DIAG_SIGN_MISSING, sign, strlen(sign));
+}
+
 static bool fail_token(struct init_walk *walk, enum diag_id why)
 {
 	return fail(walk, why, walk->lex.token.text, walk->lex.token.len);
@@ -39,7 +44,7 @@ static bool fail_token(struct init_walk *walk, enum diag_id why)
 /* Steps over @symbol, which is required. */
 static bool take(struct init_walk *walk, const char *symbol)
 {
-	return lex_accept(&walk->lex, symbol) || fail_expected(walk, symbol);
+	return lex_accept(&walk->lex, symbol) || fail_sign(walk, symbol);
 }
 
 static struct init_level *top_of(struct init_walk *walk)
@@ -280,7 +285,7 @@ static bool take_member(struct init_walk *walk, struct init_level *level,
 static bool end_times(struct init_walk *walk, struct init_level *level)
 {
 	if (!lex_is(&walk->lex, ")"))
-		return fail_expected(walk, ")");
+		return fail_sign(walk, ")");
 	if (--level->times) {
 		walk->lex = level->again;
 		return false;

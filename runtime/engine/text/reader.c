@@ -150,10 +150,51 @@ bool reader_mend(struct reader *r, enum diag_id id)
 	return mend_as(r, MEND_HEAD, text, line, r->place);
 }
 
+/* Is it a sign such as := or a word such as END_STEP, not a description such as "number"? */
+static bool is_sign(const char *text, size_t len)
+{
+	for (size_t i = 0; i < len; i++)
+		if (text[i] == ' ' || (text[i] >= 'a' && text[i] <= 'z') || (text[i] & 0x80))
+			return false;
+	return len > 0;
+}
+
+/* The message about an expected thing: a missing sign, one of two, or anything else. @out gets
+ * its argument, with the token that stands there instead. */
+static enum diag_id print_expected(const struct reader *r, const char *arg, size_t len,
+				   char out[2 * LIMIT_ARG + 1])
+{
+	static const char between[] = " or ";
+	const struct token *token = &r->lex.token;
+	const bool end = token->kind == TOKEN_NEWLINE || token->kind == TOKEN_END;
+	const int found = end ? 0 : token->len < 24 ? (int)token->len : 24;
+	const char *and = memchr(arg, *DIAG_AND, len);
+	const size_t first = and ? (size_t)(and - arg) : len;
+	const char *or = len < LIMIT_ARG ? strstr(arg, between) : NULL;
+
+	if (is_sign(arg, first)) {
+		const char *rest = and ? memchr(and + 1, *DIAG_AND, len - first - 1) : NULL;
+
+		snprintf(out, 2 * LIMIT_ARG + 1, "%.*s%s%.*s%.*s", (int)first, arg,
+			 found || rest ? DIAG_AND : "", found, token->text, rest ? (int)(arg + len - rest) : 0, rest ? rest : "");
+		return DIAG_SIGN_MISSING;
+	}
+	if (or && is_sign(arg, (size_t)(or - arg)) &&
+	    is_sign(or + sizeof(between) - 1, (size_t)(arg + len - or) - sizeof(between) + 1)) {
+		snprintf(out, 2 * LIMIT_ARG + 1, "%.*s" DIAG_AND "%s" DIAG_AND "%.*s",
+			 (int)(or - arg), arg, or + sizeof(between) - 1, found, token->text);
+		return DIAG_SIGNS_MISSING;
+	}
+	snprintf(out, 2 * LIMIT_ARG + 1, "%.*s%s%.*s", (int)len, arg,
+		 and || !found ? "" : DIAG_AND, and ? 0 : found, token->text);
+	return DIAG_EXPECTED;
+}
+
 static bool fail_at(struct reader *r, enum diag_id id, int line, int column,
 		    const char *arg, size_t len)
 {
 	struct diag place = r->place;
+	char text[2 * LIMIT_ARG + 1];
 
 	/* Out of memory is reported at the end, without its consequences. */
 	if (r->no_memory || reader_mend(r, id))
@@ -161,6 +202,10 @@ static bool fail_at(struct reader *r, enum diag_id id, int line, int column,
 	place.id = id;
 	place.line = line;
 	place.column = column;
+	if (id == DIAG_EXPECTED) {
+		place.id = print_expected(r, arg, len, text);
+		return diag_add(r->diags, place, "%s", text);
+	}
 	return diag_add(r->diags, place, "%.*s",
 			len > 2 * LIMIT_ARG ? 2 * LIMIT_ARG : (int)len, arg);
 }

@@ -209,7 +209,7 @@ static void test_reasons(void)
 	refuses("Motor", "motor2", FIND_DECLARATIONS,
 		"\xe2\x80\x9cMotor2\xe2\x80\x9d is declared already");
 	refuses("Motor", "", FIND_DECLARATIONS,
-		"\xe2\x80\x9c: INT;\xe2\x80\x9d: expected: name of a variable");
+		"\xe2\x80\x9c: INT;\xe2\x80\x9d: expected: name of a variable, not \":\"");
 	refuses("Start", "x | y", FIND_OPERANDS, "Main, rung 1: \"NO\" is missing here; "
 		"write: | NO x | NO y (* MOTOR *) | NO Motor | COIL Motor |");
 }

@@ -209,7 +209,7 @@ static void test_file(void)
 		"PROGRAM List IL\n  LD A\n  ST %QX0.7\nEND_PROGRAM\n"
 		"FUNCTION_BLOCK Seal LD\nRUNG\n  | COIL %QX0.5 |\nEND_FUNCTION_BLOCK\n"
 		"PROGRAM Two LD\nRUNG\n  | NO B | COIL %QX0.1 |\nEND_PROGRAM\n",
-		"The clipboard, line 3: expected: :", target);
+		"The clipboard, line 3: \":\" is missing before \",\"", target);
 	becomes(target, "RUNGBOARD 1\nVAR\n  A AT %IX0.0 : BOOL;\n  B, C : BOOL;\nEND_VAR\n"
 		"PROGRAM One LD\nVAR CONSTANT\n  Most : INT := 16#10;\nEND_VAR\n"
 		"RUNG\n  | NO A | [ Most > 3 ] | COIL %QX0.0 |\nEND_PROGRAM\n"
@@ -238,7 +238,7 @@ static void test_refused(void)
 	refused("\n  | BADWORD Start |\n", "The clipboard, line 2: \"BADWORD\" is not a known word");
 	refused("RUNG\n| NO %IX0.0 |\n\n(* c\n*)\nRUNG\n| NO %IX0.0 |\n| BADWORD Start |\n",
 		"The clipboard, line 8: \"BADWORD\" is not a known word");
-	refused("hello\nRUNG\n| COIL %QX0.0 |\n", "The clipboard, line 1: expected: RUNG");
+	refused("hello\nRUNG\n| COIL %QX0.0 |\n", "The clipboard, line 1: \"RUNG\" is missing before \"hello\"");
 	refused("VAR\n  D : TON;\nEND_VAR\n\nVAR_GLOBAL\n\n  A : BOOL := 7;\nEND_VAR\nRUNG\n| NO A |\n",
 		"The clipboard, line 7: \"7\": constant is out of range");
 	refused("RUNGBOARD 1\nPROGRAM A LD\nRUNG\n  | BADWORD Start |\nEND_PROGRAM\n",

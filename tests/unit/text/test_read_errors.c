@@ -90,11 +90,11 @@ static void test_var_errors(void)
 	fails(V("A : INT := 2#3;"), "LD115 3 0 (0,0) 12 2#3");
 	fails(V("A : INT := B;"), "LD115 3 0 (0,0) 12 B");
 	fails(V("A AT %IX9999.0 : BOOL;"), "LD117 3 0 (0,0) 6 %IX9999.0");
-	fails(V("A AT foo : BOOL;"), "LD107 3 0 (0,0) 6 address");
+	fails(V("A AT foo : BOOL;"), "LD107 3 0 (0,0) 6 address" DIAG_AND "foo");
 	fails(V("A AT %IX0.0 : TON;"), "LD126 3 0 (0,0) 15 AT");
-	fails(V("A : TON := 5;"), "LD107 3 0 (0,0) 12 (");
-	fails(V("A BOOL;"), "LD107 3 0 (0,0) 3 :");
-	fails(V("A.B : BOOL;"), "LD107 3 0 (0,0) 1 name of a variable");
+	fails(V("A : TON := 5;"), "LD156 3 0 (0,0) 12 (" DIAG_AND "5");
+	fails(V("A BOOL;"), "LD156 3 0 (0,0) 3 :" DIAG_AND "BOOL");
+	fails(V("A.B : BOOL;"), "LD107 3 0 (0,0) 1 name of a variable" DIAG_AND "A.B");
 	fails("RUNGBOARD 1\nVAR\nA : BOOL;\nPROGRAM P\nEND_PROGRAM\n",
 	      "LD154 4 0 (0,0) 1 END_VAR");
 	CHECK(diags.count == 1);
@@ -109,27 +109,27 @@ static void test_var_errors(void)
 
 static void test_array_errors(void)
 {
-	fails(V("A : ARRAY OF INT;"), "LD107 3 0 (0,0) 11 [");
-	fails(V("A : ARRAY[1] OF INT;"), "LD107 3 0 (0,0) 12 ..");
+	fails(V("A : ARRAY OF INT;"), "LD156 3 0 (0,0) 11 [" DIAG_AND "OF");
+	fails(V("A : ARRAY[1] OF INT;"), "LD156 3 0 (0,0) 12 .." DIAG_AND "]");
 	fails(V("A : ARRAY[1..] OF INT;"), "LD140 3 0 (0,0) 14 ]");
 	fails(V("A : ARRAY[B..2] OF INT;"), "LD140 3 0 (0,0) 11 B");
-	fails(V("A : ARRAY[1..2, 1..2] OF INT;"), "LD107 3 0 (0,0) 15 ]");
+	fails(V("A : ARRAY[1..2, 1..2] OF INT;"), "LD156 3 0 (0,0) 15 ]" DIAG_AND ",");
 	fails(V("A : ARRAY[2..1] OF INT;"), "LD140 3 0 (0,0) 15 2..1");
 	fails(V("A : ARRAY[-9223372036854775808..1] OF INT;"),
 	      "LD140 3 0 (0,0) 12 9223372036854775808");
-	fails(V("A : ARRAY[1..2] INT;"), "LD107 3 0 (0,0) 17 OF");
+	fails(V("A : ARRAY[1..2] INT;"), "LD156 3 0 (0,0) 17 OF" DIAG_AND "INT");
 	fails(V("A : ARRAY[1..2] OF FOO;"), "LD118 3 0 (0,0) 20 FOO");
-	fails(V("A : ARRAY[1..2] OF INT := 1;"), "LD107 3 0 (0,0) 27 [");
-	fails(V("A : ARRAY[1..2] OF INT := [];"), "LD107 3 0 (0,0) 28 constant");
-	fails(V("A : ARRAY[1..2] OF INT := [1 2];"), "LD107 3 0 (0,0) 30 , or ]");
+	fails(V("A : ARRAY[1..2] OF INT := 1;"), "LD156 3 0 (0,0) 27 [" DIAG_AND "1");
+	fails(V("A : ARRAY[1..2] OF INT := [];"), "LD107 3 0 (0,0) 28 constant" DIAG_AND "]");
+	fails(V("A : ARRAY[1..2] OF INT := [1 2];"), "LD157 3 0 (0,0) 30 ," DIAG_AND "]" DIAG_AND "2");
 	fails(V("A : ARRAY[1..2] OF INT := [0(1)];"), "LD116 3 0 (0,0) 28 0");
-	fails(V("A : ARRAY[1..2] OF INT := [2(1];"), "LD107 3 0 (0,0) 31 )");
+	fails(V("A : ARRAY[1..2] OF INT := [2(1];"), "LD156 3 0 (0,0) 31 )" DIAG_AND "]");
 	fails(V("A : ARRAY[1..2] OF INT := [T#1s];"), "LD115 3 0 (0,0) 28 T#1s");
 	fails(V("A AT %MW524286 : ARRAY[1..2] OF WORD;"),
 	      "LD117 3 0 (0,0) 33 %MW524286");
-	fails(LD("RUNG\n| NO A[ | COIL B |\n"), "LD107 5 1 (1,1) 9 index");
-	fails(LD("RUNG\n| NO A[i | COIL B |\n"), "LD107 5 1 (1,1) 10 ]");
-	fails(LD("RUNG\n| NO A[i + 1] | COIL B |\n"), "LD107 5 1 (1,1) 10 ]");
+	fails(LD("RUNG\n| NO A[ | COIL B |\n"), "LD107 5 1 (1,1) 9 index" DIAG_AND "|");
+	fails(LD("RUNG\n| NO A[i | COIL B |\n"), "LD156 5 1 (1,1) 10 ]" DIAG_AND "|");
+	fails(LD("RUNG\n| NO A[i + 1] | COIL B |\n"), "LD156 5 1 (1,1) 10 ]" DIAG_AND "+");
 	fails(LD("RUNG\n| NO A[i][j] | COIL B |\n"), "LD121 5 1 (1,1) 10 [");
 	fails(LD("RUNG\n| NO A] | COIL B |\n"), "LD121 5 1 (1,1) 7 ]");
 	fails(LD("RUNG\n| [ A[i + 1 ] | COIL B |\n"), "LD122 5 1 (1,1) 15 |");
@@ -137,7 +137,7 @@ static void test_array_errors(void)
 	fails(LD("RUNG\n| [ A[i + 1) ] | COIL B |\n"), "LD122 5 1 (1,1) 12 )");
 	fails(LD("RUNG\n| [ A[] ] | COIL B |\n"), "LD122 5 1 (1,1) 7 ]");
 	fails(LD("RUNG\n| [ 5[1] > 2 ] | COIL B |\n"), "LD122 5 1 (1,1) 6 [");
-	fails(IL("LD A[1\n"), "LD107 4 0 (0,0) 7 ]");
+	fails(IL("LD A[1\n"), "LD156 4 0 (0,0) 7 ]");
 }
 
 static void test_cell_errors(void)
@@ -160,7 +160,7 @@ static void test_cell_errors(void)
 	fails(LD("RUNG\n| ADD IN1:=99999999999999999999 |\n"),
 	      "LD116 5 1 (1,1) 12 99999999999999999999");
 	fails(LD("RUNG\n| -- |\n"), "LD110 5 1 (1,1) 3 -");
-	fails(LD("RUNG a.b\n"), "LD107 4 1 (0,0) 6 label");
+	fails(LD("RUNG a.b\n"), "LD107 4 1 (0,0) 6 label" DIAG_AND "a.b");
 	fails(LD("| NO A |\n"), "LD154 4 0 (0,0) 1 RUNG");
 	fails("RUNGBOARD 1\nRUNG\n", "LD154 2 0 (0,0) 1 PROGRAM Main LD");
 	fails(LD("") "junk\n", "LD110 5 0 (0,0) 1 junk");
