@@ -276,7 +276,11 @@ static char *text_of(struct ladder *from, const struct wanted *wanted)
 		const struct text_span *span = &g_array_index(spans, struct text_span, i);
 
 		if (span->part == TEXT_POU && wanted->pou[span->number]) {
-			g_string_append_c(out, '\n');
+			const struct project *project = ladder_project(from);
+			const char *comment = project_text(project,
+				project->pou[span->number].comment);
+
+			g_string_append_printf(out, *comment ? "\n%s\n" : "\n", comment);
 			append(out, text, span);
 		}
 	}
@@ -332,5 +336,100 @@ bool pou_import(LadderDocument *document, struct ladder *from, const bool *chose
 	g_free(wanted.pou);
 	g_free(wanted.global);
 	g_free(wanted.structure);
+	return good;
+}
+
+/* ---- what would be imported ---- */
+
+static void add_name(GString *out, const struct project *project, uint32_t name)
+{
+	g_string_append_printf(out, "%s%s", out->len ? ", " : "", project_text(project, name));
+}
+
+char *pou_import_needs(struct ladder *from, const bool *chosen)
+{
+	struct project *project = ladder_project(from);
+	struct wanted wanted = { .pous = project->pou_count, .globals = project->globals.count,
+				 .structures = project->structure_count };
+	GString *out = g_string_new(NULL);
+
+	wanted.pou = g_memdup2(chosen, (gsize)wanted.pous * sizeof(bool));
+	wanted.global = g_new0(bool, wanted.globals + 1);
+	wanted.structure = g_new0(bool, wanted.structures + 1);
+	if (want_all(&wanted, project)) {
+		for (int i = 0; i < wanted.pous; i++)
+			if (wanted.pou[i])
+				add_name(out, project, project->pou[i].name);
+		for (int i = 0; i < wanted.structures; i++)
+			if (wanted.structure[i])
+				add_name(out, project, project->structure[i].name);
+		for (int i = 0; i < wanted.globals; i++)
+			if (wanted.global[i])
+				add_name(out, project, project->globals.var[i].name);
+	}
+	g_free(wanted.pou);
+	g_free(wanted.global);
+	g_free(wanted.structure);
+	return g_string_free(out, FALSE);
+}
+
+/* ---- from a document to a file ---- */
+
+/* A copy of the document, whose parts may be renamed. NULL: it cannot be read. */
+static struct ladder *copy_of(LadderDocument *document)
+{
+	const char *path = ladder_document_path(document);
+	struct ladder *copy = ladder_new();
+	gsize len;
+	char *text = ladder_document_text(document, &len);
+	const bool good = copy && ladder_load_text(copy, g_intern_string(path ? path : ""), text,
+						   len) && ladder_project(copy);
+
+	g_free(text);
+	if (good)
+		return copy;
+	ladder_free(copy);
+	return NULL;
+}
+
+static bool *only(struct ladder *from, int pou)
+{
+	bool *chosen = g_new0(bool, ladder_project(from)->pou_count + 1);
+
+	chosen[pou] = true;
+	return chosen;
+}
+
+char *pou_export_needs(LadderDocument *document, int pou)
+{
+	struct ladder *from = copy_of(document);
+	bool *chosen = from ? only(from, pou) : NULL;
+	char *needs = from ? pou_import_needs(from, chosen) : g_strdup("");
+
+	g_free(chosen);
+	ladder_free(from);
+	return needs;
+}
+
+bool pou_export(LadderDocument *document, int pou, const char *path, GString *told)
+{
+	LadderDocument *other = ladder_document_new();
+	struct ladder *from = copy_of(document);
+	bool *chosen = from ? only(from, pou) : NULL;
+	GError *error = NULL;
+	bool good = ladder_document_open(other, path, &error);
+
+	if (good && (!from || !ladder_document_project(other))) {
+		g_string_assign(told, _("Cannot read the file as a project. Open it to see why."));
+		good = false;
+	}
+	good = good && pou_import(other, from, chosen, told) &&
+	       ladder_document_save(other, NULL, &error);
+	if (error)
+		g_string_assign(told, error->message);
+	g_clear_error(&error);
+	g_free(chosen);
+	ladder_free(from);
+	g_object_unref(other);
 	return good;
 }

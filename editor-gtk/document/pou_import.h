@@ -2,6 +2,8 @@
  *
  * pou_import - imports programs and blocks of another project, with their declarations.
  *
+ * It also copies a program or block of a document to another file.
+ *
  * The globals, structures and blocks that they use are imported too. Equal ones are shared.
  * A name that already means something else is changed in the import, never in the project,
  * and the result says so.
@@ -21,5 +23,13 @@
  */
 bool pou_import(LadderDocument *document, struct ladder *from, const bool *chosen,
 		GString *told);
+/** pou_import_needs - the names of all that these POUs of @from need, themselves included:
+ * "Motor, Seal, Lamp". Caller frees. */
+char *pou_import_needs(struct ladder *from, const bool *chosen);
+/** pou_export - copies POU @pou, with what it needs, into the rung file @path, which is saved.
+ * @told: as in pou_import(). Fails: false, the file is as before. */
+bool pou_export(LadderDocument *document, int pou, const char *path, GString *told);
+/** pou_export_needs - as pou_import_needs(), for a POU of a document. Caller frees. */
+char *pou_export_needs(LadderDocument *document, int pou);
 
 #endif

@@ -479,6 +479,8 @@ static GMenu *row_menu(bool type)
 	static const struct { const char *label, *action; bool pou; } entries[] = {
 		{ N_("Duplicate…"), "tree.duplicate", false },
 		{ N_("Move up"), "tree.up", true }, { N_("Move down"), "tree.down", true },
+		{ N_("Copy to file…"), "tree.copy", true },
+		{ N_("Move to file…"), "tree.move", true },
 		{ N_("Rename…"), "tree.rename", false },
 		{ N_("Where it is used"), "tree.uses", false },
 		{ N_("Delete"), "tree.delete", false },
@@ -501,6 +503,8 @@ static void add_actions(struct tree *tree, GtkWidget *panel)
 		{ .name = "rename", .activate = act_on_row },
 		{ .name = "delete", .activate = act_on_row },
 		{ .name = "duplicate", .activate = act_on_row },
+		{ .name = "copy", .activate = act_on_row },
+		{ .name = "move", .activate = act_on_row },
 		{ .name = "about", .activate = act_on_row },
 		{ .name = "uses", .activate = show_uses },
 		{ .name = "up", .activate = move_selected },

@@ -4,9 +4,12 @@
  */
 #include "editor-gtk/window/pou_import_dialog.h"
 
+#include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/document/pou_import.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/ask.h"
+
+#include <string.h>
 
 struct asking {
 	GtkWidget *widget;       /* that the result is reported to             */
@@ -151,4 +154,110 @@ void pou_import_ask(GtkWidget *widget, LadderDocument *document)
 			      g_object_ref(document), (GClosureNotify)(void (*)(void))
 			      g_object_unref, 0);
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
+
+/* ---- the other way: a POU of this project to another file ---- */
+
+struct leaving {
+	GtkWidget *widget;
+	LadderDocument *document;
+	char *name;
+	bool moves;
+};
+
+static void leaving_free(gpointer data, GClosure *closure)
+{
+	struct leaving *leaving = data;
+
+	(void)closure;
+	g_object_unref(leaving->document);
+	g_object_unref(leaving->widget);
+	g_free(leaving->name);
+	g_free(leaving);
+}
+
+/* First the copy is saved, then the original is deleted. */
+static void leave(struct leaving *leaving, const char *path)
+{
+	const struct project *project = ladder_document_project(leaving->document);
+	const int pou = project ? project_find_pou(project, leaving->name,
+						   strlen(leaving->name)) : -1;
+	GString *told = g_string_new(NULL);
+	const char *why = NULL;
+	const bool good = pou >= 0 && pou_export(leaving->document, pou, path, told);
+
+	if (good && leaving->moves)
+		why = pou_delete(leaving->document, pou);
+	gtk_widget_activate_action(leaving->widget, good && !why ? "win.tell" : "win.warn", "s",
+				   why ? why : told->str);
+	g_string_free(told, TRUE);
+}
+
+static void target_chosen(GtkNativeDialog *dialog, int response, struct leaving *leaving)
+{
+	const char *own = ladder_document_path(leaving->document);
+	char *path = ask_take_path(dialog, response);
+
+	if (path && own && strcmp(path, own) == 0)
+		gtk_widget_activate_action(leaving->widget, "win.warn", "s",
+					   _("This is the file of this project. Choose another."));
+	else if (path)
+		leave(leaving, path);
+	g_free(path);
+}
+
+static void ask_target(AdwMessageDialog *dialog, const char *answer, struct leaving *leaving)
+{
+	GtkFileChooserNative *chooser;
+	struct leaving *copy;
+
+	(void)dialog;
+	if (strcmp(answer, "choose") != 0)
+		return;
+	copy = g_new(struct leaving, 1);
+	*copy = (struct leaving){ g_object_ref(leaving->widget),
+		g_object_ref(leaving->document), g_strdup(leaving->name), leaving->moves };
+	chooser = ask_rung_file(GTK_WINDOW(gtk_widget_get_root(leaving->widget)),
+		leaving->document, leaving->moves ? _("Move to file") : _("Copy to file"),
+		GTK_FILE_CHOOSER_ACTION_OPEN, leaving->moves ? _("Move") : _("Copy"));
+	g_signal_connect_data(chooser, "response", G_CALLBACK(target_chosen), copy, leaving_free,
+			      0);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
+
+void pou_export_ask(GtkWidget *widget, LadderDocument *document, int pou, bool moves)
+{
+	const struct project *project = ladder_document_project(document);
+	struct leaving *leaving;
+	AdwMessageDialog *dialog;
+	char *needs, *body, *heading;
+
+	if (!project || pou < 0 || project->pou[pou].included ||
+	    !ladder_document_is_whole(document)) {
+		gtk_widget_activate_action(widget, "win.tell", "s",
+					   _("It is declared in another file"));
+		return;
+	}
+	if (moves && pou_uses(document, pou) > 0) {
+		gtk_widget_activate_action(widget, "win.warn", "s",
+			_("It is used in this project, so it cannot be moved away. Copy it "
+			  "instead."));
+		return;
+	}
+	leaving = g_new(struct leaving, 1);
+	*leaving = (struct leaving){ g_object_ref(widget), g_object_ref(document),
+		g_strdup(project_text(project, project->pou[pou].name)), moves };
+	needs = pou_export_needs(document, pou);
+	heading = g_strdup_printf(moves ? _("Move “%s” to another file") :
+				  _("Copy “%s” to another file"), leaving->name);
+	body = g_strdup_printf(_("These are copied: %s. A name that means something else there "
+				 "is changed in the copy."), needs);
+	dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(widget)), heading, body, "choose",
+			 _("Choose file…"), ADW_RESPONSE_SUGGESTED);
+	g_signal_connect_data(dialog, "response", G_CALLBACK(ask_target), leaving, leaving_free,
+			      0);
+	gtk_window_present(GTK_WINDOW(dialog));
+	g_free(body);
+	g_free(heading);
+	g_free(needs);
 }

@@ -504,6 +504,9 @@ static void act_on_pou(GtkWidget *widget, const char *name, GVariant *pou)
 		names_rename_pou(core, g_variant_get_int32(pou));
 	else if (strcmp(name, "win.duplicate-pou") == 0)
 		pou_duplicate_ask(core, g_variant_get_int32(pou));
+	else if (strcmp(name, "win.copy-pou") == 0 || strcmp(name, "win.move-pou") == 0)
+		pou_export_ask(widget, core->document, g_variant_get_int32(pou),
+			       strcmp(name, "win.move-pou") == 0);
 	else if (strcmp(name, "win.about-pou") == 0)
 		pou_properties_show(core, g_variant_get_int32(pou));
 	else
@@ -636,6 +639,7 @@ static void install_actions(GtkWidgetClass *class)
 	};
 	static const char *const on_pou[] = {
 		"win.rename-pou", "win.delete-pou", "win.duplicate-pou", "win.about-pou",
+		"win.copy-pou", "win.move-pou",
 	};
 	static const char *const on_type[] = {
 		"win.show-type", "win.rename-type", "win.duplicate-type", "win.delete-type",

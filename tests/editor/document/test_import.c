@@ -6,6 +6,7 @@
 #include "editor-gtk/document/pou_import.h"
 #include "tests/tap.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const char here[] =
@@ -61,6 +62,46 @@ static void open_here(void)
 	ladder_document_open_text(document, "/tmp/x/here.rung", here, strlen(here), true);
 }
 
+/* A block goes to another file with its comments and what it needs, then is deleted here. */
+static void test_export(void)
+{
+	static const char own[] = "RUNGBOARD 1\n\nTYPE\n  Batch : STRUCT\n    Size : INT;\n  END_STRUCT;\n"
+		"END_TYPE\n\nVAR\n  Now : Batch;\n  Lamp AT %QX0.5 : BOOL;\nEND_VAR\n\n"
+		"PROGRAM Main LD\nRUNG\n  | NO %IX0.1 | COIL %QX0.1 |\nEND_PROGRAM\n\n"
+		"(* shows *)\nPROGRAM Show LD\nRUNG\n  | [ Now.Size > 2 ] | COIL Lamp |\nEND_PROGRAM\n";
+	char *folder = g_dir_make_tmp(NULL, NULL), *path = g_build_filename(folder, "other.rung", NULL);
+	GString *told = g_string_new(NULL);
+	char *needs, *before, *text = NULL, *after;
+
+	ladder_document_open_text(document, NULL, own, strlen(own), true);
+	before = ladder_document_text(document, NULL);
+	needs = pou_export_needs(document, 1);
+	CHECK_TEXT(needs, "Show, Batch, Now, Lamp");
+	CHECK(!pou_export(document, 1, path, told) && !g_file_test(path, G_FILE_TEST_EXISTS));
+	CHECK(g_file_set_contents(path, here, -1, NULL) && pou_export(document, 1, path, told));
+	CHECK_TEXT(told->str, "Imported; Lamp is now Lamp_2");
+	CHECK(g_file_get_contents(path, &text, NULL, NULL));
+	CHECK_AS(g_str_has_prefix(text, "RUNGBOARD 1\n\nVAR\n  Start AT %IX0.0 : BOOL;"),
+		 "what was there stays");
+	CHECK(strstr(text, "(* shows *)\nPROGRAM Show LD\nRUNG\n  | [ Now.Size > 2 ] | COIL Lamp_2 |") &&
+	      strstr(text, "Batch : STRUCT") && strstr(text, ": Batch;"));
+	after = ladder_document_text(document, NULL);
+	CHECK_AS(strcmp(before, after) == 0, "a copy changes nothing here");
+	CHECK(g_file_set_contents(path, "nothing", -1, NULL) && !pou_export(document, 1, path, told));
+	g_free(text);
+	CHECK(g_file_get_contents(path, &text, NULL, NULL));
+	CHECK_TEXT(text, "nothing");
+	remove(path);
+	remove(folder);
+	g_free(after);
+	g_free(text);
+	g_free(before);
+	g_free(needs);
+	g_string_free(told, TRUE);
+	g_free(path);
+	g_free(folder);
+}
+
 int main(void)
 {
 	static const bool main_only[] = { false, true, false };
@@ -89,6 +130,7 @@ int main(void)
 	g_free(text);
 	CHECK_AS(import(nothing, told) && lacks("Main_2"), "an empty choice imports nothing");
 	g_string_free(told, TRUE);
+	test_export();
 	g_object_unref(document);
 	return tap_done();
 }

@@ -148,8 +148,10 @@ class Editor(Finder):
             self.gone()
 
     def asked(self):
-        """The open entry at the cursor."""
-        return [node for node in self.all(role='text') if node.path not in self.lines]
+        """The open entry at the cursor; not a cell of the interface above the sheet."""
+        tables = [node for node in self.all('Pins') if node.name in ('Pins', getattr(self, 'said', gettext).gettext('Pins'))]
+        cells = {node.path for table in tables for node in self.all(role='text', below=table.path)}
+        return [node for node in self.all(role='text') if node.path not in self.lines | cells]
 
     def candidate(self, *parts):
         """The row below the entry whose name has all these parts; waits for it."""

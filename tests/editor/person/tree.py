@@ -593,6 +593,31 @@ def interface(screen):
     editor.shot('interface-folded')
 
 
+def to_file(screen):
+    """a program moves to another file: first it is saved there, then deleted here; undo restores it here"""
+    path = new_file(screen, MORE)
+    other = os.path.join(screen.home, 'other.rung')
+    with open(other, 'w') as out:
+        out.write('RUNGBOARD 1\n\nPROGRAM There LD\nRUNG\n  | NO %IX1.0 | COIL %QX1.0 |\nEND_PROGRAM\n')
+    there = open(other).read()
+    third = MORE[MORE.index('\n(* the alarm'):MORE.index('\nFUNCTION Half')]
+    editor = Editor(screen, path)
+    editor.click([n for n in editor.all('Third', 'label') if n.name == 'Third'][0])
+    editor.keys('Menu')
+    until(lambda: editor.all('Move to file…', 'menu item'), 'the menu of the row')
+    until(lambda: menu_item(editor, 'Move to file…') or editor.keys('Down'), 'the entry')
+    editor.keys('Return')
+    until(lambda: editor.all('These are copied: Third.', 'label'), 'what is copied')
+    editor.shot('tree-move')
+    editor.give_path(other, lambda: editor.reply('Choose file…'))
+    until(lambda: not [n for n in editor.all('Third', 'label') if n.name == 'Third'], 'it to be gone here')
+    assert open(other).read() == there + third, open(other).read()
+    assert editor.save(path) == MORE.replace(third, ''), open(path).read()
+    editor.keys('ctrl+z')
+    assert editor.save(path) == MORE
+    assert open(other).read() == there + third
+
+
 def beside(screen):
     """a scenario beside the file is opened from the tree, edited and saved"""
     path = new_file(screen, TEXT)
@@ -638,4 +663,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, beside])
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, to_file, beside])
