@@ -168,7 +168,9 @@ static void add_pins(const struct drafting *drafting, struct rung_box *box)
 		if (pin->dir != PIN_VAR && pin->dir != PIN_NONE &&
 		    !side_has(side, pin->name, strlen(pin->name)))
 			add_named(drafting, box, output, pin->name, pin);
-		box->value |= row->kind == WORD_FB && output && pin->type != IEC_BOOL;
+		/* V of the old timer of ClassicLadder is an input that the block sets */
+		box->value |= row->kind == WORD_FB && pin->type != IEC_BOOL &&
+			      (output || (pin->type == IEC_DINT && strcmp(pin->name, "V") == 0));
 	}
 	if (row->kind == WORD_FN && !word_is_test(row))
 		add_named(drafting, box, true, "OUT", NULL);

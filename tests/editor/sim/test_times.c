@@ -3,7 +3,7 @@
  * test_times - the one form of a time: its units, that it can be typed, and how far a timer is.
  * No display.
  */
-#include "editor-gtk/sim/live_value.h"
+#include "editor-gtk/sim/live_map.h"
 
 #include "tests/tap.h"
 
@@ -124,10 +124,28 @@ static void test_counts(void)
 	CHECK(counts(0, 0, "0 s / 0 s"));
 }
 
+/* What counts in a box: the pins of the standard and those of ClassicLadder. */
+static void test_pins(void)
+{
+	static const struct { const char *word, *now, *goal; } counting[] = {
+		{ "TON", "ET", "PT" }, { "CTU", "CV", "PV" }, { "CTUD_DINT", "CV", "PV" },
+		{ "CL_TON", "V", "P" }, { "CL_TIMER", "V", "P" }, { "CL_COUNTER", "V", "P" },
+	};
+	const char *now, *goal;
+
+	for (gsize i = 0; i < G_N_ELEMENTS(counting); i++)
+		CHECK_AS(live_word_counts(word_row(word_find(counting[i].word,
+				strlen(counting[i].word))), &now, &goal) &&
+			 strcmp(now, counting[i].now) == 0 && strcmp(goal, counting[i].goal) == 0,
+			 counting[i].word);
+	CHECK(!live_word_counts(word_row(word_find("SR", 2)), &now, &goal));
+}
+
 int main(void)
 {
 	test_units();
 	test_sweep();
 	test_counts();
+	test_pins();
 	return tap_done();
 }
