@@ -8,6 +8,7 @@ import subprocess
 
 from desk import sh, until
 
+TABS_END = 98  # px from the top of the window
 COLOURS = 12  # a page with any text has more, a blank one has two or three
 SIZES = ['1440 900', '1024 700', '1200 640', '1340 820']
 KEYS = ['F4', 'shift+F4', 'ctrl+F4', 'ctrl+m', 'ctrl+f', 'Escape', 'ctrl+alt+o', 'ctrl+alt+s', 'shift+F12', 'ctrl+Page_Down',
@@ -21,10 +22,10 @@ def warnings(editor):
 
 
 def colours(editor):
-    """Number of colours between the header and the status bar, from the tree to the right edge."""
+    """Number of colours from below the tabs to the panels, from the tree to the right edge."""
     x, y, width, height = editor.place(editor.all(role='frame')[0])
     picture = subprocess.run(['import', '-window', 'root', '-depth', '8', '-crop', '%dx%d+%d+%d' % (
-        width * 6 // 10, height * 7 // 10, x + width // 4, y + height * 3 // 20), 'rgb:-'], capture_output=True).stdout
+        width * 6 // 10, height * 7 // 10, x + width // 4, y + TABS_END), 'rgb:-'], capture_output=True).stdout
     return len({picture[at:at + 3] for at in range(0, len(picture), 3)})
 
 
