@@ -73,8 +73,12 @@ static void state_changed(struct sim_bar *bar)
 	    messages_close_offer(bar->core->messages, "win.sim_run"))
 		messages_tell(bar->core->messages, ""); /* clears the message of the fault */
 	show_buttons(bar);
-	if (ladder_sim_is_on(bar->core->sim))
+	if (ladder_sim_is_on(bar->core->sim)) {
 		show_when(bar);
+	} else if (bar->side_hidden) { /* however it ended */
+		gtk_widget_set_visible(bar->side, TRUE);
+		bar->side_hidden = false;
+	}
 }
 
 static gboolean when_elapsed(gpointer data)
@@ -201,9 +205,6 @@ static void end(struct sim_bar *bar)
 {
 	ladder_sim_end(bar->core->sim);
 	gtk_widget_set_visible(GTK_WIDGET(bar->right), FALSE);
-	if (bar->side_hidden)
-		gtk_widget_set_visible(bar->side, TRUE);
-	bar->side_hidden = false;
 	messages_close_banner(bar->core->messages);
 }
 

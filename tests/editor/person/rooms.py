@@ -9,7 +9,7 @@ import subprocess
 from desk import sh, until
 
 TABS_END = 98  # px from the top of the window
-COLOURS = 12  # a page with any text has more, a blank one has two or three
+COLOURS = 4  # a sheet with one wire has five, a blank page two or three
 SIZES = ['1440 900', '1024 700', '1200 640', '1340 820']
 KEYS = ['F4', 'shift+F4', 'ctrl+F4', 'ctrl+m', 'ctrl+f', 'Escape', 'ctrl+alt+o', 'ctrl+alt+s', 'shift+F12', 'ctrl+Page_Down',
         'ctrl+Page_Up', 'ctrl+shift+w', 'ctrl+r', 'ctrl+period', 'ctrl+plus', 'ctrl+minus', 'ctrl+z', 'Down', 'alt+Left']
