@@ -15,7 +15,7 @@ SCRIPT = ('@print Start.X Fill.X Heat.X Drain.X\n.\n%IX0.0=1\n%IX0.0=0 %IX0.2=1\
 
 
 def chart(editor):
-    return editor.find('Chart')
+    return until(lambda: [node for node in editor.all('Chart') if node.name == 'Chart'], 'the chart')[0]
 
 
 def shapes(editor):

@@ -114,7 +114,7 @@ def numbers(screen):
     editor.entry('512')
     editor.click(editor.middle(editor.element('Rung 1, NO', 'Start')))
     editor.element('Rung 2, [ ]', ', 512 > 500, closed')
-    editor.element('Rung 2, TON', ', 500/500 ms')
+    editor.element('Rung 2, TON', ', 500 ms / 500 ms')
     editor.element('Rung 2, COIL', ', on')
     editor.shot('live-numbers')
     before = open(path).read()
