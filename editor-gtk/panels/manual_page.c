@@ -406,6 +406,8 @@ void manual_text_init(struct manual_text *text, GtkTextView *view)
 	*text = (struct manual_text){ .view = view,
 		.start = g_array_new(FALSE, FALSE, sizeof(int)),
 		.tables = g_ptr_array_new(), .pictures = g_ptr_array_new() };
+	gtk_text_view_set_left_margin(view, MARGIN); /* until the width is known */
+	gtk_text_view_set_right_margin(view, MARGIN);
 	make_tags(buffer_of(text));
 }
 

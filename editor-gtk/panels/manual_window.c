@@ -30,7 +30,7 @@ struct _LadderManualWindow {
 	GArray *matches;           /* struct match                               */
 	int match;                 /* -1: none                                   */
 	GtkTextMark *top;          /* where the view scrolls to                  */
-	guint fitting;
+	guint fitting, settling;   /* sources                                   */
 };
 
 G_DEFINE_FINAL_TYPE(LadderManualWindow, ladder_manual_window, ADW_TYPE_WINDOW)
@@ -150,6 +150,30 @@ static int offset_at_top(LadderManualWindow *window)
 	return gtk_text_iter_get_offset(&at);
 }
 
+static void scroll_now(LadderManualWindow *window)
+{
+	gtk_text_view_scroll_to_mark(GTK_TEXT_VIEW(window->view), window->top, ABOVE, TRUE, 1, 0);
+}
+
+/* When all lines above have their heights. A wide line must not move the page aside. */
+static gboolean settle(gpointer data)
+{
+	LadderManualWindow *window = data;
+
+	window->settling = 0;
+	scroll_now(window);
+	gtk_adjustment_set_value(gtk_scrolled_window_get_hadjustment(GTK_SCROLLED_WINDOW(
+		window->place)), 0);
+	return G_SOURCE_REMOVE;
+}
+
+static void scroll_and_settle(LadderManualWindow *window)
+{
+	scroll_now(window);
+	g_clear_handle_id(&window->settling, g_source_remove);
+	window->settling = g_idle_add_full(G_PRIORITY_LOW, settle, window, NULL);
+}
+
 static void scroll_to(LadderManualWindow *window, int offset)
 {
 	GtkTextIter at;
@@ -157,7 +181,7 @@ static void scroll_to(LadderManualWindow *window, int offset)
 	gtk_text_buffer_get_iter_at_offset(buffer_of(window), &at, offset);
 	gtk_text_buffer_move_mark(buffer_of(window), window->top, &at);
 	gtk_text_buffer_place_cursor(buffer_of(window), &at);
-	gtk_text_view_scroll_to_mark(GTK_TEXT_VIEW(window->view), window->top, ABOVE, TRUE, 1, 0);
+	scroll_and_settle(window);
 }
 
 /* ---- pages ---- */
@@ -448,6 +472,7 @@ static void mark(LadderManualWindow *window, const struct match *match)
 		gtk_widget_add_css_class(match->cell, "found");
 	else
 		gtk_text_buffer_select_range(buffer_of(window), &from, &to);
+	g_clear_handle_id(&window->settling, g_source_remove);
 	gtk_text_buffer_move_mark(buffer_of(window), window->top, &from);
 	gtk_text_view_scroll_to_mark(GTK_TEXT_VIEW(window->view), window->top, 0, TRUE, 1, 0.3);
 }
@@ -549,7 +574,7 @@ static gboolean fit_now(gpointer data)
 
 	window->fitting = 0;
 	manual_text_fit(&window->text);
-	gtk_text_view_scroll_to_mark(GTK_TEXT_VIEW(window->view), window->top, ABOVE, TRUE, 1, 0);
+	scroll_and_settle(window);
 	return G_SOURCE_REMOVE;
 }
 
@@ -578,6 +603,7 @@ static void dispose(GObject *object)
 	LadderManualWindow *window = LADDER_MANUAL_WINDOW(object);
 
 	g_clear_handle_id(&window->fitting, g_source_remove);
+	g_clear_handle_id(&window->settling, g_source_remove);
 	manual_text_clear(&window->text);
 	g_clear_pointer(&window->history, g_array_unref);
 	g_clear_pointer(&window->matches, g_array_unref);
