@@ -220,7 +220,7 @@ def dropped(screen):
         return sh('import', '-window', 'root', '-crop', '12x1+%d+%d' % (x, y + height // 2), 'txt:-')
     plain = edge()
     # The window keeps its frame while it accepts a drag; from another program the drag arrives late.
-    editor.drag(start, editor.centre(editor.find('Find an element')), look='classic-drop', ready=lambda: edge() != plain)
+    editor.drag(start, editor.centre(editor.find('Project')), look='classic-drop', ready=lambda: edge() != plain)
     until(lambda: len(editor.windows()) == before + 2, 'the windows')
     for name in *names, 'new', 'new.scn':
         editor.says(name)

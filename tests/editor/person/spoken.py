@@ -153,8 +153,11 @@ class Reader:
         editor.screen.running.append(self.monitor)
         until(lambda: 'NameLost' in open(self.path).read(), 'the monitor to listen')
 
+    def sheet(self):
+        return until(lambda: [node for node in self.editor.all(self.name) if node.name == self.name], self.name)[0]
+
     def said(self):
-        sheet = self.editor.find(self.name).path
+        sheet = self.sheet().path
         return [text for path, text in HEARD.findall(open(self.path).read()) if path == sheet]
 
     def says(self, text, then=None):
@@ -164,7 +167,7 @@ class Reader:
             then()
         said = until(lambda: self.said()[before:], text)
         assert said == [text], (text, said)
-        assert self.editor.find(self.name).has(12), 'the focus went away'
+        assert self.sheet().has(12), 'the focus went away'
 
 
 def at_cursor(editor):
