@@ -162,6 +162,40 @@ static void check_wide_rung(void)
 	g_string_free(rows, TRUE);
 }
 
+static int count_of(const char *name, const char *word)
+{
+	char *all = content(name, NULL);
+	char **parts = g_strsplit(all, word, -1);
+	const int count = (int)g_strv_length(parts) - 1;
+
+	g_strfreev(parts);
+	g_free(all);
+	return count;
+}
+
+/* A box of any width before a coil: a rung that is too wide is folded between them, and neither is cut. */
+static void check_wide_box(void)
+{
+	int wrong = 0;
+
+	for (int terms = 4; terms < 26; terms++) {
+		GString *rows = g_string_new("  | [ %MW100");
+
+		for (int i = 1; i < terms; i++)
+			g_string_append_printf(rows, " + %%MW%d", i + 100);
+		g_string_append(rows, " > 5 ] | COIL %QX9.0 |\n");
+		write_rung("box.rung", rows->str);
+		g_string_free(rows, TRUE);
+		CHECK(render("OUT/box.rung -o OUT/box.pdf") == 0);
+		if (!list_boxes("box"))
+			return;
+		wrong += count_of("box.html", ">%QX9.0<") != 1;
+		if (count_of("box.html", ">%QX9.0<") != 1)
+			printf("# %d terms: the coil is there %d times\n", terms, count_of("box.html", ">%QX9.0<"));
+	}
+	CHECK_AS(wrong == 0, "the coil is there once");
+}
+
 /* The page of a word, from 1; 0: none. */
 static int page_of(const char *name, const char *word)
 {
@@ -423,6 +457,7 @@ int main(void)
 	check_pdf();
 	check_wide_chart();
 	check_wide_rung();
+	check_wide_box();
 	check_tall_and_wide();
 	check_references();
 	check_tall();

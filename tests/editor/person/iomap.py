@@ -57,6 +57,10 @@ def shows(editor, name, value):
     until(lambda: cell(editor, name).text() == value, '%s to be "%s"' % (name, value))
 
 
+def row_says(editor, name, text):
+    until(lambda: [node for node in editor.all(name) if text in node.name], '%s to say "%s"' % (name, text))
+
+
 def table(screen):
     """the table: problems are marked, a cell is edited, undone, saved; nothing else changes"""
     path, io = garage(screen)
@@ -64,6 +68,7 @@ def table(screen):
     open_map(editor)
     until(lambda: editor.all('is not understood; write it like'), 'the problem of its row')
     editor.says('Used by the program, missing in the map: %IX0.2 StopOk')
+    row_says(editor, '%IX0.0, sim', '. simulated')
     editor.click(cell(editor, '%IX0.1, Debounce'))
     editor.keys('ctrl+a')
     editor.type('2 s')
@@ -435,10 +440,6 @@ LINES = '''BOARD "Panel"
 %IX0.3  gpio  chip=rest offset=0
 %QX0.0  gpio  line=OUT0  safe=0
 '''
-
-
-def row_says(editor, name, text):
-    until(lambda: [node for node in editor.all(name) if text in node.name], '%s to say "%s"' % (name, text))
 
 
 def lines_here(screen):

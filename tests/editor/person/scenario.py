@@ -122,8 +122,13 @@ def fails(screen):
     editor.shot('scenario-failed')
     editor.click(row(editor, 'is not declared'), count=2)
     editor.find('motor-other.scn', 'text')
-    editor.says('"Strat" is not declared')
+
+    def told():
+        return len(editor.all('"Strat" is not declared', 'label'))
+    until(lambda: told() == 2, 'the message in the list and, with the cursor in its line, above the text')
     editor.shot('scenario-unknown')
+    editor.keys('ctrl+Home')
+    until(lambda: told() == 1, 'the message above the text to go with the line')
 
 
 def chinese(screen):

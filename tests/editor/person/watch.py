@@ -75,6 +75,11 @@ def values(screen):
     editor.click(editor.find('Level, Shown as'))
     editor.find('Hexadecimal', 'menu item').press()
     shows(editor, '16#000C')
+    editor.click(editor.find('Add variables', 'push button'))
+    editor.find('Names and addresses, such as Motor %IW0 %Q0..7', 'text')
+    editor.type('evel')
+    editor.find('Level', 'list item')
+    editor.keys('Escape', 'Escape')
     text = editor.save(path)
     assert '  status-chart Chart 1\n    watch auto Start\n    watch hex Level\n' in text, text
     assert '    watch auto Nobody\n' in text, text

@@ -63,6 +63,16 @@ static void many_lines(const char *text, int least)
 	g_free(tip);
 }
 
+/* Lines end between words: with blanks for the line breaks the words are those of @text. */
+static void whole_words(const char *text)
+{
+	char *tip = tip_text(text), *one_line = g_strdelimit(g_strdup(text), "\n", ' ');
+
+	CHECK_TEXT(g_strchomp(g_strdelimit(tip, "\n", ' ')), g_strchomp(one_line));
+	g_free(one_line);
+	g_free(tip);
+}
+
 int main(void)
 {
 	GString *latin = g_string_new("Start\n"), *wide = g_string_new(NULL);
@@ -77,6 +87,7 @@ int main(void)
 	many_lines("one\ntwo\n", 2);
 	many_lines("one\n\nthree", 3);
 	many_lines(latin->str, 25);
+	whole_words(latin->str);
 	many_lines(wide->str, 5);
 	many_lines(word->str, 9);
 	g_string_free(latin, TRUE);
