@@ -7,8 +7,9 @@
 #include "editor-gtk/panels/tree_rows.h"
 
 #include "editor-gtk/document/side_file.h"
-#include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/listing.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/sim/live_value.h"
 
 /* ---- rows ---- */
 
@@ -129,8 +130,12 @@ static void add_structures(GListStore *root, const struct project *project)
 /* The period of a task, or "on" and its variable. */
 static char *task_note(const struct project *project, const struct config_entry *task)
 {
-	return task->single ? g_strdup_printf(_("on %s"), project_text(project, task->single)) :
-	       g_strdup(project_text(project, task->interval));
+	char period[32];
+
+	if (task->single)
+		return g_strdup_printf(_("on %s"), project_text(project, task->single));
+	live_time_print(task->interval_ns, period, sizeof(period));
+	return g_strdup(period);
 }
 
 /* As task_rows.h, without the text of the whole project. */
