@@ -411,7 +411,9 @@ sub test_kept {
 	like($members->{'project_infos.txt'}, qr/^PARAM_AUTHOR=Me$/m, 'an author');
 	spew("$dir/about.rung", "RUNGBOARD 1\nPROJECT \"P\"\nAUTHOR \"You\"\nDESCRIPTION \"one\$Ntwo\"\n"
 		. "${body}VIEW\n  classicladder project_infos.txt PARAM_AUTHOR=Me\nEND_VIEW\n");
-	my $about = (members(slurp(export("$dir/about.rung", 'classicladder', 'about'))))[0]->{'project_infos.txt'};
+	my ($exported) = export("$dir/about.rung", 'classicladder', 'about');
+	my ($parts) = members(slurp($exported));
+	my $about = $parts->{'project_infos.txt'};
 	like($about, qr/^PARAM_AUTHOR=You$/m, 'the author of the project wins over a line that was kept');
 	unlike($about, qr/=Me/, 'and is written once');
 	like($about, qr/^PARAM_COMMENT=one\\ntwo$/m, 'a line break of the description');

@@ -74,6 +74,17 @@ def proposes(editor):
     until(lambda: editor.windows() == before, 'the end of the dialog')
 
 
+def in_sight(editor, name):
+    """A card of the welcome page; the wheel brings it into sight."""
+    def look():
+        card = editor.find(name, 'label')
+        if editor.centre(card)[1] < 750:
+            return card
+        sh('xdotool', 'mousemove', '800', '400', 'click', '5')
+        return None
+    return until(look, '%s in sight' % name)
+
+
 def belongings(screen):
     """saving the copy of a sample also saves its plant and scenarios under the copy's name; no file is replaced"""
     names = 'mine.rung', 'mine.plant.rung', 'mine.scn'
@@ -81,7 +92,7 @@ def belongings(screen):
         path, plant, scenarios = [os.path.join(screen.home, 'copy-%d' % there, name) for name in names]
         os.mkdir(os.path.dirname(path))
         editor = Editor(screen)
-        editor.click(editor.find('conveyor.rung', 'label'))
+        editor.click(in_sight(editor, 'conveyor.rung'))
         editor.element('Rung 1, ')
         if there:
             with open(scenarios, 'w') as file:
