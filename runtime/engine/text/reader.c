@@ -159,18 +159,27 @@ static bool is_sign(const char *text, size_t len)
 	return len > 0;
 }
 
+/* Where " or " stands in @len bytes, which need no NUL; NULL: nowhere. */
+static const char *find_or(const char *text, size_t len)
+{
+	for (size_t i = 0; i + 4 <= len; i++)
+		if (memcmp(text + i, " or ", 4) == 0)
+			return text + i;
+	return NULL;
+}
+
 /* The message about an expected thing: a missing sign, one of two, or anything else. @out gets
  * its argument, with the token that stands there instead. */
 static enum diag_id print_expected(const struct reader *r, const char *arg, size_t len,
 				   char out[2 * LIMIT_ARG + 1])
 {
-	static const char between[] = " or ";
 	const struct token *token = &r->lex.token;
 	const bool end = token->kind == TOKEN_NEWLINE || token->kind == TOKEN_END;
 	const int found = end ? 0 : token->len < 24 ? (int)token->len : 24;
 	const char *and = memchr(arg, *DIAG_AND, len);
 	const size_t first = and ? (size_t)(and - arg) : len;
-	const char *or = len < LIMIT_ARG ? strstr(arg, between) : NULL;
+	const char *or = len < LIMIT_ARG ? find_or(arg, len) : NULL;
+	const int behind = or ? (int)(arg + len - or) - 4 : 0;
 
 	if (is_sign(arg, first)) {
 		const char *rest = and ? memchr(and + 1, *DIAG_AND, len - first - 1) : NULL;
@@ -180,9 +189,9 @@ static enum diag_id print_expected(const struct reader *r, const char *arg, size
 		return DIAG_SIGN_MISSING;
 	}
 	if (or && is_sign(arg, (size_t)(or - arg)) &&
-	    is_sign(or + sizeof(between) - 1, (size_t)(arg + len - or) - sizeof(between) + 1)) {
-		snprintf(out, 2 * LIMIT_ARG + 1, "%.*s" DIAG_AND "%s" DIAG_AND "%.*s",
-			 (int)(or - arg), arg, or + sizeof(between) - 1, found, token->text);
+	    is_sign(or + 4, (size_t)behind)) {
+		snprintf(out, 2 * LIMIT_ARG + 1, "%.*s" DIAG_AND "%.*s" DIAG_AND "%.*s",
+			 (int)(or - arg), arg, behind, or + 4, found, token->text);
 		return DIAG_SIGNS_MISSING;
 	}
 	snprintf(out, 2 * LIMIT_ARG + 1, "%.*s%s%.*s", (int)len, arg,

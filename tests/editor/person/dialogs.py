@@ -95,7 +95,7 @@ def commands(screen):
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     editor.to_sheet()
     editor.list_commands()
-    editor.keys(*['Down'] * 130)
+    editor.keys(*['Down'] * 220)
 
     def seen():
         for node in editor.all(role='list item'):
@@ -174,7 +174,7 @@ def imported(screen):
     """import from another project: Esc in the file chooser, and in the choice of parts; Enter in a check box imports"""
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     other = new_file(screen, OTHER, 'other.rung')
-    editor.click([node for node in editor.all('Main', 'label') if node.name == 'Main'][0])
+    editor.click([node for node in editor.all('Programs', 'label') if node.name == 'Programs'][0])
     before = kept(editor)
 
     def item():
