@@ -148,7 +148,7 @@ like($help, qr/default $watchdog\\n/, 'ladderd --help: the default of --watchdog
 my $retain_s = value($retain_ns) / 1e9;
 like($help, qr/10ms to 1h; default ${retain_s}s\\n/, 'ladderd --help: the default of --retain-period');
 fact('docs/boards.md', qr/not sooner than `--retain-period` \((\d+) s\)/, $retain_s);
-fact('docs/language.md', qr/one of `--watchdog` \((\d+)\) intervals/, $watchdog);
+fact('docs/language.md', qr/than `--watchdog` \((\d+)\) intervals/, $watchdog);
 
 # ---- the code image ----
 my $code = slurp('runtime/engine/scan/code.h');
