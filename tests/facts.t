@@ -81,7 +81,7 @@ fact('docs/language.md', qr/as boxes with 2 to (\d+) inputs/, limit('FN_INPUTS')
 fact('docs/language.md', qr/`MAX` take up to (\d+) inputs/, limit('FN_INPUTS'));
 fact('docs/language.md', qr/It is never below (\d+) µs/, limit('TICK') / 1000);
 fact('docs/sfc.md', qr/at most (\d+) times a scan; then come the actions/, limit('ROUNDS'));
-fact('docs/sfc.md', qr/At most (\d+) stand in one another/, limit('MACROS'));
+fact('docs/sfc.md', qr/Macro-steps may nest, (\d+) deep/, limit('MACROS'));
 fact('docs/sfc.md', qr/up to (\d+); LD455/, limit('MARKINGS'));
 fact('docs/from-classicladder.md', qr/until none fires, at most (\d+) times a scan/, limit('ROUNDS'));
 fact('docs/code-image.md', qr/position-independent, at most (\d+) MiB/, limit('IMAGE') >> 20);
