@@ -66,9 +66,9 @@ fact('README.md', qr/up to (\d+) columns by \d+ rows a rung/, limit('COLS'));
 fact('README.md', qr/up to \d+ columns by (\d+) rows a rung/, limit('ROWS'));
 fact('docs/rung-file.md', qr/and at most (\d+) elements/, limit('ELEMENTS'));
 fact('docs/rung-file.md', qr/Up to (\w+) indices of an operand/, limit('INDICES'));
-fact('docs/rung-file.md', qr/^up to (\d+) deep\./m, limit('EXPR_DEPTH'));
+fact('docs/rung-file.md', qr/and signs nest up to (\d+) deep\./, limit('EXPR_DEPTH'));
 fact('docs/rung-file.md', qr/Parentheses nest, (\d+) deep/, limit('IL_DEPTH'));
-fact('docs/rung-file.md', qr/At most (\d+) tasks/, limit('TASKS') - 1); # one is for programs without a task
+fact('docs/rung-file.md', qr/has at most (\d+) tasks/, limit('TASKS') - 1); # one is for programs without a task
 fact('docs/rung-file.md', qr/\((\d+) µs to 24 h\)/, limit('TICK') / 1000);
 fact('docs/rung-file.md', qr/µs to (\d+) h\)/, limit('INTERVAL') / 3600e9);
 fact('docs/rung-file.md', qr/All areas together have at most (\d+) MiB/, limit('AREAS') >> 20);
