@@ -173,13 +173,15 @@ static void checked(struct sim_bar *bar)
 }
 
 /* In a narrow window the panel takes the room of the left side, not that of the rungs. An empty
- * list of problems gives its room to them. */
+ * list of problems gives its room to them, too. */
 static void make_room(struct sim_bar *bar)
 {
 	const int width = gtk_widget_get_width(GTK_WIDGET(bar->core->window));
 
+	if (width <= 0 || width >= NARROW)
+		return;
 	below_rest(bar->core->below);
-	bar->side_hidden = width > 0 && width < NARROW && gtk_widget_get_visible(bar->side);
+	bar->side_hidden = gtk_widget_get_visible(bar->side);
 	if (bar->side_hidden)
 		gtk_widget_set_visible(bar->side, FALSE);
 }
