@@ -58,7 +58,7 @@ static const char members[] =
 	"  MOVE(IN := Z[1], OUT => Z[0])\n"
 	"END_PROGRAM\n";
 
-/* Several indices, and whole structures behind them. */
+/* Several indices; elements that are structures. */
 static const char grids[] =
 	"TYPE\n  Part : STRUCT\n    On : BOOL;\n    N : INT := 3;\n"
 	"    T : STRING[5] := 'ab';\n    L : ARRAY[1..2] OF DINT;\n  END_STRUCT;\n"
@@ -108,7 +108,7 @@ static void set_index(struct image *at, const char *name, int64_t index)
 		image_set(at, where, (union iec_value){ .i = index });
 }
 
-/* Whatever the names of an image are, the memory they lead to can be read. */
+/* Reads the memory of every name of the image. */
 static void read_members(const struct image *at)
 {
 	static const struct { const char *head, *tail; } of[] = {
@@ -209,27 +209,30 @@ static void test_refused(void)
 	uint32_t base = get[4], index = get[5], count = get[7];
 	const struct areas *areas = usual_areas();
 
-	CHECK_AS(let_in(), "the image as it stands");
+	CHECK_AS(let_in(), "the unchanged image is accepted");
 	CHECK(CODE_TYPE(base) == IEC_INT && count == 4 && get[8] == 2);
 	CHECK(refuses(VM_AGET, 1, 1, base) && refuses(VM_AGET, 1, 2, CODE_TRUE_AT(areas)));
 	CHECK(refuses(VM_AGET, 1, 3, base & 0xffffff) &&
 	      refuses(VM_AGET, 1, 3, find(VM_AGET, 3)[4]));
 	CHECK_AS(refuses(VM_AGET, 1, 4, CODE_OPERAND(IEC_DINT, CODE_OFFSET(base))),
-		 "another type");
+		 "an element of another type is refused");
 	CHECK(refuses(VM_AGET, 1, 4, base + 1));
 	CHECK(refuses(VM_AGET, 1, 5, find(VM_AGET, 0)[4]));
 	CHECK(refuses(VM_AGET, 1, 5, index + 1));
 	CHECK(refuses(VM_AGET, 1, 7, 0) && refuses(VM_AGET, 1, 7, UINT32_MAX));
-	CHECK_AS(refuses(VM_AGET, 1, 7, 0x80000001), "2 bytes times this is 2");
-	CHECK_AS(refuses(VM_AGET, 1, 7, 1000), "into what lies behind");
+	CHECK_AS(refuses(VM_AGET, 1, 7, 0x80000001),
+		 "a count whose size in bytes overflows is refused");
+	CHECK_AS(refuses(VM_AGET, 1, 7, 1000),
+		 "a count beyond the end of the array is refused");
 	CHECK(refuses(VM_AGET, 1, 8, 0) && refuses(VM_AGET, 1, 8, 1) &&
 	      refuses(VM_AGET, 1, 8, 0x55555556) && refuses(VM_AGET, 1, 8, 4000));
 	CHECK(refuses(VM_AGET, 1, 0, VM_AGET | 1u << 8));
 	CHECK(refuses(VM_AGET, 1, 0, VM_AGET | 2u << 8));
-	CHECK_AS(refuses(VM_APUT, 1, 4, find(VM_AGET, 3)[4]), "a constant is written");
+	CHECK_AS(refuses(VM_APUT, 1, 4, find(VM_AGET, 3)[4]),
+		 "an APUT into a constant is refused");
 	CHECK_AS(refuses(VM_APUT, 1, 4,
 			 CODE_OPERAND(IEC_INT, usual_areas()->at[AREA_I])),
-		 "an input is written");
+		 "an APUT into an input is refused");
 	CHECK(CODE_TYPE(put[4]) == IEC_INT && refuses(VM_APUT, 1, 4, areas->size - 2));
 	/* Bits of areas: up to the end of the area, not one more. */
 	CHECK((find(VM_APUT, 0)[0] >> 8) == 1);
@@ -252,12 +255,12 @@ static void test_symbols(void)
 		for (size_t at = 0; at + strlen(worse[i]) < size; at++)
 			if (strncmp(string + at, worse[i], 6) == 0) {
 				memcpy(string + at, worse[i], strlen(worse[i]));
-				/* More elements than the run may hold. */
+				/* More elements than the run of values holds. */
 				string[at + 9] = '9';
 				let_in();
 				break;
 			}
-	CHECK_AS(let_in(), "names are as they were");
+	CHECK_AS(let_in(), "the image with its names restored is accepted");
 }
 
 /* The first access of a kind to elements of @type; its number. */
@@ -277,11 +280,12 @@ static void test_members(void)
 	const uint32_t *get = find(VM_AGET, n);
 	uint32_t base = get[4], stride = get[8];
 
-	CHECK_AS(let_in(), "the image as it stands");
+	CHECK_AS(let_in(), "the unchanged image is accepted");
 	CHECK(get[7] == 4 && (int32_t)get[6] == -1 && stride > 16);
 	CHECK(refuses(VM_AGET, n, 7, 5) && refuses(VM_AGET, n, 8, stride + 2));
 	CHECK(refuses(VM_AGET, n, 8, stride - 8) && refuses(VM_AGET, n, 8, 2));
-	CHECK_AS(!refuses(VM_AGET, n, 7, 3), "fewer are there as well");
+	CHECK_AS(!refuses(VM_AGET, n, 7, 3),
+		 "a count below the length of the array is accepted");
 	CHECK(refuses(VM_AGET, n, 4, base + 2) && refuses(VM_AGET, n, 4, base + stride));
 	CHECK(refuses(VM_AGET, s, 7, 5) && refuses(VM_AGET, s, 8, 4));
 	CHECK(refuses(VM_APUT, put, 4, find(VM_APUT, put)[4] + stride));
@@ -294,7 +298,7 @@ static void test_grids(void)
 	const struct areas *areas = usual_areas();
 	uint32_t base = get[4], size = block[5];
 
-	CHECK_AS(let_in(), "the image as it stands");
+	CHECK_AS(let_in(), "the unchanged image is accepted");
 	CHECK(get[0] >> 8 == 4 && get[7] == 3 && get[11] == 4 && get[15] == 2 &&
 	      get[8] > 4 * get[12] && get[12] > get[16] && get[16] == 4);
 	for (int k = 0; k < 3; k++) {
@@ -306,12 +310,15 @@ static void test_grids(void)
 		CHECK(refuses(VM_AGET, n, count, 0x80000001));
 		CHECK(refuses(VM_AGET, n, stride, 0) && refuses(VM_AGET, n, stride, 2));
 		CHECK(refuses(VM_AGET, n, stride, UINT32_MAX));
-		CHECK_AS(!refuses(VM_AGET, n, count, 1), "fewer are there as well");
+		CHECK_AS(!refuses(VM_AGET, n, count, 1),
+			 "a count below the length of the array is accepted");
 	}
 	CHECK(refuses(VM_AGET, n, 4, base + 4) && refuses(VM_AGET, n, 0, VM_AGET | 5u << 8));
-	CHECK_AS(refuses(VM_AGET, n, 0, VM_AGET | 18u << 8), "more indices than there may be");
-	CHECK_AS(refuses(VM_AGET, n, 0, VM_AGET | 0xffffff00u), "far more");
-	/* The other side, the element, its size. */
+	CHECK_AS(refuses(VM_AGET, n, 0, VM_AGET | 18u << 8),
+		 "an AGET with too many indices is refused");
+	CHECK_AS(refuses(VM_AGET, n, 0, VM_AGET | 0xffffff00u),
+		 "an AGET with the highest number of indices is refused");
+	/* ABLOCK: the place of the other value, the element, its size. */
 	CHECK(block[0] >> 8 == 2 && block[8] == 3 && block[12] == 4);
 	CHECK(refuses(VM_ABLOCK, 0, 1, base) && refuses(VM_ABLOCK, 0, 2, CODE_TRUE_AT(areas)));
 	CHECK(refuses(VM_ABLOCK, 0, 3, block[3] + 8) && refuses(VM_ABLOCK, 0, 3, block[4]));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_carry - changes a running program: values that are kept and values that begin
- * anew, by hand; and random programs with an added rung, which must behave as without
+ * test_carry - changes a running program: values that are kept and values that are
+ * reset, by hand; and random programs with an added rung, which must behave as without
  * it.
  */
 #include "engine/scan/carry.h"

@@ -131,11 +131,12 @@ static void refuses_headers(void)
 	CHECK(damaged(len, DIAG_IMAGE_DAMAGED));
 	header()->words++;
 	seal();
-	CHECK_AS(damaged(len, DIAG_IMAGE_VERSION), "numbered by another catalogue");
+	CHECK_AS(damaged(len, DIAG_IMAGE_VERSION),
+		 "an image of another catalogue is refused");
 	for (size_t at = offsetof(struct code_header, data_size); at < len; at++) {
 		image[at] ^= 0x40;
 		if (!damaged(len, DIAG_IMAGE_DAMAGED))
-			CHECK_AS(false, "a flipped bit anywhere is seen");
+			CHECK_AS(false, "the checksum finds each flipped bit");
 	}
 }
 
@@ -169,7 +170,7 @@ static void refuses_bounds(void)
 	header()->data_size = usual_areas()->size + 1;
 	CHECK(refused());
 	header()->data_size -= 8;
-	CHECK_AS(refused(), "the layout reaches behind the data");
+	CHECK_AS(refused(), "a layout beyond the end of the data is refused");
 	header()->budget = LIMIT_BUDGET + 1;
 	CHECK(refused());
 	header()->retain_size = UINT32_MAX;
@@ -198,27 +199,27 @@ static void refuses_layouts(void)
 	run_of(RUN_VALUES, 0)->type = IEC_TYPE_COUNT;
 	CHECK(refused());
 	run_of(RUN_VALUES, 0)->offset -= 4;
-	CHECK_AS(refused(), "overlap, or wrong order");
+	CHECK_AS(refused(), "a run that overlaps the one before is refused");
 	run_of(RUN_VALUES, 0)->offset = 0;
-	CHECK_AS(refused(), "values in an area");
+	CHECK_AS(refused(), "a run of values in an area is refused");
 	run_of(RUN_VALUES, 0)->count = UINT32_MAX;
 	CHECK(refused());
 	run_of(RUN_VALUES, 0)->offset = UINT32_MAX;
 	CHECK(refused());
 	run_of(RUN_INSTANCE, 0)->offset += 4;
-	CHECK_AS(refused(), "not aligned");
+	CHECK_AS(refused(), "an instance that is not aligned is refused");
 	run_of(RUN_INSTANCE, 0)->word = WORD_COUNT;
 	CHECK(refused());
 	run_of(RUN_INSTANCE, 0)->word = FN_ADD;
-	CHECK_AS(refused(), "a function has no instances");
+	CHECK_AS(refused(), "an instance of a function is refused");
 	run_of(RUN_INSTANCE, 0)->word = FB_TOF;
-	CHECK_AS(refused(), "the code calls a TON there");
+	CHECK_AS(refused(), "a TOF where the code calls a TON is refused");
 	run_of(RUN_INSTANCE, 0)->count--;
-	CHECK_AS(refused(), "the second one is called");
+	CHECK_AS(refused(), "one instance less than the code calls is refused");
 	run_of(RUN_CONSTANTS, 0)->kind = RUN_VALUES;
-	CHECK_AS(refused(), "0 and 1 are constants");
+	CHECK_AS(refused(), "FALSE and TRUE as variables are refused");
 	header()->section[CODE_LAYOUT].size -= sizeof(struct code_run);
-	CHECK_AS(refused(), "what the last run held is used");
+	CHECK_AS(refused(), "a missing last run is refused");
 }
 
 /* Byte of an initial BOOL that is TRUE; NULL: none. */
@@ -252,17 +253,17 @@ static void refuses_initial_values(void)
 	init[1] = header()->data_size;
 	CHECK(refused());
 	init[0] = usual_areas()->size + 3;
-	CHECK_AS(refused(), "where nothing lies");
+	CHECK_AS(refused(), "an initial value outside every run is refused");
 	header()->section[CODE_INIT].size -= 4;
-	CHECK_AS(refused(), "cut in half");
+	CHECK_AS(refused(), "an initial value that is cut off is refused");
 	init[1] = 1;
 	init[0] = run_of(RUN_INSTANCE, 0)->offset +
 		  (uint32_t)offsetof(struct fb_TON, running);
-	CHECK_AS(refused(), "inside an instance");
+	CHECK_AS(refused(), "an initial value of inner state of an instance is refused");
 	on = initial_true(init, end);
-	if (CHECK_AS(on != NULL, "a BOOL begins TRUE")) {
+	if (CHECK_AS(on != NULL, "the image has a BOOL that begins TRUE")) {
 		*on = 2;
-		CHECK_AS(refused(), "a BOOL is 0 or 1");
+		CHECK_AS(refused(), "an initial BOOL of 2 is refused");
 	}
 }
 
@@ -275,7 +276,7 @@ static void refuses_bits(void)
 	bits->area = AREA_COUNT;
 	CHECK(refused());
 	bits->area = AREA_XAQ;
-	CHECK_AS(refused(), "wrong order");
+	CHECK_AS(refused(), "areas of bits in the wrong order are refused");
 	bits->first = usual_areas()->bytes[AREA_I] * 8;
 	CHECK(refused());
 	bits->first = UINT32_MAX;
@@ -285,11 +286,11 @@ static void refuses_bits(void)
 	bits->slot = header()->data_size;
 	CHECK(refused());
 	bits->slot = 0;
-	CHECK_AS(refused(), "bits in an area");
+	CHECK_AS(refused(), "bits copied into an area are refused");
 	bits->slot = CODE_FALSE_AT(usual_areas());
-	CHECK_AS(refused(), "on a constant");
+	CHECK_AS(refused(), "bits copied over a constant are refused");
 	bits[1] = bits[0];
-	CHECK_AS(refused(), "the same bit twice");
+	CHECK_AS(refused(), "the same bit twice is refused");
 }
 
 /* ---- code ---- */
@@ -303,9 +304,9 @@ static void refuses_programs(void)
 	entry->text_words = UINT32_MAX;
 	CHECK(refused());
 	entry->text_words = 0;
-	CHECK_AS(refused(), "without END");
+	CHECK_AS(refused(), "a program without END is refused");
 	entry->text_words--;
-	CHECK_AS(refused(), "END is cut off");
+	CHECK_AS(refused(), "a program whose END is cut off is refused");
 	entry->text++;
 	CHECK(refused());
 	entry->watch = 1;
@@ -363,7 +364,7 @@ static void refuses_bit_operands(void)
 	CHECK(refuses(VM_BITGET, 1, outside[0]) && refuses(VM_BITGET, 2, none));
 	CHECK(refuses(VM_BITGET, 1, none) && refuses(VM_BITPUT, 2, none));
 	CHECK(refuses(VM_BITPUT, 1, outside[0]) && refuses(VM_BITPUT, 2, outside[1]));
-	CHECK_AS(refuses(VM_BITPUT, 2, 0), "inputs are not written");
+	CHECK_AS(refuses(VM_BITPUT, 2, 0), "a BITPUT into an input is refused");
 	CHECK(refuses(VM_JMPC, 2, outside[0]) && refuses(VM_JMPC, 2, 0));
 	CHECK(refuses(VM_JMPC, 0, VM_JMPC | 2u << 8));
 }
@@ -380,11 +381,11 @@ static void refuses_number_operands(void)
 	CHECK(refuses(VM_COPY, 2, seven) && refuses(VM_COPY, 2, input));
 	CHECK(refuses(VM_COPY, 2, 5) && refuses(VM_COPY, 3, 5));
 	CHECK(refuses(VM_COPY, 3, CODE_OPERAND(IEC_TYPE_COUNT, 0)));
-	CHECK_AS(refuses(VM_COPY, 3, real), "REAL does not become BYTE");
+	CHECK_AS(refuses(VM_COPY, 3, real), "a COPY of a REAL to a BYTE is refused");
 	CHECK_AS(refuses(VM_COPY, 3, CODE_OPERAND(IEC_INT, CODE_OFFSET(dint))),
-		 "not as another type");
+		 "a COPY that reads a DINT as an INT is refused");
 	CHECK_AS(refuses(VM_COPY, 3, CODE_OPERAND(IEC_DWORD, 510)),
-		 "from one area into the next");
+		 "a COPY across the end of an area is refused");
 	CHECK(refuses(VM_COPY, 0, VM_COPY | 2u << 8) &&
 	      refuses(VM_COPY, 0, VM_COPY | 8u << 8));
 	CHECK(refuses(VM_CMP_INT, 0, VM_CMP_INT | 256u << 8));
@@ -421,14 +422,16 @@ static void refuses_jumps(void)
 	const struct code_program *entry = section(CODE_PROGRAMS);
 	uint32_t target = find(VM_JMPC)[1];
 
-	CHECK_AS(refuses(VM_JMPC, 1, target + 1), "into an instruction");
+	CHECK_AS(refuses(VM_JMPC, 1, target + 1),
+		 "a jump into an instruction is refused");
 	CHECK(refuses(VM_JMPC, 1, UINT32_MAX) && refuses(VM_JMP, 1, target - 1));
-	CHECK_AS(refuses(VM_JMP, 1, entry[1].text), "into another program");
+	CHECK_AS(refuses(VM_JMP, 1, entry[1].text),
+		 "a jump into another program is refused");
 	CHECK(refuses(VM_JMP, 1, header()->section[CODE_TEXT].size / 4));
 	find(VM_JMPC)[1] = 0;
 	seal();
 	enum diag_id why;
-	CHECK_AS(open_bytes(len, &why), "backwards is for the budget to judge");
+	CHECK_AS(open_bytes(len, &why), "a jump back is accepted: the budget limits it");
 	fresh();
 }
 
@@ -451,7 +454,7 @@ static void refuses_maps(void)
 	group[1].first = 10;
 	CHECK(refused());
 	symbol[0] = CODE_OPERAND(SYMBOL_BIT | IEC_INT, 0);
-	CHECK_AS(refused(), "Go is a bit");
+	CHECK_AS(refused(), "the bit Go as an INT is refused");
 	symbol[0] = CODE_OPERAND(SYMBOL_BIT | IEC_BOOL, 0xffffff);
 	CHECK(refused());
 	symbol[2] = CODE_OPERAND(IEC_DINT, CODE_OFFSET(symbol[2]));
@@ -461,7 +464,7 @@ static void refuses_maps(void)
 	symbol[2] = CODE_OPERAND(IEC_INT, 0xffffff);
 	CHECK(refused());
 	symbol[2] = CODE_OPERAND(IEC_NONE, CODE_OFFSET(symbol[2]));
-	CHECK_AS(refused(), "no instance is there");
+	CHECK_AS(refused(), "a symbol of an instance where none lies is refused");
 	symbol[7] += 8;
 	CHECK(refused());
 	power->in = UINT32_MAX;
@@ -473,7 +476,7 @@ static void refuses_maps(void)
 	place->pou = 2;
 	CHECK(refused());
 	*(char *)last_of(CODE_STRINGS, 1) = 'x';
-	CHECK_AS(refused(), "the last string does not end");
+	CHECK_AS(refused(), "a last string without its 0 byte is refused");
 }
 
 /* Every symbol is found by its name, at the same place as by stepping. */
@@ -536,7 +539,7 @@ static void watching_is_no_other_program(void)
 	CHECK(header()->core_runs < header()->section[CODE_LAYOUT].size /
 	      sizeof(struct code_run));
 	header()->core_runs = UINT32_MAX;
-	CHECK_AS(refused(), "more runs than there are");
+	CHECK_AS(refused(), "core_runs above the number of runs is refused");
 }
 
 static void drops_maps(void)
@@ -562,7 +565,8 @@ static void drops_maps(void)
 	find(VM_LUT)[4] ^= 1;
 	seal();
 	identity(image, len, bare);
-	CHECK_AS(memcmp(whole, bare, 32) != 0, "a changed table is another program");
+	CHECK_AS(memcmp(whole, bare, 32) != 0,
+		 "a changed truth table changes the identity");
 	fresh();
 }
 

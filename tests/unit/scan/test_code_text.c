@@ -71,7 +71,7 @@ static struct code_run *run_of(uint32_t capacity)
 	for (uint32_t i = 0; i < at->size / sizeof(*run); i++)
 		if (run[i].type == IEC_STRING && run[i].word == capacity)
 			return run + i;
-	CHECK_AS(false, "a run of texts");
+	CHECK_AS(false, "the image has a run of texts of this room");
 	return run;
 }
 
@@ -84,30 +84,30 @@ static struct iec_string *init_of(uint32_t offset)
 	for (; word < end; word += 2 + (word[1] + 3) / 4)
 		if (offset >= word[0] && offset - word[0] < word[1])
 			return (void *)((uint8_t *)(word + 2) + (offset - word[0]));
-	CHECK_AS(false, "initial bytes of a text");
+	CHECK_AS(false, "the image has initial bytes for this text");
 	return (void *)image;
 }
 
 static void refuses_rooms(void)
 {
 	run_of(6)->word = 0;
-	CHECK_AS(refused(), "no room at all");
+	CHECK_AS(refused(), "a text without room is refused");
 	run_of(6)->word = 256;
-	CHECK_AS(refused(), "more room than a text can have");
+	CHECK_AS(refused(), "a text with more room than 255 is refused");
 	run_of(255)->word = UINT16_MAX;
 	CHECK(refused());
 	run_of(6)->word = 60;
-	CHECK_AS(refused(), "over what lies behind it");
+	CHECK_AS(refused(), "a text that overlaps the next run is refused");
 	run_of(6)->count = 2;
 	CHECK(refused());
 	run_of(6)->count = UINT32_MAX;
 	CHECK(refused());
 	run_of(6)->offset += 2;
-	CHECK_AS(refused(), "not aligned");
+	CHECK_AS(refused(), "a text that is not aligned is refused");
 	run_of(6)->offset -= 4;
 	CHECK(refused());
 	run_of(6)->type = IEC_DINT;
-	CHECK_AS(refused(), "a number with room for a text");
+	CHECK_AS(refused(), "a run of numbers with room for a text is refused");
 	run_of(255)->type = IEC_STRING + 1;
 	CHECK(refused());
 }
@@ -117,12 +117,12 @@ static void refuses_lengths(void)
 	uint32_t offset = run_of(6)->offset;
 
 	init_of(offset)->length = 9;
-	CHECK_AS(refused(), "longer than its room");
+	CHECK_AS(refused(), "an initial text longer than its room is refused");
 	init_of(offset)->length = UINT16_MAX;
 	CHECK(refused());
 }
 
-/* Every text fits its room, whatever the image contains. */
+/* No text is longer than its room. */
 static bool texts_fit(const struct program *p)
 {
 	for (uint32_t i = 0; i < p->run_count; i++) {
@@ -176,7 +176,8 @@ static void survives_bytes(void)
 			image[at] ^= change[i];
 			fits = survives();
 		}
-	CHECK_AS(fits, "with any byte changed, texts keep within their rooms");
+	CHECK_AS(fits,
+		 "no text is longer than its room after any byte of the image changed");
 }
 
 int main(void)

@@ -11,10 +11,10 @@ static void ton_takes_any_preset(void)
 	struct fb_TON ton = { .IN = 1 };
 
 	fb_TON_step(&ton, 100);
-	CHECK_AS(ton.Q && ton.ET == 0, "PT = 0: in the same call");
+	CHECK_AS(ton.Q && ton.ET == 0, "a TON with PT = 0 is on in the first call");
 	ton = (struct fb_TON){ .IN = 1, .PT = -1 };
 	fb_TON_step(&ton, 100);
-	CHECK_AS(ton.Q && ton.ET == 0, "negative counts as 0");
+	CHECK_AS(ton.Q && ton.ET == 0, "a negative PT counts as 0");
 	ton = (struct fb_TON){ .IN = 1, .PT = INT64_MIN };
 	fb_TON_step(&ton, INT64_MAX);
 	CHECK(ton.Q && ton.ET == 0);
@@ -22,11 +22,11 @@ static void ton_takes_any_preset(void)
 	fb_TON_step(&ton, 100);
 	CHECK(!ton.Q && ton.ET == 0);
 	fb_TON_step(&ton, 101);
-	CHECK_AS(ton.Q && ton.ET == 1, "exactly ET = PT is elapsed");
+	CHECK_AS(ton.Q && ton.ET == 1, "Q is on as soon as ET = PT");
 	ton = (struct fb_TON){ .IN = 1, .PT = INT64_MAX };
 	fb_TON_step(&ton, INT64_MIN);
 	fb_TON_step(&ton, INT64_MAX);
-	CHECK_AS(ton.Q && ton.ET == INT64_MAX, "held at PT");
+	CHECK_AS(ton.Q && ton.ET == INT64_MAX, "ET stops at PT");
 }
 
 static void ton_follows_its_preset(void)
@@ -41,13 +41,14 @@ static void ton_follows_its_preset(void)
 	CHECK(ton.Q && ton.ET == 20);
 	ton.PT = 60;
 	fb_TON_step(&ton, 1040);
-	CHECK_AS(!ton.Q && ton.ET == 40, "a longer one takes it back");
+	CHECK_AS(!ton.Q && ton.ET == 40, "a longer PT switches Q off again");
 	ton.PT = 0;
 	fb_TON_step(&ton, 1041);
 	CHECK(ton.Q && ton.ET == 0);
 	ton.PT = 60;
 	fb_TON_step(&ton, 900);
-	CHECK_AS(!ton.Q && ton.ET == 0, "a clock that went back");
+	CHECK_AS(!ton.Q && ton.ET == 0,
+		 "a clock that went back starts the time again at 0");
 	fb_TON_step(&ton, 1060);
 	CHECK(ton.Q && ton.ET == 60);
 	ton.IN = 0;
@@ -60,7 +61,7 @@ static void tof_holds(void)
 	struct fb_TOF tof = { .PT = 30 };
 
 	fb_TOF_step(&tof, 10);
-	CHECK_AS(!tof.Q && tof.ET == 0, "never was on");
+	CHECK_AS(!tof.Q && tof.ET == 0, "a TOF is off in the first call with IN = FALSE");
 	tof.IN = 1;
 	fb_TOF_step(&tof, 20);
 	CHECK(tof.Q && tof.ET == 0);
@@ -68,19 +69,20 @@ static void tof_holds(void)
 	fb_TOF_step(&tof, 40);
 	CHECK(tof.Q && tof.ET == 0);
 	fb_TOF_step(&tof, 20);
-	CHECK_AS(tof.Q && tof.ET == 0, "a clock that went back");
+	CHECK_AS(tof.Q && tof.ET == 0,
+		 "a clock that went back starts the time again at 0");
 	fb_TOF_step(&tof, 69);
 	CHECK(tof.Q && tof.ET == 29);
 	fb_TOF_step(&tof, 70);
 	CHECK(!tof.Q && tof.ET == 30);
 	fb_TOF_step(&tof, 500);
-	CHECK_AS(!tof.Q && tof.ET == 30, "ET is held");
+	CHECK_AS(!tof.Q && tof.ET == 30, "ET stays at PT while Q is off");
 	tof.IN = 1;
 	fb_TOF_step(&tof, 510);
 	tof.IN = 0;
 	tof.PT = 0;
 	fb_TOF_step(&tof, 520);
-	CHECK_AS(!tof.Q, "PT = 0: off at once");
+	CHECK_AS(!tof.Q, "a TOF with PT = 0 is off as soon as IN is off");
 	tof = (struct fb_TOF){ .IN = 1, .PT = -1 };
 	fb_TOF_step(&tof, 0);
 	CHECK(tof.Q);
@@ -93,7 +95,7 @@ static void tof_holds(void)
 	fb_TOF_step(&tof, 10);
 	tof.PT = 20;
 	fb_TOF_step(&tof, 40);
-	CHECK_AS(!tof.Q && tof.ET == 20, "a shorter preset while it runs");
+	CHECK_AS(!tof.Q && tof.ET == 20, "a shorter PT ends the running delay");
 }
 
 static void tp_gives_one_pulse(void)
@@ -101,10 +103,10 @@ static void tp_gives_one_pulse(void)
 	struct fb_TP tp = { .IN = 1 };
 
 	fb_TP_step(&tp, 0);
-	CHECK_AS(!tp.Q && tp.ET == 0, "PT = 0: no pulse");
+	CHECK_AS(!tp.Q && tp.ET == 0, "a TP with PT = 0 gives no pulse");
 	tp.PT = 10;
 	fb_TP_step(&tp, 1);
-	CHECK_AS(!tp.Q, "and none later, without a new edge");
+	CHECK_AS(!tp.Q, "a longer PT gives no pulse without a new rising IN");
 	tp.IN = 0;
 	fb_TP_step(&tp, 2);
 	tp.IN = 1;
@@ -114,11 +116,11 @@ static void tp_gives_one_pulse(void)
 	fb_TP_step(&tp, 8);
 	tp.IN = 1;
 	fb_TP_step(&tp, 12);
-	CHECK_AS(tp.Q && tp.ET == 9, "not retriggered");
+	CHECK_AS(tp.Q && tp.ET == 9, "a second edge of IN does not restart the pulse");
 	fb_TP_step(&tp, 13);
 	CHECK(!tp.Q && tp.ET == 10);
 	fb_TP_step(&tp, 50);
-	CHECK_AS(!tp.Q && tp.ET == 10, "as long as IN is on");
+	CHECK_AS(!tp.Q && tp.ET == 10, "ET stays at PT while IN is on");
 	tp.IN = 0;
 	fb_TP_step(&tp, 51);
 	CHECK(!tp.Q && tp.ET == 0);
@@ -126,7 +128,7 @@ static void tp_gives_one_pulse(void)
 	fb_TP_step(&tp, 60);
 	tp.IN = 0;
 	fb_TP_step(&tp, 75);
-	CHECK_AS(!tp.Q && tp.ET == 0, "over, and IN has gone: ET = 0");
+	CHECK_AS(!tp.Q && tp.ET == 0, "ET is 0 after the pulse when IN is off");
 	tp.IN = 1;
 	tp.PT = -1;
 	fb_TP_step(&tp, 76);
@@ -134,13 +136,14 @@ static void tp_gives_one_pulse(void)
 	tp = (struct fb_TP){ .IN = 1, .PT = 10 };
 	fb_TP_step(&tp, 100);
 	fb_TP_step(&tp, 50);
-	CHECK_AS(tp.Q && tp.ET == 0, "a clock that went back");
+	CHECK_AS(tp.Q && tp.ET == 0,
+		 "a clock that went back starts the pulse again at 0");
 	tp.PT = 5;
 	fb_TP_step(&tp, 105);
 	CHECK(!tp.Q && tp.ET == 5);
 	tp.PT = 500;
 	fb_TP_step(&tp, 106);
-	CHECK_AS(!tp.Q, "a pulse that is over does not come back");
+	CHECK_AS(!tp.Q, "a longer PT does not restart a finished pulse");
 }
 
 static void edge_up(struct fb_CTU *ctu)
@@ -157,7 +160,7 @@ static void ctu_stops_at_its_limit(void)
 
 	fb_CTU_step(&ctu, 0);
 	fb_CTU_step(&ctu, 0);
-	CHECK_AS(ctu.CV == 1 && !ctu.Q, "the first call may be an edge");
+	CHECK_AS(ctu.CV == 1 && !ctu.Q, "CU = TRUE in the first call counts as an edge");
 	edge_up(&ctu);
 	CHECK(ctu.CV == 2 && ctu.Q);
 	edge_up(&ctu);
@@ -169,7 +172,7 @@ static void ctu_stops_at_its_limit(void)
 	edge_up(&ctu);
 	ctu.R = 0;
 	fb_CTU_step(&ctu, 0);
-	CHECK_AS(ctu.CV == 0, "an edge during R is consumed");
+	CHECK_AS(ctu.CV == 0, "an edge of CU during R is not counted later");
 	ctu.PV = 0;
 	fb_CTU_step(&ctu, 0);
 	CHECK(ctu.Q);
@@ -185,7 +188,7 @@ static void ctd_stops_at_its_limit(void)
 	fb_CTD_step(&ctd, 0);
 	ctd.LD = 0;
 	fb_CTD_step(&ctd, 0);
-	CHECK_AS(ctd.CV == 1 && !ctd.Q, "an edge during LD is consumed");
+	CHECK_AS(ctd.CV == 1 && !ctd.Q, "an edge of CD during LD is not counted later");
 	ctd.CD = 0;
 	fb_CTD_step(&ctd, 0);
 	ctd.CD = 1;
@@ -202,7 +205,8 @@ static void ctud_goes_both_ways(void)
 	struct fb_CTUD both = { .PV = 1, .CU = 1, .CD = 1 };
 
 	fb_CTUD_step(&both, 0);
-	CHECK_AS(both.CV == 0 && both.QD && !both.QU, "both edges: neither");
+	CHECK_AS(both.CV == 0 && both.QD && !both.QU,
+		 "edges of CU and CD in one call do not change CV");
 	both.CD = both.CU = 0;
 	fb_CTUD_step(&both, 0);
 	both.CU = 1;
@@ -224,7 +228,7 @@ static void ctud_goes_both_ways(void)
 	CHECK(both.CV == 1);
 	both.LD = 0;
 	fb_CTUD_step(&both, 0);
-	CHECK_AS(both.CV == 1, "edges during R and LD are consumed");
+	CHECK_AS(both.CV == 1, "edges during R and LD are not counted later");
 }
 
 static void stores_bits(void)
@@ -246,11 +250,11 @@ static void stores_bits(void)
 	fb_RS_step(&rs, 0);
 	CHECK(!sr.Q1 && rs.Q1);
 	fb_R_TRIG_step(&rise, 0);
-	CHECK_AS(rise.Q, "the first call: an edge");
+	CHECK_AS(rise.Q, "R_TRIG: CLK = TRUE in the first call is an edge");
 	fb_R_TRIG_step(&rise, 0);
 	CHECK(!rise.Q);
 	fb_F_TRIG_step(&fall, 0);
-	CHECK_AS(!fall.Q, "the first call: no edge");
+	CHECK_AS(!fall.Q, "F_TRIG: CLK = FALSE in the first call is no edge");
 	fall.CLK = 1;
 	fb_F_TRIG_step(&fall, 0);
 	CHECK(!fall.Q);

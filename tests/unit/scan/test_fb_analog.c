@@ -27,24 +27,25 @@ static void hysteresis_keeps_between(void)
 	struct fb_HYSTERESIS one = { .EN = 1, .ON = 5.0f, .OFF = 5.0f };
 
 	CHECK(!hysteresis(&high, 19.9f));
-	CHECK_AS(hysteresis(&high, 20.0f), "on at ON");
+	CHECK_AS(hysteresis(&high, 20.0f), "Q is on when IN = ON");
 	CHECK(hysteresis(&high, 10.1f));
-	CHECK_AS(!hysteresis(&high, 10.0f), "off at OFF");
+	CHECK_AS(!hysteresis(&high, 10.0f), "Q is off when IN = OFF");
 	CHECK(!hysteresis(&high, 19.0f));
-	CHECK_AS(hysteresis(&low, 10.0f), "ON below OFF: on when it falls");
+	CHECK_AS(hysteresis(&low, 10.0f),
+		 "with ON below OFF, Q is on when IN falls to ON");
 	CHECK(hysteresis(&low, 19.9f));
 	CHECK(!hysteresis(&low, 20.0f));
 	CHECK(!hysteresis(&low, 10.1f));
-	CHECK_AS(hysteresis(&one, 5.0f), "ON = OFF: on at it");
+	CHECK_AS(hysteresis(&one, 5.0f), "with ON = OFF, Q is on when IN equals both");
 	CHECK(!hysteresis(&one, 4.9f));
 	hysteresis(&high, 25.0f);
-	CHECK_AS(hysteresis(&high, NAN), "no number: as it was");
+	CHECK_AS(hysteresis(&high, NAN), "Q does not change when IN is NaN");
 	CHECK(hysteresis(&high, -INFINITY));
 	high.ON = NAN;
 	CHECK(hysteresis(&high, 0.0f));
 	high.ON = 20.0f;
 	high.EN = 0;
-	CHECK_AS(!hysteresis(&high, 25.0f), "EN FALSE: FALSE");
+	CHECK_AS(!hysteresis(&high, 25.0f), "Q is off while EN is FALSE");
 	high.EN = 1;
 	CHECK(!hysteresis(&high, 15.0f));
 }
@@ -77,11 +78,13 @@ static void ramp_takes_its_time(void)
 	struct fb_RAMP ramp = { .EN = 1, .IN = 10.0f, .UP = 2.0f, .DOWN = 4.0f };
 
 	fb_RAMP_step(&ramp, 5 * SECOND);
-	CHECK_AS(ramp.ENO && ramp.OUT == 0.0f && !ramp.DONE, "starts from OUT");
+	CHECK_AS(ramp.ENO && ramp.OUT == 0.0f && !ramp.DONE,
+		 "the first call does not change OUT");
 	fb_RAMP_step(&ramp, 6 * SECOND);
 	CHECK(ramp.OUT == 2.0f);
 	fb_RAMP_step(&ramp, 8 * SECOND);
-	CHECK_AS(ramp.OUT == 6.0f, "by the time that passed");
+	CHECK_AS(ramp.OUT == 6.0f,
+		 "OUT rises by UP times the seconds since the last call");
 	fb_RAMP_step(&ramp, 20 * SECOND);
 	CHECK(ramp.OUT == 10.0f && ramp.DONE == 1);
 	ramp.IN = 0.0f;
@@ -92,9 +95,9 @@ static void ramp_takes_its_time(void)
 	CHECK(!ramp.ENO && ramp.OUT == 6.0f);
 	ramp.EN = 1;
 	fb_RAMP_step(&ramp, 30 * SECOND);
-	CHECK_AS(ramp.OUT == 6.0f, "time without EN does not count");
+	CHECK_AS(ramp.OUT == 6.0f, "the time while EN was FALSE does not count");
 	fb_RAMP_step(&ramp, 29 * SECOND);
-	CHECK_AS(ramp.OUT == 6.0f, "a clock that went back");
+	CHECK_AS(ramp.OUT == 6.0f, "OUT stays when the clock goes back");
 	ramp.IN = NAN;
 	fb_RAMP_step(&ramp, 30 * SECOND);
 	CHECK(!ramp.ENO && ramp.OUT == 6.0f);
@@ -106,7 +109,7 @@ static void ramp_takes_its_time(void)
 	ramp.DOWN = -3.0f;
 	ramp.IN = 0.0f;
 	fb_RAMP_step(&ramp, 40 * SECOND);
-	CHECK_AS(ramp.ENO && ramp.OUT == 100.0f, "a negative rate stands still");
+	CHECK_AS(ramp.ENO && ramp.OUT == 100.0f, "OUT stays when DOWN is negative");
 }
 
 static void ramp_loses_nothing(void)
@@ -117,13 +120,14 @@ static void ramp_loses_nothing(void)
 	for (int i = 0; i <= 100000; i++)
 		fb_RAMP_step(&ramp, i * MS);
 	CHECK_AS(fabsf(ramp.OUT - 16001.0f) < 0.01f,
-		 "steps far below the last digit add up");
+		 "steps smaller than the last digit of OUT add up");
 	memset(&ramp, 0xff, sizeof(ramp));
 	ramp.IN = 1.0f;
 	ramp.UP = ramp.DOWN = 1.0f;
 	ramp.LOAD = 0;
 	fb_RAMP_step(&ramp, 0);
-	CHECK_AS(ramp.ENO == 1 && ramp.OUT == ramp.OUT, "whatever its memory holds");
+	CHECK_AS(ramp.ENO == 1 && ramp.OUT == ramp.OUT,
+		 "OUT is a number even if the instance held NaNs");
 	ramp.exact = 1e300;
 	ramp.OUT = INFINITY;
 	fb_RAMP_step(&ramp, 1);
@@ -138,10 +142,12 @@ static void scale_is_a_line(void)
 	CHECK(scale.ENO && scale.OUT == 5.0f);
 	scale.IN = FLT_MAX;
 	fb_SCALE_step(&scale, 0);
-	CHECK_AS(!scale.ENO && scale.OUT == 5.0f, "too large: OUT rests");
+	CHECK_AS(!scale.ENO && scale.OUT == 5.0f,
+		 "OUT stays when the result is too large");
 	scale.OFFSET = -FLT_MAX;
 	fb_SCALE_step(&scale, 0);
-	CHECK_AS(scale.ENO && scale.OUT == FLT_MAX, "computed in double");
+	CHECK_AS(scale.ENO && scale.OUT == FLT_MAX,
+		 "only the result must fit a REAL, not the product");
 	scale.IN = NAN;
 	fb_SCALE_step(&scale, 0);
 	CHECK(!scale.ENO && scale.OUT == FLT_MAX);
@@ -170,12 +176,12 @@ static void range_goes_to_range(void)
 	fb.OUT_MIN = 100.0f;
 	fb.OUT_MAX = 0.0f;
 	CHECK_AS(range(&fb, 0.0f) == 100.0f && range(&fb, 12800.0f) == 75.0f &&
-		 range(&fb, 60000.0f) == 0.0f, "either way round");
+		 range(&fb, 60000.0f) == 0.0f, "OUT_MIN may be above OUT_MAX");
 	CHECK(range(&fb, NAN) == -999.0f && range(&fb, INFINITY) == -999.0f);
 	fb.IN_MAX = INFINITY;
 	CHECK(range(&fb, 1.0f) == -999.0f);
 	fb.IN_MAX = 6400.0f;
-	CHECK_AS(range(&fb, 1.0f) == -999.0f, "a range of nothing");
+	CHECK_AS(range(&fb, 1.0f) == -999.0f, "IN_MIN = IN_MAX gives ENO = FALSE");
 	fb.IN_MAX = 32000.0f;
 	fb.EN = 0;
 	CHECK(range(&fb, 1.0f) == -999.0f);
@@ -196,28 +202,31 @@ static void average_moves(void)
 	CHECK(average(&fb, 6.0f) == 4.5f && fb.COUNT == 2);
 	CHECK(average(&fb, 9.0f) == 6.0f && average(&fb, 12.0f) == 9.0f);
 	CHECK(average(&fb, NAN) == -999.0f && fb.OUT == 9.0f);
-	CHECK_AS(average(&fb, 15.0f) == 12.0f, "what is no number was not taken");
+	CHECK_AS(average(&fb, 15.0f) == 12.0f, "NaN was not added to the values");
 	fb.N = 1;
 	CHECK(average(&fb, 1.0f) == 1.0f);
 	fb.N = 5;
-	CHECK_AS(average(&fb, 3.0f) == 8.0f, "a larger N finds the older ones");
+	CHECK_AS(average(&fb, 3.0f) == 8.0f,
+		 "a larger N takes older values into the mean again");
 	fb.EN = 0;
 	CHECK(average(&fb, 100.0f) == -999.0f && fb.OUT == 8.0f);
 	fb.EN = fb.R = 1;
 	CHECK(average(&fb, 100.0f) == -999.0f && fb.COUNT == 0 && fb.OUT == 8.0f);
 	fb.R = 0;
-	CHECK_AS(average(&fb, 2.0f) == 2.0f, "begins anew");
+	CHECK_AS(average(&fb, 2.0f) == 2.0f, "the first value after R is the mean");
 	fb.N = 0;
 	CHECK(average(&fb, 7.0f) == 7.0f);
 	fb.N = INT16_MAX;
 	for (int i = 0; i < 200; i++)
 		average(&fb, (float)i);
-	CHECK_AS(fb.COUNT == 64 && fb.OUT == 167.5f, "64 at most");
-	CHECK_AS(average(&fb, FLT_MAX) == FLT_MAX / 64.0f, "no overflow inside");
+	CHECK_AS(fb.COUNT == 64 && fb.OUT == 167.5f, "the mean is of at most 64 values");
+	CHECK_AS(average(&fb, FLT_MAX) == FLT_MAX / 64.0f,
+		 "the sum of the values does not overflow");
 	memset(&fb, 0xff, sizeof(fb));
 	fb.R = 0;
 	fb.N = 64;
-	CHECK_AS(average(&fb, 64.0f) == 1.0f, "NaNs in its memory do not spread");
+	CHECK_AS(average(&fb, 64.0f) == 1.0f,
+		 "OUT is a number even if the instance held NaNs");
 }
 
 static bool near(float a, double b)
@@ -235,27 +244,29 @@ static void pid_has_three_terms(void)
 	fb_PID_step(&p, 0);
 	CHECK_AS(p.ENO && p.OUT == 20.0f && !p.HI && !p.LO, "P: KP * error");
 	fb_PID_step(&p, 10 * SECOND);
-	CHECK_AS(p.OUT == 20.0f, "no TI: no integral");
+	CHECK_AS(p.OUT == 20.0f, "without TI the error is not integrated");
 	p.TI = 2 * SECOND;
 	fb_PID_step(&p, 11 * SECOND);
 	CHECK_AS(p.OUT == 30.0f, "I: KP * error / TI a second");
 	fb_PID_step(&p, 13 * SECOND);
-	CHECK_AS(p.OUT == 50.0f, "by the time that passed");
+	CHECK_AS(p.OUT == 50.0f,
+		 "the integral grows with the seconds since the last call");
 	p.INVERT = 1;
 	p.PV = 60.0f;
 	p.TI = 0;
 	fb_PID_step(&p, 14 * SECOND);
-	CHECK_AS(p.OUT == 20.0f, "cooling");
+	CHECK_AS(p.OUT == 20.0f, "INVERT turns the sign of the error");
 	fb_PID_step(&d, 0);
 	d.PV = 1.0f;
 	fb_PID_step(&d, 100 * MS);
 	CHECK_AS(near(d.OUT, -1.0 - 8.0 * (1.0 - 0.1 / 0.225)),
-		 "D: filtered, of PV");
+		 "D: the filtered change of PV");
 	d.SP = 1.0f;
 	fb_PID_step(&d, 100 * MS);
-	CHECK_AS(near(d.OUT, -8.0 * (1.0 - 0.1 / 0.225)), "a new SP gives no kick");
+	CHECK_AS(near(d.OUT, -8.0 * (1.0 - 0.1 / 0.225)),
+		 "D: a new SP does not change OUT");
 	fb_PID_step(&d, 60 * SECOND);
-	CHECK_AS(fabsf(d.OUT) < 0.02f, "and it dies away");
+	CHECK_AS(fabsf(d.OUT) < 0.02f, "D: OUT goes back to 0 while PV stays");
 }
 
 static void pid_does_not_wind_up(void)
@@ -265,10 +276,11 @@ static void pid_does_not_wind_up(void)
 
 	for (int i = 0; i < 1000; i++)
 		fb_PID_step(&pid, i * 100 * MS);
-	CHECK_AS(pid.OUT == 100.0f && pid.HI == 1, "reaches its limit just so");
+	CHECK_AS(pid.OUT == 100.0f && pid.HI == 1, "OUT stops at MAX");
 	pid.PV = 51.0f;
 	fb_PID_step(&pid, 1000 * 100 * MS);
-	CHECK_AS(pid.OUT < 50.0f && !pid.HI, "and leaves it at once");
+	CHECK_AS(pid.OUT < 50.0f && !pid.HI,
+		 "OUT leaves MAX in the call in which the error changes its sign");
 	pid.PV = 200.0f;
 	for (int i = 1001; i < 2000; i++)
 		fb_PID_step(&pid, i * 100 * MS);
@@ -288,23 +300,25 @@ static void pid_goes_over_without_a_bump(void)
 	CHECK(pid.ENO && pid.OUT == 33.0f);
 	pid.MAN = 500.0f;
 	fb_PID_step(&pid, SECOND);
-	CHECK_AS(pid.OUT == 100.0f && pid.HI, "MAN has limits, too");
+	CHECK_AS(pid.OUT == 100.0f && pid.HI, "MAN is limited to MAX");
 	pid.MAN = 70.0f;
 	fb_PID_step(&pid, 2 * SECOND);
 	pid.MANUAL = 0;
 	fb_PID_step(&pid, 2 * SECOND + 10 * MS);
-	CHECK_AS(near(pid.OUT, 70.0 + 0.02), "automatic goes on from there");
+	CHECK_AS(near(pid.OUT, 70.0 + 0.02),
+		 "automatic mode starts at the last OUT of manual mode");
 	pid.EN = 0;
 	fb_PID_step(&pid, 3 * SECOND);
 	CHECK(!pid.ENO && near(pid.OUT, 70.02));
 	pid.PV = 45.0f;
 	pid.EN = 1;
 	fb_PID_step(&pid, 100 * SECOND);
-	CHECK_AS(near(pid.OUT, 70.02), "and so does EN");
+	CHECK_AS(near(pid.OUT, 70.02),
+		 "OUT starts at its last value when EN is TRUE again");
 	fb_PID_step(&pid, 101 * SECOND);
 	CHECK(near(pid.OUT, 71.02));
 	fb_PID_step(&pid, 99 * SECOND);
-	CHECK_AS(near(pid.OUT, 71.02), "a clock that went back");
+	CHECK_AS(near(pid.OUT, 71.02), "OUT stays when the clock goes back");
 }
 
 static void pid_takes_anything(void)
@@ -327,13 +341,14 @@ static void pid_takes_anything(void)
 		fb_PID_step(&bad[i], SECOND);
 		held &= !bad[i].ENO && bad[i].OUT == 20.0f;
 	}
-	CHECK_AS(held, "no number, MIN above MAX: OUT rests");
+	CHECK_AS(held, "OUT stays when an input is not finite or MIN is above MAX");
 	bad[0].PV = 40.0f;
 	fb_PID_step(&bad[0], SECOND);
-	CHECK_AS(bad[0].ENO && bad[0].OUT == 20.0f, "and goes on");
+	CHECK_AS(bad[0].ENO && bad[0].OUT == 20.0f,
+		 "OUT goes on from its last value when PV is a number again");
 	pid.MAN = NAN;
 	fb_PID_step(&pid, 0);
-	CHECK_AS(pid.ENO, "MAN is not looked at in automatic");
+	CHECK_AS(pid.ENO, "automatic mode does not read MAN");
 	pid.MANUAL = 1;
 	fb_PID_step(&pid, 0);
 	CHECK(!pid.ENO);
@@ -343,7 +358,7 @@ static void pid_takes_anything(void)
 	fb_PID_step(&pid, SECOND);
 	fb_PID_step(&pid, SECOND);
 	CHECK_AS(pid.ENO && pid.OUT >= 0.0f && pid.OUT <= 100.0f,
-		 "whatever its memory holds");
+		 "OUT is within MIN and MAX even if the instance held NaNs");
 	pid.integral = 1e308;
 	pid.smooth = 1e308;
 	pid.KP = FLT_MAX;

@@ -22,16 +22,18 @@ static void fifo_keeps_the_order(void)
 	struct fb_FIFO fifo = { .SIZE = 3, .POP = 1 };
 
 	fb_FIFO_step(&fifo, 0);
-	CHECK_AS(!fifo.Q && fifo.EMPTY && !fifo.FULL, "nothing to take out");
+	CHECK_AS(!fifo.Q && fifo.EMPTY && !fifo.FULL,
+		 "POP of an empty FIFO gives Q = FALSE");
 	fifo_edge(&fifo, true, false, 11);
 	CHECK(fifo.Q && fifo.COUNT == 1 && !fifo.EMPTY);
 	fb_FIFO_step(&fifo, 0);
-	CHECK_AS(!fifo.Q && fifo.COUNT == 1, "only at an edge");
+	CHECK_AS(!fifo.Q && fifo.COUNT == 1, "PUSH without a new edge stores nothing");
 	fifo_edge(&fifo, true, false, 22);
 	fifo_edge(&fifo, true, false, 33);
 	CHECK(fifo.Q && fifo.COUNT == 3 && fifo.FULL);
 	fifo_edge(&fifo, true, false, 44);
-	CHECK_AS(!fifo.Q && fifo.COUNT == 3, "full: lost, and Q says so");
+	CHECK_AS(!fifo.Q && fifo.COUNT == 3,
+		 "PUSH into a full FIFO stores nothing and gives Q = FALSE");
 	fifo_edge(&fifo, false, true, 0);
 	CHECK(fifo.Q && fifo.OUT == 11 && fifo.COUNT == 2 && !fifo.FULL);
 	fifo_edge(&fifo, true, true, 55);
@@ -40,19 +42,21 @@ static void fifo_keeps_the_order(void)
 	fifo_edge(&fifo, false, true, 0);
 	CHECK(fifo.OUT == 55 && fifo.EMPTY);
 	fifo_edge(&fifo, false, true, 0);
-	CHECK_AS(!fifo.Q && fifo.OUT == 55, "empty: OUT rests");
+	CHECK_AS(!fifo.Q && fifo.OUT == 55, "POP of an empty FIFO does not change OUT");
 	fifo_edge(&fifo, true, true, 66);
-	CHECK_AS(fifo.Q && fifo.OUT == 66 && fifo.EMPTY, "straight through");
+	CHECK_AS(fifo.Q && fifo.OUT == 66 && fifo.EMPTY,
+		 "PUSH and POP of an empty FIFO move IN to OUT");
 	fifo_edge(&fifo, true, false, 1);
 	fifo_edge(&fifo, true, false, 2);
 	fifo_edge(&fifo, true, false, 3);
 	fifo_edge(&fifo, true, true, 4);
-	CHECK_AS(fifo.Q && fifo.OUT == 1 && fifo.FULL, "full: takes out first");
+	CHECK_AS(fifo.Q && fifo.OUT == 1 && fifo.FULL,
+		 "PUSH and POP of a full FIFO take a value out first");
 	fifo.R = 1;
 	fifo_edge(&fifo, true, false, 5);
 	fifo.R = 0;
 	fb_FIFO_step(&fifo, 0);
-	CHECK_AS(fifo.EMPTY && !fifo.Q, "an edge during R is consumed");
+	CHECK_AS(fifo.EMPTY && !fifo.Q, "an edge of PUSH during R stores nothing later");
 }
 
 static void fifo_goes_round(void)
@@ -63,15 +67,16 @@ static void fifo_goes_round(void)
 
 	for (int i = 0; i < 64; i++)
 		fifo_edge(&fifo, true, false, i);
-	CHECK_AS(fifo.Q && fifo.FULL && fifo.COUNT == 64, "64 at most");
+	CHECK_AS(fifo.Q && fifo.FULL && fifo.COUNT == 64,
+		 "a FIFO holds at most 64 values");
 	for (int i = 64; i < 1000; i++) {
 		fifo_edge(&fifo, true, true, i);
 		good &= fifo.Q && fifo.OUT == expected++;
 	}
-	CHECK_AS(good, "in order, round and round");
+	CHECK_AS(good, "values come out in order past the end of the ring");
 	fifo.SIZE = 10;
 	fb_FIFO_step(&fifo, 0);
-	CHECK_AS(fifo.FULL && fifo.COUNT == 64, "a smaller SIZE loses nothing");
+	CHECK_AS(fifo.FULL && fifo.COUNT == 64, "a smaller SIZE keeps the stored values");
 	fifo.SIZE = -3;
 	fb_FIFO_step(&fifo, 0);
 	CHECK(fifo.FULL);
@@ -80,7 +85,8 @@ static void fifo_goes_round(void)
 	fifo_edge(&fifo, true, true, 9);
 	fifo.R = 0;
 	fifo_edge(&fifo, true, true, 9);
-	CHECK_AS(fifo.Q == 1 && fifo.COUNT <= 64, "whatever its memory holds");
+	CHECK_AS(fifo.Q == 1 && fifo.COUNT <= 64,
+		 "COUNT is at most 64 whatever the instance held");
 }
 
 static void lifo_edge(struct fb_LIFO_REAL *lifo, bool in, bool out, float value)
@@ -105,16 +111,17 @@ static void lifo_turns_it_round(void)
 	CHECK(!lifo.Q && lifo.FULL && lifo.COUNT == 2);
 	lifo_edge(&lifo, true, true, 4.5f);
 	CHECK_AS(lifo.Q && lifo.OUT == 2.5f && lifo.COUNT == 2,
-		 "full and both: takes out first");
+		 "PUSH and POP of a full LIFO take a value out first");
 	lifo_edge(&lifo, false, true, 0.0f);
 	CHECK(lifo.Q && lifo.OUT == 4.5f);
 	lifo_edge(&lifo, true, true, 5.5f);
-	CHECK_AS(lifo.OUT == 5.5f && lifo.COUNT == 1, "not full: the new one");
+	CHECK_AS(lifo.OUT == 5.5f && lifo.COUNT == 1,
+		 "PUSH and POP of a LIFO with room move IN to OUT");
 	lifo_edge(&lifo, false, true, 0.0f);
 	CHECK(lifo.OUT == 1.5f && lifo.EMPTY);
 	lifo_edge(&lifo, true, false, __builtin_nanf(""));
 	lifo_edge(&lifo, false, true, 0.0f);
-	CHECK_AS(lifo.OUT != lifo.OUT, "it stores what it is given");
+	CHECK_AS(lifo.OUT != lifo.OUT, "a LIFO_REAL stores NaN");
 	fb_LIFO_step(&whole, 0);
 	whole.POP = 1;
 	fb_LIFO_step(&whole, 0);
@@ -145,11 +152,11 @@ static void shift_moves_bits(void)
 	clock_bit(&shift, true);
 	CHECK(shift.W == 5 && !shift.Q);
 	fb_SHIFT_step(&shift, 0);
-	CHECK_AS(shift.W == 5, "only at an edge");
+	CHECK_AS(shift.W == 5, "CLK without a new edge shifts nothing");
 	clock_bit(&shift, true);
-	CHECK_AS(shift.W == 11 && shift.Q, "Q is the last bit");
+	CHECK_AS(shift.W == 11 && shift.Q, "Q is the last of the N bits");
 	clock_bit(&shift, false);
-	CHECK_AS(shift.W == 6 && !shift.Q, "what leaves is gone");
+	CHECK_AS(shift.W == 6 && !shift.Q, "a bit shifted out is lost");
 	shift.N = 2;
 	fb_SHIFT_step(&shift, 0);
 	CHECK(shift.W == 2 && shift.Q);
@@ -157,7 +164,7 @@ static void shift_moves_bits(void)
 	clock_bit(&shift, true);
 	shift.R = 0;
 	fb_SHIFT_step(&shift, 0);
-	CHECK_AS(shift.W == 0, "an edge during R is consumed");
+	CHECK_AS(shift.W == 0, "an edge of CLK during R shifts nothing later");
 	shift.N = 64;
 	shift.W = UINT64_MAX;
 	clock_bit(&shift, false);
@@ -167,7 +174,7 @@ static void shift_moves_bits(void)
 	CHECK(shift.W == UINT64_MAX - 1 && shift.Q);
 	shift.N = INT16_MIN;
 	fb_SHIFT_step(&shift, 0);
-	CHECK_AS(shift.W == 0, "N below 1 is 1");
+	CHECK_AS(shift.W == 0, "an N below 1 counts as 1");
 	shift.D = shift.CLK = 0x80;
 	shift.seen = 0;
 	fb_SHIFT_step(&shift, 0);
@@ -179,15 +186,15 @@ static void sema_gives_it_once(void)
 	struct fb_SEMA sema = { .CLAIM = 1 };
 
 	fb_SEMA_step(&sema, 0);
-	CHECK_AS(!sema.BUSY, "granted");
+	CHECK_AS(!sema.BUSY, "the first CLAIM gets it: BUSY is FALSE");
 	fb_SEMA_step(&sema, 0);
-	CHECK_AS(sema.BUSY, "taken");
+	CHECK_AS(sema.BUSY, "a second CLAIM does not get it: BUSY is TRUE");
 	sema.CLAIM = 0;
 	fb_SEMA_step(&sema, 0);
 	CHECK(sema.BUSY);
 	sema.CLAIM = sema.RELEASE = 1;
 	fb_SEMA_step(&sema, 0);
-	CHECK_AS(sema.BUSY && sema.taken, "CLAIM wins");
+	CHECK_AS(sema.BUSY && sema.taken, "CLAIM wins over RELEASE");
 	sema.CLAIM = 0;
 	fb_SEMA_step(&sema, 0);
 	CHECK(!sema.BUSY && !sema.taken);
@@ -210,7 +217,7 @@ static void sema_gives_it_once(void)
 	CHECK(up.CV == (high) && up.Q == 1); \
 	up.seen = 0; \
 	fb_CTU##type##_step(&up, 0); \
-	CHECK_AS(up.CV == (high), "CTU" #type " stops at its limit"); \
+	CHECK_AS(up.CV == (high), "CTU" #type " stops at its highest value"); \
 	up.R = 0x80; \
 	up.PV = 1; \
 	fb_CTU##type##_step(&up, 0); \
@@ -219,7 +226,7 @@ static void sema_gives_it_once(void)
 	CHECK(down.CV == (low) && down.Q == 1); \
 	down.seen = 0; \
 	fb_CTD##type##_step(&down, 0); \
-	CHECK_AS(down.CV == (low), "CTD" #type " stops at its limit"); \
+	CHECK_AS(down.CV == (low), "CTD" #type " stops at its lowest value"); \
 	down.LD = 1; \
 	down.PV = high; \
 	fb_CTD##type##_step(&down, 0); \
@@ -238,13 +245,13 @@ static void sema_gives_it_once(void)
 	CHECK(both.CV == (low) && both.QD == 1); \
 	both.seen_up = both.seen_down = 0; \
 	fb_CTUD##type##_step(&both, 0); \
-	CHECK_AS(both.CV == (low), "both edges: neither"); \
+	CHECK_AS(both.CV == (low), "edges of CU and CD in one call do not change CV"); \
 	both.LD = 1; \
 	fb_CTUD##type##_step(&both, 0); \
 	CHECK(both.CV == (high)); \
 	both.R = 1; \
 	fb_CTUD##type##_step(&both, 0); \
-	CHECK_AS(both.CV == 0, "CTUD" #type ": R wins"); \
+	CHECK_AS(both.CV == 0, "CTUD" #type ": R wins over LD"); \
 } while (0)
 
 static void counters_stop_at_their_limits(void)

@@ -97,7 +97,7 @@ static void chains_inputs(void)
 	for (int i = 0; i < 8; i++)
 		args.in[i].i = in[i];
 	CHECK_AS(fn_ADD(&args) == WRAPS && args.out.i == 33,
-		 "a wrap on the way marks the whole");
+		 "ADD reports a wrap of a partial sum");
 	args.count = 3;
 	CHECK(fn_ADD(&args) == OK && args.out.i == 126);
 	args.in[0].i = 64, args.in[1].i = 4, args.in[2].i = 0;
@@ -129,7 +129,8 @@ static void computes_reals(void)
 	CHECK(real(fn_DIV, 1, INFINITY, OK, 0));
 	CHECK(real(fn_ADD, most, 1, OK, most));
 	CHECK(real(fn_MUL, 1e-30f, 1e-30f, OK, 0));
-	CHECK_AS(real(fn_ADD, 16777216, 1, OK, 16777216), "rounded to 24 bits");
+	CHECK_AS(real(fn_ADD, 16777216, 1, OK, 16777216),
+		 "a sum of REAL is rounded to 24 bits");
 	CHECK(real(fn_MOVE, most, 0, OK, most));
 }
 

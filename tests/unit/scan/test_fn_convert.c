@@ -128,7 +128,8 @@ static void test_whole(enum iec_type from, enum iec_type to)
 				good &= converts(from, to, high);
 		}
 	}
-	snprintf(what, sizeof(what), "%s to %s at all ends", iec_type_row(from)->word,
+	snprintf(what, sizeof(what),
+		"%s to %s at the limits of both types", iec_type_row(from)->word,
 		 iec_type_row(to)->word);
 	CHECK_AS(good, what);
 }

@@ -114,7 +114,7 @@ static void cuts(void)
 		args.in[i].s = text(0);
 	args.count = LIMIT_FN_INPUTS;
 	CHECK_AS(fn_CONCAT(&args) == FN_WRAPPED && args.out.s->length == 255,
-		 "sixteen of the longest");
+		 "sixteen texts of 255 bytes are cut to 255");
 	CHECK(fn_LEN(&args) == FN_OK && args.out.i == 255);
 }
 
@@ -133,7 +133,7 @@ static void finds(void)
 	ready("aXb", "X", 0, 0);
 	((struct iec_string *)args.in[0].s)->text[1] = '\0';
 	((struct iec_string *)args.in[1].s)->text[0] = '\0';
-	CHECK_AS(fn_FIND(&args) == FN_OK && args.out.i == 2, "a byte of 0 is a byte");
+	CHECK_AS(fn_FIND(&args) == FN_OK && args.out.i == 2, "FIND finds a byte of 0");
 }
 
 int main(void)

@@ -170,7 +170,7 @@ static void reals(void)
 	CHECK_AS(good, "edges");
 	for (int e = -1074; e < 1024 && good; e++)
 		good = agrees(IEC_LREAL, real(ldexp(1, e)));
-	CHECK_AS(good, "powers of 2");
+	CHECK_AS(good, "powers of 2 are printed as literals that read back");
 	for (int i = 0; i < tap_rounds(60000) && good; i++) {
 		union iec_value value = { .i = (int64_t)(chance() & ~(UINT64_C(1) << 63)) };
 		uint32_t bits = (uint32_t)chance();
@@ -180,11 +180,12 @@ static void reals(void)
 		good = (!isfinite(value.r) || agrees(IEC_LREAL, value)) &&
 		       (!isfinite(single) || agrees(IEC_REAL, real((double)single)));
 	}
-	CHECK_AS(good, "random bits");
+	CHECK_AS(good, "random bits are printed as literals that read back");
 	for (int i = 0; i < tap_rounds(60000) && good; i++)
 		good = agrees(IEC_LREAL, real((double)(chance() % 1000000000) /
 					      (double)(1 << chance() % 24)));
-	CHECK_AS(good, "numbers of everyday");
+	CHECK_AS(good,
+		 "random numbers below 10^9 are printed as literals that read back");
 }
 
 /* The nearest value, as libc gives it. */
@@ -205,7 +206,7 @@ static bool nearest(const char *text)
 	return good;
 }
 
-/* Half way between two values: one digit far behind decides. */
+/* Half way between two values: one digit far to the right decides. */
 static void ties(void)
 {
 	CHECK(nearest("9007199254740993") && nearest("9007199254740993.0000000000001") &&
@@ -238,9 +239,9 @@ static void random_texts(void)
 		snprintf(text + at, 16, "e%d", (int)(chance() % 700) - 360);
 		good = nearest(text);
 	}
-	CHECK_AS(good, "random texts");
+	CHECK_AS(good, "random texts are read as libc reads them");
 	{
-		/* 255 bytes, nothing but digits, for the smallest of all. */
+		/* The smallest value with 255 digits. */
 		char text[256];
 
 		memset(text, '9', sizeof(text));

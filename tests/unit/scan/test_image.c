@@ -65,7 +65,7 @@ static void moves_bits_at_the_edges(void)
 	CHECK(rig_scan(&rig) && bytes(AREA_Q)[0] == 0x80);
 	CHECK(bytes(AREA_M)[0] == 0x83);
 	CHECK(rig_set(&rig, "M0", 5));
-	CHECK_AS(rig_get(&rig, "M0") == 1, "a BOOL is 0 or 1");
+	CHECK_AS(rig_get(&rig, "M0") == 1, "a BOOL set to 5 is 1");
 }
 
 /* A byte or word written from outside changes its bits. */
@@ -73,7 +73,7 @@ static void writes_wide(void)
 {
 	CHECK(rig_set(&rig, "%MB0", 0x82) && rig_get(&rig, "M0") == 0);
 	CHECK(rig_scan(&rig) && rig_get(&rig, "Q7") == 0);
-	CHECK_AS(rig_get(&rig, "%MB0") == 0x82, "and it stays");
+	CHECK_AS(rig_get(&rig, "%MB0") == 0x82, "a scan does not change %MB0");
 	CHECK(rig_set(&rig, "%MD0", 0x83) && rig_scan(&rig));
 	CHECK(rig_get(&rig, "Q7") == 1);
 	CHECK(rig_set(&rig, "%IB0", 1) && rig_scan(&rig));
@@ -109,7 +109,8 @@ static void finds_names(void)
 		CHECK_AS(at.type == IEC_NONE, unknown[i]);
 	}
 	at = image_find(image, "Motorbike", 5);
-	CHECK_AS(at.area == AREA_Q, "only as many bytes as are said");
+	CHECK_AS(at.area == AREA_Q,
+		 "image_find() reads only the given length of the name");
 }
 
 static void lists_symbols(void)
@@ -151,16 +152,17 @@ static void keeps_limits(void)
 		struct location at = { IEC_BOOL, AREA_V, i, false };
 
 		if (!image_force(image, at, one))
-			CHECK_AS(false, "room for LIMIT_FORCES");
+			CHECK_AS(false, "LIMIT_FORCES variables can be forced");
 	}
-	CHECK_AS(!rig_force(&rig, "Motor", 1), "and for no more");
+	CHECK_AS(!rig_force(&rig, "Motor", 1),
+		 "no more than LIMIT_FORCES variables can be forced");
 	CHECK_AS(rig_set(&rig, "V0", 0) && rig_force(&rig, "V0", 0),
-		 "but one that is held may change");
+		 "a forced variable takes a new value when all forces are used");
 	for (uint32_t i = 0; i < LIMIT_FORCES; i++) {
 		struct location at = { IEC_BOOL, AREA_V, i, false };
 
 		if (!image_unforce(image, at))
-			CHECK_AS(false, "all can be let go");
+			CHECK_AS(false, "each force can be removed");
 	}
 	CHECK(image->force_count == 0);
 }
@@ -192,14 +194,14 @@ static void forces_outputs(void)
 {
 	bytes(AREA_I)[0] = 0;
 	CHECK(rig_force(&rig, "Motor", 1) && rig_scan(&rig));
-	CHECK_AS(bytes(AREA_Q)[0] & 1, "what the driver gets");
+	CHECK_AS(bytes(AREA_Q)[0] & 1, "the driver gets the forced value");
 	bytes(AREA_I)[0] = 1;
 	CHECK(rig_scan(&rig) && rig_force(&rig, "Motor", 0) && rig_scan(&rig));
 	CHECK(!(bytes(AREA_Q)[0] & 1));
 	CHECK_AS(rig_release(&rig, "Motor") && rig_get(&rig, "Motor") == 1,
-		 "what the program wrote comes back");
+		 "a released output has the value that the program wrote");
 	CHECK(rig_force(&rig, "%QB0", 0x40) && rig_scan(&rig));
-	CHECK_AS(bytes(AREA_Q)[0] == 0x40, "a byte of outputs that are bits");
+	CHECK_AS(bytes(AREA_Q)[0] == 0x40, "a forced byte of outputs reaches the driver");
 	CHECK(rig_release(&rig, "%QB0") && rig_scan(&rig));
 	CHECK(bytes(AREA_Q)[0] & 1);
 }
@@ -214,17 +216,19 @@ static void forces_numbers(void)
 	CHECK(rig_real(&rig, "Heat") == (double)0.1f);
 	CHECK(image_unforce(image, heat));
 	CHECK_AS(rig_real(&rig, "Heat") == 1.5,
-		 "a REAL that cannot be held exactly lets go all the same");
+		 "a REAL forced to 0.1 has its own value after the release");
 	CHECK(rig_set(&rig, "Count", 9) && rig_force(&rig, "Count", 70000));
 	CHECK(rig_scan(&rig) && rig_get(&rig, "Count") == 4464);
 	CHECK(rig_release(&rig, "Count") && rig_get(&rig, "Count") == 9);
 	CHECK(rig_force(&rig, "Kept", 0) && rig_force(&rig, "Kept", 1));
 	CHECK(rig_scan(&rig) && rig_force(&rig, "Kept", 0) && rig_scan(&rig));
 	CHECK(rig_release(&rig, "Kept"));
-	CHECK_AS(rig_get(&rig, "Kept") == 1, "not one of its other forces");
+	CHECK_AS(rig_get(&rig, "Kept") == 1,
+		 "a release after two forces gives the value before the first");
 	CHECK(rig_set(&rig, "M40", 0) && rig_set(&rig, "M41", 0));
 	CHECK(rig_force(&rig, "%MX5.1", 1) && rig_scan(&rig));
-	CHECK_AS(rig_get(&rig, "%MB5") & 2, "a packed marker");
+	CHECK_AS(rig_get(&rig, "%MB5") & 2,
+		 "a forced bit of a word of markers is seen in its byte");
 	CHECK(rig_release(&rig, "M41") && !(rig_get(&rig, "%MB5") & 2));
 }
 
@@ -242,7 +246,7 @@ int main(void)
 		forces_numbers();
 		resource_start(&rig.resource);
 		CHECK_AS(rig.resource.image.force_count == 0 &&
-			 rig_get(&rig, "Count") == 0, "a start lets all go");
+			 rig_get(&rig, "Count") == 0, "a start removes all forces");
 	}
 	rig_close(&rig);
 	return tap_done();

@@ -150,7 +150,8 @@ static void test_points(const char *path)
 		const struct score *s = &scores[i];
 		char text[80];
 
-		snprintf(text, sizeof(text), "%s: %d points, %d not to the nearest",
+		snprintf(text, sizeof(text),
+			"%s: %d points, %d not rounded to the nearest value",
 			 functions[i].name, s->points, s->misrounded);
 		CHECK_AS(s->points > 100 && s->wrong == 0, text);
 	}
@@ -169,7 +170,7 @@ static void test_exact(void)
 	wrong = 0;
 	for (int k = -1074; k < 1024; k++)
 		wrong += !same(math_pow(2, k), ldexp(1, k));
-	CHECK_AS(wrong == 0, "a power of 2 is exact, subnormals too");
+	CHECK_AS(wrong == 0, "powers of 2 are exact, also subnormal ones");
 	wrong = 0;
 	state = 1;
 	for (int k = 0; k < 20000; k++) {
@@ -183,7 +184,7 @@ static void test_exact(void)
 		x = (double)(random_bits() & 0xffff);
 		wrong += !same(math_pow(x, 3), x * x * x);
 	}
-	CHECK_AS(wrong == 0, "squares and cubes, exact ties to even");
+	CHECK_AS(wrong == 0, "squares and cubes are exact, ties are rounded to even");
 	CHECK(same(math_exp(0.0), 1) && same(math_exp(-0.0), 1));
 	CHECK(same(math_log(1), 0.0) && same(math_log10(1), 0.0));
 	CHECK(same(math_cos(0.0), 1) && same(math_cos(-0.0), 1));
@@ -214,7 +215,8 @@ static void test_signs(void)
 		if (fabs(x) < 1)
 			wrong += !same(math_asin(-x), -math_asin(x));
 	}
-	CHECK_AS(wrong == 0, "odd and even, sine and cosine within 1");
+	CHECK_AS(wrong == 0,
+		 "sine, tangent, arcs are odd, cosine is even; both within -1 … 1");
 	wrong = 0;
 	for (int k = -1074; k < -30; k++) {
 		double x = ldexp(1.5, k);
@@ -223,7 +225,7 @@ static void test_signs(void)
 			wrong += llabs(place(odd[i](x)) - place(x)) > 0;
 		wrong += !same(math_exp(2 * ldexp(x, -30)), 1);
 	}
-	CHECK_AS(wrong == 0, "of a small angle nothing is lost");
+	CHECK_AS(wrong == 0, "the sine of a small angle is the angle");
 }
 
 static void test_special(void)
@@ -357,7 +359,7 @@ static void test_neighbours(void)
 	}
 }
 
-/* ---- the same everywhere ---- */
+/* ---- the same on every processor ---- */
 
 static uint64_t mixed(uint64_t sum, double x)
 {
@@ -374,7 +376,7 @@ static void test_sum(void)
 
 	state = 4;
 	for (int k = 0; k < 1000000 / (int)FUNCTIONS; k++) {
-		/* By turns: sizes one meets, all sizes, near 1. */
+		/* In turn: numbers of usual size, of all sizes, near 1. */
 		int low = k % 3 == 0 ? -8 : k % 3 == 1 ? -1022 : -2;
 		uint64_t count = k % 3 == 0 ? 16 : k % 3 == 1 ? 2046 : 2;
 
@@ -386,7 +388,8 @@ static void test_sum(void)
 		}
 	}
 	printf("# sum of a million results: %016" PRIx64 "\n", sum);
-	CHECK_AS(sum == SUM, "a million results have the bits they have everywhere");
+	CHECK_AS(sum == SUM,
+		 "a million results have the same bits as on every other processor");
 }
 
 int main(int argc, char **argv)

@@ -176,7 +176,7 @@ static int count_of(struct rig *rig, enum vm_op op)
 	return count;
 }
 
-/* Each box is one instruction; so is each comparison with its neighbours. */
+/* Each box is one instruction, and so is each comparison with the contacts beside it. */
 static void is_short(const char *type, enum vm_op math, enum vm_op cmp)
 {
 	struct rig rig;
@@ -189,7 +189,7 @@ static void is_short(const char *type, enum vm_op math, enum vm_op cmp)
 	rig_close(&rig);
 }
 
-/* ---- comparisons that others read ---- */
+/* ---- comparisons read by other instructions ---- */
 
 static void keeps_comparisons(void)
 {

@@ -46,13 +46,13 @@ static void has_states(void)
 	resource_fail(r, FAULT_IO);
 	resource_fail(r, FAULT_WATCHDOG);
 	CHECK_AS(r->state == STATE_FAULT && r->fault == FAULT_IO,
-		 "the first cause is kept");
+		 "a second fault does not replace the first one");
 	CHECK(!scan_at(6) && r->scans == 1);
 	resource_stop(r);
 	CHECK_AS(r->state == STATE_FAULT, "a stop does not clear a fault");
 	resource_start(r);
 	CHECK(r->state == STATE_RUN && r->fault == FAULT_NONE);
-	CHECK_AS(rig_get(&rig, "Count") == 0, "cold again");
+	CHECK_AS(rig_get(&rig, "Count") == 0, "a start resets the variables");
 	for (int fault = 0; fault < FAULT_COUNT; fault++)
 		CHECK(fault_text((enum fault)fault)[0] != '\0');
 	CHECK_TEXT(fault_text(FAULT_COUNT), "unknown");
@@ -116,7 +116,8 @@ static void counts_errors(void)
 	CHECK(r->vm.errors == 1 && r->state == STATE_RUN);
 	CHECK_TEXT(r->error_at.pou, "Main");
 	CHECK(r->error_at.rung == 3 && r->error_at.row == 1 && r->error_at.col == 3);
-	CHECK_AS(rig_get(&rig, "SYS_ERRORS") == 0, "seen a scan later");
+	CHECK_AS(rig_get(&rig, "SYS_ERRORS") == 0,
+		 "SYS_ERRORS counts the error in the next scan");
 	CHECK(rig_get(&rig, "SYS_MATH_ERROR") == 0 && rig_get(&rig, "Q1") == 0);
 	CHECK(rig_set(&rig, "Split", 0) && scan_at(2));
 	CHECK(rig_get(&rig, "SYS_ERRORS") == 1 && rig_get(&rig, "SYS_MATH_ERROR"));
@@ -124,7 +125,7 @@ static void counts_errors(void)
 	CHECK(rig_get(&rig, "SYS_MATH_ERROR") == 0);
 	CHECK(rig_set(&rig, "Count", INT16_MAX) && scan_at(4));
 	CHECK(rig_get(&rig, "Count") == INT16_MIN && r->vm.errors == 2);
-	CHECK_AS(r->error_at.rung == 3, "the place is that of the first one");
+	CHECK_AS(r->error_at.rung == 3, "the place is that of the first error");
 }
 
 static void faults_on_the_budget(void)
@@ -135,7 +136,7 @@ static void faults_on_the_budget(void)
 	CHECK(rig_set(&rig, "Go", 1) && scan_at(0) && rig_get(&rig, "Q2") == 1);
 	CHECK(rig_set(&rig, "Spin", 1) && !scan_at(1));
 	CHECK(r->state == STATE_FAULT && r->fault == FAULT_BUDGET);
-	CHECK_AS(rig_get(&rig, "Q2") == 1, "later programs did not run");
+	CHECK_AS(rig_get(&rig, "Q2") == 1, "the program after the fault does not run");
 	CHECK_TEXT(r->fault_at.pou, "Main");
 	CHECK(r->fault_at.rung == 6 && r->fault_at.row == 1 && r->fault_at.col == 3);
 	resource_start(r);
@@ -160,7 +161,8 @@ static void tells_power(void)
 	CHECK(rig_set(&rig, "Go", 1) && rig_scan(&rig));
 	CHECK(power_of(0, 1, 1, 1) == 3 && power_of(0, 1, 1, 2) == 3);
 	CHECK(power_of(0, 1, 1, 3) == 3);
-	CHECK_AS(power_of(0, 1, 2, 1) == 2, "the seal-in of the scan before");
+	CHECK_AS(power_of(0, 1, 2, 1) == 2,
+		 "the seal-in contact shows Q0 of the scan before");
 	CHECK(rig_set(&rig, "Go", 0) && rig_scan(&rig));
 	CHECK(power_of(0, 1, 1, 1) == 2 && power_of(0, 1, 2, 1) == 3);
 	CHECK(power_of(0, 1, 1, 2) == 3 && power_of(1, 1, 1, 2) == 0);
@@ -171,7 +173,7 @@ static void tells_power(void)
 	CHECK(power_of(0, 1, 1, UINT32_MAX) == -1);
 	rig.resource.watch = false;
 	CHECK(rig_set(&rig, "Q0", 0) && rig_scan(&rig));
-	CHECK_AS(power_of(0, 1, 1, 2) == 3, "nobody watches: as it was");
+	CHECK_AS(power_of(0, 1, 1, 2) == 3, "power is not updated while nobody watches");
 	rig.resource.watch = true;
 	CHECK(rig_scan(&rig) && power_of(0, 1, 1, 2) == 0);
 }
@@ -184,12 +186,12 @@ static void tells_places_while_watched(void)
 	resource_start(r);
 	CHECK(rig_set(&rig, "Go", 1) && rig_set(&rig, "Split", 1) && rig_scan(&rig));
 	CHECK_AS(r->vm.errors && r->error_at.rung == 3 && r->error_at.col == 3,
-		 "of an operation that failed");
+		 "the place of a failed operation is known while watched");
 	CHECK(rig_set(&rig, "Spin", 1) && !rig_scan(&rig));
 	CHECK(r->fault == FAULT_BUDGET);
 	CHECK_TEXT(r->fault_at.pou, "Main");
 	CHECK_AS(r->fault_at.rung == 6 && r->fault_at.row == 1 && r->fault_at.col == 3,
-		 "of a fault");
+		 "the place of a fault is known while watched");
 	resource_start(r);
 }
 
@@ -233,7 +235,8 @@ int main(void)
 		shows_what_it_is_told();
 		counts_errors();
 		faults_on_the_budget();
-		CHECK_AS(power_of(0, 1, 1, 1) == -1, "built without the map");
+		CHECK_AS(power_of(0, 1, 1, 1) == -1,
+			 "a program built without the power map has no power");
 	}
 	rig_close(&rig);
 	tells_power();

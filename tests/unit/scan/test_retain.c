@@ -86,7 +86,7 @@ static void close_bench(struct bench *bench)
 	rig_close(&bench->rig);
 }
 
-/* While the value is odd or even, so that the byte behind it differs, too. */
+/* Sets Label to the digits of @value, or of seven times an odd @value. */
 static void set_text(struct rig *rig, int64_t value)
 {
 	enum { ROOM = 12 };
@@ -273,7 +273,7 @@ static void round_trip(struct bench *b, uint8_t *file, size_t len)
 	set_values(&b->rig, 1001);
 	write_slot(b, file, 0, 1, 0);
 	CHECK_AS(which(b, file, len, &found) == 1 && found.old_copy,
-		 "an empty slot beside a later copy");
+		 "a copy that is not the first, beside an empty slot, counts as old");
 }
 
 /* The file is cut at each byte: the first copy is found as long as it is complete. */
@@ -294,7 +294,8 @@ static void cut_file(struct bench *b, const uint8_t *file, size_t len,
 		unsaid += got == 1 && !found.old_copy;
 		free(part);
 	}
-	CHECK_AS(!mixed && !wrong && !unsaid, "cut at each byte");
+	CHECK_AS(!mixed && !wrong && !unsaid,
+		 "a file cut at any byte gives its last complete copy");
 }
 
 /* A write stops at each byte of the older copy: the new one is found up to there. */
@@ -318,7 +319,8 @@ static void cut_write(struct bench *b, const uint8_t *file, size_t len,
 		unsaid += found.seq == 8 && !found.old_copy &&
 			  memcmp(torn, file, len) != 0;
 	}
-	CHECK_AS(!mixed && !wrong && !unsaid, "a write cut at each byte");
+	CHECK_AS(!mixed && !wrong && !unsaid,
+		 "a write cut at any byte leaves a complete copy");
 	CHECK(found.seq == 9 && !found.old_copy);
 	free(torn);
 	free(next);
@@ -341,7 +343,7 @@ static void turn_bits(struct bench *b, uint8_t *file, size_t len, uint32_t size,
 		unsaid += !found.old_copy;
 		file[at] ^= (uint8_t)(1u << bit % 8);
 	}
-	CHECK_AS(!mixed && !wrong && !unsaid, "each bit turned");
+	CHECK_AS(!mixed && !wrong && !unsaid, "a copy with any bit changed is not used");
 	file[40] ^= 1;
 	file[room + 40] ^= 1;
 	CHECK(which(b, file, len, &found) == 0 && !found.fits);
@@ -369,11 +371,11 @@ static void keeps_two_slots(void)
 	set_values(&b.rig, 1001);
 	write_slot(&b, file, 0, UINT32_MAX, 0);
 	CHECK_AS(which(&b, file, 2 * (size_t)room, &found) == 2,
-		 "8 is newer than the last number");
+		 "number 8 is newer than the highest number");
 	set_values(&b.rig, 2002);
 	write_slot(&b, file, 1, UINT32_MAX - 1, 0);
 	CHECK_AS(which(&b, file, 2 * (size_t)room, &found) == 1,
-		 "the last number is newer than the one before");
+		 "the highest number is newer than the one before it");
 	set_values(&b.rig, 1001);
 	write_slot(&b, file, 0, 7, 0);
 	set_values(&b.rig, 2002);
@@ -402,11 +404,11 @@ static void fits_edited(void)
 	take_all(&after, &found, fate);
 	CHECK(rig_get(rig, "Count") == 1003 && rig_get(rig, "Mark") == 1);
 	CHECK(rig_get(rig, "Wide") == 3009 && rig_get(rig, "Main.Count") == 7021);
-	CHECK_AS(has_text(rig, 1003), "a text in a wider room");
+	CHECK_AS(has_text(rig, 1003), "a text is kept in a variable with more room");
 	CHECK_AS(image_get(&rig->resource.image, rig_at(rig, "Short")).s->length == 2,
-		 "one that has no room any more is lost, not cut");
+		 "a text longer than its new room is lost, not cut");
 	CHECK(rig_get(rig, "On") == 4 && rig_get(rig, "Extra") == 9);
-	CHECK_AS(rig_get(rig, "Delay.ET") == 0, "a TON's time is no TOF's");
+	CHECK_AS(rig_get(rig, "Delay.ET") == 0, "ET of a TON is not kept for a TOF");
 	CHECK(fate[RETAIN_KEPT] == 5 && fate[RETAIN_NO_NAME] == 1 &&
 	      fate[RETAIN_NO_TYPE] == 8);
 	CHECK(!after.retain.taken[0] && after.retain.taken[1]);
@@ -452,22 +454,23 @@ static void keeps_stores(void)
 	open_bench(&after, fewer_stores);
 	take_all(&after, &found, fate);
 	CHECK_AS(rig_get(rig, "Parcels.COUNT") == 5 && rig_get(rig, "Line.Own.COUNT") > 30,
-		 "counts are kept");
+		 "the counts of FIFOs are kept");
 	step_stores(rig, true, 999);
 	CHECK_AS(rig_get(rig, "Parcels.COUNT") == 5 && rig_get(rig, "Parcels.FULL") == 1,
-		 "more than a smaller SIZE has room for is kept, and no more comes in");
+		 "a smaller SIZE keeps all stored values and takes no new one");
 	step_stores(rig, false, 0);
-	CHECK_AS(first > 100 && rig_get(rig, "Parcels.OUT") == first, "the oldest first");
+	CHECK_AS(first > 100 && rig_get(rig, "Parcels.OUT") == first,
+		 "POP gives the oldest value first");
 	for (int i = 0; i < 4; i++)
 		step_stores(rig, false, 0);
 	CHECK_AS(rig_get(rig, "Parcels.OUT") == 171 && rig_get(rig, "Parcels.EMPTY") == 1,
-		 "the newest last");
+		 "POP gives the newest value last");
 	CHECK_AS(rig_get(rig, "Trays.COUNT") == 0 && fate[RETAIN_NO_TYPE] == 15,
-		 "a store of another type is lost, all of it");
+		 "all values of a store of another type are lost");
 	rig_set(rig, "%IX0.2", 1);
 	rig_scan(rig);
 	CHECK_AS(rig_real(rig, "Mean.OUT") == 3.0 && rig_get(rig, "Mean.COUNT") == 4,
-		 "a mean goes on");
+		 "AVERAGE goes on with its old values");
 	free(file);
 	close_bench(&b);
 	close_bench(&after);

@@ -90,8 +90,8 @@ static void test_loops(void)
 	}
 }
 
-/* A jump back costs the words it goes back over, plus one; the budget allows a last
- * one, and not the next. The code has a known length: a loop of one JMP costs 1. */
+/* A jump back costs the words it jumps over, plus one. A run may spend its whole
+ * budget, not more. The code has a known length: a loop of one JMP costs 1. */
 static void test_budget(void)
 {
 	struct scan_bed bed;
@@ -122,11 +122,11 @@ static void test_budget(void)
 	set(&bed, "N", 0);
 	vm.budget = spent;
 	CHECK_AS(vm_run(&vm, 0, false) == FAULT_NONE && vm.budget == 0,
-		 "a budget that is just enough");
+		 "the run ends without a fault when its budget is just enough");
 	set(&bed, "N", 0);
 	vm.budget = spent - 1;
 	CHECK_AS(vm_run(&vm, 0, false) == FAULT_BUDGET,
-		 "a budget that is one too small");
+		 "the run is a fault when its budget is too small by 1");
 	CHECK(get(&bed, "N") == 3);
 	close_bed(&bed);
 }
@@ -143,7 +143,7 @@ static void test_stops_there(void)
 		CHECK(!resource_scan(&bed.resource, MS));
 		CHECK(get(&bed, "N") == 0);
 		CHECK_AS(!resource_scan(&bed.resource, 2 * MS),
-			 "and no scan runs any more");
+			 "no scan runs after a fault");
 		CHECK(bed.resource.scans == 1);
 		resource_stop(&bed.resource);
 		CHECK_AS(bed.resource.state == STATE_FAULT,
@@ -162,7 +162,7 @@ static void test_first_fault(void)
 		resource_fail(&bed.resource, FAULT_IO);
 		resource_fail(&bed.resource, FAULT_WATCHDOG);
 		CHECK_AS(bed.resource.fault == FAULT_IO,
-			 "the first cause is kept");
+			 "a second fault does not replace the first one");
 		resource_start(&bed.resource);
 		CHECK(bed.resource.state == STATE_RUN);
 		CHECK(bed.resource.fault == FAULT_NONE);
@@ -185,11 +185,13 @@ static void test_errors(void)
 		CHECK(resource_scan(&bed.resource, MS));
 		CHECK(bed.resource.vm.errors == 2);
 		CHECK_AS(bed.resource.error_at.rung == 1,
-			 "the first operation that failed");
-		CHECK_AS(get(&bed, "SYS_MATH_ERROR") == 0, "not in this scan");
+			 "the place is that of the first failed operation");
+		CHECK_AS(get(&bed, "SYS_MATH_ERROR") == 0,
+			 "SYS_MATH_ERROR is FALSE in the scan of the error");
 		set(&bed, "Zero", 1);
 		CHECK(resource_scan(&bed.resource, 2 * MS));
-		CHECK_AS(get(&bed, "SYS_MATH_ERROR") == 1, "in the next one");
+		CHECK_AS(get(&bed, "SYS_MATH_ERROR") == 1,
+			 "SYS_MATH_ERROR is TRUE in the next scan");
 		CHECK(get(&bed, "SYS_ERRORS") == 2);
 		CHECK(resource_scan(&bed.resource, 3 * MS));
 		CHECK(get(&bed, "SYS_MATH_ERROR") == 0);
@@ -307,15 +309,18 @@ static void test_force(void)
 	CHECK(force(&bed, "In", 1));
 	CHECK(force(&bed, "Other", 1));
 	scan_times(&bed, 1);
-	CHECK_AS(get(&bed, "Both") == 1, "both forces hold before the program");
-	CHECK_AS(image_area(image, AREA_Q)[0] == 3, "and reach the outputs");
+	CHECK_AS(get(&bed, "Both") == 1,
+		 "the program reads the forced values of two inputs");
+	CHECK_AS(image_area(image, AREA_Q)[0] == 3,
+		 "the outputs follow the forced inputs");
 	CHECK(force(&bed, "Out", 0));
 	CHECK(image_is_forced(image, at(&bed, "Out")));
 	scan_times(&bed, 1);
 	CHECK_AS(image_area(image, AREA_Q)[0] == 2,
-		 "a forced output holds behind the program");
+		 "a forced output keeps its value after the program wrote it");
 	CHECK(image_unforce(image, at(&bed, "Out")));
-	CHECK_AS(get(&bed, "Out") == 1, "what the program wrote reappears");
+	CHECK_AS(get(&bed, "Out") == 1,
+		 "a released output has the value that the program wrote");
 	CHECK(!image_unforce(image, at(&bed, "Out")));
 	CHECK(!image_is_forced(image, at(&bed, "Out")));
 	scan_times(&bed, 1);
@@ -323,7 +328,7 @@ static void test_force(void)
 	close_bed(&bed);
 }
 
-/* A variable that is not written keeps its value, however long it is forced. */
+/* A variable that the program does not write has its old value after a force. */
 static void test_aside(void)
 {
 	struct scan_bed bed;
@@ -339,13 +344,14 @@ static void test_aside(void)
 	scan_times(&bed, 3);
 	CHECK(get(&bed, "Out") == 0);
 	image_unforce(image, at(&bed, "In"));
-	CHECK_AS(get(&bed, "In") == 1, "an input reappears as it was");
+	CHECK_AS(get(&bed, "In") == 1, "a released input has its old value");
 	CHECK(force(&bed, "N", -5));
 	CHECK(force(&bed, "N", -6));
 	scan_times(&bed, 2);
 	CHECK(get(&bed, "N") == -6);
 	image_unforce(image, at(&bed, "N"));
-	CHECK_AS(get(&bed, "N") == 5, "a number as the program wrote it last");
+	CHECK_AS(get(&bed, "N") == 5,
+		 "a released number has the value that the program wrote last");
 	close_bed(&bed);
 }
 
@@ -375,7 +381,7 @@ static void test_no_force(void)
 	CHECK(image_get_bit(image, AREA_M, LIMIT_FORCES - 1));
 	CHECK(!image_get_bit(image, AREA_M, LIMIT_FORCES));
 	resource_start(&bed.resource);
-	CHECK_AS(image->force_count == 0, "a cold start holds nothing");
+	CHECK_AS(image->force_count == 0, "a cold start removes all forces");
 	close_bed(&bed);
 }
 

@@ -46,7 +46,7 @@ static void ask(struct pair *pair, const char *text)
 		printf("# not the same: \"%s\"\n", text);
 }
 
-/* The name, in another case, and shortened: each with every possible text behind it. */
+/* Looks up the name, in another case and shortened, with every possible text after it. */
 static void ask_like(struct pair *pair, const char *name)
 {
 	char text[2 * LIMIT_NAME + 96];
@@ -126,7 +126,7 @@ int main(void)
 	if (rig_open(&rig, alike, false)) {
 		CHECK(rig_get(&rig, "value") == 1 && rig_get(&rig, "MAIN.VALUE") == 2);
 		CHECK(rig_real(&rig, "Belt.Value") == 3.0);
-		compare(ladder_program(rig.ladder), "names like one another");
+		compare(ladder_program(rig.ladder), "each of the similar names is found");
 	}
 	rig_close(&rig);
 	samples();

@@ -90,18 +90,20 @@ static void has_order(void)
 	CHECK(tasks_tick(p, 0, 10 * MS) == 2 * MS);
 	CHECK(tasks_tick(p, 0, 5 * MS) == MS);
 	CHECK(tasks_tick(p, 3 * MS, 10 * MS) == MS);
-	CHECK_AS(tasks_tick(p, MS / 1000, 7) == LIMIT_TICK, "not too short");
+	CHECK_AS(tasks_tick(p, MS / 1000, 7) == LIMIT_TICK,
+		 "a tick is not below LIMIT_TICK");
 }
 
-/* At start + k * interval only, whatever the time of a scan is. */
+/* Deadlines are start + k * interval, also after a late scan. */
 static void keeps_deadlines(void)
 {
 	start();
 	CHECK(scan_at(100) && rig_get(&rig, "Order") == 3125);
-	CHECK_AS(rig_get(&rig, "Firsts") == 2, "all see the first scan");
+	CHECK_AS(rig_get(&rig, "Firsts") == 2, "each task sees SYS_FIRST_SCAN");
 	CHECK(scan_at(101) && rig_get(&rig, "Order") == 5);
 	CHECK(scan_at(103) && rig_get(&rig, "Order") == 35);
-	CHECK_AS(task(FAST)->next_ns == 104 * MS, "one late scan moves nothing");
+	CHECK_AS(task(FAST)->next_ns == 104 * MS,
+		 "one late scan does not move the next deadline");
 	CHECK(scan_at(104) && rig_get(&rig, "Order") == 35);
 	CHECK(scan_at(105) && rig_get(&rig, "Order") == 5);
 	CHECK(task(FAST)->runs == 3 && task(FAST)->overruns == 0);
@@ -109,7 +111,7 @@ static void keeps_deadlines(void)
 		if (!scan_at(ms))
 			break;
 	CHECK_AS(task(FAST)->runs == 501 && task(SLOW)->runs == 101,
-		 "no drift in a second");
+		 "tasks run as often as planned in a second");
 	CHECK(task(FAST)->overruns == 0 && task(SLOW)->overruns == 0);
 	CHECK(task(REST)->runs == 1000);
 }
@@ -119,11 +121,13 @@ static void leaves_periods_out(void)
 	start();
 	CHECK(scan_at(0) && scan_at(7));
 	CHECK_AS(task(FAST)->runs == 2 && task(FAST)->overruns == 2,
-		 "due at 2, missed 4 and 6");
-	CHECK_AS(task(FAST)->next_ns == 8 * MS, "on its grid again");
+		 "a scan at 7 ms counts the deadlines 4 and 6 as overruns");
+	CHECK_AS(task(FAST)->next_ns == 8 * MS,
+		 "the next deadline is a multiple of the interval again");
 	CHECK(scan_at(8) && task(FAST)->runs == 3);
 	CHECK(scan_at(1000) && task(FAST)->runs == 4);
-	CHECK_AS(task(FAST)->overruns == 497, "no burst to catch up");
+	CHECK_AS(task(FAST)->overruns == 497,
+		 "a task that missed 497 deadlines runs once");
 	CHECK(task(SLOW)->runs == 2 && task(SLOW)->overruns == 99);
 	CHECK(task(FAST)->late_row == 1 && task(SLOW)->late_row == 1);
 	CHECK(scan_at(1002) && task(FAST)->late_row == 0);
@@ -144,13 +148,14 @@ static void sees_events(void)
 	CHECK(scan_at(1) && task(BELL)->runs == 0);
 	rig_set(&rig, "Ring", 1);
 	CHECK(scan_at(2) && rig_get(&rig, "Order") == 45);
-	CHECK_AS(scan_at(3) && task(BELL)->runs == 1, "an edge, not a level");
+	CHECK_AS(scan_at(3) && task(BELL)->runs == 1,
+		 "an event task does not run again while its variable stays TRUE");
 	rig_set(&rig, "Ring", 0);
 	CHECK(scan_at(4) && task(BELL)->runs == 1);
 	rig_set(&rig, "Go", 1);
 	CHECK(scan_at(5) && task(BELL)->runs == 1);
 	CHECK_AS(scan_at(11) && rig_get(&rig, "Order") == 31425,
-		 "in the cycle in which another task makes the edge, next in turn");
+		 "an event task runs in the cycle in which another task makes the edge");
 	CHECK(task(BELL)->overruns == 0);
 	start();
 	rig_set(&rig, "Ring", 1);
@@ -165,7 +170,7 @@ static void keeps_an_event(void)
 	rig_set(&rig, "Ring", 1);
 	rig_set(&rig, "Go", 1);
 	CHECK_AS(scan_at(0) && rig_get(&rig, "Order") == 43125,
-		 "once a cycle, though TSlow made an edge again");
+		 "an event task runs once in a cycle with two edges");
 	CHECK(task(BELL)->due && task(BELL)->runs == 1);
 	CHECK(scan_at(1) && rig_get(&rig, "Order") == 45);
 	CHECK(task(BELL)->runs == 2 && task(BELL)->overruns == 0);
@@ -203,7 +208,7 @@ static void yields(void)
 	start();
 	rig.resource.clock_ns = slow_clock;
 	CHECK_AS(timed_scan(0, 900000) && rig_get(&rig, "Order") == 3125,
-		 "the first scan is whole");
+		 "all tasks run in the first scan");
 	for (int64_t ms = 2; ms < 10; ms += 2)
 		CHECK(timed_scan(ms, 1000) && rig_get(&rig, "Order") == 35);
 	CHECK(timed_scan(10, 400000) && rig_get(&rig, "Order") == 31);
@@ -221,16 +226,16 @@ static void yields_to_events(void)
 	CHECK(timed_scan(0, 900000) && rig_get(&rig, "Order") == 3125);
 	rig.resource.due_ns = 1 * MS;
 	CHECK_AS(timed_scan(1, 900000) && rig_get(&rig, "Order") == 5,
-		 "one task, however slow");
+		 "one task runs in a cycle whose deadline has passed");
 	rig.resource.due_ns = 8 * MS;
 	CHECK(timed_scan(8, 1000) && rig_get(&rig, "Order") == 35);
 	CHECK(task(FAST)->overruns == 3);
 	rig.resource.due_ns = 10 * MS - 1;
 	CHECK_AS(timed_scan(10, 200000) && rig_get(&rig, "Order") == 3125,
-		 "within its time a cycle is whole");
+		 "all due tasks run in a cycle before its deadline");
 	rig.resource.due_ns = 18 * MS;
 	CHECK_AS(timed_scan(20, 1000) && rig_get(&rig, "Order") == 3,
-		 "TBell is above all others");
+		 "the cycle ends after TFast: TBell may be due");
 	rig.resource.tick_ns = 0;
 }
 
@@ -249,19 +254,22 @@ static void has_watchdogs(void)
 	rig.resource.clock_ns = slow_clock;
 	CHECK(timed_scan(0, 1000) && !timed_scan(2, MS));
 	told("task TFast: watchdog: too late or too long");
-	CHECK_AS(rig_get(&rig, "Order") == 3, "nothing runs behind it");
+	CHECK_AS(rig_get(&rig, "Order") == 3, "no task runs after a watchdog fault");
 	start();
 	rig.resource.clock_ns = slow_clock;
 	CHECK(timed_scan(0, 1000));
-	CHECK_AS(timed_scan(10, 900000), "without patience only WATCHDOG counts");
+	CHECK_AS(timed_scan(10, 900000),
+		 "with patience 0, only WATCHDOG of the task is a fault");
 	start();
 	rig.resource.clock_ns = slow_clock;
 	rig.resource.patience = 3;
 	CHECK(timed_scan(0, 1) && timed_scan(4, 1) && timed_scan(8, 1));
-	CHECK_AS(!timed_scan(12, 1), "late three times in a row");
+	CHECK_AS(!timed_scan(12, 1),
+		 "with patience 3, being late three times in a row is a fault");
 	told("task TFast: watchdog: too late or too long");
 	start();
-	CHECK_AS(scan_at(0) && rig.resource.fault == FAULT_NONE, "reset");
+	CHECK_AS(scan_at(0) && rig.resource.fault == FAULT_NONE,
+		 "a start ends the fault");
 }
 
 /* An endless loop is a fault of its own task; each task has its own budget. */
@@ -303,7 +311,8 @@ static void needs_no_names(void)
 	CHECK_TEXT(task_name(&program, 1), "");
 	code_identity(&program, after);
 	code_identity(ladder_program(rig.ladder), before);
-	CHECK_AS(memcmp(before, after, 32) == 0, "the same identity");
+	CHECK_AS(memcmp(before, after, 32) == 0,
+		 "an image without names has the same identity");
 	arena_free(&scratch);
 	free(bare);
 }

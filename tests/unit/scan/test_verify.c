@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_verify - the image of draft.h with one wrong word at a time: the verifier
- * refuses each. A missing rule fails here by name.
+ * refuses each. The name of a failed check is the accepted change.
  */
 #include "tests/unit/draft.h"
 
@@ -12,17 +12,19 @@ static void test_good(void)
 	struct draft d;
 
 	draft_good(&d);
-	CHECK_AS(judge(&d) == DIAG_COUNT, "the image is good as it stands");
+	CHECK_AS(judge(&d) == DIAG_COUNT, "the unchanged image is accepted");
 	d.text[AT_COPY] = op(VM_COPY, 4);
 	d.text[AT_MATH] = op(VM_DINT, MATH_MUL);
 	d.text[AT_MATH + 1] = own(1);
-	CHECK_AS(judge(&d) == DIAG_COUNT, "and with instructions that say more");
+	CHECK_AS(judge(&d) == DIAG_COUNT,
+		 "a COPY with a width and a DINT product with an enable are accepted");
 	d.place[1].text = WORDS - 1;
-	CHECK_AS(judge(&d) == DIAG_COUNT, "a place at the last word");
+	CHECK_AS(judge(&d) == DIAG_COUNT, "a place at the last word is accepted");
 	d.text_words = d.entry[0].text_words = AT_END;
 	d.text[AT_JMPC + 1] = d.text[AT_JMP + 1] = AT_LUT;
 	d.place[1].text = AT_LUT;
-	CHECK_AS(judge(&d) == DIAG_COUNT, "an end that jumps back");
+	CHECK_AS(judge(&d) == DIAG_COUNT,
+		 "a program that ends with a jump back is accepted");
 }
 
 static void test_layout(void)
@@ -67,20 +69,22 @@ static void test_areas(void)
 	REFUSED(d.header.area_bytes[AREA_COUNT] = 1);
 	REFUSED(d.header.area_bytes[AREA_SM] = 63);
 	REFUSED(d.header.area_bytes[AREA_M] = d.header.area_bytes[AREA_V] = LIMIT_MEMORY);
-	/* The byte behind the last one is outside, even if no other data follows. */
+	/* The byte after the last one is outside, even if no other data follows. */
 	draft_good(&whole);
 	whole.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, last);
-	CHECK_AS(judge(&whole) == DIAG_COUNT, "the last word of the last area");
+	CHECK_AS(judge(&whole) == DIAG_COUNT,
+		 "a COPY into the last word of the last area is accepted");
 	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, last);
 		d.header.area_bytes[AREA_XAQ]--);
 	draft_good(&whole);
 	whole.header.area_bytes[AREA_XAQ]--;
-	CHECK_AS(judge(&whole) == DIAG_COUNT, "which may be smaller if nobody asks for it");
+	CHECK_AS(judge(&whole) == DIAG_COUNT,
+		 "a smaller last area is accepted if nothing uses the byte");
 	REFUSED(d.text[AT_BITPUT + 2] = last + 3; d.header.area_bytes[AREA_XAQ]--);
 	REFUSED(d.symbol[3] = CODE_OPERAND(IEC_BOOL | SYMBOL_BIT, (last + 3) * 8);
 		d.header.area_bytes[AREA_XAQ]--);
 	REFUSED(d.init[0] = last + 3; d.header.area_bytes[AREA_XAQ]--);
-	/* From one area into the next, which may be written, too. */
+	/* Across the end of an area into the next one, both writable. */
 	REFUSED(d.text[AT_COPY + 2] =
 		CODE_OPERAND(IEC_DINT, usual_areas()->at[AREA_V] - 2));
 	REFUSED(d.bits[1].first = 511 * 8 + 6; d.header.area_bytes[AREA_Q]--);
@@ -279,23 +283,23 @@ static void test_header(void)
 	header->version--;
 	((uint8_t *)room)[len - 1] ^= 1;
 	CHECK_AS(judge_bytes(room, len) == DIAG_IMAGE_DAMAGED,
-		 "one bit of the last byte");
+		 "the checksum finds one changed bit in the last byte");
 	for (int kind = 1; kind < CODE_SECTION_COUNT; kind++) {
 		len = pack(&d, (uint8_t *)room);
 		header->section[kind].offset = len + 4;
 		seal((uint8_t *)room, len);
 		CHECK_AS(judge_bytes(room, len) == DIAG_IMAGE_DAMAGED,
-			 "a section behind the end");
+			 "a section beyond the end is found");
 		len = pack(&d, (uint8_t *)room);
 		header->section[kind].size = len;
 		seal((uint8_t *)room, len);
 		CHECK_AS(judge_bytes(room, len) == DIAG_IMAGE_DAMAGED,
-			 "a section that is too long");
+			 "a section that is too long is found");
 		len = pack(&d, (uint8_t *)room);
 		header->section[kind].offset = 0;
 		seal((uint8_t *)room, len);
 		CHECK_AS(judge_bytes(room, len) == DIAG_IMAGE_DAMAGED,
-			 "a section in the header");
+			 "a section that overlaps the header is found");
 	}
 }
 
@@ -305,7 +309,8 @@ static void test_tasks(void)
 
 	draft_good(&good);
 	good.task[1].single = CODE_OPERAND(7, usual_areas()->at[AREA_I]);
-	CHECK_AS(judge(&good) == DIAG_COUNT, "a bit of an area");
+	CHECK_AS(judge(&good) == DIAG_COUNT,
+		 "a task with a bit of an area as its event is accepted");
 	REFUSED(d.task[0].kind = 3);
 	REFUSED(d.task[0].interval[0] = 99999);
 	REFUSED(d.task[0].interval[0] = 0);
@@ -410,7 +415,8 @@ static void test_other_blocks(void)
 		d.init[6] = own(NUMBER) + 4;
 		append_block(&d, at, at + size, size);
 		CHECK_AS(judge(&d) == (i ? DIAG_IMAGE_REFUSED : DIAG_COUNT),
-			 i ? "a TP is no TON" : "a TON is copied to a TON");
+			 i ? "a copy of a TP to a TON is refused"
+			   : "a copy of a TON to a TON is accepted");
 	}
 }
 
@@ -435,9 +441,9 @@ static void test_deep_calls(void)
 	append(&d, NULL, 0);
 	for (uint32_t i = 1; i <= LIMIT_CALLS; i++)
 		append_call(&d, i);
-	CHECK_AS(judge(&d) == DIAG_COUNT, "the deepest calls");
+	CHECK_AS(judge(&d) == DIAG_COUNT, "LIMIT_CALLS nested calls are accepted");
 	append_call(&d, LIMIT_CALLS + 1);
-	CHECK_AS(judge(&d) == DIAG_IMAGE_REFUSED, "calls that are too deep");
+	CHECK_AS(judge(&d) == DIAG_IMAGE_REFUSED, "one nested call more is refused");
 }
 
 int main(void)
