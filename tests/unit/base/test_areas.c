@@ -22,7 +22,7 @@ static void test_usual(void)
 	CHECK(areas.size == 20160 && areas.size % 8 == 0);
 }
 
-/* Each byte belongs to at most one area, whatever the sizes. */
+/* Each byte belongs to at most one area. */
 static bool is_sound(const struct areas *areas)
 {
 	uint32_t at = 0, offset = 0;
@@ -57,7 +57,7 @@ static void test_places(void)
 		}
 		good &= areas_place(&areas) && is_sound(&areas);
 	}
-	CHECK_AS(good, "areas of random sizes, 0 among them");
+	CHECK_AS(good, "areas of random sizes, also 0, do not overlap");
 }
 
 static bool takes(enum iec_area area, uint32_t bytes)
@@ -82,14 +82,17 @@ static void test_bounds(void)
 			!takes((enum iec_area)i, row->most + 1) &&
 			!takes((enum iec_area)i, UINT32_MAX);
 	}
-	CHECK_AS(good, "each to its bounds and not beyond");
+	CHECK_AS(good,
+		 "each area takes its least and its largest size, and no larger one");
 	CHECK(!takes(AREA_SM, 63) && !takes(AREA_NONE, 1));
 	areas_init(&areas);
 	areas.bytes[AREA_V] = LIMIT_MEMORY;
 	areas.bytes[AREA_M] = LIMIT_MEMORY - (areas.size - 2 * 8192);
-	CHECK_AS(areas_place(&areas) && areas.size == LIMIT_AREAS, "all there is");
+	CHECK_AS(areas_place(&areas) && areas.size == LIMIT_AREAS,
+		 "areas of LIMIT_AREAS bytes in all are accepted");
 	areas.bytes[AREA_M] += 8;
-	CHECK_AS(!areas_place(&areas) && areas.size == LIMIT_AREAS + 8, "8 bytes more");
+	CHECK_AS(!areas_place(&areas) && areas.size == LIMIT_AREAS + 8,
+		 "areas of 8 bytes more are refused");
 }
 
 static void test_have(void)
@@ -103,7 +106,8 @@ static void test_have(void)
 	CHECK(areas_place(&areas) && areas_have(&areas, at) &&
 	      areas_byte(&areas, at) == 513);
 	at.byte = 2;
-	CHECK_AS(!areas_have(&areas, at), "half of it");
+	CHECK_AS(!areas_have(&areas, at),
+		 "a word of which the area has only the first byte is refused");
 	at.bits = 1;
 	at.bit = 7;
 	CHECK(areas_have(&areas, at));
@@ -143,14 +147,14 @@ static void test_memory(void)
 	      usual - 8192 - 8192 + 8 + 16);
 }
 
-/* Functions that access an image between scans know its areas, too. */
+/* Access to an image between scans uses the sizes of its areas. */
 static void test_image(void)
 {
 	struct rig rig;
 	struct image *image;
 
 	if (!rig_open(&rig, SIZED("  AREA Q 1;\n  AREA V 65533;\n"), false)) {
-		CHECK_AS(false, "it builds");
+		CHECK_AS(false, "the program with areas of other sizes builds");
 		return;
 	}
 	image = &rig.resource.image;

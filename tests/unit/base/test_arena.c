@@ -74,11 +74,11 @@ static void grows(void)
 	CHECK(arena.used == 20);
 	arena_alloc(&arena, 8);
 	c = arena_grow(&arena, b, 20, 40);
-	CHECK_AS(c != b, "another one moves");
+	CHECK_AS(c != b, "an older allocation moves when it grows");
 	CHECK_TEXT(c, "123456789");
 	CHECK_TEXT(b, "123456789");
 	c = arena_grow(&arena, c, 40, 300000);
-	CHECK_AS(c && c[299999] == 0, "beyond a chunk");
+	CHECK_AS(c && c[299999] == 0, "an allocation larger than a chunk is zeroed");
 	CHECK_TEXT(c, "123456789");
 	arena_free(&arena);
 }
@@ -102,7 +102,7 @@ static void pushes(void)
 	CHECK(same);
 	for (int i = 0; i < 1000; i++)
 		same &= vector[i] == i * 3;
-	CHECK_AS(same, "elements survive every move");
+	CHECK_AS(same, "a vector keeps its elements when it moves");
 	arena_free(&arena);
 }
 
@@ -128,7 +128,7 @@ static void refuses(void)
 	CHECK(arena_grow(&arena, kept, 5, SIZE_MAX - 3) == NULL);
 	CHECK(arena.failed);
 	CHECK_TEXT(kept, "kept");
-	CHECK_AS(arena_alloc(&arena, 1) == NULL, "out of memory ever after");
+	CHECK_AS(arena_alloc(&arena, 1) == NULL, "a failed arena gives no more memory");
 	CHECK(arena_grow(&arena, kept, 5, 6) == NULL);
 	CHECK(arena_copy(&arena, "x", 1) == NULL);
 	CHECK(arena_push(&arena, &vector, &count, 4) == NULL);

@@ -159,7 +159,8 @@ static void other_rows(void)
 			addr.bits == (row->type == IEC_BOOL ? 1 :
 				      iec_type_row(row->type)->size * 8);
 	}
-	CHECK_AS(good, "operators, instructions and system names are whole");
+	CHECK_AS(good,
+		 "each operator, instruction and system variable has all its texts");
 	CHECK_TEXT(op_row(OP_COUNT)->word, "");
 	CHECK_TEXT(vm_row(VM_COUNT)->word, "");
 	CHECK_TEXT(sys_row(SYS_COUNT)->name, "");

@@ -29,7 +29,8 @@ static void prints(void)
 
 	place = (struct diag){ .id = DIAG_COIL_TWICE, .file = "a", .line = 2,
 			       .column = 7 };
-	CHECK_AS(diag_add(&list, place, "%s", "Motor"), "a warning is no failure");
+	CHECK_AS(diag_add(&list, place, "%s", "Motor"),
+		 "diag_add() returns true for a warning");
 	diag_print(&list.diag[1], text, sizeof(text));
 	CHECK_TEXT(text, "a:2:7: warning LD310: "
 			 "\"Motor\" is written by coils in two places; the last one wins");
@@ -58,7 +59,7 @@ static const char *filled(const char *text, const char *arg)
 	static char out[100];
 	int len = diag_fill(text, arg, out, sizeof(out));
 
-	return len == (int)strlen(out) ? out : "another length";
+	return len == (int)strlen(out) ? out : "the returned length is wrong";
 }
 
 static void fills_in_parts(void)
@@ -107,7 +108,7 @@ static void cleans_arguments(void)
 		arg = argument(text);
 		CHECK_AS(utf8_valid(arg, strlen(arg), NULL) &&
 			 strlen(arg) > LIMIT_ARG - 5,
-			 "clipped at a whole character");
+			 "a long argument is cut between two characters");
 	}
 }
 
@@ -161,7 +162,7 @@ static void codes_are_unique(void)
 		}
 	}
 	CHECK(unique);
-	CHECK_AS(differ, "no two messages say the same");
+	CHECK_AS(differ, "the texts of all messages differ");
 	CHECK(shaped);
 	CHECK_TEXT(diag_code(DIAG_COUNT), "LD000");
 	CHECK(diag_severity(DIAG_COUNT) == SEVERITY_ERROR);

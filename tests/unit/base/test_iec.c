@@ -80,7 +80,7 @@ static void areas(void)
 		good &= row->least <= row->usual && row->usual <= row->most &&
 			row->usual > 0 && row->letters[0];
 	}
-	CHECK_AS(good, "the usual size is one that may be");
+	CHECK_AS(good, "the usual size of each area is an allowed one");
 	CHECK(iec_area_row(AREA_NONE)->most == 0);
 	CHECK(iec_area_row(AREA_COUNT)->most == 0);
 	CHECK(iec_area_row(AREA_SM)->access == ACCESS_READ);
@@ -190,11 +190,12 @@ static void memory(void)
 		iec_store(bytes + 1, (enum iec_type)type, value);
 		good &= iec_load(bytes + 1, (enum iec_type)type).i == row->high;
 	}
-	CHECK_AS(good, "every type, unaligned, within its bytes");
+	CHECK_AS(good, "each type is stored unaligned in its own bytes only");
 	iec_store(bytes, IEC_DWORD, (union iec_value){ .i = 0x01020304 });
 	CHECK_AS(bytes[0] == 4 && bytes[3] == 1, "little-endian");
 	iec_store(bytes, IEC_INT, (union iec_value){ .i = 0x18001 });
-	CHECK_AS(iec_load(bytes, IEC_INT).i == -32767, "keeps the low bits");
+	CHECK_AS(iec_load(bytes, IEC_INT).i == -32767,
+		 "a value that is too large keeps its low bits");
 	iec_store(bytes, IEC_BOOL, (union iec_value){ .i = 3 });
 	CHECK_AS(bytes[0] == 1, "a BOOL in memory is 0 or 1");
 	CHECK(iec_load(bytes, IEC_NONE).i == 0);
@@ -295,7 +296,7 @@ static void prints_lreals(void)
 	CHECK(strtod(lreal(4.9406564584124654e-324), NULL) > 0);
 }
 
-/* Any bits read back as they were: subnormals too. */
+/* Prints and reads random bits, also subnormals. */
 static void lreals_read_back(void)
 {
 	uint64_t bits = 0x9e3779b97f4a7c15u;
@@ -344,7 +345,7 @@ static void the_calendar(void)
 		iec_civil(day, &year, &month, &of_month);
 		good = iec_days(year, month, of_month) == day;
 	}
-	CHECK_AS(good, "every day is its own date");
+	CHECK_AS(good, "each day gives a date that gives the same day");
 	CHECK(iec_date(2024, 2, 29, &ns) && !iec_date(2023, 2, 29, &ns) &&
 	      !iec_date(1900, 2, 29, &ns) && iec_date(2000, 2, 29, &ns));
 	CHECK(!iec_date(2024, 0, 1, &ns) && !iec_date(2024, 13, 1, &ns) &&

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_lex - the tokens of valid text; any other text ends, too.
+ * test_lex - the tokens of valid text, and that reading any other text ends.
  */
 #include "engine/base/lex.h"
 #include "tests/tap.h"
@@ -157,7 +157,8 @@ static void words(void)
 	lex_next(&lex);
 	CHECK(lex.token.kind == TOKEN_NEWLINE && lex.token.line == 1);
 	lex_skip_line(&lex);
-	CHECK_AS(lex_is(&lex, "b"), "from the newline itself");
+	CHECK_AS(lex_is(&lex, "b"),
+		 "lex_skip_line() on a newline token goes to the next line");
 	lex_skip_line(&lex);
 	CHECK(lex_is(&lex, "c"));
 }
@@ -209,7 +210,7 @@ static void utf8(void)
 	CHECK(utf8_width("a\xff", 2) == 2);
 }
 
-/* Any bytes: tokens lie in the text, one after another, and the text ends. */
+/* Whether all tokens lie in the text, one after another, and the last is TOKEN_END. */
 static bool ends(const char *text, size_t len, bool all)
 {
 	struct lex lex;
@@ -243,10 +244,11 @@ static void hostile(void)
 	}
 	CHECK(good);
 	memset(text, '(', sizeof(text));
-	CHECK_AS(ends(text, sizeof(text), true), "1 MB of one byte");
+	CHECK_AS(ends(text, sizeof(text), true), "1 MB of opening parentheses ends with TOKEN_END");
 	for (size_t i = 0; i < sizeof(text); i++)
 		text[i] = i & 1 ? '*' : '(';
-	CHECK_AS(ends(text, sizeof(text), true), "deepest comment");
+	CHECK_AS(ends(text, sizeof(text), true),
+		 "1 MB of nested comments ends with TOKEN_END");
 	for (int round = 0; round < 300; round++) {
 		size_t len = (size_t)(round % 97);
 
@@ -256,7 +258,7 @@ static void hostile(void)
 		}
 		good &= ends(text, len, round & 1);
 	}
-	CHECK_AS(good, "random text");
+	CHECK_AS(good, "random text ends with TOKEN_END");
 }
 
 int main(void)

@@ -69,7 +69,7 @@ static void reals(void)
 	CHECK(parse("REAL#1e39") == LITERAL_RANGE);
 }
 
-/* @count digits, of zeros the first is 1, and @end. */
+/* @count digits and @end; if the digit is 0, the first one is 1. */
 static const char *long_text(char digit, int count, const char *end)
 {
 	static char text[420];
@@ -82,17 +82,19 @@ static const char *long_text(char digit, int count, const char *end)
 	return text;
 }
 
-/* Many digits are read exactly or not at all. */
+/* A literal with many digits is read exactly or refused. */
 static void long_reals(void)
 {
 	char text[420] = "0.";
 
-	CHECK_AS(is_real(long_text('0', 309, ".0"), IEC_NONE, 1e308), "any zeros behind");
+	CHECK_AS(is_real(long_text('0', 309, ".0"), IEC_NONE, 1e308),
+		 "308 zeros after the first digit are read");
 	memset(text + 2, '0', 301);
 	text[303] = '5';
-	CHECK_AS(is_real(text, IEC_NONE, 5e-302), "and any in front");
+	CHECK_AS(is_real(text, IEC_NONE, 5e-302), "301 zeros after the point are read");
 	CHECK_AS(is_real(long_text('3', 254, "3e-254"), IEC_NONE, 10.0 / 3), "255 digits");
-	CHECK_AS(parse(long_text('3', 255, "3e-254")) == LITERAL_RANGE, "none is cut off");
+	CHECK_AS(parse(long_text('3', 255, "3e-254")) == LITERAL_RANGE,
+		 "a literal of 256 digits is refused, not cut");
 	CHECK(parse("1._5") == LITERAL_BAD && parse("1.5_") == LITERAL_BAD);
 }
 
@@ -200,7 +202,8 @@ static void fit(void)
 	CHECK(fits("1.5", IEC_REAL));
 	CHECK(fits("5", IEC_REAL));
 	CHECK(literal_fit(&last, IEC_REAL, &value) && value.r == 5);
-	CHECK_AS(!fits("16777217", IEC_REAL), "not exact as REAL");
+	CHECK_AS(!fits("16777217", IEC_REAL),
+		 "a whole number that a REAL cannot hold exactly does not fit");
 	CHECK(fits("16777216", IEC_REAL));
 	CHECK(!fits("9223372036854775807", IEC_REAL));
 	CHECK(!fits("1e39", IEC_REAL));
@@ -369,7 +372,7 @@ static void texts(void)
 	for (int i = 0; i < 255; i++, at += 3)
 		memcpy(text + at, "$41", 3);
 	memcpy(text + at, "'", 2);
-	CHECK_AS(strlen(quoted(text)) == 255, "as long as a text may be");
+	CHECK_AS(strlen(quoted(text)) == 255, "a text may have 255 bytes");
 	memcpy(text + at, "x'", 3);
 	CHECK(becomes(text, LITERAL_RANGE));
 }
@@ -391,7 +394,8 @@ static void lreals(void)
 	CHECK(becomes("9007199254740992", LITERAL_OK) &&
 	      literal_fit(&last, IEC_LREAL, &value));
 	CHECK_AS(becomes("9007199254740993", LITERAL_OK) &&
-		 !literal_fit(&last, IEC_LREAL, &value), "no silent rounding");
+		 !literal_fit(&last, IEC_LREAL, &value),
+		 "a whole number that an LREAL cannot hold exactly does not fit");
 }
 
 int main(void)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_name - spellings that are one name, and hashes and keys that go with them.
+ * test_name - spellings of one name, and their hashes and keys.
  *
  * `test_name --keys` prints the key of each line of its input, and whether it is one character
  * that may stand in a name: tests/names.t compares them with another implementation of Unicode.
@@ -63,10 +63,11 @@ static void heads(void)
 	CHECK(name_begins("gr\u00d6", 4, "Gro\u0308\u00dfe", 8) && !name_begins("gra", 3, "Gro", 3));
 	CHECK(name_begins("", 0, "a", 1) && !name_begins("ab", 2, "a", 1));
 	CHECK_AS(name_hash_more(name_hash_more(NAME_HASH, "\u00c4", 2), ".b", 2) ==
-		 name_hash_more(NAME_HASH, "a\u0308.B", 5), "a hash in pieces");
+		 name_hash_more(NAME_HASH, "a\u0308.B", 5),
+		 "the hash of two pieces is that of the whole name");
 }
 
-/* A letter with thousands of marks takes no longer than their number, and ends. */
+/* Comparing a letter with 100,000 marks takes linear time. */
 static void many_marks(void)
 {
 	const size_t count = 100000;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_names - every string has one id, every spelling of a name one fold.
+ * test_names - each string has one id, and all spellings of a name fold to one id.
  */
 #include "engine/base/names.h"
 #include "tests/tap.h"
@@ -43,7 +43,7 @@ static void folds(struct names *names)
 	uint32_t fold = names_fold(names, mixed);
 
 	CHECK(lower != mixed && mixed != upper);
-	CHECK_AS(fold == lower, "the spelling that came first");
+	CHECK_AS(fold == lower, "the folded name is the first spelling");
 	CHECK(names_fold(names, lower) == fold);
 	CHECK(names_fold(names, upper) == fold);
 	CHECK(names_fold(names, fold) == fold);
@@ -51,7 +51,7 @@ static void folds(struct names *names)
 	CHECK(names_fold(names, other) != fold);
 	CHECK(names_find_any(names, "PUMP", 4) == fold && names_find_any(names, "pump", 4) == fold);
 	CHECK_AS(names_find_any(names, "pUMp", 4) == fold && names_find(names, "pUMp", 4) == 0,
-		 "a spelling that nobody used");
+		 "a new spelling finds the name but is not stored");
 	CHECK(names_find_any(names, "pUM", 3) == 0 && names_find_any(names, "", 0) == 0);
 	CHECK(names_fold(names, 0) == 0);
 	CHECK(names_fold(names, 4000000000u) == 0);
@@ -61,7 +61,7 @@ static void folds(struct names *names)
 	CHECK_AS(names_fold(names, names_intern(names, "\u00e4", 2)) ==
 		 names_fold(names, names_intern(names, "\u00c4", 2)) &&
 		 names_find_any(names, "A\u0308", 3) == names_find(names, "\u00e4", 2),
-		 "spellings of other lengths");
+		 "spellings of different lengths are the same name");
 }
 
 static void grows(void)
@@ -81,7 +81,7 @@ static void grows(void)
 		id[i] = names_intern(&names, text, (size_t)len);
 		good &= id[i] == (uint32_t)i + 1;
 	}
-	CHECK_AS(good, "ids count up");
+	CHECK_AS(good, "new names get the next ids");
 	for (int i = 0; i < 20000; i++) {
 		int len = snprintf(text, sizeof(text), "Valve_%d", i);
 
@@ -92,7 +92,7 @@ static void grows(void)
 		other = names_intern(&names, text, (size_t)len);
 		good &= other != id[i] && names_fold(&names, other) == id[i];
 	}
-	CHECK_AS(good, "all found again, and folded");
+	CHECK_AS(good, "each name is found, and its capitals fold to it");
 	CHECK(names.count == 40001);
 	arena_free(&arena);
 }
@@ -109,7 +109,7 @@ static void out_of_memory(void)
 	arena.failed = true;
 	CHECK(names_intern(&names, "new", 3) == 0);
 	CHECK(names_intern(&names, "known", 5) == known);
-	CHECK_AS(names_fold(&names, known) == known, "needs no memory");
+	CHECK_AS(names_fold(&names, known) == known, "names_fold() works without memory");
 	arena_free(&arena);
 	arena.failed = true;
 	names_init(&names, &arena);
