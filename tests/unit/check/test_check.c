@@ -279,7 +279,7 @@ static void forget(void)
 	project->globals = (struct var_table){ vars, 0, &block, 0 };
 }
 
-/* All drawings are the rungs of one program; a label stands before a colon. */
+/* The drawings are rungs of one program; the text before a colon is a label. */
 static const char *names(int count, const char *const drawing[], uint8_t *bad)
 {
 	uint8_t *const all[1] = { bad };

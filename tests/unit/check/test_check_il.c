@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_check_il - every error of an instruction list, in lists and in expressions
- * of a ladder; and what is good gets none.
+ * of a ladder; and correct lists get none.
  */
 #include "engine/check/check_il.h"
 #include "tests/unit/rig.h"
@@ -34,12 +34,12 @@ static const char *first(const char *head, const char *body, const char *tail)
 				 diags->diag[i].arg[0] ? " " : "",
 				 diags->diag[i].arg);
 	if (!diags->errors != !!ladder_program(ladder))
-		snprintf(found, sizeof(found), "an error, or a program");
+		snprintf(found, sizeof(found), "errors and a program, or neither");
 	ladder_free(ladder);
 	return found;
 }
 
-/* The whole of what is wanted, or its beginning: messages may say more. */
+/* Compares the beginning only: a message may be longer than @want. */
 static void check_first(const char *got, const char *want, const char *what,
 			int line)
 {
@@ -86,7 +86,7 @@ static void takes_good_lists(void)
 	};
 
 	for (size_t i = 0; i < sizeof(good) / sizeof(good[0]); i++)
-		if (!CHECK_AS(!strcmp(il(good[i]), ""), "a good list"))
+		if (!CHECK_AS(!strcmp(il(good[i]), ""), "a correct list has no errors"))
 			printf("# %s:\n# %s\n", il(good[i]), good[i]);
 }
 
@@ -263,7 +263,7 @@ static void checks_cells(void)
 	CHECK_FIRST(cell("TON Delay PV:=5"), "LD319");
 }
 
-/* What both types widen to, for every pair; symmetric, and never narrower. */
+/* The type that both types widen to: symmetric, and never narrower. */
 static void joins_types(void)
 {
 	for (int a = 0; a < IEC_TYPE_COUNT; a++)
@@ -276,7 +276,7 @@ static void joins_types(void)
 			    (a == IEC_NONE && join != y) ||
 			    (a && b && join != IEC_TYPE_COUNT &&
 			     !(iec_can_widen(x, join) && iec_can_widen(y, join))))
-				CHECK_AS(false, "a join of two types");
+				CHECK_AS(false, "both types widen to their join");
 		}
 	CHECK(types_join(IEC_SINT, IEC_INT) == IEC_INT);
 	CHECK(types_join(IEC_USINT, IEC_SINT) == IEC_INT);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_check_sfc - charts that are not whole, made without the reader.
+ * test_check_sfc - incomplete charts, made without the reader.
  */
 #include "engine/check/check.h"
 #include "engine/check/expect.h"

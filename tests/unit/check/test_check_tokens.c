@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_check_tokens - what charts can come to, against a search that leaves nothing out.
+ * test_check_tokens - the states that a chart can reach, compared with a full search.
  *
  * The search fires every set of transitions that can fire together; check_tokens fires
  * one at a time, and proves the well-formed ones without a search.
@@ -44,7 +44,7 @@ static void test_good(void)
 	CHECK_TEXT(check("I A; S B; S C; S D; S E; T A>B,C; T C>D,E; T B,D,E>A"), "");
 	/* each of two joins has a way to it */
 	CHECK_TEXT(check("I A; M B; I C; S D; T C>D; E; T A>B; T B>A"), "");
-	CHECK_TEXT(check("I A; S B; T A>B"), ""); /* check_sfc tells */
+	CHECK_TEXT(check("I A; S B; T A>B"), ""); /* check_sfc() reports this */
 	CHECK_TEXT(check("I A; I B; S C; T A>C; T C>A; T B>B"), "");
 }
 
@@ -81,19 +81,19 @@ static void test_long_ways(void)
 
 static void test_unreached(void)
 {
-	/* the way there is always lost to the other */
+	/* the first transition always wins */
 	CHECK_TEXT(check("I A; S B; S C; T A>B=TRUE; T A>C; T B>A; T C>A"),
 		   "LD453:102 A -> C");
 	CHECK_TEXT(check("I A; S B; S C; T A>A; T B>C; T C>B"), "LD454:12 B");
-	/* never together */
+	/* B and C are never active together */
 	CHECK_TEXT(check("I A; S B; S C; S D; T A>B; T A>C; T B,C>D; T B>A; T C>A; "
 			 "T D>A"), "LD453:103 B + C -> D");
-	/* nothing leads to B: that is told elsewhere */
+	/* nothing leads to B: check_sfc() reports this */
 	CHECK_TEXT(check("I A; S B; S C; T A>A; T B>C; T C>A"), "");
 }
 
-/* One between two transitions may bring a step back; what comes out of nothing is looked
- * over. */
+/* A transition between two others may make their step active again. A transition without
+ * FROM or TO is not an error. */
 static void test_in_order(void)
 {
 	CHECK_TEXT(check("O; I A; S B; S C; T A>B=TRUE; T A>C; T B>A; T C>A"), "");
@@ -123,8 +123,8 @@ static void test_giving_up(void)
 		snprintf(join + strlen(join), 20, ",C%d", i);
 	append(join, sizeof(join), ">Z");
 	append(text, sizeof(text), join);
-	CHECK_TEXT(check(text), ""); /* proven */
-	append(text, sizeof(text), "; S D; T C0>D; T D>B0"); /* still proven: one more way */
+	CHECK_TEXT(check(text), ""); /* proven without a search */
+	append(text, sizeof(text), "; S D; T C0>D; T D>B0"); /* one more way: still proven */
 	CHECK_TEXT(check(text), "");
 	append(text, sizeof(text), "; S X; S Y; T D>X,Y; T X,Y,C1>C0,C1");
 	CHECK_TEXT(check(text), "LD455:1 20000");
@@ -181,7 +181,7 @@ static int add_macro(struct writer *w)
 	const int end = add_step(w, "S");
 	char item[60];
 
-	if (below(3) == 0) { /* more in it, which may stay behind */
+	if (below(3) == 0) { /* a second step, which may stay active */
 		const int more = add_step(w, "S");
 
 		snprintf(item, sizeof(item), "T N%d>N%d,N%d", first, more, end);
@@ -194,7 +194,7 @@ static int add_macro(struct writer *w)
 	return macro;
 }
 
-/* Something between two steps, well-formed. */
+/* Adds a correct random part between two steps. */
 static void add_between(struct writer *w, int a, int b, int depth)
 {
 	char item[60];
@@ -274,7 +274,7 @@ static void make_random(struct writer *w, int number)
 		add_random(w);
 }
 
-/* ---- the search that leaves nothing out ---- */
+/* ---- the full search ---- */
 
 struct truth {
 	const struct sfc *sfc;
@@ -375,7 +375,7 @@ static void find_truth(struct truth *t, const struct sfc *sfc, const uint8_t *al
 		look(t, queue[i], queue, &count);
 }
 
-/* ---- both ---- */
+/* ---- comparison of both ---- */
 
 static const uint8_t *constants(const struct test_sfc *c, struct arena *arena)
 {
@@ -409,7 +409,7 @@ static uint32_t mask(const uint8_t *bytes, int count)
 
 struct tally { int proven, walked, twice, dead, left, wrong; };
 
-/* What is found is so, if nothing is always true. */
+/* Whether each find is true in the full search, if no condition is always true. */
 static bool finds_hold(const struct tokens *t, const struct truth *truth)
 {
 	for (int i = 0; i < t->find_count; i++) {
@@ -464,7 +464,7 @@ static bool agree(struct tokens *t, const struct truth *truth, bool exact,
 	       !(truth->fires & ~mask(t->fires, t->net.arc_count));
 }
 
-/* What check_sfc() lets through, and small enough to look at all of it. */
+/* A chart that check_sfc() accepts, small enough for the full search. */
 static bool is_whole(const struct sfc *sfc)
 {
 	for (int i = 0; i < sfc->step_count; i++)

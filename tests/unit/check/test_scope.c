@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_scope - the meaning of operands: who wins, what may be written.
+ * test_scope - the meaning of operands: which declaration is used, and what may be
+ * written.
  */
 #include "engine/check/scope.h"
 #include "tests/tap.h"
@@ -140,7 +141,7 @@ static void test_literals(struct scope *scope)
 	CHECK(reason(scope, "INT#40000") == DIAG_LITERAL_RANGE);
 }
 
-/* More names than the first table of answers holds; each is found again. */
+/* Looks up more names than the first table of answers holds. */
 static void test_many(struct scope *scope)
 {
 	const struct meaning *first[2000];
