@@ -288,7 +288,7 @@ static const char *pairs(const char *a, const char *b)
 	return sink_memory_text(&memory);
 }
 
-/* Each rung once, -1 if it has no match. */
+/* Pairs name each rung once; -1: no match. */
 static void test_pairs(void)
 {
 	static const char one[] = "PROGRAM Main LD\n"
@@ -332,7 +332,7 @@ static const char *lines(const char *a, const char *b)
 	return sink_memory_text(&memory);
 }
 
-/* Each line once, removed lines before added ones. */
+/* Pairs name each line once, removed lines before added ones. */
 static void test_lines(void)
 {
 	static const char one[] = "PROGRAM P IL\nLD X\nST Y\nLD Z\nST W\nEND_PROGRAM\n";
