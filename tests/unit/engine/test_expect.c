@@ -85,19 +85,19 @@ static void test_lists(struct ladder *ladder)
 	CHECK_AS(strcmp(at(ladder, 12, 9), " Again ") == 0, "JMP takes labels");
 	words = at(ladder, 14, 15);
 	CHECK_AS(has(words, "PT") && has(words, "ET") && !has(words, "Open"),
-		 "pins, also on a further line of a call");
+		 "a call offers pins, also on its second line");
 	words = at(ladder, 15, 15);
 	CHECK_AS(has(words, "Q") && has(words, "ET") && !has(words, "Motor"),
-		 "parts behind a dot");
+		 "a dot offers the parts of the instance");
 	words = at(ladder, 17, 5);
 	CHECK_AS(has(words, "AND") && has(words, "ANDN(") && !has(words, "LD"),
-		 "operators with their modifiers");
+		 "the beginning of an operator offers it with its modifiers");
 	words = at(ladder, 17, 3);
 	CHECK_AS(has(words, "STPCN") && has(words, "SQRT") && has(words, "END_PROGRAM"),
-		 "operators, functions, the end");
+		 "the beginning of a line offers operators, functions and END_PROGRAM");
 	words = at(ladder, 18, 9);
 	CHECK_AS(has(words, "Delay") && has(words, "Sub") && !has(words, "Motor"),
-		 "CAL takes instances and subroutines");
+		 "CAL offers instances and subroutines");
 }
 
 static void test_cells(struct ladder *ladder)
@@ -107,23 +107,27 @@ static void test_cells(struct ladder *ladder)
 	CHECK_AS(has(words, "Motor") && has(words, "Open") && !has(words, "Level"),
 		 "a contact takes a BOOL");
 	CHECK_AS(strcmp(at(ladder, 22, 15), " Delay ") == 0, "TON takes a TON");
-	CHECK_AS(has(at(ladder, 22, 28), "PT"), "behind it its pins");
+	CHECK_AS(has(at(ladder, 22, 28), "PT"), "an instance is followed by its pins");
 	words = at(ladder, 22, 36);
-	CHECK_AS(has(words, "Motor") && !has(words, "Open"), "a coil writes");
+	CHECK_AS(has(words, "Motor") && !has(words, "Open"),
+		 "a coil takes a BOOL that can be written");
 	CHECK_AS(strcmp(at(ladder, 22, 44), " Sub ") == 0, "CALL takes subroutines");
 	words = at(ladder, 22, 51);
-	CHECK_AS(has(words, "Level") && !has(words, "Open"), "an expression takes all");
-	CHECK_AS(has(words, "LEN") && has(words, "LEFT"), "and functions");
-	CHECK_AS(has(at(ladder, 22, 66), "SQRT"), "behind an operator, too");
+	CHECK_AS(has(words, "Level") && !has(words, "Open"),
+		 "an expression takes variables");
+	CHECK_AS(has(words, "LEN") && has(words, "LEFT"),
+		 "an expression takes functions");
+	CHECK_AS(has(at(ladder, 22, 66), "SQRT"), "an operator is followed by functions");
 	words = at(ladder, 22, 77);
-	CHECK_AS(has(words, "INSERT") && !has(words, "INT_TO_REAL"), "and behind NOT");
-	CHECK_AS(at(ladder, 22, 90)[0] == '\0', "but not behind a value");
+	CHECK_AS(has(words, "INSERT") && !has(words, "INT_TO_REAL"),
+		 "NOT is followed by functions");
+	CHECK_AS(at(ladder, 22, 90)[0] == '\0', "a value is not followed by a word");
 	words = at(ladder, 22, 4);
 	CHECK_AS(has(words, "STOP") && has(words, "CTU") && has(words, "ADD"),
-		 "words of a cell");
+		 "an empty cell offers elements, blocks and functions");
 }
 
-/* Words made by rule whose first type is typed already. */
+/* Conversions are offered once their first type and its _ are typed. */
 static void test_made(struct ladder *ladder)
 {
 	const char *words = at(ladder, 26, 12);
@@ -141,16 +145,18 @@ static void test_made(struct ladder *ladder)
 		 "TO_S");
 	words = at(ladder, 29, 5);
 	CHECK_AS(has(words, "INC") || has(words, "INSERT"), "IN");
-	CHECK_AS(!strstr(words, "INT_"), "no flood before there is a type and its _");
-	CHECK_AS(!strstr(at(ladder, 29, 3), "_TO_"), "nor where nothing stands");
+	CHECK_AS(!strstr(words, "INT_"), "the letters IN offer no conversions");
+	CHECK_AS(!strstr(at(ladder, 29, 3), "_TO_"),
+		 "an empty place offers no conversions");
 	CHECK_AS(has(at(ladder, 30, 10), "TIME_OF_DAY_TO_DINT"), "TIME_OF");
 }
 
 static void test_places(struct ladder *ladder)
 {
 	CHECK_AS(has(at(ladder, 7, 10), "LREAL") && has(at(ladder, 7, 10), "TON"),
-		 "types behind a colon");
-	CHECK_AS(has(at(ladder, 24, 1), "SUBROUTINE"), "outside: what begins a part");
+		 "a colon offers types");
+	CHECK_AS(has(at(ladder, 24, 1), "SUBROUTINE"),
+		 "a line outside of programs offers the words that begin a part");
 	CHECK(strcmp(at(ladder, 99, 1), "nowhere") == 0);
 	CHECK(strcmp(at(ladder, 10, 99), "nowhere") == 0);
 	CHECK(strcmp(at(ladder, 0, 0), "nowhere") == 0);
@@ -179,11 +185,14 @@ static bool nearest_is(const char *wanted, const char *printed)
 
 static void test_nearest(void)
 {
-	CHECK_AS(nearest_is("Mootr", "Mootr" DIAG_AND "Motor, Rotor"), "swapped letters");
-	CHECK_AS(nearest_is("levle", "levle" DIAG_AND "Level"), "in any case");
+	CHECK_AS(nearest_is("Mootr", "Mootr" DIAG_AND "Motor, Rotor"),
+		 "names with two swapped letters are near");
+	CHECK_AS(nearest_is("levle", "levle" DIAG_AND "Level"),
+		 "the case of letters does not matter");
 	CHECK_AS(nearest_is("Lev", "Lev" DIAG_AND "Level, LevelLow"), "beginnings");
-	CHECK_AS(nearest_is("X", "X"), "one letter is like no other");
-	CHECK_AS(nearest_is("Something_else", "Something_else"), "nothing is near");
+	CHECK_AS(nearest_is("X", "X"), "one letter is not near another one");
+	CHECK_AS(nearest_is("Something_else", "Something_else"),
+		 "a different name has no near names");
 	CHECK(nearest_is("", ""));
 }
 

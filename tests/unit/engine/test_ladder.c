@@ -90,14 +90,16 @@ static void loads_again_and_again(void)
 	CHECK(!ladder_temporaries(ladder, 0, &count) && count == 0);
 	CHECK(!ladder_image(ladder, &len) && len == 0 && !ladder_write(ladder, &len));
 	CHECK(load(ladder, good) && ladder_project(ladder));
-	CHECK_AS(!ladder_program(ladder) && !ladder_il(ladder, 0), "not built yet");
+	CHECK_AS(!ladder_program(ladder) && !ladder_il(ladder, 0),
+		 "a loaded project has no program before it is built");
 	CHECK(ladder_build(ladder) && ladder_build(ladder));
 	CHECK(ladder_program(ladder) && ladder_il(ladder, 0) && !ladder_il(ladder, 1));
 	CHECK(!ladder_il(ladder, -1) && ladder_memory(ladder) > 0);
 	CHECK(load(ladder, wrong) && !ladder_program(ladder));
 	CHECK(!ladder_build(ladder) && !ladder_build(ladder));
 	CHECK(has(ladder, DIAG_UNKNOWN_NAME) && !ladder_program(ladder));
-	CHECK_AS(ladder_project(ladder) != NULL, "a project with errors is one");
+	CHECK_AS(ladder_project(ladder) != NULL,
+		 "a program with errors leaves its project");
 	CHECK(!load(ladder, broken) && !ladder_project(ladder));
 	CHECK(!ladder_build(ladder) && !ladder_write(ladder, &len));
 	CHECK(load(ladder, good) && ladder_diags(ladder)->count == 0);
@@ -117,7 +119,8 @@ static void loads_images(void)
 	CHECK(load(ladder, good) && ladder_build(ladder));
 	image = ladder_image(ladder, &len);
 	CHECK(ladder_load_text(other, "it.rungc", image, len));
-	CHECK_AS(ladder_program(other) && !ladder_project(other), "no source in it");
+	CHECK_AS(ladder_program(other) && !ladder_project(other),
+		 "a loaded image has a program and no project");
 	CHECK(ladder_build(other) && !ladder_il(other, 0));
 	CHECK(ladder_image(other, &again) != image && again == len);
 	CHECK(!ladder_write(other, &again));
@@ -141,11 +144,13 @@ static void tells_what_it_cannot_read(void)
 	CHECK(!ladder_load(ladder, folder) && has(ladder, DIAG_NOT_A_FILE));
 	CHECK(!ladder_could_read(ladder));
 	CHECK(mkfifo(fifo, 0600) == 0 && !ladder_load(ladder, fifo));
-	CHECK_AS(has(ladder, DIAG_NOT_A_FILE), "and it does not wait for a writer");
+	CHECK_AS(has(ladder, DIAG_NOT_A_FILE),
+		 "a FIFO without a writer is refused at once");
 	unlink(fifo);
 	put("broken.rung", broken);
 	CHECK(!ladder_load(ladder, in_folder("broken.rung")));
-	CHECK_AS(ladder_could_read(ladder), "read, but wrong");
+	CHECK_AS(ladder_could_read(ladder),
+		 "ladder_could_read() is true for a file with errors");
 	put("good.rung", good);
 	CHECK(ladder_load(ladder, in_folder("good.rung")) && ladder_could_read(ladder));
 	ladder_free(ladder);
@@ -167,21 +172,26 @@ static void includes_files(void)
 	    "PROGRAM One LD\nRUNG\n  | NO I0 | COIL Lamp |\nEND_PROGRAM\n");
 	put("sub/two.rung", "RUNGBOARD 1\nVAR\n  Lamp AT %QX0.1 : BOOL;\nEND_VAR\n");
 	CHECK(ladder_load(ladder, in_folder("main.rung")) && ladder_build(ladder));
-	CHECK_AS(ladder_project(ladder)->pou_count == 1, "beside the file that names it");
+	CHECK_AS(ladder_project(ladder)->pou_count == 1,
+		 "INCLUDE names a file beside the including file");
 	put("sub/two.rung", "RUNGBOARD 1\nINCLUDE \"one.rung\"\n");
 	CHECK(!ladder_load(ladder, in_folder("main.rung")));
-	CHECK_AS(has(ladder, DIAG_INCLUDE_CIRCLE), "round in a circle");
+	CHECK_AS(has(ladder, DIAG_INCLUDE_CIRCLE),
+		 "two files that include each other are refused");
 	put("main.rung", "RUNGBOARD 1\nINCLUDE \"main.rung\"\n");
 	CHECK(!ladder_load(ladder, in_folder("main.rung")) &&
 	      has(ladder, DIAG_INCLUDE_CIRCLE));
 	put("main.rung", "RUNGBOARD 1\nINCLUDE \"nothing.rung\"\n");
 	CHECK(!ladder_load(ladder, in_folder("main.rung")) &&
 	      has(ladder, DIAG_BAD_INCLUDE));
-	CHECK_AS(ladder_could_read(ladder), "the file itself could be read");
+	CHECK_AS(ladder_could_read(ladder),
+		 "ladder_could_read() is true if only an included file is missing");
 	put("main.rung", "RUNGBOARD 1\nINCLUDE \"../sub/two.rung\"\n");
-	CHECK_AS(!ladder_load(ladder, in_folder("main.rung")), "not above its folder");
+	CHECK_AS(!ladder_load(ladder, in_folder("main.rung")),
+		 "INCLUDE with .. is refused");
 	put("main.rung", "RUNGBOARD 1\nINCLUDE \"/etc/hostname\"\n");
-	CHECK_AS(!ladder_load(ladder, in_folder("main.rung")), "nor anywhere else");
+	CHECK_AS(!ladder_load(ladder, in_folder("main.rung")),
+		 "INCLUDE with an absolute path is refused");
 	put("sub/two.rung", broken);
 	put("main.rung", "RUNGBOARD 1\nINCLUDE \"sub/two.rung\"\n");
 	CHECK(!ladder_load(ladder, in_folder("main.rung")));
@@ -203,13 +213,13 @@ static void saves(void)
 	CHECK(chmod(in_folder("new.rung"), 0640) == 0);
 	put("new.rung", "two");
 	CHECK(holds("new.rung", "two") && stat(in_folder("new.rung"), &status) == 0);
-	CHECK_AS((status.st_mode & 07777) == 0640, "the mode is kept");
+	CHECK_AS((status.st_mode & 07777) == 0640, "a saved file keeps its mode");
 	put("new.rung", "");
 	CHECK(holds("new.rung", ""));
 	CHECK(symlink("new.rung", in_folder("link.rung")) == 0);
 	put("link.rung", "three");
 	CHECK(holds("new.rung", "three") && lstat(in_folder("link.rung"), &status) == 0);
-	CHECK_AS(S_ISLNK(status.st_mode), "a link stays one");
+	CHECK_AS(S_ISLNK(status.st_mode), "a saved link stays a link");
 	int before = files();
 
 	diag_init(&diags);
@@ -221,7 +231,7 @@ static void saves(void)
 	unlink(in_folder("link.rung"));
 }
 
-/* A disk that is full after the first bytes. */
+/* Saves to a disk that is full after the first bytes. */
 static void keeps_the_old_file(void)
 {
 	static char big[100000];
@@ -235,7 +245,7 @@ static void keeps_the_old_file(void)
 	small = old;
 	small.rlim_cur = 4096;
 	diag_init(&diags);
-	fflush(stdout); /* it may be a file too */
+	fflush(stdout); /* stdout may be a file */
 	setrlimit(RLIMIT_FSIZE, &small);
 	bool saved = file_save(in_folder("new.rung"), big, sizeof(big),
 				      &diags);
@@ -244,10 +254,10 @@ static void keeps_the_old_file(void)
 	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_CANNOT_WRITE);
 	CHECK(diags.diag[0].arg[0] != '\0');
 	CHECK(holds("new.rung", "old"));
-	CHECK_AS(files() == before, "nothing is left beside it");
+	CHECK_AS(files() == before, "a failed save leaves no other file");
 }
 
-/* Skipped where it cannot be tried, as by root. */
+/* Skipped for root, who may read and write every folder. */
 static void takes_closed_folders(void)
 {
 	if (geteuid() == 0)
@@ -256,7 +266,7 @@ static void takes_closed_folders(void)
 	CHECK(!file_save(in_folder("new.rung"), "x", 1, NULL));
 	CHECK(holds("new.rung", "old") && chmod(folder, 0300) == 0);
 	CHECK_AS(file_save(in_folder("new.rung"), "y", 1, NULL),
-		 "a folder that cannot be read");
+		 "a file in a folder without read permission is saved");
 	CHECK(chmod(folder, 0700) == 0 && holds("new.rung", "y"));
 }
 
@@ -267,7 +277,7 @@ static void clean(void)
 
 	for (size_t i = 0; i < sizeof(name) / sizeof(name[0]); i++)
 		unlink(in_folder(name[i]));
-	CHECK_AS(rmdir(folder) == 0, "no other file was left");
+	CHECK_AS(rmdir(folder) == 0, "the tests left no other file");
 }
 
 int main(void)

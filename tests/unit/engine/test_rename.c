@@ -59,7 +59,7 @@ static bool identity_of(const char *file, const char *text, uint8_t out[32])
 	return good;
 }
 
-/* Renames and renames back; true if all is well. */
+/* Renames and renames back; true if the text is the same again. */
 static bool renames(struct ladder *ladder, const char *file,
 		    const struct xref_target *target, const char *old, const char *text,
 		    const uint8_t identity[32])
@@ -129,7 +129,8 @@ static void test_samples(void)
 		count += sample(found.gl_pathv[i], &bad);
 	globfree(&found);
 	printf("# %d names\n", count);
-	CHECK_AS(bad == 0 && count > 200, "every name of every sample, there and back");
+	CHECK_AS(bad == 0 && count > 200,
+		 "each name of the samples is renamed and renamed back");
 }
 
 /* ---- blocks, functions, structures, lists, tasks ---- */
@@ -208,12 +209,13 @@ static void refused(struct ladder *ladder, const char *old, const char *name,
 	char *text = ladder_rename(ladder, &target, name, &len, &how);
 	char what[600];
 
-	snprintf(what, sizeof(what), "%s to %.60s: %d in rung %d", old, name, want, rung);
+	snprintf(what, sizeof(what), "%s to %.60s is refused: %d in rung %d", old, name, want, rung);
 	CHECK_AS(!text && how.why == want && how.rung == rung, what);
 	if (text || how.why != want || how.rung != rung)
 		printf("# %d rung %d %s\n", how.why, how.rung, text ? text : "");
 	after = ladder_write(ladder, &len);
-	CHECK_AS(strcmp(before, after) == 0, "and nothing changed");
+	CHECK_AS(strcmp(before, after) == 0,
+		 "a refused rename does not change the project");
 	free(text);
 	free(before);
 	free(after);
@@ -265,17 +267,20 @@ static void test_good(void)
 	char *text = ladder_rename(ladder, &target, "\xe5\x90\xaf\xe5\x8a\xa8", &len, &how);
 
 	CHECK(text && strstr(text, "SINGLE := \xe5\x90\xaf\xe5\x8a\xa8,"));
-	CHECK_AS(how.why == RENAME_GOOD && how.places == 9, "all places are counted");
+	CHECK_AS(how.why == RENAME_GOOD && how.places == 9,
+		 "a rename counts all its places");
 	free(text);
 	text = ladder_rename(ladder, &target, "GO", &len, &how);
-	CHECK_AS(text && strstr(text, "GO   AT %IX0.0"), "only its case");
+	CHECK_AS(text && strstr(text, "GO   AT %IX0.0"),
+		 "a rename may change only the case");
 	free(text);
 	text = ladder_rename(ladder, &target, "M1", &len, &how);
-	CHECK_AS(text, "as an address that nobody uses");
+	CHECK_AS(text, "a name may be an address that the project does not use");
 	free(text);
 	target = target_of(ladder, "Seal");
 	text = ladder_rename(ladder, &target, "TON", &len, &how);
-	CHECK_AS(!text && how.why == RENAME_RESERVED, "no block may have a word's name");
+	CHECK_AS(!text && how.why == RENAME_RESERVED,
+		 "a function block may not have the name of a built-in one");
 	ladder_free(ladder);
 }
 
