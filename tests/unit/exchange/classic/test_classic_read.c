@@ -43,7 +43,7 @@ static const char *told(const char *text)
 		snprintf(said, sizeof(said), "%s%s %d: %s", project ? "took, " : "",
 			 diag_code(diags.diag[0].id), diags.diag[0].line, diags.diag[0].arg);
 	else if (!project)
-		snprintf(said, sizeof(said), "nothing said");
+		snprintf(said, sizeof(said), "refused without a message");
 	return said;
 }
 
@@ -165,7 +165,7 @@ static void test_tables(void)
 	CHECK_TEXT(project->symbol[1].comment, "what");
 	CHECK(project->ios == 2 && project->io[0].inverted && project->io[0].sub_device == 889 &&
 	      project->io[1].output && project->io[1].first == -1 && project->io[1].setup == 5);
-	CHECK_AS(report.count == 0, "I/O lines that LinuxCNC does not use are no news");
+	CHECK_AS(report.count == 0, "unused I/O lines are not reported");
 	CHECK(project->period == 20 && project->register_list == 7);
 	CHECK_TEXT(classic_setting(project, "PERIODIC_REFRESH"), "20");
 	CHECK(!classic_setting(project, "PERIODIC"));
@@ -373,7 +373,7 @@ static void test_long(void)
 	      diags.diag[0].id == DIAG_BAD_BYTE && diags.diag[0].line == 3);
 }
 
-/* Cut anywhere: an error, never half a project. */
+/* A project that is cut at any byte is an error, never half a project. */
 static void test_cut(void)
 {
 	static const char text[] = BOX(MEMBER("timers.csv", "#VER=2.0\nT0,1,5\n") RUNG
@@ -495,7 +495,7 @@ static void test_packed(void)
 	CHECK(read_bytes(fixed, sizeof(fixed)) && diags.count == 0);
 	for (size_t i = 0; i < sizeof(dynamic) - 1; i++)
 		taken += unpack(dynamic, i, 10000, &len, &why) != NULL;
-	CHECK_AS(taken == 0, "packed and cut: refused");
+	CHECK_AS(taken == 0, "a packed project that is cut is refused");
 	/* A changed bit can give the same text: a copy from another place. */
 	for (size_t i = 10; i < sizeof(dynamic); i++) {
 		memcpy(changed, dynamic, sizeof(dynamic));
@@ -503,16 +503,17 @@ static void test_packed(void)
 		text = unpack(changed, sizeof(changed), 10000, &len, &why);
 		taken += text && strncmp(text, "0,0;7,1;14,2;21,3;28,4;4,5;", 27) != 0;
 	}
-	CHECK_AS(taken == 0, "packed, a bit changed: refused, or the same text");
+	CHECK_AS(taken == 0,
+		 "a packed project with a changed bit is refused or gives the same text");
 	CHECK(!read_bytes(dynamic, sizeof(dynamic) - 1) &&
 	      diags.diag[0].id == DIAG_IMPORT_PACKED);
 	memcpy(changed, dynamic, sizeof(dynamic));
 	memset(changed + sizeof(dynamic) - 4, 0x7f, 4);
 	CHECK_AS(!read_bytes(changed, sizeof(changed)) && diags.diag[0].id == DIAG_IMPORT_PACKED,
-		 "no bytes can hold two gigabytes");
+		 "a packed size of 2 GB is refused before unpacking");
 	changed[sizeof(dynamic) - 1] = changed[sizeof(dynamic) - 2] = 0;
 	CHECK_AS(!unpack(changed, sizeof(changed), 10000, &len, &why) && why == DIAG_TOO_LARGE,
-		 "a bomb is not unpacked");
+		 "unpacking stops at its limit of bytes");
 	CHECK(!read_bytes(stored, sizeof(stored)) && diags.diag[0].id == DIAG_IMPORT_LINE);
 }
 
