@@ -117,7 +117,7 @@ static void test_one(void)
 
 static void begins(const char *text, const char *with)
 {
-	if (!CHECK_AS(strncmp(text, with, strlen(with)) == 0, "as JSON"))
+	if (!CHECK_AS(strncmp(text, with, strlen(with)) == 0, "the JSON begins as expected"))
 		printf("# got: %s\n", text);
 }
 
