@@ -63,7 +63,7 @@ static const char *tree(const char *text)
 	diag_init(&diags);
 	if (!expr_parse_text(text, strlen(text), &expr, &diags, place))
 		return diags.count == 1 ? diag_code(diags.diag[0].id) :
-					  "not one diagnostic";
+					  "refused without exactly one message";
 	print(out, sizeof(out), expr.root);
 	return diags.count ? "diagnostic" : out;
 }
@@ -210,7 +210,7 @@ static void places(void)
 	CHECK_TEXT(diags.diag[0].arg, "?");
 	place.column = 0;
 	CHECK(!expr_parse_text("a + ?", 5, &expr, &diags, place));
-	CHECK_AS(diags.diag[1].column == 0, "no column known, none told");
+	CHECK_AS(diags.diag[1].column == 0, "an unknown column stays 0 in the message");
 }
 
 static void stops_behind_it(void)
@@ -233,7 +233,8 @@ static void stops_behind_it(void)
 	lex_init(&lex, "a )", 3);
 	lex_next(&lex);
 	CHECK(expr_parse(&lex, &expr, &diags, place));
-	CHECK_AS(lex_is(&lex, ")"), "not its own parenthesis");
+	CHECK_AS(lex_is(&lex, ")"),
+		 "a closing parenthesis without an opening one is not read");
 }
 
 /* @piece @count times, then "a" and @close @count times. */

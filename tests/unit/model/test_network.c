@@ -55,7 +55,7 @@ static bool make(const char *drawing)
 	return made;
 }
 
-/* Nets of all bars, rows apart. */
+/* The net of each bar, one row after another. */
 static const char *nets(const char *drawing)
 {
 	static char out[400];
@@ -88,7 +88,7 @@ static void numbers_nets(void)
 	CHECK_TEXT(nets(". . /"), "012/");
 	CHECK(network.net_count == 3 && network.element_count == 0);
 	CHECK_TEXT(nets(". . /-^-^/"), "000/000/");
-	CHECK_AS(network.net_count == 1, "all of it is the rail");
+	CHECK_AS(network.net_count == 1, "a row of wires is one net with the rail");
 }
 
 static void lists_elements(void)
@@ -112,7 +112,7 @@ static void lists_elements(void)
 	CHECK(network.first_feeder[2] == 1 && network.feeder[0] == 0);
 	CHECK(network.first_feeder[3] == 3);
 	CHECK_AS(network.feeder[1] == 1 && network.feeder[2] == 3,
-		 "feeders of one net in reading order");
+		 "the feeders of a net are in reading order");
 	CHECK(network.first_feeder[4] == 4 && network.first_feeder[5] == 4);
 	CHECK(network.feeder[3] == 2);
 }
@@ -133,18 +133,19 @@ static void finds_pins(void)
 	CHECK(network.pin_count == 3);
 	CHECK(network.element[0].first_pin == 0 && network.element[0].pins == 2);
 	CHECK_AS(network.pin[1].row == 2 && network.pin[1].col == 0,
-		 "pins of one box stand together");
+		 "the pins of a box are listed together");
 	CHECK(network.element[1].first_pin == 2 && network.element[1].pins == 1);
 	CHECK(network.pin[0].in == NET_RAIL);
-	CHECK_AS(network.reader_count[NET_RAIL] == 3, "box and its two pins");
+	CHECK_AS(network.reader_count[NET_RAIL] == 3,
+		 "the rail feeds the box and its two pins");
 	CHECK(make("X /p /"));
 	CHECK(network.pin_count == 1);
 	CHECK(make("p a B B B /p p . - a /. . p p p /"));
-	CHECK_AS(network.pin_count == 0, "pins without a box are left out");
+	CHECK_AS(network.pin_count == 0, "pins without a box are not listed");
 	CHECK(network.element_count == 5);
 }
 
-/* Each element is a feeder once, of its own net; counts add up. */
+/* Each element feeds its own net once, and the counts add up. */
 static bool is_whole(void)
 {
 	int readers = 0, wrong = 0;

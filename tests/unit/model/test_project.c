@@ -88,7 +88,7 @@ static void variables(void)
 	CHECK(vars_flags(&table, 3) == VAR_CONSTANT);
 	CHECK(vars_flags(&table, 4) == 0);
 	CHECK(vars_flags(&none, 0) == 0);
-	CHECK_AS(vars_find(&table, 4) == 1, "the first of two");
+	CHECK_AS(vars_find(&table, 4) == 1, "the first of two equal names is found");
 	CHECK(vars_find(&table, 5) == 2);
 	CHECK(vars_find(&table, 9) == -1);
 	CHECK(vars_find(&table, 0) == -1);

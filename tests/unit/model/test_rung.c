@@ -77,7 +77,7 @@ static const char *after(struct rung *(*change)(const struct rung *, int),
 	untouched &= rung_equal(rung, before);
 	rung_free(rung);
 	rung_free(before);
-	return untouched ? drawn(made) : "changed what it was given";
+	return untouched ? drawn(made) : "the function changed the rung that it was given";
 }
 
 static void memory(void)
@@ -97,7 +97,7 @@ static void memory(void)
 	copy = rung_copy(rung);
 	CHECK(rung_equal(rung, copy));
 	copy->line = 77;
-	CHECK_AS(rung_equal(rung, copy), "the line does not count");
+	CHECK_AS(rung_equal(rung, copy), "rungs with different lines are equal");
 	copy->label = 4;
 	CHECK(!rung_equal(rung, copy));
 	copy->label = 3;
@@ -115,7 +115,7 @@ static void memory(void)
 	rung_free(copy);
 	copy = rung_resize(rung, 3, 2);
 	CHECK(!rung_equal(rung, copy));
-	CHECK_AS(copy->label == 3 && copy->off == 1, "edits keep label and off");
+	CHECK_AS(copy->label == 3 && copy->off == 1, "rung_resize() keeps label and off");
 	rung_free(copy);
 	rung_free(rung);
 	rung_free(NULL);
@@ -212,7 +212,7 @@ static void single_cells(void)
 	CHECK(rung_clear_cell(rung, 1, 0));
 	CHECK(rung_at(rung, 1, 0)->word == ELEM_EMPTY);
 	CHECK(rung_at(rung, 1, 0)->operand == 0);
-	CHECK_AS(rung_at(rung, 1, 0)->link == 1, "its link stays");
+	CHECK_AS(rung_at(rung, 1, 0)->link == 1, "a cleared cell keeps its link");
 	CHECK(!rung_clear_cell(rung, 2, 0));
 	CHECK_TEXT(drawn(rung), "a b /.^z^/");
 }
@@ -222,7 +222,7 @@ static void height(void)
 	struct rung *rung = draw("o a /p p /p . /. . /");
 
 	CHECK(rung_height(rung, 0, 0) == 3);
-	CHECK_AS(rung_height(rung, 0, 1) == 1, "a contact is no box");
+	CHECK_AS(rung_height(rung, 0, 1) == 1, "the height of a contact is 1");
 	CHECK(rung_height(rung, 1, 0) == 1);
 	CHECK(rung_height(rung, 3, 1) == 1);
 	CHECK(rung_height(rung, 4, 0) == 1);
