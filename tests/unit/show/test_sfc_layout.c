@@ -84,7 +84,7 @@ static bool is_down(const struct sfc_wire *wire)
 	return wire->lane == wire->end_lane;
 }
 
-/* Boxes do not touch; lines touch them only at their edges in their lane. */
+/* Boxes do not overlap; lines touch them only at their edges in their lane. */
 static void check_boxes(const struct sfc_layout *layout)
 {
 	for (int i = 0; i < layout->shape_count; i++) {
@@ -92,10 +92,10 @@ static void check_boxes(const struct sfc_layout *layout)
 
 		if (a->lane < 0 || a->lane >= layout->lanes || a->top < 0 ||
 		    a->bottom < a->top || a->bottom >= layout->rows)
-			wrong = "a box outside";
+			wrong = "a box lies outside the layout";
 		if (sfc_layout_at(layout, a->lane, a->top) != i ||
 		    sfc_layout_at(layout, a->lane, a->bottom) != i)
-			wrong = "a box that is not found";
+			wrong = "a box is not found at its place";
 		for (int k = 0; k < i; k++) {
 			const struct sfc_shape *b = &layout->shape[k];
 
@@ -111,7 +111,7 @@ static void check_boxes(const struct sfc_layout *layout)
 				continue;
 			if (!is_down(wire) ||
 			    (wire->end_row != a->top && wire->row != a->bottom))
-				wrong = "a line over a box";
+				wrong = "a line crosses a box";
 		}
 	}
 }
@@ -123,7 +123,7 @@ static void check_wires(const struct sfc_layout *layout)
 
 		if (a->end_row < a->row || a->end_lane < a->lane ||
 		    (a->row != a->end_row && a->lane != a->end_lane))
-			wrong = "a line that is none";
+			wrong = "a line has a negative size or is slanted";
 		for (int k = 0; k < layout->wire_count; k++) {
 			const struct sfc_wire *b = &layout->wire[k];
 
@@ -132,13 +132,13 @@ static void check_wires(const struct sfc_layout *layout)
 				continue;
 			/* Two lines down may touch only at their ends. */
 			if (!is_down(a) && !is_down(b))
-				wrong = "lines along each other";
+				wrong = "two horizontal lines overlap";
 			else if (is_down(a) && is_down(b) && a->end_row != b->row &&
 				 b->end_row != a->row)
-				wrong = "lines down each other";
+				wrong = "two vertical lines overlap";
 			else if (is_down(a) && !is_down(b) && b->row != a->row &&
 				 b->row != a->end_row)
-				wrong = "lines cross";
+				wrong = "two lines cross";
 		}
 	}
 }
@@ -185,7 +185,7 @@ static void walk(const struct sfc_layout *layout, int lane, int row)
 	}
 }
 
-/* Whether shape @at belongs to the line of @r. */
+/* Whether shape @at is the end of the line of @r. */
 static bool is_end(const struct sfc_layout *layout, int at, int r, bool down_to_step,
 		   int transition)
 {
@@ -207,7 +207,7 @@ static bool is_found(const struct sfc_layout *layout, int r, bool down, int tran
 	return false;
 }
 
-/* The first of equal names in a list. */
+/* Whether the list names this step earlier. */
 static bool is_again(int first, int r)
 {
 	for (int i = first; i < r; i++)
@@ -223,7 +223,7 @@ static void check_transition(const struct sfc_layout *layout, int t)
 	int wanted = 0;
 
 	if (shape->part != SFC_TRANSITION || shape->index != t)
-		wrong = "a transition that is another";
+		wrong = "a transition has the box of another one";
 	walk(layout, shape->lane, shape->bottom);
 	for (int i = 0; i < transition->to_count; i++) {
 		int r = transition->first_to + i;
@@ -235,7 +235,7 @@ static void check_transition(const struct sfc_layout *layout, int t)
 			wrong = "a transition does not lead to its step";
 	}
 	if (found_count != wanted)
-		wrong = "a transition leads elsewhere";
+		wrong = "a transition leads to a wrong number of steps";
 }
 
 static void check_step(const struct sfc_layout *layout, int s)
@@ -245,7 +245,7 @@ static void check_step(const struct sfc_layout *layout, int s)
 
 	if (shape->part != SFC_STEP || shape->index != s ||
 	    shape->bottom - shape->top - 1 != sfc_step_rows(&sfc, s))
-		wrong = "a step that is another";
+		wrong = "a step has the box of another one";
 	walk(layout, shape->lane, shape->bottom);
 	for (int t = 0; t < sfc.transition_count; t++) {
 		const struct sfc_transition *transition = &transitions[t];
@@ -262,7 +262,7 @@ static void check_step(const struct sfc_layout *layout, int s)
 		}
 	}
 	if (found_count != wanted)
-		wrong = "a step leads elsewhere";
+		wrong = "a step leads to a wrong number of transitions";
 }
 
 static bool is_good(void)
@@ -274,7 +274,7 @@ static bool is_good(void)
 		return false;
 	if (layout->shape_count != sfc.step_count + sfc.transition_count +
 				   layout->jump_count)
-		wrong = "other boxes than the chart has";
+		wrong = "the number of boxes is wrong";
 	check_boxes(layout);
 	check_wires(layout);
 	for (int i = 0; i < sfc.transition_count; i++)
@@ -465,12 +465,13 @@ static void check_reference(void)
 	sfc_layout_free(layout);
 	steps[4].column = 4;
 	layout = sfc_layout_new(&sfc);
-	CHECK_AS(layout && layout->shape[4].lane == 3, "a hint is heard");
+	CHECK_AS(layout && layout->shape[4].lane == 3,
+		 "the given column of a step is used");
 	sfc_layout_free(layout);
 	steps[4].column = 0;
 }
 
-/* Each of sixty steps has an exit: that takes two lanes, not sixty. */
+/* Sixty steps, each with an exit, need two lanes. */
 static void check_narrow(bool first)
 {
 	struct sfc_layout *layout;
@@ -508,7 +509,8 @@ static void check_macro(void)
 	sfc_layout_free(layout);
 	clear();
 	layout = sfc_layout_new(&sfc);
-	CHECK_AS(layout && layout->rows == 0 && layout->frame_count == 0, "no chart");
+	CHECK_AS(layout && layout->rows == 0 && layout->frame_count == 0,
+		 "an empty chart has an empty layout");
 	CHECK(layout && sfc_layout_at(layout, 0, 0) == -1);
 	sfc_layout_free(layout);
 }
@@ -561,7 +563,7 @@ static void check_time(void)
 	double a = seconds(thousand), b = seconds(staircase);
 
 	printf("# %.1f ms, %.1f ms\n", a * 1e3, b * 1e3);
-	CHECK_AS(a < 0.5 && b < 2, "large charts");
+	CHECK_AS(a < 0.5 && b < 2, "layouts of large charts are fast enough");
 }
 
 int main(void)
@@ -573,14 +575,16 @@ int main(void)
 	check_narrow(false);
 	check_narrow(true);
 	stairs(60);
-	CHECK_AS(is_good(), "many ways to one step");
+	CHECK_AS(is_good(), "the layout of 60 steps that lead to one step is correct");
 	layout = sfc_layout_new(&sfc);
 	printf("# %d lanes\n", layout ? layout->lanes : 0);
 	CHECK(layout && layout->lanes < 8);
 	sfc_layout_free(layout);
 	check_macro();
-	check_many(random_sfc, tap_rounds(2000), "random charts");
-	check_many(random_garbage, tap_rounds(4000), "charts of garbage");
+	check_many(random_sfc, tap_rounds(2000),
+		"the layouts of random charts are correct");
+	check_many(random_garbage, tap_rounds(4000),
+		"the layouts of random charts with errors are correct");
 	check_time();
 	return tap_done();
 }

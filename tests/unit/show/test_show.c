@@ -83,7 +83,7 @@ static void test_joints(void)
 	" │       └──┤ ├──┬──┤ ├──────────┼──┤/├──┴──(/)───┤\n"
 	" │           G   │           H   │                │\n"
 	" │       ───┤ ├──┴──────────┤ ├──┘                │\n");
-	/* A bridge: not a combination of series and parallel. */
+	/* A bridge, which is no combination of series and parallel. */
 	CHECK_TEXT(rung("RUNG\n"
 	"| NO A | NO B | COIL X |\n"
 	"| NO C ^| NO D ^| |\n"
