@@ -301,8 +301,8 @@ static void test_more_limits(void)
 	      DIAG_NAME_TOO_LONG);
 }
 
-/* The bytes behind the first ones are never looked at: calloc() does not even
- * have them. */
+/* A file that is too large is refused without reading it: calloc() does not even
+ * allocate its pages. */
 static void test_too_large(void)
 {
 	char *bytes = calloc(1, LIMIT_TEXT + 1u);
@@ -345,10 +345,10 @@ static void test_include_total(void)
 	for (int i = 0; i < diags.count; i++)
 		large += diags.diag[i].id == DIAG_INCLUDE_LARGE;
 	CHECK_AS(large == 1 && diags.count == 4,
-		 "three files are read, the fourth is too much");
+		 "the fourth large file is refused, the others are read");
 }
 
-/* Ten million bytes of one piece, in several places: an answer, and soon. */
+/* Reads texts of 300,000 equal bytes in several places. */
 static void test_monotonous(void)
 {
 	static const char *const heads[] = {
@@ -374,7 +374,7 @@ static void test_monotonous(void)
 			read_text(text.at);
 		}
 	}
-	CHECK_AS(1, "no crash, no hang");
+	CHECK_AS(1, "reading a text of one repeated piece ends");
 	free(text.at);
 }
 
@@ -390,7 +390,7 @@ static const char list[] = IL(
 	"  OR(\n  LD    %IX0.1\n  ) // x\n  ADD   16#FF\n"
 	"Again:\n  CAL   D(IN := Go, PT := T#3s, Q => Done) // run\n");
 
-/* Every beginning of a good file, and every byte of it changed. */
+/* Reads every beginning of a good file, and the file with each byte changed. */
 static void test_cut_and_changed(void)
 {
 	static const char *const files[] = { ladder, list };
@@ -411,7 +411,7 @@ static void test_cut_and_changed(void)
 				char *first = text_write(project, &one);
 
 				if (!read_bytes(first, one))
-					CHECK_AS(0, "written reads again");
+					CHECK_AS(0, "a written file is read again");
 				char *second = text_write(project, &two);
 
 				if (one != two || memcmp(first, second, one))
@@ -421,7 +421,7 @@ static void test_cut_and_changed(void)
 			}
 		}
 	}
-	CHECK_AS(1, "all of them end");
+	CHECK_AS(1, "reading each cut or changed file ends");
 }
 
 int main(void)

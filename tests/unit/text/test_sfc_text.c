@@ -116,7 +116,7 @@ static const char whole[] =
 
 static struct diag_list diags;
 
-/* NULL: it was refused. */
+/* NULL: the text was refused. */
 static struct project *read(const char *text, size_t len)
 {
 	struct project *project = project_new("t.rung");
@@ -137,7 +137,7 @@ static char *written(const char *text, size_t len, size_t *out)
 	return again;
 }
 
-/* Text that is read is written, and that is its own canonical form. */
+/* Whether a written chart that is read again is written the same. */
 static bool is_stable(const char *text, size_t len)
 {
 	size_t first_len = 0, again_len = 0;
@@ -232,7 +232,7 @@ static void test_model(void)
 	project_free(project);
 }
 
-/* Steps that are shifted about keep what each line says. */
+/* A written chart has its first and last comments. */
 static void test_outline(void)
 {
 	struct sink_memory memory;
@@ -326,7 +326,7 @@ static void test_scope(void)
 	project_free(project);
 }
 
-/* Everything that names the step follows it. */
+/* A renamed step is renamed in all places that name it. */
 static void test_rename(void)
 {
 	struct ladder *ladder = ladder_new();
@@ -365,7 +365,7 @@ static uint32_t below(uint32_t most)
 	return (seed >> 8) % most;
 }
 
-/* A piece is taken out, doubled, put elsewhere, or a byte changed. */
+/* Removes, doubles or moves a piece of the text, or changes a byte. */
 static size_t damage(char *text, size_t len)
 {
 	static const char signs[] = "():;,=.\n |\"*/NT";
@@ -394,7 +394,7 @@ static size_t damage(char *text, size_t len)
 	}
 }
 
-/* Whole lines change places: many of these are read. */
+/* Swaps lines; many of these texts are read without an error. */
 static size_t swap_lines(char *text, size_t len)
 {
 	size_t a = below((uint32_t)len), b;

@@ -26,7 +26,7 @@ static bool read_text(const char *text)
 	return read_bytes(text, strlen(text));
 }
 
-/* Writes what was read, reads that and writes it again: the same bytes. */
+/* Writes the project, reads the text and writes it again: the same bytes. */
 static char *written(void)
 {
 	size_t len = 0, again = 0;
@@ -39,18 +39,18 @@ static char *written(void)
 			diag_print(&diags.diag[i], line, sizeof(line));
 			printf("# %s\n", line);
 		}
-		CHECK_AS(0, "what was written reads again");
+		CHECK_AS(0, "the written project is read again");
 		return first ? first : calloc(1, 1);
 	}
 	char *second = text_write(project, &again);
 
 	CHECK_AS(second && len == again && !memcmp(first, second, len),
-		 "written twice, the same bytes");
+		 "the second text has the same bytes");
 	free(second);
 	return first;
 }
 
-/* @from becomes @to, and that is canonical. */
+/* @from is written as @to, and @to as itself. */
 static void canonical(const char *from, const char *to)
 {
 	bool good = read_text(from);
@@ -61,7 +61,7 @@ static void canonical(const char *from, const char *to)
 		diag_print(&diags.diag[i], line, sizeof(line));
 		printf("# %s\n", line);
 	}
-	CHECK_AS(good, "reads without an error");
+	CHECK_AS(good, "the project is read without an error");
 	char *text = written();
 
 	CHECK_TEXT(text, to);
@@ -253,7 +253,7 @@ static void test_comments(void)
 	CHECK_TEXT(project_text(project, project->tail), "// the end");
 	CHECK_TEXT(project_text(project, project->pou[0].tail),
 		   "// at its end");
-	/* Odd places: moved, not lost. */
+	/* Comments in unusual places are moved, not lost. */
 	read_text("// c01\nRUNGBOARD 1 // c02\n(* c03 *)VAR (* c04 *)\n// c05\n(* c06 *)\n"
 		  "A (* c07 *) : (* c08 *) BOOL // c09\n; (* c10 *) // c11\n"
 		  "// c12 *) (* x\n END_VAR // c13\n"
@@ -408,7 +408,7 @@ static void test_include(void)
 	CHECK(diags.count == 2 && diags.diag[1].id == DIAG_EXPECTED);
 }
 
-/* Twice, and in a ring: each library is read once, and only words are in it. */
+/* A library that is used twice, or uses itself, is read once; it holds only own words. */
 static void test_uses(void)
 {
 	static const char good[] = "RUNGBOARD 1\n\nUSES \"lib\"\n\nVAR\n"
@@ -516,7 +516,7 @@ static void note_span(void *context, const struct text_span *span)
 		outlined[outlined_count++] = *span;
 }
 
-/* The text of the part that was told as number @index. */
+/* The text of outlined part @index. */
 static const char *part_text(const char *text, int index)
 {
 	static char part[500];
@@ -538,17 +538,19 @@ static void test_outline(void)
 	char *text = text_outline(project, &len, note_span, NULL);
 	char *plain = text_write(project, &plain_len);
 
-	CHECK_AS(text && plain && !strcmp(text, plain), "the same as it writes");
+	CHECK_AS(text && plain && !strcmp(text, plain),
+		 "text_outline() gives the text of text_write()");
 	CHECK_TEXT(part_text(text, 0), "PROJECT \"P\"\n");
 	CHECK_TEXT(part_text(text, 1), "    a : INT;\n");
-	CHECK_AS(outlined[1].part == TEXT_VAR && outlined[1].structure == 0, "a member knows its structure");
+	CHECK_AS(outlined[1].part == TEXT_VAR && outlined[1].structure == 0,
+		 "a member has the index of its structure");
 	CHECK_TEXT(part_text(text, 2), "  Pair : STRUCT\n    a : INT;\n  END_STRUCT;\n");
 	CHECK_TEXT(part_text(text, 4), "  A AT %IX0.0 : BOOL; (* one *)\n");
 	CHECK_TEXT(part_text(text, 8), "  T : TON;\n");
 	CHECK_TEXT(part_text(text, 10),
 		   "(* above *)\nRUNG \"x\"\n  | NO A | COIL Q0 |\n");
 	CHECK_AS(outlined[11].part == TEXT_RUNG && outlined[11].number == 1 &&
-		 outlined[11].pou == 0, "a rung knows its POU");
+		 outlined[11].pou == 0, "a rung has the index of its POU");
 	free(text);
 	free(plain);
 }
