@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_il - instruction lists where the order of reading and writing shows, and
- * lists that are refused: one row each. What ladder diagrams become is checked by
- * the second evaluator; it writes fewer shapes than a person can.
+ * test_il - instruction lists whose result depends on the order of reading and
+ * writing, and lists that are refused: one row each. The second evaluator checks the
+ * lists of ladder diagrams, which have fewer forms than a person can write.
  */
 #include "engine/ladder.h"
 #include "tests/tap.h"
@@ -181,51 +181,51 @@ static void run_row(const char *what, const char *lines,
 
 static void test_order(void)
 {
-	run_row("a store inside ( ) does not change what stands before it",
+	run_row("a store inside ( ) does not change the value before it",
 		"  LD A\n  OR( B\n  ST A\n  AND C\n  )\n  ST X\n",
 		SET({ "A", 1 }), WANT({ "A", 0 }, { "X", 1 }));
-	run_row("the same two deep",
+	run_row("a store inside two ( ) does not change the values before them",
 		"  LD A\n  OR( B\n  OR( C\n  ST A\n  ST B\n  )\n  )\n  ST X\n",
 		SET({ "B", 1 }), WANT({ "A", 0 }, { "B", 0 }, { "X", 1 }));
 	run_row("an operand is read before a set changes it",
 		"  LD A\n  R A\n  ST X\n",
 		SET({ "A", 1 }), WANT({ "A", 0 }, { "X", 1 }));
-	run_row("a number that a store overwrites goes on as it was",
+	run_row("a store does not change the result, even if it overwrites its source",
 		"  LD %MB1\n  ST %MW0\n  ST %MB4\n",
 		SET({ "%MB1", 5 }), WANT({ "%MB0", 5 }, { "%MB1", 0 },
 					 { "%MB4", 5 }));
-	run_row("a stored number goes on into an operation",
+	run_row("the next operation uses the stored number",
 		"  LD N\n  ST M\n  ADD 1\n  ST N\n  ADD 1\n  ST K\n",
 		SET({ "N", 7 }), WANT({ "M", 7 }, { "N", 8 }, { "K", 9 }));
-	run_row("STN stores the contrary, the result stays",
+	run_row("STN stores the inverse and keeps the result",
 		"  LD A\n  STN X\n  ST Y\n",
 		SET({ "A", 1 }), WANT({ "X", 0 }, { "Y", 1 }));
 }
 
 static void test_calls(void)
 {
-	run_row("a call that is not made writes no outputs",
+	run_row("CALC writes no outputs if the result is FALSE",
 		"  LD Y\n  OR( C\n  CALC Delay(IN := A, Q => Y)\n  LD C\n  )\n"
 		"  ST X\n",
 		SET({ "Y", 1 }), WANT({ "X", 1 }, { "Y", 1 }));
-	run_row("a call that is made does; the left side is the old one",
+	run_row("CALC in ( ) writes its outputs and keeps the value before the (",
 		"  LD Y\n  OR( B\n  CALC Delay(IN := A, Q => Y)\n  LD C\n  )\n"
 		"  ST X\n",
 		SET({ "Y", 1 }, { "B", 1 }), WANT({ "X", 1 }, { "Y", 0 }));
-	run_row("a call that is not made sets no inputs",
+	run_row("CALC sets no inputs if the result is FALSE",
 		"  LD C\n  CALC Delay(IN := A, PT := T#5s)\n",
 		SET({ "A", 1 }), WANT({ "Delay.PT", 0 }, { "Delay.IN", 0 }));
-	run_row("CALCN is its contrary",
+	run_row("CALCN calls if the result is FALSE",
 		"  LD C\n  CALCN Up(CU := A, PV := 1, Q => X, CV => N)\n",
 		SET({ "A", 1 }), WANT({ "X", 1 }, { "N", 1 }));
-	run_row("EN FALSE: nothing is stored, ENO is FALSE",
+	run_row("ADD with EN FALSE stores nothing and sets ENO to FALSE",
 		"  ADD(EN := A, IN1 := N, IN2 := 2, ENO => X, OUT => M)\n",
 		SET({ "N", 3 }, { "M", 9 }, { "X", 1 }),
 		WANT({ "M", 9 }, { "X", 0 }));
-	run_row("a BOOL result is kept too",
+	run_row("MOVE with EN FALSE keeps a BOOL",
 		"  MOVE(EN := A, IN := B, ENO => Y, OUT => X)\n",
 		SET({ "B", 0 }, { "X", 1 }), WANT({ "X", 1 }, { "Y", 0 }));
-	run_row("a packed BOOL result is kept too",
+	run_row("MOVE with EN FALSE keeps a packed BOOL",
 		"  LD 0\n  ST %MB0\n  LD TRUE\n  ST %MX0.3\n"
 		"  MOVE(EN := A, IN := B, OUT => %MX0.3)\n",
 		SET({ "B", 0 }), WANT({ "%MX0.3", 1 }));
@@ -236,23 +236,23 @@ static void test_numbers(void)
 	run_row("an integer is compared with a REAL as a number",
 		"  LD N\n  LT Heat\n  ST X\n  LD N\n  GT Heat\n  ST Y\n",
 		SET({ "N", 3 }, { "Heat", 2 }), WANT({ "X", 0 }, { "Y", 1 }));
-	run_row("and a REAL with an integer",
+	run_row("a REAL is compared with an integer as a number",
 		"  LD Heat\n  GT N\n  ST X\n  LD Heat\n  EQ N\n  ST Y\n",
 		SET({ "N", 4 }, { "Heat", 4 }), WANT({ "X", 0 }, { "Y", 1 }));
-	run_row("a TIME whose low half is 0, at the start",
+	run_row("an initial TIME of 2^32 ns is stored whole",
 		"  LD Wide\n  ST Span\n",
 		SET({ "A", 0 }), WANT({ "Span", INT64_C(1) << 32 }));
-	run_row("and as a constant",
+	run_row("a constant TIME of 2^33 ns is stored whole",
 		"  LD T#8s589ms934us592ns\n  ST Span\n",
 		SET({ "A", 0 }), WANT({ "Span", INT64_C(1) << 33 }));
-	run_row("by -1: the contrary number, and nothing remains",
+	run_row("DIV by -1 negates, MOD by -1 gives 0",
 		"  LD N\n  DIV -1\n  ST M\n  LD N\n  MOD -1\n  ST K\n",
 		SET({ "N", -5 }, { "K", 4 }), WANT({ "M", 5 }, { "K", 0 }));
 }
 
 /* ---- more waiting values than there is room for ---- */
 
-/* A rung of @rows edges in parallel, each with a memory of its own. */
+/* A rung of @rows contacts for edges in parallel. */
 static void test_many_edges(int rows)
 {
 	struct ladder *ladder = ladder_new();
@@ -274,7 +274,7 @@ static void test_many_edges(int rows)
 		good = ladder_load_text(ladder, "edges.rung", text, len) &&
 		       ladder_build(ladder);
 	}
-	CHECK_AS(good, "the rung builds");
+	CHECK_AS(good, "the rung of edges builds");
 	program = ladder_program(ladder);
 	if (good)
 		memory = calloc(1, image_memory_size(program));
@@ -292,7 +292,7 @@ static void test_many_edges(int rows)
 			resource_scan(&resource, 1000000 * (i + 2) + 500000);
 			good = good && image_get(&resource.image, x).i == 0;
 		}
-		CHECK_AS(good, "each edge alone switches, for one scan");
+		CHECK_AS(good, "each single edge sets the coil for one scan");
 	}
 	free(memory);
 	free(text);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_limits - programs that are too large are refused with a message, not with
- * an image that nobody can load. They are too large for a golden case.
+ * an image that cannot be loaded. They are too large for a golden case.
  */
 #include "engine/ladder.h"
 #include "tests/tap.h"
@@ -36,7 +36,7 @@ static void make(struct buffer *b, int tons, int sums, const char *type)
 	for (int i = 0; i < tons; i++)
 		add(b, "  D%d : TON;\n", i);
 	add(b, "END_VAR\nPROGRAM Main IL\n", 0);
-	/* Pins left open would be warned of, and the list is full at 100. */
+	/* Open pins would give warnings, and the list is full at 100. */
 	for (int i = 0; i < tons; i++)
 		add(b, "CAL D%d(IN := 1, PT := T#1s)\n", i);
 	add(b, "  LD N\n", 0);

@@ -183,7 +183,7 @@ static void writes_packed_bits(void)
 		rig_set(&rig, "C", 1);
 		rig_set(&rig, "N", 6);
 		CHECK(rig_scan(&rig));
-		CHECK_AS(rig_get(&rig, "%MB2") == 0x69, "OUT stays, ENO goes");
+		CHECK_AS(rig_get(&rig, "%MB2") == 0x69, "OUT keeps its value, ENO is FALSE");
 		rig_set(&rig, "C", 0);
 		rig_set(&rig, "N", 0);
 		CHECK(rig_scan(&rig) && rig_get(&rig, "%MB2") == 0x29);
@@ -265,7 +265,7 @@ static void runs_calls(void)
 	CHECK(after("GT(IN1 := N, IN2 := 19, OUT => X)", "X") == 1);
 }
 
-/* What lies over each other begins as the later declaration says, bit by bit. */
+/* A bit of two declarations begins with the value of the later one. */
 static void begins_with_initial_values(void)
 {
 	struct rig rig;
@@ -284,7 +284,7 @@ static void begins_with_initial_values(void)
 	rig_close(&rig);
 }
 
-/* Names that translation uses too: a list may declare and use them. */
+/* A list may declare and use the names of the translation's temporaries. */
 static int64_t with_temporaries(const char *body)
 {
 	static char whole[2000];
@@ -299,7 +299,8 @@ static void runs_temporaries(void)
 	CHECK(with_temporaries("LD A\nST _T1\nLD _T1\nAND _T1\nANDN B\nST Y") == 1);
 	CHECK_AS(with_temporaries("LD TRUE\nST _T1\n"
 				  "MOVE(EN := FALSE, IN := FALSE, OUT => _T1)\n"
-				  "LD _T1\nST Y") == 1, "OUT stays without EN");
+				  "LD _T1\nST Y") == 1,
+					"OUT keeps its value if EN is FALSE");
 	CHECK(with_temporaries("LD A\nST _T1\nLD B\nCALC Up(QU => _T1)\n"
 			       "LD _T1\nST Y") == 1);
 	CHECK(with_temporaries("LD A\nST _T1\nLD B\nJMPC L\nLD FALSE\nST _T1\n"
@@ -387,7 +388,8 @@ static void watches_without_a_trace(void)
 				before[i] = value;
 			}
 		}
-		CHECK_AS(differ == 0, "switched to and fro between scans");
+		CHECK_AS(differ == 0,
+			 "a watched program computes the same as an unwatched one");
 		CHECK(moved > 2000 && rig_get(&plain, "SYS_ERRORS") > 0);
 	}
 	rig_close(&plain);
@@ -396,7 +398,7 @@ static void watches_without_a_trace(void)
 
 /* ---- the list is the program ---- */
 
-/* Its variables stand among the globals already. */
+/* Prints the configuration without its variables, which are among the globals already. */
 static void print_config(const struct project *project, const struct sink *sink)
 {
 	struct config *config = project->config;
@@ -487,7 +489,7 @@ static bool same_as_list(const char *path)
 	return own || memcmp(a, b, 32) == 0;
 }
 
-/* The list of a chart has EACH and TICK, which no list that is read can have. */
+/* The list of a chart has EACH and TICK, which a list in a file may not have. */
 static bool has_sfc(const char *path)
 {
 	struct ladder *ladder = ladder_new();
