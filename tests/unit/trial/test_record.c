@@ -187,7 +187,7 @@ static enum act_kind random_kind(void)
 	       dice < 94 ? ACT_WARM : dice < 95 ? ACT_STOP : ACT_PERIOD;
 }
 
-/* A random act; false: it was refused. */
+/* Does a random act; false: the act was refused. */
 static bool random_act(struct step *step)
 {
 	struct act *act = &step->act;
@@ -213,7 +213,7 @@ static bool random_act(struct step *step)
 	return twin_act(&run.twin, act);
 }
 
-/* The random act; in STOP or FAULT a start. */
+/* Does the random act; in STOP or FAULT a start. */
 static void act_now(struct record *record, bool start)
 {
 	struct step *step = &run.step[run.steps];
@@ -249,7 +249,7 @@ static void play(struct record *record)
 	}
 }
 
-/* The same acts without a record: every scan must be the same. */
+/* Does the same acts without a record: every scan must be the same. */
 static bool play_again(void)
 {
 	struct twin fresh;
@@ -272,7 +272,7 @@ static bool play_again(void)
 
 static uint64_t compared;
 
-/* Back and forth, near and far. */
+/* Goes back and forward by short and long distances. */
 static bool seek_all(const struct record *record)
 {
 	const uint64_t first = record_first(record), span = SCANS - first + 1;

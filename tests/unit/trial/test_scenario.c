@@ -146,14 +146,14 @@ static void test_wrong(void)
 		   "LD116:2:4");
 	CHECK_TEXT(run(S "\xff"), "LD104:2:1");
 	run(S "expect A\nexpect B\nat 0 C = 1\n");
-	CHECK_AS(bed.diags.errors == 3, "all errors of a file are told");
+	CHECK_AS(bed.diags.errors == 3, "a file with three errors gives three messages");
 	run("scenario\"s\" expect (((((((((((");
 	CHECK(bed.diags.errors > 0);
 }
 
 int main(void)
 {
-	if (!CHECK_AS(bed_open(&bed), "the test's program is good"))
+	if (!CHECK_AS(bed_open(&bed), "the test's program builds"))
 		return tap_done();
 	test_held();
 	test_times();

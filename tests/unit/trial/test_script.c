@@ -170,7 +170,7 @@ static void test_vcd(void)
 				     false);
 
 	CHECK_AS(strstr(quiet, "#10000000\n1!\n#40000000\n"),
-		 "the wave is as long as the run, also when nothing changes");
+		 "a waveform is as long as the run even if nothing changes");
 }
 
 static void test_wrong(void)
@@ -199,7 +199,8 @@ static void test_wrong(void)
 	CHECK_TEXT(wrong("a\x01\n"), "LD105:1:2");
 	CHECK_TEXT(wrong(".\n.\xff\n"), "LD104:2:2");
 	wrong("Open=2\nOpen\n@what\n");
-	CHECK_AS(bed.diags.errors == 3, "all errors of a script are told");
+	CHECK_AS(bed.diags.errors == 3,
+		 "a script with three errors gives three messages");
 	CHECK_TEXT(run(""), "");
 	CHECK(bed.diags.count == 0);
 }
@@ -234,8 +235,8 @@ static int64_t value_at(const char *address)
 	return image_get(image, image_find(image, address, strlen(address))).i;
 }
 
-/* Inputs come from outside: a restart keeps them, in each area and width. All else
- * begins anew. */
+/* Inputs come from outside: a restart keeps them, in each area and width. All others
+ * are reset. */
 static void test_restarts(void)
 {
 	static const char *const area[] = { "I", "AI", "XI", "XAI", "Q", "AQ", "XQ", "XAQ",
@@ -252,7 +253,7 @@ static void test_restarts(void)
 		snprintf(script, sizeof(script), "%s=1\n. x2\n%s\n.\n", address, how);
 		run(script);
 		snprintf(script, sizeof(script), "restart %d: %s %s", i % 3, address,
-			 input ? "stays" : "begins anew");
+			 input ? "stays" : "is reset");
 		CHECK_AS(value_at(address) == input, script);
 	}
 	CHECK_TEXT(run("@print Open Motor Level\nOpen=1 x2 quiet\n@warm\n. x2\n"
@@ -264,7 +265,7 @@ static void test_restarts(void)
 int main(void)
 {
 	test_times();
-	if (!CHECK_AS(bed_open(&bed), "the test's program is good")) {
+	if (!CHECK_AS(bed_open(&bed), "the test's program builds")) {
 		for (int i = 0; i < ladder_diags(bed.ladder)->count; i++) {
 			char line[300];
 

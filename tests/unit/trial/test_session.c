@@ -172,7 +172,7 @@ static void click(struct session *session, struct twin *twin, const struct place
 		return;
 	act.value = any_value(act.at, &room);
 	if (session_act(session, twin->scan, &act))
-		CHECK_AS(twin_act(twin, &act), "an act that was noted can be done");
+		CHECK_AS(twin_act(twin, &act), "a recorded act can be done");
 }
 
 static void expect(struct session *session, struct twin *twin, const struct places *names)

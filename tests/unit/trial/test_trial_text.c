@@ -84,7 +84,7 @@ static void changes(void)
 		   "3 t=30 Name='b' Copy='b, b'\n"
 		   "5 t=50 Name='a$$' Copy='a$$, a$$'\n");
 	CHECK_AS(strstr(run_form("@print Name\n.\n@print Copy\n.\nGo=1\n", TRACE_LINES, true),
-			"2 t=20") == NULL, "a column that comes later begins as it is");
+			"2 t=20") == NULL, "a new column does not count as a change");
 }
 
 static void tables(void)
@@ -132,7 +132,7 @@ static void texts(void)
 		   "#   1 t=10 Go=1\n#   2 t=20 Go=1\n");
 	CHECK_AS(strstr(judge(S "at 0 Copy = 'longer than six'\nat 20ms Name = Copy\n"
 				"expect Go = 0\n"), "value is out of range") != NULL,
-		 "no text longer than its variable is set");
+		 "a text longer than its variable is refused");
 }
 
 static void times(void)
@@ -153,7 +153,8 @@ static void times(void)
 	CHECK_TEXT(judge(S "expect 2 * Delay = 20s\n"), "LD303:2:8");
 	CHECK_TEXT(judge(S "at 0 Clock = 1h\nexpect Go\n"), "LD303:2:6");
 	CHECK_AS(strstr(judge(S "at 0 Clock = Clock + 20h\nexpect not Go\n"),
-			"value is out of range") != NULL, "a day has 24 hours");
+			"value is out of range") != NULL,
+				"a TIME_OF_DAY of 24 hours or more is refused");
 }
 
 static void numbers(void)
@@ -170,7 +171,7 @@ static void numbers(void)
 
 int main(void)
 {
-	if (!CHECK_AS(bed_open_source(&bed, source), "the test's program is good")) {
+	if (!CHECK_AS(bed_open_source(&bed, source), "the test's program builds")) {
 		for (int i = 0; i < ladder_diags(bed.ladder)->count; i++) {
 			char line[300];
 

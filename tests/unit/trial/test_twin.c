@@ -19,7 +19,7 @@ static const char program[] =
 	"RUNG\n  | --- | [ Set := Level + 1 ] |\n"
 	"RUNG Again\n  | NO Loop | JMP Again |\n"
 	"END_PROGRAM\n";
-/* It declares Q0.1, uses Q2.2 in a coil, writes AQW2 without a name and Q3 by an index. */
+/* Declares Q0.1, uses Q2.2 in a coil, writes AQW2 without a name and Q3 by an index. */
 static const char world[] =
 	"RUNGBOARD 1\n"
 	"VAR\n  Motor AT %IX0.0 : BOOL;\n  End AT %QX0.1 : BOOL;\n  Way : INT;\n"
@@ -39,7 +39,7 @@ static struct ladder *build(const char *text)
 
 	ladder_watch(ladder, true);
 	if (!CHECK_AS(ladder_load_text(ladder, "twin.rung", text, strlen(text)) &&
-		      ladder_build(ladder), "it builds"))
+		      ladder_build(ladder), "the program builds"))
 		rig_say_why(ladder);
 	return ladder;
 }
@@ -85,7 +85,7 @@ static void test_plant(void)
 	scan(&twin, 1);
 	CHECK(get(&twin, true, "Way") == 1 && get(&twin, true, "Told") == 101);
 	CHECK(get(&twin, false, "%IX4.2") == 1 && get(&twin, false, "%IX2.2") == 1);
-	/* Inputs that it does not set are left to a person. */
+	/* A person may set the inputs that the plant does not set. */
 	CHECK(get(&twin, false, "%IX0.5") == 1 && get(&twin, false, "%IX4.7") == 1);
 	CHECK(do_act(&twin, ACT_SET, false, "%IX2.2", 0));
 	scan(&twin, 1);
@@ -160,7 +160,7 @@ static void test_safe(void)
 	      get(&twin, false, "%QX1.1") == 0);
 	CHECK(do_act(&twin, ACT_START, false, "", 0) && twin_scan(&twin));
 	CHECK_AS(get(&twin, false, "%QX0.1") == 0 && get(&twin, false, "%QX1.0") == 0,
-		 "a start begins with outputs of the program");
+		 "the first scan after a start has the outputs of the program");
 	do_act(&twin, ACT_SET, false, "Go", 1);
 	CHECK(do_act(&twin, ACT_FORCE, false, "%QX1.7", 0));
 	scan(&twin, 2);
@@ -169,11 +169,11 @@ static void test_safe(void)
 	CHECK(do_act(&twin, ACT_STOP, false, "", 0));
 	CHECK(get(&twin, false, "Out") == 0 && get(&twin, false, "%QX0.1") == 1 &&
 	      get(&twin, false, "Set") == 0);
-	CHECK_AS(get(&twin, false, "%QX1.7") == 1, "a force holds nothing while it stands");
+	CHECK_AS(get(&twin, false, "%QX1.7") == 1, "a force has no effect in STOP");
 	do_act(&other, ACT_SET, false, "Loop", 1);
 	CHECK(!twin_scan(&other) && other.resource.state == STATE_FAULT);
 	CHECK_AS(get(&other, false, "Out") == 0 && get(&other, false, "%QX1.0") == 1,
-		 "a clone has the same");
+		 "a clone has the same safe outputs");
 	CHECK(do_act(&other, ACT_SET, false, "Loop", 0));
 	CHECK(do_act(&other, ACT_WARM, false, "", 0) && get(&other, false, "Kept") == 0);
 	CHECK(twin_scan(&other) && do_act(&other, ACT_STOP, false, "", 0));
@@ -193,7 +193,8 @@ static void test_warm(void)
 
 	CHECK(twin_init(&twin, ladder_program(ladder), ladder_program(plant), PERIOD));
 	CHECK(do_act(&twin, ACT_WARM, false, "", 0));
-	CHECK_AS(twin.plant.state == STATE_RUN, "a plant that never ran begins");
+	CHECK_AS(twin.plant.state == STATE_RUN,
+		 "a warm start also starts a plant that never ran");
 	do_act(&twin, ACT_SET, false, "Go", 1);
 	scan(&twin, 3);
 	CHECK(get(&twin, true, "Way") == 2);
@@ -255,7 +256,7 @@ static void test_safe_change(void)
 	CHECK(get(&next, false, "%QX0.1") == 0 && get(&next, false, "%QX0.2") == 1);
 	CHECK(do_act(&next, ACT_START, false, "", 0) && twin_scan(&next));
 	twin_set_safe(&next, before);
-	CHECK_AS(get(&next, false, "%QX0.1") == 0, "in RUN nothing but the program sets it");
+	CHECK_AS(get(&next, false, "%QX0.1") == 0, "safe outputs have no effect in RUN");
 	twin_free(&twin);
 	twin_free(&next);
 	ladder_free(ladder);

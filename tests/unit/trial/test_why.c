@@ -39,7 +39,7 @@ static void put_expression(char *out, size_t size)
 	snprintf(out + used, size - used, "%.*s ]", open, "))))");
 }
 
-/* Contacts, expressions and wires with random links; a coil at the end. */
+/* A circuit of contacts, expressions and wires with random links, and a coil. */
 static void make_rung(struct random_rung *rung)
 {
 	memset(rung, 0, sizeof(*rung));
@@ -68,7 +68,7 @@ static void make_rung(struct random_rung *rung)
 		}
 }
 
-/* An expression alone. */
+/* A circuit of one expression. */
 static void make_expression(struct random_rung *rung)
 {
 	memset(rung, 0, sizeof(*rung));
@@ -141,7 +141,7 @@ static bool ask(struct rig *rig, int rung, int row, int col)
 	return good;
 }
 
-/* The inputs in a way. */
+/* The inputs that this way changes. */
 static unsigned inputs_of(const struct why_way *way)
 {
 	unsigned inputs = 0;
@@ -153,7 +153,7 @@ static unsigned inputs_of(const struct why_way *way)
 
 static int asked_off, asked_on, ways, never, whole;
 
-/* Changes exactly these, and then fewer. */
+/* Whether the coil is on after a change of all inputs of @flip, and off after fewer. */
 static bool is_way(struct rig *rig, unsigned inputs, unsigned flip)
 {
 	ways++;
