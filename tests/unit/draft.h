@@ -11,7 +11,7 @@
 #include "tests/tap.h"
 #include "tests/usual.h"
 
-/* What the image is made of. Offsets count from the end of the areas. */
+/* The parts of the image. Offsets count from the end of the areas. */
 struct draft {
 	struct code_header header;
 	struct code_program entry[LIMIT_CALLS + 3];
@@ -59,7 +59,7 @@ static inline uint32_t op(enum vm_op code, uint32_t n)
 	return (uint32_t)code | n << 8;
 }
 
-/* Areas end at a multiple of 8, so that all above lie as their types want. */
+/* Areas end at a multiple of 8, so that the runs above are aligned. */
 static inline void draft_layout(struct draft *d)
 {
 	uint32_t size = word_row(FB_CTU)->size;

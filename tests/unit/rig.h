@@ -34,7 +34,7 @@ static inline void rig_say_why(struct ladder *ladder)
 	}
 }
 
-/* @text: what stands behind the first line of the file. */
+/* @text: the file without its first line. */
 static inline bool rig_open(struct rig *rig, const char *text, bool watch)
 {
 	size_t size = strlen(text) + 32;
