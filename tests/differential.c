@@ -112,7 +112,7 @@ static void drop_column(struct random_rung *rung, int at)
 			(size_t)(rung->cols - at) * sizeof(rung->cell[0][0]));
 }
 
-/* Without one of its rows or columns. */
+/* Tries the program without one of its rows or columns. */
 static bool shrink_grid(struct random_program *program, uint64_t seed, int at)
 {
 	static struct random_program trial;
@@ -251,7 +251,8 @@ int main(int argc, char **argv)
 	       (unsigned long long)got[REFUSED],
 	       (unsigned long long)got[UNWALKED]);
 	CHECK_AS(got[DISAGREE] == 0, "engine and walker agree");
-	CHECK_AS(got[UNWALKED] == 0, "every program that is built is walked");
+	CHECK_AS(got[UNWALKED] == 0,
+		 "the walker runs each program that the engine builds");
 	CHECK_AS(got[REFUSED] * 20 <= got[AGREE], "few programs are refused");
 	CHECK_AS(got[AGREE] > 0, "some programs ran");
 	return tap_done();

@@ -29,7 +29,7 @@ void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *old, size_t size);
 void *__wrap_aligned_alloc(size_t align, size_t size);
 void __wrap_free(void *block);
-/* By the name that mmap() has where offsets are of 64 bits. */
+/* The name of mmap() on systems with offsets of 64 bits. */
 void *__real_mmap64(void *at, size_t size, int prot, int flags, int fd, off_t offset);
 void *__wrap_mmap64(void *at, size_t size, int prot, int flags, int fd, off_t offset);
 int __real_munmap(void *at, size_t size);
@@ -118,7 +118,7 @@ static bool has_no_memory(struct ladder *ladder)
 	return false;
 }
 
-/* How far it gets, and whether it reports the failure. */
+/* Returns the last stage that succeeded; @told: whether the failure was reported. */
 static enum stage try_all(const char *file, const char *text, size_t len,
 			  bool *told)
 {
@@ -165,17 +165,17 @@ static void starve(const char *file, const char *text, size_t len)
 		left = -1;
 		untold += !told;
 		leaks += live + mapped - before;
-		/* Refused, but nothing is missing: a NULL was ignored. */
+		/* An allocation failed and all stages succeeded: a NULL was ignored. */
 		lies += refused && stage == STAGE_DONE;
 	}
 	printf("# %s: %ld allocations\n", file, n - 1);
-	snprintf(what, sizeof(what), "%.200s succeeds in the end", file);
+	snprintf(what, sizeof(what), "%.200s: the last try has enough memory and succeeds", file);
 	CHECK_AS(stage == STAGE_DONE && n > 2, what);
-	snprintf(what, sizeof(what), "%.200s: each failure is LD001", file);
+	snprintf(what, sizeof(what), "%.200s: each failed allocation is reported as LD001", file);
 	CHECK_AS(untold == 0, what);
 	snprintf(what, sizeof(what), "%.200s: nothing leaks", file);
 	CHECK_AS(leaks == 0, what);
-	snprintf(what, sizeof(what), "%.200s: no NULL is overlooked", file);
+	snprintf(what, sizeof(what), "%.200s: no failed allocation is ignored", file);
 	CHECK_AS(lies == 0, what);
 }
 
@@ -237,7 +237,7 @@ static bool play(struct twin *twin, struct record *record, uint64_t *sum)
 	return twin->scan == 60;
 }
 
-/* Each replayed scan equals the original; false: a wrong state was shown. */
+/* Whether each replayed scan equals the original. */
 static bool is_true(const struct record *record, const uint64_t *sum)
 {
 	struct replay replay;
@@ -302,8 +302,9 @@ static void starve_twin(void)
 			break;
 	}
 	printf("# a simulation: %ld allocations\n", n);
-	CHECK_AS(done && n > 10, "a simulation and its record succeed in the end");
-	CHECK_AS(good, "a record without memory shows what was, or nothing");
+	CHECK_AS(done && n > 10,
+		 "a simulation and its record succeed once there is enough memory");
+	CHECK_AS(good, "a record without memory shows the true state or none");
 	CHECK_AS(leaks == 0, "a record leaks nothing");
 	ladder_free(ladder);
 }

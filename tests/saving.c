@@ -134,16 +134,18 @@ static void test_order(void)
 	put_old();
 	CHECK(save(0, 0) && look() == 'n');
 	CHECK_AS(strcmp(calls, "wsns") == 0,
-		 "written, on the disk, named, and the name on the disk");
+		 "a save writes, syncs the file, renames it and syncs the folder");
 	CHECK(count_files(false) == 1);
 	unlink(path);
-	CHECK_AS(save(0, 0) && look() == 'n', "a file that was not there");
+	CHECK_AS(save(0, 0) && look() == 'n', "a new file is saved");
 	put_old();
 	is_short = true;
-	CHECK_AS(save(0, 0) && look() == 'n', "written in small pieces");
+	CHECK_AS(save(0, 0) && look() == 'n',
+		 "a file that is written in small pieces is saved");
 	is_short = false;
 	is_interrupted = true;
-	CHECK_AS(save(0, 0) && look() == 'n', "a write that a signal ends");
+	CHECK_AS(save(0, 0) && look() == 'n',
+		 "a write that a signal interrupts is repeated");
 	is_interrupted = false;
 }
 
@@ -157,15 +159,18 @@ static void test_errors(void)
 		bool named = strchr(calls, 'n') != NULL &&
 			     calls[step - 1] != 'n';
 
-		CHECK_AS(look() == (named ? 'n' : 'o'), "an error: one file, whole");
-		CHECK_AS(count_files(false) == 1, "and nothing beside it");
+		CHECK_AS(look() == (named ? 'n' : 'o'),
+			 "after a failed call the old or the new file is complete");
+		CHECK_AS(count_files(false) == 1,
+			 "after a failed call no other file is left");
 		put_old();
 	}
-	CHECK_AS(failing > 10 && failing < STEPS_MAX, "each call failed once");
+	CHECK_AS(failing > 10 && failing < STEPS_MAX, "each call of a save failed once");
 	CHECK_AS(look() == 'n' && count_files(false) == 1,
-		 "the folder could not be synced: the new file is there");
+		 "a folder that cannot be synced does not prevent the save");
 	CHECK_AS(diags.count == 1 && diags.errors == 0 &&
-		 diags.diag[0].id == DIAG_NOT_SYNCED, "and a warning says so");
+		 diags.diag[0].id == DIAG_NOT_SYNCED,
+		 "a folder that cannot be synced gives a warning");
 	is_short = false;
 }
 
@@ -191,7 +196,7 @@ static void test_kills(void)
 		new += there == 'n';
 		count_files(true);
 	}
-	CHECK_AS(old + new == 20, "a kill: the old file or the new one, whole");
+	CHECK_AS(old + new == 20, "after a kill the old or the new file is complete");
 	CHECK(old > 10 && new > 0);
 	is_short = false;
 }

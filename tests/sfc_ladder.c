@@ -92,7 +92,7 @@ static int sfcs(const struct project *project)
 	return count;
 }
 
-/* Whether the chart before has a step of this name, too; then this one has a number. */
+/* Whether an earlier chart has a step of this name; then the ladder adds a number to it. */
 static bool is_second(struct side *ladder, const struct project *project,
 		      const struct pou *pou, const char *name)
 {
@@ -262,7 +262,7 @@ static void run_random(uint64_t seed, uint64_t count)
 	printf("# %u the same, %u different, %u without a ladder, %u no charts\n",
 	       tally[SAME], tally[DIFFERENT], tally[NO_LADDER], tally[NO_CHART]);
 	CHECK_AS(tally[DIFFERENT] == 0, "random charts do the same as ladders");
-	CHECK_AS(tally[SAME] * 3 > count, "most of them have a ladder");
+	CHECK_AS(tally[SAME] * 3 > count, "most random charts have a ladder");
 }
 
 static void run_file(const char *path, uint64_t seeds, int scans)

@@ -50,7 +50,7 @@ static size_t slurp(const char *dir, const char *name, char *out)
 	return len;
 }
 
-/* A global, or a variable behind the name of its program. */
+/* A global, or a variable with the name of its program before it. */
 static int find(const struct player *player, const char *name)
 {
 	for (int i = 0; i < walker_count(player->walker); i++) {
@@ -251,11 +251,11 @@ static int check_all(void)
 		good = play(path, &player) && is_expected(path, &player);
 		CHECK_AS(good, name[i]);
 		if (!good)
-			printf("# %s\n", *player.why ? player.why : "another trace");
+			printf("# %s\n", *player.why ? player.why : "the trace differs");
 		played += good;
 		free(name[i]);
 	}
-	CHECK_AS(played > 0, "there are such cases");
+	CHECK_AS(played > 0, "some golden cases have charts");
 	return tap_done();
 }
 

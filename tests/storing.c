@@ -210,20 +210,20 @@ static void cut_everywhere(void)
 		wrong += got != stored && got != stored + 1;
 		none += exists && found.best < 0;
 		behind += got == stored + 1;
-		/* A torn copy beside it is reported. */
+		/* An incomplete copy beside the complete one is reported. */
 		unsaid += got == stored && stored && found.best >= 0 &&
 			  found.state[!found.best] == RETAIN_BAD &&
 			  !found.old_copy;
-		/* And storing goes on from there. */
+		/* Storing goes on after the cut. */
 		after = store_copies(&wide, 100, 0);
 		wrong += after != 100 + COPIES - 1 ||
 			 read_again(&found, &exists) != after;
 	}
 	printf("# cut at each of %ld steps; %d times what was not told to be "
 	       "stored was\n", all, behind);
-	CHECK_AS(!wrong, "the last copy that was stored, or the next, whole");
-	CHECK_AS(!none, "no file without a copy");
-	CHECK_AS(!unsaid, "a torn copy beside it is told");
+	CHECK_AS(!wrong, "a cut leaves the last stored copy or the next one complete");
+	CHECK_AS(!none, "no cut leaves a file without a copy");
+	CHECK_AS(!unsaid, "an incomplete copy beside the complete one is reported");
 }
 
 int main(void)

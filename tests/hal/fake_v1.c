@@ -15,7 +15,7 @@ struct gpiod_line {
 
 struct gpiod_chip {
 	struct fake_chip *fake;
-	struct fake_request *request; /* the one that its lines belong to */
+	struct fake_request *request; /* the request of its lines */
 	struct gpiod_line line[FAKE_LINES];
 };
 

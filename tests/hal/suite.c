@@ -29,7 +29,7 @@ static void test_order(void)
 	CHECK(!input(&b, 0) && input(&b, 1));
 	CHECK_TEXT(fake.calls, "rw");
 	CHECK(fake.reads == 1 && fake.writes == 1);
-	CHECK_AS(level("OUT0") == 0, "the program's value after a scan");
+	CHECK_AS(level("OUT0") == 0, "an output has the program's value after a scan");
 	fake_clear_calls();
 	hal_close(&b.hal);
 	CHECK_AS(level("OUT0") == 1 && level("OUT1") == 0,
@@ -150,7 +150,7 @@ static void test_unplug(void)
 		scan(&b, i);
 	CHECK(hal_quality(&b.hal) == QUALITY_FAULT);
 	hal_write_safe(&b.hal);
-	CHECK_AS(!hal_reopen(&b.hal), "the chip is gone");
+	CHECK_AS(!hal_reopen(&b.hal), "hal_reopen() fails while the chip is missing");
 	/* The chip comes back with another number, and its lines with the level of a
 	 * reset. */
 	fake.chip[2] = fake.chip[0];
@@ -179,7 +179,7 @@ static void test_hold(void)
 			 "%QX0.1 gpio line=OUT1 active-low safe=1\n"
 			 "%QX0.2 gpio line=OUT2 active-low\n"));
 	CHECK_AS(level("OUT1") == 0 && level("OUT2") == 1,
-		 "safe is the program's value; the line shows it inverted");
+		 "an active-low line shows its safe value inverted");
 	output(&b, 0, true);
 	output(&b, 2, true);
 	scan(&b, 0);
@@ -339,7 +339,8 @@ static void test_owners(void)
 	fake.read_error = EIO;
 	CHECK(refused(&b, "%IX0.0 gpio line=IN0\n%QX0.0 gpio line=OUT0 safe=1",
 		      "LD522: \"IN0\" does not answer: Input/output error"));
-	CHECK_AS(level("OUT0") == 0, "and no output was taken");
+	CHECK_AS(level("OUT0") == 0,
+		 "a map with an input that does not answer requests no output");
 	fake.read_error = 0;
 	CHECK(bench_deny(0, 0600, 0));
 	CHECK(refused_like(&b, "%IX0.0 gpio line=IN0",
@@ -348,7 +349,7 @@ static void test_owners(void)
 	CHECK(bench_deny(0, 0660, (long)getegid()));
 	CHECK(refused_like(&b, "%IX0.0 gpio chip=panel offset=0",
 		"its group: gpiochip0 ("));
-	CHECK_AS(!strstr(b.text, "no group"), "the group is named");
+	CHECK_AS(!strstr(b.text, "no group"), "the message names the group of the chip");
 	CHECK(fake.opens == fake.closes && fake.settings == 0);
 }
 
@@ -367,7 +368,7 @@ static void test_denied(void)
 	CHECK(refused(&b, nope, "its group: gpiochip0, 1, 2, ... (no group)"));
 	fake.chip[0].open_error = EIO;
 	CHECK_AS(refused(&b, nope, "its group: gpiochip1, 2, 3 (no group)"),
-		 "what can be helped is told first");
+		 "a missing permission is reported before a read error");
 	fake.chip[1].open_error = EPERM;
 	CHECK(refused(&b, nope, "its group: gpiochip1, 2, 3 (no group)"));
 }
@@ -386,15 +387,15 @@ static void test_groups(void)
 	chips();
 	CHECK(bench_deny(0, 0600, 0) && bench_deny(1, 0660, 54321));
 	CHECK_AS(refused(&b, nope, "its group: gpiochip1 (54321); 0 (no group)"),
-		 "a group that may comes before none");
+		 "a chip with a group is named before chips without one");
 	CHECK(bench_deny(0, 0660, 54321) && bench_deny(2, 0660, 54320));
 	CHECK_AS(refused(&b, nope, "its group: gpiochip2 (54320); 0, 1 (54321)"),
-		 "every group is named");
+		 "the message names every group");
 	CHECK(bench_deny(3, 0660, 1234567890) && bench_deny(0, 0660, 123456789));
 	CHECK(bench_deny(1, 0660, 123456788) && bench_deny(2, 0660, 123456780));
 	CHECK_AS(refused(&b, nope, "its group: gpiochip2 (123456780); 1 (123456788); "
 			 "0 (123456789); others"),
-		 "or it is said that there are more");
+		 "a message without room for all groups ends with others");
 }
 
 /* Raspberry Pi OS has links from old numbers to new ones. */
@@ -439,14 +440,15 @@ static void test_list(void)
 	CHECK(seen_lines == 208 && seen_used == 1);
 	fake.chip[0].open_error = EACCES;
 	CHECK(!hal_list(bench_dev(), visit, NULL, &b.diags));
-	CHECK_AS(seen_lines == 216, "the other chip is listed");
+	CHECK_AS(seen_lines == 216,
+		 "a chip that can be opened is listed beside one that cannot");
 	CHECK(b.diags.diag[0].id == DIAG_IO_PERMISSION);
 	bench_end(&b);
 	bench_begin(&b);
 	CHECK(bench_deny(0, 0600, 0) && bench_deny(1, 0600, 0));
 	CHECK(!hal_list(bench_dev(), visit, NULL, &b.diags));
 	CHECK_AS(strcmp(b.diags.diag[0].arg, "gpiochip0, 1 (no group)") == 0,
-		 "every chip that may not be opened is named");
+		 "the message names every chip without permission");
 	bench_end(&b);
 }
 
