@@ -89,9 +89,9 @@ static void test_program(void)
 	CHECK(is_state(rows, "%MX5.0", ADDRESS_USED, "%MW4: Speed, 2 uses"));
 	CHECK(is_state(rows, "%QX0.7", ADDRESS_UNUSED, "%QX0.7: Idle, 0 uses"));
 	CHECK_AS(is_state(rows, "%QX0.0", ADDRESS_TWICE, "%QX0.0: 2 uses, written in 2 places"),
-		 "two coils");
+		 "an address written by two coils is reported");
 	CHECK_AS(is_state(rows, "%QX0.1", ADDRESS_USED, "%QX0.1: 3 uses"),
-		 "S, R and a rung that is off");
+		 "S, R and a disabled rung are not two writers");
 	CHECK(is_state(rows, "%QX2.1", ADDRESS_USED, "%QX1.0: Lamps, 1 use"));
 	CHECK(is_state(rows, "%QX2.2", ADDRESS_FREE, "%QX2.2: free"));
 	CHECK(is_state(rows, "%MB5", ADDRESS_FREE, "%MB5: not used in this width"));

@@ -63,7 +63,7 @@ static void test_set(void)
 	CHECK(ladder_document_next_bookmark(document, &pou, &rung) && pou == 0 && rung == 1);
 	CHECK(ladder_document_next_bookmark(document, &pou, &rung) && pou == 1 && rung == 0);
 	CHECK_AS(ladder_document_next_bookmark(document, &pou, &rung) && pou == 0 &&
-		 rung == 1, "round again");
+		 rung == 1, "the next bookmark after the last one is the first one");
 	ladder_document_toggle_bookmark(document, 0, 1);
 	CHECK(!ladder_document_is_bookmarked(document, 0, 1));
 	ladder_document_toggle_bookmark(document, 1, 0);
@@ -123,7 +123,7 @@ static void test_others(void)
 		"  bookmark main 1 \"begin\"\n  bookmark Gone 7\nEND_VIEW\n";
 
 	open_text(kept);
-	CHECK_AS(marks_are("x"), "a bookmark is read in any case, with text behind it");
+	CHECK_AS(marks_are("x"), "a bookmark is read in capitals and with text after it");
 	ladder_document_toggle_bookmark(document, 0, 0);
 	CHECK(ends_with("VIEW\n  chart Speed\n  bookmark Gone 7\nEND_VIEW\n"));
 	ladder_document_undo(document);
@@ -149,9 +149,9 @@ static void test_list(void)
 	CHECK(ends_with("\nVIEW\n  bookmark Pump 2\n  bookmark Other 1\nEND_VIEW\n"));
 	ladder_document_undo(document);
 	CHECK_AS(ends_with("\nVIEW\n  bookmark Main 2\n  bookmark Other 1\nEND_VIEW\n"),
-		 "undone, in one step");
+		 "one undo restores the name and the bookmarks");
 	g_free(other);
-	/* For a moment two POUs have one name; neither loses its bookmarks. */
+	/* Two POUs with the same name both keep their bookmarks. */
 	other = g_strconcat("PROGRAM Other", list + strlen("PROGRAM Main"), NULL);
 	CHECK(ladder_document_put_list(document, 0, other));
 	CHECK(ladder_document_is_bookmarked(document, 1, 0));

@@ -57,8 +57,8 @@ static bool refused(const char *path, gsize limit, const char *why)
 		strstr(error->message, why);
 
 	if (!good)
-		printf("# %s: %s\n", path, text ? "was read" :
-		       error ? error->message : "no reason");
+		printf("# %s: %s\n", path, text ? "the file was read" :
+		       error ? error->message : "refused without a reason");
 	g_free(text);
 	g_clear_error(&error);
 	return good;
@@ -85,7 +85,7 @@ static void test_disk_read(void)
 	CHECK_AS(text && len == 3 && memcmp(text, "a\0b", 4) == 0, "a NUL in a file is kept, and one is added");
 	g_free(text);
 	CHECK_AS(refused(spot.path, 2, "too large: 3 bytes, at most 2 bytes"),
-		 "how large is told");
+		 "the message has the size and the limit");
 	CHECK(!disk_read(spot.path, 2, &len, NULL));
 	spot_free(&spot);
 }
@@ -104,7 +104,7 @@ static void test_disk_save(void)
 	to = g_file_read_link(link, NULL);
 	CHECK_TEXT(to, "a.rung");
 	CHECK_AS(g_stat(spot.path, &about) == 0 && (about.st_mode & 0777) == 0640,
-		 "who may read it stays");
+		 "a saved file keeps its permissions");
 	CHECK(!disk_save(beyond, "x", 1, &error) && error);
 	CHECK(error && g_str_has_prefix(error->message, beyond));
 	CHECK(!disk_save(spot.folder, "x", 1, NULL) && holds(spot.path, "two"));
@@ -141,7 +141,7 @@ static void test_disk_changed(void)
 	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "a new time with the same bytes is no change");
 	CHECK(g_stat(spot.path, &about) == 0 && write_at(spot.path, "rUNG", &about));
 	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ,
-		 "the same time: it is not read again");
+		 "a file with the same time is not read again");
 	CHECK(g_utime(spot.path, NULL) == 0);
 	CHECK(ladder_document_disk(document) == DISK_OTHER);
 	CHECK_AS(ladder_document_disk(document) == DISK_OTHER, "a change is reported each time");

@@ -168,7 +168,7 @@ static void test_cursor(void)
 	}
 	CHECK_AS(ladder_document_undo_cursor(document).rung == 0 &&
 		 ladder_document_undo_cursor(document).col == 3,
-		 "joined steps have the cursor of the first one, when it began");
+		 "joined steps keep the cursor from before the first one");
 	ladder_document_begin(document, "Move", NULL);
 	ladder_document_move_rung(document, 0, 0, 1);
 	ladder_document_end(document);
@@ -206,7 +206,7 @@ static void test_text(void)
 	text = ladder_document_text(document, NULL);
 	CHECK(strstr(text, "  Motor AT %QX0.7 : BOOL; (* big *)\n"));
 	CHECK_AS(!ladder_document_replace(document, span.at, 3, "((", &why) &&
-		 why.errors > 0, "what cannot be read is refused, with the reason");
+		 why.errors > 0, "a text that cannot be read is refused with a reason");
 	CHECK(has_text(document, text));
 	CHECK(ladder_document_undo(document) && has_text(document, before));
 	CHECK(ladder_document_redo(document) && has_text(document, text));
@@ -526,7 +526,7 @@ static void test_storm(void)
 
 /* ---- files ---- */
 
-/* A document whose file is gone has the only copy. */
+/* A document whose file was deleted is the only copy. */
 static void test_gone(void)
 {
 	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);

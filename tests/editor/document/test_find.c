@@ -80,17 +80,22 @@ static void test_address(void)
 	CHECK_TEXT(hit->text, "Motor");
 	CHECK(!find_replace(document, find, 1, "%QX0.5", NULL));
 	CHECK(!ladder_document_undo_name(document));
-	CHECK_AS(find_replace_all(document, find, "%QX0.5", NULL) == 1, "the declaration");
+	CHECK_AS(find_replace_all(document, find, "%QX0.5", NULL) == 1,
+		 "replacing an address changes the declaration only");
 	find_free(find);
 	text = ladder_document_text(document, NULL);
 	CHECK(strstr(text, "%QX0.5") && strstr(text, "COIL Motor"));
 	g_free(text);
-	CHECK_AS(count(document, "%QX0.0", FIND_EVERYWHERE, false, false) == 0, "not there");
-	CHECK_AS(count(document, "%QX0.5", FIND_OPERANDS, true, true) == 2, "there");
-	CHECK_AS(count(document, "%QX0.", FIND_OPERANDS, false, false) == 0, "no address");
-	CHECK_AS(count(document, "QX0.5", FIND_EVERYWHERE, false, false) == 1, "a part");
+	CHECK_AS(count(document, "%QX0.0", FIND_EVERYWHERE, false, false) == 0,
+		 "the old address is not found any more");
+	CHECK_AS(count(document, "%QX0.5", FIND_OPERANDS, true, true) == 2,
+		 "the new address is found at both elements");
+	CHECK_AS(count(document, "%QX0.", FIND_OPERANDS, false, false) == 0,
+		 "an incomplete address is not found at operands");
+	CHECK_AS(count(document, "QX0.5", FIND_EVERYWHERE, false, false) == 1,
+		 "a part of the address is found in the declaration");
 	find = find_new(document, "%QB0", everywhere);
-	CHECK_AS(find->hit->len == 0, "another size");
+	CHECK_AS(find->hit->len == 0, "a byte address does not find a bit in it");
 	CHECK(find_replace_all(document, find, "x", NULL) == 0);
 	find_free(find);
 	g_object_unref(document);
@@ -176,7 +181,7 @@ static void test_replace(void)
 	CHECK(replace_all(document, "BOOL", "((", FIND_DECLARATIONS, true) == -1);
 	CHECK(replace_all(document, "motor", "*) x", FIND_COMMENTS, true) == -1);
 	CHECK_AS(has(document, before) && !ladder_document_undo_name(document),
-		 "what cannot be read is refused, all of it");
+		 "a replacement that cannot be read changes nothing");
 	CHECK(replace_all(document, "1", "2", FIND_OPERANDS, true) == 1);
 	CHECK(has(document, "IN2:=2 OUT"));
 	CHECK(replace_all(document, "Motor", "Motor", FIND_EVERYWHERE, false) == 13);

@@ -80,17 +80,19 @@ static void test_declared(void)
 	put(document, 1, "%IX0.7");
 	edited = text_of(document);
 	CHECK(strstr(edited, "Open AT %IX0.5") && strstr(edited, "Mark : BOOL"));
-	CHECK_AS(back_to(document, 2, place) == BACK_NOTHING, "the edits are of another rung");
+	CHECK_AS(back_to(document, 2, place) == BACK_NOTHING,
+		 "a rung without own edits is not restored");
 	CHECK(back_to(document, 1, place) == BACK_DONE);
-	CHECK_AS(has_text(document, before), "the declaration is removed, too");
+	CHECK_AS(has_text(document, before),
+		 "restoring a rung removes the declaration of its edit");
 	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING, "a restored rung is not restored twice");
 	CHECK(strcmp(ladder_document_undo_name(document), "Give back") == 0);
 	CHECK(ladder_document_undo(document) && has_text(document, edited));
 	CHECK_AS(back_to(document, 1, place) == BACK_DONE && has_text(document, before),
-		 "once more");
+		 "a restored rung can be restored again after an undo");
 	enter(document, 1, "Open", "%IX0.5");
 	CHECK_AS(back_to(document, 1, place) == BACK_DONE && has_text(document, before),
-		 "edited again behind it");
+		 "a rung that was edited again is restored");
 	while (ladder_document_undo(document))
 		;
 	CHECK(has_text(document, SAMPLE));
@@ -110,26 +112,32 @@ static void test_other(void)
 
 	enter(document, 1, "Open", "%IX0.5");
 	ladder_document_toggle_bookmark(document, 0, 2);
-	CHECK_AS(back_to(document, 1, place) == BACK_DONE, "a bookmark does not prevent it");
+	CHECK_AS(back_to(document, 1, place) == BACK_DONE,
+		 "a rung is restored although a bookmark was set");
 	edited = text_of(document);
-	CHECK_AS(strstr(edited, "VIEW") && !strstr(edited, "Open"), "and stays");
+	CHECK_AS(strstr(edited, "VIEW") && !strstr(edited, "Open"),
+		 "restoring a rung keeps the bookmark");
 	g_free(edited);
 
 	place = ladder_document_place(document);
 	enter(document, 1, "Open", "%IX0.5");
 	CHECK(ladder_document_declare(document, -1, "Other", "BOOL", "", NULL));
 	edited = text_of(document);
-	CHECK_AS(back_to(document, 1, place) == BACK_OTHER, "a separate declaration prevents it");
-	CHECK_AS(has_text(document, edited), "nothing changed");
+	CHECK_AS(back_to(document, 1, place) == BACK_OTHER,
+		 "a separate declaration prevents restoring");
+	CHECK_AS(has_text(document, edited),
+		 "a rung that cannot be restored does not change");
 	g_free(edited);
 	CHECK(ladder_document_undo(document) && back_to(document, 1, place) == BACK_DONE);
 
 	place = ladder_document_place(document);
 	enter(document, 1, "Open", "%IX0.5");
 	put(document, 2, "Open");
-	CHECK_AS(back_to(document, 1, place) == BACK_OTHER, "an edit of another rung prevents it");
+	CHECK_AS(back_to(document, 1, place) == BACK_OTHER,
+		 "an edit of another rung prevents restoring");
 	CHECK(ladder_document_undo(document) && ladder_document_undo(document));
-	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING, "undone already");
+	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING,
+		 "a rung whose edits are undone is not restored");
 	CHECK(ladder_document_undo(document));
 	CHECK(!ladder_document_knows_place(document, place));
 	CHECK_AS(back_to(document, 1, place) == BACK_NOTHING, "an undone place cannot be restored");
@@ -149,7 +157,7 @@ static void test_joined(void)
 			place = ladder_document_place(document);
 	}
 	CHECK_AS(!ladder_document_knows_place(document, place),
-		 "the step before the place grew");
+		 "a place whose step was extended is unknown");
 	CHECK(back_to(document, 1, place) == BACK_NOTHING);
 	place = ladder_document_place(document);
 	ladder_document_open_text(document, NULL, SAMPLE, strlen(SAMPLE), true);
@@ -157,7 +165,7 @@ static void test_joined(void)
 	g_object_unref(document);
 }
 
-/* ---- any edits at all ---- */
+/* ---- random edits ---- */
 
 static guint32 state = 12345;
 

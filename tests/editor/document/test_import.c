@@ -82,11 +82,11 @@ static void test_export(void)
 	CHECK_TEXT(told->str, "Imported; Lamp is now Lamp_2");
 	CHECK(g_file_get_contents(path, &text, NULL, NULL));
 	CHECK_AS(g_str_has_prefix(text, "RUNGBOARD 1\n\nVAR\n  Start AT %IX0.0 : BOOL;"),
-		 "what was there stays");
+		 "the other file keeps its content");
 	CHECK(strstr(text, "(* shows *)\nPROGRAM Show LD\nRUNG\n  | [ Now.Size > 2 ] | COIL Lamp_2 |") &&
 	      strstr(text, "Batch : STRUCT") && strstr(text, ": Batch;"));
 	after = ladder_document_text(document, NULL);
-	CHECK_AS(strcmp(before, after) == 0, "a copy changes nothing here");
+	CHECK_AS(strcmp(before, after) == 0, "copying does not change this document");
 	CHECK(g_file_set_contents(path, "nothing", -1, NULL) && !pou_export(document, 1, path, told));
 	g_free(text);
 	CHECK(g_file_get_contents(path, &text, NULL, NULL));
@@ -118,9 +118,9 @@ int main(void)
 	CHECK_AS(has("Batch : STRUCT") && lacks("Unused"), "the used structure is imported, and no other");
 	CHECK_AS(has("VAR RETAIN\n  Now : Batch;\nEND_VAR"), "the symbol is imported, with RETAIN");
 	CHECK_AS(has("Lamp_2 AT %QX0.5") && has("COIL Lamp_2 |"),
-		 "another thing of the same name");
+		 "a different symbol with a known name gets a new name");
 	CHECK_AS(lacks("Start_2") && lacks("Other") && lacks("Spare"),
-		 "the same thing is shared, the rest stays away");
+		 "an equal symbol is shared, unused symbols are not imported");
 	ladder_document_check_now(document);
 	CHECK(ladder_document_diags(document)->errors == 0);
 	CHECK_TEXT(ladder_document_undo_name(document), "Import");

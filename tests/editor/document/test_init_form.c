@@ -96,22 +96,23 @@ static void test_defaults(LadderDocument *document)
 		return;
 	CHECK(!init_form_is_changed(form));
 	CHECK_AS(is_default(form, "Name", "'a'") && is_default(form, "Wait", "T#0s") &&
-		 is_default(form, "On", "FALSE"), "of members");
-	CHECK_AS(is_default(form, "Limit Low", "5"), "the outer declaration counts");
+		 is_default(form, "On", "FALSE"), "the defaults are those of the members");
+	CHECK_AS(is_default(form, "Limit Low", "5"),
+		 "the default of the outer structure is used");
 	CHECK(is_default(form, "Limit High [1]", "9") && is_default(form, "Limit High [2]", "2") &&
 	      is_default(form, "Limit High [3]", "3"));
 	CHECK_AS(is_text(form, "Limit High [2]", "16#4") && is_text(form, "Limit High [1]", ""),
-		 "given values as they are written");
+		 "given values are shown as they are written");
 	CHECK(is_text(form, "", "(Limit := (High := [1(), 16#4]))"));
 	CHECK_AS(set(form, "Limit High [2]", "2") && is_text(form, "", ""),
-		 "a value that is the default is not written");
+		 "a value equal to its default is not written");
 	CHECK(set(form, "Wait", "5s") && set(form, "Name", "'it$'s'") && set(form, "On", "TRUE") &&
 	      set(form, "Limit Low", "16#05"));
 	CHECK(is_text(form, "", "(Name := 'it$'s', Wait := T#5s, On := TRUE)"));
 	CHECK_AS(!set(form, "On", "2") && !set(form, "Limit Low", "70000") &&
 		 !set(form, "Wait", "x") && !set(form, "Name", "'sixsix'") &&
 		 !set(form, "Limit Low", "1, 2") && !set(form, "Limit Low", "1) := 4"),
-		 "what does not fit is refused");
+		 "values that do not fit are refused");
 	CHECK(is_text(form, "", "(Name := 'it$'s', Wait := T#5s, On := TRUE)"));
 	CHECK(set(form, "Wait", "") && set(form, "Name", "") && set(form, "On", " ") &&
 	      is_text(form, "", "") && init_form_is_changed(form));
@@ -137,10 +138,11 @@ static void test_arrays(LadderDocument *document)
 	init_form_free(form);
 	form = init_form_new(document, 0, 3, &why);
 	CHECK_AS(!find(form, "Q") && is_text(form, "PT", "T#3s") && is_default(form, "PT", "T#0s"),
-		 "an instance has its inputs");
+		 "the form of an instance has its inputs");
 	init_form_free(form);
 	form = init_form_new(document, 0, 4, &why);
-	CHECK_AS(init_node_parts(form, init_form_root(form))->len == 10, "a long array has ranges");
+	CHECK_AS(init_node_parts(form, init_form_root(form))->len == 10,
+		 "the form of a long array has ranges");
 	CHECK(set(form, "[60000..69999] [65400..65499] [65432]", "1") &&
 	      is_text(form, "", "[65432(0), 1]"));
 	init_form_free(form);
@@ -376,6 +378,7 @@ int main(void)
 	g_object_unref(document);
 	for (guint32 seed = 1; seed <= 400 && bad < 3; seed++)
 		bad += round_trip(seed);
-	CHECK_AS(bad == 0, "random types: values are read again as they were set, and run so");
+	CHECK_AS(bad == 0,
+		 "values of random types are read as they were set, and the program starts with them");
 	return tap_done();
 }

@@ -60,7 +60,7 @@ static void check_page(int number)
 		return;
 	if (page->unknown)
 		printf("# it has %s\n", page->unknown);
-	CHECK_AS(!page->unknown, "everything in it is shown");
+	CHECK_AS(!page->unknown, "each construct of the page is shown");
 	CHECK(*page->title && page->blocks->len > 2);
 	for (guint i = 0; i < page->blocks->len; i++) {
 		const struct md_block *block = page->blocks->pdata[i];
@@ -78,7 +78,7 @@ static void check_page(int number)
 		}
 		empty += block->kind == MD_TEXT && !block->runs->len;
 	}
-	CHECK_AS(wrong == 0, "its links, tables and pictures are good");
+	CHECK_AS(wrong == 0, "the links, tables and pictures of the page are correct");
 	CHECK_AS(empty == 0, "no paragraph is empty");
 }
 
@@ -131,7 +131,7 @@ static void check_search(void)
 	CHECK(!manual_code(manual, "LD999", &page, &block));
 }
 
-/* Constructs that are not shown are refused. */
+/* A page with a construct that is not shown is refused. */
 static void check_refused(void)
 {
 	static const char *const wrong[] = { "> said\n", "a\n\n---\n\nb\n", "a &copy; b\n",

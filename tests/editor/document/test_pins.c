@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_pins - pins change their order only where callers go on to mean the same: random moves
+ * test_pins - pins change their order only where all calls keep their meaning: random moves
  * leave every operand at its pin, and are refused where operands have no names.
  */
 #include "editor-gtk/document/pins.h"
@@ -97,7 +97,7 @@ static bool is_refused(const char *pou, const char *name, int by, const char *pa
 	after = ladder_document_text(document, NULL);
 	good = why && strstr(why, part) && strcmp(before, after) == 0;
 	if (!good)
-		printf("# %s\n", why ? why : "it moved");
+		printf("# %s\n", why ? why : "the pin moved");
 	g_free(why);
 	g_free(before);
 	g_free(after);
@@ -164,12 +164,12 @@ static void test_moves(void)
 		g_free(now);
 		g_free(after);
 	}
-	CHECK_AS(good && moved > 20, "pins of boxes move, and callers stay as they are");
+	CHECK_AS(good && moved > 20, "moving pins does not change the calls");
 	while (ladder_document_undo(document))
 		;
 	g_free(mine);
 	mine = ladder_document_text(document, NULL);
-	CHECK_AS(strcmp(first, mine) == 0, "all undone");
+	CHECK_AS(strcmp(first, mine) == 0, "undo restores the first text");
 	g_free(mine);
 	g_free(first);
 	g_rand_free(chance);
@@ -185,7 +185,7 @@ static void test_power(void)
 	CHECK(is_refused("Motor", "Sum", 1, "last one already"));
 	CHECK(!move("Motor", "Level", 1) && is_order("Motor", VAR_INPUT, "Start Level Stop Wait"));
 	open_with("LD", "RUNG\n");
-	CHECK_AS(!move("Motor", "Start", 1), "without a box any order is good");
+	CHECK_AS(!move("Motor", "Start", 1), "without a box a pin may move anywhere");
 	CHECK(is_order("Motor", VAR_INPUT, "Level Stop Start Wait"));
 }
 
@@ -194,7 +194,8 @@ static void test_positions(void)
 	open_with("IL", "  CAL   M(1, TRUE)\n");
 	CHECK(is_refused("Motor", "Wait", -1, "“Main” gives operands by position"));
 	open_with("IL", "  CAL   M(Level := 1, Start := TRUE, Total := T, Other := U)\n");
-	CHECK_AS(!move("Motor", "Wait", -1), "operands with names go on to their pins");
+	CHECK_AS(!move("Motor", "Wait", -1),
+		 "a pin moves if the operands of a call have names");
 	open_with("IL", "  LD    1\n  Scaled 3, 10\n  ST    R\n");
 	CHECK(is_refused("Scaled", "A", 1, "by position"));
 	open_with("IL", "  Scaled(X := 1, A := 3, OUT => R)\n");
@@ -213,7 +214,7 @@ static void test_result(void)
 
 	open_with("LD", "RUNG\n");
 	why = pins_set_result(document, number_of(pou_named("Scaled")), "ARRAY");
-	CHECK_AS(why, "a type that is none");
+	CHECK_AS(why, "a result of an unknown type is refused");
 	g_free(why);
 	CHECK(!pins_set_result(document, number_of(pou_named("Scaled")), "DINT") &&
 	      pou_named("Scaled")->vars.var[0].type == IEC_DINT);

@@ -156,15 +156,17 @@ static void lines(void)
 	CHECK_AS(strstr(got, "// lamp\n") + 8 == got + strlen(got), "the last line is deleted");
 	free(got);
 	got = edited(sample, io_text_add(&io, 1, "%IX0.2", "sim", "", &edit), &edit);
-	CHECK_AS(strstr(got, "# PA7\n%IX0.2  sim\n%QX0.0") != NULL, "a line is added behind another");
+	CHECK_AS(strstr(got, "# PA7\n%IX0.2  sim\n%QX0.0") != NULL,
+		 "a line is added after another one");
 	free(got);
 	got = edited(sample, io_text_add(&io, -1, "%QX0.2", "sim", "Horn", &edit), &edit);
 	CHECK_AS(strstr(got, "%Q what\n%QX0.2  sim  safe=0   # Horn\n") != NULL,
-		 "one behind a line that no newline ends");
+		 "a line is added after a last line without a newline");
 	free(got);
 	CHECK(io_text_add(&io, 0, "%Q X", "sim", "", &edit) == IO_MANY_WORDS);
 	got = edited(sample, io_text_set_board(&io, "A \"$\"", &edit), &edit);
-	CHECK_AS(strncmp(got, "BOARD \"A $\"$$$\"\"\n#", 18) == 0, "another board");
+	CHECK_AS(strncmp(got, "BOARD \"A $\"$$$\"\"\n#", 18) == 0,
+		 "the name of the board is replaced");
 	free(got);
 	io_text_free(&io);
 	io_text_read(&io, "%IX0.0 sim\n", 11);
@@ -250,7 +252,8 @@ static void storm(void)
 			}
 		io_text_free(&io);
 	}
-	CHECK_AS(bad == 0 && rows > 10000 && edits > 5000, "odd texts");
+	CHECK_AS(bad == 0 && rows > 10000 && edits > 5000,
+		 "random texts give rows and edits inside the text");
 	printf("# %d fields, %d edits, %d bad\n", rows, edits, bad);
 }
 

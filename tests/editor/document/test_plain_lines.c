@@ -55,10 +55,12 @@ int main(void)
 	text_lines_place(typed, canonical, &line, &column);
 	CHECK_AS(line == 11 && column == 10, "the nearest line with the same words, and its "
 		 "column behind another indent");
-	CHECK_AS(line_of("A\n\nB\nC\n", "x\ny\nz\n", 1) == 2, "the line with as many lines before it");
-	CHECK_AS(line_of("A\nB\n", "x\ny\nz\nv\nw\n", 4) == 1, "never behind the last line");
+	CHECK_AS(line_of("A\n\nB\nC\n", "x\ny\nz\n", 1) == 2,
+		 "without equal words the line with the same number is taken");
+	CHECK_AS(line_of("A\nB\n", "x\ny\nz\nv\nw\n", 4) == 1,
+		 "the line is at most the last one");
 	CHECK_AS(line_of("", "x\ny\n", 1) == 1 && line_of("a\n", "", 7) == 7,
-		 "nothing to go by: left alone");
+		 "in an empty text the line number is kept");
 	many();
 	return tap_done();
 }

@@ -44,14 +44,16 @@ static void test_block(void)
 {
 	char *before = ladder_document_text(document, NULL);
 
-	CHECK_AS(pou_uses(document, pou_of("Seal")) > 0, "its uses are counted");
+	CHECK_AS(pou_uses(document, pou_of("Seal")) > 0,
+		 "the uses of a block are counted");
 	CHECK(pou_uses(document, pou_of("Main")) == 0);
 	CHECK_AS(!pou_delete(document, pou_of("Seal")), "a used block is deleted");
 	CHECK_AS(ladder_document_project(document) && pou_of("Seal") < 0 && !has("Seal"),
-		 "with its boxes and instances");
+		 "deleting a block deletes its boxes and instances");
 	CHECK_AS(has("| NO %IX0.0 | COIL Lamp |") && has("| TON Delay PT:=T#1s | COIL %QX0.1 |"),
-		 "power goes on where its boxes were");
-	CHECK_AS(has("NO One.Q") && has("Delay : TON"), "other elements stay");
+		 "the line is closed where a deleted box was");
+	CHECK_AS(has("NO One.Q") && has("Delay : TON"),
+		 "deleting a block keeps other elements");
 	CHECK(ladder_document_undo(document));
 	CHECK_AS(has(before) && !ladder_document_undo_name(document), "one undo restores all");
 	g_free(before);
@@ -84,7 +86,7 @@ static const char *const PARTS[] = {
 	"VIEW\n  bookmark One 1\nEND_VIEW\n",
 };
 enum { PARTS_COUNT = G_N_ELEMENTS(PARTS) };
-/* Its parts: those of POUs by the number of the POU. */
+/* The part of each POU, by its number. */
 static const int part_of[] = { 1, 2, 3, 5, 6, 7 };
 
 static char *joined(const int *order)
@@ -96,7 +98,7 @@ static char *joined(const int *order)
 	return g_string_free(text, FALSE);
 }
 
-/* What the move is, for the model: an order of parts. */
+/* Makes the same move in the model, which is an order of parts. */
 static void move_part(int *order, int part, int beside, bool behind)
 {
 	int others[PARTS_COUNT], count = 0, to = 0;
@@ -169,15 +171,16 @@ static void test_order(void)
 		g_free(before);
 		g_free(after);
 	}
-	CHECK_AS(good, "any order, byte by byte, with one undo each");
+	CHECK_AS(good, "each move gives the expected bytes and is one undo");
 	while (ladder_document_undo(document))
 		;
-	CHECK_AS(is_text(first), "all undone");
+	CHECK_AS(is_text(first), "undo restores the first text");
 	CHECK_AS(pou_beside(document, 0, -1) < 0 && pou_beside(document, 0, 1) == 1 &&
 		 pou_beside(document, 1, 1) == 4 && pou_beside(document, 4, 1) < 0 &&
 		 pou_beside(document, 2, -1) < 0 && pou_beside(document, 2, 1) == 3 &&
 		 pou_beside(document, 3, 1) == 5, "programs stand beside programs");
-	CHECK_AS(pou_order_counts(document), "without a CONFIGURATION the order counts");
+	CHECK_AS(pou_order_counts(document),
+		 "pou_order_counts() is true without a CONFIGURATION");
 	g_free(first);
 	g_rand_free(chance);
 }
@@ -210,7 +213,7 @@ static void test_duplicates(void)
 		g_string_replace(copy, "OUT=>Sum ", "OUT=>Sum_2 ", 0);
 		expected = with_copy(part_of[i], copy->str);
 		why = pou_duplicate(document, i, name);
-		CHECK_AS(!why && is_text(expected), "the same with another name");
+		CHECK_AS(!why && is_text(expected), "a copy differs only in its name");
 		ladder_document_check_now(document);
 		CHECK_AS(!ladder_document_diags(document)->errors, "the copy builds");
 		CHECK(ladder_document_undo(document) && is_text(first));
@@ -262,7 +265,8 @@ static void test_names(void)
 			why = pou_add(document, kinds[kind], (enum pou_language)language, name);
 			CHECK_AS(!why && has(name), name);
 			ladder_document_check_now(document);
-			CHECK_AS(!ladder_document_diags(document)->errors, "the new one builds");
+			CHECK_AS(!ladder_document_diags(document)->errors,
+				 "a new POU builds");
 			CHECK(ladder_document_undo(document) && is_text(first));
 			g_free(why);
 			g_free(name);
@@ -270,7 +274,7 @@ static void test_names(void)
 	g_free(first);
 }
 
-/* A program goes with its PROGRAM line. */
+/* Deleting a program deletes its PROGRAM line. */
 static void test_program(void)
 {
 	static const char text[] = "RUNGBOARD 1\n\nCONFIGURATION Plant\n"

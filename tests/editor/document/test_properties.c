@@ -36,7 +36,7 @@ static void open_text(const char *head)
 	g_string_free(text, TRUE);
 }
 
-/* Words, quotes, dollars, several lines, other scripts. */
+/* A random text of words, quotes, dollars, lines and other scripts. */
 static char *random_text(GRand *chance, bool lines)
 {
 	static const char *const pieces[] = { "a", "Door", "\"", "$", "$N", " ", "(*", "*)", "//",
@@ -114,12 +114,12 @@ static void test_project(const char *head)
 		g_free(now);
 		g_free(why);
 	}
-	CHECK_AS(good, "any properties read the same; all else stays");
+	CHECK_AS(good, "random properties are read again, and nothing else changes");
 	while (ladder_document_undo(document))
 		;
 	g_free(rest);
 	rest = text_now();
-	CHECK_AS(strcmp(rest, first) == 0, "all undone");
+	CHECK_AS(strcmp(rest, first) == 0, "undo restores the first text");
 	g_free(rest);
 	g_free(first);
 	g_rand_free(chance);
@@ -163,15 +163,16 @@ static void test_comments(void)
 		g_free(before);
 		g_free(text);
 	}
-	CHECK_AS(good, "any comment reads the same");
+	CHECK_AS(good, "random comments are read again");
 	CHECK(!pou_set_comment(document, 0, "") && !pou_set_comment(document, 1, ""));
 	shown = text_now();
-	CHECK_AS(strstr(shown, "END_VAR\n\nPROGRAM Main LD\n"), "an empty comment is none");
+	CHECK_AS(strstr(shown, "END_VAR\n\nPROGRAM Main LD\n"),
+		 "an empty comment is not written");
 	g_free(shown);
 	while (ladder_document_undo(document))
 		;
 	shown = text_now();
-	CHECK_AS(strcmp(shown, first) == 0, "all undone");
+	CHECK_AS(strcmp(shown, first) == 0, "undo restores the first text");
 	g_free(shown);
 	g_free(first);
 	g_rand_free(chance);

@@ -153,7 +153,8 @@ static void test_output(void)
 	start();
 	target = target_of(0, "Motor");
 	files = rename_files(document, &target, NULL, &why);
-	CHECK_AS(files && files->len == 2, "files are listed before");
+	CHECK_AS(files && files->len == 2,
+		 "the changed files are listed before the rename");
 	for (guint i = 0; files && i < files->len; i++)
 		CHECK(((struct rename_file *)files->pdata[i])->places == 2);
 	CHECK(opened->len == 0);
@@ -163,7 +164,7 @@ static void test_output(void)
 	other = with(PLANT, in_plant);
 	CHECK_AS(opened->len == 2 && has("COIL Pump") && !has("Motor"), "the program changes");
 	CHECK_AS(holds(scenario, text), "the scenario changes");
-	CHECK_AS(holds(plant, other), "the plant changes, and only its names");
+	CHECK_AS(holds(plant, other), "only the name changes in the plant");
 	CHECK_AS(ladder_document_undo(document) && has("COIL Motor") &&
 		 holds(scenario, SCENARIO) && holds(plant, PLANT), "one undo restores all files");
 	CHECK(!ladder_document_undo_name(document));
@@ -222,7 +223,7 @@ static void test_kinds(void)
 	end();
 }
 
-/* The table of symbols renames everywhere, too; a name that only a scenario uses follows. */
+/* A new name in the table of symbols renames everywhere, also in scenarios. */
 static void test_symbols(void)
 {
 	static const char *const pairs[] = { "Unused = 1", "Spare = 1", NULL };
@@ -235,7 +236,7 @@ static void test_symbols(void)
 	end();
 }
 
-/* What is typed in an open file counts, not what is saved. */
+/* A rename uses the text of an open file, not the saved one. */
 static void test_open(void)
 {
 	struct xref_target target;
@@ -266,12 +267,12 @@ static void test_refused(void)
 	why = rename_refusal(document, &target, "Pump");
 	CHECK_AS(why && strstr(why, "pump.plant.rung"), "a plant that has the name refuses it");
 	CHECK_AS(!rename_to(&target, "Pump", 0) && has("COIL Motor") && opened->len == 0,
-		 "nothing changes");
+		 "a refused rename changes nothing");
 	g_free(why);
 	end();
 }
 
-/* Each plant that a scenario names has the new name, and each scenario means its own plant. */
+/* Two scenarios with different plants: both plants get the new name. */
 static void test_plants(void)
 {
 	char *second = g_build_filename(folder, "pump_2.scn", NULL);
@@ -335,7 +336,7 @@ static void test_charts(void)
 
 		listed |= !file->path && file->places == 3;
 	}
-	CHECK_AS(listed, "the charts are listed before");
+	CHECK_AS(listed, "the changed charts are listed before the rename");
 	g_ptr_array_unref(files);
 	CHECK(rename_to(&target, "Pump", 2 + 2 + 2 + 3));
 	CHECK_AS(strstr(text, ladder_document_view(document)), "the charts change");
@@ -345,7 +346,8 @@ static void test_charts(void)
 	target = target_of(1, "Delay");
 	CHECK(rename_to(&target, "Wait", 2 + 2 + 2));
 	local = with(VIEW, delay);
-	CHECK_AS(strstr(local, ladder_document_view(document)), "a local in charts");
+	CHECK_AS(strstr(local, ladder_document_view(document)),
+		 "a local variable is renamed in charts");
 	g_free(local);
 	g_free(text);
 	g_free(view);
@@ -367,7 +369,8 @@ static void test_label(void)
 		if (xref.use[i].target.what == XREF_LABEL && xref.use[i].kind == XREF_DECLARED)
 			found = i;
 	CHECK(found >= 0 && rename_to(&xref.use[found].target, "Behind", 2));
-	CHECK_AS(has("JMP Behind") && has("RUNG Behind"), "a label and its jump");
+	CHECK_AS(has("JMP Behind") && has("RUNG Behind"),
+		 "a label is renamed at its rung and its jump");
 	xref_free(&xref);
 	end();
 }

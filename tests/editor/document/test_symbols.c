@@ -134,8 +134,9 @@ static void test_beside(void)
 	CHECK_TEXT(symbol_beside(document, 0, 2), "L");
 	CHECK_TEXT(symbol_beside(document, 1, 0), "A");
 	CHECK_TEXT(symbol_beside(document, 1, 1), "T");
-	CHECK_AS(!symbol_beside(document, 1, 2), "an address just behind the array is free");
-	CHECK_AS(!symbol_beside(document, 1, 3), "an address of another area is another");
+	CHECK_AS(!symbol_beside(document, 1, 2), "the address after the array is free");
+	CHECK_AS(!symbol_beside(document, 1, 3),
+		 "the same address of another area is free");
 	CHECK_AS(!symbol_beside(document, 0, 3), "a symbol without an address shares none");
 	CHECK(!symbol_beside(document, 0, 9) && !symbol_beside(document, 9, 0));
 	g_object_unref(document);
@@ -154,14 +155,15 @@ static void test_fields(void)
 	CHECK(has(document, "  Count AT %MD4   : DINT;"));
 	CHECK_AS(!set(document, "", "Start", FIELD_COMMENT, "a *) b") &&
 		 !set(document, "", "Start", FIELD_COMMENT, "a (* b"),
-		 "a comment is not changed unsaid");
+		 "a comment with (* or *) is refused");
 	CHECK(set(document, "", "Start", FIELD_COMMENT, "a\nd"));
 	CHECK(has(document, "(* a d *)\n"));
 	CHECK(set(document, "", "Count", FIELD_RETAIN, "1"));
 	CHECK(has(document, "VAR RETAIN\n  Hours : UDINT;\n  Count AT %MD4 : DINT;"));
 	CHECK(set(document, "", "Count", FIELD_RETAIN, ""));
 	CHECK(set(document, "", "Hours", FIELD_RETAIN, ""));
-	CHECK_AS(!has(document, "RETAIN"), "the only symbol of a block changes the block");
+	CHECK_AS(!has(document, "RETAIN"),
+		 "the last RETAIN symbol of a block removes RETAIN");
 	CHECK(set(document, "", "Hours", FIELD_INITIAL, "3"));
 	CHECK(set(document, "", "Hours", FIELD_CONSTANT, "1"));
 	CHECK(has(document, "VAR CONSTANT\n  Hours : UDINT := 3;\nEND_VAR\n"));
@@ -218,7 +220,7 @@ static void test_hostile(void)
 
 	for (gsize i = 0; i < G_N_ELEMENTS(bad); i++)
 		CHECK_AS(!set(document, "", "Count", FIELD_TYPE, bad[i]), bad[i][0] ?
-			 "a bad type is refused" : "so is none");
+			 "a bad type is refused" : "an empty type is refused");
 	for (gsize i = 0; i < G_N_ELEMENTS(initials); i++)
 		CHECK_AS(!set(document, "", "Count", FIELD_INITIAL, initials[i]),
 			 initials[i]);
@@ -226,7 +228,7 @@ static void test_hostile(void)
 	CHECK(!set(document, "", "Count", FIELD_ADDRESS, "%MW2 : INT; Y AT %MW4"));
 	CHECK(!set(document, "Recipe", "Speed", FIELD_ADDRESS, "%MW2"));
 	CHECK_AS(has(document, before) && !ladder_document_undo_name(document),
-		 "and nothing changed");
+		 "a refused type, value or address changes nothing");
 	g_free(before);
 	g_object_unref(document);
 }
@@ -367,7 +369,7 @@ static void test_export(void)
 	CHECK(strstr(table, "Recipe,STRUCT,Speed,INT,,5,,,rpm\r\n"));
 	CHECK(count == 10);
 	CHECK_AS(plan->counts[CSV_SAME] == 10 && plan->entry->len == 10,
-		 "what was exported changes nothing");
+		 "an exported table changes nothing when it is imported");
 	CHECK(csv_plan_apply(plan, NULL) && !ladder_document_undo_name(document));
 	csv_plan_free(plan);
 	again = csv_export(document, &count);
@@ -487,7 +489,7 @@ static void test_places(void)
 	CHECK(has(document, "    Weight : INT;\n"));
 	again = csv_export(document, &count);
 	CHECK_AS(strstr(again, ",VAR,Noted,INT,,,,,a ( * b * ) c d\r\n"),
-		 "the comment is what the plan told");
+		 "the imported comment is that of the plan");
 	g_free(again);
 	g_object_unref(document);
 }
@@ -510,7 +512,7 @@ static void test_faults(void)
 	CHECK(!((struct csv_entry *)plan->entry->pdata[0])->warning);
 	CHECK(((struct csv_entry *)plan->entry->pdata[1])->warning);
 	CHECK_AS(csv_plan_apply(plan, NULL) && has(document, "Stop  AT %IX0.0 : BOOL"),
-		 "it may be wanted nevertheless");
+		 "a table with warnings can be imported");
 	csv_plan_free(plan);
 	g_object_unref(document);
 }

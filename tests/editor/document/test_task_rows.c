@@ -108,7 +108,7 @@ static void set(LadderDocument *document, const char *name, enum task_field fiel
 	check_changed(document, before, old, now);
 	CHECK(ladder_document_undo(document));
 	after = text_of(document);
-	CHECK_AS(strcmp(after, before) == 0, "one undo");
+	CHECK_AS(strcmp(after, before) == 0, "one undo restores the text");
 	CHECK(!ladder_document_undo_name(document));
 	g_free(after);
 	g_free(why);
@@ -125,7 +125,7 @@ static void refuse(LadderDocument *document, const char *name, enum task_field f
 		 what);
 	after = text_of(document);
 	CHECK_AS(strcmp(after, before) == 0 && !ladder_document_undo_name(document),
-		 "and changes nothing");
+		 "a refused value changes nothing");
 	g_free(what);
 	g_free(after);
 	g_free(before);
@@ -190,7 +190,8 @@ static void test_rename(void)
 	check_order(document, "Quickly: A BSlow:Each scan: CDo not run: Spare");
 	text = text_of(document);
 	CHECK(!strstr(text, "Fast") && strstr(text, "PROGRAM A WITH Quickly : Quick; (* x *)\n"));
-	CHECK_AS(strstr(text, "(* a\n    b *) // c\n"), "its comments stay");
+	CHECK_AS(strstr(text, "(* a\n    b *) // c\n"),
+		 "a renamed task keeps its comments");
 	g_free(text);
 	g_object_unref(document);
 }
@@ -206,7 +207,7 @@ static void move(LadderDocument *document, const char *name, const char *head,
 	check_order(document, want);
 	CHECK(ladder_document_undo(document));
 	after = text_of(document);
-	CHECK_AS(strcmp(after, text) == 0, "one undo");
+	CHECK_AS(strcmp(after, text) == 0, "one undo restores the text");
 	g_free(after);
 	g_free(text);
 	g_free(why);
@@ -265,7 +266,8 @@ static void test_rows_come_and_go(void)
 	CHECK(g_strcmp0(name, "Spare") == 0);
 	g_clear_pointer(&name, g_free);
 	CHECK(task_rows_add_program(document, row_of(document, "Task1"), 0, &name, NULL));
-	CHECK_AS(g_strcmp0(name, "A") == 0, "a program that runs already moves");
+	CHECK_AS(g_strcmp0(name, "A") == 0,
+		 "a program that already has a task moves to the new one");
 	check_order(document, "Fast: BSlow:Task1: Spare AEach scan: C");
 	CHECK(task_rows_delete(document, row_of(document, "Spare"), NULL));
 	CHECK(task_rows_delete(document, row_of(document, "Task1"), NULL));
@@ -299,7 +301,7 @@ static void test_implicit(void)
 		"END_CONFIGURATION\n\nPROGRAM Main LD");
 	CHECK(ladder_document_undo(document));
 	text = text_of(document);
-	CHECK_AS(strcmp(text, plain) == 0, "one undo takes it back whole");
+	CHECK_AS(strcmp(text, plain) == 0, "one undo removes the new CONFIGURATION");
 	g_free(text);
 	CHECK(task_rows_add(document, &name, NULL));
 	check_changed(document, plain, "PROGRAM Main LD",
@@ -313,7 +315,7 @@ static void test_implicit(void)
 	check_order(document, "Task1:Each scan: Other Main");
 	CHECK(task_rows_delete(document, row_of(document, "Main"), NULL));
 	CHECK_AS(!task_rows_delete(document, row_of(document, "Other"), NULL),
-		 "the last one stays: without PROGRAM lines all would run");
+		 "the last PROGRAM line is not deleted");
 	g_free(name);
 	g_object_unref(document);
 }
@@ -562,7 +564,7 @@ static bool edit(LadderDocument *document, guint what, guint *changes)
 	return done;
 }
 
-/* The rest of a text that gets its first CONFIGURATION has that more. */
+/* Whether the texts are equal, apart from a first CONFIGURATION in @after. */
 static bool is_rest_kept(const char *before, const char *after)
 {
 	static const char config[] = "CONFIGURATION Config\nEND_CONFIGURATION\n\n";
@@ -632,7 +634,8 @@ static void test_random(void)
 		g_object_unref(document);
 		g_free(text);
 	}
-	CHECK_AS(good == PROJECTS * EDITS_OF_EACH, "random edits change their lines alone");
+	CHECK_AS(good == PROJECTS * EDITS_OF_EACH,
+		 "random edits change only their own lines");
 	CHECK_AS(changed == PROJECTS, "each project was changed");
 }
 

@@ -82,21 +82,23 @@ static void test_add(void)
 	begin(PROGRAM);
 	CHECK_AS(type_add(document, "Batch", &why) &&
 		 has("  Box : STRUCT\n    Only : Recipe;\n  END_STRUCT;\n  Batch : STRUCT\n"
-		     "    Member1 : INT;\n  END_STRUCT;\nEND_TYPE\n"), "added behind the others");
+		     "    Member1 : INT;\n  END_STRUCT;\nEND_TYPE\n"),
+		 "a structure is added after the others");
 	CHECK(type_find(document, "bATCH") == 3);
-	undone("one step adds it");
+	undone("one undo removes the added structure");
 	refused(type_add(document, "recipe", &why), "a name of another structure");
 	refused(type_add(document, "Main", &why), "a name of a program");
 	refused(type_add(document, "Last", &why), "a name of a symbol");
 	refused(type_add(document, "INT", &why), "a name of a type");
 	refused(type_add(document, "TON", &why), "a name of a block");
 	refused(type_add(document, "COIL", &why), "a word of cells");
-	refused(type_add(document, "2b", &why), "no name");
+	refused(type_add(document, "2b", &why), "a text that is no name");
 	refused(type_add(document, "", &why), "an empty name");
 	begin(plain);
 	CHECK_AS(type_add(document, "Batch", &why) &&
 		 has("PROJECT \"A\"\n\nTYPE\n  Batch : STRUCT\n    Member1 : INT;\n"
-		     "  END_STRUCT;\nEND_TYPE\n\nVAR\n"), "the first one goes before the variables");
+		     "  END_STRUCT;\nEND_TYPE\n\nVAR\n"),
+		 "the first structure is added before the variables");
 }
 
 static void test_duplicate(void)
@@ -109,8 +111,8 @@ static void test_duplicate(void)
 	CHECK_AS(type_duplicate(document, 1, name, &why) &&
 		 has("  END_STRUCT; (* shown *)\n  Recipe2 : STRUCT\n    Speed : INT;\n"
 		     "    Limit : Bounds;\n    Wait  : TIME;\n  END_STRUCT; (* shown *)\n  Box"),
-		 "the copy stands behind its original");
-	undone("one step duplicates");
+		 "a copy is added after its original");
+	undone("one undo removes the copy");
 	refused(type_duplicate(document, 1, "Box", &why), "a copy with a taken name");
 	g_free(name);
 }
@@ -119,19 +121,23 @@ static void test_delete(void)
 {
 	begin(PROGRAM);
 	CHECK(type_uses(document, 1) == 4 && type_uses(document, 0) == 3);
-	refused(type_delete(document, 0, &why), "a function returns it");
-	refused(type_delete(document, 1, &why), "a structure would be empty");
+	refused(type_delete(document, 0, &why),
+		"a structure that a function returns is not deleted");
+	refused(type_delete(document, 1, &why),
+		"a structure that is the only member of another is not deleted");
 	CHECK_AS(type_delete(document, 2, &why) && !has("Box") && has("Recipe : STRUCT"),
-		 "an unused one is deleted");
-	CHECK_AS(type_delete(document, 1, &why), "a used one is deleted");
+		 "an unused structure is deleted");
+	CHECK_AS(type_delete(document, 1, &why), "a used structure is deleted");
 	CHECK_AS(!has(": Recipe") && !has("OF Recipe") && has("  Last : INT;\n") &&
-		 has("[ Now.Speed > 1 ]"), "with its variables and inputs, but no rung");
+		 has("[ Now.Speed > 1 ]"),
+		 "deleting a structure deletes its variables and inputs, but no rung");
 	CHECK(ladder_document_undo(document) && ladder_document_undo(document));
-	CHECK_AS(has_text(PROGRAM), "Undo restores all");
+	CHECK_AS(has_text(PROGRAM), "two undos restore both structures");
 	begin("RUNGBOARD 1\n\nTYPE\n  Only : STRUCT\n    A : INT;\n  END_STRUCT;\nEND_TYPE\n\n"
 	      "PROGRAM Main LD\nRUNG\n  | COIL %QX0.0 |\nEND_PROGRAM\n");
 	CHECK_AS(type_delete(document, 0, &why) && has_text("RUNGBOARD 1\n\nPROGRAM Main LD\n"
-		 "RUNG\n  | COIL %QX0.0 |\nEND_PROGRAM\n"), "the last one goes with its part");
+		 "RUNG\n  | COIL %QX0.0 |\nEND_PROGRAM\n"),
+		 "deleting the last structure deletes the TYPE part");
 }
 
 /* The names of the members of structure 0, in order. */
@@ -172,11 +178,11 @@ static void test_moves(void)
 		same += strcmp(now, wanted) == 0;
 		g_free(now);
 	}
-	CHECK_AS(same == 60, "each move gives the order of a list");
+	CHECK_AS(same == 60, "each move gives the expected order");
 	for (; moves > 0 && ladder_document_undo(document); moves--)
 		;
 	CHECK_AS(moves == 0 && !ladder_document_undo_name(document) && has_text(many),
-		 "one Undo each gives the file back");
+		 "one undo for each move restores the file");
 	g_rand_free(random);
 }
 
@@ -187,16 +193,16 @@ static void test_members(void)
 	begin(PROGRAM);
 	CHECK_AS(type_add_member(document, 1, 0, &name, &why) &&
 		 has("    Speed  : INT;\n    Speed2 : INT;\n    Limit  : Bounds;\n"),
-		 "a member is added behind another, with its type");
+		 "a member is added after another one with its type");
 	g_free(name);
-	undone("one step adds a member");
+	undone("one undo removes the added member");
 	CHECK(type_add_member(document, 1, 2, &name, &why) && has("    Wait  : TIME;\n    Wait2 : TIME;\n"));
 	g_free(name);
-	undone("and one at the end");
+	undone("one undo removes the member added at the end");
 	CHECK(symbol_set(document, type_table(document, 1), 0, FIELD_NAME, "Rate", &why));
 	CHECK_AS(has("[ Now.Rate > 1 ]") && has("[3(Rate := 1)]") && has("    Rate  : INT;\n"),
 		 "a member is renamed everywhere");
-	undone("in one step");
+	undone("one undo restores the renamed member");
 	CHECK(symbol_set(document, type_table(document, 1), 0, FIELD_INITIAL, "5", &why) &&
 	      symbol_set(document, type_table(document, 1), 0, FIELD_COMMENT, "rpm", &why) &&
 	      symbol_set(document, type_table(document, 1), 0, FIELD_TYPE, "ARRAY[0..1] OF BOOL",
