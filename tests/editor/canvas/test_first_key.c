@@ -186,9 +186,9 @@ static void test_conditions(void)
 	CHECK_AS(entry() && is_refused() && file_has("TO Run := Start.T > T#5s;"), "= 7");
 	canvas_close_entry(canvas);
 	ladder_canvas_do(canvas, VERB_step_times);
-	CHECK_AS(entry() && is_refused(), "times of a transition");
+	CHECK_AS(entry() && is_refused(), "step times of a transition are refused");
 	enter("5s");
-	CHECK_AS(entry() && is_refused(), "Enter after a refusal");
+	CHECK_AS(entry() && is_refused(), "Enter after a refusal is refused too");
 	canvas_close_entry(canvas);
 }
 
@@ -218,25 +218,31 @@ static void test_feed(void)
 {
 	show(ladder_grid_view_new(document, 0));
 	feed("Z B");
-	CHECK_AS(entry() && is_refused(), "no such input");
+	CHECK_AS(entry() && is_refused(),
+		 "an input that the box does not have is refused");
 	feed("CV B");
-	CHECK_AS(entry() && is_refused(), "an output");
+	CHECK_AS(entry() && is_refused(), "an output of the box is refused");
 	feed("R B C");
-	CHECK_AS(entry() && is_refused() && file_has("COIL Q |\nRUNG\n"), "no operand");
+	CHECK_AS(entry() && is_refused() && file_has("COIL Q |\nRUNG\n"),
+		 "two operands are refused");
 	feed("PV 20");
-	CHECK_AS(!entry() && file_has("CTU C1 PV:=20 |"), "a value");
+	CHECK_AS(!entry() && file_has("CTU C1 PV:=20 |"), "a value is written at PV");
 	feed("R !B");
-	CHECK_AS(!entry() && file_has("PV:=20 | COIL Q |\n  | NC B | .R "), "an operand");
+	CHECK_AS(!entry() && file_has("PV:=20 | COIL Q |\n  | NC B | .R "),
+		 "an inverted contact is connected to R");
 	feed("R B");
-	CHECK_AS(entry() && is_refused(), "fed already");
+	CHECK_AS(entry() && is_refused(),
+		 "an input that is connected already is refused");
 	ladder_grid_view_go(LADDER_GRID_VIEW(canvas), 0, 0, 0);
 	ladder_canvas_do(canvas, VERB_add_pin);
-	CHECK_AS(entry() && is_refused(), "no box");
+	CHECK_AS(entry() && is_refused(), "a cell without a box is refused");
 	enter("R B");
-	CHECK_AS(entry() && is_refused() && !file_has("NO B ^"), "nothing else changes");
+	CHECK_AS(entry() && is_refused() && !file_has("NO B ^"),
+		 "a refused input changes nothing");
 	canvas_close_entry(canvas);
 	ladder_canvas_do(canvas, VERB_set_value);
-	CHECK_AS(entry() && is_refused(), "no value: what is typed next is no element");
+	CHECK_AS(entry() && is_refused(),
+		 "Set value at an element without a value is refused");
 	canvas_close_entry(canvas);
 }
 

@@ -202,7 +202,7 @@ static void check_samples(struct lettering *lettering)
 	if (folder)
 		g_dir_close(folder);
 	CHECK(rungs > 400);
-	CHECK_AS(faults == 0, "samples have no overlaps");
+	CHECK_AS(faults == 0, "the drawings of the samples have no overlaps");
 }
 
 /* ---- hostile files ---- */

@@ -165,11 +165,11 @@ int main(void)
 
 	lettering = lettering_new(context, NULL);
 	check_comment(LATIN, "no line of a comment loses its end");
-	check_comment(CHINESE, "nor in Chinese");
+	check_comment(CHINESE, "no line of a Chinese comment loses its end");
 	check_titles();
 	lettering_free(lettering);
 	lettering = lettering_new(NULL, NULL);
-	check_comment(LATIN, "nor without fonts");
+	check_comment(LATIN, "no line of a comment loses its end without fonts");
 	lettering_free(lettering);
 	g_object_unref(context);
 	return tap_done();

@@ -211,7 +211,7 @@ static void check_clipping(void)
 			"e\xcc\x81" "e\xcc\x81" "e\xcc\x81" "e\xcc\x81", -1, bound).text;
 
 		if (strstr(text, "e\xe2\x80\xa6"))
-			CHECK_AS(false, "a letter lost its accent");
+			CHECK_AS(false, "a letter keeps its accent when a text is cut");
 	}
 }
 

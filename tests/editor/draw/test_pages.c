@@ -389,7 +389,8 @@ static void check_high_title_block(void)
 		const double block = place_of("high.html", 2, "Project");
 
 		CHECK(!has("high.html", "\xe2\x80\xa6"));
-		CHECK_AS(block > 0 && block < 595 - 34 - 27 - 40, "many lines");
+		CHECK_AS(block > 0 && block < 595 - 34 - 27 - 40,
+			 "the title block is as high as the longest names need");
 		CHECK(place_of("high.html", 2, "%QX0.0") > 100);
 		CHECK_AS(place_of("high.html", 2, "%QX0.0") < block - 30, "no rung overlaps the title block");
 	}

@@ -144,9 +144,9 @@ static void check_live(void)
 		 count_strokes(&picture, STROKE_FRAME, TOKEN_POWER) == 1,
 		 "the active step is filled");
 	CHECK_AS(count_strokes(&picture, STROKE_DISC, TOKEN_POWER) == 1,
-		 "and has a dot, for who sees no colours");
+		 "the active step has a dot besides its colour");
 	CHECK_AS(count_strokes(&picture, STROKE_LINE, TOKEN_BLOCKS) == 1,
-		 "the transition that waits is seen");
+		 "the transition that waits is marked");
 	lines = picture_lines(&picture);
 	CHECK(strstr(lines, "2.5 s"));
 	g_free(lines);

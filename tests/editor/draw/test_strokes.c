@@ -107,10 +107,10 @@ static void as_paper(struct picture *picture, int width, int height, bool broken
 	gsk_render_node_draw(node, screen);
 	picture_cairo(picture, theme, with_fonts, paper);
 	part = differs(screen, paper);
-	if (!CHECK_AS(part < 30, "screen and paper show the same"))
+	if (!CHECK_AS(part < 30, "the screen and the paper show the same picture"))
 		printf("# %s: %ld of 1000 bytes differ\n", name, part);
 	CHECK_AS(node_has(node, "cairo {") == broken,
-		 "what is not broken needs no image of its own");
+		 "only a broken picture is drawn by cairo");
 	cairo_destroy(screen);
 	cairo_destroy(paper);
 	gsk_render_node_unref(node);

@@ -477,23 +477,23 @@ static const char *judge(const struct entry_place *place, const struct entry *e)
 	const char *wrong = NULL;
 
 	if (e->sense == ENTRY_WRONG && !e->why)
-		return "wrong, but not why";
+		return "the line is wrong and has no reason";
 	if (e->sense != ENTRY_ELEMENT)
-		return e->declares ? "declares without an element" : NULL;
+		return e->declares ? "the line declares a name and gives no element" : NULL;
 	for (int i = 0; i < e->declares; i++)
 		if (ladder_name_fault(e->declare[i].name) != DIAG_COUNT ||
 		    entry_var_find(place, e->declare[i].name,
 				   strlen(e->declare[i].name), NULL))
-			return "declares what is there or cannot be";
+			return "the line declares a known or an invalid name";
 	if (!entry_cell(place->project, e, &cell))
-		return "no cell";
+		return "the line gives no cell";
 	text_write_cell(place->project, &cell, again, sizeof(again));
 	snprintf(text, sizeof(text), "RUNG\n| %.2300s |\n", again);
 	diag_init(&diags);
 	rung = text_read_rung(place->project, text, strlen(text), &diags);
 	if (!rung || diags.errors || rung->cell[0].word != cell.word ||
 	    rung->cell[0].operand != cell.operand || rung->cell[0].args != cell.args)
-		wrong = "its cell does not read again";
+		wrong = "the written cell is not read as the same cell";
 	rung_free(rung);
 	return wrong;
 }
@@ -521,7 +521,7 @@ static void check_any(struct entry_place *place)
 			for (int k = 0; k + 1 < count; k++)
 				if (found[k].kind == ENTRY_NEW &&
 				    found[k + 1].kind != ENTRY_NEW)
-					wrong = "a new name is not the last";
+					wrong = "a new name is offered before another candidate";
 		}
 		if (wrong)
 			printf("# %s: %s\n", line, wrong);

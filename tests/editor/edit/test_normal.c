@@ -75,17 +75,17 @@ static const char *compare(const char *path, int *rungs_changed, int *files)
 		goto out;
 	changed = normalise_all(ladder_project(after));
 	if (changed < 0) {
-		wrong = "another circuit";
+		wrong = "the normal form is another circuit";
 		goto out;
 	}
 	text = ladder_write(after, &len);
 	if (!text || !ladder_load_text(after, path, text, len) || !ladder_build(after)) {
-		wrong = "does not build any more";
+		wrong = "the normal form does not build";
 		goto out;
 	}
 	for (int i = 0; i < ladder_project(before)->pou_count; i++)
 		if (!same_lists(before, after, i))
-			wrong = "another program";
+			wrong = "the normal form is another program";
 	++*files;
 	*rungs_changed += changed;
 out:

@@ -152,7 +152,7 @@ static void check_refusals(void)
 	CHECK(!sfc_doing_read("L Horn", &doing) && doing.why);
 	CHECK(!sfc_doing_read("N a b", &doing) && doing.why);
 	CHECK_AS(sfc_doing_read("N", &doing) && strcmp(doing.name, "N") == 0,
-		 "a name that looks like a qualifier");
+		 "a name may look like a qualifier");
 }
 
 /* ---- macro-steps ---- */
@@ -233,7 +233,7 @@ static void check_macros(void)
 	REFUSED(fold(edit, 1) >= 0);
 	REFUSED(fold(edit, 0) >= 0);
 	REFUSED(sfc_edit_macro_open(edit, 0) >= 0);
-	/* Making and dissolving a macro-step does not change the behaviour. */
+	/* Makes and dissolves macro-steps and compares the behaviour. */
 	begin(six);
 	before = traced();
 	CHECK(before != 0);

@@ -110,15 +110,15 @@ static const char *judge(struct grid_bench *bench, const struct rung *rung,
 			 const struct grid_at *at)
 {
 	if (!rung_equal(before, kept))
-		return "the rung it was given is changed";
+		return "the edit changed the given rung";
 	if (!rung)
-		return at->refusal == GRID_DONE ? "it does not say why not" : NULL;
+		return at->refusal == GRID_DONE ? "the edit was refused without a reason" : NULL;
 	if (at->refusal != GRID_DONE)
-		return "done and refused";
+		return "the edit gave a rung and a refusal";
 	if (rung->rows > LIMIT_ROWS || rung->cols > LIMIT_COLS)
-		return "beyond the limits";
+		return "the rung is larger than the limits";
 	if (at->row < 0 || at->col < 0 || at->col >= LIMIT_COLS)
-		return "the cursor is nowhere";
+		return "the cursor is outside the rung";
 	return grid_wrong(bench, rung);
 }
 
@@ -188,9 +188,9 @@ static void crowd(struct grid_bench *bench)
 
 		refused += !made;
 		if (made && (made->rows > LIMIT_ROWS || made->cols > LIMIT_COLS))
-			wrong = "beyond the limits";
+			wrong = "the rung is larger than the limits";
 		if (!made && at.refusal == GRID_DONE)
-			wrong = "it does not say why not";
+			wrong = "the edit was refused without a reason";
 		rung_free(made);
 	}
 	CHECK(!wrong);
@@ -290,7 +290,7 @@ static const char *tame_place(const struct rung *before, const struct rung *made
 {
 	struct flow with = { .forced = cell.operand, .closed = !below }, none = { 0 };
 
-	return same_power(made, with, before, none) ? NULL : "it changed another circuit";
+	return same_power(made, with, before, none) ? NULL : "the edit changed another circuit";
 }
 
 static const char *tame_delete(const struct rung *before, const struct rung *made,
@@ -301,7 +301,7 @@ static const char *tame_delete(const struct rung *before, const struct rung *mad
 
 	return same_power(before, closed, made, none) ||
 	       same_power(before, open, made, none) ? NULL :
-		"neither a wire nor nothing stands there now";
+		"the moved contact left neither a wire nor an empty cell";
 }
 
 static bool is_contact(const struct rung *rung, const struct grid_place *place)
@@ -321,7 +321,7 @@ static struct rung *tame_output(struct grid_bench *bench, const struct rung *run
 				      grid_place(rung, at, coil, GRID_INSERT);
 
 	if (made && !same_power(made, with, rung, none))
-		*wrong = "an output changed another circuit";
+		*wrong = "the new output changed another circuit";
 	return made;
 }
 
@@ -464,7 +464,7 @@ static void calm(struct grid_bench *bench)
 		if (made && !wrong && !is_clean(bench, made))
 			wrong = diag_code(bench->diags.diag[0].id);
 		if (made && !wrong && has_spare_wire(made))
-			wrong = "a wire for nothing";
+			wrong = "the rung has a wire in parallel to another one";
 		if (made && !wrong)
 			wrong = grid_wrong(bench, made);
 		if (wrong) {

@@ -59,7 +59,7 @@ static void test_scheme(enum key_scheme scheme, enum verb_where apart)
 		known = known && word_find(word, strlen(word)) != WORD_COUNT;
 	}
 	CHECK_AS(alone, key_scheme_name(scheme));
-	CHECK_AS(known, "all words of a scheme exist");
+	CHECK_AS(known, "each word of a key scheme exists in the catalogue");
 	g_hash_table_unref(taken);
 }
 

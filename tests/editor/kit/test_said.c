@@ -81,9 +81,9 @@ static void try_parts(struct golden *golden, const struct diag *diag, const char
 		const bool translated = said(part[n]) != part[n];
 
 		if (is_of_ours(diag->id, part[n], n) && !translated)
-			wrong(golden, diag, "stays English", part[n]);
+			wrong(golden, diag, "has an English part", part[n]);
 		else if (!translated && !strstr(got, part[n]))
-			wrong(golden, diag, "lost a name", got);
+			wrong(golden, diag, "lost a name of the program", got);
 	}
 	g_strfreev(part);
 }
@@ -95,9 +95,9 @@ static void try_diag(struct golden *golden, const struct diag *diag)
 
 	diag_fill(diag_text(diag->id), diag->arg, english, sizeof(english));
 	if (strcmp(got, english) == 0)
-		wrong(golden, diag, "stays English", got);
+		wrong(golden, diag, "has an English part", got);
 	if (strpbrk(got, "%{}" DIAG_AND) && !strpbrk(english, "%{}"))
-		wrong(golden, diag, "is not filled", got);
+		wrong(golden, diag, "has a place without its text", got);
 	try_parts(golden, diag, got);
 	g_free(got);
 }

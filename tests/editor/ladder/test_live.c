@@ -197,7 +197,7 @@ static void test_stop(void)
 	settle();
 	CHECK_AS(bits_of(view, 0, 0, 0) == 0, "no power is known in STOP");
 	set("Start", 1);
-	CHECK_AS(steady(0, 0, 0) == LIVE_CLOSED, "values are");
+	CHECK_AS(steady(0, 0, 0) == LIVE_CLOSED, "values are known in STOP");
 	set("Start", 0);
 }
 
@@ -216,7 +216,7 @@ static void test_power(void)
 	scan(1);
 	CHECK(differences() == 0);
 	CHECK_AS(!(bits_of(view, 0, 0, 0) & LIVE_CLOSED) &&
-		 bits_of(view, 0, 0, 2) & LIVE_CLOSED, "it seals itself in");
+		 bits_of(view, 0, 0, 2) & LIVE_CLOSED, "the coil stays on by its own contact");
 }
 
 static void test_values(void)
@@ -248,7 +248,7 @@ static bool is_heard(void)
 	return found;
 }
 
-/* A number that changes nothing else is announced, too. */
+/* A number is announced also if nothing else changes. */
 static void test_heard(void)
 {
 	set("Level", 7);
@@ -274,7 +274,8 @@ static void test_forced(void)
 	CHECK(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN));
 	ladder_sim_act(sim, &act);
 	CHECK(comes("High", 1));
-	CHECK_AS(steady(5, 0, 0) & LIVE_CLOSED, "set, not scanned yet");
+	CHECK_AS(steady(5, 0, 0) & LIVE_CLOSED,
+		 "the contact shows the value of the last scan");
 	scan(1);
 	CHECK(value_of("High") == 1 && value_of("%QX0.2") == 0);
 	CHECK(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN | LIVE_FORCED));
@@ -285,7 +286,8 @@ static void test_forced(void)
 	scan(1);
 	CHECK(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN));
 	CHECK(ladder_sim_show(sim, ladder_sim_last(sim) - 1));
-	CHECK_AS(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN | LIVE_FORCED), "the same after a scan");
+	CHECK_AS(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN | LIVE_FORCED),
+		 "the recorded scan shows the forced contact");
 	ladder_sim_show_now(sim);
 	set("Level", 512);
 }
@@ -313,14 +315,17 @@ static void test_drawn(void)
 	before = ladder_grid_view_drawn(view);
 	scan(1);
 	draw();
-	CHECK_AS(ladder_grid_view_drawn(view) <= before + 1, "at most the rung of the timer");
+	CHECK_AS(ladder_grid_view_drawn(view) <= before + 1,
+		 "at most the rung of the timer is redrawn");
 	before = ladder_grid_view_drawn(view);
 	set("Level", 3);
 	draw();
-	CHECK_AS(ladder_grid_view_drawn(view) == before + 1, "only the rung with Level");
+	CHECK_AS(ladder_grid_view_drawn(view) == before + 1,
+		 "only the rung with Level is redrawn");
 	before = ladder_grid_view_drawn(view);
 	draw();
-	CHECK_AS(ladder_grid_view_drawn(view) == before, "no unchanged rung");
+	CHECK_AS(ladder_grid_view_drawn(view) == before,
+		 "no rung is redrawn without a change");
 }
 
 static bool tells(LadderTextView *of, int line, const char *want)
@@ -435,7 +440,8 @@ static void test_keys(void)
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
-	CHECK_AS(comes("Start", 0), "each key counts, also before the next frame");
+	CHECK_AS(comes("Start", 0),
+		 "each of several keys between two frames changes the value");
 	ladder_grid_view_go(view, 0, 0, 2);
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_force);
 	scan(1);
@@ -444,7 +450,7 @@ static void test_keys(void)
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_cycle);
 	CHECK(comes("Motor", 0));
 	scan(2);
-	CHECK_AS(value_of("Motor") == 0, "the force holds against the program");
+	CHECK_AS(value_of("Motor") == 0, "the program does not change a forced value");
 	ladder_canvas_do(LADDER_CANVAS(view), VERB_force);
 	scan(2);
 	CHECK(!live_value_is_forced(sim, false, find("Motor")));
@@ -489,7 +495,7 @@ static void test_fresh(void)
 	scan(1);
 	CHECK(bits_of(view, 2, 0, 0) & LIVE_FRESH && bits_of(view, 2, 0, 1) & LIVE_FRESH);
 	CHECK(!(bits_of(view, 0, 0, 1) & LIVE_FRESH));
-	CHECK_AS(until(has_aged), "the mark ends without a scan");
+	CHECK_AS(until(has_aged), "the mark of a new value ends without a scan");
 }
 
 static void test_blockers(void)
@@ -534,8 +540,10 @@ static void test_edit(void)
 	ladder_document_begin(document, "edit", NULL);
 	CHECK(ladder_document_put_rung(document, 1, 0, edited, NULL));
 	ladder_document_end(document);
-	CHECK_AS(!(bits_of(view, 0, 0, 0) & LIVE_KNOWN), "the edited rung shows nothing");
-	CHECK_AS(bits_of(view, 1, 0, 0) & LIVE_KNOWN, "the rung below does");
+	CHECK_AS(!(bits_of(view, 0, 0, 0) & LIVE_KNOWN),
+		 "the edited rung shows no power");
+	CHECK_AS(bits_of(view, 1, 0, 0) & LIVE_KNOWN,
+		 "the rung below the edited one shows power");
 	CHECK(until(has_changed));
 	scan(1);
 	CHECK(bits_of(view, 0, 0, 0) & LIVE_KNOWN);
@@ -621,11 +629,12 @@ static void test_width(void)
 	tip = LADDER_CANVAS_GET_CLASS(view)->tip(LADDER_CANVAS(view),
 		(int)(page - 3 * (RUNG_AFTER + RUNG_CELL_WIDTH / 2)),
 		(int)(box.origin.y + 3 * RUNG_WIRE), false);
-	CHECK_AS(tip && strstr(tip, "Motor"), "the pointer finds it there");
+	CHECK_AS(tip && strstr(tip, "Motor"),
+		 "the tooltip at the edge of the page is that of the coil");
 	g_free(tip);
 	ladder_grid_view_go(view, 0, 0, 2);
 	CHECK_AS(canvas_rect(LADDER_CANVAS(view), GRAPHENE_RECT_INIT(0, 0, 0, 0)).origin.x == 0,
-		 "the cursor on it does not scroll");
+		 "the page does not scroll to a coil at its edge");
 	ladder_canvas_set_zoom(LADDER_CANVAS(view), 1);
 	draw();
 }

@@ -149,7 +149,8 @@ static void test_values(void)
 	CHECK(shows("Start", "0") && shows("Temp", "20.5") && shows("Name", "'Pump'"));
 	sim_row_press(row_of("Start"), sim);
 	CHECK_SOON(shows("Start", "1"));
-	CHECK_AS(shows("\xe7\x94\xb5\xe6\x9c\xba", "0"), "no scan yet");
+	CHECK_AS(shows("\xe7\x94\xb5\xe6\x9c\xba", "0"),
+		 "an output does not change before a scan");
 	ladder_sim_scan(sim, 1);
 	CHECK_SOON(shows("\xe7\x94\xb5\xe6\x9c\xba", "1"));
 	ladder_sim_scan(sim, 3);
@@ -188,7 +189,7 @@ static void type(const char *name, const char *action, const char *text)
 
 	act_on(name, action);
 	WAIT((entry = find_widget(GTK_WIDGET(panel), GTK_TYPE_ENTRY)) != NULL);
-	CHECK_AS(entry, "there is a field");
+	CHECK_AS(entry, "the line has a field for its value");
 	if (!entry)
 		return;
 	gtk_editable_set_text(GTK_EDITABLE(entry), text);
@@ -241,7 +242,7 @@ static void test_typed(void)
 	CHECK(shows("Speed", "120"));
 	type("Count", "sim-panel.edit-value", "40000");
 	CHECK_AS(gtk_widget_has_css_class(find_widget(GTK_WIDGET(panel), GTK_TYPE_ENTRY),
-					  "error"), "no INT is that large");
+					  "error"), "a value too large for INT is refused");
 	ladder_sim_panel_select(panel, "Start");
 	gtk_widget_grab_focus(GTK_WIDGET(panel));
 	gtk_window_set_focus(GTK_WINDOW(window), NULL);
@@ -362,7 +363,7 @@ static void test_plant(void)
 	sim_row_press(row_of("OverfillOk"), sim);
 	ladder_sim_scan(sim, 1);
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 3);
-	CHECK_AS(shows("OverfillOk", "1"), "the plant gives it");
+	CHECK_AS(shows("OverfillOk", "1"), "the plant sets its input again after a click");
 	act_on("OverfillOk", "sim-panel.force-off");
 	CHECK_SOON(shows("OverfillOk", "0"));
 	picture("plant");

@@ -100,7 +100,8 @@ static void test_choice(void)
 {
 	CHECK(ladder_sim_begin(sim, NULL));
 	turn(0);
-	CHECK_AS(has("Start Motor") && keeps(""), "inputs and outputs by default");
+	CHECK_AS(has("Start Motor") && keeps(""),
+		 "a chart has inputs and outputs at first");
 	ladder_sim_scan(sim, 20);
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 20);
 	changes = 0;
@@ -111,7 +112,7 @@ static void test_choice(void)
 	ladder_document_check_now(document);
 	turn(300);
 	CHECK_AS(changes == 0 && ladder_sim_first(sim) == 0,
-		 "the program is the same: the past stays");
+		 "a check without a change keeps the past");
 	ladder_document_undo(document);
 	CHECK(has("Start Motor") && keeps(""));
 	ladder_document_redo(document);
@@ -119,7 +120,8 @@ static void test_choice(void)
 	ladder_sim_end(sim);
 	CHECK(ladder_sim_begin(sim, NULL));
 	turn(0);
-	CHECK_AS(has("Start Motor Table[2]"), "as it was chosen");
+	CHECK_AS(has("Start Motor Table[2]"),
+		 "the chosen lines are there in the next simulation");
 }
 
 static void test_file(void)
@@ -129,7 +131,8 @@ static void test_file(void)
 
 	ladder_sim_end(sim);
 	open_text(text);
-	CHECK_AS(has("Count Nobody"), "before it is simulated, too");
+	CHECK_AS(has("Count Nobody"),
+		 "the lines of a file are there without a simulation");
 	CHECK(ladder_sim_begin(sim, NULL));
 	turn(0);
 	CHECK(has("Count Nobody"));
@@ -137,7 +140,7 @@ static void test_file(void)
 	open_text(sample);
 	CHECK(ladder_sim_begin(sim, NULL));
 	turn(0);
-	CHECK_AS(has("Start Motor"), "another file keeps no lines");
+	CHECK_AS(has("Start Motor"), "another file does not keep the lines");
 	g_free(text);
 }
 

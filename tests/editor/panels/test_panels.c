@@ -235,7 +235,8 @@ static void test_problems(void)
 	CHECK(!ladder_problems_next(problems, false) && !ladder_problems_show_error(problems));
 	CHECK_TEXT(ladder_problems_title(problems), "Problems");
 	reopen("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO\n");
-	CHECK_AS(ladder_problems_count(problems, true) > 0, "of a text, too");
+	CHECK_AS(ladder_problems_count(problems, true) > 0,
+		 "a text that cannot be read has problems");
 	reopen(sample);
 	ladder_problems_set_document(problems, NULL);
 	CHECK(ladder_problems_count(problems, false) == 0);
@@ -276,7 +277,8 @@ static void test_uses(void)
 	CHECK(g_list_model_get_n_items(list) == 2);
 	ladder_uses_view_set_symbol(view, 0, "%QX0.0");
 	ladder_uses_view_refresh(view);
-	CHECK_AS(g_list_model_get_n_items(list) == 4, "an address: uses that overlap it");
+	CHECK_AS(g_list_model_get_n_items(list) == 4,
+		 "an address lists the uses that overlap it");
 	ladder_uses_view_set_symbol(view, 0, "1 +");
 	ladder_uses_view_refresh(view);
 	CHECK(g_list_model_get_n_items(list) == 0);
@@ -383,7 +385,8 @@ static void test_symbols(void)
 	WAIT((cell = cell_of(widget, GTK_TYPE_ENTRY, "Stock")) != NULL);
 	type_into(view, cell, "Hours");
 	CHECK_AS(gtk_widget_has_css_class(cell, "error") &&
-		 strstr(ladder_symbols_view_message(view), "Hours"), "a refusal is reported");
+		 strstr(ladder_symbols_view_message(view), "Hours"),
+		 "the reason of a refused name is reported");
 	picture(widget, "symbols-refused");
 	CHECK(gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY));
 	type_into(view, cell, "Stock");
@@ -482,7 +485,7 @@ static void test_find(void)
 	gtk_editable_set_text(with, "a | b");
 	gtk_widget_activate_action(widget, "find.replace-all", NULL);
 	CHECK_AS(strstr(ladder_find_bar_message(bar), ":") && !ladder_document_undo_name(document),
-		 "the reason why nothing was replaced");
+		 "the reason of a refused replacement is reported");
 	ladder_find_bar_open(bar, false, "Start");
 	ladder_find_bar_close(bar);
 	ladder_find_bar_set_place(bar, 0, 0, 0, 0);
@@ -575,7 +578,8 @@ static void test_tree(void)
 	CHECK(gtk_widget_grab_focus(list));
 	reopen("RUNGBOARD 9\n");
 	WAIT(rows_of(list) == 0);
-	CHECK_AS(rows_of(list) == 0 && keys_arrive(window), "nor when all rows are removed");
+	CHECK_AS(rows_of(list) == 0 && keys_arrive(window),
+		 "a key is not lost when all rows are removed");
 	reopen(sample);
 	CHECK_SOON(rows_of(list) == rows);
 	put(NULL);

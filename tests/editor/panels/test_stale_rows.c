@@ -60,9 +60,10 @@ static void test_moved(LadderSymbolsView *view, GtkWidget *cell)
 	CHECK(symbol_set(document, 0, 0, FIELD_RETAIN, "1", &why));
 	type_into(cell, "Stock");
 	CHECK_AS(has("Stock : INT;") && !has("Spare"),
-		 "the declaration that the row shows, although it moved");
+		 "a row changes its own declaration after that moved");
 	type_into(cell, "Spare");
-	CHECK_AS(has("Spare : INT;") && !has("Stock"), "and by its new name");
+	CHECK_AS(has("Spare : INT;") && !has("Stock"),
+		 "a row finds its declaration by the new name");
 	undo_all(view);
 }
 
@@ -72,7 +73,8 @@ static void test_gone(LadderSymbolsView *view, GtkWidget *cell)
 
 	CHECK(symbol_delete(document, 0, 1, &why) && !has("Spare"));
 	type_into(cell, "Stock");
-	CHECK_AS(!has("Stock") && gtk_widget_has_css_class(cell, "error"), "none other");
+	CHECK_AS(!has("Stock") && gtk_widget_has_css_class(cell, "error"),
+		 "a row of a deleted symbol changes no other one");
 	CHECK_TEXT(ladder_symbols_view_message(view), "Spare, Name: There is no such symbol");
 	undo_all(view);
 }

@@ -2,7 +2,7 @@
  *
  * test_render - `ladder-editor --render`, in this process and without a display.
  *
- * What stands on paper is test_pages.c.
+ * Pages of paper: test_pages.c.
  */
 #include "tests/editor/drawn.h"
 #include "tests/editor/rendered.h"
@@ -322,7 +322,7 @@ static void check_document(void)
 		g_free(option);
 	}
 	CHECK(options > 12);
-	CHECK_AS(missing == 0, "docs/pictures.md has all options");
+	CHECK_AS(missing == 0, "docs/pictures.md names each option");
 	g_free(help);
 	g_free(path);
 	g_free(text);

@@ -87,7 +87,8 @@ static void checks(void)
 	io_check_free(checked);
 	checked = check("%IX0.0 sim\n%IX0.1 sim\n");
 	CHECK_AS(says(checked, 1, DIAG_IO_NO_BOARD) && io_check_point(checked, 1) &&
-		 io_check_point(checked, 2), "a map without a board");
+		 io_check_point(checked, 2),
+		 "a map without a board is reported and gives its points");
 	io_check_free(checked);
 	checked = check("BOARD oops\n%IX0.1 sim\n");
 	CHECK(says(checked, 1, DIAG_IO_NO_BOARD) && io_check_point(checked, 2));
@@ -187,9 +188,10 @@ static void children(void)
 	g_object_unref(run);
 	run = start("kill -KILL $$");
 	WAIT(ended != -2);
-	CHECK_AS(ended == -1, "a child that is killed");
+	CHECK_AS(ended == -1, "a killed child is reported as ended");
 	ladder_board_run_stop(run);
-	CHECK_AS(ladder_board_run_state(run) == BOARD_OFF, "nothing to stop");
+	CHECK_AS(ladder_board_run_state(run) == BOARD_OFF,
+		 "stopping an ended child leaves it off");
 	g_object_unref(run);
 }
 

@@ -64,7 +64,7 @@ static struct schedule *compared(const struct ladder *ladder)
 			resource->tasks.state[0].runs++;
 		good = good && has_runs(schedule, resource, before, now);
 	}
-	CHECK_AS(good, "each cycle runs the tasks that the schedule shows");
+	CHECK_AS(good, "each cycle runs the tasks of the schedule");
 	free(resource);
 	free(memory);
 	return schedule;

@@ -66,7 +66,8 @@ static void test_states(void)
 	CHECK(!ladder_sim_twin(sim) && !ladder_sim_lock_record(sim));
 	ladder_sim_run(sim);
 	ladder_sim_scan(sim, 3);
-	CHECK_AS(ladder_sim_state(sim) == SIM_OFF, "nothing runs while it is off");
+	CHECK_AS(ladder_sim_state(sim) == SIM_OFF,
+		 "no scan runs while the simulation is off");
 	CHECK(ladder_sim_begin(sim, NULL));
 	CHECK(ladder_sim_state(sim) == SIM_STOP && states > 0);
 	ladder_sim_scan(sim, 5);
@@ -103,7 +104,8 @@ static void test_acts(void)
 
 	act(ACT_SET, "Go", 1);
 	CHECK_SOON(value("Go") == 1);
-	CHECK_AS(value("Lamp") == 0 && value("Count") == before, "at once, without a scan");
+	CHECK_AS(value("Lamp") == 0 && value("Count") == before,
+		 "an input is set at once, without a scan");
 	ladder_sim_scan(sim, 1);
 	CHECK_SOON(value("Lamp") == 1);
 	act(ACT_SET, "Go", 0);
@@ -141,7 +143,7 @@ static void test_chart(void)
 	bool good = true;
 
 	CHECK(timing_add(timing, "Count") && timing_add(timing, "lamp"));
-	CHECK_AS(!timing_add(timing, "COUNT"), "one line for each variable");
+	CHECK_AS(!timing_add(timing, "COUNT"), "a variable has one line at most");
 	CHECK(timing_add(timing, "Nobody"));
 	while (timing_feed(timing, 1000000))
 		;
@@ -212,14 +214,15 @@ static void test_change(void)
 	ladder_sim_scan(sim, 1);
 	CHECK_SOON(value("Count") == count + 1);
 	CHECK(value("%QX0.1") == 1);
-	CHECK_AS(ladder_sim_twin(sim)->scan == 8, "scans go on");
+	CHECK_AS(ladder_sim_twin(sim)->scan == 8,
+		 "the scan number goes on after an edit");
 	CHECK(told && strstr(told, "after scan 7"));
 	CHECK(ladder_sim_first(sim) == 0 && ladder_sim_show(sim, 6));
 	ladder_sim_show_now(sim);
 	ladder_sim_end(sim);
 }
 
-/* ---- what is not done ---- */
+/* ---- refused acts ---- */
 
 static gboolean nothing_to_do(gpointer data)
 {
@@ -268,7 +271,7 @@ static void test_stale(void)
 	sim_thread_change(thread, new);
 	while (view.program != new)
 		CHECK(sim_thread_take(thread, &view, &is_other));
-	CHECK_AS(view.refusal.count == 0, "the act before the change was done");
+	CHECK_AS(view.refusal.count == 0, "an act before the change is done");
 	CHECK(twin_clone(&before, &view.twin));
 	sim_thread_act(thread, old, &act);
 	act.kind = ACT_FORCE;
@@ -276,7 +279,7 @@ static void test_stale(void)
 	wait_refused(thread, &view, 2);
 	CHECK(view.refusal.why == SIM_REFUSED_STALE && image->force_count == 0);
 	CHECK_AS(memcmp(image->memory, before.resource.image.memory,
-			view.twin.memory_size) == 0, "no byte differs");
+			view.twin.memory_size) == 0, "a refused act does not change the memory");
 	act.at = image_find(image, "Near", 4);
 	sim_thread_act(thread, new, &act);
 	sim_thread_act(thread, NULL, &(struct act){ .kind = ACT_RELEASE });
@@ -358,7 +361,7 @@ static void test_heeds(void)
 		told_is("! FAULT: an operation failed");
 		CHECK_SOON(ladder_sim_state(sim) == SIM_FAULT);
 		CHECK(ladder_sim_twin(sim)->resource.vm.errors == 1);
-		CHECK_AS(value("Lamp") == 0, "outputs are off");
+		CHECK_AS(value("Lamp") == 0, "outputs are off in a FAULT");
 		ladder_sim_reset(sim, again % 2);
 		CHECK_SOON(ladder_sim_state(sim) == SIM_PAUSE);
 	}
@@ -371,8 +374,9 @@ static void test_heeds(void)
 	ladder_sim_run(sim);
 	CHECK_SOON(ladder_sim_twin(sim)->resource.vm.errors > 3);
 	CHECK_AS(!told && ladder_sim_state(sim) == SIM_RUN,
-		 "it continues without another report");
-	CHECK_AS(value("Lamp") == 1, "with the outputs of the program before");
+		 "the simulation continues without another report");
+	CHECK_AS(value("Lamp") == 1,
+		 "the outputs of the program are back when it continues");
 	ladder_sim_stop(sim);
 	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
 	ladder_sim_scan(sim, 1);
@@ -456,7 +460,7 @@ static void test_plant_forces(void)
 	ladder_sim_release_all(sim);
 	ladder_sim_scan(sim, 1);
 	CHECK_SOON(ladder_sim_twin(sim)->scan == 1);
-	CHECK_AS(!told, "no plant: nothing was refused");
+	CHECK_AS(!told, "without a plant releasing all forces is not refused");
 	ladder_sim_end(sim);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_sim_older - scans before an edit: each is shown with the program that ran it, and is
- * what a fresh run computes that does the same; together they take no more than they may.
+ * what a fresh run computes that does the same; together they stay within a limit of memory.
  *
  *   test_sim_older [COUNT [SEED]]    so many random programs with a random edit
  */
@@ -386,7 +386,7 @@ static void test_by_hand(void)
 	CHECK(!ladder_sim_older(sim, NULL));
 	CHECK_AS(!ladder_document_replace(ladder_sim_show(sim, 2) ?
 		 ladder_sim_older(sim, NULL) : document, 0, 0, " ", NULL),
-		 "the past cannot be changed");
+		 "the project of an older program cannot be edited");
 	/* Another edit while the past is shown: shows the present. */
 	edit(motor);
 	CHECK(!ladder_sim_is_past(sim));
@@ -462,7 +462,7 @@ static void test_bound(void)
 	}
 	printf("# %d scans of 1,000 numbers, %d edits: %zu MB at most, scans from %"
 	       G_GUINT64_FORMAT " on\n", EDITS * EACH, EDITS, most >> 20, first);
-	CHECK_AS(most <= SIM_BYTES, "all of them together");
+	CHECK_AS(most <= SIM_BYTES, "all records together stay within SIM_BYTES");
 	CHECK_AS(first > 0, "the oldest scans were dropped");
 	sim_eras_free(eras);
 	twin_free(&twin);

@@ -88,10 +88,11 @@ static void test_colours(void)
 	CHECK_AS(is_coloured(0, 1), "PROGRAM is a keyword");
 	CHECK_AS(is_coloured(2, 11), "TON behind a colon is a type");
 	CHECK_AS(is_coloured(4, 3) && is_coloured(5, 5), "LD and ANDN are operators");
-	CHECK_AS(!is_coloured(4, 9) && !is_coloured(2, 3), "names are not");
+	CHECK_AS(!is_coloured(4, 9) && !is_coloured(2, 3), "names are not coloured");
 	put_cursor(6, 13);
 	type(" (* why *)");
-	CHECK_AS(is_coloured(6, 18) && has_class(6, 18, "comment"), "a comment is");
+	CHECK_AS(is_coloured(6, 18) && has_class(6, 18, "comment"),
+		 "a comment is coloured");
 	ladder_document_undo(document);
 }
 
@@ -119,14 +120,16 @@ static void test_words(void)
 
 	CHECK(offers(text, 4, 10, "Start", &len) && len == 2);
 	CHECK(offers(text, 4, 10, "Stop", &len));
-	CHECK_AS(!offers(text, 4, 10, "Motor", &len), "it does not begin with St");
+	CHECK_AS(!offers(text, 4, 10, "Motor", &len),
+		 "a name that does not begin with the typed letters is not offered");
 	CHECK(offers(text, 5, 4, "ANDN", &len) && len == 2);
-	CHECK_AS(!offers(text, 5, 4, "Start", &len), "no name where an operator stands");
+	CHECK_AS(!offers(text, 5, 4, "Start", &len),
+		 "no name is offered at the place of an operator");
 	g_free(text);
 	text = g_strdup("PROGRAM List IL\nVAR\n  Delay : TON;\nEND_VAR\n\n  CAL ( (\n"
 			"  LD    Delay.\nEND_PROGRAM\n");
 	CHECK_AS(offers(text, 6, 14, "Delay.Q", &len) || offers(text, 6, 14, "Q", &len),
-		 "also in a list that cannot be read");
+		 "pins are offered in a list that cannot be read");
 	g_free(text);
 }
 
@@ -163,16 +166,18 @@ static void test_errors(void)
 	put_cursor(4, 13);
 	type("x");
 	ladder_document_check_now(document);
-	CHECK_AS(wrong_at(4, "Startx") && wrong_lines() == 1, "an unknown name");
+	CHECK_AS(wrong_at(4, "Startx") && wrong_lines() == 1,
+		 "an unknown name is marked in its line");
 	put_cursor(4, 0);
 	type("\n\n");
 	ladder_document_check_now(document);
 	CHECK_AS(wrong_at(6, "Startx") && wrong_lines() == 1,
-		 "blank lines before it, which a file does not keep");
+		 "the mark moves down with blank lines inserted above");
 	put_cursor(8, 13);
 	type("\n  BLAH ) 7\n");
 	ladder_document_check_now(document);
-	CHECK_AS(wrong_at(9, "LD"), "a list that cannot be read: the wrong line");
+	CHECK_AS(wrong_at(9, "LD"),
+		 "the wrong line of a list that cannot be read is marked");
 	CHECK(ladder_document_project(document) != NULL);
 	while (ladder_document_undo(document))
 		;
@@ -193,7 +198,8 @@ static void test_typing(void)
 	type("2");
 	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
 	CHECK_AS(gtk_text_iter_get_line(&at) == 6 &&
-		 gtk_text_iter_get_line_index(&at) == 14, "the cursor stays behind it");
+		 gtk_text_iter_get_line_index(&at) == 14,
+		 "the cursor stays after the typed letter");
 	type("3\n");
 	put_cursor(7, 0);
 	type("  LD Stop\n");
@@ -201,7 +207,7 @@ static void test_typing(void)
 	ladder_document_undo(document);
 	after = shown();
 	CHECK_AS(strstr(after, "Motor23") && !strstr(after, "LD Stop"),
-		 "one line is one step");
+		 "undo removes one typed line");
 	g_free(after);
 	while (ladder_document_undo(document))
 		;
@@ -280,7 +286,8 @@ static void test_values(void)
 	CHECK(has_beside("ST    Motor", "TRUE") && has_beside("END_VAR", NULL) &&
 	      has_beside("ANDN  Stop", "FALSE"));
 	CHECK(ladder_sim_show(sim, 3));
-	CHECK_AS(has_beside("CAL   Delay", "0.0 s / 1 s"), "an earlier scan");
+	CHECK_AS(has_beside("CAL   Delay", "0.0 s / 1 s"),
+		 "the lines show the values of an earlier scan");
 	CHECK(ladder_sim_show(sim, 0) && has_beside("LD    Start", "FALSE"));
 	ladder_sim_end(sim);
 	CHECK(has_beside("LD    Start", NULL));

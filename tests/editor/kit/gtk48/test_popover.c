@@ -55,14 +55,14 @@ static void test_pages(LadderDocument *document)
 
 		put(page);
 		ladder_canvas_do(LADDER_CANVAS(page), chart[i]);
-		goes(page, "a chart goes");
+		goes(page, "a page of a chart is freed with its popover open");
 	}
 	for (gsize i = 0; i < G_N_ELEMENTS(sheet); i++) {
 		GtkWidget *page = ladder_grid_view_new(document, 0);
 
 		put(page);
 		ladder_canvas_do(LADDER_CANVAS(page), sheet[i]);
-		goes(page, "a sheet goes");
+		goes(page, "a sheet is freed with its popover open");
 	}
 }
 
@@ -76,7 +76,7 @@ static void test_any(void)
 	put(page);
 	g_menu_append(menu, "Undo", "win.undo");
 	popover_menu(page, menu, &(GdkRectangle){ 5, 5, 1, 1 }, page);
-	goes(page, "any widget goes");
+	goes(page, "any widget is freed with its popover open");
 }
 
 int main(void)
