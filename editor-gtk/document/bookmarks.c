@@ -5,6 +5,7 @@
 #include "editor-gtk/document/bookmarks.h"
 
 #include "engine/base/limits.h"
+#include "engine/base/name.h"
 
 #include <glib.h>
 #include <stdlib.h>
@@ -14,16 +15,17 @@
  * number. */
 static int bookmark_of(const char *line, const char *pou, const char **end)
 {
-	const gsize len = strlen(pou);
 	char *behind;
 	long number;
+	gsize len;
 
 	line += strspn(line, " \t");
 	if (!g_str_has_prefix(line, "bookmark "))
 		return -1;
 	line += strlen("bookmark ");
 	line += strspn(line, " \t");
-	if (g_ascii_strncasecmp(line, pou, len) != 0 || line[len] != ' ')
+	len = name_head(pou, strlen(pou), line, strcspn(line, "\n"));
+	if (!len || line[len] != ' ')
 		return -1;
 	number = strtol(line + len, &behind, 10);
 	if (number < 1 || number > LIMIT_RUNGS)

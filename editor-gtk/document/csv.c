@@ -340,15 +340,22 @@ static int count_same(const struct diag_list *diags, int count, const struct dia
 	return same;
 }
 
+static bool is_letter(char c)
+{
+	return g_ascii_isalnum(c) || c == '_' || (guchar)c >= 0x80;
+}
+
 /* Does the argument of @diag begin with the name used at @use? */
 static bool speaks_of(const struct checked *checked, const struct diag *diag,
 		      const struct xref_use *use)
 {
 	const char *name = xref_text(&checked->xref, use) + use->at;
-	const char end = use->len < sizeof(diag->arg) ? diag->arg[use->len] : '\0';
+	const gsize most = strlen(diag->arg);
 
-	return use->len && g_ascii_strncasecmp(diag->arg, name, use->len) == 0 &&
-	       !g_ascii_isalnum(end) && end != '_';
+	for (gsize len = 1; len <= most; len++)
+		if (!is_letter(diag->arg[len]) && name_same(name, use->len, diag->arg, len))
+			return true;
+	return false;
 }
 
 enum near { ELSEWHERE, SAME_LINE, SAME_CELL, SAME_NAME };

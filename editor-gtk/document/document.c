@@ -14,6 +14,7 @@
 #include "editor-gtk/kit/memory.h"
 #include "editor-gtk/kit/i18n.h"
 
+#include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/scan/code.h"
 #include "engine/base/name.h"
@@ -466,8 +467,7 @@ static bool is_pou_word(const struct token *token, bool ends)
 	for (int i = 0; i <= POU_SUBROUTINE; i++) {
 		const char *word = pou_word((enum pou_kind)i);
 
-		if (strlen(word) == token->len - skip &&
-		    g_ascii_strncasecmp(word, token->text + skip, token->len - skip) == 0)
+		if (ascii_is(word, token->text + skip, token->len - skip))
 			return true;
 	}
 	return false;

@@ -8,6 +8,7 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/lex.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -32,8 +33,7 @@ int pins_count(const struct pou *pou, uint16_t kind)
 
 static bool is_name(const struct token *token, const char *name)
 {
-	return token->kind == TOKEN_NAME && token->len == strlen(name) &&
-	       g_ascii_strncasecmp(token->text, name, token->len) == 0;
+	return token->kind == TOKEN_NAME && name_is(name, token->text, token->len);
 }
 
 /* From "(" on: operands, and none of them with the name of a pin? */

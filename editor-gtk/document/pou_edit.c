@@ -417,8 +417,7 @@ static bool delete_lines(GString *text, const char *name)
 		const struct diag *diag = &diags->diag[i];
 
 		if (diag->rung || diag->line < 1 ||
-		    (int)strlen(name) != diag_name_length(diag) ||
-		    g_ascii_strncasecmp(diag->arg, name, strlen(name)) != 0)
+		    !name_is(name, diag->arg, (size_t)diag_name_length(diag)))
 			continue;
 		delete_line(text, diag->line);
 		any = true;

@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
+#include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/model/sfc.h"
 #include "engine/trial/plant.h"
@@ -188,7 +189,7 @@ static void take_path(struct rewriting *rewriting, const struct token *token, bo
 		struct project *project = rewriting->side->project;
 		bool found;
 
-		if (first && dot && len == 5 && g_ascii_strncasecmp(at, "plant", 5) == 0 &&
+		if (first && dot && ascii_is("plant", at, len) &&
 		    !find_head(project, at, len, true, &rewriting->at)) {
 			rewriting->side = &renaming->plant;
 			at = dot + 1;
@@ -214,8 +215,7 @@ static bool is_statement(const struct token *token, const struct lex *after)
 					     "within", "for", "always", "never" };
 
 	for (gsize i = 0; i < G_N_ELEMENTS(words); i++)
-		if (strlen(words[i]) == token->len &&
-		    g_ascii_strncasecmp(words[i], token->text, token->len) == 0)
+		if (ascii_is(words[i], token->text, token->len))
 			return after->token.kind == TOKEN_NUMBER ||
 			       after->token.kind == TOKEN_STRING ||
 			       after->token.kind == TOKEN_NAME ||
@@ -346,21 +346,20 @@ static int find_twin(struct project *plant, const struct project *project,
 static char *with_name(const char *text, gsize len, const char *old, const char *name)
 {
 	GString *out = g_string_new(NULL);
-	const size_t old_len = strlen(old);
 	const char *done = text;
 	struct lex lex;
 
 	lex_init(&lex, text, len);
 	while (lex_next(&lex) != TOKEN_END) {
 		const struct token *token = &lex.token;
+		const size_t head = token->kind != TOKEN_NAME ? 0 :
+			name_head(old, strlen(old), token->text, token->len);
 
-		if (token->kind != TOKEN_NAME || token->len < old_len ||
-		    g_ascii_strncasecmp(token->text, old, old_len) != 0 ||
-		    (token->len > old_len && token->text[old_len] != '.'))
+		if (!head)
 			continue;
 		g_string_append_len(out, done, token->text - done);
 		g_string_append(out, name);
-		done = token->text + old_len;
+		done = token->text + head;
 	}
 	g_string_append(out, done);
 	return g_string_free(out, FALSE);

@@ -517,9 +517,8 @@ static bool is_used_address(struct symbol_batch *batch, const char *name)
 	for (int i = 0; i < xref.count && !found; i++) {
 		const struct xref_use *use = &xref.use[i];
 
-		found = use->target.what == XREF_ADDRESS && use->len == strlen(name) &&
-			g_ascii_strncasecmp(xref_text(&xref, use) + use->at, name,
-					    use->len) == 0;
+		found = use->target.what == XREF_ADDRESS &&
+			name_is(name, xref_text(&xref, use) + use->at, use->len);
 	}
 	xref_free(&xref);
 	return found;

@@ -15,6 +15,7 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/literal.h"
+#include "engine/base/name.h"
 #include "engine/scan/task.h"
 
 #include <string.h>
@@ -56,11 +57,6 @@ static void put(char **text, const char *now)
 
 	g_free(*text);
 	*text = copy;
-}
-
-static bool same(const char *a, const char *b)
-{
-	return g_ascii_strcasecmp(a, b) == 0;
 }
 
 /* ---- lines ---- */
@@ -228,7 +224,7 @@ static bool has(const struct task_text *t, enum line_kind kind)
 static const struct line *line_of_pou(const struct task_text *t, const char *pou)
 {
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM && same(nth(t, i)->pou, pou))
+		if (nth(t, i)->kind == LINE_PROGRAM && name_equal(nth(t, i)->pou, pou))
 			return nth(t, i);
 	return NULL;
 }
@@ -236,7 +232,7 @@ static const struct line *line_of_pou(const struct task_text *t, const char *pou
 static bool is_taken(const struct task_text *t, const char *name)
 {
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind != LINE_FIXED && same(nth(t, i)->name, name))
+		if (nth(t, i)->kind != LINE_FIXED && name_equal(nth(t, i)->name, name))
 			return true;
 	return false;
 }
@@ -416,7 +412,7 @@ static void name_line(struct task_row *row, const struct task_text *t, struct li
 		return; /* it is not in the file */
 	row->line = is_included(t->project) ? 0 : line_number(t, index);
 	for (int i = 0; i < config->count; i++)
-		if (same(project_text(t->project, config->entry[i].name), line->name)) {
+		if (name_equal(project_text(t->project, config->entry[i].name), line->name)) {
 			g_free(row->text[TASKS_COMMENT]);
 			row->text[TASKS_COMMENT] = comment_text(project_text(t->project,
 				config->entry[i].comment));
@@ -447,7 +443,7 @@ static void add_task(struct task_rows *tasks, struct line *task)
 	put(&row->text[TASKS_PRIORITY], task->priority);
 	put(&row->text[TASKS_WATCHDOG], task->watchdog);
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM && same(nth(t, i)->task, task->name))
+		if (nth(t, i)->kind == LINE_PROGRAM && name_equal(nth(t, i)->task, task->name))
 			add_instance(tasks, head, nth(t, i));
 }
 
@@ -468,7 +464,7 @@ static void add_each_scan(struct task_rows *tasks)
 static bool has_task(const struct task_text *t, const char *name)
 {
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_TASK && same(nth(t, i)->name, name))
+		if (nth(t, i)->kind == LINE_TASK && name_equal(nth(t, i)->name, name))
 			return true;
 	return false;
 }
@@ -546,7 +542,7 @@ int task_rows_find(const struct task_rows *tasks, enum task_what what, const cha
 	for (int i = 0; i < tasks->count; i++)
 		if (tasks->row[i].what == what &&
 		    (what == TASKS_EACH_SCAN || what == TASKS_IDLE ||
-		     same(tasks->row[i].text[TASKS_NAME], name)))
+		     name_equal(tasks->row[i].text[TASKS_NAME], name)))
 			return i;
 	return -1;
 }
@@ -720,7 +716,7 @@ static void touch(struct task_text *t, struct line *line)
 	line->changed = true;
 	put(&line->text, "");
 	for (int i = 0; config && i < config->count; i++)
-		if (same(project_text(t->project, config->entry[i].name), line->name) &&
+		if (name_equal(project_text(t->project, config->entry[i].name), line->name) &&
 		    (config->entry[i].kind == CONFIG_TASK) == (line->kind == LINE_TASK)) {
 			put(&line->text, project_text(t->project, config->entry[i].comment));
 			break;
@@ -757,7 +753,7 @@ static struct line *last_of(const struct task_text *t, enum line_kind kind, cons
 
 	for (guint i = 0; i < t->line->len; i++)
 		if (nth(t, i)->kind == kind && nth(t, i) != but &&
-		    (!task || same(nth(t, i)->task, task)))
+		    (!task || name_equal(nth(t, i)->task, task)))
 			last = nth(t, i);
 	return last;
 }
@@ -855,10 +851,10 @@ static bool rename_line(struct task_text *t, struct line *line, const char *name
 {
 	if (!is_name(name, why))
 		return false;
-	if (!same(line->name, name) && is_taken(t, name))
+	if (!name_equal(line->name, name) && is_taken(t, name))
 		return refuse(why, g_strdup_printf(_("“%s” is declared already"), name));
 	for (guint i = 0; line->kind == LINE_TASK && i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM && same(nth(t, i)->task, line->name))
+		if (nth(t, i)->kind == LINE_PROGRAM && name_equal(nth(t, i)->task, line->name))
 			give(t, nth(t, i), &nth(t, i)->task, name);
 	give(t, line, &line->name, name);
 	return true;
@@ -1046,7 +1042,7 @@ bool task_rows_delete(LadderDocument *document, int row, char **why)
 		return refuse(why, g_strdup(_("This cannot be deleted")));
 	}
 	for (guint i = 0; task && i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM && same(nth(t, i)->task, line->name))
+		if (nth(t, i)->kind == LINE_PROGRAM && name_equal(nth(t, i)->task, line->name))
 			give(t, nth(t, i), &nth(t, i)->task, "");
 	take_out(t, line);
 	good = has(t, LINE_PROGRAM) || task ?

@@ -5,11 +5,11 @@
  */
 #include "editor-gtk/draw/rung_box.h"
 #include "engine/base/lex.h"
+#include "engine/base/name.h"
 #include "engine/model/args.h"
 
 #include <glib.h>
 #include <string.h>
-#include <strings.h>
 
 #define VALUE_BOUND 180   /* px, most of a value at a pin; on paper more     */
 #define NAME_BOUND  140   /* px, most of a name of a pin; twice that of a box, on paper four
@@ -19,15 +19,10 @@
 #define VALUE_INNER 100 /* px: "12.5 s / 20 s" fits                       */
 #define LEAD        14    /* px of a side with nothing connected                */
 
-static bool same_name(const char *a, size_t a_len, const char *b, size_t b_len)
-{
-	return a_len == b_len && strncasecmp(a, b, a_len) == 0;
-}
-
 static bool side_has(const struct rung_side *side, const char *name, size_t len)
 {
 	for (int i = 0; i < side->count; i++)
-		if (same_name(side->pin[i].name, side->pin[i].name_len, name, len))
+		if (name_same(side->pin[i].name, side->pin[i].name_len, name, len))
 			return true;
 	return false;
 }
@@ -77,7 +72,7 @@ static void take_declared(const struct drafting *drafting, const struct rung_box
 	lex_init(&lex, init, strlen(init));
 	while (!pin->value && lex_next(&lex) != TOKEN_END) {
 		depth += lex_is(&lex, "(") - lex_is(&lex, ")");
-		if (depth != 1 || !same_name(lex.token.text, lex.token.len, pin->name, pin->name_len))
+		if (depth != 1 || !name_same(lex.token.text, lex.token.len, pin->name, pin->name_len))
 			continue;
 		lex_next(&lex);
 		if (!lex_accept(&lex, ":="))
@@ -95,7 +90,7 @@ static bool is_scan_time(const char *value, size_t len)
 {
 	const char *word = sys_row(SYS_CYCLE)->name;
 
-	return value && same_name(value, len, word, strlen(word));
+	return value && name_same(value, len, word, strlen(word));
 }
 
 /* An input that a person does not set: the time of the scan, or an option of a word of the

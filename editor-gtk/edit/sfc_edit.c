@@ -677,21 +677,27 @@ static bool is_letter(char c)
 	       c == '_' || (unsigned char)c >= 0x80;
 }
 
-/* Finds the name @old with .X or .T in @text; NULL: none. */
-static const char *find_member(const char *text, const char *old)
+/* Finds the name @old with .X or .T in @text, and how long it is there; NULL: none. */
+static const char *find_member(const char *text, const char *old, size_t *len)
 {
-	const size_t len = strlen(old);
-
 	for (const char *at = text; *at; at++) {
-		const bool begins = at == text ||
-				    !(is_letter(at[-1]) || strchr(".#", at[-1]));
-
-		if (begins && strncasecmp(at, old, len) == 0 && at[len] == '.' &&
-		    strchr("XxTt", at[len + 1]) && at[len + 1] &&
-		    !is_letter(at[len + 2]))
+		if (at > text && (is_letter(at[-1]) || strchr(".#", at[-1])))
+			continue;
+		for (*len = 0; is_letter(at[*len]);)
+			++*len;
+		if (name_is(old, at, *len) && at[*len] == '.' &&
+		    at[*len + 1] && strchr("XxTt", at[*len + 1]) &&
+		    !is_letter(at[*len + 2]))
 			return at;
 	}
 	return NULL;
+}
+
+static bool has_member(const char *text, const char *old)
+{
+	size_t len;
+
+	return find_member(text, old, &len) != NULL;
 }
 
 /* The text with all of them renamed; 0: no memory. */
@@ -701,12 +707,13 @@ static uint32_t with_name(struct sfc_edit *edit, uint32_t id, const char *old,
 	const char *text = project_text(edit->project, id), *found;
 	struct sink_memory memory;
 	struct sink sink;
+	size_t len;
 
-	if (!id || !find_member(text, old))
+	if (!id || !find_member(text, old, &len))
 		return id;
 	sink_memory_init(&memory);
 	sink = sink_to_memory(&memory);
-	for (; (found = find_member(text, old)) != NULL; text = found + strlen(old)) {
+	for (; (found = find_member(text, old, &len)) != NULL; text = found + len) {
 		sink_write(&sink, text, (size_t)(found - text));
 		sink_text(&sink, name);
 	}
@@ -743,9 +750,9 @@ static bool rename_in_rungs(struct sfc_edit *edit, const char *old, const char *
 		bool named = false;
 
 		for (int c = 0; c < rung->rows * rung->cols; c++)
-			named |= find_member(project_text(edit->project,
+			named |= has_member(project_text(edit->project,
 							  rung->cell[c].operand), old) ||
-				 find_member(project_text(edit->project,
+				 has_member(project_text(edit->project,
 							  rung->cell[c].args), old);
 		if (!named)
 			continue;
@@ -804,19 +811,19 @@ bool sfc_edit_asks_for(const struct sfc_edit *edit, int step)
 		const struct rung *rung = edit->pou.rung[i];
 
 		for (int c = 0; c < rung->rows * rung->cols; c++)
-			found |= find_member(project_text(edit->project,
+			found |= has_member(project_text(edit->project,
 						rung->cell[c].operand), name) ||
-				 find_member(project_text(edit->project,
+				 has_member(project_text(edit->project,
 						rung->cell[c].args), name);
 	}
 	for (int i = 0; i < edit->pou.il.count && !found; i++)
-		found = find_member(project_text(edit->project,
+		found = has_member(project_text(edit->project,
 						 edit->pou.il.line[i].operand), name);
 	for (int i = 0; i < sfc->use_count && !found; i++)
-		found = find_member(project_text(edit->project, sfc->use[i].time), name);
+		found = has_member(project_text(edit->project, sfc->use[i].time), name);
 	for (int i = 0; i < sfc->step_count && !found; i++)
-		found = find_member(project_text(edit->project, sfc->step[i].min), name) ||
-			find_member(project_text(edit->project, sfc->step[i].max), name);
+		found = has_member(project_text(edit->project, sfc->step[i].min), name) ||
+			has_member(project_text(edit->project, sfc->step[i].max), name);
 	return found;
 }
 

@@ -263,8 +263,8 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
 	LadderPanelRow *row = panel_list_row(&view->list);
-	const bool output = row && g_ascii_strncasecmp(panel_row_text(row, IO_ADDRESS),
-						       "%Q", 2) == 0;
+	const bool output = row &&
+		g_ascii_strncasecmp(panel_row_text(row, IO_ADDRESS), "%Q", 2) == 0;
 	struct iec_addr addr;
 	char text[24];
 

@@ -9,6 +9,8 @@
 
 #include "editor-gtk/draw/ghost.h"
 
+#include "engine/base/name.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -92,12 +94,9 @@ static bool is_declared(const struct project *project, const struct var_table *v
 {
 	const gsize len = strcspn(name, ".[");
 
-	for (int i = 0; i < vars->count; i++) {
-		const char *own = project_text(project, vars->var[i].name);
-
-		if (strlen(own) == len && g_ascii_strncasecmp(own, name, len) == 0)
+	for (int i = 0; i < vars->count; i++)
+		if (name_is(project_text(project, vars->var[i].name), name, len))
 			return true;
-	}
 	return false;
 }
 

@@ -15,6 +15,7 @@
 #include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/kit/entry_popup.h"
 #include "engine/base/catalog.h"
+#include "engine/base/name.h"
 #include "engine/model/args.h"
 #include "engine/xref/xref.h"
 
@@ -450,7 +451,7 @@ static int offer_inputs(LadderGridView *view, GtkWidget *popup, const char *text
 		const char *name = i < row->pin_count ? row->pin[i].name :
 				   further_input(view, row, further, sizeof(further));
 
-		if (!name || g_ascii_strncasecmp(name, text, len) != 0 || !may_feed(view, name))
+		if (!name || !name_begins(text, len, name, strlen(name)) || !may_feed(view, name))
 			continue;
 		count++;
 		if (popup)

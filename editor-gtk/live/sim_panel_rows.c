@@ -249,9 +249,7 @@ static void add_value(struct maker *maker, const char *name, struct location at,
 
 static bool is_name(const struct maker *maker, uint32_t id, const char *name, gsize len)
 {
-	const char *text = project_text(maker->project, id);
-
-	return strlen(text) == len && g_ascii_strncasecmp(text, name, len) == 0;
+	return name_is(project_text(maker->project, id), name, len);
 }
 
 /* The argument at a pin where the instance is called; false: none. */
@@ -288,8 +286,7 @@ static struct location given_of(const struct maker *maker, const LadderSimRow *r
 		const char *pou = project_text(maker->project, maker->project->pou[p].name);
 		char *name;
 
-		if (dot && ((gsize)(dot - row->name) != strlen(pou) ||
-			    g_ascii_strncasecmp(row->name, pou, strlen(pou)) != 0))
+		if (dot && !name_is(pou, row->name, (gsize)(dot - row->name)))
 			continue;
 		if (!find_arg(maker, p, own, pin, &arg))
 			continue;
@@ -358,7 +355,7 @@ static void begin_block(struct maker *maker, const struct symbol *symbol, gsize 
 
 static bool is_pin(const char *pin, const char *name)
 {
-	return name && g_ascii_strcasecmp(pin, name) == 0;
+	return name && name_equal(pin, name);
 }
 
 /* Where the line of the instance has its value, its preset, its lamp. */

@@ -11,6 +11,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/name_fold.h"
 
+#include "engine/base/name.h"
 #include "engine/scan/code.h"
 #include "engine/trial/trace.h"
 #include "engine/trial/value.h"
@@ -23,7 +24,7 @@
 
 static bool is_pin_of(const char *name, const char *instance, gsize len)
 {
-	return g_ascii_strncasecmp(name, instance, len) == 0 && name[len] == '.';
+	return name[name_head(instance, len, name, strlen(name))] == '.';
 }
 
 /* "Delay": Delay.IN, Delay.PT, … */

@@ -12,6 +12,8 @@
 #include "editor-gtk/panels/tile.h"
 #include "editor-gtk/sfc/sfc_view.h"
 
+#include "engine/base/name.h"
+
 #include <string.h>
 
 #define LADDER_TYPE_PALETTE (ladder_palette_get_type())
@@ -241,9 +243,9 @@ static enum rank rank_of(const char *word, const char *search)
 {
 	const gsize len = strlen(search);
 
-	if (g_ascii_strncasecmp(word, search, len) != 0)
+	if (!name_begins(search, len, word, strlen(word)))
 		return RANK_TOLD;
-	return word[len] ? RANK_BEGINS : RANK_IS;
+	return name_is(word, search, len) ? RANK_IS : RANK_BEGINS;
 }
 
 static const char *search_of(const LadderPalette *palette)

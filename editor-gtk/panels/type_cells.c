@@ -12,6 +12,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/init_dialog.h"
 
+#include "engine/base/name.h"
 #include "engine/xref/xref.h"
 
 #include <stdlib.h>
@@ -201,7 +202,7 @@ static GtkWidget *types_new(LadderDocument *document, bool member, const char *n
 
 	for (guint i = 0; i + 1 < choices->len; i += 2, count++) {
 		gtk_string_list_append(names, choices->pdata[i]);
-		if (g_ascii_strcasecmp(choices->pdata[i], now) == 0)
+		if (name_equal(choices->pdata[i], now))
 			selected = count;
 	}
 	if (selected == GTK_INVALID_LIST_POSITION) { /* STRING[20] */

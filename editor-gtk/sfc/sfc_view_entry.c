@@ -57,7 +57,7 @@ static void add_row(LadderSfcView *view, const char *line, gsize start, gsize cu
 
 static bool begins(const char *text, const char *line, gsize start, gsize cursor)
 {
-	return g_ascii_strncasecmp(text, line + start, cursor - start) == 0;
+	return name_begins(line + start, cursor - start, text, strlen(text));
 }
 
 /* Is it `Fill.X` or `Fill.T`? offer_members() has them. */

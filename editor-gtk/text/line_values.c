@@ -8,6 +8,8 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_map.h"
 
+#include "engine/base/name.h"
+
 #include <string.h>
 
 #define WIDE "-0:00:00 / 0:00:00 h" /* the column has room for it                */
@@ -100,7 +102,7 @@ static bool was_before(GArray *parts, guint index)
 	const char *name = g_array_index(parts, struct live_part, index).text;
 
 	for (guint i = 0; i < index; i++)
-		if (g_ascii_strcasecmp(g_array_index(parts, struct live_part, i).text, name) == 0)
+		if (name_equal(g_array_index(parts, struct live_part, i).text, name))
 			return true;
 	return false;
 }

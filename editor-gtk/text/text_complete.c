@@ -6,6 +6,8 @@
 
 #include "editor-gtk/kit/i18n.h"
 
+#include "engine/base/name.h"
+
 #include <string.h>
 
 GtkSourceLanguage *text_language(void)
@@ -151,8 +153,7 @@ static bool is_whole(GListStore *found, const char *prefix, gsize len)
 		LadderProposal *word = g_list_model_get_item(G_LIST_MODEL(found), i);
 
 		g_object_unref(word); /* the list holds it */
-		if (strlen(word->text) == len &&
-		    g_ascii_strncasecmp(word->text, prefix, len) == 0)
+		if (name_is(word->text, prefix, len))
 			return true;
 	}
 	return false;

@@ -232,7 +232,7 @@ static void end_of_word(const struct diag *diag, GtkTextIter *end)
 
 	gtk_text_iter_forward_to_line_end(&to);
 	text = gtk_text_iter_get_slice(&from, &to);
-	if (len > 0 && g_ascii_strncasecmp(text, diag->arg, (gsize)len) == 0)
+	if (len > 0 && name_begins(diag->arg, (gsize)len, text, strlen(text)))
 		gtk_text_iter_forward_chars(end, (int)g_utf8_strlen(diag->arg, len));
 	else if (!gtk_text_iter_ends_line(end))
 		*end = to;

@@ -16,6 +16,7 @@
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/tabs.h"
 
+#include "engine/base/name.h"
 #include "engine/xref/xref.h"
 
 #include <stdlib.h>
@@ -56,8 +57,7 @@ static int use_in_list(LadderTextView *list, const struct xref *xref)
 		const struct xref_use *use = &xref->use[i];
 
 		if (use->pou != ladder_text_view_pou(list) || use->rung > 0 || !use->slot ||
-		    strlen(name) != use->len ||
-		    g_ascii_strncasecmp(name, xref_text(xref, use) + use->at, use->len) != 0)
+		    !name_is(name, xref_text(xref, use) + use->at, use->len))
 			continue;
 		if (found < 0 || ladder_text_view_is_at(list, use->row))
 			found = i;

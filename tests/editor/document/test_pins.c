@@ -208,6 +208,25 @@ static void test_positions(void)
 	CHECK(!move("Scaled", "X", 1) && is_order("Scaled", VAR_INPUT, "A X B"));
 }
 
+/* ö is Ö, and o with U+0308. */
+static void test_spellings(void)
+{
+	static const char *const calls[] = { "öl 3", "O\u0308l 3" };
+	static const char function[] =
+		"FUNCTION Öl : INT IL\nVAR_INPUT\n  X : INT;\n  A : INT;\n  B : INT := 2;\n"
+		"END_VAR\n  LD    X\n  MUL   A\n  ADD   B\n  ST    Öl\nEND_FUNCTION\n";
+
+	for (gsize i = 0; i < G_N_ELEMENTS(calls); i++) {
+		char *text = g_strdup_printf("RUNGBOARD 1\n\nVAR\n  R : INT;\nEND_VAR\n\n"
+			"PROGRAM Main IL\n  LD    5\n  %s\n  ST    R\nEND_PROGRAM\n\n%s",
+			calls[i], function);
+
+		ladder_document_open_text(document, NULL, text, strlen(text), true);
+		CHECK(is_refused("Öl", "A", 1, "by position"));
+		g_free(text);
+	}
+}
+
 static void test_result(void)
 {
 	char *why;
@@ -229,6 +248,7 @@ int main(void)
 	test_moves();
 	test_power();
 	test_positions();
+	test_spellings();
 	test_result();
 	g_object_unref(document);
 	return tap_done();

@@ -196,6 +196,26 @@ static void test_rename(void)
 	g_object_unref(document);
 }
 
+/* A program names its task and its POU in other spellings: o with U+0308, and ö. */
+static void test_spellings(void)
+{
+	LadderDocument *document = opened("RUNGBOARD 1\n\nCONFIGURATION Plant\n"
+		"  RESOURCE Cpu ON LINUX\n    TASK Öl (INTERVAL := T#5ms, PRIORITY := 1);\n"
+		"    PROGRAM A WITH O\u0308l : älter;\n    PROGRAM B WITH öl : Other;\n"
+		"  END_RESOURCE\nEND_CONFIGURATION\n\n"
+		"PROGRAM Älter LD\nRUNG\n  | NO %IX0.1 | COIL %QX0.1 |\nEND_PROGRAM\n\n"
+		"PROGRAM Other LD\nRUNG\n  | NO %IX0.2 | COIL %QX0.2 |\nEND_PROGRAM\n");
+	char *text;
+
+	check_order(document, "Öl: A B");
+	CHECK(task_rows_set(document, row_of(document, "Öl"), TASKS_NAME, "Fett", NULL));
+	check_order(document, "Fett: A B");
+	text = text_of(document);
+	CHECK(strstr(text, "A WITH Fett") && strstr(text, "B WITH Fett"));
+	g_free(text);
+	g_object_unref(document);
+}
+
 static void move(LadderDocument *document, const char *name, const char *head,
 		 const char *before, const char *want)
 {
@@ -643,6 +663,7 @@ int main(void)
 {
 	test_fields();
 	test_rename();
+	test_spellings();
 	test_moves();
 	test_steps();
 	test_rows_come_and_go();
