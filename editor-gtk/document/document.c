@@ -11,6 +11,8 @@
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/history.h"
 #include "editor-gtk/document/text_lines.h"
+#include "editor-gtk/kit/diag_said.h"
+#include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/memory.h"
 #include "editor-gtk/kit/i18n.h"
 
@@ -1134,6 +1136,23 @@ bool ladder_document_replace(LadderDocument *document, gsize at, gsize removed,
 	}
 	g_free(text);
 	return good;
+}
+
+char *ladder_document_replace_step(LadderDocument *document, gsize at, gsize removed,
+				   const char *with, const char *step)
+{
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	const struct diag *error;
+	char *why = NULL;
+
+	ladder_document_begin(document, step, NULL);
+	if (!ladder_document_replace(document, at, removed, with, diags)) {
+		error = diag_first_error(diags);
+		why = error ? diag_said_whole(error) : g_strdup(_("It cannot be read"));
+	}
+	ladder_document_end(document);
+	g_free(diags);
+	return why;
 }
 
 /* The list as it was typed, if that is known, else as the file has it. */

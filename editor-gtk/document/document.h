@@ -140,6 +140,10 @@ char *ladder_document_pou(LadderDocument *document, int pou, struct text_span *s
  */
 bool ladder_document_replace(LadderDocument *document, gsize at, gsize removed,
 			     const char *with, struct diag_list *why);
+/** ladder_document_replace_step - the same as a step @step of the history. Returns NULL, or why
+ * it failed, translated: the first error. Owns: the caller. */
+char *ladder_document_replace_step(LadderDocument *document, gsize at, gsize removed,
+				   const char *with, const char *step);
 
 /** ladder_document_declare - adds a variable
  * @pou: its POU; -1: global; @type: "BOOL", "TON"; @address: "%IX0.3", "" or NULL: none

@@ -4,7 +4,6 @@
  */
 #include "editor-gtk/document/pins.h"
 
-#include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/lex.h"
@@ -190,21 +189,6 @@ static bool same_block(const struct var_table *vars, int a, int b)
 	return false;
 }
 
-static char *replace(LadderDocument *document, gsize at, gsize removed, const char *text,
-		     const char *step)
-{
-	struct diag_list *diags = g_new0(struct diag_list, 1);
-	char *why = NULL;
-
-	ladder_document_begin(document, step, NULL);
-	if (!ladder_document_replace(document, at, removed, text, diags))
-		why = diags->count ? diag_said_whole(&diags->diag[0]) :
-				     g_strdup(_("It cannot be read"));
-	ladder_document_end(document);
-	g_free(diags);
-	return why;
-}
-
 char *pin_move(LadderDocument *document, int pou, int index, int by)
 {
 	const struct project *project = ladder_document_project(document);
@@ -225,8 +209,8 @@ char *pin_move(LadderDocument *document, int pou, int index, int by)
 	all = ladder_document_outline(document, &len, take_pin, &two);
 	text = g_strdup_printf("%.*s%.*s", (int)two.span[1].len, all + two.span[1].at,
 			       (int)two.span[0].len, all + two.span[0].at);
-	why = replace(document, two.span[0].at, two.span[0].len + two.span[1].len, text,
-		      _("Move pin"));
+	why = ladder_document_replace_step(document, two.span[0].at,
+		two.span[0].len + two.span[1].len, text, _("Move pin"));
 	g_free(text);
 	g_free(all);
 	return why;
@@ -240,8 +224,8 @@ char *pins_set_result(LadderDocument *document, int pou, const char *type)
 	const char *colon = strstr(heading, " : "), *end = strrchr(heading, ' ');
 
 	why = !colon || end < colon + 3 ? g_strdup(_("It cannot be read")) :
-		replace(document, span.at + (gsize)(colon + 3 - heading),
-			(gsize)(end - colon - 3), type, _("Change type"));
+		ladder_document_replace_step(document, span.at + (gsize)(colon + 3 - heading),
+					     (gsize)(end - colon - 3), type, _("Change type"));
 	g_free(heading);
 	g_free(all);
 	return why;

@@ -8,7 +8,6 @@
 #include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/edit/grid_display.h"
 #include "editor-gtk/edit/grid_edit.h"
-#include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/xref/xref.h"
@@ -124,31 +123,19 @@ static char *text_of(enum pou_kind kind, enum pou_language language, const char 
 	return text;
 }
 
-static char *why_of(const struct diag_list *diags)
-{
-	return diags->count ? diag_said_whole(&diags->diag[0]) :
-			      g_strdup(_("It cannot be read"));
-}
-
 char *pou_add(LadderDocument *document, enum pou_kind kind, enum pou_language language,
 	      const char *name)
 {
 	char *why = pou_name_refusal(document, kind, name), *text, *all;
-	struct diag_list *diags;
 	gsize len;
 
 	if (why)
 		return why;
-	diags = g_new0(struct diag_list, 1);
 	text = text_of(kind, language, name);
 	all = ladder_document_outline(document, &len, NULL, NULL);
-	ladder_document_begin(document, _("New program or block"), NULL);
-	if (!ladder_document_replace(document, len, 0, text, diags))
-		why = why_of(diags);
-	ladder_document_end(document);
+	why = ladder_document_replace_step(document, len, 0, text, _("New program or block"));
 	g_free(all);
 	g_free(text);
-	g_free(diags);
 	return why;
 }
 
@@ -240,7 +227,6 @@ char *pou_duplicate(LadderDocument *document, int pou, const char *name)
 	const struct project *project = ladder_document_project(document);
 	char *why = pou_name_refusal(document, project ? project->pou[pou].kind : POU_PROGRAM,
 				     name);
-	struct diag_list *diags;
 	struct text_span span;
 	char *all, *part, *more;
 
@@ -254,14 +240,10 @@ char *pou_duplicate(LadderDocument *document, int pou, const char *name)
 		renamed_part(document, pou, name, &why) :
 		part_called(document, pou, all, &span, name);
 	if (part) {
-		diags = g_new0(struct diag_list, 1);
 		more = g_strconcat("\n", part, NULL);
-		ladder_document_begin(document, _("Duplicate program or block"), NULL);
-		if (!ladder_document_replace(document, span.at + span.len, 0, more, diags))
-			why = why_of(diags);
-		ladder_document_end(document);
+		why = ladder_document_replace_step(document, span.at + span.len, 0, more,
+						   _("Duplicate program or block"));
 		g_free(more);
-		g_free(diags);
 	}
 	g_free(part);
 	g_free(all);

@@ -5,7 +5,6 @@
 #include "editor-gtk/document/properties.h"
 
 #include "editor-gtk/document/pou_edit.h"
-#include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/lex.h"
@@ -54,18 +53,6 @@ static void take_title(void *context, const struct text_span *span)
 		*(struct text_span *)context = *span;
 }
 
-static char *replaced(LadderDocument *document, const struct text_span *span, const char *text)
-{
-	struct diag_list *diags = g_new0(struct diag_list, 1);
-	char *why = NULL;
-
-	if (!ladder_document_replace(document, span->at, span->len, text, diags))
-		why = diags->count ? diag_said_whole(&diags->diag[0]) :
-				     g_strdup(_("It cannot be read"));
-	g_free(diags);
-	return why;
-}
-
 char *properties_set(LadderDocument *document, const char *title,
 		     const char *const property[PROPERTY_COUNT])
 {
@@ -91,9 +78,8 @@ char *properties_set(LadderDocument *document, const char *title,
 		g_free(head);
 	}
 	g_free(ladder_document_outline(document, &len, take_title, &span));
-	ladder_document_begin(document, _("Change project properties"), NULL);
-	why = replaced(document, &span, text->str);
-	ladder_document_end(document);
+	why = ladder_document_replace_step(document, span.at, span.len, text->str,
+					   _("Change project properties"));
 	g_string_free(text, TRUE);
 	return why;
 }
@@ -164,9 +150,8 @@ char *pou_set_comment(LadderDocument *document, int pou, const char *text)
 		span.len = old ? old + 1 : 0; /* its newline */
 		span.at -= span.len;
 		with = *plain ? comment_of(plain) : g_strdup("");
-		ladder_document_begin(document, _("Change comment"), NULL);
-		why = replaced(document, &span, with);
-		ladder_document_end(document);
+		why = ladder_document_replace_step(document, span.at, span.len, with,
+						   _("Change comment"));
 		g_free(with);
 	}
 	g_free(plain);

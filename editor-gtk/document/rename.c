@@ -6,7 +6,6 @@
 
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/side_file.h"
-#include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/ascii.h"
@@ -640,7 +639,6 @@ static void put_file(LadderDocument *document, const struct rename_file *file)
 bool rename_everywhere(LadderDocument *document, const struct xref_target *target,
 		       const char *name, const char *step, int *places, char **why)
 {
-	struct diag_list *diags = g_new0(struct diag_list, 1);
 	GPtrArray *files = rename_files(document, target, name, why);
 	struct ladder_rename how;
 	size_t len, old_len;
@@ -654,10 +652,9 @@ bool rename_everywhere(LadderDocument *document, const struct xref_target *targe
 	if (files && !text)
 		*why = rename_reason(document, &how, name);
 	ladder_document_begin(document, step, NULL);
-	if (good && !ladder_document_replace(document, 0, old_len, text, diags)) {
-		*why = diags->count ? diag_said_whole(&diags->diag[0]) :
-				      g_strdup(_("It cannot be read"));
-		good = false;
+	if (good) {
+		*why = ladder_document_replace_step(document, 0, old_len, text, step);
+		good = !*why;
 	}
 	for (guint i = 0; good && i < files->len; i++) {
 		put_file(document, files->pdata[i]);
@@ -673,6 +670,5 @@ bool rename_everywhere(LadderDocument *document, const struct xref_target *targe
 	g_free(old);
 	g_free(before);
 	free(text);
-	g_free(diags);
 	return good;
 }

@@ -805,17 +805,11 @@ struct ladder *symbol_batch_try(struct symbol_batch *batch, char **why)
 bool symbol_batch_apply(struct symbol_batch *batch, const char *step, char **why)
 {
 	GString *text = pieced(batch);
-	struct diag_list *diags = g_new0(struct diag_list, 1);
-	bool good;
+	char *refusal = ladder_document_replace_step(batch->document, 0, batch->len, text->str,
+						     step);
 
-	ladder_document_begin(batch->document, step, NULL);
-	good = ladder_document_replace(batch->document, 0, batch->len, text->str, diags);
-	ladder_document_end(batch->document);
-	if (!good)
-		refuse(why, reason(diags));
-	g_free(diags);
 	g_string_free(text, TRUE);
-	return good;
+	return !refusal || refuse(why, refusal);
 }
 
 /* ---- single changes ---- */

@@ -671,9 +671,8 @@ static char *joined(const struct task_text *t)
 static bool apply(struct task_rows *tasks, const char *step, char **why)
 {
 	struct task_text *t = tasks->inside;
-	struct diag_list *diags;
+	char *text, *refusal;
 	GString *whole;
-	char *text;
 	bool good;
 
 	if (tasks->fixed)
@@ -684,14 +683,9 @@ static bool apply(struct task_rows *tasks, const char *step, char **why)
 	g_string_insert(whole, (gssize)t->at, text);
 	good = is_good(t, whole->str, whole->len, why);
 	if (good) {
-		diags = g_new0(struct diag_list, 1);
-		ladder_document_begin(t->document, step, NULL);
-		good = ladder_document_replace(t->document, t->at, t->removed, text, diags);
-		ladder_document_end(t->document);
-		if (!good)
-			refuse(why, diags->count ? diag_said_whole(&diags->diag[0]) :
-			       g_strdup(_("It cannot be read")));
-		g_free(diags);
+		refusal = ladder_document_replace_step(t->document, t->at, t->removed, text,
+						       step);
+		good = !refusal || refuse(why, refusal);
 	}
 	g_string_free(whole, TRUE);
 	g_free(text);

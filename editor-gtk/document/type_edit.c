@@ -110,18 +110,8 @@ static const struct text_span *structure_span(const struct outline *outline, int
 static bool put(LadderDocument *document, gsize at, gsize removed, const char *with,
 		const char *step, char **why)
 {
-	struct diag_list *diags = g_new0(struct diag_list, 1);
-	const struct diag *first;
-	bool good;
-
-	ladder_document_begin(document, step, NULL);
-	good = ladder_document_replace(document, at, removed, with, diags);
-	ladder_document_end(document);
-	first = good ? NULL : diag_first_error(diags);
-	if (!good)
-		*why = first ? diag_said_whole(first) : g_strdup(_("It cannot be read"));
-	g_free(diags);
-	return good;
+	*why = ladder_document_replace_step(document, at, removed, with, step);
+	return !*why;
 }
 
 static bool is_readable(LadderDocument *document, char **why)
@@ -383,19 +373,21 @@ bool type_move_member(LadderDocument *document, int structure, int from, int to,
 bool type_add_member(LadderDocument *document, int structure, int behind, char **name,
 		     char **why)
 {
-	const int table = type_table(document, structure);
 	const struct project *project = ladder_document_project(document);
-	const struct var_table *vars = &project->structure[structure].vars;
-	const int count = vars->count, like = CLAMP(behind, 0, count - 1);
-	struct symbol_row *row;
 	const char *text[SYMBOL_FIELDS] = { "", "", "", "", "", "", "" };
+	const struct var_table *vars;
+	struct symbol_row *row;
+	int table, count;
 	bool good;
 
 	*why = NULL;
 	*name = NULL;
 	if (!is_readable(document, why))
 		return false;
-	row = symbol_row_new(project, vars, table, like);
+	table = type_table(document, structure);
+	vars = &project->structure[structure].vars;
+	count = vars->count;
+	row = symbol_row_new(project, vars, table, CLAMP(behind, 0, count - 1));
 	*name = symbol_free_name(document, table, row->text[FIELD_NAME]);
 	text[FIELD_NAME] = *name;
 	text[FIELD_TYPE] = row->text[FIELD_TYPE];

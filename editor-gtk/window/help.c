@@ -44,7 +44,8 @@ static LadderManualWindow *show_outside(struct help *help, struct manual *manual
 	return NULL;
 }
 
-/* NULL: there is none, and the window says so; or another program shows @page. */
+/* NULL, and nothing else is to be done: the window says that there is no manual, or another
+ * program shows @page. */
 static LadderManualWindow *window_of(struct help *help, const char *page)
 {
 	struct manual *manual;
@@ -103,10 +104,17 @@ static void show_place(struct help *help, const char *name)
 /* False: the manual has no entry for the word. */
 static bool show_word(struct help *help, const char *word)
 {
-	LadderManualWindow *window = window_of(help, "words.md");
-	struct manual *manual = window ? ladder_manual_window_manual(window) : NULL;
-	const int block = window && *word ? manual_word(manual, word) : -1;
+	LadderManualWindow *window;
+	struct manual *manual;
+	int block;
 
+	if (!*word)
+		return false;
+	window = window_of(help, "words.md");
+	if (!window)
+		return true;
+	manual = ladder_manual_window_manual(window);
+	block = manual_word(manual, word);
 	if (block < 0)
 		return false;
 	ladder_manual_window_show(window, manual_find(manual, "words.md"), block);
@@ -186,15 +194,14 @@ static void show_problem(struct help *help)
 	GtkWidget *problems = below_made(help->core->below, "problems");
 	const char *code = problems ? ladder_problems_code(LADDER_PROBLEMS(problems)) : "";
 	LadderManualWindow *window = *code ? window_of(help, PAGE) : NULL;
-	struct manual *manual = window ? ladder_manual_window_manual(window) : NULL;
 	int page, block;
 
-	if (window && manual_code(manual, code, &page, &block)) {
+	if (window && manual_code(ladder_manual_window_manual(window), code, &page, &block)) {
 		ladder_manual_window_show(window, page, block);
 		gtk_window_present(help->window);
-		return;
+	} else if (window || !*code) {
+		show_place(help, "below problems");
 	}
-	show_place(help, "below problems");
 }
 
 static bool is_inside(GtkWidget *widget, const char *type)

@@ -105,7 +105,10 @@ static char *apply_pou(struct form *form, gpointer data)
 					  _("Change properties"), NULL, &why);
 		if (!why)
 			why = pou_set_comment(about->document, pou_of(about, name), comment);
-		ladder_document_end(about->document);
+		if (why)
+			ladder_document_cancel(about->document);
+		else
+			ladder_document_end(about->document);
 	}
 	g_free(comment);
 	g_free(name);

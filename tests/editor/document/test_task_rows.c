@@ -207,9 +207,9 @@ static void test_spellings(void)
 		"PROGRAM Other LD\nRUNG\n  | NO %IX0.2 | COIL %QX0.2 |\nEND_PROGRAM\n");
 	char *text;
 
-	check_order(document, "Öl: A B");
+	check_order(document, "Öl: A BEach scan:");
 	CHECK(task_rows_set(document, row_of(document, "Öl"), TASKS_NAME, "Fett", NULL));
-	check_order(document, "Fett: A B");
+	check_order(document, "Fett: A BEach scan:");
 	text = text_of(document);
 	CHECK(strstr(text, "A WITH Fett") && strstr(text, "B WITH Fett"));
 	g_free(text);
