@@ -50,11 +50,24 @@ static bool set(const struct column *column, LadderPanelRow *row, const char *te
 
 /* ---- an edit of a text ---- */
 
+/* The row keeps it while its cell shows another one. */
+static void keep(GtkWidget *cell, const char *refused, const char *why)
+{
+	GtkListItem *item = column_of(cell)->cells->keeps ? item_of(cell) : NULL;
+	GObject *row = item ? gtk_list_item_get_item(item) : NULL;
+
+	if (!row)
+		return;
+	g_object_set_data_full(row, "refused", g_strdup(refused), g_free);
+	g_object_set_data_full(row, "why", g_strdup(why), g_free);
+}
+
 /* @refused: the refused text, taken over; NULL: the row has the text of the cell. */
 static void mark(GtkWidget *cell, char *refused, char *why)
 {
 	const char *text = gtk_editable_get_text(GTK_EDITABLE(cell));
 
+	keep(cell, refused, why);
 	if (refused) {
 		cells_refused(cell, why);
 	} else {
@@ -114,7 +127,7 @@ static bool is_as_before(GtkWidget *cell, const LadderPanelRow *row)
 			     panel_row_text(row, column_of(cell)->field)) == 0;
 }
 
-/* False: it is refused. A text that was refused before is not tried again. */
+/* False: it is refused. A text that was refused before is not tried again: it still is. */
 static bool commit(GtkWidget *cell, GtkListItem *item)
 {
 	LadderPanelRow *row = gtk_list_item_get_item(item);
@@ -125,6 +138,8 @@ static bool commit(GtkWidget *cell, GtkListItem *item)
 		good = apply(cell, row, text);
 	else if (refused_text(cell) && is_as_before(cell, row))
 		give_up(cell, row);
+	else
+		good = !refused_text(cell);
 	g_free(text);
 	return good;
 }
@@ -233,16 +248,15 @@ static void entered(GtkEventControllerFocus *focus, GtkListItem *item)
 			gtk_list_item_get_position(item));
 }
 
-void panel_cells_commit(GtkColumnView *view)
+bool panel_cells_commit(GtkColumnView *view)
 {
 	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
 	GtkWidget *cell = root ? gtk_root_get_focus(root) : NULL;
 
 	while (cell && cell != GTK_WIDGET(view) && !column_of(cell))
 		cell = gtk_widget_get_parent(cell);
-	if (cell && gtk_widget_is_ancestor(cell, GTK_WIDGET(view)) && GTK_IS_ENTRY(cell) &&
-	    item_of(cell))
-		commit(cell, item_of(cell));
+	return !cell || !gtk_widget_is_ancestor(cell, GTK_WIDGET(view)) ||
+	       !GTK_IS_ENTRY(cell) || !item_of(cell) || commit(cell, item_of(cell));
 }
 
 bool panel_cells_focus(GtkWidget *within, int row, int field)
@@ -721,6 +735,21 @@ static void show(LadderPanelRow *row, GtkListItem *item)
 	g_free(name);
 }
 
+/* The text that the row keeps is shown again, as refused. */
+static void show_kept(GtkWidget *cell, LadderPanelRow *row)
+{
+	const char *text = g_object_get_data(G_OBJECT(row), "refused");
+	char *why = g_strdup(g_object_get_data(G_OBJECT(row), "why"));
+
+	if (!text) {
+		g_free(why);
+		return;
+	}
+	gtk_editable_set_text(GTK_EDITABLE(cell), text);
+	cells_refused(cell, why);
+	g_object_set_data_full(G_OBJECT(cell), "refused", g_strdup(text), g_free);
+}
+
 static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
 {
 	const struct column *column = data;
@@ -733,6 +762,8 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 	g_object_set_data(G_OBJECT(cell), "refused", NULL);
 	g_object_set_data(G_OBJECT(cell), "shown", NULL);
 	show(row, item);
+	if (column->cells->keeps)
+		show_kept(cell, row);
 	g_signal_connect(row, "changed", G_CALLBACK(show), item);
 	if (is_check(column))
 		g_signal_connect(cell, "toggled", G_CALLBACK(toggled), item);

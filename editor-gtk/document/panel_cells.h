@@ -20,6 +20,8 @@ struct panel_cells {
 				    they are typed */
 	bool later;             /* edits are set after the focus has moved, because the owner
 				   then makes all rows anew */
+	bool keeps;             /* rows are never made anew: a row with a refused text keeps it,
+				   and the reason, as its data "refused" and "why" */
 	/* Translated. */
 	const char *(*name)(int field);
 	/* Sets a field to @text. False: refused; @why (or NULL) says why. */
@@ -48,8 +50,9 @@ void panel_cells_add(struct panel_list *list, const struct panel_cells *cells, i
 /** panel_cells_take - sets the text of a cell as if it had been typed; a refusal is shown in
  * the cell. False: refused. */
 bool panel_cells_take(GtkWidget *cell, const char *text);
-/** panel_cells_commit - ends the edit in the cell of @view that has the focus. */
-void panel_cells_commit(GtkColumnView *view);
+/** panel_cells_commit - ends the edit in the cell of @view that has the focus. False: it is
+ * refused, and the cell shows why. */
+bool panel_cells_commit(GtkColumnView *view);
 /** panel_cells_focus - focuses the cell of a row (its index) and field. @within: a list, or
  * a parent of one. False: it is not visible. */
 bool panel_cells_focus(GtkWidget *within, int row, int field);

@@ -219,10 +219,15 @@ char *pin_move(LadderDocument *document, int pou, int index, int by)
 char *pins_set_result(LadderDocument *document, int pou, const char *type)
 {
 	struct text_span span;
-	char *all = ladder_document_pou(document, pou, &span), *why;
-	char *heading = g_strndup(all + span.at, strcspn(all + span.at, "\n"));
-	const char *colon = strstr(heading, " : "), *end = strrchr(heading, ' ');
+	char *all, *why, *heading;
+	const char *colon, *end;
 
+	if (ladder_document_project(document)->pou[pou].included)
+		return g_strdup(_("It is declared in another file"));
+	all = ladder_document_pou(document, pou, &span);
+	heading = g_strndup(all + span.at, strcspn(all + span.at, "\n"));
+	colon = strstr(heading, " : ");
+	end = strrchr(heading, ' ');
 	why = !colon || end < colon + 3 ? g_strdup(_("It cannot be read")) :
 		ladder_document_replace_step(document, span.at + (gsize)(colon + 3 - heading),
 					     (gsize)(end - colon - 3), type, _("Change type"));

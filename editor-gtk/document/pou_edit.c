@@ -301,9 +301,11 @@ const char *pou_move(LadderDocument *document, int pou, int beside, bool behind)
 
 	if (!project || !ladder_document_is_whole(document))
 		return _("Nothing can be moved while a text of the project cannot be read");
+	if (pou == beside)
+		return NULL;
 	all = part_of(document, pou, &moves);
 	there = part_of(document, beside, &stays);
-	good = all && there && pou != beside;
+	good = all && there;
 	if (good) {
 		at = MIN(moves.at - 1, behind ? stays.at + stays.len : stays.at - 1);
 		text = moved_text(all, &moves, &stays, behind);

@@ -30,7 +30,7 @@ int pou_beside(LadderDocument *document, int pou, int by);
  * them. */
 bool pou_order_counts(LadderDocument *document);
 /** pou_move - moves its text, with the comments above it, before or behind that of POU
- * @beside. Returns NULL, or why it failed, translated, static. */
+ * @beside; nothing, if they are the same. Returns NULL, or why it failed, translated, static. */
 const char *pou_move(LadderDocument *document, int pou, int beside, bool behind);
 /** pou_uses - the number of places outside of a POU that use it. */
 int pou_uses(LadderDocument *document, int pou);

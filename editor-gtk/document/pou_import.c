@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/document/pou_import.h"
 
+#include "editor-gtk/document/disk.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
@@ -411,14 +412,54 @@ char *pou_export_needs(LadderDocument *document, int pou)
 	return needs;
 }
 
+/* Is it a file whose declarations are in the project? */
+static bool is_included(LadderDocument *document, const char *path)
+{
+	const struct project *project = ladder_document_project(document);
+	const char *own = ladder_document_path(document);
+	char *folder = g_path_get_dirname(own ? own : "");
+	bool is = false;
+
+	for (int i = 0; i < project->pou_count && !is; i++)
+		is = project->pou[i].included && disk_same(project->pou[i].file, path);
+	for (int i = 0; i < project->structure_count && !is; i++)
+		is = disk_same(project->structure[i].file, path);
+	for (int i = 0; i < project->used_count && !is; i++)
+		is = disk_same(project->used[i], path);
+	for (int i = 0; i < project->part_count && !is; i++) {
+		const struct part *part = &project->part[i];
+		char *file = part->kind == PART_INCLUDE ? g_canonicalize_filename(
+			project_text(project, part->text), folder) : NULL;
+
+		is = file && disk_same(file, path);
+		g_free(file);
+	}
+	g_free(folder);
+	return is;
+}
+
+/* Why a POU cannot go to this file; NULL: it can. */
+static const char *target_refusal(LadderDocument *document, const char *path)
+{
+	const char *own = ladder_document_path(document);
+
+	if (own && disk_same(own, path))
+		return _("This is the file of this project. Choose another.");
+	return is_included(document, path) ?
+	       _("This project includes the file. Choose another.") : NULL;
+}
+
 bool pou_export(LadderDocument *document, int pou, const char *path, GString *told)
 {
+	const char *why = target_refusal(document, path);
 	LadderDocument *other = ladder_document_new();
 	struct ladder *from = copy_of(document);
 	bool *chosen = from ? only(from, pou) : NULL;
 	GError *error = NULL;
-	bool good = ladder_document_open(other, path, &error);
+	bool good = !why && ladder_document_open(other, path, &error);
 
+	if (why)
+		g_string_assign(told, why);
 	if (good && (!from || !ladder_document_project(other))) {
 		g_string_assign(told, _("Cannot read the file as a project. Open it to see why."));
 		good = false;

@@ -27,7 +27,8 @@ bool pou_import(LadderDocument *document, struct ladder *from, const bool *chose
  * "Motor, Seal, Lamp". Caller frees. */
 char *pou_import_needs(struct ladder *from, const bool *chosen);
 /** pou_export - copies POU @pou, with what it needs, into the rung file @path, which is saved.
- * @told: as in pou_import(). Fails: false, the file is as before. */
+ * @told: as in pou_import(). Fails: false, the file is as before. A file of the project itself,
+ * also by another path, is refused. */
 bool pou_export(LadderDocument *document, int pou, const char *path, GString *told);
 /** pou_export_needs - as pou_import_needs(), for a POU of a document. Caller frees. */
 char *pou_export_needs(LadderDocument *document, int pou);

@@ -173,6 +173,25 @@ static int index_of(const struct dialog *dialog)
 	return -1;
 }
 
+/* Goes to the first value that is refused. False: none is. */
+static bool enter_refused(struct dialog *dialog)
+{
+	GListModel *rows = G_LIST_MODEL(dialog->list.selection);
+
+	for (guint i = 0; i < g_list_model_get_n_items(rows); i++) {
+		LadderPanelRow *row = g_list_model_get_item(rows, i);
+
+		g_object_unref(row); /* the model has a reference */
+		if (!g_object_get_data(G_OBJECT(row), "refused"))
+			continue;
+		show_why(dialog, g_object_get_data(G_OBJECT(row), "why"));
+		gtk_single_selection_set_selected(dialog->list.selection, i);
+		cells_enter(dialog->list.view, row, INIT_VALUE);
+		return true;
+	}
+	return false;
+}
+
 static void apply(GtkWidget *window, const char *action, GVariant *unused)
 {
 	struct dialog *dialog = g_object_get_data(G_OBJECT(window), "dialog");
@@ -181,7 +200,7 @@ static void apply(GtkWidget *window, const char *action, GVariant *unused)
 
 	(void)action;
 	(void)unused;
-	if (!cells_take(gtk_window_get_focus(GTK_WINDOW(window))))
+	if (!cells_take(gtk_window_get_focus(GTK_WINDOW(window))) || enter_refused(dialog))
 		return;
 	text = init_node_text(dialog->form, init_form_root(dialog->form));
 	if (init_form_is_changed(dialog->form))
@@ -469,7 +488,7 @@ void init_dialog_open(GtkWidget *from, LadderDocument *document, int table, cons
 		"default-height", 520, "transient-for", root, NULL);
 	g_object_set_data_full(G_OBJECT(dialog->window), "dialog", dialog, dialog_free);
 	dialog->cells = (struct panel_cells){ .owner = G_OBJECT(dialog->window),
-		.name = field_name, .set = set_value, .is_fixed = is_fixed };
+		.name = field_name, .set = set_value, .is_fixed = is_fixed, .keeps = true };
 	add_header(dialog);
 	add_content(dialog);
 	spoken_parts(GTK_WIDGET(dialog->window));

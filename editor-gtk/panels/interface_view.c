@@ -17,6 +17,8 @@
 #include "editor-gtk/kit/picture_view.h"
 #include "editor-gtk/kit/settings.h"
 
+#include "engine/xref/xref.h"
+
 #include <adwaita.h>
 #include <string.h>
 
@@ -147,7 +149,7 @@ static void add_result(GPtrArray *rows, LadderDocument *document, const struct p
 	struct symbol_row *symbol = symbol_row_new(project, &pou->vars, n + 1, 0);
 	LadderPanelRow *row = row_of(document, symbol, 0);
 
-	row->flags |= RESULT;
+	row->flags |= pou->included ? RESULT | 1 : RESULT;
 	row->index = 0;
 	g_ptr_array_add(rows, row);
 	symbol_row_free(symbol);
@@ -255,6 +257,19 @@ static void mapped(GtkWidget *widget)
 
 /* ---- edits ---- */
 
+/* The index of a pin now: rows are updated with a delay. -1: deleted. */
+static int index_of(LadderInterfaceView *view, const LadderPanelRow *row)
+{
+	struct project *project = ladder_document_project(document_of(view));
+	const struct var_table *vars = project ? xref_table(project, row->table) : NULL;
+
+	for (int i = 0; vars && i < vars_declared(vars); i++)
+		if (strcmp(project_text(project, vars->var[i].name),
+			   panel_row_text(row, FIELD_NAME)) == 0)
+			return i;
+	return -1;
+}
+
 static bool set_field(GObject *owner, LadderPanelRow *row, int number, const char *text,
 		      char **why)
 {
@@ -265,7 +280,7 @@ static bool set_field(GObject *owner, LadderPanelRow *row, int number, const cha
 		*why = pins_set_result(document_of(view), row->table - 1, text);
 		good = !*why;
 	} else {
-		good = symbol_set(document_of(view), row->table, row->index,
+		good = symbol_set(document_of(view), row->table, index_of(view, row),
 				  (enum field)number, text, why);
 	}
 	tell(view, good || !*why ? NULL : g_strdup_printf("%s: %s",
@@ -307,10 +322,13 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 	const uint16_t kind = strcmp(action, "interface.add-input") == 0 ? VAR_INPUT :
 		strcmp(action, "interface.add-output") == 0 ? VAR_OUTPUT : VAR_IN_OUT;
 	const char *text[SYMBOL_FIELDS] = { "", "BOOL", "", "", "", "", "" };
-	const int table = index_of_pou(view) + 1;
 	char *name, *why = NULL;
+	int table;
 
 	(void)unused;
+	if (!pou_of(view))
+		return;
+	table = index_of_pou(view) + 1;
 	name = symbol_free_name(document_of(view), table, kind == VAR_INPUT ? "In" :
 				kind == VAR_OUTPUT ? "Out" : "Both");
 	text[FIELD_NAME] = name;
@@ -328,14 +346,18 @@ static void move(GtkWidget *widget, const char *action, GVariant *unused)
 	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(widget);
 	LadderPanelRow *row = selected(view);
 	char *name, *why;
-	int field = -1;
+	int field = -1, index;
 
 	(void)unused;
-	if (!row)
+	if (!row || !pou_of(view))
 		return;
 	cells_focused(view->list.view, &field);
+	if (!panel_cells_commit(view->list.view))
+		return;
+	index = index_of(view, row);
 	name = g_strdup(panel_row_text(row, FIELD_NAME));
-	why = pin_move(document_of(view), row->table - 1, row->index,
+	why = index < 0 ? g_strdup(_("There is no such symbol")) :
+	      pin_move(document_of(view), row->table - 1, index,
 		       strcmp(action, "interface.up") == 0 ? -1 : 1);
 	if (!why) {
 		refresh(widget);

@@ -28,7 +28,6 @@ struct tree {
 	guint timer;       /* compares `shape` when it elapses                 */
 	LadderTreeRow *going; /* the row that was activated                    */
 	guint going_soon;  /* idle that goes there                             */
-	LadderTreeRow *dragged;
 	GtkWidget *marked; /* the row with the line of a drop; weak            */
 };
 
@@ -352,7 +351,7 @@ static GdkContentProvider *drag_prepare(struct tree *tree, double x, double y)
 	return gdk_content_provider_new_typed(LADDER_TYPE_TREE_ROW, row);
 }
 
-static void drag_begin(GtkDragSource *source, GdkDrag *drag, struct tree *tree)
+static void drag_begin(GtkDragSource *source, GdkDrag *drag)
 {
 	GdkContentProvider *content = gdk_drag_get_content(drag);
 	GValue value = G_VALUE_INIT;
@@ -365,7 +364,6 @@ static void drag_begin(GtkDragSource *source, GdkDrag *drag, struct tree *tree)
 
 		gtk_widget_add_css_class(label, "dragged-row");
 		gtk_drag_icon_set_child(GTK_DRAG_ICON(gtk_drag_icon_get_for_drag(drag)), label);
-		g_set_object(&tree->dragged, row);
 	}
 	g_value_unset(&value);
 }
@@ -384,30 +382,56 @@ static void mark(struct tree *tree, GtkWidget *item, bool behind)
 		gtk_widget_add_css_class(of_row, behind ? "drop-below" : "drop-above");
 }
 
-/* The POU at the point, if what is dragged can go there; -1: it cannot. */
-static int place_at(struct tree *tree, double x, double y, GtkWidget **item, bool *behind)
+/* Rows are updated with a delay: their names are right, their indices may be old. */
+static int pou_of(struct tree *tree, const LadderTreeRow *row)
 {
 	const struct project *project = ladder_document_project(tree->document);
-	LadderTreeRow *row;
+
+	return project && row && row->kind == ROW_POU ?
+	       project_find_pou(project, row->text, strlen(row->text)) : -1;
+}
+
+/* The POU that is dragged; -1: none, or one of the tree of another window. */
+static int dragged_pou(struct tree *tree, const GValue *value)
+{
+	LadderTreeRow *row = value ? g_value_get_object(value) : NULL;
+	GListModel *root = G_LIST_MODEL(tree->root);
+	bool ours = false;
+
+	for (guint i = 0; row && !ours && i < g_list_model_get_n_items(root); i++) {
+		LadderTreeRow *heading = g_list_model_get_item(root, i);
+
+		ours = heading->rows && g_list_store_find(heading->rows, row, NULL);
+		g_object_unref(heading);
+	}
+	return ours ? pou_of(tree, row) : -1;
+}
+
+/* The POU at the point, if POU @dragged can go there; -1: it cannot. */
+static int place_at(struct tree *tree, int dragged, double x, double y, GtkWidget **item,
+		    bool *behind)
+{
+	const struct project *project = ladder_document_project(tree->document);
 	graphene_rect_t box;
+	int pou;
 
 	*item = item_at(tree, x, y);
-	row = row_of(*item);
-	if (!project || !row || row->kind != ROW_POU || !tree->dragged ||
-	    row == tree->dragged || project->pou[row->pou].included ||
-	    (project->pou[row->pou].kind == POU_PROGRAM) !=
-	    (project->pou[tree->dragged->pou].kind == POU_PROGRAM) ||
+	pou = pou_of(tree, row_of(*item));
+	if (pou < 0 || dragged < 0 || pou == dragged || project->pou[pou].included ||
+	    (project->pou[pou].kind == POU_PROGRAM) !=
+	    (project->pou[dragged].kind == POU_PROGRAM) ||
 	    !gtk_widget_compute_bounds(gtk_widget_get_parent(*item), tree->list, &box))
 		return -1;
 	*behind = y > box.origin.y + box.size.height / 2;
-	return row->pou;
+	return pou;
 }
 
-static GdkDragAction drag_over(struct tree *tree, double x, double y)
+static GdkDragAction drag_over(GtkDropTarget *target, double x, double y, struct tree *tree)
 {
 	GtkWidget *item;
 	bool behind = false;
-	const int at = place_at(tree, x, y, &item, &behind);
+	const int dragged = dragged_pou(tree, gtk_drop_target_get_value(target));
+	const int at = place_at(tree, dragged, x, y, &item, &behind);
 
 	mark(tree, at < 0 ? NULL : item, behind);
 	return at < 0 ? 0 : GDK_ACTION_MOVE;
@@ -422,13 +446,13 @@ static gboolean dropped(struct tree *tree, const GValue *value, double x, double
 {
 	GtkWidget *item;
 	bool behind = false;
-	const int at = place_at(tree, x, y, &item, &behind);
+	const int dragged = dragged_pou(tree, value);
+	const int at = place_at(tree, dragged, x, y, &item, &behind);
 
-	(void)value;
 	mark(tree, NULL, false);
 	if (at < 0)
 		return FALSE;
-	move(tree, tree->dragged->pou, at, behind);
+	move(tree, dragged, at, behind);
 	return TRUE;
 }
 
@@ -439,8 +463,10 @@ static void add_drag(struct tree *tree)
 
 	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
 	g_signal_connect_swapped(source, "prepare", G_CALLBACK(drag_prepare), tree);
-	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), tree);
-	g_signal_connect_swapped(target, "motion", G_CALLBACK(drag_over), tree);
+	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), NULL);
+	gtk_drop_target_set_preload(target, TRUE);
+	g_signal_connect(target, "enter", G_CALLBACK(drag_over), tree);
+	g_signal_connect(target, "motion", G_CALLBACK(drag_over), tree);
 	g_signal_connect_swapped(target, "leave", G_CALLBACK(drag_leave), tree);
 	g_signal_connect_swapped(target, "drop", G_CALLBACK(dropped), tree);
 	gtk_widget_add_controller(tree->list, GTK_EVENT_CONTROLLER(source));
@@ -683,7 +709,6 @@ static void tree_free(gpointer pointer)
 	g_clear_handle_id(&tree->timer, g_source_remove);
 	g_clear_handle_id(&tree->going_soon, g_source_remove);
 	g_clear_object(&tree->going);
-	g_clear_object(&tree->dragged);
 	g_clear_weak_pointer(&tree->marked);
 	g_signal_handlers_disconnect_by_data(tree->document, tree);
 	g_object_unref(tree->document);

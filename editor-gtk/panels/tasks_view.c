@@ -294,10 +294,14 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderTasksView *view = LADDER_TASKS_VIEW(widget);
 	char *name = NULL, *why = NULL;
+	bool good;
 
 	(void)action;
 	(void)unused;
-	if (document_of(view) && done(view, task_rows_add(document_of(view), &name, &why), why))
+	if (!document_of(view))
+		return;
+	good = task_rows_add(document_of(view), &name, &why);
+	if (done(view, good, why))
 		go_to(view, TASKS_TASK, name, TASKS_NAME);
 	g_free(name);
 }
@@ -310,6 +314,7 @@ static void add_program(GtkWidget *widget, const char *action, GVariant *program
 	LadderPanelRow *row = panel_list_row(&view->list);
 	char *name = NULL, *why = NULL;
 	struct task_rows *tasks;
+	bool good;
 	int head;
 
 	(void)action;
@@ -319,8 +324,9 @@ static void add_program(GtkWidget *widget, const char *action, GVariant *program
 	head = number_of(view, row);
 	head = head >= 0 ? tasks->row[head].head : -1;
 	task_rows_free(tasks);
-	if (done(view, task_rows_add_program(document_of(view), head,
-			project_find_pou(project, text, strlen(text)), &name, &why), why))
+	good = task_rows_add_program(document_of(view), head,
+				     project_find_pou(project, text, strlen(text)), &name, &why);
+	if (done(view, good, why))
 		go_to(view, TASKS_INSTANCE, name, TASKS_NAME);
 	g_free(name);
 }
@@ -330,8 +336,9 @@ static void delete_now(LadderTasksView *view, const LadderPanelRow *row)
 	const guint at = gtk_single_selection_get_selected(view->list.selection);
 	guint count;
 	char *why = NULL;
+	const bool good = task_rows_delete(document_of(view), number_of(view, row), &why);
 
-	if (!done(view, task_rows_delete(document_of(view), number_of(view, row), &why), why))
+	if (!done(view, good, why))
 		return;
 	panel_watch_later(view->watch);
 	panel_watch_now(view->watch);
@@ -420,15 +427,18 @@ static void step(LadderTasksView *view, int by)
 	LadderPanelRow *row = panel_list_row(&view->list);
 	int field = TASKS_NAME;
 	char *name, *why = NULL;
+	bool good;
 	int what;
 
 	if (!row)
 		return;
 	cells_focused(view->list.view, &field);
-	panel_cells_commit(view->list.view);
+	if (!panel_cells_commit(view->list.view))
+		return;
 	name = g_strdup(panel_row_text(row, TASKS_NAME));
 	what = row->table;
-	if (done(view, task_rows_step(document_of(view), number_of(view, row), by, &why), why))
+	good = task_rows_step(document_of(view), number_of(view, row), by, &why);
+	if (done(view, good, why))
 		go_to(view, (enum task_what)what, name, field);
 	g_free(name);
 }
@@ -682,16 +692,17 @@ static bool target_at(LadderTasksView *view, const LadderPanelRow *dragged, doub
 	return found;
 }
 
-static const LadderPanelRow *dragged_of(GtkDropTarget *target)
+/* NULL: it is none of this list. */
+static const LadderPanelRow *dragged_of(LadderTasksView *view, const GValue *value)
 {
-	const GValue *value = gtk_drop_target_get_value(target);
+	LadderPanelRow *row = value ? g_value_get_object(value) : NULL;
 
-	return value ? g_value_get_object(value) : NULL;
+	return row && panel_list_has(&view->list, row) ? row : NULL;
 }
 
 static GdkDragAction drag_moved(GtkDropTarget *target, double x, double y, LadderTasksView *view)
 {
-	const LadderPanelRow *dragged = dragged_of(target);
+	const LadderPanelRow *dragged = dragged_of(view, gtk_drop_target_get_value(target));
 	struct target to;
 	const bool found = dragged && target_at(view, dragged, x, y, &to);
 
@@ -708,7 +719,7 @@ static void drag_left(GtkDropTarget *target, LadderTasksView *view)
 static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
 			LadderTasksView *view)
 {
-	const LadderPanelRow *dragged = g_value_get_object(value);
+	const LadderPanelRow *dragged = dragged_of(view, value);
 	struct target to;
 	char *name, *why = NULL;
 	bool good;
@@ -718,9 +729,9 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 	if (!dragged || !target_at(view, dragged, x, y, &to))
 		return FALSE;
 	name = g_strdup(panel_row_text(dragged, TASKS_NAME));
-	good = done(view, task_rows_move(document_of(view), number_of(view, dragged), to.head,
-				     to.before, &why), why);
-	if (good)
+	good = task_rows_move(document_of(view), number_of(view, dragged), to.head, to.before,
+			      &why);
+	if (done(view, good, why))
 		go_to(view, (enum task_what)dragged->table, name, -1);
 	g_free(name);
 	return good;

@@ -32,7 +32,6 @@ struct _LadderTypesView {
 	char *type;             /* name of the structure that is shown; NULL: none */
 	guint64 told_of;        /* version of the document when the message was set */
 	bool busy;              /* the drop-down is being filled: ignore its signal */
-	LadderPanelRow *dragged;
 	GtkWidget *marked;      /* the row with the line of a drop; weak         */
 };
 
@@ -311,8 +310,9 @@ static void move(LadderTypesView *view, LadderPanelRow *row, int to)
 
 	if (type < 0 || from < 0 || to < 0 || to >= count || to == from)
 		return;
+	if (!panel_cells_commit(view->list.view))
+		return;
 	g_object_ref(row);
-	panel_cells_commit(view->list.view);
 	if (type_move_member(document_of(view), type, from, to, &why)) {
 		refresh(GTK_WIDGET(view));
 		panel_list_select(&view->list, is_member, panel_row_text(row, FIELD_NAME));
@@ -359,14 +359,11 @@ static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double 
 static void drag_begin(GtkDragSource *source, GdkDrag *drag, GtkListItem *item)
 {
 	LadderPanelRow *row = gtk_list_item_get_item(item);
-	GtkWidget *handle = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(source));
-	LadderTypesView *view = LADDER_TYPES_VIEW(gtk_widget_get_ancestor(handle,
-		LADDER_TYPE_TYPES_VIEW));
 	GtkWidget *label = gtk_label_new(row ? panel_row_text(row, FIELD_NAME) : "");
 
+	(void)source;
 	gtk_widget_add_css_class(label, "dragged-row");
 	gtk_drag_icon_set_child(GTK_DRAG_ICON(gtk_drag_icon_get_for_drag(drag)), label);
-	g_set_object(&view->dragged, row);
 }
 
 static void setup_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
@@ -429,13 +426,22 @@ static void mark(LadderTypesView *view, GtkWidget *of_row, bool below)
 		gtk_widget_add_css_class(of_row, below ? "drop-below" : "drop-above");
 }
 
-static GdkDragAction drag_over(LadderTypesView *view, double x, double y)
+/* NULL: it is none of this list. */
+static LadderPanelRow *dragged_of(LadderTypesView *view, const GValue *value)
+{
+	LadderPanelRow *row = value ? g_value_get_object(value) : NULL;
+
+	return row && panel_list_has(&view->list, row) ? row : NULL;
+}
+
+static GdkDragAction drag_over(GtkDropTarget *target, double x, double y, LadderTypesView *view)
 {
 	GtkWidget *of_row = NULL;
 	const LadderPanelRow *row = row_at(view, x, y, &of_row);
-	const bool good = row && view->dragged && row != view->dragged;
+	const LadderPanelRow *dragged = dragged_of(view, gtk_drop_target_get_value(target));
+	const bool good = row && dragged && row != dragged;
 
-	mark(view, good ? of_row : NULL, good && row->index > view->dragged->index);
+	mark(view, good ? of_row : NULL, good && row->index > dragged->index);
 	return good ? GDK_ACTION_MOVE : 0;
 }
 
@@ -446,12 +452,12 @@ static void drag_leave(LadderTypesView *view)
 
 static gboolean dropped(LadderTypesView *view, const GValue *value, double x, double y)
 {
-	LadderPanelRow *row = g_value_get_object(value), *target;
+	LadderPanelRow *row = dragged_of(view, value), *target;
 	GtkWidget *of_row = NULL;
 
 	mark(view, NULL, false);
 	target = row_at(view, x, y, &of_row);
-	if (!target || index_of(view, row) < 0)
+	if (!row || !target || index_of(view, row) < 0)
 		return FALSE;
 	move(view, row, index_of(view, target));
 	return TRUE;
@@ -465,7 +471,9 @@ static void add_handles(LadderTypesView *view)
 	g_signal_connect(factory, "setup", G_CALLBACK(setup_handle), NULL);
 	g_signal_connect(factory, "bind", G_CALLBACK(bind_handle), NULL);
 	panel_list_add(&view->list, "", FIELD_NAME, PANEL_ICON, 0, factory);
-	g_signal_connect_swapped(target, "motion", G_CALLBACK(drag_over), view);
+	gtk_drop_target_set_preload(target, TRUE);
+	g_signal_connect(target, "enter", G_CALLBACK(drag_over), view);
+	g_signal_connect(target, "motion", G_CALLBACK(drag_over), view);
 	g_signal_connect_swapped(target, "leave", G_CALLBACK(drag_leave), view);
 	g_signal_connect_swapped(target, "drop", G_CALLBACK(dropped), view);
 	gtk_widget_add_controller(GTK_WIDGET(view->list.view), GTK_EVENT_CONTROLLER(target));
@@ -615,7 +623,6 @@ static void dispose(GObject *object)
 
 	g_clear_pointer(&view->watch, panel_watch_free);
 	g_clear_pointer(&view->type, g_free);
-	g_clear_object(&view->dragged);
 	g_clear_weak_pointer(&view->marked);
 	G_OBJECT_CLASS(ladder_types_view_parent_class)->dispose(object);
 	panel_list_clear(&view->list);

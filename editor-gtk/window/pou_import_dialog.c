@@ -195,13 +195,9 @@ static void leave(struct leaving *leaving, const char *path)
 
 static void target_chosen(GtkNativeDialog *dialog, int response, struct leaving *leaving)
 {
-	const char *own = ladder_document_path(leaving->document);
 	char *path = ask_take_path(dialog, response);
 
-	if (path && own && strcmp(path, own) == 0)
-		gtk_widget_activate_action(leaving->widget, "win.warn", "s",
-					   _("This is the file of this project. Choose another."));
-	else if (path)
+	if (path)
 		leave(leaving, path);
 	g_free(path);
 }
@@ -232,8 +228,13 @@ void pou_export_ask(GtkWidget *widget, LadderDocument *document, int pou, bool m
 	AdwMessageDialog *dialog;
 	char *needs, *body, *heading;
 
-	if (!project || pou < 0 || project->pou[pou].included ||
-	    !ladder_document_is_whole(document)) {
+	if (!project || !ladder_document_is_whole(document)) {
+		gtk_widget_activate_action(widget, "win.warn", "s",
+			_("Nothing can be copied or moved while a text of the project cannot be "
+			  "read"));
+		return;
+	}
+	if (pou < 0 || project->pou[pou].included) {
 		gtk_widget_activate_action(widget, "win.tell", "s",
 					   _("It is declared in another file"));
 		return;

@@ -8,6 +8,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char here[] =
 	"RUNGBOARD 1\n\nVAR\n  Start AT %IX0.0 : BOOL;\n  Lamp  AT %QX0.0 : BOOL;\n"
@@ -102,6 +103,40 @@ static void test_export(void)
 	g_free(folder);
 }
 
+/* The own file and an included one are refused by any path: a block that moves would be lost. */
+static void test_own_files(void)
+{
+	static const char own[] = "RUNGBOARD 1\n\nINCLUDE \"more.rung\"\n\nPROGRAM Main LD\nRUNG\n"
+		"END_PROGRAM\n";
+	static const char more[] = "RUNGBOARD 1\n\nVAR\n  Far : INT;\nEND_VAR\n";
+	static const char *const names[] = { "own.rung", "link.rung", "more.rung", "far.rung" };
+	char *folder = g_dir_make_tmp(NULL, NULL), *path[4], *text;
+	GString *told = g_string_new(NULL);
+	GError *error = NULL;
+
+	for (int i = 0; i < 4; i++)
+		path[i] = g_build_filename(folder, names[i], NULL);
+	CHECK(g_file_set_contents(path[0], own, -1, NULL) &&
+	      g_file_set_contents(path[2], more, -1, NULL) &&
+	      symlink("own.rung", path[1]) == 0 && symlink("more.rung", path[3]) == 0);
+	CHECK(ladder_document_open(document, path[0], &error) && ladder_document_project(document));
+	for (int i = 0; i < 4; i++) {
+		CHECK(!pou_export(document, 0, path[i], told));
+		CHECK_TEXT(told->str, i < 2 ? "This is the file of this project. Choose another." :
+			   "This project includes the file. Choose another.");
+		CHECK(g_file_get_contents(path[i], &text, NULL, NULL));
+		CHECK_TEXT(text, i < 2 ? own : more);
+		g_free(text);
+	}
+	for (int i = 0; i < 4; i++) {
+		remove(path[i]);
+		g_free(path[i]);
+	}
+	remove(folder);
+	g_string_free(told, TRUE);
+	g_free(folder);
+}
+
 int main(void)
 {
 	static const bool main_only[] = { false, true, false };
@@ -131,6 +166,7 @@ int main(void)
 	CHECK_AS(import(nothing, told) && lacks("Main_2"), "an empty choice imports nothing");
 	g_string_free(told, TRUE);
 	test_export();
+	test_own_files();
 	g_object_unref(document);
 	return tap_done();
 }

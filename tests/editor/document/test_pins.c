@@ -242,9 +242,33 @@ static void test_result(void)
 	      pins_count(pou_named("Scaled"), VAR_INPUT) == 3 && !pins_kind(pou_named("Scaled"), 0));
 }
 
+/* A function of another file keeps its result. */
+static void test_included(void)
+{
+	static const char own[] = "RUNGBOARD 1\n\nINCLUDE \"more.rung\"\n\nPROGRAM Main LD\nRUNG\n"
+		"END_PROGRAM\n";
+	char *folder = g_dir_make_tmp(NULL, NULL), *more = g_build_filename(folder, "more.rung", NULL);
+	char *path = g_build_filename(folder, "own.rung", NULL), *text, *why;
+
+	text = g_strconcat("RUNGBOARD 1\n\n", BLOCK, NULL);
+	CHECK(g_file_set_contents(more, text, -1, NULL));
+	ladder_document_open_text(document, path, own, strlen(own), true);
+	CHECK(ladder_document_project(document) && pou_named("Scaled")->included);
+	why = pins_set_result(document, number_of(pou_named("Scaled")), "DINT");
+	CHECK_TEXT(why ? why : "", "It is declared in another file");
+	remove(more);
+	remove(folder);
+	g_free(why);
+	g_free(text);
+	g_free(path);
+	g_free(more);
+	g_free(folder);
+}
+
 int main(void)
 {
 	document = ladder_document_new();
+	test_included();
 	test_moves();
 	test_power();
 	test_positions();

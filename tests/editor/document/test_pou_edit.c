@@ -172,6 +172,9 @@ static void test_order(void)
 		g_free(after);
 	}
 	CHECK_AS(good, "each move gives the expected bytes and is one undo");
+	before = text_now();
+	CHECK_AS(!pou_move(document, 0, 0, true) && is_text(before), "beside itself it stays");
+	g_free(before);
 	while (ladder_document_undo(document))
 		;
 	CHECK_AS(is_text(first), "undo restores the first text");

@@ -153,6 +153,23 @@ def rows(screen):
     check(path)
 
 
+def last_program(screen):
+    """the last program stays, and the page says why; a refused text and its reason stay when its row should move"""
+    text = PLANT.replace('    PROGRAM B WITH Fast : Lazy;\n', '').replace('  PROGRAM C : Other; (* last *)\n', '')
+    editor, path = opened(screen, text)
+    put(editor, 'A, Name', '2nd')
+    editor.says('A, Name: ')
+    editor.keys('alt+Down')
+    editor.says('A, Name: ')
+    assert cell(editor, 'A, Name').text() == '2nd', cell(editor, 'A, Name').text()
+    editor.keys('Escape')
+    until(lambda: not editor.all('A, Name: '), 'the end of the message')
+    editor.click(editor.find('Delete the task or remove the program', 'push button'))
+    editor.says('At least one program must run')
+    editor.shot('tasks-last')
+    is_saved(editor, path, text=text)
+
+
 def implicit(screen):
     """a project without a CONFIGURATION runs all in each scan; the first change writes one, undo takes it away"""
     editor, path = opened(screen, PLAIN)
@@ -207,4 +224,4 @@ def picture(screen):
     assert lines(path, '@print %QX0.0\nDoor=1\n') is not None
 
 
-main([table, rows, implicit, picture])
+main([table, rows, last_program, implicit, picture])

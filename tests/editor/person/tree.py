@@ -541,6 +541,10 @@ def interface(screen):
         return until(lambda: [n for n in editor.all('Wait', 'text') if n.text() == text and n.box()[2] > 0],
                      'the cell with ' + text)[0]
 
+    def pin(name):
+        return until(lambda: [n for n in editor.all(name, 'text') if n.text() == name and n.box()[2] > 0],
+                     'the cell of ' + name)[0]
+
     def said(text):
         until(lambda: [n for n in editor.all(text, 'label') if n.box()[2] > 0], 'the message ' + text)
     cell('T#500ms')
@@ -552,16 +556,18 @@ def interface(screen):
     assert editor.save(path) == MOTOR.replace('T#500ms', 'T#1s')
     editor.keys('ctrl+z')
     editor.click(cell('T#500ms'))
-    editor.keys('alt+Up')
-    stop, wait = '  Stop  : BOOL;\n', '  Wait  : TIME := T#500ms;\n'
-    assert editor.save(path) == MOTOR.replace(stop + wait, wait + stop), open(path).read()
+    editor.keys('ctrl+a')
+    editor.type('2s')
+    editor.keys('alt+Up')  # what is typed is set before its pin moves
+    stop, old, wait = '  Stop  : BOOL;\n', '  Wait  : TIME := T#500ms;\n', '  Wait  : TIME := T#2s;\n'
+    assert editor.save(path) == MOTOR.replace(stop + old, wait + stop), open(path).read()
     check(path)
     editor.keys('alt+Up')  # callers draw Wait first, but the power still goes to Start
     start = '  Start : BOOL; (* begins *)\n'
-    assert editor.save(path) == MOTOR.replace(start + stop + wait, wait + start + stop), open(path).read()
-    editor.keys('ctrl+z', 'ctrl+z')
+    assert editor.save(path) == MOTOR.replace(start + stop + old, wait + start + stop), open(path).read()
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z')
     cell('T#500ms')
-    editor.click([n for n in editor.all('Stop', 'text') if n.text() == 'Stop' and n.box()[2] > 0][0])
+    editor.click(pin('Stop'))
     editor.keys('alt+Up')
     said('The power of the row is connected to “Start”')
     editor.shot('interface-refused')
@@ -573,7 +579,7 @@ def interface(screen):
     until(lambda: editor.all('2 inputs, 2 outputs', 'label'), 'one pin less')
     editor.keys('ctrl+z')
     until(lambda: editor.all('3 inputs, 2 outputs', 'label'), 'the pin again')
-    editor.click([n for n in editor.all('Stop', 'text') if n.text() == 'Stop' and n.box()[2] > 0][0])
+    editor.click(pin('Stop'))
     editor.keys('ctrl+a')
     editor.type('Halt')
     editor.keys('Return')
