@@ -103,11 +103,15 @@ struct address_rows *address_rows_new(LadderDocument *document)
 
 	rows->member = g_array_new(FALSE, FALSE, sizeof(int));
 	rows->row = g_array_new(FALSE, FALSE, sizeof(struct address_row));
+	rows->open = g_array_new(FALSE, FALSE, sizeof(int));
 	if (!project)
 		return rows;
 	if (!xref_make(&rows->xref, project))
 		g_error("out of memory");
 	rows->things = address_map_things(&rows->xref, &rows->thing);
+	for (int i = 0; i < rows->things; i++)
+		if (rows->thing[i].open)
+			g_array_append_val(rows->open, i);
 	project_areas(project, &areas);
 	for (int from = 0; from < rows->things; from = to) {
 		for (to = from; to < rows->things &&
@@ -126,6 +130,7 @@ void address_rows_free(struct address_rows *rows)
 		xref_free(&rows->xref);
 	g_array_unref(rows->member);
 	g_array_unref(rows->row);
+	g_array_unref(rows->open);
 	g_free(rows);
 }
 
@@ -183,6 +188,25 @@ static bool is_shared(const struct address_rows *rows, const struct address_row 
 	return false;
 }
 
+/* The thing whose index may lead to a cell, the last one before it; NULL: none. */
+static const struct address_thing *reaching(const struct address_rows *rows,
+					    const struct address_row *row, int column)
+{
+	const struct address_thing *found = NULL;
+
+	for (guint i = 0; i < rows->open->len; i++) {
+		const struct address_thing *thing =
+			&rows->thing[g_array_index(rows->open, int, i)];
+		const uint32_t end = column < ADDRESS_BYTE ?
+			row->byte * 8 + (uint32_t)column + 1 : row->end * 8;
+
+		if (thing->area == row->area && thing->first < end &&
+		    (column < ADDRESS_BYTE || width_of(rows, thing) == column_width(column)))
+			found = thing;
+	}
+	return found;
+}
+
 enum address_state address_state_of(const struct address_rows *rows, int number, int column)
 {
 	const struct address_row *row = address_rows_at(rows, number);
@@ -201,6 +225,8 @@ enum address_state address_state_of(const struct address_rows *rows, int number,
 		uses += thing->uses;
 		shared |= column >= ADDRESS_BYTE && is_shared(rows, row, thing);
 	}
+	if (!things && reaching(rows, row, column))
+		state = ADDRESS_REACHED;
 	if (things)
 		state = uses ? ADDRESS_USED : ADDRESS_UNUSED;
 	if (things > 1 || shared)
@@ -271,8 +297,9 @@ char *address_cell_text(const struct address_rows *rows, int number, int column)
 	if (!out->len) {
 		append_address(out, row->area, column_width(column), row->byte,
 			       column < ADDRESS_BYTE ? (unsigned int)column : 0);
-		g_string_append_printf(out, ": %s", column < ADDRESS_BYTE ? _("free") :
-				       _("not used in this width"));
+		g_string_append_printf(out, ": %s", reaching(rows, row, column) ?
+			_("an index may reach it") : column < ADDRESS_BYTE ? _("free") :
+			_("not used in this width"));
 	}
 	return g_string_free(out, FALSE);
 }
@@ -296,7 +323,10 @@ char *address_row_names(const struct address_rows *rows, int number)
 	const uint32_t bytes = row->end - row->byte;
 	GString *out = g_string_new(NULL);
 
-	if (!row->count)
+	if (!row->count && reaching(rows, row, 0))
+		g_string_append_printf(out, ngettext("%u byte that an index may reach",
+			"%u bytes that an index may reach", (gulong)bytes), (guint)bytes);
+	else if (!row->count)
 		g_string_append_printf(out, ngettext("%u byte free", "%u bytes free",
 						     (gulong)bytes), (guint)bytes);
 	for (int i = 0; i < row->count; i++) {
@@ -330,6 +360,10 @@ bool address_cell_goal(const struct address_rows *rows, int number, int column, 
 	for (int i = 0; i < row->count; i++)
 		if (is_in(rows, row, column, thing_of(rows, row, i)) && things++ == 0)
 			target = target_of(rows, thing_of(rows, row, i));
+	if (!target && reaching(rows, row, column)) {
+		target = target_of(rows, reaching(rows, row, column));
+		things = 1;
+	}
 	*name = NULL;
 	if (!target)
 		return false;

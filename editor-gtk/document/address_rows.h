@@ -18,6 +18,7 @@ enum { ADDRESS_BYTE = 8, ADDRESS_WORD, ADDRESS_DOUBLE, ADDRESS_LONG, ADDRESS_COL
 
 enum address_state {
 	ADDRESS_FREE,
+	ADDRESS_REACHED, /* free, but behind an address with an index: %MW0[I] */
 	ADDRESS_UNUSED,  /* declared, never used                              */
 	ADDRESS_USED,    /* by one variable, or as one address                */
 	ADDRESS_SEVERAL, /* two things share it: a word over a bit            */
@@ -37,6 +38,7 @@ struct address_rows {
 	int things;
 	GArray *member;          /* of int: numbers of things                  */
 	GArray *row;             /* of struct address_row                      */
+	GArray *open;            /* of int: things with an index behind them   */
 };
 
 /** address_rows_new - of the document as it is, which must not change meanwhile; empty for a
@@ -57,7 +59,8 @@ char *address_row_text(const struct address_rows *rows, int row);
  * the caller. */
 char *address_row_names(const struct address_rows *rows, int row);
 /** address_cell_goal - where a click on a cell leads: the only variable in it (its table and
- * index), or the uses of a name (@name, which the caller frees). False: nothing is there. */
+ * index), or the uses of a name (@name, which the caller frees): of the address with the index
+ * where that may lead. False: nothing is there. */
 bool address_cell_goal(const struct address_rows *rows, int row, int column, int *table,
 		       int *index, char **name);
 

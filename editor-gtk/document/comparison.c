@@ -9,10 +9,10 @@
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
+#include "engine/base/name.h"
 #include "engine/compare/compare.h"
 #include "engine/text/pou_print.h"
 #include "engine/xref/xref.h"
-#include "engine/base/name.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -66,6 +66,7 @@ struct making {
 	char *subject;                  /* of that difference                   */
 	struct place_sheet sheet;
 	int chart;                      /* POU of the chart that has its rows; -1: none */
+	bool differs;                   /* has that chart any row?                     */
 };
 
 static void clear_detail(gpointer data)
@@ -378,10 +379,10 @@ static bool is_of_chart(struct making *making, const struct compare_difference *
 
 	if (!what->line || pou_a < 0 || pou_b < 0 || !a->pou[pou_a].sfc || !b->pou[pou_b].sfc)
 		return false;
-	if (making->chart != pou_a && !add_chart(making, what->pou, pou_a, pou_b))
-		return false;
+	if (making->chart != pou_a)
+		making->differs = add_chart(making, what->pou, pou_a, pou_b);
 	making->chart = pou_a;
-	return true;
+	return making->differs;
 }
 
 /* ---- all of it ---- */

@@ -12,9 +12,9 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/name_fold.h"
 
+#include "engine/base/name.h"
 #include "engine/ladder.h"
 #include "engine/xref/address_map.h"
-#include "engine/base/name.h"
 
 #include <string.h>
 

@@ -18,8 +18,8 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
-#include "engine/scan/code.h"
 #include "engine/base/name.h"
+#include "engine/scan/code.h"
 
 #include <glib/gstdio.h>
 #include <stdlib.h>

@@ -247,7 +247,7 @@ static void add_members(struct init_form *form, struct init_detail *detail)
 
 		if (!may_be_given(row, &pin))
 			continue;
-		if (!vars) { /* what its own rows use otherwise */
+		if (!vars) { /* a built-in block: its pins have no arrays */
 			pin.elements = 0;
 			pin.capacity = IEC_STRING_DEFAULT;
 		}

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/kit/installed.h"
+#include "editor-gtk/kit/text_lower.h"
 
 #include <string.h>
 
@@ -214,7 +215,7 @@ static void search_page(struct manual *manual, int page, const char *wanted, gui
 
 	for (int i = 0; of && i < (int)of->blocks->len && hits->len < most; i++) {
 		char *text = markdown_block_text(of->blocks->pdata[i]);
-		char *folded = g_utf8_strdown(text, -1);
+		char *folded = text_lower(text);
 		const char *found = strstr(folded, wanted);
 		struct manual_hit hit = { page, i, NULL };
 
@@ -234,7 +235,7 @@ static void search_page(struct manual *manual, int page, const char *wanted, gui
 GArray *manual_search(struct manual *manual, const char *text, guint most)
 {
 	GArray *hits = g_array_new(FALSE, FALSE, sizeof(struct manual_hit));
-	char *wanted = g_utf8_strdown(text, -1);
+	char *wanted = text_lower(text);
 
 	g_array_set_clear_func(hits, clear_hit);
 	for (int i = 0; *wanted && i < manual_count(manual) && hits->len < most; i++)

@@ -10,8 +10,8 @@
 #include "editor-gtk/edit/grid_edit.h"
 #include "editor-gtk/kit/i18n.h"
 
-#include "engine/xref/xref.h"
 #include "engine/base/name.h"
+#include "engine/xref/xref.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,8 +21,7 @@
 static bool is_global(const struct project *project, const char *name)
 {
 	for (int i = 0; i < project->globals.count; i++)
-		if (name_equal(project_text(project, project->globals.var[i].name),
-				       name))
+		if (name_equal(project_text(project, project->globals.var[i].name), name))
 			return true;
 	return false;
 }
@@ -30,8 +29,7 @@ static bool is_global(const struct project *project, const char *name)
 static bool is_structure(const struct project *project, const char *name)
 {
 	for (int i = 0; i < project->structure_count; i++)
-		if (name_equal(project_text(project, project->structure[i].name),
-				       name))
+		if (name_equal(project_text(project, project->structure[i].name), name))
 			return true;
 	return false;
 }

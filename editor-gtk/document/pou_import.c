@@ -8,8 +8,8 @@
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
-#include "engine/xref/xref.h"
 #include "engine/base/name.h"
+#include "engine/xref/xref.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -99,8 +99,7 @@ static bool want_all(struct wanted *wanted, struct project *project)
 static int find_global(const struct project *project, const char *name)
 {
 	for (int i = 0; i < project->globals.count; i++)
-		if (name_equal(project_text(project, project->globals.var[i].name),
-				       name))
+		if (name_equal(project_text(project, project->globals.var[i].name), name))
 			return i;
 	return -1;
 }

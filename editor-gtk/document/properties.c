@@ -8,8 +8,8 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/lex.h"
-#include "engine/xref/xref.h"
 #include "engine/base/name.h"
+#include "engine/xref/xref.h"
 
 #include <string.h>
 
@@ -239,8 +239,7 @@ static const struct config_entry *entry_named(const struct project *project,
 		const struct config_entry *entry = &project->config->entry[i];
 		const uint32_t id = kind == CONFIG_PROGRAM ? entry->pou : entry->name;
 
-		if (entry->kind == kind && name_equal(project_text(project, id),
-							      name))
+		if (entry->kind == kind && name_equal(project_text(project, id), name))
 			return entry;
 	}
 	return NULL;

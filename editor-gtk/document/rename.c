@@ -10,10 +10,10 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
+#include "engine/base/name.h"
 #include "engine/model/sfc.h"
 #include "engine/trial/plant.h"
 #include "engine/trial/scenario.h"
-#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -16,8 +16,8 @@
 #include "editor-gtk/kit/name_fold.h"
 
 #include "engine/base/lex.h"
-#include "engine/xref/xref.h"
 #include "engine/base/name.h"
+#include "engine/xref/xref.h"
 
 #include <stdlib.h>
 #include <string.h>

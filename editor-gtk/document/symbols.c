@@ -16,9 +16,9 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/literal.h"
+#include "engine/base/name.h"
 #include "engine/xref/address_map.h"
 #include "engine/xref/xref.h"
-#include "engine/base/name.h"
 
 #include <string.h>
 

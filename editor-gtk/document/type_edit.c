@@ -9,8 +9,8 @@
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
-#include "engine/xref/xref.h"
 #include "engine/base/name.h"
+#include "engine/xref/xref.h"
 
 #include <string.h>
 
@@ -27,8 +27,7 @@ int type_find(LadderDocument *document, const char *name)
 	const struct project *project = ladder_document_project(document);
 
 	for (int i = 0; project && i < project->structure_count; i++)
-		if (name_equal(project_text(project, project->structure[i].name),
-				       name))
+		if (name_equal(project_text(project, project->structure[i].name), name))
 			return i;
 	return -1;
 }

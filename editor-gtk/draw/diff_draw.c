@@ -6,8 +6,8 @@
 
 #include "editor-gtk/draw/grid_draw.h"
 
-#include "engine/text/pou_print.h"
 #include "engine/base/name.h"
+#include "engine/text/pou_print.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -12,8 +12,8 @@
 #include "engine/base/ascii.h"
 #include "engine/base/catalog.h"
 #include "engine/base/lex.h"
-#include "engine/ladder.h"
 #include "engine/base/name.h"
+#include "engine/ladder.h"
 
 #include <stdio.h>
 #include <stdlib.h>

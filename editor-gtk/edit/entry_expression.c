@@ -9,8 +9,8 @@
 
 #include "engine/base/lex.h"
 #include "engine/base/literal.h"
-#include "engine/model/expr.h"
 #include "engine/base/name.h"
+#include "engine/model/expr.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -12,8 +12,8 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
-#include "engine/xref/address_map.h"
 #include "engine/base/name.h"
+#include "engine/xref/address_map.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -16,9 +16,9 @@
 #include "editor-gtk/kit/name_fold.h"
 
 #include "engine/base/limits.h"
+#include "engine/base/name.h"
 #include "engine/model/args.h"
 #include "engine/xref/xref.h"
-#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>

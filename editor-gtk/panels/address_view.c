@@ -32,6 +32,7 @@ G_DEFINE_FINAL_TYPE(LadderAddressView, ladder_address_view, GTK_TYPE_BOX)
 
 static const struct { const char *name, *style, *mark; } states[ADDRESS_STATES] = {
 	[ADDRESS_FREE] = { N_("Free"), "free", "" },
+	[ADDRESS_REACHED] = { N_("An index may reach it"), "reached", "…" },
 	[ADDRESS_UNUSED] = { N_("Declared, never used"), "unused", "○" },
 	[ADDRESS_USED] = { N_("Used"), "used", "●" },
 	[ADDRESS_SEVERAL] = { N_("Used by several"), "several", "◆" },
@@ -276,7 +277,7 @@ static void style_cell(GtkWidget *cell, enum address_state state)
 
 static const char *mark_of(enum address_state state, bool own)
 {
-	return own || state == ADDRESS_TWICE ? states[state].mark : "";
+	return own || state == ADDRESS_TWICE || state == ADDRESS_REACHED ? states[state].mark : "";
 }
 
 static void setup_cell(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer column)
@@ -298,7 +299,7 @@ static void bind_cell(GtkSignalListItemFactory *factory, GtkListItem *item,
 	const int column = column_of(cell);
 	const enum address_state state = address_state_of(view->rows, row->index, column);
 	char *text = address_cell_text(view->rows, row->index, column);
-	char *spoken = state == ADDRESS_FREE || state == ADDRESS_USED ? g_strdup(text) :
+	char *spoken = state <= ADDRESS_REACHED || state == ADDRESS_USED ? g_strdup(text) :
 		       g_strdup_printf("%s, %s", text, _(states[state].name));
 
 	(void)factory;

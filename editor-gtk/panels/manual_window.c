@@ -6,6 +6,7 @@
 
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/text_lower.h"
 #include "editor-gtk/panels/manual_page.h"
 
 #include <string.h>
@@ -418,16 +419,6 @@ static void unmark(LadderManualWindow *window)
 	window->match = -1;
 }
 
-/* In lower case, with as many characters as before. Caller frees. */
-static char *lower(const char *text)
-{
-	GString *low = g_string_new(NULL);
-
-	for (; *text; text = g_utf8_next_char(text))
-		g_string_append_unichar(low, g_unichar_tolower(g_utf8_get_char(text)));
-	return g_string_free(low, FALSE);
-}
-
 static void find_in_text(LadderManualWindow *window, const char *wanted, int from, int to)
 {
 	const int length = (int)g_utf8_strlen(wanted, -1);
@@ -437,7 +428,7 @@ static void find_in_text(LadderManualWindow *window, const char *wanted, int fro
 	gtk_text_buffer_get_iter_at_offset(buffer_of(window), &begin, from);
 	gtk_text_buffer_get_iter_at_offset(buffer_of(window), &end, to);
 	text = gtk_text_buffer_get_slice(buffer_of(window), &begin, &end, TRUE);
-	low = lower(text);
+	low = text_lower(text);
 	for (const char *at = low; (at = strstr(at, wanted)); at += strlen(wanted)) {
 		const int offset = from + (int)g_utf8_pointer_to_offset(low, at);
 		const struct match match = { offset, offset + length, NULL };
@@ -453,7 +444,7 @@ static void find_in_table(LadderManualWindow *window, const char *wanted, int fr
 {
 	for (GtkWidget *cell = gtk_widget_get_first_child(table); cell;
 	     cell = gtk_widget_get_next_sibling(cell)) {
-		char *text = lower(gtk_label_get_text(GTK_LABEL(cell)));
+		char *text = text_lower(gtk_label_get_text(GTK_LABEL(cell)));
 		const struct match match = { from, from + 1, cell };
 
 		if (strstr(text, wanted))
@@ -496,7 +487,7 @@ static void show_match(LadderManualWindow *window, int to)
 /* The matches of what is typed, in a page that is new or not. */
 static void find_all(LadderManualWindow *window)
 {
-	char *wanted = lower(gtk_editable_get_text(GTK_EDITABLE(window->find)));
+	char *wanted = text_lower(gtk_editable_get_text(GTK_EDITABLE(window->find)));
 	const GArray *start = window->text.start;
 
 	g_array_set_size(window->matches, 0);

@@ -13,8 +13,8 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/import_dialog.h"
 #include "editor-gtk/panels/type_cells.h"
-#include "engine/xref/xref.h"
 #include "engine/base/name.h"
+#include "engine/xref/xref.h"
 
 #include <string.h>
 

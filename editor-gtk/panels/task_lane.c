@@ -94,7 +94,7 @@ static void draw_runs(struct drawing *drawing)
 	}
 }
 
-/* Nobody knows when it comes. */
+/* A dashed line: an event comes at no known time. */
 static void draw_event(struct drawing *drawing)
 {
 	for (double x = 0; x < drawing->width; x += 2 * DASH)

@@ -8,9 +8,9 @@
 #include "editor-gtk/draw/place.h"
 #include "editor-gtk/kit/i18n.h"
 
+#include "engine/base/name.h"
 #include "engine/xref/address_map.h"
 #include "engine/xref/xref.h"
-#include "engine/base/name.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -12,8 +12,8 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/render/render_sheet.h"
 
-#include "engine/compare/compare.h"
 #include "engine/base/name.h"
+#include "engine/compare/compare.h"
 
 #include <string.h>
 #include <strings.h>

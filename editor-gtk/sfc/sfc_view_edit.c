@@ -477,8 +477,7 @@ static void copy(LadderSfcView *view)
 static bool is_taken(const struct sfc_edit *here, const char *name)
 {
 	for (int i = 0; i < here->sfc.step_count; i++)
-		if (name_equal(project_text(here->project, here->sfc.step[i].name),
-				       name))
+		if (name_equal(project_text(here->project, here->sfc.step[i].name), name))
 			return true;
 	return false;
 }

@@ -167,8 +167,7 @@ static bool is_action(LadderSfcView *view, const char *name)
 	const struct sfc *sfc = sfc_pou(view)->sfc;
 
 	for (int i = 0; i < sfc->action_count; i++)
-		if (name_equal(project_text(view->sheet->project,
-						    sfc->action[i].name), name))
+		if (name_equal(project_text(view->sheet->project, sfc->action[i].name), name))
 			return true;
 	return false;
 }

@@ -285,7 +285,7 @@ void live_time_print_short(int64_t ns, char *out, size_t size)
 	print_time(ns, few_digits(ns, unit_of(ns)), out, size);
 }
 
-/* Both have the unit of the goal; that of hours and minutes stands once. */
+/* Both have the unit of the goal. The unit of hours and minutes is written once, at the end. */
 static void print_times(int64_t ns, int64_t goal, char *out, size_t size)
 {
 	const enum unit unit = unit_of(goal);

@@ -42,16 +42,23 @@ static void seen_free(gpointer data)
 
 /* ---- the variables of a line ---- */
 
-/* Behind the instruction, without a comment. Caller frees. */
-static char *operand_of(const char *line)
+/* Where the instruction begins, behind labels. */
+static const char *instruction_of(const char *line)
 {
-	const char *at = line + strspn(line, " \t"), *comment;
-	const gsize word = strcspn(at, " \t(");
+	const char *at = line + strspn(line, " \t");
+	gsize label;
 
-	if (word && at[word - 1] == ':') /* a label is before it */
-		return operand_of(at + word);
-	at += word;
-	comment = strstr(at, "(*");
+	while ((label = strcspn(at, " \t(:")) && at[label] == ':')
+		at += label + 1 + strspn(at + label + 1, " \t");
+	return at;
+}
+
+/* Behind the instruction, without a comment. Caller frees. */
+static char *operand_of(const char *instruction)
+{
+	const char *at = instruction + strcspn(instruction, " \t(");
+	const char *comment = strstr(at, "(*");
+
 	return g_strndup(at, comment ? (gsize)(comment - at) : strlen(at));
 }
 
@@ -82,8 +89,8 @@ static void find_count(const struct live_map *map, const char *operand, struct s
 static struct seen *look_up(LadderLineValues *values, const char *line)
 {
 	struct seen *seen = g_new0(struct seen, 1);
-	const char *word = line + strspn(line, " \t");
-	char *operand = operand_of(line);
+	const char *word = instruction_of(line);
+	char *operand = operand_of(word);
 
 	seen->now.type = seen->goal.type = IEC_NONE;
 	if (g_ascii_strncasecmp(word, "CAL", 3) == 0)

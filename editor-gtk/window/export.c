@@ -248,7 +248,8 @@ void export_preview(struct export *export)
 		tabs_show_widget(export->core->tabs, "preview");
 }
 
-/* *Preview* of the print dialog, with its paper. True: nobody else shows one. */
+/* *Preview* of the print dialog, with its paper. Returns true: GTK then shows none of
+ * its own. */
 static gboolean preview(GtkPrintOperation *operation, GtkPrintOperationPreview *pages,
 			GtkPrintContext *context, GtkWindow *parent, struct export *export)
 {

@@ -603,7 +603,7 @@ static bool update_page(AdwTabPage *page, const struct project *project, bool re
 	if (LADDER_IS_FILE_VIEW(widget))
 		return true; /* it does not depend on the project */
 	if (strcmp(name, " compare") == 0 || strcmp(name, " preview") == 0)
-		return true; /* they say what cannot be read                      */
+		return true; /* they stay, and say that the project cannot be read */
 	if (name[0] == ' ')
 		return (strcmp(name, " text") == 0) == !project;
 	pou = project_find_pou(project, name, strlen(name));

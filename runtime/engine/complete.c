@@ -4,8 +4,8 @@
  *
  * It uses the project as far as it could be read, and builds nothing.
  */
-#include "engine/ladder.h"
 #include "engine/base/name.h"
+#include "engine/ladder.h"
 
 #include "engine/check/expect.h"
 

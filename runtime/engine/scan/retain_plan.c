@@ -4,8 +4,8 @@
  *
  * Runs when a program is loaded.
  */
-#include "engine/scan/retain.h"
 #include "engine/base/name.h"
+#include "engine/scan/retain.h"
 
 
 #include <stdio.h>

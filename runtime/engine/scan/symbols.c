@@ -4,8 +4,8 @@
  *
  * Used between scans, to show, record or set variables.
  */
-#include "engine/scan/symbol_index.h"
 #include "engine/base/name.h"
+#include "engine/scan/symbol_index.h"
 
 #include "engine/base/ascii.h"
 

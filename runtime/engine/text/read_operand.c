@@ -4,8 +4,8 @@
  *
  * It judges form only; check/ finds the meaning of a name.
  */
-#include "engine/text/reader.h"
 #include "engine/base/name.h"
+#include "engine/text/reader.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"

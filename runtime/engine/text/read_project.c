@@ -70,22 +70,22 @@ static void read_quoted(struct reader *r, const char *what, uint32_t *out)
 /* PROJECT and the properties, in this order or another. A file that is included has its own. */
 static void read_head(struct reader *r)
 {
-	bool seen[PROPERTY_COUNT] = { false };
+	bool seen[PROPERTY_COUNT + 1] = { false }; /* the last: PROJECT */
 	uint32_t unused;
 
-	if (lex_is(&r->lex, "PROJECT"))
-		read_quoted(r, "title in \"…\"", &r->project->title);
 	for (;;) {
 		enum property at;
+		uint32_t *out;
 
 		reader_skip_newlines(r);
 		at = property_here(r);
-		if (at == PROPERTY_COUNT)
+		if (at == PROPERTY_COUNT && !lex_is(&r->lex, "PROJECT"))
 			return;
+		out = at == PROPERTY_COUNT ? &r->project->title : &r->project->property[at];
 		if (seen[at])
 			reader_fail_token(r, DIAG_DUPLICATE_ARG);
-		read_quoted(r, "text in \"…\"", seen[at] ? &unused :
-			    &r->project->property[at]);
+		read_quoted(r, at == PROPERTY_COUNT ? "title in \"…\"" : "text in \"…\"",
+			    seen[at] ? &unused : out);
 		seen[at] = true;
 	}
 }

@@ -6,8 +6,8 @@
  * after the call; a function's is filled from a template. A body may write any variable, so
  * all waiting values are stored before the call.
  */
-#include "engine/translate/lists.h"
 #include "engine/base/name.h"
+#include "engine/translate/lists.h"
 
 #include <string.h>
 #include <strings.h>

@@ -2,8 +2,8 @@
  *
  * xref_print - prints uses as lines for people and as JSON, sorted by thing.
  */
-#include "engine/xref/xref.h"
 #include "engine/base/name.h"
+#include "engine/xref/xref.h"
 
 
 #include <stdio.h>

@@ -105,6 +105,27 @@ static void test_program(void)
 	g_object_unref(document);
 }
 
+/* An index behind an address leads to the end of its area. */
+static void test_index(void)
+{
+	LadderDocument *document = opened("RUNGBOARD 1\n\nVAR\n  I : INT;\n"
+		"  Over AT %MX6.1 : BOOL;\nEND_VAR\n\nPROGRAM Main LD\n"
+		"RUNG\n  | NO Over | [ %MW4[I] := I ] | COIL %QX0.0 |\nEND_PROGRAM\n");
+	struct address_rows *rows = address_rows_new(document);
+
+	CHECK(is_state(rows, "%MX3.7", ADDRESS_FREE, "%MX0.7: free"));
+	CHECK(is_row(rows, AREA_M, 0, "%MB0 – %MB3", "4 bytes free"));
+	CHECK(is_state(rows, "%MX4.0", ADDRESS_USED, "%MW4: 1 use"));
+	CHECK(is_state(rows, "%MX6.0", ADDRESS_REACHED, "%MX6.0: an index may reach it"));
+	CHECK(is_state(rows, "%MX6.1", ADDRESS_USED, "%MX6.1: Over, 1 use"));
+	CHECK(is_state(rows, "%MB6", ADDRESS_FREE, "%MB6: not used in this width"));
+	CHECK(is_row(rows, AREA_M, 8000, "%MB7 – %MB8191",
+		     "8185 bytes that an index may reach"));
+	CHECK_AS(is_state(rows, "%QX0.1", ADDRESS_FREE, "%QX0.1: free"), "another area");
+	address_rows_free(rows);
+	g_object_unref(document);
+}
+
 /* ---- against a count of each bit ---- */
 
 static const char *const letters[] = { "I", "Q", "M" };
@@ -214,6 +235,7 @@ int main(void)
 	int bad = 0;
 
 	test_program();
+	test_index();
 	for (guint32 seed = 1; seed <= 100 && !bad; seed++)
 		bad += random_faults(seed);
 	CHECK_AS(bad == 0, "rows cover each area, and each bit has the state that its uses give");

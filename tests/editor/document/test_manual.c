@@ -4,6 +4,7 @@
  * names exists.
  */
 #include "editor-gtk/document/manual.h"
+#include "editor-gtk/kit/text_lower.h"
 #include "editor-gtk/window/help.h"
 #include "tests/tap.h"
 
@@ -113,6 +114,15 @@ static void check_words(void)
 	CHECK(none == 0);
 }
 
+/* In some languages a letter becomes two in lower case; here a place must stay the same. */
+static void check_lower(void)
+{
+	char *low = text_lower("\u0130ST \u00d6l");
+
+	CHECK_TEXT(low, "ist \u00f6l");
+	g_free(low);
+}
+
 static void check_search(void)
 {
 	GArray *hits = manual_search(manual, "Seal-In", 100);
@@ -185,6 +195,7 @@ int main(void)
 		check_page(i);
 	check_places();
 	check_words();
+	check_lower();
 	check_search();
 	check_refused();
 	check_blocks();

@@ -273,7 +273,12 @@ static void test_values(void)
 	LadderSim *sim = ladder_sim_new(document);
 	const struct act on = { .kind = ACT_SET, .value.i = 1 };
 	struct act start = on;
+	GtkTextIter at;
 
+	gtk_text_buffer_get_iter_at_line_offset(buffer, &at, 7, 2);
+	gtk_text_buffer_insert(buffer, &at, "Wait: ", -1);
+	ladder_text_view_take(view);
+	ladder_document_check_now(document);
 	ladder_text_view_set_sim(view, sim);
 	CHECK(ladder_text_view_value(view, 5) == NULL);
 	CHECK(ladder_sim_begin(sim, NULL));
@@ -282,11 +287,11 @@ static void test_values(void)
 	ladder_sim_act(sim, &start);
 	ladder_sim_scan(sim, 31);
 	CHECK_SOON(has_beside("LD    Start", "TRUE"));
-	CHECK_SOON(has_beside("CAL   Delay", "0.3 s / 1 s"));
+	CHECK_SOON(has_beside("Wait: CAL   Delay", "0.3 s / 1 s"));
 	CHECK(has_beside("ST    Motor", "TRUE") && has_beside("END_VAR", NULL) &&
 	      has_beside("ANDN  Stop", "FALSE"));
 	CHECK(ladder_sim_show(sim, 3));
-	CHECK_AS(has_beside("CAL   Delay", "0.0 s / 1 s"),
+	CHECK_AS(has_beside("Wait: CAL   Delay", "0.0 s / 1 s"),
 		 "the lines show the values of an earlier scan");
 	CHECK(ladder_sim_show(sim, 0) && has_beside("LD    Start", "FALSE"));
 	ladder_sim_end(sim);

@@ -74,13 +74,13 @@ static void many_marks(void)
 	char *text = malloc(1 + 2 * count), *other = malloc(1 + 2 * count);
 
 	text[0] = 'a';
-	other[0] = 'A';
-	for (size_t i = 0; i < count; i++) {
+	for (size_t i = 0; i < count; i++)
 		memcpy(text + 1 + 2 * i, i % 2 ? "\u0323" : "\u0301", 2);
-		memcpy(other + 1 + 2 * i, i % 2 ? "\u0301" : "\u0323", 2);
-	}
-	CHECK_AS(name_same(text, 1 + 2 * count, text, 1 + 2 * count) &&
-		 !name_same(text, 1 + 2 * count, other, 2 * count - 1), "100,000 marks");
+	memcpy(other, text, 1 + 2 * count);
+	other[0] = 'A';
+	CHECK_AS(name_same(text, 1 + 2 * count, other, 1 + 2 * count), "100,000 marks");
+	memcpy(other + 2 * count - 1, "\u0324", 2);
+	CHECK_AS(!name_same(text, 1 + 2 * count, other, 1 + 2 * count), "the last one differs");
 	free(text);
 	free(other);
 }
