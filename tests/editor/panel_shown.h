@@ -50,8 +50,8 @@ static GListModel *panel_list(LadderSimPanel *panel)
 	return G_LIST_MODEL(gtk_list_view_get_model(GTK_LIST_VIEW(list)));
 }
 
-/* The text of a row's widget, as if it were visible: "0" or "1" of a bit, "1.0 s / 2 s" of a
- * timer, else the value. NULL: no widget shows it. Caller frees. */
+/* The text of a row's widget, as if it were visible: "0" or "1" of a bit or a step, "1.0 s / 2 s"
+ * of a timer, else the value. NULL: no widget shows it. Caller frees. */
 static char *panel_shown(LadderSimPanel *panel, const LadderSimRow *row)
 {
 	const GType type = row->push ? GTK_TYPE_TOGGLE_BUTTON : GTK_TYPE_SWITCH;
@@ -61,7 +61,7 @@ static char *panel_shown(LadderSimPanel *panel, const LadderSimRow *row)
 	if (!view || row->kind == SIM_HEADING)
 		return NULL;
 	ladder_sim_row_view_update(LADDER_SIM_ROW_VIEW(view));
-	if (!sim_row_is_bit(row))
+	if (!sim_row_is_bit(row) && row->kind != SIM_STEP)
 		return g_strdup(gtk_label_get_text(GTK_LABEL(panel_find(view, panel_has_class,
 									"sim-value"))));
 	if (row->kind == SIM_SWITCH)
