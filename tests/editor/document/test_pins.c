@@ -211,14 +211,16 @@ static void test_positions(void)
 /* ö is Ö, and o with U+0308. */
 static void test_spellings(void)
 {
-	static const char *const calls[] = { "öl 3", "O\u0308l 3" };
+	static const char *const calls[] = { "IL\n  LD    5\n  öl 3\n  ST    R\n",
+		"LD\nRUNG\n  | [ R := öl(1, 2, 3) ] |\n",
+		"LD\nRUNG\n  | [ R := O\u0308l(1, 2, 3) ] |\n" };
 	static const char function[] =
 		"FUNCTION Öl : INT IL\nVAR_INPUT\n  X : INT;\n  A : INT;\n  B : INT := 2;\n"
 		"END_VAR\n  LD    X\n  MUL   A\n  ADD   B\n  ST    Öl\nEND_FUNCTION\n";
 
 	for (gsize i = 0; i < G_N_ELEMENTS(calls); i++) {
 		char *text = g_strdup_printf("RUNGBOARD 1\n\nVAR\n  R : INT;\nEND_VAR\n\n"
-			"PROGRAM Main IL\n  LD    5\n  %s\n  ST    R\nEND_PROGRAM\n\n%s",
+			"PROGRAM Main %sEND_PROGRAM\n\n%s",
 			calls[i], function);
 
 		ladder_document_open_text(document, NULL, text, strlen(text), true);

@@ -190,6 +190,11 @@ static void test_members(void)
 {
 	char *name;
 
+	ladder_document_open_text(document, NULL, "PROGRAM", 7, true);
+	CHECK_AS(!ladder_document_project(document) &&
+		 !type_add_member(document, 0, 0, &name, &why) && why && !name,
+		 "a text that cannot be read gets no member");
+	g_free(why);
 	begin(PROGRAM);
 	CHECK_AS(type_add_member(document, 1, 0, &name, &why) &&
 		 has("    Speed  : INT;\n    Speed2 : INT;\n    Limit  : Bounds;\n"),
