@@ -49,7 +49,7 @@ def cell(editor, name):
 
 def put(editor, name, text):
     """Types a text into a cell."""
-    editor.click(cell(editor, name))
+    editor.into(name)
     editor.keys('ctrl+a')
     editor.type(text)
     editor.keys('Return')
@@ -107,7 +107,7 @@ def table(screen):
     shows(editor, 'Slow, Period or event', 'Door')
     put(editor, 'Fast, Name', 'Quickly')
     is_saved(editor, path, ('INTERVAL := T#20ms', 'SINGLE := Door'), ('TASK Fast', 'TASK Quickly'), ('WITH Fast', 'WITH Quickly'))
-    until(lambda: editor.all('Quickly, T#5ms', 'list item') and editor.all('Slow, on Door', 'list item'), 'the tasks in the tree')
+    until(lambda: editor.all('Quickly, 5 ms', 'list item') and editor.all('Slow, on Door', 'list item'), 'the tasks in the tree')
     editor.click(editor.find('Slow, on Door', 'list item'), count=2)
     editor.focus_on('Slow, Name')
     editor.click(until(lambda: [n for n in editor.all('Each scan', 'label') if n.box()[0] < 200], 'the row in the tree')[0], count=2)
