@@ -127,7 +127,8 @@ static bool is_as_before(GtkWidget *cell, const LadderPanelRow *row)
 			     panel_row_text(row, column_of(cell)->field)) == 0;
 }
 
-/* False: it is refused. A text that was refused before is not tried again: it still is. */
+/* False: it is refused. A text that was refused before is not tried again, and keeps a window
+ * open only once. */
 static bool commit(GtkWidget *cell, GtkListItem *item)
 {
 	LadderPanelRow *row = gtk_list_item_get_item(item);
@@ -138,8 +139,6 @@ static bool commit(GtkWidget *cell, GtkListItem *item)
 		good = apply(cell, row, text);
 	else if (refused_text(cell) && is_as_before(cell, row))
 		give_up(cell, row);
-	else
-		good = !refused_text(cell);
 	g_free(text);
 	return good;
 }
@@ -255,8 +254,10 @@ bool panel_cells_commit(GtkColumnView *view)
 
 	while (cell && cell != GTK_WIDGET(view) && !column_of(cell))
 		cell = gtk_widget_get_parent(cell);
-	return !cell || !gtk_widget_is_ancestor(cell, GTK_WIDGET(view)) ||
-	       !GTK_IS_ENTRY(cell) || !item_of(cell) || commit(cell, item_of(cell));
+	if (!cell || !gtk_widget_is_ancestor(cell, GTK_WIDGET(view)) || !GTK_IS_ENTRY(cell) ||
+	    !item_of(cell))
+		return true;
+	return commit(cell, item_of(cell)) && !refused_text(cell);
 }
 
 bool panel_cells_focus(GtkWidget *within, int row, int field)
