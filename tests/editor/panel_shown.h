@@ -50,8 +50,8 @@ static GListModel *panel_list(LadderSimPanel *panel)
 	return G_LIST_MODEL(gtk_list_view_get_model(GTK_LIST_VIEW(list)));
 }
 
-/* The text of a row's widget, as if it were visible: "0" or "1" of a bit or a step, "1.0 s / 2 s"
- * of a timer, else the value. NULL: no widget shows it. Caller frees. */
+/* The text of a row's widget, as if it were visible: "0" or "1" of a bit, "1.0 s / 2 s" of a
+ * timer, else the value. NULL: no widget shows it. Caller frees. */
 static char *panel_shown(LadderSimPanel *panel, const LadderSimRow *row)
 {
 	const GType type = row->push ? GTK_TYPE_TOGGLE_BUTTON : GTK_TYPE_SWITCH;
@@ -61,7 +61,7 @@ static char *panel_shown(LadderSimPanel *panel, const LadderSimRow *row)
 	if (!view || row->kind == SIM_HEADING)
 		return NULL;
 	ladder_sim_row_view_update(LADDER_SIM_ROW_VIEW(view));
-	if (!sim_row_is_bit(row) && row->kind != SIM_STEP)
+	if (!sim_row_is_bit(row))
 		return g_strdup(gtk_label_get_text(GTK_LABEL(panel_find(view, panel_has_class,
 									"sim-value"))));
 	if (row->kind == SIM_SWITCH)
@@ -69,6 +69,18 @@ static char *panel_shown(LadderSimPanel *panel, const LadderSimRow *row)
 	else
 		active = gtk_widget_has_css_class(panel_find(view, panel_has_name, "lamp"), "on");
 	return g_strdup(active ? "1" : "0");
+}
+
+/* "0" or "1": the lamp of a row's widget. NULL: no widget shows it. Caller frees. */
+static inline char *panel_lamp(LadderSimPanel *panel, const LadderSimRow *row)
+{
+	GtkWidget *view = panel_find(GTK_WIDGET(panel), panel_shows_row, row);
+
+	if (!view)
+		return NULL;
+	ladder_sim_row_view_update(LADDER_SIM_ROW_VIEW(view));
+	return g_strdup(gtk_widget_has_css_class(panel_find(view, panel_has_name, "lamp"), "on") ?
+			"1" : "0");
 }
 
 #endif

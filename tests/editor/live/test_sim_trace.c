@@ -79,11 +79,13 @@ static void put(GString *out, const char *name, const char *pin, enum iec_type t
 /* @all: also lines that are scrolled out of sight. */
 static void put_row(GString *line, GString *columns, const LadderSimRow *row, bool all)
 {
+	char *(*shown)(LadderSimPanel *panel, const LadderSimRow *row) =
+		row->kind == SIM_STEP ? panel_lamp : panel_shown;
 	const bool timer = row->at.type == IEC_TIME;
-	char *text = panel_shown(panel, row), *slash;
+	char *text = shown(panel, row), *slash;
 
 	if (!text && all && ladder_sim_panel_select(panel, row->name))
-		text = panel_shown(panel, row);
+		text = shown(panel, row);
 	if (!text) {
 		unseen += all;
 		return;
