@@ -16,6 +16,14 @@ find({ no_chdir => 1, wanted => sub {
 } }, grep { -d } qw(runtime hal editor-gtk tests));
 @files = sort @files;
 
+# The first two bytes of a file.
+sub read_first {
+	my $first = '';
+	open my $in, '<', $_[0] or return '';
+	read $in, $first, 2;
+	return $first;
+}
+
 sub say_rule {
 	my ($text, @bad) = @_;
 
@@ -153,6 +161,10 @@ for my $file (grep { m{^runtime/engine/scan/.*\.h$} } @files) {
 	}
 }
 say_rule("public functions of scan/ say whether a scan may call them", @safe);
+
+# prove cannot start any other file with #!.
+my @scripts = glob 'tests/*.t tests/*.sh tests/*.pl tests/hal/*.t tests/editor/person/*.py';
+say_rule("scripts are executable", grep { !-x $_ && read_first($_) eq '#!' } @scripts);
 
 print "1..$n\n";
 exit($failed ? 1 : 0);
