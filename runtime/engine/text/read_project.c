@@ -84,8 +84,12 @@ static void read_head(struct reader *r)
 		out = at == PROPERTY_COUNT ? &r->project->title : &r->project->property[at];
 		if (seen[at])
 			reader_fail_token(r, DIAG_DUPLICATE_ARG);
-		read_quoted(r, at == PROPERTY_COUNT ? "title in \"…\"" : "text in \"…\"",
-			    seen[at] ? &unused : out);
+		out = seen[at] ? &unused : out;
+		/* Two calls: the translators' template takes one text of a call. */
+		if (at == PROPERTY_COUNT)
+			read_quoted(r, "title in \"…\"", out);
+		else
+			read_quoted(r, "text in \"…\"", out);
 		seen[at] = true;
 	}
 }
