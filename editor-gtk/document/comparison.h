@@ -25,7 +25,7 @@ struct compare_side {
 void compare_side_clear(struct compare_side *side);
 
 enum compare_change { COMPARE_CHANGED, COMPARE_ADDED, COMPARE_REMOVED, COMPARE_MOVED };
-/* What of a version is drawn for a row. */
+/* How the place of a row is drawn: as text, rung, chart, lines, or the whole POU. */
 enum compare_shows { COMPARE_SHOWS_TEXT, COMPARE_SHOWS_RUNG, COMPARE_SHOWS_CHART,
 		     COMPARE_SHOWS_LINES, COMPARE_SHOWS_POU };
 

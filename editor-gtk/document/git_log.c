@@ -113,7 +113,7 @@ static void take_text(const struct call *call, GBytes *out)
 	call->take_text(call->data, text, len, NULL);
 }
 
-/* What git wrote, for a person. */
+/* Hands over the message of git, or the reason why git did not run. */
 static void refuse(const struct call *call, GBytes *said)
 {
 	char *text = said ? g_strndup(g_bytes_get_data(said, NULL), g_bytes_get_size(said)) :

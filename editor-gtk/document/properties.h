@@ -27,7 +27,7 @@ char *pou_comment(LadderDocument *document, int pou);
  * Returns as properties_set(). */
 char *pou_set_comment(LadderDocument *document, int pou, const char *text);
 
-/* What the properties of a POU show, translated. */
+/* The facts in the properties of a POU: kind, language, length and so on. */
 enum pou_fact { POU_FACT_KIND, POU_FACT_LANGUAGE, POU_FACT_LENGTH, POU_FACT_CALLED,
 		POU_FACT_RUNS, POU_FACT_SIZE, POU_FACTS };
 /** pou_fact_label - "Kind". Static. */

@@ -27,7 +27,7 @@
 #define PIN_KIND SYMBOL_FIELDS /* column behind the fields                      */
 #define RESULT (1 << 15) /* LadderPanelRow.flags: the result of a function      */
 
-/* Of the key "interface". */
+/* Values of the setting "interface": folded by the height of the screen, shown, or folded. */
 enum { BY_SCREEN, SHOWN, FOLDED };
 
 struct _LadderInterfaceView {

@@ -70,7 +70,7 @@ static void forget_tag(GtkTextTag *tag, gpointer all)
 		g_ptr_array_add(all, tag);
 }
 
-/* Those of the links of the last page. */
+/* Removes the tags that the links of the page before had. */
 static void forget_links(GtkTextBuffer *buffer)
 {
 	GtkTextTagTable *table = gtk_text_buffer_get_tag_table(buffer);

@@ -22,7 +22,7 @@ G_DECLARE_FINAL_TYPE(LadderPalette, ladder_palette, LADDER, PALETTE, GtkBox)
 /* How well a word fits the search text: equal, begins with it, its explanation contains it. */
 enum rank { RANK_IS, RANK_BEGINS, RANK_TOLD, RANK_NONE };
 
-/* What a tile offers. */
+/* A tile: the word or the tool of a chart that it places. */
 struct offer {
 	int id;                     /* enum word, or enum sfc_tool               */
 	const struct word_row *row; /* NULL: a tool of a chart. Of a word of the project: as long

@@ -193,8 +193,8 @@ static void tell(struct tree *tree, const char *text)
 	gtk_widget_activate_action(tree->list, "win.tell", "s", text);
 }
 
-/* What the window does with a POU or a structure: "tree.rename" becomes "win.rename-pou" or
- * "win.rename-type". */
+/* Activates the action of the window for the selected row: "tree.rename" becomes
+ * "win.rename-pou" or "win.rename-type". */
 static void act_on_row(GSimpleAction *action, GVariant *unused, gpointer data)
 {
 	struct tree *tree = data;
@@ -499,7 +499,7 @@ static GMenu *button_menu(void)
 	return menu;
 }
 
-/* Of a POU, or of a structure, whose order means nothing. */
+/* The context menu of a POU or a structure. A structure cannot be moved: its order has no meaning. */
 static GMenu *row_menu(bool type)
 {
 	static const struct { const char *label, *action; bool pou; } entries[] = {

@@ -124,7 +124,7 @@ static bool read_bound(GtkWidget *entry, long *out)
 	return good;
 }
 
-/* What is wrong with the bounds; NULL: nothing. @at: the entry. Translated, static. */
+/* Why the bounds are refused, translated, static; NULL: they are right. @at: gets the wrong entry. */
 static const char *bounds_refusal(const struct array_form *form, GtkWidget **at)
 {
 	long low, high;

@@ -150,7 +150,7 @@ bool live_word_counts(const struct word_row *word, const char **now, const char 
 	return false;
 }
 
-/* What counts in a box, or else its first output that is no BOOL. */
+/* Finds the value that a box shows: its elapsed time or count, else its first output that is no BOOL. */
 static void find_count(const struct live_map *map, const struct word_row *word,
 		       const char *instance, struct live_cell *cell)
 {

@@ -14,7 +14,7 @@
 
 #define WIDE "-0:00:00 / 0:00:00 h" /* the column has room for it                */
 
-/* What is known of a line. */
+/* A line of the list: where its operand and the value that it counts are. */
 struct seen {
 	GArray *parts;            /* of struct live_part; NULL: no variable      */
 	struct location now, goal; /* of a call: what counts in the instance      */

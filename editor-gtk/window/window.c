@@ -171,7 +171,8 @@ static void do_rename(LadderWindow *window)
 		names_rename(&window->core);
 }
 
-/* Of the structure on the page of data types if that has the focus. */
+/* Lists the uses of the selected row if the tree or the page of data types has the focus, else of the
+ * name at the cursor. */
 static void do_show_uses(LadderWindow *window)
 {
 	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
