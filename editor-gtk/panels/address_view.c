@@ -411,22 +411,31 @@ static GtkWidget *bar_new(LadderAddressView *view)
 	return bar;
 }
 
+static GtkWidget *legend_entry(enum address_state state)
+{
+	GtkWidget *entry = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+	GtkWidget *cell = gtk_label_new(states[state].mark);
+	GtkWidget *name = gtk_label_new(_(states[state].name));
+
+	gtk_widget_add_css_class(cell, "address-cell");
+	style_cell(cell, state);
+	gtk_widget_add_css_class(name, "caption");
+	gtk_box_append(GTK_BOX(entry), cell);
+	gtk_box_append(GTK_BOX(entry), name);
+	return entry;
+}
+
+/* In a narrow window it has several lines. */
 static GtkWidget *legend_new(void)
 {
-	GtkWidget *legend = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+	GtkWidget *legend = gtk_flow_box_new();
 
-	for (int i = 0; i < ADDRESS_STATES; i++) {
-		GtkWidget *cell = gtk_label_new(states[i].mark);
-		GtkWidget *name = gtk_label_new(_(states[i].name));
-
-		gtk_widget_add_css_class(cell, "address-cell");
-		style_cell(cell, (enum address_state)i);
-		gtk_widget_add_css_class(name, "caption");
-		gtk_widget_set_margin_end(name, 9);
-		gtk_label_set_ellipsize(GTK_LABEL(name), PANGO_ELLIPSIZE_END);
-		gtk_box_append(GTK_BOX(legend), cell);
-		gtk_box_append(GTK_BOX(legend), name);
-	}
+	gtk_flow_box_set_selection_mode(GTK_FLOW_BOX(legend), GTK_SELECTION_NONE);
+	gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(legend), ADDRESS_STATES);
+	gtk_flow_box_set_column_spacing(GTK_FLOW_BOX(legend), 9);
+	for (int i = 0; i < ADDRESS_STATES; i++)
+		gtk_flow_box_insert(GTK_FLOW_BOX(legend), legend_entry((enum address_state)i), -1);
+	gtk_widget_set_can_focus(legend, FALSE);
 	set_margins(legend, 6);
 	return legend;
 }
