@@ -112,15 +112,20 @@ GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PK
 GPIO_LIB := $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
 HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
-LADDERD_NOT := $(if $(filter 1,$(SMALL)),source_any store_thread store_file,source_image store_none)
+LADDERD_NOT := $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer,source_image store_none link_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
-# One thread, for --retain; older C libraries need the option.
+# Threads, for --retain and --link; older C libraries need the option.
 THREADS  := $(if $(filter 1,$(SMALL)),,-pthread)
-$(DRIVERS) $(LADDERD): WARN += $(FRAME)
+# The protocol between board and desk: both sides; each program links what it uses.
+ONLINE   := $(call obj,$(wildcard runtime/online/*.c))
+$(DRIVERS) $(LADDERD) $(ONLINE): WARN += $(FRAME)
+$(BUILD)/libonline.a: $(ONLINE)
+	@rm -f $@
+	$(AR) rcs $@ $^
 $(DRIVERS): CPPFLAGS += $(GPIO_CPP)
 
 all: $(BUILD)/ladderd
-$(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(BUILD)/libladder.a
+$(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(if $(filter 1,$(SMALL)),,$(BUILD)/libonline.a) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(THREADS) -o $@ $^ $(GPIO_LIB) -lm
 # Bytes of stack, for compilers for machines without MMU.
 $(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
@@ -155,7 +160,7 @@ $(HAL_TEST)/suite_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
 $(HAL_TEST)/suite_uapi $(HAL_TEST)/ladderd_uapi: WRAP := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wrap=ioctl
 $(HAL_TEST)/map: $(call obj,tests/hal/map.c tests/hal/fake.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
-$(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(BUILD)/libladder.a Makefile
+$(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(BUILD)/libonline.a $(BUILD)/libladder.a Makefile
 	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -Wl,--wrap=opendir -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 $(HAL_TEST)/ladderd_v1: $(call HAL_FAKE,v1,gpiod_v1)
 $(HAL_TEST)/ladderd_v2: $(call HAL_FAKE,v2,gpiod_v2)

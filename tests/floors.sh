@@ -26,8 +26,9 @@ runtime/engine/exchange/classic engine/base engine/model engine/check engine/tex
 runtime/engine/trial      engine/base engine/model engine/scan engine/check engine/text engine/translate engine/classic.def
 runtime/engine            engine engine/base engine/model engine/scan engine/check engine/text engine/translate engine/show engine/xref engine/compare engine/exchange engine/exchange/classic engine/trial
 hal                       engine/base engine/scan/image.h engine/scan/code_access.h
-runtime/ladder            $doors engine/exchange engine/exchange/classic hal engine/text engine/catalog.def
-runtime/ladderd           engine/ladder.h engine/base engine/model engine/scan hal
+runtime/ladder            $doors engine/exchange engine/exchange/classic hal online engine/text engine/catalog.def
+runtime/online            engine/base engine/scan
+runtime/ladderd           engine/ladder.h engine/base engine/model engine/scan hal online
 editor-gtk/kit/gtk48      $doors
 editor-gtk/kit            $doors editor-gtk/kit/gtk48
 editor-gtk/edit           $doors editor-gtk/kit

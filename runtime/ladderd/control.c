@@ -4,6 +4,9 @@
  */
 #include "ladderd/control.h"
 
+#include "engine/base/version.h"
+#include "online/status.h"
+
 #include <poll.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -175,6 +178,83 @@ static void put_tasks(const struct resource *resource, struct block *block,
 		add_us(block, ", max", state->max_ns);
 		add(block, "\n");
 	}
+}
+
+static void copy(char *out, size_t size, const struct block *block)
+{
+	const size_t len = block->len < size ? block->len : size - 1;
+
+	memcpy(out, block->text, len);
+	out[len] = '\0';
+}
+
+static void fill_places(const struct resource *resource, struct board_status *status)
+{
+	struct block block = { .len = 0 };
+	char fault[96];
+
+	resource_fault_print(resource, fault, sizeof(fault));
+	add(&block, "%s", fault);
+	add_place(&block, &resource->fault_at);
+	copy(status->fault, sizeof(status->fault), &block);
+	block.len = 0;
+	if (resource->vm.errors) {
+		add_line(&block, &resource->error_at);
+		add_place(&block, &resource->error_at);
+	}
+	copy(status->error, sizeof(status->error), &block);
+	block.len = 0;
+	if (resource->halted) {
+		add(&block, "the program says so");
+		add_line(&block, &resource->halt_at);
+		add_place(&block, &resource->halt_at);
+	}
+	copy(status->stop, sizeof(status->stop), &block);
+}
+
+static void fill_tasks(const struct resource *resource, struct board_status *status)
+{
+	const struct program *program = resource->image.program;
+
+	status->task_count = (uint8_t)program->task_count;
+	for (uint32_t i = 0; i < program->task_count; i++) {
+		const struct task_state *state = &resource->tasks.state[i];
+		struct task_status *task = &status->task[i];
+
+		snprintf(task->name, sizeof(task->name), "%.63s", task_name(program, i));
+		task->interval_ns = task_interval(&program->task[i]);
+		task->runs = state->runs;
+		task->overruns = state->overruns;
+		task->last_ns = state->last_ns;
+		task->max_ns = state->max_ns;
+	}
+}
+
+void control_fill_status(const struct cycle *cycle, struct board_status *status)
+{
+	const struct resource *resource = &cycle->resource;
+
+	status->mode = (uint8_t)resource->state;
+	status->io = (uint8_t)hal_quality(&cycle->hal);
+	status->forces = (uint16_t)resource->image.force_count;
+	memcpy(status->program, cycle->identity_bytes, sizeof(status->program));
+	status->scans = cycle->scans;
+	status->late = cycle->late;
+	status->resets = cycle->resets;
+	status->period_ns = cycle->period_ns;
+	status->scan_mean_ns = stats_mean(&cycle->scan);
+	status->scan_max_ns = cycle->scan.max_ns;
+	status->scan_p999_ns = stats_share(&cycle->scan, 999);
+	status->wake_mean_ns = stats_mean(&cycle->wake);
+	status->wake_max_ns = cycle->wake.max_ns;
+	status->wake_p999_ns = stats_share(&cycle->wake, 999);
+	status->errors = resource->vm.errors;
+	status->lines = (uint32_t)cycle->hal.map->count;
+	status->io_failed = cycle->hal.failed;
+	snprintf(status->board, sizeof(status->board), "%.63s", cycle->board);
+	snprintf(status->version, sizeof(status->version), "%s", LADDER_VERSION);
+	fill_places(resource, status);
+	fill_tasks(resource, status);
 }
 
 void control_status(const struct cycle *cycle, bool wait)

@@ -17,6 +17,9 @@
  * Scan-safe: between scans.   Fails: text that cannot be written is lost.
  */
 void control_status(const struct cycle *cycle, bool wait);
+struct board_status;
+/** control_fill_status - the same as fields, for a desk. Scan-safe: between scans. */
+void control_fill_status(const struct cycle *cycle, struct board_status *status);
 /** control_tell - prints "ladderd: TEXT" to stderr. Scan-safe: between scans. */
 void control_tell(const char *text);
 /** control_tell_error - prints @text and an error of the system. Any thread. */

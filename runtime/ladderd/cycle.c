@@ -4,6 +4,7 @@
  * have their safe values until a reset. A reset is refused while a line does not answer.
  */
 #include "ladderd/control.h"
+#include "ladderd/link.h"
 
 #include <errno.h>
 #include <time.h>
@@ -84,27 +85,70 @@ static void start(struct cycle *cycle)
 		store_restore(cycle->store, &cycle->resource, clock_now());
 }
 
-static void reset(struct cycle *cycle)
+/* From STOP or FAULT to RUN. @cold: without retained values. */
+static enum refusal restart(struct cycle *cycle, bool cold)
 {
 	struct resource *resource = &cycle->resource;
 
-	if (resource->state == STATE_RUN) {
+	if ((hal_quality(&cycle->hal) == QUALITY_FAULT &&
+	     !hal_reopen(&cycle->hal)) || !hal_write_safe(&cycle->hal))
+		return REFUSAL_IO;
+	resource_stop(resource);
+	if (cold)
+		resource_start(resource);
+	else
+		start(cycle);
+	cycle->monitor.tripped = 0;
+	cycle->late_row = 0;
+	hal_release(&cycle->hal);
+	notify_send(&cycle->notify, "STATUS=RUN");
+	return REFUSAL_NONE;
+}
+
+static void reset(struct cycle *cycle)
+{
+	if (cycle->resource.state == STATE_RUN) {
 		control_tell("in RUN, nothing to reset");
 		return;
 	}
-	if ((hal_quality(&cycle->hal) == QUALITY_FAULT &&
-	     !hal_reopen(&cycle->hal)) || !hal_write_safe(&cycle->hal)) {
+	if (restart(cycle, false) != REFUSAL_NONE) {
 		control_tell("no reset: a line does not answer");
 		return;
 	}
-	resource_stop(resource);
-	start(cycle);
-	cycle->monitor.tripped = 0;
-	cycle->late_row = 0;
 	cycle->resets++;
-	hal_release(&cycle->hal);
 	control_tell("reset, RUN");
-	notify_send(&cycle->notify, "STATUS=RUN");
+}
+
+/* Ordered by a person: the outputs get their safe values now. */
+static enum refusal stop(struct cycle *cycle)
+{
+	if (cycle->resource.state != STATE_RUN)
+		return REFUSAL_NOT_NOW;
+	resource_stop(&cycle->resource);
+	hal_write_safe(&cycle->hal);
+	cycle->tended_ns = clock_now();
+	if (cycle->store)
+		store_hurry(cycle->store);
+	control_tell("stopped by a desk, outputs are safe");
+	notify_send(&cycle->notify, "STATUS=STOP, outputs are safe");
+	return REFUSAL_NONE;
+}
+
+enum refusal cycle_mode(struct cycle *cycle, enum mode_wish wish)
+{
+	enum refusal refusal;
+
+	if (wish == MODE_STOP)
+		return stop(cycle);
+	if (wish == MODE_RESET ? cycle->resource.state != STATE_FAULT :
+				 cycle->resource.state != STATE_STOP)
+		return REFUSAL_NOT_NOW;
+	refusal = restart(cycle, wish == MODE_COLD);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	cycle->resets += wish == MODE_RESET;
+	control_tell(wish == MODE_RESET ? "reset by a desk, RUN" : "started by a desk, RUN");
+	return REFUSAL_NONE;
 }
 
 static void serve_requests(struct cycle *cycle)
@@ -228,15 +272,21 @@ static void wait_until(struct cycle *cycle, int64_t due_ns)
 		notify_feed(&cycle->notify, now_ns);
 		requests_attend(cycle->requests);
 		serve_requests(cycle);
+		if (cycle->link)
+			link_serve(cycle->link);
 		if (cycle->requests->stop || now_ns >= due_ns)
 			return;
 		if (until_ns - now_ns > SLICE_NS)
 			until_ns = now_ns + SLICE_NS;
 		until.tv_sec = until_ns / SECOND;
 		until.tv_nsec = until_ns % SECOND;
+		if (cycle->link)
+			link_doze(cycle->link);
 		cycle->clock_error = clock_nanosleep(CLOCK_MONOTONIC,
 						     TIMER_ABSTIME, &until,
 						     NULL);
+		if (cycle->link)
+			link_wake(cycle->link);
 		if (cycle->clock_error == EINTR)
 			cycle->clock_error = 0;
 		if (cycle->clock_error)
@@ -271,6 +321,8 @@ int cycle_run(struct cycle *cycle)
 			tend_lines(cycle, clock_now());
 			due_ns = clock_now() + SLICE_NS;
 		}
+		if (cycle->link)
+			link_show(cycle->link, cycle->resource.vm.now_ns);
 		if (!ready)
 			notify_send(&cycle->notify, "READY=1");
 		ready = true;

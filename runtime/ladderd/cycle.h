@@ -15,6 +15,7 @@
 #include "ladderd/stats.h"
 #include "ladderd/store.h"
 #include "ladderd/wall.h"
+#include "online/service.h"
 
 struct cycle {
 	struct resource resource;
@@ -24,8 +25,10 @@ struct cycle {
 	struct wall wall;
 	struct requests *requests;
 	struct store *store;   /* retained values; NULL: no --retain          */
+	struct link *link;     /* to desks; NULL: no --link                   */
 	const char *board;
-	char identity[65];   /* SHA-256 of the program, hex               */
+	uint8_t identity_bytes[32]; /* SHA-256 of the program                 */
+	char identity[65];   /* the same in hex                           */
 	int64_t period_ns;   /* from one cycle to the next                  */
 	int64_t watchdog;      /* late scans in a row, or periods of one scan */
 	bool tasks;            /* tasks are declared: each has its own limit  */
@@ -59,4 +62,11 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog);
  * Returns the exit status: 1 if it ended in FAULT, else 0.
  */
 int cycle_run(struct cycle *cycle);
+/**
+ * cycle_mode - what a desk orders: stop, run, reset
+ *
+ * Scan-safe: between scans.
+ * Fails: REFUSAL_NOT_NOW: not in this state; REFUSAL_IO: a line does not answer.
+ */
+enum refusal cycle_mode(struct cycle *cycle, enum mode_wish wish);
 #endif

@@ -9,6 +9,7 @@
 #include "engine/base/version.h"
 #include "hal/drivers.h"
 #include "ladderd/control.h"
+#include "ladderd/link.h"
 #include "ladderd/load.h"
 #include "ladderd/options.h"
 
@@ -118,10 +119,18 @@ static int run_lines(struct daemon *daemon, int64_t limit_ns)
 	if (error)
 		fprintf(stderr, "ladderd: no thread for --retain: %s\n",
 			strerror(-error));
-	else
+	if (!error && cycle->link) {
+		error = link_begin(cycle->link);
+		if (error)
+			fprintf(stderr, "ladderd: no thread for --link: %s\n",
+				strerror(-error));
+	}
+	if (!error)
 		status = cycle_run(cycle);
 	monitor_stop(&cycle->monitor);
 	hal_write_safe(&cycle->hal);
+	if (cycle->link)
+		link_close(cycle->link);
 	if (cycle->store)
 		store_close(cycle->store); /* may wait for a slow disk */
 	if (cycle->clock_error)
@@ -141,7 +150,6 @@ static int run(struct daemon *daemon)
 	bool settled = source_settle(&load->source);
 	void *memory = arena_alloc(&load->arena, image_memory_size(program));
 	void *stack = arena_alloc(&load->arena, SAFE_STACK_BYTES);
-	uint8_t identity[32];
 	int64_t limit_ns;
 	int status, error;
 
@@ -150,8 +158,8 @@ static int run(struct daemon *daemon)
 		return 1;
 	}
 	resource_init(&cycle->resource, program, memory);
-	code_identity(program, identity);
-	digest_hex(identity, sizeof(identity), cycle->identity);
+	code_identity(program, cycle->identity_bytes);
+	digest_hex(cycle->identity_bytes, sizeof(cycle->identity_bytes), cycle->identity);
 	cycle->board = load->map.board;
 	limit_ns = cycle_plan(cycle, options->period_ns, options->watchdog);
 	cycle->most_scans = (uint64_t)options->scans;
@@ -174,6 +182,16 @@ static int run(struct daemon *daemon)
 		if (cycle->store)
 			store_close(cycle->store);
 		return 1;
+	}
+	if (options->link) {
+		cycle->link = link_open(options->link, cycle);
+		if (!cycle->link) {
+			hal_close(&cycle->hal);
+			notify_close(&cycle->notify);
+			if (cycle->store)
+				store_close(cycle->store);
+			return 1;
+		}
 	}
 	if (options->trace_io)
 		cycle->hal.trace = control_trace;

@@ -28,6 +28,7 @@ const char *options_help(void)
 "  --retain FILE    keep VAR RETAIN in FILE when power fails (docs/boards.md)\n"
 "  --retain-period TIME  time between writes of FILE, 10ms to 1h; default 10s\n"
 "  --cold           start without the values in FILE\n"
+"  --link SOCKET    let desks watch and change it (docs/online.md)\n"
 "  --scans N        stop after N scans or at a FAULT, and print the status\n"
 "  --check          load everything, open no line, print the memory needed\n"
 "  --trace-io       print each change of an output to stderr, as `%QX0.0 1`\n"
@@ -58,6 +59,7 @@ static const struct option_row {
 	{ "--retain",        TEXT,   AT(retain.path), 0, 0 },
 	{ "--retain-period", TIME,   AT(retain.period_ns), STORE_PERIOD_LEAST,
 	  STORE_PERIOD_MOST },
+	{ "--link",          TEXT,   AT(link),      0, 0 },
 	{ "--cold",          FLAG,   AT(retain.cold), 0, 0 },
 	{ "--scans",         NUMBER, AT(scans),     1, INT64_MAX },
 	{ "--check",         FLAG,   AT(check),     0, 0 },

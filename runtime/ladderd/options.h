@@ -12,6 +12,7 @@
 
 struct options {
 	const char *file, *map;
+	const char *link;      /* path of the socket for desks; NULL: none    */
 	int64_t period_ns;     /* 0: not given                                */
 	int64_t watchdog;      /* periods                                     */
 	int64_t scans;         /* 0: no limit                                 */

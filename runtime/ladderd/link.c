@@ -1,0 +1,447 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * link - the thread that moves bytes between desks and the server, and wakes the scan thread.
+ *
+ * The scan thread sleeps in clock_nanosleep(). A signal ends that sleep, so an order need not
+ * wait for the next scan; the handler does nothing, and system calls of a scan that it meets are
+ * restarted.
+ */
+#define _GNU_SOURCE /* accept4() */
+#include "ladderd/link.h"
+#include "ladderd/control.h"
+#include "ladderd/peer.h"
+#include "online/server.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <time.h>
+#include <unistd.h>
+
+#define SECOND     INT64_C(1000000000)
+#define NAP_NS     50000              /* between two looks whether an order is done */
+#define NUDGE_NS   1000000            /* between two signals to the scan thread     */
+#define PATIENCE_NS (2 * SECOND)      /* for an order                               */
+#define STACK_LEAST 262144u
+#define REST_NS    (60 * SECOND)      /* a poll without anything to publish         */
+#define OURS       2                  /* polled: the wake-up, the listening socket  */
+
+struct link {
+	struct cycle *cycle;
+	struct exchange exchange;
+	struct exchange_host host;
+	struct server *server;
+	struct peer_groups groups;
+	uint8_t *views;
+	char path[108];
+	int listening, wake;
+	int fd[SERVER_SESSIONS];       /* -1: no session                      */
+	int64_t began_ns;
+	pthread_t thread, scans;
+	bool runs;
+	_Atomic bool stop, dozes;
+};
+
+static int64_t clock_now(void)
+{
+	struct timespec now;
+
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return now.tv_sec * SECOND + now.tv_nsec;
+}
+
+/* ---- the scan thread ---- */
+
+static struct resource *host_resource(void *context)
+{
+	return &((struct link *)context)->cycle->resource;
+}
+
+static const uint8_t *host_identity(void *context)
+{
+	return ((struct link *)context)->cycle->identity_bytes;
+}
+
+static enum refusal host_mode(void *context, enum mode_wish wish)
+{
+	return cycle_mode(((struct link *)context)->cycle, wish);
+}
+
+static void host_status(void *context, struct board_status *status)
+{
+	control_fill_status(((struct link *)context)->cycle, status);
+}
+
+void link_serve(struct link *link)
+{
+	exchange_serve(&link->exchange);
+}
+
+void link_show(struct link *link, int64_t now_ns)
+{
+	exchange_show(&link->exchange, now_ns);
+}
+
+void link_doze(struct link *link)
+{
+	atomic_store(&link->dozes, true);
+}
+
+void link_wake(struct link *link)
+{
+	atomic_store(&link->dozes, false);
+}
+
+/* ---- the link thread ---- */
+
+static bool wait_for_scan(void *context)
+{
+	struct link *link = context;
+	const struct timespec nap = { .tv_nsec = NAP_NS };
+	const int64_t began_ns = clock_now();
+	int64_t now_ns = began_ns, nudged_ns = 0;
+
+	while (!exchange_is_done(&link->exchange)) {
+		if (now_ns - began_ns > PATIENCE_NS)
+			return false;
+		if (now_ns - nudged_ns > NUDGE_NS && atomic_load(&link->dozes)) {
+			pthread_kill(link->scans, SIGURG);
+			nudged_ns = now_ns;
+		}
+		clock_nanosleep(CLOCK_MONOTONIC, 0, &nap, NULL);
+		now_ns = clock_now();
+	}
+	return true;
+}
+
+/* What the scan thread need not find out. */
+static void amend_status(void *context, struct board_status *status)
+{
+	struct link *link = context;
+	const int64_t up_ns = clock_now() - link->began_ns;
+	struct rusage used;
+	int64_t busy_us;
+
+	if (getrusage(RUSAGE_SELF, &used) != 0)
+		return;
+	busy_us = (used.ru_utime.tv_sec + used.ru_stime.tv_sec) * INT64_C(1000000) +
+		  used.ru_utime.tv_usec + used.ru_stime.tv_usec;
+	status->up_ms = (uint64_t)(up_ns / 1000000);
+	status->cpu_permille = (uint32_t)(up_ns > 1000 ? busy_us * 1000 / (up_ns / 1000) : 0);
+	status->memory_bytes = (uint64_t)used.ru_maxrss * 1024;
+}
+
+static void hang_up(struct link *link, int i)
+{
+	if (link->fd[i] < 0)
+		return;
+	server_close(link->server, i);
+	close(link->fd[i]);
+	link->fd[i] = -1;
+}
+
+/* A session too many is told so, if it listens, and closed. */
+static void send_away(int fd)
+{
+	uint8_t bytes[128];
+	struct wire_writer out = wire_write(bytes, sizeof(bytes));
+	size_t len;
+
+	frame_begin(&out, 0, WIRE_ANSWER | WIRE_REFUSED, 0);
+	wire_put_u16(&out, REFUSAL_SESSIONS);
+	wire_put_string(&out, "");
+	len = frame_end(&out);
+	/* The socket is new, so the bytes fit; if not, the close says enough. */
+	if (send(fd, bytes, len, MSG_NOSIGNAL | MSG_DONTWAIT) < 0)
+		errno = 0;
+	close(fd);
+}
+
+static void take_in(struct link *link)
+{
+	const int fd = accept4(link->listening, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
+	struct peer peer;
+	int session;
+
+	if (fd < 0)
+		return;
+	if (peer_ask(fd, &link->groups, &peer) != 0) {
+		close(fd);
+		return;
+	}
+	session = server_open(link->server, peer.role, peer.user);
+	if (session < 0)
+		send_away(fd);
+	else
+		link->fd[session] = fd;
+}
+
+static bool hear(struct link *link, int i)
+{
+	size_t room;
+	uint8_t *to = server_room(link->server, i, &room);
+	ssize_t got;
+
+	if (!room)
+		return true;
+	got = recv(link->fd[i], to, room, MSG_DONTWAIT);
+	if (got > 0)
+		server_got(link->server, i, (size_t)got);
+	return got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
+}
+
+static bool say(struct link *link, int i)
+{
+	size_t len;
+	const uint8_t *from = server_pending(link->server, i, &len);
+	ssize_t sent;
+
+	if (!len)
+		return !server_is_over(link->server, i);
+	sent = send(link->fd[i], from, len, MSG_NOSIGNAL | MSG_DONTWAIT);
+	if (sent > 0)
+		server_sent(link->server, i, (size_t)sent);
+	return (sent > 0 || errno == EAGAIN || errno == EINTR) &&
+	       !server_is_over(link->server, i);
+}
+
+static int poll_ms(struct link *link, bool more)
+{
+	const int64_t due_ns = server_due(link->server), now_ns = clock_now();
+
+	if (more || due_ns <= now_ns)
+		return 0;
+	return (int)((due_ns - now_ns > REST_NS ? REST_NS : due_ns - now_ns + 999999) / 1000000);
+}
+
+static void watch_streams(struct link *link, bool more)
+{
+	struct pollfd ready[OURS + SERVER_SESSIONS] = {
+		{ .fd = link->wake, .events = POLLIN },
+		{ .fd = link->listening, .events = POLLIN },
+	};
+
+	for (int i = 0; i < SERVER_SESSIONS; i++) {
+		struct pollfd *stream = &ready[OURS + i];
+		size_t room = 0, pending = 0;
+
+		stream->fd = link->fd[i];
+		if (stream->fd < 0)
+			continue;
+		server_room(link->server, i, &room);
+		server_pending(link->server, i, &pending);
+		stream->events = (short)((room ? POLLIN : 0) | (pending ? POLLOUT : 0));
+	}
+	if (poll(ready, OURS + SERVER_SESSIONS, poll_ms(link, more)) < 0)
+		return;
+	if (ready[1].revents)
+		take_in(link);
+	for (int i = 0; i < SERVER_SESSIONS; i++) {
+		const short happened = ready[OURS + i].revents;
+
+		if (ready[OURS + i].fd < 0 || !happened)
+			continue;
+		if ((happened & (POLLERR | POLLNVAL)) ||
+		    ((happened & (POLLIN | POLLHUP)) && !hear(link, i)))
+			hang_up(link, i);
+	}
+}
+
+/* Also after a step without a poll: most answers leave at once. */
+static void send_all(struct link *link)
+{
+	for (int i = 0; i < SERVER_SESSIONS; i++)
+		if (link->fd[i] >= 0 && !say(link, i))
+			hang_up(link, i);
+}
+
+static void *serve_desks(void *argument)
+{
+	struct link *link = argument;
+	bool more = false;
+
+	while (!atomic_load(&link->stop)) {
+		watch_streams(link, more);
+		more = server_step(link->server, clock_now());
+		send_all(link);
+	}
+	for (int i = 0; i < SERVER_SESSIONS; i++)
+		hang_up(link, i);
+	return NULL;
+}
+
+/* ---- start and end ---- */
+
+static void do_nothing(int signal_number)
+{
+	(void)signal_number;
+}
+
+static int start_thread(struct link *link)
+{
+	static const int own[] = { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT };
+	const long least = PTHREAD_STACK_MIN;
+	pthread_attr_t attr;
+	sigset_t all, before;
+	int error = pthread_attr_init(&attr);
+
+	if (error)
+		return error;
+	pthread_attr_setstacksize(&attr, least > (long)STACK_LEAST ? (size_t)least : STACK_LEAST);
+	pthread_attr_setinheritsched(&attr, PTHREAD_EXPLICIT_SCHED);
+	sigfillset(&all);
+	for (size_t i = 0; i < sizeof(own) / sizeof(own[0]); i++)
+		sigdelset(&all, own[i]);
+	pthread_sigmask(SIG_SETMASK, &all, &before);
+	error = pthread_create(&link->thread, &attr, serve_desks, link);
+	pthread_sigmask(SIG_SETMASK, &before, NULL);
+	pthread_attr_destroy(&attr);
+	return error;
+}
+
+int link_begin(struct link *link)
+{
+	struct sigaction action;
+	int error;
+
+	memset(&action, 0, sizeof(action));
+	action.sa_handler = do_nothing;
+	action.sa_flags = SA_RESTART;
+	sigemptyset(&action.sa_mask);
+	sigaction(SIGURG, &action, NULL);
+	link->scans = pthread_self();
+	link->began_ns = clock_now();
+	error = start_thread(link);
+	link->runs = !error;
+	return -error;
+}
+
+void link_close(struct link *link)
+{
+	const uint64_t one = 1;
+
+	if (link->runs) {
+		atomic_store(&link->stop, true);
+		if (write(link->wake, &one, sizeof(one)) < 0)
+			errno = 0; /* the counter is full, so the thread is awake */
+		while (link->runs && pthread_join(link->thread, NULL) == EINTR)
+			continue;
+	}
+	if (link->listening >= 0) {
+		close(link->listening);
+		unlink(link->path);
+	}
+	if (link->wake >= 0)
+		close(link->wake);
+	server_free(link->server);
+	free(link->views);
+	free(link);
+}
+
+static struct link *refuse(struct link *link, const char *path, const char *why)
+{
+	fprintf(stderr, "ladderd: --link %s: %s\n", path, why);
+	if (link) {
+		link->path[0] = '\0';
+		link_close(link);
+	}
+	return NULL;
+}
+
+/* Removes the socket of a ladderd that has gone. */
+static int clear_path(const struct sockaddr_un *address)
+{
+	struct stat about;
+	int fd, error = 0;
+
+	if (lstat(address->sun_path, &about) != 0)
+		return errno == ENOENT ? 0 : -errno;
+	if (!S_ISSOCK(about.st_mode))
+		return -EEXIST;
+	fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+	if (fd < 0)
+		return -errno;
+	if (connect(fd, (const void *)address, sizeof(*address)) == 0)
+		error = -EADDRINUSE;
+	close(fd);
+	return error ? error : unlink(address->sun_path) == 0 ? 0 : -errno;
+}
+
+/* Everyone may connect; roles decide what a client may ask. */
+static int listen_at(struct link *link, const char *path)
+{
+	struct sockaddr_un address = { .sun_family = AF_UNIX };
+	int error;
+
+	if (strlen(path) >= sizeof(address.sun_path))
+		return -ENAMETOOLONG;
+	memcpy(address.sun_path, path, strlen(path));
+	error = clear_path(&address);
+	if (error)
+		return error;
+	link->listening = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+	if (link->listening < 0)
+		return -errno;
+	if (bind(link->listening, (const void *)&address, sizeof(address)) != 0)
+		return -errno;
+	memcpy(link->path, path, strlen(path) + 1);
+	if (chmod(path, 0666) != 0 || listen(link->listening, SERVER_SESSIONS) != 0)
+		return -errno;
+	return 0;
+}
+
+static bool set_up(struct link *link, struct cycle *cycle)
+{
+	const struct program *program = cycle->resource.image.program;
+	const size_t size = image_memory_size(program);
+	const struct server_setup setup = {
+		.exchange = &link->exchange, .program = program, .board = cycle->board,
+		.wait = wait_for_scan, .amend = amend_status, .context = link,
+	};
+
+	link->views = calloc(3, size);
+	if (!link->views)
+		return false;
+	link->host = (struct exchange_host){
+		.context = link, .resource = host_resource, .identity = host_identity,
+		.mode = host_mode, .status = host_status,
+	};
+	exchange_init(&link->exchange, &link->host, link->views, size);
+	link->server = server_new(&setup);
+	return link->server;
+}
+
+struct link *link_open(const char *path, struct cycle *cycle)
+{
+	struct link *link = calloc(1, sizeof(*link));
+	int error;
+
+	if (!link)
+		return refuse(link, path, "out of memory");
+	link->cycle = cycle;
+	link->listening = link->wake = -1;
+	for (int i = 0; i < SERVER_SESSIONS; i++)
+		link->fd[i] = -1;
+	if (!set_up(link, cycle))
+		return refuse(link, path, "out of memory");
+	peer_groups_read(&link->groups, "/etc/group");
+	link->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+	if (link->wake < 0)
+		return refuse(link, path, strerror(errno));
+	error = listen_at(link, path);
+	if (error == -EADDRINUSE)
+		return refuse(link, path, "another ladderd listens there");
+	if (error == -EEXIST)
+		return refuse(link, path, "there is a file, and it is no socket");
+	return error ? refuse(link, path, strerror(-error)) : link;
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * link - lets desks see and change what runs: a thread with a socket on this machine.
+ *
+ * It opens no network: desks reach the socket through ssh and ladder-attach. The kernel says
+ * who a client is, its groups say what it may do. SMALL=1 has link_none.c instead.
+ */
+#ifndef LADDERD_LINK_H
+#define LADDERD_LINK_H
+
+#include "ladderd/cycle.h"
+
+struct link;
+
+/**
+ * link_open - makes the socket
+ * @path:  of the socket; one that no process listens at is replaced
+ * @cycle: with its resource and identity; must not move
+ *
+ * Owns: the caller, link_close(). Scan-safe: no. Fails: NULL after a message.
+ */
+struct link *link_open(const char *path, struct cycle *cycle);
+/** link_begin - starts the thread; the calling thread is the one that scans. Fails: -errno. */
+int link_begin(struct link *link);
+/** link_serve - does what desks have ordered. Between scans. Scan-safe: yes. */
+void link_serve(struct link *link);
+/** link_show - copies what desks watch after a scan at @now_ns. Scan-safe: yes. */
+void link_show(struct link *link, int64_t now_ns);
+/** link_doze, link_wake - around each sleep of the scan thread: only then it can be woken for
+ * an order. Scan-safe: yes. */
+void link_doze(struct link *link);
+void link_wake(struct link *link);
+/** link_close - ends all sessions and the thread, removes the socket. */
+void link_close(struct link *link);
+#endif

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * exchange - what the link thread and the scan thread give each other.
+ *
+ * The link gives orders, one at a time; the scan thread does them between two scans and
+ * allocates nothing, locks nothing and waits for nothing. After each scan it copies the
+ * bytes that somebody watches into one of three buffers; one atomic exchange hands it over,
+ * so neither thread ever waits for the other's copy.
+ *
+ * It starts no thread and knows no stream. What an order means outside of the resource
+ * (lines, the clock, the store) is done by functions of the daemon.
+ */
+#ifndef ONLINE_EXCHANGE_H
+#define ONLINE_EXCHANGE_H
+
+#include "engine/scan/place.h"
+#include "engine/scan/resource.h"
+#include "online/service.h"
+#include "online/status.h"
+
+#include <stdatomic.h>
+
+#define EXCHANGE_ORDERS 64   /* done between two scans, at most                 */
+
+/* Bytes of memory that somebody watches; ascending, no overlap. */
+struct range {
+	uint32_t at, size;
+};
+
+struct watch {
+	uint32_t serial;      /* of the ranges; a view has that of its own     */
+	bool power;           /* run the section that stores the power of cells */
+	uint32_t count;
+	const struct range *range;
+};
+
+/* A copy of watched bytes, at the offsets that they have in the image. */
+struct view {
+	uint64_t scan;
+	int64_t now_ns;
+	enum resource_state state;
+	bool io_bad;          /* a line did not answer                         */
+	int forces;           /* how many there are                            */
+	uint32_t serial;
+	uint8_t *memory;
+};
+
+enum order_kind {
+	ORDER_LOOK,    /* copies ranges to a view of the link                 */
+	ORDER_WATCH,   /* the ranges to be copied after each scan             */
+	ORDER_WRITE,
+	ORDER_FORCE,
+	ORDER_UNFORCE, /* count 0: all                                        */
+	ORDER_FORCES,  /* copies the list of forces                           */
+	ORDER_MODE,
+	ORDER_STATUS,
+	ORDER_COUNT
+};
+
+struct order_item {
+	struct location at;
+	union iec_value value;
+};
+
+struct order {
+	enum order_kind kind;
+	bool expects;                  /* `expect` must hold, or nothing is done */
+	struct expect expect;
+	const struct watch *watch;     /* ORDER_LOOK, ORDER_WATCH               */
+	struct view *view;             /* ORDER_LOOK                            */
+	const struct order_item *item; /* of writes and forces                  */
+	uint32_t count;
+	enum mode_wish mode;
+	struct board_status *status;   /* ORDER_STATUS                          */
+	struct image *forces;          /* ORDER_FORCES: gets only the forces    */
+	/* The result. */
+	enum refusal refusal;
+	uint32_t wrong;                /* the item that was refused             */
+	uint64_t scan;                 /* the last scan before it               */
+};
+
+/* What the daemon does for an order. @context: its own. */
+struct exchange_host {
+	void *context;
+	struct resource *(*resource)(void *context);
+	/** Identity of the program that runs, 32 bytes. */
+	const uint8_t *(*identity)(void *context);
+	/** RUN, STOP, reset. Returns REFUSAL_NONE when it was done. */
+	enum refusal (*mode)(void *context, enum mode_wish wish);
+	/** Fills in what only the scan thread knows. */
+	void (*status)(void *context, struct board_status *status);
+};
+
+struct exchange {
+	const struct exchange_host *host;
+	_Atomic(struct order *) order; /* NULL: none is waiting                 */
+	_Atomic unsigned middle;       /* the buffer between both sides, and FRESH */
+	struct view view[3];
+	/* Used by the scan thread. */
+	struct watch watch;
+	unsigned back;
+	uint32_t done;                 /* orders since the last scan            */
+	/* Used by the link thread. */
+	unsigned front;
+};
+
+/**
+ * exchange_init - nothing is watched
+ * @memory: 3 * @size bytes, zeroed, borrowed; @size: image_memory_size() of the program
+ *
+ * Both threads may use it afterwards. Scan-safe: no.
+ */
+void exchange_init(struct exchange *exchange, const struct exchange_host *host,
+		   uint8_t *memory, size_t size);
+
+/* ---- the scan thread ---- */
+
+/** exchange_serve - does the order that waits, if any. Between two scans. Scan-safe: yes. */
+void exchange_serve(struct exchange *exchange);
+/** exchange_show - copies what is watched after a scan. Scan-safe: yes: bounded by the
+ * watched bytes; without a watch it does nothing. */
+void exchange_show(struct exchange *exchange, int64_t now_ns);
+
+/* ---- the link thread ---- */
+
+/** exchange_post - gives an order; it must stay until exchange_is_done(). Scan-safe: no. */
+void exchange_post(struct exchange *exchange, struct order *order);
+/** exchange_is_done - whether the order was done; then its result is there. */
+bool exchange_is_done(const struct exchange *exchange);
+/** exchange_newest - the newest view, the same one again if there is none newer. It is
+ * the caller's until the next call. */
+const struct view *exchange_newest(struct exchange *exchange);
+#endif

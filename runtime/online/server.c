@@ -1,0 +1,933 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * server - sessions: bytes in, one request after another, bytes out.
+ *
+ * One order at a time: the server waits until the scan thread has done it. If that takes too
+ * long, the order stays where it is, and whoever asks meanwhile is told that the board is busy.
+ */
+#include "online/server.h"
+
+#include "engine/base/version.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define REFS_MOST   4096     /* variables of one request                      */
+#define KEPT        8        /* answers to changes, for repeated requests     */
+#define KEPT_BYTES  288
+#define KEPT_FOR    1024     /* requests: then the number may have come round */
+#define DETAIL_MOST 200      /* bytes of a refusal's detail                   */
+#define RANGES_MOST 65536u   /* pieces of memory that are copied after a scan */
+#define SYMBOL_BYTES (WIRE_TEXT_MOST + 64) /* of one symbol in a page, at most        */
+#define NEAR        16       /* ranges that are so near are copied as one     */
+
+/* An answer to a request that changed something. */
+struct kept {
+	uint16_t request;
+	uint8_t service;
+	uint64_t number;     /* of the request in its session; 0: none        */
+	size_t len;
+	uint8_t bytes[KEPT_BYTES];
+};
+
+struct session {
+	bool used, greeted, over;
+	enum role role;
+	char user[64];
+	uint64_t requests;
+	size_t in_len, out_len, out_sent;
+	struct symbol_cursor symbols;
+	uint32_t symbol;       /* number of the symbol at `symbols`           */
+	struct kept kept[KEPT];
+	struct publications publications;
+	uint8_t in[WIRE_FRAME_MOST], out[WIRE_FRAME_MOST];
+};
+
+struct server {
+	struct server_setup setup;
+	/* Given to the scan thread with an order, so not touched until it is done. */
+	struct order order;
+	struct board_status status;
+	struct image held;     /* only its forces                             */
+	struct watch look_watch;
+	bool stuck;            /* the order was not done in time              */
+	/* The program over the memory of a view, with the forces of the board. */
+	struct image mirror;
+	struct view look;
+	struct range look_range[REFS_MOST];
+	struct location place[REFS_MOST];
+	struct order_item item[REFS_MOST];
+	struct iec_text text[REFS_MOST / 16];
+	struct symbol_cursor cursor;
+	char name[2 * LIMIT_NAME + 64];
+	struct watch watch;
+	struct range *ranges[2]; /* the scan thread has one of them           */
+	uint32_t range_count;
+	bool ranges_full;
+	int ranges_in_use;
+	struct session session[SERVER_SESSIONS];
+};
+
+/* ---- orders ---- */
+
+static enum refusal give(struct server *server)
+{
+	if (server->stuck && !exchange_is_done(server->setup.exchange))
+		return REFUSAL_BUSY;
+	exchange_post(server->setup.exchange, &server->order);
+	server->stuck = !server->setup.wait(server->setup.context);
+	return server->stuck ? REFUSAL_BUSY : server->order.refusal;
+}
+
+/* An order may be given only if the one before is done: it is the same memory. */
+static bool can_order(const struct server *server)
+{
+	return !server->stuck || exchange_is_done(server->setup.exchange);
+}
+
+/* Learns the forces of the board anew. */
+static enum refusal learn_forces(struct server *server)
+{
+	enum refusal refusal;
+
+	if (!can_order(server))
+		return REFUSAL_BUSY;
+	server->order = (struct order){ .kind = ORDER_FORCES, .forces = &server->held };
+	refusal = give(server);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	server->mirror.force_count = server->held.force_count;
+	memcpy(server->mirror.force, server->held.force, sizeof(server->held.force));
+	return REFUSAL_NONE;
+}
+
+/* ---- what is watched ---- */
+
+static void sort_ranges(struct range *range, uint32_t count)
+{
+	for (uint32_t gap = count / 2; gap; gap /= 2)
+		for (uint32_t i = gap; i < count; i++) {
+			const struct range moved = range[i];
+			uint32_t k = i;
+
+			for (; k >= gap && range[k - gap].at > moved.at; k -= gap)
+				range[k] = range[k - gap];
+			range[k] = moved;
+		}
+}
+
+static uint32_t join_ranges(struct range *range, uint32_t count)
+{
+	uint32_t last = 0;
+
+	sort_ranges(range, count);
+	for (uint32_t i = 1; i < count; i++) {
+		const uint32_t end = range[last].at + range[last].size;
+		const uint32_t new_end = range[i].at + range[i].size;
+
+		if (range[i].at <= end + NEAR) {
+			if (new_end > end)
+				range[last].size = new_end - range[last].at;
+		} else {
+			range[++last] = range[i];
+		}
+	}
+	return count ? last + 1 : 0;
+}
+
+static void add_range(void *context, struct range range)
+{
+	struct server *server = context;
+	struct range *ranges = server->ranges[!server->ranges_in_use];
+
+	if (server->range_count == RANGES_MOST)
+		server->range_count = join_ranges(ranges, server->range_count);
+	if (server->range_count < RANGES_MOST)
+		ranges[server->range_count++] = range;
+	else
+		server->ranges_full = true;
+}
+
+/* Tells the scan thread what to copy after each scan from now on. */
+static enum refusal watch_again(struct server *server)
+{
+	const int other = !server->ranges_in_use;
+	enum refusal refusal;
+	bool power = false;
+
+	if (!can_order(server))
+		return REFUSAL_BUSY;
+	server->range_count = 0;
+	server->ranges_full = false;
+	for (int i = 0; i < SERVER_SESSIONS; i++) {
+		const struct session *session = &server->session[i];
+
+		if (!session->used)
+			continue;
+		publish_ranges(&session->publications, server->setup.program, add_range, server);
+		power |= publish_has_cells(&session->publications);
+	}
+	if (server->ranges_full)
+		return REFUSAL_TOO_MANY;
+	server->watch = (struct watch){
+		.serial = server->watch.serial + 1, .power = power,
+		.count = join_ranges(server->ranges[other], server->range_count),
+		.range = server->ranges[other],
+	};
+	server->order = (struct order){ .kind = ORDER_WATCH, .watch = &server->watch };
+	refusal = give(server);
+	server->ranges_in_use = other;
+	return refusal;
+}
+
+/* ---- answers ---- */
+
+struct asked {
+	struct server *server;
+	struct session *session;
+	const struct service_row *row;
+	struct frame frame;
+	struct wire_writer out;   /* the answer                               */
+	char detail[DETAIL_MOST];
+};
+
+static void detail(struct asked *asked, const char *text, size_t len)
+{
+	if (len >= sizeof(asked->detail))
+		len = sizeof(asked->detail) - 1;
+	memcpy(asked->detail, text, len);
+	asked->detail[len] = '\0';
+}
+
+static void begin_answer(struct asked *asked, uint8_t flags)
+{
+	asked->out = wire_write(asked->session->out, sizeof(asked->session->out));
+	frame_begin(&asked->out, asked->frame.service, (uint8_t)(WIRE_ANSWER | flags),
+		    asked->frame.request);
+}
+
+static void refuse(struct asked *asked, enum refusal refusal)
+{
+	begin_answer(asked, WIRE_REFUSED);
+	wire_put_u16(&asked->out, (uint16_t)refusal);
+	wire_put_string(&asked->out, asked->detail);
+}
+
+/* ---- variables ---- */
+
+/* "%QX0.1"; "" for a place outside of the areas. */
+static void print_address(const struct program *program, struct location at, char *out, size_t size)
+{
+	const struct areas *areas = &program->areas;
+	struct iec_addr addr = { .area = at.area };
+
+	out[0] = '\0';
+	if (at.area != AREA_NONE) {
+		addr.bits = 1;
+		addr.byte = at.where / 8;
+		addr.bit = at.where % 8;
+	} else if (at.type != IEC_STRING && at.where < areas->size) {
+		addr.area = areas_find(areas, at.where);
+		addr.bits = (uint8_t)(8 * iec_type_row(at.type)->size);
+		addr.byte = at.where - areas->at[addr.area];
+	}
+	if (addr.area != AREA_NONE)
+		iec_addr_print(addr, out, size);
+}
+
+static enum refusal find_place(struct asked *asked, const struct ref *ref, struct location *at)
+{
+	struct server *server = asked->server;
+	const struct program *program = server->setup.program;
+	struct iec_addr addr;
+
+	if (ref->kind == REF_PLACE) {
+		*at = place_locate(program, ref->place);
+		snprintf(asked->detail, sizeof(asked->detail), "place %08x", (unsigned)ref->place);
+	} else {
+		detail(asked, ref->name, ref->len);
+		*at = image_find(&server->mirror, ref->name, ref->len);
+	}
+	if (at->type == IEC_NONE && ref->kind == REF_NAME && !program->string_bytes &&
+	    iec_addr_parse(ref->name, ref->len, &addr) == ADDR_NONE)
+		return REFUSAL_NO_NAMES;
+	return at->type == IEC_NONE ? REFUSAL_NO_NAME : REFUSAL_NONE;
+}
+
+/* Reads the number of variables of a request. */
+static enum refusal take_count(struct asked *asked, uint32_t most, uint32_t *count)
+{
+	*count = wire_u16(&asked->frame.body);
+	if (asked->frame.body.failed)
+		return REFUSAL_BAD_FRAME;
+	if (*count <= most)
+		return REFUSAL_NONE;
+	snprintf(asked->detail, sizeof(asked->detail), "%u variables; at most %u",
+		 (unsigned)*count, (unsigned)most);
+	return REFUSAL_TOO_MANY;
+}
+
+static enum refusal take_places(struct asked *asked, uint32_t count)
+{
+	struct server *server = asked->server;
+
+	for (uint32_t i = 0; i < count; i++) {
+		const struct ref ref = wire_ref(&asked->frame.body);
+		enum refusal refusal;
+
+		if (asked->frame.body.failed)
+			return REFUSAL_BAD_FRAME;
+		refusal = find_place(asked, &ref, &server->place[i]);
+		if (refusal != REFUSAL_NONE)
+			return refusal;
+	}
+	asked->detail[0] = '\0';
+	return wire_done(&asked->frame.body) ? REFUSAL_NONE : REFUSAL_BAD_FRAME;
+}
+
+/* References and values, as `write` and `force` have them. */
+static enum refusal take_items(struct asked *asked, uint32_t count)
+{
+	struct server *server = asked->server;
+	struct wire_reader *in = &asked->frame.body;
+	uint32_t texts = 0;
+
+	for (uint32_t i = 0; i < count; i++) {
+		const struct ref ref = wire_ref(in);
+		const enum iec_type type = (enum iec_type)wire_u8(in);
+		struct order_item *item = &server->item[i];
+		enum refusal refusal;
+
+		if (type == IEC_STRING && texts == REFS_MOST / 16)
+			return REFUSAL_TOO_MANY;
+		item->value = wire_value(in, type, &server->text[texts]);
+		texts += type == IEC_STRING;
+		if (in->failed)
+			return REFUSAL_BAD_FRAME;
+		refusal = find_place(asked, &ref, &item->at);
+		if (refusal == REFUSAL_NONE && item->at.type != type)
+			refusal = REFUSAL_TYPE;
+		if (refusal != REFUSAL_NONE)
+			return refusal;
+	}
+	return wire_done(in) ? REFUSAL_NONE : REFUSAL_BAD_FRAME;
+}
+
+/* ---- services ---- */
+
+static enum refusal serve_hello(struct asked *asked)
+{
+	struct wire_reader *in = &asked->frame.body;
+	const uint32_t magic = wire_u32(in);
+	const uint16_t lowest = wire_u16(in), highest = wire_u16(in);
+	size_t len;
+
+	wire_text(in, &len); /* the name of the desk's program */
+	if (in->failed || magic != ONLINE_MAGIC)
+		return REFUSAL_BAD_FRAME;
+	snprintf(asked->detail, sizeof(asked->detail), "desk %u to %u, board %u to %u",
+		 (unsigned)lowest, (unsigned)highest, ONLINE_LOWEST, ONLINE_HIGHEST);
+	if (lowest > ONLINE_HIGHEST || highest < ONLINE_LOWEST)
+		return REFUSAL_VERSION;
+	asked->session->greeted = true;
+	begin_answer(asked, 0);
+	wire_put_u32(&asked->out, ONLINE_MAGIC);
+	wire_put_u16(&asked->out, highest < ONLINE_HIGHEST ? highest : ONLINE_HIGHEST);
+	wire_put_u8(&asked->out, (uint8_t)asked->session->role);
+	wire_put_u8(&asked->out, (uint8_t)(asked->session - asked->server->session));
+	wire_put_string(&asked->out, LADDER_VERSION);
+	wire_put_string(&asked->out, asked->server->setup.board);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_status(struct asked *asked)
+{
+	struct server *server = asked->server;
+	enum refusal refusal;
+
+	if (!can_order(server))
+		return REFUSAL_BUSY;
+	server->order = (struct order){ .kind = ORDER_STATUS, .status = &server->status };
+	refusal = give(server);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	server->setup.amend(server->setup.context, &server->status);
+	server->status.sessions = (uint32_t)server_sessions(server);
+	begin_answer(asked, 0);
+	status_put(&asked->out, &server->status);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_read(struct asked *asked)
+{
+	struct server *server = asked->server;
+	const struct program *program = server->setup.program;
+	uint32_t count;
+	enum refusal refusal = take_count(asked, REFS_MOST, &count);
+
+	if (refusal == REFUSAL_NONE)
+		refusal = take_places(asked, count);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	if (!can_order(server))
+		return REFUSAL_BUSY;
+	for (uint32_t i = 0; i < count; i++)
+		server->look_range[i] = (struct range){
+			place_byte(program, server->place[i]),
+			place_size(program, server->place[i]) };
+	server->look_watch = (struct watch){
+		.range = server->look_range,
+		.count = join_ranges(server->look_range, count),
+	};
+	server->order = (struct order){ .kind = ORDER_LOOK, .watch = &server->look_watch,
+					.view = &server->look };
+	refusal = give(server);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	server->mirror.memory = server->look.memory;
+	begin_answer(asked, 0);
+	wire_put_u8(&asked->out, (uint8_t)server->look.state);
+	wire_put_u64(&asked->out, server->look.scan);
+	wire_put_i64(&asked->out, server->look.now_ns);
+	wire_put_u16(&asked->out, (uint16_t)count);
+	for (uint32_t i = 0; i < count; i++) {
+		const struct location at = server->place[i];
+
+		wire_put_u8(&asked->out, (image_is_forced(&server->mirror, at) ? VALUE_FORCED : 0) |
+					 (server->look.io_bad ? VALUE_STALE : 0));
+		wire_put_u8(&asked->out, (uint8_t)at.type);
+		wire_put_value(&asked->out, at.type, image_get(&server->mirror, at));
+	}
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_publish(struct asked *asked)
+{
+	struct server *server = asked->server;
+	struct wire_reader *in = &asked->frame.body;
+	struct publications *all = &asked->session->publications;
+	const uint32_t period_us = wire_u32(in);
+	const enum publish_what what = (enum publish_what)wire_u8(in);
+	struct publish_set *set = NULL;
+	enum refusal refusal = REFUSAL_NONE;
+	uint32_t count = 0;
+
+	if (in->failed || (what != PUBLISH_VARIABLES && what != PUBLISH_CELLS))
+		return REFUSAL_BAD_FRAME;
+	if (what == PUBLISH_VARIABLES)
+		refusal = take_count(asked, PUBLISH_VALUES, &count);
+	if (refusal == REFUSAL_NONE && what == PUBLISH_VARIABLES)
+		refusal = take_places(asked, count);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	set = publish_new(all, asked->frame.request, period_us);
+	if (!set)
+		return REFUSAL_TOO_MANY;
+	for (uint32_t i = 0; i < count && refusal == REFUSAL_NONE; i++)
+		if (!publish_add(all, set, server->place[i])) {
+			snprintf(asked->detail, sizeof(asked->detail),
+				 "a session can watch %u variables", PUBLISH_VALUES);
+			refusal = REFUSAL_TOO_MANY;
+		}
+	if (what == PUBLISH_CELLS) {
+		size_t len;
+		const char *name = wire_text(in, &len);
+
+		detail(asked, name, len);
+		refusal = !wire_done(in) ? REFUSAL_BAD_FRAME :
+			  publish_cells(all, set, server->setup.program, name, len);
+	}
+	set->serial = server->watch.serial + 1;
+	if (refusal == REFUSAL_NONE)
+		refusal = watch_again(server);
+	if (refusal != REFUSAL_NONE) {
+		publish_drop(all, asked->frame.request);
+		return refusal;
+	}
+	begin_answer(asked, 0);
+	wire_put_u32(&asked->out, set->count);
+	for (uint32_t i = 0; i < count; i++)
+		wire_put_u8(&asked->out, (uint8_t)server->place[i].type);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_unpublish(struct asked *asked)
+{
+	struct wire_reader *in = &asked->frame.body;
+	const uint16_t request = wire_u16(in);
+	enum refusal refusal;
+
+	if (!wire_done(in))
+		return REFUSAL_BAD_FRAME;
+	publish_drop(&asked->session->publications, request);
+	refusal = watch_again(asked->server);
+	if (refusal == REFUSAL_NONE)
+		begin_answer(asked, 0);
+	return refusal;
+}
+
+static enum refusal finish_change(struct asked *asked)
+{
+	struct server *server = asked->server;
+	enum refusal refusal = give(server);
+
+	const uint64_t scan = server->order.scan;
+
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	if (server->order.kind != ORDER_WRITE)
+		learn_forces(server); /* if the board is busy, the next view says that they differ */
+	begin_answer(asked, 0);
+	wire_put_u64(&asked->out, scan);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_change(struct asked *asked, enum order_kind kind)
+{
+	struct server *server = asked->server;
+	const struct expect expect = wire_expect(&asked->frame.body);
+	uint32_t count;
+	enum refusal refusal;
+
+	if (!can_order(server))
+		return REFUSAL_BUSY;
+	refusal = take_count(asked, kind == ORDER_WRITE ? REFS_MOST : LIMIT_FORCES, &count);
+	if (refusal == REFUSAL_NONE && kind != ORDER_UNFORCE)
+		refusal = take_items(asked, count);
+	if (refusal == REFUSAL_NONE && kind == ORDER_UNFORCE)
+		refusal = take_places(asked, count);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	if (kind == ORDER_WRITE && asked->session->role < ROLE_ENG)
+		return REFUSAL_EXPORTED;
+	for (uint32_t i = 0; i < count && kind == ORDER_UNFORCE; i++)
+		server->item[i].at = server->place[i];
+	asked->detail[0] = '\0';
+	server->order = (struct order){
+		.kind = kind, .expects = true, .expect = expect,
+		.item = server->item, .count = count,
+	};
+	return finish_change(asked);
+}
+
+static enum refusal serve_mode(struct asked *asked)
+{
+	struct server *server = asked->server;
+	struct wire_reader *in = &asked->frame.body;
+	const struct expect expect = wire_expect(in);
+	const enum mode_wish wish = (enum mode_wish)wire_u8(in);
+
+	if (!wire_done(in) || wish >= MODE_COUNT)
+		return REFUSAL_BAD_FRAME;
+	if (wish != MODE_RESET && asked->session->role < ROLE_ENG)
+		return REFUSAL_ROLE;
+	if (!can_order(server))
+		return REFUSAL_BUSY;
+	server->order = (struct order){ .kind = ORDER_MODE, .mode = wish,
+					.expects = true, .expect = expect };
+	return finish_change(asked);
+}
+
+static bool same_place(struct location a, struct location b)
+{
+	return a.type == b.type && a.area == b.area && a.where == b.where;
+}
+
+/* The first name of a place, in server->name; its address if it has none. */
+static void name_place(struct server *server, struct location at)
+{
+	struct symbol symbol;
+
+	server->cursor = (struct symbol_cursor){ .whole = false };
+	while (image_next_symbol(&server->mirror, &server->cursor, &symbol))
+		if (same_place(symbol.at, at)) {
+			snprintf(server->name, sizeof(server->name), "%s", symbol.name);
+			return;
+		}
+	print_address(server->setup.program, at, server->name, sizeof(server->name));
+}
+
+static enum refusal serve_forces(struct asked *asked)
+{
+	struct server *server = asked->server;
+	const enum refusal refusal = learn_forces(server);
+
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	begin_answer(asked, 0);
+	wire_put_u16(&asked->out, (uint16_t)server->mirror.force_count);
+	for (int i = 0; i < server->mirror.force_count; i++) {
+		const struct force *force = &server->mirror.force[i];
+
+		name_place(server, force->at);
+		wire_put_u32(&asked->out, place_word(server->setup.program, force->at));
+		wire_put_string(&asked->out, server->name);
+		wire_put_u8(&asked->out, (uint8_t)force->at.type);
+		wire_put_value(&asked->out, force->at.type, force->value);
+		wire_put_value(&asked->out, force->at.type, force->aside);
+	}
+	return REFUSAL_NONE;
+}
+
+/* Moves the session's cursor to symbol @from. */
+static bool seek_symbol(struct asked *asked, uint32_t from, struct symbol *symbol)
+{
+	struct session *session = asked->session;
+	const struct image *image = &asked->server->mirror;
+
+	if (from < session->symbol || from == 0) {
+		session->symbols = (struct symbol_cursor){ .whole = false };
+		session->symbol = 0;
+	}
+	for (; session->symbol < from; session->symbol++)
+		if (!image_next_symbol(image, &session->symbols, symbol))
+			return false;
+	return true;
+}
+
+/* The rest goes with the next page. */
+static enum refusal serve_symbols(struct asked *asked)
+{
+	struct session *session = asked->session;
+	const struct server *server = asked->server;
+	const struct program *program = server->setup.program;
+	struct wire_writer *out = &asked->out;
+	const uint32_t from = wire_u32(&asked->frame.body);
+	struct symbol symbol;
+	uint16_t count = 0;
+	uint8_t *head;
+	bool more = true;
+
+	if (!wire_done(&asked->frame.body))
+		return REFUSAL_BAD_FRAME;
+	if (!program->string_bytes)
+		return REFUSAL_NO_NAMES;
+	begin_answer(asked, 0);
+	head = out->at;
+	wire_put_u32(out, 0);
+	wire_put_u16(out, 0);
+	more = seek_symbol(asked, from, &symbol);
+	while (more && (size_t)(out->end - out->at) > SYMBOL_BYTES && count < UINT16_MAX) {
+		char address[40] = "";
+
+		more = image_next_symbol(&server->mirror, &session->symbols, &symbol);
+		if (!more)
+			break;
+		session->symbol++;
+		if (symbol.flags & SYMBOL_HIDDEN)
+			continue;
+		print_address(program, symbol.at, address, sizeof(address));
+		wire_put_string(out, symbol.name);
+		wire_put_u8(out, (uint8_t)symbol.at.type);
+		wire_put_u8(out, (uint8_t)(symbol.flags & (SYMBOL_CONSTANT | SYMBOL_RETAIN)));
+		wire_put_u32(out, place_word(program, symbol.at));
+		wire_put_string(out, address);
+		count++;
+	}
+	{
+		struct wire_writer fill = wire_write(head, 6);
+
+		wire_put_u32(&fill, more ? session->symbol : 0);
+		wire_put_u16(&fill, count);
+	}
+	return REFUSAL_NONE;
+}
+
+/* ---- requests ---- */
+
+static enum refusal serve(struct asked *asked)
+{
+	switch ((enum service)asked->row->number) {
+	case SERVICE_HELLO:
+		return serve_hello(asked);
+	case SERVICE_STATUS:
+		return wire_done(&asked->frame.body) ? serve_status(asked) : REFUSAL_BAD_FRAME;
+	case SERVICE_SYMBOLS:
+		return serve_symbols(asked);
+	case SERVICE_READ:
+		return serve_read(asked);
+	case SERVICE_PUBLISH:
+		return serve_publish(asked);
+	case SERVICE_UNPUBLISH:
+		return serve_unpublish(asked);
+	case SERVICE_WRITE:
+		return serve_change(asked, ORDER_WRITE);
+	case SERVICE_FORCE:
+		return serve_change(asked, ORDER_FORCE);
+	case SERVICE_UNFORCE:
+		return serve_change(asked, ORDER_UNFORCE);
+	case SERVICE_FORCES:
+		return wire_done(&asked->frame.body) ? serve_forces(asked) : REFUSAL_BAD_FRAME;
+	case SERVICE_MODE:
+		return serve_mode(asked);
+	}
+	return REFUSAL_NO_SERVICE;
+}
+
+static bool is_change(const struct service_row *row)
+{
+	return row->number == SERVICE_WRITE || row->number == SERVICE_FORCE ||
+	       row->number == SERVICE_UNFORCE || row->number == SERVICE_MODE;
+}
+
+/* Gives the answer of the same request again; it is not done again. */
+static bool repeat(struct asked *asked)
+{
+	struct session *session = asked->session;
+
+	for (int i = 0; i < KEPT; i++) {
+		const struct kept *kept = &session->kept[i];
+
+		if (!kept->number || kept->request != asked->frame.request ||
+		    kept->service != asked->frame.service ||
+		    session->requests - kept->number > KEPT_FOR)
+			continue;
+		memcpy(session->out, kept->bytes, kept->len);
+		session->out_len = kept->len;
+		return true;
+	}
+	return false;
+}
+
+static void keep(struct asked *asked)
+{
+	struct session *session = asked->session;
+	struct kept *oldest = &session->kept[0];
+
+	for (int i = 1; i < KEPT; i++)
+		if (session->kept[i].number < oldest->number)
+			oldest = &session->kept[i];
+	if (session->out_len > KEPT_BYTES)
+		return;
+	oldest->request = asked->frame.request;
+	oldest->service = asked->frame.service;
+	oldest->number = session->requests;
+	oldest->len = session->out_len;
+	memcpy(oldest->bytes, session->out, session->out_len);
+}
+
+static enum refusal judge(struct asked *asked)
+{
+	struct session *session = asked->session;
+
+	if (!asked->row)
+		return REFUSAL_NO_SERVICE;
+	if (!session->greeted && asked->row->number != SERVICE_HELLO)
+		return REFUSAL_NO_HELLO;
+	snprintf(asked->detail, sizeof(asked->detail), "your role is %s, %s needs %s",
+		 role_word(session->role), asked->row->word, role_word(asked->row->role));
+	if (session->role < asked->row->role)
+		return REFUSAL_ROLE;
+	asked->detail[0] = '\0';
+	return serve(asked);
+}
+
+static void answer(struct server *server, struct session *session, const struct frame *frame)
+{
+	struct asked asked = { .server = server, .session = session, .frame = *frame,
+			       .row = service_row(frame->service) };
+	const bool change = asked.row && is_change(asked.row);
+	enum refusal refusal;
+
+	session->requests++;
+	if (change && repeat(&asked))
+		return;
+	refusal = judge(&asked);
+	if (refusal == REFUSAL_NONE && asked.out.failed)
+		refusal = REFUSAL_TOO_MANY;
+	if (refusal != REFUSAL_NONE)
+		refuse(&asked, refusal);
+	session->out_len = frame_end(&asked.out);
+	if (change)
+		keep(&asked);
+}
+
+static void give_up(struct session *session)
+{
+	struct wire_writer out = wire_write(session->out, sizeof(session->out));
+
+	frame_begin(&out, 0, WIRE_ANSWER | WIRE_REFUSED, 0);
+	wire_put_u16(&out, REFUSAL_BAD_FRAME);
+	wire_put_string(&out, "the length of a frame");
+	session->out_len = frame_end(&out);
+	session->out_sent = 0;
+	session->over = true;
+}
+
+/* The next request, if it is whole and the answer before it has gone. */
+static bool serve_next(struct server *server, struct session *session)
+{
+	struct frame frame;
+	size_t used;
+
+	if (session->over || session->out_len)
+		return false;
+	switch (frame_next(session->in, session->in_len, &frame, &used)) {
+	case FRAME_PART:
+		return false;
+	case FRAME_BAD:
+		give_up(session);
+		return true;
+	case FRAME_GOOD:
+		break;
+	}
+	answer(server, session, &frame);
+	session->in_len -= used;
+	memmove(session->in, session->in + used, session->in_len);
+	return true;
+}
+
+static void publish_next(struct server *server, struct session *session, int64_t now_ns)
+{
+	const struct view *view;
+	struct wire_writer out;
+
+	if (session->over || publish_due(&session->publications) > now_ns)
+		return;
+	if (session->out_len) {
+		publish_lose(&session->publications, now_ns);
+		return;
+	}
+	view = exchange_newest(server->setup.exchange);
+	if (view->forces != server->mirror.force_count)
+		learn_forces(server);
+	server->mirror.memory = view->memory;
+	out = wire_write(session->out, sizeof(session->out));
+	session->out_len = publish_write(&session->publications, view, &server->mirror, now_ns,
+					 &out);
+}
+
+bool server_step(struct server *server, int64_t now_ns)
+{
+	bool more = false;
+
+	for (int i = 0; i < SERVER_SESSIONS; i++) {
+		struct session *session = &server->session[i];
+
+		if (!session->used)
+			continue;
+		more |= serve_next(server, session);
+		publish_next(server, session, now_ns);
+	}
+	return more;
+}
+
+int64_t server_due(const struct server *server)
+{
+	int64_t due_ns = INT64_MAX;
+
+	for (int i = 0; i < SERVER_SESSIONS; i++) {
+		const struct session *session = &server->session[i];
+
+		if (session->used && publish_due(&session->publications) < due_ns)
+			due_ns = publish_due(&session->publications);
+	}
+	return due_ns;
+}
+
+/* ---- sessions ---- */
+
+int server_open(struct server *server, enum role role, const char *user)
+{
+	for (int i = 0; i < SERVER_SESSIONS; i++) {
+		struct session *session = &server->session[i];
+
+		if (session->used)
+			continue;
+		session->used = true;
+		session->greeted = session->over = false;
+		session->role = role;
+		session->requests = session->symbol = 0;
+		session->in_len = session->out_len = session->out_sent = 0;
+		memset(session->kept, 0, sizeof(session->kept));
+		publish_init(&session->publications);
+		snprintf(session->user, sizeof(session->user), "%s", user);
+		return i;
+	}
+	return -1;
+}
+
+void server_close(struct server *server, int session)
+{
+	server->session[session].used = false;
+	if (publish_due(&server->session[session].publications) != INT64_MAX)
+		watch_again(server);
+}
+
+int server_sessions(const struct server *server)
+{
+	int count = 0;
+
+	for (int i = 0; i < SERVER_SESSIONS; i++)
+		count += server->session[i].used;
+	return count;
+}
+
+uint8_t *server_room(struct server *server, int number, size_t *len)
+{
+	struct session *session = &server->session[number];
+
+	*len = session->over ? 0 : sizeof(session->in) - session->in_len;
+	return session->in + session->in_len;
+}
+
+void server_got(struct server *server, int session, size_t len)
+{
+	server->session[session].in_len += len;
+}
+
+const uint8_t *server_pending(struct server *server, int number, size_t *len)
+{
+	const struct session *session = &server->session[number];
+
+	*len = session->out_len - session->out_sent;
+	return session->out + session->out_sent;
+}
+
+void server_sent(struct server *server, int number, size_t len)
+{
+	struct session *session = &server->session[number];
+
+	session->out_sent += len;
+	if (session->out_sent == session->out_len)
+		session->out_len = session->out_sent = 0;
+}
+
+bool server_is_over(const struct server *server, int session)
+{
+	return server->session[session].over && !server->session[session].out_len;
+}
+
+/* ---- all of it ---- */
+
+struct server *server_new(const struct server_setup *setup)
+{
+	struct server *server = calloc(1, sizeof(*server));
+	const size_t size = image_memory_size(setup->program);
+	bool good;
+
+	if (!server)
+		return NULL;
+	server->setup = *setup;
+	server->mirror.program = setup->program;
+	server->look.memory = calloc(1, size);
+	server->mirror.memory = server->look.memory;
+	for (int i = 0; i < 2; i++)
+		server->ranges[i] = calloc(RANGES_MOST, sizeof(struct range));
+	good = server->look.memory && server->ranges[0] && server->ranges[1];
+	if (good)
+		return server;
+	server_free(server);
+	return NULL;
+}
+
+void server_free(struct server *server)
+{
+	if (!server)
+		return;
+	free(server->look.memory);
+	free(server->ranges[0]);
+	free(server->ranges[1]);
+	free(server);
+}

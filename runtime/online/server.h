@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * server - the board's side of the link: sessions, and the services that they ask for.
+ *
+ * A session is a stream of bytes; whoever owns the stream moves the bytes. The server
+ * reaches the scan only through orders and views (online/exchange.h). After server_new() it
+ * allocates nothing: SERVER_SESSIONS sessions, each with buffers for one frame in and one
+ * out. While a frame waits to be sent, the session's next request is not read: a slow desk
+ * slows itself. Answers go before published values.
+ */
+#ifndef ONLINE_SERVER_H
+#define ONLINE_SERVER_H
+
+#include "online/exchange.h"
+#include "online/publish.h"
+
+#define SERVER_SESSIONS 8
+
+struct server;
+
+struct server_setup {
+	struct exchange *exchange;
+	const struct program *program;
+	const char *board;     /* name of the board; borrowed                 */
+	/** Waits until the order of the exchange is done, at most some seconds.
+	 * Returns whether it is. */
+	bool (*wait)(void *context);
+	/** Fills in what is not the scan's: time, processor, memory. */
+	void (*amend)(void *context, struct board_status *status);
+	void *context;
+};
+
+/** server_new - Owns: the caller, server_free(). Scan-safe: no; so are all functions.
+ * Fails: NULL: no memory. */
+struct server *server_new(const struct server_setup *setup);
+void server_free(struct server *server);
+
+/** server_open - a session with the role that the kernel vouches for
+ * @user: for the log; copied, cut
+ * Returns its number; -1: all are in use. */
+int server_open(struct server *server, enum role role, const char *user);
+/** server_close - ends a session: nothing on the board changes but what it watched. */
+void server_close(struct server *server, int session);
+int server_sessions(const struct server *server);
+
+/** server_room - where bytes from the desk go; 0 bytes: read no more for now. */
+uint8_t *server_room(struct server *server, int session, size_t *len);
+/** server_got - that many bytes were put there. */
+void server_got(struct server *server, int session, size_t len);
+/** server_pending - bytes for the desk; 0: none. */
+const uint8_t *server_pending(struct server *server, int session, size_t *len);
+void server_sent(struct server *server, int session, size_t len);
+/** server_is_over - the stream made no sense, and all was sent: close it. */
+bool server_is_over(const struct server *server, int session);
+
+/** server_step - one request of each session, and published values that are due.
+ * Returns whether there may be more to do at once. */
+bool server_step(struct server *server, int64_t now_ns);
+/** server_due - when a value is to be published next; INT64_MAX: never. */
+int64_t server_due(const struct server *server);
+#endif
