@@ -124,7 +124,9 @@ $(BUILD)/libonline.a: $(ONLINE)
 	$(AR) rcs $@ $^
 $(DRIVERS): CPPFLAGS += $(GPIO_CPP)
 
-all: $(BUILD)/ladderd
+all: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach)
+$(BUILD)/ladder-attach: $(call obj,$(wildcard runtime/attach/*.c))
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^
 $(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(if $(filter 1,$(SMALL)),,$(BUILD)/libonline.a) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(THREADS) -o $@ $^ $(GPIO_LIB) -lm
 # Bytes of stack, for compilers for machines without MMU.
@@ -180,7 +182,7 @@ check-retain: all ## ladderd --retain killed 1,000 times; `check` does 400 of th
 # ---- the command line: ladder, its man pages ----
 LADDER := $(call obj,$(wildcard runtime/ladder/*.c))
 all: $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder)
-$(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libladder.a
+$(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
 
 # From the rows of runtime/ladder/commands.def, by a program that runs here, also in a cross build.

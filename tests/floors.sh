@@ -28,6 +28,7 @@ runtime/engine            engine engine/base engine/model engine/scan engine/che
 hal                       engine/base engine/scan/image.h engine/scan/code_access.h
 runtime/ladder            $doors engine/exchange engine/exchange/classic hal online engine/text engine/catalog.def
 runtime/online            engine/base engine/scan
+runtime/attach
 runtime/ladderd           engine/ladder.h engine/base engine/model engine/scan hal online
 editor-gtk/kit/gtk48      $doors
 editor-gtk/kit            $doors editor-gtk/kit/gtk48

@@ -194,7 +194,7 @@ sub missing_words {
 # These messages cannot come from a rung file: of the system (LD0), of names in
 # scripts (LD327), of ladderd only (LD316: tests/hal/retain.t), of I/O maps (LD5), of code
 # images (LD61).
-my $elsewhere = qr/^LD(?:0|316|327|5|61|606|607)/;
+my $elsewhere = qr/^LD(?:0|8|316|327|5|61|606|607)/;
 # These come from the library only: the programs read the plant before the scenario.
 my %in_library = (LD135 => 'unit/trial/test_scenario.c');
 

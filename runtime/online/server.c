@@ -467,6 +467,25 @@ static enum refusal serve_unpublish(struct asked *asked)
 	return refusal;
 }
 
+static bool same_place(struct location a, struct location b)
+{
+	return a.type == b.type && a.area == b.area && a.where == b.where;
+}
+
+/* The first name of a place, in server->name; its address if it has none. */
+static void name_place(struct server *server, struct location at)
+{
+	struct symbol symbol;
+
+	server->cursor = (struct symbol_cursor){ .whole = false };
+	while (image_next_symbol(&server->mirror, &server->cursor, &symbol))
+		if (same_place(symbol.at, at)) {
+			snprintf(server->name, sizeof(server->name), "%s", symbol.name);
+			return;
+		}
+	print_address(server->setup.program, at, server->name, sizeof(server->name));
+}
+
 static enum refusal finish_change(struct asked *asked)
 {
 	struct server *server = asked->server;
@@ -474,6 +493,10 @@ static enum refusal finish_change(struct asked *asked)
 
 	const uint64_t scan = server->order.scan;
 
+	if (refusal != REFUSAL_NONE && server->order.wrong < server->order.count) {
+		name_place(server, server->item[server->order.wrong].at);
+		detail(asked, server->name, strlen(server->name));
+	}
 	if (refusal != REFUSAL_NONE)
 		return refusal;
 	if (server->order.kind != ORDER_WRITE)
@@ -520,32 +543,17 @@ static enum refusal serve_mode(struct asked *asked)
 
 	if (!wire_done(in) || wish >= MODE_COUNT)
 		return REFUSAL_BAD_FRAME;
-	if (wish != MODE_RESET && asked->session->role < ROLE_ENG)
+	if (wish != MODE_RESET && asked->session->role < ROLE_ENG) {
+		snprintf(asked->detail, sizeof(asked->detail), "%s" DIAG_AND "%s" DIAG_AND "%s",
+			 asked->row->word, role_word(ROLE_ENG), role_word(asked->session->role));
 		return REFUSAL_ROLE;
+	}
 	if (!can_order(server))
 		return REFUSAL_BUSY;
+	snprintf(asked->detail, sizeof(asked->detail), "%s", mode_word(expect.mode));
 	server->order = (struct order){ .kind = ORDER_MODE, .mode = wish,
 					.expects = true, .expect = expect };
 	return finish_change(asked);
-}
-
-static bool same_place(struct location a, struct location b)
-{
-	return a.type == b.type && a.area == b.area && a.where == b.where;
-}
-
-/* The first name of a place, in server->name; its address if it has none. */
-static void name_place(struct server *server, struct location at)
-{
-	struct symbol symbol;
-
-	server->cursor = (struct symbol_cursor){ .whole = false };
-	while (image_next_symbol(&server->mirror, &server->cursor, &symbol))
-		if (same_place(symbol.at, at)) {
-			snprintf(server->name, sizeof(server->name), "%s", symbol.name);
-			return;
-		}
-	print_address(server->setup.program, at, server->name, sizeof(server->name));
 }
 
 static enum refusal serve_forces(struct asked *asked)
@@ -715,8 +723,8 @@ static enum refusal judge(struct asked *asked)
 		return REFUSAL_NO_SERVICE;
 	if (!session->greeted && asked->row->number != SERVICE_HELLO)
 		return REFUSAL_NO_HELLO;
-	snprintf(asked->detail, sizeof(asked->detail), "your role is %s, %s needs %s",
-		 role_word(session->role), asked->row->word, role_word(asked->row->role));
+	snprintf(asked->detail, sizeof(asked->detail), "%s" DIAG_AND "%s" DIAG_AND "%s",
+		 asked->row->word, role_word(asked->row->role), role_word(session->role));
 	if (session->role < asked->row->role)
 		return REFUSAL_ROLE;
 	asked->detail[0] = '\0';

@@ -4,6 +4,8 @@
  */
 #include "online/service.h"
 
+#include "engine/scan/resource.h"
+
 #include <string.h>
 
 const char *role_word(enum role role)
@@ -29,13 +31,22 @@ const struct service_row *service_row(uint8_t number)
 	return NULL;
 }
 
-const char *refusal_text(uint16_t number)
+enum diag_id refusal_diag(uint16_t number)
 {
 	switch (number) {
-#define REFUSAL(id, number, text) case number: return text;
+#define REFUSAL(id, number) case number: return DIAG_LINK_##id;
 #include "online/refusals.def"
 	}
-	return NULL;
+	return DIAG_LINK_REFUSED;
+}
+
+const char *mode_word(uint8_t mode)
+{
+	static const char *const word[] = {
+		[STATE_STOP] = "STOP", [STATE_RUN] = "RUN", [STATE_FAULT] = "FAULT",
+	};
+
+	return mode < sizeof(word) / sizeof(word[0]) ? word[mode] : "unknown";
 }
 
 struct expect wire_expect(struct wire_reader *in)

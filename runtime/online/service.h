@@ -35,11 +35,13 @@ const struct service_row *service_row(uint8_t number);
 
 enum refusal {
 	REFUSAL_NONE,
-#define REFUSAL(id, number, text) REFUSAL_##id = (number),
+#define REFUSAL(id, number) REFUSAL_##id = (number),
 #include "online/refusals.def"
 };
-/** refusal_text - a sentence for people; NULL: no refusal has this number. Static. */
-const char *refusal_text(uint16_t number);
+/** refusal_diag - its row of diag.def; DIAG_LINK_REFUSED: no refusal has this number. */
+enum diag_id refusal_diag(uint16_t number);
+/** mode_word - "RUN" of an enum resource_state; "unknown". Static. */
+const char *mode_word(uint8_t mode);
 
 /* What the service `mode` is asked for. WARM and COLD start from STOP, with retained values or
  * with initial ones; RESET starts warm from FAULT. */

@@ -1,0 +1,709 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmd_board - `ladder board`: a session with the program that runs on a board.
+ */
+#include "ladder/report.h"
+
+#include "engine/base/digest.h"
+#include "engine/base/version.h"
+#include "engine/scan/resource.h"
+#include "engine/trial/value.h"
+#include "online/desk.h"
+#include "online/status.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define WATCH_US   100000
+#define NAMES_MOST 2048
+
+/* A variable that a person named, and its type on the board. */
+struct named {
+	const char *name;
+	size_t len;
+	enum iec_type type;
+	uint8_t flags;
+	union iec_value value;
+	struct iec_text text;
+};
+
+struct board_call {
+	struct call *call;
+	const char *where;
+	struct desk desk;
+	bool json;
+	struct expect expect;  /* what ran when the command began             */
+	struct named *named;
+	uint32_t count;
+	/* Of watch. */
+	uint64_t lines, most;
+	int64_t first_ns;
+	bool begun;
+};
+
+static enum status fail(const struct board_call *board, enum desk_end end)
+{
+	struct diag diag = desk_diag(&board->desk, end);
+
+	diag.file = board->where;
+	report_diag(diag, "%s", diag.arg);
+	return end == DESK_REFUSED ? STATUS_NO : STATUS_WRONG;
+}
+
+/* ---- values as text ---- */
+
+static void print_value(const struct sink *out, enum iec_type type, union iec_value value)
+{
+	char text[IEC_VALUE_TEXT];
+
+	iec_value_print(type, value, text, sizeof(text));
+	sink_text(out, text);
+}
+
+/* Numbers and BOOLs are JSON's own; all other values are texts. */
+static void print_json(const struct sink *out, enum iec_type type, union iec_value value)
+{
+	char text[IEC_VALUE_TEXT];
+	const uint16_t class = iec_type_row(type)->class;
+
+	iec_value_print(type, value, text, sizeof(text));
+	if (type == IEC_BOOL)
+		sink_text(out, value.i ? "true" : "false");
+	else if (class & (ANY_INT | CLASS_BITS))
+		sink_text(out, text);
+	else
+		sink_json_text(out, text);
+}
+
+/* ---- names ---- */
+
+/* Reads the present values; this tells the types, too. */
+static enum status look(struct board_call *board)
+{
+	struct wire_writer out = desk_ask(&board->desk, SERVICE_READ);
+	struct wire_reader in;
+	enum desk_end end;
+
+	wire_put_u16(&out, (uint16_t)board->count);
+	for (uint32_t i = 0; i < board->count; i++) {
+		wire_put_u8(&out, REF_NAME);
+		wire_put_text(&out, board->named[i].name, board->named[i].len);
+	}
+	end = desk_call(&board->desk, &out, &in);
+	if (end != DESK_GOOD)
+		return fail(board, end);
+	wire_u8(&in);
+	wire_u64(&in);
+	wire_i64(&in);
+	if (wire_u16(&in) != board->count)
+		return fail(board, DESK_NONSENSE);
+	for (uint32_t i = 0; i < board->count; i++) {
+		struct named *named = &board->named[i];
+
+		named->flags = wire_u8(&in);
+		named->type = (enum iec_type)wire_u8(&in);
+		named->value = wire_value(&in, named->type, &named->text);
+	}
+	return in.failed ? fail(board, DESK_NONSENSE) : STATUS_GOOD;
+}
+
+/* Takes the arguments behind the action as names; @values: as NAME=VALUE. */
+static enum status take_names(struct board_call *board, bool values)
+{
+	const struct call *call = board->call;
+	const int count = call->arg_count - 2;
+
+	if (count < 1 || count > NAMES_MOST)
+		return report_usage(call, "%.20s needs 1 to %d names", call->arg[1], NAMES_MOST);
+	board->named = calloc((size_t)count, sizeof(*board->named));
+	if (!board->named)
+		return report_no_memory(board->where);
+	for (int i = 0; i < count; i++) {
+		struct named *named = &board->named[i];
+
+		named->name = call->arg[2 + i];
+		named->len = strcspn(named->name, values ? "=" : "");
+		if (values && (!named->len || !named->name[named->len]))
+			return report_usage(call, "%.60s is not NAME=VALUE", named->name);
+	}
+	board->count = (uint32_t)count;
+	return look(board);
+}
+
+static enum status take_values(struct board_call *board)
+{
+	enum status status = take_names(board, true);
+
+	for (uint32_t i = 0; i < board->count && status == STATUS_GOOD; i++) {
+		struct named *named = &board->named[i];
+		const char *text = named->name + named->len + 1;
+		enum diag_id why;
+
+		if (value_parse(named->type, text, strlen(text), &named->text, &named->value, &why))
+			continue;
+		report_diag((struct diag){ .id = why, .file = board->where }, "%.100s", text);
+		status = STATUS_NO;
+	}
+	return status;
+}
+
+/* ---- actions ---- */
+
+static enum status ask_status(struct board_call *board, struct board_status *status)
+{
+	struct wire_writer out = desk_ask(&board->desk, SERVICE_STATUS);
+	struct wire_reader in;
+	const enum desk_end end = desk_call(&board->desk, &out, &in);
+
+	if (end != DESK_GOOD)
+		return fail(board, end);
+	status_take(&in, status);
+	if (in.failed)
+		return fail(board, DESK_NONSENSE);
+	board->expect.mode = status->mode;
+	memcpy(board->expect.program, status->program, sizeof(status->program));
+	return STATUS_GOOD;
+}
+
+static void print_us(const struct sink *out, const char *word, int64_t ns)
+{
+	sink_printf(out, "%s%lld.%lld us", word, (long long)(ns / 1000),
+		    (long long)(ns % 1000 / 100));
+}
+
+static void print_status(const struct sink *out, const struct board_status *status,
+			 const struct desk *desk)
+{
+	char program[65];
+
+	digest_hex(status->program, sizeof(status->program), program);
+	sink_text(out, "board: ");
+	sink_text(out, status->board);
+	sink_text(out, "\nmode: ");
+	sink_text(out, mode_word(status->mode));
+	sink_text(out, "\nfault: ");
+	sink_text(out, status->fault);
+	if (*status->stop) {
+		sink_text(out, "\nstop: ");
+		sink_text(out, status->stop);
+	}
+	sink_printf(out, "\nforces: %u\nfailed operations: %u", (unsigned)status->forces,
+		    (unsigned)status->errors);
+	sink_text(out, status->error);
+	sink_printf(out, "\nscans: %llu\n", (unsigned long long)status->scans);
+	print_us(out, "period: ", status->period_ns);
+	print_us(out, "\nscan: mean ", status->scan_mean_ns);
+	print_us(out, ", longest ", status->scan_max_ns);
+	print_us(out, ", p99.9 ", status->scan_p999_ns);
+	print_us(out, "\nlateness: mean ", status->wake_mean_ns);
+	print_us(out, ", longest ", status->wake_max_ns);
+	print_us(out, ", p99.9 ", status->wake_p999_ns);
+	sink_printf(out, "\nmissed scans: %llu\n", (unsigned long long)status->late);
+	for (int i = 0; i < status->task_count && *status->task[0].name; i++) {
+		const struct task_status *task = &status->task[i];
+
+		sink_text(out, "task ");
+		sink_text(out, task->name);
+		sink_printf(out, ": runs %llu, missed %llu", (unsigned long long)task->runs,
+			    (unsigned long long)task->overruns);
+		print_us(out, ", last ", task->last_ns);
+		print_us(out, ", longest ", task->max_ns);
+		sink_text(out, "\n");
+	}
+	sink_printf(out, "lines: %u, %s, %llu calls failed\n", (unsigned)status->lines,
+		    status->io == 0 ? "good" : status->io == 1 ? "stale" : "fault",
+		    (unsigned long long)status->io_failed);
+	sink_printf(out, "processor: %u.%u %%\nmemory: %llu KB\nup: %llu s\nsessions: %u\n",
+		    (unsigned)(status->cpu_permille / 10), (unsigned)(status->cpu_permille % 10),
+		    (unsigned long long)(status->memory_bytes / 1024),
+		    (unsigned long long)(status->up_ms / 1000), (unsigned)status->sessions);
+	sink_text(out, "program: ");
+	sink_text(out, program);
+	sink_text(out, "\nladderd: ");
+	sink_text(out, status->version);
+	sink_text(out, "\nyou may: ");
+	sink_text(out, role_word(desk->role));
+	sink_text(out, "\n");
+}
+
+static void json_status(const struct sink *out, const struct board_status *status,
+			const struct desk *desk)
+{
+	char program[65];
+
+	digest_hex(status->program, sizeof(status->program), program);
+	sink_text(out, "{\"board\": ");
+	sink_json_text(out, status->board);
+	report_json_field("mode", mode_word(status->mode), out);
+	report_json_field("fault", status->fault, out);
+	report_json_field("stop", *status->stop ? status->stop : NULL, out);
+	report_json_field("program", program, out);
+	report_json_field("version", status->version, out);
+	report_json_field("role", role_word(desk->role), out);
+	sink_printf(out, ", \"forces\": %u, \"errors\": %u, \"scans\": %llu, \"missed\": %llu",
+		    (unsigned)status->forces, (unsigned)status->errors,
+		    (unsigned long long)status->scans, (unsigned long long)status->late);
+	sink_printf(out, ", \"period_ns\": %lld, \"scan_mean_ns\": %lld, \"scan_max_ns\": %lld, "
+		    "\"scan_p999_ns\": %lld", (long long)status->period_ns,
+		    (long long)status->scan_mean_ns, (long long)status->scan_max_ns,
+		    (long long)status->scan_p999_ns);
+	sink_printf(out, ", \"late_mean_ns\": %lld, \"late_max_ns\": %lld, \"late_p999_ns\": %lld",
+		    (long long)status->wake_mean_ns, (long long)status->wake_max_ns,
+		    (long long)status->wake_p999_ns);
+	sink_printf(out, ", \"lines\": %u, \"sessions\": %u, \"up_ms\": %llu, \"memory\": %llu",
+		    (unsigned)status->lines, (unsigned)status->sessions,
+		    (unsigned long long)status->up_ms, (unsigned long long)status->memory_bytes);
+	sink_printf(out, ", \"cpu_permille\": %u, \"tasks\": [", (unsigned)status->cpu_permille);
+	for (int i = 0; i < status->task_count; i++) {
+		const struct task_status *task = &status->task[i];
+
+		sink_text(out, i ? ", {\"name\": " : "{\"name\": ");
+		sink_json_text(out, task->name);
+		sink_printf(out, ", \"runs\": %llu, \"missed\": %llu, \"last_ns\": %lld, "
+			    "\"max_ns\": %lld}", (unsigned long long)task->runs,
+			    (unsigned long long)task->overruns, (long long)task->last_ns,
+			    (long long)task->max_ns);
+	}
+	sink_text(out, "]}\n");
+}
+
+static enum status act_status(struct board_call *board)
+{
+	struct board_status *status = calloc(1, sizeof(*status));
+	enum status result;
+
+	if (!status)
+		return report_no_memory(board->where);
+	result = ask_status(board, status);
+	if (result == STATUS_GOOD && board->json)
+		json_status(&board->call->out, status, &board->desk);
+	else if (result == STATUS_GOOD)
+		print_status(&board->call->out, status, &board->desk);
+	free(status);
+	return result;
+}
+
+/* One page of symbols. Returns the number of the next page's first one; 0: no more. */
+static uint32_t print_symbols(const struct board_call *board, struct wire_reader *in, bool *any)
+{
+	const struct sink *out = &board->call->out;
+	const uint32_t next = wire_u32(in);
+	const uint16_t count = wire_u16(in);
+
+	for (uint16_t i = 0; i < count && !in->failed; i++) {
+		size_t len, address_len;
+		const char *name = wire_text(in, &len), *address;
+		const enum iec_type type = (enum iec_type)wire_u8(in);
+
+		wire_u8(in);
+		wire_u32(in);
+		address = wire_text(in, &address_len);
+		if (in->failed || type >= IEC_TYPE_COUNT) {
+			in->failed = true;
+			break;
+		}
+		if (board->json) {
+			sink_text(out, *any ? ",\n  {\"name\": " : "\n  {\"name\": ");
+			sink_json_string(out, name, len);
+			report_json_field("type", iec_type_row(type)->word, out);
+			sink_text(out, ", \"address\": ");
+			sink_json_string(out, address, address_len);
+			sink_text(out, "}");
+		} else {
+			sink_write(out, name, len);
+			sink_printf(out, "\t%s\t%.*s\n", iec_type_row(type)->word, (int)address_len,
+				    address);
+		}
+		*any = true;
+	}
+	return next;
+}
+
+static enum status act_symbols(struct board_call *board)
+{
+	uint32_t from = 0;
+	bool any = false;
+
+	if (board->json)
+		sink_text(&board->call->out, "[");
+	do {
+		struct wire_writer out = desk_ask(&board->desk, SERVICE_SYMBOLS);
+		struct wire_reader in;
+		enum desk_end end;
+		uint32_t next;
+
+		wire_put_u32(&out, from);
+		end = desk_call(&board->desk, &out, &in);
+		if (end != DESK_GOOD)
+			return fail(board, end);
+		next = print_symbols(board, &in, &any);
+		if (in.failed || (next && next <= from))
+			return fail(board, DESK_NONSENSE);
+		from = next;
+	} while (from);
+	if (board->json)
+		sink_text(&board->call->out, "\n]\n");
+	return STATUS_GOOD;
+}
+
+static enum status act_get(struct board_call *board)
+{
+	const struct sink *out = &board->call->out;
+	const enum status status = take_names(board, false);
+
+	if (status != STATUS_GOOD)
+		return status;
+	for (uint32_t i = 0; i < board->count; i++) {
+		const struct named *named = &board->named[i];
+
+		if (board->json) {
+			sink_text(out, i ? ", " : "{");
+			sink_json_text(out, named->name);
+			sink_text(out, ": ");
+			print_json(out, named->type, named->value);
+			continue;
+		}
+		sink_text(out, named->name);
+		sink_text(out, "=");
+		print_value(out, named->type, named->value);
+		sink_text(out, named->flags & VALUE_FORCED ? " forced" : "");
+		sink_text(out, named->flags & VALUE_STALE ? " stale\n" : "\n");
+	}
+	if (board->json)
+		sink_text(out, "}\n");
+	return STATUS_GOOD;
+}
+
+/* ---- watch ---- */
+
+static void print_row(struct board_call *board, uint64_t scan, int64_t now_ns)
+{
+	const struct sink *out = &board->call->out;
+	const bool csv = call_flag(board->call, "--csv");
+
+	sink_printf(out, csv ? "%llu,%lld.%03lld" : "%llu t=%lld.%03lld", (unsigned long long)scan,
+		    (long long)((now_ns - board->first_ns) / 1000000),
+		    (long long)((now_ns - board->first_ns) / 1000 % 1000));
+	for (uint32_t i = 0; i < board->count; i++) {
+		const struct named *named = &board->named[i];
+
+		sink_text(out, csv ? "," : " ");
+		if (!csv) {
+			sink_text(out, named->name);
+			sink_text(out, "=");
+		}
+		print_value(out, named->type, named->value);
+	}
+	sink_text(out, "\n");
+	report_flush(board->call);
+}
+
+/* A message of the board: only changed values are in it. */
+static void take_told(void *context, const struct frame *frame)
+{
+	struct board_call *board = context;
+	struct wire_reader in = frame->body;
+	uint64_t scan;
+	int64_t now_ns;
+	uint32_t lost;
+	uint16_t count;
+
+	if (frame->service != SERVICE_PUBLISH || wire_u8(&in) != 0)
+		return;
+	wire_u8(&in);
+	scan = wire_u64(&in);
+	now_ns = wire_i64(&in);
+	lost = wire_u32(&in);
+	count = wire_u16(&in);
+	for (uint16_t i = 0; i < count && !in.failed; i++) {
+		const uint16_t index = wire_u16(&in);
+		struct named *named = index < board->count ? &board->named[index] : NULL;
+
+		if (!named)
+			return;
+		named->flags = wire_u8(&in);
+		named->value = wire_value(&in, named->type, &named->text);
+	}
+	if (in.failed)
+		return;
+	if (!board->begun)
+		board->first_ns = now_ns;
+	board->begun = true;
+	if (lost)
+		report_diag((struct diag){ .id = DIAG_LINK_LOST, .file = board->where }, "%u",
+			    (unsigned)lost);
+	print_row(board, scan, now_ns);
+	board->lines++;
+}
+
+static bool read_number(const struct call *call, const char *name, uint64_t *out)
+{
+	const char *text = call_option(call, name);
+	char *end;
+
+	if (!text)
+		return true;
+	*out = strtoull(text, &end, 10);
+	return *text >= '0' && *text <= '9' && !*end && *out > 0;
+}
+
+static enum status begin_watch(struct board_call *board)
+{
+	const char *period = call_option(board->call, "--period");
+	int64_t ns = INT64_C(1000) * WATCH_US;
+	struct wire_writer out;
+	struct wire_reader in;
+	enum desk_end end;
+
+	if (period && (value_parse_time(period, strlen(period), 0, &ns) != LITERAL_OK || ns < 1000))
+		return report_usage(board->call, "--period needs a time, such as 100ms");
+	if (ns / 1000 > UINT32_MAX)
+		return report_usage(board->call, "--period is longer than an hour");
+	out = desk_ask(&board->desk, SERVICE_PUBLISH);
+	wire_put_u32(&out, (uint32_t)(ns / 1000));
+	wire_put_u8(&out, 0);
+	wire_put_u16(&out, (uint16_t)board->count);
+	for (uint32_t i = 0; i < board->count; i++)
+		wire_put_name(&out, board->named[i].name);
+	board->desk.told = take_told;
+	board->desk.context = board;
+	end = desk_call(&board->desk, &out, &in);
+	return end == DESK_GOOD ? STATUS_GOOD : fail(board, end);
+}
+
+static enum status act_watch(struct board_call *board)
+{
+	const struct sink *out = &board->call->out;
+	enum status status;
+	enum desk_end end = DESK_GOOD;
+
+	if (!read_number(board->call, "--count", &board->most))
+		return report_usage(board->call, "--count needs a number above 0");
+	status = take_names(board, false);
+	if (status == STATUS_GOOD)
+		status = begin_watch(board);
+	if (status != STATUS_GOOD)
+		return status;
+	if (call_flag(board->call, "--csv")) {
+		sink_text(out, "scan,ms");
+		for (uint32_t i = 0; i < board->count; i++) {
+			sink_text(out, ",");
+			sink_text(out, board->named[i].name);
+		}
+		sink_text(out, "\n");
+	}
+	while ((end == DESK_GOOD || end == DESK_LATE) && !board->call->out_failed &&
+	       (!board->most || board->lines < board->most))
+		end = desk_listen(&board->desk, 1000);
+	return end == DESK_GOOD || end == DESK_LATE ? STATUS_GOOD : fail(board, end);
+}
+
+/* ---- changes ---- */
+
+static enum status finish_change(struct board_call *board, struct wire_writer *out)
+{
+	struct wire_reader in;
+	const enum desk_end end = desk_call(&board->desk, out, &in);
+
+	return end == DESK_GOOD ? STATUS_GOOD : fail(board, end);
+}
+
+/* The program must still be the one that was asked for its types; its mode may change. */
+static enum status begin_change(struct board_call *board, enum service service,
+				struct wire_writer *out)
+{
+	struct board_status *status = calloc(1, sizeof(*status));
+	enum status result = status ? ask_status(board, status) : report_no_memory(board->where);
+
+	free(status);
+	if (result != STATUS_GOOD)
+		return result;
+	if (service != SERVICE_MODE)
+		board->expect.mode = EXPECT_ANY;
+	*out = desk_ask(&board->desk, service);
+	wire_put_expect(out, &board->expect);
+	return STATUS_GOOD;
+}
+
+static enum status change_values(struct board_call *board, enum service service)
+{
+	enum status status = take_values(board);
+	struct wire_writer out;
+
+	if (status == STATUS_GOOD)
+		status = begin_change(board, service, &out);
+	if (status != STATUS_GOOD)
+		return status;
+	wire_put_u16(&out, (uint16_t)board->count);
+	for (uint32_t i = 0; i < board->count; i++) {
+		const struct named *named = &board->named[i];
+
+		wire_put_u8(&out, REF_NAME);
+		wire_put_text(&out, named->name, named->len);
+		wire_put_u8(&out, (uint8_t)named->type);
+		wire_put_value(&out, named->type, named->value);
+	}
+	return finish_change(board, &out);
+}
+
+static enum status act_set(struct board_call *board)
+{
+	return change_values(board, SERVICE_WRITE);
+}
+
+static enum status act_force(struct board_call *board)
+{
+	return change_values(board, SERVICE_FORCE);
+}
+
+static enum status act_unforce(struct board_call *board)
+{
+	enum status status = STATUS_GOOD;
+	struct wire_writer out;
+
+	if (board->call->arg_count > 2)
+		status = take_names(board, false);
+	if (status == STATUS_GOOD)
+		status = begin_change(board, SERVICE_UNFORCE, &out);
+	if (status != STATUS_GOOD)
+		return status;
+	wire_put_u16(&out, (uint16_t)board->count);
+	for (uint32_t i = 0; i < board->count; i++)
+		wire_put_name(&out, board->named[i].name);
+	return finish_change(board, &out);
+}
+
+static enum status act_forces(struct board_call *board)
+{
+	const struct sink *sink = &board->call->out;
+	struct wire_writer out = desk_ask(&board->desk, SERVICE_FORCES);
+	struct wire_reader in;
+	const enum desk_end end = desk_call(&board->desk, &out, &in);
+	uint16_t count;
+
+	if (end != DESK_GOOD)
+		return fail(board, end);
+	count = wire_u16(&in);
+	if (board->json)
+		sink_text(sink, "{");
+	for (uint16_t i = 0; i < count && !in.failed; i++) {
+		struct iec_text text;
+		union iec_value value, aside;
+		enum iec_type type;
+		const char *name;
+		size_t len;
+
+		wire_u32(&in);
+		name = wire_text(&in, &len);
+		type = (enum iec_type)wire_u8(&in);
+		value = wire_value(&in, type, &text);
+		aside = wire_value(&in, type, &text);
+		if (in.failed)
+			break;
+		if (board->json) {
+			sink_text(sink, i ? ", " : "");
+			sink_json_string(sink, name, len);
+			sink_text(sink, ": ");
+			print_json(sink, type, value);
+			continue;
+		}
+		sink_write(sink, name, len);
+		sink_text(sink, "=");
+		print_value(sink, type, value);
+		sink_text(sink, " instead of ");
+		print_value(sink, type, aside);
+		sink_text(sink, "\n");
+	}
+	if (board->json)
+		sink_text(sink, "}\n");
+	return in.failed ? fail(board, DESK_NONSENSE) : STATUS_GOOD;
+}
+
+static enum status change_mode(struct board_call *board, enum mode_wish wish)
+{
+	struct wire_writer out;
+	const enum status status = begin_change(board, SERVICE_MODE, &out);
+
+	if (status != STATUS_GOOD)
+		return status;
+	wire_put_u8(&out, (uint8_t)wish);
+	return finish_change(board, &out);
+}
+
+static enum status act_run(struct board_call *board)
+{
+	return change_mode(board, call_flag(board->call, "--cold") ? MODE_COLD : MODE_WARM);
+}
+
+static enum status act_stop(struct board_call *board)
+{
+	return change_mode(board, MODE_STOP);
+}
+
+static enum status act_reset(struct board_call *board)
+{
+	return change_mode(board, MODE_RESET);
+}
+
+static const struct action {
+	const char *word;
+	bool names;                    /* takes arguments                      */
+	enum status (*act)(struct board_call *board);
+} actions[] = {
+	{ "status", false, act_status },   { "symbols", false, act_symbols },
+	{ "get", true, act_get },          { "watch", true, act_watch },
+	{ "set", true, act_set },          { "force", true, act_force },
+	{ "unforce", true, act_unforce },  { "forces", false, act_forces },
+	{ "run", false, act_run },         { "stop", false, act_stop },
+	{ "reset", false, act_reset },
+};
+
+static enum status begin(struct board_call *board, const struct stream_where *where)
+{
+	const char *ssh = call_option(board->call, "--ssh");
+	struct stream stream;
+	const int error = stream_open(where, ssh, &stream);
+	enum desk_end end;
+
+	if (error) {
+		report_diag((struct diag){ .id = DIAG_BOARD_AWAY, .file = board->where }, "%s",
+			    strerror(-error));
+		return STATUS_WRONG;
+	}
+	end = desk_open(&board->desk, &stream, "ladder " LADDER_VERSION);
+	return end == DESK_GOOD ? STATUS_GOOD : fail(board, end);
+}
+
+enum status cmd_board(struct call *call)
+{
+	struct board_call *board = calloc(1, sizeof(*board));
+	const struct action *action = NULL;
+	struct stream_where where;
+	const char *wrong = stream_parse(call->arg[0], &where);
+	enum status status;
+
+	if (!board)
+		return report_no_memory(call->arg[0]);
+	board->call = call;
+	board->where = call->arg[0];
+	board->desk.stream.fd = -1;
+	board->json = call_flag(call, "--json");
+	for (size_t i = 0; i < sizeof(actions) / sizeof(actions[0]); i++)
+		if (strcmp(actions[i].word, call->arg[1]) == 0)
+			action = &actions[i];
+	if (wrong)
+		status = report_usage(call, "%.60s: %s", call->arg[0], wrong);
+	else if (!action)
+		status = report_usage(call, "there is no action %.30s", call->arg[1]);
+	else if (!action->names && call->arg_count > 2)
+		status = report_usage(call, "%s takes no names", action->word);
+	else
+		status = begin(board, &where);
+	if (status == STATUS_GOOD)
+		status = action->act(board);
+	desk_close(&board->desk);
+	free(board->named);
+	free(board);
+	return status;
+}

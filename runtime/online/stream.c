@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * stream - a socket pair is the standard input and output of a command; nothing of a board's
+ * name reaches a shell.
+ */
+#define _DEFAULT_SOURCE /* cfmakeraw() */
+#include "online/stream.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+extern char **environ;
+
+/* ---- where ---- */
+
+static bool is_plain(const char *text, const char *also)
+{
+	static const char plain[] = "abcdefghijklmnopqrstuvwxyz"
+				    "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+
+	while (*text) {
+		text += strspn(text, plain);
+		if (*text && !strchr(also, *text++))
+			return false;
+	}
+	return true;
+}
+
+/* Only bytes that mean nothing to a shell, nor to ssh when it runs a command of its
+ * configuration. */
+static bool is_host(const char *text)
+{
+	const char *at = strrchr(text, '@');
+	const char *host = at ? at + 1 : text;
+
+	return *text != '-' && *host && *host != '-' && at != text &&
+	       is_plain(text, "@._-:[]%/");
+}
+
+const char *stream_parse(const char *text, struct stream_where *out)
+{
+	static const struct { const char *word; enum stream_kind kind; } kinds[] = {
+		{ "ssh:", STREAM_SSH }, { "unix:", STREAM_UNIX },
+		{ "exec:", STREAM_EXEC }, { "serial:", STREAM_SERIAL },
+	};
+
+	*out = (struct stream_where){ .kind = STREAM_SSH, .rest = text };
+	for (size_t i = 0; i < sizeof(kinds) / sizeof(kinds[0]); i++)
+		if (strncmp(text, kinds[i].word, strlen(kinds[i].word)) == 0)
+			*out = (struct stream_where){ kinds[i].kind, text + strlen(kinds[i].word) };
+	if (out->kind == STREAM_UNIX && !*out->rest)
+		out->rest = STREAM_SOCKET;
+	if (!*out->rest)
+		return "a board is missing: USER@BOARD, unix:SOCKET, exec:COMMAND or serial:TTY";
+	if (out->kind == STREAM_SSH && !is_host(out->rest))
+		return "is not USER@BOARD";
+	return NULL;
+}
+
+/* ---- commands ---- */
+
+struct words {
+	char *text;
+	char *word[STREAM_WORDS + 5]; /* ssh gets four more, then NULL */
+	int count;
+};
+
+/* Splits at blanks. Owns: free(words->text). Fails: false: none, too many, or no memory. */
+static bool split(struct words *words, const char *command)
+{
+	const size_t len = strlen(command) + 1;
+	char *at;
+
+	memset(words, 0, sizeof(*words));
+	words->text = malloc(len);
+	if (!words->text)
+		return false;
+	memcpy(words->text, command, len);
+	for (at = words->text; *at;) {
+		char *end = at + strcspn(at, " \t\n");
+		const bool last = !*end;
+
+		*end = '\0';
+		if (end > at && words->count == STREAM_WORDS)
+			return false;
+		if (end > at)
+			words->word[words->count++] = at;
+		at = last ? end : end + 1;
+	}
+	return words->count;
+}
+
+static int start(const struct words *words, struct stream *out)
+{
+	posix_spawn_file_actions_t actions;
+	posix_spawnattr_t attributes;
+	sigset_t signals;
+	int pair[2], error;
+
+	if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
+		return -errno;
+	sigemptyset(&signals);
+	sigaddset(&signals, SIGPIPE); /* a desk ignores it; its command must not */
+	posix_spawnattr_init(&attributes);
+	posix_spawnattr_setsigdefault(&attributes, &signals);
+	posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+	posix_spawn_file_actions_init(&actions);
+	posix_spawn_file_actions_adddup2(&actions, pair[1], STDIN_FILENO);
+	posix_spawn_file_actions_adddup2(&actions, pair[1], STDOUT_FILENO);
+	error = posix_spawnp(&out->child, words->word[0], &actions, &attributes,
+			     words->word, environ);
+	posix_spawn_file_actions_destroy(&actions);
+	posix_spawnattr_destroy(&attributes);
+	close(pair[1]);
+	out->fd = pair[0];
+	if (error) {
+		close(pair[0]);
+		out->child = 0;
+	}
+	return -error;
+}
+
+static int open_ssh(const char *host, const char *ssh, struct stream *out)
+{
+	static char quiet[] = "-T", end[] = "--", attach[] = "ladder-attach";
+	struct words words;
+	int error = -EINVAL;
+
+	if (split(&words, ssh ? ssh : "ssh")) {
+		words.word[words.count++] = quiet;
+		words.word[words.count++] = end;
+		words.word[words.count++] = (char *)host;
+		words.word[words.count++] = attach;
+		error = start(&words, out);
+	}
+	free(words.text);
+	return error;
+}
+
+static int open_command(const char *command, struct stream *out)
+{
+	struct words words;
+	const int error = split(&words, command) ? start(&words, out) : -EINVAL;
+
+	free(words.text);
+	return error;
+}
+
+/* ---- this machine ---- */
+
+static int open_socket(const char *path, struct stream *out)
+{
+	struct sockaddr_un address = { .sun_family = AF_UNIX };
+
+	if (strlen(path) >= sizeof(address.sun_path))
+		return -ENAMETOOLONG;
+	memcpy(address.sun_path, path, strlen(path));
+	out->fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+	if (out->fd < 0)
+		return -errno;
+	if (connect(out->fd, (const void *)&address, sizeof(address)) == 0)
+		return 0;
+	const int error = -errno;
+
+	close(out->fd);
+	return error;
+}
+
+static speed_t line_speed(const char *text)
+{
+	static const struct { const char *text; speed_t speed; } speeds[] = {
+		{ "9600", B9600 }, { "19200", B19200 }, { "38400", B38400 },
+		{ "57600", B57600 }, { "115200", B115200 }, { "230400", B230400 },
+	};
+
+	for (size_t i = 0; i < sizeof(speeds) / sizeof(speeds[0]); i++)
+		if (strcmp(text, speeds[i].text) == 0)
+			return speeds[i].speed;
+	return B0;
+}
+
+/* `/dev/ttyUSB0,115200`; without a speed 115200. */
+static int open_line(const char *text, struct stream *out)
+{
+	const char *comma = strrchr(text, ',');
+	const speed_t speed = line_speed(comma ? comma + 1 : "115200");
+	const size_t len = comma ? (size_t)(comma - text) : strlen(text);
+	char path[256];
+	struct termios mode;
+
+	if (speed == B0)
+		return -EINVAL;
+	if (len >= sizeof(path))
+		return -ENAMETOOLONG;
+	memcpy(path, text, len);
+	path[len] = '\0';
+	out->fd = open(path, O_RDWR | O_NOCTTY | O_CLOEXEC);
+	if (out->fd < 0)
+		return -errno;
+	out->serial = true;
+	if (tcgetattr(out->fd, &mode) == 0) {
+		cfmakeraw(&mode);
+		cfsetispeed(&mode, speed);
+		cfsetospeed(&mode, speed);
+		mode.c_cflag |= CLOCAL | CREAD;
+		if (tcsetattr(out->fd, TCSANOW, &mode) == 0)
+			return 0;
+	}
+	const int error = -errno;
+
+	close(out->fd);
+	return error;
+}
+
+int stream_open(const struct stream_where *where, const char *ssh, struct stream *out)
+{
+	*out = (struct stream){ .fd = -1 };
+	switch (where->kind) {
+	case STREAM_SSH:
+		return open_ssh(where->rest, ssh, out);
+	case STREAM_UNIX:
+		return open_socket(where->rest, out);
+	case STREAM_EXEC:
+		return open_command(where->rest, out);
+	case STREAM_SERIAL:
+		return open_line(where->rest, out);
+	}
+	return -EINVAL;
+}
+
+int stream_close(struct stream *stream)
+{
+	int status = -1;
+
+	if (stream->fd >= 0)
+		close(stream->fd);
+	stream->fd = -1;
+	if (!stream->child)
+		return -1;
+	while (waitpid(stream->child, &status, 0) < 0 && errno == EINTR)
+		continue;
+	stream->child = 0;
+	return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}

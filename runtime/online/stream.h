@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * stream - opens the stream of bytes to a board: ssh, a socket of this machine, a command, a
+ * serial line.
+ *
+ * For programs of a desk only: it starts processes. It sends nothing itself.
+ */
+#ifndef ONLINE_STREAM_H
+#define ONLINE_STREAM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <sys/types.h>
+
+#define STREAM_SOCKET "/run/rungboard/link" /* where the service of a board listens */
+#define STREAM_WORDS  16   /* of a command                                      */
+
+enum stream_kind { STREAM_SSH, STREAM_UNIX, STREAM_EXEC, STREAM_SERIAL };
+
+/* Where a board is, as a person writes it. */
+struct stream_where {
+	enum stream_kind kind;
+	const char *rest;      /* user@host, path, command or tty; in the text */
+};
+/**
+ * stream_parse - `pi@garage`, `ssh:garage`, `unix:/run/rungboard/link`, `exec:COMMAND`,
+ * `serial:/dev/ttyUSB0,115200`, `unix:` for this machine
+ *
+ * Fails: NULL when it is good; else what is wrong, static.
+ */
+const char *stream_parse(const char *text, struct stream_where *out);
+
+struct stream {
+	int fd;                /* both ways                                   */
+	pid_t child;           /* 0: none                                     */
+	bool serial;           /* frames need checksums and answers there     */
+};
+
+/**
+ * stream_open - @ssh: the command and its options, NULL: "ssh"
+ *
+ * The standard error of a command is that of this process, so ssh's questions and messages
+ * reach a terminal. Owns: the caller, stream_close(). Fails: -errno.
+ */
+int stream_open(const struct stream_where *where, const char *ssh, struct stream *out);
+/** stream_close - closes it and waits for its command; returns its exit status, -1: none or a
+ * signal. */
+int stream_close(struct stream *stream);
+#endif
