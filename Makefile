@@ -127,6 +127,10 @@ $(DRIVERS): CPPFLAGS += $(GPIO_CPP)
 all: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach)
 $(BUILD)/ladder-attach: $(call obj,$(wildcard runtime/attach/*.c))
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^
+# The same with a socket in the folder where it runs.
+$(BUILD)/tests/online/ladder-attach: runtime/attach/main.c
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(CFLAGS) -DLINK_SOCKET='"link"' $(LDFLAGS) -o $@ $<
 $(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(if $(filter 1,$(SMALL)),,$(BUILD)/libonline.a) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(THREADS) -o $@ $^ $(GPIO_LIB) -lm
 # Bytes of stack, for compilers for machines without MMU.

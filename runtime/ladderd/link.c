@@ -421,7 +421,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	return link->server;
 }
 
-struct link *link_open(const char *path, struct cycle *cycle)
+struct link *link_open(const char *path, const char *groups, struct cycle *cycle)
 {
 	struct link *link = calloc(1, sizeof(*link));
 	int error;
@@ -434,7 +434,7 @@ struct link *link_open(const char *path, struct cycle *cycle)
 		link->fd[i] = -1;
 	if (!set_up(link, cycle))
 		return refuse(link, path, "out of memory");
-	peer_groups_read(&link->groups, "/etc/group");
+	peer_groups_read(&link->groups, groups);
 	link->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
 	if (link->wake < 0)
 		return refuse(link, path, strerror(errno));

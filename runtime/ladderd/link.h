@@ -15,11 +15,12 @@ struct link;
 /**
  * link_open - makes the socket
  * @path:  of the socket; one that no process listens at is replaced
+ * @groups: the file that gives the groups their numbers
  * @cycle: with its resource and identity; must not move
  *
  * Owns: the caller, link_close(). Scan-safe: no. Fails: NULL after a message.
  */
-struct link *link_open(const char *path, struct cycle *cycle);
+struct link *link_open(const char *path, const char *groups, struct cycle *cycle);
 /** link_begin - starts the thread; the calling thread is the one that scans. Fails: -errno. */
 int link_begin(struct link *link);
 /** link_serve - does what desks have ordered. Between scans. Scan-safe: yes. */

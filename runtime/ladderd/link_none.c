@@ -7,9 +7,9 @@
 
 #include <errno.h>
 
-struct link *link_open(const char *path, struct cycle *cycle)
+struct link *link_open(const char *path, const char *groups, struct cycle *cycle)
 {
-	(void)path, (void)cycle;
+	(void)path, (void)groups, (void)cycle;
 	control_tell("--link: this ladderd is built without it");
 	return NULL;
 }

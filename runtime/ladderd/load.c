@@ -28,13 +28,13 @@ static bool load_map(struct load *load, const char *path)
 	return good;
 }
 
-bool load_files(struct load *load, const char *file, const char *map)
+bool load_files(struct load *load, const char *file, const char *map, bool watch)
 {
 	bool good;
 
 	arena_init(&load->arena);
 	diag_init(&load->diags);
-	good = source_load(&load->source, file);
+	good = source_load(&load->source, file, watch);
 	load->unreadable = load->source.unreadable;
 	if (!load_map(load, map) || !good)
 		return false;

@@ -19,7 +19,7 @@ struct load {
 	bool unreadable;          /* a file could not be read at all          */
 };
 
-/** load_files - Owns: load_free(), also after a failure. Scan-safe: no. Fails: false. */
-bool load_files(struct load *load, const char *file, const char *map);
+/** load_files - @watch: desks may want the power of cells. Owns: load_free(), also after a failure. Scan-safe: no. Fails: false. */
+bool load_files(struct load *load, const char *file, const char *map, bool watch);
 void load_free(struct load *load);
 #endif

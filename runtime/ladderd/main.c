@@ -184,7 +184,7 @@ static int run(struct daemon *daemon)
 		return 1;
 	}
 	if (options->link) {
-		cycle->link = link_open(options->link, cycle);
+		cycle->link = link_open(options->link, options->groups, cycle);
 		if (!cycle->link) {
 			hal_close(&cycle->hal);
 			notify_close(&cycle->notify);
@@ -209,7 +209,7 @@ static int load_and_run(struct daemon *daemon)
 {
 	const struct options *options = &daemon->options;
 	struct load *load = &daemon->load;
-	bool good = load_files(load, options->file, options->map);
+	bool good = load_files(load, options->file, options->map, options->link);
 
 	if (good && options->check)
 		good = hal_supported(&load->map, &load->diags);

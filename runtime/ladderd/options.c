@@ -29,6 +29,7 @@ const char *options_help(void)
 "  --retain-period TIME  time between writes of FILE, 10ms to 1h; default 10s\n"
 "  --cold           start without the values in FILE\n"
 "  --link SOCKET    let desks watch and change it (docs/online.md)\n"
+"  --groups FILE    with --link: the groups, instead of /etc/group\n"
 "  --scans N        stop after N scans or at a FAULT, and print the status\n"
 "  --check          load everything, open no line, print the memory needed\n"
 "  --trace-io       print each change of an output to stderr, as `%QX0.0 1`\n"
@@ -60,6 +61,7 @@ static const struct option_row {
 	{ "--retain-period", TIME,   AT(retain.period_ns), STORE_PERIOD_LEAST,
 	  STORE_PERIOD_MOST },
 	{ "--link",          TEXT,   AT(link),      0, 0 },
+	{ "--groups",        TEXT,   AT(groups),    0, 0 },
 	{ "--cold",          FLAG,   AT(retain.cold), 0, 0 },
 	{ "--scans",         NUMBER, AT(scans),     1, INT64_MAX },
 	{ "--check",         FLAG,   AT(check),     0, 0 },
@@ -153,6 +155,7 @@ bool options_read(struct options *options, int argc, char **argv)
 	memset(options, 0, sizeof(*options));
 	options->retain.period_ns = INT64_C(10000000000);
 	options->watchdog = 10;
+	options->groups = "/etc/group";
 	for (int i = 1; i < argc; i++) {
 		if (!only_files && strcmp(argv[i], "--") == 0)
 			only_files = true;

@@ -21,9 +21,9 @@ struct source {
 
 /** source_kinds - the kinds of files that can be loaded, for --version. */
 const char *source_kinds(void);
-/** source_load - Owns: source_free(), also after a failure. Scan-safe: no.
+/** source_load - @watch: also makes what stores the power of cells. Owns: source_free(), also after a failure. Scan-safe: no.
  * Fails: false and diagnostics. */
-bool source_load(struct source *source, const char *path);
+bool source_load(struct source *source, const char *path, bool watch);
 /**
  * source_settle - frees what was needed only for loading and diagnostics
  *

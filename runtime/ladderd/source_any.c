@@ -14,7 +14,7 @@ const char *source_kinds(void)
 	return "rung files and code images";
 }
 
-bool source_load(struct source *source, const char *path)
+bool source_load(struct source *source, const char *path, bool watch)
 {
 	struct ladder *ladder = ladder_new_terse();
 	bool good;
@@ -24,6 +24,7 @@ bool source_load(struct source *source, const char *path)
 	if (!ladder)
 		return diag_add(&source->diags, (struct diag){
 			.id = DIAG_NO_MEMORY, .file = path }, "%s", "");
+	ladder_watch(ladder, watch);
 	good = ladder_load(ladder, path) && ladder_build(ladder);
 	source->diags = *ladder_diags(ladder);
 	source->unreadable = !good && !ladder_could_read(ladder);

@@ -14,13 +14,14 @@ const char *source_kinds(void)
 	return "code images only";
 }
 
-bool source_load(struct source *source, const char *path)
+bool source_load(struct source *source, const char *path, bool watch)
 {
 	struct arena scratch;
 	struct diag place = { .file = path };
 	size_t where;
 	bool good;
 
+	(void)watch; /* an image has the power of its cells or not */
 	diag_init(&source->diags);
 	source->image = file_read(path, LIMIT_IMAGE, &source->image_bytes,
 				&source->diags);

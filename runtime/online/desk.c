@@ -154,7 +154,8 @@ enum desk_end desk_call(struct desk *desk, struct wire_writer *request, struct w
 	if (!len)
 		return DESK_NO_ROOM;
 	end = send_all(desk, len, until_ms);
-	return end == DESK_GOOD ? take_answer(desk, service, until_ms, answer) : end;
+	/* A board that closed the stream may have said why. */
+	return end == DESK_GOOD || end == DESK_GONE ? take_answer(desk, service, until_ms, answer) : end;
 }
 
 enum desk_end desk_listen(struct desk *desk, int ms)

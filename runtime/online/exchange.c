@@ -48,7 +48,7 @@ static enum refusal check_items(const struct image *image, struct order *order)
 		if (order->kind == ORDER_FORCE && at.type == IEC_STRING)
 			return REFUSAL_NO_FORCE;
 		if (order->kind == ORDER_UNFORCE && !image_is_forced(image, at))
-			return REFUSAL_NO_FORCE;
+			return REFUSAL_NOT_FORCED;
 	}
 	return REFUSAL_NONE;
 }
@@ -107,6 +107,7 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 	enum refusal refusal = REFUSAL_NONE;
 
 	order->scan = resource->scans;
+	order->state = resource->state;
 	if (!is_expected(exchange, order, resource))
 		return REFUSAL_CONFLICT;
 	if (order->kind == ORDER_WRITE || order->kind == ORDER_FORCE ||

@@ -77,6 +77,7 @@ struct order {
 	enum refusal refusal;
 	uint32_t wrong;                /* the item that was refused             */
 	uint64_t scan;                 /* the last scan before it               */
+	enum resource_state state;     /* before it                             */
 };
 
 /* What the daemon does for an order. @context: its own. */

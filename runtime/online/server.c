@@ -422,8 +422,11 @@ static enum refusal serve_publish(struct asked *asked)
 	if (refusal != REFUSAL_NONE)
 		return refusal;
 	set = publish_new(all, asked->frame.request, period_us);
-	if (!set)
+	if (!set) {
+		snprintf(asked->detail, sizeof(asked->detail), "a session can watch %d lists",
+			 PUBLISH_SETS);
 		return REFUSAL_TOO_MANY;
+	}
 	for (uint32_t i = 0; i < count && refusal == REFUSAL_NONE; i++)
 		if (!publish_add(all, set, server->place[i])) {
 			snprintf(asked->detail, sizeof(asked->detail),
@@ -492,6 +495,11 @@ static enum refusal finish_change(struct asked *asked)
 	enum refusal refusal = give(server);
 
 	const uint64_t scan = server->order.scan;
+	const char *mode = mode_word((uint8_t)server->order.state);
+
+	asked->detail[0] = '\0';
+	if (refusal == REFUSAL_NOT_NOW)
+		detail(asked, mode, strlen(mode));
 
 	if (refusal != REFUSAL_NONE && server->order.wrong < server->order.count) {
 		name_place(server, server->item[server->order.wrong].at);
@@ -550,7 +558,6 @@ static enum refusal serve_mode(struct asked *asked)
 	}
 	if (!can_order(server))
 		return REFUSAL_BUSY;
-	snprintf(asked->detail, sizeof(asked->detail), "%s", mode_word(expect.mode));
 	server->order = (struct order){ .kind = ORDER_MODE, .mode = wish,
 					.expects = true, .expect = expect };
 	return finish_change(asked);

@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: MIT
+"""A client of the link, made from docs/online.md alone: it shares no code with the program."""
+import socket
+import struct
+
+(HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE) = range(1, 12)
+STOP, RUN, FAULT, ANY = 0, 1, 2, 255
+SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
+FORMS = [None, '?', 'B', 'H', 'I', 'Q', 'b', 'h', 'i', 'q', 'B', 'H', 'I', 'Q', 'f', 'd', 'q', 'q', 'q', 'q', None]
+BOOL, INT, TIME, STRING = 1, 7, 16, 20
+
+
+class Refused(Exception):
+    """The board said no: .number and .parts."""
+
+    def __init__(self, number, detail):
+        super().__init__(f'{number}: {detail}')
+        self.number = number
+        self.parts = detail.split('\x1f')
+
+
+class Gone(Exception):
+    """The board has closed the stream."""
+
+
+class Fields:
+    """Takes the fields of a frame, one after another."""
+
+    def __init__(self, data):
+        self.data, self.at = data, 0
+
+    def take(self, count):
+        part = self.data[self.at:self.at + count]
+        assert len(part) == count, 'the frame ends too early'
+        self.at += count
+        return part
+
+    def number(self, form):
+        return struct.unpack('<' + form, self.take(struct.calcsize('<' + form)))[0]
+
+    def text(self):
+        return self.take(self.number('H')).decode()
+
+    def value(self, kind):
+        if kind == STRING:
+            return self.take(self.number('B'))
+        return self.number(FORMS[kind])
+
+    def rest(self):
+        return self.data[self.at:]
+
+
+def text(string):
+    data = string.encode()
+    return struct.pack('<H', len(data)) + data
+
+
+def value(kind, it):
+    if kind == STRING:
+        return bytes([len(it)]) + it
+    return struct.pack('<' + FORMS[kind], it)
+
+
+def ref(name):
+    """A name, or the number of a place."""
+    if isinstance(name, int):
+        return b'\0' + struct.pack('<I', name)
+    return b'\1' + text(name)
+
+
+class Client:
+    """One session. `told` collects the frames that were not asked for: (request, fields)."""
+
+    def __init__(self, path, hello=True):
+        self.stream = socket.socket(socket.AF_UNIX)
+        self.stream.settimeout(60)
+        self.stream.connect(path)
+        self.request, self.told = 0, []
+        if hello:
+            self.hello()
+
+    def close(self):
+        self.stream.close()
+
+    def receive(self, count):
+        data = b''
+        while len(data) < count:
+            part = self.stream.recv(count - len(data))
+            if not part:
+                raise Gone()
+            data += part
+        return data
+
+    def frame(self):
+        """(service, flags, request, fields) of the next frame."""
+        data = self.receive(struct.unpack('<I', self.receive(4))[0])
+        service, flags, request = struct.unpack('<BBH', data[:4])
+        return service, flags, request, Fields(data[4:])
+
+    def send(self, service, body, request=None):
+        if request is None:
+            self.request = self.request % 65535 + 1
+            request = self.request
+        try:
+            self.stream.sendall(struct.pack('<IBBH', 4 + len(body), service, 0, request) + body)
+        except BrokenPipeError:
+            pass  # the board may have said why before it closed the stream
+        return request
+
+    def answer(self, request):
+        while True:
+            _service, flags, number, fields = self.frame()
+            if flags & 4:
+                self.told.append((number, fields))
+                continue
+            assert number in (0, request), (number, request)
+            if flags & 2:
+                raise Refused(fields.number('H'), fields.text())
+            return fields
+
+    def call(self, service, body=b'', request=None):
+        return self.answer(self.send(service, body, request))
+
+    def next_told(self):
+        while not self.told:
+            _service, flags, number, fields = self.frame()
+            assert flags & 4
+            self.told.append((number, fields))
+        return self.told.pop(0)
+
+    # ---- services ----
+
+    def hello(self, lowest=1, highest=1):
+        it = self.call(HELLO, struct.pack('<IHH', 1196315986, lowest, highest) + text('client.py'))
+        assert it.number('I') == 1196315986
+        self.version, self.role, self.session = it.number('H'), it.number('B'), it.number('B')
+        self.software, self.board = it.text(), it.text()
+
+    def status(self):
+        it = self.call(STATUS)
+        found = {'mode': it.number('B'), 'lines': it.number('B'), 'forces': it.number('H'),
+                 'program': it.take(32)}
+        for name in 'scans missed resets'.split():
+            found[name] = it.number('Q')
+        for name in 'period mean longest p999 late_mean late_longest late_p999'.split():
+            found[name] = it.number('q')
+        found['failed'], found['cpu'] = it.number('I'), it.number('I')
+        found['memory'], found['up'] = it.number('Q'), it.number('Q')
+        found['sessions'], found['points'] = it.number('I'), it.number('I')
+        found['calls_failed'] = it.number('Q')
+        for name in 'board version fault failed_at stop'.split():
+            found[name] = it.text()
+        found['tasks'] = [{'name': it.text(), 'interval': it.number('q'), 'runs': it.number('Q'),
+                           'missed': it.number('Q'), 'last': it.number('q'), 'longest': it.number('q')}
+                          for _ in range(it.number('B'))]
+        return found
+
+    def symbols(self):
+        found, first = {}, 0
+        while True:
+            it = self.call(SYMBOLS, struct.pack('<I', first))
+            first = it.number('I')
+            for _ in range(it.number('H')):
+                name, kind, flags, place = it.text(), it.number('B'), it.number('B'), it.number('I')
+                found[name] = (kind, flags, place, it.text())
+            if not first:
+                return found
+
+    def read(self, *names):
+        it = self.call(READ, struct.pack('<H', len(names)) + b''.join(map(ref, names)))
+        self.mode, self.scan, self.time = it.number('B'), it.number('Q'), it.number('q')
+        assert it.number('H') == len(names)
+        found = []
+        self.quality = []
+        for _ in names:
+            self.quality.append(it.number('B'))
+            found.append(it.value(it.number('B')))
+        return found
+
+    def publish(self, names, period_us=10000):
+        request = self.send(PUBLISH, struct.pack('<IBH', period_us, 0, len(names)) +
+                            b''.join(map(ref, names)))
+        it = self.answer(request)
+        count = it.number('I')
+        return request, [it.number('B') for _ in range(count)]
+
+    def publish_cells(self, name, period_us=10000):
+        request = self.send(PUBLISH, struct.pack('<IB', period_us, 1) + text(name))
+        return request, self.answer(request).number('I')
+
+    def expect(self, mode=ANY, program=None):
+        return bytes([mode]) + (program or self.status()['program'])
+
+    def change(self, service, values, **expect):
+        """values: {name: (type, value)}"""
+        return self.call(service, self.expect(**expect) + struct.pack('<H', len(values)) +
+                         b''.join(ref(name) + bytes([kind]) + value(kind, it)
+                                  for name, (kind, it) in values.items())).number('Q')
+
+    def write(self, values, **expect):
+        return self.change(WRITE, values, **expect)
+
+    def force(self, values, **expect):
+        return self.change(FORCE, values, **expect)
+
+    def unforce(self, *names, **expect):
+        self.call(UNFORCE, self.expect(**expect) + struct.pack('<H', len(names)) +
+                  b''.join(map(ref, names)))
+
+    def forces(self):
+        it = self.call(FORCES)
+        found = {}
+        for _ in range(it.number('H')):
+            it.number('I')
+            name, kind = it.text(), it.number('B')
+            found[name] = (it.value(kind), it.value(kind))
+        return found
+
+    def set_mode(self, wish, **expect):
+        self.call(MODE, self.expect(**expect) + bytes([wish]))
+
+
+def take_values(fields, types):
+    """A message about variables: (mode, scan, time, lost, {index: (quality, value)})."""
+    assert fields.number('B') == 0
+    mode, scan, time, lost = fields.number('B'), fields.number('Q'), fields.number('q'), fields.number('I')
+    changed = {}
+    for _ in range(fields.number('H')):
+        index = fields.number('H')
+        changed[index] = (fields.number('B'), fields.value(types[index]))
+    assert not fields.rest()
+    return mode, scan, time, lost, changed
+
+
+def take_cells(fields, count):
+    """A message about cells: (scan, [(power in, power out)])."""
+    assert fields.number('B') == 1
+    fields.number('B')
+    scan = fields.number('Q')
+    fields.number('q')
+    fields.number('I')
+    packed = fields.rest()
+    assert len(packed) == (count + 3) // 4
+    return scan, [(packed[i // 4] >> 2 * (i % 4) & 1, packed[i // 4] >> 2 * (i % 4) + 1 & 1)
+                  for i in range(count)]

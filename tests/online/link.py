@@ -1,0 +1,741 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""link - tests the link of ladderd from outside, with a client made from docs/online.md.
+
+It checks order and values, never times; a limit of a minute is only reached by a hang. Started by root, ladderd
+and its clients run as other users, so that roles can be tried.
+"""
+import json
+import os
+import random
+import shutil
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import traceback
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import client  # noqa: E402
+from client import ANY, BOOL, INT, STRING, TIME, Client, Gone, Refused  # noqa: E402
+
+BUILD = os.path.abspath(os.environ.get('BUILD', 'build'))
+ROOT = os.getuid() == 0
+PROGRAMS = ('ladderd', 'ladder', 'tests/online/ladder-attach')
+OWN, GROUPS = 23456, {'view': 24001, 'oper': 24002, 'eng': 24003}
+SEAL = '''RUNGBOARD 1
+PROJECT "Seal"
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Brake AT %QX0.1 : BOOL;
+  Count : INT;
+  Label : STRING := 'hello';
+  Table : ARRAY[1..4] OF INT := [1, 2, 3, 4];
+  Slow : TON;
+END_VAR
+VAR CONSTANT
+  Most : INT := 7;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start  | NC Brake | COIL Motor |
+  | NO Motor^ |
+RUNG
+  | NO Motor | TON Slow PT:=T#2s |
+RUNG
+  | NO Start | ADD IN1:=Count IN2:=Most OUT=>Count |
+END_PROGRAM
+'''
+LOOP = '''RUNGBOARD 1
+PROJECT "Loop"
+
+VAR
+  Go : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG Again
+  | NC Go | COIL Motor |
+RUNG
+  | NO Go | JMP Again |
+END_PROGRAM
+'''
+MAP = 'BOARD "on a table"\n%IX0.0 sim\n%QX0.0 sim\n%QX0.1 sim safe=1\n'
+
+
+class Board:
+    """A ladderd in a folder of its own."""
+
+    def __init__(self, program=SEAL, *options, board=MAP):
+        self.folder = tempfile.mkdtemp()
+        os.chmod(self.folder, 0o777)
+        self.socket = self.folder + '/link'
+        self.write('program.rung', program)
+        self.write('board.io', board)
+        self.write('group', ''.join(f'ladder-{role}:x:{gid}:\n' for role, gid in GROUPS.items()))
+        self.options = options
+        self.start()
+
+    def write(self, name, text):
+        with open(f'{self.folder}/{name}', 'w', encoding='utf-8') as out:
+            out.write(text)
+
+    def read(self, name):
+        with open(f'{self.folder}/{name}', encoding='utf-8') as file:
+            return file.read()
+
+    def start(self, wait=True):
+        with open(self.folder + '/out', 'w') as out, open(self.folder + '/err', 'w') as err:
+            self.daemon = subprocess.Popen(
+                [BUILD + '/ladderd', 'program.rung', '--io', 'board.io', '--link', 'link', '--groups', 'group',
+                 '--trace-io', *self.options], cwd=self.folder, stdout=out, stderr=err, stdin=subprocess.DEVNULL,
+                **as_user(OWN))
+        while wait and self.daemon.poll() is None:
+            try:
+                Client(self.socket).close()
+                return
+            except OSError:
+                time.sleep(0.01)
+
+    def stop(self):
+        if self.daemon.poll() is None:
+            self.daemon.send_signal(signal.SIGTERM)
+        return self.daemon.wait(60)
+
+    def client(self, **options):
+        return Client(self.socket, **options)
+
+    def command(self, *words):
+        done = subprocess.run([BUILD + '/ladder', 'board', 'unix:link', *words], cwd=self.folder, text=True,
+                              capture_output=True, timeout=60, **as_user(OWN))
+        return done.returncode, done.stdout, done.stderr
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_error):
+        self.stop()
+        shutil.rmtree(self.folder)
+
+
+def as_user(uid, gid=None):
+    """Arguments of subprocess: run as another user, if this one may."""
+    return {'user': uid, 'group': gid or uid, 'extra_groups': []} if ROOT else {}
+
+
+def refused(number, do, *parts):
+    """@do is refused with this number, and its detail has these parts."""
+    try:
+        do()
+    except Refused as error:
+        assert error.number == number, error
+        for part in parts:
+            assert part in error.parts[0] or part in error.parts, error.parts
+        return
+    raise AssertionError(f'not refused with {number}')
+
+
+def until(check):
+    """Waits for something that must happen soon."""
+    for _ in range(6000):
+        if check():
+            return
+        time.sleep(0.01)
+    raise AssertionError('it did not happen within a minute')
+
+
+# ---- hello ----
+
+def test_hello_tells_board_version_and_role():
+    with Board() as board:
+        desk = board.client()
+        assert (desk.version, desk.role, desk.board) == (1, 3, 'on a table')
+        assert desk.software and board.client().session != desk.session
+
+
+def test_hello_finds_a_common_version_or_refuses():
+    with Board() as board:
+        desk = board.client(hello=False)
+        refused(3, desk.status)
+        refused(4, lambda: desk.hello(2, 9))
+        refused(4, lambda: desk.hello(0, 0))
+        desk.hello(0, 9)
+        assert desk.version == 1
+        refused(1, lambda: desk.call(client.HELLO, b'not the magic'))
+
+
+# ---- reading ----
+
+def test_status_has_what_runs():
+    with Board() as board:
+        desk = board.client()
+        first = desk.status()
+        assert first['mode'] == client.RUN and first['fault'] == 'none' and first['board'] == 'on a table'
+        assert first['period'] == 10000000 and first['points'] == 3 and first['sessions'] == 1
+        until(lambda: desk.status()['scans'] > first['scans'])
+        image = board.folder + '/image.rungc'
+        subprocess.run([BUILD + '/ladder', 'build', board.folder + '/program.rung', '-o', image], check=True,
+                       capture_output=True)
+        code = subprocess.run([BUILD + '/ladder', 'code', image], check=True, capture_output=True, text=True)
+        assert first['program'].hex() in code.stdout
+
+
+def test_status_tells_tasks():
+    program = SEAL + '''
+CONFIGURATION Cell
+  TASK Fast(INTERVAL := T#20ms, PRIORITY := 1);
+  PROGRAM Run WITH Fast : Main;
+END_CONFIGURATION
+'''
+    with Board(program) as board:
+        if board.daemon.poll() is not None:
+            raise AssertionError(board.read('err'))
+        desk = board.client()
+        until(lambda: desk.status()['tasks'][0]['runs'] > 1)
+        task = desk.status()['tasks'][0]
+        assert (task['name'], task['interval']) == ('Fast', 20000000)
+
+
+def test_symbols_name_every_variable_and_its_place():
+    with Board() as board:
+        desk = board.client()
+        symbols = desk.symbols()
+        assert set(symbols) == {'Start', 'Motor', 'Brake', 'Count', 'Label', 'Table[1]', 'Table[2]', 'Table[3]',
+                                'Table[4]', 'Slow.IN', 'Slow.Q', 'Slow.PT', 'Slow.ET', 'Most'}
+        assert symbols['Start'][3] == '%IX0.0' and symbols['Motor'][3] == '%QX0.0' and not symbols['Count'][3]
+        assert symbols['Most'][1] & 1 and not symbols['Count'][1] & 1
+        for name, (kind, _flags, place, _address) in symbols.items():
+            assert desk.read(name) == desk.read(place), name
+            assert place >> 24 & 31 == kind
+
+
+def test_symbols_come_in_pages():
+    many = ''.join(f'  Number{i} : INT;\n' for i in range(5000))
+    with Board(SEAL.replace('  Count : INT;\n', '  Count : INT;\n' + many)) as board:
+        symbols = board.client().symbols()
+        assert sum(name.startswith('Number') for name in symbols) == 5000
+
+
+def test_read_gives_values_of_one_scan():
+    with Board() as board:
+        desk = board.client()
+        values = desk.read('Motor', '%QX0.0', 'Count', 'Label', 'Table[3]', 'MOTOR', 'Slow.ET')
+        assert values == [False, False, 0, b'hello', 3, False, 0]
+        assert desk.quality == [0] * 7 and desk.mode == client.RUN
+
+
+def test_read_refuses_what_is_not_there():
+    with Board() as board:
+        desk = board.client()
+        refused(7, lambda: desk.read('Motor', 'Moter'), 'Moter')
+        refused(7, lambda: desk.read('Table[5]'), 'Table[5]')
+        refused(7, lambda: desk.read('%QX9999.0'))
+        refused(11, lambda: desk.read(*['Motor'] * 4097), '4096')
+        assert len(desk.read(*['Motor'] * 4096)) == 4096
+        refused(1, lambda: desk.call(client.READ, struct.pack('<H', 1) + b'\2'))
+        refused(1, lambda: desk.call(client.READ, struct.pack('<H', 1) + client.ref('Motor') + b'more'))
+        refused(2, lambda: desk.call(99))
+
+
+def test_read_of_any_place_gives_a_value_or_a_refusal():
+    draw = random.Random(4)
+    with Board() as board:
+        desk = board.client()
+        good = 0
+        for _ in range(4000):
+            place = draw.randrange(24) << 24 | draw.randrange(1 << draw.randrange(1, 25))
+            try:
+                desk.read(place)
+                good += 1
+            except Refused as error:
+                assert error.number == 7
+        assert 0 < good < 4000
+        assert board.daemon.poll() is None
+
+
+# ---- watching ----
+
+def test_publish_sends_all_values_once_then_changes():
+    with Board() as board:
+        desk = board.client()
+        request, types = desk.publish(['Motor', 'Count', 'Label'])
+        assert types == [BOOL, INT, STRING]
+        number, fields = desk.next_told()
+        mode, scan, _time, lost, values = client.take_values(fields, types)
+        assert number == request and mode == client.RUN and lost == 0
+        assert values == {0: (0, False), 1: (0, 0), 2: (0, b'hello')}
+        desk.write({'Label': (STRING, b'changed')})
+        _mode, later, _time, _lost, values = client.take_values(desk.next_told()[1], types)
+        assert later > scan and values == {2: (0, b'changed')}
+        desk.force({'Start': (BOOL, True)})
+        seen = {}
+        while seen.get(0) != (0, True):
+            seen.update(client.take_values(desk.next_told()[1], types)[4])
+
+
+def test_publish_marks_forced_values():
+    with Board() as board:
+        desk = board.client()
+        _request, types = desk.publish(['Count'])
+        client.take_values(desk.next_told()[1], types)
+        desk.force({'Count': (INT, 0)})
+        assert client.take_values(desk.next_told()[1], types)[4] == {0: (1, 0)}
+        desk.unforce('Count')
+        assert client.take_values(desk.next_told()[1], types)[4] == {0: (0, 0)}
+
+
+def test_publish_ends_with_unpublish():
+    with Board() as board:
+        desk = board.client()
+        request, types = desk.publish(['Count'])
+        client.take_values(desk.next_told()[1], types)
+        desk.call(client.UNPUBLISH, struct.pack('<H', request))
+        desk.told.clear()
+        desk.write({'Count': (INT, 5)})
+        other, types = desk.publish(['Count'])
+        number, fields = desk.next_told()
+        assert number == other and client.take_values(fields, types)[4] == {0: (0, 5)}
+
+
+def test_publish_has_limits():
+    with Board() as board:
+        desk = board.client()
+        refused(11, lambda: desk.publish(['Motor'] * 2049), '2048')
+        desk.publish(['Motor'] * 2000)
+        refused(11, lambda: desk.publish(['Motor'] * 49))
+        refused(7, lambda: desk.publish_cells('Nobody'), 'Nobody')
+        desk.publish(['Motor'] * 48)
+        for _ in range(14):
+            desk.publish([])
+        refused(11, lambda: desk.publish([]), 'a session can watch 16 lists')
+
+
+def test_publish_tells_the_power_of_cells():
+    with Board() as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True), 'Brake': (BOOL, False)})
+        until(lambda: desk.read('Motor') == [True])
+        request, count = desk.publish_cells('Main')
+        number, fields = desk.next_told()
+        _scan, cells = client.take_cells(fields, count)
+        assert number == request
+        assert cells[:3] == [(1, 1), (1, 1), (1, 1)], cells
+        desk.force({'Brake': (BOOL, True)})
+        while cells[:3] != [(1, 1), (1, 0), (0, 0)]:
+            cells = client.take_cells(desk.next_told()[1], count)[1]
+
+
+def test_a_slow_desk_loses_messages_and_is_told():
+    many = ''.join(f'  T{i} : STRING[250];\n' for i in range(200))
+    with Board(SEAL.replace('  Count : INT;\n', '  Count : INT;\n' + many)) as board:
+        slow, quick = board.client(), board.client()
+        slow.stream.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        _request, types = slow.publish([f'T{i}' for i in range(200)])
+        for number in range(40):
+            text = bytes([65 + number % 26]) * 250
+            quick.write({f'T{i}': (STRING, text) for i in range(200)})
+            scans = quick.status()['scans']
+            until(lambda: quick.status()['scans'] > scans + 3)
+        lost, values = 0, {}
+        while len(values) < 200 or any(it != (0, text) for it in values.values()):
+            _mode, _scan, _time, more, changed = client.take_values(slow.next_told()[1], types)
+            lost += more
+            values.update(changed)
+        assert lost > 0
+
+
+# ---- changing ----
+
+def test_write_sets_values_together():
+    with Board() as board:
+        desk = board.client()
+        desk.write({'Count': (INT, -5), 'Label': (STRING, b'\xc3\xa4'), 'Table[2]': (INT, 9)})
+        assert desk.read('Count', 'Label', 'Table[2]') == [-5, b'\xc3\xa4', 9]
+        refused(7, lambda: desk.write({'Count': (INT, 1), 'Nope': (INT, 1)}), 'Nope')
+        refused(9, lambda: desk.write({'Count': (INT, 1), 'Motor': (INT, 1)}), 'Motor')
+        refused(10, lambda: desk.write({'Count': (INT, 1), 'Most': (INT, 1)}), 'Most')
+        assert desk.read('Count') == [-5]
+
+
+def test_force_holds_and_unforce_releases():
+    with Board() as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True), 'Brake': (BOOL, True)})
+        assert desk.forces()['Start'][0] is True and desk.status()['forces'] == 2
+        until(lambda: desk.read('Count') != [0])
+        assert desk.read('Motor') == [False]
+        desk.unforce('Brake')
+        until(lambda: desk.read('Motor') == [True])
+        refused(12, lambda: desk.force({'Label': (STRING, b'x')}), 'Label')
+        refused(19, lambda: desk.unforce('Motor'), 'Motor')
+        desk.unforce()
+        assert desk.forces() == {}
+
+
+def test_forces_have_a_limit():
+    many = ''.join(f'  N{i} : INT;\n' for i in range(300))
+    with Board(SEAL.replace('  Count : INT;\n', '  Count : INT;\n' + many)) as board:
+        desk = board.client()
+        desk.force({f'N{i}': (INT, i) for i in range(250)})
+        refused(11, lambda: desk.force({f'N{i}': (INT, i) for i in range(248, 260)}))
+        assert len(desk.forces()) == 250
+        desk.force({f'N{i}': (INT, 7) for i in range(244, 256)})
+        assert len(desk.forces()) == 256
+
+
+def test_a_stale_desk_changes_nothing():
+    with Board() as board:
+        desk = board.client()
+        refused(6, lambda: desk.write({'Count': (INT, 1)}, program=bytes(32)))
+        refused(6, lambda: desk.write({'Count': (INT, 1)}, mode=client.STOP))
+        refused(6, lambda: desk.force({'Count': (INT, 1)}, program=bytes(32)))
+        refused(6, lambda: desk.unforce(program=bytes(32)))
+        refused(6, lambda: desk.set_mode(0, program=bytes(32)))
+        assert desk.read('Count') == [0] and desk.status()['mode'] == client.RUN
+
+
+def test_a_repeated_request_is_not_done_again():
+    with Board() as board:
+        desk = board.client()
+        expect = desk.expect()
+
+        def write(request, number):
+            return desk.call(client.WRITE, expect + struct.pack('<H', 1) + client.ref('Count') +
+                             bytes([INT]) + client.value(INT, number), request)
+
+        write(501, 1)
+        write(502, 2)
+        write(501, 1)
+        assert desk.read('Count') == [2]
+        for request in range(600, 608):
+            write(request, request)
+        write(501, 3)
+        assert desk.read('Count') == [3]
+
+
+def test_stop_makes_outputs_safe_and_run_starts():
+    with Board() as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True)})
+        until(lambda: '%QX0.0 1' in board.read('err'))
+        desk.set_mode(0)
+        assert desk.status()['mode'] == client.STOP
+        until(lambda: board.read('err').rstrip().splitlines()[-1] != '%QX0.0 1')
+        levels = dict(line.split() for line in board.read('err').splitlines() if line.startswith('%QX'))
+        assert levels == {'%QX0.0': '0', '%QX0.1': '1'}
+        refused(15, lambda: desk.set_mode(0), 'STOP')
+        refused(15, lambda: desk.set_mode(3), 'STOP')
+        desk.write({'Count': (INT, 3)})
+        assert desk.read('Count') == [3] and desk.mode == client.STOP
+        desk.set_mode(2)
+        status = desk.status()
+        assert status['mode'] == client.RUN and status['forces'] == 0
+        refused(15, lambda: desk.set_mode(1), 'RUN')
+
+
+def test_stop_is_told_while_nothing_scans():
+    with Board() as board:
+        desk = board.client()
+        _request, types = desk.publish(['Count'])
+        client.take_values(desk.next_told()[1], types)
+        desk.set_mode(0)
+        desk.write({'Count': (INT, 77)})
+        assert client.take_values(desk.next_told()[1], types)[4] == {0: (0, 77)}
+
+
+def test_reset_ends_a_fault():
+    with Board(LOOP, board='BOARD "b"\n%QX0.0 sim\n') as board:
+        desk = board.client()
+        desk.write({'Go': (BOOL, True)})
+        until(lambda: desk.status()['mode'] == client.FAULT)
+        status = desk.status()
+        assert 'Main rung' in status['fault'], status['fault']
+        refused(15, lambda: desk.set_mode(1), 'FAULT')
+        desk.set_mode(3)
+        assert desk.status()['mode'] == client.RUN
+
+
+# ---- roles ----
+
+def in_role(board, gid, do, uid=25000):
+    """Runs @do in a process of another user; returns what it returns."""
+    out, into = os.pipe()
+    child = os.fork()
+    if not child:
+        try:
+            os.setgroups([gid] if gid else [])
+            os.setgid(25000)
+            os.setuid(uid)
+            result = do(board.client())
+        except BaseException as error:  # pylint: disable=broad-except
+            result = repr(error)
+        os.write(into, json.dumps(result).encode())
+        os._exit(0)
+    os.close(into)
+    with os.fdopen(out) as lines:
+        result = json.load(lines)
+    os.waitpid(child, 0)
+    return result
+
+
+def try_all(desk):
+    """What each service answers: 0, or the number of the refusal."""
+    program = bytes(32)  # so that nothing changes: who may gets "conflict"
+
+    def number(do):
+        try:
+            do()
+            return 0
+        except Refused as error:
+            return error.number
+
+    return {
+        'status': number(desk.status), 'symbols': number(desk.symbols), 'read': number(lambda: desk.read('Motor')),
+        'publish': number(lambda: desk.publish(['Motor'])),
+        'unpublish': number(lambda: desk.call(client.UNPUBLISH, struct.pack('<H', 4))),
+        'forces': number(desk.forces),
+        'write': number(lambda: desk.write({'Count': (INT, 1)}, program=program)),
+        'force': number(lambda: desk.force({'Count': (INT, 1)}, program=program)),
+        'unforce': number(lambda: desk.unforce(program=program)),
+        'stop': number(lambda: desk.set_mode(0, program=program)),
+        'run': number(lambda: desk.set_mode(1, program=program)),
+        'cold': number(lambda: desk.set_mode(2, program=program)),
+        'reset': number(lambda: desk.set_mode(3, program=program)),
+    }
+
+
+def test_each_role_may_do_what_the_table_says():
+    reading = 'status symbols read publish unpublish forces'.split()
+    changing = 'write force unforce stop run cold'.split()
+    expected = {
+        None: {**dict.fromkeys(reading + changing, 5), 'reset': 5},
+        'view': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 5), 'reset': 5},
+        'oper': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 5), 'write': 17, 'reset': 6},
+        'eng': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 6), 'reset': 6},
+    }
+
+    def ask(desk):
+        # The answers of `try_all` need the identity that only view may ask for.
+        desk.expect = lambda mode=ANY, program=None: bytes([mode]) + bytes(32)
+        return try_all(desk)
+
+    with Board() as board:
+        for role, table in expected.items():
+            found = in_role(board, GROUPS.get(role), ask)
+            assert found == table, (role, found)
+        assert in_role(board, None, lambda desk: desk.role, uid=0) == 0, 'root without a group'
+        assert in_role(board, GROUPS['eng'], lambda desk: desk.role, uid=0) == 3, 'root with a group'
+        assert in_role(board, GROUPS['view'], lambda desk: desk.read('Count')) == [0]
+
+
+test_each_role_may_do_what_the_table_says.root = True
+
+
+# ---- hostile ----
+
+def test_a_length_that_no_frame_has_ends_the_session():
+    with Board() as board:
+        for length in (0, 3, 65533, 0xffffffff):
+            desk = board.client()
+            desk.stream.sendall(struct.pack('<I', length) + b'junk')
+            refused(1, lambda: desk.answer(0))
+            try:
+                desk.frame()
+                raise AssertionError('the session goes on')
+            except (Gone, ConnectionError):
+                pass
+        assert board.client().status()['mode'] == client.RUN
+
+
+def test_junk_does_not_disturb_others():
+    draw = random.Random(7)
+    with Board() as board:
+        good = board.client()
+        scans = good.status()['scans']
+        for number in range(300):
+            bad = board.client()
+            for _ in range(20):
+                body = draw.randbytes(draw.randrange(0, 90))
+                service = draw.choice([draw.randrange(256), draw.randrange(12)])
+                bad.stream.sendall(struct.pack('<IBBH', 4 + len(body), service, draw.randrange(256), number) + body)
+            if number % 2:
+                bad.stream.sendall(draw.randbytes(draw.randrange(1, 40)))
+            bad.close()
+            assert good.read('Table[1]') == [1]
+        assert good.status()['scans'] > scans and good.status()['fault'] == 'none'
+
+
+def test_a_request_cut_at_any_byte_does_nothing():
+    with Board() as board:
+        good = board.client()
+        expect = good.expect()
+        body = expect + struct.pack('<H', 1) + client.ref('Count') + bytes([INT]) + client.value(INT, 9)
+        whole = struct.pack('<IBBH', 4 + len(body), client.WRITE, 0, 1) + body
+        for end in range(len(whole)):
+            desk = board.client()
+            desk.stream.sendall(whole[:end])
+            desk.close()
+            short = board.client()
+            if end >= 8:
+                refused(1, lambda: short.call(client.WRITE, body[:end - 8]))
+            short.close()
+        assert good.read('Count') == [0]
+
+
+def test_sessions_have_a_limit():
+    with Board() as board:
+        desks = []
+        until(lambda: board.client().status()['sessions'] == 1)
+        for _ in range(8):
+            desks.append(board.client())
+        refused(16, board.client)
+        desks.pop().close()
+
+        def again():
+            try:
+                desks.append(board.client())
+                return True
+            except Refused:
+                return False
+        until(again)
+
+
+def test_a_lost_session_changes_nothing():
+    with Board() as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True)})
+        desk.publish(['Motor'])
+        desk.close()
+        other = board.client()
+        until(lambda: other.status()['sessions'] == 1)
+        status = other.status()
+        assert status['mode'] == client.RUN and status['forces'] == 1
+
+
+# ---- the socket ----
+
+def test_the_socket_is_replaced_only_if_nobody_listens():
+    with Board() as board:
+        second = subprocess.run([BUILD + '/ladderd', 'program.rung', '--io', 'board.io', '--link', 'link'],
+                                cwd=board.folder, text=True, capture_output=True, timeout=60, **as_user(OWN))
+        assert second.returncode == 1 and 'another ladderd listens there' in second.stderr
+        board.daemon.kill()
+        board.daemon.wait()
+        board.start()
+        assert board.client().status()['mode'] == client.RUN
+        assert board.stop() == 0 and not os.path.exists(board.socket)
+        board.write('link', 'mine')
+        board.start(wait=False)
+        assert board.daemon.wait(60) == 1 and 'no socket' in board.read('err')
+        assert board.read('link') == 'mine'
+
+
+# ---- the command ----
+
+def test_command_shows_and_changes():
+    with Board() as board:
+        status, out, err = board.command('status')
+        assert status == 0 and 'mode: RUN' in out and 'you may: eng' in out, (out, err)
+        assert json.loads(board.command('status', '--json')[1])['mode'] == 'RUN'
+        assert board.command('set', 'Count=5', "Label='a b'") == (0, '', '')
+        assert board.command('get', 'Count', 'Label', 'Motor') == (0, "Count=5\nLabel='a b'\nMotor=0\n", '')
+        assert json.loads(board.command('get', 'Count', 'Motor', '--json')[1]) == {'Count': 5, 'Motor': False}
+        assert board.command('force', 'Start=1') == (0, '', '')
+        assert board.command('get', 'Start')[1] == 'Start=1 forced\n'
+        assert 'Start=1 instead of ' in board.command('forces')[1]
+        status, out, err = board.command('watch', 'Motor', 'Start', '--count', '1')
+        assert status == 0 and out.endswith('t=0.000 Motor=1 Start=1\n'), (out, err)
+        assert board.command('watch', 'Motor', '--csv', '--count', '1')[1].startswith('scan,ms,Motor\n')
+        assert board.command('unforce') == (0, '', '') and board.command('forces')[1] == ''
+        assert board.command('stop') == (0, '', '') and board.command('run', '--cold') == (0, '', '')
+        assert board.command('get', 'Count')[1] == 'Count=0\n'
+        assert 'Slow.ET\tTIME\t\n' in board.command('symbols')[1]
+        assert 'Motor' in {row['name'] for row in json.loads(board.command('symbols', '--json')[1])}
+
+
+def test_command_says_what_is_wrong():
+    with Board() as board:
+        for words, code, text in [
+                (['get', 'Moter'], 1, 'LD807: "Moter" is not in the program'),
+                (['set', 'Count=70000'], 1, 'LD116'), (['set', 'Count'], 2, 'Count is not NAME=VALUE'),
+                (['set', 'Most=1'], 1, 'LD810: "Most" is a constant'),
+                (['force', "Label='x'"], 1, 'LD812'), (['unforce', 'Motor'], 1, 'LD819'),
+                (['run'], 1, 'LD815: the board is not in the mode for that: it is in RUN'),
+                (['fly'], 2, 'there is no action fly'), (['get'], 2, 'get needs'), (['stop', 'now'], 2, 'takes no names'),
+                (['watch', 'Motor', '--period', '3'], 2, '--period'), (['watch', 'Motor', '--count', '0'], 2, '--count')]:
+            status, out, err = board.command(*words)
+            assert status == code and text in err and not out, (words, status, out, err)
+        board.stop()
+        status, _out, err = board.command('status')
+        assert status == 2 and 'LD011' in err
+
+
+def test_attach_joins_a_stream_to_the_socket():
+    with Board() as board:
+        shutil.copy(BUILD + '/tests/online/ladder-attach', board.folder)
+        done = subprocess.run([BUILD + '/ladder', 'board', 'exec:./ladder-attach', 'get', 'Table[4]'], text=True,
+                              cwd=board.folder, capture_output=True, timeout=60, **as_user(OWN))
+        assert (done.returncode, done.stdout, done.stderr) == (0, 'Table[4]=4\n', '')
+        board.stop()
+        done = subprocess.run([BUILD + '/ladder', 'board', 'exec:./ladder-attach', 'status'], text=True,
+                              cwd=board.folder, capture_output=True, timeout=60, **as_user(OWN))
+        assert done.returncode == 2 and 'no ladderd runs on this board' in done.stderr and 'LD851' in done.stderr
+        done = subprocess.run([BUILD + '/ladder', 'board', 'exec:cat', 'status'], text=True, capture_output=True,
+                              timeout=60)
+        assert done.returncode == 2 and 'LD852' in done.stderr
+
+
+def run(number, test):
+    """One test in a process of its own: as root only if it needs that. Returns whether it was good."""
+    global ROOT  # pylint: disable=global-statement
+    name = test.__name__[5:].replace('_', ' ')
+    if getattr(test, 'root', False) and not ROOT:
+        print(f'ok {number} - {name} # SKIP needs root, to be several users')
+        return True
+    if ROOT and not getattr(test, 'root', False):
+        os.setgroups([])
+        os.setgid(OWN)
+        os.setuid(OWN)
+        ROOT = False
+    try:
+        test()
+        print(f'ok {number} - {name}')
+        return True
+    except Exception as error:  # pylint: disable=broad-except
+        print(f'not ok {number} - {name}\n# {error!r}')
+        print(''.join('# ' + line + '\n' for line in traceback.format_exc().splitlines()))
+        return False
+
+
+def main():
+    global BUILD  # pylint: disable=global-statement
+    tests = [it for name, it in globals().items() if name.startswith('test_') and
+             (not sys.argv[1:] or name in sys.argv[1:])]
+    failed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        # Where the other users can reach them.
+        os.chmod(folder, 0o755)
+        for name in PROGRAMS:
+            os.makedirs(os.path.dirname(f'{folder}/{name}'), exist_ok=True)
+            shutil.copy(f'{BUILD}/{name}', f'{folder}/{name}')
+        BUILD = folder
+        print(f'1..{len(tests)}', flush=True)
+        for number, test in enumerate(tests, 1):
+            child = os.fork()
+            if not child:
+                good = run(number, test)
+                sys.stdout.flush()
+                os._exit(not good)
+            failed |= os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 0
+    return failed
+
+
+if __name__ == '__main__':
+    sys.exit(main())
