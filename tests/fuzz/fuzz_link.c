@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * fuzz_link - gives any bytes to a session of a board as a desk would, and the same bytes to
+ * the readers of a desk.
+ *
+ * The first byte says the role; the rest is the stream. A scan runs between the steps.
+ */
+#include "engine/ladder.h"
+#include "online/desk.h"
+#include "online/server.h"
+#include "tests/fuzz/fuzz.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char source[] =
+	"RUNGBOARD 1\nVAR\n  A : DINT;\n  B : BOOL;\n  T : TON;\n  In AT %IX0.0 : BOOL;\n"
+	"  W AT %MW4 : WORD;\n  N : STRING[5];\n  L : ARRAY[1..3] OF REAL;\nEND_VAR\n"
+	"VAR CONSTANT\n  K : INT := 7;\nEND_VAR\n"
+	"PROGRAM Main LD\n"
+	"RUNG\n  | NO In | TON T PT:=T#1s | COIL B |\nEND_PROGRAM\n";
+
+struct rig {
+	struct ladder *ladder;
+	struct resource resource;
+	void *memory;
+	uint8_t *views;
+	struct exchange exchange;
+	struct exchange_host host;
+	struct server *server;
+	int64_t now_ns;
+};
+
+static struct resource *its_resource(void *context)
+{
+	return &((struct rig *)context)->resource;
+}
+
+static const uint8_t *its_identity(void *context)
+{
+	static const uint8_t none[32];
+
+	(void)context;
+	return none;
+}
+
+static enum refusal its_mode(void *context, enum mode_wish wish)
+{
+	struct resource *resource = its_resource(context);
+
+	if (wish == MODE_STOP)
+		resource_stop(resource);
+	else
+		resource_start(resource);
+	return REFUSAL_NONE;
+}
+
+static void its_status(void *context, struct board_status *status)
+{
+	(void)context;
+	memset(status, 0, sizeof(*status));
+}
+
+static void amend(void *context, struct board_status *status)
+{
+	(void)context, (void)status;
+}
+
+static bool serve_now(void *context)
+{
+	struct rig *rig = context;
+
+	exchange_serve(&rig->exchange);
+	return exchange_is_done(&rig->exchange);
+}
+
+static void rig_open(struct rig *rig)
+{
+	struct server_setup setup = { .board = "b", .wait = serve_now, .amend = amend,
+				      .context = rig, .exchange = &rig->exchange };
+	size_t size;
+
+	memset(rig, 0, sizeof(*rig));
+	rig->ladder = ladder_new();
+	fuzz_expect(rig->ladder != NULL, "there is memory");
+	ladder_watch(rig->ladder, true);
+	fuzz_expect(ladder_load_text(rig->ladder, "r", source, sizeof(source) - 1) &&
+		    ladder_build(rig->ladder), "the program builds");
+	setup.program = ladder_program(rig->ladder);
+	size = image_memory_size(setup.program);
+	rig->memory = calloc(1, size);
+	rig->views = calloc(3, size);
+	resource_init(&rig->resource, setup.program, rig->memory);
+	resource_start(&rig->resource);
+	rig->host = (struct exchange_host){ rig, its_resource, its_identity, its_mode, its_status };
+	exchange_init(&rig->exchange, &rig->host, rig->views, size);
+	rig->server = server_new(&setup);
+	fuzz_expect(rig->server != NULL, "there is memory");
+}
+
+static void rig_close(struct rig *rig)
+{
+	server_free(rig->server);
+	free(rig->memory);
+	free(rig->views);
+	ladder_free(rig->ladder);
+}
+
+/* What the board sends is whole frames. */
+static void take_out(struct rig *rig, int session)
+{
+	size_t len, used;
+	const uint8_t *bytes = server_pending(rig->server, session, &len);
+	struct frame frame;
+
+	if (!len)
+		return;
+	fuzz_expect(frame_next(bytes, len, &frame, &used) == FRAME_GOOD && used == len,
+		    "an answer is one whole frame");
+	fuzz_expect(frame.flags == WIRE_ANSWER || frame.flags == (WIRE_ANSWER | WIRE_REFUSED) ||
+		    frame.flags == WIRE_TOLD, "its flags are known");
+	if (frame.flags & WIRE_REFUSED)
+		fuzz_expect(refusal_diag(wire_u16(&frame.body)) != DIAG_LINK_REFUSED,
+			    "its refusal is known");
+	server_sent(rig->server, session, len);
+}
+
+static void scan(struct rig *rig)
+{
+	rig->now_ns += 10000000;
+	resource_scan(&rig->resource, rig->now_ns);
+	exchange_show(&rig->exchange, rig->now_ns);
+}
+
+static void as_board(struct rig *rig, const uint8_t *bytes, size_t len)
+{
+	const int session = server_open(rig->server, (enum role)(bytes[0] % ROLE_COUNT), "fuzz");
+	size_t at = 1;
+
+	while (at < len && !server_is_over(rig->server, session)) {
+		size_t room;
+		uint8_t *to = server_room(rig->server, session, &room);
+
+		if (room > len - at)
+			room = len - at;
+		memcpy(to, bytes + at, room);
+		server_got(rig->server, session, room);
+		at += room;
+		while (server_step(rig->server, rig->now_ns))
+			take_out(rig, session);
+		take_out(rig, session);
+		scan(rig);
+		server_step(rig->server, rig->now_ns);
+		take_out(rig, session);
+		if (!room)
+			break;
+	}
+	server_close(rig->server, session);
+	fuzz_expect(rig->resource.image.force_count <= LIMIT_FORCES, "forces are bounded");
+	fuzz_expect(image_get(&rig->resource.image,
+			      image_find(&rig->resource.image, "K", 1)).i == 7,
+		    "a constant stays");
+	fuzz_expect(image_get(&rig->resource.image,
+			      image_find(&rig->resource.image, "N", 1)).s->length <= 5,
+		    "a text is in its room");
+}
+
+/* A desk reads what a board says. */
+static void as_desk(const uint8_t *bytes, size_t len)
+{
+	static struct board_status status;
+	struct wire_reader in;
+	struct frame frame;
+	size_t used;
+
+	while (frame_next(bytes, len, &frame, &used) == FRAME_GOOD) {
+		struct iec_text text;
+
+		in = frame.body;
+		status_take(&in, &status);
+		in = frame.body;
+		while (!in.failed && wire_left(&in))
+			wire_value(&in, (enum iec_type)wire_u8(&in), &text);
+		in = frame.body;
+		while (!in.failed && wire_left(&in))
+			wire_ref(&in);
+		bytes += used;
+		len -= used;
+	}
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
+{
+	struct rig rig;
+
+	if (!len)
+		return 0;
+	rig_open(&rig);
+	as_board(&rig, bytes, len);
+	as_desk(bytes + 1, len - 1);
+	rig_close(&rig);
+	return 0;
+}
+
+static void add_name(struct wire_writer *out, const char *name)
+{
+	wire_put_u8(out, REF_NAME);
+	wire_put_string(out, name);
+}
+
+/* A session that asks for everything once. */
+uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
+{
+	static const uint8_t services[] = { SERVICE_HELLO, SERVICE_STATUS, SERVICE_SYMBOLS,
+		SERVICE_READ, SERVICE_PUBLISH, SERVICE_WRITE, SERVICE_FORCE, SERVICE_FORCES,
+		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_MODE };
+	const struct expect expect = { .mode = EXPECT_ANY };
+	uint8_t *seed = malloc(4096);
+	size_t at = 1;
+
+	(void)bytes, (void)len;
+	if (!seed)
+		return NULL;
+	seed[0] = ROLE_ENG;
+	for (size_t i = 0; i < sizeof(services); i++) {
+		struct wire_writer out = wire_write(seed + at, 4096 - at);
+
+		frame_begin(&out, services[i], 0, (uint16_t)(i + 1));
+		switch ((enum service)services[i]) {
+		case SERVICE_HELLO:
+			wire_put_u32(&out, ONLINE_MAGIC);
+			wire_put_u16(&out, 1);
+			wire_put_u16(&out, 1);
+			wire_put_string(&out, "fuzz");
+			break;
+		case SERVICE_SYMBOLS:
+			wire_put_u32(&out, 0);
+			break;
+		case SERVICE_READ:
+		case SERVICE_UNFORCE:
+		case SERVICE_PUBLISH:
+			if (services[i] == SERVICE_UNFORCE)
+				wire_put_expect(&out, &expect);
+			if (services[i] == SERVICE_PUBLISH) {
+				wire_put_u32(&out, 10000);
+				wire_put_u8(&out, 0);
+			}
+			wire_put_u16(&out, 2);
+			add_name(&out, "A");
+			add_name(&out, "T.ET");
+			break;
+		case SERVICE_WRITE:
+		case SERVICE_FORCE:
+			wire_put_expect(&out, &expect);
+			wire_put_u16(&out, 1);
+			add_name(&out, "A");
+			wire_put_u8(&out, IEC_DINT);
+			wire_put_value(&out, IEC_DINT, (union iec_value){ .i = 5 });
+			break;
+		case SERVICE_UNPUBLISH:
+			wire_put_u16(&out, 5);
+			break;
+		case SERVICE_MODE:
+			wire_put_expect(&out, &expect);
+			wire_put_u8(&out, MODE_STOP);
+			break;
+		case SERVICE_STATUS:
+		case SERVICE_FORCES:
+			break;
+		}
+		at += frame_end(&out);
+	}
+	*out_len = at;
+	return seed;
+}
