@@ -213,13 +213,19 @@ $(BUILD)/man/ladderd.8: $(HERE)/ladderd
 	@{ printf '.TH LADDERD 8 "" "Rungboard" "Rungboard"\n.SH NAME\nladderd \\- runs a ladder program on the pins of this machine\n'; \
 	  printf '.SH SYNOPSIS\n.B ladderd\n.I FILE\n.B \\-\\-io\n.I MAP\n[OPTION]...\n.SH DESCRIPTION\n.nf\n'; \
 	  $< --help | sed -e '1d' -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; printf '.fi\n.SH SEE ALSO\n.BR ladder (1)\n'; } >$@
-man: $(BUILD)/man/ladderd.8
+$(BUILD)/man/ladder-attach.1: Makefile
+	@mkdir -p $(@D)
+	@{ printf '.TH LADDER-ATTACH 1 "" "Rungboard" "Rungboard"\n.SH NAME\nladder-attach \\- joins a stream to ladderd on this board\n'; \
+	  printf '.SH SYNOPSIS\n.B ladder-attach\n.SH DESCRIPTION\nJoins standard input and output to the socket of ladderd. ssh runs it for\n.BR ladder-board (1);\n'; \
+	  printf 'it takes no argument.\n.SH FILES\n.I /run/rungboard/link\n.SH EXIT STATUS\n0 one side has ended; 1 no ladderd; 2 wrong usage.\n.SH SEE ALSO\n.BR ladderd (8)\n'; } >$@
+man: $(BUILD)/man/ladderd.8 $(BUILD)/man/ladder-attach.1
 unitdir ?= /lib/systemd/system
-install-ladderd: $(BUILD)/ladderd $(BUILD)/man/ladderd.8
+install-ladderd: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach $(BUILD)/man/ladder-attach.1) $(BUILD)/man/ladderd.8
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/share/man/man8 \
 	  $(DESTDIR)$(unitdir) $(DESTDIR)/etc/default
-	install -m 755 $(BUILD)/ladderd $(DESTDIR)$(prefix)/bin/ladderd
+	install -m 755 $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach) $(DESTDIR)$(prefix)/bin/
 	install -m 644 $(BUILD)/man/ladderd.8 $(DESTDIR)$(prefix)/share/man/man8/
+	$(if $(filter 1,$(SMALL)),,install -d $(DESTDIR)$(prefix)/share/man/man1 && install -m 644 $(BUILD)/man/ladder-attach.1 $(DESTDIR)$(prefix)/share/man/man1/)
 	sed 's|/usr/[a-z/]*ladderd |$(prefix)/bin/ladderd |' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
 	test -e $(DESTDIR)/etc/default/ladderd || { sed '$(SMALL:1=s| --retain [^"]*||)' packaging/ladderd.default \
 	  >$(DESTDIR)/etc/default/ladderd && chmod 644 $(DESTDIR)/etc/default/ladderd; }

@@ -21,7 +21,7 @@ say() {
 
 # Files of scan/ that run in a scan; the others are called between scans (symbols, carry,
 # text of an instruction, the verifier) and may use more.
-between='code|code_[a-z]*|declared|carry|symbols|symbol_index|retain_[a-z]*'
+between='code|code_[a-z]*|declared|carry|place|symbols|symbol_index|retain_[a-z]*'
 scan=
 for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
