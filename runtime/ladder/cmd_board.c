@@ -2,14 +2,12 @@
  *
  * cmd_board - `ladder board`: a session with the program that runs on a board.
  */
-#include "ladder/report.h"
+#include "ladder/remote.h"
 
 #include "engine/base/digest.h"
 #include "engine/base/version.h"
 #include "engine/scan/resource.h"
 #include "engine/trial/value.h"
-#include "online/desk.h"
-#include "online/status.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,35 +16,11 @@
 #define WATCH_US   100000
 #define NAMES_MOST 2048
 
-/* A variable that a person named, and its type on the board. */
-struct named {
-	const char *name;
-	size_t len;
-	enum iec_type type;
-	uint8_t flags;
-	union iec_value value;
-	struct iec_text text;
-};
-
-struct board_call {
-	struct call *call;
-	const char *where;
-	struct desk desk;
-	bool json;
-	struct expect expect;  /* what ran when the command began             */
-	struct named *named;
-	uint32_t count;
-	/* Of watch. */
-	uint64_t lines, most;
-	int64_t first_ns;
-	bool begun;
-};
-
-static enum status fail(const struct board_call *board, enum desk_end end)
+enum status remote_fail(const struct remote *remote, enum desk_end end)
 {
-	struct diag diag = desk_diag(&board->desk, end);
+	struct diag diag = desk_diag(&remote->desk, end);
 
-	diag.file = board->where;
+	diag.file = remote->where;
 	report_diag(diag, "%s", diag.arg);
 	return end == DESK_REFUSED ? STATUS_NO : STATUS_WRONG;
 }
@@ -79,70 +53,70 @@ static void print_json(const struct sink *out, enum iec_type type, union iec_val
 /* ---- names ---- */
 
 /* Reads the present values; this tells the types, too. */
-static enum status look(struct board_call *board)
+static enum status look(struct remote *remote)
 {
-	struct wire_writer out = desk_ask(&board->desk, SERVICE_READ);
+	struct wire_writer out = desk_ask(&remote->desk, SERVICE_READ);
 	struct wire_reader in;
 	enum desk_end end;
 
-	wire_put_u16(&out, (uint16_t)board->count);
-	for (uint32_t i = 0; i < board->count; i++) {
+	wire_put_u16(&out, (uint16_t)remote->count);
+	for (uint32_t i = 0; i < remote->count; i++) {
 		wire_put_u8(&out, REF_NAME);
-		wire_put_text(&out, board->named[i].name, board->named[i].len);
+		wire_put_text(&out, remote->named[i].name, remote->named[i].len);
 	}
-	end = desk_call(&board->desk, &out, &in);
+	end = desk_call(&remote->desk, &out, &in);
 	if (end != DESK_GOOD)
-		return fail(board, end);
+		return remote_fail(remote, end);
 	wire_u8(&in);
 	wire_u64(&in);
 	wire_i64(&in);
-	if (wire_u16(&in) != board->count)
-		return fail(board, DESK_NONSENSE);
-	for (uint32_t i = 0; i < board->count; i++) {
-		struct named *named = &board->named[i];
+	if (wire_u16(&in) != remote->count)
+		return remote_fail(remote, DESK_NONSENSE);
+	for (uint32_t i = 0; i < remote->count; i++) {
+		struct named *named = &remote->named[i];
 
 		named->flags = wire_u8(&in);
 		named->type = (enum iec_type)wire_u8(&in);
 		named->value = wire_value(&in, named->type, &named->text);
 	}
-	return in.failed ? fail(board, DESK_NONSENSE) : STATUS_GOOD;
+	return in.failed ? remote_fail(remote, DESK_NONSENSE) : STATUS_GOOD;
 }
 
 /* Takes the arguments behind the action as names; @values: as NAME=VALUE. */
-static enum status take_names(struct board_call *board, bool values)
+static enum status take_names(struct remote *remote, bool values)
 {
-	const struct call *call = board->call;
+	const struct call *call = remote->call;
 	const int count = call->arg_count - 2;
 
 	if (count < 1 || count > NAMES_MOST)
 		return report_usage(call, "%.20s needs 1 to %d names", call->arg[1], NAMES_MOST);
-	board->named = calloc((size_t)count, sizeof(*board->named));
-	if (!board->named)
-		return report_no_memory(board->where);
+	remote->named = calloc((size_t)count, sizeof(*remote->named));
+	if (!remote->named)
+		return report_no_memory(remote->where);
 	for (int i = 0; i < count; i++) {
-		struct named *named = &board->named[i];
+		struct named *named = &remote->named[i];
 
 		named->name = call->arg[2 + i];
 		named->len = strcspn(named->name, values ? "=" : "");
 		if (values && (!named->len || !named->name[named->len]))
 			return report_usage(call, "%.60s is not NAME=VALUE", named->name);
 	}
-	board->count = (uint32_t)count;
-	return look(board);
+	remote->count = (uint32_t)count;
+	return look(remote);
 }
 
-static enum status take_values(struct board_call *board)
+static enum status take_values(struct remote *remote)
 {
-	enum status status = take_names(board, true);
+	enum status status = take_names(remote, true);
 
-	for (uint32_t i = 0; i < board->count && status == STATUS_GOOD; i++) {
-		struct named *named = &board->named[i];
+	for (uint32_t i = 0; i < remote->count && status == STATUS_GOOD; i++) {
+		struct named *named = &remote->named[i];
 		const char *text = named->name + named->len + 1;
 		enum diag_id why;
 
 		if (value_parse(named->type, text, strlen(text), &named->text, &named->value, &why))
 			continue;
-		report_diag((struct diag){ .id = why, .file = board->where }, "%.100s", text);
+		report_diag((struct diag){ .id = why, .file = remote->where }, "%.100s", text);
 		status = STATUS_NO;
 	}
 	return status;
@@ -150,19 +124,19 @@ static enum status take_values(struct board_call *board)
 
 /* ---- actions ---- */
 
-static enum status ask_status(struct board_call *board, struct board_status *status)
+enum status remote_status(struct remote *remote, struct board_status *status)
 {
-	struct wire_writer out = desk_ask(&board->desk, SERVICE_STATUS);
+	struct wire_writer out = desk_ask(&remote->desk, SERVICE_STATUS);
 	struct wire_reader in;
-	const enum desk_end end = desk_call(&board->desk, &out, &in);
+	const enum desk_end end = desk_call(&remote->desk, &out, &in);
 
 	if (end != DESK_GOOD)
-		return fail(board, end);
+		return remote_fail(remote, end);
 	status_take(&in, status);
 	if (in.failed)
-		return fail(board, DESK_NONSENSE);
-	board->expect.mode = status->mode;
-	memcpy(board->expect.program, status->program, sizeof(status->program));
+		return remote_fail(remote, DESK_NONSENSE);
+	remote->expect.mode = status->mode;
+	memcpy(remote->expect.program, status->program, sizeof(status->program));
 	return STATUS_GOOD;
 }
 
@@ -268,26 +242,26 @@ static void json_status(const struct sink *out, const struct board_status *statu
 	sink_text(out, "]}\n");
 }
 
-static enum status act_status(struct board_call *board)
+static enum status act_status(struct remote *remote)
 {
 	struct board_status *status = calloc(1, sizeof(*status));
 	enum status result;
 
 	if (!status)
-		return report_no_memory(board->where);
-	result = ask_status(board, status);
-	if (result == STATUS_GOOD && board->json)
-		json_status(&board->call->out, status, &board->desk);
+		return report_no_memory(remote->where);
+	result = remote_status(remote, status);
+	if (result == STATUS_GOOD && remote->json)
+		json_status(&remote->call->out, status, &remote->desk);
 	else if (result == STATUS_GOOD)
-		print_status(&board->call->out, status, &board->desk);
+		print_status(&remote->call->out, status, &remote->desk);
 	free(status);
 	return result;
 }
 
 /* One page of symbols. Returns the number of the next page's first one; 0: no more. */
-static uint32_t print_symbols(const struct board_call *board, struct wire_reader *in, bool *any)
+static uint32_t print_symbols(const struct remote *remote, struct wire_reader *in, bool *any)
 {
-	const struct sink *out = &board->call->out;
+	const struct sink *out = &remote->call->out;
 	const uint32_t next = wire_u32(in);
 	const uint16_t count = wire_u16(in);
 
@@ -303,7 +277,7 @@ static uint32_t print_symbols(const struct board_call *board, struct wire_reader
 			in->failed = true;
 			break;
 		}
-		if (board->json) {
+		if (remote->json) {
 			sink_text(out, *any ? ",\n  {\"name\": " : "\n  {\"name\": ");
 			sink_json_string(out, name, len);
 			report_json_field("type", iec_type_row(type)->word, out);
@@ -320,44 +294,44 @@ static uint32_t print_symbols(const struct board_call *board, struct wire_reader
 	return next;
 }
 
-static enum status act_symbols(struct board_call *board)
+static enum status act_symbols(struct remote *remote)
 {
 	uint32_t from = 0;
 	bool any = false;
 
-	if (board->json)
-		sink_text(&board->call->out, "[");
+	if (remote->json)
+		sink_text(&remote->call->out, "[");
 	do {
-		struct wire_writer out = desk_ask(&board->desk, SERVICE_SYMBOLS);
+		struct wire_writer out = desk_ask(&remote->desk, SERVICE_SYMBOLS);
 		struct wire_reader in;
 		enum desk_end end;
 		uint32_t next;
 
 		wire_put_u32(&out, from);
-		end = desk_call(&board->desk, &out, &in);
+		end = desk_call(&remote->desk, &out, &in);
 		if (end != DESK_GOOD)
-			return fail(board, end);
-		next = print_symbols(board, &in, &any);
+			return remote_fail(remote, end);
+		next = print_symbols(remote, &in, &any);
 		if (in.failed || (next && next <= from))
-			return fail(board, DESK_NONSENSE);
+			return remote_fail(remote, DESK_NONSENSE);
 		from = next;
 	} while (from);
-	if (board->json)
-		sink_text(&board->call->out, "\n]\n");
+	if (remote->json)
+		sink_text(&remote->call->out, "\n]\n");
 	return STATUS_GOOD;
 }
 
-static enum status act_get(struct board_call *board)
+static enum status act_get(struct remote *remote)
 {
-	const struct sink *out = &board->call->out;
-	const enum status status = take_names(board, false);
+	const struct sink *out = &remote->call->out;
+	const enum status status = take_names(remote, false);
 
 	if (status != STATUS_GOOD)
 		return status;
-	for (uint32_t i = 0; i < board->count; i++) {
-		const struct named *named = &board->named[i];
+	for (uint32_t i = 0; i < remote->count; i++) {
+		const struct named *named = &remote->named[i];
 
-		if (board->json) {
+		if (remote->json) {
 			sink_text(out, i ? ", " : "{");
 			sink_json_text(out, named->name);
 			sink_text(out, ": ");
@@ -370,23 +344,23 @@ static enum status act_get(struct board_call *board)
 		sink_text(out, named->flags & VALUE_FORCED ? " forced" : "");
 		sink_text(out, named->flags & VALUE_STALE ? " stale\n" : "\n");
 	}
-	if (board->json)
+	if (remote->json)
 		sink_text(out, "}\n");
 	return STATUS_GOOD;
 }
 
 /* ---- watch ---- */
 
-static void print_row(struct board_call *board, uint64_t scan, int64_t now_ns)
+static void print_row(struct remote *remote, uint64_t scan, int64_t now_ns)
 {
-	const struct sink *out = &board->call->out;
-	const bool csv = call_flag(board->call, "--csv");
+	const struct sink *out = &remote->call->out;
+	const bool csv = call_flag(remote->call, "--csv");
 
 	sink_printf(out, csv ? "%llu,%lld.%03lld" : "%llu t=%lld.%03lld", (unsigned long long)scan,
-		    (long long)((now_ns - board->first_ns) / 1000000),
-		    (long long)((now_ns - board->first_ns) / 1000 % 1000));
-	for (uint32_t i = 0; i < board->count; i++) {
-		const struct named *named = &board->named[i];
+		    (long long)((now_ns - remote->first_ns) / 1000000),
+		    (long long)((now_ns - remote->first_ns) / 1000 % 1000));
+	for (uint32_t i = 0; i < remote->count; i++) {
+		const struct named *named = &remote->named[i];
 
 		sink_text(out, csv ? "," : " ");
 		if (!csv) {
@@ -396,13 +370,13 @@ static void print_row(struct board_call *board, uint64_t scan, int64_t now_ns)
 		print_value(out, named->type, named->value);
 	}
 	sink_text(out, "\n");
-	report_flush(board->call);
+	report_flush(remote->call);
 }
 
 /* A message of the board: only changed values are in it. */
 static void take_told(void *context, const struct frame *frame)
 {
-	struct board_call *board = context;
+	struct remote *remote = context;
 	struct wire_reader in = frame->body;
 	uint64_t scan;
 	int64_t now_ns;
@@ -418,7 +392,7 @@ static void take_told(void *context, const struct frame *frame)
 	count = wire_u16(&in);
 	for (uint16_t i = 0; i < count && !in.failed; i++) {
 		const uint16_t index = wire_u16(&in);
-		struct named *named = index < board->count ? &board->named[index] : NULL;
+		struct named *named = index < remote->count ? &remote->named[index] : NULL;
 
 		if (!named)
 			return;
@@ -427,14 +401,14 @@ static void take_told(void *context, const struct frame *frame)
 	}
 	if (in.failed)
 		return;
-	if (!board->begun)
-		board->first_ns = now_ns;
-	board->begun = true;
+	if (!remote->begun)
+		remote->first_ns = now_ns;
+	remote->begun = true;
 	if (lost)
-		report_diag((struct diag){ .id = DIAG_LINK_LOST, .file = board->where }, "%u",
+		report_diag((struct diag){ .id = DIAG_LINK_LOST, .file = remote->where }, "%u",
 			    (unsigned)lost);
-	print_row(board, scan, now_ns);
-	board->lines++;
+	print_row(remote, scan, now_ns);
+	remote->lines++;
 }
 
 static bool read_number(const struct call *call, const char *name, uint64_t *out)
@@ -448,144 +422,144 @@ static bool read_number(const struct call *call, const char *name, uint64_t *out
 	return *text >= '0' && *text <= '9' && !*end && *out > 0;
 }
 
-static enum status begin_watch(struct board_call *board)
+static enum status begin_watch(struct remote *remote)
 {
-	const char *period = call_option(board->call, "--period");
+	const char *period = call_option(remote->call, "--period");
 	int64_t ns = INT64_C(1000) * WATCH_US;
 	struct wire_writer out;
 	struct wire_reader in;
 	enum desk_end end;
 
 	if (period && (value_parse_time(period, strlen(period), 0, &ns) != LITERAL_OK || ns < 1000))
-		return report_usage(board->call, "--period needs a time, such as 100ms");
+		return report_usage(remote->call, "--period needs a time, such as 100ms");
 	if (ns / 1000 > UINT32_MAX)
-		return report_usage(board->call, "--period is longer than an hour");
-	out = desk_ask(&board->desk, SERVICE_PUBLISH);
+		return report_usage(remote->call, "--period is longer than an hour");
+	out = desk_ask(&remote->desk, SERVICE_PUBLISH);
 	wire_put_u32(&out, (uint32_t)(ns / 1000));
 	wire_put_u8(&out, 0);
-	wire_put_u16(&out, (uint16_t)board->count);
-	for (uint32_t i = 0; i < board->count; i++)
-		wire_put_name(&out, board->named[i].name);
-	board->desk.told = take_told;
-	board->desk.context = board;
-	end = desk_call(&board->desk, &out, &in);
-	return end == DESK_GOOD ? STATUS_GOOD : fail(board, end);
+	wire_put_u16(&out, (uint16_t)remote->count);
+	for (uint32_t i = 0; i < remote->count; i++)
+		wire_put_name(&out, remote->named[i].name);
+	remote->desk.told = take_told;
+	remote->desk.context = remote;
+	end = desk_call(&remote->desk, &out, &in);
+	return end == DESK_GOOD ? STATUS_GOOD : remote_fail(remote, end);
 }
 
-static enum status act_watch(struct board_call *board)
+static enum status act_watch(struct remote *remote)
 {
-	const struct sink *out = &board->call->out;
+	const struct sink *out = &remote->call->out;
 	enum status status;
 	enum desk_end end = DESK_GOOD;
 
-	if (!read_number(board->call, "--count", &board->most))
-		return report_usage(board->call, "--count needs a number above 0");
-	status = take_names(board, false);
+	if (!read_number(remote->call, "--count", &remote->most))
+		return report_usage(remote->call, "--count needs a number above 0");
+	status = take_names(remote, false);
 	if (status == STATUS_GOOD)
-		status = begin_watch(board);
+		status = begin_watch(remote);
 	if (status != STATUS_GOOD)
 		return status;
-	if (call_flag(board->call, "--csv")) {
+	if (call_flag(remote->call, "--csv")) {
 		sink_text(out, "scan,ms");
-		for (uint32_t i = 0; i < board->count; i++) {
+		for (uint32_t i = 0; i < remote->count; i++) {
 			sink_text(out, ",");
-			sink_text(out, board->named[i].name);
+			sink_text(out, remote->named[i].name);
 		}
 		sink_text(out, "\n");
 	}
-	while ((end == DESK_GOOD || end == DESK_LATE) && !board->call->out_failed &&
-	       (!board->most || board->lines < board->most))
-		end = desk_listen(&board->desk, 1000);
-	return end == DESK_GOOD || end == DESK_LATE ? STATUS_GOOD : fail(board, end);
+	while ((end == DESK_GOOD || end == DESK_LATE) && !remote->call->out_failed &&
+	       (!remote->most || remote->lines < remote->most))
+		end = desk_listen(&remote->desk, 1000);
+	return end == DESK_GOOD || end == DESK_LATE ? STATUS_GOOD : remote_fail(remote, end);
 }
 
 /* ---- changes ---- */
 
-static enum status finish_change(struct board_call *board, struct wire_writer *out)
+static enum status finish_change(struct remote *remote, struct wire_writer *out)
 {
 	struct wire_reader in;
-	const enum desk_end end = desk_call(&board->desk, out, &in);
+	const enum desk_end end = desk_call(&remote->desk, out, &in);
 
-	return end == DESK_GOOD ? STATUS_GOOD : fail(board, end);
+	return end == DESK_GOOD ? STATUS_GOOD : remote_fail(remote, end);
 }
 
 /* The program must still be the one that was asked for its types; its mode may change. */
-static enum status begin_change(struct board_call *board, enum service service,
+static enum status begin_change(struct remote *remote, enum service service,
 				struct wire_writer *out)
 {
 	struct board_status *status = calloc(1, sizeof(*status));
-	enum status result = status ? ask_status(board, status) : report_no_memory(board->where);
+	enum status result = status ? remote_status(remote, status) : report_no_memory(remote->where);
 
 	free(status);
 	if (result != STATUS_GOOD)
 		return result;
 	if (service != SERVICE_MODE)
-		board->expect.mode = EXPECT_ANY;
-	*out = desk_ask(&board->desk, service);
-	wire_put_expect(out, &board->expect);
+		remote->expect.mode = EXPECT_ANY;
+	*out = desk_ask(&remote->desk, service);
+	wire_put_expect(out, &remote->expect);
 	return STATUS_GOOD;
 }
 
-static enum status change_values(struct board_call *board, enum service service)
+static enum status change_values(struct remote *remote, enum service service)
 {
-	enum status status = take_values(board);
+	enum status status = take_values(remote);
 	struct wire_writer out;
 
 	if (status == STATUS_GOOD)
-		status = begin_change(board, service, &out);
+		status = begin_change(remote, service, &out);
 	if (status != STATUS_GOOD)
 		return status;
-	wire_put_u16(&out, (uint16_t)board->count);
-	for (uint32_t i = 0; i < board->count; i++) {
-		const struct named *named = &board->named[i];
+	wire_put_u16(&out, (uint16_t)remote->count);
+	for (uint32_t i = 0; i < remote->count; i++) {
+		const struct named *named = &remote->named[i];
 
 		wire_put_u8(&out, REF_NAME);
 		wire_put_text(&out, named->name, named->len);
 		wire_put_u8(&out, (uint8_t)named->type);
 		wire_put_value(&out, named->type, named->value);
 	}
-	return finish_change(board, &out);
+	return finish_change(remote, &out);
 }
 
-static enum status act_set(struct board_call *board)
+static enum status act_set(struct remote *remote)
 {
-	return change_values(board, SERVICE_WRITE);
+	return change_values(remote, SERVICE_WRITE);
 }
 
-static enum status act_force(struct board_call *board)
+static enum status act_force(struct remote *remote)
 {
-	return change_values(board, SERVICE_FORCE);
+	return change_values(remote, SERVICE_FORCE);
 }
 
-static enum status act_unforce(struct board_call *board)
+static enum status act_unforce(struct remote *remote)
 {
 	enum status status = STATUS_GOOD;
 	struct wire_writer out;
 
-	if (board->call->arg_count > 2)
-		status = take_names(board, false);
+	if (remote->call->arg_count > 2)
+		status = take_names(remote, false);
 	if (status == STATUS_GOOD)
-		status = begin_change(board, SERVICE_UNFORCE, &out);
+		status = begin_change(remote, SERVICE_UNFORCE, &out);
 	if (status != STATUS_GOOD)
 		return status;
-	wire_put_u16(&out, (uint16_t)board->count);
-	for (uint32_t i = 0; i < board->count; i++)
-		wire_put_name(&out, board->named[i].name);
-	return finish_change(board, &out);
+	wire_put_u16(&out, (uint16_t)remote->count);
+	for (uint32_t i = 0; i < remote->count; i++)
+		wire_put_name(&out, remote->named[i].name);
+	return finish_change(remote, &out);
 }
 
-static enum status act_forces(struct board_call *board)
+static enum status act_forces(struct remote *remote)
 {
-	const struct sink *sink = &board->call->out;
-	struct wire_writer out = desk_ask(&board->desk, SERVICE_FORCES);
+	const struct sink *sink = &remote->call->out;
+	struct wire_writer out = desk_ask(&remote->desk, SERVICE_FORCES);
 	struct wire_reader in;
-	const enum desk_end end = desk_call(&board->desk, &out, &in);
+	const enum desk_end end = desk_call(&remote->desk, &out, &in);
 	uint16_t count;
 
 	if (end != DESK_GOOD)
-		return fail(board, end);
+		return remote_fail(remote, end);
 	count = wire_u16(&in);
-	if (board->json)
+	if (remote->json)
 		sink_text(sink, "{");
 	for (uint16_t i = 0; i < count && !in.failed; i++) {
 		struct iec_text text;
@@ -601,7 +575,7 @@ static enum status act_forces(struct board_call *board)
 		aside = wire_value(&in, type, &text);
 		if (in.failed)
 			break;
-		if (board->json) {
+		if (remote->json) {
 			sink_text(sink, i ? ", " : "");
 			sink_json_string(sink, name, len);
 			sink_text(sink, ": ");
@@ -615,80 +589,81 @@ static enum status act_forces(struct board_call *board)
 		print_value(sink, type, aside);
 		sink_text(sink, "\n");
 	}
-	if (board->json)
+	if (remote->json)
 		sink_text(sink, "}\n");
-	return in.failed ? fail(board, DESK_NONSENSE) : STATUS_GOOD;
+	return in.failed ? remote_fail(remote, DESK_NONSENSE) : STATUS_GOOD;
 }
 
-static enum status change_mode(struct board_call *board, enum mode_wish wish)
+static enum status change_mode(struct remote *remote, enum mode_wish wish)
 {
 	struct wire_writer out;
-	const enum status status = begin_change(board, SERVICE_MODE, &out);
+	const enum status status = begin_change(remote, SERVICE_MODE, &out);
 
 	if (status != STATUS_GOOD)
 		return status;
 	wire_put_u8(&out, (uint8_t)wish);
-	return finish_change(board, &out);
+	return finish_change(remote, &out);
 }
 
-static enum status act_run(struct board_call *board)
+static enum status act_run(struct remote *remote)
 {
-	return change_mode(board, call_flag(board->call, "--cold") ? MODE_COLD : MODE_WARM);
+	return change_mode(remote, call_flag(remote->call, "--cold") ? MODE_COLD : MODE_WARM);
 }
 
-static enum status act_stop(struct board_call *board)
+static enum status act_stop(struct remote *remote)
 {
-	return change_mode(board, MODE_STOP);
+	return change_mode(remote, MODE_STOP);
 }
 
-static enum status act_reset(struct board_call *board)
+static enum status act_reset(struct remote *remote)
 {
-	return change_mode(board, MODE_RESET);
+	return change_mode(remote, MODE_RESET);
 }
 
 static const struct action {
 	const char *word;
 	bool names;                    /* takes arguments                      */
-	enum status (*act)(struct board_call *board);
+	enum status (*act)(struct remote *remote);
 } actions[] = {
 	{ "status", false, act_status },   { "symbols", false, act_symbols },
 	{ "get", true, act_get },          { "watch", true, act_watch },
 	{ "set", true, act_set },          { "force", true, act_force },
 	{ "unforce", true, act_unforce },  { "forces", false, act_forces },
 	{ "run", false, act_run },         { "stop", false, act_stop },
-	{ "reset", false, act_reset },
+	{ "reset", false, act_reset },     { "download", true, remote_download },
+	{ "upload", false, remote_upload },
 };
 
-static enum status begin(struct board_call *board, const struct stream_where *where)
+static enum status begin(struct remote *remote, const struct stream_where *where)
 {
-	const char *ssh = call_option(board->call, "--ssh");
+	const char *ssh = call_option(remote->call, "--ssh");
 	struct stream stream;
 	const int error = stream_open(where, ssh, &stream);
 	enum desk_end end;
 
 	if (error) {
-		report_diag((struct diag){ .id = DIAG_BOARD_AWAY, .file = board->where }, "%s",
+		report_diag((struct diag){ .id = DIAG_BOARD_AWAY, .file = remote->where }, "%s",
 			    strerror(-error));
 		return STATUS_WRONG;
 	}
-	end = desk_open(&board->desk, &stream, "ladder " LADDER_VERSION);
-	return end == DESK_GOOD ? STATUS_GOOD : fail(board, end);
+	end = desk_open(&remote->desk, &stream, "ladder " LADDER_VERSION);
+	return end == DESK_GOOD ? STATUS_GOOD : remote_fail(remote, end);
 }
 
 enum status cmd_board(struct call *call)
 {
-	struct board_call *board = calloc(1, sizeof(*board));
+	struct remote *remote = calloc(1, sizeof(*remote));
 	const struct action *action = NULL;
 	struct stream_where where;
 	const char *wrong = stream_parse(call->arg[0], &where);
 	enum status status;
 
-	if (!board)
+	if (!remote)
 		return report_no_memory(call->arg[0]);
-	board->call = call;
-	board->where = call->arg[0];
-	board->desk.stream.fd = -1;
-	board->json = call_flag(call, "--json");
+	remote->call = call;
+	remote->where = call->arg[0];
+	remote->desk.stream.fd = -1;
+	remote->json = call_flag(call, "--json");
 	for (size_t i = 0; i < sizeof(actions) / sizeof(actions[0]); i++)
 		if (strcmp(actions[i].word, call->arg[1]) == 0)
 			action = &actions[i];
@@ -699,11 +674,11 @@ enum status cmd_board(struct call *call)
 	else if (!action->names && call->arg_count > 2)
 		status = report_usage(call, "%s takes no names", action->word);
 	else
-		status = begin(board, &where);
+		status = begin(remote, &where);
 	if (status == STATUS_GOOD)
-		status = action->act(board);
-	desk_close(&board->desk);
-	free(board->named);
-	free(board);
+		status = action->act(remote);
+	desk_close(&remote->desk);
+	free(remote->named);
+	free(remote);
 	return status;
 }

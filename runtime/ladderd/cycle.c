@@ -29,6 +29,7 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 	const struct program *program = resource->image.program;
 	int64_t limit_ns = 0;
 
+	cycle->wanted_ns = period_ns;
 	cycle->period_ns = tasks_tick(program, period_ns, PERIOD);
 	cycle->watchdog = watchdog;
 	wall_offset(&cycle->wall, 0); /* allocates at its first call */
@@ -310,6 +311,8 @@ int cycle_run(struct cycle *cycle)
 	bool ready = false, was_fault = false;
 
 	start(cycle);
+	if (cycle->begin_stopped)
+		resource_stop(&cycle->resource);
 	while (!is_done(cycle)) {
 		if (cycle->resource.state == STATE_RUN) {
 			if (was_fault)

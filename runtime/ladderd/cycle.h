@@ -32,6 +32,9 @@ struct cycle {
 	int64_t period_ns;   /* from one cycle to the next                  */
 	int64_t watchdog;      /* late scans in a row, or periods of one scan */
 	bool tasks;            /* tasks are declared: each has its own limit  */
+	int64_t wanted_ns;     /* --period; 0: not given                      */
+	bool begin_stopped;    /* there is no program yet                     */
+	bool restart;          /* ends in order to begin with the newest slot */
 	uint64_t most_scans;   /* 0: no limit                                 */
 	/* Since the daemon began. */
 	uint64_t scans;
@@ -62,6 +65,14 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog);
  * Returns the exit status: 1 if it ended in FAULT, else 0.
  */
 int cycle_run(struct cycle *cycle);
+struct standby;
+/**
+ * cycle_swap - goes on with the program of @standby, in the state of the present one
+ *
+ * Retained values are not stored until cycle->store is set again. Scan-safe: between scans.
+ * Fails: REFUSAL_CONFLICT: it was made beside another program; nothing has changed.
+ */
+enum refusal cycle_swap(struct cycle *cycle, struct standby *standby);
 /**
  * cycle_mode - what a desk orders: stop, run, reset
  *

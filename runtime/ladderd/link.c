@@ -9,6 +9,7 @@
 #define _GNU_SOURCE /* accept4() */
 #include "ladderd/link.h"
 #include "ladderd/control.h"
+#include "ladderd/download.h"
 #include "ladderd/peer.h"
 #include "online/server.h"
 
@@ -41,6 +42,11 @@ struct link {
 	struct exchange exchange;
 	struct exchange_host host;
 	struct server *server;
+	struct server_store store;
+	struct link_store with;
+	struct download *download;
+	struct store *retain;          /* that of the cycle                    */
+	struct order store_order;
 	struct peer_groups groups;
 	uint8_t *views;
 	char path[108];
@@ -80,6 +86,16 @@ static enum refusal host_mode(void *context, enum mode_wish wish)
 static void host_status(void *context, struct board_status *status)
 {
 	control_fill_status(((struct link *)context)->cycle, status);
+}
+
+static enum refusal host_swap(void *context, void *other)
+{
+	return cycle_swap(((struct link *)context)->cycle, other);
+}
+
+static void host_store(void *context, void *other)
+{
+	((struct link *)context)->cycle->store = other;
 }
 
 void link_serve(struct link *link)
@@ -139,6 +155,90 @@ static void amend_status(void *context, struct board_status *status)
 	status->up_ms = (uint64_t)(up_ns / 1000000);
 	status->cpu_permille = (uint32_t)(up_ns > 1000 ? busy_us * 1000 / (up_ns / 1000) : 0);
 	status->memory_bytes = (uint64_t)used.ru_maxrss * 1024;
+}
+
+/* ---- downloads ---- */
+
+static enum refusal store_begin_download(void *context, const uint32_t len[STORED_PARTS],
+					 const uint8_t sha[32], uint32_t *received)
+{
+	return download_begin(((struct link *)context)->download, len, sha, received);
+}
+
+static enum refusal store_block(void *context, uint32_t offset, const uint8_t *bytes, size_t len,
+				uint32_t *received)
+{
+	return download_block(((struct link *)context)->download, offset, bytes, len, received);
+}
+
+static enum refusal store_verify(void *context, struct standby_view *out, char *detail,
+				 size_t size)
+{
+	return download_verify(((struct link *)context)->download, out, detail, size);
+}
+
+static enum refusal store_slot(void *context, char *detail, size_t size)
+{
+	return download_store(((struct link *)context)->download, detail, size);
+}
+
+static void store_abort(void *context)
+{
+	download_abort(((struct link *)context)->download);
+}
+
+static const struct stored *store_running(void *context)
+{
+	return download_running(((struct link *)context)->download);
+}
+
+static void store_restart(void *context)
+{
+	struct link *link = context;
+
+	link->cycle->restart = true;
+	link->cycle->requests->stop = 1;
+}
+
+/* Stores the values of the new program in the same file; it has those of the old one, which
+ * the scan thread has carried over. */
+static void store_retained_again(struct link *link, struct standby *standby)
+{
+	struct store_wish wish = *link->with.retain;
+	struct image *cold = arena_alloc(&standby->arena, sizeof(*cold));
+	void *memory = arena_alloc(&standby->arena, standby->view_size);
+	int status;
+
+	if (!cold || !memory) {
+		control_tell("no memory: retained values are not stored any more");
+		return;
+	}
+	wish.quiet = true;
+	image_init(cold, &standby->program, memory);
+	link->retain = store_open(&wish, cold, &standby->arena, &status);
+	if (!link->retain || store_begin(link->retain) != 0) {
+		control_tell("retained values are not stored any more");
+		return;
+	}
+	link->store_order = (struct order){ .kind = ORDER_STORE, .other = link->retain };
+	exchange_post(&link->exchange, &link->store_order);
+	wait_for_scan(link);
+}
+
+static const struct program *store_swapped(void *context)
+{
+	struct link *link = context;
+	const bool retains = link->retain;
+	struct standby *standby;
+
+	if (retains)
+		store_close(link->retain); /* it has names of the program that goes */
+	link->retain = NULL;
+	standby = download_swapped(link->download);
+	exchange_renew(&link->exchange, standby->views, standby->view_size);
+	if (retains)
+		store_retained_again(link, standby);
+	return &standby->program;
 }
 
 static void hang_up(struct link *link, int i)
@@ -334,16 +434,25 @@ void link_close(struct link *link)
 		atomic_store(&link->stop, true);
 		if (write(link->wake, &one, sizeof(one)) < 0)
 			errno = 0; /* the counter is full, so the thread is awake */
-		while (link->runs && pthread_join(link->thread, NULL) == EINTR)
-			continue;
+		pthread_join(link->thread, NULL);
+		link->cycle->store = link->retain;
 	}
-	if (link->listening >= 0) {
+	if (link->listening >= 0)
 		close(link->listening);
+	if (*link->path)
 		unlink(link->path);
-	}
 	if (link->wake >= 0)
 		close(link->wake);
+	link->runs = false;
+	link->listening = link->wake = -1;
+}
+
+void link_free(struct link *link)
+{
+	if (!link)
+		return;
 	server_free(link->server);
+	download_free(link->download);
 	free(link->views);
 	free(link);
 }
@@ -354,6 +463,7 @@ static struct link *refuse(struct link *link, const char *path, const char *why)
 	if (link) {
 		link->path[0] = '\0';
 		link_close(link);
+		link_free(link);
 	}
 	return NULL;
 }
@@ -407,6 +517,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	const struct server_setup setup = {
 		.exchange = &link->exchange, .program = program, .board = cycle->board,
 		.wait = wait_for_scan, .amend = amend_status, .context = link,
+		.store = &link->store,
 	};
 
 	link->views = calloc(3, size);
@@ -414,14 +525,22 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		return false;
 	link->host = (struct exchange_host){
 		.context = link, .resource = host_resource, .identity = host_identity,
-		.mode = host_mode, .status = host_status,
+		.mode = host_mode, .status = host_status, .swap = host_swap, .store = host_store,
+	};
+	link->store = (struct server_store){
+		.begin = store_begin_download, .block = store_block, .verify = store_verify,
+		.store = store_slot, .swapped = store_swapped, .restart = store_restart,
+		.abort = store_abort, .running = store_running,
 	};
 	exchange_init(&link->exchange, &link->host, link->views, size);
 	link->server = server_new(&setup);
-	return link->server;
+	link->download = download_new(link->with.slots, cycle, link->with.map_text,
+				      link->with.map_len);
+	return link->server && link->download;
 }
 
-struct link *link_open(const char *path, const char *groups, struct cycle *cycle)
+struct link *link_open(const char *path, const char *groups, struct cycle *cycle,
+		       const struct link_store *store)
 {
 	struct link *link = calloc(1, sizeof(*link));
 	int error;
@@ -429,6 +548,8 @@ struct link *link_open(const char *path, const char *groups, struct cycle *cycle
 	if (!link)
 		return refuse(link, path, "out of memory");
 	link->cycle = cycle;
+	link->with = *store;
+	link->retain = cycle->store;
 	link->listening = link->wake = -1;
 	for (int i = 0; i < SERVER_SESSIONS; i++)
 		link->fd[i] = -1;

@@ -12,15 +12,25 @@
 
 struct link;
 
+/* Where downloads go. */
+struct link_store {
+	struct slots *slots;
+	const struct store_wish *retain;
+	const char *map_text;          /* of the map that runs; borrowed       */
+	size_t map_len;
+};
+
 /**
  * link_open - makes the socket
  * @path:  of the socket; one that no process listens at is replaced
+ * @store: copied; without a folder of slots, downloads are refused
  * @groups: the file that gives the groups their numbers
  * @cycle: with its resource and identity; must not move
  *
  * Owns: the caller, link_close(). Scan-safe: no. Fails: NULL after a message.
  */
-struct link *link_open(const char *path, const char *groups, struct cycle *cycle);
+struct link *link_open(const char *path, const char *groups, struct cycle *cycle,
+		       const struct link_store *store);
 /** link_begin - starts the thread; the calling thread is the one that scans. Fails: -errno. */
 int link_begin(struct link *link);
 /** link_serve - does what desks have ordered. Between scans. Scan-safe: yes. */
@@ -31,6 +41,9 @@ void link_show(struct link *link, int64_t now_ns);
  * an order. Scan-safe: yes. */
 void link_doze(struct link *link);
 void link_wake(struct link *link);
-/** link_close - ends all sessions and the thread, removes the socket. */
+/** link_close - ends all sessions and the thread, removes the socket. The cycle's store is
+ * the one to be closed then. */
 void link_close(struct link *link);
+/** link_free - also frees the program that runs, if a download brought it. */
+void link_free(struct link *link);
 #endif

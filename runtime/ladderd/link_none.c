@@ -4,12 +4,14 @@
  */
 #include "ladderd/link.h"
 #include "ladderd/control.h"
+#include "ladderd/download.h"
 
 #include <errno.h>
 
-struct link *link_open(const char *path, const char *groups, struct cycle *cycle)
+struct link *link_open(const char *path, const char *groups, struct cycle *cycle,
+		       const struct link_store *store)
 {
-	(void)path, (void)groups, (void)cycle;
+	(void)path, (void)groups, (void)cycle, (void)store;
 	control_tell("--link: this ladderd is built without it");
 	return NULL;
 }
@@ -43,4 +45,29 @@ void link_wake(struct link *link)
 void link_close(struct link *link)
 {
 	(void)link;
+}
+
+void link_free(struct link *link)
+{
+	(void)link;
+}
+
+bool slots_open(struct slots *slots, const char *folder, const char *file, const char *map)
+{
+	(void)file, (void)map;
+	*slots = (struct slots){ .folder = folder };
+	if (folder)
+		control_tell("--slots: this ladderd is built without it");
+	return false;
+}
+
+void slots_close(struct slots *slots)
+{
+	(void)slots;
+}
+
+enum refusal cycle_swap(struct cycle *cycle, struct standby *standby)
+{
+	(void)cycle, (void)standby;
+	return REFUSAL_NO_STORE;
 }

@@ -12,6 +12,15 @@
 
 #define MAP_BYTES (4u << 20)
 
+/* The text stays in the arena: a download compares its map with it. */
+static bool take_map(struct load *load, const char *file, const char *text, size_t len)
+{
+	load->map_text = arena_copy(&load->arena, text, len);
+	load->map_len = len;
+	return load->map_text && iomap_read(&load->map, &load->arena, file, load->map_text, len,
+					    &load->diags);
+}
+
 static bool load_map(struct load *load, const char *path)
 {
 	size_t len;
@@ -22,10 +31,16 @@ static bool load_map(struct load *load, const char *path)
 		load->unreadable = true;
 		return false;
 	}
-	good = iomap_read(&load->map, &load->arena, path, text, len,
-			  &load->diags);
+	good = take_map(load, path, text, len);
 	free(text);
 	return good;
+}
+
+static bool check_both(struct load *load, bool program, bool map)
+{
+	return program && map &&
+	       iomap_check_program(&load->map, &load->source.program, &load->arena,
+				   &load->diags);
 }
 
 bool load_files(struct load *load, const char *file, const char *map, bool watch)
@@ -36,10 +51,18 @@ bool load_files(struct load *load, const char *file, const char *map, bool watch
 	diag_init(&load->diags);
 	good = source_load(&load->source, file, watch);
 	load->unreadable = load->source.unreadable;
-	if (!load_map(load, map) || !good)
-		return false;
-	return iomap_check_program(&load->map, &load->source.program, &load->arena,
-				   &load->diags);
+	return check_both(load, good, load_map(load, map));
+}
+
+bool load_texts(struct load *load, const void *program, size_t program_len, const char *map,
+		size_t map_len)
+{
+	bool good;
+
+	arena_init(&load->arena);
+	diag_init(&load->diags);
+	good = source_load_text(&load->source, "program", program, program_len, true);
+	return check_both(load, good, take_map(load, "map", map, map_len));
 }
 
 void load_free(struct load *load)

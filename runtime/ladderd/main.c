@@ -9,6 +9,7 @@
 #include "engine/base/version.h"
 #include "hal/drivers.h"
 #include "ladderd/control.h"
+#include "ladderd/download.h"
 #include "ladderd/link.h"
 #include "ladderd/load.h"
 #include "ladderd/options.h"
@@ -27,6 +28,7 @@
 struct daemon {
 	struct options options;
 	struct load load;
+	struct slots slots;
 	struct cycle cycle;
 };
 
@@ -130,7 +132,7 @@ static int run_lines(struct daemon *daemon, int64_t limit_ns)
 	monitor_stop(&cycle->monitor);
 	hal_write_safe(&cycle->hal);
 	if (cycle->link)
-		link_close(cycle->link);
+		link_close(cycle->link); /* its store may be another one */
 	if (cycle->store)
 		store_close(cycle->store); /* may wait for a slow disk */
 	if (cycle->clock_error)
@@ -139,6 +141,18 @@ static int run_lines(struct daemon *daemon, int64_t limit_ns)
 	if (cycle->most_scans)
 		control_status(cycle, true);
 	return status;
+}
+
+static bool open_link(struct daemon *daemon)
+{
+	struct cycle *cycle = &daemon->cycle;
+	const struct link_store store = {
+		.slots = &daemon->slots, .retain = &daemon->options.retain,
+		.map_text = daemon->load.map_text, .map_len = daemon->load.map_len,
+	};
+
+	cycle->link = link_open(daemon->options.link, daemon->options.groups, cycle, &store);
+	return cycle->link;
 }
 
 static int run(struct daemon *daemon)
@@ -183,15 +197,12 @@ static int run(struct daemon *daemon)
 			store_close(cycle->store);
 		return 1;
 	}
-	if (options->link) {
-		cycle->link = link_open(options->link, options->groups, cycle);
-		if (!cycle->link) {
-			hal_close(&cycle->hal);
-			notify_close(&cycle->notify);
-			if (cycle->store)
-				store_close(cycle->store);
-			return 1;
-		}
+	if (options->link && !open_link(daemon)) {
+		hal_close(&cycle->hal);
+		notify_close(&cycle->notify);
+		if (cycle->store)
+			store_close(cycle->store);
+		return 1;
 	}
 	if (options->trace_io)
 		cycle->hal.trace = control_trace;
@@ -202,14 +213,37 @@ static int run(struct daemon *daemon)
 	safe_on_crash(NULL, NULL);
 	hal_close(&cycle->hal);
 	notify_close(&cycle->notify);
+	link_free(cycle->link);
+	cycle->link = NULL;
 	return status;
+}
+
+/* The newest slot; else the files of the command line; else a program that does nothing, so
+ * that a desk can bring one. */
+static bool load_program(struct daemon *daemon)
+{
+	static const char empty[] = "RUNGBOARD 1\nPROJECT \"none\"\n\nPROGRAM Main LD\nEND_PROGRAM\n";
+	static const char lines[] = "BOARD \"no program\"\n";
+	const struct options *options = &daemon->options;
+	struct load *load = &daemon->load;
+	const struct stored *stored = &daemon->slots.slot.stored;
+
+	if (slots_open(&daemon->slots, options->slots, options->file, options->map))
+		return load_texts(load, stored_part(stored, STORED_IMAGE), stored->len[STORED_IMAGE],
+				  (const char *)stored_part(stored, STORED_MAP),
+				  stored->len[STORED_MAP]);
+	if (options->file)
+		return load_files(load, options->file, options->map, options->link);
+	fprintf(stderr, "ladderd: no program yet: STOP\n");
+	daemon->cycle.begin_stopped = true;
+	return load_texts(load, empty, sizeof(empty) - 1, lines, sizeof(lines) - 1);
 }
 
 static int load_and_run(struct daemon *daemon)
 {
 	const struct options *options = &daemon->options;
 	struct load *load = &daemon->load;
-	bool good = load_files(load, options->file, options->map, options->link);
+	bool good = load_program(daemon);
 
 	if (good && options->check)
 		good = hal_supported(&load->map, &load->diags);
@@ -228,6 +262,7 @@ static int load_and_run(struct daemon *daemon)
 int main(int argc, char **argv)
 {
 	struct daemon *daemon = calloc(1, sizeof(*daemon));
+	bool restart = false;
 	int status;
 
 	if (!daemon) {
@@ -247,7 +282,15 @@ int main(int argc, char **argv)
 	} else {
 		status = load_and_run(daemon);
 		load_free(&daemon->load);
+		slots_close(&daemon->slots);
+		restart = daemon->cycle.restart;
 	}
 	free(daemon);
+	if (restart) {
+		fflush(NULL);
+		execv("/proc/self/exe", argv);
+		fprintf(stderr, "ladderd: cannot start again: %s\n", strerror(errno));
+		return 1;
+	}
 	return status;
 }

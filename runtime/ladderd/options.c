@@ -29,6 +29,8 @@ const char *options_help(void)
 "  --retain-period TIME  time between writes of FILE, 10ms to 1h; default 10s\n"
 "  --cold           start without the values in FILE\n"
 "  --link SOCKET    let desks watch and change it (docs/online.md)\n"
+"  --slots FOLDER   store the programs that desks download; FILE and MAP are only\n"
+"                   needed until the first one, and used again when they change\n"
 "  --groups FILE    with --link: the groups, instead of /etc/group\n"
 "  --scans N        stop after N scans or at a FAULT, and print the status\n"
 "  --check          load everything, open no line, print the memory needed\n"
@@ -61,6 +63,7 @@ static const struct option_row {
 	{ "--retain-period", TIME,   AT(retain.period_ns), STORE_PERIOD_LEAST,
 	  STORE_PERIOD_MOST },
 	{ "--link",          TEXT,   AT(link),      0, 0 },
+	{ "--slots",         TEXT,   AT(slots),     0, 0 },
 	{ "--groups",        TEXT,   AT(groups),    0, 0 },
 	{ "--cold",          FLAG,   AT(retain.cold), 0, 0 },
 	{ "--scans",         NUMBER, AT(scans),     1, INT64_MAX },
@@ -168,6 +171,8 @@ bool options_read(struct options *options, int argc, char **argv)
 			options->file = argv[i];
 	}
 	if (options->help || options->version)
+		return true;
+	if (!options->file && !options->map && options->slots && options->link)
 		return true;
 	if (!options->file)
 		return wrong(options, "FILE", "is missing");

@@ -83,11 +83,28 @@ static void on_tick(int signal_number, siginfo_t *about, void *context)
 	errno = error;
 }
 
+static int set_limit(int64_t limit_ns)
+{
+	struct itimerval tick;
+
+	/* setitimer() uses the monotonic clock, too; timer_create() would link thread code
+	 * of the C library. */
+	tick.it_value.tv_sec = limit_ns / 2 / 1000000000;
+	tick.it_value.tv_usec = limit_ns / 2 % 1000000000 / 1000;
+	tick.it_interval = tick.it_value;
+	return setitimer(ITIMER_REAL, &tick, NULL) ? -errno : 0;
+}
+
+/* It cannot fail when it has worked once. */
+void monitor_limit(int64_t limit_ns)
+{
+	set_limit(limit_ns);
+}
+
 int monitor_start(struct monitor *monitor, struct hal *hal,
 		  struct requests *asked, int64_t limit_ns)
 {
 	struct sigaction action;
-	struct itimerval tick;
 
 	memset(monitor, 0, sizeof(*monitor));
 	monitor->hal = hal;
@@ -99,12 +116,7 @@ int monitor_start(struct monitor *monitor, struct hal *hal,
 	sigemptyset(&action.sa_mask);
 	if (sigaction(SIGALRM, &action, NULL) != 0)
 		return -errno;
-	/* setitimer() uses the monotonic clock, too; timer_create() would link thread code
-	 * of the C library. */
-	tick.it_value.tv_sec = limit_ns / 2 / 1000000000;
-	tick.it_value.tv_usec = limit_ns / 2 % 1000000000 / 1000;
-	tick.it_interval = tick.it_value;
-	return setitimer(ITIMER_REAL, &tick, NULL) ? -errno : 0;
+	return set_limit(limit_ns);
 }
 
 void monitor_stop(struct monitor *monitor)

@@ -50,6 +50,8 @@ struct monitor {
  */
 int monitor_start(struct monitor *monitor, struct hal *hal,
 		  struct requests *requests, int64_t limit_ns);
+/** monitor_limit - another limit from now on. Scan-safe: between scans, a system call. */
+void monitor_limit(int64_t limit_ns);
 void monitor_stop(struct monitor *monitor);
 /** monitor_begin, monitor_end - called around each scan. Scan-safe: yes, no system call. */
 void monitor_begin(struct monitor *monitor);

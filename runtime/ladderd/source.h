@@ -24,6 +24,9 @@ const char *source_kinds(void);
 /** source_load - @watch: also makes what stores the power of cells. Owns: source_free(), also after a failure. Scan-safe: no.
  * Fails: false and diagnostics. */
 bool source_load(struct source *source, const char *path, bool watch);
+/** source_load_text - the same from memory; @file names it in diagnostics. */
+bool source_load_text(struct source *source, const char *file, const void *text, size_t len,
+		      bool watch);
 /**
  * source_settle - frees what was needed only for loading and diagnostics
  *

@@ -14,18 +14,22 @@ const char *source_kinds(void)
 	return "rung files and code images";
 }
 
-bool source_load(struct source *source, const char *path, bool watch)
+static bool begin(struct source *source, const char *file, bool watch)
 {
-	struct ladder *ladder = ladder_new_terse();
-	bool good;
-
 	diag_init(&source->diags);
-	source->own = ladder;
-	if (!ladder)
+	source->own = ladder_new_terse();
+	if (!source->own)
 		return diag_add(&source->diags, (struct diag){
-			.id = DIAG_NO_MEMORY, .file = path }, "%s", "");
-	ladder_watch(ladder, watch);
-	good = ladder_load(ladder, path) && ladder_build(ladder);
+			.id = DIAG_NO_MEMORY, .file = file }, "%s", "");
+	ladder_watch(source->own, watch);
+	return true;
+}
+
+static bool finish(struct source *source, bool good)
+{
+	struct ladder *ladder = source->own;
+
+	good = good && ladder_build(ladder);
 	source->diags = *ladder_diags(ladder);
 	source->unreadable = !good && !ladder_could_read(ladder);
 	if (!good)
@@ -34,6 +38,18 @@ bool source_load(struct source *source, const char *path, bool watch)
 	ladder_image(ladder, &source->image_bytes);
 	source->other_bytes = ladder_memory(ladder);
 	return true;
+}
+
+bool source_load(struct source *source, const char *path, bool watch)
+{
+	return begin(source, path, watch) && finish(source, ladder_load(source->own, path));
+}
+
+bool source_load_text(struct source *source, const char *file, const void *text, size_t len,
+		      bool watch)
+{
+	return begin(source, file, watch) &&
+	       finish(source, ladder_load_text(source->own, file, text, len));
 }
 
 /* Keeps only the image; text and translation of 1,000 rungs take some megabytes. */

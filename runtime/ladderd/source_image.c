@@ -35,6 +35,15 @@ bool source_load(struct source *source, const char *path, bool watch)
 	return good || diag_add(&source->diags, place, "byte %zu", where);
 }
 
+/* Without --slots nothing comes from memory. */
+bool source_load_text(struct source *source, const char *file, const void *text, size_t len,
+		      bool watch)
+{
+	(void)text, (void)len, (void)watch;
+	diag_init(&source->diags);
+	return diag_add(&source->diags, (struct diag){ .id = DIAG_NO_MEMORY, .file = file }, "%s", "");
+}
+
 bool source_settle(struct source *source)
 {
 	return source->image;

@@ -23,6 +23,7 @@ struct store_wish {
 	const char *path;
 	int64_t period_ns;
 	bool cold;             /* stored values are not used                 */
+	bool quiet;            /* says only what is wrong                    */
 };
 
 /**

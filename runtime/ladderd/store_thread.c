@@ -52,6 +52,7 @@ struct store {
 	bool any;              /* the scan gave at least one copy            */
 	bool up_to_date;       /* the file holds `stored`                    */
 	bool failing;
+	bool quiet;            /* of store_wish                              */
 	int64_t period_ns, changed_ns, dirty_ns, wrote_ns;
 	pthread_t thread;
 	bool runs;
@@ -331,6 +332,8 @@ static void take_payload(struct store *store, const struct retain_found *found)
 	store->up_to_date = store->file.fits && lost == 0 && !found->old_copy &&
 			    kept == (uint32_t)store->retain.count;
 	memcpy(store->stored.value, copy->value, store->retain.copy_size);
+	if (store->quiet)
+		return;
 	fprintf(stderr, "ladderd: warm start: %u values of copy %u%s%s\n",
 		(unsigned)kept, (unsigned)found->seq,
 		store->old_copy ? "; a copy beside it cannot be read and may "
@@ -347,7 +350,7 @@ static void start_values(struct store *store, const struct store_wish *wish,
 	store_file_adopt(&store->file, &found,
 			 retain_room(store->retain.payload_size));
 	atomic_store(&store->seq, store->file.seq);
-	if (wish->cold) {
+	if (wish->cold && !wish->quiet) {
 		fprintf(stderr, "ladderd: cold start: the values in %s are "
 			"not used\n", wish->path);
 	} else if (found.best >= 0) {
@@ -357,7 +360,7 @@ static void start_values(struct store *store, const struct store_wish *wish,
 		fprintf(stderr, "ladderd: %s: %s; all retained values are "
 			"lost\n", wish->path, error ? strerror(-error) :
 			"no copy in it can be read");
-	} else {
+	} else if (!wish->quiet) {
 		fprintf(stderr, "ladderd: %s: a new file, no values yet\n",
 			wish->path);
 	}
@@ -438,6 +441,7 @@ struct store *store_open(const struct store_wish *wish,
 			      LIMIT_RETAIN ? "too many retained values" :
 			      "out of memory");
 	store->period_ns = wish->period_ns;
+	store->quiet = wish->quiet;
 	store->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
 	if (store->wake < 0)
 		return refuse(wish, strerror(errno));

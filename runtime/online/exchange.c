@@ -20,6 +20,13 @@ void exchange_init(struct exchange *exchange, const struct exchange_host *host,
 	atomic_init(&exchange->order, NULL);
 }
 
+/* The scan thread touches no view while nothing is watched. */
+void exchange_renew(struct exchange *exchange, uint8_t *memory, size_t size)
+{
+	for (size_t i = 0; i < 3; i++)
+		exchange->view[i].memory = memory + i * size;
+}
+
 /* ---- the scan thread ---- */
 
 static void copy_ranges(const struct watch *watch, struct view *view,
@@ -137,6 +144,12 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 		return host->mode(host->context, order->mode);
 	case ORDER_STATUS:
 		host->status(host->context, order->status);
+		break;
+	case ORDER_SWAP:
+		exchange->watch = (struct watch){ .serial = exchange->watch.serial };
+		return host->swap(host->context, order->other);
+	case ORDER_STORE:
+		host->store(host->context, order->other);
 		break;
 	case ORDER_COUNT:
 		break;

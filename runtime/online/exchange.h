@@ -54,6 +54,8 @@ enum order_kind {
 	ORDER_FORCES,  /* copies the list of forces                           */
 	ORDER_MODE,
 	ORDER_STATUS,
+	ORDER_SWAP,    /* another program runs from now on                    */
+	ORDER_STORE,   /* the daemon goes on to store retained values         */
 	ORDER_COUNT
 };
 
@@ -73,6 +75,7 @@ struct order {
 	enum mode_wish mode;
 	struct board_status *status;   /* ORDER_STATUS                          */
 	struct image *forces;          /* ORDER_FORCES: gets only the forces    */
+	void *other;                   /* ORDER_SWAP, ORDER_STORE: the host's   */
 	/* The result. */
 	enum refusal refusal;
 	uint32_t wrong;                /* the item that was refused             */
@@ -88,6 +91,9 @@ struct exchange_host {
 	const uint8_t *(*identity)(void *context);
 	/** RUN, STOP, reset. Returns REFUSAL_NONE when it was done. */
 	enum refusal (*mode)(void *context, enum mode_wish wish);
+	/** Exchanges the program. Watches end. */
+	enum refusal (*swap)(void *context, void *other);
+	void (*store)(void *context, void *other);
 	/** Fills in what only the scan thread knows. */
 	void (*status)(void *context, struct board_status *status);
 };
@@ -113,6 +119,10 @@ struct exchange {
  */
 void exchange_init(struct exchange *exchange, const struct exchange_host *host,
 		   uint8_t *memory, size_t size);
+
+/** exchange_renew - the same for another program, after an ORDER_SWAP was done: until then
+ * nothing is watched. Link thread. */
+void exchange_renew(struct exchange *exchange, uint8_t *memory, size_t size);
 
 /* ---- the scan thread ---- */
 

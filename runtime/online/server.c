@@ -8,6 +8,7 @@
 #include "online/server.h"
 
 #include "engine/base/version.h"
+#include "engine/scan/carry.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -33,6 +34,7 @@ struct kept {
 
 struct session {
 	bool used, greeted, over;
+	bool changed;          /* to be told: another program runs            */
 	enum role role;
 	char user[64];
 	uint64_t requests;
@@ -45,13 +47,16 @@ struct session {
 };
 
 struct server {
+	int downloading;       /* the session whose download it is; -1: none  */
 	struct server_setup setup;
 	/* Given to the scan thread with an order, so not touched until it is done. */
 	struct order order;
 	struct board_status status;
 	struct image held;     /* only its forces                             */
 	struct watch look_watch;
-	bool stuck;            /* the order was not done in time              */
+	struct standby_view standby;
+	bool verified;
+	bool no_memory;        /* for the image of a new program: no reading  */
 	/* The program over the memory of a view, with the forces of the board. */
 	struct image mirror;
 	struct view look;
@@ -73,17 +78,16 @@ struct server {
 
 static enum refusal give(struct server *server)
 {
-	if (server->stuck && !exchange_is_done(server->setup.exchange))
+	if (!exchange_is_done(server->setup.exchange))
 		return REFUSAL_BUSY;
 	exchange_post(server->setup.exchange, &server->order);
-	server->stuck = !server->setup.wait(server->setup.context);
-	return server->stuck ? REFUSAL_BUSY : server->order.refusal;
+	return server->setup.wait(server->setup.context) ? server->order.refusal : REFUSAL_BUSY;
 }
 
 /* An order may be given only if the one before is done: it is the same memory. */
 static bool can_order(const struct server *server)
 {
-	return !server->stuck || exchange_is_done(server->setup.exchange);
+	return exchange_is_done(server->setup.exchange);
 }
 
 /* Learns the forces of the board anew. */
@@ -364,7 +368,8 @@ static enum refusal serve_read(struct asked *asked)
 	struct server *server = asked->server;
 	const struct program *program = server->setup.program;
 	uint32_t count;
-	enum refusal refusal = take_count(asked, REFS_MOST, &count);
+	enum refusal refusal = server->no_memory ? REFUSAL_MEMORY :
+			       take_count(asked, REFS_MOST, &count);
 
 	if (refusal == REFUSAL_NONE)
 		refusal = take_places(asked, count);
@@ -649,6 +654,244 @@ static enum refusal serve_symbols(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
+/* ---- another program ---- */
+
+/* All that sessions have asked to be sent names places of the old program. */
+static void end_publications(struct server *server)
+{
+	for (int i = 0; i < SERVER_SESSIONS; i++) {
+		publish_init(&server->session[i].publications);
+		server->session[i].symbol = 0;
+		server->session[i].changed = true;
+	}
+}
+
+/* The link's own copy of the image is as large as the program's. */
+static void server_renew(struct server *server, const struct program *program)
+{
+	uint8_t *memory = calloc(1, image_memory_size(program));
+
+	end_publications(server);
+	server->setup.program = program;
+	server->mirror.program = program;
+	server->mirror.force_count = 0;
+	if (memory) {
+		free(server->look.memory);
+		server->look.memory = memory;
+	}
+	server->no_memory = !memory;
+	server->mirror.memory = server->look.memory;
+}
+
+/* ---- download, upload ---- */
+
+/* Only the session that began it goes on with it. */
+static enum refusal own_download(const struct asked *asked)
+{
+	if (!asked->server->setup.store)
+		return REFUSAL_NO_STORE;
+	return asked->server->downloading == asked->session - asked->server->session ?
+		       REFUSAL_NONE : REFUSAL_NO_DOWNLOAD;
+}
+
+static enum refusal serve_download(struct asked *asked)
+{
+	struct server *server = asked->server;
+	struct wire_reader *in = &asked->frame.body;
+	struct stored wanted = { .bytes = NULL };
+	const uint8_t *sha;
+	uint32_t received;
+	enum refusal refusal;
+
+	for (int i = 0; i < STORED_PARTS; i++)
+		wanted.len[i] = wire_u32(in);
+	sha = wire_bytes(in, 32);
+	if (!wire_done(in))
+		return REFUSAL_BAD_FRAME;
+	if (!server->setup.store)
+		return REFUSAL_NO_STORE;
+	if (server->downloading >= 0 && own_download(asked) != REFUSAL_NONE)
+		return REFUSAL_NO_DOWNLOAD;
+	snprintf(asked->detail, sizeof(asked->detail), "%u bytes at most", STORED_MOST);
+	if (!stored_size(&wanted))
+		return REFUSAL_TOO_MANY;
+	asked->detail[0] = '\0';
+	refusal = server->setup.store->begin(server->setup.context, wanted.len, sha, &received);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	server->downloading = (int)(asked->session - server->session);
+	server->verified = false;
+	begin_answer(asked, 0);
+	wire_put_u32(&asked->out, received);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_block(struct asked *asked)
+{
+	struct server *server = asked->server;
+	struct wire_reader *in = &asked->frame.body;
+	const uint32_t offset = wire_u32(in);
+	const size_t len = wire_left(in);
+	const uint8_t *bytes = wire_bytes(in, len);
+	uint32_t received;
+	enum refusal refusal = own_download(asked);
+
+	if (in->failed || !len)
+		return REFUSAL_BAD_FRAME;
+	if (refusal == REFUSAL_NONE)
+		refusal = server->setup.store->block(server->setup.context, offset, bytes, len,
+						     &received);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	server->verified = false;
+	begin_answer(asked, 0);
+	wire_put_u32(&asked->out, received);
+	return REFUSAL_NONE;
+}
+
+struct losses {
+	struct wire_writer *out;
+	uint32_t count, told;
+};
+
+static void put_loss(void *context, const struct carry_loss *loss)
+{
+	struct losses *losses = context;
+
+	losses->count++;
+	if ((size_t)(losses->out->end - losses->out->at) < SYMBOL_BYTES)
+		return; /* counted, not named */
+	losses->told++;
+	wire_put_u8(losses->out, (uint8_t)loss->reason);
+	wire_put_string(losses->out, loss->name);
+}
+
+static enum refusal serve_verify(struct asked *asked)
+{
+	struct server *server = asked->server;
+	struct losses losses = { .out = &asked->out };
+	enum refusal refusal = own_download(asked);
+	uint8_t *head;
+
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	if (!wire_done(&asked->frame.body))
+		return REFUSAL_BAD_FRAME;
+	refusal = learn_forces(server);
+	if (refusal == REFUSAL_NONE)
+		refusal = server->setup.store->verify(server->setup.context, &server->standby,
+						      asked->detail, sizeof(asked->detail));
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	server->verified = true;
+	begin_answer(asked, 0);
+	wire_put_u8(&asked->out, server->standby.same_map);
+	wire_put_bytes(&asked->out, server->standby.identity, 32);
+	head = asked->out.at;
+	wire_put_u32(&asked->out, 0);
+	wire_put_u32(&asked->out, 0);
+	server->held.program = server->setup.program;
+	server->held.memory = NULL;
+	carry_plan_losses(server->standby.plan, &server->held, put_loss, &losses);
+	asked->out.failed |= losses.told > losses.count;
+	{
+		struct wire_writer fill = wire_write(head, 8);
+
+		wire_put_u32(&fill, losses.count);
+		wire_put_u32(&fill, losses.told);
+	}
+	return REFUSAL_NONE;
+}
+
+static enum refusal swap(struct asked *asked, const struct expect *expect)
+{
+	struct server *server = asked->server;
+	enum refusal refusal;
+
+	server->order = (struct order){ .kind = ORDER_SWAP, .other = server->standby.standby,
+					.expects = true, .expect = *expect };
+	refusal = give(server);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	server_renew(server, server->setup.store->swapped(server->setup.context));
+	return learn_forces(server);
+}
+
+static enum refusal serve_commit(struct asked *asked)
+{
+	struct server *server = asked->server;
+	const struct server_store *store = server->setup.store;
+	struct wire_reader *in = &asked->frame.body;
+	const struct expect expect = wire_expect(in);
+	const uint8_t how = wire_u8(in);
+	enum refusal refusal = own_download(asked);
+
+	if (!wire_done(in) || how > 1)
+		return REFUSAL_BAD_FRAME;
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	if (!server->verified)
+		return REFUSAL_NO_DOWNLOAD;
+	if (how == 0 && !server->standby.same_map)
+		return REFUSAL_MAP_CHANGED;
+	if (!can_order(server))
+		return REFUSAL_BUSY;
+	/* Nothing is written for a desk that is stale. */
+	server->order = (struct order){ .kind = ORDER_STATUS, .status = &server->status,
+					.expects = true, .expect = expect };
+	refusal = give(server);
+	if (refusal == REFUSAL_NONE)
+		refusal = store->store(server->setup.context, asked->detail,
+				       sizeof(asked->detail));
+	if (refusal == REFUSAL_NONE && how == 0)
+		refusal = swap(asked, &expect);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	if (how == 1)
+		store->restart(server->setup.context);
+	server->downloading = -1;
+	begin_answer(asked, 0);
+	wire_put_u64(&asked->out, server->order.scan);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_abort(struct asked *asked)
+{
+	const enum refusal refusal = own_download(asked);
+
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	if (!wire_done(&asked->frame.body))
+		return REFUSAL_BAD_FRAME;
+	asked->server->setup.store->abort(asked->server->setup.context);
+	asked->server->downloading = -1;
+	begin_answer(asked, 0);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_upload(struct asked *asked)
+{
+	const struct server_store *store = asked->server->setup.store;
+	const uint32_t offset = wire_u32(&asked->frame.body);
+	const struct stored *stored;
+	uint32_t size, len;
+
+	if (!wire_done(&asked->frame.body))
+		return REFUSAL_BAD_FRAME;
+	if (!store)
+		return REFUSAL_NO_STORE;
+	stored = store->running(asked->server->setup.context);
+	size = stored_size(stored);
+	if (offset > size)
+		return REFUSAL_BAD_FRAME;
+	len = size - offset < STORED_BLOCK ? size - offset : STORED_BLOCK;
+	begin_answer(asked, 0);
+	for (int i = 0; i < STORED_PARTS; i++)
+		wire_put_u32(&asked->out, stored->len[i]);
+	wire_put_bytes(&asked->out, stored->bytes + offset, len);
+	return REFUSAL_NONE;
+}
+
 /* ---- requests ---- */
 
 static enum refusal serve(struct asked *asked)
@@ -676,6 +919,18 @@ static enum refusal serve(struct asked *asked)
 		return wire_done(&asked->frame.body) ? serve_forces(asked) : REFUSAL_BAD_FRAME;
 	case SERVICE_MODE:
 		return serve_mode(asked);
+	case SERVICE_DOWNLOAD:
+		return serve_download(asked);
+	case SERVICE_BLOCK:
+		return serve_block(asked);
+	case SERVICE_VERIFY:
+		return serve_verify(asked);
+	case SERVICE_COMMIT:
+		return serve_commit(asked);
+	case SERVICE_ABORT:
+		return serve_abort(asked);
+	case SERVICE_UPLOAD:
+		return serve_upload(asked);
 	}
 	return REFUSAL_NO_SERVICE;
 }
@@ -683,7 +938,8 @@ static enum refusal serve(struct asked *asked)
 static bool is_change(const struct service_row *row)
 {
 	return row->number == SERVICE_WRITE || row->number == SERVICE_FORCE ||
-	       row->number == SERVICE_UNFORCE || row->number == SERVICE_MODE;
+	       row->number == SERVICE_UNFORCE || row->number == SERVICE_MODE ||
+	       row->number == SERVICE_COMMIT;
 }
 
 /* Gives the answer of the same request again; it is not done again. */
@@ -793,11 +1049,25 @@ static bool serve_next(struct server *server, struct session *session)
 	return true;
 }
 
+/* The publish requests of the session have ended. */
+static void tell_changed(struct session *session)
+{
+	struct wire_writer out = wire_write(session->out, sizeof(session->out));
+
+	frame_begin(&out, SERVICE_COMMIT, WIRE_TOLD, 0);
+	session->out_len = frame_end(&out);
+	session->changed = false;
+}
+
 static void publish_next(struct server *server, struct session *session, int64_t now_ns)
 {
 	const struct view *view;
 	struct wire_writer out;
 
+	if (session->changed && session->greeted && !session->over && !session->out_len) {
+		tell_changed(session);
+		return;
+	}
 	if (session->over || publish_due(&session->publications) > now_ns)
 		return;
 	if (session->out_len) {
@@ -851,7 +1121,7 @@ int server_open(struct server *server, enum role role, const char *user)
 		if (session->used)
 			continue;
 		session->used = true;
-		session->greeted = session->over = false;
+		session->greeted = session->over = session->changed = false;
 		session->role = role;
 		session->requests = session->symbol = 0;
 		session->in_len = session->out_len = session->out_sent = 0;
@@ -866,6 +1136,8 @@ int server_open(struct server *server, enum role role, const char *user)
 void server_close(struct server *server, int session)
 {
 	server->session[session].used = false;
+	if (server->downloading == session)
+		server->downloading = -1; /* what has come stays; it may go on */
 	if (publish_due(&server->session[session].publications) != INT64_MAX)
 		watch_again(server);
 }
@@ -925,6 +1197,7 @@ struct server *server_new(const struct server_setup *setup)
 	if (!server)
 		return NULL;
 	server->setup = *setup;
+	server->downloading = -1;
 	server->mirror.program = setup->program;
 	server->look.memory = calloc(1, size);
 	server->mirror.memory = server->look.memory;

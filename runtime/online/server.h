@@ -13,15 +13,44 @@
 
 #include "online/exchange.h"
 #include "online/publish.h"
+#include "online/stored.h"
 
 #define SERVER_SESSIONS 8
 
 struct server;
 
+/* A program that a download brought, verified. */
+struct standby_view {
+	void *standby;                 /* of the daemon; goes with ORDER_SWAP  */
+	uint8_t identity[32];
+	bool same_map;                 /* the lines need not be opened again   */
+	const struct carry_plan *plan;
+};
+
+/* Where downloads go; all by the link thread. A detail is a part of a diagnostic. */
+struct server_store {
+	/** A download of so many bytes with this hash; @received: of one that was cut. */
+	enum refusal (*begin)(void *context, const uint32_t len[STORED_PARTS],
+			      const uint8_t sha[32], uint32_t *received);
+	/** @received: bytes that are there afterwards, also after a refusal. */
+	enum refusal (*block)(void *context, uint32_t offset, const uint8_t *bytes, size_t len,
+			      uint32_t *received);
+	enum refusal (*verify)(void *context, struct standby_view *out, char *detail, size_t size);
+	/** Writes it to a slot. */
+	enum refusal (*store)(void *context, char *detail, size_t size);
+	/** After ORDER_SWAP: frees the program before, and stores retained values again. */
+	const struct program *(*swapped)(void *context);
+	/** Ends the daemon, which then starts with the newest slot. */
+	void (*restart)(void *context);
+	void (*abort)(void *context);
+	const struct stored *(*running)(void *context);
+};
+
 struct server_setup {
 	struct exchange *exchange;
 	const struct program *program;
 	const char *board;     /* name of the board; borrowed                 */
+	const struct server_store *store; /* NULL: downloads are refused       */
 	/** Waits until the order of the exchange is done, at most some seconds.
 	 * Returns whether it is. */
 	bool (*wait)(void *context);

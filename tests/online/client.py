@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """A client of the link, made from docs/online.md alone: it shares no code with the program."""
+import hashlib
 import socket
 import struct
 
-(HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE) = range(1, 12)
+(HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE,
+ DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD) = range(1, 18)
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
 FORMS = [None, '?', 'B', 'H', 'I', 'Q', 'b', 'h', 'i', 'q', 'B', 'H', 'I', 'Q', 'f', 'd', 'q', 'q', 'q', 'q', None]
@@ -218,6 +220,43 @@ class Client:
 
     def set_mode(self, wish, **expect):
         self.call(MODE, self.expect(**expect) + bytes([wish]))
+
+    def begin(self, parts):
+        """parts: image, map, sources. Returns how many bytes are there already."""
+        return self.call(DOWNLOAD, struct.pack('<III', *map(len, parts)) +
+                         hashlib.sha256(b''.join(parts)).digest()).number('I')
+
+    def send_from(self, data, at, most=60000):
+        while at < len(data):
+            at = self.call(BLOCK, struct.pack('<I', at) + data[at:at + most]).number('I')
+
+    def verify(self):
+        """(same map, identity, how many losses, {name: why})"""
+        it = self.call(VERIFY)
+        same, identity, count = it.number('B'), it.take(32), it.number('I')
+        losses = {}
+        for _ in range(it.number('I')):
+            why = it.number('B')
+            losses[it.text()] = why
+        return same, identity, count, losses
+
+    def commit(self, restart=False, **expect):
+        return self.call(COMMIT, self.expect(**expect) + bytes([restart])).number('Q')
+
+    def download(self, parts, restart=False, **expect):
+        self.send_from(b''.join(parts), self.begin(parts))
+        verified = self.verify()
+        self.commit(restart, **expect)
+        return verified
+
+    def upload(self):
+        data = b''
+        while True:
+            it = self.call(UPLOAD, struct.pack('<I', len(data)))
+            sizes = [it.number('I') for _ in range(3)]
+            data += it.rest()
+            if len(data) == sum(sizes):
+                return [data[:sizes[0]], data[sizes[0]:sizes[0] + sizes[1]], data[sizes[0] + sizes[1]:]]
 
 
 def take_values(fields, types):

@@ -81,6 +81,7 @@ class Board:
         self.write('board.io', board)
         self.write('group', ''.join(f'ladder-{role}:x:{gid}:\n' for role, gid in GROUPS.items()))
         self.options = options
+        self.arguments = ['program.rung', '--io', 'board.io']
         self.start()
 
     def write(self, name, text):
@@ -94,7 +95,7 @@ class Board:
     def start(self, wait=True):
         with open(self.folder + '/out', 'w') as out, open(self.folder + '/err', 'w') as err:
             self.daemon = subprocess.Popen(
-                [BUILD + '/ladderd', 'program.rung', '--io', 'board.io', '--link', 'link', '--groups', 'group',
+                [BUILD + '/ladderd', *self.arguments, '--link', 'link', '--groups', 'group',
                  '--trace-io', *self.options], cwd=self.folder, stdout=out, stderr=err, stdin=subprocess.DEVNULL,
                 **as_user(OWN))
         while wait and self.daemon.poll() is None:
@@ -462,6 +463,293 @@ def test_reset_ends_a_fault():
         assert desk.status()['mode'] == client.RUN
 
 
+# ---- download ----
+
+def build(board, name, text):
+    """The parts of a download, made by `ladder build`; names of sources are not looked at."""
+    board.write(name, text)
+    subprocess.run([BUILD + '/ladder', 'build', name, '-o', name + 'c'], cwd=board.folder, check=True,
+                   capture_output=True, **as_user(OWN))
+    with open(f'{board.folder}/{name}c', 'rb') as image:
+        data = image.read()
+    source = text.encode()
+    return [data, board.read('board.io').encode(),
+            struct.pack('<H', 1) + client.text(name) + struct.pack('<I', len(source)) + source]
+
+
+OTHER = SEAL.replace('PT:=T#2s', 'PT:=T#9s').replace('  Count : INT;', '  Count : DINT;').replace(
+    'ADD IN1:=Count IN2:=Most OUT=>Count', 'SUB IN1:=Count IN2:=Count OUT=>Count')
+
+
+def slots(*options):
+    return Board(SEAL, '--slots', '.', *options)
+
+
+def reached(board, check):
+    """Whether a board that starts again is there, and @check is true."""
+    try:
+        return check(board.client())
+    except (OSError, Gone):
+        return False
+
+
+def test_download_goes_on_with_values():
+    with slots() as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True)})
+        until(lambda: desk.read('Slow.ET')[0] > 100000000)
+        desk.write({'Label': (STRING, b'kept')})
+        parts = build(board, 'other.rung', OTHER)
+        before = desk.status()
+        elapsed = desk.read('Slow.ET')[0]
+        same, identity, count, losses = desk.download(parts)
+        assert same == 1 and count == 1 and losses == {'Count': 2}, losses
+        now = desk.status()
+        assert now['program'] == identity != before['program']
+        assert now['forces'] == 1 and now['mode'] == client.RUN and now['missed'] == before['missed']
+        values = desk.read('Slow.ET', 'Slow.PT', 'Label', 'Count', 'Motor')
+        assert values[0] >= elapsed and values[1:] == [9000000000, b'kept', 0, True], values
+        assert 'QX0.0 0' not in board.read('err').split('another program runs')[1]
+
+
+def test_download_tells_other_desks():
+    with slots() as board:
+        desk, other = board.client(), board.client()
+        _request, types = other.publish(['Motor'])
+        client.take_values(other.next_told()[1], types)
+        old = other.status()['program']
+        desk.download(build(board, 'other.rung', OTHER))
+        number, fields = other.next_told()
+        assert number == 0 and not fields.rest()
+        refused(6, lambda: other.write({'Label': (STRING, b'x')}, program=old))
+        assert other.read('Label') == [b'hello']
+
+
+def test_upload_gives_back_what_was_downloaded():
+    with slots() as board:
+        desk = board.client()
+        image, lines, sources = desk.upload()
+        assert lines == MAP.encode() and not sources and image.startswith(b'RUNGCODE')
+        parts = build(board, 'other.rung', OTHER)
+        desk.download(parts)
+        assert desk.upload() == parts
+        parts[2] = struct.pack('<H', 1) + client.text('big.rung') + struct.pack('<I', 300000) + b'y' * 300000
+        desk.download(parts)
+        assert desk.upload() == parts
+
+
+def test_a_damaged_download_changes_nothing():
+    draw = random.Random(3)
+    with slots() as board:
+        desk = board.client()
+        parts = build(board, 'other.rung', OTHER)
+        data = b''.join(parts)
+        before = desk.status()['program']
+        for _ in range(int(os.environ.get('LINK_FLIPS', 60))):
+            bad = bytearray(data)
+            bad[draw.randrange(len(bad))] ^= 1 << draw.randrange(8)
+            desk.begin(parts)
+            desk.send_from(bytes(bad), 0, draw.randrange(100, 60000))
+            refused(22, desk.verify)
+            refused(21, desk.commit)
+        for _ in range(int(os.environ.get('LINK_FLIPS', 60))):
+            # With a hash that fits: the image has a checksum of its own.
+            bad = [bytearray(parts[0]), parts[1], parts[2]]
+            bad[0][draw.randrange(len(bad[0]))] ^= 1 << draw.randrange(8)
+            desk.send_from(b''.join(bad), desk.begin(bad))
+            refused(23, desk.verify)
+            desk.call(client.ABORT)
+        refused(21, desk.verify)
+        assert desk.status()['program'] == before and not os.path.exists(board.folder + '/prog.A')
+        assert desk.read('Label') == [b'hello']
+
+
+def test_a_download_cut_anywhere_changes_nothing():
+    draw = random.Random(5)
+    with slots() as board:
+        desk = board.client()
+        parts = build(board, 'other.rung', OTHER)
+        image = parts[0]
+        before = desk.status()['program']
+        for end in range(0, len(image), 1 if 'LINK_FLIPS' in os.environ else 97):
+            cut = [image[:end], parts[1], parts[2]]
+            desk.send_from(b''.join(cut), desk.begin(cut), draw.randrange(500, 60000))
+            refused(23, desk.verify)
+            desk.call(client.ABORT)
+        assert desk.status()['program'] == before
+
+
+def test_a_cut_download_goes_on():
+    with slots() as board:
+        desk = board.client()
+        parts = build(board, 'other.rung', OTHER)
+        data = b''.join(parts)
+        assert desk.begin(parts) == 0
+        assert desk.call(client.BLOCK, struct.pack('<I', 0) + data[:1000]).number('I') == 1000
+        refused(22, lambda: desk.call(client.BLOCK, struct.pack('<I', 1001) + b'gap'))
+        other = board.client()
+        refused(21, lambda: other.begin(parts))
+        desk.close()
+        until(lambda: other.status()['sessions'] == 1)
+        assert other.begin(parts) == 1000
+        refused(22, other.verify)
+        other.send_from(data, 1000)
+        other.verify()
+        refused(6, lambda: other.commit(program=bytes(32)))
+        other.commit()
+        assert other.upload() == parts
+
+
+def test_a_refused_program_says_why():
+    with slots() as board:
+        desk = board.client()
+        parts = build(board, 'other.rung', OTHER)
+        parts[1] = b'BOARD "x"\n%QX0.0 nonsense\n'
+        desk.send_from(b''.join(parts), desk.begin(parts))
+        refused(23, desk.verify, 'map:2:')
+        parts[0] = b'no image'
+        desk.call(client.ABORT)
+        desk.send_from(b''.join(parts), desk.begin(parts))
+        refused(23, desk.verify, 'LD610')
+        refused(11, lambda: desk.call(client.DOWNLOAD, struct.pack('<III', 16 << 20, 1, 0) + bytes(32)))
+    with Board() as board:
+        refused(20, lambda: board.client().begin([b'a', b'b', b'c']))
+
+
+def test_another_map_needs_a_restart():
+    with slots() as board:
+        desk = board.client()
+        parts = build(board, 'other.rung', OTHER)
+        parts[1] = b'BOARD "new lines"\n%IX0.0 sim\n%QX0.0 sim\n%QX0.1 sim\n'
+        desk.send_from(b''.join(parts), desk.begin(parts))
+        assert desk.verify()[0] == 0
+        refused(24, desk.commit)
+        desk.commit(restart=True)
+        until(lambda: reached(board, lambda it: it.board == 'new lines'))
+        assert board.client().upload() == parts and board.daemon.poll() is None
+
+
+def test_the_stored_program_runs_after_a_start():
+    with slots() as board:
+        identity = board.client().download(build(board, 'other.rung', OTHER))[1]
+        board.stop()
+        board.start()
+        assert board.client().status()['program'] == identity
+        # Both files of the command line are older, until one of them changes.
+        board.write('board.io', MAP + '# changed\n')
+        board.stop()
+        board.start()
+        assert board.client().status()['program'] != identity and 'has changed' in board.read('err')
+
+
+def test_a_damaged_slot_gives_the_other_one():
+    with slots() as board:
+        desk = board.client()
+        first = build(board, 'other.rung', OTHER)
+        second = build(board, 'third.rung', OTHER.replace('T#9s', 'T#7s'))
+        one, two = desk.download(first)[1], desk.download(second)[1]
+        board.stop()
+        with open(board.folder + '/prog.B', 'r+b') as slot:
+            slot.seek(200)
+            slot.write(b'damage')
+        board.start()
+        assert board.client().status()['program'] == one != two
+        assert 'prog.B is damaged' in board.read('err')
+
+
+def test_without_a_program_it_waits_in_stop():
+    with slots() as board:
+        parts = build(board, 'other.rung', OTHER)
+        board.stop()
+        board.arguments = []
+        board.start()
+        desk = board.client()
+        assert desk.status()['mode'] == client.STOP
+        desk.send_from(b''.join(parts), desk.begin(parts))
+        desk.verify()
+        desk.commit(restart=True)
+        until(lambda: reached(board, lambda it: it.status()['mode'] == client.RUN))
+        assert board.client().upload() == parts
+
+
+def test_a_disk_that_takes_nothing():
+    with slots() as board:
+        desk = board.client()
+        before = desk.status()['program']
+        parts = build(board, 'other.rung', OTHER)
+        desk.send_from(b''.join(parts), desk.begin(parts))
+        desk.verify()
+        os.mkdir(board.folder + '/prog.A')
+        refused(25, desk.commit, 'prog.A')
+        assert desk.status()['program'] == before
+        os.rmdir(board.folder + '/prog.A')
+        desk.verify()
+        desk.commit()
+        assert desk.upload() == parts
+
+
+def test_retained_values_survive_a_download_and_a_start():
+    retained = SEAL.replace("  Label : STRING := 'hello';\n", '').replace(
+        'VAR CONSTANT', "VAR RETAIN\n  Label : STRING := 'hello';\nEND_VAR\nVAR CONSTANT")
+    with Board(retained, '--slots', '.', '--retain', 'retain', '--retain-period', '10ms') as board:
+        desk = board.client()
+        desk.write({'Label': (STRING, b'first')})
+        desk.download(build(board, 'other.rung', retained.replace('T#2s', 'T#3s')))
+        assert desk.read('Label') == [b'first']
+        desk.write({'Label': (STRING, b'second')})
+        scans = desk.status()['scans']
+        until(lambda: desk.status()['scans'] > scans + 2)
+        board.stop()
+        board.start()
+        assert board.client().read('Label') == [b'second']
+
+
+def test_programs_in_turn():
+    # Each scan runs one version: Step counts by 1 in one and by 1000000 in the other. A timer goes on.
+    up = SEAL.replace('  Count : INT;', '  Count : INT;\n  Step : LINT;\n  Scans : LINT;').replace(
+        'RUNG\n  | NO Start | ADD',
+        'RUNG\n  | NO SYS_ALWAYS_ON | ADD IN1:=Step IN2:=1 OUT=>Step | ADD IN1:=Scans IN2:=1 OUT=>Scans |\n'
+        'RUNG\n  | NO Start | ADD').replace('PT:=T#2s', 'PT:=T#1h')
+    down = up.replace('IN2:=1 OUT=>Step', 'IN2:=1000000 OUT=>Step')
+    with Board(up, '--slots', '.') as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True)})
+        until(lambda: desk.read('Motor') == [True])
+        programs = [build(board, 'up.rung', up), build(board, 'down.rung', down)]
+        for turn in range(int(os.environ.get('LINK_SWAPS', 60))):
+            desk.download(programs[(turn + 1) % 2])
+        step, scans, elapsed, other = desk.read('Step', 'Scans', 'Slow.ET', 'Scans')
+        by_million, by_one = divmod(step, 1000000)
+        assert by_million + by_one == scans == other and by_million and by_one, (step, scans)
+        assert elapsed > (scans - 60) * 9000000, (elapsed, scans)
+
+
+def test_a_kill_in_a_download_leaves_the_old_program_or_the_new_one():
+    draw = random.Random(11)
+    with slots() as board:
+        known = {}
+        for i in range(2):
+            parts = build(board, f'p{i}.rung', OTHER.replace('T#9s', f'T#{i + 3}s'))
+            known[board.client().download(parts)[1]] = parts
+        for kill in range(int(os.environ.get('LINK_KILLS', 12))):
+            now = board.client().status()['program']
+            parts = next(it for identity, it in known.items() if identity != now)
+            child = os.fork()
+            if not child:
+                try:
+                    board.client().download(parts)
+                finally:
+                    os._exit(0)
+            time.sleep(draw.random() * 0.03)
+            board.daemon.kill()
+            board.daemon.wait()
+            os.waitpid(child, 0)
+            board.start()
+            desk = board.client()
+            found = desk.status()['program']
+            assert found in known and desk.upload() == known[found], kill
+
+
 # ---- roles ----
 
 def in_role(board, gid, do, uid=25000):
@@ -508,17 +796,23 @@ def try_all(desk):
         'run': number(lambda: desk.set_mode(1, program=program)),
         'cold': number(lambda: desk.set_mode(2, program=program)),
         'reset': number(lambda: desk.set_mode(3, program=program)),
+        'download': number(lambda: desk.begin([b'a', b'b', b''])), 'block': number(lambda: desk.send_from(b'ab', 0)),
+        'verify': number(desk.verify), 'commit': number(lambda: desk.commit(program=program)),
+        'abort': number(lambda: desk.call(client.ABORT)), 'upload': number(desk.upload),
     }
 
 
 def test_each_role_may_do_what_the_table_says():
     reading = 'status symbols read publish unpublish forces'.split()
     changing = 'write force unforce stop run cold'.split()
+    moving = 'download block verify commit abort upload'.split()
+    nothing = dict.fromkeys(changing + moving, 5)
     expected = {
-        None: {**dict.fromkeys(reading + changing, 5), 'reset': 5},
-        'view': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 5), 'reset': 5},
-        'oper': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 5), 'write': 17, 'reset': 6},
-        'eng': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 6), 'reset': 6},
+        None: {**dict.fromkeys(reading, 5), **nothing, 'reset': 5},
+        'view': {**dict.fromkeys(reading, 0), **nothing, 'reset': 5},
+        'oper': {**dict.fromkeys(reading, 0), **nothing, 'write': 17, 'reset': 6},
+        'eng': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 6), **dict.fromkeys(moving, 0), 'reset': 6,
+                'verify': 22, 'commit': 21},
     }
 
     def ask(desk):
@@ -526,7 +820,7 @@ def test_each_role_may_do_what_the_table_says():
         desk.expect = lambda mode=ANY, program=None: bytes([mode]) + bytes(32)
         return try_all(desk)
 
-    with Board() as board:
+    with slots() as board:
         for role, table in expected.items():
             found = in_role(board, GROUPS.get(role), ask)
             assert found == table, (role, found)

@@ -1,0 +1,441 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * board_program - download and upload of `ladder board`: a program, its I/O map and its
+ * sources go to a board and come back.
+ */
+#define _XOPEN_SOURCE 700 /* mkdir() */
+#include "ladder/remote.h"
+#include "ladder/tty.h"
+
+#include "engine/base/digest.h"
+#include "engine/base/file.h"
+#include "engine/scan/carry.h"
+#include "hal/iomap.h"
+#include "online/stored.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Bytes that grow. */
+struct bytes {
+	uint8_t *at;
+	size_t len, room;
+	bool failed;
+};
+
+static void add(struct bytes *bytes, const void *more, size_t len)
+{
+	if (bytes->len + len > bytes->room) {
+		const size_t room = 2 * (bytes->len + len);
+		uint8_t *at = bytes->failed ? NULL : realloc(bytes->at, room);
+
+		if (!at) {
+			bytes->failed = true;
+			return;
+		}
+		bytes->at = at;
+		bytes->room = room;
+	}
+	if (len)
+		memcpy(bytes->at + bytes->len, more, len);
+	bytes->len += len;
+}
+
+/* ---- what goes to the board ---- */
+
+/* The name that a file has in the sources: from the folder of the program on. */
+static const char *source_name(const char *path, const char *main_path)
+{
+	const char *slash = strrchr(main_path, '/'), *own = strrchr(path, '/');
+	const size_t folder = slash ? (size_t)(slash + 1 - main_path) : 0;
+
+	if (strncmp(path, main_path, folder) == 0 && !strstr(path + folder, "..") &&
+	    path[folder] != '/')
+		return path + folder;
+	return own ? own + 1 : path;
+}
+
+static bool add_source(struct bytes *bytes, const char *path, const char *main_path)
+{
+	const char *name = source_name(path, main_path);
+	uint8_t head[6];
+	struct wire_writer out = wire_write(head, sizeof(head));
+	size_t len;
+	char *text = report_read(path, &len);
+
+	if (!text)
+		return false;
+	wire_put_u16(&out, (uint16_t)strlen(name));
+	add(bytes, head, 2);
+	add(bytes, name, strlen(name));
+	wire_put_u32(&out, (uint32_t)len);
+	add(bytes, head + 2, 4);
+	add(bytes, text, len);
+	free(text);
+	return true;
+}
+
+/* u16 how many, and for each a text, u32 length, bytes. A code image has none. */
+static bool add_sources(struct bytes *bytes, struct ladder *ladder, const char *path)
+{
+	const struct project *project = ladder_project(ladder);
+	const uint16_t count = project ? (uint16_t)(1 + project->used_count) : 0;
+	const uint8_t head[2] = { (uint8_t)count, (uint8_t)(count >> 8) };
+	bool good = true;
+
+	add(bytes, head, sizeof(head));
+	if (!project || ladder_import_project(ladder))
+		return true;
+	good = add_source(bytes, path, path);
+	for (int i = 0; i < project->used_count && good; i++)
+		good = add_source(bytes, project->used[i], path);
+	return good;
+}
+
+static enum status read_map(const char *path, const struct program *program, char **text,
+			    size_t *len)
+{
+	struct diag_list *diags = report_list(path);
+	struct arena arena;
+	struct iomap map;
+	bool good = false;
+
+	if (!diags)
+		return STATUS_WRONG;
+	arena_init(&arena);
+	*text = report_read(path, len);
+	if (*text)
+		good = iomap_read(&map, &arena, path, *text, *len, diags) &&
+		       iomap_check_program(&map, program, &arena, diags);
+	report_end(diags);
+	arena_free(&arena);
+	return good ? STATUS_GOOD : *text ? STATUS_NO : STATUS_WRONG;
+}
+
+/* Image, map and sources, one after another. */
+static enum status gather(struct remote *remote, struct machine *machine, struct stored *stored,
+			  struct bytes *bytes)
+{
+	const struct call *call = remote->call;
+	enum status status = machine_open(machine, call->arg[2], MACHINE_AS_FILE | MACHINE_WATCHED);
+	size_t image_len = 0, map_len = 0;
+	const void *image;
+	char *map = NULL;
+
+	if (status != STATUS_GOOD)
+		return status;
+	status = read_map(call->arg[3], ladder_program(machine->ladder), &map, &map_len);
+	if (status == STATUS_GOOD) {
+		image = ladder_image(machine->ladder, &image_len);
+		add(bytes, image, image_len);
+		add(bytes, map, map_len);
+		if (!add_sources(bytes, machine->ladder, call->arg[2]))
+			status = STATUS_WRONG;
+	}
+	free(map);
+	if (bytes->failed)
+		return report_no_memory(call->arg[2]);
+	stored->len[STORED_IMAGE] = (uint32_t)image_len;
+	stored->len[STORED_MAP] = (uint32_t)map_len;
+	stored->len[STORED_SOURCES] = (uint32_t)(bytes->len - image_len - map_len);
+	stored->bytes = bytes->at;
+	return status;
+}
+
+/* ---- download ---- */
+
+static enum status begin_download(struct remote *remote, const struct stored *stored,
+				  uint32_t *received)
+{
+	struct wire_writer out = desk_ask(&remote->desk, SERVICE_DOWNLOAD);
+	struct digest_sha256 sha;
+	struct wire_reader in;
+	enum desk_end end;
+	uint8_t hash[32];
+
+	digest_sha256_init(&sha);
+	digest_sha256_add(&sha, stored->bytes, stored_size(stored));
+	digest_sha256_end(&sha, hash);
+	for (int i = 0; i < STORED_PARTS; i++)
+		wire_put_u32(&out, stored->len[i]);
+	wire_put_bytes(&out, hash, sizeof(hash));
+	end = desk_call(&remote->desk, &out, &in);
+	*received = end == DESK_GOOD ? wire_u32(&in) : 0;
+	return end == DESK_GOOD ? STATUS_GOOD : remote_fail(remote, end);
+}
+
+static enum status send_blocks(struct remote *remote, const struct stored *stored,
+			       uint32_t received)
+{
+	const uint32_t size = stored_size(stored);
+
+	while (received < size) {
+		struct wire_writer out = desk_ask(&remote->desk, SERVICE_BLOCK);
+		const uint32_t len = size - received < STORED_BLOCK ? size - received :
+								      STORED_BLOCK;
+		struct wire_reader in;
+		enum desk_end end;
+		uint32_t now;
+
+		wire_put_u32(&out, received);
+		wire_put_bytes(&out, stored->bytes + received, len);
+		end = desk_call(&remote->desk, &out, &in);
+		if (end != DESK_GOOD)
+			return remote_fail(remote, end);
+		now = wire_u32(&in);
+		if (in.failed || now <= received || now > size)
+			return remote_fail(remote, DESK_NONSENSE);
+		received = now;
+	}
+	return STATUS_GOOD;
+}
+
+static const char *loss_text(uint8_t reason)
+{
+	static const char *const text[] = {
+		[CARRY_GONE] = "is not in the new program; its value is lost",
+		[CARRY_NEW] = "is new; it starts with its initial value",
+		[CARRY_TYPE] = "has another type; it starts with its initial value",
+		[CARRY_BLOCK] = "is an instance of another block; it starts anew",
+		[CARRY_TEXT] = "has less room; it starts with its initial value",
+		[CARRY_FORCE] = "is forced; the force ends",
+	};
+
+	return reason < sizeof(text) / sizeof(text[0]) ? text[reason] : "changes";
+}
+
+/* What a person would not expect to lose: a new variable loses nothing. */
+static bool is_loss(uint8_t reason)
+{
+	return reason != CARRY_NEW;
+}
+
+struct verified {
+	bool same_map;
+	uint32_t losses;
+};
+
+static enum status verify(struct remote *remote, struct verified *verified)
+{
+	const struct sink *sink = &remote->call->out;
+	struct wire_writer out = desk_ask(&remote->desk, SERVICE_VERIFY);
+	struct wire_reader in;
+	const enum desk_end end = desk_call(&remote->desk, &out, &in);
+	uint32_t count, told;
+
+	if (end != DESK_GOOD)
+		return remote_fail(remote, end);
+	verified->same_map = wire_u8(&in);
+	wire_bytes(&in, 32);
+	count = wire_u32(&in);
+	told = wire_u32(&in);
+	verified->losses = count > told ? count - told : 0;
+	for (uint32_t i = 0; i < told && !in.failed; i++) {
+		const uint8_t reason = wire_u8(&in);
+		size_t len;
+		const char *name = wire_text(&in, &len);
+
+		verified->losses += is_loss(reason);
+		sink_write(sink, name, len);
+		sink_printf(sink, " %s\n", loss_text(reason));
+	}
+	if (count > told)
+		sink_printf(sink, "and %u more\n", (unsigned)(count - told));
+	return in.failed ? remote_fail(remote, DESK_NONSENSE) : STATUS_GOOD;
+}
+
+/* Asks on the terminal; without one the answer is no. */
+static bool is_wanted(struct remote *remote)
+{
+	char answer[16];
+
+	if (call_flag(remote->call, "--yes"))
+		return true;
+	if (!isatty(STDIN_FILENO)) {
+		report_usage(remote->call, "values would be lost; say --yes to download");
+		return false;
+	}
+	report_flush(remote->call);
+	fputs("Download? [y/N] ", stderr);
+	return fgets(answer, sizeof(answer), stdin) && (*answer == 'y' || *answer == 'Y');
+}
+
+static enum status commit(struct remote *remote, bool restart)
+{
+	struct wire_writer out = desk_ask(&remote->desk, SERVICE_COMMIT);
+	struct wire_reader in;
+	enum desk_end end;
+
+	wire_put_expect(&out, &remote->expect);
+	wire_put_u8(&out, restart);
+	end = desk_call(&remote->desk, &out, &in);
+	return end == DESK_GOOD ? STATUS_GOOD : remote_fail(remote, end);
+}
+
+static enum status move(struct remote *remote, const struct stored *stored)
+{
+	const bool restart = call_flag(remote->call, "--restart");
+	struct board_status *now = calloc(1, sizeof(*now));
+	struct verified verified = { .losses = 0 };
+	enum status status = now ? remote_status(remote, now) : report_no_memory(remote->where);
+	uint32_t received;
+
+	free(now);
+	remote->expect.mode = EXPECT_ANY;
+	if (status == STATUS_GOOD)
+		status = begin_download(remote, stored, &received);
+	if (status == STATUS_GOOD)
+		status = send_blocks(remote, stored, received);
+	if (status == STATUS_GOOD)
+		status = verify(remote, &verified);
+	if (status != STATUS_GOOD)
+		return status;
+	if (!restart && verified.losses && !is_wanted(remote))
+		return STATUS_NO;
+	return commit(remote, restart);
+}
+
+enum status remote_download(struct remote *remote)
+{
+	struct machine machine = { 0 };
+	struct stored stored = { .bytes = NULL };
+	struct bytes bytes = { .at = NULL };
+	enum status status;
+
+	if (remote->call->arg_count != 4)
+		return report_usage(remote->call, "download needs FILE and MAP");
+	status = gather(remote, &machine, &stored, &bytes);
+	if (status == STATUS_GOOD && !stored_size(&stored))
+		status = report_usage(remote->call, "the program is larger than %u MiB",
+				      STORED_MOST >> 20);
+	if (status == STATUS_GOOD)
+		status = move(remote, &stored);
+	machine_close(&machine);
+	free(bytes.at);
+	return status;
+}
+
+/* ---- upload ---- */
+
+static enum status receive(struct remote *remote, struct stored *stored, struct bytes *bytes)
+{
+	uint32_t size;
+
+	do {
+		struct wire_writer out = desk_ask(&remote->desk, SERVICE_UPLOAD);
+		struct wire_reader in;
+		enum desk_end end;
+		size_t len;
+
+		wire_put_u32(&out, (uint32_t)bytes->len);
+		end = desk_call(&remote->desk, &out, &in);
+		if (end != DESK_GOOD)
+			return remote_fail(remote, end);
+		for (int i = 0; i < STORED_PARTS; i++)
+			stored->len[i] = wire_u32(&in);
+		size = stored_size(stored);
+		len = wire_left(&in);
+		if (in.failed || !size || len > size - bytes->len || (!len && bytes->len < size))
+			return remote_fail(remote, DESK_NONSENSE);
+		add(bytes, wire_bytes(&in, len), len);
+		if (bytes->failed)
+			return report_no_memory(remote->where);
+	} while (bytes->len < size);
+	stored->bytes = bytes->at;
+	return STATUS_GOOD;
+}
+
+/* A name that stays below the folder: no way up, no other root, no control character. */
+static bool is_safe(const char *name, size_t len)
+{
+	if (!len || len > 200 || *name == '/' || *name == '.')
+		return false;
+	for (size_t i = 0; i < len; i++) {
+		if ((unsigned char)name[i] < ' ' || name[i] == 127 || name[i] == '\\')
+			return false;
+		if (name[i] == '/' && (i + 1 == len || name[i + 1] == '/' || name[i + 1] == '.'))
+			return false;
+	}
+	return true;
+}
+
+/* Makes the folders of @path behind its first @from bytes. */
+static void make_folders(char *path, size_t from)
+{
+	for (char *slash = strchr(path + from, '/'); slash; slash = strchr(slash + 1, '/')) {
+		*slash = '\0';
+		mkdir(path, 0777); /* if it fails, the file cannot be written, and that is said */
+		*slash = '/';
+	}
+}
+
+static enum status put_file(struct remote *remote, const char *folder, const char *name,
+			    size_t name_len, const uint8_t *bytes, size_t len)
+{
+	struct diag_list *diags;
+	char path[1400];
+	int used = snprintf(path, sizeof(path), "%.1000s/%.*s", folder, (int)name_len, name);
+
+	if (!is_safe(name, name_len) || used >= (int)sizeof(path))
+		return remote_fail(remote, DESK_NONSENSE);
+	if (access(path, F_OK) == 0)
+		return report_usage(remote->call, "%.60s is there already", path);
+	make_folders(path, strlen(folder) + 1);
+	diags = report_list(path);
+	if (!diags)
+		return STATUS_WRONG;
+	file_save(path, bytes, len, diags);
+	if (!report_end(diags))
+		return STATUS_WRONG;
+	sink_text(&remote->call->out, path);
+	sink_text(&remote->call->out, "\n");
+	return STATUS_GOOD;
+}
+
+static enum status put_sources(struct remote *remote, const char *folder,
+			       const struct stored *stored)
+{
+	struct wire_reader in = wire_read(stored_part(stored, STORED_SOURCES),
+					  stored->len[STORED_SOURCES]);
+	const uint16_t count = stored->len[STORED_SOURCES] ? wire_u16(&in) : 0;
+	enum status status = STATUS_GOOD;
+
+	for (uint16_t i = 0; i < count && status == STATUS_GOOD; i++) {
+		size_t name_len;
+		const char *name = wire_text(&in, &name_len);
+		const uint32_t len = wire_u32(&in);
+		const uint8_t *bytes = wire_bytes(&in, len);
+
+		status = bytes ? put_file(remote, folder, name, name_len, bytes, len) :
+				 remote_fail(remote, DESK_NONSENSE);
+	}
+	return status;
+}
+
+enum status remote_upload(struct remote *remote)
+{
+	const char *folder = call_option(remote->call, "-o");
+	struct stored stored = { .bytes = NULL };
+	struct bytes bytes = { .at = NULL };
+	enum status status;
+
+	if (!folder)
+		return report_usage(remote->call, "upload needs -o FOLDER");
+	if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+		return report_usage(remote->call, "%.60s: %s", folder, strerror(errno));
+	status = receive(remote, &stored, &bytes);
+	if (status == STATUS_GOOD)
+		status = put_sources(remote, folder, &stored);
+	if (status == STATUS_GOOD)
+		status = put_file(remote, folder, "board.io", 8, stored_part(&stored, STORED_MAP),
+				  stored.len[STORED_MAP]);
+	if (status == STATUS_GOOD)
+		status = put_file(remote, folder, "program.rungc", 13,
+				  stored_part(&stored, STORED_IMAGE), stored.len[STORED_IMAGE]);
+	free(bytes.at);
+	return status;
+}

@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * download - receives, verifies, stores.
+ */
+#include "ladderd/download.h"
+#include "ladderd/control.h"
+
+#include "engine/base/digest.h"
+#include "engine/base/file.h"
+#include "engine/scan/carry.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct download {
+	struct slots *slots;
+	struct cycle *cycle;
+	const char *map_text;          /* of the lines that are open           */
+	size_t map_len;
+	struct stored first;           /* the program that ladderd began with  */
+	uint8_t *first_bytes;
+	struct standby *runs;          /* NULL: the first program              */
+	struct standby *standby;       /* NULL: none was verified              */
+	/* Being received. */
+	uint8_t *bytes;
+	struct stored wanted;
+	uint8_t sha[32];
+	uint32_t received;
+};
+
+/* ---- standby ---- */
+
+static void standby_free(struct standby *standby)
+{
+	if (!standby)
+		return;
+	arena_free(&standby->arena);
+	free(standby->bytes);
+	free(standby->views);
+	free(standby);
+}
+
+/* The parts of a diagnostic: its code and text. */
+static void say_diag(const struct diag *diag, char *detail, size_t size)
+{
+	char text[600];
+	size_t len;
+
+	diag_print(diag, text, sizeof(text));
+	len = strlen(text);
+	if (len >= size)
+		len = size - 1;
+	memcpy(detail, text, len);
+	detail[len] = '\0';
+}
+
+static bool open_image(struct standby *standby, char *detail, size_t size)
+{
+	struct diag diag = { .file = "program" };
+	struct arena scratch;
+	size_t where = 0;
+	uint8_t *image = arena_alloc(&standby->arena, standby->stored.len[STORED_IMAGE] + 8u);
+	bool good = false;
+
+	if (!image)
+		return false;
+	memcpy(image, stored_part(&standby->stored, STORED_IMAGE),
+	       standby->stored.len[STORED_IMAGE]);
+	arena_init(&scratch);
+	good = code_open(image, standby->stored.len[STORED_IMAGE], &scratch, &standby->program,
+			 &diag.id, &where);
+	arena_free(&scratch);
+	if (!good) {
+		snprintf(diag.arg, sizeof(diag.arg), "byte %zu", where);
+		say_diag(&diag, detail, size);
+	}
+	return good;
+}
+
+static bool open_map(struct standby *standby, char *detail, size_t size)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	bool good;
+
+	if (!diags)
+		return false;
+	diag_init(diags);
+	good = iomap_read(&standby->map, &standby->arena, "map",
+			  (const char *)stored_part(&standby->stored, STORED_MAP),
+			  standby->stored.len[STORED_MAP], diags) &&
+	       iomap_check_program(&standby->map, &standby->program, &standby->arena, diags);
+	for (int i = 0; i < diags->count && !good; i++)
+		if (diag_severity(diags->diag[i].id) == SEVERITY_ERROR) {
+			say_diag(&diags->diag[i], detail, size);
+			break;
+		}
+	free(diags);
+	return good;
+}
+
+static bool make_ready(struct download *download, struct standby *standby)
+{
+	void *memory = arena_alloc(&standby->arena, image_memory_size(&standby->program));
+
+	if (!memory)
+		return false;
+	standby->view_size = image_memory_size(&standby->program);
+	standby->views = calloc(3, standby->view_size);
+	resource_init(&standby->resource, &standby->program, memory);
+	code_identity(&standby->program, standby->identity);
+	standby->plan = carry_plan_new(&standby->program,
+				       download->cycle->resource.image.program,
+				       &standby->arena);
+	return standby->views && standby->plan;
+}
+
+/* ---- as in struct server_store ---- */
+
+enum refusal download_begin(struct download *download, const uint32_t len[STORED_PARTS],
+			    const uint8_t sha[32], uint32_t *received)
+{
+	struct stored wanted = { .bytes = NULL };
+	uint8_t *bytes;
+
+	memcpy(wanted.len, len, sizeof(wanted.len));
+	if (download->bytes && memcmp(download->sha, sha, 32) == 0 &&
+	    memcmp(download->wanted.len, len, sizeof(wanted.len)) == 0) {
+		*received = download->received; /* goes on where it was cut */
+		return REFUSAL_NONE;
+	}
+	if (!download->slots->folder)
+		return REFUSAL_NO_STORE;
+	bytes = malloc(stored_size(&wanted));
+	if (!bytes)
+		return REFUSAL_MEMORY;
+	download_abort(download);
+	download->bytes = bytes;
+	download->wanted = wanted;
+	memcpy(download->sha, sha, 32);
+	*received = 0;
+	return REFUSAL_NONE;
+}
+
+enum refusal download_block(struct download *download, uint32_t offset, const uint8_t *bytes,
+			    size_t len, uint32_t *received)
+{
+	const uint32_t size = stored_size(&download->wanted);
+
+	if (!download->bytes)
+		return REFUSAL_NO_DOWNLOAD;
+	*received = download->received;
+	if (offset < download->received)
+		return REFUSAL_NONE; /* it came twice */
+	if (offset > download->received || len > size - offset)
+		return REFUSAL_NOT_WHOLE;
+	standby_free(download->standby);
+	download->standby = NULL;
+	memcpy(download->bytes + offset, bytes, len);
+	*received = download->received += (uint32_t)len;
+	return REFUSAL_NONE;
+}
+
+static bool is_whole(const struct download *download)
+{
+	const uint32_t size = stored_size(&download->wanted);
+	struct digest_sha256 sha;
+	uint8_t found[32];
+
+	if (!download->bytes || download->received != size)
+		return false;
+	digest_sha256_init(&sha);
+	digest_sha256_add(&sha, download->bytes, size);
+	digest_sha256_end(&sha, found);
+	return memcmp(found, download->sha, 32) == 0;
+}
+
+static bool has_same_map(const struct download *download, const struct standby *standby)
+{
+	return standby->stored.len[STORED_MAP] == download->map_len &&
+	       memcmp(stored_part(&standby->stored, STORED_MAP), download->map_text,
+		      download->map_len) == 0;
+}
+
+enum refusal download_verify(struct download *download, struct standby_view *out, char *detail,
+			     size_t size)
+{
+	struct standby *standby;
+
+	if (!download->bytes)
+		return REFUSAL_NO_DOWNLOAD;
+	if (!is_whole(download)) {
+		if (download->received == stored_size(&download->wanted))
+			download_abort(download); /* a byte is wrong, nobody knows which */
+		return REFUSAL_NOT_WHOLE;
+	}
+	standby = calloc(1, sizeof(*standby));
+	if (!standby)
+		return REFUSAL_MEMORY;
+	arena_init(&standby->arena);
+	standby->stored = download->wanted;
+	standby->stored.bytes = download->bytes;
+	detail[0] = '\0';
+	if (!open_image(standby, detail, size) || !open_map(standby, detail, size)) {
+		standby_free(standby);
+		return *detail ? REFUSAL_INVALID : REFUSAL_MEMORY;
+	}
+	if (!make_ready(download, standby)) {
+		standby_free(standby);
+		return REFUSAL_MEMORY;
+	}
+	standby_free(download->standby);
+	download->standby = standby;
+	out->standby = standby;
+	out->same_map = has_same_map(download, standby);
+	out->plan = standby->plan;
+	memcpy(out->identity, standby->identity, 32);
+	return REFUSAL_NONE;
+}
+
+enum refusal download_store(struct download *download, char *detail, size_t size)
+{
+	struct slots *slots = download->slots;
+	const size_t len = SLOT_HEAD + stored_size(&download->wanted) + 4u;
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	uint8_t *bytes = malloc(len);
+	struct stored stored = download->wanted;
+	uint8_t beside[32];
+	const char *path = slots_path(slots, slots->next);
+	bool good = false;
+
+	stored.bytes = download->bytes;
+	if (diags && bytes && path) {
+		diag_init(diags);
+		slots_beside(slots, beside);
+		slot_seal(&stored, slots->seq + 1, beside, bytes);
+		good = file_save(path, bytes, len, diags);
+		if (diags->count)
+			say_diag(&diags->diag[0], detail, size);
+	}
+	free(bytes);
+	free(diags);
+	if (!good)
+		return REFUSAL_DISK;
+	slots->seq++;
+	slots->next = !slots->next;
+	return REFUSAL_NONE;
+}
+
+void download_abort(struct download *download)
+{
+	standby_free(download->standby);
+	download->standby = NULL;
+	free(download->bytes);
+	download->bytes = NULL;
+	download->received = 0;
+}
+
+struct standby *download_swapped(struct download *download)
+{
+	struct standby *standby = download->standby;
+
+	standby_free(download->runs);
+	download->runs = standby;
+	download->standby = NULL;
+	standby->bytes = download->bytes;
+	download->bytes = NULL;
+	download->received = 0;
+	return standby;
+}
+
+const struct stored *download_running(struct download *download)
+{
+	return download->runs ? &download->runs->stored : &download->first;
+}
+
+/* ---- the scan thread ---- */
+
+enum refusal cycle_swap(struct cycle *cycle, struct standby *standby)
+{
+	if (!carry_apply(standby->plan, &standby->resource, &cycle->resource))
+		return REFUSAL_CONFLICT;
+	cycle->resource = standby->resource;
+	cycle->store = NULL;
+	memcpy(cycle->identity_bytes, standby->identity, sizeof(cycle->identity_bytes));
+	digest_hex(standby->identity, sizeof(standby->identity), cycle->identity);
+	monitor_limit(cycle_plan(cycle, cycle->wanted_ns, cycle->watchdog));
+	cycle->failed = cycle->resource.vm.errors != 0;
+	control_tell("another program runs, put there by a desk");
+	return REFUSAL_NONE;
+}
+
+/* ---- all of it ---- */
+
+/* The program that ladderd began with: its slot, or its image and map without sources. */
+static bool take_first(struct download *download)
+{
+	const struct program *program = download->cycle->resource.image.program;
+	struct stored *first = &download->first;
+
+	if (download->slots->bytes) {
+		*first = download->slots->slot.stored;
+		return true;
+	}
+	first->len[STORED_IMAGE] = program->header->size;
+	first->len[STORED_MAP] = (uint32_t)download->map_len;
+	if (!stored_size(first))
+		return false;
+	download->first_bytes = malloc(stored_size(first));
+	if (!download->first_bytes)
+		return false;
+	memcpy(download->first_bytes, program->base, program->header->size);
+	memcpy(download->first_bytes + program->header->size, download->map_text,
+	       download->map_len);
+	first->bytes = download->first_bytes;
+	return true;
+}
+
+struct download *download_new(struct slots *slots, struct cycle *cycle, const char *map_text,
+			      size_t map_len)
+{
+	struct download *download = calloc(1, sizeof(*download));
+
+	if (!download)
+		return NULL;
+	download->slots = slots;
+	download->cycle = cycle;
+	download->map_text = map_text;
+	download->map_len = map_len;
+	if (take_first(download))
+		return download;
+	download_free(download);
+	return NULL;
+}
+
+void download_free(struct download *download)
+{
+	if (!download)
+		return;
+	download_abort(download);
+	standby_free(download->runs);
+	free(download->first_bytes);
+	free(download);
+}

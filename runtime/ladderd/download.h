@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * download - programs that come over the link, and the two slots on the disk that hold them.
+ *
+ * A program is received, verified, written to the older slot, and only then runs. All of it
+ * happens in the link thread; the scan thread only exchanges two structs (cycle_swap()).
+ */
+#ifndef LADDERD_DOWNLOAD_H
+#define LADDERD_DOWNLOAD_H
+
+#include "hal/iomap.h"
+#include "ladderd/cycle.h"
+#include "online/server.h"
+
+/* ---- slots ---- */
+
+struct slots {
+	const char *folder;    /* of prog.A and prog.B; NULL: no --slots      */
+	const char *file, *map; /* of the command line, or NULL               */
+	uint8_t *bytes;        /* of the slot that runs; NULL: none           */
+	struct slot slot;
+	int next;              /* the slot to be written                      */
+	uint32_t seq;          /* of the newest one                           */
+	char path[1024];       /* of a slot                                   */
+};
+
+/**
+ * slots_open - finds the newest good slot
+ * @file, @map: of the command line; if they have changed since the slot was written, they are
+ *              newer, and the slot is not used
+ *
+ * Prints which program will run, and what is wrong with a slot. Owns: the caller,
+ * slots_close(). Scan-safe: no. Returns whether slots->slot is to be run.
+ */
+bool slots_open(struct slots *slots, const char *folder, const char *file, const char *map);
+void slots_close(struct slots *slots);
+/** slots_beside - SHA-256 of the files of the command line, as they are now. */
+void slots_beside(const struct slots *slots, uint8_t out[32]);
+/** slots_path - of prog.A or prog.B, in slots->path. Fails: NULL: it is too long. */
+const char *slots_path(struct slots *slots, int number);
+
+/* ---- downloads ---- */
+
+/* A program beside the one that runs. */
+struct standby {
+	struct arena arena;    /* of all of it but the image                  */
+	uint8_t *bytes;        /* image, map and sources, as they came        */
+	struct stored stored;
+	struct program program;
+	struct resource resource;
+	struct iomap map;
+	uint8_t identity[32];
+	const struct carry_plan *plan;
+	uint8_t *views;        /* of the link                                 */
+	size_t view_size;
+};
+
+struct download;
+
+/** download_new - @map_text: of the map that runs, borrowed. Owns: the caller,
+ * download_free(). Fails: NULL: no memory. */
+struct download *download_new(struct slots *slots, struct cycle *cycle, const char *map_text,
+			      size_t map_len);
+void download_free(struct download *download);
+/** download_begin … - as in struct server_store. */
+enum refusal download_begin(struct download *download, const uint32_t len[STORED_PARTS],
+			    const uint8_t sha[32], uint32_t *received);
+enum refusal download_block(struct download *download, uint32_t offset, const uint8_t *bytes,
+			    size_t len, uint32_t *received);
+enum refusal download_verify(struct download *download, struct standby_view *out, char *detail,
+			     size_t size);
+enum refusal download_store(struct download *download, char *detail, size_t size);
+void download_abort(struct download *download);
+/** download_swapped - the standby runs now; returns it. The one before is freed. */
+struct standby *download_swapped(struct download *download);
+const struct stored *download_running(struct download *download);
+#endif

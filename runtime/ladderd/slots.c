@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * slots - prog.A and prog.B: each is replaced as a whole, and verified again at each start.
+ */
+#include "ladderd/download.h"
+
+#include "engine/base/digest.h"
+#include "engine/base/file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FILE_MOST (64u << 20)
+
+static void add_file(struct digest_sha256 *sha, const char *path)
+{
+	size_t len = 0;
+	char *bytes = path ? file_read(path, FILE_MOST, &len, NULL) : NULL;
+	const uint64_t size = bytes ? len : UINT64_MAX;
+
+	digest_sha256_add(sha, &size, sizeof(size));
+	if (bytes)
+		digest_sha256_add(sha, bytes, len);
+	free(bytes);
+}
+
+void slots_beside(const struct slots *slots, uint8_t out[32])
+{
+	struct digest_sha256 sha;
+
+	digest_sha256_init(&sha);
+	add_file(&sha, slots->file);
+	add_file(&sha, slots->map);
+	digest_sha256_end(&sha, out);
+}
+
+static bool can_run(const struct stored *stored)
+{
+	struct program program;
+	struct arena scratch;
+	enum diag_id why;
+	size_t where;
+	bool good;
+
+	arena_init(&scratch);
+	good = code_open(stored_part(stored, STORED_IMAGE), stored->len[STORED_IMAGE], &scratch,
+			 &program, &why, &where);
+	arena_free(&scratch);
+	return good;
+}
+
+const char *slots_path(struct slots *slots, int number)
+{
+	const int len = snprintf(slots->path, sizeof(slots->path), "%s/prog.%c", slots->folder,
+				 'A' + number);
+
+	return len < (int)sizeof(slots->path) ? slots->path : NULL;
+}
+
+static uint8_t *read_slot(struct slots *slots, int number, struct slot *slot, bool *damaged)
+{
+	const char *path = slots_path(slots, number);
+	size_t len;
+	uint8_t *bytes = NULL;
+
+	*damaged = false;
+	if (path)
+		bytes = (uint8_t *)file_read(path, STORED_MOST + SLOT_HEAD + 4, &len, NULL);
+	if (!bytes)
+		return NULL;
+	if (slot_open(bytes, len, slot) && can_run(&slot->stored))
+		return bytes;
+	*damaged = true;
+	fprintf(stderr, "ladderd: %s is damaged and is not used\n", path);
+	free(bytes);
+	return NULL;
+}
+
+bool slots_open(struct slots *slots, const char *folder, const char *file, const char *map)
+{
+	uint8_t beside[32];
+	bool damaged[2];
+
+	memset(slots, 0, sizeof(*slots));
+	slots->folder = folder;
+	if (!folder)
+		return false;
+	slots->file = file;
+	slots->map = map;
+	for (int i = 0; i < 2; i++) {
+		struct slot slot;
+		uint8_t *bytes = read_slot(slots, i, &slot, &damaged[i]);
+
+		if (!bytes)
+			continue;
+		if (slots->bytes && slot.seq < slots->slot.seq) {
+			free(bytes);
+			continue;
+		}
+		free(slots->bytes);
+		slots->bytes = bytes;
+		slots->slot = slot;
+		slots->seq = slot.seq;
+		slots->next = !i;
+	}
+	if (!slots->bytes)
+		return false;
+	slots_beside(slots, beside);
+	if (file && memcmp(slots->slot.beside, beside, 32) != 0) {
+		fprintf(stderr, "ladderd: %s or its map has changed since the last download; it "
+			"is used\n", file);
+		free(slots->bytes);
+		slots->bytes = NULL;
+		return false;
+	}
+	fprintf(stderr, "ladderd: runs the program of download %u%s\n", (unsigned)slots->seq,
+		damaged[slots->next] ? "; a newer one may be damaged" : "");
+	return true;
+}
+
+void slots_close(struct slots *slots)
+{
+	free(slots->bytes);
+	slots->bytes = NULL;
+}
