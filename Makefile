@@ -566,10 +566,10 @@ SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-re
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
-TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
+TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 
-tests: all man $(BUILT) $(EDITOR_FAKE) $(HAL_DAEMONS)
+tests: all man $(BUILT) $(EDITOR_FAKE) $(HAL_DAEMONS) $(BUILD)/tests/online/ladder-attach
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
 	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd
