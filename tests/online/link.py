@@ -750,6 +750,112 @@ def test_a_kill_in_a_download_leaves_the_old_program_or_the_new_one():
             assert found in known and desk.upload() == known[found], kill
 
 
+# ---- ssh ----
+
+class Sshd:
+    """A real sshd on loopback that lets this user in by a key, and runs only ladder-attach."""
+
+    def __init__(self, board):
+        self.folder = board.folder
+        shutil.copy(BUILD + '/tests/online/ladder-attach', self.folder)
+        for name in ('host', 'other', 'key'):
+            subprocess.run(['ssh-keygen', '-q', '-t', 'ed25519', '-N', '', '-f', f'{self.folder}/{name}'], check=True)
+        with socket.socket() as free:
+            free.bind(('127.0.0.1', 0))
+            self.port = free.getsockname()[1]
+        board.write('sshd_config', f'''Port {self.port}
+ListenAddress 127.0.0.1
+HostKey {self.folder}/host
+AuthorizedKeysFile {self.folder}/key.pub
+PidFile none
+UsePAM no
+StrictModes no
+PermitRootLogin yes
+PasswordAuthentication no
+KbdInteractiveAuthentication no
+ForceCommand cd {self.folder} && exec ./ladder-attach
+''')
+        self.trust('host')
+        if ROOT:
+            os.makedirs('/run/sshd', mode=0o755, exist_ok=True)
+        self.start()
+
+    def trust(self, key):
+        with open(f'{self.folder}/{key}.pub', encoding='ascii') as public, \
+                open(self.folder + '/known', 'w', encoding='ascii') as known:
+            known.write(f'[127.0.0.1]:{self.port} {public.read()}')
+
+    def start(self):
+        with open(self.folder + '/sshd.log', 'w') as log:
+            self.daemon = subprocess.Popen(['/usr/sbin/sshd', '-D', '-e', '-f', self.folder + '/sshd_config'],
+                                           stdout=log, stderr=log, stdin=subprocess.DEVNULL)
+        for _ in range(6000):
+            try:
+                socket.create_connection(('127.0.0.1', self.port)).close()
+                return
+            except OSError:
+                if self.daemon.poll() is not None:
+                    raise Skip('sshd does not start here: ' + self.log()) from None
+                time.sleep(0.01)
+
+    def log(self):
+        with open(self.folder + '/sshd.log', encoding='utf-8') as log:
+            return log.read().strip().splitlines()[-1:][0]
+
+    def command(self, *words):
+        return subprocess.run(
+            [BUILD + '/ladder', 'board', '--ssh', f'ssh -F /dev/null -i {self.folder}/key -p {self.port} '
+             f'-o UserKnownHostsFile={self.folder}/known -o StrictHostKeyChecking=yes -o IdentitiesOnly=yes',
+             'ssh:127.0.0.1', *words], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL)
+
+    def close(self):
+        self.daemon.terminate()
+        self.daemon.wait()
+
+
+class Skip(Exception):
+    """This machine lacks something."""
+
+
+def test_ssh_reaches_the_board_and_nothing_else():
+    if not os.path.exists('/usr/sbin/sshd') or not shutil.which('ssh-keygen'):
+        raise Skip('needs openssh-server')
+    with slots() as board:
+        if ROOT:  # sshd lets root in, whose group is 0
+            board.stop()
+            board.write('group', 'ladder-eng:x:0:\n')
+            board.start()
+        server = Sshd(board)
+        try:
+            done = server.command('get', 'Table[3]')
+            if done.returncode and 'Permission denied' in done.stderr:
+                raise Skip('sshd does not let this user in')
+            assert (done.returncode, done.stdout) == (0, 'Table[3]=3\n'), (done, server.log())
+            assert 'mode: RUN' in server.command('status').stdout
+            # The command of the client is ignored: it is ladder-attach that answers.
+            done = subprocess.run(['ssh', '-F', '/dev/null', '-i', server.folder + '/key', '-p', str(server.port), '-o',
+                                   f'UserKnownHostsFile={server.folder}/known', '127.0.0.1', 'touch', board.folder +
+                                   '/made'], capture_output=True, stdin=subprocess.DEVNULL, timeout=60)
+            assert not os.path.exists(board.folder + '/made')
+            board.write('other.rung', OTHER)
+            done = server.command('download', board.folder + '/other.rung', board.folder + '/board.io', '--yes')
+            assert done.returncode == 0, done
+            assert board.client().board == 'on a table'
+            done = server.command('upload', '-o', board.folder + '/up')
+            assert done.returncode == 0 and board.read('up/other.rung') == OTHER, done
+            # Another host key than the known one: nothing is sent.
+            server.trust('other')
+            sessions = board.client().status()['sessions']
+            done = server.command('status')
+            assert done.returncode == 2 and 'HOST IDENTIFICATION HAS CHANGED' in done.stderr, done
+            assert 'LD851' in done.stderr and board.client().status()['sessions'] <= sessions + 1
+        finally:
+            server.close()
+
+
+test_ssh_reaches_the_board_and_nothing_else.as_is = True
+
+
 # ---- roles ----
 
 def in_role(board, gid, do, uid=25000):
@@ -993,7 +1099,7 @@ def run(number, test):
     if getattr(test, 'root', False) and not ROOT:
         print(f'ok {number} - {name} # SKIP needs root, to be several users')
         return True
-    if ROOT and not getattr(test, 'root', False):
+    if ROOT and not getattr(test, 'root', False) and not getattr(test, 'as_is', False):
         os.setgroups([])
         os.setgid(OWN)
         os.setuid(OWN)
@@ -1001,6 +1107,9 @@ def run(number, test):
     try:
         test()
         print(f'ok {number} - {name}')
+        return True
+    except Skip as why:
+        print(f'ok {number} - {name} # SKIP {why}')
         return True
     except Exception as error:  # pylint: disable=broad-except
         print(f'not ok {number} - {name}\n# {error!r}')
