@@ -98,6 +98,14 @@ static void host_store(void *context, void *other)
 	((struct link *)context)->cycle->store = other;
 }
 
+static void host_restart(void *context)
+{
+	struct cycle *cycle = ((struct link *)context)->cycle;
+
+	cycle->restart = true;
+	cycle->requests->stop = 1;
+}
+
 void link_serve(struct link *link)
 {
 	exchange_serve(&link->exchange);
@@ -190,14 +198,6 @@ static void store_abort(void *context)
 static const struct stored *store_running(void *context)
 {
 	return download_running(((struct link *)context)->download);
-}
-
-static void store_restart(void *context)
-{
-	struct link *link = context;
-
-	link->cycle->restart = true;
-	link->cycle->requests->stop = 1;
 }
 
 /* Stores the values of the new program in the same file; it has those of the old one, which
@@ -526,10 +526,11 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	link->host = (struct exchange_host){
 		.context = link, .resource = host_resource, .identity = host_identity,
 		.mode = host_mode, .status = host_status, .swap = host_swap, .store = host_store,
+		.restart = host_restart,
 	};
 	link->store = (struct server_store){
 		.begin = store_begin_download, .block = store_block, .verify = store_verify,
-		.store = store_slot, .swapped = store_swapped, .restart = store_restart,
+		.store = store_slot, .swapped = store_swapped,
 		.abort = store_abort, .running = store_running,
 	};
 	exchange_init(&link->exchange, &link->host, link->views, size);

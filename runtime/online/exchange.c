@@ -148,6 +148,9 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 	case ORDER_SWAP:
 		exchange->watch = (struct watch){ .serial = exchange->watch.serial };
 		return host->swap(host->context, order->other);
+	case ORDER_RESTART:
+		host->restart(host->context);
+		break;
 	case ORDER_STORE:
 		host->store(host->context, order->other);
 		break;

@@ -55,6 +55,7 @@ enum order_kind {
 	ORDER_MODE,
 	ORDER_STATUS,
 	ORDER_SWAP,    /* another program runs from now on                    */
+	ORDER_RESTART, /* the daemon ends and begins with the newest slot      */
 	ORDER_STORE,   /* the daemon goes on to store retained values         */
 	ORDER_COUNT
 };
@@ -94,6 +95,7 @@ struct exchange_host {
 	/** Exchanges the program. Watches end. */
 	enum refusal (*swap)(void *context, void *other);
 	void (*store)(void *context, void *other);
+	void (*restart)(void *context);
 	/** Fills in what only the scan thread knows. */
 	void (*status)(void *context, struct board_status *status);
 };

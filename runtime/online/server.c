@@ -817,6 +817,13 @@ static enum refusal swap(struct asked *asked, const struct expect *expect)
 	return learn_forces(server);
 }
 
+static enum refusal restart(struct server *server, const struct expect *expect)
+{
+	server->order = (struct order){ .kind = ORDER_RESTART, .expects = true,
+					.expect = *expect };
+	return give(server);
+}
+
 static enum refusal serve_commit(struct asked *asked)
 {
 	struct server *server = asked->server;
@@ -845,10 +852,10 @@ static enum refusal serve_commit(struct asked *asked)
 				       sizeof(asked->detail));
 	if (refusal == REFUSAL_NONE && how == 0)
 		refusal = swap(asked, &expect);
+	else if (refusal == REFUSAL_NONE)
+		refusal = restart(server, &expect);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
-	if (how == 1)
-		store->restart(server->setup.context);
 	server->downloading = -1;
 	begin_answer(asked, 0);
 	wire_put_u64(&asked->out, server->order.scan);

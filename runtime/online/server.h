@@ -40,8 +40,6 @@ struct server_store {
 	enum refusal (*store)(void *context, char *detail, size_t size);
 	/** After ORDER_SWAP: frees the program before, and stores retained values again. */
 	const struct program *(*swapped)(void *context);
-	/** Ends the daemon, which then starts with the newest slot. */
-	void (*restart)(void *context);
 	void (*abort)(void *context);
 	const struct stored *(*running)(void *context);
 };

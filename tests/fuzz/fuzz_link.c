@@ -92,7 +92,9 @@ static void rig_open(struct rig *rig)
 	rig->views = calloc(3, size);
 	resource_init(&rig->resource, setup.program, rig->memory);
 	resource_start(&rig->resource);
-	rig->host = (struct exchange_host){ rig, its_resource, its_identity, its_mode, its_status };
+	rig->host = (struct exchange_host){ .context = rig, .resource = its_resource,
+					    .identity = its_identity, .mode = its_mode,
+					    .status = its_status };
 	exchange_init(&rig->exchange, &rig->host, rig->views, size);
 	rig->server = server_new(&setup);
 	fuzz_expect(rig->server != NULL, "there is memory");
@@ -170,9 +172,14 @@ static void as_desk(const uint8_t *bytes, size_t len)
 {
 	static struct board_status status;
 	struct wire_reader in;
+	struct slot slot;
 	struct frame frame;
 	size_t used;
 
+	if (slot_open(bytes, len, &slot))
+		fuzz_expect(stored_part(&slot.stored, STORED_SOURCES) +
+			    slot.stored.len[STORED_SOURCES] + 4 == bytes + len,
+			    "the parts fill a slot");
 	while (frame_next(bytes, len, &frame, &used) == FRAME_GOOD) {
 		struct iec_text text;
 
@@ -213,7 +220,8 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 {
 	static const uint8_t services[] = { SERVICE_HELLO, SERVICE_STATUS, SERVICE_SYMBOLS,
 		SERVICE_READ, SERVICE_PUBLISH, SERVICE_WRITE, SERVICE_FORCE, SERVICE_FORCES,
-		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_MODE };
+		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_DOWNLOAD, SERVICE_BLOCK,
+		SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT, SERVICE_UPLOAD, SERVICE_MODE };
 	const struct expect expect = { .mode = EXPECT_ANY };
 	uint8_t *seed = malloc(4096);
 	size_t at = 1;
@@ -264,8 +272,21 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 			wire_put_expect(&out, &expect);
 			wire_put_u8(&out, MODE_STOP);
 			break;
+		case SERVICE_DOWNLOAD:
+			wire_put_u32(&out, 1);
+			break;
+		case SERVICE_COMMIT:
+			wire_put_expect(&out, &expect);
+			wire_put_u8(&out, 0);
+			break;
+		case SERVICE_BLOCK:
+		case SERVICE_UPLOAD:
+			wire_put_u32(&out, 0);
+			break;
 		case SERVICE_STATUS:
 		case SERVICE_FORCES:
+		case SERVICE_VERIFY:
+		case SERVICE_ABORT:
 			break;
 		}
 		at += frame_end(&out);
