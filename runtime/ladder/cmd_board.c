@@ -8,10 +8,12 @@
 #include "engine/base/version.h"
 #include "engine/scan/resource.h"
 #include "engine/trial/value.h"
+#include "online/event.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #define WATCH_US   100000
 #define NAMES_MOST 2048
@@ -594,6 +596,87 @@ static enum status act_forces(struct remote *remote)
 	return in.failed ? remote_fail(remote, DESK_NONSENSE) : STATUS_GOOD;
 }
 
+/* ---- events ---- */
+
+static void print_event(const struct remote *remote, const struct event *event, bool *any)
+{
+	const struct sink *out = &remote->call->out;
+	const time_t seconds = (time_t)(event->time_ns / 1000000000);
+	struct tm when = { 0 };
+	char text[400], time_text[32] = "?";
+
+	if (localtime_r(&seconds, &when))
+		strftime(time_text, sizeof(time_text), "%Y-%m-%d %H:%M:%S", &when);
+	event_print(event, text, sizeof(text));
+	if (remote->json) {
+		sink_printf(out, "%s{\"number\": %u, \"time_ns\": %lld, \"user\": ",
+			    *any ? ",\n  " : "\n  ", (unsigned)event->seq,
+			    (long long)event->time_ns);
+		sink_json_text(out, *event->user ? event->user : NULL);
+		report_json_field("event", text, out);
+		sink_text(out, "}");
+	} else {
+		sink_printf(out, "%u %s ", (unsigned)event->seq, time_text);
+		for (const char *at = event->user; *at; at++)
+			sink_write(out, (unsigned char)*at < ' ' || *at == 127 ? "?" : at, 1);
+		sink_text(out, *event->user ? " " : "");
+		sink_text(out, text);
+		sink_text(out, "\n");
+	}
+	*any = true;
+}
+
+/* The events from @next on, which moves behind them. */
+static enum status ask_events(struct remote *remote, uint32_t *next, bool *any)
+{
+	uint16_t count;
+
+	do {
+		struct wire_writer out = desk_ask(&remote->desk, SERVICE_EVENTS);
+		struct wire_reader in;
+		enum desk_end end;
+
+		wire_put_u32(&out, *next);
+		end = desk_call(&remote->desk, &out, &in);
+		if (end != DESK_GOOD)
+			return remote_fail(remote, end);
+		count = wire_u16(&in);
+		for (uint16_t i = 0; i < count; i++) {
+			struct event event;
+
+			event_take(&in, &event);
+			if (in.failed || event.seq < *next)
+				return remote_fail(remote, DESK_NONSENSE);
+			*next = event.seq + 1;
+			print_event(remote, &event, any);
+		}
+	} while (count);
+	return STATUS_GOOD;
+}
+
+static enum status act_events(struct remote *remote)
+{
+	const bool follow = call_flag(remote->call, "--follow") && !remote->json;
+	uint32_t next = 1;
+	bool any = false;
+	enum status status;
+
+	if (remote->json)
+		sink_text(&remote->call->out, "[");
+	status = ask_events(remote, &next, &any);
+	while (status == STATUS_GOOD && follow && !remote->call->out_failed) {
+		const enum desk_end end = desk_listen(&remote->desk, 1000);
+
+		if (end != DESK_GOOD && end != DESK_LATE)
+			return remote_fail(remote, end);
+		status = ask_events(remote, &next, &any);
+		report_flush(remote->call);
+	}
+	if (remote->json)
+		sink_text(&remote->call->out, "\n]\n");
+	return status;
+}
+
 static enum status change_mode(struct remote *remote, enum mode_wish wish)
 {
 	struct wire_writer out;
@@ -631,7 +714,7 @@ static const struct action {
 	{ "unforce", true, act_unforce },  { "forces", false, act_forces },
 	{ "run", false, act_run },         { "stop", false, act_stop },
 	{ "reset", false, act_reset },     { "download", true, remote_download },
-	{ "upload", false, remote_upload },
+	{ "upload", false, remote_upload }, { "events", false, act_events },
 };
 
 static enum status begin(struct remote *remote, const struct stream_where *where)

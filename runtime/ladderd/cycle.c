@@ -275,7 +275,7 @@ static void wait_until(struct cycle *cycle, int64_t due_ns)
 		serve_requests(cycle);
 		if (cycle->link)
 			link_serve(cycle->link);
-		if (cycle->requests->stop || now_ns >= due_ns)
+		if (cycle->requests->stop || cycle->restart || now_ns >= due_ns)
 			return;
 		if (until_ns - now_ns > SLICE_NS)
 			until_ns = now_ns + SLICE_NS;
@@ -297,7 +297,7 @@ static void wait_until(struct cycle *cycle, int64_t due_ns)
 
 static bool is_done(const struct cycle *cycle)
 {
-	if (cycle->requests->stop || cycle->clock_error)
+	if (cycle->requests->stop || cycle->restart || cycle->clock_error)
 		return true;
 	if (!cycle->most_scans)
 		return false;

@@ -10,6 +10,7 @@
 #include "ladderd/link.h"
 #include "ladderd/control.h"
 #include "ladderd/download.h"
+#include "ladderd/journal.h"
 #include "ladderd/peer.h"
 #include "online/server.h"
 
@@ -34,7 +35,7 @@
 #define NUDGE_NS   1000000            /* between two signals to the scan thread     */
 #define PATIENCE_NS (2 * SECOND)      /* for an order                               */
 #define STACK_LEAST 262144u
-#define REST_NS    (60 * SECOND)      /* a poll without anything to publish         */
+#define REST_NS    SECOND             /* longest time between two looks at the state */
 #define OURS       2                  /* polled: the wake-up, the listening socket  */
 
 struct link {
@@ -46,7 +47,11 @@ struct link {
 	struct link_store with;
 	struct download *download;
 	struct store *retain;          /* that of the cycle                    */
-	struct order store_order;
+	struct order store_order;      /* given beside those of the server     */
+	struct board_status status;    /* of that order                        */
+	struct journal *journal;
+	struct server_log log;
+	int state;                     /* that the log tells                   */
 	struct peer_groups groups;
 	uint8_t *views;
 	char path[108];
@@ -100,10 +105,7 @@ static void host_store(void *context, void *other)
 
 static void host_restart(void *context)
 {
-	struct cycle *cycle = ((struct link *)context)->cycle;
-
-	cycle->restart = true;
-	cycle->requests->stop = 1;
+	((struct link *)context)->cycle->restart = true;
 }
 
 void link_serve(struct link *link)
@@ -163,6 +165,37 @@ static void amend_status(void *context, struct board_status *status)
 	status->up_ms = (uint64_t)(up_ns / 1000000);
 	status->cpu_permille = (uint32_t)(up_ns > 1000 ? busy_us * 1000 / (up_ns / 1000) : 0);
 	status->memory_bytes = (uint64_t)used.ru_maxrss * 1024;
+}
+
+/* ---- the log ---- */
+
+static void log_add(void *context, enum event_id id, uint8_t role, const char *user,
+		    const char *one, const char *two)
+{
+	journal_add(((struct link *)context)->journal, id, role, user, one, two);
+}
+
+static bool log_next(void *context, uint32_t seq, struct event *out)
+{
+	return journal_next(((struct link *)context)->journal, seq, out);
+}
+
+/* What the board did by itself, such as a FAULT. */
+static void log_state(struct link *link)
+{
+	const int state = atomic_load(&link->exchange.state);
+
+	if (state == link->state)
+		return;
+	link->state = state;
+	link->status.fault[0] = '\0';
+	if (state == STATE_FAULT && exchange_is_done(&link->exchange)) {
+		link->store_order = (struct order){ .kind = ORDER_STATUS, .status = &link->status };
+		exchange_post(&link->exchange, &link->store_order);
+		wait_for_scan(link);
+	}
+	journal_add(link->journal, state == STATE_FAULT ? EVENT_FAULT :
+		    state == STATE_RUN ? EVENT_RUN : EVENT_STOP, 0, "", link->status.fault, "");
 }
 
 /* ---- downloads ---- */
@@ -374,7 +407,10 @@ static void *serve_desks(void *argument)
 		watch_streams(link, more);
 		more = server_step(link->server, clock_now());
 		send_all(link);
+		log_state(link);
+		journal_sync(link->journal, clock_now());
 	}
+	journal_add(link->journal, EVENT_END, 0, "", "", "");
 	for (int i = 0; i < SERVER_SESSIONS; i++)
 		hang_up(link, i);
 	return NULL;
@@ -419,6 +455,8 @@ int link_begin(struct link *link)
 	action.sa_flags = SA_RESTART;
 	sigemptyset(&action.sa_mask);
 	sigaction(SIGURG, &action, NULL);
+	journal_add(link->journal, EVENT_START, 0, "", link->cycle->identity, "");
+	link->state = -1;
 	link->scans = pthread_self();
 	link->began_ns = clock_now();
 	error = start_thread(link);
@@ -452,6 +490,7 @@ void link_free(struct link *link)
 	if (!link)
 		return;
 	server_free(link->server);
+	journal_close(link->journal);
 	download_free(link->download);
 	free(link->views);
 	free(link);
@@ -517,7 +556,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	const struct server_setup setup = {
 		.exchange = &link->exchange, .program = program, .board = cycle->board,
 		.wait = wait_for_scan, .amend = amend_status, .context = link,
-		.store = &link->store,
+		.store = &link->store, .log = &link->log,
 	};
 
 	link->views = calloc(3, size);
@@ -534,10 +573,12 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		.abort = store_abort, .running = store_running,
 	};
 	exchange_init(&link->exchange, &link->host, link->views, size);
+	link->log = (struct server_log){ .add = log_add, .next = log_next };
+	link->journal = journal_open(link->with.slots->folder);
 	link->server = server_new(&setup);
 	link->download = download_new(link->with.slots, cycle, link->with.map_text,
 				      link->with.map_len);
-	return link->server && link->download;
+	return link->server && link->download && link->journal;
 }
 
 struct link *link_open(const char *path, const char *groups, struct cycle *cycle,

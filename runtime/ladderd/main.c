@@ -259,12 +259,14 @@ static int load_and_run(struct daemon *daemon)
 	return fflush(stdout) == 0 ? 0 : 1;
 }
 
-int main(int argc, char **argv)
+/* Once, from reading the options to the last safe output. @again: a desk wants it to begin
+ * with the newest slot. */
+static int run_once(int argc, char **argv, bool *again)
 {
 	struct daemon *daemon = calloc(1, sizeof(*daemon));
-	bool restart = false;
 	int status;
 
+	*again = false;
 	if (!daemon) {
 		fprintf(stderr, "ladderd: out of memory\n");
 		return 1;
@@ -283,14 +285,19 @@ int main(int argc, char **argv)
 		status = load_and_run(daemon);
 		load_free(&daemon->load);
 		slots_close(&daemon->slots);
-		restart = daemon->cycle.restart;
+		*again = daemon->cycle.restart;
 	}
 	free(daemon);
-	if (restart) {
-		fflush(NULL);
-		execv("/proc/self/exe", argv);
-		fprintf(stderr, "ladderd: cannot start again: %s\n", strerror(errno));
-		return 1;
-	}
+	return status;
+}
+
+int main(int argc, char **argv)
+{
+	bool again;
+	int status;
+
+	do
+		status = run_once(argc, argv, &again);
+	while (again);
 	return status;
 }

@@ -19,6 +19,41 @@
 #define FILE_MOST (1u << 20)
 #define GROUPS_MOST 200 /* of one process that are looked at                  */
 
+/* Of /etc/passwd: `name:x:1000:…`. */
+static bool has_uid(const char *line, size_t len, uid_t uid, size_t *name_len)
+{
+	char number[16];
+	const char *colon = memchr(line, ':', len), *end = line + len;
+	int digits = snprintf(number, sizeof(number), "%u:", (unsigned)uid);
+
+	if (!colon || colon == line)
+		return false;
+	*name_len = (size_t)(colon - line);
+	colon = memchr(colon + 1, ':', (size_t)(end - colon - 1));
+	return colon && end - colon - 1 >= digits &&
+	       memcmp(colon + 1, number, (size_t)digits) == 0;
+}
+
+static void name_user(struct peer *peer)
+{
+	size_t len = 0, name_len;
+	char *text = file_read("/etc/passwd", FILE_MOST, &len, NULL);
+
+	snprintf(peer->user, sizeof(peer->user), "uid %u", (unsigned)peer->uid);
+	for (char *at = text; at && at < text + len;) {
+		char *stop = memchr(at, '\n', (size_t)(text + len - at));
+		const size_t line = stop ? (size_t)(stop - at) : (size_t)(text + len - at);
+
+		if (has_uid(at, line, peer->uid, &name_len)) {
+			snprintf(peer->user, sizeof(peer->user), "%.*s",
+				 name_len < 31 ? (int)name_len : 31, at);
+			break;
+		}
+		at += line + 1;
+	}
+	free(text);
+}
+
 /* `name:x:1000:members`. */
 static bool read_line(const char *line, size_t len, const char *name, gid_t *gid)
 {
@@ -87,7 +122,7 @@ int peer_ask(int fd, const struct peer_groups *groups, struct peer *out)
 	if (getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &who, &len) != 0)
 		return -errno;
 	out->uid = who.uid;
-	snprintf(out->user, sizeof(out->user), "uid %u", (unsigned)who.uid);
+	name_user(out);
 	take_group(groups, who.gid, &out->role);
 	len = sizeof(gid);
 	if (getsockopt(fd, SOL_SOCKET, SO_PEERGROUPS, gid, &len) == 0)

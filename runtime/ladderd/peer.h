@@ -20,7 +20,7 @@ struct peer_groups {
 struct peer {
 	enum role role;
 	uid_t uid;
-	char user[32];         /* "uid 1000"; for the log                     */
+	char user[32];         /* "pi", "uid 1000"; for the log               */
 };
 
 /** peer_groups_read - @path: "/etc/group". Groups that do not exist give nobody a role. */

@@ -180,6 +180,8 @@ void exchange_show(struct exchange *exchange, int64_t now_ns)
 	struct view *view = &exchange->view[exchange->back];
 
 	exchange->done = 0;
+	atomic_store_explicit(&exchange->state, (int)host->resource(host->context)->state,
+			      memory_order_relaxed);
 	if (!exchange->watch.count)
 		return;
 	copy_ranges(&exchange->watch, view, host->resource(host->context));

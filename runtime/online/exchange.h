@@ -103,6 +103,7 @@ struct exchange_host {
 struct exchange {
 	const struct exchange_host *host;
 	_Atomic(struct order *) order; /* NULL: none is waiting                 */
+	_Atomic int state;             /* enum resource_state after the last scan */
 	_Atomic unsigned middle;       /* the buffer between both sides, and FRESH */
 	struct view view[3];
 	/* Used by the scan thread. */

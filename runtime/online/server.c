@@ -7,6 +7,7 @@
  */
 #include "online/server.h"
 
+#include "engine/base/digest.h"
 #include "engine/base/version.h"
 #include "engine/scan/carry.h"
 
@@ -34,6 +35,7 @@ struct kept {
 
 struct session {
 	bool used, greeted, over;
+	bool told_role;        /* the log says that it was refused for its role */
 	bool changed;          /* to be told: another program runs            */
 	enum role role;
 	char user[64];
@@ -216,6 +218,17 @@ static void refuse(struct asked *asked, enum refusal refusal)
 	begin_answer(asked, WIRE_REFUSED);
 	wire_put_u16(&asked->out, (uint16_t)refusal);
 	wire_put_string(&asked->out, asked->detail);
+}
+
+/* ---- the log ---- */
+
+/* Who asked is known from the session. */
+static void tell_log(const struct asked *asked, enum event_id id, const char *one, const char *two)
+{
+	const struct server_setup *setup = &asked->server->setup;
+
+	setup->log->add(setup->context, id, (uint8_t)asked->session->role, asked->session->user,
+			one, two);
 }
 
 /* ---- variables ---- */
@@ -519,6 +532,28 @@ static enum refusal finish_change(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
+/* "Start=1", "Start=1 and 3 more". */
+static void tell_items(struct asked *asked, enum order_kind kind, uint32_t count)
+{
+	struct server *server = asked->server;
+	char value[64] = "", text[80];
+
+	if (!count && kind == ORDER_UNFORCE) {
+		tell_log(asked, EVENT_UNFORCE, "all", "");
+		return;
+	}
+	if (!count)
+		return;
+	name_place(server, server->item[0].at);
+	if (kind != ORDER_UNFORCE)
+		iec_value_print(server->item[0].at.type, server->item[0].value, value,
+				sizeof(value));
+	snprintf(text, sizeof(text), count > 1 ? "%.30s%s%.24s and %u more" : "%.40s%s%.36s",
+		 server->name, *value ? "=" : "", value, (unsigned)count - 1);
+	tell_log(asked, kind == ORDER_WRITE ? EVENT_WRITE :
+			kind == ORDER_FORCE ? EVENT_FORCE : EVENT_UNFORCE, text, "");
+}
+
 static enum refusal serve_change(struct asked *asked, enum order_kind kind)
 {
 	struct server *server = asked->server;
@@ -544,7 +579,10 @@ static enum refusal serve_change(struct asked *asked, enum order_kind kind)
 		.kind = kind, .expects = true, .expect = expect,
 		.item = server->item, .count = count,
 	};
-	return finish_change(asked);
+	refusal = finish_change(asked);
+	if (refusal == REFUSAL_NONE)
+		tell_items(asked, kind, count);
+	return refusal;
 }
 
 static enum refusal serve_mode(struct asked *asked)
@@ -553,6 +591,8 @@ static enum refusal serve_mode(struct asked *asked)
 	struct wire_reader *in = &asked->frame.body;
 	const struct expect expect = wire_expect(in);
 	const enum mode_wish wish = (enum mode_wish)wire_u8(in);
+	static const char *const word[MODE_COUNT] = { "STOP", "RUN", "RUN, cold", "reset" };
+	enum refusal refusal;
 
 	if (!wire_done(in) || wish >= MODE_COUNT)
 		return REFUSAL_BAD_FRAME;
@@ -565,7 +605,10 @@ static enum refusal serve_mode(struct asked *asked)
 		return REFUSAL_BUSY;
 	server->order = (struct order){ .kind = ORDER_MODE, .mode = wish,
 					.expects = true, .expect = expect };
-	return finish_change(asked);
+	refusal = finish_change(asked);
+	if (refusal == REFUSAL_NONE)
+		tell_log(asked, EVENT_MODE, word[wish], "");
+	return refusal;
 }
 
 static enum refusal serve_forces(struct asked *asked)
@@ -824,6 +867,16 @@ static enum refusal restart(struct server *server, const struct expect *expect)
 	return give(server);
 }
 
+/* From which identity to which. */
+static void tell_download(const struct asked *asked, const struct expect *before)
+{
+	char from[65], to[65];
+
+	digest_hex(before->program, sizeof(before->program), from);
+	digest_hex(asked->server->standby.identity, 32, to);
+	tell_log(asked, EVENT_DOWNLOAD, from, to);
+}
+
 static enum refusal serve_commit(struct asked *asked)
 {
 	struct server *server = asked->server;
@@ -856,6 +909,7 @@ static enum refusal serve_commit(struct asked *asked)
 		refusal = restart(server, &expect);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
+	tell_download(asked, &expect);
 	server->downloading = -1;
 	begin_answer(asked, 0);
 	wire_put_u64(&asked->out, server->order.scan);
@@ -892,10 +946,36 @@ static enum refusal serve_upload(struct asked *asked)
 	if (offset > size)
 		return REFUSAL_BAD_FRAME;
 	len = size - offset < STORED_BLOCK ? size - offset : STORED_BLOCK;
+	if (!offset)
+		tell_log(asked, EVENT_UPLOAD, "", "");
 	begin_answer(asked, 0);
 	for (int i = 0; i < STORED_PARTS; i++)
 		wire_put_u32(&asked->out, stored->len[i]);
 	wire_put_bytes(&asked->out, stored->bytes + offset, len);
+	return REFUSAL_NONE;
+}
+
+/* As many as fit, from a number on. */
+static enum refusal serve_events(struct asked *asked)
+{
+	const struct server_setup *setup = &asked->server->setup;
+	const uint32_t from = wire_u32(&asked->frame.body);
+	struct event event = { .seq = from };
+	uint16_t count = 0;
+	uint8_t *head;
+
+	if (!wire_done(&asked->frame.body))
+		return REFUSAL_BAD_FRAME;
+	begin_answer(asked, 0);
+	head = asked->out.at;
+	wire_put_u16(&asked->out, 0);
+	while ((size_t)(asked->out.end - asked->out.at) > EVENT_BYTES &&
+	       setup->log->next(setup->context, count ? event.seq + 1 : from, &event)) {
+		event_put(&asked->out, &event);
+		count++;
+	}
+	head[0] = (uint8_t)count;
+	head[1] = (uint8_t)(count >> 8);
 	return REFUSAL_NONE;
 }
 
@@ -938,6 +1018,8 @@ static enum refusal serve(struct asked *asked)
 		return serve_abort(asked);
 	case SERVICE_UPLOAD:
 		return serve_upload(asked);
+	case SERVICE_EVENTS:
+		return serve_events(asked);
 	}
 	return REFUSAL_NO_SERVICE;
 }
@@ -1014,6 +1096,11 @@ static void answer(struct server *server, struct session *session, const struct 
 	refusal = judge(&asked);
 	if (refusal == REFUSAL_NONE && asked.out.failed)
 		refusal = REFUSAL_TOO_MANY;
+	/* Once a session: a desk that asks again and again must not fill the log. */
+	if (refusal == REFUSAL_ROLE && !session->told_role) {
+		tell_log(&asked, EVENT_REFUSED, asked.row->word, "");
+		session->told_role = true;
+	}
 	if (refusal != REFUSAL_NONE)
 		refuse(&asked, refusal);
 	session->out_len = frame_end(&asked.out);
@@ -1128,7 +1215,7 @@ int server_open(struct server *server, enum role role, const char *user)
 		if (session->used)
 			continue;
 		session->used = true;
-		session->greeted = session->over = session->changed = false;
+		session->greeted = session->over = session->changed = session->told_role = false;
 		session->role = role;
 		session->requests = session->symbol = 0;
 		session->in_len = session->out_len = session->out_sent = 0;

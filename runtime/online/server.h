@@ -11,6 +11,7 @@
 #ifndef ONLINE_SERVER_H
 #define ONLINE_SERVER_H
 
+#include "online/event.h"
 #include "online/exchange.h"
 #include "online/publish.h"
 #include "online/stored.h"
@@ -25,6 +26,13 @@ struct standby_view {
 	uint8_t identity[32];
 	bool same_map;                 /* the lines need not be opened again   */
 	const struct carry_plan *plan;
+};
+
+/* The log of the board; by the link thread. */
+struct server_log {
+	void (*add)(void *context, enum event_id id, uint8_t role, const char *user,
+		    const char *one, const char *two);
+	bool (*next)(void *context, uint32_t seq, struct event *out);
 };
 
 /* Where downloads go; all by the link thread. A detail is a part of a diagnostic. */
@@ -48,6 +56,7 @@ struct server_setup {
 	struct exchange *exchange;
 	const struct program *program;
 	const char *board;     /* name of the board; borrowed                 */
+	const struct server_log *log;
 	const struct server_store *store; /* NULL: downloads are refused       */
 	/** Waits until the order of the exchange is done, at most some seconds.
 	 * Returns whether it is. */

@@ -66,6 +66,19 @@ static void amend(void *context, struct board_status *status)
 	(void)context, (void)status;
 }
 
+static void log_nothing(void *context, enum event_id id, uint8_t role, const char *user,
+			const char *one, const char *two)
+{
+	(void)context, (void)role, (void)two;
+	fuzz_expect(event_text((uint8_t)id) && strlen(user) < 64 && strlen(one) < 200, "an event");
+}
+
+static bool no_event(void *context, uint32_t seq, struct event *out)
+{
+	(void)context, (void)seq, (void)out;
+	return false;
+}
+
 static bool serve_now(void *context)
 {
 	struct rig *rig = context;
@@ -76,7 +89,8 @@ static bool serve_now(void *context)
 
 static void rig_open(struct rig *rig)
 {
-	struct server_setup setup = { .board = "b", .wait = serve_now, .amend = amend,
+	static const struct server_log log = { log_nothing, no_event };
+	struct server_setup setup = { .log = &log, .board = "b", .wait = serve_now, .amend = amend,
 				      .context = rig, .exchange = &rig->exchange };
 	size_t size;
 
@@ -221,7 +235,7 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 	static const uint8_t services[] = { SERVICE_HELLO, SERVICE_STATUS, SERVICE_SYMBOLS,
 		SERVICE_READ, SERVICE_PUBLISH, SERVICE_WRITE, SERVICE_FORCE, SERVICE_FORCES,
 		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_DOWNLOAD, SERVICE_BLOCK,
-		SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT, SERVICE_UPLOAD, SERVICE_MODE };
+		SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT, SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_MODE };
 	const struct expect expect = { .mode = EXPECT_ANY };
 	uint8_t *seed = malloc(4096);
 	size_t at = 1;
@@ -281,6 +295,7 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 			break;
 		case SERVICE_BLOCK:
 		case SERVICE_UPLOAD:
+		case SERVICE_EVENTS:
 			wire_put_u32(&out, 0);
 			break;
 		case SERVICE_STATUS:

@@ -5,7 +5,7 @@ import socket
 import struct
 
 (HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE,
- DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD) = range(1, 18)
+ DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS) = range(1, 19)
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
 FORMS = [None, '?', 'B', 'H', 'I', 'Q', 'b', 'h', 'i', 'q', 'B', 'H', 'I', 'Q', 'f', 'd', 'q', 'q', 'q', 'q', None]
@@ -257,6 +257,18 @@ class Client:
             data += it.rest()
             if len(data) == sum(sizes):
                 return [data[:sizes[0]], data[sizes[0]:sizes[0] + sizes[1]], data[sizes[0] + sizes[1]:]]
+
+    def events(self, first=1):
+        found = []
+        while True:
+            it = self.call(EVENTS, struct.pack('<I', first))
+            count = it.number('H')
+            for _ in range(count):
+                found.append({'number': it.number('I'), 'time': it.number('q'), 'id': it.number('B'),
+                              'role': it.number('B'), 'user': it.text(), 'args': [it.text(), it.text()]})
+            if not count:
+                return found
+            first = found[-1]['number'] + 1
 
 
 def take_values(fields, types):

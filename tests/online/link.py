@@ -750,6 +750,82 @@ def test_a_kill_in_a_download_leaves_the_old_program_or_the_new_one():
             assert found in known and desk.upload() == known[found], kill
 
 
+# ---- events ----
+
+def test_events_say_who_did_what():
+    with slots() as board:
+        desk = board.client()
+        before = desk.status()['program'].hex()
+        desk.force({'Start': (BOOL, True)})
+        desk.write({'Count': (INT, 5), 'Label': (STRING, b'x')})
+        desk.unforce()
+        desk.set_mode(0)
+        desk.set_mode(1)
+        after = desk.download(build(board, 'other.rung', OTHER))[1].hex()
+        until(lambda: any(it['id'] == 5 for it in desk.events()))
+        found = desk.events()
+        assert [it['number'] for it in found] == list(range(1, len(found) + 1))
+        told = [(it['id'], *it['args']) for it in found if it['id'] not in (4, 5)]
+        assert told == [(1, before, ''), (7, 'Start=1', ''), (6, 'Count=5 and 1 more', ''), (8, 'all', ''),
+                        (9, 'STOP', ''), (9, 'RUN', ''), (10, before, after)], told
+        assert all(it['user'] for it in found if it['id'] in (6, 7, 8, 9, 10))
+        assert all(not it['user'] for it in found if it['id'] < 6)
+        assert desk.events(3)[0]['number'] == 3
+        out = board.command('events')[1]
+        assert 'forced Start=1\n' in out and f'replaced program {before} by {after}\n' in out, out
+        assert 'forced Start=1' in [it['event'] for it in json.loads(board.command('events', '--json')[1])]
+
+
+def test_events_survive_a_kill():
+    with slots() as board:
+        desk = board.client()
+        for number in range(30):
+            desk.write({'Count': (INT, number)})
+            if number % 10 == 9:
+                board.daemon.kill()
+                board.daemon.wait()
+                board.start()
+                desk = board.client()
+                wrote = [it['args'][0] for it in desk.events() if it['id'] == 6]
+                assert wrote == [f'Count={i}' for i in range(number + 1)], wrote
+
+
+def test_events_are_bounded_and_the_newest_stay():
+    with slots() as board:
+        desk = board.client()
+        for number in range(2200):
+            desk.write({'Count': (INT, number)})
+        found = desk.events()
+        assert len(found) == 2048 and found[-1]['args'][0] == 'Count=2199'
+        assert os.path.getsize(board.folder + '/events') == 2048 * 256
+        board.stop()
+        with open(board.folder + '/events', 'r+b') as log:
+            log.seek(256 * (found[500]['number'] % 2048) + 20)
+            log.write(b'damage')
+        board.start()
+        again = board.client().events()
+        numbers = [it['number'] for it in again]
+        assert found[500]['number'] not in numbers and numbers == sorted(numbers) and len(numbers) > 2040
+
+
+def test_a_fault_is_an_event():
+    with Board(LOOP, board='BOARD "b"\n%QX0.0 sim\n') as board:
+        desk = board.client()
+        desk.write({'Go': (BOOL, True)})
+        until(lambda: any(it['id'] == 3 for it in desk.events()))
+        fault = next(it for it in desk.events() if it['id'] == 3)
+        assert 'Main rung' in fault['args'][0] and not fault['user'], fault
+
+
+def test_hostile_texts_cannot_break_a_line():
+    with Board() as board:
+        desk = board.client()
+        desk.write({'Label': (STRING, b'\n1 2026 root forced\x1b[31m\x00\xff')})
+        lines = board.command('events')[1].splitlines()
+        assert any('wrote Label=' in line for line in lines)
+        assert all(line.isprintable() and line.split()[0].isdigit() for line in lines), lines
+
+
 # ---- ssh ----
 
 class Sshd:
@@ -892,7 +968,7 @@ def try_all(desk):
 
     return {
         'status': number(desk.status), 'symbols': number(desk.symbols), 'read': number(lambda: desk.read('Motor')),
-        'publish': number(lambda: desk.publish(['Motor'])),
+        'publish': number(lambda: desk.publish(['Motor'])), 'events': number(desk.events),
         'unpublish': number(lambda: desk.call(client.UNPUBLISH, struct.pack('<H', 4))),
         'forces': number(desk.forces),
         'write': number(lambda: desk.write({'Count': (INT, 1)}, program=program)),
@@ -909,7 +985,7 @@ def try_all(desk):
 
 
 def test_each_role_may_do_what_the_table_says():
-    reading = 'status symbols read publish unpublish forces'.split()
+    reading = 'status symbols read publish unpublish forces events'.split()
     changing = 'write force unforce stop run cold'.split()
     moving = 'download block verify commit abort upload'.split()
     nothing = dict.fromkeys(changing + moving, 5)
