@@ -34,6 +34,9 @@ struct slots {
  */
 bool slots_open(struct slots *slots, const char *folder, const char *file, const char *map);
 void slots_close(struct slots *slots);
+/** slots_reject - the slot that runs cannot start: puts it aside, as prog.A.refused. Returns
+ * whether the next start finds another program. */
+bool slots_reject(struct slots *slots);
 /** slots_beside - SHA-256 of the files of the command line, as they are now. */
 void slots_beside(const struct slots *slots, uint8_t out[32]);
 /** slots_path - of prog.A or prog.B, in slots->path. Fails: NULL: it is too long. */

@@ -61,6 +61,12 @@ bool slots_open(struct slots *slots, const char *folder, const char *file, const
 	return false;
 }
 
+bool slots_reject(struct slots *slots)
+{
+	(void)slots;
+	return false;
+}
+
 void slots_close(struct slots *slots)
 {
 	(void)slots;

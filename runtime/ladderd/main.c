@@ -195,6 +195,7 @@ static int run(struct daemon *daemon)
 		notify_close(&cycle->notify);
 		if (cycle->store)
 			store_close(cycle->store);
+		cycle->restart = slots_reject(&daemon->slots);
 		return 1;
 	}
 	if (options->link && !open_link(daemon)) {

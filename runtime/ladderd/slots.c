@@ -119,6 +119,21 @@ bool slots_open(struct slots *slots, const char *folder, const char *file, const
 	return true;
 }
 
+bool slots_reject(struct slots *slots)
+{
+	const char *path = slots->bytes ? slots_path(slots, !slots->next) : NULL;
+	char aside[512];
+
+	if (!path || strlen(path) + sizeof(".refused") > sizeof(aside))
+		return false;
+	snprintf(aside, sizeof(aside), "%.500s.refused", path);
+	if (rename(path, aside) != 0)
+		return false;
+	fprintf(stderr, "ladderd: the program of download %u cannot start here; the one before "
+		"it is used\n", (unsigned)slots->seq);
+	return true;
+}
+
 void slots_close(struct slots *slots)
 {
 	free(slots->bytes);

@@ -629,6 +629,21 @@ def test_another_map_needs_a_restart():
         assert board.client().upload() == parts and board.daemon.poll() is None
 
 
+def test_a_map_without_its_lines_brings_the_old_program_back():
+    with slots() as board:
+        desk = board.client()
+        first = build(board, 'other.rung', OTHER)
+        identity = desk.download(first)[1]
+        parts = build(board, 'third.rung', OTHER.replace('T#9s', 'T#7s'))
+        parts[1] = b'BOARD "x"\n%IX0.0 gpio line=NO_BOARD_HAS_THIS\n%QX0.0 sim\n%QX0.1 sim\n'
+        desk.send_from(b''.join(parts), desk.begin(parts))
+        desk.verify()
+        desk.commit(restart=True)
+        until(lambda: reached(board, lambda it: it.status()['program'] == identity))
+        assert board.client().upload() == first
+        assert 'cannot start here' in board.read('err') and os.path.exists(board.folder + '/prog.B.refused')
+
+
 def test_the_stored_program_runs_after_a_start():
     with slots() as board:
         identity = board.client().download(build(board, 'other.rung', OTHER))[1]
