@@ -12,6 +12,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/row_move.h"
 #include "editor-gtk/panels/type_cells.h"
 
 #include "engine/xref/xref.h"
@@ -32,7 +33,6 @@ struct _LadderTypesView {
 	char *type;             /* name of the structure that is shown; NULL: none */
 	guint64 told_of;        /* version of the document when the message was set */
 	bool busy;              /* the drop-down is being filled: ignore its signal */
-	GtkWidget *marked;      /* the row with the line of a drop; weak         */
 };
 
 G_DEFINE_FINAL_TYPE(LadderTypesView, ladder_types_view, GTK_TYPE_BOX)
@@ -331,153 +331,30 @@ static void move_by(GtkWidget *widget, const char *action, GVariant *unused)
 		move(view, row, index_of(view, row) + (strcmp(action, "types.up") == 0 ? -1 : 1));
 }
 
-/* Before the cell, which would open its choices. */
-static gboolean key_pressed(GtkWidget *view, guint key, guint code, GdkModifierType state)
+static const char *name_of(gpointer view, gpointer row)
 {
-	(void)code;
-	if ((key != GDK_KEY_Up && key != GDK_KEY_Down) ||
-	    (state & gtk_accelerator_get_default_mod_mask()) != GDK_ALT_MASK)
-		return FALSE;
-	gtk_widget_activate_action(view, key == GDK_KEY_Up ? "types.up" : "types.down", NULL);
-	return TRUE;
+	(void)view;
+	return is_fixed(row, FIELD_NAME) ? NULL : panel_row_text(row, FIELD_NAME);
 }
 
-/* ---- moving by drag ---- */
-
-static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double y,
-					GtkListItem *item)
+static bool fits(gpointer view, gpointer row, gpointer target, bool *below)
 {
-	LadderPanelRow *row = gtk_list_item_get_item(item);
+	const int from = index_of(view, row), to = index_of(view, target);
 
-	(void)source;
-	(void)x;
-	(void)y;
-	return row && !(row->flags & TYPES_FIXED) ?
-	       gdk_content_provider_new_typed(LADDER_TYPE_PANEL_ROW, row) : NULL;
+	*below = to > from;
+	return from >= 0 && to >= 0 && from != to;
 }
 
-static void drag_begin(GtkDragSource *source, GdkDrag *drag, GtkListItem *item)
+static void move_to(gpointer view, gpointer row, gpointer target, bool below)
 {
-	LadderPanelRow *row = gtk_list_item_get_item(item);
-	GtkWidget *label = gtk_label_new(row ? panel_row_text(row, FIELD_NAME) : "");
-
-	(void)source;
-	gtk_widget_add_css_class(label, "dragged-row");
-	gtk_drag_icon_set_child(GTK_DRAG_ICON(gtk_drag_icon_get_for_drag(drag)), label);
-}
-
-static void setup_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
-{
-	GtkWidget *handle = gtk_image_new_from_icon_name("list-drag-handle-symbolic");
-	GtkDragSource *source = gtk_drag_source_new();
-
-	(void)factory;
-	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
-	g_signal_connect(source, "prepare", G_CALLBACK(drag_prepare), item);
-	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), item);
-	gtk_widget_add_controller(handle, GTK_EVENT_CONTROLLER(source));
-	gtk_widget_add_css_class(handle, "dim-label");
-	g_object_set_data(G_OBJECT(handle), "handle", item);
-	gtk_list_item_set_child(item, handle);
-}
-
-static void bind_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
-{
-	LadderPanelRow *row = gtk_list_item_get_item(item);
-	GtkWidget *handle = gtk_list_item_get_child(item);
-	char *name = g_strdup_printf(_("Move %s (Alt+Up, Alt+Down)"),
-				     panel_row_text(row, FIELD_NAME));
-
-	(void)factory;
-	tip_set(handle, name);
-	spoken_name(handle, name);
-	gtk_widget_set_visible(handle, !(row->flags & TYPES_FIXED));
-	g_free(name);
-}
-
-/* The row at a place of the list, found by its handle or a cell. @of_row: gets its widget.
- * NULL: none. */
-static LadderPanelRow *row_at(LadderTypesView *view, double x, double y, GtkWidget **of_row)
-{
-	GtkWidget *list = GTK_WIDGET(view->list.view);
-	GtkWidget *at = gtk_widget_pick(list, x, y, GTK_PICK_DEFAULT);
-
-	for (; at && at != list; at = gtk_widget_get_parent(at)) {
-		GtkListItem *item = g_object_get_data(G_OBJECT(at), "handle");
-
-		item = item ? item : g_object_get_data(G_OBJECT(at), "item");
-		if (!item)
-			continue;
-		*of_row = gtk_widget_get_parent(gtk_widget_get_parent(at));
-		return gtk_list_item_get_item(item);
-	}
-	return NULL;
-}
-
-/* A line shows where the member would go. */
-static void mark(LadderTypesView *view, GtkWidget *of_row, bool below)
-{
-	if (view->marked) {
-		gtk_widget_remove_css_class(view->marked, "drop-above");
-		gtk_widget_remove_css_class(view->marked, "drop-below");
-	}
-	g_set_weak_pointer(&view->marked, of_row);
-	if (of_row)
-		gtk_widget_add_css_class(of_row, below ? "drop-below" : "drop-above");
-}
-
-/* NULL: it is none of this list. */
-static LadderPanelRow *dragged_of(LadderTypesView *view, const GValue *value)
-{
-	LadderPanelRow *row = value ? g_value_get_object(value) : NULL;
-
-	return row && panel_list_has(&view->list, row) ? row : NULL;
-}
-
-static GdkDragAction drag_over(GtkDropTarget *target, double x, double y, LadderTypesView *view)
-{
-	GtkWidget *of_row = NULL;
-	const LadderPanelRow *row = row_at(view, x, y, &of_row);
-	const LadderPanelRow *dragged = dragged_of(view, gtk_drop_target_get_value(target));
-	const bool good = row && dragged && row != dragged;
-
-	mark(view, good ? of_row : NULL, good && row->index > dragged->index);
-	return good ? GDK_ACTION_MOVE : 0;
-}
-
-static void drag_leave(LadderTypesView *view)
-{
-	mark(view, NULL, false);
-}
-
-static gboolean dropped(LadderTypesView *view, const GValue *value, double x, double y)
-{
-	LadderPanelRow *row = dragged_of(view, value), *target;
-	GtkWidget *of_row = NULL;
-
-	mark(view, NULL, false);
-	target = row_at(view, x, y, &of_row);
-	if (!row || !target || index_of(view, row) < 0)
-		return FALSE;
+	(void)below;
 	move(view, row, index_of(view, target));
-	return TRUE;
 }
 
-static void add_handles(LadderTypesView *view)
-{
-	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
-	GtkDropTarget *target = gtk_drop_target_new(LADDER_TYPE_PANEL_ROW, GDK_ACTION_MOVE);
-
-	g_signal_connect(factory, "setup", G_CALLBACK(setup_handle), NULL);
-	g_signal_connect(factory, "bind", G_CALLBACK(bind_handle), NULL);
-	panel_list_add(&view->list, "", FIELD_NAME, PANEL_ICON, 0, factory);
-	gtk_drop_target_set_preload(target, TRUE);
-	g_signal_connect(target, "enter", G_CALLBACK(drag_over), view);
-	g_signal_connect(target, "motion", G_CALLBACK(drag_over), view);
-	g_signal_connect_swapped(target, "leave", G_CALLBACK(drag_leave), view);
-	g_signal_connect_swapped(target, "drop", G_CALLBACK(dropped), view);
-	gtk_widget_add_controller(GTK_WIDGET(view->list.view), GTK_EVENT_CONTROLLER(target));
-}
+static const struct row_move moving = {
+	.up = "types.up", .down = "types.down", .before_cells = true,
+	.name = name_of, .fits = fits, .move = move_to,
+};
 
 /* ---- the structure ---- */
 
@@ -561,29 +438,19 @@ static void add_columns(LadderTypesView *view)
 		{ FIELD_NAME, 150 }, { FIELD_TYPE, 210 }, { FIELD_INITIAL, 150 },
 		{ FIELD_COMMENT, 120 },
 	};
-	GListModel *columns;
 
-	/* The handles are not the first column: a press near the divider of panes moves that. */
 	panel_list_column(&view->list, "", TYPES_USES, PANEL_ICON, 0);
-	add_handles(view);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
 				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
 				column[i].width);
 	panel_list_column(&view->list, _("Uses"), TYPES_USES, PANEL_NUMBER, 60);
-	columns = gtk_column_view_get_columns(view->list.view);
-	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
-		GtkColumnViewColumn *each = g_list_model_get_item(columns, i);
-
-		gtk_column_view_column_set_sorter(each, NULL); /* their order counts */
-		g_object_unref(each);
-	}
+	row_move_add(GTK_WIDGET(view->list.view), &moving, view);
 }
 
 static GtkWidget *list_new(LadderTypesView *view)
 {
 	GtkWidget *list = gtk_column_view_new(NULL), *scroller = gtk_scrolled_window_new();
-	GtkEventController *keys = gtk_event_controller_key_new();
 
 	panel_list_init(&view->list, GTK_COLUMN_VIEW(list));
 	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
@@ -593,9 +460,6 @@ static GtkWidget *list_new(LadderTypesView *view)
 	add_columns(view);
 	gtk_widget_add_css_class(list, "data-table");
 	spoken_name(list, _("Members"));
-	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
-	g_signal_connect_swapped(keys, "key-pressed", G_CALLBACK(key_pressed), view);
-	gtk_widget_add_controller(list, keys);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), list);
 	gtk_widget_set_vexpand(scroller, TRUE);
 	return scroller;
@@ -623,7 +487,6 @@ static void dispose(GObject *object)
 
 	g_clear_pointer(&view->watch, panel_watch_free);
 	g_clear_pointer(&view->type, g_free);
-	g_clear_weak_pointer(&view->marked);
 	G_OBJECT_CLASS(ladder_types_view_parent_class)->dispose(object);
 	panel_list_clear(&view->list);
 }

@@ -117,7 +117,7 @@ def table(screen):
 def rows(screen):
     """programs move by handle and key, tasks come and go; what a deletion takes along is said before"""
     editor, path = opened(screen)
-    editor.drag(editor.find('Drag A'), cell(editor, 'Slow, Name'), look='tasks-drag')
+    editor.drag(editor.find('Move A'), cell(editor, 'Slow, Name'), look='tasks-drag')
     is_saved(editor, path, ('A WITH Fast', 'A WITH Slow'))
     editor.keys('ctrl+z')
     is_saved(editor, path)
