@@ -27,6 +27,17 @@ void messages_tell(struct messages *messages, const char *text)
 	tip_set(GTK_WIDGET(messages->message_label), text);
 }
 
+bool messages_can_add(struct messages *messages)
+{
+	LadderDocument *document = messages->core->document;
+
+	if (ladder_document_project(document) && ladder_document_is_whole(document))
+		return true;
+	messages_tell(messages, _("Nothing can be added while a text of the project cannot be "
+				  "read"));
+	return false;
+}
+
 void messages_keys(struct messages *messages, char *text)
 {
 	g_free(messages->keys);

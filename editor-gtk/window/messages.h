@@ -24,6 +24,8 @@ void messages_clear(struct messages *messages);
 /** messages_tell - shows a short message in the status bar, for a moment at least; "":
  * none. */
 void messages_tell(struct messages *messages, const char *text);
+/** messages_can_add - can a declaration be added now? If not, it tells why. */
+bool messages_can_add(struct messages *messages);
 /** messages_keys - what the next key would do (taken over), shown while there is no
  * message. */
 void messages_keys(struct messages *messages, char *text);

@@ -14,6 +14,7 @@
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/below.h"
 #include "editor-gtk/window/messages.h"
+#include "editor-gtk/window/naming.h"
 #include "editor-gtk/window/tabs.h"
 
 #include "engine/base/name.h"
@@ -290,8 +291,7 @@ struct named {
 
 struct renaming {
 	struct core *core;
-	AdwMessageDialog *dialog;
-	GtkWidget *line, *why;
+	struct naming *naming;
 	GArray *choice;      /* of struct named, at least one                 */
 	guint chosen;
 };
@@ -310,33 +310,20 @@ static void rename_target(struct core *core, const struct named *named, const ch
 	g_free(step);
 }
 
-/* Why the name is refused; NULL: it is not. Caller frees. */
-static char *refusal(LadderDocument *document, const struct named *named, const char *name)
-{
-	if (strcmp(name, named->name) == 0)
-		return NULL;
-	return *name ? rename_refusal(document, &named->target, name) :
-		       g_strdup(_("Enter a name"));
-}
-
 static const struct named *chosen_of(const struct renaming *renaming)
 {
 	return &g_array_index(renaming->choice, struct named, renaming->chosen);
 }
 
-/* Caller frees. */
-static char *name_typed(const struct renaming *renaming)
+static char *refusal(gpointer data, const char *name)
 {
-	return g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(renaming->line))));
-}
+	const struct renaming *renaming = data;
+	const struct named *named = chosen_of(renaming);
 
-static void typed(GtkEditable *line, struct renaming *renaming)
-{
-	char *name = name_typed(renaming);
-	char *why = refusal(renaming->core->document, chosen_of(renaming), name);
-
-	ask_refuse(renaming->dialog, "rename", GTK_WIDGET(line), renaming->why, why);
-	g_free(name);
+	if (strcmp(name, named->name) == 0)
+		return NULL;
+	return *name ? rename_refusal(renaming->core->document, &named->target, name) :
+		       g_strdup(_("Enter a name"));
 }
 
 /* The files beside the project that have the name, and its charts, a line each. */
@@ -370,9 +357,9 @@ static void show_chosen(struct renaming *renaming)
 	g_string_printf(body, ngettext("“%s” is used in %d place.", "“%s” is used in %d places.",
 				       (unsigned long)named->uses), named->name, named->uses);
 	list_files(renaming, body);
-	adw_message_dialog_set_body(renaming->dialog, body->str);
+	naming_say(renaming->naming, body->str);
 	g_string_free(body, TRUE);
-	gtk_editable_set_text(GTK_EDITABLE(renaming->line), named->name);
+	naming_set(renaming->naming, named->name);
 }
 
 static void choose(GtkDropDown *list, GParamSpec *spec, struct renaming *renaming)
@@ -386,26 +373,24 @@ static void choose(GtkDropDown *list, GParamSpec *spec, struct renaming *renamin
 	show_chosen(renaming);
 }
 
-static void rename_now(AdwMessageDialog *dialog, const char *response,
-		       struct renaming *renaming)
+static void rename_now(gpointer data, const char *name)
 {
+	struct renaming *renaming = data;
 	const struct named *named = chosen_of(renaming);
-	char *name = name_typed(renaming);
 
-	(void)dialog;
-	if (strcmp(response, "rename") == 0 && strcmp(name, named->name) != 0)
+	if (strcmp(name, named->name) != 0)
 		rename_target(renaming->core, named, name);
-	g_free(name);
 }
 
-static void renaming_free(gpointer data, GClosure *closure)
+static void renaming_free(gpointer data)
 {
 	struct renaming *renaming = data;
 
-	(void)closure;
 	g_array_unref(renaming->choice);
 	g_free(renaming);
 }
+
+static const struct naming_how how = { refusal, rename_now, renaming_free };
 
 /* Hidden if there is only one choice. */
 static GtkWidget *choice_new(struct renaming *renaming)
@@ -423,41 +408,17 @@ static GtkWidget *choice_new(struct renaming *renaming)
 	return list;
 }
 
-static GtkWidget *line_new(struct renaming *renaming)
-{
-	GtkWidget *line = ask_entry(_("New name"));
-
-	g_signal_connect(line, "changed", G_CALLBACK(typed), renaming);
-	return line;
-}
-
-static GtkWidget *parts_new(struct renaming *renaming)
-{
-	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
-
-	renaming->line = line_new(renaming);
-	renaming->why = ask_why();
-	gtk_box_append(GTK_BOX(box), choice_new(renaming));
-	gtk_box_append(GTK_BOX(box), renaming->line);
-	gtk_box_append(GTK_BOX(box), renaming->why);
-	spoken_parts(box);
-	return box;
-}
-
 /* @choice: taken over. */
 static void ask_name(struct core *core, GArray *choice)
 {
 	struct renaming *renaming = g_new0(struct renaming, 1);
-	AdwMessageDialog *dialog = ask_new(core->window, _("Rename everywhere"), NULL, "rename",
-					   _("Rename"), ADW_RESPONSE_SUGGESTED);
 
-	*renaming = (struct renaming){ .core = core, .dialog = dialog, .choice = choice };
-	adw_message_dialog_set_extra_child(dialog, parts_new(renaming));
+	*renaming = (struct renaming){ .core = core, .choice = choice };
+	renaming->naming = naming_new(core->window, _("Rename everywhere"), _("Rename"),
+				      _("New name"), &how, renaming);
+	naming_add(renaming->naming, choice_new(renaming), true);
 	show_chosen(renaming);
-	g_signal_connect_data(dialog, "response", G_CALLBACK(rename_now), renaming,
-			      renaming_free, 0);
-	gtk_window_present(GTK_WINDOW(dialog));
-	gtk_widget_grab_focus(renaming->line);
+	naming_show(renaming->naming);
 }
 
 /* The declared name; NULL: the target is not declared. */
