@@ -1001,6 +1001,22 @@ bool task_rows_set(LadderDocument *document, int row, enum task_field field, con
 	return good;
 }
 
+char *task_rows_name_refusal(LadderDocument *document, int row, const char *name)
+{
+	struct task_rows *tasks = task_rows_new(document);
+	struct line *line = line_of(tasks, row);
+	char *why = NULL;
+
+	if (!line)
+		why = g_strdup(_("This cannot be changed here"));
+	else if (!*name)
+		why = g_strdup(_("Enter a name"));
+	else
+		rename_line(tasks->inside, line, name, &why);
+	task_rows_free(tasks);
+	return why;
+}
+
 /* ---- tasks and programs come, go and move ---- */
 
 bool task_rows_add(LadderDocument *document, char **name, char **why)

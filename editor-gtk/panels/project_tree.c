@@ -188,24 +188,35 @@ static const char *selected_type(struct tree *tree)
 	return row && row->kind == ROW_STRUCTURE ? row->text : NULL;
 }
 
+/* Its name; NULL: no task is selected. */
+static const char *selected_task(struct tree *tree)
+{
+	LadderTreeRow *row = row_at(tree,
+		gtk_single_selection_get_selected(tree->selection));
+
+	return row && row->kind == ROW_TASK ? row->text : NULL;
+}
+
 static void tell(struct tree *tree, const char *text)
 {
 	gtk_widget_activate_action(tree->list, "win.tell", "s", text);
 }
 
 /* Activates the action of the window for the selected row: "tree.rename" becomes
- * "win.rename-pou" or "win.rename-type". */
+ * "win.rename-pou", "win.rename-type" or "win.rename-task". */
 static void act_on_row(GSimpleAction *action, GVariant *unused, gpointer data)
 {
 	struct tree *tree = data;
 	const int pou = selected_pou(tree);
-	const char *type = selected_type(tree);
-	char *name = g_strdup_printf("win.%s-%s", g_action_get_name(G_ACTION(action)),
-				     type ? "type" : "pou");
+	const char *type = selected_type(tree), *task = selected_task(tree);
+	const char *act = g_action_get_name(G_ACTION(action));
+	char *name = g_strdup_printf("win.%s-%s", act, type ? "type" : task ? "task" : "pou");
 
 	(void)unused;
 	if (type)
 		gtk_widget_activate_action(tree->list, name, "s", type);
+	else if (task && (strcmp(act, "rename") == 0 || strcmp(act, "delete") == 0))
+		gtk_widget_activate_action(tree->list, name, "s", task);
 	else if (pou < 0)
 		tell(tree, _("Select a program, a block or a data type first"));
 	else
@@ -382,23 +393,26 @@ static GMenu *button_menu(void)
 	return menu;
 }
 
-/* The context menu of a POU or a structure. A structure cannot be moved: its order has no meaning. */
-static GMenu *row_menu(bool type)
+enum { POU = 1, TYPE = 2, TASK = 4 }; /* kinds of a row with a menu of its own */
+
+/* The context menu of a POU, a structure or a task. A structure cannot be moved: its order has no
+ * meaning. */
+static GMenu *row_menu(unsigned of)
 {
-	static const struct { const char *label, *action; bool pou; } entries[] = {
-		{ N_("Duplicate…"), "tree.duplicate", false },
-		{ N_("Move up"), "tree.up", true }, { N_("Move down"), "tree.down", true },
-		{ N_("Copy to file…"), "tree.copy", true },
-		{ N_("Move to file…"), "tree.move", true },
-		{ N_("Rename…"), "tree.rename", false },
-		{ N_("Where it is used"), "tree.uses", false },
-		{ N_("Delete"), "tree.delete", false },
-		{ N_("Properties…"), "tree.about", true },
+	static const struct { const char *label, *action; unsigned of; } entries[] = {
+		{ N_("Duplicate…"), "tree.duplicate", POU | TYPE },
+		{ N_("Move up"), "tree.up", POU }, { N_("Move down"), "tree.down", POU },
+		{ N_("Copy to file…"), "tree.copy", POU },
+		{ N_("Move to file…"), "tree.move", POU },
+		{ N_("Rename…"), "tree.rename", POU | TYPE | TASK },
+		{ N_("Where it is used"), "tree.uses", POU | TYPE },
+		{ N_("Delete"), "tree.delete", POU | TYPE | TASK },
+		{ N_("Properties…"), "tree.about", POU },
 	};
 	GMenu *menu = g_menu_new(), *fresh = menu_model();
 
 	for (gsize i = 0; i < G_N_ELEMENTS(entries); i++)
-		if (!type || !entries[i].pou)
+		if (entries[i].of & of)
 			g_menu_append(menu, _(entries[i].label), entries[i].action);
 	g_menu_append_submenu(menu, _("New"), G_MENU_MODEL(fresh));
 	g_object_unref(fresh);
@@ -443,10 +457,12 @@ static GtkWidget *menu_new(void)
 
 static void show_menu(struct tree *tree, double x, double y)
 {
+	const unsigned of = selected_pou(tree) >= 0 ? POU : selected_type(tree) ? TYPE :
+			    selected_task(tree) ? TASK : 0;
+
 	/* not on the scrolled window, which takes the arrow keys */
 	gtk_widget_translate_coordinates(tree->list, tree->panel, x, y, &x, &y);
-	popover_menu(tree->panel, selected_pou(tree) < 0 && !selected_type(tree) ? menu_model() :
-		     row_menu(selected_type(tree) != NULL),
+	popover_menu(tree->panel, of ? row_menu(of) : menu_model(),
 		     &(GdkRectangle){ (int)x, (int)y, 1, 1 }, tree->list);
 }
 

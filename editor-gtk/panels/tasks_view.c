@@ -13,8 +13,8 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/row_move.h"
 #include "editor-gtk/panels/task_chart.h"
+#include "editor-gtk/panels/task_delete.h"
 
-#include <adwaita.h>
 #include <string.h>
 
 #define INDENT 24 /* px of a program below its task                            */
@@ -140,6 +140,7 @@ static void show_actions_of(LadderTasksView *view, const struct task_rows *tasks
 
 	gtk_widget_action_set_enabled(widget, "tasks.add", tasks && !tasks->fixed);
 	gtk_widget_action_set_enabled(widget, "tasks.delete", line);
+	gtk_widget_action_set_enabled(widget, "tasks.rename", line);
 	gtk_widget_action_set_enabled(widget, "tasks.up",
 				      can && task_rows_can_step(tasks, row->index, -1));
 	gtk_widget_action_set_enabled(widget, "tasks.down",
@@ -330,14 +331,13 @@ static void add_program(GtkWidget *widget, const char *action, GVariant *program
 	g_free(name);
 }
 
-static void delete_now(LadderTasksView *view, const LadderPanelRow *row)
+static void deleted(gpointer data, bool good, char *why)
 {
+	LadderTasksView *view = data;
 	const guint at = gtk_single_selection_get_selected(view->list.selection);
 	guint count;
-	char *why = NULL;
-	const bool good = task_rows_delete(document_of(view), number_of(view, row), &why);
 
-	if (!done(view, good, why))
+	if (!view->box || !done(view, good, why)) /* the page was closed meanwhile */
 		return;
 	panel_watch_later(view->watch);
 	panel_watch_now(view->watch);
@@ -346,79 +346,28 @@ static void delete_now(LadderTasksView *view, const LadderPanelRow *row)
 	gtk_widget_grab_focus(GTK_WIDGET(view->list.view));
 }
 
-struct deleting {
-	LadderTasksView *view;
-	LadderPanelRow *row;
-};
-
-static void deleting_free(gpointer data, GClosure *closure)
-{
-	struct deleting *deleting = data;
-
-	(void)closure;
-	g_object_unref(deleting->view);
-	g_object_unref(deleting->row);
-	g_free(deleting);
-}
-
-static void delete_answered(AdwMessageDialog *dialog, const char *answer,
-			    struct deleting *deleting)
-{
-	(void)dialog;
-	if (strcmp(answer, "delete") == 0 && document_of(deleting->view))
-		delete_now(deleting->view, deleting->row);
-}
-
-/* Says which programs of the task then run in each scan. */
-static void ask_delete(LadderTasksView *view, LadderPanelRow *row, const char *programs, int count)
-{
-	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
-	struct deleting *deleting = g_new(struct deleting, 1);
-	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(root), NULL, NULL);
-	AdwMessageDialog *ask = ADW_MESSAGE_DIALOG(dialog);
-
-	adw_message_dialog_format_heading(ask, _("Delete “%s”?"),
-					  panel_row_text(row, TASKS_NAME));
-	adw_message_dialog_format_body(ask, ngettext(
-		"Its program then runs in each scan: %s.",
-		"Its programs then run in each scan: %s.", (gulong)count), programs);
-	adw_message_dialog_add_responses(ask, "cancel", _("Cancel"), "delete", _("Delete"), NULL);
-	adw_message_dialog_set_response_appearance(ask, "delete", ADW_RESPONSE_DESTRUCTIVE);
-	adw_message_dialog_set_default_response(ask, "delete");
-	adw_message_dialog_set_close_response(ask, "cancel");
-	*deleting = (struct deleting){ g_object_ref(view), g_object_ref(row) };
-	g_signal_connect_data(dialog, "response", G_CALLBACK(delete_answered), deleting,
-			      deleting_free, 0);
-	gtk_window_present(GTK_WINDOW(dialog));
-}
-
 static void delete(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderTasksView *view = LADDER_TASKS_VIEW(widget);
 	LadderPanelRow *row = panel_list_row(&view->list);
-	const int number = row ? number_of(view, row) : -1;
-	GString *programs = g_string_new(NULL);
-	struct task_rows *tasks;
-	int count = 0;
 
 	(void)action;
 	(void)unused;
-	if (number < 0) {
-		g_string_free(programs, TRUE);
-		return;
-	}
-	tasks = task_rows_new(document_of(view));
-	if (tasks->row[number].what == TASKS_TASK)
-		count = task_rows_programs(tasks, number);
-	for (int i = number + 1; i <= number + count; i++)
-		g_string_append_printf(programs, "%s%s", programs->len ? ", " : "",
-				       tasks->row[i].text[TASKS_PROGRAM]);
-	task_rows_free(tasks);
-	if (count)
-		ask_delete(view, row, programs->str, count);
-	else
-		delete_now(view, row);
-	g_string_free(programs, TRUE);
+	if (row)
+		task_delete_ask(GTK_WINDOW(gtk_widget_get_root(widget)), document_of(view),
+				(enum task_what)row->table, panel_row_text(row, TASKS_NAME),
+				deleted, G_OBJECT(view));
+}
+
+static void rename_row(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderTasksView *view = LADDER_TASKS_VIEW(widget);
+	LadderPanelRow *row = panel_list_row(&view->list);
+
+	(void)action;
+	(void)unused;
+	if (row)
+		cells_enter(view->list.view, row, TASKS_NAME);
 }
 
 static void step(LadderTasksView *view, int by)
@@ -529,6 +478,7 @@ static GMenu *row_menu(LadderTasksView *view)
 	g_menu_append(menu, _("Open program"), "tasks.open");
 	g_menu_append(menu, _("Move up"), "tasks.up");
 	g_menu_append(menu, _("Move down"), "tasks.down");
+	g_menu_append(menu, _("Rename"), "tasks.rename");
 	g_menu_append(menu, _("Delete"), "tasks.delete");
 	return menu;
 }
@@ -558,11 +508,37 @@ static void right_pressed(GtkGestureClick *click, int count, double x, double y,
 	}
 }
 
-static gboolean menu_key(GtkEventControllerKey *keys, guint key, guint code,
+/* Is the focus on a name that is selected as a whole and not edited? The focus of a row goes there. */
+static bool has_whole_name(LadderTasksView *view)
+{
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
+	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
+	int field = -1, from, to;
+	const LadderPanelRow *row = cells_focused(view->list.view, &field);
+	const char *text;
+
+	if (!row || field != TASKS_NAME || !GTK_IS_EDITABLE(focus))
+		return false;
+	text = gtk_editable_get_text(GTK_EDITABLE(focus));
+	return strcmp(text, panel_row_text(row, TASKS_NAME)) == 0 &&
+	       gtk_editable_get_selection_bounds(GTK_EDITABLE(focus), &from, &to) &&
+	       to - from == (int)g_utf8_strlen(text, -1);
+}
+
+/* Before the cells. Delete on a whole name deletes the row, as no name is empty; Ctrl+Delete deletes
+ * it from each of its cells, as a rung of a sheet. */
+static gboolean early_key(GtkEventControllerKey *keys, guint key, guint code,
 			 GdkModifierType state, LadderTasksView *view)
 {
+	const GdkModifierType held = state & gtk_accelerator_get_default_mod_mask();
+
 	(void)keys;
 	(void)code;
+	if (key == GDK_KEY_Delete && (held == GDK_CONTROL_MASK ||
+				      (!held && has_whole_name(view)))) {
+		gtk_widget_activate_action(GTK_WIDGET(view), "tasks.delete", NULL);
+		return TRUE;
+	}
 	if (key != GDK_KEY_Menu && !(key == GDK_KEY_F10 && state & GDK_SHIFT_MASK))
 		return FALSE;
 	show_menu(view, INDENT, INDENT);
@@ -658,6 +634,7 @@ static void ladder_tasks_view_class_init(LadderTasksViewClass *class)
 	gtk_widget_class_install_action(widget, "tasks.add", NULL, add);
 	gtk_widget_class_install_action(widget, "tasks.add-program", "s", add_program);
 	gtk_widget_class_install_action(widget, "tasks.delete", NULL, delete);
+	gtk_widget_class_install_action(widget, "tasks.rename", NULL, rename_row);
 	gtk_widget_class_install_action(widget, "tasks.up", NULL, up);
 	gtk_widget_class_install_action(widget, "tasks.down", NULL, down);
 	gtk_widget_class_install_action(widget, "tasks.open", NULL, open_program);
@@ -701,7 +678,7 @@ static void add_controllers(LadderTasksView *view)
 						   GTK_PHASE_CAPTURE);
 	gtk_event_controller_set_propagation_phase(menu, GTK_PHASE_CAPTURE);
 	g_signal_connect(click, "pressed", G_CALLBACK(right_pressed), view);
-	g_signal_connect(menu, "key-pressed", G_CALLBACK(menu_key), view);
+	g_signal_connect(menu, "key-pressed", G_CALLBACK(early_key), view);
 	gtk_widget_add_controller(table, GTK_EVENT_CONTROLLER(click));
 	gtk_widget_add_controller(table, menu);
 }

@@ -6,10 +6,12 @@
 
 #include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/document/rename.h"
+#include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/watch_view.h"
+#include "editor-gtk/panels/task_delete.h"
 #include "editor-gtk/panels/uses_view.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/below.h"
@@ -630,6 +632,85 @@ void names_delete_type(struct core *core, int structure)
 			   uses);
 	else
 		delete_type(core, structure);
+}
+
+/* ---- tasks ---- */
+
+/* The row of a task; -1: "Each scan", which is no task, and the status bar says so. */
+static int task_of(struct core *core, const char *name)
+{
+	struct task_rows *tasks = task_rows_new(core->document);
+	const int row = task_rows_find(tasks, TASKS_TASK, name);
+
+	task_rows_free(tasks);
+	if (row < 0)
+		messages_tell(core->messages, _("“Each scan” is not a task: it lists the programs "
+						"without a task. It cannot be renamed or deleted"));
+	return row;
+}
+
+static void task_deleted(gpointer window, bool good, char *why)
+{
+	if (!good)
+		gtk_widget_activate_action(window, "win.warn", "s", why ? why : "");
+	g_free(why);
+}
+
+void names_delete_task(struct core *core, const char *name)
+{
+	if (task_of(core, name) >= 0)
+		task_delete_ask(core->window, core->document, TASKS_TASK, name, task_deleted,
+				G_OBJECT(core->window));
+}
+
+/* A task that gets another name. */
+struct task_named {
+	struct core *core;
+	char *name;
+};
+
+static void task_named_free(gpointer data)
+{
+	struct task_named *named = data;
+
+	g_free(named->name);
+	g_free(named);
+}
+
+static char *task_refusal(gpointer data, const char *name)
+{
+	const struct task_named *named = data;
+
+	return task_rows_name_refusal(named->core->document, task_of(named->core, named->name),
+				      name);
+}
+
+static void task_renamed(gpointer data, const char *name)
+{
+	const struct task_named *named = data;
+	char *why = NULL;
+
+	if (!task_rows_set(named->core->document, task_of(named->core, named->name), TASKS_NAME,
+			   name, &why))
+		messages_warn(named->core->messages, why ? why : "");
+	g_free(why);
+}
+
+static const struct naming_how task_naming = { task_refusal, task_renamed, task_named_free };
+
+void names_rename_task(struct core *core, const char *name)
+{
+	struct task_named *named;
+	struct naming *naming;
+
+	if (task_of(core, name) < 0)
+		return;
+	named = g_new(struct task_named, 1);
+	*named = (struct task_named){ core, g_strdup(name) };
+	naming = naming_new(core->window, _("Rename task"), _("Rename"), _("Name"), &task_naming,
+			    named);
+	naming_set(naming, name);
+	naming_show(naming);
 }
 
 /* ---- the panel ---- */

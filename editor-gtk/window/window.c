@@ -161,12 +161,13 @@ void ladder_window_keep_drafts(LadderWindow *window)
 
 /* ---- editing ---- */
 
-/* Renames the selected row of the tree if that has the focus, else the name at the cursor. */
+/* Renames the selected row of the tree or of a table if that has the focus, else the name at the cursor. */
 static void do_rename(LadderWindow *window)
 {
 	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
 
 	if (!focus || (!gtk_widget_activate_action(focus, "tree.rename", NULL) &&
+		       !gtk_widget_activate_action(focus, "tasks.rename", NULL) &&
 		       !gtk_widget_activate_action(focus, "types.rename-type", NULL)))
 		names_rename(&window->core);
 }
@@ -548,6 +549,10 @@ static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter
 		below_show(&window->below, text);
 	else if (strcmp(name, "win.show-task") == 0)
 		tabs_show_task(&window->tabs, *text ? text : NULL);
+	else if (strcmp(name, "win.rename-task") == 0)
+		names_rename_task(&window->core, text);
+	else if (strcmp(name, "win.delete-task") == 0)
+		names_delete_task(&window->core, text);
 	else if (strcmp(name, "win.open-text") == 0)
 		tabs_show_file(&window->tabs, text);
 	else if (strcmp(name, "win.tell") == 0)
@@ -635,7 +640,7 @@ static void to_sheet(GtkWidget *widget, const char *name, GVariant *unused)
 static void install_actions(GtkWidgetClass *class)
 {
 	static const char *const on_text[] = {
-		"win.show-task", "win.show-uses", "win.expect-value", "win.watch-value", "win.show-panel",
+		"win.show-task", "win.rename-task", "win.delete-task", "win.show-uses", "win.expect-value", "win.watch-value", "win.show-panel",
 		"win.open-text", "win.open-path", "win.open-sample", "win.tell", "win.warn",
 	};
 	static const char *const on_pou[] = {

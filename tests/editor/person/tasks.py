@@ -153,6 +153,66 @@ def rows(screen):
     check(path)
 
 
+def in_tree(editor, name):
+    """The row of a task in the tree."""
+    return until(lambda: [n for n in editor.all(name, 'label') if n.box()[0] < 200], 'the row %s in the tree' % name)[0]
+
+
+def tree(screen):
+    """a task is renamed and deleted in the tree by key and menu, in the table by the same keys; each is one step"""
+    editor, path = opened(screen)
+    editor.click(in_tree(editor, 'Fast'))
+    editor.brought('F2')
+    editor.type('2nd')
+    editor.says('“2nd” is not a name')
+    editor.keys('ctrl+a')
+    editor.type('slow')
+    editor.says('“slow” is declared already')
+    editor.shot('tasks-rename')
+    editor.keys('ctrl+a')
+    editor.type('Quickly')
+    editor.answer('Rename')
+    renamed = ('TASK Fast', 'TASK Quickly'), ('WITH Fast', 'WITH Quickly')
+    is_saved(editor, path, *renamed)
+    editor.keys('ctrl+z')
+    is_saved(editor, path)
+    deleted = ('    TASK Fast (INTERVAL := T#5ms, PRIORITY := 1); (* counts *)\n', ''), (' WITH Fast', '')
+    editor.click(in_tree(editor, 'Fast'))
+    editor.keys('Delete')
+    editor.says(QUESTION)
+    editor.answer('Cancel')
+    editor.keys('Menu')
+    until(lambda: editor.all('Rename…', 'menu item'), 'the menu of the task')
+    assert not editor.all('Duplicate…', 'menu item')
+    editor.shot('tasks-tree-menu')
+    editor.keys('Down', 'Return')
+    editor.says(QUESTION)
+    editor.answer('Delete')
+    is_saved(editor, path, *deleted)
+    editor.keys('ctrl+z')
+    is_saved(editor, path)
+    editor.click(in_tree(editor, 'Each scan'))
+    for key in 'F2', 'Delete':
+        editor.keys(key)
+        editor.says('“Each scan” is not a task')
+    editor.click(cell(editor, 'Fast, Priority'))
+    editor.keys('F2')
+    editor.focus_on('Fast, Name')
+    editor.type('Quickly')
+    editor.keys('Return')
+    is_saved(editor, path, *renamed)
+    editor.keys('ctrl+z')
+    is_saved(editor, path)
+    for place, key in ('Move Fast', 'Delete'), ('Fast, Priority', 'ctrl+Delete'):
+        editor.click(editor.find(place))
+        editor.keys(key)
+        editor.says(QUESTION)
+        editor.answer('Delete')
+        is_saved(editor, path, *deleted)
+        editor.keys('ctrl+z')
+        is_saved(editor, path)
+
+
 def last_program(screen):
     """the last program stays, and the page says why; a refused text and its reason stay when its row should move"""
     text = PLANT.replace('    PROGRAM B WITH Fast : Lazy;\n', '').replace('  PROGRAM C : Other; (* last *)\n', '')
@@ -224,4 +284,4 @@ def picture(screen):
     assert lines(path, '@print %QX0.0\nDoor=1\n') is not None
 
 
-main([table, rows, last_program, implicit, picture])
+main([table, rows, tree, last_program, implicit, picture])
