@@ -148,6 +148,19 @@ void live_map_power(const struct live_map *map, struct live_rung *rung)
 	}
 }
 
+bool live_map_result(const struct live_map *map, uint32_t line, struct live_result *out)
+{
+	const struct code_power *power = map->unit < 0 ? NULL :
+		code_result(map->program, (uint32_t)map->unit, line);
+
+	if (!power)
+		return false;
+	out->ran = place_of(map, power->in);
+	out->at = (struct location){ .type = (enum iec_type)power->type,
+				     .where = place_of(map, power->out) };
+	return true;
+}
+
 /* ---- instances ---- */
 
 GPtrArray *live_map_instances(const struct live_map *map)

@@ -211,6 +211,13 @@ struct ladder *ladder_sim_ladder(LadderSim *sim)
 	return program ? program->ladder : NULL;
 }
 
+const char *ladder_sim_text(LadderSim *sim)
+{
+	const struct sim_program *program = shown_program(sim);
+
+	return program ? program->text : NULL;
+}
+
 struct ladder *ladder_sim_plant_ladder(LadderSim *sim)
 {
 	const struct sim_program *plant = sim->past ? sim->replay->plant : sim->view.plant;
