@@ -46,7 +46,7 @@ struct _LadderLineValues {
 	int place_count;
 	bool placed;              /* they were looked for                        */
 	GPtrArray *lines;         /* of struct seen; NULL: not looked at yet      */
-	int longest;              /* columns, at most WIDEST; 0: not counted yet */
+	int longest;              /* columns of a line up to WIDEST; 0: not counted yet */
 	char *spoken;             /* the description of the view                 */
 	gint64 spoken_us;         /* when it was looked at                       */
 };
@@ -313,7 +313,7 @@ struct pen {
 	LadderLineValues *values;
 	GtkSnapshot *snapshot;
 	PangoLayout *layout;
-	int cell;                 /* px of a character                           */
+	int cell, baseline;       /* px of a character, from its top             */
 	int left, limit;          /* px of the text's edge; the last place of a column */
 };
 
@@ -325,7 +325,8 @@ static void count_longest(LadderLineValues *values)
 	for (const char *at = text; at; at = strchr(at, '\n') ? strchr(at, '\n') + 1 : NULL) {
 		const int columns = columns_of(at);
 
-		values->longest = MAX(values->longest, MIN(columns, WIDEST));
+		if (columns <= WIDEST)
+			values->longest = MAX(values->longest, columns);
 	}
 	g_free(text);
 }
@@ -342,6 +343,7 @@ static int draw(const struct pen *pen, const char *text, int x, int y, enum toke
 	pango_attr_list_unref(attrs);
 	pango_layout_set_text(pen->layout, text, -1);
 	pango_layout_get_pixel_size(pen->layout, &width, &height);
+	y += pen->baseline - PANGO_PIXELS(pango_layout_get_baseline(pen->layout));
 	gtk_snapshot_save(pen->snapshot);
 	gtk_snapshot_translate(pen->snapshot, &GRAPHENE_POINT_INIT((float)x, (float)y));
 	gtk_snapshot_append_layout(pen->snapshot, pen->layout,
@@ -362,16 +364,31 @@ static void draw_result(const struct pen *pen, const struct seen *seen, int x, i
 	else if (seen->after[0] == 'T')
 		draw(pen, seen->after, x, y, TOKEN_POWER, PANGO_WEIGHT_BOLD);
 	else
-		draw(pen, seen->after, x, y, TOKEN_IDLE, PANGO_WEIGHT_NORMAL);
+		draw(pen, seen->after, x, y, TOKEN_INK, PANGO_WEIGHT_NORMAL);
 }
 
-/* A ground, so that the text below a column is not read with it. */
+static bool find_ground(LadderLineValues *values, GdkRGBA *ground)
+{
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(values));
+	GtkSourceStyleScheme *scheme =
+		gtk_source_buffer_get_style_scheme(GTK_SOURCE_BUFFER(buffer));
+	GtkSourceStyle *style = scheme ? gtk_source_style_scheme_get_style(scheme, "text") : NULL;
+	char *name = NULL;
+	bool found;
+
+	if (style)
+		g_object_get(style, "background", &name, NULL);
+	found = name && gdk_rgba_parse(ground, name);
+	g_free(name);
+	return found;
+}
+
+/* The text below a column would be read with it. */
 static void draw_ground(const struct pen *pen, int x, int y, int height)
 {
-	GtkStyleContext *style = gtk_widget_get_style_context(GTK_WIDGET(pen->values));
 	GdkRGBA ground;
 
-	if (gtk_style_context_lookup_color(style, "view_bg_color", &ground))
+	if (find_ground(pen->values, &ground))
 		gtk_snapshot_append_color(pen->snapshot, &ground,
 			&GRAPHENE_RECT_INIT((float)(x - pen->cell), (float)y,
 				(float)((VALUE + RESULT + 1) * pen->cell), (float)height));
@@ -459,7 +476,8 @@ static void ladder_line_values_snapshot_layer(GtkTextView *view, GtkTextViewLaye
 	pen.cell = cell_width(values);
 	pen.left = gtk_text_view_get_left_margin(view);
 	pen.limit = MAX(seen.x + seen.width - (VALUE + RESULT) * pen.cell, pen.left);
-	pen.layout = gtk_widget_create_pango_layout(GTK_WIDGET(view), NULL);
+	pen.layout = gtk_widget_create_pango_layout(GTK_WIDGET(view), "0");
+	pen.baseline = PANGO_PIXELS(pango_layout_get_baseline(pen.layout));
 	draw_lines(&pen, &seen);
 	g_object_unref(pen.layout);
 }
