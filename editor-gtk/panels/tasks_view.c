@@ -697,6 +697,11 @@ static void ladder_tasks_view_init(LadderTasksView *view)
 	view->watch = panel_watch_new(widget, true, refresh);
 }
 
+void ladder_tasks_view_follow(LadderTasksView *view, LadderSim *sim)
+{
+	ladder_task_chart_follow(LADDER_TASK_CHART(view->chart), sim);
+}
+
 GtkWidget *ladder_tasks_view_new(LadderDocument *document)
 {
 	LadderTasksView *view = g_object_new(LADDER_TYPE_TASKS_VIEW, NULL);

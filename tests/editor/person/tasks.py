@@ -284,4 +284,42 @@ def picture(screen):
     assert lines(path, '@print %QX0.0\nDoor=1\n') is not None
 
 
-main([table, rows, tree, last_program, implicit, picture])
+def simulated(screen):
+    """while simulating, the picture has the real runs over the plan, also late ones; it follows the time and the past"""
+    editor, path = opened(screen)
+    editor.keys('ctrl+t', 'ctrl+t', 'ctrl+t')
+    editor.says('PAUSE')
+    fast = editor.find('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms … · 3 runs', 'list item')
+    slow = editor.find('Slow: priority 2, every 20 ms, at 0 s, 20 ms … · 1 run', 'list item')
+    editor.says('low and grey: planned; green: ran')
+    editor.shot('tasks-live')
+    x, y, width, height = editor.place(slow)
+    editor.click((x + 20, y + height // 2))
+    editor.focus_on('Slow: priority')
+    editor.says('Slow: priority 2, every 20 ms, at 0 s, 20 ms … · 1 run')
+    editor.keys('Left')
+    editor.says('At 5 ms: Fast, then Slow, then Each scan')
+    editor.keys('Return')  # the scan of that run
+    editor.says('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms … · 1 run')
+    editor.shot('tasks-past')
+    editor.keys('Escape', 'alt+End')
+    editor.click(editor.find('Simulation settings', 'push button'))
+    editor.focus_on('Period, ms')
+    editor.keys('ctrl+a')
+    editor.type('12')
+    editor.keys('Tab')
+    editor.says('Simulating · 12 ms')
+    editor.keys('Escape')
+    editor.keys(*['ctrl+t'] * 6)
+    editor.find('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms … · 9 runs, 8 left out', 'list item')
+    x, y, width, height = editor.place(fast)
+    editor.click((x + 20, y + height // 2))
+    editor.keys('Left')
+    until(lambda: editor.all('At 87 ms: Fast (7 ms late, 1 run left out), then ', 'label'), 'the late run')
+    editor.shot('tasks-late')
+    editor.keys('Escape', 'ctrl+m')
+    editor.find('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms …', 'list item')
+    until(lambda: editor.all('then everything repeats', 'label') or not editor.all('left out'), 'the plan alone')
+
+
+main([table, rows, tree, last_program, implicit, picture, simulated])
