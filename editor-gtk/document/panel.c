@@ -5,6 +5,7 @@
 #include "editor-gtk/document/panel.h"
 
 #include "editor-gtk/kit/gtk48/list.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
@@ -246,6 +247,18 @@ void panel_list_clear(struct panel_list *list)
 	g_clear_pointer(&list->wanted, g_free);
 }
 
+void panel_list_unsort(struct panel_list *list)
+{
+	GListModel *columns = gtk_column_view_get_columns(list->view);
+
+	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
+		GtkColumnViewColumn *column = g_list_model_get_item(columns, i);
+
+		gtk_column_view_column_set_sorter(column, NULL);
+		g_object_unref(column);
+	}
+}
+
 void panel_list_want(struct panel_list *list, const char *wanted)
 {
 	if (g_strcmp0(list->wanted, wanted) == 0)
@@ -309,6 +322,17 @@ void panel_go_to(GtkWidget *from, const LadderPanelRow *row)
 					   row->row, row->col);
 }
 
+GtkWidget *panel_button_new(const char *icon, const char *name, const char *action)
+{
+	GtkWidget *button = gtk_button_new_from_icon_name(icon);
+
+	gtk_widget_add_css_class(button, "flat");
+	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+	tip_set(button, name);
+	spoken_name(button, name);
+	return button;
+}
+
 void panel_choose_beside(GtkFileChooserNative *chooser, LadderDocument *document)
 {
 	char *place = ladder_document_folder(document);
@@ -319,6 +343,33 @@ void panel_choose_beside(GtkFileChooserNative *chooser, LadderDocument *document
 						    NULL);
 	g_clear_object(&folder);
 	g_free(place);
+}
+
+/* ---- messages ---- */
+
+void panel_message_init(struct panel_message *message, GtkLabel *label)
+{
+	GtkWidget *widget = GTK_WIDGET(label);
+
+	*message = (struct panel_message){ .label = label };
+	gtk_label_set_xalign(label, 0);
+	gtk_label_set_wrap(label, TRUE);
+	gtk_widget_add_css_class(widget, "error");
+	gtk_widget_add_css_class(widget, "panel-message");
+	spoken_text(label);
+}
+
+void panel_message_set(struct panel_message *message, LadderDocument *document, char *text)
+{
+	message->told_of = document ? ladder_document_version(document) : 0;
+	gtk_label_set_text(message->label, text ? text : "");
+	g_free(text);
+}
+
+void panel_message_age(struct panel_message *message, LadderDocument *document)
+{
+	if (document && ladder_document_version(document) != message->told_of)
+		panel_message_set(message, document, NULL);
 }
 
 /* ---- the document ---- */

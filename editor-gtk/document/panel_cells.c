@@ -806,3 +806,23 @@ void panel_cells_add(struct panel_list *list, const struct panel_cells *cells, i
 	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), column);
 	panel_list_add(list, cells->name(field), field, flags, width, factory);
 }
+
+void panel_cells_update(struct panel_list *list, GPtrArray *rows)
+{
+	int field, now;
+	LadderPanelRow *row = cells_focused(list->view, &field);
+	LadderPanelRow *chosen = panel_list_row(list);
+
+	if (row)
+		g_object_ref(row);
+	if (chosen)
+		g_object_ref(chosen);
+	panel_list_update(list, rows);
+	if (row && cells_focused(list->view, &now) != row &&
+	    panel_list_select(list, panel_row_is_like, row))
+		cells_enter(list->view, panel_list_row(list), field);
+	else if (chosen && !panel_list_row(list))
+		panel_list_select(list, panel_row_is_like, chosen);
+	g_clear_object(&row);
+	g_clear_object(&chosen);
+}

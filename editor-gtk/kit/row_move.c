@@ -279,25 +279,11 @@ static void bind_handle(GtkSignalListItemFactory *factory, GtkListItem *item,
 	g_free(name);
 }
 
-/* The order of the rows means something, so no column sorts them. */
-static void unsort(GtkColumnView *view)
-{
-	GListModel *columns = gtk_column_view_get_columns(view);
-
-	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
-		GtkColumnViewColumn *column = g_list_model_get_item(columns, i);
-
-		gtk_column_view_column_set_sorter(column, NULL);
-		g_object_unref(column);
-	}
-}
-
 static void add_handles(struct moving *moving)
 {
 	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
 	GtkColumnViewColumn *column = gtk_column_view_column_new("", factory);
 
-	unsort(GTK_COLUMN_VIEW(moving->list));
 	g_signal_connect(factory, "setup", G_CALLBACK(setup_handle), moving);
 	g_signal_connect(factory, "bind", G_CALLBACK(bind_handle), moving);
 	/* Not the first column: a press at the edge of the list moves the divider of panes. */

@@ -27,8 +27,7 @@ struct row_move {
  * row_move_add - makes the rows of @list, a GtkListView or GtkColumnView, movable
  * @how, @owner: outlive the list
  *
- * A GtkColumnView gets a column of handles, behind its first column, and its columns sort no
- * more: call this after they were added.
+ * A GtkColumnView gets a column of handles behind its first column.
  */
 void row_move_add(GtkWidget *list, const struct row_move *how, gpointer owner);
 /** row_move_stand - names the list item that @cell shows. A GtkListView needs it in each row. */

@@ -116,7 +116,8 @@ static bool row_parse(const LadderWatchRow *row, const struct image *image,
 struct _LadderWatchView {
 	GtkWidget parent_instance;
 	/* Of the template: */
-	GtkWidget *box, *charts, *add_button, *stack, *empty, *bar, *message, *list;
+	GtkWidget *box, *charts, *add_button, *stack, *empty, *list;
+	struct panel_message message;
 	LadderDocument *document;
 	LadderSim *sim;
 	GListStore *store;          /* of LadderWatchRow                       */
@@ -181,9 +182,7 @@ static void select_row(LadderWatchView *view, int at)
 
 static void tell(LadderWatchView *view, char *text)
 {
-	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
-	gtk_revealer_set_reveal_child(GTK_REVEALER(view->bar), text != NULL);
-	g_free(text);
+	panel_message_set(&view->message, view->document, text);
 }
 
 /* ---- the charts of the project ---- */
@@ -1132,8 +1131,9 @@ static void ladder_watch_view_class_init(LadderWatchViewClass *class)
 		"/org/rungboard/Editor/ui/watch_view.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderWatchView, name)
 	CHILD(box); CHILD(charts); CHILD(add_button); CHILD(stack); CHILD(empty);
-	CHILD(bar); CHILD(message); CHILD(list);
+	CHILD(list);
 #undef CHILD
+	panel_bind_message(widget, LadderWatchView);
 	gtk_widget_class_bind_template_callback(widget, chart_chosen);
 	gtk_widget_class_bind_template_callback(widget, activated);
 	install_actions(widget);
@@ -1144,6 +1144,7 @@ static void ladder_watch_view_init(LadderWatchView *view)
 	GtkDropTarget *drop = gtk_drop_target_new(G_TYPE_STRING, GDK_ACTION_COPY);
 
 	gtk_widget_init_template(GTK_WIDGET(view));
+	panel_message_init(&view->message, view->message.label);
 	view->store = g_list_store_new(LADDER_TYPE_WATCH_ROW);
 	view->selection = gtk_single_selection_new(g_object_ref(G_LIST_MODEL(view->store)));
 	gtk_single_selection_set_autoselect(view->selection, FALSE);

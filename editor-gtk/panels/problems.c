@@ -295,7 +295,7 @@ static void ladder_problems_class_init(LadderProblemsClass *class)
 	gtk_widget_class_set_template_from_resource(GTK_WIDGET_CLASS(class),
 		"/org/rungboard/Editor/ui/problems.ui");
 	gtk_widget_class_bind_template_child(GTK_WIDGET_CLASS(class), LadderProblems, stack);
-	gtk_widget_class_bind_template_child_full(GTK_WIDGET_CLASS(class), "view", FALSE, 0);
+	panel_bind_list(GTK_WIDGET_CLASS(class), LadderProblems);
 	gtk_widget_class_bind_template_callback(GTK_WIDGET_CLASS(class), activated);
 }
 
@@ -304,8 +304,7 @@ static void ladder_problems_init(LadderProblems *problems)
 	GtkWidget *widget = GTK_WIDGET(problems);
 
 	gtk_widget_init_template(widget);
-	panel_list_init(&problems->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		widget, LADDER_TYPE_PROBLEMS, "view")));
+	panel_list_init(&problems->list, problems->list.view);
 	panel_list_column(&problems->list, "", COLUMN_SEVERITY, PANEL_ICON, 0);
 	/* The name in quotes comes first, so long texts are cut at the end. */
 	panel_list_column(&problems->list, _("Problem"), COLUMN_TEXT,

@@ -15,7 +15,6 @@
 #include "editor-gtk/panels/tree_rows.h"
 #include "editor-gtk/kit/verbs.h"
 
-#include <adwaita.h>
 #include <string.h>
 
 struct tree {

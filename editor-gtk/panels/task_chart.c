@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/panels/task_chart.h"
 
+#include "editor-gtk/document/panel.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
@@ -484,17 +485,6 @@ void ladder_task_chart_set(LadderTaskChart *chart, struct schedule *schedule,
 
 /* ---- the widget ---- */
 
-static GtkWidget *button_new(const char *icon, const char *name, const char *action)
-{
-	GtkWidget *button = gtk_button_new_from_icon_name(icon);
-
-	gtk_widget_add_css_class(button, "flat");
-	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-	tip_set(button, name);
-	spoken_name(button, name);
-	return button;
-}
-
 static GtkWidget *heading_new(LadderTaskChart *chart)
 {
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *label = label_new();
@@ -505,11 +495,11 @@ static GtkWidget *heading_new(LadderTaskChart *chart)
 	gtk_widget_set_hexpand(chart->text, TRUE);
 	gtk_widget_set_margin_top(chart->text, 6); /* that of the heading */
 	chart->tools = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
-	gtk_box_append(GTK_BOX(chart->tools), button_new("zoom-out-symbolic", _("Zoom out"),
-							 "task-chart.zoom-out"));
-	gtk_box_append(GTK_BOX(chart->tools), button_new("zoom-in-symbolic", _("Zoom in"),
-							 "task-chart.zoom-in"));
-	gtk_box_append(GTK_BOX(chart->tools), button_new("zoom-fit-best-symbolic",
+	gtk_box_append(GTK_BOX(chart->tools), panel_button_new("zoom-out-symbolic",
+		_("Zoom out"), "task-chart.zoom-out"));
+	gtk_box_append(GTK_BOX(chart->tools), panel_button_new("zoom-in-symbolic",
+		_("Zoom in"), "task-chart.zoom-in"));
+	gtk_box_append(GTK_BOX(chart->tools), panel_button_new("zoom-fit-best-symbolic",
 		_("Show the whole time"), "task-chart.zoom-fit"));
 	gtk_box_append(GTK_BOX(box), label);
 	gtk_box_append(GTK_BOX(box), chart->text);

@@ -8,8 +8,6 @@
 #include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/gtk48/popover.h"
-#include "editor-gtk/kit/gtk48/spoken.h"
-#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/row_move.h"
 #include "editor-gtk/panels/task_chart.h"
@@ -25,11 +23,11 @@ enum { TASKS_FIXED = 1 }; /* LadderPanelRow.flags */
 
 struct _LadderTasksView {
 	GtkWidget parent_instance;
-	GtkWidget *box, *program_button, *hint, *bar, *message, *chart;
+	GtkWidget *box, *program_button, *hint, *chart;
 	struct panel_list list;
 	struct panel_cells cells;
 	struct panel_watch *watch;
-	guint64 told_of;        /* version of the document when the message was set */
+	struct panel_message message;
 	bool busy;              /* rows are replaced: a selection means nothing */
 };
 
@@ -43,12 +41,7 @@ static LadderDocument *document_of(LadderTasksView *view)
 /* @text: taken over; NULL: clears the message. */
 static void tell(LadderTasksView *view, char *text)
 {
-	LadderDocument *document = document_of(view);
-
-	view->told_of = document ? ladder_document_version(document) : 0;
-	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
-	gtk_revealer_set_reveal_child(GTK_REVEALER(view->bar), text != NULL);
-	g_free(text);
+	panel_message_set(&view->message, document_of(view), text);
 }
 
 /* ---- rows ---- */
@@ -86,35 +79,6 @@ static LadderPanelRow *row_new(LadderDocument *document, const struct task_rows 
 	row->tone = !row->note ? PANEL_PLAIN : warning ? PANEL_WARNING : PANEL_ERROR;
 	row->spoken = spoken(tasks, of, row->note);
 	return row;
-}
-
-static bool is_like(const LadderPanelRow *row, gconstpointer what)
-{
-	const LadderPanelRow *other = what;
-
-	return row->table == other->table && strcmp(panel_row_text(row, TASKS_NAME),
-		panel_row_text(other, TASKS_NAME)) == 0;
-}
-
-/* An edit may move a row: the focus follows it. */
-static void update(LadderTasksView *view, GPtrArray *rows)
-{
-	int field, now;
-	LadderPanelRow *row = cells_focused(view->list.view, &field);
-	LadderPanelRow *chosen = panel_list_row(&view->list);
-
-	if (row)
-		g_object_ref(row);
-	if (chosen)
-		g_object_ref(chosen);
-	panel_list_update(&view->list, rows);
-	if (row && cells_focused(view->list.view, &now) != row &&
-	    panel_list_select(&view->list, is_like, row))
-		cells_enter(view->list.view, panel_list_row(&view->list), field);
-	else if (chosen && !panel_list_row(&view->list))
-		panel_list_select(&view->list, is_like, chosen);
-	g_clear_object(&row);
-	g_clear_object(&chosen);
 }
 
 static void show_hint(LadderTasksView *view, const struct task_rows *tasks, bool project)
@@ -175,13 +139,11 @@ static void refresh(GtkWidget *widget)
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
 	struct task_rows *tasks = document ? task_rows_new(document) : NULL;
 
-	/* the message was about an older version */
-	if (document && ladder_document_version(document) != view->told_of)
-		tell(view, NULL);
+	panel_message_age(&view->message, document);
 	for (int i = 0; tasks && i < tasks->count; i++)
 		g_ptr_array_add(rows, row_new(document, tasks, i));
 	view->busy = true;
-	update(view, rows);
+	panel_cells_update(&view->list, rows);
 	view->busy = false;
 	if (tasks)
 		show_hint(view, tasks, ladder_document_project(document) != NULL);
@@ -276,7 +238,7 @@ static void go_to(LadderTasksView *view, enum task_what what, const char *name, 
 	like->text[TASKS_NAME] = g_strdup(name);
 	panel_watch_later(view->watch);
 	panel_watch_now(view->watch);
-	if (panel_list_select(&view->list, is_like, like) && field >= 0)
+	if (panel_list_select(&view->list, panel_row_is_like, like) && field >= 0)
 		cells_enter(view->list.view, panel_list_row(&view->list), field);
 	g_object_unref(like);
 }
@@ -641,10 +603,10 @@ static void ladder_tasks_view_class_init(LadderTasksViewClass *class)
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/tasks_view.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderTasksView, name)
-	CHILD(box); CHILD(program_button); CHILD(hint); CHILD(bar); CHILD(message);
-	CHILD(chart);
+	CHILD(box); CHILD(program_button); CHILD(hint); CHILD(chart);
 #undef CHILD
-	gtk_widget_class_bind_template_child_full(widget, "view", FALSE, 0);
+	panel_bind_list(widget, LadderTasksView);
+	panel_bind_message(widget, LadderTasksView);
 	gtk_widget_class_bind_template_callback(widget, program_clicked);
 }
 
@@ -664,6 +626,7 @@ static void add_columns(LadderTasksView *view)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
 				column[i].field == TASKS_COMMENT ? PANEL_EXPAND : 0,
 				column[i].width);
+	panel_list_unsort(&view->list);
 	row_move_add(GTK_WIDGET(view->list.view), &moving, view);
 }
 
@@ -688,8 +651,8 @@ static void ladder_tasks_view_init(LadderTasksView *view)
 	GtkWidget *widget = GTK_WIDGET(view);
 
 	gtk_widget_init_template(widget);
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		widget, LADDER_TYPE_TASKS_VIEW, "view")));
+	panel_list_init(&view->list, view->list.view);
+	panel_message_init(&view->message, view->message.label);
 	add_columns(view);
 	add_controllers(view);
 	g_signal_connect_object(view->list.selection, "notify::selected-item",

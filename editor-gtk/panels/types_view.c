@@ -9,15 +9,12 @@
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/drop.h"
-#include "editor-gtk/kit/gtk48/spoken.h"
-#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/row_move.h"
 #include "editor-gtk/panels/type_cells.h"
 
 #include "engine/xref/xref.h"
 
-#include <adwaita.h>
 #include <string.h>
 
 /* A column behind the fields. */
@@ -26,12 +23,12 @@ enum { TYPES_USES = SYMBOL_FIELDS };
 
 struct _LadderTypesView {
 	GtkBox parent_instance;
-	GtkWidget *stack, *types, *message;
+	GtkWidget *stack, *types;
 	struct panel_list list;
 	struct panel_cells cells;
 	struct panel_watch *watch;
 	char *type;             /* name of the structure that is shown; NULL: none */
-	guint64 told_of;        /* version of the document when the message was set */
+	struct panel_message message;
 	bool busy;              /* the drop-down is being filled: ignore its signal */
 };
 
@@ -50,9 +47,7 @@ int ladder_types_view_type(LadderTypesView *view)
 /* @text: taken over; NULL: clears the message. */
 static void tell(LadderTypesView *view, char *text)
 {
-	view->told_of = ladder_document_version(document_of(view));
-	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
-	g_free(text);
+	panel_message_set(&view->message, document_of(view), text);
 }
 
 /* ---- rows ---- */
@@ -79,26 +74,6 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 	return row;
 }
 
-static bool is_member(const LadderPanelRow *row, gconstpointer name)
-{
-	return strcmp(panel_row_text(row, FIELD_NAME), name) == 0;
-}
-
-/* The focus stays on its member, wherever it moved. */
-static void update(LadderTypesView *view, GPtrArray *rows)
-{
-	int field = FIELD_NAME, now;
-	LadderPanelRow *row = cells_focused(view->list.view, &field);
-	char *name = row ? g_strdup(panel_row_text(row, FIELD_NAME)) : NULL;
-
-	panel_list_update(&view->list, rows);
-	row = name ? cells_focused(view->list.view, &now) : NULL;
-	if (name && (!row || !is_member(row, name)) &&
-	    panel_list_select(&view->list, is_member, name))
-		cells_enter(view->list.view, panel_list_row(&view->list), field);
-	g_free(name);
-}
-
 static void fill_rows(LadderTypesView *view)
 {
 	LadderDocument *document = document_of(view);
@@ -110,7 +85,7 @@ static void fill_rows(LadderTypesView *view)
 	for (int i = 0; symbols && i < symbols->count; i++)
 		if (symbols->symbol[i].table == type_table(document, type))
 			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i], fixed));
-	update(view, rows);
+	panel_cells_update(&view->list, rows);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
 }
@@ -149,8 +124,7 @@ static void refresh(GtkWidget *widget)
 	const struct project *project = ladder_document_project(document);
 	const guint was = gtk_drop_down_get_selected(GTK_DROP_DOWN(view->types));
 
-	if (ladder_document_version(document) != view->told_of)
-		tell(view, NULL);
+	panel_message_age(&view->message, document);
 	/* A renamed structure keeps its number. */
 	if (project && ladder_types_view_type(view) < 0)
 		set_type(view, was == GTK_INVALID_LIST_POSITION ? 0 :
@@ -272,7 +246,7 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 			    (int)g_list_model_get_n_items(G_LIST_MODEL(view->list.store)) - 1,
 			    &name, &why)) {
 		refresh(widget);
-		if (panel_list_select(&view->list, is_member, name))
+		if (panel_list_select(&view->list, panel_row_is_named, name))
 			cells_enter(view->list.view, panel_list_row(&view->list), FIELD_NAME);
 	}
 	tell(view, why);
@@ -315,7 +289,7 @@ static void move(LadderTypesView *view, LadderPanelRow *row, int to)
 	g_object_ref(row);
 	if (type_move_member(document_of(view), type, from, to, &why)) {
 		refresh(GTK_WIDGET(view));
-		panel_list_select(&view->list, is_member, panel_row_text(row, FIELD_NAME));
+		panel_list_select(&view->list, panel_row_is_named, panel_row_text(row, FIELD_NAME));
 	}
 	tell(view, why);
 	g_object_unref(row);
@@ -379,59 +353,6 @@ static void act_on_type(GtkWidget *widget, const char *action, GVariant *unused)
 
 /* ---- the widget ---- */
 
-static GtkWidget *button_new(const char *icon, const char *name, const char *action)
-{
-	GtkWidget *button = gtk_button_new_from_icon_name(icon);
-
-	tip_set(button, name);
-	spoken_name(button, name);
-	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-	return button;
-}
-
-static GtkWidget *new_button(void)
-{
-	GtkWidget *button = gtk_button_new_with_label(_("New structure…"));
-
-	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "win.new_structure");
-	return button;
-}
-
-static GtkWidget *bar_new(LadderTypesView *view)
-{
-	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *gap;
-
-	view->types = gtk_drop_down_new(NULL, NULL);
-	spoken_name(view->types, _("Data type"));
-	g_signal_connect(view->types, "notify::selected", G_CALLBACK(type_changed), view);
-	gap = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
-	gtk_widget_set_hexpand(gap, TRUE);
-	gtk_box_append(GTK_BOX(bar), view->types);
-	gtk_box_append(GTK_BOX(bar), new_button());
-	gtk_box_append(GTK_BOX(bar), button_new("document-edit-symbolic",
-		_("Rename the structure everywhere (F2)"), "types.rename-type"));
-	gtk_box_append(GTK_BOX(bar), button_new("edit-copy-symbolic",
-		_("Duplicate the structure"), "types.duplicate-type"));
-	gtk_box_append(GTK_BOX(bar), button_new("user-trash-symbolic",
-		_("Delete the structure"), "types.delete-type"));
-	gtk_box_append(GTK_BOX(bar), button_new("edit-find-symbolic",
-		_("Where the structure is used (Shift+F12)"), "types.uses"));
-	gtk_box_append(GTK_BOX(bar), gap);
-	gtk_box_append(GTK_BOX(bar), button_new("list-add-symbolic", _("Add a member"),
-						"types.add"));
-	gtk_box_append(GTK_BOX(bar), button_new("list-remove-symbolic", _("Delete the member"),
-						"types.delete"));
-	gtk_box_append(GTK_BOX(bar), button_new("go-up-symbolic", _("Move the member up (Alt+Up)"),
-						"types.up"));
-	gtk_box_append(GTK_BOX(bar), button_new("go-down-symbolic",
-		_("Move the member down (Alt+Down)"), "types.down"));
-	gtk_widget_set_margin_top(bar, 6);
-	gtk_widget_set_margin_bottom(bar, 6);
-	gtk_widget_set_margin_start(bar, 6);
-	gtk_widget_set_margin_end(bar, 6);
-	return bar;
-}
-
 static void add_columns(LadderTypesView *view)
 {
 	static const struct { enum field field; int width; } column[] = {
@@ -439,46 +360,18 @@ static void add_columns(LadderTypesView *view)
 		{ FIELD_COMMENT, 120 },
 	};
 
+	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
+		.set = set_field, .is_fixed = is_fixed, .choices = choices_of,
+		.open_form = open_form };
+	type_cells_join(&view->cells);
 	panel_list_column(&view->list, "", TYPES_USES, PANEL_ICON, 0);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
 				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
 				column[i].width);
 	panel_list_column(&view->list, _("Uses"), TYPES_USES, PANEL_NUMBER, 60);
+	panel_list_unsort(&view->list);
 	row_move_add(GTK_WIDGET(view->list.view), &moving, view);
-}
-
-static GtkWidget *list_new(LadderTypesView *view)
-{
-	GtkWidget *list = gtk_column_view_new(NULL), *scroller = gtk_scrolled_window_new();
-
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(list));
-	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
-		.set = set_field, .is_fixed = is_fixed, .choices = choices_of,
-		.open_form = open_form };
-	type_cells_join(&view->cells);
-	add_columns(view);
-	gtk_widget_add_css_class(list, "data-table");
-	spoken_name(list, _("Members"));
-	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), list);
-	gtk_widget_set_vexpand(scroller, TRUE);
-	return scroller;
-}
-
-/* While the project has no structure. */
-static GtkWidget *none_new(void)
-{
-	GtkWidget *page = adw_status_page_new(), *button = new_button();
-
-	adw_status_page_set_title(ADW_STATUS_PAGE(page), _("No data types"));
-	adw_status_page_set_description(ADW_STATUS_PAGE(page),
-		_("A structure holds several values under one name, such as a recipe with a "
-		  "speed and a time. Variables can then have this type."));
-	gtk_widget_set_halign(button, GTK_ALIGN_CENTER);
-	gtk_widget_add_css_class(button, "pill");
-	gtk_widget_add_css_class(button, "suggested-action");
-	adw_status_page_set_child(ADW_STATUS_PAGE(page), button);
-	return page;
 }
 
 static void dispose(GObject *object)
@@ -504,29 +397,21 @@ static void ladder_types_view_class_init(LadderTypesViewClass *class)
 	gtk_widget_class_install_action(widget, "types.duplicate-type", NULL, act_on_type);
 	gtk_widget_class_install_action(widget, "types.delete-type", NULL, act_on_type);
 	gtk_widget_class_install_action(widget, "types.uses", NULL, act_on_type);
+	gtk_widget_class_set_template_from_resource(widget,
+		"/org/rungboard/Editor/ui/types_view.ui");
+	gtk_widget_class_bind_template_child(widget, LadderTypesView, stack);
+	gtk_widget_class_bind_template_child(widget, LadderTypesView, types);
+	panel_bind_list(widget, LadderTypesView);
+	panel_bind_message(widget, LadderTypesView);
+	gtk_widget_class_bind_template_callback(widget, type_changed);
 }
 
 static void ladder_types_view_init(LadderTypesView *view)
 {
-	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-
-	view->message = gtk_label_new("");
-	gtk_label_set_xalign(GTK_LABEL(view->message), 0);
-	gtk_label_set_wrap(GTK_LABEL(view->message), TRUE);
-	gtk_widget_add_css_class(view->message, "error");
-	gtk_widget_set_margin_start(view->message, 12);
-	gtk_widget_set_margin_end(view->message, 12);
-	gtk_widget_set_margin_top(view->message, 6);
-	gtk_widget_set_margin_bottom(view->message, 6);
-	spoken_text(GTK_LABEL(view->message));
-	gtk_box_append(GTK_BOX(box), bar_new(view));
-	gtk_box_append(GTK_BOX(box), list_new(view));
-	gtk_box_append(GTK_BOX(box), view->message);
-	view->stack = gtk_stack_new();
-	gtk_stack_add_named(GTK_STACK(view->stack), box, "type");
-	gtk_stack_add_named(GTK_STACK(view->stack), none_new(), "none");
-	gtk_widget_set_hexpand(view->stack, TRUE);
-	gtk_box_append(GTK_BOX(view), view->stack);
+	gtk_widget_init_template(GTK_WIDGET(view));
+	panel_list_init(&view->list, view->list.view);
+	panel_message_init(&view->message, view->message.label);
+	add_columns(view);
 	view->watch = panel_watch_new(GTK_WIDGET(view), true, refresh);
 }
 

@@ -497,7 +497,7 @@ static void bind_children(GtkWidgetClass *class)
 	gtk_widget_class_bind_template_child(class, LadderUsesView, search);
 	gtk_widget_class_bind_template_child(class, LadderUsesView, empty);
 	gtk_widget_class_bind_template_child(class, LadderUsesView, stack);
-	gtk_widget_class_bind_template_child_full(class, "view", FALSE, 0);
+	panel_bind_list(class, LadderUsesView);
 	gtk_widget_class_bind_template_callback(class, activated);
 	gtk_widget_class_bind_template_callback(class, mode_changed);
 	gtk_widget_class_bind_template_callback(class, search_changed);
@@ -517,8 +517,7 @@ static void ladder_uses_view_init(LadderUsesView *view)
 
 	view->pou = -1;
 	gtk_widget_init_template(widget);
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		widget, LADDER_TYPE_USES_VIEW, "view")));
+	panel_list_init(&view->list, view->list.view);
 	panel_list_column(&view->list, _("Symbol"), USES_NAME, 0, 180);
 	panel_list_column(&view->list, _("Address"), USES_ADDRESS, 0, 90);
 	panel_list_column(&view->list, _("Use"), USES_KIND, 0, 110);
