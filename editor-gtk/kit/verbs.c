@@ -44,6 +44,17 @@ const char *verb_found(enum verb verb)
 	return found[verb];
 }
 
+bool verb_is_parted(enum verb verb)
+{
+	static const bool parted[VERB_COUNT] = {
+#define VERB(id, where, keys, label, group)
+#define PARTED(id) [VERB_##id] = true,
+#include "editor-gtk/kit/verbs.def"
+	};
+
+	return parted[verb];
+}
+
 const char *verb_group_label(enum verb_group group)
 {
 	static const char *const labels[VERBS_GROUPS] = {
@@ -171,6 +182,19 @@ void verb_tell(GString *line, enum verb verb)
 		g_string_append_printf(line, "%s%s: %s", line->len ? " · " : "", keys,
 				       _(verb_row(verb)->label));
 	g_free(keys);
+}
+
+void verb_append(GMenu *menu, enum verb verb, const char *label, const char *action)
+{
+	GMenuItem *item = g_menu_item_new(label ? label : _(verb_row(verb)->label),
+					  action ? action : verb_row(verb)->action);
+	char **keys = g_strsplit(verb_keys(verb), "|", 2);
+
+	if (keys[0])
+		g_menu_item_set_attribute(item, "accel", "s", keys[0]);
+	g_menu_append_item(menu, item);
+	g_strfreev(keys);
+	g_object_unref(item);
 }
 
 bool key_scheme_put(enum key_scheme scheme, int index, const char **word,

@@ -52,18 +52,11 @@ static const char *kind_text(const struct xref_use *use)
 
 static char *cell_text(struct maker *maker, const struct xref_use *use)
 {
-	const int seen = place_shown(&maker->sheet, maker->xref.project, use->pou,
-				     use->rung - 1, use->row - 1, use->col - 1);
-	char column[PLACE_LETTERS], *text;
-	bool whole;
-	char *part = place_rung(maker->xref.project, use->pou, use->rung - 1, &whole);
+	char *place = place_cell(&maker->sheet, maker->xref.project, use->pou, use->rung - 1,
+				 use->row - 1, use->col - 1);
+	char *text = use->off ? g_strdup_printf(_("%s, off"), place) : g_strdup(place);
 
-	if (whole)
-		return part;
-	text = g_strdup_printf(use->off ? _("%s, rung %d, row %d, column %s, off") :
-			       _("%s, rung %d, row %d, column %s"), part, use->rung, use->row,
-			       place_column(seen, column));
-	g_free(part);
+	g_free(place);
 	return text;
 }
 

@@ -675,30 +675,45 @@ static void install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.reload", NULL, reload);
 }
 
+/* The menu owns it. */
+static GMenu *section_new(GMenu *menu)
+{
+	GMenu *section = g_menu_new();
+
+	g_menu_append_section(menu, NULL, G_MENU_MODEL(section));
+	g_object_unref(section);
+	return section;
+}
+
 /* The main menu, from the rows of verbs.def. Caller: g_object_unref(). */
 static GMenu *menu_new(void)
 {
 	GMenu *menu = g_menu_new();
 
 	for (int group = 0; group < VERBS_GROUPS; group++) {
-		GMenu *part = g_menu_new();
-		int recent = -1;
+		GMenu *part = g_menu_new(), *section = NULL;
 
 		for (int i = 0; i < VERB_COUNT; i++) {
 			if ((int)verb_row((enum verb)i)->group != group)
 				continue;
-			g_menu_append(part, _(verb_row((enum verb)i)->label),
-				      verb_row((enum verb)i)->action);
+			if (!section || verb_is_parted((enum verb)i))
+				section = section_new(part);
+			verb_append(section, (enum verb)i, NULL, NULL);
 			if (i == VERB_open)
-				recent = g_menu_model_get_n_items(G_MENU_MODEL(part));
+				recent_follow(section, g_menu_model_get_n_items(
+						      G_MENU_MODEL(section)));
 		}
-		if (recent >= 0)
-			recent_follow(part, recent);
 		g_menu_append_submenu(menu, _(verb_group_label((enum verb_group)group)),
 				      G_MENU_MODEL(part));
 		g_object_unref(part);
 	}
 	return menu;
+}
+
+/* The next press on the button makes a menu with the keys of the other scheme. */
+static void menu_forget(LadderWindow *window)
+{
+	gtk_menu_button_set_menu_model(window->menu_button, NULL);
 }
 
 /* ---- state ---- */
@@ -1016,6 +1031,8 @@ static void ladder_window_init(LadderWindow *window)
 {
 	gtk_widget_init_template(GTK_WIDGET(window));
 	popover_menu_of(window->menu_button, menu_new);
+	g_signal_connect_object(settings_get(), "changed::keys", G_CALLBACK(menu_forget), window,
+				G_CONNECT_SWAPPED);
 	window->core = (struct core){
 		.window = GTK_WINDOW(window), .messages = &window->messages,
 		.below = &window->below, .front = &window->front, .tabs = &window->tabs,

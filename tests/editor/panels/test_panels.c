@@ -183,6 +183,27 @@ static GtkWidget *search_of(GtkWidget *from)
 
 /* ---- problems ---- */
 
+/* Errors stand before warnings, each kind by its place. */
+static void check_order(GListModel *list)
+{
+	const guint count = g_list_model_get_n_items(list);
+	LadderPanelRow *before = NULL;
+	bool good = true;
+
+	for (guint i = 0; i < count; i++) {
+		LadderPanelRow *row = g_list_model_get_item(list, i);
+
+		if (before && before->tone == row->tone)
+			good = good && before->number <= row->number;
+		else if (before)
+			good = good && before->tone == PANEL_ERROR;
+		g_clear_object(&before);
+		before = row;
+	}
+	g_clear_object(&before);
+	CHECK_AS(good, "errors stand before warnings, each kind by its place");
+}
+
 static void test_problems(void)
 {
 	LadderProblems *problems = LADDER_PROBLEMS(ladder_problems_new());
@@ -225,11 +246,12 @@ static void test_problems(void)
 		}
 		g_object_unref(row);
 	}
-	is_row(list, count - 1, "\"Lost\" is not declared|List, line 3|LD301|Error|");
+	check_order(list);
+	is_row(list, 2, "\"Lost\" is not declared|List, line 3|LD301|Error|");
 	CHECK(ladder_problems_next(problems, false));
 	CHECK(ladder_problems_next(problems, true));
 	CHECK(ladder_problems_show_error(problems));
-	CHECK_TEXT(gone_to, "-1 -1 0 4"); /* the one before it is a warning */
+	CHECK_TEXT(gone_to, "-1 -1 0 4");
 	reopen("RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nEND_PROGRAM\n");
 	CHECK_SOON(g_list_model_get_n_items(list) == 0);
 	CHECK(!ladder_problems_next(problems, false) && !ladder_problems_show_error(problems));
@@ -237,6 +259,8 @@ static void test_problems(void)
 	reopen("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO\n");
 	CHECK_AS(ladder_problems_count(problems, true) > 0,
 		 "a text that cannot be read has problems");
+	is_row(list, 0, "\"PROGRAM\" is not closed before the end of the file; its END_… is "
+	       "missing|line 2|LD109|Error|");
 	reopen(sample);
 	ladder_problems_set_document(problems, NULL);
 	CHECK(ladder_problems_count(problems, false) == 0);

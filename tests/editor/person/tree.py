@@ -295,7 +295,7 @@ def menus(screen):
     editor.to_sheet()
     for key in 'Menu', 'shift+F10':
         editor.keys(key)
-        until(lambda: menu_item(editor, 'Edit operand instead of value'), 'the menu of the sheet')
+        until(lambda: menu_item(editor, 'Edit operand'), 'the menu of the sheet')
         editor.keys('Escape')
         editor.to_sheet()
     editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other'][0])
