@@ -11,6 +11,7 @@
 #include "engine/check/check_il.h"
 #include "engine/check/check_tokens.h"
 #include "engine/check/expect.h"
+#include "engine/check/settle.h"
 #include "engine/scan/symbol_index.h"
 #include "engine/text/mend.h"
 #include "engine/text/text.h"
@@ -197,7 +198,8 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 			 &ladder->diags);
 	if (ladder->project->arena.failed)
 		good = no_memory(ladder, file);
-	return good;
+	arena_reset(&ladder->scratch);
+	return good && settle_project(ladder->project, &ladder->scratch, &ladder->diags);
 }
 
 static void place_foreign(struct ladder *ladder)

@@ -135,8 +135,8 @@ static struct literal init_text(const struct assembler *as, const struct var *va
 	const struct names *names = &as->translation->project->names;
 	struct literal literal;
 
-	literal_parse(names_text(names, var->init_text),
-		      names_len(names, var->init_text), &literal);
+	literal_parse(names_text(names, var_value_text(var)),
+		      names_len(names, var_value_text(var)), &literal);
 	return literal;
 }
 

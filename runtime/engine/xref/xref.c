@@ -415,8 +415,22 @@ static void walk_initial(struct xref_walk *walk, struct var *var)
 			next = word_of(xref_var(walk->project, &target));
 			xref_add(walk, target, XREF_INITIAL, (uint32_t)(token.text - text),
 				 (uint32_t)token.len);
+		} else if (token.kind == TOKEN_NAME && var->written && !lex_is(&lex, "(")) {
+			xref_scan(walk, (size_t)(token.text - text), token.len, XREF_READ);
 		}
 	}
+}
+
+/* Adds the constants in the expressions of a declaration. */
+static void walk_written(struct xref_walk *walk, struct var *var)
+{
+	if (!var->written)
+		return;
+	xref_all(walk, &var->written->bound[0], XREF_READ);
+	xref_all(walk, &var->written->bound[1], XREF_READ);
+	xref_all(walk, &var->written->capacity, XREF_READ);
+	if (var->written->initial && !init_has_parts(var))
+		xref_all(walk, &var->init_text, XREF_READ);
 }
 
 static void walk_table(struct xref_walk *walk, int number)
@@ -430,12 +444,14 @@ static void walk_table(struct xref_walk *walk, int number)
 		if (vars_flags(table, i) & VAR_RESULT) { /* from the heading */
 			if (var->type == IEC_NONE)
 				add_word(walk, var->fb, XREF_TYPE);
+			walk_written(walk, var);
 			continue;
 		}
 		xref_whole(walk, &var->name, xref_variable(walk->project, number, i),
 			  XREF_DECLARED);
 		if (var->type == IEC_NONE)
 			add_word(walk, var->fb, XREF_TYPE);
+		walk_written(walk, var);
 		if (init_has_parts(var))
 			walk_initial(walk, var);
 	}
@@ -505,7 +521,9 @@ static void walk_declarations(struct xref_walk *walk)
 
 		begin_place(walk, i, pou->file, pou->line, pou->included);
 		xref_whole(walk, &pou->name, target, XREF_DECLARED);
+		walk->pou = pou;
 		walk_table(walk, i + 1);
+		walk->pou = NULL;
 	}
 }
 
