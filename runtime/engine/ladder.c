@@ -508,9 +508,28 @@ bool ladder_read_var(struct ladder *ladder, int pou, int block, const char *text
 		     size_t len, struct diag_list *diags)
 {
 	struct project *project = ladder_project(ladder);
+	struct pou *of = project && pou >= 0 ? &project->pou[pou] : NULL;
+	struct var_table *table;
+	int last;
 
-	return project && text_read_var(project, pou < 0 ? NULL : &project->pou[pou],
-					block, text, len, diags);
+	if (!project || !text_read_var(project, of, block, text, len, diags))
+		return false;
+	table = of ? &of->vars : &project->globals;
+	last = table->block[block].first + table->block[block].count - 1;
+	arena_reset(&ladder->scratch);
+	if (settle_var(project, pou + 1, last, &ladder->scratch, diags))
+		return true;
+	vars_pop(table, block);
+	return false;
+}
+
+bool ladder_constant(struct ladder *ladder, int table, const char *text, size_t len,
+		     struct init_value *out, struct diag_list *diags)
+{
+	struct project *project = ladder_project(ladder);
+
+	arena_reset(&ladder->scratch);
+	return project && settle_value(project, table, text, len, out, &ladder->scratch, diags);
 }
 
 char *ladder_write_rung(struct ladder *ladder, const struct rung *rung)
