@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/document/text_lines.h"
 
+#include "engine/base/name.h"
+
 #include <ctype.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -31,27 +33,38 @@ static bool is_blank(const char *at)
 	return *at == '\n' || !*at;
 }
 
-static bool is_space(char c)
+static size_t name_length(const char *at)
 {
-	return c == ' ' || c == '\t' || c == '\r';
+	size_t len = 0;
+
+	while (isalnum((unsigned char)at[len]) || at[len] == '_' || at[len] & 0x80)
+		len++;
+	return len;
 }
 
-/* Same words, with other blanks and in any case. */
+/* Same words, with other blanks, and spelled in another way. */
 static bool says_same(const char *a, const char *b)
 {
 	for (;;) {
+		size_t a_len, b_len;
+
 		a += indent(a);
 		b += indent(b);
-		while (*a && *a != '\n' && !is_space(*a) &&
-		       toupper((unsigned char)*a) == toupper((unsigned char)*b)) {
-			a++;
-			b++;
+		a_len = name_length(a);
+		b_len = name_length(b);
+		if (a_len && b_len) {
+			if (!name_same(a, a_len, b, b_len))
+				return false;
+			a += a_len;
+			b += b_len;
+			continue;
 		}
 		if ((!*a || *a == '\n') && (!*b || *b == '\n'))
 			return true;
-		if (!is_space(*a) && !is_space(*b))
+		if (*a != *b)
 			return false;
-		/* Skips a blank that only one of them has. */
+		a++;
+		b++;
 	}
 }
 

@@ -39,9 +39,12 @@ static const struct { const char *name, *style, *mark; } states[ADDRESS_STATES] 
 
 /* ---- rows ---- */
 
-/* Has a cell of the row this state? ADDRESS_STATES: any row has. */
+/* Has a cell of the row this state? ADDRESS_STATES: any row has. What an index may reach is
+ * shown also where it is used. */
 static bool has_state(const LadderAddressView *view, int row, guint state)
 {
+	if (state == ADDRESS_REACHED)
+		return address_is_reached(view->rows, row);
 	for (int i = 0; i < ADDRESS_COLUMNS && state < ADDRESS_STATES; i++)
 		if (address_state_of(view->rows, row, i) == (enum address_state)state)
 			return true;
@@ -64,7 +67,7 @@ static LadderPanelRow *row_new(const LadderAddressView *view, int number)
 static guint wanted_state(const LadderAddressView *view)
 {
 	static const guint state[] = { ADDRESS_STATES, ADDRESS_SEVERAL, ADDRESS_TWICE,
-				       ADDRESS_UNUSED, ADDRESS_FREE };
+				       ADDRESS_UNUSED, ADDRESS_REACHED, ADDRESS_FREE };
 	const guint at = gtk_drop_down_get_selected(GTK_DROP_DOWN(view->kinds));
 
 	return at < G_N_ELEMENTS(state) ? state[at] : ADDRESS_STATES;

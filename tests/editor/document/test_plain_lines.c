@@ -87,6 +87,8 @@ int main(void)
 		 "the line is at most the last one");
 	CHECK_AS(line_of("", "x\ny\n", 1) == 1 && line_of("a\n", "", 7) == 7,
 		 "in an empty text the line number is kept");
+	CHECK_AS(line_of("x\n  st  GRÖSSE\nld GRÖßE\n", "x\n  LD Größe\n  ST Größe\n", 1) == 2,
+		 "names are compared by Unicode");
 	many();
 	all_lines();
 	return tap_done();
