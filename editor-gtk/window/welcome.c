@@ -318,6 +318,8 @@ GtkWidget *welcome_new(void)
 		"win.open", NULL);
 	add_row(begin, _("Import…"), _("ClassicLadder projects: .clprj, .clprjz, .clp"),
 		"win.import-project", NULL);
+	add_row(begin, _("Compare files…"), _("What differs between two versions of a project."),
+		"win.compare_files", NULL);
 	add_row(begin, _("Tutorial"), _("Draw a first program, simulate it and run it on a board."),
 		"win.tutorial", NULL);
 	add_recent(page);

@@ -139,6 +139,11 @@ void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin)
 	exchange_imported(&window->exchange);
 }
 
+void ladder_window_compare(LadderWindow *window, const char *older, const char *newer)
+{
+	compare_files(&window->compare, older, newer);
+}
+
 bool ladder_window_has_file(LadderWindow *window, const char *path)
 {
 	return tabs_find_file(&window->tabs, path) != NULL;
@@ -371,6 +376,7 @@ static bool do_in_file(LadderWindow *window, enum verb verb)
 	case VERB_save: files_save(&window->files); return true;
 	case VERB_save_as: files_save_as(&window->files); return true;
 	case VERB_compare: compare_ask(&window->compare); return true;
+	case VERB_compare_files: compare_ask_files(&window->compare); return true;
 	case VERB_next_difference: compare_step(&window->compare, false); return true;
 	case VERB_previous_difference: compare_step(&window->compare, true); return true;
 	case VERB_export_classic: exchange_export(&window->exchange); return true;

@@ -35,6 +35,7 @@ struct ladder {
 	struct program program;
 	bool good, built, unreadable, watch; /* good: the last load succeeded */
 	struct foreign *foreign;  /* NULL: rung files and images alone      */
+	struct ladder_files files; /* load NULL: the disk                    */
 };
 
 struct ladder *ladder_new(void)
@@ -111,6 +112,23 @@ static bool no_memory(struct ladder *ladder, const char *file)
 
 /* ---- loading ---- */
 
+void ladder_set_files(struct ladder *ladder, const struct ladder_files *files)
+{
+	ladder->files = files ? *files : (struct ladder_files){ .load = NULL };
+}
+
+static char *load_named(const struct ladder *ladder, const char *path, size_t *len)
+{
+	char *text;
+
+	errno = 0;
+	if (!ladder->files.load)
+		return file_read(path, LIMIT_TEXT, len, NULL);
+	text = ladder->files.load(ladder->files.context, path, len);
+	errno = text ? 0 : ENOENT;
+	return text;
+}
+
 /* Reads a file that is named relative to another one. */
 static char *load_include(void *context, const char *from, const char *name,
 			  size_t *len, struct diag_list *diags,
@@ -122,7 +140,6 @@ static char *load_include(void *context, const char *from, const char *name,
 	char *path, *text;
 	int before = diags->errors;
 
-	(void)context;
 	if (name[0] == '/')
 		folder = 0;
 	path = malloc(size);
@@ -133,8 +150,7 @@ static char *load_include(void *context, const char *from, const char *name,
 	}
 	memcpy(path, from, folder);
 	memcpy(path + folder, name, strlen(name) + 1);
-	errno = 0;
-	text = file_read(path, LIMIT_TEXT, len, NULL);
+	text = load_named(context, path, len);
 	if (!text && diags->errors == before) {
 		place.id = DIAG_BAD_INCLUDE;
 		diag_add(diags, place, "%.30s" DIAG_AND "%s", name,
@@ -173,7 +189,7 @@ static bool open_image(struct ladder *ladder, const char *file,
 static bool load_bytes(struct ladder *ladder, const char *file,
 		       const void *bytes, size_t len)
 {
-	struct text_source source = { .load = load_include };
+	struct text_source source = { .load = load_include, .context = ladder };
 	bool good;
 
 	if (bytes && is_image(bytes, len)) {

@@ -64,6 +64,16 @@ const struct classic_rung *ladder_import_rung(const struct ladder *ladder, int p
 /** ladder_period - the scan period of an imported project, ns; 0: none is given. */
 int64_t ladder_period(const struct ladder *ladder);
 
+/* Files that a project names (INCLUDE, USES), from elsewhere than the disk. */
+struct ladder_files {
+	/* The text of a file, malloc'ed; NULL: it is not there. @path: its name, behind the
+	 * folder of the file that names it. */
+	char *(*load)(void *context, const char *path, size_t *len);
+	void *context;
+};
+/** ladder_set_files - for later loads. @files: copied; NULL, as at first: the disk. */
+void ladder_set_files(struct ladder *ladder, const struct ladder_files *files);
+
 /**
  * ladder_load - reads a rung file or a code image
  * @path: its first bytes, not its name, decide which it is. Must stay valid.
