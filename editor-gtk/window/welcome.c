@@ -233,6 +233,7 @@ static GtkWidget *card_new(const char *path)
 				       about.line ? about.line : "");
 
 	spoken_name(sample, about.title ? about.title : name);
+	gtk_widget_set_vexpand(sample, TRUE); /* cards are as high as the one with most text */
 	gtk_box_append(GTK_BOX(box), sample);
 	gtk_box_append(GTK_BOX(box), label_new(about.title ? about.title : name, "heading"));
 	if (about.line)
