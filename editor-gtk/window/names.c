@@ -586,19 +586,61 @@ static void delete_answered(AdwMessageDialog *dialog, const char *answer,
 		delete_named(deleting);
 }
 
-static void ask_delete(struct core *core, const char *name, bool type, int uses)
+static void append_user(GString *body, const char *user, int uses)
 {
+	if (!uses)
+		return;
+	g_string_append_c(body, '\n');
+	g_string_append_printf(body, ngettext("%s: %d place", "%s: %d places",
+					      (unsigned long)uses), user, uses);
+}
+
+/* The POUs that use it and the symbols, a line each; a long list ends with "…". */
+static void list_users(struct core *core, const struct xref_target *target, GString *body)
+{
+	enum { USERS = 6 };
+	struct project *project = ladder_document_project(core->document);
+	int *uses = g_new0(int, (gsize)project->pou_count + 1);
+	int users = 0;
+	struct xref xref = { 0 };
+
+	if (!xref_make(&xref, project))
+		g_error("out of memory");
+	for (int i = 0; i < xref.count; i++)
+		if (xref_same(&xref.use[i].target, target) && xref.use[i].kind != XREF_DECLARED)
+			uses[xref.use[i].pou + 1]++;
+	if (target->what == XREF_POU)
+		uses[target->index + 1] = 0;
+	for (int i = 0; i <= project->pou_count; i++) {
+		if (uses[i] && ++users > USERS) {
+			g_string_append(body, "\n…");
+			break;
+		}
+		append_user(body, i ? project_text(project, project->pou[i - 1].name) :
+				      _("Symbols"), uses[i]);
+	}
+	xref_free(&xref);
+	g_free(uses);
+}
+
+static void ask_delete(struct core *core, const struct xref_target *target, const char *name,
+		       int uses)
+{
+	const bool type = target->what == XREF_STRUCTURE;
 	struct deleting *deleting = g_new(struct deleting, 1);
 	char *heading = g_strdup_printf(_("Delete “%s”?"), name);
-	char *body = g_strdup_printf(type ? ngettext(
+	GString *body = g_string_new(NULL);
+
+	g_string_printf(body, type ? ngettext(
 		"It is used in %d place. Variables and members of this type are deleted, too.",
 		"It is used in %d places. Variables and members of this type are deleted, too.",
 		(unsigned long)uses) : ngettext(
 		"It is used in %d place. Its boxes and instances are deleted, too.",
 		"It is used in %d places. Its boxes and instances are deleted, too.",
 		(unsigned long)uses), uses);
-	AdwMessageDialog *dialog = ask_new(core->window, heading, body, "uses", _("Show uses"),
-					   ADW_RESPONSE_DEFAULT);
+	list_users(core, target, body);
+	AdwMessageDialog *dialog = ask_new(core->window, heading, body->str, "uses",
+					   _("Show uses"), ADW_RESPONSE_DEFAULT);
 
 	adw_message_dialog_add_response(dialog, "delete", _("Delete anyway"));
 	adw_message_dialog_set_response_appearance(dialog, "delete",
@@ -607,17 +649,18 @@ static void ask_delete(struct core *core, const char *name, bool type, int uses)
 	g_signal_connect_data(dialog, "response", G_CALLBACK(delete_answered), deleting,
 			      deleting_free, 0);
 	gtk_window_present(GTK_WINDOW(dialog));
-	g_free(body);
+	g_string_free(body, TRUE);
 	g_free(heading);
 }
 
 void names_delete_pou(struct core *core, int pou)
 {
 	const struct project *project = ladder_document_project(core->document);
+	const struct xref_target target = { .what = XREF_POU, .index = pou };
 	const int uses = project ? pou_uses(core->document, pou) : 0;
 
 	if (uses > 0 && project->pou_count > 1 && !project->pou[pou].included)
-		ask_delete(core, project_text(project, project->pou[pou].name), false, uses);
+		ask_delete(core, &target, project_text(project, project->pou[pou].name), uses);
 	else
 		delete_pou(core, pou);
 }
@@ -625,11 +668,12 @@ void names_delete_pou(struct core *core, int pou)
 void names_delete_type(struct core *core, int structure)
 {
 	const struct project *project = ladder_document_project(core->document);
+	const struct xref_target target = { .what = XREF_STRUCTURE, .index = structure };
 	const int uses = type_uses(core->document, structure);
 
 	if (uses > 0 && !type_is_included(core->document, structure))
-		ask_delete(core, project_text(project, project->structure[structure].name), true,
-			   uses);
+		ask_delete(core, &target,
+			   project_text(project, project->structure[structure].name), uses);
 	else
 		delete_type(core, structure);
 }

@@ -206,6 +206,7 @@ def used(screen):
     editor.click(until(row, 'the block')[0])
     editor.brought('Delete')
     editor.says('It is used in 2 places')
+    editor.says('Main: 2 places')
     editor.shot('tree-used')
     editor.answer('Show uses')
     until(lambda: editor.all('Seal', 'table row'), 'its uses')
