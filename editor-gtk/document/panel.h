@@ -14,12 +14,16 @@
 /* ---- lists ---- */
 
 struct panel_list {
-	GtkColumnView *view;   /* borrowed                                     */
+	GtkColumnView *view;   /* weak                                         */
 	GListStore *store;     /* of LadderPanelRow                            */
 	GtkFilterListModel *filtered;
 	GtkCustomFilter *filter;
 	GtkSingleSelection *selection;
 	char *wanted;          /* filter: the text that rows must have; never NULL */
+	GArray *columns;       /* their widths; panel.c                        */
+	GtkAdjustment *across; /* of @view                                     */
+	int page;              /* px that it shows; 0: unknown                 */
+	guint fit;             /* sets the widths when it elapses              */
 };
 
 enum panel_column_flag {
@@ -28,6 +32,7 @@ enum panel_column_flag {
 	PANEL_DIM = 8,
 	PANEL_MIDDLE = 16,                  /* an ellipsis in the middle, so that the end stays
 					       visible */
+	PANEL_LABEL = 32,                   /* of panel_list_column(): not edited */
 };
 
 /* Binds the child "view" of a template to the member "list" of @type. */
@@ -44,7 +49,8 @@ enum panel_column_flag {
 void panel_list_init(struct panel_list *list, GtkColumnView *view);
 void panel_list_clear(struct panel_list *list);
 /** panel_list_column - adds a column of labels.
- * @name: translated; @width: px, 0: natural. Returns it, borrowed. */
+ * @name: translated; @width: px, 0: natural. More for longer texts; less in a narrow list, but
+ * not less than its texts need. Returns it, borrowed. */
 GtkColumnViewColumn *panel_list_column(struct panel_list *list, const char *name,
 				       int text, unsigned int flags, int width);
 /** panel_list_add - adds a column with its own cells, sorted by @text. */

@@ -214,7 +214,7 @@ static void ladder_scenario_view_init(LadderScenarioView *view)
 	gtk_widget_init_template(GTK_WIDGET(view));
 	panel_list_init(&view->list, view->list.view);
 	panel_list_column(&view->list, "", RESULT, PANEL_ICON, 0);
-	panel_list_column(&view->list, _("Scenario"), NAME, PANEL_EXPAND, 180);
+	panel_list_column(&view->list, _("Scenario"), NAME, 0, 180);
 	panel_list_column(&view->list, _("File"), FILE_NAME, 0, 140);
 	panel_list_column(&view->list, _("Result"), RESULT, PANEL_EXPAND, 180);
 }

@@ -37,8 +37,6 @@ struct _LadderSymbolsView {
 	struct panel_message message;
 	bool busy;              /* a drop-down is being filled: ignore its signal */
 	bool turning;           /* the kind of the symbol is being changed     */
-	GtkColumnViewColumn *types; /* the column of types, borrowed           */
-	int types_width;        /* that it was given last                      */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
@@ -151,37 +149,6 @@ static void show_kind(LadderSymbolsView *view)
 			       !(row->flags & (SYMBOLS_FIXED | SYMBOLS_MEMBER)));
 }
 
-#define TYPES_LEAST 110 /* px of the column of types                           */
-#define TYPES_MOST  260
-#define TYPES_ROOM  44  /* of a cell, beside its text                          */
-
-/* Makes the column of types wide enough for the longest one, unless a person made it another
- * width. */
-static void fit_types(LadderSymbolsView *view, const struct symbols *symbols)
-{
-	GHashTable *seen = g_hash_table_new(g_str_hash, g_str_equal);
-	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(view->list.view), NULL);
-	int most = TYPES_LEAST, width;
-
-	for (int i = 0; symbols && i < symbols->count; i++) {
-		char *type = symbols->symbol[i].text[FIELD_TYPE];
-
-		if (strlen(type) < 8 || !g_hash_table_add(seen, type))
-			continue;
-		pango_layout_set_text(layout, type, -1);
-		pango_layout_get_pixel_size(layout, &width, NULL);
-		most = MAX(most, width + TYPES_ROOM);
-	}
-	most = MIN(most, TYPES_MOST);
-	width = gtk_column_view_column_get_fixed_width(view->types);
-	if (most != view->types_width && (!view->types_width || width == view->types_width)) {
-		gtk_column_view_column_set_fixed_width(view->types, most);
-		view->types_width = most;
-	}
-	g_object_unref(layout);
-	g_hash_table_unref(seen);
-}
-
 static void fill_rows(LadderSymbolsView *view)
 {
 	LadderDocument *document = panel_watch_document(view->watch);
@@ -192,7 +159,6 @@ static void fill_rows(LadderSymbolsView *view)
 		if (view->table < 0 || symbols->symbol[i].table == view->table)
 			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i]));
 	panel_cells_update(&view->list, rows);
-	fit_types(view, symbols);
 	show_kind(view);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
@@ -576,9 +542,6 @@ static void add_columns(LadderSymbolsView *view)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
 				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
 				column[i].width);
-	view->types = g_list_model_get_item(gtk_column_view_get_columns(view->list.view),
-					    1 + FIELD_TYPE);
-	g_object_unref(view->types); /* the list has a reference */
 	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 150);
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
 }
