@@ -174,6 +174,18 @@ char *verb_keys_label(enum verb verb)
 	return keys_label(verb_keys(verb));
 }
 
+void menu_append(GMenu *menu, const char *label, const char *action, const char *keys)
+{
+	GMenuItem *item = g_menu_item_new(label, action);
+	char **key = g_strsplit(keys, "|", 2);
+
+	if (key[0])
+		g_menu_item_set_attribute(item, "accel", "s", key[0]);
+	g_menu_append_item(menu, item);
+	g_strfreev(key);
+	g_object_unref(item);
+}
+
 void verb_tell(GString *line, enum verb verb)
 {
 	char *keys = verb_keys_label(verb);
@@ -186,15 +198,8 @@ void verb_tell(GString *line, enum verb verb)
 
 void verb_append(GMenu *menu, enum verb verb, const char *label, const char *action)
 {
-	GMenuItem *item = g_menu_item_new(label ? label : _(verb_row(verb)->label),
-					  action ? action : verb_row(verb)->action);
-	char **keys = g_strsplit(verb_keys(verb), "|", 2);
-
-	if (keys[0])
-		g_menu_item_set_attribute(item, "accel", "s", keys[0]);
-	g_menu_append_item(menu, item);
-	g_strfreev(keys);
-	g_object_unref(item);
+	menu_append(menu, label ? label : _(verb_row(verb)->label),
+		    action ? action : verb_row(verb)->action, verb_keys(verb));
 }
 
 bool key_scheme_put(enum key_scheme scheme, int index, const char **word,

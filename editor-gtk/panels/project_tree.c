@@ -398,22 +398,37 @@ enum { POU = 1, TYPE = 2, TASK = 4 }; /* kinds of a row with a menu of its own *
  * meaning. */
 static GMenu *row_menu(unsigned of)
 {
-	static const struct { const char *label, *action; unsigned of; } entries[] = {
-		{ N_("Duplicate…"), "tree.duplicate", POU | TYPE },
-		{ N_("Move up"), "tree.up", POU }, { N_("Move down"), "tree.down", POU },
-		{ N_("Copy to file…"), "tree.copy", POU },
-		{ N_("Move to file…"), "tree.move", POU },
-		{ N_("Rename…"), "tree.rename", POU | TYPE | TASK },
-		{ N_("Where it is used"), "tree.uses", POU | TYPE },
-		{ N_("Delete"), "tree.delete", POU | TYPE | TASK },
-		{ N_("Properties…"), "tree.about", POU },
+	static const struct {
+		const char *label, *action, *keys;
+		enum verb verb; /* with the same keys; VERB_COUNT: @keys          */
+		unsigned of;    /* 0: a line between parts                        */
+	} entries[] = {
+		{ N_("Duplicate…"), "tree.duplicate", "<Control>d", VERB_COUNT, POU | TYPE },
+		{ N_("Rename…"), "tree.rename", NULL, VERB_rename, POU | TYPE | TASK },
+		{ N_("Where it is used"), "tree.uses", NULL, VERB_show_uses, POU | TYPE },
+		{ N_("Delete"), "tree.delete", "Delete", VERB_COUNT, POU | TYPE | TASK },
+		{ NULL, NULL, NULL, VERB_COUNT, 0 },
+		{ N_("Move up"), "tree.up", "<Alt>Up", VERB_COUNT, POU },
+		{ N_("Move down"), "tree.down", "<Alt>Down", VERB_COUNT, POU },
+		{ N_("Copy to file…"), "tree.copy", "", VERB_COUNT, POU },
+		{ N_("Move to file…"), "tree.move", "", VERB_COUNT, POU },
+		{ NULL, NULL, NULL, VERB_COUNT, 0 },
+		{ N_("Properties…"), "tree.about", "<Alt>Return", VERB_COUNT, POU },
 	};
-	GMenu *menu = g_menu_new(), *fresh = menu_model();
+	GMenu *menu = g_menu_new(), *section = g_menu_new(), *fresh = menu_model();
 
 	for (gsize i = 0; i < G_N_ELEMENTS(entries); i++)
-		if (entries[i].of & of)
-			g_menu_append(menu, _(entries[i].label), entries[i].action);
-	g_menu_append_submenu(menu, _("New"), G_MENU_MODEL(fresh));
+		if (!entries[i].of) {
+			g_menu_append_section(menu, NULL, G_MENU_MODEL(section));
+			g_object_unref(section);
+			section = g_menu_new();
+		} else if (entries[i].of & of) {
+			menu_append(section, _(entries[i].label), entries[i].action,
+				    entries[i].keys ? entries[i].keys : verb_keys(entries[i].verb));
+		}
+	g_menu_append_submenu(section, _("New"), G_MENU_MODEL(fresh));
+	g_menu_append_section(menu, NULL, G_MENU_MODEL(section));
+	g_object_unref(section);
 	g_object_unref(fresh);
 	return menu;
 }
