@@ -17,6 +17,7 @@ struct messages {
 	gint64 told_at;   /* us; when the message in the status bar was set      */
 	guint64 told_of;  /* version of the document at that time                */
 	char *keys;       /* shown while there is no message                     */
+	int width;        /* px of the status bar, when keys were shown last     */
 };
 
 void messages_init(struct messages *messages, struct core *core);
