@@ -172,6 +172,7 @@ static void ladder_compare_dialog_init(LadderCompareDialog *dialog)
 {
 	dialog->cancel = g_cancellable_new();
 	gtk_window_set_title(GTK_WINDOW(dialog), _("Compare with"));
+	gtk_window_set_titlebar(GTK_WINDOW(dialog), adw_header_bar_new());
 	gtk_window_set_modal(GTK_WINDOW(dialog), TRUE);
 	gtk_window_set_default_size(GTK_WINDOW(dialog), 560, 520);
 }
