@@ -180,7 +180,8 @@ int panel_heading_width(GtkWidget *view, const char *name)
 /* ---- widths ---- */
 
 #define LABEL_ROOM 24   /* padding of a cell with a label                       */
-#define CELL_ROOM 50    /* of one that is edited, with its arrow                */
+#define CELL_ROOM 36    /* of one that is edited                                */
+#define BUTTON_ROOM 50  /* of one with an arrow                                 */
 #define ICON_ROOM 34    /* a column of icons                                    */
 #define COLUMN_MOST 260 /* for a longer text a column gets no wider             */
 
@@ -250,11 +251,37 @@ static int wish_of(const struct panel_column *column)
 	return MAX(MAX(column->width, column->need), column->least);
 }
 
+static bool has_column(struct panel_list *list, const GtkColumnViewColumn *column)
+{
+	bool has = false;
+
+	for (guint i = 0; i < list->columns->len && !has; i++)
+		has = g_array_index(list->columns, struct panel_column, i).column == column;
+	return has;
+}
+
+/* Px of the columns that the owner of the list added by itself, such as handles. */
+static int width_of_others(struct panel_list *list)
+{
+	GListModel *columns = gtk_column_view_get_columns(list->view);
+	int width = 0;
+
+	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
+		GtkColumnViewColumn *column = g_list_model_get_item(columns, i);
+		const int now = gtk_column_view_column_get_fixed_width(column);
+
+		if (!has_column(list, column))
+			width += now > 0 ? now : ICON_ROOM;
+		g_object_unref(column);
+	}
+	return width;
+}
+
 /* Each column has the width that it wishes, or more for its texts. Where that is more than the
  * list has, all give up what their texts do not need. */
 static void fit(struct panel_list *list)
 {
-	int all = 0, slack = 0, page;
+	int all = width_of_others(list), slack = 0, page;
 
 	measure(list);
 	for (guint i = 0; i < list->columns->len; i++) {
@@ -281,7 +308,8 @@ static gboolean fit_now(gpointer data)
 	struct panel_list *list = data;
 
 	list->fit = 0;
-	fit(list);
+	if (list->fitted)
+		fit(list);
 	return G_SOURCE_REMOVE;
 }
 
@@ -319,7 +347,8 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 		panel_heading_width(GTK_WIDGET(list->view), name) + HEADING_ROOM;
 	const struct panel_column of = { .column = column,
 		.text = width || flags & PANEL_EXPAND ? text : -1,
-		.room = flags & PANEL_LABEL ? LABEL_ROOM : CELL_ROOM,
+		.room = flags & PANEL_LABEL ? LABEL_ROOM : flags & PANEL_BUTTON ? BUTTON_ROOM :
+			CELL_ROOM,
 		.width = width ? MAX(width, least) : 0, .least = least,
 		.set = MAX(width, least) };
 
@@ -363,7 +392,8 @@ void panel_list_init(struct panel_list *list, GtkColumnView *view)
 {
 	GtkSortListModel *sorted;
 
-	g_set_weak_pointer(&list->view, view);
+	list->view = view;
+	g_set_weak_pointer(&list->fitted, view); /* it may go before panel_list_clear() */
 	list->columns = g_array_new(FALSE, TRUE, sizeof(struct panel_column));
 	list->wanted = g_strdup("");
 	list->store = g_list_store_new(LADDER_TYPE_PANEL_ROW);
@@ -386,9 +416,9 @@ void panel_list_clear(struct panel_list *list)
 	if (list->across)
 		g_signal_handlers_disconnect_by_data(list->across, list);
 	g_clear_object(&list->across);
-	if (list->view)
-		g_signal_handlers_disconnect_by_data(list->view, list);
-	g_clear_weak_pointer(&list->view);
+	if (list->fitted)
+		g_signal_handlers_disconnect_by_data(list->fitted, list);
+	g_clear_weak_pointer(&list->fitted);
 	g_clear_pointer(&list->columns, g_array_unref);
 	g_clear_object(&list->selection);
 	g_clear_object(&list->filtered);

@@ -14,14 +14,15 @@
 /* ---- lists ---- */
 
 struct panel_list {
-	GtkColumnView *view;   /* weak                                         */
+	GtkColumnView *view;   /* borrowed                                     */
 	GListStore *store;     /* of LadderPanelRow                            */
 	GtkFilterListModel *filtered;
 	GtkCustomFilter *filter;
 	GtkSingleSelection *selection;
 	char *wanted;          /* filter: the text that rows must have; never NULL */
 	GArray *columns;       /* their widths; panel.c                        */
-	GtkAdjustment *across; /* of @view                                     */
+	GtkColumnView *fitted; /* @view, weak                                  */
+	GtkAdjustment *across; /* of it                                        */
 	int page;              /* px that it shows; 0: unknown                 */
 	guint fit;             /* sets the widths when it elapses              */
 };
@@ -33,6 +34,7 @@ enum panel_column_flag {
 	PANEL_MIDDLE = 16,                  /* an ellipsis in the middle, so that the end stays
 					       visible */
 	PANEL_LABEL = 32,                   /* of panel_list_column(): not edited */
+	PANEL_BUTTON = 64,                  /* with an arrow or a button beside the text */
 };
 
 /* Binds the child "view" of a template to the member "list" of @type. */

@@ -819,7 +819,8 @@ void panel_cells_add(struct panel_list *list, const struct panel_cells *cells, i
 	g_signal_connect_data(factory, "setup", G_CALLBACK(setup), column, free_column, 0);
 	g_signal_connect(factory, "bind", G_CALLBACK(bind), column);
 	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), column);
-	panel_list_add(list, cells->name(field), field, flags, width, factory);
+	panel_list_add(list, cells->name(field), field, flags | (cells->choosable >> field & 1 ?
+		       PANEL_BUTTON : 0), width, factory);
 }
 
 void panel_cells_update(struct panel_list *list, GPtrArray *rows)

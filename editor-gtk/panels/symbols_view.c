@@ -540,7 +540,8 @@ static void add_columns(LadderSymbolsView *view)
 	panel_list_column(&view->list, "", SYMBOLS_USES, PANEL_ICON, 0);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
-				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
+				column[i].field == FIELD_COMMENT ? PANEL_EXPAND :
+				column[i].field == FIELD_INITIAL ? PANEL_BUTTON : 0,
 				column[i].width);
 	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 150);
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
