@@ -219,11 +219,19 @@ static GListModel *list(void)
 	return G_LIST_MODEL(gtk_column_view_get_model(GTK_COLUMN_VIEW(table)));
 }
 
+static GtkWidget *find_class(GtkWidget *widget, const char *class)
+{
+	GtkWidget *found = gtk_widget_has_css_class(widget, class) ? widget : NULL;
+	GtkWidget *child = gtk_widget_get_first_child(widget);
+
+	for (; child && !found; child = gtk_widget_get_next_sibling(child))
+		found = find_class(child, class);
+	return found;
+}
+
 static const char *message(void)
 {
-	GtkWidget *bar = find_type(GTK_WIDGET(view), GTK_TYPE_REVEALER);
-
-	return gtk_label_get_text(GTK_LABEL(find_type(bar, GTK_TYPE_LABEL)));
+	return gtk_label_get_text(GTK_LABEL(find_class(GTK_WIDGET(view), "panel-message")));
 }
 
 static guint rows(void)
