@@ -104,6 +104,16 @@ struct location live_map_find(const struct live_map *map, const char *name, size
 	return at;
 }
 
+struct location live_map_find_pin(const struct live_map *map, const char *instance,
+				  const char *pin)
+{
+	char *name = g_strdup_printf("%s.%s", instance, pin);
+	const struct location at = live_map_find(map, name, strlen(name));
+
+	g_free(name);
+	return at;
+}
+
 /* ---- power ---- */
 
 static int compare(const struct code_power *power, int pou, uint32_t rung)

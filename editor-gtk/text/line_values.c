@@ -84,16 +84,6 @@ static char *operand_of(const char *instruction)
 	return g_strndup(at, comment ? (gsize)(comment - at) : strlen(at));
 }
 
-static struct location pin_of(const struct live_map *map, const char *instance,
-			      const char *pin)
-{
-	char *name = g_strdup_printf("%s.%s", instance, pin);
-	struct location at = live_map_find(map, name, strlen(name));
-
-	g_free(name);
-	return at;
-}
-
 /* "CAL Delay (…)": the time or the count of the instance. */
 static void find_count(const struct live_map *map, const char *operand, struct seen *seen)
 {
@@ -102,8 +92,8 @@ static void find_count(const struct live_map *map, const char *operand, struct s
 	char *name = g_strndup(at, strcspn(at, " \t("));
 
 	for (gsize i = 0; *name && seen->now.type == IEC_NONE && i < G_N_ELEMENTS(pair); i++) {
-		seen->now = pin_of(map, name, pair[i][0]);
-		seen->goal = pin_of(map, name, pair[i][1]);
+		seen->now = live_map_find_pin(map, name, pair[i][0]);
+		seen->goal = live_map_find_pin(map, name, pair[i][1]);
 	}
 	g_free(name);
 }
