@@ -883,7 +883,8 @@ static uint32_t place_like(struct assembler *as, const struct frame *frame)
 	const uint32_t from = frame->power, end = from + frame->power_size;
 	const uint32_t to = as->data_size;
 
-	for (int i = frame->power_run; !as->failed && as->run[i].offset < end; i++) {
+	for (int i = frame->power_run; i < as->run_count && !as->failed && as->run[i].offset < end;
+	     i++) {
 		struct code_run run = as->run[i];
 		const uint32_t unit = code_run_size(&run);
 		const uint32_t first = run.offset < from ? from : run.offset;
