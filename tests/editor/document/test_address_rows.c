@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/document/address_rows.h"
 
+#include "tests/editor/opened.h"
 #include "tests/tap.h"
 
 static const char PROGRAM[] =
@@ -16,15 +17,6 @@ static const char PROGRAM[] =
 	"RUNG\n  | NO Over | [ %MD200 > 1 ] | COIL %QX0.0 |\n"
 	"RUNG\n  | NO Lamps[3] | [ Table[1] > 2 ] | S %QX0.1 |\n"
 	"RUNG\n  | NO Start | R %QX0.1 |\nRUNG OFF\n  | NO Start | COIL %QX0.1 |\nEND_PROGRAM\n";
-
-static LadderDocument *opened(const char *text)
-{
-	LadderDocument *document = ladder_document_new();
-
-	ladder_document_open_text(document, NULL, text, strlen(text), true);
-	CHECK(ladder_document_project(document));
-	return document;
-}
 
 /* The row with this byte; -1: none. */
 static int row_of(const struct address_rows *rows, enum iec_area area, uint32_t byte)
