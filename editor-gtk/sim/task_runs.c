@@ -52,8 +52,8 @@ static void begin_anew(struct task_runs *runs)
 	runs->program = 0;
 }
 
-/* How late the run is, and what was left out before it. Not known of the first scan of a start, and of
- * the first one after an edit. */
+/* Sets how late the run is, and how many runs were left out before it. Both are unknown for the first
+ * scan of a start, and for the first one after an edit. */
 static void set_lateness(const struct task_runs *runs, const struct twin *twin, guint32 task,
 			 struct task_run *run)
 {

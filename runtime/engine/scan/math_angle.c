@@ -80,7 +80,7 @@ static struct number sine_in(unsigned quadrant, struct number x)
 	return n;
 }
 
-/* Of an odd function: the sine, or the tangent if @tangent. */
+/* The sine, or the tangent if @tangent. Both are odd functions. */
 static double odd_of(double x, bool tangent)
 {
 	struct number n;
@@ -153,7 +153,7 @@ static struct number arc(struct number y, struct number x)
 	}
 	if (near == 0)
 		return arc_small(number_divided(y, x));
-	/* It is less than x, so that what 64 bits lose at the top is not missed. */
+	/* The difference fits, because it is less than x, although its terms may not. */
 	less = (apart < 2 ? y.part << (2 - apart) : y.part >> (apart - 2)) - near * below;
 	negative = less >> 63;
 	if (less == 0)

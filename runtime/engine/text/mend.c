@@ -257,7 +257,7 @@ static const struct rule *rule_at(const struct mender *m, size_t at)
 	return NULL;
 }
 
-/* What the cursor has passed changes where it is. */
+/* Sets `where` after the cursor has passed the token @text. */
 static void pass(struct mender *m, const char *text, size_t len)
 {
 	const bool assign = len == 2 && text[0] == ':' && text[1] == '=';

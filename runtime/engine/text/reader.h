@@ -25,7 +25,7 @@ struct buffer {
 	size_t slash_len, slash_at;
 };
 
-/* Where comments go that the cursor passes. */
+/* Where the reader keeps a comment that it passes. */
 enum comment_place {
 	COMMENT_ABOVE, /* the next part, rung or end: one a line              */
 	COMMENT_NOTE,  /* a declaration: behind it, on one line               */
