@@ -573,6 +573,7 @@ GtkWidget *ladder_compare_view_new(LadderDocument *document)
 
 	view->document = g_object_ref(document);
 	panel_watch_set(view->watch, document);
+	g_signal_connect(view, "map", G_CALLBACK(written), NULL); /* a map in another tab */
 	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(saved), view);
 	return GTK_WIDGET(view);
 }

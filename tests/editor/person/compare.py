@@ -211,6 +211,7 @@ def follows(screen):
     """an open page follows a save, a file that another program writes, and the I/O map, open or not"""
     path = project(screen)
     board = os.path.join(screen.home, 'pump.io')
+    write(board, '%IX0.0  gpio  line=GPIO17\n')
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('slash')
@@ -221,6 +222,16 @@ def follows(screen):
     write(path, open(path).read().replace('T#8s', 'T#9s'))
     until(lambda: rows_with(editor, 'T#9s'), 'what the other program wrote')
     editor.shot('compare-follows')
+    editor.click(editor.find('pump.io', 'label'), count=2)
+    editor.into('%IX0.0, I/O line')
+    editor.keys('ctrl+a')
+    editor.type('GPIO27')
+    editor.keys('Return', 'ctrl+alt+n')
+    until(lambda: rows_with(editor, 'I/O map, %IX0.0, changed: I/O line: GPIO17 \N{RIGHTWARDS ARROW} GPIO27'), 'the map as it is typed')
+    write(board, '%IX0.0  gpio  line=GPIO18\n')
+    until(lambda: rows_with(editor, 'GPIO18 \N{RIGHTWARDS ARROW} GPIO27'), 'the map that the other program wrote')
+    write(board, '%IX0.0  gpio  line=GPIO27\n')
+    until(lambda: not rows_with(editor, 'I/O map'), 'equal maps')
 
 
 def two_files(screen):
