@@ -241,8 +241,7 @@ static void run(const char *path, const char *const *words, GCancellable *cancel
 void git_log_read(const char *path, GCancellable *cancel, git_log_take *take, gpointer data)
 {
 	struct call *call = g_new0(struct call, 1);
-	char *base = g_path_get_basename(path);
-	char *file = g_strdup_printf("./%s", base); /* never an option */
+	char *file = g_path_get_basename(path);
 	const char *const words[] = { "git", "--literal-pathspecs", "-c",
 		"core.fsmonitor=false", "-c", "i18n.logOutputEncoding=UTF-8", "log",
 		"--no-show-signature", "--no-color", "--follow", "--name-status",
@@ -252,7 +251,6 @@ void git_log_read(const char *path, GCancellable *cancel, git_log_take *take, gp
 	call->data = data;
 	run(path, words, cancel, call);
 	g_free(file);
-	g_free(base);
 }
 
 void git_log_show(const char *path, const char *hash, const char *name, GCancellable *cancel,

@@ -67,8 +67,7 @@ static char *live_text(LadderTaskChart *chart, GtkListBoxRow *row)
 	if (chart->at_ns >= 0)
 		return task_runs_at_text(chart->runs, chart->at_ns, ladder_sim_period(chart->sim));
 	return row ? lane_text(chart, gtk_list_box_row_get_index(row)) :
-	       g_strdup(_("low and grey: planned; green: ran; high and red: ran late, or runs were "
-			  "left out"));
+	       g_strdup(_("low, grey: planned · green: ran · high, red: late, or runs left out"));
 }
 
 static void show_text(LadderTaskChart *chart)

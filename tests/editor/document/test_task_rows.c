@@ -179,6 +179,14 @@ static void test_fields(void)
 	g_object_unref(document);
 }
 
+static void check_refused_name(LadderDocument *document, const char *name, const char *want)
+{
+	char *why = task_rows_name_refusal(document, row_of(document, "Quickly"), name);
+
+	CHECK_AS(g_strcmp0(why, want) == 0, name);
+	g_free(why);
+}
+
 /* A task's name stands in the lines of its programs, too. */
 static void test_rename(void)
 {
@@ -192,6 +200,10 @@ static void test_rename(void)
 	CHECK_AS(strstr(text, "(* a\n    b *) // c\n"),
 		 "a renamed task keeps its comments");
 	g_free(text);
+	check_refused_name(document, "2nd", "“2nd” is not a name");
+	check_refused_name(document, "SLOW", "“SLOW” is declared already");
+	check_refused_name(document, "", "Enter a name");
+	check_refused_name(document, "quickly", NULL);
 	g_object_unref(document);
 }
 
@@ -385,7 +397,8 @@ static void test_included(void)
 	CHECK(tasks->fixed);
 	task_rows_free(tasks);
 	check_order(document, "Fast: AEach scan:");
-	CHECK(!task_rows_set(document, 0, TASKS_PRIORITY, "3", &why) && why);
+	CHECK(!task_rows_set(document, 0, TASKS_PRIORITY, "3", &why));
+	CHECK_TEXT(why, "It is declared in another file");
 	CHECK(!ladder_document_undo_name(document));
 	remove(path);
 	remove(main_path);

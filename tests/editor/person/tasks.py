@@ -291,7 +291,7 @@ def simulated(screen):
     editor.says('PAUSE')
     fast = editor.find('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms … · 3 runs', 'list item')
     slow = editor.find('Slow: priority 2, every 20 ms, at 0 s, 20 ms … · 1 run', 'list item')
-    editor.says('low and grey: planned; green: ran')
+    editor.says('low, grey: planned · green: ran')
     editor.shot('tasks-live')
     x, y, width, height = editor.place(slow)
     editor.click((x + 20, y + height // 2))
@@ -319,7 +319,7 @@ def simulated(screen):
     editor.shot('tasks-late')
     editor.keys('Escape', 'ctrl+m')
     editor.find('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms …', 'list item')
-    until(lambda: editor.all('then everything repeats', 'label') or not editor.all('left out'), 'the plan alone')
+    until(lambda: not editor.find('Zoom out', 'push button').has(24), 'the whole time of the plan')
 
 
 main([table, rows, tree, last_program, implicit, picture, simulated])
