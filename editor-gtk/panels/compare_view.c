@@ -560,20 +560,13 @@ static void ladder_compare_view_init(LadderCompareView *view)
 	view->watch = panel_watch_new(GTK_WIDGET(view), false, refresh);
 }
 
-/* Saving changes the file that may be the older version. */
-static void saved(LadderCompareView *view)
-{
-	if (!view->older.text)
-		panel_watch_later(view->watch);
-}
-
 GtkWidget *ladder_compare_view_new(LadderDocument *document)
 {
 	LadderCompareView *view = g_object_new(LADDER_TYPE_COMPARE_VIEW, NULL);
 
 	view->document = g_object_ref(document);
 	panel_watch_set(view->watch, document);
-	g_signal_connect(view, "map", G_CALLBACK(written), NULL); /* a map in another tab */
-	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(saved), view);
+	/* Saving changes the older version, typing in an I/O map the newer one. */
+	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(written), view);
 	return GTK_WIDGET(view);
 }

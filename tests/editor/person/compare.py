@@ -222,6 +222,9 @@ def follows(screen):
     write(path, open(path).read().replace('T#8s', 'T#9s'))
     until(lambda: rows_with(editor, 'T#9s'), 'what the other program wrote')
     editor.shot('compare-follows')
+    editor.click([node for node in editor.all('List', 'label') if node.name == 'List' and node.box()[0] < 200][0])
+    editor.keys('Delete')  # an edit while the page is in front
+    until(lambda: rows_with(editor, 'PROGRAM List, the whole POU, removed'), 'the program that is gone')
     editor.click(editor.find('pump.io', 'label'), count=2)
     editor.into('%IX0.0, I/O line')
     editor.keys('ctrl+a')
