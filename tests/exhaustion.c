@@ -413,6 +413,7 @@ int main(int argc, char **argv)
 		starve_file("tests/fuzz/corpus/code/il.rung");
 		starve_file("tests/fuzz/corpus/code/tasks.rung");
 		starve_file("tests/fuzz/corpus/code/arrays-in-blocks.rung");
+		starve_file("tests/golden/declared-expressions/main.rung");
 		starve_file("tests/fuzz/corpus/classic/linuxcnc.clp");
 		starve_file("tests/fuzz/corpus/classic/packed.clprjz");
 	}

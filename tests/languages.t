@@ -53,6 +53,11 @@ once() {
 		END { exit($bad ? 1 : 0) }'
 }
 
+# alike LANGUAGE - an ellipsis stands at its word, as in the other texts of the language
+alike() {
+	! msgcat --no-wrap "editor-gtk/po/$1.po" | grep '^msgstr.* …"$'
+}
+
 # noticed LANGUAGE - tests the test: a missing text is noticed
 noticed() {
 	sed '0,/^msgstr "[^"]/s/^msgstr "[^"].*/msgstr ""/' "editor-gtk/po/$1.po" >"$work/less.po"
@@ -71,6 +76,7 @@ for language in $(cat editor-gtk/po/LINGUAS); do
 	told "$language: no text stands there twice" once "$language"
 	told "$language: formats, plurals, access keys agree" msgfmt -c \
 		--check-accelerators=_ -o /dev/null "editor-gtk/po/$language.po"
+	told "$language: an ellipsis stands at its word" alike "$language"
 	told "$language: is of these sources" current "$language"
 done
 told "a missing text would be noticed" noticed de

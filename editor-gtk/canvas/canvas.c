@@ -1012,7 +1012,7 @@ static GMenuModel *those_that_apply(LadderCanvas *canvas, const enum verb *verbs
 
 	for (; *verbs != VERB_COUNT; verbs++)
 		if (applies(canvas, *verbs))
-			g_menu_append(menu, _(verb_row(*verbs)->label), verb_row(*verbs)->action);
+			verb_append(menu, *verbs, NULL, NULL);
 	return G_MENU_MODEL(menu);
 }
 

@@ -250,6 +250,25 @@ bool address_is_own(const struct address_rows *rows, int number, int column)
 	return false;
 }
 
+bool address_is_reached(const struct address_rows *rows, int number)
+{
+	const struct address_row *row = address_rows_at(rows, number);
+
+	for (int column = 0; column < ADDRESS_COLUMNS; column++)
+		if (reaching(rows, row, column))
+			return true;
+	return false;
+}
+
+/* May the index of something else lead to a cell? */
+static bool is_reached_too(const struct address_rows *rows, const struct address_row *row,
+			   int column)
+{
+	const struct address_thing *thing = reaching(rows, row, column);
+
+	return thing && !(thing->first / 8 < row->end && thing->end > row->byte * 8);
+}
+
 /* ---- texts ---- */
 
 static void append_address(GString *out, enum iec_area area, unsigned int bits, uint32_t byte,
@@ -294,6 +313,8 @@ char *address_cell_text(const struct address_rows *rows, int number, int column)
 			g_string_append(out, out->len ? "\n" : "");
 			append_thing(out, rows, thing_of(rows, row, i));
 		}
+	if (out->len && is_reached_too(rows, row, column))
+		g_string_append_printf(out, "\n%s", _("an index may reach it"));
 	if (!out->len) {
 		append_address(out, row->area, column_width(column), row->byte,
 			       column < ADDRESS_BYTE ? (unsigned int)column : 0);

@@ -50,6 +50,9 @@ const struct address_row *address_rows_at(const struct address_rows *rows, int r
 enum address_state address_state_of(const struct address_rows *rows, int row, int column);
 /** address_is_own - is something in the cell of exactly this width? */
 bool address_is_own(const struct address_rows *rows, int row, int column);
+/** address_is_reached - may the index of an address before it, %MW0[I], lead into the row? Also
+ * where something else is. */
+bool address_is_reached(const struct address_rows *rows, int row);
 /** address_cell_text - "%MW4: Speed, 3 uses", a line for each thing in the cell, translated.
  * Owns: the caller. */
 char *address_cell_text(const struct address_rows *rows, int row, int column);

@@ -4,11 +4,15 @@
  */
 #include "editor-gtk/document/comparison.h"
 
+#include "editor-gtk/document/disk.h"
+#include "editor-gtk/document/iomap_beside.h"
+#include "editor-gtk/document/iomap_compare.h"
 #include "editor-gtk/draw/diff_draw.h"
 #include "editor-gtk/draw/place.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 
+#include "engine/base/limits.h"
 #include "engine/base/name.h"
 #include "engine/compare/compare.h"
 #include "engine/text/pou_print.h"
@@ -417,7 +421,100 @@ static void take(void *context, const struct compare_difference *what)
 	remember(making, what);
 }
 
-static bool load(struct ladder *ladder, const struct compare_side *side)
+/* ---- I/O maps ---- */
+
+static void take_map(void *context, const struct iomap_difference *what)
+{
+	struct making *making = context;
+	GPtrArray *rows = making->of->rows;
+	struct compare_row *row = rows->len ? rows->pdata[rows->len - 1] : NULL;
+	struct compare_detail detail = { g_strdup(what->field ? what->field : ""),
+					 g_strdup(what->from), g_strdup(what->to) };
+
+	if (!row || !row->map || strcmp(row->title, what->address) != 0 || !what->field)
+		row = row_new(making, g_strdup(_("I/O map")), g_strdup(what->address));
+	row->map = true;
+	row->change = !what->in_a ? COMPARE_ADDED : !what->in_b ? COMPARE_REMOVED :
+		      COMPARE_CHANGED;
+	g_array_append_val(row->details, detail);
+	add_words(row, what->field ? g_strdup_printf("%s: %s" ARROW "%s", what->field,
+		*what->from ? what->from : _("nothing"), *what->to ? what->to : _("nothing")) :
+		g_strdup(what->in_a ? what->from : what->to));
+}
+
+/* The text of the map of a side; NULL: it has none. Caller frees. */
+static char *map_of(const struct compare_side *side)
+{
+	char *path, *text;
+	gsize len;
+
+	if (side->map || side->files || !side->path)
+		return g_strdup(side->map);
+	path = iomap_beside(side->path);
+	text = path ? disk_read(path, LIMIT_TEXT, &len, NULL) : NULL;
+	g_free(path);
+	return text;
+}
+
+static void compare_maps(struct making *making)
+{
+	char *a = map_of(&making->of->a), *b = map_of(&making->of->b);
+
+	iomap_compare(a, b, take_map, making);
+	g_free(a);
+	g_free(b);
+}
+
+/* ---- sides ---- */
+
+/* Files that a side names. */
+struct named_files {
+	GHashTable *files;
+	char *wanted;        /* the first that is not among them               */
+};
+
+/* "sub/../lib.rung" as "lib.rung", as the file is named from the top. NULL: it is above the top.
+ * Caller frees. */
+static char *name_from_top(const char *path)
+{
+	char *whole = *path == '/' ? NULL : g_canonicalize_filename(path, "/");
+	int depth = 0;
+	bool inside = whole;
+	char **part = g_strsplit(path, "/", -1);
+
+	for (char **at = part; inside && *at; at++) {
+		depth += strcmp(*at, "..") == 0 ? -1 : **at && strcmp(*at, ".") != 0;
+		inside = depth >= 0;
+	}
+	g_strfreev(part);
+	path = inside ? whole + 1 : NULL;
+	path = g_strdup(path);
+	g_free(whole);
+	return (char *)path;
+}
+
+static char *load_named(void *context, const char *path, size_t *len)
+{
+	struct named_files *named = context;
+	char *name = name_from_top(path), *text = NULL;
+	gpointer bytes = NULL;
+
+	if (name && !g_hash_table_lookup_extended(named->files, name, NULL, &bytes) &&
+	    !named->wanted)
+		named->wanted = g_strdup(name);
+	if (bytes) {
+		*len = g_bytes_get_size(bytes);
+		text = malloc(*len + 1);
+	}
+	if (text) {
+		memcpy(text, g_bytes_get_data(bytes, NULL), *len);
+		text[*len] = '\0';
+	}
+	g_free(name);
+	return text;
+}
+
+static bool load_from(struct ladder *ladder, const struct compare_side *side)
 {
 	const char *path = side->path ? side->path : "";
 
@@ -425,6 +522,33 @@ static bool load(struct ladder *ladder, const struct compare_side *side)
 		return false;
 	return (side->text ? ladder_load_text(ladder, path, side->text, side->len) :
 			     ladder_load(ladder, path)) && ladder_project(ladder);
+}
+
+static bool load(struct ladder *ladder, const struct compare_side *side)
+{
+	struct named_files named = { .files = side->files };
+	bool good;
+
+	if (ladder && side->files)
+		ladder_set_files(ladder, &(struct ladder_files){ load_named, &named });
+	good = load_from(ladder, side);
+	if (ladder)
+		ladder_set_files(ladder, NULL);
+	g_free(named.wanted);
+	return good;
+}
+
+char *compare_side_wants(const struct compare_side *side)
+{
+	struct named_files named = { .files = side->files };
+	struct ladder *ladder = side->files ? ladder_new() : NULL;
+
+	if (ladder) {
+		ladder_set_files(ladder, &(struct ladder_files){ load_named, &named });
+		load_from(ladder, side);
+	}
+	ladder_free(ladder);
+	return named.wanted;
 }
 
 struct comparison *comparison_new(struct compare_side *a, struct compare_side *b)
@@ -440,6 +564,8 @@ struct comparison *comparison_new(struct compare_side *a, struct compare_side *b
 	if (of->read_a && of->read_b)
 		of->failed = compare_each(ladder_project(of->of_a), ladder_project(of->of_b),
 					  take, &making) < 0;
+	if (of->read_a && of->read_b)
+		compare_maps(&making);
 	g_free(making.subject);
 	return of;
 }
@@ -449,7 +575,16 @@ void compare_side_clear(struct compare_side *side)
 	g_free(side->name);
 	g_free(side->path);
 	g_free(side->text);
+	g_free(side->map);
+	g_clear_pointer(&side->files, g_hash_table_unref);
 	*side = (struct compare_side){ 0 };
+}
+
+struct compare_side compare_side_copy(const struct compare_side *side)
+{
+	return (struct compare_side){ g_strdup(side->name), g_strdup(side->path),
+		side->text ? g_memdup2(side->text, side->len + 1) : NULL, side->len,
+		side->files ? g_hash_table_ref(side->files) : NULL, g_strdup(side->map) };
 }
 
 void comparison_free(struct comparison *of)

@@ -3,8 +3,9 @@
  * comparison - two versions of a project, and the list of their differences.
  *
  * The engine finds the differences (compare/compare.h); here they become rows for a person:
- * one for each rung, step, transition, symbol or piece of a list, in words. It shows nothing
- * and reads only the files that it is given.
+ * one for each rung, step, transition, symbol or piece of a list, in words; and one for each line of
+ * the I/O map. It shows nothing, and reads only the files that it is given, those that they name, and
+ * their I/O maps.
  */
 #ifndef EDITOR_COMPARISON_H
 #define EDITOR_COMPARISON_H
@@ -20,9 +21,17 @@ struct compare_side {
 	char *path;     /* of the file, also if the text comes from elsewhere; NULL: none */
 	char *text;     /* NULL: what the file holds                             */
 	gsize len;
+	GHashTable *files; /* text (GBytes) by name of each file that it names; NULL value: it
+			      is not there. NULL: they are read from the disk. */
+	char *map;      /* text of its I/O map; NULL: that beside the file, or with @files none */
 };
 /** compare_side_clear - frees its texts. */
 void compare_side_clear(struct compare_side *side);
+/** compare_side_copy - Owns: compare_side_clear(). */
+struct compare_side compare_side_copy(const struct compare_side *side);
+/** compare_side_wants - a file that the project names and @files does not have; NULL: none. Caller
+ * frees. */
+char *compare_side_wants(const struct compare_side *side);
 
 enum compare_change { COMPARE_CHANGED, COMPARE_ADDED, COMPARE_REMOVED, COMPARE_MOVED };
 /* How the place of a row is drawn: as text, rung, chart, lines, or the whole POU. */
@@ -43,6 +52,7 @@ struct compare_row {
 	int at_a, at_b;             /* rung, shape of the chart, or first line, 0-based; -1 */
 	int table, index;           /* of a declaration in the newer version, as in struct
 				       xref_target; -1: none */
+	bool map;                   /* of the I/O map                          */
 };
 
 struct comparison {

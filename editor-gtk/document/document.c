@@ -2,18 +2,16 @@
  *
  * document - one rung file while it is edited.
  *
- * Lists that cannot be read are kept beside the project and are saved with it. Checks run
- * in a thread, on a copy.
+ * Lists that cannot be read are kept beside the project and are saved with it.
  */
 #include "editor-gtk/document/document.h"
 
 #include "editor-gtk/document/bookmarks.h"
+#include "editor-gtk/document/checker.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/history.h"
 #include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/kit/diag_said.h"
-#include "editor-gtk/kit/diag_said.h"
-#include "editor-gtk/kit/memory.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/ascii.h"
@@ -24,8 +22,6 @@
 #include <glib/gstdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define CHECK_DELAY_MS 120 /* after the last change                            */
 
 struct beside {
 	file_apply apply; /* NULL: the file is closed                          */
@@ -49,12 +45,7 @@ struct _LadderDocument {
 	int repaired;             /* line of the first invalid byte; 0: none */
 	bool fixed;               /* read-only                                 */
 	guint64 version;
-	/* Checks: */
-	struct ladder *checked;
-	struct diag_list diags;
-	guint check_timer;
-	bool checking;            /* a thread is at work                       */
-	guint64 checked_version;  /* version of `checked`, or of the copy in the thread */
+	struct checker *checker;
 };
 
 G_DEFINE_FINAL_TYPE(LadderDocument, ladder_document, G_TYPE_OBJECT)
@@ -62,9 +53,6 @@ G_DEFINE_FINAL_TYPE(LadderDocument, ladder_document, G_TYPE_OBJECT)
 enum { RUNGS_CHANGED, VARIABLE_CHANGED, PROJECT_CHANGED, LIST_CHANGED, BOOKMARKS_CHANGED,
        CHECKED, STATE_CHANGED, FILE_OPENED, SIGNALS };
 static guint signals[SIGNALS];
-
-static void check_later(LadderDocument *document);
-static void stop_checks(LadderDocument *document);
 
 static const char EMPTY_PROJECT[] =
 	"RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\nEND_PROGRAM\n";
@@ -162,7 +150,8 @@ static void tell_whole(LadderDocument *document)
 static void changed(LadderDocument *document)
 {
 	document->version++;
-	check_later(document);
+	if (!document->fixed)
+		checker_later(document->checker);
 	g_signal_emit(document, signals[STATE_CHANGED], 0);
 }
 
@@ -730,7 +719,7 @@ static void record(LadderDocument *document, struct change *change)
 void ladder_document_fix(LadderDocument *document)
 {
 	document->fixed = true;
-	stop_checks(document);
+	checker_stop(document->checker);
 }
 
 bool ladder_document_is_fixed(LadderDocument *document)
@@ -1649,191 +1638,47 @@ int ladder_document_repaired(LadderDocument *document)
 	return document->repaired;
 }
 
-/* ---- checks, on a copy in a thread ---- */
+/* ---- checks ---- */
 
-struct check {
-	char *text;
-	gsize len;
-	const char *file;  /* interned                                         */
-	guint64 version;
-	struct ladder *ladder;
-	bool read;         /* the whole project could be read                  */
-};
-
-static void check_free(gpointer pointer)
+static void copy_text(gpointer owner, struct checker_text *to)
 {
-	struct check *check = pointer;
+	LadderDocument *document = owner;
 
-	ladder_free(check->ladder);
-	g_free(check->text);
-	g_free(check);
+	to->text = ladder_document_text(document, &to->len);
+	to->file = g_intern_string(file_name(document));
+	to->version = document->version;
 }
 
-static struct check *check_new(LadderDocument *document)
+static void checked(gpointer owner, bool read)
 {
-	struct check *check = g_new0(struct check, 1);
+	LadderDocument *document = owner;
+	struct checker *checker = document->checker;
 
-	check->text = ladder_document_text(document, &check->len);
-	check->file = g_intern_string(file_name(document));
-	check->version = document->version;
-	return check;
-}
-
-static void check_run(struct check *check)
-{
-	check->ladder = ladder_new();
-	if (!check->ladder)
-		g_error("out of memory");
-	check->read = ladder_load_text(check->ladder, check->file, check->text, check->len);
-	if (check->read)
-		ladder_build(check->ladder);
-}
-
-static void copy_place(int *line, int *column, int to_line, int to_column)
-{
-	*line = to_line;
-	*column = to_column;
-}
-
-/* @is: the same chart as @was, just read. */
-static void take_chart_lines(struct sfc *was, const struct sfc *is)
-{
-	for (int i = 0; i < was->step_count; i++)
-		copy_place(&was->step[i].line, &was->step[i].column_at, is->step[i].line,
-			   is->step[i].column_at);
-	for (int i = 0; i < was->use_count; i++)
-		copy_place(&was->use[i].line, &was->use[i].column, is->use[i].line,
-			   is->use[i].column);
-	for (int i = 0; i < was->transition_count; i++)
-		copy_place(&was->transition[i].line, &was->transition[i].column,
-			   is->transition[i].line, is->transition[i].column);
-	for (int i = 0; i < was->action_count; i++)
-		copy_place(&was->action[i].line, &was->action[i].column,
-			   is->action[i].line, is->action[i].column);
-	for (int i = 0; i < was->ref_count; i++)
-		copy_place(&was->ref[i].line, &was->ref[i].column, is->ref[i].line,
-			   is->ref[i].column);
-	was->control_line = is->control_line;
-}
-
-static bool is_same_chart(const struct pou *was, const struct pou *is)
-{
-	return was->sfc && is->sfc && was->sfc->step_count == is->sfc->step_count &&
-	       was->sfc->use_count == is->sfc->use_count &&
-	       was->sfc->transition_count == is->sfc->transition_count &&
-	       was->sfc->action_count == is->sfc->action_count &&
-	       was->sfc->ref_count == is->sfc->ref_count &&
-	       was->il.count == is->il.count;
-}
-
-/* An edited rung moves the lines below it, and a file may be written in another form: the
- * checked copy knows the lines of the canonical text. */
-static void take_lines(LadderDocument *document)
-{
-	struct project *project = ladder_document_project(document);
-	const struct project *read = ladder_project(document->checked);
-
-	if (!project || !read || document->checked_version != document->version ||
-	    project->pou_count != read->pou_count)
-		return;
-	for (int i = 0; i < project->pou_count; i++) {
-		struct pou *was = &project->pou[i];
-		const struct pou *is = &read->pou[i];
-
-		if (!is_same_chart(was, is))
-			continue;
-		take_chart_lines(was->sfc, is->sfc);
-		for (int k = 0; k < was->il.count; k++)
-			was->il.line[k].line = is->il.line[k].line;
-		was->line = is->line;
+	if (checker_version(checker) == document->version) {
+		if (read)
+			check_lists(document, ladder_project(checker_ladder(checker)),
+				    checker_diags(checker));
+		if (ladder_document_project(document))
+			checker_place(checker, ladder_document_project(document));
 	}
-}
-
-static void check_take(LadderDocument *document, struct check *check)
-{
-	ladder_free(document->checked);
-	document->checked = g_steal_pointer(&check->ladder);
-	document->checked_version = check->version;
-	document->diags = *ladder_diags(document->checked);
-	if (check->read && check->version == document->version)
-		check_lists(document, ladder_project(document->checked),
-				     &document->diags);
-	take_lines(document);
 	g_signal_emit(document, signals[CHECKED], 0);
-	memory_give_back(); /* the freed copy of a large project had tens of megabytes */
 }
 
-static void check_thread(GTask *task, gpointer source, gpointer data,
-			 GCancellable *cancellable)
-{
-	(void)source;
-	(void)cancellable;
-	check_run(data);
-	g_task_return_boolean(task, TRUE);
-}
-
-static void check_done(GObject *object, GAsyncResult *result, gpointer unused)
-{
-	LadderDocument *document = LADDER_DOCUMENT(object);
-	struct check *check = g_task_get_task_data(G_TASK(result));
-
-	(void)unused;
-	document->checking = false;
-	if (check->version >= document->checked_version)
-		check_take(document, check);
-	if (document->version != document->checked_version)
-		check_later(document);
-}
-
-static gboolean check_begin(gpointer data)
-{
-	LadderDocument *document = data;
-	GTask *task;
-
-	document->check_timer = 0;
-	if (document->checking)
-		return G_SOURCE_REMOVE; /* check_done() asks again */
-	document->checking = true;
-	task = g_task_new(document, NULL, check_done, NULL);
-	g_task_set_task_data(task, check_new(document), check_free);
-	g_task_run_in_thread(task, check_thread);
-	g_object_unref(task);
-	return G_SOURCE_REMOVE;
-}
-
-static void check_later(LadderDocument *document)
-{
-	stop_checks(document);
-	if (document->fixed)
-		return;
-	document->check_timer = g_timeout_add(CHECK_DELAY_MS, check_begin, document);
-}
-
-static void stop_checks(LadderDocument *document)
-{
-	if (document->check_timer)
-		g_source_remove(document->check_timer);
-	document->check_timer = 0;
-}
+static const struct checker_how checks = { copy_text, checked };
 
 void ladder_document_check_now(LadderDocument *document)
 {
-	struct check *check = check_new(document);
-
-	stop_checks(document);
-	check_run(check);
-	check_take(document, check);
-	check_free(check);
+	checker_now(document->checker);
 }
 
 const struct diag_list *ladder_document_diags(LadderDocument *document)
 {
-	return &document->diags;
+	return checker_diags(document->checker);
 }
 
 struct ladder *ladder_document_checked(LadderDocument *document)
 {
-	return document->checked;
+	return checker_ladder(document->checker);
 }
 
 /* ---- life ---- */
@@ -1842,9 +1687,8 @@ static void ladder_document_finalize(GObject *object)
 {
 	LadderDocument *document = LADDER_DOCUMENT(object);
 
-	stop_checks(document);
+	checker_free(document->checker);
 	ladder_free(document->ladder);
-	ladder_free(document->checked);
 	history_free(document->history);
 	g_clear_pointer(&document->files, g_array_unref);
 	g_hash_table_unref(document->list);
@@ -1884,9 +1728,9 @@ static void ladder_document_init(LadderDocument *document)
 {
 	document->history = history_new();
 	document->list = g_hash_table_new_full(NULL, NULL, NULL, g_free);
-	diag_init(&document->diags);
+	document->checker = checker_new(G_OBJECT(document), &checks);
 	take_text(document, EMPTY_PROJECT, strlen(EMPTY_PROJECT));
-	check_later(document);
+	checker_later(document->checker);
 }
 
 LadderDocument *ladder_document_new(void)

@@ -9,14 +9,17 @@
 #include <string.h>
 
 #define MOST "--max-count=500"
-/* Fields of a revision end with US, a revision with NUL. */
+/* Fields of a revision end with US, a revision with NUL. "\nM", "\nR100" and the like follow, a
+ * name, and behind R and C the newer name, each with a NUL. A merge may have none of them. */
 #define FORMAT "--format=%H%x1f%h%x1f%aI%x1f%s"
 #define FIELDS 4
+#define BRIEF 8        /* letters of a revision in a message                  */
 
 /* A call that waits for its program. */
 struct call {
 	GSubprocess *program;
 	char *name;          /* of the file                                      */
+	char *brief;         /* of the revision; NULL: all are read              */
 	git_log_take *take_log;
 	git_text_take *take_text;
 	gpointer data;
@@ -26,6 +29,7 @@ static void call_free(struct call *call)
 {
 	g_clear_object(&call->program);
 	g_free(call->name);
+	g_free(call->brief);
 	g_free(call);
 }
 
@@ -47,6 +51,7 @@ static void revision_free(gpointer data)
 	g_free(revision->brief);
 	g_free(revision->date);
 	g_free(revision->subject);
+	g_free(revision->name);
 	g_free(revision);
 }
 
@@ -61,23 +66,58 @@ static char *date_text(const char *iso)
 	return text;
 }
 
-static GPtrArray *revisions_of(const char *bytes, gsize len)
+static const char *behind(const char *text, const char *end)
+{
+	return text < end ? text + strlen(text) + 1 : end;
+}
+
+/* Reads the names behind a revision. @name: in: of the file in newer revisions; out: its name
+ * before this one. Returns what follows. */
+static const char *read_names(const char *at, const char *end, struct git_revision *revision,
+			      const char **name)
+{
+	const bool has = at < end && *at == '\n';
+	const bool renamed = has && (at[1] == 'R' || at[1] == 'C');
+	const char *first = has ? behind(at, end) : NULL;
+	const char *second = renamed ? behind(first, end) : first;
+
+	if (has && second < end) {
+		revision->name = g_strdup(second);
+		*name = first;
+		return behind(second, end);
+	}
+	revision->name = g_strdup(*name);
+	return has ? end : at;
+}
+
+static struct git_revision *revision_new(const char *text)
+{
+	char **field = g_strsplit(text, "\x1f", FIELDS);
+	struct git_revision *revision = NULL;
+
+	if (g_strv_length(field) == FIELDS) {
+		revision = g_new(struct git_revision, 1);
+		*revision = (struct git_revision){ g_strdup(field[0]), g_strdup(field[1]),
+			date_text(field[2]), g_utf8_make_valid(field[3], -1), NULL };
+	}
+	g_strfreev(field);
+	return revision;
+}
+
+/* @name: of the file, if the first revision tells none. */
+static GPtrArray *revisions_of(const char *bytes, gsize len, const char *name)
 {
 	GPtrArray *all = g_ptr_array_new_with_free_func(revision_free);
-	const char *end = bytes + len;
+	const char *end = bytes + len, *at = bytes;
 
-	for (const char *at = bytes; at < end; at += strlen(at) + 1) {
-		char **field = g_strsplit(at, "\x1f", FIELDS);
+	while (at < end) {
+		struct git_revision *revision = revision_new(at);
 
-		if (g_strv_length(field) == FIELDS) {
-			struct git_revision *revision = g_new(struct git_revision, 1);
-
-			*revision = (struct git_revision){ g_strdup(field[0]),
-				g_strdup(field[1]), date_text(field[2]),
-				g_utf8_make_valid(field[3], -1) };
-			g_ptr_array_add(all, revision);
-		}
-		g_strfreev(field);
+		at = behind(at, end);
+		if (!revision)
+			continue;
+		at = read_names(at, end, revision, &name);
+		g_ptr_array_add(all, revision);
 	}
 	return all;
 }
@@ -86,11 +126,13 @@ static void take_log(const struct call *call, GBytes *out)
 {
 	const gsize len = out ? g_bytes_get_size(out) : 0;
 	char *bytes = g_malloc0(len + 1), *why; /* its bytes have no NUL behind them */
+	char *name = g_strdup_printf("./%s", call->name);
 	GPtrArray *all;
 
 	if (len)
 		memcpy(bytes, g_bytes_get_data(out, NULL), len);
-	all = revisions_of(bytes, len);
+	all = revisions_of(bytes, len, name);
+	g_free(name);
 	g_free(bytes);
 	if (all->len) {
 		call->take_log(call->data, all, NULL);
@@ -120,7 +162,9 @@ static void refuse(const struct call *call, GBytes *said)
 			    g_strdup("");
 	char *valid = g_utf8_make_valid(text, -1), *why;
 
-	if (strstr(valid, "not a git repository"))
+	if (call->brief && (strstr(valid, "does not exist in") || strstr(valid, "but not in")))
+		why = g_strdup_printf(_("“%s” is not in revision %s."), call->name, call->brief);
+	else if (strstr(valid, "not a git repository"))
 		why = g_strdup_printf(_("“%s” is not in a git repository."), call->name);
 	else
 		why = g_strdup_printf(_("git cannot read “%s”: %s"), call->name,
@@ -180,7 +224,8 @@ static void run(const char *path, const char *const *words, GCancellable *cancel
 	char *folder = g_path_get_dirname(path);
 	GError *error = NULL;
 
-	call->name = g_path_get_basename(path);
+	if (!call->name)
+		call->name = g_path_get_basename(path);
 	call->program = start(folder, words, &error);
 	if (call->program) {
 		g_subprocess_communicate_async(call->program, NULL, cancel, ended, call);
@@ -193,23 +238,14 @@ static void run(const char *path, const char *const *words, GCancellable *cancel
 	g_free(folder);
 }
 
-/* The name that git gets: never an option or a pattern. Caller frees. */
-static char *word_of(const char *path, const char *before)
-{
-	char *base = g_path_get_basename(path);
-	char *word = g_strdup_printf("%s./%s", before, base);
-
-	g_free(base);
-	return word;
-}
-
 void git_log_read(const char *path, GCancellable *cancel, git_log_take *take, gpointer data)
 {
 	struct call *call = g_new0(struct call, 1);
-	char *file = word_of(path, "");
+	char *file = g_path_get_basename(path);
 	const char *const words[] = { "git", "--literal-pathspecs", "-c",
 		"core.fsmonitor=false", "-c", "i18n.logOutputEncoding=UTF-8", "log",
-		"--no-show-signature", "--no-color", MOST, "-z", FORMAT, "--", file, NULL };
+		"--no-show-signature", "--no-color", "--follow", "--name-status",
+		"--no-relative", MOST, "-z", FORMAT, "--", file, NULL };
 
 	call->take_log = take;
 	call->data = data;
@@ -217,17 +253,18 @@ void git_log_read(const char *path, GCancellable *cancel, git_log_take *take, gp
 	g_free(file);
 }
 
-void git_log_show(const char *path, const char *hash, GCancellable *cancel,
+void git_log_show(const char *path, const char *hash, const char *name, GCancellable *cancel,
 		  git_text_take *take, gpointer data)
 {
 	struct call *call = g_new0(struct call, 1);
-	char *colon = g_strdup_printf("%s:", hash), *object = word_of(path, colon);
+	char *object = g_strdup_printf("%s:%s", hash, name);
 	const char *const words[] = { "git", "-c", "core.fsmonitor=false", "cat-file", "blob",
 				      object, NULL };
 
 	call->take_text = take;
 	call->data = data;
+	call->name = g_path_get_basename(name);
+	call->brief = g_strndup(hash, BRIEF);
 	run(path, words, cancel, call);
 	g_free(object);
-	g_free(colon);
 }

@@ -41,6 +41,8 @@ struct init_form {
 	struct init_detail *root;
 	GHashTable *given;        /* offset to text                              */
 	GArray *sorted;           /* the offsets in @given, in order              */
+	int table;                /* of the declaration whose values are read     */
+	struct diag_list *diags;  /* of its expressions                           */
 	bool changed;
 };
 
@@ -85,6 +87,15 @@ static char *type_of(const struct init_form *form, const struct word_pin *pin)
 
 /* ---- texts ---- */
 
+static enum diag_id fold(void *context, const char *text, size_t len, struct init_value *out)
+{
+	struct init_form *form = context;
+
+	diag_init(form->diags);
+	return ladder_constant(form->ladder, form->table, text, len, out, form->diags) ?
+	       DIAG_COUNT : form->diags->count ? form->diags->diag[0].id : DIAG_NO_MEMORY;
+}
+
 /* Adds the values of an initial text. False: it is wrong, or has too many values. */
 static bool take_values(struct init_form *form, const struct word_pin *pin, const char *text,
 			GHashTable *values, enum diag_id *why, char **what)
@@ -100,16 +111,20 @@ static bool take_values(struct init_form *form, const struct word_pin *pin, cons
 	else
 		var.capacity = pin->capacity;
 	var.init_text = names_intern(&form->project->names, text, strlen(text));
+	diag_init(form->diags);
 	init_begin(walk, form->project, &var, &form->scratch);
+	walk->fold = (struct init_fold){ fold, form };
 	while (init_next(walk, &value))
 		count++;
 	*why = walk->why;
-	*what = g_strndup(walk->arg ? walk->arg : "", walk->arg_len);
+	*what = form->diags->count ? g_strdup(form->diags->diag[0].arg) :
+				     g_strndup(walk->arg ? walk->arg : "", walk->arg_len);
 	if (walk->why == DIAG_COUNT) {
 		init_begin(walk, form->project, &var, NULL);
+		walk->fold = (struct init_fold){ fold, form };
 		for (count = 0; init_next(walk, &value) && count <= VALUES_MOST; count++)
 			g_hash_table_insert(values, GUINT_TO_POINTER(value.offset),
-					    g_strndup(value.text, value.len));
+					    g_strndup(walk->from, (gsize)(walk->behind - walk->from)));
 	}
 	g_free(walk);
 	return *why == DIAG_COUNT && count <= VALUES_MOST;
@@ -120,10 +135,12 @@ static GHashTable *values_new(void)
 	return g_hash_table_new_full(NULL, NULL, NULL, g_free);
 }
 
-/* The values that a declaration gives; NULL: none. */
-static GHashTable *declared_values(struct init_form *form, const struct var *var,
-				   const struct word_pin *pin)
+/* The values that the declaration of a member of @word gives; NULL: none. */
+static GHashTable *declared_values(struct init_form *form, enum word word,
+				   const struct var *var, const struct word_pin *pin)
 {
+	const struct word_row *row = words_row(&form->project->words, word);
+	const int table = form->table;
 	GHashTable *values;
 	char *text, *what;
 	enum diag_id why;
@@ -132,7 +149,9 @@ static GHashTable *declared_values(struct init_form *form, const struct var *var
 		return NULL;
 	values = values_new();
 	text = symbol_initial(form->project, var);
+	form->table = 1 + row->owner + (row->kind == WORD_STRUCT ? form->project->pou_count : 0);
 	take_values(form, pin, text, values, &why, &what);
+	form->table = table;
 	g_free(what);
 	g_free(text);
 	return values;
@@ -253,7 +272,8 @@ static void add_members(struct init_form *form, struct init_detail *detail)
 		}
 		part = detail_new(form, detail, g_strdup(pin.name), pin,
 				  detail->offset + pin.offset);
-		part->declared = vars ? declared_values(form, &vars->var[i], &pin) :
+		part->declared = vars ? declared_values(form, (enum word)detail->pin.word,
+							       &vars->var[i], &pin) :
 				 catalogue_values(&row->pin[i]);
 		g_ptr_array_add(detail->parts, part);
 	}
@@ -602,6 +622,7 @@ static bool begin(struct init_form *form, int table, int index, char **why)
 		*why = g_strdup(_("It has no parts"));
 		return false;
 	}
+	form->table = table;
 	form->root = detail_new(form, NULL, g_strdup(project_text(form->project, var->name)),
 				shape_pin(var), 0);
 	text = var->has_init ? symbol_initial(form->project, var) : g_strdup("");
@@ -624,6 +645,7 @@ struct init_form *init_form_new(LadderDocument *document, int table, int index, 
 	if (!form->ladder)
 		g_error("out of memory");
 	arena_init(&form->scratch);
+	form->diags = g_new(struct diag_list, 1);
 	form->given = values_new();
 	form->sorted = g_array_new(FALSE, FALSE, sizeof(guint32));
 	if (!load(form, document))
@@ -643,6 +665,7 @@ void init_form_free(struct init_form *form)
 	g_array_unref(form->sorted);
 	g_hash_table_unref(form->given);
 	arena_free(&form->scratch);
+	g_free(form->diags);
 	ladder_free(form->ladder);
 	g_free(form);
 }

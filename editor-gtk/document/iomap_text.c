@@ -7,6 +7,8 @@
  */
 #include "editor-gtk/document/iomap_text.h"
 
+#include "editor-gtk/kit/i18n.h"
+
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/base/limits.h"
@@ -315,6 +317,19 @@ char *io_text_field(const struct io_text *io, int number, enum io_field field)
 	}
 	out[len] = '\0';
 	return out;
+}
+
+const char *io_field_name(enum io_field field)
+{
+	static const char *const name[IO_FIELDS] = {
+		[IO_ADDRESS] = N_("Address"), [IO_DRIVER] = N_("Driver"),
+		[IO_LINE] = N_("I/O line"), [IO_PULL] = N_("Pull"),
+		[IO_ACTIVE_LOW] = N_("Active low"), [IO_DEBOUNCE] = N_("Debounce"),
+		[IO_DRIVE] = N_("Drive"), [IO_SAFE] = N_("Safe"),
+		[IO_COMMENT] = N_("Comment"),
+	};
+
+	return _(name[field]);
 }
 
 char *io_text_board(const struct io_text *io)

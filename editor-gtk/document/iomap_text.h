@@ -75,6 +75,8 @@ void io_text_free(struct io_text *io);
 /** io_text_field - the text of a cell; "" if the field is missing. Caller: free(). NULL: no
  * memory. */
 char *io_text_field(const struct io_text *io, int row, enum io_field field);
+/** io_field_name - title of a column, translated. */
+const char *io_field_name(enum io_field field);
 /** io_text_board - the name of the board, without quotes. As io_text_field. */
 char *io_text_board(const struct io_text *io);
 

@@ -5,6 +5,7 @@
 #include "editor-gtk/document/panel.h"
 
 #include "editor-gtk/kit/gtk48/list.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
@@ -176,6 +177,165 @@ int panel_heading_width(GtkWidget *view, const char *name)
 	return width;
 }
 
+/* ---- widths ---- */
+
+#define LABEL_ROOM 24   /* padding of a cell with a label                       */
+#define CELL_ROOM 36    /* of one that is edited                                */
+#define BUTTON_ROOM 50  /* of one with an arrow                                 */
+#define ICON_ROOM 34    /* a column of icons                                    */
+#define COLUMN_MOST 260 /* for a longer text a column gets no wider             */
+
+struct panel_column {
+	GtkColumnViewColumn *column; /* borrowed                                  */
+	int text;     /* which of a row's; -1: none, an icon or a check box     */
+	int room;     /* beside the text                                        */
+	int width;    /* wished by the panel; 0: natural                        */
+	int least;    /* px for its heading                                     */
+	int need;     /* px for the longest text so far: widths settle          */
+	int set;      /* given last; another one is a person's                  */
+};
+
+/* The longest text of the rows in a column; "": none. Borrowed. */
+static const char *longest(struct panel_list *list, int text)
+{
+	const guint count = g_list_model_get_n_items(G_LIST_MODEL(list->store));
+	const char *found = "";
+	glong most = 0;
+
+	for (guint i = 0; i < count; i++) {
+		LadderPanelRow *row = g_list_model_get_item(G_LIST_MODEL(list->store), i);
+		const char *each = panel_row_text(row, text);
+		const glong len = each ? g_utf8_strlen(each, -1) : 0;
+
+		if (len > most) {
+			most = len;
+			found = each;
+		}
+		g_object_unref(row);
+	}
+	return found;
+}
+
+static void measure(struct panel_list *list)
+{
+	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(list->view), NULL);
+
+	for (guint i = 0; i < list->columns->len; i++) {
+		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
+		int width;
+
+		if (each->text < 0)
+			continue;
+		pango_layout_set_text(layout, longest(list, each->text), -1);
+		pango_layout_get_pixel_size(layout, &width, NULL);
+		each->need = MAX(each->need, MIN(width + each->room, COLUMN_MOST));
+	}
+	g_object_unref(layout);
+}
+
+/* Px that a column may be narrower: its wish less what its texts need. 0: it is a person's. */
+static int slack_of(const struct panel_column *column)
+{
+	const bool ours = column->width &&
+		gtk_column_view_column_get_fixed_width(column->column) == column->set;
+
+	return ours ? MAX(column->width - MAX(column->need, column->least), 0) : 0;
+}
+
+static int wish_of(const struct panel_column *column)
+{
+	const int now = gtk_column_view_column_get_fixed_width(column->column);
+
+	if (column->width && now != column->set)
+		return now;
+	return MAX(MAX(column->width, column->need), column->least);
+}
+
+static bool has_column(struct panel_list *list, const GtkColumnViewColumn *column)
+{
+	bool has = false;
+
+	for (guint i = 0; i < list->columns->len && !has; i++)
+		has = g_array_index(list->columns, struct panel_column, i).column == column;
+	return has;
+}
+
+/* Px of the columns that the owner of the list added by itself, such as handles. */
+static int width_of_others(struct panel_list *list)
+{
+	GListModel *columns = gtk_column_view_get_columns(list->view);
+	int width = 0;
+
+	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
+		GtkColumnViewColumn *column = g_list_model_get_item(columns, i);
+		const int now = gtk_column_view_column_get_fixed_width(column);
+
+		if (!has_column(list, column))
+			width += now > 0 ? now : ICON_ROOM;
+		g_object_unref(column);
+	}
+	return width;
+}
+
+/* Each column has the width that it wishes, or more for its texts. Where that is more than the
+ * list has, all give up what their texts do not need. */
+static void fit(struct panel_list *list)
+{
+	int all = width_of_others(list), slack = 0, page;
+
+	measure(list);
+	for (guint i = 0; i < list->columns->len; i++) {
+		all += wish_of(&g_array_index(list->columns, struct panel_column, i));
+		slack += slack_of(&g_array_index(list->columns, struct panel_column, i));
+	}
+	page = list->page > 0 ? list->page : all;
+	for (guint i = 0; i < list->columns->len; i++) {
+		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
+		const int now = gtk_column_view_column_get_fixed_width(each->column);
+		const int less = all > page && slack ?
+			slack_of(each) * MIN(all - page, slack) / slack : 0;
+
+		if (!each->width || now != each->set)
+			continue;
+		each->set = wish_of(each) - less;
+		if (each->set != now)
+			gtk_column_view_column_set_fixed_width(each->column, each->set);
+	}
+}
+
+static gboolean fit_now(gpointer data)
+{
+	struct panel_list *list = data;
+
+	list->fit = 0;
+	if (list->fitted)
+		fit(list);
+	return G_SOURCE_REMOVE;
+}
+
+/* Not now: the list is just being allocated. */
+static void page_changed(GtkAdjustment *across, struct panel_list *list)
+{
+	const int page = (int)gtk_adjustment_get_page_size(across);
+
+	if (page == list->page)
+		return;
+	list->page = page;
+	if (!list->fit)
+		list->fit = g_idle_add_full(G_PRIORITY_HIGH_IDLE, fit_now, list, NULL);
+}
+
+static void across_changed(struct panel_list *list)
+{
+	GtkAdjustment *across = gtk_scrollable_get_hadjustment(GTK_SCROLLABLE(list->view));
+
+	if (list->across)
+		g_signal_handlers_disconnect_by_data(list->across, list);
+	g_set_object(&list->across, across);
+	if (across)
+		g_signal_connect(across, "changed", G_CALLBACK(page_changed), list);
+}
+
 GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, int text,
 				    unsigned int flags, int width,
 				    GtkListItemFactory *factory)
@@ -183,14 +343,23 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 	GtkColumnViewColumn *column = gtk_column_view_column_new(name, factory);
 	GtkCustomSorter *sorter = gtk_custom_sorter_new(flags & PANEL_ICON ? by_tone :
 		flags & PANEL_NUMBER ? by_number : by_text, GINT_TO_POINTER(text), NULL);
+	const int least = flags & PANEL_ICON ? ICON_ROOM :
+		panel_heading_width(GTK_WIDGET(list->view), name) + HEADING_ROOM;
+	const struct panel_column of = { .column = column,
+		.text = width || flags & PANEL_EXPAND ? text : -1,
+		.room = flags & PANEL_LABEL ? LABEL_ROOM : flags & PANEL_BUTTON ? BUTTON_ROOM :
+			CELL_ROOM,
+		.width = width ? MAX(width, least) : 0, .least = least,
+		.set = MAX(width, least) };
 
 	gtk_column_view_column_set_sorter(column, GTK_SORTER(sorter));
 	gtk_column_view_column_set_expand(column, flags & PANEL_EXPAND);
 	gtk_column_view_column_set_resizable(column, !(flags & PANEL_ICON));
 	if (width)
-		gtk_column_view_column_set_fixed_width(column, MAX(width,
-			panel_heading_width(GTK_WIDGET(list->view), name) + HEADING_ROOM));
+		gtk_column_view_column_set_fixed_width(column, of.set);
 	gtk_column_view_append_column(list->view, column);
+	if (list->columns)
+		g_array_append_val(list->columns, of);
 	g_object_unref(sorter);
 	g_object_unref(column);
 	return column;
@@ -207,7 +376,7 @@ GtkColumnViewColumn *panel_list_column(struct panel_list *list, const char *name
 			 GINT_TO_POINTER(text));
 	g_signal_connect(factory, "bind", G_CALLBACK(icon ? bind_icon : bind_label), NULL);
 	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), NULL);
-	return panel_list_add(list, name, text, flags, width, factory);
+	return panel_list_add(list, name, text, flags | PANEL_LABEL, width, factory);
 }
 
 /* ---- the list ---- */
@@ -224,6 +393,8 @@ void panel_list_init(struct panel_list *list, GtkColumnView *view)
 	GtkSortListModel *sorted;
 
 	list->view = view;
+	g_set_weak_pointer(&list->fitted, view); /* it may go before panel_list_clear() */
+	list->columns = g_array_new(FALSE, TRUE, sizeof(struct panel_column));
 	list->wanted = g_strdup("");
 	list->store = g_list_store_new(LADDER_TYPE_PANEL_ROW);
 	list->filter = gtk_custom_filter_new(is_wanted, list, NULL);
@@ -235,15 +406,37 @@ void panel_list_init(struct panel_list *list, GtkColumnView *view)
 	gtk_single_selection_set_autoselect(list->selection, FALSE);
 	gtk_single_selection_set_can_unselect(list->selection, TRUE);
 	gtk_column_view_set_model(view, GTK_SELECTION_MODEL(list->selection));
+	g_signal_connect_swapped(view, "notify::hadjustment", G_CALLBACK(across_changed), list);
+	across_changed(list);
 }
 
 void panel_list_clear(struct panel_list *list)
 {
+	g_clear_handle_id(&list->fit, g_source_remove);
+	if (list->across)
+		g_signal_handlers_disconnect_by_data(list->across, list);
+	g_clear_object(&list->across);
+	if (list->fitted)
+		g_signal_handlers_disconnect_by_data(list->fitted, list);
+	g_clear_weak_pointer(&list->fitted);
+	g_clear_pointer(&list->columns, g_array_unref);
 	g_clear_object(&list->selection);
 	g_clear_object(&list->filtered);
 	g_clear_object(&list->filter);
 	g_clear_object(&list->store);
 	g_clear_pointer(&list->wanted, g_free);
+}
+
+void panel_list_unsort(struct panel_list *list)
+{
+	GListModel *columns = gtk_column_view_get_columns(list->view);
+
+	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
+		GtkColumnViewColumn *column = g_list_model_get_item(columns, i);
+
+		gtk_column_view_column_set_sorter(column, NULL);
+		g_object_unref(column);
+	}
 }
 
 void panel_list_want(struct panel_list *list, const char *wanted)
@@ -258,6 +451,7 @@ void panel_list_want(struct panel_list *list, const char *wanted)
 void panel_list_update(struct panel_list *list, GPtrArray *rows)
 {
 	panel_rows_update(list->store, rows);
+	fit(list);
 	list_mend_focus(GTK_WIDGET(list->view));
 }
 
@@ -309,6 +503,17 @@ void panel_go_to(GtkWidget *from, const LadderPanelRow *row)
 					   row->row, row->col);
 }
 
+GtkWidget *panel_button_new(const char *icon, const char *name, const char *action)
+{
+	GtkWidget *button = gtk_button_new_from_icon_name(icon);
+
+	gtk_widget_add_css_class(button, "flat");
+	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+	tip_set(button, name);
+	spoken_name(button, name);
+	return button;
+}
+
 void panel_choose_beside(GtkFileChooserNative *chooser, LadderDocument *document)
 {
 	char *place = ladder_document_folder(document);
@@ -319,6 +524,33 @@ void panel_choose_beside(GtkFileChooserNative *chooser, LadderDocument *document
 						    NULL);
 	g_clear_object(&folder);
 	g_free(place);
+}
+
+/* ---- messages ---- */
+
+void panel_message_init(struct panel_message *message, GtkLabel *label)
+{
+	GtkWidget *widget = GTK_WIDGET(label);
+
+	*message = (struct panel_message){ .label = label };
+	gtk_label_set_xalign(label, 0);
+	gtk_label_set_wrap(label, TRUE);
+	gtk_widget_add_css_class(widget, "error");
+	gtk_widget_add_css_class(widget, "panel-message");
+	spoken_text(label);
+}
+
+void panel_message_set(struct panel_message *message, LadderDocument *document, char *text)
+{
+	message->told_of = document ? ladder_document_version(document) : 0;
+	gtk_label_set_text(message->label, text ? text : "");
+	g_free(text);
+}
+
+void panel_message_age(struct panel_message *message, LadderDocument *document)
+{
+	if (document && ladder_document_version(document) != message->told_of)
+		panel_message_set(message, document, NULL);
 }
 
 /* ---- the document ---- */

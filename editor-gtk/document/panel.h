@@ -20,6 +20,11 @@ struct panel_list {
 	GtkCustomFilter *filter;
 	GtkSingleSelection *selection;
 	char *wanted;          /* filter: the text that rows must have; never NULL */
+	GArray *columns;       /* their widths; panel.c                        */
+	GtkColumnView *fitted; /* @view, weak                                  */
+	GtkAdjustment *across; /* of it                                        */
+	int page;              /* px that it shows; 0: unknown                 */
+	guint fit;             /* sets the widths when it elapses              */
 };
 
 enum panel_column_flag {
@@ -28,14 +33,26 @@ enum panel_column_flag {
 	PANEL_DIM = 8,
 	PANEL_MIDDLE = 16,                  /* an ellipsis in the middle, so that the end stays
 					       visible */
+	PANEL_LABEL = 32,                   /* of panel_list_column(): not edited */
+	PANEL_BUTTON = 64,                  /* with an arrow or a button beside the text */
 };
+
+/* Binds the child "view" of a template to the member "list" of @type. */
+#define panel_bind_list(class, type) \
+	gtk_widget_class_bind_template_child_full(class, "view", FALSE, \
+						  G_STRUCT_OFFSET(type, list.view))
+/* Binds the child "message" to the member of that name. */
+#define panel_bind_message(class, type) \
+	gtk_widget_class_bind_template_child_full(class, "message", FALSE, \
+						  G_STRUCT_OFFSET(type, message.label))
 
 /** panel_list_init - an empty list in @view, with filter and sorter. Owns:
  * panel_list_clear(). */
 void panel_list_init(struct panel_list *list, GtkColumnView *view);
 void panel_list_clear(struct panel_list *list);
 /** panel_list_column - adds a column of labels.
- * @name: translated; @width: px, 0: natural. Returns it, borrowed. */
+ * @name: translated; @width: px, 0: natural. More for longer texts; less in a narrow list, but
+ * not less than its texts need. Returns it, borrowed. */
 GtkColumnViewColumn *panel_list_column(struct panel_list *list, const char *name,
 				       int text, unsigned int flags, int width);
 /** panel_list_add - adds a column with its own cells, sorted by @text. */
@@ -45,6 +62,8 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 /** panel_heading_width - px that the heading of a column of @view needs; a column with a
  * fixed width must not be narrower, in any language. */
 int panel_heading_width(GtkWidget *view, const char *name);
+/** panel_list_unsort - the order of the rows means something: no column sorts them. */
+void panel_list_unsort(struct panel_list *list);
 /** panel_list_want - shows only rows that contain this text. */
 void panel_list_want(struct panel_list *list, const char *wanted);
 /** panel_list_update - the list becomes @rows, as panel_rows_update(); keeps the focus. */
@@ -70,8 +89,25 @@ void panel_go_to(GtkWidget *from, const LadderPanelRow *row);
 /** panel_speak - sets the accessible name of the row that a cell is in. */
 void panel_speak(GtkWidget *cell, const LadderPanelRow *row);
 
+/** panel_button_new - a flat button with an icon; @name, translated, is its tooltip and
+ * accessible name. */
+GtkWidget *panel_button_new(const char *icon, const char *name, const char *action);
 /** panel_choose_beside - starts a file chooser in the folder of @document, if it has one. */
 void panel_choose_beside(GtkFileChooserNative *chooser, LadderDocument *document);
+
+/* ---- messages ---- */
+
+/* A line for the reason of a refusal. It is visible while it has a text. */
+struct panel_message {
+	GtkLabel *label;        /* borrowed                                       */
+	guint64 told_of;        /* version of the document when it was set        */
+};
+
+void panel_message_init(struct panel_message *message, GtkLabel *label);
+/** panel_message_set - @text: taken over; NULL: none. @document: NULL: none yet. */
+void panel_message_set(struct panel_message *message, LadderDocument *document, char *text);
+/** panel_message_age - clears a message about an older version of @document. */
+void panel_message_age(struct panel_message *message, LadderDocument *document);
 
 /* ---- the document ---- */
 

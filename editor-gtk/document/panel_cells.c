@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "engine/base/name.h"
 
 #include <string.h>
 
@@ -511,7 +512,20 @@ static void icon_pressed(GtkEntry *cell, GtkEntryIconPosition position, GtkListI
 
 /* ---- completion ---- */
 
-/* The text for the word that was begun, or NULL. */
+/* Bytes at the beginning of @text that spell @word, which need not be as many; 0: none do. */
+static gsize spelled(const char *text, const char *word, gsize len)
+{
+	gsize head = 0;
+
+	for (const char *at = text; *at; ) {
+		at = g_utf8_next_char(at);
+		if (name_same(word, len, text, (gsize)(at - text)))
+			head = (gsize)(at - text);
+	}
+	return head;
+}
+
+/* What is missing of the word that was begun, or NULL. */
 static const char *completion(const struct column *column, const char *word, gsize len)
 {
 	GPtrArray *choices = column->cells->choices(column->cells->owner, column->field);
@@ -519,14 +533,15 @@ static const char *completion(const struct column *column, const char *word, gsi
 
 	for (guint i = 0; len && i + 1 < choices->len; i += 2) {
 		const char *text = choices->pdata[i];
+		const gsize head = spelled(text, word, len);
 
-		if (g_ascii_strncasecmp(text, word, len) != 0)
+		if (!head)
 			continue;
-		if (strlen(text) == len) { /* it is whole */
+		if (!text[head]) { /* it is whole */
 			found = NULL;
 			break;
 		}
-		found = found ? found : text;
+		found = found ? found : text + head;
 	}
 	found = found ? g_intern_string(found) : NULL;
 	g_ptr_array_unref(choices);
@@ -538,7 +553,7 @@ static void inserted(GtkEditable *line, const char *added, int len, int *at, Gtk
 {
 	struct rest *rest = rest_of(cell);
 	const int start = *at - (int)g_utf8_strlen(added, len);
-	const char *text, *begun, *word;
+	const char *text, *begun, *missing;
 	int end = *at;
 
 	if (rest->busy)
@@ -549,11 +564,11 @@ static void inserted(GtkEditable *line, const char *added, int len, int *at, Gtk
 	show_rest(cell, -1);
 	text = gtk_editable_get_text(line);
 	begun = strrchr(text, ' ') ? strrchr(text, ' ') + 1 : text;
-	word = *at == (int)g_utf8_strlen(text, -1) && item_of(cell) &&
+	missing = *at == (int)g_utf8_strlen(text, -1) && item_of(cell) &&
 	       gtk_widget_has_focus(GTK_WIDGET(line)) ?
 	       completion(column_of(cell), begun, strlen(begun)) : NULL;
-	if (word) {
-		gtk_editable_insert_text(line, word + strlen(begun), -1, &end);
+	if (missing) {
+		gtk_editable_insert_text(line, missing, -1, &end);
 		show_rest(cell, *at);
 	}
 	rest->busy = false;
@@ -804,5 +819,26 @@ void panel_cells_add(struct panel_list *list, const struct panel_cells *cells, i
 	g_signal_connect_data(factory, "setup", G_CALLBACK(setup), column, free_column, 0);
 	g_signal_connect(factory, "bind", G_CALLBACK(bind), column);
 	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), column);
-	panel_list_add(list, cells->name(field), field, flags, width, factory);
+	panel_list_add(list, cells->name(field), field, flags | (cells->choosable >> field & 1 ?
+		       PANEL_BUTTON : 0), width, factory);
+}
+
+void panel_cells_update(struct panel_list *list, GPtrArray *rows)
+{
+	int field, now;
+	LadderPanelRow *row = cells_focused(list->view, &field);
+	LadderPanelRow *chosen = panel_list_row(list);
+
+	if (row)
+		g_object_ref(row);
+	if (chosen)
+		g_object_ref(chosen);
+	panel_list_update(list, rows);
+	if (row && cells_focused(list->view, &now) != row &&
+	    panel_list_select(list, panel_row_is_like, row))
+		cells_enter(list->view, panel_list_row(list), field);
+	else if (chosen && !panel_list_row(list))
+		panel_list_select(list, panel_row_is_like, chosen);
+	g_clear_object(&row);
+	g_clear_object(&chosen);
 }

@@ -326,7 +326,7 @@ static gsize stem_of(const char *name, const char *stem)
 	       !(name[len] & 0x80) ? len : 0;
 }
 
-/* It is of the program with the longest name that it begins with. */
+/* A file belongs to the program with the longest name that the file's name begins with. */
 static bool is_own(const char *name, const char *stem, const GPtrArray *programs)
 {
 	const gsize len = stem_of(name, stem);

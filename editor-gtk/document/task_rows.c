@@ -2,13 +2,13 @@
  *
  * task_rows - the tasks of a document as rows, and edits of them.
  *
- * The CONFIGURATION is taken apart into lines: those of tasks and programs with their fields,
- * everything else as it stands. An edit changes, adds, moves or deletes lines; the text is put
- * together again.
+ * An edit changes, adds, moves or deletes lines of the CONFIGURATION (task_text.h); the text is
+ * put together again and read before it replaces the old one.
  */
 #include "editor-gtk/document/task_rows.h"
 
 #include "editor-gtk/document/symbols.h"
+#include "editor-gtk/document/task_text.h"
 #include "editor-gtk/edit/entry_operand.h"
 #include "editor-gtk/kit/comment_text.h"
 #include "editor-gtk/kit/diag_said.h"
@@ -20,28 +20,6 @@
 
 #include <string.h>
 
-enum line_kind { LINE_FIXED, LINE_TASK, LINE_PROGRAM };
-
-struct line {
-	enum line_kind kind;
-	char *text;          /* as it stands, with its newline; of a changed line: its comments */
-	char *name;
-	char *task, *pou;    /* of a program; task "": none                    */
-	char *single, *interval, *priority, *watchdog; /* of a task; "": none  */
-	bool changed;        /* its text is made of its fields                 */
-	bool closes;         /* LINE_FIXED: END_RESOURCE or END_CONFIGURATION  */
-};
-
-/* Lines in place of @removed bytes at @at of the canonical text. */
-struct task_text {
-	LadderDocument *document;
-	struct project *project;
-	char *whole;
-	gsize len, at, removed;
-	GPtrArray *line;     /* of struct line                                 */
-	GArray *of;          /* of each row: its line, borrowed; NULL: none    */
-};
-
 static bool refuse(char **why, char *text)
 {
 	if (why)
@@ -49,298 +27,6 @@ static bool refuse(char **why, char *text)
 	else
 		g_free(text);
 	return false;
-}
-
-static void put(char **text, const char *now)
-{
-	char *copy = g_strdup(now);
-
-	g_free(*text);
-	*text = copy;
-}
-
-/* ---- lines ---- */
-
-static void line_free(gpointer pointer)
-{
-	struct line *line = pointer;
-
-	g_free(line->text);
-	g_free(line->name);
-	g_free(line->task);
-	g_free(line->pou);
-	g_free(line->single);
-	g_free(line->interval);
-	g_free(line->priority);
-	g_free(line->watchdog);
-	g_free(line);
-}
-
-/* @text: taken over. */
-static struct line *line_new(enum line_kind kind, char *text)
-{
-	struct line *line = g_new0(struct line, 1);
-
-	line->kind = kind;
-	line->text = text;
-	line->name = g_strdup("");
-	line->task = g_strdup("");
-	line->pou = g_strdup("");
-	line->single = g_strdup("");
-	line->interval = g_strdup("");
-	line->priority = g_strdup("");
-	line->watchdog = g_strdup("");
-	return line;
-}
-
-static struct line *nth(const struct task_text *t, guint index)
-{
-	return t->line->pdata[index];
-}
-
-static guint index_of(const struct task_text *t, const struct line *line)
-{
-	guint at = 0;
-
-	g_ptr_array_find(t->line, line, &at);
-	return at;
-}
-
-/* The line as the file has it. Caller frees. */
-static char *line_text(const struct line *line)
-{
-	GString *out;
-
-	if (!line->changed)
-		return g_strdup(line->text);
-	out = g_string_new("  ");
-	if (line->kind == LINE_TASK) {
-		g_string_append_printf(out, "TASK %s (%s := %s, PRIORITY := %s", line->name,
-			*line->single ? "SINGLE" : "INTERVAL",
-			*line->single ? line->single : line->interval,
-			*line->priority ? line->priority : "0");
-		if (*line->watchdog)
-			g_string_append_printf(out, ", WATCHDOG := %s", line->watchdog);
-		g_string_append(out, ");");
-	} else {
-		g_string_append_printf(out, "PROGRAM %s", line->name);
-		if (*line->task)
-			g_string_append_printf(out, " WITH %s", line->task);
-		g_string_append_printf(out, " : %s;", line->pou);
-	}
-	if (*line->text)
-		g_string_append_printf(out, " %s", line->text);
-	g_string_append_c(out, '\n');
-	return g_string_free(out, FALSE);
-}
-
-/* ---- taking the configuration apart ---- */
-
-struct places {
-	struct task_text *t;
-	GArray *entry;               /* of struct text_span                    */
-	struct text_span part, resource, first;
-};
-
-static void take_span(void *context, const struct text_span *span)
-{
-	struct places *places = context;
-	const struct part *part = span->part == TEXT_PART ?
-		&places->t->project->part[span->number] : NULL;
-
-	if (span->part == TEXT_ENTRY)
-		g_array_append_val(places->entry, *span);
-	else if (span->part == TEXT_RESOURCE)
-		places->resource = *span;
-	else if (part && part->kind == PART_CONFIG)
-		places->part = *span;
-	else if (part && part->kind == PART_POU && !places->first.len)
-		places->first = *span;
-}
-
-static void add_fixed(struct task_text *t, gsize from, gsize to, bool closes)
-{
-	struct line *line;
-
-	if (from == to)
-		return;
-	line = line_new(LINE_FIXED, g_strndup(t->whole + from, to - from));
-	line->closes = closes;
-	g_ptr_array_add(t->line, line);
-}
-
-static void add_entry(struct task_text *t, const struct text_span *span)
-{
-	const struct project *project = t->project;
-	const struct config_entry *entry = &project->config->entry[span->number];
-	struct line *line = line_new(entry->kind == CONFIG_TASK ? LINE_TASK :
-		entry->kind == CONFIG_PROGRAM ? LINE_PROGRAM : LINE_FIXED,
-		g_strndup(t->whole + span->at, span->len));
-
-	put(&line->name, project_text(project, entry->name));
-	put(&line->task, project_text(project, entry->task));
-	put(&line->pou, project_text(project, entry->pou));
-	put(&line->single, project_text(project, entry->single));
-	put(&line->interval, project_text(project, entry->interval));
-	put(&line->watchdog, project_text(project, entry->watchdog));
-	g_free(line->priority);
-	line->priority = g_strdup_printf("%u", (unsigned)entry->priority);
-	g_ptr_array_add(t->line, line);
-}
-
-static void take_apart(struct task_text *t, const struct places *places)
-{
-	const gsize end = places->part.at + places->part.len;
-	const gsize closing = places->resource.len ?
-		places->resource.at + places->resource.len - strlen("  END_RESOURCE\n") :
-		end - strlen("END_CONFIGURATION\n");
-	gsize from = places->part.at;
-
-	for (guint i = 0; i <= places->entry->len; i++) {
-		const struct text_span *span = i < places->entry->len ?
-			&g_array_index(places->entry, struct text_span, i) : NULL;
-		const gsize to = span ? span->at : end;
-
-		if (closing >= from && closing < to) {
-			add_fixed(t, from, closing, false);
-			from = closing;
-		}
-		add_fixed(t, from, to, from == closing);
-		if (!span)
-			break;
-		add_entry(t, span);
-		from = span->at + span->len;
-	}
-}
-
-static bool has(const struct task_text *t, enum line_kind kind)
-{
-	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == kind)
-			return true;
-	return false;
-}
-
-static const struct line *line_of_pou(const struct task_text *t, const char *pou)
-{
-	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM && name_equal(nth(t, i)->pou, pou))
-			return nth(t, i);
-	return NULL;
-}
-
-static bool is_taken(const struct task_text *t, const char *name)
-{
-	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind != LINE_FIXED && name_equal(nth(t, i)->name, name))
-			return true;
-	return false;
-}
-
-/* "Task1", or @like itself. */
-static char *free_name(const struct task_text *t, const char *like, bool number)
-{
-	char *name = number ? g_strdup_printf("%s1", like) : g_strdup(like);
-
-	for (int i = 2; is_taken(t, name); i++) {
-		g_free(name);
-		name = g_strdup_printf("%s%d", like, i);
-	}
-	return name;
-}
-
-static struct line *closing_line(const struct task_text *t)
-{
-	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_FIXED && nth(t, i)->closes)
-			return nth(t, i);
-	return NULL;
-}
-
-static struct line *new_program(struct task_text *t, guint at, int pou, const char *task)
-{
-	struct line *line = line_new(LINE_PROGRAM, g_strdup(""));
-
-	put(&line->pou, project_text(t->project, t->project->pou[pou].name));
-	put(&line->task, task);
-	g_free(line->name);
-	line->name = free_name(t, line->pou, false);
-	line->changed = true;
-	g_ptr_array_insert(t->line, (int)at, line);
-	return line;
-}
-
-/* All programs in the order of the file, in each scan. */
-static void write_programs(struct task_text *t)
-{
-	for (int i = 0; i < t->project->pou_count; i++)
-		if (t->project->pou[i].kind == POU_PROGRAM)
-			new_program(t, index_of(t, closing_line(t)), i, "");
-}
-
-/* Is the CONFIGURATION in another file? */
-static bool is_included(const struct project *project)
-{
-	for (int i = 0; project && i < project->part_count; i++)
-		if (project->part[i].kind == PART_CONFIG)
-			return project->part[i].included;
-	return false;
-}
-
-static void add_closing(struct task_text *t, const char *text)
-{
-	struct line *line = line_new(LINE_FIXED, g_strdup(text));
-
-	line->closes = true;
-	g_ptr_array_add(t->line, line);
-}
-
-/* The lines of another file, to be shown. */
-static void take_included(struct task_text *t)
-{
-	for (int i = 0; i < t->project->config->count; i++)
-		add_entry(t, &(struct text_span){ .number = i });
-	add_closing(t, "");
-}
-
-static struct task_text *text_new(LadderDocument *document, bool *written)
-{
-	struct task_text *t = g_new0(struct task_text, 1);
-	struct places places = { .t = t };
-
-	t->document = document;
-	t->project = ladder_document_project(document);
-	t->line = g_ptr_array_new_with_free_func(line_free);
-	t->of = g_array_new(FALSE, FALSE, sizeof(struct line *));
-	if (!t->project)
-		return t;
-	places.entry = g_array_new(FALSE, FALSE, sizeof(struct text_span));
-	t->whole = ladder_document_outline(document, &t->len, take_span, &places);
-	if (places.part.len) {
-		t->at = places.part.at;
-		t->removed = places.part.len;
-		take_apart(t, &places);
-	} else if (is_included(t->project)) {
-		take_included(t);
-	} else {
-		t->at = places.first.len ? places.first.at : t->len;
-		g_ptr_array_add(t->line, line_new(LINE_FIXED, g_strdup(places.first.len ?
-			"CONFIGURATION Config\n" : "\nCONFIGURATION Config\n")));
-		add_closing(t, "END_CONFIGURATION\n\n");
-	}
-	g_array_unref(places.entry);
-	*written = has(t, LINE_PROGRAM);
-	if (!*written)
-		write_programs(t);
-	return t;
-}
-
-static void text_free(struct task_text *t)
-{
-	g_ptr_array_unref(t->line);
-	g_array_unref(t->of);
-	g_free(t->whole);
-	g_free(t);
 }
 
 /* ---- rows ---- */
@@ -374,20 +60,8 @@ static char *period_text(LadderDocument *document)
 	return g_strdup(text);
 }
 
-static int line_number(const struct task_text *t, guint index)
-{
-	int number = 1;
-
-	for (gsize i = 0; i < t->at; i++)
-		number += t->whole[i] == '\n';
-	for (guint i = 0; i < index; i++)
-		for (const char *at = nth(t, i)->text; *at; at++)
-			number += *at == '\n';
-	return number;
-}
-
 static struct task_row *add_row(struct task_rows *tasks, enum task_what what, int head,
-				 struct line *line)
+				 struct task_line *line)
 {
 	struct task_row *row;
 
@@ -402,15 +76,15 @@ static struct task_row *add_row(struct task_rows *tasks, enum task_what what, in
 	return row;
 }
 
-static void name_line(struct task_row *row, const struct task_text *t, struct line *line)
+static void name_line(struct task_row *row, const struct task_text *t, struct task_line *line)
 {
 	const struct config *config = t->project->config;
-	const guint index = index_of(t, line);
+	const guint index = task_text_index(t, line);
 
-	put(&row->text[TASKS_NAME], line->name);
+	task_line_set(&row->text[TASKS_NAME], line->name);
 	if (line->changed)
 		return; /* it is not in the file */
-	row->line = is_included(t->project) ? 0 : line_number(t, index);
+	row->line = task_text_is_included(t->project) ? 0 : task_text_number(t, index);
 	for (int i = 0; i < config->count; i++)
 		if (name_equal(project_text(t->project, config->entry[i].name), line->name)) {
 			g_free(row->text[TASKS_COMMENT]);
@@ -420,17 +94,17 @@ static void name_line(struct task_row *row, const struct task_text *t, struct li
 		}
 }
 
-static void add_instance(struct task_rows *tasks, int head, struct line *line)
+static void add_instance(struct task_rows *tasks, int head, struct task_line *line)
 {
 	const struct task_text *t = tasks->inside;
 	struct task_row *row = add_row(tasks, TASKS_INSTANCE, head, line);
 
 	name_line(row, t, line);
-	put(&row->text[TASKS_PROGRAM], line->pou);
+	task_line_set(&row->text[TASKS_PROGRAM], line->pou);
 	row->pou = project_find_pou(t->project, line->pou, strlen(line->pou));
 }
 
-static void add_task(struct task_rows *tasks, struct line *task)
+static void add_task(struct task_rows *tasks, struct task_line *task)
 {
 	const struct task_text *t = tasks->inside;
 	struct task_row *row = add_row(tasks, TASKS_TASK, -1, task);
@@ -438,13 +112,14 @@ static void add_task(struct task_rows *tasks, struct line *task)
 
 	row->event = *task->single;
 	name_line(row, t, task);
-	put(&row->text[TASKS_KIND], task_rows_kind_name(row->event));
-	put(&row->text[TASKS_WHEN], row->event ? task->single : task->interval);
-	put(&row->text[TASKS_PRIORITY], task->priority);
-	put(&row->text[TASKS_WATCHDOG], task->watchdog);
+	task_line_set(&row->text[TASKS_KIND], task_rows_kind_name(row->event));
+	task_line_set(&row->text[TASKS_WHEN], row->event ? task->single : task->interval);
+	task_line_set(&row->text[TASKS_PRIORITY], task->priority);
+	task_line_set(&row->text[TASKS_WATCHDOG], task->watchdog);
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM && name_equal(nth(t, i)->task, task->name))
-			add_instance(tasks, head, nth(t, i));
+		if (task_line_at(t, i)->kind == LINE_PROGRAM &&
+		    name_equal(task_line_at(t, i)->task, task->name))
+			add_instance(tasks, head, task_line_at(t, i));
 }
 
 static void add_each_scan(struct task_rows *tasks)
@@ -453,18 +128,19 @@ static void add_each_scan(struct task_rows *tasks)
 	struct task_row *row = add_row(tasks, TASKS_EACH_SCAN, -1, NULL);
 	const int head = row->head;
 
-	put(&row->text[TASKS_NAME], _("Each scan"));
+	task_line_set(&row->text[TASKS_NAME], _("Each scan"));
 	g_free(row->text[TASKS_WHEN]);
 	row->text[TASKS_WHEN] = period_text(t->document);
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM && !*nth(t, i)->task)
-			add_instance(tasks, head, nth(t, i));
+		if (task_line_at(t, i)->kind == LINE_PROGRAM && !*task_line_at(t, i)->task)
+			add_instance(tasks, head, task_line_at(t, i));
 }
 
 static bool has_task(const struct task_text *t, const char *name)
 {
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_TASK && name_equal(nth(t, i)->name, name))
+		if (task_line_at(t, i)->kind == LINE_TASK &&
+		    name_equal(task_line_at(t, i)->name, name))
 			return true;
 	return false;
 }
@@ -476,7 +152,7 @@ static int idle_head(struct task_rows *tasks, int head)
 	if (head >= 0)
 		return head;
 	row = add_row(tasks, TASKS_IDLE, -1, NULL);
-	put(&row->text[TASKS_NAME], _("Do not run"));
+	task_line_set(&row->text[TASKS_NAME], _("Do not run"));
 	return row->head;
 }
 
@@ -488,7 +164,7 @@ static void add_idle(struct task_rows *tasks)
 	int head = -1;
 
 	for (guint i = 0; i < t->line->len; i++) {
-		struct line *line = nth(t, i);
+		struct task_line *line = task_line_at(t, i);
 
 		if (line->kind != LINE_PROGRAM || !*line->task || has_task(t, line->task))
 			continue;
@@ -498,12 +174,12 @@ static void add_idle(struct task_rows *tasks)
 	for (int i = 0; i < t->project->pou_count; i++) {
 		const char *name = project_text(t->project, t->project->pou[i].name);
 
-		if (t->project->pou[i].kind != POU_PROGRAM || line_of_pou(t, name))
+		if (t->project->pou[i].kind != POU_PROGRAM || task_text_of_pou(t, name))
 			continue;
 		head = idle_head(tasks, head);
 		row = add_row(tasks, TASKS_INSTANCE, head, NULL);
-		put(&row->text[TASKS_NAME], name);
-		put(&row->text[TASKS_PROGRAM], name);
+		task_line_set(&row->text[TASKS_NAME], name);
+		task_line_set(&row->text[TASKS_PROGRAM], name);
 		row->pou = i;
 	}
 }
@@ -511,15 +187,15 @@ static void add_idle(struct task_rows *tasks)
 struct task_rows *task_rows_new(LadderDocument *document)
 {
 	struct task_rows *tasks = g_new0(struct task_rows, 1);
-	struct task_text *t = text_new(document, &tasks->written);
+	struct task_text *t = task_text_new(document, &tasks->written);
 
 	tasks->inside = t;
 	if (!t->project)
 		return tasks;
-	tasks->fixed = is_included(t->project) || ladder_document_is_fixed(document);
+	tasks->fixed = task_text_is_included(t->project) || ladder_document_is_fixed(document);
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_TASK)
-			add_task(tasks, nth(t, i));
+		if (task_line_at(t, i)->kind == LINE_TASK)
+			add_task(tasks, task_line_at(t, i));
 	add_each_scan(tasks);
 	add_idle(tasks);
 	return tasks;
@@ -533,7 +209,7 @@ void task_rows_free(struct task_rows *tasks)
 		for (int k = 0; k < TASKS_FIELDS; k++)
 			g_free(tasks->row[i].text[k]);
 	g_free(tasks->row);
-	text_free(tasks->inside);
+	task_text_free(tasks->inside);
 	g_free(tasks);
 }
 
@@ -591,20 +267,20 @@ static bool was_before(const struct task_text *t, const struct diag *diag)
 static bool is_changed(const struct task_text *t, int number)
 {
 	for (guint i = 0; i < t->line->len; i++) {
-		char *text = line_text(nth(t, i));
+		char *text = task_line_text(task_line_at(t, i));
 
 		for (const char *at = text; *at; at++)
 			number -= *at == '\n';
 		g_free(text);
 		if (number < 0)
-			return nth(t, i)->changed;
+			return task_line_at(t, i)->changed;
 	}
 	return false;
 }
 
 static const struct diag *new_error(const struct task_text *t, const struct diag_list *diags)
 {
-	const int first = line_number(t, 0);
+	const int first = task_text_number(t, 0);
 
 	for (int i = 0; i < diags->count; i++) {
 		const struct diag *diag = &diags->diag[i];
@@ -622,7 +298,7 @@ static bool are_lines(const struct task_text *t, const struct config *config)
 	int count = 0, found = 0;
 
 	for (guint i = 0; i < t->line->len; i++)
-		count += nth(t, i)->kind != LINE_FIXED;
+		count += task_line_at(t, i)->kind != LINE_FIXED;
 	for (int i = 0; config && i < config->count; i++)
 		found += config->entry[i].kind == CONFIG_TASK ||
 			 config->entry[i].kind == CONFIG_PROGRAM;
@@ -654,20 +330,6 @@ static bool is_good(const struct task_text *t, const char *text, gsize len, char
 	return !diag;
 }
 
-/* The lines as one text. Caller frees. */
-static char *joined(const struct task_text *t)
-{
-	GString *out = g_string_new(NULL);
-
-	for (guint i = 0; i < t->line->len; i++) {
-		char *text = line_text(nth(t, i));
-
-		g_string_append(out, text);
-		g_free(text);
-	}
-	return g_string_free(out, FALSE);
-}
-
 static bool apply(struct task_rows *tasks, const char *step, char **why)
 {
 	struct task_text *t = tasks->inside;
@@ -677,7 +339,7 @@ static bool apply(struct task_rows *tasks, const char *step, char **why)
 
 	if (tasks->fixed)
 		return refuse(why, g_strdup(_("It is declared in another file")));
-	text = joined(t);
+	text = task_text_joined(t);
 	whole = g_string_new(t->whole);
 	g_string_erase(whole, (gssize)t->at, (gssize)t->removed);
 	g_string_insert(whole, (gssize)t->at, text);
@@ -694,94 +356,96 @@ static bool apply(struct task_rows *tasks, const char *step, char **why)
 
 /* ---- changing lines ---- */
 
-static struct line *line_of(const struct task_rows *tasks, int row)
+static struct task_line *line_of(const struct task_rows *tasks, int row)
 {
 	return row >= 0 && row < tasks->count ?
-	       g_array_index(tasks->inside->of, struct line *, row) : NULL;
+	       g_array_index(tasks->inside->of, struct task_line *, row) : NULL;
 }
 
 /* Makes the line's text of its fields. Its comments stay. */
-static void touch(struct task_text *t, struct line *line)
+static void touch(struct task_text *t, struct task_line *line)
 {
 	const struct config *config = t->project->config;
 
 	if (line->changed)
 		return;
 	line->changed = true;
-	put(&line->text, "");
+	task_line_set(&line->text, "");
 	for (int i = 0; config && i < config->count; i++)
 		if (name_equal(project_text(t->project, config->entry[i].name), line->name) &&
 		    (config->entry[i].kind == CONFIG_TASK) == (line->kind == LINE_TASK)) {
-			put(&line->text, project_text(t->project, config->entry[i].comment));
+			task_line_set(&line->text, project_text(t->project,
+								config->entry[i].comment));
 			break;
 		}
 }
 
-static void give(struct task_text *t, struct line *line, char **field, const char *text)
+static void give(struct task_text *t, struct task_line *line, char **field, const char *text)
 {
 	touch(t, line);
-	put(field, text);
+	task_line_set(field, text);
 }
 
-static void take_out(struct task_text *t, struct line *line)
+static void take_out(struct task_text *t, struct task_line *line)
 {
 	g_ptr_array_remove(t->line, line);
 }
 
 /* Moves a line before or behind another. */
-static void move_to(struct task_text *t, struct line *line, const struct line *by, bool behind)
+static void move_to(struct task_text *t, struct task_line *line, const struct task_line *by,
+		    bool behind)
 {
-	struct line *moved;
+	struct task_line *moved;
 
 	if (line == by)
 		return;
 	touch(t, line);
-	moved = g_ptr_array_steal_index(t->line, index_of(t, line));
-	g_ptr_array_insert(t->line, (int)index_of(t, by) + behind, moved);
+	moved = g_ptr_array_steal_index(t->line, task_text_index(t, line));
+	g_ptr_array_insert(t->line, (int)task_text_index(t, by) + behind, moved);
 }
 
-static struct line *last_of(const struct task_text *t, enum line_kind kind, const char *task,
-			    const struct line *but)
+static struct task_line *last_of(const struct task_text *t, enum task_line_kind kind,
+				 const char *task, const struct task_line *but)
 {
-	struct line *last = NULL;
+	struct task_line *last = NULL;
 
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == kind && nth(t, i) != but &&
-		    (!task || name_equal(nth(t, i)->task, task)))
-			last = nth(t, i);
+		if (task_line_at(t, i)->kind == kind && task_line_at(t, i) != but &&
+		    (!task || name_equal(task_line_at(t, i)->task, task)))
+			last = task_line_at(t, i);
 	return last;
 }
 
-static struct line *first_program(const struct task_text *t)
+static struct task_line *first_program(const struct task_text *t)
 {
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM)
-			return nth(t, i);
+		if (task_line_at(t, i)->kind == LINE_PROGRAM)
+			return task_line_at(t, i);
 	return NULL;
 }
 
 /* Where a new task goes: behind the last, or above the programs. */
 static guint place_of_task(const struct task_text *t)
 {
-	const struct line *last = last_of(t, LINE_TASK, NULL, NULL);
-	const struct line *program = first_program(t);
+	const struct task_line *last = last_of(t, LINE_TASK, NULL, NULL);
+	const struct task_line *program = first_program(t);
 
-	return last ? index_of(t, last) + 1 :
-	       index_of(t, program ? program : closing_line(t));
+	return last ? task_text_index(t, last) + 1 :
+	       task_text_index(t, program ? program : task_text_closing(t));
 }
 
-static struct line *new_task(struct task_text *t, char *name, const char *interval)
+static struct task_line *new_task(struct task_text *t, char *name, const char *interval)
 {
-	struct line *line = line_new(LINE_TASK, g_strdup(""));
+	struct task_line *line = task_line_new(LINE_TASK, g_strdup(""));
 	guint64 priority = 0;
 
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_TASK)
-			priority = MAX(priority, g_ascii_strtoull(nth(t, i)->priority, NULL,
-								  10) + 1);
+		if (task_line_at(t, i)->kind == LINE_TASK)
+			priority = MAX(priority, g_ascii_strtoull(
+				task_line_at(t, i)->priority, NULL, 10) + 1);
 	g_free(line->name);
 	line->name = name;
-	put(&line->interval, interval);
+	task_line_set(&line->interval, interval);
 	g_free(line->priority);
 	line->priority = g_strdup_printf("%u", MIN((unsigned)priority, 65535u));
 	line->changed = true;
@@ -790,14 +454,15 @@ static struct line *new_task(struct task_text *t, char *name, const char *interv
 }
 
 /* A task of the programs that have none, with the period of the scan. */
-static struct line *task_of_rest(struct task_rows *tasks, const struct task_row *head)
+static struct task_line *task_of_rest(struct task_rows *tasks, const struct task_row *head)
 {
 	struct task_text *t = tasks->inside;
-	struct line *task = new_task(t, free_name(t, "Task", true), head->text[TASKS_WHEN]);
+	struct task_line *task = new_task(t, task_text_free_name(t, "Task", true),
+						  head->text[TASKS_WHEN]);
 
 	for (guint i = 0; i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM && !*nth(t, i)->task)
-			give(t, nth(t, i), &nth(t, i)->task, task->name);
+		if (task_line_at(t, i)->kind == LINE_PROGRAM && !*task_line_at(t, i)->task)
+			give(t, task_line_at(t, i), &task_line_at(t, i)->task, task->name);
 	return task;
 }
 
@@ -841,29 +506,30 @@ static bool is_name(const char *name, char **why)
 		      diag_said_of(fault, name));
 }
 
-static bool rename_line(struct task_text *t, struct line *line, const char *name, char **why)
+static bool rename_line(struct task_text *t, struct task_line *line, const char *name, char **why)
 {
 	if (!is_name(name, why))
 		return false;
-	if (!name_equal(line->name, name) && is_taken(t, name))
+	if (!name_equal(line->name, name) && task_text_is_taken(t, name))
 		return refuse(why, g_strdup_printf(_("“%s” is declared already"), name));
 	for (guint i = 0; line->kind == LINE_TASK && i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM && name_equal(nth(t, i)->task, line->name))
-			give(t, nth(t, i), &nth(t, i)->task, name);
+		if (task_line_at(t, i)->kind == LINE_PROGRAM &&
+		    name_equal(task_line_at(t, i)->task, line->name))
+			give(t, task_line_at(t, i), &task_line_at(t, i)->task, name);
 	give(t, line, &line->name, name);
 	return true;
 }
 
-static void set_when(struct task_text *t, struct line *line, const char *text)
+static void set_when(struct task_text *t, struct task_line *line, const char *text)
 {
 	char *time = time_of(text);
 
 	if (is_time(time)) {
 		give(t, line, &line->interval, time);
-		put(&line->single, "");
+		task_line_set(&line->single, "");
 	} else {
 		give(t, line, &line->single, text);
-		put(&line->interval, "");
+		task_line_set(&line->interval, "");
 	}
 	g_free(time);
 }
@@ -879,7 +545,7 @@ static const char *some_event(const struct project *project)
 	return "%IX0.0";
 }
 
-static bool set_kind(struct task_text *t, struct line *line, const char *text, char **why)
+static bool set_kind(struct task_text *t, struct task_line *line, const char *text, char **why)
 {
 	const bool event = strcmp(text, task_rows_kind_name(true)) == 0;
 	char period[64];
@@ -894,7 +560,7 @@ static bool set_kind(struct task_text *t, struct line *line, const char *text, c
 	return true;
 }
 
-static bool set_comment(struct task_text *t, struct line *line, const char *text, char **why)
+static bool set_comment(struct task_text *t, struct task_line *line, const char *text, char **why)
 {
 	char *clean;
 
@@ -908,9 +574,9 @@ static bool set_comment(struct task_text *t, struct line *line, const char *text
 	return true;
 }
 
-static bool set_program(struct task_text *t, struct line *line, const char *text, char **why)
+static bool set_program(struct task_text *t, struct task_line *line, const char *text, char **why)
 {
-	const struct line *other = line_of_pou(t, text);
+	const struct task_line *other = task_text_of_pou(t, text);
 	const int pou = project_find_pou(t->project, text, strlen(text));
 
 	if (pou < 0 || t->project->pou[pou].kind != POU_PROGRAM)
@@ -922,7 +588,7 @@ static bool set_program(struct task_text *t, struct line *line, const char *text
 	return true;
 }
 
-static bool set_line(struct task_text *t, struct line *line, enum task_field field,
+static bool set_line(struct task_text *t, struct task_line *line, enum task_field field,
 		     const char *text, char **why)
 {
 	char *time;
@@ -984,7 +650,7 @@ bool task_rows_set(LadderDocument *document, int row, enum task_field field, con
 {
 	struct task_rows *tasks = task_rows_new(document);
 	const struct task_row *of = row >= 0 && row < tasks->count ? &tasks->row[row] : NULL;
-	struct line *line = line_of(tasks, row);
+	struct task_line *line = line_of(tasks, row);
 	char *clean = g_strstrip(g_strdup(text));
 	bool good;
 
@@ -1001,6 +667,22 @@ bool task_rows_set(LadderDocument *document, int row, enum task_field field, con
 	return good;
 }
 
+char *task_rows_name_refusal(LadderDocument *document, int row, const char *name)
+{
+	struct task_rows *tasks = task_rows_new(document);
+	struct task_line *line = line_of(tasks, row);
+	char *why = NULL;
+
+	if (!line)
+		why = g_strdup(_("This cannot be changed here"));
+	else if (!*name)
+		why = g_strdup(_("Enter a name"));
+	else
+		rename_line(tasks->inside, line, name, &why);
+	task_rows_free(tasks);
+	return why;
+}
+
 /* ---- tasks and programs come, go and move ---- */
 
 bool task_rows_add(LadderDocument *document, char **name, char **why)
@@ -1015,7 +697,7 @@ bool task_rows_add(LadderDocument *document, char **name, char **why)
 		return refuse(why, g_strdup(_("The file cannot be read as a program")));
 	}
 	literal_print_time(TASKS_PERIOD_NS, period, sizeof(period));
-	*name = g_strdup(new_task(t, free_name(t, "Task", true), period)->name);
+	*name = g_strdup(new_task(t, task_text_free_name(t, "Task", true), period)->name);
 	good = apply(tasks, _("New task"), why);
 	if (!good)
 		g_clear_pointer(name, g_free);
@@ -1027,7 +709,7 @@ bool task_rows_delete(LadderDocument *document, int row, char **why)
 {
 	struct task_rows *tasks = task_rows_new(document);
 	struct task_text *t = tasks->inside;
-	struct line *line = line_of(tasks, row);
+	struct task_line *line = line_of(tasks, row);
 	const bool task = line && line->kind == LINE_TASK;
 	bool good;
 
@@ -1036,10 +718,11 @@ bool task_rows_delete(LadderDocument *document, int row, char **why)
 		return refuse(why, g_strdup(_("This cannot be deleted")));
 	}
 	for (guint i = 0; task && i < t->line->len; i++)
-		if (nth(t, i)->kind == LINE_PROGRAM && name_equal(nth(t, i)->task, line->name))
-			give(t, nth(t, i), &nth(t, i)->task, "");
+		if (task_line_at(t, i)->kind == LINE_PROGRAM &&
+		    name_equal(task_line_at(t, i)->task, line->name))
+			give(t, task_line_at(t, i), &task_line_at(t, i)->task, "");
 	take_out(t, line);
-	good = has(t, LINE_PROGRAM) || task ?
+	good = task_text_has(t, LINE_PROGRAM) || task ?
 	       apply(tasks, task ? _("Delete task") : _("Remove program from task"), why) :
 	       refuse(why, g_strdup(_("At least one program must run: without a PROGRAM line all "
 				      "programs run")));
@@ -1053,9 +736,9 @@ static const char *task_of(const struct task_rows *tasks, int head)
 }
 
 /* Puts a program's line behind the others of the task. The first one stays where it is. */
-static void append_to(struct task_text *t, struct line *line, const char *task)
+static void append_to(struct task_text *t, struct task_line *line, const char *task)
 {
-	const struct line *last = last_of(t, LINE_PROGRAM, task, line);
+	const struct task_line *last = last_of(t, LINE_PROGRAM, task, line);
 
 	give(t, line, &line->task, task);
 	if (last)
@@ -1071,7 +754,7 @@ bool task_rows_add_program(LadderDocument *document, int head, int pou, char **n
 {
 	struct task_rows *tasks = task_rows_new(document);
 	struct task_text *t = tasks->inside;
-	struct line *line;
+	struct task_line *line;
 	bool good;
 
 	if (!is_heading(tasks, head) || tasks->row[head].what == TASKS_IDLE || pou < 0 ||
@@ -1079,9 +762,10 @@ bool task_rows_add_program(LadderDocument *document, int head, int pou, char **n
 		task_rows_free(tasks);
 		return refuse(why, g_strdup(_("This cannot be changed here")));
 	}
-	line = (struct line *)line_of_pou(t, project_text(t->project, t->project->pou[pou].name));
+	line = (struct task_line *)task_text_of_pou(t, project_text(t->project,
+		t->project->pou[pou].name));
 	if (!line)
-		line = new_program(t, index_of(t, closing_line(t)), pou, "");
+		line = task_text_add_program(t, task_text_index(t, task_text_closing(t)), pou, "");
 	append_to(t, line, task_of(tasks, head));
 	*name = g_strdup(line->name);
 	good = apply(tasks, _("Add program to task"), why);
@@ -1094,7 +778,7 @@ bool task_rows_add_program(LadderDocument *document, int head, int pou, char **n
 static void move_program(struct task_rows *tasks, int row, int head, int before)
 {
 	struct task_text *t = tasks->inside;
-	struct line *line = line_of(tasks, row), *by = line_of(tasks, before);
+	struct task_line *line = line_of(tasks, row), *by = line_of(tasks, before);
 
 	if (tasks->row[head].what == TASKS_IDLE) {
 		if (line)
@@ -1102,7 +786,8 @@ static void move_program(struct task_rows *tasks, int row, int head, int before)
 		return;
 	}
 	if (!line)
-		line = new_program(t, index_of(t, closing_line(t)), tasks->row[row].pou, "");
+		line = task_text_add_program(t, task_text_index(t, task_text_closing(t)),
+					     tasks->row[row].pou, "");
 	if (!by) {
 		append_to(t, line, task_of(tasks, head));
 		return;
@@ -1114,7 +799,7 @@ static void move_program(struct task_rows *tasks, int row, int head, int before)
 static void move_task(struct task_rows *tasks, int row, int before)
 {
 	struct task_text *t = tasks->inside;
-	struct line *line = line_of(tasks, row), *by = line_of(tasks, before);
+	struct task_line *line = line_of(tasks, row), *by = line_of(tasks, before);
 
 	if (by)
 		move_to(t, line, by, false);
@@ -1154,7 +839,7 @@ bool task_rows_move(LadderDocument *document, int row, int head, int before, cha
 			move_task(tasks, row, before);
 		else
 			move_program(tasks, row, head, before);
-		good = has(tasks->inside, LINE_PROGRAM) ?
+		good = task_text_has(tasks->inside, LINE_PROGRAM) ?
 		       apply(tasks, task ? _("Move task") : _("Move program"), why) :
 		       refuse(why, g_strdup(_("At least one program must run: without a PROGRAM "
 					      "line all programs run")));

@@ -74,6 +74,9 @@ char *task_rows_error(LadderDocument *document, const struct task_row *row, bool
  * programs without a task makes a task of them. */
 bool task_rows_set(LadderDocument *document, int row, enum task_field field, const char *text,
 	       char **why);
+/** task_rows_name_refusal - why a task cannot have this name, translated; NULL: it can, as far as
+ * names go. Caller frees. */
+char *task_rows_name_refusal(LadderDocument *document, int row, const char *name);
 /** task_rows_add - a task without programs, behind the others. @name: gets its name, which the caller
  * frees. */
 bool task_rows_add(LadderDocument *document, char **name, char **why);

@@ -37,18 +37,16 @@ char **listing_il(const struct project *project, const struct pou *pou)
 
 char *listing_type(const struct project *project, const struct var *var)
 {
-	const char *word = var->type == IEC_NONE ?
-		words_row(&project->words, var->fb)->word :
-		iec_type_row(var->type)->word;
-	GString *out = g_string_new(NULL);
+	struct sink_memory memory;
+	struct sink sink;
+	char *type;
 
-	if (var->array.count)
-		g_string_append_printf(out, "ARRAY[%d..%lld] OF ", (int)var->array.low,
-				       (long long)var->array.low + var->array.count - 1);
-	g_string_append(out, word);
-	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
-		g_string_append_printf(out, "[%u]", var->capacity);
-	return g_string_free(out, FALSE);
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	project_write_type(project, var, &sink);
+	type = g_strdup(sink_memory_text(&memory));
+	sink_memory_free(&memory);
+	return type;
 }
 
 int listing_first(const struct var_table *table)

@@ -147,3 +147,20 @@ char *place_rung(const struct project *project, int pou, int rung, bool *whole)
 					       project_text(project, sfc->action[i].name));
 	return g_strdup(name);
 }
+
+char *place_cell(struct place_sheet *sheet, const struct project *project, int pou, int rung,
+		 int row, int col)
+{
+	const int seen = place_shown(sheet, project, pou, rung, row, col);
+	char column[PLACE_LETTERS], *text;
+	bool whole;
+	char *part = place_rung(project, pou, rung, &whole);
+
+	if (whole)
+		return part;
+	text = row < 0 ? g_strdup_printf(_("%s, rung %d"), part, rung + 1) :
+	       g_strdup_printf(_("%s, rung %d, row %d, column %s"), part, rung + 1, row + 1,
+			       place_column(seen > 0 ? seen : 0, column));
+	g_free(part);
+	return text;
+}

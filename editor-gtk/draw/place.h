@@ -46,5 +46,13 @@ char *place_line(const struct project *project, int pou, int row);
  * In the language of the session. Owns: the caller, g_free().
  */
 char *place_rung(const struct project *project, int pou, int rung, bool *whole);
+/**
+ * place_cell - "Main, rung 2, row 1, column C"; in a chart as place_rung()
+ * @pou: of @project; @rung, @row, @col: 0-based, of the file; @row -1: the whole rung
+ *
+ * In the language of the session. Owns: the caller, g_free().
+ */
+char *place_cell(struct place_sheet *sheet, const struct project *project, int pou, int rung,
+		 int row, int col);
 
 #endif

@@ -12,6 +12,7 @@
 #include "engine/base/name.h"
 #include "engine/model/expr.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -418,15 +419,42 @@ static bool look_up_all(const struct entry_place *place, struct work *w,
 	return true;
 }
 
+static bool parses(struct work *w, const char *text)
+{
+	diag_init(&w->diags);
+	return expr_parse_text(text, strlen(text), &w->expr, &w->diags,
+			       (struct diag){ .id = DIAG_BAD_EXPRESSION });
+}
+
+/* Only the rest is missing: with a name at its end and all brackets closed it would parse. */
+static bool is_begun(struct work *w, const char *text)
+{
+	static const char *const names[] = { "", " x", "x" };
+	char whole[ENTRY_TEXT + 64];
+	int open = 0;
+
+	for (const char *at = text; *at; at++)
+		open += (*at == '(') - (*at == ')');
+	for (size_t i = 0; open >= 0 && open < 32 && i < sizeof(names) / sizeof(*names); i++) {
+		snprintf(whole, sizeof(whole), "%s%s%.*s", text, names[i], open,
+			 "))))))))))))))))))))))))))))))))");
+		if (parses(w, whole))
+			return true;
+	}
+	return false;
+}
+
 /* Parsed from the text that is kept, so that it will read again. */
 static bool read_expression(const struct entry_place *place, struct work *w,
 			    struct entry *entry)
 {
-	diag_init(&w->diags);
-	if (!expr_parse_text(entry->operand, strlen(entry->operand), &w->expr, &w->diags,
-			     (struct diag){ .id = DIAG_BAD_EXPRESSION }))
-		return entry_wrong(entry, N_("“%s” is not a valid expression"), entry->operand,
-				   strlen(entry->operand));
+	if (!parses(w, entry->operand)) {
+		if (!is_begun(w, entry->operand))
+			return entry_wrong(entry, N_("“%s” is not a valid expression"),
+					   entry->operand, strlen(entry->operand));
+		entry->sense = ENTRY_PART;
+		return false;
+	}
 	entry->word = w->expr.target ? ELEM_ASSIGN : ELEM_COMPARE;
 	if (place->output && !w->expr.target)
 		return entry_wrong(entry, N_("“%s” cannot stand in the last column: only an output can"),

@@ -12,19 +12,6 @@
 
 /* ---- rows ---- */
 
-const char *io_field_name(enum io_field field)
-{
-	static const char *const name[IO_FIELDS] = {
-		[IO_ADDRESS] = N_("Address"), [IO_DRIVER] = N_("Driver"),
-		[IO_LINE] = N_("I/O line"), [IO_PULL] = N_("Pull"),
-		[IO_ACTIVE_LOW] = N_("Active low"), [IO_DEBOUNCE] = N_("Debounce"),
-		[IO_DRIVE] = N_("Drive"), [IO_SAFE] = N_("Safe"),
-		[IO_COMMENT] = N_("Comment"),
-	};
-
-	return _(name[field]);
-}
-
 char *iomap_field(const struct io_text *io, int row, enum io_field field)
 {
 	char *text = io_text_field(io, row, field);

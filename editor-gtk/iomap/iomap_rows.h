@@ -16,8 +16,6 @@
 /* Texts of a row, numbered after its fields. */
 enum { IOMAP_SYMBOL = IO_FIELDS, IOMAP_STATE };
 
-/** io_field_name - title of a column, translated. */
-const char *io_field_name(enum io_field field);
 /** iomap_row_new - of row @number of @io; its texts are the fields, IOMAP_SYMBOL and
  * IOMAP_STATE, its index is @number. @check: NULL: no errors. */
 LadderPanelRow *iomap_row_new(const struct io_uses *uses, const struct io_machine *machine,

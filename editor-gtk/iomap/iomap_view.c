@@ -553,7 +553,7 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 	CHILD(stack); CHILD(tools); CHILD(board); CHILD(lacks); CHILD(lacks_label);
 	CHILD(message);
 #undef CHILD
-	gtk_widget_class_bind_template_child_full(widget, "view", FALSE, 0);
+	panel_bind_list(widget, LadderIomapView);
 	gtk_widget_class_bind_template_callback(widget, board_activated);
 	gtk_widget_class_bind_template_callback(widget, board_left);
 }
@@ -594,8 +594,7 @@ static void ladder_iomap_view_init(LadderIomapView *view)
 	arena_init(&view->uses.arena);
 	io_machine_look(&view->machine, NULL);
 	gtk_widget_init_template(widget);
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		widget, LADDER_TYPE_IOMAP_VIEW, "view")));
+	panel_list_init(&view->list, view->list.view);
 	add_columns(view);
 	g_signal_connect_object(view->list.selection, "notify::selected-item",
 				G_CALLBACK(show_message), view, G_CONNECT_SWAPPED);

@@ -71,6 +71,18 @@ bool panel_row_matches(const LadderPanelRow *row, const char *wanted)
 	return found;
 }
 
+bool panel_row_is_like(const LadderPanelRow *row, gconstpointer other)
+{
+	const LadderPanelRow *of = other;
+
+	return row->table == of->table && panel_row_is_named(row, panel_row_text(of, 0));
+}
+
+bool panel_row_is_named(const LadderPanelRow *row, gconstpointer name)
+{
+	return strcmp(panel_row_text(row, 0), name) == 0;
+}
+
 static bool is_same(GListModel *model, guint at, gpointer row)
 {
 	LadderPanelRow *old = g_list_model_get_item(model, at);

@@ -35,6 +35,10 @@ LadderPanelRow *ladder_panel_row_new(void);
 const char *panel_row_text(const LadderPanelRow *row, int column);
 /** panel_row_matches - does one of its texts contain @wanted, in any case? */
 bool panel_row_matches(const LadderPanelRow *row, const char *wanted);
+/** panel_row_is_like - is @row of the same table, with the same first text, as row @other? */
+bool panel_row_is_like(const LadderPanelRow *row, gconstpointer other);
+/** panel_row_is_named - is @name its first text? */
+bool panel_row_is_named(const LadderPanelRow *row, gconstpointer name);
 /** panel_rows_update - replaces the rows of a list by @rows. Equal rows at both ends stay,
  * with selection and scrolling. Rows of the same declarations are changed, not replaced, so
  * that an open edit stays and sorting waits. @rows: their contents may be moved. */

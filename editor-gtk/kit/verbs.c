@@ -44,6 +44,17 @@ const char *verb_found(enum verb verb)
 	return found[verb];
 }
 
+bool verb_is_parted(enum verb verb)
+{
+	static const bool parted[VERB_COUNT] = {
+#define VERB(id, where, keys, label, group)
+#define PARTED(id) [VERB_##id] = true,
+#include "editor-gtk/kit/verbs.def"
+	};
+
+	return parted[verb];
+}
+
 const char *verb_group_label(enum verb_group group)
 {
 	static const char *const labels[VERBS_GROUPS] = {
@@ -163,6 +174,18 @@ char *verb_keys_label(enum verb verb)
 	return keys_label(verb_keys(verb));
 }
 
+void menu_append(GMenu *menu, const char *label, const char *action, const char *keys)
+{
+	GMenuItem *item = g_menu_item_new(label, action);
+	char **key = g_strsplit(keys, "|", 2);
+
+	if (key[0])
+		g_menu_item_set_attribute(item, "accel", "s", key[0]);
+	g_menu_append_item(menu, item);
+	g_strfreev(key);
+	g_object_unref(item);
+}
+
 void verb_tell(GString *line, enum verb verb)
 {
 	char *keys = verb_keys_label(verb);
@@ -171,6 +194,12 @@ void verb_tell(GString *line, enum verb verb)
 		g_string_append_printf(line, "%s%s: %s", line->len ? " · " : "", keys,
 				       _(verb_row(verb)->label));
 	g_free(keys);
+}
+
+void verb_append(GMenu *menu, enum verb verb, const char *label, const char *action)
+{
+	menu_append(menu, label ? label : _(verb_row(verb)->label),
+		    action ? action : verb_row(verb)->action, verb_keys(verb));
 }
 
 bool key_scheme_put(enum key_scheme scheme, int index, const char **word,

@@ -35,6 +35,14 @@ const struct verb_row *verb_row(enum verb verb);
 enum verb verb_find(const char *action);
 /** verb_found - further words by which it is found, not translated: _() them; NULL: none. */
 const char *verb_found(enum verb verb);
+/** menu_append - appends a row to a menu that shows the first of @keys, "": none. @label:
+ * translated. */
+void menu_append(GMenu *menu, const char *label, const char *action, const char *keys);
+/** verb_append - appends a row to a menu that shows the first key in the scheme in use.
+ * @label, @action: NULL for those of the verb. */
+void verb_append(GMenu *menu, enum verb verb, const char *label, const char *action);
+/** verb_is_parted - does a line stand above it in the main menu? */
+bool verb_is_parted(enum verb verb);
 /** verb_group_label - not translated. */
 const char *verb_group_label(enum verb_group group);
 /** verb_keys - the keys in the scheme in use, separated by |; "": none. Borrowed until the

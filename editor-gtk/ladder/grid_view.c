@@ -666,7 +666,7 @@ static void drag_end(LadderCanvas *canvas, bool cancelled)
 		wire_release(LADDER_GRID_VIEW(canvas));
 }
 
-static const enum verb of_element[] = { VERB_edit_operand, VERB_negate, VERB_cycle, VERB_comment,
+static const enum verb of_element[] = { VERB_enter, VERB_edit_operand, VERB_negate, VERB_cycle, VERB_comment,
 	VERB_add_pin, VERB_COUNT };
 static const enum verb of_symbol[] = { VERB_show_uses, VERB_go_coil, VERB_rename, VERB_watch_add,
 	VERB_expect, VERB_COUNT };
@@ -688,7 +688,8 @@ static const struct {
 		VERB_rung_delete, VERB_COUNT } },
 };
 
-/* Does the verb do something at the cursor? While simulating, the key of VERB_cycle toggles. */
+/* Does the verb do something at the cursor? While simulating, the keys of VERB_enter and
+ * VERB_cycle set a value. */
 static bool applies(LadderCanvas *canvas, enum verb verb)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(canvas);
@@ -698,7 +699,9 @@ static bool applies(LadderCanvas *canvas, enum verb verb)
 	const bool live = canvas_is_live(canvas);
 
 	switch ((int)verb) {
-	case VERB_edit_operand: case VERB_comment: return cell;
+	case VERB_enter: return cell && !live;
+	case VERB_edit_operand: return cell && live;
+	case VERB_comment: return cell;
 	case VERB_negate: return cell && (cell->word == ELEM_COMPARE ||
 			grid_word_negated((enum word)cell->word) != (enum word)cell->word);
 	case VERB_cycle: return cell && !live && (row->operand == OPND_BOOL_R ||

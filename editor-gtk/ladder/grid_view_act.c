@@ -367,19 +367,6 @@ static void menu_do(GSimpleAction *action, GVariant *parameter, gpointer data)
 	}
 }
 
-/* @verb: its key does the same while simulating. */
-static void append_with_key(GMenu *menu, const char *label, const char *action, enum verb verb)
-{
-	GMenuItem *item = g_menu_item_new(label, action);
-	char **keys = g_strsplit(verb_keys(verb), "|", 2);
-
-	if (keys[0])
-		g_menu_item_set_attribute(item, "accel", "s", keys[0]);
-	g_menu_append_item(menu, item);
-	g_strfreev(keys);
-	g_object_unref(item);
-}
-
 static void add_sets(GMenu *menu, const struct live_cell *cell)
 {
 	for (guint i = 0; i < cell->parts->len; i++) {
@@ -425,23 +412,21 @@ GMenuModel *act_menu(LadderGridView *view)
 	GMenu *menu = g_menu_new();
 
 	if (is_switch(cell))
-		append_with_key(menu, _("Toggle"), "live.toggle", VERB_cycle);
+		verb_append(menu, VERB_cycle, _("Toggle"), "live.toggle");
 	if (cell && cell->parts)
 		add_sets(menu, cell);
 	else if (cell && !cell->at.constant)
-		g_menu_append(menu, _(verb_row(VERB_set_value)->label),
-			      verb_row(VERB_set_value)->action);
+		verb_append(menu, VERB_set_value, NULL, NULL);
 	if (cell && cell->at.type == IEC_BOOL && !cell->at.constant) {
 		g_menu_append(menu, _("Force on"), "live.on");
 		g_menu_append(menu, _("Force off"), "live.off");
 	} else if (is_number(cell) && !is_held(view, cell->at)) {
-		append_with_key(menu, _("Force at this value"), "live.force", VERB_force);
+		verb_append(menu, VERB_force, _("Force at this value"), "live.force");
 	}
 	if (cell && is_held(view, cell->at))
-		append_with_key(menu, _("Release"), "live.force", VERB_force);
+		verb_append(menu, VERB_force, _("Release"), "live.force");
 	if (canvas_is_live(LADDER_CANVAS(view)) && ladder_sim_forces(view->canvas->sim) > 0)
-		g_menu_append(menu, _(verb_row(VERB_sim_release)->label),
-			      verb_row(VERB_sim_release)->action);
+		verb_append(menu, VERB_sim_release, NULL, NULL);
 	if (canvas_is_live(LADDER_CANVAS(view)))
 		add_instances(view, menu);
 	return G_MENU_MODEL(menu);

@@ -729,7 +729,7 @@ static void add_named(GMenu *menu, const char *text, const char *action, const c
 	g_object_unref(item);
 }
 
-/* Of a timer or counter, Q is expected. */
+/* The expected value: for a timer or counter that of its pin Q, for a step Step.X. */
 static void add_window(GMenu *menu, const LadderSimRow *row)
 {
 	char *name = row->kind == SIM_PRESET ? g_strconcat(row->name, ".Q", NULL) :

@@ -10,7 +10,6 @@
 
 #include "editor-gtk/document/panel.h"
 #include "editor-gtk/kit/cells.h"
-#include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/drop.h"
 #include "editor-gtk/kit/entry_popup.h"
 #include "editor-gtk/kit/gtk48/list.h"
@@ -20,103 +19,15 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/watch_names.h"
 
-#include "engine/trial/value.h"
-
 #include <string.h>
-
-/* ---- a row ---- */
-
-G_DEFINE_FINAL_TYPE(LadderWatchRow, ladder_watch_row, G_TYPE_OBJECT)
-
-static void ladder_watch_row_finalize(GObject *object)
-{
-	LadderWatchRow *row = LADDER_WATCH_ROW(object);
-
-	watch_line_free(row->line);
-	g_free(row->typed);
-	G_OBJECT_CLASS(ladder_watch_row_parent_class)->finalize(object);
-}
-
-static void ladder_watch_row_class_init(LadderWatchRowClass *class)
-{
-	G_OBJECT_CLASS(class)->finalize = ladder_watch_row_finalize;
-}
-
-static void ladder_watch_row_init(LadderWatchRow *row)
-{
-	row->typed = g_strdup("");
-}
-
-/* @image: of the program that may have the name; NULL: none. */
-static LadderWatchRow *row_new(const struct watch_line *line, const struct image *image)
-{
-	LadderWatchRow *row = g_object_new(LADDER_TYPE_WATCH_ROW, NULL);
-
-	row->line = watch_line_new(line->format, line->name, line->comment);
-	row->asked = image != NULL;
-	row->at = live_value_find(image, line->name);
-	return row;
-}
-
-static bool is_same_place(struct location a, struct location b)
-{
-	return a.type == b.type && a.area == b.area && a.where == b.where &&
-	       a.constant == b.constant;
-}
-
-/* The same variable at the same place, with the same format and comment? */
-static bool row_equal(const LadderWatchRow *a, const LadderWatchRow *b)
-{
-	return a->asked == b->asked && is_same_place(a->at, b->at) &&
-	       a->line->format == b->line->format &&
-	       strcmp(a->line->name, b->line->name) == 0 &&
-	       strcmp(a->line->comment, b->line->comment) == 0;
-}
-
-/* The program does not have the name. */
-static bool row_is_unknown(const LadderWatchRow *row)
-{
-	return row->asked && row->at.type == IEC_NONE;
-}
-
-static char *row_value(const LadderWatchRow *row)
-{
-	char text[IEC_VALUE_TEXT];
-
-	if (!row->seen.known)
-		return g_strdup("");
-	live_value_format(row->line->format, row->at.type, row->seen.value, text,
-			  sizeof(text));
-	return g_strdup(text);
-}
-
-/* Parses the typed value. False: *why says why not; caller frees it. */
-static bool row_parse(const LadderWatchRow *row, const struct image *image,
-		      struct iec_text *room, union iec_value *out, char **why)
-{
-	enum diag_id fault = DIAG_COUNT;
-
-	if (row->at.type == IEC_NONE)
-		fault = DIAG_UNKNOWN_NAME;
-	else if (row->at.constant)
-		fault = DIAG_WRITE_CONSTANT;
-	else if (live_value_parse(row->line->format, row->at.type, row->typed, room, out,
-			     &fault))
-		fault = value_has_room(image, row->at, *out) ? DIAG_COUNT :
-			  DIAG_LITERAL_RANGE;
-	if (fault == DIAG_COUNT)
-		return true;
-	*why = diag_said_of(fault, fault == DIAG_UNKNOWN_NAME || fault == DIAG_WRITE_CONSTANT ?
-				   row->line->name : row->typed);
-	return false;
-}
 
 /* ---- the view ---- */
 
 struct _LadderWatchView {
 	GtkWidget parent_instance;
 	/* Of the template: */
-	GtkWidget *box, *charts, *add_button, *stack, *empty, *bar, *message, *list;
+	GtkWidget *box, *charts, *add_button, *stack, *empty, *list;
+	struct panel_message message;
 	LadderDocument *document;
 	LadderSim *sim;
 	GListStore *store;          /* of LadderWatchRow                       */
@@ -181,9 +92,7 @@ static void select_row(LadderWatchView *view, int at)
 
 static void tell(LadderWatchView *view, char *text)
 {
-	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
-	gtk_revealer_set_reveal_child(GTK_REVEALER(view->bar), text != NULL);
-	g_free(text);
+	panel_message_set(&view->message, view->document, text);
 }
 
 /* ---- the charts of the project ---- */
@@ -280,7 +189,7 @@ static void keep_typed(LadderWatchView *view, GPtrArray *rows)
 static bool stays(LadderWatchView *view, guint at, LadderWatchRow *row)
 {
 	LadderWatchRow *old = row_at(view, at);
-	const bool same = row_equal(old, row);
+	const bool same = watch_row_equal(old, row);
 
 	g_object_unref(old);
 	return same;
@@ -340,7 +249,7 @@ static void set_class(GtkWidget *widget, const char *class, bool is)
 
 static void show_value(LadderWatchRow *row)
 {
-	char *text = row_value(row);
+	char *text = watch_row_value(row);
 
 	gtk_label_set_text(GTK_LABEL(row->value), text);
 	tip_set(row->value, text);
@@ -385,7 +294,7 @@ static void refresh(LadderWatchView *view)
 	view->dirty = false;
 	fill_charts(view, charts);
 	for (guint i = 0; chart && i < chart->lines->len; i++)
-		g_ptr_array_add(rows, row_new(chart->lines->pdata[i],
+		g_ptr_array_add(rows, watch_row_new(chart->lines->pdata[i],
 							   image_of(view)));
 	exchange(view, rows);
 	look(view);
@@ -445,7 +354,7 @@ static bool take_typed(LadderWatchView *view, LadderWatchRow *row, struct iec_te
 	}
 	if (view->dirty)
 		refresh(view);
-	if (row_parse(row, image, room, value, &why))
+	if (watch_row_parse(row, image, room, value, &why))
 		return true;
 	refuse(view, row, why);
 	return false;
@@ -953,7 +862,7 @@ static void setup(gpointer column, GtkListItem *item)
 
 static void bind_name(GtkWidget *cell, LadderWatchRow *row)
 {
-	const bool unknown = row_is_unknown(row);
+	const bool unknown = watch_row_is_unknown(row);
 	char *tip = unknown ? g_strdup_printf(_("\"%s\" is not declared in the program"),
 					      row->line->name) : NULL;
 
@@ -969,7 +878,7 @@ static void bind_type(GtkWidget *cell, LadderWatchRow *row)
 {
 	gtk_label_set_text(GTK_LABEL(cell), row->at.type != IEC_NONE ?
 			   iec_type_row(row->at.type)->word :
-			   row_is_unknown(row) ? _("unknown") : "");
+			   watch_row_is_unknown(row) ? _("unknown") : "");
 }
 
 static void bind_format(GtkWidget *cell, LadderWatchRow *row)
@@ -1132,8 +1041,9 @@ static void ladder_watch_view_class_init(LadderWatchViewClass *class)
 		"/org/rungboard/Editor/ui/watch_view.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderWatchView, name)
 	CHILD(box); CHILD(charts); CHILD(add_button); CHILD(stack); CHILD(empty);
-	CHILD(bar); CHILD(message); CHILD(list);
+	CHILD(list);
 #undef CHILD
+	panel_bind_message(widget, LadderWatchView);
 	gtk_widget_class_bind_template_callback(widget, chart_chosen);
 	gtk_widget_class_bind_template_callback(widget, activated);
 	install_actions(widget);
@@ -1144,6 +1054,7 @@ static void ladder_watch_view_init(LadderWatchView *view)
 	GtkDropTarget *drop = gtk_drop_target_new(G_TYPE_STRING, GDK_ACTION_COPY);
 
 	gtk_widget_init_template(GTK_WIDGET(view));
+	panel_message_init(&view->message, view->message.label);
 	view->store = g_list_store_new(LADDER_TYPE_WATCH_ROW);
 	view->selection = gtk_single_selection_new(g_object_ref(G_LIST_MODEL(view->store)));
 	gtk_single_selection_set_autoselect(view->selection, FALSE);

@@ -8,24 +8,9 @@
 #ifndef EDITOR_WATCH_VIEW_H
 #define EDITOR_WATCH_VIEW_H
 
-#include "editor-gtk/live/watch.h"
+#include "editor-gtk/live/watch_row.h"
 
 #include <gtk/gtk.h>
-
-/* A row of the chart; its fields are for the view and tests. */
-#define LADDER_TYPE_WATCH_ROW (ladder_watch_row_get_type())
-G_DECLARE_FINAL_TYPE(LadderWatchRow, ladder_watch_row, LADDER, WATCH_ROW, GObject)
-
-struct _LadderWatchRow {
-	GObject parent_instance;
-	struct watch_line *line;
-	bool asked;             /* there was a program in which to find it     */
-	struct location at;     /* type IEC_NONE: not found                    */
-	struct live_seen seen;  /* as it is shown                             */
-	char *typed;            /* the new value; "": none                     */
-	/* Its cells while they are on screen; borrowed. */
-	GtkWidget *value, *fresh, *force;
-};
 
 #define LADDER_TYPE_WATCH_VIEW (ladder_watch_view_get_type())
 G_DECLARE_FINAL_TYPE(LadderWatchView, ladder_watch_view, LADDER, WATCH_VIEW, GtkWidget)

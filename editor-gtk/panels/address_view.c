@@ -12,15 +12,13 @@
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 
-#include <adwaita.h>
-#include <string.h>
 
 /* Texts of a row; its index is the number of its struct address_row. */
 enum { MAP_BYTES, MAP_NAMES };
 
 struct _LadderAddressView {
 	GtkBox parent_instance;
-	GtkWidget *stack, *areas, *kinds;
+	GtkWidget *stack, *areas, *kinds, *legend;
 	struct panel_list list;
 	struct panel_watch *watch;
 	struct address_rows *rows;
@@ -41,9 +39,12 @@ static const struct { const char *name, *style, *mark; } states[ADDRESS_STATES] 
 
 /* ---- rows ---- */
 
-/* Has a cell of the row this state? ADDRESS_STATES: any row has. */
+/* Has a cell of the row this state? ADDRESS_STATES: any row has. What an index may reach is
+ * shown also where it is used. */
 static bool has_state(const LadderAddressView *view, int row, guint state)
 {
+	if (state == ADDRESS_REACHED)
+		return address_is_reached(view->rows, row);
 	for (int i = 0; i < ADDRESS_COLUMNS && state < ADDRESS_STATES; i++)
 		if (address_state_of(view->rows, row, i) == (enum address_state)state)
 			return true;
@@ -66,7 +67,7 @@ static LadderPanelRow *row_new(const LadderAddressView *view, int number)
 static guint wanted_state(const LadderAddressView *view)
 {
 	static const guint state[] = { ADDRESS_STATES, ADDRESS_SEVERAL, ADDRESS_TWICE,
-				       ADDRESS_UNUSED, ADDRESS_FREE };
+				       ADDRESS_UNUSED, ADDRESS_REACHED, ADDRESS_FREE };
 	const guint at = gtk_drop_down_get_selected(GTK_DROP_DOWN(view->kinds));
 
 	return at < G_N_ELEMENTS(state) ? state[at] : ADDRESS_STATES;
@@ -133,23 +134,16 @@ static void refresh(GtkWidget *widget)
 	LadderAddressView *view = LADDER_ADDRESS_VIEW(widget);
 	int field;
 	LadderPanelRow *row = cells_focused(view->list.view, &field);
-	char *bytes = row ? g_strdup(panel_row_text(row, MAP_BYTES)) : NULL;
 
+	if (row)
+		g_object_ref(row);
 	address_rows_free(view->rows);
 	view->rows = address_rows_new(panel_watch_document(view->watch));
 	fill_areas(view);
 	fill_rows(view);
-	for (guint i = 0; bytes && i < g_list_model_get_n_items(G_LIST_MODEL(view->list.selection));
-	     i++) {
-		row = g_list_model_get_item(G_LIST_MODEL(view->list.selection), i);
-		g_object_unref(row); /* the list has a reference */
-		if (strcmp(panel_row_text(row, MAP_BYTES), bytes) != 0)
-			continue;
-		panel_list_go(&view->list, i);
-		cells_enter(view->list.view, row, field);
-		break;
-	}
-	g_free(bytes);
+	if (row && panel_list_select(&view->list, panel_row_is_like, row))
+		cells_enter(view->list.view, panel_list_row(&view->list), field);
+	g_clear_object(&row);
 }
 
 void ladder_address_view_enter(LadderAddressView *view)
@@ -338,7 +332,6 @@ static void add_cells(LadderAddressView *view, const char *name, int column)
 static void add_columns(LadderAddressView *view)
 {
 	static const char *const wide[] = { "B", "W", "D", "L" };
-	GListModel *columns;
 
 	panel_list_column(&view->list, _("Bytes"), MAP_BYTES, 0, 170);
 	for (int bit = 7; bit >= 0; bit--) {
@@ -350,66 +343,10 @@ static void add_columns(LadderAddressView *view)
 	for (int i = 0; i < (int)G_N_ELEMENTS(wide); i++)
 		add_cells(view, wide[i], ADDRESS_BYTE + i);
 	panel_list_column(&view->list, _("Names"), MAP_NAMES, PANEL_EXPAND, 0);
-	columns = gtk_column_view_get_columns(view->list.view);
-	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
-		GtkColumnViewColumn *each = g_list_model_get_item(columns, i);
-
-		gtk_column_view_column_set_sorter(each, NULL); /* memory has its order */
-		g_object_unref(each);
-	}
+	panel_list_unsort(&view->list); /* memory has its order */
 }
 
 /* ---- the widget ---- */
-
-static GtkWidget *drop_new(LadderAddressView *view, const char *name)
-{
-	GtkWidget *drop = gtk_drop_down_new(NULL, NULL);
-
-	spoken_name(drop, name);
-	g_signal_connect(drop, "notify::selected", G_CALLBACK(choice_changed), view);
-	return drop;
-}
-
-static void fill_kinds(LadderAddressView *view)
-{
-	static const char *const names[] = { N_("All rows"), N_("Used by several"),
-		N_("Written twice"), N_("Declared, never used"), N_("Free") };
-	GPtrArray *list = g_ptr_array_new();
-
-	for (gsize i = 0; i < G_N_ELEMENTS(names); i++)
-		g_ptr_array_add(list, (gpointer)_(names[i]));
-	view->busy = true;
-	drop_fill(GTK_DROP_DOWN(view->kinds), list);
-	view->busy = false;
-	g_ptr_array_unref(list);
-}
-
-static void set_margins(GtkWidget *widget, int px)
-{
-	gtk_widget_set_margin_top(widget, px);
-	gtk_widget_set_margin_bottom(widget, px);
-	gtk_widget_set_margin_start(widget, px);
-	gtk_widget_set_margin_end(widget, px);
-}
-
-static GtkWidget *bar_new(LadderAddressView *view)
-{
-	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
-	GtkWidget *search = gtk_search_entry_new();
-
-	view->areas = drop_new(view, _("Area"));
-	view->kinds = drop_new(view, _("Rows that are shown"));
-	fill_kinds(view);
-	gtk_widget_set_hexpand(search, TRUE);
-	g_object_set(search, "placeholder-text", _("Filter"), NULL);
-	spoken_name(search, _("Filter the addresses"));
-	g_signal_connect(search, "search-changed", G_CALLBACK(search_changed), view);
-	gtk_box_append(GTK_BOX(bar), view->areas);
-	gtk_box_append(GTK_BOX(bar), view->kinds);
-	gtk_box_append(GTK_BOX(bar), search);
-	set_margins(bar, 6);
-	return bar;
-}
 
 static GtkWidget *legend_entry(enum address_state state)
 {
@@ -425,47 +362,13 @@ static GtkWidget *legend_entry(enum address_state state)
 	return entry;
 }
 
-/* In a narrow window it has several lines. */
-static GtkWidget *legend_new(void)
+static void add_keys(LadderAddressView *view)
 {
-	GtkWidget *legend = gtk_flow_box_new();
-
-	gtk_flow_box_set_selection_mode(GTK_FLOW_BOX(legend), GTK_SELECTION_NONE);
-	gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(legend), ADDRESS_STATES);
-	gtk_flow_box_set_column_spacing(GTK_FLOW_BOX(legend), 9);
-	for (int i = 0; i < ADDRESS_STATES; i++)
-		gtk_flow_box_insert(GTK_FLOW_BOX(legend), legend_entry((enum address_state)i), -1);
-	gtk_widget_set_can_focus(legend, FALSE);
-	set_margins(legend, 6);
-	return legend;
-}
-
-static GtkWidget *list_new(LadderAddressView *view)
-{
-	GtkWidget *list = gtk_column_view_new(NULL), *scroller = gtk_scrolled_window_new();
 	GtkEventController *keys = gtk_event_controller_key_new();
 
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(list));
-	add_columns(view);
-	gtk_widget_add_css_class(list, "data-table");
-	gtk_widget_add_css_class(list, "address-map");
-	spoken_name(list, _("Address map"));
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
 	g_signal_connect_swapped(keys, "key-pressed", G_CALLBACK(key_pressed), view);
-	gtk_widget_add_controller(list, keys);
-	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), list);
-	gtk_widget_set_vexpand(scroller, TRUE);
-	return scroller;
-}
-
-static GtkWidget *none_new(void)
-{
-	GtkWidget *page = adw_status_page_new();
-
-	adw_status_page_set_title(ADW_STATUS_PAGE(page), _("No addresses"));
-	adw_status_page_set_description(ADW_STATUS_PAGE(page),
-		_("The program uses no address such as %IX0.0, and no variable has one."));
-	return page;
+	gtk_widget_add_controller(GTK_WIDGET(view->list.view), keys);
 }
 
 static void dispose(GObject *object)
@@ -481,22 +384,32 @@ static void dispose(GObject *object)
 
 static void ladder_address_view_class_init(LadderAddressViewClass *class)
 {
+	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+
 	G_OBJECT_CLASS(class)->dispose = dispose;
+	gtk_widget_class_set_template_from_resource(widget,
+		"/org/rungboard/Editor/ui/address_view.ui");
+	gtk_widget_class_bind_template_child(widget, LadderAddressView, stack);
+	gtk_widget_class_bind_template_child(widget, LadderAddressView, areas);
+	gtk_widget_class_bind_template_child(widget, LadderAddressView, kinds);
+	gtk_widget_class_bind_template_child(widget, LadderAddressView, legend);
+	panel_bind_list(widget, LadderAddressView);
+	gtk_widget_class_bind_template_callback(widget, choice_changed);
+	gtk_widget_class_bind_template_callback(widget, search_changed);
 }
 
 static void ladder_address_view_init(LadderAddressView *view)
 {
-	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-
 	view->area = g_array_new(FALSE, FALSE, sizeof(int));
-	gtk_box_append(GTK_BOX(box), bar_new(view));
-	gtk_box_append(GTK_BOX(box), list_new(view));
-	gtk_box_append(GTK_BOX(box), legend_new());
-	view->stack = gtk_stack_new();
-	gtk_stack_add_named(GTK_STACK(view->stack), box, "map");
-	gtk_stack_add_named(GTK_STACK(view->stack), none_new(), "none");
-	gtk_widget_set_hexpand(view->stack, TRUE);
-	gtk_box_append(GTK_BOX(view), view->stack);
+	view->busy = true;
+	gtk_widget_init_template(GTK_WIDGET(view));
+	view->busy = false;
+	panel_list_init(&view->list, view->list.view);
+	add_columns(view);
+	add_keys(view);
+	for (int i = 0; i < ADDRESS_STATES; i++)
+		gtk_flow_box_insert(GTK_FLOW_BOX(view->legend),
+				    legend_entry((enum address_state)i), -1);
 	view->watch = panel_watch_new(GTK_WIDGET(view), false, refresh);
 }
 

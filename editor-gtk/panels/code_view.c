@@ -79,19 +79,20 @@ GtkWidget *ladder_code_view_new(LadderDocument *document, LadderSim *sim)
 {
 	GtkSourceBuffer *buffer = gtk_source_buffer_new(NULL);
 	GtkWidget *scroller = gtk_scrolled_window_new();
-	GtkWidget *text = gtk_source_view_new_with_buffer(buffer);
+	LadderLineValues *values = line_values_new(buffer);
+	GtkWidget *text = GTK_WIDGET(values);
 	struct code_view *code = g_new0(struct code_view, 1);
 
 	code->document = g_object_ref(document);
 	code->text = text;
 	code->stale = true;
 	code->buffer = GTK_TEXT_BUFFER(buffer);
-	code->values = line_values_add(GTK_SOURCE_VIEW(text), sim);
+	code->values = values;
+	line_values_set_sim(values, sim);
 	gtk_source_buffer_set_language(buffer, text_language());
 	text_scheme_follow(buffer);
 	g_object_unref(buffer);
 	gtk_text_view_set_editable(GTK_TEXT_VIEW(text), FALSE);
-	gtk_text_view_set_monospace(GTK_TEXT_VIEW(text), TRUE);
 	gtk_text_view_set_left_margin(GTK_TEXT_VIEW(text), 14);
 	spoken_name(text, _("Instruction list"));
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), text);

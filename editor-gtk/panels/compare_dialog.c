@@ -8,6 +8,7 @@
 #include "editor-gtk/kit/i18n.h"
 
 #include <adwaita.h>
+#include <string.h>
 
 struct _LadderCompareDialog {
 	GtkWindow parent_instance;
@@ -19,7 +20,7 @@ struct _LadderCompareDialog {
 
 G_DEFINE_FINAL_TYPE(LadderCompareDialog, ladder_compare_dialog, GTK_TYPE_WINDOW)
 
-enum { SAVED, FILE_WANTED, REVISION, SIGNALS };
+enum { SAVED, FILE_WANTED, FILES_WANTED, REVISION, SIGNALS };
 static guint signals[SIGNALS];
 
 /* ---- rows ---- */
@@ -59,52 +60,62 @@ static GtkWidget *group_new(GtkWidget *page, const char *title)
 
 /* ---- what is chosen ---- */
 
-static void end(LadderCompareDialog *dialog, guint signal, const char *hash, const char *name)
+static void end(LadderCompareDialog *dialog, guint signal)
 {
 	g_object_ref(dialog);
 	gtk_window_close(GTK_WINDOW(dialog));
-	if (signal == REVISION)
-		g_signal_emit(dialog, signals[signal], 0, hash, name);
-	else
-		g_signal_emit(dialog, signals[signal], 0);
+	g_signal_emit(dialog, signals[signal], 0);
 	g_object_unref(dialog);
 }
 
 static void saved_chosen(LadderCompareDialog *dialog)
 {
-	end(dialog, SAVED, NULL, NULL);
+	end(dialog, SAVED);
 }
 
 static void file_chosen(LadderCompareDialog *dialog)
 {
-	end(dialog, FILE_WANTED, NULL, NULL);
+	end(dialog, FILE_WANTED);
+}
+
+static void files_chosen(LadderCompareDialog *dialog)
+{
+	end(dialog, FILES_WANTED);
 }
 
 static void revision_chosen(GtkWidget *row)
 {
-	char *hash = g_strdup(g_object_get_data(G_OBJECT(row), "hash"));
-	char *name = g_strdup(g_object_get_data(G_OBJECT(row), "name"));
+	LadderCompareDialog *dialog = LADDER_COMPARE_DIALOG(gtk_widget_get_ancestor(row,
+		LADDER_TYPE_COMPARE_DIALOG));
 
-	end(LADDER_COMPARE_DIALOG(gtk_widget_get_ancestor(row, LADDER_TYPE_COMPARE_DIALOG)),
-	    REVISION, hash, name);
-	g_free(hash);
-	g_free(name);
+	g_object_ref(dialog);
+	g_object_ref(row);
+	gtk_window_close(GTK_WINDOW(dialog));
+	g_signal_emit(dialog, signals[REVISION], 0, g_object_get_data(G_OBJECT(row), "hash"),
+		      g_object_get_data(G_OBJECT(row), "file"),
+		      g_object_get_data(G_OBJECT(row), "name"));
+	g_object_unref(row);
+	g_object_unref(dialog);
 }
 
 /* ---- revisions ---- */
 
 static void add_revision(LadderCompareDialog *dialog, const struct git_revision *revision)
 {
-	char *subtitle = g_strdup_printf("%s · %s", revision->brief, revision->date);
-	char *base = g_path_get_basename(dialog->path);
+	char *base = g_path_get_basename(dialog->path), *then = g_path_get_basename(revision->name);
+	char *subtitle = strcmp(base, then) == 0 ?
+		g_strdup_printf("%s · %s", revision->brief, revision->date) :
+		g_strdup_printf("%s · %s · %s", revision->brief, revision->date, then);
 	GtkWidget *row = row_new(dialog->revisions, revision->subject, subtitle);
 
 	gtk_list_box_row_set_activatable(GTK_LIST_BOX_ROW(row), TRUE);
 	adw_action_row_set_title_lines(ADW_ACTION_ROW(row), 1);
 	g_object_set_data_full(G_OBJECT(row), "hash", g_strdup(revision->hash), g_free);
-	g_object_set_data_full(G_OBJECT(row), "name", g_strdup_printf("%s, %s, %s", base,
+	g_object_set_data_full(G_OBJECT(row), "file", g_strdup(revision->name), g_free);
+	g_object_set_data_full(G_OBJECT(row), "name", g_strdup_printf("%s, %s, %s", then,
 		revision->brief, revision->date), g_free);
 	g_signal_connect(row, "activated", G_CALLBACK(revision_chosen), NULL);
+	g_free(then);
 	g_free(base);
 	g_free(subtitle);
 }
@@ -149,8 +160,11 @@ static void ladder_compare_dialog_class_init(LadderCompareDialogClass *class)
 				      G_TYPE_NONE, 0);
 	signals[FILE_WANTED] = g_signal_new("file", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL,
 					    NULL, G_TYPE_NONE, 0);
+	signals[FILES_WANTED] = g_signal_new("files", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL,
+					     NULL, G_TYPE_NONE, 0);
 	signals[REVISION] = g_signal_new("revision", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL,
-					 NULL, G_TYPE_NONE, 2, G_TYPE_STRING, G_TYPE_STRING);
+					 NULL, G_TYPE_NONE, 3, G_TYPE_STRING, G_TYPE_STRING,
+					 G_TYPE_STRING);
 	gtk_widget_class_add_binding_action(widget, GDK_KEY_Escape, 0, "window.close", NULL);
 }
 
@@ -158,6 +172,7 @@ static void ladder_compare_dialog_init(LadderCompareDialog *dialog)
 {
 	dialog->cancel = g_cancellable_new();
 	gtk_window_set_title(GTK_WINDOW(dialog), _("Compare with"));
+	gtk_window_set_titlebar(GTK_WINDOW(dialog), adw_header_bar_new());
 	gtk_window_set_modal(GTK_WINDOW(dialog), TRUE);
 	gtk_window_set_default_size(GTK_WINDOW(dialog), 560, 520);
 }
@@ -173,6 +188,8 @@ static void fill(LadderCompareDialog *dialog)
 	gtk_widget_set_sensitive(row, base != NULL);
 	choice_new(group, _("Another file…"), _("Rung files and ClassicLadder projects"),
 		   G_CALLBACK(file_chosen), dialog);
+	choice_new(group, _("Two other files…"), _("The older one first, then the newer one"),
+		   G_CALLBACK(files_chosen), dialog);
 	dialog->revisions = group_new(page, _("Revisions in git"));
 	dialog->reading = row_new(dialog->revisions, base ? _("Asking git…") :
 				  _("Only a saved file can have revisions."), "");

@@ -3,8 +3,8 @@
  * compare_dialog - asks which version the document is compared with: as saved, another file,
  * a revision in git.
  *
- * Signals: "saved" (), "file" (), "revision" (hash, name for a person). The dialog closes
- * before.
+ * Signals: "saved" (), "file" (), "files" (): two others, "revision" (hash, name of the file then, name
+ * for a person). The dialog closes before.
  */
 #ifndef EDITOR_COMPARE_DIALOG_H
 #define EDITOR_COMPARE_DIALOG_H

@@ -4,7 +4,9 @@
  */
 #include "editor-gtk/panels/compare_view.h"
 
+#include "editor-gtk/document/iomap_beside.h"
 #include "editor-gtk/document/panel.h"
+#include "editor-gtk/document/side_file.h"
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
@@ -32,6 +34,8 @@ struct _LadderCompareView {
 	struct panel_watch *watch;
 	LadderDocument *document;
 	struct compare_side older;      /* text NULL: read from its file        */
+	struct compare_side newer;      /* name NULL: the document             */
+	GPtrArray *monitors;            /* of the files that are compared       */
 	struct comparison *of;
 	guint scrolling, turning;       /* sources                              */
 	bool filling;
@@ -123,7 +127,8 @@ static void show_row(LadderCompareView *view)
 		return;
 	gtk_label_set_text(GTK_LABEL(view->count), count);
 	gtk_widget_action_set_enabled(GTK_WIDGET(view), "compare.go", row &&
-		compare_row_place(row, ladder_project(view->of->of_b), place));
+		(view->newer.name || row->map ||
+		 compare_row_place(row, ladder_project(view->of->of_b), place)));
 	gtk_widget_action_set_enabled(GTK_WIDGET(view), "compare.previous", row && at > 0);
 	gtk_widget_action_set_enabled(GTK_WIDGET(view), "compare.next", row && at + 1 < all);
 	show_pictures(view);
@@ -230,15 +235,33 @@ static char *name_of(LadderDocument *document)
 	return name;
 }
 
+/* The text of the I/O map if it is open, saved or not; NULL: it is not. Caller frees. */
+static char *open_map(LadderDocument *document)
+{
+	char *path = iomap_beside(ladder_document_path(document));
+	LadderSideFile *file = path ? side_file_find(document, path) : NULL;
+	char *text = file ? ladder_side_file_text(file) : NULL;
+
+	g_free(path);
+	return text;
+}
+
+static struct compare_side document_side(LadderCompareView *view)
+{
+	struct compare_side side = { name_of(view->document),
+		g_strdup(ladder_document_path(view->document)), NULL, 0, NULL,
+		open_map(view->document) };
+
+	side.text = ladder_document_text(view->document, &side.len);
+	return side;
+}
+
 static struct comparison *compare(LadderCompareView *view)
 {
-	struct compare_side a = { g_strdup(view->older.name), g_strdup(view->older.path),
-		view->older.text ? g_memdup2(view->older.text, view->older.len + 1) : NULL,
-		view->older.len };
-	struct compare_side b = { name_of(view->document),
-				  g_strdup(ladder_document_path(view->document)), NULL, 0 };
+	struct compare_side a = compare_side_copy(&view->older);
+	struct compare_side b = view->newer.name ? compare_side_copy(&view->newer) :
+				document_side(view);
 
-	b.text = ladder_document_text(view->document, &b.len);
 	return comparison_new(&a, &b);
 }
 
@@ -319,11 +342,54 @@ static void refresh(GtkWidget *widget)
 	show_row(view);
 }
 
-void ladder_compare_view_show(LadderCompareView *view, struct compare_side *older)
+/* ---- files that change ---- */
+
+static void written(LadderCompareView *view)
 {
+	panel_watch_later(view->watch);
+}
+
+static void watch_file(LadderCompareView *view, const char *path)
+{
+	GFile *file = path ? g_file_new_for_path(path) : NULL;
+	GFileMonitor *monitor = file ? g_file_monitor_file(file, G_FILE_MONITOR_NONE, NULL, NULL) :
+				NULL;
+
+	if (monitor) {
+		g_signal_connect_object(monitor, "changed", G_CALLBACK(written), view,
+					G_CONNECT_SWAPPED);
+		g_ptr_array_add(view->monitors, monitor);
+	}
+	g_clear_object(&file);
+}
+
+static void watch_side(LadderCompareView *view, const struct compare_side *side)
+{
+	char *map = side->path && !side->files ? iomap_beside(side->path) : NULL;
+
+	if (!side->text)
+		watch_file(view, side->path);
+	watch_file(view, map);
+	g_free(map);
+}
+
+void ladder_compare_view_show(LadderCompareView *view, struct compare_side *older,
+			      struct compare_side *newer)
+{
+	const struct compare_side document = { .path = (char *)ladder_document_path(
+		view->document), .text = (char *)"" };
+
 	compare_side_clear(&view->older);
+	compare_side_clear(&view->newer);
 	view->older = *older;
 	*older = (struct compare_side){ 0 };
+	if (newer) {
+		view->newer = *newer;
+		*newer = (struct compare_side){ 0 };
+	}
+	g_ptr_array_set_size(view->monitors, 0);
+	watch_side(view, &view->older);
+	watch_side(view, view->newer.name ? &view->newer : &document);
 	gtk_single_selection_set_selected(view->selection, GTK_INVALID_LIST_POSITION);
 	refresh(GTK_WIDGET(view));
 }
@@ -357,6 +423,15 @@ static void step(GtkWidget *widget, const char *name, GVariant *unused)
 				 strcmp(name, "compare.previous") == 0);
 }
 
+static void go_to_map(LadderCompareView *view)
+{
+	char *map = iomap_beside(ladder_document_path(view->document));
+
+	if (map)
+		gtk_widget_activate_action(GTK_WIDGET(view), "win.open-text", "s", map);
+	g_free(map);
+}
+
 static void go(GtkWidget *widget, const char *name, GVariant *unused)
 {
 	LadderCompareView *view = LADDER_COMPARE_VIEW(widget);
@@ -365,7 +440,11 @@ static void go(GtkWidget *widget, const char *name, GVariant *unused)
 
 	(void)name;
 	(void)unused;
-	if (row && compare_row_place(row, ladder_project(view->of->of_b), place))
+	if (row && row->map && !view->newer.name)
+		go_to_map(view);
+	else if (row && view->newer.name)
+		gtk_widget_activate_action(widget, "win.open-path", "s", view->newer.path);
+	else if (row && compare_row_place(row, ladder_project(view->of->of_b), place))
 		gtk_widget_activate_action(widget, "win.go-to", "(iiii)", place[0], place[1],
 					   place[2], place[3]);
 }
@@ -413,6 +492,8 @@ static void dispose(GObject *object)
 	g_clear_object(&view->store);
 	g_clear_pointer(&view->of, comparison_free);
 	compare_side_clear(&view->older);
+	compare_side_clear(&view->newer);
+	g_clear_pointer(&view->monitors, g_ptr_array_unref);
 	G_OBJECT_CLASS(ladder_compare_view_parent_class)->dispose(object);
 }
 
@@ -460,6 +541,7 @@ static void ladder_compare_view_init(LadderCompareView *view)
 	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
 
 	gtk_widget_init_template(GTK_WIDGET(view));
+	view->monitors = g_ptr_array_new_with_free_func(g_object_unref);
 	view->picture[0] = ladder_picture_view_new(draw_older, view);
 	view->picture[1] = ladder_picture_view_new(draw_newer, view);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(view->place_a), view->picture[0]);
@@ -478,19 +560,13 @@ static void ladder_compare_view_init(LadderCompareView *view)
 	view->watch = panel_watch_new(GTK_WIDGET(view), false, refresh);
 }
 
-/* Saving changes the file that may be the older version. */
-static void saved(LadderCompareView *view)
-{
-	if (!view->older.text)
-		panel_watch_later(view->watch);
-}
-
 GtkWidget *ladder_compare_view_new(LadderDocument *document)
 {
 	LadderCompareView *view = g_object_new(LADDER_TYPE_COMPARE_VIEW, NULL);
 
 	view->document = g_object_ref(document);
 	panel_watch_set(view->watch, document);
-	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(saved), view);
+	/* Saving changes the older version, typing in an I/O map the newer one. */
+	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(written), view);
 	return GTK_WIDGET(view);
 }

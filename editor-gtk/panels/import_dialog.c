@@ -118,7 +118,7 @@ static void ladder_import_dialog_class_init(LadderImportDialogClass *class)
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/import_dialog.ui");
 	gtk_widget_class_bind_template_child(widget, LadderImportDialog, summary);
-	gtk_widget_class_bind_template_child_full(widget, "view", FALSE, 0);
+	panel_bind_list(widget, LadderImportDialog);
 	gtk_widget_class_install_action(widget, "import.apply", NULL, apply);
 	gtk_widget_class_install_action(widget, "import.cancel", NULL, cancel);
 	gtk_widget_class_bind_template_callback(widget, row_activated);
@@ -131,8 +131,7 @@ static void ladder_import_dialog_class_init(LadderImportDialogClass *class)
 static void ladder_import_dialog_init(LadderImportDialog *dialog)
 {
 	gtk_widget_init_template(GTK_WIDGET(dialog));
-	panel_list_init(&dialog->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		GTK_WIDGET(dialog), LADDER_TYPE_IMPORT_DIALOG, "view")));
+	panel_list_init(&dialog->list, dialog->list.view);
 	panel_list_column(&dialog->list, "", IMPORT_ACTION, PANEL_ICON, 0);
 	panel_list_column(&dialog->list, _("Line"), IMPORT_LINE, PANEL_NUMBER, 70);
 	panel_list_column(&dialog->list, _("Symbol"), IMPORT_NAME, 0, 170);

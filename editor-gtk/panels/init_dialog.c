@@ -31,6 +31,7 @@ struct dialog {
 	struct panel_list list;   /* only its view and selection are used       */
 	struct panel_cells cells;
 	GtkTreeListModel *tree;   /* belongs to the selection                   */
+	GListModel *root;         /* the one row of the variable; of the tree    */
 	GtkWidget *text, *why;
 	GtkWidget *from;          /* a weak pointer                             */
 };
@@ -75,6 +76,13 @@ static LadderPanelRow *row_new(struct dialog *dialog, struct init_node *node,
 	return row;
 }
 
+/* The rows below one that was unfolded; NULL: it never was. Borrowed. */
+static GListModel *rows_below(gpointer row)
+{
+	return g_object_get_data(G_OBJECT(row), "below");
+}
+
+/* A row that is folded keeps those below it, with the texts that were refused there. */
 static GListModel *parts_of(gpointer item, gpointer data)
 {
 	struct dialog *dialog = data;
@@ -84,6 +92,8 @@ static GListModel *parts_of(gpointer item, gpointer data)
 
 	if (!node->parts)
 		return NULL;
+	if (rows_below(item))
+		return g_object_ref(rows_below(item));
 	store = g_list_store_new(LADDER_TYPE_PANEL_ROW);
 	parts = init_node_parts(dialog->form, node);
 	for (guint i = 0; i < parts->len; i++) {
@@ -92,6 +102,7 @@ static GListModel *parts_of(gpointer item, gpointer data)
 		g_list_store_append(store, row);
 		g_object_unref(row);
 	}
+	g_object_set_data_full(G_OBJECT(item), "below", g_object_ref(store), g_object_unref);
 	return G_LIST_MODEL(store);
 }
 
@@ -173,23 +184,54 @@ static int index_of(const struct dialog *dialog)
 	return -1;
 }
 
-/* Goes to the first value that is refused. False: none is. */
-static bool enter_refused(struct dialog *dialog)
+/* The first row in @rows, or below them, with a text that was refused; NULL: none. */
+static LadderPanelRow *find_refused(GListModel *rows)
 {
-	GListModel *rows = G_LIST_MODEL(dialog->list.selection);
+	LadderPanelRow *found = NULL;
 
-	for (guint i = 0; i < g_list_model_get_n_items(rows); i++) {
+	for (guint i = 0; rows && !found && i < g_list_model_get_n_items(rows); i++) {
 		LadderPanelRow *row = g_list_model_get_item(rows, i);
 
 		g_object_unref(row); /* the model has a reference */
-		if (!g_object_get_data(G_OBJECT(row), "refused"))
-			continue;
-		show_why(dialog, g_object_get_data(G_OBJECT(row), "why"));
-		gtk_single_selection_set_selected(dialog->list.selection, i);
-		cells_enter(dialog->list.view, row, INIT_VALUE);
-		return true;
+		found = g_object_get_data(G_OBJECT(row), "refused") ? row :
+			find_refused(rows_below(row));
 	}
-	return false;
+	return found;
+}
+
+/* Where a row is in the list; unfolds what it is below. */
+static guint place_of(struct dialog *dialog, LadderPanelRow *row)
+{
+	GListModel *rows = G_LIST_MODEL(dialog->tree);
+	LadderPanelRow *above = g_object_get_data(G_OBJECT(row), "above");
+	GtkTreeListRow *folded;
+
+	if (above) {
+		folded = gtk_tree_list_model_get_row(dialog->tree, place_of(dialog, above));
+		gtk_tree_list_row_set_expanded(folded, TRUE);
+		g_object_unref(folded);
+	}
+	for (guint i = 0; i < g_list_model_get_n_items(rows); i++) {
+		gpointer item = g_list_model_get_item(rows, i);
+
+		g_object_unref(item); /* the model has a reference */
+		if (item == row)
+			return i;
+	}
+	g_return_val_if_reached(0);
+}
+
+/* Goes to the first value that is refused. False: none is. */
+static bool enter_refused(struct dialog *dialog)
+{
+	LadderPanelRow *row = find_refused(dialog->root);
+
+	if (!row)
+		return false;
+	show_why(dialog, g_object_get_data(G_OBJECT(row), "why"));
+	gtk_single_selection_set_selected(dialog->list.selection, place_of(dialog, row));
+	cells_enter(dialog->list.view, row, INIT_VALUE);
+	return true;
 }
 
 static void apply(GtkWidget *window, const char *action, GVariant *unused)
@@ -304,7 +346,7 @@ static void bind_name(GtkSignalListItemFactory *factory, GtkListItem *item,
 static void unbind_name(GtkSignalListItemFactory *factory, GtkListItem *item)
 {
 	(void)factory;
-	gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(gtk_list_item_get_child(item)), NULL);
+	list_drop_row(GTK_TREE_EXPANDER(gtk_list_item_get_child(item)));
 }
 
 static void add_columns(struct dialog *dialog)
@@ -411,6 +453,7 @@ static GtkWidget *list_new(struct dialog *dialog)
 
 	g_list_store_append(root, row);
 	g_object_unref(row);
+	dialog->root = G_LIST_MODEL(root);
 	dialog->tree = gtk_tree_list_model_new(G_LIST_MODEL(root), TRUE, FALSE, parts_of, dialog,
 					       NULL);
 	unfold(dialog);

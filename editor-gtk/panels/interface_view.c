@@ -33,8 +33,9 @@ enum { BY_SCREEN, SHOWN, FOLDED };
 struct _LadderInterfaceView {
 	GtkWidget parent_instance;
 	LadderCanvas *canvas;    /* borrowed                                      */
-	GtkWidget *box, *arrow, *title, *summary, *body, *picture, *message;
+	GtkWidget *box, *arrow, *title, *summary, *body, *picture;
 	struct panel_list list;
+	struct panel_message message;
 	struct panel_cells cells;
 	struct panel_watch *watch;
 	bool placed;             /* its first state was set                       */
@@ -66,9 +67,7 @@ static int index_of_pou(LadderInterfaceView *view)
 /* @text: taken over; NULL: clears the message. */
 static void tell(LadderInterfaceView *view, char *text)
 {
-	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
-	gtk_widget_set_visible(view->message, text != NULL);
-	g_free(text);
+	panel_message_set(&view->message, document_of(view), text);
 }
 
 /* ---- the box ---- */
@@ -196,6 +195,7 @@ static void refresh(GtkWidget *widget)
 	const struct pou *pou = pou_of(view);
 
 	gtk_widget_set_visible(view->box, pou != NULL);
+	panel_message_age(&view->message, document_of(view));
 	if (!pou)
 		return;
 	show_summary(view, pou);
@@ -303,11 +303,6 @@ static const char *field_name(int field)
 	return symbol_field_name((enum field)field);
 }
 
-static bool is_named(const LadderPanelRow *row, gconstpointer name)
-{
-	return strcmp(panel_row_text(row, FIELD_NAME), name) == 0;
-}
-
 /* The selected pin; NULL: none, or the result. */
 static LadderPanelRow *selected(LadderInterfaceView *view)
 {
@@ -334,7 +329,7 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 	text[FIELD_NAME] = name;
 	if (symbol_add(document_of(view), table, kind, text, &why)) {
 		refresh(widget);
-		if (panel_list_select(&view->list, is_named, name))
+		if (panel_list_select(&view->list, panel_row_is_named, name))
 			cells_enter(view->list.view, panel_list_row(&view->list), FIELD_NAME);
 	}
 	tell(view, why);
@@ -361,7 +356,7 @@ static void move(GtkWidget *widget, const char *action, GVariant *unused)
 		       strcmp(action, "interface.up") == 0 ? -1 : 1);
 	if (!why) {
 		refresh(widget);
-		if (panel_list_select(&view->list, is_named, name) && field >= 0)
+		if (panel_list_select(&view->list, panel_row_is_named, name) && field >= 0)
 			cells_enter(view->list.view, panel_list_row(&view->list), field);
 	}
 	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL);
@@ -448,17 +443,6 @@ static void to_sheet(GtkWidget *widget, const char *action, GVariant *unused)
 
 /* ---- the widget ---- */
 
-static GtkWidget *button_new(const char *icon, const char *text, const char *action)
-{
-	GtkWidget *button = gtk_button_new_from_icon_name(icon);
-
-	gtk_widget_add_css_class(button, "flat");
-	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-	tip_set(button, text);
-	spoken_name(button, text);
-	return button;
-}
-
 static GMenu *add_menu(void)
 {
 	GMenu *menu = g_menu_new();
@@ -480,12 +464,12 @@ static GtkWidget *tools_new(void)
 	tip_set(more, _("Add a pin"));
 	spoken_name(more, _("Add a pin"));
 	gtk_box_append(GTK_BOX(box), more);
-	gtk_box_append(GTK_BOX(box), button_new("list-remove-symbolic", _("Delete the pin"),
-						"interface.delete"));
-	gtk_box_append(GTK_BOX(box), button_new("go-up-symbolic", _("Move the pin up"),
-						"interface.up"));
-	gtk_box_append(GTK_BOX(box), button_new("go-down-symbolic", _("Move the pin down"),
-						"interface.down"));
+	gtk_box_append(GTK_BOX(box), panel_button_new("list-remove-symbolic",
+		_("Delete the pin"), "interface.delete"));
+	gtk_box_append(GTK_BOX(box), panel_button_new("go-up-symbolic", _("Move the pin up"),
+							"interface.up"));
+	gtk_box_append(GTK_BOX(box), panel_button_new("go-down-symbolic",
+		_("Move the pin down"), "interface.down"));
 	return box;
 }
 
@@ -557,17 +541,12 @@ static GtkWidget *body_new(LadderInterfaceView *view)
 	gtk_scrolled_window_set_propagate_natural_width(GTK_SCROLLED_WINDOW(around), TRUE);
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(around), GTK_POLICY_NEVER,
 				       GTK_POLICY_AUTOMATIC);
-	view->message = gtk_label_new("");
-	gtk_label_set_xalign(GTK_LABEL(view->message), 0);
-	gtk_label_set_wrap(GTK_LABEL(view->message), TRUE);
-	gtk_widget_add_css_class(view->message, "error");
-	gtk_widget_add_css_class(view->message, "interface-message");
-	gtk_widget_set_visible(view->message, FALSE);
+	panel_message_init(&view->message, GTK_LABEL(gtk_label_new(NULL)));
 	gtk_box_append(GTK_BOX(row), around);
 	gtk_box_append(GTK_BOX(row), tools_new());
 	gtk_box_append(GTK_BOX(row), table_new(view));
 	gtk_box_append(GTK_BOX(body), row);
-	gtk_box_append(GTK_BOX(body), view->message);
+	gtk_box_append(GTK_BOX(body), GTK_WIDGET(view->message.label));
 	return body;
 }
 

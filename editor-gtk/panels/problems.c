@@ -41,25 +41,18 @@ static char *declaration_text(const struct diag *diag)
 			   g_strdup(_("Symbols"));
 }
 
-/* @row: 0-based line of the text of POU @pou; -1: none. @col: 0-based column as shown. */
+/* @row: 0-based line of the text of POU @pou; -1: none. Without a project the sheet is the text
+ * of the file, where only its lines can be found. */
 static char *place_text(const struct diag *diag, const struct project *project, int pou, int row,
-			int col)
+			struct place_sheet *sheet)
 {
-	char column[PLACE_LETTERS], *part, *text;
-	bool whole = false;
-
-	if (diag->rung) {
-		part = project && pou >= 0 ? place_rung(project, pou, diag->rung - 1, &whole) :
-		       g_strdup(diag->pou);
-		text = whole ? g_strdup(part) : diag->row ?
-			g_strdup_printf(_("%s, rung %d, row %d, column %s"), part, diag->rung,
-					diag->row, place_column(col, column)) :
-			g_strdup_printf(_("%s, rung %d"), part, diag->rung);
-		g_free(part);
-		return text;
-	}
+	if (project && pou >= 0 && diag->rung)
+		return place_cell(sheet, project, pou, diag->rung - 1, diag->row - 1,
+				  diag->col - 1);
 	if (project && pou >= 0 && row >= 0)
 		return place_line(project, pou, row);
+	if (!project && diag->line)
+		return g_strdup_printf(_("line %d"), diag->line);
 	if (diag->pou)
 		return g_strdup(diag->pou);
 	return diag->line ? g_strdup_printf(_("line %d"), diag->line) : g_strdup("");
@@ -131,18 +124,15 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag,
 {
 	LadderPanelRow *row = ladder_panel_row_new();
 	const bool error = diag_severity(diag->id) == SEVERITY_ERROR;
-	int seen;
 
 	set_place(document, diag, row);
-	seen = place_shown(sheet, ladder_document_project(document), row->pou, row->rung,
-			   row->row, row->col);
 	row->tone = error ? PANEL_ERROR : PANEL_WARNING;
 	/* Either may be -1. */
 	row->number = ((gint64)row->pou * (1 << 20) + row->rung) * (1 << 20) + diag->line;
 	row->text[COLUMN_TEXT] = diag_said_whole(diag);
 	row->text[COLUMN_PLACE] = row->table >= 0 ? declaration_text(diag) :
 		place_text(diag, ladder_document_project(document), row->pou,
-			   diag->rung ? -1 : row->row, MAX(seen, 0));
+			   row->row, sheet);
 	row->text[COLUMN_CODE] = g_strdup(diag_code(diag->id));
 	row->text[COLUMN_SEVERITY] = g_strdup(error ? _("Error") : _("Warning"));
 	row->note = g_strdup(row->text[COLUMN_SEVERITY]);
@@ -165,6 +155,16 @@ static void set_title(LadderProblems *problems)
 	g_free(title);
 }
 
+/* Errors first, each kind by its place. */
+static int compare(gconstpointer left, gconstpointer right)
+{
+	const LadderPanelRow *a = *(LadderPanelRow *const *)left, *b = *(LadderPanelRow *const *)right;
+
+	if (a->tone != b->tone)
+		return a->tone == PANEL_ERROR ? -1 : 1;
+	return (a->number > b->number) - (a->number < b->number);
+}
+
 /* Also while hidden, because the tab shows the count. */
 static void refresh(LadderProblems *problems)
 {
@@ -175,6 +175,7 @@ static void refresh(LadderProblems *problems)
 
 	for (int i = 0; diags && i < diags->count; i++)
 		g_ptr_array_add(rows, row_of(document, &diags->diag[i], &sheet));
+	g_ptr_array_sort(rows, compare);
 	panel_list_update(&problems->list, rows);
 	problems->count = diags ? diags->count + diags->dropped : 0;
 	problems->errors = diags ? diags->errors : 0;
@@ -295,7 +296,7 @@ static void ladder_problems_class_init(LadderProblemsClass *class)
 	gtk_widget_class_set_template_from_resource(GTK_WIDGET_CLASS(class),
 		"/org/rungboard/Editor/ui/problems.ui");
 	gtk_widget_class_bind_template_child(GTK_WIDGET_CLASS(class), LadderProblems, stack);
-	gtk_widget_class_bind_template_child_full(GTK_WIDGET_CLASS(class), "view", FALSE, 0);
+	panel_bind_list(GTK_WIDGET_CLASS(class), LadderProblems);
 	gtk_widget_class_bind_template_callback(GTK_WIDGET_CLASS(class), activated);
 }
 
@@ -304,8 +305,7 @@ static void ladder_problems_init(LadderProblems *problems)
 	GtkWidget *widget = GTK_WIDGET(problems);
 
 	gtk_widget_init_template(widget);
-	panel_list_init(&problems->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		widget, LADDER_TYPE_PROBLEMS, "view")));
+	panel_list_init(&problems->list, problems->list.view);
 	panel_list_column(&problems->list, "", COLUMN_SEVERITY, PANEL_ICON, 0);
 	/* The name in quotes comes first, so long texts are cut at the end. */
 	panel_list_column(&problems->list, _("Problem"), COLUMN_TEXT,

@@ -8,13 +8,13 @@
 #include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/row_move.h"
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/panels/tree_rows.h"
 #include "editor-gtk/kit/verbs.h"
 
-#include <adwaita.h>
 #include <string.h>
 
 struct tree {
@@ -28,7 +28,6 @@ struct tree {
 	guint timer;       /* compares `shape` when it elapses                 */
 	LadderTreeRow *going; /* the row that was activated                    */
 	guint going_soon;  /* idle that goes there                             */
-	GtkWidget *marked; /* the row with the line of a drop; weak            */
 };
 
 /* Expands new headings. */
@@ -188,24 +187,35 @@ static const char *selected_type(struct tree *tree)
 	return row && row->kind == ROW_STRUCTURE ? row->text : NULL;
 }
 
+/* Its name; NULL: no task is selected. */
+static const char *selected_task(struct tree *tree)
+{
+	LadderTreeRow *row = row_at(tree,
+		gtk_single_selection_get_selected(tree->selection));
+
+	return row && row->kind == ROW_TASK ? row->text : NULL;
+}
+
 static void tell(struct tree *tree, const char *text)
 {
 	gtk_widget_activate_action(tree->list, "win.tell", "s", text);
 }
 
 /* Activates the action of the window for the selected row: "tree.rename" becomes
- * "win.rename-pou" or "win.rename-type". */
+ * "win.rename-pou", "win.rename-type" or "win.rename-task". */
 static void act_on_row(GSimpleAction *action, GVariant *unused, gpointer data)
 {
 	struct tree *tree = data;
 	const int pou = selected_pou(tree);
-	const char *type = selected_type(tree);
-	char *name = g_strdup_printf("win.%s-%s", g_action_get_name(G_ACTION(action)),
-				     type ? "type" : "pou");
+	const char *type = selected_type(tree), *task = selected_task(tree);
+	const char *act = g_action_get_name(G_ACTION(action));
+	char *name = g_strdup_printf("win.%s-%s", act, type ? "type" : task ? "task" : "pou");
 
 	(void)unused;
 	if (type)
 		gtk_widget_activate_action(tree->list, name, "s", type);
+	else if (task && (strcmp(act, "rename") == 0 || strcmp(act, "delete") == 0))
+		gtk_widget_activate_action(tree->list, name, "s", task);
 	else if (pou < 0)
 		tell(tree, _("Select a program, a block or a data type first"));
 	else
@@ -318,70 +328,6 @@ static void move_selected(GSimpleAction *action, GVariant *unused, gpointer data
 
 /* ---- dragging ---- */
 
-/* The list item at a point of the list; NULL: none. */
-static GtkWidget *item_at(struct tree *tree, double x, double y)
-{
-	GtkWidget *picked = gtk_widget_pick(tree->list, x, y, GTK_PICK_DEFAULT);
-	GtkWidget *expander = picked ?
-		gtk_widget_get_ancestor(picked, GTK_TYPE_TREE_EXPANDER) : NULL;
-
-	if (picked && picked != tree->list && !expander)
-		expander = gtk_widget_get_first_child(picked);
-	return expander && GTK_IS_TREE_EXPANDER(expander) ? expander : NULL;
-}
-
-static LadderTreeRow *row_of(GtkWidget *item)
-{
-	GtkTreeListRow *row = item ?
-		gtk_tree_expander_get_list_row(GTK_TREE_EXPANDER(item)) : NULL;
-	LadderTreeRow *of = row ? gtk_tree_list_row_get_item(row) : NULL;
-
-	if (of)
-		g_object_unref(of); /* the model has a reference */
-	return of;
-}
-
-static GdkContentProvider *drag_prepare(struct tree *tree, double x, double y)
-{
-	LadderTreeRow *row = row_of(item_at(tree, x, y));
-	const struct project *project = ladder_document_project(tree->document);
-
-	if (!row || row->kind != ROW_POU || project->pou[row->pou].included)
-		return NULL;
-	return gdk_content_provider_new_typed(LADDER_TYPE_TREE_ROW, row);
-}
-
-static void drag_begin(GtkDragSource *source, GdkDrag *drag)
-{
-	GdkContentProvider *content = gdk_drag_get_content(drag);
-	GValue value = G_VALUE_INIT;
-
-	(void)source;
-	g_value_init(&value, LADDER_TYPE_TREE_ROW);
-	if (gdk_content_provider_get_value(content, &value, NULL)) {
-		LadderTreeRow *row = g_value_get_object(&value);
-		GtkWidget *label = gtk_label_new(row->text);
-
-		gtk_widget_add_css_class(label, "dragged-row");
-		gtk_drag_icon_set_child(GTK_DRAG_ICON(gtk_drag_icon_get_for_drag(drag)), label);
-	}
-	g_value_unset(&value);
-}
-
-/* A line shows where it would go. */
-static void mark(struct tree *tree, GtkWidget *item, bool behind)
-{
-	GtkWidget *of_row = item ? gtk_widget_get_parent(item) : NULL;
-
-	if (tree->marked) {
-		gtk_widget_remove_css_class(tree->marked, "drop-above");
-		gtk_widget_remove_css_class(tree->marked, "drop-below");
-	}
-	g_set_weak_pointer(&tree->marked, of_row);
-	if (of_row)
-		gtk_widget_add_css_class(of_row, behind ? "drop-below" : "drop-above");
-}
-
 /* Rows are updated with a delay: their names are right, their indices may be old. */
 static int pou_of(struct tree *tree, const LadderTreeRow *row)
 {
@@ -391,87 +337,34 @@ static int pou_of(struct tree *tree, const LadderTreeRow *row)
 	       project_find_pou(project, row->text, strlen(row->text)) : -1;
 }
 
-/* The POU that is dragged; -1: none, or one of the tree of another window. */
-static int dragged_pou(struct tree *tree, const GValue *value)
+static const char *name_of(gpointer pointer, gpointer of)
 {
-	LadderTreeRow *row = value ? g_value_get_object(value) : NULL;
-	GListModel *root = G_LIST_MODEL(tree->root);
-	bool ours = false;
-
-	for (guint i = 0; row && !ours && i < g_list_model_get_n_items(root); i++) {
-		LadderTreeRow *heading = g_list_model_get_item(root, i);
-
-		ours = heading->rows && g_list_store_find(heading->rows, row, NULL);
-		g_object_unref(heading);
-	}
-	return ours ? pou_of(tree, row) : -1;
-}
-
-/* The POU at the point, if POU @dragged can go there; -1: it cannot. */
-static int place_at(struct tree *tree, int dragged, double x, double y, GtkWidget **item,
-		    bool *behind)
-{
+	const struct tree *tree = pointer;
 	const struct project *project = ladder_document_project(tree->document);
-	graphene_rect_t box;
-	int pou;
+	LadderTreeRow *row = of;
 
-	*item = item_at(tree, x, y);
-	pou = pou_of(tree, row_of(*item));
-	if (pou < 0 || dragged < 0 || pou == dragged || project->pou[pou].included ||
-	    (project->pou[pou].kind == POU_PROGRAM) !=
-	    (project->pou[dragged].kind == POU_PROGRAM) ||
-	    !gtk_widget_compute_bounds(gtk_widget_get_parent(*item), tree->list, &box))
-		return -1;
-	*behind = y > box.origin.y + box.size.height / 2;
-	return pou;
+	return row->kind == ROW_POU && !project->pou[row->pou].included ? row->text : NULL;
 }
 
-static GdkDragAction drag_over(GtkDropTarget *target, double x, double y, struct tree *tree)
+static bool fits(gpointer pointer, gpointer row, gpointer target, bool *below)
 {
-	GtkWidget *item;
-	bool behind = false;
-	const int dragged = dragged_pou(tree, gtk_drop_target_get_value(target));
-	const int at = place_at(tree, dragged, x, y, &item, &behind);
+	struct tree *tree = pointer;
+	const struct project *project = ladder_document_project(tree->document);
+	const int from = pou_of(tree, row), to = pou_of(tree, target);
 
-	mark(tree, at < 0 ? NULL : item, behind);
-	return at < 0 ? 0 : GDK_ACTION_MOVE;
+	(void)below;
+	return from >= 0 && to >= 0 && from != to && !project->pou[to].included &&
+	       (project->pou[from].kind == POU_PROGRAM) == (project->pou[to].kind == POU_PROGRAM);
 }
 
-static void drag_leave(struct tree *tree)
+static void move_to(gpointer tree, gpointer row, gpointer target, bool below)
 {
-	mark(tree, NULL, false);
+	move(tree, pou_of(tree, row), pou_of(tree, target), below);
 }
 
-static gboolean dropped(struct tree *tree, const GValue *value, double x, double y)
-{
-	GtkWidget *item;
-	bool behind = false;
-	const int dragged = dragged_pou(tree, value);
-	const int at = place_at(tree, dragged, x, y, &item, &behind);
-
-	mark(tree, NULL, false);
-	if (at < 0)
-		return FALSE;
-	move(tree, dragged, at, behind);
-	return TRUE;
-}
-
-static void add_drag(struct tree *tree)
-{
-	GtkDragSource *source = gtk_drag_source_new();
-	GtkDropTarget *target = gtk_drop_target_new(LADDER_TYPE_TREE_ROW, GDK_ACTION_MOVE);
-
-	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
-	g_signal_connect_swapped(source, "prepare", G_CALLBACK(drag_prepare), tree);
-	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), NULL);
-	gtk_drop_target_set_preload(target, TRUE);
-	g_signal_connect(target, "enter", G_CALLBACK(drag_over), tree);
-	g_signal_connect(target, "motion", G_CALLBACK(drag_over), tree);
-	g_signal_connect_swapped(target, "leave", G_CALLBACK(drag_leave), tree);
-	g_signal_connect_swapped(target, "drop", G_CALLBACK(dropped), tree);
-	gtk_widget_add_controller(tree->list, GTK_EVENT_CONTROLLER(source));
-	gtk_widget_add_controller(tree->list, GTK_EVENT_CONTROLLER(target));
-}
+static const struct row_move moving = {
+	.up = "tree.up", .down = "tree.down", .name = name_of, .fits = fits, .move = move_to,
+};
 
 /* ---- menus and actions ---- */
 
@@ -499,25 +392,43 @@ static GMenu *button_menu(void)
 	return menu;
 }
 
-/* The context menu of a POU or a structure. A structure cannot be moved: its order has no meaning. */
-static GMenu *row_menu(bool type)
+enum { POU = 1, TYPE = 2, TASK = 4 }; /* kinds of a row with a menu of its own */
+
+/* The context menu of a POU, a structure or a task. A structure cannot be moved: its order has no
+ * meaning. */
+static GMenu *row_menu(unsigned of)
 {
-	static const struct { const char *label, *action; bool pou; } entries[] = {
-		{ N_("Duplicate…"), "tree.duplicate", false },
-		{ N_("Move up"), "tree.up", true }, { N_("Move down"), "tree.down", true },
-		{ N_("Copy to file…"), "tree.copy", true },
-		{ N_("Move to file…"), "tree.move", true },
-		{ N_("Rename…"), "tree.rename", false },
-		{ N_("Where it is used"), "tree.uses", false },
-		{ N_("Delete"), "tree.delete", false },
-		{ N_("Properties…"), "tree.about", true },
+	static const struct {
+		const char *label, *action, *keys;
+		enum verb verb; /* with the same keys; VERB_COUNT: @keys          */
+		unsigned of;    /* 0: a line between parts                        */
+	} entries[] = {
+		{ N_("Duplicate…"), "tree.duplicate", "<Control>d", VERB_COUNT, POU | TYPE },
+		{ N_("Rename…"), "tree.rename", NULL, VERB_rename, POU | TYPE | TASK },
+		{ N_("Where it is used"), "tree.uses", NULL, VERB_show_uses, POU | TYPE },
+		{ N_("Delete"), "tree.delete", "Delete", VERB_COUNT, POU | TYPE | TASK },
+		{ NULL, NULL, NULL, VERB_COUNT, 0 },
+		{ N_("Move up"), "tree.up", "<Alt>Up", VERB_COUNT, POU },
+		{ N_("Move down"), "tree.down", "<Alt>Down", VERB_COUNT, POU },
+		{ N_("Copy to file…"), "tree.copy", "", VERB_COUNT, POU },
+		{ N_("Move to file…"), "tree.move", "", VERB_COUNT, POU },
+		{ NULL, NULL, NULL, VERB_COUNT, 0 },
+		{ N_("Properties…"), "tree.about", "<Alt>Return", VERB_COUNT, POU },
 	};
-	GMenu *menu = g_menu_new(), *fresh = menu_model();
+	GMenu *menu = g_menu_new(), *section = g_menu_new(), *fresh = menu_model();
 
 	for (gsize i = 0; i < G_N_ELEMENTS(entries); i++)
-		if (!type || !entries[i].pou)
-			g_menu_append(menu, _(entries[i].label), entries[i].action);
-	g_menu_append_submenu(menu, _("New"), G_MENU_MODEL(fresh));
+		if (!entries[i].of) {
+			g_menu_append_section(menu, NULL, G_MENU_MODEL(section));
+			g_object_unref(section);
+			section = g_menu_new();
+		} else if (entries[i].of & of) {
+			menu_append(section, _(entries[i].label), entries[i].action,
+				    entries[i].keys ? entries[i].keys : verb_keys(entries[i].verb));
+		}
+	g_menu_append_submenu(section, _("New"), G_MENU_MODEL(fresh));
+	g_menu_append_section(menu, NULL, G_MENU_MODEL(section));
+	g_object_unref(section);
 	g_object_unref(fresh);
 	return menu;
 }
@@ -560,23 +471,24 @@ static GtkWidget *menu_new(void)
 
 static void show_menu(struct tree *tree, double x, double y)
 {
+	const unsigned of = selected_pou(tree) >= 0 ? POU : selected_type(tree) ? TYPE :
+			    selected_task(tree) ? TASK : 0;
+
 	/* not on the scrolled window, which takes the arrow keys */
 	gtk_widget_translate_coordinates(tree->list, tree->panel, x, y, &x, &y);
-	popover_menu(tree->panel, selected_pou(tree) < 0 && !selected_type(tree) ? menu_model() :
-		     row_menu(selected_type(tree) != NULL),
+	popover_menu(tree->panel, of ? row_menu(of) : menu_model(),
 		     &(GdkRectangle){ (int)x, (int)y, 1, 1 }, tree->list);
 }
 
 /* The menu is for the row below the pointer. */
 static void right_pressed(struct tree *tree, int count, double x, double y)
 {
-	GtkWidget *expander = item_at(tree, x, y);
+	GtkListItem *item = row_move_at(tree->list, x, y);
 
 	(void)count;
-	if (expander)
+	if (item)
 		gtk_single_selection_set_selected(tree->selection,
-			gtk_tree_list_row_get_position(gtk_tree_expander_get_list_row(
-				GTK_TREE_EXPANDER(expander))));
+						  gtk_list_item_get_position(item));
 	show_menu(tree, x, y);
 }
 
@@ -593,8 +505,6 @@ static gboolean key_pressed(struct tree *tree, guint key, guint code, GdkModifie
 		gtk_widget_activate_action(tree->list, "tree.duplicate", NULL);
 	else if (key == GDK_KEY_Return && held == GDK_ALT_MASK)
 		gtk_widget_activate_action(tree->list, "tree.about", NULL);
-	else if ((key == GDK_KEY_Up || key == GDK_KEY_Down) && held == GDK_ALT_MASK)
-		move_by(tree, key == GDK_KEY_Up ? -1 : 1);
 	else
 		return FALSE;
 	return TRUE;
@@ -631,6 +541,7 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_box_append(GTK_BOX(box), note);
 	gtk_tree_expander_set_child(GTK_TREE_EXPANDER(expander), box);
 	gtk_list_item_set_child(item, expander);
+	row_move_stand(expander, item);
 }
 
 #define TEXT_WIDE 20 /* characters that remain for the text beside a note */
@@ -709,7 +620,6 @@ static void tree_free(gpointer pointer)
 	g_clear_handle_id(&tree->timer, g_source_remove);
 	g_clear_handle_id(&tree->going_soon, g_source_remove);
 	g_clear_object(&tree->going);
-	g_clear_weak_pointer(&tree->marked);
 	g_signal_handlers_disconnect_by_data(tree->document, tree);
 	g_object_unref(tree->document);
 	g_free(tree->shape);
@@ -798,7 +708,7 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 	tree->panel = box;
 	make_list(tree);
 	add_controllers(tree);
-	add_drag(tree);
+	row_move_add(tree->list, &moving, tree);
 	add_actions(tree, box);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), tree->list);
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,

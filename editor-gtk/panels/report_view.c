@@ -305,7 +305,7 @@ static void ladder_report_view_class_init(LadderReportViewClass *class)
 	gtk_widget_class_bind_template_child(widget, LadderReportView, paned);
 	gtk_widget_class_bind_template_child(widget, LadderReportView, title);
 	gtk_widget_class_bind_template_child(widget, LadderReportView, picture_place);
-	gtk_widget_class_bind_template_child_full(widget, "view", FALSE, 0);
+	panel_bind_list(widget, LadderReportView);
 	gtk_widget_class_bind_template_callback(widget, activated);
 	gtk_widget_class_bind_template_callback(widget, share_room);
 	gtk_widget_class_install_action(widget, "report.copy", NULL, copy);
@@ -319,8 +319,7 @@ static void ladder_report_view_init(LadderReportView *view)
 	GtkWidget *widget = GTK_WIDGET(view);
 
 	gtk_widget_init_template(widget);
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		widget, LADDER_TYPE_REPORT_VIEW, "view")));
+	panel_list_init(&view->list, view->list.view);
 	panel_list_column(&view->list, "", REPORT_KIND, PANEL_ICON, 0);
 	panel_list_column(&view->list, _("What"), REPORT_KIND, 0, 76);
 	panel_list_add(&view->list, _("Message"), REPORT_TEXT, PANEL_EXPAND, 0, text_factory());

@@ -205,19 +205,16 @@ static void ladder_scenario_view_class_init(LadderScenarioViewClass *class)
 	CHILD(box); CHILD(record_button); CHILD(expect_button); CHILD(summary);
 	CHILD(stack); CHILD(empty);
 #undef CHILD
-	gtk_widget_class_bind_template_child_full(widget, "list", FALSE, 0);
+	panel_bind_list(widget, LadderScenarioView);
 	gtk_widget_class_bind_template_callback(widget, activated);
 }
 
 static void ladder_scenario_view_init(LadderScenarioView *view)
 {
-	GtkWidget *widget = GTK_WIDGET(view);
-
-	gtk_widget_init_template(widget);
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		widget, LADDER_TYPE_SCENARIO_VIEW, "list")));
+	gtk_widget_init_template(GTK_WIDGET(view));
+	panel_list_init(&view->list, view->list.view);
 	panel_list_column(&view->list, "", RESULT, PANEL_ICON, 0);
-	panel_list_column(&view->list, _("Scenario"), NAME, PANEL_EXPAND, 180);
+	panel_list_column(&view->list, _("Scenario"), NAME, 0, 180);
 	panel_list_column(&view->list, _("File"), FILE_NAME, 0, 140);
 	panel_list_column(&view->list, _("Result"), RESULT, PANEL_EXPAND, 180);
 }

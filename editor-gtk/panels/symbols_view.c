@@ -9,7 +9,6 @@
 #include "editor-gtk/document/panel_cells.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/drop.h"
-#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/import_dialog.h"
 #include "editor-gtk/panels/type_cells.h"
@@ -29,17 +28,15 @@ enum { SYMBOLS_FIXED = 1, SYMBOLS_MEMBER = 2 };
 
 struct _LadderSymbolsView {
 	GtkWidget parent_instance;
-	GtkWidget *box, *scopes, *kind, *search, *bar, *message;
+	GtkWidget *box, *scopes, *kind, *search;
 	struct panel_list list;
 	struct panel_cells cells;
 	struct panel_watch *watch;
 	GtkFileChooserNative *chooser;
 	int table;              /* the table that is shown; -1: all            */
-	guint64 told_of;        /* version of the document when the message was set */
+	struct panel_message message;
 	bool busy;              /* a drop-down is being filled: ignore its signal */
 	bool turning;           /* the kind of the symbol is being changed     */
-	GtkColumnViewColumn *types; /* the column of types, borrowed           */
-	int types_width;        /* that it was given last                      */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
@@ -49,17 +46,12 @@ G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
 /* @text: taken over; NULL: clears the message. */
 static void tell(LadderSymbolsView *view, char *text)
 {
-	LadderDocument *document = panel_watch_document(view->watch);
-
-	view->told_of = document ? ladder_document_version(document) : 0;
-	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
-	gtk_revealer_set_reveal_child(GTK_REVEALER(view->bar), text != NULL);
-	g_free(text);
+	panel_message_set(&view->message, panel_watch_document(view->watch), text);
 }
 
 const char *ladder_symbols_view_message(LadderSymbolsView *view)
 {
-	return gtk_label_get_text(GTK_LABEL(view->message));
+	return gtk_label_get_text(view->message.label);
 }
 
 /* ---- rows ---- */
@@ -137,29 +129,6 @@ static void fill_scopes(LadderSymbolsView *view, struct project *project)
 	g_ptr_array_unref(name);
 }
 
-static bool is_declaration(const LadderPanelRow *row, gconstpointer what)
-{
-	const LadderPanelRow *other = what;
-
-	return row->table == other->table && strcmp(panel_row_text(row, FIELD_NAME),
-		panel_row_text(other, FIELD_NAME)) == 0;
-}
-
-/* Updates the list. RETAIN moves a declaration to another block: the focus follows it. */
-static void update(LadderSymbolsView *view, GPtrArray *rows)
-{
-	int field, now;
-	LadderPanelRow *row = cells_focused(view->list.view, &field);
-
-	if (row)
-		g_object_ref(row);
-	panel_list_update(&view->list, rows);
-	if (row && cells_focused(view->list.view, &now) != row &&
-	    panel_list_select(&view->list, is_declaration, row))
-		cells_enter(view->list.view, panel_list_row(&view->list), field);
-	g_clear_object(&row);
-}
-
 /* In the order of the drop-down. */
 static const uint16_t kinds[] = { 0, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP };
 
@@ -180,37 +149,6 @@ static void show_kind(LadderSymbolsView *view)
 			       !(row->flags & (SYMBOLS_FIXED | SYMBOLS_MEMBER)));
 }
 
-#define TYPES_LEAST 110 /* px of the column of types                           */
-#define TYPES_MOST  260
-#define TYPES_ROOM  44  /* of a cell, beside its text                          */
-
-/* Makes the column of types wide enough for the longest one, unless a person made it another
- * width. */
-static void fit_types(LadderSymbolsView *view, const struct symbols *symbols)
-{
-	GHashTable *seen = g_hash_table_new(g_str_hash, g_str_equal);
-	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(view->list.view), NULL);
-	int most = TYPES_LEAST, width;
-
-	for (int i = 0; symbols && i < symbols->count; i++) {
-		char *type = symbols->symbol[i].text[FIELD_TYPE];
-
-		if (strlen(type) < 8 || !g_hash_table_add(seen, type))
-			continue;
-		pango_layout_set_text(layout, type, -1);
-		pango_layout_get_pixel_size(layout, &width, NULL);
-		most = MAX(most, width + TYPES_ROOM);
-	}
-	most = MIN(most, TYPES_MOST);
-	width = gtk_column_view_column_get_fixed_width(view->types);
-	if (most != view->types_width && (!view->types_width || width == view->types_width)) {
-		gtk_column_view_column_set_fixed_width(view->types, most);
-		view->types_width = most;
-	}
-	g_object_unref(layout);
-	g_hash_table_unref(seen);
-}
-
 static void fill_rows(LadderSymbolsView *view)
 {
 	LadderDocument *document = panel_watch_document(view->watch);
@@ -220,8 +158,7 @@ static void fill_rows(LadderSymbolsView *view)
 	for (int i = 0; symbols && i < symbols->count; i++)
 		if (view->table < 0 || symbols->symbol[i].table == view->table)
 			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i]));
-	update(view, rows);
-	fit_types(view, symbols);
+	panel_cells_update(&view->list, rows);
 	show_kind(view);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
@@ -232,9 +169,7 @@ static void refresh(GtkWidget *widget)
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
 	LadderDocument *document = panel_watch_document(view->watch);
 
-	/* the message was about an older version */
-	if (document && ladder_document_version(document) != view->told_of)
-		tell(view, NULL);
+	panel_message_age(&view->message, document);
 	fill_scopes(view, document ? ladder_document_project(document) : NULL);
 	fill_rows(view);
 }
@@ -547,9 +482,8 @@ static void bind_children(GtkWidgetClass *class)
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, scopes);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, kind);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, search);
-	gtk_widget_class_bind_template_child(class, LadderSymbolsView, bar);
-	gtk_widget_class_bind_template_child(class, LadderSymbolsView, message);
-	gtk_widget_class_bind_template_child_full(class, "view", FALSE, 0);
+	panel_bind_list(class, LadderSymbolsView);
+	panel_bind_message(class, LadderSymbolsView);
 	gtk_widget_class_bind_template_callback(class, scope_changed);
 	gtk_widget_class_bind_template_callback(class, kind_changed);
 	gtk_widget_class_bind_template_callback(class, search_changed);
@@ -606,11 +540,9 @@ static void add_columns(LadderSymbolsView *view)
 	panel_list_column(&view->list, "", SYMBOLS_USES, PANEL_ICON, 0);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
-				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
+				column[i].field == FIELD_COMMENT ? PANEL_EXPAND :
+				column[i].field == FIELD_INITIAL ? PANEL_BUTTON : 0,
 				column[i].width);
-	view->types = g_list_model_get_item(gtk_column_view_get_columns(view->list.view),
-					    1 + FIELD_TYPE);
-	g_object_unref(view->types); /* the list has a reference */
 	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 150);
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
 }
@@ -634,8 +566,8 @@ static void ladder_symbols_view_init(LadderSymbolsView *view)
 
 	view->table = -1;
 	gtk_widget_init_template(widget);
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		widget, LADDER_TYPE_SYMBOLS_VIEW, "view")));
+	panel_list_init(&view->list, view->list.view);
+	panel_message_init(&view->message, view->message.label);
 	add_columns(view);
 	fill_kinds(view);
 	g_signal_connect_object(view->list.selection, "notify::selected-item",

@@ -3,7 +3,8 @@
  * task_lane - draws the runs of one task over time; see task_lane.h.
  *
  * A run has no length in virtual time. Its bar shows when it begins; bars of one cycle stand
- * beside each other in the order in which they run.
+ * beside each other in the order in which they run. During a simulation the plan is drawn as low
+ * grey bars, and the runs over it; a line leads from the deadline to a late one.
  */
 #include "editor-gtk/panels/task_lane.h"
 
@@ -16,6 +17,8 @@
 #define HIGH 26       /* px of a lane                                          */
 #define RULER_HIGH 20
 #define BAR_HIGH 14
+#define BAR_BAD 17    /* px of a run that was late                             */
+#define PLAN_HIGH 6   /* px of a bar of the plan below the runs                */
 #define BAR_LEAST 2   /* px of a bar                                           */
 #define BAR_MOST 12
 #define DASH 5        /* px of a dash of an event's line, and between two      */
@@ -26,7 +29,9 @@ struct _LadderTaskLane {
 	GtkAdjustment *time;
 	const struct schedule *schedule;
 	int number;
+	const char *task;      /* its name, interned                            */
 	gint64 mark_ns;
+	struct task_live live;
 };
 
 G_DEFINE_FINAL_TYPE(LadderTaskLane, ladder_task_lane, GTK_TYPE_WIDGET)
@@ -64,23 +69,40 @@ static double x_of(const struct drawing *drawing, double ns)
 
 /* ---- runs ---- */
 
+/* px from one cycle to the next. */
+static double cycle_px(const struct drawing *drawing)
+{
+	const LadderTaskLane *lane = drawing->lane;
+
+	return (double)(lane->live.runs ? lane->live.period_ns : lane->schedule->tick_ns) *
+	       drawing->px;
+}
+
 /* The width of a bar: those of a cycle fit into it, with a gap behind them. */
 static double bar_width(const struct drawing *drawing)
 {
-	const struct schedule *schedule = drawing->lane->schedule;
+	return CLAMP(cycle_px(drawing) / (drawing->lane->schedule->lane_count + 1), BAR_LEAST,
+		     BAR_MOST);
+}
 
-	return CLAMP((double)schedule->tick_ns * drawing->px / (schedule->lane_count + 1),
-		     BAR_LEAST, BAR_MOST);
+/* px from a bar to the next one of the same cycle; 0: there is no room for that. */
+static double bars_apart(const struct drawing *drawing)
+{
+	const double wide = bar_width(drawing);
+
+	return cycle_px(drawing) > wide * drawing->lane->schedule->lane_count ? wide : 0;
+}
+
+static void draw_bar(struct drawing *drawing, enum token token, double x, double high)
+{
+	fill(drawing, token, x, HIGH - 6 - high, MAX(bar_width(drawing) - 1, BAR_LEAST), high);
 }
 
 static void draw_runs(struct drawing *drawing)
 {
 	const struct schedule *schedule = drawing->lane->schedule;
-	const double wide = bar_width(drawing);
-	const double apart = (double)schedule->tick_ns * drawing->px >
-			     wide * schedule->lane_count ? wide : 0;
+	const double wide = bar_width(drawing), apart = bars_apart(drawing);
 
-	fill(drawing, TOKEN_LINE, 0, HIGH - 6, drawing->width, 1);
 	for (guint i = 0; i < schedule->run->len; i++) {
 		const struct schedule_run *run = &g_array_index(schedule->run,
 								struct schedule_run, i);
@@ -89,10 +111,77 @@ static void draw_runs(struct drawing *drawing)
 		if (x > drawing->width)
 			return;
 		if (run->lane == drawing->lane->number && x + wide >= 0)
-			fill(drawing, TOKEN_ACCENT, x, HIGH - 6 - BAR_HIGH, MAX(wide - 1, BAR_LEAST),
-			     BAR_HIGH);
+			draw_bar(drawing, TOKEN_ACCENT, x, BAR_HIGH);
 	}
 }
+
+/* ---- a simulation ---- */
+
+/* How many tasks are due before this one at a time after the start. */
+static int planned_before(const LadderTaskLane *lane, gint64 since_ns)
+{
+	int before = 0;
+
+	for (int i = 0; i < lane->number; i++) {
+		const struct schedule_lane *other = &lane->schedule->lane[i];
+
+		before += other->kind == TASK_INTERVAL && since_ns % other->interval_ns == 0;
+	}
+	return before;
+}
+
+/* At most one bar for each px. */
+static void draw_plan(struct drawing *drawing)
+{
+	const LadderTaskLane *lane = drawing->lane;
+	const struct schedule_lane *of = &lane->schedule->lane[lane->number];
+	const gint64 step = of->kind == TASK_INTERVAL ? of->interval_ns : lane->live.period_ns;
+	const gint64 from = (gint64)MAX(drawing->from_ns - (double)lane->live.start_ns, 0);
+	const gint64 by = step * MAX((gint64)ceil(1 / ((double)step * drawing->px)), 1);
+	const double apart = bars_apart(drawing);
+
+	for (gint64 since = from / step * step;; since += by) {
+		const double x = x_of(drawing, (double)(lane->live.start_ns + since));
+
+		if (x > drawing->width)
+			return;
+		draw_bar(drawing, TOKEN_IDLE, x + planned_before(lane, since) * apart, PLAN_HIGH);
+	}
+}
+
+static bool is_bad(const struct task_run *run)
+{
+	return run->late_ns || run->missed || run->fault;
+}
+
+/* At most one bar for each px, bad ones before good ones. */
+static void draw_real(struct drawing *drawing)
+{
+	const LadderTaskLane *lane = drawing->lane;
+	const struct task_runs *runs = lane->live.runs;
+	const double apart = bars_apart(drawing);
+	const gint64 from = (gint64)(drawing->from_ns - BAR_MOST * 2 / drawing->px);
+	double drawn = -2 * BAR_MOST;
+	bool bad = false;
+
+	for (guint i = task_runs_from(runs, from); i < task_runs_count(runs); i++) {
+		const struct task_run *run = task_runs_get(runs, i);
+		const double x = x_of(drawing, (double)run->at_ns) + run->order * apart;
+		const double late = (double)run->late_ns * drawing->px;
+
+		if (x > drawing->width)
+			return;
+		if (run->task != lane->task || (x - drawn < 1 && (bad || !is_bad(run))))
+			continue;
+		drawn = x;
+		bad = is_bad(run);
+		draw_bar(drawing, bad ? TOKEN_ERROR : TOKEN_POWER, x, bad ? BAR_BAD : BAR_HIGH);
+		if (late > 1)
+			fill(drawing, TOKEN_ERROR, x - late, HIGH - 6 - BAR_BAD, late, 2);
+	}
+}
+
+/* ---- events ---- */
 
 /* A dashed line: an event comes at no known time. */
 static void draw_event(struct drawing *drawing)
@@ -146,6 +235,25 @@ static void draw_ruler(struct drawing *drawing)
 
 /* ---- the widget ---- */
 
+static void draw_lane(struct drawing *drawing)
+{
+	const LadderTaskLane *lane = drawing->lane;
+	const bool event = lane->schedule->lane[lane->number].kind == TASK_EVENT;
+
+	if (event)
+		draw_event(drawing);
+	else
+		fill(drawing, TOKEN_LINE, 0, HIGH - 6, drawing->width, 1);
+	if (!lane->live.runs) {
+		if (!event)
+			draw_runs(drawing);
+		return;
+	}
+	if (!event)
+		draw_plan(drawing);
+	draw_real(drawing);
+}
+
 static void snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 {
 	LadderTaskLane *lane = LADDER_TASK_LANE(widget);
@@ -157,10 +265,10 @@ static void snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 		return;
 	if (lane->number < 0)
 		draw_ruler(&drawing);
-	else if (lane->schedule->lane[lane->number].kind == TASK_EVENT)
-		draw_event(&drawing);
 	else
-		draw_runs(&drawing);
+		draw_lane(&drawing);
+	if (lane->live.runs)
+		fill(&drawing, TOKEN_ACCENT, x_of(&drawing, (double)lane->live.now_ns), 0, 2, HIGH);
 	if (lane->mark_ns >= 0 && lane->number >= 0)
 		fill(&drawing, TOKEN_INK, x_of(&drawing, (double)lane->mark_ns), 0, 1, HIGH);
 }
@@ -222,7 +330,14 @@ void ladder_task_lane_set(LadderTaskLane *lane, const struct schedule *schedule,
 {
 	lane->schedule = schedule;
 	lane->number = number;
+	lane->task = schedule && number >= 0 ? g_intern_string(schedule->lane[number].name) : NULL;
 	gtk_widget_queue_resize(GTK_WIDGET(lane));
+}
+
+void ladder_task_lane_live(LadderTaskLane *lane, const struct task_live *live)
+{
+	lane->live = *live;
+	gtk_widget_queue_draw(GTK_WIDGET(lane));
 }
 
 void ladder_task_lane_mark(LadderTaskLane *lane, gint64 ns)

@@ -8,16 +8,14 @@
 #include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/gtk48/popover.h"
-#include "editor-gtk/kit/gtk48/spoken.h"
-#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/row_move.h"
 #include "editor-gtk/panels/task_chart.h"
+#include "editor-gtk/panels/task_delete.h"
 
-#include <adwaita.h>
 #include <string.h>
 
 #define INDENT 24 /* px of a program below its task                            */
-#define BESIDE_PANE 10 /* px that the handle of a pane reaches into the page   */
 
 /* LadderPanelRow: table is enum task_what, index the number of the row, number that of its
  * heading. */
@@ -25,12 +23,11 @@ enum { TASKS_FIXED = 1 }; /* LadderPanelRow.flags */
 
 struct _LadderTasksView {
 	GtkWidget parent_instance;
-	GtkWidget *box, *program_button, *hint, *bar, *message, *chart;
+	GtkWidget *box, *program_button, *hint, *chart;
 	struct panel_list list;
 	struct panel_cells cells;
 	struct panel_watch *watch;
-	GtkWidget *marked;      /* the row below what is dragged; NULL: none   */
-	guint64 told_of;        /* version of the document when the message was set */
+	struct panel_message message;
 	bool busy;              /* rows are replaced: a selection means nothing */
 };
 
@@ -44,12 +41,7 @@ static LadderDocument *document_of(LadderTasksView *view)
 /* @text: taken over; NULL: clears the message. */
 static void tell(LadderTasksView *view, char *text)
 {
-	LadderDocument *document = document_of(view);
-
-	view->told_of = document ? ladder_document_version(document) : 0;
-	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
-	gtk_revealer_set_reveal_child(GTK_REVEALER(view->bar), text != NULL);
-	g_free(text);
+	panel_message_set(&view->message, document_of(view), text);
 }
 
 /* ---- rows ---- */
@@ -89,35 +81,6 @@ static LadderPanelRow *row_new(LadderDocument *document, const struct task_rows 
 	return row;
 }
 
-static bool is_like(const LadderPanelRow *row, gconstpointer what)
-{
-	const LadderPanelRow *other = what;
-
-	return row->table == other->table && strcmp(panel_row_text(row, TASKS_NAME),
-		panel_row_text(other, TASKS_NAME)) == 0;
-}
-
-/* An edit may move a row: the focus follows it. */
-static void update(LadderTasksView *view, GPtrArray *rows)
-{
-	int field, now;
-	LadderPanelRow *row = cells_focused(view->list.view, &field);
-	LadderPanelRow *chosen = panel_list_row(&view->list);
-
-	if (row)
-		g_object_ref(row);
-	if (chosen)
-		g_object_ref(chosen);
-	panel_list_update(&view->list, rows);
-	if (row && cells_focused(view->list.view, &now) != row &&
-	    panel_list_select(&view->list, is_like, row))
-		cells_enter(view->list.view, panel_list_row(&view->list), field);
-	else if (chosen && !panel_list_row(&view->list))
-		panel_list_select(&view->list, is_like, chosen);
-	g_clear_object(&row);
-	g_clear_object(&chosen);
-}
-
 static void show_hint(LadderTasksView *view, const struct task_rows *tasks, bool project)
 {
 	const char *text = !project ? "" : tasks->fixed ?
@@ -141,6 +104,7 @@ static void show_actions_of(LadderTasksView *view, const struct task_rows *tasks
 
 	gtk_widget_action_set_enabled(widget, "tasks.add", tasks && !tasks->fixed);
 	gtk_widget_action_set_enabled(widget, "tasks.delete", line);
+	gtk_widget_action_set_enabled(widget, "tasks.rename", line);
 	gtk_widget_action_set_enabled(widget, "tasks.up",
 				      can && task_rows_can_step(tasks, row->index, -1));
 	gtk_widget_action_set_enabled(widget, "tasks.down",
@@ -175,13 +139,11 @@ static void refresh(GtkWidget *widget)
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
 	struct task_rows *tasks = document ? task_rows_new(document) : NULL;
 
-	/* the message was about an older version */
-	if (document && ladder_document_version(document) != view->told_of)
-		tell(view, NULL);
+	panel_message_age(&view->message, document);
 	for (int i = 0; tasks && i < tasks->count; i++)
 		g_ptr_array_add(rows, row_new(document, tasks, i));
 	view->busy = true;
-	update(view, rows);
+	panel_cells_update(&view->list, rows);
 	view->busy = false;
 	if (tasks)
 		show_hint(view, tasks, ladder_document_project(document) != NULL);
@@ -276,7 +238,7 @@ static void go_to(LadderTasksView *view, enum task_what what, const char *name, 
 	like->text[TASKS_NAME] = g_strdup(name);
 	panel_watch_later(view->watch);
 	panel_watch_now(view->watch);
-	if (panel_list_select(&view->list, is_like, like) && field >= 0)
+	if (panel_list_select(&view->list, panel_row_is_like, like) && field >= 0)
 		cells_enter(view->list.view, panel_list_row(&view->list), field);
 	g_object_unref(like);
 }
@@ -331,14 +293,13 @@ static void add_program(GtkWidget *widget, const char *action, GVariant *program
 	g_free(name);
 }
 
-static void delete_now(LadderTasksView *view, const LadderPanelRow *row)
+static void deleted(gpointer data, bool good, char *why)
 {
+	LadderTasksView *view = data;
 	const guint at = gtk_single_selection_get_selected(view->list.selection);
 	guint count;
-	char *why = NULL;
-	const bool good = task_rows_delete(document_of(view), number_of(view, row), &why);
 
-	if (!done(view, good, why))
+	if (!view->box || !done(view, good, why)) /* the page was closed meanwhile */
 		return;
 	panel_watch_later(view->watch);
 	panel_watch_now(view->watch);
@@ -347,79 +308,28 @@ static void delete_now(LadderTasksView *view, const LadderPanelRow *row)
 	gtk_widget_grab_focus(GTK_WIDGET(view->list.view));
 }
 
-struct deleting {
-	LadderTasksView *view;
-	LadderPanelRow *row;
-};
-
-static void deleting_free(gpointer data, GClosure *closure)
-{
-	struct deleting *deleting = data;
-
-	(void)closure;
-	g_object_unref(deleting->view);
-	g_object_unref(deleting->row);
-	g_free(deleting);
-}
-
-static void delete_answered(AdwMessageDialog *dialog, const char *answer,
-			    struct deleting *deleting)
-{
-	(void)dialog;
-	if (strcmp(answer, "delete") == 0 && document_of(deleting->view))
-		delete_now(deleting->view, deleting->row);
-}
-
-/* Says which programs of the task then run in each scan. */
-static void ask_delete(LadderTasksView *view, LadderPanelRow *row, const char *programs, int count)
-{
-	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
-	struct deleting *deleting = g_new(struct deleting, 1);
-	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(root), NULL, NULL);
-	AdwMessageDialog *ask = ADW_MESSAGE_DIALOG(dialog);
-
-	adw_message_dialog_format_heading(ask, _("Delete “%s”?"),
-					  panel_row_text(row, TASKS_NAME));
-	adw_message_dialog_format_body(ask, ngettext(
-		"Its program then runs in each scan: %s.",
-		"Its programs then run in each scan: %s.", (gulong)count), programs);
-	adw_message_dialog_add_responses(ask, "cancel", _("Cancel"), "delete", _("Delete"), NULL);
-	adw_message_dialog_set_response_appearance(ask, "delete", ADW_RESPONSE_DESTRUCTIVE);
-	adw_message_dialog_set_default_response(ask, "delete");
-	adw_message_dialog_set_close_response(ask, "cancel");
-	*deleting = (struct deleting){ g_object_ref(view), g_object_ref(row) };
-	g_signal_connect_data(dialog, "response", G_CALLBACK(delete_answered), deleting,
-			      deleting_free, 0);
-	gtk_window_present(GTK_WINDOW(dialog));
-}
-
 static void delete(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderTasksView *view = LADDER_TASKS_VIEW(widget);
 	LadderPanelRow *row = panel_list_row(&view->list);
-	const int number = row ? number_of(view, row) : -1;
-	GString *programs = g_string_new(NULL);
-	struct task_rows *tasks;
-	int count = 0;
 
 	(void)action;
 	(void)unused;
-	if (number < 0) {
-		g_string_free(programs, TRUE);
-		return;
-	}
-	tasks = task_rows_new(document_of(view));
-	if (tasks->row[number].what == TASKS_TASK)
-		count = task_rows_programs(tasks, number);
-	for (int i = number + 1; i <= number + count; i++)
-		g_string_append_printf(programs, "%s%s", programs->len ? ", " : "",
-				       tasks->row[i].text[TASKS_PROGRAM]);
-	task_rows_free(tasks);
-	if (count)
-		ask_delete(view, row, programs->str, count);
-	else
-		delete_now(view, row);
-	g_string_free(programs, TRUE);
+	if (row)
+		task_delete_ask(GTK_WINDOW(gtk_widget_get_root(widget)), document_of(view),
+				(enum task_what)row->table, panel_row_text(row, TASKS_NAME),
+				deleted, G_OBJECT(view));
+}
+
+static void rename_row(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderTasksView *view = LADDER_TASKS_VIEW(widget);
+	LadderPanelRow *row = panel_list_row(&view->list);
+
+	(void)action;
+	(void)unused;
+	if (row)
+		cells_enter(view->list.view, row, TASKS_NAME);
 }
 
 static void step(LadderTasksView *view, int by)
@@ -530,30 +440,9 @@ static GMenu *row_menu(LadderTasksView *view)
 	g_menu_append(menu, _("Open program"), "tasks.open");
 	g_menu_append(menu, _("Move up"), "tasks.up");
 	g_menu_append(menu, _("Move down"), "tasks.down");
+	g_menu_append(menu, _("Rename"), "tasks.rename");
 	g_menu_append(menu, _("Delete"), "tasks.delete");
 	return menu;
-}
-
-/* The row below a point of the table; NULL: none. @at: gets its widget. */
-static LadderPanelRow *row_at(LadderTasksView *view, double x, double y, GtkWidget **at)
-{
-	GtkWidget *table = GTK_WIDGET(view->list.view);
-	GtkWidget *picked = gtk_widget_pick(table, x, y, GTK_PICK_DEFAULT);
-	GtkListItem *item = NULL;
-
-	while (picked && picked != table && (!gtk_widget_get_parent(picked) ||
-	       !GTK_IS_LIST_VIEW(gtk_widget_get_parent(picked))))
-		picked = gtk_widget_get_parent(picked);
-	if (!picked || picked == table)
-		return NULL;
-	for (GtkWidget *cell = gtk_widget_get_first_child(picked); cell && !item;
-	     cell = gtk_widget_get_next_sibling(cell)) {
-		GtkWidget *inside = gtk_widget_get_first_child(cell);
-
-		item = inside ? g_object_get_data(G_OBJECT(inside), "item") : NULL;
-	}
-	*at = picked;
-	return item ? gtk_list_item_get_item(item) : NULL;
 }
 
 static void show_menu(LadderTasksView *view, double x, double y)
@@ -571,210 +460,107 @@ static void show_menu(LadderTasksView *view, double x, double y)
 static void right_pressed(GtkGestureClick *click, int count, double x, double y,
 			  LadderTasksView *view)
 {
-	GtkWidget *at;
-	LadderPanelRow *row = row_at(view, x, y, &at);
+	GtkListItem *item = row_move_at(GTK_WIDGET(view->list.view), x, y);
 
 	(void)count;
 	gtk_gesture_set_state(GTK_GESTURE(click), GTK_EVENT_SEQUENCE_CLAIMED);
-	if (row) {
-		panel_list_select(&view->list, is_like, row);
+	if (item) {
+		panel_list_go(&view->list, gtk_list_item_get_position(item));
 		show_menu(view, x, y);
 	}
 }
 
-static gboolean menu_key(GtkEventControllerKey *keys, guint key, guint code,
+/* Is the focus on a name that is selected as a whole and not edited? The focus of a row goes there. */
+static bool has_whole_name(LadderTasksView *view)
+{
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
+	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
+	int field = -1, from, to;
+	const LadderPanelRow *row = cells_focused(view->list.view, &field);
+	const char *text;
+
+	if (!row || field != TASKS_NAME || !GTK_IS_EDITABLE(focus))
+		return false;
+	text = gtk_editable_get_text(GTK_EDITABLE(focus));
+	return strcmp(text, panel_row_text(row, TASKS_NAME)) == 0 &&
+	       gtk_editable_get_selection_bounds(GTK_EDITABLE(focus), &from, &to) &&
+	       to - from == (int)g_utf8_strlen(text, -1);
+}
+
+/* Before the cells. Delete on a whole name deletes the row, as no name is empty; Ctrl+Delete deletes
+ * it from each of its cells, as a rung of a sheet. */
+static gboolean early_key(GtkEventControllerKey *keys, guint key, guint code,
 			 GdkModifierType state, LadderTasksView *view)
 {
+	const GdkModifierType held = state & gtk_accelerator_get_default_mod_mask();
+
 	(void)keys;
 	(void)code;
+	if (key == GDK_KEY_Delete && (held == GDK_CONTROL_MASK ||
+				      (!held && has_whole_name(view)))) {
+		gtk_widget_activate_action(GTK_WIDGET(view), "tasks.delete", NULL);
+		return TRUE;
+	}
 	if (key != GDK_KEY_Menu && !(key == GDK_KEY_F10 && state & GDK_SHIFT_MASK))
 		return FALSE;
 	show_menu(view, INDENT, INDENT);
 	return TRUE;
 }
 
-/* Behind the cells: Alt+Down opens the choices of a cell that has some. */
-static gboolean step_key(GtkEventControllerKey *keys, guint key, guint code,
-			 GdkModifierType state, LadderTasksView *view)
-{
-	const int by = key == GDK_KEY_Up ? -1 : key == GDK_KEY_Down ? 1 : 0;
-
-	(void)keys;
-	(void)code;
-	if (!by || (state & gtk_accelerator_get_default_mod_mask()) != GDK_ALT_MASK)
-		return FALSE;
-	gtk_widget_activate_action(GTK_WIDGET(view), by < 0 ? "tasks.up" : "tasks.down", NULL);
-	return TRUE;
-}
-
 /* ---- dragging ---- */
 
-static GdkContentProvider *drag_prepared(GtkDragSource *source, double x, double y,
-					 GtkListItem *item)
+static const char *name_of(gpointer view, gpointer of)
 {
-	LadderPanelRow *row = gtk_list_item_get_item(item);
+	const LadderPanelRow *row = of;
 
-	(void)source;
-	(void)x;
-	(void)y;
-	if (!row || row->flags & TASKS_FIXED || row->table == TASKS_EACH_SCAN ||
-	    row->table == TASKS_IDLE)
-		return NULL;
-	return gdk_content_provider_new_typed(LADDER_TYPE_PANEL_ROW, row);
+	(void)view;
+	return row->flags & TASKS_FIXED || row->table == TASKS_EACH_SCAN ||
+	       row->table == TASKS_IDLE ? NULL : panel_row_text(row, TASKS_NAME);
 }
 
-static void drag_begun(GtkDragSource *source, GdkDrag *drag, GtkListItem *item)
+/* A program goes below the heading of a task; a task goes before or behind a whole one. */
+static bool fits(gpointer view, gpointer of, gpointer target, bool *below)
 {
-	const LadderPanelRow *row = gtk_list_item_get_item(item);
-	GtkWidget *label = gtk_label_new(row ? panel_row_text(row, TASKS_NAME) : "");
+	const LadderPanelRow *row = of, *at = target;
 
-	(void)source;
-	gtk_widget_add_css_class(label, "dragged-row");
-	gtk_drag_icon_set_child(GTK_DRAG_ICON(gtk_drag_icon_get_for_drag(drag)), label);
+	*below |= at->index == at->number && row->table != TASKS_TASK;
+	return number_of(view, row) >= 0 && number_of(view, at) >= 0;
 }
 
-static void unmark(LadderTasksView *view)
+/* The row before which @row would go, -1: last; as for task_rows_move(). */
+static int row_before(const struct task_rows *tasks, const LadderPanelRow *row, int target,
+		      bool below)
 {
-	if (!view->marked)
-		return;
-	gtk_widget_remove_css_class(view->marked, "drop-above");
-	gtk_widget_remove_css_class(view->marked, "drop-below");
-	g_clear_weak_pointer(&view->marked);
+	const int head = tasks->row[target].head, last = head + task_rows_programs(tasks, head);
+	const bool task = row->table == TASKS_TASK;
+	const int before = target + below, next = target == head && !below ? target : last + 1;
+
+	if (!task)
+		return before > last ? -1 : before;
+	return next < tasks->count && tasks->row[next].what == TASKS_TASK ? next : -1;
 }
 
-static void mark(LadderTasksView *view, GtkWidget *row, bool below)
+static void move_to(gpointer owner, gpointer of, gpointer target, bool below)
 {
-	unmark(view);
-	if (!row)
-		return;
-	g_set_weak_pointer(&view->marked, row);
-	gtk_widget_add_css_class(row, below ? "drop-below" : "drop-above");
-}
-
-struct target {
-	int head, before;  /* as for task_rows_move()                              */
-	GtkWidget *at;     /* the row that shows it                            */
-	bool below;
-};
-
-static bool target_at(LadderTasksView *view, const LadderPanelRow *dragged, double x, double y,
-		      struct target *to)
-{
+	LadderTasksView *view = owner;
+	LadderPanelRow *row = of;
 	struct task_rows *tasks = task_rows_new(document_of(view));
-	GtkWidget *at = NULL;
-	LadderPanelRow *row = row_at(view, x, y, &at);
-	const int number = row && row->index < tasks->count ? row->index : -1;
-	const int head = number >= 0 ? tasks->row[number].head : -1;
-	const int last = number >= 0 ? head + task_rows_programs(tasks, head) : -1;
-	const bool task = dragged->table == TASKS_TASK;
-	graphene_rect_t bounds;
-	bool found = number >= 0 && gtk_widget_compute_bounds(at, GTK_WIDGET(view->list.view),
-							      &bounds);
+	const int at = number_of(view, target);
+	const int head = tasks->row[at].head, before = row_before(tasks, row, at, below);
+	char *name = g_strdup(panel_row_text(row, TASKS_NAME)), *why = NULL;
+	const int what = row->table;
+	const bool good = task_rows_move(document_of(view), number_of(view, row), head, before,
+					 &why);
 
-	if (found) {
-		const bool heading = number == head;
-		const bool below = y > bounds.origin.y + bounds.size.height / 2;
-
-		*to = (struct target){ head, -1, at, below || (heading && !task) };
-		if (task && !to->below && heading)
-			to->before = number;
-		else if (task)
-			to->before = last + 1;
-		else
-			to->before = to->below ? number + 1 : number;
-		if (!task && to->before > last)
-			to->before = -1;
-		if (task && (to->before >= tasks->count ||
-			     tasks->row[to->before].what != TASKS_TASK))
-			to->before = -1;
-	}
 	task_rows_free(tasks);
-	return found;
-}
-
-/* NULL: it is none of this list. */
-static const LadderPanelRow *dragged_of(LadderTasksView *view, const GValue *value)
-{
-	LadderPanelRow *row = value ? g_value_get_object(value) : NULL;
-
-	return row && panel_list_has(&view->list, row) ? row : NULL;
-}
-
-static GdkDragAction drag_moved(GtkDropTarget *target, double x, double y, LadderTasksView *view)
-{
-	const LadderPanelRow *dragged = dragged_of(view, gtk_drop_target_get_value(target));
-	struct target to;
-	const bool found = dragged && target_at(view, dragged, x, y, &to);
-
-	mark(view, found ? to.at : NULL, found && to.below);
-	return found ? GDK_ACTION_MOVE : 0;
-}
-
-static void drag_left(GtkDropTarget *target, LadderTasksView *view)
-{
-	(void)target;
-	unmark(view);
-}
-
-static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
-			LadderTasksView *view)
-{
-	const LadderPanelRow *dragged = dragged_of(view, value);
-	struct target to;
-	char *name, *why = NULL;
-	bool good;
-
-	(void)target;
-	unmark(view);
-	if (!dragged || !target_at(view, dragged, x, y, &to))
-		return FALSE;
-	name = g_strdup(panel_row_text(dragged, TASKS_NAME));
-	good = task_rows_move(document_of(view), number_of(view, dragged), to.head, to.before,
-			      &why);
 	if (done(view, good, why))
-		go_to(view, (enum task_what)dragged->table, name, -1);
-	g_free(name);
-	return good;
-}
-
-static void setup_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
-{
-	GtkWidget *handle = gtk_image_new_from_icon_name("list-drag-handle-symbolic");
-	GtkDragSource *source = gtk_drag_source_new();
-
-	(void)factory;
-	gtk_widget_add_css_class(handle, "dim-label");
-	gtk_widget_set_margin_start(handle, BESIDE_PANE);
-	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
-	g_signal_connect(source, "prepare", G_CALLBACK(drag_prepared), item);
-	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begun), item);
-	gtk_widget_add_controller(handle, GTK_EVENT_CONTROLLER(source));
-	gtk_list_item_set_child(item, handle);
-}
-
-static void bind_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
-{
-	const LadderPanelRow *row = gtk_list_item_get_item(item);
-	GtkWidget *handle = gtk_list_item_get_child(item);
-	char *name = g_strdup_printf(_("Drag %s"), panel_row_text(row, TASKS_NAME));
-
-	(void)factory;
-	gtk_widget_set_visible(handle, !(row->flags & TASKS_FIXED) &&
-			       row->table != TASKS_EACH_SCAN && row->table != TASKS_IDLE);
-	spoken_name(handle, name);
+		go_to(view, (enum task_what)what, name, -1);
 	g_free(name);
 }
 
-static void add_handles(LadderTasksView *view)
-{
-	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
-	GtkColumnViewColumn *column = gtk_column_view_column_new("", factory);
-
-	g_signal_connect(factory, "setup", G_CALLBACK(setup_handle), NULL);
-	g_signal_connect(factory, "bind", G_CALLBACK(bind_handle), NULL);
-	gtk_column_view_append_column(view->list.view, column);
-	g_object_unref(column);
-}
+static const struct row_move moving = {
+	.up = "tasks.up", .down = "tasks.down", .name = name_of, .fits = fits, .move = move_to,
+};
 
 /* ---- the widget ---- */
 
@@ -794,7 +580,6 @@ static void dispose(GObject *object)
 {
 	LadderTasksView *view = LADDER_TASKS_VIEW(object);
 
-	unmark(view);
 	g_clear_pointer(&view->watch, panel_watch_free);
 	g_clear_pointer(&view->box, gtk_widget_unparent);
 	panel_list_clear(&view->list);
@@ -811,16 +596,17 @@ static void ladder_tasks_view_class_init(LadderTasksViewClass *class)
 	gtk_widget_class_install_action(widget, "tasks.add", NULL, add);
 	gtk_widget_class_install_action(widget, "tasks.add-program", "s", add_program);
 	gtk_widget_class_install_action(widget, "tasks.delete", NULL, delete);
+	gtk_widget_class_install_action(widget, "tasks.rename", NULL, rename_row);
 	gtk_widget_class_install_action(widget, "tasks.up", NULL, up);
 	gtk_widget_class_install_action(widget, "tasks.down", NULL, down);
 	gtk_widget_class_install_action(widget, "tasks.open", NULL, open_program);
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/tasks_view.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderTasksView, name)
-	CHILD(box); CHILD(program_button); CHILD(hint); CHILD(bar); CHILD(message);
-	CHILD(chart);
+	CHILD(box); CHILD(program_button); CHILD(hint); CHILD(chart);
 #undef CHILD
-	gtk_widget_class_bind_template_child_full(widget, "view", FALSE, 0);
+	panel_bind_list(widget, LadderTasksView);
+	panel_bind_message(widget, LadderTasksView);
 	gtk_widget_class_bind_template_callback(widget, program_clicked);
 }
 
@@ -831,25 +617,17 @@ static void add_columns(LadderTasksView *view)
 		{ TASKS_WHEN, 120 }, { TASKS_PRIORITY, 70 }, { TASKS_WATCHDOG, 90 },
 		{ TASKS_COMMENT, 140 },
 	};
-	GListModel *columns;
 
 	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
 		.choosable = 1u << TASKS_KIND | 1u << TASKS_PROGRAM, .choices = choices,
 		.set = set_field, .is_fixed = is_fixed, .dress = dress };
-	add_handles(view);
 	panel_list_column(&view->list, "", TASKS_NAME, PANEL_ICON, 0);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
 				column[i].field == TASKS_COMMENT ? PANEL_EXPAND : 0,
 				column[i].width);
-	/* the order of the rows means something */
-	columns = gtk_column_view_get_columns(view->list.view);
-	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
-		GtkColumnViewColumn *each = g_list_model_get_item(columns, i);
-
-		gtk_column_view_column_set_sorter(each, NULL);
-		g_object_unref(each);
-	}
+	panel_list_unsort(&view->list);
+	row_move_add(GTK_WIDGET(view->list.view), &moving, view);
 }
 
 static void add_controllers(LadderTasksView *view)
@@ -857,25 +635,15 @@ static void add_controllers(LadderTasksView *view)
 	GtkWidget *table = GTK_WIDGET(view->list.view);
 	GtkGesture *click = gtk_gesture_click_new();
 	GtkEventController *menu = gtk_event_controller_key_new();
-	GtkEventController *keys = gtk_event_controller_key_new();
-	GtkDropTarget *drop = gtk_drop_target_new(LADDER_TYPE_PANEL_ROW, GDK_ACTION_MOVE);
 
 	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(click), GDK_BUTTON_SECONDARY);
 	gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(click),
 						   GTK_PHASE_CAPTURE);
 	gtk_event_controller_set_propagation_phase(menu, GTK_PHASE_CAPTURE);
-	gtk_drop_target_set_preload(drop, TRUE);
 	g_signal_connect(click, "pressed", G_CALLBACK(right_pressed), view);
-	g_signal_connect(menu, "key-pressed", G_CALLBACK(menu_key), view);
-	g_signal_connect(keys, "key-pressed", G_CALLBACK(step_key), view);
-	g_signal_connect(drop, "motion", G_CALLBACK(drag_moved), view);
-	g_signal_connect(drop, "enter", G_CALLBACK(drag_moved), view);
-	g_signal_connect(drop, "leave", G_CALLBACK(drag_left), view);
-	g_signal_connect(drop, "drop", G_CALLBACK(dropped), view);
+	g_signal_connect(menu, "key-pressed", G_CALLBACK(early_key), view);
 	gtk_widget_add_controller(table, GTK_EVENT_CONTROLLER(click));
 	gtk_widget_add_controller(table, menu);
-	gtk_widget_add_controller(table, keys);
-	gtk_widget_add_controller(table, GTK_EVENT_CONTROLLER(drop));
 }
 
 static void ladder_tasks_view_init(LadderTasksView *view)
@@ -883,13 +651,18 @@ static void ladder_tasks_view_init(LadderTasksView *view)
 	GtkWidget *widget = GTK_WIDGET(view);
 
 	gtk_widget_init_template(widget);
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		widget, LADDER_TYPE_TASKS_VIEW, "view")));
+	panel_list_init(&view->list, view->list.view);
+	panel_message_init(&view->message, view->message.label);
 	add_columns(view);
 	add_controllers(view);
 	g_signal_connect_object(view->list.selection, "notify::selected-item",
 				G_CALLBACK(show_actions), view, G_CONNECT_SWAPPED);
 	view->watch = panel_watch_new(widget, true, refresh);
+}
+
+void ladder_tasks_view_follow(LadderTasksView *view, LadderSim *sim)
+{
+	ladder_task_chart_follow(LADDER_TASK_CHART(view->chart), sim);
 }
 
 GtkWidget *ladder_tasks_view_new(LadderDocument *document)

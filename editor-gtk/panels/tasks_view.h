@@ -12,12 +12,14 @@
 
 #include <gtk/gtk.h>
 
-#include "editor-gtk/document/document.h"
+#include "editor-gtk/sim/sim.h"
 
 #define LADDER_TYPE_TASKS_VIEW (ladder_tasks_view_get_type())
 G_DECLARE_FINAL_TYPE(LadderTasksView, ladder_tasks_view, LADDER, TASKS_VIEW, GtkWidget)
 
 GtkWidget *ladder_tasks_view_new(LadderDocument *document);
+/** ladder_tasks_view_follow - the picture shows the runs of @sim, too; once. */
+void ladder_tasks_view_follow(LadderTasksView *view, LadderSim *sim);
 /** ladder_tasks_view_show - selects the task of this name, or the programs without a task. */
 void ladder_tasks_view_show(LadderTasksView *view, const char *task);
 

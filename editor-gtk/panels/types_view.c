@@ -9,14 +9,12 @@
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/drop.h"
-#include "editor-gtk/kit/gtk48/spoken.h"
-#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/row_move.h"
 #include "editor-gtk/panels/type_cells.h"
 
 #include "engine/xref/xref.h"
 
-#include <adwaita.h>
 #include <string.h>
 
 /* A column behind the fields. */
@@ -25,14 +23,13 @@ enum { TYPES_USES = SYMBOL_FIELDS };
 
 struct _LadderTypesView {
 	GtkBox parent_instance;
-	GtkWidget *stack, *types, *message;
+	GtkWidget *stack, *types;
 	struct panel_list list;
 	struct panel_cells cells;
 	struct panel_watch *watch;
 	char *type;             /* name of the structure that is shown; NULL: none */
-	guint64 told_of;        /* version of the document when the message was set */
+	struct panel_message message;
 	bool busy;              /* the drop-down is being filled: ignore its signal */
-	GtkWidget *marked;      /* the row with the line of a drop; weak         */
 };
 
 G_DEFINE_FINAL_TYPE(LadderTypesView, ladder_types_view, GTK_TYPE_BOX)
@@ -50,9 +47,7 @@ int ladder_types_view_type(LadderTypesView *view)
 /* @text: taken over; NULL: clears the message. */
 static void tell(LadderTypesView *view, char *text)
 {
-	view->told_of = ladder_document_version(document_of(view));
-	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
-	g_free(text);
+	panel_message_set(&view->message, document_of(view), text);
 }
 
 /* ---- rows ---- */
@@ -79,26 +74,6 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 	return row;
 }
 
-static bool is_member(const LadderPanelRow *row, gconstpointer name)
-{
-	return strcmp(panel_row_text(row, FIELD_NAME), name) == 0;
-}
-
-/* The focus stays on its member, wherever it moved. */
-static void update(LadderTypesView *view, GPtrArray *rows)
-{
-	int field = FIELD_NAME, now;
-	LadderPanelRow *row = cells_focused(view->list.view, &field);
-	char *name = row ? g_strdup(panel_row_text(row, FIELD_NAME)) : NULL;
-
-	panel_list_update(&view->list, rows);
-	row = name ? cells_focused(view->list.view, &now) : NULL;
-	if (name && (!row || !is_member(row, name)) &&
-	    panel_list_select(&view->list, is_member, name))
-		cells_enter(view->list.view, panel_list_row(&view->list), field);
-	g_free(name);
-}
-
 static void fill_rows(LadderTypesView *view)
 {
 	LadderDocument *document = document_of(view);
@@ -110,7 +85,7 @@ static void fill_rows(LadderTypesView *view)
 	for (int i = 0; symbols && i < symbols->count; i++)
 		if (symbols->symbol[i].table == type_table(document, type))
 			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i], fixed));
-	update(view, rows);
+	panel_cells_update(&view->list, rows);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
 }
@@ -149,8 +124,7 @@ static void refresh(GtkWidget *widget)
 	const struct project *project = ladder_document_project(document);
 	const guint was = gtk_drop_down_get_selected(GTK_DROP_DOWN(view->types));
 
-	if (ladder_document_version(document) != view->told_of)
-		tell(view, NULL);
+	panel_message_age(&view->message, document);
 	/* A renamed structure keeps its number. */
 	if (project && ladder_types_view_type(view) < 0)
 		set_type(view, was == GTK_INVALID_LIST_POSITION ? 0 :
@@ -272,7 +246,7 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 			    (int)g_list_model_get_n_items(G_LIST_MODEL(view->list.store)) - 1,
 			    &name, &why)) {
 		refresh(widget);
-		if (panel_list_select(&view->list, is_member, name))
+		if (panel_list_select(&view->list, panel_row_is_named, name))
 			cells_enter(view->list.view, panel_list_row(&view->list), FIELD_NAME);
 	}
 	tell(view, why);
@@ -315,7 +289,7 @@ static void move(LadderTypesView *view, LadderPanelRow *row, int to)
 	g_object_ref(row);
 	if (type_move_member(document_of(view), type, from, to, &why)) {
 		refresh(GTK_WIDGET(view));
-		panel_list_select(&view->list, is_member, panel_row_text(row, FIELD_NAME));
+		panel_list_select(&view->list, panel_row_is_named, panel_row_text(row, FIELD_NAME));
 	}
 	tell(view, why);
 	g_object_unref(row);
@@ -331,153 +305,30 @@ static void move_by(GtkWidget *widget, const char *action, GVariant *unused)
 		move(view, row, index_of(view, row) + (strcmp(action, "types.up") == 0 ? -1 : 1));
 }
 
-/* Before the cell, which would open its choices. */
-static gboolean key_pressed(GtkWidget *view, guint key, guint code, GdkModifierType state)
+static const char *name_of(gpointer view, gpointer row)
 {
-	(void)code;
-	if ((key != GDK_KEY_Up && key != GDK_KEY_Down) ||
-	    (state & gtk_accelerator_get_default_mod_mask()) != GDK_ALT_MASK)
-		return FALSE;
-	gtk_widget_activate_action(view, key == GDK_KEY_Up ? "types.up" : "types.down", NULL);
-	return TRUE;
+	(void)view;
+	return is_fixed(row, FIELD_NAME) ? NULL : panel_row_text(row, FIELD_NAME);
 }
 
-/* ---- moving by drag ---- */
-
-static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double y,
-					GtkListItem *item)
+static bool fits(gpointer view, gpointer row, gpointer target, bool *below)
 {
-	LadderPanelRow *row = gtk_list_item_get_item(item);
+	const int from = index_of(view, row), to = index_of(view, target);
 
-	(void)source;
-	(void)x;
-	(void)y;
-	return row && !(row->flags & TYPES_FIXED) ?
-	       gdk_content_provider_new_typed(LADDER_TYPE_PANEL_ROW, row) : NULL;
+	*below = to > from;
+	return from >= 0 && to >= 0 && from != to;
 }
 
-static void drag_begin(GtkDragSource *source, GdkDrag *drag, GtkListItem *item)
+static void move_to(gpointer view, gpointer row, gpointer target, bool below)
 {
-	LadderPanelRow *row = gtk_list_item_get_item(item);
-	GtkWidget *label = gtk_label_new(row ? panel_row_text(row, FIELD_NAME) : "");
-
-	(void)source;
-	gtk_widget_add_css_class(label, "dragged-row");
-	gtk_drag_icon_set_child(GTK_DRAG_ICON(gtk_drag_icon_get_for_drag(drag)), label);
-}
-
-static void setup_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
-{
-	GtkWidget *handle = gtk_image_new_from_icon_name("list-drag-handle-symbolic");
-	GtkDragSource *source = gtk_drag_source_new();
-
-	(void)factory;
-	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
-	g_signal_connect(source, "prepare", G_CALLBACK(drag_prepare), item);
-	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), item);
-	gtk_widget_add_controller(handle, GTK_EVENT_CONTROLLER(source));
-	gtk_widget_add_css_class(handle, "dim-label");
-	g_object_set_data(G_OBJECT(handle), "handle", item);
-	gtk_list_item_set_child(item, handle);
-}
-
-static void bind_handle(GtkSignalListItemFactory *factory, GtkListItem *item)
-{
-	LadderPanelRow *row = gtk_list_item_get_item(item);
-	GtkWidget *handle = gtk_list_item_get_child(item);
-	char *name = g_strdup_printf(_("Move %s (Alt+Up, Alt+Down)"),
-				     panel_row_text(row, FIELD_NAME));
-
-	(void)factory;
-	tip_set(handle, name);
-	spoken_name(handle, name);
-	gtk_widget_set_visible(handle, !(row->flags & TYPES_FIXED));
-	g_free(name);
-}
-
-/* The row at a place of the list, found by its handle or a cell. @of_row: gets its widget.
- * NULL: none. */
-static LadderPanelRow *row_at(LadderTypesView *view, double x, double y, GtkWidget **of_row)
-{
-	GtkWidget *list = GTK_WIDGET(view->list.view);
-	GtkWidget *at = gtk_widget_pick(list, x, y, GTK_PICK_DEFAULT);
-
-	for (; at && at != list; at = gtk_widget_get_parent(at)) {
-		GtkListItem *item = g_object_get_data(G_OBJECT(at), "handle");
-
-		item = item ? item : g_object_get_data(G_OBJECT(at), "item");
-		if (!item)
-			continue;
-		*of_row = gtk_widget_get_parent(gtk_widget_get_parent(at));
-		return gtk_list_item_get_item(item);
-	}
-	return NULL;
-}
-
-/* A line shows where the member would go. */
-static void mark(LadderTypesView *view, GtkWidget *of_row, bool below)
-{
-	if (view->marked) {
-		gtk_widget_remove_css_class(view->marked, "drop-above");
-		gtk_widget_remove_css_class(view->marked, "drop-below");
-	}
-	g_set_weak_pointer(&view->marked, of_row);
-	if (of_row)
-		gtk_widget_add_css_class(of_row, below ? "drop-below" : "drop-above");
-}
-
-/* NULL: it is none of this list. */
-static LadderPanelRow *dragged_of(LadderTypesView *view, const GValue *value)
-{
-	LadderPanelRow *row = value ? g_value_get_object(value) : NULL;
-
-	return row && panel_list_has(&view->list, row) ? row : NULL;
-}
-
-static GdkDragAction drag_over(GtkDropTarget *target, double x, double y, LadderTypesView *view)
-{
-	GtkWidget *of_row = NULL;
-	const LadderPanelRow *row = row_at(view, x, y, &of_row);
-	const LadderPanelRow *dragged = dragged_of(view, gtk_drop_target_get_value(target));
-	const bool good = row && dragged && row != dragged;
-
-	mark(view, good ? of_row : NULL, good && row->index > dragged->index);
-	return good ? GDK_ACTION_MOVE : 0;
-}
-
-static void drag_leave(LadderTypesView *view)
-{
-	mark(view, NULL, false);
-}
-
-static gboolean dropped(LadderTypesView *view, const GValue *value, double x, double y)
-{
-	LadderPanelRow *row = dragged_of(view, value), *target;
-	GtkWidget *of_row = NULL;
-
-	mark(view, NULL, false);
-	target = row_at(view, x, y, &of_row);
-	if (!row || !target || index_of(view, row) < 0)
-		return FALSE;
+	(void)below;
 	move(view, row, index_of(view, target));
-	return TRUE;
 }
 
-static void add_handles(LadderTypesView *view)
-{
-	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
-	GtkDropTarget *target = gtk_drop_target_new(LADDER_TYPE_PANEL_ROW, GDK_ACTION_MOVE);
-
-	g_signal_connect(factory, "setup", G_CALLBACK(setup_handle), NULL);
-	g_signal_connect(factory, "bind", G_CALLBACK(bind_handle), NULL);
-	panel_list_add(&view->list, "", FIELD_NAME, PANEL_ICON, 0, factory);
-	gtk_drop_target_set_preload(target, TRUE);
-	g_signal_connect(target, "enter", G_CALLBACK(drag_over), view);
-	g_signal_connect(target, "motion", G_CALLBACK(drag_over), view);
-	g_signal_connect_swapped(target, "leave", G_CALLBACK(drag_leave), view);
-	g_signal_connect_swapped(target, "drop", G_CALLBACK(dropped), view);
-	gtk_widget_add_controller(GTK_WIDGET(view->list.view), GTK_EVENT_CONTROLLER(target));
-}
+static const struct row_move moving = {
+	.up = "types.up", .down = "types.down", .before_cells = true,
+	.name = name_of, .fits = fits, .move = move_to,
+};
 
 /* ---- the structure ---- */
 
@@ -502,119 +353,26 @@ static void act_on_type(GtkWidget *widget, const char *action, GVariant *unused)
 
 /* ---- the widget ---- */
 
-static GtkWidget *button_new(const char *icon, const char *name, const char *action)
-{
-	GtkWidget *button = gtk_button_new_from_icon_name(icon);
-
-	tip_set(button, name);
-	spoken_name(button, name);
-	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-	return button;
-}
-
-static GtkWidget *new_button(void)
-{
-	GtkWidget *button = gtk_button_new_with_label(_("New structure…"));
-
-	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "win.new_structure");
-	return button;
-}
-
-static GtkWidget *bar_new(LadderTypesView *view)
-{
-	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *gap;
-
-	view->types = gtk_drop_down_new(NULL, NULL);
-	spoken_name(view->types, _("Data type"));
-	g_signal_connect(view->types, "notify::selected", G_CALLBACK(type_changed), view);
-	gap = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
-	gtk_widget_set_hexpand(gap, TRUE);
-	gtk_box_append(GTK_BOX(bar), view->types);
-	gtk_box_append(GTK_BOX(bar), new_button());
-	gtk_box_append(GTK_BOX(bar), button_new("document-edit-symbolic",
-		_("Rename the structure everywhere (F2)"), "types.rename-type"));
-	gtk_box_append(GTK_BOX(bar), button_new("edit-copy-symbolic",
-		_("Duplicate the structure"), "types.duplicate-type"));
-	gtk_box_append(GTK_BOX(bar), button_new("user-trash-symbolic",
-		_("Delete the structure"), "types.delete-type"));
-	gtk_box_append(GTK_BOX(bar), button_new("edit-find-symbolic",
-		_("Where the structure is used (Shift+F12)"), "types.uses"));
-	gtk_box_append(GTK_BOX(bar), gap);
-	gtk_box_append(GTK_BOX(bar), button_new("list-add-symbolic", _("Add a member"),
-						"types.add"));
-	gtk_box_append(GTK_BOX(bar), button_new("list-remove-symbolic", _("Delete the member"),
-						"types.delete"));
-	gtk_box_append(GTK_BOX(bar), button_new("go-up-symbolic", _("Move the member up (Alt+Up)"),
-						"types.up"));
-	gtk_box_append(GTK_BOX(bar), button_new("go-down-symbolic",
-		_("Move the member down (Alt+Down)"), "types.down"));
-	gtk_widget_set_margin_top(bar, 6);
-	gtk_widget_set_margin_bottom(bar, 6);
-	gtk_widget_set_margin_start(bar, 6);
-	gtk_widget_set_margin_end(bar, 6);
-	return bar;
-}
-
 static void add_columns(LadderTypesView *view)
 {
 	static const struct { enum field field; int width; } column[] = {
 		{ FIELD_NAME, 150 }, { FIELD_TYPE, 210 }, { FIELD_INITIAL, 150 },
 		{ FIELD_COMMENT, 120 },
 	};
-	GListModel *columns;
 
-	/* The handles are not the first column: a press near the divider of panes moves that. */
-	panel_list_column(&view->list, "", TYPES_USES, PANEL_ICON, 0);
-	add_handles(view);
-	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
-		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
-				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
-				column[i].width);
-	panel_list_column(&view->list, _("Uses"), TYPES_USES, PANEL_NUMBER, 60);
-	columns = gtk_column_view_get_columns(view->list.view);
-	for (guint i = 0; i < g_list_model_get_n_items(columns); i++) {
-		GtkColumnViewColumn *each = g_list_model_get_item(columns, i);
-
-		gtk_column_view_column_set_sorter(each, NULL); /* their order counts */
-		g_object_unref(each);
-	}
-}
-
-static GtkWidget *list_new(LadderTypesView *view)
-{
-	GtkWidget *list = gtk_column_view_new(NULL), *scroller = gtk_scrolled_window_new();
-	GtkEventController *keys = gtk_event_controller_key_new();
-
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(list));
 	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
 		.set = set_field, .is_fixed = is_fixed, .choices = choices_of,
 		.open_form = open_form };
 	type_cells_join(&view->cells);
-	add_columns(view);
-	gtk_widget_add_css_class(list, "data-table");
-	spoken_name(list, _("Members"));
-	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
-	g_signal_connect_swapped(keys, "key-pressed", G_CALLBACK(key_pressed), view);
-	gtk_widget_add_controller(list, keys);
-	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), list);
-	gtk_widget_set_vexpand(scroller, TRUE);
-	return scroller;
-}
-
-/* While the project has no structure. */
-static GtkWidget *none_new(void)
-{
-	GtkWidget *page = adw_status_page_new(), *button = new_button();
-
-	adw_status_page_set_title(ADW_STATUS_PAGE(page), _("No data types"));
-	adw_status_page_set_description(ADW_STATUS_PAGE(page),
-		_("A structure holds several values under one name, such as a recipe with a "
-		  "speed and a time. Variables can then have this type."));
-	gtk_widget_set_halign(button, GTK_ALIGN_CENTER);
-	gtk_widget_add_css_class(button, "pill");
-	gtk_widget_add_css_class(button, "suggested-action");
-	adw_status_page_set_child(ADW_STATUS_PAGE(page), button);
-	return page;
+	panel_list_column(&view->list, "", TYPES_USES, PANEL_ICON, 0);
+	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
+		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
+				column[i].field == FIELD_COMMENT ? PANEL_EXPAND :
+				column[i].field == FIELD_INITIAL ? PANEL_BUTTON : 0,
+				column[i].width);
+	panel_list_column(&view->list, _("Uses"), TYPES_USES, PANEL_NUMBER, 60);
+	panel_list_unsort(&view->list);
+	row_move_add(GTK_WIDGET(view->list.view), &moving, view);
 }
 
 static void dispose(GObject *object)
@@ -623,7 +381,6 @@ static void dispose(GObject *object)
 
 	g_clear_pointer(&view->watch, panel_watch_free);
 	g_clear_pointer(&view->type, g_free);
-	g_clear_weak_pointer(&view->marked);
 	G_OBJECT_CLASS(ladder_types_view_parent_class)->dispose(object);
 	panel_list_clear(&view->list);
 }
@@ -641,29 +398,21 @@ static void ladder_types_view_class_init(LadderTypesViewClass *class)
 	gtk_widget_class_install_action(widget, "types.duplicate-type", NULL, act_on_type);
 	gtk_widget_class_install_action(widget, "types.delete-type", NULL, act_on_type);
 	gtk_widget_class_install_action(widget, "types.uses", NULL, act_on_type);
+	gtk_widget_class_set_template_from_resource(widget,
+		"/org/rungboard/Editor/ui/types_view.ui");
+	gtk_widget_class_bind_template_child(widget, LadderTypesView, stack);
+	gtk_widget_class_bind_template_child(widget, LadderTypesView, types);
+	panel_bind_list(widget, LadderTypesView);
+	panel_bind_message(widget, LadderTypesView);
+	gtk_widget_class_bind_template_callback(widget, type_changed);
 }
 
 static void ladder_types_view_init(LadderTypesView *view)
 {
-	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-
-	view->message = gtk_label_new("");
-	gtk_label_set_xalign(GTK_LABEL(view->message), 0);
-	gtk_label_set_wrap(GTK_LABEL(view->message), TRUE);
-	gtk_widget_add_css_class(view->message, "error");
-	gtk_widget_set_margin_start(view->message, 12);
-	gtk_widget_set_margin_end(view->message, 12);
-	gtk_widget_set_margin_top(view->message, 6);
-	gtk_widget_set_margin_bottom(view->message, 6);
-	spoken_text(GTK_LABEL(view->message));
-	gtk_box_append(GTK_BOX(box), bar_new(view));
-	gtk_box_append(GTK_BOX(box), list_new(view));
-	gtk_box_append(GTK_BOX(box), view->message);
-	view->stack = gtk_stack_new();
-	gtk_stack_add_named(GTK_STACK(view->stack), box, "type");
-	gtk_stack_add_named(GTK_STACK(view->stack), none_new(), "none");
-	gtk_widget_set_hexpand(view->stack, TRUE);
-	gtk_box_append(GTK_BOX(view), view->stack);
+	gtk_widget_init_template(GTK_WIDGET(view));
+	panel_list_init(&view->list, view->list.view);
+	panel_message_init(&view->message, view->message.label);
+	add_columns(view);
 	view->watch = panel_watch_new(GTK_WIDGET(view), true, refresh);
 }
 

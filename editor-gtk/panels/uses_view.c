@@ -52,18 +52,11 @@ static const char *kind_text(const struct xref_use *use)
 
 static char *cell_text(struct maker *maker, const struct xref_use *use)
 {
-	const int seen = place_shown(&maker->sheet, maker->xref.project, use->pou,
-				     use->rung - 1, use->row - 1, use->col - 1);
-	char column[PLACE_LETTERS], *text;
-	bool whole;
-	char *part = place_rung(maker->xref.project, use->pou, use->rung - 1, &whole);
+	char *place = place_cell(&maker->sheet, maker->xref.project, use->pou, use->rung - 1,
+				 use->row - 1, use->col - 1);
+	char *text = use->off ? g_strdup_printf(_("%s, off"), place) : g_strdup(place);
 
-	if (whole)
-		return part;
-	text = g_strdup_printf(use->off ? _("%s, rung %d, row %d, column %s, off") :
-			       _("%s, rung %d, row %d, column %s"), part, use->rung, use->row,
-			       place_column(seen, column));
-	g_free(part);
+	g_free(place);
 	return text;
 }
 
@@ -497,7 +490,7 @@ static void bind_children(GtkWidgetClass *class)
 	gtk_widget_class_bind_template_child(class, LadderUsesView, search);
 	gtk_widget_class_bind_template_child(class, LadderUsesView, empty);
 	gtk_widget_class_bind_template_child(class, LadderUsesView, stack);
-	gtk_widget_class_bind_template_child_full(class, "view", FALSE, 0);
+	panel_bind_list(class, LadderUsesView);
 	gtk_widget_class_bind_template_callback(class, activated);
 	gtk_widget_class_bind_template_callback(class, mode_changed);
 	gtk_widget_class_bind_template_callback(class, search_changed);
@@ -517,8 +510,7 @@ static void ladder_uses_view_init(LadderUsesView *view)
 
 	view->pou = -1;
 	gtk_widget_init_template(widget);
-	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
-		widget, LADDER_TYPE_USES_VIEW, "view")));
+	panel_list_init(&view->list, view->list.view);
 	panel_list_column(&view->list, _("Symbol"), USES_NAME, 0, 180);
 	panel_list_column(&view->list, _("Address"), USES_ADDRESS, 0, 90);
 	panel_list_column(&view->list, _("Use"), USES_KIND, 0, 110);

@@ -73,7 +73,8 @@ static bool is_member(LadderSfcView *view, const char *text)
 }
 
 /* Variables, addresses and new names for the line from @from on, as in the entry of a rung
- * behind @head; no words of elements. */
+ * behind @head; no words of elements. TRANSITION is the coil of a condition that is made of
+ * rungs. */
 static void offer_names(LadderSfcView *view, const char *head, const char *line,
 			gsize from, gsize cursor)
 {
@@ -89,7 +90,7 @@ static void offer_names(LadderSfcView *view, const char *head, const char *line,
 
 		if (one->kind != ENTRY_WORD && one->kind != ENTRY_ROUTINE &&
 		    one->kind != ENTRY_LABEL && strlen(one->line) >= skip &&
-		    !is_member(view, one->text))
+		    !is_member(view, one->text) && !g_str_equal(one->text, "TRANSITION"))
 			add_row(view, line, from, strlen(line), one->line + skip, one->text,
 				one->address, one->note, _(entry_kind_text(one->kind)));
 	}
@@ -195,6 +196,18 @@ static char *condition_of(const char *line)
 	return g_strconcat(negated ? "NOT " : "", line + strspn(line, " "), NULL);
 }
 
+static int step_named(LadderSfcView *view, const char *name);
+
+/* A new variable with the name of a step: the step is meant. NULL: none. Caller: g_free. */
+static char *is_step(LadderSfcView *view, const struct entry *entry)
+{
+	for (int i = 0; i < entry->declares; i++)
+		if (step_named(view, entry->declare[i].name) >= 0)
+			return g_strdup_printf(_("“%s” is a step; write %s.X, which is TRUE while it is active"),
+					       entry->declare[i].name, entry->declare[i].name);
+	return NULL;
+}
+
 /* The outcome to show. Unknown names are allowed, since steps may be added later; a
  * declaration in the line must be right. */
 static char *outcome(const struct asked *asked, const char *line, struct entry *entry,
@@ -222,6 +235,11 @@ static char *outcome(const struct asked *asked, const char *line, struct entry *
 		entry_condition(&place, condition, entry);
 		lenient = sfc_is_expression(condition);
 		g_free(condition);
+		told = is_step(view, entry);
+		if (told) {
+			*good = false;
+			return told;
+		}
 	} else {
 		return g_strdup("");
 	}
@@ -310,7 +328,7 @@ static bool take_condition(struct asked *asked, const char *line)
 	bool good;
 
 	g_free(outcome(asked, line, entry, &good));
-	good = good && put_condition(asked, line, entry);
+	good = good && entry->sense != ENTRY_PART && put_condition(asked, line, entry);
 	g_free(entry);
 	return good;
 }

@@ -104,6 +104,16 @@ struct location live_map_find(const struct live_map *map, const char *name, size
 	return at;
 }
 
+struct location live_map_find_pin(const struct live_map *map, const char *instance,
+				  const char *pin)
+{
+	char *name = g_strdup_printf("%s.%s", instance, pin);
+	const struct location at = live_map_find(map, name, strlen(name));
+
+	g_free(name);
+	return at;
+}
+
 /* ---- power ---- */
 
 static int compare(const struct code_power *power, int pou, uint32_t rung)
@@ -146,6 +156,19 @@ void live_map_power(const struct live_map *map, struct live_rung *rung)
 		cell->in = place_of(map, power->in);
 		cell->out = place_of(map, power->out);
 	}
+}
+
+bool live_map_result(const struct live_map *map, uint32_t line, struct live_result *out)
+{
+	const struct code_power *power = map->unit < 0 ? NULL :
+		code_result(map->program, (uint32_t)map->unit, line);
+
+	if (!power)
+		return false;
+	out->ran = place_of(map, power->in);
+	out->at = (struct location){ .type = (enum iec_type)power->type,
+				     .where = place_of(map, power->out) };
+	return true;
 }
 
 /* ---- instances ---- */

@@ -34,6 +34,17 @@ const char *live_map_instance(const struct live_map *map);
 /** live_map_find - where an operand's value is: "Start", "T1.Q", "Table[3]", "%IX0.0";
  * type IEC_NONE: it has no place that is always the same, or there is none. */
 struct location live_map_find(const struct live_map *map, const char *name, size_t len);
+/** live_map_find_pin - where the value of a pin of an instance is. */
+struct location live_map_find_pin(const struct live_map *map, const char *instance,
+				  const char *pin);
+
+/* Where the result of a line of a list is. */
+struct live_result {
+	uint32_t ran;          /* a BOOL: has it run?                           */
+	struct location at;    /* the current result after it; IEC_NONE: no single value */
+};
+/** live_map_result - of line @line of the file. Fails: false: no instruction is there. */
+bool live_map_result(const struct live_map *map, uint32_t line, struct live_result *out);
 
 /* A piece of a text: a variable, or the text between two of them. */
 struct live_part {

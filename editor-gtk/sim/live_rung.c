@@ -115,16 +115,6 @@ static void take_first(struct live_cell *cell)
 	}
 }
 
-static struct location pin_of(const struct live_map *map, const char *instance,
-			      const char *pin)
-{
-	char *name = g_strdup_printf("%s.%s", instance, pin);
-	struct location at = live_map_find(map, name, strlen(name));
-
-	g_free(name);
-	return at;
-}
-
 static const struct word_pin *pin_named(const struct word_row *word, const char *name)
 {
 	const int index = word_pin_find(word, name, strlen(name));
@@ -157,12 +147,12 @@ static void find_count(const struct live_map *map, const struct word_row *word,
 	const char *now, *goal;
 
 	if (live_word_counts(word, &now, &goal)) {
-		cell->at = pin_of(map, instance, now);
-		cell->goal = pin_of(map, instance, goal);
+		cell->at = live_map_find_pin(map, instance, now);
+		cell->goal = live_map_find_pin(map, instance, goal);
 	}
 	for (int i = 0; i < word->pin_count && cell->at.type == IEC_NONE; i++)
 		if (word->pin[i].dir == PIN_OUT && word->pin[i].type != IEC_BOOL)
-			cell->at = pin_of(map, instance, word->pin[i].name);
+			cell->at = live_map_find_pin(map, instance, word->pin[i].name);
 }
 
 static void find_text(const struct live_map *map, const struct word_row *word,

@@ -93,8 +93,8 @@ static void add_diags(GPtrArray *results, const char *path, const struct diag_li
 }
 
 /* "at 50 ms: not true: expect Motor = 1". Caller frees. */
-static char *why_of(const struct scenario *scenario, const struct resource *resource,
-		    const struct plant *plant)
+static char *why_of(const struct running *running, const struct scenario *scenario,
+		    const struct resource *resource, const struct plant *plant)
 {
 	const struct scenario_step *step = scenario->failed_step;
 	const union iec_value when = { .i = scenario->failed_ns };
@@ -103,9 +103,10 @@ static char *why_of(const struct scenario *scenario, const struct resource *reso
 	iec_value_print(IEC_TIME, when, time, sizeof(time));
 	if (step)
 		what = g_strndup(step->text, (gsize)step->text_len);
+	else if (scenario->failure == FAILURE_PLANT)
+		what = sim_fault_words(running->plant, &plant->resource);
 	else
-		what = sim_fault_words(scenario->failure == FAILURE_PLANT ?
-				       &plant->resource : resource);
+		what = sim_fault_words(running->program, resource);
 	why = g_strdup_printf(_("at %s ms: %s: %s"), time,
 			      said(scenario_failure_text(scenario->failure)), what);
 	g_free(what);
@@ -170,7 +171,7 @@ static void run_one(struct running *running, int index, struct resource *resourc
 
 	result = add(running->results, held ? SCENARIO_HELD : SCENARIO_FAILED,
 		     running->path, scenario->name,
-		     scenario->failed_line ? why_of(scenario, resource, plant) :
+		     scenario->failed_line ? why_of(running, scenario, resource, plant) :
 		     g_strdup(""));
 	result->first_line = scenario->line;
 	result->line = scenario->failed_line;

@@ -211,6 +211,13 @@ struct ladder *ladder_sim_ladder(LadderSim *sim)
 	return program ? program->ladder : NULL;
 }
 
+const char *ladder_sim_text(LadderSim *sim)
+{
+	const struct sim_program *program = shown_program(sim);
+
+	return program ? program->text : NULL;
+}
+
 struct ladder *ladder_sim_plant_ladder(LadderSim *sim)
 {
 	const struct sim_program *plant = sim->past ? sim->replay->plant : sim->view.plant;
@@ -377,9 +384,9 @@ static void tell(LadderSim *sim, const char *text, bool bad)
 
 /* ---- what comes from the thread ---- */
 
-static char *halt_words(const struct resource *resource)
+static char *halt_words(const struct sim_program *program, const struct resource *resource)
 {
-	char *place = sim_place_words(&resource->halt_at);
+	char *place = sim_place_words(program, &resource->halt_at);
 	char *text = g_strdup_printf(_("STOP: the program stopped itself: %s. Outputs have their safe values"),
 				     place);
 
@@ -387,9 +394,10 @@ static char *halt_words(const struct resource *resource)
 	return text;
 }
 
-static char *failed_words(const struct resource *resource, bool faulted)
+static char *failed_words(const struct sim_program *program, const struct resource *resource,
+			  bool faulted)
 {
-	char *place = sim_place_words(&resource->error_at);
+	char *place = sim_place_words(program, &resource->error_at);
 	char *text = g_strdup_printf(faulted ?
 		_("FAULT: an operation failed, such as a division by zero: %s. Outputs are "
 		  "off. Run continues with ENO FALSE, as on a board") :
@@ -409,7 +417,8 @@ static void tell_end(LadderSim *sim)
 	    (resource->state != STATE_FAULT && !resource->halted))
 		return;
 	text = resource->state == STATE_FAULT ?
-		sim_fault_words(resource) : halt_words(resource);
+		sim_fault_words(sim->view.program, resource) :
+		halt_words(sim->view.program, resource);
 	tell(sim, text, true);
 	g_free(text);
 }
@@ -425,7 +434,7 @@ static void tell_failure(LadderSim *sim)
 	if (sim->known.failures == sim->view.events.failures || !resource->vm.errors ||
 	    resource->state == STATE_FAULT)
 		return;
-	text = failed_words(resource, faulted);
+	text = failed_words(sim->view.program, resource, faulted);
 	tell(sim, text, faulted);
 	g_free(text);
 }
@@ -501,7 +510,8 @@ static struct sim_program *build(LadderSim *sim, GError **error)
 	/* A list that cannot be read would run differently from its text. */
 	if (program && !ladder_document_is_whole(sim->document)) {
 		ladder_document_check_now(sim->document);
-		sim_program_say_why(ladder_document_diags(sim->document), error);
+		sim_program_say_why(ladder_document_project(sim->document),
+				    ladder_document_diags(sim->document), error);
 		g_clear_pointer(&program, sim_program_unref);
 	}
 	g_free(text);

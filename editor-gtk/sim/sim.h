@@ -116,6 +116,9 @@ const struct twin *ladder_sim_twin(LadderSim *sim);
 /** ladder_sim_ladder - has the project of the program whose scan is shown: the one that runs, or
  * one before an edit. NULL: off. Borrowed until `program-changed`. */
 struct ladder *ladder_sim_ladder(LadderSim *sim);
+/** ladder_sim_text - the text of that program: the lines of its project count in it. NULL: off.
+ * Borrowed as ladder_sim_ladder(). */
+const char *ladder_sim_text(LadderSim *sim);
 /** ladder_sim_plant_ladder - the same, of the plant; NULL: none. */
 struct ladder *ladder_sim_plant_ladder(LadderSim *sim);
 /** ladder_sim_rung - which rung of ladder_sim_ladder() rung @rung of @document is; all 0-based,

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/sim/sim_program.h"
 
+#include "editor-gtk/draw/place.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/document/iomap_beside.h"
@@ -12,19 +13,28 @@
 
 /* ---- words ---- */
 
-char *sim_place_words(const struct fault_place *at)
+/* The line of a list counts from its heading. */
+static char *place_of(const struct project *project, const struct fault_place *at)
 {
-	if (at->rung)
-		return g_strdup_printf(_("%s, rung %u (%u,%u)"), at->pou, at->rung, at->row,
-				       at->col);
-	if (at->line)
-		return g_strdup_printf(_("%s, line %u"), at->pou, at->line);
+	const int pou = project ? project_find_pou(project, at->pou, strlen(at->pou)) : -1;
+	struct place_sheet sheet = { 0 };
+
+	if (pou >= 0 && at->rung)
+		return place_cell(&sheet, project, pou, (int)at->rung - 1, (int)at->row - 1,
+				  (int)at->col - 1);
+	if (pou >= 0 && at->line)
+		return place_line(project, pou, MAX((int)at->line - project->pou[pou].line, 0));
 	return g_strdup(at->pou);
 }
 
-char *sim_fault_words(const struct resource *resource)
+char *sim_place_words(const struct sim_program *program, const struct fault_place *at)
 {
-	char *place = sim_place_words(&resource->fault_at), *text;
+	return place_of(ladder_project(program->ladder), at);
+}
+
+char *sim_fault_words(const struct sim_program *program, const struct resource *resource)
+{
+	char *place = sim_place_words(program, &resource->fault_at), *text;
 
 	if (resource->fault_at.task)
 		text = g_strdup_printf(_("task %s: %s: %s"), resource->fault_at.task,
@@ -37,25 +47,26 @@ char *sim_fault_words(const struct resource *resource)
 
 /* ---- errors ---- */
 
-/* "undeclared name: Nobody: Main, rung 2 (1,3)". Caller frees. */
-static char *words_of(const struct diag *diag)
+/* "Main, rung 2, row 1, column C: "Nobody" is not declared". Caller frees. */
+static char *words_of(const struct project *project, const struct diag *diag)
 {
 	const struct fault_place at = { .pou = diag->pou, .rung = (uint32_t)diag->rung,
 		.row = (uint32_t)diag->row, .col = (uint32_t)diag->col };
 	char *what = diag_said_whole(diag);
-	char *place = diag->pou && diag->rung ? sim_place_words(&at) :
+	char *place = project && diag->pou && diag->rung ? place_of(project, &at) :
 		      diag->line ? g_strdup_printf(_("line %d"), diag->line) : NULL;
-	char *text = place ? g_strdup_printf("%s: %s", what, place) : g_strdup(what);
+	char *text = place ? g_strdup_printf("%s: %s", place, what) : g_strdup(what);
 
 	g_free(what);
 	g_free(place);
 	return text;
 }
 
-void sim_program_say_why(const struct diag_list *diags, GError **error)
+void sim_program_say_why(const struct project *project, const struct diag_list *diags,
+			 GError **error)
 {
 	const struct diag *diag = diag_first_error(diags);
-	char *text = diag ? words_of(diag) : NULL;
+	char *text = diag ? words_of(project, diag) : NULL;
 
 	g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA,
 			    text ? text : _("Out of memory"));
@@ -75,7 +86,8 @@ struct sim_program *sim_program_new(const char *file, const char *text, gsize le
 	ladder_watch(program->ladder, true);
 	if (!ladder_load_text(program->ladder, file, program->text, len) ||
 	    !ladder_build(program->ladder)) {
-		sim_program_say_why(ladder_diags(program->ladder), error);
+		sim_program_say_why(ladder_project(program->ladder), ladder_diags(program->ladder),
+				    error);
 		sim_program_unref(program);
 		return NULL;
 	}

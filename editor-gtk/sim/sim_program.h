@@ -15,8 +15,10 @@ struct sim_program {
 	char *text;              /* its source                                 */
 	guint8 *safe;            /* for twin_set_safe(), from the I/O map beside it */
 };
-/** sim_program_say_why - sets @error to the first error of @diags, with its place. */
-void sim_program_say_why(const struct diag_list *diags, GError **error);
+/** sim_program_say_why - sets @error to the first error of @diags, with its place in @project;
+ * NULL: in the text. */
+void sim_program_say_why(const struct project *project, const struct diag_list *diags,
+			 GError **error);
 /** sim_program_new - @file: interned, for diagnostics and to find the I/O map beside it; "-":
  * no file. Owns: sim_program_unref(). Any thread. Fails: NULL, and @error is the first error. */
 struct sim_program *sim_program_new(const char *file, const char *text, gsize len,
@@ -26,9 +28,10 @@ void sim_program_unref(struct sim_program *program);
 /** sim_program_is_same - same code, safe values and text; the VIEW parts may differ. */
 bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b);
 
-/** sim_place_words - "Main, rung 2 (1,3)", "Main, line 7". Caller frees. */
-char *sim_place_words(const struct fault_place *at);
-/** sim_fault_words - "instruction budget exceeded: Main, rung 2 (1,3)". Caller frees. */
-char *sim_fault_words(const struct resource *resource);
+/** sim_place_words - a place in the program, as the sheet shows it. Caller frees. */
+char *sim_place_words(const struct sim_program *program, const struct fault_place *at);
+/** sim_fault_words - "instruction budget exceeded: Main, rung 2, row 1, column C". Caller
+ * frees. */
+char *sim_fault_words(const struct sim_program *program, const struct resource *resource);
 
 #endif

@@ -1,35 +1,57 @@
 /* SPDX-License-Identifier: MIT
  *
- * line_values - the column of values beside a list; see line_values.h.
+ * line_values - a list with its values; see line_values.h.
  */
 #include "editor-gtk/text/line_values.h"
 
-#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/theme.h"
 #include "editor-gtk/sim/live_map.h"
 
 #include "engine/base/name.h"
+#include "engine/ladder.h"
 
+#include <adwaita.h>
+#include <stdlib.h>
 #include <string.h>
 
-#define WIDE "-0:00:00 / 0:00:00 h" /* the column has room for it                */
+/* In characters. */
+#define WIDEST   72 /* a longer line does not move the values of the others      */
+#define GAP      4  /* between a line and its value                              */
+#define VALUE    18 /* "-0:00 / 0:00 min"                                        */
+#define RESULT   16
+#define TAB      8
 
-/* A line of the list: where its operand and the value that it counts are. */
+#define SPOKEN_US 250000 /* a screen reader does not follow each scan            */
+
+/* A line of the list: where its operand and the value that it counts are, and its result. */
 struct seen {
 	GArray *parts;            /* of struct live_part; NULL: no variable      */
 	struct location now, goal; /* of a call: what counts in the instance      */
-	char text[64];
+	bool instruction;         /* the program that runs has one here          */
+	struct live_result result;
+	bool ran;                 /* as last looked at                           */
+	int columns;              /* of the line                                 */
+	char text[64], after[48]; /* of the operand; the result                  */
 };
 
 struct _LadderLineValues {
-	GtkSourceGutterRendererText parent;
-	LadderSim *sim;
+	GtkSourceView parent;
+	LadderSim *sim;           /* NULL: none                                  */
 	char *pou;
 	struct live_map *map;     /* NULL: not made yet                          */
+	int *places;              /* by line: line of the file that runs, from 1; 0: none. NULL:
+				   * of no line */
+	int place_count;
+	bool placed;              /* they were looked for                        */
 	GPtrArray *lines;         /* of struct seen; NULL: not looked at yet      */
+	int longest;              /* columns of a line up to WIDEST; 0: not counted yet */
+	char *spoken;             /* the description of the view                 */
+	gint64 spoken_us;         /* when it was looked at                       */
 };
 
-G_DEFINE_FINAL_TYPE(LadderLineValues, ladder_line_values, GTK_SOURCE_TYPE_GUTTER_RENDERER_TEXT)
+G_DEFINE_FINAL_TYPE(LadderLineValues, ladder_line_values, GTK_SOURCE_TYPE_VIEW)
 
 static void seen_free(gpointer data)
 {
@@ -62,16 +84,6 @@ static char *operand_of(const char *instruction)
 	return g_strndup(at, comment ? (gsize)(comment - at) : strlen(at));
 }
 
-static struct location pin_of(const struct live_map *map, const char *instance,
-			      const char *pin)
-{
-	char *name = g_strdup_printf("%s.%s", instance, pin);
-	struct location at = live_map_find(map, name, strlen(name));
-
-	g_free(name);
-	return at;
-}
-
 /* "CAL Delay (…)": the time or the count of the instance. */
 static void find_count(const struct live_map *map, const char *operand, struct seen *seen)
 {
@@ -80,10 +92,24 @@ static void find_count(const struct live_map *map, const char *operand, struct s
 	char *name = g_strndup(at, strcspn(at, " \t("));
 
 	for (gsize i = 0; *name && seen->now.type == IEC_NONE && i < G_N_ELEMENTS(pair); i++) {
-		seen->now = pin_of(map, name, pair[i][0]);
-		seen->goal = pin_of(map, name, pair[i][1]);
+		seen->now = live_map_find_pin(map, name, pair[i][0]);
+		seen->goal = live_map_find_pin(map, name, pair[i][1]);
 	}
 	g_free(name);
+}
+
+/* Columns up to the end of the line. */
+static int columns_of(const char *line)
+{
+	int columns = 0;
+
+	for (; *line && *line != '\n'; line = g_utf8_next_char(line)) {
+		const gunichar c = g_utf8_get_char(line);
+
+		columns += c == '\t' ? TAB - columns % TAB : g_unichar_iszerowidth(c) ? 0 :
+			   g_unichar_iswide(c) ? 2 : 1;
+	}
+	return columns;
 }
 
 static struct seen *look_up(LadderLineValues *values, const char *line)
@@ -92,6 +118,7 @@ static struct seen *look_up(LadderLineValues *values, const char *line)
 	const char *word = instruction_of(line);
 	char *operand = operand_of(word);
 
+	seen->columns = columns_of(line);
 	seen->now.type = seen->goal.type = IEC_NONE;
 	if (g_ascii_strncasecmp(word, "CAL", 3) == 0)
 		find_count(values->map, operand, seen);
@@ -134,7 +161,7 @@ static void print_parts(struct seen *seen, const struct image *image)
 		seen->text[strlen(seen->text) - 1] = '\0';
 }
 
-static void print(struct seen *seen, const struct image *image)
+static void print_value(struct seen *seen, const struct image *image)
 {
 	seen->text[0] = '\0';
 	if (seen->now.type != IEC_NONE && seen->goal.type == seen->now.type)
@@ -147,6 +174,77 @@ static void print(struct seen *seen, const struct image *image)
 		print_parts(seen, image);
 }
 
+static void print_result(struct seen *seen, const struct image *image)
+{
+	seen->after[0] = '\0';
+	if (!seen->instruction)
+		return;
+	seen->ran = image->memory[seen->result.ran];
+	if (!seen->ran)
+		g_strlcpy(seen->after, _("not run"), sizeof(seen->after));
+	else if (seen->result.at.type != IEC_NONE)
+		live_value_print(seen->result.at.type, image_get(image, seen->result.at),
+				 seen->after, sizeof(seen->after));
+}
+
+/* ---- which line of the program that runs a line is ---- */
+
+static const struct pou *find_pou(const struct project *project, const char *name)
+{
+	for (int i = 0; project && i < project->pou_count; i++)
+		if (name_equal(project_text(project, project->pou[i].name), name))
+			return &project->pou[i];
+	return NULL;
+}
+
+static const char *text_from_line(const char *text, int line)
+{
+	for (; text && line > 1; line--) {
+		text = strchr(text, '\n');
+		text = text ? text + 1 : NULL;
+	}
+	return text;
+}
+
+static char *text_of_buffer(LadderLineValues *values)
+{
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(values));
+	GtkTextIter start, end;
+
+	gtk_text_buffer_get_bounds(buffer, &start, &end);
+	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
+}
+
+static void find_places(LadderLineValues *values)
+{
+	struct ladder *ladder = ladder_sim_ladder(values->sim);
+	const struct project *project = ladder ? ladder_project(ladder) : NULL;
+	const struct pou *pou = find_pou(project, values->pou);
+	const char *text = pou && pou->language == LANGUAGE_IL && !pou->included ?
+		text_from_line(ladder_sim_text(values->sim), pou->line) : NULL;
+	char *shown = text ? text_of_buffer(values) : NULL;
+
+	values->place_count = 0;
+	values->places = text ? text_lines_match(shown, text, &values->place_count) : NULL;
+	for (int i = 0; values->places && i < values->place_count; i++)
+		values->places[i] = values->places[i] < 0 ? 0 : values->places[i] + pou->line;
+	values->placed = true;
+	g_free(shown);
+}
+
+static void find_result(LadderLineValues *values, int line, struct seen *seen)
+{
+	int place;
+
+	if (!values->placed)
+		find_places(values);
+	place = values->places && line < values->place_count ? values->places[line] : 0;
+	seen->instruction = place > 0 &&
+		live_map_result(values->map, (uint32_t)place, &seen->result);
+}
+
+/* ---- what is shown ---- */
+
 static char *text_of_line(GtkTextBuffer *buffer, int line)
 {
 	GtkTextIter start, end;
@@ -158,11 +256,11 @@ static char *text_of_line(GtkTextBuffer *buffer, int line)
 	return gtk_text_iter_get_text(&start, &end);
 }
 
-const char *line_values_text(LadderLineValues *values, int line)
+/* NULL: no values are shown. */
+static struct seen *seen_of(LadderLineValues *values, int line)
 {
-	GtkSourceGutterRenderer *renderer = GTK_SOURCE_GUTTER_RENDERER(values);
-	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(gtk_source_gutter_renderer_get_buffer(renderer));
-	const struct twin *twin = ladder_sim_twin(values->sim);
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(values));
+	const struct twin *twin = values->sim ? ladder_sim_twin(values->sim) : NULL;
 	struct seen *seen;
 	char *text;
 
@@ -176,27 +274,236 @@ const char *line_values_text(LadderLineValues *values, int line)
 	if (!seen) {
 		text = text_of_line(buffer, line);
 		seen = values->lines->pdata[line] = look_up(values, text);
+		find_result(values, line, seen);
 		g_free(text);
 	}
-	print(seen, &twin->resource.image);
-	return seen->text[0] ? seen->text : NULL;
+	print_value(seen, &twin->resource.image);
+	print_result(seen, &twin->resource.image);
+	return seen;
 }
 
-static void query_data(GtkSourceGutterRenderer *renderer, GtkSourceGutterLines *lines,
-		       guint line)
+const char *line_values_text(LadderLineValues *values, int line)
 {
-	const char *text = line_values_text(LADDER_LINE_VALUES(renderer), (int)line);
+	const struct seen *seen = seen_of(values, line);
 
-	(void)lines;
-	gtk_source_gutter_renderer_text_set_text(GTK_SOURCE_GUTTER_RENDERER_TEXT(renderer),
-						 text ? text : "", -1);
+	return seen && seen->text[0] ? seen->text : NULL;
+}
+
+const char *line_values_result(LadderLineValues *values, int line)
+{
+	const struct seen *seen = seen_of(values, line);
+
+	return seen && seen->after[0] ? seen->after : NULL;
+}
+
+/* ---- the picture ---- */
+
+/* Where the columns of one line are, in characters from the left edge of the view. */
+struct pen {
+	LadderLineValues *values;
+	GtkSnapshot *snapshot;
+	PangoLayout *layout;
+	int cell, baseline;       /* px of a character, from its top             */
+	int left, limit;          /* px of the text's edge; the last place of a column */
+};
+
+static void count_longest(LadderLineValues *values)
+{
+	char *text = text_of_buffer(values);
+
+	values->longest = 1;
+	for (const char *at = text; at; at = strchr(at, '\n') ? strchr(at, '\n') + 1 : NULL) {
+		const int columns = columns_of(at);
+
+		if (columns <= WIDEST)
+			values->longest = MAX(values->longest, columns);
+	}
+	g_free(text);
+}
+
+/* Returns the width in px. @weight: PANGO_WEIGHT_NORMAL or BOLD. */
+static int draw(const struct pen *pen, const char *text, int x, int y, enum token token,
+		PangoWeight weight)
+{
+	PangoAttrList *attrs = pango_attr_list_new();
+	int width, height;
+
+	pango_attr_list_insert(attrs, pango_attr_weight_new(weight));
+	pango_layout_set_attributes(pen->layout, attrs);
+	pango_attr_list_unref(attrs);
+	pango_layout_set_text(pen->layout, text, -1);
+	pango_layout_get_pixel_size(pen->layout, &width, &height);
+	y += pen->baseline - PANGO_PIXELS(pango_layout_get_baseline(pen->layout));
+	gtk_snapshot_save(pen->snapshot);
+	gtk_snapshot_translate(pen->snapshot, &GRAPHENE_POINT_INIT((float)x, (float)y));
+	gtk_snapshot_append_layout(pen->snapshot, pen->layout,
+				   &theme_screen()->color[token]);
+	gtk_snapshot_restore(pen->snapshot);
+	return width;
+}
+
+/* A BOOL is told by weight as well as by colour. */
+static void draw_result(const struct pen *pen, const struct seen *seen, int x, int y)
+{
+	if (!seen->after[0])
+		return;
+	if (!seen->ran)
+		draw(pen, seen->after, x, y, TOKEN_COMMENT, PANGO_WEIGHT_NORMAL);
+	else if (seen->result.at.type != IEC_BOOL)
+		draw(pen, seen->after, x, y, TOKEN_ACCENT, PANGO_WEIGHT_NORMAL);
+	else if (seen->after[0] == 'T')
+		draw(pen, seen->after, x, y, TOKEN_POWER, PANGO_WEIGHT_BOLD);
+	else
+		draw(pen, seen->after, x, y, TOKEN_INK, PANGO_WEIGHT_NORMAL);
+}
+
+static bool find_ground(LadderLineValues *values, GdkRGBA *ground)
+{
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(values));
+	GtkSourceStyleScheme *scheme =
+		gtk_source_buffer_get_style_scheme(GTK_SOURCE_BUFFER(buffer));
+	GtkSourceStyle *style = scheme ? gtk_source_style_scheme_get_style(scheme, "text") : NULL;
+	char *name = NULL;
+	bool found;
+
+	if (style)
+		g_object_get(style, "background", &name, NULL);
+	found = name && gdk_rgba_parse(ground, name);
+	g_free(name);
+	return found;
+}
+
+/* The text below a column would be read with it. */
+static void draw_ground(const struct pen *pen, int x, int y, int height)
+{
+	GdkRGBA ground;
+
+	if (find_ground(pen->values, &ground))
+		gtk_snapshot_append_color(pen->snapshot, &ground,
+			&GRAPHENE_RECT_INIT((float)(x - pen->cell), (float)y,
+				(float)((VALUE + RESULT + 1) * pen->cell), (float)height));
+}
+
+static void draw_line(const struct pen *pen, int line, int y, int height)
+{
+	const struct seen *seen = seen_of(pen->values, line);
+	const int wanted = MAX(seen ? seen->columns : 0, pen->values->longest) + GAP;
+	int x = pen->left + wanted * pen->cell, width = 0;
+
+	if (!seen || (!seen->text[0] && !seen->after[0]))
+		return;
+	if (x > pen->limit) {
+		x = pen->limit;
+		if (seen->columns * pen->cell + pen->left > x)
+			draw_ground(pen, x, y, height);
+	}
+	if (seen->text[0])
+		width = draw(pen, seen->text, x, y, TOKEN_ACCENT, PANGO_WEIGHT_NORMAL);
+	draw_result(pen, seen, x + MAX(VALUE * pen->cell, width + 2 * pen->cell), y);
+}
+
+/* The first line of a list has no value: it has room for the names of the columns. */
+static void draw_head(const struct pen *pen, int y)
+{
+	const int wanted = pen->values->longest + GAP;
+	const int x = MIN(pen->left + wanted * pen->cell, pen->limit);
+
+	draw(pen, _("Value"), x, y, TOKEN_COMMENT, PANGO_WEIGHT_NORMAL);
+	if (pen->values->places)
+		draw(pen, _("Result"), x + VALUE * pen->cell, y, TOKEN_COMMENT,
+		     PANGO_WEIGHT_NORMAL);
+}
+
+static void draw_lines(const struct pen *pen, const GdkRectangle *seen)
+{
+	GtkTextView *view = GTK_TEXT_VIEW(pen->values);
+	const int count = gtk_text_buffer_get_line_count(gtk_text_view_get_buffer(view));
+	GtkTextIter at;
+	int y, height;
+
+	gtk_text_view_get_line_at_y(view, &at, seen->y, &y);
+	for (int line = gtk_text_iter_get_line(&at); line < count; line++) {
+		gtk_text_view_get_line_yrange(view, &at, &y, &height);
+		if (y > seen->y + seen->height)
+			break;
+		draw_line(pen, line, y, height);
+		if (line == 0 && !line_values_text(pen->values, 0) &&
+		    !line_values_result(pen->values, 0))
+			draw_head(pen, y);
+		gtk_text_iter_forward_line(&at);
+	}
+}
+
+static int cell_width(LadderLineValues *values)
+{
+	PangoContext *context = gtk_widget_get_pango_context(GTK_WIDGET(values));
+	PangoFontMetrics *metrics = pango_context_get_metrics(context, NULL, NULL);
+	const int width = pango_font_metrics_get_approximate_digit_width(metrics);
+
+	pango_font_metrics_unref(metrics);
+	return MAX(PANGO_PIXELS_CEIL(width), 1);
+}
+
+static bool is_on(LadderLineValues *values)
+{
+	return values->sim && ladder_sim_is_on(values->sim) && values->pou[0];
+}
+
+static void ladder_line_values_snapshot_layer(GtkTextView *view, GtkTextViewLayer layer,
+					      GtkSnapshot *snapshot)
+{
+	LadderLineValues *values = LADDER_LINE_VALUES(view);
+	struct pen pen = { .values = values, .snapshot = snapshot };
+	GdkRectangle seen;
+
+	GTK_TEXT_VIEW_CLASS(ladder_line_values_parent_class)->snapshot_layer(view, layer,
+									    snapshot);
+	if (layer != GTK_TEXT_VIEW_LAYER_ABOVE_TEXT || !is_on(values))
+		return;
+	if (!values->longest)
+		count_longest(values);
+	gtk_text_view_get_visible_rect(view, &seen);
+	pen.cell = cell_width(values);
+	pen.left = gtk_text_view_get_left_margin(view);
+	pen.limit = MAX(seen.x + seen.width - (VALUE + RESULT) * pen.cell, pen.left);
+	pen.layout = gtk_widget_create_pango_layout(GTK_WIDGET(view), "0");
+	pen.baseline = PANGO_PIXELS(pango_layout_get_baseline(pen.layout));
+	draw_lines(&pen, &seen);
+	g_object_unref(pen.layout);
 }
 
 /* ---- what changes ---- */
 
+/* A screen reader reads the values of the line of the cursor. */
+static void tell_line(LadderLineValues *values)
+{
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(values));
+	const struct seen *seen;
+	GtkTextIter at;
+	char *text;
+
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	seen = seen_of(values, gtk_text_iter_get_line(&at));
+	text = !seen || !(seen->text[0] || seen->after[0]) ? g_strdup("") :
+	       !seen->after[0] ? g_strdup_printf(_("value %s"), seen->text) :
+	       !seen->text[0] ? g_strdup_printf(_("result %s"), seen->after) :
+	       g_strdup_printf(_("value %s, result %s"), seen->text, seen->after);
+	if (g_strcmp0(text, values->spoken) == 0) {
+		g_free(text);
+		return;
+	}
+	g_free(values->spoken);
+	values->spoken = text;
+	gtk_accessible_update_property(GTK_ACCESSIBLE(values),
+				       GTK_ACCESSIBLE_PROPERTY_DESCRIPTION, text, -1);
+}
+
 static void forget_lines(LadderLineValues *values)
 {
 	g_ptr_array_set_size(values->lines, 0);
+	g_clear_pointer(&values->places, free);
+	values->placed = false;
+	values->longest = 0;
 	gtk_widget_queue_draw(GTK_WIDGET(values));
 }
 
@@ -208,17 +515,27 @@ static void forget(LadderLineValues *values)
 
 static void shown(LadderLineValues *values)
 {
-	if (gtk_widget_get_mapped(GTK_WIDGET(values)))
-		gtk_widget_queue_draw(GTK_WIDGET(values));
+	const gint64 now = g_get_monotonic_time();
+
+	if (!values->pou[0] || !gtk_widget_get_mapped(GTK_WIDGET(values)))
+		return;
+	gtk_widget_queue_draw(GTK_WIDGET(values));
+	if (now - values->spoken_us < SPOKEN_US)
+		return;
+	values->spoken_us = now;
+	tell_line(values);
 }
 
+/* The end of a long line can be scrolled out from below the columns. */
 static void state_changed(LadderLineValues *values)
 {
-	const bool on = ladder_sim_is_on(values->sim) && values->pou[0];
+	const bool on = is_on(values);
 
-	if (!ladder_sim_is_on(values->sim))
+	if (!on)
 		forget(values);
-	gtk_widget_set_visible(GTK_WIDGET(values), on);
+	gtk_text_view_set_right_margin(GTK_TEXT_VIEW(values), on ?
+				       (GAP + VALUE + RESULT) * cell_width(values) : 0);
+	gtk_widget_queue_draw(GTK_WIDGET(values));
 }
 
 void line_values_set_pou(LadderLineValues *values, const char *pou)
@@ -231,6 +548,22 @@ void line_values_set_pou(LadderLineValues *values, const char *pou)
 	state_changed(values);
 }
 
+void line_values_set_sim(LadderLineValues *values, LadderSim *sim)
+{
+	if (values->sim)
+		g_signal_handlers_disconnect_by_data(values->sim, values);
+	g_set_object(&values->sim, sim);
+	forget(values);
+	state_changed(values);
+	if (!sim)
+		return;
+	g_signal_connect_object(sim, "shown", G_CALLBACK(shown), values, G_CONNECT_SWAPPED);
+	g_signal_connect_object(sim, "program-changed", G_CALLBACK(forget), values,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(sim, "state-changed", G_CALLBACK(state_changed), values,
+				G_CONNECT_SWAPPED);
+}
+
 /* ---- life ---- */
 
 static void ladder_line_values_finalize(GObject *object)
@@ -238,16 +571,18 @@ static void ladder_line_values_finalize(GObject *object)
 	LadderLineValues *values = LADDER_LINE_VALUES(object);
 
 	live_map_free(values->map);
+	g_clear_pointer(&values->places, free);
 	g_ptr_array_unref(values->lines);
 	g_clear_object(&values->sim);
 	g_free(values->pou);
+	g_free(values->spoken);
 	G_OBJECT_CLASS(ladder_line_values_parent_class)->finalize(object);
 }
 
 static void ladder_line_values_class_init(LadderLineValuesClass *class)
 {
 	G_OBJECT_CLASS(class)->finalize = ladder_line_values_finalize;
-	GTK_SOURCE_GUTTER_RENDERER_CLASS(class)->query_data = query_data;
+	GTK_TEXT_VIEW_CLASS(class)->snapshot_layer = ladder_line_values_snapshot_layer;
 }
 
 static void ladder_line_values_init(LadderLineValues *values)
@@ -256,34 +591,16 @@ static void ladder_line_values_init(LadderLineValues *values)
 	values->lines = g_ptr_array_new_with_free_func(seen_free);
 }
 
-static void make_room(LadderLineValues *values)
+LadderLineValues *line_values_new(GtkSourceBuffer *buffer)
 {
-	int width;
+	LadderLineValues *values = g_object_new(LADDER_TYPE_LINE_VALUES, "buffer", buffer,
+						"monospace", TRUE, NULL);
 
-	gtk_source_gutter_renderer_text_measure(GTK_SOURCE_GUTTER_RENDERER_TEXT(values), WIDE,
-						&width, NULL);
-	gtk_widget_set_size_request(GTK_WIDGET(values), width, -1);
-}
-
-LadderLineValues *line_values_add(GtkSourceView *view, LadderSim *sim)
-{
-	LadderLineValues *values = g_object_new(LADDER_TYPE_LINE_VALUES, "xalign", 1.0, "xpad", 10,
-						NULL);
-	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(view));
-
-	values->sim = g_object_ref(sim);
-	gtk_widget_add_css_class(GTK_WIDGET(values), "live-value");
-	spoken_name(values, _("Values of the lines"));
-	gtk_source_gutter_insert(gtk_source_view_get_gutter(view, GTK_TEXT_WINDOW_RIGHT),
-				 GTK_SOURCE_GUTTER_RENDERER(values), 0);
-	make_room(values);
-	g_signal_connect_object(sim, "shown", G_CALLBACK(shown), values, G_CONNECT_SWAPPED);
-	g_signal_connect_object(sim, "program-changed", G_CALLBACK(forget), values,
-				G_CONNECT_SWAPPED);
-	g_signal_connect_object(sim, "state-changed", G_CALLBACK(state_changed), values,
-				G_CONNECT_SWAPPED);
+	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
+				G_CALLBACK(gtk_widget_queue_draw), values, G_CONNECT_SWAPPED);
 	g_signal_connect_object(buffer, "changed", G_CALLBACK(forget_lines), values,
 				G_CONNECT_SWAPPED);
-	state_changed(values);
+	g_signal_connect_object(buffer, "notify::cursor-position", G_CALLBACK(tell_line),
+				values, G_CONNECT_SWAPPED);
 	return values;
 }

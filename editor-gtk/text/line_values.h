@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * line_values - the values of an instruction list while it is simulated: a column at the right
- * edge of the text, with the value of the operand of each line at the scan that is shown.
+ * line_values - an instruction list that shows its values while it is simulated: right of the
+ * longest line the value of the operand of each line, and the current result after it.
  *
- * Only the lines on the screen are looked at. It changes nothing; the column is hidden while
- * nothing is simulated.
+ * Both are of the scan that is shown. A result is what that scan has computed
+ * (code_result()): it is not computed again here. A line that the scan has jumped over says so.
+ * Only the lines on the screen are looked at. It changes nothing.
  */
 #ifndef EDITOR_LINE_VALUES_H
 #define EDITOR_LINE_VALUES_H
@@ -14,15 +15,19 @@
 #include <gtksourceview/gtksource.h>
 
 #define LADDER_TYPE_LINE_VALUES (ladder_line_values_get_type())
-G_DECLARE_FINAL_TYPE(LadderLineValues, ladder_line_values, LADDER, LINE_VALUES,
-		     GtkSourceGutterRendererText)
+G_DECLARE_FINAL_TYPE(LadderLineValues, ladder_line_values, LADDER, LINE_VALUES, GtkSourceView)
 
-/** line_values_add - the column of @view. @sim: referenced. Borrowed: lives with @view. */
-LadderLineValues *line_values_add(GtkSourceView *view, LadderSim *sim);
+/** line_values_new - a source view of @buffer. */
+LadderLineValues *line_values_new(GtkSourceBuffer *buffer);
+/** line_values_set_sim - whose values are shown; referenced. NULL: none. */
+void line_values_set_sim(LadderLineValues *values, LadderSim *sim);
 /** line_values_set_pou - the POU whose list is shown; "": none. */
 void line_values_set_pou(LadderLineValues *values, const char *pou);
-/** line_values_text - of a line, from 0: "3.2 s / 5 s"; NULL: none. Borrowed until the list,
- * the program or the scan changes. */
+/** line_values_text - of the operand of a line, from 0: "3.2 s / 5 s"; NULL: none. Borrowed until
+ * the list, the program or the scan changes. */
 const char *line_values_text(LadderLineValues *values, int line);
+/** line_values_result - the current result after it: "TRUE", "not run"; NULL: none is known. As
+ * line_values_text(). */
+const char *line_values_result(LadderLineValues *values, int line);
 
 #endif

@@ -5,6 +5,7 @@
 #include "editor-gtk/text/text_complete.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/name_fold.h"
 
 #include "engine/base/name.h"
 
@@ -31,6 +32,7 @@ G_DECLARE_FINAL_TYPE(LadderProposal, ladder_proposal, LADDER, PROPOSAL, GObject)
 struct _LadderProposal {
 	GObject parent;
 	char *text, *kind, *note;
+	char *key;          /* by which it is sorted                           */
 };
 
 static char *typed_text(GtkSourceCompletionProposal *proposal)
@@ -53,6 +55,7 @@ static void ladder_proposal_finalize(GObject *object)
 	g_free(proposal->text);
 	g_free(proposal->kind);
 	g_free(proposal->note);
+	g_free(proposal->key);
 	G_OBJECT_CLASS(ladder_proposal_parent_class)->finalize(object);
 }
 
@@ -73,18 +76,19 @@ static void take_word(void *context, const struct ladder_word *word)
 	LadderProposal *proposal = g_object_new(LADDER_TYPE_PROPOSAL, NULL);
 
 	proposal->text = g_strdup(word->text);
+	proposal->key = name_fold(word->text);
 	proposal->kind = g_strdup(_(word->kind));
 	proposal->note = g_strdup(word->note[0] ? _(word->note) : "");
 	g_list_store_append(context, proposal);
 	g_object_unref(proposal);
 }
 
-static int by_text(gconstpointer a, gconstpointer b, gpointer unused)
+static int by_key(gconstpointer a, gconstpointer b, gpointer unused)
 {
 	const LadderProposal *one = a, *other = b;
 
 	(void)unused;
-	return g_ascii_strcasecmp(one->text, other->text);
+	return strcmp(one->key, other->key);
 }
 
 /* The file with @text as the POU; @line becomes a line of the file. */
@@ -117,7 +121,7 @@ GListStore *text_complete_words(LadderDocument *document, int pou, const char *t
 	if (!checked || !ladder_complete(checked, whole, strlen(whole), line + 1,
 					 column + 1, take_word, words, &place))
 		g_list_store_remove_all(words);
-	g_list_store_sort(words, by_text, NULL);
+	g_list_store_sort(words, by_key, NULL);
 	*prefix_len = place.prefix_len;
 	g_free(whole);
 	return words;

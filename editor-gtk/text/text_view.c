@@ -30,9 +30,9 @@ struct _LadderTextView {
 	GtkBox parent;
 	LadderDocument *document;
 	LadderSim *sim;          /* NULL: none                                 */
-	LadderLineValues *values; /* beside the lines; NULL: no simulation       */
 	int pou;
-	GtkSourceView *view;
+	LadderLineValues *values; /* the text, with values beside its lines     */
+	GtkSourceView *view;     /* the same                                   */
 	GtkSourceBuffer *buffer;
 	GtkTextTag *error, *warning;
 	GtkLabel *told;          /* why the line of the cursor is wrong         */
@@ -201,10 +201,9 @@ static void name_pou(LadderTextView *view)
 {
 	const struct project *project = ladder_document_project(view->document);
 
-	if (view->values)
-		line_values_set_pou(view->values, !project || view->pou < 0 ||
-				    view->pou >= project->pou_count ? "" :
-				    project_text(project, project->pou[view->pou].name));
+	line_values_set_pou(view->values, !project || view->pou < 0 ||
+			    view->pou >= project->pou_count ? "" :
+			    project_text(project, project->pou[view->pou].name));
 }
 
 /* Does not replace text typed since. */
@@ -382,14 +381,18 @@ char *ladder_text_view_tip(LadderTextView *view, int line)
 void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim)
 {
 	g_set_object(&view->sim, sim);
-	if (sim && !view->values)
-		view->values = line_values_add(view->view, sim);
+	line_values_set_sim(view->values, sim);
 	name_pou(view);
 }
 
 const char *ladder_text_view_value(LadderTextView *view, int line)
 {
-	return view->values ? line_values_text(view->values, line - 1) : NULL;
+	return line_values_text(view->values, line - 1);
+}
+
+const char *ladder_text_view_result(LadderTextView *view, int line)
+{
+	return line_values_result(view->values, line - 1);
 }
 
 static gboolean tell_pointed(GtkWidget *widget, int x, int y, gboolean by_keys,
@@ -615,9 +618,9 @@ static void build(LadderTextView *view)
 	GtkEventController *leaves;
 
 	make_buffer(view);
-	view->view = GTK_SOURCE_VIEW(gtk_source_view_new_with_buffer(view->buffer));
+	view->values = line_values_new(view->buffer);
+	view->view = GTK_SOURCE_VIEW(view->values);
 	view->told = GTK_LABEL(gtk_label_new(""));
-	gtk_text_view_set_monospace(GTK_TEXT_VIEW(view->view), TRUE);
 	gtk_source_view_set_show_line_numbers(view->view, TRUE);
 	gtk_source_view_set_highlight_current_line(view->view, TRUE);
 	gtk_source_view_set_auto_indent(view->view, TRUE);

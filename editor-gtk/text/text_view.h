@@ -25,6 +25,8 @@ void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim);
 /** ladder_text_view_value - what is shown beside line @line, 1-based; NULL: nothing. Borrowed until
  * the text, the program or the scan changes. */
 const char *ladder_text_view_value(LadderTextView *view, int line);
+/** ladder_text_view_result - the current result after it, likewise: "TRUE", "not run". */
+const char *ladder_text_view_result(LadderTextView *view, int line);
 /** ladder_text_view_tip - the tooltip of line @line, 1-based, of the shown text: errors and
  * values; NULL: none. Caller frees. */
 char *ladder_text_view_tip(LadderTextView *view, int line);

@@ -358,6 +358,25 @@ static void open_files(AdwApplication *application, GFile **files, int count,
 	}
 }
 
+/* `--compare OLD NEW` */
+static void compare_opened(AdwApplication *application, GFile **files, int count,
+			   const char *hint)
+{
+	char *older = g_file_get_path(files[0]), *newer = count > 1 ? g_file_get_path(files[1]) :
+		      NULL;
+	LadderWindow *window;
+
+	(void)hint;
+	restore_drafts(application);
+	window = new_window(application);
+	if (older && newer)
+		ladder_window_compare(window, older, newer);
+	else
+		ladder_window_warn(window, _("Only files on this machine can be opened."));
+	g_free(newer);
+	g_free(older);
+}
+
 static void add_css(GtkCssProvider *css)
 {
 	gtk_style_context_add_provider_for_display(gdk_display_get_default(),
@@ -443,6 +462,7 @@ static bool is_render(int argc, char **argv)
 
 int app_run(int argc, char **argv)
 {
+	const bool compares = usage_compares(argc, argv);
 	AdwApplication *application;
 	int status;
 
@@ -461,8 +481,14 @@ int app_run(int argc, char **argv)
 							  _("[FILE…]"));
 	g_signal_connect_after(application, "startup", G_CALLBACK(startup), NULL);
 	g_signal_connect(application, "activate", G_CALLBACK(activate), NULL);
-	g_signal_connect(application, "open", G_CALLBACK(open_files), NULL);
+	g_signal_connect(application, "open", compares ? G_CALLBACK(compare_opened) :
+			 G_CALLBACK(open_files), NULL);
 	follow_signals(application);
+	if (compares) { /* GApplication gets the files alone */
+		argv[1] = argv[0];
+		argc--;
+		argv++;
+	}
 	status = g_application_run(G_APPLICATION(application), argc, argv);
 	g_object_unref(application);
 	return status;

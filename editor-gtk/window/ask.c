@@ -5,11 +5,8 @@
 #include "editor-gtk/window/ask.h"
 
 #include "editor-gtk/document/panel.h"
-#include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
-
-#define WHY_LINES 4 /* lines reserved for the reason of a refusal              */
 
 /* Enter in a check box gives the answer, as in an entry; Space checks it. */
 static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
@@ -70,27 +67,6 @@ GtkWidget *ask_entry(const char *name)
 	gtk_entry_set_activates_default(GTK_ENTRY(entry), TRUE);
 	spoken_name(entry, name);
 	return entry;
-}
-
-GtkWidget *ask_why(void)
-{
-	GtkWidget *why = gtk_label_new("");
-
-	gtk_label_set_xalign(GTK_LABEL(why), 0);
-	gtk_label_set_wrap(GTK_LABEL(why), TRUE);
-	gtk_label_set_wrap_mode(GTK_LABEL(why), PANGO_WRAP_WORD_CHAR);
-	gtk_label_set_lines(GTK_LABEL(why), WHY_LINES);
-	gtk_label_set_ellipsize(GTK_LABEL(why), PANGO_ELLIPSIZE_END);
-	gtk_widget_add_css_class(why, "error");
-	return why;
-}
-
-void ask_refuse(AdwMessageDialog *dialog, const char *answer, GtkWidget *entry, GtkWidget *label,
-		char *why)
-{
-	gtk_label_set_text(GTK_LABEL(label), why ? why : "");
-	adw_message_dialog_set_response_enabled(dialog, answer, !why);
-	cells_refuse(entry, why);
 }
 
 GtkFileChooserNative *ask_rung_file(GtkWindow *window, LadderDocument *document,

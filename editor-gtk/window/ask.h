@@ -20,12 +20,6 @@ AdwMessageDialog *ask_save(GtkWindow *window, const char *name);
 /** ask_entry - an entry for a dialog; Enter gives the default answer. @name: its accessible
  * name. */
 GtkWidget *ask_entry(const char *name);
-/** ask_why - the label for the reason why an entry is refused; it keeps its height. */
-GtkWidget *ask_why(void);
-/** ask_refuse - shows why @entry is refused in @label, marks it red, and disables @answer; @why
- * NULL: it is not. Takes @why. */
-void ask_refuse(AdwMessageDialog *dialog, const char *answer, GtkWidget *entry, GtkWidget *label,
-		char *why);
 /** ask_rung_file - a file chooser for rung files that starts in the folder of @document.
  * The caller shows it and passes its response to ask_take_path(). */
 GtkFileChooserNative *ask_rung_file(GtkWindow *window, LadderDocument *document,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * compare - compares the document with another version: asks which, reads it, shows the page.
+ * compare - compares the document with another version, or two other files: asks which, reads them,
+ * shows the page.
  */
 #ifndef EDITOR_WINDOW_COMPARE_H
 #define EDITOR_WINDOW_COMPARE_H
@@ -10,13 +11,17 @@
 struct compare {
 	struct core *core;
 	GCancellable *cancel;   /* of git; NULL: nothing is awaited               */
-	char *name;             /* of the revision that is awaited               */
+	char *older;            /* the first of two files that are asked for; NULL: none */
 };
 
 void compare_init(struct compare *compare, struct core *core);
 void compare_clear(struct compare *compare);
 /** compare_ask - asks with what, and shows the page. */
 void compare_ask(struct compare *compare);
+/** compare_ask_files - asks for two files, and shows the page. */
+void compare_ask_files(struct compare *compare);
+/** compare_files - shows the page of two files. */
+void compare_files(struct compare *compare, const char *older, const char *newer);
 /** compare_step - shows the next or previous difference; of a page that is not in front, the
  * one that is selected. */
 void compare_step(struct compare *compare, bool back);

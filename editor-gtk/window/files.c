@@ -303,10 +303,10 @@ void files_save(struct files *files)
 
 	if (file)
 		tabs_save_file(files->core->tabs, file);
-	else if (ladder_document_path(files->core->document))
-		save_here(files);
-	else
+	else if (!ladder_document_path(files->core->document))
 		files_save_as(files);
+	else if (save_here(files))
+		tabs_save_files(files->core->tabs); /* a rename has changed them, too */
 }
 
 bool files_is_all_saved(struct files *files)

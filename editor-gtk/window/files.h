@@ -28,7 +28,7 @@ void files_init(struct files *files, struct core *core, struct origin *origin,
 void files_open(struct files *files);
 /** files_import - the same, for a project of another program. */
 void files_import(struct files *files);
-/** files_save - saves the file in front, else the program. */
+/** files_save - saves the file in front, else the program and all changed files in tabs. */
 void files_save(struct files *files);
 void files_save_as(struct files *files);
 /** files_save_over - saves the program even if its file changed on the disk. Without

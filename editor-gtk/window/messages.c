@@ -15,16 +15,70 @@
 
 /* ---- the status bar ---- */
 
+/* Px for the message: what the other parts of the status bar leave. */
+static int room(GtkWidget *label)
+{
+	GtkWidget *bin = gtk_widget_get_parent(label), *bar = gtk_widget_get_parent(bin);
+	int left = gtk_widget_get_width(bar);
+
+	for (GtkWidget *part = gtk_widget_get_first_child(bar); part;
+	     part = gtk_widget_get_next_sibling(part)) {
+		int natural = 0;
+
+		if (part != bin && gtk_widget_get_visible(part))
+			gtk_widget_measure(part, GTK_ORIENTATION_HORIZONTAL, -1, NULL, &natural,
+					   NULL, NULL);
+		if (natural)
+			left -= natural + gtk_box_get_spacing(GTK_BOX(bar));
+	}
+	return left;
+}
+
+/* The first keys of @keys that have room, none of them cut; before the window is shown, all.
+ * Caller frees. */
+static char *keys_that_fit(GtkWidget *label, const char *keys)
+{
+	static const char between[] = " · ";
+	const int most = room(label);
+	PangoLayout *layout = gtk_widget_create_pango_layout(label, keys);
+	char *text = g_strdup(keys), *last;
+	int width;
+
+	pango_layout_get_pixel_size(layout, &width, NULL);
+	while (most > 0 && width > most && (last = g_strrstr(text, between))) {
+		*last = '\0';
+		pango_layout_set_text(layout, text, -1);
+		pango_layout_get_pixel_size(layout, &width, NULL);
+	}
+	g_object_unref(layout);
+	return text;
+}
+
 void messages_tell(struct messages *messages, const char *text)
 {
+	GtkWidget *label = GTK_WIDGET(messages->message_label);
+	char *keys = NULL;
+
 	if (!messages->core->document)
 		return;
 	messages->told_at = text[0] ? g_get_monotonic_time() : 0;
 	messages->told_of = ladder_document_version(messages->core->document);
 	if (!text[0] && messages->keys)
-		text = messages->keys;
-	gtk_label_set_text(messages->message_label, text);
-	tip_set(GTK_WIDGET(messages->message_label), text);
+		keys = keys_that_fit(label, messages->keys);
+	gtk_label_set_text(messages->message_label, keys ? keys : text);
+	tip_set(label, keys ? messages->keys : text);
+	g_free(keys);
+}
+
+bool messages_can_add(struct messages *messages)
+{
+	LadderDocument *document = messages->core->document;
+
+	if (ladder_document_project(document) && ladder_document_is_whole(document))
+		return true;
+	messages_tell(messages, _("Nothing can be added while a text of the project cannot be "
+				  "read"));
+	return false;
 }
 
 void messages_keys(struct messages *messages, char *text)
@@ -116,10 +170,31 @@ static void banner_clicked(struct messages *messages)
 
 /* ---- life ---- */
 
+/* Another width of the status bar has room for more or fewer keys. */
+static void laid_out(struct messages *messages)
+{
+	GtkWidget *bin = gtk_widget_get_parent(GTK_WIDGET(messages->message_label));
+	const int width = gtk_widget_get_width(gtk_widget_get_parent(bin));
+
+	if (width == messages->width)
+		return;
+	messages->width = width;
+	if (!messages->told_at)
+		messages_tell(messages, "");
+}
+
+static void realized(struct messages *messages)
+{
+	core_connect(messages->core, gtk_native_get_surface(GTK_NATIVE(messages->core->window)),
+		     "layout", G_CALLBACK(laid_out), messages, G_CONNECT_SWAPPED);
+}
+
 void messages_init(struct messages *messages, struct core *core)
 {
 	messages->core = core;
 	spoken_text(messages->message_label);
+	core_connect(core, core->window, "realize", G_CALLBACK(realized), messages,
+		     G_CONNECT_SWAPPED);
 	core_connect(core, messages->banner_button, "clicked", G_CALLBACK(banner_clicked),
 		     messages, G_CONNECT_SWAPPED);
 	core_connect(core, messages->banner_close, "clicked",

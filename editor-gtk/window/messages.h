@@ -17,6 +17,7 @@ struct messages {
 	gint64 told_at;   /* us; when the message in the status bar was set      */
 	guint64 told_of;  /* version of the document at that time                */
 	char *keys;       /* shown while there is no message                     */
+	int width;        /* px of the status bar, when keys were shown last     */
 };
 
 void messages_init(struct messages *messages, struct core *core);
@@ -24,6 +25,8 @@ void messages_clear(struct messages *messages);
 /** messages_tell - shows a short message in the status bar, for a moment at least; "":
  * none. */
 void messages_tell(struct messages *messages, const char *text);
+/** messages_can_add - can a declaration be added now? If not, it tells why. */
+bool messages_can_add(struct messages *messages);
 /** messages_keys - what the next key would do (taken over), shown while there is no
  * message. */
 void messages_keys(struct messages *messages, char *text);

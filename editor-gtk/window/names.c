@@ -6,14 +6,17 @@
 
 #include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/document/rename.h"
+#include "editor-gtk/document/task_rows.h"
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/watch_view.h"
+#include "editor-gtk/panels/task_delete.h"
 #include "editor-gtk/panels/uses_view.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/below.h"
 #include "editor-gtk/window/messages.h"
+#include "editor-gtk/window/naming.h"
 #include "editor-gtk/window/tabs.h"
 
 #include "engine/base/name.h"
@@ -290,8 +293,7 @@ struct named {
 
 struct renaming {
 	struct core *core;
-	AdwMessageDialog *dialog;
-	GtkWidget *line, *why;
+	struct naming *naming;
 	GArray *choice;      /* of struct named, at least one                 */
 	guint chosen;
 };
@@ -310,33 +312,20 @@ static void rename_target(struct core *core, const struct named *named, const ch
 	g_free(step);
 }
 
-/* Why the name is refused; NULL: it is not. Caller frees. */
-static char *refusal(LadderDocument *document, const struct named *named, const char *name)
-{
-	if (strcmp(name, named->name) == 0)
-		return NULL;
-	return *name ? rename_refusal(document, &named->target, name) :
-		       g_strdup(_("Enter a name"));
-}
-
 static const struct named *chosen_of(const struct renaming *renaming)
 {
 	return &g_array_index(renaming->choice, struct named, renaming->chosen);
 }
 
-/* Caller frees. */
-static char *name_typed(const struct renaming *renaming)
+static char *refusal(gpointer data, const char *name)
 {
-	return g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(renaming->line))));
-}
+	const struct renaming *renaming = data;
+	const struct named *named = chosen_of(renaming);
 
-static void typed(GtkEditable *line, struct renaming *renaming)
-{
-	char *name = name_typed(renaming);
-	char *why = refusal(renaming->core->document, chosen_of(renaming), name);
-
-	ask_refuse(renaming->dialog, "rename", GTK_WIDGET(line), renaming->why, why);
-	g_free(name);
+	if (strcmp(name, named->name) == 0)
+		return NULL;
+	return *name ? rename_refusal(renaming->core->document, &named->target, name) :
+		       g_strdup(_("Enter a name"));
 }
 
 /* The files beside the project that have the name, and its charts, a line each. */
@@ -370,9 +359,9 @@ static void show_chosen(struct renaming *renaming)
 	g_string_printf(body, ngettext("“%s” is used in %d place.", "“%s” is used in %d places.",
 				       (unsigned long)named->uses), named->name, named->uses);
 	list_files(renaming, body);
-	adw_message_dialog_set_body(renaming->dialog, body->str);
+	naming_say(renaming->naming, body->str);
 	g_string_free(body, TRUE);
-	gtk_editable_set_text(GTK_EDITABLE(renaming->line), named->name);
+	naming_set(renaming->naming, named->name);
 }
 
 static void choose(GtkDropDown *list, GParamSpec *spec, struct renaming *renaming)
@@ -386,26 +375,24 @@ static void choose(GtkDropDown *list, GParamSpec *spec, struct renaming *renamin
 	show_chosen(renaming);
 }
 
-static void rename_now(AdwMessageDialog *dialog, const char *response,
-		       struct renaming *renaming)
+static void rename_now(gpointer data, const char *name)
 {
+	struct renaming *renaming = data;
 	const struct named *named = chosen_of(renaming);
-	char *name = name_typed(renaming);
 
-	(void)dialog;
-	if (strcmp(response, "rename") == 0 && strcmp(name, named->name) != 0)
+	if (strcmp(name, named->name) != 0)
 		rename_target(renaming->core, named, name);
-	g_free(name);
 }
 
-static void renaming_free(gpointer data, GClosure *closure)
+static void renaming_free(gpointer data)
 {
 	struct renaming *renaming = data;
 
-	(void)closure;
 	g_array_unref(renaming->choice);
 	g_free(renaming);
 }
+
+static const struct naming_how how = { refusal, rename_now, renaming_free };
 
 /* Hidden if there is only one choice. */
 static GtkWidget *choice_new(struct renaming *renaming)
@@ -423,41 +410,17 @@ static GtkWidget *choice_new(struct renaming *renaming)
 	return list;
 }
 
-static GtkWidget *line_new(struct renaming *renaming)
-{
-	GtkWidget *line = ask_entry(_("New name"));
-
-	g_signal_connect(line, "changed", G_CALLBACK(typed), renaming);
-	return line;
-}
-
-static GtkWidget *parts_new(struct renaming *renaming)
-{
-	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
-
-	renaming->line = line_new(renaming);
-	renaming->why = ask_why();
-	gtk_box_append(GTK_BOX(box), choice_new(renaming));
-	gtk_box_append(GTK_BOX(box), renaming->line);
-	gtk_box_append(GTK_BOX(box), renaming->why);
-	spoken_parts(box);
-	return box;
-}
-
 /* @choice: taken over. */
 static void ask_name(struct core *core, GArray *choice)
 {
 	struct renaming *renaming = g_new0(struct renaming, 1);
-	AdwMessageDialog *dialog = ask_new(core->window, _("Rename everywhere"), NULL, "rename",
-					   _("Rename"), ADW_RESPONSE_SUGGESTED);
 
-	*renaming = (struct renaming){ .core = core, .dialog = dialog, .choice = choice };
-	adw_message_dialog_set_extra_child(dialog, parts_new(renaming));
+	*renaming = (struct renaming){ .core = core, .choice = choice };
+	renaming->naming = naming_new(core->window, _("Rename everywhere"), _("Rename"),
+				      _("New name"), &how, renaming);
+	naming_add(renaming->naming, choice_new(renaming), true);
 	show_chosen(renaming);
-	g_signal_connect_data(dialog, "response", G_CALLBACK(rename_now), renaming,
-			      renaming_free, 0);
-	gtk_window_present(GTK_WINDOW(dialog));
-	gtk_widget_grab_focus(renaming->line);
+	naming_show(renaming->naming);
 }
 
 /* The declared name; NULL: the target is not declared. */
@@ -623,19 +586,61 @@ static void delete_answered(AdwMessageDialog *dialog, const char *answer,
 		delete_named(deleting);
 }
 
-static void ask_delete(struct core *core, const char *name, bool type, int uses)
+static void append_user(GString *body, const char *user, int uses)
 {
+	if (!uses)
+		return;
+	g_string_append_c(body, '\n');
+	g_string_append_printf(body, ngettext("%s: %d place", "%s: %d places",
+					      (unsigned long)uses), user, uses);
+}
+
+/* The POUs that use it and the symbols, a line each; a long list ends with "…". */
+static void list_users(struct core *core, const struct xref_target *target, GString *body)
+{
+	enum { USERS = 6 };
+	struct project *project = ladder_document_project(core->document);
+	int *uses = g_new0(int, (gsize)project->pou_count + 1);
+	int users = 0;
+	struct xref xref = { 0 };
+
+	if (!xref_make(&xref, project))
+		g_error("out of memory");
+	for (int i = 0; i < xref.count; i++)
+		if (xref_same(&xref.use[i].target, target) && xref.use[i].kind != XREF_DECLARED)
+			uses[xref.use[i].pou + 1]++;
+	if (target->what == XREF_POU)
+		uses[target->index + 1] = 0;
+	for (int i = 0; i <= project->pou_count; i++) {
+		if (uses[i] && ++users > USERS) {
+			g_string_append(body, "\n…");
+			break;
+		}
+		append_user(body, i ? project_text(project, project->pou[i - 1].name) :
+				      _("Symbols"), uses[i]);
+	}
+	xref_free(&xref);
+	g_free(uses);
+}
+
+static void ask_delete(struct core *core, const struct xref_target *target, const char *name,
+		       int uses)
+{
+	const bool type = target->what == XREF_STRUCTURE;
 	struct deleting *deleting = g_new(struct deleting, 1);
 	char *heading = g_strdup_printf(_("Delete “%s”?"), name);
-	char *body = g_strdup_printf(type ? ngettext(
+	GString *body = g_string_new(NULL);
+
+	g_string_printf(body, type ? ngettext(
 		"It is used in %d place. Variables and members of this type are deleted, too.",
 		"It is used in %d places. Variables and members of this type are deleted, too.",
 		(unsigned long)uses) : ngettext(
 		"It is used in %d place. Its boxes and instances are deleted, too.",
 		"It is used in %d places. Its boxes and instances are deleted, too.",
 		(unsigned long)uses), uses);
-	AdwMessageDialog *dialog = ask_new(core->window, heading, body, "uses", _("Show uses"),
-					   ADW_RESPONSE_DEFAULT);
+	list_users(core, target, body);
+	AdwMessageDialog *dialog = ask_new(core->window, heading, body->str, "uses",
+					   _("Show uses"), ADW_RESPONSE_DEFAULT);
 
 	adw_message_dialog_add_response(dialog, "delete", _("Delete anyway"));
 	adw_message_dialog_set_response_appearance(dialog, "delete",
@@ -644,17 +649,18 @@ static void ask_delete(struct core *core, const char *name, bool type, int uses)
 	g_signal_connect_data(dialog, "response", G_CALLBACK(delete_answered), deleting,
 			      deleting_free, 0);
 	gtk_window_present(GTK_WINDOW(dialog));
-	g_free(body);
+	g_string_free(body, TRUE);
 	g_free(heading);
 }
 
 void names_delete_pou(struct core *core, int pou)
 {
 	const struct project *project = ladder_document_project(core->document);
+	const struct xref_target target = { .what = XREF_POU, .index = pou };
 	const int uses = project ? pou_uses(core->document, pou) : 0;
 
 	if (uses > 0 && project->pou_count > 1 && !project->pou[pou].included)
-		ask_delete(core, project_text(project, project->pou[pou].name), false, uses);
+		ask_delete(core, &target, project_text(project, project->pou[pou].name), uses);
 	else
 		delete_pou(core, pou);
 }
@@ -662,13 +668,93 @@ void names_delete_pou(struct core *core, int pou)
 void names_delete_type(struct core *core, int structure)
 {
 	const struct project *project = ladder_document_project(core->document);
+	const struct xref_target target = { .what = XREF_STRUCTURE, .index = structure };
 	const int uses = type_uses(core->document, structure);
 
 	if (uses > 0 && !type_is_included(core->document, structure))
-		ask_delete(core, project_text(project, project->structure[structure].name), true,
-			   uses);
+		ask_delete(core, &target,
+			   project_text(project, project->structure[structure].name), uses);
 	else
 		delete_type(core, structure);
+}
+
+/* ---- tasks ---- */
+
+/* The row of a task; -1: "Each scan", which is no task, and the status bar says so. */
+static int task_of(struct core *core, const char *name)
+{
+	struct task_rows *tasks = task_rows_new(core->document);
+	const int row = task_rows_find(tasks, TASKS_TASK, name);
+
+	task_rows_free(tasks);
+	if (row < 0)
+		messages_tell(core->messages, _("“Each scan” is not a task: it lists the programs "
+						"without a task. It cannot be renamed or deleted"));
+	return row;
+}
+
+static void task_deleted(gpointer window, bool good, char *why)
+{
+	if (!good)
+		gtk_widget_activate_action(window, "win.warn", "s", why ? why : "");
+	g_free(why);
+}
+
+void names_delete_task(struct core *core, const char *name)
+{
+	if (task_of(core, name) >= 0)
+		task_delete_ask(core->window, core->document, TASKS_TASK, name, task_deleted,
+				G_OBJECT(core->window));
+}
+
+/* A task that gets another name. */
+struct task_named {
+	struct core *core;
+	char *name;
+};
+
+static void task_named_free(gpointer data)
+{
+	struct task_named *named = data;
+
+	g_free(named->name);
+	g_free(named);
+}
+
+static char *task_refusal(gpointer data, const char *name)
+{
+	const struct task_named *named = data;
+
+	return task_rows_name_refusal(named->core->document, task_of(named->core, named->name),
+				      name);
+}
+
+static void task_renamed(gpointer data, const char *name)
+{
+	const struct task_named *named = data;
+	char *why = NULL;
+
+	if (!task_rows_set(named->core->document, task_of(named->core, named->name), TASKS_NAME,
+			   name, &why))
+		messages_warn(named->core->messages, why ? why : "");
+	g_free(why);
+}
+
+static const struct naming_how task_naming = { task_refusal, task_renamed, task_named_free };
+
+void names_rename_task(struct core *core, const char *name)
+{
+	struct task_named *named;
+	struct naming *naming;
+
+	if (task_of(core, name) < 0)
+		return;
+	named = g_new(struct task_named, 1);
+	*named = (struct task_named){ core, g_strdup(name) };
+	naming = naming_new(core->window, _("Rename task"), _("Rename"), _("Name"), &task_naming,
+			    named);
+	naming_set(naming, name);
+	naming_show(naming);
 }
 
 /* ---- the panel ---- */

@@ -34,5 +34,8 @@ void names_rename_pou(struct core *core, int pou);
 /** names_delete_type, names_rename_type - the same for a structure, by its number. */
 void names_delete_type(struct core *core, int structure);
 void names_rename_type(struct core *core, int structure);
+/** names_delete_task, names_rename_task - the same for a task, by its name. */
+void names_delete_task(struct core *core, const char *name);
+void names_rename_task(struct core *core, const char *name);
 
 #endif

@@ -7,8 +7,8 @@
 #include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
-#include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/messages.h"
+#include "editor-gtk/window/naming.h"
 #include "editor-gtk/window/tabs.h"
 
 #include <string.h>
@@ -17,102 +17,85 @@
 static const enum pou_kind kinds[] = { POU_PROGRAM, POU_BLOCK, POU_FUNCTION, POU_SUBROUTINE };
 static const enum pou_language languages[] = { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC };
 
-struct naming {
+struct fresh {
 	struct core *core;
-	AdwMessageDialog *dialog;
-	GtkWidget *line, *why;
+	struct naming *naming;
 	GtkDropDown *kind, *language; /* NULL: a copy                          */
 	char *original;               /* the POU that is copied; NULL: a new one */
 	char *proposed;
 	enum pou_kind kind_now;
 };
 
-static void naming_free(gpointer data, GClosure *closure)
+static void fresh_free(gpointer data)
 {
-	struct naming *naming = data;
+	struct fresh *fresh = data;
 
-	(void)closure;
-	g_free(naming->original);
-	g_free(naming->proposed);
-	g_free(naming);
+	g_free(fresh->original);
+	g_free(fresh->proposed);
+	g_free(fresh);
 }
 
-/* Caller frees. */
-static char *name_typed(const struct naming *naming)
+static char *refusal(gpointer data, const char *name)
 {
-	return g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(naming->line))));
+	const struct fresh *fresh = data;
+
+	return pou_name_refusal(fresh->core->document, fresh->kind_now, name);
 }
 
-static void judge(struct naming *naming)
+/* @name: taken over. */
+static void propose(struct fresh *fresh, char *name)
 {
-	char *name = name_typed(naming);
-
-	ask_refuse(naming->dialog, "make", naming->line, naming->why,
-		   pou_name_refusal(naming->core->document, naming->kind_now, name));
-	g_free(name);
-}
-
-static void propose(struct naming *naming, char *name)
-{
-	g_free(naming->proposed);
-	naming->proposed = name;
-	gtk_editable_set_text(GTK_EDITABLE(naming->line), name);
-	gtk_editable_select_region(GTK_EDITABLE(naming->line), 0, -1);
-	judge(naming);
-}
-
-static void typed(struct naming *naming)
-{
-	judge(naming);
+	g_free(fresh->proposed);
+	fresh->proposed = name;
+	naming_set(fresh->naming, name);
 }
 
 /* ---- making it ---- */
 
 /* In a project whose CONFIGURATION lists its programs, a new one does not run yet. */
-static void tell_tasks(struct naming *naming, const char *name)
+static void tell_tasks(struct fresh *fresh, const char *name)
 {
 	char *told;
 
-	if (naming->kind_now != POU_PROGRAM || pou_order_counts(naming->core->document))
+	if (fresh->kind_now != POU_PROGRAM || pou_order_counts(fresh->core->document))
 		return;
 	told = g_strdup_printf(_("“%s” does not run yet. Add it to the CONFIGURATION."), name);
-	messages_tell(naming->core->messages, told);
+	messages_tell(fresh->core->messages, told);
 	g_free(told);
 }
 
-static char *make(struct naming *naming, const char *name)
+static char *make(struct fresh *fresh, const char *name)
 {
-	LadderDocument *document = naming->core->document;
+	LadderDocument *document = fresh->core->document;
 	const struct project *project = ladder_document_project(document);
 	int pou;
 
-	if (!naming->original)
-		return pou_add(document, naming->kind_now,
-			       languages[gtk_drop_down_get_selected(naming->language)], name);
-	pou = project ? project_find_pou(project, naming->original,
-					 strlen(naming->original)) : -1;
+	if (!fresh->original)
+		return pou_add(document, fresh->kind_now,
+			       languages[gtk_drop_down_get_selected(fresh->language)], name);
+	pou = project ? project_find_pou(project, fresh->original,
+					 strlen(fresh->original)) : -1;
 	return pou < 0 ? g_strdup(_("It is not there any more")) :
 			 pou_duplicate(document, pou, name);
 }
 
-static void answered(AdwMessageDialog *dialog, const char *answer, struct naming *naming)
+static void take(gpointer data, const char *name)
 {
-	char *name = name_typed(naming), *why;
+	struct fresh *fresh = data;
+	struct core *core = fresh->core;
+	char *why = make(fresh, name);
 
-	(void)dialog;
-	if (strcmp(answer, "make") == 0) {
-		why = make(naming, name);
-		if (why) {
-			messages_warn(naming->core->messages, why);
-		} else {
-			tabs_go(naming->core->tabs, project_find_pou(ladder_document_project(
-				naming->core->document), name, strlen(name)), 0, -1, -1);
-			tell_tasks(naming, name);
-		}
-		g_free(why);
+	if (why) {
+		messages_warn(core->messages, why);
+	} else {
+		tabs_go(core->tabs, project_find_pou(ladder_document_project(core->document),
+						     name, strlen(name)), 0, -1, -1);
+		tell_tasks(fresh, name);
 	}
-	g_free(name);
+	g_free(why);
 }
+
+static const struct naming_how how = { refusal, take, fresh_free };
 
 /* ---- the dialog ---- */
 
@@ -129,117 +112,92 @@ static GtkWidget *labelled(const char *text, GtkWidget *widget)
 	return box;
 }
 
-static void fill_languages(struct naming *naming, enum pou_language chosen)
+static void fill_languages(struct fresh *fresh, enum pou_language chosen)
 {
 	const char *names[] = { _("Ladder (LD)"), _("Instruction list (IL)"),
-				naming->kind_now == POU_PROGRAM ? _("Chart (SFC)") : NULL, NULL };
+				fresh->kind_now == POU_PROGRAM ? _("Chart (SFC)") : NULL, NULL };
 	GtkStringList *list = gtk_string_list_new(names);
 	guint at = 0;
 
 	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(list)); i++)
 		at = languages[i] == chosen ? i : at;
-	gtk_drop_down_set_model(naming->language, G_LIST_MODEL(list));
-	gtk_drop_down_set_selected(naming->language, at);
+	gtk_drop_down_set_model(fresh->language, G_LIST_MODEL(list));
+	gtk_drop_down_set_selected(fresh->language, at);
 	g_object_unref(list);
 }
 
 /* A name that was proposed becomes one of the other kind. */
-static void kind_chosen(struct naming *naming)
+static void kind_chosen(struct fresh *fresh)
 {
 	const enum pou_language language =
-		languages[gtk_drop_down_get_selected(naming->language)];
-	char *name = name_typed(naming);
+		languages[gtk_drop_down_get_selected(fresh->language)];
+	char *name = naming_get(fresh->naming);
 
-	naming->kind_now = kinds[gtk_drop_down_get_selected(naming->kind)];
-	fill_languages(naming, language);
-	if (strcmp(name, naming->proposed) == 0)
-		propose(naming, pou_free_name(naming->core->document, naming->kind_now));
+	fresh->kind_now = kinds[gtk_drop_down_get_selected(fresh->kind)];
+	fill_languages(fresh, language);
+	if (strcmp(name, fresh->proposed) == 0)
+		propose(fresh, pou_free_name(fresh->core->document, fresh->kind_now));
 	else
-		judge(naming);
+		naming_judge(fresh->naming);
 	g_free(name);
 }
 
-static void add_choices(struct naming *naming, GtkWidget *box, enum pou_language language)
+static void add_choices(struct fresh *fresh, enum pou_language language)
 {
 	const char *names[] = { _("Program"), _("Function block"), _("Function"),
 				_("Subroutine"), NULL };
 
-	naming->kind = GTK_DROP_DOWN(gtk_drop_down_new_from_strings(names));
-	naming->language = GTK_DROP_DOWN(gtk_drop_down_new(NULL, NULL));
+	fresh->kind = GTK_DROP_DOWN(gtk_drop_down_new_from_strings(names));
+	fresh->language = GTK_DROP_DOWN(gtk_drop_down_new(NULL, NULL));
 	for (guint i = 0; i < G_N_ELEMENTS(kinds); i++)
-		if (kinds[i] == naming->kind_now)
-			gtk_drop_down_set_selected(naming->kind, i);
-	fill_languages(naming, language);
-	g_signal_connect_swapped(naming->kind, "notify::selected", G_CALLBACK(kind_chosen),
-				 naming);
-	gtk_box_append(GTK_BOX(box), labelled(_("Kind"), GTK_WIDGET(naming->kind)));
-	gtk_box_append(GTK_BOX(box), labelled(_("Language"), GTK_WIDGET(naming->language)));
+		if (kinds[i] == fresh->kind_now)
+			gtk_drop_down_set_selected(fresh->kind, i);
+	fill_languages(fresh, language);
+	g_signal_connect_swapped(fresh->kind, "notify::selected", G_CALLBACK(kind_chosen),
+				 fresh);
+	naming_add(fresh->naming, labelled(_("Kind"), GTK_WIDGET(fresh->kind)), false);
+	naming_add(fresh->naming, labelled(_("Language"), GTK_WIDGET(fresh->language)), false);
 }
 
-/* @naming: taken over. */
-static void ask(struct naming *naming, const char *heading, const char *label, char *name,
+/* @fresh, @name: taken over. */
+static void ask(struct fresh *fresh, const char *heading, const char *label, char *name,
 		enum pou_language language)
 {
-	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
-
-	naming->dialog = ask_new(naming->core->window, heading, NULL, "make", label,
-				 ADW_RESPONSE_SUGGESTED);
-	naming->line = ask_entry(_("Name"));
-	naming->why = ask_why();
-	gtk_box_append(GTK_BOX(box), naming->line);
-	gtk_box_append(GTK_BOX(box), naming->why);
-	if (!naming->original)
-		add_choices(naming, box, language);
-	spoken_parts(box);
-	adw_message_dialog_set_extra_child(naming->dialog, box);
-	propose(naming, name);
-	g_signal_connect_swapped(naming->line, "changed", G_CALLBACK(typed), naming);
-	g_signal_connect_data(naming->dialog, "response", G_CALLBACK(answered), naming,
-			      naming_free, 0);
-	gtk_window_present(GTK_WINDOW(naming->dialog));
-	gtk_widget_grab_focus(naming->line);
-}
-
-/* Nothing is asked if nothing can be made. */
-static bool is_ready(struct core *core)
-{
-	const struct project *project = ladder_document_project(core->document);
-
-	if (project && ladder_document_is_whole(core->document))
-		return true;
-	messages_tell(core->messages, _("Nothing can be added while a text of the project "
-					"cannot be read"));
-	return false;
+	fresh->naming = naming_new(fresh->core->window, heading, label, _("Name"), &how, fresh);
+	if (!fresh->original)
+		add_choices(fresh, language);
+	propose(fresh, name);
+	naming_show(fresh->naming);
 }
 
 void pou_new_ask(struct core *core, enum pou_kind kind, enum pou_language language)
 {
-	struct naming *naming;
+	struct fresh *fresh;
 
-	if (!is_ready(core))
+	if (!messages_can_add(core->messages))
 		return;
-	naming = g_new0(struct naming, 1);
-	*naming = (struct naming){ .core = core, .kind_now = kind };
-	ask(naming, _("New program or block"), _("Create"), pou_free_name(core->document, kind),
+	fresh = g_new0(struct fresh, 1);
+	*fresh = (struct fresh){ .core = core, .kind_now = kind };
+	ask(fresh, _("New program or block"), _("Create"), pou_free_name(core->document, kind),
 	    language);
 }
 
 void pou_duplicate_ask(struct core *core, int pou)
 {
 	const struct project *project = ladder_document_project(core->document);
-	struct naming *naming;
+	struct fresh *fresh;
 	char *heading;
 
-	if (!is_ready(core) || pou < 0 || pou >= project->pou_count)
+	if (!messages_can_add(core->messages) || pou < 0 || pou >= project->pou_count)
 		return;
 	if (project->pou[pou].included) {
 		messages_tell(core->messages, _("It is declared in another file"));
 		return;
 	}
-	naming = g_new0(struct naming, 1);
-	*naming = (struct naming){ .core = core, .kind_now = project->pou[pou].kind,
+	fresh = g_new0(struct fresh, 1);
+	*fresh = (struct fresh){ .core = core, .kind_now = project->pou[pou].kind,
 		.original = g_strdup(project_text(project, project->pou[pou].name)) };
-	heading = g_strdup_printf(_("Duplicate “%s”"), naming->original);
-	ask(naming, heading, _("Duplicate"), pou_copy_name(core->document, pou), LANGUAGE_LD);
+	heading = g_strdup_printf(_("Duplicate “%s”"), fresh->original);
+	ask(fresh, heading, _("Duplicate"), pou_copy_name(core->document, pou), LANGUAGE_LD);
 	g_free(heading);
 }

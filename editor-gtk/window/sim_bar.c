@@ -13,6 +13,7 @@
 #include "editor-gtk/sim/sim_pace.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/below.h"
+#include "editor-gtk/window/front.h"
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/tabs.h"
 
@@ -186,6 +187,16 @@ static void make_room(struct sim_bar *bar)
 		gtk_widget_set_visible(bar->side, FALSE);
 }
 
+/* The welcome page shows nothing of what runs. */
+static void leave_welcome(struct sim_bar *bar)
+{
+	AdwTabPage *page = front_tab(bar->core->front);
+	const struct project *project = ladder_document_project(bar->core->document);
+
+	if (page && strcmp(page_name(page), " welcome") == 0 && project && project->pou_count > 0)
+		tabs_show(bar->core->tabs, 0);
+}
+
 static bool begin(struct sim_bar *bar)
 {
 	GError *error = NULL;
@@ -198,6 +209,7 @@ static bool begin(struct sim_bar *bar)
 		return refuse(bar, error, false);
 	messages_close_banner(bar->core->messages);
 	messages_tell(bar->core->messages, ""); /* clears an earlier refusal */
+	leave_welcome(bar);
 	make_room(bar);
 	sim_bar_show_panel(bar);
 	return true;

@@ -88,9 +88,9 @@ static char *keys_in_list(void)
 /* @place, @zoom, @keys: taken over. */
 static void show(struct status *status, char *place, char *zoom, char *keys)
 {
-	messages_keys(status->core->messages, keys);
 	gtk_label_set_text(status->place, place);
 	gtk_label_set_text(status->zoom, zoom);
+	messages_keys(status->core->messages, keys); /* they get the room that is left */
 	g_free(place);
 	g_free(zoom);
 }

@@ -200,6 +200,14 @@ static GtkWidget *symbols_page(struct tabs *tabs)
 	return place;
 }
 
+static GtkWidget *tasks_page(struct tabs *tabs)
+{
+	GtkWidget *tasks = ladder_tasks_view_new(tabs->core->document);
+
+	ladder_tasks_view_follow(LADDER_TASKS_VIEW(tasks), tabs->core->sim);
+	return tasks;
+}
+
 /* The blank makes the name different from that of any POU. */
 static AdwTabPage *open_widget(struct tabs *tabs, const char *name)
 {
@@ -209,7 +217,7 @@ static AdwTabPage *open_widget(struct tabs *tabs, const char *name)
 	if (!page && strcmp(name, "symbols") == 0)
 		page = add_page(tabs, symbols_page(tabs), key, _("Symbols"));
 	else if (!page && strcmp(name, "tasks") == 0)
-		page = add_page(tabs, ladder_tasks_view_new(tabs->core->document), key, _("Tasks"));
+		page = add_page(tabs, tasks_page(tabs), key, _("Tasks"));
 	else if (!page && strcmp(name, "types") == 0)
 		page = add_page(tabs, ladder_types_view_new(tabs->core->document), key,
 				_("Data types"));

@@ -17,11 +17,13 @@
 static const char *help_text(void)
 {
 	return _("usage: ladder-editor [FILE]...\n"
+		 "       ladder-editor --compare OLD NEW\n"
 		 "       ladder-editor --render FILE [OPTION]... -o PICTURE\n"
 		 "\n"
 		 "Draws, checks, saves and prints ladder programs. Each file gets a window; without\n"
 		 "one there is a page with samples. What was not saved before a crash comes back.\n"
 		 "\n"
+		 "  --compare        shows what differs between two files\n"
 		 "  --keys [SCHEME]  what each key does; SCHEME: rungboard, micro/win, gx works,\n"
 		 "                   ldmicro\n"
 		 "  --render         draws into a file, without a display: --render --help\n"
@@ -130,9 +132,10 @@ static void print_man(void)
 	printf(".TH LADDER\\-EDITOR 1 \"\" \"Rungboard %s\" \"Rungboard\"\n"
 	       ".SH NAME\nladder\\-editor \\- draws, checks and prints ladder programs\n"
 	       ".SH SYNOPSIS\n.B ladder\\-editor\n[\\fIFILE\\fR]...\n.br\n"
+	       ".B ladder\\-editor \\-\\-compare\n\\fIOLD\\fR \\fINEW\\fR\n.br\n"
 	       ".B ladder\\-editor \\-\\-render\n\\fIFILE\\fR [\\fIOPTION\\fR]... "
 	       "\\fB\\-o\\fR \\fIPICTURE\\fR\n.SH DESCRIPTION\n.nf\n", LADDER_VERSION);
-	print_plain(strchr(strchr(help_text(), '\n') + 1, '\n') + 2);
+	print_plain(strstr(help_text(), "\n\n") + 2);
 	printf(".fi\n.SH KEYS\nOf the scheme Rungboard; Preferences in the window has others.\n");
 	for (int i = 0; i < VERBS_GROUPS; i++)
 		man_group((enum verb_group)i);
@@ -169,9 +172,17 @@ static bool is_known(const char *option)
 	return false;
 }
 
+bool usage_compares(int argc, char **argv)
+{
+	return argc == 4 && strcmp(argv[1], "--compare") == 0 && argv[2][0] != '-' &&
+	       argv[3][0] != '-';
+}
+
 bool usage_main(int argc, char **argv, int *status)
 {
 	*status = 0;
+	if (usage_compares(argc, argv))
+		return false;
 	for (int i = 1; i < argc; i++) {
 		if (strcmp(argv[i], "--") == 0)
 			return false;
@@ -183,6 +194,10 @@ bool usage_main(int argc, char **argv, int *status)
 			*status = keys_main(argv[i + 1]);
 		} else if (strcmp(argv[i], "--man") == 0) {
 			print_man();
+		} else if (strcmp(argv[i], "--compare") == 0) {
+			fputs(_("ladder-editor: --compare needs two files, and nothing else\n"),
+			      stderr);
+			*status = 2;
 		} else if (!is_known(argv[i])) {
 			fprintf(stderr, _("ladder-editor: “%.24s” is not an option; see "
 					  "ladder-editor --help\n"), argv[i]);

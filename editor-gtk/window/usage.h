@@ -12,5 +12,7 @@
 /** usage_main - handles a command line with one of these options; false: it has none.
  * @status: gets the exit status. */
 bool usage_main(int argc, char **argv, int *status);
+/** usage_compares - is it `--compare OLD NEW`? */
+bool usage_compares(int argc, char **argv);
 
 #endif

@@ -233,6 +233,7 @@ static GtkWidget *card_new(const char *path)
 				       about.line ? about.line : "");
 
 	spoken_name(sample, about.title ? about.title : name);
+	gtk_widget_set_vexpand(sample, TRUE); /* cards are as high as the one with most text */
 	gtk_box_append(GTK_BOX(box), sample);
 	gtk_box_append(GTK_BOX(box), label_new(about.title ? about.title : name, "heading"));
 	if (about.line)
@@ -318,6 +319,8 @@ GtkWidget *welcome_new(void)
 		"win.open", NULL);
 	add_row(begin, _("Import…"), _("ClassicLadder projects: .clprj, .clprjz, .clp"),
 		"win.import-project", NULL);
+	add_row(begin, _("Compare files…"), _("What differs between two versions of a project."),
+		"win.compare_files", NULL);
 	add_row(begin, _("Tutorial"), _("Draw a first program, simulate it and run it on a board."),
 		"win.tutorial", NULL);
 	add_recent(page);

@@ -139,6 +139,11 @@ void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin)
 	exchange_imported(&window->exchange);
 }
 
+void ladder_window_compare(LadderWindow *window, const char *older, const char *newer)
+{
+	compare_files(&window->compare, older, newer);
+}
+
 bool ladder_window_has_file(LadderWindow *window, const char *path)
 {
 	return tabs_find_file(&window->tabs, path) != NULL;
@@ -161,12 +166,13 @@ void ladder_window_keep_drafts(LadderWindow *window)
 
 /* ---- editing ---- */
 
-/* Renames the selected row of the tree if that has the focus, else the name at the cursor. */
+/* Renames the selected row of the tree or of a table if that has the focus, else the name at the cursor. */
 static void do_rename(LadderWindow *window)
 {
 	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
 
 	if (!focus || (!gtk_widget_activate_action(focus, "tree.rename", NULL) &&
+		       !gtk_widget_activate_action(focus, "tasks.rename", NULL) &&
 		       !gtk_widget_activate_action(focus, "types.rename-type", NULL)))
 		names_rename(&window->core);
 }
@@ -370,6 +376,7 @@ static bool do_in_file(LadderWindow *window, enum verb verb)
 	case VERB_save: files_save(&window->files); return true;
 	case VERB_save_as: files_save_as(&window->files); return true;
 	case VERB_compare: compare_ask(&window->compare); return true;
+	case VERB_compare_files: compare_ask_files(&window->compare); return true;
 	case VERB_next_difference: compare_step(&window->compare, false); return true;
 	case VERB_previous_difference: compare_step(&window->compare, true); return true;
 	case VERB_export_classic: exchange_export(&window->exchange); return true;
@@ -548,6 +555,10 @@ static void act_on_text(GtkWidget *widget, const char *name, GVariant *parameter
 		below_show(&window->below, text);
 	else if (strcmp(name, "win.show-task") == 0)
 		tabs_show_task(&window->tabs, *text ? text : NULL);
+	else if (strcmp(name, "win.rename-task") == 0)
+		names_rename_task(&window->core, text);
+	else if (strcmp(name, "win.delete-task") == 0)
+		names_delete_task(&window->core, text);
 	else if (strcmp(name, "win.open-text") == 0)
 		tabs_show_file(&window->tabs, text);
 	else if (strcmp(name, "win.tell") == 0)
@@ -635,7 +646,7 @@ static void to_sheet(GtkWidget *widget, const char *name, GVariant *unused)
 static void install_actions(GtkWidgetClass *class)
 {
 	static const char *const on_text[] = {
-		"win.show-task", "win.show-uses", "win.expect-value", "win.watch-value", "win.show-panel",
+		"win.show-task", "win.rename-task", "win.delete-task", "win.show-uses", "win.expect-value", "win.watch-value", "win.show-panel",
 		"win.open-text", "win.open-path", "win.open-sample", "win.tell", "win.warn",
 	};
 	static const char *const on_pou[] = {
@@ -670,30 +681,45 @@ static void install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.reload", NULL, reload);
 }
 
+/* The menu owns it. */
+static GMenu *section_new(GMenu *menu)
+{
+	GMenu *section = g_menu_new();
+
+	g_menu_append_section(menu, NULL, G_MENU_MODEL(section));
+	g_object_unref(section);
+	return section;
+}
+
 /* The main menu, from the rows of verbs.def. Caller: g_object_unref(). */
 static GMenu *menu_new(void)
 {
 	GMenu *menu = g_menu_new();
 
 	for (int group = 0; group < VERBS_GROUPS; group++) {
-		GMenu *part = g_menu_new();
-		int recent = -1;
+		GMenu *part = g_menu_new(), *section = NULL;
 
 		for (int i = 0; i < VERB_COUNT; i++) {
 			if ((int)verb_row((enum verb)i)->group != group)
 				continue;
-			g_menu_append(part, _(verb_row((enum verb)i)->label),
-				      verb_row((enum verb)i)->action);
+			if (!section || verb_is_parted((enum verb)i))
+				section = section_new(part);
+			verb_append(section, (enum verb)i, NULL, NULL);
 			if (i == VERB_open)
-				recent = g_menu_model_get_n_items(G_MENU_MODEL(part));
+				recent_follow(section, g_menu_model_get_n_items(
+						      G_MENU_MODEL(section)));
 		}
-		if (recent >= 0)
-			recent_follow(part, recent);
 		g_menu_append_submenu(menu, _(verb_group_label((enum verb_group)group)),
 				      G_MENU_MODEL(part));
 		g_object_unref(part);
 	}
 	return menu;
+}
+
+/* The next press on the button makes a menu with the keys of the other scheme. */
+static void menu_forget(LadderWindow *window)
+{
+	gtk_menu_button_set_menu_model(window->menu_button, NULL);
 }
 
 /* ---- state ---- */
@@ -1011,6 +1037,8 @@ static void ladder_window_init(LadderWindow *window)
 {
 	gtk_widget_init_template(GTK_WIDGET(window));
 	popover_menu_of(window->menu_button, menu_new);
+	g_signal_connect_object(settings_get(), "changed::keys", G_CALLBACK(menu_forget), window,
+				G_CONNECT_SWAPPED);
 	window->core = (struct core){
 		.window = GTK_WINDOW(window), .messages = &window->messages,
 		.below = &window->below, .front = &window->front, .tabs = &window->tabs,

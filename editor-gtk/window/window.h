@@ -48,6 +48,8 @@ void ladder_window_tell_file(LadderWindow *window);
 void ladder_window_set_origin(LadderWindow *window, const char *path);
 /** ladder_window_set_classic - the same for ClassicLadder; shows a banner. */
 void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin);
+/** ladder_window_compare - shows the page that compares two files. */
+void ladder_window_compare(LadderWindow *window, const char *older, const char *newer);
 /** ladder_window_has_file - is that text file open in the window? */
 bool ladder_window_has_file(LadderWindow *window, const char *path);
 /** ladder_window_show_file - opens a text file beside the project. */

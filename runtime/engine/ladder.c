@@ -11,6 +11,7 @@
 #include "engine/check/check_il.h"
 #include "engine/check/check_tokens.h"
 #include "engine/check/expect.h"
+#include "engine/check/settle.h"
 #include "engine/scan/symbol_index.h"
 #include "engine/text/mend.h"
 #include "engine/text/text.h"
@@ -34,6 +35,7 @@ struct ladder {
 	struct program program;
 	bool good, built, unreadable, watch; /* good: the last load succeeded */
 	struct foreign *foreign;  /* NULL: rung files and images alone      */
+	struct ladder_files files; /* load NULL: the disk                    */
 };
 
 struct ladder *ladder_new(void)
@@ -110,6 +112,23 @@ static bool no_memory(struct ladder *ladder, const char *file)
 
 /* ---- loading ---- */
 
+void ladder_set_files(struct ladder *ladder, const struct ladder_files *files)
+{
+	ladder->files = files ? *files : (struct ladder_files){ .load = NULL };
+}
+
+static char *load_named(const struct ladder *ladder, const char *path, size_t *len)
+{
+	char *text;
+
+	errno = 0;
+	if (!ladder->files.load)
+		return file_read(path, LIMIT_TEXT, len, NULL);
+	text = ladder->files.load(ladder->files.context, path, len);
+	errno = text ? 0 : ENOENT;
+	return text;
+}
+
 /* Reads a file that is named relative to another one. */
 static char *load_include(void *context, const char *from, const char *name,
 			  size_t *len, struct diag_list *diags,
@@ -121,7 +140,6 @@ static char *load_include(void *context, const char *from, const char *name,
 	char *path, *text;
 	int before = diags->errors;
 
-	(void)context;
 	if (name[0] == '/')
 		folder = 0;
 	path = malloc(size);
@@ -132,8 +150,7 @@ static char *load_include(void *context, const char *from, const char *name,
 	}
 	memcpy(path, from, folder);
 	memcpy(path + folder, name, strlen(name) + 1);
-	errno = 0;
-	text = file_read(path, LIMIT_TEXT, len, NULL);
+	text = load_named(context, path, len);
 	if (!text && diags->errors == before) {
 		place.id = DIAG_BAD_INCLUDE;
 		diag_add(diags, place, "%.30s" DIAG_AND "%s", name,
@@ -172,7 +189,7 @@ static bool open_image(struct ladder *ladder, const char *file,
 static bool load_bytes(struct ladder *ladder, const char *file,
 		       const void *bytes, size_t len)
 {
-	struct text_source source = { .load = load_include };
+	struct text_source source = { .load = load_include, .context = ladder };
 	bool good;
 
 	if (bytes && is_image(bytes, len)) {
@@ -197,7 +214,8 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 			 &ladder->diags);
 	if (ladder->project->arena.failed)
 		good = no_memory(ladder, file);
-	return good;
+	arena_reset(&ladder->scratch);
+	return good && settle_project(ladder->project, &ladder->scratch, &ladder->diags);
 }
 
 static void place_foreign(struct ladder *ladder)
@@ -506,9 +524,28 @@ bool ladder_read_var(struct ladder *ladder, int pou, int block, const char *text
 		     size_t len, struct diag_list *diags)
 {
 	struct project *project = ladder_project(ladder);
+	struct pou *of = project && pou >= 0 ? &project->pou[pou] : NULL;
+	struct var_table *table;
+	int last;
 
-	return project && text_read_var(project, pou < 0 ? NULL : &project->pou[pou],
-					block, text, len, diags);
+	if (!project || !text_read_var(project, of, block, text, len, diags))
+		return false;
+	table = of ? &of->vars : &project->globals;
+	last = table->block[block].first + table->block[block].count - 1;
+	arena_reset(&ladder->scratch);
+	if (settle_var(project, pou + 1, last, &ladder->scratch, diags))
+		return true;
+	vars_pop(table, block);
+	return false;
+}
+
+bool ladder_constant(struct ladder *ladder, int table, const char *text, size_t len,
+		     struct init_value *out, struct diag_list *diags)
+{
+	struct project *project = ladder_project(ladder);
+
+	arena_reset(&ladder->scratch);
+	return project && settle_value(project, table, text, len, out, &ladder->scratch, diags);
 }
 
 char *ladder_write_rung(struct ladder *ladder, const struct rung *rung)

@@ -15,6 +15,7 @@
 #include "engine/scan/resource.h"
 
 struct ladder;
+struct init_value;
 struct xref_target;
 
 /** ladder_new - nothing loaded. Owns: the caller, ladder_free(). NULL: no memory. */
@@ -62,6 +63,16 @@ const struct classic_rung *ladder_import_rung(const struct ladder *ladder, int p
 					      int rung);
 /** ladder_period - the scan period of an imported project, ns; 0: none is given. */
 int64_t ladder_period(const struct ladder *ladder);
+
+/* Files that a project names (INCLUDE, USES), from elsewhere than the disk. */
+struct ladder_files {
+	/* The text of a file, malloc'ed; NULL: it is not there. @path: its name, behind the
+	 * folder of the file that names it. */
+	char *(*load)(void *context, const char *path, size_t *len);
+	void *context;
+};
+/** ladder_set_files - for later loads. @files: copied; NULL, as at first: the disk. */
+void ladder_set_files(struct ladder *ladder, const struct ladder_files *files);
 
 /**
  * ladder_load - reads a rung file or a code image
@@ -200,6 +211,17 @@ struct rung *ladder_read_rung(struct ladder *ladder, const char *text, size_t le
  */
 bool ladder_read_var(struct ladder *ladder, int pou, int block, const char *text,
 		     size_t len, struct diag_list *diags);
+/**
+ * ladder_constant - the value of a constant, or of a constant expression such as Limit - 1
+ * @table: 0: as if it stood in a declaration of a global, n + 1: of POU n; behind them the
+ *         structures
+ * @out: type and capacity are given; gets value and literal, and the constant as text
+ *
+ * Owns: the text belongs to @ladder. Scan-safe: no.
+ * Fails: false after a diagnostic.
+ */
+bool ladder_constant(struct ladder *ladder, int table, const char *text, size_t len,
+		     struct init_value *out, struct diag_list *diags);
 /** ladder_write_rung - its canonical text. Owns: the caller, free(). NULL: no memory. */
 char *ladder_write_rung(struct ladder *ladder, const struct rung *rung);
 

@@ -65,7 +65,7 @@ static struct block *new_block(struct walker *walker, enum word fb)
 
 static struct value initial_text(struct walker *walker, const struct var *var)
 {
-	const char *text = project_text(walker->project, var->init_text);
+	const char *text = project_text(walker->project, var_value_text(var));
 	struct value value = { .type = IEC_STRING, .room = var->capacity };
 	struct literal literal;
 

@@ -90,9 +90,9 @@ static int64_t wrapped(int64_t i, enum iec_type type)
 	}
 }
 
-static enum outcome compute_real(enum word fn, float a, float b, float *out)
+static enum outcome compute_lreal(enum word fn, double a, double b, double *out)
 {
-	volatile float c = 0;
+	volatile double c = 0;
 
 	if (fn == FN_ADD)
 		c = a + b;
@@ -110,21 +110,15 @@ static enum outcome compute_real(enum word fn, float a, float b, float *out)
 	return OUTCOME_GOOD;
 }
 
-static enum outcome compute_lreal(enum word fn, double a, double b, double *out)
+/* A double has more than twice the bits of a float, so rounding twice gives what rounding once
+ * does. */
+static enum outcome compute_real(enum word fn, float a, float b, float *out)
 {
-	volatile double c = 0;
+	double wide;
+	const enum outcome outcome = compute_lreal(fn, (double)a, (double)b, &wide);
+	volatile float c = outcome == OUTCOME_GOOD ? (float)wide : 0;
 
-	if (fn == FN_ADD)
-		c = a + b;
-	else if (fn == FN_SUB)
-		c = a - b;
-	else if (fn == FN_MUL)
-		c = a * b;
-	else if (fn == FN_DIV)
-		c = a / b;
-	else
-		c = a;
-	if (!isfinite(c))
+	if (outcome != OUTCOME_GOOD || !isfinite(c))
 		return OUTCOME_FAILED;
 	*out = c;
 	return OUTCOME_GOOD;

@@ -29,6 +29,22 @@ void list_mend_focus(GtkWidget *list)
 		gtk_root_set_focus(root, NULL);
 }
 
+static gboolean forget_row(gpointer row)
+{
+	(void)row;
+	return G_SOURCE_REMOVE;
+}
+
+void list_drop_row(GtkTreeExpander *expander)
+{
+	GtkTreeListRow *row = gtk_tree_expander_get_list_row(expander);
+
+	if (row)
+		g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, forget_row, g_object_ref(row),
+				g_object_unref);
+	gtk_tree_expander_set_list_row(expander, NULL);
+}
+
 /* ---- one stop of Tab ---- */
 
 struct _LadderTabStop {

@@ -12,6 +12,10 @@
  *   at once. Try without it on each new floor.
  * - Tab stops at each row of a list. GTK 4.12 has the property "tab-behavior" of lists: use it
  *   when the floor rises to 4.12.
+ * - A fold may unbind the expander that folds: if it was the last to refer to its
+ *   GtkTreeListRow, gtk_tree_list_row_set_expanded() goes on with freed memory. To see it: set
+ *   the row of the expander to NULL in unbind_name() of init_dialog.c without list_drop_row(),
+ *   select a value of an array and fold the array by a click. Try so on each new floor.
  */
 #ifndef EDITOR_GTK48_LIST_H
 #define EDITOR_GTK48_LIST_H
@@ -24,6 +28,8 @@ void list_scroll_to(GtkWidget *view, guint at);
 /** list_mend_focus - after widgets inside @list were replaced: if the focus was in one that
  * is gone, the window gets the keys. */
 void list_mend_focus(GtkWidget *list);
+/** list_drop_row - the expander has no row any more; the row lives on until the next idle. */
+void list_drop_row(GtkTreeExpander *expander);
 /** list_tab_stop_new - a container in which Tab leaves @child, a list, and arrows go from row to
  * row. */
 GtkWidget *list_tab_stop_new(GtkWidget *child);

@@ -12,6 +12,7 @@
 #include "engine/check/check_sfc.h"
 #include "engine/check/check_sfc_names.h"
 #include "engine/check/reserved.h"
+#include "engine/check/settle.h"
 #include "engine/model/init.h"
 
 #include <string.h>
@@ -171,9 +172,8 @@ static void report_twice(struct names_check *c, const struct pou *pou,
 
 #define WHAT_MOST 30 /* bytes of the faulty value, so that its column is known */
 
-static bool report(const struct project *project, const struct var *var,
-		   const struct init_walk *walk, struct diag_list *diags,
-		   struct diag place)
+bool init_report(const struct project *project, const struct var *var,
+		 const struct init_walk *walk, struct diag_list *diags, struct diag place)
 {
 	char where[LIMIT_ARG];
 
@@ -205,7 +205,40 @@ static bool check_init(const struct project *project, const struct var *var,
 	while (init_next(*walk, &value))
 		continue;
 	return (*walk)->why == DIAG_COUNT ||
-	       report(project, var, *walk, diags, place);
+	       init_report(project, var, *walk, diags, place);
+}
+
+/* Constants in the text of a declaration are read. */
+static void note_text(struct names_check *c, const struct pou *pou, uint32_t id)
+{
+	struct names *names = &c->project->names;
+	const struct meaning *m;
+	enum diag_id why;
+	struct lex lex;
+
+	lex_init(&lex, names_text(names, id), names_len(names, id));
+	lex_next(&lex);
+	while (lex.token.kind != TOKEN_END) {
+		const struct token token = lex.token;
+
+		lex_next(&lex);
+		if (token.kind != TOKEN_NAME || lex_is(&lex, ":="))
+			continue;
+		m = scope_find(c->scope, pou, names_intern(names, token.text, token.len), &why);
+		if (m && m->kind == MEANING_VARIABLE)
+			uses_add(&c->uses, m, USE_READ);
+	}
+}
+
+static void note_declaration(struct names_check *c, const struct pou *pou, const struct var *var)
+{
+	if (!var->written)
+		return;
+	note_text(c, pou, var->written->bound[0]);
+	note_text(c, pou, var->written->bound[1]);
+	note_text(c, pou, var->written->capacity);
+	if (var->written->initial)
+		note_text(c, pou, var->init_text);
 }
 
 static void check_var(struct names_check *c, const struct pou *pou,
@@ -234,6 +267,7 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_line(c, DIAG_BAD_ADDRESS, pou, var->line, name);
 	if (var->at.area != AREA_NONE && !fits(var))
 		report_line(c, DIAG_AT_TYPE, pou, var->line, name);
+	note_declaration(c, pou, var);
 	if (flags & VAR_CONSTANT && !var->has_init)
 		report_line(c, DIAG_CONSTANT_NO_VALUE, pou, var->line, name);
 	if (init_has_parts(var))
@@ -275,6 +309,7 @@ static void check_members(struct names_check *c, int number)
 				      var->line, var->name);
 		if (mark)
 			mark->member_of = number;
+		note_declaration(c, NULL, var);
 		if (init_has_parts(var))
 			c->good &= check_init(c->project, var, &c->walk, c->scratch,
 				c->diags, (struct diag){ .line = var->line,

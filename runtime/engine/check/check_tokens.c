@@ -140,7 +140,7 @@ static const char *way_to(struct teller *c, const char *head, int state, int arc
 	for (int at = state; at >= 0; at = t->states.before[at])
 		back[count++] = at;
 	while (count > 0) {
-		/* Of a long way only the end is reported; the rest has no room. */
+		/* The message has room only for the end of a long way. */
 		if (used > WAY / 2)
 			used = 0;
 		used = put_bits(c, used, tokens_state(t, back[--count]));

@@ -547,7 +547,7 @@ static void spread(struct prover *p)
 
 /* ---- macro-steps ---- */
 
-/* What is active when a macro-step is entered must be left with it. */
+/* The entry and the exit of a macro-step must belong to the same place. */
 static void check_macros(struct prover *p)
 {
 	const struct sfc *sfc = p->t->sfc;
@@ -598,7 +598,7 @@ static void find_waiting(struct prover *p)
 	}
 }
 
-/* Of a parting: an arc from the steps in which its branches wait, and no others? */
+/* Is there an arc that leaves exactly the steps in which the branches of the parting wait? */
 static bool is_joined(struct prover *p, int parting)
 {
 	const struct tokens *t = p->t;

@@ -90,18 +90,14 @@ static uint32_t diff_name(struct diff *diff, const char *name)
 static const char *type_text(const struct project *project,
 			     const struct var *var, char room[TYPE_TEXT])
 {
-	const char *word = var->type == IEC_NONE ?
-		words_row(&project->words, var->fb)->word :
-		iec_type_row(var->type)->word;
-	char bounds[48] = "", capacity[16] = "";
+	struct sink_memory memory;
+	struct sink sink;
 
-	if (var->array.count)
-		snprintf(bounds, sizeof(bounds), "ARRAY[%ld..%lld] OF ",
-			 (long)var->array.low,
-			 (long long)var->array.low + var->array.count - 1);
-	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
-		snprintf(capacity, sizeof(capacity), "[%u]", var->capacity);
-	snprintf(room, TYPE_TEXT, "%s%.255s%s", bounds, word, capacity);
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	project_write_type(project, var, &sink);
+	snprintf(room, TYPE_TEXT, "%s", sink_memory_text(&memory));
+	sink_memory_free(&memory);
 	return room;
 }
 

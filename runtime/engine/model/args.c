@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * args - are allowed. What is malformed ends the list: the readers have reported it
- * before.=>splits the text of the parameters at a box.
+ * args - splits the text of the parameters at a box.
  *
  * Reads the canonical text that the readers keep; blanks around := and => are allowed.
- * A malformed parameter ends the list: the readers have reported it. => are allowed.
- * What is malformed ends the list: the readers have reported it before.
+ * A malformed parameter ends the list: the readers have reported it.
  */
 #include "engine/model/args.h"
 #include "engine/base/name.h"

@@ -614,6 +614,47 @@ bool expr_parse_cell(struct lex *lex, struct expr *out, struct diag_list *diags,
 	return parse_cell(&parser);
 }
 
+/* Does an operator between two operands stand here? */
+static bool is_binary(const struct lex *lex)
+{
+	for (int i = OPERATOR_BINARY; i < OPERATORS; i++)
+		if (lex_is(lex, operators[i].word))
+			return true;
+	return false;
+}
+
+bool expr_begins(struct lex lex)
+{
+	int signs = 0;
+
+	for (; lex_is(&lex, "-") || lex_is(&lex, "+"); signs++)
+		lex_next(&lex);
+	if (lex_is(&lex, "(") || lex_is(&lex, "NOT"))
+		return true;
+	if (lex.token.kind == TOKEN_NAME && !lex_is(&lex, "TRUE") && !lex_is(&lex, "FALSE"))
+		return true;
+	if (lex.token.kind != TOKEN_NUMBER && lex.token.kind != TOKEN_NAME &&
+	    lex.token.kind != TOKEN_ADDRESS)
+		return false;
+	lex_next(&lex);
+	return signs > 1 || is_binary(&lex);
+}
+
+void expr_skip(struct lex *lex, const char **end)
+{
+	static const char *const stops[] = { ",", ":", ":=", ".", "]", ")" };
+	int open = 0;
+
+	for (; lex->token.kind != TOKEN_END && !lex_is(lex, ";"); lex_next(lex)) {
+		for (size_t i = 0; open == 0 && i < sizeof(stops) / sizeof(*stops); i++)
+			if (lex_is(lex, stops[i]))
+				return;
+		open += lex_is(lex, "(") || lex_is(lex, "[");
+		open -= lex_is(lex, ")") || lex_is(lex, "]");
+		*end = lex->token.text + lex->token.len;
+	}
+}
+
 bool expr_parse_text(const char *text, size_t len, struct expr *out,
 		     struct diag_list *diags, struct diag place)
 {

@@ -77,6 +77,16 @@ bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
 /** expr_parse_cell - `expression` or `target := expression` at the lexer. */
 bool expr_parse_cell(struct lex *lex, struct expr *out, struct diag_list *diags,
 		     struct diag place);
+/**
+ * expr_begins - whether an expression begins at the lexer, not a constant alone: a name, a sign
+ * before a parenthesis, a constant with an operator behind it
+ *
+ * It looks at one or two tokens; the rest may be wrong. Scan-safe: yes.
+ */
+bool expr_begins(struct lex lex);
+/** expr_skip - steps over an expression, well formed or not, to the first `,` `;` `:` `]`, dot or
+ * parenthesis outside of its own; @end gets where it ends. Scan-safe: yes. */
+void expr_skip(struct lex *lex, const char **end);
 /** expr_parse_text - the same of a whole text. */
 bool expr_parse_text(const char *text, size_t len, struct expr *out,
 		     struct diag_list *diags, struct diag place);

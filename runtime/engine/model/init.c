@@ -8,6 +8,7 @@
 #include "engine/model/init.h"
 #include "engine/base/name.h"
 
+#include "engine/model/expr.h"
 #include "engine/model/shape.h"
 
 #include <stdio.h>
@@ -62,8 +63,8 @@ void init_begin(struct init_walk *walk, const struct project *project,
 	walk->scratch = scratch;
 	walk->why = DIAG_COUNT;
 	walk->level[0].item = shape_pin(var);
-	lex_init(&walk->lex, names_text(names, var->init_text),
-		 names_len(names, var->init_text));
+	lex_init(&walk->lex, names_text(names, var_value_text(var)),
+		 names_len(names, var_value_text(var)));
 	lex_next(&walk->lex);
 }
 
@@ -146,6 +147,22 @@ static bool is_kind(const struct literal *literal, enum iec_type type)
 				   (CLASS_TIME | ANY_DATE | CLASS_STRING));
 }
 
+/* From the first token of an expression to the one behind it. */
+static bool take_expression(struct init_walk *walk, struct init_value *out)
+{
+	const char *text = walk->lex.token.text, *end = text;
+	enum diag_id why = DIAG_BAD_LITERAL;
+
+	expr_skip(&walk->lex, &end);
+	out->text = text;
+	out->len = (size_t)(end - text);
+	walk->from = text;
+	walk->behind = end;
+	if (walk->fold.value)
+		why = walk->fold.value(walk->fold.context, text, out->len, out);
+	return why == DIAG_COUNT || fail(walk, why, text, out->len);
+}
+
 static bool take_constant(struct init_walk *walk, const struct word_pin *pin,
 			  struct init_value *out)
 {
@@ -155,13 +172,15 @@ static bool take_constant(struct init_walk *walk, const struct word_pin *pin,
 	enum literal_result result;
 	size_t len;
 
+	out->type = pin->type;
+	out->capacity = pin->capacity;
+	if (expr_begins(*lex))
+		return take_expression(walk, out);
 	if (lex_is(lex, "-") || lex_is(lex, "+"))
 		lex_next(lex);
 	if (lex->token.kind != TOKEN_NUMBER && lex->token.kind != TOKEN_NAME)
 		return fail_expected(walk, "constant");
 	len = (size_t)(lex->token.text + lex->token.len - text);
-	out->type = pin->type;
-	out->capacity = pin->capacity;
 	result = literal_parse(text, len, &out->literal);
 	if (result == LITERAL_RANGE ||
 	    (result == LITERAL_OK && is_kind(&out->literal, pin->type)))
@@ -169,8 +188,9 @@ static bool take_constant(struct init_walk *walk, const struct word_pin *pin,
 	if (result != LITERAL_OK ||
 	    !literal_fit(&out->literal, pin->type, &out->value))
 		return fail(walk, why, text, len);
-	out->text = text;
+	out->text = walk->from = text;
 	out->len = len;
+	walk->behind = text + len;
 	lex_next(lex);
 	return true;
 }

@@ -41,9 +41,20 @@ struct init_value {
 	size_t len;
 };
 
+/* Computes constant expressions; without it they are errors. */
+struct init_fold {
+	/* The value, of @out->type, of @len bytes of @text; @out gets value and literal.
+	 * Fails: why; DIAG_COUNT: it did not. */
+	enum diag_id (*value)(void *context, const char *text, size_t len,
+			      struct init_value *out);
+	void *context;
+};
+
 struct init_walk {
 	const struct project *project;
 	struct arena *scratch;      /* NULL: the text was checked before      */
+	struct init_fold fold;      /* set behind init_begin()                */
+	const char *from, *behind;  /* the present value as written, in the text */
 	struct lex lex;
 	struct init_level level[INIT_DEPTH];
 	int depth;
@@ -56,7 +67,7 @@ struct init_walk {
 /** init_has_parts - whether the initial value of @var is such a text. Scan-safe: yes. */
 bool init_has_parts(const struct var *var);
 /**
- * init_begin - before the first constant of a variable's text
+ * init_begin - before the first constant of a variable's text, or of var_value_text()
  * @scratch: checks the text, and walks repeated values once. NULL: the text was
  *           checked; repeated values come n times
  *

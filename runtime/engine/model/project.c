@@ -213,3 +213,30 @@ bool project_set_view(struct project *project, const char *text)
 	project->part[at].text = id;
 	return true;
 }
+
+void project_write_type(const struct project *project, const struct var *var,
+			const struct sink *sink)
+{
+	const struct var_written *written = var->written;
+
+	if (written && written->bound[0]) {
+		sink_text(sink, "ARRAY[");
+		sink_text(sink, project_text(project, written->bound[0]));
+		sink_text(sink, "..");
+		sink_text(sink, project_text(project, written->bound[1]));
+		sink_text(sink, "] OF ");
+	} else if (var->array.count) {
+		sink_printf(sink, "ARRAY[%ld..%lld] OF ", (long)var->array.low,
+			    (long long)var->array.low + var->array.count - 1);
+	}
+	sink_text(sink, var->type == IEC_NONE ? words_row(&project->words, var->fb)->word :
+						iec_type_row(var->type)->word);
+	if (written && written->capacity) {
+		sink_text(sink, "[");
+		sink_text(sink, project_text(project, written->capacity));
+		sink_text(sink, "]");
+	} else if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT) {
+		sink_printf(sink, "[%u]", var->capacity ? var->capacity :
+			    (unsigned)IEC_STRING_MOST); /* a temporary */
+	}
+}

@@ -9,6 +9,7 @@
 #define MODEL_PROJECT_H
 
 #include "engine/base/areas.h"
+#include "engine/base/sink.h"
 #include "engine/model/sfc.h"
 #include "engine/model/il.h"
 #include "engine/model/property.h"
@@ -152,6 +153,11 @@ int project_find_pou(const struct project *project, const char *name, size_t len
 bool project_has_head(const struct project *project);
 /** project_text - the string of an id. */
 const char *project_text(const struct project *project, uint32_t id);
+
+/** project_write_type - the type of @var as declared: ARRAY[1..Limit] OF STRING[20].
+ * Scan-safe: no. */
+void project_write_type(const struct project *project, const struct var *var,
+			const struct sink *sink);
 
 /* The places of the parts of a project in its canonical text, for programs that replace
  * parts of it, as the editor does with declarations. */

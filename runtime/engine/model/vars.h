@@ -28,6 +28,25 @@ struct var_init {
 	uint32_t text;       /* string id: of a STRING, as written; 0: empty   */
 };
 
+enum written_place { WRITTEN_LOW, WRITTEN_HIGH, WRITTEN_CAPACITY, WRITTEN_INITIAL, WRITTEN_PLACES };
+
+/* A declaration with constant expressions: Max : INT := Limit - 1. The numbers in struct var are
+ * those that check/settle.c computes from it. */
+struct var_written {
+	uint32_t bound[2];   /* string ids: lowest and highest index, as written; 0: numbers */
+	uint32_t capacity;   /* likewise, of a STRING                          */
+	bool initial;        /* the initial value has expressions              */
+	uint32_t value;      /* string id: the initial value with constants in place of them;
+			      * 0: not computed                                */
+	bool again;          /* of the same declaration as the variable before it */
+	const char *file;
+	struct { int line, column; } at[WRITTEN_PLACES];
+	/* While they are computed: */
+	uint8_t state;
+	int table, index;    /* the variable: as in scope, behind the POUs the structures */
+	struct var_written *below; /* needs the value of this one              */
+};
+
 struct var {
 	uint32_t name;       /* string id, as written                          */
 	uint32_t fold;       /* names_fold of it                               */
@@ -47,6 +66,7 @@ struct var {
 	uint32_t init_text;  /* string id: as written (16#FF stays so); for arrays of
 			      * structures, structures and instances the whole text:
 			      * model/init.h */
+	struct var_written *written; /* NULL: no constant expressions           */
 	uint32_t at_text;    /* string id: canonical address                   */
 	uint32_t comment;    /* string id: trailing, with delimiters           */
 	int line;
@@ -77,6 +97,12 @@ bool vars_is_eno(const struct var_table *table, int index);
 int vars_declared(const struct var_table *table);
 /** vars_head - the first word of a block with these flags: VAR_INPUT. */
 const char *vars_head(uint16_t flags);
+/** var_value_text - string id of its initial value with constants in place of expressions;
+ * not of a plain number. Scan-safe: yes. */
+static inline uint32_t var_value_text(const struct var *var)
+{
+	return var->written && var->written->value ? var->written->value : var->init_text;
+}
 /** var_unit - bytes from one element to the next; without an array the size. Not of
  * an instance. */
 uint32_t var_unit(const struct var *var);

@@ -33,7 +33,7 @@ void words_init(struct word_table *table, struct arena *arena);
  * words_add - a row of the project's own
  * @row: its texts and pins must live as long as the arena; its word is its name
  *
- * Of two rows with one name both are kept; searches find the first. Scan-safe: no.
+ * Two rows may have the same name; a search finds the first. Scan-safe: no.
  * Fails: WORD_COUNT when memory is out or there are too many.
  */
 enum word words_add(struct word_table *table, struct word_row row);

@@ -389,6 +389,14 @@ static bool check_watched(struct verifier *v)
 	return true;
 }
 
+static bool check_power(const struct verifier *v, const struct code_power *power)
+{
+	const uint32_t type = power->type ? power->type : IEC_BOOL;
+
+	return verify_use(v, power->in, IEC_BOOL, false) &&
+	       verify_use(v, power->out, type, false);
+}
+
 static bool check_maps(struct verifier *v)
 {
 	const struct program *p = v->program;
@@ -402,14 +410,32 @@ static bool check_maps(struct verifier *v)
 		name += strlen(name) + 1;
 	}
 	for (uint32_t i = 0; i < p->power_count; i++)
-		if (!verify_use(v, p->power[i].in, IEC_BOOL, false) ||
-		    !verify_use(v, p->power[i].out, IEC_BOOL, false))
+		if (!check_power(v, &p->power[i]))
 			return verify_refuse(v, &p->power[i]);
 	for (uint32_t i = 0; i < p->place_count; i++)
 		if (p->place[i].text >= p->text_words + p->watch_words ||
 		    p->place[i].pou >= p->entry_count)
 			return verify_refuse(v, &p->place[i]);
 	return true;
+}
+
+const struct code_power *code_result(const struct program *program, uint32_t pou,
+				     uint32_t line)
+{
+	uint32_t low = 0, high = program->power_count;
+
+	while (low < high) {
+		uint32_t middle = low + (high - low) / 2;
+		const struct code_power *at = &program->power[middle];
+
+		if (at->pou == pou && at->rung == line)
+			return at->row == 0 && at->col == CODE_LINE ? at : NULL;
+		if (at->pou > pou || (at->pou == pou && at->rung > line))
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	return NULL;
 }
 
 void code_identity(const struct program *p, uint8_t out[32])

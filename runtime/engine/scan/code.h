@@ -146,13 +146,15 @@ struct code_group {     /* symbols from here to the next group             */
 	uint32_t flags; /* SYMBOL_CONSTANT, SYMBOL_RETAIN                  */
 };
 
-struct code_power {     /* the cell-to-power map                           */
+struct code_power {     /* what a watched scan keeps                       */
 	uint16_t pou;   /* index in CODE_PROGRAMS                          */
-	uint16_t row, col; /* 1-based                                      */
-	uint16_t spare;
-	uint32_t rung;  /* 1-based                                         */
-	uint32_t in;    /* offset in m: power at its left end              */
-	uint32_t out;   /* offset in m: power it lets through              */
+	uint16_t row, col; /* of a cell, 1-based. 0, CODE_LINE: of a line of a list */
+	uint16_t type;  /* of out: 0 is BOOL                               */
+	uint32_t rung;  /* 1-based; of a list: line of the file             */
+	uint32_t in;    /* offset in m of a BOOL: power at the cell's left end; has the
+			   line run in the last run of its POU?            */
+	uint32_t out;   /* offset in m: power that the cell lets through; the current
+			   result after the line                           */
 };
 
 /* While watched, the power of a block's cells is copied for each instance: the bytes
@@ -224,6 +226,13 @@ enum math { MATH_ADD, MATH_SUB, MATH_MUL, MATH_DIV, MATH_COUNT };
 bool code_open(const void *bytes, size_t len, struct arena *scratch,
 	       struct program *out, enum diag_id *why, size_t *where);
 
+/** code_result - where a watched scan keeps the current result after a line of a list
+ * @pou: index in CODE_PROGRAMS; @line: of the file
+ *
+ * Owns: nothing; lives with the program. Scan-safe: yes (a search). Fails: NULL: no
+ * instruction is there, or the image has no map. `type` 0: it leaves no single value. */
+const struct code_power *code_result(const struct program *program, uint32_t pou,
+				     uint32_t line);
 /** code_run_size - bytes of one value or instance of a run. Scan-safe: yes. */
 static inline uint32_t code_run_size(const struct code_run *run)
 {

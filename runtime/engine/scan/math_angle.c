@@ -80,20 +80,26 @@ static struct number sine_in(unsigned quadrant, struct number x)
 	return n;
 }
 
-double math_sin(double x)
+/* The sine, or the tangent if @tangent. Both are odd functions. */
+static double odd_of(double x, bool tangent)
 {
 	struct number n;
 	unsigned quadrant;
-	bool negative = bits_is_negative(x);
 
 	if (bits_is_special(x))
 		return bits_is_zero(x) ? x : bits_nan();
 	n = number_of(x);
 	n.negative = false;
 	quadrant = to_quadrant(&n);
-	n = sine_in(quadrant, n);
-	n.negative ^= negative;
+	n = tangent ? number_divided(sine_in(quadrant, n), sine_in(quadrant + 1, n)) :
+	    sine_in(quadrant, n);
+	n.negative ^= bits_is_negative(x);
 	return number_double(n);
+}
+
+double math_sin(double x)
+{
+	return odd_of(x, false);
 }
 
 double math_cos(double x)
@@ -111,18 +117,7 @@ double math_cos(double x)
 
 double math_tan(double x)
 {
-	struct number n;
-	unsigned quadrant;
-	bool negative = bits_is_negative(x);
-
-	if (bits_is_special(x))
-		return bits_is_zero(x) ? x : bits_nan();
-	n = number_of(x);
-	n.negative = false;
-	quadrant = to_quadrant(&n);
-	n = number_divided(sine_in(quadrant, n), sine_in(quadrant + 1, n));
-	n.negative ^= negative;
-	return number_double(n);
+	return odd_of(x, true);
 }
 
 /* atan d = d (1 - d² (1/3 - d² (1/5 - ...))), d <= 1/15. */
@@ -158,7 +153,7 @@ static struct number arc(struct number y, struct number x)
 	}
 	if (near == 0)
 		return arc_small(number_divided(y, x));
-	/* It is less than x, so that what 64 bits lose at the top is not missed. */
+	/* The difference fits, because it is less than x, although its terms may not. */
 	less = (apart < 2 ? y.part << (2 - apart) : y.part >> (apart - 2)) - near * below;
 	negative = less >> 63;
 	if (less == 0)

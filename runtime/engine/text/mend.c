@@ -257,7 +257,7 @@ static const struct rule *rule_at(const struct mender *m, size_t at)
 	return NULL;
 }
 
-/* What the cursor has passed changes where it is. */
+/* Sets `where` after the cursor has passed the token @text. */
 static void pass(struct mender *m, const char *text, size_t len)
 {
 	const bool assign = len == 2 && text[0] == ':' && text[1] == '=';
@@ -465,8 +465,21 @@ static bool other_reads(const struct mender *m, struct diag_list *diags)
 	return true;
 }
 
+/* The first line of a step or a transition: its signs differ from those of other heads. */
+static bool is_of_chart(const struct mender *m)
+{
+	static const char *const words[] = {
+		"STEP ", "INITIAL_STEP ", "MACRO_STEP ", "TRANSITION ",
+	};
+
+	for (size_t i = 0; m->in->chart && i < COUNT(words); i++)
+		if (ascii_same(m->text, words[i], strlen(words[i])))
+			return true;
+	return false;
+}
+
 /* A head has no probe: its first word tells. */
-static bool is_head(const char *text)
+static bool is_head(const struct mender *m)
 {
 	static const char *const words[] = {
 		"//", "RUNG", "PROGRAM", "VAR", "END_", "FUNCTION", "RUNGBOARD", "PROJECT",
@@ -474,9 +487,9 @@ static bool is_head(const char *text)
 	};
 
 	for (size_t i = 0; i < COUNT(words); i++)
-		if (ascii_same(text, words[i], strlen(words[i])))
+		if (ascii_same(m->text, words[i], strlen(words[i])))
 			return true;
-	return false;
+	return is_of_chart(m);
 }
 
 static bool line_reads(const struct mender *m)
@@ -488,7 +501,7 @@ static bool line_reads(const struct mender *m)
 
 	if (m->full || m->in->kind == MEND_HEAD || strncmp(m->text, "END_", 4) == 0 ||
 	    strncmp(m->text, "//", 2) == 0)
-		return !m->full && m->changed && is_head(m->text);
+		return !m->full && m->changed && is_head(m);
 	diags = calloc(1, sizeof(*diags));
 	if (!diags)
 		return false;
@@ -867,16 +880,48 @@ static void mend_list(struct mender *m)
 	}
 }
 
+/* STEP Fill → STEP Fill: */
+static void mend_step(struct mender *m, const struct piece *piece, int count)
+{
+	if (count == 2 || (!piece_is(m, piece[2], ":") && !piece_is(m, piece[count - 1], ":")))
+		change(m, piece[count - 1].at + piece[count - 1].len, 0, ":");
+}
+
+/* TRANSITION A TO B = Start → TRANSITION FROM A TO B := Start; END_TRANSITION */
+static void mend_transition(struct mender *m, const struct piece *piece, int count)
+{
+	int to = 0, assign = 0, ends = 0;
+
+	for (int i = count - 1; i > 0; i--) {
+		to = piece_is(m, piece[i], "TO") ? i : to;
+		assign = piece_is(m, piece[i], ":=") ? i : assign;
+		ends = piece_is(m, piece[i], ";") || piece_is(m, piece[i], "END_TRANSITION") ? i :
+		       ends;
+	}
+	if (to == 2 && !piece_is(m, piece[1], "FROM"))
+		change(m, piece[1].at, 0, "FROM ");
+	else if (to && !assign && to + 2 < count && piece_is(m, piece[to + 2], "="))
+		change(m, piece[to + 2].at, 1, ":=");
+	else if (assign && ends > assign + 1 && piece_is(m, piece[ends], "END_TRANSITION"))
+		change(m, piece[ends - 1].at + piece[ends - 1].len, 0, ";");
+	else if (assign && !ends && assign + 1 < count)
+		change(m, m->len, 0, "; END_TRANSITION");
+}
+
 /* RUNG Start the motor → RUNG "Start the motor"; PROGRAM "Main" LD → PROGRAM Main LD. */
 static void mend_head(struct mender *m)
 {
-	struct piece piece[8];
+	struct piece piece[32];
 	char made[MADE];
-	int count = split(m, piece, 8);
+	int count = split(m, piece, 32);
 	size_t end = m->len;
 
 	if (count < 2)
 		return;
+	if (is_of_chart(m)) {
+		(piece_is(m, piece[0], "TRANSITION") ? mend_transition : mend_step)(m, piece, count);
+		return;
+	}
 	if (piece_is(m, piece[0], "RUNG") && m->text[piece[1].at] != '"') {
 		size_t from = piece[1].at + (m->text[piece[1].at] == ':' ||
 					     m->text[piece[1].at] == '\'');
@@ -947,7 +992,8 @@ bool mend_line(const struct mend_line *line, struct mended *out)
 	if (!m.len)
 		return false;
 	replace_signs(&m);
-	replace_words(&m);
+	if (line->kind != MEND_HEAD || !is_of_chart(&m))
+		replace_words(&m);
 	if (!m.full && (line->kind == MEND_HEAD ? !m.changed : !line_reads(&m)))
 		mend[line->kind](&m);
 	if (!m.changed || !line_reads(&m))

@@ -24,6 +24,7 @@ struct mend_line {
 	uint16_t var_flags;  /* of the VAR block                              */
 	bool members;        /* of a structure                                */
 	bool label;          /* a jump names the first word                   */
+	bool chart;          /* in a POU in SFC                               */
 	const char *text;
 	size_t len;
 };

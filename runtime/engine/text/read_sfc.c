@@ -695,6 +695,17 @@ static bool read_transition_head(struct sfc_reader *in, struct sfc_transition *t
 
 /* ---- := expression; ---- */
 
+/* Does the expression end with the line of the cursor, and @lex stand behind it? */
+static bool is_next(const struct reader *r, const struct lex *lex)
+{
+	const char *end = memchr(r->lex.token.text, '\n',
+				 (size_t)(lex->token.text - r->lex.token.text));
+
+	while (end && (*end == ' ' || *end == '\t' || *end == '\r' || *end == '\n'))
+		end++;
+	return !end || end == lex->token.text;
+}
+
 /* Reads ahead with a cursor of its own, so that errors have the right column. */
 static bool check_expression(struct reader *r)
 {
@@ -712,6 +723,8 @@ static bool check_expression(struct reader *r)
 	if (lex_is(&lex, ";") && !r->expr.target)
 		return true;
 	if (!r->expr.target) {
+		if (is_next(r, &lex) && reader_mend(r, DIAG_BAD_EXPRESSION))
+			return false;
 		place.line = lex.token.line;
 		place.column = lex.token.column;
 	}

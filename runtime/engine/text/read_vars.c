@@ -3,7 +3,7 @@
  * read_vars - VAR … END_VAR: names, addresses, types, initial values.
  *
  * A constant must fit its type here; check/ finds duplicate names, and addresses that do
- * not fit their type.
+ * not fit their type. Constant expressions are kept as text: check/settle.c computes them.
  */
 #include "engine/text/reader.h"
 
@@ -67,6 +67,84 @@ static bool read_at(struct reader *r, struct var *var)
 	return true;
 }
 
+/* ---- constant expressions ---- */
+
+/* Is a variable of this name declared above? */
+static bool is_declared(const struct reader *r, const struct token *token)
+{
+	struct names *names = &r->project->names;
+	const uint32_t fold = names_fold(names, names_intern(names, token->text, token->len));
+
+	return (r->pou && vars_find(&r->pou->vars, fold) >= 0) ||
+	       vars_find(&r->project->globals, fold) >= 0;
+}
+
+bool reader_begins_expression(const struct reader *r, enum iec_type type)
+{
+	static const char *const words[] = { "ON", "OFF", "YES", "NO" };
+	struct lex lex = r->lex;
+
+	lex.newlines = lex.comments = false;
+	for (size_t i = 0; type == IEC_BOOL && i < sizeof(words) / sizeof(*words); i++)
+		if (lex_is(&lex, words[i]) && !is_declared(r, &lex.token))
+			return false;
+	return expr_begins(lex);
+}
+
+struct var_written *reader_written(struct reader *r, struct var *var, enum written_place where)
+{
+	if (!var->written)
+		var->written = arena_alloc(&r->project->arena, sizeof(*var->written));
+	if (!var->written) {
+		r->no_memory = true;
+		return NULL;
+	}
+	var->written->file = r->place.file;
+	var->written->at[where].line = r->lex.token.line;
+	var->written->at[where].column = r->lex.token.column;
+	return var->written;
+}
+
+/* Is there no blank between two tokens of an expression, however it was written? */
+static bool is_tight(const struct token *before, const struct token *token)
+{
+	return *before->text == '(' || *before->text == '[' || *before->text == '.' ||
+	       *token->text == ')' || *token->text == ']' || *token->text == ',' ||
+	       *token->text == '.';
+}
+
+/* Appends the tokens up to the one at @end. */
+static void add_tokens(struct reader *r, const char *end)
+{
+	const struct token *token = &r->lex.token;
+
+	while (token->text < end && token->kind != TOKEN_END && !r->no_memory) {
+		const struct token before = *token;
+
+		buffer_add(r, &r->text, token->text, token->len);
+		reader_step(r);
+		if (token->text < end && !is_tight(&before, token) &&
+		    (token->space_before || token->line != before.line))
+			buffer_add(r, &r->text, " ", 1);
+	}
+}
+
+bool reader_expression(struct reader *r, struct var *var, enum written_place where)
+{
+	struct diag place = r->place;
+	struct lex lex = r->lex;
+
+	if (!reader_written(r, var, where))
+		return false;
+	lex.newlines = lex.comments = false;
+	place.id = DIAG_BAD_EXPRESSION;
+	place.line = lex.token.line;
+	if (!expr_parse(&lex, &r->expr, r->diags, place))
+		return false;
+	add_tokens(r, lex.token.text);
+	return !r->no_memory;
+}
+
 /* STRING[20]; without a number the usual capacity. */
 static bool read_capacity(struct reader *r, struct var *var)
 {
@@ -79,14 +157,21 @@ static bool read_capacity(struct reader *r, struct var *var)
 	if (!reader_is(r, '['))
 		return true;
 	reader_step(r);
-	if (literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
-	    literal.type != IEC_NONE || literal.real)
-		return reader_fail_word(r, DIAG_EXPECTED, "number of bytes");
-	if (literal.high || literal.value.i < 1 ||
-	    literal.value.i > IEC_STRING_MOST)
-		return reader_fail_token(r, DIAG_LITERAL_RANGE);
-	var->capacity = (uint16_t)literal.value.i;
-	reader_step(r);
+	if (reader_begins_expression(r, IEC_DINT)) {
+		buffer_clear(&r->text);
+		if (!reader_expression(r, var, WRITTEN_CAPACITY))
+			return false;
+		var->written->capacity = buffer_take(r, &r->text);
+	} else {
+		if (literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
+		    literal.type != IEC_NONE || literal.real)
+			return reader_fail_word(r, DIAG_EXPECTED, "number of bytes");
+		if (literal.high || literal.value.i < 1 ||
+		    literal.value.i > IEC_STRING_MOST)
+			return reader_fail_token(r, DIAG_LITERAL_RANGE);
+		var->capacity = (uint16_t)literal.value.i;
+		reader_step(r);
+	}
 	if (!reader_is(r, ']'))
 		return reader_fail_word(r, DIAG_EXPECTED, "]");
 	reader_step(r);
@@ -122,7 +207,7 @@ bool reader_type(struct reader *r, struct var *var)
 	if (!reader_is(r, ':'))
 		return reader_fail_word(r, DIAG_EXPECTED, ":");
 	reader_step(r);
-	if (!read_array(r, &var->array))
+	if (!read_array(r, var))
 		return false;
 	if (token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "type");
@@ -204,10 +289,28 @@ static bool read_init(struct reader *r, struct var *var)
 	if (var->array.count)
 		return read_init_list(r, var);
 	buffer_clear(&r->text);
-	if (!read_constant(r, var->type, &var->init))
+	if (reader_begins_expression(r, var->type)) {
+		if (!reader_expression(r, var, WRITTEN_INITIAL))
+			return false;
+		var->written->initial = true;
+	} else if (!read_constant(r, var->type, &var->init)) {
 		return false;
+	}
 	var->has_init = true;
 	var->init_text = buffer_take(r, &r->text);
+	return true;
+}
+
+/* A second name of a declaration has its own record of it. */
+static bool repeat_written(struct reader *r, struct var *var)
+{
+	struct var_written *own = arena_alloc(&r->project->arena, sizeof(*own));
+
+	if (!own)
+		return r->no_memory = true, false;
+	*own = *var->written;
+	own->again = true;
+	var->written = own;
 	return true;
 }
 
@@ -235,6 +338,8 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 		like.fold = table->var[i].fold;
 		like.line = table->var[i].line;
 		table->var[i] = like;
+		if (i > first && like.written && !repeat_written(r, &table->var[i]))
+			return false;
 	}
 	/* A comment on the same line belongs to this declaration. */
 	if (closed)

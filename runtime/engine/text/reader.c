@@ -95,7 +95,8 @@ static bool mend_as(struct reader *r, enum mend_kind kind, const char *text, int
 {
 	const char *end = memchr(text, '\n', (size_t)(r->lex.end - text));
 	struct mend_line in = { r->project, kind, r->var_flags, r->members,
-				kind == MEND_LIST && is_label(r), text,
+				kind == MEND_LIST && is_label(r),
+				r->pou && r->pou->language == LANGUAGE_SFC, text,
 				(size_t)((end ? end : r->lex.end) - text) };
 	struct mended out;
 

@@ -25,7 +25,7 @@ struct buffer {
 	size_t slash_len, slash_at;
 };
 
-/* Where comments go that the cursor passes. */
+/* Where the reader keeps a comment that it passes. */
 enum comment_place {
 	COMMENT_ABOVE, /* the next part, rung or end: one a line              */
 	COMMENT_NOTE,  /* a declaration: behind it, on one line               */
@@ -145,10 +145,24 @@ bool reader_arg(struct reader *r);
 
 /** reader_sign - appends a sign under the cursor and steps past it; true if there is one. */
 bool reader_sign(struct reader *r);
+/** reader_written - the record of a declaration with constant expressions; one of them, at
+ * @where in it, is at the cursor. Owns: the project's arena. Fails: NULL: no memory. */
+struct var_written *reader_written(struct reader *r, struct var *var, enum written_place where);
+/**
+ * reader_begins_expression - does a constant expression stand here, not a constant alone?
+ * @type: the type of the value; ON and OFF are mistakes for a BOOL, unless they are declared
+ */
+bool reader_begins_expression(const struct reader *r, enum iec_type type);
+/**
+ * reader_expression - appends a constant expression to r->text, with single blanks, and steps
+ * behind it
+ * @var: of the declaration; @where: the place of the expression in it, for diagnostics
+ */
+bool reader_expression(struct reader *r, struct var *var, enum written_place where);
 /** read_constant - appends a constant of @type to r->text and steps behind it. */
 bool read_constant(struct reader *r, enum iec_type type, union iec_value *out);
-/** read_array - `ARRAY[low..high] OF`, if it stands here. */
-bool read_array(struct reader *r, struct var_array *array);
+/** read_array - `ARRAY[low..high] OF`, if it stands here. Clears r->text. */
+bool read_array(struct reader *r, struct var *var);
 /** read_init_list - `[1, 2, 3(7)]`, the initial values of an array. */
 bool read_init_list(struct reader *r, struct var *var);
 /** read_init_parts - `(Speed := 5)`, `[(a := 1), 2(a := 3)]`, initial values of structures and

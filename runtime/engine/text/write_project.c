@@ -121,20 +121,6 @@ static void write_init(const struct sink *sink, const struct project *project,
 	sink_text(sink, text);
 }
 
-static void write_type(const struct sink *sink, const struct project *project,
-		       const struct var *var)
-{
-	if (var->array.count)
-		sink_printf(sink, "ARRAY[%ld..%lld] OF ", (long)var->array.low,
-			    (long long)var->array.low + var->array.count - 1);
-	sink_text(sink, var->type == IEC_NONE ?
-			words_row(&project->words, var->fb)->word :
-			iec_type_row(var->type)->word);
-	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
-		sink_printf(sink, "[%u]", var->capacity ? var->capacity :
-			    (unsigned)IEC_STRING_MOST); /* a temporary */
-}
-
 static void write_var(const struct sink *sink, const struct project *project,
 		      const struct var *var, const struct widths *widths)
 {
@@ -150,7 +136,7 @@ static void write_var(const struct sink *sink, const struct project *project,
 			    widths->at - write_width(project, var->at_text));
 	}
 	sink_text(sink, " : ");
-	write_type(sink, project, var);
+	project_write_type(project, var, sink);
 	write_init(sink, project, var);
 	sink_text(sink, ";");
 	if (var->comment) {
@@ -231,7 +217,7 @@ static void text_write_pou(const struct project *project, const struct pou *pou,
 	write_id(sink, project, pou->name);
 	if (pou->kind == POU_FUNCTION && pou->vars.count > 0) {
 		sink_text(sink, " : ");
-		write_type(sink, project, &pou->vars.var[0]);
+		project_write_type(project, &pou->vars.var[0], sink);
 	}
 	sink_text(sink, " ");
 	sink_text(sink, pou_language_word(pou->language));

@@ -505,7 +505,124 @@ static void assemble_op(struct list *list, const struct il_line *line)
 	}
 }
 
-static void assemble_line(struct list *list)
+/* ---- the current result after each line, while watched ---- */
+
+/* Lines of a chart's lists are not kept: their lists are made twice, and differ. */
+static bool keeps_results(const struct list *list)
+{
+	return list->as->watching && list->pou->language == LANGUAGE_IL;
+}
+
+static bool is_instruction(const struct il_line *line)
+{
+	switch ((enum il_kind)line->kind) {
+	case IL_OP:
+	case IL_FN:
+	case IL_CLOSE:
+	case IL_LABEL:
+	case IL_CALL:
+		return line->line > 0 && !line->rung;
+	case IL_ARG_IN:
+	case IL_ARG_OUT:
+	case IL_COMMENT:
+	case IL_EACH:
+	case IL_TARGET:
+	case IL_TICK:
+		break;
+	}
+	return false;
+}
+
+static enum iec_type result_type(const struct il_result *now)
+{
+	switch (now->kind) {
+	case RESULT_BITS:
+		return IEC_BOOL;
+	case RESULT_NUMBER:
+		return (enum iec_type)CODE_TYPE(now->operand);
+	case RESULT_LITERAL:
+		return now->literal->type != IEC_NONE ? now->literal->type :
+		       now->literal->real ? IEC_LREAL :
+		       now->literal->high ? IEC_ULINT : IEC_LINT;
+	case RESULT_NONE:
+	case RESULT_WHOLE:
+		break;
+	}
+	return IEC_NONE;
+}
+
+/* A label and an instruction may share a line: the last one counts. */
+static struct result *result_of_line(const struct frame *frame, int count, uint32_t line)
+{
+	struct result *last = count ? &frame->result[count - 1] : NULL;
+
+	return last && last->line == line ? last : NULL;
+}
+
+/* First pass: which lines there are, and the types of their results. */
+static void note_result(struct list *list, struct frame *frame, uint32_t line)
+{
+	struct result *result = result_of_line(frame, frame->result_count, line);
+
+	if (!result)
+		result = arena_push(list->as->arena, &frame->result,
+				    &frame->result_count, sizeof(*result));
+	if (!result) {
+		list->as->failed = true;
+		return;
+	}
+	*result = (struct result){ .line = line, .type = result_type(&list->now) };
+}
+
+/* Second pass: into the places that they have got. */
+static void store_result(struct list *list, struct frame *frame, uint32_t line)
+{
+	struct result *result = result_of_line(frame, list->results, line);
+	const struct bits yes = bits_constant(true);
+
+	if (!result)
+		result = &frame->result[list->results++];
+	bits_store(list->as, &yes, result->ran);
+	if (result->type == IEC_NONE || result->type != result_type(&list->now))
+		return;
+	if (list->now.kind == RESULT_BITS)
+		bits_store(list->as, &list->now.bits, result->at);
+	else
+		list_copy(list, CODE_OPERAND(result->type, result->at),
+			  list_operand(list, &list->now, result->type));
+}
+
+static void keep_result(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at];
+	struct frame *frame = &list->as->frame[list->unit - list->as->translation->unit];
+
+	if (!keeps_results(list) || !is_instruction(line))
+		return;
+	if (list->as->text == &list->as->watch)
+		store_result(list, frame, line->line);
+	else
+		note_result(list, frame, line->line);
+}
+
+/* Before the first line no line has run. */
+static void clear_results(struct list *list)
+{
+	struct assembler *as = list->as;
+	const struct frame *frame = &as->frame[list->unit - as->translation->unit];
+
+	if (as->text == &as->watch && frame->result_count)
+		emit_block(as, frame->result[0].ran, as->not_run,
+			   (uint32_t)frame->result_count);
+}
+
+/* What comes behind it may not run; the result stays what it was. */
+static bool leaves(const struct il_line *line)
+{
+	return line->kind == IL_OP && (line->op == OP_JMP || line->op == OP_RET);
+}
+
+static void assemble_one(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
 
@@ -539,6 +656,17 @@ static void assemble_line(struct list *list)
 	}
 }
 
+static void assemble_line(struct list *list)
+{
+	const bool before = leaves(&list->il->line[list->at]);
+
+	if (before)
+		keep_result(list);
+	assemble_one(list);
+	if (!before)
+		keep_result(list);
+}
+
 /** assemble_unit - the instructions of one list, with END behind them. */
 static bool assemble_unit(struct assembler *as, int unit, bool watch)
 {
@@ -563,6 +691,7 @@ static bool assemble_unit(struct assembler *as, int unit, bool watch)
 	if (frame->temps_size)
 		emit_block(as, frame->temps, frame->temps_model,
 			   frame->temps_size);
+	clear_results(list);
 	for (; list->at < list->il->count && !as->failed; list->at++)
 		assemble_line(list);
 	end = (uint32_t)as->text->count;
@@ -601,6 +730,7 @@ void *assemble(struct translation *translation, bool watch, size_t *len)
 	as->translation = translation;
 	as->arena = translation->arena;
 	as->areas = scope_areas(translation->scope);
+	as->watching = watch;
 	as->entry = arena_alloc(as->arena, ((size_t)translation->unit_count + 1) *
 				sizeof(*as->entry));
 	if (!as->entry || !layout_make(as) || !assemble_section(as, false))

@@ -58,8 +58,10 @@ struct assembler {
 	uint8_t *pin_writes;       /* by instance pin number                  */
 	uint32_t **first_pin;      /* by table, index: number of its pin 0    */
 	struct frame *frame;       /* by unit                                 */
+	bool watching;             /* there will be an instrumented section   */
 	uint32_t **power;          /* by table, index: where an instance's
 				      power lies; 0: nowhere. NULL: unwatched */
+	uint32_t not_run;          /* as many FALSE as the longest list has lines */
 
 	/* output of one section */
 	struct words *text;
@@ -80,13 +82,24 @@ struct assembler {
 	uint32_t sink[IEC_TYPE_COUNT];
 };
 
+/* The current result after a line of a written list. */
+struct result {
+	uint32_t line;              /* of the file                            */
+	enum iec_type type;         /* IEC_NONE: no single value              */
+	uint32_t ran, at;           /* offsets: a BOOL; the value             */
+};
+#define RESULT_TEXT 40u /* bytes that are kept of a STRING, for people to read */
+
 struct text_key { const char *text; size_t len; uint32_t offset; };
 /* Where the variables of a POU lie while it runs, and their initial values. */
 struct frame {
 	uint32_t offset, size;      /* of a function or block; size 0: neither */
 	uint32_t model;             /* a function's, as it is before a call    */
 	uint32_t temps, temps_model, temps_size; /* its VAR_TEMP; size 0: none */
-	uint32_t power, power_size; /* of its cells, and of instances inside   */
+	uint32_t power, power_size; /* of its cells or lines, and of instances inside */
+	int power_run;              /* the first run of that                  */
+	struct result *result;      /* of a written list, by line; only while watched */
+	int result_count;
 	bool eno;                   /* does the body name its ENO?              */
 	struct slots slots;
 };
@@ -107,7 +120,8 @@ uint32_t layout_like(struct assembler *as, const struct meaning *m);
 /** layout_core - everything placed so far belongs to the running part; watching comes after
  * it. */
 void layout_core(struct assembler *as);
-/** layout_power - places for the power of cells, and for a copy an instance. */
+/** layout_power - places for the power of cells and the results of lines, and for a copy an
+ * instance. */
 void layout_power(struct assembler *as);
 /** layout_spot - where the value of @meaning lies; not for literals. */
 struct spot layout_spot(const struct assembler *as, const struct meaning *m);

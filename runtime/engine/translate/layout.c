@@ -135,8 +135,8 @@ static struct literal init_text(const struct assembler *as, const struct var *va
 	const struct names *names = &as->translation->project->names;
 	struct literal literal;
 
-	literal_parse(names_text(names, var->init_text),
-		      names_len(names, var->init_text), &literal);
+	literal_parse(names_text(names, var_value_text(var)),
+		      names_len(names, var_value_text(var)), &literal);
 	return literal;
 }
 
@@ -866,51 +866,57 @@ static int unit_of(const struct assembler *as, const struct var_table *vars,
 	       (int)(pou - project->pou) : -1;
 }
 
-/* Of all instances of one variable, whose block is @unit. */
-static uint64_t power_of(const struct assembler *as, const struct var *var, int unit)
+/* First a byte for each line, so that one BLOCK clears all of them. */
+static void place_results(struct assembler *as, struct frame *frame)
 {
-	uint32_t count = var->array.count ? var->array.count : 1;
-
-	return (uint64_t)as->frame[unit].power_size * count;
+	for (int i = 0; i < frame->result_count; i++)
+		frame->result[i].ran = layout_tail(as, RUN_VALUES, IEC_BOOL);
+	for (int i = 0; i < frame->result_count; i++)
+		if (frame->result[i].type != IEC_NONE)
+			frame->result[i].at = place_values(as, RUN_VALUES,
+				frame->result[i].type, RESULT_TEXT, 1);
 }
 
-static uint32_t own_cells(const struct assembler *as, int unit)
+/* A copy of what a block keeps; the same types at the same distances. */
+static uint32_t place_like(struct assembler *as, const struct frame *frame)
 {
-	const struct unit *u = &as->translation->unit[unit];
-	const struct names *names = &as->translation->project->names;
-	uint32_t count = 0;
+	const uint32_t from = frame->power, end = from + frame->power_size;
+	const uint32_t to = as->data_size;
 
-	for (int i = 0; i < u->temp_count; i++)
-		count += is_temporary(names_text(names, u->temp[i]->name), 'P');
-	return count;
-}
+	for (int i = frame->power_run; i < as->run_count && !as->failed && as->run[i].offset < end;
+	     i++) {
+		struct code_run run = as->run[i];
+		const uint32_t unit = code_run_size(&run);
+		const uint32_t first = run.offset < from ? from : run.offset;
+		const uint32_t behind = run.offset + run.count * unit;
 
-/* Inner blocks have less depth, so that their sizes are known. */
-static void measure(struct assembler *as, int unit)
-{
-	const struct var_table *vars = layout_vars(as, unit + 1);
-	uint64_t size = own_cells(as, unit);
-
-	for (int i = 0; i < vars->count && size <= LIMIT_DATA; i++) {
-		int inner = unit_of(as, vars, i);
-
-		if (inner >= 0)
-			size += power_of(as, &vars->var[i], inner);
+		run.count = ((behind > end ? end : behind) - first) / unit;
+		if (behind > from)
+			layout_place_at(as, run, to + (first - from), unit);
 	}
-	as->frame[unit].power_size = size <= LIMIT_DATA ? (uint32_t)size
-							: LIMIT_DATA;
+	as->data_size = to + frame->power_size;
+	return to;
 }
 
-static void measure_all(struct assembler *as)
+/* The runs lie where an 8 byte value may: copies have the same gaps. */
+static void align_power(struct assembler *as)
 {
-	for (int depth = 1; depth <= LIMIT_NESTING; depth++)
-		for (int i = 0; i < as->translation->unit_count; i++) {
-			const struct pou *pou = as->translation->unit[i].pou;
+	as->data_size = (as->data_size + 7) / 8 * 8;
+}
 
-			if (pou->kind == POU_BLOCK &&
-			    layout_row(as, pou->word)->depth == depth)
-				measure(as, i);
-		}
+/* Of all instances of one variable. */
+static uint32_t place_kept(struct assembler *as, const struct var_table *vars, int index)
+{
+	const int unit = unit_of(as, vars, index);
+	uint32_t count = vars->var[index].array.count, first = 0;
+
+	if (unit < 0 || !as->frame[unit].power_size)
+		return 0;
+	align_power(as);
+	first = as->data_size;
+	for (count = count ? count : 1; count > 0 && !as->failed; count--)
+		place_like(as, &as->frame[unit]);
+	return first;
 }
 
 static bool place_table(struct assembler *as, int table)
@@ -919,21 +925,54 @@ static bool place_table(struct assembler *as, int table)
 
 	as->power[table] = arena_alloc(as->arena, ((size_t)vars->count + 1) *
 				       sizeof(uint32_t));
-	if (!as->power[table])
+	if (!as->power[table] || !layout_place_powers(as, table))
 		return false;
 	if (table > 0)
-		as->frame[table - 1].power = as->data_size;
-	if (!layout_place_powers(as, table))
-		return false;
-	for (int i = 0; i < vars->count; i++) {
-		int unit = unit_of(as, vars, i);
-		uint64_t size = unit < 0 ? 0 : power_of(as, &vars->var[i], unit);
-
-		as->power[table][i] = size ? as->data_size : 0;
-		for (; size > 0 && !as->failed; size--)
-			layout_tail(as, RUN_VALUES, IEC_BOOL);
-	}
+		place_results(as, &as->frame[table - 1]);
+	for (int i = 0; i < vars->count && !as->failed; i++)
+		as->power[table][i] = place_kept(as, vars, i);
 	return !as->failed;
+}
+
+static bool place_block(struct assembler *as, int unit)
+{
+	struct frame *frame = &as->frame[unit];
+
+	align_power(as);
+	frame->power = as->data_size;
+	frame->power_run = as->run_count; /* or the one before, which may go on */
+	if (frame->power_run > as->run_core)
+		frame->power_run--;
+	if (!place_table(as, unit + 1))
+		return false;
+	if (as->data_size > frame->power)
+		align_power(as);
+	frame->power_size = as->data_size - frame->power;
+	return true;
+}
+
+/* Inner blocks have less depth: they are placed before those that hold them. */
+static bool place_depth(struct assembler *as, int depth)
+{
+	for (int i = 0; i < as->translation->unit_count; i++) {
+		const struct pou *pou = as->translation->unit[i].pou;
+
+		if (pou->kind == POU_BLOCK && layout_row(as, pou->word)->depth == depth &&
+		    !place_block(as, i))
+			return false;
+	}
+	return true;
+}
+
+static void place_not_run(struct assembler *as)
+{
+	int most = 0;
+
+	for (int i = 0; i < as->translation->unit_count; i++)
+		if (as->frame[i].result_count > most)
+			most = as->frame[i].result_count;
+	if (most)
+		as->not_run = place_values(as, RUN_VALUES, IEC_BOOL, 0, (uint32_t)most);
 }
 
 void layout_power(struct assembler *as)
@@ -945,9 +984,12 @@ void layout_power(struct assembler *as)
 		as->failed = true;
 		return;
 	}
-	measure_all(as);
+	place_not_run(as);
+	for (int depth = 1; depth <= LIMIT_NESTING; depth++)
+		if (!place_depth(as, depth))
+			as->failed = true;
 	for (int table = 0; table < tables; table++)
-		if (!place_table(as, table))
+		if (!as->power[table] && !place_table(as, table))
 			as->failed = true;
 }
 

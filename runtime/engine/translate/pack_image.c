@@ -401,6 +401,28 @@ static int by_cell(const void *left, const void *right)
 	return (a->col > b->col) - (a->col < b->col);
 }
 
+/* The lines of a list have no cells. */
+static void add_results(struct assembler *as, struct maps *maps, int unit)
+{
+	const struct frame *frame = &as->frame[unit];
+
+	for (int i = 0; i < frame->result_count && !as->failed; i++) {
+		const struct result *result = &frame->result[i];
+		struct code_power *power = arena_push(as->arena, &maps->power,
+			&maps->power_count, sizeof(*power));
+
+		if (!power) {
+			as->failed = true;
+			return;
+		}
+		*power = (struct code_power){
+			.pou = (uint16_t)unit, .col = CODE_LINE, .rung = result->line,
+			.in = result->ran, .type = (uint16_t)result->type,
+			.out = result->type == IEC_NONE ? result->ran : result->at,
+		};
+	}
+}
+
 /* Sorts by place for lookups: a chart comes to its rungs in its own order. */
 static void add_power(struct assembler *as, struct maps *maps)
 {
@@ -424,6 +446,7 @@ static void add_power(struct assembler *as, struct maps *maps)
 				.out = power_offset(as, unit->pou, note->out),
 			};
 		}
+		add_results(as, maps, i);
 		if (unit->pou->sfc && maps->power_count > first)
 			qsort(maps->power + first, (size_t)(maps->power_count - first),
 			      sizeof(*maps->power), by_cell);

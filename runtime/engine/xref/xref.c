@@ -126,6 +126,9 @@ struct scan {
 	struct level level[SCAN_DEPTH];
 	int depth;
 	bool dot;             /* behind a dot: a member follows               */
+	uint16_t function;    /* in front of the ( that comes next; WORD_COUNT: none */
+	uint16_t call[SCAN_DEPTH]; /* of each ( that is open, likewise        */
+	int parens;
 };
 
 static uint16_t word_of(const struct var *var)
@@ -282,9 +285,44 @@ static bool is_operator(const struct token *token)
 	       word_find(token->text, token->len) == FN_MOD;
 }
 
+/* The function of a call: `Twice(`. */
+static void scan_function(struct scan *scan, const struct token *token)
+{
+	struct word_table *words = &scan->walk->project->words;
+	const enum word word = words_find(words, token->text, token->len);
+	const struct word_row *row = words_row(words, word);
+	struct xref_target target = { .what = XREF_POU, .index = row->owner };
+
+	scan->function = (uint16_t)word;
+	if (word_is_own(word) && row->owner >= 0)
+		xref_add(scan->walk, target, XREF_CALLED, (uint32_t)(token->text - scan->text),
+			 (uint32_t)token->len);
+	else if (word == WORD_COUNT)
+		scan_other(scan, token, token->len);
+}
+
+/* `MN :=` before an argument of a call. */
+static void scan_argument(struct scan *scan, const struct token *token)
+{
+	enum pin_dir dir;
+	struct xref_target target = xref_pin(scan->walk, (enum word)scan->call[scan->parens - 1],
+					     token->text, token->len, &dir);
+
+	if (target.what != XREF_UNKNOWN)
+		xref_add(scan->walk, target, XREF_WRITTEN, (uint32_t)(token->text - scan->text),
+			 (uint32_t)token->len);
+}
+
 static void scan_name(struct scan *scan, const struct token *token)
 {
-	if (scan->dot)
+	struct lex ahead = scan->lex;
+
+	lex_next(&ahead);
+	if (!scan->dot && !is_operator(token) && lex_is(&ahead, "("))
+		scan_function(scan, token);
+	else if (!scan->dot && scan->parens > 0 && lex_is(&ahead, ":="))
+		scan_argument(scan, token);
+	else if (scan->dot)
 		scan_members(scan, token->text, token->text + token->len);
 	else if (!is_operator(token))
 		scan_head(scan, token);
@@ -312,6 +350,14 @@ static bool scan_symbol(struct scan *scan)
 		scan->level[scan->depth] = (struct level){ .word = WORD_COUNT, .kind = XREF_READ };
 	} else if (lex_is(&scan->lex, "]")) {
 		scan->depth -= scan->depth > 0;
+	} else if (lex_is(&scan->lex, "(")) {
+		if (scan->parens == SCAN_DEPTH)
+			return false;
+		scan->call[scan->parens++] = scan->function;
+		level->used = false;
+	} else if (lex_is(&scan->lex, ")")) {
+		scan->parens -= scan->parens > 0;
+		level->used = false;
 	} else if (lex_is(&scan->lex, ":=")) {
 		level->kind = XREF_READ;
 	} else if (!lex_is(&scan->lex, ".")) {
@@ -324,7 +370,7 @@ static bool scan_symbol(struct scan *scan)
  * @kind: use of the first one, or of the target before `:=` */
 static void xref_scan(struct xref_walk *walk, size_t at, size_t len, enum xref_kind kind)
 {
-	struct scan scan = { .walk = walk };
+	struct scan scan = { .walk = walk, .function = WORD_COUNT };
 	bool good = true;
 
 	scan.text = project_text(walk->project, *walk->slot);
@@ -339,6 +385,8 @@ static void xref_scan(struct xref_walk *walk, size_t at, size_t len, enum xref_k
 			scan_address(&scan, token);
 		else if (token->kind == TOKEN_SYMBOL)
 			good = scan_symbol(&scan);
+		if (token->kind != TOKEN_NAME)
+			scan.function = WORD_COUNT;
 		scan.dot = token->kind == TOKEN_SYMBOL && lex_is(&scan.lex, ".");
 	}
 }
@@ -415,8 +463,22 @@ static void walk_initial(struct xref_walk *walk, struct var *var)
 			next = word_of(xref_var(walk->project, &target));
 			xref_add(walk, target, XREF_INITIAL, (uint32_t)(token.text - text),
 				 (uint32_t)token.len);
+		} else if (token.kind == TOKEN_NAME && var->written && !lex_is(&lex, "(")) {
+			xref_scan(walk, (size_t)(token.text - text), token.len, XREF_READ);
 		}
 	}
+}
+
+/* Adds the constants in the expressions of a declaration. */
+static void walk_written(struct xref_walk *walk, struct var *var)
+{
+	if (!var->written)
+		return;
+	xref_all(walk, &var->written->bound[0], XREF_READ);
+	xref_all(walk, &var->written->bound[1], XREF_READ);
+	xref_all(walk, &var->written->capacity, XREF_READ);
+	if (var->written->initial && !init_has_parts(var))
+		xref_all(walk, &var->init_text, XREF_READ);
 }
 
 static void walk_table(struct xref_walk *walk, int number)
@@ -430,12 +492,14 @@ static void walk_table(struct xref_walk *walk, int number)
 		if (vars_flags(table, i) & VAR_RESULT) { /* from the heading */
 			if (var->type == IEC_NONE)
 				add_word(walk, var->fb, XREF_TYPE);
+			walk_written(walk, var);
 			continue;
 		}
 		xref_whole(walk, &var->name, xref_variable(walk->project, number, i),
 			  XREF_DECLARED);
 		if (var->type == IEC_NONE)
 			add_word(walk, var->fb, XREF_TYPE);
+		walk_written(walk, var);
 		if (init_has_parts(var))
 			walk_initial(walk, var);
 	}
@@ -505,7 +569,9 @@ static void walk_declarations(struct xref_walk *walk)
 
 		begin_place(walk, i, pou->file, pou->line, pou->included);
 		xref_whole(walk, &pou->name, target, XREF_DECLARED);
+		walk->pou = pou;
 		walk_table(walk, i + 1);
+		walk->pou = NULL;
 	}
 }
 

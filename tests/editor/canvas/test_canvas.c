@@ -77,6 +77,41 @@ static void test_change(LadderCanvas *canvas, LadderDocument *document, enum ver
 	CHECK(ladder_document_replace(document, strlen(sample), strlen(added), "", NULL));
 }
 
+/* The key of an action in a menu or its sections and submenus; NULL: none. Caller frees. */
+static char *key_in(GMenuModel *menu, const char *action)
+{
+	char *found = NULL;
+
+	for (int i = 0; i < g_menu_model_get_n_items(menu) && !found; i++) {
+		GMenuModel *section = g_menu_model_get_item_link(menu, i, G_MENU_LINK_SECTION);
+		GMenuModel *submenu = g_menu_model_get_item_link(menu, i, G_MENU_LINK_SUBMENU);
+		char *name = NULL;
+
+		if (g_menu_model_get_item_attribute(menu, i, "action", "s", &name) &&
+		    strcmp(name, action) == 0)
+			g_menu_model_get_item_attribute(menu, i, "accel", "s", &found);
+		if (section && !found)
+			found = key_in(section, action);
+		if (submenu && !found)
+			found = key_in(submenu, action);
+		g_free(name);
+		g_clear_object(&section);
+		g_clear_object(&submenu);
+	}
+	return found;
+}
+
+/* The context menu shows the key of a verb that has several. */
+static void test_menu(LadderCanvas *canvas)
+{
+	GMenu *menu = G_MENU(LADDER_CANVAS_GET_CLASS(canvas)->menu(canvas));
+	char *key = key_in(G_MENU_MODEL(menu), verb_row(VERB_delete)->action);
+
+	CHECK_TEXT(key ? key : "", "Delete");
+	g_free(key);
+	g_object_unref(menu);
+}
+
 static void test_sheet(LadderDocument *document, GtkWidget *sheet, double least, enum verb verb)
 {
 	GtkWidget *scroller = gtk_scrolled_window_new();
@@ -89,6 +124,7 @@ static void test_sheet(LadderDocument *document, GtkWidget *sheet, double least,
 	gtk_window_set_child(GTK_WINDOW(window), scroller);
 	WAIT(gtk_widget_get_width(sheet) > 0 && gtk_widget_grab_focus(sheet));
 	test_zoom(canvas, least);
+	test_menu(canvas);
 	test_change(canvas, document, verb);
 }
 

@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/document/address_rows.h"
 
+#include "tests/editor/opened.h"
 #include "tests/tap.h"
 
 static const char PROGRAM[] =
@@ -16,15 +17,6 @@ static const char PROGRAM[] =
 	"RUNG\n  | NO Over | [ %MD200 > 1 ] | COIL %QX0.0 |\n"
 	"RUNG\n  | NO Lamps[3] | [ Table[1] > 2 ] | S %QX0.1 |\n"
 	"RUNG\n  | NO Start | R %QX0.1 |\nRUNG OFF\n  | NO Start | COIL %QX0.1 |\nEND_PROGRAM\n";
-
-static LadderDocument *opened(const char *text)
-{
-	LadderDocument *document = ladder_document_new();
-
-	ladder_document_open_text(document, NULL, text, strlen(text), true);
-	CHECK(ladder_document_project(document));
-	return document;
-}
 
 /* The row with this byte; -1: none. */
 static int row_of(const struct address_rows *rows, enum iec_area area, uint32_t byte)
@@ -117,11 +109,16 @@ static void test_index(void)
 	CHECK(is_row(rows, AREA_M, 0, "%MB0 – %MB3", "4 bytes free"));
 	CHECK(is_state(rows, "%MX4.0", ADDRESS_USED, "%MW4: 1 use"));
 	CHECK(is_state(rows, "%MX6.0", ADDRESS_REACHED, "%MX6.0: an index may reach it"));
-	CHECK(is_state(rows, "%MX6.1", ADDRESS_USED, "%MX6.1: Over, 1 use"));
+	CHECK(is_state(rows, "%MX6.1", ADDRESS_USED, "%MX6.1: Over, 1 use\n"
+		       "an index may reach it"));
 	CHECK(is_state(rows, "%MB6", ADDRESS_FREE, "%MB6: not used in this width"));
 	CHECK(is_row(rows, AREA_M, 8000, "%MB7 – %MB8191",
 		     "8185 bytes that an index may reach"));
 	CHECK_AS(is_state(rows, "%QX0.1", ADDRESS_FREE, "%QX0.1: free"), "another area");
+	CHECK(!address_is_reached(rows, row_of(rows, AREA_M, 3)) &&
+	      !address_is_reached(rows, row_of(rows, AREA_Q, 0)));
+	for (uint32_t byte = 4; byte < 9; byte++)
+		CHECK(address_is_reached(rows, row_of(rows, AREA_M, byte)));
 	address_rows_free(rows);
 	g_object_unref(document);
 }

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/document/comparison.h"
 #include "editor-gtk/document/git_log.h"
+#include "editor-gtk/document/revision.h"
 #include "tests/tap.h"
 
 #include <gio/gio.h>
@@ -16,7 +17,8 @@
 
 static struct compare_side side(const char *name, const char *text)
 {
-	return (struct compare_side){ g_strdup(name), NULL, g_strdup(text), strlen(text) };
+	return (struct compare_side){ g_strdup(name), NULL, g_strdup(text), strlen(text), NULL,
+				      NULL };
 }
 
 static struct comparison *compare(const char *older, const char *newer)
@@ -245,13 +247,13 @@ static void check_git(void)
 		CHECK(g_str_has_prefix(first->subject, "First") && strlen(hash) >= 40);
 		CHECK(g_str_has_prefix(hash, first->brief));
 		clear(&answer);
-		git_log_show(path, hash, NULL, take_text, &answer);
+		git_log_show(path, hash, "--a*.rung", NULL, take_text, &answer);
 		wait_for(&answer);
 		CHECK(answer.text && answer.len == 3 && strcmp(answer.text, "one") == 0);
 		clear(&answer);
-		git_log_show(other, hash, NULL, take_text, &answer);
+		git_log_show(other, hash, "other.rung", NULL, take_text, &answer);
 		wait_for(&answer);
-		CHECK(!answer.text && strstr(answer.why, "git cannot read"));
+		CHECK(!answer.text && strstr(answer.why, "“other.rung” is not in revision "));
 		clear(&answer);
 		git_log_read(other, NULL, take_log, &answer);
 		wait_for(&answer);
@@ -266,6 +268,186 @@ static void check_git(void)
 	g_free(folder);
 }
 
+/* ---- I/O maps ---- */
+
+static void check_maps(void)
+{
+	const char *program = HEAD MAIN(RUNG("NO %IX0.0 | COIL %QX0.0"));
+	struct compare_side a = side("old", program), b = side("new", program);
+	struct comparison *of;
+	char *rows;
+
+	a.map = g_strdup("BOARD \"A\"\n%IX0.0 gpio line=GPIO17 pull=up\n%IX0.1 gpio line=GPIO18 # door\n"
+			 "%QX0.0 gpio line=GPIO4 safe=0\n");
+	b.map = g_strdup("BOARD \"B\"\n%QX0.0 gpio line=GPIO5 safe=1\n%ix0.0 gpio line=GPIO17 pull=up\n"
+			 "%IX0.2 gpio line=GPIO18\n");
+	of = comparison_new(&a, &b);
+	rows = rows_of(of);
+	CHECK_TEXT(rows, "I/O map|BOARD|changed|Board: A → B\n"
+		   "I/O map|%QX0.0|changed|I/O line: GPIO4 → GPIO5 ; Safe: 0 → 1\n"
+		   "I/O map|%IX0.2|added|gpio line=GPIO18\n"
+		   "I/O map|%IX0.1|removed|gpio line=GPIO18\n");
+	g_free(rows);
+	comparison_free(of);
+	a = side("old", program);
+	b = side("new", program);
+	b.map = g_strdup("\xff not a map\n%IX0.0\n");
+	of = comparison_new(&a, &b);
+	rows = rows_of(of);
+	CHECK(strstr(rows, "I/O map|%IX0.0|added|"));
+	g_free(rows);
+	comparison_free(of);
+}
+
+/* ---- a project in a revision ---- */
+
+#define LIB(block) "RUNGBOARD 1\n\nFUNCTION_BLOCK " block " LD\nRUNG\n  | NO %IX0.7 | COIL %QX0.7 |\n" \
+		   "END_FUNCTION_BLOCK\n"
+#define PUMP "RUNGBOARD 1\n\nINCLUDE \"lib.rung\"\n\nPROGRAM Main LD\nVAR\n  A : Seal;\nEND_VAR\n" \
+	     "RUNG\n  | NO %IX0.0 | Seal A | COIL %QX0.0 |\nEND_PROGRAM\n"
+
+struct read { struct compare_side side; char *why; bool come; };
+
+static void take_side(gpointer data, struct compare_side *of, const char *why)
+{
+	struct read *read = data;
+
+	if (of)
+		read->side = *of;
+	if (of)
+		*of = (struct compare_side){ 0 };
+	read->why = g_strdup(why);
+	read->come = true;
+}
+
+static struct read read_revision(const char *path, const struct git_revision *revision)
+{
+	struct read read = { .come = false };
+
+	revision_read(path, revision->hash, revision->name, "then", NULL, take_side, &read);
+	while (!read.come)
+		g_main_context_iteration(NULL, TRUE);
+	return read;
+}
+
+static void put(const char *folder, const char *name, const char *text)
+{
+	char *path = g_build_filename(folder, name, NULL), *in = g_path_get_dirname(path);
+
+	g_mkdir_with_parents(in, 0700);
+	if (text)
+		g_file_set_contents(path, text, -1, NULL);
+	else
+		g_unlink(path);
+	g_free(in);
+	g_free(path);
+}
+
+static void commit(const char *folder, const char *subject)
+{
+	git(folder, (const char *const[]){ "add", "-A", NULL });
+	git(folder, (const char *const[]){ "commit", "-q", "-m", subject, NULL });
+}
+
+/* The revision with a subject. */
+static const struct git_revision *find(const struct answer *log, const char *subject)
+{
+	for (guint i = 0; log->revisions && i < log->revisions->len; i++) {
+		const struct git_revision *revision = log->revisions->pdata[i];
+
+		if (strcmp(revision->subject, subject) == 0)
+			return revision;
+	}
+	g_error("no revision %s", subject);
+}
+
+/* The file was renamed since, and the files that it names differ from those on the disk. */
+static void make_history(const char *folder)
+{
+	put(folder, "old/tank.rung", PUMP);
+	put(folder, "old/lib.rung", LIB("Seal"));
+	put(folder, "old/tank.io", "%IX0.0 gpio line=GPIO17\n");
+	commit(folder, "First");
+	put(folder, "old/lib.rung", NULL);
+	put(folder, "old/tank.rung", PUMP "\n");
+	commit(folder, "Without lib");
+	put(folder, "old/lib.rung", "RUNGBOARD 1\n\nFUNCTION_BLOCK Seal LD\nRUNG\n  | what |\n");
+	put(folder, "old/tank.rung", PUMP "\n\n");
+	commit(folder, "Damaged lib");
+	git(folder, (const char *const[]){ "mv", "old/tank.rung", "pump.rung", NULL });
+	git(folder, (const char *const[]){ "mv", "old/tank.io", "pump.io", NULL });
+	put(folder, "lib.rung", LIB("Other"));
+	commit(folder, "Rename");
+	put(folder, "pump.rung", NULL);
+	commit(folder, "Delete");
+	put(folder, "pump.rung", "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n"
+	    "END_PROGRAM\n");
+	put(folder, "pump.io", "%IX0.0 gpio line=GPIO27\n");
+	commit(folder, "Last");
+}
+
+static void check_first(const char *path, const struct git_revision *first)
+{
+	struct read read = read_revision(path, first);
+	struct compare_side now = { g_strdup("now"), g_strdup(path), NULL, 0, NULL, NULL };
+	struct comparison *of;
+	char *rows;
+
+	CHECK_TEXT(first->name, "old/tank.rung");
+	CHECK(read.side.text && g_hash_table_contains(read.side.files, "old/lib.rung"));
+	of = comparison_new(&read.side, &now);
+	CHECK_AS(of->read_a && of->read_b, "the revision is read with its own files");
+	rows = rows_of(of);
+	CHECK(strstr(rows, "FUNCTION_BLOCK Seal|the whole POU|removed|"));
+	CHECK(strstr(rows, "I/O map|%IX0.0|changed|I/O line: GPIO17 → GPIO27"));
+	g_free(rows);
+	comparison_free(of);
+}
+
+/* A named file that is missing or damaged gives an error with a place. */
+static void check_named(const char *path, const struct git_revision *revision, const char *place)
+{
+	struct read read = read_revision(path, revision);
+	struct compare_side now = { g_strdup("now"), g_strdup(path), NULL, 0, NULL, NULL };
+	struct comparison *of = comparison_new(&read.side, &now);
+	char *why = comparison_diags(of->of_a);
+
+	CHECK(!of->read_a && of->read_b && of->rows->len == 0);
+	CHECK_AS(strstr(why, place), place);
+	if (!strstr(why, place))
+		printf("# %s\n", why);
+	g_free(why);
+	comparison_free(of);
+}
+
+static void check_revision(void)
+{
+	char *folder = g_dir_make_tmp("git-XXXXXX", NULL);
+	char *path = g_build_filename(folder, "pump.rung", NULL);
+	struct answer log = { 0 };
+	struct read gone;
+
+	if (!git(folder, (const char *const[]){ "init", "-q", NULL })) {
+		tap_skip("git is not installed");
+	} else {
+		make_history(folder);
+		git_log_read(path, NULL, take_log, &log);
+		wait_for(&log);
+		check_first(path, find(&log, "First"));
+		check_named(path, find(&log, "Without lib"), "old/tank.rung:3");
+		check_named(path, find(&log, "Damaged lib"), "old/lib.rung:5");
+		CHECK_TEXT(find(&log, "Rename")->name, "pump.rung");
+		gone = read_revision(path, find(&log, "Delete"));
+		CHECK(!gone.side.text && strstr(gone.why, "“pump.rung” is not in revision "));
+		g_free(gone.why);
+		clear(&log);
+	}
+	g_spawn_sync(NULL, (char *[]){ "rm", "-r", folder, NULL }, NULL, G_SPAWN_SEARCH_PATH,
+		     NULL, NULL, NULL, NULL, NULL, NULL);
+	g_free(path);
+	g_free(folder);
+}
+
 int main(void)
 {
 	check_rungs();
@@ -274,6 +456,8 @@ int main(void)
 	check_charts();
 	check_places();
 	check_unreadable();
+	check_maps();
 	check_git();
+	check_revision();
 	return tap_done();
 }

@@ -35,6 +35,32 @@ static void many(void)
 	free(canonical);
 }
 
+/* "0 1 - 3": for each line of @shown its line in @other. */
+static const char *matched(const char *shown, const char *other)
+{
+	static char out[200];
+	int count, *found = text_lines_match(shown, other, &count);
+	size_t len = 0;
+
+	out[0] = '\0';
+	for (int i = 0; found && i < count; i++)
+		len += (size_t)snprintf(out + len, sizeof(out) - len, found[i] < 0 ? "%s-" : "%s%d",
+					i ? " " : "", found[i]);
+	free(found);
+	return out;
+}
+
+static void all_lines(void)
+{
+	CHECK_TEXT(matched("P\n\n  a  b\n c\nEND", "P\nA b\nc\nEND\n"), "0 - 1 2 3");
+	CHECK_TEXT(matched("P\na\nb\nc\nEND\n", "P\na\nx\ny\nc\nEND\n"), "0 1 - 4 5 -");
+	CHECK_TEXT(matched("P\na\na\na\nEND\n", "P\na\na\nEND\n"), "0 1 2 - 3 -");
+	CHECK_TEXT(matched("(* of P *)\nP\na\nEND\n", "P\na\nEND\n\nQ\na\nEND\n"), "- 0 1 2 -");
+	CHECK_TEXT(matched("x", "P\na\nEND\n"), "-");
+	CHECK_TEXT(matched("", "P\n"), "-");
+	CHECK_TEXT(matched("P\n", ""), "- -");
+}
+
 int main(void)
 {
 	static const char canonical[] =
@@ -61,6 +87,9 @@ int main(void)
 		 "the line is at most the last one");
 	CHECK_AS(line_of("", "x\ny\n", 1) == 1 && line_of("a\n", "", 7) == 7,
 		 "in an empty text the line number is kept");
+	CHECK_AS(line_of("x\n  st  GRÖSSE\nld GRÖßE\n", "x\n  LD Größe\n  ST Größe\n", 1) == 2,
+		 "names are compared by Unicode");
 	many();
+	all_lines();
 	return tap_done();
 }

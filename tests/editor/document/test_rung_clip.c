@@ -3,6 +3,7 @@
  * test_rung_clip - rungs as text, and pasted into another project with their declarations.
  */
 #include "editor-gtk/document/rung_clip.h"
+#include "tests/editor/opened.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>
@@ -17,15 +18,6 @@ static const char source[] =
 	"RUNG\n  | NO Motor | TON D1 PT:=T#5s | COIL Lamp |\n"
 	"RUNG\n  | [ Parts := Parts + 1 ] |\nRUNG\n  | [ Rec.Speed := 3 ] |\nEND_PROGRAM\n";
 static const char target[] = "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\nEND_PROGRAM\n";
-
-static LadderDocument *opened(const char *text)
-{
-	LadderDocument *document = ladder_document_new();
-
-	ladder_document_open_text(document, NULL, text, strlen(text), true);
-	CHECK(ladder_document_project(document));
-	return document;
-}
 
 static char *copied(int rung)
 {

@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/document/csv.h"
 #include "editor-gtk/draw/listing.h"
+#include "tests/editor/opened.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>
@@ -20,15 +21,6 @@ static const char sample[] =
 	"RUNG\n  | NO Motor | TON Delay PT:=T#1s | COIL \xe7\x81\xaf |\nEND_PROGRAM\n\n"
 	"FUNCTION_BLOCK Seal LD\nVAR_INPUT\n  On : BOOL;\nEND_VAR\n"
 	"RUNG\n  | NO On | COIL %MX0.0 |\n  |      ^| COIL Q7     |\nEND_FUNCTION_BLOCK\n";
-
-static LadderDocument *opened(const char *text)
-{
-	LadderDocument *document = ladder_document_new();
-
-	ladder_document_open_text(document, NULL, text, strlen(text), true);
-	CHECK(ladder_document_project(document));
-	return document;
-}
 
 /* By scope ("": the globals) and name, in any case. */
 static const struct symbol_row *find_symbol(const struct symbols *symbols, const char *scope,

@@ -4,6 +4,7 @@
  * change their own lines and nothing else.
  */
 #include "editor-gtk/document/task_rows.h"
+#include "tests/editor/opened.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>
@@ -32,12 +33,10 @@ static const char plain[] =
 	"PROGRAM Main LD\nRUNG\n  | NO Door | COIL %QX0.0 |\nEND_PROGRAM\n\n"
 	"PROGRAM Other LD\nRUNG\n  | NO %IX0.1 | COIL %QX0.1 |\nEND_PROGRAM\n";
 
-static LadderDocument *opened(const char *text)
+static LadderDocument *checked(const char *text)
 {
-	LadderDocument *document = ladder_document_new();
+	LadderDocument *document = opened(text);
 
-	ladder_document_open_text(document, NULL, text, strlen(text), true);
-	CHECK(ladder_document_project(document));
 	ladder_document_check_now(document);
 	return document;
 }
@@ -134,7 +133,7 @@ static void refuse(LadderDocument *document, const char *name, enum task_field f
 
 static void test_fields(void)
 {
-	LadderDocument *document = opened(plant);
+	LadderDocument *document = checked(plant);
 	char *text = text_of(document);
 
 	CHECK_TEXT(text, plant);
@@ -180,10 +179,18 @@ static void test_fields(void)
 	g_object_unref(document);
 }
 
+static void check_refused_name(LadderDocument *document, const char *name, const char *want)
+{
+	char *why = task_rows_name_refusal(document, row_of(document, "Quickly"), name);
+
+	CHECK_AS(g_strcmp0(why, want) == 0, name);
+	g_free(why);
+}
+
 /* A task's name stands in the lines of its programs, too. */
 static void test_rename(void)
 {
-	LadderDocument *document = opened(plant);
+	LadderDocument *document = checked(plant);
 	char *text;
 
 	CHECK(task_rows_set(document, row_of(document, "Fast"), TASKS_NAME, "Quickly", NULL));
@@ -193,13 +200,17 @@ static void test_rename(void)
 	CHECK_AS(strstr(text, "(* a\n    b *) // c\n"),
 		 "a renamed task keeps its comments");
 	g_free(text);
+	check_refused_name(document, "2nd", "“2nd” is not a name");
+	check_refused_name(document, "SLOW", "“SLOW” is declared already");
+	check_refused_name(document, "", "Enter a name");
+	check_refused_name(document, "quickly", NULL);
 	g_object_unref(document);
 }
 
 /* A program names its task and its POU in other spellings: o with U+0308, and ö. */
 static void test_spellings(void)
 {
-	LadderDocument *document = opened("RUNGBOARD 1\n\nCONFIGURATION Plant\n"
+	LadderDocument *document = checked("RUNGBOARD 1\n\nCONFIGURATION Plant\n"
 		"  RESOURCE Cpu ON LINUX\n    TASK Öl (INTERVAL := T#5ms, PRIORITY := 1);\n"
 		"    PROGRAM A WITH O\u0308l : älter;\n    PROGRAM B WITH öl : Other;\n"
 		"  END_RESOURCE\nEND_CONFIGURATION\n\n"
@@ -235,7 +246,7 @@ static void move(LadderDocument *document, const char *name, const char *head,
 
 static void test_moves(void)
 {
-	LadderDocument *document = opened(plant);
+	LadderDocument *document = checked(plant);
 
 	move(document, "B", "Fast", "A", "Fast: B ASlow:Each scan: CDo not run: Spare");
 	move(document, "A", "Fast", NULL, "Fast: B ASlow:Each scan: CDo not run: Spare");
@@ -252,7 +263,7 @@ static void test_moves(void)
 /* Up and down lead through all tasks and back. */
 static void test_steps(void)
 {
-	LadderDocument *document = opened(plant);
+	LadderDocument *document = checked(plant);
 	char *text = text_of(document), *after;
 	int steps = 0;
 
@@ -275,7 +286,7 @@ static void test_steps(void)
 
 static void test_rows_come_and_go(void)
 {
-	LadderDocument *document = opened(plant);
+	LadderDocument *document = checked(plant);
 	char *name = NULL, *text, *after;
 
 	CHECK(task_rows_add(document, &name, NULL) && g_strcmp0(name, "Task1") == 0);
@@ -305,7 +316,7 @@ static void test_rows_come_and_go(void)
 /* Without a CONFIGURATION the first edit writes one. */
 static void test_implicit(void)
 {
-	LadderDocument *document = opened(plain);
+	LadderDocument *document = checked(plain);
 	struct task_rows *tasks = task_rows_new(document);
 	char *name = NULL, *text;
 
@@ -343,7 +354,7 @@ static void test_implicit(void)
 /* Errors and warnings of the last check are those of their lines. */
 static void test_errors(void)
 {
-	LadderDocument *document = opened(plant);
+	LadderDocument *document = checked(plant);
 	struct task_rows *tasks = task_rows_new(document);
 	bool warning = false;
 	int found = 0;
@@ -386,7 +397,8 @@ static void test_included(void)
 	CHECK(tasks->fixed);
 	task_rows_free(tasks);
 	check_order(document, "Fast: AEach scan:");
-	CHECK(!task_rows_set(document, 0, TASKS_PRIORITY, "3", &why) && why);
+	CHECK(!task_rows_set(document, 0, TASKS_PRIORITY, "3", &why));
+	CHECK_TEXT(why, "It is declared in another file");
 	CHECK(!ladder_document_undo_name(document));
 	remove(path);
 	remove(main_path);

@@ -6,6 +6,7 @@
 #include "editor-gtk/document/symbols.h"
 #include "editor-gtk/document/type_edit.h"
 
+#include "tests/editor/opened.h"
 #include "tests/tap.h"
 
 static const char PROGRAM[] =
@@ -56,9 +57,7 @@ static bool has_text(const char *wanted)
 static void begin(const char *text)
 {
 	g_clear_object(&document);
-	document = ladder_document_new();
-	ladder_document_open_text(document, NULL, text, strlen(text), true);
-	CHECK(ladder_document_project(document));
+	document = opened(text);
 }
 
 /* One Undo gives the file back, and there was no other step. */

@@ -65,6 +65,24 @@ static void check_rung(const struct project *project, int pou, int rung, const c
 	g_free(place);
 }
 
+static void check_cell(const struct project *project, int pou, int rung, int row, int col,
+		       const char *told)
+{
+	struct place_sheet sheet = { 0 };
+	char *place = place_cell(&sheet, project, pou, rung, row, col);
+
+	CHECK_TEXT(place, told);
+	g_free(place);
+}
+
+/* The column is that of the sheet, not of the file. */
+static void test_cells(const struct project *project)
+{
+	check_cell(project, 0, 0, 0, 1, "Main, rung 1, row 1, column H");
+	check_cell(project, 0, 2, -1, -1, "Main, rung 3");
+	check_cell(project, 1, 0, 0, 0, "Chart, transition A \xe2\x86\x92 B");
+}
+
 /* Each rung of the file is a place that a person sees. */
 static void test_rungs(const struct project *project)
 {
@@ -112,6 +130,7 @@ int main(void)
 		test_shown(project);
 		test_lines(project);
 		test_rungs(project);
+		test_cells(project);
 		test_nowhere(project);
 	}
 	CHECK(project && project->pou_count == 2);

@@ -122,7 +122,9 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "Full := 5", "! “Full” cannot be written" },
 	{ ">Level > 5", "! “Level > 5” cannot stand in the last column: only an output can" },
 	{ ">Level := 5", "[ Level := 5 ]" },
-	{ "Level >", "! “Level >” is not a valid expression" },
+	{ "Level >", "part" }, { "Level > (i +", "part" }, { "(Level + 1) *", "part" },
+	{ "Level > 5)", "! “Level > 5)” is not a valid expression" },
+	{ "Level > > 5", "! “Level > > 5” is not a valid expression" },
 	{ "NO Level > 5", "[ Level > 5 ]" },
 	/* new names are declared */
 	{ "Open", "NO Open + Open BOOL %IX0.2" }, { ">Horn", "COIL Horn + Horn BOOL %QX0.3" },
@@ -226,7 +228,7 @@ static const struct { const char *line, *means; } lines[] = {
 	{ ">Level : INT := 5", "[ Level := 5 ]" },
 	{ ">Level : DINT := 5", "! the name is declared already as Level : INT" },
 	{ ">Sum : FROB := 5", "! “FROB” is not a type" },
-	{ ">Sum : REAL :=", "! “Sum :=” is not a valid expression" },
+	{ ">Sum : REAL :=", "part" },
 	{ ">Sum AT %MX0.4 : INT := 5",
 	  "! the address is not as wide as its type: %MX0.4, INT: %MW" },
 	{ ">Sum : := 5", "! “Sum” needs a type behind the colon" },
@@ -602,7 +604,9 @@ static void check_conditions(void)
 		CHECK_TEXT(entry->operand, cases[i].means);
 		CHECK_AS(entry->declares == 0, cases[i].line);
 	}
-	CHECK(!entry_condition(&place, "Boil.Z", entry));
+	CHECK(!entry_condition(&place, "Boil.Z", entry) && entry->sense == ENTRY_WRONG);
+	CHECK(!entry_condition(&place, "NOT", entry) && entry->sense == ENTRY_PART);
+	CHECK(!entry_condition(&place, "Boil.", entry) && entry->sense == ENTRY_PART);
 	free(entry);
 	ladder_free(ladder);
 }

@@ -63,6 +63,36 @@ static void test_scheme(enum key_scheme scheme, enum verb_where apart)
 	g_hash_table_unref(taken);
 }
 
+static void check_accel(enum verb verb, const char *want)
+{
+	GMenu *menu = g_menu_new();
+	char *label = NULL, *accel = NULL;
+
+	verb_append(menu, verb, NULL, NULL);
+	g_menu_model_get_item_attribute(G_MENU_MODEL(menu), 0, "label", "s", &label);
+	g_menu_model_get_item_attribute(G_MENU_MODEL(menu), 0, "accel", "s", &accel);
+	CHECK_TEXT(label, verb_row(verb)->label);
+	CHECK_TEXT(accel, want);
+	g_free(label);
+	g_free(accel);
+	g_object_unref(menu);
+}
+
+/* In the main menu nobody reads a list of more rows without a line between them. */
+static void test_sections(void)
+{
+	int rows = 0, most = 0;
+
+	for (int i = 0; i < VERB_COUNT; i++) {
+		const bool begins = i == 0 || verb_is_parted((enum verb)i) ||
+			verb_row((enum verb)i)->group != verb_row((enum verb)(i - 1))->group;
+
+		rows = begins ? 1 : rows + 1;
+		most = MAX(most, rows);
+	}
+	CHECK_AS(most <= 7, "no section of the main menu has more than seven rows");
+}
+
 int main(void)
 {
 	char *label;
@@ -72,7 +102,10 @@ int main(void)
 		test_scheme((enum key_scheme)i, VERB_SHEET);
 	}
 	CHECK_TEXT(verb_keys(VERB_contact), "F5");
+	check_accel(VERB_negate, "slash");
+	check_accel(VERB_cut, "<Control>x");
 	verbs_use_scheme(NULL, SCHEME_MICROWIN);
+	check_accel(VERB_contact, "F4");
 	CHECK_TEXT(verb_keys(VERB_contact), "F4");
 	CHECK_TEXT(verb_keys(VERB_step_branch), "F6");
 	CHECK_AS(strcmp(verb_keys(VERB_side), "") == 0, "the scheme takes the verb's key");
@@ -82,5 +115,6 @@ int main(void)
 	g_free(label);
 	verbs_use_scheme(NULL, SCHEME_RUNGBOARD);
 	CHECK_TEXT(verb_keys(VERB_contact), "F5");
+	test_sections();
 	return tap_done();
 }

@@ -8,6 +8,7 @@
 #include "editor-gtk/window/app.h"
 #include "tests/editor/panel_shown.h"
 #include "tests/editor/keys.h"
+#include "tests/editor/saved.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -42,44 +43,6 @@ static LadderSim *sim;
 static LadderSimPanel *panel;
 
 /* ---- pictures ---- */
-
-static void save_picture(const char *name)
-{
-	GdkPaintable *paintable = gtk_widget_paintable_new(window);
-	GtkSnapshot *snapshot = gtk_snapshot_new();
-	GskRenderNode *node;
-	GdkTexture *texture;
-	char *path;
-
-	turn(400);
-	gdk_paintable_snapshot(paintable, snapshot, gtk_widget_get_width(window),
-			       gtk_widget_get_height(window));
-	node = gtk_snapshot_free_to_node(snapshot);
-	texture = gsk_renderer_render_texture(gtk_native_get_renderer(GTK_NATIVE(window)),
-					      node, NULL);
-	path = g_strdup_printf("%s/%s.png", g_getenv("SIM_PICTURES"), name);
-	gdk_texture_save_to_png(texture, path);
-	g_free(path);
-	g_object_unref(texture);
-	gsk_render_node_unref(node);
-	g_object_unref(paintable);
-}
-
-static void picture(const char *name)
-{
-	AdwStyleManager *style = adw_style_manager_get_default();
-	char *dark;
-
-	if (!g_getenv("SIM_PICTURES"))
-		return;
-	adw_style_manager_set_color_scheme(style, ADW_COLOR_SCHEME_FORCE_LIGHT);
-	save_picture(name);
-	adw_style_manager_set_color_scheme(style, ADW_COLOR_SCHEME_FORCE_DARK);
-	dark = g_strconcat(name, "-dark", NULL);
-	save_picture(dark);
-	g_free(dark);
-	adw_style_manager_set_color_scheme(style, ADW_COLOR_SCHEME_DEFAULT);
-}
 
 /* ---- the panel ---- */
 
@@ -216,7 +179,7 @@ static void test_force(void)
 	act_on("Start", "sim-panel.force-off");
 	CHECK_SOON(shows("Start", "0"));
 	CHECK_AS(ladder_sim_forces(sim) == 2, "a STRING cannot be forced");
-	picture("forced");
+	save_pictures(window, "SIM_PICTURES", "forced");
 	act_on("Start", "sim-panel.release-all");
 	CHECK_SOON(ladder_sim_forces(sim) == 0);
 	CHECK_SOON(shows("Start", "1"));
@@ -290,7 +253,7 @@ static void test_choices(void)
 	CHECK(!row_of("Alarm")->key && !row_of("Start")->push && !row_of("Speed")->ranged);
 	CHECK(row_of("Level")->low == -10 && row_of("Level")->high == 50.5);
 	CHECK(row_of("Speed")->low == -32768 && row_of("Speed")->high == 32767);
-	picture("chosen");
+	save_pictures(window, "SIM_PICTURES", "chosen");
 	act_on("Stop", "sim-panel.no-key");
 	act_on("Level", "sim-panel.no-range");
 	CHECK(has("  bookmark Main 2\n  panel Stop push\n  panel Nobody push\n"));
@@ -317,7 +280,7 @@ static void test_found(void)
 	g_free(all);
 	gtk_editable_set_text(GTK_EDITABLE(search), "no symbol has this name");
 	CHECK_SOON(g_list_model_get_n_items(panel_list(panel)) == 0);
-	picture("none");
+	save_pictures(window, "SIM_PICTURES", "none");
 	gtk_editable_set_text(GTK_EDITABLE(search), "");
 	CHECK_SOON(row_of("Alarm"));
 	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 ");
@@ -366,7 +329,7 @@ static void test_plant(void)
 	CHECK_AS(shows("OverfillOk", "1"), "the plant sets its input again after a click");
 	act_on("OverfillOk", "sim-panel.force-off");
 	CHECK_SOON(shows("OverfillOk", "0"));
-	picture("plant");
+	save_pictures(window, "SIM_PICTURES", "plant");
 	g_free(text);
 }
 
@@ -432,7 +395,7 @@ static void test_map(void)
 	CHECK_TEXT(row_of("Stop")->pin_told, "relays  7  (left)");
 	CHECK_TEXT(row_of("Start")->pin, "GPIO17");
 	CHECK(!row_of("%IX1.3")->pin && !row_of("Alarm")->place);
-	picture("map");
+	save_pictures(window, "SIM_PICTURES", "map");
 	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 Oven");
 	CHECK(!row_of("Start") && row_of("Stop"));
 	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 Oven");
@@ -540,7 +503,7 @@ int main(int argc, char **argv)
 	gtk_window_set_default_size(GTK_WINDOW(window), 290, 860);
 	gtk_window_set_child(GTK_WINDOW(window), GTK_WIDGET(panel));
 	screen_show(window);
-	picture("off");
+	save_pictures(window, "SIM_PICTURES", "off");
 	GError *error = NULL;
 
 	CHECK(ladder_sim_begin(sim, &error));
@@ -549,7 +512,7 @@ int main(int argc, char **argv)
 	test_lines();
 	ladder_sim_reset(sim, false);
 	test_values();
-	picture("on");
+	save_pictures(window, "SIM_PICTURES", "on");
 	test_force();
 	test_typed();
 	test_choices();

@@ -10,6 +10,7 @@
 #include "editor-gtk/live/watch_names.h"
 #include "editor-gtk/live/watch_view.h"
 #include "tests/editor/keys.h"
+#include "tests/editor/saved.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -219,11 +220,19 @@ static GListModel *list(void)
 	return G_LIST_MODEL(gtk_column_view_get_model(GTK_COLUMN_VIEW(table)));
 }
 
+static GtkWidget *find_class(GtkWidget *widget, const char *class)
+{
+	GtkWidget *found = gtk_widget_has_css_class(widget, class) ? widget : NULL;
+	GtkWidget *child = gtk_widget_get_first_child(widget);
+
+	for (; child && !found; child = gtk_widget_get_next_sibling(child))
+		found = find_class(child, class);
+	return found;
+}
+
 static const char *message(void)
 {
-	GtkWidget *bar = find_type(GTK_WIDGET(view), GTK_TYPE_REVEALER);
-
-	return gtk_label_get_text(GTK_LABEL(find_type(bar, GTK_TYPE_LABEL)));
+	return gtk_label_get_text(GTK_LABEL(find_class(GTK_WIDGET(view), "panel-message")));
 }
 
 static guint rows(void)
@@ -275,43 +284,6 @@ static bool file_has(const char *part)
 		printf("# %s\n", text);
 	g_free(text);
 	return has;
-}
-
-static void save_picture(const char *name, bool dark)
-{
-	GdkPaintable *paintable = gtk_widget_paintable_new(window);
-	GtkSnapshot *snapshot = gtk_snapshot_new();
-	GskRenderNode *node;
-	GdkTexture *texture;
-	char *path;
-
-	turn(100);
-	gdk_paintable_snapshot(paintable, snapshot, gtk_widget_get_width(window),
-			       gtk_widget_get_height(window));
-	node = gtk_snapshot_free_to_node(snapshot);
-	texture = gsk_renderer_render_texture(gtk_native_get_renderer(
-		GTK_NATIVE(window)), node, NULL);
-	path = g_strdup_printf("%s/%s-%s.png", g_getenv("WATCH_PICTURES"), name,
-			       dark ? "dark" : "light");
-	gdk_texture_save_to_png(texture, path);
-	g_free(path);
-	g_object_unref(texture);
-	gsk_render_node_unref(node);
-	g_object_unref(paintable);
-}
-
-static void picture(const char *name)
-{
-	AdwStyleManager *style = adw_style_manager_get_default();
-
-	if (!g_getenv("WATCH_PICTURES"))
-		return;
-	for (int dark = 0; dark < 2; dark++) {
-		adw_style_manager_set_color_scheme(style, dark ?
-			ADW_COLOR_SCHEME_FORCE_DARK : ADW_COLOR_SCHEME_FORCE_LIGHT);
-		save_picture(name, dark);
-	}
-	adw_style_manager_set_color_scheme(style, ADW_COLOR_SCHEME_DEFAULT);
 }
 
 static bool is_unknown(const LadderWatchRow *of)
@@ -372,7 +344,7 @@ static void check_running(void)
 	do_action("watch.write-all");
 	CHECK(*message());
 	CHECK(strcmp(shown("Label"), "'abc'") == 0);
-	picture("running");
+	save_pictures(window, "WATCH_PICTURES", "running");
 	type_new("Label", "");
 }
 
@@ -392,7 +364,7 @@ static void check_forces(void)
 	ladder_sim_scan(sim, 1);
 	CHECK_SOON(ladder_sim_last(sim) == 3);
 	CHECK(strcmp(shown("Motor"), "0") == 0);
-	picture("forced");
+	save_pictures(window, "WATCH_PICTURES", "forced");
 	press(row_of("Motor")->force);
 	CHECK_SOON(!row_of("Motor")->seen.forced && strcmp(shown("Motor"), "1") == 0);
 	CHECK(!gtk_widget_get_sensitive(row_of("Label")->force));

@@ -15,6 +15,7 @@
 #include "editor-gtk/panels/tree_rows.h"
 #include "editor-gtk/panels/uses_view.h"
 #include "tests/editor/keys.h"
+#include "tests/editor/saved.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -69,44 +70,6 @@ static void make_window(void)
 	gtk_widget_insert_action_group(window, "win", G_ACTION_GROUP(group));
 	g_object_unref(action);
 	g_object_unref(group);
-}
-
-static void save_picture(GtkWidget *widget, const char *name, bool dark)
-{
-	const char *folder = g_getenv("PANEL_PICTURES");
-	GtkWidget *all = GTK_WIDGET(gtk_widget_get_root(widget));
-	GdkPaintable *paintable = gtk_widget_paintable_new(all);
-	GtkSnapshot *snapshot = gtk_snapshot_new();
-	GskRenderNode *node;
-	GdkTexture *texture;
-	char *path;
-
-	turn(100);
-	gdk_paintable_snapshot(paintable, snapshot, gtk_widget_get_width(all),
-			       gtk_widget_get_height(all));
-	node = gtk_snapshot_free_to_node(snapshot);
-	texture = gsk_renderer_render_texture(gtk_native_get_renderer(
-		gtk_widget_get_native(widget)), node, NULL);
-	path = g_strdup_printf("%s/%s-%s.png", folder, name, dark ? "dark" : "light");
-	gdk_texture_save_to_png(texture, path);
-	g_free(path);
-	g_object_unref(texture);
-	gsk_render_node_unref(node);
-	g_object_unref(paintable);
-}
-
-static void picture(GtkWidget *widget, const char *name)
-{
-	AdwStyleManager *style = adw_style_manager_get_default();
-
-	if (!g_getenv("PANEL_PICTURES"))
-		return;
-	for (int dark = 0; dark < 2; dark++) {
-		adw_style_manager_set_color_scheme(style, dark ?
-			ADW_COLOR_SCHEME_FORCE_DARK : ADW_COLOR_SCHEME_FORCE_LIGHT);
-		save_picture(widget, name, dark);
-	}
-	adw_style_manager_set_color_scheme(style, ADW_COLOR_SCHEME_DEFAULT);
 }
 
 static void reopen(const char *text)
@@ -183,6 +146,27 @@ static GtkWidget *search_of(GtkWidget *from)
 
 /* ---- problems ---- */
 
+/* Errors stand before warnings, each kind by its place. */
+static void check_order(GListModel *list)
+{
+	const guint count = g_list_model_get_n_items(list);
+	LadderPanelRow *before = NULL;
+	bool good = true;
+
+	for (guint i = 0; i < count; i++) {
+		LadderPanelRow *row = g_list_model_get_item(list, i);
+
+		if (before && before->tone == row->tone)
+			good = good && before->number <= row->number;
+		else if (before)
+			good = good && before->tone == PANEL_ERROR;
+		g_clear_object(&before);
+		before = row;
+	}
+	g_clear_object(&before);
+	CHECK_AS(good, "errors stand before warnings, each kind by its place");
+}
+
 static void test_problems(void)
 {
 	LadderProblems *problems = LADDER_PROBLEMS(ladder_problems_new());
@@ -203,7 +187,7 @@ static void test_problems(void)
 	CHECK(ladder_problems_count(problems, true) >= 2);
 	title = ladder_problems_title(problems);
 	CHECK(g_str_has_prefix(title, "Problems ") && title[9] == (char)('0' + count));
-	picture(GTK_WIDGET(problems), "problems");
+	save_pictures(GTK_WIDGET(problems), "PANEL_PICTURES", "problems");
 	for (guint i = 0; i < count; i++) {
 		LadderPanelRow *row = g_list_model_get_item(list, i);
 
@@ -225,11 +209,12 @@ static void test_problems(void)
 		}
 		g_object_unref(row);
 	}
-	is_row(list, count - 1, "\"Lost\" is not declared|List, line 3|LD301|Error|");
+	check_order(list);
+	is_row(list, 2, "\"Lost\" is not declared|List, line 3|LD301|Error|");
 	CHECK(ladder_problems_next(problems, false));
 	CHECK(ladder_problems_next(problems, true));
 	CHECK(ladder_problems_show_error(problems));
-	CHECK_TEXT(gone_to, "-1 -1 0 4"); /* the one before it is a warning */
+	CHECK_TEXT(gone_to, "-1 -1 0 4");
 	reopen("RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nEND_PROGRAM\n");
 	CHECK_SOON(g_list_model_get_n_items(list) == 0);
 	CHECK(!ladder_problems_next(problems, false) && !ladder_problems_show_error(problems));
@@ -237,6 +222,8 @@ static void test_problems(void)
 	reopen("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO\n");
 	CHECK_AS(ladder_problems_count(problems, true) > 0,
 		 "a text that cannot be read has problems");
+	is_row(list, 0, "\"PROGRAM\" is not closed before the end of the file; its END_… is "
+	       "missing|line 2|LD109|Error|");
 	reopen(sample);
 	ladder_problems_set_document(problems, NULL);
 	CHECK(ladder_problems_count(problems, false) == 0);
@@ -285,7 +272,7 @@ static void test_uses(void)
 	ladder_uses_view_set_mode(view, USES_ALL);
 	all = g_list_model_get_n_items(list);
 	CHECK(all > 12);
-	picture(GTK_WIDGET(view), "uses");
+	save_pictures(GTK_WIDGET(view), "PANEL_PICTURES", "uses");
 	gtk_editable_set_text(GTK_EDITABLE(search_of(GTK_WIDGET(view))), "\xe7\x94\xb5");
 	CHECK_SOON(g_list_model_get_n_items(list) == 3);
 	gtk_editable_set_text(GTK_EDITABLE(search_of(GTK_WIDGET(view))), "");
@@ -374,7 +361,7 @@ static void test_symbols(void)
 	CHECK_AS(row->note && row->tone == PANEL_ERROR,
 		 "the reason of a refused field is shown");
 	g_object_unref(row);
-	picture(widget, "symbols");
+	save_pictures(widget, "PANEL_PICTURES", "symbols");
 	type_into(view, cell_of(widget, GTK_TYPE_ENTRY, "Spare"), "Stock");
 	CHECK(has("  Stock           : INT;") || has("  Stock : INT;") || has("  Stock   : INT;"));
 	CHECK_TEXT(ladder_symbols_view_message(view), "");
@@ -387,7 +374,7 @@ static void test_symbols(void)
 	CHECK_AS(gtk_widget_has_css_class(cell, "error") &&
 		 strstr(ladder_symbols_view_message(view), "Hours"),
 		 "the reason of a refused name is reported");
-	picture(widget, "symbols-refused");
+	save_pictures(widget, "PANEL_PICTURES", "symbols-refused");
 	CHECK(gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY));
 	type_into(view, cell, "Stock");
 	CHECK(!gtk_widget_has_css_class(cell, "error") &&
@@ -426,7 +413,7 @@ static void test_import(void)
 	dialog = ladder_symbols_view_import(view, "table.csv", table, strlen(table));
 	turn(200);
 	CHECK(LADDER_IS_IMPORT_DIALOG(dialog));
-	picture(dialog, "import");
+	save_pictures(dialog, "PANEL_PICTURES", "import");
 	gtk_widget_activate_action(dialog, "import.cancel", NULL);
 	turn(50);
 	CHECK(!ladder_document_undo_name(document));
@@ -470,7 +457,7 @@ static void test_find(void)
 	CHECK_TEXT(ladder_find_bar_message(bar), "4 of 5");
 	gtk_widget_activate_action(widget, "find.previous", NULL);
 	CHECK_TEXT(gone_to, "0 0 -1 -1");
-	picture(widget, "find");
+	save_pictures(widget, "PANEL_PICTURES", "find");
 	with = GTK_EDITABLE(nth_widget(widget, GTK_TYPE_ENTRY, 1));
 	gtk_editable_set_text(with, "\xe6\xb3\xb5");
 	gtk_widget_activate_action(widget, "find.replace", NULL);

@@ -225,8 +225,12 @@ def only_projects(screen):
 
 
 def empty(screen):
-    """New project leads from the welcome page to an empty sheet with a hint; a typed name becomes a contact"""
+    """Simulate shows the sheet; New project leads from the welcome page to it, with a hint; a typed name becomes a contact"""
     editor = Editor(screen)
+    editor.click(editor.find('Simulate'))
+    editor.says('SIMULATION')
+    editor.to_sheet()
+    editor.keys('ctrl+m', 'ctrl+Page_Down', 'ctrl+Page_Down')
     editor.click(editor.find('An empty sheet', 'label'))
     editor.to_sheet()
     until(lambda: not editor.all('Samples, opened as copies'), 'the page to be gone')

@@ -354,6 +354,19 @@ def first_key(screen):
         editor.keys('Escape')
         editor.gone()
         on_chart(editor)
+    # What is not finished is no mistake; the name of a step alone is refused and declares nothing.
+    kept = open(path).read()
+    for line, said in ('!', 'the operand is still missing'), ('Run', 'is a step; write Run.X'):
+        editor.type(line)
+        editor.opened()
+        editor.says(said)
+        assert not editor.all('TRANSITION', 'list item')
+        editor.keys('Return')
+        editor.says(said)
+        editor.keys('Escape')
+        editor.gone()
+        on_chart(editor)
+    assert open(path).read() == kept
     # The place of a mistake is a transition.
     typed(editor, 'Nobody.T > 5s')
     editor.says('Main, transition Start \u2192 ')

@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, main, until  # noqa: E402
+from desk import EDITOR, Editor, main, until  # noqa: E402
 
 OLD = '''RUNGBOARD 1
 PROJECT "Pump station"
@@ -203,9 +203,82 @@ def choose_saved(editor):
     until(lambda: window not in editor.windows(), 'the end of the dialog')
 
 
+def rows_with(editor, text):
+    return [row for row in differences(editor) if text in row]
+
+
+def follows(screen):
+    """an open page follows a save, a file that another program writes, and the I/O map, open or not"""
+    path = project(screen)
+    board = os.path.join(screen.home, 'pump.io')
+    write(board, '%IX0.0  gpio  line=GPIO17\n')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('slash')
+    choose_saved(editor)
+    until(lambda: rows_with(editor, 'NC Start'), 'the edit')
+    editor.save(path)
+    editor.says('No differences')
+    write(path, open(path).read().replace('T#8s', 'T#9s'))
+    until(lambda: rows_with(editor, 'T#9s'), 'what the other program wrote')
+    editor.shot('compare-follows')
+    editor.click([node for node in editor.all('List', 'label') if node.name == 'List' and node.box()[0] < 200][0])
+    editor.keys('Delete')  # an edit while the page is in front
+    until(lambda: rows_with(editor, 'PROGRAM List, the whole POU, removed'), 'the program that is gone')
+    editor.click(editor.find('pump.io', 'label'), count=2)
+    editor.into('%IX0.0, I/O line')
+    editor.keys('ctrl+a')
+    editor.type('GPIO27')
+    editor.keys('Return', 'ctrl+alt+n')
+    until(lambda: rows_with(editor, 'I/O map, %IX0.0, changed: I/O line: GPIO17 \N{RIGHTWARDS ARROW} GPIO27'), 'the map as it is typed')
+    write(board, '%IX0.0  gpio  line=GPIO18\n')
+    until(lambda: rows_with(editor, 'GPIO18 \N{RIGHTWARDS ARROW} GPIO27'), 'the map that the other program wrote')
+    write(board, '%IX0.0  gpio  line=GPIO27\n')
+    until(lambda: not rows_with(editor, 'I/O map'), 'equal maps')
+
+
+def two_files(screen):
+    """two files are compared with no project open, by the command line and from the welcome page; lines of I/O maps too"""
+    old, new = os.path.join(screen.home, 'old.rung'), os.path.join(screen.home, 'new.rung')
+    write(old, OLD)
+    write(new, NEW)
+    write(old[:-4] + 'io', '%IX0.0 gpio line=GPIO17\n%QX0.0 gpio line=GPIO4 safe=0\n')
+    write(new[:-4] + 'io', '%IX0.0 gpio line=GPIO27 # moved\n%QX0.5 gpio line=GPIO5 safe=0\n')
+    editor = Editor(screen, '--compare', old, new)
+    editor.says('Changes from “old.rung” to “new.rung”')
+    until(lambda: rows_with(editor, SEAL), 'the rung')
+    assert rows_with(editor, 'I/O map, %IX0.0, changed: I/O line: GPIO17 \N{RIGHTWARDS ARROW} GPIO27'), differences(editor)
+    assert rows_with(editor, 'I/O map, %QX0.5, added: gpio line=GPIO5 safe=0'), differences(editor)
+    assert rows_with(editor, 'I/O map, %QX0.0, removed'), differences(editor)
+    editor.find('Differences', 'list')
+    editor.keys('End')
+    editor.shot('compare-maps')
+    write(new[:-4] + 'io', open(old[:-4] + 'io').read())
+    until(lambda: not rows_with(editor, 'I/O map'), 'the end of the differences of the maps')
+    write(new, OLD)
+    editor.says('No differences')
+    write(new, NEW)
+    until(lambda: rows_with(editor, SEAL), 'the rung again')
+    before = editor.windows()
+    editor.click(editor.find('Go to', 'push button'))
+    until(lambda: [each for each in editor.windows() if each not in before] or editor.all('Sheet'), 'the file')
+    editor.finish()
+    editor = Editor(screen)
+    editor.shot('compare-welcome')
+    older = editor.brought(lambda: editor.click(editor.find('What differs between two versions of a project', 'label')), 'The older file')
+    editor.type_path(new)
+    newer = editor.brought('Return', 'The newer file')
+    editor.type_path(old)
+    editor.keys('Return')
+    until(lambda: older not in editor.windows() and newer not in editor.windows(), 'the end of the choosers')
+    editor.says('Changes from “new.rung” to “old.rung”')
+    status = subprocess.run([EDITOR, '--compare', old], capture_output=True, text=True)
+    assert status.returncode == 2 and 'needs two files' in status.stderr, status
+
+
 small.size = '1024x700x24'
 revisions.quick = 'editor-gtk/panels'
-TESTS = [revisions, others, small]
+TESTS = [revisions, others, follows, two_files, small]
 
 if __name__ == '__main__':
     main(TESTS)

@@ -107,6 +107,23 @@ def structure(screen):
     check(path)
 
 
+def completed(screen):
+    """the name of a type is completed in any spelling of its letters"""
+    path = new_file(screen, PROGRAM.replace('Bounds', 'Öfen'))
+    editor = Editor(screen, path)
+    editor.command('New structure')
+    until(lambda: editor.all(role='dialog'), 'the question for a name')
+    editor.keys('Return')
+    editor.focus_on('Member1, Name', 'text')
+    editor.type('Limit')
+    editor.keys('Tab', 'ctrl+a')
+    editor.type('öf')
+    until(lambda: seen(editor, 'Limit, Type').text() == 'öfen', 'the rest of the name')
+    editor.keys('Return')
+    editor.save(path)
+    check(path)
+
+
 def everywhere(screen):
     """a structure and a member get other names, also in initial values; a used one is deleted after a question"""
     path = new_file(screen, PROGRAM)
@@ -187,6 +204,16 @@ def array(screen):
     editor.focus_on('[6], Value', 'text')
     editor.keys('ctrl+Return')
     assert editor.focus_on('[6], Value', 'text').text() == '80000'
+    fold = editor.find('Level', 'panel')
+    for rows in 0, 6:
+        x, y, _, height = fold.box()
+        editor.click((int(at['X']) + x + 8, int(at['Y']) + y + height // 2))
+        until(lambda: len([node for node in editor.all(', Value', 'text') if node.box()[2] > 0 and node.name[0] == '[']) == rows,
+              '%d rows below the array' % rows)
+    assert editor.find('[6], Value', 'text').text() == '80000'
+    editor.click((int(at['X']) + x + 8, int(at['Y']) + y + height // 2))
+    editor.keys('ctrl+Return')
+    assert editor.focus_on('[6], Value', 'text').text() == '80000'
     editor.keys('Escape')
     until(lambda: editor.find('[6], Value', 'text').text() == '-5', 'the value before')
     editor.keys('ctrl+Return')
@@ -211,6 +238,7 @@ VAR
   Speed AT %MW4   : WORD;
   Over  AT %MX4.1 : BOOL;
   Idle  AT %QX0.7 : BOOL;
+  I               : INT;
 END_VAR
 
 PROGRAM Main LD
@@ -218,6 +246,8 @@ RUNG
   | NO Over | [ Speed > %MW20 ] | COIL %QX0.0 |
 RUNG
   | NO %IX0.0 | COIL %QX0.0 |
+RUNG
+  | [ %MW40[I] > 3 ] | COIL %QX1.0 |
 END_PROGRAM
 '''
 
@@ -247,8 +277,15 @@ def addresses(screen):
     editor.keys('Return')
     editor.command('Address map')
     until(lambda: editor.all('%MW4: Rate'), 'the new name in the map')
+    kinds = until(lambda: [node for node in editor.all('Rows that are shown', 'combo box') if node.box()[2] > 0], 'the kinds')[0]
+    editor.click(kinds)
+    editor.keys('Down', 'Down', 'Down', 'Return')
+    until(lambda: not editor.all('%MW4: Rate'), 'only what an index may reach')
+    editor.find('bytes that an index may reach', 'label')
+    editor.find('%MW40: 1 use', 'push button')
+    editor.shot('address-reached')
     assert 'Rate AT %MW4' in editor.save(path)
     check(path)
 
 
-main([structure, everywhere, array, addresses])
+main([structure, completed, everywhere, array, addresses])

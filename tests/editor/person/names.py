@@ -364,7 +364,7 @@ def address(screen):
 
 
 def beside(screen):
-    """rename everywhere lists scenario and plant before, changes them, too, and one undo takes all back"""
+    """rename everywhere lists scenario and plant before, changes and saves them with the project; one undo takes all back"""
     path = new_file(screen, PROJECT)
     scenario, plant = path.replace('.rung', '.scn'), path.replace('.rung', '.plant.rung')
     tests = 'scenario "Motor runs"\n  at 0ms Start = 1\n  at 20ms expect Motor = 1\n'
@@ -387,17 +387,21 @@ def beside(screen):
     editor.shot('names-beside-done')
     text = editor.save(path)
     assert text.count('Pump') == 3 and 'Motor' not in text, text
-    assert open(scenario).read() == tests
-    editor.keys('ctrl+Page_Down', 'ctrl+Page_Down', 'ctrl+Page_Down')
-    until(lambda: 'expect Pump' in editor.find(os.path.basename(scenario), 'text').text(), 'the scenario')
-    assert editor.save(scenario) == tests.replace('Motor = 1', 'Pump = 1')
+    until(lambda: open(scenario).read() == tests.replace('Motor = 1', 'Pump = 1') and
+          open(plant).read().count('Pump') == 2, 'scenario and plant to be saved with the project')
+    until(lambda: not editor.all('\u2022 '), 'no tab with changes')
     editor.keys('ctrl+z')
     editor.to_sheet()
     text = editor.save(path)
     assert text.count('Motor') == 3 and 'Pump' not in text, text
+    until(lambda: open(scenario).read() == tests and open(plant).read() == world, 'the old names in all files')
+    # In the tab of a scenario, Ctrl+S saves that file alone.
+    editor.keys('ctrl+y')
+    editor.to_sheet()
     editor.keys('ctrl+Page_Down', 'ctrl+Page_Down', 'ctrl+Page_Down')
-    until(lambda: 'expect Motor' in editor.find(os.path.basename(scenario), 'text').text(), 'the old name')
-    assert editor.save(scenario) == tests
+    until(lambda: 'expect Pump' in editor.find(os.path.basename(scenario), 'text').text(), 'the scenario')
+    assert editor.save(scenario) == tests.replace('Motor = 1', 'Pump = 1')
+    assert 'Pump' not in open(path).read()
 
 
 if __name__ == "__main__": main([rename, beside, find, hits, address, refused, jumps, labels, calls, operands])

@@ -111,7 +111,7 @@ def plant(screen):
     editor.says('The plant has errors')
     banner = editor.find('The plant has errors', 'label')
     assert 'motor.plant.rung' in banner.name and 'Nowhere' in banner.name, banner.name
-    assert 'World, rung 1 (1,1)' in banner.name, banner.name
+    assert 'World, rung 1, row 1, column A' in banner.name, banner.name
     editor.shot('running-plant')
     assert not editor.all('SIMULATION'), 'it runs'
     with open(world, 'w') as file:

@@ -117,7 +117,7 @@ def table(screen):
 def rows(screen):
     """programs move by handle and key, tasks come and go; what a deletion takes along is said before"""
     editor, path = opened(screen)
-    editor.drag(editor.find('Drag A'), cell(editor, 'Slow, Name'), look='tasks-drag')
+    editor.drag(editor.find('Move A'), cell(editor, 'Slow, Name'), look='tasks-drag')
     is_saved(editor, path, ('A WITH Fast', 'A WITH Slow'))
     editor.keys('ctrl+z')
     is_saved(editor, path)
@@ -151,6 +151,66 @@ def rows(screen):
     editor.keys('Down', 'Return')
     until(lambda: 'WITH Idle' in (editor.keys('ctrl+s') or open(path).read()), 'the program in the task')
     check(path)
+
+
+def in_tree(editor, name):
+    """The row of a task in the tree."""
+    return until(lambda: [n for n in editor.all(name, 'label') if n.box()[0] < 200], 'the row %s in the tree' % name)[0]
+
+
+def tree(screen):
+    """a task is renamed and deleted in the tree by key and menu, in the table by the same keys; each is one step"""
+    editor, path = opened(screen)
+    editor.click(in_tree(editor, 'Fast'))
+    editor.brought('F2')
+    editor.type('2nd')
+    editor.says('“2nd” is not a name')
+    editor.keys('ctrl+a')
+    editor.type('slow')
+    editor.says('“slow” is declared already')
+    editor.shot('tasks-rename')
+    editor.keys('ctrl+a')
+    editor.type('Quickly')
+    editor.answer('Rename')
+    renamed = ('TASK Fast', 'TASK Quickly'), ('WITH Fast', 'WITH Quickly')
+    is_saved(editor, path, *renamed)
+    editor.keys('ctrl+z')
+    is_saved(editor, path)
+    deleted = ('    TASK Fast (INTERVAL := T#5ms, PRIORITY := 1); (* counts *)\n', ''), (' WITH Fast', '')
+    editor.click(in_tree(editor, 'Fast'))
+    editor.keys('Delete')
+    editor.says(QUESTION)
+    editor.answer('Cancel')
+    editor.keys('Menu')
+    until(lambda: editor.all('Rename…', 'menu item'), 'the menu of the task')
+    assert not editor.all('Duplicate…', 'menu item')
+    editor.shot('tasks-tree-menu')
+    editor.keys('Down', 'Return')
+    editor.says(QUESTION)
+    editor.answer('Delete')
+    is_saved(editor, path, *deleted)
+    editor.keys('ctrl+z')
+    is_saved(editor, path)
+    editor.click(in_tree(editor, 'Each scan'))
+    for key in 'F2', 'Delete':
+        editor.keys(key)
+        editor.says('“Each scan” is not a task')
+    editor.click(cell(editor, 'Fast, Priority'))
+    editor.keys('F2')
+    editor.focus_on('Fast, Name')
+    editor.type('Quickly')
+    editor.keys('Return')
+    is_saved(editor, path, *renamed)
+    editor.keys('ctrl+z')
+    is_saved(editor, path)
+    for place, key in ('Move Fast', 'Delete'), ('Fast, Priority', 'ctrl+Delete'):
+        editor.click(editor.find(place))
+        editor.keys(key)
+        editor.says(QUESTION)
+        editor.answer('Delete')
+        is_saved(editor, path, *deleted)
+        editor.keys('ctrl+z')
+        is_saved(editor, path)
 
 
 def last_program(screen):
@@ -224,4 +284,42 @@ def picture(screen):
     assert lines(path, '@print %QX0.0\nDoor=1\n') is not None
 
 
-main([table, rows, last_program, implicit, picture])
+def simulated(screen):
+    """while simulating, the picture has the real runs over the plan, also late ones; it follows the time and the past"""
+    editor, path = opened(screen)
+    editor.keys('ctrl+t', 'ctrl+t', 'ctrl+t')
+    editor.says('PAUSE')
+    fast = editor.find('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms … · 3 runs', 'list item')
+    slow = editor.find('Slow: priority 2, every 20 ms, at 0 s, 20 ms … · 1 run', 'list item')
+    editor.says('low, grey: planned · green: ran')
+    editor.shot('tasks-live')
+    x, y, width, height = editor.place(slow)
+    editor.click((x + 20, y + height // 2))
+    editor.focus_on('Slow: priority')
+    editor.says('Slow: priority 2, every 20 ms, at 0 s, 20 ms … · 1 run')
+    editor.keys('Left')
+    editor.says('At 5 ms: Fast, then Slow, then Each scan')
+    editor.keys('Return')  # the scan of that run
+    editor.says('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms … · 1 run')
+    editor.shot('tasks-past')
+    editor.keys('Escape', 'alt+End')
+    editor.click(editor.find('Simulation settings', 'push button'))
+    editor.focus_on('Period, ms')
+    editor.keys('ctrl+a')
+    editor.type('12')
+    editor.keys('Tab')
+    editor.says('Simulating · 12 ms')
+    editor.keys('Escape')
+    editor.keys(*['ctrl+t'] * 6)
+    editor.find('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms … · 9 runs, 8 left out', 'list item')
+    x, y, width, height = editor.place(fast)
+    editor.click((x + 20, y + height // 2))
+    editor.keys('Left')
+    until(lambda: editor.all('At 87 ms: Fast (7 ms late, 1 run left out), then ', 'label'), 'the late run')
+    editor.shot('tasks-late')
+    editor.keys('Escape', 'ctrl+m')
+    editor.find('Fast: priority 1, every 5 ms, at 0 s, 5 ms, 10 ms …', 'list item')
+    until(lambda: not editor.find('Zoom out', 'push button').has(24), 'the whole time of the plan')
+
+
+main([table, rows, tree, last_program, implicit, picture, simulated])

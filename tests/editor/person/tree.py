@@ -206,6 +206,7 @@ def used(screen):
     editor.click(until(row, 'the block')[0])
     editor.brought('Delete')
     editor.says('It is used in 2 places')
+    editor.says('Main: 2 places')
     editor.shot('tree-used')
     editor.answer('Show uses')
     until(lambda: editor.all('Seal', 'table row'), 'its uses')
@@ -295,7 +296,7 @@ def menus(screen):
     editor.to_sheet()
     for key in 'Menu', 'shift+F10':
         editor.keys(key)
-        until(lambda: menu_item(editor, 'Edit operand instead of value'), 'the menu of the sheet')
+        until(lambda: menu_item(editor, 'Edit operand'), 'the menu of the sheet')
         editor.keys('Escape')
         editor.to_sheet()
     editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other'][0])

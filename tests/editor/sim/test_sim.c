@@ -334,7 +334,7 @@ static void test_failed(void)
 		act(ACT_SET, "Minutes", 0);
 		CHECK_SOON(value("Minutes") == 0 && !told);
 		ladder_sim_scan(sim, 2);
-		told_is("division by zero: Main, rung 2 (1,2)");
+		told_is("division by zero: Main, rung 2, row 1, column B");
 		CHECK(ladder_sim_state(sim) == SIM_PAUSE);
 		ladder_sim_scan(sim, 2);
 		CHECK_SOON(ladder_sim_twin(sim)->resource.vm.errors == 4);
@@ -424,7 +424,7 @@ static void test_bad_plant(void)
 		"END_PROGRAM\n", -1, NULL));
 	CHECK(!ladder_sim_set_plant(sim, path, &error));
 	CHECK(error && g_str_has_prefix(error->message, path) &&
-	      strstr(error->message, "\"Nobody\" is not declared: World, rung 2 (1,1)"));
+	      strstr(error->message, "World, rung 2, row 1, column A: \"Nobody\" is not declared"));
 	g_clear_error(&error);
 	CHECK(g_unlink(path) == 0 && g_rmdir(folder) == 0);
 	g_free(path);

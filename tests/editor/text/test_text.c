@@ -268,6 +268,75 @@ static bool has_beside(const char *line, const char *value)
 	return found && g_strcmp0(beside, value) == 0;
 }
 
+/* The current result after a line, by its text. */
+static bool has_result(const char *line, const char *value)
+{
+	char *text = shown(), **lines = g_strsplit(text, "\n", -1);
+	const char *after = "no line";
+
+	for (int i = 0; lines[i]; i++)
+		if (g_str_has_prefix(g_strchug(lines[i]), line))
+			after = ladder_text_view_result(view, i + 1);
+	if (g_strcmp0(after, value) != 0)
+		printf("# %s: %s\n", line, after ? after : "nothing");
+	g_strfreev(lines);
+	g_free(text);
+	return g_strcmp0(after, value) == 0;
+}
+
+static void put_list(const char *old, const char *new)
+{
+	char *text = shown(), **parts = g_strsplit(text, old, 2);
+	char *with = g_strconcat(parts[0], new, parts[1], NULL);
+
+	gtk_text_buffer_set_text(buffer, with, -1);
+	ladder_text_view_take(view);
+	g_free(with);
+	g_strfreev(parts);
+	g_free(text);
+}
+
+static void set_bit(LadderSim *sim, const char *name, bool on)
+{
+	const struct act act = { .kind = ACT_SET, .value.i = on,
+		.at = live_value_find(live_image(sim, false), name) };
+
+	ladder_sim_act(sim, &act);
+	ladder_sim_scan(sim, 1);
+}
+
+/* What the scan computed, also of lines that it jumped over, of the past and after an edit. */
+static void test_results(void)
+{
+	LadderSim *sim = ladder_sim_new(document);
+
+	put_list("  ST    Motor\n", "  ST    Motor\n\n  JMPCN Off   (* not now *)\n"
+		 "  LD    7\n  GT    5\nOff:\n");
+	ladder_document_check_now(document);
+	ladder_text_view_set_sim(view, sim);
+	CHECK(has_result("LD    Start", NULL));
+	CHECK(ladder_sim_begin(sim, NULL));
+	CHECK(has_result("LD    Start", "not run") && has_result("VAR", NULL));
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(has_result("LD    Start", "FALSE"));
+	CHECK(has_result("JMPCN Off", "FALSE") && has_result("LD    7", "not run") &&
+	      has_result("GT    5", "not run") && has_result("Off:", NULL));
+	set_bit(sim, "Start", true);
+	CHECK_SOON(has_result("GT    5", "TRUE"));
+	CHECK(has_result("LD    7", "7") && has_result("ANDN  Stop", "TRUE") &&
+	      has_result("ST    Motor", "TRUE") && has_result("END_PROGRAM", NULL));
+	CHECK(ladder_sim_show(sim, 1));
+	CHECK_AS(has_result("LD    7", "not run") && has_result("ST    Motor", "FALSE"),
+		 "the results are those of the earlier scan");
+	ladder_sim_show_now(sim);
+	put_list("GT    5", "GT    8");
+	CHECK_AS(has_result("GT    8", NULL) && has_result("LD    7", "7") &&
+		 has_beside("LD    Start", "TRUE"),
+		 "an edited line has no result until a program with it runs");
+	ladder_sim_end(sim);
+	g_object_unref(sim);
+}
+
 static void test_values(void)
 {
 	LadderSim *sim = ladder_sim_new(document);
@@ -324,6 +393,7 @@ int main(void)
 	test_typing();
 	test_soon();
 	test_values();
+	test_results();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);

@@ -197,6 +197,59 @@ static void test_rich(void)
 	ladder_free(ladder);
 }
 
+/* ---- constants and functions in expressions ---- */
+
+static const char computed[] =
+	"RUNGBOARD 1\n\n"
+	"TYPE\n  Recipe : STRUCT\n    Speed : INT := Limit / 2;\n"
+	"    Steps : ARRAY[1..Count] OF INT := [Limit - 1, 2(Limit)];\n"
+	"    Name  : STRING[Count + 4];\n  END_STRUCT;\nEND_TYPE\n\n"
+	"VAR\n  Max   : INT := LIMIT(0, Limit - 1, Count);\n"
+	"  Table : ARRAY[-Count..Limit * 2] OF INT := [Limit, 3(Count)];\n"
+	"  Best  : Recipe := (Speed := Limit * 3, Steps := [Count]);\nEND_VAR\n\n"
+	"VAR CONSTANT\n  Limit : INT := Base * 2;\n  Base  : INT := 5;\n"
+	"  Count : INT := 3;\nEND_VAR\n\n"
+	"FUNCTION Twice : STRING[Limit] LD\nVAR_INPUT\n  X : INT := Count;\nEND_VAR\n"
+	"RUNG\n  | MOVE IN:='a' OUT=>Twice |\nEND_FUNCTION\n\n"
+	"FUNCTION Sum : INT LD\nVAR_INPUT\n  X : INT;\n  Y : INT;\nEND_VAR\n"
+	"RUNG\n  | [ Sum := X + Y ] |\nEND_FUNCTION\n\n"
+	"PROGRAM Main LD\nVAR CONSTANT\n  Base : INT := Limit + 1;\nEND_VAR\n"
+	"VAR\n  X : INT := Base;\nEND_VAR\n"
+	"RUNG\n  | [ X := Sum(Y := X, X := LIMIT(0, Max, 10)) + Table[1] + Best.Speed ] |\n"
+	"END_PROGRAM\n";
+
+static void test_computed(void)
+{
+	struct ladder *ladder = loaded(computed);
+	size_t len;
+	char *text = ladder_write(ladder, &len);
+	uint8_t identity[32];
+	struct xref xref;
+	int bad = 0, count = 0;
+
+	CHECK_AS(text && strcmp(text, computed) == 0, "expressions are written as they are");
+	CHECK(text && identity_of("computed", text, identity));
+	xref_make(&xref, ladder_project(ladder));
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+
+		if (use->target.what == XREF_UNKNOWN)
+			printf("# unknown %s\n", xref_text(&xref, use));
+		bad += use->target.what == XREF_UNKNOWN;
+		if (use->kind != XREF_DECLARED)
+			continue;
+		count++;
+		bad += !renames(ladder, "computed", &use->target,
+				project_text(xref.project, *use->slot), text, identity);
+	}
+	CHECK_AS(bad == 0, "constants of declarations, functions and their inputs are renamed");
+	CHECK(count == 18);
+	printf("# %d names\n", count);
+	xref_free(&xref);
+	free(text);
+	ladder_free(ladder);
+}
+
 /* ---- refusals ---- */
 
 static void refused(struct ladder *ladder, const char *old, const char *name,
@@ -287,6 +340,7 @@ static void test_good(void)
 int main(void)
 {
 	test_rich();
+	test_computed();
 	test_refusals();
 	test_good();
 	test_samples();

@@ -157,7 +157,7 @@ static void report_symbol(struct conversion *c, const struct classic_symbol *sym
 	     "there is no such variable");
 }
 
-/* Of several symbols for one variable the first counts. */
+/* If one variable has several symbols, the first one counts. */
 static void find_symbols(struct conversion *c)
 {
 	const struct classic_project *project = c->project;

@@ -14,7 +14,7 @@ enum {
 	OPERATE = 60, EMPTY_CELL = 0
 };
 
-/* What of the variable of a cell has a meaning: nothing, its number, or all of it. */
+/* The part of the variable of a cell that has a meaning: none, its number, or all of it. */
 enum carries { NOTHING, NUMBER, VARIABLE };
 
 static enum carries carries(int element)

@@ -146,7 +146,7 @@ static bool time_units(struct leaving *e, int64_t ns, const char *name,
 static bool own_block(struct leaving *e, const struct out_slot *slot,
 		      struct classic_block *block)
 {
-	const char *text = project_text(e->project, slot->var->init_text);
+	const char *text = project_text(e->project, var_value_text(slot->var));
 	const char *base = member_of(e, text, "BASE"), *list;
 	int64_t value = 0;
 	struct literal literal;
@@ -313,7 +313,7 @@ static bool has_argument(const char *args, const char *pin)
 /* Checks the declaration of a block of IEC 61131-3: it can give the preset, nothing else. */
 static bool iec_given(struct leaving *e, struct out_part *item, const char *args)
 {
-	const char *text = project_text(e->project, item->slot->var->init_text);
+	const char *text = project_text(e->project, var_value_text(item->slot->var));
 	const char *pin = item->code == CL_IEC ? "PT" : item->code == CL_COUNT ? "PV" : "";
 	const char *value = *text && *pin ? member_of(e, text, pin) : NULL;
 
@@ -332,7 +332,7 @@ static bool iec_given(struct leaving *e, struct out_part *item, const char *args
  * with 0. */
 static bool own_given(struct leaving *e, struct out_part *item, const char *args)
 {
-	const char *text = project_text(e->project, item->slot->var->init_text);
+	const char *text = project_text(e->project, var_value_text(item->slot->var));
 	int64_t value = 0;
 
 	if (item->code == CL_COUNT)

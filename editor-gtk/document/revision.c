@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * revision - reads the project file, then what the engine asks for while it reads that, until
+ * nothing is missing.
+ */
+#include "editor-gtk/document/revision.h"
+
+#include "editor-gtk/document/git_log.h"
+#include "editor-gtk/document/iomap_beside.h"
+
+#include <string.h>
+
+struct reading {
+	char *path, *hash, *asked; /* asked: the name of the file that is awaited */
+	struct compare_side side;
+	GPtrArray *maps;           /* names that its I/O map may have, the likely one last */
+	GCancellable *cancel;
+	revision_take *take;
+	gpointer data;
+};
+
+static void reading_free(gpointer data)
+{
+	struct reading *reading = data;
+
+	compare_side_clear(&reading->side);
+	g_clear_object(&reading->cancel);
+	g_ptr_array_unref(reading->maps);
+	g_free(reading->path);
+	g_free(reading->hash);
+	g_free(reading->asked);
+	g_free(reading);
+}
+
+static void take(gpointer data, char *text, gsize len, const char *why);
+
+static void ask(struct reading *reading, char *name)
+{
+	g_free(reading->asked);
+	reading->asked = name;
+	git_log_show(reading->path, reading->hash, name, reading->cancel, take, reading);
+}
+
+static void ask_next(struct reading *reading)
+{
+	char *name = compare_side_wants(&reading->side);
+
+	if (!name && !reading->side.map && reading->maps->len)
+		name = g_ptr_array_steal_index(reading->maps, reading->maps->len - 1);
+	if (name) {
+		ask(reading, name);
+		return;
+	}
+	reading->take(reading->data, &reading->side, NULL);
+	reading_free(reading);
+}
+
+static bool is_map(const struct reading *reading)
+{
+	return g_str_has_suffix(reading->asked, ".io");
+}
+
+/* Files that are not there are errors of the project, or no map. */
+static void take(gpointer data, char *text, gsize len, const char *why)
+{
+	struct reading *reading = data;
+
+	if (!reading->side.text && !text) {
+		reading->take(reading->data, NULL, why);
+		reading_free(reading);
+		return;
+	}
+	if (!reading->side.text) {
+		reading->side.text = text;
+		reading->side.len = len;
+	} else if (is_map(reading) && !reading->side.map) {
+		reading->side.map = text;
+	} else {
+		g_hash_table_insert(reading->side.files, g_strdup(reading->asked),
+				    text ? g_bytes_new_take(text, len) : NULL);
+	}
+	ask_next(reading);
+}
+
+static void bytes_free(gpointer bytes)
+{
+	if (bytes)
+		g_bytes_unref(bytes);
+}
+
+/* NAME.io, else one with the name of the map now. */
+static void list_maps(struct reading *reading, const char *name)
+{
+	const char *dot = strrchr(name, '.');
+	char *now = iomap_beside(reading->path), *base = now ? g_path_get_basename(now) : NULL;
+	char *folder = g_path_get_dirname(name);
+
+	if (base)
+		g_ptr_array_add(reading->maps, strcmp(folder, ".") == 0 ? g_strdup(base) :
+				g_build_filename(folder, base, NULL));
+	if (dot)
+		g_ptr_array_add(reading->maps, g_strdup_printf("%.*s.io", (int)(dot - name),
+							       name));
+	g_free(folder);
+	g_free(base);
+	g_free(now);
+}
+
+void revision_read(const char *path, const char *hash, const char *name, const char *title,
+		   GCancellable *cancel, revision_take *taken, gpointer data)
+{
+	struct reading *reading = g_new0(struct reading, 1);
+
+	*reading = (struct reading){ .path = g_strdup(path), .hash = g_strdup(hash),
+		.side = { .name = g_strdup(title), .path = g_strdup(name),
+			  .files = g_hash_table_new_full(g_str_hash, g_str_equal, g_free,
+							 bytes_free) },
+		.maps = g_ptr_array_new_with_free_func(g_free),
+		.cancel = cancel ? g_object_ref(cancel) : NULL, .take = taken, .data = data };
+	list_maps(reading, name);
+	ask(reading, g_strdup(name));
+}

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * naming - a dialog that asks for a name. A name that cannot be taken is refused at the entry.
+ *
+ * It knows nothing of what is named: its caller refuses names, and takes one.
+ */
+#ifndef EDITOR_NAMING_H
+#define EDITOR_NAMING_H
+
+#include <gtk/gtk.h>
+#include <stdbool.h>
+
+struct naming;
+
+/* Names are given without blanks around them. */
+struct naming_how {
+	/* Why the name is refused, translated, caller frees; NULL: it is not. */
+	char *(*refusal)(gpointer data, const char *name);
+	void (*take)(gpointer data, const char *name);
+	GDestroyNotify free;    /* of the data, when the dialog has ended         */
+};
+
+/**
+ * naming_new - a dialog with an entry
+ * @answer: on the button that takes the name; @entry: accessible name of the entry; all translated
+ * @how: static; @data: taken over
+ *
+ * naming_set() and naming_show() follow. It frees itself.
+ */
+struct naming *naming_new(GtkWindow *window, const char *heading, const char *answer,
+			  const char *entry, const struct naming_how *how, gpointer data);
+/** naming_add - adds a widget behind the entry, or before it if @first. */
+void naming_add(struct naming *naming, GtkWidget *widget, bool first);
+/** naming_say - the text below the heading. */
+void naming_say(struct naming *naming, const char *body);
+/** naming_set - proposes a name. */
+void naming_set(struct naming *naming, const char *name);
+/** naming_get - the name in the entry. Caller frees. */
+char *naming_get(const struct naming *naming);
+/** naming_judge - asks again whether the name is refused. */
+void naming_judge(struct naming *naming);
+void naming_show(struct naming *naming);
+
+#endif

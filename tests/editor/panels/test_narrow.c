@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_narrow - the lists in German, as wide as a window of 1024 px has room for: columns share
+ * the width, so that no text is cut beside free room, and all headings are seen.
+ */
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/problems.h"
+#include "editor-gtk/panels/symbols_view.h"
+#include "editor-gtk/panels/tasks_view.h"
+#include "editor-gtk/panels/types_view.h"
+#include "editor-gtk/panels/uses_view.h"
+#include "tests/editor/screen.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+#include <libintl.h>
+#include <locale.h>
+
+#define WIDE 790  /* px beside the project, in a window of 1024                  */
+#define LONG 210  /* a text may be cut if it is wider                            */
+
+static const char sample[] =
+	"RUNGBOARD 1\n\nTYPE\n  Recipe : STRUCT\n    Steps : ARRAY[1..12] OF DINT; (* of a batch *)\n"
+	"  END_STRUCT;\nEND_TYPE\n\n"
+	"CONFIGURATION Plant\nVAR_GLOBAL\n  StopButton AT %IX0.0 : BOOL;\n  Batches : ARRAY[1..12] OF DINT;\n"
+	"  Count : INT;\n  Mix : Recipe;\nEND_VAR\n  RESOURCE Cpu ON LINUX\n"
+	"    TASK Fast (INTERVAL := T#5ms, PRIORITY := 1); (* counts *)\n"
+	"    PROGRAM Instance WITH Fast : Main;\n  END_RESOURCE\nEND_CONFIGURATION\n\n"
+	"PROGRAM Main LD\nVAR\n  Counter : CTU;\nEND_VAR\n"
+	"RUNG\n  | NO StopButton | CTU Counter R:=StopButton PV:=10 CV=>Count | |\nEND_PROGRAM\n";
+
+static GtkWidget *window;
+
+static void in_german(void)
+{
+	const char *build = g_getenv("BUILD");
+	char *locale = g_build_filename(build ? build : "build", "locale", NULL);
+
+	g_setenv("LANGUAGE", "de", TRUE);
+	setlocale(LC_ALL, "");
+	bindtextdomain(GETTEXT_PACKAGE, locale);
+	bind_textdomain_codeset(GETTEXT_PACKAGE, "UTF-8");
+	textdomain(GETTEXT_PACKAGE);
+	g_free(locale);
+}
+
+/* Counts the labels below @widget that end in an ellipsis though they are not long. @seen: all. */
+static int count_cut(GtkWidget *widget, int *seen)
+{
+	int cut = 0;
+
+	if (!gtk_widget_get_mapped(widget))
+		return 0;
+	if (GTK_IS_LABEL(widget) && gtk_label_get_text(GTK_LABEL(widget))[0]) {
+		PangoLayout *layout = gtk_label_get_layout(GTK_LABEL(widget));
+		PangoLayout *whole = gtk_widget_create_pango_layout(widget,
+			gtk_label_get_text(GTK_LABEL(widget)));
+		int width;
+
+		pango_layout_get_pixel_size(whole, &width, NULL);
+		(*seen)++;
+		cut = pango_layout_is_ellipsized(layout) && width < LONG;
+		if (cut)
+			printf("# %s\n", gtk_label_get_text(GTK_LABEL(widget)));
+		g_object_unref(whole);
+	}
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child;
+	     child = gtk_widget_get_next_sibling(child))
+		cut += count_cut(child, seen);
+	return cut;
+}
+
+static GtkWidget *list_in(GtkWidget *widget)
+{
+	GtkWidget *found = GTK_IS_COLUMN_VIEW(widget) ? widget : NULL;
+
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found;
+	     child = gtk_widget_get_next_sibling(child))
+		found = list_in(child);
+	return found;
+}
+
+/* Px beyond the right edge of the list. */
+static int beyond(GtkWidget *list)
+{
+	GtkAdjustment *across = gtk_scrollable_get_hadjustment(GTK_SCROLLABLE(list));
+
+	return (int)(gtk_adjustment_get_upper(across) - gtk_adjustment_get_page_size(across));
+}
+
+/* @all: the headings fit, too. */
+static void check(GtkWidget *view, const char *name, bool all)
+{
+	GtkWidget *list;
+	int seen = 0, cut = 1;
+
+	gtk_window_set_child(GTK_WINDOW(window), view);
+	screen_show(window);
+	list = list_in(view);
+	WAIT(gtk_widget_get_width(list) > 0 && (!all || beyond(list) <= 0) &&
+	     (seen = 0, cut = count_cut(list, &seen)) == 0 && seen > 4);
+	CHECK_AS(seen > 4, name);
+	CHECK_AS(cut == 0, name);
+	CHECK_AS(!all || beyond(list) <= 0, name);
+}
+
+static GtkWidget *uses(LadderDocument *document)
+{
+	LadderUsesView *view = LADDER_USES_VIEW(ladder_uses_view_new());
+
+	ladder_uses_view_set_document(view, document);
+	ladder_uses_view_set_symbol(view, 0, "StopButton");
+	ladder_uses_view_refresh(view);
+	return GTK_WIDGET(view);
+}
+
+static GtkWidget *symbols(LadderDocument *document)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
+
+	ladder_symbols_view_set_document(view, document);
+	ladder_symbols_view_refresh(view);
+	return GTK_WIDGET(view);
+}
+
+static GtkWidget *problems(LadderDocument *document)
+{
+	GtkWidget *view = ladder_problems_new();
+
+	ladder_problems_set_document(LADDER_PROBLEMS(view), document);
+	return view;
+}
+
+int main(void)
+{
+	LadderDocument *document;
+
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
+		return 0;
+	}
+	in_german();
+	if (strcmp(_("Address"), "Adresse") != 0) {
+		printf("1..0 # SKIP the languages were not built: no msgfmt\n");
+		return 0;
+	}
+	adw_init();
+	window = gtk_window_new();
+	gtk_window_set_default_size(GTK_WINDOW(window), WIDE, 300);
+	document = ladder_document_new();
+	ladder_document_open_text(document, "/tmp/x/test.rung", sample, strlen(sample), true);
+	ladder_document_check_now(document);
+	check(uses(document), "Querverweise", true);
+	check(problems(document), "Probleme", true);
+	check(ladder_tasks_view_new(document), "Tasks", false);
+	check(ladder_types_view_new(document), "Datentypen", true);
+	check(symbols(document), "Symbole", false);
+	gtk_window_destroy(GTK_WINDOW(window));
+	WAIT(G_OBJECT(document)->ref_count == 1);
+	g_assert_finalize_object(document);
+	return tap_done();
+}

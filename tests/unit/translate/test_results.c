@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_results - the current result after each line of a list, as a watched scan keeps it.
+ */
+#include "engine/base/literal.h"
+#include "tests/unit/rig.h"
+
+static struct rig rig;
+
+static const char source[] =
+	"VAR\n  Bits : Latch;\n  Row : ARRAY[1..2] OF Latch;\n  N : INT := 7;\n"
+	"  R : REAL := 1.5;\n  Far : BOOL;\n  Name : STRING := 'abc';\n  Down : TON;\n"
+	"END_VAR\n"
+	"PROGRAM Main IL\n"                /* line 11 of the file               */
+	"  LD    I0\n"
+	"  ANDN  I1\n"
+	"  ST    Q0\n"
+	"  JMPC  Skip\n"
+	"  LD    N\n"                      /* 16                                */
+	"  ADD   1\n"
+	"  ST    N\n"
+	"Skip:\n"
+	"Here: LD R\n"                     /* 20                                */
+	"  GT    1.0\n"
+	"  AND(  I0\n"
+	"  OR    I1\n"
+	"  )\n"                            /* 24                                */
+	"  (* nothing here *)\n"
+	"  LD    5\n"
+	"  LD    Name\n"
+	"  CAL   Down(IN := I0, PT := T#1s)\n"
+	"  CAL   Bits(On := I0)\n"         /* 29                                */
+	"  CAL   Row[2](On := I1)\n"
+	"END_PROGRAM\n"
+	"FUNCTION_BLOCK Latch IL\n"
+	"VAR_INPUT\n  On : BOOL;\nEND_VAR\nVAR\n  Count : DINT;\n  Deep : Inner;\nEND_VAR\n"
+	"  LD    On\n"                     /* 40                                */
+	"  JMPCN Off\n"
+	"  LD    Count\n"
+	"  ADD   1\n"
+	"  ST    Count\n"
+	"Off:\n"
+	"  CAL   Deep(On := On)\n"
+	"END_FUNCTION_BLOCK\n"
+	"FUNCTION_BLOCK Inner IL\n"
+	"VAR_INPUT\n  On : BOOL;\nEND_VAR\nVAR\n  Sum : LREAL;\nEND_VAR\n"
+	"  LD    Sum\n"                    /* 55                                */
+	"  ADD   0.5\n"
+	"  ST    Sum\n"
+	"  LD    On\n"
+	"END_FUNCTION_BLOCK\n";
+
+/* Where @instance keeps the byte that the block's last run has at @offset; NULL: Main. */
+static uint32_t place(uint32_t pou, const char *instance, uint32_t offset)
+{
+	const struct program *program = rig.resource.image.program;
+
+	for (uint32_t i = 0; instance && i < program->watched_count; i++) {
+		const struct code_watched *watched = &program->watched[i];
+
+		if (watched->pou == pou &&
+		    strcmp(program->string + watched->name, instance) == 0)
+			return watched->to + (offset - watched->from);
+	}
+	return offset;
+}
+
+/* As a literal; "-": not run; "": run, no value; "?": no instruction. */
+static const char *result(uint32_t pou, const char *instance, uint32_t line)
+{
+	static char text[64];
+	const uint8_t *memory = rig.resource.image.memory;
+	const struct code_power *at = code_result(rig.resource.image.program, pou, line);
+	union iec_value value;
+
+	if (!at)
+		return "?";
+	if (!memory[place(pou, instance, at->in)])
+		return "-";
+	if (!at->type)
+		return "";
+	value = iec_load(memory + place(pou, instance, at->out), (enum iec_type)at->type);
+	literal_print((enum iec_type)at->type, value, text, sizeof(text));
+	return text;
+}
+
+#define RESULT(line, text) CHECK_TEXT(result(0, NULL, line), text)
+
+static void lines_have_their_results(void)
+{
+	CHECK(rig_open(&rig, source, true));
+	RESULT(12, "-");
+	CHECK(rig_scan(&rig));
+	RESULT(12, "FALSE");
+	RESULT(14, "FALSE");
+	RESULT(15, "FALSE");
+	RESULT(16, "7");
+	RESULT(17, "8");
+	RESULT(18, "8");
+	RESULT(19, "");
+	RESULT(20, "1.5");
+	RESULT(21, "TRUE");
+	RESULT(22, "FALSE");
+	RESULT(24, "FALSE");
+	RESULT(25, "?");
+	RESULT(26, "5");
+	RESULT(27, "'abc'");
+	RESULT(28, "");
+	RESULT(11, "?");
+	RESULT(31, "?");
+}
+
+static void skipped_lines_have_not_run(void)
+{
+	CHECK(rig_set(&rig, "I0", 1) && rig_scan(&rig));
+	RESULT(12, "TRUE");
+	RESULT(13, "TRUE");
+	RESULT(15, "TRUE");
+	RESULT(16, "-");
+	RESULT(18, "-");
+	RESULT(19, "");
+	RESULT(24, "TRUE");
+	CHECK(rig_get(&rig, "N") == 8);
+	CHECK(rig_set(&rig, "I1", 1) && rig_scan(&rig));
+	RESULT(13, "FALSE");
+	RESULT(17, "9");
+	RESULT(23, "TRUE");
+}
+
+static void instances_have_their_own(void)
+{
+	CHECK_TEXT(result(1, "Bits", 40), "TRUE");
+	CHECK_TEXT(result(1, "Bits", 43), "2");
+	CHECK_TEXT(result(1, "Row[2]", 43), "1");
+	CHECK_TEXT(result(2, "Bits.Deep", 56), "1.5");
+	CHECK_TEXT(result(2, "Row[2].Deep", 56), "1.5");
+	CHECK(rig_set(&rig, "I0", 0) && rig_scan(&rig));
+	CHECK_TEXT(result(1, "Bits", 41), "FALSE");
+	CHECK_TEXT(result(1, "Bits", 43), "-");
+	CHECK_TEXT(result(1, "Row[2]", 43), "2");
+	CHECK_TEXT(result(2, "Bits.Deep", 58), "FALSE");
+	CHECK_TEXT(result(2, "Row[2].Deep", 58), "TRUE");
+	CHECK_TEXT(result(1, "Row[1]", 40), "-");
+	rig_close(&rig);
+}
+
+/* The scan that nobody watches stores nothing, and has the same code. */
+static void unwatched_lines_cost_nothing(void)
+{
+	CHECK(rig_open(&rig, source, false) && rig_scan(&rig));
+	RESULT(12, "?");
+	CHECK(rig.resource.image.program->power_count == 0);
+	rig_close(&rig);
+}
+
+int main(void)
+{
+	lines_have_their_results();
+	skipped_lines_have_not_run();
+	instances_have_their_own();
+	unwatched_lines_cost_nothing();
+	return tap_done();
+}
