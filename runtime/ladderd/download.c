@@ -8,6 +8,7 @@
 #include "engine/base/digest.h"
 #include "engine/base/file.h"
 #include "engine/scan/carry.h"
+#include "engine/scan/symbol_index.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -107,6 +108,7 @@ static bool make_ready(struct download *download, struct standby *standby)
 		return false;
 	standby->view_size = image_memory_size(&standby->program);
 	standby->views = calloc(3, standby->view_size);
+	standby->program.index = symbol_index_new(&standby->program, &standby->arena);
 	resource_init(&standby->resource, &standby->program, memory);
 	code_identity(&standby->program, standby->identity);
 	standby->plan = carry_plan_new(&standby->program,

@@ -12,6 +12,8 @@
 #include "ladderd/download.h"
 #include "ladderd/journal.h"
 #include "ladderd/peer.h"
+
+#include "engine/scan/symbol_index.h"
 #include "online/server.h"
 
 #include <errno.h>
@@ -591,6 +593,7 @@ struct link *link_open(const char *path, const char *groups, struct cycle *cycle
 		return refuse(link, path, "out of memory");
 	link->cycle = cycle;
 	link->with = *store;
+	store->program->index = symbol_index_new(store->program, store->arena);
 	link->retain = cycle->store;
 	link->listening = link->wake = -1;
 	for (int i = 0; i < SERVER_SESSIONS; i++)

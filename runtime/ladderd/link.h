@@ -16,6 +16,8 @@ struct link;
 struct link_store {
 	struct slots *slots;
 	const struct store_wish *retain;
+	struct program *program;       /* that runs; gets an index of its names */
+	struct arena *arena;           /* of the index                         */
 	const char *map_text;          /* of the map that runs; borrowed       */
 	size_t map_len;
 };

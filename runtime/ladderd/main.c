@@ -148,6 +148,7 @@ static bool open_link(struct daemon *daemon)
 	struct cycle *cycle = &daemon->cycle;
 	const struct link_store store = {
 		.slots = &daemon->slots, .retain = &daemon->options.retain,
+		.program = &daemon->load.source.program, .arena = &daemon->load.arena,
 		.map_text = daemon->load.map_text, .map_len = daemon->load.map_len,
 	};
 
