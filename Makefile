@@ -52,9 +52,9 @@ LIBRARY  := $(if $(filter 1,$(SMALL)),$(CORE),$(ENGINE))
 $(call obj,$(ENGINE)): WARN += $(FRAME)
 # Files that run once per load are compiled for size; for boards, also some that make loading fast here.
 OFTEN    := $(addprefix runtime/ladderd/,cycle.c stats.c wall.c)
-ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c \
+ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c runtime/online/*.c \
             $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/carry_*.c scan/code*.c \
-            scan/retain_*.c scan/symbols.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
+            scan/retain_*.c scan/symbol*.c scan/place.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
             hal/gpio_find.c hal/hal_open.c hal/iomap*.c)
 ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*.c model/*.c translate/*.c ladder.c \
             scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_pid.c scan/fb_store.c scan/fn_bits.c scan/fn_convert.c \
@@ -115,6 +115,11 @@ HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
 LADDERD_NOT := $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download slots journal,source_image store_none link_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
+# Its own table of messages, without those that only a desk gives.
+LADDERD  += $(if $(filter 1,$(SMALL)),,$(BUILD)/runtime/ladderd/diag_board.o)
+$(BUILD)/runtime/ladderd/diag_board.o: runtime/engine/base/diag.c Makefile
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(CPPFLAGS) -DRUNGBOARD_BOARD $(WARN) $(LEAN) $(CFLAGS) $(if $(filter -O2,$(CFLAGS)),-Os) -MMD -MP -c -o $@ $<
 # Threads, for --retain and --link; older C libraries need the option.
 THREADS  := $(if $(filter 1,$(SMALL)),,-pthread)
 # The protocol between board and desk: both sides; each program links what it uses.

@@ -127,6 +127,8 @@ fact($_, qr/at most (\d+) KB/, (slurp('tests/targets/sizes') =~ /SMALL=1, all wo
 # ---- ladderd --help: options, ranges, defaults ----
 my $options = slurp('runtime/ladderd/options.c');
 my ($help) = $options =~ /^"Usage: ladderd(.*?)^}/ms;
+my ($of_link) = $options =~ /^#define LINK_HELP \\\n((?:"[^\n]*\n)+)/m; # not on small boards
+$help =~ s/^LINK_HELP\n/$of_link/m;
 my %row;
 while ($options =~ /^\t\{ "(--[a-z-]+)",\s+(\w+),\s+AT\([\w.]+\),\s+(\w+),\s+(\w+) \}/mg) {
 	$row{$1} = { kind => $2, least => $3, most => $4 };

@@ -10,6 +10,8 @@
 
 #include "hal/iomap.h"
 #include "ladderd/cycle.h"
+#include "ladderd/load.h"
+#include "ladderd/options.h"
 #include "online/server.h"
 
 /* ---- slots ---- */
@@ -25,14 +27,16 @@ struct slots {
 };
 
 /**
- * slots_open - finds the newest good slot
- * @file, @map: of the command line; if they have changed since the slot was written, they are
- *              newer, and the slot is not used
+ * slots_load - loads the newest good slot; else the files of the command line; else a program
+ * that does nothing, so that a desk can bring one
+ * @stopped: set for the last of them
  *
- * Prints which program will run, and what is wrong with a slot. Owns: the caller,
- * slots_close(). Scan-safe: no. Returns whether slots->slot is to be run.
+ * If a file of the command line has changed since the slot was written, it is newer. Prints
+ * what is wrong with a slot. Owns: the caller, slots_close(). Scan-safe: no. Fails: as
+ * load_files().
  */
-bool slots_open(struct slots *slots, const char *folder, const char *file, const char *map);
+bool slots_load(struct slots *slots, const struct options *options, struct load *load,
+		bool *stopped);
 void slots_close(struct slots *slots);
 /** slots_reject - the slot that runs cannot start: puts it aside, as prog.A.refused. Returns
  * whether the next start finds another program. */

@@ -3,7 +3,6 @@
  * link_none - a ladderd without the link, for small boards.
  */
 #include "ladderd/link.h"
-#include "ladderd/control.h"
 #include "ladderd/download.h"
 
 #include <errno.h>
@@ -12,7 +11,6 @@ struct link *link_open(const char *path, const char *groups, struct cycle *cycle
 		       const struct link_store *store)
 {
 	(void)path, (void)groups, (void)cycle, (void)store;
-	control_tell("--link: this ladderd is built without it");
 	return NULL;
 }
 
@@ -52,13 +50,11 @@ void link_free(struct link *link)
 	(void)link;
 }
 
-bool slots_open(struct slots *slots, const char *folder, const char *file, const char *map)
+bool slots_load(struct slots *slots, const struct options *options, struct load *load,
+		bool *stopped)
 {
-	(void)file, (void)map;
-	*slots = (struct slots){ .folder = folder };
-	if (folder)
-		control_tell("--slots: this ladderd is built without it");
-	return false;
+	(void)slots, (void)stopped;
+	return load_files(load, options->file, options->map, false);
 }
 
 bool slots_reject(struct slots *slots)

@@ -220,32 +220,11 @@ static int run(struct daemon *daemon)
 	return status;
 }
 
-/* The newest slot; else the files of the command line; else a program that does nothing, so
- * that a desk can bring one. */
-static bool load_program(struct daemon *daemon)
-{
-	static const char empty[] = "RUNGBOARD 1\nPROJECT \"none\"\n\nPROGRAM Main LD\nEND_PROGRAM\n";
-	static const char lines[] = "BOARD \"no program\"\n";
-	const struct options *options = &daemon->options;
-	struct load *load = &daemon->load;
-	const struct stored *stored = &daemon->slots.slot.stored;
-
-	if (slots_open(&daemon->slots, options->slots, options->file, options->map))
-		return load_texts(load, stored_part(stored, STORED_IMAGE), stored->len[STORED_IMAGE],
-				  (const char *)stored_part(stored, STORED_MAP),
-				  stored->len[STORED_MAP]);
-	if (options->file)
-		return load_files(load, options->file, options->map, options->link);
-	fprintf(stderr, "ladderd: no program yet: STOP\n");
-	daemon->cycle.begin_stopped = true;
-	return load_texts(load, empty, sizeof(empty) - 1, lines, sizeof(lines) - 1);
-}
-
 static int load_and_run(struct daemon *daemon)
 {
 	const struct options *options = &daemon->options;
 	struct load *load = &daemon->load;
-	bool good = load_program(daemon);
+	bool good = slots_load(&daemon->slots, options, load, &daemon->cycle.begin_stopped);
 
 	if (good && options->check)
 		good = hal_supported(&load->map, &load->diags);

@@ -12,6 +12,21 @@
 #define PERIOD_LEAST INT64_C(100000)      /* 100 us */
 #define PERIOD_MOST  INT64_C(60000000000) /* 1 min  */
 
+#ifdef RUNGBOARD_SMALL /* has no link */
+#define LINK_HELP
+#define LINK_ROWS
+#else
+#define LINK_HELP \
+"  --link SOCKET    let desks watch and change it (docs/online.md)\n" \
+"  --slots FOLDER   store the programs that desks download; FILE and MAP are only\n" \
+"                   needed until the first one, and used again when they change\n" \
+"  --groups FILE    with --link: the groups, instead of /etc/group\n"
+#define LINK_ROWS \
+	{ "--link",          TEXT,   AT(link),      0, 0 }, \
+	{ "--slots",         TEXT,   AT(slots),     0, 0 }, \
+	{ "--groups",        TEXT,   AT(groups),    0, 0 },
+#endif
+
 const char *options_help(void)
 {
 	return
@@ -28,10 +43,7 @@ const char *options_help(void)
 "  --retain FILE    keep VAR RETAIN in FILE when power fails (docs/boards.md)\n"
 "  --retain-period TIME  time between writes of FILE, 10ms to 1h; default 10s\n"
 "  --cold           start without the values in FILE\n"
-"  --link SOCKET    let desks watch and change it (docs/online.md)\n"
-"  --slots FOLDER   store the programs that desks download; FILE and MAP are only\n"
-"                   needed until the first one, and used again when they change\n"
-"  --groups FILE    with --link: the groups, instead of /etc/group\n"
+LINK_HELP
 "  --scans N        stop after N scans or at a FAULT, and print the status\n"
 "  --check          load everything, open no line, print the memory needed\n"
 "  --trace-io       print each change of an output to stderr, as `%QX0.0 1`\n"
@@ -62,9 +74,7 @@ static const struct option_row {
 	{ "--retain",        TEXT,   AT(retain.path), 0, 0 },
 	{ "--retain-period", TIME,   AT(retain.period_ns), STORE_PERIOD_LEAST,
 	  STORE_PERIOD_MOST },
-	{ "--link",          TEXT,   AT(link),      0, 0 },
-	{ "--slots",         TEXT,   AT(slots),     0, 0 },
-	{ "--groups",        TEXT,   AT(groups),    0, 0 },
+LINK_ROWS
 	{ "--cold",          FLAG,   AT(retain.cold), 0, 0 },
 	{ "--scans",         NUMBER, AT(scans),     1, INT64_MAX },
 	{ "--check",         FLAG,   AT(check),     0, 0 },

@@ -77,7 +77,8 @@ static uint8_t *read_slot(struct slots *slots, int number, struct slot *slot, bo
 	return NULL;
 }
 
-bool slots_open(struct slots *slots, const char *folder, const char *file, const char *map)
+/* Finds the newest good slot. Returns whether it is to be run. */
+static bool find(struct slots *slots, const char *folder, const char *file, const char *map)
 {
 	uint8_t beside[32];
 	bool damaged[2];
@@ -117,6 +118,25 @@ bool slots_open(struct slots *slots, const char *folder, const char *file, const
 	fprintf(stderr, "ladderd: runs the program of download %u%s\n", (unsigned)slots->seq,
 		damaged[slots->next] ? "; a newer one may be damaged" : "");
 	return true;
+}
+
+bool slots_load(struct slots *slots, const struct options *options, struct load *load,
+		bool *stopped)
+{
+	static const char empty[] = "RUNGBOARD 1\nPROJECT \"none\"\n\nPROGRAM Main LD\nEND_PROGRAM\n";
+	static const char lines[] = "BOARD \"no program\"\n";
+	const struct stored *stored = &slots->slot.stored;
+
+	if (find(slots, options->slots, options->file, options->map))
+		return load_texts(load, stored_part(stored, STORED_IMAGE),
+				  stored->len[STORED_IMAGE],
+				  (const char *)stored_part(stored, STORED_MAP),
+				  stored->len[STORED_MAP]);
+	if (options->file)
+		return load_files(load, options->file, options->map, options->link);
+	fprintf(stderr, "ladderd: no program yet: STOP\n");
+	*stopped = true;
+	return load_texts(load, empty, sizeof(empty) - 1, lines, sizeof(lines) - 1);
 }
 
 bool slots_reject(struct slots *slots)
