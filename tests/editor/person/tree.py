@@ -572,10 +572,10 @@ def interface(screen):
     editor.keys('alt+Up')
     said('The power of the row is connected to “Start”')
     editor.shot('interface-refused')
-    editor.find('Delete the pin', 'push button').press()
+    editor.find('Delete the selected row', 'push button').press()
     editor.reply('Cancel')
     until(lambda: not editor.all(role='dialog'), 'the end of the question')
-    editor.find('Delete the pin', 'push button').press()
+    editor.find('Delete the selected row', 'push button').press()
     editor.reply('Delete anyway')
     until(lambda: editor.all('2 inputs, 2 outputs', 'label'), 'one pin less')
     editor.keys('ctrl+z')
@@ -595,9 +595,105 @@ def interface(screen):
     editor.keys('F6')
     sheet_of(editor)
     editor.click(editor.find('Interface', 'push button'))
-    until(lambda: not [n for n in editor.all('Delete the pin', 'push button') if n.box()[2] > 0], 'it to be folded')
+    until(lambda: not [n for n in editor.all('Delete the selected row', 'push button') if n.box()[2] > 0], 'it to be folded')
     sheet_of(editor)
     editor.shot('interface-folded')
+
+
+SHEETS = """RUNGBOARD 1
+
+VAR
+  R : INT;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO %IX0.0 | Scaled X:=%IW2 A:=2 OUT=>R |
+END_PROGRAM
+
+PROGRAM Wash SFC
+  VAR
+    Count : INT := 3; (* rinses left *)
+  END_VAR
+
+  INITIAL_STEP Start:
+  END_STEP
+
+  TRANSITION FROM Start TO Start := Count > 0; END_TRANSITION
+END_PROGRAM
+
+FUNCTION Scaled : INT IL
+VAR_INPUT
+  X : INT; (* raw *)
+  A : INT;
+END_VAR
+  LD    X
+  MUL   A
+  ST    Scaled
+END_FUNCTION
+"""
+
+
+def declares(screen):
+    """what a list and a chart declare is edited above them, while a simulation runs, too; each kind; folded apart"""
+    path = new_file(screen, SHEETS)
+    editor = Editor(screen, path)
+
+    def go(name):
+        editor.click([n for n in editor.all(name, 'label') if n.name == name and n.box()[0] < 200][0], count=2)
+
+    def cell(name, text):
+        return until(lambda: [n for n in editor.all(name, 'text') if n.text() == text and n.box()[2] > 0],
+                     'the cell %s with %s' % (name, text))[0]
+
+    def fill(at, text):
+        editor.click(at)
+        editor.keys('ctrl+a')
+        editor.type(text)
+        editor.keys('Return')
+
+    def seen(text):
+        return [n for n in editor.all(text, 'label') if n.box()[2] > 0]
+    go('Scaled')
+    until(lambda: seen('2 inputs, 0 outputs'), 'the summary')
+    fill(cell('A, Initial value', ''), '5')
+    assert editor.save(path) == SHEETS.replace('  A : INT;', '  A : INT := 5;'), open(path).read()
+    until(lambda: [n for n in editor.all('Text of the program', 'text') if 'A : INT := 5;' in n.text()], 'the text')
+    editor.keys('ctrl+z')
+    cell('A, Initial value', '')
+    fill(cell('A, Kind', 'input'), 'sideways')
+    until(lambda: seen('“sideways” is no kind'), 'the refusal')
+    editor.shot('declares-refused')
+    editor.keys('Escape')
+    editor.click(cell('A, Kind', 'input'))
+    editor.keys('ctrl+space')
+    editor.choose('local')
+    until(lambda: seen('A: 1 caller has an operand there'), 'the warning')
+    editor.focus_on('A, Kind')  # its row has moved
+    editor.shot('declares-kind')
+    assert '  X : INT; (* raw *)\nEND_VAR\nVAR\n  A : INT;\nEND_VAR\n' in editor.save(path), open(path).read()
+    editor.keys('ctrl+z')
+    assert editor.save(path) == SHEETS
+    go('Wash')
+    header = until(lambda: [n for n in editor.all('Variables', 'push button') if n.box()[2] > 0], 'the heading')[0]
+    assert not [n for n in editor.all('Count, Name', 'text') if n.box()[2] > 0], 'it is unfolded'
+    until(lambda: [n for n in editor.all('Chart') if n.name == 'Chart' and n.has(12)], 'the focus on the chart')
+    editor.keys('shift+Tab')
+    editor.focus_on('Variables')
+    editor.keys('space')
+    fill(cell('Count, Initial value', '3'), '7')
+    assert editor.save(path) == SHEETS.replace('INT := 3', 'INT := 7')
+    editor.click(editor.find('Simulate'))
+    until(lambda: editor.all('Run or pause'), 'the simulation')
+    fill(cell('Count, Name', 'Count'), 'Rinses')
+    text = editor.save(path)
+    assert '  Rinses : INT := 7; (* rinses left *)' in text and ':= Rinses > 0;' in text, text
+    check(path)
+    editor.shot('declares-chart')
+    editor.click(header)
+    until(lambda: not [n for n in editor.all('Rinses, Name', 'text') if n.box()[2] > 0], 'it to be folded')
+    go('Scaled')
+    cell('A, Kind', 'input')  # pins stay unfolded
 
 
 def to_file(screen):
@@ -670,4 +766,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, to_file, beside])
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, declares, to_file, beside])
