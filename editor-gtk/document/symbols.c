@@ -787,11 +787,9 @@ static GString *pieced(struct symbol_batch *batch)
 struct ladder *symbol_batch_try(struct symbol_batch *batch, char **why)
 {
 	const char *path = ladder_document_path(batch->document);
-	struct ladder *ladder = ladder_new();
+	struct ladder *ladder = ladder_document_reader(batch->document);
 	GString *text = pieced(batch);
 
-	if (!ladder)
-		g_error("out of memory");
 	if (!ladder_load_text(ladder, path ? path : "", text->str, text->len)) {
 		refuse(why, reason(ladder_diags(ladder)));
 		g_clear_pointer(&ladder, ladder_free);

@@ -4,8 +4,9 @@
  */
 #include "editor-gtk/window/pou_import_dialog.h"
 
-#include "editor-gtk/document/pou_edit.h"
+#include "editor-gtk/document/pou_file.h"
 #include "editor-gtk/document/pou_import.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/ask.h"
 
@@ -163,6 +164,8 @@ struct leaving {
 	LadderDocument *document;
 	char *name;
 	bool moves;
+	AdwMessageDialog *dialog; /* that asks for the name of a new file        */
+	GtkWidget *line, *why;
 };
 
 static void leaving_free(gpointer data, GClosure *closure)
@@ -176,20 +179,30 @@ static void leaving_free(gpointer data, GClosure *closure)
 	g_free(leaving);
 }
 
-/* First the copy is saved, then the original is deleted. */
+static struct leaving *leaving_new(GtkWidget *widget, LadderDocument *document, const char *name,
+				   bool moves)
+{
+	struct leaving *leaving = g_new0(struct leaving, 1);
+
+	leaving->widget = g_object_ref(widget);
+	leaving->document = g_object_ref(document);
+	leaving->name = g_strdup(name);
+	leaving->moves = moves;
+	return leaving;
+}
+
 static void leave(struct leaving *leaving, const char *path)
 {
 	const struct project *project = ladder_document_project(leaving->document);
 	const int pou = project ? project_find_pou(project, leaving->name,
 						   strlen(leaving->name)) : -1;
-	GString *told = g_string_new(NULL);
-	const char *why = NULL;
-	const bool good = pou >= 0 && pou_export(leaving->document, pou, path, told);
+	GString *told = g_string_new(_("It is not there any more"));
+	const bool good = pou >= 0 && (leaving->moves ?
+		pou_to_file(leaving->document, pou, path, told) :
+		pou_export(leaving->document, pou, path, told));
 
-	if (good && leaving->moves)
-		why = pou_delete(leaving->document, pou);
-	gtk_widget_activate_action(leaving->widget, good && !why ? "win.tell" : "win.warn", "s",
-				   why ? why : told->str);
+	gtk_widget_activate_action(leaving->widget, good ? "win.tell" : "win.warn", "s",
+				   told->str);
 	g_string_free(told, TRUE);
 }
 
@@ -202,63 +215,124 @@ static void target_chosen(GtkNativeDialog *dialog, int response, struct leaving 
 	g_free(path);
 }
 
-static void ask_target(AdwMessageDialog *dialog, const char *answer, struct leaving *leaving)
+static void ask_target(struct leaving *leaving)
 {
-	GtkFileChooserNative *chooser;
-	struct leaving *copy;
+	GtkFileChooserNative *chooser = ask_rung_file(GTK_WINDOW(gtk_widget_get_root(
+		leaving->widget)), leaving->document, leaving->moves ? _("Move to file") :
+		_("Copy to file"), GTK_FILE_CHOOSER_ACTION_OPEN, leaving->moves ? _("Move") :
+		_("Copy"));
+
+	g_signal_connect_data(chooser, "response", G_CALLBACK(target_chosen),
+		leaving_new(leaving->widget, leaving->document, leaving->name, leaving->moves),
+		leaving_free, 0);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
+
+static char *name_typed(const struct leaving *leaving)
+{
+	return g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(leaving->line))));
+}
+
+static void leaving_answered(AdwMessageDialog *dialog, const char *answer,
+			     struct leaving *leaving)
+{
+	char *name, *path;
 
 	(void)dialog;
-	if (strcmp(answer, "choose") != 0)
-		return;
-	copy = g_new(struct leaving, 1);
-	*copy = (struct leaving){ g_object_ref(leaving->widget),
-		g_object_ref(leaving->document), g_strdup(leaving->name), leaving->moves };
-	chooser = ask_rung_file(GTK_WINDOW(gtk_widget_get_root(leaving->widget)),
-		leaving->document, leaving->moves ? _("Move to file") : _("Copy to file"),
-		GTK_FILE_CHOOSER_ACTION_OPEN, leaving->moves ? _("Move") : _("Copy"));
-	g_signal_connect_data(chooser, "response", G_CALLBACK(target_chosen), copy, leaving_free,
-			      0);
-	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+	if (strcmp(answer, "choose") == 0) {
+		ask_target(leaving);
+	} else if (strcmp(answer, "make") == 0) {
+		name = name_typed(leaving);
+		path = pou_file_path(leaving->document, name);
+		leave(leaving, path);
+		g_free(path);
+		g_free(name);
+	}
+}
+
+/* Shows at the entry why no file can have the name. */
+static void judge(struct leaving *leaving)
+{
+	char *name = name_typed(leaving);
+
+	ask_refuse(leaving->dialog, "make", leaving->line, leaving->why,
+		   pou_file_refusal(leaving->document, name));
+	g_free(name);
+}
+
+/* Asks for the name of a new file, or for another one. */
+static void ask_move(struct leaving *leaving, int pou)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
+	char *heading = g_strdup_printf(_("Move “%s” to another file"), leaving->name);
+	char *name = pou_file_name(leaving->document, pou);
+
+	leaving->dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(leaving->widget)), heading,
+		_("The project includes the file, so all that uses it goes on to work."), "make",
+		_("Move to new file"), ADW_RESPONSE_SUGGESTED);
+	adw_message_dialog_add_response(leaving->dialog, "choose", _("Existing file…"));
+	leaving->line = ask_entry(_("Name of the file"));
+	leaving->why = ask_why();
+	gtk_editable_set_text(GTK_EDITABLE(leaving->line), name);
+	gtk_box_append(GTK_BOX(box), leaving->line);
+	gtk_box_append(GTK_BOX(box), leaving->why);
+	spoken_parts(box);
+	adw_message_dialog_set_extra_child(leaving->dialog, box);
+	judge(leaving);
+	g_signal_connect_swapped(leaving->line, "changed", G_CALLBACK(judge), leaving);
+	g_signal_connect_data(leaving->dialog, "response", G_CALLBACK(leaving_answered), leaving,
+			      leaving_free, 0);
+	gtk_window_present(GTK_WINDOW(leaving->dialog));
+	gtk_widget_grab_focus(leaving->line);
+	g_free(name);
+	g_free(heading);
+}
+
+static void ask_copy(struct leaving *leaving, int pou)
+{
+	char *needs = pou_export_needs(leaving->document, pou);
+	char *heading = g_strdup_printf(_("Copy “%s” to another file"), leaving->name);
+	char *body = g_strdup_printf(_("These are copied: %s. A name that means something else there "
+				       "is changed in the copy."), needs);
+
+	leaving->dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(leaving->widget)), heading, body,
+				  "choose", _("Choose file…"), ADW_RESPONSE_SUGGESTED);
+	g_signal_connect_data(leaving->dialog, "response", G_CALLBACK(leaving_answered), leaving,
+			      leaving_free, 0);
+	gtk_window_present(GTK_WINDOW(leaving->dialog));
+	g_free(body);
+	g_free(heading);
+	g_free(needs);
+}
+
+/* Why nothing can be copied or moved; NULL: it can. */
+static const char *leaving_refusal(LadderDocument *document, int pou, bool moves)
+{
+	const struct project *project = ladder_document_project(document);
+
+	if (!project || !ladder_document_is_whole(document))
+		return _("Nothing can be copied or moved while a text of the project cannot be "
+			 "read");
+	if (pou < 0 || project->pou[pou].included)
+		return _("It is declared in another file");
+	return moves && !ladder_document_path(document) ?
+	       _("Save the project first. The other file is found beside it.") : NULL;
 }
 
 void pou_export_ask(GtkWidget *widget, LadderDocument *document, int pou, bool moves)
 {
+	const char *why = leaving_refusal(document, pou, moves);
 	const struct project *project = ladder_document_project(document);
 	struct leaving *leaving;
-	AdwMessageDialog *dialog;
-	char *needs, *body, *heading;
 
-	if (!project || !ladder_document_is_whole(document)) {
-		gtk_widget_activate_action(widget, "win.warn", "s",
-			_("Nothing can be copied or moved while a text of the project cannot be "
-			  "read"));
+	if (why) {
+		gtk_widget_activate_action(widget, "win.warn", "s", why);
 		return;
 	}
-	if (pou < 0 || project->pou[pou].included) {
-		gtk_widget_activate_action(widget, "win.tell", "s",
-					   _("It is declared in another file"));
-		return;
-	}
-	if (moves && pou_uses(document, pou) > 0) {
-		gtk_widget_activate_action(widget, "win.warn", "s",
-			_("It is used in this project, so it cannot be moved away. Copy it "
-			  "instead."));
-		return;
-	}
-	leaving = g_new(struct leaving, 1);
-	*leaving = (struct leaving){ g_object_ref(widget), g_object_ref(document),
-		g_strdup(project_text(project, project->pou[pou].name)), moves };
-	needs = pou_export_needs(document, pou);
-	heading = g_strdup_printf(moves ? _("Move “%s” to another file") :
-				  _("Copy “%s” to another file"), leaving->name);
-	body = g_strdup_printf(_("These are copied: %s. A name that means something else there "
-				 "is changed in the copy."), needs);
-	dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(widget)), heading, body, "choose",
-			 _("Choose file…"), ADW_RESPONSE_SUGGESTED);
-	g_signal_connect_data(dialog, "response", G_CALLBACK(ask_target), leaving, leaving_free,
-			      0);
-	gtk_window_present(GTK_WINDOW(dialog));
-	g_free(body);
-	g_free(heading);
-	g_free(needs);
+	leaving = leaving_new(widget, document, project_text(project, project->pou[pou].name),
+			      moves);
+	if (moves)
+		ask_move(leaving, pou);
+	else
+		ask_copy(leaving, pou);
 }

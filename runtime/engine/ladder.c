@@ -85,6 +85,7 @@ void ladder_free(struct ladder *ladder)
 		return;
 	unload(ladder);
 	ladder_set_foreign(ladder, NULL);
+	ladder_set_files(ladder, NULL);
 	free(ladder);
 }
 
@@ -114,17 +115,27 @@ static bool no_memory(struct ladder *ladder, const char *file)
 
 void ladder_set_files(struct ladder *ladder, const struct ladder_files *files)
 {
+	if (ladder->files.free)
+		ladder->files.free(ladder->files.context);
 	ladder->files = files ? *files : (struct ladder_files){ .load = NULL };
+}
+
+struct ladder_files ladder_files(const struct ladder *ladder)
+{
+	struct ladder_files files = ladder->files;
+
+	files.free = NULL;
+	return files;
 }
 
 static char *load_named(const struct ladder *ladder, const char *path, size_t *len)
 {
-	char *text;
+	const struct ladder_files *files = &ladder->files;
+	char *text = files->load ? files->load(files->context, path, len) : NULL;
 
 	errno = 0;
-	if (!ladder->files.load)
+	if (!text && (!files->load || files->or_disk))
 		return file_read(path, LIMIT_TEXT, len, NULL);
-	text = ladder->files.load(ladder->files.context, path, len);
 	errno = text ? 0 : ENOENT;
 	return text;
 }

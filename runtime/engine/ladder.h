@@ -70,9 +70,13 @@ struct ladder_files {
 	 * folder of the file that names it. */
 	char *(*load)(void *context, const char *path, size_t *len);
 	void *context;
+	bool or_disk;                /* a file that load() does not have is on the disk */
+	void (*free)(void *context); /* with the ladder, or when others are set; NULL: borrowed */
 };
 /** ladder_set_files - for later loads. @files: copied; NULL, as at first: the disk. */
 void ladder_set_files(struct ladder *ladder, const struct ladder_files *files);
+/** ladder_files - the present ones, borrowed. */
+struct ladder_files ladder_files(const struct ladder *ladder);
 
 /**
  * ladder_load - reads a rung file or a code image

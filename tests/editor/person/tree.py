@@ -608,7 +608,7 @@ END_VAR
 
 PROGRAM Main LD
 RUNG
-  | NO %IX0.0 | Scaled X:=%IW2 A:=2 OUT=>R |
+  | NO %IX0.0 | Scaled X:=3 A:=2 OUT=>R |
 END_PROGRAM
 
 PROGRAM Wash SFC
@@ -684,7 +684,7 @@ def declares(screen):
     fill(cell('Count, Initial value', '3'), '7')
     assert editor.save(path) == SHEETS.replace('INT := 3', 'INT := 7')
     editor.click(editor.find('Simulate'))
-    until(lambda: editor.all('Run or pause'), 'the simulation')
+    until(lambda: editor.all('SIMULATION'), 'the simulation')
     fill(cell('Count, Name', 'Count'), 'Rinses')
     text = editor.save(path)
     assert '  Rinses : INT := 7; (* rinses left *)' in text and ':= Rinses > 0;' in text, text
@@ -697,7 +697,70 @@ def declares(screen):
 
 
 def to_file(screen):
-    """a program moves to another file: first it is saved there, then deleted here; undo restores it here"""
+    """a block that is used moves to a new file, which the project includes; one undo restores both; a kill loses nothing"""
+    path = new_file(screen, MOTOR)
+    part = os.path.join(screen.home, 'drive.rung')
+    motor = MOTOR[MOTOR.index('FUNCTION_BLOCK'):]
+    rest = MOTOR.replace(motor, 'INCLUDE "drive.rung"\n')
+    editor = Editor(screen, path)
+
+    def row(name):
+        return [n for n in editor.all(name, 'label') if n.name == name and 0 < n.box()[0] < 200]
+
+    def move():
+        editor.click(until(lambda: row('Motor'), 'the block in the tree')[0])
+        editor.keys('Menu')
+        until(lambda: editor.all('Move to file…', 'menu item'), 'the menu of the row')
+        until(lambda: menu_item(editor, 'Move to file…') or editor.keys('Down'), 'the entry')
+        editor.keys('Return')
+        until(lambda: [n for n in editor.all('Name of the file', 'text') if n.has(12) and n.text() == 'Motor.rung'], 'the name')
+
+    def titles():
+        return [n.name for n in editor.all('drive.rung', 'label') if n.box()[0] > 200 and n.box()[1] < 100]
+    move()
+    editor.keys('ctrl+a')
+    editor.type('new')
+    until(lambda: [n for n in editor.all('The file exists.', 'label') if n.box()[2] > 0], 'the refusal')
+    editor.shot('tree-move-refused')
+    editor.keys('ctrl+a')
+    editor.type('drive')
+    editor.shot('tree-move')
+    editor.keys('Return')
+    editor.says('“Motor” is now in “drive.rung”, which this project includes')
+    until(lambda: titles() == ['• drive.rung'], 'the page of the file, which is not saved')
+    assert not os.path.exists(part) and open(path).read() == MOTOR
+    editor.shot('tree-moved')
+    editor.keys('ctrl+z')
+    until(lambda: not titles(), 'the page to be closed')
+    assert row('Motor') and not editor.all('• new.rung', 'label')
+    editor.keys('ctrl+y')
+    until(lambda: titles() == ['• drive.rung'], 'the page again')
+    editor.keys('ctrl+s')  # in the page of the part: both are saved
+    until(lambda: os.path.exists(part) and open(path).read() == rest, 'both files')
+    assert open(part).read() == 'RUNGBOARD 1\n\n' + motor, open(part).read()
+    check(path)
+    editor.keys('ctrl+z', 'ctrl+s')
+    until(lambda: not os.path.exists(part) and open(path).read() == MOTOR, 'both files as before')
+    move()
+    editor.keys('ctrl+a')
+    editor.type('drive')
+    editor.keys('Return')
+    until(lambda: titles() == ['• drive.rung'], 'the page of the file')
+    drafts = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
+    until(lambda: os.path.isdir(drafts) and sum(motor in open(os.path.join(drafts, name)).read() for name in os.listdir(drafts)) == 1
+          and len(os.listdir(drafts)) == 2, 'drafts of both')
+    editor.kill()
+    editor = Editor(screen)
+    editor.shot('tree-move-again')
+    until(lambda: titles() == ['• drive.rung'] and row('Motor'), 'both drafts')
+    until(lambda: editor.all('no problems'), 'a project that can be read')
+    editor.keys('ctrl+s')
+    until(lambda: os.path.exists(part) and open(path).read() == rest, 'both files')
+    check(path)
+
+
+def to_project(screen):
+    """to a file with programs of its own a program moves with what it needs; a block that is used here is refused"""
     path = new_file(screen, MORE)
     other = os.path.join(screen.home, 'other.rung')
     with open(other, 'w') as out:
@@ -710,15 +773,12 @@ def to_file(screen):
     until(lambda: editor.all('Move to file…', 'menu item'), 'the menu of the row')
     until(lambda: menu_item(editor, 'Move to file…') or editor.keys('Down'), 'the entry')
     editor.keys('Return')
-    until(lambda: editor.all('These are copied: Third.', 'label'), 'what is copied')
-    editor.shot('tree-move')
-    editor.give_path(other, lambda: editor.reply('Choose file…'))
+    editor.give_path(other, lambda: editor.reply('Existing file…'))
     until(lambda: not [n for n in editor.all('Third', 'label') if n.name == 'Third'], 'it to be gone here')
-    assert open(other).read() == there + third, open(other).read()
     assert editor.save(path) == MORE.replace(third, ''), open(path).read()
-    editor.keys('ctrl+z')
-    assert editor.save(path) == MORE
-    assert open(other).read() == there + third
+    assert open(other).read() == there + third, open(other).read()
+    editor.keys('ctrl+z', 'ctrl+s')
+    until(lambda: open(path).read() == MORE and open(other).read() == there, 'both files as before')
 
 
 def beside(screen):
@@ -766,4 +826,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, declares, to_file, beside])
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, declares, to_file, to_project, beside])
