@@ -6,9 +6,9 @@
 
 #include "editor-gtk/document/pou_file.h"
 #include "editor-gtk/document/pou_import.h"
-#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/ask.h"
+#include "editor-gtk/window/naming.h"
 
 #include <string.h>
 
@@ -164,19 +164,22 @@ struct leaving {
 	LadderDocument *document;
 	char *name;
 	bool moves;
-	AdwMessageDialog *dialog; /* that asks for the name of a new file        */
-	GtkWidget *line, *why;
 };
 
-static void leaving_free(gpointer data, GClosure *closure)
+static void leaving_free(gpointer data)
 {
 	struct leaving *leaving = data;
 
-	(void)closure;
 	g_object_unref(leaving->document);
 	g_object_unref(leaving->widget);
 	g_free(leaving->name);
 	g_free(leaving);
+}
+
+static void leaving_closed(gpointer data, GClosure *closure)
+{
+	(void)closure;
+	leaving_free(data);
 }
 
 static struct leaving *leaving_new(GtkWidget *widget, LadderDocument *document, const char *name,
@@ -224,82 +227,70 @@ static void ask_target(struct leaving *leaving)
 
 	g_signal_connect_data(chooser, "response", G_CALLBACK(target_chosen),
 		leaving_new(leaving->widget, leaving->document, leaving->name, leaving->moves),
-		leaving_free, 0);
+		leaving_closed, 0);
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
 }
 
-static char *name_typed(const struct leaving *leaving)
+/* Why no new file can have the name. */
+static char *file_refusal(gpointer data, const char *name)
 {
-	return g_strstrip(g_strdup(gtk_editable_get_text(GTK_EDITABLE(leaving->line))));
+	return pou_file_refusal(((struct leaving *)data)->document, name);
 }
 
-static void leaving_answered(AdwMessageDialog *dialog, const char *answer,
-			     struct leaving *leaving)
+static void file_named(gpointer data, const char *name)
 {
-	char *name, *path;
+	struct leaving *leaving = data;
+	char *path = pou_file_path(leaving->document, name);
 
-	(void)dialog;
-	if (strcmp(answer, "choose") == 0) {
-		ask_target(leaving);
-	} else if (strcmp(answer, "make") == 0) {
-		name = name_typed(leaving);
-		path = pou_file_path(leaving->document, name);
-		leave(leaving, path);
-		g_free(path);
-		g_free(name);
-	}
+	leave(leaving, path);
+	g_free(path);
 }
 
-/* Shows at the entry why no file can have the name. */
-static void judge(struct leaving *leaving)
+static void other_wanted(gpointer data)
 {
-	char *name = name_typed(leaving);
-
-	ask_refuse(leaving->dialog, "make", leaving->line, leaving->why,
-		   pou_file_refusal(leaving->document, name));
-	g_free(name);
+	ask_target(data);
 }
 
-/* Asks for the name of a new file, or for another one. */
+static const struct naming_how new_file = { file_refusal, file_named, leaving_free };
+
+/* Asks for the name of a new file, or for another one. @leaving: taken over. */
 static void ask_move(struct leaving *leaving, int pou)
 {
-	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
 	char *heading = g_strdup_printf(_("Move “%s” to another file"), leaving->name);
 	char *name = pou_file_name(leaving->document, pou);
+	struct naming *naming = naming_new(GTK_WINDOW(gtk_widget_get_root(leaving->widget)),
+		heading, _("Move to new file"), _("Name of the file"), &new_file, leaving);
 
-	leaving->dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(leaving->widget)), heading,
-		_("The project includes the file, so all that uses it goes on to work."), "make",
-		_("Move to new file"), ADW_RESPONSE_SUGGESTED);
-	adw_message_dialog_add_response(leaving->dialog, "choose", _("Existing file…"));
-	leaving->line = ask_entry(_("Name of the file"));
-	leaving->why = ask_why();
-	gtk_editable_set_text(GTK_EDITABLE(leaving->line), name);
-	gtk_box_append(GTK_BOX(box), leaving->line);
-	gtk_box_append(GTK_BOX(box), leaving->why);
-	spoken_parts(box);
-	adw_message_dialog_set_extra_child(leaving->dialog, box);
-	judge(leaving);
-	g_signal_connect_swapped(leaving->line, "changed", G_CALLBACK(judge), leaving);
-	g_signal_connect_data(leaving->dialog, "response", G_CALLBACK(leaving_answered), leaving,
-			      leaving_free, 0);
-	gtk_window_present(GTK_WINDOW(leaving->dialog));
-	gtk_widget_grab_focus(leaving->line);
+	naming_say(naming, _("The project includes the file, so all that uses it goes on to "
+			     "work."));
+	naming_other(naming, _("Existing file…"), other_wanted);
+	naming_set(naming, name);
+	naming_show(naming);
 	g_free(name);
 	g_free(heading);
 }
 
+static void copy_answered(AdwMessageDialog *dialog, const char *answer, struct leaving *leaving)
+{
+	(void)dialog;
+	if (strcmp(answer, "choose") == 0)
+		ask_target(leaving);
+}
+
+/* @leaving: taken over. */
 static void ask_copy(struct leaving *leaving, int pou)
 {
+	AdwMessageDialog *dialog;
 	char *needs = pou_export_needs(leaving->document, pou);
 	char *heading = g_strdup_printf(_("Copy “%s” to another file"), leaving->name);
 	char *body = g_strdup_printf(_("These are copied: %s. A name that means something else there "
 				       "is changed in the copy."), needs);
 
-	leaving->dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(leaving->widget)), heading, body,
-				  "choose", _("Choose file…"), ADW_RESPONSE_SUGGESTED);
-	g_signal_connect_data(leaving->dialog, "response", G_CALLBACK(leaving_answered), leaving,
-			      leaving_free, 0);
-	gtk_window_present(GTK_WINDOW(leaving->dialog));
+	dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(leaving->widget)), heading, body, "choose",
+			 _("Choose file…"), ADW_RESPONSE_SUGGESTED);
+	g_signal_connect_data(dialog, "response", G_CALLBACK(copy_answered), leaving,
+			      leaving_closed, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
 	g_free(body);
 	g_free(heading);
 	g_free(needs);
