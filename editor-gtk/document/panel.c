@@ -181,7 +181,7 @@ int panel_heading_width(GtkWidget *view, const char *name)
 
 #define LABEL_ROOM 24   /* padding of a cell with a label                       */
 #define CELL_ROOM 36    /* of one that is edited                                */
-#define BUTTON_ROOM 50  /* of one with an arrow                                 */
+#define BUTTON_ROOM 54  /* of one with an arrow                                 */
 #define ICON_ROOM 34    /* a column of icons                                    */
 #define COLUMN_MOST 260 /* for a longer text a column gets no wider             */
 
