@@ -396,6 +396,7 @@ static bool reads(const struct project *project, int table, uint16_t flags,
 
 	if (!ladder)
 		g_error("out of memory");
+	ladder_leave_expressions(ladder, true);
 	add_words(text, project);
 	add_place(text, project, table, flags, line);
 	good = ladder_load_text(ladder, "", text->str, text->len) && ladder_project(ladder);

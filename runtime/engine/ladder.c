@@ -34,6 +34,7 @@ struct ladder {
 	size_t image_len;
 	struct program program;
 	bool good, built, unreadable, watch; /* good: the last load succeeded */
+	bool leaves;              /* constant expressions are not computed  */
 	struct foreign *foreign;  /* NULL: rung files and images alone      */
 	struct ladder_files files; /* load NULL: the disk                    */
 };
@@ -226,7 +227,8 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 	if (ladder->project->arena.failed)
 		good = no_memory(ladder, file);
 	arena_reset(&ladder->scratch);
-	return good && settle_project(ladder->project, &ladder->scratch, &ladder->diags);
+	return good && (ladder->leaves ||
+			settle_project(ladder->project, &ladder->scratch, &ladder->diags));
 }
 
 static void place_foreign(struct ladder *ladder)
@@ -270,6 +272,11 @@ bool ladder_load(struct ladder *ladder, const char *path)
 	place_foreign(ladder);
 	free(bytes);
 	return ladder->good;
+}
+
+void ladder_leave_expressions(struct ladder *ladder, bool leave)
+{
+	ladder->leaves = leave;
 }
 
 void ladder_watch(struct ladder *ladder, bool watch)
@@ -428,7 +435,7 @@ static bool build(struct ladder *ladder)
 	struct project *project = ladder->project;
 	uint8_t **bad;
 
-	if (!project || ladder->built || ladder->diags.errors)
+	if (!project || ladder->built || ladder->diags.errors || ladder->leaves)
 		return ladder->program.header && ladder->diags.errors == 0;
 	ladder->built = true;
 	if (!begin_translation(ladder))

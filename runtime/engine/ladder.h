@@ -92,6 +92,11 @@ bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
  * (exit status 2 of the command line). */
 bool ladder_could_read(const struct ladder *ladder);
 
+/** ladder_leave_expressions - whether later loads leave the constant expressions of declarations
+ * as they are: a part of a program names constants of the rest. Nothing can be built then. Off
+ * at first. */
+void ladder_leave_expressions(struct ladder *ladder, bool leave);
+
 /** ladder_watch - whether later builds make the instrumented section, too, so that the
  * power of every cell can be read. Off at first. */
 void ladder_watch(struct ladder *ladder, bool watch);
