@@ -460,11 +460,6 @@ LadderPanelRow *panel_list_row(struct panel_list *list)
 	return gtk_single_selection_get_selected_item(list->selection);
 }
 
-bool panel_list_has(struct panel_list *list, LadderPanelRow *row)
-{
-	return g_list_store_find(list->store, row, NULL);
-}
-
 void panel_list_go(struct panel_list *list, guint at)
 {
 	gtk_single_selection_set_selected(list->selection, at);
