@@ -33,9 +33,28 @@ static void asking_free(gpointer data, GClosure *closure)
 
 /* ---- which POUs ---- */
 
+/* Brings the first of the imported POUs to the front. @before: POUs without them. */
+static void show_first(struct asking *asking, const bool *wanted, int before)
+{
+	const struct project *from = ladder_project(asking->from);
+	const struct project *project = ladder_document_project(asking->document);
+	const char *name = NULL;
+	int pou;
+
+	for (int i = from->pou_count - 1; i >= 0; i--)
+		name = wanted[i] ? project_text(from, from->pou[i].name) : name;
+	if (!project || !name || project->pou_count <= before)
+		return;
+	pou = project_find_pou(project, name, strlen(name));
+	gtk_widget_activate_action(asking->widget, "win.go-to", "(iiii)",
+				   pou >= 0 ? pou : before, -1, -1, -1);
+}
+
 static void chosen(AdwMessageDialog *dialog, const char *response, struct asking *asking)
 {
 	const guint count = asking->checks->len;
+	const struct project *project = ladder_document_project(asking->document);
+	const int before = project ? project->pou_count : 0;
 	bool *wanted = g_new0(bool, count + 1), any = false;
 	GString *told = g_string_new(NULL);
 
@@ -45,10 +64,12 @@ static void chosen(AdwMessageDialog *dialog, const char *response, struct asking
 		any = any || wanted[i];
 	}
 	if (any && g_strcmp0(response, "import") == 0) {
-		if (pou_import(asking->document, asking->from, wanted, told))
-			gtk_widget_activate_action(asking->widget, "win.tell", "s", told->str);
-		else
-			gtk_widget_activate_action(asking->widget, "win.warn", "s", told->str);
+		const bool good = pou_import(asking->document, asking->from, wanted, told);
+
+		if (good)
+			show_first(asking, wanted, before);
+		gtk_widget_activate_action(asking->widget, good ? "win.tell" : "win.warn", "s",
+					   told->str);
 	}
 	g_string_free(told, TRUE);
 	g_free(wanted);
@@ -104,7 +125,7 @@ static void ask_which(GtkWidget *widget, LadderDocument *document, struct ladder
 {
 	AdwMessageDialog *dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(widget)), _("Import"),
 		_("The symbols, structures and blocks that they use are imported too."), "import",
-		_("Import"), ADW_RESPONSE_DEFAULT);
+		_("Import"), ADW_RESPONSE_SUGGESTED);
 	struct asking *asking = g_new0(struct asking, 1);
 
 	asking->widget = g_object_ref(widget);
