@@ -316,7 +316,8 @@ static void test_kinds_and_callers(void)
 	CHECK(is_kind_refused("Motor", "Run", 0, "connected to “Run”"));
 	CHECK(pin_calls(document, number_of(pou_named("Motor")), pin("Motor", "Wait")) == 1 &&
 	      pin_calls(document, number_of(pou_named("Motor")), pin("Motor", "Late")) == 0 &&
-	      pin_calls(document, number_of(pou_named("Motor")), pin("Motor", "Inner")) == 0);
+	      pin_calls(document, number_of(pou_named("Motor")), pin("Motor", "Inner")) == 0 &&
+	      pin_calls(document, number_of(pou_named("Motor")), pin("Motor", "Start")) == 0);
 	CHECK(!set_kind("Motor", "Wait", VAR_OUTPUT) &&
 	      is_order("Motor", VAR_OUTPUT, "Run Late Sum Wait"));
 	CHECK_AS(!builds(), "the caller that gives it an operand has an error");

@@ -55,12 +55,21 @@ static void file_opened(LadderDocument *of, LadderSideFile *file, gpointer unuse
 	g_set_object(&opened, file);
 }
 
+static int lost; /* times that the project could not be read             */
+
+static void project_changed(LadderDocument *of, gpointer unused)
+{
+	(void)unused;
+	lost += !ladder_document_project(of);
+}
+
 static void open_main(const char *text)
 {
 	g_clear_object(&opened);
 	g_clear_object(&document);
 	document = ladder_document_new();
 	g_signal_connect(document, "file-opened", G_CALLBACK(file_opened), NULL);
+	g_signal_connect(document, "project-changed", G_CALLBACK(project_changed), NULL);
 	put("main.rung", text);
 	CHECK(ladder_document_open(document, own, NULL) && ladder_document_project(document));
 }
@@ -338,6 +347,7 @@ int main(void)
 	test_names();
 	g_clear_object(&opened);
 	g_clear_object(&document);
+	CHECK_AS(lost == 0, "the project can be read at every moment of a move, an undo and a redo");
 	clean = g_strdup_printf("rm -r '%s'", folder);
 	CHECK(g_spawn_command_line_sync(clean, NULL, NULL, NULL, NULL));
 	g_free(clean);
