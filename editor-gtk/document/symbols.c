@@ -199,6 +199,21 @@ static bool has_name(struct project *project, int table, const char *name)
 	return ladder_name_fault(name) != DIAG_COUNT;
 }
 
+int symbol_find(LadderDocument *document, int table, const char *name, int index)
+{
+	struct project *project = ladder_document_project(document);
+	const struct var_table *vars = project ? xref_table(project, table) : NULL;
+	const int count = vars ? vars_declared(vars) : 0;
+
+	if (index >= 0 && index < count &&
+	    strcmp(project_text(project, vars->var[index].name), name) == 0)
+		return index;
+	for (int i = 0; i < count; i++)
+		if (strcmp(project_text(project, vars->var[i].name), name) == 0)
+			return i;
+	return -1;
+}
+
 char *symbol_free_name(LadderDocument *document, int table, const char *like)
 {
 	struct project *project = ladder_document_project(document);

@@ -21,7 +21,6 @@
 #include "editor-gtk/text/text_view.h"
 
 #include "engine/base/name.h"
-#include "engine/xref/xref.h"
 
 #include <adwaita.h>
 #include <string.h>
@@ -357,14 +356,8 @@ static void mapped(GtkWidget *widget)
 /* The index of a pin now: rows are updated with a delay. -1: deleted. */
 static int index_of(LadderInterfaceView *view, const LadderPanelRow *row)
 {
-	struct project *project = ladder_document_project(document_of(view));
-	const struct var_table *vars = project ? xref_table(project, row->table) : NULL;
-
-	for (int i = 0; vars && i < vars_declared(vars); i++)
-		if (strcmp(project_text(project, vars->var[i].name),
-			   panel_row_text(row, FIELD_NAME)) == 0)
-			return i;
-	return -1;
+	return symbol_find(document_of(view), row->table, panel_row_text(row, FIELD_NAME),
+			   row->index);
 }
 
 /* That @calls callers have operands at a pin, which has another kind now; NULL: none has. */
@@ -532,15 +525,11 @@ static void move(GtkWidget *widget, const char *action, GVariant *unused)
 
 static void delete_now(LadderInterfaceView *view, int table, const char *name)
 {
-	const struct pou *pou = pou_of(view);
-	const struct project *project = ladder_document_project(document_of(view));
+	const int index = symbol_find(document_of(view), table, name, -1);
 	char *why = NULL;
 
-	for (int i = 0; pou && i < vars_declared(&pou->vars); i++)
-		if (strcmp(project_text(project, pou->vars.var[i].name), name) == 0) {
-			symbol_delete(document_of(view), table, i, &why);
-			break;
-		}
+	if (index >= 0)
+		symbol_delete(document_of(view), table, index, &why);
 	refresh(GTK_WIDGET(view));
 	tell(view, why, true);
 }

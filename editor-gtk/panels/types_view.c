@@ -13,8 +13,6 @@
 #include "editor-gtk/kit/row_move.h"
 #include "editor-gtk/panels/type_cells.h"
 
-#include "engine/xref/xref.h"
-
 #include <string.h>
 
 /* A column behind the fields. */
@@ -165,14 +163,8 @@ static void type_changed(GtkDropDown *types, GParamSpec *spec, LadderTypesView *
 /* The index of a row now: rows are updated with a delay. -1: deleted. */
 static int index_of(LadderTypesView *view, const LadderPanelRow *row)
 {
-	struct project *project = ladder_document_project(document_of(view));
-	const struct var_table *vars = project ? xref_table(project, row->table) : NULL;
-
-	for (int i = 0; vars && i < vars->count; i++)
-		if (strcmp(project_text(project, vars->var[i].name),
-			   panel_row_text(row, FIELD_NAME)) == 0)
-			return i;
-	return -1;
+	return symbol_find(document_of(view), row->table, panel_row_text(row, FIELD_NAME),
+			   row->index);
 }
 
 static const char *field_name(int field)
