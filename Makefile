@@ -39,8 +39,8 @@ ENGINE   := $(filter-out %_small.c,$(wildcard runtime/engine/*.c runtime/engine/
 # store something by name.
 CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
 CORE     := $(filter-out $(if $(filter 1,$(SMALL)),$(addprefix runtime/engine/base/,catalog.c explain.c iec_print.c literal.c \
-            name.c names.c nearest.c plain.c sink.c) $(addprefix runtime/engine/scan/,carry.c code_print.c code_strip.c retain.c \
-            retain_plan.c retain_slot.c symbols.c symbol_index.c),%_small.c),$(CORE))
+            name.c names.c nearest.c plain.c sink.c) $(addprefix runtime/engine/scan/,carry.c carry_losses.c carry_moves.c \
+            carry_plan.c code_print.c code_strip.c retain.c retain_plan.c retain_slot.c symbols.c symbol_index.c),%_small.c),$(CORE))
 # SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def.
 ifeq ($(WORDS),core)
 CORE     := $(filter-out $(addprefix runtime/engine/base/,big.c decimal.c number.c) \
@@ -53,7 +53,7 @@ $(call obj,$(ENGINE)): WARN += $(FRAME)
 # Files that run once per load are compiled for size; for boards, also some that make loading fast here.
 OFTEN    := $(addprefix runtime/ladderd/,cycle.c stats.c wall.c)
 ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c \
-            $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/code*.c scan/declared.c \
+            $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/carry_*.c scan/code*.c \
             scan/retain_*.c scan/symbols.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
             hal/gpio_find.c hal/hal_open.c hal/iomap*.c)
 ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*.c model/*.c translate/*.c ladder.c \
@@ -602,7 +602,7 @@ endif
 quick: all $(QUICK_TESTS) ## test a change of one room in a minute: ROOM=editor-gtk/live, or the rooms with changes in git
 	@echo "quick: $(or $(QUICK),no room)"
 	$(QUICK_ENV) prove -j$(JOBS) -e '' $(JOURNEYS) tests/golden.t tests/floors.sh tests/quiet.sh tests/banned.pl $(QUICK_TESTS)
-$(BUILD)/tests/bench/record: $(BUILD)/tests/bench/record.o $(BUILD)/libladder.a
+$(BUILD)/tests/bench/record $(BUILD)/tests/bench/carry: %: %.o $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 bench: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/bench/record ## speed, load time and size, as a table
 	@BUILD=$(BUILD) CC='$(CC)' tests/bench/bench.sh

@@ -19,9 +19,9 @@ say() {
 	printf '%s\n' "$3" | sed '/^$/d; s/^/#   /'
 }
 
-# Files of scan/ that run in a scan; the others are called between scans (symbols, carry,
+# Files of scan/ that run in a scan; the others are called between scans (symbols, plans,
 # text of an instruction, the verifier) and may use more.
-between='code|code_[a-z]*|declared|carry|symbols|symbol_index|retain_[a-z]*'
+between='code|code_[a-z]*|declared|carry_[a-z]*|symbols|symbol_index|retain_[a-z]*'
 scan=
 for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
