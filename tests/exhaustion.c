@@ -11,6 +11,7 @@
  */
 #include "engine/ladder.h"
 #include "engine/base/file.h"
+#include "engine/scan/carry.h"
 #include "engine/trial/record.h"
 #include "tests/tap.h"
 
@@ -309,12 +310,104 @@ static void starve_twin(void)
 	ladder_free(ladder);
 }
 
+/* ---- a change of the running program ---- */
+
+/* Fails until @n allocations are enough; then the plan must be one. Returns their number;
+ * -1: a plan was made although an allocation failed, or there was none at last. */
+static long starve_change(const struct program *to, const struct program *from)
+{
+	long n;
+
+	for (n = 0; n < 400; n++) {
+		const struct carry_plan *plan;
+		struct arena arena;
+		bool wrong;
+
+		arena_init(&arena);
+		refused = 0;
+		left = n;
+		plan = carry_plan_new(to, from, &arena);
+		left = -1;
+		wrong = plan ? refused > 0 : refused == 0;
+		arena_free(&arena);
+		if (wrong)
+			return -1;
+		if (plan)
+			return n;
+	}
+	return -1;
+}
+
+/* A program of @count variables, forward or backward, with texts, edges and initial values:
+ * the plan moves each by itself. */
+static struct ladder *load_many(int count, bool back)
+{
+	struct ladder *ladder = ladder_new();
+	const size_t size = 200 * (size_t)count + 200;
+	char *text = __real_malloc(size);
+	size_t used = (size_t)snprintf(text, size, "RUNGBOARD 1\nVAR\n");
+
+	for (int i = 0; i < count; i++) {
+		const int n = back ? count - i : i;
+
+		used += (size_t)snprintf(text + used, size - used, "  N%d : INT := %d;\n"
+					 "  T%d : STRING[%d] := '%d';\n  B%d : BOOL;\n",
+					 n, back, n, 4 + back, back, n);
+	}
+	used += (size_t)snprintf(text + used, size - used, "END_VAR\nPROGRAM Main LD\n");
+	for (int i = 1; i < count; i++)
+		used += (size_t)snprintf(text + used, size - used,
+					 "RUNG\n  | %s B%d | COIL %%QX1.1 |\n",
+					 back ? "P" : "N", i);
+	used += (size_t)snprintf(text + used, size - used, "END_PROGRAM\n");
+	CHECK_AS(ladder_load_text(ladder, "many.rung", text, used) && ladder_build(ladder),
+		 "a program with many variables");
+	__real_free(text);
+	return ladder;
+}
+
+/* Different programs, so that memory runs out at different places. */
+static void starve_changes(void)
+{
+	static const char *const file[] = {
+		"ladders/garage-door.rung", "ladders/lift.rung", "ladders/recipe.rung",
+		"ladders/traffic-crossing.rung", "tests/fuzz/corpus/code/random-100.rung",
+		"tests/fuzz/corpus/code/tasks.rung", "tests/fuzz/corpus/code/arrays-in-blocks.rung",
+	};
+	enum { FILES = sizeof(file) / sizeof(*file), ALL = FILES + 4 };
+	struct ladder *ladder[ALL];
+	long before, all = 0, most = 0, wrong = 0;
+
+	for (int i = 0; i < FILES; i++) {
+		ladder[i] = ladder_new();
+		CHECK_AS(ladder_load(ladder[i], file[i]) && ladder_build(ladder[i]), file[i]);
+	}
+	for (int i = 0; i < 4; i++)
+		ladder[FILES + i] = load_many(i < 2 ? 300 : 3000, i & 1);
+	before = live + mapped;
+	for (int i = 0; i < ALL * ALL; i++) {
+		const long n = starve_change(ladder_program(ladder[i / ALL]),
+					     ladder_program(ladder[i % ALL]));
+
+		wrong += n < 1;
+		all += n;
+		most = n > most ? n : most;
+	}
+	printf("# %d changes of programs: %ld allocations, %ld of one\n", ALL * ALL, all, most);
+	CHECK_AS(wrong == 0, "a change without memory has no plan; with memory it has one");
+	CHECK_AS(most > 7 && all > 3 * ALL * ALL, "many allocations of a plan fail");
+	CHECK_AS(live + mapped == before, "a plan leaks nothing");
+	for (int i = 0; i < ALL; i++)
+		ladder_free(ladder[i]);
+}
+
 int main(int argc, char **argv)
 {
 	for (int i = 1; i < argc; i++)
 		starve_file(argv[i]);
 	if (argc == 1) {
 		starve_twin();
+		starve_changes();
 		starve_file("ladders/garage-door.rung");
 		starve_file("tests/fuzz/corpus/code/random-100.rung");
 		starve_file("tests/fuzz/corpus/code/il.rung");

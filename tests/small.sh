@@ -49,6 +49,11 @@ said $? 1 'LD104: not valid UTF-8'; say $? 'an I/O map that is not UTF-8: the sa
 printf '\377\376B\0O\0' >"$tmp/io"
 check small "$tmp/ton.rungc"
 said $? 1 'LD142: this is UTF-16'; say $? 'an I/O map in UTF-16: the same'
+# A change of the running program needs names, which it has not.
+for kind in small small-core; do
+	! ${NM:-nm} "$build/$kind/ladderd" | grep -i carry >"$tmp/out"
+	say $? "$kind: no plan of a change is linked"
+done
 # The messages of its sources must have a code and a text there.
 (cd "$build/small" && find runtime hal -name '*.o') | sed 's/o$/c/' | xargs grep -oh 'DIAG_[A-Z0-9_]*' |
 	sed 's/DIAG_//' | sort -u >"$tmp/given"

@@ -21,7 +21,7 @@ struct moves {
 	size_t begun_size, begun_room;
 };
 
-/* All: Owns: moves->arena. Scan-safe: no. Fails: never; see moves->arena->failed. */
+/* Of all: Owns: moves->arena. Scan-safe: no. Fails: see moves->arena->failed. */
 
 /** moves_areas - bytes and bits of all areas, as far as both programs have them. First. */
 void moves_areas(struct moves *moves);
@@ -32,8 +32,11 @@ void moves_instance(struct moves *moves, const struct word_row *row, uint32_t to
 		    uint32_t from);
 /** moves_seen - a BOOL of the new program from another one there. Last. */
 void moves_seen(struct moves *moves, struct location to, struct location of);
-/** moves_finish - puts the moves into a plan, with their cost; false: no memory in
- * @arena, which owns them. */
+/**
+ * moves_finish - puts the moves into a plan, with their cost
+ *
+ * Owns: @arena, as the plan. Scan-safe: no. Fails: false: no memory.
+ */
 bool moves_finish(struct moves *moves, struct carry_plan *plan, struct arena *arena);
 
 /** moves_sort - orders numbers, the smallest first. */
