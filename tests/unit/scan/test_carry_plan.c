@@ -11,7 +11,7 @@
 
 #include <strings.h>
 
-#define PAIRS 300
+#define PAIRS 200
 
 static struct made made;
 static struct random_source source;
@@ -589,7 +589,13 @@ static void end_change(struct change *change)
 	rig_close(&change->new);
 }
 
-/* Every variable that has an address is used as bits, too. */
+static bool holds(struct rig *rig, const char *name, int64_t value)
+{
+	return image_is_forced(&rig->resource.image, rig_at(rig, name)) &&
+	       rig_get(rig, name) == value;
+}
+
+/* Bits that have their own byte in an image, but not where a word shares it. */
 #define USES \
 	"PROGRAM Main LD\n" \
 	"RUNG\n  | NO %MX10.1 | NC %MX13.7 | NO %IX0.2 | COIL %QX0.0 |\n" \
@@ -652,6 +658,76 @@ static void test_addresses(void)
 	end_change(&change);
 }
 
+/* Each pair of numbers is one move; but what is written between them stays between. */
+static void test_order(void)
+{
+	struct change change;
+	struct rig *old = &change.old, *new = &change.new;
+
+	plan_change(&change,
+		    "VAR_GLOBAL\n  A AT %MW20 : INT;\n  Bit AT %MX40.0 : BOOL;\n"
+		    "  B AT %MW22 : INT;\n  C : DINT := 1;\n  Text : STRING[3] := 'a';\n"
+		    "  D : DINT := 1;\n  E : LINT := 1;\nEND_VAR\n" USES,
+		    "VAR_GLOBAL\n  A AT %MW10 : INT;\n  Bit AT %MX12.0 : BOOL;\n"
+		    "  B AT %MW12 : INT;\n  C : DINT := 2;\n  Text : STRING[3] := 'b';\n"
+		    "  D : DINT := 3;\n  E : LINT := 4;\nEND_VAR\n"
+		    "PROGRAM Main LD\nRUNG\n  | [ C := C + 1 ] |\nEND_PROGRAM\n");
+	rig_set(old, "A", 5);
+	rig_set(old, "B", 3);
+	rig_set(old, "Bit", 0);
+	rig_set(old, "D", 6);
+	apply(&change);
+	CHECK(rig_get(new, "A") == 5 && rig_get(new, "B") == 3 && rig_get(new, "Bit") == 1);
+	CHECK(rig_get(new, "C") == 2 && rig_get(new, "D") == 6 && rig_get(new, "E") == 4);
+	end_change(&change);
+}
+
+#define SIZES(more) \
+	"VAR_GLOBAL\n  A : INT;\nEND_VAR\nCONFIGURATION Sizes\n  AREA M 600;\n" more \
+	"END_CONFIGURATION\nPROGRAM Main LD\n" \
+	"RUNG\n  | NO %MX1.1 | COIL %MX2.2 |\n"
+
+/* Bits beyond the end of the smaller area go nowhere, and come from nowhere. */
+static void test_sizes(void)
+{
+	static const char small[] = SIZES("") "RUNG\n  | [ A := A + 1 ] |\nEND_PROGRAM\n";
+	static const char large[] =
+		"VAR_GLOBAL\n  A : INT;\nEND_VAR\nPROGRAM Main LD\n"
+		"RUNG\n  | NO %MX1.1 | NO %MX601.2 | COIL %MX602.2 |\nEND_PROGRAM\n";
+	struct change change;
+
+	plan_change(&change, large, small);
+	rig_set(&change.old, "%MX1.1", 1);
+	rig_set(&change.old, "%MX601.2", 1);
+	apply(&change);
+	CHECK(rig_get(&change.new, "%MX1.1") == 1);
+	CHECK(rig_get(&change.new, "%VX1.2") == 0); /* V begins behind M */
+	end_change(&change);
+	plan_change(&change, small, large);
+	rig_set(&change.old, "%MX1.1", 1);
+	rig_set(&change.old, "%VX1.2", 1);
+	apply(&change);
+	CHECK(rig_get(&change.new, "%MX1.1") == 1 && rig_get(&change.new, "%VX1.2") == 1);
+	CHECK(rig_get(&change.new, "%MX601.2") == 0);
+	end_change(&change);
+}
+
+/* Only a comment differs: the memory and the forces are copied. */
+static void test_same_code(void)
+{
+	struct change change;
+
+	plan_change(&change, "VAR_GLOBAL\n  A : INT;\n  Fast : INT;\nEND_VAR\n" USES,
+		    "VAR_GLOBAL\n  A : INT; (* more *)\n  Slow : INT;\nEND_VAR\n" USES);
+	rig_set(&change.old, "Fast", 5);
+	CHECK(rig_force(&change.old, "A", 4) && rig_force(&change.old, "%MX10.1", 1));
+	apply(&change);
+	CHECK(change.new.resource.image.force_count == 2 && holds(&change.new, "A", 4) &&
+	      holds(&change.new, "%MX10.1", 1));
+	CHECK(rig_get(&change.new, "Slow") == 5);
+	end_change(&change);
+}
+
 /* A plan knows no values: it can be applied to any state. */
 static void test_again(void)
 {
@@ -684,6 +760,7 @@ static void test_wrong_plan(void)
 	rig_set(&change.old, "Free", 99);
 	CHECK(!carry_apply(change.plan, &change.old.resource, &change.new.resource));
 	CHECK(!carry_apply(change.plan, &change.new.resource, &change.new.resource));
+	CHECK(!carry_apply(change.plan, &change.old.resource, &change.old.resource));
 	CHECK(memcmp(before, new->memory, size) == 0 && new->resource.scans == 0);
 	CHECK(rig_get(&change.old, "Free") == 99);
 	free(before);
@@ -691,6 +768,48 @@ static void test_wrong_plan(void)
 }
 
 /* ---- forces ---- */
+
+static char told[4096];
+static int misplaced;
+
+/* Whether the place is that of the name, or of the first of some elements. */
+static bool is_place(const struct image *image, const struct carry_loss *loss)
+{
+	const char *range = strstr(loss->name, "..");
+	char name[80];
+	struct location at;
+
+	snprintf(name, sizeof(name), "%.*s%s", range ? (int)(range - loss->name) : 60,
+		 loss->name, range ? "]" : "");
+	at = image_find(image, name, strlen(name));
+	return at.type == loss->at.type && at.where == loss->at.where;
+}
+
+static void tell(void *context, const struct carry_loss *loss)
+{
+	static const char *const word[] = { "gone", "new", "type", "block", "text", "force" };
+	const size_t used = strlen(told);
+
+	snprintf(told + used, sizeof(told) - used, "%s %s %d\n", word[loss->reason], loss->name,
+		 (int)loss->at.type);
+	if (loss->reason == CARRY_TEXT || loss->reason == CARRY_NEW)
+		misplaced += context && !is_place(context, loss);
+}
+
+static const char *losses(const struct change *change, const struct image *now)
+{
+	told[0] = '\0';
+	carry_plan_losses(change->plan, now, tell, (void *)&change->new.resource.image);
+	return told;
+}
+
+/* The lines of them that are about forces; they are the last. */
+static const char *force_losses(const struct change *change)
+{
+	const char *first = strstr(losses(change, &change->old.resource.image), "force ");
+
+	return first ? first : "";
+}
 
 static const char forced[] =
 	"VAR_GLOBAL\n  A : INT;\n  B : INT;\n  C : INT;\n  List : ARRAY[1..5] OF INT;\n"
@@ -706,14 +825,9 @@ static const char forced_again[] =
 	"PROGRAM Main LD\nVAR\n  Goes : INT;\n  Own : INT;\n  Wait : TOF;\nEND_VAR\n"
 	"RUNG\n  | NO %IX0.0 | TOF Wait PT:=T#1s | COIL %QX0.0 |\nEND_PROGRAM\n";
 
-static bool holds(struct rig *rig, const char *name, int64_t value)
-{
-	return image_is_forced(&rig->resource.image, rig_at(rig, name)) &&
-	       rig_get(rig, name) == value;
-}
-
 static void test_forces(void)
 {
+	struct location at;
 	struct change change;
 	struct rig *old = &change.old, *new = &change.new;
 
@@ -737,6 +851,17 @@ static void test_forces(void)
 	/* A variable of another POU is another variable. */
 	CHECK(!image_is_forced(&new->resource.image, rig_at(new, "Main.Goes")));
 	CHECK(rig_release(new, "B") && rig_get(new, "B") == 20);
+	CHECK(rig_get(new, "Fixed") == 3);
+	CHECK_TEXT(force_losses(&change), "force %MD58 4\nforce %MX60.0 1\n"
+		   "force List[2] 7\nforce Bits[1] 1\nforce Twin 7\nforce Goes 7\nforce Fixed 7\n");
+	end_change(&change);
+	/* Between two elements of an array there is none. */
+	plan_change(&change, forced, forced_again);
+	at = rig_at(old, "List[3]");
+	at.where++;
+	CHECK(image_force(&old->resource.image, at, (union iec_value){ .i = 5 }));
+	apply(&change);
+	CHECK(new->resource.image.force_count == 0);
 	end_change(&change);
 }
 
@@ -766,31 +891,12 @@ static void test_all_forces(void)
 
 /* ---- losses ---- */
 
-static char told[4096];
-
-static void tell(void *context, const struct carry_loss *loss)
-{
-	static const char *const word[] = { "gone", "new", "type", "block", "text", "force" };
-	const size_t used = strlen(told);
-
-	(void)context;
-	snprintf(told + used, sizeof(told) - used, "%s %s %d\n", word[loss->reason], loss->name,
-		 (int)loss->at.type);
-}
-
-static const char *losses(const struct change *change, const struct image *now)
-{
-	told[0] = '\0';
-	carry_plan_losses(change->plan, now, tell, NULL);
-	return told;
-}
-
 static const char lost[] =
 	"TYPE\n  Item : STRUCT\n    Speed : INT;\n    Name : STRING[8];\n  END_STRUCT;\nEND_TYPE\n"
 	"VAR_GLOBAL\n  Kept : INT;\n  Gone : INT;\n  Typed : INT;\n  Many : INT;\n"
 	"  List : ARRAY[1..6] OF INT;\n  Apart : ARRAY[1..2] OF INT;\n  Text : STRING[9];\n"
 	"  Short : STRING[9];\n  Texts : ARRAY[1..4] OF STRING[9];\n  Item1 : Item;\n"
-	"  Place AT %MW20 : INT;\n  Far AT %MW700 : INT;\nEND_VAR\n"
+	"  Down : ARRAY[4..6] OF INT;\n  Place AT %MW20 : INT;\n  Far AT %MW700 : INT;\nEND_VAR\n"
 	"VAR_GLOBAL CONSTANT\n  Max : INT := 4;\nEND_VAR\n"
 	"PROGRAM Main LD\nVAR\n  Delay : TON;\n  Local : INT;\nEND_VAR\n"
 	"RUNG\n  | P %IX0.0 | TON Delay PT:=T#1s | COIL %QX0.0 |\nEND_PROGRAM\n"
@@ -801,7 +907,7 @@ static const char lost_again[] =
 	"VAR_GLOBAL\n  Kept : INT;\n  Typed : DINT;\n  Many : ARRAY[0..2] OF INT;\n"
 	"  List : ARRAY[3..9] OF INT;\n  Apart : ARRAY[5..6] OF INT;\n  Text : STRING[4];\n"
 	"  Short : STRING[4];\n  Texts : ARRAY[2..4] OF STRING[4];\n  Item1 : Item;\n"
-	"  Fresh : INT;\n  NewPlace AT %MW30 : INT;\nEND_VAR\n"
+	"  Down : ARRAY[2..5] OF INT;\n  Fresh : INT;\n  NewPlace AT %MW30 : INT;\nEND_VAR\n"
 	"VAR_GLOBAL CONSTANT\n  Most : INT := 4;\nEND_VAR\n"
 	"CONFIGURATION Small\n  AREA M 600;\nEND_CONFIGURATION\n"
 	"PROGRAM Main LD\nVAR\n  Delay : TOF;\n  Local : INT;\nEND_VAR\n"
@@ -824,7 +930,7 @@ static void test_losses(void)
 		"gone List[1..2] 7\nnew List[7..9] 7\n"
 		"gone Apart[1..2] 7\nnew Apart[5..6] 7\n";
 	static const char tail[] =
-		"new Item1.Weight 7\nnew Fresh 7\nblock Main.Delay 0\nnew Later.Local 7\n"
+		"new Item1.Weight 7\ngone Down[6] 7\nnew Down[2..3] 7\nnew Fresh 7\nblock Main.Delay 0\nnew Later.Local 7\n"
 		"gone Gone 7\ngone Item1.Speed 7\ngone Far 7\ngone Other.Local 7\n";
 	char want[2048];
 	struct change change;
@@ -865,6 +971,7 @@ static void test_losses(void)
 	now.force[0].at = (struct location){ .type = IEC_BOOL,
 		.where = CODE_TRUE_AT(&change.old.resource.image.program->areas) };
 	CHECK(strstr(losses(&change, &now), "\nforce  1\n"));
+	CHECK(misplaced == 0);
 	/* What is told is what happens. */
 	apply(&change);
 	CHECK(change.new.resource.image.force_count == 4);
@@ -957,6 +1064,9 @@ static void test_places(void)
 int main(void)
 {
 	test_addresses();
+	test_order();
+	test_sizes();
+	test_same_code();
 	test_again();
 	test_wrong_plan();
 	test_forces();
