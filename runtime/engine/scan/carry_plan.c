@@ -601,7 +601,7 @@ static bool match_names(struct work *work)
 	carry_memories(work, true);
 	carry_memories(work, false);
 	begin_edges(work);
-	return !work->arena->failed && work->values <= VALUES_MOST;
+	return work->values <= VALUES_MOST;
 }
 
 static bool make_moves(struct carry_plan *plan, struct arena *arena,

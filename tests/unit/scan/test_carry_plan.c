@@ -432,8 +432,8 @@ static bool is_in_both(const struct image *a, const struct image *b, const char 
 	while (!in_areas(a, at) && image_next_symbol(b, &cursor, &symbol))
 		if (strcasecmp(symbol.name, name) == 0) {
 			*other = symbol.at;
-			return symbol.at.type == at.type && !in_areas(b, symbol.at) && !symbol.block &&
-			       !symbol.at.constant && !at.constant &&
+			return symbol.at.type == at.type && !in_areas(b, symbol.at) &&
+			       !symbol.block && !symbol.at.constant && !at.constant &&
 			       equal_values(at.type, image_get(a, at),
 					    image_get(b, symbol.at));
 		}
@@ -442,8 +442,7 @@ static bool is_in_both(const struct image *a, const struct image *b, const char 
 
 static int kept;
 
-/* @cold_a, @cold_b: to compare initial values. @block: a pin of another block in @b does
- * not count. */
+/* @cold_a, @cold_b: to compare initial values. Pins do not count. */
 static bool same_as_before(const struct image *a, const struct image *back,
 			   const struct image *cold_a, const struct image *cold_b)
 {
