@@ -1354,6 +1354,8 @@ static void ladder_canvas_constructed(GObject *object)
 	G_OBJECT_CLASS(ladder_canvas_parent_class)->constructed(object);
 	state_of(canvas)->zoom = CLAMP(settings_number("zoom", 1.0), class_of(canvas)->least_zoom,
 			     ZOOM_MOST);
+	/* power flows to the right, and "%IX0.0" is read so, whatever the language */
+	gtk_widget_set_direction(GTK_WIDGET(canvas), GTK_TEXT_DIR_LTR);
 	state_of(canvas)->lettering = lettering_new(gtk_widget_get_pango_context(GTK_WIDGET(canvas)),
 					  NULL);
 	g_signal_connect_object(style, "notify::dark", G_CALLBACK(restyle), canvas,

@@ -31,6 +31,7 @@ static void check_free(gpointer pointer)
 	struct check *check = pointer;
 
 	ladder_free(check->ladder);
+	ladder_free(check->of.reader);
 	g_free(check->of.text);
 	g_free(check);
 }
@@ -46,9 +47,7 @@ static struct check *check_new(struct checker *checker)
 
 static void check_run(struct check *check)
 {
-	check->ladder = ladder_new();
-	if (!check->ladder)
-		g_error("out of memory");
+	check->ladder = g_steal_pointer(&check->of.reader);
 	check->read = ladder_load_text(check->ladder, check->of.file, check->of.text,
 				       check->of.len);
 	if (check->read)

@@ -13,6 +13,7 @@
 struct checker;
 
 struct checker_text {
+	struct ladder *reader; /* loads the text; the checker takes it over      */
 	char *text;
 	gsize len;
 	const char *file;    /* interned                                       */

@@ -118,13 +118,11 @@ static char *export_ladders(struct ladder *ladder, enum classic_dialect dialect,
 static char *export_copy(LadderDocument *document, enum classic_dialect dialect,
 			 size_t *len, GPtrArray *lines)
 {
-	struct ladder *ladder = ladder_new();
+	struct ladder *ladder = ladder_document_reader(document);
 	const char *path = ladder_document_path(document);
 	char *text, *out = NULL;
 	gsize text_len;
 
-	if (!ladder)
-		g_error("out of memory");
 	text = ladder_document_text(document, &text_len);
 	if (!ladder_load_text(ladder, path ? path : "", text, text_len) ||
 	    !ladder_build(ladder))

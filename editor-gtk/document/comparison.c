@@ -530,7 +530,7 @@ static bool load(struct ladder *ladder, const struct compare_side *side)
 	bool good;
 
 	if (ladder && side->files)
-		ladder_set_files(ladder, &(struct ladder_files){ load_named, &named });
+		ladder_set_files(ladder, &(struct ladder_files){ .load = load_named, .context = &named });
 	good = load_from(ladder, side);
 	if (ladder)
 		ladder_set_files(ladder, NULL);
@@ -544,7 +544,7 @@ char *compare_side_wants(const struct compare_side *side)
 	struct ladder *ladder = side->files ? ladder_new() : NULL;
 
 	if (ladder) {
-		ladder_set_files(ladder, &(struct ladder_files){ load_named, &named });
+		ladder_set_files(ladder, &(struct ladder_files){ .load = load_named, .context = &named });
 		load_from(ladder, side);
 	}
 	ladder_free(ladder);

@@ -25,6 +25,8 @@
 
 struct beside {
 	file_apply apply; /* NULL: the file is closed                          */
+	const char *(*text)(gpointer file); /* NULL: not for INCLUDE           */
+	const char *path;
 	gpointer file;
 };
 
@@ -344,14 +346,48 @@ bool ladder_document_is_whole(LadderDocument *document)
 
 /* ---- the text becomes the project ---- */
 
-static struct ladder *read_text(LadderDocument *document, const char *text, gsize len,
-			     struct diag_list *why)
+static char *text_beside(void *context, const char *path, size_t *len)
+{
+	const GPtrArray *texts = context; /* of pairs: path, text */
+
+	for (guint i = 0; i + 1 < texts->len; i += 2)
+		if (disk_same(texts->pdata[i], path)) {
+			*len = strlen(texts->pdata[i + 1]);
+			return strdup(texts->pdata[i + 1]);
+		}
+	return NULL;
+}
+
+static void free_texts(void *context)
+{
+	g_ptr_array_unref(context);
+}
+
+struct ladder *ladder_document_reader(LadderDocument *document)
 {
 	struct ladder *ladder = ladder_new();
-	const char *file = g_intern_string(file_name(document));
+	GPtrArray *texts = g_ptr_array_new_with_free_func(g_free);
 
 	if (!ladder)
 		g_error("out of memory");
+	for (guint i = 0; document->files && i < document->files->len; i++) {
+		const struct beside *beside = &g_array_index(document->files, struct beside, i);
+
+		if (!beside->text)
+			continue;
+		g_ptr_array_add(texts, g_strdup(beside->path));
+		g_ptr_array_add(texts, g_strdup(beside->text(beside->file)));
+	}
+	ladder_set_files(ladder, &(struct ladder_files){ text_beside, texts, true, free_texts });
+	return ladder;
+}
+
+static struct ladder *read_text(LadderDocument *document, const char *text, gsize len,
+			     struct diag_list *why)
+{
+	struct ladder *ladder = ladder_document_reader(document);
+	const char *file = g_intern_string(file_name(document));
+
 	if (ladder_load_text(ladder, file, text, len) && ladder_project(ladder))
 		return ladder;
 	if (why)
@@ -623,6 +659,42 @@ static void apply_view(LadderDocument *document, const char *text)
 	g_signal_emit(document, signals[BOOKMARKS_CHANGED], 0);
 }
 
+static char *plain_text(LadderDocument *document, gsize *len)
+{
+	char *text, *copy;
+
+	if (document->text)
+		return ladder_document_text(document, len);
+	text = ladder_write(document->ladder, len);
+	if (!text)
+		g_error("out of memory");
+	copy = g_strdup(text);
+	free(text);
+	return copy;
+}
+
+/* File @number has another text: a project that includes it, or could not be read before, is read
+ * again. If it cannot be, it stays as it is, and the check says why. */
+static void read_again(LadderDocument *document, int number)
+{
+	const struct beside *beside = &g_array_index(document->files, struct beside, number);
+	struct ladder *ladder;
+	gsize len;
+	char *text;
+
+	if (!beside->text || !ladder_document_is_whole(document) ||
+	    (!document->text && !ladder_document_includes(document, beside->path)))
+		return;
+	text = plain_text(document, &len);
+	ladder = read_text(document, text, len, NULL);
+	g_free(text);
+	if (ladder) {
+		take_ladder(document, ladder);
+		tell_whole(document);
+	}
+	changed(document);
+}
+
 static void apply_file(LadderDocument *document, const struct change *change,
 			 const char *from, const char *to)
 {
@@ -632,6 +704,7 @@ static void apply_file(LadderDocument *document, const struct change *change,
 	if (!beside->apply)
 		report_lost(from);
 	beside->apply(beside->file, change->at, from, to);
+	read_again(document, change->pou);
 }
 
 static char *spliced(const char *text, gsize len, gsize at, gsize removed,
@@ -645,20 +718,6 @@ static char *spliced(const char *text, gsize len, gsize at, gsize removed,
 	memcpy(out + at + insert, text + at + removed, len - at - removed + 1);
 	*out_len = len - removed + insert;
 	return out;
-}
-
-static char *plain_text(LadderDocument *document, gsize *len)
-{
-	char *text, *copy;
-
-	if (document->text)
-		return ladder_document_text(document, len);
-	text = ladder_write(document->ladder, len);
-	if (!text)
-		g_error("out of memory");
-	copy = g_strdup(text);
-	free(text);
-	return copy;
 }
 
 /* A change of text may turn a document of text into a project, and back. */
@@ -738,12 +797,23 @@ void ladder_document_end(LadderDocument *document)
 		tell_state(document);
 }
 
-static void apply_all(LadderDocument *document, const struct step *step, bool back)
+/* Files come first, because the text of the project may include them. */
+static void apply_kind(LadderDocument *document, const struct step *step, bool back, bool files)
 {
 	const int count = (int)step->change->len;
 
-	for (int i = 0; i < count; i++)
-		apply_change(document, step->change->pdata[back ? count - 1 - i : i], back);
+	for (int i = 0; i < count; i++) {
+		const struct change *change = step->change->pdata[back ? count - 1 - i : i];
+
+		if ((change->kind == CHANGE_FILE) == files)
+			apply_change(document, change, back);
+	}
+}
+
+static void apply_all(LadderDocument *document, const struct step *step, bool back)
+{
+	apply_kind(document, step, back, true);
+	apply_kind(document, step, back, false);
 	if (step_is_aside(step))
 		tell_state(document);
 	else
@@ -1438,9 +1508,10 @@ enum back ladder_document_give_back(LadderDocument *document, int pou, int rung,
 
 /* ---- files beside the document ---- */
 
-int ladder_document_attach(LadderDocument *document, file_apply apply, gpointer file)
+int ladder_document_attach(LadderDocument *document, file_apply apply, const char *path,
+			   const char *(*text)(gpointer file), gpointer file)
 {
-	const struct beside beside = { apply, file };
+	const struct beside beside = { apply, text, path, file };
 
 	if (!document->files)
 		document->files = g_array_new(FALSE, FALSE, sizeof(struct beside));
@@ -1450,7 +1521,7 @@ int ladder_document_attach(LadderDocument *document, file_apply apply, gpointer 
 
 void ladder_document_detach(LadderDocument *document, int file)
 {
-	g_array_index(document->files, struct beside, file) = (struct beside){ NULL, NULL };
+	g_array_index(document->files, struct beside, file) = (struct beside){ 0 };
 	history_forget_file(document->history, file);
 	tell_state(document);
 }
@@ -1463,6 +1534,32 @@ void ladder_document_note(LadderDocument *document, int file, const char *name,
 		one_text(before, strlen(before)),
 		one_text(after, strlen(after))));
 	ladder_document_end(document);
+	read_again(document, file);
+}
+
+/* Does a POU, a type or an INCLUDE of the project come from there? */
+bool ladder_document_includes(LadderDocument *document, const char *path)
+{
+	const struct project *project = ladder_document_project(document);
+	char *folder = g_path_get_dirname(document->path ? document->path : "");
+	bool is = false;
+
+	for (int i = 0; project && i < project->pou_count && !is; i++)
+		is = project->pou[i].included && disk_same(project->pou[i].file, path);
+	for (int i = 0; project && i < project->structure_count && !is; i++)
+		is = disk_same(project->structure[i].file, path);
+	for (int i = 0; project && i < project->used_count && !is; i++)
+		is = disk_same(project->used[i], path);
+	for (int i = 0; project && i < project->part_count && !is; i++) {
+		const struct part *part = &project->part[i];
+		char *file = part->kind == PART_INCLUDE ? g_canonicalize_filename(
+			project_text(project, part->text), folder) : NULL;
+
+		is = file && disk_same(file, path);
+		g_free(file);
+	}
+	g_free(folder);
+	return is;
 }
 
 /* ---- the file ---- */
@@ -1644,6 +1741,7 @@ static void copy_text(gpointer owner, struct checker_text *to)
 {
 	LadderDocument *document = owner;
 
+	to->reader = ladder_document_reader(document);
 	to->text = ladder_document_text(document, &to->len);
 	to->file = g_intern_string(file_name(document));
 	to->version = document->version;

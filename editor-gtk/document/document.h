@@ -15,7 +15,7 @@
  *   list-changed (int pou)  the text of a list that cannot be read changed
  *   bookmarks-changed ()  or other lines of the VIEW part
  *   checked ()           ladder_document_diags() are new
- *   file-opened (LadderSideFile file)  an edit of the project opened a file beside it
+ *   file-opened (LadderSideFile file)  an edit of the project changed a file beside it
  *   state-changed ()     saved or not, path, the step that Undo would undo
  */
 #ifndef EDITOR_DOCUMENT_H
@@ -95,6 +95,10 @@ struct project *ladder_document_project(LadderDocument *document);
 struct ladder *ladder_document_ladder(LadderDocument *document);
 /** ladder_document_text - all of it, as it would be saved. Caller frees. */
 char *ladder_document_text(LadderDocument *document, gsize *len);
+/** ladder_document_reader - nothing loaded; INCLUDE finds the texts of the files beside the
+ * document as they are now, saved or not, also in another thread. Owns: the caller,
+ * ladder_free(). */
+struct ladder *ladder_document_reader(LadderDocument *document);
 /** ladder_document_version - another number after every change. */
 guint64 ladder_document_version(LadderDocument *document);
 
@@ -173,8 +177,13 @@ bool ladder_document_is_whole(LadderDocument *document);
 /** file_apply - replaces @from, which stands at byte @at of @file, by @to. */
 typedef void (*file_apply)(gpointer file, gsize at, const char *from, const char *to);
 /** ladder_document_attach - a number for @file, whose edits are steps of the history from
- * now on. Borrowed until ladder_document_detach(). */
-int ladder_document_attach(LadderDocument *document, file_apply apply, gpointer file);
+ * now on. Borrowed until ladder_document_detach().
+ * @text: gives the present text of @file; an INCLUDE of @path reads it; borrowed. NULL: it is no
+ * part of the project */
+int ladder_document_attach(LadderDocument *document, file_apply apply, const char *path,
+			   const char *(*text)(gpointer file), gpointer file);
+/** ladder_document_includes - does the project take in parts of the file @path? */
+bool ladder_document_includes(LadderDocument *document, const char *path);
 /** ladder_document_detach - the file is closed; its steps are forgotten. */
 void ladder_document_detach(LadderDocument *document, int file);
 /** ladder_document_note - adds a step for an edit of a file: at byte @at @before became

@@ -12,7 +12,7 @@ struct file_history {
 	GtkTextBuffer *buffer;
 	LadderDocument *document;
 	int file;          /* number in the document                           */
-	char *name;
+	char *path, *name;
 	char *known;       /* the text at the last look                        */
 	int saves;         /* saves so far: steps before and after a save do not join */
 	bool inside;       /* inside a user action, which is one step          */
@@ -105,9 +105,11 @@ static void look(struct file_history *history)
 	if (was_len != now_len || begin != was_len) {
 		before = g_strndup(was + begin, was_len - begin - end);
 		after = g_strndup(now + begin, now_len - begin - end);
+		set_known(history, now); /* before the document reads it */
 		note(history, begin, before, after);
 		g_free(before);
 		g_free(after);
+		return;
 	}
 	set_known(history, now);
 }
@@ -156,17 +158,23 @@ static void apply(gpointer data, gsize at, const char *from, const char *to)
 	history->undone(history->data, history->known);
 }
 
+static const char *known_text(gpointer history)
+{
+	return ((struct file_history *)history)->known;
+}
+
 struct file_history *file_history_new(GtkTextBuffer *buffer, LadderDocument *document,
-				      const char *name,
+				      const char *path, bool part,
 				      void (*undone)(gpointer data, const char *text),
 				      gpointer data)
 {
 	struct file_history *history = g_new0(struct file_history, 1);
 
 	*history = (struct file_history){ .buffer = buffer, .known = text_of(buffer),
-		.document = g_object_ref(document), .name = g_strdup(name),
-		.undone = undone, .data = data };
-	history->file = ladder_document_attach(document, apply, history);
+		.document = g_object_ref(document), .path = g_strdup(path),
+		.name = g_path_get_basename(path), .undone = undone, .data = data };
+	history->file = ladder_document_attach(document, apply, history->path,
+					       part ? known_text : NULL, history);
 	gtk_text_buffer_set_enable_undo(buffer, FALSE);
 	g_signal_connect_swapped(buffer, "changed", G_CALLBACK(changed), history);
 	g_signal_connect_swapped(buffer, "begin-user-action", G_CALLBACK(act_begun), history);
@@ -187,6 +195,7 @@ void file_history_free(struct file_history *history)
 	ladder_document_detach(history->document, history->file);
 	g_object_unref(history->document);
 	g_free(history->known);
+	g_free(history->path);
 	g_free(history->name);
 	g_free(history);
 }

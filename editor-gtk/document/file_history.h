@@ -14,13 +14,14 @@ struct file_history;
 
 /**
  * file_history_new - for @buffer as it is now
- * @name: of the file, for "Change pump.io"
+ * @path: of the file, whose name stands in "Change pump.io"
+ * @part: an INCLUDE of the document reads the present text
  * @undone: called when a step was undone or redone, with the new text
  *
  * Keeps @document alive and has @buffer borrowed until file_history_free().
  */
 struct file_history *file_history_new(GtkTextBuffer *buffer, LadderDocument *document,
-				      const char *name,
+				      const char *path, bool part,
 				      void (*undone)(gpointer data, const char *text),
 				      gpointer data);
 /** file_history_saved - keeps the present text reachable by undo: later edits are new

@@ -641,9 +641,7 @@ struct init_form *init_form_new(LadderDocument *document, int table, int index, 
 	struct init_form *form = g_new0(struct init_form, 1);
 
 	*why = NULL;
-	form->ladder = ladder_new();
-	if (!form->ladder)
-		g_error("out of memory");
+	form->ladder = ladder_document_reader(document);
 	arena_init(&form->scratch);
 	form->diags = g_new(struct diag_list, 1);
 	form->given = values_new();

@@ -181,7 +181,7 @@ int panel_heading_width(GtkWidget *view, const char *name)
 
 #define LABEL_ROOM 24   /* padding of a cell with a label                       */
 #define CELL_ROOM 36    /* of one that is edited                                */
-#define BUTTON_ROOM 50  /* of one with an arrow                                 */
+#define BUTTON_ROOM 54  /* of one with an arrow                                 */
 #define ICON_ROOM 34    /* a column of icons                                    */
 #define COLUMN_MOST 260 /* for a longer text a column gets no wider             */
 
@@ -458,11 +458,6 @@ void panel_list_update(struct panel_list *list, GPtrArray *rows)
 LadderPanelRow *panel_list_row(struct panel_list *list)
 {
 	return gtk_single_selection_get_selected_item(list->selection);
-}
-
-bool panel_list_has(struct panel_list *list, LadderPanelRow *row)
-{
-	return g_list_store_find(list->store, row, NULL);
 }
 
 void panel_list_go(struct panel_list *list, guint at)

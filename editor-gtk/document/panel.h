@@ -70,8 +70,6 @@ void panel_list_want(struct panel_list *list, const char *wanted);
 void panel_list_update(struct panel_list *list, GPtrArray *rows);
 /** panel_list_row - the selected row; NULL: none. Borrowed. */
 LadderPanelRow *panel_list_row(struct panel_list *list);
-/** panel_list_has - is it a row of this list? A dragged one may be of another window. */
-bool panel_list_has(struct panel_list *list, LadderPanelRow *row);
 /** panel_list_go - selects visible row @at and scrolls to it. */
 void panel_list_go(struct panel_list *list, guint at);
 /** panel_list_select - selects the first row for which @is returns true, and scrolls to it. */

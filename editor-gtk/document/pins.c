@@ -4,10 +4,12 @@
  */
 #include "editor-gtk/document/pins.h"
 
+#include "editor-gtk/document/symbols.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/lex.h"
 #include "engine/base/name.h"
+#include "engine/xref/xref.h"
 
 #include <string.h>
 
@@ -127,17 +129,32 @@ static bool has_boxes(const struct project *project, enum word word)
 	return false;
 }
 
+static bool is_plain_bool(const struct var *var)
+{
+	return var->type == IEC_BOOL && !var->array.count;
+}
+
 /* The pin that power goes to or comes from, with variables @a and @b exchanged. -1: none. */
 static int power_pin(const struct pou *pou, uint16_t kind, int a, int b)
 {
 	for (int i = 0; i < vars_declared(&pou->vars); i++) {
 		const int at = i == a ? b : i == b ? a : i;
-		const struct var *var = &pou->vars.var[at];
 
-		if (pins_kind(pou, at) == kind && var->type == IEC_BOOL && !var->array.count)
+		if (pins_kind(pou, at) == kind && is_plain_bool(&pou->vars.var[at]))
 			return at;
 	}
 	return -1;
+}
+
+/* Why no pin of a POU can move: a caller gives operands by position. NULL: they can. */
+static char *why_fixed(LadderDocument *document, int pou)
+{
+	const struct project *project = ladder_document_project(document);
+	const int caller = caller_by_position(document, pou);
+
+	return caller < 0 ? NULL : g_strdup_printf(_("“%s” gives operands by position: they "
+		"would go to other pins. Name the pins there first."),
+		project_text(project, project->pou[caller].name));
 }
 
 /* Why two pins cannot change places; NULL: they can. */
@@ -146,12 +163,10 @@ static char *why_not(LadderDocument *document, int pou, int a, int b)
 	const struct project *project = ladder_document_project(document);
 	const struct pou *of = &project->pou[pou];
 	const uint16_t kind = pins_kind(of, a);
-	const int caller = caller_by_position(document, pou);
+	char *why = kind ? why_fixed(document, pou) : NULL;
 
-	if (caller >= 0)
-		return g_strdup_printf(_("“%s” gives operands by position: they would go to "
-			"other pins. Name the pins there first."),
-			project_text(project, project->pou[caller].name));
+	if (why || !kind)
+		return why;
 	if (of->kind == POU_BLOCK && kind != VAR_IN_OUT &&
 	    power_pin(of, kind, a, b) != power_pin(of, kind, -1, -1) &&
 	    has_boxes(project, of->word))
@@ -213,6 +228,84 @@ char *pin_move(LadderDocument *document, int pou, int index, int by)
 		two.span[0].len + two.span[1].len, text, _("Move pin"));
 	g_free(text);
 	g_free(all);
+	return why;
+}
+
+/* ---- kinds ---- */
+
+int pin_calls(LadderDocument *document, int pou, int index)
+{
+	struct project *project = ladder_document_project(document);
+	struct xref xref = { 0 };
+	int count = 0;
+
+	if (!xref_make(&xref, project))
+		g_error("out of memory");
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+
+		count += use->target.what == XREF_VARIABLE && use->target.table == pou + 1 &&
+			 use->target.index == index && use->kind != XREF_DECLARED &&
+			 use->pou != pou;
+	}
+	xref_free(&xref);
+	return count;
+}
+
+/* The pin of a side that the power of a row is connected to; "": none. Caller frees. */
+static char *power_name(const struct project *project, int pou, uint16_t kind)
+{
+	const struct pou *of = &project->pou[pou];
+	const int at = of->kind == POU_BLOCK && has_boxes(project, of->word) ?
+		       power_pin(of, kind, -1, -1) : -1;
+
+	return g_strdup(at < 0 ? "" : project_text(project, of->vars.var[at].name));
+}
+
+/* Refuses a change after which power goes to another pin. */
+static char *why_power(const char *was, const char *is)
+{
+	if (strcmp(was, is) == 0)
+		return NULL;
+	return *was ? g_strdup_printf(_("The power of the row is connected to “%s” where the block "
+			"is used: it must stay so"), was) :
+		g_strdup_printf(_("The power of the row would be connected to “%s” where the block "
+			"is used"), is);
+}
+
+/* Changes it; @why: also if a side then has another pin for the power, which undoes it. */
+static void set_kind(LadderDocument *document, int pou, int index, uint16_t kind, char **why)
+{
+	static const uint16_t sides[] = { VAR_INPUT, VAR_OUTPUT };
+	char *was[G_N_ELEMENTS(sides)];
+
+	for (gsize i = 0; i < G_N_ELEMENTS(sides); i++)
+		was[i] = power_name(ladder_document_project(document), pou, sides[i]);
+	ladder_document_begin(document, _("Change kind"), NULL);
+	symbol_set_kind(document, pou + 1, index, kind, why);
+	for (gsize i = 0; i < G_N_ELEMENTS(sides); i++) {
+		char *is = power_name(ladder_document_project(document), pou, sides[i]);
+
+		if (!*why)
+			*why = why_power(was[i], is);
+		g_free(is);
+		g_free(was[i]);
+	}
+	if (*why)
+		ladder_document_cancel(document);
+	else
+		ladder_document_end(document);
+}
+
+char *pin_set_kind(LadderDocument *document, int pou, int index, uint16_t kind)
+{
+	const struct pou *of = &ladder_document_project(document)->pou[pou];
+	char *why = of->included ? g_strdup(_("It is declared in another file")) : NULL;
+
+	if (!why && (pins_kind(of, index) || kind & PINS))
+		why = why_fixed(document, pou);
+	if (!why)
+		set_kind(document, pou, index, kind, &why);
 	return why;
 }
 

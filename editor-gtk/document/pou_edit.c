@@ -159,8 +159,7 @@ static void take_part(void *context, const struct text_span *span)
 	}
 }
 
-/* NULL: it is declared in another file. Caller frees. */
-static char *part_of(LadderDocument *document, int pou, struct text_span *span)
+char *pou_part(LadderDocument *document, int pou, struct text_span *span)
 {
 	struct part_of_pou part = { ladder_document_project(document), pou, { 0 }, false };
 	gsize len;
@@ -194,7 +193,7 @@ static char *part_called(LadderDocument *document, int pou, const char *all,
 static char *renamed_part(LadderDocument *document, int pou, const char *name, char **why)
 {
 	const struct xref_target target = { .what = XREF_POU, .index = pou };
-	struct ladder *copy = ladder_new();
+	struct ladder *copy = ladder_document_reader(document);
 	struct ladder_rename how;
 	struct part_of_pou part = { NULL, pou, { 0 }, false };
 	char *whole, *text = NULL;
@@ -203,7 +202,7 @@ static char *renamed_part(LadderDocument *document, int pou, const char *name, c
 	whole = ladder_rename(ladder_document_ladder(document), &target, name, &len, &how);
 	if (!whole) {
 		*why = rename_reason(document, &how, name);
-	} else if (copy && ladder_load_text(copy, g_intern_string(
+	} else if (ladder_load_text(copy, g_intern_string(
 			   ladder_document_path(document) ? ladder_document_path(document) : ""),
 					    whole, len)) {
 		char *again;
@@ -230,7 +229,7 @@ char *pou_duplicate(LadderDocument *document, int pou, const char *name)
 
 	if (why)
 		return why;
-	all = part_of(document, pou, &span);
+	all = pou_part(document, pou, &span);
 	if (!all)
 		return g_strdup(_("It is declared in another file"));
 	/* Only a function uses its own name. */
@@ -301,8 +300,8 @@ const char *pou_move(LadderDocument *document, int pou, int beside, bool behind)
 		return _("Nothing can be moved while a text of the project cannot be read");
 	if (pou == beside)
 		return NULL;
-	all = part_of(document, pou, &moves);
-	there = part_of(document, beside, &stays);
+	all = pou_part(document, pou, &moves);
+	there = pou_part(document, beside, &stays);
 	good = all && there;
 	if (good) {
 		at = MIN(moves.at - 1, behind ? stays.at + stays.len : stays.at - 1);

@@ -23,6 +23,9 @@ char *pou_add(LadderDocument *document, enum pou_kind kind, enum pou_language la
 /** pou_duplicate - adds a copy with another name behind it, with its comments and local
  * variables. Returns as pou_add(). */
 char *pou_duplicate(LadderDocument *document, int pou, const char *name);
+/** pou_part - the canonical text, and the place of a POU in it, with the comments above it.
+ * NULL: it is declared in another file. Caller frees. */
+char *pou_part(LadderDocument *document, int pou, struct text_span *span);
 /** pou_beside - the next (@by 1) or previous (-1) one of this file in the same list of the
  * project tree: programs, or functions and blocks. -1: none. */
 int pou_beside(LadderDocument *document, int pou, int by);

@@ -379,10 +379,10 @@ char *pou_import_needs(struct ladder *from, const bool *chosen)
 static struct ladder *copy_of(LadderDocument *document)
 {
 	const char *path = ladder_document_path(document);
-	struct ladder *copy = ladder_new();
+	struct ladder *copy = ladder_document_reader(document);
 	gsize len;
 	char *text = ladder_document_text(document, &len);
-	const bool good = copy && ladder_load_text(copy, g_intern_string(path ? path : ""), text,
+	const bool good = ladder_load_text(copy, g_intern_string(path ? path : ""), text,
 						   len) && ladder_project(copy);
 
 	g_free(text);
@@ -411,32 +411,6 @@ char *pou_export_needs(LadderDocument *document, int pou)
 	return needs;
 }
 
-/* Is it a file whose declarations are in the project? */
-static bool is_included(LadderDocument *document, const char *path)
-{
-	const struct project *project = ladder_document_project(document);
-	const char *own = ladder_document_path(document);
-	char *folder = g_path_get_dirname(own ? own : "");
-	bool is = false;
-
-	for (int i = 0; i < project->pou_count && !is; i++)
-		is = project->pou[i].included && disk_same(project->pou[i].file, path);
-	for (int i = 0; i < project->structure_count && !is; i++)
-		is = disk_same(project->structure[i].file, path);
-	for (int i = 0; i < project->used_count && !is; i++)
-		is = disk_same(project->used[i], path);
-	for (int i = 0; i < project->part_count && !is; i++) {
-		const struct part *part = &project->part[i];
-		char *file = part->kind == PART_INCLUDE ? g_canonicalize_filename(
-			project_text(project, part->text), folder) : NULL;
-
-		is = file && disk_same(file, path);
-		g_free(file);
-	}
-	g_free(folder);
-	return is;
-}
-
 /* Why a POU cannot go to this file; NULL: it can. */
 static const char *target_refusal(LadderDocument *document, const char *path)
 {
@@ -444,32 +418,51 @@ static const char *target_refusal(LadderDocument *document, const char *path)
 
 	if (own && disk_same(own, path))
 		return _("This is the file of this project. Choose another.");
-	return is_included(document, path) ?
+	return ladder_document_includes(document, path) ?
 	       _("This project includes the file. Choose another.") : NULL;
+}
+
+/* Imports POU @pou of @document into @other. */
+static bool give(LadderDocument *document, int pou, LadderDocument *other, GString *told)
+{
+	struct ladder *from = copy_of(document);
+	bool *chosen = from ? only(from, pou) : NULL;
+	bool good = from && ladder_document_project(other);
+
+	if (!good)
+		g_string_assign(told, _("Cannot read the file as a project. Open it to see why."));
+	good = good && pou_import(other, from, chosen, told);
+	g_free(chosen);
+	ladder_free(from);
+	return good;
 }
 
 bool pou_export(LadderDocument *document, int pou, const char *path, GString *told)
 {
 	const char *why = target_refusal(document, path);
 	LadderDocument *other = ladder_document_new();
-	struct ladder *from = copy_of(document);
-	bool *chosen = from ? only(from, pou) : NULL;
 	GError *error = NULL;
-	bool good = !why && ladder_document_open(other, path, &error);
+	const bool good = !why && ladder_document_open(other, path, &error) &&
+		give(document, pou, other, told) && ladder_document_save(other, NULL, &error);
 
 	if (why)
 		g_string_assign(told, why);
-	if (good && (!from || !ladder_document_project(other))) {
-		g_string_assign(told, _("Cannot read the file as a project. Open it to see why."));
-		good = false;
-	}
-	good = good && pou_import(other, from, chosen, told) &&
-	       ladder_document_save(other, NULL, &error);
 	if (error)
 		g_string_assign(told, error->message);
 	g_clear_error(&error);
-	g_free(chosen);
-	ladder_free(from);
 	g_object_unref(other);
 	return good;
+}
+
+char *pou_export_text(LadderDocument *document, int pou, LadderSideFile *file, GString *told)
+{
+	LadderDocument *other = ladder_document_new();
+	char *text = ladder_side_file_text(file), *all = NULL;
+
+	ladder_document_open_text(other, ladder_side_file_path(file), text, strlen(text), true);
+	if (give(document, pou, other, told))
+		all = ladder_document_text(other, NULL);
+	g_object_unref(other);
+	g_free(text);
+	return all;
 }

@@ -11,7 +11,7 @@
 #ifndef EDITOR_POU_IMPORT_H
 #define EDITOR_POU_IMPORT_H
 
-#include "editor-gtk/document/document.h"
+#include "editor-gtk/document/side_file.h"
 
 /**
  * pou_import - into the document, as one step
@@ -30,6 +30,9 @@ char *pou_import_needs(struct ladder *from, const bool *chosen);
  * @told: as in pou_import(). Fails: false, the file is as before. A file of the project itself,
  * also by another path, is refused. */
 bool pou_export(LadderDocument *document, int pou, const char *path, GString *told);
+/** pou_export_text - the text of @file with the same copy. Owns: the caller. Fails: NULL, and
+ * @told says why. */
+char *pou_export_text(LadderDocument *document, int pou, LadderSideFile *file, GString *told);
 /** pou_export_needs - as pou_import_needs(), for a POU of a document. Caller frees. */
 char *pou_export_needs(LadderDocument *document, int pou);
 

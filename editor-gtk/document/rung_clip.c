@@ -41,6 +41,54 @@ static GHashTable *names_in(const struct project *project, const char *text)
 	return found;
 }
 
+/* Calls @take for each name in the constant expressions of a declaration. */
+static void each_needed(const struct project *project, const struct var *var,
+			void (*take)(void *context, const char *name, gsize len), void *context)
+{
+	const struct var_written *written = var->written;
+	const uint32_t text[] = {
+		written ? written->bound[0] : 0, written ? written->bound[1] : 0,
+		written ? written->capacity : 0, written && written->initial ? var->init_text : 0,
+	};
+	struct lex lex;
+
+	for (gsize i = 0; i < G_N_ELEMENTS(text); i++) {
+		lex_init(&lex, project_text(project, text[i]), names_len(&project->names, text[i]));
+		while (lex_next(&lex) != TOKEN_END)
+			if (lex.token.kind == TOKEN_NAME)
+				take(context, lex.token.text, lex.token.len);
+	}
+}
+
+struct needed { const struct project *project; GHashTable *names; };
+
+static void add_name(void *context, const char *name, gsize len)
+{
+	const struct needed *needed = context;
+
+	g_hash_table_add(needed->names, GUINT_TO_POINTER(
+		names_find_any(&needed->project->names, name, len)));
+}
+
+/* Adds the constants that the declarations of @names need, and those that these need. */
+static void add_needed(const struct project *project, int table, GHashTable *names)
+{
+	struct needed needed = { project, names };
+	guint before;
+
+	do {
+		before = g_hash_table_size(names);
+		for (int which = 0; which < 2; which++) {
+			const struct var_table *vars = xref_table((struct project *)project,
+								  which ? table : 0);
+
+			for (int i = 0; i < vars_declared(vars); i++)
+				if (g_hash_table_contains(names, GUINT_TO_POINTER(vars->var[i].fold)))
+					each_needed(project, &vars->var[i], add_name, &needed);
+		}
+	} while (g_hash_table_size(names) > before);
+}
+
 static void add_line(GString *block, const struct project *project,
 		     const struct var_table *vars, int table, int index)
 {
@@ -104,6 +152,7 @@ void rung_clip_blocks(LadderDocument *document, int pou, const char *text, GStri
 	const struct project *project = ladder_document_project(document);
 	GHashTable *names = names_in(project, text);
 
+	add_needed(project, pou + 1, names);
 	add_blocks(locals, project, pou + 1, 0, names);
 	add_blocks(globals, project, 0, VAR_GLOBAL_WORD, names);
 	g_hash_table_unref(names);
@@ -936,16 +985,43 @@ static char *done(const struct declare *declare)
 	return g_string_free(text, FALSE);
 }
 
-static char *declare_all(struct declare *declare, const GPtrArray *names)
+struct wanting { const struct declare *declare; GPtrArray *names; };
+
+static gboolean is_same_name(gconstpointer a, gconstpointer b)
 {
+	return name_equal(a, b);
+}
+
+static void want(void *context, const char *text, gsize len)
+{
+	const struct wanting *wanting = context;
+	const struct project *project = wanting->declare->project;
+	const uint32_t fold = names_find_any(&project->names, text, len);
+	char *name = g_strndup(text, len);
+
+	if ((fold && (vars_find(&project->globals, fold) >= 0 ||
+		      vars_find(&project->pou[wanting->declare->pou].vars, fold) >= 0)) ||
+	    g_ptr_array_find_with_equal_func(wanting->names, name, is_same_name, NULL))
+		g_free(name);
+	else
+		g_ptr_array_add(wanting->names, name);
+}
+
+/* @names: gets the constants that a declaration needs. */
+static char *declare_all(struct declare *declare, GPtrArray *names)
+{
+	struct wanting wanting = { declare, names };
 	char *told = NULL;
 
 	declare->batch = symbol_batch_new(declare->document);
 	for (guint i = 0; i < names->len; i++) {
 		const struct symbol_row *symbol = find(declare, names->pdata[i]);
 
-		if (symbol)
-			declare_one(declare, symbol);
+		if (!symbol)
+			continue;
+		declare_one(declare, symbol);
+		each_needed(declare->source, &xref_table(declare->source,
+			symbol->table)->var[symbol->index], want, &wanting);
 	}
 	if (declare->count &&
 	    symbol_batch_apply(declare->batch, _("Add symbol"), &told))

@@ -9,7 +9,9 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/text_scheme.h"
 
+#include <glib/gstdio.h>
 #include <gtksourceview/gtksource.h>
+#include <errno.h>
 #include <string.h>
 
 #define FILE_MOST (4 << 20) /* bytes                                           */
@@ -22,6 +24,7 @@ struct _LadderSideFile {
 	LadderDocument *document;
 	struct file_history *history;
 	bool gone;          /* the file was, at the last look                  */
+	bool made;          /* here: with an empty text it is deleted          */
 	bool told_locked;   /* the next save overwrites a read-only file       */
 };
 
@@ -39,11 +42,23 @@ void ladder_side_file_commit(gpointer file)
 	g_signal_emit(file, commit, 0);
 }
 
+bool ladder_side_file_is_nothing(LadderSideFile *file)
+{
+	return gtk_text_buffer_get_char_count(file->buffer) == 0 &&
+	       !g_file_test(file->path, G_FILE_TEST_EXISTS);
+}
+
+bool ladder_side_file_is_part(LadderSideFile *file)
+{
+	return !side_file_is(file->path);
+}
+
 /* The text of a file that is gone is the last copy. */
 bool ladder_side_file_differs(LadderSideFile *file)
 {
-	return gtk_text_buffer_get_modified(file->buffer) ||
-	       !g_file_test(file->path, G_FILE_TEST_EXISTS);
+	return !ladder_side_file_is_nothing(file) &&
+	       (gtk_text_buffer_get_modified(file->buffer) ||
+		!g_file_test(file->path, G_FILE_TEST_EXISTS));
 }
 
 bool ladder_side_file_is_saved(LadderSideFile *file)
@@ -144,6 +159,17 @@ static bool is_free(LadderSideFile *file, GError **error)
 	return false;
 }
 
+static bool write_text(LadderSideFile *file, const char *text, GError **error)
+{
+	if (!file->made || *text)
+		return disk_save(file->path, text, strlen(text), error);
+	if (g_unlink(file->path) == 0)
+		return true;
+	g_set_error(error, G_FILE_ERROR, g_file_error_from_errno(errno), "%s: %s", file->path,
+		    g_strerror(errno));
+	return false;
+}
+
 bool ladder_side_file_save(LadderSideFile *file, GError **error)
 {
 	char *text;
@@ -153,7 +179,7 @@ bool ladder_side_file_save(LadderSideFile *file, GError **error)
 		return true;
 	text = ladder_side_file_text(file);
 	good = is_as_read(file, error) && is_free(file, error) &&
-	       disk_save(file->path, text, strlen(text), error);
+	       write_text(file, text, error);
 	if (good) {
 		file->gone = false;
 		g_free(file->read);
@@ -272,15 +298,14 @@ static void set_text(GtkTextBuffer *buffer, const char *text)
 static LadderSideFile *file_of(const char *path, char *text, LadderDocument *document)
 {
 	LadderSideFile *file = g_object_new(LADDER_TYPE_SIDE_FILE, NULL);
-	char *name = g_path_get_basename(path);
 
 	file->path = g_strdup(path);
 	file->read = text;
 	file->document = g_object_ref(document);
 	g_ptr_array_add(open_files(document), file);
 	set_text(file->buffer, text);
-	file->history = file_history_new(file->buffer, document, name, step_undone, file);
-	g_free(name);
+	file->history = file_history_new(file->buffer, document, path, !side_file_is(path),
+					 step_undone, file);
 	return file;
 }
 
@@ -290,6 +315,14 @@ LadderSideFile *ladder_side_file_open(const char *path, LadderDocument *document
 	char *text = text_of(path, error);
 
 	return text ? file_of(path, text, document) : NULL;
+}
+
+LadderSideFile *ladder_side_file_make(const char *path, LadderDocument *document)
+{
+	LadderSideFile *file = file_of(path, g_strdup(""), document);
+
+	file->made = true;
+	return file;
 }
 
 void ladder_side_file_put(LadderSideFile *file, const char *text, const char *sum)

@@ -25,6 +25,13 @@ G_DECLARE_FINAL_TYPE(LadderSideFile, ladder_side_file, LADDER, SIDE_FILE, GObjec
  * Fails: NULL, and @error says why: it cannot be read, or is no text. */
 LadderSideFile *ladder_side_file_open(const char *path, LadderDocument *document,
 				      GError **error);
+/** ladder_side_file_make - an empty one, which is not on the disk yet. A save with an empty text
+ * deletes the file again. Caller unrefs. */
+LadderSideFile *ladder_side_file_make(const char *path, LadderDocument *document);
+/** ladder_side_file_is_nothing - is it empty, and not on the disk? */
+bool ladder_side_file_is_nothing(LadderSideFile *file);
+/** ladder_side_file_is_part - can the project include it? Such a file is saved with it. */
+bool ladder_side_file_is_part(LadderSideFile *file);
 /** ladder_side_file_restore - from a draft @text of a file that had the sum @sum. The file
  * itself may be gone. Caller unrefs. */
 LadderSideFile *ladder_side_file_restore(const char *path, const char *sum, const char *text,

@@ -199,6 +199,21 @@ static bool has_name(struct project *project, int table, const char *name)
 	return ladder_name_fault(name) != DIAG_COUNT;
 }
 
+int symbol_find(LadderDocument *document, int table, const char *name, int index)
+{
+	struct project *project = ladder_document_project(document);
+	const struct var_table *vars = project ? xref_table(project, table) : NULL;
+	const int count = vars ? vars_declared(vars) : 0;
+
+	if (index >= 0 && index < count &&
+	    strcmp(project_text(project, vars->var[index].name), name) == 0)
+		return index;
+	for (int i = 0; i < count; i++)
+		if (strcmp(project_text(project, vars->var[i].name), name) == 0)
+			return i;
+	return -1;
+}
+
 char *symbol_free_name(LadderDocument *document, int table, const char *like)
 {
 	struct project *project = ladder_document_project(document);
@@ -396,6 +411,7 @@ static bool reads(const struct project *project, int table, uint16_t flags,
 
 	if (!ladder)
 		g_error("out of memory");
+	ladder_leave_expressions(ladder, true);
 	add_words(text, project);
 	add_place(text, project, table, flags, line);
 	good = ladder_load_text(ladder, "", text->str, text->len) && ladder_project(ladder);
@@ -787,11 +803,9 @@ static GString *pieced(struct symbol_batch *batch)
 struct ladder *symbol_batch_try(struct symbol_batch *batch, char **why)
 {
 	const char *path = ladder_document_path(batch->document);
-	struct ladder *ladder = ladder_new();
+	struct ladder *ladder = ladder_document_reader(batch->document);
 	GString *text = pieced(batch);
 
-	if (!ladder)
-		g_error("out of memory");
 	if (!ladder_load_text(ladder, path ? path : "", text->str, text->len)) {
 		refuse(why, reason(ladder_diags(ladder)));
 		g_clear_pointer(&ladder, ladder_free);

@@ -69,6 +69,9 @@ bool symbol_add(LadderDocument *document, int table, uint16_t flags,
 		const char *const text[SYMBOL_FIELDS], char **why);
 /** symbol_delete - deletes it, used or not. */
 bool symbol_delete(LadderDocument *document, int table, int index, char **why);
+/** symbol_find - the index of a declaration of a table of xref/xref.h; -1: none. @index: where it was
+ * last; rows of a list are older than the document after an edit. -1: unknown. */
+int symbol_find(LadderDocument *document, int table, const char *name, int index);
 /** symbol_free_name - a name made of @like that no declaration of the table has: Start2.
  * Owns: the caller. */
 char *symbol_free_name(LadderDocument *document, int table, const char *like);

@@ -309,11 +309,9 @@ static bool are_lines(const struct task_text *t, const struct config *config)
 static bool is_good(const struct task_text *t, const char *text, gsize len, char **why)
 {
 	const char *path = ladder_document_path(t->document);
-	struct ladder *ladder = ladder_new();
+	struct ladder *ladder = ladder_document_reader(t->document);
 	const struct diag *diag;
 
-	if (!ladder)
-		g_error("out of memory");
 	if (ladder_load_text(ladder, path ? path : "", text, len)) {
 		ladder_build(ladder);
 		diag = new_error(t, ladder_diags(ladder));

@@ -337,8 +337,8 @@ static void add(struct search *s, enum entry_kind kind, int fits, const char *te
 	c->kind = kind;
 	snprintf(c->text, sizeof(c->text), "%s", text);
 	snprintf(c->address, sizeof(c->address), "%s", address);
-	snprintf(c->note, sizeof(c->note), "%s%s%.*s", note, comment[0] ? " " : "",
-		 whole_part(comment, 200), comment);
+	snprintf(c->note, sizeof(c->note), "%s%s%.*s", note, !note[0] || !comment[0] ? "" :
+		 kind == ENTRY_WORD ? " · " : " ", whole_part(comment, 200), comment);
 	make_line(s, text, c->line, sizeof(c->line));
 }
 

@@ -103,7 +103,7 @@ char *sfc_edit_text(const struct sfc_edit *edit)
 	return edit->arena.failed ? NULL : pou_print(edit->project, &edit->pou);
 }
 
-uint32_t sfc_edit_id(struct sfc_edit *edit, const char *text)
+static uint32_t sfc_edit_id(struct sfc_edit *edit, const char *text)
 {
 	return names_intern(&edit->project->names, text, strlen(text));
 }

@@ -154,7 +154,6 @@ bool sfc_edit_hand_over(struct sfc_edit *edit, int step, int other, int ways);
 void sfc_edit_drop_piece(struct sfc_edit *edit, int at);
 /** sfc_edit_asks_for - does anything in the chart name @step.X or @step.T? */
 bool sfc_edit_asks_for(const struct sfc_edit *edit, int step);
-uint32_t sfc_edit_id(struct sfc_edit *edit, const char *text);
 /** sfc_edit_put_piece - behind piece @at (-1: at the beginning). */
 bool sfc_edit_put_piece(struct sfc_edit *edit, int at, enum piece_kind kind, int index);
 /** sfc_edit_refuse - false, with a reason. */

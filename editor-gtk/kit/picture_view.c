@@ -23,6 +23,7 @@ void ladder_picture_view_again(LadderPictureView *view)
 {
 	picture_clear(&view->strokes);
 	picture_init(&view->strokes);
+	gtk_widget_set_direction(GTK_WIDGET(view), GTK_TEXT_DIR_LTR); /* as on a sheet */
 	if (!view->lettering)
 		view->lettering = lettering_new(gtk_widget_get_pango_context(GTK_WIDGET(view)),
 						NULL);

@@ -460,6 +460,17 @@ static int offer_inputs(LadderGridView *view, GtkWidget *popup, const char *text
 	return count;
 }
 
+/* The first input that can be fed; NULL: none. */
+static const char *free_input(LadderGridView *view, char *further, size_t size)
+{
+	const struct word_row *row = word_here(view);
+
+	for (int i = 0; i < row->pin_count; i++)
+		if (may_feed(view, row->pin[i].name))
+			return row->pin[i].name;
+	return further_input(view, row, further, size);
+}
+
 /* A line `R ResetCount`: an input, and what feeds it. */
 struct pin_line {
 	const char *name, *feed; /* feed: "": nothing                          */
@@ -553,6 +564,22 @@ static bool value_taken(const struct asked *asked, const struct pin_line *pin)
 	return good;
 }
 
+/* Whoever types the operand alone gets the line with an input before it. */
+static char *refused(LadderGridView *view, const struct pin_line *pin, enum grid_refusal why)
+{
+	char further[LIMIT_NAME + 1], *typed, *text;
+	const char *input = why == GRID_BAD_PIN ?
+		free_input(view, further, sizeof(further)) : NULL;
+
+	if (!input)
+		return g_strdup(_(grid_refusal_text(why)));
+	typed = g_strndup(pin->name, pin->len);
+	text = g_strdup_printf(_("“%s” is not a Boolean input of %s; write the input first, such as %s %s"),
+			       typed, word_here(view)->word, input, *pin->feed ? pin->feed : typed);
+	g_free(typed);
+	return text;
+}
+
 static char *pin_changed(void *context, const char *line, int cursor, bool *good)
 {
 	struct asked *asked = context;
@@ -569,7 +596,7 @@ static char *pin_changed(void *context, const char *line, int cursor, bool *good
 	if (!is_lasting(why))
 		return element_outcome(asked, line, (size_t)(pin.feed - line), cursor, good);
 	*good = false;
-	return g_strdup(_(grid_refusal_text(why)));
+	return refused(view, &pin, why);
 }
 
 static bool pin_taken(void *context, const char *line)
@@ -582,10 +609,17 @@ static bool pin_taken(void *context, const char *line)
 	struct grid_at at = sheet_at(view);
 	struct entry *entry;
 	struct cell feed;
+	char *told;
 	bool good;
 
 	if (*pin.feed && takes_value(view, &pin))
 		return value_taken(asked, &pin);
+	if (feed_refusal(view, pin.name, pin.len) == GRID_BAD_PIN) {
+		told = refused(view, &pin, GRID_BAD_PIN);
+		canvas_tell(LADDER_CANVAS(view), told);
+		g_free(told);
+		return false;
+	}
 	entry = g_new0(struct entry, 1);
 	good = !*pin.feed || (entry_read(&place, pin.feed, entry) &&
 			      entry_cell(project, entry, &feed));

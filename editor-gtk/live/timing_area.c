@@ -821,6 +821,7 @@ static void ladder_timing_area_init(LadderTimingArea *area)
 	area->follows = true;
 	area->selected = -1;
 	area->mark_ns = -1;
+	gtk_widget_set_direction(GTK_WIDGET(area), GTK_TEXT_DIR_LTR); /* time goes to the right */
 	area->lettering = lettering_new(gtk_widget_get_pango_context(GTK_WIDGET(area)), NULL);
 	gtk_widget_set_focusable(GTK_WIDGET(area), TRUE);
 	spoken_name(area, _("Timing chart, cursor"));

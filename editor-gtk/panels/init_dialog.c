@@ -13,8 +13,6 @@
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 
-#include "engine/xref/xref.h"
-
 #include <adwaita.h>
 #include <string.h>
 
@@ -175,13 +173,7 @@ static bool is_fixed(const LadderPanelRow *row, int field)
 
 static int index_of(const struct dialog *dialog)
 {
-	struct project *project = ladder_document_project(dialog->document);
-	const struct var_table *vars = project ? xref_table(project, dialog->table) : NULL;
-
-	for (int i = 0; vars && i < vars->count; i++)
-		if (strcmp(project_text(project, vars->var[i].name), dialog->name) == 0)
-			return i;
-	return -1;
+	return symbol_find(dialog->document, dialog->table, dialog->name, -1);
 }
 
 /* The first row in @rows, or below them, with a text that was refused; NULL: none. */

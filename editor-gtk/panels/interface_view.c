@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * interface_view - the interface of a function or block; see interface_view.h.
+ * interface_view - what a program or block declares; see interface_view.h.
  */
 #include "editor-gtk/panels/interface_view.h"
 
+#include "editor-gtk/canvas/canvas.h"
 #include "editor-gtk/document/panel_cells.h"
 #include "editor-gtk/document/pins.h"
 #include "editor-gtk/document/symbols.h"
@@ -16,29 +17,37 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/picture_view.h"
 #include "editor-gtk/kit/settings.h"
+#include "editor-gtk/panels/type_cells.h"
+#include "editor-gtk/text/text_view.h"
 
-#include "engine/xref/xref.h"
+#include "engine/base/name.h"
 
 #include <adwaita.h>
 #include <string.h>
 
 #define LOW_SCREEN 800  /* px: on a lower one it is folded at first              */
 #define TABLE_HIGH 168  /* px                                                    */
-#define PIN_KIND SYMBOL_FIELDS /* column behind the fields                      */
-#define RESULT (1 << 15) /* LadderPanelRow.flags: the result of a function      */
+#define PIN_KIND SYMBOL_FIELDS /* field behind those of symbols                 */
 
-/* Values of the setting "interface": folded by the height of the screen, shown, or folded. */
+/* LadderPanelRow.flags, beside SYMBOL_KINDS and TYPE_CELLS_PARTS. */
+enum { FIXED = 1, RESULT = 1 << 15 /* of a function                             */ };
+
+/* Values of the settings "interface" and "variables": by the height of the screen or the kind of
+ * sheet, shown, or folded. */
 enum { BY_SCREEN, SHOWN, FOLDED };
 
 struct _LadderInterfaceView {
 	GtkWidget parent_instance;
-	LadderCanvas *canvas;    /* borrowed                                      */
-	GtkWidget *box, *arrow, *title, *summary, *body, *picture;
+	GtkWidget *sheet;        /* borrowed                                      */
+	GtkWidget *box, *header, *arrow, *title, *summary, *body, *around, *picture;
+	GtkWidget *table;
+	GtkColumnViewColumn *address; /* of the variables of charts; borrowed     */
 	struct panel_list list;
 	struct panel_message message;
 	struct panel_cells cells;
 	struct panel_watch *watch;
 	bool placed;             /* its first state was set                       */
+	bool editable;           /* at the last look                              */
 };
 
 G_DEFINE_FINAL_TYPE(LadderInterfaceView, ladder_interface_view, GTK_TYPE_WIDGET)
@@ -48,26 +57,34 @@ static LadderDocument *document_of(LadderInterfaceView *view)
 	return view->watch ? panel_watch_document(view->watch) : NULL;
 }
 
-/* The function or block; NULL: the sheet shows another POU. */
+static int shown_pou(LadderInterfaceView *view)
+{
+	return LADDER_IS_TEXT_VIEW(view->sheet) ?
+	       ladder_text_view_pou(LADDER_TEXT_VIEW(view->sheet)) :
+	       ladder_canvas_pou(LADDER_CANVAS(view->sheet));
+}
+
+/* The function, block or chart; NULL: the sheet shows another POU. */
 static const struct pou *pou_of(LadderInterfaceView *view)
 {
 	const struct project *project = document_of(view) ?
 		ladder_document_project(document_of(view)) : NULL;
-	const int pou = ladder_canvas_pou(view->canvas);
+	const int pou = shown_pou(view);
 
 	return project && pou >= 0 && pou < project->pou_count &&
-	       pou_has_frame(&project->pou[pou]) ? &project->pou[pou] : NULL;
+	       (pou_has_frame(&project->pou[pou]) || project->pou[pou].sfc) ?
+	       &project->pou[pou] : NULL;
+}
+
+/* A chart is a program, which has variables but no pins. */
+static bool has_pins(LadderInterfaceView *view)
+{
+	return pou_of(view) && pou_has_frame(pou_of(view));
 }
 
 static int index_of_pou(LadderInterfaceView *view)
 {
 	return (int)(pou_of(view) - ladder_document_project(document_of(view))->pou);
-}
-
-/* @text: taken over; NULL: clears the message. */
-static void tell(LadderInterfaceView *view, char *text)
-{
-	panel_message_set(&view->message, document_of(view), text);
 }
 
 /* ---- the box ---- */
@@ -91,7 +108,7 @@ static void draw_box(gpointer data, struct picture *picture, struct lettering *l
 {
 	LadderInterfaceView *view = data;
 	const struct pou *pou = pou_of(view);
-	struct rung *rung = pou ? box_alone(view, pou) : NULL;
+	struct rung *rung = has_pins(view) ? box_alone(view, pou) : NULL;
 	struct pou alone = { .rung = &rung, .rung_count = 1 };
 	struct sheet *sheet;
 
@@ -115,25 +132,47 @@ static void draw_box(gpointer data, struct picture *picture, struct lettering *l
 
 /* ---- rows ---- */
 
+static const struct { uint16_t flag; const char *word; } kinds[] = {
+	{ VAR_INPUT, N_("input") }, { VAR_IN_OUT, N_("in and out") }, { VAR_OUTPUT, N_("output") },
+	{ 0, N_("local") }, { VAR_TEMP, N_("temporary") },
+};
+
 static const char *kind_word(uint16_t kind)
 {
-	return kind == VAR_INPUT ? _("input") : kind == VAR_OUTPUT ? _("output") :
-	       kind == VAR_IN_OUT ? _("in and out") : _("result");
+	for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++)
+		if (kinds[i].flag == kind)
+			return _(kinds[i].word);
+	return "";
+}
+
+/* The kind that a text names, translated or as the file has it: "output", "VAR_OUTPUT". False:
+ * none. */
+static bool find_kind(const char *text, uint16_t *kind)
+{
+	for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++)
+		if (name_equal(text, _(kinds[i].word)) ||
+		    name_equal(text, vars_head(kinds[i].flag))) {
+			*kind = kinds[i].flag;
+			return true;
+		}
+	return false;
 }
 
 static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row *symbol,
-			      uint16_t kind)
+			      const char *kind)
 {
 	LadderPanelRow *row = ladder_panel_row_new();
 	bool warning = false;
 
 	for (int i = 0; i < SYMBOL_FIELDS; i++)
 		row->text[i] = g_strdup(symbol->text[i]);
-	row->text[PIN_KIND] = g_strdup(kind_word(kind));
+	row->text[PIN_KIND] = g_strdup(kind);
 	row->number = symbol->uses;
 	row->table = symbol->table;
 	row->index = symbol->index;
-	row->flags = symbol->included ? 1 : 0;
+	row->flags = (symbol->flags & SYMBOL_KINDS) | (symbol->included ? FIXED : 0u) |
+		     (symbol->included ? 0u :
+		      type_cells_flags(document, symbol->table, symbol->index));
 	row->note = symbol_error(document, symbol, &warning);
 	row->tone = !row->note ? PANEL_PLAIN : warning ? PANEL_WARNING : PANEL_ERROR;
 	row->spoken = g_strdup_printf("%s, %s, %s", symbol->text[FIELD_NAME],
@@ -146,35 +185,37 @@ static void add_result(GPtrArray *rows, LadderDocument *document, const struct p
 {
 	const struct project *project = ladder_document_project(document);
 	struct symbol_row *symbol = symbol_row_new(project, &pou->vars, n + 1, 0);
-	LadderPanelRow *row = row_of(document, symbol, 0);
+	LadderPanelRow *row = row_of(document, symbol, _("result"));
 
-	row->flags |= pou->included ? RESULT | 1 : RESULT;
+	row->flags |= pou->included ? RESULT | FIXED : RESULT;
 	row->index = 0;
 	g_ptr_array_add(rows, row);
 	symbol_row_free(symbol);
 }
 
+/* Pins first, as in the box, then variables. */
 static void fill_rows(LadderInterfaceView *view, const struct pou *pou)
 {
-	static const uint16_t order[] = { VAR_INPUT, VAR_IN_OUT, VAR_OUTPUT };
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
 	struct symbols *symbols = symbols_new(document_of(view));
 	const int table = index_of_pou(view) + 1;
 
 	if (pou->kind == POU_FUNCTION && pou->vars.count > 0)
 		add_result(rows, document_of(view), pou, table - 1);
-	for (gsize k = 0; k < G_N_ELEMENTS(order); k++)
+	for (gsize k = 0; k < G_N_ELEMENTS(kinds); k++)
 		for (int i = 0; i < symbols->count; i++)
 			if (symbols->symbol[i].table == table &&
-			    pins_kind(pou, symbols->symbol[i].index) == order[k])
+			    (symbols->symbol[i].flags & SYMBOL_KINDS) == kinds[k].flag)
 				g_ptr_array_add(rows, row_of(document_of(view),
-							     &symbols->symbol[i], order[k]));
-	panel_list_update(&view->list, rows);
+					&symbols->symbol[i], _(kinds[k].word)));
+	for (guint i = 0; i < rows->len && !ladder_document_is_whole(document_of(view)); i++)
+		((LadderPanelRow *)rows->pdata[i])->flags |= FIXED;
+	panel_cells_update(&view->list, rows);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
 }
 
-static void show_summary(LadderInterfaceView *view, const struct pou *pou)
+static char *count_pins(const struct pou *pou)
 {
 	const int in = pins_count(pou, VAR_INPUT), out = pins_count(pou, VAR_OUTPUT);
 	const int both = pins_count(pou, VAR_IN_OUT);
@@ -183,10 +224,54 @@ static void show_summary(LadderInterfaceView *view, const struct pou *pou)
 	char *text = both ? g_strdup_printf("%s, %s, VAR_IN_OUT: %d", inputs, outputs, both) :
 		     g_strdup_printf("%s, %s", inputs, outputs);
 
-	gtk_label_set_text(GTK_LABEL(view->summary), text);
-	g_free(text);
 	g_free(outputs);
 	g_free(inputs);
+	return text;
+}
+
+static void show_summary(LadderInterfaceView *view, const struct pou *pou)
+{
+	const int count = vars_declared(&pou->vars);
+	char *text = has_pins(view) ? count_pins(pou) : g_strdup_printf(
+		ngettext("%d variable", "%d variables", (gulong)count), count);
+	const char *name = has_pins(view) ? _("Interface") : _("Variables");
+
+	gtk_label_set_text(GTK_LABEL(view->summary), text);
+	gtk_label_set_text(GTK_LABEL(view->title), name);
+	spoken_name(view->header, name);
+	spoken_name(view->table, has_pins(view) ? _("Pins") : _("Variables"));
+	gtk_widget_set_visible(view->around, has_pins(view));
+	gtk_column_view_column_set_visible(view->address, !has_pins(view));
+	g_free(text);
+}
+
+/* A list that cannot be read has declarations that the project does not have. */
+static bool may_edit(LadderInterfaceView *view)
+{
+	return pou_of(view) && ladder_document_is_whole(document_of(view));
+}
+
+/* @text: taken over; NULL: clears the message. */
+static void tell(LadderInterfaceView *view, char *text, bool error)
+{
+	GtkWidget *label = GTK_WIDGET(view->message.label);
+
+	panel_message_set(&view->message, document_of(view), text);
+	gtk_widget_remove_css_class(label, error ? "dim-label" : "error");
+	gtk_widget_add_css_class(label, error ? "error" : "dim-label");
+}
+
+/* Tells why nothing can be edited, while that is so. */
+static void show_state(LadderInterfaceView *view)
+{
+	const bool may = may_edit(view);
+
+	if (!may)
+		tell(view, g_strdup(_("They can be changed when all texts of the project can be "
+				      "read again")), false);
+	else if (!view->editable)
+		tell(view, NULL, false);
+	view->editable = may;
 }
 
 static void refresh(GtkWidget *widget)
@@ -199,8 +284,12 @@ static void refresh(GtkWidget *widget)
 	if (!pou)
 		return;
 	show_summary(view, pou);
+	gtk_widget_action_set_enabled(widget, "interface.add-input", has_pins(view));
+	gtk_widget_action_set_enabled(widget, "interface.add-output", has_pins(view));
+	gtk_widget_action_set_enabled(widget, "interface.add-in-out", has_pins(view));
 	if (!gtk_widget_get_visible(view->body))
 		return;
+	show_state(view);
 	fill_rows(view, pou);
 	ladder_picture_view_again(LADDER_PICTURE_VIEW(view->picture));
 }
@@ -212,10 +301,16 @@ static void set_shown(LadderInterfaceView *view, bool shown)
 	gtk_widget_set_visible(view->body, shown);
 	gtk_image_set_from_icon_name(GTK_IMAGE(view->arrow), shown ? "pan-down-symbolic" :
 				     "pan-end-symbolic");
-	gtk_accessible_update_state(GTK_ACCESSIBLE(gtk_widget_get_ancestor(view->arrow,
-		GTK_TYPE_BUTTON)), GTK_ACCESSIBLE_STATE_EXPANDED, shown, -1);
+	gtk_accessible_update_state(GTK_ACCESSIBLE(view->header), GTK_ACCESSIBLE_STATE_EXPANDED,
+				    shown, -1);
 	if (shown)
 		refresh(GTK_WIDGET(view));
+}
+
+/* Charts need their room: their variables are folded until somebody unfolds them. */
+static const char *key_of(LadderInterfaceView *view)
+{
+	return has_pins(view) ? "interface" : "variables";
 }
 
 static void fold(GtkWidget *widget, const char *action, GVariant *unused)
@@ -226,10 +321,10 @@ static void fold(GtkWidget *widget, const char *action, GVariant *unused)
 	(void)action;
 	(void)unused;
 	if (!shown && gtk_widget_get_focus_child(view->box) == view->body)
-		gtk_widget_grab_focus(GTK_WIDGET(view->canvas));
+		gtk_widget_grab_focus(view->sheet);
 	set_shown(view, shown);
 	if (settings_get())
-		g_settings_set_int(settings_get(), "interface", shown ? SHOWN : FOLDED);
+		g_settings_set_int(settings_get(), key_of(view), shown ? SHOWN : FOLDED);
 }
 
 static bool is_low(GtkWidget *widget)
@@ -247,12 +342,13 @@ static bool is_low(GtkWidget *widget)
 static void mapped(GtkWidget *widget)
 {
 	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(widget);
-	const int kept = settings_int("interface", BY_SCREEN);
+	const int kept = settings_int(key_of(view), BY_SCREEN);
 
 	if (view->placed)
 		return;
 	view->placed = true;
-	set_shown(view, kept == SHOWN || (kept == BY_SCREEN && !is_low(widget)));
+	set_shown(view, kept == SHOWN || (kept == BY_SCREEN && has_pins(view) &&
+					  !is_low(widget)));
 }
 
 /* ---- edits ---- */
@@ -260,34 +356,61 @@ static void mapped(GtkWidget *widget)
 /* The index of a pin now: rows are updated with a delay. -1: deleted. */
 static int index_of(LadderInterfaceView *view, const LadderPanelRow *row)
 {
-	struct project *project = ladder_document_project(document_of(view));
-	const struct var_table *vars = project ? xref_table(project, row->table) : NULL;
+	return symbol_find(document_of(view), row->table, panel_row_text(row, FIELD_NAME),
+			   row->index);
+}
 
-	for (int i = 0; vars && i < vars_declared(vars); i++)
-		if (strcmp(project_text(project, vars->var[i].name),
-			   panel_row_text(row, FIELD_NAME)) == 0)
-			return i;
-	return -1;
+/* That @calls callers have operands at a pin, which has another kind now; NULL: none has. */
+static char *told_calls(const LadderPanelRow *row, int calls)
+{
+	return calls == 0 ? NULL : g_strdup_printf(ngettext(
+		"%s: %d caller has an operand there, which may not fit any more. See the problems.",
+		"%s: %d callers have an operand there, which may not fit any more. See the "
+		"problems.", (gulong)calls), panel_row_text(row, FIELD_NAME), calls);
+}
+
+static bool set_kind(LadderInterfaceView *view, LadderPanelRow *row, const char *text, char **why)
+{
+	const int pou = row->table - 1, index = index_of(view, row);
+	uint16_t kind = 0;
+	int calls;
+
+	if (!find_kind(text, &kind)) {
+		*why = g_strdup_printf(_("“%s” is no kind. Ctrl+Space lists them."), text);
+		return false;
+	}
+	if (kind == (row->flags & SYMBOL_KINDS))
+		return true;
+	calls = pin_calls(document_of(view), pou, index);
+	*why = pin_set_kind(document_of(view), pou, index, kind);
+	if (!*why)
+		tell(view, told_calls(row, calls), false);
+	return !*why;
 }
 
 static bool set_field(GObject *owner, LadderPanelRow *row, int number, const char *text,
 		      char **why)
 {
 	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(owner);
+	uint16_t kind;
 	bool good;
 
-	if (row->flags & RESULT) {
+	tell(view, NULL, false);
+	if (number == PIN_KIND) {
+		good = set_kind(view, row, text, why);
+	} else if (row->flags & RESULT) {
 		*why = pins_set_result(document_of(view), row->table - 1, text);
 		good = !*why;
 	} else {
 		good = symbol_set(document_of(view), row->table, index_of(view, row),
 				  (enum field)number, text, why);
 	}
-	tell(view, good || !*why ? NULL : g_strdup_printf("%s: %s",
-		panel_row_text(row, FIELD_NAME), *why));
+	if (!good && *why)
+		tell(view, g_strdup_printf("%s: %s", panel_row_text(row, FIELD_NAME), *why), true);
 	if (good) { /* for an undo before the next refresh */
 		g_free(row->text[number]);
-		row->text[number] = g_strstrip(g_strdup(text));
+		row->text[number] = number == PIN_KIND && find_kind(text, &kind) ?
+			g_strdup(kind_word(kind)) : g_strstrip(g_strdup(text));
 		panel_watch_later(view->watch);
 	}
 	return good;
@@ -295,12 +418,39 @@ static bool set_field(GObject *owner, LadderPanelRow *row, int number, const cha
 
 static bool is_fixed(const LadderPanelRow *row, int field)
 {
-	return row->flags & 1 || (row->flags & RESULT && field != FIELD_TYPE);
+	return row->flags & FIXED || (row->flags & RESULT && field != FIELD_TYPE) ||
+	       (field == FIELD_INITIAL && row->flags & VAR_IN_OUT);
 }
 
 static const char *field_name(int field)
 {
-	return symbol_field_name((enum field)field);
+	return field == PIN_KIND ? _("Kind") : symbol_field_name((enum field)field);
+}
+
+static GPtrArray *kind_choices(LadderInterfaceView *view)
+{
+	GPtrArray *choices = g_ptr_array_new_with_free_func(g_free);
+
+	for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++) {
+		if (!has_pins(view) && kinds[i].flag && kinds[i].flag != VAR_TEMP)
+			continue;
+		g_ptr_array_add(choices, g_strdup(_(kinds[i].word)));
+		g_ptr_array_add(choices, g_strdup(vars_head(kinds[i].flag)));
+	}
+	return choices;
+}
+
+static GPtrArray *choices_of(GObject *owner, int field)
+{
+	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(owner);
+
+	return field == PIN_KIND ? kind_choices(view) :
+	       type_cells_choices(document_of(view), false);
+}
+
+static void open_form(GObject *owner, LadderPanelRow *row, int field, GtkWidget *cell)
+{
+	type_cells_open(document_of(LADDER_INTERFACE_VIEW(owner)), row, field, cell);
 }
 
 /* The selected pin; NULL: none, or the result. */
@@ -311,28 +461,35 @@ static LadderPanelRow *selected(LadderInterfaceView *view)
 	return row && !(row->flags & RESULT) ? row : NULL;
 }
 
+/* Actions that add, and the names that they propose. */
+static const struct { const char *action; uint16_t kind; const char *name; } adds[] = {
+	{ "interface.add-input", VAR_INPUT, "In" }, { "interface.add-output", VAR_OUTPUT, "Out" },
+	{ "interface.add-in-out", VAR_IN_OUT, "Both" }, { "interface.add-local", 0, "Local" },
+	{ "interface.add-temp", VAR_TEMP, "Temp" },
+};
+
 static void add(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(widget);
-	const uint16_t kind = strcmp(action, "interface.add-input") == 0 ? VAR_INPUT :
-		strcmp(action, "interface.add-output") == 0 ? VAR_OUTPUT : VAR_IN_OUT;
 	const char *text[SYMBOL_FIELDS] = { "", "BOOL", "", "", "", "", "" };
 	char *name, *why = NULL;
+	gsize at = 0;
 	int table;
 
 	(void)unused;
-	if (!pou_of(view))
+	if (!may_edit(view))
 		return;
+	while (strcmp(adds[at].action, action) != 0)
+		at++;
 	table = index_of_pou(view) + 1;
-	name = symbol_free_name(document_of(view), table, kind == VAR_INPUT ? "In" :
-				kind == VAR_OUTPUT ? "Out" : "Both");
+	name = symbol_free_name(document_of(view), table, adds[at].name);
 	text[FIELD_NAME] = name;
-	if (symbol_add(document_of(view), table, kind, text, &why)) {
+	if (symbol_add(document_of(view), table, adds[at].kind, text, &why)) {
 		refresh(widget);
 		if (panel_list_select(&view->list, panel_row_is_named, name))
 			cells_enter(view->list.view, panel_list_row(&view->list), FIELD_NAME);
 	}
-	tell(view, why);
+	tell(view, why, true);
 	g_free(name);
 }
 
@@ -344,7 +501,7 @@ static void move(GtkWidget *widget, const char *action, GVariant *unused)
 	int field = -1, index;
 
 	(void)unused;
-	if (!row || !pou_of(view))
+	if (!row || !may_edit(view))
 		return;
 	cells_focused(view->list.view, &field);
 	if (!panel_cells_commit(view->list.view))
@@ -359,7 +516,7 @@ static void move(GtkWidget *widget, const char *action, GVariant *unused)
 		if (panel_list_select(&view->list, panel_row_is_named, name) && field >= 0)
 			cells_enter(view->list.view, panel_list_row(&view->list), field);
 	}
-	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL);
+	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL, true);
 	g_free(why);
 	g_free(name);
 }
@@ -368,17 +525,13 @@ static void move(GtkWidget *widget, const char *action, GVariant *unused)
 
 static void delete_now(LadderInterfaceView *view, int table, const char *name)
 {
-	const struct pou *pou = pou_of(view);
-	const struct project *project = ladder_document_project(document_of(view));
+	const int index = symbol_find(document_of(view), table, name, -1);
 	char *why = NULL;
 
-	for (int i = 0; pou && i < vars_declared(&pou->vars); i++)
-		if (strcmp(project_text(project, pou->vars.var[i].name), name) == 0) {
-			symbol_delete(document_of(view), table, i, &why);
-			break;
-		}
+	if (index >= 0)
+		symbol_delete(document_of(view), table, index, &why);
 	refresh(GTK_WIDGET(view));
-	tell(view, why);
+	tell(view, why, true);
 }
 
 static void answered(AdwMessageDialog *dialog, const char *answer, LadderInterfaceView *view)
@@ -426,7 +579,7 @@ static void delete(GtkWidget *widget, const char *action, GVariant *unused)
 
 	(void)action;
 	(void)unused;
-	if (!row)
+	if (!row || !may_edit(view))
 		return;
 	if (row->number > 0)
 		ask_delete(view, panel_row_text(row, FIELD_NAME), (int)row->number);
@@ -438,18 +591,30 @@ static void to_sheet(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	(void)action;
 	(void)unused;
-	gtk_widget_grab_focus(GTK_WIDGET(LADDER_INTERFACE_VIEW(widget)->canvas));
+	gtk_widget_grab_focus(LADDER_INTERFACE_VIEW(widget)->sheet);
 }
 
 /* ---- the widget ---- */
+
+/* Actions that are not enabled are hidden. */
+static void add_entry(GMenu *menu, const char *label, const char *action)
+{
+	GMenuItem *item = g_menu_item_new(label, action);
+
+	g_menu_item_set_attribute(item, "hidden-when", "s", "action-disabled");
+	g_menu_append_item(menu, item);
+	g_object_unref(item);
+}
 
 static GMenu *add_menu(void)
 {
 	GMenu *menu = g_menu_new();
 
-	g_menu_append(menu, _("Input"), "interface.add-input");
-	g_menu_append(menu, _("Output"), "interface.add-output");
-	g_menu_append(menu, _("In and out"), "interface.add-in-out");
+	add_entry(menu, _("Input"), "interface.add-input");
+	add_entry(menu, _("Output"), "interface.add-output");
+	add_entry(menu, _("In and out"), "interface.add-in-out");
+	add_entry(menu, _("Local variable"), "interface.add-local");
+	add_entry(menu, _("Temporary variable"), "interface.add-temp");
 	return menu;
 }
 
@@ -461,15 +626,15 @@ static GtkWidget *tools_new(void)
 	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(more), "list-add-symbolic");
 	gtk_widget_add_css_class(more, "flat");
 	popover_menu_of(GTK_MENU_BUTTON(more), add_menu);
-	tip_set(more, _("Add a pin"));
-	spoken_name(more, _("Add a pin"));
+	tip_set(more, _("Add a pin or variable"));
+	spoken_name(more, _("Add a pin or variable"));
 	gtk_box_append(GTK_BOX(box), more);
 	gtk_box_append(GTK_BOX(box), panel_button_new("list-remove-symbolic",
-		_("Delete the pin"), "interface.delete"));
-	gtk_box_append(GTK_BOX(box), panel_button_new("go-up-symbolic", _("Move the pin up"),
-							"interface.up"));
+		_("Delete the selected row"), "interface.delete"));
+	gtk_box_append(GTK_BOX(box), panel_button_new("go-up-symbolic",
+		_("Move the selected row up"), "interface.up"));
 	gtk_box_append(GTK_BOX(box), panel_button_new("go-down-symbolic",
-		_("Move the pin down"), "interface.down"));
+		_("Move the selected row down"), "interface.down"));
 	return box;
 }
 
@@ -491,24 +656,27 @@ static GtkWidget *header_new(LadderInterfaceView *view)
 	gtk_widget_add_css_class(button, "interface-header");
 	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "interface.fold");
 	gtk_widget_set_focus_on_click(button, FALSE);
-	spoken_name(button, _("Interface"));
+	view->header = button;
 	return button;
 }
 
 static void add_columns(LadderInterfaceView *view)
 {
-	static const struct { enum field field; int width; } column[] = {
-		{ FIELD_NAME, 140 }, { FIELD_TYPE, 120 }, { FIELD_INITIAL, 110 },
-		{ FIELD_COMMENT, 160 },
+	static const struct { int field; int width; } column[] = {
+		{ PIN_KIND, 118 }, { FIELD_NAME, 140 }, { FIELD_TYPE, 130 },
+		{ FIELD_ADDRESS, 100 }, { FIELD_INITIAL, 110 }, { FIELD_COMMENT, 160 },
 	};
 
 	view->cells = (struct panel_cells){ .owner = G_OBJECT(view), .name = field_name,
-		.set = set_field, .is_fixed = is_fixed };
-	panel_list_column(&view->list, _("Kind"), PIN_KIND, PANEL_DIM, 100);
+		.choosable = 1u << PIN_KIND, .completing = 1u << PIN_KIND, .set = set_field,
+		.is_fixed = is_fixed, .choices = choices_of, .open_form = open_form };
+	type_cells_join(&view->cells);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
-		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
+		panel_cells_add(&view->list, &view->cells, column[i].field,
 				column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
 				column[i].width);
+	view->address = g_list_model_get_item(gtk_column_view_get_columns(view->list.view), 3);
+	g_object_unref(view->address); /* the list has a reference */
 }
 
 static GtkWidget *table_new(LadderInterfaceView *view)
@@ -517,7 +685,7 @@ static GtkWidget *table_new(LadderInterfaceView *view)
 	GtkWidget *table = gtk_column_view_new(NULL);
 
 	gtk_widget_add_css_class(table, "data-table");
-	spoken_name(table, _("Pins"));
+	view->table = table;
 	panel_list_init(&view->list, GTK_COLUMN_VIEW(table));
 	add_columns(view);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), table);
@@ -532,6 +700,7 @@ static GtkWidget *body_new(LadderInterfaceView *view)
 	GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
 	GtkWidget *around = gtk_scrolled_window_new();
 
+	view->around = around;
 	view->picture = ladder_picture_view_new(draw_box, view);
 	gtk_widget_set_valign(view->picture, GTK_ALIGN_START);
 	gtk_widget_set_halign(view->picture, GTK_ALIGN_START);
@@ -564,14 +733,12 @@ static void dispose(GObject *object)
 
 static void ladder_interface_view_class_init(LadderInterfaceViewClass *class)
 {
-	static const char *const adds[] = { "interface.add-input", "interface.add-output",
-					    "interface.add-in-out" };
 	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
 
 	G_OBJECT_CLASS(class)->dispose = dispose;
 	gtk_widget_class_set_layout_manager_type(widget, GTK_TYPE_BIN_LAYOUT);
 	for (gsize i = 0; i < G_N_ELEMENTS(adds); i++)
-		gtk_widget_class_install_action(widget, adds[i], NULL, add);
+		gtk_widget_class_install_action(widget, adds[i].action, NULL, add);
 	gtk_widget_class_install_action(widget, "interface.fold", NULL, fold);
 	gtk_widget_class_install_action(widget, "interface.delete", NULL, delete);
 	gtk_widget_class_install_action(widget, "interface.up", NULL, move);
@@ -596,11 +763,11 @@ static void ladder_interface_view_init(LadderInterfaceView *view)
 	g_signal_connect(view, "map", G_CALLBACK(mapped), NULL);
 }
 
-GtkWidget *ladder_interface_view_new(LadderDocument *document, LadderCanvas *canvas)
+GtkWidget *ladder_interface_view_new(LadderDocument *document, GtkWidget *sheet)
 {
 	LadderInterfaceView *view = g_object_new(LADDER_TYPE_INTERFACE_VIEW, NULL);
 
-	view->canvas = canvas;
+	view->sheet = sheet;
 	view->watch = panel_watch_new(GTK_WIDGET(view), true, refresh);
 	panel_watch_set(view->watch, document);
 	refresh(GTK_WIDGET(view));

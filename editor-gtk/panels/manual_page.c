@@ -187,6 +187,7 @@ static GtkWidget *cell_new(const GArray *runs, bool heading)
 	gtk_label_set_yalign(GTK_LABEL(label), 0);
 	gtk_label_set_wrap(GTK_LABEL(label), TRUE);
 	gtk_label_set_wrap_mode(GTK_LABEL(label), PANGO_WRAP_WORD_CHAR);
+	gtk_label_set_selectable(GTK_LABEL(label), TRUE);
 	gtk_widget_set_hexpand(label, TRUE);
 	g_free(markup);
 	return label;
@@ -302,12 +303,13 @@ void manual_text_show(struct manual_text *text, const struct md_page *page, cons
 	GtkTextBuffer *buffer = buffer_of(text);
 
 	remove_widgets(text);
-	gtk_text_buffer_set_text(buffer, "", -1);
-	forget_links(buffer);
-	colour_tags(buffer);
+	text->page = page;
 	g_array_set_size(text->start, 0);
 	g_ptr_array_set_size(text->tables, 0);
 	g_ptr_array_set_size(text->pictures, 0);
+	gtk_text_buffer_set_text(buffer, "", -1);
+	forget_links(buffer);
+	colour_tags(buffer);
 	for (guint i = 0; i < page->blocks->len; i++) {
 		const struct md_block *block = page->blocks->pdata[i];
 		const int start = end_of(buffer);
@@ -358,6 +360,61 @@ void manual_text_fit(struct manual_text *text)
 	for (guint i = 0; i < text->pictures->len; i++)
 		if (text->pictures->pdata[i])
 			fit_picture(text->pictures->pdata[i], width - 2 * DEEPER);
+}
+
+/* ---- copying ---- */
+
+int manual_text_block(const struct manual_text *text, const GtkTextIter *at)
+{
+	const int offset = gtk_text_iter_get_offset(at);
+	int block = (int)text->start->len - 1;
+
+	while (block >= 0 && g_array_index(text->start, int, block) > offset)
+		block--;
+	return block;
+}
+
+char *manual_text_block_copy(const struct manual_text *text, int block)
+{
+	return markdown_block_text(text->page->blocks->pdata[block]);
+}
+
+#define WIDGET 0xfffc /* what the text has in the place of a widget             */
+
+static void append_widget(const struct manual_text *text, const GtkTextIter *at, GString *out)
+{
+	char *instead = manual_text_block_copy(text, manual_text_block(text, at));
+
+	g_string_append(out, g_strchomp(instead));
+	g_free(instead);
+}
+
+/* A blank line of code has a blank, see put_code(). */
+static bool is_made_blank(const struct manual_text *text, const GtkTextIter *at)
+{
+	const int block = manual_text_block(text, at);
+	GtkTextIter next = *at;
+
+	if (gtk_text_iter_get_char(at) != ' ' || !gtk_text_iter_starts_line(at) || block < 0 ||
+	    ((struct md_block *)text->page->blocks->pdata[block])->kind != MD_CODE_BLOCK)
+		return false;
+	gtk_text_iter_forward_char(&next);
+	return gtk_text_iter_ends_line(&next);
+}
+
+char *manual_text_copy(const struct manual_text *text, const GtkTextIter *from,
+		       const GtkTextIter *to)
+{
+	GString *out = g_string_new(NULL);
+	GtkTextIter at = *from;
+
+	for (; gtk_text_iter_compare(&at, to) < 0; gtk_text_iter_forward_char(&at)) {
+		if (gtk_text_iter_get_char(&at) == WIDGET)
+			append_widget(text, &at, out);
+		else if (!is_made_blank(text, &at))
+			g_string_append_unichar(out, gtk_text_iter_get_char(&at));
+	}
+	return g_string_free(out, FALSE);
 }
 
 /* ---- links ---- */

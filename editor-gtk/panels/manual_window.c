@@ -5,6 +5,7 @@
 #include "editor-gtk/panels/manual_window.h"
 
 #include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/text_lower.h"
 #include "editor-gtk/panels/manual_page.h"
@@ -31,7 +32,9 @@ struct _LadderManualWindow {
 	GArray *matches;           /* struct match                               */
 	int match;                 /* -1: none                                   */
 	GtkTextMark *top;          /* where the view scrolls to                  */
-	guint fitting, settling;   /* sources                                   */
+	GtkWidget *copy;           /* button over the code under the pointer    */
+	int code;                  /* its block; -1: none                       */
+	guint fitting, settling, copying; /* sources                             */
 };
 
 G_DEFINE_FINAL_TYPE(LadderManualWindow, ladder_manual_window, ADW_TYPE_WINDOW)
@@ -185,6 +188,126 @@ static void scroll_to(LadderManualWindow *window, int offset)
 	scroll_and_settle(window);
 }
 
+/* ---- copying ---- */
+
+static void put_clipboard(LadderManualWindow *window, char *text)
+{
+	gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(window)), text);
+	g_free(text);
+}
+
+/* In place of the copy of GTK, which has nothing in the place of a table. */
+static void copy_selected(LadderManualWindow *window)
+{
+	GtkTextIter from, to;
+
+	g_signal_stop_emission_by_name(window->view, "copy-clipboard");
+	if (gtk_text_buffer_get_selection_bounds(buffer_of(window), &from, &to))
+		put_clipboard(window, manual_text_copy(&window->text, &from, &to));
+}
+
+static enum md_kind kind_of(LadderManualWindow *window, int block)
+{
+	return ((struct md_block *)window->text.page->blocks->pdata[block])->kind;
+}
+
+/* The code or the table at the cursor. */
+static void copy_block(LadderManualWindow *window)
+{
+	GtkTextIter at;
+	int block;
+
+	gtk_text_buffer_get_iter_at_mark(buffer_of(window), &at,
+					 gtk_text_buffer_get_insert(buffer_of(window)));
+	block = manual_text_block(&window->text, &at);
+	if (block >= 0 && (kind_of(window, block) == MD_CODE_BLOCK ||
+			   kind_of(window, block) == MD_TABLE))
+		put_clipboard(window, manual_text_block_copy(&window->text, block));
+}
+
+static void copy_code(LadderManualWindow *window)
+{
+	if (window->code < 0)
+		return;
+	put_clipboard(window, manual_text_block_copy(&window->text, window->code));
+	gtk_button_set_label(GTK_BUTTON(window->copy), _("Copied"));
+}
+
+/* At the right end of the first line of the code that is seen. */
+static void place_copy(LadderManualWindow *window)
+{
+	GtkTextView *view = GTK_TEXT_VIEW(window->view);
+	GtkRequisition size;
+	GdkRectangle seen;
+	GtkTextIter at;
+	int y;
+
+	gtk_text_buffer_get_iter_at_offset(buffer_of(window), &at, g_array_index(
+		window->text.start, int, window->code));
+	gtk_text_view_get_line_yrange(view, &at, &y, NULL);
+	gtk_text_view_get_visible_rect(view, &seen);
+	gtk_widget_get_preferred_size(window->copy, &size, NULL);
+	gtk_text_view_move_overlay(view, window->copy, seen.x + seen.width -
+		gtk_text_view_get_right_margin(view) - size.width - 2, MAX(y, seen.y) + 2);
+}
+
+static gboolean show_copy_now(gpointer data)
+{
+	LadderManualWindow *window = data;
+
+	window->copying = 0;
+	gtk_widget_set_visible(window->copy, window->code >= 0);
+	if (window->code < 0)
+		return G_SOURCE_REMOVE;
+	gtk_button_set_label(GTK_BUTTON(window->copy), _("Copy"));
+	place_copy(window);
+	return G_SOURCE_REMOVE;
+}
+
+/* The pointer also moves to another widget while these are being placed: nothing may ask for
+ * another layout then. @code: the block; -1: none. */
+static void point_at(LadderManualWindow *window, int code)
+{
+	if (code == window->code)
+		return;
+	window->code = code;
+	if (!window->copying)
+		window->copying = g_idle_add(show_copy_now, window);
+}
+
+static void point_away(LadderManualWindow *window)
+{
+	point_at(window, -1);
+}
+
+static void show_copy(LadderManualWindow *window, double x, double y)
+{
+	GtkTextView *view = GTK_TEXT_VIEW(window->view);
+	GtkTextIter at;
+	int in_x, in_y, block;
+
+	gtk_text_view_window_to_buffer_coords(view, GTK_TEXT_WINDOW_WIDGET, (int)x, (int)y,
+					      &in_x, &in_y);
+	gtk_text_view_get_line_at_y(view, &at, in_y, NULL);
+	block = manual_text_block(&window->text, &at);
+	point_at(window, block >= 0 && kind_of(window, block) == MD_CODE_BLOCK ? block : -1);
+}
+
+static void make_copy(LadderManualWindow *window)
+{
+	window->code = -1;
+	window->copy = gtk_button_new_with_label(_("Copy"));
+	gtk_widget_add_css_class(window->copy, "manual-copy");
+	gtk_widget_set_focusable(window->copy, FALSE); /* Ctrl+Shift+C copies, too */
+	gtk_widget_set_visible(window->copy, FALSE);
+	gtk_widget_set_cursor_from_name(window->copy, "default");
+	tip_set(window->copy, _("Copy the code"));
+	g_signal_connect_swapped(window->copy, "clicked", G_CALLBACK(copy_code), window);
+	gtk_text_view_add_overlay(GTK_TEXT_VIEW(window->view), window->copy, 0, 0);
+	g_signal_connect_swapped(window->view, "copy-clipboard", G_CALLBACK(copy_selected),
+				 window);
+}
+
 /* ---- pages ---- */
 
 static gboolean follow_in_table(GtkLabel *label, const char *link, gpointer data);
@@ -205,6 +328,7 @@ static void show_page(LadderManualWindow *window, int page)
 	if (page == window->page || !of)
 		return;
 	window->page = page;
+	point_away(window);
 	manual_text_show(&window->text, of, manual_folder(window->manual), follow_in_table,
 			 window);
 	gtk_window_set_title(GTK_WINDOW(window), of->title);
@@ -337,6 +461,7 @@ static void moved(GtkEventControllerMotion *motion, double x, double y,
 		  LadderManualWindow *window)
 {
 	(void)motion;
+	show_copy(window, x, y);
 	gtk_widget_set_cursor_from_name(window->view, link_at(window, x, y) ? "pointer" :
 					"text");
 }
@@ -461,6 +586,8 @@ static void mark(LadderManualWindow *window, const struct match *match)
 	gtk_text_buffer_get_iter_at_offset(buffer_of(window), &to, match->to);
 	if (match->cell)
 		gtk_widget_add_css_class(match->cell, "found");
+	if (match->cell)
+		gtk_text_buffer_place_cursor(buffer_of(window), &from);
 	else
 		gtk_text_buffer_select_range(buffer_of(window), &from, &to);
 	g_clear_handle_id(&window->settling, g_source_remove);
@@ -531,6 +658,8 @@ static void act(GtkWidget *widget, const char *name, GVariant *unused)
 		find_next(window);
 	} else if (strcmp(name, "manual.previous") == 0) {
 		find_previous(window);
+	} else if (strcmp(name, "manual.copy") == 0) {
+		copy_block(window);
 	} else if (strcmp(name, "manual.search") == 0) {
 		gtk_widget_grab_focus(window->search);
 	} else {
@@ -595,6 +724,7 @@ static void dispose(GObject *object)
 
 	g_clear_handle_id(&window->fitting, g_source_remove);
 	g_clear_handle_id(&window->settling, g_source_remove);
+	g_clear_handle_id(&window->copying, g_source_remove);
 	manual_text_clear(&window->text);
 	g_clear_pointer(&window->history, g_array_unref);
 	g_clear_pointer(&window->matches, g_array_unref);
@@ -610,6 +740,7 @@ static void add_keys(GtkWidgetClass *widget)
 		{ GDK_KEY_f, GDK_CONTROL_MASK, "manual.find" },
 		{ GDK_KEY_f, GDK_CONTROL_MASK | GDK_SHIFT_MASK, "manual.search" },
 		{ GDK_KEY_F3, 0, "manual.next" }, { GDK_KEY_F3, GDK_SHIFT_MASK, "manual.previous" },
+		{ GDK_KEY_c, GDK_CONTROL_MASK | GDK_SHIFT_MASK, "manual.copy" },
 		{ GDK_KEY_w, GDK_CONTROL_MASK, "window.close" },
 	};
 
@@ -643,6 +774,7 @@ static void ladder_manual_window_class_init(LadderManualWindowClass *class)
 	gtk_widget_class_install_action(widget, "manual.search", NULL, act);
 	gtk_widget_class_install_action(widget, "manual.next", NULL, act);
 	gtk_widget_class_install_action(widget, "manual.previous", NULL, act);
+	gtk_widget_class_install_action(widget, "manual.copy", NULL, act);
 	add_keys(widget);
 }
 
@@ -657,6 +789,7 @@ static void add_controllers(LadderManualWindow *window)
 	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), window);
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
 	gtk_widget_add_controller(window->view, GTK_EVENT_CONTROLLER(click));
+	g_signal_connect_swapped(motion, "leave", G_CALLBACK(point_away), window);
 	gtk_widget_add_controller(window->view, motion);
 	gtk_widget_add_controller(window->view, keys);
 }
@@ -674,6 +807,7 @@ static void ladder_manual_window_init(LadderManualWindow *window)
 	window->top = gtk_text_buffer_create_mark(buffer_of(window), NULL, &start, TRUE);
 	gtk_search_bar_connect_entry(GTK_SEARCH_BAR(window->find_bar),
 				     GTK_EDITABLE(window->find));
+	make_copy(window);
 	add_controllers(window);
 	spoken_name(window->search, _("Search the manual"));
 	spoken_name(window->find, _("Find in this page"));

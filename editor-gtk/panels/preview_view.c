@@ -187,8 +187,8 @@ static void set_project(LadderPreviewPages *pages, LadderDocument *document,
 	forget(pages);
 	pages->width = (double)paper->width / 25.4 * 72;
 	pages->height = (double)paper->height / 25.4 * 72;
-	pages->ladder = ladder_new();
-	if (pages->ladder && ladder_load_text(pages->ladder, path ? g_intern_string(path) : "",
+	pages->ladder = ladder_document_reader(document);
+	if (ladder_load_text(pages->ladder, path ? g_intern_string(path) : "",
 					      text, len))
 		pages->pages = pages_new(ladder_project(pages->ladder), name, -1, 0,
 			(enum drafting_show)settings_enum("show", SHOW_BOTH), paper,

@@ -147,8 +147,8 @@ void ladder_scenario_view_run(LadderScenarioView *view, const char *path,
 	view->version = ladder_document_version(view->document);
 	view->running = g_cancellable_new();
 	show_rows(view);
-	scenario_run_all(path ? path : "-", program, len, files, texts, view->running, done,
-			 g_object_ref(view));
+	scenario_run_all(ladder_document_reader(view->document), path ? path : "-", program, len,
+			 files, texts, view->running, done, g_object_ref(view));
 	g_free(program);
 }
 

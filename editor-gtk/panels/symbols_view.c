@@ -13,7 +13,6 @@
 #include "editor-gtk/panels/import_dialog.h"
 #include "editor-gtk/panels/type_cells.h"
 #include "engine/base/name.h"
-#include "engine/xref/xref.h"
 
 #include <string.h>
 
@@ -219,17 +218,7 @@ void ladder_symbols_view_enter(LadderSymbolsView *view)
  * deleted. */
 static int index_of(LadderDocument *document, const LadderPanelRow *row)
 {
-	struct project *project = ladder_document_project(document);
-	const struct var_table *vars = project ? xref_table(project, row->table) : NULL;
-	const char *name = panel_row_text(row, FIELD_NAME);
-	int index = vars && row->index < vars->count ? row->index : -1;
-
-	if (index >= 0 && strcmp(project_text(project, vars->var[index].name), name) == 0)
-		return index;
-	for (index = vars ? vars->count - 1 : -1; index >= 0; index--)
-		if (strcmp(project_text(project, vars->var[index].name), name) == 0)
-			break;
-	return index;
+	return symbol_find(document, row->table, panel_row_text(row, FIELD_NAME), row->index);
 }
 
 /* Names the other symbols at the same address. */

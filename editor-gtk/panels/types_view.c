@@ -13,8 +13,6 @@
 #include "editor-gtk/kit/row_move.h"
 #include "editor-gtk/panels/type_cells.h"
 
-#include "engine/xref/xref.h"
-
 #include <string.h>
 
 /* A column behind the fields. */
@@ -39,7 +37,8 @@ static LadderDocument *document_of(LadderTypesView *view)
 	return panel_watch_document(view->watch);
 }
 
-int ladder_types_view_type(LadderTypesView *view)
+/* The number of the structure that it shows; -1: none. */
+static int type_of(LadderTypesView *view)
 {
 	return view->type ? type_find(document_of(view), view->type) : -1;
 }
@@ -78,7 +77,7 @@ static void fill_rows(LadderTypesView *view)
 {
 	LadderDocument *document = document_of(view);
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
-	const int type = ladder_types_view_type(view);
+	const int type = type_of(view);
 	struct symbols *symbols = type >= 0 ? symbols_new(document) : NULL;
 	const bool fixed = type >= 0 && type_is_included(document, type);
 
@@ -94,7 +93,7 @@ static void fill_types(LadderTypesView *view, const struct project *project)
 {
 	GPtrArray *names = g_ptr_array_new();
 	const int count = project ? project->structure_count : 0;
-	const int now = ladder_types_view_type(view);
+	const int now = type_of(view);
 
 	for (int i = 0; i < count; i++)
 		g_ptr_array_add(names, (gpointer)project_text(project,
@@ -126,7 +125,7 @@ static void refresh(GtkWidget *widget)
 
 	panel_message_age(&view->message, document);
 	/* A renamed structure keeps its number. */
-	if (project && ladder_types_view_type(view) < 0)
+	if (project && type_of(view) < 0)
 		set_type(view, was == GTK_INVALID_LIST_POSITION ? 0 :
 			 MIN((int)was, project->structure_count - 1));
 	fill_types(view, project);
@@ -164,14 +163,8 @@ static void type_changed(GtkDropDown *types, GParamSpec *spec, LadderTypesView *
 /* The index of a row now: rows are updated with a delay. -1: deleted. */
 static int index_of(LadderTypesView *view, const LadderPanelRow *row)
 {
-	struct project *project = ladder_document_project(document_of(view));
-	const struct var_table *vars = project ? xref_table(project, row->table) : NULL;
-
-	for (int i = 0; vars && i < vars->count; i++)
-		if (strcmp(project_text(project, vars->var[i].name),
-			   panel_row_text(row, FIELD_NAME)) == 0)
-			return i;
-	return -1;
+	return symbol_find(document_of(view), row->table, panel_row_text(row, FIELD_NAME),
+			   row->index);
 }
 
 static const char *field_name(int field)
@@ -234,7 +227,7 @@ static LadderPanelRow *row_here(LadderTypesView *view)
 static void add(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
-	const int type = ladder_types_view_type(view);
+	const int type = type_of(view);
 	const LadderPanelRow *row = row_here(view);
 	char *name, *why;
 
@@ -278,7 +271,7 @@ static void delete(GtkWidget *widget, const char *action, GVariant *unused)
 
 static void move(LadderTypesView *view, LadderPanelRow *row, int to)
 {
-	const int type = ladder_types_view_type(view), from = index_of(view, row);
+	const int type = type_of(view), from = index_of(view, row);
 	const int count = (int)g_list_model_get_n_items(G_LIST_MODEL(view->list.store));
 	char *why = NULL;
 
@@ -335,7 +328,7 @@ static const struct row_move moving = {
 static void act_on_type(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderTypesView *view = LADDER_TYPES_VIEW(widget);
-	const int type = ladder_types_view_type(view);
+	const int type = type_of(view);
 	const char *verb = strchr(action, '.') + 1;
 	char *name;
 

@@ -21,7 +21,5 @@ GtkWidget *ladder_types_view_new(LadderDocument *document);
 void ladder_types_view_show(LadderTypesView *view, int structure);
 /** ladder_types_view_enter - gives the first member the keys. */
 void ladder_types_view_enter(LadderTypesView *view);
-/** ladder_types_view_type - the number of the structure that it shows; -1: none. */
-int ladder_types_view_type(LadderTypesView *view);
 
 #endif

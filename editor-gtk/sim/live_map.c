@@ -15,6 +15,8 @@ struct live_map {
 	int unit;                    /* of CODE_PROGRAMS; -1: none              */
 	char *pou;
 	const struct code_watched *watched; /* the instance that is shown        */
+	char *instance;              /* its name: a sheet may be asked for it after the
+				      * program has gone; NULL: none */
 	GHashTable *names;           /* name_fold(), with POU -> struct location *  */
 };
 
@@ -186,7 +188,7 @@ GPtrArray *live_map_instances(const struct live_map *map)
 
 const char *live_map_instance(const struct live_map *map)
 {
-	return map->watched ? map->program->string + map->watched->name : NULL;
+	return map->instance;
 }
 
 static const struct code_watched *choose(const struct live_map *map, const char *instance)
@@ -226,6 +228,7 @@ struct live_map *live_map_new(const struct resource *resource, const char *pou,
 	map->pou = g_strdup(pou);
 	map->unit = find_unit(map->program, pou);
 	map->watched = choose(map, instance);
+	map->instance = map->watched ? g_strdup(map->program->string + map->watched->name) : NULL;
 	map->names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
 	take_names(map);
 	return map;
@@ -236,6 +239,7 @@ void live_map_free(struct live_map *map)
 	if (!map)
 		return;
 	g_hash_table_unref(map->names);
+	g_free(map->instance);
 	g_free(map->pou);
 	g_free(map);
 }

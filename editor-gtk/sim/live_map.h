@@ -29,7 +29,8 @@ void live_map_free(struct live_map *map);
 /** live_map_instances - names of those of the POU, of const char *, of the program.
  * Caller: g_ptr_array_unref. */
 GPtrArray *live_map_instances(const struct live_map *map);
-/** live_map_instance - the one that is shown; NULL: the POU is no block, or has none. */
+/** live_map_instance - the one that is shown; NULL: the POU is no block, or has none. Lives as
+ * long as @map, also when the program has gone. */
 const char *live_map_instance(const struct live_map *map);
 /** live_map_find - where an operand's value is: "Start", "T1.Q", "Table[3]", "%IX0.0";
  * type IEC_NONE: it has no place that is always the same, or there is none. */

@@ -37,6 +37,7 @@ GPtrArray *scenario_files(const char *path)
 /* ---- running ---- */
 
 struct job {
+	struct ladder *reader;  /* NULL: it was used                            */
 	char *file, *program;
 	gsize len;
 	GPtrArray *files, *texts;
@@ -58,6 +59,7 @@ static void job_free(gpointer data)
 {
 	struct job *job = data;
 
+	ladder_free(job->reader);
 	g_free(job->file);
 	g_free(job->program);
 	g_ptr_array_unref(job->files);
@@ -305,7 +307,8 @@ static void run(GTask *task, gpointer source, gpointer data, GCancellable *stop)
 		stopped = g_cancellable_connect(stop, G_CALLBACK(cancelled), job, NULL);
 	running.results = g_ptr_array_new_with_free_func(
 		(GDestroyNotify)scenario_result_free);
-	running.program = sim_program_new(job->file, job->program, job->len, &error);
+	running.program = sim_program_read(g_steal_pointer(&job->reader), job->file, job->program,
+					   job->len, &error);
 	if (!running.program)
 		add(running.results, SCENARIO_UNREAD, job->file, "",
 		    g_strdup_printf(_("The program has errors: %s"), error->message));
@@ -318,13 +321,14 @@ static void run(GTask *task, gpointer source, gpointer data, GCancellable *stop)
 	g_task_return_pointer(task, running.results, (GDestroyNotify)g_ptr_array_unref);
 }
 
-void scenario_run_all(const char *file, const char *program, gsize len, GPtrArray *files,
-		      GPtrArray *texts, GCancellable *stop, GAsyncReadyCallback done,
+void scenario_run_all(struct ladder *reader, const char *file, const char *program, gsize len,
+		      GPtrArray *files, GPtrArray *texts, GCancellable *stop, GAsyncReadyCallback done,
 		      gpointer data)
 {
 	struct job *job = g_new0(struct job, 1);
 	GTask *task = g_task_new(NULL, stop, done, data);
 
+	job->reader = reader;
 	job->file = g_strdup(file);
 	job->program = g_strndup(program, len);
 	job->len = len;

@@ -35,13 +35,14 @@ GPtrArray *scenario_files(const char *path);
 
 /**
  * scenario_run_all - in a thread; @done is called in the main context
+ * @reader: of ladder_document_reader(), taken over
  * @program, @len: text of the project   @file: what it is called
  * @files: paths (char *); @texts: the text of each, NULL: read the file; both taken over
  * @stop: cancels it; NULL: cannot be cancelled
  */
-void scenario_run_all(const char *file, const char *program, gsize len, GPtrArray *files,
-		      GPtrArray *texts, GCancellable *stop, GAsyncReadyCallback done,
-		      gpointer data);
+void scenario_run_all(struct ladder *reader, const char *file, const char *program, gsize len,
+		      GPtrArray *files, GPtrArray *texts, GCancellable *stop,
+		      GAsyncReadyCallback done, gpointer data);
 /** scenario_run_finish - of struct scenario_result *; NULL: cancelled. Caller:
  * g_ptr_array_unref(). */
 GPtrArray *scenario_run_finish(GAsyncResult *result);

@@ -504,7 +504,7 @@ static struct sim_program *build(LadderSim *sim, GError **error)
 	gsize len;
 	char *text = ladder_document_text(sim->document, &len);
 	const char *path = ladder_document_path(sim->document);
-	struct sim_program *program = sim_program_new(
+	struct sim_program *program = sim_program_read(ladder_document_reader(sim->document),
 		g_intern_string(path ? path : "-"), text, len, error);
 
 	/* A list that cannot be read would run differently from its text. */
@@ -645,6 +645,7 @@ const char *ladder_sim_plant(LadderSim *sim)
 /* ---- an edit while it runs ---- */
 
 struct rebuild {
+	struct ladder *reader;   /* NULL: it was used                          */
 	char *text;
 	gsize len;
 	const char *file;
@@ -653,6 +654,7 @@ struct rebuild {
 
 static void rebuild_free(gpointer rebuild)
 {
+	ladder_free(((struct rebuild *)rebuild)->reader);
 	g_free(((struct rebuild *)rebuild)->text);
 	g_free(rebuild);
 }
@@ -661,8 +663,8 @@ static void rebuild_run(GTask *task, gpointer source, gpointer data,
 			GCancellable *cancellable)
 {
 	struct rebuild *rebuild = data;
-	struct sim_program *program = sim_program_new(rebuild->file, rebuild->text,
-						      rebuild->len, NULL);
+	struct sim_program *program = sim_program_read(g_steal_pointer(&rebuild->reader),
+		rebuild->file, rebuild->text, rebuild->len, NULL);
 
 	(void)source;
 	(void)cancellable;
@@ -712,6 +714,7 @@ static void checked(LadderSim *sim)
 	    sim->version == ladder_document_version(sim->document))
 		return;
 	rebuild = g_new0(struct rebuild, 1);
+	rebuild->reader = ladder_document_reader(sim->document);
 	rebuild->text = ladder_document_text(sim->document, &rebuild->len);
 	rebuild->file = g_intern_string(ladder_document_path(sim->document) ?
 					ladder_document_path(sim->document) : "-");

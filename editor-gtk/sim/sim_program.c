@@ -76,11 +76,17 @@ void sim_program_say_why(const struct project *project, const struct diag_list *
 struct sim_program *sim_program_new(const char *file, const char *text, gsize len,
 				    GError **error)
 {
+	return sim_program_read(ladder_new(), file, text, len, error);
+}
+
+struct sim_program *sim_program_read(struct ladder *reader, const char *file, const char *text,
+				     gsize len, GError **error)
+{
 	struct sim_program *program = g_new0(struct sim_program, 1);
 
 	g_atomic_ref_count_init(&program->count);
 	program->text = g_strndup(text, len);
-	program->ladder = ladder_new();
+	program->ladder = reader;
 	if (!program->ladder)
 		g_error("out of memory");
 	ladder_watch(program->ladder, true);

@@ -23,6 +23,9 @@ void sim_program_say_why(const struct project *project, const struct diag_list *
  * no file. Owns: sim_program_unref(). Any thread. Fails: NULL, and @error is the first error. */
 struct sim_program *sim_program_new(const char *file, const char *text, gsize len,
 				    GError **error);
+/** sim_program_read - the same by @reader, which is taken over: of ladder_document_reader(). */
+struct sim_program *sim_program_read(struct ladder *reader, const char *file, const char *text,
+				     gsize len, GError **error);
 struct sim_program *sim_program_ref(struct sim_program *program);
 void sim_program_unref(struct sim_program *program);
 /** sim_program_is_same - same code, safe values and text; the VIEW parts may differ. */

@@ -144,6 +144,8 @@ static bool save_to(struct files *files, const char *path)
 	const char *sample = origin_sample(files->origin);
 	GError *error = NULL;
 
+	if (!tabs_save_parts(files->core->tabs))
+		return false;
 	if (!ladder_document_save(document, path, &error)) {
 		warn(files, error->message, _("Save as…"), "win.save_as");
 		g_clear_error(&error);
@@ -301,7 +303,7 @@ void files_save(struct files *files)
 {
 	LadderSideFile *file = front_file(files->core->front);
 
-	if (file)
+	if (file && !ladder_side_file_is_part(file))
 		tabs_save_file(files->core->tabs, file);
 	else if (!ladder_document_path(files->core->document))
 		files_save_as(files);

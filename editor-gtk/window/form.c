@@ -85,7 +85,9 @@ int form_entry(struct form *form, const char *title, const char *text)
 	adw_preferences_row_set_title(ADW_PREFERENCES_ROW(row), title);
 	gtk_editable_set_text(GTK_EDITABLE(entry), text);
 	gtk_widget_set_valign(entry, GTK_ALIGN_CENTER);
-	gtk_editable_set_width_chars(GTK_EDITABLE(entry), ENTRY_WIDE);
+	/* With large letters the entry gives way, not the title. */
+	gtk_editable_set_width_chars(GTK_EDITABLE(entry), ENTRY_WIDE / 3);
+	gtk_editable_set_max_width_chars(GTK_EDITABLE(entry), ENTRY_WIDE);
 	spoken_name(entry, title);
 	g_signal_connect_swapped(entry, "activate", G_CALLBACK(apply), form);
 	adw_action_row_add_suffix(ADW_ACTION_ROW(row), entry);
@@ -210,9 +212,18 @@ struct form *form_new(GtkWindow *window, const char *title,
 	return form;
 }
 
+/* How much larger than usual a person's letters are. */
+static double letter_scale(void)
+{
+	int dpi = 0;
+
+	g_object_get(gtk_settings_get_default(), "gtk-xft-dpi", &dpi, NULL);
+	return MAX(dpi / (96.0 * PANGO_SCALE), 1);
+}
+
 void form_show(struct form *form)
 {
-	gtk_window_set_default_size(GTK_WINDOW(form->window), 520, 640);
+	gtk_window_set_default_size(GTK_WINDOW(form->window), (int)(520 * letter_scale()), 640);
 	gtk_window_present(GTK_WINDOW(form->window));
 	if (form->row->len)
 		gtk_widget_grab_focus(form->row->pdata[0]);

@@ -29,17 +29,41 @@ const struct help_place *help_place(int index)
 
 /* ---- the window of the manual ---- */
 
+static void tell_nothing_opens(struct help *help, const char *path)
+{
+	char *text = g_strdup_printf(_("The manual is in “%s”, but no program here opens such "
+		"pages. Install a viewer for Markdown files, or an editor that was built with "
+		"md4c."), path);
+
+	messages_warn(help->core->messages, text);
+	g_free(text);
+}
+
+#define OPENED "manual-path" /* data of a window: what it wanted to open         */
+
+/* The window may be closed meanwhile: it has no help then. */
+static void opened(GObject *window, GAsyncResult *result, gpointer unused)
+{
+	struct help *help = g_object_get_data(window, "help");
+
+	(void)unused;
+	if (!gtk_show_uri_full_finish(GTK_WINDOW(window), result, NULL) && help)
+		tell_nothing_opens(help, g_object_get_data(window, OPENED));
+}
+
 /* Without the library for the pages: the program for such files. */
 static LadderManualWindow *show_outside(struct help *help, struct manual *manual,
 					const char *page)
 {
+	GObject *window = G_OBJECT(help->core->window);
 	char *path = g_build_filename(manual_folder(manual), page, NULL);
 	char *uri = g_filename_to_uri(path, NULL, NULL);
 
+	g_object_set_data(window, "help", help);
+	g_object_set_data_full(window, OPENED, path, g_free);
 	if (uri)
-		gtk_show_uri(help->core->window, uri, GDK_CURRENT_TIME);
+		gtk_show_uri_full(GTK_WINDOW(window), uri, GDK_CURRENT_TIME, NULL, opened, NULL);
 	g_free(uri);
-	g_free(path);
 	manual_free(manual);
 	return NULL;
 }
@@ -289,6 +313,7 @@ void help_clear(struct help *help)
 {
 	GtkWindow *window = help->window;
 
+	g_object_set_data(G_OBJECT(help->core->window), "help", NULL);
 	if (window)
 		g_object_remove_weak_pointer(G_OBJECT(window), (gpointer *)&help->window);
 	help->window = NULL;

@@ -11,12 +11,14 @@
 #include <string.h>
 
 #define TAKE "take"     /* the response                                      */
+#define OTHER "other"   /* the response of naming_other()                    */
 #define WHY_LINES 4     /* lines reserved for the reason of a refusal        */
 
 struct naming {
 	AdwMessageDialog *dialog;
 	GtkWidget *box, *entry, *why;
 	const struct naming_how *how;
+	void (*other)(gpointer data); /* of naming_other()                       */
 	gpointer data;
 };
 
@@ -71,7 +73,15 @@ static void answered(AdwMessageDialog *dialog, const char *answer, struct naming
 	(void)dialog;
 	if (strcmp(answer, TAKE) == 0)
 		naming->how->take(naming->data, name);
+	else if (strcmp(answer, OTHER) == 0)
+		naming->other(naming->data);
 	g_free(name);
+}
+
+void naming_other(struct naming *naming, const char *label, void (*other)(gpointer data))
+{
+	naming->other = other;
+	adw_message_dialog_add_response(naming->dialog, OTHER, label);
 }
 
 static GtkWidget *why_new(void)

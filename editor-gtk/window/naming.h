@@ -33,6 +33,8 @@ struct naming *naming_new(GtkWindow *window, const char *heading, const char *an
 void naming_add(struct naming *naming, GtkWidget *widget, bool first);
 /** naming_say - the text below the heading. */
 void naming_say(struct naming *naming, const char *body);
+/** naming_other - adds another answer, which takes no name. @label: translated */
+void naming_other(struct naming *naming, const char *label, void (*other)(gpointer data));
 /** naming_set - proposes a name. */
 void naming_set(struct naming *naming, const char *name);
 /** naming_get - the name in the entry. Caller frees. */

@@ -139,22 +139,39 @@ static void listen(struct core *core, gpointer view)
 
 /* ---- making one ---- */
 
+/* Puts what the POU declares above @child, in which @sheet is. */
+static GtkWidget *with_interface(LadderDocument *document, GtkWidget *sheet, GtkWidget *child)
+{
+	GtkWidget *box;
+
+	if (ladder_document_is_fixed(document))
+		return child;
+	box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	gtk_widget_set_vexpand(child, TRUE);
+	gtk_box_append(GTK_BOX(box), ladder_interface_view_new(document, sheet));
+	gtk_box_append(GTK_BOX(box), child);
+	return box;
+}
+
 static GtkWidget *new_sheet(struct core *core, LadderDocument *document, int pou)
 {
 	GtkWidget *sheet = ladder_grid_view_new(document, pou);
-	GtkWidget *scroller = gtk_scrolled_window_new(), *box;
+	GtkWidget *scroller = gtk_scrolled_window_new();
 
 	ladder_canvas_set_sim(LADDER_CANVAS(sheet), core->sim);
 	listen(core, sheet);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
 	slow_bar_make(GTK_SCROLLED_WINDOW(scroller));
-	if (ladder_document_is_fixed(document))
-		return scroller;
-	box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-	gtk_widget_set_vexpand(scroller, TRUE);
-	gtk_box_append(GTK_BOX(box), ladder_interface_view_new(document, LADDER_CANVAS(sheet)));
-	gtk_box_append(GTK_BOX(box), scroller);
-	return box;
+	return with_interface(document, sheet, scroller);
+}
+
+static GtkWidget *new_chart(struct core *core, LadderDocument *document, int pou)
+{
+	GtkWidget *page = ladder_sfc_page_new(document, pou, core->sim);
+	GtkWidget *chart = GTK_WIDGET(ladder_sfc_page_chart(LADDER_SFC_PAGE(page)));
+
+	listen(core, chart);
+	return with_interface(document, chart, page);
 }
 
 GtkWidget *page_new(struct core *core, LadderDocument *document, int pou)
@@ -164,12 +181,9 @@ GtkWidget *page_new(struct core *core, LadderDocument *document, int pou)
 
 	if (project->pou[pou].language == LANGUAGE_LD)
 		return new_sheet(core, document, pou);
-	if (project->pou[pou].sfc) {
-		page = ladder_sfc_page_new(document, pou, core->sim);
-		listen(core, ladder_sfc_page_chart(LADDER_SFC_PAGE(page)));
-		return page;
-	}
+	if (project->pou[pou].sfc)
+		return new_chart(core, document, pou);
 	page = ladder_text_view_new(document, pou);
 	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page), core->sim);
-	return page;
+	return with_interface(document, page, page);
 }

@@ -4,10 +4,11 @@
  */
 #include "editor-gtk/window/pou_import_dialog.h"
 
-#include "editor-gtk/document/pou_edit.h"
+#include "editor-gtk/document/pou_file.h"
 #include "editor-gtk/document/pou_import.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/ask.h"
+#include "editor-gtk/window/naming.h"
 
 #include <string.h>
 
@@ -32,9 +33,28 @@ static void asking_free(gpointer data, GClosure *closure)
 
 /* ---- which POUs ---- */
 
+/* Brings the first of the imported POUs to the front. @before: POUs without them. */
+static void show_first(struct asking *asking, const bool *wanted, int before)
+{
+	const struct project *from = ladder_project(asking->from);
+	const struct project *project = ladder_document_project(asking->document);
+	const char *name = NULL;
+	int pou;
+
+	for (int i = from->pou_count - 1; i >= 0; i--)
+		name = wanted[i] ? project_text(from, from->pou[i].name) : name;
+	if (!project || !name || project->pou_count <= before)
+		return;
+	pou = project_find_pou(project, name, strlen(name));
+	gtk_widget_activate_action(asking->widget, "win.go-to", "(iiii)",
+				   pou >= 0 ? pou : before, -1, -1, -1);
+}
+
 static void chosen(AdwMessageDialog *dialog, const char *response, struct asking *asking)
 {
 	const guint count = asking->checks->len;
+	const struct project *project = ladder_document_project(asking->document);
+	const int before = project ? project->pou_count : 0;
 	bool *wanted = g_new0(bool, count + 1), any = false;
 	GString *told = g_string_new(NULL);
 
@@ -44,10 +64,12 @@ static void chosen(AdwMessageDialog *dialog, const char *response, struct asking
 		any = any || wanted[i];
 	}
 	if (any && g_strcmp0(response, "import") == 0) {
-		if (pou_import(asking->document, asking->from, wanted, told))
-			gtk_widget_activate_action(asking->widget, "win.tell", "s", told->str);
-		else
-			gtk_widget_activate_action(asking->widget, "win.warn", "s", told->str);
+		const bool good = pou_import(asking->document, asking->from, wanted, told);
+
+		if (good)
+			show_first(asking, wanted, before);
+		gtk_widget_activate_action(asking->widget, good ? "win.tell" : "win.warn", "s",
+					   told->str);
 	}
 	g_string_free(told, TRUE);
 	g_free(wanted);
@@ -103,7 +125,7 @@ static void ask_which(GtkWidget *widget, LadderDocument *document, struct ladder
 {
 	AdwMessageDialog *dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(widget)), _("Import"),
 		_("The symbols, structures and blocks that they use are imported too."), "import",
-		_("Import"), ADW_RESPONSE_DEFAULT);
+		_("Import"), ADW_RESPONSE_SUGGESTED);
 	struct asking *asking = g_new0(struct asking, 1);
 
 	asking->widget = g_object_ref(widget);
@@ -165,31 +187,46 @@ struct leaving {
 	bool moves;
 };
 
-static void leaving_free(gpointer data, GClosure *closure)
+static void leaving_free(gpointer data)
 {
 	struct leaving *leaving = data;
 
-	(void)closure;
 	g_object_unref(leaving->document);
 	g_object_unref(leaving->widget);
 	g_free(leaving->name);
 	g_free(leaving);
 }
 
-/* First the copy is saved, then the original is deleted. */
+static void leaving_closed(gpointer data, GClosure *closure)
+{
+	(void)closure;
+	leaving_free(data);
+}
+
+static struct leaving *leaving_new(GtkWidget *widget, LadderDocument *document, const char *name,
+				   bool moves)
+{
+	struct leaving *leaving = g_new0(struct leaving, 1);
+
+	leaving->widget = g_object_ref(widget);
+	leaving->document = g_object_ref(document);
+	leaving->name = g_strdup(name);
+	leaving->moves = moves;
+	return leaving;
+}
+
 static void leave(struct leaving *leaving, const char *path)
 {
 	const struct project *project = ladder_document_project(leaving->document);
 	const int pou = project ? project_find_pou(project, leaving->name,
 						   strlen(leaving->name)) : -1;
-	GString *told = g_string_new(NULL);
-	const char *why = NULL;
-	const bool good = pou >= 0 && pou_export(leaving->document, pou, path, told);
+	GString *told = g_string_new(_("It is not there any more"));
+	const bool good = pou >= 0 && (leaving->moves ?
+		pou_to_file(leaving->document, pou, path, told) :
+		pou_export(leaving->document, pou, path, told));
 
-	if (good && leaving->moves)
-		why = pou_delete(leaving->document, pou);
-	gtk_widget_activate_action(leaving->widget, good && !why ? "win.tell" : "win.warn", "s",
-				   why ? why : told->str);
+	gtk_widget_activate_action(leaving->widget, good ? "win.tell" : "win.warn", "s",
+				   told->str);
 	g_string_free(told, TRUE);
 }
 
@@ -202,63 +239,112 @@ static void target_chosen(GtkNativeDialog *dialog, int response, struct leaving 
 	g_free(path);
 }
 
-static void ask_target(AdwMessageDialog *dialog, const char *answer, struct leaving *leaving)
+static void ask_target(struct leaving *leaving)
 {
-	GtkFileChooserNative *chooser;
-	struct leaving *copy;
+	GtkFileChooserNative *chooser = ask_rung_file(GTK_WINDOW(gtk_widget_get_root(
+		leaving->widget)), leaving->document, leaving->moves ? _("Move to file") :
+		_("Copy to file"), GTK_FILE_CHOOSER_ACTION_OPEN, leaving->moves ? _("Move") :
+		_("Copy"));
 
-	(void)dialog;
-	if (strcmp(answer, "choose") != 0)
-		return;
-	copy = g_new(struct leaving, 1);
-	*copy = (struct leaving){ g_object_ref(leaving->widget),
-		g_object_ref(leaving->document), g_strdup(leaving->name), leaving->moves };
-	chooser = ask_rung_file(GTK_WINDOW(gtk_widget_get_root(leaving->widget)),
-		leaving->document, leaving->moves ? _("Move to file") : _("Copy to file"),
-		GTK_FILE_CHOOSER_ACTION_OPEN, leaving->moves ? _("Move") : _("Copy"));
-	g_signal_connect_data(chooser, "response", G_CALLBACK(target_chosen), copy, leaving_free,
-			      0);
+	g_signal_connect_data(chooser, "response", G_CALLBACK(target_chosen),
+		leaving_new(leaving->widget, leaving->document, leaving->name, leaving->moves),
+		leaving_closed, 0);
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
 }
 
-void pou_export_ask(GtkWidget *widget, LadderDocument *document, int pou, bool moves)
+/* Why no new file can have the name. */
+static char *file_refusal(gpointer data, const char *name)
 {
-	const struct project *project = ladder_document_project(document);
-	struct leaving *leaving;
-	AdwMessageDialog *dialog;
-	char *needs, *body, *heading;
+	return pou_file_refusal(((struct leaving *)data)->document, name);
+}
 
-	if (!project || !ladder_document_is_whole(document)) {
-		gtk_widget_activate_action(widget, "win.warn", "s",
-			_("Nothing can be copied or moved while a text of the project cannot be "
-			  "read"));
-		return;
-	}
-	if (pou < 0 || project->pou[pou].included) {
-		gtk_widget_activate_action(widget, "win.tell", "s",
-					   _("It is declared in another file"));
-		return;
-	}
-	if (moves && pou_uses(document, pou) > 0) {
-		gtk_widget_activate_action(widget, "win.warn", "s",
-			_("It is used in this project, so it cannot be moved away. Copy it "
-			  "instead."));
-		return;
-	}
-	leaving = g_new(struct leaving, 1);
-	*leaving = (struct leaving){ g_object_ref(widget), g_object_ref(document),
-		g_strdup(project_text(project, project->pou[pou].name)), moves };
-	needs = pou_export_needs(document, pou);
-	heading = g_strdup_printf(moves ? _("Move “%s” to another file") :
-				  _("Copy “%s” to another file"), leaving->name);
-	body = g_strdup_printf(_("These are copied: %s. A name that means something else there "
-				 "is changed in the copy."), needs);
-	dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(widget)), heading, body, "choose",
+static void file_named(gpointer data, const char *name)
+{
+	struct leaving *leaving = data;
+	char *path = pou_file_path(leaving->document, name);
+
+	leave(leaving, path);
+	g_free(path);
+}
+
+static void other_wanted(gpointer data)
+{
+	ask_target(data);
+}
+
+static const struct naming_how new_file = { file_refusal, file_named, leaving_free };
+
+/* Asks for the name of a new file, or for another one. @leaving: taken over. */
+static void ask_move(struct leaving *leaving, int pou)
+{
+	char *heading = g_strdup_printf(_("Move “%s” to another file"), leaving->name);
+	char *name = pou_file_name(leaving->document, pou);
+	struct naming *naming = naming_new(GTK_WINDOW(gtk_widget_get_root(leaving->widget)),
+		heading, _("Move to new file"), _("Name of the file"), &new_file, leaving);
+
+	naming_say(naming, _("The project includes the file, so all that uses it goes on to "
+			     "work."));
+	naming_other(naming, _("Existing file…"), other_wanted);
+	naming_set(naming, name);
+	naming_show(naming);
+	g_free(name);
+	g_free(heading);
+}
+
+static void copy_answered(AdwMessageDialog *dialog, const char *answer, struct leaving *leaving)
+{
+	(void)dialog;
+	if (strcmp(answer, "choose") == 0)
+		ask_target(leaving);
+}
+
+/* @leaving: taken over. */
+static void ask_copy(struct leaving *leaving, int pou)
+{
+	AdwMessageDialog *dialog;
+	char *needs = pou_export_needs(leaving->document, pou);
+	char *heading = g_strdup_printf(_("Copy “%s” to another file"), leaving->name);
+	char *body = g_strdup_printf(_("These are copied: %s. A name that means something else there "
+				       "is changed in the copy."), needs);
+
+	dialog = ask_new(GTK_WINDOW(gtk_widget_get_root(leaving->widget)), heading, body, "choose",
 			 _("Choose file…"), ADW_RESPONSE_SUGGESTED);
-	g_signal_connect_data(dialog, "response", G_CALLBACK(ask_target), leaving, leaving_free,
-			      0);
+	g_signal_connect_data(dialog, "response", G_CALLBACK(copy_answered), leaving,
+			      leaving_closed, 0);
 	gtk_window_present(GTK_WINDOW(dialog));
 	g_free(body);
 	g_free(heading);
 	g_free(needs);
+}
+
+/* Why nothing can be copied or moved; NULL: it can. */
+static const char *leaving_refusal(LadderDocument *document, int pou, bool moves)
+{
+	const struct project *project = ladder_document_project(document);
+
+	if (!project || !ladder_document_is_whole(document))
+		return _("Nothing can be copied or moved while a text of the project cannot be "
+			 "read");
+	if (pou < 0 || project->pou[pou].included)
+		return _("It is declared in another file");
+	return moves && !ladder_document_path(document) ?
+	       _("Save the project first. The other file is found beside it.") : NULL;
+}
+
+void pou_export_ask(GtkWidget *widget, LadderDocument *document, int pou, bool moves)
+{
+	const char *why = leaving_refusal(document, pou, moves);
+	const struct project *project = ladder_document_project(document);
+	struct leaving *leaving;
+
+	if (why) {
+		gtk_widget_activate_action(widget, "win.warn", "s", why);
+		return;
+	}
+	leaving = leaving_new(widget, document, project_text(project, project->pou[pou].name),
+			      moves);
+	if (moves)
+		ask_move(leaving, pou);
+	else
+		ask_copy(leaving, pou);
 }

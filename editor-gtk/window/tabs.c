@@ -40,26 +40,38 @@ static AdwTabPage *find_page(struct tabs *tabs, const char *name)
 	return NULL;
 }
 
-void tabs_each_file(struct tabs *tabs, void (*act)(gpointer file))
+/* The open files beside the project, with a page or kept for undo. Caller unrefs. */
+static GPtrArray *files_of(struct tabs *tabs)
 {
+	GPtrArray *files = g_ptr_array_new();
+
+	for (guint i = 0; i < tabs->parts->len; i++)
+		g_ptr_array_add(files, tabs->parts->pdata[i]);
 	for (int i = 0; i < adw_tab_view_get_n_pages(tabs->view); i++) {
 		LadderSideFile *file = page_file(nth(tabs, i));
 
-		if (file)
-			act(file);
+		if (file && !g_ptr_array_find(files, file, NULL))
+			g_ptr_array_add(files, file);
 	}
+	return files;
+}
+
+void tabs_each_file(struct tabs *tabs, void (*act)(gpointer file))
+{
+	GPtrArray *files = files_of(tabs);
+
+	for (guint i = 0; i < files->len; i++)
+		act(files->pdata[i]);
+	g_ptr_array_unref(files);
 }
 
 GPtrArray *tabs_unsaved(struct tabs *tabs)
 {
-	GPtrArray *files = g_ptr_array_new();
+	GPtrArray *files = files_of(tabs);
 
-	for (int i = 0; i < adw_tab_view_get_n_pages(tabs->view); i++) {
-		LadderSideFile *file = page_file(nth(tabs, i));
-
-		if (file && !ladder_side_file_is_saved(file))
-			g_ptr_array_add(files, file);
-	}
+	for (guint i = files->len; i-- > 0;)
+		if (ladder_side_file_is_saved(files->pdata[i]))
+			g_ptr_array_remove_index(files, i);
 	return files;
 }
 
@@ -103,6 +115,18 @@ bool tabs_save_files(struct tabs *tabs)
 
 	for (guint i = 0; good && i < files->len; i++)
 		good = tabs_save_file(tabs, files->pdata[i]);
+	g_ptr_array_unref(files);
+	return good;
+}
+
+bool tabs_save_parts(struct tabs *tabs)
+{
+	GPtrArray *files = tabs_unsaved(tabs);
+	bool good = true;
+
+	for (guint i = 0; good && i < files->len; i++)
+		if (ladder_side_file_is_part(files->pdata[i]))
+			good = tabs_save_file(tabs, files->pdata[i]);
 	g_ptr_array_unref(files);
 	return good;
 }
@@ -250,10 +274,27 @@ static void show_file_state(AdwTabPage *page, LadderSideFile *file)
 	g_free(name);
 }
 
-/* Shows a file in which a step was undone. */
+/* Shows a file in which a step was undone; closes the page of one that is not made any more. */
 static void show_undone(LadderSideFile *file, struct tabs *tabs)
 {
-	tabs_show_file(tabs, ladder_side_file_path(file));
+	AdwTabPage *page = find_file_page(tabs, ladder_side_file_path(file));
+
+	if (!ladder_side_file_is_nothing(file))
+		tabs_show_file(tabs, ladder_side_file_path(file));
+	else if (page)
+		adw_tab_view_close_page(tabs->view, page);
+}
+
+/* Once for a file, which may get another page later. */
+static void follow_file(struct tabs *tabs, LadderSideFile *file)
+{
+	if (g_object_get_data(G_OBJECT(file), "followed"))
+		return;
+	g_object_set_data(G_OBJECT(file), "followed", tabs);
+	if (ladder_side_file_is_part(file))
+		g_ptr_array_add(tabs->parts, g_object_ref(file));
+	core_connect(tabs->core, file, "undone", G_CALLBACK(show_undone), tabs, 0);
+	draft_keep_file(file, tabs->core->document);
 }
 
 static AdwTabPage *add_file(struct tabs *tabs, LadderSideFile *file)
@@ -264,9 +305,8 @@ static AdwTabPage *add_file(struct tabs *tabs, LadderSideFile *file)
 
 	g_signal_connect_object(file, "state-changed", G_CALLBACK(show_file_state), page,
 				G_CONNECT_SWAPPED);
-	core_connect(tabs->core, file, "undone", G_CALLBACK(show_undone), tabs, 0);
 	show_file_state(page, file);
-	draft_keep_file(file, tabs->core->document);
+	follow_file(tabs, file);
 	g_free(name);
 	return page;
 }
@@ -280,7 +320,8 @@ void tabs_put_file(struct tabs *tabs, LadderSideFile *file)
 static void file_opened(LadderDocument *document, LadderSideFile *file, struct tabs *tabs)
 {
 	(void)document;
-	add_file(tabs, file);
+	if (!find_file_page(tabs, ladder_side_file_path(file)))
+		add_file(tabs, file);
 }
 
 void tabs_show_file(struct tabs *tabs, const char *path)
@@ -293,7 +334,9 @@ void tabs_show_file(struct tabs *tabs, const char *path)
 		select_page(tabs, page);
 		return;
 	}
-	file = ladder_side_file_open(path, tabs->core->document, &error);
+	file = side_file_find(tabs->core->document, path);
+	file = file ? g_object_ref(file) :
+	       ladder_side_file_open(path, tabs->core->document, &error);
 	if (file)
 		tabs_put_file(tabs, file);
 	else
@@ -437,7 +480,8 @@ static gboolean close_page(struct tabs *tabs, AdwTabPage *page)
 	struct closing *closing;
 	char *name;
 
-	if (!file || ladder_side_file_is_saved(file))
+	/* a part of the project is saved, or not, with the project */
+	if (!file || ladder_side_file_is_part(file) || ladder_side_file_is_saved(file))
 		return GDK_EVENT_PROPAGATE;
 	closing = g_new(struct closing, 1);
 	*closing = (struct closing){ tabs, g_object_ref(page) };
@@ -719,6 +763,7 @@ void tabs_init(struct tabs *tabs, struct core *core)
 {
 	tabs->core = core;
 	tabs->view = core->front->tabs;
+	tabs->parts = g_ptr_array_new_with_free_func(g_object_unref);
 	/* these keys move the text cursor or the cursor of a sheet */
 	adw_tab_view_remove_shortcuts(tabs->view, ADW_TAB_VIEW_SHORTCUT_CONTROL_HOME |
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_END |
@@ -737,4 +782,9 @@ void tabs_init(struct tabs *tabs, struct core *core)
 	core_connect(core, tabs->view, "close-page", G_CALLBACK(close_page), tabs,
 		     G_CONNECT_SWAPPED);
 	update(tabs);
+}
+
+void tabs_clear(struct tabs *tabs)
+{
+	g_clear_pointer(&tabs->parts, g_ptr_array_unref);
 }

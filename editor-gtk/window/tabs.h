@@ -12,6 +12,8 @@ struct tabs {
 	struct core *core;
 	AdwTabView *view;  /* belongs to front                                   */
 	int pou_count;     /* of the project at the last update                  */
+	GPtrArray *parts;  /* files that the project may include: undo needs them when their pages
+			      are closed */
 };
 
 void tabs_init(struct tabs *tabs, struct core *core);
@@ -36,6 +38,8 @@ void tabs_show_file(struct tabs *tabs, const char *path);
 void tabs_put_file(struct tabs *tabs, LadderSideFile *file);
 /** tabs_find_file - the page of the file at @path; NULL: not open. */
 LadderFileView *tabs_find_file(struct tabs *tabs, const char *path);
+/** tabs_clear - frees what it holds. */
+void tabs_clear(struct tabs *tabs);
 /** tabs_each_file - calls @act for each open LadderSideFile. */
 void tabs_each_file(struct tabs *tabs, void (*act)(gpointer file));
 /** tabs_unsaved - the unsaved ones, of LadderSideFile *. Caller: g_ptr_array_unref(). */
@@ -44,6 +48,8 @@ GPtrArray *tabs_unsaved(struct tabs *tabs);
 bool tabs_save_file(struct tabs *tabs, LadderSideFile *file);
 /** tabs_save_files - saves all unsaved ones; stops at the first that fails. */
 bool tabs_save_files(struct tabs *tabs);
+/** tabs_save_parts - the same, of files that the project may include. */
+bool tabs_save_parts(struct tabs *tabs);
 /** tabs_close - closes the page in front; asks first if its file has unsaved changes. */
 void tabs_close(struct tabs *tabs);
 /** tabs_go - goes to the place of a diagnostic or a use; -1: the whole. */

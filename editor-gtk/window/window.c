@@ -979,6 +979,7 @@ static void ladder_window_dispose(GObject *object)
 		draft_stop(core->document);
 	}
 	g_clear_object(&core->document);
+	tabs_clear(&window->tabs);
 	messages_clear(&window->messages);
 	G_OBJECT_CLASS(ladder_window_parent_class)->dispose(object);
 }

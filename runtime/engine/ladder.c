@@ -34,6 +34,7 @@ struct ladder {
 	size_t image_len;
 	struct program program;
 	bool good, built, unreadable, watch; /* good: the last load succeeded */
+	bool leaves;              /* constant expressions are not computed  */
 	struct foreign *foreign;  /* NULL: rung files and images alone      */
 	struct ladder_files files; /* load NULL: the disk                    */
 };
@@ -85,6 +86,7 @@ void ladder_free(struct ladder *ladder)
 		return;
 	unload(ladder);
 	ladder_set_foreign(ladder, NULL);
+	ladder_set_files(ladder, NULL);
 	free(ladder);
 }
 
@@ -114,17 +116,27 @@ static bool no_memory(struct ladder *ladder, const char *file)
 
 void ladder_set_files(struct ladder *ladder, const struct ladder_files *files)
 {
+	if (ladder->files.free)
+		ladder->files.free(ladder->files.context);
 	ladder->files = files ? *files : (struct ladder_files){ .load = NULL };
+}
+
+struct ladder_files ladder_files(const struct ladder *ladder)
+{
+	struct ladder_files files = ladder->files;
+
+	files.free = NULL;
+	return files;
 }
 
 static char *load_named(const struct ladder *ladder, const char *path, size_t *len)
 {
-	char *text;
+	const struct ladder_files *files = &ladder->files;
+	char *text = files->load ? files->load(files->context, path, len) : NULL;
 
 	errno = 0;
-	if (!ladder->files.load)
+	if (!text && (!files->load || files->or_disk))
 		return file_read(path, LIMIT_TEXT, len, NULL);
-	text = ladder->files.load(ladder->files.context, path, len);
 	errno = text ? 0 : ENOENT;
 	return text;
 }
@@ -215,7 +227,8 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 	if (ladder->project->arena.failed)
 		good = no_memory(ladder, file);
 	arena_reset(&ladder->scratch);
-	return good && settle_project(ladder->project, &ladder->scratch, &ladder->diags);
+	return good && (ladder->leaves ||
+			settle_project(ladder->project, &ladder->scratch, &ladder->diags));
 }
 
 static void place_foreign(struct ladder *ladder)
@@ -259,6 +272,11 @@ bool ladder_load(struct ladder *ladder, const char *path)
 	place_foreign(ladder);
 	free(bytes);
 	return ladder->good;
+}
+
+void ladder_leave_expressions(struct ladder *ladder, bool leave)
+{
+	ladder->leaves = leave;
 }
 
 void ladder_watch(struct ladder *ladder, bool watch)
@@ -417,7 +435,7 @@ static bool build(struct ladder *ladder)
 	struct project *project = ladder->project;
 	uint8_t **bad;
 
-	if (!project || ladder->built || ladder->diags.errors)
+	if (!project || ladder->built || ladder->diags.errors || ladder->leaves)
 		return ladder->program.header && ladder->diags.errors == 0;
 	ladder->built = true;
 	if (!begin_translation(ladder))

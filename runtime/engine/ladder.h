@@ -70,9 +70,13 @@ struct ladder_files {
 	 * folder of the file that names it. */
 	char *(*load)(void *context, const char *path, size_t *len);
 	void *context;
+	bool or_disk;                /* a file that load() does not have is on the disk */
+	void (*free)(void *context); /* with the ladder, or when others are set; NULL: borrowed */
 };
 /** ladder_set_files - for later loads. @files: copied; NULL, as at first: the disk. */
 void ladder_set_files(struct ladder *ladder, const struct ladder_files *files);
+/** ladder_files - the present ones, borrowed. */
+struct ladder_files ladder_files(const struct ladder *ladder);
 
 /**
  * ladder_load - reads a rung file or a code image
@@ -87,6 +91,11 @@ bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
 /** ladder_could_read - false after a load that could not read the file at all
  * (exit status 2 of the command line). */
 bool ladder_could_read(const struct ladder *ladder);
+
+/** ladder_leave_expressions - whether later loads leave the constant expressions of declarations
+ * as they are: a part of a program names constants of the rest. Nothing can be built then. Off
+ * at first. */
+void ladder_leave_expressions(struct ladder *ladder, bool leave);
 
 /** ladder_watch - whether later builds make the instrumented section, too, so that the
  * power of every cell can be read. Off at first. */

@@ -23,6 +23,7 @@ struct kept {
 
 struct rename {
 	struct project *project;
+	struct ladder_files files;
 	struct xref before;
 	struct xref_target target;
 	const char *old, *name;
@@ -276,6 +277,7 @@ static bool is_same_program(struct rename *r, const char *text, size_t len)
 
 	if (!again)
 		return refuse(r, RENAME_MEMORY, NULL);
+	ladder_set_files(again, &r->files);
 	if (!ladder_load_text(again, r->project->file, text, len)) {
 		ladder_free(again);
 		return refuse(r, RENAME_MEANING, NULL);
@@ -308,7 +310,8 @@ static char *written(struct rename *r, size_t *len)
 char *ladder_rename(struct ladder *ladder, const struct xref_target *target,
 		    const char *name, size_t *len, struct ladder_rename *how)
 {
-	struct rename r = { .project = ladder_project(ladder), .name = name, .how = how };
+	struct rename r = { .project = ladder_project(ladder), .files = ladder_files(ladder),
+			    .name = name, .how = how };
 	const struct xref_use *declared;
 	char *text = NULL;
 

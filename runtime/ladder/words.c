@@ -14,7 +14,8 @@
 #include <string.h>
 #include <strings.h>
 
-const char *words_kind(enum words_kind kind)
+/* The name of a kind. */
+static const char *words_kind(enum words_kind kind)
 {
 	static const char *const name[WORDS_KIND_COUNT] = {
 		"element", "function block", "function", "IL operator", "type",

@@ -41,8 +41,6 @@ struct words_entry {
 
 /** words_at - entry number @index, sorted by kind; false: past the last one. */
 bool words_at(int index, struct words_entry *out);
-/** words_kind - the name of a kind, such as "function block". */
-const char *words_kind(enum words_kind kind);
 /** words_operand - what an element or operator needs as operand; "": none. */
 const char *words_operand(enum operand_kind kind);
 /** words_pin_type - the type of a pin, or a class such as "ANY_NUM". */

@@ -448,12 +448,20 @@ static bool parse(struct settle *s, const char *text, size_t len, const char *be
 	struct diag place = il_place(s->scope, s->fn.pou, &s->line, DIAG_BAD_EXPRESSION);
 	struct diag_list *diags = s->fn.diags;
 	const int count = diags->count;
+	struct token last = { .text = "" };
 	struct lex lex;
 	bool good;
 
 	lex_init(&lex, text, len + (*behind != '\0'));
 	lex_next(&lex);
 	good = expr_parse(&lex, &s->expr, diags, place);
+	if (!good && lex.token.kind == TOKEN_END && diags->count > count && len) {
+		lex_init(&lex, text, len); /* an end has no text: its last word */
+		while (lex_next(&lex) != TOKEN_END)
+			last = lex.token;
+		snprintf(diags->diag[diags->count - 1].arg, sizeof(diags->diag[0].arg), "%.*s",
+			 (int)(last.len < LIMIT_ARG ? last.len : LIMIT_ARG), last.text);
+	}
 	if (good && lex.token.text < text + len)
 		return refuse(s, DIAG_BAD_EXPRESSION, lex.token.text, lex.token.len);
 	if (diags->count > count) /* not its column in the text */

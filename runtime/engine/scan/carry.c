@@ -221,7 +221,6 @@ static void carry_tasks(const struct carry_plan *plan, struct resource *to,
 	tasks_look(&to->tasks, plan->to, to->image.memory);
 	for (uint32_t i = 0; i < plan->to->task_count; i++) {
 		to->tasks.state[i].due = false;
-		to->tasks.state[i].overruns = 0;
 		if (plan->state[i] != CARRY_NO_TASK)
 			to->tasks.state[i] = from->tasks.state[plan->state[i]];
 	}

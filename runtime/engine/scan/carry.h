@@ -32,7 +32,7 @@ struct carry_plan;
  * @arena: memory of the plan; a few bytes for each variable that moves
  *
  * Owns: @arena. Scan-safe: no (slow, but any thread may call it).
- * Fails: NULL: no memory.
+ * Fails: NULL: no memory, or an image with more values than memory has room for.
  */
 const struct carry_plan *carry_plan_new(const struct program *to,
 					const struct program *from,

@@ -33,29 +33,20 @@ static struct range writes(const struct carry_move *move)
 	return (struct range){ move->to, move->to + move->count * unit_of(move) };
 }
 
-static struct range reads(const struct carry_move *move)
-{
-	if (!move->own)
-		return (struct range){ 0, 0 };
-	if (move->kind == MOVE_UNPACK || move->kind == MOVE_BITS)
-		return bits(move->from, move->count);
-	return (struct range){ move->from, move->from + move->count };
-}
-
 /* Whether @next goes on where @move ends, in both memories. */
 static bool follows(const struct carry_move *move, const struct carry_move *next)
 {
 	const uint32_t size = move->count * unit_of(move);
 
-	if (move->kind != next->kind || move->own != next->own ||
-	    move->size != next->size || move->kind == MOVE_TEXT ||
-	    (move->own && move->kind == MOVE_BYTES))
+	if (move->own || next->own || move->kind == MOVE_TEXT ||
+	    move->kind != next->kind || move->size != next->size)
 		return false;
 	return move->from + size == next->from && move->to + size == next->to &&
 	       (move->kind != MOVE_CHANGED || move->begun + 2 * size == next->begun);
 }
 
-/* Bits with an address have two copies, so moves of neighbours take turns. */
+/* Bits with an address have two copies, so moves of neighbours take turns. A move that
+ * joins the last but one is done earlier, so it may not write what the last one writes. */
 static bool join(struct moves *moves, const struct carry_move *next)
 {
 	struct carry_move *last;
@@ -68,8 +59,7 @@ static bool join(struct moves *moves, const struct carry_move *next)
 		return true;
 	}
 	if (moves->count < 2 || !follows(last - 1, next) ||
-	    !apart(writes(last), writes(next)) || !apart(reads(last), writes(next)) ||
-	    !apart(writes(last), reads(next)))
+	    !apart(writes(last), writes(next)))
 		return false;
 	last[-1].count += next->count;
 	return true;
@@ -153,23 +143,6 @@ static void put_bit(struct moves *moves, struct location to, struct source sourc
 	slot = slot_of(moves->to->program, to.area, to.where);
 	if (slot)
 		put_byte(moves, slot, source);
-}
-
-/* Bytes of areas were written: updates the bits in them that have their own byte. */
-static void spread(struct moves *moves, uint32_t where, uint32_t size)
-{
-	const struct program *program = moves->to->program;
-	const enum iec_area area = areas_find(&program->areas, where);
-	const uint32_t first = 8 * (where - program->areas.at[area]);
-
-	for (uint32_t bit = first; bit < first + 8 * size; bit++) {
-		const uint32_t slot = slot_of(program, area, bit);
-		const struct source source = { true, true,
-					       8 * program->areas.at[area] + bit };
-
-		if (slot)
-			put_byte(moves, slot, source);
-	}
 }
 
 /* ---- areas ---- */
@@ -267,17 +240,16 @@ static void carry_bool(struct moves *moves, struct location to, struct location 
 
 	if (begins == (bool)image_get(moves->from, from).i)
 		source = source_of(program, from, false);
-	else if (to.area == AREA_NONE)
-		return;
 	if (to.area == AREA_NONE && !source.packed)
 		add_block(moves, to.where, source.at, 1);
 	else
 		put_bit(moves, to, source);
 }
 
+/* Bytes that a number of the program shares with bits are packed (translate/layout.c): the
+ * bits have no second copy. */
 static void carry_number(struct moves *moves, struct location to, struct location from)
 {
-	const struct program *program = moves->to->program;
 	const uint8_t *begins = moves->to->memory + to.where;
 	const uint8_t *begun = moves->from->memory + from.where;
 	const uint8_t size = iec_type_row(to.type)->size;
@@ -290,14 +262,12 @@ static void carry_number(struct moves *moves, struct location to, struct locatio
 			.kind = MOVE_CHANGED, .size = size, .from = from.where,
 			.to = to.where, .count = 1,
 			.begun = remember(moves, both, 2u * size) });
-	} else if (is_data(program, to)) {
+	} else if (is_data(moves->to->program, to)) {
 		add_block(moves, to.where, from.where, size);
 	} else {
 		add(moves, (struct carry_move){ .kind = MOVE_BYTES, .from = from.where,
 						.to = to.where, .count = size });
 	}
-	if (!is_data(program, to))
-		spread(moves, to.where, size);
 }
 
 static void carry_text(struct moves *moves, struct location to, struct location from)

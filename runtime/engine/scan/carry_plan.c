@@ -34,7 +34,11 @@ struct work {
 	int force_count;
 	struct carry_lost *lost;
 	int lost_count;
+	uint32_t values;         /* moved so far                               */
 };
+
+/* More values than memory can hold: arrays of a hostile image, which overlap. */
+#define VALUES_MOST (LIMIT_DATA + LIMIT_LOCATED)
 
 /* ---- names ---- */
 
@@ -243,7 +247,7 @@ static void allow_force(struct work *work, struct location to, struct location f
 	struct carry_force *force;
 
 	if (from.area != AREA_NONE || from.where < work->plan->from->areas.size ||
-	    to.constant || to.type == IEC_STRING)
+	    to.type == IEC_STRING)
 		return;
 	force = arena_push(work->arena, &work->force, &work->force_count, sizeof(*force));
 	if (force)
@@ -330,6 +334,7 @@ static void carry_value(struct work *work, const struct declared_name *to,
 	allow_force(work, to->at, from->at, 1);
 	if (is_read_only(work->plan->to, to->at))
 		return;
+	work->values++;
 	moves_value(&work->moves, to->at, from->at);
 	if (to->at.type == IEC_STRING)
 		lose_texts(work, to, from);
@@ -354,7 +359,8 @@ static void carry_array(struct work *work, const struct declared_name *to,
 	allow_force(work, new.at, was.at, new.array.count);
 	if (is_read_only(work->plan->to, to->at))
 		return;
-	for (uint32_t i = 0; i < new.array.count; i++)
+	work->values += new.array.count;
+	for (uint32_t i = 0; i < new.array.count && work->values <= VALUES_MOST; i++)
 		moves_value(&work->moves, declared_element(&new, i),
 			    declared_element(&was, i));
 	if (to->at.type == IEC_STRING)
@@ -395,7 +401,8 @@ static void carry_names(struct work *work)
 	struct declared_cursor cursor = { 0 };
 	struct declared_name name;
 
-	while (image_next_declared(work->plan->to, &cursor, &name)) {
+	while (work->values <= VALUES_MOST &&
+	       image_next_declared(work->plan->to, &cursor, &name)) {
 		struct known *known = find(work, &name, false);
 
 		if (known)
@@ -418,7 +425,8 @@ static void carry_memories(struct work *work, bool whole)
 	struct declared_cursor cursor = { .memories = true };
 	struct declared_name name;
 
-	while (image_next_declared(work->plan->to, &cursor, &name)) {
+	while (work->values <= VALUES_MOST &&
+	       image_next_declared(work->plan->to, &cursor, &name)) {
 		bool *done = &work->done[cursor.index - 1];
 		struct known *known;
 
@@ -593,7 +601,7 @@ static bool match_names(struct work *work)
 	carry_memories(work, true);
 	carry_memories(work, false);
 	begin_edges(work);
-	return !work->arena->failed;
+	return work->values <= VALUES_MOST;
 }
 
 static bool make_moves(struct carry_plan *plan, struct arena *arena,

@@ -1267,28 +1267,3 @@ const struct sfc_shape *sfc_layout_step(const struct sfc_layout *layout, int ste
 {
 	return &layout->shape[step];
 }
-
-const struct sfc_shape *sfc_layout_transition(const struct sfc_layout *layout,
-					      int transition)
-{
-	return &layout->shape[layout->sfc->step_count + transition];
-}
-
-int sfc_layout_at(const struct sfc_layout *layout, int lane, int row)
-{
-	int low = 0, high = layout->shape_count;
-
-	while (low < high) { /* the last that begins at or above it */
-		const int middle = low + (high - low) / 2;
-		const struct sfc_shape *shape = &layout->shape[layout->sorted[middle]];
-
-		if (shape->lane < lane || (shape->lane == lane && shape->top <= row))
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	if (low == 0)
-		return -1;
-	const struct sfc_shape *shape = &layout->shape[layout->sorted[low - 1]];
-	return shape->lane == lane && shape->bottom >= row ? layout->sorted[low - 1] : -1;
-}

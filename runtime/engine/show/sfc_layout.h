@@ -79,12 +79,8 @@ struct sfc_layout {
 struct sfc_layout *sfc_layout_new(const struct sfc *sfc);
 void sfc_layout_free(struct sfc_layout *layout);
 
-/** sfc_layout_step, sfc_layout_transition - its shape. Scan-safe: yes. */
+/** sfc_layout_step - its shape. Scan-safe: yes. */
 const struct sfc_shape *sfc_layout_step(const struct sfc_layout *layout, int step);
-const struct sfc_shape *sfc_layout_transition(const struct sfc_layout *layout,
-					      int transition);
-/** sfc_layout_at - number of the shape at a lane and row; -1: none. */
-int sfc_layout_at(const struct sfc_layout *layout, int lane, int row);
 /** sfc_step_rows - rows inside the box of a step: its name and times, its actions. */
 int sfc_step_rows(const struct sfc *sfc, int step);
 

@@ -55,8 +55,6 @@ void text_write_vars(const struct project *project, const struct var_table *tabl
 /** text_write_sfc - a chart without its declarations. Scan-safe: no. */
 void text_write_sfc(const struct project *project, const struct pou *pou,
 		    const struct sink *sink);
-/** text_write_config - the configuration, if there is one. Scan-safe: no. */
-void text_write_config(const struct project *project, const struct sink *sink);
 /** text_write_il - an instruction list; it reads again to the same list, with new line numbers.
  * Scan-safe: no. */
 void text_write_il(const struct project *project, const struct il *il,

@@ -532,9 +532,3 @@ char *text_outline(const struct project *project, size_t *len,
 		sink_memory_free(&outline.memory);
 	return outline.memory.text;
 }
-
-void text_write_config(const struct project *project, const struct sink *sink)
-{
-	if (project->config)
-		write_config(sink, project);
-}

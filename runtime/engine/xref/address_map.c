@@ -75,16 +75,6 @@ bool address_map_make(struct address_map *out, const struct xref *xref,
 	return true;
 }
 
-bool address_map_is_used(const struct address_map *map, struct iec_addr addr)
-{
-	uint32_t at;
-
-	if (!areas_have(&map->areas, addr))
-		return false;
-	at = first_bit(&map->areas, addr);
-	return is_marked(map->used, at, at + addr.bits);
-}
-
 static bool search(const struct address_map *map, const uint8_t *marks,
 		   enum iec_area area, uint32_t bits, uint32_t count, uint32_t from,
 		   struct iec_addr *out)

@@ -28,9 +28,6 @@ bool address_map_make(struct address_map *out, const struct xref *xref,
  */
 bool address_map_next(const struct address_map *map, enum iec_area area, int bits,
 		      uint32_t count, const struct iec_addr *after, struct iec_addr *out);
-/** address_map_is_used - whether one of its bits is used or declared; false beyond its
- * area. */
-bool address_map_is_used(const struct address_map *map, struct iec_addr addr);
 
 /* The same memory under two names: variables, or an address and a variable. */
 struct address_clash {

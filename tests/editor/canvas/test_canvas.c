@@ -123,6 +123,7 @@ static void test_sheet(LadderDocument *document, GtkWidget *sheet, double least,
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
 	gtk_window_set_child(GTK_WINDOW(window), scroller);
 	WAIT(gtk_widget_get_width(sheet) > 0 && gtk_widget_grab_focus(sheet));
+	CHECK(pango_context_get_base_dir(gtk_widget_get_pango_context(sheet)) == PANGO_DIRECTION_LTR);
 	test_zoom(canvas, least);
 	test_menu(canvas);
 	test_change(canvas, document, verb);
@@ -134,6 +135,8 @@ int main(void)
 
 	if (!document)
 		return 0;
+	/* as in Arabic or Hebrew */
+	gtk_widget_set_default_direction(GTK_TEXT_DIR_RTL);
 	test_sheet(document, ladder_grid_view_new(document, 0), 0.5, VERB_comment);
 	test_sheet(document, ladder_sfc_view_new(document, 1), 0.3, VERB_chart_comment);
 	gtk_window_destroy(GTK_WINDOW(window));

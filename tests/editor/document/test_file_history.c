@@ -36,8 +36,8 @@ static void start(void)
 	for (int i = 0; i < FILES; i++) {
 		buffer[i] = gtk_text_buffer_new(NULL);
 		gtk_text_buffer_set_text(buffer[i], i ? "größer = 1\n门 = 2\n" : "", -1);
-		history[i] = file_history_new(buffer[i], document, i ? "b.io" : "a.scn", tell,
-					      NULL);
+		history[i] = file_history_new(buffer[i], document, i ? "b.io" : "a.scn", false,
+					      tell, NULL);
 	}
 }
 

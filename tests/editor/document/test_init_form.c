@@ -119,6 +119,37 @@ static void test_defaults(LadderDocument *document)
 	init_form_free(form);
 }
 
+/* Constant expressions are shown as they are written, taken and refused. */
+static void test_expressions(void)
+{
+	LadderDocument *document = opened("RUNGBOARD 1\n\nTYPE\n  Recipe : STRUCT\n"
+		"    Speed : INT := Limit / 2;\n    Wait  : TIME := T#1s * Limit;\n"
+		"    Steps : ARRAY[1..Limit] OF INT := [Limit, 2(Limit + 1)];\n  END_STRUCT;\nEND_TYPE\n\n"
+		"VAR CONSTANT\n  Limit : INT := 4;\nEND_VAR\n\n"
+		"VAR\n  One : Recipe := (Speed := Limit * 3);\nEND_VAR\n\n"
+		"PROGRAM Main LD\nRUNG\n  | [ One.Speed > 1 ] | COIL %QX0.0 |\nEND_PROGRAM\n");
+	char *why;
+	struct init_form *form = init_form_new(document, 0, 1, &why);
+
+	if (!CHECK(form))
+		return;
+	CHECK(is_text(form, "Speed", "Limit * 3") && is_default(form, "Speed", "Limit / 2"));
+	CHECK(is_default(form, "Wait", "T#1s * Limit") && is_default(form, "Steps [3]", "Limit + 1") &&
+	      is_default(form, "Steps [4]", "0"));
+	CHECK(set(form, "Wait", "T#2s * (Limit - 1)") && set(form, "Steps [2]", "-Limit") &&
+	      set(form, "Speed", "Limit"));
+	CHECK(is_text(form, "", "(Speed := Limit, Wait := T#2s * (Limit - 1), Steps := [1(), -Limit])"));
+	CHECK_AS(!set(form, "Speed", "Limit / 0") && !set(form, "Speed", "One") &&
+		 !set(form, "Speed", "Lmit") && !set(form, "Speed", "T#1s * 2") &&
+		 !set(form, "Speed", "Limit +") && !set(form, "Speed", "Limit * 10000"),
+		 "expressions that fail are refused");
+	CHECK(!init_node_set(form, find(form, "Speed"), "Limit / 0", &why) && why &&
+	      strstr(why, "divides by 0"));
+	g_free(why);
+	init_form_free(form);
+	g_object_unref(document);
+}
+
 static void test_arrays(LadderDocument *document)
 {
 	char *why;
@@ -375,6 +406,7 @@ int main(void)
 	CHECK(ladder_document_project(document));
 	test_defaults(document);
 	test_arrays(document);
+	test_expressions();
 	g_object_unref(document);
 	for (guint32 seed = 1; seed <= 400 && bad < 3; seed++)
 		bad += round_trip(seed);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_pins - pins change their order only where all calls keep their meaning: random moves
- * leave every operand at its pin, and are refused where operands have no names.
+ * test_pins - pins change their order and kind only where all calls keep their meaning: random
+ * moves leave every operand at its pin, and are refused where operands have no names.
  */
 #include "editor-gtk/document/pins.h"
 
@@ -29,6 +29,15 @@ static void open_with(const char *language, const char *body)
 {
 	char *text = g_strdup_printf("RUNGBOARD 1\n\nVAR\n  M : Motor;\n  T : DINT;\n  U : DINT;\n"
 		"  R : INT;\nEND_VAR\n\nPROGRAM Main %s\n%sEND_PROGRAM\n\n%s", language, body, BLOCK);
+
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
+	CHECK(ladder_document_project(document));
+	g_free(text);
+}
+
+static void open_text(const char *parts)
+{
+	char *text = g_strconcat("RUNGBOARD 1\n\n", parts, NULL);
 
 	ladder_document_open_text(document, NULL, text, strlen(text), true);
 	CHECK(ladder_document_project(document));
@@ -219,11 +228,10 @@ static void test_spellings(void)
 		"END_VAR\n  LD    X\n  MUL   A\n  ADD   B\n  ST    Öl\nEND_FUNCTION\n";
 
 	for (gsize i = 0; i < G_N_ELEMENTS(calls); i++) {
-		char *text = g_strdup_printf("RUNGBOARD 1\n\nVAR\n  R : INT;\nEND_VAR\n\n"
-			"PROGRAM Main %sEND_PROGRAM\n\n%s",
-			calls[i], function);
+		char *text = g_strdup_printf("VAR\n  R : INT;\nEND_VAR\n\n"
+			"PROGRAM Main %sEND_PROGRAM\n\n%s", calls[i], function);
 
-		ladder_document_open_text(document, NULL, text, strlen(text), true);
+		open_text(text);
 		CHECK(is_refused("Öl", "A", 1, "by position"));
 		g_free(text);
 	}
@@ -244,6 +252,90 @@ static void test_result(void)
 	      pins_count(pou_named("Scaled"), VAR_INPUT) == 3 && !pins_kind(pou_named("Scaled"), 0));
 }
 
+static char *set_kind(const char *pou, const char *name, uint16_t kind)
+{
+	return pin_set_kind(document, number_of(pou_named(pou)), pin(pou, name), kind);
+}
+
+static bool is_kind_refused(const char *pou, const char *name, uint16_t kind, const char *part)
+{
+	char *before = ladder_document_text(document, NULL), *after;
+	char *why = set_kind(pou, name, kind);
+	bool good;
+
+	after = ladder_document_text(document, NULL);
+	good = why && strstr(why, part) && strcmp(before, after) == 0 &&
+	       !ladder_document_undo_name(document);
+	if (!good)
+		printf("# %s\n", why ? why : "the kind changed");
+	g_free(why);
+	g_free(before);
+	g_free(after);
+	return good;
+}
+
+/* Every kind becomes every other, in one step that undo takes back. */
+static void test_kinds(void)
+{
+	static const uint16_t kinds[] = { VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, 0, VAR_TEMP };
+
+	for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++)
+		for (gsize k = 0; k < G_N_ELEMENTS(kinds); k++) {
+			char *first, *last, *why;
+
+			open_with("LD", "RUNG\n");
+			if (kinds[i] != VAR_INPUT)
+				g_free(set_kind("Motor", "Level", kinds[i]));
+			first = ladder_document_text(document, NULL);
+			why = set_kind("Motor", "Level", kinds[k]);
+			CHECK(!why && (vars_flags(&pou_named("Motor")->vars, pin("Motor", "Level")) &
+				SYMBOL_KINDS) == kinds[k]);
+			if (i != k)
+				CHECK(ladder_document_undo(document));
+			last = ladder_document_text(document, NULL);
+			CHECK_TEXT(last, first);
+			g_free(why);
+			g_free(last);
+			g_free(first);
+		}
+}
+
+static bool builds(void)
+{
+	char *now = meaning();
+	const bool good = *now;
+
+	g_free(now);
+	return good;
+}
+
+static void test_kinds_and_callers(void)
+{
+	open_with("LD", BOX);
+	CHECK(is_kind_refused("Motor", "Start", VAR_OUTPUT, "connected to “Start”"));
+	CHECK(is_kind_refused("Motor", "Run", 0, "connected to “Run”"));
+	CHECK(pin_calls(document, number_of(pou_named("Motor")), pin("Motor", "Wait")) == 1 &&
+	      pin_calls(document, number_of(pou_named("Motor")), pin("Motor", "Late")) == 0 &&
+	      pin_calls(document, number_of(pou_named("Motor")), pin("Motor", "Inner")) == 0 &&
+	      pin_calls(document, number_of(pou_named("Motor")), pin("Motor", "Start")) == 0);
+	CHECK(!set_kind("Motor", "Wait", VAR_OUTPUT) &&
+	      is_order("Motor", VAR_OUTPUT, "Run Late Sum Wait"));
+	CHECK_AS(!builds(), "the caller that gives it an operand has an error");
+	CHECK(ladder_document_undo(document) && builds());
+	open_with("IL", "  CAL   M(1, TRUE)\n");
+	CHECK(is_kind_refused("Motor", "Wait", VAR_OUTPUT, "“Main” gives operands by position"));
+	CHECK(is_kind_refused("Motor", "Inner", VAR_INPUT, "“Main” gives operands by position"));
+	CHECK_AS(!set_kind("Motor", "Inner", VAR_TEMP), "no caller sees a variable");
+	CHECK(is_refused("Motor", "Inner", 1, "last one already"));
+	open_text("VAR\n  L : Late;\nEND_VAR\n\nPROGRAM Main LD\nRUNG\n  | NO %IX0.0 | Late L | COIL "
+		  "%QX0.0 |\nEND_PROGRAM\n\nFUNCTION_BLOCK Late LD\nVAR\n  A : BOOL;\nEND_VAR\n"
+		  "VAR_OUTPUT\n  Q : BOOL;\nEND_VAR\nRUNG\n  | NO A | COIL Q |\n"
+		  "END_FUNCTION_BLOCK\n");
+	CHECK(is_kind_refused("Late", "A", VAR_INPUT, "would be connected to “A”"));
+	CHECK_AS(is_kind_refused("Late", "A", VAR_OUTPUT, "connected to “Q”"),
+		 "a variable that becomes the first output");
+}
+
 /* A function of another file keeps its result. */
 static void test_included(void)
 {
@@ -258,6 +350,7 @@ static void test_included(void)
 	CHECK(ladder_document_project(document) && pou_named("Scaled")->included);
 	why = pins_set_result(document, number_of(pou_named("Scaled")), "DINT");
 	CHECK_TEXT(why ? why : "", "It is declared in another file");
+	CHECK(is_kind_refused("Motor", "Wait", VAR_OUTPUT, "declared in another file"));
 	remove(more);
 	remove(folder);
 	g_free(why);
@@ -276,6 +369,8 @@ int main(void)
 	test_positions();
 	test_spellings();
 	test_result();
+	test_kinds();
+	test_kinds_and_callers();
 	g_object_unref(document);
 	return tap_done();
 }

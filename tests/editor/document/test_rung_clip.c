@@ -122,6 +122,26 @@ static void test_declared(void)
 	g_free(own);
 }
 
+/* The constants that a declaration needs go with it. */
+static void test_needed(void)
+{
+	LadderDocument *from = opened("RUNGBOARD 1\n\nVAR CONSTANT\n  Base  : INT := 5;\n"
+		"  Limit : INT := Base * 2;\n  Other : INT := 1;\nEND_VAR\n\n"
+		"VAR\n  Max : ARRAY[1..Limit] OF INT := [Limit - 1];\nEND_VAR\n\n"
+		"PROGRAM Main LD\nRUNG\n  | [ Max[1] > 3 ] | COIL %QX0.0 |\nEND_PROGRAM\n");
+	char *text = rung_clip_text(from, 0, ladder_document_project(from)->pou[0].rung, 1);
+
+	CHECK_TEXT(text, "VAR_GLOBAL\n  Max : ARRAY[1..Limit] OF INT := [Limit - 1];\nEND_VAR\n"
+		"VAR_GLOBAL CONSTANT\n  Base : INT := 5;\n  Limit : INT := Base * 2;\nEND_VAR\n"
+		"RUNG\n  | [ Max[1] > 3 ] | COIL %QX0.0 |\n");
+	becomes(target, text, "3 names were declared",
+		"RUNGBOARD 1\n\nVAR\n  Max : ARRAY[1..Limit] OF INT := [Limit - 1];\nEND_VAR\n\n"
+		"VAR CONSTANT\n  Limit : INT := Base * 2;\n  Base  : INT := 5;\nEND_VAR\n\n"
+		"PROGRAM Main LD\nRUNG\n  | [ Max[1] > 3 ] | COIL %QX0.0 |\nEND_PROGRAM\n");
+	g_free(text);
+	g_object_unref(from);
+}
+
 /* Known names stay as they are, and no address gets a second name. */
 static void test_known(void)
 {
@@ -258,6 +278,7 @@ int main(void)
 {
 	test_text();
 	test_declared();
+	test_needed();
 	test_known();
 	test_typed();
 	test_line();

@@ -597,8 +597,40 @@ static void test_time(void)
 	g_object_unref(document);
 }
 
+/* Expressions of constants in types and initial values are shown, taken and refused. */
+static void test_expressions(void)
+{
+	LadderDocument *document = opened("RUNGBOARD 1\n\nVAR CONSTANT\n  Limit : INT := 5 * 2;\n"
+		"END_VAR\n\nVAR\n  Max   : INT := Limit - 1;\n  Table : ARRAY[0..Limit] OF INT;\n"
+		"  Text  : STRING[Limit + 2];\nEND_VAR\n\nPROGRAM Main LD\nRUNG\n"
+		"  | [ Table[1] := Max ] | [ Text <> '' ] | COIL %QX0.0 |\nEND_PROGRAM\n");
+	struct symbols *symbols = symbols_new(document);
+	char *why = NULL;
+
+	CHECK_TEXT(find_symbol(symbols, "", "Max")->text[FIELD_INITIAL], "Limit - 1");
+	CHECK_TEXT(find_symbol(symbols, "", "Table")->text[FIELD_TYPE], "ARRAY[0..Limit] OF INT");
+	CHECK_TEXT(find_symbol(symbols, "", "Text")->text[FIELD_TYPE], "STRING[Limit + 2]");
+	CHECK_AS(find_symbol(symbols, "", "Limit")->uses == 3, "its uses are counted");
+	symbols_free(symbols);
+	CHECK(set(document, "", "Max", FIELD_INITIAL, "(Limit + 2) * 3"));
+	CHECK(has(document, "Max   : INT := (Limit + 2) * 3;"));
+	CHECK(set(document, "", "Table", FIELD_TYPE, "ARRAY[1..Limit * 2] OF INT"));
+	CHECK(!set(document, "", "Max", FIELD_INITIAL, "Limit / 0"));
+	CHECK(!set(document, "", "Max", FIELD_INITIAL, "Lmit"));
+	CHECK(!set(document, "", "Limit", FIELD_INITIAL, "Limit + 1"));
+	CHECK(!symbol_set(document, 0, 1, FIELD_INITIAL, "Limit / 0", &why));
+	CHECK_AS(why && strstr(why, "divides by 0"), "the reason is told");
+	g_free(why);
+	CHECK(set(document, "", "Limit", FIELD_NAME, "Most"));
+	CHECK_AS(has(document, "Max   : INT := (Most + 2) * 3;") &&
+		 has(document, "ARRAY[1..Most * 2] OF INT") && has(document, "STRING[Most + 2]"),
+		 "a renamed constant is renamed in declarations");
+	g_object_unref(document);
+}
+
 int main(void)
 {
+	test_expressions();
 	test_csv();
 	test_export();
 	test_import();

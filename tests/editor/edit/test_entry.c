@@ -611,6 +611,19 @@ static void check_conditions(void)
 	ladder_free(ladder);
 }
 
+/* The family of a word and what it does are two texts; the type of a variable has its comment. */
+static void check_notes(const struct entry_place *place)
+{
+	static struct entry_candidate found[12];
+	const int count = entry_candidates(place, "TON", 3, found, 12);
+	const char *note = NULL;
+
+	for (int i = 0; i < count && !note; i++)
+		if (found[i].kind == ENTRY_WORD && !strcmp(found[i].text, "TON"))
+			note = found[i].note;
+	CHECK_TEXT(note ? note : "", "Timers · on-delay timer");
+}
+
 int main(int argc, char **argv)
 {
 	struct ladder *ladder = ladder_new();
@@ -627,6 +640,7 @@ int main(int argc, char **argv)
 			place.pou = i;
 	check_lines(&place);
 	check_offers(&place);
+	check_notes(&place);
 	check_duplicates(&place);
 	check_conditions();
 	check_any(&place);

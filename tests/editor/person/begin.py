@@ -51,6 +51,7 @@ def cards(screen):
     names = sorted(name for name in os.listdir(os.path.join(ROOT, 'ladders')) if name.endswith('.rung') and '.plant' not in name)
     assert sorted(node.name for node in editor.all('.rung', 'label')) == names
     editor.find('Goods lift. A goods lift for three floors')
+    editor.find('Packing bottles into boxes, S7-200 style: all memory by its address. Counts bottles into boxes')
     picture = editor.find('44B0X board', 'picture')
     x, y, width, height = editor.place(picture)
 

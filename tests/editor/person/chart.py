@@ -173,7 +173,7 @@ def faults(screen):
     editor.keys('ctrl+r')
     toggle(editor, 'Rung 1, NO', 'Start', 'open')
     editor.says('SIMULATION · FAULT')
-    bar = 'instruction budget of the scan exceeded (a loop?): Main, rung 2 (1,'  # also in the status bar
+    bar = 'instruction budget of the scan exceeded (a loop?): Main, rung 2, row 1, column '  # also in the status bar
     until(lambda: len(editor.all(bar, 'label')) > 1, 'the bar')
     editor.says('Rung 2')
     editor.shot('chart-fault')

@@ -148,8 +148,9 @@ class Editor(Finder):
             self.gone()
 
     def asked(self):
-        """The open entry at the cursor; not a cell of the interface above the sheet."""
-        tables = [node for node in self.all('Pins') if node.name in ('Pins', getattr(self, 'said', gettext).gettext('Pins'))]
+        """The open entry at the cursor; not a cell of the table above the sheet."""
+        names = [said(name) for name in ('Pins', 'Variables') for said in (str, getattr(self, 'said', gettext).gettext)]
+        tables = [node for part in ('Pins', 'Variables') for node in self.all(part) if node.name in names]
         cells = {node.path for table in tables for node in self.all(role='text', below=table.path)}
         return [node for node in self.all(role='text') if node.path not in self.lines | cells]
 

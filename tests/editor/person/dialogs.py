@@ -196,6 +196,7 @@ def imported(screen):
     assert editor.find('Other', 'check box').has(4), 'the only program is not chosen'
     editor.keys('Return')
     until(lambda: [node for node in editor.all('Other', 'label') if node.name == 'Other'], 'the program')
+    editor.element('Pump')  # what was imported is in front
 
 
 def preview(screen):

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: MIT
 """manual - the manual in its window: links, back, search, find, and F1 at places of the editor."""
 import os
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, main, new_file, until  # noqa: E402
+from desk import Editor, main, new_file, sh, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 
@@ -103,8 +104,58 @@ def pages(screen):
     shows(editor, 'The editor')
 
 
+def clipboard():
+    return subprocess.run(['timeout', '10', 'xclip', '-selection', 'clipboard', '-o'], capture_output=True, text=True).stdout
+
+
+def found(editor, text):
+    """Finds a text in the page; the cursor is there."""
+    editor.keys('ctrl+f', 'ctrl+a')
+    editor.type(text)
+    editor.says('1 of ')
+    editor.keys('Escape')
+    until(lambda: not [node for node in editor.all('Find in this page', 'text') if node.box()[2] > 0], 'the line to close')
+
+
+def copied(screen):
+    """tables are selected and copied with the text, alone by a key; so is code, and by the button over it"""
+    editor = Editor(screen)
+    window = editor.brought(lambda: editor.command('Manual'), 'The editor')
+    shows(editor, 'The editor')
+    editor.keys('ctrl+a', 'ctrl+c')
+    until(lambda: '\ta coil, in the last column\n' in clipboard(), 'a row of a table between the texts')
+    text = clipboard()
+    assert '\ufffc' not in text and 'The editor\n' in text, text[:300]
+    editor.shot('manual-selected')
+    found(editor, 'you get')
+    editor.keys('ctrl+shift+c')
+    until(lambda: clipboard().startswith('you type\tyou get\n'), 'the table alone')
+    found(editor, 'RUNGBOARD 1')
+    editor.keys('ctrl+shift+c')
+    until(lambda: clipboard().startswith('RUNGBOARD 1\n'), 'the code alone')
+    code = clipboard()
+    assert code in text, code
+    editor.put_clipboard('other')
+    at = dict(line.split('=') for line in sh('xdotool', 'getwindowgeometry', '--shell', window).split())
+    x, y, width, height = editor.find('Page of the manual', 'text').box()
+
+    def over():
+        """The button, wherever in the middle of the page the code is."""
+        for part in range(10, 60, 2):
+            sh('xdotool', 'mousemove', str(int(at['X']) + x + width // 2), str(int(at['Y']) + y + height * part // 100))
+            shown = [node for node in editor.all('Copy', 'push button') if node.box()[2] > 0]
+            if shown:
+                return shown[0]
+        return None
+    button = until(over, 'the button over the code')
+    editor.shot('manual-copy')
+    x, y, width, height = editor.at_rest(button)
+    editor.click((int(at['X']) + x + width // 2, int(at['Y']) + y + height // 2))
+    until(lambda: clipboard() != 'other' and clipboard() in text, 'the code below the button')
+
+
 places.quick = 'editor-gtk/window'
-TESTS = [places, pages]
+TESTS = [places, pages, copied]
 
 if __name__ == '__main__':
     main(TESTS)

@@ -44,7 +44,9 @@ def sheets(editor, least=2):
     return found
 
 
-PAGES = ['Tasks', 'Data types', 'Symbols', 'Welcome and samples', 'Compare', 'Import or export report']
+PAGES = ['Tasks', 'Data types', 'Symbols', 'Address map', 'Welcome and samples', 'Compare', 'Import or export report']
+FILTERS = ['Filter the addresses', 'Filter']
+SEARCHED = ['Start', 'MW', 'timer', 'no such word', '%']
 
 
 class Hand:
@@ -71,6 +73,10 @@ class Hand:
             return self.divide()
         if chance < 0.78:
             return self.page()
+        if chance < 0.82:
+            return self.manual()
+        if chance < 0.88:
+            return self.search()
         key = self.dice.choice(KEYS)
         editor.keys(key)
         return key
@@ -81,6 +87,32 @@ class Hand:
         self.editor.command(name)
         until(lambda: self.editor.windows() == [self.editor.window] or self.editor.keys('Escape'), 'other windows to go')
         return 'the command ' + name
+
+    def manual(self):
+        """Opens the manual in some size, searches in all pages and in one, and closes it."""
+        editor, word = self.editor, self.dice.choice(SEARCHED)
+        size = self.dice.choice([*SIZES, '640 420'])
+        window = editor.brought(lambda: editor.command('Manual'))
+        sh('xdotool', 'windowsize', '--sync', window, *size.split())
+        for key in 'ctrl+shift+f', 'ctrl+f':
+            editor.keys(key)
+            editor.type(word)
+            editor.keys('Return', self.dice.choice(['Return', 'Next', 'ctrl+a', 'ctrl+shift+c', 'F3']))
+        until(lambda: editor.windows() == [editor.window] or editor.keys('Escape'), 'the manual to close')
+        return 'the manual at %s, searched for %s' % (size, word)
+
+    def search(self):
+        """Types into a filter that is visible."""
+        editor, word = self.editor, self.dice.choice(SEARCHED)
+        lines = [node for name in FILTERS for node in editor.all(name, 'text') if node.box()[2] > 0]
+        if not lines:
+            return 'no filter'
+        line = self.dice.choice(lines)
+        editor.click(line)
+        editor.keys('ctrl+a')
+        editor.type(word)
+        editor.keys(self.dice.choice(['Escape', 'Down', 'Tab']))
+        return 'the filter %s with %s' % (line.name, word)
 
     def divide(self):
         """Drags where a divider may be."""

@@ -168,7 +168,7 @@ def zero(screen):
     editor.to_sheet()
     editor.keys('ctrl+r')
     editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
-    editor.find('FAULT: an operation failed, such as a division by zero: Main, rung 2 (1,')
+    editor.find('FAULT: an operation failed, such as a division by zero: Main, rung 2, row 1, column ')
     editor.says('SIMULATION · FAULT')
     # Outputs are off; the failing element is marked.
     editor.element('Rung 1, COIL', 'Motor', ', off')
@@ -194,7 +194,7 @@ def zero(screen):
     editor.element('Rung 2, [:=]', 'ENO is FALSE')
     runs(editor)
     # The same fault again is not reported again.
-    log = editor.logs('simulation', 'division by zero: Main, rung 2 (1,')
+    log = editor.logs('simulation', 'division by zero: Main, rung 2, row 1, column ')
     assert log.count('division by zero') == 1, log
     # A cold start reports it again; it can be switched off.
     switch = at_the_clock(editor, 'FAULT on a failed operation')

@@ -185,7 +185,9 @@ def tree(screen):
     until(lambda: editor.all('Rename…', 'menu item'), 'the menu of the task')
     assert not editor.all('Duplicate…', 'menu item')
     editor.shot('tasks-tree-menu')
-    editor.keys('Down', 'Return')
+    # the pointer may be above another entry
+    until(lambda: any(node.has(12) for node in editor.all('Delete', 'menu item')) or editor.keys('Down'), 'the entry')
+    editor.keys('Return')
     editor.says(QUESTION)
     editor.answer('Delete')
     is_saved(editor, path, *deleted)
@@ -224,9 +226,14 @@ def last_program(screen):
     assert cell(editor, 'A, Name').text() == '2nd', cell(editor, 'A, Name').text()
     editor.keys('Escape')
     until(lambda: not editor.all('A, Name: '), 'the end of the message')
+    put(editor, 'Slow, Priority', '7')
+    shows(editor, 'Slow, Priority', '7')
+    editor.click(cell(editor, 'A, Name'))
     editor.click(editor.find('Delete the task or remove the program', 'push button'))
     editor.says('At least one program must run')
     editor.shot('tasks-last')
+    editor.keys('ctrl+z')
+    until(lambda: not editor.all('At least one program must run'), 'the end of the message with the next version')
     is_saved(editor, path, text=text)
 
 

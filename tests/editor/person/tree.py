@@ -572,10 +572,10 @@ def interface(screen):
     editor.keys('alt+Up')
     said('The power of the row is connected to “Start”')
     editor.shot('interface-refused')
-    editor.find('Delete the pin', 'push button').press()
+    editor.find('Delete the selected row', 'push button').press()
     editor.reply('Cancel')
     until(lambda: not editor.all(role='dialog'), 'the end of the question')
-    editor.find('Delete the pin', 'push button').press()
+    editor.find('Delete the selected row', 'push button').press()
     editor.reply('Delete anyway')
     until(lambda: editor.all('2 inputs, 2 outputs', 'label'), 'one pin less')
     editor.keys('ctrl+z')
@@ -595,13 +595,172 @@ def interface(screen):
     editor.keys('F6')
     sheet_of(editor)
     editor.click(editor.find('Interface', 'push button'))
-    until(lambda: not [n for n in editor.all('Delete the pin', 'push button') if n.box()[2] > 0], 'it to be folded')
+    until(lambda: not [n for n in editor.all('Delete the selected row', 'push button') if n.box()[2] > 0], 'it to be folded')
     sheet_of(editor)
     editor.shot('interface-folded')
 
 
+SHEETS = """RUNGBOARD 1
+
+VAR
+  R : INT;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO %IX0.0 | Scaled X:=3 A:=2 OUT=>R |
+END_PROGRAM
+
+PROGRAM Wash SFC
+  VAR
+    Count : INT := 3; (* rinses left *)
+  END_VAR
+
+  INITIAL_STEP Start:
+  END_STEP
+
+  TRANSITION FROM Start TO Start := Count > 0; END_TRANSITION
+END_PROGRAM
+
+FUNCTION Scaled : INT IL
+VAR_INPUT
+  X : INT; (* raw *)
+  A : INT;
+END_VAR
+  LD    X
+  MUL   A
+  ST    Scaled
+END_FUNCTION
+"""
+
+
+def declares(screen):
+    """what a list and a chart declare is edited above them, while a simulation runs, too; each kind; folded apart"""
+    path = new_file(screen, SHEETS)
+    editor = Editor(screen, path)
+
+    def go(name):
+        editor.click([n for n in editor.all(name, 'label') if n.name == name and n.box()[0] < 200][0], count=2)
+
+    def cell(name, text):
+        return until(lambda: [n for n in editor.all(name, 'text') if n.text() == text and n.box()[2] > 0],
+                     'the cell %s with %s' % (name, text))[0]
+
+    def fill(at, text):
+        editor.click(at)
+        editor.keys('ctrl+a')
+        editor.type(text)
+        editor.keys('Return')
+
+    def seen(text):
+        return [n for n in editor.all(text, 'label') if n.box()[2] > 0]
+    go('Scaled')
+    until(lambda: seen('2 inputs, 0 outputs'), 'the summary')
+    fill(cell('A, Initial value', ''), '5')
+    assert editor.save(path) == SHEETS.replace('  A : INT;', '  A : INT := 5;'), open(path).read()
+    until(lambda: [n for n in editor.all('Text of the program', 'text') if 'A : INT := 5;' in n.text()], 'the text')
+    editor.keys('ctrl+z')
+    cell('A, Initial value', '')
+    fill(cell('A, Kind', 'input'), 'sideways')
+    until(lambda: seen('“sideways” is no kind'), 'the refusal')
+    editor.shot('declares-refused')
+    editor.keys('Escape')
+    editor.click(cell('A, Kind', 'input'))
+    editor.keys('ctrl+space')
+    editor.choose('local')
+    until(lambda: seen('A: 1 caller has an operand there'), 'the warning')
+    editor.focus_on('A, Kind')  # its row has moved
+    editor.shot('declares-kind')
+    assert '  X : INT; (* raw *)\nEND_VAR\nVAR\n  A : INT;\nEND_VAR\n' in editor.save(path), open(path).read()
+    editor.keys('ctrl+z')
+    assert editor.save(path) == SHEETS
+    go('Wash')
+    header = until(lambda: [n for n in editor.all('Variables', 'push button') if n.box()[2] > 0], 'the heading')[0]
+    assert not [n for n in editor.all('Count, Name', 'text') if n.box()[2] > 0], 'it is unfolded'
+    until(lambda: [n for n in editor.all('Chart') if n.name == 'Chart' and n.has(12)], 'the focus on the chart')
+    editor.keys('shift+Tab')
+    editor.focus_on('Variables')
+    editor.keys('space')
+    fill(cell('Count, Initial value', '3'), '7')
+    assert editor.save(path) == SHEETS.replace('INT := 3', 'INT := 7')
+    editor.click(editor.find('Simulate'))
+    until(lambda: editor.all('SIMULATION'), 'the simulation')
+    fill(cell('Count, Name', 'Count'), 'Rinses')
+    text = editor.save(path)
+    assert '  Rinses : INT := 7; (* rinses left *)' in text and ':= Rinses > 0;' in text, text
+    check(path)
+    editor.shot('declares-chart')
+    editor.click(header)
+    until(lambda: not [n for n in editor.all('Rinses, Name', 'text') if n.box()[2] > 0], 'it to be folded')
+    go('Scaled')
+    cell('A, Kind', 'input')  # pins stay unfolded
+
+
 def to_file(screen):
-    """a program moves to another file: first it is saved there, then deleted here; undo restores it here"""
+    """a block that is used moves to a new file, which the project includes; one undo restores both; a kill loses nothing"""
+    path = new_file(screen, MOTOR)
+    part = os.path.join(screen.home, 'drive.rung')
+    motor = MOTOR[MOTOR.index('FUNCTION_BLOCK'):]
+    rest = MOTOR.replace(motor, 'INCLUDE "drive.rung"\n')
+    editor = Editor(screen, path)
+
+    def row(name):
+        return [n for n in editor.all(name, 'label') if n.name == name and 0 < n.box()[0] < 200]
+
+    def move():
+        editor.click(until(lambda: row('Motor'), 'the block in the tree')[0])
+        editor.keys('Menu')
+        until(lambda: editor.all('Move to file…', 'menu item'), 'the menu of the row')
+        until(lambda: menu_item(editor, 'Move to file…') or editor.keys('Down'), 'the entry')
+        editor.keys('Return')
+        until(lambda: [n for n in editor.all('Name of the file', 'text') if n.has(12) and n.text() == 'Motor.rung'], 'the name')
+
+    def titles():
+        return [n.name for n in editor.all('drive.rung', 'label') if n.box()[0] > 200 and n.box()[1] < 100]
+    move()
+    editor.keys('ctrl+a')
+    editor.type('new')
+    until(lambda: [n for n in editor.all('The file exists.', 'label') if n.box()[2] > 0], 'the refusal')
+    editor.shot('tree-move-refused')
+    editor.keys('ctrl+a')
+    editor.type('drive')
+    editor.shot('tree-move')
+    editor.keys('Return')
+    editor.says('“Motor” is now in “drive.rung”, which this project includes')
+    until(lambda: titles() == ['• drive.rung'], 'the page of the file, which is not saved')
+    assert not os.path.exists(part) and open(path).read() == MOTOR
+    editor.shot('tree-moved')
+    editor.keys('ctrl+z')
+    until(lambda: not titles(), 'the page to be closed')
+    assert row('Motor') and not editor.all('• new.rung', 'label')
+    editor.keys('ctrl+y')
+    until(lambda: titles() == ['• drive.rung'], 'the page again')
+    editor.keys('ctrl+s')  # in the page of the part: both are saved
+    until(lambda: os.path.exists(part) and open(path).read() == rest, 'both files')
+    assert open(part).read() == 'RUNGBOARD 1\n\n' + motor, open(part).read()
+    check(path)
+    editor.keys('ctrl+z', 'ctrl+s')
+    until(lambda: not os.path.exists(part) and open(path).read() == MOTOR, 'both files as before')
+    move()
+    editor.keys('ctrl+a')
+    editor.type('drive')
+    editor.keys('Return')
+    until(lambda: titles() == ['• drive.rung'], 'the page of the file')
+    drafts = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
+    until(lambda: os.path.isdir(drafts) and sum(motor in open(os.path.join(drafts, name)).read() for name in os.listdir(drafts)) == 1
+          and len(os.listdir(drafts)) == 2, 'drafts of both')
+    editor.kill()
+    editor = Editor(screen)
+    editor.shot('tree-move-again')
+    until(lambda: titles() == ['• drive.rung'] and row('Motor'), 'both drafts')
+    editor.says('2 warnings')
+    editor.keys('ctrl+s')
+    until(lambda: os.path.exists(part) and open(path).read() == rest, 'both files')
+    check(path)
+
+
+def to_project(screen):
+    """to a file with programs of its own a program moves with what it needs; a block that is used here is refused"""
     path = new_file(screen, MORE)
     other = os.path.join(screen.home, 'other.rung')
     with open(other, 'w') as out:
@@ -614,15 +773,12 @@ def to_file(screen):
     until(lambda: editor.all('Move to file…', 'menu item'), 'the menu of the row')
     until(lambda: menu_item(editor, 'Move to file…') or editor.keys('Down'), 'the entry')
     editor.keys('Return')
-    until(lambda: editor.all('These are copied: Third.', 'label'), 'what is copied')
-    editor.shot('tree-move')
-    editor.give_path(other, lambda: editor.reply('Choose file…'))
+    editor.give_path(other, lambda: editor.reply('Existing file…'))
     until(lambda: not [n for n in editor.all('Third', 'label') if n.name == 'Third'], 'it to be gone here')
-    assert open(other).read() == there + third, open(other).read()
     assert editor.save(path) == MORE.replace(third, ''), open(path).read()
-    editor.keys('ctrl+z')
-    assert editor.save(path) == MORE
-    assert open(other).read() == there + third
+    assert open(other).read() == there + third, open(other).read()
+    editor.keys('ctrl+z', 'ctrl+s')
+    until(lambda: open(path).read() == MORE and open(other).read() == there, 'both files as before')
 
 
 def beside(screen):
@@ -670,4 +826,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, to_file, beside])
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, declares, to_file, to_project, beside])

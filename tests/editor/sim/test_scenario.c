@@ -103,7 +103,7 @@ static struct scenario_result *run(const char *text)
 	g_clear_pointer(&results, g_ptr_array_unref);
 	g_ptr_array_add(files, g_strdup("/tmp/x/motor.scn"));
 	g_ptr_array_add(texts, g_strdup(text));
-	scenario_run_all("/tmp/x/motor.rung", sample, strlen(sample), files, texts, NULL,
+	scenario_run_all(ladder_new(), "/tmp/x/motor.rung", sample, strlen(sample), files, texts, NULL,
 			 done, NULL);
 	WAIT(results);
 	return results && results->len ? results->pdata[0] : NULL;

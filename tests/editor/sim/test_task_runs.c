@@ -57,6 +57,7 @@ static void set(const char *name, gint64 to)
 static bool are(const char *want)
 {
 	GString *got = g_string_new(NULL);
+	bool good;
 
 	for (guint i = 0; i < task_runs_count(runs); i++) {
 		const struct task_run *run = task_runs_get(runs, i);
@@ -69,9 +70,11 @@ static bool are(const char *want)
 		if (run->fault)
 			g_string_append_c(got, '!');
 	}
-	if (strcmp(got->str, want) != 0)
+	good = strcmp(got->str, want) == 0;
+	if (!good)
 		printf("# %s\n# %s\n", got->str, want);
-	return strcmp(g_string_free(got, FALSE), want) == 0;
+	g_string_free(got, TRUE);
+	return good;
 }
 
 static bool says(gint64 ms, const char *want)

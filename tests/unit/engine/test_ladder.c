@@ -6,6 +6,7 @@
 #define _XOPEN_SOURCE 700 /* mkdtemp, symlink, setrlimit */
 #include "engine/ladder.h"
 #include "engine/base/file.h"
+#include "engine/xref/xref.h"
 #include "tests/tap.h"
 
 #include <dirent.h>
@@ -204,6 +205,52 @@ static void includes_files(void)
 	rmdir(in_folder("sub"));
 }
 
+static int freed;
+
+static char *text_of(void *context, const char *path, size_t *len)
+{
+	const char *text = context;
+
+	if (strcmp(path + strlen(folder), "/part.rung") != 0)
+		return NULL;
+	*len = strlen(text);
+	return strdup(text);
+}
+
+static void count_free(void *context)
+{
+	(void)context;
+	freed++;
+}
+
+/* Texts of the caller come before files, also when a rename reads the project again. */
+static void takes_files(void)
+{
+	static char part[] = "RUNGBOARD 1\nPROGRAM Part LD\nRUNG\n  | NO I0 | COIL Lamp |\n"
+			     "END_PROGRAM\n";
+	struct ladder *ladder = ladder_new();
+	const struct xref_target lamp = { .what = XREF_VARIABLE, .index = 0 };
+	struct ladder_rename how;
+	size_t len;
+
+	put("part.rung", broken);
+	put("main.rung", "RUNGBOARD 1\nVAR\n  Lamp : BOOL;\n  Spare : BOOL;\nEND_VAR\n"
+	    "INCLUDE \"part.rung\"\n");
+	CHECK(!ladder_load(ladder, in_folder("main.rung")));
+	ladder_set_files(ladder, &(struct ladder_files){ text_of, part, true, count_free });
+	CHECK(ladder_load(ladder, in_folder("main.rung")) && ladder_build(ladder) && !freed);
+	CHECK(!ladder_rename(ladder, &lamp, "Light", &len, &how) && how.why == RENAME_OTHER_FILE);
+	char *text = ladder_rename(ladder, &(struct xref_target){ .what = XREF_VARIABLE, .index = 1 },
+				   "Other", &len, &how);
+
+	CHECK(text && strstr(text, "Other"));
+	free(text);
+	unlink(in_folder("part.rung"));
+	CHECK(ladder_load(ladder, in_folder("main.rung")));
+	ladder_free(ladder);
+	CHECK(freed == 1);
+}
+
 static void saves(void)
 {
 	struct stat status;
@@ -291,6 +338,7 @@ int main(void)
 	loads_images();
 	tells_what_it_cannot_read();
 	includes_files();
+	takes_files();
 	saves();
 	keeps_the_old_file();
 	takes_closed_folders();

@@ -4,6 +4,7 @@
  * stay the same, and renaming it back gives the same bytes. And refusals.
  */
 #include "engine/ladder.h"
+#include "engine/model/init.h"
 #include "engine/xref/xref.h"
 #include "tests/tap.h"
 
@@ -218,6 +219,25 @@ static const char computed[] =
 	"RUNG\n  | [ X := Sum(Y := X, X := LIMIT(0, Max, 10)) + Table[1] + Best.Speed ] |\n"
 	"END_PROGRAM\n";
 
+/* One more declaration: it is computed too, or not added. */
+static void test_added(struct ladder *ladder)
+{
+	static const char good[] = "New : INT := Limit + 1;", bad[] = "Bad : INT := Lmit + 1;";
+	const struct var_table *table = &ladder_project(ladder)->globals;
+	const int count = table->count;
+	struct init_value value = { .type = IEC_INT };
+	struct diag_list diags;
+
+	diag_init(&diags);
+	CHECK(ladder_read_var(ladder, -1, 0, good, strlen(good), &diags) &&
+	      table->count == count + 1 && table->var[3].init.i == 11);
+	CHECK(!ladder_read_var(ladder, -1, 0, bad, strlen(bad), &diags) &&
+	      diags.diag[0].id == DIAG_UNKNOWN_NAME && table->count == count + 1);
+	CHECK(ladder_constant(ladder, 0, "Limit * 2", 9, &value, &diags) && value.value.i == 20 &&
+	      strcmp(value.text, "20") == 0);
+	vars_pop(&ladder_project(ladder)->globals, 0);
+}
+
 static void test_computed(void)
 {
 	struct ladder *ladder = loaded(computed);
@@ -246,6 +266,7 @@ static void test_computed(void)
 	CHECK(count == 18);
 	printf("# %d names\n", count);
 	xref_free(&xref);
+	test_added(ladder);
 	free(text);
 	ladder_free(ladder);
 }

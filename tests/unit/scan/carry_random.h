@@ -68,49 +68,49 @@ static inline uint32_t make_stable(struct made *made, int name, uint32_t n)
 	return make_chance(made, 80) ? (uint32_t)name * 7919u / 13u % n : make_below(made, n);
 }
 
-static inline void make_begin(struct made *made, const struct make_type *type)
-{
-	if (make_chance(made, 60))
-		make_line(made, " := %s", type->begin[make_below(made, 3)]);
-	make_line(made, ";\n");
-}
-
-static inline void make_address(struct made *made, const struct make_type *type)
+/* Returns whether it may have an initial value. */
+static inline bool make_address(struct made *made, const struct make_type *type)
 {
 	const uint32_t byte = make_below(made, 40);
+	const bool input = make_chance(made, 10);
 
 	if (!type->address || make_chance(made, 60))
-		return;
+		return true;
 	if (*type->address == 'X')
-		make_line(made, " AT %%%cX%u.%u", "MMMQ"[make_below(made, 4)],
+		make_line(made, " AT %%%cX%u.%u", input ? 'I' : "MMQ"[make_below(made, 3)],
 			  (unsigned)byte, (unsigned)make_below(made, 8));
 	else
-		make_line(made, " AT %%M%s%u", type->address, (unsigned)byte / 8 * 8);
+		make_line(made, " AT %%%c%s%u", input ? 'I' : 'M', type->address,
+			  (unsigned)byte / 8 * 8);
+	return !input;
 }
 
 static inline void make_elementary(struct made *made, const char *name, int number,
 				   bool address)
 {
 	const struct make_type *type = &make_types[make_stable(made, number, MAKE_TYPES)];
+	bool begins;
 
 	make_line(made, "  %s", name);
-	if (address)
-		make_address(made, type);
+	begins = !address || make_address(made, type);
 	make_line(made, " : %s", type->word);
-	make_begin(made, type);
+	if (begins && make_chance(made, 60))
+		make_line(made, " := %s", type->begin[make_below(made, 3)]);
+	make_line(made, ";\n");
 }
 
 static inline void make_array(struct made *made, const char *name, int number)
 {
 	const struct make_type *type = &make_types[make_stable(made, number, MAKE_TYPES)];
-	const int low = (int)make_below(made, 7) - 3;
+	const int low = (int)make_below(made, 7) - 3, more = (int)make_below(made, 12);
+	bool begins;
 
 	make_line(made, "  %s", name);
-	make_address(made, type);
-	make_line(made, " : ARRAY[%d..%d] OF %s", low, low + (int)make_below(made, 12),
-		  type->word);
-	if (make_chance(made, 30))
-		make_line(made, " := [%s]", type->begin[make_below(made, 3)]);
+	begins = make_address(made, type);
+	make_line(made, " : ARRAY[%d..%d] OF %s", low, low + more, type->word);
+	if (begins && make_chance(made, 50))
+		make_line(made, " := [%u(%s)]", 1 + (unsigned)make_below(made, 1u + (uint32_t)more),
+			  type->begin[make_below(made, 3)]);
 	make_line(made, ";\n");
 }
 
@@ -247,14 +247,15 @@ static inline void make_config(struct made *made)
 	const char *event = make_chance(made, 50) ? "Event" : "Late";
 
 	make_line(made, "CONFIGURATION Plant\n  AREA M %u;\n  AREA I %u;\n  AREA XQ %u;\n",
-		  152 + 8 * (unsigned)make_below(made, 3), 8 + (unsigned)make_below(made, 9),
+		  152 + 8 * (unsigned)make_below(made, 3), 152 + (unsigned)make_below(made, 9),
 		  (unsigned)make_below(made, 3) * 3);
 	if (make_chance(made, 60))
 		make_line(made, "  TASK Fast (INTERVAL := T#%ums, PRIORITY := 1);\n"
-			  "  TASK %s (SINGLE := b0, PRIORITY := 3);\n"
+			  "  TASK %s (%s, PRIORITY := 3);\n"
 			  "  PROGRAM P1 WITH Fast : Main;\n"
 			  "  PROGRAM P2 WITH %s : Other;\n",
-			  interval[make_below(made, 3)], event, event);
+			  interval[make_below(made, 3)], event,
+			  make_chance(made, 60) ? "SINGLE := b0" : "INTERVAL := T#70ms", event);
 	make_line(made, "END_CONFIGURATION\n");
 }
 

@@ -6,12 +6,13 @@
  * The evaluator is made from the description in carry.h. It compares every name with
  * every other one and moves one element, one byte or one bit at a time.
  */
+#include "engine/base/digest.h"
 #include "engine/scan/carry.h"
 #include "tests/unit/scan/carry_random.h"
 
 #include <strings.h>
 
-#define PAIRS 300
+#define PAIRS 200
 
 static struct made made;
 static struct random_source source;
@@ -431,8 +432,8 @@ static bool is_in_both(const struct image *a, const struct image *b, const char 
 	while (!in_areas(a, at) && image_next_symbol(b, &cursor, &symbol))
 		if (strcasecmp(symbol.name, name) == 0) {
 			*other = symbol.at;
-			return symbol.at.type == at.type && !in_areas(b, symbol.at) && !symbol.block &&
-			       !symbol.at.constant && !at.constant &&
+			return symbol.at.type == at.type && !in_areas(b, symbol.at) &&
+			       !symbol.block && !symbol.at.constant && !at.constant &&
 			       equal_values(at.type, image_get(a, at),
 					    image_get(b, symbol.at));
 		}
@@ -441,8 +442,7 @@ static bool is_in_both(const struct image *a, const struct image *b, const char 
 
 static int kept;
 
-/* @cold_a, @cold_b: to compare initial values. @block: a pin of another block in @b does
- * not count. */
+/* @cold_a, @cold_b: to compare initial values. Pins do not count. */
 static bool same_as_before(const struct image *a, const struct image *back,
 			   const struct image *cold_a, const struct image *cold_b)
 {
@@ -589,7 +589,13 @@ static void end_change(struct change *change)
 	rig_close(&change->new);
 }
 
-/* Every variable that has an address is used as bits, too. */
+static bool holds(struct rig *rig, const char *name, int64_t value)
+{
+	return image_is_forced(&rig->resource.image, rig_at(rig, name)) &&
+	       rig_get(rig, name) == value;
+}
+
+/* Bits that have their own byte in an image, but not where a word shares it. */
 #define USES \
 	"PROGRAM Main LD\n" \
 	"RUNG\n  | NO %MX10.1 | NC %MX13.7 | NO %IX0.2 | COIL %QX0.0 |\n" \
@@ -652,6 +658,81 @@ static void test_addresses(void)
 	end_change(&change);
 }
 
+/* Each pair of numbers is one move; but what is written between them stays between. */
+static void test_order(void)
+{
+	struct change change;
+	struct rig *old = &change.old, *new = &change.new;
+
+	plan_change(&change,
+		    "VAR_GLOBAL\n  A AT %MW20 : INT;\n  Bit AT %MX40.0 : BOOL;\n"
+		    "  B AT %MW22 : INT;\n  E : INT := 1;\n  C : DINT := 1;\n"
+		    "  Text : STRING[3] := 'a';\n  D : DINT := 1;\nEND_VAR\n" USES,
+		    "VAR_GLOBAL\n  A AT %MW10 : INT;\n  Bit AT %MX12.0 : BOOL;\n"
+		    "  B AT %MW12 : INT;\n  E : INT := 4;\n  C : DINT := 2;\n"
+		    "  Text : STRING[3] := 'b';\n  D : DINT := 3;\nEND_VAR\n"
+		    "PROGRAM Main LD\nRUNG\n  | [ C := C + 1 ] |\nEND_PROGRAM\n");
+	rig_set(old, "A", 5);
+	rig_set(old, "B", 3);
+	rig_set(old, "Bit", 0);
+	apply(&change);
+	CHECK(rig_get(new, "A") == 5 && rig_get(new, "B") == 3 && rig_get(new, "Bit") == 1);
+	CHECK(rig_get(new, "C") == 2 && rig_get(new, "D") == 3 && rig_get(new, "E") == 4);
+	end_change(&change);
+}
+
+#define SIZES(more) \
+	"VAR_GLOBAL\n  A : INT;\nEND_VAR\nCONFIGURATION Sizes\n  AREA M 600;\n" more \
+	"END_CONFIGURATION\nPROGRAM Main LD\n" \
+	"RUNG\n  | NO %MX1.1 | COIL %MX2.2 |\n"
+
+/* Bits beyond the end of the smaller area go nowhere, and come from nowhere. */
+static void test_sizes(void)
+{
+	static const char small[] = SIZES("") "RUNG\n  | [ A := A + 1 ] |\nEND_PROGRAM\n";
+	static const char large[] =
+		"VAR_GLOBAL\n  A : INT;\nEND_VAR\nPROGRAM Main LD\n"
+		"RUNG\n  | NO %MX1.1 | NO %MX601.2 | NO %MX599.7 | NO %MX600.0 | COIL %MX602.2 |\n"
+		"END_PROGRAM\n";
+	struct change change;
+
+	plan_change(&change, large, small);
+	rig_set(&change.old, "%MX1.1", 1);
+	rig_set(&change.old, "%MX601.2", 1);
+	rig_set(&change.old, "%MX599.7", 1);
+	rig_set(&change.old, "%MX600.0", 1);
+	apply(&change);
+	CHECK(rig_get(&change.new, "%MX1.1") == 1);
+	CHECK(rig_get(&change.new, "%MX599.7") == 1);
+	/* V begins behind M. */
+	CHECK(rig_get(&change.new, "%VX0.0") == 0 && rig_get(&change.new, "%VX1.2") == 0);
+	end_change(&change);
+	plan_change(&change, small, large);
+	rig_set(&change.old, "%MX1.1", 1);
+	rig_set(&change.old, "%VX0.0", 1);
+	rig_set(&change.old, "%VX1.2", 1);
+	apply(&change);
+	CHECK(rig_get(&change.new, "%MX1.1") == 1 && rig_get(&change.new, "%VX1.2") == 1);
+	CHECK(rig_get(&change.new, "%MX600.0") == 0 && rig_get(&change.new, "%MX601.2") == 0);
+	end_change(&change);
+}
+
+/* Only a comment differs: the memory and the forces are copied. */
+static void test_same_code(void)
+{
+	struct change change;
+
+	plan_change(&change, "VAR_GLOBAL\n  A : INT;\n  Fast : INT;\nEND_VAR\n" USES,
+		    "VAR_GLOBAL\n  A : INT; (* more *)\n  Slow : INT;\nEND_VAR\n" USES);
+	rig_set(&change.old, "Fast", 5);
+	CHECK(rig_force(&change.old, "A", 4) && rig_force(&change.old, "%MX10.1", 1));
+	apply(&change);
+	CHECK(change.new.resource.image.force_count == 2 && holds(&change.new, "A", 4) &&
+	      holds(&change.new, "%MX10.1", 1));
+	CHECK(rig_get(&change.new, "Slow") == 5);
+	end_change(&change);
+}
+
 /* A plan knows no values: it can be applied to any state. */
 static void test_again(void)
 {
@@ -684,6 +765,7 @@ static void test_wrong_plan(void)
 	rig_set(&change.old, "Free", 99);
 	CHECK(!carry_apply(change.plan, &change.old.resource, &change.new.resource));
 	CHECK(!carry_apply(change.plan, &change.new.resource, &change.new.resource));
+	CHECK(!carry_apply(change.plan, &change.old.resource, &change.old.resource));
 	CHECK(memcmp(before, new->memory, size) == 0 && new->resource.scans == 0);
 	CHECK(rig_get(&change.old, "Free") == 99);
 	free(before);
@@ -691,6 +773,48 @@ static void test_wrong_plan(void)
 }
 
 /* ---- forces ---- */
+
+static char told[4096];
+static int misplaced;
+
+/* Whether the place is that of the name, or of the first of some elements. */
+static bool is_place(const struct image *image, const struct carry_loss *loss)
+{
+	const char *range = strstr(loss->name, "..");
+	char name[80];
+	struct location at;
+
+	snprintf(name, sizeof(name), "%.*s%s", range ? (int)(range - loss->name) : 60,
+		 loss->name, range ? "]" : "");
+	at = image_find(image, name, strlen(name));
+	return at.type == loss->at.type && at.where == loss->at.where;
+}
+
+static void tell(void *context, const struct carry_loss *loss)
+{
+	static const char *const word[] = { "gone", "new", "type", "block", "text", "force" };
+	const size_t used = strlen(told);
+
+	snprintf(told + used, sizeof(told) - used, "%s %s %d\n", word[loss->reason], loss->name,
+		 (int)loss->at.type);
+	if (loss->reason == CARRY_TEXT || loss->reason == CARRY_NEW)
+		misplaced += context && !is_place(context, loss);
+}
+
+static const char *losses(const struct change *change, const struct image *now)
+{
+	told[0] = '\0';
+	carry_plan_losses(change->plan, now, tell, (void *)&change->new.resource.image);
+	return told;
+}
+
+/* The lines of them that are about forces; they are the last. */
+static const char *force_losses(const struct change *change)
+{
+	const char *first = strstr(losses(change, &change->old.resource.image), "force ");
+
+	return first ? first : "";
+}
 
 static const char forced[] =
 	"VAR_GLOBAL\n  A : INT;\n  B : INT;\n  C : INT;\n  List : ARRAY[1..5] OF INT;\n"
@@ -706,14 +830,13 @@ static const char forced_again[] =
 	"PROGRAM Main LD\nVAR\n  Goes : INT;\n  Own : INT;\n  Wait : TOF;\nEND_VAR\n"
 	"RUNG\n  | NO %IX0.0 | TOF Wait PT:=T#1s | COIL %QX0.0 |\nEND_PROGRAM\n";
 
-static bool holds(struct rig *rig, const char *name, int64_t value)
-{
-	return image_is_forced(&rig->resource.image, rig_at(rig, name)) &&
-	       rig_get(rig, name) == value;
-}
+static const char forced_store[] =
+	"PROGRAM Main LD\nVAR\n  Wait : FIFO;\nEND_VAR\n"
+	"RUNG\n  | NO %IX0.0 | FIFO Wait IN:=1 SIZE:=2 | COIL %QX0.0 |\nEND_PROGRAM\n";
 
 static void test_forces(void)
 {
+	struct location at;
 	struct change change;
 	struct rig *old = &change.old, *new = &change.new;
 
@@ -737,6 +860,24 @@ static void test_forces(void)
 	/* A variable of another POU is another variable. */
 	CHECK(!image_is_forced(&new->resource.image, rig_at(new, "Main.Goes")));
 	CHECK(rig_release(new, "B") && rig_get(new, "B") == 20);
+	CHECK(rig_get(new, "Fixed") == 3);
+	CHECK_TEXT(force_losses(&change), "force %MD58 4\nforce %MX60.0 1\n"
+		   "force List[2] 7\nforce Bits[1] 1\nforce Twin 7\nforce Goes 7\nforce Fixed 7\n");
+	end_change(&change);
+	/* Between two elements of an array there is none. */
+	plan_change(&change, forced, forced_again);
+	at = rig_at(old, "List[3]");
+	at.where++;
+	CHECK(image_force(&old->resource.image, at, (union iec_value){ .i = 5 }));
+	apply(&change);
+	CHECK(new->resource.image.force_count == 0);
+	end_change(&change);
+	/* A pin of another block, if it has the same name and type. */
+	plan_change(&change, forced, forced_store);
+	CHECK(rig_force(old, "Wait.IN", 1) && rig_force(old, "Wait.Q", 1));
+	apply(&change);
+	CHECK(new->resource.image.force_count == 1 && holds(new, "Wait.Q", 1));
+	CHECK_TEXT(force_losses(&change), "force Main.Wait.IN 1\n");
 	end_change(&change);
 }
 
@@ -766,31 +907,13 @@ static void test_all_forces(void)
 
 /* ---- losses ---- */
 
-static char told[4096];
-
-static void tell(void *context, const struct carry_loss *loss)
-{
-	static const char *const word[] = { "gone", "new", "type", "block", "text", "force" };
-	const size_t used = strlen(told);
-
-	(void)context;
-	snprintf(told + used, sizeof(told) - used, "%s %s %d\n", word[loss->reason], loss->name,
-		 (int)loss->at.type);
-}
-
-static const char *losses(const struct change *change, const struct image *now)
-{
-	told[0] = '\0';
-	carry_plan_losses(change->plan, now, tell, NULL);
-	return told;
-}
-
 static const char lost[] =
 	"TYPE\n  Item : STRUCT\n    Speed : INT;\n    Name : STRING[8];\n  END_STRUCT;\nEND_TYPE\n"
 	"VAR_GLOBAL\n  Kept : INT;\n  Gone : INT;\n  Typed : INT;\n  Many : INT;\n"
 	"  List : ARRAY[1..6] OF INT;\n  Apart : ARRAY[1..2] OF INT;\n  Text : STRING[9];\n"
-	"  Short : STRING[9];\n  Texts : ARRAY[1..4] OF STRING[9];\n  Item1 : Item;\n"
-	"  Place AT %MW20 : INT;\n  Far AT %MW700 : INT;\nEND_VAR\n"
+	"  Short : STRING[9];\n  Texts : ARRAY[1..4] OF STRING[9];\n"
+	"  Lines : ARRAY[3..4] OF STRING[9];\n  Item1 : Item;\n"
+	"  Down : ARRAY[4..6] OF INT;\n  Place AT %MW20 : INT;\n  Far AT %MW700 : INT;\nEND_VAR\n"
 	"VAR_GLOBAL CONSTANT\n  Max : INT := 4;\nEND_VAR\n"
 	"PROGRAM Main LD\nVAR\n  Delay : TON;\n  Local : INT;\nEND_VAR\n"
 	"RUNG\n  | P %IX0.0 | TON Delay PT:=T#1s | COIL %QX0.0 |\nEND_PROGRAM\n"
@@ -800,8 +923,9 @@ static const char lost_again[] =
 	"TYPE\n  Item : STRUCT\n    Name : STRING[8];\n    Weight : INT;\n  END_STRUCT;\nEND_TYPE\n"
 	"VAR_GLOBAL\n  Kept : INT;\n  Typed : DINT;\n  Many : ARRAY[0..2] OF INT;\n"
 	"  List : ARRAY[3..9] OF INT;\n  Apart : ARRAY[5..6] OF INT;\n  Text : STRING[4];\n"
-	"  Short : STRING[4];\n  Texts : ARRAY[2..4] OF STRING[4];\n  Item1 : Item;\n"
-	"  Fresh : INT;\n  NewPlace AT %MW30 : INT;\nEND_VAR\n"
+	"  Short : STRING[4];\n  Texts : ARRAY[2..4] OF STRING[4];\n"
+	"  Lines : ARRAY[2..4] OF STRING[4];\n  Item1 : Item;\n"
+	"  Down : ARRAY[2..5] OF INT;\n  Fresh : INT;\n  NewPlace AT %MW30 : INT;\nEND_VAR\n"
 	"VAR_GLOBAL CONSTANT\n  Most : INT := 4;\nEND_VAR\n"
 	"CONFIGURATION Small\n  AREA M 600;\nEND_CONFIGURATION\n"
 	"PROGRAM Main LD\nVAR\n  Delay : TOF;\n  Local : INT;\nEND_VAR\n"
@@ -824,7 +948,7 @@ static void test_losses(void)
 		"gone List[1..2] 7\nnew List[7..9] 7\n"
 		"gone Apart[1..2] 7\nnew Apart[5..6] 7\n";
 	static const char tail[] =
-		"new Item1.Weight 7\nnew Fresh 7\nblock Main.Delay 0\nnew Later.Local 7\n"
+		"new Item1.Weight 7\ngone Down[6] 7\nnew Down[2..3] 7\nnew Fresh 7\nblock Main.Delay 0\nnew Later.Local 7\n"
 		"gone Gone 7\ngone Item1.Speed 7\ngone Far 7\ngone Other.Local 7\n";
 	char want[2048];
 	struct change change;
@@ -833,12 +957,14 @@ static void test_losses(void)
 	plan_change(&change, lost, lost_again);
 	/* Nothing is known of the values: what may be lost. */
 	snprintf(want, sizeof(want), "%s%s%s", head,
-		 "text Text 20\ntext Short 20\ngone Texts[1] 20\ntext Texts[2..4] 20\n", tail);
+		 "text Text 20\ntext Short 20\ngone Texts[1] 20\ntext Texts[2..4] 20\n"
+		 "new Lines[2] 20\ntext Lines[3..4] 20\n", tail);
 	CHECK_TEXT(losses(&change, NULL), want);
 	set_text(&change.old, "Text", "hello");
 	set_text(&change.old, "Short", "four");
 	set_text(&change.old, "Texts[1]", "first");
 	set_text(&change.old, "Texts[3]", "third");
+	set_text(&change.old, "Lines[4]", "fourth");
 	rig_force(&change.old, "Kept", 1);
 	rig_force(&change.old, "Typed", 1);
 	rig_force(&change.old, "%MW700", 1);
@@ -849,7 +975,8 @@ static void test_losses(void)
 	rig_force(&change.old, "Main.Delay.ET", 1);
 	rig_force(&change.old, "Other.Local", 1);
 	snprintf(want, sizeof(want), "%s%s%s%s", head,
-		 "text Text 20\ngone Texts[1] 20\ntext Texts[3] 20\n", tail,
+		 "text Text 20\ngone Texts[1] 20\ntext Texts[3] 20\n"
+		 "new Lines[2] 20\ntext Lines[4] 20\n", tail,
 		 "force %MW700 3\nforce %MX650.3 1\nforce Typed 7\nforce List[2] 7\n"
 		 "force Other.Local 7\n");
 	CHECK_TEXT(losses(&change, &change.old.resource.image), want);
@@ -858,13 +985,15 @@ static void test_losses(void)
 	now.memory = NULL;
 	now.force_count = 1;
 	snprintf(want, sizeof(want), "%s%s%s", head,
-		 "text Text 20\ntext Short 20\ngone Texts[1] 20\ntext Texts[2..4] 20\n", tail);
+		 "text Text 20\ntext Short 20\ngone Texts[1] 20\ntext Texts[2..4] 20\n"
+		 "new Lines[2] 20\ntext Lines[3..4] 20\n", tail);
 	CHECK_TEXT(losses(&change, &now), want);
 	/* A place without a name: the bytes between two variables. */
 	now.force_count = 1;
 	now.force[0].at = (struct location){ .type = IEC_BOOL,
 		.where = CODE_TRUE_AT(&change.old.resource.image.program->areas) };
 	CHECK(strstr(losses(&change, &now), "\nforce  1\n"));
+	CHECK(misplaced == 0);
 	/* What is told is what happens. */
 	apply(&change);
 	CHECK(change.new.resource.image.force_count == 4);
@@ -954,9 +1083,78 @@ static void test_places(void)
 	end_change(&change);
 }
 
+/* ---- a hostile image ---- */
+
+/* "B0[100000..100009]" gets a million elements, which are those of A0. */
+static void overlap(const struct program *program, uint8_t *bytes)
+{
+	uint32_t *symbol = (void *)(bytes + program->header->section[CODE_SYMBOLS].offset);
+	char *name = (char *)bytes + program->header->section[CODE_STRINGS].offset;
+	const size_t covered = offsetof(struct code_header, crc) + 4;
+	struct code_header *header = (void *)bytes;
+	uint32_t first = 0;
+
+	for (uint32_t i = 0; i < program->symbol_count; i++, name += strlen(name) + 1) {
+		if (strncmp(name, "A0[", 3) == 0)
+			first = symbol[i];
+		if (name[0] != 'B')
+			continue;
+		memcpy(name + 2, "[000000..999999]", 16);
+		symbol[i] = first;
+	}
+	header->crc = digest_crc32c(0, bytes + covered, header->size - covered);
+}
+
+static uint8_t *open_overlap(const struct rig *rig, struct program *out, struct arena *arena)
+{
+	const struct program *program = ladder_program(rig->ladder);
+	uint8_t *bytes = malloc(program->header->size);
+	enum diag_id why;
+	size_t where;
+
+	memcpy(bytes, program->base, program->header->size);
+	overlap(program, bytes);
+	CHECK_AS(code_open(bytes, program->header->size, arena, out, &why, &where),
+		 "arrays may overlap in an image");
+	return bytes;
+}
+
+#define WIDE(n) "  A" #n " : ARRAY[0..999999] OF BOOL;\n"
+#define FEW(n) "  B" #n " : ARRAY[100000..100009] OF BOOL;\n"
+#define WIDE_PROGRAM(more) \
+	"VAR_GLOBAL\n" WIDE(0) WIDE(1) WIDE(2) WIDE(3) WIDE(4) WIDE(5) FEW(0) FEW(1) FEW(2) \
+	FEW(3) FEW(4) FEW(5) "END_VAR\nPROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n" \
+	more "END_PROGRAM\n"
+
+/* A plan of it would take for ever. */
+static void test_hostile(void)
+{
+	struct program to, from;
+	struct change change;
+	uint8_t *one, *other;
+
+	if (getenv("EMULATED")) {
+		tap_skip("twelve million values in an emulator");
+		return;
+	}
+	plan_change(&change, WIDE_PROGRAM(""),
+		    WIDE_PROGRAM("RUNG\n  | NO %IX0.1 | COIL %QX0.1 |\n"));
+	CHECK(change.plan && carry_cost(change.plan).operations < 2 * LIMIT_FORCES);
+	one = open_overlap(&change.new, &to, &change.arena);
+	other = open_overlap(&change.old, &from, &change.arena);
+	CHECK(!carry_plan_new(&to, &from, &change.arena));
+	free(one);
+	free(other);
+	end_change(&change);
+}
+
 int main(void)
 {
+	test_hostile();
 	test_addresses();
+	test_order();
+	test_sizes();
+	test_same_code();
 	test_again();
 	test_wrong_plan();
 	test_forces();

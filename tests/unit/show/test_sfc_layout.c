@@ -84,6 +84,16 @@ static bool is_down(const struct sfc_wire *wire)
 	return wire->lane == wire->end_lane;
 }
 
+/* The number of the shape at a place; -1: none. */
+static int shape_at(const struct sfc_layout *layout, int lane, int row)
+{
+	for (int i = 0; i < layout->shape_count; i++)
+		if (layout->shape[i].lane == lane && layout->shape[i].top <= row &&
+		    layout->shape[i].bottom >= row)
+			return i;
+	return -1;
+}
+
 /* Boxes do not overlap; lines touch them only at their edges in their lane. */
 static void check_boxes(const struct sfc_layout *layout)
 {
@@ -93,8 +103,8 @@ static void check_boxes(const struct sfc_layout *layout)
 		if (a->lane < 0 || a->lane >= layout->lanes || a->top < 0 ||
 		    a->bottom < a->top || a->bottom >= layout->rows)
 			wrong = "a box lies outside the layout";
-		if (sfc_layout_at(layout, a->lane, a->top) != i ||
-		    sfc_layout_at(layout, a->lane, a->bottom) != i)
+		if (shape_at(layout, a->lane, a->top) != i ||
+		    shape_at(layout, a->lane, a->bottom) != i)
 			wrong = "a box is not found at its place";
 		for (int k = 0; k < i; k++) {
 			const struct sfc_shape *b = &layout->shape[k];
@@ -174,7 +184,7 @@ static void walk(const struct sfc_layout *layout, int lane, int row)
 				}
 				continue;
 			}
-			at = sfc_layout_at(layout, lane, wire->end_row);
+			at = shape_at(layout, lane, wire->end_row);
 			if (at >= 0) {
 				found[found_count++] = at;
 			} else {
@@ -218,7 +228,7 @@ static bool is_again(int first, int r)
 
 static void check_transition(const struct sfc_layout *layout, int t)
 {
-	const struct sfc_shape *shape = sfc_layout_transition(layout, t);
+	const struct sfc_shape *shape = &layout->shape[layout->sfc->step_count + t];
 	const struct sfc_transition *transition = &transitions[t];
 	int wanted = 0;
 
@@ -423,8 +433,8 @@ static void check_sequence(void)
 	CHECK(layout && layout->shape[1].top == 4 && layout->shape[1].bottom == 8);
 	CHECK(layout && layout->jump[0].from == 2 && layout->jump[0].target == 0 &&
 	      !layout->jump[0].to_transition);
-	CHECK(layout && sfc_layout_at(layout, 0, 3) == 3 &&
-	      sfc_layout_at(layout, 1, 3) == -1 && sfc_layout_at(layout, 0, 99) == -1);
+	CHECK(layout && shape_at(layout, 0, 3) == 3 &&
+	      shape_at(layout, 1, 3) == -1 && shape_at(layout, 0, 99) == -1);
 	sfc_layout_free(layout);
 }
 
@@ -511,7 +521,7 @@ static void check_macro(void)
 	layout = sfc_layout_new(&sfc);
 	CHECK_AS(layout && layout->rows == 0 && layout->frame_count == 0,
 		 "an empty chart has an empty layout");
-	CHECK(layout && sfc_layout_at(layout, 0, 0) == -1);
+	CHECK(layout && shape_at(layout, 0, 0) == -1);
 	sfc_layout_free(layout);
 }
 

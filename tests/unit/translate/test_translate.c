@@ -402,14 +402,22 @@ static void watches_without_a_trace(void)
 static void print_config(const struct project *project, const struct sink *sink)
 {
 	struct config *config = project->config;
+	const char *from, *end;
 	int kept = 0;
+	size_t len;
+	char *whole;
 
 	for (int i = 0; config && i < config->count; i++)
 		if (config->entry[i].kind != CONFIG_VARS)
 			config->entry[kept++] = config->entry[i];
-	if (config)
-		config->count = kept;
-	text_write_config(project, sink);
+	if (!config)
+		return;
+	config->count = kept;
+	whole = text_write(project, &len);
+	from = strstr(whole, "\nCONFIGURATION") + 1;
+	end = strstr(from, "\nEND_CONFIGURATION\n") + strlen("\nEND_CONFIGURATION\n");
+	sink_write(sink, from, (size_t)(end - from));
+	free(whole);
 }
 
 static bool print_all(struct ladder *ladder, const struct sink *sink)

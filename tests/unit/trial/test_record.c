@@ -345,8 +345,49 @@ static void test_random(void)
 	CHECK(forgotten > seeds / 6 && with_plant > seeds / 4);
 }
 
+/* ---- where its frames stand ---- */
+
+static void run_scans(struct record *record, struct twin *twin, uint64_t count)
+{
+	while (count--) {
+		twin_scan(twin);
+		record_scan(record, twin);
+	}
+}
+
+/* A new frame follows exactly record_apart() scans behind the last one; with room for none, only
+ * the last frame is kept. */
+static void test_frames(void)
+{
+	struct rig rig;
+	struct twin twin;
+	struct replay replay;
+	struct record *record;
+	uint64_t apart;
+
+	CHECK(rig_open(&rig, "VAR\n  N : INT;\nEND_VAR\nPROGRAM Main LD\nRUNG\n"
+			     "  | [ N := N + 1 ] |\nEND_PROGRAM\n", false));
+	CHECK(twin_init(&twin, ladder_program(rig.ladder), NULL, 1000000) &&
+	      twin_restart(&twin.resource, false));
+	record = record_new(&twin, 100, 1 << 20);
+	apart = record_apart(record);
+	run_scans(record, &twin, apart + 1);
+	CHECK(replay_init(&replay, record) && replay_jump(&replay, record, apart + 1));
+	CHECK_AS(replay.twin.scan == apart, "a frame follows as many scans behind the last as said");
+	replay_free(&replay);
+	record_free(record);
+	record = record_new(&twin, 100, 1);
+	run_scans(record, &twin, 3 * record_apart(record));
+	CHECK_AS(record_last(record) - record_first(record) < record_apart(record),
+		 "without room only the last frame is kept");
+	record_free(record);
+	twin_free(&twin);
+	rig_close(&rig);
+}
+
 int main(void)
 {
+	test_frames();
 	test_random();
 	return tap_done();
 }

@@ -1,0 +1,42 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# sizes - ladderd for armhf, without the C library, stays within its limits: all of it, and what
+# SMALL=1 makes with all words and with those of the core. `make sizes` has more figures, with
+# another C library and for a Cortex-M3.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+cross=arm-linux-gnueabihf-
+build=${BUILD:-build}/armhf
+if ! command -v ${cross}gcc >/dev/null; then
+	echo '1..0 # SKIP no compiler for armhf: apt-get install gcc-arm-linux-gnueabihf libc6-dev-armhf-cross'
+	exit 0
+fi
+tmp=$(mktemp -d) || exit 1
+trap 'rm -rf "$tmp"' EXIT
+
+n=0 failed=0
+# measure TITLE LIMIT FOLDER VARIABLE=VALUE... : the bytes of code and data of our own.
+measure() {
+	title=$1 limit=$2 folder=$build$3
+	shift 3
+	n=$((n + 1))
+	rm -f "$folder/ladderd"
+	if ! env -u CC -u MAKEFLAGS make -s BUILD="$folder" CROSS=$cross STATIC=1 HAL=uapi \
+	    LDFLAGS="-static -Wl,-Map=$tmp/map" "$@" "$folder/ladderd" >"$tmp/log" 2>&1; then
+		echo "not ok $n - $title can be built"
+		tail -n 5 "$tmp/log" | sed 's/^/# /'
+		failed=1
+		return
+	fi
+	perl tests/targets/lib/rooms.pl "$tmp/map" >"$tmp/rooms"
+	sed 's/^/# /' "$tmp/rooms"
+	bytes=$(awk '!/C library|other/ { sum += $NF } END { print sum + 0 }' "$tmp/rooms")
+	not=
+	if [ "$bytes" -eq 0 ] || [ "$bytes" -gt "$limit" ]; then not='not ' failed=1; fi
+	echo "${not}ok $n - $title has $bytes bytes, at most $limit"
+}
+measure 'ladderd' 325632 '' CFLAGS=-O2
+measure 'ladderd, SMALL=1' 94208 /small SMALL=1
+measure 'ladderd, SMALL=1 WORDS=core' 61440 /small-core SMALL=1 WORDS=core
+echo "1..$n"
+exit $failed
