@@ -86,6 +86,7 @@ my @table = (
 	['diff', ['FILE', 'pump.clprj'], 'any', qr/^(?:project: title .* -> pump\.clprj\n)?(?!.*variable)/],
 	['io', undef],
 	['push', ['FILE', 'nowhere', 'a@b'], 2, qr/nowhere/],
+	['board', ['unix:nowhere', 'download', 'FILE', 'nowhere'], 2, qr/nowhere/],
 	['help', undef],
 );
 

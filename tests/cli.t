@@ -82,7 +82,7 @@ like($out, qr/^ladder \d+\.\d+\.\d+\n$/, '--version prints it');
 ($out) = is_run(0, '--help', ['--help']);
 my @commands = $out =~ /^  ([a-z]+)  +\S.*$/mg;
 is_deeply([sort grep { $_ ne 'help' } @commands],
-	  [sort qw(check fmt show il code build run trace test bench words diff io push xref why export import)], 'all commands are there');
+	  [sort qw(check fmt show il code build run trace test bench words diff io push xref why export import board)], 'all commands are there');
 ($out, $err) = is_run(2, 'no command', []);
 is($out, '', 'no command: nothing on standard output');
 is_run(2, 'unknown command', ['frobnicate']);
@@ -324,7 +324,7 @@ is(() = $err =~ /error LD327/g, 2, 'trace: of which program');
 is_run(2, 'run: of which program', ['run', 'locals.rung', '--set', 'X=1', '--scans', '1']);
 
 # ---- the examples of --help name files that exist ----
-for my $name (qw(check fmt show il code build run trace test bench words diff io push)) {
+for my $name (qw(check fmt show il code build run trace test bench words diff io push board)) {
 	($out) = is_run(0, "$name --help", [$name, '--help']);
 	is_deeply([grep { !-e "$root/$_" } $out =~ m{\b(ladders/[\w./-]*)}g], [], "$name --help: files of the example");
 }

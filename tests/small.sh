@@ -54,12 +54,18 @@ for kind in small small-core; do
 	! ${NM:-nm} "$build/$kind/ladderd" | grep -i carry >"$tmp/out"
 	say $? "$kind: no plan of a change is linked"
 done
-# The messages of its sources must have a code and a text there.
-(cd "$build/small" && find runtime hal -name '*.o') | sed 's/o$/c/' | xargs grep -oh 'DIAG_[A-Z0-9_]*' |
-	sed 's/DIAG_//' | sort -u >"$tmp/given"
-printf '#define DIAG(id, code, severity, text) id DIAG_TEXT(code)\n#include "engine/diag.def"\n' |
-	${CC:-cc} -E -P -Iruntime -DRUNGBOARD_SMALL - | sed -n 's/^ *\([A-Z0-9_]*\) "\\0"$/\1/p' | sort >"$tmp/left"
-grep -q . "$tmp/left" && ! comm -12 "$tmp/given" "$tmp/left" | tee "$tmp/out" | grep -q .
-say $? 'each message that it can give has its text'
+# The messages of its sources must have a code and a text there; so must those of the whole ladderd.
+has_texts() { # macro, title; standard input: the sources
+	xargs grep -oh 'DIAG_[A-Z0-9_]*' | sed 's/DIAG_//' | sort -u >"$tmp/given"
+	printf '#define DIAG(id, code, severity, text) id DIAG_TEXT(code)\n#include "engine/diag.def"\n' |
+		${CC:-cc} -E -P -Iruntime "-D$1" - | sed -n 's/^ *\([A-Z0-9_]*\) "\\0"$/\1/p' | sort >"$tmp/left"
+	grep -q . "$tmp/left" && ! comm -12 "$tmp/given" "$tmp/left" | tee "$tmp/out" | grep -q .
+	say $? "$2"
+}
+(cd "$build/small" && find runtime hal -name '*.o') | sed 's/o$/c/' >"$tmp/sources"
+has_texts RUNGBOARD_SMALL 'each message that it can give has its text' <"$tmp/sources"
+find runtime/ladderd hal runtime/engine/base runtime/engine/scan runtime/engine/model runtime/engine/text \
+	runtime/engine/check runtime/engine/translate runtime/engine/ladder.c -name '*.c' >"$tmp/sources"
+has_texts RUNGBOARD_BOARD 'so has each message of the whole ladderd' <"$tmp/sources"
 echo "1..$n"
 exit $failed
