@@ -38,6 +38,7 @@
 #define PATIENCE_NS (2 * SECOND)      /* for an order                               */
 #define STACK_LEAST 262144u
 #define REST_NS    SECOND             /* longest time between two looks at the state */
+#define BACKLOG    128               /* of desks that connect at the same time          */
 #define OURS       2                  /* polled: the wake-up, the listening socket  */
 
 struct link {
@@ -315,10 +316,13 @@ static void take_in(struct link *link)
 		return;
 	}
 	session = server_open(link->server, peer.role, peer.user);
-	if (session < 0)
+	if (session < 0) {
 		send_away(fd);
-	else
-		link->fd[session] = fd;
+		return;
+	}
+	if (link->fd[session] >= 0)
+		close(link->fd[session]); /* it had to make room */
+	link->fd[session] = fd;
 }
 
 static bool hear(struct link *link, int i)
@@ -546,7 +550,7 @@ static int listen_at(struct link *link, const char *path)
 	if (bind(link->listening, (const void *)&address, sizeof(address)) != 0)
 		return -errno;
 	memcpy(link->path, path, strlen(path) + 1);
-	if (chmod(path, 0666) != 0 || listen(link->listening, SERVER_SESSIONS) != 0)
+	if (chmod(path, 0666) != 0 || listen(link->listening, BACKLOG) != 0)
 		return -errno;
 	return 0;
 }

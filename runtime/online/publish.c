@@ -59,9 +59,25 @@ static void find_cells(const struct program *program, uint32_t pou, struct publi
 	}
 }
 
+/* The maps of an image are not verified against each other: a cell outside of what is copied
+ * for the instance would lie anywhere. */
+static bool are_copied(const struct program *program, const struct publish_set *set,
+		       const struct code_watched *instance)
+{
+	for (uint32_t i = 0; i < set->count; i++) {
+		const struct code_power *cell = &program->power[set->cell + i];
+
+		if (cell->in - instance->from >= instance->size ||
+		    cell->out - instance->from >= instance->size)
+			return false;
+	}
+	return true;
+}
+
 enum refusal publish_cells(struct publications *all, struct publish_set *set,
 			   const struct program *program, const char *name, size_t len)
 {
+	const struct code_watched *instance = NULL;
 	bool found = false;
 
 	set->what = PUBLISH_CELLS;
@@ -73,13 +89,14 @@ enum refusal publish_cells(struct publications *all, struct publish_set *set,
 			continue;
 		find_cells(program, watched->pou, set);
 		set->shift = watched->to - watched->from;
+		instance = watched;
 	}
 	for (uint32_t i = 0; !found && i < program->entry_count && program->string_bytes; i++) {
 		found = name_is(program->string + program->entry[i].name, name, len);
 		if (found)
 			find_cells(program, i, set);
 	}
-	if (!found || !set->count)
+	if (!found || !set->count || (instance && !are_copied(program, set, instance)))
 		return REFUSAL_NO_NAME;
 	if ((set->count + 3) / 4 > PUBLISH_POWER - all->power_bytes)
 		return REFUSAL_TOO_MANY;

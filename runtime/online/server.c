@@ -39,6 +39,7 @@ struct session {
 	bool changed;          /* to be told: another program runs            */
 	enum role role;
 	char user[64];
+	uint64_t opened;       /* counts up: the least is the oldest session   */
 	uint64_t requests;
 	size_t in_len, out_len, out_sent;
 	struct symbol_cursor symbols;
@@ -49,6 +50,7 @@ struct session {
 };
 
 struct server {
+	uint64_t opened;
 	int downloading;       /* the session whose download it is; -1: none  */
 	struct server_setup setup;
 	/* Given to the scan thread with an order, so not touched until it is done. */
@@ -1207,8 +1209,30 @@ int64_t server_due(const struct server *server)
 
 /* ---- sessions ---- */
 
+/* The oldest session that has no rights or has not said hello; -1: none. So nobody without
+ * rights keeps those away who have some. */
+static int idle_session(const struct server *server)
+{
+	int oldest = -1;
+
+	for (int i = 0; i < SERVER_SESSIONS; i++) {
+		const struct session *session = &server->session[i];
+
+		if (session->role != ROLE_NONE && session->greeted)
+			continue;
+		if (oldest < 0 || session->opened < server->session[oldest].opened)
+			oldest = i;
+	}
+	return oldest;
+}
+
 int server_open(struct server *server, enum role role, const char *user)
 {
+	const int gone = server_sessions(server) == SERVER_SESSIONS && role != ROLE_NONE ?
+				 idle_session(server) : -1;
+
+	if (gone >= 0)
+		server_close(server, gone);
 	for (int i = 0; i < SERVER_SESSIONS; i++) {
 		struct session *session = &server->session[i];
 
@@ -1217,6 +1241,7 @@ int server_open(struct server *server, enum role role, const char *user)
 		session->used = true;
 		session->greeted = session->over = session->changed = session->told_role = false;
 		session->role = role;
+		session->opened = ++server->opened;
 		session->requests = session->symbol = 0;
 		session->in_len = session->out_len = session->out_sent = 0;
 		memset(session->kept, 0, sizeof(session->kept));

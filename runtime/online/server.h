@@ -73,7 +73,9 @@ void server_free(struct server *server);
 
 /** server_open - a session with the role that the kernel vouches for
  * @user: for the log; copied, cut
- * Returns its number; -1: all are in use. */
+ *
+ * If all are in use, the oldest one without rights or without a hello ends: its stream, which
+ * has the number that is returned, must be closed. Returns the number; -1: all are in use. */
 int server_open(struct server *server, enum role role, const char *user);
 /** server_close - ends a session: nothing on the board changes but what it watched. */
 void server_close(struct server *server, int session);

@@ -1098,6 +1098,15 @@ def test_sessions_have_a_limit():
         until(again)
 
 
+def test_silent_sessions_keep_nobody_away():
+    with Board() as board:
+        silent = [board.client(hello=False) for _ in range(20)]
+        desks = [board.client() for _ in range(8)]
+        assert all(desk.status()['mode'] == client.RUN for desk in desks)
+        refused(16, board.client)
+        assert len(silent) == 20
+
+
 def test_a_lost_session_changes_nothing():
     with Board() as board:
         desk = board.client()

@@ -92,7 +92,10 @@ uint32_t place_size(const struct program *program, struct location at)
 	run = code_run_at(program, at.where);
 	if (run && run->kind != RUN_INSTANCE)
 		return code_run_size(run);
-	return iec_type_size(IEC_STRING, IEC_STRING_MOST);
+	/* Inside an instance its room is not known here; memory ends behind it. */
+	return program->header->data_size - at.where < iec_type_size(IEC_STRING, IEC_STRING_MOST) ?
+		       program->header->data_size - at.where :
+		       iec_type_size(IEC_STRING, IEC_STRING_MOST);
 }
 
 uint32_t place_byte(const struct program *program, struct location at)
