@@ -82,6 +82,7 @@ static char *export_loaded(struct ladder *ladder, enum classic_dialect dialect, 
 
 	diag_init(diags);
 	report_init(&report);
+	report.translate = said;
 	text = ladder_export_classic(ladder, dialect, NULL, len, &report, diags);
 	add_diags(lines, diags);
 	if (text)
@@ -240,6 +241,7 @@ char *classic_import(const char *path, gsize *len, struct ladder **from, GError 
 	if (!ladder || !ladder_take_classic(ladder, false))
 		g_error("out of memory");
 	ladder_classic_task(ladder, true);
+	ladder_classic_language(ladder, said);
 	if (ladder_load(ladder, path) && ladder_import_report(ladder))
 		text = ladder_write(ladder, len);
 	else

@@ -3,10 +3,10 @@
 #
 # pot.sh - every text of the editor that a person reads, as a template for translators.
 #
-# pot.sh OUTPUT, in the folder of the project. Four sources: the marked texts of the
-# editor, its .ui files, the engine's diagnostics, and what the engine says of its words
-# (a row's texts are arguments of nested macros, so the preprocessor takes them apart; those
-# of conversions are macros). It merges nothing: `make po` does.
+# pot.sh OUTPUT, in the folder of the project. Five sources: the marked texts of the
+# editor, its .ui files, the engine's diagnostics, its reports of imports and exports, and what
+# it says of its words (a row's texts are arguments of nested macros, so the preprocessor takes
+# them apart; those of conversions are macros). It merges nothing: `make po` does.
 set -eu
 out=$1
 work=$(mktemp -d)
@@ -65,8 +65,14 @@ $take -L C -k -kreader_fail_word:3 -kreader_fail_many:3 -kfail_word:3 -kfail_exp
 	runtime/engine/text/*.c runtime/engine/model/*.c runtime/engine/check/*.c 2>/dev/null |
 	msggrep --msgid -e '[a-z][a-z][a-z]' -e ' or ' -o "$work/args.pot" -
 
+# Reports of an import or export; "%s" and the like are no words.
+$take -L C -k -ktell:3 -ktell_change:2 -ktell_lost:2 -ktell_line:3 -kclassic_lost:2 -kREPORTED -o - \
+	runtime/engine/exchange/classic/*.c | sed 's/charset=CHARSET/charset=UTF-8/' |
+	msggrep --msgid -e '[a-z][a-z][a-z]' -o "$work/told.pot" -
+$take -L C -k -kPROPERTY:2 -o "$work/properties.pot" runtime/engine/properties.def
+
 # The date would differ each time, and nothing reads it.
 xgettext --from-code=UTF-8 --add-location=file --package-name=Rungboard -L PO -o - \
 	"$work/editor.pot" "$work/ui.pot" "$work/diag.pot" "$work/catalog.pot" \
-	"$work/args.pot" |
+	"$work/args.pot" "$work/told.pot" "$work/properties.pot" |
 	sed -e '/^"POT-Creation-Date:/d' -e 's/charset=CHARSET/charset=UTF-8/' >"$out"

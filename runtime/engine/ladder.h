@@ -43,6 +43,10 @@ bool ladder_is_classic(const char *path);
 /** ladder_classic_task - whether converted projects get a TASK with their period, for
  * text that is saved as a file. Off at first. */
 void ladder_classic_task(struct ladder *ladder, bool task);
+/** ladder_classic_language - the report of later loads is in the language of @translate,
+ * which gets each text, or printf format, in English. */
+void ladder_classic_language(struct ladder *ladder,
+			     const char *(*translate)(const char *text));
 /** ladder_import_report - the report of the last load; NULL: it was no such project.
  * Valid until the next load. */
 const struct classic_report *ladder_import_report(const struct ladder *ladder);

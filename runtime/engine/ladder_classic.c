@@ -163,6 +163,14 @@ void ladder_classic_task(struct ladder *ladder, bool task)
 		classic->options.task = task;
 }
 
+void ladder_classic_language(struct ladder *ladder, const char *(*translate)(const char *text))
+{
+	struct classic_foreign *classic = classic_of(ladder);
+
+	if (classic)
+		classic->report.translate = translate;
+}
+
 const struct classic_report *ladder_import_report(const struct ladder *ladder)
 {
 	const struct classic_foreign *classic = classic_of(ladder);

@@ -17,8 +17,16 @@ void report_init(struct classic_report *report)
 
 void report_free(struct classic_report *report)
 {
+	const char *(*translate)(const char *text) = report->translate;
+
 	arena_free(&report->arena);
 	report_init(report);
+	report->translate = translate;
+}
+
+const char *report_said(const struct classic_report *report, const char *text)
+{
+	return report->translate ? report->translate(text) : text;
 }
 
 void report_add(struct classic_report *report, struct report_line line,

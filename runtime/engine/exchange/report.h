@@ -28,15 +28,23 @@ struct report_line {
 	char *text;
 };
 
+/** REPORTED - marks a text of a report for translators where tell() does not get it itself. */
+#define REPORTED(text) text
+
 struct classic_report {
 	struct arena arena;
+	const char *(*translate)(const char *text); /* NULL: the texts are English    */
 	struct report_line *line;
 	int count;
 };
 
-/** report_init - an empty report. report_free frees its lines. */
+/** report_init - an empty report in English. report_free frees its lines; the language
+ * remains. */
 void report_init(struct classic_report *report);
 void report_free(struct classic_report *report);
+/** report_said - @text, or a printf format, in the language of the report. */
+const char *report_said(const struct classic_report *report, const char *text)
+	__attribute__((format_arg(2)));
 /**
  * report_add - one more line
  * @line: its text is ignored; member and pou are borrowed as long as the report lives

@@ -13,6 +13,8 @@
 #include "tests/tap.h"
 
 #include <glib/gstdio.h>
+#include <libintl.h>
+#include <locale.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -245,6 +247,73 @@ static void test_report(void)
 	close_project(opened);
 }
 
+/* Texts of all reports of @name: of its import, and of its export to each kind of file. */
+static void add_reports(const char *name, const char *folder, GPtrArray *texts)
+{
+	static const char *const names[] = { "a.clprj", "a.clp", "a.txt" };
+	struct opened opened = open_project(name);
+	const struct classic_report *report = ladder_origin_report(opened.origin);
+	GPtrArray *lines = g_ptr_array_new_with_free_func(left_line_free);
+
+	for (int i = 0; i < report->count; i++)
+		g_ptr_array_add(texts, g_strdup(report->line[i].text));
+	for (gsize i = 0; i < G_N_ELEMENTS(names); i++) {
+		char *path = g_build_filename(folder, names[i], NULL);
+
+		classic_save(opened.document, path, lines, NULL);
+		g_unlink(path);
+		g_free(path);
+	}
+	for (guint i = 0; i < lines->len; i++) {
+		const struct left_line *line = lines->pdata[i];
+
+		if (!line->refused)
+			g_ptr_array_add(texts, g_strdup(line->text));
+	}
+	g_ptr_array_unref(lines);
+	close_project(opened);
+}
+
+static GPtrArray *all_reports(const char *folder)
+{
+	static const char *const names[] = { "elements.clprj", "charts.clprj", "faults.clprjz",
+		"linuxcnc.clp", "expressions.clprj", "members.clprj", "sections.clprj",
+		"pages.clprj", "numeric.txt" };
+	GPtrArray *texts = g_ptr_array_new_with_free_func(g_free);
+
+	for (gsize i = 0; i < G_N_ELEMENTS(names); i++)
+		add_reports(names[i], folder, texts);
+	return texts;
+}
+
+/* A report in German has the lines of the English one, each with other words. */
+static void test_german(const char *folder)
+{
+	GPtrArray *english = all_reports(folder), *german;
+	const char *build = g_getenv("BUILD");
+	char *locale = g_build_filename(build ? build : "build", "locale", NULL);
+	bool first = false;
+
+	g_setenv("LC_ALL", "C.UTF-8", TRUE);
+	g_setenv("LANGUAGE", "de", TRUE);
+	setlocale(LC_ALL, "");
+	bindtextdomain("rungboard", locale);
+	bind_textdomain_codeset("rungboard", "UTF-8");
+	textdomain("rungboard");
+	german = all_reports(folder);
+	CHECK(english->len > 40 && german->len == english->len);
+	for (guint i = 0; i < german->len && i < english->len; i++) {
+		const char *text = german->pdata[i];
+
+		CHECK_AS(strcmp(text, english->pdata[i]) != 0, text);
+		first = first || g_str_has_prefix(text, "ClassicLadder von LinuxCNC: 4 Strompfade, ");
+	}
+	CHECK_AS(first, "the counts are in German");
+	g_ptr_array_unref(german);
+	g_ptr_array_unref(english);
+	g_free(locale);
+}
+
 /* ---- export ---- */
 
 static bool save(LadderDocument *document, const char *path, GPtrArray *lines)
@@ -343,6 +412,7 @@ int main(int argc, char **argv)
 	test_refused(folder);
 	test_written(folder);
 	test_folder(folder);
+	test_german(folder); /* last: the language remains */
 	lettering_free(lettering);
 	g_rmdir(folder);
 	g_free(folder);

@@ -211,8 +211,9 @@ static void report_unknown(struct grid *grid, int element)
 	for (int i = 0; i < CLASSIC_ROWS * CLASSIC_COLUMNS; i++)
 		count += rung->cell[i / CLASSIC_COLUMNS][i % CLASSIC_COLUMNS].element == element;
 	if (!grid->unknown[element])
-		tell(grid->c, REPORT_LOST, count > 1 ? "element %d, in %d cells, does not conduct" :
-		     "element %d does not conduct", element, count);
+		tell(grid->c, REPORT_LOST, count > 1 ?
+		     REPORTED("element %d, in %d cells, does not conduct") :
+		     REPORTED("element %d does not conduct"), element, count);
 	grid->unknown[element] = true;
 	grid->reported++;
 }
@@ -403,9 +404,10 @@ static int report_left_out(struct grid *grid)
 		if (part->written || part->kind == PART_WIRE)
 			continue;
 		grid->c->at.line = grid->rung->row_line[part->y];
-		tell(grid->c, REPORT_LOST, "\"%s\" in row %d, column %d, %s",
-		     said(grid->c, &grid->rung->cell[part->y][x]), part->y + 1, x + 1,
-		     part->fed ? "leads to no output" : "never has power");
+		tell(grid->c, REPORT_LOST, part->fed ?
+		     REPORTED("\"%s\" in row %d, column %d, leads to no output") :
+		     REPORTED("\"%s\" in row %d, column %d, never has power"),
+		     said(grid->c, &grid->rung->cell[part->y][x]), part->y + 1, x + 1);
 		count++;
 	}
 	return count;

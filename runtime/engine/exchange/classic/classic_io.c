@@ -33,10 +33,12 @@ static void put_line(struct conversion *c, const struct classic_io *io, int i)
 		    debounce_of(c->project));
 }
 
-static const char *device_name(int device)
+static const char *device_name(const struct conversion *c, int device)
 {
-	return device >= 100 ? "Comedi" : device == 3 ? "pins of an AT91" :
-	       device == RASPBERRY ? "pins of a Raspberry Pi" : "ports of a PC";
+	return report_said(c->report, device >= 100 ? "Comedi" :
+			   device == 3 ? REPORTED("pins of an AT91") :
+			   device == RASPBERRY ? REPORTED("pins of a Raspberry Pi") :
+			   REPORTED("ports of a PC"));
 }
 
 static bool put_lines(struct conversion *c)
@@ -50,12 +52,13 @@ static bool put_lines(struct conversion *c)
 		if (io->device < 0)
 			continue;
 		if (io->first < 0) {
-			tell(c, REPORT_LOST, "%s are not set up", device_name(io->device));
+			tell(c, REPORT_LOST, "%s are not set up",
+			     device_name(c, io->device));
 			continue;
 		}
 		if (io->device != RASPBERRY) {
 			tell(c, REPORT_LOST, "%s: name the lines of %s%d in an I/O map",
-			     device_name(io->device), io->output ? "%Q" : "%I", io->first);
+			     device_name(c, io->device), io->output ? "%Q" : "%I", io->first);
 			continue;
 		}
 		if (!any)

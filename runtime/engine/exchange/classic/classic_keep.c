@@ -161,12 +161,13 @@ static bool has_setting(const struct conversion *c, const char *name, const char
 void report_kept(struct conversion *c)
 {
 	static const struct { const char *name, *setting, *text; } row[] = {
-		{ "modbusioconf.csv", NULL, "Modbus requests are not made; they are kept for an "
-		  "export" },
-		{ "config_events.csv", NULL, "events are not logged; their list is kept for an "
-		  "export" },
-		{ "modem_config.txt", "MODEM_USED=1", "the modem is not used" },
-		{ "remote_alarms.txt", "GLOBAL_ENABLED=1", "alarms by SMS and mail are not sent" },
+		{ "modbusioconf.csv", NULL, REPORTED("Modbus requests are not made; they are "
+		  "kept for an export") },
+		{ "config_events.csv", NULL, REPORTED("events are not logged; their list is kept "
+		  "for an export") },
+		{ "modem_config.txt", "MODEM_USED=1", REPORTED("the modem is not used") },
+		{ "remote_alarms.txt", "GLOBAL_ENABLED=1",
+		  REPORTED("alarms by SMS and mail are not sent") },
 	};
 
 	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {
@@ -176,6 +177,6 @@ void report_kept(struct conversion *c)
 						 has_lines(c, row[i].name)))
 			continue;
 		c->at = (struct classic_place){ member->name, member->line };
-		tell(c, REPORT_LOST, "%s", row[i].text);
+		tell(c, REPORT_LOST, "%s", report_said(c->report, row[i].text));
 	}
 }

@@ -152,9 +152,10 @@ static void report_symbol(struct conversion *c, const struct classic_symbol *sym
 	c->at = symbol->place;
 	if (symbol_is_none(symbol) || (type >= 0 && !used_name(c, type, number)))
 		return;
-	tell(c, REPORT_LOST, "symbol \"%s\" of %s: %s", symbol->name, symbol->variable,
-	     type >= 0 ? "pins and times of steps have no names of their own" :
-	     "there is no such variable");
+	tell(c, REPORT_LOST, type >= 0 ?
+	     REPORTED("symbol \"%s\" of %s: pins and times of steps have no names of their own") :
+	     REPORTED("symbol \"%s\" of %s: there is no such variable"),
+	     symbol->name, symbol->variable);
 }
 
 /* If one variable has several symbols, the first one counts. */
@@ -439,9 +440,10 @@ const char *operand_of(struct conversion *c, struct classic_variable variable,
 		       indexed(c, memory, variable.number, index) : NULL;
 	}
 	if (!text)
-		tell(c, REPORT_LOST, "variable of type %d, number %d%s, is not supported",
-		     variable.type, variable.number,
-		     variable.index_type < 0 ? "" : ", with an index");
+		tell(c, REPORT_LOST, variable.index_type < 0 ?
+		     REPORTED("variable of type %d, number %d, is not supported") :
+		     REPORTED("variable of type %d, number %d, with an index, is not supported"),
+		     variable.type, variable.number);
 	return text;
 }
 

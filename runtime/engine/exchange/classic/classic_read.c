@@ -74,7 +74,8 @@ void classic_lost(struct classic_reader *reader, const char *text)
 {
 	report_add(reader->report, (struct report_line){
 			.kind = REPORT_LOST, .member = reader->member->name,
-			.line = reader->line_number }, "%s", text);
+			.line = reader->line_number }, "%s",
+		   report_said(reader->report, text));
 }
 
 struct classic_place classic_here(const struct classic_reader *reader)

@@ -103,7 +103,7 @@ void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
 	char *text;
 
 	va_start(args, format);
-	text = classic_print(c->arena, format, args);
+	text = classic_print(c->arena, report_said(c->report, format), args);
 	va_end(args);
 	if (text)
 		report_add(c->report, line, "%s", text);
@@ -358,14 +358,18 @@ static void write_head(struct conversion *c)
 static void tell_counts(struct conversion *c)
 {
 	const struct classic_project *project = c->project;
-	static const char *const dialect[] = { "ClassicLadder", "ClassicLadder of LinuxCNC",
-					       "a bare rung file" };
-	struct { int count; const char *what; } part[] = {
-		{ project->rungs, "rung" }, { 0, "program" }, { 0, "subroutine" },
-		{ project->steps, "step" }, { project->transitions, "transition" },
-		{ project->expressions, "expression" }, { 0, "symbol" },
+	static const char *const dialect[] = { "ClassicLadder",
+		REPORTED("ClassicLadder of LinuxCNC"), REPORTED("a bare rung file") };
+	struct { int count; const char *one, *many; } part[] = {
+		{ project->rungs, REPORTED("rung"), REPORTED("rungs") },
+		{ 0, REPORTED("program"), REPORTED("programs") },
+		{ 0, REPORTED("subroutine"), REPORTED("subroutines") },
+		{ project->steps, REPORTED("step"), REPORTED("steps") },
+		{ project->transitions, REPORTED("transition"), REPORTED("transitions") },
+		{ project->expressions, REPORTED("expression"), REPORTED("expressions") },
+		{ 0, REPORTED("symbol"), REPORTED("symbols") },
 	};
-	const char *text = dialect[project->dialect], *comma = ": ";
+	const char *text = report_said(c->report, dialect[project->dialect]), *comma = ": ";
 
 	for (int i = 0; i < project->sections; i++)
 		part[project->section[i].subroutine < 0 ? 1 : 2].count++;
@@ -374,8 +378,9 @@ static void tell_counts(struct conversion *c)
 	for (size_t i = 0; i < sizeof(part) / sizeof(*part); i++) {
 		if (!part[i].count)
 			continue;
-		text = text_of(c, "%s%s%d %s%s", text, comma, part[i].count, part[i].what,
-			       part[i].count > 1 ? "s" : "");
+		text = text_of(c, "%s%s%d %s", text, comma, part[i].count,
+			       report_said(c->report, part[i].count > 1 ? part[i].many :
+							part[i].one));
 		comma = ", ";
 	}
 	c->at = (struct classic_place){ "", 0 };
@@ -417,12 +422,13 @@ static void tell_faults(struct conversion *c)
 		bool (*differs)(const struct conversion *c, int number);
 		const char *text;
 	} row[] = {
-		{ CLASSIC_IEC_TIMER, timer_differs, "timers (%TM): an interrupted time does not "
-		  "shorten the next one, and a scan that is longer than a unit counts in full" },
-		{ CLASSIC_MONOSTABLE, monostable_differs, "monostables (%M): one whose time is no "
-		  "multiple of the period can be started again" },
-		{ CLASSIC_REGISTER, register_differs, "registers (%R): the place behind the last "
-		  "one is not written to" },
+		{ CLASSIC_IEC_TIMER, timer_differs, REPORTED("timers (%TM): an interrupted time "
+		  "does not shorten the next one, and a scan that is longer than a unit counts in "
+		  "full") },
+		{ CLASSIC_MONOSTABLE, monostable_differs, REPORTED("monostables (%M): one whose time "
+		  "is no multiple of the period can be started again") },
+		{ CLASSIC_REGISTER, register_differs, REPORTED("registers (%R): the place behind the "
+		  "last one is not written to") },
 	};
 
 	if (c->options.faithful)
@@ -430,7 +436,7 @@ static void tell_faults(struct conversion *c)
 	for (size_t i = 0; i < sizeof(row) / sizeof(*row) && !c->options.faithful; i++)
 		for (int number = 0; number < CLASSIC_LIMIT; number++)
 			if (block_cells(c, row[i].kind, number) && row[i].differs(c, number)) {
-				tell(c, REPORT_CHANGED, "%s", row[i].text);
+				tell(c, REPORT_CHANGED, "%s", report_said(c->report, row[i].text));
 				if (row[i].kind == CLASSIC_REGISTER && !c->project->register_list)
 					tell(c, REPORT_CHANGED, "registers (%%R) have one place, "
 					     "although SIZE_REGISTER_LIST is 0");

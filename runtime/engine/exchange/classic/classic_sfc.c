@@ -404,8 +404,8 @@ void report_pages(struct conversion *c)
 
 		c->at = step ? step->place : transition->place;
 		if (section_of(c, page) == INT_MAX)
-			tell(c, REPORT_LOST, "%s %d: no section shows page %d",
-			     step ? "step" : "transition",
+			tell(c, REPORT_LOST, step ? REPORTED("step %d: no section shows page %d") :
+			     REPORTED("transition %d: no section shows page %d"),
 			     step ? step->number : transition->index, page);
 	}
 }

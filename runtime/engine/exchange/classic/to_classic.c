@@ -64,7 +64,7 @@ void tell_at(struct leaving *e, enum report_kind kind, struct diag place, const 
 		.line = place.line, .pou = place.pou, .rung = place.rung };
 	char text[400];
 
-	vsnprintf(text, sizeof(text), format, args);
+	vsnprintf(text, sizeof(text), report_said(e->report, format), args);
 	for (int i = 0; i < e->report->count; i++)
 		if (!strcmp(e->report->line[i].text, text))
 			return;
@@ -564,8 +564,8 @@ static void leave_lines(struct leaving *e)
 		return;
 	if (e->dialect != CLASSIC_UPSTREAM) {
 		tell_line(e, 0, e->dialect == CLASSIC_LINUXCNC ?
-			  "the I/O map is not exported: LinuxCNC connects HAL pins" :
-			  "the I/O map is not exported: a bare rung file has none");
+			  REPORTED("the I/O map is not exported: LinuxCNC connects HAL pins") :
+			  REPORTED("the I/O map is not exported: a bare rung file has none"));
 		return;
 	}
 	for (int i = 0; i < e->lines->count; i++) {
@@ -611,13 +611,15 @@ static void leave_properties(struct leaving *e)
 		if (!id)
 			continue;
 		if (!row->key || e->dialect != CLASSIC_UPSTREAM) {
-			tell_line(e, 0, "the project's %s is left out", row->name);
+			tell_line(e, 0, "the project's %s is left out",
+				  report_said(e->report, row->name));
 			continue;
 		}
 		text = in_one_line(e, project_text(e->project, id));
 		setting(e, row->key, text);
 		if (strlen(text) > (size_t)most)
-			tell_line(e, 0, "the project's %s is cut to %d bytes", row->name, most);
+			tell_line(e, 0, "the project's %s is cut to %d bytes",
+				  report_said(e->report, row->name), most);
 	}
 }
 

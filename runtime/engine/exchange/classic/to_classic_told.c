@@ -109,9 +109,11 @@ static void told_comments(struct leaving *e)
 			rung_comments(pou->rung[k], &comments);
 	}
 	if (comments.count)
-		tell_line(e, comments.line, "%d comment%s: ClassicLadder has them on rungs, "
-			  "as their titles, and on symbols", comments.count,
-			  comments.count > 1 ? "s are not exported" : " is not exported");
+		tell_line(e, comments.line, comments.count > 1 ?
+			  REPORTED("%d comments are not exported: ClassicLadder has them on rungs, "
+			       "as their titles, and on symbols") :
+			  REPORTED("%d comment is not exported: ClassicLadder has them on rungs, "
+			       "as their titles, and on symbols"), comments.count);
 }
 
 /* ---- the configuration ---- */
@@ -231,8 +233,8 @@ static void told_faults(struct leaving *e)
 			  "have");
 	if (e->divides)
 		tell_line(e, 0, e->dialect == CLASSIC_LINUXCNC ?
-			  "a division by 0 ends LinuxCNC's real-time part" :
-			  "a division by 0 gives 0 in ClassicLadder, and the rung goes on");
+			  REPORTED("a division by 0 ends LinuxCNC's real-time part") :
+			  REPORTED("a division by 0 gives 0 in ClassicLadder, and the rung goes on"));
 	if (e->sums)
 		tell_line(e, 0, "arithmetic that overflows wraps in ClassicLadder; here it is an "
 			  "error");
