@@ -11,6 +11,7 @@ from desk import LADDER, ROLES, ROOT, Chinese, Editor, check, main, new_file, sh
 
 PROJECTS = os.path.join(ROOT, 'tests', 'classic', 'projects')
 LOST = 'element 103 does not conduct'
+CHINESE_LOST = '元件 103 不导通'
 SIMPLE = '''RUNGBOARD 1
 
 VAR
@@ -42,7 +43,7 @@ def opened(screen, name='linuxcnc.clp', kind=Editor, **env):
 
 def report(editor):
     editor.click(editor.find('Show report', 'push button'))
-    return editor.find(LOST, 'label')
+    return editor.find(CHINESE_LOST if isinstance(editor, Chinese) else LOST, 'label')
 
 
 def rows(editor):
