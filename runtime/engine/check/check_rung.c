@@ -11,6 +11,7 @@
 #include "engine/check/check.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/lex.h"
 #include "engine/model/args.h"
 
 #include <string.h>
@@ -49,16 +50,19 @@ static enum word word_at(const struct rung_check *c, int row, int col)
 }
 
 /* @row, @col 0-based; -1: the whole rung. */
-static void report(struct rung_check *c, enum diag_id id, int row, int col,
-		   const char *arg)
+static struct diag place_of(const struct rung_check *c, enum diag_id id, int row, int col)
 {
-	struct diag place = {
+	return (struct diag){
 		.id = id, .file = c->pou->file, .line = rung_line(c->rung, row + 1),
 		.pou = project_text(c->project, c->pou->name),
 		.rung = c->number, .row = row + 1, .col = col + 1,
 	};
+}
 
-	c->good &= diag_add(c->diags, place, "%s", arg);
+static void report(struct rung_check *c, enum diag_id id, int row, int col,
+		   const char *arg)
+{
+	c->good &= diag_add(c->diags, place_of(c, id, row, col), "%s", arg);
 }
 
 /* A diagnostic that names the operand of a cell, else its word. */
@@ -297,6 +301,53 @@ static bool has_output(const struct network *network)
 	return false;
 }
 
+/* What an assigned value that is a number does not have. */
+static const char *const no_sums[] = {
+	"=", "<", ">", "<=", ">=", "<>", "AND", "OR", "XOR", "NOT",
+};
+
+/* `N = 5`: the length of the name before the sign; 0: no such comparison. */
+static size_t compared_name(const char *text)
+{
+	struct lex lex;
+	size_t len;
+
+	lex_init(&lex, text, strlen(text));
+	if (lex_next(&lex) != TOKEN_NAME)
+		return 0;
+	len = (size_t)(lex.token.text - text) + lex.token.len;
+	lex_next(&lex);
+	if (!lex_is(&lex, "="))
+		return 0;
+	while (lex_next(&lex) != TOKEN_END)
+		for (size_t i = 0; i < sizeof(no_sums) / sizeof(*no_sums); i++)
+			if (lex_is(&lex, no_sums[i]))
+				return 0;
+	return len;
+}
+
+/* Who writes [ N = 5 ] at the end of a rung means an assignment. */
+static void report_no_output(struct rung_check *c)
+{
+	const struct network *n = c->network;
+
+	for (int i = 0; i < n->element_count; i++) {
+		const struct network_element *e = &n->element[i];
+		const char *text = project_text(c->project, cell_at(c, e->row, e->col)->operand);
+		const size_t len = e->word == ELEM_COMPARE && !n->reader_count[e->out] ?
+				   compared_name(text) : 0;
+		struct diag place;
+
+		if (!len)
+			continue;
+		place = place_of(c, DIAG_COMPARES_LAST, e->row, e->col);
+		c->good &= diag_add(c->diags, place, "%s" DIAG_AND "%.*s :%s", text, (int)len, text,
+				    strchr(text + len, '='));
+		return;
+	}
+	report(c, DIAG_NO_OUTPUT, -1, -1, "");
+}
+
 /* Acts after all powers are known, so it may follow a coil. */
 static bool acts_last(const struct network *n, const struct network_element *e)
 {
@@ -527,7 +578,7 @@ bool check_rung(const struct project *project, const struct pou *pou,
 	for (int i = 0; i < network->element_count; i++)
 		check_element(&c, i);
 	if (!c.outputs)
-		report(&c, DIAG_NO_OUTPUT, -1, -1, "");
+		report_no_output(&c);
 	check_direction(&c);
 	return c.good;
 }

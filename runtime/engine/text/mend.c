@@ -9,6 +9,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
+#include "engine/model/expr.h"
 #include "engine/text/reader.h"
 #include "engine/text/text.h"
 
@@ -277,7 +278,7 @@ static void pass(struct mender *m, const char *text, size_t len)
 		m->where = IN_LIST;
 		break;
 	case MEND_HEAD:
-		m->where = IN_HEAD;
+		m->where = m->where & IN_EXPR ? IN_EXPR : IN_HEAD;
 		break;
 	}
 }
@@ -887,6 +888,35 @@ static void mend_step(struct mender *m, const struct piece *piece, int count)
 		change(m, piece[count - 1].at + piece[count - 1].len, 0, ":");
 }
 
+static bool condition_reads(const struct mender *m, size_t at)
+{
+	struct expr *expr = malloc(sizeof(*expr));
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct lex lex;
+	bool good = false;
+
+	lex_init(&lex, m->text + at, m->len - at);
+	lex_next(&lex);
+	if (expr && diags)
+		good = expr_parse_cell(&lex, expr, diags, (struct diag){ .id = DIAG_BAD_EXPRESSION }) &&
+		       lex_is(&lex, ";") && !expr->target;
+	free(diags);
+	free(expr);
+	return good;
+}
+
+/* A == 5 && B; → A = 5 AND B; from byte @from to the semicolon. */
+static void mend_condition(struct mender *m, size_t from)
+{
+	size_t at = from;
+
+	m->where = IN_EXPR;
+	m->depth = 2; /* a comma separates arguments */
+	while (at < m->len && m->text[at] != ';' && !m->full)
+		at = m->text[at] == ' ' ? at + 1 : take_one(m, at);
+	m->full = m->full || !condition_reads(m, from);
+}
+
 /* TRANSITION A TO B = Start → TRANSITION FROM A TO B := Start; END_TRANSITION */
 static void mend_transition(struct mender *m, const struct piece *piece, int count)
 {
@@ -906,6 +936,8 @@ static void mend_transition(struct mender *m, const struct piece *piece, int cou
 		change(m, piece[ends - 1].at + piece[ends - 1].len, 0, ";");
 	else if (assign && !ends && assign + 1 < count)
 		change(m, m->len, 0, "; END_TRANSITION");
+	else if (assign)
+		mend_condition(m, piece[assign].at + 2);
 }
 
 /* RUNG Start the motor → RUNG "Start the motor"; PROGRAM "Main" LD → PROGRAM Main LD. */

@@ -103,17 +103,7 @@ static enum word check_expression(struct reader *r)
 	place.column = lex.token.column;
 	place.id = DIAG_BAD_EXPRESSION;
 	if (!expr_parse_cell(&lex, &r->expr, r->diags, place)) {
-		struct diag_list *diags = r->diags;
-
-		if (diags->dropped || !diags->count ||
-		    diags->diag[diags->count - 1].id != DIAG_BAD_EXPRESSION)
-			return WORD_COUNT;
-		diags->count--;
-		diags->errors--;
-		if (!reader_mend(r, DIAG_BAD_EXPRESSION)) {
-			diags->count++;
-			diags->errors++;
-		}
+		reader_mend_last(r);
 		return WORD_COUNT;
 	}
 	if (has_bad_literal(&r->expr) && reader_mend(r, DIAG_BAD_LITERAL))

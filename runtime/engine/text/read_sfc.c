@@ -719,7 +719,7 @@ static bool check_expression(struct reader *r)
 	place.column = lex.token.column;
 	place.id = DIAG_BAD_EXPRESSION;
 	if (!expr_parse_cell(&lex, &r->expr, r->diags, place))
-		return false;
+		return reader_mend_last(r);
 	if (lex_is(&lex, ";") && !r->expr.target)
 		return true;
 	if (!r->expr.target) {

@@ -151,6 +151,22 @@ bool reader_mend(struct reader *r, enum diag_id id)
 	return mend_as(r, MEND_HEAD, text, line, r->place);
 }
 
+bool reader_mend_last(struct reader *r)
+{
+	struct diag_list *diags = r->diags;
+
+	if (diags->dropped || !diags->count ||
+	    diags->diag[diags->count - 1].id != DIAG_BAD_EXPRESSION)
+		return false;
+	diags->count--;
+	diags->errors--;
+	if (!reader_mend(r, DIAG_BAD_EXPRESSION)) {
+		diags->count++;
+		diags->errors++;
+	}
+	return false;
+}
+
 /* Is it a sign such as := or a word such as END_STEP, not a description such as "number"? */
 static bool is_sign(const char *text, size_t len)
 {

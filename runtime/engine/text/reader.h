@@ -112,6 +112,9 @@ bool reader_fail_token(struct reader *r, enum diag_id id);
 /** reader_mend - reports the line of an error of form as it should be written. False: nobody
  * can mend it, or its message needs no such line. */
 bool reader_mend(struct reader *r, enum diag_id id);
+/** reader_mend_last - the same in place of the last message, if that is about an expression.
+ * False always. */
+bool reader_mend_last(struct reader *r);
 /** reader_fail_open - the block that began at @head is not closed. */
 void reader_fail_open(struct reader *r, const struct token *head);
 
