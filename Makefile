@@ -486,7 +486,7 @@ ARM := $(foreach a,arm64 armhf,$(if $(shell command -v $(CROSS_$a)gcc),$a))
 arm: $(ARM:%=arm-%) ## the tests of the engine for arm64 and armhf, in build/arm64/ and build/armhf/
 $(ARM:%=arm-%): arm-%:
 	$(MAKE) BUILD=$(BUILD)/$* CROSS=$(CROSS_$*) STATIC=1 HAL=uapi CFLAGS='$(filter-out -g,$(CFLAGS))' arm-programs
-$(BUILD)/tests/ladder_batch: $(BUILD)/tests/ladder_batch.o $(filter-out %/main.o,$(LADDER)) $(DRIVERS) $(BUILD)/libladder.a
+$(BUILD)/tests/ladder_batch: $(BUILD)/tests/ladder_batch.o $(filter-out %/main.o,$(LADDER)) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
 arm-programs: $(UNIT) $(BIN)/differential $(BIN)/iec_cases $(BUILD)/tests/ladder_batch $(BUILD)/replay
 .PHONY: arm arm-programs $(ARM:%=arm-%)
@@ -501,7 +501,7 @@ $(BUILD)/guest: $(call obj,$(wildcard $(GUEST)/*.c))
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^
 $(BUILD)/replay: $(call obj,$(GUEST)/replay/replay.c $(CORE))
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^ -lm
-$(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(BUILD)/libladder.a
+$(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(if $(filter 1,$(SMALL)),,$(BUILD)/libonline.a) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(GUEST_LD) $(THREADS) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) -lm
 
 # The cases for them, made on this machine: build/cases/.
