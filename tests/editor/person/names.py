@@ -216,7 +216,7 @@ def operands(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     line = question(editor, 'End', 'F12', 'Home')
-    assert line.text() == 'N'
+    until(lambda: line.text() == 'N', 'the N')
     editor.shot('names-choice')
     editor.keys('shift+Tab')
     editor.focus_on('Which name')
