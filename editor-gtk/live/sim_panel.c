@@ -156,7 +156,8 @@ static void show_lines(LadderSimPanel *panel)
 	at = find_line(panel, selected);
 	gtk_single_selection_set_selected(panel->selection, at < 0 ?
 					  GTK_INVALID_LIST_POSITION : (guint)at);
-	gtk_stack_set_visible_child_name(GTK_STACK(panel->found), out->len ? "list" : "none");
+	gtk_stack_set_visible_child_name(GTK_STACK(panel->found), out->len ? "list" :
+					 panel->rows->len ? "none" : "empty");
 	g_ptr_array_unref(out);
 	g_clear_object(&selected);
 }

@@ -1038,8 +1038,9 @@ static void ladder_window_init(LadderWindow *window)
 {
 	gtk_widget_init_template(GTK_WIDGET(window));
 	popover_menu_of(window->menu_button, menu_new);
-	g_signal_connect_object(settings_get(), "changed::keys", G_CALLBACK(menu_forget), window,
-				G_CONNECT_SWAPPED);
+	if (settings_get())
+		g_signal_connect_object(settings_get(), "changed::keys", G_CALLBACK(menu_forget),
+					window, G_CONNECT_SWAPPED);
 	window->core = (struct core){
 		.window = GTK_WINDOW(window), .messages = &window->messages,
 		.below = &window->below, .front = &window->front, .tabs = &window->tabs,

@@ -485,6 +485,31 @@ static void test_wholes(void)
 	CHECK(ladder_sim_panel_select(panel, "Table[2]") && row_of("Table[3]"));
 }
 
+/* What is in sight below the search: "list", "none", "empty". */
+static const char *page(void)
+{
+	GtkWidget *box = gtk_widget_get_parent(find_widget(GTK_WIDGET(panel),
+							   GTK_TYPE_SEARCH_ENTRY));
+
+	return gtk_stack_get_visible_child_name(GTK_STACK(gtk_widget_get_last_child(box)));
+}
+
+static void test_empty(void)
+{
+	static const char text[] = "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | |\nEND_PROGRAM\n";
+
+	CHECK_TEXT(page(), "list");
+	search("nobody");
+	CHECK_SOON(strcmp(page(), "none") == 0);
+	search("");
+	CHECK_SOON(strcmp(page(), "list") == 0);
+	ladder_sim_end(sim);
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
+	CHECK(ladder_sim_begin(sim, NULL));
+	CHECK_TEXT(page(), "empty");
+	save_pictures(window, "SIM_PICTURES", "empty");
+}
+
 int main(int argc, char **argv)
 {
 	if (!screen_start()) {
@@ -522,6 +547,7 @@ int main(int argc, char **argv)
 	test_many();
 	test_map();
 	test_wholes();
+	test_empty();
 	test_end();
 	gtk_window_destroy(GTK_WINDOW(window));
 	g_object_unref(sim);
