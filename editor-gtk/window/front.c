@@ -103,12 +103,12 @@ LadderSideFile *front_file(struct front *front)
 bool front_enter_program(struct front *front)
 {
 	LadderCanvas *canvas = front_seen_canvas(front);
-	GtkWidget *page = seen_page(front);
+	GtkWidget *content = seen(front);
 
 	if (canvas)
 		gtk_widget_grab_focus(GTK_WIDGET(canvas));
-	else if (LADDER_IS_TEXT_VIEW(page))
-		gtk_widget_grab_focus(page);
+	else if (LADDER_IS_TEXT_VIEW(content))
+		gtk_widget_grab_focus(content);
 	else
 		return false;
 	return true;
