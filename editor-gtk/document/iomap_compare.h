@@ -8,7 +8,7 @@
 #include <glib.h>
 #include <stdbool.h>
 
-/* What differs in a line: its address, or "BOARD". Texts are borrowed during the call. */
+/* A line that differs, named by its address or "BOARD". Texts are borrowed during the call. */
 struct iomap_difference {
 	const char *address;
 	bool in_a, in_b;

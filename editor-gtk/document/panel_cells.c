@@ -525,7 +525,7 @@ static gsize spelled(const char *text, const char *word, gsize len)
 	return head;
 }
 
-/* What is missing of the word that was begun, or NULL. */
+/* The rest of the word that was begun; NULL: no word fits. */
 static const char *completion(const struct column *column, const char *word, gsize len)
 {
 	GPtrArray *choices = column->cells->choices(column->cells->owner, column->field);

@@ -564,7 +564,7 @@ static bool value_taken(const struct asked *asked, const struct pin_line *pin)
 	return good;
 }
 
-/* Whoever types the operand alone gets the line with an input before it. */
+/* For an operand without an input: the line with the input before it. */
 static char *refused(LadderGridView *view, const struct pin_line *pin, enum grid_refusal why)
 {
 	char further[LIMIT_NAME + 1], *typed, *text;

@@ -12,6 +12,7 @@
 
 #include "engine/base/digest.h"
 #include "hal/iomap.h"
+#include "online/stream.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -275,37 +276,13 @@ static void print_script(const struct push_names *names, const struct sink *out)
 
 /* ---- the command ---- */
 
-/* Only letters, digits and bytes of @also: nothing that has a meaning to a shell, or to
- * ssh when it runs a command of its configuration. */
-static bool is_plain(const char *text, const char *also)
-{
-	static const char plain[] = "abcdefghijklmnopqrstuvwxyz"
-				    "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
-
-	while (*text) {
-		text += strspn(text, plain);
-		if (*text && !strchr(also, *text++))
-			return false;
-	}
-	return true;
-}
-
-static bool is_board(const char *text)
-{
-	const char *at = strrchr(text, '@');
-	const char *host = at ? at + 1 : text;
-
-	return *text != '-' && *host && *host != '-' && at != text &&
-	       is_plain(text, "@._-:[]%/");
-}
-
 static bool is_folder(const char *text)
 {
 	size_t len = strlen(text);
 
 	return len > 1 && len <= FOLDER_MOST && *text == '/' &&
 	       text[len - 1] != '/' && !strstr(text, "..") &&
-	       is_plain(text, "._-/");
+	       stream_is_plain(text, "._-/");
 }
 
 /* Gives each push a folder name of its own, also if two run at once. */
@@ -452,7 +429,7 @@ enum status cmd_push(struct call *call)
 	enum status status;
 
 	push.names.folder = folder ? folder : FOLDER;
-	if (!is_board(push.board))
+	if (!stream_is_host(push.board))
 		return report_usage(call, "%.24s is not USER@BOARD",
 				    push.board);
 	if (!is_folder(push.names.folder))

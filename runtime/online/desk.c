@@ -168,17 +168,6 @@ enum desk_end desk_listen(struct desk *desk, int ms)
 	return end;
 }
 
-static void take_text(struct wire_reader *in, char *out, size_t size)
-{
-	size_t len;
-	const char *text = wire_text(in, &len);
-
-	if (len >= size)
-		len = size - 1;
-	memcpy(out, text, len);
-	out[len] = '\0';
-}
-
 enum desk_end desk_open(struct desk *desk, const struct stream *stream, const char *name)
 {
 	struct wire_writer out;
@@ -200,8 +189,8 @@ enum desk_end desk_open(struct desk *desk, const struct stream *stream, const ch
 	desk->version = wire_u16(&in);
 	desk->role = (enum role)wire_u8(&in);
 	wire_u8(&in); /* number of the session */
-	take_text(&in, desk->software, sizeof(desk->software));
-	take_text(&in, desk->board, sizeof(desk->board));
+	wire_copy_text(&in, desk->software, sizeof(desk->software));
+	wire_copy_text(&in, desk->board, sizeof(desk->board));
 	if (in.failed || desk->role >= ROLE_COUNT || desk->version < ONLINE_LOWEST ||
 	    desk->version > ONLINE_HIGHEST)
 		return DESK_NONSENSE;

@@ -31,17 +31,6 @@ void event_put(struct wire_writer *out, const struct event *event)
 	wire_put_string(out, event->arg[1]);
 }
 
-static void take_text(struct wire_reader *in, char *out, size_t size)
-{
-	size_t len;
-	const char *text = wire_text(in, &len);
-
-	if (len >= size)
-		len = size - 1;
-	memcpy(out, text, len);
-	out[len] = '\0';
-}
-
 void event_take(struct wire_reader *in, struct event *event)
 {
 	memset(event, 0, sizeof(*event));
@@ -49,9 +38,9 @@ void event_take(struct wire_reader *in, struct event *event)
 	event->time_ns = wire_i64(in);
 	event->id = wire_u8(in);
 	event->role = wire_u8(in);
-	take_text(in, event->user, sizeof(event->user));
-	take_text(in, event->arg[0], sizeof(event->arg[0]));
-	take_text(in, event->arg[1], sizeof(event->arg[1]));
+	wire_copy_text(in, event->user, sizeof(event->user));
+	wire_copy_text(in, event->arg[0], sizeof(event->arg[0]));
+	wire_copy_text(in, event->arg[1], sizeof(event->arg[1]));
 }
 
 void event_seal(const struct event *event, uint8_t *out)

@@ -47,20 +47,9 @@ void status_put(struct wire_writer *out, const struct board_status *status)
 	}
 }
 
-static void take_text(struct wire_reader *in, char *out, size_t size)
-{
-	size_t len;
-	const char *text = wire_text(in, &len);
-
-	if (len >= size)
-		len = size - 1;
-	memcpy(out, text, len);
-	out[len] = '\0';
-}
-
 static void take_task(struct wire_reader *in, struct task_status *task)
 {
-	take_text(in, task->name, sizeof(task->name));
+	wire_copy_text(in, task->name, sizeof(task->name));
 	task->interval_ns = wire_i64(in);
 	task->runs = wire_u64(in);
 	task->overruns = wire_u64(in);
@@ -96,11 +85,11 @@ void status_take(struct wire_reader *in, struct board_status *status)
 	status->sessions = wire_u32(in);
 	status->lines = wire_u32(in);
 	status->io_failed = wire_u64(in);
-	take_text(in, status->board, sizeof(status->board));
-	take_text(in, status->version, sizeof(status->version));
-	take_text(in, status->fault, sizeof(status->fault));
-	take_text(in, status->error, sizeof(status->error));
-	take_text(in, status->stop, sizeof(status->stop));
+	wire_copy_text(in, status->board, sizeof(status->board));
+	wire_copy_text(in, status->version, sizeof(status->version));
+	wire_copy_text(in, status->fault, sizeof(status->fault));
+	wire_copy_text(in, status->error, sizeof(status->error));
+	wire_copy_text(in, status->stop, sizeof(status->stop));
 	status->task_count = wire_u8(in);
 	if (status->task_count > LIMIT_TASKS) {
 		status->task_count = 0;

@@ -22,7 +22,7 @@ extern char **environ;
 
 /* ---- where ---- */
 
-static bool is_plain(const char *text, const char *also)
+bool stream_is_plain(const char *text, const char *also)
 {
 	static const char plain[] = "abcdefghijklmnopqrstuvwxyz"
 				    "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
@@ -37,13 +37,13 @@ static bool is_plain(const char *text, const char *also)
 
 /* Only bytes that mean nothing to a shell, nor to ssh when it runs a command of its
  * configuration. */
-static bool is_host(const char *text)
+bool stream_is_host(const char *text)
 {
 	const char *at = strrchr(text, '@');
 	const char *host = at ? at + 1 : text;
 
 	return *text != '-' && *host && *host != '-' && at != text &&
-	       is_plain(text, "@._-:[]%/");
+	       stream_is_plain(text, "@._-:[]%/");
 }
 
 const char *stream_parse(const char *text, struct stream_where *out)
@@ -61,7 +61,7 @@ const char *stream_parse(const char *text, struct stream_where *out)
 		out->rest = STREAM_SOCKET;
 	if (!*out->rest)
 		return "a board is missing: USER@BOARD, unix:SOCKET, exec:COMMAND or serial:TTY";
-	if (out->kind == STREAM_SSH && !is_host(out->rest))
+	if (out->kind == STREAM_SSH && !stream_is_host(out->rest))
 		return "is not USER@BOARD";
 	return NULL;
 }

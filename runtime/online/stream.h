@@ -30,6 +30,12 @@ struct stream_where {
  */
 const char *stream_parse(const char *text, struct stream_where *out);
 
+/** stream_is_plain - whether @text has only letters, digits and bytes of @also: nothing that
+ * has a meaning to a shell. */
+bool stream_is_plain(const char *text, const char *also);
+/** stream_is_host - whether @text is USER@BOARD or BOARD: plain, and no option of ssh. */
+bool stream_is_host(const char *text);
+
 struct stream {
 	int fd;                /* both ways                                   */
 	pid_t child;           /* 0: none                                     */

@@ -78,6 +78,17 @@ const char *wire_text(struct wire_reader *in, size_t *len)
 	return at ? (const char *)at : "";
 }
 
+void wire_copy_text(struct wire_reader *in, char *out, size_t size)
+{
+	size_t len;
+	const char *text = wire_text(in, &len);
+
+	if (len >= size)
+		len = size - 1;
+	memcpy(out, text, len);
+	out[len] = '\0';
+}
+
 size_t wire_left(const struct wire_reader *in)
 {
 	return in->failed ? 0 : (size_t)(in->end - in->at);

@@ -326,7 +326,7 @@ static size_t compared_name(const char *text)
 	return len;
 }
 
-/* Who writes [ N = 5 ] at the end of a rung means an assignment. */
+/* A comparison at the end of a rung, such as [ N = 5 ], is meant as an assignment. */
 static void report_no_output(struct rung_check *c)
 {
 	const struct network *n = c->network;

@@ -524,7 +524,7 @@ bool il_check_inputs(struct fn_check *c, const struct il_line *line,
 			 enum iec_type stored, enum iec_type *common)
 {
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
-	/* Of constants alone. */
+	/* Both operands are constants. */
 	const enum iec_type hint = word_shares(row) ? stored : IEC_NONE;
 	const struct word_pin *shared = NULL;
 	const struct il_result *first = NULL;

@@ -727,7 +727,7 @@ static void settle_with(struct settle *s, struct var_written *w)
 
 /* ---- lists and structures ---- */
 
-/* Of the walk: an expression in a list. */
+/* Called by the walk for each expression in a list. */
 static enum diag_id fold_value(void *context, const char *text, size_t len,
 			       struct init_value *out)
 {
