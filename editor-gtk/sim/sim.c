@@ -19,7 +19,8 @@ struct _LadderSim {
 	LadderDocument *document;
 	GPtrArray *rungs;           /* by POU: GArray of int, by rung of the document:
 				       its number in the program that runs; -1 */
-	struct sim_thread *thread;  /* NULL: off                               */
+	struct sim_source *source;  /* of what is shown; NULL: off             */
+	struct sim_thread *thread;  /* the source, if that is the thread; else NULL */
 	struct sim_view view;       /* the newest state                        */
 	struct sim_replay *replay;  /* of the past; NULL: none yet             */
 	bool past;                  /* `replay` is shown                       */
@@ -97,7 +98,7 @@ static int find_rung(LadderSim *sim, int pou, int rung)
 
 const struct twin *ladder_sim_twin(LadderSim *sim)
 {
-	if (!sim->thread)
+	if (!ladder_sim_is_on(sim))
 		return NULL;
 	return sim->past ? sim_replay_twin(sim->replay) : &sim->view.twin;
 }
@@ -109,7 +110,7 @@ bool ladder_sim_lateness(LadderSim *sim, struct sim_lateness *out)
 
 int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung)
 {
-	if (!sim->thread)
+	if (!ladder_sim_is_on(sim))
 		return -1;
 	if (ladder_sim_older(sim, NULL))
 		return document == sim->older ? rung : -1;
@@ -123,78 +124,9 @@ int ladder_sim_forces(LadderSim *sim)
 	return twin ? twin->resource.image.force_count + twin->plant.image.force_count : 0;
 }
 
-/* ---- replays ---- */
-
-struct sim_replay {
-	struct replay replay;
-	struct sim_program *program, *plant; /* of its scan; NULL: of no scan     */
-	guint64 era;
-	gint64 edited_us;        /* of that era, at the last step              */
-};
-
-struct sim_replay *sim_replay_new(void)
-{
-	return g_new0(struct sim_replay, 1);
-}
-
-static void replay_clear(struct sim_replay *replay)
-{
-	replay_free(&replay->replay);
-	g_clear_pointer(&replay->program, sim_program_unref);
-	g_clear_pointer(&replay->plant, sim_program_unref);
-	memset(replay, 0, sizeof(*replay));
-}
-
-void sim_replay_free(struct sim_replay *replay)
-{
-	if (!replay)
-		return;
-	replay_clear(replay);
-	g_free(replay);
-}
-
-const struct twin *sim_replay_twin(const struct sim_replay *replay)
-{
-	return replay->program ? &replay->replay.twin : NULL;
-}
-
-guint64 sim_replay_program(const struct sim_replay *replay)
-{
-	return replay->era;
-}
-
-static bool take_era(struct sim_replay *replay, const struct sim_era *era)
-{
-	replay_clear(replay);
-	if (!replay_init(&replay->replay, era->record))
-		return false;
-	replay->program = sim_program_ref(era->program);
-	replay->plant = sim_program_ref(era->plant);
-	replay->era = era->id;
-	return true;
-}
-
-static bool replay_step(struct sim_replay *replay, const struct sim_era *era, guint64 scan)
-{
-	if (replay->era != era->id && !take_era(replay, era))
-		return false;
-	replay->edited_us = era->edited_us;
-	return replay_jump(&replay->replay, era->record, scan) &&
-	       (replay->replay.twin.scan >= scan ||
-		replay_next(&replay->replay, era->record));
-}
-
 bool ladder_sim_replay(LadderSim *sim, struct sim_replay *replay, guint64 scan)
 {
-	const struct sim_era *era;
-	bool good;
-
-	if (!sim->thread)
-		return false;
-	era = sim_eras_find(sim_thread_lock(sim->thread), scan);
-	good = era && replay_step(replay, era, scan);
-	sim_thread_unlock(sim->thread);
-	return good;
+	return ladder_sim_is_on(sim) && sim->source->replay(sim->source, replay, scan);
 }
 
 /* ---- the past ---- */
@@ -287,53 +219,58 @@ static void forget_replay(LadderSim *sim)
 
 /* ---- the record ---- */
 
+static void find_span(LadderSim *sim, guint64 *first, guint64 *last)
+{
+	*first = *last = 0;
+	if (ladder_sim_is_on(sim))
+		sim->source->span(sim->source, first, last);
+}
+
 guint64 ladder_sim_first(LadderSim *sim)
 {
-	guint64 first = 0;
+	guint64 first, last;
 
-	if (sim->thread) {
-		first = sim_eras_first(sim_thread_lock(sim->thread));
-		sim_thread_unlock(sim->thread);
-	}
+	find_span(sim, &first, &last);
 	return first;
 }
 
 guint64 ladder_sim_last(LadderSim *sim)
 {
-	const struct record *record = ladder_sim_lock_record(sim);
-	guint64 last = 0;
+	guint64 first, last;
 
-	if (record) {
-		last = record_last(record);
-		ladder_sim_unlock_record(sim);
-	}
+	find_span(sim, &first, &last);
 	return last;
+}
+
+static const struct sim_eras *lock(LadderSim *sim)
+{
+	return ladder_sim_is_on(sim) ? sim->source->lock(sim->source) : NULL;
 }
 
 const struct record *ladder_sim_lock_record(LadderSim *sim)
 {
-	return sim->thread ? sim_eras_newest(sim_thread_lock(sim->thread))->record : NULL;
+	const struct sim_eras *eras = lock(sim);
+
+	return eras ? sim_eras_newest(eras)->record : NULL;
 }
 
 void ladder_sim_unlock_record(LadderSim *sim)
 {
-	sim_thread_unlock(sim->thread);
+	sim->source->unlock(sim->source);
 }
 
 /* ---- programs before an edit ---- */
 
 bool ladder_sim_next_edit(LadderSim *sim, guint64 scan, struct sim_edited *out)
 {
-	const struct sim_era *era;
-	bool good;
+	const struct sim_eras *eras = lock(sim);
+	const struct sim_era *era = eras ? sim_eras_find(eras, scan) : NULL;
+	const bool good = era && era->edited_us;
 
-	if (!sim->thread)
-		return false;
-	era = sim_eras_find(sim_thread_lock(sim->thread), scan);
-	good = era && era->edited_us;
 	if (good)
 		*out = (struct sim_edited){ record_last(era->record), era->edited_us };
-	sim_thread_unlock(sim->thread);
+	if (eras)
+		sim->source->unlock(sim->source);
 	return good;
 }
 
@@ -471,7 +408,7 @@ static void take(LadderSim *sim)
 {
 	bool other;
 
-	if (!sim_thread_take(sim->thread, &sim->view, &other))
+	if (!sim->source->take(sim->source, &sim->view, &other))
 		g_error("out of memory");
 	if (other) {
 		forget_replay(sim);
@@ -518,6 +455,17 @@ static struct sim_program *build(LadderSim *sim, GError **error)
 	return program;
 }
 
+static void drop_source(LadderSim *sim)
+{
+	if (sim->source)
+		sim->source->free(sim->source);
+	sim->source = NULL;
+	sim->thread = NULL;
+	sim_view_clear(&sim->view);
+	sim->refused = 0;
+	sim->known = (struct sim_events){ .ends = 0 };
+}
+
 static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 period_ns,
 			 GError **error)
 {
@@ -529,11 +477,9 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 				    _("Out of memory"));
 		return false;
 	}
-	g_clear_pointer(&sim->thread, sim_thread_free);
-	sim_view_clear(&sim->view);
-	sim->refused = 0;
-	sim->known = (struct sim_events){ .ends = 0 };
+	drop_source(sim);
 	sim->thread = thread;
+	sim->source = sim_thread_source(thread);
 	sim->life++;
 	sim_program_unref(sim->newest);
 	sim->newest = sim_program_ref(program);
@@ -546,12 +492,24 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 	return true;
 }
 
+static bool may_restart(LadderSim *sim, GError **error)
+{
+	const char *why = ladder_sim_why_not(sim, SIM_WISH_RESTART);
+
+	if (why)
+		g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_NOT_SUPPORTED, why);
+	return !why;
+}
+
 /* @period_ns: 0: the period that the person set, or that of the tasks. */
 static bool start(LadderSim *sim, gint64 period_ns, GError **error)
 {
-	struct sim_program *program = build(sim, error);
+	struct sim_program *program;
 	bool good;
 
+	if (!may_restart(sim, error))
+		return false;
+	program = build(sim, error);
 	if (!program) {
 		ladder_document_check_now(sim->document);
 		return false;
@@ -570,7 +528,7 @@ static bool start(LadderSim *sim, gint64 period_ns, GError **error)
 
 bool ladder_sim_begin(LadderSim *sim, GError **error)
 {
-	return sim->thread || start(sim, 0, error);
+	return ladder_sim_is_on(sim) || start(sim, 0, error);
 }
 
 bool ladder_sim_restart(LadderSim *sim, GError **error)
@@ -589,11 +547,10 @@ bool ladder_sim_play(LadderSim *sim, gint64 period_ns, GArray *acts, guint64 sca
 
 void ladder_sim_end(LadderSim *sim)
 {
-	if (!sim->thread)
+	if (!sim->source)
 		return;
-	g_clear_pointer(&sim->thread, sim_thread_free);
+	drop_source(sim);
 	forget_replay(sim);
-	sim_view_clear(&sim->view);
 	sim->life++;
 	g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 	tell_state(sim);
@@ -602,7 +559,7 @@ void ladder_sim_end(LadderSim *sim)
 
 bool ladder_sim_is_on(LadderSim *sim)
 {
-	return sim->thread != NULL;
+	return sim->source != NULL;
 }
 
 static struct sim_program *read_plant(const char *path, GError **error)
@@ -622,9 +579,12 @@ static struct sim_program *read_plant(const char *path, GError **error)
 
 bool ladder_sim_set_plant(LadderSim *sim, const char *path, GError **error)
 {
-	struct sim_program *plant = path ? read_plant(path, error) : NULL;
+	struct sim_program *plant;
 	const bool on = ladder_sim_is_on(sim);
 
+	if (!may_restart(sim, error))
+		return false;
+	plant = path ? read_plant(path, error) : NULL;
 	if (path && !plant)
 		return false;
 	ladder_sim_end(sim);
@@ -730,7 +690,7 @@ static void checked(LadderSim *sim)
 
 enum sim_state ladder_sim_state(LadderSim *sim)
 {
-	if (!sim->thread)
+	if (!ladder_sim_is_on(sim))
 		return SIM_OFF;
 	switch (sim->view.twin.resource.state) {
 	case STATE_STOP: return SIM_STOP;
@@ -740,12 +700,27 @@ enum sim_state ladder_sim_state(LadderSim *sim)
 	return sim->view.running ? SIM_RUN : sim->view.fault ? SIM_FAULT : SIM_PAUSE;
 }
 
+const char *ladder_sim_why_not(LadderSim *sim, enum sim_wish wish)
+{
+	return sim->source ? sim->source->why_not(sim->source, wish) : NULL;
+}
+
+/* True: it is told why not. */
+static bool refuses(LadderSim *sim, enum sim_wish wish)
+{
+	const char *why = ladder_sim_why_not(sim, wish);
+
+	if (why)
+		tell(sim, why, false);
+	return why != NULL;
+}
+
 static void order(LadderSim *sim, enum act_kind kind, gint64 value)
 {
 	const struct act act = { .kind = kind, .value.i = value };
 
-	if (sim->thread)
-		sim_thread_act(sim->thread, NULL, &act);
+	if (ladder_sim_is_on(sim))
+		sim->source->act(sim->source, NULL, &act);
 }
 
 static void start_if_stopped(LadderSim *sim)
@@ -754,53 +729,65 @@ static void start_if_stopped(LadderSim *sim)
 		order(sim, ACT_START, 0);
 }
 
+/* May the thread be told to do this? The newest scan is shown then. */
+static bool may_order(LadderSim *sim, enum sim_wish wish)
+{
+	if (!ladder_sim_is_on(sim) || refuses(sim, wish))
+		return false;
+	ladder_sim_show_now(sim);
+	return true;
+}
+
 void ladder_sim_run(LadderSim *sim)
 {
-	if (!sim->thread)
+	if (!may_order(sim, SIM_WISH_RUN))
 		return;
-	ladder_sim_show_now(sim);
 	start_if_stopped(sim);
-	sim_thread_run(sim->thread, true);
+	if (sim->thread)
+		sim_thread_run(sim->thread, true);
 }
 
 void ladder_sim_pause(LadderSim *sim)
 {
 	if (sim->thread)
 		sim_thread_run(sim->thread, false);
+	else
+		refuses(sim, SIM_WISH_TIME);
 }
 
 void ladder_sim_stop(LadderSim *sim)
 {
-	if (!sim->thread)
+	if (!may_order(sim, SIM_WISH_RUN))
 		return;
-	ladder_sim_show_now(sim);
-	sim_thread_run(sim->thread, false);
+	if (sim->thread)
+		sim_thread_run(sim->thread, false);
 	order(sim, ACT_STOP, 0);
 }
 
 void ladder_sim_scan(LadderSim *sim, int scans)
 {
-	if (!sim->thread)
+	if (!may_order(sim, SIM_WISH_TIME))
 		return;
-	ladder_sim_show_now(sim);
 	start_if_stopped(sim);
 	sim_thread_scan(sim->thread, scans);
 }
 
 void ladder_sim_reset(LadderSim *sim, bool warm)
 {
-	ladder_sim_show_now(sim);
-	order(sim, warm ? ACT_WARM : ACT_START, 0);
+	if (may_order(sim, SIM_WISH_RUN))
+		order(sim, warm ? ACT_WARM : ACT_START, 0);
 }
 
 gint64 ladder_sim_period(LadderSim *sim)
 {
-	return sim->thread ? sim->view.twin.period_ns :
+	return ladder_sim_is_on(sim) ? sim->view.twin.period_ns :
 	       sim->period_ns ? sim->period_ns : SIM_PERIOD;
 }
 
 void ladder_sim_set_period(LadderSim *sim, gint64 ns)
 {
+	if (refuses(sim, SIM_WISH_TIME))
+		return;
 	sim->period_ns = CLAMP(ns, 100000, 60000000000);
 	order(sim, ACT_PERIOD, sim->period_ns);
 	if (!sim->thread) /* a running thread reports the new period itself */
@@ -814,6 +801,8 @@ double ladder_sim_speed(LadderSim *sim)
 
 void ladder_sim_set_speed(LadderSim *sim, double scans)
 {
+	if (refuses(sim, SIM_WISH_TIME))
+		return;
 	sim->speed = scans > 0 ? scans : 0;
 	if (sim->thread)
 		sim_thread_speed(sim->thread, sim->speed);
@@ -835,7 +824,8 @@ void ladder_sim_set_fault_on_error(LadderSim *sim, bool fault)
 
 void ladder_sim_act(LadderSim *sim, const struct act *act)
 {
-	if (!sim->thread)
+	if (!ladder_sim_is_on(sim) ||
+	    refuses(sim, act->kind == ACT_SET ? SIM_WISH_SET : SIM_WISH_FORCE))
 		return;
 	if (ladder_sim_older(sim, NULL)) {
 		tell(sim, _("Not done: this scan ran the program before an edit. Show the newest "
@@ -843,7 +833,7 @@ void ladder_sim_act(LadderSim *sim, const struct act *act)
 		return;
 	}
 	ladder_sim_show_now(sim);
-	sim_thread_act(sim->thread, act->plant ? sim->view.plant : sim->view.program, act);
+	sim->source->act(sim->source, act->plant ? sim->view.plant : sim->view.program, act);
 }
 
 void ladder_sim_release_all(LadderSim *sim)
@@ -852,7 +842,7 @@ void ladder_sim_release_all(LadderSim *sim)
 
 	ladder_sim_act(sim, &act);
 	act.plant = true;
-	if (sim->plant)
+	if (ladder_sim_is_on(sim) && sim->view.plant)
 		ladder_sim_act(sim, &act);
 }
 
@@ -862,9 +852,8 @@ static void ladder_sim_dispose(GObject *object)
 {
 	LadderSim *sim = LADDER_SIM(object);
 
-	g_clear_pointer(&sim->thread, sim_thread_free);
+	drop_source(sim);
 	forget_replay(sim);
-	sim_view_clear(&sim->view);
 	g_clear_pointer(&sim->plant, sim_program_unref);
 	g_clear_pointer(&sim->newest, sim_program_unref);
 	if (sim->document)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim - the simulation of a document: the engine of the board, run in a thread of its own.
+ * sim - the simulation of a document: the engine of the board, run in a thread of its own; or
+ * the mirror of a board (sim_mirror.h), whose values come from outside.
  *
  * The thread scans, keeps time and records; it never waits for drawing. The window reads
  * copies: of the newest scan, or of a scan of the past. A program that builds after an edit
@@ -63,6 +64,19 @@ void ladder_sim_stop(LadderSim *sim);
 void ladder_sim_scan(LadderSim *sim, int scans);
 /** ladder_sim_reset - initial values; RUN or PAUSE stays. @warm: VAR RETAIN keeps its values. */
 void ladder_sim_reset(LadderSim *sim, bool warm);
+
+/* What a person may want. A board does not do everything that a simulation does, and not for
+ * everybody. */
+enum sim_wish {
+	SIM_WISH_RUN,            /* Run, Stop, cold and warm start               */
+	SIM_WISH_TIME,           /* pause, single scans, period, speed           */
+	SIM_WISH_RESTART,        /* from scan 0: restart, play; a plant          */
+	SIM_WISH_SET, SIM_WISH_FORCE, /* a value; force, release                 */
+};
+/** ladder_sim_why_not - why a person cannot do this now; NULL: it can be tried, or the
+ * simulation is off. What is done although there is a reason does nothing, and the reason is
+ * told. Translated; lives for ever. */
+const char *ladder_sim_why_not(LadderSim *sim, enum sim_wish wish);
 
 gint64 ladder_sim_period(LadderSim *sim);
 /** ladder_sim_set_period - ns of program time from scan to scan, 100 us to 60 s. */

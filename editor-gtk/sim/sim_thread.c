@@ -25,6 +25,7 @@ struct order {
 };
 
 struct sim_thread {
+	struct sim_source source;
 	GThread *thread;
 	GAsyncQueue *orders;
 	GSourceFunc notify;
@@ -323,6 +324,105 @@ static gpointer main_of(gpointer data)
 	return NULL;
 }
 
+static void tell(struct sim_thread *thread, const struct order *order)
+{
+	g_async_queue_push(thread->orders, g_memdup2(order, sizeof(*order)));
+}
+
+/* ---- as a source ---- */
+
+static struct sim_thread *thread_of(struct sim_source *source)
+{
+	return (struct sim_thread *)source;
+}
+
+static void free_source(struct sim_source *source)
+{
+	sim_thread_free(thread_of(source));
+}
+
+static void order_act(struct sim_source *source, struct sim_program *of, const struct act *act)
+{
+	struct order order = { .kind = ORDER_ACT, .act = *act,
+			       .program = sim_program_ref(of) };
+
+	if (act->kind == ACT_SET && act->at.type == IEC_STRING) {
+		order.text = g_memdup2(act->value.s,
+				       sizeof(*act->value.s) + act->value.s->length);
+		order.act.value.s = (const struct iec_string *)(gpointer)order.text;
+	}
+	tell(thread_of(source), &order);
+}
+
+static bool take(struct sim_source *source, struct sim_view *view, bool *other)
+{
+	struct sim_thread *thread = thread_of(source);
+	bool good = true;
+
+	g_atomic_int_set(&thread->notified, 0);
+	g_mutex_lock(&thread->out_lock);
+	*other = view->program != thread->program;
+	if (*other) {
+		sim_view_clear(view);
+		view->program = sim_program_ref(thread->program);
+		view->plant = sim_program_ref(thread->plant);
+		good = twin_clone(&view->twin, &thread->out);
+	} else {
+		twin_copy(&view->twin, &thread->out);
+	}
+	view->running = thread->out_run;
+	view->fault = thread->out_fault;
+	view->refusal = thread->out_refusal;
+	view->events = thread->out_events;
+	g_mutex_unlock(&thread->out_lock);
+	return good;
+}
+
+static const char *why_not(struct sim_source *source, enum sim_wish wish)
+{
+	(void)source;
+	(void)wish;
+	return NULL;
+}
+
+static const struct sim_eras *lock(struct sim_source *source)
+{
+	g_mutex_lock(&thread_of(source)->record_lock);
+	return thread_of(source)->eras;
+}
+
+static void unlock(struct sim_source *source)
+{
+	g_mutex_unlock(&thread_of(source)->record_lock);
+}
+
+static bool replay(struct sim_source *source, struct sim_replay *replay, guint64 scan)
+{
+	const bool good = sim_eras_replay(lock(source), replay, scan);
+
+	unlock(source);
+	return good;
+}
+
+static void span(struct sim_source *source, guint64 *first, guint64 *last)
+{
+	const struct sim_eras *eras = lock(source);
+
+	*first = sim_eras_first(eras);
+	*last = record_last(sim_eras_newest(eras)->record);
+	unlock(source);
+}
+
+static const struct sim_source as_source = {
+	.free = free_source, .take = take, .act = order_act, .why_not = why_not,
+	.replay = replay, .span = span, .lock = lock, .unlock = unlock,
+};
+
+struct sim_source *sim_thread_source(struct sim_thread *thread)
+{
+	return &thread->source;
+}
+
 /* ---- called by the window ---- */
 
 static bool start_twin(struct twin *twin, const struct sim_program *program,
@@ -345,6 +445,7 @@ struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_progra
 		g_free(thread);
 		return NULL;
 	}
+	thread->source = as_source;
 	thread->notify = notify;
 	thread->data = data;
 	thread->program = sim_program_ref(program);
@@ -357,11 +458,6 @@ struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_progra
 	thread->orders = g_async_queue_new_full((GDestroyNotify)order_free);
 	thread->thread = g_thread_new("scan", main_of, thread);
 	return thread;
-}
-
-static void tell(struct sim_thread *thread, const struct order *order)
-{
-	g_async_queue_push(thread->orders, g_memdup2(order, sizeof(*order)));
 }
 
 void sim_thread_free(struct sim_thread *thread)
@@ -403,19 +499,6 @@ void sim_thread_fault_on_error(struct sim_thread *thread, bool fault)
 	tell(thread, &(struct order){ .kind = ORDER_FAULT_ON_ERROR, .scans = fault });
 }
 
-void sim_thread_act(struct sim_thread *thread, struct sim_program *of, const struct act *act)
-{
-	struct order order = { .kind = ORDER_ACT, .act = *act,
-			       .program = sim_program_ref(of) };
-
-	if (act->kind == ACT_SET && act->at.type == IEC_STRING) {
-		order.text = g_memdup2(act->value.s,
-				       sizeof(*act->value.s) + act->value.s->length);
-		order.act.value.s = (const struct iec_string *)(gpointer)order.text;
-	}
-	tell(thread, &order);
-}
-
 void sim_thread_play(struct sim_thread *thread, GArray *acts, guint64 scans)
 {
 	tell(thread, &(struct order){ .kind = ORDER_PLAY, .acts = g_array_ref(acts),
@@ -428,37 +511,7 @@ void sim_thread_change(struct sim_thread *thread, struct sim_program *program)
 				      .program = sim_program_ref(program) });
 }
 
-/* ---- copies ---- */
-
-void sim_view_clear(struct sim_view *view)
-{
-	twin_free(&view->twin);
-	g_clear_pointer(&view->program, sim_program_unref);
-	g_clear_pointer(&view->plant, sim_program_unref);
-}
-
-bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *other)
-{
-	bool good = true;
-
-	g_atomic_int_set(&thread->notified, 0);
-	g_mutex_lock(&thread->out_lock);
-	*other = view->program != thread->program;
-	if (*other) {
-		sim_view_clear(view);
-		view->program = sim_program_ref(thread->program);
-		view->plant = sim_program_ref(thread->plant);
-		good = twin_clone(&view->twin, &thread->out);
-	} else {
-		twin_copy(&view->twin, &thread->out);
-	}
-	view->running = thread->out_run;
-	view->fault = thread->out_fault;
-	view->refusal = thread->out_refusal;
-	view->events = thread->out_events;
-	g_mutex_unlock(&thread->out_lock);
-	return good;
-}
+/* ---- lateness ---- */
 
 /* The lateness that @part of all scans do not exceed. */
 static double late_of(const guint *late, guint64 scans, double part)
@@ -487,15 +540,4 @@ bool sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out)
 	out->p99_us = late_of(late, out->scans, 0.99);
 	out->worst_us = late_of(late, out->scans, 1);
 	return out->scans > 0;
-}
-
-const struct sim_eras *sim_thread_lock(struct sim_thread *thread)
-{
-	g_mutex_lock(&thread->record_lock);
-	return thread->eras;
-}
-
-void sim_thread_unlock(struct sim_thread *thread)
-{
-	g_mutex_unlock(&thread->record_lock);
 }

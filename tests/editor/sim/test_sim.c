@@ -231,14 +231,14 @@ static gboolean nothing_to_do(gpointer data)
 }
 
 /* Waits until @count acts were refused. */
-static void wait_refused(struct sim_thread *thread, struct sim_view *view, guint count)
+static void wait_refused(struct sim_source *source, struct sim_view *view, guint count)
 {
 	const gint64 until = g_get_monotonic_time() + 10000000;
 	bool other;
 
 	do {
 		g_usleep(200);
-		CHECK(sim_thread_take(thread, view, &other));
+		CHECK(source->take(source, view, &other));
 	} while (view->refusal.count != count && g_get_monotonic_time() < until);
 	CHECK(view->refusal.count == count);
 }
@@ -258,32 +258,33 @@ static void test_stale(void)
 	struct sim_program *old = program_of(sample), *new = program_of(other);
 	struct sim_thread *thread = sim_thread_new(old, NULL, SIM_PERIOD, nothing_to_do,
 						   NULL);
+	struct sim_source *source = sim_thread_source(thread);
 	struct sim_view view = { .program = NULL };
 	struct act act = { .kind = ACT_SET, .value.i = -1 };
 	struct twin before;
 	const struct image *image;
 	bool is_other;
 
-	CHECK(sim_thread_take(thread, &view, &is_other) && is_other);
+	CHECK(source->take(source, &view, &is_other) && is_other);
 	image = &view.twin.resource.image;
 	act.at = image_find(image, "Count", 5);
-	sim_thread_act(thread, old, &act);
+	source->act(source, old, &act);
 	sim_thread_change(thread, new);
 	while (view.program != new)
-		CHECK(sim_thread_take(thread, &view, &is_other));
+		CHECK(source->take(source, &view, &is_other));
 	CHECK_AS(view.refusal.count == 0, "an act before the change is done");
 	CHECK(twin_clone(&before, &view.twin));
-	sim_thread_act(thread, old, &act);
+	source->act(source, old, &act);
 	act.kind = ACT_FORCE;
-	sim_thread_act(thread, old, &act);
-	wait_refused(thread, &view, 2);
+	source->act(source, old, &act);
+	wait_refused(source, &view, 2);
 	CHECK(view.refusal.why == SIM_REFUSED_STALE && image->force_count == 0);
 	CHECK_AS(memcmp(image->memory, before.resource.image.memory,
 			view.twin.memory_size) == 0, "a refused act does not change the memory");
 	act.at = image_find(image, "Near", 4);
-	sim_thread_act(thread, new, &act);
-	sim_thread_act(thread, NULL, &(struct act){ .kind = ACT_RELEASE });
-	wait_refused(thread, &view, 3);
+	source->act(source, new, &act);
+	source->act(source, NULL, &(struct act){ .kind = ACT_RELEASE });
+	wait_refused(source, &view, 3);
 	CHECK(view.refusal.why == SIM_REFUSED_PLACE && image->force_count == 1);
 	twin_free(&before);
 	sim_view_clear(&view);
