@@ -11,6 +11,7 @@
 #include "engine/base/file.h"
 #include "engine/scan/carry.h"
 #include "hal/iomap.h"
+#include "online/send.h"
 #include "online/stored.h"
 
 #include <errno.h>
@@ -148,50 +149,16 @@ static enum status gather(struct remote *remote, struct machine *machine, struct
 
 /* ---- download ---- */
 
-static enum status begin_download(struct remote *remote, const struct stored *stored,
-				  uint32_t *received)
+/* What is said of it goes to the person who waits. */
+static enum status send_all(struct remote *remote, const struct stored *stored, bool all,
+			    struct sent *sent)
 {
-	struct wire_writer out = desk_ask(&remote->desk, SERVICE_DOWNLOAD);
-	struct digest_sha256 sha;
-	struct wire_reader in;
-	enum desk_end end;
-	uint8_t hash[32];
+	const enum desk_end end = send_program(&remote->desk, stored, all, sent);
 
-	digest_sha256_init(&sha);
-	digest_sha256_add(&sha, stored->bytes, stored_size(stored));
-	digest_sha256_end(&sha, hash);
-	for (int i = 0; i < STORED_PARTS; i++)
-		wire_put_u32(&out, stored->len[i]);
-	wire_put_bytes(&out, hash, sizeof(hash));
-	end = desk_call(&remote->desk, &out, &in);
-	*received = end == DESK_GOOD ? wire_u32(&in) : 0;
+	if (end == DESK_GOOD)
+		sink_printf(&remote->call->out, "sent %u of %u bytes\n", (unsigned)sent->bytes,
+			    (unsigned)stored_size(stored));
 	return end == DESK_GOOD ? STATUS_GOOD : remote_fail(remote, end);
-}
-
-static enum status send_blocks(struct remote *remote, const struct stored *stored,
-			       uint32_t received)
-{
-	const uint32_t size = stored_size(stored);
-
-	while (received < size) {
-		struct wire_writer out = desk_ask(&remote->desk, SERVICE_BLOCK);
-		const uint32_t len = size - received < STORED_BLOCK ? size - received :
-								      STORED_BLOCK;
-		struct wire_reader in;
-		enum desk_end end;
-		uint32_t now;
-
-		wire_put_u32(&out, received);
-		wire_put_bytes(&out, stored->bytes + received, len);
-		end = desk_call(&remote->desk, &out, &in);
-		if (end != DESK_GOOD)
-			return remote_fail(remote, end);
-		now = wire_u32(&in);
-		if (in.failed || now <= received || now > size)
-			return remote_fail(remote, DESK_NONSENSE);
-		received = now;
-	}
-	return STATUS_GOOD;
 }
 
 static const char *loss_text(uint8_t reason)
@@ -219,13 +186,29 @@ struct verified {
 	uint32_t losses;
 };
 
-static enum status verify(struct remote *remote, struct verified *verified)
+static enum status verify(struct remote *remote, const struct stored *stored,
+			  struct verified *verified)
 {
 	const struct sink *sink = &remote->call->out;
-	struct wire_writer out = desk_ask(&remote->desk, SERVICE_VERIFY);
+	struct wire_writer out;
 	struct wire_reader in;
-	const enum desk_end end = desk_call(&remote->desk, &out, &in);
+	enum desk_end end;
 	uint32_t count, told;
+	struct sent sent;
+	enum status status = send_all(remote, stored, false, &sent);
+
+	if (status != STATUS_GOOD)
+		return status;
+	out = desk_ask(&remote->desk, SERVICE_VERIFY);
+	end = desk_call(&remote->desk, &out, &in);
+	if (end == DESK_REFUSED && remote->desk.refusal == REFUSAL_NOT_WHOLE && sent.copied) {
+		/* Another program runs by now, or two blocks had the same sums. */
+		status = send_all(remote, stored, true, &sent);
+		if (status != STATUS_GOOD)
+			return status;
+		out = desk_ask(&remote->desk, SERVICE_VERIFY);
+		end = desk_call(&remote->desk, &out, &in);
+	}
 
 	if (end != DESK_GOOD)
 		return remote_fail(remote, end);
@@ -282,16 +265,11 @@ static enum status move(struct remote *remote, const struct stored *stored)
 	struct board_status *now = calloc(1, sizeof(*now));
 	struct verified verified = { .losses = 0 };
 	enum status status = now ? remote_status(remote, now) : report_no_memory(remote->where);
-	uint32_t received;
 
 	free(now);
 	remote->expect.mode = EXPECT_ANY;
 	if (status == STATUS_GOOD)
-		status = begin_download(remote, stored, &received);
-	if (status == STATUS_GOOD)
-		status = send_blocks(remote, stored, received);
-	if (status == STATUS_GOOD)
-		status = verify(remote, &verified);
+		status = verify(remote, stored, &verified);
 	if (status != STATUS_GOOD)
 		return status;
 	if (!restart && verified.losses && !is_wanted(remote))

@@ -10,6 +10,7 @@
 #include "engine/base/digest.h"
 #include "engine/base/version.h"
 #include "engine/scan/carry.h"
+#include "online/sums.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -794,6 +795,78 @@ static enum refusal serve_block(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
+/* The sums of the blocks of the program that runs. */
+static enum refusal serve_sums(struct asked *asked)
+{
+	const struct server_store *store = asked->server->setup.store;
+	const uint32_t first = wire_u32(&asked->frame.body);
+	const uint32_t block = wire_u16(&asked->frame.body);
+	const struct stored *stored;
+	uint32_t all, count = SUMS_WORK / (block ? block : 1);
+
+	if (!wire_done(&asked->frame.body) || block < SUMS_LEAST || block > SUMS_MOST)
+		return REFUSAL_BAD_FRAME;
+	if (!store)
+		return REFUSAL_NO_STORE;
+	stored = store->running(asked->server->setup.context);
+	all = stored_size(stored) / block;
+	if (first > all)
+		return REFUSAL_BAD_FRAME;
+	if (count > SUMS_PAGE)
+		count = SUMS_PAGE;
+	if (count > all - first)
+		count = all - first;
+	begin_answer(asked, 0);
+	wire_put_u32(&asked->out, stored_size(stored));
+	for (uint32_t i = first; i < first + count; i++) {
+		const uint8_t *bytes = stored->bytes + (size_t)i * block;
+		uint8_t strong[SUMS_STRONG];
+
+		sums_strong(bytes, block, strong);
+		wire_put_u32(&asked->out, sums_weak(bytes, block));
+		wire_put_bytes(&asked->out, strong, sizeof(strong));
+	}
+	return REFUSAL_NONE;
+}
+
+/* Copies from the program that runs, and bytes; in this order behind what is there. */
+static enum refusal serve_pieces(struct asked *asked)
+{
+	struct server *server = asked->server;
+	const struct server_store *store = server->setup.store;
+	struct wire_reader *in = &asked->frame.body;
+	uint32_t offset = wire_u32(in), received = 0;
+	enum refusal refusal = own_download(asked);
+	const struct stored *runs;
+
+	if (in->failed || !wire_left(in))
+		return REFUSAL_BAD_FRAME;
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	server->verified = false;
+	runs = store->running(server->setup.context);
+	while (wire_left(in) && refusal == REFUSAL_NONE) {
+		const uint8_t kind = wire_u8(in);
+		const uint32_t from = kind == PIECE_COPY ? wire_u32(in) : 0;
+		const uint32_t len = kind == PIECE_COPY ? wire_u32(in) : wire_u16(in);
+		const uint8_t *bytes = kind == PIECE_BYTES ? wire_bytes(in, len) : NULL;
+
+		if (in->failed || !len || kind > PIECE_BYTES)
+			return REFUSAL_BAD_FRAME;
+		if (kind == PIECE_COPY &&
+		    (from > stored_size(runs) || len > stored_size(runs) - from))
+			return REFUSAL_NOT_WHOLE;
+		refusal = store->block(server->setup.context, offset,
+				       bytes ? bytes : runs->bytes + from, len, &received);
+		offset += len;
+	}
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	begin_answer(asked, 0);
+	wire_put_u32(&asked->out, received);
+	return REFUSAL_NONE;
+}
+
 struct losses {
 	struct wire_writer *out;
 	uint32_t count, told;
@@ -1012,6 +1085,10 @@ static enum refusal serve(struct asked *asked)
 		return serve_download(asked);
 	case SERVICE_BLOCK:
 		return serve_block(asked);
+	case SERVICE_SUMS:
+		return serve_sums(asked);
+	case SERVICE_PIECES:
+		return serve_pieces(asked);
 	case SERVICE_VERIFY:
 		return serve_verify(asked);
 	case SERVICE_COMMIT:

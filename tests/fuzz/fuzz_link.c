@@ -8,6 +8,7 @@
 #include "engine/ladder.h"
 #include "online/desk.h"
 #include "online/server.h"
+#include "online/sums.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdlib.h>
@@ -79,6 +80,53 @@ static bool no_event(void *context, uint32_t seq, struct event *out)
 	return false;
 }
 
+/* A board with a program of 300 bytes that takes any download. */
+static enum refusal begin_any(void *context, const uint32_t len[STORED_PARTS],
+			      const uint8_t sha[32], uint32_t *received)
+{
+	(void)context, (void)len, (void)sha;
+	*received = 0;
+	return REFUSAL_NONE;
+}
+
+static enum refusal take_any(void *context, uint32_t offset, const uint8_t *bytes, size_t len,
+			     uint32_t *received)
+{
+	uint8_t sum = 0;
+
+	(void)context;
+	for (size_t i = 0; i < len; i++)
+		sum = (uint8_t)(sum + bytes[i]); /* each byte can be read */
+	*received = offset + (uint32_t)len;
+	return sum == 255 ? REFUSAL_NOT_WHOLE : REFUSAL_NONE;
+}
+
+static enum refusal verify_none(void *context, struct standby_view *out, char *text, size_t size)
+{
+	(void)context, (void)out, (void)text, (void)size;
+	return REFUSAL_NOT_WHOLE;
+}
+
+static enum refusal store_none(void *context, char *text, size_t size)
+{
+	(void)context, (void)text, (void)size;
+	return REFUSAL_DISK;
+}
+
+static void abort_any(void *context)
+{
+	(void)context;
+}
+
+static const struct stored *runs_any(void *context)
+{
+	static uint8_t bytes[300];
+	static const struct stored stored = { .len = { 200, 90, 10 }, .bytes = bytes };
+
+	(void)context;
+	return &stored;
+}
+
 static bool serve_now(void *context)
 {
 	struct rig *rig = context;
@@ -90,7 +138,11 @@ static bool serve_now(void *context)
 static void rig_open(struct rig *rig)
 {
 	static const struct server_log log = { log_nothing, no_event };
-	struct server_setup setup = { .log = &log, .board = "b", .wait = serve_now, .amend = amend,
+	static const struct server_store store = {
+		.begin = begin_any, .block = take_any, .verify = verify_none,
+		.store = store_none, .abort = abort_any, .running = runs_any,
+	};
+	struct server_setup setup = { .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,
 				      .context = rig, .exchange = &rig->exchange };
 	size_t size;
 
@@ -229,13 +281,45 @@ static void add_name(struct wire_writer *out, const char *name)
 	wire_put_string(out, name);
 }
 
+static void add_names(struct wire_writer *out, uint8_t service, const struct expect *expect)
+{
+	if (service == SERVICE_UNFORCE)
+		wire_put_expect(out, expect);
+	if (service == SERVICE_PUBLISH) {
+		wire_put_u32(out, 10000);
+		wire_put_u8(out, 0);
+	}
+	wire_put_u16(out, 2);
+	add_name(out, "A");
+	add_name(out, "T.ET");
+}
+
+/* Lengths and a hash. */
+static void add_download(struct wire_writer *out)
+{
+	for (uint32_t i = 0; i < STORED_PARTS + 8u; i++)
+		wire_put_u32(out, 1);
+}
+
+static void add_pieces(struct wire_writer *out)
+{
+	wire_put_u32(out, 0);
+	wire_put_u8(out, PIECE_COPY);
+	wire_put_u32(out, 1);
+	wire_put_u32(out, 2);
+	wire_put_u8(out, PIECE_BYTES);
+	wire_put_u16(out, 1);
+	wire_put_u8(out, 0);
+}
+
 /* A session that asks for everything once. */
 uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 {
 	static const uint8_t services[] = { SERVICE_HELLO, SERVICE_STATUS, SERVICE_SYMBOLS,
 		SERVICE_READ, SERVICE_PUBLISH, SERVICE_WRITE, SERVICE_FORCE, SERVICE_FORCES,
 		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_DOWNLOAD, SERVICE_BLOCK,
-		SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT, SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_MODE };
+		SERVICE_SUMS, SERVICE_PIECES, SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT,
+		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_MODE };
 	const struct expect expect = { .mode = EXPECT_ANY };
 	uint8_t *seed = malloc(4096);
 	size_t at = 1;
@@ -261,15 +345,7 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 		case SERVICE_READ:
 		case SERVICE_UNFORCE:
 		case SERVICE_PUBLISH:
-			if (services[i] == SERVICE_UNFORCE)
-				wire_put_expect(&out, &expect);
-			if (services[i] == SERVICE_PUBLISH) {
-				wire_put_u32(&out, 10000);
-				wire_put_u8(&out, 0);
-			}
-			wire_put_u16(&out, 2);
-			add_name(&out, "A");
-			add_name(&out, "T.ET");
+			add_names(&out, services[i], &expect);
 			break;
 		case SERVICE_WRITE:
 		case SERVICE_FORCE:
@@ -287,11 +363,18 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 			wire_put_u8(&out, MODE_STOP);
 			break;
 		case SERVICE_DOWNLOAD:
-			wire_put_u32(&out, 1);
+			add_download(&out);
 			break;
 		case SERVICE_COMMIT:
 			wire_put_expect(&out, &expect);
 			wire_put_u8(&out, 0);
+			break;
+		case SERVICE_SUMS:
+			wire_put_u32(&out, 0);
+			wire_put_u16(&out, SUMS_LEAST);
+			break;
+		case SERVICE_PIECES:
+			add_pieces(&out);
 			break;
 		case SERVICE_BLOCK:
 		case SERVICE_UPLOAD:

@@ -6,6 +6,7 @@ import struct
 
 (HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE,
  DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS) = range(1, 19)
+SUMS, PIECES = 23, 24
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
 FORMS = [None, '?', 'B', 'H', 'I', 'Q', 'b', 'h', 'i', 'q', 'B', 'H', 'I', 'Q', 'f', 'd', 'q', 'q', 'q', 'q', None]
@@ -229,6 +230,27 @@ class Client:
     def send_from(self, data, at, most=60000):
         while at < len(data):
             at = self.call(BLOCK, struct.pack('<I', at) + data[at:at + most]).number('I')
+
+    def sums(self, block, first=0):
+        """(bytes of the program that runs, [(weak, strong)])"""
+        found = []
+        while True:
+            it = self.call(SUMS, struct.pack('<IH', first + len(found), block))
+            size = it.number('I')
+            while it.rest():
+                found.append((it.number('I'), it.take(8)))
+            if first + len(found) == size // block:
+                return size, found
+
+    def pieces(self, at, *pieces):
+        """pieces: bytes, or (from, how many) of the program that runs. Returns how much is there."""
+        body = struct.pack('<I', at)
+        for piece in pieces:
+            if isinstance(piece, bytes):
+                body += struct.pack('<BH', 1, len(piece)) + piece
+            else:
+                body += struct.pack('<BII', 0, *piece)
+        return self.call(PIECES, body).number('I')
 
     def verify(self):
         """(same map, identity, how many losses, {name: why})"""

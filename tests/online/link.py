@@ -5,9 +5,11 @@
 It checks order and values, never times; a limit of a minute is only reached by a hang. Started by root, ladderd
 and its clients run as other users, so that roles can be tried.
 """
+import hashlib
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import socket
@@ -600,6 +602,92 @@ def test_a_cut_download_goes_on():
         assert other.upload() == parts
 
 
+def weak(block):
+    one = two = 0
+    for byte in block:
+        one += byte
+        two += one
+    return (one & 65535) | (two & 65535) << 16
+
+
+def test_sums_are_those_of_the_program_that_runs():
+    with slots() as board:
+        desk = board.client()
+        parts = build(board, 'other.rung', OTHER)
+        parts[2] = struct.pack('<H', 1) + client.text('big.rung') + struct.pack('<I', 500000) + os.urandom(500000)
+        desk.download(parts)
+        data = b''.join(parts)
+        for size in (64, 100, 1024, 32768):
+            found, sums = desk.sums(size)
+            blocks = [data[i:i + size] for i in range(0, len(data) - size + 1, size)]
+            assert found == len(data) and len(sums) == len(blocks)
+            for number in range(0, len(blocks), 1 + len(blocks) // 200):
+                block = blocks[number]
+                assert sums[number] == (weak(block), hashlib.sha256(block).digest()[:8]), (size, number)
+        for bad in (0, 63, 32769):
+            refused(1, lambda: desk.call(client.SUMS, struct.pack('<IH', 0, bad)))  # pylint: disable=cell-var-from-loop
+        refused(1, lambda: desk.call(client.SUMS, struct.pack('<IH', len(data), 64)))
+
+
+def test_pieces_make_a_program_of_the_one_that_runs():
+    with slots() as board:
+        desk = board.client()
+        old = build(board, 'other.rung', OTHER)
+        new = build(board, 'third.rung', OTHER.replace('T#9s', 'T#7s'))
+        desk.download(old)
+        was, data = b''.join(old), b''.join(new)
+        assert desk.begin(new) == 0
+        refused(22, lambda: desk.pieces(5, b'gap'))
+        refused(22, lambda: desk.pieces(0, (len(was), 1)))
+        refused(22, lambda: desk.pieces(0, (1, 0xffffffff)))
+        refused(1, lambda: desk.call(client.PIECES, struct.pack('<IB', 0, 2)))
+        refused(1, lambda: desk.call(client.PIECES, struct.pack('<IBII', 0, 0, 0, 0)))
+        refused(1, lambda: desk.call(client.PIECES, struct.pack('<I', 0)))
+        at = 0
+        while at < len(data):
+            same = 0
+            while same < 3000 and at + same < min(len(data), len(was)) and was[at + same] == data[at + same]:
+                same += 1
+            at = desk.pieces(at, (at, same)) if same > 40 else desk.pieces(at, data[at:at + 50], data[at + 50:at + 51] or b'')\
+                if at + 50 < len(data) else desk.pieces(at, data[at:])
+        identity = desk.verify()[1]
+        desk.commit()
+        assert desk.status()['program'] == identity and desk.upload() == new
+        # The same bytes copied from another program: the hash tells.
+        desk.begin(old)
+        at = desk.pieces(0, (0, min(len(was), len(data))))
+        while at < len(was):
+            at = desk.pieces(at, (0, 1))
+        refused(22, desk.verify)
+        assert desk.upload() == new
+
+
+def test_download_sends_only_what_the_board_does_not_have():
+    rungs = ''.join(f'RUNG\n  | NO Start | GT IN1:=Count IN2:={i % 30000} | COIL M{i} |\n' for i in range(2000))
+    names = ''.join(f'  M{i} : BOOL;\n' for i in range(2000))
+    big = SEAL.replace('  Count : INT;', names + '  Count : INT;').replace('END_PROGRAM', rungs + 'END_PROGRAM')
+    with slots() as board:
+        board.write('big.rung', big)
+
+        def download(name, *more):
+            status, out, err = board.command('download', name, 'board.io', '--yes', *more)
+            assert status == 0, (out, err)
+            sent, size = re.search(r'sent (\d+) of (\d+) bytes', out).groups()
+            return int(sent), int(size)
+
+        sent, size = download('big.rung')
+        assert sent > size * 0.9, (sent, size)
+        assert download('big.rung')[0] < size / 50
+        board.write('big.rung', big.replace('IN2:=1000 ', 'IN2:=31000 '))
+        changed = download('big.rung')[0]
+        assert 0 < changed < size / 20, (changed, size)
+        board.write('big.rung', big.replace('IN2:=1000 ', 'IN2:=31000 ').replace(
+            'RUNG\n  | NO Start | GT IN1:=Count IN2:=500 ', 'RUNG\n  | NC Start | COIL M500 |\nRUNG\n'
+            '  | NO Start | GT IN1:=Count IN2:=500 '))
+        assert download('big.rung')[0] < size * 0.6
+        assert board.client().upload()[2].endswith(board.read('big.rung').encode())
+
+
 def test_a_refused_program_says_why():
     with slots() as board:
         desk = board.client()
@@ -994,6 +1082,7 @@ def try_all(desk):
         'cold': number(lambda: desk.set_mode(2, program=program)),
         'reset': number(lambda: desk.set_mode(3, program=program)),
         'download': number(lambda: desk.begin([b'a', b'b', b''])), 'block': number(lambda: desk.send_from(b'ab', 0)),
+        'sums': number(lambda: desk.sums(64)), 'pieces': number(lambda: desk.pieces(2, b'')),
         'verify': number(desk.verify), 'commit': number(lambda: desk.commit(program=program)),
         'abort': number(lambda: desk.call(client.ABORT)), 'upload': number(desk.upload),
     }
@@ -1002,14 +1091,14 @@ def try_all(desk):
 def test_each_role_may_do_what_the_table_says():
     reading = 'status symbols read publish unpublish forces events'.split()
     changing = 'write force unforce stop run cold'.split()
-    moving = 'download block verify commit abort upload'.split()
+    moving = 'download block sums pieces verify commit abort upload'.split()
     nothing = dict.fromkeys(changing + moving, 5)
     expected = {
         None: {**dict.fromkeys(reading, 5), **nothing, 'reset': 5},
         'view': {**dict.fromkeys(reading, 0), **nothing, 'reset': 5},
         'oper': {**dict.fromkeys(reading, 0), **nothing, 'write': 17, 'reset': 6},
         'eng': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 6), **dict.fromkeys(moving, 0), 'reset': 6,
-                'verify': 23, 'commit': 21},
+                'pieces': 1, 'verify': 23, 'commit': 21},
     }
 
     def ask(desk):
