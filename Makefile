@@ -244,7 +244,7 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 # (tests/editor/edit/ and test_plain_*.c) need none of them.
 EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
 EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
-EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim canvas ladder sfc text iomap live panels render window)
+EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim online canvas ladder sfc text iomap live panels render window)
 EDITOR_PLAIN := $(wildcard editor-gtk/edit/*.c) $(addprefix editor-gtk/document/,text_lines.c iomap_text.c iomap_uses.c iomap_check.c)
 # MD4C=no: without the library for the pages of the manual, which another program shows then.
 MD4C     ?= $(shell $(PKG_CONFIG) --exists md4c 2>/dev/null && echo yes)
@@ -304,16 +304,16 @@ all: $(BUILD)/ladder-editor $(BUILD)/ladders $(BUILD)/docs
 # Samples and manual are beside the program, whatever BUILD is.
 $(BUILD)/ladders $(BUILD)/docs:
 	ln -sfn '$(CURDIR)/$(@F)' $@
-$(BUILD)/ladder-editor: $(BUILD)/editor-gtk/window/main.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+$(BUILD)/ladder-editor: $(BUILD)/editor-gtk/window/main.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 GTK_TESTS := $(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS))
 GTK_TEST_ROOMS := $(call folders,$(GTK_TESTS))
 $(foreach r,$(GTK_TEST_ROOMS),$(eval $(call room,$r,$(filter $r/test_%,$(GTK_TESTS)),$(patsubst %,%.o,$(filter $r/test_%,$(GTK_TESTS))))))
 $(GTK_TESTS): ; @ln -sf tests $@
 $(EDITOR_BENCH): $(EDITOR_BENCH).o
 $(EDITOR_BENCH): ROOM_C = $(CFLAGS)
-$(EDITOR_BENCH) $(GTK_TEST_ROOMS:%=%/tests): $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
-	$(CC) $(ROOM_C) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+$(EDITOR_BENCH) $(GTK_TEST_ROOMS:%=%/tests): $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
+	$(CC) $(ROOM_C) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libonline.a $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 else
 all: no-editor
 no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
@@ -381,15 +381,15 @@ screenshots: pictures $(BUILD)/schemas/gschemas.compiled ## the same, and docs/e
 .PHONY: pictures screenshots
 # The editor with the fake chips of the HAL tests, for the lines of a machine.
 EDITOR_FAKE := $(HAL_TEST)/editor_v2
-$(EDITOR_FAKE): $(BUILD)/editor-gtk/window/main.o $(HAL_TEST)/v2/io_fake.o $(call HAL_FAKE,v2,gpiod_v2) $(BUILD)/libeditor.a $(BUILD)/libladder.a
+$(EDITOR_FAKE): $(BUILD)/editor-gtk/window/main.o $(HAL_TEST)/v2/io_fake.o $(call HAL_FAKE,v2,gpiod_v2) $(BUILD)/libeditor.a $(BUILD)/libonline.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64 -o $@ $(filter %.o,$^) \
-	  -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+	  -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libonline.a $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 editor-tests: $(EDITOR_TESTS) $(EDITOR_FAKE) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
 	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
 BENCH_EDITOR := $(addprefix $(BUILD)/tests/bench/,editor.o editor_ground.o editor_start.o)
 $(BENCH_EDITOR): CPPFLAGS += $(EDITOR_CPP)
-$(BUILD)/tests/bench/editor: $(BENCH_EDITOR) $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+$(BUILD)/tests/bench/editor: $(BENCH_EDITOR) $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libonline.a $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 bench-editor: $(BUILD)/tests/bench/editor $(EDITOR_BENCH) ## measure drawing 5,000 rungs, and the whole editor with them
 	@perl tests/bench/programs.pl mixed 5000 >$(BUILD)/bench-editor.rung
 	@perl tests/bench/programs.pl lively 5000 >$(BUILD)/bench-lively.rung

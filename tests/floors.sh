@@ -36,18 +36,19 @@ editor-gtk/edit           $doors editor-gtk/kit
 editor-gtk/draw           $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit engine/exchange/classic/classic_say.h
 editor-gtk/document       $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw hal engine/exchange/report.h
 editor-gtk/sim            $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document hal
-editor-gtk/canvas         $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim
+editor-gtk/online         $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim hal online
+editor-gtk/canvas         $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim editor-gtk/online
 "
-sheets='editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim editor-gtk/canvas'
+sheets='editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim editor-gtk/online editor-gtk/canvas'
 for room in ladder sfc text iomap live; do
 	rooms="$rooms
-editor-gtk/$room $doors $sheets hal"
+editor-gtk/$room $doors $sheets hal online"
 done
 sheets="$sheets editor-gtk/ladder editor-gtk/sfc editor-gtk/text editor-gtk/iomap editor-gtk/live"
 rooms="$rooms
-editor-gtk/panels $doors $sheets hal
-editor-gtk/render $doors $sheets hal
-editor-gtk/window $doors $sheets editor-gtk/panels editor-gtk/render hal
+editor-gtk/panels $doors $sheets online hal
+editor-gtk/render $doors $sheets online hal
+editor-gtk/window $doors $sheets online editor-gtk/panels editor-gtk/render hal
 "
 # Libraries that a room may include with < >, by the beginning of the path; all others
 # belong to libc.

@@ -67,7 +67,7 @@ static const struct { const char *text, *class; } states[] = {
 };
 
 static void show_state(LadderBoardView *view, enum board_state state,
-		       const struct board_status *status)
+		       const struct run_status *status)
 {
 	static const char *const classes[] = { "run", "still", "fault" };
 	const bool told_it = state == BOARD_RUNNING && status->state[0];
@@ -85,7 +85,7 @@ static void show_state(LadderBoardView *view, enum board_state state,
 }
 
 static void show_about(LadderBoardView *view, enum board_state state,
-		       const struct board_status *status)
+		       const struct run_status *status)
 {
 	const bool other = view->version != ladder_document_version(view->document);
 	const char *text = state == BOARD_OFF ? "" :
@@ -116,7 +116,7 @@ static void show_period(LadderBoardView *view, const char *told_us)
 static void show(LadderBoardView *view)
 {
 	const enum board_state state = ladder_board_run_state(view->run);
-	const struct board_status *status = ladder_board_run_status(view->run);
+	const struct run_status *status = ladder_board_run_status(view->run);
 	char *times = *status->mean ? g_strdup_printf(_("%s, at worst %s"), status->mean,
 						      status->worst) : g_strdup("");
 

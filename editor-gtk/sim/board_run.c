@@ -16,7 +16,7 @@
 struct _LadderBoardRun {
 	GObject parent;
 	enum board_state state;
-	struct board_status status;
+	struct run_status status;
 	GSubprocess *child;
 	GCancellable *cancel;
 	guint timer;
@@ -86,7 +86,7 @@ static void take_part(char *out, size_t size, const char *text, const char *word
 	snprintf(out, size, "%.*s", (int)(len < size ? len : size - 1), at);
 }
 
-bool board_status_line(struct board_status *status, const char *line)
+bool board_status_line(struct run_status *status, const char *line)
 {
 	const struct { const char *word; char *out; size_t size; } row[] = {
 		{ "state: ", status->state, sizeof(status->state) },
@@ -256,7 +256,7 @@ enum board_state ladder_board_run_state(LadderBoardRun *run)
 	return run->state;
 }
 
-const struct board_status *ladder_board_run_status(LadderBoardRun *run)
+const struct run_status *ladder_board_run_status(LadderBoardRun *run)
 {
 	return &run->status;
 }

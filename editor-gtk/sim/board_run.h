@@ -21,7 +21,7 @@ G_DECLARE_FINAL_TYPE(LadderBoardRun, ladder_board_run, LADDER, BOARD_RUN, GObjec
 enum board_state { BOARD_OFF, BOARD_STARTING, BOARD_RUNNING, BOARD_STOPPING };
 
 /* Its last status: the values of the lines that runtime/ladderd/control.c writes. */
-struct board_status {
+struct run_status {
 	char state[8];          /* "RUN", "STOP", "FAULT"; "": not known yet   */
 	char fault[200];        /* "none", or what and where                   */
 	char scans[24], period[24];
@@ -31,7 +31,7 @@ struct board_status {
 
 /** board_status_line - reads one line of its status, without newline; unknown words are
  * skipped. True: it was the last line of a block. */
-bool board_status_line(struct board_status *status, const char *line);
+bool board_status_line(struct run_status *status, const char *line);
 
 LadderBoardRun *ladder_board_run_new(void);
 /** ladder_board_run_start - @file with @map, both paths; the state must be BOARD_OFF.
@@ -44,7 +44,7 @@ void ladder_board_run_stop(LadderBoardRun *run);
 void ladder_board_run_reset(LadderBoardRun *run);
 enum board_state ladder_board_run_state(LadderBoardRun *run);
 /** ladder_board_run_status - its last status. Borrowed. */
-const struct board_status *ladder_board_run_status(LadderBoardRun *run);
+const struct run_status *ladder_board_run_status(LadderBoardRun *run);
 /** board_ended_text - what `ended` with that status means. Caller: g_free. */
 char *board_ended_text(int status);
 

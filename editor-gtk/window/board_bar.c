@@ -283,7 +283,7 @@ bool board_bar_may_close(struct board_bar *bar)
 }
 
 /* "RUN", "FAULT: division by zero …", "STOP: …". Caller frees. */
-static char *said_by(enum board_state state, const struct board_status *status)
+static char *said_by(enum board_state state, const struct run_status *status)
 {
 	const char *why = strcmp(status->state, "FAULT") == 0 ? status->fault : status->stop;
 

@@ -108,7 +108,7 @@ static void status(void)
 		"scan: last 1.0 us, mean 2.5 us, max 9.1 us, p99 3.0 us", "late: 2",
 		"odd line", "io: good, 2 lines in 1 requests, 0 calls failed, 0 reopened",
 	};
-	struct board_status told = { .stop = "old" };
+	struct run_status told = { .stop = "old" };
 	char long_line[600];
 	bool end = false;
 
