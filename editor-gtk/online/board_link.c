@@ -29,11 +29,14 @@
 #define COME_MOST  256     /* frames that the main thread has not taken yet: then the thread
 			      reads no more, and the board sends less          */
 
-/* A request. The thread reads `service` and `fields`; the rest is the main thread's. */
+/* A request. The thread reads `service`, `fields`, `work`, and what `data` is for it; the rest is
+ * the main thread's. */
 struct asked {
 	gint refs;             /* of `pending`, and of the session            */
 	enum service service;
 	GByteArray *fields;
+	board_work work;       /* instead of fields; NULL: none                */
+	GDestroyNotify free;   /* of `data`; NULL: none                        */
 	gpointer owner;        /* weak                                         */
 	bool owned;
 	board_answered answered;
@@ -101,6 +104,8 @@ static void asked_unref(gpointer data)
 
 	if (!g_atomic_int_dec_and_test(&asked->refs))
 		return;
+	if (asked->free)
+		asked->free(asked->data);
 	g_byte_array_unref(asked->fields);
 	g_free(asked);
 }
@@ -205,18 +210,23 @@ static void wait_for_room(struct session *session)
 
 static enum desk_end call(struct session *session, struct asked *asked)
 {
-	struct wire_writer out = desk_ask(&session->desk, asked->service);
 	struct wire_reader in = wire_read(NULL, 0);
 	struct come *come = come_new(COME_ANSWER);
+	struct wire_writer out;
 	enum desk_end end;
 
-	if (asked->fields->len)
-		wire_put_bytes(&out, asked->fields->data, asked->fields->len);
-	end = desk_call(&session->desk, &out, &in);
+	if (asked->work) {
+		end = asked->work(&session->desk, asked->data);
+	} else {
+		out = desk_ask(&session->desk, asked->service);
+		if (asked->fields->len)
+			wire_put_bytes(&out, asked->fields->data, asked->fields->len);
+		end = desk_call(&session->desk, &out, &in);
+	}
 	come->end = end;
 	come->request = session->desk.request;
 	come->refusal = session->desk.refusal;
-	if (end == DESK_GOOD)
+	if (end == DESK_GOOD && !asked->work)
 		come->body = g_bytes_new(in.at, wire_left(&in));
 	else
 		come->why = desk_diag(&session->desk, end);
@@ -682,16 +692,14 @@ static gboolean answer_late(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
-void ladder_board_link_send(LadderBoardLink *link, enum service service,
-			    struct wire_writer *fields, gpointer owner, board_answered answered,
-			    gpointer data)
+/* Of the link, in `pending`. */
+static struct asked *asked_new(LadderBoardLink *link, gpointer owner, board_answered answered,
+			       gpointer data)
 {
 	struct asked *asked = g_new0(struct asked, 1);
 
 	asked->refs = 1;
-	asked->service = service;
 	asked->fields = g_byte_array_new();
-	g_byte_array_append(asked->fields, link->fields, (guint)wire_len(fields));
 	asked->owner = owner;
 	asked->owned = owner != NULL;
 	if (owner)
@@ -699,20 +707,45 @@ void ladder_board_link_send(LadderBoardLink *link, enum service service,
 	asked->answered = answered;
 	asked->data = data;
 	link->pending = g_list_append(link->pending, asked);
-	if (!link->session || fields->failed) {
-		/* Too long for a frame: the desk says so. */
-		if (!link->session) {
-			g_idle_add_full(G_PRIORITY_DEFAULT, answer_late, g_object_ref(link),
-					g_object_unref);
-			return;
-		}
-		g_byte_array_set_size(asked->fields, WIRE_FRAME_MOST);
+	return asked;
+}
+
+static void give(LadderBoardLink *link, struct asked *asked)
+{
+	if (!link->session) {
+		g_idle_add_full(G_PRIORITY_DEFAULT, answer_late, g_object_ref(link),
+				g_object_unref);
+		return;
 	}
 	g_atomic_int_inc(&asked->refs);
 	g_mutex_lock(&link->session->lock);
 	g_queue_push_tail(&link->session->asked, asked);
 	g_mutex_unlock(&link->session->lock);
 	session_wake(link->session);
+}
+
+void ladder_board_link_send(LadderBoardLink *link, enum service service,
+			    struct wire_writer *fields, gpointer owner, board_answered answered,
+			    gpointer data)
+{
+	struct asked *asked = asked_new(link, owner, answered, data);
+
+	asked->service = service;
+	g_byte_array_append(asked->fields, link->fields, (guint)wire_len(fields));
+	if (fields->failed) /* the desk says that it is too long for a frame */
+		g_byte_array_set_size(asked->fields, WIRE_FRAME_MOST);
+	give(link, asked);
+}
+
+void ladder_board_link_work(LadderBoardLink *link, board_work work, gpointer owner,
+			    board_answered answered, gpointer data, GDestroyNotify free)
+{
+	struct asked *asked = asked_new(link, owner, answered, data);
+
+	asked->service = SERVICE_DOWNLOAD;
+	asked->work = work;
+	asked->free = free;
+	give(link, asked);
 }
 
 void ladder_board_link_expect(LadderBoardLink *link, struct wire_writer *fields)

@@ -78,6 +78,13 @@ struct wire_writer ladder_board_link_begin(LadderBoardLink *link);
 void ladder_board_link_send(LadderBoardLink *link, enum service service,
 			    struct wire_writer *fields, gpointer owner, board_answered answered,
 			    gpointer data);
+/** board_work - calls of the session, made in its thread. It touches only @desk and @data. */
+typedef enum desk_end (*board_work)(struct desk *desk, gpointer data);
+/** ladder_board_link_work - has @work done in turn with the requests; @answered as above, with
+ * @data. @free: frees @data, in any thread, when neither @work nor @answered uses it any more;
+ * NULL: borrowed for ever. */
+void ladder_board_link_work(LadderBoardLink *link, board_work work, gpointer owner,
+			    board_answered answered, gpointer data, GDestroyNotify free);
 /** ladder_board_link_expect - begins the fields of a change: it is done only if the program of
  * the last status still runs. */
 void ladder_board_link_expect(LadderBoardLink *link, struct wire_writer *fields);

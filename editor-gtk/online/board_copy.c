@@ -1,0 +1,349 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * board_copy - see board_copy.h. The bytes are those of runtime/online/stored.h.
+ */
+#include "editor-gtk/online/board_copy.h"
+
+#include "editor-gtk/document/disk.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/sim/sim_program.h"
+
+#include "engine/scan/code.h"
+
+#include <errno.h>
+#include <glib/gstdio.h>
+#include <string.h>
+
+/* ---- what came ---- */
+
+/* A name that stays below the folder: no way up, no other root, no control character. */
+static bool is_safe(const char *name, size_t len)
+{
+	if (!len || len > 200 || *name == '/' || *name == '.' || !g_utf8_validate(name, (gssize)len, NULL))
+		return false;
+	for (size_t i = 0; i < len; i++) {
+		if ((unsigned char)name[i] < ' ' || name[i] == 127 || name[i] == '\\')
+			return false;
+		if (name[i] == '/' && (i + 1 == len || name[i + 1] == '/' || name[i + 1] == '.'))
+			return false;
+	}
+	return true;
+}
+
+/* u16 how many files, and for each text name, u32 length, its bytes; the program first. */
+static bool read_sources(struct board_copy *copy, struct wire_reader in)
+{
+	const uint16_t count = wire_left(&in) ? wire_u16(&in) : 0;
+
+	for (uint16_t i = 0; i < count; i++) {
+		size_t name_len;
+		const char *name = wire_text(&in, &name_len);
+		const uint32_t len = wire_u32(&in);
+		const uint8_t *bytes = wire_bytes(&in, len);
+
+		if (in.failed || !is_safe(name, name_len))
+			return false;
+		if (i == 0) {
+			copy->name = g_strndup(name, name_len);
+			copy->text = g_strndup((const char *)bytes, len);
+		} else {
+			g_hash_table_insert(copy->files, g_strndup(name, name_len),
+					    g_bytes_new(bytes, len));
+		}
+	}
+	return wire_done(&in);
+}
+
+struct board_copy *board_copy_read(const struct stored *stored)
+{
+	struct board_copy *copy = g_new0(struct board_copy, 1);
+
+	copy->files = g_hash_table_new_full(g_str_hash, g_str_equal, g_free,
+					    (GDestroyNotify)g_bytes_unref);
+	copy->image = g_bytes_new(stored_part(stored, STORED_IMAGE), stored->len[STORED_IMAGE]);
+	copy->map = g_strndup((const char *)stored_part(stored, STORED_MAP),
+			      stored->len[STORED_MAP]);
+	if (read_sources(copy, wire_read(stored_part(stored, STORED_SOURCES),
+					 stored->len[STORED_SOURCES])))
+		return copy;
+	board_copy_free(copy);
+	return NULL;
+}
+
+void board_copy_free(struct board_copy *copy)
+{
+	if (!copy)
+		return;
+	g_clear_pointer(&copy->image, g_bytes_unref);
+	g_clear_pointer(&copy->files, g_hash_table_unref);
+	g_free(copy->map);
+	g_free(copy->name);
+	g_free(copy->text);
+	g_free(copy);
+}
+
+/* ---- writing it ---- */
+
+/* NULL: @name is free in @folder. Caller frees. */
+static char *why_taken(const char *folder, const char *name)
+{
+	char *path = g_build_filename(folder, name, NULL);
+	char *why = g_file_test(path, G_FILE_TEST_EXISTS) ?
+		g_strdup_printf(_("“%s” is there already; nothing was written. Choose another "
+				  "folder."), path) : NULL;
+
+	g_free(path);
+	return why;
+}
+
+static char *put_file(const char *folder, const char *name, const void *bytes, gsize len)
+{
+	char *path = g_build_filename(folder, name, NULL), *parent = g_path_get_dirname(path);
+	GError *error = NULL;
+	char *why = NULL;
+
+	if (g_mkdir_with_parents(parent, 0777) != 0)
+		why = g_strdup_printf("%s: %s", parent, g_strerror(errno));
+	else if (!disk_save(path, bytes, len, &error))
+		why = g_strdup(error->message);
+	g_clear_error(&error);
+	g_free(parent);
+	g_free(path);
+	return why;
+}
+
+char *board_copy_save(const struct board_copy *copy, const char *folder, const char *map)
+{
+	GHashTableIter at;
+	gpointer name, bytes;
+	char *why = why_taken(folder, copy->name);
+
+	if (!why)
+		why = why_taken(folder, map);
+	g_hash_table_iter_init(&at, copy->files);
+	while (!why && g_hash_table_iter_next(&at, &name, NULL))
+		why = why_taken(folder, name);
+	g_hash_table_iter_init(&at, copy->files);
+	while (!why && g_hash_table_iter_next(&at, &name, &bytes))
+		why = put_file(folder, name, g_bytes_get_data(bytes, NULL),
+			       g_bytes_get_size(bytes));
+	if (!why)
+		why = put_file(folder, map, copy->map, strlen(copy->map));
+	return why ? why : put_file(folder, copy->name, copy->text, strlen(copy->text));
+}
+
+/* ---- what is sent ---- */
+
+static void add_u32(GByteArray *bytes, guint32 value)
+{
+	const guint32 wire = GUINT32_TO_LE(value);
+
+	g_byte_array_append(bytes, (const guint8 *)&wire, sizeof(wire));
+}
+
+static void add_u16(GByteArray *bytes, guint16 value)
+{
+	const guint16 wire = GUINT16_TO_LE(value);
+
+	g_byte_array_append(bytes, (const guint8 *)&wire, sizeof(wire));
+}
+
+static void add_file(GByteArray *bytes, const char *name, const void *text, gsize len)
+{
+	add_u16(bytes, (guint16)strlen(name));
+	g_byte_array_append(bytes, (const guint8 *)name, (guint)strlen(name));
+	add_u32(bytes, (guint32)len);
+	if (len)
+		g_byte_array_append(bytes, text, (guint)len);
+}
+
+/* As the file of the program names it: below its folder, else its own name only. */
+static const char *source_name(const char *path, const char *program)
+{
+	const char *slash = strrchr(program, '/'), *own = strrchr(path, '/');
+	const gsize folder = slash ? (gsize)(slash + 1 - program) : 0;
+
+	if (strncmp(path, program, folder) == 0 && is_safe(path + folder, strlen(path + folder)))
+		return path + folder;
+	return own ? own + 1 : path;
+}
+
+/* A file that the program names, as the editor has it now. */
+static bool add_used(GByteArray *bytes, struct ladder *ladder, const char *path,
+		     const char *program, GError **error)
+{
+	const struct ladder_files files = ladder_files(ladder);
+	size_t len = 0;
+	char *text = files.load ? files.load(files.context, path, &len) : NULL;
+	char *owned = NULL;
+	gsize size = len;
+
+	if (!text && !g_file_get_contents(path, &owned, &size, error))
+		return false;
+	add_file(bytes, source_name(path, program), text ? text : owned, size);
+	free(text);
+	g_free(owned);
+	return true;
+}
+
+static bool add_sources(GByteArray *bytes, struct ladder *ladder, LadderDocument *document,
+			const char *text, GError **error)
+{
+	const struct project *project = ladder_project(ladder);
+	const char *path = ladder_document_path(document);
+	char *name = path ? g_path_get_basename(path) : g_strdup("program.rung");
+	bool good = true;
+
+	add_u16(bytes, (guint16)(1 + project->used_count));
+	add_file(bytes, name, text, strlen(text));
+	for (int i = 0; i < project->used_count && good; i++)
+		good = add_used(bytes, ladder, project->used[i], path ? path : "", error);
+	g_free(name);
+	return good;
+}
+
+static bool gather(struct board_program *program, struct sim_program *built,
+		   LadderDocument *document, const char *map, GError **error)
+{
+	struct stored *stored = &program->stored;
+	size_t image_len;
+	const void *image = ladder_image(built->ladder, &image_len);
+
+	g_byte_array_append(program->bytes, image, (guint)image_len);
+	g_byte_array_append(program->bytes, (const guint8 *)map, (guint)strlen(map));
+	if (!add_sources(program->bytes, built->ladder, document, built->text, error))
+		return false;
+	stored->len[STORED_IMAGE] = (uint32_t)image_len;
+	stored->len[STORED_MAP] = (uint32_t)strlen(map);
+	stored->len[STORED_SOURCES] = program->bytes->len - (uint32_t)(image_len + strlen(map));
+	stored->bytes = program->bytes->data;
+	code_identity(built->program, program->identity);
+	if (stored_size(stored))
+		return true;
+	g_set_error(error, G_IO_ERROR, G_IO_ERROR_FAILED,
+		    _("The program is larger than a board can take: %u MiB"), STORED_MOST >> 20);
+	return false;
+}
+
+struct board_program *board_program_new(LadderDocument *document, const char *map, GError **error)
+{
+	const char *path = ladder_document_path(document);
+	gsize len;
+	char *text = ladder_document_text(document, &len);
+	struct sim_program *built = sim_program_read(ladder_document_reader(document),
+		g_intern_string(path ? path : "-"), text, len, error);
+	struct board_program *program = NULL;
+
+	if (built) {
+		program = g_atomic_rc_box_new0(struct board_program);
+		program->bytes = g_byte_array_new();
+		if (!gather(program, built, document, map, error))
+			g_clear_pointer(&program, board_program_unref);
+		sim_program_unref(built);
+	}
+	g_free(text);
+	return program;
+}
+
+struct board_program *board_program_ref(struct board_program *program)
+{
+	return g_atomic_rc_box_acquire(program);
+}
+
+static void program_clear(gpointer data)
+{
+	struct board_program *program = data;
+
+	g_byte_array_unref(program->bytes);
+}
+
+void board_program_unref(gpointer program)
+{
+	g_atomic_rc_box_release_full(program, program_clear);
+}
+
+/* ---- upload ---- */
+
+struct upload {
+	LadderBoardLink *link;
+	gpointer owner;        /* weak                                         */
+	bool owned;
+	GByteArray *bytes;
+	board_copied copied;
+	gpointer data;
+};
+
+static void upload_free(struct upload *upload)
+{
+	g_byte_array_unref(upload->bytes);
+	g_object_unref(upload->link);
+	if (upload->owned && upload->owner)
+		g_object_remove_weak_pointer(upload->owner, &upload->owner);
+	g_free(upload);
+}
+
+static void upload_end(struct upload *upload, struct board_copy *copy, const char *why)
+{
+	if (upload->owner || !upload->owned)
+		upload->copied(upload->data, copy, why);
+	else
+		board_copy_free(copy);
+	upload_free(upload);
+}
+
+static void ask_part(struct upload *upload);
+
+static void part_came(gpointer data, struct board_answer *answer)
+{
+	struct upload *upload = data;
+	struct stored stored;
+	uint32_t size;
+	size_t len;
+
+	if (answer->end != DESK_GOOD) {
+		upload_end(upload, NULL, answer->text);
+		return;
+	}
+	for (int i = 0; i < STORED_PARTS; i++)
+		stored.len[i] = wire_u32(&answer->body);
+	size = stored_size(&stored);
+	len = wire_left(&answer->body);
+	if (answer->body.failed || !size || len > size - MIN(size, upload->bytes->len) ||
+	    (!len && upload->bytes->len < size)) {
+		upload_end(upload, NULL, _("What the board sent is no program"));
+		return;
+	}
+	if (len)
+		g_byte_array_append(upload->bytes, answer->body.at, (guint)len);
+	if (upload->bytes->len < size) {
+		ask_part(upload);
+		return;
+	}
+	stored.bytes = upload->bytes->data;
+	struct board_copy *copy = board_copy_read(&stored);
+
+	upload_end(upload, copy, copy ? NULL : _("What the board sent is no program"));
+}
+
+static void ask_part(struct upload *upload)
+{
+	struct wire_writer fields = ladder_board_link_begin(upload->link);
+
+	wire_put_u32(&fields, upload->bytes->len);
+	ladder_board_link_send(upload->link, SERVICE_UPLOAD, &fields, NULL, part_came, upload);
+}
+
+void board_upload(LadderBoardLink *link, gpointer owner, board_copied copied, gpointer data)
+{
+	struct upload *upload = g_new0(struct upload, 1);
+
+	upload->link = g_object_ref(link);
+	upload->owner = owner;
+	upload->owned = owner != NULL;
+	if (owner)
+		g_object_add_weak_pointer(owner, &upload->owner);
+	upload->bytes = g_byte_array_new();
+	upload->copied = copied;
+	upload->data = data;
+	ask_part(upload);
+}

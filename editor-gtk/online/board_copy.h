@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * board_copy - what a download sends and an upload gives back: code image, I/O map, and the
+ * files of the project.
+ *
+ * Names of files come from outside: board_copy_read() refuses those that would leave the folder.
+ * It shows nothing; only board_copy_save() writes files.
+ */
+#ifndef EDITOR_BOARD_COPY_H
+#define EDITOR_BOARD_COPY_H
+
+#include "editor-gtk/document/document.h"
+#include "editor-gtk/online/board_link.h"
+
+#include "online/stored.h"
+
+struct board_copy {
+	GBytes *image;
+	char *map;
+	char *name, *text;     /* the program; NULL: there are no sources      */
+	GHashTable *files;     /* the others: GBytes by name                   */
+};
+
+/** board_copy_read - Owns: board_copy_free(). Fails: NULL: it is damaged, or has a name that
+ * leaves the folder. */
+struct board_copy *board_copy_read(const struct stored *stored);
+void board_copy_free(struct board_copy *copy);
+/**
+ * board_copy_save - writes program, files and map into @folder
+ * @map: name of the file of the map, "garage-door.io"
+ *
+ * Nothing is replaced: if one of them is there, nothing is written. Returns NULL, or why not;
+ * caller frees.
+ */
+char *board_copy_save(const struct board_copy *copy, const char *folder, const char *map);
+
+/* A program that can be downloaded. */
+struct board_program {
+	struct stored stored;  /* in `bytes`                                   */
+	GByteArray *bytes;
+	guint8 identity[32];
+};
+/** board_program_new - builds the document as it is now. @map: the text of its I/O map. Owns:
+ * board_program_unref(). Fails: NULL, and @error is the first error. */
+struct board_program *board_program_new(LadderDocument *document, const char *map, GError **error);
+struct board_program *board_program_ref(struct board_program *program);
+void board_program_unref(gpointer program);
+
+/** board_copied - @copy: to be kept or freed with board_copy_free(); NULL: @why. */
+typedef void (*board_copied)(gpointer data, struct board_copy *copy, const char *why);
+/** board_upload - gets what the board stores; @owner, @data: as ladder_board_link_send(). */
+void board_upload(LadderBoardLink *link, gpointer owner, board_copied copied, gpointer data);
+
+#endif
