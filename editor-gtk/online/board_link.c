@@ -35,7 +35,7 @@ struct asked {
 	gint refs;             /* of `pending`, and of the session            */
 	enum service service;
 	GByteArray *fields;
-	board_work work;       /* instead of fields; NULL: none                */
+	enum desk_end (*work)(struct desk *desk, gpointer data); /* instead of fields; or NULL */
 	GDestroyNotify free;   /* of `data`; NULL: none                        */
 	gpointer owner;        /* weak                                         */
 	bool owned;
@@ -737,7 +737,8 @@ void ladder_board_link_send(LadderBoardLink *link, enum service service,
 	give(link, asked);
 }
 
-void ladder_board_link_work(LadderBoardLink *link, board_work work, gpointer owner,
+void ladder_board_link_work(LadderBoardLink *link,
+			    enum desk_end (*work)(struct desk *desk, gpointer data), gpointer owner,
 			    board_answered answered, gpointer data, GDestroyNotify free)
 {
 	struct asked *asked = asked_new(link, owner, answered, data);

@@ -78,12 +78,11 @@ struct wire_writer ladder_board_link_begin(LadderBoardLink *link);
 void ladder_board_link_send(LadderBoardLink *link, enum service service,
 			    struct wire_writer *fields, gpointer owner, board_answered answered,
 			    gpointer data);
-/** board_work - calls of the session, made in its thread. It touches only @desk and @data. */
-typedef enum desk_end (*board_work)(struct desk *desk, gpointer data);
-/** ladder_board_link_work - has @work done in turn with the requests; @answered as above, with
- * @data. @free: frees @data, in any thread, when neither @work nor @answered uses it any more;
+/** ladder_board_link_work - has @work done in turn with the requests, in the session's thread: it
+ * calls @desk and touches only @data. @answered as above, with @data. @free: frees @data, in any thread, when neither @work nor @answered uses it any more;
  * NULL: borrowed for ever. */
-void ladder_board_link_work(LadderBoardLink *link, board_work work, gpointer owner,
+void ladder_board_link_work(LadderBoardLink *link,
+			    enum desk_end (*work)(struct desk *desk, gpointer data), gpointer owner,
 			    board_answered answered, gpointer data, GDestroyNotify free);
 /** ladder_board_link_expect - begins the fields of a change: it is done only if the program of
  * the last status still runs. */
