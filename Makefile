@@ -113,7 +113,7 @@ GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PK
 GPIO_LIB := $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
 HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
-LADDERD_NOT := $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download slots journal,source_image store_none link_none)
+LADDERD_NOT := $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download slots journal conf ends,source_image store_none link_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
 # Its own table of messages, without those that only a desk gives.
 LADDERD  += $(if $(filter 1,$(SMALL)),,$(BUILD)/runtime/ladderd/diag_board.o)

@@ -142,6 +142,18 @@ enum status remote_status(struct remote *remote, struct board_status *status)
 	return STATUS_GOOD;
 }
 
+enum status remote_expect(struct remote *remote, bool mode)
+{
+	struct board_status *status = calloc(1, sizeof(*status));
+	const enum status result = status ? remote_status(remote, status) :
+					    report_no_memory(remote->where);
+
+	free(status);
+	if (!mode)
+		remote->expect.mode = EXPECT_ANY;
+	return result;
+}
+
 static void print_us(const struct sink *out, const char *word, int64_t ns)
 {
 	sink_printf(out, "%s%lld.%lld us", word, (long long)(ns / 1000),
@@ -489,14 +501,10 @@ static enum status finish_change(struct remote *remote, struct wire_writer *out)
 static enum status begin_change(struct remote *remote, enum service service,
 				struct wire_writer *out)
 {
-	struct board_status *status = calloc(1, sizeof(*status));
-	enum status result = status ? remote_status(remote, status) : report_no_memory(remote->where);
+	const enum status status = remote_expect(remote, service == SERVICE_MODE);
 
-	free(status);
-	if (result != STATUS_GOOD)
-		return result;
-	if (service != SERVICE_MODE)
-		remote->expect.mode = EXPECT_ANY;
+	if (status != STATUS_GOOD)
+		return status;
 	*out = desk_ask(&remote->desk, service);
 	wire_put_expect(out, &remote->expect);
 	return STATUS_GOOD;
@@ -715,6 +723,7 @@ static const struct action {
 	{ "run", false, act_run },         { "stop", false, act_stop },
 	{ "reset", false, act_reset },     { "download", true, remote_download },
 	{ "upload", false, remote_upload }, { "events", false, act_events },
+	{ "config", true, remote_config },
 };
 
 static enum status begin(struct remote *remote, const struct stream_where *where)

@@ -39,7 +39,26 @@ enum status remote_fail(const struct remote *remote, enum desk_end end);
 /** remote_status - asks what runs, and expects it from now on. Fails: after a message. */
 enum status remote_status(struct remote *remote, struct board_status *status);
 
+#define REMOTE_SETTINGS 32
+struct board_setting {
+	char key[32], now[64], next[64], range[48];
+	bool stored, restart;
+};
+struct board_settings {
+	int count;
+	struct board_setting at[REMOTE_SETTINGS];
+};
+/** remote_expect - what runs now is expected from now on; @mode: in the same mode. Fails: after
+ * a message. */
+enum status remote_expect(struct remote *remote, bool mode);
+/** remote_settings - asks for all. Fails: after a message. */
+enum status remote_settings(struct remote *remote, struct board_settings *settings);
+/** remote_set - changes one; @restart: the board begins anew, and the session ends. */
+enum status remote_set(struct remote *remote, const char *key, const char *value, bool restart,
+		       bool *needs_restart);
+
 /** remote_download, remote_upload - the actions. */
 enum status remote_download(struct remote *remote);
 enum status remote_upload(struct remote *remote);
+enum status remote_config(struct remote *remote);
 #endif

@@ -188,8 +188,9 @@ static void copy(char *out, size_t size, const struct block *block)
 	out[len] = '\0';
 }
 
-static void fill_places(const struct resource *resource, struct board_status *status)
+static void fill_places(const struct cycle *cycle, struct board_status *status)
 {
+	const struct resource *resource = &cycle->resource;
 	struct block block = { .len = 0 };
 	char fault[96];
 
@@ -208,6 +209,8 @@ static void fill_places(const struct resource *resource, struct board_status *st
 		add(&block, "the program says so");
 		add_line(&block, &resource->halt_at);
 		add_place(&block, &resource->halt_at);
+	} else if (cycle->stopped && resource->state == STATE_STOP) {
+		add(&block, "%s", cycle->stopped);
 	}
 	copy(status->stop, sizeof(status->stop), &block);
 }
@@ -253,7 +256,7 @@ void control_fill_status(const struct cycle *cycle, struct board_status *status)
 	status->io_failed = cycle->hal.failed;
 	snprintf(status->board, sizeof(status->board), "%.63s", cycle->board);
 	snprintf(status->version, sizeof(status->version), "%s", LADDER_VERSION);
-	fill_places(resource, status);
+	fill_places(cycle, status);
 	fill_tasks(resource, status);
 }
 

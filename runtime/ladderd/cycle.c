@@ -7,6 +7,8 @@
 #include "ladderd/link.h"
 
 #include <errno.h>
+#include <stdatomic.h>
+#include <string.h>
 #include <time.h>
 
 #define SLICE_NS 100000000  /* requests are checked at least so often */
@@ -44,6 +46,17 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 		limit_ns += task_limit(&program->task[i], resource->patience,
 				       resource->period_ns);
 	return limit_ns;
+}
+
+void cycle_name(struct cycle *cycle, const char *name, const char *of_map)
+{
+	const char *from = *name ? name : of_map;
+	size_t len = strlen(from);
+
+	if (len >= sizeof(cycle->board))
+		len = sizeof(cycle->board) - 1;
+	memcpy(cycle->board, from, len);
+	cycle->board[len] = '\0';
 }
 
 static void enter_fault(struct cycle *cycle, enum fault fault)
@@ -102,6 +115,7 @@ static enum refusal restart(struct cycle *cycle, bool cold)
 	cycle->monitor.tripped = 0;
 	cycle->late_row = 0;
 	hal_release(&cycle->hal);
+	cycle->stopped = NULL;
 	notify_send(&cycle->notify, "STATUS=RUN");
 	return REFUSAL_NONE;
 }
@@ -215,6 +229,8 @@ static void count_late(struct cycle *cycle, int64_t *due_ns, int64_t end_ns)
 	*due_ns += missed * cycle->period_ns;
 	cycle->late += (uint64_t)missed;
 	cycle->late_row++;
+	if (cycle->late_row == cycle->late_limit)
+		atomic_fetch_add_explicit(&cycle->late_rows, 1, memory_order_relaxed);
 }
 
 static bool is_too_slow(const struct cycle *cycle, int64_t took_ns)

@@ -26,14 +26,15 @@ struct cycle {
 	struct requests *requests;
 	struct store *store;   /* retained values; NULL: no --retain          */
 	struct link *link;     /* to desks; NULL: no --link                   */
-	const char *board;
+	char board[64];        /* its name                                    */
 	uint8_t identity_bytes[32]; /* SHA-256 of the program                 */
 	char identity[65];   /* the same in hex                           */
 	int64_t period_ns;   /* from one cycle to the next                  */
 	int64_t watchdog;      /* late scans in a row, or periods of one scan */
 	bool tasks;            /* tasks are declared: each has its own limit  */
 	int64_t wanted_ns;     /* --period; 0: not given                      */
-	bool begin_stopped;    /* there is no program yet                     */
+	bool begin_stopped;    /* does not run at the start                   */
+	const char *stopped;   /* why it began in STOP; NULL: not told         */
 	bool restart;          /* ends in order to begin with the newest slot */
 	uint64_t most_scans;   /* 0: no limit                                 */
 	/* Since the daemon began. */
@@ -41,6 +42,8 @@ struct cycle {
 	uint64_t late;         /* skipped periods                             */
 	uint64_t resets;       /* of a latched fault                          */
 	int64_t late_row;      /* late scans in a row                         */
+	int64_t late_limit;    /* … that are an event                         */
+	_Atomic uint32_t late_rows; /* how often there were so many           */
 	bool failed;           /* a failed operation was reported             */
 	struct stats scan, wake;
 	struct stats body;     /* the program alone, no lines                 */
@@ -65,6 +68,12 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog);
  * Returns the exit status: 1 if it ended in FAULT, else 0.
  */
 int cycle_run(struct cycle *cycle);
+struct options;
+/** cycle_configure - period, limits and name of the board from now on. Scan-safe: between
+ * scans, a system call. */
+void cycle_configure(struct cycle *cycle, const struct options *options);
+/** cycle_name - the name of the board; "": that of its map. */
+void cycle_name(struct cycle *cycle, const char *name, const char *of_map);
 struct standby;
 /**
  * cycle_swap - goes on with the program of @standby, in the state of the present one

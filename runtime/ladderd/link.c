@@ -8,8 +8,10 @@
  */
 #define _GNU_SOURCE /* accept4() */
 #include "ladderd/link.h"
+#include "ladderd/conf.h"
 #include "ladderd/control.h"
 #include "ladderd/download.h"
+#include "ladderd/ends.h"
 #include "ladderd/journal.h"
 #include "ladderd/peer.h"
 
@@ -38,6 +40,7 @@
 #define PATIENCE_NS (2 * SECOND)      /* for an order                               */
 #define STACK_LEAST 262144u
 #define REST_NS    SECOND             /* longest time between two looks at the state */
+#define LATE_REST_NS (60 * SECOND)    /* between two events about late scans        */
 #define BACKLOG    128               /* of desks that connect at the same time          */
 #define OURS       2                  /* polled: the wake-up, the listening socket  */
 
@@ -54,6 +57,9 @@ struct link {
 	struct board_status status;    /* of that order                        */
 	struct journal *journal;
 	struct server_log log;
+	struct server_conf conf;
+	uint32_t late;                 /* rows of late scans that the log has    */
+	int64_t late_ns;               /* of the last event about them           */
 	int state;                     /* that the log tells                   */
 	struct peer_groups groups;
 	uint8_t *views;
@@ -75,6 +81,13 @@ static int64_t clock_now(void)
 }
 
 /* ---- the scan thread ---- */
+
+void cycle_configure(struct cycle *cycle, const struct options *options)
+{
+	cycle->late_limit = options->late;
+	cycle_name(cycle, options->name, cycle->hal.map->board);
+	monitor_limit(cycle_plan(cycle, options->period_ns, options->watchdog));
+}
 
 static struct resource *host_resource(void *context)
 {
@@ -101,9 +114,14 @@ static enum refusal host_swap(void *context, void *other)
 	return cycle_swap(((struct link *)context)->cycle, other);
 }
 
-static void host_store(void *context, void *other)
+static void take_store(void *context, void *other)
 {
 	((struct link *)context)->cycle->store = other;
+}
+
+static void take_settings(void *context, void *other)
+{
+	cycle_configure(((struct link *)context)->cycle, other);
 }
 
 static void host_restart(void *context)
@@ -201,6 +219,20 @@ static void log_state(struct link *link)
 		    state == STATE_RUN ? EVENT_RUN : EVENT_STOP, 0, "", link->status.fault, "");
 }
 
+/* At most once a minute: a board that is too slow must not fill its log. */
+static void log_late(struct link *link)
+{
+	const uint32_t late = atomic_load(&link->cycle->late_rows);
+	char number[24];
+
+	if (late == link->late || (link->late && clock_now() - link->late_ns < LATE_REST_NS))
+		return;
+	link->late = late;
+	link->late_ns = clock_now();
+	snprintf(number, sizeof(number), "%lld", (long long)link->with.conf->now.late);
+	journal_add(link->journal, EVENT_LATE, 0, "", number, "");
+}
+
 /* ---- downloads ---- */
 
 static enum refusal store_begin_download(void *context, const uint32_t len[STORED_PARTS],
@@ -236,6 +268,36 @@ static const struct stored *store_running(void *context)
 	return download_running(((struct link *)context)->download);
 }
 
+/* Between two scans; it is done when this returns, unless a scan hangs. */
+static void act(struct link *link, void (*what)(void *context, void *other), void *other)
+{
+	link->store_order = (struct order){ .kind = ORDER_ACT, .act = what, .other = other };
+	exchange_post(&link->exchange, &link->store_order);
+	wait_for_scan(link);
+}
+
+/* ---- settings ---- */
+
+static bool conf_read(void *context, uint32_t number, struct setting *out)
+{
+	return conf_get(((struct link *)context)->with.conf, number, out);
+}
+
+static enum refusal conf_write(void *context, const char *key, const char *value,
+			       struct setting *changed, char *detail, size_t size)
+{
+	struct link *link = context;
+	const enum refusal refusal = conf_change(link->with.conf, key, value, changed, detail, size);
+
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	conf_in_force(link->with.conf);
+	act(link, take_settings, &link->with.conf->now);
+	return REFUSAL_NONE;
+}
+
+/* ---- retained values ---- */
+
 /* Stores the values of the new program in the same file; it has those of the old one, which
  * the scan thread has carried over. */
 static void store_retained_again(struct link *link, struct standby *standby)
@@ -256,9 +318,7 @@ static void store_retained_again(struct link *link, struct standby *standby)
 		control_tell("retained values are not stored any more");
 		return;
 	}
-	link->store_order = (struct order){ .kind = ORDER_STORE, .other = link->retain };
-	exchange_post(&link->exchange, &link->store_order);
-	wait_for_scan(link);
+	act(link, take_store, link->retain);
 }
 
 static const struct program *store_swapped(void *context)
@@ -414,6 +474,7 @@ static void *serve_desks(void *argument)
 		more = server_step(link->server, clock_now());
 		send_all(link);
 		log_state(link);
+		log_late(link);
 		journal_sync(link->journal, clock_now());
 	}
 	journal_add(link->journal, EVENT_END, 0, "", "", "");
@@ -462,6 +523,14 @@ int link_begin(struct link *link)
 	sigemptyset(&action.sa_mask);
 	sigaction(SIGURG, &action, NULL);
 	journal_add(link->journal, EVENT_START, 0, "", link->cycle->identity, "");
+	if (link->with.conf->damaged)
+		journal_add(link->journal, EVENT_CONF_BAD, 0, "", "", "");
+	if (ends_begin(link->with.slots->folder)) {
+		link->cycle->begin_stopped = true;
+		link->cycle->stopped = "ladderd has ended abnormally three times within a minute";
+		control_tell("ended abnormally three times within a minute: STOP");
+		journal_add(link->journal, EVENT_ENDS, 0, "", "", "");
+	}
 	link->state = -1;
 	link->scans = pthread_self();
 	link->began_ns = clock_now();
@@ -479,6 +548,7 @@ void link_close(struct link *link)
 		if (write(link->wake, &one, sizeof(one)) < 0)
 			errno = 0; /* the counter is full, so the thread is awake */
 		pthread_join(link->thread, NULL);
+		ends_orderly(link->with.slots->folder);
 		link->cycle->store = link->retain;
 	}
 	if (link->listening >= 0)
@@ -562,7 +632,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	const struct server_setup setup = {
 		.exchange = &link->exchange, .program = program, .board = cycle->board,
 		.wait = wait_for_scan, .amend = amend_status, .context = link,
-		.store = &link->store, .log = &link->log,
+		.store = &link->store, .log = &link->log, .conf = &link->conf,
 	};
 
 	link->views = calloc(3, size);
@@ -570,7 +640,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		return false;
 	link->host = (struct exchange_host){
 		.context = link, .resource = host_resource, .identity = host_identity,
-		.mode = host_mode, .status = host_status, .swap = host_swap, .store = host_store,
+		.mode = host_mode, .status = host_status, .swap = host_swap,
 		.restart = host_restart,
 	};
 	link->store = (struct server_store){
@@ -579,6 +649,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		.abort = store_abort, .running = store_running,
 	};
 	exchange_init(&link->exchange, &link->host, link->views, size);
+	link->conf = (struct server_conf){ .get = conf_read, .change = conf_write };
 	link->log = (struct server_log){ .add = log_add, .next = log_next };
 	link->journal = journal_open(link->with.slots->folder);
 	link->server = server_new(&setup);

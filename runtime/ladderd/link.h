@@ -15,6 +15,7 @@ struct link;
 /* Where downloads go. */
 struct link_store {
 	struct slots *slots;
+	struct conf *conf;
 	const struct store_wish *retain;
 	struct program *program;       /* that runs; gets an index of its names */
 	struct arena *arena;           /* of the index                         */

@@ -3,6 +3,7 @@
  * link_none - a ladderd without the link, for small boards.
  */
 #include "ladderd/link.h"
+#include "ladderd/conf.h"
 #include "ladderd/download.h"
 
 #include <errno.h>
@@ -48,6 +49,11 @@ void link_close(struct link *link)
 void link_free(struct link *link)
 {
 	(void)link;
+}
+
+void conf_load(struct conf *conf, struct options *options)
+{
+	(void)conf, (void)options;
 }
 
 bool slots_load(struct slots *slots, const struct options *options, struct load *load,

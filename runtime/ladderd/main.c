@@ -8,6 +8,7 @@
 #include "engine/base/digest.h"
 #include "engine/base/version.h"
 #include "hal/drivers.h"
+#include "ladderd/conf.h"
 #include "ladderd/control.h"
 #include "ladderd/download.h"
 #include "ladderd/link.h"
@@ -29,7 +30,9 @@ struct daemon {
 	struct options options;
 	struct load load;
 	struct slots slots;
+	struct conf conf;
 	struct cycle cycle;
+	bool again;            /* a desk has ordered this start               */
 };
 
 static void print_diags(const struct diag_list *list)
@@ -97,10 +100,12 @@ static void make_real_time(int priority)
 {
 	struct sched_param wanted = { .sched_priority = priority };
 
-	if (syscall(SYS_sched_setscheduler, 0, SCHED_FIFO, &wanted) != 0)
+	const int policy = priority ? SCHED_FIFO : SCHED_OTHER;
+
+	if (syscall(SYS_sched_setscheduler, 0, policy, &wanted) != 0)
 		fprintf(stderr, "ladderd: no real-time priority: %s\n",
 			strerror(errno));
-	if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
+	if (priority && mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
 		fprintf(stderr, "ladderd: memory is not locked: %s\n",
 			strerror(errno));
 }
@@ -147,7 +152,7 @@ static bool open_link(struct daemon *daemon)
 {
 	struct cycle *cycle = &daemon->cycle;
 	const struct link_store store = {
-		.slots = &daemon->slots, .retain = &daemon->options.retain,
+		.slots = &daemon->slots, .conf = &daemon->conf, .retain = &daemon->options.retain,
 		.program = &daemon->load.source.program, .arena = &daemon->load.arena,
 		.map_text = daemon->load.map_text, .map_len = daemon->load.map_len,
 	};
@@ -175,7 +180,8 @@ static int run(struct daemon *daemon)
 	resource_init(&cycle->resource, program, memory);
 	code_identity(program, cycle->identity_bytes);
 	digest_hex(cycle->identity_bytes, sizeof(cycle->identity_bytes), cycle->identity);
-	cycle->board = load->map.board;
+	cycle_name(cycle, options->name, load->map.board);
+	cycle->late_limit = options->late;
 	limit_ns = cycle_plan(cycle, options->period_ns, options->watchdog);
 	cycle->most_scans = (uint64_t)options->scans;
 	cycle->requests = requests_listen();
@@ -209,7 +215,7 @@ static int run(struct daemon *daemon)
 	if (options->trace_io)
 		cycle->hal.trace = control_trace;
 	safe_on_crash(&cycle->hal, stack);
-	if (options->priority)
+	if (options->priority || daemon->again) /* the start before may have had one */
 		make_real_time((int)options->priority);
 	status = run_lines(daemon, limit_ns);
 	safe_on_crash(NULL, NULL);
@@ -240,13 +246,15 @@ static int load_and_run(struct daemon *daemon)
 	return fflush(stdout) == 0 ? 0 : 1;
 }
 
-/* Once, from reading the options to the last safe output. @again: a desk wants it to begin
- * with the newest slot. */
+/* Once, from reading the options to the last safe output. @again: this is
+ * not the first start; gets whether a desk wants another one. */
 static int run_once(int argc, char **argv, bool *again)
 {
 	struct daemon *daemon = calloc(1, sizeof(*daemon));
 	int status;
 
+	if (daemon)
+		daemon->again = *again;
 	*again = false;
 	if (!daemon) {
 		fprintf(stderr, "ladderd: out of memory\n");
@@ -263,6 +271,7 @@ static int run_once(int argc, char **argv, bool *again)
 				LADDER_VERSION, source_kinds(),
 				gpio_library(), gpio_version()) < 0;
 	} else {
+		conf_load(&daemon->conf, &daemon->options);
 		status = load_and_run(daemon);
 		load_free(&daemon->load);
 		slots_close(&daemon->slots);
@@ -274,7 +283,7 @@ static int run_once(int argc, char **argv, bool *again)
 
 int main(int argc, char **argv)
 {
-	bool again;
+	bool again = false;
 	int status;
 
 	do

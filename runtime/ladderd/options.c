@@ -20,11 +20,14 @@
 "  --link SOCKET    let desks watch and change it (docs/online.md)\n" \
 "  --slots FOLDER   store the programs that desks download; FILE and MAP are only\n" \
 "                   needed until the first one, and used again when they change\n" \
-"  --groups FILE    with --link: the groups, instead of /etc/group\n"
+"  --groups FILE    with --link: the groups, instead of /etc/group\n" \
+"  --late N         with --link: N late scans in a row are an event of the log;\n" \
+"                   1 to 1000, default 3\n"
 #define LINK_ROWS \
 	{ "--link",          TEXT,   AT(link),      0, 0 }, \
 	{ "--slots",         TEXT,   AT(slots),     0, 0 }, \
-	{ "--groups",        TEXT,   AT(groups),    0, 0 },
+	{ "--groups",        TEXT,   AT(groups),    0, 0 }, \
+	{ "--late",          NUMBER, AT(late),      1, 1000 },
 #endif
 
 const char *options_help(void)
@@ -39,7 +42,7 @@ const char *options_help(void)
 "                   the tasks of the program, or 10ms\n"
 "  --watchdog N     FAULT after N late scans in a row, or one scan of N periods;\n"
 "                   also for each task; 1 to 1000, default 10\n"
-"  --rt PRIO        real-time priority 1 to 49, and memory locked\n"
+"  --rt PRIO        real-time priority 1 to 49, and memory locked; 0: none\n"
 "  --retain FILE    keep VAR RETAIN in FILE when power fails (docs/boards.md)\n"
 "  --retain-period TIME  time between writes of FILE, 10ms to 1h; default 10s\n"
 "  --cold           start without the values in FILE\n"
@@ -70,7 +73,7 @@ static const struct option_row {
 	{ "--io",            TEXT,   AT(map),       0, 0 },
 	{ "--period",        TIME,   AT(period_ns), PERIOD_LEAST, PERIOD_MOST },
 	{ "--watchdog",      NUMBER, AT(watchdog),  1, 1000 },
-	{ "--rt",            NUMBER, AT(priority),  1, 49 },
+	{ "--rt",            NUMBER, AT(priority),  0, 49 },
 	{ "--retain",        TEXT,   AT(retain.path), 0, 0 },
 	{ "--retain-period", TIME,   AT(retain.period_ns), STORE_PERIOD_LEAST,
 	  STORE_PERIOD_MOST },
@@ -124,6 +127,14 @@ static bool set_option(struct options *options, const struct option_row *row,
 	return number >= row->least && number <= row->most;
 }
 
+bool options_set(struct options *options, const char *name, const char *value)
+{
+	for (size_t k = 0; k < sizeof(rows) / sizeof(rows[0]); k++)
+		if (strcmp(rows[k].name, name) == 0)
+			return set_option(options, &rows[k], value);
+	return false;
+}
+
 static bool wrong(struct options *options, const char *argument,
 		  const char *why)
 {
@@ -168,6 +179,7 @@ bool options_read(struct options *options, int argc, char **argv)
 	memset(options, 0, sizeof(*options));
 	options->retain.period_ns = INT64_C(10000000000);
 	options->watchdog = 10;
+	options->late = 3;
 	options->groups = "/etc/group";
 	for (int i = 1; i < argc; i++) {
 		if (!only_files && strcmp(argv[i], "--") == 0)

@@ -17,8 +17,10 @@ struct options {
 	const char *groups;    /* where names of groups come from             */
 	int64_t period_ns;     /* 0: not given                                */
 	int64_t watchdog;      /* periods                                     */
+	int64_t late;          /* late scans in a row that are an event       */
 	int64_t scans;         /* 0: no limit                                 */
 	int64_t priority;      /* 0: none                                     */
+	char name[64];         /* of the board; "": that of the map           */
 	struct store_wish retain; /* path NULL: no --retain                   */
 	bool check, trace_io, attended, help, version;
 	const char *wrong;     /* the wrong argument                          */
@@ -27,6 +29,9 @@ struct options {
 
 /** options_read - Scan-safe: no. Fails: false; sets `wrong` and `why`. */
 bool options_read(struct options *options, int argc, char **argv);
+/** options_set - sets the option @name, such as "--period", in the same way. Fails: false: out of
+ * range, or no such option. */
+bool options_set(struct options *options, const char *name, const char *value);
 /** options_help - the text of --help. */
 const char *options_help(void);
 #endif

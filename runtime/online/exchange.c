@@ -151,8 +151,8 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 	case ORDER_RESTART:
 		host->restart(host->context);
 		break;
-	case ORDER_STORE:
-		host->store(host->context, order->other);
+	case ORDER_ACT:
+		order->act(host->context, order->other);
 		break;
 	case ORDER_COUNT:
 		break;

@@ -56,7 +56,7 @@ enum order_kind {
 	ORDER_STATUS,
 	ORDER_SWAP,    /* another program runs from now on                    */
 	ORDER_RESTART, /* the daemon ends and begins with the newest slot      */
-	ORDER_STORE,   /* the daemon goes on to store retained values         */
+	ORDER_ACT,     /* the daemon does something between two scans         */
 	ORDER_COUNT
 };
 
@@ -76,7 +76,8 @@ struct order {
 	enum mode_wish mode;
 	struct board_status *status;   /* ORDER_STATUS                          */
 	struct image *forces;          /* ORDER_FORCES: gets only the forces    */
-	void *other;                   /* ORDER_SWAP, ORDER_STORE: the host's   */
+	void *other;                   /* ORDER_SWAP, ORDER_ACT: the host's     */
+	void (*act)(void *context, void *other); /* @context: of the host        */
 	/* The result. */
 	enum refusal refusal;
 	uint32_t wrong;                /* the item that was refused             */
@@ -94,7 +95,6 @@ struct exchange_host {
 	enum refusal (*mode)(void *context, enum mode_wish wish);
 	/** Exchanges the program. Watches end. */
 	enum refusal (*swap)(void *context, void *other);
-	void (*store)(void *context, void *other);
 	void (*restart)(void *context);
 	/** Fills in what only the scan thread knows. */
 	void (*status)(void *context, struct board_status *status);

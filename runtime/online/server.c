@@ -1030,6 +1030,74 @@ static enum refusal serve_upload(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
+static enum refusal put_settings(struct asked *asked)
+{
+	const struct server_setup *setup = &asked->server->setup;
+	struct setting setting;
+	uint16_t count = 0;
+	uint8_t *head;
+
+	begin_answer(asked, 0);
+	head = asked->out.at;
+	wire_put_u16(&asked->out, 0);
+	for (; setup->conf->get(setup->context, count, &setting); count++) {
+		wire_put_string(&asked->out, setting.key);
+		wire_put_string(&asked->out, setting.now);
+		wire_put_string(&asked->out, setting.next);
+		wire_put_u8(&asked->out, (uint8_t)(setting.stored | setting.restart << 1));
+		wire_put_string(&asked->out, setting.range);
+	}
+	head[0] = (uint8_t)count;
+	return REFUSAL_NONE;
+}
+
+static enum refusal change_setting(struct asked *asked)
+{
+	struct server *server = asked->server;
+	struct wire_reader *in = &asked->frame.body;
+	const struct expect expect = wire_expect(in);
+	const uint8_t how = wire_u8(in);
+	char key[32], value[SETTING_TEXT + 1], told[80];
+	struct setting changed;
+	enum refusal refusal;
+
+	wire_copy_text(in, key, sizeof(key));
+	wire_copy_text(in, value, sizeof(value));
+	if (!wire_done(in) || how > 1)
+		return REFUSAL_BAD_FRAME;
+	if (!can_order(server))
+		return REFUSAL_BUSY;
+	/* Nothing is written for a desk that is stale. */
+	server->order = (struct order){ .kind = ORDER_STATUS, .status = &server->status,
+					.expects = true, .expect = expect };
+	refusal = give(server);
+	if (refusal == REFUSAL_NONE)
+		refusal = server->setup.conf->change(server->setup.context, key, value, &changed,
+						     asked->detail, sizeof(asked->detail));
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	snprintf(told, sizeof(told), "%.15s=%.63s", key, value);
+	tell_log(asked, EVENT_CONFIG, told, changed.next);
+	if (how == 1)
+		refusal = restart(server, &expect);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	begin_answer(asked, 0);
+	wire_put_u8(&asked->out, changed.restart);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_config(struct asked *asked)
+{
+	const uint8_t what = wire_u8(&asked->frame.body);
+
+	if (!asked->server->setup.conf)
+		return REFUSAL_NO_SERVICE;
+	if (what == 0 && wire_done(&asked->frame.body))
+		return put_settings(asked);
+	return what == 1 ? change_setting(asked) : REFUSAL_BAD_FRAME;
+}
+
 /* As many as fit, from a number on. */
 static enum refusal serve_events(struct asked *asked)
 {
@@ -1099,6 +1167,8 @@ static enum refusal serve(struct asked *asked)
 		return serve_upload(asked);
 	case SERVICE_EVENTS:
 		return serve_events(asked);
+	case SERVICE_CONFIG:
+		return serve_config(asked);
 	}
 	return REFUSAL_NO_SERVICE;
 }
@@ -1107,7 +1177,7 @@ static bool is_change(const struct service_row *row)
 {
 	return row->number == SERVICE_WRITE || row->number == SERVICE_FORCE ||
 	       row->number == SERVICE_UNFORCE || row->number == SERVICE_MODE ||
-	       row->number == SERVICE_COMMIT;
+	       row->number == SERVICE_COMMIT || row->number == SERVICE_CONFIG;
 }
 
 /* Gives the answer of the same request again; it is not done again. */

@@ -35,6 +35,22 @@ struct server_log {
 	bool (*next)(void *context, uint32_t seq, struct event *out);
 };
 
+#define SETTING_TEXT 64        /* bytes of a value with its NUL                */
+struct setting {
+	const char *key, *range;
+	bool stored;           /* a desk has changed it                       */
+	bool restart;          /* a change is in force after the next start   */
+	char now[SETTING_TEXT], next[SETTING_TEXT];
+};
+/* Settings of the board; by the link thread. */
+struct server_conf {
+	bool (*get)(void *context, uint32_t number, struct setting *out);
+	/** Stores it, and puts it into force if that needs no restart. @changed: as it was.
+	 * @detail: parts of a diagnostic. */
+	enum refusal (*change)(void *context, const char *key, const char *value,
+			       struct setting *changed, char *detail, size_t size);
+};
+
 /* Where downloads go; all by the link thread. A detail is a part of a diagnostic. */
 struct server_store {
 	/** A download of so many bytes with this hash; @received: of one that was cut. */
@@ -57,6 +73,7 @@ struct server_setup {
 	const struct program *program;
 	const char *board;     /* name of the board; borrowed                 */
 	const struct server_log *log;
+	const struct server_conf *conf;
 	const struct server_store *store; /* NULL: downloads are refused       */
 	/** Waits until the order of the exchange is done, at most some seconds.
 	 * Returns whether it is. */

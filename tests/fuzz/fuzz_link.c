@@ -56,6 +56,11 @@ static enum refusal its_mode(void *context, enum mode_wish wish)
 	return REFUSAL_NONE;
 }
 
+static void its_restart(void *context)
+{
+	(void)context;
+}
+
 static void its_status(void *context, struct board_status *status)
 {
 	(void)context;
@@ -127,6 +132,22 @@ static const struct stored *runs_any(void *context)
 	return &stored;
 }
 
+static bool get_setting(void *context, uint32_t number, struct setting *out)
+{
+	(void)context;
+	*out = (struct setting){ .key = "period", .now = "10ms", .range = "any" };
+	return number < 2;
+}
+
+static enum refusal change_setting(void *context, const char *key, const char *value,
+				   struct setting *changed, char *detail, size_t size)
+{
+	(void)context, (void)detail, (void)size;
+	*changed = (struct setting){ .key = "period" };
+	fuzz_expect(strlen(key) < 32 && strlen(value) <= SETTING_TEXT, "a setting");
+	return *value ? REFUSAL_NONE : REFUSAL_RANGE;
+}
+
 static bool serve_now(void *context)
 {
 	struct rig *rig = context;
@@ -142,7 +163,8 @@ static void rig_open(struct rig *rig)
 		.begin = begin_any, .block = take_any, .verify = verify_none,
 		.store = store_none, .abort = abort_any, .running = runs_any,
 	};
-	struct server_setup setup = { .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,
+	static const struct server_conf conf = { get_setting, change_setting };
+	struct server_setup setup = { .conf = &conf, .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,
 				      .context = rig, .exchange = &rig->exchange };
 	size_t size;
 
@@ -160,7 +182,7 @@ static void rig_open(struct rig *rig)
 	resource_start(&rig->resource);
 	rig->host = (struct exchange_host){ .context = rig, .resource = its_resource,
 					    .identity = its_identity, .mode = its_mode,
-					    .status = its_status };
+					    .status = its_status, .restart = its_restart };
 	exchange_init(&rig->exchange, &rig->host, rig->views, size);
 	rig->server = server_new(&setup);
 	fuzz_expect(rig->server != NULL, "there is memory");
@@ -319,7 +341,7 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 		SERVICE_READ, SERVICE_PUBLISH, SERVICE_WRITE, SERVICE_FORCE, SERVICE_FORCES,
 		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_DOWNLOAD, SERVICE_BLOCK,
 		SERVICE_SUMS, SERVICE_PIECES, SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT,
-		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_MODE };
+		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_CONFIG, SERVICE_MODE };
 	const struct expect expect = { .mode = EXPECT_ANY };
 	uint8_t *seed = malloc(4096);
 	size_t at = 1;
@@ -380,6 +402,13 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 		case SERVICE_UPLOAD:
 		case SERVICE_EVENTS:
 			wire_put_u32(&out, 0);
+			break;
+		case SERVICE_CONFIG:
+			wire_put_u8(&out, 1);
+			wire_put_expect(&out, &expect);
+			wire_put_u8(&out, 0);
+			wire_put_string(&out, "period");
+			wire_put_string(&out, "5ms");
 			break;
 		case SERVICE_STATUS:
 		case SERVICE_FORCES:

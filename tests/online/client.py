@@ -5,7 +5,7 @@ import socket
 import struct
 
 (HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE,
- DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS) = range(1, 19)
+ DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG) = range(1, 20)
 SUMS, PIECES = 23, 24
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
@@ -279,6 +279,20 @@ class Client:
             data += it.rest()
             if len(data) == sum(sizes):
                 return [data[:sizes[0]], data[sizes[0]:sizes[0] + sizes[1]], data[sizes[0] + sizes[1]:]]
+
+    def config(self):
+        """{key: (now, after the next start, flags, range)}"""
+        it = self.call(CONFIG, b'\0')
+        found = {}
+        for _ in range(it.number('H')):
+            key = it.text()
+            found[key] = (it.text(), it.text(), it.number('B'), it.text())
+        assert not it.rest()
+        return found
+
+    def set(self, key, setting, restart=False, **expect):
+        """Whether it needs a restart."""
+        return self.call(CONFIG, b'\1' + self.expect(**expect) + bytes([restart]) + text(key) + text(setting)).number('B')
 
     def events(self, first=1):
         found = []

@@ -929,6 +929,168 @@ def test_hostile_texts_cannot_break_a_line():
         assert all(line.isprintable() and line.split()[0].isdigit() for line in lines), lines
 
 
+# ---- settings ----
+
+def test_settings_change_at_once_or_with_a_restart():
+    with slots('--watchdog', '900') as board:
+        desk = board.client()
+        before = desk.config()
+        assert list(before) == ['period', 'watchdog', 'late', 'rt', 'retain-period', 'name'], before
+        assert before['period'] == ('', '', 0, '100us to 1m') and before['watchdog'] == ('900', '900', 0, '1 to 1000')
+        assert before['rt'] == ('0', '0', 2, '0 to 49') and before['name'][0] == ''
+        assert desk.set('period', '20ms') == 0 and desk.status()['period'] == 20000000
+        scans = desk.status()['scans']
+        until(lambda: desk.status()['scans'] > scans + 3)
+        assert desk.set('name', 'north gate') == 0
+        assert desk.status()['board'] == 'north gate' and board.client().board == 'north gate'
+        assert desk.set('retain-period', '1m') == 1
+        now = desk.config()
+        assert now['retain-period'] == ('10s', '1m', 3, '10ms to 1h') and now['period'][:3] == ('20ms', '20ms', 1)
+        board.stop()
+        board.start()
+        desk = board.client()
+        assert desk.config()['retain-period'][:2] == ('1m', '1m') and desk.status()['period'] == 20000000
+        assert desk.board == 'north gate'
+        # Empty: the value of the command line, or of the map, again.
+        assert desk.set('name', '') == 0 and desk.status()['board'] == 'on a table'
+        assert desk.set('period', '') == 0 and desk.status()['period'] == 10000000
+        told = [it['args'] for it in desk.events() if it['id'] == 20]
+        assert told == [['period=20ms', ''], ['name=north gate', ''], ['retain-period=1m', '10s'],
+                        ['name=', 'north gate'], ['period=', '20ms']], told
+
+
+def test_settings_can_restart_the_board():
+    with slots() as board:
+        board.client().set('retain-period', '2s', restart=True)
+        until(lambda: reached(board, lambda it: it.config()['retain-period'][:2] == ('2s', '2s')))
+        assert board.daemon.poll() is None
+
+
+def test_settings_refuse_what_is_out_of_range():
+    with slots() as board:
+        desk = board.client()
+        for key, setting in [('period', '99us'), ('period', '61s'), ('period', 'x'), ('watchdog', '0'), ('rt', '50'),
+                             ('late', '1001'), ('name', 'a\nb'), ('name', 'x' * 64), ('retain-period', '1ms'),
+                             ('period', '1' * 64)]:
+            refused(31, lambda: desk.set(key, setting), key)  # pylint: disable=cell-var-from-loop
+        refused(31, lambda: desk.set('rt', '99'), '0 to 49')
+        refused(30, lambda: desk.set('speed', '1'), 'speed')
+        refused(6, lambda: desk.set('period', '1s', program=bytes(32)))
+        refused(1, lambda: desk.call(client.CONFIG, b'\2'))
+        refused(1, lambda: desk.call(client.CONFIG, b''))
+        assert all(not it[2] & 1 for it in desk.config().values()) and not os.path.exists(board.folder + '/conf')
+        os.mkdir(board.folder + '/conf')
+        refused(25, lambda: desk.set('period', '20ms'))
+        assert desk.status()['period'] == 10000000 and desk.config()['period'][0] == ''
+    with Board() as board:
+        refused(20, lambda: board.client().set('period', '20ms'))
+
+
+def test_damaged_settings_are_not_used():
+    with slots() as board:
+        board.client().set('period', '20ms')
+        board.client().set('late', '7')
+        with open(board.folder + '/conf', 'rb') as file:
+            whole = file.read()
+        damaged = [whole[:end] for end in range(len(whole))] + \
+                  [whole[:i] + bytes([whole[i] ^ 1 << i % 8]) + whole[i + 1:] for i in range(len(whole))]
+        board.stop()
+        draw = random.Random(2)
+        for text in [b'', b'junk', whole + b' '] + draw.sample(damaged, 12):
+            with open(board.folder + '/conf', 'wb') as file:
+                file.write(text)
+            board.start()
+            desk = board.client()
+            assert desk.status()['period'] == 10000000, text
+            assert desk.config()['late'][:3] == ('3', '3', 0)
+            assert desk.events()[-1]['id'] in (5, 21) and any(it['id'] == 21 for it in desk.events()[-3:])
+            assert 'conf is damaged' in board.read('err')
+            board.stop()
+
+
+def test_late_scans_are_an_event():
+    # A scan of some milliseconds, longer than the period.
+    busy = 'VAR\n  I : DINT;\nEND_VAR\nPROGRAM Main LD\nRUNG\n  | MOVE IN:=0 OUT=>I |\nRUNG Again\n' \
+           '  | ADD IN1:=I IN2:=1 OUT=>I |\nRUNG\n  | LT IN1:=I IN2:=30000 | JMP Again |\nEND_PROGRAM\n'
+    with Board('RUNGBOARD 1\n' + busy, '--period', '100us', '--watchdog', '1000', '--late', '5',
+               board='BOARD "b"\n') as board:
+        until(lambda: any(it['id'] == 22 for it in board.client().events()))
+        late = [it for it in board.client().events() if it['id'] == 22]
+        assert late[0]['args'][0] == '5' and not late[0]['user'] and len(late) == 1
+
+
+def test_command_config():
+    with slots() as board:
+        status, out, err = board.command('config')
+        assert status == 0 and not err and 'watchdog=10 (default)\n' in out and 'period= (default)\n' in out, out
+        assert board.command('config', 'period', '5ms') == (0, '', '')
+        assert board.command('config', 'period') == (0, 'period=5ms\n', '')
+        assert 'needs a restart' in board.command('config', 'retain-period', '3s')[1]
+        assert board.command('config', 'retain-period')[1] == 'retain-period=10s, after a restart 3s\n'
+        rows = json.loads(board.command('config', '--json')[1])
+        assert rows[0] == {'key': 'period', 'value': '5ms', 'next': '5ms', 'range': '100us to 1m', 'stored': True,
+                           'restart': False}
+        assert board.command('config', 'retain-period', '3s', '--restart') == (0, '', '')
+        until(lambda: reached(board, lambda it: it.config()['retain-period'][0] == '3s'))
+        for words, code, text in [(['speed'], 1, 'LD830: a board has no setting "speed"'),
+                                  (['speed', '1'], 1, 'LD830'), (['rt', '50'], 1, 'LD831: "rt" must be 0 to 49'),
+                                  (['a', 'b', 'c'], 2, 'KEY and VALUE')]:
+            status, out, err = board.command('config', *words)
+            assert status == code and text in err and not out, (words, status, out, err)
+
+
+def test_three_abnormal_ends_begin_in_stop():
+    with slots() as board:
+        def end_badly():
+            board.daemon.kill()
+            board.daemon.wait()
+            board.start()
+            return board.client().status()
+
+        assert end_badly()['mode'] == client.RUN and end_badly()['mode'] == client.RUN
+        # An orderly end between them does not count, and does not forget.
+        board.stop()
+        board.start()
+        assert board.client().status()['mode'] == client.RUN
+        status = end_badly()
+        assert status['mode'] == client.STOP and 'three times within a minute' in status['stop'], status
+        assert 'QX0.0 1' not in board.read('err')
+        desk = board.client()
+        assert [it['id'] for it in desk.events() if it['id'] == 23] == [23]
+        assert 'stop: ladderd has ended abnormally' in board.command('status')[1]
+        desk.set_mode(1)
+        assert desk.status()['mode'] == client.RUN and not desk.status()['stop']
+        # Long ago, or of another run of the machine: they do not count.
+        for age in (61, -5):
+            board.stop()
+            with open('/proc/uptime', encoding='ascii') as uptime:
+                at = int(float(uptime.read().split()[0])) - age
+            write_ends(board, [at, at])
+            board.start()
+            board.daemon.kill()
+            board.daemon.wait()
+            board.start()
+            assert board.client().status()['mode'] == client.RUN, age
+        with open(board.folder + '/ends', 'r+b') as file:
+            file.write(b'damage')
+        assert end_badly()['mode'] == client.RUN
+
+
+def write_ends(board, times):
+    data = b'RUNGENDS' + bytes([0]) + struct.pack('<3q', *times, *[-1] * (3 - len(times)))
+    with open(board.folder + '/ends', 'wb') as file:
+        file.write(data + struct.pack('<I', crc32c(data)))
+
+
+def crc32c(data):
+    crc = 0xffffffff
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (0x82f63b78 if crc & 1 else 0)
+    return crc ^ 0xffffffff
+
+
 # ---- ssh ----
 
 class Sshd:
@@ -1085,13 +1247,14 @@ def try_all(desk):
         'sums': number(lambda: desk.sums(64)), 'pieces': number(lambda: desk.pieces(2, b'')),
         'verify': number(desk.verify), 'commit': number(lambda: desk.commit(program=program)),
         'abort': number(lambda: desk.call(client.ABORT)), 'upload': number(desk.upload),
+        'config': number(desk.config), 'set': number(lambda: desk.set('period', '1s', program=program)),
     }
 
 
 def test_each_role_may_do_what_the_table_says():
     reading = 'status symbols read publish unpublish forces events'.split()
-    changing = 'write force unforce stop run cold'.split()
-    moving = 'download block sums pieces verify commit abort upload'.split()
+    changing = 'write force unforce stop run cold set'.split()
+    moving = 'download block sums pieces verify commit abort upload config'.split()
     nothing = dict.fromkeys(changing + moving, 5)
     expected = {
         None: {**dict.fromkeys(reading, 5), **nothing, 'reset': 5},

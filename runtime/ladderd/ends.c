@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * ends - a record of fixed size: whether ladderd runs, when it was found to have ended
+ * abnormally, CRC-32C. A damaged record counts as none.
+ */
+#define _GNU_SOURCE /* CLOCK_BOOTTIME */
+#include "ladderd/ends.h"
+
+#include "engine/base/digest.h"
+#include "online/wire.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#define MAGIC  "RUNGENDS"
+#define RECORD (8 + 1 + 8 * ENDS_MOST + 4)
+
+struct ends {
+	bool runs;
+	int64_t time_s[ENDS_MOST]; /* the newest first; -1: none              */
+};
+
+static int open_file(const char *folder)
+{
+	char path[512];
+
+	if (snprintf(path, sizeof(path), "%s/ends", folder) >= (int)sizeof(path))
+		return -1;
+	return open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0640);
+}
+
+static void load(int fd, struct ends *ends)
+{
+	uint8_t bytes[RECORD] = { 0 };
+	struct wire_reader in = wire_read(bytes, RECORD - 4);
+	struct wire_reader sum = wire_read(bytes + RECORD - 4, 4);
+
+	*ends = (struct ends){ .runs = false };
+	for (int i = 0; i < ENDS_MOST; i++)
+		ends->time_s[i] = -1;
+	if (pread(fd, bytes, RECORD, 0) != RECORD ||
+	    memcmp(wire_bytes(&in, 8), MAGIC, 8) != 0 ||
+	    wire_u32(&sum) != digest_crc32c(0, bytes, RECORD - 4))
+		return;
+	ends->runs = wire_u8(&in);
+	for (int i = 0; i < ENDS_MOST; i++)
+		ends->time_s[i] = wire_i64(&in);
+}
+
+static void save(int fd, const struct ends *ends)
+{
+	uint8_t bytes[RECORD];
+	struct wire_writer out = wire_write(bytes, RECORD);
+
+	wire_put_bytes(&out, MAGIC, 8);
+	wire_put_u8(&out, ends->runs);
+	for (int i = 0; i < ENDS_MOST; i++)
+		wire_put_i64(&out, ends->time_s[i]);
+	wire_put_u32(&out, digest_crc32c(0, bytes, RECORD - 4));
+	if (pwrite(fd, bytes, RECORD, 0) != RECORD || fdatasync(fd) != 0)
+		fprintf(stderr, "ladderd: abnormal ends are not counted: %s\n", strerror(errno));
+}
+
+static int64_t seconds_up(void)
+{
+	struct timespec now;
+
+	return clock_gettime(CLOCK_BOOTTIME, &now) == 0 ? now.tv_sec : 0;
+}
+
+/* Times after now are those of a machine that has begun anew since. */
+static bool are_many(const struct ends *ends, int64_t now_s)
+{
+	for (int i = 0; i < ENDS_MOST; i++)
+		if (ends->time_s[i] < 0 || ends->time_s[i] > now_s ||
+		    now_s - ends->time_s[i] > ENDS_WITHIN_S)
+			return false;
+	return true;
+}
+
+bool ends_begin(const char *folder)
+{
+	const int fd = folder ? open_file(folder) : -1;
+	const int64_t now_s = seconds_up();
+	struct ends ends;
+	bool many = false;
+
+	if (fd < 0)
+		return false;
+	load(fd, &ends);
+	if (ends.runs) {
+		memmove(ends.time_s + 1, ends.time_s, sizeof(ends.time_s) - sizeof(ends.time_s[0]));
+		ends.time_s[0] = now_s;
+		many = are_many(&ends, now_s);
+	}
+	ends.runs = true;
+	save(fd, &ends);
+	close(fd);
+	return many;
+}
+
+void ends_orderly(const char *folder)
+{
+	const int fd = folder ? open_file(folder) : -1;
+	struct ends ends;
+
+	if (fd < 0)
+		return;
+	load(fd, &ends);
+	ends.runs = false;
+	save(fd, &ends);
+	close(fd);
+}
