@@ -334,6 +334,74 @@ static void add_pieces(struct wire_writer *out)
 	wire_put_u8(out, 0);
 }
 
+static void put_fields(struct wire_writer *out, enum service service)
+{
+	const struct expect expect = { .mode = EXPECT_ANY };
+
+	switch (service) {
+	case SERVICE_HELLO:
+		wire_put_u32(out, ONLINE_MAGIC);
+		wire_put_u16(out, 1);
+		wire_put_u16(out, 1);
+		wire_put_string(out, "fuzz");
+		break;
+	case SERVICE_SYMBOLS:
+		wire_put_u32(out, 0);
+		break;
+	case SERVICE_READ:
+	case SERVICE_UNFORCE:
+	case SERVICE_PUBLISH:
+		add_names(out, (uint8_t)service, &expect);
+		break;
+	case SERVICE_WRITE:
+	case SERVICE_FORCE:
+		wire_put_expect(out, &expect);
+		wire_put_u16(out, 1);
+		add_name(out, "A");
+		wire_put_u8(out, IEC_DINT);
+		wire_put_value(out, IEC_DINT, (union iec_value){ .i = 5 });
+		break;
+	case SERVICE_UNPUBLISH:
+		wire_put_u16(out, 5);
+		break;
+	case SERVICE_MODE:
+		wire_put_expect(out, &expect);
+		wire_put_u8(out, MODE_STOP);
+		break;
+	case SERVICE_DOWNLOAD:
+		add_download(out);
+		break;
+	case SERVICE_COMMIT:
+		wire_put_expect(out, &expect);
+		wire_put_u8(out, 0);
+		break;
+	case SERVICE_SUMS:
+		wire_put_u32(out, 0);
+		wire_put_u16(out, SUMS_LEAST);
+		break;
+	case SERVICE_PIECES:
+		add_pieces(out);
+		break;
+	case SERVICE_BLOCK:
+	case SERVICE_UPLOAD:
+	case SERVICE_EVENTS:
+		wire_put_u32(out, 0);
+		break;
+	case SERVICE_CONFIG:
+		wire_put_u8(out, 1);
+		wire_put_expect(out, &expect);
+		wire_put_u8(out, 0);
+		wire_put_string(out, "period");
+		wire_put_string(out, "5ms");
+		break;
+	case SERVICE_STATUS:
+	case SERVICE_FORCES:
+	case SERVICE_VERIFY:
+	case SERVICE_ABORT:
+		break;
+	}
+}
+
 /* A session that asks for everything once. */
 uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 {
@@ -342,7 +410,6 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_DOWNLOAD, SERVICE_BLOCK,
 		SERVICE_SUMS, SERVICE_PIECES, SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT,
 		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_CONFIG, SERVICE_MODE };
-	const struct expect expect = { .mode = EXPECT_ANY };
 	uint8_t *seed = malloc(4096);
 	size_t at = 1;
 
@@ -354,68 +421,7 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 		struct wire_writer out = wire_write(seed + at, 4096 - at);
 
 		frame_begin(&out, services[i], 0, (uint16_t)(i + 1));
-		switch ((enum service)services[i]) {
-		case SERVICE_HELLO:
-			wire_put_u32(&out, ONLINE_MAGIC);
-			wire_put_u16(&out, 1);
-			wire_put_u16(&out, 1);
-			wire_put_string(&out, "fuzz");
-			break;
-		case SERVICE_SYMBOLS:
-			wire_put_u32(&out, 0);
-			break;
-		case SERVICE_READ:
-		case SERVICE_UNFORCE:
-		case SERVICE_PUBLISH:
-			add_names(&out, services[i], &expect);
-			break;
-		case SERVICE_WRITE:
-		case SERVICE_FORCE:
-			wire_put_expect(&out, &expect);
-			wire_put_u16(&out, 1);
-			add_name(&out, "A");
-			wire_put_u8(&out, IEC_DINT);
-			wire_put_value(&out, IEC_DINT, (union iec_value){ .i = 5 });
-			break;
-		case SERVICE_UNPUBLISH:
-			wire_put_u16(&out, 5);
-			break;
-		case SERVICE_MODE:
-			wire_put_expect(&out, &expect);
-			wire_put_u8(&out, MODE_STOP);
-			break;
-		case SERVICE_DOWNLOAD:
-			add_download(&out);
-			break;
-		case SERVICE_COMMIT:
-			wire_put_expect(&out, &expect);
-			wire_put_u8(&out, 0);
-			break;
-		case SERVICE_SUMS:
-			wire_put_u32(&out, 0);
-			wire_put_u16(&out, SUMS_LEAST);
-			break;
-		case SERVICE_PIECES:
-			add_pieces(&out);
-			break;
-		case SERVICE_BLOCK:
-		case SERVICE_UPLOAD:
-		case SERVICE_EVENTS:
-			wire_put_u32(&out, 0);
-			break;
-		case SERVICE_CONFIG:
-			wire_put_u8(&out, 1);
-			wire_put_expect(&out, &expect);
-			wire_put_u8(&out, 0);
-			wire_put_string(&out, "period");
-			wire_put_string(&out, "5ms");
-			break;
-		case SERVICE_STATUS:
-		case SERVICE_FORCES:
-		case SERVICE_VERIFY:
-		case SERVICE_ABORT:
-			break;
-		}
+		put_fields(&out, (enum service)services[i]);
 		at += frame_end(&out);
 	}
 	*out_len = at;
