@@ -42,7 +42,7 @@ const char *options_help(void)
 "                   the tasks of the program, or 10ms\n"
 "  --watchdog N     FAULT after N late scans in a row, or one scan of N periods;\n"
 "                   also for each task; 1 to 1000, default 10\n"
-"  --rt PRIO        real-time priority 1 to 49, and memory locked; 0: none\n"
+"  --rt PRIO        real-time priority 0 to 49, and memory locked; 0: none\n"
 "  --retain FILE    keep VAR RETAIN in FILE when power fails (docs/boards.md)\n"
 "  --retain-period TIME  time between writes of FILE, 10ms to 1h; default 10s\n"
 "  --cold           start without the values in FILE\n"
