@@ -4,7 +4,8 @@
 # push.t - tests `ladder push` with a folder as the board: a real sshd on loopback with its
 # own keys (without sshd, a stand-in that runs the remote command here), a real ladderd on
 # simulated pins under ladderd-run, and connections that are cut at each call. A push that
-# the board refuses or that is incomplete must not change the running program.
+# the board refuses or that is incomplete must not change the running program. With --folder
+# it copies files; the last part is about pushes through the link.
 use strict;
 use warnings;
 use Cwd qw(abs_path);
@@ -281,7 +282,7 @@ is(folders(), 2, 'what the cuts left behind goes with the next push');
 # ---- the script itself, and systemd as it calls it ----
 my $script = "$dir/script";
 put('keeping-ssh', "#!/bin/sh\nfor last; do :; done\n[ \"\$last\" != 'sh -s' ] || cat >$script\n[ \"\$last\" = 'sh -s' ] || cat >/dev/null\n", 0755);
-is_push(0, 'a board that says yes to everything', "$dir/keeping-ssh", 'one.rung', 'desk.io', $board);
+is_push(0, 'a board that says yes to everything', "$dir/keeping-ssh", '--folder', '/etc/ladder', 'one.rung', 'desk.io', $board);
 like(get($script), qr{^\{\nset -- /etc/ladder push-[0-9a-f]{16} \d+ \d+\n}, 'it works in /etc/ladder');
 SKIP: {
 	skip 'no shellcheck: apt-get install shellcheck', 1 unless grep { -x "$_/shellcheck" } split /:/, $ENV{PATH};
@@ -311,4 +312,99 @@ is(get("$plain/active"), $before, 'systemd cannot start it: the old files stand 
 mkdir "$dir/board/fresh";
 is_push(1, 'nothing ran before', "$dir/local-ssh", '--folder', "$dir/board/fresh", 'two.rung', 'desk.io', $board);
 ok(!-e "$dir/board/fresh/active", 'nothing ran before: nothing is named afterwards');
+
+# ---- through the link ----
+# From here on ladderd on the board has a link, and ladder-attach finds it.
+sub until_it { my ($check) = @_; for (1 .. 600) { return 1 if $check->(); sleep 0.05 } return 0 }
+sub running { # identity of the program that runs, asked as on the board itself
+	my ($sha) = `cd $dir/board && $ladder board unix:link status 2>&1` =~ /^program: (\w+)/m;
+	return $sha // '';
+}
+my $attach = "$build/tests/online/ladder-attach";
+my $group = (split ' ', $))[0];
+put("$dir/board/group", "ladder-eng:x:$group:\n");
+mkdir "$dir/board/slots";
+my $link = "--period 10ms --link $dir/board/link --groups $dir/board/group";
+put("$dir/board/default", "LADDERD_OPTIONS=\"$link --slots $dir/board/slots\"\n");
+is_push(0, 'files for a ladderd with a link', $ssh, @to, 'one.rung', 'desk.io', $board);
+my $one = identity('one.rung');
+my $two = identity('two.rung');
+ok(until_it(sub { running() eq $one }), 'the layout of /etc/ladder/active runs with a link, too');
+
+put("$bin/ladder-attach", "#!/bin/sh\ncd $dir/board && exec $attach\n", 0755);
+$pid = pid();
+($out, $err) = is_push(0, 'a push through the link', $ssh, 'two.rung', 'desk.io', $board);
+is($err, '', 'it says nothing more');
+like($out, qr/^mode: RUN\n.*^program: $two$/ms, 'it shows the status of this very program');
+is(pid(), $pid, 'the same ladderd runs on');
+is(running(), $two, 'and has the new program');
+is_deeply([sort map { s{.*/}{}r } glob "$dir/board/slots/*"], [qw(events prog.A)], 'it is in a slot');
+kill 'TERM', $pid;
+ok(until_it(sub { pid() && pid() != $pid && running() ne '' }), 'ladderd starts again');
+is(running(), $two, 'with the program of the slot: the files of /etc/ladder/active were taken over once');
+
+put('three.rung', program('Three', 'NO') =~ s/(Lamp  AT.*\n)/$1  Pieces : INT;\n/r);
+is_push(0, 'a program with a counter', $ssh, 'three.rung', 'desk.io', $board);
+is(system("cd $dir/board && $ladder board unix:link force Start=1"), 0, 'an input is forced');
+($out, $err) = is_push(0, 'a program without it', $ssh, 'one.rung', 'desk.io', $board);
+like($out, qr/^Pieces is not in the new program; its value is lost$/m, 'what is lost is listed, without a question');
+like($out, qr/^forces: 1$/m, 'the force goes on');
+$pid = pid();
+put('plain.io', "BOARD \"plain\"\n%IX0.0 sim\n%QX0.0 sim\n");
+($out, $err) = is_push(0, 'another map', $ssh, 'one.rung', 'plain.io', $board);
+like($out, qr/^the I\/O map is another one; the board begins again\n.*^board: plain$/ms, 'the board begins again with it');
+is(pid(), $pid, 'in the same process');
+$before = running();
+($out, $err) = is_push(1, 'lines that are not there', $ssh, 'two.rung', 'other.io', $board);
+like($err, qr/^\Q$board\E: error LD014: .*the previous program runs again$/m, 'it went back, and says so');
+is(running(), $before, 'the previous program runs again');
+($out, $err) = is_push(1, 'an error in the program', $ssh, 'bad.rung', 'desk.io', $board);
+is(running(), $before, 'an error at the desk changes nothing');
+
+# ---- without the link: the files are copied, and one line says why ----
+sub falls_back {
+	my ($what, $why, $program, $reach) = @_;
+	($out, $err) = is_push(0, $what, $reach // $ssh, $program, 'desk.io', $board);
+	like($err, qr/^\Q$board\E: warning LD022: $why; the program is copied with ssh and started anew$/m, "$what: says why");
+	is(() = $err =~ /^\Q$board\E: /mg, 1, "$what: in one line");
+	return $out;
+}
+put('home-ssh', <<"END", 0755);
+#!/bin/sh
+# A board whose /etc/ladder is $etc, and whose ladder-attach is the command HOW.
+for last; do :; done
+PATH=$bin:\$PATH
+export PATH
+case \$last in
+ladder-attach) exec \$HOW ;;
+sh\\ -s) sed 's|/etc/ladder|$etc|' | exec sh -s ;;
+*) exec sh -c "\$(printf %s "\$last" | sed 's|/etc/ladder|$etc|g')" ;;
+esac
+END
+put('not-there', "#!/bin/sh\nexit 127\n", 0755);
+put('no-daemon', "#!/bin/sh\nexit 1\n", 0755);
+put('chatter', "#!/bin/sh\necho welcome to this board; cat >/dev/null\n", 0755);
+put('from-tomorrow', "#!/bin/sh\nhead -c 30 >/dev/null; printf '\\012\\000\\000\\000\\001\\003\\001\\000\\004\\000\\002\\0002.'; cat >/dev/null\n", 0755);
+$ENV{HOW} = "$dir/not-there";
+$out = falls_back('no ladder-attach', 'the board has no ladder-attach', 'two.rung', "$dir/home-ssh");
+like($out, qr/^state: RUN\n.*^program: $two$/ms, 'no ladder-attach: the program runs all the same');
+ok(until_it(sub { running() eq $two }), 'no ladder-attach: newer files are used instead of the slot');
+$ENV{HOW} = "$dir/no-daemon";
+falls_back('no socket', 'ladderd on the board has no link', 'one.rung', "$dir/home-ssh");
+$ENV{HOW} = "$dir/chatter";
+falls_back('a shell that prints', 'the link of the board does not answer', 'two.rung', "$dir/home-ssh");
+$ENV{HOW} = "$dir/from-tomorrow";
+falls_back('another version', 'the link of the board has another version', 'one.rung', "$dir/home-ssh");
+$ENV{HOW} = "$bin/ladder-attach";
+put("$dir/board/default", "LADDERD_OPTIONS=\"$link\"\n");
+is_push(0, 'a ladderd without slots', $ssh, @to, 'one.rung', 'desk.io', $board);
+ok(until_it(sub { running() eq $one }), 'it runs');
+falls_back('no slots', 'ladderd on the board has no --slots', 'two.rung', "$dir/home-ssh");
+put("$dir/board/default", "LADDERD_OPTIONS=\"$link --slots $dir/board/slots\"\n");
+put("$dir/board/group", "ladder-view:x:$group:\n");
+is_push(0, 'a board where we may look', $ssh, @to, 'one.rung', 'desk.io', $board);
+SKIP: {
+	skip 'ladderd runs as this user, who may do all', 4 if $> != 0;
+	falls_back('no right', 'you are not in the group ladder-eng there', 'two.rung', "$dir/home-ssh");
+}
 done_testing();

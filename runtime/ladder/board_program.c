@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * board_program - download and upload of `ladder board`: a program, its I/O map and its
- * sources go to a board and come back.
+ * board_program - download and upload of `ladder board`, the first one also of `ladder push`:
+ * a program, its I/O map and its sources go to a board and come back.
  */
 #define _XOPEN_SOURCE 700 /* mkdir() */
 #include "ladder/remote.h"
@@ -20,13 +20,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* Bytes that grow. */
-struct bytes {
-	uint8_t *at;
-	size_t len, room;
-	bool failed;
-};
 
 static void add(struct bytes *bytes, const void *more, size_t len)
 {
@@ -97,6 +90,7 @@ static bool add_sources(struct bytes *bytes, struct ladder *ladder, const char *
 	return good;
 }
 
+/* @program: NULL if it has errors; then only the map itself is checked. */
 static enum status read_map(const char *path, const struct program *program, char **text,
 			    size_t *len)
 {
@@ -111,40 +105,60 @@ static enum status read_map(const char *path, const struct program *program, cha
 	*text = report_read(path, len);
 	if (*text)
 		good = iomap_read(&map, &arena, path, *text, *len, diags) &&
-		       iomap_check_program(&map, program, &arena, diags);
+		       (!program || iomap_check_program(&map, program, &arena, diags));
 	report_end(diags);
 	arena_free(&arena);
 	return good ? STATUS_GOOD : *text ? STATUS_NO : STATUS_WRONG;
 }
 
 /* Image, map and sources, one after another. */
-static enum status gather(struct remote *remote, struct machine *machine, struct stored *stored,
-			  struct bytes *bytes)
+static enum status gather(struct parcel *parcel, const char *path, const char *map)
 {
-	const struct call *call = remote->call;
-	enum status status = machine_open(machine, call->arg[2], MACHINE_AS_FILE | MACHINE_WATCHED);
-	size_t image_len = 0, map_len = 0;
-	const void *image;
+	struct bytes *bytes = &parcel->bytes;
+	size_t image_len;
+	const void *image = ladder_image(parcel->machine.ladder, &image_len);
+	enum status status = STATUS_GOOD;
+
+	add(bytes, image, image_len);
+	add(bytes, map, parcel->map_len);
+	if (!add_sources(bytes, parcel->machine.ladder, path))
+		status = STATUS_WRONG;
+	if (bytes->failed)
+		return report_no_memory(path);
+	parcel->stored.len[STORED_IMAGE] = (uint32_t)image_len;
+	parcel->stored.len[STORED_MAP] = (uint32_t)parcel->map_len;
+	parcel->stored.len[STORED_SOURCES] = (uint32_t)(bytes->len - image_len - parcel->map_len);
+	parcel->stored.bytes = bytes->at;
+	return status;
+}
+
+enum status parcel_open(struct parcel *parcel, const struct call *call, const char *path,
+			const char *map_path)
+{
+	enum status status, map_status;
 	char *map = NULL;
 
-	if (status != STATUS_GOOD)
-		return status;
-	status = read_map(call->arg[3], ladder_program(machine->ladder), &map, &map_len);
-	if (status == STATUS_GOOD) {
-		image = ladder_image(machine->ladder, &image_len);
-		add(bytes, image, image_len);
-		add(bytes, map, map_len);
-		if (!add_sources(bytes, machine->ladder, call->arg[2]))
-			status = STATUS_WRONG;
-	}
+	memset(parcel, 0, sizeof(*parcel));
+	/* Both are read, so that one call reports all errors. */
+	status = machine_open(&parcel->machine, path, MACHINE_AS_FILE | MACHINE_WATCHED);
+	map_status = read_map(map_path, status == STATUS_GOOD ?
+			      ladder_program(parcel->machine.ladder) : NULL, &map,
+			      &parcel->map_len);
+	if (status < map_status)
+		status = map_status;
+	if (status == STATUS_GOOD)
+		status = gather(parcel, path, map);
 	free(map);
-	if (bytes->failed)
-		return report_no_memory(call->arg[2]);
-	stored->len[STORED_IMAGE] = (uint32_t)image_len;
-	stored->len[STORED_MAP] = (uint32_t)map_len;
-	stored->len[STORED_SOURCES] = (uint32_t)(bytes->len - image_len - map_len);
-	stored->bytes = bytes->at;
+	if (status == STATUS_GOOD && !stored_size(&parcel->stored))
+		status = report_usage(call, "the program is larger than %u MiB",
+				      STORED_MOST >> 20);
 	return status;
+}
+
+void parcel_close(struct parcel *parcel)
+{
+	machine_close(&parcel->machine);
+	free(parcel->bytes.at);
 }
 
 /* ---- download ---- */
@@ -158,6 +172,10 @@ static enum status send_all(struct remote *remote, const struct stored *stored, 
 	if (end == DESK_GOOD)
 		sink_printf(&remote->call->out, "sent %u of %u bytes\n", (unsigned)sent->bytes,
 			    (unsigned)stored_size(stored));
+	if (end == DESK_REFUSED && remote->put.or_else && remote->desk.refusal == REFUSAL_NO_STORE) {
+		remote->put.no_store = true;
+		return STATUS_NO;
+	}
 	return end == DESK_GOOD ? STATUS_GOOD : remote_fail(remote, end);
 }
 
@@ -183,6 +201,7 @@ static bool is_loss(uint8_t reason)
 
 struct verified {
 	bool same_map;
+	uint8_t program[32];
 	uint32_t losses;
 };
 
@@ -193,6 +212,7 @@ static enum status verify(struct remote *remote, const struct stored *stored,
 	struct wire_writer out;
 	struct wire_reader in;
 	enum desk_end end;
+	const uint8_t *program;
 	uint32_t count, told;
 	struct sent sent;
 	enum status status = send_all(remote, stored, false, &sent);
@@ -213,7 +233,9 @@ static enum status verify(struct remote *remote, const struct stored *stored,
 	if (end != DESK_GOOD)
 		return remote_fail(remote, end);
 	verified->same_map = wire_u8(&in);
-	wire_bytes(&in, 32);
+	program = wire_bytes(&in, sizeof(verified->program));
+	if (program)
+		memcpy(verified->program, program, sizeof(verified->program));
 	count = wire_u32(&in);
 	told = wire_u32(&in);
 	verified->losses = count > told ? count - told : 0;
@@ -259,9 +281,9 @@ static enum status commit(struct remote *remote, bool restart)
 	return end == DESK_GOOD ? STATUS_GOOD : remote_fail(remote, end);
 }
 
-static enum status move(struct remote *remote, const struct stored *stored)
+enum status remote_put(struct remote *remote, const struct parcel *parcel)
 {
-	const bool restart = call_flag(remote->call, "--restart");
+	struct put *put = &remote->put;
 	struct board_status *now = calloc(1, sizeof(*now));
 	struct verified verified = { .losses = 0 };
 	enum status status = now ? remote_status(remote, now) : report_no_memory(remote->where);
@@ -269,31 +291,32 @@ static enum status move(struct remote *remote, const struct stored *stored)
 	free(now);
 	remote->expect.mode = EXPECT_ANY;
 	if (status == STATUS_GOOD)
-		status = verify(remote, stored, &verified);
+		status = verify(remote, &parcel->stored, &verified);
 	if (status != STATUS_GOOD)
 		return status;
-	if (!restart && verified.losses && !is_wanted(remote))
+	memcpy(put->program, verified.program, sizeof(put->program));
+	if (put->or_restart && !verified.same_map) {
+		put->restart = true;
+		sink_text(&remote->call->out, "the I/O map is another one; the board begins again\n");
+	}
+	if (put->ask && !put->restart && verified.losses && !is_wanted(remote))
 		return STATUS_NO;
-	return commit(remote, restart);
+	return commit(remote, put->restart);
 }
 
 enum status remote_download(struct remote *remote)
 {
-	struct machine machine = { 0 };
-	struct stored stored = { .bytes = NULL };
-	struct bytes bytes = { .at = NULL };
+	const struct call *call = remote->call;
+	struct parcel parcel;
 	enum status status;
 
-	if (remote->call->arg_count != 4)
-		return report_usage(remote->call, "download needs FILE and MAP");
-	status = gather(remote, &machine, &stored, &bytes);
-	if (status == STATUS_GOOD && !stored_size(&stored))
-		status = report_usage(remote->call, "the program is larger than %u MiB",
-				      STORED_MOST >> 20);
+	if (call->arg_count != 4)
+		return report_usage(call, "download needs FILE and MAP");
+	remote->put = (struct put){ .ask = true, .restart = call_flag(call, "--restart") };
+	status = parcel_open(&parcel, call, call->arg[2], call->arg[3]);
 	if (status == STATUS_GOOD)
-		status = move(remote, &stored);
-	machine_close(&machine);
-	free(bytes.at);
+		status = remote_put(remote, &parcel);
+	parcel_close(&parcel);
 	return status;
 }
 

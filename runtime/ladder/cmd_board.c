@@ -160,9 +160,9 @@ static void print_us(const struct sink *out, const char *word, int64_t ns)
 		    (long long)(ns % 1000 / 100));
 }
 
-static void print_status(const struct sink *out, const struct board_status *status,
-			 const struct desk *desk)
+void remote_print_status(const struct remote *remote, const struct board_status *status)
 {
+	const struct sink *out = &remote->call->out;
 	char program[65];
 
 	digest_hex(status->program, sizeof(status->program), program);
@@ -211,7 +211,7 @@ static void print_status(const struct sink *out, const struct board_status *stat
 	sink_text(out, "\nladderd: ");
 	sink_text(out, status->version);
 	sink_text(out, "\nyou may: ");
-	sink_text(out, role_word(desk->role));
+	sink_text(out, role_word(remote->desk.role));
 	sink_text(out, "\n");
 }
 
@@ -267,7 +267,7 @@ static enum status act_status(struct remote *remote)
 	if (result == STATUS_GOOD && remote->json)
 		json_status(&remote->call->out, status, &remote->desk);
 	else if (result == STATUS_GOOD)
-		print_status(&remote->call->out, status, &remote->desk);
+		remote_print_status(remote, status);
 	free(status);
 	return result;
 }

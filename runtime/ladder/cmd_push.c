@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_push - `ladder push`: checks a program and a map here, sends both to a board through
- * ssh, checks them there with ladderd, and switches to them.
+ * cmd_push - `ladder push`: checks a program and a map here and puts both on a board.
  *
- * It calls ssh three times: for the image, for the map, and for a script that does the
- * rest. A board needs `sh` and ladderd, but no scp. ssh asks for passwords and host keys on
- * the terminal itself. No shell runs on this side, and no file name of the user reaches the
- * shell of the board.
+ * It downloads them through the link of the board, without a stop if the map is the same. A
+ * board without the link needs only `sh` and ladderd: three calls of ssh bring the image, the
+ * map and a script, which has ladderd check both and restarts it. ssh asks for passwords and
+ * host keys on the terminal itself. No shell runs on this side, and no file name of the user
+ * reaches the shell of the board.
  */
-#include "ladder/report.h"
+#include "ladder/remote.h"
 
 #include "engine/base/digest.h"
-#include "hal/iomap.h"
-#include "online/stream.h"
+#include "engine/base/version.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -27,7 +26,8 @@
 
 #define FOLDER      "/etc/ladder"
 #define FOLDER_MOST 200
-#define PUSH_WORDS  32
+#define STARTS_MOST 20  /* times that a board that starts again is asked      */
+#define STARTS_MS   500 /* between them                                       */
 
 extern char **environ;
 
@@ -44,13 +44,6 @@ enum push_end {
 	PUSH_NO_SSH = 255,     /* ssh itself: no connection, or it was cut   */
 };
 
-/* The words of `ssh [OPTION]... USER@BOARD COMMAND`. */
-struct push_words {
-	char *text;            /* what the words point into                  */
-	const char *word[PUSH_WORDS + 3];
-	int count;
-};
-
 /* Arguments of the script. They are checked or made here, so none needs quotes. */
 struct push_names {
 	const char *folder;    /* on the board: letters, digits, ._-/        */
@@ -61,45 +54,16 @@ struct push_names {
 struct push {
 	const struct call *call;
 	const char *board;
-	struct push_words words;
+	struct stream_words words; /* of `ssh [OPTION]... USER@BOARD`         */
 	struct push_names names;
 	const void *image;
 	size_t image_bytes;
-	char *map;
+	const void *map;
 };
 
 /* ---- ssh ---- */
 
-/* Splits @command at its blanks and adds @board. Owns: free(words->text).
- * Fails: false; there are no words or too many. */
-static bool split_words(struct push_words *words, const char *command, const char *board)
-{
-	size_t len = strlen(command) + 1;
-	char *at;
-
-	memset(words, 0, sizeof(*words));
-	words->text = malloc(len);
-	if (!words->text)
-		return false;
-	memcpy(words->text, command, len);
-	for (at = words->text; *at;) {
-		char *end = at + strcspn(at, " \t\n");
-		bool last = !*end;
-
-		*end = '\0';
-		if (end > at && words->count == PUSH_WORDS)
-			return false;
-		if (end > at)
-			words->word[words->count++] = at;
-		at = last ? end : end + 1;
-	}
-	if (!words->count)
-		return false;
-	words->word[words->count++] = board;
-	return true;
-}
-
-static int start_ssh(const struct push_words *words, int input, int other_end,
+static int start_ssh(const struct stream_words *words, int input, int other_end,
 		 pid_t *pid)
 {
 	posix_spawn_file_actions_t actions;
@@ -118,7 +82,7 @@ static int start_ssh(const struct push_words *words, int input, int other_end,
 	posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
 	posix_spawn_file_actions_addclose(&actions, input);
 	error = posix_spawnp(pid, words->word[0], &actions, &attributes,
-			     (char *const *)words->word, environ);
+			     words->word, environ);
 	posix_spawn_file_actions_destroy(&actions);
 	posix_spawnattr_destroy(&attributes);
 	return error;
@@ -142,14 +106,14 @@ static void feed(int fd, const char *bytes, size_t len)
 
 /* Runs ssh with @remote as its last word and @bytes as its input. Returns the exit status of
  * ssh, 255 if a signal ended it, or -errno if it did not start. */
-static int call_ssh(const struct push_words *words, const char *remote, const void *bytes,
+static int call_ssh(const struct stream_words *words, const char *remote, const void *bytes,
 		    size_t len)
 {
-	struct push_words all = *words;
+	struct stream_words all = *words;
 	int ends[2], error, status;
 	pid_t pid;
 
-	all.word[all.count++] = remote;
+	all.word[all.count++] = (char *)remote;
 	all.word[all.count] = NULL;
 	if (pipe(ends) != 0)
 		return -errno;
@@ -376,48 +340,179 @@ static enum status send_all(struct push *push)
 	return status;
 }
 
-/* Reads and checks the map. @program: its areas must hold all lines; NULL if it has errors. */
-static enum status read_map(struct push *push, const char *path,
-			    const struct program *program)
+/* The same program as a file for a board without the link: without the section that shows
+ * power. Owns: the caller, ladder_free(). */
+static struct ladder *build_plain(const char *path)
 {
-	struct diag_list *diags = report_list(path);
-	struct iomap map;
-	struct arena arena;
-	bool good = false;
+	struct ladder *ladder = program_new(false);
 
-	if (!diags)
-		return STATUS_WRONG;
-	arena_init(&arena);
-	push->map = report_read(path, &push->names.map_bytes);
-	if (push->map)
-		good = iomap_read(&map, &arena, path, push->map,
-				  push->names.map_bytes, diags) &&
-		       (!program || iomap_fits(&map, &program->areas, diags));
-	report_end(diags);
-	arena_free(&arena);
-	return good ? STATUS_GOOD : push->map ? STATUS_NO : STATUS_WRONG;
+	if (!ladder)
+		return NULL;
+	ladder_classic_task(ladder, true);
+	if (ladder_load(ladder, path) && (ladder_program(ladder) || ladder_build(ladder)))
+		return ladder;
+	ladder_free(ladder);
+	return NULL;
 }
 
-static enum status read_and_send(struct push *push)
+static enum status copy_and_start(struct push *push, const struct parcel *parcel)
 {
-	const struct call *call = push->call;
-	struct machine machine;
-	enum status status, map;
+	struct ladder *ladder = build_plain(push->call->arg[0]);
+	enum status status;
 
-	/* Both are read, so that one call reports all errors. */
-	status = machine_open(&machine, call->arg[0], MACHINE_AS_FILE);
-	map = read_map(push, call->arg[1], status == STATUS_GOOD ?
-		       ladder_program(machine.ladder) : NULL);
-	if (status < map)
-		status = map;
-	if (status == STATUS_GOOD) {
-		push->image = ladder_image(machine.ladder, &push->image_bytes);
-		push->names.program_bytes = push->image_bytes;
-		name_folder(push);
-		status = send_all(push);
+	if (!ladder)
+		return report_no_memory(push->call->arg[0]);
+	push->image = ladder_image(ladder, &push->image_bytes);
+	push->names.program_bytes = push->image_bytes;
+	push->map = stored_part(&parcel->stored, STORED_MAP);
+	push->names.map_bytes = parcel->map_len;
+	name_folder(push);
+	status = send_all(push);
+	ladder_free(ladder);
+	return status;
+}
+
+/* ---- the link ---- */
+
+/* What became of a session with ladderd. */
+enum link_end {
+	LINK_OPEN,
+	LINK_NONE,   /* there is no link: the other way is left     */
+	LINK_FAILED, /* after a message                             */
+};
+
+static enum link_end no_link(const struct push *push, const char *why)
+{
+	tell(push, DIAG_BOARD_NO_LINK, why);
+	return LINK_NONE;
+}
+
+static enum desk_end open_session(const struct push *push, struct remote *remote, int *error)
+{
+	const struct stream_where where = { STREAM_SSH, push->board };
+	struct stream stream;
+
+	*error = stream_open(&where, call_option(push->call, "--ssh"), &stream);
+	if (*error)
+		return DESK_GONE;
+	return desk_open(&remote->desk, &stream, "ladder " LADDER_VERSION);
+}
+
+/* Why there is no session. ssh itself ends with 255. */
+static enum link_end judge_no_session(const struct push *push, struct remote *remote,
+				      enum desk_end end, int error)
+{
+	const int status = stream_close(&remote->desk.stream);
+
+	if (error || (end == DESK_GONE && status == PUSH_NO_SSH)) {
+		tell(push, DIAG_BOARD_AWAY, error ? strerror(-error) : "ssh failed");
+		return LINK_FAILED;
 	}
-	machine_close(&machine);
-	free(push->map);
+	if (end == DESK_GONE)
+		return no_link(push, status == 127 ? "the board has no ladder-attach" :
+			       "ladderd on the board has no link");
+	if (end == DESK_REFUSED && remote->desk.refusal != REFUSAL_VERSION) {
+		remote_fail(remote, end);
+		return LINK_FAILED;
+	}
+	return no_link(push, end == DESK_REFUSED ? "the link of the board has another version" :
+		       "the link of the board does not answer");
+}
+
+static enum link_end open_link(const struct push *push, struct remote *remote)
+{
+	int error;
+	const enum desk_end end = open_session(push, remote, &error);
+
+	if (end != DESK_GOOD)
+		return judge_no_session(push, remote, end, error);
+	if (remote->desk.role < ROLE_ENG)
+		return no_link(push, "you are not in the group ladder-eng there");
+	return LINK_OPEN;
+}
+
+static bool runs_already(const struct remote *remote)
+{
+	return memcmp(remote->expect.program, remote->put.program,
+		      sizeof(remote->put.program)) == 0;
+}
+
+/* Asks a board that has begun again until it answers. */
+static enum status wait_for_start(const struct push *push, struct remote *remote,
+				  struct board_status *now)
+{
+	const struct timespec pause = { 0, STARTS_MS * 1000000L };
+	enum desk_end end = DESK_GONE;
+	int error = 0;
+
+	for (int i = 0; i < STARTS_MOST && end != DESK_GOOD; i++) {
+		desk_close(&remote->desk);
+		if (i)
+			nanosleep(&pause, NULL);
+		end = open_session(push, remote, &error);
+	}
+	if (end != DESK_GOOD)
+		return tell(push, DIAG_BOARD_CUT, "");
+	return remote_status(remote, now);
+}
+
+/* Shows what runs now: it must be the new program. */
+static enum status show_what_runs(const struct push *push, struct remote *remote)
+{
+	struct board_status *now = calloc(1, sizeof(*now));
+	enum status status;
+
+	if (!now)
+		return report_no_memory(push->board);
+	status = remote->put.restart ? wait_for_start(push, remote, now) :
+				       remote_status(remote, now);
+	if (status == STATUS_GOOD && !runs_already(remote))
+		status = tell(push, DIAG_BOARD_NOT_STARTED, "");
+	if (status == STATUS_GOOD)
+		remote_print_status(remote, now);
+	free(now);
+	return status;
+}
+
+/* @status: of the whole push, if this returns something other than LINK_NONE. */
+static enum link_end over_link(const struct push *push, struct call *call,
+			       const struct parcel *parcel, enum status *status)
+{
+	struct remote *remote = calloc(1, sizeof(*remote));
+	enum link_end end;
+
+	*status = STATUS_WRONG;
+	if (!remote) {
+		report_no_memory(push->board);
+		return LINK_FAILED;
+	}
+	remote->call = call;
+	remote->where = push->board;
+	remote->desk.stream.fd = -1;
+	remote->put = (struct put){ .or_restart = true, .or_else = true };
+	end = open_link(push, remote);
+	if (end == LINK_OPEN) {
+		*status = remote_put(remote, parcel);
+		if (remote->put.no_store)
+			end = no_link(push, "ladderd on the board has no --slots");
+		else if (*status == STATUS_GOOD)
+			*status = show_what_runs(push, remote);
+	}
+	desk_close(&remote->desk);
+	free(remote);
+	return end;
+}
+
+static enum status read_and_put(struct push *push, struct call *call)
+{
+	struct parcel parcel;
+	enum status status = parcel_open(&parcel, call, call->arg[0], call->arg[1]);
+
+	/* --folder says where the files are to be, so they are copied. */
+	if (status == STATUS_GOOD && (call_option(call, "--folder") ||
+				      over_link(push, call, &parcel, &status) == LINK_NONE))
+		status = copy_and_start(push, &parcel);
+	parcel_close(&parcel);
 	return status;
 }
 
@@ -435,11 +530,13 @@ enum status cmd_push(struct call *call)
 	if (!is_folder(push.names.folder))
 		return report_usage(call, "%.16s is not a folder on a board",
 				    folder);
-	if (split_words(&push.words, ssh ? ssh : "ssh", push.board))
-		status = read_and_send(&push);
-	else
+	if (stream_split(&push.words, ssh ? ssh : "ssh")) {
+		push.words.word[push.words.count++] = (char *)push.board;
+		status = read_and_put(&push, call);
+	} else {
 		status = report_usage(call, "--ssh needs 1 to %d words",
-				      PUSH_WORDS);
+				      STREAM_WORDS);
+	}
 	free(push.words.text);
 	return status;
 }

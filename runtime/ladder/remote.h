@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * remote - a session of `ladder board`, shared by the files of its actions.
+ * remote - a session of `ladder board` or `ladder push` with a board, shared by the files of
+ * their actions.
  */
 #ifndef LADDER_REMOTE_H
 #define LADDER_REMOTE_H
@@ -9,6 +10,7 @@
 
 #include "online/desk.h"
 #include "online/status.h"
+#include "online/stored.h"
 
 /* A variable that a person named, and its type on the board. */
 struct named {
@@ -20,6 +22,31 @@ struct named {
 	struct iec_text text;
 };
 
+/* Bytes that grow. */
+struct bytes {
+	uint8_t *at;
+	size_t len, room;
+	bool failed;
+};
+
+/* A program on its way to a board: image, map and sources, one after another. */
+struct parcel {
+	struct machine machine;
+	struct bytes bytes;
+	struct stored stored;
+	size_t map_len;
+};
+
+/* How a program is put on a board, and what became of it. */
+struct put {
+	bool ask;              /* before values are lost                      */
+	bool restart;          /* the board begins again                      */
+	bool or_restart;       /* restart if the map is another one           */
+	bool or_else;          /* there is another way: no message if the board stores nothing */
+	bool no_store;         /* it stores nothing                           */
+	uint8_t program[32];   /* identity of the new program                 */
+};
+
 struct remote {
 	struct call *call;
 	const char *where;
@@ -28,6 +55,7 @@ struct remote {
 	struct expect expect;  /* what ran when the command began             */
 	struct named *named;
 	uint32_t count;
+	struct put put;
 	/* Of watch. */
 	uint64_t lines, most;
 	int64_t first_ns;
@@ -56,6 +84,17 @@ enum status remote_settings(struct remote *remote, struct board_settings *settin
 /** remote_set - changes one; @restart: the board begins anew, and the session ends. */
 enum status remote_set(struct remote *remote, const char *key, const char *value, bool restart,
 		       bool *needs_restart);
+/** remote_print_status - as `ladder board WHERE status`. */
+void remote_print_status(const struct remote *remote, const struct board_status *status);
+
+/** parcel_open - reads and checks program and map; both, even if the first has errors. Owns:
+ * the caller, parcel_close(), always. Fails: a status after diagnostics. */
+enum status parcel_open(struct parcel *parcel, const struct call *call, const char *path,
+			const char *map_path);
+void parcel_close(struct parcel *parcel);
+/** remote_put - downloads it as remote->put says; prints what does not go on. Fails: after
+ * messages; without one if put->no_store is set. */
+enum status remote_put(struct remote *remote, const struct parcel *parcel);
 
 /** remote_download, remote_upload - the actions. */
 enum status remote_download(struct remote *remote);

@@ -68,14 +68,7 @@ const char *stream_parse(const char *text, struct stream_where *out)
 
 /* ---- commands ---- */
 
-struct words {
-	char *text;
-	char *word[STREAM_WORDS + 5]; /* ssh gets four more, then NULL */
-	int count;
-};
-
-/* Splits at blanks. Owns: free(words->text). Fails: false: none, too many, or no memory. */
-static bool split(struct words *words, const char *command)
+bool stream_split(struct stream_words *words, const char *command)
 {
 	const size_t len = strlen(command) + 1;
 	char *at;
@@ -99,7 +92,7 @@ static bool split(struct words *words, const char *command)
 	return words->count;
 }
 
-static int start(const struct words *words, struct stream *out)
+static int start(const struct stream_words *words, struct stream *out)
 {
 	posix_spawn_file_actions_t actions;
 	posix_spawnattr_t attributes;
@@ -132,10 +125,10 @@ static int start(const struct words *words, struct stream *out)
 static int open_ssh(const char *host, const char *ssh, struct stream *out)
 {
 	static char quiet[] = "-T", end[] = "--", attach[] = "ladder-attach";
-	struct words words;
+	struct stream_words words;
 	int error = -EINVAL;
 
-	if (split(&words, ssh ? ssh : "ssh")) {
+	if (stream_split(&words, ssh ? ssh : "ssh")) {
 		words.word[words.count++] = quiet;
 		words.word[words.count++] = end;
 		words.word[words.count++] = (char *)host;
@@ -148,8 +141,8 @@ static int open_ssh(const char *host, const char *ssh, struct stream *out)
 
 static int open_command(const char *command, struct stream *out)
 {
-	struct words words;
-	const int error = split(&words, command) ? start(&words, out) : -EINVAL;
+	struct stream_words words;
+	const int error = stream_split(&words, command) ? start(&words, out) : -EINVAL;
 
 	free(words.text);
 	return error;

@@ -13,7 +13,7 @@
 #include <sys/types.h>
 
 #define STREAM_SOCKET "/run/rungboard/link" /* where the service of a board listens */
-#define STREAM_WORDS  16   /* of a command                                      */
+#define STREAM_WORDS  32   /* of a command                                      */
 
 enum stream_kind { STREAM_SSH, STREAM_UNIX, STREAM_EXEC, STREAM_SERIAL };
 
@@ -35,6 +35,16 @@ const char *stream_parse(const char *text, struct stream_where *out);
 bool stream_is_plain(const char *text, const char *also);
 /** stream_is_host - whether @text is USER@BOARD or BOARD: plain, and no option of ssh. */
 bool stream_is_host(const char *text);
+
+/* A command as words; its user may add some, and a NULL. */
+struct stream_words {
+	char *text;            /* what the words point into                   */
+	char *word[STREAM_WORDS + 5];
+	int count;
+};
+/** stream_split - splits @command at its blanks. Owns: the caller, free(words->text), also
+ * after a failure. Fails: false: no word, too many, or no memory. */
+bool stream_split(struct stream_words *words, const char *command);
 
 struct stream {
 	int fd;                /* both ways                                   */
