@@ -95,6 +95,7 @@ unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
 $(BUILD)/unit/online/tests: $(call obj,$(wildcard runtime/online/*.c))
+$(BUILD)/unit/ladderd/tests: $(call obj,runtime/ladderd/print_static.c)
 $(BUILD)/unit/ladder/tests: $(call obj,$(wildcard runtime/ladder/words*.c))
 words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md
@@ -113,13 +114,15 @@ GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PK
 GPIO_LIB := $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
 HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
-LADDERD_NOT := $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download slots journal conf ends,source_image store_none link_none)
+LADDERD_NOT := $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download slots journal conf ends,source_image store_none link_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
 # Its own table of messages, without those that only a desk gives.
 LADDERD  += $(if $(filter 1,$(SMALL)),,$(BUILD)/runtime/ladderd/diag_board.o)
 $(BUILD)/runtime/ladderd/diag_board.o: runtime/engine/base/diag.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(STD) $(CPPFLAGS) -DRUNGBOARD_BOARD $(WARN) $(LEAN) $(CFLAGS) $(if $(filter -O2,$(CFLAGS)),-Os) -MMD -MP -c -o $@ $<
+# A static ladderd has its own printf(), without floating point.
+PRINT    := $(if $(filter 1,$(STATIC)),$(patsubst %,-Wl$(comma)--wrap=%,printf fprintf vfprintf snprintf vsnprintf))
 # Threads, for --retain and --link; older C libraries need the option.
 THREADS  := $(if $(filter 1,$(SMALL)),,-pthread)
 # The protocol between board and desk: both sides; each program links what it uses.
@@ -138,7 +141,7 @@ $(BUILD)/tests/online/ladder-attach: runtime/attach/main.c
 	@mkdir -p $(@D)
 	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(CFLAGS) -DLINK_SOCKET='"link"' $(LDFLAGS) -o $@ $<
 $(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(if $(filter 1,$(SMALL)),,$(BUILD)/libonline.a) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(THREADS) -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(PRINT) $(THREADS) -o $@ $^ $(GPIO_LIB) -lm
 # Bytes of stack, for compilers for machines without MMU.
 $(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
 
@@ -502,7 +505,7 @@ $(BUILD)/guest: $(call obj,$(wildcard $(GUEST)/*.c))
 $(BUILD)/replay: $(call obj,$(GUEST)/replay/replay.c $(CORE))
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^ -lm
 $(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(if $(filter 1,$(SMALL)),,$(BUILD)/libonline.a) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(GUEST_LD) $(THREADS) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(GUEST_LD) $(PRINT) $(THREADS) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) -lm
 
 # The cases for them, made on this machine: build/cases/.
 CASES     := $(BUILD)/cases

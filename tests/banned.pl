@@ -77,6 +77,13 @@ say_rule("the library does not print or exit",
 say_rule("the scan reads no clock, takes no lock, allocates nothing",
 	 places(qr/\b(?:clock_gettime|gettimeofday|time|malloc|calloc|realloc|free|pthread_\w+|fopen|write|read)\s*\(/,
 		sub { $_[0] =~ m{^runtime/engine/scan/} }));
+# Its own printf (ladderd/print_static.c) has only these.
+say_rule("what a board prints has only d i u x X o c s, no floating point", map {
+	my $file = $_;
+	map { "$file: $_" } grep { !/^%[-0]*(?:\d+|\*)?(?:\.(?:\d+|\*))?(?:hh|h|ll|l|z)?[diuxXocs]$/ }
+		map { /(%[-+ #0-9.*]*(?:hh|h|ll|l|z|j|t|L)?[a-zA-Z])/g } map { s/%%//gr }
+		$text{$file} =~ /(?:printf|diag_add|tell|add|say)\w*\s*\([^;]*?("(?:[^"\\\n]|\\.)*")/g
+} grep { m{^(?:hal|runtime/(?:ladderd|online|engine/(?:base|scan|model|text|check|translate)))/.*\.c$} } @files);
 # The size of long differs between boards.
 say_rule("the scan's numbers are of one size everywhere",
 	 places(qr/\b(?:long|wchar_t|time_t|intmax_t|ptrdiff_t)\b/,

@@ -166,7 +166,7 @@ static GHashTable *catalogue_values(const struct word_pin *pin)
 	if (!pin->has_init)
 		return NULL;
 	values = values_new();
-	literal_print(pin->type, pin->init, text, sizeof(text));
+	literal_print(pin->type, pin_init(pin), text, sizeof(text));
 	g_hash_table_insert(values, GUINT_TO_POINTER(0), g_strdup(text));
 	return values;
 }

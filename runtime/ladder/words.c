@@ -320,9 +320,9 @@ const char *words_default(const struct word_pin *pin, char *out)
 	out[0] = '\0';
 	if (!pin->has_init)
 		return out;
-	iec_value_print(pin->type, pin->init, value, sizeof(value));
+	iec_value_print(pin->type, pin_init(pin), value, sizeof(value));
 	if (pin->type == IEC_BOOL)
-		snprintf(out, 48, "%s", pin->init.i ? "TRUE" : "FALSE");
+		snprintf(out, 48, "%s", pin->init ? "TRUE" : "FALSE");
 	else if (pin->type == IEC_TIME)
 		snprintf(out, 48, "T#%sms", value);
 	else

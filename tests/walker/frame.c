@@ -56,9 +56,9 @@ static struct block *new_block(struct walker *walker, enum word fb)
 	for (int i = 0; i < row->pin_count && i < PINS_MAX; i++) {
 		block->pin[i].type = row->pin[i].type;
 		if (row->pin[i].type == IEC_REAL)
-			block->pin[i].r = (float)row->pin[i].init.r;
+			block->pin[i].r = (float)pin_init(&row->pin[i]).r;
 		else
-			block->pin[i].i = row->pin[i].init.i;
+			block->pin[i].i = pin_init(&row->pin[i]).i;
 	}
 	return block;
 }

@@ -14,13 +14,7 @@
 	.offset = offsetof(struct fb_##fb, pin)
 #define FB_DEF(fb, pin, type, value, text) \
 	{ FB_PIN(fb, pin, PIN_IN, type), \
-	  .has_init = true, .init = INIT_##type(value) },
-#define INIT_BOOL(value) { .i = (value) }
-#define INIT_BYTE(value) { .i = (value) }
-#define INIT_INT(value)  { .i = (value) }
-#define INIT_DINT(value) { .i = (value) }
-#define INIT_TIME(value) { .i = (value) }
-#define INIT_REAL(value) { .r = (value) }
+	  .has_init = true, .init = (int32_t)(value) }, /* a whole number, also of a REAL */
 #define FB_IN(fb, pin, type, text)  { FB_PIN(fb, pin, PIN_IN, type) },
 #define FB_OUT(fb, pin, type, text) { FB_PIN(fb, pin, PIN_OUT, type) },
 #define FB_VAR(fb, pin, type)       { FB_PIN(fb, pin, PIN_VAR, type) },

@@ -122,7 +122,7 @@ struct word_row {
 	};
 };
 #else
-/* Small on purpose, 24 bytes where a pointer has four: a board has hundreds of them in
+/* Small on purpose, 20 bytes where a pointer has four: a board has hundreds of them in
  * its memory. See limits.h for what the numbers can be. */
 struct word_pin {
 	const char *name;
@@ -131,8 +131,7 @@ struct word_pin {
 	bool own : 1;        /* of a function's pin: does not share the type   */
 	bool has_init : 1;   /* has a value until it is given one              */
 	union {
-		union iec_value init; /* its value until it is given one, of
-					 has_init; of a pin of the catalogue  */
+		int32_t init;         /* of has_init: pin_init()              */
 		int32_t low;          /* own rows: of an array                */
 	};
 	uint32_t offset : 26; /* of an FB pin in its struct                    */
@@ -152,6 +151,14 @@ static inline struct var_array pin_array(const struct word_pin *pin)
 	struct var_array array = { pin->elements ? pin->low : 0, pin->elements };
 
 	return array;
+}
+
+/** pin_init - the value of a pin of the catalogue until it is given one. Scan-safe: yes. */
+static inline union iec_value pin_init(const struct word_pin *pin)
+{
+	if (pin->type == IEC_REAL)
+		return (union iec_value){ .r = pin->init };
+	return (union iec_value){ .i = pin->init };
 }
 
 struct word_row {

@@ -90,10 +90,11 @@ for my $i (grep { ref $map->[$_] || $map->[$_] !~ /^(?:0|<)/ } 0 .. $#$list) {
 for my $code (0xc0 .. 0x2ffff) {
 	next if $code >= 0xac00 && $code <= 0xdfff; # syllables of Hangul are computed
 	my $class = getCombinClass($code);
-	if ($class && @marks && $marks[-1][1] == $code - 1 && $marks[-1][2] == $class) {
-		$marks[-1][1] = $code;
+	if ($class && @marks && $marks[-1][0] + $marks[-1][1] == $code - 1 && $marks[-1][1] < 63 &&
+	    $marks[-1][2] == $class) {
+		$marks[-1][1]++;
 	} elsif ($class) {
-		push @marks, [$code, $code, $class];
+		push @marks, [$code, 0, $class];
 	}
 	next if !$canonical{$code};
 	my ($first, $second) = (@{$canonical{$code}}, 0);
@@ -113,7 +114,7 @@ print <<HEAD;
  * from no on. Code points that Unicode has not assigned have the answer of those before them.
  * LETTER_FOLDS: first and last code point, step, what is added to get its simple case folding.
  * LETTER_PARTS_LOW, LETTER_PARTS_HIGH: a code point and the two, or one, that it is composed of.
- * LETTER_MARKS: first and last code point, canonical combining class.
+ * LETTER_MARKS: first code point, how many more follow it, canonical combining class.
  */
 HEAD
 print "#ifdef LETTERS_LOW\n";
@@ -127,5 +128,5 @@ rows(map { sprintf '{ 0x%04x, 0x%04x, 0x%04x }', @$_ } @low);
 print "#endif\n#ifdef LETTER_PARTS_HIGH\n";
 rows(map { sprintf '{ 0x%05x, 0x%05x, 0x%05x }', @$_ } @high);
 print "#endif\n#ifdef LETTER_MARKS\n";
-rows(map { sprintf '{ 0x%04x, 0x%04x, %d }', @$_ } @marks);
+rows(map { sprintf '{ 0x%04x, %d, %d }', @$_ } @marks);
 print "#endif\n";

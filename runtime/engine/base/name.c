@@ -41,9 +41,10 @@ bool utf8_is_letter(const char *text, size_t len)
 	return from % 2;
 }
 
+/* Rows are packed: together they are the largest table of a board. A code point has 18 bits. */
 static const struct fold {
-	uint32_t first, last;
-	int32_t step, add;
+	uint64_t first : 18, last : 18, step : 4;
+	int64_t add : 24;
 } folds[] = {
 #define LETTER_FOLDS
 #include "engine/base/letters.def"
@@ -56,14 +57,14 @@ static const struct { uint16_t code, first, second; } parts_low[] = {
 #undef LETTER_PARTS_LOW
 };
 
-static const struct { uint32_t code, first, second; } parts_high[] = {
+static const struct { uint64_t code : 18, first : 18, second : 18; } parts_high[] = {
 #define LETTER_PARTS_HIGH
 #include "engine/base/letters.def"
 #undef LETTER_PARTS_HIGH
 };
 
 static const struct mark {
-	uint32_t first, last, class;
+	uint32_t first : 18, more : 6, class : 8;
 } marks[] = {
 #define LETTER_MARKS
 #include "engine/base/letters.def"
@@ -87,7 +88,7 @@ static uint32_t fold(uint32_t code)
 		else if (code > at->last)
 			from = middle + 1;
 		else
-			return (code - at->first) % (uint32_t)at->step ? code :
+			return (code - (uint32_t)at->first) % (uint32_t)at->step ? code :
 			       code + (uint32_t)at->add;
 	}
 	return code;
@@ -103,7 +104,7 @@ static uint32_t class_of(uint32_t code)
 
 		if (code < marks[middle].first)
 			to = middle;
-		else if (code > marks[middle].last)
+		else if (code > marks[middle].first + marks[middle].more)
 			from = middle + 1;
 		else
 			return marks[middle].class;
@@ -120,11 +121,11 @@ static bool take_apart(uint32_t code, uint32_t *first, uint32_t *second)
 
 		while (from < to) {
 			const size_t at = (from + to) / 2;
-			const uint32_t found = wide ? parts_high[at].code : parts_low[at].code;
+			const uint32_t found = wide ? (uint32_t)parts_high[at].code : parts_low[at].code;
 
 			if (found == code) {
-				*first = wide ? parts_high[at].first : parts_low[at].first;
-				*second = wide ? parts_high[at].second : parts_low[at].second;
+				*first = wide ? (uint32_t)parts_high[at].first : parts_low[at].first;
+				*second = wide ? (uint32_t)parts_high[at].second : parts_low[at].second;
 				return true;
 			}
 			if (found < code)

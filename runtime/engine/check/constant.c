@@ -81,7 +81,7 @@ bool il_report_types(struct fn_check *c, const struct il_line *line,
 static void il_print_constant(const struct literal *literal, char out[NUMBER_TEXT])
 {
 	if (literal->real)
-		snprintf(out, NUMBER_TEXT, "%g", literal->value.r);
+		iec_value_print(IEC_LREAL, literal->value, out, NUMBER_TEXT);
 	else if (literal->high)
 		snprintf(out, NUMBER_TEXT, "%llu", (unsigned long long)literal->value.i);
 	else

@@ -65,7 +65,7 @@ void layout_init_pins(struct assembler *as, uint32_t offset,
 	for (int i = 0; i < row->pin_count; i++)
 		if (row->pin[i].has_init)
 			layout_init(as, offset + row->pin[i].offset,
-				    row->pin[i].type, row->pin[i].init);
+				    row->pin[i].type, pin_init(&row->pin[i]));
 }
 
 /* A text's first bytes, whole words as long as its room. */
