@@ -10,6 +10,7 @@
 #include "engine/base/digest.h"
 #include "engine/base/file.h"
 #include "engine/scan/carry.h"
+#include "engine/scan/resource.h"
 #include "hal/iomap.h"
 #include "online/send.h"
 #include "online/stored.h"
@@ -269,7 +270,43 @@ static bool is_wanted(struct remote *remote)
 	return fgets(answer, sizeof(answer), stdin) && (*answer == 'y' || *answer == 'Y');
 }
 
-static enum status commit(struct remote *remote, bool restart)
+/* The board tells that another program runs, and why if no desk put it there. */
+static void take_change(void *context, const struct frame *frame)
+{
+	struct remote *remote = context;
+	struct wire_reader in = frame->body;
+
+	if (frame->service == SERVICE_COMMIT && wire_left(&in))
+		wire_copy_text(&in, remote->why, sizeof(remote->why));
+}
+
+/* Waits until the new program has run for @back scans, or has gone. */
+static enum status wait_for_trial(struct remote *remote, uint32_t back)
+{
+	struct board_status *now = calloc(1, sizeof(*now));
+	enum status status = now ? STATUS_GOOD : report_no_memory(remote->where);
+	enum desk_end end = DESK_LATE;
+	uint64_t first = 0;
+
+	while (status == STATUS_GOOD && !*remote->why && (end == DESK_GOOD || end == DESK_LATE)) {
+		status = remote_status(remote, now);
+		if (!first)
+			first = now->scans;
+		if (status != STATUS_GOOD || *remote->why || now->mode != STATE_RUN ||
+		    now->scans > first + back)
+			break;
+		end = desk_listen(&remote->desk, 100);
+	}
+	free(now);
+	if (status != STATUS_GOOD)
+		return status;
+	if (*remote->why)
+		report_diag((struct diag){ .id = DIAG_LINK_WENT_BACK, .file = remote->where },
+			    "%.150s", remote->why);
+	return *remote->why ? STATUS_NO : STATUS_GOOD;
+}
+
+static enum status commit(struct remote *remote, bool restart, uint32_t back)
 {
 	struct wire_writer out = desk_ask(&remote->desk, SERVICE_COMMIT);
 	struct wire_reader in;
@@ -277,8 +314,33 @@ static enum status commit(struct remote *remote, bool restart)
 
 	wire_put_expect(&out, &remote->expect);
 	wire_put_u8(&out, restart);
+	if (back)
+		wire_put_u32(&out, back);
+	remote->desk.told = take_change;
+	remote->desk.context = remote;
 	end = desk_call(&remote->desk, &out, &in);
-	return end == DESK_GOOD ? STATUS_GOOD : remote_fail(remote, end);
+	if (end != DESK_GOOD)
+		return remote_fail(remote, end);
+	return back ? wait_for_trial(remote, back) : STATUS_GOOD;
+}
+
+/* 0: not wanted. */
+static bool read_back(const struct call *call, uint32_t *back)
+{
+	const char *text = call_option(call, "--back-within");
+	char *end;
+	unsigned long long number;
+
+	*back = 0;
+	if (!text)
+		return true;
+	number = strtoull(text, &end, 10);
+	*back = (uint32_t)number;
+	if (*text >= '0' && *text <= '9' && !*end && number > 0 && number <= UINT32_MAX &&
+	    !call_flag(call, "--restart"))
+		return true;
+	report_usage(call, "--back-within needs a number of scans, and no --restart");
+	return false;
 }
 
 enum status remote_put(struct remote *remote, const struct parcel *parcel)
@@ -287,9 +349,12 @@ enum status remote_put(struct remote *remote, const struct parcel *parcel)
 	struct board_status *now = calloc(1, sizeof(*now));
 	struct verified verified = { .losses = 0 };
 	enum status status = now ? remote_status(remote, now) : report_no_memory(remote->where);
+	uint32_t back = 0;
 
 	free(now);
 	remote->expect.mode = EXPECT_ANY;
+	if (status == STATUS_GOOD && !read_back(remote->call, &back))
+		status = STATUS_WRONG;
 	if (status == STATUS_GOOD)
 		status = verify(remote, &parcel->stored, &verified);
 	if (status != STATUS_GOOD)
@@ -301,7 +366,7 @@ enum status remote_put(struct remote *remote, const struct parcel *parcel)
 	}
 	if (put->ask && !put->restart && verified.losses && !is_wanted(remote))
 		return STATUS_NO;
-	return commit(remote, put->restart);
+	return commit(remote, put->restart, back);
 }
 
 enum status remote_download(struct remote *remote)

@@ -53,6 +53,7 @@ struct remote {
 	struct desk desk;
 	bool json;
 	struct expect expect;  /* what ran when the command began             */
+	char why[160];         /* the board went back to the program before    */
 	struct named *named;
 	uint32_t count;
 	struct put put;

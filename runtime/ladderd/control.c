@@ -188,17 +188,23 @@ static void copy(char *out, size_t size, const struct block *block)
 	out[len] = '\0';
 }
 
-static void fill_places(const struct cycle *cycle, struct board_status *status)
+void control_print_fault(const struct resource *resource, char *out, size_t size)
 {
-	const struct resource *resource = &cycle->resource;
 	struct block block = { .len = 0 };
 	char fault[96];
 
 	resource_fault_print(resource, fault, sizeof(fault));
 	add(&block, "%s", fault);
 	add_place(&block, &resource->fault_at);
-	copy(status->fault, sizeof(status->fault), &block);
-	block.len = 0;
+	copy(out, size, &block);
+}
+
+static void fill_places(const struct cycle *cycle, struct board_status *status)
+{
+	const struct resource *resource = &cycle->resource;
+	struct block block = { .len = 0 };
+
+	control_print_fault(resource, status->fault, sizeof(status->fault));
 	if (resource->vm.errors) {
 		add_line(&block, &resource->error_at);
 		add_place(&block, &resource->error_at);

@@ -20,6 +20,8 @@ void control_status(const struct cycle *cycle, bool wait);
 struct board_status;
 /** control_fill_status - the same as fields, for a desk. Scan-safe: between scans. */
 void control_fill_status(const struct cycle *cycle, struct board_status *status);
+/** control_print_fault - the fault and its place, as text. Scan-safe: between scans. */
+void control_print_fault(const struct resource *resource, char *out, size_t size);
 /** control_tell - prints "ladderd: TEXT" to stderr. Scan-safe: between scans. */
 void control_tell(const char *text);
 /** control_tell_error - prints @text and an error of the system. Any thread. */

@@ -107,6 +107,7 @@ static enum refusal restart(struct cycle *cycle, bool cold)
 	if ((hal_quality(&cycle->hal) == QUALITY_FAULT &&
 	     !hal_reopen(&cycle->hal)) || !hal_write_safe(&cycle->hal))
 		return REFUSAL_IO;
+	cycle_pass(cycle);
 	resource_stop(resource);
 	if (cold)
 		resource_start(resource);
@@ -139,6 +140,7 @@ static enum refusal stop(struct cycle *cycle)
 {
 	if (cycle->resource.state != STATE_RUN)
 		return REFUSAL_NOT_NOW;
+	cycle_pass(cycle);
 	resource_stop(&cycle->resource);
 	hal_write_safe(&cycle->hal);
 	cycle->tended_ns = clock_now();
@@ -272,10 +274,14 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 	count_late(cycle, due_ns, begin_ns + took_ns);
 	if (fault == FAULT_NONE && is_too_slow(cycle, took_ns))
 		fault = FAULT_WATCHDOG;
-	if (fault != FAULT_NONE)
+	if (fault != FAULT_NONE && cycle->trial)
+		cycle_back(cycle, fault);
+	else if (fault != FAULT_NONE)
 		enter_fault(cycle, fault);
 	else if (resource->halted)
 		enter_stop(cycle);
+	else if (cycle->trial && --cycle->trial_left == 0)
+		cycle_pass(cycle);
 	tell_failed(cycle);
 }
 

@@ -37,6 +37,9 @@ struct cycle {
 	const char *stopped;   /* why it began in STOP; NULL: not told         */
 	bool restart;          /* ends in order to begin with the newest slot */
 	uint64_t most_scans;   /* 0: no limit                                 */
+	struct standby *trial; /* the program that runs, if a FAULT brings the one before
+				* back; else NULL                             */
+	uint32_t trial_left;   /* scans until it need not come back           */
 	/* Since the daemon began. */
 	uint64_t scans;
 	uint64_t late;         /* skipped periods                             */
@@ -77,11 +80,17 @@ void cycle_name(struct cycle *cycle, const char *name, const char *of_map);
 struct standby;
 /**
  * cycle_swap - goes on with the program of @standby, in the state of the present one
+ * @back: a FAULT within so many scans brings the present program back, as it is now; 0: none
  *
  * Retained values are not stored until cycle->store is set again. Scan-safe: between scans.
  * Fails: REFUSAL_CONFLICT: it was made beside another program; nothing has changed.
  */
-enum refusal cycle_swap(struct cycle *cycle, struct standby *standby);
+enum refusal cycle_swap(struct cycle *cycle, struct standby *standby, uint32_t back);
+/** cycle_back - the program before goes on instead of entering @fault. Scan-safe: yes. Only
+ * during a trial. */
+void cycle_back(struct cycle *cycle, enum fault fault);
+/** cycle_pass - the trial, if there is one, is over: the program stays. Scan-safe: yes. */
+void cycle_pass(struct cycle *cycle);
 /**
  * cycle_mode - what a desk orders: stop, run, reset
  *

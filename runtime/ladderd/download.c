@@ -4,6 +4,7 @@
  */
 #include "ladderd/download.h"
 #include "ladderd/control.h"
+#include "ladderd/link.h"
 
 #include "engine/base/digest.h"
 #include "engine/base/file.h"
@@ -22,6 +23,8 @@ struct download {
 	struct stored first;           /* the program that ladderd began with  */
 	uint8_t *first_bytes;
 	struct standby *runs;          /* NULL: the first program              */
+	struct standby *before;        /* the one before, during a trial       */
+	bool trial;
 	struct standby *standby;       /* NULL: none was verified              */
 	/* Being received. */
 	uint8_t *bytes;
@@ -32,7 +35,7 @@ struct download {
 
 /* ---- standby ---- */
 
-static void standby_free(struct standby *standby)
+void standby_free(struct standby *standby)
 {
 	if (!standby)
 		return;
@@ -191,6 +194,10 @@ enum refusal download_verify(struct download *download, struct standby_view *out
 
 	if (!download->bytes)
 		return REFUSAL_NO_DOWNLOAD;
+	if (download->trial) {
+		snprintf(detail, size, "a program is on trial");
+		return REFUSAL_BUSY;
+	}
 	if (!is_whole(download)) {
 		if (download->received == stored_size(&download->wanted))
 			download_abort(download); /* a byte is wrong, nobody knows which */
@@ -258,17 +265,39 @@ void download_abort(struct download *download)
 	download->received = 0;
 }
 
-struct standby *download_swapped(struct download *download)
+struct standby *download_swapped(struct download *download, bool comes_back)
 {
 	struct standby *standby = download->standby;
 
-	standby_free(download->runs);
+	if (comes_back)
+		download->before = download->runs;
+	else
+		standby_free(download->runs);
+	download->trial = comes_back;
 	download->runs = standby;
 	download->standby = NULL;
 	standby->bytes = download->bytes;
 	download->bytes = NULL;
 	download->received = 0;
 	return standby;
+}
+
+void download_passed(struct download *download)
+{
+	standby_free(download->before);
+	download->before = NULL;
+	download->trial = false;
+}
+
+struct standby *download_back(struct download *download, struct standby **bad)
+{
+	*bad = download->runs;
+	standby_free(download->standby); /* its plan is beside the bad one */
+	download->standby = NULL;
+	download->runs = download->before;
+	download->before = NULL;
+	download->trial = false;
+	return download->runs;
 }
 
 const struct stored *download_running(struct download *download)
@@ -278,18 +307,58 @@ const struct stored *download_running(struct download *download)
 
 /* ---- the scan thread ---- */
 
-enum refusal cycle_swap(struct cycle *cycle, struct standby *standby)
+/* Goes on with another resource. */
+static void take(struct cycle *cycle, const struct resource *resource, const uint8_t identity[32])
+{
+	cycle->resource = *resource;
+	cycle->store = NULL;
+	memcpy(cycle->identity_bytes, identity, sizeof(cycle->identity_bytes));
+	digest_hex(identity, sizeof(cycle->identity_bytes), cycle->identity);
+	monitor_limit(cycle_plan(cycle, cycle->wanted_ns, cycle->watchdog));
+	cycle->failed = cycle->resource.vm.errors != 0;
+}
+
+enum refusal cycle_swap(struct cycle *cycle, struct standby *standby, uint32_t back)
 {
 	if (!carry_apply(standby->plan, &standby->resource, &cycle->resource))
 		return REFUSAL_CONFLICT;
-	cycle->resource = standby->resource;
-	cycle->store = NULL;
-	memcpy(cycle->identity_bytes, standby->identity, sizeof(cycle->identity_bytes));
-	digest_hex(standby->identity, sizeof(standby->identity), cycle->identity);
-	monitor_limit(cycle_plan(cycle, cycle->wanted_ns, cycle->watchdog));
-	cycle->failed = cycle->resource.vm.errors != 0;
+	standby->before = cycle->resource;
+	memcpy(standby->before_identity, cycle->identity_bytes, sizeof(cycle->identity_bytes));
+	take(cycle, &standby->resource, standby->identity);
+	cycle->trial = back ? standby : NULL;
+	cycle->trial_left = back;
 	control_tell("another program runs, put there by a desk");
 	return REFUSAL_NONE;
+}
+
+/* Its memory is as it was: nothing of what the new program did remains. Time and the number
+ * of scans go on. If the scan was too long, the outputs have their safe values by now. */
+void cycle_back(struct cycle *cycle, enum fault fault)
+{
+	struct standby *bad = cycle->trial;
+	struct resource *before = &bad->before;
+
+	resource_fail(&cycle->resource, fault);
+	control_print_fault(&cycle->resource, bad->why, sizeof(bad->why));
+	before->scans = cycle->resource.scans;
+	before->scan_us = cycle->resource.scan_us;
+	before->watch = false;
+	tasks_skip(&before->tasks, before->image.program, cycle->resource.vm.now_ns);
+	take(cycle, before, bad->before_identity);
+	cycle->trial = NULL;
+	cycle->late_row = 0;
+	cycle->monitor.tripped = 0;
+	hal_release(&cycle->hal);
+	control_tell("FAULT in the new program; the one before goes on");
+	link_trial_over(cycle->link, true);
+}
+
+void cycle_pass(struct cycle *cycle)
+{
+	if (!cycle->trial)
+		return;
+	cycle->trial = NULL;
+	link_trial_over(cycle->link, false);
 }
 
 /* ---- all of it ---- */
@@ -341,6 +410,7 @@ void download_free(struct download *download)
 		return;
 	download_abort(download);
 	standby_free(download->runs);
+	standby_free(download->before);
 	free(download->first_bytes);
 	free(download);
 }

@@ -41,6 +41,9 @@ void slots_close(struct slots *slots);
 /** slots_reject - the slot that runs cannot start: puts it aside, as prog.A.refused. Returns
  * whether the next start finds another program. */
 bool slots_reject(struct slots *slots);
+/** slots_back - the newest slot had a FAULT on trial: puts it aside. Fails: -errno; then the
+ * next start runs it. */
+int slots_back(struct slots *slots);
 /** slots_beside - SHA-256 of the files of the command line, as they are now. */
 void slots_beside(const struct slots *slots, uint8_t out[32]);
 /** slots_path - of prog.A or prog.B, in slots->path. Fails: NULL: it is too long. */
@@ -60,6 +63,10 @@ struct standby {
 	const struct carry_plan *plan;
 	uint8_t *views;        /* of the link                                 */
 	size_t view_size;
+	/* While it is on trial: what ran before, as it was then. */
+	struct resource before;
+	uint8_t before_identity[32];
+	char why[160];         /* the FAULT that ended the trial              */
 };
 
 struct download;
@@ -78,7 +85,13 @@ enum refusal download_verify(struct download *download, struct standby_view *out
 			     size_t size);
 enum refusal download_store(struct download *download, char *detail, size_t size);
 void download_abort(struct download *download);
-/** download_swapped - the standby runs now; returns it. The one before is freed. */
-struct standby *download_swapped(struct download *download);
+/** download_swapped - the standby runs now; returns it. The one before is freed.
+ * @comes_back: or kept until download_passed() or download_back() */
+struct standby *download_swapped(struct download *download, bool comes_back);
+void download_passed(struct download *download);
+/** download_back - the program before runs again; @bad: the one that had a FAULT, for
+ * standby_free(). Returns NULL for the program that ladderd began with. */
+struct standby *download_back(struct download *download, struct standby **bad);
+void standby_free(struct standby *standby);
 const struct stored *download_running(struct download *download);
 #endif

@@ -15,6 +15,7 @@
 #include "ladderd/journal.h"
 #include "ladderd/peer.h"
 
+#include "engine/base/digest.h"
 #include "engine/scan/symbol_index.h"
 #include "online/server.h"
 
@@ -44,6 +45,9 @@
 #define BACKLOG    128               /* of desks that connect at the same time          */
 #define OURS       2                  /* polled: the wake-up, the listening socket  */
 
+/* How the trial of a program has ended, until the link thread knows it. */
+enum trial { TRIAL_NONE, TRIAL_PASSED, TRIAL_BACK };
+
 struct link {
 	struct cycle *cycle;
 	struct exchange exchange;
@@ -70,6 +74,7 @@ struct link {
 	pthread_t thread, scans;
 	bool runs;
 	_Atomic bool stop, dozes;
+	_Atomic int trial;             /* enum trial                           */
 };
 
 static int64_t clock_now(void)
@@ -109,9 +114,9 @@ static void host_status(void *context, struct board_status *status)
 	control_fill_status(((struct link *)context)->cycle, status);
 }
 
-static enum refusal host_swap(void *context, void *other)
+static enum refusal host_swap(void *context, void *other, uint32_t back)
 {
-	return cycle_swap(((struct link *)context)->cycle, other);
+	return cycle_swap(((struct link *)context)->cycle, other, back);
 }
 
 static void take_store(void *context, void *other)
@@ -137,6 +142,22 @@ void link_serve(struct link *link)
 void link_show(struct link *link, int64_t now_ns)
 {
 	exchange_show(&link->exchange, now_ns);
+}
+
+static void wake_up(struct link *link)
+{
+	const uint64_t one = 1;
+
+	if (write(link->wake, &one, sizeof(one)) < 0)
+		errno = 0; /* the counter is full, so the thread is awake */
+}
+
+void link_trial_over(struct link *link, bool back)
+{
+	if (back)
+		exchange_forget(&link->exchange);
+	atomic_store(&link->trial, back ? TRIAL_BACK : TRIAL_PASSED);
+	wake_up(link);
 }
 
 void link_doze(struct link *link)
@@ -268,10 +289,13 @@ static const struct stored *store_running(void *context)
 	return download_running(((struct link *)context)->download);
 }
 
-/* Between two scans; it is done when this returns, unless a scan hangs. */
-static void act(struct link *link, void (*what)(void *context, void *other), void *other)
+/* Between two scans, and only while @program runs if one is given. It is done when this returns,
+ * unless a scan hangs. */
+static void act(struct link *link, void (*what)(void *context, void *other), void *other,
+		const struct program *program)
 {
-	link->store_order = (struct order){ .kind = ORDER_ACT, .act = what, .other = other };
+	link->store_order = (struct order){ .kind = ORDER_ACT, .act = what, .other = other,
+					    .program = program };
 	exchange_post(&link->exchange, &link->store_order);
 	wait_for_scan(link);
 }
@@ -292,19 +316,20 @@ static enum refusal conf_write(void *context, const char *key, const char *value
 	if (refusal != REFUSAL_NONE)
 		return refusal;
 	conf_in_force(link->with.conf);
-	act(link, take_settings, &link->with.conf->now);
+	act(link, take_settings, &link->with.conf->now, NULL);
 	return REFUSAL_NONE;
 }
 
 /* ---- retained values ---- */
 
-/* Stores the values of the new program in the same file; it has those of the old one, which
+/* Stores the values of another program in the same file; it has those of the one before, which
  * the scan thread has carried over. */
-static void store_retained_again(struct link *link, struct standby *standby)
+static void store_retained_again(struct link *link, const struct program *program,
+				 struct arena *arena)
 {
 	struct store_wish wish = *link->with.retain;
-	struct image *cold = arena_alloc(&standby->arena, sizeof(*cold));
-	void *memory = arena_alloc(&standby->arena, standby->view_size);
+	struct image *cold = arena_alloc(arena, sizeof(*cold));
+	void *memory = arena_alloc(arena, image_memory_size(program));
 	int status;
 
 	if (!cold || !memory) {
@@ -312,29 +337,82 @@ static void store_retained_again(struct link *link, struct standby *standby)
 		return;
 	}
 	wish.quiet = true;
-	image_init(cold, &standby->program, memory);
-	link->retain = store_open(&wish, cold, &standby->arena, &status);
+	image_init(cold, program, memory);
+	link->retain = store_open(&wish, cold, arena, &status);
 	if (!link->retain || store_begin(link->retain) != 0) {
 		control_tell("retained values are not stored any more");
 		return;
 	}
-	act(link, take_store, link->retain);
+	act(link, take_store, link->retain, program);
 }
 
-static const struct program *store_swapped(void *context)
+/* The views, the arena and the program that the link uses now. */
+struct used {
+	uint8_t *views;
+	struct arena *arena;
+	const struct program *program;
+};
+
+static struct used used_of(struct link *link, struct standby *standby)
 {
-	struct link *link = context;
+	if (standby)
+		return (struct used){ standby->views, &standby->arena, &standby->program };
+	return (struct used){ link->views, link->with.arena, link->with.program };
+}
+
+/* Another program runs. The store has names of the one before. */
+static const struct program *use(struct link *link, struct standby *standby)
+{
+	const struct used used = used_of(link, standby);
 	const bool retains = link->retain;
-	struct standby *standby;
 
 	if (retains)
-		store_close(link->retain); /* it has names of the program that goes */
+		store_close(link->retain);
 	link->retain = NULL;
-	standby = download_swapped(link->download);
-	exchange_renew(&link->exchange, standby->views, standby->view_size);
+	exchange_renew(&link->exchange, used.views, image_memory_size(used.program));
 	if (retains)
-		store_retained_again(link, standby);
-	return &standby->program;
+		store_retained_again(link, used.program, used.arena);
+	return used.program;
+}
+
+static const struct program *store_swapped(void *context, bool comes_back)
+{
+	struct link *link = context;
+	struct standby *standby = download_swapped(link->download, comes_back);
+
+	return use(link, standby);
+}
+
+/* The scan thread went back to the program before. */
+static void go_back(struct link *link)
+{
+	struct standby *bad, *standby = download_back(link->download, &bad);
+	const struct program *program = use(link, standby);
+	char to[65];
+	const int error = slots_back(link->with.slots);
+
+	digest_hex(bad->before_identity, sizeof(bad->before_identity), to);
+	if (error)
+		control_tell("the program that had a FAULT cannot be put aside; the next start "
+			     "runs it");
+	journal_add(link->journal, EVENT_BACK, 0, "", to, bad->why);
+	server_changed(link->server, program, bad->why);
+	standby_free(bad);
+}
+
+static void end_trial(struct link *link)
+{
+	const enum trial trial = (enum trial)atomic_exchange(&link->trial, TRIAL_NONE);
+	uint64_t count;
+
+	if (trial == TRIAL_NONE)
+		return;
+	if (read(link->wake, &count, sizeof(count)) < 0)
+		errno = 0;
+	if (trial == TRIAL_BACK)
+		go_back(link);
+	else
+		download_passed(link->download);
 }
 
 static void hang_up(struct link *link, int i)
@@ -471,12 +549,14 @@ static void *serve_desks(void *argument)
 
 	while (!atomic_load(&link->stop)) {
 		watch_streams(link, more);
+		end_trial(link);
 		more = server_step(link->server, clock_now());
 		send_all(link);
 		log_state(link);
 		log_late(link);
 		journal_sync(link->journal, clock_now());
 	}
+	end_trial(link);
 	journal_add(link->journal, EVENT_END, 0, "", "", "");
 	for (int i = 0; i < SERVER_SESSIONS; i++)
 		hang_up(link, i);
@@ -541,12 +621,9 @@ int link_begin(struct link *link)
 
 void link_close(struct link *link)
 {
-	const uint64_t one = 1;
-
 	if (link->runs) {
 		atomic_store(&link->stop, true);
-		if (write(link->wake, &one, sizeof(one)) < 0)
-			errno = 0; /* the counter is full, so the thread is awake */
+		wake_up(link);
 		pthread_join(link->thread, NULL);
 		ends_orderly(link->with.slots->folder);
 		link->cycle->store = link->retain;

@@ -44,6 +44,9 @@ void link_show(struct link *link, int64_t now_ns);
  * an order. Scan-safe: yes. */
 void link_doze(struct link *link);
 void link_wake(struct link *link);
+/** link_trial_over - the trial of a program has ended: it stays, or the one before runs again
+ * (@back). Scan-safe: yes, a system call. */
+void link_trial_over(struct link *link, bool back);
 /** link_close - ends all sessions and the thread, removes the socket. The cycle's store is
  * the one to be closed then. */
 void link_close(struct link *link);

@@ -74,8 +74,12 @@ void slots_close(struct slots *slots)
 	(void)slots;
 }
 
-enum refusal cycle_swap(struct cycle *cycle, struct standby *standby)
+void cycle_back(struct cycle *cycle, enum fault fault)
 {
-	(void)cycle, (void)standby;
-	return REFUSAL_NO_STORE;
+	(void)cycle, (void)fault;
+}
+
+void cycle_pass(struct cycle *cycle)
+{
+	(void)cycle;
 }

@@ -7,9 +7,12 @@
 #include "engine/base/digest.h"
 #include "engine/base/file.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define FILE_MOST (64u << 20)
 
@@ -139,19 +142,42 @@ bool slots_load(struct slots *slots, const struct options *options, struct load 
 	return load_texts(load, empty, sizeof(empty) - 1, lines, sizeof(lines) - 1);
 }
 
-bool slots_reject(struct slots *slots)
+/* The newest slot becomes prog.A.refused, also after a power cut. */
+static int put_aside(struct slots *slots)
 {
-	const char *path = slots->bytes ? slots_path(slots, !slots->next) : NULL;
+	const char *path = slots_path(slots, !slots->next);
 	char aside[512];
+	int folder;
 
 	if (!path || strlen(path) + sizeof(".refused") > sizeof(aside))
-		return false;
+		return -ENAMETOOLONG;
 	snprintf(aside, sizeof(aside), "%.500s.refused", path);
 	if (rename(path, aside) != 0)
+		return -errno;
+	folder = open(slots->folder, O_RDONLY | O_CLOEXEC);
+	if (folder >= 0) {
+		fsync(folder);
+		close(folder);
+	}
+	return 0;
+}
+
+bool slots_reject(struct slots *slots)
+{
+	if (!slots->bytes || put_aside(slots) != 0)
 		return false;
 	fprintf(stderr, "ladderd: the program of download %u cannot start here; the one before "
 		"it is used\n", (unsigned)slots->seq);
 	return true;
+}
+
+int slots_back(struct slots *slots)
+{
+	const int error = put_aside(slots);
+
+	if (!error)
+		slots->next = !slots->next;
+	return error;
 }
 
 void slots_close(struct slots *slots)

@@ -106,6 +106,11 @@ static bool is_expected(const struct exchange *exchange, const struct order *ord
 	return memcmp(order->expect.program, host->identity(host->context), 32) == 0;
 }
 
+void exchange_forget(struct exchange *exchange)
+{
+	exchange->watch = (struct watch){ .serial = exchange->watch.serial };
+}
+
 static enum refusal do_order(struct exchange *exchange, struct order *order)
 {
 	const struct exchange_host *host = exchange->host;
@@ -117,6 +122,9 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 	order->state = resource->state;
 	if (!is_expected(exchange, order, resource))
 		return REFUSAL_CONFLICT;
+	/* It went back by itself, and the link does not know that yet. */
+	if (order->program && order->program != image->program)
+		return REFUSAL_BUSY;
 	if (order->kind == ORDER_WRITE || order->kind == ORDER_FORCE ||
 	    order->kind == ORDER_UNFORCE)
 		refusal = check_items(image, order);
@@ -146,8 +154,8 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 		host->status(host->context, order->status);
 		break;
 	case ORDER_SWAP:
-		exchange->watch = (struct watch){ .serial = exchange->watch.serial };
-		return host->swap(host->context, order->other);
+		exchange_forget(exchange);
+		return host->swap(host->context, order->other, order->back);
 	case ORDER_RESTART:
 		host->restart(host->context);
 		break;

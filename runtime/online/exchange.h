@@ -46,12 +46,14 @@ struct view {
 };
 
 enum order_kind {
+	/* These have places of a program. */
 	ORDER_LOOK,    /* copies ranges to a view of the link                 */
 	ORDER_WATCH,   /* the ranges to be copied after each scan             */
 	ORDER_WRITE,
 	ORDER_FORCE,
 	ORDER_UNFORCE, /* count 0: all                                        */
 	ORDER_FORCES,  /* copies the list of forces                           */
+	/* These have none. */
 	ORDER_MODE,
 	ORDER_STATUS,
 	ORDER_SWAP,    /* another program runs from now on                    */
@@ -69,6 +71,7 @@ struct order {
 	enum order_kind kind;
 	bool expects;                  /* `expect` must hold, or nothing is done */
 	struct expect expect;
+	const struct program *program; /* whose places these are; NULL: it has none */
 	const struct watch *watch;     /* ORDER_LOOK, ORDER_WATCH               */
 	struct view *view;             /* ORDER_LOOK                            */
 	const struct order_item *item; /* of writes and forces                  */
@@ -78,6 +81,8 @@ struct order {
 	struct image *forces;          /* ORDER_FORCES: gets only the forces    */
 	void *other;                   /* ORDER_SWAP, ORDER_ACT: the host's     */
 	void (*act)(void *context, void *other); /* @context: of the host        */
+	uint32_t back;                 /* ORDER_SWAP: a FAULT within so many scans brings
+					* the program before back; 0: never     */
 	/* The result. */
 	enum refusal refusal;
 	uint32_t wrong;                /* the item that was refused             */
@@ -94,7 +99,7 @@ struct exchange_host {
 	/** RUN, STOP, reset. Returns REFUSAL_NONE when it was done. */
 	enum refusal (*mode)(void *context, enum mode_wish wish);
 	/** Exchanges the program. Watches end. */
-	enum refusal (*swap)(void *context, void *other);
+	enum refusal (*swap)(void *context, void *other, uint32_t back);
 	void (*restart)(void *context);
 	/** Fills in what only the scan thread knows. */
 	void (*status)(void *context, struct board_status *status);
@@ -131,6 +136,8 @@ void exchange_renew(struct exchange *exchange, uint8_t *memory, size_t size);
 
 /** exchange_serve - does the order that waits, if any. Between two scans. Scan-safe: yes. */
 void exchange_serve(struct exchange *exchange);
+/** exchange_forget - nothing is watched any more: another program runs. Scan-safe: yes. */
+void exchange_forget(struct exchange *exchange);
 /** exchange_show - copies what is watched after a scan. Scan-safe: yes: bounded by the
  * watched bytes; without a watch it does nothing. */
 void exchange_show(struct exchange *exchange, int64_t now_ns);

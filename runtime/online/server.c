@@ -61,6 +61,7 @@ struct server {
 	struct watch look_watch;
 	struct standby_view standby;
 	bool verified;
+	char why[STATUS_TEXT]; /* the board went back by itself; "": a desk did it */
 	bool no_memory;        /* for the image of a new program: no reading  */
 	/* The program over the memory of a view, with the forces of the board. */
 	struct image mirror;
@@ -85,6 +86,8 @@ static enum refusal give(struct server *server)
 {
 	if (!exchange_is_done(server->setup.exchange))
 		return REFUSAL_BUSY;
+	if (server->order.kind < ORDER_MODE)
+		server->order.program = server->setup.program;
 	exchange_post(server->setup.exchange, &server->order);
 	return server->setup.wait(server->setup.context) ? server->order.refusal : REFUSAL_BUSY;
 }
@@ -729,6 +732,14 @@ static void server_renew(struct server *server, const struct program *program)
 	server->mirror.memory = server->look.memory;
 }
 
+void server_changed(struct server *server, const struct program *program, const char *why)
+{
+	server->verified = false; /* beside a program that has gone */
+	snprintf(server->why, sizeof(server->why), "%s", why);
+	server_renew(server, program);
+	learn_forces(server);
+}
+
 /* ---- download, upload ---- */
 
 /* Only the session that began it goes on with it. */
@@ -921,18 +932,20 @@ static enum refusal serve_verify(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
-static enum refusal swap(struct asked *asked, const struct expect *expect)
+static enum refusal swap(struct asked *asked, const struct expect *expect, uint32_t back)
 {
 	struct server *server = asked->server;
 	enum refusal refusal;
 
 	server->order = (struct order){ .kind = ORDER_SWAP, .other = server->standby.standby,
-					.expects = true, .expect = *expect };
+					.back = back, .expects = true, .expect = *expect };
 	refusal = give(server);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
-	server_renew(server, server->setup.store->swapped(server->setup.context));
-	return learn_forces(server);
+	server->why[0] = '\0';
+	server_renew(server, server->setup.store->swapped(server->setup.context, back != 0));
+	learn_forces(server); /* if the board is busy, the next view says that they differ */
+	return REFUSAL_NONE;
 }
 
 static enum refusal restart(struct server *server, const struct expect *expect)
@@ -959,9 +972,11 @@ static enum refusal serve_commit(struct asked *asked)
 	struct wire_reader *in = &asked->frame.body;
 	const struct expect expect = wire_expect(in);
 	const uint8_t how = wire_u8(in);
+	const uint32_t back = wire_left(in) ? wire_u32(in) : 0;
 	enum refusal refusal = own_download(asked);
+	uint64_t scan;
 
-	if (!wire_done(in) || how > 1)
+	if (!wire_done(in) || how > 1 || (how == 1 && back))
 		return REFUSAL_BAD_FRAME;
 	if (refusal != REFUSAL_NONE)
 		return refusal;
@@ -975,11 +990,12 @@ static enum refusal serve_commit(struct asked *asked)
 	server->order = (struct order){ .kind = ORDER_STATUS, .status = &server->status,
 					.expects = true, .expect = expect };
 	refusal = give(server);
+	scan = server->order.scan;
 	if (refusal == REFUSAL_NONE)
 		refusal = store->store(server->setup.context, asked->detail,
 				       sizeof(asked->detail));
 	if (refusal == REFUSAL_NONE && how == 0)
-		refusal = swap(asked, &expect);
+		refusal = swap(asked, &expect, back);
 	else if (refusal == REFUSAL_NONE)
 		refusal = restart(server, &expect);
 	if (refusal != REFUSAL_NONE)
@@ -987,7 +1003,7 @@ static enum refusal serve_commit(struct asked *asked)
 	tell_download(asked, &expect);
 	server->downloading = -1;
 	begin_answer(asked, 0);
-	wire_put_u64(&asked->out, server->order.scan);
+	wire_put_u64(&asked->out, scan);
 	return REFUSAL_NONE;
 }
 
@@ -1293,11 +1309,13 @@ static bool serve_next(struct server *server, struct session *session)
 }
 
 /* The publish requests of the session have ended. */
-static void tell_changed(struct session *session)
+static void tell_changed(const struct server *server, struct session *session)
 {
 	struct wire_writer out = wire_write(session->out, sizeof(session->out));
 
 	frame_begin(&out, SERVICE_COMMIT, WIRE_TOLD, 0);
+	if (*server->why)
+		wire_put_string(&out, server->why);
 	session->out_len = frame_end(&out);
 	session->changed = false;
 }
@@ -1308,7 +1326,7 @@ static void publish_next(struct server *server, struct session *session, int64_t
 	struct wire_writer out;
 
 	if (session->changed && session->greeted && !session->over && !session->out_len) {
-		tell_changed(session);
+		tell_changed(server, session);
 		return;
 	}
 	if (session->over || publish_due(&session->publications) > now_ns)

@@ -62,8 +62,9 @@ struct server_store {
 	enum refusal (*verify)(void *context, struct standby_view *out, char *detail, size_t size);
 	/** Writes it to a slot. */
 	enum refusal (*store)(void *context, char *detail, size_t size);
-	/** After ORDER_SWAP: frees the program before, and stores retained values again. */
-	const struct program *(*swapped)(void *context);
+	/** After ORDER_SWAP: frees the program before, if it cannot come back, and stores
+	 * retained values again. */
+	const struct program *(*swapped)(void *context, bool comes_back);
 	void (*abort)(void *context);
 	const struct stored *(*running)(void *context);
 };
@@ -107,6 +108,9 @@ const uint8_t *server_pending(struct server *server, int session, size_t *len);
 void server_sent(struct server *server, int session, size_t len);
 /** server_is_over - the stream made no sense, and all was sent: close it. */
 bool server_is_over(const struct server *server, int session);
+
+/** server_changed - the board went back to @program by itself; each session is told @why. */
+void server_changed(struct server *server, const struct program *program, const char *why);
 
 /** server_step - one request of each session, and published values that are due.
  * Returns whether there may be more to do at once. */

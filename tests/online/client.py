@@ -262,13 +262,14 @@ class Client:
             losses[it.text()] = why
         return same, identity, count, losses
 
-    def commit(self, restart=False, **expect):
-        return self.call(COMMIT, self.expect(**expect) + bytes([restart])).number('Q')
+    def commit(self, restart=False, back=None, **expect):
+        more = b'' if back is None else struct.pack('<I', back)
+        return self.call(COMMIT, self.expect(**expect) + bytes([restart]) + more).number('Q')
 
-    def download(self, parts, restart=False, **expect):
+    def download(self, parts, restart=False, back=None, **expect):
         self.send_from(b''.join(parts), self.begin(parts))
         verified = self.verify()
-        self.commit(restart, **expect)
+        self.commit(restart, back, **expect)
         return verified
 
     def upload(self):

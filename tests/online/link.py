@@ -791,6 +791,124 @@ def test_a_disk_that_takes_nothing():
         assert desk.upload() == parts
 
 
+TRIED = SEAL.replace('  Count : INT;', '  Count : INT;\n  Go : BOOL;\n  Old : DINT;')
+
+
+def faulty(scan):
+    """SEAL with a FAULT in its scan number `scan`, counted from the exchange; 0: never."""
+    return TRIED.replace('  Old : DINT;', '  Old : DINT;\n  New : DINT;').replace('PROGRAM Main LD\n', f"""PROGRAM Main LD
+RUNG
+  | NO SYS_ALWAYS_ON | ADD IN1:=New IN2:=1 OUT=>New |
+RUNG Again
+  | EQ IN1:=New IN2:={scan} | COIL Go |
+RUNG
+  | NO Go | JMP Again |
+""")
+
+
+COUNTS = TRIED.replace('PROGRAM Main LD\n', 'PROGRAM Main LD\nRUNG\n  | NO SYS_ALWAYS_ON | ADD IN1:=Old IN2:=1 OUT=>Old |\n')
+
+
+def test_a_fault_within_its_first_scans_brings_the_old_program_back():
+    for scan, back in ((1, 1), (1, 5), (4, 5), (5, 5)):
+        with Board(COUNTS, '--slots', '.') as board:
+            desk, other = board.client(), board.client()
+            desk.force({'Start': (BOOL, True)})
+            until(lambda: desk.read('Motor', 'Slow.ET')[1] > 100000000)
+            desk.write({'Label': (STRING, b'kept'), 'Table[1]': (INT, 5)})
+            before, shown = desk.status(), len(board.read('err'))
+            counted = desk.read('Old')[0]
+            bad = build(board, 'bad.rung', faulty(scan))
+            identity = desk.download(bad, back=back)[1]
+            until(lambda: any(it['id'] == 24 for it in other.events()))
+            until(lambda: attempt(other.forces) and [number for number, _ in other.told].count(0) == 2)
+            now = desk.status()
+            assert now['program'] == before['program'] != identity and now['mode'] == client.RUN, now
+            assert now['forces'] == 1 and now['fault'] == 'none' and now['scans'] > before['scans']
+            values = desk.read('Label', 'Table[1]', 'Motor', 'Slow.PT')
+            assert values == [b'kept', 5, True, 2000000000], values
+            assert desk.read('Old')[0] > counted  # it counts on from where it was
+            event = next(it for it in desk.events() if it['id'] == 24)
+            assert event['args'][0] == before['program'].hex() and 'Main rung' in event['args'][1], event
+            assert not event['user'] and not any(it['id'] == 3 for it in desk.events())
+            told = [fields for number, fields in other.told if number == 0]
+            assert 'Main rung' in told[-1].text() and not told[-1].rest()
+            # No output got its safe value meanwhile.
+            assert '%QX0.0 0' not in board.read('err')[shown:] and '%QX0.1 1' not in board.read('err')[shown:]
+            assert not os.path.exists(board.folder + '/prog.A') and os.path.exists(board.folder + '/prog.A.refused')
+            # The desk goes on: another download, and the start after it.
+            good = build(board, 'good.rung', COUNTS.replace('T#2s', 'T#4s'))
+            identity = desk.download(good, back=3)[1]
+            until(lambda: desk.status()['scans'] > now['scans'] + 10)
+            assert desk.status()['program'] == identity and desk.upload() == good
+            board.stop()
+            board.start()
+            assert board.client().status()['program'] == identity
+
+
+def test_a_fault_after_its_first_scans_is_a_fault():
+    for scan, back in ((2, 1), (6, 5), (1, None), (1, 0)):
+        with Board(COUNTS, '--slots', '.') as board:
+            desk = board.client()
+            identity = desk.download(build(board, 'bad.rung', faulty(scan)), back=back)[1]
+            until(lambda: desk.status()['mode'] == client.FAULT)
+            assert desk.status()['program'] == identity and not any(it['id'] == 24 for it in desk.events())
+            assert os.path.exists(board.folder + '/prog.A')
+
+
+def test_the_start_after_a_bad_program_runs_the_one_before():
+    with Board(COUNTS, '--slots', '.', '--retain', 'retain', '--retain-period', '10ms') as board:
+        desk = board.client()
+        one = desk.download(build(board, 'good.rung', COUNTS.replace('T#2s', 'T#4s')))[1]
+        for _ in range(3):
+            desk.download(build(board, 'bad.rung', faulty(3)), back=1000)
+            until(lambda: desk.status()['program'] == one)
+        until(lambda: os.path.exists(board.folder + '/prog.B.refused') and not os.path.exists(board.folder + '/prog.B'))
+        board.stop()
+        board.start()
+        assert board.client().status()['program'] == one
+        assert 'runs the program of download 1' in board.read('err')
+
+
+def test_a_trial_ends_with_an_order_and_keeps_others_out():
+    with Board(COUNTS, '--slots', '.') as board:
+        desk = board.client()
+        bad = build(board, 'bad.rung', faulty(0))
+        good = build(board, 'good.rung', COUNTS.replace('T#2s', 'T#4s'))
+        identity = desk.download(bad, back=1000000)[1]
+        desk.send_from(b''.join(good), desk.begin(good))
+        refused(13, desk.verify, 'a program is on trial')
+        desk.set_mode(0)
+        desk.set_mode(1)
+        until(lambda: not isinstance(attempt(desk.verify), Refused))
+        assert desk.status()['program'] == identity
+        refused(1, lambda: desk.commit(restart=True, back=5))
+        desk.commit(back=4000000000)
+        assert desk.upload() == good
+
+
+def attempt(do):
+    try:
+        return do()
+    except Refused as error:
+        return error
+
+
+def test_command_waits_for_a_trial():
+    with Board(COUNTS, '--slots', '.') as board:
+        board.write('p0.rung', COUNTS.replace('T#2s', 'T#4s'))
+        board.write('p3.rung', faulty(3))
+        status, _out, err = board.command('download', 'p0.rung', 'board.io', '--yes', '--back-within', '5')
+        assert status == 0 and ' error ' not in err, err
+        identity = board.client().status()['program']
+        status, _out, err = board.command('download', 'p3.rung', 'board.io', '--yes', '--back-within', '500')
+        assert status == 1 and 'LD860' in err and 'Main rung' in err, err
+        assert board.client().status()['program'] == identity
+        for words in (['--back-within', '0'], ['--back-within', 'x'], ['--back-within', '5', '--restart']):
+            status, _out, err = board.command('download', 'p0.rung', 'board.io', '--yes', *words)
+            assert status == 2 and '--back-within needs' in err, err
+
+
 def test_retained_values_survive_a_download_and_a_start():
     retained = SEAL.replace("  Label : STRING := 'hello';\n", '').replace(
         'VAR CONSTANT', "VAR RETAIN\n  Label : STRING := 'hello';\nEND_VAR\nVAR CONSTANT")
@@ -1056,7 +1174,7 @@ def test_three_abnormal_ends_begin_in_stop():
         assert status['mode'] == client.STOP and 'three times within a minute' in status['stop'], status
         assert 'QX0.0 1' not in board.read('err')
         desk = board.client()
-        assert [it['id'] for it in desk.events() if it['id'] == 23] == [23]
+        assert [it['id'] for it in desk.events() if it['id'] == 24] == [23]
         assert 'stop: ladderd has ended abnormally' in board.command('status')[1]
         desk.set_mode(1)
         assert desk.status()['mode'] == client.RUN and not desk.status()['stop']

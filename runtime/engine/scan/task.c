@@ -84,6 +84,17 @@ void tasks_start(struct tasks *tasks, const struct program *program,
 		tasks->state[i].next_ns = start_ns;
 }
 
+void tasks_skip(struct tasks *tasks, const struct program *program, int64_t now_ns)
+{
+	for (uint32_t i = 0; i < program->task_count; i++) {
+		const int64_t interval = task_interval(&program->task[i]);
+		const int64_t late = now_ns - tasks->state[i].next_ns;
+
+		if (program->task[i].kind == TASK_INTERVAL && late > 0)
+			tasks->state[i].next_ns += late / interval * interval;
+	}
+}
+
 void tasks_begin(struct tasks *tasks, const struct program *program,
 		 const uint8_t *m, int64_t now_ns)
 {

@@ -61,6 +61,9 @@ int64_t tasks_tick(const struct program *program, int64_t period_ns,
 /** tasks_start - sets all deadlines to @start_ns. Scan-safe: yes. */
 void tasks_start(struct tasks *tasks, const struct program *program,
 		 int64_t start_ns);
+/** tasks_skip - moves deadlines that have passed to the last one before @now_ns, so that none
+ * of them counts as missed. Scan-safe: yes. */
+void tasks_skip(struct tasks *tasks, const struct program *program, int64_t now_ns);
 /** tasks_begin - starts a cycle: finds the tasks that are due at @now_ns.
  * Scan-safe: yes. */
 void tasks_begin(struct tasks *tasks, const struct program *program,

@@ -317,6 +317,25 @@ static void needs_no_names(void)
 	free(bare);
 }
 
+/* After a while in which no task of this program ran, nothing counts as missed. */
+static void skips_a_break(void)
+{
+	int64_t slow, fast;
+
+	resource_start(&rig.resource);
+	scan_at(0);
+	scan_at(2);
+	slow = task(SLOW)->next_ns;
+	fast = task(FAST)->next_ns;
+	tasks_skip(&rig.resource.tasks, rig.resource.image.program, 1001 * MS);
+	CHECK(task(SLOW)->next_ns == slow + 990 * MS);
+	CHECK(task(FAST)->next_ns == fast + 996 * MS);
+	scan_at(1001);
+	CHECK(task(SLOW)->runs == 2 && task(SLOW)->overruns == 0 && task(FAST)->overruns == 0);
+	tasks_skip(&rig.resource.tasks, rig.resource.image.program, 1001 * MS);
+	CHECK(task(SLOW)->next_ns == 1010 * MS);
+}
+
 int main(void)
 {
 	if (!rig_open(&rig, source, false))
@@ -324,6 +343,7 @@ int main(void)
 	has_order();
 	keeps_deadlines();
 	leaves_periods_out();
+	skips_a_break();
 	has_own_start();
 	sees_events();
 	keeps_an_event();
