@@ -530,6 +530,9 @@ static char *why_ended(LadderBoardLink *link, const struct come *come)
 {
 	if (come->error)
 		return unreachable(link->where, come->error);
+	if (come->end == DESK_GONE && link->state == LINK_CONNECTED)
+		return g_strdup(_("The connection has ended: the cable, the network, or ladderd "
+				  "itself. The board goes on without it."));
 	return diag_said_whole(&come->why);
 }
 

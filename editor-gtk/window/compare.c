@@ -25,6 +25,11 @@ static void show(struct compare *compare, struct compare_side *older, struct com
 	ladder_compare_view_enter(view);
 }
 
+void compare_with(struct compare *compare, struct compare_side *older)
+{
+	show(compare, older, NULL);
+}
+
 /* ---- files ---- */
 
 static struct compare_side side_of(const char *path)

@@ -6,6 +6,7 @@
 #ifndef EDITOR_WINDOW_COMPARE_H
 #define EDITOR_WINDOW_COMPARE_H
 
+#include "editor-gtk/document/comparison.h"
 #include "editor-gtk/window/core.h"
 
 struct compare {
@@ -22,6 +23,8 @@ void compare_ask(struct compare *compare);
 void compare_ask_files(struct compare *compare);
 /** compare_files - shows the page of two files. */
 void compare_files(struct compare *compare, const char *older, const char *newer);
+/** compare_with - shows the page of @older, whose texts are taken over, and the document. */
+void compare_with(struct compare *compare, struct compare_side *older);
 /** compare_step - shows the next or previous difference; of a page that is not in front, the
  * one that is selected. */
 void compare_step(struct compare *compare, bool back);

@@ -9,6 +9,7 @@
 #define EDITOR_CORE_H
 
 #include "editor-gtk/document/document.h"
+#include "editor-gtk/online/board_link.h"
 #include "editor-gtk/sim/board_run.h"
 #include "editor-gtk/sim/sim.h"
 
@@ -19,6 +20,7 @@ struct core {
 	LadderDocument *document;  /* NULL: the window is closing                 */
 	LadderSim *sim;            /* off while editing                           */
 	LadderBoardRun *board;     /* the program on this machine                 */
+	LadderBoardLink *link;     /* to the connected board                      */
 	GtkPageSetup *paper;       /* of prints and their preview                 */
 	GtkWidget *tree;
 	struct messages *messages;

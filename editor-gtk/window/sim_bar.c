@@ -54,7 +54,8 @@ static void show_forces(struct sim_bar *bar)
 
 static void show_buttons(struct sim_bar *bar)
 {
-	const bool on = ladder_sim_is_on(bar->core->sim);
+	const bool online = ladder_board_link_state(bar->core->link) != LINK_OFF;
+	const bool on = ladder_sim_is_on(bar->core->sim) && !online;
 	const bool run = ladder_sim_state(bar->core->sim) == SIM_RUN;
 	const char *name = run ? _("Pause") : _("Run");
 
@@ -63,7 +64,8 @@ static void show_buttons(struct sim_bar *bar)
 				 "media-playback-start-symbolic");
 	tip_set(GTK_WIDGET(bar->run_button), name);
 	spoken_name(bar->run_button, name);
-	gtk_toggle_button_set_active(on ? bar->simulate_mode : bar->edit_mode, TRUE);
+	if (!online)
+		gtk_toggle_button_set_active(on ? bar->simulate_mode : bar->edit_mode, TRUE);
 	core_enable(bar->core, "win.sim_stop", on &&
 		    ladder_sim_state(bar->core->sim) != SIM_STOP);
 }
@@ -232,6 +234,8 @@ static void begin_or_end(struct sim_bar *bar)
 
 static void mode_toggled(struct sim_bar *bar)
 {
+	if (ladder_board_link_state(bar->core->link) != LINK_OFF)
+		return; /* the mode Online ends first, then this comes again */
 	if (gtk_toggle_button_get_active(bar->simulate_mode) !=
 	    ladder_sim_is_on(bar->core->sim))
 		begin_or_end(bar);

@@ -33,6 +33,7 @@
 #include "editor-gtk/window/help.h"
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/names.h"
+#include "editor-gtk/window/online_bar.h"
 #include "editor-gtk/window/pou_import_dialog.h"
 #include "editor-gtk/window/pou_new.h"
 #include "editor-gtk/window/preferences.h"
@@ -71,6 +72,7 @@ struct _LadderWindow {
 	struct blockers blockers;
 	struct scenarios scenarios;
 	struct board_bar board_bar;
+	struct online_bar online_bar;
 	guint disk_timer;         /* checks for changed files when it elapses    */
 	GtkWidget *palette;
 	AdwWindowTitle *title;
@@ -465,7 +467,8 @@ static void do_in_window(LadderWindow *window, enum verb verb)
 		break;
 	default:
 		if (!do_in_file(window, verb) && !do_project(window, verb) &&
-		    !do_find(window, verb) && !sim_bar_do(&window->sim_bar, verb) &&
+		    !do_find(window, verb) && !online_bar_do(&window->online_bar, verb) &&
+		    !sim_bar_do(&window->sim_bar, verb) &&
 		    !scenarios_do(&window->scenarios, verb))
 			do_view(window, verb);
 	}
@@ -862,6 +865,7 @@ static void add_parts(LadderWindow *window)
 
 	window->sim_bar.title = window->title;
 	window->sim_bar.side = GTK_WIDGET(window->side);
+	window->online_bar.edit_mode = window->sim_bar.edit_mode;
 	messages_init(&window->messages, core);
 	below_init(&window->below, core);
 	front_init(&window->front, core);
@@ -883,6 +887,7 @@ static void add_parts(LadderWindow *window)
 	exchange_init(&window->exchange, core, &window->origin, &window->export);
 	files_init(&window->files, core, &window->origin, &window->exchange);
 	board_bar_init(&window->board_bar, core, &window->export, &window->files);
+	online_bar_init(&window->online_bar, core, &window->compare);
 	/* these two need to see all events from the start */
 	below_panel(&window->below, "problems");
 	below_panel(&window->below, "log");
@@ -962,6 +967,7 @@ static void ladder_window_dispose(GObject *object)
 	struct core *core = &window->core;
 
 	g_clear_handle_id(&window->disk_timer, g_source_remove);
+	online_bar_clear(&window->online_bar);
 	board_bar_clear(&window->board_bar);
 	scenarios_clear(&window->scenarios);
 	compare_clear(&window->compare);
@@ -973,6 +979,7 @@ static void ladder_window_dispose(GObject *object)
 	g_clear_object(&core->paper);
 	g_clear_object(&core->sim);
 	g_clear_object(&core->board);
+	g_clear_object(&core->link);
 	if (core->document) { /* drafts of files are removed with their tabs     */
 		g_signal_handlers_disconnect_by_data(core->document, window);
 		ladder_document_set_cursor(core->document, NULL, NULL);
@@ -1026,7 +1033,8 @@ static void ladder_window_class_init(LadderWindowClass *class)
 	CHILD("pill", status.pill); CHILD("place_label", status.place);
 	CHILD("checked_label", status.checked); CHILD("zoom_label", status.zoom);
 	CHILD("right", sim_bar.right); CHILD("edit_mode", sim_bar.edit_mode);
-	CHILD("simulate_mode", sim_bar.simulate_mode); CHILD("sim_buttons", sim_bar.buttons);
+	CHILD("simulate_mode", sim_bar.simulate_mode);
+	CHILD("online_mode", online_bar.mode); CHILD("online_place", online_bar.place); CHILD("sim_buttons", sim_bar.buttons);
 	CHILD("run_button", sim_bar.run_button); CHILD("pace_button", sim_bar.pace_button);
 	CHILD("forces_button", sim_bar.forces_button);
 	CHILD("record_button", scenarios.record_button);
@@ -1056,6 +1064,7 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 	window->core.document = g_object_ref(document);
 	window->core.sim = ladder_sim_new(document);
 	window->core.board = ladder_board_run_new();
+	window->core.link = ladder_board_link_new();
 	g_signal_connect_object(document, "state-changed", G_CALLBACK(show_state), window,
 				G_CONNECT_SWAPPED);
 	g_signal_connect_object(window->core.sim, "state-changed", G_CALLBACK(show_state),

@@ -215,7 +215,7 @@ static enum status verify(struct remote *remote, const struct stored *stored,
 	enum desk_end end;
 	const uint8_t *program;
 	uint32_t count, told;
-	struct sent sent;
+	struct sent sent = { .go_on = NULL };
 	enum status status = send_all(remote, stored, false, &sent);
 
 	if (status != STATUS_GOOD)

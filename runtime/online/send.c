@@ -243,7 +243,7 @@ static enum desk_end begin(struct desk *desk, const struct stored *stored, uint3
 
 /* Sends a frame and learns how much the board has then. */
 static enum desk_end finish(struct desk *desk, struct wire_writer *out, uint32_t size,
-			    uint32_t *received)
+			    uint32_t *received, struct sent *sent)
 {
 	struct wire_reader in;
 	const enum desk_end end = desk_call(desk, out, &in);
@@ -255,6 +255,8 @@ static enum desk_end finish(struct desk *desk, struct wire_writer *out, uint32_t
 	if (in.failed || now <= *received || now > size)
 		return DESK_NONSENSE;
 	*received = now;
+	if (sent->go_on && !sent->go_on(sent->context, now))
+		*received = size;
 	return DESK_GOOD;
 }
 
@@ -272,7 +274,7 @@ static enum desk_end send_blocks(struct desk *desk, const struct stored *stored,
 		wire_put_u32(&out, received);
 		wire_put_bytes(&out, stored->bytes + received, len);
 		sent->bytes += len;
-		end = finish(desk, &out, size, &received);
+		end = finish(desk, &out, size, &received, sent);
 	}
 	return end;
 }
@@ -323,7 +325,7 @@ static enum desk_end send_pieces(struct desk *desk, const struct stored *stored,
 			if (at < begin + run->len)
 				break;
 		}
-		end = finish(desk, &out, size, &received);
+		end = finish(desk, &out, size, &received, sent);
 	}
 	return end;
 }
@@ -337,7 +339,7 @@ enum desk_end send_program(struct desk *desk, const struct stored *stored, bool 
 	uint32_t received;
 	enum desk_end end = begin(desk, stored, &received);
 
-	memset(sent, 0, sizeof(*sent));
+	sent->bytes = sent->copied = 0;
 	if (end != DESK_GOOD || received >= size)
 		return end;
 	if (!all)

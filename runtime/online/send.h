@@ -14,11 +14,15 @@
 struct sent {
 	uint32_t bytes;        /* of the program, that went over the stream    */
 	uint32_t copied;       /* that the board had                           */
+	/* Told how many bytes the board has; false: nothing more is sent. NULL: nobody. */
+	bool (*go_on)(void *context, uint32_t received);
+	void *context;
 };
 
 /**
  * send_program - begins a download, or goes on with one that was cut, and sends it
  * @all: sends every byte, as to a board that has no sums
+ * @sent: its `go_on` and `context` are read, the rest is filled
  *
  * If `verify` then refuses it as not whole and something was copied, send it again with @all.
  * Owns: nothing. Scan-safe: no. Fails: as desk_call(); DESK_NO_ROOM: no memory.

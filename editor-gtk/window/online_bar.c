@@ -1,0 +1,444 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * online_bar - see online_bar.h.
+ */
+#include "editor-gtk/window/online_bar.h"
+
+#include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/online/board_finder.h"
+#include "editor-gtk/online/connect_dialog.h"
+#include "editor-gtk/window/ask.h"
+#include "editor-gtk/window/messages.h"
+
+#include "engine/scan/code.h"
+#include "engine/scan/resource.h"
+
+#include <string.h>
+
+static LadderBoardLink *link_of(struct online_bar *bar)
+{
+	return bar->core->link;
+}
+
+static bool is_on(struct online_bar *bar)
+{
+	return ladder_board_link_state(link_of(bar)) != LINK_OFF;
+}
+
+/* ---- what it says ---- */
+
+enum same { SAME_UNKNOWN, SAME, SAME_ERRORS, SAME_CHANGED, SAME_OTHER, SAME_NONE };
+
+static enum same compare_programs(struct online_bar *bar)
+{
+	const struct board_status *status = ladder_board_link_status(link_of(bar));
+	static const guint8 none[32];
+
+	if (!status)
+		return SAME_UNKNOWN;
+	if (!bar->has_identity)
+		return SAME_ERRORS;
+	if (memcmp(status->program, bar->identity, sizeof(bar->identity)) == 0)
+		return SAME;
+	if (memcmp(status->program, none, sizeof(none)) == 0)
+		return SAME_NONE;
+	return bar->was_same ? SAME_CHANGED : SAME_OTHER;
+}
+
+/* "garage · RUN · 2 forces". Caller frees. */
+static char *state_text(struct online_bar *bar)
+{
+	const char *board = ladder_board_link_board(link_of(bar));
+	const struct board_status *status = ladder_board_link_status(link_of(bar));
+	GString *text = g_string_new(board);
+
+	switch (ladder_board_link_state(link_of(bar))) {
+	case LINK_CONNECTING:
+		g_string_append_printf(text, " · %s", _("connecting…"));
+		break;
+	case LINK_LOST:
+		g_string_append_printf(text, " · %s", _("connection lost, trying again"));
+		break;
+	case LINK_FAILED:
+		g_string_append_printf(text, " · %s", _("not connected"));
+		break;
+	case LINK_OFF: case LINK_CONNECTED:
+		break;
+	}
+	if (status) {
+		g_string_append_printf(text, " · %s", mode_word(status->mode));
+		if (status->mode == STATE_FAULT)
+			g_string_append_printf(text, ": %s", status->fault);
+		else if (*status->stop)
+			g_string_append_printf(text, ": %s", status->stop);
+	}
+	if (status && ladder_board_link_role(link_of(bar)) != ROLE_ENG)
+		g_string_append_printf(text, " · %s", ladder_board_link_role(link_of(bar)) ==
+				       ROLE_OPER ? _("you may operate") : _("you may look"));
+	return g_string_free(text, FALSE);
+}
+
+static void set_class(GtkWidget *widget, const char *class, bool on)
+{
+	if (on)
+		gtk_widget_add_css_class(widget, class);
+	else
+		gtk_widget_remove_css_class(widget, class);
+}
+
+static void show_label(GtkWidget *label, const char *text)
+{
+	if (strcmp(gtk_label_get_text(GTK_LABEL(label)), text) == 0)
+		return;
+	gtk_label_set_text(GTK_LABEL(label), text);
+	tip_set(label, *text ? text : NULL);
+	gtk_widget_set_visible(label, *text != '\0');
+}
+
+static void show_same(struct online_bar *bar)
+{
+	static const char *const texts[] = {
+		[SAME_UNKNOWN] = "", [SAME] = N_("The board runs this program."),
+		[SAME_ERRORS] = N_("This program has errors."),
+		[SAME_CHANGED] = N_("Changed here, not downloaded."),
+		[SAME_OTHER] = N_("The board runs another program."),
+		[SAME_NONE] = N_("The board has no program."),
+	};
+	const enum same same = compare_programs(bar);
+
+	if (same == SAME)
+		bar->was_same = true;
+	show_label(bar->same, said(texts[same]));
+	set_class(bar->same, "warning", same == SAME_CHANGED || same == SAME_OTHER ||
+		  same == SAME_ERRORS);
+}
+
+static void show_reason(struct online_bar *bar)
+{
+	const enum link_state state = ladder_board_link_state(link_of(bar));
+	const bool none = state == LINK_CONNECTED &&
+			  ladder_board_link_role(link_of(bar)) == ROLE_NONE;
+
+	show_label(bar->reason, none ? _("Your user on the board is in none of the groups "
+		"ladder-view, ladder-oper, ladder-eng, so it may do nothing there. Add it to one "
+		"of them and connect again.") : ladder_board_link_reason(link_of(bar)));
+	gtk_widget_set_visible(bar->again, state == LINK_FAILED || state == LINK_LOST || none);
+}
+
+/* A button that the role does not allow says so. */
+static void allow(struct online_bar *bar, const char *action, enum service service, bool useful)
+{
+	core_enable(bar->core, action, useful && ladder_board_link_may(link_of(bar), service));
+}
+
+static void show_actions(struct online_bar *bar)
+{
+	const struct board_status *status = ladder_board_link_status(link_of(bar));
+	const enum role role = ladder_board_link_role(link_of(bar));
+	const int mode = status ? status->mode : -1;
+	char *why = role == ROLE_ENG || !status ? NULL :
+		g_strdup_printf(_("This needs the role eng; yours is %s"), role_word(role));
+
+	core_enable(bar->core, "win.online_run", mode == STATE_STOP && role == ROLE_ENG);
+	core_enable(bar->core, "win.online_stop", mode == STATE_RUN && role == ROLE_ENG);
+	core_enable(bar->core, "win.online_reset", mode == STATE_FAULT && role >= ROLE_OPER);
+	allow(bar, "win.online_download", SERVICE_DOWNLOAD, status != NULL);
+	allow(bar, "win.online_upload", SERVICE_UPLOAD, status != NULL);
+	allow(bar, "win.online_compare", SERVICE_UPLOAD, status != NULL);
+	core_enable(bar->core, "win.online_disconnect", is_on(bar));
+	core_enable(bar->core, "win.online_reconnect", is_on(bar));
+	for (GtkWidget *at = gtk_widget_get_first_child(bar->buttons); at;
+	     at = gtk_widget_get_next_sibling(at)) {
+		const char *action = gtk_actionable_get_action_name(GTK_ACTIONABLE(at));
+
+		tip_set(at, gtk_widget_get_sensitive(at) ||
+			g_strcmp0(action, "win.online_disconnect") == 0 ? NULL : why);
+		if (g_strcmp0(action, "win.online_run") == 0)
+			gtk_widget_set_visible(at, mode == STATE_STOP);
+		else if (g_strcmp0(action, "win.online_stop") == 0)
+			gtk_widget_set_visible(at, mode == STATE_RUN);
+		else if (g_strcmp0(action, "win.online_reset") == 0)
+			gtk_widget_set_visible(at, mode == STATE_FAULT);
+		else if (g_strcmp0(action, "win.online_disconnect") != 0)
+			gtk_widget_set_visible(at, status != NULL);
+	}
+	g_free(why);
+}
+
+/* The log has each change of the state once. */
+static void log_state(struct online_bar *bar, const char *text)
+{
+	const char *reason = ladder_board_link_reason(link_of(bar));
+	char *whole = *reason ? g_strdup_printf("%s: %s", text, reason) : g_strdup(text);
+
+	if (is_on(bar) && g_strcmp0(bar->said, whole) != 0)
+		messages_log(bar->core->messages, _("communication"), whole);
+	g_free(bar->said);
+	bar->said = whole;
+}
+
+static void show(struct online_bar *bar)
+{
+	const struct board_status *status = ladder_board_link_status(link_of(bar));
+	char *text = state_text(bar);
+
+	gtk_widget_set_visible(bar->bar, is_on(bar));
+	show_label(bar->state, text);
+	set_class(bar->state, "error", status && status->mode == STATE_FAULT);
+	set_class(bar->state, "success", status && status->mode == STATE_RUN);
+	show_same(bar);
+	show_reason(bar);
+	show_actions(bar);
+	log_state(bar, text);
+	if (gtk_toggle_button_get_active(bar->mode) != is_on(bar))
+		gtk_toggle_button_set_active(is_on(bar) ? bar->mode : bar->edit_mode, TRUE);
+	g_free(text);
+}
+
+static void state_changed(struct online_bar *bar)
+{
+	const enum link_state state = ladder_board_link_state(link_of(bar));
+
+	if (state == LINK_CONNECTING)
+		bar->was_same = false;
+	if (state == LINK_CONNECTED)
+		board_recent_add(ladder_board_link_where(link_of(bar)));
+	show(bar);
+}
+
+/* The identity of a program that has errors is not known. */
+static void checked(struct online_bar *bar)
+{
+	struct ladder *ladder = ladder_document_checked(bar->core->document);
+	const struct program *program = ladder && !ladder_document_diags(bar->core->document)->errors ?
+		ladder_program(ladder) : NULL;
+
+	bar->has_identity = program != NULL;
+	if (program)
+		code_identity(program, bar->identity);
+	if (is_on(bar))
+		show(bar);
+}
+
+static void failed(LadderBoardLink *link, const char *service, const char *text,
+		   struct online_bar *bar)
+{
+	char *line = g_strdup_printf("%s: %s: %s", ladder_board_link_board(link), service, text);
+
+	messages_log(bar->core->messages, _("communication"), line);
+	g_free(line);
+}
+
+/* ---- orders ---- */
+
+static void ordered(gpointer data, struct board_answer *answer)
+{
+	struct online_bar *bar = data;
+
+	if (answer->end != DESK_GOOD)
+		messages_banner(bar->core->messages, _("communication"), answer->text, NULL, NULL);
+}
+
+static void order_answered(AdwMessageDialog *dialog, const char *answer, struct online_bar *bar)
+{
+	const enum mode_wish wish = (enum mode_wish)GPOINTER_TO_INT(
+		g_object_get_data(G_OBJECT(dialog), "wish"));
+
+	if (strcmp(answer, "do") == 0)
+		ladder_board_link_mode(link_of(bar), wish, bar->core->window, ordered, bar);
+}
+
+/* Each of them moves a machine, so it is asked for. */
+static void order(struct online_bar *bar, enum mode_wish wish)
+{
+	static const struct { const char *heading, *body, *button; } texts[] = {
+		[MODE_STOP] = { N_("Stop the program on “%s”?"),
+				N_("The outputs get their safe values."), N_("Stop") },
+		[MODE_WARM] = { N_("Run the program on “%s”?"),
+				N_("It begins with retained values and drives the outputs."),
+				N_("Run") },
+		[MODE_RESET] = { N_("Reset the fault of “%s”?"),
+				 N_("The program begins with retained values and drives the "
+				    "outputs."), N_("Reset") },
+	};
+	char *heading = g_strdup_printf(_(texts[wish].heading), ladder_board_link_board(link_of(bar)));
+	AdwMessageDialog *dialog = ask_new(bar->core->window, heading, _(texts[wish].body), "do",
+		_(texts[wish].button), wish == MODE_STOP ? ADW_RESPONSE_DESTRUCTIVE :
+							   ADW_RESPONSE_SUGGESTED);
+
+	g_object_set_data(G_OBJECT(dialog), "wish", GINT_TO_POINTER(wish));
+	core_connect(bar->core, dialog, "response", G_CALLBACK(order_answered), bar, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+	g_free(heading);
+}
+
+/* ---- connecting ---- */
+
+void online_bar_connect(struct online_bar *bar, const char *where)
+{
+	char *why = NULL;
+
+	if (ladder_sim_is_on(bar->core->sim) && !is_on(bar))
+		core_do(bar->core, "win.sim_mode"); /* ends the simulation */
+	if (!ladder_board_link_connect(link_of(bar), where, &why))
+		messages_warn(bar->core->messages, why);
+	g_free(why);
+}
+
+static void chosen(GtkWidget *dialog, const char *where, struct online_bar *bar)
+{
+	(void)dialog;
+	bar->chosen = true;
+	online_bar_connect(bar, where);
+}
+
+static void closed(struct online_bar *bar)
+{
+	if (!bar->chosen)
+		show(bar); /* the switch goes back */
+}
+
+static void ask_board(struct online_bar *bar)
+{
+	GtkWidget *dialog = ladder_connect_dialog_new(bar->core->window,
+						      ladder_board_link_where(link_of(bar)));
+
+	bar->chosen = false;
+	core_connect(bar->core, dialog, "chosen", G_CALLBACK(chosen), bar, 0);
+	core_connect(bar->core, dialog, "unrealize", G_CALLBACK(closed), bar, G_CONNECT_SWAPPED);
+	gtk_window_present(GTK_WINDOW(dialog));
+}
+
+static void mode_toggled(struct online_bar *bar)
+{
+	const bool wanted = gtk_toggle_button_get_active(bar->mode);
+
+	if (wanted && !is_on(bar))
+		ask_board(bar);
+	else if (!wanted && is_on(bar))
+		ladder_board_link_disconnect(link_of(bar));
+}
+
+/* ---- commands ---- */
+
+/* The keys of the simulation order the board. */
+static bool do_as_simulated(struct online_bar *bar, enum verb verb)
+{
+	const struct board_status *status = ladder_board_link_status(link_of(bar));
+
+	if (!is_on(bar))
+		return false;
+	switch ((int)verb) {
+	case VERB_sim_run:
+		if (status && status->mode == STATE_RUN)
+			messages_tell(bar->core->messages, _("The board runs already"));
+		else
+			core_do(bar->core, status && status->mode == STATE_FAULT ?
+				"win.online_reset" : "win.online_run");
+		return true;
+	case VERB_sim_stop: core_do(bar->core, "win.online_stop"); return true;
+	case VERB_sim_mode: ladder_board_link_disconnect(link_of(bar)); return true;
+	case VERB_sim_scan: case VERB_sim_cold: case VERB_sim_warm:
+		messages_tell(bar->core->messages, _("Only the simulation can do this"));
+		return true;
+	default: return false;
+	}
+}
+
+bool online_bar_do(struct online_bar *bar, enum verb verb)
+{
+	switch ((int)verb) {
+	case VERB_online_connect: ask_board(bar); return true;
+	case VERB_online_reconnect: ladder_board_link_reconnect(link_of(bar)); return true;
+	case VERB_online_disconnect: ladder_board_link_disconnect(link_of(bar)); return true;
+	case VERB_online_run: order(bar, MODE_WARM); return true;
+	case VERB_online_stop: order(bar, MODE_STOP); return true;
+	case VERB_online_reset: order(bar, MODE_RESET); return true;
+	case VERB_online_compare: online_move_compare(&bar->move); return true;
+	case VERB_online_download: online_move_download(&bar->move); return true;
+	case VERB_online_upload: online_move_upload(&bar->move); return true;
+	default: return do_as_simulated(bar, verb);
+	}
+}
+
+/* ---- life ---- */
+
+static void add_button(struct online_bar *bar, const char *label, const char *action,
+		       const char *class)
+{
+	GtkWidget *button = gtk_button_new_with_label(label);
+
+	gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+	if (class)
+		gtk_widget_add_css_class(button, class);
+	gtk_box_append(GTK_BOX(bar->buttons), button);
+}
+
+static GtkWidget *label_new(void)
+{
+	GtkWidget *label = gtk_label_new("");
+
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+	gtk_widget_set_visible(label, FALSE);
+	return label;
+}
+
+static void make_bar(struct online_bar *bar)
+{
+	GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
+
+	bar->bar = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
+	gtk_widget_add_css_class(bar->bar, "online-bar");
+	bar->state = label_new();
+	gtk_widget_add_css_class(bar->state, "heading");
+	bar->same = label_new();
+	gtk_widget_set_hexpand(bar->same, TRUE);
+	bar->buttons = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+	gtk_widget_set_hexpand(bar->buttons, TRUE);
+	gtk_widget_set_halign(bar->buttons, GTK_ALIGN_END);
+	add_button(bar, _("Run"), "win.online_run", NULL);
+	add_button(bar, _("Stop"), "win.online_stop", NULL);
+	add_button(bar, _("Reset"), "win.online_reset", NULL);
+	add_button(bar, _("Compare"), "win.online_compare", NULL);
+	add_button(bar, _("Upload…"), "win.online_upload", NULL);
+	add_button(bar, _("Download…"), "win.online_download", "suggested-action");
+	add_button(bar, _("Disconnect"), "win.online_disconnect", NULL);
+	bar->again = gtk_button_new_with_label(_("Connect again"));
+	gtk_actionable_set_action_name(GTK_ACTIONABLE(bar->again), "win.online_reconnect");
+	gtk_box_append(GTK_BOX(line), bar->state);
+	gtk_box_append(GTK_BOX(line), bar->same);
+	gtk_box_append(GTK_BOX(line), bar->again);
+	gtk_box_append(GTK_BOX(line), bar->buttons);
+	bar->reason = label_new();
+	gtk_label_set_wrap(GTK_LABEL(bar->reason), TRUE);
+	gtk_label_set_ellipsize(GTK_LABEL(bar->reason), PANGO_ELLIPSIZE_NONE);
+	gtk_widget_add_css_class(bar->reason, "error");
+	gtk_box_append(GTK_BOX(bar->bar), line);
+	gtk_box_append(GTK_BOX(bar->bar), bar->reason);
+	gtk_widget_set_visible(bar->bar, FALSE);
+	gtk_box_append(bar->place, bar->bar);
+}
+
+void online_bar_init(struct online_bar *bar, struct core *core, struct compare *compare)
+{
+	bar->core = core;
+	make_bar(bar);
+	online_move_init(&bar->move, core, compare);
+	core_connect(core, core->link, "state-changed", G_CALLBACK(state_changed), bar,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->link, "status", G_CALLBACK(show), bar, G_CONNECT_SWAPPED);
+	core_connect(core, core->link, "failed", G_CALLBACK(failed), bar, 0);
+	core_connect(core, core->document, "checked", G_CALLBACK(checked), bar, G_CONNECT_SWAPPED);
+	core_connect(core, bar->mode, "toggled", G_CALLBACK(mode_toggled), bar, G_CONNECT_SWAPPED);
+	checked(bar);
+	show(bar);
+}
+
+void online_bar_clear(struct online_bar *bar)
+{
+	online_move_clear(&bar->move);
+	g_clear_pointer(&bar->said, g_free);
+}

@@ -1,0 +1,183 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""online - the third mode of the window: connecting to a board, its state, download, upload, comparison.
+
+The boards are real ladderds of this machine, whose lines are simulated.
+"""
+import os
+import signal
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import BUILD, Editor, check, main, new_file, until  # noqa: E402
+
+SEAL = '''RUNGBOARD 1
+PROJECT "Seal"
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Count : INT;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | COIL Motor |
+END_PROGRAM
+'''
+MAP = 'BOARD "garage"\n%IX0.0 sim\n%QX0.0 sim\n'
+
+
+class Board:
+    """A ladderd with --link in a folder of its own."""
+
+    def __init__(self, screen, name, program=SEAL, role='eng', board=MAP):
+        self.folder = os.path.join(screen.home, name)
+        os.makedirs(self.folder + '/slots')
+        for file, text in (('board.rung', program), ('board.io', board), ('group', 'ladder-%s:x:%d:\n' % (role, os.getgid()))):
+            with open(os.path.join(self.folder, file), 'w') as out:
+                out.write(text)
+        self.where = 'unix:%s/link' % self.folder
+        self.start()
+
+    def start(self):
+        self.daemon = subprocess.Popen(
+            [os.path.join(os.path.abspath(BUILD), 'ladderd'), 'board.rung', '--io', 'board.io', '--link', 'link', '--groups', 'group',
+             '--slots', 'slots'], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL)
+        until(lambda: os.path.exists(self.folder + '/link'), 'the socket of the board')
+
+    def stop(self):
+        self.daemon.send_signal(signal.SIGTERM)
+        self.daemon.wait()
+        if os.path.exists(self.folder + '/link'):
+            os.unlink(self.folder + '/link')
+
+    def ask(self, *words):
+        return subprocess.run([os.path.join(os.path.abspath(BUILD), 'ladder'), 'board', self.where, *words],
+                              capture_output=True, text=True, check=True).stdout
+
+
+def connect(editor, where):
+    """By keys alone: the dialog's line has the focus."""
+    editor.keys('ctrl+shift+m')
+    until(lambda: editor.all('Connect to a board'), 'the dialog')
+    editor.into('Board')
+    editor.keys('ctrl+a')
+    editor.type(where)
+    editor.keys('Return')
+
+
+def says(editor, text):
+    until(lambda: [node for node in editor.all(text, 'label') if text in node.name], text)
+
+
+def press(editor, name):
+    """The button of exactly that name."""
+    editor.click(until(lambda: [node for node in editor.all(name, 'push button') if node.name == name], name)[0])
+
+
+def state(screen):
+    """connecting by keys: the bar says board, mode and whether it runs this program; Stop and Run; a break is mended"""
+    board = Board(screen, 'garage')
+    editor = Editor(screen, new_file(screen, SEAL, 'seal.rung'))
+    editor.to_sheet()
+    connect(editor, 'nonsense -x')
+    says(editor, 'Write USER@BOARD')
+    editor.keys('ctrl+a')
+    editor.type(board.where)
+    editor.keys('Return')
+    says(editor, 'garage · RUN')
+    says(editor, 'The board runs this program.')
+    editor.shot('online-same')
+    press(editor, 'Stop')
+    editor.find('Stop the program on “garage”?', 'label')
+    editor.shot('online-stop')
+    editor.keys('Return')
+    says(editor, 'garage · STOP')
+    assert 'mode: STOP' in board.ask('status')
+    press(editor, 'Run')
+    editor.find('Run the program on “garage”?', 'label')
+    editor.keys('Return')
+    says(editor, 'garage · RUN')
+    board.stop()
+    says(editor, 'connection lost')
+    editor.shot('online-lost')
+    board.start()
+    says(editor, 'garage · RUN')
+    editor.click(editor.find('Disconnect', 'push button'))
+    until(lambda: not editor.all('garage · RUN'), 'the bar to go')
+    board.stop()
+
+
+def roles(screen):
+    """a user who may only look gets values and a reason at each button; a user without a group is told what to do"""
+    board = Board(screen, 'porch', role='view')
+    editor = Editor(screen, new_file(screen, SEAL, 'seal.rung'))
+    editor.to_sheet()
+    connect(editor, board.where)
+    says(editor, 'you may look')
+    button = editor.find('Download…', 'push button')
+    assert not button.has(24) or not button.has(8), 'Download can be pressed'
+    editor.shot('online-view')
+    board.stop()
+    board = Board(screen, 'cellar', role='none')
+    connect(editor, board.where)
+    says(editor, 'none of the groups')
+    editor.shot('online-none')
+    connect(editor, 'unix:/nowhere')
+    says(editor, 'No ladderd listens at “/nowhere”')
+    board.stop()
+
+
+def download(screen):
+    """a change is marked until it is downloaded; the dialog names what loses its value; nothing is stopped"""
+    board = Board(screen, 'mill')
+    path = new_file(screen, SEAL.replace('Count : INT', 'Total : DINT'), 'seal.rung')
+    with open(path[:-5] + '.io', 'w') as out:
+        out.write(MAP)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    connect(editor, board.where)
+    says(editor, 'The board runs another program.')
+    editor.keys('ctrl+shift+d')
+    editor.find('Download to “garage”?', 'label')
+    says(editor, '“Count” is not in the new program; its value is lost')
+    editor.shot('online-download')
+    assert not editor.all('Total” is new'), 'a new variable loses nothing'
+    editor.keys('Return')
+    says(editor, 'The board runs this program.')
+    scans = board.ask('status')
+    assert 'mode: RUN' in scans and 'missed scans' in scans
+    assert 'Total' in board.ask('symbols')
+    editor.to_sheet()
+    editor.keys('ctrl+d')
+    says(editor, 'Changed here, not downloaded.')
+    press(editor, 'Compare')
+    editor.find('garage, on the board')
+    editor.shot('online-compare')
+    folder = os.path.join(screen.home, 'uploaded')
+    os.makedirs(folder)
+    editor.give_path(folder, lambda: press(editor, 'Upload…'), 'Folder')
+    until(lambda: os.path.exists(folder + '/seal.rung'), 'the program of the board')
+    assert open(folder + '/seal.rung').read() == open(path).read() and open(folder + '/seal.io').read() == MAP
+    until(lambda: len(editor.windows()) == 2, 'its window')
+    board.stop()
+
+
+def nothing(screen):
+    """a board that stores no sources says so"""
+    board = Board(screen, 'attic')
+    editor = Editor(screen, new_file(screen, SEAL, 'seal.rung'))
+    editor.to_sheet()
+    connect(editor, board.where)
+    says(editor, 'The board runs this program.')
+    editor.click(editor.find('Upload…', 'push button'))
+    says(editor, 'The board stores no sources')
+    editor.shot('online-no-sources')
+    board.stop()
+
+
+if __name__ == '__main__':
+    main([state, roles, download, nothing])
