@@ -165,10 +165,7 @@ def others(screen):
     editor.says('No differences')
     other = os.path.join(screen.home, 'other.rung')
     write(other, OLD)
-    window = editor.windows()
-    choose(editor, 'Another file…')
-    chooser = until(lambda: [each for each in editor.windows() if each not in window], 'the chooser')[0]
-    until(lambda: editor.focused(), 'the keys in it')
+    chooser = editor.brought(lambda: choose(editor, 'Another file…'))
     editor.type_path(other)
     editor.keys('Return')
     until(lambda: chooser not in editor.windows(), 'the end of the chooser')

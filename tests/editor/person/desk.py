@@ -195,13 +195,16 @@ class Editor(Finder):
         until(lambda: chooser not in self.windows(), 'the end of the chooser')
 
     def brought(self, ask, title=''):
-        """Opens a window by a key or a call and waits until it has the focus, which is later than it is visible."""
+        """Opens a window by a key or a call and waits until it has the focus, which is later than it is visible.
+        @title: needed where a dialog may come up meanwhile that asks first; it has the focus for a moment, too."""
         before = self.windows()
         ask() if callable(ask) else self.keys(ask)
-        window = until(lambda: [each for each in self.windows() if each not in before and
-                                title in sh('xdotool', 'getwindowname', each)], 'the window "%s"' % title)[0]
-        until(lambda: sh('xdotool', 'getactivewindow') == window and self.focused(), 'the keys in it')
-        return window
+
+        def look():
+            window = sh('xdotool', 'getactivewindow')
+            return window in self.windows() and window not in before and \
+                title in sh('xdotool', 'getwindowname', window) and self.focused() and window
+        return until(look, 'the window "%s" with the keys in it' % title)
 
     def list_commands(self):
         """Opens the list of all commands."""
@@ -218,18 +221,11 @@ class Editor(Finder):
         until(lambda: window not in self.windows(), 'the end of the list')
 
     def type_path(self, path):
-        """Types a path into the focused file chooser. It takes over the keys before it shows the line, and on a busy
-        machine a folder that is read meanwhile empties the line: then the path is typed once more."""
-        def is_there():
-            return any(node.text() == path for node in self.all(role='text'))
-        for seconds in (10, PATIENCE):
-            self.keys('ctrl+a')
-            self.type(path)
-            try:
-                return until(is_there, 'the path in the chooser', seconds)
-            except AssertionError:
-                if seconds == PATIENCE:
-                    raise
+        """Types a path into the active file chooser, and waits until its line has all of it. The first / opens the line
+        of a chooser without one; where the / is lost, the chooser takes the rest for a search."""
+        self.keys('ctrl+a')
+        self.type(path)
+        until(lambda: any(node.text() == path and node.has(12) for node in self.all(role='text')), 'the path in the chooser')
 
     def front(self):
         """Brings its window to the front."""

@@ -269,6 +269,14 @@ def keys(screen):
     assert lines(path, MARKED) == ['%QX0.1=1', '%QX0.1=0']
 
 
+def row_menu(editor, row):
+    """Clicks a row and opens its menu once it has the keys."""
+    editor.to_sheet()
+    editor.click(row)
+    until(lambda: not [n for n in editor.all('Sheet') if n.has(12)], 'the focus in the tree')
+    editor.keys('Menu')
+
+
 def menu_item(editor, name):
     """The focused item of an open menu."""
     return any(node.name == name and node.has(12) for node in editor.all(name, 'menu item'))
@@ -299,8 +307,7 @@ def menus(screen):
         until(lambda: menu_item(editor, 'Edit operand'), 'the menu of the sheet')
         editor.keys('Escape')
         editor.to_sheet()
-    editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other'][0])
-    editor.keys('Menu')
+    row_menu(editor, [n for n in editor.all('Other', 'label') if n.name == 'Other'][0])
     until(lambda: menu_item(editor, 'Duplicate…'), 'the menu of the row')
     editor.keys('Escape')
     until(lambda: not menu_item(editor, 'Duplicate…'), 'it to be gone')
@@ -768,12 +775,11 @@ def to_project(screen):
     there = open(other).read()
     third = MORE[MORE.index('\n(* the alarm'):MORE.index('\nFUNCTION Half')]
     editor = Editor(screen, path)
-    editor.click([n for n in editor.all('Third', 'label') if n.name == 'Third'][0])
-    editor.keys('Menu')
+    row_menu(editor, until(lambda: [n for n in editor.all('Third', 'label') if n.name == 'Third'], 'its row')[0])
     until(lambda: editor.all('Move to file…', 'menu item'), 'the menu of the row')
     until(lambda: menu_item(editor, 'Move to file…') or editor.keys('Down'), 'the entry')
     editor.keys('Return')
-    editor.give_path(other, lambda: editor.reply('Existing file…'))
+    editor.give_path(other, lambda: editor.reply('Existing file…'), 'Move to file')
     until(lambda: not [n for n in editor.all('Third', 'label') if n.name == 'Third'], 'it to be gone here')
     assert editor.save(path) == MORE.replace(third, ''), open(path).read()
     assert open(other).read() == there + third, open(other).read()
