@@ -8,6 +8,7 @@
  */
 #include "engine/base/catalog.h"
 #include "engine/check/reserved.h"
+#include "engine/model/sfc.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -92,6 +93,25 @@ static void keywords(void)
 			printf("      <keyword>%s</keyword>\n", word);
 }
 
+/* The words that a line of a chart begins with, and those that end a body behind other
+ * words. */
+static void words_of_charts(void)
+{
+	bool first = true;
+
+	for (int i = 0; sfc_word(i); i++)
+		also(&first, sfc_word(i)->word, "");
+}
+
+static void ends_of_charts(void)
+{
+	bool first = true;
+
+	for (int i = 0; sfc_word(i); i++)
+		if (sfc_word(i)->kind == SFC_WORD_END)
+			also(&first, sfc_word(i)->word, "");
+}
+
 static void match(const char *id, const char *style, const char *before, void (*words)(void),
 		  const char *behind)
 {
@@ -151,13 +171,15 @@ int main(void)
 {
 	static const char *const order[] = {
 		"block-comment", "line-comment", "string", "text", "address", "element",
-		"type", "operator", "keyword", "constant", "number",
+		"type", "chart", "chart-end", "operator", "keyword", "constant", "number",
 	};
 
 	head();
 	literals();
 	match("element", "element", "(?&lt;=\\|)\\s*", words_of_elements, "\\b");
 	match("type", "type", ":\\s*", types, "\\b");
+	match("chart", "keyword", "^\\s*", words_of_charts, "\\b(?!\\s*[:,])");
+	match("chart-end", "keyword", "\\b", ends_of_charts, "\\b");
 	match("operator", "operator", "^\\s*(?:\\w+:\\s*)?", operators, "\\b(?!\\s*:)");
 	printf("    <context id=\"keyword\" style-ref=\"keyword\">\n");
 	keywords();

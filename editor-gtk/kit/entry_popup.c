@@ -75,7 +75,7 @@ void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_ro
 	copy = g_new(struct entry_popup_row, 1);
 	*copy = (struct entry_popup_row){
 		g_strdup(row->text), g_strdup(row->address), g_strdup(row->note),
-		g_strdup(row->kind), g_strdup(row->line),
+		g_strdup(row->kind), g_strdup(row->line), row->marked,
 	};
 	g_ptr_array_add(popup->rows, copy);
 	g_hash_table_add(popup->known, copy);
@@ -104,7 +104,8 @@ static void make_row(LadderEntryPopup *popup, guint index)
 				     row->note);
 
 	ladder_entry_row_say(LADDER_ENTRY_ROW(gtk_list_box_row_get_child(widget)),
-			     row->text, row->address, row->note);
+			     row->text, row->address, row->note,
+			     row->marked ? row->kind : "");
 	gtk_accessible_update_property(GTK_ACCESSIBLE(widget),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 	gtk_widget_set_visible(GTK_WIDGET(widget), TRUE);

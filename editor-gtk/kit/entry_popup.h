@@ -16,8 +16,9 @@ G_DECLARE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, LADDER, ENTRY_POPUP, 
 
 struct entry_popup_row {
 	char *text, *address, *note; /* shown, in three columns                */
-	char *kind;                  /* for a screen reader                    */
+	char *kind;                  /* for a screen reader; shown if @marked   */
 	char *line;                  /* the line after the candidate is taken  */
+	bool marked;                 /* it is not there yet: taking it makes it */
 };
 
 struct entry_popup_calls {

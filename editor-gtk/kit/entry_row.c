@@ -8,9 +8,11 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { TEXT, ADDRESS, NOTE, COLUMNS };
+enum { TEXT, ADDRESS, NOTE, COLUMNS, MARK = COLUMNS, LAYOUTS };
 
 #define GAP    12   /* px between columns                                       */
+#define ROUND  7    /* px beside the letters of the mark in its frame           */
+#define MARKED 0.85 /* size of its letters                                      */
 #define QUIET  0.75 /* opacity of the note                                      */
 
 /* In characters: least and largest natural width of a column. */
@@ -18,9 +20,10 @@ static const int least[COLUMNS] = { 14, 8, 18 }, most[COLUMNS] = { 22, 12, 44 };
 
 struct _LadderEntryRow {
 	GtkWidget parent;
-	PangoLayout *layout[COLUMNS]; /* NULL: not measured yet                */
-	char *text[COLUMNS];
+	PangoLayout *layout[LAYOUTS]; /* NULL: not measured yet                */
+	char *text[LAYOUTS];
 	int width[COLUMNS];           /* px of natural width                   */
+	int mark;                     /* px of the frame, with its gap; 0: none */
 	int letter, height;           /* px of a character, of the row         */
 };
 
@@ -28,7 +31,7 @@ G_DEFINE_FINAL_TYPE(LadderEntryRow, ladder_entry_row, GTK_TYPE_WIDGET)
 
 static void forget_layouts(LadderEntryRow *row)
 {
-	for (int i = 0; i < COLUMNS; i++)
+	for (int i = 0; i < LAYOUTS; i++)
 		g_clear_object(&row->layout[i]);
 }
 
@@ -42,6 +45,8 @@ static PangoLayout *layout_of(LadderEntryRow *row, int column)
 		pango_attr_list_insert(style, pango_attr_weight_new(PANGO_WEIGHT_BOLD));
 	if (column == ADDRESS)
 		pango_attr_list_insert(style, pango_attr_family_new("monospace"));
+	if (column == MARK)
+		pango_attr_list_insert(style, pango_attr_scale_new(MARKED));
 	pango_layout_set_attributes(layout, style);
 	pango_layout_set_ellipsize(layout, PANGO_ELLIPSIZE_END);
 	pango_layout_set_single_paragraph_mode(layout, TRUE);
@@ -60,6 +65,15 @@ static int letter_width(LadderEntryRow *row)
 	return MAX((width + 5) / 10, 1);
 }
 
+static void lay_out_mark(LadderEntryRow *row)
+{
+	int width;
+
+	row->layout[MARK] = layout_of(row, MARK);
+	pango_layout_get_pixel_size(row->layout[MARK], &width, NULL);
+	row->mark = row->text[MARK][0] ? width + 2 * ROUND + GAP / 2 : 0;
+}
+
 static void lay_out(LadderEntryRow *row)
 {
 	if (row->layout[TEXT])
@@ -67,11 +81,14 @@ static void lay_out(LadderEntryRow *row)
 	if (!row->letter)
 		row->letter = letter_width(row);
 	row->height = 0;
+	lay_out_mark(row);
 	for (int i = 0; i < COLUMNS; i++) {
 		int width, height;
 
 		row->layout[i] = layout_of(row, i);
 		pango_layout_get_pixel_size(row->layout[i], &width, &height);
+		if (i == TEXT)
+			width += row->mark;
 		row->width[i] = CLAMP(width, least[i] * row->letter, most[i] * row->letter);
 		row->height = MAX(row->height, height);
 	}
@@ -96,6 +113,29 @@ static void ladder_entry_row_measure(GtkWidget *widget, GtkOrientation orientati
 	}
 }
 
+/* The mark follows the text, whose column is @column px wide. */
+static void draw_mark(LadderEntryRow *row, GtkSnapshot *snapshot, int column, const GdkRGBA *ink)
+{
+	static const float line[4] = { 1, 1, 1, 1 };
+	const GdkRGBA frame[4] = { *ink, *ink, *ink, *ink };
+	const int wide = row->mark - GAP / 2, all = gtk_widget_get_height(GTK_WIDGET(row));
+	int text, height;
+	GskRoundedRect box;
+
+	pango_layout_get_pixel_size(row->layout[TEXT], &text, NULL);
+	pango_layout_get_pixel_size(row->layout[MARK], NULL, &height);
+	gtk_snapshot_save(snapshot);
+	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(
+		(float)(MIN(text, column - row->mark) + GAP / 2), (float)((all - height) / 2)));
+	gsk_rounded_rect_init_from_rect(&box, &GRAPHENE_RECT_INIT(0, 0, (float)wide,
+								 (float)height),
+					(float)height / 2);
+	gtk_snapshot_append_border(snapshot, &box, line, frame);
+	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(ROUND, 0));
+	gtk_snapshot_append_layout(snapshot, row->layout[MARK], ink);
+	gtk_snapshot_restore(snapshot);
+}
+
 /* The note gets the rest of the width. */
 static void ladder_entry_row_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 {
@@ -109,7 +149,8 @@ static void ladder_entry_row_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 		const int width = i == NOTE ? MAX(left, 0) : row->width[i];
 		int height;
 
-		pango_layout_set_width(row->layout[i], width * PANGO_SCALE);
+		pango_layout_set_width(row->layout[i], (i == TEXT ? width - row->mark : width) *
+						       PANGO_SCALE);
 		pango_layout_get_pixel_size(row->layout[i], NULL, &height);
 		if (i == NOTE)
 			ink.alpha *= (float)QUIET;
@@ -119,6 +160,8 @@ static void ladder_entry_row_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 			(float)((gtk_widget_get_height(widget) - height) / 2)));
 		gtk_snapshot_append_layout(snapshot, row->layout[i], &ink);
 		gtk_snapshot_restore(snapshot);
+		if (i == TEXT && row->mark)
+			draw_mark(row, snapshot, width, &ink);
 		left -= width + GAP;
 	}
 }
@@ -151,7 +194,7 @@ static void ladder_entry_row_finalize(GObject *object)
 	LadderEntryRow *row = LADDER_ENTRY_ROW(object);
 
 	forget_layouts(row);
-	for (int i = 0; i < COLUMNS; i++)
+	for (int i = 0; i < LAYOUTS; i++)
 		g_free(row->text[i]);
 	G_OBJECT_CLASS(ladder_entry_row_parent_class)->finalize(object);
 }
@@ -170,7 +213,7 @@ static void ladder_entry_row_class_init(LadderEntryRowClass *class)
 
 static void ladder_entry_row_init(LadderEntryRow *row)
 {
-	for (int i = 0; i < COLUMNS; i++)
+	for (int i = 0; i < LAYOUTS; i++)
 		row->text[i] = g_strdup("");
 	gtk_widget_set_has_tooltip(GTK_WIDGET(row), TRUE);
 }
@@ -181,12 +224,12 @@ GtkWidget *ladder_entry_row_new(void)
 }
 
 void ladder_entry_row_say(LadderEntryRow *row, const char *text, const char *address,
-			  const char *note)
+			  const char *note, const char *mark)
 {
-	const char *const said[COLUMNS] = { text, address, note };
+	const char *const said[LAYOUTS] = { text, address, note, mark };
 	bool same = true;
 
-	for (int i = 0; i < COLUMNS; i++) {
+	for (int i = 0; i < LAYOUTS; i++) {
 		same = same && strcmp(row->text[i], said[i]) == 0;
 		g_free(row->text[i]);
 		row->text[i] = g_strdup(said[i]);

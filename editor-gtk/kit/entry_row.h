@@ -15,8 +15,9 @@ G_DECLARE_FINAL_TYPE(LadderEntryRow, ladder_entry_row, LADDER, ENTRY_ROW, GtkWid
 
 /** ladder_entry_row_new - without texts. */
 GtkWidget *ladder_entry_row_new(void);
-/** ladder_entry_row_say - sets the texts, which must be valid UTF-8; copied. */
+/** ladder_entry_row_say - sets the texts, which must be valid UTF-8; copied. @mark: stands
+ * behind the text in a frame; "": no mark. */
 void ladder_entry_row_say(LadderEntryRow *row, const char *text, const char *address,
-			  const char *note);
+			  const char *note, const char *mark);
 
 #endif

@@ -77,6 +77,7 @@ static void add_candidate(const struct asked *asked, const struct entry_candidat
 	struct entry_popup_row row = {
 		.text = (char *)one->text, .address = (char *)one->address,
 		.note = (char *)one->note, .kind = _(entry_kind_text(one->kind)), .line = line,
+		.marked = one->kind == ENTRY_NEW,
 	};
 
 	ladder_entry_popup_add(LADDER_ENTRY_POPUP(asked->view->canvas->entry), &row);
@@ -419,7 +420,7 @@ static const struct word_row *word_here(LadderGridView *view)
 static void offer(GtkWidget *popup, const struct word_row *row, int index, const char *name)
 {
 	struct entry_popup_row one = { (char *)name, "", (char *)said(explain_pin(row, index)),
-				       _("input"), (char *)name };
+				       _("input"), (char *)name, false };
 
 	ladder_entry_popup_add(LADDER_ENTRY_POPUP(popup), &one);
 }

@@ -101,7 +101,7 @@ static void put(struct offer *offer, const char *text, const char *address,
 	char *line = g_strdup_printf("%.*s%s%s", (int)offer->from, offer->line, text,
 				     offer->line + offer->cursor);
 	struct entry_popup_row row = {
-		(char *)text, (char *)address, (char *)note, (char *)kind, line,
+		(char *)text, (char *)address, (char *)note, (char *)kind, line, false,
 	};
 
 	if (g_hash_table_size(offer->seen) < OFFERED &&

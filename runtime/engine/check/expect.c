@@ -68,10 +68,6 @@ static void offer_keywords(const struct offer *o)
 		"PROJECT",
 	};
 	static const char *const inside[] = { "VAR", "VAR_TEMP" };
-	static const char *const chart[] = {
-		"STEP", "INITIAL_STEP", "MACRO_STEP", "TRANSITION", "ACTION", "CONTROL",
-		"SET", "RESET", "END_STEP", "END_TRANSITION", "END_ACTION",
-	};
 	static const char *const called[] = { "VAR_INPUT", "VAR_OUTPUT",
 					      "VAR_IN_OUT" };
 
@@ -85,8 +81,8 @@ static void offer_keywords(const struct offer *o)
 		give(o, EXPECT_KEYWORD, called[i], "");
 	if (o->pou->language != LANGUAGE_IL)
 		give(o, EXPECT_KEYWORD, "RUNG", "");
-	for (size_t i = 0; o->pou->sfc && i < sizeof(chart) / sizeof(*chart); i++)
-		give(o, EXPECT_KEYWORD, chart[i], "");
+	for (int i = 0; o->pou->sfc && sfc_word(i); i++)
+		give(o, EXPECT_KEYWORD, sfc_word(i)->word, "");
 	give(o, EXPECT_KEYWORD, o->pou->kind == POU_PROGRAM ? "END_PROGRAM" :
 	     o->pou->kind == POU_FUNCTION ? "END_FUNCTION" :
 	     o->pou->kind == POU_BLOCK ? "END_FUNCTION_BLOCK" : "END_SUBROUTINE", "");
@@ -883,27 +879,46 @@ static bool ends_with(const char *text, size_t at, size_t end, const char *word)
 	return end - at >= len && ascii_same(text + end - len, word, len);
 }
 
+/* The body that a word of a chart begins; -1: neither begins nor ends one. */
+static int inside_word(const struct sfc_word *word)
+{
+	switch (word->kind) {
+	case SFC_WORD_STEP:
+		return IN_STEP;
+	case SFC_WORD_TRANSITION:
+	case SFC_WORD_ACTION:
+		return IN_BODY;
+	case SFC_WORD_CONTROL:
+	case SFC_WORD_END:
+		return OUTSIDE;
+	case SFC_WORD_SETTING:
+		break;
+	}
+	return -1;
+}
+
+/* Does a word that ends a body end this line? */
+static bool ends_body(const char *text, size_t at, size_t end)
+{
+	const struct sfc_word *word;
+
+	for (int i = 0; (word = sfc_word(i)); i++)
+		if (word->kind == SFC_WORD_END && ends_with(text, at, end, word->word))
+			return true;
+	return false;
+}
+
 /* The body that a line begins; -1: the line begins none. */
 static int inside_of(const char *text, size_t at, size_t end)
 {
-	static const struct {
-		const char *word;
-		enum inside in;
-	} words[] = {
-		{ "STEP", IN_STEP }, { "INITIAL_STEP", IN_STEP },
-		{ "MACRO_STEP", IN_STEP }, { "TRANSITION", IN_BODY },
-		{ "ACTION", IN_BODY }, { "END_STEP", OUTSIDE },
-		{ "END_TRANSITION", OUTSIDE }, { "END_ACTION", OUTSIDE },
-		{ "END_VAR", OUTSIDE }, { "PROGRAM", OUTSIDE }, { "CONTROL", OUTSIDE },
-	};
+	const struct sfc_word *word;
+	int in = begins(text, at, end, "END_VAR") || begins(text, at, end, "PROGRAM") ?
+		OUTSIDE : -1;
 
-	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
-		if (begins(text, at, end, words[i].word))
-			return ends_with(text, at, end, "END_TRANSITION") ||
-			       ends_with(text, at, end, "END_STEP") ||
-			       ends_with(text, at, end, "END_ACTION") ?
-			       OUTSIDE : (int)words[i].in;
-	return -1;
+	for (int i = 0; in < 0 && (word = sfc_word(i)); i++)
+		if (begins(text, at, end, word->word))
+			in = inside_word(word);
+	return in > OUTSIDE && ends_body(text, at, end) ? OUTSIDE : in;
 }
 
 static enum inside inside_at(const char *text, size_t line)
@@ -1002,8 +1017,12 @@ static struct expect_want use_want(const struct before *b)
 
 static bool is_sfc_step(const struct token *token)
 {
-	return expect_is(token, "STEP") || expect_is(token, "INITIAL_STEP") ||
-	       expect_is(token, "MACRO_STEP");
+	const struct sfc_word *word;
+
+	for (int i = 0; (word = sfc_word(i)); i++)
+		if (word->kind == SFC_WORD_STEP && expect_is(token, word->word))
+			return true;
+	return false;
 }
 
 /* What is wanted in the line at @line of a chart, before @to; @bar: after its last bar, or

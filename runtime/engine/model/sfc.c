@@ -54,6 +54,20 @@ enum control control_find(const char *text, size_t len)
 	return (enum control)find(controls, CONTROL_COUNT, text, len);
 }
 
+const struct sfc_word *sfc_word(int i)
+{
+	static const struct sfc_word words[] = {
+		{ "STEP", SFC_WORD_STEP }, { "INITIAL_STEP", SFC_WORD_STEP },
+		{ "MACRO_STEP", SFC_WORD_STEP }, { "TRANSITION", SFC_WORD_TRANSITION },
+		{ "ACTION", SFC_WORD_ACTION }, { "CONTROL", SFC_WORD_CONTROL },
+		{ "SET", SFC_WORD_SETTING }, { "RESET", SFC_WORD_SETTING },
+		{ "END_STEP", SFC_WORD_END }, { "END_TRANSITION", SFC_WORD_END },
+		{ "END_ACTION", SFC_WORD_END },
+	};
+
+	return i >= 0 && i < (int)(sizeof(words) / sizeof(*words)) ? &words[i] : NULL;
+}
+
 bool sfc_reserved(const char *name)
 {
 	/* Words that can stand where a name does. */

@@ -140,6 +140,19 @@ enum control control_find(const char *text, size_t len);
 int sfc_x(const struct sfc *sfc, const struct var_table *table, int step);
 int sfc_t(const struct sfc *sfc, const struct var_table *table, int step);
 int sfc_condition(const struct sfc *sfc, const struct var_table *table);
+/* What begins with a word of charts. */
+enum sfc_word_kind {
+	SFC_WORD_STEP, SFC_WORD_TRANSITION, SFC_WORD_ACTION, SFC_WORD_CONTROL,
+	SFC_WORD_END,           /* END_STEP and the like                      */
+	SFC_WORD_SETTING,       /* a line of CONTROL: SET, RESET              */
+};
+struct sfc_word {
+	const char *word;
+	enum sfc_word_kind kind;
+};
+/** sfc_word - word number @i that a line of a chart begins with, END_ words included; NULL
+ * after the last. Static. Scan-safe: yes. */
+const struct sfc_word *sfc_word(int i);
 /** sfc_reserved - whether @word cannot be a name in a chart. Scan-safe: yes. */
 bool sfc_reserved(const char *name);
 /** sfc_bodies, sfc_body - the conditions of all transitions, then the bodies of all

@@ -469,13 +469,15 @@ static bool other_reads(const struct mender *m, struct diag_list *diags)
 /* The first line of a step or a transition: its signs differ from those of other heads. */
 static bool is_of_chart(const struct mender *m)
 {
-	static const char *const words[] = {
-		"STEP ", "INITIAL_STEP ", "MACRO_STEP ", "TRANSITION ",
-	};
+	const struct sfc_word *word;
 
-	for (size_t i = 0; m->in->chart && i < COUNT(words); i++)
-		if (ascii_same(m->text, words[i], strlen(words[i])))
+	for (int i = 0; m->in->chart && (word = sfc_word(i)); i++) {
+		const size_t len = strlen(word->word);
+
+		if ((word->kind == SFC_WORD_STEP || word->kind == SFC_WORD_TRANSITION) &&
+		    ascii_same(m->text, word->word, len) && m->text[len] == ' ')
 			return true;
+	}
 	return false;
 }
 

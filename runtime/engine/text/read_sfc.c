@@ -17,17 +17,22 @@ struct sfc_reader {
 	bool controlled;      /* a CONTROL was read                            */
 };
 
+/* The word of a chart in work; NULL: it is none. */
+static const struct sfc_word *chart_word(const struct reader *r)
+{
+	const struct sfc_word *word;
+
+	for (int i = 0; (word = sfc_word(i)); i++)
+		if (lex_is(&r->lex, word->word))
+			return word;
+	return NULL;
+}
+
 bool reader_is_sfc_word(const struct reader *r)
 {
-	static const char *const words[] = {
-		"STEP", "INITIAL_STEP", "MACRO_STEP", "END_STEP", "TRANSITION",
-		"END_TRANSITION", "ACTION", "END_ACTION", "CONTROL",
-	};
+	const struct sfc_word *word = chart_word(r);
 
-	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
-		if (lex_is(&r->lex, words[i]))
-			return true;
-	return false;
+	return word && word->kind != SFC_WORD_SETTING;
 }
 
 /* ---- parts of pieces ---- */
@@ -319,8 +324,9 @@ static void read_block(struct sfc_reader *in)
 
 static bool is_step(const struct reader *r)
 {
-	return lex_is(&r->lex, "STEP") || lex_is(&r->lex, "INITIAL_STEP") ||
-	       lex_is(&r->lex, "MACRO_STEP");
+	const struct sfc_word *word = chart_word(r);
+
+	return word && word->kind == SFC_WORD_STEP;
 }
 
 /* Reports a limit of the chart and skips to the end of the POU. */

@@ -3,6 +3,7 @@
  * test_told - the message below an entry is completely visible, at any length.
  */
 #include "editor-gtk/kit/entry_popup.h"
+#include "editor-gtk/kit/entry_row.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -84,7 +85,7 @@ static char *offer(void *popup, const char *line, int cursor, bool *good)
 		for (int twice = 0; twice < 2; twice++)
 			ladder_entry_popup_add(*(LadderEntryPopup **)popup,
 				&(struct entry_popup_row){ text, (char *)"", (char *)"note",
-							   (char *)"variable", text });
+							   (char *)"variable", text, false });
 	}
 	return NULL;
 }
@@ -135,6 +136,41 @@ static void test_list(GtkWidget *owner)
 	ladder_entry_popup_keep(popup);
 }
 
+/* Has what the row draws a frame? */
+static bool is_framed(GtkWidget *row)
+{
+	GtkSnapshot *snapshot = gtk_snapshot_new();
+	GskRenderNode *node;
+	GBytes *bytes;
+	bool framed;
+
+	GTK_WIDGET_GET_CLASS(row)->snapshot(row, snapshot);
+	node = gtk_snapshot_free_to_node(snapshot);
+	bytes = gsk_render_node_serialize(node);
+	framed = g_strstr_len(g_bytes_get_data(bytes, NULL), (gssize)g_bytes_get_size(bytes),
+			      "border {") != NULL;
+	g_bytes_unref(bytes);
+	gsk_render_node_unref(node);
+	return framed;
+}
+
+/* A name that would be made has a mark, and room for it. */
+static void test_mark(void)
+{
+	LadderEntryRow *row = LADDER_ENTRY_ROW(g_object_ref_sink(ladder_entry_row_new()));
+	int plain, marked;
+
+	ladder_entry_row_say(row, "A name of twenty…", "", "BOOL", "");
+	gtk_widget_measure(GTK_WIDGET(row), GTK_ORIENTATION_HORIZONTAL, -1, NULL, &plain, NULL,
+			   NULL);
+	CHECK(!is_framed(GTK_WIDGET(row)));
+	ladder_entry_row_say(row, "A name of twenty…", "", "BOOL", "new");
+	gtk_widget_measure(GTK_WIDGET(row), GTK_ORIENTATION_HORIZONTAL, -1, NULL, &marked, NULL,
+			   NULL);
+	CHECK(is_framed(GTK_WIDGET(row)) && marked > plain);
+	g_object_unref(row);
+}
+
 int main(void)
 {
 	static const char *const english[] = { "a new ", "input ", "Pump ", "%IX0.5 ", "or any ",
@@ -156,6 +192,7 @@ int main(void)
 	test_lengths(owner, english, G_N_ELEMENTS(english));
 	test_lengths(owner, chinese, G_N_ELEMENTS(chinese));
 	test_list(owner);
+	test_mark();
 	ladder_entry_popup_drop(owner);
 	g_string_free(telling, TRUE);
 	gtk_window_destroy(GTK_WINDOW(window));

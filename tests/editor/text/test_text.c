@@ -8,8 +8,8 @@
 #include "editor-gtk/text/text_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
-#include "tests/editor/soon.h"
 #include "tests/tap.h"
+#include "engine/model/sfc.h"
 
 #include <adwaita.h>
 #include <string.h>
@@ -94,6 +94,45 @@ static void test_colours(void)
 	CHECK_AS(is_coloured(6, 18) && has_class(6, 18, "comment"),
 		 "a comment is coloured");
 	ladder_document_undo(document);
+}
+
+/* Does the text of a buffer with colours have a style at @column of @line? */
+static bool is_coloured_in(GtkTextBuffer *other, const char *text, int line, int column)
+{
+	GtkTextBuffer *const own = buffer;
+	bool any;
+
+	gtk_text_buffer_set_text(other, text, -1);
+	buffer = other;
+	any = is_coloured(line, column);
+	buffer = own;
+	return any;
+}
+
+/* Each word that a line of a chart begins with, where it is one and where it is a name. */
+static void test_chart_colours(void)
+{
+	GtkSourceBuffer *chart = gtk_source_buffer_new_with_language(text_language());
+	const struct sfc_word *word;
+
+	for (int i = 0; (word = sfc_word(i)); i++) {
+		char *begins = g_strdup_printf("PROGRAM Main SFC\n  %s Fill:\n", word->word);
+		char *named = g_strdup_printf("VAR\n  %s : BOOL;\nEND_VAR\n", word->word);
+		const bool is_end = word->kind == SFC_WORD_END;
+
+		CHECK_AS(is_coloured_in(GTK_TEXT_BUFFER(chart), begins, 1, 2), word->word);
+		CHECK_AS(!is_coloured_in(GTK_TEXT_BUFFER(chart), begins, 1,
+					 (int)strlen(word->word) + 4), "a step's name");
+		CHECK_AS(is_coloured_in(GTK_TEXT_BUFFER(chart), named, 1, 2) == is_end,
+			 "a name that is a word of charts elsewhere");
+		g_free(begins);
+		g_free(named);
+	}
+	CHECK_AS(is_coloured_in(GTK_TEXT_BUFFER(chart), "  STEP Fill: END_STEP\n", 0, 14),
+		 "the end of a step in its line");
+	CHECK_AS(!is_coloured_in(GTK_TEXT_BUFFER(chart), "  LD    STEP\n", 0, 9),
+		 "an operand");
+	g_object_unref(chart);
 }
 
 static bool offers(const char *text, int line, int column, const char *word, gsize *len)
@@ -388,6 +427,7 @@ int main(void)
 	buffer = GTK_TEXT_BUFFER(ladder_text_view_buffer(view));
 	turn(0);
 	test_colours();
+	test_chart_colours();
 	test_words();
 	test_errors();
 	test_typing();
