@@ -7,6 +7,7 @@
 #include "editor-gtk/draw/grid_glyph.h"
 #include "editor-gtk/draw/rung_box.h"
 #include "editor-gtk/draw/rung_text.h"
+#include "editor-gtk/kit/i18n.h"
 
 #include <glib.h>
 #include <math.h>
@@ -538,6 +539,20 @@ static void draw_ground(const struct pen *pen)
 		picture_fill(pen->nib.picture, TOKEN_LINE, 1, 0, layout->height - 1, width, 1);
 }
 
+#define MISSING_ROOM 70 /* from the right end to the middle of the note           */
+
+/* An arrow that waits below the number, and a note at the right end of the heading. */
+static void draw_missing(const struct pen *pen, float x, float y)
+{
+	struct lettering *lettering = pen->drafting->lettering;
+	const float middle = rung_layout_width(pen->layout) - MISSING_ROOM;
+
+	put_text(pen, TOKEN_FORCE, LETTER_HEADING,
+		 lettering_fit(lettering, LETTER_HEADING, "\xe2\x86\x93", -1, 0), x, y + 36);
+	put_text(pen, TOKEN_FORCE, LETTER_COMMENT,
+		 lettering_fit(lettering, LETTER_COMMENT, _("not downloaded"), -1, 0), middle, y);
+}
+
 static void draw_number(const struct pen *pen)
 {
 	unsigned int state = pen->scene->state;
@@ -559,6 +574,8 @@ static void draw_number(const struct pen *pen)
 		put_text(pen, state & RUNG_ADDED ? TOKEN_POWER : state & RUNG_REMOVED ?
 			 TOKEN_ERROR : TOKEN_FORCE, LETTER_HEADING,
 			 lettering_fit(lettering, LETTER_HEADING, sign, -1, 0), x, y + 36);
+	if (state & RUNG_MISSING)
+		draw_missing(pen, x, y);
 	if (state & RUNG_MARKED) /* a ribbon */
 		picture_fill(pen->nib.picture, TOKEN_ACCENT, 1, 7, 0, 6, y + 6);
 	if (state & RUNG_EDITED)

@@ -59,6 +59,7 @@ enum rung_state {
 	RUNG_MARKED = 128,   /* a bookmark                                      */
 	RUNG_NO_GUTTER = 64, /* paper                                           */
 	RUNG_STILL = 256,    /* running, but nothing is scanned: no power anywhere */
+	RUNG_MISSING = 1024, /* the board runs without it                       */
 	RUNG_ON_GUTTER = 512, /* a sheet, which draws the gutter itself           */
 };
 

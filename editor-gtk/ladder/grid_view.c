@@ -104,6 +104,8 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 		live = live_of(view, rung, strip, &unknown);
 		scene.live = &live;
 		scene.state |= view->live.still ? RUNG_STILL : 0;
+		scene.state |= ladder_sim_is_missing(view->canvas->sim, view->canvas->document,
+			view->canvas->pou, view->first + rung) ? RUNG_MISSING : 0;
 	}
 	marks_push(view, rung, marks);
 	live_marks(view, rung, marks);

@@ -81,15 +81,28 @@ static bool is_held(LadderGridView *view, struct location at)
 
 /* ---- acts ---- */
 
-static void order(LadderGridView *view, enum act_kind kind, struct location at,
+static const char *why_not(LadderGridView *view, bool force)
+{
+	return ladder_sim_why_not(view->canvas->sim, force ? SIM_WISH_FORCE : SIM_WISH_SET);
+}
+
+/* False: it is not allowed, and is refused at the cursor. */
+static bool order(LadderGridView *view, enum act_kind kind, struct location at,
 		  union iec_value value)
 {
 	const struct act act = { .kind = kind, .at = at, .value = value };
+	const char *why = why_not(view, kind != ACT_SET);
 
+	if (why) {
+		canvas_refuse(LADDER_CANVAS(view), _(verb_row(kind == ACT_SET ? VERB_set_value :
+							      VERB_force)->label), why);
+		return false;
+	}
 	ladder_sim_act(view->canvas->sim, &act);
 	view->live.ordered = view->live.stamp;
 	view->live.ordered_at = at;
 	view->live.ordered_value = value;
+	return true;
 }
 
 static void tell_value(LadderGridView *view, const char *name, struct location at,
@@ -115,7 +128,8 @@ static void toggle(LadderGridView *view, const struct live_cell *cell)
 	const union iec_value value = { .i = !value_now(view, cell->at).i };
 	const bool held = is_held(view, cell->at);
 
-	order(view, held ? ACT_FORCE : ACT_SET, cell->at, value);
+	if (!order(view, held ? ACT_FORCE : ACT_SET, cell->at, value))
+		return;
 	if (!held && cell->kind == LIVE_COIL &&
 	    ladder_sim_state(view->canvas->sim) == SIM_RUN) {
 		char *keys = verb_keys_label(VERB_force);
@@ -133,16 +147,19 @@ static void toggle(LadderGridView *view, const struct live_cell *cell)
 static void force_at(LadderGridView *view, const struct live_cell *cell,
 		     union iec_value value)
 {
-	order(view, ACT_FORCE, cell->at, value);
+	if (!order(view, ACT_FORCE, cell->at, value))
+		return;
 	canvas_moved(LADDER_CANVAS(view));
 	tell_value(view, name_here(view), cell->at, value, true);
 }
 
 static void release(LadderGridView *view, const struct live_cell *cell)
 {
-	char *text = g_strdup_printf(_("%s is released"), name_here(view));
+	char *text;
 
-	order(view, ACT_RELEASE, cell->at, image_get(image_of(view), cell->at));
+	if (!order(view, ACT_RELEASE, cell->at, image_get(image_of(view), cell->at)))
+		return;
+	text = g_strdup_printf(_("%s is released"), name_here(view));
 	canvas_moved(LADDER_CANVAS(view));
 	canvas_tell(LADDER_CANVAS(view), text);
 	g_free(text);
@@ -182,10 +199,13 @@ static char *read_value(const struct asked *asked, const char *line, struct iec_
 			union iec_value *value)
 {
 	const struct iec_type_row *type = iec_type_row(asked->at.type);
+	const char *refused = why_not(asked->view, is_held(asked->view, asked->at));
 	enum diag_id fault = DIAG_BAD_LITERAL;
 	char *plain = g_strstrip(g_strdup(line)), *why = NULL;
 
-	if (!value_parse(asked->at.type, plain, strlen(plain), room, value, &fault)) {
+	if (refused) {
+		why = g_strdup(refused);
+	} else if (!value_parse(asked->at.type, plain, strlen(plain), room, value, &fault)) {
 		char *said = diag_said_of(fault, plain);
 
 		if (type->low < type->high && type->class & (ANY_INT | CLASS_BITS) &&

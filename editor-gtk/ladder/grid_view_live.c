@@ -34,11 +34,13 @@ static struct live_map *map_of(LadderGridView *view)
 {
 	const struct pou *pou = sheet_pou(view);
 
-	if (!view->live.map && pou)
+	if (!view->live.map && pou) {
 		view->live.map = live_map_new(
 			&ladder_sim_twin(view->canvas->sim)->resource,
 			project_text(ladder_document_project(view->canvas->document), pou->name),
 			view->live.instance);
+		live_map_set_sim(view->live.map, view->canvas->sim);
+	}
 	return view->live.map;
 }
 
@@ -56,12 +58,13 @@ static int number_of(LadderGridView *view, const struct rung *shown, int rung)
 	const struct project *running = ladder_project(ladder_sim_ladder(view->canvas->sim));
 	const int number = ladder_sim_rung(view->canvas->sim, view->canvas->document,
 						  view->canvas->pou, view->first + rung);
+	const int pou = ladder_sim_pou(view->canvas->sim, view->canvas->document,
+				       view->canvas->pou);
 	const struct rung *other;
 
-	if (number < 0 || view->canvas->pou >= running->pou_count ||
-	    number >= running->pou[view->canvas->pou].rung_count)
+	if (number < 0 || pou < 0 || number >= running->pou[pou].rung_count)
 		return -1;
-	other = running->pou[view->canvas->pou].rung[number];
+	other = running->pou[pou].rung[number];
 	if (other->rows != shown->rows || other->cols != shown->cols)
 		return -1;
 	for (int i = 0; i < shown->rows * shown->cols; i++)

@@ -43,6 +43,10 @@ char *tell_cell(LadderGridView *view, int rung, int row, int col, const struct c
 
 	say_element(view, rung, cell, text);
 	act_said(view, rung, row, col, text);
+	if (canvas_is_live(LADDER_CANVAS(view)) &&
+	    ladder_sim_is_missing(view->canvas->sim, view->canvas->document, view->canvas->pou,
+				  view->first + rung))
+		g_string_append_printf(text, ", %s", _("not downloaded"));
 	return g_string_free(text, FALSE);
 }
 

@@ -239,20 +239,37 @@ static void end_edit(LadderSimRowView *view)
 	gtk_widget_set_visible(view->value, view->row && !sim_row_is_bit(view->row));
 }
 
-static void mark_bad(LadderSimRowView *view, bool bad)
+/* @why: NULL: it is good. */
+static void mark(LadderSimRowView *view, const char *why)
 {
-	const char *type = iec_type_row(place_of(view).type)->word;
-	char *why = bad ? g_strdup_printf(_("Not a value of type %s"), type) : NULL;
-
-	if (bad)
+	if (why)
 		gtk_widget_add_css_class(view->entry, "error");
 	else
 		gtk_widget_remove_css_class(view->entry, "error");
 	tip_set(view->entry, why);
 	gtk_accessible_update_state(GTK_ACCESSIBLE(view->entry), GTK_ACCESSIBLE_STATE_INVALID,
-				    bad ? GTK_ACCESSIBLE_INVALID_TRUE :
+				    why ? GTK_ACCESSIBLE_INVALID_TRUE :
 					  GTK_ACCESSIBLE_INVALID_FALSE, -1);
+}
+
+static void mark_bad(LadderSimRowView *view, bool bad)
+{
+	const char *type = iec_type_row(place_of(view).type)->word;
+	char *why = bad ? g_strdup_printf(_("Not a value of type %s"), type) : NULL;
+
+	mark(view, why);
 	g_free(why);
+}
+
+/* True: the board does not allow it, and the entry says why. */
+static bool is_refused(LadderSimRowView *view)
+{
+	const bool forced = live_value_is_forced(view->sim, view->row->plant, place_of(view));
+	const char *why = ladder_sim_why_not(view->sim, forced ? SIM_WISH_FORCE : SIM_WISH_SET);
+
+	if (why)
+		mark(view, why);
+	return why != NULL;
 }
 
 /* A STRING needs no quotes here. */
@@ -280,6 +297,8 @@ static void entered(GtkEntry *entry, LadderSimRowView *view)
 		mark_bad(view, true);
 		return;
 	}
+	if (is_refused(view))
+		return;
 	if (view->row->kind == SIM_PRESET && view->editing == SIM_EDIT_VALUE)
 		sim_row_set_elapsed(view->row, view->sim, value);
 	else

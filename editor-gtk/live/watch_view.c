@@ -368,13 +368,25 @@ static void forget_typed(LadderWatchRow *row)
 		gtk_editable_set_text(GTK_EDITABLE(row->fresh), "");
 }
 
+/* False: the board does not allow it, and the entry says why. */
+static bool may(LadderWatchView *view, LadderWatchRow *row, bool force)
+{
+	const char *why = view->sim ?
+		ladder_sim_why_not(view->sim, force ? SIM_WISH_FORCE : SIM_WISH_SET) : NULL;
+
+	if (why)
+		refuse(view, row, g_strdup(why));
+	return !why;
+}
+
 /* The new value of a row becomes its value. False: there is none, or it was refused. */
 static bool write_row(LadderWatchView *view, LadderWatchRow *row)
 {
 	union iec_value value;
 	struct iec_text room;
 
-	if (!*row->typed || !take_typed(view, row, &room, &value))
+	if (!*row->typed || !take_typed(view, row, &room, &value) ||
+	    !may(view, row, row->seen.forced))
 		return false;
 	live_value_set(view->sim, false, row->at, value);
 	forget_typed(row);
@@ -402,6 +414,10 @@ static void toggle_force(LadderWatchView *view, LadderWatchRow *row)
 
 	if (!row->seen.known)
 		return;
+	if (!may(view, row, true)) {
+		show_force(row);
+		return;
+	}
 	if (row->seen.forced) {
 		live_value_release(view->sim, false, row->at);
 	} else {

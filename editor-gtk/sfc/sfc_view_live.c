@@ -31,6 +31,7 @@ static bool find_places(LadderSfcView *view)
 		return live->map;
 	live->map = live_map_new(&ladder_sim_twin(view->canvas->sim)->resource,
 		project_text(view->sheet->project, sfc_pou(view)->name), NULL);
+	live_map_set_sim(live->map, view->canvas->sim);
 	live->active = g_new0(struct location, sfc->step_count + 1);
 	live->time = g_new0(struct location, sfc->step_count + 1);
 	live->step = g_new0(uint8_t, sfc->step_count + 1);
@@ -48,6 +49,8 @@ static bool was_true(LadderSfcView *view, const struct sfc_body *body)
 	const struct resource *resource = &ladder_sim_twin(view->canvas->sim)->resource;
 	const struct pou *pou = sfc_pou(view);
 	const int rung = body->first + body->count - 1;
+	const int unit = ladder_sim_pou(view->canvas->sim, view->canvas->document,
+					view->canvas->pou);
 	bool in = false, out = false;
 	int number;
 
@@ -55,8 +58,9 @@ static bool was_true(LadderSfcView *view, const struct sfc_body *body)
 	    rung >= pou->rung_count)
 		return false;
 	number = ladder_sim_rung(view->canvas->sim, view->canvas->document, view->canvas->pou, rung);
-	return number >= 0 &&
-	       resource_power(resource, (uint32_t)view->canvas->pou, (uint32_t)number + 1, 1,
+	return number >= 0 && unit >= 0 && ladder_sim_has_power(view->canvas->sim,
+			project_text(view->sheet->project, pou->name)) &&
+	       resource_power(resource, (uint32_t)unit, (uint32_t)number + 1, 1,
 			      pou->rung[rung]->cols, &in, &out) && in;
 }
 

@@ -18,6 +18,7 @@ struct live_map {
 	char *instance;              /* its name: a sheet may be asked for it after the
 				      * program has gone; NULL: none */
 	GHashTable *names;           /* name_fold(), with POU -> struct location *  */
+	LadderSim *sim;              /* NULL: all is known                           */
 };
 
 /* ---- names ---- */
@@ -87,7 +88,12 @@ static struct location look_up(const struct live_map *map, char *key)
 	return found;
 }
 
-struct location live_map_find(const struct live_map *map, const char *name, size_t len)
+void live_map_set_sim(struct live_map *map, LadderSim *sim)
+{
+	map->sim = sim;
+}
+
+static struct location find(const struct live_map *map, const char *name, size_t len)
 {
 	const char *instance = live_map_instance(map);
 	struct location at = { .type = IEC_NONE };
@@ -104,6 +110,14 @@ struct location live_map_find(const struct live_map *map, const char *name, size
 	if (at.type == IEC_NONE)
 		at = image_find(&map->image, name, len);
 	return at;
+}
+
+struct location live_map_find(const struct live_map *map, const char *name, size_t len)
+{
+	const struct location at = find(map, name, len);
+
+	return map->sim && !ladder_sim_knows(map->sim, at) ?
+	       (struct location){ .type = IEC_NONE } : at;
 }
 
 struct location live_map_find_pin(const struct live_map *map, const char *instance,
@@ -125,6 +139,12 @@ static int compare(const struct code_power *power, int pou, uint32_t rung)
 	return power->rung < rung ? -1 : power->rung > rung;
 }
 
+static bool has_power(const struct live_map *map)
+{
+	return !map->sim || ladder_sim_has_power(map->sim, map->instance ? map->instance :
+						 map->pou);
+}
+
 static uint32_t place_of(const struct live_map *map, uint32_t offset)
 {
 	const struct code_watched *watched = map->watched;
@@ -139,6 +159,8 @@ void live_map_power(const struct live_map *map, struct live_rung *rung)
 	const uint32_t number = (uint32_t)rung->number + 1;
 	uint32_t low = 0, high = program->power_count;
 
+	if (!has_power(map))
+		return;
 	while (low < high && map->unit >= 0) {
 		const uint32_t middle = low + (high - low) / 2;
 
@@ -162,7 +184,7 @@ void live_map_power(const struct live_map *map, struct live_rung *rung)
 
 bool live_map_result(const struct live_map *map, uint32_t line, struct live_result *out)
 {
-	const struct code_power *power = map->unit < 0 ? NULL :
+	const struct code_power *power = map->unit < 0 || !has_power(map) ? NULL :
 		code_result(map->program, (uint32_t)map->unit, line);
 
 	if (!power)

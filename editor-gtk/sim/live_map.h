@@ -26,6 +26,9 @@ struct live_map;
 struct live_map *live_map_new(const struct resource *resource, const char *pou,
 			      const char *instance);
 void live_map_free(struct live_map *map);
+/** live_map_set_sim - finds only values and power that @sim has (ladder_sim_knows()). @sim:
+ * borrowed; NULL, as at first: all. */
+void live_map_set_sim(struct live_map *map, LadderSim *sim);
 /** live_map_instances - names of those of the POU, of const char *, of the program.
  * Caller: g_ptr_array_unref. */
 GPtrArray *live_map_instances(const struct live_map *map);

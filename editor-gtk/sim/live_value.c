@@ -71,9 +71,9 @@ bool live_value_look(struct live_seen *seen, LadderSim *sim, bool plant, struct 
 	const bool known = seen->known, forced = seen->forced;
 	union iec_value value;
 
-	seen->known = image != NULL;
+	seen->known = image && (plant || ladder_sim_knows(sim, at));
 	seen->forced = live_value_is_forced(sim, plant, at);
-	if (!image)
+	if (!seen->known)
 		return known || forced;
 	value = image_get(image, at);
 	if (known && live_value_is_equal(at.type, seen->value, value))

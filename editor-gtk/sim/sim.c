@@ -5,12 +5,14 @@
  * It shows the newest copy, or a replay of the record for a scan of the past. The thread lives
  * from ladder_sim_begin() to ladder_sim_end().
  */
+#include "editor-gtk/sim/sim_mirror.h"
 #include "editor-gtk/sim/sim_thread.h"
 
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/limits.h"
+#include "engine/compare/compare.h"
 
 #include <string.h>
 
@@ -21,6 +23,8 @@ struct _LadderSim {
 				       its number in the program that runs; -1 */
 	struct sim_source *source;  /* of what is shown; NULL: off             */
 	struct sim_thread *thread;  /* the source, if that is the thread; else NULL */
+	struct sim_mirror *mirror;  /* likewise                                */
+	gint64 late_ns;             /* of the mirror                           */
 	struct sim_view view;       /* the newest state                        */
 	struct sim_replay *replay;  /* of the past; NULL: none yet             */
 	bool past;                  /* `replay` is shown                       */
@@ -71,25 +75,45 @@ static void forget_rungs(LadderSim *sim)
 	g_ptr_array_set_size(sim->rungs, 0);
 }
 
-/* The program that runs is the document as it is now. */
+static GArray *rungs_of(LadderSim *sim, int pou)
+{
+	return pou >= 0 && (guint)pou < sim->rungs->len ? sim->rungs->pdata[pou] : NULL;
+}
+
+static void take_pair(void *context, struct compare_pair pair)
+{
+	GArray *of = rungs_of(context, pair.pou_a);
+
+	if (of && pair.rung_a >= 0 && (guint)pair.rung_a < of->len && pair.rung_b >= 0 &&
+	    !pair.changed)
+		g_array_index(of, int, pair.rung_a) = pair.rung_b;
+}
+
+/* The program that runs is the document as it is now; that of a board may be another. */
 static void number_rungs(LadderSim *sim)
 {
 	const struct project *project = ladder_document_project(sim->document);
+	const struct project *board = sim->mirror && sim->view.program ?
+		ladder_project(sim->view.program->ladder) : NULL;
 
 	forget_rungs(sim);
 	for (int i = 0; project && i < project->pou_count; i++) {
 		GArray *of = g_array_new(FALSE, FALSE, sizeof(int));
 
-		for (int rung = 0; rung < project->pou[i].rung_count; rung++)
-			g_array_append_val(of, rung);
+		for (int rung = 0; rung < project->pou[i].rung_count; rung++) {
+			const int number = sim->mirror ? -1 : rung;
+
+			g_array_append_val(of, number);
+		}
 		g_ptr_array_add(sim->rungs, of);
 	}
+	if (project && board && !compare_rungs(project, board, take_pair, sim))
+		g_error("out of memory");
 }
 
 static int find_rung(LadderSim *sim, int pou, int rung)
 {
-	const GArray *of = pou >= 0 && (guint)pou < sim->rungs->len ?
-		sim->rungs->pdata[pou] : NULL;
+	const GArray *of = rungs_of(sim, pou);
 
 	return of && rung >= 0 && (guint)rung < of->len ? g_array_index(of, int, rung) : -1;
 }
@@ -115,6 +139,34 @@ int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung)
 	if (ladder_sim_older(sim, NULL))
 		return document == sim->older ? rung : -1;
 	return document == sim->document ? find_rung(sim, pou, rung) : -1;
+}
+
+int ladder_sim_pou(LadderSim *sim, LadderDocument *document, int pou)
+{
+	struct ladder *ladder = ladder_sim_ladder(sim);
+	const struct project *mine = ladder_document_project(document);
+	const struct project *running = ladder ? ladder_project(ladder) : NULL;
+	const char *name;
+
+	if (!mine || !running || pou < 0 || pou >= mine->pou_count)
+		return -1;
+	name = project_text(mine, mine->pou[pou].name);
+	return project_find_pou(running, name, strlen(name));
+}
+
+bool ladder_sim_is_missing(LadderSim *sim, LadderDocument *document, int pou, int rung)
+{
+	return ladder_sim_board(sim) && document == sim->document && find_rung(sim, pou, rung) < 0;
+}
+
+bool ladder_sim_knows(LadderSim *sim, struct location at)
+{
+	return ladder_sim_is_on(sim) && sim->source->knows(sim->source, at);
+}
+
+bool ladder_sim_has_power(LadderSim *sim, const char *unit)
+{
+	return ladder_sim_is_on(sim) && sim->source->has_power(sim->source, unit);
 }
 
 int ladder_sim_forces(LadderSim *sim)
@@ -393,10 +445,11 @@ static void tell_refusal(LadderSim *sim)
 static void tell_edit(LadderSim *sim)
 {
 	const struct record *record = ladder_sim_lock_record(sim);
-	const guint64 scan = record_first(record);
+	const guint64 scan = record ? record_first(record) : 0;
 	char *text;
 
-	ladder_sim_unlock_record(sim);
+	if (record)
+		ladder_sim_unlock_record(sim);
 	if (scan == 0)
 		return;
 	text = g_strdup_printf(_("The program was changed after scan %llu. Values are kept"), (unsigned long long)scan);
@@ -406,12 +459,16 @@ static void tell_edit(LadderSim *sim)
 
 static void take(LadderSim *sim)
 {
+	const struct sim_program *before = sim->view.program;
 	bool other;
 
 	if (!sim->source->take(sim->source, &sim->view, &other))
-		g_error("out of memory");
+		return;
+	if (sim->mirror && sim->view.program != before)
+		number_rungs(sim);
 	if (other) {
-		forget_replay(sim);
+		if (!sim->mirror || sim->view.program != before)
+			forget_replay(sim);
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 		tell_edit(sim);
 	}
@@ -436,7 +493,7 @@ static gboolean notified(gpointer data)
 
 /* ---- on and off ---- */
 
-static struct sim_program *build(LadderSim *sim, GError **error)
+struct sim_program *ladder_sim_build(LadderSim *sim, GError **error)
 {
 	gsize len;
 	char *text = ladder_document_text(sim->document, &len);
@@ -461,6 +518,8 @@ static void drop_source(LadderSim *sim)
 		sim->source->free(sim->source);
 	sim->source = NULL;
 	sim->thread = NULL;
+	sim->mirror = NULL;
+	sim->late_ns = 0;
 	sim_view_clear(&sim->view);
 	sim->refused = 0;
 	sim->known = (struct sim_events){ .ends = 0 };
@@ -509,7 +568,7 @@ static bool start(LadderSim *sim, gint64 period_ns, GError **error)
 
 	if (!may_restart(sim, error))
 		return false;
-	program = build(sim, error);
+	program = ladder_sim_build(sim, error);
 	if (!program) {
 		ladder_document_check_now(sim->document);
 		return false;
@@ -559,7 +618,39 @@ void ladder_sim_end(LadderSim *sim)
 
 bool ladder_sim_is_on(LadderSim *sim)
 {
-	return sim->source != NULL;
+	return sim->view.program != NULL;
+}
+
+const char *ladder_sim_board(LadderSim *sim)
+{
+	return sim->mirror && ladder_sim_is_on(sim) ? sim_mirror_name(sim->mirror) : NULL;
+}
+
+struct sim_mirror *ladder_sim_mirror_begin(LadderSim *sim, const struct sim_board *board)
+{
+	ladder_sim_end(sim);
+	sim->mirror = sim_mirror_new(board, notified, sim);
+	sim->source = sim_mirror_source(sim->mirror);
+	sim->life++;
+	return sim->mirror;
+}
+
+void ladder_sim_mirror_refuse(LadderSim *sim, const char *why)
+{
+	tell(sim, why, false);
+}
+
+void ladder_sim_mirror_late(LadderSim *sim, gint64 ns)
+{
+	if (sim->late_ns == ns)
+		return;
+	sim->late_ns = ns;
+	tell_state(sim);
+}
+
+gint64 ladder_sim_late(LadderSim *sim)
+{
+	return ladder_sim_board(sim) ? sim->late_ns : 0;
 }
 
 static struct sim_program *read_plant(const char *path, GError **error)
@@ -662,6 +753,25 @@ static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
 	sim_program_unref(program);
 }
 
+/* An edit may have made a rung what it is on the board again. */
+static void number_again(LadderSim *sim)
+{
+	GPtrArray *before = sim->rungs;
+	bool same;
+
+	sim->rungs = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
+	number_rungs(sim);
+	same = before->len == sim->rungs->len;
+	for (guint i = 0; same && i < before->len; i++) {
+		const GArray *a = before->pdata[i], *b = sim->rungs->pdata[i];
+
+		same = a->len == b->len && memcmp(a->data, b->data, a->len * sizeof(int)) == 0;
+	}
+	g_ptr_array_unref(before);
+	if (!same && ladder_sim_is_on(sim))
+		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+}
+
 /* Builds the document in a thread, if it has changed and has no errors. */
 static void checked(LadderSim *sim)
 {
@@ -669,6 +779,10 @@ static void checked(LadderSim *sim)
 	struct rebuild *rebuild;
 	GTask *task;
 
+	if (sim->mirror) {
+		number_again(sim);
+		return;
+	}
 	if (!sim->thread || sim->building || diags->errors ||
 	    !ladder_document_is_whole(sim->document) ||
 	    sim->version == ladder_document_version(sim->document))
@@ -726,7 +840,7 @@ static void order(LadderSim *sim, enum act_kind kind, gint64 value)
 static void start_if_stopped(LadderSim *sim)
 {
 	if (sim->view.twin.resource.state != STATE_RUN)
-		order(sim, ACT_START, 0);
+		order(sim, sim->mirror ? ACT_WARM : ACT_START, 0);
 }
 
 /* May the thread be told to do this? The newest scan is shown then. */

@@ -43,11 +43,22 @@ bool ladder_sim_begin(LadderSim *sim, GError **error);
 /** ladder_sim_end - stops, and drops program, values and record. */
 void ladder_sim_end(LadderSim *sim);
 bool ladder_sim_is_on(LadderSim *sim);
+/** ladder_sim_board - the board whose values are shown, for people; NULL: it is a simulation, or
+ * off. Borrowed until `state-changed`. */
+const char *ladder_sim_board(LadderSim *sim);
 /** ladder_sim_set_plant - simulates a second program, bound crosswise (trial/twin.h); begins
  * anew if the simulation is on. @path: NULL: no plant. Fails: false, and @error says why. */
 bool ladder_sim_set_plant(LadderSim *sim, const char *path, GError **error);
 /** ladder_sim_plant - the path of the plant; NULL: there is none. Borrowed. */
 const char *ladder_sim_plant(LadderSim *sim);
+
+/** ladder_sim_build - the document as a program (sim_program.h). Owns: sim_program_unref(). Fails:
+ * NULL: as ladder_sim_begin(). */
+struct sim_program *ladder_sim_build(LadderSim *sim, GError **error);
+
+/** ladder_sim_late - ns that the values of the board are behind it; 0: not worth to be said, or a
+ * simulation. Changes with `state-changed`. */
+gint64 ladder_sim_late(LadderSim *sim);
 
 /* ---- running; these do nothing while it is off ---- */
 
@@ -135,10 +146,20 @@ struct ladder *ladder_sim_ladder(LadderSim *sim);
 const char *ladder_sim_text(LadderSim *sim);
 /** ladder_sim_plant_ladder - the same, of the plant; NULL: none. */
 struct ladder *ladder_sim_plant_ladder(LadderSim *sim);
-/** ladder_sim_rung - which rung of ladder_sim_ladder() rung @rung of @document is; all 0-based,
- * same POU. -1: it is new or was changed since, or @document is not the one of the scan that is
+/** ladder_sim_rung - which rung of that POU of ladder_sim_ladder() (ladder_sim_pou()) rung
+ * @rung of POU @pou of @document is; all 0-based. -1: it is new or was changed since, or @document is not the one of the scan that is
  * shown. */
 int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung);
+/** ladder_sim_pou - which POU of ladder_sim_ladder() POU @pou of @document is; -1: none. */
+int ladder_sim_pou(LadderSim *sim, LadderDocument *document, int pou);
+/** ladder_sim_is_missing - whether the board runs without rung @rung of POU @pou of the document:
+ * it is new, or was changed since the download. False in a simulation: it takes each edit. */
+bool ladder_sim_is_missing(LadderSim *sim, LadderDocument *document, int pou, int rung);
+/** ladder_sim_knows - whether the value at @at is that of the scan; false: the board does not send
+ * it yet, and is asked to. Then `program-changed` comes with it. */
+bool ladder_sim_knows(LadderSim *sim, struct location at);
+/** ladder_sim_has_power - the same of the power of the cells of a program or of an instance. */
+bool ladder_sim_has_power(LadderSim *sim, const char *unit);
 /** ladder_sim_forces - how many variables are forced, those of the plant included. */
 int ladder_sim_forces(LadderSim *sim);
 

@@ -103,6 +103,29 @@ struct sim_program *sim_program_read(struct ladder *reader, const char *file, co
 	return program;
 }
 
+bool sim_program_open_image(struct sim_program *program, const void *bytes, gsize len)
+{
+	guint8 *image = g_memdup2(bytes, len);
+	struct program opened;
+	struct arena scratch;
+	enum diag_id why;
+	size_t where;
+	bool good;
+
+	arena_init(&scratch);
+	good = len && code_open(image, len, &scratch, &opened, &why, &where);
+	arena_free(&scratch);
+	if (!good) {
+		g_free(image);
+		return false;
+	}
+	g_free(program->image);
+	program->image = image;
+	program->opened = opened;
+	program->program = &program->opened;
+	return true;
+}
+
 /* The text without its VIEW part. Caller frees. */
 static char *plain_text(const struct sim_program *program)
 {
@@ -153,5 +176,6 @@ void sim_program_unref(struct sim_program *program)
 	ladder_free(program->ladder);
 	g_free(program->text);
 	g_free(program->safe);
+	g_free(program->image);
 	g_free(program);
 }

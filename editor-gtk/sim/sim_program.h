@@ -13,6 +13,8 @@ struct sim_program {
 	struct ladder *ladder;
 	const struct program *program;
 	char *text;              /* its source                                 */
+	guint8 *image;           /* of a board, which `program` reads; else NULL */
+	struct program opened;   /* of it                                      */
 	guint8 *safe;            /* for twin_set_safe(), from the I/O map beside it */
 };
 /** sim_program_say_why - sets @error to the first error of @diags, with its place in @project;
@@ -26,6 +28,10 @@ struct sim_program *sim_program_new(const char *file, const char *text, gsize le
 /** sim_program_read - the same by @reader, which is taken over: of ladder_document_reader(). */
 struct sim_program *sim_program_read(struct ladder *reader, const char *file, const char *text,
 				     gsize len, GError **error);
+/** sim_program_open_image - from now on the program is the image that a board runs, instead of
+ * the translation of the same sources: places are those of the board. Fails: false: @bytes is
+ * no image; nothing has changed. */
+bool sim_program_open_image(struct sim_program *program, const void *bytes, gsize len);
 struct sim_program *sim_program_ref(struct sim_program *program);
 void sim_program_unref(struct sim_program *program);
 /** sim_program_is_same - same code, safe values and text; the VIEW parts may differ. */

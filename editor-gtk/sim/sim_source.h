@@ -43,6 +43,7 @@ struct sim_replay {
 	struct sim_program *program, *plant; /* of its scan; NULL: of no scan     */
 	guint64 era;             /* 0: of none                                 */
 	gint64 edited_us;        /* of that era, at the last step              */
+	guint64 at;              /* for sim_history_seek()                     */
 };
 /** sim_replay_clear - of no scan again. */
 void sim_replay_clear(struct sim_replay *replay);
@@ -50,7 +51,7 @@ void sim_replay_clear(struct sim_replay *replay);
 struct sim_source {
 	void (*free)(struct sim_source *source);
 	/* Copies the newest state to @view; *other: it is of another program than before.
-	 * Fails: false: there is none, or no memory; @view is unchanged. */
+	 * Fails: false: there is none yet; @view is unchanged. */
 	bool (*take)(struct sim_source *source, struct sim_view *view, bool *other);
 	/* @of: the program or plant that has the place; NULL: the act has no place. If it does
 	 * not run any more, the act is refused: another variable may be at that place. */
@@ -65,6 +66,9 @@ struct sim_source {
 	 * be computed again. */
 	const struct sim_eras *(*lock)(struct sim_source *source);
 	void (*unlock)(struct sim_source *source);
+	/* As ladder_sim_knows(), ladder_sim_has_power(). */
+	bool (*knows)(struct sim_source *source, struct location at);
+	bool (*has_power)(struct sim_source *source, const char *unit);
 };
 /** sim_eras_replay - as ladder_sim_replay(), in the records of @eras. */
 bool sim_eras_replay(const struct sim_eras *eras, struct sim_replay *replay, guint64 scan);

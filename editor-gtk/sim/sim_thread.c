@@ -357,7 +357,6 @@ static void order_act(struct sim_source *source, struct sim_program *of, const s
 static bool take(struct sim_source *source, struct sim_view *view, bool *other)
 {
 	struct sim_thread *thread = thread_of(source);
-	bool good = true;
 
 	g_atomic_int_set(&thread->notified, 0);
 	g_mutex_lock(&thread->out_lock);
@@ -366,7 +365,8 @@ static bool take(struct sim_source *source, struct sim_view *view, bool *other)
 		sim_view_clear(view);
 		view->program = sim_program_ref(thread->program);
 		view->plant = sim_program_ref(thread->plant);
-		good = twin_clone(&view->twin, &thread->out);
+		if (!twin_clone(&view->twin, &thread->out))
+			g_error("out of memory");
 	} else {
 		twin_copy(&view->twin, &thread->out);
 	}
@@ -375,7 +375,7 @@ static bool take(struct sim_source *source, struct sim_view *view, bool *other)
 	view->refusal = thread->out_refusal;
 	view->events = thread->out_events;
 	g_mutex_unlock(&thread->out_lock);
-	return good;
+	return true;
 }
 
 static const char *why_not(struct sim_source *source, enum sim_wish wish)
@@ -413,9 +413,24 @@ static void span(struct sim_source *source, guint64 *first, guint64 *last)
 	unlock(source);
 }
 
+static bool knows(struct sim_source *source, struct location at)
+{
+	(void)source;
+	(void)at;
+	return true;
+}
+
+static bool has_power(struct sim_source *source, const char *unit)
+{
+	(void)source;
+	(void)unit;
+	return true;
+}
+
 static const struct sim_source as_source = {
 	.free = free_source, .take = take, .act = order_act, .why_not = why_not,
-	.replay = replay, .span = span, .lock = lock, .unlock = unlock,
+	.replay = replay, .span = span, .lock = lock, .unlock = unlock, .knows = knows,
+	.has_power = has_power,
 };
 
 struct sim_source *sim_thread_source(struct sim_thread *thread)

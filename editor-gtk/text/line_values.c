@@ -266,8 +266,10 @@ static struct seen *seen_of(LadderLineValues *values, int line)
 
 	if (!twin || !values->pou[0] || line >= gtk_text_buffer_get_line_count(buffer))
 		return NULL;
-	if (!values->map)
+	if (!values->map) {
 		values->map = live_map_new(&twin->resource, values->pou, NULL);
+		live_map_set_sim(values->map, values->sim);
+	}
 	if (values->lines->len <= (guint)line)
 		g_ptr_array_set_size(values->lines, line + 1);
 	seen = values->lines->pdata[line];

@@ -338,6 +338,7 @@ static char *live_line(LadderSim *sim, const char *pou, const char *line)
 		return NULL;
 	code = g_strndup(line, comment ? (gsize)(comment - line) : strlen(line));
 	map = live_map_new(&twin->resource, pou, NULL);
+	live_map_set_sim(map, sim);
 	parts = live_parts(map, code);
 	text = parts ? values_of_parts(parts, &twin->resource.image) : NULL;
 	if (parts)

@@ -99,14 +99,15 @@ static void mark(struct blockers *blockers, const struct why *why)
 static bool ask(struct blockers *blockers, struct why *why)
 {
 	const struct twin *twin = ladder_sim_twin(blockers->core->sim);
-	const int pou = ladder_canvas_pou(LADDER_CANVAS(blockers->sheet));
-	const int rung = ladder_sim_rung(blockers->core->sim,
-		ladder_canvas_document(LADDER_CANVAS(blockers->sheet)), pou,
+	LadderDocument *document = ladder_canvas_document(LADDER_CANVAS(blockers->sheet));
+	const int shown = ladder_canvas_pou(LADDER_CANVAS(blockers->sheet));
+	const int pou = ladder_sim_pou(blockers->core->sim, document, shown);
+	const int rung = ladder_sim_rung(blockers->core->sim, document, shown,
 		blockers->rung + ladder_grid_view_first(blockers->sheet));
 	struct arena arena;
 	bool good;
 
-	if (!twin || rung < 0)
+	if (!twin || rung < 0 || pou < 0)
 		return false;
 	arena_init(&arena);
 	good = why_ask(&(struct why_place){

@@ -27,14 +27,19 @@
 static void show_when(struct sim_bar *bar)
 {
 	const struct twin *twin = ladder_sim_twin(bar->core->sim);
+	const char *board = ladder_sim_board(bar->core->sim);
 	char *text, period[32], now[32];
 
 	if (!twin)
 		return;
 	live_time_print(twin->period_ns, period, sizeof(period));
 	live_time_print_short(twin->now_ns, now, sizeof(now));
-	text = g_strdup_printf(_("Simulating · %s · scan %llu · %s"), period,
-			       (unsigned long long)twin->scan, now);
+	if (board)
+		text = g_strdup_printf(_("Online: %s · %s · scan %llu"), board, period,
+				       (unsigned long long)twin->scan);
+	else
+		text = g_strdup_printf(_("Simulating · %s · scan %llu · %s"), period,
+				       (unsigned long long)twin->scan, now);
 	adw_window_title_set_subtitle(bar->title, text);
 	g_free(text);
 }
@@ -127,10 +132,10 @@ static void go_to_fault(struct sim_bar *bar)
 
 static void told(LadderSim *sim, const char *text, gboolean bad, struct sim_bar *bar)
 {
-	(void)sim;
 	messages_tell(bar->core->messages, text);
 	if (!bad) {
-		messages_log(bar->core->messages, _("simulation"), text);
+		messages_log(bar->core->messages, ladder_sim_board(sim) ? _("board") :
+			     _("simulation"), text);
 		return;
 	}
 	messages_banner(bar->core->messages, _("simulation"), text, _("Run"), "win.sim_run");

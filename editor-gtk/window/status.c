@@ -7,6 +7,7 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/verbs.h"
+#include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/window/front.h"
 #include "editor-gtk/window/messages.h"
 
@@ -37,6 +38,29 @@ static const char *board_class(struct status *status)
 	       "still";
 }
 
+static void show_board_pill(struct status *status)
+{
+	static const struct { const char *text, *class; } pills[] = {
+		[SIM_OFF] = { N_("ONLINE"), NULL },
+		[SIM_STOP] = { N_("ONLINE · STOP"), "still" },
+		[SIM_RUN] = { N_("ONLINE"), "run" },
+		[SIM_PAUSE] = { N_("ONLINE"), "run" },
+		[SIM_FAULT] = { N_("ONLINE · FAULT"), "fault" },
+	};
+	const enum sim_state state = ladder_sim_state(status->core->sim);
+	const gint64 late_ns = ladder_sim_late(status->core->sim);
+	char late[32], *text;
+
+	if (!late_ns) {
+		set_pill(status, _(pills[state].text), pills[state].class);
+		return;
+	}
+	live_time_print_short(late_ns, late, sizeof(late));
+	text = g_strdup_printf(_("%s · %s late"), _(pills[state].text), late);
+	set_pill(status, text, "still");
+	g_free(text);
+}
+
 static void show_pill(struct status *status)
 {
 	static const struct { const char *text, *class; } pills[] = {
@@ -51,6 +75,10 @@ static void show_pill(struct status *status)
 
 	if (ladder_board_run_state(status->core->board) != BOARD_OFF) {
 		set_pill(status, _("ON THIS MACHINE"), board_class(status));
+		return;
+	}
+	if (ladder_sim_board(status->core->sim) && !ladder_sim_is_past(status->core->sim)) {
+		show_board_pill(status);
 		return;
 	}
 	if (!ladder_sim_is_past(status->core->sim)) {

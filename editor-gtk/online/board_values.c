@@ -1,0 +1,683 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * board_values - see board_values.h.
+ *
+ * After a connection, a change of the board's program or a restart: find the program, begin
+ * the mirror, ask the board to publish. A ping ten times a second shows how late values are.
+ */
+#include "editor-gtk/online/board_values.h"
+
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/online/board_copy.h"
+#include "editor-gtk/sim/sim_mirror.h"
+
+#include "engine/scan/place.h"
+
+#include <string.h>
+
+#define PERIOD_US 16000      /* of what the board publishes: a frame of the screen */
+#define SLOW_US   200000     /* the same on a serial line                      */
+#define VALUES_MOST 2048u    /* limits of a session, docs/online.md            */
+#define UNITS_MOST  12u
+#define PING_MS 100
+#define LATE_US G_GINT64_CONSTANT(200000) /* less is not told               */
+
+/* A list that the board publishes. */
+struct set {
+	gint refs;               /* of the list, and of its request            */
+	bool gone;               /* not wanted any more                        */
+	guint16 request;         /* 0: not answered yet                        */
+	char *unit;              /* cells of this program or instance; NULL: variables */
+	GArray *places;          /* of struct location                         */
+	LadderBoardValues *values;
+};
+
+struct _LadderBoardValues {
+	GObject parent;
+	LadderSim *sim;
+	LadderBoardLink *link;
+	struct sim_mirror *mirror; /* NULL: nothing is shown                   */
+	struct sim_program *program; /* the one to be shown                    */
+	guint8 identity[32];     /* of the program of `mirror`, or of the last attempt */
+	bool tried, loading;
+	bool filled;             /* the values have come once                  */
+	GPtrArray *sets;         /* of struct set                              */
+	char *why;
+	/* How late. */
+	guint timer;
+	bool pinged;             /* a ping is on its way                       */
+	gint64 ping_us, pong_us; /* when the last one was sent; when the one that was
+				    answered last was sent                      */
+	gint64 least_us;         /* the least difference of the clocks seen    */
+	gint64 delay_us;         /* of the last message                        */
+};
+
+G_DEFINE_FINAL_TYPE(LadderBoardValues, ladder_board_values, G_TYPE_OBJECT)
+
+static void set_why(LadderBoardValues *values, const char *why)
+{
+	g_free(values->why);
+	values->why = g_strdup(why);
+	if (*why)
+		ladder_sim_mirror_refuse(values->sim, why);
+}
+
+const char *ladder_board_values_why(LadderBoardValues *values)
+{
+	return values->why;
+}
+
+/* ---- sets ---- */
+
+static void set_unref(gpointer pointer)
+{
+	struct set *set = pointer;
+
+	if (--set->refs)
+		return;
+	if (set->places)
+		g_array_unref(set->places);
+	g_free(set->unit);
+	g_free(set);
+}
+
+static void unpublish(LadderBoardValues *values, const struct set *set)
+{
+	struct wire_writer fields = ladder_board_link_begin(values->link);
+
+	wire_put_u16(&fields, set->request);
+	ladder_board_link_send(values->link, SERVICE_UNPUBLISH, &fields, NULL, NULL, NULL);
+}
+
+/* The board need not send this any more. @tell_board: false: it does not any more. */
+static void drop_set(LadderBoardValues *values, guint index, bool tell_board)
+{
+	struct set *set = values->sets->pdata[index];
+
+	set->gone = true;
+	if (tell_board && set->request)
+		unpublish(values, set);
+	g_ptr_array_remove_index(values->sets, index);
+}
+
+static void set_answered(gpointer data, struct board_answer *answer)
+{
+	struct set *set = data;
+	LadderBoardValues *values = set->values;
+	const guint wanted = set->unit ?
+		(values->mirror ? sim_mirror_cells(values->mirror, set->unit) : 0) :
+		set->places->len;
+	guint32 count;
+
+	set->request = answer->request;
+	if (answer->end != DESK_GOOD) {
+		if (!set->gone && !set->unit && answer->end == DESK_REFUSED)
+			set_why(values, answer->text);
+		set->gone = true;
+	} else if (set->gone) {
+		unpublish(values, set);
+	} else {
+		count = wire_u32(&answer->body);
+		if (count != wanted) /* not the cells of this program */
+			set->gone = true;
+	}
+	set_unref(set);
+}
+
+static guint32 period_us(LadderBoardValues *values)
+{
+	const char *where = ladder_board_link_where(values->link);
+
+	return where && g_str_has_prefix(where, "serial:") ? SLOW_US : PERIOD_US;
+}
+
+/* @unit: copied. @places: taken over. */
+static void publish(LadderBoardValues *values, const char *unit, GArray *places)
+{
+	const struct program *program = values->program->program;
+	struct set *set = g_new0(struct set, 1);
+	struct wire_writer fields = ladder_board_link_begin(values->link);
+
+	*set = (struct set){ .refs = 2, .unit = g_strdup(unit), .places = places,
+			     .values = values };
+	g_ptr_array_add(values->sets, set);
+	wire_put_u32(&fields, period_us(values));
+	wire_put_u8(&fields, unit ? 1 : 0);
+	if (unit)
+		wire_put_string(&fields, unit);
+	else
+		wire_put_u16(&fields, (guint16)places->len);
+	for (guint i = 0; places && i < places->len; i++) {
+		wire_put_u8(&fields, REF_PLACE);
+		wire_put_u32(&fields, place_word(program,
+			g_array_index(places, struct location, i)));
+	}
+	ladder_board_link_send(values->link, SERVICE_PUBLISH, &fields, values, set_answered, set);
+}
+
+static bool same_places(const GArray *a, const GArray *b)
+{
+	return a->len == b->len &&
+	       memcmp(a->data, b->data, a->len * sizeof(struct location)) == 0;
+}
+
+/* The old list first: both together may be more than a session can have. */
+static void publish_variables(LadderBoardValues *values)
+{
+	bool all;
+	GArray *places = sim_mirror_places(values->mirror, VALUES_MOST, &all);
+
+	for (guint i = 0; i < values->sets->len; i++) {
+		struct set *set = values->sets->pdata[i];
+
+		if (set->unit)
+			continue;
+		if (same_places(set->places, places)) {
+			g_array_unref(places);
+			return;
+		}
+		drop_set(values, i, true);
+		sim_mirror_forget(values->mirror);
+		break;
+	}
+	if (places->len) {
+		publish(values, NULL, places);
+		return;
+	}
+	values->filled = true;
+	g_array_unref(places);
+}
+
+static bool has_unit(GPtrArray *units, const char *unit)
+{
+	for (guint i = 0; i < units->len; i++)
+		if (strcmp(units->pdata[i], unit) == 0)
+			return true;
+	return false;
+}
+
+static bool is_published(LadderBoardValues *values, const char *unit)
+{
+	for (guint i = 0; i < values->sets->len; i++) {
+		const struct set *set = values->sets->pdata[i];
+
+		if (set->unit && strcmp(set->unit, unit) == 0)
+			return true;
+	}
+	return false;
+}
+
+static void publish_power(LadderBoardValues *values)
+{
+	GPtrArray *units = sim_mirror_units(values->mirror, UNITS_MOST);
+
+	for (guint i = values->sets->len; i-- > 0;) {
+		const struct set *set = values->sets->pdata[i];
+
+		if (set->unit && !has_unit(units, set->unit)) {
+			sim_mirror_forget_power(values->mirror, set->unit);
+			drop_set(values, i, true);
+		}
+	}
+	for (guint i = 0; i < units->len; i++)
+		if (!is_published(values, units->pdata[i]))
+			publish(values, units->pdata[i], NULL);
+	g_ptr_array_unref(units);
+}
+
+static void wanted(gpointer data)
+{
+	LadderBoardValues *values = data;
+
+	if (!values->mirror || ladder_board_link_state(values->link) != LINK_CONNECTED)
+		return;
+	publish_variables(values);
+	publish_power(values);
+}
+
+/* ---- acts ---- */
+
+static void act_answered(gpointer data, struct board_answer *answer)
+{
+	LadderBoardValues *values = data;
+
+	if (answer->end != DESK_GOOD && *answer->text)
+		ladder_sim_mirror_refuse(values->sim, answer->text);
+}
+
+static void change(LadderBoardValues *values, enum service service, const struct act *act)
+{
+	const struct program *program = values->program->program;
+	struct wire_writer fields = ladder_board_link_begin(values->link);
+
+	ladder_board_link_expect(values->link, &fields);
+	wire_put_u16(&fields, act->kind == ACT_RELEASE_ALL ? 0 : 1);
+	if (act->kind != ACT_RELEASE_ALL) {
+		wire_put_u8(&fields, REF_PLACE);
+		wire_put_u32(&fields, place_word(program, act->at));
+	}
+	if (service != SERVICE_UNFORCE) {
+		wire_put_u8(&fields, (guint8)act->at.type);
+		wire_put_value(&fields, act->at.type, act->value);
+	}
+	ladder_board_link_send(values->link, service, &fields, values, act_answered, values);
+}
+
+static void mode(LadderBoardValues *values, enum mode_wish wish)
+{
+	const struct board_status *status = ladder_board_link_status(values->link);
+
+	if (status && status->mode == STATE_FAULT && wish != MODE_STOP)
+		wish = MODE_RESET;
+	ladder_board_link_mode(values->link, wish, values, act_answered, values);
+}
+
+static void act(gpointer data, const struct act *act)
+{
+	LadderBoardValues *values = data;
+
+	switch (act->kind) {
+	case ACT_SET: change(values, SERVICE_WRITE, act); break;
+	case ACT_FORCE: change(values, SERVICE_FORCE, act); break;
+	case ACT_RELEASE: /* fall through */
+	case ACT_RELEASE_ALL: change(values, SERVICE_UNFORCE, act); break;
+	case ACT_START: mode(values, MODE_COLD); break;
+	case ACT_WARM: mode(values, MODE_WARM); break;
+	case ACT_STOP: mode(values, MODE_STOP); break;
+	case ACT_PERIOD: break; /* why_not() */
+	}
+}
+
+static const char *role_needed(LadderBoardValues *values, enum service service)
+{
+	const enum role role = service_row((guint8)service)->role;
+	char *text;
+	const char *why;
+
+	if (ladder_board_link_may(values->link, service))
+		return NULL;
+	if (ladder_board_link_state(values->link) != LINK_CONNECTED)
+		return _("Not connected to the board");
+	text = g_strdup_printf(_("This needs the role “%s” on the board; yours is “%s”. Ask for the "
+				 "group ladder-%s there"), role_word(role),
+			       role_word(ladder_board_link_role(values->link)), role_word(role));
+	why = g_intern_string(text);
+	g_free(text);
+	return why;
+}
+
+static const char *why_not(gpointer data, enum sim_wish wish)
+{
+	LadderBoardValues *values = data;
+
+	switch (wish) {
+	case SIM_WISH_RUN: return role_needed(values, SERVICE_MODE);
+	case SIM_WISH_TIME:
+		return _("A board cannot pause or scan step by step: that is for the simulation");
+	case SIM_WISH_RESTART:
+		return _("A board is connected. Disconnect it to simulate");
+	case SIM_WISH_SET: return role_needed(values, SERVICE_WRITE);
+	case SIM_WISH_FORCE: return role_needed(values, SERVICE_FORCE);
+	}
+	return NULL;
+}
+
+/* ---- begin and end ---- */
+
+static void end(LadderBoardValues *values)
+{
+	while (values->sets->len)
+		drop_set(values, values->sets->len - 1, false);
+	values->filled = false;
+	if (values->mirror) {
+		values->mirror = NULL;
+		ladder_sim_end(values->sim);
+	}
+	g_clear_pointer(&values->program, sim_program_unref);
+	g_clear_handle_id(&values->timer, g_source_remove);
+}
+
+static gboolean ping_due(gpointer data);
+
+static void begin(LadderBoardValues *values, struct sim_program *program)
+{
+	const struct board_status *status = ladder_board_link_status(values->link);
+	const struct sim_board board = {
+		.name = ladder_board_link_board(values->link), .program = program,
+		.period_ns = status ? status->period_ns : 0,
+		.act = act, .why_not = why_not, .wanted = wanted, .data = values,
+	};
+
+	values->program = sim_program_ref(program);
+	values->mirror = ladder_sim_mirror_begin(values->sim, &board);
+	values->least_us = G_MAXINT64;
+	values->delay_us = 0;
+	values->pinged = false;
+	values->pong_us = g_get_monotonic_time();
+	values->timer = g_timeout_add(PING_MS, ping_due, values);
+	set_why(values, "");
+	wanted(values);
+}
+
+/* ---- which program ---- */
+
+static bool runs(LadderBoardValues *values, const struct sim_program *program)
+{
+	guint8 identity[32];
+
+	code_identity(program->program, identity);
+	return memcmp(identity, values->identity, sizeof(identity)) == 0;
+}
+
+static void free_table(void *context)
+{
+	g_hash_table_unref(context);
+}
+
+static char *load_file(void *context, const char *path, size_t *len)
+{
+	GBytes *bytes = g_hash_table_lookup(context, path);
+	char *text;
+
+	if (!bytes)
+		return NULL;
+	*len = g_bytes_get_size(bytes);
+	text = malloc(*len + 1);
+	if (!text)
+		return NULL;
+	memcpy(text, g_bytes_get_data(bytes, NULL), *len);
+	text[*len] = '\0';
+	return text;
+}
+
+static struct sim_program *read_copy(const struct board_copy *copy, GError **error)
+{
+	struct ladder *reader = ladder_new();
+	struct sim_program *program;
+	gsize len = 0;
+	const void *image;
+
+	if (!reader)
+		g_error("out of memory");
+	if (copy->files)
+		ladder_set_files(reader, &(struct ladder_files){ .load = load_file,
+			.context = g_hash_table_ref(copy->files), .free = free_table });
+	program = sim_program_read(reader, g_intern_string("-"), copy->text, strlen(copy->text),
+				   error);
+	image = copy->image ? g_bytes_get_data(copy->image, &len) : NULL;
+	if (program && image)
+		sim_program_open_image(program, image, len);
+	return program;
+}
+
+static void copied(gpointer data, struct board_copy *copy, const char *why)
+{
+	LadderBoardValues *values = data;
+	struct sim_program *program = NULL;
+	GError *error = NULL;
+	char *text;
+
+	values->loading = false;
+	if (ladder_board_link_state(values->link) == LINK_CONNECTED && copy && copy->text)
+		program = read_copy(copy, &error);
+	if (program && runs(values, program)) {
+		begin(values, program);
+	} else if (ladder_board_link_state(values->link) == LINK_CONNECTED) {
+		text = g_strdup_printf(_("Values of the board are not shown: %s"),
+			error ? error->message : !copy ? why : !copy->text ?
+			_("it runs another program than this one and has no sources of it") :
+			_("its program has changed"));
+		set_why(values, text);
+		g_free(text);
+		if (program) /* looks again at the next status */
+			values->tried = false;
+	}
+	g_clear_error(&error);
+	sim_program_unref(program);
+	board_copy_free(copy);
+}
+
+/* The program of the document, if that is what the board runs: it is here already. */
+static bool begin_own(LadderBoardValues *values)
+{
+	struct sim_program *program = ladder_sim_build(values->sim, NULL);
+	const bool same = program && runs(values, program);
+
+	if (same)
+		begin(values, program);
+	sim_program_unref(program);
+	return same;
+}
+
+static void find_program(LadderBoardValues *values, const struct board_status *status)
+{
+	memcpy(values->identity, status->program, sizeof(values->identity));
+	values->tried = true;
+	if (ladder_board_link_role(values->link) < ROLE_VIEW)
+		return;
+	if (begin_own(values))
+		return;
+	if (!ladder_board_link_may(values->link, SERVICE_UPLOAD)) {
+		set_why(values, _("Values of the board are not shown: it runs another program than "
+				  "this one, and reading that needs the role “eng”"));
+		return;
+	}
+	values->loading = true;
+	board_upload(values->link, G_OBJECT(values), copied, values);
+}
+
+/* ---- what the link tells ---- */
+
+static void status_came(LadderBoardValues *values)
+{
+	const struct board_status *status = ladder_board_link_status(values->link);
+
+	if (!status)
+		return;
+	if (!values->mirror) {
+		if (!values->loading && (!values->tried ||
+		    memcmp(values->identity, status->program, sizeof(values->identity)) != 0))
+			find_program(values, status);
+		return;
+	}
+	sim_mirror_period(values->mirror, status->period_ns);
+	for (guint i = 0; i < status->task_count; i++)
+		sim_mirror_task(values->mirror, i, status->task[i].runs, status->task[i].overruns);
+}
+
+static void program_changed(LadderBoardValues *values)
+{
+	end(values);
+	values->tried = false;
+}
+
+static void state_changed(LadderBoardValues *values)
+{
+	const enum link_state state = ladder_board_link_state(values->link);
+
+	if (state == LINK_CONNECTED)
+		return;
+	program_changed(values);
+	values->loading = false;
+	if (state == LINK_OFF)
+		set_why(values, "");
+}
+
+static struct set *set_of(LadderBoardValues *values, guint16 request)
+{
+	for (guint i = 0; i < values->sets->len; i++) {
+		struct set *set = values->sets->pdata[i];
+
+		if (set->request == request && !set->gone)
+			return set;
+	}
+	return NULL;
+}
+
+static void take_values(LadderBoardValues *values, const struct set *set,
+			struct wire_reader *in)
+{
+	const guint count = wire_u16(in);
+	struct iec_text room;
+
+	for (guint i = 0; i < count; i++) {
+		const guint index = wire_u16(in);
+		const guint8 flags = wire_u8(in);
+		struct location at;
+		union iec_value value;
+
+		if (in->failed || index >= set->places->len)
+			return;
+		at = g_array_index(set->places, struct location, index);
+		value = wire_value(in, at.type, &room);
+		if (in->failed)
+			return;
+		sim_mirror_value(values->mirror, at, flags & VALUE_FORCED, value);
+	}
+	values->filled = true;
+}
+
+static void take_power(LadderBoardValues *values, const struct set *set,
+		       struct wire_reader *in)
+{
+	const gsize size = (sim_mirror_cells(values->mirror, set->unit) + 3) / 4;
+	const guint8 *bits = wire_bytes(in, size);
+
+	if (bits)
+		sim_mirror_power(values->mirror, set->unit, bits);
+}
+
+/* The clocks of board and desk differ; the least difference that was seen is a message that came
+ * at once. */
+static void notice_delay(LadderBoardValues *values, gint64 now_ns)
+{
+	const gint64 difference = g_get_monotonic_time() - now_ns / 1000;
+
+	values->least_us = MIN(values->least_us, difference);
+	values->delay_us = difference - values->least_us;
+}
+
+static void told(LadderBoardLink *link, gpointer pointer, LadderBoardValues *values)
+{
+	struct frame frame = *(const struct frame *)pointer;
+	struct wire_reader *in = &frame.body;
+	const struct set *set = frame.service == SERVICE_PUBLISH ?
+				set_of(values, frame.request) : NULL;
+	struct sim_moment moment;
+
+	(void)link;
+	if (!set || !values->mirror)
+		return;
+	wire_u8(in);
+	moment.state = (enum resource_state)wire_u8(in);
+	moment.scan = wire_u64(in);
+	moment.now_ns = wire_i64(in);
+	wire_u32(in);
+	if (in->failed || moment.state > STATE_FAULT)
+		return;
+	if (set->unit)
+		take_power(values, set, in);
+	else
+		take_values(values, set, in);
+	notice_delay(values, moment.now_ns);
+	if (values->filled)
+		sim_mirror_moment(values->mirror, &moment);
+}
+
+/* ---- how late ---- */
+
+static void show_late(LadderBoardValues *values)
+{
+	const gint64 silent_us = g_get_monotonic_time() - values->pong_us - PING_MS * 1000;
+	const gint64 late_us = MAX(values->delay_us, silent_us);
+
+	/* In steps, so that the text can be read. */
+	ladder_sim_mirror_late(values->sim, late_us < LATE_US ? 0 :
+			       late_us / 100000 * 100000 * 1000);
+}
+
+/* A read of no variable: the state of the board, even when no value changes. */
+static void pong(gpointer data, struct board_answer *answer)
+{
+	LadderBoardValues *values = data;
+	struct sim_moment moment;
+
+	values->pinged = false;
+	if (answer->end != DESK_GOOD || !values->mirror)
+		return;
+	moment.state = (enum resource_state)wire_u8(&answer->body);
+	moment.scan = wire_u64(&answer->body);
+	moment.now_ns = wire_i64(&answer->body);
+	if (answer->body.failed || moment.state > STATE_FAULT)
+		return;
+	values->pong_us = values->ping_us;
+	values->delay_us = 0;
+	show_late(values);
+	if (values->filled)
+		sim_mirror_moment(values->mirror, &moment);
+}
+
+static gboolean ping_due(gpointer data)
+{
+	LadderBoardValues *values = data;
+	struct wire_writer fields;
+
+	show_late(values);
+	if (values->pinged)
+		return G_SOURCE_CONTINUE;
+	values->pinged = true;
+	values->ping_us = g_get_monotonic_time();
+	fields = ladder_board_link_begin(values->link);
+	wire_put_u16(&fields, 0);
+	ladder_board_link_send(values->link, SERVICE_READ, &fields, values, pong, values);
+	return G_SOURCE_CONTINUE;
+}
+
+/* ---- the object ---- */
+
+static void ladder_board_values_dispose(GObject *object)
+{
+	LadderBoardValues *values = LADDER_BOARD_VALUES(object);
+
+	if (values->link)
+		g_signal_handlers_disconnect_by_data(values->link, values);
+	if (values->sim)
+		end(values);
+	g_clear_object(&values->link);
+	g_clear_object(&values->sim);
+	G_OBJECT_CLASS(ladder_board_values_parent_class)->dispose(object);
+}
+
+static void ladder_board_values_finalize(GObject *object)
+{
+	LadderBoardValues *values = LADDER_BOARD_VALUES(object);
+
+	g_ptr_array_unref(values->sets);
+	g_free(values->why);
+	G_OBJECT_CLASS(ladder_board_values_parent_class)->finalize(object);
+}
+
+static void ladder_board_values_class_init(LadderBoardValuesClass *class)
+{
+	G_OBJECT_CLASS(class)->dispose = ladder_board_values_dispose;
+	G_OBJECT_CLASS(class)->finalize = ladder_board_values_finalize;
+}
+
+static void ladder_board_values_init(LadderBoardValues *values)
+{
+	values->sets = g_ptr_array_new_with_free_func(set_unref);
+	values->why = g_strdup("");
+}
+
+LadderBoardValues *ladder_board_values_new(LadderSim *sim, LadderBoardLink *link)
+{
+	LadderBoardValues *values = g_object_new(LADDER_TYPE_BOARD_VALUES, NULL);
+
+	values->sim = g_object_ref(sim);
+	values->link = g_object_ref(link);
+	g_signal_connect_swapped(link, "state-changed", G_CALLBACK(state_changed), values);
+	g_signal_connect_swapped(link, "status", G_CALLBACK(status_came), values);
+	g_signal_connect_swapped(link, "program-changed", G_CALLBACK(program_changed), values);
+	g_signal_connect(link, "told", G_CALLBACK(told), values);
+	return values;
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * board_values - the simulation shows a board while a link is connected to it.
+ *
+ * It finds the program that the board runs, has the board publish what the views need, and
+ * turns acts of a person into requests. It follows the link by itself: the views show the board
+ * from its first values on, nothing while the link is lost, and the new program when the board
+ * gets one. It has no widget.
+ */
+#ifndef EDITOR_BOARD_VALUES_H
+#define EDITOR_BOARD_VALUES_H
+
+#include "editor-gtk/online/board_link.h"
+#include "editor-gtk/sim/sim.h"
+
+#define LADDER_TYPE_BOARD_VALUES (ladder_board_values_get_type())
+G_DECLARE_FINAL_TYPE(LadderBoardValues, ladder_board_values, LADDER, BOARD_VALUES, GObject)
+
+/** ladder_board_values_new - @sim, @link: referenced. What @sim runs ends when the link is
+ * connected. */
+LadderBoardValues *ladder_board_values_new(LadderSim *sim, LadderBoardLink *link);
+/** ladder_board_values_why - why the views show nothing although the link is connected; "": they
+ * do, or will. Borrowed until it changes, with `told` of the simulation. */
+const char *ladder_board_values_why(LadderBoardValues *values);
+
+#endif

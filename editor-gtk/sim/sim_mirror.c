@@ -1,0 +1,480 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim_mirror - a twin that is filled from outside; see sim_mirror.h.
+ *
+ * Only what has come is known. A view that asks for something else gets nothing, and its need
+ * is stored until it comes.
+ */
+#include "editor-gtk/sim/sim_mirror.h"
+
+#include "editor-gtk/sim/sim_history.h"
+
+#include "engine/base/name.h"
+#include "engine/scan/place.h"
+
+#include <string.h>
+
+#define WANT_MS 50    /* needs of several views are asked for together         */
+#define WANTS_MOST 4096 /* needs that are stored                               */
+
+struct sim_mirror {
+	struct sim_source source;
+	struct sim_board board;
+	char *name;
+	GSourceFunc notify;
+	gpointer notify_data;
+	struct twin twin;
+	struct sim_history *history;
+	guint64 era;             /* no other mirror has it                     */
+	gint64 base_ns;          /* of the board's clock: time 0 here          */
+	bool begun;              /* a moment has come                          */
+	bool other;              /* something became known: places are to be found again */
+	GHashTable *known;       /* words of places                            */
+	GHashTable *powered;     /* names of units, of the program             */
+	GArray *wants;           /* words of places, the newest last           */
+	GPtrArray *units;        /* names, likewise                            */
+	guint want_timer, notify_idle;
+};
+
+/* Eras of a thread count from 1. */
+static guint64 eras = G_MAXUINT64 / 2;
+
+/* ---- life ---- */
+
+static struct sim_mirror *mirror_of(struct sim_source *source)
+{
+	return (struct sim_mirror *)source;
+}
+
+static void free_source(struct sim_source *source)
+{
+	struct sim_mirror *mirror = mirror_of(source);
+
+	g_clear_handle_id(&mirror->want_timer, g_source_remove);
+	g_clear_handle_id(&mirror->notify_idle, g_source_remove);
+	g_hash_table_unref(mirror->known);
+	g_hash_table_unref(mirror->powered);
+	g_array_unref(mirror->wants);
+	g_ptr_array_unref(mirror->units);
+	sim_history_free(mirror->history);
+	twin_free(&mirror->twin);
+	sim_program_unref(mirror->board.program);
+	g_free(mirror->name);
+	g_free(mirror);
+}
+
+const char *sim_mirror_name(const struct sim_mirror *mirror)
+{
+	return mirror->name;
+}
+
+static const struct program *program_of(const struct sim_mirror *mirror)
+{
+	return mirror->board.program->program;
+}
+
+/* ---- as a source ---- */
+
+static bool take(struct sim_source *source, struct sim_view *view, bool *other)
+{
+	struct sim_mirror *mirror = mirror_of(source);
+
+	*other = false;
+	if (!mirror->begun)
+		return false;
+	*other = view->program != mirror->board.program || mirror->other;
+	mirror->other = false;
+	if (view->program != mirror->board.program) {
+		sim_view_clear(view);
+		view->program = sim_program_ref(mirror->board.program);
+		if (!twin_clone(&view->twin, &mirror->twin))
+			g_error("out of memory");
+	}
+	twin_copy(&view->twin, &mirror->twin);
+	view->running = true;
+	view->fault = false;
+	return true;
+}
+
+static void act(struct sim_source *source, struct sim_program *of, const struct act *act)
+{
+	struct sim_mirror *mirror = mirror_of(source);
+
+	(void)of;
+	mirror->board.act(mirror->board.data, act);
+}
+
+static const char *why_not(struct sim_source *source, enum sim_wish wish)
+{
+	struct sim_mirror *mirror = mirror_of(source);
+
+	return mirror->board.why_not(mirror->board.data, wish);
+}
+
+static bool take_era(const struct sim_mirror *mirror, struct sim_replay *replay)
+{
+	sim_replay_clear(replay);
+	if (!twin_clone(&replay->replay.twin, &mirror->twin))
+		return false;
+	replay->program = sim_program_ref(mirror->board.program);
+	replay->era = mirror->era;
+	return true;
+}
+
+static bool replay(struct sim_source *source, struct sim_replay *replay, guint64 scan)
+{
+	const struct sim_mirror *mirror = mirror_of(source);
+
+	if (replay->era != mirror->era && !take_era(mirror, replay))
+		return false;
+	return sim_history_seek(mirror->history, &replay->at, &replay->replay.twin, scan);
+}
+
+static void span(struct sim_source *source, guint64 *first, guint64 *last)
+{
+	*first = sim_history_first(mirror_of(source)->history);
+	*last = sim_history_last(mirror_of(source)->history);
+}
+
+/* What a board does is not computed here. */
+static const struct sim_eras *lock(struct sim_source *source)
+{
+	(void)source;
+	return NULL;
+}
+
+static void unlock(struct sim_source *source)
+{
+	(void)source;
+}
+
+/* ---- what views need ---- */
+
+static gboolean ask(gpointer data)
+{
+	struct sim_mirror *mirror = data;
+
+	mirror->want_timer = 0;
+	mirror->board.wanted(mirror->board.data);
+	return G_SOURCE_REMOVE;
+}
+
+static void ask_soon(struct sim_mirror *mirror)
+{
+	if (!mirror->want_timer)
+		mirror->want_timer = g_timeout_add(WANT_MS, ask, mirror);
+}
+
+static bool knows(struct sim_source *source, struct location at)
+{
+	struct sim_mirror *mirror = mirror_of(source);
+	guint32 word;
+
+	if (at.type == IEC_NONE || at.constant)
+		return true;
+	word = place_word(program_of(mirror), at);
+	if (g_hash_table_contains(mirror->known, GUINT_TO_POINTER(word)))
+		return true;
+	for (guint i = 0; i < mirror->wants->len; i++)
+		if (g_array_index(mirror->wants, guint32, i) == word)
+			return false;
+	if (mirror->wants->len == WANTS_MOST)
+		g_array_remove_index(mirror->wants, 0);
+	g_array_append_val(mirror->wants, word);
+	ask_soon(mirror);
+	return false;
+}
+
+/* ---- cells ---- */
+
+/* The cells of a program, or of the body of an instance; `name` of the program image. */
+struct unit { const char *name; guint cell, count; guint32 shift; };
+
+static bool find_cells(const struct program *program, guint pou, struct unit *unit)
+{
+	unit->count = 0;
+	for (guint i = 0; i < program->power_count; i++) {
+		if (program->power[i].pou != pou)
+			continue;
+		if (!unit->count++)
+			unit->cell = i;
+	}
+	return unit->count > 0;
+}
+
+static bool find_unit(const struct program *program, const char *name, struct unit *unit)
+{
+	const gsize len = strlen(name);
+
+	for (guint i = 0; i < program->watched_count; i++) {
+		const struct code_watched *watched = &program->watched[i];
+
+		unit->name = program->string + watched->name;
+		unit->shift = watched->to - watched->from;
+		if (name_is(unit->name, name, len))
+			return find_cells(program, watched->pou, unit);
+	}
+	unit->shift = 0;
+	for (guint i = 0; i < program->entry_count && program->string_bytes; i++) {
+		unit->name = program->string + program->entry[i].name;
+		if (name_is(unit->name, name, len))
+			return find_cells(program, i, unit);
+	}
+	return false;
+}
+
+guint sim_mirror_cells(const struct sim_mirror *mirror, const char *name)
+{
+	struct unit unit;
+
+	return find_unit(program_of(mirror), name, &unit) ? unit.count : 0;
+}
+
+static bool has_power(struct sim_source *source, const char *name)
+{
+	struct sim_mirror *mirror = mirror_of(source);
+	struct unit unit;
+
+	if (!find_unit(program_of(mirror), name, &unit))
+		return true;
+	if (g_hash_table_contains(mirror->powered, unit.name))
+		return true;
+	g_ptr_array_remove(mirror->units, (gpointer)unit.name);
+	g_ptr_array_add(mirror->units, (gpointer)unit.name);
+	ask_soon(mirror);
+	return false;
+}
+
+void sim_mirror_power(struct sim_mirror *mirror, const char *name, const guint8 *bits)
+{
+	const struct program *program = program_of(mirror);
+	guint8 *memory = mirror->twin.resource.image.memory;
+	struct unit unit;
+
+	if (!find_unit(program, name, &unit))
+		return;
+	for (guint i = 0; i < unit.count; i++) {
+		const struct code_power *cell = &program->power[unit.cell + i];
+		const guint two = bits[i / 4] >> i % 4 * 2 & 3;
+
+		memory[cell->in + unit.shift] = two & 1;
+		if (!cell->type) /* else its value is published as that of a variable */
+			memory[cell->out + unit.shift] = two >> 1 & 1;
+	}
+	if (g_hash_table_add(mirror->powered, (gpointer)unit.name))
+		mirror->other = true;
+}
+
+/* ---- what is to be published ---- */
+
+struct places {
+	const struct program *program;
+	GArray *at;              /* of struct location                         */
+	GHashTable *words;       /* of these                                   */
+	guint most;
+	bool all;
+};
+
+static void add_place(struct places *places, struct location at)
+{
+	const gpointer word = GUINT_TO_POINTER(place_word(places->program, at));
+
+	if (at.type == IEC_NONE || at.constant || g_hash_table_contains(places->words, word))
+		return;
+	if (places->at->len == places->most) {
+		places->all = false;
+		return;
+	}
+	g_hash_table_add(places->words, word);
+	g_array_append_val(places->at, at);
+}
+
+static void add_symbols(struct places *places, const struct image *image)
+{
+	struct symbol_cursor cursor = { .pin = 0 };
+	struct symbol symbol;
+
+	while (places->all && image_next_symbol(image, &cursor, &symbol))
+		add_place(places, symbol.at);
+}
+
+/* The current result after a line of a list, if it is a number. */
+static void add_results(struct places *places)
+{
+	const struct program *program = places->program;
+
+	for (guint i = 0; i < program->power_count && places->all; i++)
+		if (program->power[i].type)
+			add_place(places, place_locate(program,
+				CODE_OPERAND(program->power[i].type, program->power[i].out)));
+}
+
+GArray *sim_mirror_places(struct sim_mirror *mirror, guint most, bool *all)
+{
+	struct places places = {
+		.program = program_of(mirror), .most = most, .all = true,
+		.at = g_array_new(FALSE, FALSE, sizeof(struct location)),
+		.words = g_hash_table_new(NULL, NULL),
+	};
+
+	for (guint i = mirror->wants->len; i-- > 0;)
+		add_place(&places, place_locate(places.program,
+			g_array_index(mirror->wants, guint32, i)));
+	add_symbols(&places, &mirror->twin.resource.image);
+	add_results(&places);
+	g_hash_table_unref(places.words);
+	*all = places.all;
+	return places.at;
+}
+
+static void add_unit(GPtrArray *names, const struct program *program, const char *name,
+		     guint most)
+{
+	struct unit unit;
+
+	if (names->len < most && !g_ptr_array_find(names, name, NULL) &&
+	    find_unit(program, name, &unit))
+		g_ptr_array_add(names, (gpointer)unit.name);
+}
+
+GPtrArray *sim_mirror_units(struct sim_mirror *mirror, guint most)
+{
+	const struct program *program = program_of(mirror);
+	GPtrArray *names = g_ptr_array_new();
+
+	for (guint i = mirror->units->len; i-- > 0;)
+		add_unit(names, program, mirror->units->pdata[i], most);
+	for (guint i = 0; i < program->entry_count && program->string_bytes; i++)
+		add_unit(names, program, program->string + program->entry[i].name, most);
+	for (guint i = 0; i < program->watched_count; i++)
+		add_unit(names, program, program->string + program->watched[i].name, most);
+	return names;
+}
+
+void sim_mirror_forget(struct sim_mirror *mirror)
+{
+	g_hash_table_remove_all(mirror->known);
+	mirror->other = true;
+}
+
+void sim_mirror_forget_power(struct sim_mirror *mirror, const char *name)
+{
+	struct unit unit;
+
+	if (find_unit(program_of(mirror), name, &unit) &&
+	    g_hash_table_remove(mirror->powered, unit.name))
+		mirror->other = true;
+}
+
+/* ---- what was published ---- */
+
+static void put_text(struct sim_mirror *mirror, struct location at, const struct iec_string *from)
+{
+	struct iec_string *to = (gpointer)(mirror->twin.resource.image.memory + at.where);
+
+	to->length = MIN(from->length, to->capacity);
+	memcpy(to->text, from->text, to->length);
+}
+
+void sim_mirror_value(struct sim_mirror *mirror, struct location at, bool forced,
+		      union iec_value value)
+{
+	struct image *image = &mirror->twin.resource.image;
+
+	if (at.type == IEC_NONE || at.constant)
+		return;
+	if (image->force_count && !forced)
+		image_unforce(image, at);
+	if (at.type == IEC_STRING)
+		put_text(mirror, at, value.s);
+	else if (forced)
+		image_force(image, at, value);
+	else
+		image_set(image, at, value);
+	if (g_hash_table_add(mirror->known,
+			     GUINT_TO_POINTER(place_word(program_of(mirror), at))))
+		mirror->other = true;
+}
+
+static gboolean tell(gpointer data)
+{
+	struct sim_mirror *mirror = data;
+
+	mirror->notify_idle = 0;
+	mirror->notify(mirror->notify_data);
+	return G_SOURCE_REMOVE;
+}
+
+void sim_mirror_moment(struct sim_mirror *mirror, const struct sim_moment *moment)
+{
+	struct twin *twin = &mirror->twin;
+
+	if (!mirror->begun)
+		mirror->base_ns = moment->now_ns;
+	/* A message of another set may be about an older scan, or none: after a restart they
+	 * count from 0 again, and so does what is kept. */
+	if (mirror->begun && moment->scan < sim_history_last(mirror->history) &&
+	    moment->now_ns - mirror->base_ns > twin->now_ns) {
+		sim_history_free(mirror->history);
+		mirror->history = sim_history_new(twin, SIM_BYTES);
+		mirror->era = ++eras;
+	} else if (mirror->begun && moment->scan < twin->scan) {
+		return;
+	}
+	mirror->begun = true;
+	twin->scan = twin->resource.scans = moment->scan;
+	twin->now_ns = moment->now_ns - mirror->base_ns;
+	twin->resource.state = moment->state;
+	sim_history_add(mirror->history, twin);
+	if (!mirror->notify_idle)
+		mirror->notify_idle = g_idle_add_full(G_PRIORITY_DEFAULT, tell, mirror, NULL);
+}
+
+void sim_mirror_period(struct sim_mirror *mirror, gint64 ns)
+{
+	if (ns > 0)
+		mirror->twin.period_ns = ns;
+}
+
+void sim_mirror_task(struct sim_mirror *mirror, guint task, guint64 runs, guint64 missed)
+{
+	if (task >= program_of(mirror)->task_count)
+		return;
+	mirror->twin.resource.tasks.state[task].runs = runs;
+	mirror->twin.resource.tasks.state[task].overruns = missed;
+}
+
+/* ---- life ---- */
+
+static const struct sim_source as_source = {
+	.free = free_source, .take = take, .act = act, .why_not = why_not, .replay = replay,
+	.span = span, .lock = lock, .unlock = unlock, .knows = knows, .has_power = has_power,
+};
+
+struct sim_mirror *sim_mirror_new(const struct sim_board *board, GSourceFunc notify,
+				  gpointer data)
+{
+	struct sim_mirror *mirror = g_new0(struct sim_mirror, 1);
+
+	mirror->source = as_source;
+	mirror->board = *board;
+	mirror->name = g_strdup(board->name);
+	mirror->board.name = mirror->name;
+	sim_program_ref(board->program);
+	mirror->notify = notify;
+	mirror->notify_data = data;
+	if (!twin_init(&mirror->twin, board->program->program, NULL, MAX(board->period_ns, 1)))
+		g_error("out of memory");
+	mirror->history = sim_history_new(&mirror->twin, SIM_BYTES);
+	mirror->era = ++eras;
+	mirror->known = g_hash_table_new(NULL, NULL);
+	mirror->powered = g_hash_table_new(NULL, NULL);
+	mirror->wants = g_array_new(FALSE, FALSE, sizeof(guint32));
+	mirror->units = g_ptr_array_new();
+	return mirror;
+}
+
+struct sim_source *sim_mirror_source(struct sim_mirror *mirror)
+{
+	return &mirror->source;
+}

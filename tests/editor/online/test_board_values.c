@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_board_values - the simulation of a document shows a real ladderd: values, power, writes,
+ * forces, modes, a role that may only look, another program, a board that goes and comes back.
+ */
+#include "editor-gtk/online/board_values.h"
+#include "editor-gtk/sim/live_value.h"
+#include "tests/editor/online/board.h"
+
+#include <string.h>
+
+#define OTHER "RUNGBOARD 1\nPROJECT \"Other\"\n\nVAR\n  Start AT %IX0.0 : BOOL;\n" \
+	"  Motor AT %QX0.0 : BOOL;\nEND_VAR\n\nPROGRAM Main LD\nRUNG\n" \
+	"  | NO Start | COIL Motor |\nRUNG\n  | NC Start | COIL Motor |\nEND_PROGRAM\n"
+
+static LadderDocument *document;
+static LadderSim *sim;
+static LadderBoardLink *link_;
+static LadderBoardValues *values;
+static char *told;
+
+static void keep_told(LadderSim *of, const char *text, gboolean bad)
+{
+	(void)of;
+	(void)bad;
+	g_free(told);
+	told = g_strdup(text);
+}
+
+static void open_editor(const char *text)
+{
+	document = ladder_document_new();
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
+	sim = ladder_sim_new(document);
+	g_signal_connect(sim, "told", G_CALLBACK(keep_told), NULL);
+	link_ = ladder_board_link_new();
+	values = ladder_board_values_new(sim, link_);
+}
+
+static void close_editor(void)
+{
+	ladder_board_link_disconnect(link_);
+	CHECK(!ladder_sim_is_on(sim));
+	g_object_unref(values);
+	g_object_unref(link_);
+	g_object_unref(sim);
+	g_object_unref(document);
+	g_clear_pointer(&told, g_free);
+}
+
+static void connect_to(const struct test_board *board)
+{
+	char *why = NULL;
+
+	CHECK(ladder_board_link_connect(link_, board->where, &why));
+}
+
+static struct location place(const char *name)
+{
+	const struct image *image = live_image(sim, false);
+
+	return image ? image_find(image, name, strlen(name)) :
+		       (struct location){ .type = IEC_NONE };
+}
+
+static gint64 value(const char *name)
+{
+	return live_value_get(sim, false, place(name)).i;
+}
+
+static bool power(guint rung, guint col)
+{
+	const struct twin *twin = ladder_sim_twin(sim);
+	bool in = false, out = false;
+
+	return twin && ladder_sim_has_power(sim, "Main") &&
+	       resource_power(&twin->resource, 0, rung, 1, col, &in, &out) && out;
+}
+
+static void shows_and_changes(void)
+{
+	struct test_board board;
+	guint64 scan;
+
+	board_open(&board, "eng");
+	open_editor(BOARD_PROGRAM);
+	CHECK_AS(ladder_sim_begin(sim, NULL), "a simulation runs before");
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) && ladder_sim_state(sim) == SIM_RUN);
+	CHECK_TEXT(ladder_sim_board(sim), "table");
+	scan = ladder_sim_twin(sim)->scan;
+	CHECK_SOON(ladder_sim_twin(sim)->scan > scan + 5);
+	CHECK(value("Motor") == 0 && ladder_sim_forces(sim) == 0 && !ladder_sim_late(sim));
+	live_value_force(sim, false, place("Start"), (union iec_value){ .i = 1 });
+	CHECK_SOON(ladder_sim_forces(sim) == 1 && value("Motor") == 1);
+	CHECK_SOON(power(1, 1) && power(1, 2));
+	live_value_set(sim, false, place("Count"), (union iec_value){ .i = 1234 });
+	CHECK_SOON(value("Count") == 1234);
+	ladder_sim_release_all(sim);
+	CHECK_SOON(ladder_sim_forces(sim) == 0 && !power(1, 1));
+	ladder_sim_stop(sim);
+	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
+	ladder_sim_run(sim);
+	CHECK_SOON(ladder_sim_state(sim) == SIM_RUN);
+	CHECK_AS(value("Count") == 1234 || value("Count") == 0, "Run keeps retained values");
+	CHECK_SOON(ladder_sim_last(sim) > ladder_sim_first(sim) + 3);
+	CHECK(ladder_sim_show(sim, ladder_sim_last(sim) - 1) && ladder_sim_is_past(sim));
+	ladder_sim_show_now(sim);
+	CHECK_AS(ladder_sim_begin(sim, NULL) && ladder_sim_board(sim), "it is on already");
+	CHECK(ladder_sim_why_not(sim, SIM_WISH_TIME) && ladder_sim_why_not(sim, SIM_WISH_RESTART) &&
+	      !ladder_sim_why_not(sim, SIM_WISH_FORCE));
+	board_stop(&board);
+	CHECK_SOON(!ladder_sim_is_on(sim));
+	CHECK_AS(!ladder_sim_twin(sim), "values of a board that has gone are unknown");
+	board_start(&board);
+	CHECK_SOON(ladder_sim_board(sim) && ladder_sim_state(sim) == SIM_RUN);
+	close_editor();
+	board_close(&board);
+}
+
+static void only_looks(void)
+{
+	struct test_board board;
+
+	board_open(&board, "view");
+	open_editor(BOARD_PROGRAM);
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) != NULL);
+	live_value_force(sim, false, place("Start"), (union iec_value){ .i = 1 });
+	CHECK_SOON(told && strstr(told, "ladder-eng") && strstr(told, "view"));
+	CHECK_TEXT(ladder_sim_why_not(sim, SIM_WISH_FORCE), told);
+	close_editor();
+	open_editor(OTHER);
+	connect_to(&board);
+	CHECK_SOON(*ladder_board_values_why(values));
+	CHECK_AS(!ladder_sim_is_on(sim), "this role cannot read another program");
+	close_editor();
+	board_close(&board);
+}
+
+/* ladderd was started with a file: it has no sources of it. */
+static void knows_no_sources(void)
+{
+	struct test_board board;
+
+	board_open(&board, "eng");
+	open_editor(OTHER);
+	connect_to(&board);
+	CHECK_SOON(*ladder_board_values_why(values));
+	CHECK(strstr(ladder_board_values_why(values), "sources") && !ladder_sim_is_on(sim));
+	close_editor();
+	board_close(&board);
+}
+
+static void run_ladder(const struct test_board *board, const char *file)
+{
+	const char *build = g_getenv("BUILD");
+	char *relative = g_build_filename(build ? build : "build", "ladder", NULL);
+	char *program = g_canonicalize_filename(relative, NULL);
+	const char *arguments[] = { program, "board", board->where, "download", file, "board.io",
+				    "--yes", NULL };
+	GSubprocessLauncher *launcher = g_subprocess_launcher_new(
+		G_SUBPROCESS_FLAGS_STDOUT_SILENCE);
+	GSubprocess *run;
+
+	g_subprocess_launcher_set_cwd(launcher, board->folder);
+	run = g_subprocess_launcher_spawnv(launcher, arguments, NULL);
+	CHECK(run && g_subprocess_wait_check(run, NULL, NULL));
+	g_clear_object(&run);
+	g_object_unref(launcher);
+	g_free(program);
+	g_free(relative);
+}
+
+/* Somebody else downloads while the editor is connected. */
+static void gets_another_program(void)
+{
+	struct test_board board;
+
+	board_open(&board, "eng");
+	board_write(&board, "other.rung", OTHER);
+	open_editor(BOARD_PROGRAM);
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) != NULL);
+	CHECK(!ladder_sim_is_missing(sim, document, 0, 0));
+	run_ladder(&board, "other.rung");
+	CHECK_SOON(ladder_sim_board(sim) && ladder_sim_ladder(sim) &&
+		   ladder_project(ladder_sim_ladder(sim))->pou[0].rung_count == 2);
+	CHECK(ladder_sim_rung(sim, document, 0, 0) == 0);
+	CHECK_SOON(power(2, 2) && value("Motor") == 1);
+	close_editor();
+	board_close(&board);
+}
+
+int main(void)
+{
+	shows_and_changes();
+	only_looks();
+	knows_no_sources();
+	gets_another_program();
+	return tap_done();
+}
