@@ -415,7 +415,7 @@ bless: $(BUILD)/ladder ## rewrite the expected files of CASE=name and show the d
 # ---- second evaluator, fuzz targets, exhaustion, house checks ----
 # Programs and scripts that print TAP; `check` runs both lists.
 BIN       := $(BUILD)/tests/bin
-FUZZ      := read code script scenario iomap retain classic link
+FUZZ      := read code script scenario iomap retain classic link record
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
 TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
@@ -472,7 +472,7 @@ TARGET  ?= read
 SECONDS ?= 60
 FUZZ_CC ?= clang
 FUZZ_FLAGS := -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
-fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|script|scenario|iomap|retain|classic|link SECONDS=60
+fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|script|scenario|iomap|retain|classic|link|record SECONDS=60
 	@mkdir -p $(BUILD)/fuzz/$(TARGET)
 	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
 	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \

@@ -724,6 +724,7 @@ static const struct action {
 	{ "reset", false, act_reset },     { "download", true, remote_download },
 	{ "upload", false, remote_upload }, { "events", false, act_events },
 	{ "config", true, remote_config },
+	{ "record", false, remote_record },
 };
 
 static enum status begin(struct remote *remote, const struct stream_where *where)

@@ -101,4 +101,5 @@ enum status remote_put(struct remote *remote, const struct parcel *parcel);
 enum status remote_download(struct remote *remote);
 enum status remote_upload(struct remote *remote);
 enum status remote_config(struct remote *remote);
+enum status remote_record(struct remote *remote);
 #endif

@@ -59,9 +59,16 @@ void cycle_name(struct cycle *cycle, const char *name, const char *of_map)
 	cycle->board[len] = '\0';
 }
 
+static void note(const struct cycle *cycle, enum link_note what, int64_t now_ns)
+{
+	if (cycle->link)
+		link_note(cycle->link, what, now_ns);
+}
+
 static void enter_fault(struct cycle *cycle, enum fault fault)
 {
 	resource_fail(&cycle->resource, fault);
+	note(cycle, NOTE_FAULT, 0);
 	hal_write_safe(&cycle->hal);
 	cycle->tended_ns = clock_now();
 	control_tell_fault(cycle);
@@ -92,14 +99,16 @@ static void enter_stop(struct cycle *cycle)
 	notify_send(&cycle->notify, "STATUS=STOP, outputs are safe");
 }
 
-static void start(struct cycle *cycle)
+/* @cold: without retained values. */
+static void start(struct cycle *cycle, bool cold)
 {
 	resource_start(&cycle->resource);
-	if (cycle->store)
+	if (cycle->store && !cold)
 		store_restore(cycle->store, &cycle->resource, clock_now());
+	note(cycle, NOTE_START, 0);
 }
 
-/* From STOP or FAULT to RUN. @cold: without retained values. */
+/* From STOP or FAULT to RUN. */
 static enum refusal restart(struct cycle *cycle, bool cold)
 {
 	struct resource *resource = &cycle->resource;
@@ -109,10 +118,7 @@ static enum refusal restart(struct cycle *cycle, bool cold)
 		return REFUSAL_IO;
 	cycle_pass(cycle);
 	resource_stop(resource);
-	if (cold)
-		resource_start(resource);
-	else
-		start(cycle);
+	start(cycle, cold);
 	cycle->monitor.tripped = 0;
 	cycle->late_row = 0;
 	hal_release(&cycle->hal);
@@ -142,6 +148,7 @@ static enum refusal stop(struct cycle *cycle)
 		return REFUSAL_NOT_NOW;
 	cycle_pass(cycle);
 	resource_stop(&cycle->resource);
+	note(cycle, NOTE_STOP, 0);
 	hal_write_safe(&cycle->hal);
 	cycle->tended_ns = clock_now();
 	if (cycle->store)
@@ -187,10 +194,14 @@ static bool scan_program(struct cycle *cycle, int64_t now_ns)
 {
 	struct resource *resource = &cycle->resource;
 	struct store *store = cycle->store;
-	int64_t begin_ns = clock_now();
-	bool good = resource_scan(resource, now_ns);
+	int64_t begin_ns;
+	bool good;
 
+	note(cycle, NOTE_SCAN, now_ns);
+	begin_ns = clock_now();
+	good = resource_scan(resource, now_ns);
 	stats_add(&cycle->body, clock_now() - begin_ns);
+	note(cycle, NOTE_SCANNED, 0);
 	if (!good && !resource->halted)
 		return false;
 	if (store)
@@ -332,9 +343,11 @@ int cycle_run(struct cycle *cycle)
 	int64_t due_ns = clock_now();
 	bool ready = false, was_fault = false;
 
-	start(cycle);
-	if (cycle->begin_stopped)
+	start(cycle, false);
+	if (cycle->begin_stopped) {
 		resource_stop(&cycle->resource);
+		note(cycle, NOTE_STOP, 0);
+	}
 	while (!is_done(cycle)) {
 		if (cycle->resource.state == STATE_RUN) {
 			if (was_fault)

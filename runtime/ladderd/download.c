@@ -15,6 +15,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define PAST 4 /* programs that ran before, for the record                       */
+
+/* The image of a program that ran. */
+struct past {
+	uint8_t identity[32];
+	uint8_t *image;                /* NULL: none                           */
+	uint32_t len;
+};
+
 struct download {
 	struct slots *slots;
 	struct cycle *cycle;
@@ -22,6 +31,8 @@ struct download {
 	size_t map_len;
 	struct stored first;           /* the program that ladderd began with  */
 	uint8_t *first_bytes;
+	uint8_t first_identity[32];
+	struct past past[PAST];        /* the newest one first                 */
 	struct standby *runs;          /* NULL: the first program              */
 	struct standby *before;        /* the one before, during a trial       */
 	bool trial;
@@ -265,10 +276,51 @@ void download_abort(struct download *download)
 	download->received = 0;
 }
 
+static const uint8_t *running_identity(const struct download *download)
+{
+	return download->runs ? download->runs->identity : download->first_identity;
+}
+
+/* The record may hold scans of the program that goes. */
+static void keep_image(struct download *download)
+{
+	const struct stored *stored = download_running(download);
+	const uint32_t len = stored->len[STORED_IMAGE];
+	struct past past = { .image = malloc(len ? len : 1), .len = len };
+
+	if (!past.image)
+		return;
+	memcpy(past.image, stored_part(stored, STORED_IMAGE), len);
+	memcpy(past.identity, running_identity(download), sizeof(past.identity));
+	free(download->past[PAST - 1].image);
+	memmove(&download->past[1], &download->past[0], (PAST - 1) * sizeof(past));
+	download->past[0] = past;
+}
+
+const uint8_t *download_image(struct download *download, const uint8_t identity[32],
+			      uint32_t *len)
+{
+	const struct stored *stored = download_running(download);
+
+	if (memcmp(running_identity(download), identity, 32) == 0) {
+		*len = stored->len[STORED_IMAGE];
+		return stored_part(stored, STORED_IMAGE);
+	}
+	for (int i = 0; i < PAST; i++) {
+		const struct past *past = &download->past[i];
+
+		*len = past->len;
+		if (past->image && memcmp(past->identity, identity, 32) == 0)
+			return past->image;
+	}
+	return NULL;
+}
+
 struct standby *download_swapped(struct download *download, bool comes_back)
 {
 	struct standby *standby = download->standby;
 
+	keep_image(download);
 	if (comes_back)
 		download->before = download->runs;
 	else
@@ -292,6 +344,7 @@ void download_passed(struct download *download)
 struct standby *download_back(struct download *download, struct standby **bad)
 {
 	*bad = download->runs;
+	keep_image(download);
 	standby_free(download->standby); /* its plan is beside the bad one */
 	download->standby = NULL;
 	download->runs = download->before;
@@ -316,6 +369,7 @@ static void take(struct cycle *cycle, const struct resource *resource, const uin
 	digest_hex(identity, sizeof(cycle->identity_bytes), cycle->identity);
 	monitor_limit(cycle_plan(cycle, cycle->wanted_ns, cycle->watchdog));
 	cycle->failed = cycle->resource.vm.errors != 0;
+	link_note(cycle->link, NOTE_SWAP, 0);
 }
 
 enum refusal cycle_swap(struct cycle *cycle, struct standby *standby, uint32_t back)
@@ -339,6 +393,7 @@ void cycle_back(struct cycle *cycle, enum fault fault)
 	struct resource *before = &bad->before;
 
 	resource_fail(&cycle->resource, fault);
+	link_note(cycle->link, NOTE_FAULT, 0);
 	control_print_fault(&cycle->resource, bad->why, sizeof(bad->why));
 	before->scans = cycle->resource.scans;
 	before->scan_us = cycle->resource.scan_us;
@@ -398,6 +453,7 @@ struct download *download_new(struct slots *slots, struct cycle *cycle, const ch
 	download->cycle = cycle;
 	download->map_text = map_text;
 	download->map_len = map_len;
+	memcpy(download->first_identity, cycle->identity_bytes, sizeof(download->first_identity));
 	if (take_first(download))
 		return download;
 	download_free(download);
@@ -411,6 +467,8 @@ void download_free(struct download *download)
 	download_abort(download);
 	standby_free(download->runs);
 	standby_free(download->before);
+	for (int i = 0; i < PAST; i++)
+		free(download->past[i].image);
 	free(download->first_bytes);
 	free(download);
 }

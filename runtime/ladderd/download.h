@@ -94,4 +94,8 @@ void download_passed(struct download *download);
 struct standby *download_back(struct download *download, struct standby **bad);
 void standby_free(struct standby *standby);
 const struct stored *download_running(struct download *download);
+/** download_image - the image of the program that runs, or of one of the last before it. Fails:
+ * NULL: unknown. */
+const uint8_t *download_image(struct download *download, const uint8_t identity[32],
+			      uint32_t *len);
 #endif

@@ -67,6 +67,8 @@ struct link {
 	int state;                     /* that the log tells                   */
 	struct peer_groups groups;
 	uint8_t *views;
+	struct recorder recorder;
+	uint8_t *record;               /* its memory; NULL: none               */
 	char path[108];
 	int listening, wake;
 	int fd[SERVER_SESSIONS];       /* -1: no session                      */
@@ -158,6 +160,32 @@ void link_trial_over(struct link *link, bool back)
 		exchange_forget(&link->exchange);
 	atomic_store(&link->trial, back ? TRIAL_BACK : TRIAL_PASSED);
 	wake_up(link);
+}
+
+void link_note(struct link *link, enum link_note note, int64_t now_ns)
+{
+	const struct cycle *cycle = link->cycle;
+
+	if (!link->record)
+		return;
+	switch (note) {
+	case NOTE_START: case NOTE_SWAP:
+		recorder_begin(&link->recorder, &cycle->resource, cycle->identity_bytes,
+			       note == NOTE_START ? RECORD_START : RECORD_SWAP);
+		return;
+	case NOTE_SCAN:
+		recorder_scan(&link->recorder, &cycle->resource, now_ns);
+		return;
+	case NOTE_SCANNED:
+		recorder_scanned(&link->recorder, &cycle->resource);
+		return;
+	case NOTE_STOP:
+		recorder_stopped(&link->recorder);
+		return;
+	case NOTE_FAULT:
+		recorder_failed(&link->recorder, &cycle->resource);
+		return;
+	}
 }
 
 void link_doze(struct link *link)
@@ -287,6 +315,11 @@ static void store_abort(void *context)
 static const struct stored *store_running(void *context)
 {
 	return download_running(((struct link *)context)->download);
+}
+
+static const uint8_t *store_image(void *context, const uint8_t identity[32], uint32_t *len)
+{
+	return download_image(((struct link *)context)->download, identity, len);
 }
 
 /* Between two scans, and only while @program runs if one is given. It is done when this returns,
@@ -646,6 +679,7 @@ void link_free(struct link *link)
 	journal_close(link->journal);
 	download_free(link->download);
 	free(link->views);
+	free(link->record);
 	free(link);
 }
 
@@ -723,9 +757,16 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	link->store = (struct server_store){
 		.begin = store_begin_download, .block = store_block, .verify = store_verify,
 		.store = store_slot, .swapped = store_swapped,
-		.abort = store_abort, .running = store_running,
+		.abort = store_abort, .running = store_running, .image = store_image,
 	};
 	exchange_init(&link->exchange, &link->host, link->views, size);
+	if (link->with.record_kb) {
+		link->record = calloc(1, RECORDER_BESIDE + (size_t)link->with.record_kb * 1024);
+		if (!link->record)
+			return false;
+		recorder_init(&link->recorder, link->record, link->with.record_kb * 1024);
+		link->exchange.recorder = &link->recorder;
+	}
 	link->conf = (struct server_conf){ .get = conf_read, .change = conf_write };
 	link->log = (struct server_log){ .add = log_add, .next = log_next };
 	link->journal = journal_open(link->with.slots->folder);

@@ -21,6 +21,17 @@ struct link_store {
 	struct arena *arena;           /* of the index                         */
 	const char *map_text;          /* of the map that runs; borrowed       */
 	size_t map_len;
+	uint32_t record_kb;            /* of the record; 0: none               */
+};
+
+/* What the record is told (scan/recorder.h). */
+enum link_note {
+	NOTE_START,    /* the program has started, with its retained values   */
+	NOTE_SWAP,     /* another program goes on                             */
+	NOTE_SCAN,     /* a scan begins; its inputs are read                  */
+	NOTE_SCANNED,
+	NOTE_STOP,     /* ordered by a person                                 */
+	NOTE_FAULT,
 };
 
 /**
@@ -40,6 +51,8 @@ int link_begin(struct link *link);
 void link_serve(struct link *link);
 /** link_show - copies what desks watch after a scan at @now_ns. Scan-safe: yes. */
 void link_show(struct link *link, int64_t now_ns);
+/** link_note - records what happens. @now_ns: of NOTE_SCAN. Scan-safe: yes. */
+void link_note(struct link *link, enum link_note note, int64_t now_ns);
 /** link_doze, link_wake - around each sleep of the scan thread: only then it can be woken for
  * an order. Scan-safe: yes. */
 void link_doze(struct link *link);

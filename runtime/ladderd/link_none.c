@@ -31,6 +31,11 @@ void link_show(struct link *link, int64_t now_ns)
 	(void)link, (void)now_ns;
 }
 
+void link_note(struct link *link, enum link_note note, int64_t now_ns)
+{
+	(void)link, (void)note, (void)now_ns;
+}
+
 void link_doze(struct link *link)
 {
 	(void)link;

@@ -155,6 +155,7 @@ static bool open_link(struct daemon *daemon)
 		.slots = &daemon->slots, .conf = &daemon->conf, .retain = &daemon->options.retain,
 		.program = &daemon->load.source.program, .arena = &daemon->load.arena,
 		.map_text = daemon->load.map_text, .map_len = daemon->load.map_len,
+		.record_kb = (uint32_t)daemon->options.record_kb,
 	};
 
 	cycle->link = link_open(daemon->options.link, daemon->options.groups, cycle, &store);

@@ -15,6 +15,7 @@ struct options {
 	const char *link;      /* path of the socket for desks; NULL: none    */
 	const char *slots;     /* folder of downloaded programs; NULL: none   */
 	const char *groups;    /* where names of groups come from             */
+	int64_t record_kb;     /* of --record; 0: none                        */
 	int64_t period_ns;     /* 0: not given                                */
 	int64_t watchdog;      /* periods                                     */
 	int64_t late;          /* late scans in a row that are an event       */

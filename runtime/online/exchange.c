@@ -60,11 +60,22 @@ static enum refusal check_items(const struct image *image, struct order *order)
 	return REFUSAL_NONE;
 }
 
-static enum refusal write_items(struct image *image, const struct order *order)
+static void record(const struct exchange *exchange, const struct resource *resource,
+		   enum record_kind kind, struct location at, union iec_value value)
 {
-	for (uint32_t i = 0; i < order->count; i++)
-		image_set(image, order->item[i].at, order->item[i].value);
-	return REFUSAL_NONE;
+	if (exchange->recorder)
+		recorder_change(exchange->recorder, resource, kind, at, value);
+}
+
+static void write_items(const struct exchange *exchange, struct resource *resource,
+			const struct order *order)
+{
+	for (uint32_t i = 0; i < order->count; i++) {
+		const struct order_item *item = &order->item[i];
+
+		record(exchange, resource, RECORD_WRITE, item->at, item->value);
+		image_set(&resource->image, item->at, item->value);
+	}
 }
 
 static uint32_t new_forces(const struct image *image, const struct order *order)
@@ -76,22 +87,63 @@ static uint32_t new_forces(const struct image *image, const struct order *order)
 	return count;
 }
 
-static enum refusal force_items(struct image *image, const struct order *order)
+static enum refusal force_items(const struct exchange *exchange, struct resource *resource,
+				const struct order *order)
 {
+	struct image *image = &resource->image;
+
 	if (new_forces(image, order) > LIMIT_FORCES - (uint32_t)image->force_count)
 		return REFUSAL_TOO_MANY;
-	for (uint32_t i = 0; i < order->count; i++)
-		image_force(image, order->item[i].at, order->item[i].value);
+	for (uint32_t i = 0; i < order->count; i++) {
+		const struct order_item *item = &order->item[i];
+
+		record(exchange, resource, RECORD_FORCE, item->at, item->value);
+		image_force(image, item->at, item->value);
+	}
 	return REFUSAL_NONE;
 }
 
-static enum refusal unforce_items(struct image *image, const struct order *order)
+static void release(const struct exchange *exchange, struct resource *resource, struct location at)
 {
+	record(exchange, resource, RECORD_UNFORCE, at, (union iec_value){ .i = 0 });
+	image_unforce(&resource->image, at);
+}
+
+static void unforce_items(const struct exchange *exchange, struct resource *resource,
+			  const struct order *order)
+{
+	const struct image *image = &resource->image;
+
 	for (uint32_t i = 0; i < order->count; i++)
-		image_unforce(image, order->item[i].at);
+		release(exchange, resource, order->item[i].at);
 	while (!order->count && image->force_count)
-		image_unforce(image, image->force[image->force_count - 1].at);
-	return REFUSAL_NONE;
+		release(exchange, resource, image->force[image->force_count - 1].at);
+}
+
+static enum refusal change_items(const struct exchange *exchange, struct resource *resource,
+				 struct order *order)
+{
+	enum refusal refusal = check_items(&resource->image, order);
+
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	if (order->kind == ORDER_WRITE)
+		write_items(exchange, resource, order);
+	else if (order->kind == ORDER_FORCE)
+		refusal = force_items(exchange, resource, order);
+	else
+		unforce_items(exchange, resource, order);
+	if (exchange->recorder)
+		recorder_changed(exchange->recorder, resource);
+	return refusal;
+}
+
+static enum refusal take_record(const struct exchange *exchange, struct recorder_part *part)
+{
+	if (!exchange->recorder)
+		return REFUSAL_NO_RECORD;
+	recorder_take(exchange->recorder, part);
+	return part->end ? REFUSAL_NONE : REFUSAL_NO_RECORD;
 }
 
 static bool is_expected(const struct exchange *exchange, const struct order *order,
@@ -115,8 +167,7 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 {
 	const struct exchange_host *host = exchange->host;
 	struct resource *resource = host->resource(host->context);
-	struct image *image = &resource->image;
-	enum refusal refusal = REFUSAL_NONE;
+	const struct image *image = &resource->image;
 
 	order->scan = resource->scans;
 	order->state = resource->state;
@@ -125,11 +176,6 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 	/* It went back by itself, and the link does not know that yet. */
 	if (order->program && order->program != image->program)
 		return REFUSAL_BUSY;
-	if (order->kind == ORDER_WRITE || order->kind == ORDER_FORCE ||
-	    order->kind == ORDER_UNFORCE)
-		refusal = check_items(image, order);
-	if (refusal != REFUSAL_NONE)
-		return refusal;
 	switch (order->kind) {
 	case ORDER_LOOK:
 		copy_ranges(order->watch, order->view, resource);
@@ -138,12 +184,8 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 		exchange->watch = *order->watch;
 		resource->watch = order->watch->power;
 		break;
-	case ORDER_WRITE:
-		return write_items(image, order);
-	case ORDER_FORCE:
-		return force_items(image, order);
-	case ORDER_UNFORCE:
-		return unforce_items(image, order);
+	case ORDER_WRITE: case ORDER_FORCE: case ORDER_UNFORCE:
+		return change_items(exchange, resource, order);
 	case ORDER_FORCES:
 		order->forces->force_count = image->force_count;
 		memcpy(order->forces->force, image->force, sizeof(image->force));
@@ -162,6 +204,8 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 	case ORDER_ACT:
 		order->act(host->context, order->other);
 		break;
+	case ORDER_RECORD:
+		return take_record(exchange, order->part);
 	case ORDER_COUNT:
 		break;
 	}

@@ -14,7 +14,7 @@
 #define ONLINE_EXCHANGE_H
 
 #include "engine/scan/place.h"
-#include "engine/scan/resource.h"
+#include "engine/scan/recorder.h"
 #include "online/service.h"
 #include "online/status.h"
 
@@ -59,6 +59,7 @@ enum order_kind {
 	ORDER_SWAP,    /* another program runs from now on                    */
 	ORDER_RESTART, /* the daemon ends and begins with the newest slot      */
 	ORDER_ACT,     /* the daemon does something between two scans         */
+	ORDER_RECORD,  /* copies a part of the record                         */
 	ORDER_COUNT
 };
 
@@ -81,6 +82,7 @@ struct order {
 	struct image *forces;          /* ORDER_FORCES: gets only the forces    */
 	void *other;                   /* ORDER_SWAP, ORDER_ACT: the host's     */
 	void (*act)(void *context, void *other); /* @context: of the host        */
+	struct recorder_part *part;    /* ORDER_RECORD                          */
 	uint32_t back;                 /* ORDER_SWAP: a FAULT within so many scans brings
 					* the program before back; 0: never     */
 	/* The result. */
@@ -107,6 +109,7 @@ struct exchange_host {
 
 struct exchange {
 	const struct exchange_host *host;
+	struct recorder *recorder;     /* of changes; set after exchange_init(); NULL: none */
 	_Atomic(struct order *) order; /* NULL: none is waiting                 */
 	_Atomic int state;             /* enum resource_state after the last scan */
 	_Atomic unsigned middle;       /* the buffer between both sides, and FRESH */

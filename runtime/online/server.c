@@ -23,6 +23,7 @@
 #define DETAIL_MOST 200      /* bytes of a refusal's detail                   */
 #define RANGES_MOST 65536u   /* pieces of memory that are copied after a scan */
 #define SYMBOL_BYTES (WIRE_TEXT_MOST + 64) /* of one symbol in a page, at most        */
+#define PART_MOST   32768u   /* bytes of the record that one order copies     */
 #define NEAR        16       /* ranges that are so near are copied as one     */
 
 /* An answer to a request that changed something. */
@@ -66,6 +67,8 @@ struct server {
 	/* The program over the memory of a view, with the forces of the board. */
 	struct image mirror;
 	struct view look;
+	struct recorder_part part;
+	uint8_t part_bytes[PART_MOST];
 	struct range look_range[REFS_MOST];
 	struct location place[REFS_MOST];
 	struct order_item item[REFS_MOST];
@@ -1138,6 +1141,61 @@ static enum refusal serve_events(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
+/* ---- record ---- */
+
+static enum refusal serve_log(struct asked *asked, uint64_t from)
+{
+	struct server *server = asked->server;
+	struct recorder_part *part = &server->part;
+	enum refusal refusal;
+
+	if (!can_order(server))
+		return REFUSAL_BUSY;
+	*part = (struct recorder_part){ .from = from, .out = server->part_bytes,
+					.room = PART_MOST };
+	server->order = (struct order){ .kind = ORDER_RECORD, .part = part };
+	refusal = give(server);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	begin_answer(asked, 0);
+	wire_put_u64(&asked->out, part->oldest);
+	wire_put_u64(&asked->out, part->end);
+	wire_put_u64(&asked->out, part->at);
+	wire_put_bytes(&asked->out, part->out, part->len);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_program(struct asked *asked, const uint8_t *identity, uint32_t offset)
+{
+	const struct server_store *store = asked->server->setup.store;
+	const uint8_t *image;
+	uint32_t len = 0, part;
+
+	image = store ? store->image(asked->server->setup.context, identity, &len) : NULL;
+	if (!image)
+		return REFUSAL_NO_RECORD;
+	if (offset > len)
+		return REFUSAL_BAD_FRAME;
+	part = len - offset < STORED_BLOCK ? len - offset : STORED_BLOCK;
+	begin_answer(asked, 0);
+	wire_put_u32(&asked->out, len);
+	wire_put_bytes(&asked->out, image + offset, part);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_record(struct asked *asked)
+{
+	struct wire_reader *in = &asked->frame.body;
+	const uint8_t what = wire_u8(in);
+	const uint64_t from = what == 0 ? wire_u64(in) : 0;
+	const uint8_t *identity = what == 1 ? wire_bytes(in, 32) : NULL;
+	const uint32_t offset = what == 1 ? wire_u32(in) : 0;
+
+	if (what > 1 || !wire_done(in))
+		return REFUSAL_BAD_FRAME;
+	return what == 0 ? serve_log(asked, from) : serve_program(asked, identity, offset);
+}
+
 /* ---- requests ---- */
 
 static enum refusal serve(struct asked *asked)
@@ -1185,6 +1243,8 @@ static enum refusal serve(struct asked *asked)
 		return serve_events(asked);
 	case SERVICE_CONFIG:
 		return serve_config(asked);
+	case SERVICE_RECORD:
+		return serve_record(asked);
 	}
 	return REFUSAL_NO_SERVICE;
 }

@@ -67,6 +67,9 @@ struct server_store {
 	const struct program *(*swapped)(void *context, bool comes_back);
 	void (*abort)(void *context);
 	const struct stored *(*running)(void *context);
+	/** The image of a program that runs or ran, as long as the record may need it. NULL:
+	 * unknown. */
+	const uint8_t *(*image)(void *context, const uint8_t identity[32], uint32_t *len);
 };
 
 struct server_setup {

@@ -6,7 +6,7 @@ import struct
 
 (HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE,
  DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG) = range(1, 20)
-SUMS, PIECES = 23, 24
+RECORD, SUMS, PIECES = 22, 23, 24
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
 FORMS = [None, '?', 'B', 'H', 'I', 'Q', 'b', 'h', 'i', 'q', 'B', 'H', 'I', 'Q', 'f', 'd', 'q', 'q', 'q', 'q', None]
@@ -295,6 +295,29 @@ class Client:
         """Whether it needs a restart."""
         return self.call(CONFIG, b'\1' + self.expect(**expect) + bytes([restart]) + text(key) + text(setting)).number('B')
 
+    def record(self):
+        """The whole log, as bytes."""
+        data, start = b'', None
+        while True:
+            it = self.call(RECORD, struct.pack('<BQ', 0, (start or 0) + len(data)))
+            oldest, end, at = (it.number('Q') for _ in range(3))
+            if start is None or at != start + len(data):
+                data, start, until = b'', at, end
+            assert oldest <= at <= end
+            data += it.rest()
+            if start + len(data) >= until:
+                return data[:until - start]
+
+    def program(self, identity):
+        """The image of a program that runs or ran."""
+        data = b''
+        while True:
+            it = self.call(RECORD, b'\1' + identity + struct.pack('<I', len(data)))
+            size = it.number('I')
+            data += it.rest()
+            if len(data) == size:
+                return data
+
     def events(self, first=1):
         found = []
         while True:
@@ -331,3 +354,60 @@ def take_cells(fields, count):
     assert len(packed) == (count + 3) // 4
     return scan, [(packed[i // 4] >> 2 * (i % 4) & 1, packed[i // 4] >> 2 * (i % 4) + 1 & 1)
                   for i in range(count)]
+
+
+class Log(Fields):
+    """Takes the records of a log: (kind, fields), as docs/record.md has them."""
+
+    def count(self):
+        number = shift = 0
+        while True:
+            byte = self.number('B')
+            number |= (byte & 127) << shift
+            shift += 7
+            if byte < 128:
+                return number
+
+    def signed(self):
+        number = self.count()
+        return -(number + 1 >> 1) if number & 1 else number >> 1
+
+    def value_of(self, place):
+        return self.take(self.count()) if place >> 24 == STRING else self.take(8)
+
+    def key(self, why):
+        self.take(4)
+        key = {'why': why, 'program': self.take(32), 'scan': self.number('Q'), 'time': self.number('q')}
+        self.take(16)
+        key['mode'], key['fault'], key['flags'] = self.number('B'), self.number('B'), self.number('B')
+        self.take(64)
+        tasks, forces, size = self.number('B'), self.number('I'), self.number('I')
+        self.take(37 * tasks)
+        key['forces'] = [(self.number('I'), self.take(16)) for _ in range(forces)]
+        key['data'] = self.take(size)
+        return key
+
+    def next(self):
+        head = self.number('B')
+        kind = head & 7
+        if kind == 0:
+            scan = {'time': self.signed(), 'wall': self.signed(), 'took': self.count()}
+            for _ in range((head >> 6 & 1) + (head >> 7)):
+                self.signed()
+            return 'scan', scan
+        if kind == 1:
+            return 'key', self.key(head >> 3)
+        if kind == 2:
+            runs = []
+            while True:
+                gap, size = self.count(), self.count()
+                if not size:
+                    return 'inputs', runs
+                runs.append((gap, self.take(size)))
+        if kind in (3, 4):
+            place = self.number('I')
+            return ('write', 'force')[kind - 3], (place, self.value_of(place))
+        if kind == 5:
+            return 'release', self.number('I')
+        assert head in (6, 14, 22), head
+        return {6: 'stop', 14: 'fault', 22: 'tasks'}[head], self.number('B') if head > 6 else None

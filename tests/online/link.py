@@ -120,6 +120,10 @@ class Board:
                               capture_output=True, timeout=60, **as_user(OWN))
         return done.returncode, done.stdout, done.stderr
 
+    def ladder(self, *words):
+        return subprocess.run([BUILD + '/ladder', *words], cwd=self.folder, text=True, capture_output=True, timeout=60,
+                              check=False)
+
     def __enter__(self):
         return self
 
@@ -1353,7 +1357,7 @@ def try_all(desk):
         'status': number(desk.status), 'symbols': number(desk.symbols), 'read': number(lambda: desk.read('Motor')),
         'publish': number(lambda: desk.publish(['Motor'])), 'events': number(desk.events),
         'unpublish': number(lambda: desk.call(client.UNPUBLISH, struct.pack('<H', 4))),
-        'forces': number(desk.forces),
+        'forces': number(desk.forces), 'record': number(desk.record),
         'write': number(lambda: desk.write({'Count': (INT, 1)}, program=program)),
         'force': number(lambda: desk.force({'Count': (INT, 1)}, program=program)),
         'unforce': number(lambda: desk.unforce(program=program)),
@@ -1370,7 +1374,7 @@ def try_all(desk):
 
 
 def test_each_role_may_do_what_the_table_says():
-    reading = 'status symbols read publish unpublish forces events'.split()
+    reading = 'status symbols read publish unpublish forces events record'.split()
     changing = 'write force unforce stop run cold set'.split()
     moving = 'download block sums pieces verify commit abort upload config'.split()
     nothing = dict.fromkeys(changing + moving, 5)
@@ -1397,6 +1401,110 @@ def test_each_role_may_do_what_the_table_says():
 
 
 test_each_role_may_do_what_the_table_says.root = True
+
+
+# ---- record ----
+
+def log_of(desk):
+    """(the first identity, all records) of the log."""
+    log = client.Log(desk.record())
+    records = []
+    while log.rest():
+        records.append(log.next())
+    assert records[0][0] == 'key'
+    return records
+
+
+def test_the_record_is_as_the_page_says():
+    with slots() as board:
+        desk = board.client()
+        program, parts = desk.status()['program'], desk.upload()
+        desk.force({'Start': (BOOL, True)})
+        desk.write({'Count': (INT, 5), 'Label': (STRING, b'xyz')})
+        desk.unforce('Start')
+        desk.set_mode(0)
+        records = log_of(desk)
+        kinds = [kind for kind, _ in records if kind not in ('scan', 'inputs')]
+        assert kinds == ['key', 'force', 'write', 'write', 'release', 'stop'], kinds
+        key = records[0][1]
+        assert (key['why'], key['program'], key['scan'], key['mode'], key['fault']) == (1, program, 0, 1, 0), key
+        assert [kind for kind, _ in records].count('scan') == desk.status()['scans']
+        values = [it[1][1] for it in records if it[0] == 'write']
+        assert values == [struct.pack('<q', 5), b'xyz']
+        assert desk.program(program) == parts[0]
+        refused(40, lambda: desk.program(bytes(32)))
+        other = desk.download(build(board, 'other.rung', OTHER))[1]
+        assert desk.program(program) == parts[0] and desk.program(other) == desk.upload()[0]
+        assert [it['why'] for kind, it in log_of(desk) if kind == 'key'] == [1, 2]
+        refused(1, lambda: desk.call(client.RECORD, b''))
+        refused(1, lambda: desk.call(client.RECORD, struct.pack('<BQ', 2, 0)))
+
+
+def test_a_record_is_replayed_bit_for_bit():
+    with slots() as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True)})
+        until(lambda: desk.read('Slow.ET')[0] > 50000000)
+        desk.write({'Count': (INT, 1000), 'Label': (STRING, b'night')})
+        desk.download(build(board, 'other.rung', OTHER))
+        _request, _types = desk.publish(['Motor'])
+        until(lambda: desk.read('Slow.ET')[0] > 150000000)
+        desk.unforce()
+        desk.set_mode(0)
+        desk.set_mode(1)
+        desk.download(build(board, 'loop.rung', LOOP))
+        desk.write({'Go': (BOOL, True)})
+        until(lambda: desk.status()['mode'] == client.FAULT)
+        desk.set_mode(3)
+        desk.set_mode(0)
+        scans = desk.status()['scans']
+        status, out, err = board.command('record', '-o', 'a.record')
+        assert (status, out, err) == (0, f'a.record: {scans} scans\n', ''), (out, err)
+        shown = board.ladder('replay', 'a.record', '--changes')
+        assert shown.returncode == 0 and not shown.stderr, shown.stderr
+        assert shown.stdout.count('# another program') == 2 and "Label='night'" in shown.stdout
+        assert ' Start=1' in shown.stdout and ' Go=1' in shown.stdout, shown.stdout
+        shown = board.ladder('replay', 'a.record', 'Go', 'Motor')
+        assert shown.returncode == 1 and 'a.record' in shown.stderr and '"Go"' in shown.stderr
+        shown = board.ladder('replay', 'a.record', 'Motor', '--csv')
+        assert shown.returncode == 0 and len(shown.stdout.splitlines()) == scans + 1
+
+
+def test_a_small_ring_keeps_the_newest_scans():
+    with slots('--record', '256') as board:
+        desk = board.client()
+        for number in range(6000):
+            desk.write({'Label': (STRING, b'%020d' % number)})
+        desk.set_mode(0)
+        assert board.command('record', '-o', 'a.record')[0] == 0
+        shown = board.ladder('replay', 'a.record', 'Label', '--changes')
+        assert shown.returncode == 0 and len(desk.record()) <= 256 * 1024, shown.stderr
+        lines = shown.stdout.splitlines()
+        assert lines and '005999' not in lines[0]
+
+
+def test_without_a_record_nothing_is_recorded():
+    for size in ('0', '8'):
+        with slots('--record', size) as board:
+            refused(40, board.client().record)
+            status, _out, err = board.command('record', '-o', 'a.record')
+            assert status == 1 and 'LD840' in err and not os.path.exists(board.folder + '/a.record'), err
+
+
+def test_replay_says_what_is_wrong():
+    with slots() as board:
+        until(lambda: board.client().status()['scans'] > 10)
+        assert board.command('record', '-o', 'a.record')[0] == 0
+        with open(board.folder + '/a.record', 'rb') as file:
+            good = file.read()
+        for data, code in ((b'', 'LD860'), (b'RUNGCODE' + good[8:], 'LD860'), (good[:8] + b'\2' + good[9:], 'LD861'),
+                           (good[:-1], 'LD862'), (good[:500] + b'x' + good[501:], 'LD862')):
+            with open(board.folder + '/b.record', 'wb') as file:
+                file.write(data)
+            shown = board.ladder('replay', 'b.record')
+            assert shown.returncode == 1 and code in shown.stderr and not shown.stdout, (code, shown.stderr)
+        assert board.command('record')[0] == 2
+        assert board.ladder('replay', 'a.record', '--csv', '--vcd').returncode == 2
 
 
 # ---- hostile ----

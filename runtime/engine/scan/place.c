@@ -4,14 +4,6 @@
  */
 #include "engine/scan/place.h"
 
-uint32_t place_word(const struct program *program, struct location at)
-{
-	if (at.area == AREA_NONE)
-		return CODE_OPERAND(at.type, at.where);
-	return CODE_OPERAND((uint32_t)at.type | SYMBOL_BIT,
-			    program->areas.at[at.area] * 8 + at.where);
-}
-
 /* Is there a value of this type in the areas? All bytes belong to one area. */
 static bool is_in_area(const struct areas *areas, uint32_t offset, uint32_t size)
 {

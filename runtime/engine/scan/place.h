@@ -11,7 +11,13 @@
 #include "engine/scan/image.h"
 
 /** place_word - the word of a location of @program. Scan-safe: yes. */
-uint32_t place_word(const struct program *program, struct location at);
+static inline uint32_t place_word(const struct program *program, struct location at)
+{
+	if (at.area == AREA_NONE)
+		return CODE_OPERAND(at.type, at.where);
+	return CODE_OPERAND((uint32_t)at.type | SYMBOL_BIT,
+			    program->areas.at[at.area] * 8 + at.where);
+}
 /** place_locate - the location that a word of any origin names. Scan-safe: yes. Fails: type
  * IEC_NONE: @program has no value of that type there. */
 struct location place_locate(const struct program *program, uint32_t word);

@@ -248,8 +248,14 @@ static void time_task(struct resource *resource, uint32_t index, bool watch)
 static bool must_yield(const struct resource *resource, uint32_t task)
 {
 	int64_t now_ns;
+	uint32_t ran = 0;
 	bool late;
 
+	if (resource->tasks_most) {
+		for (uint32_t i = 0; i < resource->image.program->task_count; i++)
+			ran += resource->tasks.state[i].ran;
+		return ran >= resource->tasks_most;
+	}
 	if (!resource->clock_ns || resource->scans == 0)
 		return false;
 	now_ns = resource->clock_ns();

@@ -40,6 +40,8 @@ struct resource {
 	int64_t timers_ns;           /* of function blocks' time - now_ns, that
 					retained timers go on; else 0         */
 	uint32_t scan_us, scan_max_us;
+	uint32_t tasks_most;         /* tasks that run in the scan, when it is computed again;
+				      * 0: as the clock allows               */
 	int64_t wall_offset_ns;      /* date and time of the wall - now_ns    */
 	int64_t second_ns, day_ns;   /* what SYS_SECOND and SYS_DATE show     */
 	/* Set once by the caller; a start does not change them. */

@@ -54,6 +54,11 @@ static bool own_text(struct trace *trace, struct trace_column *column)
 	return true;
 }
 
+static union iec_value present(const struct trace_column *column)
+{
+	return column->gone ? column->last : image_get(column->image, column->at);
+}
+
 /* Keeps @value as the last one; true if it changed. */
 static bool trace_update(struct trace_column *column, union iec_value value)
 {
@@ -103,6 +108,23 @@ bool trace_show_all(struct trace *trace)
 			continue;
 		if (!add_column(trace, trace->image, symbol.name, strlen(symbol.name),
 				symbol.at))
+			return false;
+	}
+	return true;
+}
+
+bool trace_again(struct trace *trace)
+{
+	for (int i = 0; i < trace->count; i++) {
+		struct trace_column *column = &trace->column[i];
+		const struct location at = image_find(column->image, column->name,
+						      strlen(column->name));
+
+		column->gone = at.type != column->at.type;
+		if (column->gone)
+			continue;
+		column->at = at;
+		if (at.type == IEC_STRING && !own_text(trace, column))
 			return false;
 	}
 	return true;
@@ -289,7 +311,7 @@ static void write_lines(struct trace *trace, uint64_t scan, int64_t now_ns)
 	}
 	for (int i = 0; i < trace->count && !trace_stopped(trace); i++) {
 		struct trace_column *column = &trace->column[i];
-		union iec_value value = image_get(column->image, column->at);
+		union iec_value value = present(column);
 
 		if (!trace_update(column, value) && trace->changes)
 			continue;
@@ -342,7 +364,7 @@ static void trace_csv(struct trace *trace, uint64_t scan, int64_t now_ns)
 		struct trace_column *column = &trace->column[i];
 
 		changed |= trace_update(column,
-					image_get(column->image, column->at));
+					present(column));
 	}
 	if (trace->changes && !changed)
 		return;
@@ -458,7 +480,7 @@ static void trace_vcd(struct trace *trace, int64_t now_ns)
 	for (int i = 0; i < trace->count && !trace_stopped(trace); i++) {
 		struct trace_column *column = &trace->column[i];
 
-		if (!trace_update(column, image_get(column->image, column->at)))
+		if (!trace_update(column, present(column)))
 			continue;
 		if (trace->stamp_ns != now_ns)
 			sink_printf(trace->out, "#%lld\n", (long long)now_ns);

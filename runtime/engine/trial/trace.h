@@ -21,6 +21,7 @@ struct trace_column {
 	const char *name;      /* in the trace's arena                       */
 	const struct image *image; /* whose variable it is                    */
 	struct location at;
+	bool gone;             /* the image has no such variable now           */
 	union iec_value last;  /* value shown last; 0 to begin with; a STRING's bytes are
 			        * the trace's own */
 };
@@ -67,6 +68,10 @@ bool trace_show_all(struct trace *trace);
 bool trace_show(struct trace *trace, const char *text, size_t len,
 		struct diag_list *diags, struct diag place);
 
+/** trace_again - the image has another program now: finds each variable by its name. One that
+ * it does not have, or has with another type, stays at its last value. Fails: false: no
+ * memory for a text. */
+bool trace_again(struct trace *trace);
 /**
  * trace_scan - shows the image after scan number @scan at @now_ns
  *
