@@ -22,14 +22,14 @@
 "                   needed until the first one, and used again when they change\n" \
 "  --groups FILE    with --link: the groups, instead of /etc/group\n" \
 "  --late N         with --link: N late scans in a row are an event of the log;\n" \
-"                   1 to 1000, default 3\n"
+"                   1 to 1000, default 3\n" \
 "  --record KB      with --link: memory for the record of the last scans, 0 to 1048576;\n" \
 "                   default 1024, 0: none (docs/record.md)\n"
 #define LINK_ROWS \
 	{ "--link",          TEXT,   AT(link),      0, 0 }, \
 	{ "--slots",         TEXT,   AT(slots),     0, 0 }, \
 	{ "--groups",        TEXT,   AT(groups),    0, 0 }, \
-	{ "--late",          NUMBER, AT(late),      1, 1000 },
+	{ "--late",          NUMBER, AT(late),      1, 1000 }, \
 	{ "--record",        NUMBER, AT(record_kb), 0, 1048576 },
 #endif
 
