@@ -1450,6 +1450,8 @@ def test_a_record_is_replayed_bit_for_bit():
         _request, _types = desk.publish(['Motor'])
         until(lambda: desk.read('Slow.ET')[0] > 150000000)
         desk.unforce()
+        bad = desk.download(build(board, 'bad.rung', faulty(3)), back=10)[1]
+        until(lambda: desk.status()['program'] != bad)
         desk.set_mode(0)
         desk.set_mode(1)
         desk.download(build(board, 'loop.rung', LOOP))
@@ -1462,7 +1464,7 @@ def test_a_record_is_replayed_bit_for_bit():
         assert (status, out, err) == (0, f'a.record: {scans} scans\n', ''), (out, err)
         shown = board.ladder('replay', 'a.record', '--changes')
         assert shown.returncode == 0 and not shown.stderr, shown.stderr
-        assert shown.stdout.count('# another program') == 2 and "Label='night'" in shown.stdout
+        assert shown.stdout.count('# another program') == 4 and "Label='night'" in shown.stdout
         assert ' Start=1' in shown.stdout and ' Go=1' in shown.stdout, shown.stdout
         shown = board.ladder('replay', 'a.record', 'Go', 'Motor')
         assert shown.returncode == 1 and 'a.record' in shown.stderr and '"Go"' in shown.stderr
