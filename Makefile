@@ -94,7 +94,7 @@ $(UNIT): ; @ln -sf tests $@
 unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
-$(BUILD)/unit/online/tests: $(call obj,$(wildcard runtime/online/*.c))
+$(BUILD)/unit/online/tests: $(call obj,$(wildcard runtime/online/*.c tests/walker/random*.c tests/walker/words*.c))
 $(BUILD)/unit/ladderd/tests: $(call obj,runtime/ladderd/print_static.c)
 $(BUILD)/unit/ladder/tests: $(call obj,$(wildcard runtime/ladder/words*.c))
 words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the catalogue
@@ -415,7 +415,7 @@ bless: $(BUILD)/ladder ## rewrite the expected files of CASE=name and show the d
 # ---- second evaluator, fuzz targets, exhaustion, house checks ----
 # Programs and scripts that print TAP; `check` runs both lists.
 BIN       := $(BUILD)/tests/bin
-FUZZ      := read code script scenario iomap retain classic link record
+FUZZ      := read code script scenario iomap retain classic link record serial
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
 TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
@@ -454,7 +454,7 @@ FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(RANDOM_
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
 $(BIN)/fuzz_iomap: $(call obj,$(HAL_CORE) hal/gpiod_none.c)
-$(BIN)/fuzz_link: $(ONLINE)
+$(BIN)/fuzz_link $(BIN)/fuzz_serial: $(ONLINE)
 $(TESTS_BIN): $(BUILD)/libladder.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
@@ -472,11 +472,11 @@ TARGET  ?= read
 SECONDS ?= 60
 FUZZ_CC ?= clang
 FUZZ_FLAGS := -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
-fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|script|scenario|iomap|retain|classic|link|record SECONDS=60
+fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|script|scenario|iomap|retain|classic|link|record|serial SECONDS=60
 	@mkdir -p $(BUILD)/fuzz/$(TARGET)
 	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
 	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \
-	  $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(if $(filter link,$(TARGET)),$(wildcard runtime/online/*.c)) $(ENGINE) -lm
+	  $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(if $(filter link serial,$(TARGET)),$(wildcard runtime/online/*.c)) $(ENGINE) -lm
 	$(BUILD)/fuzz/fuzz_$(TARGET) -max_total_time=$(SECONDS) -timeout=25 -max_len=20000 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/$(TARGET)
 .PHONY: house differential check-long pathological fuzz
 # ---- end of second evaluator … house checks ----
@@ -576,7 +576,7 @@ SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-re
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
-TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
+TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/serial_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 
 tests: all man $(BUILT) $(EDITOR_FAKE) $(HAL_DAEMONS) $(BUILD)/tests/online/ladder-attach

@@ -17,7 +17,9 @@
 
 #include "engine/base/digest.h"
 #include "engine/scan/symbol_index.h"
+#include "online/serial.h"
 #include "online/server.h"
+#include "online/port.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -43,7 +45,17 @@
 #define REST_NS    SECOND             /* longest time between two looks at the state */
 #define LATE_REST_NS (60 * SECOND)    /* between two events about late scans        */
 #define BACKLOG    128               /* of desks that connect at the same time          */
-#define OURS       2                  /* polled: the wake-up, the listening socket  */
+#define OURS       3                  /* polled: the wake-up, the listening socket, the serial line */
+
+/* The serial line. */
+struct port {
+	const char *text;              /* TTY,BAUD; NULL: none                 */
+	enum role role;                /* of who holds the cable               */
+	int fd;                        /* -1: the line has gone                */
+	int session;                   /* -1: none                             */
+	int64_t tried_ns;              /* when it was opened, or tried         */
+	struct serial serial;
+};
 
 /* How the trial of a program has ended, until the link thread knows it. */
 enum trial { TRIAL_NONE, TRIAL_PASSED, TRIAL_BACK };
@@ -71,7 +83,8 @@ struct link {
 	uint8_t *record;               /* its memory; NULL: none               */
 	char path[108];
 	int listening, wake;
-	int fd[SERVER_SESSIONS];       /* -1: no session                      */
+	int fd[SERVER_SESSIONS];       /* -1: no session, or that of the port  */
+	struct port port;
 	int64_t began_ns;
 	pthread_t thread, scans;
 	bool runs;
@@ -457,6 +470,164 @@ static void hang_up(struct link *link, int i)
 	link->fd[i] = -1;
 }
 
+/* ---- the serial line ---- */
+
+static void end_port_session(struct link *link)
+{
+	if (link->port.session >= 0)
+		server_close(link->server, link->port.session);
+	link->port.session = -1;
+}
+
+static void lose_port(struct link *link)
+{
+	end_port_session(link);
+	close(link->port.fd);
+	link->port.fd = -1;
+	control_tell("the serial line has gone; trying again");
+}
+
+static int open_port(struct link *link)
+{
+	struct port *port = &link->port;
+	uint32_t baud;
+	const int fd = port_open(port->text, &baud);
+
+	port->tried_ns = clock_now();
+	port->session = -1;
+	port->fd = fd < 0 ? -1 : fd;
+	if (fd < 0)
+		return fd;
+	serial_init(&port->serial, SERIAL_BOARD, baud);
+	return 0;
+}
+
+/* The stream of a session that had to make room is closed. */
+static void drop_stream(struct link *link, int session)
+{
+	if (link->fd[session] >= 0)
+		close(link->fd[session]);
+	link->fd[session] = -1;
+	if (link->port.session == session) {
+		serial_end(&link->port.serial);
+		link->port.session = -1;
+	}
+}
+
+static void begin_port_session(struct link *link)
+{
+	int session;
+
+	end_port_session(link);
+	session = server_open(link->server, link->port.role, "serial");
+	if (session < 0) {
+		serial_end(&link->port.serial);
+		return;
+	}
+	drop_stream(link, session);
+	link->port.session = session;
+}
+
+/* A piece that finds no room comes again. */
+static void take_piece(struct link *link)
+{
+	struct port *port = &link->port;
+	size_t room = 0;
+	uint8_t *to;
+
+	if (port->session < 0)
+		return;
+	to = server_room(link->server, port->session, &room);
+	if (room < port->serial.piece_len)
+		return;
+	memcpy(to, port->serial.piece, port->serial.piece_len);
+	server_got(link->server, port->session, port->serial.piece_len);
+	serial_take(&port->serial);
+}
+
+static bool hear_port(struct link *link)
+{
+	uint8_t bytes[256];
+	const ssize_t got = read(link->port.fd, bytes, sizeof(bytes));
+	const int64_t now_ns = clock_now();
+
+	for (ssize_t i = 0; i < got; i++)
+		switch (serial_byte(&link->port.serial, bytes[i], now_ns)) {
+		case SERIAL_BEGUN:
+			begin_port_session(link);
+			break;
+		case SERIAL_CAME:
+			take_piece(link);
+			break;
+		case SERIAL_ENDED:
+			end_port_session(link);
+			break;
+		case SERIAL_NOTHING:
+		case SERIAL_TAKEN:
+			break;
+		}
+	return got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
+}
+
+static bool say_port(struct link *link)
+{
+	struct port *port = &link->port;
+	const uint8_t *bytes;
+	ssize_t sent = 0;
+	size_t len;
+
+	if (port->session >= 0 && server_is_over(link->server, port->session)) {
+		end_port_session(link);
+		serial_end(&port->serial);
+	}
+	if (port->session >= 0 && serial_is_free(&port->serial)) {
+		bytes = server_pending(link->server, port->session, &len);
+		if (len)
+			server_sent(link->server, port->session,
+				    serial_send(&port->serial, bytes, len, clock_now()));
+	}
+	bytes = serial_pending(&port->serial, &len);
+	if (len)
+		sent = write(port->fd, bytes, len);
+	if (sent > 0)
+		serial_wrote(&port->serial, (size_t)sent);
+	return sent >= 0 || errno == EAGAIN || errno == EINTR;
+}
+
+/* Once a turn of the thread. @happened: as poll() says. */
+static void serve_port(struct link *link, short happened)
+{
+	struct port *port = &link->port;
+
+	if (port->fd < 0 && port->text && clock_now() - port->tried_ns > REST_NS &&
+	    open_port(link) == 0)
+		control_tell("the serial line is there again");
+	if (port->fd < 0)
+		return;
+	if (happened & ~POLLOUT && !hear_port(link)) {
+		lose_port(link);
+		return;
+	}
+	if (!serial_step(&port->serial, clock_now()))
+		end_port_session(link);
+	if (!say_port(link))
+		lose_port(link);
+}
+
+/* At the end the desk is told, if the line takes it. */
+static void close_port(struct link *link)
+{
+	if (link->port.fd < 0)
+		return;
+	end_port_session(link);
+	serial_end(&link->port.serial);
+	say_port(link);
+	close(link->port.fd);
+	link->port.fd = -1;
+}
+
+/* ---- sockets ---- */
+
 /* A session too many is told so, if it listens, and closed. */
 static void send_away(int fd)
 {
@@ -491,8 +662,7 @@ static void take_in(struct link *link)
 		send_away(fd);
 		return;
 	}
-	if (link->fd[session] >= 0)
-		close(link->fd[session]); /* it had to make room */
+	drop_stream(link, session);
 	link->fd[session] = fd;
 }
 
@@ -527,8 +697,11 @@ static bool say(struct link *link, int i)
 
 static int poll_ms(struct link *link, bool more)
 {
-	const int64_t due_ns = server_due(link->server), now_ns = clock_now();
+	const int64_t line_ns = serial_due(&link->port.serial), now_ns = clock_now();
+	int64_t due_ns = server_due(link->server);
 
+	if (link->port.fd >= 0 && line_ns < due_ns)
+		due_ns = line_ns;
 	if (more || due_ns <= now_ns)
 		return 0;
 	return (int)((due_ns - now_ns > REST_NS ? REST_NS : due_ns - now_ns + 999999) / 1000000);
@@ -539,7 +712,13 @@ static void watch_streams(struct link *link, bool more)
 	struct pollfd ready[OURS + SERVER_SESSIONS] = {
 		{ .fd = link->wake, .events = POLLIN },
 		{ .fd = link->listening, .events = POLLIN },
+		{ .fd = link->port.fd, .events = POLLIN },
 	};
+	size_t waits;
+
+	serial_pending(&link->port.serial, &waits);
+	if (waits)
+		ready[2].events |= POLLOUT;
 
 	for (int i = 0; i < SERVER_SESSIONS; i++) {
 		struct pollfd *stream = &ready[OURS + i];
@@ -556,6 +735,7 @@ static void watch_streams(struct link *link, bool more)
 		return;
 	if (ready[1].revents)
 		take_in(link);
+	serve_port(link, ready[2].revents);
 	for (int i = 0; i < SERVER_SESSIONS; i++) {
 		const short happened = ready[OURS + i].revents;
 
@@ -573,6 +753,8 @@ static void send_all(struct link *link)
 	for (int i = 0; i < SERVER_SESSIONS; i++)
 		if (link->fd[i] >= 0 && !say(link, i))
 			hang_up(link, i);
+	if (link->port.fd >= 0 && !say_port(link))
+		lose_port(link);
 }
 
 static void *serve_desks(void *argument)
@@ -593,6 +775,7 @@ static void *serve_desks(void *argument)
 	journal_add(link->journal, EVENT_END, 0, "", "", "");
 	for (int i = 0; i < SERVER_SESSIONS; i++)
 		hang_up(link, i);
+	close_port(link);
 	return NULL;
 }
 
@@ -667,8 +850,10 @@ void link_close(struct link *link)
 		unlink(link->path);
 	if (link->wake >= 0)
 		close(link->wake);
+	if (link->port.fd >= 0)
+		close(link->port.fd); /* there was no thread */
 	link->runs = false;
-	link->listening = link->wake = -1;
+	link->listening = link->wake = link->port.fd = -1;
 }
 
 void link_free(struct link *link)
@@ -683,9 +868,9 @@ void link_free(struct link *link)
 	free(link);
 }
 
-static struct link *refuse(struct link *link, const char *path, const char *why)
+static struct link *refuse(struct link *link, const char *option, const char *value, const char *why)
 {
-	fprintf(stderr, "ladderd: --link %s: %s\n", path, why);
+	fprintf(stderr, "ladderd: %s %s: %s\n", option, value, why);
 	if (link) {
 		link->path[0] = '\0';
 		link_close(link);
@@ -776,31 +961,56 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	return link->server && link->download && link->journal;
 }
 
-struct link *link_open(const char *path, const char *groups, struct cycle *cycle,
+static struct link *open_socket(struct link *link, const struct options *options)
+{
+	const int error = options->link ? listen_at(link, options->link) : 0;
+
+	if (!error)
+		return link;
+	return refuse(link, "--link", options->link,
+		      error == -EADDRINUSE ? "another ladderd listens there" :
+		      error == -EEXIST ? "there is a file, and it is no socket" : strerror(-error));
+}
+
+static struct link *open_serial(struct link *link, const struct options *options)
+{
+	int error;
+
+	link->port.text = options->serial;
+	for (enum role role = ROLE_VIEW; role < ROLE_COUNT; role++)
+		if (strcmp(role_word(role), options->serial_role) == 0)
+			link->port.role = role;
+	if (link->port.role == ROLE_NONE)
+		return refuse(link, "--serial-role", options->serial_role, "is not view, oper or eng");
+	error = options->serial ? open_port(link) : 0;
+	if (!error)
+		return link;
+	return refuse(link, "--serial", options->serial,
+		      error == -EINVAL ? "is no speed of a serial line; try 115200" :
+		      error == -EBUSY ? "another program uses it" :
+		      error == -ENOTTY ? "is no serial line" : strerror(-error));
+}
+
+struct link *link_open(const struct options *options, struct cycle *cycle,
 		       const struct link_store *store)
 {
 	struct link *link = calloc(1, sizeof(*link));
-	int error;
 
 	if (!link)
-		return refuse(link, path, "out of memory");
+		return refuse(link, "--link", "", "out of memory");
 	link->cycle = cycle;
 	link->with = *store;
 	store->program->index = symbol_index_new(store->program, store->arena);
 	link->retain = cycle->store;
-	link->listening = link->wake = -1;
+	link->listening = link->wake = link->port.fd = link->port.session = -1;
 	for (int i = 0; i < SERVER_SESSIONS; i++)
 		link->fd[i] = -1;
 	if (!set_up(link, cycle))
-		return refuse(link, path, "out of memory");
-	peer_groups_read(&link->groups, groups);
+		return refuse(link, "--link", "", "out of memory");
+	peer_groups_read(&link->groups, options->groups);
 	link->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
 	if (link->wake < 0)
-		return refuse(link, path, strerror(errno));
-	error = listen_at(link, path);
-	if (error == -EADDRINUSE)
-		return refuse(link, path, "another ladderd listens there");
-	if (error == -EEXIST)
-		return refuse(link, path, "there is a file, and it is no socket");
-	return error ? refuse(link, path, strerror(-error)) : link;
+		return refuse(link, "--link", "", strerror(errno));
+	link = open_socket(link, options);
+	return link ? open_serial(link, options) : NULL;
 }

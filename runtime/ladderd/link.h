@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * link - lets desks see and change what runs: a thread with a socket on this machine.
+ * link - lets desks see and change what runs: a thread with a socket on this machine, a serial
+ * line, or both.
  *
  * It opens no network: desks reach the socket through ssh and ladder-attach. The kernel says
  * who a client is, its groups say what it may do. SMALL=1 has link_none.c instead.
@@ -9,6 +10,7 @@
 #define LADDERD_LINK_H
 
 #include "ladderd/cycle.h"
+#include "ladderd/options.h"
 
 struct link;
 
@@ -35,15 +37,15 @@ enum link_note {
 };
 
 /**
- * link_open - makes the socket
- * @path:  of the socket; one that no process listens at is replaced
+ * link_open - makes the socket, opens the serial line
+ * @options: --link: the socket, one that no process listens at is replaced; --serial: the line;
+ *           --groups: the file that gives the groups their numbers; borrowed
  * @store: copied; without a folder of slots, downloads are refused
- * @groups: the file that gives the groups their numbers
  * @cycle: with its resource and identity; must not move
  *
  * Owns: the caller, link_close(). Scan-safe: no. Fails: NULL after a message.
  */
-struct link *link_open(const char *path, const char *groups, struct cycle *cycle,
+struct link *link_open(const struct options *options, struct cycle *cycle,
 		       const struct link_store *store);
 /** link_begin - starts the thread; the calling thread is the one that scans. Fails: -errno. */
 int link_begin(struct link *link);

@@ -8,10 +8,10 @@
 
 #include <errno.h>
 
-struct link *link_open(const char *path, const char *groups, struct cycle *cycle,
+struct link *link_open(const struct options *options, struct cycle *cycle,
 		       const struct link_store *store)
 {
-	(void)path, (void)groups, (void)cycle, (void)store;
+	(void)options, (void)cycle, (void)store;
 	return NULL;
 }
 

@@ -158,7 +158,7 @@ static bool open_link(struct daemon *daemon)
 		.record_kb = (uint32_t)daemon->options.record_kb,
 	};
 
-	cycle->link = link_open(daemon->options.link, daemon->options.groups, cycle, &store);
+	cycle->link = link_open(&daemon->options, cycle, &store);
 	return cycle->link;
 }
 
@@ -206,7 +206,7 @@ static int run(struct daemon *daemon)
 		cycle->restart = slots_reject(&daemon->slots);
 		return 1;
 	}
-	if (options->link && !open_link(daemon)) {
+	if ((options->link || options->serial) && !open_link(daemon)) {
 		hal_close(&cycle->hal);
 		notify_close(&cycle->notify);
 		if (cycle->store)

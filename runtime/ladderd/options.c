@@ -20,6 +20,8 @@
 "  --link SOCKET    let desks watch and change it (docs/online.md)\n" \
 "  --slots FOLDER   store the programs that desks download; FILE and MAP are only\n" \
 "                   needed until the first one, and used again when they change\n" \
+"  --serial TTY[,BAUD]  the same over a serial line; 115200 baud if none is given\n" \
+"  --serial-role ROLE  what a desk there may do: view, oper or eng; default eng\n" \
 "  --groups FILE    with --link: the groups, instead of /etc/group\n" \
 "  --late N         with --link: N late scans in a row are an event of the log;\n" \
 "                   1 to 1000, default 3\n" \
@@ -27,6 +29,8 @@
 "                   default 1024, 0: none (docs/record.md)\n"
 #define LINK_ROWS \
 	{ "--link",          TEXT,   AT(link),      0, 0 }, \
+	{ "--serial",        TEXT,   AT(serial),    0, 0 }, \
+	{ "--serial-role",   TEXT,   AT(serial_role), 0, 0 }, \
 	{ "--slots",         TEXT,   AT(slots),     0, 0 }, \
 	{ "--groups",        TEXT,   AT(groups),    0, 0 }, \
 	{ "--late",          NUMBER, AT(late),      1, 1000 }, \
@@ -185,6 +189,7 @@ bool options_read(struct options *options, int argc, char **argv)
 	options->late = 3;
 	options->groups = "/etc/group";
 	options->record_kb = 1024;
+	options->serial_role = "eng";
 	for (int i = 1; i < argc; i++) {
 		if (!only_files && strcmp(argv[i], "--") == 0)
 			only_files = true;
@@ -198,7 +203,7 @@ bool options_read(struct options *options, int argc, char **argv)
 	}
 	if (options->help || options->version)
 		return true;
-	if (!options->file && !options->map && options->slots && options->link)
+	if (!options->file && !options->map && options->slots && (options->link || options->serial))
 		return true;
 	if (!options->file)
 		return wrong(options, "FILE", "is missing");

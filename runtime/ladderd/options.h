@@ -13,6 +13,8 @@
 struct options {
 	const char *file, *map;
 	const char *link;      /* path of the socket for desks; NULL: none    */
+	const char *serial;    /* TTY,BAUD for desks; NULL: none              */
+	const char *serial_role;
 	const char *slots;     /* folder of downloaded programs; NULL: none   */
 	const char *groups;    /* where names of groups come from             */
 	int64_t record_kb;     /* of --record; 0: none                        */

@@ -136,7 +136,8 @@ bool slots_load(struct slots *slots, const struct options *options, struct load 
 				  (const char *)stored_part(stored, STORED_MAP),
 				  stored->len[STORED_MAP]);
 	if (options->file)
-		return load_files(load, options->file, options->map, options->link);
+		return load_files(load, options->file, options->map,
+				  options->link || options->serial);
 	fprintf(stderr, "ladderd: no program yet: STOP\n");
 	*stopped = true;
 	return load_texts(load, empty, sizeof(empty) - 1, lines, sizeof(lines) - 1);

@@ -9,6 +9,7 @@
 #ifndef ONLINE_DESK_H
 #define ONLINE_DESK_H
 
+#include "online/serial.h"
 #include "online/service.h"
 #include "online/stream.h"
 
@@ -33,6 +34,10 @@ struct desk {
 	/* Takes frames that were not asked for; NULL: they are dropped. */
 	void (*told)(void *context, const struct frame *frame);
 	void *context;
+	/* Of a serial line. A slow line may take longer than the service, as long as it moves. */
+	struct serial serial;
+	bool ended;            /* the board does not have this session       */
+	int64_t until_ms, patience_ms, most_until_ms;
 	size_t in_len, used;
 	uint8_t in[WIRE_FRAME_MOST], out[WIRE_FRAME_MOST];
 };

@@ -3,8 +3,8 @@
  * stream - a socket pair is the standard input and output of a command; nothing of a board's
  * name reaches a shell.
  */
-#define _DEFAULT_SOURCE /* cfmakeraw() */
 #include "online/stream.h"
+#include "online/port.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -15,7 +15,6 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <sys/wait.h>
-#include <termios.h>
 #include <unistd.h>
 
 extern char **environ;
@@ -168,52 +167,6 @@ static int open_socket(const char *path, struct stream *out)
 	return error;
 }
 
-static speed_t line_speed(const char *text)
-{
-	static const struct { const char *text; speed_t speed; } speeds[] = {
-		{ "9600", B9600 }, { "19200", B19200 }, { "38400", B38400 },
-		{ "57600", B57600 }, { "115200", B115200 }, { "230400", B230400 },
-	};
-
-	for (size_t i = 0; i < sizeof(speeds) / sizeof(speeds[0]); i++)
-		if (strcmp(text, speeds[i].text) == 0)
-			return speeds[i].speed;
-	return B0;
-}
-
-/* `/dev/ttyUSB0,115200`; without a speed 115200. */
-static int open_line(const char *text, struct stream *out)
-{
-	const char *comma = strrchr(text, ',');
-	const speed_t speed = line_speed(comma ? comma + 1 : "115200");
-	const size_t len = comma ? (size_t)(comma - text) : strlen(text);
-	char path[256];
-	struct termios mode;
-
-	if (speed == B0)
-		return -EINVAL;
-	if (len >= sizeof(path))
-		return -ENAMETOOLONG;
-	memcpy(path, text, len);
-	path[len] = '\0';
-	out->fd = open(path, O_RDWR | O_NOCTTY | O_CLOEXEC);
-	if (out->fd < 0)
-		return -errno;
-	out->serial = true;
-	if (tcgetattr(out->fd, &mode) == 0) {
-		cfmakeraw(&mode);
-		cfsetispeed(&mode, speed);
-		cfsetospeed(&mode, speed);
-		mode.c_cflag |= CLOCAL | CREAD;
-		if (tcsetattr(out->fd, TCSANOW, &mode) == 0)
-			return 0;
-	}
-	const int error = -errno;
-
-	close(out->fd);
-	return error;
-}
-
 int stream_open(const struct stream_where *where, const char *ssh, struct stream *out)
 {
 	*out = (struct stream){ .fd = -1 };
@@ -225,7 +178,8 @@ int stream_open(const struct stream_where *where, const char *ssh, struct stream
 	case STREAM_EXEC:
 		return open_command(where->rest, out);
 	case STREAM_SERIAL:
-		return open_line(where->rest, out);
+		out->fd = port_open(where->rest, &out->baud);
+		return out->fd < 0 ? out->fd : 0;
 	}
 	return -EINVAL;
 }

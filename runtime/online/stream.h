@@ -10,6 +10,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <sys/types.h>
 
 #define STREAM_SOCKET "/run/rungboard/link" /* where the service of a board listens */
@@ -49,7 +50,7 @@ bool stream_split(struct stream_words *words, const char *command);
 struct stream {
 	int fd;                /* both ways                                   */
 	pid_t child;           /* 0: none                                     */
-	bool serial;           /* frames need checksums and answers there     */
+	uint32_t baud;         /* of a serial line, which needs online/serial.h; 0: reliable */
 };
 
 /**

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: MIT
 """A client of the link, made from docs/online.md alone: it shares no code with the program."""
 import hashlib
+import os
+import select
 import socket
 import struct
+import termios
+import time
+import tty
 
 (HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE,
  DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG) = range(1, 20)
@@ -71,13 +76,129 @@ def ref(name):
     return b'\1' + text(name)
 
 
+def crc32c(data):
+    crc = 0xffffffff
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (0x82f63b78 if crc & 1 else 0)
+    return crc ^ 0xffffffff
+
+
+def to_cobs(data):
+    out = b''
+    parts = data.split(b'\0')
+    for part in parts:
+        while len(part) >= 254:
+            out += b'\xff' + part[:254]
+            part = part[254:]
+        out += bytes([len(part) + 1]) + part
+    return out
+
+
+def from_cobs(data):
+    """None: not COBS."""
+    out, at = b'', 0
+    while at < len(data):
+        run = data[at]
+        part = data[at + 1:at + run]
+        if len(part) != run - 1:
+            return None
+        out += part
+        at += run
+        if run < 255 and at < len(data):
+            out += b'\0'
+    return out
+
+
+class Line:
+    """A serial line as a stream. `sent_again` counts pieces that were sent again."""
+
+    def __init__(self, path, limit=60, most=512):
+        self.fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(self.fd)
+        termios.tcflush(self.fd, termios.TCIFLUSH)
+        self.session = struct.unpack('<I', os.urandom(4))[0] | 1
+        self.sent = self.taken = self.sent_again = 0
+        self.limit, self.most = limit, most
+        self.data, self.raw, self.begun, self.over = b'', b'', False, False
+        self.again(lambda: self.packet(1, 0), lambda: self.begun)
+
+    def packet(self, kind, number, data=b''):
+        body = struct.pack('<BIH', kind, self.session, number) + data
+        os.write(self.fd, b'\0' + to_cobs(body + struct.pack('<I', crc32c(body))) + b'\0')
+
+    def again(self, send, done):
+        until = time.monotonic() + self.limit
+        send()
+        due = time.monotonic() + 0.2
+        while not done():
+            if self.over or time.monotonic() > until:
+                raise Gone()
+            self.hear(max(0, due - time.monotonic()))
+            if not done() and time.monotonic() >= due:
+                self.sent_again += 1
+                send()
+                due = time.monotonic() + 0.2
+
+    def hear(self, seconds):
+        if select.select([self.fd], [], [], seconds)[0]:
+            self.raw += os.read(self.fd, 4096)
+        *whole, self.raw = self.raw.split(b'\0')
+        for part in whole:
+            self.take(from_cobs(part))
+
+    def take(self, packet):
+        if not packet or len(packet) < 11 or packet[-4:] != struct.pack('<I', crc32c(packet[:-4])):
+            return
+        kind, session, number = struct.unpack('<BIH', packet[:7])
+        if session != self.session:
+            return
+        if kind == 129:
+            self.begun = True
+        elif kind == 130 and self.begun:
+            if number == (self.taken + 1) % 65536:
+                self.taken = number
+                self.data += packet[7:-4]
+            if number == self.taken:
+                self.packet(3, number)
+        elif kind == 131 and number == self.sent:
+            self.acknowledged = number
+        elif kind == 132:
+            self.over = True
+
+    def sendall(self, data):
+        while data:
+            piece, data = data[:self.most], data[self.most:]
+            self.sent = (self.sent + 1) % 65536
+            self.acknowledged = None
+            self.again(lambda: self.packet(2, self.sent, piece), lambda: self.acknowledged == self.sent)  # pylint: disable=W0640
+
+    def recv(self, count):
+        until = time.monotonic() + self.limit
+        while not self.data:
+            if self.over or time.monotonic() > until:
+                raise Gone()
+            self.hear(0.2)
+        part, self.data = self.data[:count], self.data[count:]
+        return part
+
+    def close(self, tell=True):
+        if tell and not self.over:
+            self.packet(4, 0)
+        os.close(self.fd)
+
+
 class Client:
     """One session. `told` collects the frames that were not asked for: (request, fields)."""
 
     def __init__(self, path, hello=True):
-        self.stream = socket.socket(socket.AF_UNIX)
-        self.stream.settimeout(60)
-        self.stream.connect(path)
+        if isinstance(path, Line):
+            self.stream = path
+        else:
+            self.stream = socket.socket(socket.AF_UNIX)
+            self.stream.settimeout(60)
+            self.stream.connect(path)
         self.request, self.told = 0, []
         if hello:
             self.hello()

@@ -1697,9 +1697,10 @@ def run(number, test):
         return False
 
 
-def main():
+def main(names):
+    """The tests among these names, each in a process of its own."""
     global BUILD  # pylint: disable=global-statement
-    tests = [it for name, it in globals().items() if name.startswith('test_') and
+    tests = [it for name, it in names.items() if name.startswith('test_') and
              (not sys.argv[1:] or name in sys.argv[1:])]
     failed = 0
     with tempfile.TemporaryDirectory() as folder:
@@ -1721,4 +1722,4 @@ def main():
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    sys.exit(main(globals()))
