@@ -73,7 +73,8 @@ struct driver {
 	int (*read)(struct request *request, uint64_t *levels);
 	int (*write)(struct request *request, uint64_t levels);
 
-	/* Find and list lines; NULL for drivers without named lines. Scan-safe: no. */
+	/* Find and list lines; NULL for drivers without named lines. Of a line in use, find
+	 * gives the place and DIAG_IO_BUSY. Scan-safe: no. */
 	bool (*find)(const struct io_point *point, const char *dev,
 		     struct line_at *out, struct trouble *why);
 	bool (*list)(const char *dev,

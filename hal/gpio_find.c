@@ -414,10 +414,8 @@ bool gpio_find(const struct io_point *point, const char *dev,
 				   "%.20s" DIAG_AND "%u" DIAG_AND "%u",
 				   point->chip, (unsigned)point->offset,
 				   (unsigned)search.lines);
-	if (search.line.used)
-		return busy(why, point, &search.line);
 	*out = search.at;
-	return true;
+	return !search.line.used || busy(why, point, &search.line);
 }
 
 static void list_chip(struct gpio_chip *chip, int number,

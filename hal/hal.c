@@ -5,6 +5,8 @@
  */
 #include "hal/request.h"
 
+#include <string.h>
+
 static void request_failed(struct hal *hal, struct hal_request *request)
 {
 	hal->failed++;
@@ -70,6 +72,8 @@ static void scatter(const struct hal_request *request, uint8_t *area)
 	for (uint32_t i = 0; i < request->ask.count; i++) {
 		const struct hal_bit *bit = &request->bit[i];
 
+		if (request->idle >> i & 1)
+			continue;
 		if (request->value >> i & 1)
 			area[bit->byte] |= bit->mask;
 		else
@@ -86,7 +90,7 @@ static uint64_t gather(const struct hal_request *request, const uint8_t *area)
 
 		value |= (uint64_t)!!(area[bit->byte] & bit->mask) << i;
 	}
-	return value;
+	return (value & ~request->idle) | (request->safe & request->idle);
 }
 
 static void read_request(struct hal *hal, struct hal_request *request,
@@ -203,6 +207,60 @@ bool hal_write_safe(struct hal *hal)
 	return good;
 }
 
+/* The twin has the same lines in the same order. */
+static void take_over(struct hal_request *to, struct hal_request *from)
+{
+	memcpy(to->ask.state, from->ask.state, from->ask.driver->state_size);
+	memcpy(to->differs_ns, from->differs_ns, sizeof(int64_t) * from->ask.count);
+	to->differs = from->differs;
+	to->value = from->value ^ from->invert ^ to->invert;
+	to->written_ns = from->written_ns;
+	to->written = from->written;
+	to->dirty = from->dirty;
+	to->failures = from->failures;
+	to->is_open = from->is_open;
+	from->is_open = false;
+}
+
+/* Lines that the other map does not have get their safe values; the others keep their levels. */
+static void leave(struct hal *hal, struct hal_request *request)
+{
+	const struct hal_request *twin = request->twin;
+	const uint64_t goes = twin ? twin->idle & ~request->idle : UINT64_MAX;
+	const uint64_t value = (request->value & ~goes) | (request->safe & goes);
+	const uint8_t failures = request->failures;
+
+	if (!request->ask.output || !request->is_open || !goes)
+		return;
+	if (value != request->value || request->dirty)
+		write_request(hal, request, value);
+	if (failures >= HAL_FAILURES)
+		request->failures = failures;
+}
+
+void hal_exchange(struct hal *hal, struct hal *other)
+{
+	const struct hal before = *hal;
+
+	for (uint32_t i = 0; i < hal->request_count; i++) {
+		struct hal_request *request = &hal->request[i];
+
+		leave(hal, request);
+		if (request->twin)
+			take_over(request->twin, request);
+	}
+	/* A handler that stops a crash finds no request, or those of one map. */
+	*(volatile uint32_t *)&hal->request_count = 0;
+	hal->map = other->map;
+	*(struct hal_request *volatile *)&hal->request = other->request;
+	*(volatile uint32_t *)&hal->request_count = other->request_count;
+	other->map = before.map;
+	other->request = before.request;
+	other->request_count = before.request_count;
+	if (hal->held)
+		hal_write_safe(hal);
+}
+
 void hal_release(struct hal *hal)
 {
 	hal->held = 0;
@@ -216,7 +274,8 @@ struct request *hal_find(struct hal *hal, struct iec_addr addr, uint32_t *line)
 		for (uint32_t k = 0; k < ask->count; k++) {
 			struct iec_addr at = ask->line[k].point->addr;
 
-			if (at.area == addr.area && at.byte == addr.byte &&
+			if (!(hal->request[i].idle >> k & 1) &&
+			    at.area == addr.area && at.byte == addr.byte &&
 			    at.bit == addr.bit) {
 				*line = k;
 				return ask;

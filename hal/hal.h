@@ -96,6 +96,40 @@ void hal_release(struct hal *hal);
  */
 bool hal_reopen(struct hal *hal);
 
+enum hal_beside {
+	BESIDE_GOOD,
+	BESIDE_RESTART,        /* a line that stays must be requested anew        */
+	BESIDE_REFUSED,        /* an error in @diags                              */
+};
+/**
+ * hal_beside - makes ready another map for lines that are open already; requests none
+ * @next:  gets the requests of @map; those with a line that is open now take it over later
+ * @now:   open; another thread may scan
+ * @map:   from iomap_read(); borrowed
+ * @arena: memory as long as @next is used
+ * @line:  LIMIT_ARG bytes; with BESIDE_RESTART the name of the line
+ *
+ * The kernel changes direction, bias and drive only when a line is requested again, and a
+ * request is given back only as a whole. So a line that goes stays requested, at its safe
+ * value, while another line of its request is used. Scan-safe: no.
+ */
+enum hal_beside hal_beside(struct hal *next, struct hal *now, const struct iomap *map,
+			   struct arena *arena, struct diag_list *diags, char *line);
+/** hal_open_new - requests the lines of @next that are not open yet; outputs are safe.
+ * Scan-safe: no. Fails: false and an error; all that it opened is released. */
+bool hal_open_new(struct hal *next, struct diag_list *diags);
+/**
+ * hal_exchange - goes on with the requests of @other, which gets those of @hal
+ *
+ * Lines of both keep their levels, and no call is made for them. Outputs that only @hal has
+ * get their safe values. The same call again goes back. Scan-safe: between scans; a write for
+ * each request that loses an output.
+ */
+void hal_exchange(struct hal *hal, struct hal *other);
+/** hal_close_rest - after hal_exchange(), or instead: releases the lines that are still open
+ * in @other. Scan-safe: no. */
+void hal_close_rest(struct hal *other);
+
 /** hal_quality - the worst quality of all requests. Scan-safe: yes. */
 enum hal_quality hal_quality(const struct hal *hal);
 /** hal_find - request and bit of an address, for example for sim_set(); NULL: none. */

@@ -361,6 +361,220 @@ bool hal_reopen(struct hal *hal)
 	return good;
 }
 
+/* ---- another map beside it ---- */
+
+/* A line that is open. */
+struct open_line {
+	struct hal_request *request;
+	uint32_t line;
+};
+
+static bool same_text(const char *a, const char *b)
+{
+	return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+/* Whether two points name the same line in the same words. */
+static bool same_words(const struct io_point *a, const struct io_point *b)
+{
+	if (a->driver != b->driver)
+		return false;
+	if (!driver_row(a->driver)->find)
+		return a->addr.area == b->addr.area && a->addr.byte == b->addr.byte &&
+		       a->addr.bit == b->addr.bit;
+	return same_text(a->line, b->line) && same_text(a->chip, b->chip) &&
+	       (!a->chip || a->offset == b->offset);
+}
+
+/* @at: the place of the point; NULL: compare the words. */
+static struct open_line find_open(const struct hal *now, const struct io_point *point,
+				  const struct line_at *at)
+{
+	for (uint32_t i = 0; i < now->request_count; i++) {
+		struct hal_request *request = &now->request[i];
+
+		for (uint32_t k = 0; k < request->ask.count; k++) {
+			const struct request_line *line = &request->ask.line[k];
+
+			if (at ? line->at.chip == at->chip && line->at.offset == at->offset &&
+				 line->point->driver == point->driver :
+				 same_words(line->point, point))
+				return (struct open_line){ request, k };
+		}
+	}
+	return (struct open_line){ NULL, 0 };
+}
+
+static bool find_beside(const struct hal *now, const struct io_point *point,
+			struct line_at *place, struct open_line *open, struct trouble *why)
+{
+	const struct driver *driver = driver_row(point->driver);
+
+	*open = find_open(now, point, NULL);
+	*place = (struct line_at){ -1, 0 };
+	if (open->request) {
+		*place = open->request->ask.line[open->line].at;
+		return true;
+	}
+	if (!driver->find || driver->find(point, now->map->dev, place, why))
+		return true;
+	if (why->id == DIAG_IO_BUSY)
+		*open = find_open(now, point, place);
+	return open->request;
+}
+
+static bool needs_request(const struct io_point *point, const struct open_line *open)
+{
+	const struct io_point *was = open->request->ask.line[open->line].point;
+
+	return driver_row(point->driver)->find &&
+	       (was->output != point->output || was->bias != point->bias ||
+		was->drive != point->drive);
+}
+
+/* A copy for a line that no point of the new map has: the old map may go. */
+static const struct io_point *keep_point(const struct io_point *point, struct arena *arena)
+{
+	struct io_point *copy = arena_alloc(arena, sizeof(*copy));
+
+	if (!copy)
+		return point;
+	*copy = *point;
+	if (copy->line)
+		copy->line = arena_copy(arena, copy->line, strlen(copy->line));
+	if (copy->chip)
+		copy->chip = arena_copy(arena, copy->chip, strlen(copy->chip));
+	return copy;
+}
+
+/* The request of the new map that takes over an open one. */
+static bool make_twin(struct hal_request *twin, struct hal_request *open,
+		      const struct iomap *map, const struct open_line *lines,
+		      const char *dev, struct arena *arena)
+{
+	if (!make_request(twin, arena, open->ask.line[0].point, dev, open->ask.count))
+		return false;
+	for (uint32_t k = 0; k < open->ask.count; k++) {
+		const struct io_point *point = NULL;
+
+		for (int i = 0; i < map->count && !point; i++)
+			if (lines[i].request == open && lines[i].line == k)
+				point = &map->point[i];
+		if (point) {
+			add_line(twin, point, open->ask.line[k].at);
+			continue;
+		}
+		twin->idle |= UINT64_C(1) << k;
+		add_line(twin, keep_point(open->ask.line[k].point, arena), open->ask.line[k].at);
+	}
+	twin->debounced &= ~twin->idle;
+	twin->twin = open;
+	open->twin = twin;
+	return !arena->failed;
+}
+
+static bool make_twins(struct hal *next, struct hal *now, const struct open_line *lines,
+		       struct arena *arena)
+{
+	for (uint32_t r = 0; r < now->request_count; r++) {
+		struct hal_request *open = &now->request[r];
+		bool used = false;
+
+		open->twin = NULL;
+		for (int i = 0; i < next->map->count; i++)
+			used = used || lines[i].request == open;
+		if (used && !make_twin(&next->request[next->request_count++], open, next->map,
+				       lines, now->map->dev, arena))
+			return false;
+	}
+	return true;
+}
+
+/* Requests for lines that are not open; inputs first. */
+static bool make_new(struct hal *next, const struct open_line *lines, const struct line_at *place,
+		     const char *dev, struct arena *arena)
+{
+	const uint32_t first = next->request_count;
+	const struct iomap *map = next->map;
+
+	for (int i = 0; i < 2 * map->count; i++) {
+		const int number = i % map->count;
+		const struct io_point *point = &map->point[number];
+		uint32_t r = first;
+
+		if (lines[number].request || point->output != (i >= map->count))
+			continue;
+		while (r < next->request_count &&
+		       (next->request[r].ask.count == REQUEST_LINES ||
+			!same_request(point, &place[number], next->request[r].ask.line[0].point,
+				      &next->request[r].ask.line[0].at)))
+			r++;
+		if (r == next->request_count) {
+			if (!make_request(&next->request[r], arena, point, dev,
+					  map->count < REQUEST_LINES ? (uint32_t)map->count :
+								       REQUEST_LINES))
+				return false;
+			next->request_count++;
+		}
+		add_line(&next->request[r], point, place[number]);
+	}
+	return true;
+}
+
+enum hal_beside hal_beside(struct hal *next, struct hal *now, const struct iomap *map,
+			   struct arena *arena, struct diag_list *diags, char *line)
+{
+	const size_t count = (size_t)map->count;
+	struct line_at *place = arena_alloc(arena, sizeof(*place) * (count + 1));
+	struct open_line *open = arena_alloc(arena, sizeof(*open) * (count + 1));
+	enum hal_beside result = BESIDE_GOOD;
+
+	*next = (struct hal){ .map = map };
+	if (!hal_supported(map, diags))
+		return BESIDE_REFUSED;
+	next->request = arena_alloc(arena, sizeof(*next->request) * (count + 1));
+	if (!place || !open || !next->request)
+		return no_memory(map, diags), BESIDE_REFUSED;
+	for (int i = 0; i < map->count; i++) {
+		struct trouble why;
+
+		if (!find_beside(now, &map->point[i], &place[i], &open[i], &why)) {
+			diag_add(diags, io_place(map, &map->point[i], why.id), "%s", why.text);
+			result = BESIDE_REFUSED;
+		}
+		if (!open[i].request || result != BESIDE_GOOD ||
+		    !needs_request(&map->point[i], &open[i]))
+			continue;
+		io_line_print(&map->point[i], line, LIMIT_ARG);
+		result = BESIDE_RESTART;
+	}
+	if (!check_places(map, place, diags))
+		return BESIDE_REFUSED;
+	if (result != BESIDE_GOOD)
+		return result;
+	if (make_twins(next, now, open, arena) && make_new(next, open, place, now->map->dev, arena))
+		return BESIDE_GOOD;
+	next->request_count = 0;
+	return no_memory(map, diags), BESIDE_REFUSED;
+}
+
+bool hal_open_new(struct hal *next, struct diag_list *diags)
+{
+	for (uint32_t i = 0; i < next->request_count; i++) {
+		if (next->request[i].twin || open_request(next, &next->request[i], diags))
+			continue;
+		hal_close_rest(next);
+		return false;
+	}
+	return true;
+}
+
+void hal_close_rest(struct hal *other)
+{
+	for (uint32_t i = 0; i < other->request_count; i++)
+		close_request(&other->request[i]);
+}
+
 bool hal_list(const char *dev,
 	      void (*visit)(void *context, const struct line_seen *line),
 	      void *context, struct diag_list *diags)

@@ -19,6 +19,8 @@ struct hal_request {
 	uint64_t differs;        /* lines whose level differs from value      */
 	uint64_t invert;         /* lines that are active low                 */
 	uint64_t safe;           /* safe values, before inversion             */
+	uint64_t idle;           /* lines that no point of the map has: outputs are safe */
+	struct hal_request *twin; /* that of the other map with the same lines; or NULL */
 	uint64_t value;          /* values that the program reads or wrote    */
 	int64_t written_ns;
 	bool is_open;

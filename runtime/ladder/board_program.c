@@ -362,7 +362,7 @@ enum status remote_put(struct remote *remote, const struct parcel *parcel)
 	memcpy(put->program, verified.program, sizeof(put->program));
 	if (put->or_restart && !verified.same_map) {
 		put->restart = true;
-		sink_text(&remote->call->out, "the I/O map is another one; the board begins again\n");
+		sink_text(&remote->call->out, "the lines of the new I/O map need a restart; the board begins again\n");
 	}
 	if (put->ask && !put->restart && verified.losses && !is_wanted(remote))
 		return STATUS_NO;

@@ -46,10 +46,18 @@ struct download {
 
 /* ---- standby ---- */
 
+/* The lines that went with the program before, or that never came. */
+static void release(struct standby *standby)
+{
+	hal_close_rest(&standby->lines);
+	standby->lines.request_count = 0;
+}
+
 void standby_free(struct standby *standby)
 {
 	if (!standby)
 		return;
+	release(standby);
 	arena_free(&standby->arena);
 	free(standby->bytes);
 	free(standby->views);
@@ -191,11 +199,35 @@ static bool is_whole(const struct download *download)
 	return memcmp(found, download->sha, 32) == 0;
 }
 
-static bool has_same_map(const struct download *download, const struct standby *standby)
+/* Prepares the lines of the new map, and says whether they can be exchanged. */
+static bool open_beside(struct download *download, struct standby *standby,
+			struct standby_view *out)
 {
-	return standby->stored.len[STORED_MAP] == download->map_len &&
-	       memcmp(stored_part(&standby->stored, STORED_MAP), download->map_text,
-		      download->map_len) == 0;
+	const struct stored *runs = download_running(download);
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	enum hal_beside result;
+	char line[LIMIT_ARG];
+
+	if (!diags)
+		return false;
+	diag_init(diags);
+	standby->map.dev = download->cycle->hal.map->dev;
+	result = hal_beside(&standby->lines, &download->cycle->hal, &standby->map,
+			    &standby->arena, diags, line);
+	out->map = result != BESIDE_GOOD ? MAP_RESTART : MAP_EXCHANGED;
+	if (result == BESIDE_GOOD && standby->stored.len[STORED_MAP] == runs->len[STORED_MAP] &&
+	    memcmp(stored_part(&standby->stored, STORED_MAP), stored_part(runs, STORED_MAP),
+		   runs->len[STORED_MAP]) == 0)
+		out->map = MAP_SAME;
+	out->map_refusal = result == BESIDE_GOOD ? REFUSAL_NONE :
+			   result == BESIDE_RESTART ? REFUSAL_MAP_CHANGED : REFUSAL_INVALID;
+	out->map_detail = standby->map_detail;
+	if (result == BESIDE_RESTART)
+		snprintf(standby->map_detail, sizeof(standby->map_detail), "%s", line);
+	if (result == BESIDE_REFUSED && diags->count)
+		say_diag(&diags->diag[0], standby->map_detail, sizeof(standby->map_detail));
+	free(diags);
+	return true;
 }
 
 enum refusal download_verify(struct download *download, struct standby_view *out, char *detail,
@@ -214,6 +246,8 @@ enum refusal download_verify(struct download *download, struct standby_view *out
 			download_abort(download); /* a byte is wrong, nobody knows which */
 		return REFUSAL_NOT_WHOLE;
 	}
+	standby_free(download->standby);
+	download->standby = NULL;
 	standby = calloc(1, sizeof(*standby));
 	if (!standby)
 		return REFUSAL_MEMORY;
@@ -225,17 +259,36 @@ enum refusal download_verify(struct download *download, struct standby_view *out
 		standby_free(standby);
 		return *detail ? REFUSAL_INVALID : REFUSAL_MEMORY;
 	}
-	if (!make_ready(download, standby)) {
+	if (!make_ready(download, standby) || !open_beside(download, standby, out)) {
 		standby_free(standby);
 		return REFUSAL_MEMORY;
 	}
-	standby_free(download->standby);
 	download->standby = standby;
 	out->standby = standby;
-	out->same_map = has_same_map(download, standby);
 	out->plan = standby->plan;
 	memcpy(out->identity, standby->identity, 32);
 	return REFUSAL_NONE;
+}
+
+enum refusal download_open_lines(struct download *download, char *detail, size_t size)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	bool good;
+
+	if (!diags)
+		return REFUSAL_MEMORY;
+	diag_init(diags);
+	good = hal_open_new(&download->standby->lines, diags);
+	if (!good && diags->count)
+		say_diag(&diags->diag[0], detail, size);
+	free(diags);
+	return good ? REFUSAL_NONE : REFUSAL_INVALID;
+}
+
+void download_close_lines(struct download *download)
+{
+	if (download->standby)
+		hal_close_rest(&download->standby->lines);
 }
 
 enum refusal download_store(struct download *download, char *detail, size_t size)
@@ -321,10 +374,12 @@ struct standby *download_swapped(struct download *download, bool comes_back)
 	struct standby *standby = download->standby;
 
 	keep_image(download);
-	if (comes_back)
+	if (comes_back) {
 		download->before = download->runs;
-	else
+	} else {
+		release(standby);
 		standby_free(download->runs);
+	}
 	download->trial = comes_back;
 	download->runs = standby;
 	download->standby = NULL;
@@ -336,6 +391,7 @@ struct standby *download_swapped(struct download *download, bool comes_back)
 
 void download_passed(struct download *download)
 {
+	release(download->runs);
 	standby_free(download->before);
 	download->before = NULL;
 	download->trial = false;
@@ -360,6 +416,18 @@ const struct stored *download_running(struct download *download)
 
 /* ---- the scan thread ---- */
 
+/* Goes on with the lines of another map. The name of the board is that of the map, unless
+ * somebody gave it one. */
+static void take_lines(struct cycle *cycle, struct hal *lines)
+{
+	const char *was = cycle->hal.map->board;
+	const bool of_map = strncmp(cycle->board, was, sizeof(cycle->board) - 1) == 0;
+
+	hal_exchange(&cycle->hal, lines);
+	if (of_map)
+		cycle_name(cycle, "", cycle->hal.map->board);
+}
+
 /* Goes on with another resource. */
 static void take(struct cycle *cycle, const struct resource *resource, const uint8_t identity[32])
 {
@@ -379,6 +447,7 @@ enum refusal cycle_swap(struct cycle *cycle, struct standby *standby, uint32_t b
 	standby->before = cycle->resource;
 	memcpy(standby->before_identity, cycle->identity_bytes, sizeof(cycle->identity_bytes));
 	take(cycle, &standby->resource, standby->identity);
+	take_lines(cycle, &standby->lines);
 	cycle->trial = back ? standby : NULL;
 	cycle->trial_left = back;
 	control_tell("another program runs, put there by a desk");
@@ -400,6 +469,7 @@ void cycle_back(struct cycle *cycle, enum fault fault)
 	before->watch = false;
 	tasks_skip(&before->tasks, before->image.program, cycle->resource.vm.now_ns);
 	take(cycle, before, bad->before_identity);
+	take_lines(cycle, &bad->lines);
 	cycle->trial = NULL;
 	cycle->late_row = 0;
 	cycle->monitor.tripped = 0;
@@ -465,7 +535,7 @@ void download_free(struct download *download)
 	if (!download)
 		return;
 	download_abort(download);
-	standby_free(download->runs);
+	standby_free(download->runs); /* the lines of the one before go with it */
 	standby_free(download->before);
 	for (int i = 0; i < PAST; i++)
 		free(download->past[i].image);

@@ -64,6 +64,8 @@ struct standby {
 	uint8_t *views;        /* of the link                                 */
 	size_t view_size;
 	/* While it is on trial: what ran before, as it was then. */
+	struct hal lines;      /* of its map; then those of the program before */
+	char map_detail[200];
 	struct resource before;
 	uint8_t before_identity[32];
 	char why[160];         /* the FAULT that ended the trial              */
@@ -71,7 +73,7 @@ struct standby {
 
 struct download;
 
-/** download_new - @map_text: of the map that runs, borrowed. Owns: the caller,
+/** download_new - @map_text: of the map that ladderd began with, borrowed. Owns: the caller,
  * download_free(). Fails: NULL: no memory. */
 struct download *download_new(struct slots *slots, struct cycle *cycle, const char *map_text,
 			      size_t map_len);
@@ -83,6 +85,8 @@ enum refusal download_block(struct download *download, uint32_t offset, const ui
 			    size_t len, uint32_t *received);
 enum refusal download_verify(struct download *download, struct standby_view *out, char *detail,
 			     size_t size);
+enum refusal download_open_lines(struct download *download, char *detail, size_t size);
+void download_close_lines(struct download *download);
 enum refusal download_store(struct download *download, char *detail, size_t size);
 void download_abort(struct download *download);
 /** download_swapped - the standby runs now; returns it. The one before is freed.

@@ -320,6 +320,16 @@ static enum refusal store_slot(void *context, char *detail, size_t size)
 	return download_store(((struct link *)context)->download, detail, size);
 }
 
+static enum refusal store_open_lines(void *context, char *detail, size_t size)
+{
+	return download_open_lines(((struct link *)context)->download, detail, size);
+}
+
+static void store_close_lines(void *context)
+{
+	download_close_lines(((struct link *)context)->download);
+}
+
 static void store_abort(void *context)
 {
 	download_abort(((struct link *)context)->download);
@@ -941,6 +951,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	};
 	link->store = (struct server_store){
 		.begin = store_begin_download, .block = store_block, .verify = store_verify,
+		.open_lines = store_open_lines, .close_lines = store_close_lines,
 		.store = store_slot, .swapped = store_swapped,
 		.abort = store_abort, .running = store_running, .image = store_image,
 	};

@@ -917,7 +917,7 @@ static enum refusal serve_verify(struct asked *asked)
 		return refusal;
 	server->verified = true;
 	begin_answer(asked, 0);
-	wire_put_u8(&asked->out, server->standby.same_map);
+	wire_put_u8(&asked->out, (uint8_t)server->standby.map);
 	wire_put_bytes(&asked->out, server->standby.identity, 32);
 	head = asked->out.at;
 	wire_put_u32(&asked->out, 0);
@@ -985,8 +985,10 @@ static enum refusal serve_commit(struct asked *asked)
 		return refusal;
 	if (!server->verified)
 		return REFUSAL_NO_DOWNLOAD;
-	if (how == 0 && !server->standby.same_map)
-		return REFUSAL_MAP_CHANGED;
+	if (how == 0 && server->standby.map_refusal != REFUSAL_NONE) {
+		snprintf(asked->detail, sizeof(asked->detail), "%s", server->standby.map_detail);
+		return server->standby.map_refusal;
+	}
 	if (!can_order(server))
 		return REFUSAL_BUSY;
 	/* Nothing is written for a desk that is stale. */
@@ -994,6 +996,9 @@ static enum refusal serve_commit(struct asked *asked)
 					.expects = true, .expect = expect };
 	refusal = give(server);
 	scan = server->order.scan;
+	if (refusal == REFUSAL_NONE && how == 0)
+		refusal = store->open_lines(server->setup.context, asked->detail,
+					    sizeof(asked->detail));
 	if (refusal == REFUSAL_NONE)
 		refusal = store->store(server->setup.context, asked->detail,
 				       sizeof(asked->detail));
@@ -1001,6 +1006,8 @@ static enum refusal serve_commit(struct asked *asked)
 		refusal = swap(asked, &expect, back);
 	else if (refusal == REFUSAL_NONE)
 		refusal = restart(server, &expect);
+	if (refusal != REFUSAL_NONE && can_order(server))
+		store->close_lines(server->setup.context);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
 	tell_download(asked, &expect);

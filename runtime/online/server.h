@@ -20,11 +20,20 @@
 
 struct server;
 
+/* In the answer of `verify`. */
+enum standby_map {
+	MAP_RESTART,                   /* a line must be requested anew         */
+	MAP_SAME,
+	MAP_EXCHANGED,                 /* between two scans                     */
+};
+
 /* A program that a download brought, verified. */
 struct standby_view {
 	void *standby;                 /* of the daemon; goes with ORDER_SWAP  */
 	uint8_t identity[32];
-	bool same_map;                 /* the lines need not be opened again   */
+	enum standby_map map;
+	enum refusal map_refusal;      /* why lines need a restart; or none    */
+	const char *map_detail;        /* part of the diagnostic               */
 	const struct carry_plan *plan;
 };
 
@@ -60,6 +69,10 @@ struct server_store {
 	enum refusal (*block)(void *context, uint32_t offset, const uint8_t *bytes, size_t len,
 			      uint32_t *received);
 	enum refusal (*verify)(void *context, struct standby_view *out, char *detail, size_t size);
+	/** Requests the lines that are new in its map. */
+	enum refusal (*open_lines)(void *context, char *detail, size_t size);
+	/** The commit failed: gives them back. */
+	void (*close_lines)(void *context);
 	/** Writes it to a slot. */
 	enum refusal (*store)(void *context, char *detail, size_t size);
 	/** After ORDER_SWAP: frees the program before, if it cannot come back, and stores

@@ -161,7 +161,7 @@ static void rig_open(struct rig *rig)
 	static const struct server_log log = { log_nothing, no_event };
 	static const struct server_store store = {
 		.begin = begin_any, .block = take_any, .verify = verify_none,
-		.store = store_none, .abort = abort_any, .running = runs_any,
+		.open_lines = store_none, .close_lines = abort_any, .store = store_none, .abort = abort_any, .running = runs_any,
 	};
 	static const struct server_conf conf = { get_setting, change_setting };
 	struct server_setup setup = { .conf = &conf, .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,

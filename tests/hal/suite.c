@@ -374,6 +374,174 @@ static void test_denied(void)
 }
 
 /* Groups that are not in /etc/group. */
+/* ---- another map beside it ---- */
+
+static const char map_a[] = "BOARD \"a\"\n%QX0.0 gpio line=OUT0 safe=1\n%QX0.1 gpio line=OUT1\n"
+	"%QX0.2 gpio line=OUT2 safe=1\n%IX0.0 gpio line=IN0\n%IX0.1 gpio line=IN1\n";
+static const char map_b[] = "BOARD \"b\"\n%QX0.0 gpio line=OUT0 safe=1\n"
+	"%QX1.0 gpio chip=panel offset=101 active-low\n%QX0.2 gpio line=OUT5 safe=1\n"
+	"%QX0.3 gpio line=FAR0\n%IX2.1 gpio chip=panel offset=1\n%IX0.7 gpio line=IN7\n";
+
+/* OUT0 is 0 and OUT1 is 1, in each step. */
+static int disturbed;
+static void watch_levels(void)
+{
+	disturbed += level("OUT0") != 0 || level("OUT1") != 1;
+}
+
+static struct iomap other_map;
+static char needs[LIMIT_ARG];
+
+static enum hal_beside beside(struct bench *b, struct hal *next, const char *text)
+{
+	diag_init(&b->diags);
+	needs[0] = '\0';
+	if (!iomap_read(&other_map, &b->arena, "other.io", text, strlen(text), &b->diags))
+		return BESIDE_REFUSED;
+	other_map.dev = bench_dev();
+	return hal_beside(next, &b->hal, &other_map, &b->arena, &b->diags, needs);
+}
+
+static bool open_watched(struct bench *b)
+{
+	chips();
+	if (!bench_open(b, map_a))
+		return false;
+	output(b, 1, true);
+	scan(b, 0);
+	disturbed = 0;
+	fake_at_write = fake_at_read = watch_levels;
+	return level("OUT0") == 0 && level("OUT1") == 1 && level("OUT2") == 0;
+}
+
+static void close_watched(struct bench *b)
+{
+	fake_at_write = fake_at_read = NULL;
+	bench_end(b);
+	CHECK(fake.takes == fake.releases && fake.opens == fake.closes && fake.settings == 0);
+}
+
+static void test_another_map(void)
+{
+	struct bench b;
+	struct hal next;
+	int takes;
+
+	CHECK(open_watched(&b));
+	takes = fake.takes;
+	CHECK(beside(&b, &next, map_b) == BESIDE_GOOD && fake.takes == takes);
+	CHECK(hal_open_new(&next, &b.diags));
+	CHECK_AS(fake.takes == takes + 3 && fake.releases == 0, "only new lines are requested");
+	CHECK(level("OUT5") == 1 && level("FAR0") == 0);
+	scan(&b, 10 * MS);
+	hal_exchange(&b.hal, &next);
+	CHECK_AS(level("OUT2") == 1, "an output that goes gets its safe value");
+	CHECK(fake.takes == takes + 3 && fake.releases == 0 && disturbed == 0);
+	hal_close_rest(&next);
+	CHECK_AS(fake.releases == 0, "a line stays requested with another one of its request");
+	output(&b, 1, false);
+	output(&b, 8, false); /* OUT1 is active low now */
+	output(&b, 2, false);
+	output(&b, 3, true);
+	fake.chip[0].line[0].level = fake.chip[0].line[1].level = fake.chip[0].line[7].level = 1;
+	image_area(&b.image, AREA_I)[0] = 0;
+	scan(&b, 20 * MS);
+	CHECK(disturbed == 0 && level("OUT0") == 0 && level("OUT1") == 1);
+	CHECK(level("OUT5") == 0 && level("FAR0") == 1 && level("OUT2") == 1);
+	CHECK(!input(&b, 0) && !input(&b, 1) && input(&b, 17) && input(&b, 7));
+	CHECK(hal_write_safe(&b.hal) && level("OUT2") == 1 && level("OUT0") == 1 &&
+	      level("OUT1") == 1 && level("OUT5") == 1);
+	close_watched(&b);
+}
+
+static void test_another_map_and_back(void)
+{
+	struct bench b;
+	struct hal next;
+
+	CHECK(open_watched(&b));
+	CHECK(beside(&b, &next, map_b) == BESIDE_GOOD && hal_open_new(&next, &b.diags));
+	hal_exchange(&b.hal, &next);
+	output(&b, 3, true);
+	output(&b, 2, false);
+	scan(&b, 10 * MS);
+	CHECK(level("FAR0") == 1 && level("OUT5") == 0);
+	output(&b, 1, true);
+	hal_exchange(&b.hal, &next);
+	CHECK_AS(level("FAR0") == 0 && level("OUT5") == 1, "what only the new map had is safe");
+	hal_close_rest(&next);
+	CHECK_AS(fake.releases == 3, "and is released");
+	scan(&b, 20 * MS);
+	CHECK(disturbed == 0 && level("OUT2") == 0);
+	close_watched(&b);
+}
+
+static void test_a_map_without_lines(void)
+{
+	struct bench b;
+	struct hal next;
+
+	CHECK(open_watched(&b));
+	fake_at_write = NULL;
+	CHECK(beside(&b, &next, "BOARD \"c\"\n%IX0.0 gpio line=IN0\n%QX0.0 gpio line=FAR0\n") ==
+	      BESIDE_GOOD && hal_open_new(&next, &b.diags));
+	hal_exchange(&b.hal, &next);
+	CHECK_AS(level("OUT0") == 1 && level("OUT1") == 0 && level("OUT2") == 1,
+		 "all of a request goes: its outputs are safe");
+	CHECK(fake.releases == 0);
+	hal_close_rest(&next);
+	CHECK_AS(fake.releases == 1, "it is released after that");
+	scan(&b, 10 * MS);
+	/* A line of the request of IN0 comes back; it was never given back. */
+	CHECK(beside(&b, &next, "BOARD \"d\"\n%IX0.5 gpio line=IN1\n%IX0.6 gpio line=IN3\n") ==
+	      BESIDE_GOOD && hal_open_new(&next, &b.diags));
+	hal_exchange(&b.hal, &next);
+	hal_close_rest(&next);
+	CHECK(fake.releases == 2);
+	fake.chip[0].line[1].level = 1;
+	scan(&b, 20 * MS);
+	CHECK(input(&b, 5) && !input(&b, 6));
+	close_watched(&b);
+}
+
+static void test_maps_that_cannot_be_exchanged(void)
+{
+	static const struct { const char *text, *name; enum hal_beside why; } cases[] = {
+		{ "%QX0.0 gpio line=OUT0 open-drain", "OUT0", BESIDE_RESTART },
+		{ "%IX0.0 gpio line=IN0 pull-up", "IN0", BESIDE_RESTART },
+		{ "%IX0.3 gpio line=OUT1", "OUT1", BESIDE_RESTART },
+		{ "%QX0.7 gpio chip=panel offset=1", "panel 1", BESIDE_RESTART },
+		{ "%QX0.0 gpio line=OUT99999", "", BESIDE_REFUSED },
+		{ "%QX0.0 gpio line=OUT9", "", BESIDE_REFUSED },
+		{ "%QX0.0 gpio line=OUT0\n%QX0.1 gpio chip=panel offset=100", "", BESIDE_REFUSED },
+	};
+	struct bench b;
+	struct hal next;
+
+	CHECK(open_watched(&b));
+	fake.chip[0].line[109].used = true;
+	fake.chip[0].line[109].owner = "spi";
+	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+		char text[200];
+
+		snprintf(text, sizeof(text), "BOARD \"x\"\n%s\n", cases[i].text);
+		CHECK(beside(&b, &next, text) == cases[i].why);
+		CHECK_TEXT(needs, cases[i].name);
+		CHECK((b.diags.errors > 0) == (cases[i].why == BESIDE_REFUSED));
+	}
+	CHECK(fake.takes == 2 && fake.releases == 0 && disturbed == 0);
+	CHECK(beside(&b, &next, map_b) == BESIDE_GOOD);
+	fake.take_error = EBUSY;
+	CHECK(!hal_open_new(&next, &b.diags) && b.diags.errors == 1);
+	diag_print(&b.diags.diag[0], b.text, sizeof(b.text));
+	CHECK_AS(strstr(b.text, "IN7") || strstr(b.text, "OUT5"), "the line is named");
+	fake.take_error = 0;
+	fake.takes = 2; /* those that failed took nothing */
+	scan(&b, 10 * MS);
+	CHECK(disturbed == 0 && level("OUT1") == 1);
+	close_watched(&b);
+}
+
 static void test_groups(void)
 {
 	const char *nope = "%IX0.0 gpio line=NOPE";
@@ -487,6 +655,10 @@ int main(void)
 	test_links();
 	test_list();
 	test_check();
+	test_another_map();
+	test_another_map_and_back();
+	test_a_map_without_lines();
+	test_maps_that_cannot_be_exchanged();
 	bench_remove_dev();
 	return tap_done();
 }

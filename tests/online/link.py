@@ -708,14 +708,112 @@ def test_a_refused_program_says_why():
         refused(20, lambda: board.client().begin([b'a', b'b', b'c']))
 
 
-def test_another_map_needs_a_restart():
+def levels(board, skip=0):
+    """Each output's levels in turn, without what came before the first @skip bytes."""
+    found = {}
+    for line in board.read('err')[skip:].splitlines():
+        if line.startswith('%QX'):
+            name, level = line.split()
+            found.setdefault(name, []).append(level)
+    return found
+
+
+MOVED = SEAL.replace('  Brake AT %QX0.1 : BOOL;', '  Brake AT %QX0.1 : BOOL;\n  Lamp AT %QX2.0 : BOOL;').replace(
+    'PROGRAM Main LD\n', 'PROGRAM Main LD\nRUNG\n  | NO SYS_ALWAYS_ON | COIL Lamp |\n')
+NEW_LINES = b'BOARD "new lines"\n%IX0.0 sim\n%QX0.0 sim\n%QX2.0 sim\n'
+
+
+def test_another_map_is_exchanged_without_a_restart():
+    with slots() as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True)})
+        until(lambda: levels(board).get('%QX0.0') == ['1'])
+        before, shown = desk.status(), len(board.read('err'))
+        parts = build(board, 'other.rung', MOVED)
+        parts[1] = NEW_LINES
+        assert desk.download(parts)[0] == 2
+        until(lambda: '%QX2.0' in levels(board, shown))
+        # The motor runs on; the brake went with its line and got its safe value; the lamp is new.
+        assert levels(board, shown) == {'%QX0.1': ['1'], '%QX2.0': ['1']}, board.read('err')[shown:]
+        now = desk.status()
+        assert now['points'] == 3 and now['board'] == 'new lines' and now['program'] != before['program']
+        assert board.client().board == 'new lines' and desk.upload() == parts
+        # And back: the brake is released, since the program says 0 there.
+        shown = len(board.read('err'))
+        old = build(board, 'third.rung', OTHER)
+        assert desk.download(old)[0] == 2 and desk.download(old)[0] == 1
+        until(lambda: '%QX2.0' in levels(board, shown))
+        scans = desk.status()['scans']
+        until(lambda: desk.status()['scans'] > scans + 3)
+        assert levels(board, shown) == {'%QX2.0': ['0']} or levels(board, shown) == {'%QX2.0': ['0'], '%QX0.1': ['1', '0']}, \
+            board.read('err')[shown:]
+        desk.set_mode(0)
+        until(lambda: levels(board, shown).get('%QX0.0') == ['0'])
+        # In STOP the new lines have their safe values, too.
+        parts[1] = NEW_LINES.replace(b'%QX2.0 sim', b'%QX2.0 sim safe=1')
+        shown = len(board.read('err'))
+        assert desk.download(parts)[0] == 2
+        assert '%QX2.0' not in levels(board, shown) and '%QX0.0' not in levels(board, shown)
+        desk.set_mode(1)
+        until(lambda: levels(board, shown).get('%QX0.1') or desk.status()['scans'] > 0)
+        assert desk.status()['mode'] == client.RUN
+
+
+def test_many_maps_in_turn():
+    with slots() as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True)})
+        until(lambda: levels(board).get('%QX0.0') == ['1'])
+        two = [build(board, 'a.rung', MOVED), build(board, 'b.rung', MOVED.replace('T#2s', 'T#4s'))]
+        two[1][1] = NEW_LINES
+        shown = len(board.read('err'))
+        for turn in range(int(os.environ.get('LINK_SWAPS', 60)) // 2):
+            assert desk.download(two[turn % 2], back=2 if turn % 3 else None)[0] == (2 if turn else 1)
+            until(lambda: not isinstance(attempt(lambda: desk.begin([b'x', b'', b''])), Refused))
+            until(lambda: getattr(attempt(desk.verify), 'number', 0) != 13)
+        assert '%QX0.0' not in levels(board, shown) and desk.read('Motor') == [True]
+        assert desk.status()['missed'] < 20
+
+
+def test_a_fault_brings_the_lines_back():
+    with Board(COUNTS, '--slots', '.') as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True)})
+        until(lambda: levels(board).get('%QX0.0') == ['1'])
+        shown = len(board.read('err'))
+        bad = build(board, 'bad.rung', faulty(3))
+        bad[1] = NEW_LINES.replace(b'%QX2.0 sim', b'%QX2.0 sim safe=1')
+        before = desk.status()['program']
+        desk.download(bad, back=50)
+        until(lambda: any(it['id'] == 24 for it in desk.events()))
+        now = desk.status()
+        assert (now['program'], now['board'], now['points']) == (before, 'on a table', 3)
+        scans = now['scans']
+        until(lambda: desk.status()['scans'] > scans + 2)
+        found = levels(board, shown)
+        assert '%QX0.0' not in found, found
+        assert found['%QX0.1'] == ['1', '0'] and found.get('%QX2.0', ['0', '1'])[-1] == '1', found
+
+
+def test_a_map_whose_lines_are_missing_is_refused():
+    with slots() as board:
+        desk = board.client()
+        parts = build(board, 'other.rung', OTHER)
+        parts[1] = b'BOARD "x"\n%IX0.0 sim\n%QX0.0 sim\n%QX0.1 gpio line=NO_BOARD_HAS_THIS\n'
+        before = desk.status()['program']
+        desk.send_from(b''.join(parts), desk.begin(parts))
+        assert desk.verify()[0] == 0
+        refused(23, desk.commit, 'map:4:')
+        assert desk.status()['program'] == before and not os.path.exists(board.folder + '/prog.A')
+
+
+def test_a_map_that_a_restart_brings():
     with slots() as board:
         desk = board.client()
         parts = build(board, 'other.rung', OTHER)
         parts[1] = b'BOARD "new lines"\n%IX0.0 sim\n%QX0.0 sim\n%QX0.1 sim\n'
         desk.send_from(b''.join(parts), desk.begin(parts))
-        assert desk.verify()[0] == 0
-        refused(24, desk.commit)
+        assert desk.verify()[0] == 2
         desk.commit(restart=True)
         until(lambda: reached(board, lambda it: it.board == 'new lines'))
         assert board.client().upload() == parts and board.daemon.poll() is None
