@@ -126,7 +126,10 @@ PRINT    := $(if $(filter 1,$(STATIC)),$(patsubst %,-Wl$(comma)--wrap=%,printf f
 # Threads, for --retain and --link; older C libraries need the option.
 THREADS  := $(if $(filter 1,$(SMALL)),,-pthread)
 # The protocol between board and desk: both sides; each program links what it uses.
-ONLINE   := $(call obj,$(wildcard runtime/online/*.c))
+# AVAHI=no: without Avahi's library, which finds boards (ladder boards, the editor).
+AVAHI    ?= $(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),$(if $(filter 1,$(STATIC)),,here)),$(shell $(PKG_CONFIG) --exists avahi-client 2>/dev/null && echo yes))
+AVAHI_LIB := $(if $(filter yes,$(AVAHI)),$(shell $(PKG_CONFIG) --libs avahi-client))
+ONLINE   := $(call obj,$(filter-out $(if $(filter yes,$(AVAHI)),%/finder_none.c,%/finder_avahi.c),$(wildcard runtime/online/*.c)))
 $(DRIVERS) $(LADDERD) $(ONLINE): WARN += $(FRAME)
 $(BUILD)/libonline.a: $(ONLINE)
 	@rm -f $@
@@ -196,7 +199,7 @@ check-retain: all ## ladderd --retain killed 1,000 times; `check` does 400 of th
 LADDER := $(call obj,$(wildcard runtime/ladder/*.c))
 all: $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder)
 $(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) $(AVAHI_LIB) -lm
 
 # From the rows of runtime/ladder/commands.def, by a program that runs here, also in a cross build.
 HERE := $(if $(CROSS),build/here,$(BUILD))
@@ -271,7 +274,7 @@ ifneq ($(EDITOR),)
 # No warnings about headers of libraries.
 EDITOR_PKG := gtk4 libadwaita-1 gtksourceview-5 $(if $(filter yes,$(MD4C)),md4c)
 EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags $(EDITOR_PKG))) -I$(BUILD)
-EDITOR_LIB := $(shell $(PKG_CONFIG) --libs $(EDITOR_PKG)) $(GPIO_LIB)
+EDITOR_LIB := $(shell $(PKG_CONFIG) --libs $(EDITOR_PKG)) $(GPIO_LIB) $(AVAHI_LIB)
 EDITOR_TESTS += $(filter-out $(EDITOR_TESTS_PLAIN),$(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/*/test_*.c tests/editor/*/*/test_*.c)))
 EDITOR_BENCH := $(BUILD)/tests/editor/bench_drawing
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/window/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
@@ -490,7 +493,7 @@ arm: $(ARM:%=arm-%) ## the tests of the engine for arm64 and armhf, in build/arm
 $(ARM:%=arm-%): arm-%:
 	$(MAKE) BUILD=$(BUILD)/$* CROSS=$(CROSS_$*) STATIC=1 HAL=uapi CFLAGS='$(filter-out -g,$(CFLAGS))' arm-programs
 $(BUILD)/tests/ladder_batch: $(BUILD)/tests/ladder_batch.o $(filter-out %/main.o,$(LADDER)) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) $(AVAHI_LIB) -lm
 arm-programs: $(UNIT) $(BIN)/differential $(BIN)/iec_cases $(BUILD)/tests/ladder_batch $(BUILD)/replay
 .PHONY: arm arm-programs $(ARM:%=arm-%)
 # ---- end of ARM ----
@@ -534,6 +537,7 @@ sizes: ## the size of the runtime for small boards, and of each room
 # ---- end of targets ----
 
 # ---- board: files that a board needs besides ladderd, and its figures ----
+VERSION     := $(shell sed -n 's/.*LADDER_VERSION "\(.*\)"/\1/p' runtime/engine/base/version.h)
 # /etc/ladder/active names the running program. `ladder push` rewrites it, so an existing one stays.
 udevdir     ?= /lib/udev/rules.d
 sysusersdir ?= /usr/lib/sysusers.d
@@ -543,6 +547,8 @@ install-board: install-ladderd
 	install -m 755 packaging/ladderd-run $(DESTDIR)$(prefix)/bin/ladderd-run
 	install -m 644 packaging/60-gpio.rules $(DESTDIR)$(udevdir)/60-ladderd-gpio.rules
 	install -m 644 packaging/ladderd.sysusers $(DESTDIR)$(sysusersdir)/ladderd.conf
+	install -d $(DESTDIR)/etc/avahi/services
+	sed 's/@VERSION@/$(VERSION)/' packaging/ladder.service >$(DESTDIR)/etc/avahi/services/ladder.service
 	test -e $(DESTDIR)/etc/ladder/active || install -m 644 packaging/ladderd.active $(DESTDIR)/etc/ladder/active
 push-tests: $(BUILD)/ladder $(BUILD)/ladderd ## test ladder push with a real sshd on loopback
 	BUILD=$(BUILD) prove tests/push.t

@@ -74,18 +74,23 @@ static bool add_source(struct bytes *bytes, const char *path, const char *main_p
 	return true;
 }
 
-/* u16 how many, and for each a text, u32 length, bytes. A code image has none. */
+/* u16 how many, and for each a text, u32 length, bytes. A code image has none, nor has a project
+ * of ClassicLadder. */
 static bool add_sources(struct bytes *bytes, struct ladder *ladder, const char *path)
 {
-	const struct project *project = ladder_project(ladder);
-	const uint16_t count = project ? (uint16_t)(1 + project->used_count) : 0;
+	const struct project *project = ladder_import_project(ladder) ? NULL :
+				       ladder_project(ladder);
+	const uint16_t count = project ? (uint16_t)(1 + project->included_count +
+						    project->used_count) : 0;
 	const uint8_t head[2] = { (uint8_t)count, (uint8_t)(count >> 8) };
 	bool good = true;
 
 	add(bytes, head, sizeof(head));
-	if (!project || ladder_import_project(ladder))
+	if (!project)
 		return true;
 	good = add_source(bytes, path, path);
+	for (int i = 0; i < project->included_count && good; i++)
+		good = add_source(bytes, project->included[i], path);
 	for (int i = 0; i < project->used_count && good; i++)
 		good = add_source(bytes, project->used[i], path);
 	return good;
@@ -387,7 +392,7 @@ enum status remote_download(struct remote *remote)
 
 /* ---- upload ---- */
 
-static enum status receive(struct remote *remote, struct stored *stored, struct bytes *bytes)
+enum status remote_receive(struct remote *remote, struct stored *stored, struct bytes *bytes)
 {
 	uint32_t size;
 
@@ -493,7 +498,7 @@ enum status remote_upload(struct remote *remote)
 		return report_usage(remote->call, "upload needs -o FOLDER");
 	if (mkdir(folder, 0777) != 0 && errno != EEXIST)
 		return report_usage(remote->call, "%.60s: %s", folder, strerror(errno));
-	status = receive(remote, &stored, &bytes);
+	status = remote_receive(remote, &stored, &bytes);
 	if (status == STATUS_GOOD)
 		status = put_sources(remote, folder, &stored);
 	if (status == STATUS_GOOD)

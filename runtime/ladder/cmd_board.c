@@ -725,6 +725,7 @@ static const struct action {
 	{ "upload", false, remote_upload }, { "events", false, act_events },
 	{ "config", true, remote_config },
 	{ "record", false, remote_record },
+	{ "compare", true, remote_compare },
 };
 
 static enum status begin(struct remote *remote, const struct stream_where *where)

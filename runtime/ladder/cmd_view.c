@@ -126,7 +126,7 @@ static enum status compare(struct call *call, struct ladder *a,
 	return same ? STATUS_GOOD : STATUS_NO;
 }
 
-static enum status diff(struct call *call, struct ladder *a, struct ladder *b)
+enum status diff_programs(struct call *call, struct ladder *a, struct ladder *b)
 {
 	struct project *first = ladder_project(a), *second = ladder_project(b);
 	bool json = call_flag(call, "--json");
@@ -151,7 +151,7 @@ enum status cmd_diff(struct call *call)
 		if (other > status)
 			status = other;
 		/* Status 1 means that they differ, so an error is 2. */
-		status = status == STATUS_GOOD ? diff(call, a, b) :
+		status = status == STATUS_GOOD ? diff_programs(call, a, b) :
 						 STATUS_WRONG;
 	} else {
 		report_no_memory(call->arg[0]);

@@ -97,9 +97,14 @@ void parcel_close(struct parcel *parcel);
  * messages; without one if put->no_store is set. */
 enum status remote_put(struct remote *remote, const struct parcel *parcel);
 
-/** remote_download, remote_upload - the actions. */
+/** remote_receive - what the board stores. @bytes: empty at first; @stored points into it.
+ * Owns: the caller, free(bytes->at), also after a failure. Fails: after a message. */
+enum status remote_receive(struct remote *remote, struct stored *stored, struct bytes *bytes);
+
+/** remote_download, remote_upload, remote_compare - the actions. */
 enum status remote_download(struct remote *remote);
 enum status remote_upload(struct remote *remote);
+enum status remote_compare(struct remote *remote);
 enum status remote_config(struct remote *remote);
 enum status remote_record(struct remote *remote);
 #endif

@@ -58,6 +58,10 @@ int64_t program_period(const struct ladder *ladder, int64_t given);
  */
 enum status report_load(struct ladder *ladder, const char *path, bool build);
 
+/** diff_programs - prints the differences from @a to @b, with --json as JSON: of their texts,
+ * or only whether they run the same, if one is a code image. STATUS_NO: they differ. */
+enum status diff_programs(struct call *call, struct ladder *a, struct ladder *b);
+
 /* A program ready to be scanned. */
 struct machine {
 	struct ladder *ladder;

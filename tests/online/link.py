@@ -1738,6 +1738,43 @@ def test_command_shows_and_changes():
         assert 'Motor' in {row['name'] for row in json.loads(board.command('symbols', '--json')[1])}
 
 
+def test_command_compares():
+    """With an INCLUDE: the other file comes from the board, too."""
+    with slots() as board:
+        part = 'RUNGBOARD 1\n\nFUNCTION_BLOCK Twice LD\nVAR_INPUT\n  In : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Out : BOOL;\nEND_VAR\n' \
+               'RUNG\n  | NO In | COIL Out |\nEND_FUNCTION_BLOCK\n'
+        whole = SEAL.replace('PROJECT "Seal"\n', 'PROJECT "Seal"\nINCLUDE "part.rung"\n')
+        board.write('part.rung', part)
+        board.write('whole.rung', whole)
+        status, out, err = board.command('compare', 'program.rung')
+        assert (status, out, err) == (0, '', ''), (status, out, err)  # no sources yet: the same code
+        board.write('changed.rung', SEAL.replace('T#2s', 'T#3s'))
+        status, out, err = board.command('compare', 'changed.rung')
+        assert (status, out) == (1, 'the code images differ\n'), (out, err)
+        assert board.command('download', 'whole.rung', 'board.io', '--yes')[0] == 0
+        status, out, err = board.command('compare', 'whole.rung')
+        assert (status, out, err) == (0, '', ''), (status, out, err)
+        assert board.command('compare', 'whole.rung', '--json') == (0, '[]\n', '')
+        # A slash in the name of the board is no folder of the program.
+        done = subprocess.run([BUILD + '/ladder', 'board', 'unix:./link', 'compare', 'whole.rung'], cwd=board.folder,
+                              capture_output=True, timeout=60, check=False, **as_user(OWN))
+        assert (done.returncode, done.stdout, done.stderr) == (0, b'', b''), done
+        assert board.command('upload', '-o', 'back')[0] == 0 and board.read('back/part.rung') == part
+        board.write('here.rung', whole.replace('T#2s', 'T#3s').replace('NC Brake', 'NO Brake'))
+        # The file at the desk has changed; the one on the board has not.
+        board.write('part.rung', part.replace('NO In', 'NC In'))
+        status, out, err = board.command('compare', 'here.rung')
+        assert status == 1 and not err, err
+        assert 'NC Brake -> NO Brake' in out and 'T#2s' in out and 'T#3s' in out, out
+        assert 'Twice' in out, out
+        status, out, err = board.command('compare', 'here.rung', '--json')
+        assert status == 1 and len(json.loads(out)) == 3, out
+        assert board.command('compare', 'nowhere.rung')[0] == 2
+        assert board.command('compare')[0] == 2
+        board.write('bad.rung', 'RUNGBOARD 1\nPROGRAM\n')
+        assert board.command('compare', 'bad.rung')[0] == 2
+
+
 def test_command_says_what_is_wrong():
     with Board() as board:
         for words, code, text in [

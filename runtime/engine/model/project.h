@@ -114,6 +114,8 @@ struct project {
 	int structure_count;
 	const char **used;      /* paths of files named by USES                */
 	int used_count;
+	const char **included;  /* the same of INCLUDE, also in files that are named */
+	int included_count;
 	struct part *part;
 	int part_count;
 };

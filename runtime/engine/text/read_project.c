@@ -215,24 +215,29 @@ static void read_included(struct reader *r, const char *path, bool library,
 	reader_free(inner);
 }
 
-/* Was this library read before? Notes that it is now. */
-static bool was_used(struct reader *r, const char *path)
+/* Is this path in the list? Adds it if not. */
+static bool was_named(struct reader *r, const char ***list, int *count, const char *path)
 {
-	struct project *project = r->project;
 	const char **slot;
 
-	if (!strcmp(project->file, path))
-		return true;
-	for (int i = 0; i < project->used_count; i++)
-		if (!strcmp(project->used[i], path))
+	for (int i = 0; i < *count; i++)
+		if (!strcmp((*list)[i], path))
 			return true;
-	slot = arena_push(&project->arena, &project->used, &project->used_count,
-			  sizeof(*slot));
+	slot = arena_push(&r->project->arena, list, count, sizeof(*slot));
 	if (slot)
 		*slot = path;
 	else
 		r->no_memory = true;
 	return false;
+}
+
+/* Was this library read before? Notes that it is now. */
+static bool was_used(struct reader *r, const char *path)
+{
+	struct project *project = r->project;
+
+	return !strcmp(project->file, path) ||
+	       was_named(r, &project->used, &project->used_count, path);
 }
 
 static void include_file(struct reader *r, uint32_t name, bool library,
@@ -260,6 +265,8 @@ static void include_file(struct reader *r, uint32_t name, bool library,
 				     text_name, &len, r->diags, place);
 	if (!text)
 		return;
+	if (!library)
+		was_named(r, &r->project->included, &r->project->included_count, path);
 	/* Files that name each other many times must not take very long. */
 	*r->total += len + 1024;
 	place.id = DIAG_INCLUDE_LARGE;

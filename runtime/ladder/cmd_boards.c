@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmd_boards - `ladder boards`: the boards that announce themselves in the network, and the
+ * serial ports of this machine.
+ */
+#include "ladder/report.h"
+
+#include "online/finder.h"
+
+#include <time.h>
+
+#define WAIT_NS    INT64_C(3000000000)
+#define PORTS_MOST 32
+
+static int64_t now_ns(void)
+{
+	struct timespec now;
+
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return now.tv_sec * INT64_C(1000000000) + now.tv_nsec;
+}
+
+/* Until all boards that answer at once are there, or the time is over. */
+static void wait_for_all(struct finder *finder, int64_t wait_ns)
+{
+	const int64_t until = now_ns() + wait_ns;
+	int64_t left = wait_ns;
+
+	while (!finder_settled(finder) && left > 0) {
+		finder_wait(finder, (int)(left / 1000000) + 1);
+		left = until - now_ns();
+	}
+}
+
+static void print_board(const struct call *call, const struct found_board *board, bool first)
+{
+	const struct sink *out = &call->out;
+
+	if (call_flag(call, "--json")) {
+		sink_text(out, first ? "\n  {\"where\": " : ",\n  {\"where\": ");
+		sink_json_text(out, board->where);
+		report_json_field("board", board->name, out);
+		report_json_field("version", *board->version ? board->version : NULL, out);
+		sink_printf(out, ", \"port\": %u}", (unsigned)board->port);
+		return;
+	}
+	sink_text(out, board->where);
+	sink_text(out, "\t");
+	sink_text(out, board->name);
+	sink_text(out, "\t");
+	sink_text(out, board->version);
+	if (board->port != FINDER_SSH)
+		sink_printf(out, "\tport %u", (unsigned)board->port);
+	sink_text(out, "\n");
+}
+
+static void print_port(const struct call *call, const char *path, bool first)
+{
+	const struct sink *out = &call->out;
+
+	if (!call_flag(call, "--json")) {
+		sink_text(out, "serial:");
+		sink_text(out, path);
+		sink_text(out, "\n");
+		return;
+	}
+	sink_text(out, first ? "\n  {\"where\": \"serial:" : ",\n  {\"where\": \"serial:");
+	sink_text(out, path); /* letters and digits, as finder_ports() takes them */
+	sink_text(out, "\", \"board\": null, \"version\": null, \"port\": null}");
+}
+
+/* Returns how many. */
+static int print_boards(const struct call *call, struct finder *finder)
+{
+	const int count = finder ? finder_count(finder) : 0;
+
+	for (int i = 0; i < count; i++)
+		print_board(call, finder_board(finder, i), i == 0);
+	return count;
+}
+
+enum status cmd_boards(struct call *call)
+{
+	char ports[PORTS_MOST][64];
+	const int port_count = finder_ports("/dev", ports, PORTS_MOST);
+	const struct diag place = { .id = DIAG_NO_FINDER, .file = "ladder" };
+	const char *why = NULL;
+	struct finder *finder;
+	int64_t wait_ns;
+	int count;
+
+	if (!report_period(call, "--time", WAIT_NS, &wait_ns))
+		return STATUS_WRONG;
+	finder = finder_open(&why);
+	if (finder) {
+		wait_for_all(finder, wait_ns);
+		why = finder_failed(finder);
+	}
+	if (call_flag(call, "--json"))
+		sink_text(&call->out, "[");
+	count = print_boards(call, finder);
+	for (int i = 0; i < port_count; i++)
+		print_port(call, ports[i], count + i == 0);
+	if (call_flag(call, "--json"))
+		sink_text(&call->out, "\n]\n");
+	if (why)
+		report_diag(place, "%s", why);
+	else if (!count)
+		report_diag((struct diag){ .id = DIAG_NONE_FOUND, .file = "ladder" }, "%s", "");
+	finder_close(finder);
+	return why ? STATUS_WRONG : STATUS_GOOD;
+}
