@@ -94,7 +94,7 @@ $(UNIT): ; @ln -sf tests $@
 unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
-$(BUILD)/unit/online/tests: $(call obj,$(wildcard runtime/online/*.c tests/walker/random*.c tests/walker/words*.c))
+$(BUILD)/unit/online/tests: $(call obj,$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c tests/walker/random*.c tests/walker/words*.c)))
 $(BUILD)/unit/ladderd/tests: $(call obj,runtime/ladderd/print_static.c)
 $(BUILD)/unit/ladder/tests: $(call obj,$(wildcard runtime/ladder/words*.c))
 words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the catalogue
@@ -457,7 +457,7 @@ FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(RANDOM_
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
 $(BIN)/fuzz_iomap: $(call obj,$(HAL_CORE) hal/gpiod_none.c)
-$(BIN)/fuzz_link $(BIN)/fuzz_serial: $(ONLINE)
+$(BIN)/fuzz_link $(BIN)/fuzz_serial: $(filter-out %/finder_avahi.o,$(ONLINE))
 $(TESTS_BIN): $(BUILD)/libladder.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
@@ -479,7 +479,7 @@ fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|scri
 	@mkdir -p $(BUILD)/fuzz/$(TARGET)
 	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
 	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \
-	  $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(if $(filter link serial,$(TARGET)),$(wildcard runtime/online/*.c)) $(ENGINE) -lm
+	  $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(if $(filter link serial,$(TARGET)),$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c))) $(ENGINE) -lm
 	$(BUILD)/fuzz/fuzz_$(TARGET) -max_total_time=$(SECONDS) -timeout=25 -max_len=20000 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/$(TARGET)
 .PHONY: house differential check-long pathological fuzz
 # ---- end of second evaluator … house checks ----
