@@ -399,6 +399,7 @@ void download_passed(struct download *download)
 
 struct standby *download_back(struct download *download, struct standby **bad)
 {
+	keep_image(download);
 	*bad = download->runs;
 	keep_image(download);
 	standby_free(download->standby); /* its plan is beside the bad one */
