@@ -562,7 +562,7 @@ $(HAL_TEST)/ladder_uapi: WRAP := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wr
 tests: $(HAL_KINDS:%=$(HAL_TEST)/ladder_%)
 bench-rt: $(BUILD)/ladderd ## measure how late ladderd wakes up, compared with cyclictest
 	@BUILD=$(BUILD) tests/bench/rt.sh
-bench-online: $(BUILD)/ladder $(BUILD)/ladderd ## measure the link to desks: reading, watching, downloads
+bench-online: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/online/ladder-attach ## measure the link to desks: reading, watching, downloads
 	@BUILD=$(BUILD) tests/bench/online.py
 .PHONY: install-board push-tests bench-rt bench-online
 # ---- end of board ----

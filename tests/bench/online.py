@@ -7,7 +7,9 @@ client in Python on the same machine. Nothing fails: the figures depend on the l
 """
 import os
 import platform
+import re
 import shutil
+import socket
 import statistics
 import struct
 import subprocess
@@ -18,6 +20,7 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, '..', 'online'))
+import link  # noqa: E402
 from client import Client  # noqa: E402
 
 BUILD = os.path.abspath(os.environ.get('BUILD', 'build'))
@@ -66,10 +69,33 @@ class Board:
         with open(self.folder + '/n.c', 'rb') as image:
             return [image.read(), MAP.encode(), b'\0\0']
 
+    def write(self, name, text):
+        with open(f'{self.folder}/{name}', 'w') as out:
+            out.write(text)
+
     def close(self):
         self.daemon.terminate()
         self.daemon.wait()
         shutil.rmtree(self.folder)
+
+
+class FarClient(Client):
+    """A session through ssh on this machine."""
+
+    def __init__(self, server):  # pylint: disable=super-init-not-called
+        self.stream, far = socket.socketpair()
+        self.stream.settimeout(60)
+        self.ssh = subprocess.Popen(
+            ['ssh', '-F', '/dev/null', '-i', server.folder + '/key', '-p', str(server.port), '-o', 'IdentitiesOnly=yes',
+             '-o', f'UserKnownHostsFile={server.folder}/known', '127.0.0.1'], stdin=far, stdout=far,
+            stderr=subprocess.DEVNULL)
+        far.close()
+        self.request, self.told = 0, []
+        self.hello()
+
+    def close(self):
+        super().close()
+        self.ssh.wait()
 
 
 def row(what, value, want):
@@ -117,13 +143,7 @@ def lateness(clients):
     return status['missed'], status['late_p999'] / 1000, share
 
 
-def main():
-    with open('/proc/cpuinfo') as info:
-        cpu = next((line.split(':')[1].strip() for line in info if line.startswith('model name')), platform.machine())
-    commit = subprocess.run(['git', 'rev-parse', '--short', 'HEAD'], capture_output=True, text=True, cwd=HERE)
-    print(f'{cpu}, {os.cpu_count()} cores, {platform.release()}, commit {commit.stdout.strip() or "?"}\n')
-    board = Board(program(100))
-    desk = board.client()
+def reads(desk, where, limit):
     names = [f'W{i}' for i in range(100)]
     places = [it[2] for name, it in desk.symbols().items() if name in names]
     for how, refs in (('by name', names), ('by place', places)):
@@ -132,7 +152,79 @@ def main():
             began = time.perf_counter()
             desk.read(*refs)
             times.append((time.perf_counter() - began) * 1000)
-        row(f'read of 100 variables {how}, median', f'{statistics.median(times):.2f} ms', '≤ 1 ms')
+        row(f'read of 100 variables {how}{where}, median', f'{statistics.median(times):.2f} ms', f'≤ {limit} ms')
+
+
+def far_server(board):
+    """A real sshd for this board; None: this machine has none."""
+    link.BUILD = BUILD
+    try:
+        if not os.path.exists('/usr/sbin/sshd'):
+            raise link.Skip('no sshd')
+        return link.Sshd(board)
+    except link.Skip as why:
+        row('over ssh', 'not measured', str(why))
+        return None
+
+
+def over_ssh(two):
+    """Downloads every byte of 10,000 rungs through ssh."""
+    board = Board(program(10000))
+    server = far_server(board)
+    if server:
+        desk = FarClient(server)
+        times = []
+        for turn in range(7):
+            began = time.perf_counter()
+            desk.download(two[turn % 2])
+            times.append((time.perf_counter() - began) * 1000)
+        status = desk.status()
+        row('the same over ssh', f'{statistics.median(times):.0f} ms', '≤ 1000 ms')
+        row('  missed scans', str(status['missed']), '0')
+        row('  switch: longest lateness of a scan', f"{status['late_longest'] / 1000:.0f} us", '≤ 1 scan: 10000 us')
+        desk.close()
+        server.close()
+    board.close()
+
+
+def some_changes():
+    """What `ladder board download` sends, and how long it takes without the translation."""
+    text = program(10000)
+    board = Board(text)
+    row('a change of 10,000 rungs, by `ladder board download`', 'sent', 'of image, map, sources')
+    one = text.replace('T5000 PT:=T#1s', 'T5000 PT:=T#8s')
+    rung = text.replace('RUNG\n  | NO In | NC M5000 |', 'RUNG\n  | NO In | NC M4999 | COIL Out |\nRUNG\n  | NO In | NC M5000 |')
+    name = text.replace('  W500 : DINT;\n', '  W500 : DINT;\n  Added : DINT;\n')
+    for what, changed in (('the first download, with sources', text), ('nothing', text), ('one number', one), ('one more rung', rung),
+                          ('one more variable', name)):
+        board.write('n.rung', text)
+        subprocess.run([BUILD + '/ladder', 'board', 'unix:link', 'download', 'n.rung', 'b.io', '--yes'], cwd=board.folder,
+                       capture_output=True, check=True) if what not in ('the first download, with sources', 'nothing') else None
+        board.write('n.rung', changed)
+        began = time.perf_counter()
+        subprocess.run([BUILD + '/ladder', 'build', 'n.rung', '-o', 'n.c'], cwd=board.folder, capture_output=True, check=True)
+        built = time.perf_counter()
+        done = subprocess.run([BUILD + '/ladder', 'board', 'unix:link', 'download', 'n.rung', 'b.io', '--yes'],
+                              cwd=board.folder, capture_output=True, text=True, check=True)
+        took = time.perf_counter() - built - (built - began)
+        sent, size = map(int, re.search(r'sent (\d+) of (\d+) bytes', done.stdout).groups())
+        row(f'  {what}', f'{sent} bytes', f'{100 * sent / size:.1f} % of {size}, {max(0, took) * 1000:.0f} ms')
+    board.close()
+
+
+def main():
+    with open('/proc/cpuinfo') as info:
+        cpu = next((line.split(':')[1].strip() for line in info if line.startswith('model name')), platform.machine())
+    commit = subprocess.run(['git', 'rev-parse', '--short', 'HEAD'], capture_output=True, text=True, cwd=HERE)
+    print(f'{cpu}, {os.cpu_count()} cores, {platform.release()}, commit {commit.stdout.strip() or "?"}\n')
+    board = Board(program(100))
+    reads(board.client(), '', 1)
+    server = far_server(board)
+    if server:
+        far = FarClient(server)
+        reads(far, ' over ssh', 5)
+        far.close()
+        server.close()
     board.close()
     board = Board(program(10000))
     desk = board.client()
@@ -147,6 +239,8 @@ def main():
         '≤ 1000 ms')
     row('  missed scans', str(desk.status()['missed']), '0')
     board.close()
+    over_ssh(two)
+    some_changes()
     missed, alone, _share = lateness(0)
     row('nobody watches: p99.9 of lateness', f'{alone:.0f} us', '')
     missed, late, share = lateness(8)
