@@ -153,27 +153,34 @@ static uint32_t run_length(const uint8_t *now, const uint8_t *seen, uint32_t siz
 	return end;
 }
 
-/* @gap: bytes since the last run that did not change. */
-static void put_runs(struct recorder *recorder, const uint8_t *now, const uint8_t *seen,
-		     uint32_t size, uint32_t *gap)
+static void put_run(struct recorder *recorder, const uint8_t *bytes, uint32_t len, uint32_t gap)
+{
+	struct record head = { .len = 0 };
+
+	put_number(&head, gap);
+	put_number(&head, len);
+	put_record(recorder, &head);
+	put_bytes(recorder, bytes, len);
+}
+
+/* @gap: bytes since the last run that did not change. Returns those behind the last one. */
+static uint32_t put_runs(struct recorder *recorder, const uint8_t *now, const uint8_t *seen,
+			 uint32_t size, uint32_t gap)
 {
 	for (uint32_t i = 0; i < size; ) {
-		struct record head = { .len = 0 };
 		uint32_t len;
 
 		if (now[i] == seen[i]) {
 			i++;
-			(*gap)++;
+			gap++;
 			continue;
 		}
 		len = run_length(now + i, seen + i, size - i);
-		put_number(&head, *gap);
-		put_number(&head, len);
-		put_record(recorder, &head);
-		put_bytes(recorder, now + i, len);
-		*gap = 0;
+		put_run(recorder, now + i, len, gap);
+		gap = 0;
 		i += len;
 	}
+	return gap;
 }
 
 static void put_inputs(struct recorder *recorder, const struct resource *resource)
@@ -190,7 +197,7 @@ static void put_inputs(struct recorder *recorder, const struct resource *resourc
 			if (!any)
 				put_bytes(recorder, &(uint8_t){ RECORD_INPUTS }, 1);
 			any = true;
-			put_runs(recorder, now, seen, size, &gap);
+			gap = put_runs(recorder, now, seen, size, gap);
 		} else {
 			gap += size;
 		}

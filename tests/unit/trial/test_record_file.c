@@ -70,6 +70,7 @@ static struct board {
 	uint64_t seen[SCANS + 1];
 	uint64_t scan;
 	bool watches;
+	uint8_t level[4];      /* of the lines, which are the first bytes of I */
 } board;
 
 static int64_t board_clock_ns;
@@ -168,7 +169,11 @@ static void swap(uint64_t seed)
 static void change(void)
 {
 	struct image *image = &board.resource.image;
-	const struct location at = board.name[random_below(&board.source, board.names)];
+	const struct iec_addr input = { .area = AREA_I, .bits = 1,
+					.byte = random_below(&board.source, 8),
+					.bit = (uint8_t)random_below(&board.source, 8) };
+	const struct location at = random_chance(&board.source, 20) ?
+		image_locate(image, input) : board.name[random_below(&board.source, board.names)];
 	const uint32_t dice = random_below(&board.source, 10);
 	union iec_value value = { .i = (int64_t)random_next(&board.source) };
 	struct iec_text room;
@@ -194,15 +199,20 @@ static void change(void)
 	recorder_changed(&board.recorder, &board.resource);
 }
 
+/* Lines overwrite what a desk wrote; other inputs have no line. */
 static void read_inputs(void)
 {
 	uint32_t at, size;
+
+	if (random_chance(&board.source, 20))
+		board.level[random_below(&board.source, 4)] = (uint8_t)random_next(&board.source);
 
 	for (uint32_t i = 0; recorder_input(board.resource.image.program, i, &at, &size); i++)
 		for (uint32_t k = random_chance(&board.source, 30) && size ?
 				  random_below(&board.source, 20) : 0; k; k--)
 			board.resource.image.memory[at + random_below(&board.source, size)] =
 				(uint8_t)random_next(&board.source);
+	memcpy(image_area(&board.resource.image, AREA_I), board.level, sizeof(board.level));
 }
 
 static void fail(enum fault fault)
