@@ -38,6 +38,7 @@ static const struct row {
 	{ "late",          "--late",          "1 to 1000",    NUMBER, AT(late), false },
 	{ "rt",            "--rt",            "0 to 49",      NUMBER, AT(priority), true },
 	{ "retain-period", "--retain-period", "10ms to 1h",   TIME,   AT(retain.period_ns), true },
+	{ "record",        "--record",      "0 to 65536",   NUMBER, AT(record_kb), true },
 	{ "name",          "",                "1 to 63 bytes", NAME,  AT(name), false },
 #undef AT
 };

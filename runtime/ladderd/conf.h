@@ -11,7 +11,7 @@
 #include "ladderd/options.h"
 #include "online/server.h"
 
-#define CONF_SETTINGS 6
+#define CONF_SETTINGS 7
 
 struct conf {
 	const char *folder;      /* NULL: no --slots, so nothing can be stored */

@@ -959,7 +959,10 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	if (link->with.record_kb) {
 		link->record = calloc(1, RECORDER_BESIDE + (size_t)link->with.record_kb * 1024);
 		if (!link->record)
-			return false;
+			fprintf(stderr, "ladderd: no memory for --record %u\n",
+				(unsigned)link->with.record_kb);
+	}
+	if (link->record) {
 		recorder_init(&link->recorder, link->record, link->with.record_kb * 1024);
 		link->exchange.recorder = &link->recorder;
 	}

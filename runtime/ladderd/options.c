@@ -25,7 +25,7 @@
 "  --groups FILE    with --link: the groups, instead of /etc/group\n" \
 "  --late N         with --link: N late scans in a row are an event of the log;\n" \
 "                   1 to 1000, default 3\n" \
-"  --record KB      with --link: memory for the record of the last scans, 0 to 1048576;\n" \
+"  --record KB      with --link: memory for the record of the last scans, 0 to 65536;\n" \
 "                   default 1024, 0: none (docs/record.md)\n"
 #define LINK_ROWS \
 	{ "--link",          TEXT,   AT(link),      0, 0 }, \
@@ -34,7 +34,7 @@
 	{ "--slots",         TEXT,   AT(slots),     0, 0 }, \
 	{ "--groups",        TEXT,   AT(groups),    0, 0 }, \
 	{ "--late",          NUMBER, AT(late),      1, 1000 }, \
-	{ "--record",        NUMBER, AT(record_kb), 0, 1048576 },
+	{ "--record",        NUMBER, AT(record_kb), 0, 65536 },
 #endif
 
 const char *options_help(void)

@@ -1155,7 +1155,7 @@ def test_settings_change_at_once_or_with_a_restart():
     with slots('--watchdog', '900') as board:
         desk = board.client()
         before = desk.config()
-        assert list(before) == ['period', 'watchdog', 'late', 'rt', 'retain-period', 'name'], before
+        assert list(before) == ['period', 'watchdog', 'late', 'rt', 'retain-period', 'record', 'name'], before
         assert before['period'] == ('', '', 0, '100us to 1m') and before['watchdog'] == ('900', '900', 0, '1 to 1000')
         assert before['rt'] == ('0', '0', 2, '0 to 49') and before['name'][0] == ''
         assert desk.set('period', '20ms') == 0 and desk.status()['period'] == 20000000
@@ -1538,20 +1538,29 @@ def test_the_record_is_as_the_page_says():
         refused(1, lambda: desk.call(client.RECORD, struct.pack('<BQ', 2, 0)))
 
 
+def let_it_scan(desk):
+    """Waits until the program that runs now has run."""
+    scans = desk.status()['scans']
+    until(lambda: desk.status()['scans'] > scans)
+
+
 def test_a_record_is_replayed_bit_for_bit():
     with slots() as board:
         desk = board.client()
         desk.force({'Start': (BOOL, True)})
         until(lambda: desk.read('Slow.ET')[0] > 50000000)
         desk.write({'Count': (INT, 1000), 'Label': (STRING, b'night')})
+        let_it_scan(desk)
         desk.download(build(board, 'other.rung', OTHER))
         _request, _types = desk.publish(['Motor'])
         until(lambda: desk.read('Slow.ET')[0] > 150000000)
         desk.unforce()
         bad = desk.download(build(board, 'bad.rung', faulty(3)), back=10)[1]
         until(lambda: desk.status()['program'] != bad)
+        let_it_scan(desk)
         desk.set_mode(0)
         desk.set_mode(1)
+        let_it_scan(desk)
         desk.download(build(board, 'loop.rung', LOOP))
         desk.write({'Go': (BOOL, True)})
         until(lambda: desk.status()['mode'] == client.FAULT)
@@ -1562,7 +1571,8 @@ def test_a_record_is_replayed_bit_for_bit():
         assert (status, out, err) == (0, f'a.record: {scans} scans\n', ''), (out, err)
         shown = board.ladder('replay', 'a.record', '--changes')
         assert shown.returncode == 0 and not shown.stderr, shown.stderr
-        assert shown.stdout.count('# another program') == 4 and "Label='night'" in shown.stdout
+        assert shown.stdout.count('# another program') == 4, shown.stdout
+        assert "Label='night'" in shown.stdout, shown.stdout
         assert ' Start=1' in shown.stdout and ' Go=1' in shown.stdout, shown.stdout
         shown = board.ladder('replay', 'a.record', 'Go', 'Motor')
         assert shown.returncode == 1 and 'a.record' in shown.stderr and '"Go"' in shown.stderr
@@ -1589,6 +1599,17 @@ def test_without_a_record_nothing_is_recorded():
             refused(40, board.client().record)
             status, _out, err = board.command('record', '-o', 'a.record')
             assert status == 1 and 'LD840' in err and not os.path.exists(board.folder + '/a.record'), err
+
+
+def test_the_size_of_the_record_is_a_setting():
+    with slots() as board:
+        desk = board.client()
+        assert desk.config()['record'] == ('1024', '1024', 2, '0 to 65536'), desk.config()['record']
+        assert desk.record() and desk.set('record', '0') == 1
+        refused(31, lambda: desk.set('record', '65537'))
+        desk.set('record', '0', restart=True)
+        until(lambda: reached(board, lambda it: it.config()['record'][0] == '0'))
+        refused(40, board.client().record)
 
 
 def test_replay_says_what_is_wrong():

@@ -941,6 +941,7 @@ static void do_scan(struct playback *playback, const struct item *item, uint32_t
 	resource_scan(resource, playback->time_ns);
 	twin->scan++;
 	twin->now_ns = playback->time_ns - playback->file->begin_ns;
+	twin->period_ns = playback->step_ns > 0 ? playback->step_ns : 1;
 	playback->wall_ns = add(playback->time_ns, resource->wall_offset_ns);
 }
 

@@ -64,8 +64,8 @@ uint64_t record_file_last(const struct record_file *file);
 
 struct playback {
 	struct twin twin;         /* the state right after a scan. `scan` is its number, `now_ns`
-				   * the time since the first state. Its resource has the times
-				   * of the board */
+				   * the time since the first state, `period_ns` that since the
+				   * scan before. Its resource has the times of the board */
 	const struct record_file *file;
 	int64_t wall_ns;          /* date and time of the scan                */
 	uint32_t changes;         /* counts when the twin gets another program: then its places
