@@ -1276,7 +1276,7 @@ def test_three_abnormal_ends_begin_in_stop():
         assert status['mode'] == client.STOP and 'three times within a minute' in status['stop'], status
         assert 'QX0.0 1' not in board.read('err')
         desk = board.client()
-        assert [it['id'] for it in desk.events() if it['id'] == 24] == [23]
+        assert [it['id'] for it in desk.events() if it['id'] == 23] == [23]
         assert 'stop: ladderd has ended abnormally' in board.command('status')[1]
         desk.set_mode(1)
         assert desk.status()['mode'] == client.RUN and not desk.status()['stop']
