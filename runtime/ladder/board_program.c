@@ -22,24 +22,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static void add(struct bytes *bytes, const void *more, size_t len)
-{
-	if (bytes->len + len > bytes->room) {
-		const size_t room = 2 * (bytes->len + len);
-		uint8_t *at = bytes->failed ? NULL : realloc(bytes->at, room);
-
-		if (!at) {
-			bytes->failed = true;
-			return;
-		}
-		bytes->at = at;
-		bytes->room = room;
-	}
-	if (len)
-		memcpy(bytes->at + bytes->len, more, len);
-	bytes->len += len;
-}
-
 /* ---- what goes to the board ---- */
 
 /* The name that a file has in the sources: from the folder of the program on. */
@@ -65,11 +47,11 @@ static bool add_source(struct bytes *bytes, const char *path, const char *main_p
 	if (!text)
 		return false;
 	wire_put_u16(&out, (uint16_t)strlen(name));
-	add(bytes, head, 2);
-	add(bytes, name, strlen(name));
+	bytes_add(bytes, head, 2);
+	bytes_add(bytes, name, strlen(name));
 	wire_put_u32(&out, (uint32_t)len);
-	add(bytes, head + 2, 4);
-	add(bytes, text, len);
+	bytes_add(bytes, head + 2, 4);
+	bytes_add(bytes, text, len);
 	free(text);
 	return true;
 }
@@ -85,7 +67,7 @@ static bool add_sources(struct bytes *bytes, struct ladder *ladder, const char *
 	const uint8_t head[2] = { (uint8_t)count, (uint8_t)(count >> 8) };
 	bool good = true;
 
-	add(bytes, head, sizeof(head));
+	bytes_add(bytes, head, sizeof(head));
 	if (!project)
 		return true;
 	good = add_source(bytes, path, path);
@@ -125,8 +107,8 @@ static enum status gather(struct parcel *parcel, const char *path, const char *m
 	const void *image = ladder_image(parcel->machine.ladder, &image_len);
 	enum status status = STATUS_GOOD;
 
-	add(bytes, image, image_len);
-	add(bytes, map, parcel->map_len);
+	bytes_add(bytes, image, image_len);
+	bytes_add(bytes, map, parcel->map_len);
 	if (!add_sources(bytes, parcel->machine.ladder, path))
 		status = STATUS_WRONG;
 	if (bytes->failed)
@@ -211,33 +193,40 @@ struct verified {
 	uint32_t losses;
 };
 
-static enum status verify(struct remote *remote, const struct stored *stored,
-			  struct verified *verified)
+enum status remote_send(struct remote *remote, const struct stored *stored,
+			struct wire_reader *verified)
 {
-	const struct sink *sink = &remote->call->out;
 	struct wire_writer out;
-	struct wire_reader in;
 	enum desk_end end;
-	const uint8_t *program;
-	uint32_t count, told;
 	struct sent sent = { .go_on = NULL };
 	enum status status = send_all(remote, stored, false, &sent);
 
 	if (status != STATUS_GOOD)
 		return status;
 	out = desk_ask(&remote->desk, SERVICE_VERIFY);
-	end = desk_call(&remote->desk, &out, &in);
+	end = desk_call(&remote->desk, &out, verified);
 	if (end == DESK_REFUSED && remote->desk.refusal == REFUSAL_NOT_WHOLE && sent.copied) {
 		/* Another program runs by now, or two blocks had the same sums. */
 		status = send_all(remote, stored, true, &sent);
 		if (status != STATUS_GOOD)
 			return status;
 		out = desk_ask(&remote->desk, SERVICE_VERIFY);
-		end = desk_call(&remote->desk, &out, &in);
+		end = desk_call(&remote->desk, &out, verified);
 	}
+	return end == DESK_GOOD ? STATUS_GOOD : remote_fail(remote, end);
+}
 
-	if (end != DESK_GOOD)
-		return remote_fail(remote, end);
+static enum status verify(struct remote *remote, const struct stored *stored,
+			  struct verified *verified)
+{
+	const struct sink *sink = &remote->call->out;
+	struct wire_reader in;
+	const enum status status = remote_send(remote, stored, &in);
+	const uint8_t *program;
+	uint32_t count, told;
+
+	if (status != STATUS_GOOD)
+		return status;
 	verified->same_map = wire_u8(&in);
 	program = wire_bytes(&in, sizeof(verified->program));
 	if (program)
@@ -260,18 +249,18 @@ static enum status verify(struct remote *remote, const struct stored *stored,
 }
 
 /* Asks on the terminal; without one the answer is no. */
-static bool is_wanted(struct remote *remote)
+bool remote_is_wanted(struct remote *remote, const char *question)
 {
 	char answer[16];
 
 	if (call_flag(remote->call, "--yes"))
 		return true;
 	if (!isatty(STDIN_FILENO)) {
-		report_usage(remote->call, "values would be lost; say --yes to download");
+		report_usage(remote->call, "say --yes, or answer at a terminal");
 		return false;
 	}
 	report_flush(remote->call);
-	fputs("Download? [y/N] ", stderr);
+	fprintf(stderr, "%s [y/N] ", question);
 	return fgets(answer, sizeof(answer), stdin) && (*answer == 'y' || *answer == 'Y');
 }
 
@@ -311,14 +300,14 @@ static enum status wait_for_trial(struct remote *remote, uint32_t back)
 	return *remote->why ? STATUS_NO : STATUS_GOOD;
 }
 
-static enum status commit(struct remote *remote, bool restart, uint32_t back)
+enum status remote_commit(struct remote *remote, enum commit_how how, uint32_t back)
 {
 	struct wire_writer out = desk_ask(&remote->desk, SERVICE_COMMIT);
 	struct wire_reader in;
 	enum desk_end end;
 
 	wire_put_expect(&out, &remote->expect);
-	wire_put_u8(&out, restart);
+	wire_put_u8(&out, (uint8_t)how);
 	if (back)
 		wire_put_u32(&out, back);
 	remote->desk.told = take_change;
@@ -369,9 +358,10 @@ enum status remote_put(struct remote *remote, const struct parcel *parcel)
 		put->restart = true;
 		sink_text(&remote->call->out, "the lines of the new I/O map need a restart; the board begins again\n");
 	}
-	if (put->ask && !put->restart && verified.losses && !is_wanted(remote))
+	if (put->ask && !put->restart && verified.losses &&
+	    !remote_is_wanted(remote, "Values would be lost. Download?"))
 		return STATUS_NO;
-	return commit(remote, put->restart, back);
+	return remote_commit(remote, put->restart ? COMMIT_RESTART : COMMIT_LIVE, back);
 }
 
 enum status remote_download(struct remote *remote)
@@ -412,7 +402,7 @@ enum status remote_receive(struct remote *remote, struct stored *stored, struct 
 		len = wire_left(&in);
 		if (in.failed || !size || len > size - bytes->len || (!len && bytes->len < size))
 			return remote_fail(remote, DESK_NONSENSE);
-		add(bytes, wire_bytes(&in, len), len);
+		bytes_add(bytes, wire_bytes(&in, len), len);
 		if (bytes->failed)
 			return report_no_memory(remote->where);
 	} while (bytes->len < size);

@@ -142,6 +142,17 @@ enum status remote_status(struct remote *remote, struct board_status *status)
 	return STATUS_GOOD;
 }
 
+bool remote_peek(struct remote *remote, struct board_status *status)
+{
+	struct wire_writer out = desk_ask(&remote->desk, SERVICE_STATUS);
+	struct wire_reader in;
+
+	if (desk_call(&remote->desk, &out, &in) != DESK_GOOD)
+		return false;
+	status_take(&in, status);
+	return !in.failed;
+}
+
 enum status remote_expect(struct remote *remote, bool mode)
 {
 	struct board_status *status = calloc(1, sizeof(*status));
@@ -696,6 +707,11 @@ static enum status change_mode(struct remote *remote, enum mode_wish wish)
 	return finish_change(remote, &out);
 }
 
+enum status remote_run(struct remote *remote)
+{
+	return change_mode(remote, MODE_WARM);
+}
+
 static enum status act_run(struct remote *remote)
 {
 	return change_mode(remote, call_flag(remote->call, "--cold") ? MODE_COLD : MODE_WARM);
@@ -723,16 +739,27 @@ static const struct action {
 	{ "run", false, act_run },         { "stop", false, act_stop },
 	{ "reset", false, act_reset },     { "download", true, remote_download },
 	{ "upload", false, remote_upload }, { "events", false, act_events },
-	{ "config", true, remote_config },
+	{ "config", true, remote_config }, { "backup", false, remote_backup },
+	{ "restore", true, remote_restore },
 	{ "record", false, remote_record },
 	{ "compare", true, remote_compare },
 };
 
-static enum status begin(struct remote *remote, const struct stream_where *where)
+bool remote_again(struct remote *remote)
+{
+	struct stream stream;
+
+	desk_close(&remote->desk);
+	remote->desk.stream.fd = -1;
+	return stream_open(&remote->to, call_option(remote->call, "--ssh"), &stream) == 0 &&
+	       desk_open(&remote->desk, &stream, "ladder " LADDER_VERSION) == DESK_GOOD;
+}
+
+static enum status begin(struct remote *remote)
 {
 	const char *ssh = call_option(remote->call, "--ssh");
 	struct stream stream;
-	const int error = stream_open(where, ssh, &stream);
+	const int error = stream_open(&remote->to, ssh, &stream);
 	enum desk_end end;
 
 	if (error) {
@@ -748,14 +775,14 @@ enum status cmd_board(struct call *call)
 {
 	struct remote *remote = calloc(1, sizeof(*remote));
 	const struct action *action = NULL;
-	struct stream_where where;
-	const char *wrong = stream_parse(call->arg[0], &where);
+	const char *wrong;
 	enum status status;
 
 	if (!remote)
 		return report_no_memory(call->arg[0]);
 	remote->call = call;
 	remote->where = call->arg[0];
+	wrong = stream_parse(call->arg[0], &remote->to);
 	remote->desk.stream.fd = -1;
 	remote->json = call_flag(call, "--json");
 	for (size_t i = 0; i < sizeof(actions) / sizeof(actions[0]); i++)
@@ -768,7 +795,7 @@ enum status cmd_board(struct call *call)
 	else if (!action->names && call->arg_count > 2)
 		status = report_usage(call, "%s takes no names", action->word);
 	else
-		status = begin(remote, &where);
+		status = begin(remote);
 	if (status == STATUS_GOOD)
 		status = action->act(remote);
 	desk_close(&remote->desk);

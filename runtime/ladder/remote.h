@@ -6,6 +6,7 @@
 #ifndef LADDER_REMOTE_H
 #define LADDER_REMOTE_H
 
+#include "ladder/bytes.h"
 #include "ladder/report.h"
 
 #include "online/desk.h"
@@ -20,13 +21,6 @@ struct named {
 	uint8_t flags;
 	union iec_value value;
 	struct iec_text text;
-};
-
-/* Bytes that grow. */
-struct bytes {
-	uint8_t *at;
-	size_t len, room;
-	bool failed;
 };
 
 /* A program on its way to a board: image, map and sources, one after another. */
@@ -51,6 +45,7 @@ struct remote {
 	struct call *call;
 	const char *where;
 	struct desk desk;
+	struct stream_where to;
 	bool json;
 	struct expect expect;  /* what ran when the command began             */
 	char why[160];         /* the board went back to the program before    */
@@ -97,6 +92,19 @@ void parcel_close(struct parcel *parcel);
  * messages; without one if put->no_store is set. */
 enum status remote_put(struct remote *remote, const struct parcel *parcel);
 
+/** remote_again - connects once more, silently; false: nobody answers. */
+bool remote_again(struct remote *remote);
+/** remote_peek - status, silently. */
+bool remote_peek(struct remote *remote, struct board_status *status);
+/** remote_run - starts the program, with retained values. Fails: after a message. */
+enum status remote_run(struct remote *remote);
+/** remote_is_wanted - asks on the terminal, unless --yes; without a terminal the answer is no. */
+bool remote_is_wanted(struct remote *remote, const char *question);
+/** remote_send - sends a program and has it verified; @verified: the answer. */
+enum status remote_send(struct remote *remote, const struct stored *stored,
+			struct wire_reader *verified);
+/** remote_commit - @back: a FAULT within so many scans brings the program before back; 0: none. */
+enum status remote_commit(struct remote *remote, enum commit_how how, uint32_t back);
 /** remote_receive - what the board stores. @bytes: empty at first; @stored points into it.
  * Owns: the caller, free(bytes->at), also after a failure. Fails: after a message. */
 enum status remote_receive(struct remote *remote, struct stored *stored, struct bytes *bytes);
@@ -106,5 +114,7 @@ enum status remote_download(struct remote *remote);
 enum status remote_upload(struct remote *remote);
 enum status remote_compare(struct remote *remote);
 enum status remote_config(struct remote *remote);
+enum status remote_backup(struct remote *remote);
+enum status remote_restore(struct remote *remote);
 enum status remote_record(struct remote *remote);
 #endif

@@ -36,6 +36,7 @@ struct cycle {
 	bool begin_stopped;    /* does not run at the start                   */
 	const char *stopped;   /* why it began in STOP; NULL: not told         */
 	bool restart;          /* ends in order to begin with the newest slot */
+	bool restart_stopped;  /* … in STOP                                   */
 	uint64_t most_scans;   /* 0: no limit                                 */
 	struct standby *trial; /* the program that runs, if a FAULT brings the one before
 				* back; else NULL                             */

@@ -144,9 +144,24 @@ static void take_settings(void *context, void *other)
 	cycle_configure(((struct link *)context)->cycle, other);
 }
 
-static void host_restart(void *context)
+static void host_restart(void *context, bool stopped)
 {
-	((struct link *)context)->cycle->restart = true;
+	struct cycle *cycle = ((struct link *)context)->cycle;
+
+	cycle->restart_stopped = stopped;
+	cycle->restart = true;
+}
+
+/* The values can be seen at once; the next warm start begins with them. */
+static enum refusal host_restore(void *context, const struct order_retain *values)
+{
+	struct cycle *cycle = ((struct link *)context)->cycle;
+
+	if (!cycle->store)
+		return REFUSAL_NO_RETAIN;
+	retain_put(values->plan, &cycle->resource.image, values->copy);
+	store_put(cycle->store, values->copy, values->clock_ns);
+	return REFUSAL_NONE;
 }
 
 void link_serve(struct link *link)
@@ -939,6 +954,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		.exchange = &link->exchange, .program = program, .board = cycle->board,
 		.wait = wait_for_scan, .amend = amend_status, .context = link,
 		.store = &link->store, .log = &link->log, .conf = &link->conf,
+		.keeps = cycle->store,
 	};
 
 	link->views = calloc(3, size);
@@ -947,7 +963,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	link->host = (struct exchange_host){
 		.context = link, .resource = host_resource, .identity = host_identity,
 		.mode = host_mode, .status = host_status, .swap = host_swap,
-		.restart = host_restart,
+		.restart = host_restart, .restore = host_restore,
 	};
 	link->store = (struct server_store){
 		.begin = store_begin_download, .block = store_block, .verify = store_verify,

@@ -247,16 +247,20 @@ static int load_and_run(struct daemon *daemon)
 	return fflush(stdout) == 0 ? 0 : 1;
 }
 
-/* Once, from reading the options to the last safe output. @again: this is
- * not the first start; gets whether a desk wants another one. */
-static int run_once(int argc, char **argv, bool *again)
+enum again { ONCE, AGAIN, AGAIN_STOPPED };
+
+/* Once, from reading the options to the last safe output. @again: why it
+ * begins; gets whether a desk wants another start. */
+static int run_once(int argc, char **argv, enum again *again)
 {
 	struct daemon *daemon = calloc(1, sizeof(*daemon));
 	int status;
 
-	if (daemon)
-		daemon->again = *again;
-	*again = false;
+	if (daemon) {
+		daemon->again = *again != ONCE;
+		daemon->cycle.begin_stopped = *again == AGAIN_STOPPED;
+	}
+	*again = ONCE;
 	if (!daemon) {
 		fprintf(stderr, "ladderd: out of memory\n");
 		return 1;
@@ -276,7 +280,8 @@ static int run_once(int argc, char **argv, bool *again)
 		status = load_and_run(daemon);
 		load_free(&daemon->load);
 		slots_close(&daemon->slots);
-		*again = daemon->cycle.restart;
+		if (daemon->cycle.restart)
+			*again = daemon->cycle.restart_stopped ? AGAIN_STOPPED : AGAIN;
 	}
 	free(daemon);
 	return status;
@@ -284,11 +289,11 @@ static int run_once(int argc, char **argv, bool *again)
 
 int main(int argc, char **argv)
 {
-	bool again = false;
+	enum again again = ONCE;
 	int status;
 
 	do
 		status = run_once(argc, argv, &again);
-	while (again);
+	while (again != ONCE);
 	return status;
 }

@@ -60,6 +60,9 @@ void store_restore(struct store *store, struct resource *resource,
 /** store_take - copies the values after a whole scan at @now_ns for the thread. Never waits.
  * Scan-safe: yes. */
 void store_take(struct store *store, const struct image *image, int64_t now_ns);
+/** store_put - these values, as of the scan's clock @clock_ns, are those of the next
+ * store_restore(). @copy: of a plan of the same program. Scan-safe: between scans. */
+void store_put(struct store *store, const uint8_t *copy, int64_t clock_ns);
 /** store_hurry - makes the thread write changed values now. Scan-safe: between scans. */
 void store_hurry(struct store *store);
 /** store_close - writes changed values and ends the thread. Scan-safe: no. */

@@ -90,6 +90,21 @@ void store_restore(struct store *store, struct resource *resource,
 	store->restored = true;
 }
 
+void store_put(struct store *store, const uint8_t *values, int64_t clock_ns)
+{
+	struct copy *copy = &store->copy[store->back];
+
+	copy->clock_ns = clock_ns;
+	memcpy(copy->value, values, store->retain.copy_size);
+	store->last = store->back;
+	store->back = atomic_exchange(&store->middle, store->back | FRESH) &
+		      ~FRESH;
+	store->restored = false; /* the clock goes on from that of the values */
+	store->warm = true;
+	store->lost = store->old_copy = false;
+	store_hurry(store);
+}
+
 static void wake(struct store *store)
 {
 	uint64_t one = 1;

@@ -199,8 +199,15 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 		exchange_forget(exchange);
 		return host->swap(host->context, order->other, order->back);
 	case ORDER_RESTART:
-		host->restart(host->context);
+		host->restart(host->context, order->mode == MODE_STOP);
 		break;
+	case ORDER_RETAIN:
+		retain_copy(order->retain.plan, image, order->retain.copy);
+		order->retain.clock_ns = resource->vm.now_ns + resource->timers_ns;
+		break;
+	case ORDER_RESTORE:
+		return resource->state == STATE_STOP ?
+			       host->restore(host->context, &order->retain) : REFUSAL_NOT_NOW;
 	case ORDER_ACT:
 		order->act(host->context, order->other);
 		break;

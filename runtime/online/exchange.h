@@ -15,6 +15,8 @@
 
 #include "engine/scan/place.h"
 #include "engine/scan/recorder.h"
+#include "engine/scan/retain.h"
+#include "engine/scan/resource.h"
 #include "online/service.h"
 #include "online/status.h"
 
@@ -58,6 +60,8 @@ enum order_kind {
 	ORDER_STATUS,
 	ORDER_SWAP,    /* another program runs from now on                    */
 	ORDER_RESTART, /* the daemon ends and begins with the newest slot      */
+	ORDER_RETAIN,  /* copies the retained values                          */
+	ORDER_RESTORE, /* retained values for the next warm start, in STOP    */
 	ORDER_ACT,     /* the daemon does something between two scans         */
 	ORDER_RECORD,  /* copies a part of the record                         */
 	ORDER_COUNT
@@ -66,6 +70,13 @@ enum order_kind {
 struct order_item {
 	struct location at;
 	union iec_value value;
+};
+
+/* Retained values. */
+struct order_retain {
+	const struct retain *plan;     /* of the program that runs            */
+	uint8_t *copy;                 /* of retain_copy()                    */
+	int64_t clock_ns;
 };
 
 struct order {
@@ -85,6 +96,7 @@ struct order {
 	struct recorder_part *part;    /* ORDER_RECORD                          */
 	uint32_t back;                 /* ORDER_SWAP: a FAULT within so many scans brings
 					* the program before back; 0: never     */
+	struct order_retain retain;    /* ORDER_RETAIN, ORDER_RESTORE           */
 	/* The result. */
 	enum refusal refusal;
 	uint32_t wrong;                /* the item that was refused             */
@@ -102,7 +114,10 @@ struct exchange_host {
 	enum refusal (*mode)(void *context, enum mode_wish wish);
 	/** Exchanges the program. Watches end. */
 	enum refusal (*swap)(void *context, void *other, uint32_t back);
-	void (*restart)(void *context);
+	/** @stopped: begins in STOP. */
+	void (*restart)(void *context, bool stopped);
+	/** Takes values for the next warm start. Fails: REFUSAL_NO_RETAIN. */
+	enum refusal (*restore)(void *context, const struct order_retain *values);
 	/** Fills in what only the scan thread knows. */
 	void (*status)(void *context, struct board_status *status);
 };

@@ -55,6 +55,7 @@ struct server {
 	uint64_t opened;
 	int downloading;       /* the session whose download it is; -1: none  */
 	struct server_setup setup;
+	struct retained retained;
 	/* Given to the scan thread with an order, so not touched until it is done. */
 	struct order order;
 	struct board_status status;
@@ -724,6 +725,7 @@ static void server_renew(struct server *server, const struct program *program)
 	uint8_t *memory = calloc(1, image_memory_size(program));
 
 	end_publications(server);
+	server->retained.copy = NULL; /* its plan is of the old program */
 	server->setup.program = program;
 	server->mirror.program = program;
 	server->mirror.force_count = 0;
@@ -951,9 +953,10 @@ static enum refusal swap(struct asked *asked, const struct expect *expect, uint3
 	return REFUSAL_NONE;
 }
 
-static enum refusal restart(struct server *server, const struct expect *expect)
+static enum refusal restart(struct server *server, const struct expect *expect, bool stopped)
 {
 	server->order = (struct order){ .kind = ORDER_RESTART, .expects = true,
+					.mode = stopped ? MODE_STOP : MODE_WARM,
 					.expect = *expect };
 	return give(server);
 }
@@ -979,13 +982,13 @@ static enum refusal serve_commit(struct asked *asked)
 	enum refusal refusal = own_download(asked);
 	uint64_t scan;
 
-	if (!wire_done(in) || how > 1 || (how == 1 && back))
+	if (!wire_done(in) || how >= COMMIT_COUNT || (how != COMMIT_LIVE && back))
 		return REFUSAL_BAD_FRAME;
 	if (refusal != REFUSAL_NONE)
 		return refusal;
 	if (!server->verified)
 		return REFUSAL_NO_DOWNLOAD;
-	if (how == 0 && server->standby.map_refusal != REFUSAL_NONE) {
+	if (how == COMMIT_LIVE && server->standby.map_refusal != REFUSAL_NONE) {
 		snprintf(asked->detail, sizeof(asked->detail), "%s", server->standby.map_detail);
 		return server->standby.map_refusal;
 	}
@@ -1002,10 +1005,10 @@ static enum refusal serve_commit(struct asked *asked)
 	if (refusal == REFUSAL_NONE)
 		refusal = store->store(server->setup.context, asked->detail,
 				       sizeof(asked->detail));
-	if (refusal == REFUSAL_NONE && how == 0)
+	if (refusal == REFUSAL_NONE && how == COMMIT_LIVE)
 		refusal = swap(asked, &expect, back);
 	else if (refusal == REFUSAL_NONE)
-		refusal = restart(server, &expect);
+		refusal = restart(server, &expect, how == COMMIT_STOPPED);
 	if (refusal != REFUSAL_NONE && can_order(server))
 		store->close_lines(server->setup.context);
 	if (refusal != REFUSAL_NONE)
@@ -1105,7 +1108,7 @@ static enum refusal change_setting(struct asked *asked)
 	snprintf(told, sizeof(told), "%.15s=%.63s", key, value);
 	tell_log(asked, EVENT_CONFIG, told, changed.next);
 	if (how == 1)
-		refusal = restart(server, &expect);
+		refusal = restart(server, &expect, false);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
 	begin_answer(asked, 0);
@@ -1122,6 +1125,176 @@ static enum refusal serve_config(struct asked *asked)
 	if (what == 0 && wire_done(&asked->frame.body))
 		return put_settings(asked);
 	return what == 1 ? change_setting(asked) : REFUSAL_BAD_FRAME;
+}
+
+/* ---- retained values ---- */
+
+/* For the session, and the values as they are between two scans. Memory of an order that is late
+ * is not touched. */
+static enum refusal begin_retained(struct asked *asked)
+{
+	struct server *server = asked->server;
+	struct retained *retained = &server->retained;
+	const int session = (int)(asked->session - server->session);
+	enum refusal refusal;
+
+	if (!can_order(server) || (retained->owner >= 0 && retained->owner != session))
+		return REFUSAL_BUSY;
+	if (!server->setup.program->string_bytes)
+		return REFUSAL_NO_NAMES;
+	if (!retained_plan(retained, server->setup.program))
+		return REFUSAL_MEMORY;
+	server->order = (struct order){
+		.kind = ORDER_RETAIN, .retain = { &retained->plan, retained->copy, 0 },
+	};
+	refusal = give(server);
+	retained->clock_ns = server->order.retain.clock_ns;
+	if (refusal == REFUSAL_NONE)
+		retained->owner = session;
+	return refusal;
+}
+
+static enum refusal read_retained(struct asked *asked)
+{
+	struct server *server = asked->server;
+	struct retained *retained = &server->retained;
+	const uint32_t offset = wire_u32(&asked->frame.body);
+	const uint8_t *payload;
+	uint32_t size, len;
+	enum refusal refusal = REFUSAL_NONE;
+
+	if (!wire_done(&asked->frame.body))
+		return REFUSAL_BAD_FRAME;
+	if (!offset)
+		refusal = begin_retained(asked);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	if (!offset)
+		retained_fill(retained);
+	if (retained->owner != asked->session - server->session || !retained->copy)
+		return REFUSAL_CONFLICT;
+	payload = retained_payload(retained, &size);
+	if (offset > size)
+		return REFUSAL_BAD_FRAME;
+	len = size - offset < STORED_BLOCK ? size - offset : STORED_BLOCK;
+	begin_answer(asked, 0);
+	wire_put_u8(&asked->out, server->setup.keeps);
+	wire_put_u32(&asked->out, size);
+	wire_put_bytes(&asked->out, payload + offset, len);
+	if (offset + len == size)
+		retained->owner = -1;
+	return REFUSAL_NONE;
+}
+
+static enum refusal take_retained(struct asked *asked)
+{
+	struct server *server = asked->server;
+	struct wire_reader *in = &asked->frame.body;
+	struct retained *retained = &server->retained;
+	const int session = (int)(asked->session - server->session);
+	const uint32_t size = wire_u32(in), offset = wire_u32(in);
+	const size_t len = wire_left(in);
+	const uint8_t *bytes = wire_bytes(in, len);
+
+	if (in->failed || !len)
+		return REFUSAL_BAD_FRAME;
+	if (retained->owner >= 0 && retained->owner != session)
+		return REFUSAL_BUSY;
+	if (size > LIMIT_RETAIN)
+		return REFUSAL_TOO_MANY;
+	if (!retained_take_part(retained, size, offset, bytes, len))
+		return retained->bytes ? REFUSAL_NOT_WHOLE : REFUSAL_MEMORY;
+	retained->owner = session;
+	begin_answer(asked, 0);
+	wire_put_u32(&asked->out, retained->received);
+	return REFUSAL_NONE;
+}
+
+struct misfits {
+	struct wire_writer *out;
+	uint32_t count, told;
+};
+
+/* With the reasons of `verify`. */
+static void put_misfit(void *context, const struct retain_record *record, enum retain_fate fate)
+{
+	static const uint8_t reason[] = {
+		[RETAIN_KEPT] = CARRY_NEW, [RETAIN_NO_NAME] = CARRY_GONE,
+		[RETAIN_NO_TYPE] = CARRY_TYPE,
+	};
+	struct misfits *misfits = context;
+
+	misfits->count++;
+	if ((size_t)(misfits->out->end - misfits->out->at) < SYMBOL_BYTES)
+		return; /* counted, not named */
+	misfits->told++;
+	wire_put_u8(misfits->out, reason[fate]);
+	wire_put_text(misfits->out, record->name, record->name_len);
+}
+
+/* Checks all values; puts those that fit. */
+static enum refusal restore_retained(struct asked *asked)
+{
+	struct server *server = asked->server;
+	struct wire_reader *in = &asked->frame.body;
+	struct retained *retained = &server->retained;
+	const struct expect expect = wire_expect(in);
+	const uint8_t how = wire_u8(in);
+	struct misfits misfits = { .out = &asked->out };
+	enum refusal refusal;
+	char number[16];
+	uint8_t *head;
+	int kept;
+
+	if (!wire_done(in) || how > 1)
+		return REFUSAL_BAD_FRAME;
+	refusal = server->setup.keeps ? begin_retained(asked) : REFUSAL_NO_RETAIN;
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	begin_answer(asked, 0);
+	head = asked->out.at;
+	for (int i = 0; i < 3; i++)
+		wire_put_u32(&asked->out, 0);
+	kept = retained_merge(retained, put_misfit, &misfits);
+	if (kept < 0)
+		return REFUSAL_NOT_WHOLE;
+	{
+		struct wire_writer fill = wire_write(head, 12);
+
+		wire_put_u32(&fill, (uint32_t)kept);
+		wire_put_u32(&fill, misfits.count);
+		wire_put_u32(&fill, misfits.told);
+	}
+	if (how == 0)
+		return REFUSAL_NONE;
+	server->order = (struct order){
+		.kind = ORDER_RESTORE, .expects = true, .expect = expect,
+		.retain = { &retained->plan, retained->copy, retained->clock_ns },
+	};
+	refusal = give(server);
+	if (refusal == REFUSAL_NOT_NOW)
+		snprintf(asked->detail, sizeof(asked->detail), "%s",
+			 mode_word((uint8_t)server->order.state));
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	snprintf(number, sizeof(number), "%d", kept);
+	tell_log(asked, EVENT_RETAIN, number, "");
+	retained->owner = -1;
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_retain(struct asked *asked)
+{
+	switch (wire_u8(&asked->frame.body)) {
+	case 0:
+		return read_retained(asked);
+	case 1:
+		return take_retained(asked);
+	case 2:
+		return restore_retained(asked);
+	default:
+		return REFUSAL_BAD_FRAME;
+	}
 }
 
 /* As many as fit, from a number on. */
@@ -1250,6 +1423,8 @@ static enum refusal serve(struct asked *asked)
 		return serve_events(asked);
 	case SERVICE_CONFIG:
 		return serve_config(asked);
+	case SERVICE_RETAIN:
+		return serve_retain(asked);
 	case SERVICE_RECORD:
 		return serve_record(asked);
 	}
@@ -1260,7 +1435,8 @@ static bool is_change(const struct service_row *row)
 {
 	return row->number == SERVICE_WRITE || row->number == SERVICE_FORCE ||
 	       row->number == SERVICE_UNFORCE || row->number == SERVICE_MODE ||
-	       row->number == SERVICE_COMMIT || row->number == SERVICE_CONFIG;
+	       row->number == SERVICE_COMMIT || row->number == SERVICE_CONFIG ||
+	       row->number == SERVICE_RETAIN;
 }
 
 /* Gives the answer of the same request again; it is not done again. */
@@ -1487,6 +1663,8 @@ int server_open(struct server *server, enum role role, const char *user)
 void server_close(struct server *server, int session)
 {
 	server->session[session].used = false;
+	if (server->retained.owner == session)
+		server->retained.owner = -1;
 	if (server->downloading == session)
 		server->downloading = -1; /* what has come stays; it may go on */
 	if (publish_due(&server->session[session].publications) != INT64_MAX)
@@ -1549,6 +1727,7 @@ struct server *server_new(const struct server_setup *setup)
 		return NULL;
 	server->setup = *setup;
 	server->downloading = -1;
+	retained_init(&server->retained);
 	server->mirror.program = setup->program;
 	server->look.memory = calloc(1, size);
 	server->mirror.memory = server->look.memory;
@@ -1565,6 +1744,7 @@ void server_free(struct server *server)
 {
 	if (!server)
 		return;
+	retained_free(&server->retained);
 	free(server->look.memory);
 	free(server->ranges[0]);
 	free(server->ranges[1]);

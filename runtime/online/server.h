@@ -14,6 +14,7 @@
 #include "online/event.h"
 #include "online/exchange.h"
 #include "online/publish.h"
+#include "online/retained.h"
 #include "online/stored.h"
 
 #define SERVER_SESSIONS 8
@@ -91,6 +92,7 @@ struct server_setup {
 	const char *board;     /* name of the board; borrowed                 */
 	const struct server_log *log;
 	const struct server_conf *conf;
+	bool keeps;            /* retained values are stored                  */
 	const struct server_store *store; /* NULL: downloads are refused       */
 	/** Waits until the order of the exchange is done, at most some seconds.
 	 * Returns whether it is. */

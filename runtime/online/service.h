@@ -47,6 +47,9 @@ const char *mode_word(uint8_t mode);
  * with initial ones; RESET starts warm from FAULT. */
 enum mode_wish { MODE_STOP, MODE_WARM, MODE_COLD, MODE_RESET, MODE_COUNT };
 
+/* What a download ends with. STOPPED: a restart in STOP. */
+enum commit_how { COMMIT_LIVE, COMMIT_RESTART, COMMIT_STOPPED, COMMIT_COUNT };
+
 /* What runs on a board when nothing may have changed since a desk looked. */
 #define EXPECT_ANY 255u            /* any mode                                */
 struct expect {

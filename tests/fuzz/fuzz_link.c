@@ -17,6 +17,7 @@
 static const char source[] =
 	"RUNGBOARD 1\nVAR\n  A : DINT;\n  B : BOOL;\n  T : TON;\n  In AT %IX0.0 : BOOL;\n"
 	"  W AT %MW4 : WORD;\n  N : STRING[5];\n  L : ARRAY[1..3] OF REAL;\nEND_VAR\n"
+	"VAR RETAIN\n  R : INT;\n  C : CTU;\nEND_VAR\n"
 	"VAR CONSTANT\n  K : INT := 7;\nEND_VAR\n"
 	"PROGRAM Main LD\n"
 	"RUNG\n  | NO In | TON T PT:=T#1s | COIL B |\nEND_PROGRAM\n";
@@ -56,9 +57,17 @@ static enum refusal its_mode(void *context, enum mode_wish wish)
 	return REFUSAL_NONE;
 }
 
-static void its_restart(void *context)
+static void its_restart(void *context, bool stopped)
 {
-	(void)context;
+	(void)context, (void)stopped;
+}
+
+static enum refusal its_restore(void *context, const struct order_retain *values)
+{
+	struct rig *rig = context;
+
+	retain_put(values->plan, &rig->resource.image, values->copy);
+	return REFUSAL_NONE;
 }
 
 static void its_status(void *context, struct board_status *status)
@@ -164,7 +173,7 @@ static void rig_open(struct rig *rig)
 		.open_lines = store_none, .close_lines = abort_any, .store = store_none, .abort = abort_any, .running = runs_any,
 	};
 	static const struct server_conf conf = { get_setting, change_setting };
-	struct server_setup setup = { .conf = &conf, .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,
+	struct server_setup setup = { .keeps = true, .conf = &conf, .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,
 				      .context = rig, .exchange = &rig->exchange };
 	size_t size;
 
@@ -182,7 +191,8 @@ static void rig_open(struct rig *rig)
 	resource_start(&rig->resource);
 	rig->host = (struct exchange_host){ .context = rig, .resource = its_resource,
 					    .identity = its_identity, .mode = its_mode,
-					    .status = its_status, .restart = its_restart };
+					    .status = its_status, .restart = its_restart,
+					    .restore = its_restore };
 	exchange_init(&rig->exchange, &rig->host, rig->views, size);
 	rig->server = server_new(&setup);
 	fuzz_expect(rig->server != NULL, "there is memory");
@@ -394,6 +404,10 @@ static void put_fields(struct wire_writer *out, enum service service)
 		wire_put_string(out, "period");
 		wire_put_string(out, "5ms");
 		break;
+	case SERVICE_RETAIN:
+		wire_put_u8(out, 0);
+		wire_put_u32(out, 0);
+		break;
 	case SERVICE_STATUS:
 	case SERVICE_FORCES:
 	case SERVICE_VERIFY:
@@ -409,7 +423,7 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 		SERVICE_READ, SERVICE_PUBLISH, SERVICE_WRITE, SERVICE_FORCE, SERVICE_FORCES,
 		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_DOWNLOAD, SERVICE_BLOCK,
 		SERVICE_SUMS, SERVICE_PIECES, SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT,
-		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_CONFIG, SERVICE_MODE };
+		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_CONFIG, SERVICE_RETAIN, SERVICE_MODE };
 	uint8_t *seed = malloc(4096);
 	size_t at = 1;
 

@@ -10,7 +10,7 @@ import time
 import tty
 
 (HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE,
- DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG) = range(1, 20)
+ DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG, RETAIN) = range(1, 21)
 RECORD, SUMS, PIECES = 22, 23, 24
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
@@ -382,6 +382,42 @@ class Client:
             why = it.number('B')
             losses[it.text()] = why
         return same, identity, count, losses
+
+    def retained(self):
+        """(whether the board keeps them, clock, {name: (type, bytes)})"""
+        data = b''
+        while True:
+            it = self.call(RETAIN, struct.pack('<BI', 0, len(data)))
+            keeps, size = it.number('B'), it.number('I')
+            data += it.rest()
+            if len(data) == size:
+                break
+        it = Fields(data)
+        clock, found = it.number('q'), {}
+        for _ in range(it.number('I')):
+            name, kind, _zero, value = it.number('H'), it.number('B'), it.take(1), it.number('I')
+            name = it.take(name).decode()
+            found[name] = (it.take(kind).decode(), it.take(value))
+        assert not it.rest()
+        return keeps, clock, found
+
+    def send_retained(self, values, clock=0, most=60000):
+        """values: {name: (type, bytes)}"""
+        data = struct.pack('<qI', clock, len(values))
+        for name, (kind, it) in values.items():
+            data += struct.pack('<HBBI', len(name.encode()), len(kind), 0, len(it)) + name.encode() + kind.encode() + it
+        for at in range(0, len(data), most):
+            assert self.call(RETAIN, struct.pack('<BII', 1, len(data), at) + data[at:at + most]).number('I') == \
+                min(len(data), at + most)
+
+    def restore(self, check=False, **expect):
+        """(how many values, how many not, {name: why})"""
+        it = self.call(RETAIN, b'\2' + self.expect(**expect) + bytes([not check]))
+        count, others, found = it.number('I'), it.number('I'), {}
+        for _ in range(it.number('I')):
+            why = it.number('B')
+            found[it.text()] = why
+        return count, others, found
 
     def commit(self, restart=False, back=None, **expect):
         more = b'' if back is None else struct.pack('<I', back)

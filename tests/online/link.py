@@ -1311,6 +1311,206 @@ def crc32c(data):
     return crc ^ 0xffffffff
 
 
+# ---- backup and restore ----
+
+KEPT = SEAL.replace('VAR CONSTANT', """VAR RETAIN
+  Total : LINT := 5;
+  Text : STRING[20] := 'first';
+  Level : LREAL;
+  Pause : TIME;
+  Since : TON;
+  Parcels : FIFO;
+  Rows : ARRAY[1..3] OF INT;
+END_VAR
+VAR CONSTANT""").replace('RUNG\n  | NO Motor | TON', 'RUNG\n  | NO Brake | FIFO Parcels IN:=7 SIZE:=4 |\n'
+                         'RUNG\n  | NO SYS_ALWAYS_ON | TON Since PT:=T#10h |\nRUNG\n  | NO Motor | TON')
+
+
+def keeper(program=KEPT, *options):
+    return Board(program, '--slots', '.', '--retain', 'retain', '--retain-period', '10ms', *options)
+
+
+def give_values(desk):
+    desk.write({'Total': (9, -(1 << 60)), 'Text': (STRING, b"it's $ \xc3\xa4"), 'Level': (15, 0.1),
+                'Pause': (TIME, 1234567890123), 'Rows[2]': (INT, -3)})
+
+
+def test_retained_values_go_out_and_in():
+    with keeper() as board:
+        desk = board.client()
+        give_values(desk)
+        until(lambda: desk.read('Since.ET')[0] > 200000000)
+        keeps, clock, found = desk.retained()
+        assert keeps == 1 and clock > 0
+        assert found['Total'] == ('LINT', struct.pack('<q', -(1 << 60))) and found['Rows[2]'] == ('INT', b'\xfd\xff')
+        assert found['Since.ET'][0] == 'TON.TIME' and 'Parcels.value' in found and 'Count' not in found
+        desk.write({'Total': (9, 1), 'Text': (STRING, b'')})
+        refused(22, desk.restore)
+        desk.send_retained(found, clock, 50)
+        assert desk.restore(check=True) == (len(found), 0, {}) and desk.read('Total') == [1]
+        refused(15, desk.restore, 'RUN')
+        desk.set_mode(0)
+        refused(6, lambda: desk.restore(mode=client.RUN))
+        assert desk.restore(mode=client.STOP) == (len(found), 0, {})
+        assert desk.read('Total', 'Text') == [-(1 << 60), b"it's $ \xc3\xa4"]
+        desk.set_mode(1)
+        until(lambda: desk.read('Since.ET')[0] > 0)
+        # A timer goes on from the time of the values.
+        assert desk.read('Since.ET')[0] >= struct.unpack('<q', found['Since.ET'][1])[0]
+        assert desk.read('Total', 'Level', 'Rows[2]') == [-(1 << 60), 0.1, -3]
+        assert [it['args'][0] for it in desk.events() if it['id'] == 25] == [str(len(found))]
+        board.stop()
+        board.start()
+        assert board.client().read('Total', 'Text') == [-(1 << 60), b"it's $ \xc3\xa4"]
+
+
+def test_values_that_do_not_fit_are_named_and_the_others_restored_together():
+    with keeper() as board:
+        desk = board.client()
+        desk.send_retained({'Total': ('DINT', b'\1\0\0\0'), 'Gone': ('INT', b'\1\0'), 'Level': ('LREAL', bytes(8)),
+                            'Text': ('STRING', struct.pack('<HH', 30, 25) + b'x' * 25)})
+        count, others, found = desk.restore(check=True)
+        assert count == 1 and found['Total'] == 2 and found['Gone'] == 0 and found['Text'] == 2
+        assert found['Pause'] == 1 and 'Level' not in found and others == len(found)
+        before = desk.read('Total')
+        desk.set_mode(0)
+        assert desk.restore()[0] == 1 and desk.read('Total') == before
+
+
+def test_retained_values_one_session_at_a_time_and_bad_ones():
+    with keeper() as board:
+        desk, other = board.client(), board.client()
+        desk.send_retained({'Total': ('LINT', bytes(8))})
+        refused(13, other.retained)
+        refused(13, lambda: other.send_retained({'Total': ('LINT', bytes(8))}))
+        desk.close()
+        until(lambda: other.status()['sessions'] == 1)
+        assert other.retained()[0] == 1
+        for bad in (b'', b'\3', b'\0', b'\1\1\0\0\0\0\0\0\0', b'\2'):
+            refused(1, lambda: other.call(client.RETAIN, bad))  # pylint: disable=cell-var-from-loop
+        refused(11, lambda: other.call(client.RETAIN, struct.pack('<BII', 1, 1 << 30, 0) + b'x'))
+        refused(22, lambda: other.call(client.RETAIN, struct.pack('<BII', 1, 9, 3) + b'x'))
+        # A payload whose records do not end where it ends.
+        other.call(client.RETAIN, struct.pack('<BII', 1, 30, 0) + struct.pack('<qI', 0, 1) + bytes(18))
+        refused(22, other.restore)
+    with Board(KEPT) as board:
+        desk = board.client()
+        assert desk.retained()[0] == 0
+        desk.send_retained({'Total': ('LINT', bytes(8))})
+        refused(32, desk.restore)
+
+
+def state_of(board):
+    desk = board.client()
+    return desk.status()['program'], desk.upload(), desk.retained()[2], {
+        key: it[:3] for key, it in desk.config().items()}
+
+
+def test_a_backup_on_an_empty_board_runs_the_same():
+    with keeper('RUNGBOARD 1\nPROGRAM Main LD\nEND_PROGRAM\n', '--watchdog', '900') as empty:
+        empty.stop()
+        empty.arguments = []
+        empty.start()
+        with keeper() as board:
+            desk = board.client()
+            desk.download(build(board, 'other.rung', KEPT.replace('T#2s', 'T#3s')))
+            desk.set('period', '20ms')
+            desk.set('name', 'north gate')
+            desk.set('retain-period', '20ms')
+            give_values(desk)
+            desk.force({'Brake': (BOOL, True)})
+            until(lambda: desk.read('Since.ET')[0])
+            scans = desk.status()['scans']
+            until(lambda: desk.status()['scans'] > scans + 2)
+            desk.set_mode(0)
+            desk.set_mode(1)
+            before = state_of(board)
+            assert board.command('backup', '-o', 'all.tar') == (0, '', '')
+            shutil.copy(board.folder + '/all.tar', empty.folder)
+        empty.client().set('late', '9')
+        os.chmod(empty.folder + '/all.tar', 0o644)
+        status, out, err = empty.command('restore', 'all.tar')
+        assert status == 1 and '--yes' in err, (status, out, err)
+        assert empty.client().status()['mode'] == client.STOP
+        status, out, err = empty.command('restore', 'all.tar', '--yes')
+        assert (status, err) == (0, ''), (status, out, err)
+        after = state_of(empty)
+        assert after[:2] == before[:2] and empty.client().status()['mode'] == client.RUN
+        kept = {name: it for name, it in before[2].items() if not name.startswith(('Since', 'Parcels'))}
+        assert kept and all(after[2][name] == it for name, it in kept.items())
+        elapsed = [struct.unpack('<q', it[2]['Since.ET'][1])[0] for it in (before, after)]
+        assert 0 < elapsed[0] <= elapsed[1] < elapsed[0] + 60000000000, elapsed
+        assert after[3]['retain-period'] == ('20ms', '20ms', 3) and after[3]['late'][2] == 0
+        assert empty.client().board == 'north gate' and after[3]['period'] == ('20ms', '20ms', 1)
+        # Tar opens it, and the text can be read.
+        names = subprocess.run(['tar', '-tf', 'all.tar'], cwd=empty.folder, check=True, capture_output=True, text=True)
+        assert names.stdout.split() == ['board.txt', 'retain.txt', 'board.io', 'program.rungc', 'sources/other.rung']
+        text = subprocess.run(['tar', '-xOf', 'all.tar', 'retain.txt', 'board.txt'], cwd=empty.folder, check=True,
+                              capture_output=True, text=True).stdout
+        assert "Text STRING = 'it$'s $$ \u00e4'\n" in text and 'Rows[2] INT = -3\n' in text, text
+        assert 'set name north gate\n' in text and 'mode RUN\n' in text, text
+        assert any(line.startswith('Parcels.value FIFO.DINT[64] = ') for line in text.splitlines()), text
+
+
+def test_a_backup_of_values_is_text_and_can_be_edited():
+    with keeper() as board:
+        desk = board.client()
+        give_values(desk)
+        desk.write({'Level': (15, float('nan'))})
+        assert board.command('backup', '--values', '-o', 'v.txt') == (0, '', '')
+        text = board.read('v.txt')
+        assert text.startswith('RUNGBOARD VALUES 1\nclock ') and 'Total LINT = -1152921504606846976\n' in text, text
+        before = desk.retained()[2]
+        status, out, err = board.command('restore', 'v.txt')
+        assert status == 1 and 'LD815' in err, (out, err)
+        desk.set_mode(0)
+        assert board.command('restore', 'v.txt') == (0, '', '')
+        board.write('v.txt', text.replace('Total LINT = -1152921504606846976', 'Total LINT = 12'))
+        assert board.command('restore', 'v.txt') == (0, '', '')
+        after = desk.retained()[2]
+        assert after['Total'] == ('LINT', struct.pack('<q', 12)) and after['Level'] == before['Level']
+        assert {k: v for k, v in after.items() if not k.startswith(('Total', 'Since'))} == \
+            {k: v for k, v in before.items() if not k.startswith(('Total', 'Since'))}
+        # What does not fit is named; without a yes nothing is done.
+        board.write('v.txt', text.replace('Total LINT', 'Total DINT').replace('-1152921504606846976', '7').replace(
+            'Rows[2] INT = -3', 'Rows[2] INT = 8') + 'Other BOOL = 1\n')
+        status, out, err = board.command('restore', 'v.txt')
+        assert status == 1 and 'Total has another type' in out and 'Other is no retained variable' in out, (out, err)
+        assert desk.read('Rows[2]', 'Total') == [-3, 12]
+        status, out, err = board.command('restore', 'v.txt', '--yes', '--json')
+        assert status == 0 and {it['name'] for it in json.loads(out)['not_restored']} == {'Total', 'Other'}, (out, err)
+        assert desk.read('Rows[2]', 'Total') == [8, 12]
+        for bad in ('', 'RUNGBOARD VALUES 1\n', text.replace('clock ', 'clock x'), text + 'Total\n', text + 'A INT = \n',
+                    text + 'A INT = 1, 2\n', text + 'A F.INT[2] = 1\n', text + 'A INT = 70000\n', text + 'A NONE = 1\n'):
+            board.write('bad.txt', bad)
+            status, out, err = board.command('restore', 'bad.txt')
+            assert status == (0 if bad == 'RUNGBOARD VALUES 1\n' else 1) and ('LD857' in err) == (status == 1), (bad, err)
+
+
+def test_a_backup_that_is_cut_or_damaged_changes_nothing():
+    draw = random.Random(6)
+    with keeper() as board:
+        assert board.command('backup', '-o', 'all.tar')[0] == 0
+        with open(board.folder + '/all.tar', 'rb') as file:
+            whole = file.read()
+        before = board.client().status()
+        for _ in range(12):
+            with open(board.folder + '/cut.tar', 'wb') as file:
+                file.write(whole[:draw.randrange(len(whole) - 1024)])
+            status, _out, err = board.command('restore', 'cut.tar', '--yes')
+            assert status == 1 and 'LD857' in err, err
+        for start in range(0, len(whole) - 1024, 512):
+            if whole[start + 257:start + 262] != b'ustar':
+                continue
+            at = start + draw.choice([0, 124, 148])
+            with open(board.folder + '/bad.tar', 'wb') as file:
+                file.write(whole[:at] + b'X' + whole[at + 1:])
+            status, _out, err = board.command('restore', 'bad.tar', '--yes')
+            assert status == 1 and 'LD857' in err, err
+        now = board.client().status()
+        assert now['program'] == before['program'] and now['up'] >= before['up']
+
+
 # ---- ssh ----
 
 class Sshd:
@@ -1467,6 +1667,7 @@ def try_all(desk):
         'sums': number(lambda: desk.sums(64)), 'pieces': number(lambda: desk.pieces(2, b'')),
         'verify': number(desk.verify), 'commit': number(lambda: desk.commit(program=program)),
         'abort': number(lambda: desk.call(client.ABORT)), 'upload': number(desk.upload),
+        'retain': number(desk.retained), 'restore': number(lambda: desk.restore(program=program)),
         'config': number(desk.config), 'set': number(lambda: desk.set('period', '1s', program=program)),
     }
 
@@ -1474,14 +1675,14 @@ def try_all(desk):
 def test_each_role_may_do_what_the_table_says():
     reading = 'status symbols read publish unpublish forces events record'.split()
     changing = 'write force unforce stop run cold set'.split()
-    moving = 'download block sums pieces verify commit abort upload config'.split()
+    moving = 'download block sums pieces verify commit abort upload config retain restore'.split()
     nothing = dict.fromkeys(changing + moving, 5)
     expected = {
         None: {**dict.fromkeys(reading, 5), **nothing, 'reset': 5},
         'view': {**dict.fromkeys(reading, 0), **nothing, 'reset': 5},
         'oper': {**dict.fromkeys(reading, 0), **nothing, 'write': 17, 'reset': 6},
         'eng': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 6), **dict.fromkeys(moving, 0), 'reset': 6,
-                'pieces': 1, 'verify': 23, 'commit': 21},
+                'pieces': 1, 'verify': 23, 'commit': 21, 'restore': 32},
     }
 
     def ask(desk):

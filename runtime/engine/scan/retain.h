@@ -58,6 +58,7 @@ struct retain {
 	uint32_t *hashed;      /* 1 + index of a variable, by its name; or 0  */
 	uint32_t hash_mask;
 	bool *taken;           /* has a value from retain_take()              */
+	uint32_t met;          /* 1 + the variable that its name named; 0: none */
 	uint8_t *slot;         /* struct retain_slot, payload, CRC            */
 	uint32_t payload_size;
 	uint32_t copy_size;    /* bytes of a copy                             */
@@ -123,6 +124,9 @@ struct retain_found {
  * Owns: nothing. Scan-safe: no. Fails: never; found->best may be -1.
  */
 void retain_find(const uint8_t *file, size_t len, struct retain_found *found);
+
+/** retain_is_well_formed - whether a payload can be read by retain_next() as it is. Scan-safe: no. */
+bool retain_is_well_formed(const uint8_t *payload, uint32_t len);
 
 /* One value of a payload. */
 struct retain_record {

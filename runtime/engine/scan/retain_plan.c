@@ -277,6 +277,7 @@ enum retain_fate retain_take(struct retain *retain,
 	uint32_t at = name_hash(record->name, record->name_len), found;
 	enum retain_fate fate = RETAIN_NO_NAME;
 
+	retain->met = 0;
 	for (; (found = retain->hashed[at & retain->hash_mask]) != 0; at++) {
 		const struct retain_var *var = &retain->var[found - 1];
 		struct retain_record own = retain_record_of(retain,
@@ -286,6 +287,7 @@ enum retain_fate retain_take(struct retain *retain,
 			     record->name_len))
 			continue;
 		fate = RETAIN_NO_TYPE;
+		retain->met = found;
 		if (is_same(own.type, own.type_len, record->type,
 			    record->type_len) &&
 		    take_value(var, record, copy)) {

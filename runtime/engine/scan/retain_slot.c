@@ -73,7 +73,7 @@ bool retain_next(const uint8_t *payload, uint32_t len, uint32_t *at,
 }
 
 /* The payload has as many records as its head says, and nothing behind them. */
-static bool is_well_formed(const uint8_t *payload, uint32_t len)
+bool retain_is_well_formed(const uint8_t *payload, uint32_t len)
 {
 	struct retain_record record;
 	uint32_t at = RETAIN_HEAD, count, seen = 0;
@@ -125,7 +125,7 @@ static enum retain_state judge(const uint8_t *file, size_t len, size_t at,
 		return RETAIN_BAD;
 	memcpy(&crc, file + at + SLOT_HEAD + head->len, sizeof(crc));
 	if (crc != digest_crc32c(0, file + at, SLOT_HEAD + head->len) ||
-	    !is_well_formed(file + at + SLOT_HEAD, head->len))
+	    !retain_is_well_formed(file + at + SLOT_HEAD, head->len))
 		return RETAIN_BAD;
 	return RETAIN_GOOD;
 }
