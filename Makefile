@@ -114,7 +114,11 @@ GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PK
 GPIO_LIB := $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
 HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/iomap_program.c hal/sim.c
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
-LADDERD_NOT := $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download slots journal conf ends,source_image store_none link_none)
+# The program password needs libcrypt with yescrypt. CRYPT=no leaves it out; so does a cross build
+# that has no PKG_CONFIG_LIBDIR, and one with another C library.
+CRYPT    ?= $(if $(CROSS)$(filter 1,$(SMALL))$(findstring musl,$(CC)),$(if $(PKG_CONFIG_LIBDIR),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes),no),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes))
+CRYPT_LIB := $(if $(filter yes,$(CRYPT)$(SMALL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libcrypt))
+LADDERD_NOT := $(if $(filter yes,$(CRYPT)),crypt_none,crypt_yescrypt) $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download slots journal conf ends password crypt_none crypt_yescrypt,source_image store_none link_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
 # Its own table of messages, without those that only a desk gives.
 LADDERD  += $(if $(filter 1,$(SMALL)),,$(BUILD)/runtime/ladderd/diag_board.o)
@@ -144,7 +148,7 @@ $(BUILD)/tests/online/ladder-attach: runtime/attach/main.c
 	@mkdir -p $(@D)
 	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(CFLAGS) -DLINK_SOCKET='"link"' $(LDFLAGS) -o $@ $<
 $(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(if $(filter 1,$(SMALL)),,$(BUILD)/libonline.a) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(PRINT) $(THREADS) -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(PRINT) $(THREADS) -o $@ $^ $(GPIO_LIB) $(CRYPT_LIB) -lm
 # Bytes of stack, for compilers for machines without MMU.
 $(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
 
@@ -508,7 +512,7 @@ $(BUILD)/guest: $(call obj,$(wildcard $(GUEST)/*.c))
 $(BUILD)/replay: $(call obj,$(GUEST)/replay/replay.c $(CORE))
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^ -lm
 $(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(if $(filter 1,$(SMALL)),,$(BUILD)/libonline.a) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(GUEST_LD) $(PRINT) $(THREADS) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(GUEST_LD) $(PRINT) $(THREADS) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) $(CRYPT_LIB) -lm
 
 # The cases for them, made on this machine: build/cases/.
 CASES     := $(BUILD)/cases

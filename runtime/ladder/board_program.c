@@ -385,6 +385,7 @@ enum status remote_download(struct remote *remote)
 enum status remote_receive(struct remote *remote, struct stored *stored, struct bytes *bytes)
 {
 	uint32_t size;
+	bool asked = false;
 
 	do {
 		struct wire_writer out = desk_ask(&remote->desk, SERVICE_UPLOAD);
@@ -394,6 +395,15 @@ enum status remote_receive(struct remote *remote, struct stored *stored, struct 
 
 		wire_put_u32(&out, (uint32_t)bytes->len);
 		end = desk_call(&remote->desk, &out, &in);
+		if (end == DESK_REFUSED && remote->desk.refusal == REFUSAL_PASSWORD && !asked) {
+			const enum status status = remote_unlock(remote);
+
+			if (status != STATUS_GOOD)
+				return status;
+			asked = true;
+			size = UINT32_MAX;
+			continue;
+		}
 		if (end != DESK_GOOD)
 			return remote_fail(remote, end);
 		for (int i = 0; i < STORED_PARTS; i++)

@@ -740,6 +740,7 @@ static const struct action {
 	{ "reset", false, act_reset },     { "download", true, remote_download },
 	{ "upload", false, remote_upload }, { "events", false, act_events },
 	{ "config", true, remote_config }, { "backup", false, remote_backup },
+	{ "password", false, remote_password },
 	{ "restore", true, remote_restore },
 	{ "record", false, remote_record },
 	{ "compare", true, remote_compare },

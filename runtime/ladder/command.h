@@ -11,7 +11,7 @@
 #include "engine/base/sink.h"
 #include "engine/ladder.h"
 
-#define COMMAND_OPTIONS 12
+#define COMMAND_OPTIONS 16
 #define COMMAND_GIVEN 256 /* options on one command line                      */
 
 /* Exit status of `ladder`; scripts rely on it. command_help.c has the text. */

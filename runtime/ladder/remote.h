@@ -105,6 +105,8 @@ enum status remote_send(struct remote *remote, const struct stored *stored,
 			struct wire_reader *verified);
 /** remote_commit - @back: a FAULT within so many scans brings the program before back; 0: none. */
 enum status remote_commit(struct remote *remote, enum commit_how how, uint32_t back);
+/** remote_unlock - asks for the program password and gives it to the board. Fails: after a message. */
+enum status remote_unlock(struct remote *remote);
 /** remote_receive - what the board stores. @bytes: empty at first; @stored points into it.
  * Owns: the caller, free(bytes->at), also after a failure. Fails: after a message. */
 enum status remote_receive(struct remote *remote, struct stored *stored, struct bytes *bytes);
@@ -114,6 +116,7 @@ enum status remote_download(struct remote *remote);
 enum status remote_upload(struct remote *remote);
 enum status remote_compare(struct remote *remote);
 enum status remote_config(struct remote *remote);
+enum status remote_password(struct remote *remote);
 enum status remote_backup(struct remote *remote);
 enum status remote_restore(struct remote *remote);
 enum status remote_record(struct remote *remote);

@@ -13,6 +13,7 @@
 #include "ladderd/download.h"
 #include "ladderd/ends.h"
 #include "ladderd/journal.h"
+#include "ladderd/password.h"
 #include "ladderd/peer.h"
 
 #include "engine/base/digest.h"
@@ -74,6 +75,8 @@ struct link {
 	struct journal *journal;
 	struct server_log log;
 	struct server_conf conf;
+	struct server_password lock;
+	struct password password;
 	uint32_t late;                 /* rows of late scans that the log has    */
 	int64_t late_ns;               /* of the last event about them           */
 	int state;                     /* that the log tells                   */
@@ -389,6 +392,25 @@ static enum refusal conf_write(void *context, const char *key, const char *value
 	conf_in_force(link->with.conf);
 	act(link, take_settings, &link->with.conf->now, NULL);
 	return REFUSAL_NONE;
+}
+
+/* ---- the program password ---- */
+
+static bool lock_is_set(void *context)
+{
+	return ((struct link *)context)->password.set;
+}
+
+static enum refusal lock_check(void *context, const char *text, char *detail, size_t size)
+{
+	return password_check(&((struct link *)context)->password, text, clock_now(), detail, size);
+}
+
+static enum refusal lock_change(void *context, const char *old, const char *text, char *detail,
+				size_t size)
+{
+	return password_change(&((struct link *)context)->password, old, text, clock_now(), detail,
+			       size);
 }
 
 /* ---- retained values ---- */
@@ -953,7 +975,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	const struct server_setup setup = {
 		.exchange = &link->exchange, .program = program, .board = cycle->board,
 		.wait = wait_for_scan, .amend = amend_status, .context = link,
-		.store = &link->store, .log = &link->log, .conf = &link->conf,
+		.store = &link->store, .log = &link->log, .conf = &link->conf, .password = &link->lock,
 		.keeps = cycle->store,
 	};
 
@@ -972,6 +994,10 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		.abort = store_abort, .running = store_running, .image = store_image,
 	};
 	exchange_init(&link->exchange, &link->host, link->views, size);
+	link->lock = (struct server_password){
+		.is_set = lock_is_set, .check = lock_check, .change = lock_change,
+	};
+	password_load(&link->password, link->with.slots->folder);
 	if (link->with.record_kb) {
 		link->record = calloc(1, RECORDER_BESIDE + (size_t)link->with.record_kb * 1024);
 		if (!link->record)

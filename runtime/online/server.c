@@ -39,6 +39,7 @@ struct session {
 	bool used, greeted, over;
 	bool told_role;        /* the log says that it was refused for its role */
 	bool changed;          /* to be told: another program runs            */
+	bool unlocked;         /* the program password was given              */
 	enum role role;
 	char user[64];
 	uint64_t opened;       /* counts up: the least is the oldest session   */
@@ -1034,6 +1035,14 @@ static enum refusal serve_abort(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
+static bool is_locked(const struct asked *asked)
+{
+	const struct server_setup *setup = &asked->server->setup;
+
+	return setup->password && setup->password->is_set(setup->context) &&
+	       !asked->session->unlocked;
+}
+
 static enum refusal serve_upload(struct asked *asked)
 {
 	const struct server_store *store = asked->server->setup.store;
@@ -1045,6 +1054,8 @@ static enum refusal serve_upload(struct asked *asked)
 		return REFUSAL_BAD_FRAME;
 	if (!store)
 		return REFUSAL_NO_STORE;
+	if (is_locked(asked))
+		return REFUSAL_PASSWORD;
 	stored = store->running(asked->server->setup.context);
 	size = stored_size(stored);
 	if (offset > size)
@@ -1125,6 +1136,108 @@ static enum refusal serve_config(struct asked *asked)
 	if (what == 0 && wire_done(&asked->frame.body))
 		return put_settings(asked);
 	return what == 1 ? change_setting(asked) : REFUSAL_BAD_FRAME;
+}
+
+/* ---- the program password ---- */
+
+#define PASSWORD_TEXT 257
+
+static void wipe(void *bytes, size_t len)
+{
+	volatile uint8_t *at = bytes;
+
+	while (len--)
+		*at++ = 0;
+}
+
+static void take_password(struct wire_reader *in, char *out)
+{
+	size_t len;
+	const char *text = wire_text(in, &len);
+
+	if (len >= PASSWORD_TEXT || memchr(text, 0, len)) {
+		in->failed = true;
+		len = 0;
+	}
+	memcpy(out, text, len);
+	out[len] = '\0';
+}
+
+/* Who guesses is in the log. */
+static enum refusal told_wrong(struct asked *asked, enum refusal refusal)
+{
+	if (refusal == REFUSAL_WRONG)
+		tell_log(asked, EVENT_WRONG, "", "");
+	return refusal;
+}
+
+static enum refusal give_password(struct asked *asked, char *text)
+{
+	const struct server_setup *setup = &asked->server->setup;
+	enum refusal refusal;
+
+	take_password(&asked->frame.body, text);
+	if (!wire_done(&asked->frame.body))
+		return REFUSAL_BAD_FRAME;
+	refusal = setup->password->check(setup->context, text, asked->detail, sizeof(asked->detail));
+	if (refusal != REFUSAL_NONE)
+		return told_wrong(asked, refusal);
+	asked->session->unlocked = true;
+	begin_answer(asked, 0);
+	return REFUSAL_NONE;
+}
+
+/* Other sessions must give the new one. */
+static enum refusal change_password(struct asked *asked, char *old, char *text)
+{
+	struct server *server = asked->server;
+	const struct server_setup *setup = &server->setup;
+	const bool was_set = setup->password->is_set(setup->context);
+	const struct expect expect = wire_expect(&asked->frame.body);
+	enum refusal refusal;
+
+	take_password(&asked->frame.body, old);
+	take_password(&asked->frame.body, text);
+	if (!wire_done(&asked->frame.body))
+		return REFUSAL_BAD_FRAME;
+	if (!can_order(server))
+		return REFUSAL_BUSY;
+	server->order = (struct order){ .kind = ORDER_STATUS, .status = &server->status,
+					.expects = true, .expect = expect };
+	refusal = give(server);
+	if (refusal == REFUSAL_NONE)
+		refusal = setup->password->change(setup->context, old, text, asked->detail,
+						  sizeof(asked->detail));
+	if (refusal != REFUSAL_NONE)
+		return told_wrong(asked, refusal);
+	for (int i = 0; i < SERVER_SESSIONS; i++)
+		server->session[i].unlocked = false;
+	tell_log(asked, EVENT_PASSWORD, !*text ? "removed" : was_set ? "changed" : "set", "");
+	begin_answer(asked, 0);
+	return REFUSAL_NONE;
+}
+
+static enum refusal serve_password(struct asked *asked)
+{
+	const struct server_setup *setup = &asked->server->setup;
+	char old[PASSWORD_TEXT], text[PASSWORD_TEXT];
+	enum refusal refusal = REFUSAL_BAD_FRAME;
+	const uint8_t what = wire_u8(&asked->frame.body);
+
+	if (!setup->password)
+		return REFUSAL_NO_SERVICE;
+	if (what == 0)
+		refusal = give_password(asked, text);
+	else if (what == 1)
+		refusal = change_password(asked, old, text);
+	else if (what == 2 && wire_done(&asked->frame.body)) {
+		begin_answer(asked, 0);
+		wire_put_u8(&asked->out, setup->password->is_set(setup->context));
+		refusal = REFUSAL_NONE;
+	}
+	wipe(old, sizeof(old));
+	wipe(text, sizeof(text));
+	return refusal;
 }
 
 /* ---- retained values ---- */
@@ -1425,6 +1538,8 @@ static enum refusal serve(struct asked *asked)
 		return serve_config(asked);
 	case SERVICE_RETAIN:
 		return serve_retain(asked);
+	case SERVICE_PASSWORD:
+		return serve_password(asked);
 	case SERVICE_RECORD:
 		return serve_record(asked);
 	}
@@ -1436,7 +1551,7 @@ static bool is_change(const struct service_row *row)
 	return row->number == SERVICE_WRITE || row->number == SERVICE_FORCE ||
 	       row->number == SERVICE_UNFORCE || row->number == SERVICE_MODE ||
 	       row->number == SERVICE_COMMIT || row->number == SERVICE_CONFIG ||
-	       row->number == SERVICE_RETAIN;
+	       row->number == SERVICE_RETAIN || row->number == SERVICE_PASSWORD;
 }
 
 /* Gives the answer of the same request again; it is not done again. */
@@ -1548,6 +1663,8 @@ static bool serve_next(struct server *server, struct session *session)
 	answer(server, session, &frame);
 	session->in_len -= used;
 	memmove(session->in, session->in + used, session->in_len);
+	/* A password must not stay in memory. */
+	memset(session->in + session->in_len, 0, used);
 	return true;
 }
 
@@ -1648,6 +1765,7 @@ int server_open(struct server *server, enum role role, const char *user)
 			continue;
 		session->used = true;
 		session->greeted = session->over = session->changed = session->told_role = false;
+		session->unlocked = false;
 		session->role = role;
 		session->opened = ++server->opened;
 		session->requests = session->symbol = 0;
@@ -1663,6 +1781,7 @@ int server_open(struct server *server, enum role role, const char *user)
 void server_close(struct server *server, int session)
 {
 	server->session[session].used = false;
+	memset(server->session[session].in, 0, server->session[session].in_len);
 	if (server->retained.owner == session)
 		server->retained.owner = -1;
 	if (server->downloading == session)

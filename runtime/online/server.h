@@ -61,6 +61,16 @@ struct server_conf {
 			       struct setting *changed, char *detail, size_t size);
 };
 
+/* The program password; by the link thread. A detail is a part of a diagnostic. */
+struct server_password {
+	bool (*is_set)(void *context);
+	/** Fails: REFUSAL_WRONG, REFUSAL_WAIT. */
+	enum refusal (*check)(void *context, const char *text, char *detail, size_t size);
+	/** @text: "": none from now on. */
+	enum refusal (*change)(void *context, const char *old, const char *text, char *detail,
+			       size_t size);
+};
+
 /* Where downloads go; all by the link thread. A detail is a part of a diagnostic. */
 struct server_store {
 	/** A download of so many bytes with this hash; @received: of one that was cut. */
@@ -92,6 +102,7 @@ struct server_setup {
 	const char *board;     /* name of the board; borrowed                 */
 	const struct server_log *log;
 	const struct server_conf *conf;
+	const struct server_password *password; /* NULL: there is none    */
 	bool keeps;            /* retained values are stored                  */
 	const struct server_store *store; /* NULL: downloads are refused       */
 	/** Waits until the order of the exchange is done, at most some seconds.

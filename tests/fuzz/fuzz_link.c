@@ -157,6 +157,26 @@ static enum refusal change_setting(void *context, const char *key, const char *v
 	return *value ? REFUSAL_NONE : REFUSAL_RANGE;
 }
 
+static bool is_set(void *context)
+{
+	(void)context;
+	return true;
+}
+
+static enum refusal check_password(void *context, const char *text, char *detail, size_t size)
+{
+	(void)context, (void)detail, (void)size;
+	fuzz_expect(strlen(text) < 257, "a password");
+	return *text == 'p' ? REFUSAL_NONE : REFUSAL_WRONG;
+}
+
+static enum refusal change_password(void *context, const char *old, const char *text,
+				    char *detail, size_t size)
+{
+	fuzz_expect(strlen(text) < 257, "a new password");
+	return check_password(context, old, detail, size);
+}
+
 static bool serve_now(void *context)
 {
 	struct rig *rig = context;
@@ -172,8 +192,9 @@ static void rig_open(struct rig *rig)
 		.begin = begin_any, .block = take_any, .verify = verify_none,
 		.open_lines = store_none, .close_lines = abort_any, .store = store_none, .abort = abort_any, .running = runs_any,
 	};
+	static const struct server_password password = { is_set, check_password, change_password };
 	static const struct server_conf conf = { get_setting, change_setting };
-	struct server_setup setup = { .keeps = true, .conf = &conf, .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,
+	struct server_setup setup = { .keeps = true, .password = &password, .conf = &conf, .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,
 				      .context = rig, .exchange = &rig->exchange };
 	size_t size;
 
@@ -408,6 +429,10 @@ static void put_fields(struct wire_writer *out, enum service service)
 		wire_put_u8(out, 0);
 		wire_put_u32(out, 0);
 		break;
+	case SERVICE_PASSWORD:
+		wire_put_u8(out, 0);
+		wire_put_string(out, "p");
+		break;
 	case SERVICE_STATUS:
 	case SERVICE_FORCES:
 	case SERVICE_VERIFY:
@@ -423,7 +448,7 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 		SERVICE_READ, SERVICE_PUBLISH, SERVICE_WRITE, SERVICE_FORCE, SERVICE_FORCES,
 		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_DOWNLOAD, SERVICE_BLOCK,
 		SERVICE_SUMS, SERVICE_PIECES, SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT,
-		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_CONFIG, SERVICE_RETAIN, SERVICE_MODE };
+		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_CONFIG, SERVICE_RETAIN, SERVICE_PASSWORD, SERVICE_MODE };
 	uint8_t *seed = malloc(4096);
 	size_t at = 1;
 

@@ -10,7 +10,7 @@ import time
 import tty
 
 (HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE,
- DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG, RETAIN) = range(1, 21)
+ DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG, RETAIN, PASSWORD) = range(1, 22)
 RECORD, SUMS, PIECES = 22, 23, 24
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
@@ -382,6 +382,15 @@ class Client:
             why = it.number('B')
             losses[it.text()] = why
         return same, identity, count, losses
+
+    def unlock(self, password):
+        self.call(PASSWORD, b'\0' + text(password))
+
+    def set_password(self, old, new, **expect):
+        self.call(PASSWORD, b'\1' + self.expect(**expect) + text(old) + text(new))
+
+    def has_password(self):
+        return self.call(PASSWORD, b'\2').number('B') == 1
 
     def retained(self):
         """(whether the board keeps them, clock, {name: (type, bytes)})"""

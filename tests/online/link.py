@@ -9,6 +9,7 @@ import hashlib
 import json
 import os
 import random
+import select
 import re
 import shutil
 import signal
@@ -1511,6 +1512,183 @@ def test_a_backup_that_is_cut_or_damaged_changes_nothing():
         assert now['program'] == before['program'] and now['up'] >= before['up']
 
 
+# ---- program password ----
+
+SECRET = 'Kn0w-h0w of the pump'
+
+
+def memory_of(pid):
+    """All bytes that a process could leave in a core."""
+    found = b''
+    with open(f'/proc/{pid}/maps', encoding='ascii') as maps, open(f'/proc/{pid}/mem', 'rb', 0) as memory:
+        for line in maps:
+            first, last = (int(it, 16) for it in line.split()[0].split('-'))
+            if line.split()[1].startswith('rw'):
+                memory.seek(first)
+                found += memory.read(last - first)
+    return found
+
+
+def has_crypt():
+    return 'libcrypt' in subprocess.run(['ldd', BUILD + '/ladderd'], capture_output=True, text=True, check=False).stdout
+
+
+def test_a_password_guards_the_upload():
+    if not has_crypt():
+        raise Skip('ladderd without libcrypt')
+    with slots() as board:
+        desk, other = board.client(), board.client()
+        assert not desk.has_password()
+        desk.unlock('anything')
+        desk.upload()
+        refused(6, lambda: desk.set_password('', SECRET, program=bytes(32)))
+        desk.set_password('', SECRET)
+        assert desk.has_password()
+        refused(33, desk.upload)
+        refused(33, other.upload)
+        refused(34, lambda: desk.unlock('wrong'))
+        # Another session waits, too, also with the right one.
+        refused(35, lambda: other.unlock(SECRET))
+        refused(35, lambda: other.set_password(SECRET, ''), '1')
+        assert desk.status()['mode'] == client.RUN and len(desk.status()['program']) == 32
+        time.sleep(1.1)
+        other.unlock(SECRET)
+        assert other.upload()[1] == MAP.encode()
+        refused(33, desk.upload)
+        # It is there after a start, and the second wrong one costs twice as long.
+        board.stop()
+        board.start()
+        desk = board.client()
+        refused(33, desk.upload)
+        refused(34, lambda: desk.unlock('no'))
+        time.sleep(1.1)
+        refused(34, lambda: desk.unlock('no'))
+        time.sleep(1.1)
+        refused(35, lambda: desk.unlock(SECRET))
+        time.sleep(1.1)
+        desk.unlock(SECRET)
+        desk.set_password(SECRET, SECRET + '!')
+        refused(33, desk.upload)
+        desk.set_password(SECRET + '!', '')
+        assert not desk.has_password() and not os.path.exists(board.folder + '/password')
+        desk.upload()
+        told = [(it['id'], it['args'][0]) for it in desk.events() if it['id'] in (26, 27)]
+        assert told == [(26, 'set'), (27, ''), (27, ''), (27, ''), (26, 'changed'), (26, 'removed')], told
+
+
+def test_a_password_leaves_no_trace():
+    if not has_crypt():
+        raise Skip('ladderd without libcrypt')
+    with slots() as board:
+        desk = board.client()
+        desk.set_password('', SECRET)
+        desk.unlock(SECRET)
+        # Together with a request before it, in pieces, and in a session that ends in the middle.
+        hello = struct.pack('<IHH', 1196315986, 1, 1) + client.text('x')
+        body = b'\0' + client.text(SECRET)
+        frame = struct.pack('<IBBH', 4 + len(body), client.PASSWORD, 0, 2) + body
+        for cut in (len(frame), len(frame) - 3):
+            raw = board.client(hello=False)
+            raw.stream.sendall(struct.pack('<IBBH', 4 + len(hello), client.HELLO, 0, 1) + hello + frame[:cut])
+            raw.answer(1)
+            if cut == len(frame):
+                raw.answer(2)
+            raw.close()
+        until(lambda: desk.status()['sessions'] == 1)
+        assert SECRET.encode() not in memory_of(board.daemon.pid)
+        with open(board.folder + '/password', encoding='ascii') as file:
+            assert file.read().startswith('$y$')
+        assert os.stat(board.folder + '/password').st_mode & 0o777 == 0o600
+        for name in ('err', 'out'):
+            assert SECRET not in board.read(name)
+        with open(board.folder + '/events', 'rb') as log:
+            assert SECRET.encode() not in log.read()
+        assert SECRET not in board.command('events')[1]
+
+
+def test_a_damaged_password_fits_nobody():
+    if not has_crypt():
+        raise Skip('ladderd without libcrypt')
+    with slots() as board:
+        board.client().set_password('', SECRET)
+        with open(board.folder + '/password', encoding='ascii') as file:
+            whole = file.read()
+        for damaged in ('', 'x', whole[:-5], '*0', '\n'):
+            board.stop()
+            board.write('password', damaged)
+            board.start()
+            desk = board.client()
+            refused(33, desk.upload)
+            refused(34, lambda: desk.unlock(SECRET))  # pylint: disable=cell-var-from-loop
+        for bad in (b'', b'\3', b'\0', b'\2x', b'\0' + client.text('a\0b'), b'\0' + client.text('x' * 257)):
+            refused(1, lambda: desk.call(client.PASSWORD, bad))  # pylint: disable=cell-var-from-loop
+    with Board() as board:
+        refused(20, lambda: board.client().set_password('', 'x'))
+
+
+def typed(board, words, answers):
+    """Runs `ladder board` at a terminal and types; returns (status, what the terminal showed)."""
+    import pty
+    child, terminal = pty.fork()
+    if not child:
+        os.chdir(board.folder)
+        if ROOT:
+            os.setgroups([])
+            os.setgid(OWN)
+            os.setuid(OWN)
+        os.execv(BUILD + '/ladder', [BUILD + '/ladder', 'board', 'unix:link', *words])
+    shown = b''
+    for question, answer in answers:
+        while question not in shown.split(b'\n')[-1]:
+            assert select.select([terminal], [], [], 60)[0], shown
+            shown += os.read(terminal, 1000)
+        os.write(terminal, answer.encode() + b'\n')
+        shown += b'\n'
+    try:
+        while part := os.read(terminal, 1000):
+            shown += part
+    except OSError:
+        pass
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), shown.decode()
+
+
+def test_command_password():
+    if not has_crypt():
+        raise Skip('ladderd without libcrypt')
+    with slots() as board:
+        assert board.command('password', '--json') == (0, '{"password": false}\n', '')
+        status, shown = typed(board, ['password'], [(b'New program password: ', SECRET), (b'again: ', SECRET)])
+        assert status == 0 and 'is set' in shown and SECRET not in shown, shown
+        assert json.loads(board.command('password', '--json')[1]) == {'password': True}
+        status, shown = typed(board, ['password'], [(b'Present program password: ', SECRET),
+                                                    (b'New program password: ', 'a'), (b'again: ', 'b')])
+        assert status == 2 and 'not the same' in shown, shown
+        status, shown = typed(board, ['upload', '-o', 'up'], [(b'Program password of the board: ', SECRET)])
+        assert status == 0 and 'up/board.io' in shown and SECRET not in shown, shown
+
+        def with_fd(*words, lines=''):
+            out, into = os.pipe()
+            os.write(into, lines.encode())
+            os.close(into)
+            done = subprocess.run([BUILD + '/ladder', 'board', 'unix:link', *words, '--password-fd', str(out)],
+                                  cwd=board.folder, text=True, capture_output=True, timeout=60, pass_fds=[out],
+                                  start_new_session=True, **as_user(OWN))
+            os.close(out)
+            return done.returncode, done.stdout, done.stderr
+
+        assert with_fd('backup', '-o', 'b.tar', lines=SECRET + '\n')[0] == 0
+        assert with_fd('upload', '-o', 'up2', lines=SECRET)[0] == 0
+        status, _out, err = with_fd('upload', '-o', 'up3', lines='wrong\n')
+        assert status == 1 and 'LD834' in err, err
+        status, _out, err = with_fd('password', lines=SECRET + '\nnew\n')
+        assert status == 1 and 'LD835: too soon after a wrong password; try again in 1 s' in err, err
+        time.sleep(1.1)
+        assert with_fd('password', lines=SECRET + '\nnew\n') == (0, 'the program password is changed\n', '')
+        assert with_fd('password', '--remove', lines='new\n') == (0, 'the program password is removed\n', '')
+        assert with_fd('password', lines='\n')[0] == 2
+        assert board.command('upload', '-o', 'up4')[0] == 0
+
+
 # ---- ssh ----
 
 class Sshd:
@@ -1667,6 +1845,8 @@ def try_all(desk):
         'sums': number(lambda: desk.sums(64)), 'pieces': number(lambda: desk.pieces(2, b'')),
         'verify': number(desk.verify), 'commit': number(lambda: desk.commit(program=program)),
         'abort': number(lambda: desk.call(client.ABORT)), 'upload': number(desk.upload),
+        'password': number(desk.has_password), 'unlock': number(lambda: desk.unlock('x')),
+        'protect': number(lambda: desk.set_password('', 'x', program=program)),
         'retain': number(desk.retained), 'restore': number(lambda: desk.restore(program=program)),
         'config': number(desk.config), 'set': number(lambda: desk.set('period', '1s', program=program)),
     }
@@ -1674,8 +1854,8 @@ def try_all(desk):
 
 def test_each_role_may_do_what_the_table_says():
     reading = 'status symbols read publish unpublish forces events record'.split()
-    changing = 'write force unforce stop run cold set'.split()
-    moving = 'download block sums pieces verify commit abort upload config retain restore'.split()
+    changing = 'write force unforce stop run cold set protect'.split()
+    moving = 'download block sums pieces verify commit abort upload config retain restore password unlock'.split()
     nothing = dict.fromkeys(changing + moving, 5)
     expected = {
         None: {**dict.fromkeys(reading, 5), **nothing, 'reset': 5},
