@@ -97,6 +97,7 @@ static enum status fetch_program(struct remote *remote, struct record_program *p
 {
 	uint32_t len = 0, size;
 	size_t room = 0;
+	bool asked = false;
 
 	do {
 		struct wire_writer out = desk_ask(&remote->desk, SERVICE_RECORD);
@@ -110,6 +111,15 @@ static enum status fetch_program(struct remote *remote, struct record_program *p
 		end = desk_call(&remote->desk, &out, &in);
 		if (end == DESK_REFUSED && remote->desk.refusal == REFUSAL_NO_RECORD)
 			return STATUS_GOOD;
+		if (end == DESK_REFUSED && remote->desk.refusal == REFUSAL_PASSWORD && !asked) {
+			const enum status status = remote_unlock(remote);
+
+			if (status != STATUS_GOOD)
+				return status;
+			asked = true;
+			size = UINT32_MAX;
+			continue;
+		}
 		if (end != DESK_GOOD)
 			return remote_fail(remote, end);
 		size = wire_u32(&in);

@@ -8,7 +8,7 @@
 
 #include "ladder/report.h"
 
-#define SECRET_MOST 256
+#define SECRET_MOST 129
 
 /**
  * secret_read - the next line of --password-fd N; else typed at the terminal, without echo

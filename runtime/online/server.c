@@ -342,6 +342,13 @@ static enum refusal take_items(struct asked *asked, uint32_t count)
 	return wire_done(in) ? REFUSAL_NONE : REFUSAL_BAD_FRAME;
 }
 
+static enum refusal refuse_role(struct asked *asked, enum role needed)
+{
+	snprintf(asked->detail, sizeof(asked->detail), "%s" DIAG_AND "%s" DIAG_AND "%s",
+		 asked->row->word, role_word(needed), role_word(asked->session->role));
+	return REFUSAL_ROLE;
+}
+
 /* ---- services ---- */
 
 static enum refusal serve_hello(struct asked *asked)
@@ -607,11 +614,8 @@ static enum refusal serve_mode(struct asked *asked)
 
 	if (!wire_done(in) || wish >= MODE_COUNT)
 		return REFUSAL_BAD_FRAME;
-	if (wish != MODE_RESET && asked->session->role < ROLE_ENG) {
-		snprintf(asked->detail, sizeof(asked->detail), "%s" DIAG_AND "%s" DIAG_AND "%s",
-			 asked->row->word, role_word(ROLE_ENG), role_word(asked->session->role));
-		return REFUSAL_ROLE;
-	}
+	if (wish != MODE_RESET && asked->session->role < ROLE_ENG)
+		return refuse_role(asked, ROLE_ENG);
 	if (!can_order(server))
 		return REFUSAL_BUSY;
 	server->order = (struct order){ .kind = ORDER_MODE, .mode = wish,
@@ -1140,7 +1144,7 @@ static enum refusal serve_config(struct asked *asked)
 
 /* ---- the program password ---- */
 
-#define PASSWORD_TEXT 257
+#define PASSWORD_TEXT 129
 
 static void wipe(void *bytes, size_t len)
 {
@@ -1228,6 +1232,8 @@ static enum refusal serve_password(struct asked *asked)
 		return REFUSAL_NO_SERVICE;
 	if (what == 0)
 		refusal = give_password(asked, text);
+	else if (what == 1 && asked->session->role < ROLE_ENG)
+		refusal = refuse_role(asked, ROLE_ENG);
 	else if (what == 1)
 		refusal = change_password(asked, old, text);
 	else if (what == 2 && wire_done(&asked->frame.body)) {
@@ -1467,6 +1473,8 @@ static enum refusal serve_program(struct asked *asked, const uint8_t *identity, 
 	image = store ? store->image(asked->server->setup.context, identity, &len) : NULL;
 	if (!image)
 		return REFUSAL_NO_RECORD;
+	if (is_locked(asked))
+		return REFUSAL_PASSWORD;
 	if (offset > len)
 		return REFUSAL_BAD_FRAME;
 	part = len - offset < STORED_BLOCK ? len - offset : STORED_BLOCK;
@@ -1598,11 +1606,8 @@ static enum refusal judge(struct asked *asked)
 		return REFUSAL_NO_SERVICE;
 	if (!session->greeted && asked->row->number != SERVICE_HELLO)
 		return REFUSAL_NO_HELLO;
-	snprintf(asked->detail, sizeof(asked->detail), "%s" DIAG_AND "%s" DIAG_AND "%s",
-		 asked->row->word, role_word(asked->row->role), role_word(session->role));
 	if (session->role < asked->row->role)
-		return REFUSAL_ROLE;
-	asked->detail[0] = '\0';
+		return refuse_role(asked, asked->row->role);
 	return serve(asked);
 }
 

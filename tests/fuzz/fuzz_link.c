@@ -429,6 +429,10 @@ static void put_fields(struct wire_writer *out, enum service service)
 		wire_put_u8(out, 0);
 		wire_put_u32(out, 0);
 		break;
+	case SERVICE_RECORD:
+		wire_put_u8(out, 0);
+		wire_put_u64(out, 0);
+		break;
 	case SERVICE_PASSWORD:
 		wire_put_u8(out, 0);
 		wire_put_string(out, "p");
@@ -448,7 +452,7 @@ uint8_t *fuzz_seed(const uint8_t *bytes, size_t len, size_t *out_len)
 		SERVICE_READ, SERVICE_PUBLISH, SERVICE_WRITE, SERVICE_FORCE, SERVICE_FORCES,
 		SERVICE_UNFORCE, SERVICE_UNPUBLISH, SERVICE_DOWNLOAD, SERVICE_BLOCK,
 		SERVICE_SUMS, SERVICE_PIECES, SERVICE_VERIFY, SERVICE_COMMIT, SERVICE_ABORT,
-		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_CONFIG, SERVICE_RETAIN, SERVICE_PASSWORD, SERVICE_MODE };
+		SERVICE_UPLOAD, SERVICE_EVENTS, SERVICE_CONFIG, SERVICE_RETAIN, SERVICE_PASSWORD, SERVICE_RECORD, SERVICE_MODE };
 	uint8_t *seed = malloc(4096);
 	size_t at = 1;
 

@@ -1546,6 +1546,7 @@ def test_a_password_guards_the_upload():
         assert desk.has_password()
         refused(33, desk.upload)
         refused(33, other.upload)
+        refused(33, lambda: other.program(other.status()['program']))
         refused(34, lambda: desk.unlock('wrong'))
         # Another session waits, too, also with the right one.
         refused(35, lambda: other.unlock(SECRET))
@@ -1554,6 +1555,7 @@ def test_a_password_guards_the_upload():
         time.sleep(1.1)
         other.unlock(SECRET)
         assert other.upload()[1] == MAP.encode()
+        assert other.program(other.status()['program']) == other.upload()[0]
         refused(33, desk.upload)
         # It is there after a start, and the second wrong one costs twice as long.
         board.stop()
@@ -1620,7 +1622,7 @@ def test_a_damaged_password_fits_nobody():
             desk = board.client()
             refused(33, desk.upload)
             refused(34, lambda: desk.unlock(SECRET))  # pylint: disable=cell-var-from-loop
-        for bad in (b'', b'\3', b'\0', b'\2x', b'\0' + client.text('a\0b'), b'\0' + client.text('x' * 257)):
+        for bad in (b'', b'\3', b'\0', b'\2x', b'\0' + client.text('a\0b'), b'\0' + client.text('x' * 129)):
             refused(1, lambda: desk.call(client.PASSWORD, bad))  # pylint: disable=cell-var-from-loop
     with Board() as board:
         refused(20, lambda: board.client().set_password('', 'x'))
@@ -1853,9 +1855,9 @@ def try_all(desk):
 
 
 def test_each_role_may_do_what_the_table_says():
-    reading = 'status symbols read publish unpublish forces events record'.split()
+    reading = 'status symbols read publish unpublish forces events record password unlock'.split()
     changing = 'write force unforce stop run cold set protect'.split()
-    moving = 'download block sums pieces verify commit abort upload config retain restore password unlock'.split()
+    moving = 'download block sums pieces verify commit abort upload config retain restore'.split()
     nothing = dict.fromkeys(changing + moving, 5)
     expected = {
         None: {**dict.fromkeys(reading, 5), **nothing, 'reset': 5},
