@@ -1359,7 +1359,13 @@ def test_retained_values_go_out_and_in():
         # A timer goes on from the time of the values.
         assert desk.read('Since.ET')[0] >= struct.unpack('<q', found['Since.ET'][1])[0]
         assert desk.read('Total', 'Level', 'Rows[2]') == [-(1 << 60), 0.1, -3]
-        assert [it['args'][0] for it in desk.events() if it['id'] == 25] == [str(len(found))]
+        hour = 3600000000000
+        desk.set_mode(0)
+        desk.send_retained(found, clock + hour)
+        desk.restore()
+        desk.set_mode(1)
+        until(lambda: desk.read('Since.ET')[0] >= hour)
+        assert [it['args'][0] for it in desk.events() if it['id'] == 25] == [str(len(found))] * 2
         board.stop()
         board.start()
         assert board.client().read('Total', 'Text') == [-(1 << 60), b"it's $ \xc3\xa4"]
@@ -1597,7 +1603,7 @@ def test_a_password_leaves_no_trace():
                 raw.answer(2)
             raw.close()
         until(lambda: desk.status()['sessions'] == 1)
-        assert SECRET.encode() not in memory_of(board.daemon.pid)
+        assert SECRET[:12].encode() not in memory_of(board.daemon.pid)
         with open(board.folder + '/password', encoding='ascii') as file:
             assert file.read().startswith('$y$')
         assert os.stat(board.folder + '/password').st_mode & 0o777 == 0o600
