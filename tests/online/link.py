@@ -1005,7 +1005,7 @@ def test_command_waits_for_a_trial():
         assert status == 0 and ' error ' not in err, err
         identity = board.client().status()['program']
         status, _out, err = board.command('download', 'p3.rung', 'board.io', '--yes', '--back-within', '500')
-        assert status == 1 and 'LD860' in err and 'Main rung' in err, err
+        assert status == 1 and 'LD858' in err and 'Main rung' in err, err
         assert board.client().status()['program'] == identity
         for words in (['--back-within', '0'], ['--back-within', 'x'], ['--back-within', '5', '--restart']):
             status, _out, err = board.command('download', 'p0.rung', 'board.io', '--yes', *words)
