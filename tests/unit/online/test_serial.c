@@ -219,6 +219,34 @@ static void test_sessions(void)
 	CHECK(desk.ended && !desk.serial.open);
 }
 
+/* What an old desk sent late belongs to no session; a kernel that writes before a packet does
+ * not spoil it. */
+static void test_old_packets_and_texts(void)
+{
+	static struct end old, desk, board;
+	struct line line = { .lost = 0 };
+
+	serial_init(&old.serial, SERIAL_DESK, 115200);
+	serial_init(&desk.serial, SERIAL_DESK, 115200);
+	serial_init(&board.serial, SERIAL_BOARD, 115200);
+	serial_begin(&old.serial, 5, 0);
+	carry(&line, &old, &board, 1);
+	carry(&line, &board, &old, 1);
+	serial_begin(&desk.serial, 6, 0);
+	carry(&line, &desk, &board, 1);
+	carry(&line, &board, &desk, 1);
+	serial_send(&old.serial, (const uint8_t *)"old", 3, 0);
+	carry(&line, &old, &board, 1);
+	CHECK(board.got == 0 && board.serial.session == 6);
+	carry(&line, &board, &old, 1);
+	CHECK(old.ended);
+	for (const char *at = "[ 1.5] usb 1-1: new device"; *at; at++)
+		take(&board, (uint8_t)*at, 1);
+	serial_send(&desk.serial, (const uint8_t *)"new", 3, 0);
+	carry(&line, &desk, &board, 1);
+	CHECK(board.got == 3 && memcmp(board.stream, "new", 3) == 0);
+}
+
 static void test_echo_and_silence(void)
 {
 	static struct end desk;
@@ -244,6 +272,7 @@ int main(void)
 	test_good_line();
 	test_bad_lines();
 	test_sessions();
+	test_old_packets_and_texts();
 	test_echo_and_silence();
 	return tap_done();
 }
