@@ -57,7 +57,7 @@ ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/
             scan/retain_*.c scan/symbol*.c scan/place.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
             hal/gpio_find.c hal/hal_open.c hal/iomap*.c)
 ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*.c model/*.c translate/*.c ladder.c \
-            scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_pid.c scan/fb_store.c scan/fn_bits.c scan/fn_convert.c \
+            scan/carry.c scan/declared.c scan/recorder.c scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_pid.c scan/fb_store.c scan/fn_bits.c scan/fn_convert.c \
             scan/fn_real.c scan/fn_select.c scan/fn_string.c scan/fn_text*.c scan/fn_time.c scan/math*.c scan/retain*.c) \
             hal/gpio_uapi.c hal/sim.c))
 $(call obj,$(filter-out $(OFTEN),$(ONCE))): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)

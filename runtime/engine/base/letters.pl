@@ -54,7 +54,7 @@ sub changes {
 	return @out;
 }
 
-my (@folds, @low, @high, @marks);
+my (@folds, @low, @high, @marks, @runs, @ones);
 my $fold = sub { my ($from, $to) = @_;
 	my $last = $folds[-1];
 	my $delta = $to - $from;
@@ -100,6 +100,12 @@ for my $code (0xc0 .. 0x2ffff) {
 	my ($first, $second) = (@{$canonical{$code}}, 0);
 	die sprintf "%x: its second part has parts", $code
 		if $second && defined getCanon($second);
+	if (!$second) {
+		if (@runs && $runs[-1][0] + $runs[-1][1] == $code) { $runs[-1][1]++ }
+		else { push @runs, [$code, 1] }
+		push @ones, $first;
+		next;
+	}
 	push @{$code < 0x10000 && $first < 0x10000 ? \@low : \@high}, [$code, $first, $second];
 }
 die 'letters beyond U+2FFFF' if grep { defined getCanon($_) || getCombinClass($_) } 0x30000 .. 0x323af;
@@ -113,7 +119,9 @@ print <<HEAD;
  * LETTERS_LOW, LETTERS_HIGH: XID_Continue. At each code point of the list the answer changes,
  * from no on. Code points that Unicode has not assigned have the answer of those before them.
  * LETTER_FOLDS: first and last code point, step, what is added to get its simple case folding.
- * LETTER_PARTS_LOW, LETTER_PARTS_HIGH: a code point and the two, or one, that it is composed of.
+ * LETTER_PARTS_LOW, LETTER_PARTS_HIGH: a code point and the two that it is composed of.
+ * LETTER_RUNS: the first of code points that are one other each, and how many there are;
+ * LETTER_ONES: the others, of all runs, in three bytes each.
  * LETTER_MARKS: first code point, how many more follow it, canonical combining class.
  */
 HEAD
@@ -127,6 +135,10 @@ print "#endif\n#ifdef LETTER_PARTS_LOW\n";
 rows(map { sprintf '{ 0x%04x, 0x%04x, 0x%04x }', @$_ } @low);
 print "#endif\n#ifdef LETTER_PARTS_HIGH\n";
 rows(map { sprintf '{ 0x%05x, 0x%05x, 0x%05x }', @$_ } @high);
+print "#endif\n#ifdef LETTER_RUNS\n";
+rows(map { sprintf '{ 0x%05x, %d }', @$_ } @runs);
+print "#endif\n#ifdef LETTER_ONES\n";
+rows(map { sprintf 'ONE(0x%05x)', $_ } @ones);
 print "#endif\n#ifdef LETTER_MARKS\n";
 rows(map { sprintf '{ 0x%04x, %d, %d }', @$_ } @marks);
 print "#endif\n";

@@ -63,6 +63,19 @@ static const struct { uint64_t code : 18, first : 18, second : 18; } parts_high[
 #undef LETTER_PARTS_HIGH
 };
 
+/* Code points that stand for one other: runs of them, and the others. */
+static const struct { uint32_t code : 20, count : 12; } runs[] = {
+#define LETTER_RUNS
+#include "engine/base/letters.def"
+#undef LETTER_RUNS
+};
+static const uint8_t ones[][3] = {
+#define ONE(code) { (code) & 0xff, (code) >> 8 & 0xff, (code) >> 16 }
+#define LETTER_ONES
+#include "engine/base/letters.def"
+#undef LETTER_ONES
+};
+
 static const struct mark {
 	uint32_t first : 18, more : 6, class : 8;
 } marks[] = {
@@ -112,9 +125,27 @@ static uint32_t class_of(uint32_t code)
 	return 0;
 }
 
+/* The one code point that @code stands for; 0: none. */
+static uint32_t other_of(uint32_t code)
+{
+	size_t at = 0;
+
+	for (size_t i = 0; i < LENGTH(runs) && code >= runs[i].code; at += runs[i++].count)
+		if (code - runs[i].code < runs[i].count) {
+			at += code - runs[i].code;
+			return ones[at][0] | (uint32_t)ones[at][1] << 8 |
+			       (uint32_t)ones[at][2] << 16;
+		}
+	return 0;
+}
+
 /* The one or two code points that @code is composed of; false: it is not composed. */
 static bool take_apart(uint32_t code, uint32_t *first, uint32_t *second)
 {
+	*first = other_of(code);
+	*second = 0;
+	if (*first)
+		return true;
 	/* Some below 0x10000 have parts beyond it and stand in the other table. */
 	for (int wide = code >= 0x10000; wide < 2; wide++) {
 		size_t from = 0, to = wide ? LENGTH(parts_high) : LENGTH(parts_low);
