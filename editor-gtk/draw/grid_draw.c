@@ -541,7 +541,7 @@ static void draw_ground(const struct pen *pen)
 
 #define MISSING_ROOM 70 /* from the right end to the middle of the note           */
 
-/* An arrow that waits below the number, and a note at the right end of the heading. */
+/* An arrow that waits below the number, and a note at the lower right. */
 static void draw_missing(const struct pen *pen, float x, float y)
 {
 	struct lettering *lettering = pen->drafting->lettering;
@@ -550,7 +550,8 @@ static void draw_missing(const struct pen *pen, float x, float y)
 	put_text(pen, TOKEN_FORCE, LETTER_HEADING,
 		 lettering_fit(lettering, LETTER_HEADING, "\xe2\x86\x93", -1, 0), x, y + 36);
 	put_text(pen, TOKEN_FORCE, LETTER_COMMENT,
-		 lettering_fit(lettering, LETTER_COMMENT, _("not downloaded"), -1, 0), middle, y);
+		 lettering_fit(lettering, LETTER_COMMENT, _("not downloaded"), -1, 0), middle,
+		 pen->layout->height - 8);
 }
 
 static void draw_number(const struct pen *pen)

@@ -9,7 +9,7 @@
 #define EDITOR_CORE_H
 
 #include "editor-gtk/document/document.h"
-#include "editor-gtk/online/board_link.h"
+#include "editor-gtk/online/board_values.h"
 #include "editor-gtk/sim/board_run.h"
 #include "editor-gtk/sim/sim.h"
 
@@ -21,6 +21,7 @@ struct core {
 	LadderSim *sim;            /* off while editing                           */
 	LadderBoardRun *board;     /* the program on this machine                 */
 	LadderBoardLink *link;     /* to the connected board                      */
+	LadderBoardValues *values; /* shows it in the simulation                  */
 	GtkPageSetup *paper;       /* of prints and their preview                 */
 	GtkWidget *tree;
 	struct messages *messages;

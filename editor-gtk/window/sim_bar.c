@@ -75,12 +75,52 @@ static void show_buttons(struct sim_bar *bar)
 		    ladder_sim_state(bar->core->sim) != SIM_STOP);
 }
 
+/* In a narrow window the panel takes the room of the left side, not that of the rungs. An empty
+ * list of problems gives its room to them, too. */
+static void make_room(struct sim_bar *bar)
+{
+	const int width = gtk_widget_get_width(GTK_WIDGET(bar->core->window));
+
+	if (width <= 0 || width >= NARROW)
+		return;
+	below_rest(bar->core->below);
+	bar->side_hidden = gtk_widget_get_visible(bar->side);
+	if (bar->side_hidden)
+		gtk_widget_set_visible(bar->side, FALSE);
+}
+
+/* The welcome page shows nothing of what runs. */
+static void leave_welcome(struct sim_bar *bar)
+{
+	AdwTabPage *page = front_tab(bar->core->front);
+	const struct project *project = ladder_document_project(bar->core->document);
+
+	if (page && strcmp(page_name(page), " welcome") == 0 && project && project->pou_count > 0)
+		tabs_show(bar->core->tabs, 0);
+}
+
+/* The panel shows values of a board, too, while there are some. */
+static void notice_board(struct sim_bar *bar)
+{
+	const bool board = ladder_sim_board(bar->core->sim) != NULL;
+
+	if (board == bar->board)
+		return;
+	bar->board = board;
+	if (board) {
+		leave_welcome(bar);
+		make_room(bar);
+	}
+	gtk_widget_set_visible(GTK_WIDGET(bar->right), board);
+}
+
 static void state_changed(struct sim_bar *bar)
 {
 	if (ladder_sim_state(bar->core->sim) == SIM_RUN &&
 	    messages_close_offer(bar->core->messages, "win.sim_run"))
 		messages_tell(bar->core->messages, ""); /* clears the message of the fault */
 	show_buttons(bar);
+	notice_board(bar);
 	if (ladder_sim_is_on(bar->core->sim)) {
 		show_when(bar);
 	} else if (bar->side_hidden) { /* however it ended */
@@ -180,30 +220,6 @@ static void checked(struct sim_bar *bar)
 		messages_close_offer(bar->core->messages, "win.show-error");
 }
 
-/* In a narrow window the panel takes the room of the left side, not that of the rungs. An empty
- * list of problems gives its room to them, too. */
-static void make_room(struct sim_bar *bar)
-{
-	const int width = gtk_widget_get_width(GTK_WIDGET(bar->core->window));
-
-	if (width <= 0 || width >= NARROW)
-		return;
-	below_rest(bar->core->below);
-	bar->side_hidden = gtk_widget_get_visible(bar->side);
-	if (bar->side_hidden)
-		gtk_widget_set_visible(bar->side, FALSE);
-}
-
-/* The welcome page shows nothing of what runs. */
-static void leave_welcome(struct sim_bar *bar)
-{
-	AdwTabPage *page = front_tab(bar->core->front);
-	const struct project *project = ladder_document_project(bar->core->document);
-
-	if (page && strcmp(page_name(page), " welcome") == 0 && project && project->pou_count > 0)
-		tabs_show(bar->core->tabs, 0);
-}
-
 static bool begin(struct sim_bar *bar)
 {
 	GError *error = NULL;
@@ -231,6 +247,12 @@ static void end(struct sim_bar *bar)
 
 static void begin_or_end(struct sim_bar *bar)
 {
+	const char *why = ladder_sim_why_not(bar->core->sim, SIM_WISH_RESTART);
+
+	if (why) {
+		messages_tell(bar->core->messages, why);
+		return;
+	}
 	if (ladder_sim_is_on(bar->core->sim))
 		end(bar);
 	else if (begin(bar) && settings_flag("simulate-runs", TRUE))

@@ -100,7 +100,7 @@ bool ladder_window_is_untouched(LadderWindow *window)
 	LadderDocument *document = window->core.document;
 
 	return !ladder_document_path(document) && ladder_document_is_saved(document) &&
-	       !ladder_document_undo_name(document) && !ladder_sim_is_on(window->core.sim);
+	       !ladder_document_undo_name(document) && (!ladder_sim_is_on(window->core.sim) || ladder_sim_board(window->core.sim));
 }
 
 void ladder_window_welcome(LadderWindow *window)
@@ -977,6 +977,7 @@ static void ladder_window_dispose(GObject *object)
 	origin_clear(&window->origin);
 	front_clear(&window->front);
 	g_clear_object(&core->paper);
+	g_clear_object(&core->values);
 	g_clear_object(&core->sim);
 	g_clear_object(&core->board);
 	g_clear_object(&core->link);
@@ -1065,6 +1066,7 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 	window->core.sim = ladder_sim_new(document);
 	window->core.board = ladder_board_run_new();
 	window->core.link = ladder_board_link_new();
+	window->core.values = ladder_board_values_new(window->core.sim, window->core.link);
 	g_signal_connect_object(document, "state-changed", G_CALLBACK(show_state), window,
 				G_CONNECT_SWAPPED);
 	g_signal_connect_object(window->core.sim, "state-changed", G_CALLBACK(show_state),
