@@ -20,6 +20,7 @@
 #define VALUES_MOST 2048u    /* limits of a session, docs/online.md            */
 #define UNITS_MOST  12u
 #define PING_MS 100
+#define LAPS_MOST 8          /* times that the record may be asked for again   */
 #define LATE_US G_GINT64_CONSTANT(200000) /* less is not told               */
 
 /* A list that the board publishes. */
@@ -43,6 +44,10 @@ struct _LadderBoardValues {
 	bool filled;             /* the values have come once                  */
 	GPtrArray *sets;         /* of struct set                              */
 	char *why;
+	/* The board's record, as it comes. */
+	GByteArray *log;         /* NULL: it is not being fetched              */
+	guint64 log_next, log_end; /* bytes of the board's log                  */
+	int laps;                /* how often it was begun                     */
 	/* How late. */
 	guint timer;
 	bool pinged;             /* a ping is on its way                       */
@@ -322,6 +327,102 @@ static const char *why_not(gpointer data, enum sim_wish wish)
 	return NULL;
 }
 
+/* ---- the board's record ---- */
+
+/* The log with the program that is here already: scans of other programs are left out. */
+static struct record_file *open_log(LadderBoardValues *values)
+{
+	const struct program *program = values->program->program;
+	struct record_parts *parts = g_new0(struct record_parts, 1);
+	struct record_file *file = NULL;
+	struct sink_memory memory;
+	struct sink sink;
+	enum diag_id why;
+	size_t where;
+
+	parts->board = ladder_board_link_board(values->link);
+	parts->log = values->log->data;
+	parts->len = values->log->len;
+	parts->program_count = 1;
+	memcpy(parts->program[0].identity, values->identity, sizeof(values->identity));
+	parts->program[0].image = program->base;
+	parts->program[0].len = program->header->size;
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	if (record_write(parts, &sink) && !memory.failed)
+		file = record_file_open(memory.text, memory.len, &why, &where);
+	sink_memory_free(&memory);
+	g_free(parts);
+	return file;
+}
+
+static void ask_log(LadderBoardValues *values);
+
+static void end_log(LadderBoardValues *values)
+{
+	g_clear_pointer(&values->log, g_byte_array_unref);
+}
+
+/* Begins anew where the board begins, at first and if it has dropped what was wanted. */
+static void log_came(gpointer data, struct board_answer *answer)
+{
+	LadderBoardValues *values = data;
+	struct wire_reader *in = &answer->body;
+	struct record_file *file;
+	guint64 end, at;
+	gsize len;
+
+	if (!values->log)
+		return;
+	wire_u64(in); /* the oldest byte */
+	end = wire_u64(in);
+	at = wire_u64(in);
+	len = wire_left(in);
+	if (!values->log_end || at != values->log_next) {
+		g_byte_array_set_size(values->log, 0);
+		values->log_end = end;
+		values->laps++;
+	}
+	if (answer->end != DESK_GOOD || in->failed || !values->mirror ||
+	    values->laps > LAPS_MOST || values->log->len + len > RECORD_MOST) {
+		end_log(values);
+		return;
+	}
+	if (len)
+		g_byte_array_append(values->log, wire_bytes(in, len), (guint)len);
+	values->log_next = at + len;
+	if (len && values->log_next < values->log_end) {
+		ask_log(values);
+		return;
+	}
+	file = open_log(values);
+	end_log(values);
+	if (file)
+		sim_mirror_record(values->mirror, file);
+}
+
+static void ask_log(LadderBoardValues *values)
+{
+	struct wire_writer fields = ladder_board_link_begin(values->link);
+
+	wire_put_u8(&fields, 0);
+	wire_put_u64(&fields, values->log_next);
+	ladder_board_link_send(values->link, SERVICE_RECORD, &fields, values, log_came, values);
+}
+
+/* A board without a record refuses: then what was published is shown. */
+static void past(gpointer data)
+{
+	LadderBoardValues *values = data;
+
+	if (values->log || !values->mirror)
+		return;
+	values->log = g_byte_array_new();
+	values->log_next = values->log_end = 0;
+	values->laps = 0;
+	ask_log(values);
+}
+
 /* ---- begin and end ---- */
 
 static void end(LadderBoardValues *values)
@@ -329,6 +430,7 @@ static void end(LadderBoardValues *values)
 	while (values->sets->len)
 		drop_set(values, values->sets->len - 1, false);
 	values->filled = false;
+	end_log(values);
 	if (values->mirror) {
 		values->mirror = NULL;
 		ladder_sim_end(values->sim);
@@ -345,7 +447,8 @@ static void begin(LadderBoardValues *values, struct sim_program *program)
 	const struct sim_board board = {
 		.name = ladder_board_link_board(values->link), .program = program,
 		.period_ns = status ? status->period_ns : 0,
-		.act = act, .why_not = why_not, .wanted = wanted, .data = values,
+		.act = act, .why_not = why_not, .wanted = wanted, .past = past,
+		.data = values,
 	};
 
 	values->program = sim_program_ref(program);

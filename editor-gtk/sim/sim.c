@@ -156,7 +156,8 @@ int ladder_sim_pou(LadderSim *sim, LadderDocument *document, int pou)
 
 bool ladder_sim_is_missing(LadderSim *sim, LadderDocument *document, int pou, int rung)
 {
-	return ladder_sim_board(sim) && document == sim->document && find_rung(sim, pou, rung) < 0;
+	return ladder_sim_board(sim) && !ladder_sim_is_recording(sim) && document == sim->document &&
+	        find_rung(sim, pou, rung) < 0;
 }
 
 bool ladder_sim_knows(LadderSim *sim, struct location at)
@@ -235,6 +236,8 @@ bool ladder_sim_show(LadderSim *sim, guint64 scan)
 
 	if (!sim->replay)
 		sim->replay = sim_replay_new();
+	if (!sim->past && ladder_sim_is_on(sim))
+		sim->source->past(sim->source);
 	good = replay_to(sim, scan);
 	/* A replay that failed on the way may have no program. */
 	sim->past = good || (sim->past && sim->replay->program);
@@ -633,6 +636,11 @@ struct sim_mirror *ladder_sim_mirror_begin(LadderSim *sim, const struct sim_boar
 	sim->source = sim_mirror_source(sim->mirror);
 	sim->life++;
 	return sim->mirror;
+}
+
+bool ladder_sim_is_recording(LadderSim *sim)
+{
+	return sim->mirror && sim_mirror_plays(sim->mirror);
 }
 
 void ladder_sim_mirror_refuse(LadderSim *sim, const char *why)

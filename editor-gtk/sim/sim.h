@@ -60,6 +60,13 @@ struct sim_program *ladder_sim_build(LadderSim *sim, GError **error);
  * simulation. Changes with `state-changed`. */
 gint64 ladder_sim_late(LadderSim *sim);
 
+/** ladder_sim_play_recording - shows a record of a board, made by `ladder board … record`, instead
+ * of a simulation, in PAUSE. Fails: false, and @error says why: it cannot be read, the program of
+ * the document is not the one that was recorded, or a board is shown. */
+bool ladder_sim_play_recording(LadderSim *sim, const char *path, GError **error);
+/** ladder_sim_is_recording - whether ladder_sim_board() is one whose recording is shown. */
+bool ladder_sim_is_recording(LadderSim *sim);
+
 /* ---- running; these do nothing while it is off ---- */
 
 enum sim_state { SIM_OFF, SIM_STOP, SIM_RUN, SIM_PAUSE, SIM_FAULT };

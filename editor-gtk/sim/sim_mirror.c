@@ -28,18 +28,33 @@ struct sim_mirror {
 	guint64 era;             /* no other mirror has it                     */
 	gint64 base_ns;          /* of the board's clock: time 0 here          */
 	bool begun;              /* a moment has come                          */
+	bool plays;              /* a recording: all is known, and nothing comes  */
 	bool other;              /* something became known: places are to be found again */
 	GHashTable *known;       /* words of places                            */
 	GHashTable *powered;     /* names of units, of the program             */
 	GArray *wants;           /* words of places, the newest last           */
 	GPtrArray *units;        /* names, likewise                            */
 	guint want_timer, notify_idle;
+	/* The board's own record. */
+	struct record_file *file; /* NULL: none                                */
+	struct playback playback; /* of it                                     */
+	guint64 before;          /* scans of it before the last start          */
+	guint64 first, last;     /* the scans that it has, as they are numbered here */
+	gint64 ahead_ns;         /* its time is later than that here           */
 };
 
 /* Eras of a thread count from 1. */
 static guint64 eras = G_MAXUINT64 / 2;
 
 /* ---- life ---- */
+
+static void drop_record(struct sim_mirror *mirror)
+{
+	if (!mirror->file)
+		return;
+	playback_free(&mirror->playback);
+	g_clear_pointer(&mirror->file, record_file_free);
+}
 
 static struct sim_mirror *mirror_of(struct sim_source *source)
 {
@@ -56,6 +71,7 @@ static void free_source(struct sim_source *source)
 	g_hash_table_unref(mirror->powered);
 	g_array_unref(mirror->wants);
 	g_ptr_array_unref(mirror->units);
+	drop_record(mirror);
 	sim_history_free(mirror->history);
 	twin_free(&mirror->twin);
 	sim_program_unref(mirror->board.program);
@@ -91,7 +107,7 @@ static bool take(struct sim_source *source, struct sim_view *view, bool *other)
 			g_error("out of memory");
 	}
 	twin_copy(&view->twin, &mirror->twin);
-	view->running = true;
+	view->running = !mirror->plays;
 	view->fault = false;
 	return true;
 }
@@ -121,12 +137,42 @@ static bool take_era(const struct sim_mirror *mirror, struct sim_replay *replay)
 	return true;
 }
 
+/* Texts and places in a twin of a record are those of another copy of the program. */
+static void leave_texts(const struct sim_mirror *mirror, struct twin *twin)
+{
+	const struct fault_place nowhere = { .pou = "" };
+	struct resource *resource = &twin->resource;
+
+	resource->image.program = program_of(mirror);
+	resource->fault_at = resource->halt_at = resource->error_at = nowhere;
+	twin->safe = NULL;
+}
+
+static bool play(struct sim_mirror *mirror, guint64 scan, struct twin *twin)
+{
+	if (!playback_seek(&mirror->playback, scan + mirror->before) ||
+	    !sim_program_runs(mirror->board.program,
+			      mirror->playback.twin.resource.image.program))
+		return false;
+	twin_copy(twin, &mirror->playback.twin);
+	leave_texts(mirror, twin);
+	twin->period_ns = mirror->twin.period_ns;
+	twin->scan = twin->resource.scans = scan;
+	twin->now_ns -= mirror->ahead_ns;
+	return true;
+}
+
 static bool replay(struct sim_source *source, struct sim_replay *replay, guint64 scan)
 {
-	const struct sim_mirror *mirror = mirror_of(source);
+	struct sim_mirror *mirror = mirror_of(source);
 
 	if (replay->era != mirror->era && !take_era(mirror, replay))
 		return false;
+	if (mirror->file && scan >= mirror->first && scan <= mirror->last &&
+	    play(mirror, scan, &replay->replay.twin)) {
+		replay->at = 0; /* not in the history */
+		return true;
+	}
 	return sim_history_seek(mirror->history, &replay->at, &replay->replay.twin, scan);
 }
 
@@ -134,6 +180,15 @@ static void span(struct sim_source *source, guint64 *first, guint64 *last)
 {
 	*first = sim_history_first(mirror_of(source)->history);
 	*last = sim_history_last(mirror_of(source)->history);
+	if (mirror_of(source)->file)
+		*first = MIN(*first, mirror_of(source)->first);
+}
+
+static void past(struct sim_source *source)
+{
+	struct sim_mirror *mirror = mirror_of(source);
+
+	mirror->board.past(mirror->board.data);
 }
 
 /* What a board does is not computed here. */
@@ -170,7 +225,7 @@ static bool knows(struct sim_source *source, struct location at)
 	struct sim_mirror *mirror = mirror_of(source);
 	guint32 word;
 
-	if (at.type == IEC_NONE || at.constant)
+	if (mirror->plays || at.type == IEC_NONE || at.constant)
 		return true;
 	word = place_word(program_of(mirror), at);
 	if (g_hash_table_contains(mirror->known, GUINT_TO_POINTER(word)))
@@ -235,7 +290,7 @@ static bool has_power(struct sim_source *source, const char *name)
 	struct sim_mirror *mirror = mirror_of(source);
 	struct unit unit;
 
-	if (!find_unit(program_of(mirror), name, &unit))
+	if (mirror->plays || !find_unit(program_of(mirror), name, &unit))
 		return true;
 	if (g_hash_table_contains(mirror->powered, unit.name))
 		return true;
@@ -409,7 +464,7 @@ void sim_mirror_moment(struct sim_mirror *mirror, const struct sim_moment *momen
 {
 	struct twin *twin = &mirror->twin;
 
-	if (!mirror->begun)
+	if (!mirror->begun && !mirror->plays)
 		mirror->base_ns = moment->now_ns;
 	/* A message of another set may be about an older scan, or none: after a restart they
 	 * count from 0 again, and so does what is kept. */
@@ -418,6 +473,7 @@ void sim_mirror_moment(struct sim_mirror *mirror, const struct sim_moment *momen
 		sim_history_free(mirror->history);
 		mirror->history = sim_history_new(twin, SIM_BYTES);
 		mirror->era = ++eras;
+		drop_record(mirror);
 	} else if (mirror->begun && moment->scan < twin->scan) {
 		return;
 	}
@@ -428,6 +484,68 @@ void sim_mirror_moment(struct sim_mirror *mirror, const struct sim_moment *momen
 	sim_history_add(mirror->history, twin);
 	if (!mirror->notify_idle)
 		mirror->notify_idle = g_idle_add_full(G_PRIORITY_DEFAULT, tell, mirror, NULL);
+}
+
+/* The record counts scans since ladderd began; here they count since the last start. It is used
+ * only if it ends within what was published, so that no scan between them is missing. */
+void sim_mirror_record(struct sim_mirror *mirror, struct record_file *file)
+{
+	struct playback *playback = &mirror->playback;
+	struct twin *twin = &playback->twin;
+	struct sim_replay here = { .era = 0 };
+	guint64 first, last, scans;
+
+	drop_record(mirror);
+	mirror->file = file;
+	if (!playback_init(playback, file)) {
+		g_clear_pointer(&mirror->file, record_file_free);
+		return;
+	}
+	first = record_file_first(file);
+	last = record_file_last(file);
+	if (!playback_seek(playback, last) || twin->resource.scans > last ||
+	    twin->memory_size != mirror->twin.memory_size || !take_era(mirror, &here) ||
+	    !sim_history_seek(mirror->history, &here.at, &here.replay.twin,
+			      scans = mirror->plays ? last : twin->resource.scans)) {
+		sim_replay_clear(&here);
+		drop_record(mirror);
+		return;
+	}
+	mirror->before = last - scans;
+	mirror->last = scans;
+	mirror->first = first > mirror->before ? first - mirror->before : 1;
+	mirror->ahead_ns = twin->now_ns - here.replay.twin.now_ns;
+	sim_replay_clear(&here);
+	mirror->notify(mirror->notify_data);
+}
+
+bool sim_mirror_plays(const struct sim_mirror *mirror)
+{
+	return mirror->plays;
+}
+
+bool sim_mirror_play(struct sim_mirror *mirror, struct record_file *file)
+{
+	struct playback last;
+	struct sim_moment moment;
+	gint64 period_ns;
+
+	if (!playback_init(&last, file))
+		return false;
+	playback_seek(&last, MAX(record_file_last(file), 1) - 1);
+	period_ns = -last.twin.now_ns;
+	playback_seek(&last, record_file_last(file));
+	period_ns += last.twin.now_ns;
+	twin_copy(&mirror->twin, &last.twin);
+	mirror->twin.period_ns = period_ns > 0 ? period_ns : SIM_PERIOD;
+	leave_texts(mirror, &mirror->twin);
+	moment = (struct sim_moment){ mirror->twin.resource.state, record_file_last(file),
+				      mirror->twin.now_ns };
+	playback_free(&last);
+	mirror->plays = true;
+	sim_mirror_moment(mirror, &moment);
+	sim_mirror_record(mirror, file);
+	return true;
 }
 
 void sim_mirror_period(struct sim_mirror *mirror, gint64 ns)
@@ -449,6 +567,7 @@ void sim_mirror_task(struct sim_mirror *mirror, guint task, guint64 runs, guint6
 static const struct sim_source as_source = {
 	.free = free_source, .take = take, .act = act, .why_not = why_not, .replay = replay,
 	.span = span, .lock = lock, .unlock = unlock, .knows = knows, .has_power = has_power,
+	.past = past,
 };
 
 struct sim_mirror *sim_mirror_new(const struct sim_board *board, GSourceFunc notify,

@@ -12,6 +12,8 @@
 
 #include "editor-gtk/sim/sim_source.h"
 
+#include "engine/trial/record_file.h"
+
 /* A board as its mirror knows it. */
 struct sim_board {
 	const char *name;              /* for people; copied                   */
@@ -24,6 +26,8 @@ struct sim_board {
 	/* A view needs a value or power that does not come: ask again for
 	 * sim_mirror_places(), sim_mirror_units(). Soon after the need, once for many. */
 	void (*wanted)(gpointer data);
+	/* A person goes into the past: sim_mirror_record() may be called, now or later. */
+	void (*past)(gpointer data);
 	gpointer data;
 };
 
@@ -74,6 +78,14 @@ struct sim_moment {
 };
 /** sim_mirror_moment - ends a message: what came before it is shown. */
 void sim_mirror_moment(struct sim_mirror *mirror, const struct sim_moment *moment);
+/** sim_mirror_record - what the board itself recorded of this program since its last start: each
+ * scan is computed again, also those before the desk connected. @file: taken over. */
+void sim_mirror_record(struct sim_mirror *mirror, struct record_file *file);
+/** sim_mirror_play - shows a recording alone, without a board: all of its scans, the last one
+ * first. @file: taken over. Fails: false: no memory. */
+bool sim_mirror_play(struct sim_mirror *mirror, struct record_file *file);
+/** sim_mirror_plays - whether it does. */
+bool sim_mirror_plays(const struct sim_mirror *mirror);
 /** sim_mirror_period - the board scans with another period. */
 void sim_mirror_period(struct sim_mirror *mirror, gint64 ns);
 /** sim_mirror_task - how often task @task of the program has run, and was left out. */

@@ -126,6 +126,19 @@ bool sim_program_open_image(struct sim_program *program, const void *bytes, gsiz
 	return true;
 }
 
+bool sim_program_runs(const struct sim_program *program, const struct program *image)
+{
+	guint8 a[32], b[32];
+
+	if (program->program->header->crc == image->header->crc)
+		return true;
+	if (program->program->header->data_size != image->header->data_size)
+		return false;
+	code_identity(program->program, a);
+	code_identity(image, b);
+	return memcmp(a, b, sizeof(a)) == 0;
+}
+
 /* The text without its VIEW part. Caller frees. */
 static char *plain_text(const struct sim_program *program)
 {

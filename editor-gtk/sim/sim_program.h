@@ -32,6 +32,8 @@ struct sim_program *sim_program_read(struct ladder *reader, const char *file, co
  * the translation of the same sources: places are those of the board. Fails: false: @bytes is
  * no image; nothing has changed. */
 bool sim_program_open_image(struct sim_program *program, const void *bytes, gsize len);
+/** sim_program_runs - whether @image is this program: same code and layout of data. */
+bool sim_program_runs(const struct sim_program *program, const struct program *image);
 struct sim_program *sim_program_ref(struct sim_program *program);
 void sim_program_unref(struct sim_program *program);
 /** sim_program_is_same - same code, safe values and text; the VIEW parts may differ. */

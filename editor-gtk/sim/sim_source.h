@@ -69,6 +69,8 @@ struct sim_source {
 	/* As ladder_sim_knows(), ladder_sim_has_power(). */
 	bool (*knows)(struct sim_source *source, struct location at);
 	bool (*has_power)(struct sim_source *source, const char *unit);
+	/* A person goes into the past. */
+	void (*past)(struct sim_source *source);
 };
 /** sim_eras_replay - as ladder_sim_replay(), in the records of @eras. */
 bool sim_eras_replay(const struct sim_eras *eras, struct sim_replay *replay, guint64 scan);

@@ -427,10 +427,15 @@ static bool has_power(struct sim_source *source, const char *unit)
 	return true;
 }
 
+static void past(struct sim_source *source)
+{
+	(void)source;
+}
+
 static const struct sim_source as_source = {
 	.free = free_source, .take = take, .act = order_act, .why_not = why_not,
 	.replay = replay, .span = span, .lock = lock, .unlock = unlock, .knows = knows,
-	.has_power = has_power,
+	.has_power = has_power, .past = past,
 };
 
 struct sim_source *sim_thread_source(struct sim_thread *thread)

@@ -35,7 +35,9 @@ static void show_when(struct sim_bar *bar)
 	live_time_print(twin->period_ns, period, sizeof(period));
 	live_time_print_short(twin->now_ns, now, sizeof(now));
 	if (board)
-		text = g_strdup_printf(_("Online: %s · %s · scan %llu"), board, period,
+		text = g_strdup_printf(ladder_sim_is_recording(bar->core->sim) ?
+				       _("Recording: %s · %s · scan %llu") :
+				       _("Online: %s · %s · scan %llu"), board, period,
 				       (unsigned long long)twin->scan);
 	else
 		text = g_strdup_printf(_("Simulating · %s · scan %llu · %s"), period,
@@ -307,6 +309,35 @@ static void choose_plant(struct sim_bar *bar)
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
 }
 
+static void recording_chosen(GtkNativeDialog *dialog, int response, struct sim_bar *bar)
+{
+	char *path = ask_take_path(dialog, response);
+	GError *error = NULL;
+
+	if (path && !ladder_sim_play_recording(bar->core->sim, path, &error)) {
+		messages_warn(bar->core->messages, error->message);
+		messages_tell(bar->core->messages, error->message);
+		g_error_free(error);
+	}
+	g_free(path);
+}
+
+static void choose_recording(struct sim_bar *bar)
+{
+	struct core *core = bar->core;
+	GtkFileChooserNative *chooser;
+
+	if (ladder_board_link_state(core->link) != LINK_OFF) {
+		messages_tell(core->messages, _("A board is connected. Disconnect it first"));
+		return;
+	}
+	chooser = gtk_file_chooser_native_new(_("Recording of a board"), core->window,
+		GTK_FILE_CHOOSER_ACTION_OPEN, _("Open"), _("Cancel"));
+	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
+	core_connect(core, chooser, "response", G_CALLBACK(recording_chosen), bar, 0);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
+
 bool sim_bar_do(struct sim_bar *bar, enum verb verb)
 {
 	LadderSim *sim = bar->core->sim;
@@ -324,6 +355,7 @@ bool sim_bar_do(struct sim_bar *bar, enum verb verb)
 	case VERB_sim_back: step_shown(bar, -1); return true;
 	case VERB_sim_forth: step_shown(bar, 1); return true;
 	case VERB_sim_plant: choose_plant(bar); return true;
+	case VERB_sim_recording: choose_recording(bar); return true;
 	case VERB_sim_no_plant: origin_set_plant(bar->origin, NULL); return true;
 	case VERB_sim_now: ladder_sim_show_now(sim); return true;
 	case VERB_sim_release: ladder_sim_release_all(sim); return true;

@@ -51,6 +51,10 @@ static void show_board_pill(struct status *status)
 	const gint64 late_ns = ladder_sim_late(status->core->sim);
 	char late[32], *text;
 
+	if (ladder_sim_is_recording(status->core->sim)) {
+		set_pill(status, _("RECORDING"), "still");
+		return;
+	}
 	if (!late_ns) {
 		set_pill(status, _(pills[state].text), pills[state].class);
 		return;

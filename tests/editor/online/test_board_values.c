@@ -13,6 +13,10 @@
 	"  Motor AT %QX0.0 : BOOL;\nEND_VAR\n\nPROGRAM Main LD\nRUNG\n" \
 	"  | NO Start | COIL Motor |\nRUNG\n  | NC Start | COIL Motor |\nEND_PROGRAM\n"
 
+#define RECORDED "RUNGBOARD 1\nPROJECT \"Recorded\"\n\nVAR\n  Start AT %IX0.0 : BOOL;\n" \
+	"  Motor AT %QX0.0 : BOOL;\n  Count : DINT;\nEND_VAR\n\nPROGRAM Main LD\nRUNG\n" \
+	"  | --- | [ Count := Count + 1 ] |\nRUNG\n  | NO Start | COIL Motor |\nEND_PROGRAM\n"
+
 static LadderDocument *document;
 static LadderSim *sim;
 static LadderBoardLink *link_;
@@ -118,6 +122,112 @@ static void shows_and_changes(void)
 	board_close(&board);
 }
 
+/* @words: after the place of the board; NULL-ended. */
+static void run_ladder(const struct test_board *board, const char *const *words)
+{
+	const char *build = g_getenv("BUILD");
+	char *relative = g_build_filename(build ? build : "build", "ladder", NULL);
+	char *program = g_canonicalize_filename(relative, NULL);
+	const char *arguments[8] = { program, "board", board->where };
+	GSubprocessLauncher *launcher = g_subprocess_launcher_new(
+		G_SUBPROCESS_FLAGS_STDOUT_SILENCE | G_SUBPROCESS_FLAGS_STDERR_SILENCE);
+	GSubprocess *run;
+
+	for (int i = 0; words[i]; i++)
+		arguments[3 + i] = words[i];
+	g_subprocess_launcher_set_cwd(launcher, board->folder);
+	run = g_subprocess_launcher_spawnv(launcher, arguments, NULL);
+	CHECK(run && g_subprocess_wait_check(run, NULL, NULL));
+	g_clear_object(&run);
+	g_object_unref(launcher);
+	g_free(program);
+	g_free(relative);
+}
+
+static void download(const struct test_board *board, const char *file)
+{
+	run_ladder(board, (const char *[]){ "download", file, "board.io", "--yes", NULL });
+}
+
+/* A file of `ladder board … record` is shown without its board; only with its program. */
+static void plays_a_recording(void)
+{
+	struct test_board board;
+	GError *error = NULL;
+	char *path;
+	guint64 first, last;
+	gint64 count;
+
+	board_open(&board, "eng");
+	board_write(&board, "recorded.rung", RECORDED);
+	download(&board, "recorded.rung");
+	turn(300);
+	run_ladder(&board, (const char *[]){ "record", "-o", "it.rec", NULL });
+	path = board_path(&board, "it.rec");
+	open_editor(OTHER);
+	CHECK(!ladder_sim_play_recording(sim, path, &error) && !ladder_sim_is_on(sim));
+	CHECK(strstr(error->message, "it.rec: it was recorded with another program"));
+	g_clear_error(&error);
+	close_editor();
+	open_editor(RECORDED);
+	CHECK(!ladder_sim_play_recording(sim, "/dev/null", &error) && !ladder_sim_is_on(sim));
+	g_clear_error(&error);
+	CHECK(ladder_sim_play_recording(sim, path, &error));
+	CHECK_SOON(ladder_sim_is_on(sim) && ladder_sim_state(sim) == SIM_PAUSE);
+	CHECK(ladder_sim_is_recording(sim));
+	CHECK_TEXT(ladder_sim_board(sim), "table");
+	last = ladder_sim_last(sim);
+	first = ladder_sim_first(sim);
+	CHECK(ladder_sim_twin(sim)->scan == last && last > first + 10);
+	CHECK(ladder_sim_show(sim, last - 9));
+	count = value("Count");
+	for (int i = 1; i < 9; i++)
+		CHECK(ladder_sim_show(sim, last - 9 + (guint64)i) && value("Count") == count + i);
+	CHECK(power(1, 1) && !ladder_sim_is_missing(sim, document, 0, 0));
+	ladder_sim_run(sim);
+	live_value_set(sim, false, place("Count"), (union iec_value){ .i = 0 });
+	CHECK(told && g_str_has_prefix(told, "A recording only shows"));
+	ladder_sim_show_now(sim);
+	CHECK_AS(value("Count") == count + 9, "nothing is changed in a recording");
+	ladder_sim_end(sim);
+	CHECK(ladder_sim_begin(sim, NULL) && ladder_sim_state(sim) == SIM_STOP);
+	ladder_sim_end(sim);
+	close_editor();
+	g_free(path);
+	board_close(&board);
+}
+
+/* The board recorded scans before the editor was there, and each one since. */
+static void shows_its_record(void)
+{
+	struct test_board board;
+	guint64 connected, scan;
+	gint64 count;
+
+	board_open(&board, "eng");
+	open_editor(RECORDED);
+	board_write(&board, "recorded.rung", RECORDED);
+	download(&board, "recorded.rung");
+	turn(300);
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) != NULL);
+	connected = ladder_sim_first(sim);
+	CHECK_SOON(ladder_sim_last(sim) > connected + 20);
+	CHECK(ladder_sim_show(sim, ladder_sim_last(sim)));
+	CHECK_SOON(ladder_sim_first(sim) < connected);
+	scan = connected - 3;
+	CHECK(ladder_sim_show(sim, scan) && ladder_sim_twin(sim)->scan == scan);
+	count = value("Count");
+	for (int i = 1; i < 10; i++)
+		CHECK_AS(ladder_sim_show(sim, scan + i) && value("Count") == count + i,
+			 "each scan is computed again");
+	CHECK(power(1, 1));
+	ladder_sim_show_now(sim);
+	CHECK(!ladder_sim_is_past(sim) && value("Count") > count + 10);
+	close_editor();
+	board_close(&board);
+}
+
 static void only_looks(void)
 {
 	struct test_board board;
@@ -152,26 +262,6 @@ static void knows_no_sources(void)
 	board_close(&board);
 }
 
-static void run_ladder(const struct test_board *board, const char *file)
-{
-	const char *build = g_getenv("BUILD");
-	char *relative = g_build_filename(build ? build : "build", "ladder", NULL);
-	char *program = g_canonicalize_filename(relative, NULL);
-	const char *arguments[] = { program, "board", board->where, "download", file, "board.io",
-				    "--yes", NULL };
-	GSubprocessLauncher *launcher = g_subprocess_launcher_new(
-		G_SUBPROCESS_FLAGS_STDOUT_SILENCE);
-	GSubprocess *run;
-
-	g_subprocess_launcher_set_cwd(launcher, board->folder);
-	run = g_subprocess_launcher_spawnv(launcher, arguments, NULL);
-	CHECK(run && g_subprocess_wait_check(run, NULL, NULL));
-	g_clear_object(&run);
-	g_object_unref(launcher);
-	g_free(program);
-	g_free(relative);
-}
-
 /* Somebody else downloads while the editor is connected. */
 static void gets_another_program(void)
 {
@@ -183,7 +273,7 @@ static void gets_another_program(void)
 	connect_to(&board);
 	CHECK_SOON(ladder_sim_board(sim) != NULL);
 	CHECK(!ladder_sim_is_missing(sim, document, 0, 0));
-	run_ladder(&board, "other.rung");
+	download(&board, "other.rung");
 	CHECK_SOON(ladder_sim_board(sim) && ladder_sim_ladder(sim) &&
 		   ladder_project(ladder_sim_ladder(sim))->pou[0].rung_count == 2);
 	CHECK(ladder_sim_rung(sim, document, 0, 0) == 0);
@@ -195,6 +285,8 @@ static void gets_another_program(void)
 int main(void)
 {
 	shows_and_changes();
+	shows_its_record();
+	plays_a_recording();
 	only_looks();
 	knows_no_sources();
 	gets_another_program();

@@ -67,7 +67,7 @@ def watches(screen):
     editor.element('Rung 1, COIL', ', off, forced')
     editor.keys('space')
     editor.element('Rung 1, COIL', ', on, forced')
-    assert '"forces": 1' in board.ask('status', '--json') or '"forces":1' in board.ask('status', '--json'), board.ask('status', '--json')
+    assert 'Motor' in board.ask('forces')
     editor.keys('ctrl+shift+f')
     until(lambda: not editor.all('forced', 'table cell'), 'the force to end')
     board.ask('set', 'Level=7')
@@ -120,6 +120,27 @@ def only_looks(screen):
     board.stop()
 
 
+def recording(screen):
+    """a recording of a board is opened: its scans are shown without the board"""
+    board = board_of(screen, 'recorded')
+    board.ask('force', 'Start=1')
+    until(lambda: '1' in board.ask('get', 'Motor'), 'the motor')
+    path = os.path.join(screen.home, 'pump.rec')
+    board.ask('record', '-o', path)
+    board.stop()
+    editor = Editor(screen, new_file(screen, PUMP, 'pump.rung'))
+    editor.to_sheet()
+    editor.give_path(path, lambda: editor.command('Open recording'), 'Recording of a board')
+    editor.says('RECORDING')
+    editor.element('Rung 1, COIL', ', on')
+    editor.to_sheet()
+    editor.keys('alt+Left')
+    editor.says('PAST · scan')
+    editor.shot('online-recording')
+    editor.click([node for node in editor.all('Edit') if node.name == 'Edit'][0])
+    editor.says('EDIT')
+
+
 def chinese(screen):
     """a small dark screen, in Chinese"""
     board = board_of(screen, 'chinese')
@@ -133,4 +154,6 @@ def chinese(screen):
     board.stop()
 
 
-main([watches, edits, only_looks, chinese])
+chinese.size = '1024x700x24'
+
+main([watches, edits, only_looks, recording, chinese])

@@ -35,7 +35,7 @@ static LadderSim *sim;
 static struct sim_mirror *mirror;
 static struct sim_program *program;
 static struct twin board;
-static int shown, changed, asked, acts;
+static int shown, changed, asked, acts, pasts;
 static struct act last_act;
 static const char *refusal;
 
@@ -64,6 +64,12 @@ static void wanted(gpointer data)
 {
 	(void)data;
 	asked++;
+}
+
+static void past(gpointer data)
+{
+	(void)data;
+	pasts++;
 }
 
 static struct location place(const char *name)
@@ -151,7 +157,8 @@ static void scan(int scans)
 static void connect_to(void)
 {
 	const struct sim_board of = { .name = "table", .program = program, .period_ns = 10000000,
-		.act = act_of, .why_not = why_not, .wanted = wanted };
+		.act = act_of, .why_not = why_not, .wanted = wanted,
+		.past = past };
 
 	mirror = ladder_sim_mirror_begin(sim, &of);
 }
@@ -355,7 +362,9 @@ static void shows_the_past(void)
 		show();
 	}
 	CHECK(ladder_sim_first(sim) == first && ladder_sim_last(sim) == board.scan);
+	pasts = 0;
 	CHECK(ladder_sim_show(sim, first) && ladder_sim_is_past(sim));
+	CHECK_AS(pasts == 1, "the board is asked for its record once");
 	CHECK(value("Lamp") == 1 && ladder_sim_forces(sim) == 1);
 	CHECK(ladder_sim_show(sim, first + 2) && value("Lamp") == 0 && ladder_sim_forces(sim) == 0);
 	before = value("Count");
