@@ -55,6 +55,23 @@ bool verb_is_parted(enum verb verb)
 	return parted[verb];
 }
 
+const char *verb_nested(enum verb first, enum verb *last)
+{
+	static const struct { enum verb first, last; const char *label; } nested[] = {
+#define VERB(id, where, keys, label, group)
+#define NESTED(id, end, label) { VERB_##id, VERB_##end, label },
+#include "editor-gtk/kit/verbs.def"
+	};
+
+	for (gsize i = 0; i < G_N_ELEMENTS(nested); i++) {
+		if (nested[i].first != first)
+			continue;
+		*last = nested[i].last;
+		return nested[i].label;
+	}
+	return NULL;
+}
+
 const char *verb_group_label(enum verb_group group)
 {
 	static const char *const labels[VERBS_GROUPS] = {

@@ -43,6 +43,9 @@ void menu_append(GMenu *menu, const char *label, const char *action, const char 
 void verb_append(GMenu *menu, enum verb verb, const char *label, const char *action);
 /** verb_is_parted - does a line stand above it in the main menu? */
 bool verb_is_parted(enum verb verb);
+/** verb_nested - the label, not translated, of the menu in a menu that begins with it and ends
+ * with @last; NULL: none does. */
+const char *verb_nested(enum verb first, enum verb *last);
 /** verb_group_label - not translated. */
 const char *verb_group_label(enum verb_group group);
 /** verb_keys - the keys in the scheme in use, separated by |; "": none. Borrowed until the

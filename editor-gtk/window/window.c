@@ -694,24 +694,44 @@ static GMenu *section_new(GMenu *menu)
 	return section;
 }
 
+/* The menu of a group, or a menu nested in it: @first and those behind it up to @last. Caller:
+ * g_object_unref(). */
+static GMenu *part_new(enum verb_group group, int first, int last)
+{
+	GMenu *part = g_menu_new(), *section = NULL;
+
+	for (int i = first; i <= last; i++) {
+		enum verb end = VERB_COUNT;
+		const char *label = i > first ? verb_nested((enum verb)i, &end) : NULL;
+
+		if (verb_row((enum verb)i)->group != group)
+			continue;
+		if (!section || verb_is_parted((enum verb)i))
+			section = section_new(part);
+		if (label) {
+			GMenu *nested = part_new(group, i, (int)end);
+
+			g_menu_append_submenu(section, _(label), G_MENU_MODEL(nested));
+			g_object_unref(nested);
+			i = (int)end;
+			continue;
+		}
+		verb_append(section, (enum verb)i, NULL, NULL);
+		if (i == VERB_open)
+			recent_follow(section, g_menu_model_get_n_items(
+					      G_MENU_MODEL(section)));
+	}
+	return part;
+}
+
 /* The main menu, from the rows of verbs.def. Caller: g_object_unref(). */
 static GMenu *menu_new(void)
 {
 	GMenu *menu = g_menu_new();
 
 	for (int group = 0; group < VERBS_GROUPS; group++) {
-		GMenu *part = g_menu_new(), *section = NULL;
+		GMenu *part = part_new((enum verb_group)group, 0, VERB_COUNT - 1);
 
-		for (int i = 0; i < VERB_COUNT; i++) {
-			if ((int)verb_row((enum verb)i)->group != group)
-				continue;
-			if (!section || verb_is_parted((enum verb)i))
-				section = section_new(part);
-			verb_append(section, (enum verb)i, NULL, NULL);
-			if (i == VERB_open)
-				recent_follow(section, g_menu_model_get_n_items(
-						      G_MENU_MODEL(section)));
-		}
 		g_menu_append_submenu(menu, _(verb_group_label((enum verb_group)group)),
 				      G_MENU_MODEL(part));
 		g_object_unref(part);

@@ -93,6 +93,25 @@ static void test_sections(void)
 	CHECK_AS(most <= 7, "no section of the main menu has more than seven rows");
 }
 
+/* A menu of the main menu fits a window of 700 px; one nested in it is one of its rows. */
+static void test_heights(void)
+{
+	int rows[VERBS_GROUPS] = { 0 }, most = 0;
+
+	for (int i = 0; i < VERB_COUNT; i++) {
+		const enum verb_group group = verb_row((enum verb)i)->group;
+		enum verb last = VERB_COUNT;
+
+		if (verb_nested((enum verb)i, &last)) {
+			CHECK(last > (enum verb)i && verb_row(last)->group == group);
+			i = (int)last;
+		}
+		rows[group]++;
+		most = MAX(most, rows[group]);
+	}
+	CHECK_AS(most <= 20, "no menu of the main menu has more than 20 rows");
+}
+
 int main(void)
 {
 	char *label;
@@ -116,5 +135,6 @@ int main(void)
 	verbs_use_scheme(NULL, SCHEME_RUNGBOARD);
 	CHECK_TEXT(verb_keys(VERB_contact), "F5");
 	test_sections();
+	test_heights();
 	return tap_done();
 }
