@@ -41,6 +41,31 @@ static bool add_pins(GPtrArray *names, const struct image *image, const char *na
 	return names->len > before;
 }
 
+/* "Main.Delay", where the symbols have the names of pins without the program's: Delay.IN. */
+static bool add_local_pins(GPtrArray *names, const struct image *image, const char *name)
+{
+	const char *point = strchr(name, '.'), *instance = point ? point + 1 : "";
+	struct symbol_cursor cursor = { 0 };
+	const guint before = names->len;
+	struct symbol symbol;
+	enum diag_id why;
+
+	while (*instance && names->len < WATCH_NAMES_MOST &&
+	       image_next_symbol(image, &cursor, &symbol)) {
+		const gsize len = name_head(instance, strlen(instance), symbol.name,
+					    strlen(symbol.name));
+		char *whole;
+
+		if (symbol.flags & SYMBOL_HIDDEN || len == 0 || symbol.name[len] != '.')
+			continue;
+		whole = g_strconcat(name, symbol.name + len, NULL);
+		if (value_find(image, whole, strlen(whole), &why).type != IEC_NONE)
+			g_ptr_array_add(names, g_steal_pointer(&whole));
+		g_free(whole);
+	}
+	return names->len > before;
+}
+
 /* A range as in scripts; it needs an image after a cold start. */
 static bool add_range(GPtrArray *names, const struct image *program, const char *word)
 {
@@ -69,7 +94,7 @@ static void add_word(GPtrArray *names, const struct image *image, const char *wo
 
 	if (image && value_find(image, word, strlen(word), &why).type == IEC_NONE &&
 	    ((strstr(word, "..") && add_range(names, image, word)) ||
-	     add_pins(names, image, word)))
+	     add_pins(names, image, word) || add_local_pins(names, image, word)))
 		return;
 	g_ptr_array_add(names, g_strdup(word));
 }

@@ -291,6 +291,48 @@ static bool is_unknown(const LadderWatchRow *of)
 	return of->asked && of->at.type == IEC_NONE;
 }
 
+static bool expands(const struct image *image, const char *line, const char *expected)
+{
+	GPtrArray *names = watch_names_expand(image, line);
+	char *text;
+	bool same;
+
+	g_ptr_array_add(names, NULL);
+	text = g_strjoinv(" ", (char **)names->pdata);
+	same = strcmp(text, expected) == 0;
+	if (!same)
+		printf("# %s\n", text);
+	g_free(text);
+	g_ptr_array_unref(names);
+	return same;
+}
+
+/* A program with an instance of its own: with the program's name, without, with another's. */
+static void check_local(void)
+{
+	static const char text[] =
+		"RUNGBOARD 1\n\nPROGRAM Main LD\nVAR\n  Wait : TON;\n  Two : TON;\nEND_VAR\n"
+		"RUNG\n  | NO %IX0.0 | TON Wait PT:=T#1s | TON Two PT:=T#1s | COIL %QX0.0 |\nEND_PROGRAM\n\n"
+		"PROGRAM Other LD\nVAR\n  Two : TP;\nEND_VAR\n"
+		"RUNG\n  | NO %IX0.1 | TP Two PT:=T#1s | COIL %QX0.1 |\nEND_PROGRAM\n";
+	LadderDocument *other = ladder_document_new();
+	LadderSim *simulated;
+	const struct image *image;
+
+	ladder_document_open_text(other, "/tmp/x/local.rung", text, strlen(text), true);
+	ladder_document_check_now(other);
+	simulated = ladder_sim_new(other);
+	CHECK(ladder_sim_begin(simulated, NULL));
+	image = live_image(simulated, false);
+	CHECK(expands(image, "Main.Wait", "Main.Wait.IN Main.Wait.Q Main.Wait.PT Main.Wait.ET"));
+	CHECK(expands(image, "main.two", "Main.Two.IN Main.Two.Q Main.Two.PT Main.Two.ET"));
+	CHECK(expands(image, "Other.Wait Main.Nobody", "Other.Wait Main.Nobody"));
+	CHECK(expands(image, "Main.Wait.Q", "Main.Wait.Q"));
+	ladder_sim_end(simulated);
+	g_object_unref(simulated);
+	g_object_unref(other);
+}
+
 /* Rows can be made while the simulation is off; unknown names stay. */
 static void check_making(void)
 {
@@ -455,6 +497,7 @@ int main(void)
 	adw_init();
 	app_style();
 	make();
+	check_local();
 	check_making();
 	check_running();
 	check_forces();
