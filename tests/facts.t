@@ -248,6 +248,14 @@ for my $path (@documents) {
 	is("@unknown", '', "$path: system names");
 }
 
+# The manual lists the parts of a page by their headings: each is there once.
+for my $path (@documents) {
+	my %times;
+	$times{$_}++ for $text{$path} =~ /^## (.+)$/mg;
+	my @twice = grep { $times{$_} > 1 } sort keys %times;
+	is("@twice", '', "$path: each part has a heading of its own");
+}
+
 # ---- messages ----
 my %message = slurp('runtime/engine/diag.def') =~ /^DIAG\(\w+,\s*"(LD\d+)",\s*\w+,\s*"((?:[^"\\]|\\.)*)"\)/mg;
 for my $path (@documents) {

@@ -155,11 +155,25 @@ static void table_line(const struct words_entry *entry, const struct sink *sink)
 	sink_text(sink, " |\n");
 }
 
-void words_markdown(const struct sink *sink)
+/* All words of a kind: rows of the catalogue are in another order. */
+static void part(enum words_kind kind, const struct sink *sink)
 {
-	enum words_kind kind = WORDS_KIND_COUNT;
 	struct words_entry entry;
 
+	sink_printf(sink, "\n## %s\n%s", of_kind[kind].heading, of_kind[kind].columns);
+	for (int i = 0; words_at(i, &entry); i++) {
+		if (entry.kind != kind)
+			continue;
+		if (kind == WORDS_BLOCK || kind == WORDS_FUNCTION)
+			box(&entry, sink);
+		else
+			table_line(&entry, sink);
+	}
+	table_examples(kind, sink);
+}
+
+void words_markdown(const struct sink *sink)
+{
 	sink_text(sink, "# Words\n\n"
 		"This page lists every word that a program can use. `make words` "
 		"makes it from\n`runtime/engine/catalog.def`; change it there. "
@@ -168,16 +182,6 @@ void words_markdown(const struct sink *sink)
 		"are those of the third edition\nof IEC 61131-3 (2013) unless "
 		"another is named. The tests run every example. `ladder words TON`\n"
 		"prints the entry of a word.\n");
-	for (int i = 0; words_at(i, &entry); i++) {
-		if (entry.kind != kind) {
-			table_examples(kind, sink);
-			sink_printf(sink, "\n## %s\n%s", of_kind[entry.kind].heading,
-				    of_kind[entry.kind].columns);
-		}
-		kind = entry.kind;
-		if (kind == WORDS_BLOCK || kind == WORDS_FUNCTION)
-			box(&entry, sink);
-		else
-			table_line(&entry, sink);
-	}
+	for (int kind = 0; kind < WORDS_KIND_COUNT; kind++)
+		part((enum words_kind)kind, sink);
 }

@@ -149,7 +149,7 @@ struct code_group {     /* symbols from here to the next group             */
 struct code_power {     /* what a watched scan keeps                       */
 	uint16_t pou;   /* index in CODE_PROGRAMS                          */
 	uint16_t row, col; /* of a cell, 1-based. 0, CODE_LINE: of a line of a list */
-	uint16_t type;  /* of out: 0 is BOOL                               */
+	uint16_t type;  /* of out: 0 is BOOL, as older images of this version have */
 	uint32_t rung;  /* 1-based; of a list: line of the file             */
 	uint32_t in;    /* offset in m of a BOOL: power at the cell's left end; has the
 			   line run in the last run of its POU?            */

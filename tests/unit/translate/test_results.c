@@ -153,11 +153,33 @@ static void unwatched_lines_cost_nothing(void)
 	rig_close(&rig);
 }
 
+/* An image of CODE_VERSION that was made before lines had results has cells alone, and 0 in
+ * the place of the type: cells are BOOL, and no rung is taken for a line of its number. */
+static void older_images_have_cells_alone(void)
+{
+	static const char cells[] =
+		"PROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nRUNG\n  | NO I1 | COIL Q1 |\n"
+		"END_PROGRAM\n";
+	const struct program *program;
+
+	CHECK(rig_open(&rig, cells, true) && rig_scan(&rig));
+	program = rig.resource.image.program;
+	CHECK(program->power_count > 0);
+	for (uint32_t i = 0; i < program->power_count; i++) {
+		const struct code_power *power = &program->power[i];
+
+		CHECK(power->row >= 1 && power->col >= 1 && power->type == 0);
+		CHECK(code_result(program, power->pou, power->rung) == NULL);
+	}
+	rig_close(&rig);
+}
+
 int main(void)
 {
 	lines_have_their_results();
 	skipped_lines_have_not_run();
 	instances_have_their_own();
 	unwatched_lines_cost_nothing();
+	older_images_have_cells_alone();
 	return tap_done();
 }
