@@ -11,6 +11,7 @@
 
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/online/ssh_ask.h"
 
 #include "engine/base/version.h"
 
@@ -23,7 +24,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#define DESK_NAME  "ladder-editor " LADDER_VERSION
 #define STATUS_MS  500     /* between two requests for its status              */
+#define ASK_MS     600000  /* that a person has for the questions of ssh       */
+#define SAID_MOST  4096    /* bytes of what a command said at last             */
 #define RETRY_MS   500     /* before the first attempt to connect again        */
 #define RETRY_MOST 15000   /* between two attempts                             */
 #define COME_MOST  256     /* frames that the main thread has not taken yet: then the thread
@@ -67,6 +71,9 @@ struct session {
 	GCond taken;           /* the main thread has taken what had come      */
 	LadderBoardLink *link; /* NULL: forgotten; main thread only            */
 	char *where;
+	char *ssh, **environment; /* of its command                            */
+	bool patient;          /* ssh may ask a person                         */
+	int errors[2];         /* a pipe: what the command says                */
 	int wake[2];           /* a pipe: the main thread has a request or an end */
 	/* Under the lock. */
 	GQueue asked, come;
@@ -80,6 +87,7 @@ struct _LadderBoardLink {
 	GObject parent;
 	enum link_state state;
 	char *where, *reason;
+	struct ssh_ask *ask;     /* while it connects by ssh; NULL: not          */
 	struct session *session; /* NULL: none                                 */
 	char board[64], software[32];
 	enum role role;
@@ -93,7 +101,7 @@ struct _LadderBoardLink {
 
 G_DEFINE_FINAL_TYPE(LadderBoardLink, ladder_board_link, G_TYPE_OBJECT)
 
-enum { STATE_CHANGED, STATUS, PROGRAM_CHANGED, TOLD, FAILED, SIGNALS };
+enum { STATE_CHANGED, STATUS, PROGRAM_CHANGED, TOLD, ASKS, FAILED, SIGNALS };
 static guint signals[SIGNALS];
 
 /* ---- what goes between the threads ---- */
@@ -127,6 +135,11 @@ static void session_unref(struct session *session)
 	while ((come = g_queue_pop_head(&session->come)))
 		come_free(come);
 	g_queue_clear_full(&session->asked, asked_unref);
+	g_free(session->ssh);
+	g_strfreev(session->environment);
+	close(session->errors[0]);
+	if (session->errors[1] >= 0)
+		close(session->errors[1]);
 	close(session->wake[0]);
 	close(session->wake[1]);
 	g_mutex_clear(&session->lock);
@@ -298,19 +311,24 @@ static bool session_set_fd(struct session *session, int fd)
 static enum desk_end open_desk(struct session *session, struct come *ended)
 {
 	struct stream_where where;
+	struct stream_how how;
 	struct stream stream;
 	struct come *come;
 	enum desk_end end;
 
 	if (stream_parse(session->where, &where))
 		return DESK_GONE;
-	ended->error = stream_open(&where, NULL, &stream);
+	how = (struct stream_how){ session->ssh, session->environment, session->errors[1] };
+	ended->error = stream_open_alone(&where, &how, &stream);
+	close(session->errors[1]);
+	session->errors[1] = -1;
 	if (ended->error)
 		return DESK_GONE;
 	session->desk.stream = stream;
 	if (!session_set_fd(session, stream.fd))
 		return DESK_GONE;
-	end = desk_open(&session->desk, &stream, "ladder-editor " LADDER_VERSION);
+	end = session->patient ? desk_open_within(&session->desk, &stream, DESK_NAME, ASK_MS) :
+				 desk_open(&session->desk, &stream, DESK_NAME);
 	if (end != DESK_GOOD)
 		return end;
 	session->desk.told = frame_told;
@@ -321,6 +339,21 @@ static enum desk_end open_desk(struct session *session, struct come *ended)
 	g_strlcpy(come->software, session->desk.software, sizeof(come->software));
 	put_come(session, come);
 	return DESK_GOOD;
+}
+
+/* The last bytes that the command said. Caller frees. */
+static char *read_errors(struct session *session)
+{
+	GString *text = g_string_new(NULL);
+	char part[512];
+	gssize got;
+
+	while ((got = read(session->errors[0], part, sizeof(part))) > 0) {
+		g_string_append_len(text, part, got);
+		if (text->len > SAID_MOST)
+			g_string_erase(text, 0, (gssize)(text->len - SAID_MOST));
+	}
+	return g_string_free(text, FALSE);
 }
 
 static gpointer session_thread(gpointer data)
@@ -338,19 +371,34 @@ static gpointer session_thread(gpointer data)
 	if (session->desk.stream.child && (session_quits(session) || ended->end != DESK_GONE))
 		kill(session->desk.stream.child, SIGTERM);
 	desk_close(&session->desk);
+	ended->said = read_errors(session);
 	put_come(session, ended);
 	session_unref(session);
 	return NULL;
 }
 
-static struct session *session_new(LadderBoardLink *link, const char *where)
+/* @ask: of the questions of ssh; NULL: they are not asked. */
+static struct session *session_new(LadderBoardLink *link, const char *where,
+				   const struct ssh_ask *ask)
 {
 	struct session *session = g_new0(struct session, 1);
+	const char *ssh = g_getenv("RUNGBOARD_SSH");
 
 	if (!g_unix_open_pipe(session->wake, FD_CLOEXEC, NULL)) {
 		g_free(session);
 		return NULL;
 	}
+	if (!g_unix_open_pipe(session->errors, FD_CLOEXEC, NULL)) {
+		close(session->wake[0]);
+		close(session->wake[1]);
+		g_free(session);
+		return NULL;
+	}
+	g_unix_set_fd_nonblocking(session->errors[0], TRUE, NULL);
+	session->patient = ask != NULL;
+	session->environment = ask ? ssh_ask_environment(ask) :
+		g_environ_setenv(g_get_environ(), "LC_ALL", "C", TRUE);
+	session->ssh = g_strdup_printf("%s%s", ssh ? ssh : "ssh", ask ? "" : " -o BatchMode=yes");
 	g_unix_set_fd_nonblocking(session->wake[0], TRUE, NULL);
 	g_unix_set_fd_nonblocking(session->wake[1], TRUE, NULL);
 	session->refs = 2;
@@ -471,6 +519,7 @@ static gboolean status_due(gpointer data)
 
 static void drop_session(LadderBoardLink *link)
 {
+	g_clear_pointer(&link->ask, ssh_ask_free);
 	g_clear_handle_id(&link->timer, g_source_remove);
 	g_clear_handle_id(&link->retry, g_source_remove);
 	if (link->session)
@@ -479,11 +528,27 @@ static void drop_session(LadderBoardLink *link)
 	answer_gone(link);
 }
 
+static void asks(gpointer data, const char *question, bool yes_no)
+{
+	g_signal_emit(data, signals[ASKS], 0, question, yes_no);
+}
+
+/* Only a person who waits for it is asked: not when a lost connection is tried again. */
 static bool begin(LadderBoardLink *link)
 {
+	struct stream_where at;
+
 	drop_session(link);
-	link->session = session_new(link, link->where);
+	if (link->state != LINK_LOST && !stream_parse(link->where, &at) && at.kind == STREAM_SSH)
+		link->ask = ssh_ask_new(asks, link, NULL);
+	link->session = session_new(link, link->where, link->ask);
 	return link->session != NULL;
+}
+
+void ladder_board_link_answer(LadderBoardLink *link, const char *text)
+{
+	if (link->ask)
+		ssh_ask_answer(link->ask, text);
 }
 
 static gboolean retry_due(gpointer data)
@@ -502,6 +567,7 @@ static void opened(LadderBoardLink *link, const struct come *come)
 	link->role = come->role;
 	g_strlcpy(link->board, come->board, sizeof(link->board));
 	g_strlcpy(link->software, come->software, sizeof(link->software));
+	g_clear_pointer(&link->ask, ssh_ask_free);
 	link->retry_ms = RETRY_MS;
 	link->has_status = false;
 	link->timer = g_timeout_add(STATUS_MS, status_due, link);
@@ -526,8 +592,51 @@ static char *unreachable(const char *where, int error)
 	return g_strdup_printf("%s: %s", where, g_strerror(-error));
 }
 
+/* The last line that a command said. Caller frees. */
+static char *last_line(const char *said_last)
+{
+	char *text = g_strchomp(g_utf8_make_valid(said_last, -1));
+	const char *line = strrchr(text, '\n');
+	char *last = g_strdup(line ? line + 1 : text);
+
+	g_free(text);
+	return g_strstrip(last);
+}
+
+/* What ssh, or another command, said before it ended. NULL: nothing. Caller frees. */
+static char *why_command(LadderBoardLink *link, const char *said_last)
+{
+	char *line = last_line(said_last), *why = NULL;
+	const char *where = g_str_has_prefix(link->where, "ssh:") ? link->where + 4 : link->where;
+	const char *at = strrchr(where, '@');
+
+	if (strstr(said_last, "HOST IDENTIFICATION HAS CHANGED"))
+		why = g_strdup_printf(_("“%s” shows another key than before, so nothing was sent: "
+			"somebody else may answer in its place. If the board was installed anew, "
+			"remove the old key with “ssh-keygen -R %s” and connect again."), where,
+			at ? at + 1 : where);
+	else if (strstr(said_last, "Host key verification failed"))
+		why = g_strdup_printf(_("The key of “%s” was not accepted; nothing was sent."),
+				      where);
+	else if (strstr(said_last, "Permission denied"))
+		why = g_strdup_printf(_("“%s” does not let this user in. Check the user's name, "
+			"and the password or key."), where);
+	else if (strstr(said_last, "ladder-attach") && strstr(said_last, "not found"))
+		why = g_strdup_printf(_("“%s” has no ladder-attach. Install Rungboard there."),
+				      where);
+	else if (*line)
+		why = g_strdup_printf("%s: %s", where, line);
+	g_free(line);
+	return why;
+}
+
 static char *why_ended(LadderBoardLink *link, const struct come *come)
 {
+	char *why = come->said && *come->said && come->end != DESK_REFUSED ?
+		why_command(link, come->said) : NULL;
+
+	if (why)
+		return why;
 	if (come->error)
 		return unreachable(link->where, come->error);
 	if (come->end == DESK_GONE && link->state == LINK_CONNECTED)
@@ -802,6 +911,8 @@ static void ladder_board_link_class_init(LadderBoardLinkClass *class)
 						NULL, NULL, NULL, G_TYPE_NONE, 0);
 	signals[TOLD] = g_signal_new("told", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
 				     G_TYPE_NONE, 1, G_TYPE_POINTER);
+	signals[ASKS] = g_signal_new("asks", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+				     G_TYPE_NONE, 2, G_TYPE_STRING, G_TYPE_BOOLEAN);
 	signals[FAILED] = g_signal_new("failed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
 				       G_TYPE_NONE, 2, G_TYPE_STRING, G_TYPE_STRING);
 }

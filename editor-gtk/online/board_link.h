@@ -13,6 +13,8 @@
  *                                         places of variables are void. Also after a reconnect
  *   told (gpointer frame)                 a struct frame that was not asked for (publish); read
  *                                         it in the handler
+ *   asks (const char *question, gboolean yes_no)  ssh has a question:
+ *                                         ladder_board_link_answer() once
  *   failed (const char *service, const char *text)  a request was refused or got no answer
  */
 #ifndef EDITOR_BOARD_LINK_H
@@ -41,6 +43,9 @@ bool ladder_board_link_connect(LadderBoardLink *link, const char *where, char **
 /** ladder_board_link_reconnect - tries the same board again, now. */
 void ladder_board_link_reconnect(LadderBoardLink *link);
 void ladder_board_link_disconnect(LadderBoardLink *link);
+
+/** ladder_board_link_answer - to the question of `asks`; NULL: none, so it does not connect. */
+void ladder_board_link_answer(LadderBoardLink *link, const char *text);
 
 enum link_state ladder_board_link_state(LadderBoardLink *link);
 /** ladder_board_link_where - of the last connect; NULL: none. Borrowed. */

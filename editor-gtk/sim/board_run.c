@@ -7,9 +7,12 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/installed.h"
 
+#include <errno.h>
+#include <glib/gstdio.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #define ASK_MS 300 /* between two requests for its status                      */
 
@@ -20,6 +23,7 @@ struct _LadderBoardRun {
 	GSubprocess *child;
 	GCancellable *cancel;
 	guint timer;
+	char *folder, *where; /* private: its socket, its slots; NULL: it does not run */
 	int open;          /* streams that have not ended, plus 1 for the child */
 	int exit;
 };
@@ -28,6 +32,60 @@ G_DEFINE_FINAL_TYPE(LadderBoardRun, ladder_board_run, G_TYPE_OBJECT)
 
 enum { CHANGED, TOLD, ENDED, SIGNALS };
 static guint signals[SIGNALS];
+
+/* ---- its folder ---- */
+
+/* The only group of its link is that of this user: whoever reaches the socket may do all. */
+static bool make_folder(LadderBoardRun *run, GError **error)
+{
+	char *group, *path, *slots;
+	bool good;
+
+	run->folder = g_dir_make_tmp("rungboard-run-XXXXXX", error); /* 0700 */
+	if (!run->folder)
+		return false;
+	run->where = g_strdup_printf("unix:%s/link", run->folder);
+	group = g_strdup_printf("ladder-eng:x:%u:\n", (unsigned)getegid());
+	path = g_build_filename(run->folder, "group", NULL);
+	slots = g_build_filename(run->folder, "slots", NULL);
+	good = g_file_set_contents(path, group, -1, error);
+	if (good && g_mkdir(slots, 0700) != 0) {
+		g_set_error_literal(error, G_IO_ERROR, g_io_error_from_errno(errno),
+				    g_strerror(errno));
+		good = false;
+	}
+	g_free(slots);
+	g_free(path);
+	g_free(group);
+	return good;
+}
+
+static void empty_folder(const char *folder)
+{
+	GDir *dir = g_dir_open(folder, 0, NULL);
+	const char *name;
+
+	while (dir && (name = g_dir_read_name(dir))) {
+		char *path = g_build_filename(folder, name, NULL);
+
+		if (!g_file_test(path, G_FILE_TEST_IS_SYMLINK) &&
+		    g_file_test(path, G_FILE_TEST_IS_DIR))
+			empty_folder(path);
+		g_remove(path);
+		g_free(path);
+	}
+	g_clear_pointer(&dir, g_dir_close);
+}
+
+static void drop_folder(LadderBoardRun *run)
+{
+	if (run->folder) {
+		empty_folder(run->folder);
+		g_rmdir(run->folder);
+	}
+	g_clear_pointer(&run->folder, g_free);
+	g_clear_pointer(&run->where, g_free);
+}
 
 /* ---- end ---- */
 
@@ -41,6 +99,7 @@ static void close_one(LadderBoardRun *run)
 	g_clear_handle_id(&run->timer, g_source_remove);
 	g_clear_object(&run->child);
 	g_clear_object(&run->cancel);
+	drop_folder(run);
 	run->state = BOARD_OFF;
 	memset(&run->status, 0, sizeof(run->status));
 	g_signal_emit(run, signals[CHANGED], 0);
@@ -190,9 +249,12 @@ static void in_child(gpointer unused)
 	signal(SIGUSR1, SIG_IGN);
 }
 
-static GSubprocess *spawn(const char *program, const char *file, const char *map,
-			  GError **error)
+static GSubprocess *spawn(LadderBoardRun *run, const char *program, const char *file,
+			  const char *map, GError **error)
 {
+	char *socket = g_build_filename(run->folder, "link", NULL);
+	char *group = g_build_filename(run->folder, "group", NULL);
+	char *slots = g_build_filename(run->folder, "slots", NULL);
 	GSubprocessLauncher *launcher = g_subprocess_launcher_new(
 		G_SUBPROCESS_FLAGS_STDIN_PIPE | G_SUBPROCESS_FLAGS_STDOUT_PIPE |
 		G_SUBPROCESS_FLAGS_STDERR_PIPE);
@@ -202,8 +264,12 @@ static GSubprocess *spawn(const char *program, const char *file, const char *map
 	/* ladderd must not report to the service manager of the editor. */
 	g_subprocess_launcher_unsetenv(launcher, "NOTIFY_SOCKET");
 	g_subprocess_launcher_unsetenv(launcher, "WATCHDOG_USEC");
-	child = g_subprocess_launcher_spawn(launcher, error, program, "--attended", "--io",
+	child = g_subprocess_launcher_spawn(launcher, error, program, "--attended", "--link",
+					    socket, "--groups", group, "--slots", slots, "--io",
 					    map, "--", file, NULL);
+	g_free(slots);
+	g_free(group);
+	g_free(socket);
 	g_object_unref(launcher);
 	return child;
 }
@@ -219,10 +285,12 @@ bool ladder_board_run_start(LadderBoardRun *run, const char *file, const char *m
 			      "this editor or in PATH: install it"));
 		return false;
 	}
-	run->child = spawn(program, file, map, error);
+	run->child = make_folder(run, error) ? spawn(run, program, file, map, error) : NULL;
 	g_free(program);
-	if (!run->child)
+	if (!run->child) {
+		drop_folder(run);
 		return false;
+	}
 	run->cancel = g_cancellable_new();
 	run->state = BOARD_STARTING;
 	run->exit = -1;
@@ -251,6 +319,11 @@ void ladder_board_run_reset(LadderBoardRun *run)
 		g_subprocess_send_signal(run->child, SIGHUP);
 }
 
+const char *ladder_board_run_where(LadderBoardRun *run)
+{
+	return run->where;
+}
+
 enum board_state ladder_board_run_state(LadderBoardRun *run)
 {
 	return run->state;
@@ -276,6 +349,7 @@ static void ladder_board_run_dispose(GObject *object)
 		g_output_stream_close(g_subprocess_get_stdin_pipe(run->child), NULL, NULL);
 	}
 	g_clear_object(&run->child);
+	drop_folder(run);
 	G_OBJECT_CLASS(ladder_board_run_parent_class)->dispose(object);
 }
 

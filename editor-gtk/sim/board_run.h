@@ -38,6 +38,9 @@ LadderBoardRun *ladder_board_run_new(void);
  * Fails: false, and @error says why: no ladderd. What ladderd itself refuses is told. */
 bool ladder_board_run_start(LadderBoardRun *run, const char *file, const char *map,
 			    GError **error);
+/** ladder_board_run_where - where its link listens, as runtime/online/stream.h reads it: a socket
+ * that only this user can reach. NULL: it does not run. Borrowed until it ends. */
+const char *ladder_board_run_where(LadderBoardRun *run);
 /** ladder_board_run_stop - asks it to end; `ended` comes when outputs are safe. */
 void ladder_board_run_stop(LadderBoardRun *run);
 /** ladder_board_run_reset - out of a FAULT. */

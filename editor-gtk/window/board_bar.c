@@ -305,10 +305,36 @@ static void log_state(struct board_bar *bar, enum board_state state)
 	bar->said = said;
 }
 
+/* What runs is shown as that of any board; a session with another board is not ended for it. */
+static void look_inside(struct board_bar *bar)
+{
+	const char *where = ladder_board_run_where(bar->core->board);
+	char *why = NULL;
+
+	if (ladder_board_link_state(bar->core->link) != LINK_OFF)
+		return;
+	if (!ladder_board_link_connect(bar->core->link, where, &why))
+		log_board(bar, why);
+	g_free(why);
+	g_free(bar->inside);
+	bar->inside = g_strdup(where);
+}
+
+/* Its socket is gone with it. */
+static void look_away(struct board_bar *bar)
+{
+	if (bar->inside &&
+	    g_strcmp0(bar->inside, ladder_board_link_where(bar->core->link)) == 0)
+		ladder_board_link_disconnect(bar->core->link);
+	g_clear_pointer(&bar->inside, g_free);
+}
+
 static void board_changed(struct board_bar *bar)
 {
 	const enum board_state state = ladder_board_run_state(bar->core->board);
 
+	if (state == BOARD_RUNNING && !bar->ran)
+		look_inside(bar);
 	if (state == BOARD_RUNNING)
 		bar->ran = true;
 	else if (state == BOARD_STARTING)
@@ -322,6 +348,7 @@ static void board_ended(struct board_bar *bar, int status)
 {
 	char *text = board_ended_text(status);
 
+	look_away(bar);
 	log_board(bar, text);
 	g_free(text);
 	if (status != 0 && !bar->ran) {
@@ -360,4 +387,5 @@ void board_bar_init(struct board_bar *bar, struct core *core, struct export *exp
 void board_bar_clear(struct board_bar *bar)
 {
 	g_clear_pointer(&bar->said, g_free);
+	g_clear_pointer(&bar->inside, g_free);
 }

@@ -13,6 +13,7 @@ struct board_bar {
 	struct files *files;
 	bool ran;            /* at least one scan has run                        */
 	char *said;          /* the state logged last; NULL: none                */
+	char *inside;        /* where the window was connected to what runs; NULL: not    */
 	bool close_when_off; /* close the window when the program has stopped    */
 };
 

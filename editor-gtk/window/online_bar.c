@@ -16,6 +16,7 @@
 #include "engine/scan/resource.h"
 
 #include <string.h>
+#include <sys/prctl.h>
 
 static LadderBoardLink *link_of(struct online_bar *bar)
 {
@@ -25,6 +26,69 @@ static LadderBoardLink *link_of(struct online_bar *bar)
 static bool is_on(struct online_bar *bar)
 {
 	return ladder_board_link_state(link_of(bar)) != LINK_OFF;
+}
+
+/* ---- questions of ssh ---- */
+
+/* While an answer is typed, no core has it. */
+static void question_answered(AdwMessageDialog *dialog, const char *answer, struct online_bar *bar)
+{
+	GtkWidget *entry = adw_message_dialog_get_extra_child(dialog);
+
+	if (dialog != bar->question)
+		return;
+	bar->question = NULL;
+	if (strcmp(answer, "cancel") == 0)
+		ladder_board_link_answer(link_of(bar), NULL);
+	else
+		ladder_board_link_answer(link_of(bar), entry ?
+					 gtk_editable_get_text(GTK_EDITABLE(entry)) : "yes");
+	prctl(PR_SET_DUMPABLE, 1);
+}
+
+static void close_question(struct online_bar *bar)
+{
+	AdwMessageDialog *dialog = g_steal_pointer(&bar->question);
+
+	if (!dialog)
+		return;
+	prctl(PR_SET_DUMPABLE, 1);
+	gtk_window_destroy(GTK_WINDOW(dialog));
+}
+
+/* A GtkPasswordEntry of GTK 4.8 follows the Caps Lock key even when it is gone. */
+static GtkWidget *secret_entry_new(const char *name)
+{
+	GtkEntryBuffer *buffer = gtk_password_entry_buffer_new(); /* is not paged out */
+	GtkWidget *entry = gtk_entry_new_with_buffer(buffer);
+
+	gtk_entry_set_visibility(GTK_ENTRY(entry), FALSE);
+	gtk_entry_set_input_purpose(GTK_ENTRY(entry), GTK_INPUT_PURPOSE_PASSWORD);
+	gtk_entry_set_activates_default(GTK_ENTRY(entry), TRUE);
+	spoken_name(entry, name);
+	g_object_unref(buffer);
+	return entry;
+}
+
+static void asks(LadderBoardLink *link, const char *question, gboolean yes_no,
+		 struct online_bar *bar)
+{
+	AdwMessageDialog *dialog = ask_new(bar->core->window, yes_no ? _("Unknown board") :
+		ladder_board_link_board(link), question, "answer", yes_no ? _("Connect") : _("OK"),
+		yes_no ? ADW_RESPONSE_DEFAULT : ADW_RESPONSE_SUGGESTED);
+	GtkWidget *entry;
+
+	close_question(bar);
+	bar->question = dialog;
+	prctl(PR_SET_DUMPABLE, 0);
+	if (yes_no) {
+		adw_message_dialog_set_default_response(dialog, "cancel");
+	} else {
+		entry = secret_entry_new(question);
+		adw_message_dialog_set_extra_child(dialog, entry);
+	}
+	core_connect(bar->core, dialog, "response", G_CALLBACK(question_answered), bar, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
 }
 
 /* ---- what it says ---- */
@@ -203,7 +267,10 @@ static void state_changed(struct online_bar *bar)
 
 	if (state == LINK_CONNECTING)
 		bar->was_same = false;
-	if (state == LINK_CONNECTED)
+	if (state != LINK_CONNECTING)
+		close_question(bar);
+	if (state == LINK_CONNECTED && g_strcmp0(ladder_board_link_where(link_of(bar)),
+						 ladder_board_run_where(bar->core->board)) != 0)
 		board_recent_add(ladder_board_link_where(link_of(bar)));
 	show(bar);
 }
@@ -430,6 +497,7 @@ void online_bar_init(struct online_bar *bar, struct core *core, struct compare *
 	core_connect(core, core->link, "state-changed", G_CALLBACK(state_changed), bar,
 		     G_CONNECT_SWAPPED);
 	core_connect(core, core->link, "status", G_CALLBACK(show), bar, G_CONNECT_SWAPPED);
+	core_connect(core, core->link, "asks", G_CALLBACK(asks), bar, 0);
 	core_connect(core, core->link, "failed", G_CALLBACK(failed), bar, 0);
 	core_connect(core, core->document, "checked", G_CALLBACK(checked), bar, G_CONNECT_SWAPPED);
 	core_connect(core, bar->mode, "toggled", G_CALLBACK(mode_toggled), bar, G_CONNECT_SWAPPED);

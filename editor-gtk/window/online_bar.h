@@ -21,6 +21,7 @@ struct online_bar {
 	guint8 identity[32];            /* of the document as it was checked last */
 	bool has_identity;
 	bool was_same;                  /* the board ran this document once    */
+	AdwMessageDialog *question;     /* of ssh; NULL: none                  */
 	char *said;                     /* the state that was logged last      */
 	bool chosen;                    /* the dialog gave a board             */
 };

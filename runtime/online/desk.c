@@ -287,14 +287,14 @@ static enum desk_end take_answer(struct desk *desk, uint8_t service, struct wire
 	}
 }
 
-enum desk_end desk_call(struct desk *desk, struct wire_writer *request, struct wire_reader *answer)
+static enum desk_end call_within(struct desk *desk, struct wire_writer *request,
+				 struct wire_reader *answer, int ms)
 {
 	const size_t len = frame_end(request);
 	const uint8_t service = desk->out[4];
-	const struct service_row *row = service_row(service);
 	enum desk_end end;
 
-	set_limit(desk, row->limit_ms, true);
+	set_limit(desk, ms, true);
 	desk->refusal = REFUSAL_NONE;
 	desk->detail[0] = '\0';
 	if (!len)
@@ -303,6 +303,11 @@ enum desk_end desk_call(struct desk *desk, struct wire_writer *request, struct w
 				  send_stream(desk, desk->out, len);
 	/* A board that closed the stream may have said why. */
 	return end == DESK_GOOD || end == DESK_GONE ? take_answer(desk, service, answer) : end;
+}
+
+enum desk_end desk_call(struct desk *desk, struct wire_writer *request, struct wire_reader *answer)
+{
+	return call_within(desk, request, answer, service_row(desk->out[4])->limit_ms);
 }
 
 enum desk_end desk_listen(struct desk *desk, int ms)
@@ -318,6 +323,12 @@ enum desk_end desk_listen(struct desk *desk, int ms)
 }
 
 enum desk_end desk_open(struct desk *desk, const struct stream *stream, const char *name)
+{
+	return desk_open_within(desk, stream, name, service_row(SERVICE_HELLO)->limit_ms);
+}
+
+enum desk_end desk_open_within(struct desk *desk, const struct stream *stream, const char *name,
+			       int ms)
 {
 	struct wire_writer out;
 	struct wire_reader in;
@@ -335,7 +346,7 @@ enum desk_end desk_open(struct desk *desk, const struct stream *stream, const ch
 	wire_put_u16(&out, ONLINE_LOWEST);
 	wire_put_u16(&out, ONLINE_HIGHEST);
 	wire_put_string(&out, name);
-	end = desk_call(desk, &out, &in);
+	end = call_within(desk, &out, &in, ms);
 	if (end != DESK_GOOD)
 		return end;
 	if (wire_u32(&in) != ONLINE_MAGIC)

@@ -49,6 +49,10 @@ struct desk {
  * Owns: the caller, desk_close(), also after a failure. Scan-safe: no; so are all functions.
  */
 enum desk_end desk_open(struct desk *desk, const struct stream *stream, const char *name);
+/** desk_open_within - the same, where the board answers only when a person has answered
+ * questions of the stream. @ms: waits so long. */
+enum desk_end desk_open_within(struct desk *desk, const struct stream *stream, const char *name,
+			       int ms);
 void desk_close(struct desk *desk);
 
 /** desk_ask - begins a request; the caller writes its fields. */

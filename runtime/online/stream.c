@@ -3,6 +3,7 @@
  * stream - a socket pair is the standard input and output of a command; nothing of a board's
  * name reaches a shell.
  */
+#define _GNU_SOURCE /* POSIX_SPAWN_SETSID */
 #include "online/stream.h"
 #include "online/port.h"
 
@@ -91,7 +92,8 @@ bool stream_split(struct stream_words *words, const char *command)
 	return words->count;
 }
 
-static int start(const struct stream_words *words, struct stream *out)
+static int start(const struct stream_words *words, const struct stream_how *how,
+		 struct stream *out)
 {
 	posix_spawn_file_actions_t actions;
 	posix_spawnattr_t attributes;
@@ -104,12 +106,15 @@ static int start(const struct stream_words *words, struct stream *out)
 	sigaddset(&signals, SIGPIPE); /* a desk ignores it; its command must not */
 	posix_spawnattr_init(&attributes);
 	posix_spawnattr_setsigdefault(&attributes, &signals);
-	posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+	posix_spawnattr_setflags(&attributes, (short)(POSIX_SPAWN_SETSIGDEF |
+						      (how->environment ? POSIX_SPAWN_SETSID : 0)));
 	posix_spawn_file_actions_init(&actions);
 	posix_spawn_file_actions_adddup2(&actions, pair[1], STDIN_FILENO);
 	posix_spawn_file_actions_adddup2(&actions, pair[1], STDOUT_FILENO);
+	if (how->environment)
+		posix_spawn_file_actions_adddup2(&actions, how->errors, STDERR_FILENO);
 	error = posix_spawnp(&out->child, words->word[0], &actions, &attributes,
-			     words->word, environ);
+			     words->word, how->environment ? how->environment : environ);
 	posix_spawn_file_actions_destroy(&actions);
 	posix_spawnattr_destroy(&attributes);
 	close(pair[1]);
@@ -121,27 +126,28 @@ static int start(const struct stream_words *words, struct stream *out)
 	return -error;
 }
 
-static int open_ssh(const char *host, const char *ssh, struct stream *out)
+static int open_ssh(const char *host, const struct stream_how *how, struct stream *out)
 {
 	static char quiet[] = "-T", end[] = "--", attach[] = "ladder-attach";
 	struct stream_words words;
 	int error = -EINVAL;
 
-	if (stream_split(&words, ssh ? ssh : "ssh")) {
+	if (stream_split(&words, how->ssh ? how->ssh : "ssh")) {
 		words.word[words.count++] = quiet;
 		words.word[words.count++] = end;
 		words.word[words.count++] = (char *)host;
 		words.word[words.count++] = attach;
-		error = start(&words, out);
+		error = start(&words, how, out);
 	}
 	free(words.text);
 	return error;
 }
 
-static int open_command(const char *command, struct stream *out)
+static int open_command(const char *command, const struct stream_how *how,
+			struct stream *out)
 {
 	struct stream_words words;
-	const int error = stream_split(&words, command) ? start(&words, out) : -EINVAL;
+	const int error = stream_split(&words, command) ? start(&words, how, out) : -EINVAL;
 
 	free(words.text);
 	return error;
@@ -169,14 +175,20 @@ static int open_socket(const char *path, struct stream *out)
 
 int stream_open(const struct stream_where *where, const char *ssh, struct stream *out)
 {
+	return stream_open_alone(where, &(struct stream_how){ .ssh = ssh }, out);
+}
+
+int stream_open_alone(const struct stream_where *where, const struct stream_how *how,
+		      struct stream *out)
+{
 	*out = (struct stream){ .fd = -1 };
 	switch (where->kind) {
 	case STREAM_SSH:
-		return open_ssh(where->rest, ssh, out);
+		return open_ssh(where->rest, how, out);
 	case STREAM_UNIX:
 		return open_socket(where->rest, out);
 	case STREAM_EXEC:
-		return open_command(where->rest, out);
+		return open_command(where->rest, how, out);
 	case STREAM_SERIAL:
 		out->fd = port_open(where->rest, &out->baud);
 		return out->fd < 0 ? out->fd : 0;

@@ -60,6 +60,15 @@ struct stream {
  * reach a terminal. Owns: the caller, stream_close(). Fails: -errno.
  */
 int stream_open(const struct stream_where *where, const char *ssh, struct stream *out);
+/* How a command is started by a program without a terminal: in a session of its own. */
+struct stream_how {
+	const char *ssh;       /* as in stream_open()                          */
+	char *const *environment;
+	int errors;            /* takes its standard error                     */
+};
+/** stream_open_alone - the same as stream_open(), for a program without a terminal. */
+int stream_open_alone(const struct stream_where *where, const struct stream_how *how,
+		      struct stream *out);
 /** stream_close - closes it and waits for its command; returns its exit status, -1: none or a
  * signal. */
 int stream_close(struct stream *stream);

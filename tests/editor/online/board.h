@@ -8,6 +8,7 @@
 #include "editor-gtk/online/board_link.h"
 #include "tests/editor/soon.h"
 
+#include <gio/gunixsocketaddress.h>
 #include <glib/gstdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -35,6 +36,20 @@ static inline void board_write(const struct test_board *board, const char *name,
 	g_free(path);
 }
 
+static inline bool board_listens(const char *path)
+{
+	GSocketClient *client = g_socket_client_new();
+	GSocketAddress *address = g_unix_socket_address_new(path);
+	GSocketConnection *to = g_socket_client_connect(client, G_SOCKET_CONNECTABLE(address),
+							NULL, NULL);
+	const bool listens = to != NULL;
+
+	g_clear_object(&to);
+	g_object_unref(address);
+	g_object_unref(client);
+	return listens;
+}
+
 /* Waits until it listens. */
 static inline void board_start(struct test_board *board)
 {
@@ -50,7 +65,7 @@ static inline void board_start(struct test_board *board)
 						    "board.io", "--link", "link", "--groups",
 						    "group", "--slots", "slots", NULL);
 	g_object_unref(launcher);
-	WAIT(g_file_test(path, G_FILE_TEST_EXISTS));
+	WAIT(board_listens(path));
 	g_free(relative);
 	g_free(program);
 	g_free(path);

@@ -6,10 +6,13 @@ The boards are real ladderds of this machine, whose lines are simulated.
 """
 import os
 import signal
+import socket
 import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../online'))
+from link import Sshd  # noqa: E402
 from desk import BUILD, Editor, check, main, new_file, until  # noqa: E402
 
 SEAL = '''RUNGBOARD 1
@@ -39,14 +42,23 @@ class Board:
             with open(os.path.join(self.folder, file), 'w') as out:
                 out.write(text)
         self.where = 'unix:%s/link' % self.folder
+        os.chmod(self.folder, 0o755)
         self.start()
+
+    def write(self, name, text):
+        with open(os.path.join(self.folder, name), 'w') as out:
+            out.write(text)
 
     def start(self):
         self.daemon = subprocess.Popen(
             [os.path.join(os.path.abspath(BUILD), 'ladderd'), 'board.rung', '--io', 'board.io', '--link', 'link', '--groups', 'group',
              '--slots', 'slots'], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL)
-        until(lambda: os.path.exists(self.folder + '/link'), 'the socket of the board')
+        until(self.listens, 'the board')
+
+    def listens(self):
+        with socket.socket(socket.AF_UNIX) as desk:
+            return desk.connect_ex(self.folder + '/link') == 0
 
     def stop(self):
         self.daemon.send_signal(signal.SIGTERM)
@@ -73,9 +85,9 @@ def says(editor, text):
     until(lambda: [node for node in editor.all(text, 'label') if text in node.name], text)
 
 
-def press(editor, name):
-    """The button of exactly that name."""
-    editor.click(until(lambda: [node for node in editor.all(name, 'push button') if node.name == name], name)[0])
+def press(editor, name, role='push button'):
+    """The button of exactly that name; one of a dialog is found by its label."""
+    editor.click(until(lambda: [node for node in editor.all(name, role) if node.name == name], name)[0])
 
 
 def state(screen):
@@ -179,5 +191,64 @@ def nothing(screen):
     board.stop()
 
 
+def here(screen):
+    """Run on this machine is the same mode: the window is connected to what runs, and a change goes there without a stop"""
+    path = new_file(screen, SEAL, 'seal.rung')
+    with open(path[:-5] + '.io', 'w') as out:
+        out.write(MAP)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.tab('Board')
+    editor.click(editor.find('Run…', 'push button'))
+    says(editor, 'garage · RUN')
+    says(editor, 'The board runs this program.')
+    editor.to_sheet()
+    editor.keys('ctrl+d')
+    says(editor, 'Changed here, not downloaded.')
+    editor.shot('online-here')
+    editor.keys('ctrl+shift+d')
+    says(editor, 'Download to “garage”?')
+    editor.keys('Return')
+    says(editor, 'The board runs this program.')
+    editor.tab('Board')
+    until(lambda: [node for node in editor.all('Stop', 'push button')], 'Stop')
+    editor.click([node for node in editor.all('Stop', 'push button')][-1])
+    until(lambda: not editor.all('garage · '), 'the bar to go')
+    assert not [name for name in os.listdir('/tmp') if name.startswith('rungboard-run-')], 'a folder is left'
+
+
+def ssh(screen):
+    """ssh's questions come as dialogs: an unknown board, a passphrase; another key than before is refused"""
+    if not os.path.exists('/usr/sbin/sshd') or not os.path.exists(os.path.join(BUILD, 'tests/online/ladder-attach')):
+        return
+    board = Board(screen, 'far')
+    server = Sshd(board)
+    subprocess.run(['ssh-keygen', '-q', '-p', '-P', '', '-N', 'open sesame', '-f', board.folder + '/key'], check=True)
+    os.unlink(board.folder + '/known')
+    board.write('config', 'Host *\n Port %d\n IdentityFile %s/key\n IdentitiesOnly yes\n IdentityAgent none\n'
+                ' UserKnownHostsFile %s/known\n' % (server.port, board.folder, board.folder))
+    editor = Editor(screen, new_file(screen, SEAL, 'seal.rung'), RUNGBOARD_SSH='ssh -F %s/config' % board.folder)
+    editor.to_sheet()
+    connect(editor, '127.0.0.1')
+    says(editor, 'fingerprint is SHA256:')
+    editor.shot('online-unknown')
+    editor.keys('Tab', 'Return')  # the keys are at Cancel
+    says(editor, 'Enter passphrase for key')
+    until(lambda: any(node.has(12) for node in editor.all('Enter passphrase')), 'the keys in the line')
+    editor.shot('online-passphrase')
+    editor.type('open sesame')
+    editor.keys('Return')
+    says(editor, 'garage · RUN')
+    with open(editor.log) as log:
+        assert 'sesame' not in log.read()
+    press(editor, 'Disconnect')
+    server.trust('other')
+    connect(editor, '127.0.0.1')
+    says(editor, 'shows another key than before, so nothing was sent')
+    editor.shot('online-other-key')
+    server.close()
+    board.stop()
+
+
 if __name__ == '__main__':
-    main([state, roles, download, nothing])
+    main([state, roles, download, nothing, here, ssh])

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_board_copy - what is sent to a board comes back as it was; hostile names leave no folder; no
+ * file is replaced. And serial ports that come and go.
+ */
+#include "editor-gtk/online/board_copy.h"
+#include "editor-gtk/online/board_finder.h"
+#include "tests/editor/online/board.h"
+
+#include <string.h>
+
+static LadderDocument *document_at(const char *folder)
+{
+	LadderDocument *document = ladder_document_new();
+	char *path = g_build_filename(folder, "seal.rung", NULL);
+
+	ladder_document_open_text(document, path, BOARD_PROGRAM, strlen(BOARD_PROGRAM), true);
+	g_free(path);
+	return document;
+}
+
+static void comes_back(const char *folder)
+{
+	LadderDocument *document = document_at(folder);
+	struct board_program *program = board_program_new(document, BOARD_MAP, NULL);
+	struct board_copy *copy;
+	char *why, *path = g_build_filename(folder, "seal.rung", NULL), *text = NULL;
+
+	CHECK(program && stored_size(&program->stored) == program->bytes->len);
+	copy = board_copy_read(&program->stored);
+	CHECK_TEXT(copy->name, "seal.rung");
+	CHECK_TEXT(copy->text, BOARD_PROGRAM);
+	CHECK_TEXT(copy->map, BOARD_MAP);
+	why = board_copy_save(copy, folder, "seal.io");
+	CHECK(!why && g_file_get_contents(path, &text, NULL, NULL));
+	CHECK_TEXT(text, BOARD_PROGRAM);
+	g_free(copy->text);
+	copy->text = g_strdup("other");
+	why = board_copy_save(copy, folder, "seal.io");
+	CHECK_AS(why && strstr(why, "is there already"), "no file is replaced");
+	g_free(text);
+	g_file_get_contents(path, &text, NULL, NULL);
+	CHECK_TEXT(text, BOARD_PROGRAM);
+	for (uint32_t len = 0; len < program->stored.len[STORED_SOURCES]; len++) {
+		struct stored cut = program->stored;
+
+		cut.len[STORED_SOURCES] = len;
+		if (board_copy_read(&cut) && len)
+			CHECK_AS(false, "a program that was cut is refused");
+	}
+	g_free(why);
+	g_free(text);
+	g_free(path);
+	board_copy_free(copy);
+	board_program_unref(program);
+	g_object_unref(document);
+}
+
+static bool takes(const char *name)
+{
+	uint8_t bytes[300];
+	struct wire_writer out = wire_write(bytes, sizeof(bytes));
+	struct stored stored = { .bytes = bytes };
+	struct board_copy *copy;
+
+	wire_put_u16(&out, 1);
+	wire_put_string(&out, name);
+	wire_put_u32(&out, 1);
+	wire_put_u8(&out, 'x');
+	stored.len[STORED_SOURCES] = (uint32_t)wire_len(&out);
+	copy = board_copy_read(&stored);
+	board_copy_free(copy);
+	return copy != NULL;
+}
+
+static void hostile(void)
+{
+	CHECK(takes("a.rung") && takes("lib/a.rung"));
+	CHECK(!takes("") && !takes("/etc/passwd") && !takes("../a") && !takes("a/../../b") &&
+	      !takes(".bashrc") && !takes("a/.x") && !takes("a\nb") && !takes("a/") &&
+	      !takes("\xff"));
+}
+
+static int changes;
+
+static void changed(void)
+{
+	changes++;
+}
+
+/* The places of one kind, joined. Caller frees. */
+static char *found(LadderBoardFinder *finder, enum found_kind kind)
+{
+	GPtrArray *list = ladder_board_finder_list(finder);
+	GString *all = g_string_new(NULL);
+
+	for (guint i = 0; i < list->len; i++) {
+		const struct board_found *one = list->pdata[i];
+
+		if (one->kind == kind)
+			g_string_append_printf(all, "%s|", one->where);
+	}
+	return g_string_free(all, FALSE);
+}
+
+static void ports(const char *folder)
+{
+	char *usb = g_build_filename(folder, "ttyUSB0", NULL);
+	char *other = g_build_filename(folder, "tty1", NULL), *all, *want;
+	LadderBoardFinder *finder = ladder_board_finder_new(folder);
+
+	g_signal_connect(finder, "changed", G_CALLBACK(changed), NULL);
+	all = found(finder, FOUND_HERE);
+	CHECK_TEXT(all, "unix:|");
+	g_free(all);
+	all = found(finder, FOUND_SERIAL);
+	CHECK_TEXT(all, "");
+	g_free(all);
+	changes = 0;
+	g_file_set_contents(usb, "", 0, NULL);
+	g_file_set_contents(other, "", 0, NULL);
+	CHECK_SOON(changes > 0 && ladder_board_finder_list(finder)->len > 1);
+	all = found(finder, FOUND_SERIAL);
+	want = g_strdup_printf("serial:%s|", usb);
+	CHECK_TEXT(all, want);
+	g_unlink(usb);
+	CHECK_SOON(ladder_board_finder_list(finder)->len == 1);
+	g_object_unref(finder);
+	g_free(want);
+	g_free(all);
+	g_free(other);
+	g_free(usb);
+}
+
+int main(void)
+{
+	struct test_board board = { .folder = g_dir_make_tmp("copy-XXXXXX", NULL) };
+
+	comes_back(board.folder);
+	hostile();
+	ports(board.folder);
+	board_close(&board);
+	return tap_done();
+}
