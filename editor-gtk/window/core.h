@@ -21,7 +21,7 @@ struct core {
 	LadderSim *sim;            /* off while editing                           */
 	LadderBoardRun *board;     /* the program on this machine                 */
 	LadderBoardLink *link;     /* to the connected board                      */
-	LadderBoardValues *values; /* shows it in the simulation                  */
+	LadderBoardValues *values; /* of it, shown by the simulation              */
 	GtkPageSetup *paper;       /* of prints and their preview                 */
 	GtkWidget *tree;
 	struct messages *messages;

@@ -101,8 +101,8 @@ static void leave_welcome(struct sim_bar *bar)
 		tabs_show(bar->core->tabs, 0);
 }
 
-/* The panel shows values of a board, too, while there are some. */
-static void notice_board(struct sim_bar *bar)
+/* The panel comes with a board, as with a simulation, and goes with it. */
+static void follow_board(struct sim_bar *bar)
 {
 	const bool board = ladder_sim_board(bar->core->sim) != NULL;
 
@@ -118,11 +118,11 @@ static void notice_board(struct sim_bar *bar)
 
 static void state_changed(struct sim_bar *bar)
 {
+	follow_board(bar);
 	if (ladder_sim_state(bar->core->sim) == SIM_RUN &&
 	    messages_close_offer(bar->core->messages, "win.sim_run"))
 		messages_tell(bar->core->messages, ""); /* clears the message of the fault */
 	show_buttons(bar);
-	notice_board(bar);
 	if (ladder_sim_is_on(bar->core->sim)) {
 		show_when(bar);
 	} else if (bar->side_hidden) { /* however it ended */

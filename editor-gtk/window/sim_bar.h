@@ -16,7 +16,7 @@ struct sim_bar {
 	struct origin *origin;
 	GtkBox *right, *buttons;
 	GtkWidget *side;        /* the left side of the window                   */
-	bool board;             /* a board is shown                            */
+	bool board;             /* the values of a board are shown               */
 	bool side_hidden;       /* while this simulates, for want of room         */
 	GtkToggleButton *edit_mode, *simulate_mode;
 	GtkButton *run_button, *forces_button;

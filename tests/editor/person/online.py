@@ -202,6 +202,7 @@ def here(screen):
     editor.click(editor.find('Run…', 'push button'))
     says(editor, 'garage · RUN')
     says(editor, 'The board runs this program.')
+    editor.click(editor.sheet())
     editor.to_sheet()
     editor.keys('ctrl+d')
     says(editor, 'Changed here, not downloaded.')
