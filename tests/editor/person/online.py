@@ -191,6 +191,12 @@ def nothing(screen):
     board.stop()
 
 
+def children(pid):
+    """The ladderds that the editor has started."""
+    out = subprocess.run(['pgrep', '-P', str(pid), 'ladderd'], capture_output=True, text=True).stdout
+    return [int(number) for number in out.split()]
+
+
 def here(screen):
     """Run on this machine is the same mode: the window is connected to what runs, and a change goes there without a stop"""
     path = new_file(screen, SEAL, 'seal.rung')
@@ -202,6 +208,8 @@ def here(screen):
     editor.click(editor.find('Run…', 'push button'))
     says(editor, 'garage · RUN')
     says(editor, 'The board runs this program.')
+    with open('/proc/%d/cmdline' % children(editor.pid)[0]) as words:
+        folder = os.path.dirname(next(word for word in words.read().split('\0') if word.endswith('/link')))
     editor.click(editor.sheet())
     editor.to_sheet()
     editor.keys('ctrl+d')
@@ -215,7 +223,7 @@ def here(screen):
     until(lambda: [node for node in editor.all('Stop', 'push button')], 'Stop')
     editor.click([node for node in editor.all('Stop', 'push button')][-1])
     until(lambda: not editor.all('garage · '), 'the bar to go')
-    assert not [name for name in os.listdir('/tmp') if name.startswith('rungboard-run-')], 'a folder is left'
+    until(lambda: not os.path.exists(folder), 'the end of its folder')
 
 
 def ssh(screen):
