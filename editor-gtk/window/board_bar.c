@@ -339,6 +339,8 @@ static void board_changed(struct board_bar *bar)
 		bar->ran = true;
 	else if (state == BOARD_STARTING)
 		bar->ran = false;
+	else if (state == BOARD_STOPPING)
+		look_away(bar);
 	core_enable(bar->core, "win.stop_board", state != BOARD_OFF);
 	log_state(bar, state);
 }

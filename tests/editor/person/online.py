@@ -220,8 +220,7 @@ def here(screen):
     editor.keys('Return')
     says(editor, 'The board runs this program.')
     editor.tab('Board')
-    until(lambda: [node for node in editor.all('Stop', 'push button')], 'Stop')
-    editor.click([node for node in editor.all('Stop', 'push button')][-1])
+    press(editor, 'Stop')
     until(lambda: not editor.all('garage · '), 'the bar to go')
     until(lambda: not os.path.exists(folder), 'the end of its folder')
 
