@@ -564,6 +564,16 @@ $(HAL_TEST)/ladder_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/ladder_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
 $(HAL_TEST)/ladder_uapi: WRAP := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wrap=ioctl
 tests: $(HAL_KINDS:%=$(HAL_TEST)/ladder_%)
+# Packages of Debian, from a copy of the tree; the editor for the architecture of this machine.
+DEB_ARCH ?= amd64 arm64 armhf
+deb: ## packages of Debian in build/deb/: rungboard-runtime for amd64, arm64 and armhf, rungboard-editor for this machine
+	packaging/deb.sh $(BUILD)/deb $(DEB_ARCH)
+# A second time, for the hashes; then into a clean system, which mmdebstrap loads once.
+check-deb: deb $(BUILD)/ladder ## build the packages twice, compare, lintian, install into a clean system, connect over ssh; needs root and a network
+	packaging/deb.sh $(BUILD)/deb/again $(DEB_ARCH)
+	test -f $(BUILD)/deb/root.tar || mmdebstrap --variant=minbase --include=openssh-server,systemd,libavahi-client3 bookworm $(BUILD)/deb/root.tar
+	BUILD=$(BUILD) tests/deb/check.py $(BUILD)/deb $(BUILD)/deb/again $(BUILD)/deb/root.tar
+.PHONY: deb check-deb
 bench-rt: $(BUILD)/ladderd ## measure how late ladderd wakes up, compared with cyclictest
 	@BUILD=$(BUILD) tests/bench/rt.sh
 bench-online: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/online/ladder-attach ## measure the link to desks: reading, watching, downloads

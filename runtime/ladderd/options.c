@@ -120,7 +120,7 @@ static bool set_option(struct options *options, const struct option_row *row,
 		return true;
 	case TEXT:
 		*(const char **)at = value;
-		return *value;
+		return *value || row->at == offsetof(struct options, map);
 	case NUMBER:
 		if (!parse_number(value, &number))
 			return false;
@@ -201,6 +201,9 @@ bool options_read(struct options *options, int argc, char **argv)
 		else
 			options->file = argv[i];
 	}
+	/* A service without /etc/ladder/active gives both, empty. */
+	if (options->file && !*options->file && options->map && !*options->map)
+		options->file = options->map = NULL;
 	if (options->help || options->version)
 		return true;
 	if (!options->file && !options->map && options->slots && (options->link || options->serial))
