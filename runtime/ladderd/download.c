@@ -339,8 +339,13 @@ static void keep_image(struct download *download)
 {
 	const struct stored *stored = download_running(download);
 	const uint32_t len = stored->len[STORED_IMAGE];
-	struct past past = { .image = malloc(len ? len : 1), .len = len };
+	struct past past;
 
+	for (int i = 0; i < PAST; i++)
+		if (download->past[i].image &&
+		    memcmp(download->past[i].identity, running_identity(download), 32) == 0)
+			return; /* it ran before, too */
+	past = (struct past){ .image = malloc(len ? len : 1), .len = len };
 	if (!past.image)
 		return;
 	memcpy(past.image, stored_part(stored, STORED_IMAGE), len);
@@ -401,7 +406,6 @@ struct standby *download_back(struct download *download, struct standby **bad)
 {
 	keep_image(download);
 	*bad = download->runs;
-	keep_image(download);
 	standby_free(download->standby); /* its plan is beside the bad one */
 	download->standby = NULL;
 	download->runs = download->before;

@@ -1957,7 +1957,7 @@ def test_a_record_is_replayed_bit_for_bit():
         desk.set_mode(0)
         scans = desk.status()['scans']
         status, out, err = board.command('record', '-o', 'a.record')
-        assert (status, out, err) == (0, f'a.record: {scans} scans\n', ''), (out, err)
+        assert (status, out, err) == (0, f'a.record: {scans} scans\n', ''), (scans, out, err)
         shown = board.ladder('replay', 'a.record', '--changes')
         assert shown.returncode == 0 and not shown.stderr, shown.stderr
         assert shown.stdout.count('# another program') == 4, shown.stdout
