@@ -3,8 +3,8 @@
 #
 # pot.sh - every text of the editor that a person reads, as a template for translators.
 #
-# pot.sh OUTPUT, in the folder of the project. Five sources: the marked texts of the
-# editor, its .ui files, the engine's diagnostics, its reports of imports and exports, and what
+# pot.sh OUTPUT, in the folder of the project. Six sources: the marked texts of the
+# editor, its .ui files, the engine's diagnostics, its reports of imports and exports, events of a board, and what
 # it says of its words (a row's texts are arguments of nested macros, so the preprocessor takes
 # them apart; those of conversions are macros). It merges nothing: `make po` does.
 set -eu
@@ -70,9 +70,10 @@ $take -L C -k -ktell:3 -ktell_change:2 -ktell_lost:2 -ktell_line:3 -kclassic_los
 	runtime/engine/exchange/classic/*.c | sed 's/charset=CHARSET/charset=UTF-8/' |
 	msggrep --msgid -e '[a-z][a-z][a-z]' -o "$work/told.pot" -
 $take -L C -k -kPROPERTY:2 -o "$work/properties.pot" runtime/engine/properties.def
+$take -L C -k -kEVENT:3 -o "$work/events.pot" runtime/online/events.def
 
 # The date would differ each time, and nothing reads it.
 xgettext --from-code=UTF-8 --add-location=file --package-name=Rungboard -L PO -o - \
 	"$work/editor.pot" "$work/ui.pot" "$work/diag.pot" "$work/catalog.pot" \
-	"$work/args.pot" "$work/told.pot" "$work/properties.pot" |
+	"$work/args.pot" "$work/told.pot" "$work/properties.pot" "$work/events.pot" |
 	sed -e '/^"POT-Creation-Date:/d' -e 's/charset=CHARSET/charset=UTF-8/' >"$out"

@@ -62,12 +62,12 @@ void board_bar_new_map(struct board_bar *bar)
 /* Logs @text: the log keeps it after the page is closed. */
 static void log_board(struct board_bar *bar, const char *text)
 {
-	messages_log(bar->core->messages, _("communication"), text);
+	messages_log(bar->core->messages, LOG_COMMUNICATION, text);
 }
 
 static void warn_board(struct board_bar *bar, const char *text)
 {
-	messages_banner(bar->core->messages, _("communication"), text, NULL, NULL);
+	messages_banner(bar->core->messages, LOG_COMMUNICATION, text, NULL, NULL);
 }
 
 static void start(struct board_bar *bar)
@@ -238,7 +238,7 @@ void board_bar_run(struct board_bar *bar)
 		ladder_board_view_set_map(board_view(bar), ladder_side_file_path(file));
 	map = ladder_board_view_map(board_view(bar));
 	if (!map) {
-		messages_banner(bar->core->messages, NULL, _("The program has no I/O map. "
+		messages_banner(bar->core->messages, LOG_SYSTEM, _("The program has no I/O map. "
 							     "Create one to say which pin "
 							     "each input and output uses."),
 			_("New I/O map…"), "win.new_iomap");

@@ -94,7 +94,7 @@ void exchange_imported(struct exchange *exchange)
 {
 	ladder_report_view_import(view_of(exchange), exchange->origin->classic);
 	below_offer(exchange->core->below, "report", true);
-	messages_banner(exchange->core->messages, NULL,
+	messages_banner(exchange->core->messages, LOG_SYSTEM,
 			ladder_report_view_title(view_of(exchange)), _("Show report"),
 			"win.show_report");
 }
@@ -124,7 +124,7 @@ static void tell_written(struct exchange *exchange, const char *path, guint chan
 		g_strdup_printf(_("Exported %s for ClassicLadder."), name);
 
 	if (changed)
-		messages_banner(exchange->core->messages, NULL, text, _("Show report"),
+		messages_banner(exchange->core->messages, LOG_SYSTEM, text, _("Show report"),
 				"win.show_report");
 	else
 		messages_toast(exchange->core->messages, text);
@@ -143,7 +143,7 @@ bool exchange_export_to(struct exchange *exchange, const char *path)
 		messages_close_banner(exchange->core->messages);
 		tell_written(exchange, path, lines->len);
 	} else {
-		messages_banner(exchange->core->messages, NULL, error->message,
+		messages_banner(exchange->core->messages, LOG_SYSTEM, error->message,
 				lines->len ? _("Show report") : NULL,
 				lines->len ? "win.show_report" : NULL);
 		if (lines->len)

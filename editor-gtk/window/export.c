@@ -160,7 +160,7 @@ static void symbols_to(gpointer part, const char *path)
 		messages_toast(messages, told);
 		g_free(told);
 	} else {
-		messages_banner(messages, NULL, error->message, _("Save as…"),
+		messages_banner(messages, LOG_SYSTEM, error->message, _("Save as…"),
 				"win.export_symbols");
 	}
 	g_clear_error(&error);
@@ -316,7 +316,7 @@ static void pdf_to(gpointer part, const char *path)
 		messages_close_offer(messages, "win.export_pdf");
 		messages_toast(messages, path);
 	} else {
-		messages_banner(messages, NULL, error->message, _("Save as…"),
+		messages_banner(messages, LOG_SYSTEM, error->message, _("Save as…"),
 				"win.export_pdf");
 	}
 	g_clear_error(&error);

@@ -135,7 +135,7 @@ static void accept_drops(struct files *files)
 static void warn(struct files *files, const char *text, const char *button,
 		 const char *action)
 {
-	messages_banner(files->core->messages, NULL, text, button, action);
+	messages_banner(files->core->messages, LOG_SYSTEM, text, button, action);
 }
 
 static bool save_to(struct files *files, const char *path)

@@ -7,7 +7,6 @@
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
-#include "editor-gtk/panels/log_view.h"
 #include "editor-gtk/window/below.h"
 
 #define TOLD 1500000 /* us for which cursor moves do not replace a message     */
@@ -114,15 +113,20 @@ void messages_toast(struct messages *messages, const char *text)
 	adw_toast_overlay_add_toast(messages->toasts, adw_toast_new(text));
 }
 
-void messages_log(struct messages *messages, const char *kind, const char *text)
+void messages_log(struct messages *messages, enum log_kind kind, const char *text)
 {
-	ladder_log_view_put(below_panel(messages->core->below, "log"), kind, text);
+	messages_log_at(messages, kind, 0, text);
 }
 
-void messages_banner(struct messages *messages, const char *kind, const char *text,
+void messages_log_at(struct messages *messages, enum log_kind kind, gint64 us, const char *text)
+{
+	ladder_log_view_put(below_panel(messages->core->below, "log"), kind, us, text);
+}
+
+void messages_banner(struct messages *messages, enum log_kind kind, const char *text,
 		     const char *button, const char *action)
 {
-	messages_log(messages, kind ? kind : _("system"), text);
+	messages_log(messages, kind, text);
 	gtk_label_set_text(messages->banner_label, text);
 	gtk_widget_set_visible(GTK_WIDGET(messages->banner_button), button != NULL);
 	if (button)
@@ -133,7 +137,7 @@ void messages_banner(struct messages *messages, const char *kind, const char *te
 
 void messages_warn(struct messages *messages, const char *text)
 {
-	messages_banner(messages, NULL, text, NULL, NULL);
+	messages_banner(messages, LOG_SYSTEM, text, NULL, NULL);
 }
 
 void messages_close_banner(struct messages *messages)

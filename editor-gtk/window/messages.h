@@ -5,6 +5,7 @@
 #ifndef EDITOR_MESSAGES_H
 #define EDITOR_MESSAGES_H
 
+#include "editor-gtk/panels/log_view.h"
 #include "editor-gtk/window/core.h"
 
 struct messages {
@@ -33,11 +34,12 @@ void messages_keys(struct messages *messages, char *text);
 /** messages_toast - a message that disappears by itself. */
 void messages_toast(struct messages *messages, const char *text);
 /** messages_log - adds a line to the log (ladder_log_view_put()). */
-void messages_log(struct messages *messages, const char *kind, const char *text);
-/** messages_banner - a message that stays until it is closed, and is logged. @kind: of the
- * log, translated; NULL: "system". @button, @action: a button and the action of the window
+void messages_log(struct messages *messages, enum log_kind kind, const char *text);
+/** messages_log_at - of something that happened at @us, as g_get_real_time(). */
+void messages_log_at(struct messages *messages, enum log_kind kind, gint64 us, const char *text);
+/** messages_banner - a message that stays until it is closed, and is logged. @button, @action: a button and the action of the window
  * it activates; static, or both NULL. */
-void messages_banner(struct messages *messages, const char *kind, const char *text,
+void messages_banner(struct messages *messages, enum log_kind kind, const char *text,
 		     const char *button, const char *action);
 /** messages_warn - a banner without a button. */
 void messages_warn(struct messages *messages, const char *text);

@@ -247,7 +247,7 @@ static void log_state(struct online_bar *bar, const char *text)
 
 	/* board_bar logs a program of this editor. */
 	if (is_on(bar) && !is_own(bar) && g_strcmp0(bar->said, whole) != 0)
-		messages_log(bar->core->messages, _("communication"), whole);
+		messages_log(bar->core->messages, LOG_COMMUNICATION, whole);
 	g_free(bar->said);
 	bar->said = whole;
 }
@@ -303,7 +303,7 @@ static void failed(LadderBoardLink *link, const char *service, const char *text,
 {
 	char *line = g_strdup_printf("%s: %s: %s", ladder_board_link_board(link), service, text);
 
-	messages_log(bar->core->messages, _("communication"), line);
+	messages_log(bar->core->messages, LOG_COMMUNICATION, line);
 	g_free(line);
 }
 
@@ -314,7 +314,7 @@ static void ordered(gpointer data, struct board_answer *answer)
 	struct online_bar *bar = data;
 
 	if (answer->end != DESK_GOOD)
-		messages_banner(bar->core->messages, _("communication"), answer->text, NULL, NULL);
+		messages_banner(bar->core->messages, LOG_COMMUNICATION, answer->text, NULL, NULL);
 }
 
 static void order_answered(AdwMessageDialog *dialog, const char *answer, struct online_bar *bar)

@@ -20,7 +20,7 @@
 
 static void warn(struct online_move *move, const char *text)
 {
-	messages_banner(move->core->messages, _("communication"), text, NULL, NULL);
+	messages_banner(move->core->messages, LOG_COMMUNICATION, text, NULL, NULL);
 }
 
 static const char *board_name(struct online_move *move)
@@ -252,7 +252,7 @@ static void download_ended(struct online_move *move, const char *why)
 		text = g_strdup_printf(_("Downloaded to “%s”"), board_name(move));
 	if (text) {
 		messages_toast(move->core->messages, text);
-		messages_log(move->core->messages, _("operator"), text);
+		messages_log(move->core->messages, LOG_OPERATOR, text);
 	} else if (*why) {
 		warn(move, why);
 	}

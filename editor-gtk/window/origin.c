@@ -176,7 +176,7 @@ static void tell(const struct taking *taking)
 	if (taking->taken->len) {
 		text = g_strdup_printf(_("Saved, together with the files of the sample: %s"),
 				       taking->taken->str);
-		messages_log(taking->origin->core->messages, _("system"), text);
+		messages_log(taking->origin->core->messages, LOG_SYSTEM, text);
 		messages_tell(taking->origin->core->messages, text);
 		ladder_project_tree_look(taking->origin->core->tree);
 		g_free(text);

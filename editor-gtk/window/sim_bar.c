@@ -174,13 +174,13 @@ static void go_to_fault(struct sim_bar *bar)
 
 static void told(LadderSim *sim, const char *text, gboolean bad, struct sim_bar *bar)
 {
+	(void)sim;
 	messages_tell(bar->core->messages, text);
 	if (!bad) {
-		messages_log(bar->core->messages, ladder_sim_board(sim) ? _("board") :
-			     _("simulation"), text);
+		messages_log(bar->core->messages, LOG_SYSTEM, text);
 		return;
 	}
-	messages_banner(bar->core->messages, _("simulation"), text, _("Run"), "win.sim_run");
+	messages_banner(bar->core->messages, LOG_SYSTEM, text, _("Run"), "win.sim_run");
 	go_to_fault(bar);
 }
 
@@ -191,7 +191,7 @@ static void offer_errors(struct sim_bar *bar, int errors)
 	char *text = g_strdup_printf(ngettext("Cannot simulate: %d error",
 		"Cannot simulate: %d errors", (unsigned long)errors), errors);
 
-	messages_banner(bar->core->messages, _("simulation"), text, _("Show"),
+	messages_banner(bar->core->messages, LOG_SYSTEM, text, _("Show"),
 			"win.show-error");
 	g_free(text);
 	bar->refused = errors;

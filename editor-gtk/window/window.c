@@ -34,6 +34,7 @@
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/names.h"
 #include "editor-gtk/window/online_bar.h"
+#include "editor-gtk/window/online_log.h"
 #include "editor-gtk/window/pou_import_dialog.h"
 #include "editor-gtk/window/pou_new.h"
 #include "editor-gtk/window/preferences.h"
@@ -73,6 +74,7 @@ struct _LadderWindow {
 	struct scenarios scenarios;
 	struct board_bar board_bar;
 	struct online_bar online_bar;
+	struct online_log online_log;
 	guint disk_timer;         /* checks for changed files when it elapses    */
 	GtkWidget *palette;
 	AdwWindowTitle *title;
@@ -115,7 +117,7 @@ void ladder_window_warn(LadderWindow *window, const char *text)
 
 void ladder_window_offer_restored(LadderWindow *window)
 {
-	messages_banner(&window->messages, NULL, _("The editor ended before this was saved. "
+	messages_banner(&window->messages, LOG_SYSTEM, _("The editor ended before this was saved. "
 			"Your changes are restored."), _("Save"), "win.save");
 }
 
@@ -908,6 +910,7 @@ static void add_parts(LadderWindow *window)
 	files_init(&window->files, core, &window->origin, &window->exchange);
 	board_bar_init(&window->board_bar, core, &window->export, &window->files);
 	online_bar_init(&window->online_bar, core, &window->compare);
+	online_log_init(&window->online_log, core);
 	/* these two need to see all events from the start */
 	below_panel(&window->below, "problems");
 	below_panel(&window->below, "log");
@@ -988,6 +991,7 @@ static void ladder_window_dispose(GObject *object)
 
 	g_clear_handle_id(&window->disk_timer, g_source_remove);
 	online_bar_clear(&window->online_bar);
+	online_log_clear(&window->online_log);
 	board_bar_clear(&window->board_bar);
 	scenarios_clear(&window->scenarios);
 	compare_clear(&window->compare);

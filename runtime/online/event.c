@@ -65,7 +65,11 @@ bool event_open(const uint8_t *bytes, struct event *out)
 
 int event_print(const struct event *event, char *out, size_t size)
 {
-	const char *text = event_text(event->id);
+	return event_fill(event, event_text(event->id), out, size);
+}
+
+int event_fill(const struct event *event, const char *text, char *out, size_t size)
+{
 	char args[2 * sizeof(event->arg[0]) + 2];
 	int len;
 

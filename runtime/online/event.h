@@ -37,7 +37,9 @@ void event_take(struct wire_reader *in, struct event *event);
 void event_seal(const struct event *event, uint8_t *out);
 /** event_open - Fails: false: no record, or damaged. */
 bool event_open(const uint8_t *bytes, struct event *out);
-/** event_print - "forced Start=1": the text with its arguments; what is not printable is
- * shown as `?`. As snprintf. */
+/** event_fill - @text, that of the event or its translation, with its arguments: "forced
+ * Start=1"; what is not printable is shown as `?`. As snprintf. */
+int event_fill(const struct event *event, const char *text, char *out, size_t size);
+/** event_print - event_fill() with the text of events.def. */
 int event_print(const struct event *event, char *out, size_t size);
 #endif

@@ -5,6 +5,7 @@
 The boards are real ladderds of this machine, whose lines are simulated.
 """
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -90,6 +91,10 @@ def press(editor, name, role='push button'):
     editor.click(until(lambda: [node for node in editor.all(name, role) if node.name == name], name)[0])
 
 
+def shown_log(editor):
+    return next(node.text() for node in editor.all('Log', 'text'))
+
+
 def state(screen):
     """connecting by keys: the bar says board, mode and whether it runs this program; Stop and Run; a break is mended"""
     board = Board(screen, 'garage')
@@ -113,6 +118,13 @@ def state(screen):
     editor.find('Run the program on “garage”?', 'label')
     editor.keys('Return')
     says(editor, 'garage · RUN')
+    log = editor.logs('operator', 'ordered STOP')
+    assert re.search(r'\tsystem\tgarage: STOP, outputs are safe', log) and re.search(r'\tcommunication\tgarage · RUN', log)
+    press(editor, 'Operator')
+    until(lambda: 'ordered' not in shown_log(editor), 'the lines of the operator to be hidden')
+    assert '\tsystem\tgarage: STOP' in shown_log(editor)
+    press(editor, 'Operator')
+    until(lambda: shown_log(editor).startswith(log), 'all lines again')
     board.stop()
     says(editor, 'connection lost')
     editor.shot('online-lost')

@@ -194,7 +194,7 @@ def zero(screen):
     editor.element('Rung 2, [:=]', 'ENO is FALSE')
     runs(editor)
     # The same fault again is not reported again.
-    log = editor.logs('simulation', 'division by zero: Main, rung 2, row 1, column ')
+    log = editor.logs('system', 'division by zero: Main, rung 2, row 1, column ')
     assert log.count('division by zero') == 1, log
     # A cold start reports it again; it can be switched off.
     switch = at_the_clock(editor, 'FAULT on a failed operation')
