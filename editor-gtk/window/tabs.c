@@ -13,6 +13,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/address_view.h"
 #include "editor-gtk/panels/compare_view.h"
+#include "editor-gtk/panels/device_view.h"
 #include "editor-gtk/panels/preview_view.h"
 #include "editor-gtk/panels/symbols_view.h"
 #include "editor-gtk/panels/tasks_view.h"
@@ -248,6 +249,9 @@ static AdwTabPage *open_widget(struct tabs *tabs, const char *name)
 	else if (!page && strcmp(name, "addresses") == 0)
 		page = add_page(tabs, ladder_address_view_new(tabs->core->document), key,
 				_("Address map"));
+	else if (!page && strcmp(name, "device") == 0)
+		page = add_page(tabs, ladder_device_view_new(tabs->core->link), key,
+				_("Connected board"));
 	else if (!page && strcmp(name, "welcome") == 0)
 		page = add_page(tabs, welcome_new(), key, _("Welcome"));
 	else if (!page && strcmp(name, "compare") == 0)

@@ -25,7 +25,7 @@ void tabs_show(struct tabs *tabs, int pou);
 void tabs_show_task(struct tabs *tabs, const char *task);
 /** tabs_new_task - makes a task in that page. */
 void tabs_new_task(struct tabs *tabs);
-/** tabs_show_widget - a page without a POU: "symbols", "tasks", "types", "addresses", "compare",
+/** tabs_show_widget - a page without a POU: "symbols", "tasks", "types", "addresses", "device", "compare",
  * "welcome", "text". */
 GtkWidget *tabs_show_widget(struct tabs *tabs, const char *name);
 /** tabs_find_widget - the same if it is open; NULL: it is not. */

@@ -425,6 +425,7 @@ static void do_view(LadderWindow *window, enum verb verb)
 	case VERB_show_report: exchange_show(&window->exchange); break;
 	case VERB_show_original: exchange_show_original(&window->exchange); break;
 	case VERB_address_map: show_addresses(window); break;
+	case VERB_online_device: tabs_show_widget(&window->tabs, "device"); break;
 	case VERB_show_as: do_show_as(window); break;
 	case VERB_zoom_in: zoom(window, 1.25); break;
 	case VERB_zoom_out: zoom(window, 0.8); break;
