@@ -32,7 +32,8 @@ static void comes_back(const char *folder)
 	CHECK_TEXT(copy->text, BOARD_PROGRAM);
 	CHECK_TEXT(copy->map, BOARD_MAP);
 	why = board_copy_save(copy, folder, "seal.io");
-	CHECK(!why && g_file_get_contents(path, &text, NULL, NULL));
+	CHECK_AS(!why, "it is written");
+	CHECK(g_file_get_contents(path, &text, NULL, NULL));
 	CHECK_TEXT(text, BOARD_PROGRAM);
 	g_free(copy->text);
 	copy->text = g_strdup("other");
@@ -43,10 +44,13 @@ static void comes_back(const char *folder)
 	CHECK_TEXT(text, BOARD_PROGRAM);
 	for (uint32_t len = 0; len < program->stored.len[STORED_SOURCES]; len++) {
 		struct stored cut = program->stored;
+		struct board_copy *part;
 
 		cut.len[STORED_SOURCES] = len;
-		if (board_copy_read(&cut) && len)
+		part = board_copy_read(&cut);
+		if (part && len)
 			CHECK_AS(false, "a program that was cut is refused");
+		board_copy_free(part);
 	}
 	g_free(why);
 	g_free(text);
