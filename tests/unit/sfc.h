@@ -47,7 +47,7 @@ static inline void sfc_note(struct test_sfc *c, enum piece_kind kind, int index)
 }
 
 /* The word from @at on, up to one of @ends; @at moves behind it. */
-static inline uint32_t sfc_word(struct test_sfc *c, const char **at, const char *ends)
+static inline uint32_t read_sfc_word(struct test_sfc *c, const char **at, const char *ends)
 {
 	const size_t len = strcspn(*at, ends);
 	const uint32_t id = sfc_id(c, *at, len);
@@ -63,7 +63,7 @@ static inline void sfc_step(struct test_sfc *c, const char *text, enum step_kind
 					  sizeof(*step));
 
 	*step = (struct sfc_step){ .kind = kind, .macro = c->macro[c->depth],
-				   .name = sfc_word(c, &text, " "),
+				   .name = read_sfc_word(c, &text, " "),
 				   .first_use = sfc->use_count,
 				   .line = 10 + sfc->step_count };
 	sfc_note(c, PIECE_STEP, sfc->step_count - 1);
@@ -79,7 +79,7 @@ static inline int sfc_refs(struct test_sfc *c, const char **at)
 		struct sfc_ref *ref = push_room(c, &c->sfc->ref, &c->sfc->ref_count,
 						sizeof(*ref));
 
-		*ref = (struct sfc_ref){ .name = sfc_word(c, at, ",>="),
+		*ref = (struct sfc_ref){ .name = read_sfc_word(c, at, ",>="),
 					 .line = 100 + c->sfc->transition_count };
 		*at += **at == ',';
 		count++;
@@ -128,7 +128,7 @@ static inline void sfc_action(struct test_sfc *c, const char *text)
 	struct sfc_action *action = push_room(c, &c->sfc->action,
 					      &c->sfc->action_count, sizeof(*action));
 
-	*action = (struct sfc_action){ .name = sfc_word(c, &text, " "),
+	*action = (struct sfc_action){ .name = read_sfc_word(c, &text, " "),
 				       .line = 200 + c->sfc->action_count };
 	sfc_note(c, PIECE_ACTION, c->sfc->action_count - 1);
 }
@@ -141,7 +141,7 @@ static inline void sfc_line(struct test_sfc *c, const char *text)
 	struct sfc_step *step = &c->sfc->step[c->sfc->step_count - 1];
 	const char *word;
 
-	*use = (struct sfc_use){ .operand = sfc_word(c, &text, " "),
+	*use = (struct sfc_use){ .operand = read_sfc_word(c, &text, " "),
 				 .line = 300 + c->sfc->use_count,
 				 .step = c->sfc->step_count - 1 };
 	step->use_count++;
@@ -153,7 +153,7 @@ static inline void sfc_line(struct test_sfc *c, const char *text)
 		use->qualifier = qualifier_find(word, (size_t)(text - word));
 	text += *text == ' ';
 	if (*text)
-		use->time = sfc_word(c, &text, "");
+		use->time = read_sfc_word(c, &text, "");
 }
 
 static inline void sfc_piece(struct test_sfc *c, const char *text)
