@@ -72,8 +72,6 @@ static void scatter(const struct hal_request *request, uint8_t *area)
 	for (uint32_t i = 0; i < request->ask.count; i++) {
 		const struct hal_bit *bit = &request->bit[i];
 
-		if (request->idle >> i & 1)
-			continue;
 		if (request->value >> i & 1)
 			area[bit->byte] |= bit->mask;
 		else
@@ -83,14 +81,14 @@ static void scatter(const struct hal_request *request, uint8_t *area)
 
 static uint64_t gather(const struct hal_request *request, const uint8_t *area)
 {
-	uint64_t value = 0;
+	uint64_t value = request->kept;
 
 	for (uint32_t i = 0; i < request->ask.count; i++) {
 		const struct hal_bit *bit = &request->bit[i];
 
 		value |= (uint64_t)!!(area[bit->byte] & bit->mask) << i;
 	}
-	return (value & ~request->idle) | (request->safe & request->idle);
+	return value;
 }
 
 static void read_request(struct hal *hal, struct hal_request *request,
@@ -274,7 +272,7 @@ struct request *hal_find(struct hal *hal, struct iec_addr addr, uint32_t *line)
 		for (uint32_t k = 0; k < ask->count; k++) {
 			struct iec_addr at = ask->line[k].point->addr;
 
-			if (!(hal->request[i].idle >> k & 1) &&
+			if (hal->request[i].bit[k].mask &&
 			    at.area == addr.area && at.byte == addr.byte &&
 			    at.bit == addr.bit) {
 				*line = k;

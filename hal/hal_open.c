@@ -466,7 +466,9 @@ static bool make_twin(struct hal_request *twin, struct hal_request *open,
 		}
 		twin->idle |= UINT64_C(1) << k;
 		add_line(twin, keep_point(open->ask.line[k].point, arena), open->ask.line[k].at);
+		twin->bit[k].mask = 0;
 	}
+	twin->kept = twin->safe & twin->idle;
 	twin->debounced &= ~twin->idle;
 	twin->twin = open;
 	open->twin = twin;

@@ -9,7 +9,8 @@
 #include "hal/drivers.h"
 #include "hal/hal.h"
 
-struct hal_bit { uint16_t byte; uint8_t mask; }; /* in its area               */
+/* In its area; mask 0: no point of the map has the line. */
+struct hal_bit { uint16_t byte; uint8_t mask; };
 
 struct hal_request {
 	struct request ask;      /* passed to the driver                      */
@@ -19,7 +20,8 @@ struct hal_request {
 	uint64_t differs;        /* lines whose level differs from value      */
 	uint64_t invert;         /* lines that are active low                 */
 	uint64_t safe;           /* safe values, before inversion             */
-	uint64_t idle;           /* lines that no point of the map has: outputs are safe */
+	uint64_t idle;           /* lines that no point of the map has          */
+	uint64_t kept;           /* safe values of idle lines                 */
 	struct hal_request *twin; /* that of the other map with the same lines; or NULL */
 	uint64_t value;          /* values that the program reads or wrote    */
 	int64_t written_ns;

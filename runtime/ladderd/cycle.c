@@ -61,8 +61,8 @@ void cycle_name(struct cycle *cycle, const char *name, const char *of_map)
 
 static void note(const struct cycle *cycle, enum link_note what, int64_t now_ns)
 {
-	if (cycle->link)
-		link_note(cycle->link, what, now_ns);
+	if (cycle_link(cycle))
+		link_note(cycle_link(cycle), what, now_ns);
 }
 
 static void enter_fault(struct cycle *cycle, enum fault fault)
@@ -116,7 +116,8 @@ static enum refusal restart(struct cycle *cycle, bool cold)
 	if ((hal_quality(&cycle->hal) == QUALITY_FAULT &&
 	     !hal_reopen(&cycle->hal)) || !hal_write_safe(&cycle->hal))
 		return REFUSAL_IO;
-	cycle_pass(cycle);
+	if (cycle_on_trial(cycle))
+		cycle_pass(cycle);
 	resource_stop(resource);
 	start(cycle, cold);
 	cycle->monitor.tripped = 0;
@@ -146,7 +147,8 @@ static enum refusal stop(struct cycle *cycle)
 {
 	if (cycle->resource.state != STATE_RUN)
 		return REFUSAL_NOT_NOW;
-	cycle_pass(cycle);
+	if (cycle_on_trial(cycle))
+		cycle_pass(cycle);
 	resource_stop(&cycle->resource);
 	note(cycle, NOTE_STOP, 0);
 	hal_write_safe(&cycle->hal);
@@ -285,13 +287,13 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 	count_late(cycle, due_ns, begin_ns + took_ns);
 	if (fault == FAULT_NONE && is_too_slow(cycle, took_ns))
 		fault = FAULT_WATCHDOG;
-	if (fault != FAULT_NONE && cycle->trial)
+	if (fault != FAULT_NONE && cycle_on_trial(cycle))
 		cycle_back(cycle, fault);
 	else if (fault != FAULT_NONE)
 		enter_fault(cycle, fault);
 	else if (resource->halted)
 		enter_stop(cycle);
-	else if (cycle->trial && --cycle->trial_left == 0)
+	else if (cycle_on_trial(cycle) && --cycle->trial_left == 0)
 		cycle_pass(cycle);
 	tell_failed(cycle);
 }
@@ -306,21 +308,21 @@ static void wait_until(struct cycle *cycle, int64_t due_ns)
 		notify_feed(&cycle->notify, now_ns);
 		requests_attend(cycle->requests);
 		serve_requests(cycle);
-		if (cycle->link)
-			link_serve(cycle->link);
+		if (cycle_link(cycle))
+			link_serve(cycle_link(cycle));
 		if (cycle->requests->stop || cycle->restart || now_ns >= due_ns)
 			return;
 		if (until_ns - now_ns > SLICE_NS)
 			until_ns = now_ns + SLICE_NS;
 		until.tv_sec = until_ns / SECOND;
 		until.tv_nsec = until_ns % SECOND;
-		if (cycle->link)
-			link_doze(cycle->link);
+		if (cycle_link(cycle))
+			link_doze(cycle_link(cycle));
 		cycle->clock_error = clock_nanosleep(CLOCK_MONOTONIC,
 						     TIMER_ABSTIME, &until,
 						     NULL);
-		if (cycle->link)
-			link_wake(cycle->link);
+		if (cycle_link(cycle))
+			link_wake(cycle_link(cycle));
 		if (cycle->clock_error == EINTR)
 			cycle->clock_error = 0;
 		if (cycle->clock_error)
@@ -359,8 +361,8 @@ int cycle_run(struct cycle *cycle)
 			tend_lines(cycle, clock_now());
 			due_ns = clock_now() + SLICE_NS;
 		}
-		if (cycle->link)
-			link_show(cycle->link, cycle->resource.vm.now_ns);
+		if (cycle_link(cycle))
+			link_show(cycle_link(cycle), cycle->resource.vm.now_ns);
 		if (!ready)
 			notify_send(&cycle->notify, "READY=1");
 		ready = true;

@@ -99,4 +99,21 @@ void cycle_pass(struct cycle *cycle);
  * Fails: REFUSAL_NOT_NOW: not in this state; REFUSAL_IO: a line does not answer.
  */
 enum refusal cycle_mode(struct cycle *cycle, enum mode_wish wish);
+
+/* A small board has neither link nor trial; the compiler leaves out what would use them. */
+#ifdef RUNGBOARD_SMALL
+#define HAS_LINK 0
+#else
+#define HAS_LINK 1
+#endif
+/** cycle_link - the link to desks; NULL: none. Scan-safe: yes. */
+static inline struct link *cycle_link(const struct cycle *cycle)
+{
+	return HAS_LINK ? cycle->link : NULL;
+}
+/** cycle_on_trial - whether a FAULT brings the program before back. Scan-safe: yes. */
+static inline bool cycle_on_trial(const struct cycle *cycle)
+{
+	return HAS_LINK && cycle->trial;
+}
 #endif

@@ -126,7 +126,7 @@ static int run_lines(struct daemon *daemon, int64_t limit_ns)
 	if (error)
 		fprintf(stderr, "ladderd: no thread for --retain: %s\n",
 			strerror(-error));
-	if (!error && cycle->link) {
+	if (!error && cycle_link(cycle)) {
 		error = link_begin(cycle->link);
 		if (error)
 			fprintf(stderr, "ladderd: no thread for --link: %s\n",
@@ -136,7 +136,7 @@ static int run_lines(struct daemon *daemon, int64_t limit_ns)
 		status = cycle_run(cycle);
 	monitor_stop(&cycle->monitor);
 	hal_write_safe(&cycle->hal);
-	if (cycle->link)
+	if (cycle_link(cycle))
 		link_close(cycle->link); /* its store may be another one */
 	if (cycle->store)
 		store_close(cycle->store); /* may wait for a slow disk */
@@ -203,10 +203,10 @@ static int run(struct daemon *daemon)
 		notify_close(&cycle->notify);
 		if (cycle->store)
 			store_close(cycle->store);
-		cycle->restart = slots_reject(&daemon->slots);
+		cycle->restart = HAS_LINK && slots_reject(&daemon->slots);
 		return 1;
 	}
-	if ((options->link || options->serial) && !open_link(daemon)) {
+	if (HAS_LINK && (options->link || options->serial) && !open_link(daemon)) {
 		hal_close(&cycle->hal);
 		notify_close(&cycle->notify);
 		if (cycle->store)
@@ -222,7 +222,8 @@ static int run(struct daemon *daemon)
 	safe_on_crash(NULL, NULL);
 	hal_close(&cycle->hal);
 	notify_close(&cycle->notify);
-	link_free(cycle->link);
+	if (cycle_link(cycle))
+		link_free(cycle->link);
 	cycle->link = NULL;
 	return status;
 }

@@ -677,6 +677,7 @@ def test_download_sends_only_what_the_board_does_not_have():
         def download(name, *more):
             status, out, err = board.command('download', name, 'board.io', '--yes', *more)
             assert status == 0, (out, err)
+            assert out.count('sent ') == 1, out
             sent, size = re.search(r'sent (\d+) of (\d+) bytes', out).groups()
             return int(sent), int(size)
 
