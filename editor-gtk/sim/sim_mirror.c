@@ -532,10 +532,11 @@ bool sim_mirror_play(struct sim_mirror *mirror, struct record_file *file)
 
 	if (!playback_init(&last, file))
 		return false;
-	playback_seek(&last, MAX(record_file_last(file), 1) - 1);
-	period_ns = -last.twin.now_ns;
 	playback_seek(&last, record_file_last(file));
-	period_ns += last.twin.now_ns;
+	/* On average, in steps that a person would set. */
+	period_ns = last.twin.now_ns / (gint64)MAX(record_file_last(file) -
+						   record_file_first(file), 1);
+	period_ns = (period_ns + 50000) / 100000 * 100000;
 	twin_copy(&mirror->twin, &last.twin);
 	mirror->twin.period_ns = period_ns > 0 ? period_ns : SIM_PERIOD;
 	leave_texts(mirror, &mirror->twin);

@@ -113,7 +113,7 @@ def only_looks(screen):
     editor.into('Level, New value')
     editor.type('5')
     editor.keys('Return')
-    editor.find('This needs the role “eng” on the board', 'label')
+    editor.find('This needs the role “oper” on the board', 'label')
     editor.shot('online-refused-chart')
     editor.element('Rung 1, COIL', ', off')
     assert 'Level' in board.ask('get', 'Level') and '30' in board.ask('get', 'Level')

@@ -185,7 +185,7 @@ static bool power(const char *instance, guint rung, guint col)
 	else
 		CHECK(resource_power(&ladder_sim_twin(sim)->resource, unit_of("Main"), rung, 1, col,
 				     &in, &out));
-	return out;
+	return in && out;
 }
 
 static void shows_a_board(void)
