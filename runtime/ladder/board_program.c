@@ -343,6 +343,7 @@ enum status remote_put(struct remote *remote, const struct parcel *parcel)
 	struct board_status *now = calloc(1, sizeof(*now));
 	struct verified verified = { .losses = 0 };
 	enum status status = now ? remote_status(remote, now) : report_no_memory(remote->where);
+	const bool runs = status == STATUS_GOOD && now->mode == STATE_RUN;
 	uint32_t back = 0;
 
 	free(now);
@@ -354,9 +355,10 @@ enum status remote_put(struct remote *remote, const struct parcel *parcel)
 	if (status != STATUS_GOOD)
 		return status;
 	memcpy(put->program, verified.program, sizeof(put->program));
-	if (put->or_restart && !verified.same_map) {
+	if (put->or_restart && (!verified.same_map || !runs)) {
 		put->restart = true;
-		sink_text(&remote->call->out, "the lines of the new I/O map need a restart; the board begins again\n");
+		sink_text(&remote->call->out, runs ? "the lines of the new I/O map need a restart; the "
+			  "board begins again\n" : "the board does not run; it begins again\n");
 	}
 	if (put->ask && !put->restart && verified.losses &&
 	    !remote_is_wanted(remote, "Values would be lost. Download?"))

@@ -35,7 +35,7 @@ struct parcel {
 struct put {
 	bool ask;              /* before values are lost                      */
 	bool restart;          /* the board begins again                      */
-	bool or_restart;       /* restart if the lines of the map need it     */
+	bool or_restart;       /* restart if the board does not run, or the map needs it */
 	bool or_else;          /* there is another way: no message if the board stores nothing */
 	bool no_store;         /* it stores nothing                           */
 	uint8_t program[32];   /* identity of the new program                 */
