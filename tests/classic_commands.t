@@ -87,6 +87,8 @@ my @table = (
 	['io', undef],
 	['push', ['FILE', 'nowhere', 'a@b'], 2, qr/nowhere/],
 	['board', ['unix:nowhere', 'download', 'FILE', 'nowhere'], 2, qr/nowhere/],
+	['replay', ['FILE'], 'any', qr{error LD860: not a record|error LD005: not a regular file}],
+	['boards', undef],
 	['help', undef],
 );
 

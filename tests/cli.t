@@ -82,7 +82,7 @@ like($out, qr/^ladder \d+\.\d+\.\d+\n$/, '--version prints it');
 ($out) = is_run(0, '--help', ['--help']);
 my @commands = $out =~ /^  ([a-z]+)  +\S.*$/mg;
 is_deeply([sort grep { $_ ne 'help' } @commands],
-	  [sort qw(check fmt show il code build run trace test bench words diff io push xref replay why export import board)], 'all commands are there');
+	  [sort qw(check fmt show il code build run trace test bench words diff io push xref replay why export import board boards)], 'all commands are there');
 ($out, $err) = is_run(2, 'no command', []);
 is($out, '', 'no command: nothing on standard output');
 is_run(2, 'unknown command', ['frobnicate']);
