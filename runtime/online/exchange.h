@@ -55,13 +55,13 @@ enum order_kind {
 	ORDER_FORCE,
 	ORDER_UNFORCE, /* count 0: all                                        */
 	ORDER_FORCES,  /* copies the list of forces                           */
+	ORDER_RETAIN,  /* copies the retained values                          */
+	ORDER_RESTORE, /* retained values for the next warm start, in STOP    */
 	/* These have none. */
 	ORDER_MODE,
 	ORDER_STATUS,
 	ORDER_SWAP,    /* another program runs from now on                    */
 	ORDER_RESTART, /* the daemon ends and begins with the newest slot      */
-	ORDER_RETAIN,  /* copies the retained values                          */
-	ORDER_RESTORE, /* retained values for the next warm start, in STOP    */
 	ORDER_ACT,     /* the daemon does something between two scans         */
 	ORDER_RECORD,  /* copies a part of the record                         */
 	ORDER_COUNT
