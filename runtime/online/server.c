@@ -816,7 +816,16 @@ static enum refusal serve_block(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
-/* The sums of the blocks of the program that runs. */
+static bool is_locked(const struct asked *asked)
+{
+	const struct server_setup *setup = &asked->server->setup;
+
+	return setup->password && setup->password->is_set(setup->context) &&
+	       !asked->session->unlocked;
+}
+
+/* The sums of the blocks of the program that runs. Sums of blocks of many sizes tell its bytes,
+ * so they need the password. */
 static enum refusal serve_sums(struct asked *asked)
 {
 	const struct server_store *store = asked->server->setup.store;
@@ -829,6 +838,8 @@ static enum refusal serve_sums(struct asked *asked)
 		return REFUSAL_BAD_FRAME;
 	if (!store)
 		return REFUSAL_NO_STORE;
+	if (is_locked(asked))
+		return REFUSAL_PASSWORD;
 	stored = store->running(asked->server->setup.context);
 	all = stored_size(stored) / block;
 	if (first > all)
@@ -874,6 +885,8 @@ static enum refusal serve_pieces(struct asked *asked)
 
 		if (in->failed || !len || kind > PIECE_BYTES)
 			return REFUSAL_BAD_FRAME;
+		if (kind == PIECE_COPY && is_locked(asked))
+			return REFUSAL_PASSWORD; /* `verify` would tell whether a guess is right */
 		if (kind == PIECE_COPY &&
 		    (from > stored_size(runs) || len > stored_size(runs) - from))
 			return REFUSAL_NOT_WHOLE;
@@ -1037,14 +1050,6 @@ static enum refusal serve_abort(struct asked *asked)
 	asked->server->downloading = -1;
 	begin_answer(asked, 0);
 	return REFUSAL_NONE;
-}
-
-static bool is_locked(const struct asked *asked)
-{
-	const struct server_setup *setup = &asked->server->setup;
-
-	return setup->password && setup->password->is_set(setup->context) &&
-	       !asked->session->unlocked;
 }
 
 static enum refusal serve_upload(struct asked *asked)

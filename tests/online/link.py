@@ -1553,6 +1553,12 @@ def test_a_password_guards_the_upload():
         refused(33, desk.upload)
         refused(33, other.upload)
         refused(33, lambda: other.program(other.status()['program']))
+        # Sums, and copies that a download makes, would tell the bytes as well.
+        refused(33, lambda: other.sums(64))
+        other.begin((b'x', b'y', b'z'))
+        refused(33, lambda: other.pieces(0, (0, 1)))
+        assert other.pieces(0, b'x') == 1
+        other.call(client.ABORT)
         refused(34, lambda: desk.unlock('wrong'))
         # Another session waits, too, also with the right one.
         refused(35, lambda: other.unlock(SECRET))
