@@ -92,6 +92,8 @@ static void tend_lines(struct cycle *cycle, int64_t now_ns)
 static void enter_stop(struct cycle *cycle)
 {
 	hal_write_safe(&cycle->hal);
+	if (cycle_on_trial(cycle))
+		cycle_pass(cycle);
 	cycle->tended_ns = clock_now();
 	control_tell_halt(cycle);
 	if (cycle->store)
