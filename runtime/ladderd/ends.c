@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * ends - a record of fixed size: whether ladderd runs, when it was found to have ended
- * abnormally, CRC-32C. A damaged record counts as none.
+ * ends - a record of fixed size: whether ladderd runs, since which start of the machine, when
+ * it was found to have ended abnormally, CRC-32C. A damaged record counts as none.
  */
 #define _GNU_SOURCE /* CLOCK_BOOTTIME */
 #include "ladderd/ends.h"
@@ -17,10 +17,12 @@
 #include <unistd.h>
 
 #define MAGIC  "RUNGENDS"
-#define RECORD (8 + 1 + 8 * ENDS_MOST + 4)
+#define BOOT   36 /* characters of boot_id */
+#define RECORD (8 + 1 + BOOT + 8 * ENDS_MOST + 4)
 
 struct ends {
 	bool runs;
+	uint8_t boot[BOOT];        /* the kernel's name of this start of the machine */
 	int64_t time_s[ENDS_MOST]; /* the newest first; -1: none              */
 };
 
@@ -31,6 +33,17 @@ static int open_file(const char *folder)
 	if (snprintf(path, sizeof(path), "%s/ends", folder) >= (int)sizeof(path))
 		return -1;
 	return open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0640);
+}
+
+/* Without boot_id all starts of the machine count as one. */
+static void ask_boot(uint8_t boot[BOOT])
+{
+	const int fd = open("/proc/sys/kernel/random/boot_id", O_RDONLY | O_CLOEXEC);
+
+	if (fd < 0 || read(fd, boot, BOOT) != BOOT)
+		memset(boot, 0, BOOT);
+	if (fd >= 0)
+		close(fd);
 }
 
 static void load(int fd, struct ends *ends)
@@ -47,6 +60,7 @@ static void load(int fd, struct ends *ends)
 	    wire_u32(&sum) != digest_crc32c(0, bytes, RECORD - 4))
 		return;
 	ends->runs = wire_u8(&in);
+	memcpy(ends->boot, wire_bytes(&in, BOOT), BOOT);
 	for (int i = 0; i < ENDS_MOST; i++)
 		ends->time_s[i] = wire_i64(&in);
 }
@@ -58,6 +72,7 @@ static void save(int fd, const struct ends *ends)
 
 	wire_put_bytes(&out, MAGIC, 8);
 	wire_put_u8(&out, ends->runs);
+	wire_put_bytes(&out, ends->boot, BOOT);
 	for (int i = 0; i < ENDS_MOST; i++)
 		wire_put_i64(&out, ends->time_s[i]);
 	wire_put_u32(&out, digest_crc32c(0, bytes, RECORD - 4));
@@ -72,7 +87,7 @@ static int64_t seconds_up(void)
 	return clock_gettime(CLOCK_BOOTTIME, &now) == 0 ? now.tv_sec : 0;
 }
 
-/* Times after now are those of a machine that has begun anew since. */
+/* Times after now are those of a machine that has begun anew since, without a boot_id. */
 static bool are_many(const struct ends *ends, int64_t now_s)
 {
 	for (int i = 0; i < ENDS_MOST; i++)
@@ -80,6 +95,20 @@ static bool are_many(const struct ends *ends, int64_t now_s)
 		    now_s - ends->time_s[i] > ENDS_WITHIN_S)
 			return false;
 	return true;
+}
+
+/* Whoever switches the machine off ends ladderd, too: that is no fault of a program. */
+static void forget_other_boot(struct ends *ends)
+{
+	uint8_t boot[BOOT];
+
+	ask_boot(boot);
+	if (memcmp(boot, ends->boot, BOOT) == 0)
+		return;
+	memcpy(ends->boot, boot, BOOT);
+	ends->runs = false;
+	for (int i = 0; i < ENDS_MOST; i++)
+		ends->time_s[i] = -1;
 }
 
 bool ends_begin(const char *folder)
@@ -92,6 +121,7 @@ bool ends_begin(const char *folder)
 	if (fd < 0)
 		return false;
 	load(fd, &ends);
+	forget_other_boot(&ends);
 	if (ends.runs) {
 		memmove(ends.time_s + 1, ends.time_s, sizeof(ends.time_s) - sizeof(ends.time_s[0]));
 		ends.time_s[0] = now_s;

@@ -4,7 +4,8 @@
  * folder of slots.
  *
  * A program that brings ladderd down again and again must not drive its outputs at each new
- * start. Times are those since the machine began, so a clock that is set does not matter.
+ * start. Times are those since the machine began, so a clock that is set does not matter. Ends
+ * before that are forgotten: a machine that is switched off by its main switch starts as ever.
  */
 #ifndef LADDERD_ENDS_H
 #define LADDERD_ENDS_H

@@ -1281,12 +1281,12 @@ def test_three_abnormal_ends_begin_in_stop():
         assert 'stop: ladderd has ended abnormally' in board.command('status')[1]
         desk.set_mode(1)
         assert desk.status()['mode'] == client.RUN and not desk.status()['stop']
-        # Long ago, or of another run of the machine: they do not count.
-        for age in (61, -5):
+        # Long ago, or of before the machine was switched on: they do not count.
+        for age, boot in ((61, this_boot()), (5, b'0' * 36)):
             board.stop()
             with open('/proc/uptime', encoding='ascii') as uptime:
                 at = int(float(uptime.read().split()[0])) - age
-            write_ends(board, [at, at])
+            write_ends(board, [at, at], boot)
             board.start()
             board.daemon.kill()
             board.daemon.wait()
@@ -1297,8 +1297,13 @@ def test_three_abnormal_ends_begin_in_stop():
         assert end_badly()['mode'] == client.RUN
 
 
-def write_ends(board, times):
-    data = b'RUNGENDS' + bytes([0]) + struct.pack('<3q', *times, *[-1] * (3 - len(times)))
+def this_boot():
+    with open('/proc/sys/kernel/random/boot_id', 'rb') as file:
+        return file.read(36)
+
+
+def write_ends(board, times, boot):
+    data = b'RUNGENDS' + bytes([0]) + boot + struct.pack('<3q', *times, *[-1] * (3 - len(times)))
     with open(board.folder + '/ends', 'wb') as file:
         file.write(data + struct.pack('<I', crc32c(data)))
 
