@@ -370,6 +370,7 @@ static void act(struct link *link, void (*what)(void *context, void *other), voi
 {
 	link->store_order = (struct order){ .kind = ORDER_ACT, .act = what, .other = other,
 					    .program = program };
+	wait_for_scan(link); /* for an order that is late: there is one at a time */
 	exchange_post(&link->exchange, &link->store_order);
 	wait_for_scan(link);
 }
@@ -502,6 +503,7 @@ static void end_trial(struct link *link)
 		return;
 	if (read(link->wake, &count, sizeof(count)) < 0)
 		errno = 0;
+	server_settle(link->server); /* the exchange before it may have been late */
 	if (trial == TRIAL_BACK)
 		go_back(link);
 	else

@@ -64,6 +64,7 @@ struct server {
 	struct watch look_watch;
 	struct standby_view standby;
 	bool verified;
+	bool swapping;         /* ORDER_SWAP was given, and its end is not known yet */
 	char why[STATUS_TEXT]; /* the board went back by itself; "": a desk did it */
 	bool no_memory;        /* for the image of a new program: no reading  */
 	/* The program over the memory of a view, with the forces of the board. */
@@ -93,6 +94,7 @@ static enum refusal give(struct server *server)
 		return REFUSAL_BUSY;
 	if (server->order.kind < ORDER_MODE)
 		server->order.program = server->setup.program;
+	server->order.refusal = REFUSAL_BUSY; /* until it is done */
 	exchange_post(server->setup.exchange, &server->order);
 	return server->setup.wait(server->setup.context) ? server->order.refusal : REFUSAL_BUSY;
 }
@@ -100,7 +102,7 @@ static enum refusal give(struct server *server)
 /* An order may be given only if the one before is done: it is the same memory. */
 static bool can_order(const struct server *server)
 {
-	return exchange_is_done(server->setup.exchange);
+	return exchange_is_done(server->setup.exchange) && !server->swapping;
 }
 
 /* Learns the forces of the board anew. */
@@ -752,11 +754,13 @@ void server_changed(struct server *server, const struct program *program, const 
 
 /* ---- download, upload ---- */
 
-/* Only the session that began it goes on with it. */
+/* Only the session that began it goes on with it; and not while a late order may still take it. */
 static enum refusal own_download(const struct asked *asked)
 {
 	if (!asked->server->setup.store)
 		return REFUSAL_NO_STORE;
+	if (!can_order(asked->server))
+		return REFUSAL_BUSY;
 	return asked->server->downloading == asked->session - asked->server->session ?
 		       REFUSAL_NONE : REFUSAL_NO_DOWNLOAD;
 }
@@ -777,6 +781,8 @@ static enum refusal serve_download(struct asked *asked)
 		return REFUSAL_BAD_FRAME;
 	if (!server->setup.store)
 		return REFUSAL_NO_STORE;
+	if (!can_order(server))
+		return REFUSAL_BUSY;
 	if (server->downloading >= 0 && own_download(asked) != REFUSAL_NONE)
 		return REFUSAL_NO_DOWNLOAD;
 	snprintf(asked->detail, sizeof(asked->detail), "%u bytes at most", STORED_MOST);
@@ -955,6 +961,26 @@ static enum refusal serve_verify(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
+void server_settle(struct server *server)
+{
+	const struct server_store *store = server->setup.store;
+	const bool back = server->order.back != 0;
+
+	if (!server->swapping || !exchange_is_done(server->setup.exchange))
+		return;
+	server->swapping = false;
+	if (server->order.refusal != REFUSAL_NONE) {
+		store->close_lines(server->setup.context);
+		return;
+	}
+	server->verified = false;
+	server->downloading = -1;
+	server->why[0] = '\0';
+	server_renew(server, store->swapped(server->setup.context, back));
+	learn_forces(server); /* if the board is busy, the next view says that they differ */
+}
+
+/* An order that is late is settled later: its program may run by then. */
 static enum refusal swap(struct asked *asked, const struct expect *expect, uint32_t back)
 {
 	struct server *server = asked->server;
@@ -962,13 +988,10 @@ static enum refusal swap(struct asked *asked, const struct expect *expect, uint3
 
 	server->order = (struct order){ .kind = ORDER_SWAP, .other = server->standby.standby,
 					.back = back, .expects = true, .expect = *expect };
+	server->swapping = true;
 	refusal = give(server);
-	if (refusal != REFUSAL_NONE)
-		return refusal;
-	server->why[0] = '\0';
-	server_renew(server, server->setup.store->swapped(server->setup.context, back != 0));
-	learn_forces(server); /* if the board is busy, the next view says that they differ */
-	return REFUSAL_NONE;
+	server_settle(server);
+	return refusal;
 }
 
 static enum refusal restart(struct server *server, const struct expect *expect, bool stopped)
@@ -1718,6 +1741,7 @@ bool server_step(struct server *server, int64_t now_ns)
 {
 	bool more = false;
 
+	server_settle(server);
 	for (int i = 0; i < SERVER_SESSIONS; i++) {
 		struct session *session = &server->session[i];
 

@@ -138,6 +138,9 @@ void server_sent(struct server *server, int session, size_t len);
 /** server_is_over - the stream made no sense, and all was sent: close it. */
 bool server_is_over(const struct server *server, int session);
 
+/** server_settle - a program that was given to the scan thread may run by now: goes on with it.
+ * Before server_changed(); server_step() does it, too. */
+void server_settle(struct server *server);
 /** server_changed - the board went back to @program by itself; each session is told @why. */
 void server_changed(struct server *server, const struct program *program, const char *why);
 
