@@ -571,10 +571,18 @@ bool hal_open_new(struct hal *next, struct diag_list *diags)
 	return true;
 }
 
+/* An output whose safe value could not be written in time gets it now. */
 void hal_close_rest(struct hal *other)
 {
-	for (uint32_t i = 0; i < other->request_count; i++)
-		close_request(&other->request[i]);
+	for (uint32_t i = 0; i < other->request_count; i++) {
+		struct hal_request *request = &other->request[i];
+
+		if (request->is_open && request->ask.output && request->dirty &&
+		    request->ask.driver->write(&request->ask,
+					       request->safe ^ request->invert) == 0)
+			request->dirty = false;
+		close_request(request);
+	}
 }
 
 bool hal_list(const char *dev,
