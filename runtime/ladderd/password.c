@@ -66,19 +66,34 @@ enum refusal password_check(struct password *password, const char *text, int64_t
 	return REFUSAL_WRONG;
 }
 
+/* So that a power cut does not undo it. */
+static void sync_folder(const char *path)
+{
+	const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+
+	if (folder < 0)
+		return;
+	fsync(folder);
+	close(folder);
+}
+
 /* Readable by this user only, and whole or not at all. @hash "": no password. */
 static int store(const struct password *password, const char *hash)
 {
 	char path[320], fresh[320];
 	const size_t len = strlen(hash);
-	int fd, folder, error = 0;
+	int fd, error = 0;
 
 	if (!path_of(password, "password", path, sizeof(path)) ||
 	    !path_of(password, "password.new", fresh, sizeof(fresh)))
 		return -ENAMETOOLONG;
 	unlink(fresh);
-	if (!len)
-		return unlink(path) == 0 || errno == ENOENT ? 0 : -errno;
+	if (!len) {
+		if (unlink(path) != 0 && errno != ENOENT)
+			return -errno;
+		sync_folder(password->folder);
+		return 0;
+	}
 	fd = open(fresh, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
 	if (fd < 0)
 		return -errno;
@@ -91,11 +106,7 @@ static int store(const struct password *password, const char *hash)
 		unlink(fresh);
 		return error;
 	}
-	folder = open(password->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-	if (folder >= 0) {
-		fsync(folder);
-		close(folder);
-	}
+	sync_folder(password->folder);
 	return 0;
 }
 
