@@ -94,7 +94,9 @@ void values_print(const uint8_t *payload, uint32_t len, struct bytes *out)
 		const enum iec_type type = split_type(record.type, record.type_len, &count);
 		const uint32_t size = count ? record.size / count : 0;
 
-		if (type == IEC_NONE || !size)
+		/* The bytes come from a board. */
+		if (type == IEC_NONE || !size ||
+		    (type != IEC_STRING && size != iec_type_row(type)->size))
 			continue;
 		bytes_add(out, record.name, record.name_len);
 		add_text(out, " ");
