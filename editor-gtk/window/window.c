@@ -976,7 +976,8 @@ static gboolean ladder_window_close_request(GtkWindow *gtk_window)
 
 	if (!front_take_typed(&window->front))
 		return TRUE;
-	ladder_sim_stop(window->core.sim);
+	if (!ladder_sim_board(window->core.sim)) /* a board goes on without the editor */
+		ladder_sim_stop(window->core.sim);
 	if (!board_bar_may_close(&window->board_bar))
 		return TRUE;
 	if (!files_may_close(&window->files))
