@@ -992,6 +992,8 @@ static void ladder_window_dispose(GObject *object)
 	struct core *core = &window->core;
 
 	g_clear_handle_id(&window->disk_timer, g_source_remove);
+	if (core->link) /* requests end now, while all parts are there */
+		ladder_board_link_disconnect(core->link);
 	online_bar_clear(&window->online_bar);
 	online_log_clear(&window->online_log);
 	board_bar_clear(&window->board_bar);
