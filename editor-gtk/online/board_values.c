@@ -250,12 +250,15 @@ static void act_answered(gpointer data, struct board_answer *answer)
 		ladder_sim_mirror_refuse(values->sim, answer->text);
 }
 
+/* The place is of the program that is shown: the board refuses it if another one runs. */
 static void change(LadderBoardValues *values, enum service service, const struct act *act)
 {
 	const struct program *program = values->program->program;
 	struct wire_writer fields = ladder_board_link_begin(values->link);
+	struct expect expect = { .mode = EXPECT_ANY };
 
-	ladder_board_link_expect(values->link, &fields);
+	memcpy(expect.program, values->identity, sizeof(expect.program));
+	wire_put_expect(&fields, &expect);
 	wire_put_u16(&fields, act->kind == ACT_RELEASE_ALL ? 0 : 1);
 	if (act->kind != ACT_RELEASE_ALL) {
 		wire_put_u8(&fields, REF_PLACE);
@@ -513,6 +516,14 @@ static struct sim_program *read_copy(const struct board_copy *copy, GError **err
 	return program;
 }
 
+/* The board may have got another program while this one came. */
+static bool is_newest(LadderBoardValues *values)
+{
+	const struct board_status *status = ladder_board_link_status(values->link);
+
+	return status && memcmp(values->identity, status->program, sizeof(values->identity)) == 0;
+}
+
 static void copied(gpointer data, struct board_copy *copy, const char *why)
 {
 	LadderBoardValues *values = data;
@@ -523,7 +534,7 @@ static void copied(gpointer data, struct board_copy *copy, const char *why)
 	values->loading = false;
 	if (ladder_board_link_state(values->link) == LINK_CONNECTED && copy && copy->text)
 		program = read_copy(copy, &error);
-	if (program && runs(values, program)) {
+	if (program && runs(values, program) && is_newest(values)) {
 		begin(values, program);
 	} else if (ladder_board_link_state(values->link) == LINK_CONNECTED) {
 		text = g_strdup_printf(_("Values of the board are not shown: %s"),
