@@ -25,6 +25,7 @@ struct _LadderBoardFinder {
 	char *why, *look;      /* `look`: what was seen last, as text          */
 	GCancellable *cancel;
 	GDBusConnection *bus;
+	char *browser;         /* object path at Avahi; NULL: none             */
 	guint heard[2], timer;
 };
 
@@ -307,9 +308,12 @@ static void browsed(GObject *bus, GAsyncResult *result, gpointer data)
 {
 	GError *error = NULL;
 	GVariant *answer = g_dbus_connection_call_finish(G_DBUS_CONNECTION(bus), result, &error);
+	LadderBoardFinder *finder = data;
 
-	if (!answer && !g_error_matches(error, G_IO_ERROR, G_IO_ERROR_CANCELLED))
-		no_network(data);
+	if (answer)
+		g_variant_get(answer, "(o)", &finder->browser);
+	else if (!g_error_matches(error, G_IO_ERROR, G_IO_ERROR_CANCELLED))
+		no_network(finder);
 	g_clear_pointer(&answer, g_variant_unref);
 	g_clear_error(&error);
 	g_object_unref(data);
@@ -363,6 +367,10 @@ static void ladder_board_finder_dispose(GObject *object)
 	g_clear_handle_id(&finder->timer, g_source_remove);
 	for (gsize i = 0; i < G_N_ELEMENTS(finder->heard) && finder->bus; i++)
 		g_dbus_connection_signal_unsubscribe(finder->bus, finder->heard[i]);
+	if (finder->browser) /* else Avahi stores it until the editor ends */
+		g_dbus_connection_call(finder->bus, AVAHI, finder->browser,
+			AVAHI ".ServiceBrowser", "Free", NULL, NULL, 0, -1, NULL, NULL, NULL);
+	g_clear_pointer(&finder->browser, g_free);
 	g_clear_object(&finder->bus);
 	G_OBJECT_CLASS(ladder_board_finder_parent_class)->dispose(object);
 }
