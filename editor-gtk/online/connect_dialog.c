@@ -125,7 +125,7 @@ static void refill(LadderConnectDialog *dialog)
 	for (guint i = 0; i < dialog->groups->len; i++)
 		gtk_box_remove(GTK_BOX(dialog->page), dialog->groups->pdata[i]);
 	g_ptr_array_set_size(dialog->groups, 0);
-	add_group(dialog, FOUND_HERE, _("This computer"), NULL);
+	add_group(dialog, FOUND_HERE, "", NULL); /* its only row says what it is */
 	add_group(dialog, FOUND_RECENT, _("Recent boards"), NULL);
 	add_group(dialog, FOUND_NETWORK, _("In the network"),
 		  why ? why : _("No board has announced itself yet."));
