@@ -12,9 +12,13 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #define ASK_MS 300 /* between two requests for its status                      */
+#define FOLDER "rungboard-run-"
+#define NEW_US 60000000 /* a folder whose ladderd may not listen yet           */
 
 struct _LadderBoardRun {
 	GObject parent;
@@ -35,13 +39,75 @@ static guint signals[SIGNALS];
 
 /* ---- its folder ---- */
 
+static void empty_folder(const char *folder)
+{
+	GDir *dir = g_dir_open(folder, 0, NULL);
+	const char *name;
+
+	while (dir && (name = g_dir_read_name(dir))) {
+		char *path = g_build_filename(folder, name, NULL);
+
+		if (!g_file_test(path, G_FILE_TEST_IS_SYMLINK) &&
+		    g_file_test(path, G_FILE_TEST_IS_DIR))
+			empty_folder(path);
+		g_remove(path);
+		g_free(path);
+	}
+	g_clear_pointer(&dir, g_dir_close);
+}
+
+/* Whether a ladderd listens at @path, or may. */
+static bool is_heard(const char *path)
+{
+	struct sockaddr_un at = { .sun_family = AF_UNIX };
+	const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+	bool heard = true;
+
+	if (fd >= 0 && g_strlcpy(at.sun_path, path, sizeof(at.sun_path)) < sizeof(at.sun_path))
+		heard = connect(fd, (const struct sockaddr *)&at, sizeof(at)) == 0 ||
+			(errno != ECONNREFUSED && errno != ENOENT);
+	if (fd >= 0)
+		close(fd);
+	return heard;
+}
+
+static void drop_left(const char *folder)
+{
+	char *path = g_build_filename(folder, "link", NULL);
+	GStatBuf about;
+
+	if (g_lstat(folder, &about) == 0 && S_ISDIR(about.st_mode) && about.st_uid == getuid() &&
+	    g_get_real_time() - (gint64)about.st_mtime * 1000000 > NEW_US && !is_heard(path)) {
+		empty_folder(folder);
+		g_rmdir(folder);
+	}
+	g_free(path);
+}
+
+/* An editor that was killed leaves its folder. */
+static void drop_all_left(void)
+{
+	GDir *dir = g_dir_open(g_get_tmp_dir(), 0, NULL);
+	const char *name;
+
+	while (dir && (name = g_dir_read_name(dir))) {
+		char *path = g_build_filename(g_get_tmp_dir(), name, NULL);
+
+		if (g_str_has_prefix(name, FOLDER))
+			drop_left(path);
+		g_free(path);
+	}
+	g_clear_pointer(&dir, g_dir_close);
+}
+
 /* The only group of its link is that of this user: whoever reaches the socket may do all. */
 static bool make_folder(LadderBoardRun *run, GError **error)
 {
 	char *group, *path, *slots;
 	bool good;
 
-	run->folder = g_dir_make_tmp("rungboard-run-XXXXXX", error); /* 0700 */
+	drop_all_left();
+	run->folder = g_dir_make_tmp(FOLDER "XXXXXX", error); /* 0700 */
 	if (!run->folder)
 		return false;
 	run->where = g_strdup_printf("unix:%s/link", run->folder);
@@ -58,23 +124,6 @@ static bool make_folder(LadderBoardRun *run, GError **error)
 	g_free(path);
 	g_free(group);
 	return good;
-}
-
-static void empty_folder(const char *folder)
-{
-	GDir *dir = g_dir_open(folder, 0, NULL);
-	const char *name;
-
-	while (dir && (name = g_dir_read_name(dir))) {
-		char *path = g_build_filename(folder, name, NULL);
-
-		if (!g_file_test(path, G_FILE_TEST_IS_SYMLINK) &&
-		    g_file_test(path, G_FILE_TEST_IS_DIR))
-			empty_folder(path);
-		g_remove(path);
-		g_free(path);
-	}
-	g_clear_pointer(&dir, g_dir_close);
 }
 
 static void drop_folder(LadderBoardRun *run)
