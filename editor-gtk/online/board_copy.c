@@ -282,10 +282,11 @@ static void upload_free(struct upload *upload)
 	g_free(upload);
 }
 
-static void upload_end(struct upload *upload, struct board_copy *copy, const char *why)
+static void upload_end(struct upload *upload, struct board_copy *copy, const char *why,
+		       bool locked)
 {
 	if (upload->owner || !upload->owned)
-		upload->copied(upload->data, copy, why);
+		upload->copied(upload->data, copy, why, locked);
 	else
 		board_copy_free(copy);
 	upload_free(upload);
@@ -301,7 +302,8 @@ static void part_came(gpointer data, struct board_answer *answer)
 	size_t len;
 
 	if (answer->end != DESK_GOOD) {
-		upload_end(upload, NULL, answer->text);
+		upload_end(upload, NULL, answer->text, answer->end == DESK_REFUSED &&
+			   answer->refusal == REFUSAL_PASSWORD);
 		return;
 	}
 	for (int i = 0; i < STORED_PARTS; i++)
@@ -310,7 +312,7 @@ static void part_came(gpointer data, struct board_answer *answer)
 	len = wire_left(&answer->body);
 	if (answer->body.failed || !size || len > size - MIN(size, upload->bytes->len) ||
 	    (!len && upload->bytes->len < size)) {
-		upload_end(upload, NULL, _("What the board sent is no program"));
+		upload_end(upload, NULL, _("What the board sent is no program"), false);
 		return;
 	}
 	if (len)
@@ -322,7 +324,7 @@ static void part_came(gpointer data, struct board_answer *answer)
 	stored.bytes = upload->bytes->data;
 	struct board_copy *copy = board_copy_read(&stored);
 
-	upload_end(upload, copy, copy ? NULL : _("What the board sent is no program"));
+	upload_end(upload, copy, copy ? NULL : _("What the board sent is no program"), false);
 }
 
 static void ask_part(struct upload *upload)
@@ -346,4 +348,14 @@ void board_upload(LadderBoardLink *link, gpointer owner, board_copied copied, gp
 	upload->copied = copied;
 	upload->data = data;
 	ask_part(upload);
+}
+
+void board_unlock(LadderBoardLink *link, const char *password, gpointer owner,
+		  board_answered answered, gpointer data)
+{
+	struct wire_writer fields = ladder_board_link_begin(link);
+
+	wire_put_u8(&fields, 0);
+	wire_put_string(&fields, password);
+	ladder_board_link_send(link, SERVICE_PASSWORD, &fields, owner, answered, data);
 }

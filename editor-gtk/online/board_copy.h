@@ -46,9 +46,13 @@ struct board_program *board_program_new(LadderDocument *document, const char *ma
 struct board_program *board_program_ref(struct board_program *program);
 void board_program_unref(gpointer program);
 
-/** board_copied - @copy: to be kept or freed with board_copy_free(); NULL: @why. */
-typedef void (*board_copied)(gpointer data, struct board_copy *copy, const char *why);
+/** board_copied - @copy: to be kept or freed with board_copy_free(); NULL: @why. @locked: because
+ * of the program password: board_unlock() first. */
+typedef void (*board_copied)(gpointer data, struct board_copy *copy, const char *why, bool locked);
 /** board_upload - gets what the board stores; @owner, @data: as ladder_board_link_send(). */
 void board_upload(LadderBoardLink *link, gpointer owner, board_copied copied, gpointer data);
+/** board_unlock - gives the program password: this session may upload then. */
+void board_unlock(LadderBoardLink *link, const char *password, gpointer owner,
+		  board_answered answered, gpointer data);
 
 #endif

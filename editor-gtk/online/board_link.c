@@ -114,6 +114,8 @@ static void asked_unref(gpointer data)
 		return;
 	if (asked->free)
 		asked->free(asked->data);
+	if (asked->service == SERVICE_PASSWORD)
+		memset(asked->fields->data, 0, asked->fields->len);
 	g_byte_array_unref(asked->fields);
 	g_free(asked);
 }
@@ -844,6 +846,8 @@ void ladder_board_link_send(LadderBoardLink *link, enum service service,
 
 	asked->service = service;
 	g_byte_array_append(asked->fields, link->fields, (guint)wire_len(fields));
+	if (service == SERVICE_PASSWORD)
+		memset(link->fields, 0, wire_len(fields));
 	if (fields->failed) /* the desk says that it is too long for a frame */
 		g_byte_array_set_size(asked->fields, WIRE_FRAME_MOST);
 	give(link, asked);

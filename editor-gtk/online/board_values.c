@@ -524,13 +524,20 @@ static bool is_newest(LadderBoardValues *values)
 	return status && memcmp(values->identity, status->program, sizeof(values->identity)) == 0;
 }
 
-static void copied(gpointer data, struct board_copy *copy, const char *why)
+void ladder_board_values_again(LadderBoardValues *values)
+{
+	if (!values->mirror)
+		values->tried = false;
+}
+
+static void copied(gpointer data, struct board_copy *copy, const char *why, bool locked)
 {
 	LadderBoardValues *values = data;
 	struct sim_program *program = NULL;
 	GError *error = NULL;
 	char *text;
 
+	(void)locked;
 	values->loading = false;
 	if (ladder_board_link_state(values->link) == LINK_CONNECTED && copy && copy->text)
 		program = read_copy(copy, &error);

@@ -69,6 +69,20 @@ GtkWidget *ask_entry(const char *name)
 	return entry;
 }
 
+/* A GtkPasswordEntry of GTK 4.8 follows the Caps Lock key even when it is gone. */
+GtkWidget *ask_secret(const char *name)
+{
+	GtkEntryBuffer *buffer = gtk_password_entry_buffer_new(); /* is not paged out */
+	GtkWidget *entry = gtk_entry_new_with_buffer(buffer);
+
+	gtk_entry_set_visibility(GTK_ENTRY(entry), FALSE);
+	gtk_entry_set_input_purpose(GTK_ENTRY(entry), GTK_INPUT_PURPOSE_PASSWORD);
+	gtk_entry_set_activates_default(GTK_ENTRY(entry), TRUE);
+	spoken_name(entry, name);
+	g_object_unref(buffer);
+	return entry;
+}
+
 GtkFileChooserNative *ask_rung_file(GtkWindow *window, LadderDocument *document,
 				    const char *title, GtkFileChooserAction action,
 				    const char *accept)

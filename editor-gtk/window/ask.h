@@ -20,6 +20,8 @@ AdwMessageDialog *ask_save(GtkWindow *window, const char *name);
 /** ask_entry - an entry for a dialog; Enter gives the default answer. @name: its accessible
  * name. */
 GtkWidget *ask_entry(const char *name);
+/** ask_secret - likewise for a password. */
+GtkWidget *ask_secret(const char *name);
 /** ask_rung_file - a file chooser for rung files that starts in the folder of @document.
  * The caller shows it and passes its response to ask_take_path(). */
 GtkFileChooserNative *ask_rung_file(GtkWindow *window, LadderDocument *document,

@@ -4,7 +4,6 @@
  */
 #include "editor-gtk/window/online_bar.h"
 
-#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/online/board_finder.h"
@@ -56,20 +55,6 @@ static void close_question(struct online_bar *bar)
 	gtk_window_destroy(GTK_WINDOW(dialog));
 }
 
-/* A GtkPasswordEntry of GTK 4.8 follows the Caps Lock key even when it is gone. */
-static GtkWidget *secret_entry_new(const char *name)
-{
-	GtkEntryBuffer *buffer = gtk_password_entry_buffer_new(); /* is not paged out */
-	GtkWidget *entry = gtk_entry_new_with_buffer(buffer);
-
-	gtk_entry_set_visibility(GTK_ENTRY(entry), FALSE);
-	gtk_entry_set_input_purpose(GTK_ENTRY(entry), GTK_INPUT_PURPOSE_PASSWORD);
-	gtk_entry_set_activates_default(GTK_ENTRY(entry), TRUE);
-	spoken_name(entry, name);
-	g_object_unref(buffer);
-	return entry;
-}
-
 static void asks(LadderBoardLink *link, const char *question, gboolean yes_no,
 		 struct online_bar *bar)
 {
@@ -84,7 +69,7 @@ static void asks(LadderBoardLink *link, const char *question, gboolean yes_no,
 	if (yes_no) {
 		adw_message_dialog_set_default_response(dialog, "cancel");
 	} else {
-		entry = secret_entry_new(question);
+		entry = ask_secret(question);
 		adw_message_dialog_set_extra_child(dialog, entry);
 	}
 	core_connect(bar->core, dialog, "response", G_CALLBACK(question_answered), bar, 0);

@@ -14,6 +14,7 @@
 #include "editor-gtk/window/tabs.h"
 
 #include <string.h>
+#include <sys/prctl.h>
 
 #define MAP_MOST   (4 << 20) /* bytes of a map, as in ladderd                  */
 #define LOSSES_PX  160       /* height of the list of losses                   */
@@ -28,6 +29,65 @@ static const char *board_name(struct online_move *move)
 	return ladder_board_link_board(move->core->link);
 }
 
+/* ---- what the board stores ---- */
+
+static void upload(struct online_move *move);
+static void ask_password(struct online_move *move, const char *why);
+
+static void unlocked(gpointer data, struct board_answer *answer)
+{
+	struct online_move *move = data;
+
+	if (answer->end == DESK_REFUSED) {
+		ask_password(move, answer->text);
+	} else if (answer->end != DESK_GOOD) {
+		warn(move, answer->text);
+	} else {
+		ladder_board_values_again(move->core->values);
+		upload(move);
+	}
+}
+
+static void password_answered(AdwMessageDialog *dialog, const char *answer,
+			      struct online_move *move)
+{
+	GtkEditable *entry = GTK_EDITABLE(adw_message_dialog_get_extra_child(dialog));
+
+	if (strcmp(answer, "answer") == 0)
+		board_unlock(move->core->link, gtk_editable_get_text(entry), move->core->window,
+			     unlocked, move);
+	prctl(PR_SET_DUMPABLE, 1);
+}
+
+/* While it is typed, no core has it. */
+static void ask_password(struct online_move *move, const char *why)
+{
+	char *heading = g_strdup_printf(_("Program password of “%s”"), board_name(move));
+	AdwMessageDialog *dialog = ask_new(move->core->window, heading, why, "answer", _("OK"),
+					   ADW_RESPONSE_SUGGESTED);
+
+	prctl(PR_SET_DUMPABLE, 0);
+	adw_message_dialog_set_extra_child(dialog, ask_secret(heading));
+	core_connect(move->core, dialog, "response", G_CALLBACK(password_answered), move, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+	g_free(heading);
+}
+
+static void uploaded(gpointer data, struct board_copy *copy, const char *why, bool locked)
+{
+	struct online_move *move = data;
+
+	if (locked)
+		ask_password(move, why);
+	else
+		move->copied(move, copy, why);
+}
+
+static void upload(struct online_move *move)
+{
+	board_upload(move->core->link, move->core->window, uploaded, move);
+}
+
 /* ---- comparison ---- */
 
 static void no_sources(struct online_move *move)
@@ -36,9 +96,8 @@ static void no_sources(struct online_move *move)
 		     "editor: it stores them, too."));
 }
 
-static void compare_came(gpointer data, struct board_copy *copy, const char *why)
+static void compare_came(struct online_move *move, struct board_copy *copy, const char *why)
 {
-	struct online_move *move = data;
 	struct compare_side side;
 
 	if (!copy) {
@@ -60,7 +119,8 @@ static void compare_came(gpointer data, struct board_copy *copy, const char *why
 
 void online_move_compare(struct online_move *move)
 {
-	board_upload(move->core->link, move->core->window, compare_came, move);
+	move->copied = compare_came;
+	upload(move);
 }
 
 /* ---- upload ---- */
@@ -95,9 +155,8 @@ static void folder_chosen(GtkNativeDialog *chooser, int response, struct online_
 	g_free(folder);
 }
 
-static void upload_came(gpointer data, struct board_copy *copy, const char *why)
+static void upload_came(struct online_move *move, struct board_copy *copy, const char *why)
 {
-	struct online_move *move = data;
 	GtkFileChooserNative *chooser;
 
 	if (!copy) {
@@ -120,7 +179,8 @@ static void upload_came(gpointer data, struct board_copy *copy, const char *why)
 
 void online_move_upload(struct online_move *move)
 {
-	board_upload(move->core->link, move->core->window, upload_came, move);
+	move->copied = upload_came;
+	upload(move);
 }
 
 /* ---- download: its dialog ---- */
@@ -293,10 +353,8 @@ static void send_with(struct online_move *move, const char *map)
 	board_program_unref(program);
 }
 
-static void map_came(gpointer data, struct board_copy *copy, const char *why)
+static void map_came(struct online_move *move, struct board_copy *copy, const char *why)
 {
-	struct online_move *move = data;
-
 	if (copy)
 		send_with(move, copy->map);
 	else
@@ -307,10 +365,12 @@ static void map_came(gpointer data, struct board_copy *copy, const char *why)
 static void map_answered(AdwMessageDialog *dialog, const char *answer, struct online_move *move)
 {
 	(void)dialog;
-	if (strcmp(answer, "board") == 0)
-		board_upload(move->core->link, move->core->window, map_came, move);
-	else if (strcmp(answer, "map") == 0)
+	if (strcmp(answer, "board") == 0) {
+		move->copied = map_came;
+		upload(move);
+	} else if (strcmp(answer, "map") == 0) {
 		core_do(move->core, "win.new_iomap");
+	}
 }
 
 static void ask_map(struct online_move *move)

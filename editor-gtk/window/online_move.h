@@ -15,6 +15,8 @@ struct online_move {
 	AdwMessageDialog *dialog;       /* of the download; NULL: none         */
 	GtkWidget *progress;            /* in it                               */
 	struct board_copy *copy;        /* to be written; NULL: none           */
+	/* Of the upload that was begun last. */
+	void (*copied)(struct online_move *move, struct board_copy *copy, const char *why);
 };
 
 void online_move_init(struct online_move *move, struct core *core, struct compare *compare);
