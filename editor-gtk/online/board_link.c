@@ -476,6 +476,26 @@ static void set_state(LadderBoardLink *link, enum link_state state, char *reason
 
 /* ---- its status ---- */
 
+/* A board may send any bytes; views need UTF-8. */
+static void make_valid(char *text)
+{
+	const char *bad;
+
+	while (!g_utf8_validate(text, -1, &bad))
+		text[bad - text] = '?';
+}
+
+static void make_status_valid(struct board_status *status)
+{
+	make_valid(status->board);
+	make_valid(status->version);
+	make_valid(status->fault);
+	make_valid(status->error);
+	make_valid(status->stop);
+	for (guint i = 0; i < status->task_count; i++)
+		make_valid(status->task[i].name);
+}
+
 static void status_came(gpointer data, struct board_answer *got)
 {
 	LadderBoardLink *link = data;
@@ -490,6 +510,7 @@ static void status_came(gpointer data, struct board_answer *got)
 	if (!got->body.failed) {
 		other = link->has_status &&
 			memcmp(link->status.program, status->program, sizeof(status->program)) != 0;
+		make_status_valid(status);
 		link->status = *status;
 		link->has_status = true;
 		if (*status->board)
@@ -569,6 +590,8 @@ static void opened(LadderBoardLink *link, const struct come *come)
 	link->role = come->role;
 	g_strlcpy(link->board, come->board, sizeof(link->board));
 	g_strlcpy(link->software, come->software, sizeof(link->software));
+	make_valid(link->board);
+	make_valid(link->software);
 	g_clear_pointer(&link->ask, ssh_ask_free);
 	link->retry_ms = RETRY_MS;
 	link->has_status = false;

@@ -182,14 +182,16 @@ static void forces_came(gpointer data, struct board_answer *answer)
 	int row = 1;
 
 	for (uint16_t i = 0; i < count; i++) {
-		char name[LIMIT_PARTS], text[IEC_VALUE_TEXT];
+		char name[LIMIT_PARTS], text[IEC_VALUE_TEXT], *valid;
 		enum iec_type type;
 		union iec_value value;
 
 		wire_u32(&answer->body);
 		wire_copy_text(&answer->body, name, sizeof(name));
 		type = (enum iec_type)wire_u8(&answer->body);
-		put(device->forces, FORCE_NAME, row, name);
+		valid = g_utf8_make_valid(name, -1);
+		put(device->forces, FORCE_NAME, row, valid);
+		g_free(valid);
 		for (int j = FORCE_VALUE; j <= FORCE_ELSE; j++) {
 			struct iec_text room;
 

@@ -24,15 +24,16 @@ static enum log_kind kind_of(const struct event *event)
 static void log_event(struct online_log *log, const struct event *event)
 {
 	const char *text = event_text(event->id);
-	char said_text[512], *line;
+	char said_text[512], *line, *user = g_utf8_make_valid(event->user, -1);
 
 	event_fill(event, text ? said(text) : NULL, said_text, sizeof(said_text));
-	line = *event->user ?
-		g_strdup_printf("%s: %s: %s", ladder_board_link_board(log->core->link), event->user,
+	line = *user ?
+		g_strdup_printf("%s: %s: %s", ladder_board_link_board(log->core->link), user,
 				said_text) :
 		g_strdup_printf("%s: %s", ladder_board_link_board(log->core->link), said_text);
 	messages_log_at(log->core->messages, kind_of(event), event->time_ns / 1000, line);
 	g_free(line);
+	g_free(user);
 }
 
 /* Those of before the last connection are in the log already. */
