@@ -361,10 +361,18 @@ static void closed(struct online_bar *bar)
 		show(bar); /* the switch goes back */
 }
 
+/* The socket of a program that ran on this machine is gone. NULL: none. */
+static const char *last_place(struct online_bar *bar)
+{
+	const char *where = ladder_board_link_where(link_of(bar));
+
+	return where && g_str_has_prefix(where, "unix:/") &&
+	       !g_file_test(where + strlen("unix:"), G_FILE_TEST_EXISTS) ? NULL : where;
+}
+
 static void ask_board(struct online_bar *bar)
 {
-	GtkWidget *dialog = ladder_connect_dialog_new(bar->core->window,
-						      ladder_board_link_where(link_of(bar)));
+	GtkWidget *dialog = ladder_connect_dialog_new(bar->core->window, last_place(bar));
 
 	bar->chosen = false;
 	core_connect(bar->core, dialog, "chosen", G_CALLBACK(chosen), bar, 0);
