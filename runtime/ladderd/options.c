@@ -18,10 +18,10 @@
 #else
 #define LINK_HELP \
 "  --link SOCKET    let desks watch and change it (docs/online.md)\n" \
-"  --slots FOLDER   store the programs that desks download; FILE and MAP are only\n" \
-"                   needed until the first one, and used again when they change\n" \
 "  --serial TTY[,BAUD]  the same over a serial line; 115200 baud if none is given\n" \
 "  --serial-role ROLE  what a desk there may do: view, oper or eng; default eng\n" \
+"  --slots FOLDER   store the programs that desks download; FILE and MAP are only\n" \
+"                   needed until the first one, and used again when they change\n" \
 "  --groups FILE    with --link: the groups, instead of /etc/group\n" \
 "  --late N         with --link: N late scans in a row are an event of the log;\n" \
 "                   1 to 1000, default 3\n" \
