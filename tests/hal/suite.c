@@ -373,7 +373,6 @@ static void test_denied(void)
 	CHECK(refused(&b, nope, "its group: gpiochip1, 2, 3 (no group)"));
 }
 
-/* Groups that are not in /etc/group. */
 /* ---- another map beside it ---- */
 
 static const char map_a[] = "BOARD \"a\"\n%QX0.0 gpio line=OUT0 safe=1\n%QX0.1 gpio line=OUT1\n"
@@ -542,6 +541,7 @@ static void test_maps_that_cannot_be_exchanged(void)
 	close_watched(&b);
 }
 
+/* Groups that are not in /etc/group. */
 static void test_groups(void)
 {
 	const char *nope = "%IX0.0 gpio line=NOPE";
