@@ -264,6 +264,7 @@ static const struct {
 	{ 8, "bad input", test_bad_input },
 	{ 9, "memory of 1,000 rungs", test_memory },
 	{ 10, "what ladder io shows", test_picture },
+	{ 11, "a desk changes the program", test_link },
 };
 
 static void run_all(const char *ladderd)

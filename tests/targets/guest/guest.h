@@ -64,4 +64,5 @@ void test_steady(void);
 void test_bad_input(void);
 void test_memory(void);
 void test_picture(void);
+void test_link(void);
 #endif
