@@ -20,10 +20,12 @@
 
 #define LADDER "/ladder"
 
-/* Drives Q1 alone. */
+/* Q1 is on, the others are off. */
 static const char other[] =
-	"RUNGBOARD 1\nPROJECT \"Other\"\n\nVAR\n  Lamp AT %QX0.1 : BOOL;\nEND_VAR\n\n"
-	"PROGRAM Main LD\nRUNG\n  | NO SYS_ALWAYS_ON | COIL Lamp |\nEND_PROGRAM\n";
+	"RUNGBOARD 1\nPROJECT \"Other\"\n\nVAR\n  A AT %QX0.0 : BOOL;\n  B AT %QX0.1 : BOOL;\n"
+	"  C AT %QX0.2 : BOOL;\n  D AT %QX0.3 : BOOL;\nEND_VAR\n\nPROGRAM Main LD\n"
+	"RUNG\n  | NO SYS_ALWAYS_ON | COIL B |\nRUNG\n  | NC B | COIL A |\n"
+	"RUNG\n  | NC B | COIL C |\nRUNG\n  | NC B | COIL D |\nEND_PROGRAM\n";
 
 struct terminal {
 	int master, slave;
