@@ -104,9 +104,13 @@ static void enter_stop(struct cycle *cycle)
 /* @cold: without retained values. */
 static void start(struct cycle *cycle, bool cold)
 {
+	const int64_t now_ns = clock_now();
+
 	resource_start(&cycle->resource);
 	if (cycle->store && !cold)
-		store_restore(cycle->store, &cycle->resource, clock_now());
+		store_restore(cycle->store, &cycle->resource, now_ns);
+	/* Retained values may be read before the first scan. */
+	cycle->resource.vm.now_ns = now_ns + cycle->resource.timers_ns;
 	note(cycle, NOTE_START, 0);
 }
 

@@ -203,7 +203,7 @@ static enum refusal do_order(struct exchange *exchange, struct order *order)
 		break;
 	case ORDER_RETAIN:
 		retain_copy(order->retain.plan, image, order->retain.copy);
-		order->retain.clock_ns = resource->vm.now_ns + resource->timers_ns;
+		order->retain.clock_ns = resource->vm.now_ns;
 		break;
 	case ORDER_RESTORE:
 		return resource->state == STATE_STOP ?

@@ -128,8 +128,8 @@ def state(screen):
     board.ask('force', 'Motor=1')
     editor.command('State of the board')
     says(editor, 'Missed scans')
-    until(lambda: [node.name for node in editor.all(role='label') if node.name in ('Motor', 'TRUE', 'FALSE')] ==
-          ['Motor', 'TRUE', 'FALSE'], 'the force of Motor')
+    until(lambda: 'Held at, Without the force, Motor, TRUE, FALSE' in ', '.join(node.name for node in editor.all(role='label')),
+          'the force of Motor')
     editor.shot('online-device')
     board.ask('unforce', 'Motor')
     until(lambda: not editor.all('Held at', 'label'), 'the force to be gone')
