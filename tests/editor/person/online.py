@@ -14,6 +14,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../online'))
 from link import Sshd  # noqa: E402
+from screen import close_window  # noqa: E402
 from desk import BUILD, Editor, check, main, new_file, until  # noqa: E402
 
 SEAL = '''RUNGBOARD 1
@@ -199,7 +200,7 @@ def download(screen):
 
 
 def nothing(screen):
-    """a board that stores no sources says so"""
+    """a board that stores no sources says so; it runs on when the window is closed"""
     board = Board(screen, 'attic')
     editor = Editor(screen, new_file(screen, SEAL, 'seal.rung'))
     editor.to_sheet()
@@ -208,6 +209,10 @@ def nothing(screen):
     editor.click(editor.find('Upload…', 'push button'))
     says(editor, 'The board stores no sources')
     editor.shot('online-no-sources')
+    editor.keys('Escape')
+    close_window(int(editor.window))
+    until(lambda: editor.process.poll() is not None, 'the editor to end')
+    assert 'mode: RUN' in board.ask('status'), 'closing the window stopped the machine'
     board.stop()
 
 
