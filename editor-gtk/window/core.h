@@ -66,4 +66,12 @@ static inline void core_enable(struct core *core, const char *action, bool enabl
 	gtk_widget_action_set_enabled(GTK_WIDGET(core->window), action, enabled);
 }
 
+/** core_is_own - is the connected board the program that this editor runs on this machine? */
+static inline bool core_is_own(const struct core *core)
+{
+	const char *own = ladder_board_run_where(core->board);
+
+	return own && g_strcmp0(own, ladder_board_link_where(core->link)) == 0;
+}
+
 #endif

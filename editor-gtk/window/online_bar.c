@@ -176,14 +176,6 @@ static void show_reason(struct online_bar *bar)
 	gtk_widget_set_visible(bar->again, state == LINK_FAILED || state == LINK_LOST || none);
 }
 
-/* The page Board stops a program of this editor. */
-static bool is_own(struct online_bar *bar)
-{
-	const char *own = ladder_board_run_where(bar->core->board);
-
-	return own && g_strcmp0(own, ladder_board_link_where(link_of(bar))) == 0;
-}
-
 /* A button that the role does not allow says so. */
 static void allow(struct online_bar *bar, const char *action, enum service service, bool useful)
 {
@@ -215,7 +207,8 @@ static void show_actions(struct online_bar *bar)
 		if (g_strcmp0(action, "win.online_run") == 0)
 			gtk_widget_set_visible(at, mode == STATE_STOP);
 		else if (g_strcmp0(action, "win.online_stop") == 0)
-			gtk_widget_set_visible(at, mode == STATE_RUN && !is_own(bar));
+			/* The page Board stops a program of this editor. */
+			gtk_widget_set_visible(at, mode == STATE_RUN && !core_is_own(bar->core));
 		else if (g_strcmp0(action, "win.online_reset") == 0)
 			gtk_widget_set_visible(at, mode == STATE_FAULT);
 		else if (g_strcmp0(action, "win.online_disconnect") != 0)
@@ -231,7 +224,7 @@ static void log_state(struct online_bar *bar, const char *text)
 	char *whole = *reason ? g_strdup_printf("%s: %s", text, reason) : g_strdup(text);
 
 	/* board_bar logs a program of this editor. */
-	if (is_on(bar) && !is_own(bar) && g_strcmp0(bar->said, whole) != 0)
+	if (is_on(bar) && !core_is_own(bar->core) && g_strcmp0(bar->said, whole) != 0)
 		messages_log(bar->core->messages, LOG_COMMUNICATION, whole);
 	g_free(bar->said);
 	bar->said = whole;

@@ -21,6 +21,12 @@ static enum log_kind kind_of(const struct event *event)
 	return *event->user ? LOG_OPERATOR : LOG_SYSTEM;
 }
 
+/* board_bar logs that a program of this editor starts, runs, stops, fails and ends. */
+static bool board_bar_logs(const struct online_log *log, const struct event *event)
+{
+	return event->id >= EVENT_START && event->id <= EVENT_RUN && core_is_own(log->core);
+}
+
 static void log_event(struct online_log *log, const struct event *event)
 {
 	const char *text = event_text(event->id);
@@ -46,7 +52,7 @@ static void log_all(struct online_log *log)
 	for (guint i = first; i < log->events->len; i++) {
 		const struct event *event = &g_array_index(log->events, struct event, i);
 
-		if (!log->past || event->time_ns > log->last_ns)
+		if (!board_bar_logs(log, event) && (!log->past || event->time_ns > log->last_ns))
 			log_event(log, event);
 	}
 	log->past = false;
