@@ -398,7 +398,8 @@ static void put_state(struct recorder *recorder, enum record_state state, const 
 	if (!recorder->on)
 		return;
 	put_bytes(recorder, &(uint8_t){ (uint8_t)(RECORD_STATE | (uint32_t)state << RECORD_SUB) }, 1);
-	put_bytes(recorder, more, len);
+	if (len)
+		put_bytes(recorder, more, len);
 }
 
 void recorder_scanned(struct recorder *recorder, const struct resource *resource)
