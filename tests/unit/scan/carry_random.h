@@ -4,6 +4,8 @@
  * addresses, order, blocks, tasks; and random values in them.
  *
  * Two programs of different seeds have most names in common and most of their types.
+ * One seed gives the same program on every machine: no two draws are arguments of one call,
+ * since compilers evaluate those in different orders.
  */
 #ifndef TESTS_CARRY_RANDOM_H
 #define TESTS_CARRY_RANDOM_H
@@ -76,12 +78,15 @@ static inline bool make_address(struct made *made, const struct make_type *type)
 
 	if (!type->address || make_chance(made, 60))
 		return true;
-	if (*type->address == 'X')
-		make_line(made, " AT %%%cX%u.%u", input ? 'I' : "MMQ"[make_below(made, 3)],
-			  (unsigned)byte, (unsigned)make_below(made, 8));
-	else
+	if (*type->address == 'X') {
+		const char area = input ? 'I' : "MMQ"[make_below(made, 3)];
+
+		make_line(made, " AT %%%cX%u.%u", area, (unsigned)byte,
+			  (unsigned)make_below(made, 8));
+	} else {
 		make_line(made, " AT %%%c%s%u", input ? 'I' : 'M', type->address,
 			  (unsigned)byte / 8 * 8);
+	}
 	return !input;
 }
 
@@ -108,9 +113,11 @@ static inline void make_array(struct made *made, const char *name, int number)
 	make_line(made, "  %s", name);
 	begins = make_address(made, type);
 	make_line(made, " : ARRAY[%d..%d] OF %s", low, low + more, type->word);
-	if (begins && make_chance(made, 50))
-		make_line(made, " := [%u(%s)]", 1 + (unsigned)make_below(made, 1u + (uint32_t)more),
-			  type->begin[make_below(made, 3)]);
+	if (begins && make_chance(made, 50)) {
+		const uint32_t count = 1 + make_below(made, 1u + (uint32_t)more);
+
+		make_line(made, " := [%u(%s)]", (unsigned)count, type->begin[make_below(made, 3)]);
+	}
 	make_line(made, ";\n");
 }
 
@@ -131,6 +138,7 @@ static inline void make_text(struct made *made, const char *name, bool array)
 static inline void make_variable(struct made *made, const char *name, int number)
 {
 	const int low = (int)make_below(made, 3);
+	int high;
 
 	switch (make_stable(made, number, 10)) {
 	case 0: case 1: case 2: case 3: make_elementary(made, name, number, true); return;
@@ -140,8 +148,8 @@ static inline void make_variable(struct made *made, const char *name, int number
 		make_line(made, "  %s : Item;\n", name);
 		return;
 	case 8:
-		make_line(made, "  %s : ARRAY[%d..%d] OF %s;\n", name, low,
-			  low + (int)make_below(made, 3),
+		high = low + (int)make_below(made, 3);
+		make_line(made, "  %s : ARRAY[%d..%d] OF %s;\n", name, low, high,
 			  make_chance(made, 50) ? "Item" : "TON");
 		return;
 	default:
@@ -174,11 +182,13 @@ static inline void make_bools(struct made *made, const char *letter, int count)
 		snprintf(name, sizeof(name), "%s%u", letter,
 			 (unsigned)(first + (uint32_t)i) % (unsigned)count);
 		make_line(made, "  %s", name);
-		if (make_chance(made, 20))
-			make_line(made, " AT %%IX%u.%u", (unsigned)make_below(made, 3),
-				  (unsigned)make_below(made, 8));
-		else
+		if (make_chance(made, 20)) {
+			const uint32_t bit = make_below(made, 24);
+
+			make_line(made, " AT %%IX%u.%u", (unsigned)bit / 8, (unsigned)bit % 8);
+		} else {
 			make_address(made, &make_types[0]);
+		}
 		make_line(made, " : BOOL;\n");
 	}
 }
@@ -199,6 +209,7 @@ static inline void make_bit(struct made *made, char *out, size_t size, bool loca
 static inline void make_rung(struct made *made, bool local)
 {
 	char a[16], b[16];
+	uint32_t byte;
 
 	make_bit(made, a, sizeof(a), local);
 	make_bit(made, b, sizeof(b), local);
@@ -210,8 +221,10 @@ static inline void make_rung(struct made *made, bool local)
 			  (unsigned)make_below(made, 3)); return;
 	case 2: make_line(made, "  | N %s | COILN %%MX%u.4 |\n", a,
 			  (unsigned)make_below(made, 3)); return;
-	case 3: make_line(made, "  | P %s | NO %%MX%u.5 | COIL %%MX%u.6 |\n", a,
-			  (unsigned)make_below(made, 40), (unsigned)make_below(made, 40));
+	case 3:
+		byte = make_below(made, 40);
+		make_line(made, "  | P %s | NO %%MX%u.5 | COIL %%MX%u.6 |\n", a, (unsigned)byte,
+			  (unsigned)make_below(made, 40));
 		return;
 	case 4: make_line(made, "  | P %s | Own o0 |\n", a); return;
 	default: make_line(made, "  | NO %s | %s t0 PT:=T#%us |\n", a, made->block,
@@ -245,17 +258,22 @@ static inline void make_config(struct made *made)
 {
 	static const unsigned interval[] = { 10, 20, 50 };
 	const char *event = make_chance(made, 50) ? "Event" : "Late";
+	const char *when;
+	uint32_t fast;
 
-	make_line(made, "CONFIGURATION Plant\n  AREA M %u;\n  AREA I %u;\n  AREA XQ %u;\n",
-		  152 + 8 * (unsigned)make_below(made, 3), 152 + (unsigned)make_below(made, 9),
-		  (unsigned)make_below(made, 3) * 3);
-	if (make_chance(made, 60))
+	make_line(made, "CONFIGURATION Plant\n  AREA M %u;\n",
+		  152 + 8 * (unsigned)make_below(made, 3));
+	make_line(made, "  AREA I %u;\n", 152 + (unsigned)make_below(made, 9));
+	make_line(made, "  AREA XQ %u;\n", (unsigned)make_below(made, 3) * 3);
+	if (make_chance(made, 60)) {
+		fast = make_below(made, 3);
+		when = make_chance(made, 60) ? "SINGLE := b0" : "INTERVAL := T#70ms";
 		make_line(made, "  TASK Fast (INTERVAL := T#%ums, PRIORITY := 1);\n"
 			  "  TASK %s (%s, PRIORITY := 3);\n"
 			  "  PROGRAM P1 WITH Fast : Main;\n"
 			  "  PROGRAM P2 WITH %s : Other;\n",
-			  interval[make_below(made, 3)], event,
-			  make_chance(made, 60) ? "SINGLE := b0" : "INTERVAL := T#70ms", event);
+			  interval[fast], event, when, event);
+	}
 	make_line(made, "END_CONFIGURATION\n");
 }
 
@@ -308,8 +326,8 @@ static inline void stir_text(struct random_source *source, struct image *image,
 static inline void stir_value(struct random_source *source, struct image *image,
 			      struct location at)
 {
-	union iec_value value = { .i = (int64_t)((uint64_t)random_next(source) << 32 |
-						 random_next(source)) };
+	const uint64_t upper = random_next(source);
+	union iec_value value = { .i = (int64_t)(upper << 32 | random_next(source)) };
 
 	if (random_chance(source, 40))
 		return;

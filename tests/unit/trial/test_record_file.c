@@ -169,9 +169,9 @@ static void swap(uint64_t seed)
 static void change(void)
 {
 	struct image *image = &board.resource.image;
-	const struct iec_addr input = { .area = AREA_I, .bits = 1,
-					.byte = random_below(&board.source, 8),
-					.bit = (uint8_t)random_below(&board.source, 8) };
+	const uint32_t bit = random_below(&board.source, 64);
+	const struct iec_addr input = { .area = AREA_I, .bits = 1, .byte = bit / 8,
+					.bit = (uint8_t)(bit % 8) };
 	const struct location at = random_chance(&board.source, 20) ?
 		image_locate(image, input) : board.name[random_below(&board.source, board.names)];
 	const uint32_t dice = random_below(&board.source, 10);
@@ -199,19 +199,25 @@ static void change(void)
 	recorder_changed(&board.recorder, &board.resource);
 }
 
+static void stir_byte(uint8_t *bytes, uint32_t count)
+{
+	uint8_t *byte = bytes + random_below(&board.source, count);
+
+	*byte = (uint8_t)random_next(&board.source);
+}
+
 /* Lines overwrite what a desk wrote; other inputs have no line. */
 static void read_inputs(void)
 {
 	uint32_t at, size;
 
 	if (random_chance(&board.source, 20))
-		board.level[random_below(&board.source, 4)] = (uint8_t)random_next(&board.source);
+		stir_byte(board.level, sizeof(board.level));
 
 	for (uint32_t i = 0; recorder_input(board.resource.image.program, i, &at, &size); i++)
 		for (uint32_t k = random_chance(&board.source, 30) && size ?
 				  random_below(&board.source, 20) : 0; k; k--)
-			board.resource.image.memory[at + random_below(&board.source, size)] =
-				(uint8_t)random_next(&board.source);
+			stir_byte(board.resource.image.memory + at, size);
 	memcpy(image_area(&board.resource.image, AREA_I), board.level, sizeof(board.level));
 }
 
