@@ -71,13 +71,31 @@ static bool is_heard(const char *path)
 	return heard;
 }
 
+/* Whether @folder holds what make_folder() puts there, and nothing else: another program's
+ * folder may have a name like it. */
+static bool is_of_a_run(const char *folder)
+{
+	GDir *dir = g_dir_open(folder, 0, NULL);
+	bool group = false, others = !dir;
+	const char *name;
+
+	while (dir && (name = g_dir_read_name(dir))) {
+		group = group || strcmp(name, "group") == 0;
+		others = others || (strcmp(name, "group") != 0 && strcmp(name, "link") != 0 &&
+				    strcmp(name, "slots") != 0);
+	}
+	g_clear_pointer(&dir, g_dir_close);
+	return group && !others;
+}
+
 static void drop_left(const char *folder)
 {
 	char *path = g_build_filename(folder, "link", NULL);
 	GStatBuf about;
 
 	if (g_lstat(folder, &about) == 0 && S_ISDIR(about.st_mode) && about.st_uid == getuid() &&
-	    g_get_real_time() - (gint64)about.st_mtime * 1000000 > NEW_US && !is_heard(path)) {
+	    g_get_real_time() - (gint64)about.st_mtime * 1000000 > NEW_US && is_of_a_run(folder) &&
+	    !is_heard(path)) {
 		empty_folder(folder);
 		g_rmdir(folder);
 	}

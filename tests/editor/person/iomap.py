@@ -6,6 +6,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -355,7 +356,13 @@ def not_its_own(screen):
 
 
 def no_longer(screen):
-    """the bar "no I/O map beside the program" closes when a map is made, here or elsewhere"""
+    """the bar "no I/O map beside the program" closes when a map is made, here or elsewhere; a run removes the
+    folder that a killed editor left, and no other"""
+    left, other = (tempfile.mkdtemp(prefix='rungboard-run-') for _ in range(2))
+    for file in left + '/group', other + '/mine':
+        open(file, 'w').close()
+    for folder in left, other:
+        os.utime(folder, (1, 1))
     path, io = garage(screen)
     os.unlink(io)
     editor = Editor(screen, path)
@@ -380,6 +387,8 @@ def no_longer(screen):
     editor.command('Run on this machine')
     editor.says('RUN')
     assert not editor.all('The program has no I/O map', 'label')
+    assert not os.path.exists(left) and os.path.exists(other + '/mine')
+    shutil.rmtree(other)
 
 
 def close_board(screen):
