@@ -356,8 +356,7 @@ def not_its_own(screen):
 
 
 def no_longer(screen):
-    """the bar "no I/O map beside the program" closes when a map is made, here or elsewhere; a run removes the
-    folder that a killed editor left, and no other"""
+    """the bar "no I/O map beside the program" closes when a map is made; a run removes what a killed editor left, and no more"""
     left, other = (tempfile.mkdtemp(prefix='rungboard-run-') for _ in range(2))
     for file in left + '/group', other + '/mine':
         open(file, 'w').close()
