@@ -4,6 +4,9 @@
 
 CROSS    ?=
 SMALL    ?=
+# SMALL=1 LINK=serial: with `ladderd --serial`, for the services that need no names.
+LINK     ?=
+$(if $(filter-out serial,$(LINK))$(if $(LINK),$(if $(filter 1,$(SMALL)),,x)),$(error LINK=$(LINK): it is serial, with SMALL=1))
 WORDS    ?= all
 BUILD    ?= build$(CROSS:%-=/%)$(SMALL:1=/small)
 CC       := $(CROSS)$(if $(filter default,$(origin CC)),gcc,$(CC))
@@ -13,7 +16,7 @@ prefix   ?= /usr/local
 WERROR   ?= -Werror
 CFLAGS   ?= $(if $(filter 1,$(SMALL)),-Os,-O2) -g
 # time_t has 64 bits also on 32-bit boards, for dates after 2038.
-CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -D_TIME_BITS=64 $(SMALL:1=-DRUNGBOARD_SMALL) $(if $(filter core,$(WORDS)),-DRUNGBOARD_CORE_WORDS)
+CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -D_TIME_BITS=64 $(SMALL:1=-DRUNGBOARD_SMALL) $(LINK:serial=-DRUNGBOARD_SERIAL) $(if $(filter core,$(WORDS)),-DRUNGBOARD_CORE_WORDS)
 # No fused multiply-add, or REAL would differ from board to board.
 STD      := -std=c11 -ffp-contract=off
 LDFLAGS  += $(STATIC:1=-static)
@@ -118,7 +121,8 @@ DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
 # that has no PKG_CONFIG_LIBDIR, and one with another C library.
 CRYPT    ?= $(if $(CROSS)$(filter 1,$(SMALL))$(findstring musl,$(CC)),$(if $(PKG_CONFIG_LIBDIR),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes),no),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes))
 CRYPT_LIB := $(if $(filter yes,$(CRYPT)$(SMALL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libcrypt))
-LADDERD_NOT := $(if $(filter yes,$(CRYPT)),crypt_none,crypt_yescrypt) $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download slots journal conf ends password crypt_none crypt_yescrypt,source_image store_none link_none)
+LADDERD_NOT := $(if $(filter yes,$(CRYPT)),crypt_none,crypt_yescrypt) $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download journal conf ends password crypt_none crypt_yescrypt \
+               $(if $(LINK),link_none,slots link_serial nameless),source_image store_none link_none link_serial nameless conf_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
 # Its own table of messages, without those that only a desk gives.
 LADDERD  += $(if $(filter 1,$(SMALL)),,$(BUILD)/runtime/ladderd/diag_board.o)
@@ -134,6 +138,8 @@ THREADS  := $(if $(filter 1,$(SMALL)),,-pthread)
 AVAHI    ?= $(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),$(if $(filter 1,$(STATIC)),,here)),$(shell $(PKG_CONFIG) --exists avahi-client 2>/dev/null && echo yes))
 AVAHI_LIB := $(if $(filter yes,$(AVAHI)),$(shell $(PKG_CONFIG) --libs avahi-client))
 ONLINE   := $(call obj,$(filter-out $(if $(filter yes,$(AVAHI)),%/finder_none.c,%/finder_avahi.c),$(wildcard runtime/online/*.c)))
+# What a small board links of it.
+ONLINE_SERIAL := $(if $(LINK),$(call obj,$(addprefix runtime/online/,port.c publish.c serial.c service.c status.c stored.c wire.c)))
 $(DRIVERS) $(LADDERD) $(ONLINE): WARN += $(FRAME)
 $(BUILD)/libonline.a: $(ONLINE)
 	@rm -f $@
@@ -147,7 +153,7 @@ $(BUILD)/ladder-attach: $(call obj,$(wildcard runtime/attach/*.c))
 $(BUILD)/tests/online/ladder-attach: runtime/attach/main.c
 	@mkdir -p $(@D)
 	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(CFLAGS) -DLINK_SOCKET='"link"' $(LDFLAGS) -o $@ $<
-$(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(if $(filter 1,$(SMALL)),,$(BUILD)/libonline.a) $(BUILD)/libladder.a
+$(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(if $(filter 1,$(SMALL)),$(ONLINE_SERIAL),$(BUILD)/libonline.a) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(PRINT) $(THREADS) -o $@ $^ $(GPIO_LIB) $(CRYPT_LIB) -lm
 # Bytes of stack, for compilers for machines without MMU.
 $(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
@@ -511,7 +517,7 @@ $(BUILD)/guest: $(call obj,$(wildcard $(GUEST)/*.c))
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^
 $(BUILD)/replay: $(call obj,$(GUEST)/replay/replay.c $(CORE))
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^ -lm
-$(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(if $(filter 1,$(SMALL)),,$(BUILD)/libonline.a) $(BUILD)/libladder.a
+$(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(if $(filter 1,$(SMALL)),$(ONLINE_SERIAL),$(BUILD)/libonline.a) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(GUEST_LD) $(PRINT) $(THREADS) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) $(CRYPT_LIB) -lm
 
 # The cases for them, made on this machine: build/cases/.
@@ -582,10 +588,11 @@ bench-online: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/online/ladder-atta
 # ---- end of board ----
 
 # ---- small ----
-# The builds for small boards, for this machine: with all words, and with WORDS=core.
-small: ## ladderd and replay of SMALL=1, for this machine: build/small/ and build/small-core/
+# The builds for small boards, for this machine: with all words, with WORDS=core, and that with LINK=serial.
+small: ## ladderd and replay of SMALL=1, for this machine: build/small/, build/small-core/ and build/small-serial/
 	$(MAKE) BUILD=$(BUILD)/small SMALL=1 HAL=uapi $(BUILD)/small/ladderd $(BUILD)/small/replay
 	$(MAKE) BUILD=$(BUILD)/small-core SMALL=1 WORDS=core HAL=uapi $(BUILD)/small-core/ladderd
+	$(MAKE) BUILD=$(BUILD)/small-serial SMALL=1 LINK=serial WORDS=core HAL=uapi $(BUILD)/small-serial/ladderd
 .PHONY: small
 # ---- end of small ----
 
@@ -596,7 +603,7 @@ SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-re
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
-TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/stress.py tests/online/serial_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
+TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/stress.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 
 tests: all man $(BUILT) $(EDITOR_FAKE) $(HAL_DAEMONS) $(BUILD)/tests/online/ladder-attach

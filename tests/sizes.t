@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # sizes - ladderd for armhf, without the C library, stays within its limits: all of it, and what
-# SMALL=1 makes with all words and with those of the core. `make sizes` has more figures, with
+# SMALL=1 makes with all words, with those of the core, and with the serial line beside them. `make sizes` has more figures, with
 # another C library and for a Cortex-M3.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -38,5 +38,6 @@ measure() {
 measure 'ladderd' 350208 '' CFLAGS=-O2
 measure 'ladderd, SMALL=1' 95232 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 62464 /small-core SMALL=1 WORDS=core
+measure 'ladderd, SMALL=1 LINK=serial WORDS=core' 81920 /small-serial SMALL=1 LINK=serial WORDS=core
 echo "1..$n"
 exit $failed

@@ -49,8 +49,23 @@ said $? 1 'LD104: not valid UTF-8'; say $? 'an I/O map that is not UTF-8: the sa
 printf '\377\376B\0O\0' >"$tmp/io"
 check small "$tmp/ton.rungc"
 said $? 1 'LD142: this is UTF-16'; say $? 'an I/O map in UTF-16: the same'
+# tests/online/small_line.py has the rest of it.
+check small-serial "$tmp/ton.rungc"
+said $? 1 UTF-16; say $? 'LINK=serial: the same of a map'
+printf 'BOARD "sim"\n' >"$tmp/io"
+check small-serial "$tmp/ton.rungc"
+said $? 0 'data:'; say $? 'LINK=serial: the image is accepted'
+"$build/small/ladderd" --help >"$tmp/out" && ! grep -q -- --serial "$tmp/out"
+say $? 'without it there is no --serial'
+"$build/small-serial/ladderd" --help >"$tmp/out" && grep -q -- --serial "$tmp/out" && ! grep -q -- --link "$tmp/out"
+say $? 'LINK=serial: there is, and no --link'
+! ${NM:-nm} -D "$build/small-serial/ladderd" | grep -E 'pthread|fork|exec' >"$tmp/out"
+say $? 'LINK=serial: it starts no thread and no process'
+# shellcheck disable=SC2069
+make LINK=serial -n "$build/ladderd" 2>&1 >/dev/null | grep LINK=serial >"$tmp/out"
+say $? 'LINK=serial needs SMALL=1'
 # A change of the running program needs names, which it has not.
-for kind in small small-core; do
+for kind in small small-core small-serial; do
 	! ${NM:-nm} "$build/$kind/ladderd" | grep -i carry >"$tmp/out"
 	say $? "$kind: no plan of a change is linked"
 done
@@ -62,8 +77,11 @@ has_texts() { # macro, title; standard input: the sources
 	grep -q . "$tmp/left" && ! comm -12 "$tmp/given" "$tmp/left" | tee "$tmp/out" | grep -q .
 	say $? "$2"
 }
-(cd "$build/small" && find runtime hal -name '*.o') | sed 's/o$/c/' >"$tmp/sources"
-has_texts RUNGBOARD_SMALL 'each message that it can give has its text' <"$tmp/sources"
+for kind in small small-serial; do
+	# A desk prints what runtime/online/ refuses by a number.
+	(cd "$build/$kind" && find runtime/engine runtime/ladderd hal -name '*.o') | sed 's/o$/c/' >"$tmp/sources"
+	has_texts RUNGBOARD_SMALL "$kind: each message that it can give has its text" <"$tmp/sources"
+done
 find runtime/ladderd hal runtime/engine/base runtime/engine/scan runtime/engine/model runtime/engine/text \
 	runtime/engine/check runtime/engine/translate runtime/engine/ladder.c -name '*.c' >"$tmp/sources"
 has_texts RUNGBOARD_BOARD 'so has each message of the whole ladderd' <"$tmp/sources"

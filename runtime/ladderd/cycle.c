@@ -322,8 +322,8 @@ static void wait_until(struct cycle *cycle, int64_t due_ns)
 			until_ns = now_ns + SLICE_NS;
 		until.tv_sec = until_ns / SECOND;
 		until.tv_nsec = until_ns % SECOND;
-		if (cycle_link(cycle))
-			link_doze(cycle_link(cycle));
+		if (cycle_link(cycle) && link_doze(cycle_link(cycle), until_ns))
+			continue;
 		cycle->clock_error = clock_nanosleep(CLOCK_MONOTONIC,
 						     TIMER_ABSTIME, &until,
 						     NULL);

@@ -100,11 +100,17 @@ void cycle_pass(struct cycle *cycle);
  */
 enum refusal cycle_mode(struct cycle *cycle, enum mode_wish wish);
 
-/* A small board has neither link nor trial; the compiler leaves out what would use them. */
-#ifdef RUNGBOARD_SMALL
-#define HAS_LINK 0
-#else
+/* A small board has neither link nor trial, or with LINK=serial a link without trials; the
+ * compiler leaves out what would use them. */
+#ifndef RUNGBOARD_SMALL
 #define HAS_LINK 1
+#define HAS_TRIAL 1
+#elif defined(RUNGBOARD_SERIAL)
+#define HAS_LINK 1
+#define HAS_TRIAL 0
+#else
+#define HAS_LINK 0
+#define HAS_TRIAL 0
 #endif
 /** cycle_link - the link to desks; NULL: none. Scan-safe: yes. */
 static inline struct link *cycle_link(const struct cycle *cycle)
@@ -114,6 +120,6 @@ static inline struct link *cycle_link(const struct cycle *cycle)
 /** cycle_on_trial - whether a FAULT brings the program before back. Scan-safe: yes. */
 static inline bool cycle_on_trial(const struct cycle *cycle)
 {
-	return HAS_LINK && cycle->trial;
+	return HAS_TRIAL && cycle->trial;
 }
 #endif

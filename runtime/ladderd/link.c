@@ -219,9 +219,12 @@ void link_note(struct link *link, enum link_note note, int64_t now_ns)
 	}
 }
 
-void link_doze(struct link *link)
+/* The thread listens meanwhile, and a signal ends the sleep. */
+bool link_doze(struct link *link, int64_t until_ns)
 {
+	(void)until_ns;
 	atomic_store(&link->dozes, true);
+	return false;
 }
 
 void link_wake(struct link *link)
@@ -1043,10 +1046,7 @@ static struct link *open_serial(struct link *link, const struct options *options
 	error = options->serial ? open_port(link) : 0;
 	if (!error)
 		return link;
-	return refuse(link, "--serial", options->serial,
-		      error == -EINVAL ? "is no speed of a serial line; try 115200" :
-		      error == -EBUSY ? "another program uses it" :
-		      error == -ENOTTY ? "is no serial line" : strerror(-error));
+	return refuse(link, "--serial", options->serial, port_why(error));
 }
 
 struct link *link_open(const struct options *options, struct cycle *cycle,

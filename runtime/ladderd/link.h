@@ -4,7 +4,8 @@
  * line, or both.
  *
  * It opens no network: desks reach the socket through ssh and ladder-attach. The kernel says
- * who a client is, its groups say what it may do. SMALL=1 has link_none.c instead.
+ * who a client is, its groups say what it may do. SMALL=1 has link_none.c instead, and with
+ * LINK=serial link_serial.c: the serial line alone, served between two scans, without a thread.
  */
 #ifndef LADDERD_LINK_H
 #define LADDERD_LINK_H
@@ -56,8 +57,9 @@ void link_show(struct link *link, int64_t now_ns);
 /** link_note - records what happens. @now_ns: of NOTE_SCAN. Scan-safe: yes. */
 void link_note(struct link *link, enum link_note note, int64_t now_ns);
 /** link_doze, link_wake - around each sleep of the scan thread: only then it can be woken for
- * an order. Scan-safe: yes. */
-void link_doze(struct link *link);
+ * an order. link_doze() of a small board listens itself, until shortly before @until_ns; it
+ * returns whether something came, and then there is no time to sleep. Scan-safe: yes. */
+bool link_doze(struct link *link, int64_t until_ns);
 void link_wake(struct link *link);
 /** link_trial_over - the trial of a program has ended: it stays, or the one before runs again
  * (@back). Scan-safe: yes, a system call. */

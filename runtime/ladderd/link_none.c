@@ -3,7 +3,6 @@
  * link_none - a ladderd without the link, for small boards.
  */
 #include "ladderd/link.h"
-#include "ladderd/conf.h"
 #include "ladderd/download.h"
 
 #include <errno.h>
@@ -36,9 +35,10 @@ void link_note(struct link *link, enum link_note note, int64_t now_ns)
 	(void)link, (void)note, (void)now_ns;
 }
 
-void link_doze(struct link *link)
+bool link_doze(struct link *link, int64_t until_ns)
 {
-	(void)link;
+	(void)link, (void)until_ns;
+	return false;
 }
 
 void link_wake(struct link *link)
@@ -54,11 +54,6 @@ void link_close(struct link *link)
 void link_free(struct link *link)
 {
 	(void)link;
-}
-
-void conf_load(struct conf *conf, struct options *options)
-{
-	(void)conf, (void)options;
 }
 
 bool slots_load(struct slots *slots, const struct options *options, struct load *load,
@@ -77,14 +72,4 @@ bool slots_reject(struct slots *slots)
 void slots_close(struct slots *slots)
 {
 	(void)slots;
-}
-
-void cycle_back(struct cycle *cycle, enum fault fault)
-{
-	(void)cycle, (void)fault;
-}
-
-void cycle_pass(struct cycle *cycle)
-{
-	(void)cycle;
 }

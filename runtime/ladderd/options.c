@@ -12,10 +12,13 @@
 #define PERIOD_LEAST INT64_C(100000)      /* 100 us */
 #define PERIOD_MOST  INT64_C(60000000000) /* 1 min  */
 
-#ifdef RUNGBOARD_SMALL /* has no link */
-#define LINK_HELP
-#define LINK_ROWS
+#ifdef RUNGBOARD_SMALL
+#define HAS_PARSER 0
 #else
+#define HAS_PARSER 1
+#endif
+
+#ifndef RUNGBOARD_SMALL
 #define LINK_HELP \
 "  --link SOCKET    let desks watch and change it (docs/online.md)\n" \
 "  --serial TTY[,BAUD]  the same over a serial line; 115200 baud if none is given\n" \
@@ -35,6 +38,20 @@
 	{ "--groups",        TEXT,   AT(groups),    0, 0 }, \
 	{ "--late",          NUMBER, AT(late),      1, 1000 }, \
 	{ "--record",        NUMBER, AT(record_kb), 0, 65536 },
+#elif defined(RUNGBOARD_SERIAL) /* a small board with a serial line alone */
+#define LINK_HELP \
+"  --serial TTY[,BAUD]  let a desk watch and change it (docs/online.md); 115200 baud\n" \
+"                   if none is given\n" \
+"  --serial-role ROLE  what a desk there may do: view, oper or eng; default eng\n" \
+"  --slots FOLDER   store the program that a desk downloads; it runs instead of FILE\n" \
+"                   and MAP until they change\n"
+#define LINK_ROWS \
+	{ "--serial",        TEXT,   AT(serial),    0, 0 }, \
+	{ "--serial-role",   TEXT,   AT(serial_role), 0, 0 }, \
+	{ "--slots",         TEXT,   AT(slots),     0, 0 },
+#else
+#define LINK_HELP
+#define LINK_ROWS
 #endif
 
 const char *options_help(void)
@@ -206,7 +223,9 @@ bool options_read(struct options *options, int argc, char **argv)
 		options->file = options->map = NULL;
 	if (options->help || options->version)
 		return true;
-	if (!options->file && !options->map && options->slots && (options->link || options->serial))
+	/* What does nothing until a desk brings a program is a rung file. */
+	if (HAS_PARSER && !options->file && !options->map && options->slots &&
+	    (options->link || options->serial))
 		return true;
 	if (!options->file)
 		return wrong(options, "FILE", "is missing");

@@ -8,26 +8,20 @@
 #include "engine/base/file.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 const char *source_kinds(void)
 {
 	return "code images only";
 }
 
-bool source_load(struct source *source, const char *path, bool watch)
+static bool open_image(struct source *source, const char *file)
 {
 	struct arena scratch;
-	struct diag place = { .file = path };
+	struct diag place = { .file = file };
 	size_t where;
 	bool good;
 
-	(void)watch; /* an image has the power of its cells or not */
-	diag_init(&source->diags);
-	source->image = file_read(path, LIMIT_IMAGE, &source->image_bytes,
-				&source->diags);
-	source->unreadable = !source->image;
-	if (!source->image)
-		return false;
 	arena_init(&scratch);
 	good = code_open(source->image, source->image_bytes, &scratch,
 			 &source->program, &place.id, &where);
@@ -35,13 +29,28 @@ bool source_load(struct source *source, const char *path, bool watch)
 	return good || diag_add(&source->diags, place, "byte %zu", where);
 }
 
-/* Without --slots nothing comes from memory. */
+bool source_load(struct source *source, const char *path, bool watch)
+{
+	(void)watch; /* an image has the power of its cells or not */
+	diag_init(&source->diags);
+	source->image = file_read(path, LIMIT_IMAGE, &source->image_bytes,
+				&source->diags);
+	source->unreadable = !source->image;
+	return source->image && open_image(source, path);
+}
+
 bool source_load_text(struct source *source, const char *file, const void *text, size_t len,
 		      bool watch)
 {
-	(void)text, (void)len, (void)watch;
+	(void)watch;
 	diag_init(&source->diags);
-	return diag_add(&source->diags, (struct diag){ .id = DIAG_NO_MEMORY, .file = file }, "%s", "");
+	source->image = malloc(len + 1);
+	source->image_bytes = len;
+	if (!source->image)
+		return diag_add(&source->diags, (struct diag){ .id = DIAG_NO_MEMORY, .file = file },
+				"%s", "");
+	memcpy(source->image, text, len);
+	return open_image(source, file);
 }
 
 bool source_settle(struct source *source)

@@ -11,9 +11,15 @@
 
 #include "online/exchange.h"
 
-#define PUBLISH_SETS   16    /* of one session                                */
-#define PUBLISH_VALUES 2048  /* of all sets of one session                    */
-#define PUBLISH_POWER  32768 /* bytes of the power of all sets of one session */
+#ifdef RUNGBOARD_SMALL
+#define PUBLISH_SETS   4     /* of one session                                */
+#define PUBLISH_VALUES 128   /* of all sets of one session                    */
+#define PUBLISH_POWER  1     /* bytes of the power of all sets of one session */
+#else
+#define PUBLISH_SETS   16
+#define PUBLISH_VALUES 2048
+#define PUBLISH_POWER  32768
+#endif
 #define PUBLISH_LEAST_US 10000 /* shortest period                             */
 #define PUBLISH_MOST_US  3600000000u
 

@@ -246,26 +246,6 @@ static void tell_log(const struct asked *asked, enum event_id id, const char *on
 
 /* ---- variables ---- */
 
-/* "%QX0.1"; "" for a place outside of the areas. */
-static void print_address(const struct program *program, struct location at, char *out, size_t size)
-{
-	const struct areas *areas = &program->areas;
-	struct iec_addr addr = { .area = at.area };
-
-	out[0] = '\0';
-	if (at.area != AREA_NONE) {
-		addr.bits = 1;
-		addr.byte = at.where / 8;
-		addr.bit = at.where % 8;
-	} else if (at.type != IEC_STRING && at.where < areas->size) {
-		addr.area = areas_find(areas, at.where);
-		addr.bits = (uint8_t)(8 * iec_type_row(at.type)->size);
-		addr.byte = at.where - areas->at[addr.area];
-	}
-	if (addr.area != AREA_NONE)
-		iec_addr_print(addr, out, size);
-}
-
 static enum refusal find_place(struct asked *asked, const struct ref *ref, struct location *at)
 {
 	struct server *server = asked->server;
@@ -524,7 +504,7 @@ static void name_place(struct server *server, struct location at)
 			snprintf(server->name, sizeof(server->name), "%s", symbol.name);
 			return;
 		}
-	print_address(server->setup.program, at, server->name, sizeof(server->name));
+	place_address(server->setup.program, at, server->name, sizeof(server->name));
 }
 
 static enum refusal finish_change(struct asked *asked)
@@ -697,7 +677,7 @@ static enum refusal serve_symbols(struct asked *asked)
 		session->symbol++;
 		if (symbol.flags & SYMBOL_HIDDEN)
 			continue;
-		print_address(program, symbol.at, address, sizeof(address));
+		place_address(program, symbol.at, address, sizeof(address));
 		wire_put_string(out, symbol.name);
 		wire_put_u8(out, (uint8_t)symbol.at.type);
 		wire_put_u8(out, (uint8_t)(symbol.flags & (SYMBOL_CONSTANT | SYMBOL_RETAIN)));

@@ -317,3 +317,19 @@ bool image_is_forced(const struct image *image, struct location at)
 {
 	return find_force(image, at) != NULL;
 }
+
+struct location image_locate(const struct image *image, struct iec_addr addr)
+{
+	struct location at = { .type = iec_addr_type(addr) };
+	const struct areas *areas = &image->program->areas;
+
+	if (!areas_have(areas, addr))
+		at.type = IEC_NONE;
+	else if (addr.bits == 1) {
+		at.area = addr.area;
+		at.where = addr.byte * 8 + addr.bit;
+	} else {
+		at.where = areas_byte(areas, addr);
+	}
+	return at;
+}

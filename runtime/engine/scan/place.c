@@ -99,3 +99,22 @@ uint32_t place_byte(const struct program *program, struct location at)
 	slot = code_bits_find(program->bits, program->bits_count, at.area, at.where);
 	return slot ? slot : program->areas.at[at.area] + at.where / 8;
 }
+
+void place_address(const struct program *program, struct location at, char *out, size_t size)
+{
+	const struct areas *areas = &program->areas;
+	struct iec_addr addr = { .area = at.area };
+
+	out[0] = '\0';
+	if (at.area != AREA_NONE) {
+		addr.bits = 1;
+		addr.byte = at.where / 8;
+		addr.bit = at.where % 8;
+	} else if (at.type != IEC_STRING && at.where < areas->size) {
+		addr.area = areas_find(areas, at.where);
+		addr.bits = (uint8_t)(8 * iec_type_row(at.type)->size);
+		addr.byte = at.where - areas->at[addr.area];
+	}
+	if (addr.area != AREA_NONE)
+		iec_addr_print(addr, out, size);
+}

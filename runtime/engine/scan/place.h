@@ -26,4 +26,7 @@ struct location place_locate(const struct program *program, uint32_t word);
 uint32_t place_size(const struct program *program, struct location at);
 /** place_byte - offset of the byte in memory that holds a location. Scan-safe: yes. */
 uint32_t place_byte(const struct program *program, struct location at);
+/** place_address - the address of a location as a text of at most @size bytes, such as "%QX0.1";
+ * "": it lies outside of the areas. Scan-safe: yes. */
+void place_address(const struct program *program, struct location at, char *out, size_t size);
 #endif

@@ -12,22 +12,6 @@
 #include <stdio.h>
 #include <string.h>
 
-struct location image_locate(const struct image *image, struct iec_addr addr)
-{
-	struct location at = { .type = iec_addr_type(addr) };
-	const struct areas *areas = &image->program->areas;
-
-	if (!areas_have(areas, addr))
-		at.type = IEC_NONE;
-	else if (addr.bits == 1) {
-		at.area = addr.area;
-		at.where = addr.byte * 8 + addr.bit;
-	} else {
-		at.where = areas_byte(areas, addr);
-	}
-	return at;
-}
-
 static void skip_blanks(const char **at, const char *end)
 {
 	while (*at < end && **at == ' ')

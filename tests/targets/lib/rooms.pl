@@ -17,7 +17,7 @@ while (<>) {
 		my ($section, $size, $from) = ($1 // $name // '', hex $2, $3);
 		undef $name;
 		next unless $section =~ /^\.(?:text|rodata|data|ARM|got|init)/;
-		my $room = $from =~ m{(?:^|/)(?:runtime/)?(engine/\w+|engine|ladderd|hal)/[^/]*\.o$} ? $1
+		my $room = $from =~ m{(?:^|/)(?:runtime/)?(engine/\w+|engine|ladderd|online|hal)/[^/]*\.o$} ? $1
 			 : $from =~ m{libladder\.a\((\w+)\.o\)} ? room_of($1)
 			 : $from =~ m{/lib(c|gcc|gcc_eh|m)\.a} ? "C library"
 			 : "other";

@@ -7,7 +7,7 @@
 # skipped (a package is missing), or broken while building.
 set -u
 # Variables of the caller do not affect the builds here.
-unset MAKEFLAGS MFLAGS MAKEOVERRIDES CC AR CROSS HAL SMALL STATIC CFLAGS CPPFLAGS LDFLAGS
+unset MAKEFLAGS MFLAGS MAKEOVERRIDES CC AR CROSS HAL SMALL LINK WORDS STATIC CFLAGS CPPFLAGS LDFLAGS
 vehicle=$(basename "$0")
 cd "$(dirname "$0")/../.." || exit 1
 # shellcheck disable=SC2034 # for those that source this
