@@ -492,6 +492,7 @@ static void make_status_valid(struct board_status *status)
 	make_valid(status->fault);
 	make_valid(status->error);
 	make_valid(status->stop);
+	make_valid(status->next_why);
 	for (guint i = 0; i < status->task_count; i++)
 		make_valid(status->task[i].name);
 }

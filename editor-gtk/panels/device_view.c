@@ -10,6 +10,7 @@
 
 #include "engine/base/digest.h"
 #include "engine/scan/resource.h"
+#include "online/event.h"
 
 #include <string.h>
 
@@ -118,6 +119,18 @@ static void fact(struct device *device, const char *name, char *text)
 
 /* ---- what is shown ---- */
 
+/* Why the next start runs another program; NULL: it does not. */
+static char *next_text(const struct board_status *status)
+{
+	const char *text = event_text(status->next);
+	char next[512];
+
+	if (!status->next)
+		return NULL;
+	status_next(status, text ? said(text) : NULL, next, sizeof(next));
+	return g_strdup(next);
+}
+
 static void show_facts(struct device *device, const struct board_status *status)
 {
 	char program[65];
@@ -132,6 +145,7 @@ static void show_facts(struct device *device, const struct board_status *status)
 	fact(device, _("Mode"), g_strdup(mode_word(status->mode)));
 	fact(device, _("Fault"), status->mode == STATE_FAULT ? g_strdup(status->fault) : NULL);
 	fact(device, _("STOP of the program"), g_strdup(status->stop));
+	fact(device, _("Next start"), next_text(status));
 	fact(device, _("Program"), g_strdup(program));
 	fact(device, _("Runs for"), time_text((int64_t)status->up_ms * 1000000));
 	fact(device, _("Period"), time_text(status->period_ns));

@@ -187,6 +187,13 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 		sink_text(out, "\nstop: ");
 		sink_text(out, status->stop);
 	}
+	if (status->next) {
+		char next[300];
+
+		status_next(status, event_text(status->next), next, sizeof(next));
+		sink_text(out, "\nnext start: ");
+		sink_text(out, next);
+	}
 	sink_printf(out, "\nforces: %u\nfailed operations: %u", (unsigned)status->forces,
 		    (unsigned)status->errors);
 	sink_text(out, status->error);
@@ -229,7 +236,7 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 static void json_status(const struct sink *out, const struct board_status *status,
 			const struct desk *desk)
 {
-	char program[65];
+	char program[65], next[300];
 
 	digest_hex(status->program, sizeof(status->program), program);
 	sink_text(out, "{\"board\": ");
@@ -237,6 +244,8 @@ static void json_status(const struct sink *out, const struct board_status *statu
 	report_json_field("mode", mode_word(status->mode), out);
 	report_json_field("fault", status->fault, out);
 	report_json_field("stop", *status->stop ? status->stop : NULL, out);
+	status_next(status, event_text(status->next), next, sizeof(next));
+	report_json_field("next_start", status->next ? next : NULL, out);
 	report_json_field("program", program, out);
 	report_json_field("version", status->version, out);
 	report_json_field("role", role_word(desk->role), out);

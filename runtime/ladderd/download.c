@@ -299,25 +299,33 @@ enum refusal download_store(struct download *download, char *detail, size_t size
 	uint8_t *bytes = malloc(len);
 	struct stored stored = download->wanted;
 	uint8_t beside[32];
-	const char *path = slots_path(slots, slots->next);
 	bool good = false;
 
 	stored.bytes = download->bytes;
-	if (diags && bytes && path) {
+	if (diags && bytes) {
 		diag_init(diags);
 		slots_beside(slots, beside);
 		slot_seal(&stored, slots->seq + 1, beside, bytes);
-		good = file_save(path, bytes, len, diags);
+		good = slots_store(slots, bytes, len, diags);
 		if (diags->count)
 			say_diag(&diags->diag[0], detail, size);
 	}
 	free(bytes);
 	free(diags);
-	if (!good)
-		return REFUSAL_DISK;
-	slots->seq++;
-	slots->next = !slots->next;
-	return REFUSAL_NONE;
+	return good ? REFUSAL_NONE : REFUSAL_DISK;
+}
+
+enum refusal download_keep(struct download *download, char *detail, size_t size)
+{
+	if (slots_keep(download->slots))
+		return REFUSAL_NONE;
+	snprintf(detail, size, "%s", download->slots->why);
+	return REFUSAL_DISK;
+}
+
+void download_drop(struct download *download)
+{
+	slots_drop(download->slots);
 }
 
 void download_abort(struct download *download)

@@ -23,6 +23,9 @@ struct slots {
 	struct slot slot;
 	int next;              /* the slot to be written                      */
 	uint32_t seq;          /* of the newest one                           */
+	uint8_t unlike;        /* the event that says why the next start runs another program
+				* than this one; 0: it does not               */
+	char why[STATUS_TEXT]; /* its argument                                */
 	char path[1024];       /* of a slot                                   */
 };
 
@@ -41,13 +44,19 @@ void slots_close(struct slots *slots);
 /** slots_reject - the slot that runs cannot start: puts it aside, as prog.A.refused. Returns
  * whether the next start finds another program. */
 bool slots_reject(struct slots *slots);
-/** slots_back - the newest slot had a FAULT on trial: puts it aside. Fails: -errno; then the
- * next start runs it. */
-int slots_back(struct slots *slots);
+/** slots_back - the newest slot had a FAULT on trial: puts it aside. Fails: false: the next
+ * start runs it; slots->unlike and slots->why say so. */
+bool slots_back(struct slots *slots);
+/** slots_store - writes @bytes beside the slot that is to be written, where no start looks.
+ * Fails: after a diagnostic in @diags. */
+bool slots_store(struct slots *slots, const uint8_t *bytes, size_t len, struct diag_list *diags);
+/** slots_keep - what slots_store() wrote becomes the newest slot, also after a power cut. Fails:
+ * false: the next start runs the program before; slots->unlike and slots->why say so. */
+bool slots_keep(struct slots *slots);
+/** slots_drop - forgets what slots_store() wrote. */
+void slots_drop(struct slots *slots);
 /** slots_beside - SHA-256 of the files of the command line, as they are now. */
 void slots_beside(const struct slots *slots, uint8_t out[32]);
-/** slots_path - of prog.A or prog.B, in slots->path. Fails: NULL: it is too long. */
-const char *slots_path(struct slots *slots, int number);
 
 /* ---- downloads ---- */
 
@@ -88,6 +97,8 @@ enum refusal download_verify(struct download *download, struct standby_view *out
 enum refusal download_open_lines(struct download *download, char *detail, size_t size);
 void download_close_lines(struct download *download);
 enum refusal download_store(struct download *download, char *detail, size_t size);
+enum refusal download_keep(struct download *download, char *detail, size_t size);
+void download_drop(struct download *download);
 void download_abort(struct download *download);
 /** download_swapped - the standby runs now; returns it. The one before is freed.
  * @comes_back: or kept until download_passed() or download_back() */

@@ -258,6 +258,7 @@ static bool wait_for_scan(void *context)
 static void amend_status(void *context, struct board_status *status)
 {
 	struct link *link = context;
+	const struct slots *slots = link->with.slots;
 	const int64_t up_ns = clock_now() - link->began_ns;
 	struct rusage used;
 	int64_t busy_us;
@@ -269,6 +270,8 @@ static void amend_status(void *context, struct board_status *status)
 	status->up_ms = (uint64_t)(up_ns / 1000000);
 	status->cpu_permille = (uint32_t)(up_ns > 1000 ? busy_us * 1000 / (up_ns / 1000) : 0);
 	status->memory_bytes = (uint64_t)used.ru_maxrss * 1024;
+	status->next = slots->unlike;
+	snprintf(status->next_why, sizeof(status->next_why), "%s", slots->why);
 }
 
 /* ---- the log ---- */
@@ -339,6 +342,16 @@ static enum refusal store_verify(void *context, struct standby_view *out, char *
 static enum refusal store_slot(void *context, char *detail, size_t size)
 {
 	return download_store(((struct link *)context)->download, detail, size);
+}
+
+static enum refusal keep_slot(void *context, char *detail, size_t size)
+{
+	return download_keep(((struct link *)context)->download, detail, size);
+}
+
+static void drop_slot(void *context)
+{
+	download_drop(((struct link *)context)->download);
 }
 
 static enum refusal store_open_lines(void *context, char *detail, size_t size)
@@ -483,16 +496,16 @@ static const struct program *store_swapped(void *context, bool comes_back)
 /* The scan thread went back to the program before. */
 static void go_back(struct link *link)
 {
+	const struct slots *slots = link->with.slots;
+	const bool aside = slots_back(link->with.slots);
 	struct standby *bad, *standby = download_back(link->download, &bad);
 	const struct program *program = use(link, standby);
 	char to[65];
-	const int error = slots_back(link->with.slots);
 
 	digest_hex(bad->before_identity, sizeof(bad->before_identity), to);
-	if (error)
-		control_tell("the program that had a FAULT cannot be put aside; the next start "
-			     "runs it");
 	journal_add(link->journal, EVENT_BACK, 0, "", to, bad->why);
+	if (!aside)
+		journal_add(link->journal, EVENT_NOT_BACK, 0, "", slots->why, "");
 	server_changed(link->server, program, bad->why);
 	standby_free(bad);
 }
@@ -823,6 +836,7 @@ static void *serve_desks(void *argument)
 		log_late(link);
 		journal_sync(link->journal, clock_now());
 	}
+	server_settle(link->server); /* a restart that was late is kept all the same */
 	end_trial(link);
 	journal_add(link->journal, EVENT_END, 0, "", "", "");
 	for (int i = 0; i < SERVER_SESSIONS; i++)
@@ -995,7 +1009,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	link->store = (struct server_store){
 		.begin = store_begin_download, .block = store_block, .verify = store_verify,
 		.open_lines = store_open_lines, .close_lines = store_close_lines,
-		.store = store_slot, .swapped = store_swapped,
+		.store = store_slot, .keep = keep_slot, .drop = drop_slot, .swapped = store_swapped,
 		.abort = store_abort, .running = store_running, .image = store_image,
 	};
 	exchange_init(&link->exchange, &link->host, link->views, size);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * slots - prog.A and prog.B: each is replaced as a whole, and verified again at each start.
+ * slots - prog.A and prog.B: each is replaced as a whole, and verified again at each start. A
+ * program is written beside its slot, as prog.A.new, and gets the name of the slot when it runs.
  */
 #include "ladderd/download.h"
 
@@ -12,9 +13,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define FILE_MOST (64u << 20)
+#define FRESH     ".new" /* beside a slot: a program that does not run yet        */
 
 static void add_file(struct digest_sha256 *sha, const char *path)
 {
@@ -53,17 +56,18 @@ static bool can_run(const struct stored *stored)
 	return good;
 }
 
-const char *slots_path(struct slots *slots, int number)
+/* In slots->path: of prog.A or prog.B, or of a file beside it. NULL: it is too long. */
+static const char *path_of(struct slots *slots, int number, const char *beside)
 {
-	const int len = snprintf(slots->path, sizeof(slots->path), "%s/prog.%c", slots->folder,
-				 'A' + number);
+	const int len = snprintf(slots->path, sizeof(slots->path), "%s/prog.%c%s", slots->folder,
+				 'A' + number, beside);
 
 	return len < (int)sizeof(slots->path) ? slots->path : NULL;
 }
 
 static uint8_t *read_slot(struct slots *slots, int number, struct slot *slot, bool *damaged)
 {
-	const char *path = slots_path(slots, number);
+	const char *path = path_of(slots, number, "");
 	size_t len;
 	uint8_t *bytes = NULL;
 
@@ -92,6 +96,9 @@ static bool find(struct slots *slots, const char *folder, const char *file, cons
 		return false;
 	slots->file = file;
 	slots->map = map;
+	for (int i = 0; i < 2; i++)
+		if (path_of(slots, i, FRESH)) /* of a ladderd that was killed in a download */
+			unlink(slots->path);
 	for (int i = 0; i < 2; i++) {
 		struct slot slot;
 		uint8_t *bytes = read_slot(slots, i, &slot, &damaged[i]);
@@ -143,17 +150,20 @@ bool slots_load(struct slots *slots, const struct options *options, struct load 
 	return load_texts(load, empty, sizeof(empty) - 1, lines, sizeof(lines) - 1);
 }
 
-/* The newest slot becomes prog.A.refused, also after a power cut. */
-static int put_aside(struct slots *slots)
+/* One file beside a slot, or the slot itself, gets the name of another, also after a power cut. */
+static int change_name(struct slots *slots, int number, const char *from, const char *to)
 {
-	const char *path = slots_path(slots, !slots->next);
-	char aside[512];
+	char old[sizeof(slots->path)];
+	const char *path = path_of(slots, number, from);
 	int folder;
 
-	if (!path || strlen(path) + sizeof(".refused") > sizeof(aside))
+	if (!path)
 		return -ENAMETOOLONG;
-	snprintf(aside, sizeof(aside), "%.500s.refused", path);
-	if (rename(path, aside) != 0)
+	memcpy(old, path, strlen(path) + 1);
+	path = path_of(slots, number, to);
+	if (!path)
+		return -ENAMETOOLONG;
+	if (rename(old, path) != 0)
 		return -errno;
 	folder = open(slots->folder, O_RDONLY | O_CLOEXEC);
 	if (folder >= 0) {
@@ -161,6 +171,20 @@ static int put_aside(struct slots *slots)
 		close(folder);
 	}
 	return 0;
+}
+
+/* The newest slot becomes prog.A.refused. */
+static int put_aside(struct slots *slots)
+{
+	return change_name(slots, !slots->next, "", ".refused");
+}
+
+/* Fails: false: the event @id tells that the next start runs another program. */
+static bool note(struct slots *slots, int error, enum event_id id)
+{
+	slots->unlike = error ? (uint8_t)id : 0;
+	snprintf(slots->why, sizeof(slots->why), "%s", error ? strerror(-error) : "");
+	return !error;
 }
 
 bool slots_reject(struct slots *slots)
@@ -172,13 +196,46 @@ bool slots_reject(struct slots *slots)
 	return true;
 }
 
-int slots_back(struct slots *slots)
+bool slots_back(struct slots *slots)
 {
-	const int error = put_aside(slots);
+	const bool was_kept = slots->unlike != EVENT_NOT_KEPT;
 
-	if (!error)
-		slots->next = !slots->next;
-	return error;
+	if (!was_kept) { /* it never was a slot */
+		slots_drop(slots);
+		return note(slots, 0, EVENT_NOT_BACK);
+	}
+	if (!note(slots, put_aside(slots), EVENT_NOT_BACK))
+		return false;
+	slots->next = !slots->next;
+	return true;
+}
+
+bool slots_store(struct slots *slots, const uint8_t *bytes, size_t len, struct diag_list *diags)
+{
+	const char *path = path_of(slots, slots->next, "");
+	struct stat old;
+
+	if (path && stat(path, &old) == 0 && !S_ISREG(old.st_mode)) {
+		diag_add(diags, (struct diag){ .id = DIAG_NOT_A_FILE, .file = path }, "%s", "");
+		return false;
+	}
+	path = path_of(slots, slots->next, FRESH);
+	return path && file_save(path, bytes, len, diags);
+}
+
+bool slots_keep(struct slots *slots)
+{
+	if (!note(slots, change_name(slots, slots->next, FRESH, ""), EVENT_NOT_KEPT))
+		return false;
+	slots->seq++;
+	slots->next = !slots->next;
+	return true;
+}
+
+void slots_drop(struct slots *slots)
+{
+	if (path_of(slots, slots->next, FRESH))
+		unlink(slots->path);
 }
 
 void slots_close(struct slots *slots)

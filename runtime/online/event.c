@@ -3,6 +3,7 @@
  * event - fields, records and texts of the log.
  */
 #include "online/event.h"
+#include "online/status.h"
 
 #include "engine/base/diag.h"
 #include "engine/base/digest.h"
@@ -61,6 +62,14 @@ bool event_open(const uint8_t *bytes, struct event *out)
 	event_take(&body, out);
 	return !body.failed && out->seq && wire_u32(&tail) ==
 	       digest_crc32c(0, bytes, EVENT_BYTES - 4);
+}
+
+int status_next(const struct board_status *status, const char *text, char *out, size_t size)
+{
+	struct event event = { .id = status->next };
+
+	snprintf(event.arg[0], sizeof(event.arg[0]), "%.79s", status->next_why);
+	return event_fill(&event, text, out, size);
 }
 
 int event_print(const struct event *event, char *out, size_t size)

@@ -26,6 +26,9 @@
 #define PART_MOST   32768u   /* bytes of the record that one order copies     */
 #define NEAR        16       /* ranges that are so near are copied as one     */
 
+/* A download that was given to the scan thread, as long as its end is not known. */
+enum given { GIVEN_NOTHING, GIVEN_SWAP, GIVEN_RESTART };
+
 /* An answer to a request that changed something. */
 struct kept {
 	uint16_t request;
@@ -64,7 +67,7 @@ struct server {
 	struct watch look_watch;
 	struct standby_view standby;
 	bool verified;
-	bool swapping;         /* ORDER_SWAP was given, and its end is not known yet */
+	enum given given;
 	char why[STATUS_TEXT]; /* the board went back by itself; "": a desk did it */
 	bool no_memory;        /* for the image of a new program: no reading  */
 	/* The program over the memory of a view, with the forces of the board. */
@@ -102,7 +105,7 @@ static enum refusal give(struct server *server)
 /* An order may be given only if the one before is done: it is the same memory. */
 static bool can_order(const struct server *server)
 {
-	return exchange_is_done(server->setup.exchange) && !server->swapping;
+	return exchange_is_done(server->setup.exchange) && server->given == GIVEN_NOTHING;
 }
 
 /* Learns the forces of the board anew. */
@@ -931,7 +934,6 @@ static enum refusal serve_verify(struct asked *asked)
 	server->held.program = server->setup.program;
 	server->held.memory = NULL;
 	carry_plan_losses(server->standby.plan, &server->held, put_loss, &losses);
-	asked->out.failed |= losses.told > losses.count;
 	{
 		struct wire_writer fill = wire_write(head, 8);
 
@@ -941,45 +943,67 @@ static enum refusal serve_verify(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
-void server_settle(struct server *server)
+/* Another program runs, put there by a desk. */
+static void go_on(struct server *server)
 {
-	const struct server_store *store = server->setup.store;
 	const bool back = server->order.back != 0;
 
-	if (!server->swapping || !exchange_is_done(server->setup.exchange))
-		return;
-	server->swapping = false;
-	if (server->order.refusal != REFUSAL_NONE) {
-		store->close_lines(server->setup.context);
-		return;
-	}
 	server->verified = false;
 	server->downloading = -1;
 	server->why[0] = '\0';
-	server_renew(server, store->swapped(server->setup.context, back));
+	server_renew(server, server->setup.store->swapped(server->setup.context, back));
 	learn_forces(server); /* if the board is busy, the next view says that they differ */
 }
 
-/* An order that is late is settled later: its program may run by then. */
-static enum refusal swap(struct asked *asked, const struct expect *expect, uint32_t back)
+/* The slot is replaced only when the scan thread has taken the program: what a desk was refused
+ * never starts, also if ladderd is killed meanwhile. Fails: the program could not be kept. */
+static enum refusal settle(struct server *server, char *detail, size_t size)
 {
-	struct server *server = asked->server;
-	enum refusal refusal;
+	const struct server_setup *setup = &server->setup;
+	const enum given given = server->given;
+	enum refusal kept;
 
-	server->order = (struct order){ .kind = ORDER_SWAP, .other = server->standby.standby,
-					.back = back, .expects = true, .expect = *expect };
-	server->swapping = true;
-	refusal = give(server);
-	server_settle(server);
-	return refusal;
+	if (given == GIVEN_NOTHING || !exchange_is_done(setup->exchange))
+		return REFUSAL_NONE;
+	server->given = GIVEN_NOTHING;
+	if (server->order.refusal != REFUSAL_NONE) {
+		setup->store->drop(setup->context);
+		setup->store->close_lines(setup->context);
+		return REFUSAL_NONE;
+	}
+	kept = setup->store->keep(setup->context, detail, size);
+	if (given == GIVEN_RESTART)
+		return kept;
+	if (kept != REFUSAL_NONE)
+		setup->log->add(setup->context, EVENT_NOT_KEPT, 0, "", detail, "");
+	go_on(server);
+	return kept == REFUSAL_NONE ? REFUSAL_NONE : REFUSAL_NOT_KEPT;
 }
 
-static enum refusal restart(struct server *server, const struct expect *expect, bool stopped)
+void server_settle(struct server *server)
 {
-	server->order = (struct order){ .kind = ORDER_RESTART, .expects = true,
-					.mode = stopped ? MODE_STOP : MODE_WARM,
-					.expect = *expect };
-	return give(server);
+	char detail[DETAIL_MOST];
+
+	settle(server, detail, sizeof(detail));
+}
+
+/* An order that is late is settled later: its program may run by then. */
+static enum refusal give_program(struct asked *asked, const struct order *order)
+{
+	struct server *server = asked->server;
+	enum refusal refusal, kept;
+
+	server->order = *order;
+	server->given = order->kind == ORDER_SWAP ? GIVEN_SWAP : GIVEN_RESTART;
+	refusal = give(server);
+	kept = settle(server, asked->detail, sizeof(asked->detail));
+	return refusal == REFUSAL_NONE ? kept : refusal;
+}
+
+static struct order restart(const struct expect *expect, bool stopped)
+{
+	return (struct order){ .kind = ORDER_RESTART, .expects = true,
+			       .mode = stopped ? MODE_STOP : MODE_WARM, .expect = *expect };
 }
 
 /* From which identity to which. */
@@ -1020,21 +1044,26 @@ static enum refusal serve_commit(struct asked *asked)
 					.expects = true, .expect = expect };
 	refusal = give(server);
 	scan = server->order.scan;
-	if (refusal == REFUSAL_NONE && how == 0)
+	if (refusal == REFUSAL_NONE && how == COMMIT_LIVE)
 		refusal = store->open_lines(server->setup.context, asked->detail,
 					    sizeof(asked->detail));
 	if (refusal == REFUSAL_NONE)
 		refusal = store->store(server->setup.context, asked->detail,
 				       sizeof(asked->detail));
-	if (refusal == REFUSAL_NONE && how == COMMIT_LIVE)
-		refusal = swap(asked, &expect, back);
-	else if (refusal == REFUSAL_NONE)
-		refusal = restart(server, &expect, how == COMMIT_STOPPED);
-	if (refusal != REFUSAL_NONE && can_order(server))
+	if (refusal == REFUSAL_NONE) {
+		const struct order order = how == COMMIT_LIVE ?
+			(struct order){ .kind = ORDER_SWAP, .other = server->standby.standby,
+					.back = back, .expects = true, .expect = expect } :
+			restart(&expect, how == COMMIT_STOPPED);
+
+		refusal = give_program(asked, &order);
+	} else {
 		store->close_lines(server->setup.context);
+	}
+	if (refusal == REFUSAL_NONE || refusal == REFUSAL_NOT_KEPT)
+		tell_download(asked, &expect);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
-	tell_download(asked, &expect);
 	server->downloading = -1;
 	begin_answer(asked, 0);
 	wire_put_u64(&asked->out, scan);
@@ -1130,8 +1159,10 @@ static enum refusal change_setting(struct asked *asked)
 		return refusal;
 	snprintf(told, sizeof(told), "%.15s=%.63s", key, value);
 	tell_log(asked, EVENT_CONFIG, told, changed.next);
-	if (how == 1)
-		refusal = restart(server, &expect, false);
+	if (how == 1) {
+		server->order = restart(&expect, false);
+		refusal = give(server);
+	}
 	if (refusal != REFUSAL_NONE)
 		return refusal;
 	begin_answer(asked, 0);

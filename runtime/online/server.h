@@ -84,8 +84,14 @@ struct server_store {
 	enum refusal (*open_lines)(void *context, char *detail, size_t size);
 	/** The commit failed: gives them back. */
 	void (*close_lines)(void *context);
-	/** Writes it to a slot. */
+	/** Writes all of it beside its slot. The next start does not look there. Fails:
+	 * REFUSAL_DISK. */
 	enum refusal (*store)(void *context, char *detail, size_t size);
+	/** What store() wrote becomes the newest slot: the next start runs it. Fails:
+	 * REFUSAL_DISK; then the next start runs the program before. */
+	enum refusal (*keep)(void *context, char *detail, size_t size);
+	/** Forgets what store() wrote. */
+	void (*drop)(void *context);
 	/** After ORDER_SWAP: frees the program before, if it cannot come back, and stores
 	 * retained values again. */
 	const struct program *(*swapped)(void *context, bool comes_back);

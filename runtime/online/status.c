@@ -45,6 +45,8 @@ void status_put(struct wire_writer *out, const struct board_status *status)
 		wire_put_i64(out, task->last_ns);
 		wire_put_i64(out, task->max_ns);
 	}
+	wire_put_u8(out, status->next);
+	wire_put_string(out, status->next_why);
 }
 
 static void take_task(struct wire_reader *in, struct task_status *task)
@@ -97,4 +99,8 @@ void status_take(struct wire_reader *in, struct board_status *status)
 	}
 	for (uint8_t i = 0; i < status->task_count; i++)
 		take_task(in, &status->task[i]);
+	if (!wire_left(in))
+		return; /* a board of before these fields */
+	status->next = wire_u8(in);
+	wire_copy_text(in, status->next_why, sizeof(status->next_why));
 }

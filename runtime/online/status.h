@@ -41,6 +41,9 @@ struct board_status {
 	char fault[STATUS_TEXT];       /* "none", or what and where            */
 	char error[STATUS_TEXT];       /* where the first operation failed; "" */
 	char stop[STATUS_TEXT];        /* where the program executed STOP; ""  */
+	uint8_t next;                  /* the event that says why the next start runs another
+					* program than this one; 0: it does not */
+	char next_why[STATUS_TEXT];    /* its argument                         */
 	uint8_t task_count;
 	struct task_status task[LIMIT_TASKS];
 };
@@ -50,4 +53,7 @@ void status_put(struct wire_writer *out, const struct board_status *status);
 /** status_take - Fails: the reader has failed. Bytes behind the known fields are ignored;
  * texts are cut and end with NUL. */
 void status_take(struct wire_reader *in, struct board_status *status);
+/** status_next - @text: that of the event status->next, or its translation; gets why the next
+ * start runs another program than this one. As snprintf. */
+int status_next(const struct board_status *status, const char *text, char *out, size_t size);
 #endif

@@ -277,6 +277,8 @@ class Client:
         found['tasks'] = [{'name': it.text(), 'interval': it.number('q'), 'runs': it.number('Q'),
                            'missed': it.number('Q'), 'last': it.number('q'), 'longest': it.number('q')}
                           for _ in range(it.number('B'))]
+        found['next'], found['next_why'] = it.number('B'), it.text()
+        assert not it.rest()
         return found
 
     def symbols(self):

@@ -924,7 +924,8 @@ def test_a_fault_within_its_first_scans_brings_the_old_program_back():
             bad = build(board, 'bad.rung', faulty(scan))
             identity = desk.download(bad, back=back)[1]
             until(lambda: any(it['id'] == 24 for it in other.events()))
-            until(lambda: attempt(other.forces) and [number for number, _ in other.told].count(0) == 2)
+            # Told of both exchanges, or of the second alone if it came before the first was told.
+            until(lambda: attempt(other.forces) and any(fields.rest() for number, fields in other.told if number == 0))
             now = desk.status()
             assert now['program'] == before['program'] != identity and now['mode'] == client.RUN, now
             assert now['forces'] == 1 and now['fault'] == 'none' and now['scans'] > before['scans']
@@ -971,6 +972,41 @@ def test_the_start_after_a_bad_program_runs_the_one_before():
         board.start()
         assert board.client().status()['program'] == one
         assert 'runs the program of download 1' in board.read('err')
+
+
+def test_a_bad_program_that_cannot_be_put_aside_is_told():
+    with Board(COUNTS, '--slots', '.') as board:
+        desk = board.client()
+        first = desk.status()
+        assert (first['next'], first['next_why']) == (0, '')
+        os.makedirs(board.folder + '/prog.A.refused/full')
+        desk.download(build(board, 'bad.rung', faulty(3)), back=50)
+        until(lambda: any(it['id'] == 24 for it in desk.events()))
+        event = next(it for it in desk.events() if it['id'] == 29)
+        assert 'directory' in event['args'][0] and not event['user'], event
+        now = desk.status()
+        assert (now['program'], now['next'], now['next_why']) == (first['program'], 29, event['args'][0]), now
+        shown = board.command('status')[1]
+        assert 'next start: the program that had a FAULT could not be put aside, so the next start runs it: ' in shown, shown
+        assert 'so the next start runs it' in json.loads(board.command('status', '--json')[1])['next_start']
+        # The next download is what starts.
+        good = desk.download(build(board, 'good.rung', COUNTS.replace('T#2s', 'T#4s')))[1]
+        assert desk.status()['next'] == 0 and 'next start' not in board.command('status')[1]
+        board.stop()
+        board.start()
+        assert board.client().status()['program'] == good
+
+
+def test_what_a_killed_download_left_is_removed():
+    with slots() as board:
+        identity = board.client().download(build(board, 'other.rung', OTHER))[1]
+        assert not os.path.exists(board.folder + '/prog.A.new')
+        board.daemon.kill()
+        board.daemon.wait()
+        shutil.copy(board.folder + '/prog.A', board.folder + '/prog.B.new')
+        board.start()
+        assert board.client().status()['program'] == identity
+        assert not os.path.exists(board.folder + '/prog.B.new')
 
 
 def test_a_trial_ends_with_an_order_and_keeps_others_out():
