@@ -17,6 +17,7 @@
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/sim/live_value.h"
 #include "editor-gtk/kit/settings.h"
 
 #include <adwaita.h>
@@ -80,6 +81,8 @@ struct canvas_own {
 	struct canvas_question question; /* of the open entry                   */
 	bool taking;            /* question.taken() runs                       */
 	char *refusal;          /* said by it, for the entry; NULL: none       */
+	struct location acted_at; /* of canvas_acts()                           */
+	const char *acted_as;   /* its prompt; NULL: nothing to be refused     */
 	struct canvas_cells cells;
 	struct canvas_press press;
 	struct canvas_input input;
@@ -1243,6 +1246,24 @@ static void state_changed(LadderCanvas *canvas)
 		values_changed(canvas);
 }
 
+void canvas_acts(LadderCanvas *canvas, struct location at, const char *prompt)
+{
+	own_of(canvas)->acted_at = at;
+	own_of(canvas)->acted_as = prompt;
+}
+
+/* An entry that is open is for something else by now. */
+static void refused(LadderCanvas *canvas, const struct location *at, const char *why)
+{
+	const char *prompt = own_of(canvas)->acted_as;
+
+	if (!prompt || !live_value_is_same(own_of(canvas)->acted_at, *at))
+		return;
+	own_of(canvas)->acted_as = NULL;
+	if (!state_of(canvas)->entry && gtk_widget_get_mapped(GTK_WIDGET(canvas)))
+		canvas_refuse(canvas, prompt, why);
+}
+
 static void forget_sim(LadderCanvas *canvas)
 {
 	if (state_of(canvas)->sim)
@@ -1262,6 +1283,7 @@ void ladder_canvas_set_sim(LadderCanvas *canvas, LadderSim *sim)
 					 canvas);
 		g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(state_changed),
 					 canvas);
+		g_signal_connect_swapped(sim, "refused", G_CALLBACK(refused), canvas);
 	}
 	if (was_on || canvas_is_live(canvas))
 		program_changed(canvas);

@@ -159,6 +159,10 @@ bool canvas_is_live(LadderCanvas *canvas);
 /** canvas_uses - the cross reference of the present project; NULL: out of memory, or no
  * project. Borrowed until the next change. */
 struct xref *canvas_uses(LadderCanvas *canvas);
+/** canvas_acts - the value at @at is set, forced or released from the cursor next: if that is
+ * refused, now or by a board later, the reason is shown at the cursor. @prompt: as of
+ * canvas_refuse(); lives for ever. */
+void canvas_acts(LadderCanvas *canvas, struct location at, const char *prompt);
 /** canvas_tell - emits "told". */
 void canvas_tell(LadderCanvas *canvas, const char *text);
 /** canvas_moved - emits "cursor-moved"; accessible children and input methods follow. */

@@ -59,18 +59,13 @@ static const char *name_here(LadderGridView *view)
 				   cell->operand) : "";
 }
 
-static bool is_place(struct location a, struct location b)
-{
-	return a.type == b.type && a.area == b.area && a.where == b.where;
-}
-
 /* The value of the last act, which may not have reached the simulation yet. */
 static union iec_value value_now(LadderGridView *view, struct location at)
 {
 	const struct sheet_live *live = &view->live;
 
 	return live->ordered && live->ordered == live->stamp &&
-	       is_place(live->ordered_at, at) ? live->ordered_value :
+	       live_value_is_same(live->ordered_at, at) ? live->ordered_value :
 	       image_get(image_of(view), at);
 }
 
@@ -91,13 +86,14 @@ static bool order(LadderGridView *view, enum act_kind kind, struct location at,
 		  union iec_value value)
 {
 	const struct act act = { .kind = kind, .at = at, .value = value };
+	const char *prompt = _(verb_row(kind == ACT_SET ? VERB_set_value : VERB_force)->label);
 	const char *why = why_not(view, kind != ACT_SET);
 
 	if (why) {
-		canvas_refuse(LADDER_CANVAS(view), _(verb_row(kind == ACT_SET ? VERB_set_value :
-							      VERB_force)->label), why);
+		canvas_refuse(LADDER_CANVAS(view), prompt, why);
 		return false;
 	}
+	canvas_acts(LADDER_CANVAS(view), at, prompt);
 	ladder_sim_act(view->canvas->sim, &act);
 	view->live.ordered = view->live.stamp;
 	view->live.ordered_at = at;

@@ -907,6 +907,15 @@ static gboolean look_at_some(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
+/* Beside what a person used in the panel, not beside what was used elsewhere. */
+static void refused(LadderSimPanel *panel, const struct location *at, const char *why)
+{
+	if (!gtk_widget_get_focus_child(GTK_WIDGET(panel)))
+		return;
+	for (guint i = 0; i < panel->views->len; i++)
+		ladder_sim_row_view_refuse(g_ptr_array_index(panel->views, i), *at, why);
+}
+
 static void look(LadderSimPanel *panel)
 {
 	guint seen = 0;
@@ -1202,6 +1211,7 @@ GtkWidget *ladder_sim_panel_new(LadderSim *sim)
 
 	panel->sim = g_object_ref(sim);
 	g_signal_connect_swapped(sim, "shown", G_CALLBACK(shown), panel);
+	g_signal_connect_swapped(sim, "refused", G_CALLBACK(refused), panel);
 	g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(program_changed), panel);
 	g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(state_changed), panel);
 	g_signal_connect_swapped(ladder_sim_document(sim), "bookmarks-changed",

@@ -32,6 +32,7 @@ struct _LadderSimRowView {
 	GtkWidget *entry;        /* NULL: none yet                              */
 	enum sim_edit editing;
 	GtkWidget *bar, *scale;
+	GtkWidget *why;          /* why what a person did was refused; NULL: none yet */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSimRowView, ladder_sim_row_view, GTK_TYPE_WIDGET)
@@ -214,6 +215,34 @@ void ladder_sim_row_view_update(LadderSimRowView *view)
 	view->telling = false;
 }
 
+/* ---- what is refused ---- */
+
+static void forget_refusal(LadderSimRowView *view)
+{
+	if (view->why)
+		gtk_widget_set_visible(view->why, FALSE);
+}
+
+void ladder_sim_row_view_refuse(LadderSimRowView *view, struct location at, const char *why)
+{
+	const LadderSimRow *row = view->row;
+
+	forget_refusal(view);
+	if (!row || row->kind == SIM_HEADING ||
+	    !(live_value_is_same(row->at, at) || live_value_is_same(row->given, at)))
+		return;
+	if (!view->why) {
+		view->why = gtk_label_new(NULL);
+		gtk_label_set_xalign(GTK_LABEL(view->why), 0);
+		gtk_label_set_wrap(GTK_LABEL(view->why), TRUE);
+		gtk_widget_add_css_class(view->why, "error");
+		gtk_widget_add_css_class(view->why, "sim-why");
+		gtk_widget_set_parent(view->why, GTK_WIDGET(view));
+	}
+	gtk_label_set_text(GTK_LABEL(view->why), why);
+	gtk_widget_set_visible(view->why, TRUE);
+}
+
 /* ---- the entry for a value ---- */
 
 static struct location place_of(const LadderSimRowView *view)
@@ -267,8 +296,10 @@ static bool is_refused(LadderSimRowView *view)
 	const bool forced = live_value_is_forced(view->sim, view->row->plant, place_of(view));
 	const char *why = ladder_sim_why_not(view->sim, forced ? SIM_WISH_FORCE : SIM_WISH_SET);
 
-	if (why)
+	if (why) {
 		mark(view, why);
+		ladder_sim_row_view_refuse(view, place_of(view), why);
+	}
 	return why != NULL;
 }
 
@@ -311,6 +342,7 @@ static void text_changed(LadderSimRowView *view)
 {
 	if (gtk_widget_has_css_class(view->entry, "error"))
 		mark_bad(view, false);
+	forget_refusal(view);
 }
 
 static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
@@ -498,6 +530,7 @@ void ladder_sim_row_view_bind(LadderSimRowView *view, LadderSimRow *row)
 	const bool heading = row && row->kind == SIM_HEADING;
 
 	end_edit(view);
+	forget_refusal(view);
 	g_set_object(&view->row, row);
 	memset(&view->value_seen, 0, sizeof(view->value_seen));
 	memset(&view->preset_seen, 0, sizeof(view->preset_seen));

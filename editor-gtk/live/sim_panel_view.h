@@ -22,6 +22,10 @@ void ladder_sim_row_view_update(LadderSimRowView *view);
 /** ladder_sim_row_view_row - borrowed; NULL: none. */
 LadderSimRow *ladder_sim_row_view_row(LadderSimRowView *view);
 
+/** ladder_sim_row_view_refuse - what a person did with the value at @at was refused: its line says
+ * @why, and any other line says nothing any more. */
+void ladder_sim_row_view_refuse(LadderSimRowView *view, struct location at, const char *why);
+
 enum sim_edit { SIM_EDIT_VALUE, SIM_EDIT_PRESET };
 /** ladder_sim_row_view_edit - opens an entry for the value or the preset. */
 void ladder_sim_row_view_edit(LadderSimRowView *view, enum sim_edit what);

@@ -18,6 +18,7 @@ static void ladder_watch_row_finalize(GObject *object)
 
 	watch_line_free(row->line);
 	g_free(row->typed);
+	g_free(row->sent);
 	G_OBJECT_CLASS(ladder_watch_row_parent_class)->finalize(object);
 }
 
@@ -29,6 +30,7 @@ static void ladder_watch_row_class_init(LadderWatchRowClass *class)
 static void ladder_watch_row_init(LadderWatchRow *row)
 {
 	row->typed = g_strdup("");
+	row->sent = g_strdup("");
 }
 
 LadderWatchRow *watch_row_new(const struct watch_line *line, const struct image *image)
@@ -41,15 +43,11 @@ LadderWatchRow *watch_row_new(const struct watch_line *line, const struct image 
 	return row;
 }
 
-static bool is_same_place(struct location a, struct location b)
-{
-	return a.type == b.type && a.area == b.area && a.where == b.where &&
-	       a.constant == b.constant;
-}
 
 bool watch_row_equal(const LadderWatchRow *a, const LadderWatchRow *b)
 {
-	return a->asked == b->asked && is_same_place(a->at, b->at) &&
+	return a->asked == b->asked && a->at.constant == b->at.constant && a->at.type == b->at.type &&
+	       (a->at.type == IEC_NONE || live_value_is_same(a->at, b->at)) &&
 	       a->line->format == b->line->format &&
 	       strcmp(a->line->name, b->line->name) == 0 &&
 	       strcmp(a->line->comment, b->line->comment) == 0;

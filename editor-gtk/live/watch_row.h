@@ -21,6 +21,9 @@ struct _LadderWatchRow {
 	struct location at;     /* type IEC_NONE: not found                    */
 	struct live_seen seen;  /* as it is shown                             */
 	char *typed;            /* the new value; "": none                     */
+	bool acted, forcing;    /* a value was written, or it was forced or released: the board
+				   may refuse it later                         */
+	char *sent;             /* what was typed then                         */
 	/* Its cells while they are on screen; borrowed. */
 	GtkWidget *value, *fresh, *force;
 };

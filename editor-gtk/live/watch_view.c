@@ -331,14 +331,37 @@ static void mapped(GtkWidget *widget)
 
 /* ---- new values and forces ---- */
 
+/* Where the person looks. @why: NULL: nothing is wrong any more. */
+static void mark(GtkWidget *cell, const char *why)
+{
+	if (!cell)
+		return;
+	set_class(cell, "error", why != NULL);
+	tip_set(cell, why);
+	gtk_accessible_update_state(GTK_ACCESSIBLE(cell), GTK_ACCESSIBLE_STATE_INVALID,
+		why ? GTK_ACCESSIBLE_INVALID_TRUE : GTK_ACCESSIBLE_INVALID_FALSE, -1);
+}
+
 static void refuse(LadderWatchView *view, LadderWatchRow *row, char *why)
 {
-	if (row->fresh) {
-		gtk_widget_add_css_class(row->fresh, "error");
-		gtk_accessible_update_state(GTK_ACCESSIBLE(row->fresh),
-			GTK_ACCESSIBLE_STATE_INVALID, GTK_ACCESSIBLE_INVALID_TRUE, -1);
-	}
+	mark(row->forcing ? row->force : row->fresh, why);
 	tell(view, why);
+}
+
+/* The board did not do what a person did in a row: what was typed comes back. */
+static void refused(LadderWatchView *view, const struct location *at, const char *why)
+{
+	for (guint i = 0; i < row_count(view); i++) {
+		LadderWatchRow *row = row_at(view, i);
+
+		if (row->acted && live_value_is_same(row->at, *at)) {
+			row->acted = false;
+			if (row->fresh && *row->sent && !*row->typed)
+				gtk_editable_set_text(GTK_EDITABLE(row->fresh), row->sent);
+			refuse(view, row, g_strdup(why));
+		}
+		g_object_unref(row);
+	}
 }
 
 /* False: what is typed is no value for the row; the message says why. */
@@ -362,10 +385,19 @@ static bool take_typed(LadderWatchView *view, LadderWatchRow *row, struct iec_te
 
 static void forget_typed(LadderWatchRow *row)
 {
-	g_free(row->typed);
+	g_free(row->sent);
+	row->sent = row->typed;
 	row->typed = g_strdup("");
 	if (row->fresh)
 		gtk_editable_set_text(GTK_EDITABLE(row->fresh), "");
+}
+
+static void acts(LadderWatchRow *row, bool force)
+{
+	row->acted = true;
+	row->forcing = force;
+	mark(row->fresh, NULL);
+	mark(row->force, NULL);
 }
 
 /* False: the board does not allow it, and the entry says why. */
@@ -385,9 +417,11 @@ static bool write_row(LadderWatchView *view, LadderWatchRow *row)
 	union iec_value value;
 	struct iec_text room;
 
+	row->forcing = false;
 	if (!*row->typed || !take_typed(view, row, &room, &value) ||
 	    !may(view, row, row->seen.forced))
 		return false;
+	acts(row, false);
 	live_value_set(view->sim, false, row->at, value);
 	forget_typed(row);
 	tell(view, NULL);
@@ -414,16 +448,20 @@ static void toggle_force(LadderWatchView *view, LadderWatchRow *row)
 
 	if (!row->seen.known)
 		return;
+	row->forcing = true;
 	if (!may(view, row, true)) {
 		show_force(row);
 		return;
 	}
 	if (row->seen.forced) {
+		acts(row, true);
 		live_value_release(view->sim, false, row->at);
 	} else {
+		row->forcing = false; /* what is wrong is what was typed */
 		if (*row->typed && !take_typed(view, row, &room, &value))
 			return;
 		forget_typed(row);
+		acts(row, true);
 		live_value_force(view->sim, false, row->at, value);
 	}
 	tell(view, NULL);
@@ -755,8 +793,7 @@ static void typed(GtkEditable *entry, GtkListItem *item)
 		return;
 	g_free(row->typed);
 	row->typed = g_strdup(gtk_editable_get_text(entry));
-	gtk_widget_remove_css_class(GTK_WIDGET(entry), "error");
-	gtk_accessible_reset_state(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_STATE_INVALID);
+	mark(GTK_WIDGET(entry), NULL);
 }
 
 static void typed_through(GtkEntry *entry, GtkListItem *item)
@@ -911,7 +948,7 @@ static void bind_fresh(GtkWidget *cell, LadderWatchRow *row, GtkListItem *item)
 	row->fresh = cell;
 	gtk_editable_set_text(GTK_EDITABLE(cell), row->typed);
 	gtk_widget_set_sensitive(cell, !row->at.constant);
-	gtk_widget_remove_css_class(cell, "error");
+	mark(cell, NULL);
 	name_cell(cell, row, FRESH);
 	g_signal_connect(cell, "changed", G_CALLBACK(typed), item);
 	g_signal_connect(cell, "activate", G_CALLBACK(typed_through), item);
@@ -947,6 +984,7 @@ static void bind(gpointer column, GtkListItem *item)
 	case FRESH: bind_fresh(cell, row, item); break;
 	case FORCE:
 		row->force = cell;
+		mark(cell, NULL);
 		show_force(row);
 		name_cell(cell, row, FORCE);
 		g_signal_connect(cell, "clicked", G_CALLBACK(force_clicked), item);
@@ -1099,6 +1137,7 @@ GtkWidget *ladder_watch_view_new(LadderDocument *document, LadderSim *sim)
 	g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(changed), view);
 	g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(show_actions), view);
 	g_signal_connect_swapped(sim, "shown", G_CALLBACK(shown), view);
+	g_signal_connect_swapped(sim, "refused", G_CALLBACK(refused), view);
 	refresh(view);
 	return GTK_WIDGET(view);
 }

@@ -533,6 +533,11 @@ static void ask_status(LadderBoardLink *link)
 	ladder_board_link_send(link, SERVICE_STATUS, &fields, link, status_came, link);
 }
 
+void ladder_board_link_look(LadderBoardLink *link)
+{
+	ask_status(link);
+}
+
 static gboolean status_due(gpointer data)
 {
 	ask_status(data);
@@ -805,8 +810,29 @@ enum role ladder_board_link_role(LadderBoardLink *link)
 
 bool ladder_board_link_may(LadderBoardLink *link, enum service service)
 {
-	return link->state == LINK_CONNECTED &&
-	       link->role >= service_row((uint8_t)service)->role;
+	return ladder_board_link_why_not(link, service) == NULL;
+}
+
+const char *ladder_board_link_needs(LadderBoardLink *link, enum role role)
+{
+	const char *why;
+	char *text;
+
+	if (link->state != LINK_CONNECTED)
+		return _("Not connected to the board");
+	if (link->role >= role)
+		return NULL;
+	text = g_strdup_printf(_("This needs the role “%s” on the board; yours is “%s”. Ask for the "
+				 "group ladder-%s there"), role_word(role), role_word(link->role),
+			       role_word(role));
+	why = g_intern_string(text);
+	g_free(text);
+	return why;
+}
+
+const char *ladder_board_link_why_not(LadderBoardLink *link, enum service service)
+{
+	return ladder_board_link_needs(link, service_row((uint8_t)service)->role);
 }
 
 const struct board_status *ladder_board_link_status(LadderBoardLink *link)
@@ -889,20 +915,21 @@ void ladder_board_link_work(LadderBoardLink *link,
 	give(link, asked);
 }
 
-void ladder_board_link_expect(LadderBoardLink *link, struct wire_writer *fields)
+struct expect ladder_board_link_expect(LadderBoardLink *link)
 {
-	struct expect expect = { .mode = EXPECT_ANY };
+	struct expect expect = { .mode = link->status.mode };
 
 	memcpy(expect.program, link->status.program, sizeof(expect.program));
-	wire_put_expect(fields, &expect);
+	return expect;
 }
 
-void ladder_board_link_mode(LadderBoardLink *link, enum mode_wish wish, gpointer owner,
-			    board_answered answered, gpointer data)
+void ladder_board_link_mode(LadderBoardLink *link, const struct expect *expect,
+			    enum mode_wish wish, gpointer owner, board_answered answered,
+			    gpointer data)
 {
 	struct wire_writer fields = ladder_board_link_begin(link);
 
-	ladder_board_link_expect(link, &fields);
+	wire_put_expect(&fields, expect);
 	wire_put_u8(&fields, (uint8_t)wish);
 	ladder_board_link_send(link, SERVICE_MODE, &fields, owner, answered, data);
 }

@@ -57,9 +57,16 @@ const char *ladder_board_link_board(LadderBoardLink *link);
 enum role ladder_board_link_role(LadderBoardLink *link);
 /** ladder_board_link_may - whether the role of the session is enough for the service. */
 bool ladder_board_link_may(LadderBoardLink *link, enum service service);
+/** ladder_board_link_why_not - the same in words: what role it needs, and how to get it; NULL: it
+ * may. Translated; lives for ever. */
+const char *ladder_board_link_why_not(LadderBoardLink *link, enum service service);
+/** ladder_board_link_needs - likewise, of something that needs @role. */
+const char *ladder_board_link_needs(LadderBoardLink *link, enum role role);
 /** ladder_board_link_status - the last one; NULL: not connected, or none yet. Borrowed until the
  * next `status`. */
 const struct board_status *ladder_board_link_status(LadderBoardLink *link);
+/** ladder_board_link_look - asks for the status now; `status` comes soon. */
+void ladder_board_link_look(LadderBoardLink *link);
 
 /* ---- requests ---- */
 
@@ -89,11 +96,12 @@ void ladder_board_link_send(LadderBoardLink *link, enum service service,
 void ladder_board_link_work(LadderBoardLink *link,
 			    enum desk_end (*work)(struct desk *desk, gpointer data), gpointer owner,
 			    board_answered answered, gpointer data, GDestroyNotify free);
-/** ladder_board_link_expect - begins the fields of a change: it is done only if the program of
- * the last status still runs. */
-void ladder_board_link_expect(LadderBoardLink *link, struct wire_writer *fields);
-/** ladder_board_link_mode - run, stop, reset. */
-void ladder_board_link_mode(LadderBoardLink *link, enum mode_wish wish, gpointer owner,
-			    board_answered answered, gpointer data);
+/** ladder_board_link_expect - what a person sees now: the program and the mode of the last status.
+ * A change that carries it is refused when the board has another one by then. */
+struct expect ladder_board_link_expect(LadderBoardLink *link);
+/** ladder_board_link_mode - run, stop, reset. @expect: as it was when a person decided. */
+void ladder_board_link_mode(LadderBoardLink *link, const struct expect *expect,
+			    enum mode_wish wish, gpointer owner, board_answered answered,
+			    gpointer data);
 
 #endif

@@ -26,11 +26,13 @@
 /* A list that the board publishes. */
 struct set {
 	gint refs;               /* of the list, and of its request            */
-	bool gone;               /* not wanted any more                        */
-	guint16 request;         /* 0: not answered yet                        */
+	bool gone;               /* not in the list any more: @values may be gone, too */
+	bool asked, refused;     /* not answered yet; the board does not publish it */
+	guint16 request;
 	char *unit;              /* cells of this program or instance; NULL: variables */
 	GArray *places;          /* of struct location                         */
 	LadderBoardValues *values;
+	LadderBoardLink *link;   /* borrowed: it answers                       */
 };
 
 struct _LadderBoardValues {
@@ -42,6 +44,7 @@ struct _LadderBoardValues {
 	guint8 identity[32];     /* of the program of `mirror`, or of the last attempt */
 	bool tried, loading;
 	bool filled;             /* the values have come once                  */
+	bool again;              /* views needed more while the board was asked */
 	GPtrArray *sets;         /* of struct set                              */
 	char *why;
 	/* The board's record, as it comes. */
@@ -59,12 +62,14 @@ struct _LadderBoardValues {
 
 G_DEFINE_FINAL_TYPE(LadderBoardValues, ladder_board_values, G_TYPE_OBJECT)
 
+static const struct location nowhere = { .type = IEC_NONE };
+
 static void set_why(LadderBoardValues *values, const char *why)
 {
 	g_free(values->why);
 	values->why = g_strdup(why);
 	if (*why)
-		ladder_sim_mirror_refuse(values->sim, why);
+		ladder_sim_mirror_refuse(values->sim, nowhere, why);
 }
 
 const char *ladder_board_values_why(LadderBoardValues *values)
@@ -86,12 +91,12 @@ static void set_unref(gpointer pointer)
 	g_free(set);
 }
 
-static void unpublish(LadderBoardValues *values, const struct set *set)
+static void unpublish(const struct set *set)
 {
-	struct wire_writer fields = ladder_board_link_begin(values->link);
+	struct wire_writer fields = ladder_board_link_begin(set->link);
 
 	wire_put_u16(&fields, set->request);
-	ladder_board_link_send(values->link, SERVICE_UNPUBLISH, &fields, NULL, NULL, NULL);
+	ladder_board_link_send(set->link, SERVICE_UNPUBLISH, &fields, NULL, NULL, NULL);
 }
 
 /* The board need not send this any more. @tell_board: false: it does not any more. */
@@ -100,31 +105,48 @@ static void drop_set(LadderBoardValues *values, guint index, bool tell_board)
 	struct set *set = values->sets->pdata[index];
 
 	set->gone = true;
-	if (tell_board && set->request)
-		unpublish(values, set);
+	if (tell_board && !set->asked && !set->refused)
+		unpublish(set);
 	g_ptr_array_remove_index(values->sets, index);
 }
 
+/* There is room for it now. */
+static void forget_refused(LadderBoardValues *values)
+{
+	for (guint i = values->sets->len; i-- > 0;)
+		if (((struct set *)values->sets->pdata[i])->refused)
+			drop_set(values, i, false);
+}
+
+static guint size_of(const struct set *set)
+{
+	return !set->unit ? set->places->len :
+	       set->values->mirror ? sim_mirror_cells(set->values->mirror, set->unit) : 0;
+}
+
+static void wanted(gpointer data);
+
+/* A refused set stays in the list, so that it is not asked for again and again. */
 static void set_answered(gpointer data, struct board_answer *answer)
 {
 	struct set *set = data;
 	LadderBoardValues *values = set->values;
-	const guint wanted = set->unit ?
-		(values->mirror ? sim_mirror_cells(values->mirror, set->unit) : 0) :
-		set->places->len;
-	guint32 count;
 
+	set->asked = false;
 	set->request = answer->request;
-	if (answer->end != DESK_GOOD) {
-		if (!set->gone && !set->unit && answer->end == DESK_REFUSED)
+	if (set->gone && answer->end == DESK_GOOD) {
+		unpublish(set);
+	} else if (!set->gone && answer->end != DESK_GOOD) {
+		set->refused = true;
+		if (!set->unit && answer->end == DESK_REFUSED)
 			set_why(values, answer->text);
-		set->gone = true;
-	} else if (set->gone) {
-		unpublish(values, set);
-	} else {
-		count = wire_u32(&answer->body);
-		if (count != wanted) /* not the cells of this program */
-			set->gone = true;
+	} else if (!set->gone && wire_u32(&answer->body) != size_of(set)) {
+		set->refused = true; /* not the cells of this program */
+		unpublish(set);
+	}
+	if (!set->gone && values->again) {
+		values->again = false;
+		wanted(values);
 	}
 	set_unref(set);
 }
@@ -143,8 +165,8 @@ static void publish(LadderBoardValues *values, const char *unit, GArray *places)
 	struct set *set = g_new0(struct set, 1);
 	struct wire_writer fields = ladder_board_link_begin(values->link);
 
-	*set = (struct set){ .refs = 2, .unit = g_strdup(unit), .places = places,
-			     .values = values };
+	*set = (struct set){ .refs = 2, .asked = true, .unit = g_strdup(unit), .places = places,
+			     .values = values, .link = values->link };
 	g_ptr_array_add(values->sets, set);
 	wire_put_u32(&fields, period_us(values));
 	wire_put_u8(&fields, unit ? 1 : 0);
@@ -157,7 +179,7 @@ static void publish(LadderBoardValues *values, const char *unit, GArray *places)
 		wire_put_u32(&fields, place_word(program,
 			g_array_index(places, struct location, i)));
 	}
-	ladder_board_link_send(values->link, SERVICE_PUBLISH, &fields, values, set_answered, set);
+	ladder_board_link_send(values->link, SERVICE_PUBLISH, &fields, NULL, set_answered, set);
 }
 
 static bool same_places(const GArray *a, const GArray *b)
@@ -182,6 +204,7 @@ static void publish_variables(LadderBoardValues *values)
 			return;
 		}
 		drop_set(values, i, true);
+		forget_refused(values);
 		sim_mirror_forget(values->mirror);
 		break;
 	}
@@ -215,6 +238,7 @@ static bool is_published(LadderBoardValues *values, const char *unit)
 static void publish_power(LadderBoardValues *values)
 {
 	GPtrArray *units = sim_mirror_units(values->mirror, UNITS_MOST);
+	bool dropped = false;
 
 	for (guint i = values->sets->len; i-- > 0;) {
 		const struct set *set = values->sets->pdata[i];
@@ -222,19 +246,35 @@ static void publish_power(LadderBoardValues *values)
 		if (set->unit && !has_unit(units, set->unit)) {
 			sim_mirror_forget_power(values->mirror, set->unit);
 			drop_set(values, i, true);
+			dropped = true;
 		}
 	}
+	if (dropped)
+		forget_refused(values);
 	for (guint i = 0; i < units->len; i++)
 		if (!is_published(values, units->pdata[i]))
 			publish(values, units->pdata[i], NULL);
 	g_ptr_array_unref(units);
 }
 
+static bool is_asking(LadderBoardValues *values)
+{
+	for (guint i = 0; i < values->sets->len; i++)
+		if (((struct set *)values->sets->pdata[i])->asked)
+			return true;
+	return false;
+}
+
+/* One after the other: what a set is answered with must be known before it can be exchanged for
+ * another one, and a session has room for one. */
 static void wanted(gpointer data)
 {
 	LadderBoardValues *values = data;
 
 	if (!values->mirror || ladder_board_link_state(values->link) != LINK_CONNECTED)
+		return;
+	values->again = is_asking(values);
+	if (values->again)
 		return;
 	publish_variables(values);
 	publish_power(values);
@@ -242,12 +282,31 @@ static void wanted(gpointer data)
 
 /* ---- acts ---- */
 
+/* A request for an act; `values` is weak. */
+struct acted { LadderBoardValues *values; struct location at; };
+
+static struct acted *acted_new(LadderBoardValues *values, struct location at)
+{
+	struct acted *acted = g_new(struct acted, 1);
+
+	*acted = (struct acted){ values, at };
+	g_object_add_weak_pointer(G_OBJECT(values), (gpointer *)&acted->values);
+	return acted;
+}
+
 static void act_answered(gpointer data, struct board_answer *answer)
 {
-	LadderBoardValues *values = data;
+	struct acted *acted = data;
+	LadderBoardValues *values = acted->values;
 
-	if (answer->end != DESK_GOOD && *answer->text)
-		ladder_sim_mirror_refuse(values->sim, answer->text);
+	if (values) {
+		g_object_remove_weak_pointer(G_OBJECT(values), (gpointer *)&acted->values);
+		if (answer->end == DESK_GOOD)
+			ladder_board_link_look(values->link); /* how many are forced now */
+		else if (*answer->text)
+			ladder_sim_mirror_refuse(values->sim, acted->at, answer->text);
+	}
+	g_free(acted);
 }
 
 /* The place is of the program that is shown: the board refuses it if another one runs. */
@@ -268,16 +327,20 @@ static void change(LadderBoardValues *values, enum service service, const struct
 		wire_put_u8(&fields, (guint8)act->at.type);
 		wire_put_value(&fields, act->at.type, act->value);
 	}
-	ladder_board_link_send(values->link, service, &fields, values, act_answered, values);
+	ladder_board_link_send(values->link, service, &fields, NULL, act_answered,
+			       acted_new(values, act->kind == ACT_RELEASE_ALL ? nowhere : act->at));
 }
 
 static void mode(LadderBoardValues *values, enum mode_wish wish)
 {
 	const struct board_status *status = ladder_board_link_status(values->link);
+	struct expect expect = ladder_board_link_expect(values->link);
 
+	expect.mode = EXPECT_ANY; /* the views may know more than the last status */
 	if (status && status->mode == STATE_FAULT && wish != MODE_STOP)
 		wish = MODE_RESET;
-	ladder_board_link_mode(values->link, wish, values, act_answered, values);
+	ladder_board_link_mode(values->link, &expect, wish, NULL, act_answered,
+			       acted_new(values, nowhere));
 }
 
 static void act(gpointer data, const struct act *act)
@@ -296,36 +359,18 @@ static void act(gpointer data, const struct act *act)
 	}
 }
 
-static const char *role_needed(LadderBoardValues *values, enum service service)
-{
-	const enum role role = service_row((guint8)service)->role;
-	char *text;
-	const char *why;
-
-	if (ladder_board_link_may(values->link, service))
-		return NULL;
-	if (ladder_board_link_state(values->link) != LINK_CONNECTED)
-		return _("Not connected to the board");
-	text = g_strdup_printf(_("This needs the role “%s” on the board; yours is “%s”. Ask for the "
-				 "group ladder-%s there"), role_word(role),
-			       role_word(ladder_board_link_role(values->link)), role_word(role));
-	why = g_intern_string(text);
-	g_free(text);
-	return why;
-}
-
 static const char *why_not(gpointer data, enum sim_wish wish)
 {
 	LadderBoardValues *values = data;
 
 	switch (wish) {
-	case SIM_WISH_RUN: return role_needed(values, SERVICE_MODE);
+	case SIM_WISH_RUN: return ladder_board_link_needs(values->link, ROLE_ENG);
 	case SIM_WISH_TIME:
 		return _("A board cannot pause or scan step by step: that is for the simulation");
 	case SIM_WISH_RESTART:
 		return _("A board is connected. Disconnect it to simulate");
-	case SIM_WISH_SET: return role_needed(values, SERVICE_WRITE);
-	case SIM_WISH_FORCE: return role_needed(values, SERVICE_FORCE);
+	case SIM_WISH_SET: return ladder_board_link_why_not(values->link, SERVICE_WRITE);
+	case SIM_WISH_FORCE: return ladder_board_link_why_not(values->link, SERVICE_FORCE);
 	}
 	return NULL;
 }
@@ -432,7 +477,7 @@ static void end(LadderBoardValues *values)
 {
 	while (values->sets->len)
 		drop_set(values, values->sets->len - 1, false);
-	values->filled = false;
+	values->filled = values->again = false;
 	end_log(values);
 	if (values->mirror) {
 		values->mirror = NULL;
@@ -462,6 +507,8 @@ static void begin(LadderBoardValues *values, struct sim_program *program)
 	values->pong_us = g_get_monotonic_time();
 	values->timer = g_timeout_add(PING_MS, ping_due, values);
 	set_why(values, "");
+	if (status)
+		ladder_sim_mirror_forces(values->sim, status->forces);
 	wanted(values);
 }
 
@@ -572,6 +619,8 @@ static bool begin_own(LadderBoardValues *values)
 
 static void find_program(LadderBoardValues *values, const struct board_status *status)
 {
+	char *text;
+
 	memcpy(values->identity, status->program, sizeof(values->identity));
 	values->tried = true;
 	if (ladder_board_link_role(values->link) < ROLE_VIEW)
@@ -579,8 +628,10 @@ static void find_program(LadderBoardValues *values, const struct board_status *s
 	if (begin_own(values))
 		return;
 	if (!ladder_board_link_may(values->link, SERVICE_UPLOAD)) {
-		set_why(values, _("Values of the board are not shown: it runs another program than "
-				  "this one, and reading that needs the role “eng”"));
+		text = g_strdup_printf(_("Values of the board are not shown: it runs another program "
+			"than this one. %s"), ladder_board_link_why_not(values->link, SERVICE_UPLOAD));
+		set_why(values, text);
+		g_free(text);
 		return;
 	}
 	values->loading = true;
@@ -602,6 +653,7 @@ static void status_came(LadderBoardValues *values)
 		return;
 	}
 	sim_mirror_period(values->mirror, status->period_ns);
+	ladder_sim_mirror_forces(values->sim, status->forces);
 	for (guint i = 0; i < status->task_count; i++)
 		sim_mirror_task(values->mirror, i, status->task[i].runs, status->task[i].overruns);
 }
@@ -629,7 +681,7 @@ static struct set *set_of(LadderBoardValues *values, guint16 request)
 	for (guint i = 0; i < values->sets->len; i++) {
 		struct set *set = values->sets->pdata[i];
 
-		if (set->request == request && !set->gone)
+		if (set->request == request && !set->asked && !set->refused)
 			return set;
 	}
 	return NULL;

@@ -121,8 +121,10 @@ static void act_set(LadderSfcView *view, struct location at, int64_t value)
 {
 	const struct act act = { .kind = ACT_SET, .at = at, .value.i = value };
 
-	if (at.type != IEC_NONE)
-		ladder_sim_act(view->canvas->sim, &act);
+	if (at.type == IEC_NONE)
+		return;
+	canvas_acts(LADDER_CANVAS(view), at, _(verb_row(VERB_force)->label));
+	ladder_sim_act(view->canvas->sim, &act);
 }
 
 /* Sets and resets of a step that becomes active. */
@@ -180,7 +182,9 @@ void sfc_live_force(LadderSfcView *view)
 	const struct pou *pou = sfc_pou(view);
 	const char *name = pou ? project_text(view->sheet->project,
 					      pou->sfc->control[CONTROL_FORCE]) : "";
-	struct act act = { .kind = ACT_SET };
+	const char *why = view->canvas->sim ? ladder_sim_why_not(view->canvas->sim, SIM_WISH_SET) :
+			  NULL;
+	struct location at;
 	struct sfc_live now;
 	int index;
 
@@ -192,11 +196,13 @@ void sfc_live_force(LadderSfcView *view)
 		canvas_tell(LADDER_CANVAS(view), _("Select a step first."));
 		return;
 	}
-	act.at = live_map_find(view->places.map, name, strlen(name));
-	if (!*name || act.at.type == IEC_NONE) {
-		force_between(view, index);
+	if (why) {
+		canvas_refuse(LADDER_CANVAS(view), _(verb_row(VERB_force)->label), why);
 		return;
 	}
-	act.value.i = index + 1;
-	ladder_sim_act(view->canvas->sim, &act);
+	at = live_map_find(view->places.map, name, strlen(name));
+	if (!*name || at.type == IEC_NONE)
+		force_between(view, index);
+	else
+		act_set(view, at, index + 1);
 }

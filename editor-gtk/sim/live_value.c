@@ -31,6 +31,11 @@ struct location live_value_find(const struct image *image, const char *name)
 		       (struct location){ .type = IEC_NONE };
 }
 
+bool live_value_is_same(struct location a, struct location b)
+{
+	return a.type != IEC_NONE && a.type == b.type && a.area == b.area && a.where == b.where;
+}
+
 union iec_value live_value_get(LadderSim *sim, bool plant, struct location at)
 {
 	const struct image *image = live_image(sim, plant);

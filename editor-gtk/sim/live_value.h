@@ -20,6 +20,8 @@
 const struct image *live_image(LadderSim *sim, bool plant);
 /** live_value_find - as value_find(); type IEC_NONE: not found, ambiguous, or @image is NULL. */
 struct location live_value_find(const struct image *image, const char *name);
+/** live_value_is_same - the same variable? False: one of them is nowhere. */
+bool live_value_is_same(struct location a, struct location b);
 /** live_value_get - 0 if the simulation is off. */
 union iec_value live_value_get(LadderSim *sim, bool plant, struct location at);
 bool live_value_is_forced(LadderSim *sim, bool plant, struct location at);

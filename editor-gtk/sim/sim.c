@@ -45,7 +45,7 @@ struct _LadderSim {
 	bool building;
 };
 
-enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, SIGNAL_COUNT };
+enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, REFUSED, SIGNAL_COUNT };
 static guint signals[SIGNAL_COUNT];
 
 G_DEFINE_FINAL_TYPE(LadderSim, ladder_sim, G_TYPE_OBJECT)
@@ -174,6 +174,8 @@ int ladder_sim_forces(LadderSim *sim)
 {
 	const struct twin *twin = ladder_sim_twin(sim);
 
+	if (sim->mirror && !sim->past && sim_mirror_forces(sim->mirror) >= 0)
+		return sim_mirror_forces(sim->mirror);
 	return twin ? twin->resource.image.force_count + twin->plant.image.force_count : 0;
 }
 
@@ -372,6 +374,12 @@ static void tell_state(LadderSim *sim)
 static void tell(LadderSim *sim, const char *text, bool bad)
 {
 	g_signal_emit(sim, signals[TOLD], 0, text, bad);
+}
+
+static void refuse(LadderSim *sim, struct location at, const char *why)
+{
+	tell(sim, why, false);
+	g_signal_emit(sim, signals[REFUSED], 0, &at, why);
 }
 
 /* ---- what comes from the thread ---- */
@@ -643,9 +651,18 @@ bool ladder_sim_is_recording(LadderSim *sim)
 	return sim->mirror && sim_mirror_plays(sim->mirror);
 }
 
-void ladder_sim_mirror_refuse(LadderSim *sim, const char *why)
+void ladder_sim_mirror_refuse(LadderSim *sim, struct location at, const char *why)
 {
-	tell(sim, why, false);
+	if (at.type == IEC_NONE)
+		tell(sim, why, false);
+	else
+		refuse(sim, at, why);
+}
+
+void ladder_sim_mirror_forces(LadderSim *sim, int count)
+{
+	if (sim->mirror && sim_mirror_set_forces(sim->mirror, count) && ladder_sim_is_on(sim))
+		tell_state(sim);
 }
 
 void ladder_sim_mirror_late(LadderSim *sim, gint64 ns)
@@ -946,9 +963,16 @@ void ladder_sim_set_fault_on_error(LadderSim *sim, bool fault)
 
 void ladder_sim_act(LadderSim *sim, const struct act *act)
 {
-	if (!ladder_sim_is_on(sim) ||
-	    refuses(sim, act->kind == ACT_SET ? SIM_WISH_SET : SIM_WISH_FORCE))
+	const char *why = ladder_sim_why_not(sim, act->kind == ACT_SET ? SIM_WISH_SET :
+					     SIM_WISH_FORCE);
+
+	if (!ladder_sim_is_on(sim))
 		return;
+	if (why) {
+		ladder_sim_mirror_refuse(sim, act->kind == ACT_RELEASE_ALL ?
+			(struct location){ .type = IEC_NONE } : act->at, why);
+		return;
+	}
 	if (ladder_sim_older(sim, NULL)) {
 		tell(sim, _("Not done: this scan ran the program before an edit. Show the newest "
 			    "scan first"), false);
@@ -1003,6 +1027,8 @@ static void ladder_sim_class_init(LadderSimClass *class)
 		0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 	signals[SHOWN] = g_signal_new("shown", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL,
 		NULL, G_TYPE_NONE, 0);
+	signals[REFUSED] = g_signal_new("refused", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+					G_TYPE_NONE, 2, G_TYPE_POINTER, G_TYPE_STRING);
 	signals[TOLD] = g_signal_new("told", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
 		G_TYPE_NONE, 2, G_TYPE_STRING, G_TYPE_BOOLEAN);
 }

@@ -14,6 +14,8 @@
  *                       variables have changed
  *   shown ()            ladder_sim_twin() has new values; at most once a frame
  *   told (const char *text, gboolean bad)  for the log and the status bar
+ *   refused (gpointer at, const char *why)  the value at a struct location was not set, forced or
+ *                       released; for the view in which a person did that. `told` comes, too
  */
 #ifndef EDITOR_SIM_H
 #define EDITOR_SIM_H

@@ -29,6 +29,7 @@ struct sim_mirror {
 	gint64 base_ns;          /* of the board's clock: time 0 here          */
 	bool begun;              /* a moment has come                          */
 	bool plays;              /* a recording: all is known, and nothing comes  */
+	int forces;              /* as the board counts; -1: not told          */
 	bool other;              /* something became known: places are to be found again */
 	GHashTable *known;       /* words of places                            */
 	GHashTable *powered;     /* names of units, of the program             */
@@ -82,6 +83,19 @@ static void free_source(struct sim_source *source)
 const char *sim_mirror_name(const struct sim_mirror *mirror)
 {
 	return mirror->name;
+}
+
+int sim_mirror_forces(const struct sim_mirror *mirror)
+{
+	return mirror->forces;
+}
+
+bool sim_mirror_set_forces(struct sim_mirror *mirror, int count)
+{
+	const bool other = mirror->forces != count;
+
+	mirror->forces = count;
+	return other;
 }
 
 static const struct program *program_of(const struct sim_mirror *mirror)
@@ -582,6 +596,7 @@ struct sim_mirror *sim_mirror_new(const struct sim_board *board, GSourceFunc not
 	mirror->board.name = mirror->name;
 	sim_program_ref(board->program);
 	mirror->notify = notify;
+	mirror->forces = -1;
 	mirror->notify_data = data;
 	if (!twin_init(&mirror->twin, board->program->program, NULL, MAX(board->period_ns, 1)))
 		g_error("out of memory");

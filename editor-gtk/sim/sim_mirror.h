@@ -35,8 +35,12 @@ struct sim_mirror;
 /** ladder_sim_mirror_begin - @sim shows the board from the first sim_mirror_moment() on; until
  * then it is off. Ends what ran before. Borrowed until ladder_sim_end(). */
 struct sim_mirror *ladder_sim_mirror_begin(LadderSim *sim, const struct sim_board *board);
-/** ladder_sim_mirror_refuse - tells that the board did not do an act. */
-void ladder_sim_mirror_refuse(LadderSim *sim, const char *why);
+/** ladder_sim_mirror_refuse - tells that the board did not do an act. @at: of its value; type
+ * IEC_NONE: of none. */
+void ladder_sim_mirror_refuse(LadderSim *sim, struct location at, const char *why);
+/** ladder_sim_mirror_forces - what ladder_sim_forces() says: how many the board has, those that it
+ * does not publish included. */
+void ladder_sim_mirror_forces(LadderSim *sim, int count);
 
 /** ladder_sim_mirror_late - what ladder_sim_late() says. */
 void ladder_sim_mirror_late(LadderSim *sim, gint64 ns);
@@ -46,6 +50,10 @@ struct sim_mirror *sim_mirror_new(const struct sim_board *board, GSourceFunc not
 				  gpointer data);
 struct sim_source *sim_mirror_source(struct sim_mirror *mirror);
 const char *sim_mirror_name(const struct sim_mirror *mirror);
+/** sim_mirror_forces - as the board counts them; -1: it has not told yet, or it is a recording. */
+int sim_mirror_forces(const struct sim_mirror *mirror);
+/** sim_mirror_set_forces - whether the count is another one now. */
+bool sim_mirror_set_forces(struct sim_mirror *mirror, int count);
 
 /* ---- what is to be published ---- */
 

@@ -187,8 +187,7 @@ static void show_actions(struct online_bar *bar)
 	const struct board_status *status = ladder_board_link_status(link_of(bar));
 	const enum role role = ladder_board_link_role(link_of(bar));
 	const int mode = status ? status->mode : -1;
-	char *why = role == ROLE_ENG || !status ? NULL :
-		g_strdup_printf(_("This needs the role eng; yours is %s"), role_word(role));
+	const char *why = status ? ladder_board_link_needs(link_of(bar), ROLE_ENG) : NULL;
 
 	core_enable(bar->core, "win.online_run", mode == STATE_STOP && role == ROLE_ENG);
 	core_enable(bar->core, "win.online_stop", mode == STATE_RUN && role == ROLE_ENG);
@@ -214,7 +213,6 @@ static void show_actions(struct online_bar *bar)
 		else if (g_strcmp0(action, "win.online_disconnect") != 0)
 			gtk_widget_set_visible(at, status != NULL);
 	}
-	g_free(why);
 }
 
 /* The log has each change of the state once. */
@@ -295,13 +293,16 @@ static void ordered(gpointer data, struct board_answer *answer)
 		messages_banner(bar->core->messages, LOG_COMMUNICATION, answer->text, NULL, NULL);
 }
 
+/* What a person was asked, and what the board did then. */
+struct order { enum mode_wish wish; struct expect expect; };
+
 static void order_answered(AdwMessageDialog *dialog, const char *answer, struct online_bar *bar)
 {
-	const enum mode_wish wish = (enum mode_wish)GPOINTER_TO_INT(
-		g_object_get_data(G_OBJECT(dialog), "wish"));
+	const struct order *order = g_object_get_data(G_OBJECT(dialog), "order");
 
 	if (strcmp(answer, "do") == 0)
-		ladder_board_link_mode(link_of(bar), wish, bar->core->window, ordered, bar);
+		ladder_board_link_mode(link_of(bar), &order->expect, order->wish, bar->core->window,
+				       ordered, bar);
 }
 
 /* Each of them moves a machine, so it is asked for. */
@@ -317,12 +318,15 @@ static void order(struct online_bar *bar, enum mode_wish wish)
 				 N_("The program begins with retained values and drives the "
 				    "outputs."), N_("Reset") },
 	};
+	struct order *order = g_new0(struct order, 1);
 	char *heading = g_strdup_printf(_(texts[wish].heading), ladder_board_link_board(link_of(bar)));
 	AdwMessageDialog *dialog = ask_new(bar->core->window, heading, _(texts[wish].body), "do",
 		_(texts[wish].button), wish == MODE_STOP ? ADW_RESPONSE_DESTRUCTIVE :
 							   ADW_RESPONSE_SUGGESTED);
 
-	g_object_set_data(G_OBJECT(dialog), "wish", GINT_TO_POINTER(wish));
+	order->wish = wish;
+	order->expect = ladder_board_link_expect(link_of(bar));
+	g_object_set_data_full(G_OBJECT(dialog), "order", order, g_free);
 	core_connect(bar->core, dialog, "response", G_CALLBACK(order_answered), bar, 0);
 	gtk_window_present(GTK_WINDOW(dialog));
 	g_free(heading);

@@ -573,8 +573,13 @@ static enum refusal serve_change(struct asked *asked, enum order_kind kind)
 		refusal = take_places(asked, count);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
-	if (kind == ORDER_WRITE && asked->session->role < ROLE_ENG)
+	if (kind == ORDER_WRITE && asked->session->role < ROLE_ENG) {
+		if (count) {
+			name_place(server, server->item[0].at);
+			detail(asked, server->name, strlen(server->name));
+		}
 		return REFUSAL_EXPORTED;
+	}
 	for (uint32_t i = 0; i < count && kind == ORDER_UNFORCE; i++)
 		server->item[i].at = server->place[i];
 	asked->detail[0] = '\0';

@@ -45,6 +45,7 @@ static void begins_and_orders(void)
 	LadderBoardLink *link = ladder_board_link_new();
 	struct test_board board;
 	struct wire_writer fields;
+	struct expect seen;
 	char *why = NULL;
 
 	board_open(&board, "eng");
@@ -55,10 +56,14 @@ static void begins_and_orders(void)
 	CHECK_TEXT(ladder_board_link_board(link), "table");
 	CHECK(ladder_board_link_role(link) == ROLE_ENG && ladder_board_link_may(link, SERVICE_FORCE));
 	answers = 0;
-	ladder_board_link_mode(link, MODE_STOP, link, answered, NULL);
+	seen = ladder_board_link_expect(link);
+	ladder_board_link_mode(link, &seen, MODE_STOP, link, answered, NULL);
 	CHECK_AS(answers == 0, "an answer never comes before the request returns");
 	CHECK_SOON(answers == 1 && last.end == DESK_GOOD);
 	CHECK_SOON(mode_of(link) == STATE_STOP);
+	ladder_board_link_mode(link, &seen, MODE_STOP, link, answered, NULL);
+	CHECK_SOON(answers == 2 && last.end == DESK_REFUSED && last.refusal == REFUSAL_CONFLICT);
+	answers = 1;
 	fields = ladder_board_link_begin(link);
 	wire_put_u32(&fields, 20000);
 	wire_put_u8(&fields, 0);
@@ -79,7 +84,7 @@ static void begins_and_orders(void)
 	CHECK_SOON(answers == 4 && last.end == DESK_NO_ROOM);
 	ladder_board_link_disconnect(link);
 	CHECK(ladder_board_link_state(link) == LINK_OFF && !ladder_board_link_status(link));
-	ladder_board_link_mode(link, MODE_STOP, link, answered, NULL);
+	ladder_board_link_mode(link, &seen, MODE_STOP, link, answered, NULL);
 	CHECK_SOON(answers == 5 && last.end == DESK_GONE);
 	g_object_unref(link);
 	board_close(&board);
@@ -90,6 +95,7 @@ static void goes_and_comes_back(void)
 	LadderBoardLink *link = ladder_board_link_new();
 	struct test_board board;
 	GObject *owner = g_object_new(G_TYPE_OBJECT, NULL);
+	struct expect seen;
 	char *why = NULL;
 
 	board_open(&board, "eng");
@@ -100,7 +106,8 @@ static void goes_and_comes_back(void)
 	CHECK_SOON(ladder_board_link_state(link) == LINK_LOST);
 	CHECK(*ladder_board_link_reason(link) && !ladder_board_link_may(link, SERVICE_STATUS));
 	answers = 0;
-	ladder_board_link_mode(link, MODE_STOP, owner, answered, NULL);
+	seen = ladder_board_link_expect(link);
+	ladder_board_link_mode(link, &seen, MODE_STOP, owner, answered, NULL);
 	g_object_unref(owner);
 	others = 0;
 	board_start(&board);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_board_values - the simulation of a document shows a real ladderd: values, power, writes,
- * forces, modes, a role that may only look, another program, a board that goes and comes back.
+ * forces, modes, a role that may only look, another program, more variables than are published,
+ * a board that goes and comes back, or is late.
  */
 #include "editor-gtk/online/board_values.h"
 #include "editor-gtk/sim/live_value.h"
@@ -22,6 +23,16 @@ static LadderSim *sim;
 static LadderBoardLink *link_;
 static LadderBoardValues *values;
 static char *told;
+static struct location refused_at;
+static char *refused;
+
+static void keep_refused(LadderSim *of, const struct location *at, const char *why)
+{
+	(void)of;
+	refused_at = *at;
+	g_free(refused);
+	refused = g_strdup(why);
+}
 
 static void keep_told(LadderSim *of, const char *text, gboolean bad)
 {
@@ -37,6 +48,7 @@ static void open_editor(const char *text)
 	ladder_document_open_text(document, NULL, text, strlen(text), true);
 	sim = ladder_sim_new(document);
 	g_signal_connect(sim, "told", G_CALLBACK(keep_told), NULL);
+	g_signal_connect(sim, "refused", G_CALLBACK(keep_refused), NULL);
 	link_ = ladder_board_link_new();
 	values = ladder_board_values_new(sim, link_);
 }
@@ -50,6 +62,7 @@ static void close_editor(void)
 	g_object_unref(sim);
 	g_object_unref(document);
 	g_clear_pointer(&told, g_free);
+	g_clear_pointer(&refused, g_free);
 }
 
 static void connect_to(const struct test_board *board)
@@ -100,13 +113,14 @@ static void shows_and_changes(void)
 	CHECK_SOON(power(1, 1) && power(1, 2));
 	live_value_set(sim, false, place("Count"), (union iec_value){ .i = 1234 });
 	CHECK_SOON(value("Count") == 1234);
+	CHECK_AS(!refused, "nothing was refused");
 	ladder_sim_release_all(sim);
 	CHECK_SOON(ladder_sim_forces(sim) == 0 && !power(1, 1));
 	ladder_sim_stop(sim);
 	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
 	ladder_sim_run(sim);
 	CHECK_SOON(ladder_sim_state(sim) == SIM_RUN);
-	CHECK_AS(value("Count") == 1234 || value("Count") == 0, "Run keeps retained values");
+	CHECK_AS(value("Count") == 0, "Run is a warm start: Count is not retained");
 	CHECK_SOON(ladder_sim_last(sim) > ladder_sim_first(sim) + 3);
 	CHECK(ladder_sim_show(sim, ladder_sim_last(sim) - 1) && ladder_sim_is_past(sim));
 	ladder_sim_show_now(sim);
@@ -248,6 +262,95 @@ static void only_looks(void)
 	board_close(&board);
 }
 
+/* An operator may write what the program exports. The view in which a person did it can say so. */
+static void says_where_it_is_refused(void)
+{
+	struct test_board board;
+
+	board_open(&board, "oper");
+	open_editor(BOARD_PROGRAM);
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) != NULL);
+	CHECK(!ladder_sim_why_not(sim, SIM_WISH_SET) && ladder_sim_why_not(sim, SIM_WISH_FORCE));
+	live_value_set(sim, false, place("Count"), (union iec_value){ .i = 5 });
+	CHECK_SOON(refused && strstr(refused, "\"Count\" may be written only with the role eng"));
+	CHECK(refused && live_value_is_same(refused_at, place("Count")));
+	live_value_force(sim, false, place("Start"), (union iec_value){ .i = 1 });
+	CHECK(refused && strstr(refused, "ladder-eng") &&
+	      live_value_is_same(refused_at, place("Start")));
+	CHECK_TEXT(refused, ladder_board_link_why_not(link_, SERVICE_FORCE));
+	close_editor();
+	board_close(&board);
+}
+
+#define LARGE 3000
+
+/* A program with so many variables that the board does not publish all. Caller frees. */
+static char *large_program(void)
+{
+	GString *text = g_string_new("RUNGBOARD 1\nPROJECT \"Large\"\n\nVAR\n"
+		"  Start AT %IX0.0 : BOOL;\n  Motor AT %QX0.0 : BOOL;\n");
+
+	for (int i = 0; i < LARGE; i++)
+		g_string_append_printf(text, "  Number%d : INT := %d;\n", i, i);
+	g_string_append(text, "END_VAR\n\nPROGRAM Main LD\nRUNG\n  | NO Start | COIL Motor |\n"
+			      "END_PROGRAM\n");
+	return g_string_free(text, FALSE);
+}
+
+/* Those that views need come; the board counts forces that it does not publish, too. */
+static void shows_some_of_many(void)
+{
+	struct test_board board;
+	char *program = large_program();
+	struct location last, first;
+
+	board_open(&board, "eng");
+	board_write(&board, "large.rung", program);
+	download(&board, "large.rung");
+	open_editor(program);
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) && value("Number7") == 7);
+	run_ladder(&board, (const char *[]){ "force", "Number2999=5", NULL });
+	CHECK_SOON(ladder_sim_forces(sim) == 1);
+	last = place("Number2999");
+	first = place("Number0");
+	CHECK_AS(!ladder_sim_knows(sim, last), "it is beyond those that are published");
+	turn(20);
+	CHECK_AS(!ladder_sim_knows(sim, place("Number2998")), "it is needed while the board is asked");
+	CHECK_SOON(ladder_sim_knows(sim, last) && ladder_sim_knows(sim, place("Number2998")));
+	CHECK_SOON(value("Number2999") == 5 && value("Number2998") == 2998);
+	CHECK_AS(ladder_sim_knows(sim, first), "the others go on");
+	CHECK_AS(!told || !strstr(told, "more than the board can take"), "nothing is asked for too early");
+	run_ladder(&board, (const char *[]){ "unforce", NULL });
+	CHECK_SOON(ladder_sim_forces(sim) == 0);
+	close_editor();
+	board_close(&board);
+	g_free(program);
+}
+
+/* A board that does not answer: what is shown gets older. */
+static void says_how_late_it_is(void)
+{
+	struct test_board board;
+	gint64 late;
+
+	board_open(&board, "eng");
+	open_editor(BOARD_PROGRAM);
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) != NULL);
+	CHECK(ladder_sim_late(sim) == 0);
+	g_subprocess_send_signal(board.daemon, SIGSTOP);
+	CHECK_SOON(ladder_sim_late(sim) >= 200000000);
+	late = ladder_sim_late(sim);
+	CHECK_SOON(ladder_sim_late(sim) > late);
+	CHECK_AS(ladder_sim_late(sim) % 100000000 == 0, "in steps that can be read");
+	g_subprocess_send_signal(board.daemon, SIGCONT);
+	CHECK_SOON(ladder_sim_late(sim) == 0 && ladder_sim_board(sim));
+	close_editor();
+	board_close(&board);
+}
+
 /* ladderd was started with a file: it has no sources of it. */
 static void knows_no_sources(void)
 {
@@ -288,6 +391,9 @@ int main(void)
 	shows_its_record();
 	plays_a_recording();
 	only_looks();
+	says_where_it_is_refused();
+	shows_some_of_many();
+	says_how_late_it_is();
 	knows_no_sources();
 	gets_another_program();
 	return tap_done();
