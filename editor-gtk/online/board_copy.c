@@ -4,15 +4,16 @@
  */
 #include "editor-gtk/online/board_copy.h"
 
-#include "editor-gtk/document/disk.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/sim_program.h"
 
 #include "engine/scan/code.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <glib/gstdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- what came ---- */
 
@@ -84,29 +85,73 @@ void board_copy_free(struct board_copy *copy)
 
 /* ---- writing it ---- */
 
-/* NULL: @name is free in @folder. Caller frees. */
-static char *why_taken(const char *folder, const char *name)
-{
-	char *path = g_build_filename(folder, name, NULL);
-	char *why = g_file_test(path, G_FILE_TEST_EXISTS) ?
-		g_strdup_printf(_("“%s” is there already; nothing was written. Choose another "
-				  "folder."), path) : NULL;
+/* What one call has made, in order: files, and the folders that they needed. */
+struct made { GPtrArray *files, *folders; };
 
-	g_free(path);
-	return why;
+/* All of it goes again; a folder in which somebody else has put something stays. */
+static void undo_made(struct made *made)
+{
+	for (guint i = made->files->len; i-- > 0;)
+		g_unlink(made->files->pdata[i]);
+	for (guint i = made->folders->len; i-- > 0;)
+		g_rmdir(made->folders->pdata[i]);
 }
 
-static char *put_file(const char *folder, const char *name, const void *bytes, gsize len)
+static int make_folder(struct made *made, const char *path)
+{
+	char *parent;
+	int failed;
+
+	if (g_file_test(path, G_FILE_TEST_IS_DIR))
+		return 0;
+	parent = g_path_get_dirname(path);
+	failed = make_folder(made, parent);
+	g_free(parent);
+	if (!failed && g_mkdir(path, 0777) == 0)
+		g_ptr_array_add(made->folders, g_strdup(path));
+	else if (!failed)
+		failed = errno;
+	return failed;
+}
+
+/* 0 or errno. */
+static int write_all(int fd, const char *bytes, gsize len)
+{
+	while (len) {
+		const gssize put = write(fd, bytes, len);
+
+		if (put < 0 && errno != EINTR)
+			return errno;
+		bytes += MAX(put, 0);
+		len -= (gsize)MAX(put, 0);
+	}
+	return fsync(fd) == 0 ? 0 : errno;
+}
+
+/* Only if no file is there: nothing is ever replaced. NULL: good. Caller frees. */
+static char *put_file(struct made *made, const char *folder, const char *name, const void *bytes,
+		      gsize len)
 {
 	char *path = g_build_filename(folder, name, NULL), *parent = g_path_get_dirname(path);
-	GError *error = NULL;
+	int failed = make_folder(made, parent), fd = -1;
 	char *why = NULL;
 
-	if (g_mkdir_with_parents(parent, 0777) != 0)
-		why = g_strdup_printf("%s: %s", parent, g_strerror(errno));
-	else if (!disk_save(path, bytes, len, &error))
-		why = g_strdup(error->message);
-	g_clear_error(&error);
+	if (!failed) {
+		fd = g_open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+		failed = fd < 0 ? errno : 0;
+	}
+	if (fd >= 0) {
+		g_ptr_array_add(made->files, g_strdup(path));
+		failed = write_all(fd, bytes, len);
+		if (close(fd) != 0 && !failed)
+			failed = errno;
+	}
+	if (failed == EEXIST)
+		why = g_strdup_printf(_("“%s” is there already; nothing was written. Choose another "
+					"folder."), path);
+	else if (failed)
+		why = g_strdup_printf(_("“%s”: %s. Nothing was written."), path,
+				      g_strerror(failed));
 	g_free(parent);
 	g_free(path);
 	return why;
@@ -114,22 +159,23 @@ static char *put_file(const char *folder, const char *name, const void *bytes, g
 
 char *board_copy_save(const struct board_copy *copy, const char *folder, const char *map)
 {
+	struct made made = { g_ptr_array_new_with_free_func(g_free),
+			     g_ptr_array_new_with_free_func(g_free) };
 	GHashTableIter at;
 	gpointer name, bytes;
-	char *why = why_taken(folder, copy->name);
+	char *why = put_file(&made, folder, copy->name, copy->text, strlen(copy->text));
 
-	if (!why)
-		why = why_taken(folder, map);
-	g_hash_table_iter_init(&at, copy->files);
-	while (!why && g_hash_table_iter_next(&at, &name, NULL))
-		why = why_taken(folder, name);
 	g_hash_table_iter_init(&at, copy->files);
 	while (!why && g_hash_table_iter_next(&at, &name, &bytes))
-		why = put_file(folder, name, g_bytes_get_data(bytes, NULL),
+		why = put_file(&made, folder, name, g_bytes_get_data(bytes, NULL),
 			       g_bytes_get_size(bytes));
 	if (!why)
-		why = put_file(folder, map, copy->map, strlen(copy->map));
-	return why ? why : put_file(folder, copy->name, copy->text, strlen(copy->text));
+		why = put_file(&made, folder, map, copy->map, strlen(copy->map));
+	if (why)
+		undo_made(&made);
+	g_ptr_array_unref(made.files);
+	g_ptr_array_unref(made.folders);
+	return why;
 }
 
 /* ---- what is sent ---- */

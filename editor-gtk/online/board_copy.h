@@ -29,8 +29,8 @@ void board_copy_free(struct board_copy *copy);
  * board_copy_save - writes program, files and map into @folder
  * @map: name of the file of the map, "garage-door.io"
  *
- * Nothing is replaced: if one of them is there, nothing is written. Returns NULL, or why not;
- * caller frees.
+ * All or nothing: if one of them is there already, or cannot be written, what was written goes
+ * again. Nothing is ever replaced. Returns NULL, or why not; caller frees.
  */
 char *board_copy_save(const struct board_copy *copy, const char *folder, const char *map);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_board_copy - what is sent to a board comes back as it was; hostile names leave no folder; no
- * file is replaced. And serial ports that come and go.
+ * file is replaced, and a copy is written whole or not at all. And serial ports that come and go.
  */
 #include "editor-gtk/online/board_copy.h"
 #include "editor-gtk/online/board_finder.h"
@@ -55,6 +55,42 @@ static void comes_back(const char *folder)
 	g_free(why);
 	g_free(text);
 	g_free(path);
+	board_copy_free(copy);
+	board_program_unref(program);
+	g_object_unref(document);
+}
+
+static bool is_there(const char *folder, const char *name)
+{
+	char *path = g_build_filename(folder, name, NULL);
+	const bool there = g_file_test(path, G_FILE_TEST_EXISTS);
+
+	g_free(path);
+	return there;
+}
+
+/* A hostile name that the map needs for itself: the map comes last. */
+static void leaves_nothing(const char *folder)
+{
+	LadderDocument *document = document_at(folder);
+	struct board_program *program = board_program_new(document, BOARD_MAP, NULL);
+	struct board_copy *copy = board_copy_read(&program->stored);
+	char *why;
+
+	g_free(copy->name);
+	copy->name = g_strdup("new.rung");
+	g_hash_table_insert(copy->files, g_strdup("lib/deep/part.rung"), g_bytes_new("x", 1));
+	g_hash_table_insert(copy->files, g_strdup("new.io/part.rung"), g_bytes_new("x", 1));
+	why = board_copy_save(copy, folder, "new.io");
+	CHECK_AS(why && strstr(why, "nothing was written"), "the map cannot be written");
+	CHECK_AS(!is_there(folder, "new.rung") && !is_there(folder, "new.io") &&
+		 !is_there(folder, "lib"), "what was written goes again");
+	CHECK(is_there(folder, "seal.rung"));
+	g_free(why);
+	g_hash_table_remove(copy->files, "new.io/part.rung");
+	why = board_copy_save(copy, folder, "new.io");
+	CHECK(!why && is_there(folder, "lib/deep/part.rung") && is_there(folder, "new.io"));
+	g_free(why);
 	board_copy_free(copy);
 	board_program_unref(program);
 	g_object_unref(document);
@@ -141,6 +177,7 @@ int main(void)
 	struct test_board board = { .folder = g_dir_make_tmp("copy-XXXXXX", NULL) };
 
 	comes_back(board.folder);
+	leaves_nothing(board.folder);
 	hostile();
 	ports(board.folder);
 	board_close(&board);
