@@ -7,13 +7,13 @@
 
 #include <gio/gio.h>
 #include <gio/gunixsocketaddress.h>
-#include <glib/gstdio.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
-#define PLACE "RUNGBOARD_ASK"  /* variable with the path of the socket          */
+#define PLACE "RUNGBOARD_ASK"  /* variable with the name of the socket. It has no file, so nothing
+				  stays when the editor is killed               */
 #define MOST  4096             /* bytes of a question or an answer              */
 
 struct ssh_ask {
@@ -22,7 +22,7 @@ struct ssh_ask {
 	GSocketService *service;
 	GCancellable *cancel;
 	GSocketConnection *asking;     /* whose question waits; NULL: none     */
-	char *folder, *path;
+	char *name;
 	char question[MOST];
 	gsize len;
 };
@@ -62,21 +62,28 @@ static void read_on(struct ssh_ask *ask)
 				  G_PRIORITY_DEFAULT, ask->cancel, part_read, ask);
 }
 
+/* Any user could know the name of the socket. */
+static bool is_mine(GSocketConnection *connection)
+{
+	GCredentials *who = g_socket_get_credentials(g_socket_connection_get_socket(connection),
+						     NULL);
+	const bool mine = who && g_credentials_get_unix_user(who, NULL) == getuid();
+
+	g_clear_object(&who);
+	return mine;
+}
+
 /* One question at a time, and only of this user. */
 static gboolean incoming(GSocketService *service, GSocketConnection *connection, GObject *source,
 			 struct ssh_ask *ask)
 {
-	GCredentials *who = g_socket_get_credentials(g_socket_connection_get_socket(connection),
-						     NULL);
-
 	(void)service;
 	(void)source;
-	if (!ask->asking && who && g_credentials_get_unix_user(who, NULL) == getuid()) {
+	if (!ask->asking && is_mine(connection)) {
 		ask->asking = g_object_ref(connection);
 		ask->len = 0;
 		read_on(ask);
 	}
-	g_clear_object(&who);
 	return TRUE;
 }
 
@@ -96,13 +103,27 @@ char **ssh_ask_environment(const struct ssh_ask *ask)
 {
 	char **environment = g_get_environ(), *self = g_file_read_link("/proc/self/exe", NULL);
 
-	environment = g_environ_setenv(environment, PLACE, ask->path, TRUE);
+	environment = g_environ_setenv(environment, PLACE, ask->name, TRUE);
 	environment = g_environ_setenv(environment, "SSH_ASKPASS", self ? self : "", TRUE);
 	environment = g_environ_setenv(environment, "SSH_ASKPASS_REQUIRE", "force", TRUE);
 	/* What ssh says is read here. */
 	environment = g_environ_setenv(environment, "LC_ALL", "C", TRUE);
 	g_free(self);
 	return environment;
+}
+
+static GSocketAddress *address_of(const char *name)
+{
+	return g_unix_socket_address_new_with_type(name, -1, G_UNIX_SOCKET_ADDRESS_ABSTRACT);
+}
+
+/* Nobody else has it. Caller frees. */
+static char *new_name(void)
+{
+	char *random = g_uuid_string_random(), *name = g_strdup_printf("rungboard-ask-%s", random);
+
+	g_free(random);
+	return name;
 }
 
 struct ssh_ask *ssh_ask_new(void (*asks)(gpointer data, const char *question, bool yes_no),
@@ -116,13 +137,8 @@ struct ssh_ask *ssh_ask_new(void (*asks)(gpointer data, const char *question, bo
 	ask->data = data;
 	ask->cancel = g_cancellable_new();
 	ask->service = g_socket_service_new();
-	ask->folder = g_dir_make_tmp("rungboard-ask-XXXXXX", error); /* 0700 */
-	if (!ask->folder) {
-		ssh_ask_free(ask);
-		return NULL;
-	}
-	ask->path = g_build_filename(ask->folder, "ask", NULL);
-	address = g_unix_socket_address_new(ask->path);
+	ask->name = new_name();
+	address = address_of(ask->name);
 	good = g_socket_listener_add_address(G_SOCKET_LISTENER(ask->service), address,
 		G_SOCKET_TYPE_STREAM, G_SOCKET_PROTOCOL_DEFAULT, NULL, NULL, error);
 	g_object_unref(address);
@@ -145,12 +161,7 @@ void ssh_ask_free(struct ssh_ask *ask)
 	g_socket_listener_close(G_SOCKET_LISTENER(ask->service));
 	g_object_unref(ask->service);
 	g_object_unref(ask->cancel);
-	if (ask->path)
-		g_unlink(ask->path);
-	if (ask->folder)
-		g_rmdir(ask->folder);
-	g_free(ask->path);
-	g_free(ask->folder);
+	g_free(ask->name);
 	g_free(ask);
 }
 
@@ -163,7 +174,7 @@ bool ssh_ask_is_main(void)
 
 int ssh_ask_main(int argc, char **argv)
 {
-	GSocketAddress *address = g_unix_socket_address_new(g_getenv(PLACE));
+	GSocketAddress *address = address_of(g_getenv(PLACE));
 	GSocketClient *client = g_socket_client_new();
 	GSocketConnection *to;
 	char answer[MOST];
@@ -172,7 +183,7 @@ int ssh_ask_main(int argc, char **argv)
 
 	prctl(PR_SET_DUMPABLE, 0); /* no core has the answer */
 	to = g_socket_client_connect(client, G_SOCKET_CONNECTABLE(address), NULL, NULL);
-	if (to && argc > 1 &&
+	if (to && is_mine(to) && argc > 1 &&
 	    g_output_stream_write_all(g_io_stream_get_output_stream(G_IO_STREAM(to)), argv[1],
 				      strlen(argv[1]), NULL, NULL, NULL) &&
 	    g_socket_shutdown(g_socket_connection_get_socket(to), FALSE, TRUE, NULL))

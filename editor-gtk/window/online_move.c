@@ -336,11 +336,25 @@ static void download_changed(struct online_move *move)
 
 /* ---- download: its map ---- */
 
+/* True, and tells so: the board has not answered to a download yet. */
+static bool is_committing(struct online_move *move)
+{
+	if (!move->download ||
+	    ladder_board_download_state(move->download) != DOWNLOAD_COMMITS)
+		return false;
+	messages_tell(move->core->messages, _("The board has not answered to the last download "
+					      "yet. Wait for it, then download again"));
+	return true;
+}
+
 static void send_with(struct online_move *move, const char *map)
 {
 	GError *error = NULL;
-	struct board_program *program = board_program_new(move->core->document, map, &error);
+	struct board_program *program;
 
+	if (is_committing(move))
+		return;
+	program = board_program_new(move->core->document, map, &error);
 	forget_download(move);
 	if (!program) {
 		warn(move, error->message);
@@ -402,6 +416,10 @@ void online_move_download(struct online_move *move)
 	GError *error = NULL;
 
 	ladder_document_check_now(move->core->document);
+	if (is_committing(move)) {
+		g_free(map);
+		return;
+	}
 	if (!ladder_document_project(move->core->document) ||
 	    ladder_document_diags(move->core->document)->errors) {
 		below_show_error(move->core->below);
