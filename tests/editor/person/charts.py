@@ -585,4 +585,5 @@ def long_texts(screen):
 
 
 bodies.quick = 'editor-gtk/sfc'
-main([by_keyboard, by_pointer, palette, first_key, bodies, clipped, zoomed, simulated, forced, long_texts])
+if __name__ == '__main__':
+    main([by_keyboard, by_pointer, palette, first_key, bodies, clipped, zoomed, simulated, forced, long_texts])

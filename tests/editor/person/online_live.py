@@ -156,4 +156,5 @@ def chinese(screen):
 
 chinese.size = '1024x700x24'
 
-main([watches, edits, only_looks, recording, chinese])
+if __name__ == '__main__':
+    main([watches, edits, only_looks, recording, chinese])

@@ -278,4 +278,5 @@ def chart(screen):
     reader.says('Step Idle, initial', lambda: editor.click(shape(editor, 'Step Idle, initial')))
 
 
-main([window, imported, simulated, tips, cursor, edited, boxes, chart])
+if __name__ == '__main__':
+    main([window, imported, simulated, tips, cursor, edited, boxes, chart])
