@@ -96,6 +96,18 @@ static void draw_difference(const struct nib *nib, const struct sfc_mark *mark)
 		     box.origin.y + box.size.height / 2 + SIGN_BASE);
 }
 
+/* As in rungs: an arrow that waits before a step or transition, or behind a line of a step. */
+static void draw_missing(const struct nib *nib, const struct sfc_mark *mark)
+{
+	const struct lettered sign = fit(nib, LETTER_HEADING, "\xe2\x86\x93");
+	const graphene_rect_t box = mark_box(nib, mark);
+
+	picture_text(nib->picture, TOKEN_FORCE, LETTER_HEADING, sign, mark->use >= 0 ?
+		     box.origin.x + box.size.width + SIGN_APART :
+		     box.origin.x - sign.width - 2 * SIGN_APART,
+		     box.origin.y + box.size.height / 2 + SIGN_BASE);
+}
+
 static void draw_marks(const struct nib *nib)
 {
 	for (int i = 0; i < nib->scene->mark_count; i++) {
@@ -110,6 +122,8 @@ static void draw_marks(const struct nib *nib)
 		graphene_rect_inset(&box, -4, mark->use >= 0 ? 0 : -4);
 		if (mark->signs & (SFC_CHANGED | SFC_ADDED | SFC_REMOVED))
 			draw_difference(nib, mark);
+		if (mark->signs & SFC_MISSING)
+			draw_missing(nib, mark);
 		if (mark->signs & (SFC_CURSOR | SFC_DROP))
 			picture_frame(nib->picture, TOKEN_ACCENT, mark->signs & SFC_DROP ?
 				      STROKE_DASHED : STROKE_SOLID, 2, box.origin.x,

@@ -31,6 +31,7 @@ enum sfc_sign {
 	SFC_DROP = 16,     /* the dragged step may be dropped here              */
 	SFC_FOUND = 32,
 	SFC_CHANGED = 64, SFC_ADDED = 128, SFC_REMOVED = 256, /* in a comparison  */
+	SFC_MISSING = 512, /* the board runs without it                         */
 };
 struct sfc_mark { int shape, use; unsigned int signs; }; /* use -1: the shape    */
 

@@ -19,6 +19,7 @@
 
 struct tree {
 	LadderDocument *document;
+	LadderSim *sim;            /* NULL: none                               */
 	GListStore *root;
 	GtkTreeListModel *model;   /* owned by the selection                   */
 	GtkSingleSelection *selection;
@@ -42,6 +43,38 @@ static void expand_headings(struct tree *tree, guint at, guint gone, guint come)
 	}
 }
 
+static int part_of(const LadderTreeRow *row)
+{
+	return row->kind == ROW_SYMBOLS ? SIM_SYMBOLS : row->kind == ROW_TYPES ? SIM_TYPES :
+	       row->kind == ROW_TASKS ? SIM_TASKS : row->pou;
+}
+
+static bool is_part(const LadderTreeRow *row)
+{
+	return row->kind == ROW_POU || row->kind == ROW_SYMBOLS || row->kind == ROW_TYPES ||
+	       row->kind == ROW_TASKS;
+}
+
+static void mark_missing(struct tree *tree, GListStore *rows)
+{
+	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(rows)); i++) {
+		LadderTreeRow *row = g_list_model_get_item(G_LIST_MODEL(rows), i);
+
+		if (is_part(row))
+			tree_row_set_missing(row, ladder_sim_is_missing(tree->sim, tree->document,
+									part_of(row), -1));
+		if (row->kind == ROW_HEADING && row->rows)
+			mark_missing(tree, row->rows);
+		g_object_unref(row);
+	}
+}
+
+static void mark_all_missing(struct tree *tree)
+{
+	if (tree->sim)
+		mark_missing(tree, tree->root);
+}
+
 /* If the focus is on a row that disappears, it moves to the row now at that index. */
 static void refill(struct tree *tree)
 {
@@ -51,6 +84,7 @@ static void refill(struct tree *tree)
 	guint at = gtk_single_selection_get_selected(tree->selection), count;
 
 	tree_rows_update(tree->root, tree->document);
+	mark_all_missing(tree);
 	count = g_list_model_get_n_items(G_LIST_MODEL(tree->selection));
 	if (!here)
 		return;
@@ -529,6 +563,7 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 	GtkWidget *expander = gtk_tree_expander_new();
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
 	GtkWidget *text = gtk_label_new(NULL), *note = gtk_label_new(NULL);
+	GtkWidget *arrow = gtk_label_new("\xe2\x86\x93");
 
 	(void)factory;
 	gtk_label_set_xalign(GTK_LABEL(text), 0);
@@ -539,6 +574,9 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_label_set_ellipsize(GTK_LABEL(note), PANGO_ELLIPSIZE_END);
 	gtk_box_append(GTK_BOX(box), text);
 	gtk_box_append(GTK_BOX(box), note);
+	gtk_box_append(GTK_BOX(box), arrow);
+	gtk_widget_add_css_class(arrow, "not-downloaded");
+	tip_set(arrow, _("not downloaded"));
 	gtk_tree_expander_set_child(GTK_TREE_EXPANDER(expander), box);
 	gtk_list_item_set_child(item, expander);
 	row_move_stand(expander, item);
@@ -550,8 +588,9 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 static void speak(LadderTreeRow *row, GtkWidget *expander)
 {
 	GtkWidget *of_row = gtk_widget_get_parent(expander);
-	char *name = row->note ? g_strdup_printf("%s, %s", row->text, row->note) :
-		     g_strdup(row->text);
+	char *name = g_strdup_printf("%s%s%s%s%s", row->text, row->note ? ", " : "",
+				     row->note ? row->note : "", row->missing ? ", " : "",
+				     row->missing ? _("not downloaded") : "");
 
 	spoken_name(expander, name);
 	if (of_row)
@@ -561,8 +600,9 @@ static void speak(LadderTreeRow *row, GtkWidget *expander)
 
 static void show_note(LadderTreeRow *row, GtkLabel *note)
 {
-	GtkWidget *widget = GTK_WIDGET(note);
+	GtkWidget *widget = GTK_WIDGET(note), *arrow = gtk_widget_get_next_sibling(widget);
 
+	gtk_widget_set_visible(arrow, row->missing);
 	gtk_label_set_text(note, row->note ? row->note : "");
 	gtk_widget_set_visible(widget, row->note != NULL);
 	tip_set(widget, gtk_label_get_text(note));
@@ -620,6 +660,9 @@ static void tree_free(gpointer pointer)
 	g_clear_handle_id(&tree->timer, g_source_remove);
 	g_clear_handle_id(&tree->going_soon, g_source_remove);
 	g_clear_object(&tree->going);
+	if (tree->sim)
+		g_signal_handlers_disconnect_by_data(tree->sim, tree);
+	g_clear_object(&tree->sim);
 	g_signal_handlers_disconnect_by_data(tree->document, tree);
 	g_object_unref(tree->document);
 	g_free(tree->shape);
@@ -691,6 +734,17 @@ void ladder_project_tree_select(GtkWidget *box, int pou, const char *path, const
 	gtk_single_selection_set_selected(tree->selection, found);
 	if (found != GTK_INVALID_LIST_POSITION)
 		list_scroll_to(tree->list, found);
+}
+
+void ladder_project_tree_set_sim(GtkWidget *box, LadderSim *sim)
+{
+	struct tree *tree = g_object_get_data(G_OBJECT(box), "tree");
+
+	tree->sim = g_object_ref(sim);
+	g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(mark_all_missing), tree);
+	g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(mark_all_missing), tree);
+	g_signal_connect_swapped(tree->document, "rungs-changed", G_CALLBACK(mark_all_missing),
+				 tree);
 }
 
 void ladder_project_tree_look(GtkWidget *box)

@@ -9,7 +9,7 @@
 #ifndef EDITOR_PROJECT_TREE_H
 #define EDITOR_PROJECT_TREE_H
 
-#include "editor-gtk/document/document.h"
+#include "editor-gtk/sim/sim.h"
 
 #include <gtk/gtk.h>
 
@@ -17,6 +17,8 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document);
 /** ladder_project_tree_select - selects the row of POU @pou, else of the file @path, else of
  * another page by its name, " symbols"; -1 and NULL: none. The focus stays. */
 void ladder_project_tree_select(GtkWidget *tree, int pou, const char *path, const char *page);
+/** ladder_project_tree_set_sim - marks what the board of @sim runs without. @sim: referenced. */
+void ladder_project_tree_set_sim(GtkWidget *tree, LadderSim *sim);
 /** ladder_project_tree_look - looks for new files beside the project. */
 void ladder_project_tree_look(GtkWidget *tree);
 

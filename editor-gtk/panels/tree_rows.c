@@ -292,6 +292,14 @@ static void update(GListStore *old, GListStore *fresh, const struct project *pro
 	g_ptr_array_unref(others);
 }
 
+void tree_row_set_missing(LadderTreeRow *row, bool missing)
+{
+	if (row->missing == missing)
+		return;
+	row->missing = missing;
+	g_signal_emit(row, changed, 0);
+}
+
 void tree_rows_update(GListStore *root, LadderDocument *document)
 {
 	GListStore *fresh = g_list_store_new(LADDER_TYPE_TREE_ROW);

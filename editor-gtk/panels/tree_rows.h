@@ -22,6 +22,7 @@ struct _LadderTreeRow {
 	int pou, rung;      /* pou of a STRUCTURE: its index                   */
 	char *text, *note, *path;
 	bool parent;        /* it has children                                 */
+	bool missing;       /* the board runs without it as it is              */
 	GListStore *rows;   /* the children, once asked for                    */
 };
 
@@ -29,6 +30,8 @@ struct _LadderTreeRow {
  * empty. A row that stays is the same object, with its children; its index may change, and
  * "changed" is emitted if its note did. */
 void tree_rows_update(GListStore *root, LadderDocument *document);
+/** tree_row_set_missing - emits "changed" if it is news. */
+void tree_row_set_missing(LadderTreeRow *row, bool missing);
 /** tree_row_children - the children of a row; variables come from the project. NULL: it has
  * none. Caller: g_object_unref(). */
 GListModel *tree_row_children(LadderTreeRow *row, LadderDocument *document);

@@ -55,6 +55,7 @@ static GArray *all_marks(LadderSfcView *view)
 		push_mark(marks, view->selected[i] ? i : -1, -1, SFC_SELECTED);
 	push_mark(marks, view->found.shape, view->found.use, SFC_FOUND);
 	g_array_append_vals(marks, view->marks->data, view->marks->len);
+	g_array_append_vals(marks, sfc_missing(view)->data, sfc_missing(view)->len);
 	push_mark(marks, view->cursor.shape, view->cursor.use, SFC_CURSOR);
 	push_mark(marks, view->stroke.drawn ? view->stroke.to.shape : view->drop.shape, -1,
 		  SFC_DROP);
@@ -230,6 +231,19 @@ static void say_transition(LadderSfcView *view, GString *text, int index)
 	g_string_free(to, TRUE);
 }
 
+static bool is_missing(LadderSfcView *view, struct sfc_at at)
+{
+	const GArray *missing = sfc_missing(view);
+
+	for (guint i = 0; i < missing->len; i++) {
+		const struct sfc_mark *mark = &g_array_index(missing, struct sfc_mark, i);
+
+		if (mark->shape == at.shape && mark->use == at.use)
+			return true;
+	}
+	return false;
+}
+
 /* @live: with its state in the running program. */
 static char *name_of(LadderSfcView *view, struct sfc_at at, bool live)
 {
@@ -251,6 +265,8 @@ static char *name_of(LadderSfcView *view, struct sfc_at at, bool live)
 		g_string_append_printf(text, _("Jump to %s"), view->sheet->name[at.shape]);
 	if (*comment)
 		g_string_append_printf(text, ", %s", comment);
+	if (live && is_missing(view, at))
+		g_string_append_printf(text, ", %s", _("not downloaded"));
 	return g_string_free(text, FALSE);
 }
 
@@ -983,6 +999,7 @@ static void ladder_sfc_view_finalize(GObject *object)
 	LadderSfcView *view = LADDER_SFC_VIEW(object);
 
 	g_array_unref(view->marks);
+	g_clear_pointer(&view->missing, g_array_unref);
 	g_free(view->selected);
 	G_OBJECT_CLASS(ladder_sfc_view_parent_class)->finalize(object);
 }

@@ -33,6 +33,7 @@ void sfc_forget_places(LadderSfcView *view)
 {
 	struct sfc_places *places = &view->places;
 
+	g_clear_pointer(&view->missing, g_array_unref);
 	g_clear_pointer(&places->map, live_map_free);
 	g_clear_pointer(&places->active, g_free);
 	g_clear_pointer(&places->time, g_free);

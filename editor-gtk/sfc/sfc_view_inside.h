@@ -35,6 +35,8 @@ struct _LadderSfcView {
 	struct sfc_at cursor;       /* shape -1: none                          */
 	bool *selected;             /* by shape                                */
 	GArray *marks;              /* struct sfc_mark: errors and warnings      */
+	GArray *missing;            /* struct sfc_mark: what the board runs without; NULL: not
+				       looked for yet                           */
 	struct sfc_at found;        /* hit of a search; shape -1: none          */
 	struct sfc_stroke stroke;
 	struct sfc_at drop;         /* where a tool of the palette would be dropped */
@@ -46,6 +48,8 @@ struct _LadderSfcView {
 struct pou *sfc_pou(LadderSfcView *view);
 /** sfc_make_sheet - makes the sheet of the present chart; closes the entry. */
 void sfc_make_sheet(LadderSfcView *view);
+/** sfc_missing - marks of what the board runs without; empty in a simulation. Borrowed. */
+const GArray *sfc_missing(LadderSfcView *view);
 /** sfc_forget_places - after another program runs, or another chart is shown. */
 void sfc_forget_places(LadderSfcView *view);
 /** sfc_fresh - makes the sheet if it is older than the project: another widget may get the

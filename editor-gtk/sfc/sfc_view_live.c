@@ -8,6 +8,8 @@
  */
 #include "editor-gtk/sfc/sfc_view_inside.h"
 
+#include "editor-gtk/draw/diff_draw.h"
+
 #include "engine/model/sfc_net.h"
 
 #include <string.h>
@@ -113,6 +115,50 @@ bool sfc_live_look(LadderSfcView *view, struct sfc_live *out)
 	look_at_ways(view);
 	*out = (struct sfc_live){ live->step, live->transition, time_of, view };
 	return true;
+}
+
+/* ---- what the board runs without ---- */
+
+static void mark_whole(LadderSfcView *view)
+{
+	for (int i = 0; i < view->sheet->layout->shape_count; i++) {
+		const struct sfc_mark mark = { i, -1, SFC_MISSING };
+
+		g_array_append_val(view->missing, mark);
+	}
+}
+
+static void mark_others(LadderSfcView *view, const struct project *board, const struct pou *pou)
+{
+	struct sfc_sheet *before = sfc_sheet_new(board, pou, view->canvas->lettering);
+	GArray *gone = g_array_new(FALSE, FALSE, sizeof(struct sfc_mark));
+
+	diff_mark_charts(before, view->sheet, gone, view->missing);
+	for (guint i = 0; i < view->missing->len; i++)
+		g_array_index(view->missing, struct sfc_mark, i).signs = SFC_MISSING;
+	g_array_unref(gone);
+	sfc_sheet_free(before);
+}
+
+const GArray *sfc_missing(LadderSfcView *view)
+{
+	LadderSim *sim = view->canvas->sim;
+	const struct project *board;
+	int pou;
+
+	if (view->missing)
+		return view->missing;
+	view->missing = g_array_new(FALSE, FALSE, sizeof(struct sfc_mark));
+	if (!sim || !view->sheet || !ladder_sim_may_miss(sim) ||
+	    !ladder_sim_is_missing(sim, view->canvas->document, view->canvas->pou, -1))
+		return view->missing;
+	board = ladder_project(ladder_sim_ladder(sim));
+	pou = ladder_sim_pou(sim, view->canvas->document, view->canvas->pou);
+	if (pou >= 0 && board->pou[pou].sfc)
+		mark_others(view, board, &board->pou[pou]);
+	else
+		mark_whole(view);
+	return view->missing;
 }
 
 /* ---- acts ---- */

@@ -21,6 +21,7 @@ struct _LadderSim {
 	LadderDocument *document;
 	GPtrArray *rungs;           /* by POU: GArray of int, by rung of the document:
 				       its number in the program that runs; -1 */
+	GByteArray *differs;        /* bool of each part and POU: the board has it otherwise */
 	struct sim_source *source;  /* of what is shown; NULL: off             */
 	struct sim_thread *thread;  /* the source, if that is the thread; else NULL */
 	struct sim_mirror *mirror;  /* likewise                                */
@@ -73,6 +74,7 @@ static void rungs_changed(LadderSim *sim, int pou, int at, int removed, int inse
 static void forget_rungs(LadderSim *sim)
 {
 	g_ptr_array_set_size(sim->rungs, 0);
+	g_byte_array_set_size(sim->differs, 0);
 }
 
 static GArray *rungs_of(LadderSim *sim, int pou)
@@ -87,6 +89,46 @@ static void take_pair(void *context, struct compare_pair pair)
 	if (of && pair.rung_a >= 0 && (guint)pair.rung_a < of->len && pair.rung_b >= 0 &&
 	    !pair.changed)
 		g_array_index(of, int, pair.rung_a) = pair.rung_b;
+}
+
+#define PARTS 3 /* of enum sim_part, in `differs` before the POUs                 */
+
+static void mark_other(LadderSim *sim, int part)
+{
+	if (part + PARTS >= 0 && (guint)(part + PARTS) < sim->differs->len)
+		sim->differs->data[part + PARTS] = true;
+}
+
+/* What belongs to no part, such as the views, is no part of what runs. */
+static void take_difference(void *context, const struct compare_difference *what)
+{
+	LadderSim *sim = context;
+	int pou;
+
+	switch (what->group) {
+	case COMPARE_PROJECT: break;
+	case COMPARE_CONFIG: mark_other(sim, SIM_TASKS); break;
+	case COMPARE_TYPES: mark_other(sim, SIM_TYPES); break;
+	case COMPARE_GLOBALS: mark_other(sim, SIM_SYMBOLS); break;
+	case COMPARE_POU:
+		pou = what->pou ? project_find_pou(ladder_document_project(sim->document),
+						   what->pou, strlen(what->pou)) : -1;
+		if (pou >= 0)
+			mark_other(sim, pou);
+		break;
+	}
+}
+
+/* The rungs of a chart are not paired one by one: those of an equal chart are the same. */
+static void number_charts(LadderSim *sim, const struct project *project)
+{
+	for (int i = 0; i < project->pou_count; i++) {
+		GArray *of = rungs_of(sim, i);
+
+		for (int rung = 0; project->pou[i].sfc && !sim->differs->data[i + PARTS] &&
+		     rung < (int)of->len; rung++)
+			g_array_index(of, int, rung) = rung;
+	}
 }
 
 /* The program that runs is the document as it is now; that of a board may be another. */
@@ -107,8 +149,14 @@ static void number_rungs(LadderSim *sim)
 		}
 		g_ptr_array_add(sim->rungs, of);
 	}
-	if (project && board && !compare_rungs(project, board, take_pair, sim))
+	if (!project || !board)
+		return;
+	g_byte_array_set_size(sim->differs, (guint)project->pou_count + PARTS);
+	memset(sim->differs->data, 0, sim->differs->len);
+	if (!compare_rungs(project, board, take_pair, sim) ||
+	    compare_each(project, board, take_difference, sim) < 0)
 		g_error("out of memory");
+	number_charts(sim, project);
 }
 
 static int find_rung(LadderSim *sim, int pou, int rung)
@@ -154,10 +202,26 @@ int ladder_sim_pou(LadderSim *sim, LadderDocument *document, int pou)
 	return project_find_pou(running, name, strlen(name));
 }
 
+bool ladder_sim_may_miss(LadderSim *sim)
+{
+	return ladder_sim_board(sim) && !ladder_sim_is_recording(sim);
+}
+
+static bool is_other(LadderSim *sim, int part)
+{
+	const GArray *of = rungs_of(sim, part);
+
+	for (guint i = 0; of && i < of->len; i++)
+		if (g_array_index(of, int, i) < 0)
+			return true;
+	return part + PARTS >= 0 && (guint)(part + PARTS) < sim->differs->len &&
+	       sim->differs->data[part + PARTS];
+}
+
 bool ladder_sim_is_missing(LadderSim *sim, LadderDocument *document, int pou, int rung)
 {
-	return ladder_sim_board(sim) && !ladder_sim_is_recording(sim) && document == sim->document &&
-	        find_rung(sim, pou, rung) < 0;
+	return ladder_sim_may_miss(sim) && document == sim->document &&
+	       (rung < 0 ? is_other(sim, pou) : find_rung(sim, pou, rung) < 0);
 }
 
 bool ladder_sim_knows(LadderSim *sim, struct location at)
@@ -782,17 +846,21 @@ static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
 static void number_again(LadderSim *sim)
 {
 	GPtrArray *before = sim->rungs;
+	GBytes *differed = g_bytes_new(sim->differs->data, sim->differs->len);
 	bool same;
 
 	sim->rungs = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
 	number_rungs(sim);
-	same = before->len == sim->rungs->len;
+	same = before->len == sim->rungs->len &&
+	       g_bytes_get_size(differed) == sim->differs->len &&
+	       memcmp(g_bytes_get_data(differed, NULL), sim->differs->data, sim->differs->len) == 0;
 	for (guint i = 0; same && i < before->len; i++) {
 		const GArray *a = before->pdata[i], *b = sim->rungs->pdata[i];
 
 		same = a->len == b->len && memcmp(a->data, b->data, a->len * sizeof(int)) == 0;
 	}
 	g_ptr_array_unref(before);
+	g_bytes_unref(differed);
 	if (!same && ladder_sim_is_on(sim))
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 }
@@ -1005,6 +1073,7 @@ static void ladder_sim_dispose(GObject *object)
 	if (sim->document)
 		g_signal_handlers_disconnect_by_data(sim->document, sim);
 	g_clear_pointer(&sim->rungs, g_ptr_array_unref);
+	g_clear_pointer(&sim->differs, g_byte_array_unref);
 	g_clear_object(&sim->document);
 	G_OBJECT_CLASS(ladder_sim_parent_class)->dispose(object);
 }
@@ -1037,6 +1106,7 @@ static void ladder_sim_init(LadderSim *sim)
 {
 	sim->told = SIM_OFF;
 	sim->rungs = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
+	sim->differs = g_byte_array_new();
 	sim->fault_on_error = true;
 }
 

@@ -161,9 +161,15 @@ struct ladder *ladder_sim_plant_ladder(LadderSim *sim);
 int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung);
 /** ladder_sim_pou - which POU of ladder_sim_ladder() POU @pou of @document is; -1: none. */
 int ladder_sim_pou(LadderSim *sim, LadderDocument *document, int pou);
+/* Parts of a project that are no POU. */
+enum sim_part { SIM_SYMBOLS = -1, SIM_TYPES = -2, SIM_TASKS = -3 };
 /** ladder_sim_is_missing - whether the board runs without rung @rung of POU @pou of the document:
- * it is new, or was changed since the download. False in a simulation: it takes each edit. */
+ * it is new, or was changed since the download. False in a simulation: it takes each edit.
+ * @rung: -1: without any part of the POU as it is, or of enum sim_part @pou. Of rungs it is known
+ * at once, of all else after the next check. Changes with `program-changed`. */
 bool ladder_sim_is_missing(LadderSim *sim, LadderDocument *document, int pou, int rung);
+/** ladder_sim_may_miss - whether there is a board that could be without something. */
+bool ladder_sim_may_miss(LadderSim *sim);
 /** ladder_sim_knows - whether the value at @at is that of the scan; false: the board does not send
  * it yet, and is asked to. Then `program-changed` comes with it. */
 bool ladder_sim_knows(LadderSim *sim, struct location at);

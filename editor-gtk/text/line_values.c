@@ -30,6 +30,7 @@ struct seen {
 	GArray *parts;            /* of struct live_part; NULL: no variable      */
 	struct location now, goal; /* of a call: what counts in the instance      */
 	bool instruction;         /* the program that runs has one here          */
+	bool missing;             /* the board runs without this line            */
 	struct live_result result;
 	bool ran;                 /* as last looked at                           */
 	int columns;              /* of the line                                 */
@@ -45,6 +46,7 @@ struct _LadderLineValues {
 				   * of no line */
 	int place_count;
 	bool placed;              /* they were looked for                        */
+	bool lacks;               /* the board could be without a line           */
 	GPtrArray *lines;         /* of struct seen; NULL: not looked at yet      */
 	int longest;              /* columns of a line up to WIDEST; 0: not counted yet */
 	char *spoken;             /* the description of the view                 */
@@ -177,6 +179,8 @@ static void print_value(struct seen *seen, const struct image *image)
 static void print_result(struct seen *seen, const struct image *image)
 {
 	seen->after[0] = '\0';
+	if (seen->missing)
+		g_strlcpy(seen->after, _("not downloaded"), sizeof(seen->after));
 	if (!seen->instruction)
 		return;
 	seen->ran = image->memory[seen->result.ran];
@@ -229,6 +233,7 @@ static void find_places(LadderLineValues *values)
 	for (int i = 0; values->places && i < values->place_count; i++)
 		values->places[i] = values->places[i] < 0 ? 0 : values->places[i] + pou->line;
 	values->placed = true;
+	values->lacks = ladder_sim_may_miss(values->sim) && !(pou && pou->included);
 	g_free(shown);
 }
 
@@ -241,6 +246,7 @@ static void find_result(LadderLineValues *values, int line, struct seen *seen)
 	place = values->places && line < values->place_count ? values->places[line] : 0;
 	seen->instruction = place > 0 &&
 		live_map_result(values->map, (uint32_t)place, &seen->result);
+	seen->missing = !place && values->lacks && seen->columns > 0;
 }
 
 /* ---- what is shown ---- */
@@ -349,7 +355,9 @@ static void draw_result(const struct pen *pen, const struct seen *seen, int x, i
 {
 	if (!seen->after[0])
 		return;
-	if (!seen->ran)
+	if (seen->missing)
+		draw(pen, seen->after, x, y, TOKEN_FORCE, PANGO_WEIGHT_NORMAL);
+	else if (!seen->ran)
 		draw(pen, seen->after, x, y, TOKEN_COMMENT, PANGO_WEIGHT_NORMAL);
 	else if (seen->result.at.type != IEC_BOOL)
 		draw(pen, seen->after, x, y, TOKEN_ACCENT, PANGO_WEIGHT_NORMAL);
@@ -487,6 +495,7 @@ static void tell_line(LadderLineValues *values)
 	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
 	seen = seen_of(values, gtk_text_iter_get_line(&at));
 	text = !seen || !(seen->text[0] || seen->after[0]) ? g_strdup("") :
+	       seen->missing ? g_strdup(seen->after) :
 	       !seen->after[0] ? g_strdup_printf(_("value %s"), seen->text) :
 	       !seen->text[0] ? g_strdup_printf(_("result %s"), seen->after) :
 	       g_strdup_printf(_("value %s, result %s"), seen->text, seen->after);

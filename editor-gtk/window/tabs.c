@@ -763,6 +763,36 @@ static void tab_pressed(struct tabs *tabs)
 	g_idle_add(enter_now, tabs->core);
 }
 
+/* ---- what the board runs without ---- */
+
+static bool is_missing(struct tabs *tabs, const char *name)
+{
+	LadderDocument *document = tabs->core->document;
+	const struct project *project = ladder_document_project(document);
+	const int pou = project ? project_find_pou(project, name, strlen(name)) : -1;
+
+	return pou >= 0 ? ladder_sim_is_missing(tabs->core->sim, document, pou, -1) :
+	       g_strcmp0(name, " symbols") == 0 &&
+	       ladder_sim_is_missing(tabs->core->sim, document, SIM_SYMBOLS, -1);
+}
+
+static void mark_missing(struct tabs *tabs)
+{
+	for (int i = 0; i < adw_tab_view_get_n_pages(tabs->view); i++) {
+		const char *name = page_name(nth(tabs, i));
+		const bool missing = name && is_missing(tabs, name);
+		GIcon *icon;
+
+		if (missing == (adw_tab_page_get_indicator_icon(nth(tabs, i)) != NULL))
+			continue;
+		icon = missing ? g_themed_icon_new("go-down-symbolic") : NULL;
+		adw_tab_page_set_indicator_icon(nth(tabs, i), icon);
+		adw_tab_page_set_indicator_tooltip(nth(tabs, i), missing ?
+						   _("not downloaded") : "");
+		g_clear_object(&icon);
+	}
+}
+
 void tabs_init(struct tabs *tabs, struct core *core)
 {
 	tabs->core = core;
@@ -780,6 +810,14 @@ void tabs_init(struct tabs *tabs, struct core *core)
 	ladder_document_set_cursor(core->document, cursor_now, tabs);
 	core_connect(core, core->document, "file-opened", G_CALLBACK(file_opened), tabs, 0);
 	core_connect(core, core->document, "project-changed", G_CALLBACK(update), tabs,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->sim, "program-changed", G_CALLBACK(mark_missing), tabs,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->sim, "state-changed", G_CALLBACK(mark_missing), tabs,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->document, "rungs-changed", G_CALLBACK(mark_missing), tabs,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, tabs->view, "notify::n-pages", G_CALLBACK(mark_missing), tabs,
 		     G_CONNECT_SWAPPED);
 	core_connect(core, tabs->view, "notify::selected-page", G_CALLBACK(page_selected), tabs,
 		     G_CONNECT_SWAPPED);

@@ -920,6 +920,7 @@ static void add_parts(LadderWindow *window)
 static void add_sides(LadderWindow *window)
 {
 	window->core.tree = ladder_project_tree_new(window->core.document);
+	ladder_project_tree_set_sim(window->core.tree, window->core.sim);
 	gtk_paned_set_start_child(window->side, ladder_still_new(window->core.tree));
 	window->palette = ladder_palette_new(window->core.document);
 	gtk_paned_set_end_child(window->side, ladder_still_new(window->palette));
