@@ -5,11 +5,14 @@
 The boards are ladderds of this machine, whose lines are simulated.
 """
 import os
+import signal
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from charts import at, on_chart, shape, shapes, typed, upon  # noqa: E402
 from desk import Chinese, Editor, main, new_file, until  # noqa: E402
 from online import Board, connect, says  # noqa: E402
+from spoken import described  # noqa: E402
 
 PUMP = '''RUNGBOARD 1
 PROJECT "Pump"
@@ -99,6 +102,65 @@ def edits(screen):
     board.stop()
 
 
+CHART = '''RUNGBOARD 1
+PROJECT "Filler"
+
+VAR
+  Go AT %IX0.0 : BOOL;
+  Valve AT %QX0.0 : BOOL;
+  Count : INT;
+END_VAR
+
+PROGRAM Main SFC
+  INITIAL_STEP Idle:
+  END_STEP
+
+  TRANSITION FROM Idle TO Fill := Go; END_TRANSITION
+
+  STEP Fill:
+    Valve(N);
+  END_STEP
+
+  TRANSITION FROM Fill TO Idle := NOT Go; END_TRANSITION
+END_PROGRAM
+
+PROGRAM Second IL
+  LD    Go
+  ST    %MX1.0
+END_PROGRAM
+'''
+
+
+def edits_elsewhere(screen):
+    """edited lines, steps, transitions and symbols are marked, too, and their rows in the tree, until they are undone"""
+    board = board_of(screen, 'elsewhere', program=CHART)
+    editor = Editor(screen, new_file(screen, CHART, 'filler.rung'))
+    on_chart(editor)
+    connect(editor, board.where)
+    shape(editor, 'Step Idle, initial, active')
+    assert not editor.all('not downloaded'), [node.name for node in editor.all('not downloaded')]
+    editor.click(upon(editor, shape(editor, 'from Fill to Idle')))
+    at(editor, 'from Fill to Idle')
+    typed(editor, 'Valve')
+    shape(editor, 'from Fill to Idle', 'not downloaded')
+    editor.find('Main, 2 steps, not downloaded')
+    assert not [name for name in shapes(editor) if name.startswith('Step') and 'not downloaded' in name], shapes(editor)
+    editor.shot('online-chart-edited')
+    editor.keys('ctrl+z')
+    until(lambda: not editor.all('not downloaded'), 'the marks to go')
+    editor.click(editor.find('Second, IL'), count=2)
+    text = editor.find('Text of the program')
+    until(lambda: text.has(12), 'the focus in the list')
+    editor.keys('ctrl+Home', 'Down', 'End', 'Return')
+    editor.type('AND Valve')
+    editor.find('Second, IL, not downloaded')
+    until(lambda: described(editor, text) == 'not downloaded', 'the mark of the line')
+    editor.shot('online-list-edited')
+    editor.keys('Up')
+    until(lambda: described(editor, text) == 'value FALSE, result FALSE', 'the line above')
+    board.stop()
+
+
 def only_looks(screen):
     """a role that only looks: the entry says so, and nothing happens on the board"""
     board = board_of(screen, 'looked', role='view')
@@ -117,6 +179,56 @@ def only_looks(screen):
     editor.shot('online-refused-chart')
     editor.element('Rung 1, COIL', ', off')
     assert 'Level' in board.ask('get', 'Level') and '30' in board.ask('get', 'Level')
+    board.stop()
+
+
+def operates(screen):
+    """what the board itself refuses is said where a person did it: at the element, in the status chart, in the panel"""
+    board = board_of(screen, 'operated', role='oper')
+    editor = Editor(screen, new_file(screen, PUMP, 'pump.rung'))
+    begin(screen, board, editor)
+    why = 'may be written only with the role eng'
+    editor.click(editor.middle(editor.element('Rung 2, [ ]', '30 > 20')), count=2)
+    editor.opened()
+    editor.keys('ctrl+a')
+    editor.type('7')
+    editor.keys('Return')
+    until(lambda: [node for node in editor.all(why, 'label') if '"Level"' in node.name], 'the refusal')
+    until(lambda: editor.asked(), 'the refusal at the element')
+    editor.shot('online-refused-sheet')
+    editor.keys('Escape')
+    editor.gone()
+    editor.tab('Status chart')
+    editor.into('Level, New value')
+    editor.type('5')
+    editor.keys('Return')
+    entry = editor.find('Level, New value', 'text')
+    until(lambda: described(editor, entry) == '"Level" ' + why + ': the program does not export it', 'the reason at the entry')
+    until(lambda: entry.text() == '5', 'what was typed')
+    editor.shot('online-refused-board')
+    editor.click(editor.find('Motor, Force'))
+    until(lambda: 'ladder-eng' in described(editor, editor.find('Motor, Force')), 'the reason at the force')
+    editor.click(editor.find('Input Start, %IX0.0', 'check box'))
+    line = until(lambda: [node for node in editor.all('Input Start', 'list item')], 'the line')[0]
+    until(lambda: editor.all('"Start" ' + why, 'label', line.path), 'the reason in the panel')
+    editor.shot('online-refused-panel')
+    assert '30' in board.ask('get', 'Level')
+    board.stop()
+
+
+def late(screen):
+    """a view says how late it is while its board does not answer"""
+    board = board_of(screen, 'late')
+    editor = Editor(screen, new_file(screen, PUMP, 'pump.rung'))
+    begin(screen, board, editor)
+    editor.says('ONLINE')
+    assert not editor.all(' late'), 'it is not late'
+    board.daemon.send_signal(signal.SIGSTOP)
+    editor.find(' s late', 'label')
+    editor.shot('online-late')
+    board.daemon.send_signal(signal.SIGCONT)
+    until(lambda: not editor.all(' late'), 'the values to be new again')
+    editor.element('Rung 2, [ ]', '30 > 20, closed')
     board.stop()
 
 
@@ -157,4 +269,4 @@ def chinese(screen):
 chinese.size = '1024x700x24'
 
 if __name__ == '__main__':
-    main([watches, edits, only_looks, recording, chinese])
+    main([watches, edits, edits_elsewhere, only_looks, operates, late, recording, chinese])

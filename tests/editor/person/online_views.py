@@ -8,7 +8,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from charts import on_chart, shape, shapes  # noqa: E402
+from charts import at, on_chart, shape, shapes, upon  # noqa: E402
 from desk import Editor, main, new_file, until  # noqa: E402
 from online import Board, connect, says  # noqa: E402
 from online_live import PUMP  # noqa: E402
@@ -57,7 +57,7 @@ END_PROGRAM
 
 
 def charts(screen):
-    """a chart shows the step that is active on the board"""
+    """a chart shows the step that is active on the board, and the power in a condition"""
     board = Board(screen, 'charted', program=CHART, board=MAP)
     editor = Editor(screen, new_file(screen, CHART, 'filler.rung'))
     on_chart(editor)
@@ -69,6 +69,14 @@ def charts(screen):
     editor.shot('online-chart')
     board.ask('force', 'Go=0')
     shape(editor, 'Step Idle, initial, active')
+    editor.click(upon(editor, shape(editor, 'from Idle to Fill')))
+    at(editor, 'from Idle to Fill')
+    editor.keys('ctrl+F12')
+    until(lambda: editor.all('Condition: ', 'label'), 'the condition')
+    editor.element('Rung 1', 'Go', 'FALSE')
+    board.ask('force', 'Go=1')
+    editor.element('Rung 1', 'Go', 'TRUE')
+    editor.shot('online-chart-condition')
     board.stop()
 
 
