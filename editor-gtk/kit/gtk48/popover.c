@@ -56,7 +56,8 @@ void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWid
 	popover_put(popover, parent);
 	popover_point(popover, at);
 	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
-	gtk_widget_set_halign(popover, GTK_ALIGN_START);
+	gtk_popover_set_position(GTK_POPOVER(popover), GTK_POS_RIGHT);
+	gtk_widget_set_valign(popover, GTK_ALIGN_START);
 	g_signal_connect(popover, "closed", G_CALLBACK(popover_drop_later), NULL);
 	g_signal_connect_object(popover, "closed", G_CALLBACK(gtk_widget_grab_focus), then,
 				G_CONNECT_SWAPPED);

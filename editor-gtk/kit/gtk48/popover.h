@@ -17,6 +17,9 @@
  *   needs just two lines at a line of quick entry.
  * - Covered menu, popover_is_above(): the tooltip of a button is drawn above the menu that the
  *   button opened. To see it: click an arrow of the palette and wait.
+ * - Cut menu, popover_menu(): a popover below its place gets no more height than there is, above
+ *   or below, and its menu scrolls without a sign. Beside its place it slides, and has the height of
+ *   the screen. To see it: the menu of an element in the middle of a screen of 1024x700.
  * - Focus, popover_menu() and popover_menu_of(): when a menu closes, GTK gives the focus back
  *   only to the widget that had it when the menu was first drawn.
  * Remove each of them on a new floor, and run test_popover and tests/editor/person/seal_in.py.

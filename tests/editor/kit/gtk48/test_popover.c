@@ -79,6 +79,39 @@ static void test_any(void)
 	goes(page, "any widget is freed with its popover open");
 }
 
+static GtkWidget *popover_of(GtkWidget *page)
+{
+	GtkWidget *child = gtk_widget_get_first_child(page);
+
+	while (child && !GTK_IS_POPOVER(child))
+		child = gtk_widget_get_next_sibling(child);
+	return child;
+}
+
+/* A menu that is higher than the room below and above its place shows all of its rows. */
+static void test_whole(void)
+{
+	GtkWidget *page = gtk_drawing_area_new(), *popover;
+	GMenu *menu = g_menu_new();
+	GdkRectangle screen;
+	int natural = 0;
+
+	gtk_widget_set_focusable(page, TRUE);
+	put(page);
+	gdk_monitor_get_geometry(g_list_model_get_item(gdk_display_get_monitors(
+		gtk_widget_get_display(page)), 0), &screen);
+	for (int i = 0; i < screen.height * 2 / 3 / 32; i++)
+		g_menu_append(menu, "Undo", "win.undo");
+	popover_menu(page, menu, &(GdkRectangle){ 5, screen.height / 2, 1, 1 }, page);
+	CHECK_SOON(is_open(page));
+	popover = popover_of(page);
+	gtk_widget_measure(gtk_popover_get_child(GTK_POPOVER(popover)), GTK_ORIENTATION_VERTICAL, -1,
+			   NULL, &natural, NULL, NULL);
+	CHECK(natural > screen.height / 2);
+	CHECK_SOON(gtk_widget_get_height(gtk_popover_get_child(GTK_POPOVER(popover))) >= natural);
+	goes(page, "the whole menu goes with its page");
+}
+
 int main(void)
 {
 	LadderDocument *document = sheet_window(sample, 900, 600, &window);
@@ -87,6 +120,7 @@ int main(void)
 		return 0;
 	test_pages(document);
 	test_any();
+	test_whole();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);
