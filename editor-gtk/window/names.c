@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/window/names.h"
 
+#include "editor-gtk/document/instances.h"
 #include "editor-gtk/document/pou_edit.h"
 #include "editor-gtk/document/rename.h"
 #include "editor-gtk/document/task_rows.h"
@@ -251,27 +252,51 @@ void names_watch_this(struct core *core, const char *name)
 	ladder_watch_view_add(LADDER_WATCH_VIEW(below_show(core->below, "watch")), name);
 }
 
-static bool at_step(struct core *core)
+/* A variable of a function block has no value of its own: each instance has one. Returns the
+ * shown instance, else the first one that is declared; NULL: no variable of a block, or there is no
+ * instance. Caller: g_free(). */
+static char *instance_of(struct core *core, const struct xref_target *target)
 {
-	struct xref xref = { 0 };
-	int here;
-	const bool is = !front_sheet(core->front) && front_chart(core->front) &&
-			begin(core, &xref, &here) &&
-			xref.use[here].target.what == XREF_STEP;
+	const struct project *project = ladder_document_project(core->document);
+	LadderGridView *sheet = front_sheet(core->front);
+	const char *shown = sheet ? ladder_grid_view_instance(sheet) : NULL;
+	const int pou = target->table - 1;
 
-	xref_free(&xref);
-	return is;
+	if ((target->what != XREF_VARIABLE && target->what != XREF_STEP) || pou < 0 ||
+	    pou >= project->pou_count || project->pou[pou].kind != POU_BLOCK)
+		return NULL;
+	return shown && ladder_canvas_pou(LADDER_CANVAS(sheet)) == pou ? g_strdup(shown) :
+	       instance_first(project, pou);
+}
+
+/* The name of a use as the status chart takes it: "Main.Delay", "Main.Lift.Up" of a variable of
+ * Lift, "Main.Fill.X" of a step. Caller: g_free(). */
+static char *watched_name(struct core *core, const struct xref_use *use)
+{
+	const bool step = !front_sheet(core->front) && front_chart(core->front) &&
+			  use->target.what == XREF_STEP;
+	char *instance = instance_of(core, &use->target), *watched;
+	char name[400] = "";
+	const char *inside;
+
+	xref_name(ladder_document_project(core->document), &use->target, use, name, sizeof(name));
+	inside = instance ? strchr(name, '.') : NULL;
+	watched = g_strconcat(inside ? instance : "", inside ? inside : name, step ? ".X" : NULL,
+			      NULL);
+	g_free(instance);
+	return watched;
 }
 
 /* Adds the name at the cursor to the status chart; for a step, Step.X. */
 void names_watch(struct core *core)
 {
-	char *name = names_at_cursor(core);
-	char *active = name && at_step(core) ? g_strconcat(name, ".X", NULL) : NULL;
+	struct xref xref = { 0 };
+	int here;
+	char *name = begin(core, &xref, &here) ? watched_name(core, &xref.use[here]) : NULL;
 
-	names_watch_this(core, active ? active : name ? name : "");
-	g_free(active);
+	names_watch_this(core, name ? name : "");
 	g_free(name);
+	xref_free(&xref);
 }
 
 void names_show_uses_of(struct core *core, const char *name)

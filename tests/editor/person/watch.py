@@ -24,6 +24,30 @@ RUNG "High"
 END_PROGRAM
 '''
 
+BLOCKS = '''RUNGBOARD 1
+
+FUNCTION_BLOCK Lift LD
+VAR_INPUT
+  In : BOOL;
+END_VAR
+VAR_OUTPUT
+  Out : BOOL;
+END_VAR
+RUNG
+  | NO In | COIL Out |
+END_FUNCTION_BLOCK
+
+PROGRAM Main LD
+VAR
+  First : Lift;
+  Second : Lift;
+END_VAR
+RUNG
+  | NO %IX0.0 | Lift First | COIL %QX0.0 |
+RUNG
+  | NO %IX0.1 | Lift Second | COIL %QX0.1 |
+END_PROGRAM
+'''
 
 def chart(editor):
     """Shows the tab and adds names to the chart."""
@@ -163,4 +187,22 @@ def last_letter(screen):
     assert open(path).read() == saved.replace('watch auto Level\n', 'watch auto Level of the tank\n'), open(path).read()
 
 
-main([values, dragged, forces, chinese, last_letter])
+def block(screen):
+    """a name in a function block is added with its instance, before a simulation and for the chosen instance in it"""
+    path = new_file(screen, BLOCKS)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+alt+w')
+    editor.find('Main.First.In, New value')
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'In')), button=3)
+    editor.find('Second', 'menu item').press()
+    until(lambda: [node for node in editor.all('Second', 'label') if 'Rung 1' in node.name], 'the instance')
+    editor.keys('ctrl+alt+w')
+    editor.find('Second.In, New value')
+    editor.shot('watch-block')
+    assert '    watch auto Main.First.In\n    watch auto Second.In\n' in editor.save(path), open(path).read()
+
+
+main([values, dragged, forces, chinese, last_letter, block])
