@@ -59,25 +59,9 @@ static void find_cells(const struct program *program, uint32_t pou, struct publi
 	}
 }
 
-/* The maps of an image are not verified against each other: a cell outside of what is copied
- * for the instance would lie anywhere. */
-static bool are_copied(const struct program *program, const struct publish_set *set,
-		       const struct code_watched *instance)
-{
-	for (uint32_t i = 0; i < set->count; i++) {
-		const struct code_power *cell = &program->power[set->cell + i];
-
-		if (cell->in - instance->from >= instance->size ||
-		    cell->out - instance->from >= instance->size)
-			return false;
-	}
-	return true;
-}
-
 enum refusal publish_cells(struct publications *all, struct publish_set *set,
 			   const struct program *program, const char *name, size_t len)
 {
-	const struct code_watched *instance = NULL;
 	bool found = false;
 
 	set->what = PUBLISH_CELLS;
@@ -88,18 +72,21 @@ enum refusal publish_cells(struct publications *all, struct publish_set *set,
 		if (!found)
 			continue;
 		find_cells(program, watched->pou, set);
-		set->shift = watched->to - watched->from;
-		instance = watched;
+		set->from = watched->from;
+		set->size = watched->size;
+		set->to = watched->to;
 	}
 	for (uint32_t i = 0; !found && i < program->entry_count && program->string_bytes; i++) {
 		found = name_is(program->string + program->entry[i].name, name, len);
 		if (found)
 			find_cells(program, i, set);
 	}
-	if (!found || !set->count || (instance && !are_copied(program, set, instance)))
+	if (!found || !set->count)
 		return REFUSAL_NO_NAME;
-	if ((set->count + 3) / 4 > PUBLISH_POWER - all->power_bytes)
+	if ((set->count + 3) / 4 > PUBLISH_POWER - all->power_bytes) {
+		set->count = 0; /* it has no room that could be given back */
 		return REFUSAL_TOO_MANY;
+	}
 	set->first = all->power_bytes;
 	all->power_bytes += (set->count + 3) / 4;
 	return REFUSAL_NONE;
@@ -140,14 +127,20 @@ bool publish_drop(struct publications *all, uint16_t request)
 	return false;
 }
 
+/* Power that is the same for all instances, such as that of the rail, is not copied. */
+static uint32_t of_instance(const struct publish_set *set, uint32_t offset)
+{
+	return offset - set->from < set->size ? set->to + (offset - set->from) : offset;
+}
+
 static uint32_t cell_in(const struct program *program, const struct publish_set *set, uint32_t i)
 {
-	return program->power[set->cell + i].in + set->shift;
+	return of_instance(set, program->power[set->cell + i].in);
 }
 
 static uint32_t cell_out(const struct program *program, const struct publish_set *set, uint32_t i)
 {
-	return program->power[set->cell + i].out + set->shift;
+	return of_instance(set, program->power[set->cell + i].out);
 }
 
 void publish_ranges(const struct publications *all, const struct program *program,

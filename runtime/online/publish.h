@@ -42,7 +42,8 @@ struct publish_set {
 	uint32_t first, count; /* in `value`, or cells of `power`             */
 	/* PUBLISH_CELLS */
 	uint32_t cell;         /* of the program's map of cells               */
-	uint32_t shift;        /* added to the offset of each cell            */
+	uint32_t from, size, to; /* of an instance: its cells between from and from + size
+				  * are copied to to …; size 0: of a program  */
 	bool any;
 };
 

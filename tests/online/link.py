@@ -340,6 +340,57 @@ def test_publish_tells_the_power_of_cells():
             cells = client.take_cells(desk.next_told()[1], count)[1]
 
 
+BLOCK = '''FUNCTION_BLOCK Lift LD
+VAR_INPUT
+  Up : BOOL;
+END_VAR
+VAR
+  Wait : TON;
+END_VAR
+VAR_OUTPUT
+  Out : BOOL;
+END_VAR
+RUNG
+  | NO Up | NC Wait.Q | TON Wait PT:=T#1h | COIL Out |
+RUNG
+  | NO Up | COIL Out |
+END_FUNCTION_BLOCK
+
+'''
+
+
+def test_publish_tells_the_power_of_the_cells_of_an_instance():
+    text = SEAL.replace('PROGRAM Main', BLOCK + 'PROGRAM Main').replace('Slow : TON;', 'Slow : TON;\n  One : Lift;\n  Two : Lift;')
+    calls = 'RUNG\n  | NO Start | Lift One |\nRUNG\n  | NO Brake | Lift Two |\nEND_PROGRAM'
+    with Board(text.replace('END_PROGRAM', calls)) as board:
+        desk = board.client()
+        desk.force({'Start': (BOOL, True), 'Brake': (BOOL, False)})
+        for name, power in ('One', (1, 1)), ('Two', (1, 0)):
+            request, count = desk.publish_cells(name)
+            cells = None
+            while cells is None or cells[0] != power:
+                cells = client.take_cells(desk.next_told()[1], count)[1]
+            desk.call(client.UNPUBLISH, struct.pack('<H', request))
+            desk.told.clear()
+
+
+def test_publish_refuses_too_many_cells():
+    rung = 'RUNG\n  |' + ' NO Start |' * 60 + ' COIL Motor |\n'
+    with Board(SEAL.replace('END_PROGRAM', rung * 180 + 'END_PROGRAM')) as board:
+        desk = board.client()
+        watched = []
+        for _ in range(16):
+            try:
+                watched.append(desk.publish_cells('Main', 1000000)[0])
+            except Refused as refusal:
+                assert refusal.number == 11, refusal
+                break
+        assert 2 < len(watched) < 14, watched
+        refused(11, lambda: desk.publish_cells('Main', 1000000))  # the first refusal gave no room back
+        desk.call(client.UNPUBLISH, struct.pack('<H', watched[0]))
+        desk.publish_cells('Main', 1000000)
+
+
 def test_a_slow_desk_loses_messages_and_is_told():
     many = ''.join(f'  T{i} : STRING[250];\n' for i in range(200))
     with Board(SEAL.replace('  Count : INT;\n', '  Count : INT;\n' + many)) as board:
