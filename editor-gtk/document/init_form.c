@@ -43,7 +43,17 @@ struct init_form {
 	GArray *sorted;           /* the offsets in @given, in order              */
 	int table;                /* of the declaration whose values are read     */
 	struct diag_list *diags;  /* of its expressions                           */
+	struct init_walk *walk;   /* the walk that calls fold()                    */
+	bool keeps;               /* it walks the text that is written now         */
+	GHashTable *counts;       /* of struct written_count, by count_key(): those in that text
+				     that are no plain number                     */
 	bool changed;
+};
+
+/* The n of n( … ) as it is written, such as 2 * Motors. */
+struct written_count {
+	char *text;
+	uint32_t count;
 };
 
 /* ---- what a type is ---- */
@@ -87,13 +97,59 @@ static char *type_of(const struct init_form *form, const struct word_pin *pin)
 
 /* ---- texts ---- */
 
+static void count_free(gpointer data)
+{
+	struct written_count *count = data;
+
+	g_free(count->text);
+	g_free(count);
+}
+
+/* An array in an array may begin at the same offset: the size of an element tells them apart. */
+static char *count_key(uint32_t offset, uint32_t unit)
+{
+	return g_strdup_printf("%u %u", offset, unit);
+}
+
+/* Keeps the text of a count, for the time when it is written again. */
+static void keep_count(struct init_form *form, const char *text, size_t len, int64_t count)
+{
+	const struct init_level *level = &form->walk->level[form->walk->depth - 1];
+	struct written_count *kept;
+
+	if (!form->keeps || count < 1 || count > G_MAXINT32)
+		return;
+	kept = g_new(struct written_count, 1);
+	*kept = (struct written_count){ g_strndup(text, len), (uint32_t)count };
+	g_hash_table_insert(form->counts, count_key(level->base + level->element * level->unit,
+						    level->unit), kept);
+}
+
 static enum diag_id fold(void *context, const char *text, size_t len, struct init_value *out)
 {
 	struct init_form *form = context;
+	const bool count = out->type == IEC_NONE;
 
 	diag_init(form->diags);
-	return ladder_constant(form->ladder, form->table, text, len, out, form->diags) ?
-	       DIAG_COUNT : form->diags->count ? form->diags->diag[0].id : DIAG_NO_MEMORY;
+	if (!ladder_constant(form->ladder, form->table, text, len, out, form->diags))
+		return form->diags->count ? form->diags->diag[0].id : DIAG_NO_MEMORY;
+	if (count)
+		keep_count(form, text, len, out->value.i);
+	return DIAG_COUNT;
+}
+
+static struct init_fold fold_of(struct init_form *form)
+{
+	return (struct init_fold){ fold, form, &form->project->words };
+}
+
+/* What is wrong in a walk, as a message takes it. */
+static char *what_of(const struct init_walk *walk)
+{
+	char said[LIMIT_ARG];
+
+	init_say(walk, said, sizeof(said));
+	return g_strdup(said);
 }
 
 /* Adds the values of an initial text. False: it is wrong, or has too many values. */
@@ -112,20 +168,23 @@ static bool take_values(struct init_form *form, const struct word_pin *pin, cons
 		var.capacity = pin->capacity;
 	var.init_text = names_intern(&form->project->names, text, strlen(text));
 	diag_init(form->diags);
+	form->walk = walk;
+	form->keeps = values == form->given;
 	init_begin(walk, form->project, &var, &form->scratch);
-	walk->fold = (struct init_fold){ fold, form };
+	walk->fold = fold_of(form);
 	while (init_next(walk, &value))
 		count++;
 	*why = walk->why;
 	*what = form->diags->count ? g_strdup(form->diags->diag[0].arg) :
-				     g_strndup(walk->arg ? walk->arg : "", walk->arg_len);
+				     what_of(walk);
 	if (walk->why == DIAG_COUNT) {
 		init_begin(walk, form->project, &var, NULL);
-		walk->fold = (struct init_fold){ fold, form };
+		walk->fold = fold_of(form);
 		for (count = 0; init_next(walk, &value) && count <= VALUES_MOST; count++)
 			g_hash_table_insert(values, GUINT_TO_POINTER(value.offset),
 					    g_strndup(walk->from, (gsize)(walk->behind - walk->from)));
 	}
+	form->walk = NULL;
 	g_free(walk);
 	return *why == DIAG_COUNT && count <= VALUES_MOST;
 }
@@ -409,22 +468,31 @@ static bool is_declared(const struct init_detail *detail)
 	return false;
 }
 
-/* A run of equal elements; @text "": they keep their values. */
-static void write_run(const struct init_detail *array, const char *text, uint32_t count,
-		      GString *out)
+/* Equal elements one after another. */
+struct run {
+	char *text;                       /* of each; "": it keeps its value; NULL: no run */
+	uint32_t count;
+	const struct written_count *kept; /* at the first of them; NULL: none        */
+};
+
+static void write_run(const struct init_detail *array, const struct run *run, GString *out)
 {
+	const bool named = run->kept && run->kept->count == run->count;
+	const char *text = run->text;
 	const bool plain = !*text && array->pin.type != IEC_NONE && !is_declared(array);
 	char *zero = plain ? zero_of(array->pin.type) : NULL;
 	const char *value = plain ? zero : text;
 	const gsize len = strlen(value);
+	char *count = named ? g_strdup(run->kept->text) : g_strdup_printf("%u", run->count);
 
 	g_string_append(out, out->str[out->len - 1] == '[' ? "" : ", ");
-	if (count == 1 && *value)
+	if (run->count == 1 && !named && *value)
 		g_string_append(out, value);
 	else if (*value == '(') /* 2(Speed := 7) is short for 2((Speed := 7)) */
-		g_string_append_printf(out, "%u(%.*s)", count, (int)len - 2, value + 1);
+		g_string_append_printf(out, "%s(%.*s)", count, (int)len - 2, value + 1);
 	else
-		g_string_append_printf(out, "%u(%s)", count, value);
+		g_string_append_printf(out, "%s(%s)", count, value);
+	g_free(count);
 	g_free(zero);
 }
 
@@ -452,26 +520,29 @@ static void write_elements(struct init_form *form, struct init_detail *array, GS
 				       array->offset + (uint64_t)unit * array->count);
 	const uint32_t end = last < 0 ? 0 : ((uint32_t)last - array->offset) / unit + 1;
 	GString *list = g_string_new("[");
-	char *run = NULL;
-	uint32_t count = 0;
+	struct run run = { NULL, 0, NULL };
 
 	for (uint32_t i = 0; i < end; i++) {
+		char *key = count_key(array->offset + i * unit, unit);
+		const struct written_count *kept = g_hash_table_lookup(form->counts, key);
 		char *text = element_text(form, array, i, unit);
 
-		if (run && strcmp(run, text) == 0) {
-			count++;
+		g_free(key);
+		/* A run with a written count has that many elements. */
+		if (run.text && !kept && strcmp(run.text, text) == 0 &&
+		    !(run.kept && run.count == run.kept->count)) {
+			run.count++;
 			g_free(text);
 			continue;
 		}
-		if (run)
-			write_run(array, run, count, list);
-		g_free(run);
-		run = text;
-		count = 1;
+		if (run.text)
+			write_run(array, &run, list);
+		g_free(run.text);
+		run = (struct run){ text, 1, kept };
 	}
-	if (run && *run)
-		write_run(array, run, count, list);
-	g_free(run);
+	if (run.text && *run.text)
+		write_run(array, &run, list);
+	g_free(run.text);
 	if (list->len > 1 && list->str[list->len - 1] != '[') {
 		g_string_append(out, list->str);
 		g_string_append_c(out, ']');
@@ -645,6 +716,7 @@ struct init_form *init_form_new(LadderDocument *document, int table, int index, 
 	arena_init(&form->scratch);
 	form->diags = g_new(struct diag_list, 1);
 	form->given = values_new();
+	form->counts = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, count_free);
 	form->sorted = g_array_new(FALSE, FALSE, sizeof(guint32));
 	if (!load(form, document))
 		*why = g_strdup(_("The file cannot be read as a program"));
@@ -662,6 +734,7 @@ void init_form_free(struct init_form *form)
 		detail_free(form->root);
 	g_array_unref(form->sorted);
 	g_hash_table_unref(form->given);
+	g_hash_table_unref(form->counts);
 	arena_free(&form->scratch);
 	g_free(form->diags);
 	ladder_free(form->ladder);

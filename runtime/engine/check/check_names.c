@@ -170,19 +170,16 @@ static void report_twice(struct names_check *c, const struct pou *pou,
 			    "%.40s" DIAG_AND "%d", text_of(c, var->name), first);
 }
 
-#define WHAT_MOST 30 /* bytes of the faulty value, so that its column is known */
-
 bool init_report(const struct project *project, const struct var *var,
 		 const struct init_walk *walk, struct diag_list *diags, struct diag place)
 {
-	char where[LIMIT_ARG];
+	char where[LIMIT_ARG], said[LIMIT_ARG];
 
 	place.id = walk->why;
 	init_where(walk, where, sizeof(where));
-	return diag_add(diags, place, "%.*s" DIAG_AND DIAG_AND "%s%s",
-			(int)(walk->arg_len < WHAT_MOST ? walk->arg_len : WHAT_MOST),
-			walk->arg_len ? walk->arg : "",
-			project_text(project, var->name), where);
+	init_say(walk, said, sizeof(said));
+	return diag_add(diags, place, "%s%s%s%s", said, strstr(said, DIAG_AND) ? DIAG_AND :
+			DIAG_AND DIAG_AND, project_text(project, var->name), where);
 }
 
 /* Does the text of @var's initial values, which has parts, fit its type?

@@ -29,6 +29,8 @@ struct settle {
 	bool shapes;                     /* a size has changed                */
 	bool reported;                   /* the walk's error has its diagnostic */
 	struct init_walk walk;
+	const char *copied;              /* of its text, up to here, the text of constants is made */
+	struct text { char *text; size_t len, size; } made;
 	struct expr expr;
 	struct il_result value[LIMIT_EXPR_NODES];
 	struct literal literal[LIMIT_EXPR_NODES];
@@ -502,14 +504,33 @@ static bool convert(struct settle *s, struct il_result from, enum iec_type type,
 	return true;
 }
 
-/* The value of s->expr as one of @out->type. */
+/* @value as an integer: of a bound, a length, a count of repetitions. */
+static bool take_any_integer(struct settle *s, struct il_result value, int64_t *out)
+{
+	union iec_value number;
+
+	if (il_is_unknown(value))
+		return false;
+	if (!value.literal && !(iec_type_row(value.type)->class & ANY_INT)) {
+		s->line.operand = value.text;
+		return il_report_types(&s->fn, &s->line, value.type, IEC_DINT);
+	}
+	if (!convert(s, value, value.literal ? IEC_LINT : value.type, &number))
+		return false;
+	*out = number.i;
+	return true;
+}
+
+/* The value of s->expr as one of @out->type; IEC_NONE: as an integer of any type. */
 static bool compute_value(struct settle *s, struct init_value *out)
 {
-	const struct il_result value = compute(s, out->type);
+	const struct il_result value = compute(s, out->type == IEC_NONE ? IEC_DINT : out->type);
 	char text[64];
 	uint32_t id;
 
 	s->line.operand = 0;
+	if (out->type == IEC_NONE)
+		return take_any_integer(s, value, &out->value.i);
 	if (out->type == IEC_STRING && value.type == IEC_STRING) {
 		const struct literal *literal = &s->literal[s->expr.root];
 
@@ -594,22 +615,10 @@ static enum outcome take_integer(struct settle *s, const struct var_written *w,
 				 enum written_place where, uint32_t id, int64_t *out)
 {
 	const enum outcome opened = open_text(s, w, where, id);
-	struct il_result value;
-	union iec_value number;
 
 	if (opened != GOOD)
 		return opened;
-	value = compute(s, IEC_DINT);
-	if (il_is_unknown(value))
-		return FAILED;
-	if (!value.literal && !(iec_type_row(value.type)->class & ANY_INT)) {
-		s->line.operand = value.text;
-		return il_report_types(&s->fn, &s->line, value.type, IEC_DINT), FAILED;
-	}
-	if (!convert(s, value, value.literal ? IEC_LINT : value.type, &number))
-		return FAILED;
-	*out = number.i;
-	return GOOD;
+	return take_any_integer(s, compute(s, IEC_DINT), out) ? GOOD : FAILED;
 }
 
 static enum outcome settle_bounds(struct settle *s, struct var_written *w, struct var *var)
@@ -727,20 +736,10 @@ static void settle_with(struct settle *s, struct var_written *w)
 
 /* ---- lists and structures ---- */
 
-/* Called by the walk for each expression in a list. */
-static enum diag_id fold_value(void *context, const char *text, size_t len,
-			       struct init_value *out)
+static bool add(struct settle *s, const char *text, size_t len)
 {
-	struct settle *s = context;
+	struct text *to = &s->made;
 
-	s->reported = !parse(s, text, len, text + len) || !compute_value(s, out);
-	return s->reported ? DIAG_NOT_CONSTANT : DIAG_COUNT;
-}
-
-struct text { char *text; size_t len, size; };
-
-static bool add(struct settle *s, struct text *to, const char *text, size_t len)
-{
 	if (to->len + len > to->size) {
 		const size_t size = 2 * (to->len + len) + 64;
 		char *larger = arena_grow(s->scratch, to->text, to->len, size);
@@ -755,60 +754,64 @@ static bool add(struct settle *s, struct text *to, const char *text, size_t len)
 	return true;
 }
 
-/* Adds @count elements of a value to the list of an array. */
-static bool push_values(struct settle *s, struct var *var, uint32_t count,
-			const struct init_value *value)
+/* Adds the text up to @from, and @to in place of what ends at @behind. */
+static bool replace(struct settle *s, const char *from, const char *behind, const char *to,
+		    size_t len)
 {
-	struct var_init *slot;
-
-	if (!count)
-		return true;
-	slot = arena_push(&s->project->arena, &var->init_list, &var->init_count, sizeof(*slot));
-	if (!slot)
+	if (!add(s, s->copied, (size_t)(from - s->copied)) || !add(s, to, len))
 		return false;
-	*slot = (struct var_init){ .count = count };
-	if (value && value->type == IEC_STRING)
-		slot->text = names_intern(&s->project->names, value->text, value->len);
-	else if (value)
-		slot->value = value->value;
+	s->copied = behind;
 	return true;
 }
 
-/* Walks the text of @var; the values become those of its list, and a text of constants. */
-static bool walk(struct settle *s, struct var *var, struct text *out)
+/* Called by the walk for each expression in a list, and for the n of n( … ). */
+static enum diag_id fold_value(void *context, const char *text, size_t len,
+			       struct init_value *out)
 {
-	const char *text = project_text(s->project, var->init_text), *copied = text;
+	struct settle *s = context;
+	const bool count = out->type == IEC_NONE;
+	char number[24];
+	int digits;
+
+	/* Behind a count there is a (, which would make a call of it. */
+	s->reported = !parse(s, text, len, count ? "" : text + len) || !compute_value(s, out);
+	if (s->reported || !count)
+		return s->reported ? DIAG_NOT_CONSTANT : DIAG_COUNT;
+	digits = snprintf(number, sizeof(number), "%lld", (long long)out->value.i);
+	return replace(s, text, text + len, number, (size_t)digits) ? DIAG_COUNT : DIAG_NO_MEMORY;
+}
+
+/* Walks the text of @var; the values become those of its list, and a text of constants. */
+static bool walk(struct settle *s, struct var *var)
+{
+	const char *text = project_text(s->project, var->init_text);
 	const char *end = text + names_len(&s->project->names, var->init_text);
-	const bool list = var->type != IEC_NONE;
-	struct word_pin like = shape_pin(var);
-	const uint32_t unit = shape_of(&s->project->words, &like).unit;
 	struct init_value value;
 	uint32_t next = 0;
 
+	s->made = (struct text){ NULL, 0, 0 };
+	s->copied = text;
 	while (init_next(&s->walk, &value)) {
-		const char *from = s->walk.from;
-
-		if (list) {
-			const uint32_t at = value.offset / unit;
-
-			if (!push_values(s, var, at - next, NULL))
-				return false;
-			next = s->walk.level[0].element;
-			if (!push_values(s, var, next - at, &value))
-				return false;
-		}
-		if (!add(s, out, copied, (size_t)(from - copied)) ||
-		    !add(s, out, value.text, value.len))
+		if (var->type != IEC_NONE && !init_keep(&s->walk, s->project, var, &value, &next))
 			return false;
-		copied = s->walk.behind;
+		if (!replace(s, s->walk.from, s->walk.behind, value.text, value.len))
+			return false;
 	}
-	return add(s, out, copied, (size_t)(end - copied));
+	return add(s, s->copied, (size_t)(end - s->copied));
+}
+
+/* A mistake in the form of a structure is left to check_names(), which walks it again; it sees
+ * numbers in place of counts. */
+static bool is_ours(const struct init_walk *walk, const struct var *var)
+{
+	return walk->why != DIAG_COUNT &&
+	       (var->type != IEC_NONE || walk->why == DIAG_REPEAT_NONE ||
+		walk->why == DIAG_REPEAT_MANY || walk->why == DIAG_REPEAT_KIND);
 }
 
 /* False when memory is out. */
 static bool settle_parts(struct settle *s, struct var_written *w, struct var *var)
 {
-	struct text out = { NULL, 0, 0 };
 	struct diag place;
 
 	enter(s, w->table, w->file);
@@ -817,19 +820,18 @@ static bool settle_parts(struct settle *s, struct var_written *w, struct var *va
 	s->reported = false;
 	w->value = 0;
 	init_begin(&s->walk, s->project, var, s->scratch);
-	s->walk.fold = (struct init_fold){ fold_value, s };
+	s->walk.fold = (struct init_fold){ fold_value, s, &s->project->words };
 	if (var->type != IEC_NONE) {
 		var->init_list = NULL;
 		var->init_count = 0;
 	}
-	if (!walk(s, var, &out))
+	if (!walk(s, var))
 		return false;
 	place = il_place(s->scope, s->fn.pou, &s->line, DIAG_COUNT);
 	place.column = 0;
-	/* A mistake in the form of a structure is left to check_names(), which walks it again. */
-	if (s->walk.why != DIAG_COUNT && !s->reported && var->type != IEC_NONE)
+	if (!s->reported && is_ours(&s->walk, var))
 		init_report(s->project, var, &s->walk, s->fn.diags, place);
-	w->value = names_intern(&s->project->names, out.text, out.len);
+	w->value = names_intern(&s->project->names, s->made.text, s->made.len);
 	return w->value != 0;
 }
 

@@ -29,7 +29,7 @@ bool settle_var(struct project *project, int table, int index, struct arena *scr
 /**
  * settle_value - the value of an expression, or of a constant, as if it stood in a declaration
  * @table: of the declaration, as above
- * @out:   type and capacity are given; gets value, literal, and as @out->text, in the strings of
+ * @out:   type (IEC_NONE: an integer of any type) and capacity are given; gets value, literal, and as @out->text, in the strings of
  *         the project, the constant
  *
  * Owns: nothing.   Scan-safe: no.   Fails: false after a diagnostic.

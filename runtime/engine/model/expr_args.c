@@ -127,3 +127,20 @@ enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,
 		out->arg[i].at = expr->node[out->arg[i].at].left;
 	return why;
 }
+
+bool expr_has_wrong_call(const struct expr *expr, struct word_table *words)
+{
+	for (int i = 0; i < expr->count; i++) {
+		const struct expr_node *node = &expr->node[i];
+		struct expr_args args = { .wrong = -1, .text = "" };
+		enum word word;
+
+		if (node->op != EXPR_CALL)
+			continue;
+		word = expr_function(words, node);
+		if (word != WORD_COUNT && !word_is_own(word) &&
+		    expr_match(expr, node, words_row(words, word), &args) != DIAG_COUNT)
+			return true;
+	}
+	return false;
+}

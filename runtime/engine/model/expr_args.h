@@ -34,6 +34,9 @@ enum word expr_function(struct word_table *words, const struct expr_node *call);
  */
 enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,
 			const struct word_row *row, struct expr_args *out);
+/** expr_has_wrong_call - does it call a built-in function with other arguments than that has?
+ * Scan-safe: no. */
+bool expr_has_wrong_call(const struct expr *expr, struct word_table *words);
 /** expr_pin_name - the name of pin @index, also of extensible inputs such as IN3; as
  * snprintf.
  * Scan-safe: yes. */

@@ -209,26 +209,102 @@ static bool take_value(struct init_walk *walk, const struct word_pin *pin,
 	return take_constant(walk, pin, out);
 }
 
-/* `3(`: a repeated value. */
+/* ---- repeated values ---- */
+
+/* Does an operand end with @token, so that a ( behind it begins no operand and no call? */
+static bool ends_operand(const struct init_walk *walk, const struct token *token)
+{
+	static const char *const operators[] = { "AND", "OR", "XOR", "NOT", "MOD" };
+	struct word_table *words = walk->fold.words;
+
+	if (token->kind == TOKEN_NUMBER)
+		return true;
+	if (token->kind == TOKEN_SYMBOL)
+		return *token->text == ')' || *token->text == ']';
+	if (token->kind != TOKEN_NAME || !words)
+		return false;
+	for (size_t i = 0; i < sizeof(operators) / sizeof(*operators); i++)
+		if (name_is(operators[i], token->text, token->len))
+			return false;
+	return words_row(words, words_find(words, token->text, token->len))->kind != WORD_FN;
+}
+
+/* Is it `(Speed :=`, of a structure? */
+static bool begins_members(struct lex lex)
+{
+	return lex_is(&lex, "(") && lex_next(&lex) == TOKEN_NAME &&
+	       (lex_next(&lex), lex_is(&lex, ":="));
+}
+
+/* Steps to the ( of `2 * N(7)`; @end gets the end of its count. False: no count stands here. */
+static bool skip_count(const struct init_walk *walk, struct lex *lex, const char **end)
+{
+	struct token before = { .kind = TOKEN_END };
+	int open = 0;
+
+	if (begins_members(*lex))
+		return false;
+	for (; lex->token.kind != TOKEN_END; lex_next(lex)) {
+		const bool opens = lex_is(lex, "(") || lex_is(lex, "[");
+		const bool closes = lex_is(lex, ")") || lex_is(lex, "]");
+
+		if (!open && lex_is(lex, "(") && ends_operand(walk, &before))
+			return true;
+		if (!open && (closes || lex_is(lex, ",") || lex_is(lex, ":=")))
+			return false;
+		open += opens;
+		open -= closes;
+		before = lex->token;
+		*end = before.text + before.len;
+	}
+	return false;
+}
+
+/* The number of a count. */
+static bool compute_count(struct init_walk *walk, const char *text, size_t len, int64_t *out)
+{
+	struct init_value value = { .type = IEC_NONE };
+	struct literal literal;
+	enum literal_result result;
+	enum diag_id why;
+	const bool negative = *text == '-';
+	struct lex lex = walk->lex;
+
+	if (negative || *text == '+')
+		lex_next(&lex);
+	result = lex.token.kind == TOKEN_NUMBER && lex.token.text + lex.token.len == text + len ?
+		 literal_parse(lex.token.text, lex.token.len, &literal) : LITERAL_NONE;
+	if (result == LITERAL_OK && literal.type == IEC_NONE && !literal.real && !literal.high) {
+		*out = negative ? -literal.value.i : literal.value.i;
+		return true;
+	}
+	if (result != LITERAL_NONE || !walk->fold.value)
+		return fail(walk, result == LITERAL_RANGE ? DIAG_LITERAL_RANGE : DIAG_REPEAT_KIND, text, len);
+	why = walk->fold.value(walk->fold.context, text, len, &value);
+	*out = value.value.i;
+	return why == DIAG_COUNT || fail(walk, why, text, len);
+}
+
+/* `3(` or `2 * N(`: a repeated value. */
 static bool take_times(struct init_walk *walk, struct init_level *level)
 {
+	const char *text = walk->lex.token.text, *end = text;
 	struct lex ahead = walk->lex;
-	struct literal literal;
 
 	level->times = 0;
-	if (ahead.token.kind != TOKEN_NUMBER)
+	if (!skip_count(walk, &ahead, &end))
 		return true;
-	lex_next(&ahead);
-	if (!lex_is(&ahead, "("))
-		return true;
-	if (literal_parse(walk->lex.token.text, walk->lex.token.len, &literal) !=
-	    LITERAL_OK || literal.real || literal.high ||
-	    literal.type != IEC_NONE || literal.value.i < 1 ||
-	    literal.value.i > LIMIT_ELEMENTS)
-		return fail_token(walk, DIAG_LITERAL_RANGE);
+	if (!compute_count(walk, text, (size_t)(end - text), &walk->count))
+		return false;
+	walk->left = level->count - level->element;
+	if (walk->count < 1 || walk->count > walk->left) {
+		level->element++; /* init_where() names the one before it */
+		return fail(walk, walk->count < 1 ? DIAG_REPEAT_NONE : DIAG_REPEAT_MANY, text,
+			    (size_t)(end - text));
+	}
 	lex_next(&ahead);
 	walk->lex = ahead;
-	level->times = (uint32_t)literal.value.i;
+	level->times = (uint32_t)walk->count;
 	level->again = ahead;
 	return true;
 }
@@ -368,6 +444,54 @@ bool init_next(struct init_walk *walk, struct init_value *out)
 		inside = walk->depth > depth;
 	} while (out->type == IEC_NONE);
 	return true;
+}
+
+/* ---- what a walk found ---- */
+
+static bool push_values(struct project *project, struct var *var, struct var_init values)
+{
+	struct var_init *slot;
+
+	if (!values.count)
+		return true;
+	slot = arena_push(&project->arena, &var->init_list, &var->init_count, sizeof(*slot));
+	if (slot)
+		*slot = values;
+	return slot;
+}
+
+bool init_keep(const struct init_walk *walk, struct project *project, struct var *var,
+	       const struct init_value *value, uint32_t *next)
+{
+	const struct word_pin like = shape_pin(var);
+	const uint32_t at = value->offset / shape_of(&project->words, &like).unit;
+	struct var_init values;
+
+	if (!push_values(project, var, (struct var_init){ .count = at - *next }))
+		return false;
+	*next = walk->level[0].element;
+	values = (struct var_init){ .count = *next - at, .value = value->value };
+	if (value->type == IEC_STRING)
+		values.text = names_intern(&project->names, value->text, value->len);
+	return push_values(project, var, values);
+}
+
+#define SAY_MOST 30 /* bytes of the faulty value, so that its column is known */
+
+void init_say(const struct init_walk *walk, char *out, size_t size)
+{
+	const int len = walk->arg_len < SAY_MOST ? (int)walk->arg_len : SAY_MOST;
+	const bool count = walk->why == DIAG_REPEAT_NONE || walk->why == DIAG_REPEAT_MANY;
+	const char *text = walk->arg_len ? walk->arg : "";
+	char number[24], left[24] = "";
+
+	snprintf(number, sizeof(number), "%lld", (long long)walk->count);
+	if (walk->why == DIAG_REPEAT_MANY)
+		snprintf(left, sizeof(left), DIAG_AND "%u", (unsigned int)walk->left);
+	if (!count || (strlen(number) == walk->arg_len && !memcmp(number, text, walk->arg_len)))
+		snprintf(out, size, "%.*s%s", len, text, left);
+	else
+		snprintf(out, size, "%.*s = %s%s", len, text, number, left);
 }
 
 void init_where(const struct init_walk *walk, char *out, size_t size)

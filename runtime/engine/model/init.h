@@ -44,10 +44,12 @@ struct init_value {
 /* Computes constant expressions; without it they are errors. */
 struct init_fold {
 	/* The value, of @out->type, of @len bytes of @text; @out gets value and literal.
+	 * IEC_NONE: of the n of n( … ), an integer of any type.
 	 * Fails: why; DIAG_COUNT: it did not. */
 	enum diag_id (*value)(void *context, const char *text, size_t len,
 			      struct init_value *out);
 	void *context;
+	struct word_table *words;   /* tell the call of a function from n( … )  */
 };
 
 struct init_walk {
@@ -62,6 +64,8 @@ struct init_walk {
 	enum diag_id why;           /* DIAG_COUNT: no error                   */
 	const char *arg;            /* argument of the error; borrowed from the text */
 	size_t arg_len;
+	int64_t count;              /* of a wrong n( … ): n                    */
+	uint32_t left;              /* and the elements that are left for it  */
 };
 
 /** init_has_parts - whether the initial value of @var is such a text. Scan-safe: yes. */
@@ -78,6 +82,18 @@ void init_begin(struct init_walk *walk, const struct project *project,
 /** init_next - the next constant. Scan-safe: no. Fails: false after the last one, and
  * after an error: walk->why. */
 bool init_next(struct init_walk *walk, struct init_value *out);
+/**
+ * init_keep - adds the constant that init_next() gave to the list of an array of constants
+ * @next: the element behind the last one that was added; at first 0
+ *
+ * Elements between them, of n(), keep their 0.
+ * Owns: nothing; the list is the project's. Scan-safe: no. Fails: false when memory is out.
+ */
+bool init_keep(const struct init_walk *walk, struct project *project, struct var *var,
+	       const struct init_value *value, uint32_t *next);
+/** init_say - the arguments of the message about walk->why, without the name of the variable; as
+ * snprintf. Scan-safe: no. */
+void init_say(const struct init_walk *walk, char *out, size_t size);
 /** init_where - the path of the present value behind the variable's name: `[3].Speed`;
  * as snprintf. Scan-safe: no. */
 void init_where(const struct init_walk *walk, char *out, size_t size);

@@ -428,9 +428,10 @@ const struct code_power *code_result(const struct program *program, uint32_t pou
 		uint32_t middle = low + (high - low) / 2;
 		const struct code_power *at = &program->power[middle];
 
-		if (at->pou == pou && at->rung == line)
-			return at->row == 0 && at->col == CODE_LINE ? at : NULL;
-		if (at->pou > pou || (at->pou == pou && at->rung > line))
+		/* Cells of a chart's rungs lie between the lines of its lists. */
+		if (at->pou == pou && at->rung == line && at->row == 0)
+			return at->col == CODE_LINE ? at : NULL;
+		if (at->pou > pou || (at->pou == pou && at->rung >= line))
 			high = middle;
 		else
 			low = middle + 1;

@@ -6,10 +6,11 @@
  * order until the line reads. It never changes the project.
  */
 #include "engine/text/mend.h"
+#include "engine/text/mend_number.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
-#include "engine/model/expr.h"
+#include "engine/model/expr_args.h"
 #include "engine/text/reader.h"
 #include "engine/text/text.h"
 
@@ -129,13 +130,6 @@ static const struct rule {
 	{ "AWL", "IL", IN_HEAD }, { "KOP", "LD", IN_HEAD },
 };
 
-/* Behind a number: units of other tools. */
-static const struct { const char *from, *to; } units[] = {
-	{ "ms", "ms" }, { "msec", "ms" }, { "s", "s" }, { "sec", "s" }, { "secs", "s" },
-	{ "second", "s" }, { "seconds", "s" }, { "m", "m" }, { "min", "m" }, { "mins", "m" },
-	{ "minute", "m" }, { "minutes", "m" }, { "h", "h" }, { "hour", "h" }, { "hours", "h" },
-	{ "us", "us" }, { "d", "d" }, { "days", "d" },
-};
 #define COUNT(table) (sizeof(table) / sizeof((table)[0]))
 
 /* Longer than any line. */
@@ -206,17 +200,11 @@ static void change(struct mender *m, size_t at, size_t len, const char *to)
 	m->text[m->len] = '\0';
 }
 
-static bool is_word(char c)
-{
-	return ascii_digit(c) || c == '_' || (ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z') ||
-	       (unsigned char)c >= 0x80;
-}
-
 static size_t word_length(const char *text)
 {
 	size_t len = 0;
 
-	while (is_word(text[len]))
+	while (mend_is_word(text[len]))
 		len++;
 	return len;
 }
@@ -243,14 +231,14 @@ static const struct rule *rule_at(const struct mender *m, size_t at)
 	for (size_t i = 0; i < COUNT(rules); i++) {
 		const struct rule *rule = &rules[i];
 		const size_t len = strlen(rule->from);
-		const bool word = is_word(rule->from[0]) && (unsigned char)rule->from[0] < 0x80;
+		const bool word = mend_is_word(rule->from[0]) && (unsigned char)rule->from[0] < 0x80;
 
 		if (!(rule->where & m->where) || m->len - at < len ||
 		    !ascii_same(rule->from, text, len))
 			continue;
 		if (at && strcmp(rule->to, "//") == 0)
 			continue;
-		if (word && ((at && is_word(text[-1])) || is_word(text[len]) ||
+		if (word && ((at && mend_is_word(text[-1])) || mend_is_word(text[len]) ||
 			     is_known(m, at)))
 			continue;
 		return rule;
@@ -283,38 +271,53 @@ static void pass(struct mender *m, const char *text, size_t len)
 	}
 }
 
+static bool separates(const struct mender *m, size_t comma)
+{
+	return mend_separates(m->text, comma, m->in->kind == MEND_VAR);
+}
+
+/* 1.500,5, but not in [1,500,5]. */
+static size_t take_groups(const struct mender *m, size_t at, char made[MADE])
+{
+	const size_t len = mend_groups(m->text, at, made, MADE);
+
+	for (size_t i = at; i < at + len; i++)
+		if ((m->text[i] == ',' || m->text[i] == ' ') && separates(m, i))
+			return 0;
+	return len;
+}
+
 /* A number in the manner of C, of assemblers, or with a comma; a time without T#. Returns the
  * place behind it. */
 static size_t take_number(struct mender *m, size_t at)
 {
 	const char *text = m->text + at;
-	size_t len = 0, unit, gap;
+	const bool holds = m->where & (IN_EXPR | IN_ROW | IN_VALUE | IN_LIST);
+	size_t len = 0, whole;
 	char made[MADE];
 
 	if (text[0] == '0' && (text[1] == 'x' || text[1] == 'X' || text[1] == 'b') &&
-	    is_word(text[2])) {
+	    mend_is_word(text[2])) {
 		const char *base = text[1] == 'b' ? "2#" : "16#";
 
 		change(m, at, 2, base);
 		return at + strlen(base) + word_length(m->text + at + strlen(base));
 	}
+	whole = holds ? take_groups(m, at, made) : 0;
+	if (whole)
+		change(m, at, whole, made);
 	while (ascii_digit(text[len]) || (text[len] == '.' && ascii_digit(text[len + 1])) ||
 	       (text[len] == '_' && ascii_digit(text[len + 1])))
 		len++;
-	if (text[len] == ',' && ascii_digit(text[len + 1]) && m->depth < 2 &&
-	    m->where & (IN_EXPR | IN_ROW | IN_VALUE | IN_LIST)) {
+	if (text[len] == ',' && ascii_digit(text[len + 1]) && holds && m->depth < 2 &&
+	    !separates(m, at + len)) {
 		change(m, at + len, 1, ".");
 		return take_number(m, at);
 	}
-	gap = text[len] == ' ';
-	unit = word_length(text + len + gap);
-	for (size_t i = 0; unit && i < COUNT(units) && len < 12; i++) {
-		if (!ascii_is(units[i].from, text + len + gap, unit))
-			continue;
-		snprintf(made, sizeof(made), "%s%.*s%s", at > 1 && text[-1] == '#' ? "" : "T#",
-			 (int)len, text, units[i].to);
-		if (memcmp(made, text, len + unit) != 0 || gap)
-			change(m, at, len + gap + unit, made);
+	whole = mend_unit(m->text, at, len, made, sizeof(made));
+	if (whole) {
+		if (strlen(made) != whole || memcmp(made, text, whole) != 0)
+			change(m, at, whole, made);
 		return at + strlen(made);
 	}
 	return at + len + word_length(text + len);
@@ -365,7 +368,7 @@ static size_t take_one(struct mender *m, size_t at)
 		if (strcmp(rule->from, "/*") == 0 && strstr(text, "*/"))
 			change(m, (size_t)(strstr(text, "*/") - m->text), 2, "*)");
 		/* Quotes and bars have more to be looked at. */
-		if (!is_word(*rule->to) || m->full)
+		if (!mend_is_word(*rule->to) || m->full)
 			return m->full ? m->len : *rule->to == ' ' ? at + 1 :
 			       *rule->to == '-' ? at + strlen(rule->to) : at;
 		pass(m, rule->to, strlen(rule->to));
@@ -495,6 +498,40 @@ static bool is_head(const struct mender *m)
 	return is_of_chart(m);
 }
 
+/* Has the call that begins at @lex one argument too many, or too few? */
+static bool is_wrong_call(const struct mender *m, struct lex lex, struct expr *expr,
+			  struct diag_list *diags)
+{
+	struct word_table *words = &m->in->project->words;
+
+	return expr_parse(&lex, expr, diags, (struct diag){ .id = DIAG_BAD_EXPRESSION }) &&
+	       expr_has_wrong_call(expr, words);
+}
+
+/* Are its constants well formed, and do calls of built-in functions have the arguments that
+ * they need? A reader leaves both to the checks that follow it. */
+static bool numbers_read(const struct mender *m)
+{
+	struct expr *expr = malloc(sizeof(*expr));
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	bool good = expr && diags;
+	struct literal literal;
+	struct lex lex, ahead;
+
+	lex_init(&lex, m->text, m->len);
+	while (good && lex_next(&lex) != TOKEN_END) {
+		ahead = lex;
+		if (lex.token.kind == TOKEN_NUMBER)
+			good = literal_parse(lex.token.text, lex.token.len, &literal) != LITERAL_BAD;
+		else if (lex.token.kind == TOKEN_NAME && lex_next(&ahead) != TOKEN_END &&
+			 lex_is(&ahead, "("))
+			good = !is_wrong_call(m, lex, expr, diags);
+	}
+	free(diags);
+	free(expr);
+	return good;
+}
+
 static bool line_reads(const struct mender *m)
 {
 	struct project *project = m->in->project;
@@ -513,7 +550,61 @@ static bool line_reads(const struct mender *m)
 	       !diags->errors;
 	project->advice = advice;
 	free(diags);
-	return good;
+	return good && numbers_read(m);
+}
+
+/* ---- decimal commas where a comma may separate ---- */
+
+/* Makes a point of the comma at @at, or of the number around it one without thousands apart.
+ * Returns the place behind the number. */
+static size_t join_number(struct mender *m, size_t at)
+{
+	char made[MADE];
+	size_t from = at, len;
+
+	while (from && (ascii_digit(m->text[from - 1]) || m->text[from - 1] == '.'))
+		from--;
+	len = mend_groups(m->text, from, made, sizeof(made));
+	if (from + len > at) {
+		change(m, from, len, made);
+		return from + strlen(made);
+	}
+	change(m, at, 1, ".");
+	return at + 1 + word_length(m->text + at + 1);
+}
+
+static void join_numbers(struct mender *m, int open)
+{
+	const bool declares = m->in->kind == MEND_VAR;
+	int at = mend_next_decimal(m->text, 0, open, declares);
+
+	while (at >= 0 && !m->full) {
+		const size_t behind = join_number(m, (size_t)at);
+
+		/* The comma behind a number that was joined separates. */
+		at = mend_next_decimal(m->text, (int)behind + (m->text[behind] != '\0'), open,
+				       declares);
+	}
+}
+
+/* [1,5, 2,5] → [1.5, 2.5], SQRT(1,5) → SQRT(1.5): in all brackets, else in one of them. */
+static void mend_commas(struct mender *m)
+{
+	const struct mender before = *m;
+	const struct mended told = *m->out;
+	int open = -1, at = -1;
+
+	do {
+		join_numbers(m, open);
+		if (!m->full && line_reads(m))
+			return;
+		*m = before;
+		*m->out = told;
+		do
+			at = mend_next_decimal(m->text, at + 1, -1, m->in->kind == MEND_VAR);
+		while (at >= 0 && mend_bracket(m->text, (size_t)at) == open);
+		open = at >= 0 ? mend_bracket(m->text, (size_t)at) : -1;
+	} while (at >= 0);
 }
 
 /* ---- what is missing ---- */
@@ -702,7 +793,7 @@ static void turn_type(struct mender *m, const struct piece *piece, int count)
 {
 	char made[MADE];
 
-	if (count < 2 || !is_type(m, piece[0]) || !is_word(m->text[piece[1].at]) ||
+	if (count < 2 || !is_type(m, piece[0]) || !mend_is_word(m->text[piece[1].at]) ||
 	    (count > 2 && piece_is(m, piece[2], ":")))
 		return;
 	snprintf(made, sizeof(made), "%.*s : %.*s", (int)piece[1].len, m->text + piece[1].at,
@@ -727,7 +818,7 @@ static void join_name(struct mender *m, const struct piece *piece, int count)
 			break;
 		if (is_type(m, piece[i]) || m->text[piece[i].at] == '%')
 			return;
-		if (!is_word(m->text[piece[i].at]) && !piece_is(m, piece[i], "-"))
+		if (!mend_is_word(m->text[piece[i].at]) && !piece_is(m, piece[i], "-"))
 			return;
 		last = i;
 	}
@@ -736,7 +827,7 @@ static void join_name(struct mender *m, const struct piece *piece, int count)
 	snprintf(made, sizeof(made), "%.*s", (int)(piece[last].at + piece[last].len -
 						   piece[0].at), m->text + piece[0].at);
 	for (char *at = made; *at; at++)
-		if (!is_word(*at))
+		if (!mend_is_word(*at))
 			*at = '_';
 	change(m, piece[0].at, piece[last].at + piece[last].len - piece[0].at, made);
 }
@@ -901,7 +992,8 @@ static bool condition_reads(const struct mender *m, size_t at)
 	lex_next(&lex);
 	if (expr && diags)
 		good = expr_parse_cell(&lex, expr, diags, (struct diag){ .id = DIAG_BAD_EXPRESSION }) &&
-		       lex_is(&lex, ";") && !expr->target;
+		       lex_is(&lex, ";") && !expr->target &&
+		       !expr_has_wrong_call(expr, &m->in->project->words);
 	free(diags);
 	free(expr);
 	return good;
@@ -913,9 +1005,11 @@ static void mend_condition(struct mender *m, size_t from)
 	size_t at = from;
 
 	m->where = IN_EXPR;
-	m->depth = 2; /* a comma separates arguments */
+	m->depth = 0;
 	while (at < m->len && m->text[at] != ';' && !m->full)
 		at = m->text[at] == ' ' ? at + 1 : take_one(m, at);
+	if (!m->full && !condition_reads(m, from))
+		join_numbers(m, -1);
 	m->full = m->full || !condition_reads(m, from);
 }
 
@@ -1028,6 +1122,8 @@ bool mend_line(const struct mend_line *line, struct mended *out)
 	replace_signs(&m);
 	if (line->kind != MEND_HEAD || !is_of_chart(&m))
 		replace_words(&m);
+	if (!m.full && line->kind != MEND_HEAD && !line_reads(&m))
+		mend_commas(&m);
 	if (!m.full && (line->kind == MEND_HEAD ? !m.changed : !line_reads(&m)))
 		mend[line->kind](&m);
 	if (!m.changed || !line_reads(&m))

@@ -2,8 +2,10 @@
  *
  * read_array - ARRAY[low..high] OF, and initial values: [1, 2, 3(7)], (Speed := 5).
  *
- * Bounds are integer constants of one dimension, or constant expressions. check/ finds whether
- * a variable with an address leaves its area.
+ * Bounds are integer constants of one dimension, or constant expressions. Initial values are
+ * kept as text: model/init.c walks it, here if it needs no constant expression and the type is
+ * known, else after the whole project was read. check/ finds whether a variable with an address
+ * leaves its area.
  */
 #include "engine/text/reader.h"
 
@@ -88,104 +90,7 @@ bool read_array(struct reader *r, struct var *var)
 
 /* ---- initial values ---- */
 
-/* Reads the `3(` before a value: the count; 1 without. The text of the count is kept too. */
-static bool read_times(struct reader *r, uint32_t *times)
-{
-	const struct token *token = &r->lex.token;
-	struct literal literal;
-
-	*times = 1;
-	if (token->kind != TOKEN_NUMBER || !reader_peek(r, "("))
-		return true;
-	if (literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
-	    literal.real || literal.high || literal.type != IEC_NONE || literal.value.i < 1 ||
-	    literal.value.i > LIMIT_ELEMENTS)
-		return reader_fail_token(r, DIAG_LITERAL_RANGE);
-	*times = (uint32_t)literal.value.i;
-	buffer_add(r, &r->text, token->text, token->len);
-	buffer_add(r, &r->text, "(", 1);
-	reader_step(r);
-	reader_step(r);
-	return true;
-}
-
-static bool add_values(struct reader *r, struct var *var, uint32_t *room,
-		       struct var_init init)
-{
-	struct var_init *slot;
-
-	if (init.count > *room)
-		return reader_fail_word(r, DIAG_TOO_MANY_VALUES, "");
-	*room -= init.count;
-	slot = arena_push(&r->project->arena, &var->init_list,
-			  &var->init_count, sizeof(*slot));
-	if (slot)
-		*slot = init;
-	else
-		r->no_memory = true;
-	return slot != NULL;
-}
-
-/* One value, or several alike. */
-static bool read_values(struct reader *r, struct var *var, uint32_t *room)
-{
-	const size_t from = r->text.len;
-	struct var_init init = { 1, { .i = 0 }, 0 };
-	size_t value;
-
-	if (!read_times(r, &init.count))
-		return false;
-	bool several = r->text.len != from;
-
-	value = r->text.len;
-	if (several && reader_is(r, ')'))
-		init.text = 0; /* n(): n elements keep their 0 */
-	else if (!read_constant(r, var->type, &init.value))
-		return false;
-	else if (var->type == IEC_STRING)
-		init.text = reader_intern(r, r->text.text + value,
-					  r->text.len - value);
-	if (several) {
-		if (!reader_is(r, ')'))
-			return reader_fail_word(r, DIAG_EXPECTED, ")");
-		buffer_add(r, &r->text, ")", 1);
-		reader_step(r);
-	}
-	return add_values(r, var, room, init);
-}
-
-static bool read_init_text(struct reader *r, struct var *var);
-static bool has_expressions(const struct reader *r);
-
-bool read_init_list(struct reader *r, struct var *var)
-{
-	uint32_t room = var->array.count;
-
-	if (reader_is(r, '[') && (var->written || has_expressions(r)))
-		return read_init_text(r, var);
-
-	if (!reader_is(r, '['))
-		return reader_fail_word(r, DIAG_EXPECTED, "[");
-	buffer_clear(&r->text);
-	buffer_add(r, &r->text, "[", 1);
-	reader_step(r);
-	while (read_values(r, var, &room)) {
-		if (reader_is(r, ']')) {
-			buffer_add(r, &r->text, "]", 1);
-			var->has_init = true;
-			var->init_text = buffer_take(r, &r->text);
-			reader_step(r);
-			return true;
-		}
-		if (!reader_is(r, ','))
-			return reader_fail_word(r, DIAG_EXPECTED, ", or ]");
-		buffer_add(r, &r->text, ", ", 2);
-		reader_step(r);
-	}
-	return false;
-}
-
-/* ---- of what has parts, or expressions ---- */
+#define BRACKETS 64 /* inside one another */
 
 static bool opens(const struct token *token)
 {
@@ -284,13 +189,38 @@ static bool is_part(const struct reader *r)
 	return false;
 }
 
+/* The sign that closes the innermost bracket; bit 0 of @open: it is a [. */
+static const char *closing(uint64_t open, int depth)
+{
+	return !(open & 1) ? ")" : depth == 1 ? ", or ]" : "]";
+}
+
+/* Counts the brackets @open of which @depth are open; one that does not fit is an error. */
+static bool count_bracket(struct reader *r, uint64_t *open, int *depth)
+{
+	const struct token *token = &r->lex.token;
+
+	if (opens(token)) {
+		if (++*depth > BRACKETS)
+			return reader_fail_word(r, DIAG_TOO_DEEP, "");
+		*open = *open << 1 | (*token->text == '[');
+	} else if (closes(token)) {
+		if ((*open & 1) != (*token->text == ']'))
+			return reader_fail_word(r, DIAG_EXPECTED, closing(*open, *depth));
+		*open >>= 1;
+		--*depth;
+	}
+	return true;
+}
+
 /* Reads the values in the brackets at the cursor as text. */
 static bool read_init_text(struct reader *r, struct var *var)
 {
 	const struct token *token = &r->lex.token;
 	struct token before = { .kind = TOKEN_END };
+	uint64_t open = 0, named = 0;
 	bool sign = false;
-	int open = 0;
+	int depth = 0;
 
 	if (has_expressions(r) || var->written) {
 		struct var_written *written = reader_written(r, var, WRITTEN_INITIAL);
@@ -305,18 +235,71 @@ static bool read_init_text(struct reader *r, struct var *var)
 
 		if (!is_part(r))
 			return reader_fail_word(r, DIAG_EXPECTED,
-						reader_is(r, ';') ? ") or ]" :
+						reader_is(r, ';') ? closing(open, depth) :
 						"initial value");
-		open += opens(token);
-		open -= closes(token);
+		named = opens(token) ? named << 1 : closes(token) ? named >> 1 :
+			named | lex_is(&r->lex, ":=");
+		/* (Speed := 1,5): a member has a name. */
+		if (named & 1 && token->kind == TOKEN_NUMBER && !token->space_before && last &&
+		    is_symbol(last, ",") && !last->space_before)
+			return reader_fail_word(r, DIAG_EXPECTED, "name of a member");
+		if (!count_bracket(r, &open, &depth))
+			return false;
 		add_part(r, last, sign);
 		sign = (is_symbol(token, "-") || is_symbol(token, "+")) && is_before_value(last);
 		before = *token;
 		reader_step(r);
-	} while (open > 0);
+	} while (depth > 0);
 	var->has_init = true;
 	var->init_text = buffer_take(r, &r->text);
 	return true;
+}
+
+/* Reports why the walk over var->init_text failed, at the same token of the text that began at
+ * @start. */
+static bool fail_walk(struct reader *r, const struct var *var, const struct lex *start)
+{
+	const struct init_walk *walk = &r->walk;
+	const struct lex behind = r->lex;
+	const char *text = project_text(r->project, var->init_text);
+	/* An argument is a part of the text, or the name of what is expected. */
+	const char *at = walk->arg >= text &&
+			 walk->arg < text + names_len(&r->project->names, var->init_text) ?
+			 walk->arg : walk->lex.token.text;
+	char said[LIMIT_ARG];
+	struct lex lex;
+
+	lex_init(&lex, text, names_len(&r->project->names, var->init_text));
+	r->lex = *start;
+	r->lex.newlines = r->lex.comments = false;
+	while (lex_next(&lex) != TOKEN_END && lex.token.text < at)
+		lex_next(&r->lex);
+	init_say(walk, said, sizeof(said));
+	if (walk->why != DIAG_SIGN_MISSING && walk->why != DIAG_EXPECTED)
+		reader_fail_word(r, walk->why, said);
+	else
+		reader_fail_word(r, DIAG_EXPECTED, strcmp(said, "]") == 0 ? ", or ]" : said);
+	r->lex = behind;
+	return false;
+}
+
+bool read_init_list(struct reader *r, struct var *var)
+{
+	const struct lex start = r->lex;
+	struct init_value value;
+	uint32_t next = 0;
+
+	if (!reader_is(r, '['))
+		return reader_fail_word(r, DIAG_EXPECTED, "[");
+	if (!read_init_text(r, var))
+		return false;
+	if (var->written) /* check/settle.c walks it */
+		return true;
+	init_begin(&r->walk, r->project, var, &r->project->arena);
+	while (init_next(&r->walk, &value))
+		if (!init_keep(&r->walk, r->project, var, &value, &next))
+			return r->no_memory = true, false;
+	return r->walk.why == DIAG_COUNT || fail_walk(r, var, &start);
 }
 
 bool read_init_parts(struct reader *r, struct var *var)

@@ -271,7 +271,12 @@ static bool read_function(struct reader *r, const struct token *word,
 	}
 	if (reader_at_end(r) && (row->pin_count == 1 || own)) /* SQRT: of the result alone */
 		return add_line(r, line);
-	return read_operand(r, word, &line) && read_more_operands(r, word, &line);
+	if (!read_operand(r, word, &line))
+		return false;
+	if (row->pin_count > 1 && reader_is(r, ',') && row->most_inputs <= 2 &&
+	    reader_mend(r, DIAG_BAD_EXPRESSION)) /* GT 2,5 */
+		return false;
+	return read_more_operands(r, word, &line);
 }
 
 static bool read_label_operand(struct reader *r, const struct token *word,

@@ -106,7 +106,8 @@ static enum word check_expression(struct reader *r)
 		reader_mend_last(r);
 		return WORD_COUNT;
 	}
-	if (has_bad_literal(&r->expr) && reader_mend(r, DIAG_BAD_LITERAL))
+	if ((has_bad_literal(&r->expr) || expr_has_wrong_call(&r->expr, &r->project->words)) &&
+	    reader_mend(r, DIAG_BAD_LITERAL))
 		return WORD_COUNT;
 	if (lex_is(&lex, "]"))
 		return r->expr.target ? ELEM_ASSIGN : ELEM_COMPARE;

@@ -726,6 +726,8 @@ static bool check_expression(struct reader *r)
 	place.id = DIAG_BAD_EXPRESSION;
 	if (!expr_parse_cell(&lex, &r->expr, r->diags, place))
 		return reader_mend_last(r);
+	if (expr_has_wrong_call(&r->expr, &r->project->words) && reader_mend(r, DIAG_BAD_LITERAL))
+		return false;
 	if (lex_is(&lex, ";") && !r->expr.target)
 		return true;
 	if (!r->expr.target) {

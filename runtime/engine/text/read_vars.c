@@ -141,6 +141,8 @@ bool reader_expression(struct reader *r, struct var *var, enum written_place whe
 	place.line = lex.token.line;
 	if (!expr_parse(&lex, &r->expr, r->diags, place))
 		return false;
+	if (expr_has_wrong_call(&r->expr, &r->project->words) && reader_mend(r, DIAG_BAD_LITERAL))
+		return false;
 	add_tokens(r, lex.token.text);
 	return !r->no_memory;
 }

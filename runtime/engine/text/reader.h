@@ -11,7 +11,8 @@
 
 #include "engine/base/diag.h"
 #include "engine/base/lex.h"
-#include "engine/model/expr.h"
+#include "engine/model/expr_args.h"
+#include "engine/model/init.h"
 #include "engine/model/project.h"
 #include "engine/text/text.h"
 #include "engine/text/writer.h"
@@ -70,6 +71,7 @@ struct reader {
 	uint8_t row_cols[LIMIT_ROWS];
 	int rows;
 	struct expr expr;
+	struct init_walk walk;      /* of the list of an array                */
 };
 
 /** reader_new - before the first token; NULL: no memory. Owns: the caller. */

@@ -507,10 +507,49 @@ static void assemble_op(struct list *list, const struct il_line *line)
 
 /* ---- the current result after each line, while watched ---- */
 
-/* Lines of a chart's lists are not kept: their lists are made twice, and differ. */
+/* Of a written list, and of the lists in a chart. */
 static bool keeps_results(const struct list *list)
 {
-	return list->as->watching && list->pou->language == LANGUAGE_IL;
+	return list->as->watching && list->pou->il.count > 0 &&
+	       (list->pou->language == LANGUAGE_IL || list->pou->language == LANGUAGE_SFC);
+}
+
+static struct frame *frame_of(const struct list *list)
+{
+	return &list->as->frame[list->unit - list->as->translation->unit];
+}
+
+/* First pass: room for the number of the result of each line of the POU. */
+static bool make_slots(struct list *list)
+{
+	const struct il *il = &list->pou->il;
+	struct frame *frame = frame_of(list);
+	uint32_t last = 0;
+
+	if (!keeps_results(list) || frame->slot_of)
+		return true;
+	frame->first_line = UINT32_MAX;
+	for (int i = 0; i < il->count; i++) {
+		frame->first_line = il->line[i].line < frame->first_line ? il->line[i].line :
+				    frame->first_line;
+		last = il->line[i].line > last ? il->line[i].line : last;
+	}
+	frame->lines = last - frame->first_line + 1;
+	frame->slot_of = arena_alloc(list->as->arena, ((size_t)frame->lines + 1) *
+				     sizeof(*frame->slot_of));
+	for (int i = 0; frame->slot_of && i < il->count; i++)
+		frame->slot_of[il->line[i].line - frame->first_line] = SLOT_FREE;
+	return frame->slot_of;
+}
+
+/* Of a line that is written in a list; NULL: it is not. A chart copies a list to each place
+ * where it runs, among lines that translation makes. */
+static int *slot_of_line(const struct frame *frame, uint32_t line)
+{
+	int *slot = line - frame->first_line < frame->lines ?
+		    &frame->slot_of[line - frame->first_line] : NULL;
+
+	return slot && *slot != SLOT_NONE ? slot : NULL;
 }
 
 static bool is_instruction(const struct il_line *line)
@@ -551,37 +590,30 @@ static enum iec_type result_type(const struct il_result *now)
 	return IEC_NONE;
 }
 
-/* A label and an instruction may share a line: the last one counts. */
-static struct result *result_of_line(const struct frame *frame, int count, uint32_t line)
+/* First pass: which lines there are, and the types of their results. A label and an instruction
+ * may share a line: the last one counts. */
+static void note_result(struct list *list, struct frame *frame, int *slot, uint32_t line)
 {
-	struct result *last = count ? &frame->result[count - 1] : NULL;
-
-	return last && last->line == line ? last : NULL;
-}
-
-/* First pass: which lines there are, and the types of their results. */
-static void note_result(struct list *list, struct frame *frame, uint32_t line)
-{
-	struct result *result = result_of_line(frame, frame->result_count, line);
-
-	if (!result)
-		result = arena_push(list->as->arena, &frame->result,
-				    &frame->result_count, sizeof(*result));
-	if (!result) {
+	if (*slot == SLOT_FREE && !arena_push(list->as->arena, &frame->result,
+					      &frame->result_count, sizeof(*frame->result))) {
 		list->as->failed = true;
 		return;
 	}
-	*result = (struct result){ .line = line, .type = result_type(&list->now) };
+	if (*slot == SLOT_FREE)
+		*slot = frame->result_count;
+	frame->result[*slot - 1] = (struct result){ .line = line,
+						    .type = result_type(&list->now) };
 }
 
 /* Second pass: into the places that they have got. */
-static void store_result(struct list *list, struct frame *frame, uint32_t line)
+static void store_result(struct list *list, struct frame *frame, const int *slot)
 {
-	struct result *result = result_of_line(frame, list->results, line);
 	const struct bits yes = bits_constant(true);
+	const struct result *result;
 
-	if (!result)
-		result = &frame->result[list->results++];
+	if (*slot == SLOT_FREE)
+		return;
+	result = &frame->result[*slot - 1];
 	bits_store(list->as, &yes, result->ran);
 	if (result->type == IEC_NONE || result->type != result_type(&list->now))
 		return;
@@ -595,14 +627,16 @@ static void store_result(struct list *list, struct frame *frame, uint32_t line)
 static void keep_result(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
-	struct frame *frame = &list->as->frame[list->unit - list->as->translation->unit];
+	struct frame *frame = frame_of(list);
+	int *slot = keeps_results(list) && is_instruction(line) ?
+		    slot_of_line(frame, line->line) : NULL;
 
-	if (!keeps_results(list) || !is_instruction(line))
+	if (!slot)
 		return;
 	if (list->as->text == &list->as->watch)
-		store_result(list, frame, line->line);
+		store_result(list, frame, slot);
 	else
-		note_result(list, frame, line->line);
+		note_result(list, frame, slot, line->line);
 }
 
 /* Before the first line no line has run. */
@@ -686,7 +720,7 @@ static bool assemble_unit(struct assembler *as, int unit, bool watch)
 	as->slots = list->straight ? &as->program_slots : &frame->slots;
 	bits_end(as);
 	as->scratch_used = 0;
-	if (!list_find_labels(list) || !list_count_reads(list))
+	if (!list_find_labels(list) || !list_count_reads(list) || !make_slots(list))
 		return false;
 	if (frame->temps_size)
 		emit_block(as, frame->temps, frame->temps_model,

@@ -88,6 +88,8 @@ struct result {
 	enum iec_type type;         /* IEC_NONE: no single value              */
 	uint32_t ran, at;           /* offsets: a BOOL; the value             */
 };
+#define SLOT_NONE 0    /* no line of a list                                      */
+#define SLOT_FREE (-1) /* a line without a result yet                            */
 #define RESULT_TEXT 40u /* bytes that are kept of a STRING, for people to read */
 
 struct text_key { const char *text; size_t len; uint32_t offset; };
@@ -98,8 +100,11 @@ struct frame {
 	uint32_t temps, temps_model, temps_size; /* its VAR_TEMP; size 0: none */
 	uint32_t power, power_size; /* of its cells or lines, and of instances inside */
 	int power_run;              /* the first run of that                  */
-	struct result *result;      /* of a written list, by line; only while watched */
+	struct result *result;      /* of written lists; only while watched   */
 	int result_count;
+	int *slot_of;               /* by line from first_line on: SLOT_NONE, SLOT_FREE, or
+				     * 1 + its index in result                */
+	uint32_t first_line, lines;
 	bool eno;                   /* does the body name its ENO?              */
 	struct slots slots;
 };

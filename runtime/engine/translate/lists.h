@@ -62,7 +62,6 @@ struct list {
 	uint32_t label_count;
 	struct { uint32_t word, fold; } *fixup;
 	int fixup_count;
-	int results;                  /* of the POU's frame: lines noted so far */
 };
 
 /* ---- temps.c ---- */

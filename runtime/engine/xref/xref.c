@@ -430,6 +430,14 @@ static void add_word(struct xref_walk *walk, enum word word, enum xref_kind kind
 
 #define INIT_LEVELS (2 * INIT_DEPTH) /* brackets inside one another, with those of n( … ) */
 
+/* A name with a ( behind it calls a function, or is the n of n( … ). */
+static bool is_function(const struct xref_walk *walk, const struct token *name)
+{
+	struct word_table *words = &walk->project->words;
+
+	return words_row(words, words_find(words, name->text, name->len))->kind == WORD_FN;
+}
+
 /* Adds the members that initial values name: `[(Speed := 5), 2(Wait := T#2s)]`. */
 static void walk_initial(struct xref_walk *walk, struct var *var)
 {
@@ -463,7 +471,8 @@ static void walk_initial(struct xref_walk *walk, struct var *var)
 			next = word_of(xref_var(walk->project, &target));
 			xref_add(walk, target, XREF_INITIAL, (uint32_t)(token.text - text),
 				 (uint32_t)token.len);
-		} else if (token.kind == TOKEN_NAME && var->written && !lex_is(&lex, "(")) {
+		} else if (token.kind == TOKEN_NAME && var->written &&
+			   !(lex_is(&lex, "(") && is_function(walk, &token))) {
 			xref_scan(walk, (size_t)(token.text - text), token.len, XREF_READ);
 		}
 	}
@@ -477,7 +486,7 @@ static void walk_written(struct xref_walk *walk, struct var *var)
 	xref_all(walk, &var->written->bound[0], XREF_READ);
 	xref_all(walk, &var->written->bound[1], XREF_READ);
 	xref_all(walk, &var->written->capacity, XREF_READ);
-	if (var->written->initial && !init_has_parts(var))
+	if (var->written->initial && !init_has_parts(var) && !var->array.count)
 		xref_all(walk, &var->init_text, XREF_READ);
 }
 
@@ -500,7 +509,7 @@ static void walk_table(struct xref_walk *walk, int number)
 		if (var->type == IEC_NONE)
 			add_word(walk, var->fb, XREF_TYPE);
 		walk_written(walk, var);
-		if (init_has_parts(var))
+		if (init_has_parts(var) || (var->array.count && var->written))
 			walk_initial(walk, var);
 	}
 }

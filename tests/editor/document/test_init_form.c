@@ -150,6 +150,38 @@ static void test_expressions(void)
 	g_object_unref(document);
 }
 
+/* Written counts stay as they are written, unless the run that they count changes. */
+static void test_counts(void)
+{
+	LadderDocument *document = opened("RUNGBOARD 1\n\nTYPE\n  Recipe : STRUCT\n"
+		"    Steps : ARRAY[1..4] OF INT;\n    Speed : INT;\n  END_STRUCT;\nEND_TYPE\n\n"
+		"VAR CONSTANT\n  N : INT := 3;\nEND_VAR\n\n"
+		"VAR\n  A : ARRAY[1..12] OF INT := [N(7), 2 * N(7), 5];\n"
+		"  B : ARRAY[1..4] OF Recipe := [N - 1(Steps := [N(4)]), (Speed := 2)];\nEND_VAR\n\n"
+		"PROGRAM Main LD\nRUNG\n  | [ A[1] > B[1].Speed ] | COIL %QX0.0 |\nEND_PROGRAM\n");
+	char *why;
+	struct init_form *form = init_form_new(document, 0, 1, &why);
+
+	if (!CHECK(form))
+		return;
+	CHECK(is_text(form, "[9]", "7") && is_text(form, "[10]", "5") && is_text(form, "[11]", ""));
+	CHECK_AS(is_text(form, "", "[N(7), 2 * N(7), 5]"), "nothing changed");
+	CHECK(set(form, "[12]", "1") && is_text(form, "", "[N(7), 2 * N(7), 5, 0, 1]"));
+	CHECK(set(form, "[2]", "8") && is_text(form, "", "[7, 8, 7, 2 * N(7), 5, 0, 1]"));
+	CHECK(!init_node_set(form, find(form, ""), "[N - 3(1)]", &why) && strstr(why, "N - 3 = 0"));
+	g_free(why);
+	CHECK(!init_node_set(form, find(form, ""), "[5 * N(1)]", &why) &&
+	      strstr(why, "5 * N = 15") && strstr(why, "12"));
+	g_free(why);
+	init_form_free(form);
+	form = init_form_new(document, 0, 2, &why);
+	CHECK(form && is_text(form, "", "[N - 1(Steps := [N(4)]), (Speed := 2)]"));
+	CHECK(is_text(form, "[2] Steps [3]", "4") && set(form, "[3] Speed", "6") &&
+	      is_text(form, "", "[N - 1(Steps := [N(4)]), (Speed := 6)]"));
+	init_form_free(form);
+	g_object_unref(document);
+}
+
 static void test_arrays(LadderDocument *document)
 {
 	char *why;
@@ -407,6 +439,7 @@ int main(void)
 	test_defaults(document);
 	test_arrays(document);
 	test_expressions();
+	test_counts();
 	g_object_unref(document);
 	for (guint32 seed = 1; seed <= 400 && bad < 3; seed++)
 		bad += round_trip(seed);

@@ -376,6 +376,58 @@ static void test_results(void)
 	g_object_unref(sim);
 }
 
+static const char chart[] =
+	"RUNGBOARD 1\n\nVAR\n  Start : BOOL;\n  Level : INT := 7;\n  Out   : BOOL;\nEND_VAR\n\n"
+	"PROGRAM Main SFC\nINITIAL_STEP Idle:\n  Look (N);\nEND_STEP\n\n"
+	"STEP Fill:\n  Pour (N);\n  Look (N);\nEND_STEP\n\n"
+	"TRANSITION FROM Idle TO Fill:\n  LD    Start\n  ST    Out\nEND_TRANSITION\n\n"
+	"TRANSITION FROM Fill TO Idle := FALSE; END_TRANSITION\n\n"
+	"ACTION Look:\n  LD    Level\n  GT    5\n  JMPCN Low\n  LD    2\nLow:\nEND_ACTION\n\n"
+	"ACTION Pour:\n  LD    Level\n  ADD   100\n  ST    Level\nEND_ACTION\n"
+	"END_PROGRAM\n";
+
+/* Lists of conditions and actions in a chart: what is not evaluated in a scan is not run. */
+static void test_chart_results(void)
+{
+	LadderDocument *charted = ladder_document_new(), *other = document;
+	LadderTextView *listed = view;
+	GtkTextBuffer *text = buffer;
+	LadderSim *sim;
+
+	ladder_document_open_text(charted, "/tmp/x/chart.rung", chart, strlen(chart), true);
+	ladder_document_check_now(charted);
+	document = charted;
+	view = g_object_ref_sink(LADDER_TEXT_VIEW(ladder_text_view_new(charted, 0)));
+	buffer = GTK_TEXT_BUFFER(ladder_text_view_buffer(view));
+	sim = ladder_sim_new(charted);
+	ladder_text_view_set_sim(view, sim);
+	CHECK(has_result("GT    5", NULL) && ladder_sim_begin(sim, NULL));
+	CHECK(has_result("GT    5", "not run"));
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(has_result("GT    5", "TRUE") && has_result("LD    2", "2"));
+	CHECK(has_result("JMPCN Low", "TRUE") && has_beside("GT    5", NULL));
+	CHECK_AS(has_result("ADD   100", "not run") && has_result("ST    Level", "not run"),
+		 "the action of a step that is not active has not run");
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(has_result("LD    Start", "FALSE") && has_beside("LD    Start", "FALSE"));
+	CHECK_AS(has_result("STEP Fill", NULL) && has_result("ACTION Look", NULL) &&
+		 has_result("TRANSITION FROM", NULL), "only lines of lists have results");
+	set_bit(sim, "Start", true);
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(has_result("ADD   100", "207") || has_result("ADD   100", "107"));
+	CHECK_AS(has_result("LD    Start", "not run"), "its step is left");
+	CHECK(ladder_sim_show(sim, 1));
+	CHECK_AS(has_result("ADD   100", "not run") && has_result("GT    5", "TRUE"),
+		 "the results are those of the earlier scan");
+	ladder_sim_end(sim);
+	g_object_unref(sim);
+	g_object_unref(view);
+	g_object_unref(charted);
+	view = listed;
+	buffer = text;
+	document = other;
+}
+
 static void test_values(void)
 {
 	LadderSim *sim = ladder_sim_new(document);
@@ -434,6 +486,7 @@ int main(void)
 	test_soon();
 	test_values();
 	test_results();
+	test_chart_results();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);

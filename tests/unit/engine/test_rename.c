@@ -203,10 +203,10 @@ static void test_rich(void)
 static const char computed[] =
 	"RUNGBOARD 1\n\n"
 	"TYPE\n  Recipe : STRUCT\n    Speed : INT := Limit / 2;\n"
-	"    Steps : ARRAY[1..Count] OF INT := [Limit - 1, 2(Limit)];\n"
+	"    Steps : ARRAY[1..Count] OF INT := [Limit - 1, Count - 1(Limit)];\n"
 	"    Name  : STRING[Count + 4];\n  END_STRUCT;\nEND_TYPE\n\n"
 	"VAR\n  Max   : INT := LIMIT(0, Limit - 1, Count);\n"
-	"  Table : ARRAY[-Count..Limit * 2] OF INT := [Limit, 3(Count)];\n"
+	"  Table : ARRAY[-Count..Limit * 2] OF INT := [Limit, Count(Count), MAX(Base, 2)(7), 2 * Count(8)];\n"
 	"  Best  : Recipe := (Speed := Limit * 3, Steps := [Count]);\nEND_VAR\n\n"
 	"VAR CONSTANT\n  Limit : INT := Base * 2;\n  Base  : INT := 5;\n"
 	"  Count : INT := 3;\nEND_VAR\n\n"

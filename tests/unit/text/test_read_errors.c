@@ -120,7 +120,10 @@ static void test_array_errors(void)
 	fails(V("A : ARRAY[1..2] OF INT := 1;"), "LD156 3 0 (0,0) 27 [" DIAG_AND "1");
 	fails(V("A : ARRAY[1..2] OF INT := [];"), "LD107 3 0 (0,0) 28 constant" DIAG_AND "]");
 	fails(V("A : ARRAY[1..2] OF INT := [1 2];"), "LD157 3 0 (0,0) 30 ," DIAG_AND "]" DIAG_AND "2");
-	fails(V("A : ARRAY[1..2] OF INT := [0(1)];"), "LD116 3 0 (0,0) 28 0");
+	fails(V("A : ARRAY[1..2] OF INT := [0(1)];"), "LD362 3 0 (0,0) 28 0");
+	fails(V("A : ARRAY[1..2] OF INT := [1,\n 2 (1)];"), "LD363 4 0 (0,0) 2 2" DIAG_AND "1");
+	fails(V("A : ARRAY[1..2] OF INT := [- 2(1)];"), "LD362 3 0 (0,0) 28 -2");
+	fails(V("A : ARRAY[1..2] OF INT := [1, 2, 3];"), "LD141 3 0 (0,0) 34 ");
 	fails(V("A : ARRAY[1..2] OF INT := [2(1];"), "LD156 3 0 (0,0) 31 )" DIAG_AND "]");
 	fails(V("A : ARRAY[1..2] OF INT := [T#1s];"), "LD115 3 0 (0,0) 28 T#1s");
 	fails(V("A AT %MW524286 : ARRAY[1..2] OF WORD;"),

@@ -292,6 +292,27 @@ static void test_initial(void)
 	ladder_free(ladder);
 }
 
+/* A constant in a count of repetitions is used; a function with a ( behind it is none. */
+static void test_counts(void)
+{
+	static const char counts[] =
+		"RUNGBOARD 1\n\nTYPE\n  Recipe : STRUCT\n    Speed : INT;\n"
+		"    Steps : ARRAY[1..4] OF INT := [Motors(8)];\n  END_STRUCT;\nEND_TYPE\n\n"
+		"VAR CONSTANT\n  Motors : INT := 2;\nEND_VAR\n\n"
+		"VAR\n  A : ARRAY[1..9] OF INT := [2 * Motors(7), MAX(1, 2), Motors()];\n"
+		"  B : ARRAY[1..9] OF Recipe := [Motors((Speed := 1, Steps := [(Motors)(5)])), "
+		"Motors + 1(Speed := ABS(-3))];\nEND_VAR\n\n"
+		"PROGRAM Main LD\nRUNG\n  | [ A[1] > B[1].Speed ] | COIL Q0 |\nEND_PROGRAM\n";
+	struct ladder *ladder = ladder_new();
+
+	CHECK(ladder_load_text(ladder, "counts.rung", counts, strlen(counts)));
+	is_used(ladder, "Motors", "- 0 (0,0) declared\n- 0 (0,0) read\n- 0 (0,0) read\n"
+		"- 0 (0,0) read\n- 0 (0,0) read\n- 0 (0,0) read\n- 0 (0,0) read\n");
+	is_used(ladder, "Recipe.Speed", "- 0 (0,0) initial\n- 0 (0,0) initial\n"
+		"- 0 (0,0) declared\nMain 1 (1,1) read\n");
+	ladder_free(ladder);
+}
+
 int main(void)
 {
 	struct ladder *ladder = ladder_new();
@@ -306,6 +327,7 @@ int main(void)
 	test_clashes(ladder);
 	test_things(ladder);
 	test_initial();
+	test_counts();
 	ladder_free(ladder);
 	return tap_done();
 }
