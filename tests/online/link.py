@@ -626,15 +626,16 @@ def test_a_download_cut_anywhere_changes_nothing():
     draw = random.Random(5)
     with slots() as board:
         desk = board.client()
-        parts = build(board, 'other.rung', OTHER)
-        image = parts[0]
         before = desk.status()['program']
-        for end in range(0, len(image), 1 if 'LINK_FLIPS' in os.environ else 97):
-            cut = [image[:end], parts[1], parts[2]]
-            desk.send_from(b''.join(cut), desk.begin(cut), draw.randrange(500, 60000))
-            refused(23, desk.verify)
-            desk.call(client.ABORT)
-        assert desk.status()['program'] == before
+        for number, text in enumerate((OTHER, LOOP, COUNTS)):
+            parts = build(board, f'cut{number}.rung', text)
+            image = parts[0]
+            for end in range(0, len(image), 1 if 'LINK_FLIPS' in os.environ else 97):
+                cut = [image[:end], parts[1], parts[2]]
+                desk.send_from(b''.join(cut), desk.begin(cut), draw.randrange(500, 60000))
+                refused(23, desk.verify)
+                desk.call(client.ABORT)
+        assert desk.status()['program'] == before and not os.path.exists(board.folder + '/prog.A')
 
 
 def test_a_cut_download_goes_on():

@@ -219,7 +219,7 @@ static int held(char **command)
 
 static int usage(void)
 {
-	fprintf(stderr, "usage: guest [--tier full|small] [--only 1..10] "
+	fprintf(stderr, "usage: guest [--tier full|small] [--only 1..12] "
 		"[--longest S] [--flips N] [--work DIR] CASES LADDERD...\n");
 	return 2;
 }
@@ -265,6 +265,7 @@ static const struct {
 	{ 9, "memory of 1,000 rungs", test_memory },
 	{ 10, "what ladder io shows", test_picture },
 	{ 11, "a desk changes the program", test_link },
+	{ 12, "a desk at a serial line, without names", test_serial },
 };
 
 static void run_all(const char *ladderd)

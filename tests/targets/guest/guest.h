@@ -65,4 +65,5 @@ void test_bad_input(void);
 void test_memory(void);
 void test_picture(void);
 void test_link(void);
+void test_serial(void);
 #endif

@@ -20,13 +20,6 @@
 
 #define LADDER "/ladder"
 
-/* Q1 is on, the others are off. */
-static const char other[] =
-	"RUNGBOARD 1\nPROJECT \"Other\"\n\nVAR\n  A AT %QX0.0 : BOOL;\n  B AT %QX0.1 : BOOL;\n"
-	"  C AT %QX0.2 : BOOL;\n  D AT %QX0.3 : BOOL;\nEND_VAR\n\nPROGRAM Main LD\n"
-	"RUNG\n  | NO SYS_ALWAYS_ON | COIL B |\nRUNG\n  | NC B | COIL A |\n"
-	"RUNG\n  | NC B | COIL C |\nRUNG\n  | NC B | COIL D |\nEND_PROGRAM\n";
-
 struct terminal {
 	int master, slave;
 	char path[32];
@@ -109,7 +102,7 @@ static void use(const struct terminal end[2], const char *where, const char *nam
 	      "%s: a forced output has its level", name);
 	check(desk(end, where, "unforce", NULL, NULL, NULL) == 0 && panel_shows(0xc),
 	      "%s: released, the program drives it again", name);
-	check(desk(end, where, "download", file_text("other.rung", other),
+	check(desk(end, where, "download", file_case("other.rung"),
 		   file_text("other.io", PANEL_PLAIN), "--yes") == 0 && panel_shows(0x2),
 	      "%s: another program drives the lines", name);
 	check(desk(end, where, "record", "-o", record, NULL) == 0 && stat(record, &about) == 0 &&
