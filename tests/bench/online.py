@@ -3,7 +3,10 @@
 """online - the figures of `make bench-online`: what the link of ladderd costs and how fast it answers, with a
 client in Python on the same machine. Nothing fails: the figures depend on the load of the machine.
 
-  SECONDS=20   how long each of the two measurements of lateness takes
+  SECONDS=20   how long each of the measurements of lateness takes
+
+ladderd has real-time priority, if this user may give it that; lateness is also measured without. Whatever else the machine
+does shows in all figures: the head and the last line tell its load.
 """
 import os
 import platform
@@ -40,7 +43,7 @@ def program(rungs, preset=1, words=1000):
 class Board:
     """A ladderd as a user of its own if this is root, which has no role."""
 
-    def __init__(self, text):
+    def __init__(self, text, *options):
         self.folder = tempfile.mkdtemp()
         os.chmod(self.folder, 0o777)
         with open(self.folder + '/group', 'w') as out:
@@ -49,8 +52,8 @@ class Board:
             with open(f'{self.folder}/{name}', 'w') as out:
                 out.write(content)
         self.daemon = subprocess.Popen(
-            [BUILD + '/ladderd', 'p.rung', '--io', 'b.io', '--link', 'link', '--groups', 'group', '--slots', '.'],
-            cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            [BUILD + '/ladderd', 'p.rung', '--io', 'b.io', '--link', 'link', '--groups', 'group', '--slots', '.',
+             *options], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         while True:
             try:
                 self.client().close()
@@ -99,12 +102,29 @@ class FarClient(Client):
 
 
 def row(what, value, want):
-    print(f'{what:<64} {value:>16}   {want}')
+    print(f'{what:<70} {value:>16}   {want}')
 
 
-def lateness(clients):
+def load():
+    return 'load of the machine: ' + ' '.join(f'{it:.1f}' for it in os.getloadavg())
+
+
+def real_time():
+    """Options of ladderd for real-time priority; none if this user may not have it."""
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
+        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+        return ['--rt', '40']
+    except OSError:
+        return []
+
+
+RT = real_time()
+
+
+def lateness(clients, options):
     """(missed scans, p99.9 of lateness in us, processor of the link in %) over SECONDS."""
-    board = Board(program(0))
+    board = Board(program(0), *options)
     done = threading.Event()
     names = [f'W{i}' for i in range(1000)]
 
@@ -143,6 +163,16 @@ def lateness(clients):
     return status['missed'], status['late_p999'] / 1000, share
 
 
+def all_lateness(how, options):
+    missed, alone, _share = lateness(0, options)
+    row('nobody watches: p99.9 of lateness' + how, f'{alone:.0f} us', '')
+    row('  missed scans', str(missed), '0')
+    missed, late, share = lateness(8, options)
+    row('8 desks watch 1,000 changing variables at 25 Hz: p99.9' + how, f'{late:.0f} us', f'≤ {alone + 300:.0f} us')
+    row('  missed scans', str(missed), '0')
+    row('  link thread', f'{share:.1f} % of a core', '≤ 10 %')
+
+
 def reads(desk, where, limit):
     names = [f'W{i}' for i in range(100)]
     places = [it[2] for name, it in desk.symbols().items() if name in names]
@@ -169,7 +199,7 @@ def far_server(board):
 
 def over_ssh(two):
     """Downloads every byte of 10,000 rungs through ssh."""
-    board = Board(program(10000))
+    board = Board(program(10000), *RT)
     server = far_server(board)
     if server:
         desk = FarClient(server)
@@ -190,7 +220,7 @@ def over_ssh(two):
 def some_changes():
     """What `ladder board download` sends, and how long it takes without the translation."""
     text = program(10000)
-    board = Board(text)
+    board = Board(text, *RT)
     row('a change of 10,000 rungs, by `ladder board download`', 'sent', 'of image, map, sources')
     one = text.replace('T5000 PT:=T#1s', 'T5000 PT:=T#8s')
     rung = text.replace('RUNG\n  | NO In | NC M5000 |', 'RUNG\n  | NO In | NC M4999 | COIL Out |\nRUNG\n  | NO In | NC M5000 |')
@@ -216,8 +246,8 @@ def main():
     with open('/proc/cpuinfo') as info:
         cpu = next((line.split(':')[1].strip() for line in info if line.startswith('model name')), platform.machine())
     commit = subprocess.run(['git', 'rev-parse', '--short', 'HEAD'], capture_output=True, text=True, cwd=HERE)
-    print(f'{cpu}, {os.cpu_count()} cores, {platform.release()}, commit {commit.stdout.strip() or "?"}\n')
-    board = Board(program(100))
+    print(f'{cpu}, {os.cpu_count()} cores, {platform.release()}, commit {commit.stdout.strip() or "?"}\nladderd {" ".join(RT) or "without --rt"}; {load()}\n')
+    board = Board(program(100), *RT)
     reads(board.client(), '', 1)
     server = far_server(board)
     if server:
@@ -226,7 +256,7 @@ def main():
         far.close()
         server.close()
     board.close()
-    board = Board(program(10000))
+    board = Board(program(10000), *RT)
     desk = board.client()
     two = [board.build(program(10000, preset)) for preset in (2, 3)]
     times = []
@@ -241,12 +271,10 @@ def main():
     board.close()
     over_ssh(two)
     some_changes()
-    missed, alone, _share = lateness(0)
-    row('nobody watches: p99.9 of lateness', f'{alone:.0f} us', '')
-    missed, late, share = lateness(8)
-    row('8 desks watch 1,000 changing variables at 25 Hz: p99.9', f'{late:.0f} us', '+ 300 us')
-    row('  missed scans', str(missed), '0')
-    row('  link thread', f'{share:.1f} % of a core', '≤ 10 %')
+    all_lateness('', [])
+    if RT:
+        all_lateness(', ' + ' '.join(RT), RT)
+    print('\n' + load())
 
 
 if __name__ == '__main__':
