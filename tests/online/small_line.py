@@ -58,7 +58,9 @@ class SmallBoard:
 
     def __init__(self, cable, *options, baud=921600):
         self.folder = tempfile.mkdtemp()
-        self.arguments = ['pump.rungc', '--io', 'board.io', '--serial', f'{cable.board},{baud}', '--trace-io', *options]
+        # A busy machine makes scans late, which must not end in FAULT.
+        self.arguments = ['pump.rungc', '--io', 'board.io', '--serial', f'{cable.board},{baud}', '--trace-io',
+                          '--watchdog', '1000', *options]
         self.image('pump', PUMP)
         self.write('board.io', MAP)
         self.start()
