@@ -14,6 +14,7 @@ struct reading {
 	char *path, *hash, *asked; /* asked: the name of the file that is awaited */
 	struct compare_side side;
 	GPtrArray *maps;           /* names that its I/O map may have, the likely one last */
+	char *map;                 /* the path of the map now; NULL: none, or its names are read */
 	GCancellable *cancel;
 	revision_take *take;
 	gpointer data;
@@ -26,6 +27,7 @@ static void reading_free(gpointer data)
 	compare_side_clear(&reading->side);
 	g_clear_object(&reading->cancel);
 	g_ptr_array_unref(reading->maps);
+	g_free(reading->map);
 	g_free(reading->path);
 	g_free(reading->hash);
 	g_free(reading->asked);
@@ -41,9 +43,22 @@ static void ask(struct reading *reading, char *name)
 	git_log_show(reading->path, reading->hash, name, reading->cancel, take, reading);
 }
 
+static void take_names(gpointer data, GPtrArray *revisions, const char *why);
+
+/* The name of the map now, beside the project as it was. */
+static void add_beside(struct reading *reading, const char *map)
+{
+	char *base = g_path_get_basename(map), *folder = g_path_get_dirname(reading->side.path);
+
+	g_ptr_array_add(reading->maps, strcmp(folder, ".") == 0 ? g_strdup(base) :
+			g_build_filename(folder, base, NULL));
+	g_free(folder);
+	g_free(base);
+}
+
 static void ask_next(struct reading *reading)
 {
-	char *name = compare_side_wants(&reading->side);
+	char *name = compare_side_wants(&reading->side), *map;
 
 	if (!name && !reading->side.map && reading->maps->len)
 		name = g_ptr_array_steal_index(reading->maps, reading->maps->len - 1);
@@ -51,8 +66,40 @@ static void ask_next(struct reading *reading)
 		ask(reading, name);
 		return;
 	}
+	if (!reading->side.map && reading->map) {
+		map = g_steal_pointer(&reading->map);
+		add_beside(reading, map);
+		git_log_read(map, reading->cancel, take_names, reading);
+		g_free(map);
+		return;
+	}
 	reading->take(reading->data, &reading->side, NULL);
 	reading_free(reading);
+}
+
+/* As the likeliest name. */
+static void add_once(struct reading *reading, const char *name)
+{
+	guint at;
+
+	if (g_ptr_array_find_with_equal_func(reading->maps, name, g_str_equal, &at))
+		g_ptr_array_remove_index(reading->maps, at);
+	g_ptr_array_add(reading->maps, g_strdup(name));
+}
+
+/* The map has its name of that revision, or an older one, if it was renamed since. */
+static void take_names(gpointer data, GPtrArray *revisions, const char *why)
+{
+	struct reading *reading = data;
+
+	(void)why; /* a map that git does not know has no other name */
+	for (guint i = revisions ? revisions->len : 0; i > 0; i--) {
+		const char *name = ((struct git_revision *)revisions->pdata[i - 1])->name;
+
+		add_once(reading, name);
+	}
+	g_clear_pointer(&revisions, g_ptr_array_unref);
+	ask_next(reading);
 }
 
 static bool is_map(const struct reading *reading)
@@ -88,28 +135,11 @@ static void bytes_free(gpointer bytes)
 		g_bytes_unref(bytes);
 }
 
-/* NAME.io, else one with the name of the map now. */
-static void list_maps(struct reading *reading, const char *name)
-{
-	const char *dot = strrchr(name, '.');
-	char *now = iomap_beside(reading->path), *base = now ? g_path_get_basename(now) : NULL;
-	char *folder = g_path_get_dirname(name);
-
-	if (base)
-		g_ptr_array_add(reading->maps, strcmp(folder, ".") == 0 ? g_strdup(base) :
-				g_build_filename(folder, base, NULL));
-	if (dot)
-		g_ptr_array_add(reading->maps, g_strdup_printf("%.*s.io", (int)(dot - name),
-							       name));
-	g_free(folder);
-	g_free(base);
-	g_free(now);
-}
-
 void revision_read(const char *path, const char *hash, const char *name, const char *title,
 		   GCancellable *cancel, revision_take *taken, gpointer data)
 {
 	struct reading *reading = g_new0(struct reading, 1);
+	const char *dot = strrchr(name, '.');
 
 	*reading = (struct reading){ .path = g_strdup(path), .hash = g_strdup(hash),
 		.side = { .name = g_strdup(title), .path = g_strdup(name),
@@ -117,6 +147,9 @@ void revision_read(const char *path, const char *hash, const char *name, const c
 							 bytes_free) },
 		.maps = g_ptr_array_new_with_free_func(g_free),
 		.cancel = cancel ? g_object_ref(cancel) : NULL, .take = taken, .data = data };
-	list_maps(reading, name);
+	reading->map = iomap_beside(path);
+	if (dot)
+		g_ptr_array_add(reading->maps, g_strdup_printf("%.*s.io", (int)(dot - name),
+							       name));
 	ask(reading, g_strdup(name));
 }

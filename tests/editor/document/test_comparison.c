@@ -420,6 +420,44 @@ static void check_named(const char *path, const struct git_revision *revision, c
 	comparison_free(of);
 }
 
+/* The map was renamed twice, and moved with the project. A foreign map has its first name now. */
+static void check_map_renamed(void)
+{
+	char *folder = g_dir_make_tmp("git-XXXXXX", NULL);
+	char *path = g_build_filename(folder, "site", "pump.rung", NULL);
+	static const char *const want[][2] = { { "First", "GPIO1\n" }, { "Second", "GPIO2\n" },
+					       { "Third", "GPIO3\n" } };
+	struct answer log = { 0 };
+
+	git(folder, (const char *const[]){ "init", "-q", NULL });
+	put(folder, "pump.rung", PUMP);
+	put(folder, "pump-board.io", "# the board of the pump\n%IX0.0 gpio line=GPIO1\n");
+	commit(folder, "First");
+	git(folder, (const char *const[]){ "mv", "pump-board.io", "pump-wiring.io", NULL });
+	put(folder, "pump-wiring.io", "# the board of the pump\n%IX0.0 gpio line=GPIO2\n");
+	put(folder, "pump.rung", PUMP "\n");
+	commit(folder, "Second");
+	put(folder, "site/x", "");
+	git(folder, (const char *const[]){ "mv", "pump-wiring.io", "site/pump-terminals.io", NULL });
+	git(folder, (const char *const[]){ "mv", "pump.rung", "site/pump.rung", NULL });
+	put(folder, "site/pump-terminals.io", "# the board of the pump\n%IX0.0 gpio line=GPIO3\n");
+	put(folder, "pump-board.io", "%QX0.0 gpio line=GPIO9\n");
+	commit(folder, "Third");
+	git_log_read(path, NULL, take_log, &log);
+	wait_for(&log);
+	for (gsize i = 0; i < G_N_ELEMENTS(want); i++) {
+		struct read read = read_revision(path, find(&log, want[i][0]));
+
+		CHECK_AS(read.side.map && g_str_has_suffix(read.side.map, want[i][1]), want[i][0]);
+		compare_side_clear(&read.side);
+	}
+	clear(&log);
+	g_spawn_sync(NULL, (char *[]){ "rm", "-r", folder, NULL }, NULL, G_SPAWN_SEARCH_PATH,
+		     NULL, NULL, NULL, NULL, NULL, NULL);
+	g_free(path);
+	g_free(folder);
+}
+
 static void check_revision(void)
 {
 	char *folder = g_dir_make_tmp("git-XXXXXX", NULL);
@@ -441,6 +479,7 @@ static void check_revision(void)
 		CHECK(!gone.side.text && strstr(gone.why, "“pump.rung” is not in revision "));
 		g_free(gone.why);
 		clear(&log);
+		check_map_renamed();
 	}
 	g_spawn_sync(NULL, (char *[]){ "rm", "-r", folder, NULL }, NULL, G_SPAWN_SEARCH_PATH,
 		     NULL, NULL, NULL, NULL, NULL, NULL);
