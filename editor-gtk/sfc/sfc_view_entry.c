@@ -72,6 +72,21 @@ static bool is_member(LadderSfcView *view, const char *text)
 	return false;
 }
 
+/* Replaces the line from @from on. @skip: bytes of the candidate's line before that. */
+static void add_name(LadderSfcView *view, const char *line, gsize from,
+		     const struct entry_candidate *one, gsize skip)
+{
+	char *whole = g_strdup_printf("%.*s%s", (int)from, line, one->line + skip);
+	struct entry_popup_row row = {
+		.text = (char *)one->text, .address = (char *)one->address,
+		.note = (char *)one->note, .kind = (char *)_(entry_kind_text(one->kind)),
+		.line = whole, .marked = one->kind == ENTRY_NEW,
+	};
+
+	ladder_entry_popup_add(LADDER_ENTRY_POPUP(view->canvas->entry), &row);
+	g_free(whole);
+}
+
 /* Variables, addresses and new names for the line from @from on, as in the entry of a rung
  * behind @head; no words of elements. TRANSITION is the coil of a condition that is made of
  * rungs. */
@@ -91,8 +106,7 @@ static void offer_names(LadderSfcView *view, const char *head, const char *line,
 		if (one->kind != ENTRY_WORD && one->kind != ENTRY_ROUTINE &&
 		    one->kind != ENTRY_LABEL && strlen(one->line) >= skip &&
 		    !is_member(view, one->text) && !g_str_equal(one->text, "TRANSITION"))
-			add_row(view, line, from, strlen(line), one->line + skip, one->text,
-				one->address, one->note, _(entry_kind_text(one->kind)));
+			add_name(view, line, from, one, skip);
 	}
 	g_free(part);
 	g_free(found);

@@ -4,6 +4,7 @@
  * opens it and stays in it; a refusal is shown there; inputs of a box are fed by one line. And the
  * context menus, which must be short.
  */
+#include "editor-gtk/kit/entry_row.h"
 #include "editor-gtk/ladder/grid_view.h"
 #include "editor-gtk/sfc/sfc_view.h"
 #include "tests/editor/sheet_window.h"
@@ -192,6 +193,40 @@ static void test_conditions(void)
 	canvas_close_entry(canvas);
 }
 
+/* A candidate that would be made is marked. */
+static bool is_marked(GtkWidget *widget)
+{
+	return LADDER_IS_ENTRY_ROW(widget) && gtk_widget_get_mapped(widget) &&
+	       *ladder_entry_row_mark(LADDER_ENTRY_ROW(widget));
+}
+
+/* @new: a name that the project does not have; @old: one that it has. */
+static void check_mark(const char *place, const char *new, const char *old)
+{
+	LADDER_CANVAS_GET_CLASS(canvas)->type(canvas, "x");
+	gtk_editable_set_text(GTK_EDITABLE(entry()), new);
+	gtk_editable_set_position(GTK_EDITABLE(entry()), -1);
+	WAIT(find(canvas_state(canvas)->entry, is_marked));
+	CHECK_AS(find(canvas_state(canvas)->entry, is_marked), place);
+	gtk_editable_set_text(GTK_EDITABLE(entry()), old);
+	gtk_editable_set_position(GTK_EDITABLE(entry()), -1);
+	WAIT(!find(canvas_state(canvas)->entry, is_marked));
+	CHECK_AS(!find(canvas_state(canvas)->entry, is_marked), place);
+	canvas_close_entry(canvas);
+}
+
+static void test_marks(void)
+{
+	show(ladder_grid_view_new(document, 0));
+	ladder_grid_view_go(LADDER_GRID_VIEW(canvas), 2, 0, 0);
+	check_mark("a new contact is marked", "Spark", "A");
+	show(ladder_sfc_view_new(document, 2));
+	LADDER_CANVAS_GET_CLASS(canvas)->go_to_cell(canvas, (struct canvas_spot){ 2, -1, 0 });
+	check_mark("a new name of a condition is marked", "Spark", "A");
+	LADDER_CANVAS_GET_CLASS(canvas)->go_to_cell(canvas, (struct canvas_spot){ 0, 0, 0 });
+	check_mark("a new name in a line of a step is marked", "N Spark", "N Q");
+}
+
 static void test_empty(void)
 {
 	show(ladder_sfc_view_new(document, 3));
@@ -254,6 +289,7 @@ int main(void)
 	test_ladder();
 	test_chart();
 	test_conditions();
+	test_marks();
 	test_empty();
 	test_feed();
 	gtk_window_destroy(GTK_WINDOW(window));
