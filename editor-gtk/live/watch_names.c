@@ -111,6 +111,34 @@ GPtrArray *watch_names_expand(const struct image *image, const char *line)
 	return names;
 }
 
+/* Returns how many lines stand there now. */
+static guint unfold_line(const struct image *image, GPtrArray *lines, guint at)
+{
+	struct watch_line *line = lines->pdata[at];
+	GPtrArray *names = watch_names_expand(image, line->name);
+	const guint count = names->len;
+
+	if (count > 1 || (count == 1 && strcmp(names->pdata[0], line->name) != 0)) {
+		g_ptr_array_steal_index(lines, at);
+		for (guint i = 0; i < count; i++)
+			g_ptr_array_insert(lines, (int)(at + i), watch_line_new(line->format,
+				names->pdata[i], i == 0 ? line->comment : NULL));
+		watch_line_free(line);
+	}
+	g_ptr_array_unref(names);
+	return MAX(count, 1);
+}
+
+void watch_names_unfold(const struct image *image, GPtrArray *charts)
+{
+	for (guint i = 0; image && i < charts->len; i++) {
+		GPtrArray *lines = ((struct watch *)charts->pdata[i])->lines;
+
+		for (guint at = 0; at < lines->len;)
+			at += unfold_line(image, lines, at);
+	}
+}
+
 /* ---- completion ---- */
 
 struct offer {

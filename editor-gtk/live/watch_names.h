@@ -7,6 +7,7 @@
 
 #include "editor-gtk/document/document.h"
 #include "editor-gtk/kit/entry_popup.h"
+#include "editor-gtk/live/watch.h"
 
 #include "engine/scan/image.h"
 
@@ -21,6 +22,11 @@
  * g_ptr_array_unref().
  */
 GPtrArray *watch_names_expand(const struct image *image, const char *line);
+
+/** watch_names_unfold - replaces each line of @charts, struct watch *, that names an instance or
+ * a range by lines of its variables. They get its format, the first one its comment, too.
+ * @image: as above. */
+void watch_names_unfold(const struct image *image, GPtrArray *charts);
 
 /** watch_names_offer - adds rows to @popup that complete the word before @cursor (in bytes).
  * @image: as above. */

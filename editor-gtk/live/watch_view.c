@@ -102,6 +102,16 @@ static const char *shown_name(const struct watch *chart)
 	return *chart->name ? chart->name : _("Status chart");
 }
 
+/* Those of the file; a line of an instance is a row for each of its pins. The file gets these
+ * lines with the next edit. Caller: g_ptr_array_unref(). */
+static GPtrArray *charts_of(LadderWatchView *view)
+{
+	GPtrArray *charts = watch_list_of(view->document);
+
+	watch_names_unfold(image_of(view), charts);
+	return charts;
+}
+
 static struct watch *chart_at(GPtrArray *charts, guint at)
 {
 	return at < charts->len ? charts->pdata[at] : NULL;
@@ -287,7 +297,7 @@ static void look(LadderWatchView *view)
 
 static void refresh(LadderWatchView *view)
 {
-	GPtrArray *charts = watch_list_of(view->document);
+	GPtrArray *charts = charts_of(view);
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
 	struct watch *chart = find_chart(view, charts);
 
@@ -472,7 +482,7 @@ static void toggle_force(LadderWatchView *view, LadderWatchRow *row)
 /* A copy of the chart that is shown, or NULL, in *charts; to be changed and kept. */
 static struct watch *edit_chart(LadderWatchView *view, GPtrArray **charts)
 {
-	*charts = watch_list_of(view->document);
+	*charts = charts_of(view);
 	return chart_at(*charts, view->chart);
 }
 
@@ -519,7 +529,7 @@ static struct watch *add_chart(LadderWatchView *view, GPtrArray *charts)
 
 static void new_chart(LadderWatchView *view)
 {
-	GPtrArray *charts = watch_list_of(view->document);
+	GPtrArray *charts = charts_of(view);
 
 	add_chart(view, charts);
 	keep_charts(view, charts, _("New status chart"));

@@ -453,6 +453,26 @@ static void check_colors(void)
 	adw_style_manager_set_color_scheme(manager, ADW_COLOR_SCHEME_DEFAULT);
 }
 
+/* A line of a file with an instance or a range is a row for each variable, and can be edited. */
+static void check_unfolded(void)
+{
+	GPtrArray *charts = watch_list_read("VIEW\n  status-chart Saved\n    watch auto Start\n"
+					    "    watch auto Delay the pause\n"
+					    "    watch hex %QX0.0..2\n    watch auto Gone\nEND_VIEW");
+
+	CHECK(watch_list_keep(document, charts, "x"));
+	g_ptr_array_unref(charts);
+	CHECK_SOON(row_of("Gone") && rows() == 1 + 4 + 3 + 1);
+	CHECK(!row_of("Delay") && row_of("Delay.ET") && !is_unknown(row_of("Delay.ET")));
+	CHECK(is_unknown(row_of("Gone")) && !row_of("Start")->line->comment[0]);
+	CHECK_TEXT(row_of("Delay.IN")->line->comment, "the pause");
+	CHECK_AS(file_has("    watch auto Delay the pause\n"), "looking at it changes no file");
+	gtk_widget_activate_action(GTK_WIDGET(view), "watch.format", "(ii)", 3, FORMAT_HEX);
+	CHECK(file_has("    watch auto Delay.IN the pause\n    watch auto Delay.Q\n"
+		       "    watch hex Delay.PT\n    watch auto Delay.ET\n    watch hex %QX0.0\n"));
+	CHECK(ladder_document_undo(document) && ladder_document_undo(document));
+}
+
 static void check_charts(void)
 {
 	do_action("watch.new-chart");
@@ -502,6 +522,7 @@ int main(void)
 	check_running();
 	check_forces();
 	check_following();
+	check_unfolded();
 	check_charts();
 	check_colors();
 	gtk_window_destroy(GTK_WINDOW(window));
