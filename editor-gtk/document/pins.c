@@ -193,42 +193,49 @@ static void take_pin(void *context, const struct text_span *span)
 			two->span[i] = *span;
 }
 
-static bool same_block(const struct var_table *vars, int a, int b)
+/* The next (@by 1) or previous (-1) variable with the same qualifiers; -1: there is none. */
+static int beside(const struct pou *of, int index, int by)
 {
-	for (int i = 0; i < vars->block_count; i++) {
-		const struct var_block *block = &vars->block[i];
+	const struct var_table *vars = &of->vars;
 
-		if (a >= block->first && a < block->first + block->count)
-			return b >= block->first && b < block->first + block->count;
-	}
-	return false;
+	for (int i = index + by; i >= 0 && i < vars_declared(vars); i += by)
+		if (vars_flags(vars, i) == vars_flags(vars, index))
+			return i;
+	return -1;
+}
+
+/* Two variables change places; what is written between them stays. */
+static char *exchange(LadderDocument *document, int pou, int a, int b)
+{
+	struct two_spans two = { .pou = pou, .index = { MIN(a, b), MAX(a, b) } };
+	gsize len;
+	char *all = ladder_document_outline(document, &len, take_pin, &two);
+	const struct text_span *first = &two.span[0], *second = &two.span[1];
+	const gsize between = second->at - first->at - first->len;
+	char *text = g_strdup_printf("%.*s%.*s%.*s", (int)second->len, all + second->at,
+				     (int)between, all + first->at + first->len,
+				     (int)first->len, all + first->at);
+	char *why = ladder_document_replace_step(document, first->at,
+		first->len + between + second->len, text, _("Move pin"));
+
+	g_free(text);
+	g_free(all);
+	return why;
 }
 
 char *pin_move(LadderDocument *document, int pou, int index, int by)
 {
-	const struct project *project = ladder_document_project(document);
-	const struct var_table *vars = &project->pou[pou].vars;
-	struct two_spans two = { .pou = pou, .index = { MIN(index, index + by),
-							MAX(index, index + by) } };
-	char *why, *all, *text;
-	gsize len;
+	const struct pou *of = &ladder_document_project(document)->pou[pou];
+	const int other = beside(of, index, by);
+	char *why;
 
-	if (project->pou[pou].included)
+	if (of->included)
 		return g_strdup(_("It is declared in another file"));
-	if (!same_block(vars, index, index + by))
+	if (other < 0)
 		return g_strdup(by < 0 ? _("It is the first one already") :
 					 _("It is the last one already"));
-	why = why_not(document, pou, index, index + by);
-	if (why)
-		return why;
-	all = ladder_document_outline(document, &len, take_pin, &two);
-	text = g_strdup_printf("%.*s%.*s", (int)two.span[1].len, all + two.span[1].at,
-			       (int)two.span[0].len, all + two.span[0].at);
-	why = ladder_document_replace_step(document, two.span[0].at,
-		two.span[0].len + two.span[1].len, text, _("Move pin"));
-	g_free(text);
-	g_free(all);
-	return why;
+	why = why_not(document, pou, index, other);
+	return why ? why : exchange(document, pou, index, other);
 }
 
 /* ---- kinds ---- */
@@ -306,6 +313,56 @@ char *pin_set_kind(LadderDocument *document, int pou, int index, uint16_t kind)
 		why = why_fixed(document, pou);
 	if (!why)
 		set_kind(document, pou, index, kind, &why);
+	return why;
+}
+
+static int index_named(LadderDocument *document, int pou, const char *name)
+{
+	const struct project *project = ladder_document_project(document);
+	const struct pou *of = &project->pou[pou];
+
+	for (int i = 0; name && i < vars_declared(&of->vars); i++)
+		if (name_equal(project_text(project, of->vars.var[i].name), name))
+			return i;
+	return -1;
+}
+
+/* -1, 1: it must go up or down among those of its kind to stand before @before, NULL: at the end;
+ * 0: it stands there. */
+static int way_to(LadderDocument *document, int pou, const char *name, const char *before)
+{
+	const struct var_table *vars = &ladder_document_project(document)->pou[pou].vars;
+	const int at = index_named(document, pou, name), to = index_named(document, pou, before);
+	const uint16_t kind = vars_flags(vars, at) & SYMBOL_KINDS;
+	int next = at + 1;
+
+	while (next < vars_declared(vars) && (vars_flags(vars, next) & SYMBOL_KINDS) != kind)
+		next++;
+	if (to < 0)
+		return next < vars_declared(vars);
+	return to < at ? -1 : to == next || to == at ? 0 : 1;
+}
+
+char *pin_put(LadderDocument *document, int pou, int index, uint16_t kind, int before)
+{
+	const struct project *project = ladder_document_project(document);
+	const struct var_table *vars = &project->pou[pou].vars;
+	char *name = g_strdup(project_text(project, vars->var[index].name));
+	char *mark = before < 0 ? NULL : g_strdup(project_text(project, vars->var[before].name));
+	char *why = NULL;
+	int way;
+
+	ladder_document_begin(document, _("Move pin"), NULL);
+	if ((vars_flags(vars, index) & SYMBOL_KINDS) != kind)
+		why = pin_set_kind(document, pou, index, kind);
+	while (!why && (way = way_to(document, pou, name, mark)) != 0)
+		why = pin_move(document, pou, index_named(document, pou, name), way);
+	if (why)
+		ladder_document_cancel(document);
+	else
+		ladder_document_end(document);
+	g_free(mark);
+	g_free(name);
 	return why;
 }
 

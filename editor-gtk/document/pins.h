@@ -13,7 +13,8 @@ int pins_count(const struct pou *pou, uint16_t kind);
 /** pins_kind - the kind of variable @index of @pou; 0: it is no pin. */
 uint16_t pins_kind(const struct pou *pou, int index);
 /**
- * pin_move - exchanges a pin or variable with the next (@by 1) or previous (-1) one of its block
+ * pin_move - exchanges a pin or variable with the next (@by 1) or previous (-1) one of its kind,
+ * which may be in another block of the same qualifiers
  *
  * Callers keep the operands of all pins, because rungs name them. Refused: a caller gives
  * operands by position, or the power of a row would go to or come from another pin. One step of
@@ -30,6 +31,14 @@ int pin_calls(LadderDocument *document, int pou, int index);
  * pin_move(). One step of the history. Returns as pin_move().
  */
 char *pin_set_kind(LadderDocument *document, int pou, int index, uint16_t kind);
+/**
+ * pin_put - makes variable @index of a POU the one before @before, or the last one, of a kind
+ * @kind: as for pin_set_kind()
+ * @before: a variable of that kind; -1: none
+ *
+ * Refused: as in pin_move(). One step of the history. Returns as pin_move().
+ */
+char *pin_put(LadderDocument *document, int pou, int index, uint16_t kind, int before);
 /** pins_set_result - sets the type of a FUNCTION. Returns as pin_move(). */
 char *pins_set_result(LadderDocument *document, int pou, const char *type);
 

@@ -137,6 +137,14 @@ static void drag_begin(GtkDragSource *source, GdkDrag *drag, struct moving *movi
 		gtk_drag_icon_set_child(GTK_DRAG_ICON(gtk_drag_icon_get_for_drag(drag)), label);
 	}
 	g_value_unset(&value);
+	if (moving->how->dragging)
+		moving->how->dragging(moving->owner, true);
+}
+
+static void drag_end(struct moving *moving)
+{
+	if (moving->how->dragging)
+		moving->how->dragging(moving->owner, false);
 }
 
 static void add_source(GtkWidget *widget, GCallback prepare, struct moving *moving)
@@ -146,6 +154,7 @@ static void add_source(GtkWidget *widget, GCallback prepare, struct moving *movi
 	gtk_drag_source_set_actions(source, GDK_ACTION_MOVE);
 	g_signal_connect(source, "prepare", prepare, moving);
 	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), moving);
+	g_signal_connect_swapped(source, "drag-end", G_CALLBACK(drag_end), moving);
 	gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(source));
 }
 
@@ -224,6 +233,73 @@ static void add_target(struct moving *moving)
 	g_signal_connect_swapped(target, "leave", G_CALLBACK(drag_leave), moving);
 	g_signal_connect_swapped(target, "drop", G_CALLBACK(dropped), moving);
 	gtk_widget_add_controller(moving->list, GTK_EVENT_CONTROLLER(target));
+}
+
+/* ---- a drop beside the list ---- */
+
+#define TARGET "row-move-target"
+
+static gpointer place_row(GtkDropTarget *drop, const GValue *value, struct moving *moving,
+			  gpointer *target)
+{
+	GtkWidget *place = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(drop));
+	gpointer row = value ? g_value_get_object(value) : NULL;
+	bool below = false;
+
+	*target = g_object_get_data(G_OBJECT(place), TARGET);
+	return is_ours(moving, row) && moving->how->fits(moving->owner, row, *target, &below) ?
+	       row : NULL;
+}
+
+static void leave_place(GtkDropTarget *drop)
+{
+	gtk_widget_remove_css_class(gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(drop)),
+				    "drop-here");
+}
+
+static GdkDragAction over_place(GtkDropTarget *drop, double x, double y, struct moving *moving)
+{
+	gpointer target;
+
+	(void)x;
+	(void)y;
+	if (!place_row(drop, gtk_drop_target_get_value(drop), moving, &target)) {
+		leave_place(drop);
+		return 0;
+	}
+	gtk_widget_add_css_class(gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(drop)),
+				 "drop-here");
+	return GDK_ACTION_MOVE;
+}
+
+static gboolean dropped_on(GtkDropTarget *drop, const GValue *value, double x, double y,
+			   struct moving *moving)
+{
+	gpointer target, row = place_row(drop, value, moving, &target);
+
+	(void)x;
+	(void)y;
+	leave_place(drop);
+	if (!row)
+		return FALSE;
+	g_object_ref(row);
+	moving->how->move(moving->owner, row, target, false);
+	g_object_unref(row);
+	return TRUE;
+}
+
+void row_move_add_place(GtkWidget *list, GtkWidget *place, gpointer target)
+{
+	struct moving *moving = g_object_get_data(G_OBJECT(list), "row-move");
+	GtkDropTarget *drop = gtk_drop_target_new(G_TYPE_OBJECT, GDK_ACTION_MOVE);
+
+	g_object_set_data(G_OBJECT(place), TARGET, target);
+	gtk_drop_target_set_preload(drop, TRUE);
+	g_signal_connect(drop, "enter", G_CALLBACK(over_place), moving);
+	g_signal_connect(drop, "motion", G_CALLBACK(over_place), moving);
+	g_signal_connect(drop, "leave", G_CALLBACK(leave_place), NULL);
+	g_signal_connect(drop, "drop", G_CALLBACK(dropped_on), moving);
+	gtk_widget_add_controller(place, GTK_EVENT_CONTROLLER(drop));
 }
 
 /* ---- keys ---- */

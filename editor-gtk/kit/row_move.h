@@ -21,6 +21,8 @@ struct row_move {
 	 * may set the side on which it would go. */
 	bool (*fits)(gpointer owner, gpointer row, gpointer target, bool *below);
 	void (*move)(gpointer owner, gpointer row, gpointer target, bool below);
+	/* A drag of a row begins or ends; NULL: nothing to do. */
+	void (*dragging)(gpointer owner, bool is);
 };
 
 /**
@@ -30,6 +32,10 @@ struct row_move {
  * A GtkColumnView gets a column of handles behind its first column.
  */
 void row_move_add(GtkWidget *list, const struct row_move *how, gpointer owner);
+/** row_move_add_place - rows of @list can also be dropped on @place, a widget in the same window;
+ * fits() and move() get @target, not below it. It has the class "drop-here" while a row is over
+ * it. @target: outlives @place. After row_move_add(). */
+void row_move_add_place(GtkWidget *list, GtkWidget *place, gpointer target);
 /** row_move_stand - names the list item that @cell shows. A GtkListView needs it in each row. */
 void row_move_stand(GtkWidget *cell, GtkListItem *item);
 /** row_move_at - the list item at a point of @list; NULL: none. Borrowed. */

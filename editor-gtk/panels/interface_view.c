@@ -16,6 +16,7 @@
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/picture_view.h"
+#include "editor-gtk/kit/row_move.h"
 #include "editor-gtk/kit/settings.h"
 #include "editor-gtk/panels/type_cells.h"
 #include "editor-gtk/text/text_view.h"
@@ -28,6 +29,8 @@
 #define LOW_SCREEN 800  /* px: on a lower one it is folded at first              */
 #define TABLE_HIGH 168  /* px                                                    */
 #define PIN_KIND SYMBOL_FIELDS /* field behind those of symbols                 */
+
+#define ON_SIDE -1 /* index of a row that stands for the end of a kind          */
 
 /* LadderPanelRow.flags, beside SYMBOL_KINDS and TYPE_CELLS_PARTS. */
 enum { FIXED = 1, RESULT = 1 << 15 /* of a function                             */ };
@@ -42,6 +45,8 @@ struct _LadderInterfaceView {
 	GtkWidget *box, *header, *arrow, *title, *summary, *body, *around, *picture;
 	GtkWidget *table;
 	GtkColumnViewColumn *address; /* of the variables of charts; borrowed     */
+	GtkWidget *sides;             /* places for a dragged row, one for each kind */
+	GPtrArray *side_rows;         /* what they stand for: LadderPanelRow, index ON_SIDE */
 	struct panel_list list;
 	struct panel_message message;
 	struct panel_cells cells;
@@ -493,33 +498,156 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 	g_free(name);
 }
 
+/* ---- moving: within a kind, or to another one ---- */
+
+/* Programs have no pins. */
+static bool has_kind(LadderInterfaceView *view, uint16_t kind)
+{
+	return has_pins(view) || !kind || kind == VAR_TEMP;
+}
+
+/* The variable of a kind that follows @index, or the first (-1). -1: there is none. */
+static int next_of(LadderInterfaceView *view, uint16_t kind, int index)
+{
+	const struct var_table *vars = &pou_of(view)->vars;
+	const int result = pou_of(view)->kind == POU_FUNCTION; /* the first one is no row */
+
+	for (int i = MAX(index + 1, result); i < vars_declared(vars); i++)
+		if ((vars_flags(vars, i) & SYMBOL_KINDS) == kind)
+			return i;
+	return -1;
+}
+
+static int last_before(LadderInterfaceView *view, uint16_t kind, int index)
+{
+	int last = -1;
+
+	for (int i = next_of(view, kind, -1); i >= 0 && i < index; i = next_of(view, kind, i))
+		last = i;
+	return last;
+}
+
+/* Of the list of kinds; as rows are listed. */
+static int place_of_kind(uint16_t kind)
+{
+	int at = 0;
+
+	while (kinds[at].flag != kind)
+		at++;
+	return at;
+}
+
+/* The edit; the row stays selected, and the keys in its field. @before: as for pin_put(). */
+static void put(LadderInterfaceView *view, LadderPanelRow *row, uint16_t kind, int before)
+{
+	const int pou = row->table - 1, index = index_of(view, row);
+	const bool other = index >= 0 && kind != (row->flags & SYMBOL_KINDS);
+	const int calls = other ? pin_calls(document_of(view), pou, index) : 0;
+	char *name = g_strdup(panel_row_text(row, FIELD_NAME));
+	char *why = index < 0 ? g_strdup(_("There is no such symbol")) :
+		    pin_put(document_of(view), pou, index, kind, before);
+	int field = -1;
+
+	cells_focused(view->list.view, &field);
+	if (why) {
+		tell(view, g_strdup_printf("%s: %s", name, why), true);
+	} else {
+		tell(view, told_calls(row, calls), false);
+		refresh(GTK_WIDGET(view));
+		if (panel_list_select(&view->list, panel_row_is_named, name) && field >= 0)
+			cells_enter(view->list.view, panel_list_row(&view->list), field);
+	}
+	g_free(why);
+	g_free(name);
+}
+
+/* Beyond the last one of its kind it becomes the first one of the next kind, and back. */
 static void move(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderInterfaceView *view = LADDER_INTERFACE_VIEW(widget);
 	LadderPanelRow *row = selected(view);
-	char *name, *why;
-	int field = -1, index;
+	const bool up = strcmp(action, "interface.up") == 0;
+	uint16_t kind;
+	int index, before, at;
 
 	(void)unused;
-	if (!row || !may_edit(view))
+	if (!row || row->flags & FIXED || !may_edit(view) ||
+	    !panel_cells_commit(view->list.view))
 		return;
-	cells_focused(view->list.view, &field);
+	kind = row->flags & SYMBOL_KINDS;
+	index = index_of(view, row);
+	before = up ? last_before(view, kind, index) : next_of(view, kind, index);
+	if (before < 0) {
+		for (at = place_of_kind(kind) + (up ? -1 : 1); at >= 0 &&
+		     at < (int)G_N_ELEMENTS(kinds) && !has_kind(view, kinds[at].flag);)
+			at += up ? -1 : 1;
+		if (at < 0 || at >= (int)G_N_ELEMENTS(kinds)) {
+			tell(view, g_strdup(up ? _("It is the first one already") :
+					    _("It is the last one already")), true);
+			return;
+		}
+		kind = kinds[at].flag;
+		before = up ? -1 : next_of(view, kind, -1);
+	} else if (!up) {
+		before = next_of(view, kind, before);
+	}
+	put(view, row, kind, before);
+}
+
+static const char *movable(gpointer owner, gpointer of)
+{
+	const LadderPanelRow *row = of;
+
+	return may_edit(owner) && !(row->flags & (FIXED | RESULT)) ?
+	       panel_row_text(row, FIELD_NAME) : NULL;
+}
+
+static bool fits(gpointer owner, gpointer row, gpointer target, bool *below)
+{
+	const LadderPanelRow *at = target;
+
+	if (at->flags & RESULT)
+		*below = true; /* the result of a function is the first row */
+	return movable(owner, row) && (at->flags & RESULT ||
+				       has_kind(owner, at->flags & SYMBOL_KINDS));
+}
+
+static void move_to(gpointer owner, gpointer row, gpointer target, bool below)
+{
+	LadderInterfaceView *view = owner;
+	const LadderPanelRow *at = target;
+	const bool result = at->flags & RESULT;
+	const uint16_t kind = result ? VAR_INPUT : at->flags & SYMBOL_KINDS;
+	int before = -1;
+
 	if (!panel_cells_commit(view->list.view))
 		return;
-	index = index_of(view, row);
-	name = g_strdup(panel_row_text(row, FIELD_NAME));
-	why = index < 0 ? g_strdup(_("There is no such symbol")) :
-	      pin_move(document_of(view), row->table - 1, index,
-		       strcmp(action, "interface.up") == 0 ? -1 : 1);
-	if (!why) {
-		refresh(widget);
-		if (panel_list_select(&view->list, panel_row_is_named, name) && field >= 0)
-			cells_enter(view->list.view, panel_list_row(&view->list), field);
-	}
-	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL, true);
-	g_free(why);
-	g_free(name);
+	if (result)
+		before = next_of(view, kind, -1);
+	else if (at->index != ON_SIDE)
+		before = below ? next_of(view, kind, index_of(view, at)) : index_of(view, at);
+	if (before < 0 || before != index_of(view, row))
+		put(view, row, kind, before);
 }
+
+static void dragging(gpointer owner, bool is)
+{
+	LadderInterfaceView *view = owner;
+	GtkWidget *side = gtk_widget_get_first_child(view->sides);
+
+	for (guint i = 0; i < view->side_rows->len; i++) {
+		const LadderPanelRow *row = view->side_rows->pdata[i];
+
+		side = gtk_widget_get_next_sibling(side); /* the first one is the label */
+		gtk_widget_set_visible(side, has_kind(view, row->flags & SYMBOL_KINDS));
+	}
+	gtk_widget_set_visible(view->sides, is);
+}
+
+static const struct row_move moving = {
+	.up = "interface.up", .down = "interface.down", .before_cells = true, .name = movable,
+	.fits = fits, .move = move_to, .dragging = dragging,
+};
 
 /* ---- deleting: a pin that is used is deleted after a question ---- */
 
@@ -638,6 +766,26 @@ static GtkWidget *tools_new(void)
 	return box;
 }
 
+/* One for each kind, also for those that have no row yet. */
+static void add_sides(LadderInterfaceView *view)
+{
+	view->sides = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+	view->side_rows = g_ptr_array_new_with_free_func(g_object_unref);
+	gtk_widget_set_visible(view->sides, FALSE);
+	gtk_box_append(GTK_BOX(view->sides), gtk_label_new(_("Move to:")));
+	for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++) {
+		LadderPanelRow *row = ladder_panel_row_new();
+		GtkWidget *side = gtk_label_new(_(kinds[i].word));
+
+		row->flags = kinds[i].flag;
+		row->index = ON_SIDE;
+		g_ptr_array_add(view->side_rows, row);
+		gtk_widget_add_css_class(side, "drop-side");
+		gtk_box_append(GTK_BOX(view->sides), side);
+		row_move_add_place(view->table, side, row);
+	}
+}
+
 static GtkWidget *header_new(LadderInterfaceView *view)
 {
 	GtkWidget *button = gtk_button_new();
@@ -688,6 +836,7 @@ static GtkWidget *table_new(LadderInterfaceView *view)
 	view->table = table;
 	panel_list_init(&view->list, GTK_COLUMN_VIEW(table));
 	add_columns(view);
+	row_move_add(table, &moving, view);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), table);
 	gtk_scrolled_window_set_min_content_height(GTK_SCROLLED_WINDOW(scroller), TABLE_HIGH);
 	gtk_widget_set_hexpand(scroller, TRUE);
@@ -727,6 +876,7 @@ static void dispose(GObject *object)
 	if (view->box) {
 		g_clear_pointer(&view->box, gtk_widget_unparent);
 		panel_list_clear(&view->list);
+		g_ptr_array_unref(view->side_rows);
 	}
 	G_OBJECT_CLASS(ladder_interface_view_parent_class)->dispose(object);
 }
@@ -753,11 +903,17 @@ static void ladder_interface_view_class_init(LadderInterfaceViewClass *class)
 
 static void ladder_interface_view_init(LadderInterfaceView *view)
 {
+	GtkWidget *head = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+
 	view->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
 	gtk_widget_add_css_class(view->box, "interface");
-	gtk_box_append(GTK_BOX(view->box), header_new(view));
 	view->body = body_new(view);
 	gtk_widget_set_visible(view->body, FALSE);
+	add_sides(view);
+	gtk_widget_set_hexpand(header_new(view), TRUE);
+	gtk_box_append(GTK_BOX(head), view->header);
+	gtk_box_append(GTK_BOX(head), view->sides);
+	gtk_box_append(GTK_BOX(view->box), head);
 	gtk_box_append(GTK_BOX(view->box), view->body);
 	gtk_widget_set_parent(view->box, GTK_WIDGET(view));
 	g_signal_connect(view, "map", G_CALLBACK(mapped), NULL);

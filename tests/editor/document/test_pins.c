@@ -360,6 +360,117 @@ static void test_included(void)
 	g_free(folder);
 }
 
+/* ---- to any place of any kind ---- */
+
+static const uint16_t every_kind[] = { VAR_INPUT, VAR_IN_OUT, VAR_OUTPUT, 0, VAR_TEMP };
+
+/* All variables by kind, in their order: "Level Start|Total|…". */
+static char *layout_of(const char *pou_name)
+{
+	const struct pou *pou = pou_named(pou_name);
+	GString *out = g_string_new(NULL);
+
+	for (gsize k = 0; k < G_N_ELEMENTS(every_kind); k++) {
+		for (int i = 0; i < vars_declared(&pou->vars); i++)
+			if ((vars_flags(&pou->vars, i) & SYMBOL_KINDS) == every_kind[k])
+				g_string_append_printf(out, "%s ", project_text(
+					ladder_document_project(document), pou->vars.var[i].name));
+		g_string_append_c(out, '|');
+	}
+	return g_string_free(out, FALSE);
+}
+
+/* The same after a move: @name is taken out and stands before @before, "": at the end of kind
+ * number @kind. */
+static char *moved_layout(const char *layout, const char *name, gsize kind, const char *before)
+{
+	char **side = g_strsplit(layout, "|", -1);
+	GString *out = g_string_new(NULL);
+
+	for (gsize k = 0; k < G_N_ELEMENTS(every_kind); k++) {
+		char **names = g_strsplit(*side[k] ? side[k] : " ", " ", -1);
+
+		for (char **at = *side[k] ? names : names + 1; *at; at++) {
+			if (k == kind && strcmp(*at, before) == 0)
+				g_string_append_printf(out, "%s ", name);
+			if (**at && strcmp(*at, name) != 0)
+				g_string_append_printf(out, "%s ", *at);
+		}
+		g_string_append_c(out, '|');
+		g_strfreev(names);
+	}
+	g_strfreev(side);
+	return g_string_free(out, FALSE);
+}
+
+static void check_put(const char *name, gsize kind, const char *before)
+{
+	const int pou = number_of(pou_named("Motor"));
+	char *first = ladder_document_text(document, NULL), *last;
+	char *was = layout_of("Motor"), *want = moved_layout(was, name, kind, before), *is;
+	char *why = pin_put(document, pou, pin("Motor", name), every_kind[kind],
+			    *before ? pin("Motor", before) : -1);
+
+	is = layout_of("Motor");
+	if (!CHECK_AS(!why && strcmp(is, want) == 0, name))
+		printf("# kind %d before %s: %s\n# is: %s\n", (int)kind, before, why ? why : want, is);
+	if (strcmp(was, want) != 0)
+		CHECK(ladder_document_undo(document));
+	last = ladder_document_text(document, NULL);
+	CHECK_AS(strcmp(first, last) == 0, "one step takes it back");
+	g_free(why);
+	g_free(want);
+	g_free(was);
+	g_free(is);
+	g_free(first);
+	g_free(last);
+}
+
+static void test_put(void)
+{
+	static const char *const names[] = { "Level", "Stop", "Late", "Total", "Inner" };
+	static const char *const places[][5] = { { "Level", "Stop", "Wait", "" },
+		{ "Total", "Other", "" }, { "Run", "Sum", "" }, { "Inner", "" }, { "" } };
+
+	open_with("LD", "RUNG\n");
+	for (gsize i = 0; i < G_N_ELEMENTS(names); i++)
+		for (gsize k = 0; k < G_N_ELEMENTS(places); k++)
+			for (gsize n = 0; n < G_N_ELEMENTS(places[k]) && places[k][n]; n++)
+				if (strcmp(places[k][n], names[i]) != 0)
+					check_put(names[i], k, places[k][n]);
+}
+
+/* What one part of a move may not do undoes all of it. */
+static void test_put_refused(void)
+{
+	char *first, *last, *why;
+
+	open_with("LD", BOX);
+	first = ladder_document_text(document, NULL);
+	why = pin_put(document, number_of(pou_named("Motor")), pin("Motor", "Late"), VAR_INPUT,
+		      pin("Motor", "Level"));
+	CHECK_AS(why && strstr(why, "connected to “Start”"), why ? why : "it moved");
+	last = ladder_document_text(document, NULL);
+	CHECK_TEXT(last, first);
+	CHECK(!ladder_document_undo_name(document));
+	g_free(why);
+	g_free(last);
+	g_free(first);
+}
+
+/* Blocks of the same kind are one list. */
+static void test_two_blocks(void)
+{
+	open_text("PROGRAM Main LD\nRUNG\nEND_PROGRAM\n\nFUNCTION_BLOCK Two LD\nVAR_INPUT\n  A : INT; (* a *)\n"
+		  "END_VAR\nVAR_OUTPUT\n  Q : BOOL;\nEND_VAR\nVAR_INPUT\n  B : INT;\n  C : INT;\nEND_VAR\n"
+		  "RUNG\nEND_FUNCTION_BLOCK\n");
+	CHECK(!pin_put(document, 1, pin("Two", "C"), VAR_INPUT, pin("Two", "A")) &&
+	      is_order("Two", VAR_INPUT, "C A B"));
+	CHECK(!pin_put(document, 1, pin("Two", "C"), VAR_INPUT, -1) &&
+	      is_order("Two", VAR_INPUT, "A B C"));
+	CHECK(ladder_document_undo(document) && is_order("Two", VAR_INPUT, "C A B"));
+}
+
 int main(void)
 {
 	document = ladder_document_new();
@@ -371,6 +482,9 @@ int main(void)
 	test_result();
 	test_kinds();
 	test_kinds_and_callers();
+	test_put();
+	test_put_refused();
+	test_two_blocks();
 	g_object_unref(document);
 	return tap_done();
 }

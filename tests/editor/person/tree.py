@@ -609,6 +609,59 @@ def interface(screen):
     editor.shot('interface-folded')
 
 
+def pins_moved(screen):
+    """pins move between the sides of a block, by keys and by the pointer, each in one step; a refusal is told there"""
+    path = new_file(screen, MOTOR)
+    editor = Editor(screen, path)
+    editor.click([n for n in editor.all('Motor', 'label') if n.name == 'Motor'][0], count=2)
+    sheet_of(editor)
+
+    def summary(text):
+        until(lambda: editor.all(text, 'label'), text)
+
+    def pin(name):
+        return until(lambda: [n for n in editor.all(name, 'text') if n.text() == name and n.box()[2] > 0],
+                     'the cell of ' + name)[0]
+
+    def handle(name):
+        return until(lambda: [n for n in editor.all('Move %s (' % name) if n.box()[2] > 0], 'the handle of ' + name)[0]
+
+    def upper(node):
+        x, y, width, height = node.box()
+        return x + width // 2, y + height // 4
+
+    def on_side():
+        """The places of the sides are there while a pin is dragged."""
+        side = [n for n in editor.all('in and out', 'label') if n.name == 'in and out' and n.box()[2] > 0]
+        if side:
+            sh('xdotool', 'mousemove', *map(str, editor.centre(side[0])), 'sleep', '0.2')
+        return bool(side)
+    summary('3 inputs, 2 outputs')
+    editor.click(pin('Wait'))
+    editor.keys('alt+Down')  # the side between has no pin yet
+    summary('2 inputs, 2 outputs, VAR_IN_OUT: 1')
+    assert 'VAR_IN_OUT\n  Wait : TIME' in editor.save(path), open(path).read()
+    editor.keys('ctrl+z')
+    summary('3 inputs, 2 outputs')
+    assert editor.save(path) == MOTOR
+    editor.drag(handle('Wait'), upper(pin('Late')), look='pins-drag')
+    summary('2 inputs, 3 outputs')
+    assert '  Run  : BOOL;\n  Wait : TIME := T#500ms;\n  Late : BOOL;\n' in editor.save(path), open(path).read()
+    editor.keys('ctrl+z')
+    summary('3 inputs, 2 outputs')
+    editor.drag(handle('Wait'), upper(pin('Late')), look='pins-side', ready=on_side)
+    summary('2 inputs, 2 outputs, VAR_IN_OUT: 1')
+    editor.keys('ctrl+z')
+    summary('3 inputs, 2 outputs')
+    editor.drag(handle('Start'), upper(pin('Late')))
+    until(lambda: [n for n in editor.all('Start: The power of the row is connected to “Start”', 'label')
+                   if n.box()[2] > 0], 'the refusal below the pins')
+    editor.shot('pins-refused')
+    editor.keys('ctrl+s')
+    editor.says('Saved')
+    assert open(path).read().index('Start : BOOL; (* begins *)') < open(path).read().index('VAR_OUTPUT')
+
+
 SHEETS = """RUNGBOARD 1
 
 VAR
@@ -834,4 +887,4 @@ def nothing_open(screen):
     editor.says(said)
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, declares, to_file, to_project, beside])
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, used, in_front, nothing_open, keys, menus, stop, order, made, properties, interface, pins_moved, declares, to_file, to_project, beside])
