@@ -44,6 +44,44 @@ const char *verb_found(enum verb verb)
 	return found[verb];
 }
 
+/* ---- what a verb needs ---- */
+
+static unsigned usual_needs(enum verb verb)
+{
+	static const unsigned sheet[] = { [VERB_SHEET] = WITH_RUNGS, [VERB_CHART] = WITH_CHART,
+					  [VERB_BOTH] = WITH_CANVAS, [VERB_WINDOW] = 0 };
+	const enum verb_group group = rows[verb].group;
+	const bool edits = group == VERBS_DRAW || group == VERBS_RUNG || group == VERBS_CHART;
+
+	return sheet[rows[verb].where] | (edits ? WITH_FREE : 0u);
+}
+
+unsigned verb_needs(enum verb verb)
+{
+	static const unsigned needs[VERB_COUNT] = {
+#define VERB(id, where, keys, label, group)
+#define NEEDS(id, facts) [VERB_##id] = (unsigned)(facts),
+#include "editor-gtk/kit/verbs.def"
+	};
+
+	return needs[verb] ? needs[verb] : usual_needs(verb);
+}
+
+const char *verb_why_not(enum verb verb, unsigned with)
+{
+	static const char *const why[VERB_FACTS] = {
+#define VERB(id, where, keys, label, group)
+#define FACT(id, text) [FACT_##id] = text,
+#include "editor-gtk/kit/verbs.def"
+	};
+	const unsigned lacks = verb_needs(verb) & ~with;
+
+	for (int i = 0; lacks && i < VERB_FACTS; i++)
+		if (lacks & (1u << i))
+			return _(why[i]);
+	return NULL;
+}
+
 bool verb_is_parted(enum verb verb)
 {
 	static const bool parted[VERB_COUNT] = {
@@ -284,14 +322,24 @@ static bool is_pressed(const char *keys, GdkEvent *key)
 	return same;
 }
 
-enum verb verb_of_key(GdkEvent *key)
+static enum verb pressed(GdkEvent *key, enum verb_where where, enum verb_where also)
 {
 	int i = 0;
 
-	while (i < VERB_COUNT && (rows[i].where != VERB_WINDOW ||
+	while (i < VERB_COUNT && ((rows[i].where != where && rows[i].where != also) ||
 				  !is_pressed(verb_keys((enum verb)i), key)))
 		i++;
 	return (enum verb)i;
+}
+
+enum verb verb_of_key(GdkEvent *key)
+{
+	return pressed(key, VERB_WINDOW, VERB_WINDOW);
+}
+
+enum verb verb_of_sheet_key(GdkEvent *key, enum verb_where where)
+{
+	return pressed(key, where, VERB_BOTH);
 }
 
 static void give_keys(GtkApplication *application)

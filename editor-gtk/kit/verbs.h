@@ -14,6 +14,18 @@ enum verb {
 #include "editor-gtk/kit/verbs.def"
 	VERB_COUNT
 };
+/* What is so in the window, as bits WITH_PROJECT and the like. */
+enum verb_fact {
+#define VERB(id, where, keys, label, group)
+#define FACT(id, why) FACT_##id,
+#include "editor-gtk/kit/verbs.def"
+	VERB_FACTS
+};
+enum verb_with {
+#define VERB(id, where, keys, label, group)
+#define FACT(id, why) WITH_##id = 1 << FACT_##id,
+#include "editor-gtk/kit/verbs.def"
+};
 enum verb_where { VERB_WINDOW, VERB_SHEET, VERB_CHART, VERB_BOTH };
 enum verb_group {
 	VERBS_FILE, VERBS_PROJECT, VERBS_EDIT, VERBS_DRAW, VERBS_RUNG, VERBS_CHART, VERBS_GO,
@@ -33,6 +45,10 @@ struct verb_row {
 const struct verb_row *verb_row(enum verb verb);
 /** verb_find - by an action's name, "win.save"; VERB_COUNT: none. */
 enum verb verb_find(const char *action);
+/** verb_needs - the facts, bits WITH_…, that must hold for it to work. */
+unsigned verb_needs(enum verb verb);
+/** verb_why_not - the reason, translated, why it cannot work while @with holds; NULL: it can. */
+const char *verb_why_not(enum verb verb, unsigned with);
 /** verb_found - further words by which it is found, not translated: _() them; NULL: none. */
 const char *verb_found(enum verb verb);
 /** menu_append - appends a row to a menu that shows the first of @keys, "": none. @label:
@@ -78,6 +94,8 @@ void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme);
 /** verb_of_key - the WINDOW verb of a key; VERB_COUNT: none. For widgets that handle keys
  * before the window. */
 enum verb verb_of_key(GdkEvent *key);
+/** verb_of_sheet_key - the same of the verbs of a kind of sheet: SHEET or CHART, and BOTH. */
+enum verb verb_of_sheet_key(GdkEvent *key, enum verb_where where);
 /** verbs_controller - handles the keys of all SHEET or CHART verbs, and of those of BOTH,
  * in the scheme in use. Owns: the widget it is added to. */
 GtkEventController *verbs_controller(enum verb_where where);

@@ -341,7 +341,7 @@ static void board_changed(struct board_bar *bar)
 		bar->ran = false;
 	else if (state == BOARD_STOPPING)
 		look_away(bar);
-	core_enable(bar->core, "win.stop_board", state != BOARD_OFF);
+	core_with(bar->core, WITH_OWN, state != BOARD_OFF);
 	log_state(bar, state);
 }
 
@@ -383,7 +383,7 @@ void board_bar_init(struct board_bar *bar, struct core *core, struct export *exp
 		     G_CONNECT_SWAPPED);
 	core_connect(core, core->board, "ended", G_CALLBACK(board_ended), bar,
 		     G_CONNECT_SWAPPED);
-	core_enable(core, "win.stop_board", false);
+	core_with(core, WITH_OWN, false);
 }
 
 void board_bar_clear(struct board_bar *bar)

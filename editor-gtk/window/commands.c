@@ -8,6 +8,7 @@
 
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/verbs.h"
 
 #include <string.h>
@@ -18,6 +19,7 @@ struct commands {
 	GtkWindow *window;
 	GtkWidget *dialog, *search, *list, *none;
 	char *filled;   /* the search text that the list was filled for        */
+	unsigned with;  /* the facts that hold                                 */
 };
 
 static bool fits(enum verb verb, const char *want)
@@ -34,7 +36,8 @@ static bool fits(enum verb verb, const char *want)
 	return found;
 }
 
-static GtkWidget *row_new(enum verb verb)
+/* @why: it cannot work now; NULL: it can. */
+static GtkWidget *row_new(enum verb verb, const char *why)
 {
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
 	GtkWidget *label = gtk_label_new(_(verb_row(verb)->label));
@@ -50,6 +53,10 @@ static GtkWidget *row_new(enum verb verb)
 	gtk_box_append(GTK_BOX(box), label);
 	gtk_box_append(GTK_BOX(box), group);
 	gtk_box_append(GTK_BOX(box), key);
+	if (why) {
+		gtk_widget_add_css_class(label, "dim-label");
+		tip_set(row, why);
+	}
 	gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(row), box);
 	spoken_name(row, _(verb_row(verb)->label));
 	g_object_set_data(G_OBJECT(row), "verb", GINT_TO_POINTER(verb));
@@ -67,7 +74,8 @@ static void fill(struct commands *commands)
 	for (int i = 0; i < VERB_COUNT; i++)
 		if (i != VERB_palette && fits((enum verb)i, want))
 			gtk_list_box_append(GTK_LIST_BOX(commands->list),
-					    row_new((enum verb)i));
+					    row_new((enum verb)i, verb_why_not((enum verb)i,
+									commands->with)));
 	row = gtk_list_box_get_row_at_index(GTK_LIST_BOX(commands->list), 0);
 	gtk_widget_set_visible(commands->none, !row); /* screen readers read hidden text too */
 	gtk_list_box_select_row(GTK_LIST_BOX(commands->list), row);
@@ -93,10 +101,13 @@ static void do_row(struct commands *commands, GtkListBoxRow *row)
 {
 	const enum verb verb = row ? (enum verb)GPOINTER_TO_INT(
 		g_object_get_data(G_OBJECT(row), "verb")) : VERB_COUNT;
+	const char *why = verb == VERB_COUNT ? NULL : verb_why_not(verb, commands->with);
 	GtkWindow *window = commands->window;
 
 	gtk_window_destroy(GTK_WINDOW(commands->dialog));
-	if (verb != VERB_COUNT)
+	if (why)
+		gtk_widget_activate_action(GTK_WIDGET(window), "win.tell", "s", why);
+	else if (verb != VERB_COUNT)
 		gtk_widget_activate_action(GTK_WIDGET(window), verb_row(verb)->action, NULL);
 }
 
@@ -154,7 +165,7 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 	return TRUE;
 }
 
-void commands_show(GtkWindow *window)
+void commands_show(GtkWindow *window, unsigned with)
 {
 	struct commands *commands = g_new0(struct commands, 1);
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
@@ -162,6 +173,7 @@ void commands_show(GtkWindow *window)
 	GtkEventController *keys = gtk_event_controller_key_new();
 
 	commands->window = window;
+	commands->with = with;
 	commands->dialog = gtk_window_new();
 	commands->search = gtk_search_entry_new();
 	commands->list = gtk_list_box_new();

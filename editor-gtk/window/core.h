@@ -9,6 +9,7 @@
 #define EDITOR_CORE_H
 
 #include "editor-gtk/document/document.h"
+#include "editor-gtk/kit/verbs.h"
 #include "editor-gtk/online/board_values.h"
 #include "editor-gtk/sim/board_run.h"
 #include "editor-gtk/sim/sim.h"
@@ -24,6 +25,7 @@ struct core {
 	LadderBoardValues *values; /* of it, shown by the simulation              */
 	GtkPageSetup *paper;       /* of prints and their preview                 */
 	GtkWidget *tree;
+	unsigned with;             /* the facts that hold, WITH_… of verbs.h; by core_with() */
 	struct messages *messages;
 	struct below *below;
 	struct front *front;
@@ -60,10 +62,18 @@ static inline void core_do(struct core *core, const char *action)
 	gtk_widget_activate_action(GTK_WIDGET(core->window), action, NULL);
 }
 
-/** core_enable - enables or disables an action of the window. */
-static inline void core_enable(struct core *core, const char *action, bool enabled)
+/** core_with - tells whether facts, bits WITH_… of verbs.h, hold now; the commands that need them
+ * become sensitive or insensitive. */
+static inline void core_with(struct core *core, unsigned facts, bool hold)
 {
-	gtk_widget_action_set_enabled(GTK_WIDGET(core->window), action, enabled);
+	const unsigned changed = facts & (hold ? ~core->with : core->with);
+
+	core->with ^= changed;
+	for (int i = 0; changed && i < VERB_COUNT; i++)
+		if (verb_needs((enum verb)i) & changed)
+			gtk_widget_action_set_enabled(GTK_WIDGET(core->window),
+				verb_row((enum verb)i)->action,
+				!verb_why_not((enum verb)i, core->with));
 }
 
 /** core_is_own - is the connected board the program that this editor runs on this machine? */

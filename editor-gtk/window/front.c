@@ -296,6 +296,13 @@ static struct numbers numbers_of(struct front *front)
 	return of;
 }
 
+bool front_has_numbers(struct front *front)
+{
+	const struct numbers of = numbers_of(front);
+
+	return of.first <= of.last;
+}
+
 static bool is_number(const struct numbers *of, const char *text, int *number)
 {
 	guint64 read;

@@ -55,6 +55,8 @@ void front_enter(struct front *front);
 /** front_take_typed - takes over what is being typed in a text or a cell. False: it was
  * refused, and the cell shows why. */
 bool front_take_typed(struct front *front);
+/** front_has_numbers - are there rungs or lines to go to by a number? */
+bool front_has_numbers(struct front *front);
 /** front_ask_number - asks for the number of a rung or line, and goes there. */
 void front_ask_number(struct front *front);
 

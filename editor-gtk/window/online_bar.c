@@ -176,12 +176,30 @@ static void show_reason(struct online_bar *bar)
 	gtk_widget_set_visible(bar->again, state == LINK_FAILED || state == LINK_LOST || none);
 }
 
-/* A button that the role does not allow says so. */
-static void allow(struct online_bar *bar, const char *action, enum service service, bool useful)
+static bool may(struct online_bar *bar, enum service service)
 {
-	core_enable(bar->core, action, useful && ladder_board_link_may(link_of(bar), service));
+	return ladder_board_link_status(link_of(bar)) &&
+	       ladder_board_link_may(link_of(bar), service);
 }
 
+static void tell_facts(struct online_bar *bar, int mode, enum role role)
+{
+	struct core *core = bar->core;
+
+	core_with(core, WITH_OFFLINE, !is_on(bar));
+	core_with(core, WITH_LINK, is_on(bar));
+	core_with(core, WITH_MAY_RUN, mode == STATE_STOP && role == ROLE_ENG);
+	core_with(core, WITH_MAY_STOP, mode == STATE_RUN && role == ROLE_ENG);
+	core_with(core, WITH_MAY_RESET, mode == STATE_FAULT && role >= ROLE_OPER);
+	core_with(core, WITH_MAY_DOWNLOAD, may(bar, SERVICE_DOWNLOAD));
+	core_with(core, WITH_MAY_UPLOAD, may(bar, SERVICE_UPLOAD));
+	if (is_on(bar)) { /* the keys of the simulation order the board */
+		core_with(core, WITH_STOP, core->with & WITH_MAY_STOP);
+		core_with(core, WITH_TIME, false);
+	}
+}
+
+/* A button that the role does not allow says so. */
 static void show_actions(struct online_bar *bar)
 {
 	const struct board_status *status = ladder_board_link_status(link_of(bar));
@@ -189,14 +207,7 @@ static void show_actions(struct online_bar *bar)
 	const int mode = status ? status->mode : -1;
 	const char *why = status ? ladder_board_link_needs(link_of(bar), ROLE_ENG) : NULL;
 
-	core_enable(bar->core, "win.online_run", mode == STATE_STOP && role == ROLE_ENG);
-	core_enable(bar->core, "win.online_stop", mode == STATE_RUN && role == ROLE_ENG);
-	core_enable(bar->core, "win.online_reset", mode == STATE_FAULT && role >= ROLE_OPER);
-	allow(bar, "win.online_download", SERVICE_DOWNLOAD, status != NULL);
-	allow(bar, "win.online_upload", SERVICE_UPLOAD, status != NULL);
-	allow(bar, "win.online_compare", SERVICE_UPLOAD, status != NULL);
-	core_enable(bar->core, "win.online_disconnect", is_on(bar));
-	core_enable(bar->core, "win.online_reconnect", is_on(bar));
+	tell_facts(bar, mode, role);
 	for (GtkWidget *at = gtk_widget_get_first_child(bar->buttons); at;
 	     at = gtk_widget_get_next_sibling(at)) {
 		const char *action = gtk_actionable_get_action_name(GTK_ACTIONABLE(at));

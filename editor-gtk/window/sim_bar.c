@@ -52,11 +52,24 @@ static void show_forces(struct sim_bar *bar)
 	char *text = g_strdup_printf(ngettext("%d force", "%d forces",
 					      (unsigned long)forces), forces);
 
+	core_with(bar->core, WITH_FORCES, forces > 0);
 	if (g_strcmp0(gtk_button_get_label(bar->forces_button), text) != 0) {
 		gtk_widget_set_visible(GTK_WIDGET(bar->forces_button), forces > 0);
 		gtk_button_set_label(bar->forces_button, text);
 	}
 	g_free(text);
+}
+
+/* While a board is connected, the board says what can be stopped. */
+static void tell_facts(struct sim_bar *bar, bool online)
+{
+	struct core *core = bar->core;
+
+	core_with(core, WITH_SIM, ladder_sim_is_on(core->sim));
+	core_with(core, WITH_TIME, !online && !ladder_sim_why_not(core->sim, SIM_WISH_TIME));
+	if (!online)
+		core_with(core, WITH_STOP, ladder_sim_is_on(core->sim) &&
+			  ladder_sim_state(core->sim) != SIM_STOP);
 }
 
 static void show_buttons(struct sim_bar *bar)
@@ -73,8 +86,7 @@ static void show_buttons(struct sim_bar *bar)
 	spoken_name(bar->run_button, name);
 	if (!online)
 		gtk_toggle_button_set_active(on ? bar->simulate_mode : bar->edit_mode, TRUE);
-	core_enable(bar->core, "win.sim_stop", on &&
-		    ladder_sim_state(bar->core->sim) != SIM_STOP);
+	tell_facts(bar, online);
 }
 
 /* In a narrow window the panel takes the room of the left side, not that of the rungs. An empty

@@ -367,9 +367,6 @@ static void do_on_chart(LadderWindow *window, enum verb verb)
 
 	if (chart)
 		ladder_canvas_do(LADDER_CANVAS(chart), verb);
-	else if (verb == VERB_copy_picture)
-		messages_tell(&window->messages, _("Only rungs can be copied as pictures. "
-						   "Open a sheet first."));
 }
 
 static bool do_in_file(LadderWindow *window, enum verb verb)
@@ -403,9 +400,7 @@ static bool do_find(LadderWindow *window, enum verb verb)
 		return true;
 	case VERB_find_element:
 		gtk_widget_set_visible(GTK_WIDGET(window->side), TRUE);
-		if (!ladder_palette_find(window->palette))
-			messages_tell(&window->messages, _("Elements are placed in rungs. Open a "
-							   "sheet first."));
+		ladder_palette_find(window->palette);
 		return true;
 	case VERB_rename: do_rename(window); return true;
 	case VERB_watch_add: names_watch(&window->core); return true;
@@ -434,7 +429,7 @@ static void do_view(LadderWindow *window, enum verb verb)
 	case VERB_below: toggle(GTK_WIDGET(window->below.box)); break;
 	case VERB_appearance: do_appearance(window); break;
 	case VERB_fullscreen: do_fullscreen(window); break;
-	case VERB_palette: commands_show(GTK_WINDOW(window)); break;
+	case VERB_palette: commands_show(GTK_WINDOW(window), window->core.with); break;
 	case VERB_help: help_here(&window->help); break;
 	case VERB_manual: help_show(&window->help, NULL); break;
 	case VERB_tutorial: help_show(&window->help, "tutorial.md"); break;
@@ -464,9 +459,6 @@ static void do_in_window(LadderWindow *window, enum verb verb)
 	case VERB_bookmark:
 		if (sheet)
 			do_on_sheet(window, sheet, verb);
-		else
-			messages_tell(&window->messages, _("Only rungs have bookmarks. Open "
-							   "a sheet first."));
 		break;
 	default:
 		if (!do_in_file(window, verb) && !do_project(window, verb) &&
@@ -491,6 +483,54 @@ static void do_verb(LadderWindow *window, enum verb verb)
 		do_on_sheet(window, sheet, verb);
 	else if (!sheet)
 		do_on_chart(window, verb);
+}
+
+static bool refuses(LadderWindow *window, enum verb verb)
+{
+	const char *why = verb == VERB_COUNT ? NULL : verb_why_not(verb, window->core.with);
+
+	if (why)
+		messages_tell(&window->messages, why);
+	return why != NULL;
+}
+
+/* The key of a command of the window that cannot work now says why, and does nothing else in
+ * the widget with the focus. Only undo and redo are left to an entry. */
+static gboolean key_comes(GtkEventController *keys, guint key, guint code, GdkModifierType state,
+			  LadderWindow *window)
+{
+	const bool letter = !(state & (GDK_CONTROL_MASK | GDK_ALT_MASK)) &&
+			    (key < GDK_KEY_F1 || key > GDK_KEY_F12);
+	const enum verb verb = letter ? VERB_COUNT :
+		verb_of_key(gtk_event_controller_get_current_event(keys));
+
+	(void)code;
+	return verb != VERB_undo && verb != VERB_redo && refuses(window, verb);
+}
+
+/* The same of a sheet's commands, and of undo and redo, if nobody took the key. */
+static gboolean key_left(GtkEventController *keys, guint key, guint code, GdkModifierType state,
+			 LadderWindow *window)
+{
+	GdkEvent *event = gtk_event_controller_get_current_event(keys);
+	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
+	enum verb verb = verb_of_key(event);
+
+	(void)key;
+	(void)code;
+	(void)state;
+	if (verb == VERB_COUNT && LADDER_IS_CANVAS(focus))
+		verb = verb_of_sheet_key(event, LADDER_IS_GRID_VIEW(focus) ? VERB_SHEET : VERB_CHART);
+	return refuses(window, verb);
+}
+
+static void hear_keys(LadderWindow *window, GtkPropagationPhase phase, GCallback heard)
+{
+	GtkEventController *keys = gtk_event_controller_key_new();
+
+	gtk_event_controller_set_propagation_phase(keys, phase);
+	g_signal_connect(keys, "key-pressed", heard, window);
+	gtk_widget_add_controller(GTK_WIDGET(window), keys);
 }
 
 /* ---- actions ---- */
@@ -750,6 +790,26 @@ static void menu_forget(LadderWindow *window)
 
 /* ---- state ---- */
 
+/* Tells what the page in front is. */
+static void tell_front(LadderWindow *window)
+{
+	struct core *core = &window->core;
+	struct front *front = &window->front;
+	LadderCanvas *canvas = front_seen_canvas(front);
+	const bool sheet = front_seen_sheet(front) != NULL;
+	const bool free = canvas && !ladder_document_is_fixed(ladder_canvas_document(canvas));
+
+	core_with(core, WITH_PROJECT, ladder_document_project(core->document) != NULL);
+	core_with(core, WITH_PAGE, front_tab(front) != NULL);
+	core_with(core, WITH_CANVAS, canvas != NULL);
+	core_with(core, WITH_RUNGS, sheet);
+	core_with(core, WITH_CHART, canvas && !sheet);
+	core_with(core, WITH_FREE, free);
+	core_with(core, WITH_ENTRY, free || (canvas && !sheet));
+	core_with(core, WITH_LINES, (canvas && !sheet) || front_has_numbers(front));
+	core_with(core, WITH_ZOOM, canvas || LADDER_IS_PREVIEW_VIEW(page_content(front_tab(front))));
+}
+
 static void name_button(GtkButton *button, const char *verb, const char *step)
 {
 	char *text = step ? g_strdup_printf("%s: %s", verb, step) : g_strdup(verb);
@@ -784,8 +844,9 @@ static void show_state(LadderWindow *window)
 	if (!ladder_sim_is_on(window->core.sim)) /* else it shows the time */
 		adw_window_title_set_subtitle(window->title, place);
 	gtk_window_set_title(GTK_WINDOW(window), title);
-	core_enable(&window->core, "win.undo", undo != NULL);
-	core_enable(&window->core, "win.redo", redo != NULL);
+	core_with(&window->core, WITH_UNDO, undo != NULL);
+	core_with(&window->core, WITH_REDO, redo != NULL);
+	tell_front(window);
 	name_button(window->undo_button, _("Undo"), undo);
 	name_button(window->redo_button, _("Redo"), redo);
 	g_free(place);
@@ -813,6 +874,14 @@ static void show_palette(LadderWindow *window)
 			    front_chart(&window->front) ? PALETTE_CHART : PALETTE_NONE);
 }
 
+static void place_changed(LadderWindow *window)
+{
+	if (!window->core.document) /* the pages of a closing window go one by one */
+		return;
+	tell_front(window);
+	show_palette(window);
+}
+
 static void page_changed(LadderWindow *window)
 {
 	LadderGridView *sheet = front_sheet(&window->front);
@@ -821,7 +890,7 @@ static void page_changed(LadderWindow *window)
 	if (!window->core.document) /* the pages of a closing window go one by one */
 		return;
 	select_in_tree(window);
-	show_palette(window);
+	place_changed(window);
 	if (list)
 		ladder_code_view_set_pou(list, ladder_canvas_pou(LADDER_CANVAS(sheet)));
 }
@@ -1101,8 +1170,12 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 	g_signal_connect_object(window->core.sim, "state-changed", G_CALLBACK(show_state),
 				window, G_CONNECT_SWAPPED);
 	g_signal_connect(window, "page-changed", G_CALLBACK(page_changed), NULL);
-	g_signal_connect(window, "place-changed", G_CALLBACK(show_palette), NULL);
-	g_signal_connect(window, "cursor-moved", G_CALLBACK(show_palette), NULL);
+	g_signal_connect(window, "place-changed", G_CALLBACK(place_changed), NULL);
+	g_signal_connect(window, "cursor-moved", G_CALLBACK(place_changed), NULL);
+	window->core.with = ~0u;
+	core_with(&window->core, ~0u, false);
+	hear_keys(window, GTK_PHASE_CAPTURE, G_CALLBACK(key_comes));
+	hear_keys(window, GTK_PHASE_BUBBLE, G_CALLBACK(key_left));
 	load_settings(window);
 	add_sides(window);
 	add_parts(window);

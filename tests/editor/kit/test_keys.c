@@ -94,8 +94,8 @@ static void test_sections(void)
 	CHECK_AS(most <= 7, "no section of the main menu has more than seven rows");
 }
 
-/* The menu Draw fits a window of 700 px; a menu nested in it is one of its rows. Other menus of
- * more rows scroll there. */
+/* The menus Draw and Simulation fit a window of 700 px; a menu nested in one is one of its rows.
+ * Other menus of more rows scroll there. */
 static void test_heights(void)
 {
 	int rows[VERBS_GROUPS] = { 0 }, most = 0;
@@ -112,6 +112,7 @@ static void test_heights(void)
 		most = MAX(most, rows[group]);
 	}
 	CHECK_AS(rows[VERBS_DRAW] <= 15, "the menu Draw has no more than 15 rows");
+	CHECK_AS(rows[VERBS_RUN] <= 15, "the menu Simulation has no more than 15 rows");
 	CHECK_AS(most <= 20, "no menu of the main menu has more than 20 rows");
 }
 

@@ -269,7 +269,7 @@ def searched(screen):
     editor.keys('ctrl+Page_Down')
     until(lambda: not editor.all('Find an element'), 'the palette to be gone')
     editor.keys('ctrl+shift+e')
-    editor.says('Elements are placed in rungs. Open a sheet first.')
+    editor.says('This works on a sheet. Open a sheet first.')
 
 
 def folded(screen):

@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_verbs - which commands can work: all of them, with each kind of page in front, while
+ * simulating, with a program before an edit, a board and a recording. A command that cannot is
+ * insensitive, and there is a reason to tell.
+ */
+#include "editor-gtk/kit/verbs.h"
+#include "editor-gtk/window/app.h"
+#include "editor-gtk/window/window.h"
+#include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
+#include "tests/tap.h"
+
+#include <gtksourceview/gtksource.h>
+#include <string.h>
+
+/* A state is a letter: n no page is open, u the file cannot be read, l a ladder, i an instruction
+ * list, c a chart, s a ladder while simulating, f the program before an edit, o a ladder while a
+ * board runs, whose user may do all, r a ladder while a recording of a board is shown. */
+#define ALL "nulicsfor"
+#define READ "nlicsfor"
+
+static const char sample[] =
+	"RUNGBOARD 1\n\nVAR\n  A AT %IX0.0 : BOOL;\n  Q AT %QX0.0 : BOOL;\nEND_VAR\n\n"
+	"PROGRAM Main LD\nRUNG\n  | NO A | COIL Q |\nEND_PROGRAM\n\n"
+	"PROGRAM List IL\n  LD A\n  ST %QX0.1\nEND_PROGRAM\n\n"
+	"PROGRAM Way SFC\n  INITIAL_STEP Start:\n  END_STEP\n  STEP Run:\n  END_STEP\n"
+	"  TRANSITION FROM Start TO Run := A; END_TRANSITION\n"
+	"  TRANSITION FROM Run TO Start := NOT A; END_TRANSITION\nEND_PROGRAM\n";
+static const char damaged[] = "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NOO A | COIL Q |\n";
+
+/* The states in which a command works that is not of a sheet, or not only of it. */
+static const struct { enum verb verb; const char *states; } works[] = {
+	{ VERB_close_tab, "ulicsfor" }, { VERB_next_sheet, "ulicsfor" },
+	{ VERB_previous_sheet, "ulicsfor" }, { VERB_print, READ }, { VERB_print_preview, READ },
+	{ VERB_export_pdf, READ }, { VERB_export_classic, READ }, { VERB_properties, READ },
+	{ VERB_new_program, READ }, { VERB_new_list, READ }, { VERB_new_chart, READ },
+	{ VERB_new_block, READ }, { VERB_new_function, READ }, { VERB_new_subroutine, READ },
+	{ VERB_import, READ }, { VERB_new_task, READ }, { VERB_new_structure, READ },
+	{ VERB_import_symbols, READ }, { VERB_export_symbols, READ },
+	{ VERB_cut, "lcsor" }, { VERB_copy, "lcsfor" }, { VERB_copy_picture, "lsfor" },
+	{ VERB_paste, "lcsor" }, { VERB_paste_parallel, "lsor" }, { VERB_delete, "lcsor" },
+	{ VERB_select_all, "lcsfor" }, { VERB_context_menu, "lcsfor" }, { VERB_enter, "lcsor" },
+	{ VERB_find_element, "lcsor" }, { VERB_cancel, "lsfor" }, { VERB_go_rung, "ulicsfor" },
+	{ VERB_bookmark, "lsor" }, { VERB_sim_scan, "nulicsf" }, { VERB_sim_stop, "sfo" },
+	{ VERB_sim_cold, "sf" }, { VERB_sim_warm, "sf" }, { VERB_sim_back, "sfor" },
+	{ VERB_sim_forth, "sfor" }, { VERB_sim_now, "sfor" }, { VERB_set_value, "sfor" },
+	{ VERB_force, "sfor" }, { VERB_run_board, READ }, { VERB_stop_board, "" },
+	{ VERB_online_connect, "nulicsfr" }, { VERB_online_reconnect, "o" },
+	{ VERB_online_disconnect, "o" }, { VERB_online_run, "" }, { VERB_online_stop, "o" },
+	{ VERB_online_reset, "" }, { VERB_online_compare, "o" }, { VERB_online_download, "o" },
+	{ VERB_online_upload, "o" }, { VERB_sim_recording, "nulicsfr" }, { VERB_sim_why, "sfor" },
+	{ VERB_sim_plant, "nulicsf" }, { VERB_sim_no_plant, "nulicsf" }, { VERB_sim_release, "" },
+	{ VERB_record, "nlicsf" }, { VERB_expect, "sfor" }, { VERB_run_scenarios, READ },
+	{ VERB_address_map, READ }, { VERB_show_as, "lsfor" }, { VERB_zoom_in, "lcsfor" },
+	{ VERB_zoom_out, "lcsfor" }, { VERB_zoom_reset, "lcsfor" }, { VERB_right, "sfor" },
+};
+
+static GtkWidget *window, *probes[VERB_COUNT];
+
+static bool should_work(enum verb verb, char state)
+{
+	const enum verb_group group = verb_row(verb)->group;
+
+	for (gsize i = 0; i < G_N_ELEMENTS(works); i++)
+		if (works[i].verb == verb)
+			return strchr(works[i].states, state);
+	return strchr(group == VERBS_DRAW || group == VERBS_RUNG ? "lsor" :
+		      group == VERBS_CHART ? "c" : ALL, state);
+}
+
+/* Their sensitivity follows the actions. */
+static void add_probes(void)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+
+	for (int i = 0; i < VERB_COUNT; i++) {
+		probes[i] = gtk_button_new();
+		gtk_actionable_set_action_name(GTK_ACTIONABLE(probes[i]),
+					       verb_row((enum verb)i)->action);
+		gtk_box_append(GTK_BOX(box), probes[i]);
+	}
+	gtk_widget_set_visible(box, FALSE);
+	gtk_widget_set_parent(box, gtk_widget_get_first_child(window));
+}
+
+/* All but undo and redo, which depend on the history alone. */
+static void check_state(char state, const char *name)
+{
+	int wrong = 0;
+
+	for (int i = 0; i < VERB_COUNT; i++) {
+		const bool should = should_work((enum verb)i, state);
+
+		if (i == VERB_undo || i == VERB_redo || gtk_widget_is_sensitive(probes[i]) == should)
+			continue;
+		printf("# %s: %s is %s\n", name, verb_row((enum verb)i)->action,
+		       should ? "insensitive" : "sensitive");
+		wrong++;
+	}
+	CHECK_AS(wrong == 0, name);
+}
+
+static void check_facts(char state, const char *name, unsigned with)
+{
+	int wrong = 0;
+
+	for (int i = 0; i < VERB_COUNT; i++) {
+		const char *why = verb_why_not((enum verb)i, with);
+
+		if (i == VERB_undo || i == VERB_redo || !why == should_work((enum verb)i, state))
+			continue;
+		printf("# %s: %s: %s\n", name, verb_row((enum verb)i)->action, why ? why : "works");
+		wrong++;
+	}
+	CHECK_AS(wrong == 0, name);
+}
+
+static void do_action(const char *action)
+{
+	gtk_widget_activate_action(window, action, NULL);
+	turn(0);
+}
+
+static bool can(enum verb verb)
+{
+	return gtk_widget_is_sensitive(probes[verb]);
+}
+
+static void go(int pou)
+{
+	gtk_widget_activate_action(window, "win.go-to", "(iiii)", pou, 0, 0, 0);
+	turn(0);
+}
+
+static void open_window(const char *text)
+{
+	LadderDocument *document = ladder_document_new();
+
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
+	ladder_document_check_now(document);
+	window = GTK_WIDGET(ladder_window_new(NULL, document));
+	g_object_unref(document);
+	add_probes();
+	ladder_window_opened(LADDER_WINDOW(window));
+	screen_show(window);
+}
+
+static void close_window(void)
+{
+	GtkWidget *box = gtk_widget_get_parent(probes[0]);
+
+	gtk_widget_unparent(box);
+	gtk_window_destroy(GTK_WINDOW(window));
+	turn(0);
+}
+
+static void check_simulated(void)
+{
+	LadderSim *sim = ladder_window_sim(LADDER_WINDOW(window));
+	guint64 last;
+
+	CHECK(ladder_sim_begin(sim, NULL));
+	ladder_sim_run(sim);
+	CHECK_SOON(ladder_sim_last(sim) > 5 && can(VERB_sim_cold));
+	ladder_sim_pause(sim);
+	CHECK_SOON(ladder_sim_state(sim) == SIM_PAUSE);
+	check_state('s', "simulating");
+	do_action("win.rung_duplicate");
+	CHECK_AS(can(VERB_undo) && !can(VERB_redo), "an edit can be undone");
+	ladder_document_check_now(ladder_window_document(LADDER_WINDOW(window)));
+	last = ladder_sim_last(sim);
+	ladder_sim_scan(sim, 5);
+	CHECK_SOON(ladder_sim_last(sim) == last + 5);
+	CHECK(ladder_sim_show(sim, 2));
+	CHECK_SOON(!can(VERB_contact));
+	check_state('f', "the program before an edit");
+	ladder_sim_show_now(sim);
+	CHECK_SOON(can(VERB_contact));
+	do_action("win.undo");
+	CHECK(!can(VERB_undo) && can(VERB_redo));
+	ladder_sim_end(sim);
+	CHECK_SOON(!can(VERB_sim_cold));
+	check_state('l', "after the simulation");
+}
+
+static void check_pages(void)
+{
+	open_window(sample);
+	go(1);
+	check_state('i', "an instruction list");
+	go(2);
+	check_state('c', "a chart");
+	go(0);
+	check_state('l', "a ladder");
+	check_simulated();
+	while (can(VERB_close_tab))
+		do_action("win.close_tab");
+	check_state('n', "no page");
+	close_window();
+	open_window(damaged);
+	check_state('u', "a file that cannot be read");
+	close_window();
+}
+
+int main(void)
+{
+	const unsigned ladder = WITH_PROJECT | WITH_PAGE | WITH_CANVAS | WITH_RUNGS | WITH_FREE |
+				WITH_ENTRY | WITH_LINES | WITH_ZOOM;
+
+	check_facts('o', "a board runs", ladder | WITH_SIM | WITH_STOP | WITH_LINK | WITH_MAY_STOP |
+		    WITH_MAY_DOWNLOAD | WITH_MAY_UPLOAD);
+	check_facts('r', "a recording", ladder | WITH_SIM | WITH_OFFLINE);
+	if (!screen_start() || !gtk_init_check()) {
+		tap_skip("the window needs Xvfb");
+		return tap_done();
+	}
+	adw_init();
+	gtk_source_init();
+	app_style();
+	check_pages();
+	return tap_done();
+}
