@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/live/timing_view.h"
 
+#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/watch_names.h"
 #include "editor-gtk/sim/live_value.h"
@@ -170,11 +171,24 @@ bool ladder_timing_view_add(LadderTimingView *view, const char *name)
 
 /* ---- adding ---- */
 
+static void refuse_wanted(LadderTimingView *view, bool refused)
+{
+	GtkWidget *entry = GTK_WIDGET(view->wanted);
+
+	if (refused)
+		gtk_widget_add_css_class(entry, "error");
+	else
+		gtk_widget_remove_css_class(entry, "error");
+	tip_set(entry, refused ? _("There is no such symbol") : NULL);
+	gtk_accessible_update_state(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_STATE_INVALID, refused ?
+		GTK_ACCESSIBLE_INVALID_TRUE : GTK_ACCESSIBLE_INVALID_FALSE, -1);
+}
+
 static void wanted_changed(LadderTimingView *view)
 {
 	gtk_string_filter_set_search(view->filter,
 				     gtk_editable_get_text(GTK_EDITABLE(view->wanted)));
-	gtk_widget_remove_css_class(GTK_WIDGET(view->wanted), "error");
+	refuse_wanted(view, false);
 }
 
 static void add_row(LadderTimingView *view, guint row)
@@ -195,7 +209,7 @@ static void add_wanted(LadderTimingView *view)
 	else if (g_list_model_get_n_items(G_LIST_MODEL(view->selection)))
 		add_row(view, gtk_single_selection_get_selected(view->selection));
 	else
-		gtk_widget_add_css_class(GTK_WIDGET(view->wanted), "error");
+		refuse_wanted(view, true);
 	gtk_editable_select_region(GTK_EDITABLE(view->wanted), 0, -1);
 }
 

@@ -553,12 +553,27 @@ struct ask {
 	int row;             /* of ASK_NAME                                    */
 };
 
+/* Does another chart have the name? */
+static bool is_of_other(LadderWatchView *view, const char *name)
+{
+	GPtrArray *charts = charts_of(view);
+	char *plain = g_strstrip(g_strdup(name));
+	const bool other = g_strcmp0(plain, view->chart_name) != 0 && is_taken(charts, plain);
+
+	g_free(plain);
+	g_ptr_array_unref(charts);
+	return other;
+}
+
 static char *line_changed(void *context, const char *line, int cursor, bool *good)
 {
 	struct ask *ask = context;
 	LadderWatchView *view = ask->view;
 
-	(void)good;
+	if (ask->what == ASK_CHART && is_of_other(view, line)) {
+		*good = false;
+		return g_strdup(_("Another status chart has this name"));
+	}
 	if (view->popup && ask->what != ASK_CHART) /* not while the popup is made */
 		watch_names_offer(view->document, image_of(view), line,
 				  (gsize)(g_utf8_offset_to_pointer(line, cursor) - line),
@@ -605,7 +620,11 @@ static bool line_taken(void *context, const char *line)
 		if (*line)
 			rename_row(ask->view, ask->row, line);
 		break;
-	case ASK_CHART: rename_chart(ask->view, line); break;
+	case ASK_CHART:
+		if (is_of_other(ask->view, line))
+			return false;
+		rename_chart(ask->view, line);
+		break;
 	}
 	return true;
 }

@@ -20,6 +20,7 @@
 #include <string.h>
 
 #define NARROW 1200 /* px of a window that has no room for both sides             */
+#define PANEL 280   /* px of the panel; both for letters of the usual size        */
 #define WHEN_US 200000 /* us between updates of the title                        */
 
 /* ---- what it says ---- */
@@ -89,13 +90,33 @@ static void show_buttons(struct sim_bar *bar)
 	tell_facts(bar, online);
 }
 
+/* How many times as large as usual the person has letters. */
+static double letters(void)
+{
+	int dpi = 0;
+
+	g_object_get(gtk_settings_get_default(), "gtk-xft-dpi", &dpi, NULL);
+	return dpi > 0 ? MAX(dpi / 1024.0 / 96, 1) : 1;
+}
+
+/* The panel grows with the letters, but leaves more than half of the window to the sheet. */
+static void size_panel(struct sim_bar *bar)
+{
+	const int window = gtk_widget_get_width(GTK_WIDGET(bar->core->window));
+	const int wanted = (int)(PANEL * letters());
+
+	gtk_widget_set_size_request(GTK_WIDGET(bar->right), window > 0 ?
+				    MAX(MIN(wanted, window * 2 / 5), PANEL) : wanted, -1);
+}
+
 /* In a narrow window the panel takes the room of the left side, not that of the rungs. An empty
  * list of problems gives its room to them, too. */
 static void make_room(struct sim_bar *bar)
 {
 	const int width = gtk_widget_get_width(GTK_WIDGET(bar->core->window));
 
-	if (width <= 0 || width >= NARROW)
+	size_panel(bar);
+	if (width <= 0 || width >= NARROW * letters())
 		return;
 	below_rest(bar->core->below);
 	bar->side_hidden = gtk_widget_get_visible(bar->side);
@@ -395,6 +416,9 @@ void sim_bar_init(struct sim_bar *bar, struct core *core, struct origin *origin)
 	gtk_widget_set_vexpand(panel, TRUE);
 	gtk_box_append(bar->right, panel);
 	tip_set(GTK_WIDGET(bar->forces_button), _("Release all forces"));
+	size_panel(bar);
+	core_connect(core, gtk_settings_get_default(), "notify::gtk-xft-dpi",
+		     G_CALLBACK(size_panel), bar, G_CONNECT_SWAPPED);
 	gtk_menu_button_set_popover(bar->pace_button, ladder_sim_pace_new(sim));
 	core_connect(core, sim, "state-changed", G_CALLBACK(state_changed), bar,
 		     G_CONNECT_SWAPPED);

@@ -230,6 +230,16 @@ static GtkWidget *find_class(GtkWidget *widget, const char *class)
 	return found;
 }
 
+static bool has_text(GtkWidget *widget, const char *text)
+{
+	bool has = GTK_IS_LABEL(widget) && strcmp(gtk_label_get_text(GTK_LABEL(widget)), text) == 0;
+
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !has;
+	     child = gtk_widget_get_next_sibling(child))
+		has = has_text(child, text);
+	return has;
+}
+
 static const char *message(void)
 {
 	return gtk_label_get_text(GTK_LABEL(find_class(GTK_WIDGET(view), "panel-message")));
@@ -386,6 +396,7 @@ static void check_running(void)
 	do_action("watch.write-all");
 	CHECK(*message());
 	CHECK(strcmp(shown("Label"), "'abc'") == 0);
+	CHECK(gtk_widget_has_css_class(row_of("Label")->fresh, "error"));
 	save_pictures(window, "WATCH_PICTURES", "running");
 	type_new("Label", "");
 }
@@ -473,6 +484,30 @@ static void check_unfolded(void)
 	CHECK(ladder_document_undo(document) && ladder_document_undo(document));
 }
 
+/* The entry of a chart's name refuses that of another chart, and says why. */
+static void check_chart_name(void)
+{
+	GtkWidget *entry;
+
+	do_action("watch.new-chart");
+	do_action("watch.rename-chart");
+	entry = find_type(find_type(GTK_WIDGET(view), LADDER_TYPE_ENTRY_POPUP), GTK_TYPE_ENTRY);
+	gtk_editable_set_text(GTK_EDITABLE(entry), "Chart 1");
+	turn(20);
+	g_signal_emit_by_name(entry, "activate");
+	turn(20);
+	CHECK_AS(find_type(GTK_WIDGET(view), LADDER_TYPE_ENTRY_POPUP), "the entry stays open");
+	CHECK(has_text(GTK_WIDGET(view), "Another status chart has this name"));
+	CHECK(file_has("  status-chart Chart 2\n") || file_has("  status-chart Chart 2\nEND_VIEW"));
+	gtk_editable_set_text(GTK_EDITABLE(entry), "Second");
+	turn(20);
+	g_signal_emit_by_name(entry, "activate");
+	CHECK_SOON(!find_type(GTK_WIDGET(view), LADDER_TYPE_ENTRY_POPUP));
+	CHECK(file_has("  status-chart Second\nEND_VIEW"));
+	CHECK(ladder_document_undo(document) && ladder_document_undo(document));
+	CHECK_SOON(rows() == 9);
+}
+
 static void check_charts(void)
 {
 	do_action("watch.new-chart");
@@ -523,6 +558,7 @@ int main(void)
 	check_forces();
 	check_following();
 	check_unfolded();
+	check_chart_name();
 	check_charts();
 	check_colors();
 	gtk_window_destroy(GTK_WINDOW(window));

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: MIT
 """looks - the window is used in the dark, with high contrast, on a small and on a very large screen."""
 import os
+import shutil
 import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+from desk import ROOT, Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 PROJECT "Pump station"
@@ -62,6 +63,40 @@ def light(screen):
     until(lambda: editor.all('Rung 3'), 'the rung of the mistake')
     editor.shot('looks-light')
 
+
+def large_letters(screen):
+    """letters 1.5 times as large, 1024 px wide: the window fits, no name in the panel of the simulation is cut"""
+    sh('xprop', '-root', '-f', 'RESOURCE_MANAGER', '8s', '-set', 'RESOURCE_MANAGER', 'Xft.dpi:\t144\n')
+    path = os.path.join(screen.home, 'ladders', 'garage-door.rung')
+    shutil.copytree(os.path.join(ROOT, 'ladders'), os.path.join(screen.home, 'ladders'))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+m')
+    editor.says('SIMULATION')
+    names = 'ButtonDown', 'DownFree', 'MotorDown'
+    labels = until(lambda: [[n for n in editor.all(name, 'label') if n.name == name and n.box()[2] > 0] for name in names],
+                   'the names')
+    editor.shot('looks-letters')
+    for name, found in zip(names, labels):
+        # A label that is cut has less than a third of a line for each letter.
+        assert found and found[0].box()[2] >= len(name) * found[0].box()[3] / 3, (name, [n.box() for n in found])
+    wide = editor.all(role='frame')[0].box()[2]
+    assert wide <= 1024, 'the window is %d px wide' % wide
+
+
+def last_tab(screen):
+    """a panel beside the sheets takes room from the tabs: the tab in front stays whole, with its close button"""
+    editor = Editor(screen, new_file(screen, GOOD))
+    editor.to_sheet()
+    for page in 'Tasks', 'Data types', 'Print preview', 'State of the board', 'Address map':
+        editor.command(page)
+        until(lambda: len(editor.all(role='page tab')) > 0, page)
+    editor.keys('ctrl+m')
+    editor.says('SIMULATION')
+    panel = until(lambda: [n for n in editor.all('Filter the variables') if n.box()[2] > 0], 'the panel')[0]
+    until(lambda: max(n.box()[0] + n.box()[2] for n in editor.all('Close Tab')) <= panel.box()[0],
+          'the last tab to be in sight')
+    editor.shot('looks-tab')
 
 def small(screen):
     """a rung drawn on a screen of 1024x700"""
@@ -136,7 +171,7 @@ def sharp(screen):
     large(screen, 'looks-4k-sharp', GDK_SCALE='2')
 
 
-small.size = '1024x700x24'
+small.size = large_letters.size = last_tab.size = '1024x700x24'
 large.size = sharp.size = '3840x2160x24'
 light.quick = 'editor-gtk/draw'
-main([light, dark, high, small, large, sharp])
+main([light, dark, high, small, last_tab, large_letters, large, sharp])
