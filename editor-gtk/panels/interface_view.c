@@ -772,6 +772,7 @@ static void add_sides(LadderInterfaceView *view)
 	view->sides = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
 	view->side_rows = g_ptr_array_new_with_free_func(g_object_unref);
 	gtk_widget_set_visible(view->sides, FALSE);
+	gtk_widget_set_margin_end(view->sides, 6);
 	gtk_box_append(GTK_BOX(view->sides), gtk_label_new(_("Move to:")));
 	for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++) {
 		LadderPanelRow *row = ladder_panel_row_new();
@@ -781,6 +782,7 @@ static void add_sides(LadderInterfaceView *view)
 		row->index = ON_SIDE;
 		g_ptr_array_add(view->side_rows, row);
 		gtk_widget_add_css_class(side, "drop-side");
+		gtk_label_set_ellipsize(GTK_LABEL(side), PANGO_ELLIPSIZE_END);
 		gtk_box_append(GTK_BOX(view->sides), side);
 		row_move_add_place(view->table, side, row);
 	}
