@@ -285,8 +285,12 @@ static void fit(struct panel_list *list)
 
 	measure(list);
 	for (guint i = 0; i < list->columns->len; i++) {
-		all += wish_of(&g_array_index(list->columns, struct panel_column, i));
-		slack += slack_of(&g_array_index(list->columns, struct panel_column, i));
+		const struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
+
+		if (!gtk_column_view_column_get_visible(each->column))
+			continue;
+		all += wish_of(each);
+		slack += slack_of(each);
 	}
 	page = list->page > 0 ? list->page : all;
 	for (guint i = 0; i < list->columns->len; i++) {

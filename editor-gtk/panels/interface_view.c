@@ -11,6 +11,7 @@
 #include "editor-gtk/draw/grid_draw.h"
 #include "editor-gtk/draw/sheet.h"
 #include "editor-gtk/kit/cells.h"
+#include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/popover.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tip.h"
@@ -246,7 +247,7 @@ static void show_summary(LadderInterfaceView *view, const struct pou *pou)
 	spoken_name(view->header, name);
 	spoken_name(view->table, has_pins(view) ? _("Pins") : _("Variables"));
 	gtk_widget_set_visible(view->around, has_pins(view));
-	gtk_column_view_column_set_visible(view->address, !has_pins(view));
+	list_show_column(view->address, !has_pins(view));
 	g_free(text);
 }
 

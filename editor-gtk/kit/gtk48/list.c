@@ -45,6 +45,19 @@ void list_drop_row(GtkTreeExpander *expander)
 	gtk_tree_expander_set_list_row(expander, NULL);
 }
 
+void list_show_column(GtkColumnViewColumn *column, bool shown)
+{
+	const int width = gtk_column_view_column_get_fixed_width(column);
+
+	if (shown == gtk_column_view_column_get_visible(column))
+		return;
+	if (!shown)
+		g_object_set_data(G_OBJECT(column), "width", GINT_TO_POINTER(width));
+	gtk_column_view_column_set_fixed_width(column, shown ?
+		GPOINTER_TO_INT(g_object_get_data(G_OBJECT(column), "width")) : -1);
+	gtk_column_view_column_set_visible(column, shown);
+}
+
 /* ---- one stop of Tab ---- */
 
 struct _LadderTabStop {
