@@ -25,7 +25,9 @@
 #include <unistd.h>
 
 #define DESK_NAME  "ladder-editor " LADDER_VERSION
-#define STATUS_MS  500     /* between two requests for its status              */
+#define STATUS_MS  500     /* between two requests for its status, at least    */
+#define STATUS_MOST_MS 5000
+#define STATUS_PART 4      /* of the time of a slow line, that requests for the status take */
 #define ASK_MS     600000  /* that a person has for the questions of ssh       */
 #define SAID_MOST  4096    /* bytes of what a command said at last             */
 #define RETRY_MS   500     /* before the first attempt to connect again        */
@@ -93,6 +95,8 @@ struct _LadderBoardLink {
 	enum role role;
 	struct board_status status;
 	bool has_status, asks;   /* a request for the status is on its way     */
+	gint64 asked_us;         /* when the last one was asked for            */
+	gint64 every_us;         /* between two of them                        */
 	guint timer, retry;
 	guint retry_ms;
 	GList *pending;          /* of struct asked, which the session has     */
@@ -504,6 +508,8 @@ static void status_came(gpointer data, struct board_answer *got)
 	bool other;
 
 	link->asks = false;
+	link->every_us = CLAMP((g_get_monotonic_time() - link->asked_us) * STATUS_PART,
+			       STATUS_MS * 1000, STATUS_MOST_MS * 1000);
 	if (got->end != DESK_GOOD)
 		return;
 	status = g_new0(struct board_status, 1);
@@ -530,6 +536,7 @@ static void ask_status(LadderBoardLink *link)
 	if (link->asks || link->state != LINK_CONNECTED)
 		return;
 	link->asks = true;
+	link->asked_us = g_get_monotonic_time();
 	ladder_board_link_send(link, SERVICE_STATUS, &fields, link, status_came, link);
 }
 
@@ -538,9 +545,13 @@ void ladder_board_link_look(LadderBoardLink *link)
 	ask_status(link);
 }
 
+/* A slow line has time for other things, too. */
 static gboolean status_due(gpointer data)
 {
-	ask_status(data);
+	LadderBoardLink *link = data;
+
+	if (g_get_monotonic_time() - link->asked_us >= link->every_us - STATUS_MS * 500)
+		ask_status(link);
 	return G_SOURCE_CONTINUE;
 }
 

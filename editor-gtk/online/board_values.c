@@ -3,7 +3,8 @@
  * board_values - see board_values.h.
  *
  * After a connection, a change of the board's program or a restart: find the program, begin
- * the mirror, ask the board to publish. A ping ten times a second shows how late values are.
+ * the mirror, ask the board to publish. A ping ten times a second, less often on a slow line, shows
+ * how late values are.
  */
 #include "editor-gtk/online/board_values.h"
 
@@ -19,7 +20,9 @@
 #define SLOW_US   200000     /* the same on a serial line                      */
 #define VALUES_MOST 2048u    /* limits of a session, docs/online.md            */
 #define UNITS_MOST  12u
-#define PING_MS 100
+#define PING_MS 100          /* between two pings, at least                     */
+#define PING_MOST_US 2000000
+#define PING_PART 4          /* of the time of a slow line, that pings take      */
 #define LAPS_MOST 8          /* times that the record may be asked for again   */
 #define LATE_US G_GINT64_CONSTANT(200000) /* less is not told               */
 
@@ -43,6 +46,7 @@ struct _LadderBoardValues {
 	struct sim_program *program; /* the one to be shown                    */
 	guint8 identity[32];     /* of the program of `mirror`, or of the last attempt */
 	bool tried, loading;
+	guint reads;             /* that ladder_board_values_took_read() has not told */
 	bool filled;             /* the values have come once                  */
 	bool again;              /* views needed more while the board was asked */
 	GPtrArray *sets;         /* of struct set                              */
@@ -56,6 +60,7 @@ struct _LadderBoardValues {
 	bool pinged;             /* a ping is on its way                       */
 	gint64 ping_us, pong_us; /* when the last one was sent; when the one that was
 				    answered last was sent                      */
+	gint64 every_us;         /* between two of them                        */
 	gint64 least_us;         /* the least difference of the clocks seen    */
 	gint64 delay_us;         /* of the last message                        */
 };
@@ -505,6 +510,8 @@ static void begin(LadderBoardValues *values, struct sim_program *program)
 	values->delay_us = 0;
 	values->pinged = false;
 	values->pong_us = g_get_monotonic_time();
+	values->ping_us = 0;
+	values->every_us = PING_MS * 1000;
 	values->timer = g_timeout_add(PING_MS, ping_due, values);
 	set_why(values, "");
 	if (status)
@@ -571,6 +578,14 @@ static bool is_newest(LadderBoardValues *values)
 	return status && memcmp(values->identity, status->program, sizeof(values->identity)) == 0;
 }
 
+bool ladder_board_values_took_read(LadderBoardValues *values)
+{
+	if (!values->reads)
+		return false;
+	values->reads--;
+	return true;
+}
+
 void ladder_board_values_again(LadderBoardValues *values)
 {
 	if (!values->mirror)
@@ -586,6 +601,8 @@ static void copied(gpointer data, struct board_copy *copy, const char *why, bool
 
 	(void)locked;
 	values->loading = false;
+	if (!copy && values->reads)
+		values->reads--; /* the board has logged nothing */
 	if (ladder_board_link_state(values->link) == LINK_CONNECTED && copy && copy->text)
 		program = read_copy(copy, &error);
 	if (program && runs(values, program) && is_newest(values)) {
@@ -635,6 +652,7 @@ static void find_program(LadderBoardValues *values, const struct board_status *s
 		return;
 	}
 	values->loading = true;
+	values->reads++;
 	board_upload(values->link, G_OBJECT(values), copied, values);
 }
 
@@ -761,7 +779,7 @@ static void told(LadderBoardLink *link, gpointer pointer, LadderBoardValues *val
 
 static void show_late(LadderBoardValues *values)
 {
-	const gint64 silent_us = g_get_monotonic_time() - values->pong_us - PING_MS * 1000;
+	const gint64 silent_us = g_get_monotonic_time() - values->pong_us - values->every_us;
 	const gint64 late_us = MAX(values->delay_us, silent_us);
 
 	/* In steps, so that the text can be read. */
@@ -784,6 +802,8 @@ static void pong(gpointer data, struct board_answer *answer)
 	if (answer->body.failed || moment.state > STATE_FAULT)
 		return;
 	values->pong_us = values->ping_us;
+	values->every_us = CLAMP((g_get_monotonic_time() - values->ping_us) * PING_PART,
+				 PING_MS * 1000, PING_MOST_US);
 	values->delay_us = 0;
 	show_late(values);
 	if (values->filled)
@@ -796,7 +816,8 @@ static gboolean ping_due(gpointer data)
 	struct wire_writer fields;
 
 	show_late(values);
-	if (values->pinged)
+	if (values->pinged ||
+	    g_get_monotonic_time() - values->ping_us < values->every_us - PING_MS * 500)
 		return G_SOURCE_CONTINUE;
 	values->pinged = true;
 	values->ping_us = g_get_monotonic_time();

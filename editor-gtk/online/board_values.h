@@ -22,6 +22,9 @@ LadderBoardValues *ladder_board_values_new(LadderSim *sim, LadderBoardLink *link
 /** ladder_board_values_why - why the views show nothing although the link is connected; "": they
  * do, or will. Borrowed until it changes, with `told` of the simulation. */
 const char *ladder_board_values_why(LadderBoardValues *values);
+/** ladder_board_values_took_read - whether the board logs a read of its program that no person
+ * wanted: it was read to show its values. True once for each. */
+bool ladder_board_values_took_read(LadderBoardValues *values);
 /** ladder_board_values_again - if none are shown: looks for the program of the board again, at its
  * next status. */
 void ladder_board_values_again(LadderBoardValues *values);

@@ -27,6 +27,33 @@ static bool board_bar_logs(const struct online_log *log, const struct event *eve
 	return event->id >= EVENT_START && event->id <= EVENT_RUN && core_is_own(log->core);
 }
 
+/* As the user of this session is called there, if that is known. */
+static bool is_own_user(const struct online_log *log, const struct event *event)
+{
+	const char *where = ladder_board_link_where(log->core->link);
+	const char *at = where && !g_str_has_prefix(where, "unix:") ? strrchr(where, '@') : NULL;
+	const gsize len = at ? (gsize)(at - where) : 0;
+
+	return !*event->user || strcmp(event->user, g_get_user_name()) == 0 ||
+	       (at && strncmp(event->user, where, len) == 0 && strlen(event->user) == len);
+}
+
+/* No person did that: the views needed the program. */
+static bool is_own_read(const struct online_log *log, const struct event *event)
+{
+	return event->id == EVENT_UPLOAD && is_own_user(log, event) &&
+	       ladder_board_values_took_read(log->core->values);
+}
+
+static void log_read(struct online_log *log, const struct event *event)
+{
+	char *line = g_strdup_printf(_("%s: its program was read to show values"),
+				     ladder_board_link_board(log->core->link));
+
+	messages_log_at(log->core->messages, LOG_COMMUNICATION, event->time_ns / 1000, line);
+	g_free(line);
+}
+
 static void log_event(struct online_log *log, const struct event *event)
 {
 	const char *text = event_text(event->id);
@@ -45,14 +72,19 @@ static void log_event(struct online_log *log, const struct event *event)
 /* Those of before the last connection are in the log already. */
 static void log_all(struct online_log *log)
 {
-	guint first = 0;
+	guint first = 0, reads = log->events->len;
 
+	while (reads && is_own_read(log, &g_array_index(log->events, struct event, reads - 1)))
+		reads--;
 	if (log->past && log->events->len > PAST_MOST)
 		first = log->events->len - PAST_MOST;
 	for (guint i = first; i < log->events->len; i++) {
 		const struct event *event = &g_array_index(log->events, struct event, i);
 
-		if (!board_bar_logs(log, event) && (!log->past || event->time_ns > log->last_ns))
+		if (i >= reads)
+			log_read(log, event);
+		else if (!board_bar_logs(log, event) &&
+			 (!log->past || event->time_ns > log->last_ns))
 			log_event(log, event);
 	}
 	log->past = false;
