@@ -37,7 +37,8 @@ MAP = 'BOARD "garage"\n%IX0.0 sim\n%QX0.0 sim\n'
 class Board:
     """A ladderd with --link in a folder of its own."""
 
-    def __init__(self, screen, name, program=SEAL, role='eng', board=MAP):
+    def __init__(self, screen, name, program=SEAL, role='eng', board=MAP, options=()):
+        self.options = options
         self.folder = os.path.join(screen.home, name)
         os.makedirs(self.folder + '/slots')
         for file, text in (('board.rung', program), ('board.io', board), ('group', 'ladder-%s:x:%d:\n' % (role, os.getgid()))):
@@ -54,7 +55,7 @@ class Board:
     def start(self):
         self.daemon = subprocess.Popen(
             [os.path.join(os.path.abspath(BUILD), 'ladderd'), 'board.rung', '--io', 'board.io', '--link', 'link', '--groups', 'group',
-             '--slots', 'slots'], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+             '--slots', 'slots', *self.options], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL)
         until(self.listens, 'the board')
 
@@ -165,8 +166,8 @@ def roles(screen):
 
 
 def download(screen):
-    """a change is marked until it is downloaded; the dialog names what loses its value; nothing is stopped"""
-    board = Board(screen, 'mill')
+    """a change is marked until it is downloaded; the dialog names what loses its value; no scan is missed"""
+    board = Board(screen, 'mill', options=('--period', '500ms'))  # a busy machine may be late by some ms
     path = new_file(screen, SEAL.replace('Count : INT', 'Total : DINT'), 'seal.rung')
     with open(path[:-5] + '.io', 'w') as out:
         out.write(MAP)
@@ -174,15 +175,41 @@ def download(screen):
     editor.to_sheet()
     connect(editor, board.where)
     says(editor, 'The board runs another program.')
+    log = editor.logs('communication', 'its program was read to show values')
+    assert 'read the program' not in log, log
+    editor.click(editor.sheet())
+    editor.to_sheet()
     editor.keys('ctrl+shift+l')
     editor.find('Download to “garage”?', 'label')
     says(editor, '“Count” is not in the new program; its value is lost')
     editor.shot('online-download')
     assert not editor.all('Total” is new'), 'a new variable loses nothing'
+    board.daemon.send_signal(signal.SIGSTOP)
+    editor.keys('Return')
+    until(lambda: not editor.all('Download to “garage”?', 'label'), 'the end of the dialog')
+    editor.keys('ctrl+shift+l')
+    editor.says('The board has not answered to the last download yet')
+    board.daemon.send_signal(signal.SIGCONT)
+    says(editor, 'The board runs this program.')
+    editor.logs('operator', 'Downloaded to “garage”')
+    assert 'mode: RUN' in board.ask('status')
+    before = int(re.search(r'missed scans: (\d+)', board.ask('status'))[1])
+    editor.click(editor.sheet())
+    editor.to_sheet()
+    editor.keys('ctrl+d', 'ctrl+shift+l')
+    editor.find('Download to “garage”?', 'label')
     editor.keys('Return')
     says(editor, 'The board runs this program.')
     scans = board.ask('status')
-    assert 'mode: RUN' in scans and 'missed scans' in scans
+    assert int(re.search(r'missed scans: (\d+)', scans)[1]) == before, scans
+    editor.keys('ctrl+z')
+    says(editor, 'Changed here, not downloaded.')
+    editor.keys('ctrl+shift+l')
+    editor.find('Download to “garage”?', 'label')
+    editor.keys('Return')
+    says(editor, 'The board runs this program.')
+    scans = board.ask('status')
+    assert int(re.search(r'missed scans: (\d+)', scans)[1]) == before, scans
     assert 'Total' in board.ask('symbols')
     editor.to_sheet()
     editor.keys('ctrl+d')

@@ -1,0 +1,142 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""online_boards - two windows with a board each, and a board at the end of a serial line.
+
+The boards are ladderds of this machine, whose lines are simulated.
+"""
+import os
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../online'))
+from desk import BUILD, Editor, main, new_file, sh, until  # noqa: E402
+from online import Board, connect, says  # noqa: E402
+from online_live import PUMP  # noqa: E402
+from serial_line import Cable  # noqa: E402
+
+MAP = 'BOARD "%s"\n%%IX0.0 sim\n%%QX0.0 sim\n'
+MILL = PUMP.replace('"Pump"', '"Mill"')
+BARN = PUMP.replace('"Pump"', '"Barn"').replace('30', '70')
+
+
+def front(editor, name):
+    """Brings the window of a project to the front; returns the path of its frame."""
+    window = until(lambda: [each for each in editor.windows() if sh('xdotool', 'getwindowname', str(each)).startswith(name)], name)
+    sh('xdotool', 'windowactivate', '--sync', str(window[0]))
+    return until(lambda: [node for node in editor.all(role='frame') if node.name.startswith(name)], 'the frame of ' + name)[0].path
+
+
+def cell(editor, frame, *parts):
+    return until(lambda: [node for node in editor.all('Rung ', 'table cell', frame) if all(part in node.name for part in parts)],
+                 ', '.join(parts))
+
+
+def has(editor, frame, text):
+    return bool([node for node in editor.all(text, 'label', frame)])
+
+
+def two(screen):
+    """two windows with a board each: values, a force, a download and the end of one leave the other alone"""
+    boards = [Board(screen, name, program=text, board=MAP % name) for name, text in (('mill', MILL), ('barn', BARN))]
+    paths = [new_file(screen, MILL, 'mill.rung'), new_file(screen, BARN, 'barn.rung')]
+    for path, name in zip(paths, ('mill', 'barn')):
+        with open(path[:-5] + '.io', 'w') as out:
+            out.write(MAP % name)
+    editor = Editor(screen, *paths)
+    until(lambda: len(editor.windows()) == 2, 'two windows')
+    frames = []
+    for board, name in zip(boards, ('Mill', 'Barn')):
+        frames.append(front(editor, name))
+        until(lambda: any(node.has(12) for node in editor.all('Sheet', below=frames[-1])), 'the keys in the sheet')
+        connect(editor, board.where)
+        until(lambda: has(editor, frames[-1], name.lower() + ' · RUN'), name)
+    mill, barn = frames
+    cell(editor, mill, 'Rung 2, [ ]', '30 > 20, closed')
+    cell(editor, barn, 'Rung 2, [ ]', '70 > 20, closed')
+    boards[0].ask('force', 'Start=1')
+    cell(editor, mill, 'Rung 1, COIL', ', on')
+    cell(editor, barn, 'Rung 1, COIL', ', off')
+    assert not [node for node in editor.all('1 force', 'push button', barn)], 'the force is of the other board'
+    editor.shot('online-two')
+    front(editor, 'Barn')
+    editor.keys('ctrl+Home', 'ctrl+d')
+    until(lambda: has(editor, barn, 'Changed here, not downloaded.'), 'the change')
+    assert has(editor, mill, 'The board runs this program.')
+    identity = boards[0].ask('status').split('program')[1].splitlines()[0]
+    editor.keys('ctrl+shift+l')
+    editor.find('Download to “barn”?', 'label')
+    editor.keys('Return')
+    until(lambda: has(editor, barn, 'The board runs this program.'), 'the download')
+    cell(editor, barn, 'Rung 3, [ ]', '70 > 20, closed')
+    assert boards[0].ask('status').split('program')[1].splitlines()[0] == identity
+    assert has(editor, mill, 'mill · RUN') and has(editor, mill, 'The board runs this program.')
+    front(editor, 'Mill')
+    editor.command('Disconnect')
+    until(lambda: not has(editor, mill, 'mill · RUN'), 'the end of one')
+    boards[1].ask('set', 'Level=9')
+    cell(editor, barn, 'Rung 3, [ ]', '9 > 20, open')
+    assert has(editor, barn, 'barn · RUN')
+    for board in boards:
+        assert 'mode: RUN' in board.ask('status')
+        board.stop()
+
+
+class SerialBoard(Board):
+    """The same at the end of a cable."""
+
+    def __init__(self, screen, cable, *args, **named):
+        self.cable = cable
+        super().__init__(screen, *args, **named)
+        self.where = 'serial:%s,115200' % cable.desk
+
+    def start(self):
+        self.daemon = subprocess.Popen(
+            [os.path.join(os.path.abspath(BUILD), 'ladderd'), 'board.rung', '--io', 'board.io', '--link', 'link', '--groups', 'group',
+             '--slots', 'slots', '--serial', self.cable.board + ',115200'], cwd=self.folder, stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        until(self.listens, 'the board')
+
+    def beside(self, *words):
+        """Asks over the socket: the line has one session."""
+        return subprocess.run([os.path.join(os.path.abspath(BUILD), 'ladder'), 'board', 'unix:%s/link' % self.folder, *words],
+                              capture_output=True, text=True, check=True).stdout
+
+
+SLOW = int(os.environ.get('SLOW', '11520'))  # bytes a second: 115,200 baud
+
+
+def serial(screen):
+    """a serial line: values, a force and a download come over it, slowly"""
+    with Cable(speed=SLOW) as cable:
+        board = SerialBoard(screen, cable, 'far', program=PUMP, board=MAP % 'far')
+        path = new_file(screen, PUMP, 'pump.rung')
+        with open(path[:-5] + '.io', 'w') as out:
+            out.write(MAP % 'far')
+        editor = Editor(screen, path)
+        editor.to_sheet()
+        connect(editor, board.where)
+        says(editor, 'far · RUN')
+        editor.element('Rung 2, [ ]', '30 > 20, closed')
+        board.beside('set', 'Level=7')
+        editor.element('Rung 2, [ ]', '7 > 20, open')
+        until(lambda: not editor.all(' s late', 'label'), 'values that are not late')
+        editor.shot('online-serial')
+        editor.to_sheet()
+        editor.click(editor.beside(editor.element('Rung 1, COIL', ', off')))
+        editor.keys('ctrl+shift+f')
+        editor.element('Rung 1, COIL', ', off, forced')
+        editor.keys('ctrl+shift+f')
+        until(lambda: not editor.all('forced', 'table cell'), 'the force to end')
+        editor.keys('ctrl+d')
+        says(editor, 'Changed here, not downloaded.')
+        editor.keys('ctrl+shift+l')
+        editor.find('Download to “far”?', 'label')
+        editor.keys('Return')
+        says(editor, 'The board runs this program.')
+        editor.element('Rung 3, [ ]', '7 > 20, open')
+        board.stop()
+
+
+if __name__ == '__main__':
+    main([two, serial])
