@@ -315,9 +315,12 @@ static void shows_some_of_many(void)
 	CHECK_SOON(ladder_sim_forces(sim) == 1);
 	last = place("Number2999");
 	first = place("Number0");
+	g_subprocess_send_signal(board.daemon, SIGSTOP);
 	CHECK_AS(!ladder_sim_knows(sim, last), "it is beyond those that are published");
-	turn(20);
+	turn(200);
 	CHECK_AS(!ladder_sim_knows(sim, place("Number2998")), "it is needed while the board is asked");
+	turn(200);
+	g_subprocess_send_signal(board.daemon, SIGCONT);
 	CHECK_SOON(ladder_sim_knows(sim, last) && ladder_sim_knows(sim, place("Number2998")));
 	CHECK_SOON(value("Number2999") == 5 && value("Number2998") == 2998);
 	CHECK_AS(ladder_sim_knows(sim, first), "the others go on");
@@ -327,6 +330,29 @@ static void shows_some_of_many(void)
 	close_editor();
 	board_close(&board);
 	g_free(program);
+}
+
+#define CHART "RUNGBOARD 1\nPROJECT \"Chart\"\n\nVAR\n  Start AT %IX0.0 : BOOL;\n" \
+	"  Motor AT %QX0.0 : BOOL;\nEND_VAR\n\nPROGRAM Main SFC\n  INITIAL_STEP Idle:\n  END_STEP\n\n" \
+	"  TRANSITION FROM Idle TO Run := Start; END_TRANSITION\n\n  STEP Run:\n    Motor(N);\n" \
+	"  END_STEP\n\n  TRANSITION FROM Run TO Idle := NOT Start; END_TRANSITION\nEND_PROGRAM\n"
+
+/* The rungs of its conditions are those of the board, so their power is shown. */
+static void numbers_a_chart(void)
+{
+	struct test_board board;
+
+	board_open(&board, "eng");
+	board_write(&board, "chart.rung", CHART);
+	download(&board, "chart.rung");
+	open_editor(CHART);
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) != NULL);
+	CHECK(ladder_sim_rung(sim, document, 0, 0) == 0 && ladder_sim_rung(sim, document, 0, 1) == 1);
+	CHECK(ladder_sim_may_miss(sim) && !ladder_sim_is_missing(sim, document, 0, -1) &&
+	      !ladder_sim_is_missing(sim, document, SIM_SYMBOLS, -1));
+	close_editor();
+	board_close(&board);
 }
 
 /* A board that does not answer: what is shown gets older. */
@@ -393,6 +419,7 @@ int main(void)
 	only_looks();
 	says_where_it_is_refused();
 	shows_some_of_many();
+	numbers_a_chart();
 	says_how_late_it_is();
 	knows_no_sources();
 	gets_another_program();
