@@ -435,6 +435,11 @@ static enum status restore_all(struct remote *remote, const struct backup *backu
 		status = remote_send(remote, &stored, &verified);
 	if (status == STATUS_GOOD)
 		status = take_identity(remote, &verified, program);
+	/* The old program must not run with the settings of the new one. */
+	if (status == STATUS_GOOD)
+		status = remote_stop(remote);
+	if (status == STATUS_GOOD)
+		status = remote_expect(remote, false);
 	if (status == STATUS_GOOD)
 		status = restore_settings(remote, backup);
 	if (status == STATUS_GOOD)

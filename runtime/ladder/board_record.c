@@ -109,7 +109,7 @@ static enum status fetch_program(struct remote *remote, struct record_program *p
 		wire_put_bytes(&out, program->identity, 32);
 		wire_put_u32(&out, len);
 		end = desk_call(&remote->desk, &out, &in);
-		if (end == DESK_REFUSED && remote->desk.refusal == REFUSAL_NO_RECORD)
+		if (end == DESK_REFUSED && remote->desk.refusal == REFUSAL_NO_IMAGE)
 			return STATUS_GOOD;
 		if (end == DESK_REFUSED && remote->desk.refusal == REFUSAL_PASSWORD && !asked) {
 			const enum status status = remote_unlock(remote);

@@ -721,6 +721,17 @@ enum status remote_run(struct remote *remote)
 	return change_mode(remote, MODE_WARM);
 }
 
+enum status remote_stop(struct remote *remote)
+{
+	struct board_status *now = calloc(1, sizeof(*now));
+	enum status status = now ? remote_status(remote, now) : report_no_memory(remote->where);
+
+	if (status == STATUS_GOOD && now->mode == STATE_RUN)
+		status = change_mode(remote, MODE_STOP);
+	free(now);
+	return status;
+}
+
 static enum status act_run(struct remote *remote)
 {
 	return change_mode(remote, call_flag(remote->call, "--cold") ? MODE_COLD : MODE_WARM);

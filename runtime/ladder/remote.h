@@ -96,6 +96,9 @@ enum status remote_put(struct remote *remote, const struct parcel *parcel);
 bool remote_again(struct remote *remote);
 /** remote_peek - status, silently. */
 bool remote_peek(struct remote *remote, struct board_status *status);
+/** remote_stop - stops the program if it runs; outputs get their safe values. Fails: after a
+ * message. */
+enum status remote_stop(struct remote *remote);
 /** remote_run - starts the program, with retained values. Fails: after a message. */
 enum status remote_run(struct remote *remote);
 /** remote_is_wanted - asks on the terminal, unless --yes; without a terminal the answer is no. */

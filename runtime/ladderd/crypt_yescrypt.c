@@ -14,7 +14,8 @@ bool crypt_can(void)
 	return true;
 }
 
-/* crypt_rn() of a struct that is too large for a stack. */
+/* crypt_rn() of a struct that is too large for a stack. Fails: false: no memory, or the setting
+ * is none; errno is the same for both. */
 static bool hash(const char *text, const char *setting, char *out)
 {
 	struct crypt_data *data = calloc(1, sizeof(*data));
@@ -37,15 +38,18 @@ bool crypt_make(const char *text, char *out)
 	       hash(text, setting, out);
 }
 
-bool crypt_fits(const char *text, const char *wanted)
+enum crypt_end crypt_compare(const char *text, const char *wanted)
 {
 	char made[PASSWORD_HASH];
 	unsigned char differs = 0;
 	size_t len = strlen(wanted);
 
-	if (!hash(text, wanted, made) || strlen(made) != len)
-		return false;
+	/* If a new hash can be made, @wanted is damaged. */
+	if (!hash(text, wanted, made))
+		return crypt_make(text, made) ? CRYPT_DIFFERS : CRYPT_NO_MEMORY;
+	if (strlen(made) != len)
+		return CRYPT_DIFFERS;
 	for (size_t i = 0; i < len; i++)
 		differs |= (unsigned char)(made[i] ^ wanted[i]);
-	return !differs;
+	return differs ? CRYPT_DIFFERS : CRYPT_FITS;
 }

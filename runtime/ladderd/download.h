@@ -22,6 +22,7 @@ struct slots {
 	uint8_t *bytes;        /* of the slot that runs; NULL: none           */
 	struct slot slot;
 	int next;              /* the slot to be written                      */
+	bool bad[2];           /* damaged, at the start                       */
 	uint32_t seq;          /* of the newest one                           */
 	uint8_t unlike;        /* the event that says why the next start runs another program
 				* than this one; 0: it does not               */

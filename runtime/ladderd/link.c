@@ -70,6 +70,7 @@ struct link {
 	struct link_store with;
 	struct download *download;
 	struct store *retain;          /* that of the cycle                    */
+	struct arena retain_arena;     /* of the store, if another program has run */
 	struct order store_order;      /* given beside those of the server     */
 	struct board_status status;    /* of that order                        */
 	struct journal *journal;
@@ -418,25 +419,27 @@ static bool lock_is_set(void *context)
 	return ((struct link *)context)->password.set;
 }
 
-static enum refusal lock_check(void *context, const char *text, char *detail, size_t size)
+static enum refusal lock_check(void *context, uint32_t who, const char *text, char *detail,
+			       size_t size)
 {
-	return password_check(&((struct link *)context)->password, text, clock_now(), detail, size);
+	return password_check(&((struct link *)context)->password, who, text, clock_now(), detail,
+			      size);
 }
 
-static enum refusal lock_change(void *context, const char *old, const char *text, char *detail,
-				size_t size)
+static enum refusal lock_change(void *context, uint32_t who, const char *old, const char *text,
+				char *detail, size_t size)
 {
-	return password_change(&((struct link *)context)->password, old, text, clock_now(), detail,
-			       size);
+	return password_change(&((struct link *)context)->password, who, old, text, clock_now(),
+			       detail, size);
 }
 
 /* ---- retained values ---- */
 
 /* Stores the values of another program in the same file; it has those of the one before, which
  * the scan thread has carried over. */
-static void store_retained_again(struct link *link, const struct program *program,
-				 struct arena *arena)
+static void store_retained_again(struct link *link, const struct program *program)
 {
+	struct arena *arena = &link->retain_arena;
 	struct store_wish wish = *link->with.retain;
 	struct image *cold = arena_alloc(arena, sizeof(*cold));
 	void *memory = arena_alloc(arena, image_memory_size(program));
@@ -456,21 +459,20 @@ static void store_retained_again(struct link *link, const struct program *progra
 	act(link, take_store, link->retain, program);
 }
 
-/* The views, the arena and the program that the link uses now. */
+/* The views and the program that the link uses now. */
 struct used {
 	uint8_t *views;
-	struct arena *arena;
 	const struct program *program;
 };
 
 static struct used used_of(struct link *link, struct standby *standby)
 {
 	if (standby)
-		return (struct used){ standby->views, &standby->arena, &standby->program };
-	return (struct used){ link->views, link->with.arena, link->with.program };
+		return (struct used){ standby->views, &standby->program };
+	return (struct used){ link->views, link->with.program };
 }
 
-/* Another program runs. The store has names of the one before. */
+/* Another program runs. The store has names of the one before, so it and its memory go. */
 static const struct program *use(struct link *link, struct standby *standby)
 {
 	const struct used used = used_of(link, standby);
@@ -480,8 +482,10 @@ static const struct program *use(struct link *link, struct standby *standby)
 		store_close(link->retain);
 	link->retain = NULL;
 	exchange_renew(&link->exchange, used.views, image_memory_size(used.program));
+	arena_free(&link->retain_arena);
+	arena_init(&link->retain_arena);
 	if (retains)
-		store_retained_again(link, used.program, used.arena);
+		store_retained_again(link, used.program);
 	return used.program;
 }
 
@@ -584,7 +588,7 @@ static void begin_port_session(struct link *link)
 	int session;
 
 	end_port_session(link);
-	session = server_open(link->server, link->port.role, "serial");
+	session = server_open(link->server, link->port.role, "serial", UINT32_MAX);
 	if (session < 0) {
 		serial_end(&link->port.serial);
 		return;
@@ -722,7 +726,7 @@ static void take_in(struct link *link)
 		close(fd);
 		return;
 	}
-	session = server_open(link->server, peer.role, peer.user);
+	session = server_open(link->server, peer.role, peer.user, peer.uid);
 	if (session < 0) {
 		send_away(fd);
 		return;
@@ -887,6 +891,9 @@ int link_begin(struct link *link)
 	journal_add(link->journal, EVENT_START, 0, "", link->cycle->identity, "");
 	if (link->with.conf->damaged)
 		journal_add(link->journal, EVENT_CONF_BAD, 0, "", "", "");
+	for (int i = 0; i < 2; i++)
+		if (link->with.slots->bad[i])
+			journal_add(link->journal, EVENT_SLOT_BAD, 0, "", i ? "prog.B" : "prog.A", "");
 	if (ends_begin(link->with.slots->folder)) {
 		link->cycle->begin_stopped = true;
 		link->cycle->stopped = "ladderd has ended abnormally three times within a minute";
@@ -898,6 +905,8 @@ int link_begin(struct link *link)
 	link->began_ns = clock_now();
 	error = start_thread(link);
 	link->runs = !error;
+	if (error)
+		ends_orderly(link->with.slots->folder); /* nothing has run */
 	return -error;
 }
 
@@ -929,6 +938,7 @@ void link_free(struct link *link)
 	server_free(link->server);
 	journal_close(link->journal);
 	download_free(link->download);
+	arena_free(&link->retain_arena);
 	free(link->views);
 	free(link->record);
 	free(link);
@@ -1074,6 +1084,7 @@ struct link *link_open(const struct options *options, struct cycle *cycle,
 	link->with = *store;
 	store->program->index = symbol_index_new(store->program, store->arena);
 	link->retain = cycle->store;
+	arena_init(&link->retain_arena);
 	link->listening = link->wake = link->port.fd = link->port.session = -1;
 	for (int i = 0; i < SERVER_SESSIONS; i++)
 		link->fd[i] = -1;

@@ -53,9 +53,13 @@ static enum refusal answer_scan(struct asked *asked, enum refusal refusal, uint6
 	return refusal;
 }
 
-static enum refusal not_now(struct asked *asked)
+/* @what is possible only in another mode. */
+static enum refusal not_now(struct asked *asked, const char *what, uint8_t needed)
 {
-	asked->detail = mode_word((uint8_t)asked->nameless->cycle->resource.state);
+	snprintf(asked->text, sizeof(asked->text), "%s" DIAG_AND "%s" DIAG_AND "%s", what,
+		 mode_word(needed),
+		 mode_word((uint8_t)asked->nameless->cycle->resource.state));
+	asked->detail = asked->text;
 	return REFUSAL_NOT_NOW;
 }
 
@@ -310,7 +314,7 @@ static enum refusal serve_mode(struct asked *asked)
 		return REFUSAL_CONFLICT;
 	refusal = cycle_mode(cycle, wish);
 	if (refusal == REFUSAL_NOT_NOW)
-		return not_now(asked);
+		return not_now(asked, mode_wish_word(wish), mode_wish_needs(wish));
 	return answer_scan(asked, refusal, scan);
 }
 
@@ -324,7 +328,7 @@ static enum refusal can_download(struct asked *asked, bool begun)
 	if (!nameless->download.pool)
 		return REFUSAL_NO_STORE;
 	if (nameless->cycle->resource.state == STATE_RUN)
-		return not_now(asked);
+		return not_now(asked, "download", STATE_STOP);
 	return begun && !nameless->download.begun ? REFUSAL_NO_DOWNLOAD : REFUSAL_NONE;
 }
 
@@ -439,7 +443,6 @@ static enum refusal store(struct asked *asked)
 {
 	const struct nameless_download *download = &asked->nameless->download;
 	struct slots *slots = asked->nameless->slots;
-	const char *path = slots_path(slots, slots->next);
 	struct diag_list *diags = calloc(1, sizeof(*diags));
 	uint8_t beside[32];
 	bool good = false;
@@ -447,12 +450,10 @@ static enum refusal store(struct asked *asked)
 	if (!diags)
 		return REFUSAL_MEMORY;
 	diag_init(diags);
-	if (path) {
-		slots_beside(slots, beside);
-		slot_seal(&download->wanted, slots->seq + 1, beside, download->pool);
-		good = file_save(path, download->pool,
-				 SLOT_HEAD + (size_t)download->received + 4, diags);
-	}
+	slots_beside(slots, beside);
+	slot_seal(&download->wanted, slots->seq + 1, beside, download->pool);
+	good = slots_store(slots, download->pool, SLOT_HEAD + (size_t)download->received + 4,
+			   diags) && slots_keep(slots);
 	if (!good && diags->count) {
 		snprintf(asked->text, sizeof(asked->text), "%.100s", diags->diag[0].arg);
 		asked->detail = asked->text;

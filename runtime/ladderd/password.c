@@ -43,26 +43,52 @@ void password_load(struct password *password, const char *folder)
 		fprintf(stderr, "ladderd: %s cannot be read: nobody can read the program back\n", path);
 }
 
-enum refusal password_check(struct password *password, const char *text, int64_t now_ns,
-			    char *detail, size_t size)
+/* The row of @who; else a free one, or that of the user who has waited longest ago. So a user who
+ * guesses has one row, however often he tries. */
+static struct guesser *guesser_of(struct password *password, uint32_t who)
 {
+	struct guesser *found = &password->guesser[0];
+
+	for (int i = 0; i < PASSWORD_GUESSERS; i++) {
+		struct guesser *it = &password->guesser[i];
+
+		if (it->wrong && it->who == who)
+			return it;
+		if (found->wrong && (!it->wrong || it->not_before_ns < found->not_before_ns))
+			found = it;
+	}
+	return found;
+}
+
+enum refusal password_check(struct password *password, uint32_t who, const char *text,
+			    int64_t now_ns, char *detail, size_t size)
+{
+	struct guesser *guesser = guesser_of(password, who);
 	int64_t wait_s;
 
 	if (!password->set)
 		return REFUSAL_NONE;
 	if (!crypt_can())
 		return REFUSAL_NO_SERVICE;
-	if (now_ns < password->not_before_ns) {
-		snprintf(detail, size, "%lld", (long long)((password->not_before_ns - now_ns) / SECOND + 1));
+	/* Also if other users have all rows: then one of them has just been wrong. */
+	if (guesser->wrong && now_ns < guesser->not_before_ns) {
+		snprintf(detail, size, "%lld", (long long)((guesser->not_before_ns - now_ns) / SECOND + 1));
 		return REFUSAL_WAIT;
 	}
-	if (crypt_fits(text, password->hash)) {
-		password->wrong = 0;
+	if (!guesser->wrong || guesser->who != who)
+		*guesser = (struct guesser){ .who = who };
+	switch (crypt_compare(text, password->hash)) {
+	case CRYPT_FITS:
+		guesser->wrong = 0;
 		return REFUSAL_NONE;
+	case CRYPT_NO_MEMORY:
+		return REFUSAL_MEMORY; /* nobody knows whether it was wrong */
+	case CRYPT_DIFFERS:
+		break;
 	}
-	wait_s = password->wrong < 6 ? INT64_C(1) << password->wrong : WAIT_MOST;
-	password->wrong++;
-	password->not_before_ns = now_ns + wait_s * SECOND;
+	wait_s = guesser->wrong < 6 ? INT64_C(1) << guesser->wrong : WAIT_MOST;
+	guesser->wrong++;
+	guesser->not_before_ns = now_ns + wait_s * SECOND;
 	return REFUSAL_WRONG;
 }
 
@@ -110,8 +136,8 @@ static int store(const struct password *password, const char *hash)
 	return 0;
 }
 
-enum refusal password_change(struct password *password, const char *old, const char *text,
-			     int64_t now_ns, char *detail, size_t size)
+enum refusal password_change(struct password *password, uint32_t who, const char *old,
+			     const char *text, int64_t now_ns, char *detail, size_t size)
 {
 	char hash[PASSWORD_HASH] = "";
 	enum refusal refusal;
@@ -121,7 +147,7 @@ enum refusal password_change(struct password *password, const char *old, const c
 		return REFUSAL_NO_SERVICE;
 	if (!password->folder)
 		return REFUSAL_NO_STORE;
-	refusal = password_check(password, old, now_ns, detail, size);
+	refusal = password_check(password, who, old, now_ns, detail, size);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
 	if (*text && !crypt_make(text, hash))

@@ -88,7 +88,6 @@ static uint8_t *read_slot(struct slots *slots, int number, struct slot *slot, bo
 static bool find(struct slots *slots, const char *folder, const char *file, const char *map)
 {
 	uint8_t beside[32];
-	bool damaged[2];
 
 	memset(slots, 0, sizeof(*slots));
 	slots->folder = folder;
@@ -101,7 +100,7 @@ static bool find(struct slots *slots, const char *folder, const char *file, cons
 			unlink(slots->path);
 	for (int i = 0; i < 2; i++) {
 		struct slot slot;
-		uint8_t *bytes = read_slot(slots, i, &slot, &damaged[i]);
+		uint8_t *bytes = read_slot(slots, i, &slot, &slots->bad[i]);
 
 		if (!bytes)
 			continue;
@@ -126,7 +125,7 @@ static bool find(struct slots *slots, const char *folder, const char *file, cons
 		return false;
 	}
 	fprintf(stderr, "ladderd: runs the program of download %u%s\n", (unsigned)slots->seq,
-		damaged[slots->next] ? "; a newer one may be damaged" : "");
+		slots->bad[slots->next] ? "; a newer one may be damaged" : "");
 	return true;
 }
 

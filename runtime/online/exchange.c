@@ -143,7 +143,7 @@ static enum refusal take_record(const struct exchange *exchange, struct recorder
 	if (!exchange->recorder)
 		return REFUSAL_NO_RECORD;
 	recorder_take(exchange->recorder, part);
-	return part->end ? REFUSAL_NONE : REFUSAL_NO_RECORD;
+	return part->end ? REFUSAL_NONE : REFUSAL_RECORD_SMALL;
 }
 
 static bool is_expected(const struct exchange *exchange, const struct order *order,

@@ -64,11 +64,12 @@ struct server_conf {
 /* The program password; by the link thread. A detail is a part of a diagnostic. */
 struct server_password {
 	bool (*is_set)(void *context);
-	/** Fails: REFUSAL_WRONG, REFUSAL_WAIT. */
-	enum refusal (*check)(void *context, const char *text, char *detail, size_t size);
+	/** @who: of the session. Fails: REFUSAL_WRONG, REFUSAL_WAIT, REFUSAL_MEMORY. */
+	enum refusal (*check)(void *context, uint32_t who, const char *text, char *detail,
+			      size_t size);
 	/** @text: "": none from now on. */
-	enum refusal (*change)(void *context, const char *old, const char *text, char *detail,
-			       size_t size);
+	enum refusal (*change)(void *context, uint32_t who, const char *old, const char *text,
+			       char *detail, size_t size);
 };
 
 /* Where downloads go; all by the link thread. A detail is a part of a diagnostic. */
@@ -126,10 +127,11 @@ void server_free(struct server *server);
 
 /** server_open - a session with the role that the kernel vouches for
  * @user: for the log; copied, cut
+ * @who: number of the user; sessions of one user have the same
  *
  * If all are in use, the oldest one without rights or without a hello ends: its stream, which
  * has the number that is returned, must be closed. Returns the number; -1: all are in use. */
-int server_open(struct server *server, enum role role, const char *user);
+int server_open(struct server *server, enum role role, const char *user, uint32_t who);
 /** server_close - ends a session: nothing on the board changes but what it watched. */
 void server_close(struct server *server, int session);
 int server_sessions(const struct server *server);

@@ -49,6 +49,16 @@ const char *mode_word(uint8_t mode)
 	return mode < sizeof(word) / sizeof(word[0]) ? word[mode] : "unknown";
 }
 
+const char *mode_wish_word(enum mode_wish wish)
+{
+	return wish == MODE_STOP ? "stop" : wish == MODE_RESET ? "reset" : "run";
+}
+
+uint8_t mode_wish_needs(enum mode_wish wish)
+{
+	return wish == MODE_STOP ? STATE_RUN : wish == MODE_RESET ? STATE_FAULT : STATE_STOP;
+}
+
 struct expect wire_expect(struct wire_reader *in)
 {
 	struct expect expect = { .mode = wire_u8(in) };

@@ -46,6 +46,10 @@ const char *mode_word(uint8_t mode);
 /* What the service `mode` is asked for. WARM and COLD start from STOP, with retained values or
  * with initial ones; RESET starts warm from FAULT. */
 enum mode_wish { MODE_STOP, MODE_WARM, MODE_COLD, MODE_RESET, MODE_COUNT };
+/** mode_wish_word - "stop", "run", "reset". Static. Scan-safe: yes; so is mode_wish_needs(). */
+const char *mode_wish_word(enum mode_wish wish);
+/** mode_wish_needs - the mode, enum resource_state, in which it is possible. */
+uint8_t mode_wish_needs(enum mode_wish wish);
 
 /* What a download ends with. STOPPED: a restart in STOP. */
 enum commit_how { COMMIT_LIVE, COMMIT_RESTART, COMMIT_STOPPED, COMMIT_COUNT };

@@ -163,18 +163,19 @@ static bool is_set(void *context)
 	return true;
 }
 
-static enum refusal check_password(void *context, const char *text, char *detail, size_t size)
+static enum refusal check_password(void *context, uint32_t who, const char *text, char *detail,
+				   size_t size)
 {
-	(void)context, (void)detail, (void)size;
+	(void)context, (void)who, (void)detail, (void)size;
 	fuzz_expect(strlen(text) < 257, "a password");
 	return *text == 'p' ? REFUSAL_NONE : REFUSAL_WRONG;
 }
 
-static enum refusal change_password(void *context, const char *old, const char *text,
-				    char *detail, size_t size)
+static enum refusal change_password(void *context, uint32_t who, const char *old,
+				    const char *text, char *detail, size_t size)
 {
 	fuzz_expect(strlen(text) < 257, "a new password");
-	return check_password(context, old, detail, size);
+	return check_password(context, who, old, detail, size);
 }
 
 static bool serve_now(void *context)
@@ -190,7 +191,7 @@ static void rig_open(struct rig *rig)
 	static const struct server_log log = { log_nothing, no_event };
 	static const struct server_store store = {
 		.begin = begin_any, .block = take_any, .verify = verify_none,
-		.open_lines = store_none, .close_lines = abort_any, .store = store_none, .abort = abort_any, .running = runs_any,
+		.open_lines = store_none, .close_lines = abort_any, .store = store_none, .keep = store_none, .drop = abort_any, .abort = abort_any, .running = runs_any,
 	};
 	static const struct server_password password = { is_set, check_password, change_password };
 	static const struct server_conf conf = { get_setting, change_setting };
@@ -255,7 +256,7 @@ static void scan(struct rig *rig)
 
 static void as_board(struct rig *rig, const uint8_t *bytes, size_t len)
 {
-	const int session = server_open(rig->server, (enum role)(bytes[0] % ROLE_COUNT), "fuzz");
+	const int session = server_open(rig->server, (enum role)(bytes[0] % ROLE_COUNT), "fuzz", 0);
 	size_t at = 1;
 
 	while (at < len && !server_is_over(rig->server, session)) {

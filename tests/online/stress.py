@@ -239,7 +239,7 @@ def test_a_desk_that_sleeps_in_a_download():
         sleeper.begin(parts)
         sleeper.call(client.BLOCK, struct.pack('<I', 0) + parts[0][:700])
         status, _out, err = board.command('download', 'other.rung', 'board.io', '--yes')
-        assert status == 1 and 'LD821' in err and 'another desk has one under way' in err, err
+        assert status == 1 and 'LD844: another desk downloads to this board: wait' in err, err
         before = board.client().status()
         assert before['mode'] == client.RUN
         sleeper.close()
@@ -304,7 +304,7 @@ def test_a_full_disk():
         before = desk.status()['program']
         resource.prlimit(board.daemon.pid, resource.RLIMIT_FSIZE, (1000, resource.RLIM_INFINITY))
         status, _out, err = board.command('download', 'other.rung', 'board.io', '--yes')
-        assert status == 1 and 'LD825' in err and 'the old one runs on' in err and 'prog.A' in err, err
+        assert status == 1 and 'LD825' in err and 'the old one runs on. Make room on its disk' in err and 'prog.A' in err, err
         assert desk.status()['program'] == before and desk.status()['mode'] == client.RUN
         resource.prlimit(board.daemon.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
         desk.download(parts)
@@ -330,7 +330,7 @@ def test_two_desks_download_at_once():
             for it in both:
                 it.join()
             for status, _out, err in results:
-                assert status == 0 or (status == 1 and ('LD821' in err or 'LD806' in err)), err
+                assert status == 0 or (status == 1 and ('LD844' in err or 'LD806' in err)), err
             assert any(status == 0 for status, _out, _err in results)
             good += 1
             assert any(board.client().upload()[2].endswith(text.encode()) for text in texts)

@@ -204,7 +204,7 @@ static bool bench_open(struct bench *bench, enum trouble trouble)
 		.exchange = &bench->exchange, .program = program, .board = "bench", .log = &events,
 		.store = &disk, .wait = wait_for_scan, .amend = amend, .context = bench,
 	});
-	return bench->server && server_open(bench->server, ROLE_ENG, "desk") == 0;
+	return bench->server && server_open(bench->server, ROLE_ENG, "desk", 1) == 0;
 }
 
 static void bench_close(struct bench *bench)
