@@ -68,7 +68,8 @@ struct come {
 };
 
 struct session {
-	gint refs;             /* the link's, the thread's, one while the main loop is woken */
+	gint refs;             /* the link's, the thread's, that of the source of errors, one
+				* while the main loop is woken                */
 	GMutex lock;
 	GCond taken;           /* the main thread has taken what had come      */
 	LadderBoardLink *link; /* NULL: forgotten; main thread only            */
@@ -76,9 +77,11 @@ struct session {
 	char *ssh, **environment; /* of its command                            */
 	bool patient;          /* ssh may ask a person                         */
 	int errors[2];         /* a pipe: what the command says                */
+	guint hears;           /* the source of errors[0]; 0: none. Main thread only */
 	int wake[2];           /* a pipe: the main thread has a request or an end */
 	/* Under the lock. */
 	GQueue asked, come;
+	GString *said;         /* the last bytes of what the command said      */
 	bool quit, woken;
 	int fd;                /* of its stream; -1: none                      */
 	/* The thread's. */
@@ -141,6 +144,7 @@ static void session_unref(struct session *session)
 	while ((come = g_queue_pop_head(&session->come)))
 		come_free(come);
 	g_queue_clear_full(&session->asked, asked_unref);
+	g_string_free(session->said, TRUE);
 	g_free(session->ssh);
 	g_strfreev(session->environment);
 	close(session->errors[0]);
@@ -347,19 +351,50 @@ static enum desk_end open_desk(struct session *session, struct come *ended)
 	return DESK_GOOD;
 }
 
-/* The last bytes that the command said. Caller frees. */
-static char *read_errors(struct session *session)
+/* Takes what the command has said; of that, the last bytes stay. False: it says no more. */
+static bool take_errors(struct session *session)
 {
-	GString *text = g_string_new(NULL);
 	char part[512];
 	gssize got;
 
+	g_mutex_lock(&session->lock);
 	while ((got = read(session->errors[0], part, sizeof(part))) > 0) {
-		g_string_append_len(text, part, got);
-		if (text->len > SAID_MOST)
-			g_string_erase(text, 0, (gssize)(text->len - SAID_MOST));
+		g_string_append_len(session->said, part, got);
+		if (session->said->len > SAID_MOST)
+			g_string_erase(session->said, 0,
+				       (gssize)(session->said->len - SAID_MOST));
 	}
-	return g_string_free(text, FALSE);
+	g_mutex_unlock(&session->lock);
+	return got < 0 && (errno == EAGAIN || errno == EINTR);
+}
+
+/* A command whose pipe is full waits, and the board with it. */
+static gboolean hear_errors(gint fd, GIOCondition condition, gpointer data)
+{
+	struct session *session = data;
+
+	(void)fd, (void)condition;
+	if (take_errors(session))
+		return G_SOURCE_CONTINUE;
+	session->hears = 0;
+	return G_SOURCE_REMOVE;
+}
+
+static void session_unref_data(gpointer data)
+{
+	session_unref(data);
+}
+
+/* What the command said. Caller frees. */
+static char *all_errors(struct session *session)
+{
+	char *said;
+
+	take_errors(session);
+	g_mutex_lock(&session->lock);
+	said = g_strdup(session->said->str);
+	g_mutex_unlock(&session->lock);
+	return said;
 }
 
 static gpointer session_thread(gpointer data)
@@ -377,7 +412,7 @@ static gpointer session_thread(gpointer data)
 	if (session->desk.stream.child && (session_quits(session) || ended->end != DESK_GONE))
 		kill(session->desk.stream.child, SIGTERM);
 	desk_close(&session->desk);
-	ended->said = read_errors(session);
+	ended->said = all_errors(session);
 	put_come(session, ended);
 	session_unref(session);
 	return NULL;
@@ -407,7 +442,7 @@ static struct session *session_new(LadderBoardLink *link, const char *where,
 	session->ssh = g_strdup_printf("%s%s", ssh ? ssh : "ssh", ask ? "" : " -o BatchMode=yes");
 	g_unix_set_fd_nonblocking(session->wake[0], TRUE, NULL);
 	g_unix_set_fd_nonblocking(session->wake[1], TRUE, NULL);
-	session->refs = 2;
+	session->refs = 3;
 	session->link = link;
 	session->where = g_strdup(where);
 	session->fd = -1;
@@ -415,6 +450,10 @@ static struct session *session_new(LadderBoardLink *link, const char *where,
 	g_cond_init(&session->taken);
 	g_queue_init(&session->asked);
 	g_queue_init(&session->come);
+	session->said = g_string_new(NULL);
+	session->hears = g_unix_fd_add_full(G_PRIORITY_DEFAULT, session->errors[0],
+					    G_IO_IN | G_IO_HUP | G_IO_ERR, hear_errors, session,
+					    session_unref_data);
 	g_thread_unref(g_thread_new("board link", session_thread, session));
 	return session;
 }
@@ -423,6 +462,7 @@ static struct session *session_new(LadderBoardLink *link, const char *where,
 static void session_forget(struct session *session)
 {
 	session->link = NULL;
+	g_clear_handle_id(&session->hears, g_source_remove);
 	g_mutex_lock(&session->lock);
 	session->quit = true;
 	g_queue_clear_full(&session->asked, asked_unref);

@@ -115,7 +115,17 @@ void messages_toast(struct messages *messages, const char *text)
 
 void messages_log(struct messages *messages, enum log_kind kind, const char *text)
 {
-	messages_log_at(messages, kind, 0, text);
+	const bool is_logged = g_strcmp0(messages->failed, text) == 0;
+
+	g_clear_pointer(&messages->failed, g_free);
+	if (!is_logged)
+		messages_log_at(messages, kind, 0, text);
+}
+
+void messages_log_failed(struct messages *messages, const char *text, const char *why)
+{
+	messages_log(messages, LOG_COMMUNICATION, text);
+	messages->failed = g_strdup(why);
 }
 
 void messages_log_at(struct messages *messages, enum log_kind kind, gint64 us, const char *text)
@@ -212,4 +222,5 @@ void messages_init(struct messages *messages, struct core *core)
 void messages_clear(struct messages *messages)
 {
 	g_clear_pointer(&messages->keys, g_free);
+	g_clear_pointer(&messages->failed, g_free);
 }

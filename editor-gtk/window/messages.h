@@ -17,6 +17,7 @@ struct messages {
 	const char *banner_action;
 	gint64 told_at;   /* us; when the message in the status bar was set      */
 	guint64 told_of;  /* version of the document at that time                */
+	char *failed;     /* of a service, in the log already; NULL: none        */
 	char *keys;       /* shown while there is no message                     */
 	int width;        /* px of the status bar, when keys were shown last     */
 };
@@ -37,6 +38,9 @@ void messages_toast(struct messages *messages, const char *text);
 void messages_log(struct messages *messages, enum log_kind kind, const char *text);
 /** messages_log_at - of something that happened at @us, as g_get_real_time(). */
 void messages_log_at(struct messages *messages, enum log_kind kind, gint64 us, const char *text);
+/** messages_log_failed - adds the line @text of a service that failed, because of @why. If @why is
+ * told next, by messages_banner() or messages_log(), it is not logged again. */
+void messages_log_failed(struct messages *messages, const char *text, const char *why);
 /** messages_banner - a message that stays until it is closed, and is logged. @button, @action: a button and the action of the window
  * it activates; static, or both NULL. */
 void messages_banner(struct messages *messages, enum log_kind kind, const char *text,

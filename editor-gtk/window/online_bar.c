@@ -290,7 +290,7 @@ static void failed(LadderBoardLink *link, const char *service, const char *text,
 {
 	char *line = g_strdup_printf("%s: %s: %s", ladder_board_link_board(link), service, text);
 
-	messages_log(bar->core->messages, LOG_COMMUNICATION, line);
+	messages_log_failed(bar->core->messages, line, text);
 	g_free(line);
 }
 
