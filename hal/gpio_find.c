@@ -7,6 +7,7 @@
 #include "hal/gpio.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/file.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -25,6 +26,7 @@
 #define NO_GROUP    UINT_MAX /* this and UNSEEN are no group ids             */
 #define UNSEEN      (UINT_MAX - 1)
 #define GROUP_OPENS (S_IRGRP | S_IWGRP)
+#define GROUPS_MOST (1u << 20) /* bytes of /etc/group                           */
 
 /* "/dev/gpiochip3". */
 static void gpio_path(const char *dev, int chip, char *out, size_t size)
@@ -106,7 +108,7 @@ static int chip_after(const char *dev, int last)
 	return best;
 }
 
-/* Cuts a line "gpio:x:993:user" of /etc/group to "gpio". Returns whether it is group @id. */
+/* Whether "gpio:x:993:user" is the line of group @id; cuts it to "gpio". */
 static bool is_group(char *line, unsigned int id)
 {
 	char *end = strchr(line, ':'), *at;
@@ -126,18 +128,23 @@ static bool is_group(char *line, unsigned int id)
 /* getgrgid() needs the shared C library even in a static program. */
 static void group_print(unsigned int id, char *out, size_t size)
 {
-	FILE *groups = fopen("/etc/group", "re");
-	char line[256];
-	bool found = false;
+	size_t len;
+	char *groups = file_read("/etc/group", GROUPS_MOST, &len, NULL);
+	char *line = groups, *found = NULL;
 
-	while (!found && groups && fgets(line, sizeof(line), groups))
-		found = is_group(line, id);
+	while (line && *line && !found) {
+		char *end = strchr(line, '\n');
+
+		if (end)
+			*end = '\0';
+		found = is_group(line, id) ? line : NULL;
+		line = end ? end + 1 : NULL;
+	}
 	if (found)
-		snprintf(out, size, "(%.31s)", line);
+		snprintf(out, size, "(%.31s)", found);
 	else
 		snprintf(out, size, "(%u)", id);
-	if (groups)
-		fclose(groups);
+	free(groups);
 }
 
 /* Chips without permission, sorted by group; chips that no group may open are last. */

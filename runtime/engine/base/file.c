@@ -5,17 +5,20 @@
  * A save is complete or the old file stays as it was: a temporary file beside it,
  * fsync, rename, fsync of the folder. It never writes into a file in place.
  */
-#define _XOPEN_SOURCE 700 /* realpath, mkstemp */
+#define _XOPEN_SOURCE 700 /* mkstemp */
 #include "engine/base/file.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#define LINKS_MOST 40 /* as the kernel follows                               */
 
 static char *fail(struct diag_list *diags, enum diag_id id, const char *path,
 		  int error)
@@ -162,11 +165,52 @@ static int replace(const char *path, const char *temporary, int fd,
 	return result;
 }
 
+/* Where the symbolic link @path leads to; NULL: it is none. Caller frees. */
+static char *link_target(const char *path)
+{
+	const char *slash = strrchr(path, '/');
+	const size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
+	char *to = malloc(folder + PATH_MAX + 1);
+	const ssize_t len = to ? readlink(path, to + folder, PATH_MAX) : -1;
+
+	if (len <= 0) {
+		free(to);
+		return NULL;
+	}
+	to[folder + (size_t)len] = '\0';
+	if (to[folder] == '/')
+		memmove(to, to + folder, (size_t)len + 1);
+	else
+		memcpy(to, path, folder);
+	return to;
+}
+
+/* The file that @path leads to through links; NULL: none of them, or it is not there. Caller frees.
+ * realpath() is a kilobyte more on a board, and does more. */
+static char *real_path(const char *path)
+{
+	struct stat status;
+	char *real = link_target(path);
+
+	for (int i = 0; real && i < LINKS_MOST; i++) {
+		char *next = link_target(real);
+
+		if (!next)
+			break;
+		free(real);
+		real = next;
+	}
+	if (!real || stat(real, &status) == 0)
+		return real;
+	free(real);
+	return NULL;
+}
+
 bool file_save(const char *path, const void *bytes, size_t len,
 	       struct diag_list *diags)
 {
 	static const char suffix[] = ".XXXXXX";
-	char *real = realpath(path, NULL); /* through a link: the file itself */
+	char *real = real_path(path); /* through a link: the file itself */
 	const char *target = real ? real : path;
 	size_t size = strlen(target);
 	char *temporary = malloc(size + sizeof(suffix));

@@ -68,10 +68,20 @@ struct parts {
 	bool long_time;         /* between LTIME or the like and a number     */
 };
 
+/* As strstr(), whose version for long texts is a kilobyte more on a board. */
+static const char *find(const char *text, const char *part)
+{
+	const size_t len = strlen(part);
+
+	while (*text && strncmp(text, part, len) != 0)
+		text++;
+	return *text ? text : NULL;
+}
+
 /* @text is "_" and the word. */
 static bool take_apart(const char *text, const struct rule *rule, struct parts *out)
 {
-	const char *at = strstr(text, rule->infix);
+	const char *at = find(text, rule->infix);
 	const char *to = at ? at + strlen(rule->infix) : NULL;
 	const char *from = text + 1;
 	bool is_time;
