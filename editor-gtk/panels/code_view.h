@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * code_view - the instruction list of the sheet in front, read-only.
+ * code_view - the instruction list of the sheet in front, read-only, with its values while it is
+ * simulated, or watched on a board.
  *
  * The list is made when the panel is shown: for a large program that takes long, and a text
  * widget needs many times its size.
+ *
+ * A scan that is watched runs another list, which keeps the power of each cell. So a line of a
+ * ladder's list has a result where that is the power at an end of a contact or coil, and no line
+ * has one in a program with jumps: nobody knows which of its rungs have run.
  */
 #ifndef EDITOR_CODE_VIEW_H
 #define EDITOR_CODE_VIEW_H

@@ -7,7 +7,6 @@
 #include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/theme.h"
-#include "editor-gtk/sim/live_map.h"
 
 #include "engine/base/name.h"
 #include "engine/ladder.h"
@@ -30,6 +29,7 @@ struct seen {
 	GArray *parts;            /* of struct live_part; NULL: no variable      */
 	struct location now, goal; /* of a call: what counts in the instance      */
 	bool instruction;         /* the program that runs has one here          */
+	bool power;               /* its result is the power of a cell           */
 	bool missing;             /* the board runs without this line            */
 	struct live_result result;
 	bool ran;                 /* as last looked at                           */
@@ -46,6 +46,8 @@ struct _LadderLineValues {
 				   * of no line */
 	int place_count;
 	bool placed;              /* they were looked for                        */
+	LineResult finder;        /* NULL: the list is in the file               */
+	void *context;            /* of it                                       */
 	bool lacks;               /* the board could be without a line           */
 	GPtrArray *lines;         /* of struct seen; NULL: not looked at yet      */
 	int longest;              /* columns of a line up to WIDEST; 0: not counted yet */
@@ -183,7 +185,7 @@ static void print_result(struct seen *seen, const struct image *image)
 		g_strlcpy(seen->after, _("not downloaded"), sizeof(seen->after));
 	if (!seen->instruction)
 		return;
-	seen->ran = image->memory[seen->result.ran];
+	seen->ran = seen->power || image->memory[seen->result.ran];
 	if (!seen->ran)
 		g_strlcpy(seen->after, _("not run"), sizeof(seen->after));
 	else if (seen->result.at.type != IEC_NONE)
@@ -241,6 +243,12 @@ static void find_result(LadderLineValues *values, int line, struct seen *seen)
 {
 	int place;
 
+	if (values->finder) {
+		seen->result.at = (struct location){ .type = IEC_BOOL };
+		seen->power = seen->instruction = values->finder(values->context, values->map,
+			line, &seen->result.at.where);
+		return;
+	}
 	if (!values->placed)
 		find_places(values);
 	place = values->places && line < values->place_count ? values->places[line] : 0;
@@ -419,7 +427,7 @@ static void draw_head(const struct pen *pen, int y)
 	const int x = MIN(pen->left + wanted * pen->cell, pen->limit);
 
 	draw(pen, _("Value"), x, y, TOKEN_COMMENT, PANGO_WEIGHT_NORMAL);
-	if (pen->values->places)
+	if (pen->values->places || pen->values->finder)
 		draw(pen, _("Result"), x + VALUE * pen->cell, y, TOKEN_COMMENT,
 		     PANGO_WEIGHT_NORMAL);
 }
@@ -557,6 +565,13 @@ void line_values_set_pou(LadderLineValues *values, const char *pou)
 	values->pou = g_strdup(pou);
 	forget(values);
 	state_changed(values);
+}
+
+void line_values_set_result(LadderLineValues *values, LineResult result, void *context)
+{
+	values->finder = result;
+	values->context = context;
+	forget(values);
 }
 
 void line_values_set_sim(LadderLineValues *values, LadderSim *sim)
