@@ -375,7 +375,9 @@ int cycle_run(struct cycle *cycle)
 		if (!is_done(cycle))
 			wait_until(cycle, due_ns);
 	}
-	notify_send(&cycle->notify, "STOPPING=1");
+	/* systemd kills a service that has said this and goes on. */
+	if (!cycle->restart)
+		notify_send(&cycle->notify, "STOPPING=1");
 	serve_requests(cycle);
 	resource_stop(&cycle->resource);
 	return cycle->resource.state == STATE_FAULT || cycle->clock_error;

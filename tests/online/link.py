@@ -1564,6 +1564,36 @@ def test_retained_values_one_session_at_a_time_and_bad_ones():
         refused(32, desk.restore)
 
 
+def test_a_service_manager_hears_of_an_end_once():
+    """systemd kills a service that says STOPPING=1 and goes on, with its outputs as they are."""
+    with slots() as board, socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+        manager.bind(board.folder + '/notify')
+        manager.settimeout(0)
+        os.chmod(board.folder + '/notify', 0o777)
+        parts = build(board, 'other.rung', OTHER)
+        board.stop()
+        board.arguments = []
+        said = []
+
+        def hears(word, times):
+            try:
+                while True:
+                    said.append(manager.recv(4096).decode().split('\n')[0])
+            except BlockingIOError:
+                return said.count(word) >= times
+        os.environ['NOTIFY_SOCKET'] = board.folder + '/notify'
+        try:
+            board.start()
+        finally:
+            del os.environ['NOTIFY_SOCKET']
+        until(lambda: hears('READY=1', 1))
+        board.client().download(parts, restart=True)
+        until(lambda: hears('READY=1', 2))
+        assert 'STOPPING=1' not in said, said
+        board.stop()
+        until(lambda: hears('STOPPING=1', 1))
+
+
 def state_of(board):
     desk = board.client()
     return desk.status()['program'], desk.upload(), desk.retained()[2], {
