@@ -217,8 +217,12 @@ $(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
 HERE := $(if $(CROSS),build/here,$(BUILD))
 ifneq ($(HERE),$(BUILD))
 $(HERE)/%: FORCE
-	$(MAKE) BUILD=$(HERE) CROSS= STATIC= SMALL= HAL=none $@
+	env -u PKG_CONFIG_LIBDIR $(MAKE) BUILD=$(HERE) CROSS= STATIC= SMALL= HAL=none $@
 FORCE:
+# One after another: each is a make of its own in the same folder.
+$(HERE)/ladder: | $(HERE)/rung-language
+$(HERE)/ladderd: | $(HERE)/ladder
+$(HERE)/editor-usage: | $(HERE)/ladderd
 endif
 man: $(HERE)/ladder ## the man pages, in build/man/
 	@mkdir -p $(BUILD)/man
@@ -249,7 +253,7 @@ install-ladderd: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-att
 	install -m 755 $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach) $(DESTDIR)$(prefix)/bin/
 	install -m 644 $(BUILD)/man/ladderd.8 $(DESTDIR)$(prefix)/share/man/man8/
 	$(if $(filter 1,$(SMALL)),,install -d $(DESTDIR)$(prefix)/share/man/man1 && install -m 644 $(BUILD)/man/ladder-attach.1 $(DESTDIR)$(prefix)/share/man/man1/)
-	sed 's|/usr/[a-z/]*ladderd |$(prefix)/bin/ladderd |' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
+	sed 's|/usr/bin/ladderd |$(prefix)/bin/ladderd |' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
 	test -e $(DESTDIR)/etc/default/ladderd || { sed '$(SMALL:1=s| --retain [^"]*||)' packaging/ladderd.default \
 	  >$(DESTDIR)/etc/default/ladderd && chmod 644 $(DESTDIR)/etc/default/ladderd; }
 cli-tests: $(BUILD)/ladder ## the command line from outside
@@ -258,10 +262,11 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 # ---- end of the command line ----
 
 # ---- the editor: GTK 4, libadwaita, GtkSourceView ----
-# Without those libraries, and in a cross build, it is left out. Its plain files and their tests
+# Without those libraries it is left out; a cross build finds them only through PKG_CONFIG_LIBDIR.
+# Its plain files and their tests
 # (tests/editor/edit/ and test_plain_*.c) need none of them.
 EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
-EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
+EDITOR   := $(if $(filter 1,$(SMALL))$(if $(CROSS),$(if $(PKG_CONFIG_LIBDIR),,without)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
 EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim online canvas ladder sfc text iomap live panels render window)
 EDITOR_PLAIN := $(wildcard editor-gtk/edit/*.c) $(addprefix editor-gtk/document/,text_lines.c iomap_text.c iomap_uses.c iomap_check.c)
 # MD4C=no: without the library for the pages of the manual, which another program shows then.
@@ -282,6 +287,13 @@ $(foreach r,$(call folders,$(PLAIN_ROOM)),$(eval $(call room,$r,$(filter $r/test
 $(patsubst %,%/tests,$(call folders,$(PLAIN_ROOM))): $(BUILD)/libeditor-plain.a $(BUILD)/libladder.a
 	$(CC) $(ROOM_C) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o,$^) $(filter %.a,$^) -lm
 $(PLAIN_ROOM): ; @ln -sf tests $@
+# Two programs that run during a build, also in a cross build. The first writes the colours of rung
+# files and lists for GtkSourceView, from the words of the catalogue; the second the man page.
+$(BUILD)/rung-language: $(call obj,packaging/rung_language.c) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+$(BUILD)/editor-usage: packaging/editor_usage.c editor-gtk/window/usage.c editor-gtk/kit/verbs.c editor-gtk/kit/verbs.def editor-gtk/kit/key_schemes.def $(BUILD)/libladder.a
+	$(CC) $(STD) $(CPPFLAGS) $$($(PKG_CONFIG) --cflags gtk4) -DGETTEXT_PACKAGE='"rungboard"' $(CFLAGS) $(LDFLAGS) \
+	  -o $@ $(filter %.c %.a,$^) $$($(PKG_CONFIG) --libs gtk4) -lm
 ifneq ($(EDITOR),)
 # No warnings about headers of libraries.
 EDITOR_PKG := gtk4 libadwaita-1 gtksourceview-5 $(if $(filter yes,$(MD4C)),md4c)
@@ -305,10 +317,8 @@ $(EDITOR_O): private CPPFLAGS += -include $(BUILD)/toolkit.h
 $(EDITOR_O): | $(BUILD)/toolkit.h.gch
 $(EDITOR_TEST_O): private CPPFLAGS += -include $(BUILD)/tests/toolkit.h
 $(EDITOR_TEST_O): | $(BUILD)/tests/toolkit.h.gch
-# Colours of rung files and lists for GtkSourceView, made from the words of the catalogue.
-$(BUILD)/rung-language: $(call obj,packaging/rung_language.c) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
-$(BUILD)/rung.lang: $(BUILD)/rung-language
+$(BUILD)/rung.lang: $(HERE)/rung-language
+	@mkdir -p $(@D)
 	$< >$@.new && mv $@.new $@
 $(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(BUILD)/rung.lang $(wildcard editor-gtk/ui/*)
 	@mkdir -p $(@D)
@@ -359,7 +369,7 @@ po: pot ## bring new texts into editor-gtk/po/*.po
 	  msgattrib --no-obsolete --add-location=file -o editor-gtk/po/$$l.po editor-gtk/po/$$l.po && echo "$$l: $$(msgfmt --statistics -o /dev/null editor-gtk/po/$$l.po 2>&1)" || exit 1; done
 .PHONY: pot po
 ifneq ($(EDITOR),)
-$(BUILD)/man/ladder-editor.1: $(BUILD)/ladder-editor
+$(BUILD)/man/ladder-editor.1: $(HERE)/editor-usage
 	@mkdir -p $(@D)
 	@LC_ALL=C.UTF-8 $< --man >$@
 man: $(BUILD)/man/ladder-editor.1
@@ -575,13 +585,13 @@ $(HAL_TEST)/ladder_uapi: WRAP := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wr
 tests: $(HAL_KINDS:%=$(HAL_TEST)/ladder_%)
 # Packages of Debian, from a copy of the tree; the editor for the architecture of this machine.
 DEB_ARCH ?= amd64 arm64 armhf
-deb: ## packages of Debian in build/deb/: rungboard-runtime for amd64, arm64 and armhf, rungboard-editor for this machine
+deb: ## packages of Debian in build/deb/: rungboard-runtime and rungboard-editor for amd64, arm64 and armhf
 	packaging/deb.sh $(BUILD)/deb $(DEB_ARCH)
 # A second time, for the hashes; then into a clean system, which mmdebstrap loads once.
-check-deb: deb $(BUILD)/ladder ## build the packages twice, compare, lintian, install into a clean system, connect over ssh; needs root and a network
+check-deb: deb $(BUILD)/ladder ## build the packages twice, compare, lintian, boot a clean system, install, connect over ssh from the editor, upgrade, remove; needs root and a network
 	packaging/deb.sh $(BUILD)/deb/again $(DEB_ARCH)
-	test -f $(BUILD)/deb/root.tar || mmdebstrap --variant=minbase --include=openssh-server,systemd,libavahi-client3 bookworm $(BUILD)/deb/root.tar
-	BUILD=$(BUILD) tests/deb/check.py $(BUILD)/deb $(BUILD)/deb/again $(BUILD)/deb/root.tar
+	test -f $(BUILD)/deb/root.tar || mmdebstrap --variant=minbase --include=openssh-server,systemd-sysv,libavahi-client3,udev bookworm $(BUILD)/deb/root.tar
+	BUILD=$(BUILD) DEB_ARCH='$(DEB_ARCH)' tests/deb/check.py $(BUILD)/deb $(BUILD)/deb/again $(BUILD)/deb/root.tar
 .PHONY: deb check-deb
 bench-rt: $(BUILD)/ladderd ## measure how late ladderd wakes up, compared with cyclictest
 	@BUILD=$(BUILD) tests/bench/rt.sh
