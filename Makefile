@@ -217,7 +217,7 @@ $(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libonline.a $(BUILD)/libladder.a
 HERE := $(if $(CROSS),build/here,$(BUILD))
 ifneq ($(HERE),$(BUILD))
 $(HERE)/%: FORCE
-	env -u PKG_CONFIG_LIBDIR $(MAKE) BUILD=$(HERE) CROSS= STATIC= SMALL= HAL=none $@
+	env -u PKG_CONFIG_LIBDIR -u CPPFLAGS -u CFLAGS -u LDFLAGS $(MAKE) BUILD=$(HERE) CROSS= STATIC= SMALL= HAL=none $@
 FORCE:
 # One after another: each is a make of its own in the same folder.
 $(HERE)/ladder: | $(HERE)/rung-language

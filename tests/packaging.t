@@ -46,6 +46,6 @@ my ($version) = get('runtime/engine/base/version.h') =~ /LADDER_VERSION "(.*)"/;
 like(get('packaging/debian/changelog'), qr/^rungboard \(\Q$version\E\) /, 'the package has the version of the programs');
 SKIP: {
 	skip 'no shellcheck', 1 unless has('shellcheck');
-	is(`shellcheck -s sh packaging/deb.sh packaging/debian/rungboard-runtime.postrm 2>&1`, '', 'shellcheck has nothing to say about the scripts');
+	is(`shellcheck -s sh packaging/deb.sh packaging/debian/rungboard-runtime.p* 2>&1`, '', 'shellcheck has nothing to say about the scripts');
 }
 done_testing();
