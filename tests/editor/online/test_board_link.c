@@ -118,6 +118,29 @@ static void goes_and_comes_back(void)
 	board_close(&board);
 }
 
+/* More than a pipe holds: if nobody reads it, the command waits, and the board with it. */
+static void hears_a_command_that_says_much(void)
+{
+	static const char text[] = "#!/bin/sh\nhead -c 300000 /dev/zero | tr '\\0' x >&2\n"
+				   "echo >&2\necho the last words >&2\nexit 3\n";
+	LadderBoardLink *link = ladder_board_link_new();
+	char *path = g_build_filename(g_get_tmp_dir(), "says-much-XXXXXX", NULL);
+	const int fd = g_mkstemp(path);
+	char *where, *why = NULL;
+
+	CHECK(fd >= 0 && write(fd, text, sizeof(text) - 1) == (ssize_t)sizeof(text) - 1);
+	close(fd);
+	where = g_strdup_printf("exec:sh %s", path);
+	CHECK(ladder_board_link_connect(link, where, &why));
+	CHECK_SOON(ladder_board_link_state(link) == LINK_FAILED);
+	CHECK_AS(strstr(ladder_board_link_reason(link), "the last words") != NULL,
+		 "the reason is what the command said last");
+	unlink(path);
+	g_free(where);
+	g_free(path);
+	g_object_unref(link);
+}
+
 static void finds_no_board(void)
 {
 	LadderBoardLink *link = ladder_board_link_new();
@@ -152,6 +175,7 @@ int main(void)
 	begins_and_orders();
 	goes_and_comes_back();
 	finds_no_board();
+	hears_a_command_that_says_much();
 	g_free(last_text);
 	return tap_done();
 }

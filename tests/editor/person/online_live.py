@@ -198,6 +198,8 @@ def operates(screen):
     editor.shot('online-refused-sheet')
     editor.keys('Escape')
     editor.gone()
+    log = editor.logs('communication', '"Level" ' + why)
+    assert log.count('"Level" ' + why) == 1, log
     editor.tab('Status chart')
     editor.into('Level, New value')
     editor.type('5')
