@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""online_boards - two windows with a board each, and a board at the end of a serial line.
+"""online_boards - two windows with a board each, a screen reader, and a board at the end of a serial line.
 
 The boards are ladderds of this machine, whose lines are simulated.
 """
@@ -14,6 +14,7 @@ from desk import BUILD, Editor, main, new_file, sh, until  # noqa: E402
 from online import Board, connect, says  # noqa: E402
 from online_live import PUMP  # noqa: E402
 from serial_line import Cable  # noqa: E402
+from spoken import nameless  # noqa: E402
 
 MAP = 'BOARD "%s"\n%%IX0.0 sim\n%%QX0.0 sim\n'
 MILL = PUMP.replace('"Pump"', '"Mill"')
@@ -82,6 +83,34 @@ def two(screen):
         board.stop()
 
 
+def spoken_all(screen):
+    """connecting, the bar and the state of the board have a name for each widget; a download is asked for and left by keys"""
+    board = Board(screen, 'mill', program=MILL, board=MAP % 'mill')
+    path = new_file(screen, MILL, 'mill.rung')
+    with open(path[:-5] + '.io', 'w') as out:
+        out.write(MAP % 'mill')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+shift+m')
+    editor.find('Connect to a board')
+    editor.focus_on('Board', 'text')
+    assert not nameless(editor), nameless(editor)
+    editor.type(board.where)
+    editor.keys('Return')
+    says(editor, 'mill · RUN')
+    assert not nameless(editor), nameless(editor)
+    editor.to_sheet()
+    editor.keys('ctrl+d', 'ctrl+shift+l')
+    editor.find('Download to “mill”?', 'label')
+    editor.keys('Escape')
+    until(lambda: not editor.all('Download to “mill”?', 'label'), 'the end of the dialog')
+    says(editor, 'Changed here, not downloaded.')
+    editor.command('State of the board')
+    says(editor, 'Missed scans')
+    assert not nameless(editor), nameless(editor)
+    board.stop()
+
+
 class SerialBoard(Board):
     """The same at the end of a cable."""
 
@@ -139,4 +168,4 @@ def serial(screen):
 
 
 if __name__ == '__main__':
-    main([two, serial])
+    main([two, spoken_all, serial])
