@@ -18,7 +18,8 @@ import sys
 import tempfile
 import traceback
 
-from machine import Machine, run, until
+sys.dont_write_bytecode = True  # a package is built from all files of the tree
+from machine import Machine, run, until  # noqa: E402
 
 HERE = os.path.abspath(os.path.dirname(__file__) + '/../..')
 BUILD = os.path.abspath(os.environ.get('BUILD', 'build'))
