@@ -7,7 +7,7 @@
 set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
-count=${COUNT:-1000} # random programs for the second evaluator
+count=${COUNT:-500} # random programs for the second evaluator
 export EMULATED=1
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT

@@ -120,17 +120,19 @@ static int sample(const char *file, int *bad)
 	return count;
 }
 
+/* All samples; in an emulator every tenth. */
 static void test_samples(void)
 {
+	const size_t step = 10 / (size_t)tap_rounds(10);
 	glob_t found;
 	int count = 0, bad = 0;
 
 	CHECK(glob("ladders/*.rung", 0, NULL, &found) == 0);
-	for (size_t i = 0; i < found.gl_pathc; i++)
+	for (size_t i = 0; i < found.gl_pathc; i += step)
 		count += sample(found.gl_pathv[i], &bad);
 	globfree(&found);
 	printf("# %d names\n", count);
-	CHECK_AS(bad == 0 && count > 200,
+	CHECK_AS(bad == 0 && count > tap_rounds(200),
 		 "each name of the samples is renamed and renamed back");
 }
 

@@ -364,15 +364,16 @@ static void test_member_names(void)
 	rig_close(&rig);
 }
 
-/* Each byte changed in turn, with a correct checksum: the image is refused, or runs
+/* Each byte changed in turn (in an emulator each tenth), with a correct checksum: the image is refused, or runs
  * without harm. */
 static void test_every_byte(void)
 {
 	static const uint8_t flip[] = { 0x01, 0x80, 0xff };
+	const size_t step = 10 / (size_t)tap_rounds(10);
 	int refused = 0;
 
-	for (size_t at = sizeof(struct code_header); at < len; at++)
-		for (int k = 0; k < tap_rounds(3); k++) {
+	for (size_t at = sizeof(struct code_header); at < len; at += step)
+		for (int k = 0; k < 3; k++) {
 			image[at] ^= flip[k];
 			refused += !let_in();
 		}
@@ -389,7 +390,7 @@ static void test_effort(void)
 		"VAR\n  Big : ARRAY[0..999999] OF BOOL;\n  i : DINT;\nEND_VAR\n"
 		"PROGRAM Main IL\n");
 
-	for (int k = 0; k < 1000; k++)
+	for (int k = 0; k < 100; k++)
 		used += (size_t)snprintf(program + used, sizeof(program) - used,
 					 "  LD Big[i]\n  ST Big[i]\n");
 	snprintf(program + used, sizeof(program) - used, "END_PROGRAM\n");

@@ -391,9 +391,10 @@ static const char list[] = IL(
 	"  OR(\n  LD    %IX0.1\n  ) // x\n  ADD   16#FF\n"
 	"Again:\n  CAL   D(IN := Go, PT := T#3s, Q => Done) // run\n");
 
-/* Reads every beginning of a good file, and the file with each byte changed. */
+/* Reads every beginning of a good file, and the file with each byte changed; in an emulator every tenth. */
 static void test_cut_and_changed(void)
 {
+	const size_t step = 10 / (size_t)tap_rounds(10);
 	static const char *const files[] = { ladder, list };
 	static const char bytes[] = "\n|^\"(*;:[]= \xff" "A%";
 	static char copy[2000];
@@ -401,7 +402,7 @@ static void test_cut_and_changed(void)
 	for (int f = 0; f < 2; f++) {
 		size_t len = strlen(files[f]);
 
-		for (size_t i = 0; i < len; i++) {
+		for (size_t i = 0; i < len; i += step) {
 			read_bytes(files[f], i);
 			for (size_t b = 0; b < sizeof(bytes); b++) {
 				memcpy(copy, files[f], len);
