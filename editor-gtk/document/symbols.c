@@ -58,6 +58,15 @@ static char *scope_name(const struct project *project, int table)
 		project->pou[table - 1].name : project->structure[structure].name));
 }
 
+/* Values of globals and programs; of an instance only the pins, which have no row. */
+static bool exports(const struct project *project, const struct var *var, int table)
+{
+	if (table > project->pou_count ||
+	    (table && project->pou[table - 1].kind != POU_PROGRAM))
+		return false;
+	return var->type != IEC_NONE || words_row(&project->words, var->fb)->kind == WORD_STRUCT;
+}
+
 static void fill(struct symbol_row *symbol, const struct project *project,
 		 const struct var_table *vars, int table, int index)
 {
@@ -75,6 +84,8 @@ static void fill(struct symbol_row *symbol, const struct project *project,
 	symbol->text[FIELD_RETAIN] = g_strdup(symbol->flags & VAR_RETAIN ? "1" : "");
 	symbol->text[FIELD_CONSTANT] = g_strdup(symbol->flags & VAR_CONSTANT ? "1" : "");
 	symbol->text[FIELD_COMMENT] = comment_text(project_text(project, var->comment));
+	symbol->line = -1;
+	symbol->exports = exports(project, var, table);
 }
 
 struct symbol_row *symbol_row_new(const struct project *project,
@@ -127,6 +138,24 @@ static struct symbol_row *row_of(struct symbols *symbols, const int *first,
 	       symbols->symbol[at].index == target->index ? &symbols->symbol[at] : NULL;
 }
 
+/* Is this use the whole path of a line of VAR_ACCESS? */
+static void note_access(struct symbol_row *symbol, const struct project *project,
+			const struct xref_use *use)
+{
+	const guintptr at = (guintptr)use->slot, first = (guintptr)project->access;
+	const struct access *access;
+
+	if (!use->slot || at < first || at >= (guintptr)(project->access + project->access_count))
+		return;
+	access = &project->access[(at - first) / sizeof(*access)];
+	if (use->slot != &access->path ||
+	    use->at + use->len != names_len(&project->names, access->path))
+		return;
+	symbol->line = (int)(access - project->access);
+	symbol->foreign = use->included;
+	symbol->access = access->writes ? SYMBOL_WRITE : SYMBOL_READ;
+}
+
 static void count_uses(struct symbols *symbols, struct project *project, const int *first)
 {
 	struct xref xref;
@@ -144,6 +173,8 @@ static void count_uses(struct symbols *symbols, struct project *project, const i
 			symbol->included = use->included;
 		else
 			symbol->uses++;
+		if (symbol->exports && symbol->line < 0)
+			note_access(symbol, project, use);
 	}
 	xref_free(&xref);
 }
@@ -930,6 +961,176 @@ bool symbol_set_kind(LadderDocument *document, int table, int index, uint16_t ki
 	return good;
 }
 
+/* ---- access for operators ---- */
+
+/* Whether @table has another variable of this name than the one at @index. */
+static bool is_variable(const struct project *project, const struct var_table *vars,
+			const char *name, int index)
+{
+	for (int i = 0; i < vars->count; i++)
+		if (i != index && name_equal(project_text(project, vars->var[i].name), name))
+			return true;
+	return false;
+}
+
+static bool access_is_free(struct project *project, const struct symbol_row *symbol,
+			   const char *name)
+{
+	for (int i = 0; i < project->access_count; i++)
+		if (name_equal(project_text(project, project->access[i].var.name), name))
+			return false;
+	for (int i = 0; i <= project->pou_count; i++)
+		if ((!i || project->pou[i - 1].kind == POU_PROGRAM) &&
+		    is_variable(project, xref_table(project, i), name,
+				i == symbol->table ? symbol->index : -1))
+			return false;
+	return project_find_pou(project, name, strlen(name)) < 0;
+}
+
+/* Its own name, or behind that of its program, or with a number. */
+static char *access_free_name(struct project *project, const struct symbol_row *symbol)
+{
+	char *stem = *symbol->scope ? g_strdup_printf("%s_%s", symbol->scope,
+			symbol->text[FIELD_NAME]) : g_strdup(symbol->text[FIELD_NAME]);
+	char *name = g_strdup(symbol->text[FIELD_NAME]);
+
+	for (int i = 1; !access_is_free(project, symbol, name) && i < LIMIT_VARS; i++) {
+		g_free(name);
+		name = i == 1 ? g_strdup(stem) : g_strdup_printf("%s%d", stem, i);
+	}
+	g_free(stem);
+	return name;
+}
+
+/* "  Name : Main.Name : INT READ_WRITE; (* … *)\n"; the bounds of an array are numbers. */
+static char *access_line(struct project *project, const struct symbol_row *symbol,
+			 enum symbol_access access)
+{
+	const struct access *old = symbol->line < 0 ? NULL : &project->access[symbol->line];
+	struct var var = xref_table(project, symbol->table)->var[symbol->index];
+	char *name = old ? g_strdup(project_text(project, old->var.name)) :
+			   access_free_name(project, symbol);
+	char *path = old ? g_strdup(project_text(project, old->path)) :
+		     *symbol->scope ? g_strdup_printf("%s.%s", symbol->scope,
+						      symbol->text[FIELD_NAME]) :
+				      g_strdup(symbol->text[FIELD_NAME]);
+	const char *comment = old ? project_text(project, old->var.comment) : "";
+	char *type, *line;
+
+	var.written = NULL;
+	type = listing_type(project, &var);
+	line = g_strdup_printf("  %s : %s : %s %s;%s%s\n", name, path, type,
+			       access_word(access == SYMBOL_WRITE), *comment ? " " : "", comment);
+	g_free(name);
+	g_free(path);
+	g_free(type);
+	return line;
+}
+
+/* The place in front of END_VAR of the last block in this file. */
+static const struct text_span *access_block(const struct symbol_batch *batch)
+{
+	const struct text_span *found = NULL;
+
+	for (guint i = 0; i < batch->span->len; i++) {
+		const struct text_span *span = &g_array_index(batch->span, struct text_span, i);
+
+		found = span->part == TEXT_ACCESS ? span : found;
+	}
+	return found;
+}
+
+/* A new block: in the CONFIGURATION if this file has one, else before the first POU. */
+static void add_access_block(struct symbol_batch *batch, const char *line)
+{
+	static const char end[] = "END_CONFIGURATION\n";
+
+	for (guint i = 0; i < batch->span->len; i++) {
+		const struct text_span *span = &g_array_index(batch->span, struct text_span, i);
+
+		if (span->part != TEXT_PART ||
+		    batch->project->part[span->number].kind != PART_CONFIG)
+			continue;
+		add_piece(batch, span->at + span->len - strlen(end), 0,
+			  g_strdup_printf("VAR_ACCESS\n%sEND_VAR\n", line));
+		return;
+	}
+	add_piece(batch, place_of_globals(batch), 0,
+		  g_strdup_printf("VAR_ACCESS\n%sEND_VAR\n\n", line));
+}
+
+static void add_access(struct symbol_batch *batch, const char *line)
+{
+	const struct text_span *block = access_block(batch);
+
+	if (block)
+		add_piece(batch, block->at + block->len - strlen("END_VAR\n"), 0,
+			  g_strdup(line));
+	else
+		add_access_block(batch, line);
+}
+
+/* The last line goes with its block, unless that has a comment. */
+static void drop_access(struct symbol_batch *batch, const struct symbol_row *symbol)
+{
+	const struct project *project = batch->project;
+	const struct access_block *block = access_block_of(project, symbol->line);
+	const struct text_span *span = find_span(batch, TEXT_ACCESS_LINE, 0, symbol->line);
+	const struct text_span *whole = find_span(batch, TEXT_ACCESS, 0,
+						  (int)(block - project->access_block));
+
+	if (block->count == 1 && !block->comment)
+		span = whole;
+	if (span)
+		add_piece(batch, span->at, span->len, g_strdup(""));
+}
+
+static void change_access(struct symbol_batch *batch, const struct symbol_row *symbol,
+			  enum symbol_access access)
+{
+	const struct text_span *span = symbol->line < 0 ? NULL :
+		find_span(batch, TEXT_ACCESS_LINE, 0, symbol->line);
+	char *line;
+
+	if (access == SYMBOL_KEPT) {
+		drop_access(batch, symbol);
+		return;
+	}
+	line = access_line(batch->project, symbol, access);
+	if (span)
+		add_piece(batch, span->at, span->len, g_strdup(line));
+	else
+		add_access(batch, line);
+	g_free(line);
+}
+
+bool symbol_set_access(LadderDocument *document, int table, int index,
+		       enum symbol_access access, char **why)
+{
+	struct symbol_batch *batch = symbol_batch_new(document);
+	const struct symbol_row *symbol = row_at(batch->symbols, table, index);
+	bool good = may_change(symbol, why) && batch->text;
+
+	if (good && !symbol->exports)
+		good = refuse(why, g_strdup(_("Only values of programs and global ones can be given to operators")));
+	else if (good && symbol->foreign)
+		good = refuse(why, g_strdup(_("It is declared in another file")));
+	if (good && symbol->access != access) {
+		change_access(batch, symbol, access);
+		good = symbol_batch_apply(batch, _("Change access"), why);
+	}
+	symbol_batch_free(batch);
+	return good;
+}
+
+char *symbol_access_name(LadderDocument *document, const struct symbol_row *symbol)
+{
+	struct project *project = ladder_document_project(document);
+
+	return g_strdup(symbol->line < 0 || !project || symbol->line >= project->access_count ? "" :
+			project_text(project, project->access[symbol->line].var.name));
+}
+
 bool symbol_add(LadderDocument *document, int table, uint16_t flags,
 		const char *const text[SYMBOL_FIELDS], char **why)
 {
@@ -944,8 +1145,12 @@ bool symbol_add(LadderDocument *document, int table, uint16_t flags,
 bool symbol_delete(LadderDocument *document, int table, int index, char **why)
 {
 	struct symbol_batch *batch = symbol_batch_new(document);
-	bool good = batch_delete(batch, table, index, why) &&
-		    symbol_batch_apply(batch, _("Delete symbol"), why);
+	const struct symbol_row *symbol = row_at(batch->symbols, table, index);
+	bool good = batch_delete(batch, table, index, why);
+
+	if (good && symbol && symbol->line >= 0 && !symbol->foreign)
+		drop_access(batch, symbol);
+	good = good && symbol_batch_apply(batch, _("Delete symbol"), why);
 
 	symbol_batch_free(batch);
 	return good;

@@ -16,6 +16,9 @@ enum field {
 	SYMBOL_FIELDS
 };
 
+/* What operators and gateways may do with a symbol: VAR_ACCESS. */
+enum symbol_access { SYMBOL_KEPT, SYMBOL_READ, SYMBOL_WRITE };
+
 struct symbol_row {
 	int table, index;    /* as in struct xref_target                      */
 	char *scope;         /* POU or structure; "": the globals             */
@@ -25,6 +28,11 @@ struct symbol_row {
 	int uses;            /* places but the declaration                    */
 	bool included;       /* declared in another file: read-only           */
 	bool member;         /* member of a structure: no address, no RETAIN  */
+	bool exports;        /* a value that VAR_ACCESS may have a line for    */
+	enum symbol_access access;
+	int line;            /* of VAR_ACCESS for the whole symbol, in project.access; -1:
+				none                                          */
+	bool foreign;        /* that line stands in another file              */
 };
 
 struct symbols {
@@ -63,6 +71,12 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
  * RETAIN or CONSTANT. One step of the history. Fails: false, nothing changed. */
 bool symbol_set_kind(LadderDocument *document, int table, int index, uint16_t kind,
 		     char **why);
+/** symbol_set_access - adds, changes or deletes its line of VAR_ACCESS. A new line has the name of
+ * the symbol, or a free one like it. One step of the history. Fails: false, nothing changed. */
+bool symbol_set_access(LadderDocument *document, int table, int index,
+		       enum symbol_access access, char **why);
+/** symbol_access_name - the name that operators have for it; "": none. Owns: the caller. */
+char *symbol_access_name(LadderDocument *document, const struct symbol_row *symbol);
 /** symbol_add - adds a declaration behind those of its kind.
  * @flags: of its block, apart from RETAIN and CONSTANT, which @text has: 0: VAR */
 bool symbol_add(LadderDocument *document, int table, uint16_t flags,

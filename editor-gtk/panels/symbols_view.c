@@ -19,15 +19,15 @@
 #define FILE_MOST (64 << 20) /* bytes of a table that can be imported          */
 
 /* Columns of a row after its fields, which have their own numbers. */
-enum { SYMBOLS_SCOPE = SYMBOL_FIELDS, SYMBOLS_USES };
+enum { SYMBOLS_SCOPE = SYMBOL_FIELDS, SYMBOLS_USES, SYMBOLS_ACCESS };
 /* LadderPanelRow.flags, beside SYMBOL_KINDS. */
-enum { SYMBOLS_FIXED = 1, SYMBOLS_MEMBER = 2 };
+enum { SYMBOLS_FIXED = 1, SYMBOLS_MEMBER = 2, SYMBOLS_EXPORTS = 1 << 20, SYMBOLS_ACCESS_AT = 21 };
 
 #define CHECKS (1u << FIELD_RETAIN | 1u << FIELD_CONSTANT)
 
 struct _LadderSymbolsView {
 	GtkWidget parent_instance;
-	GtkWidget *box, *scopes, *kind, *search;
+	GtkWidget *box, *scopes, *kind, *access, *search;
 	struct panel_list list;
 	struct panel_cells cells;
 	struct panel_watch *watch;
@@ -67,6 +67,8 @@ static char *spoken(const struct symbol_row *symbol, const char *error)
 	}
 	g_string_append_printf(text, ", %s, ", *symbol->scope ? symbol->scope :
 			       _("global"));
+	if (symbol->access != SYMBOL_KEPT)
+		g_string_append_printf(text, "%s, ", access_word(symbol->access == SYMBOL_WRITE));
 	g_string_append_printf(text, ngettext("%d use", "%d uses", (gulong)symbol->uses),
 			       symbol->uses);
 	if (error)
@@ -85,6 +87,21 @@ static char *scope_of(const struct symbol_row *symbol)
 		      g_strdup(symbol->scope);
 }
 
+/* "READ_WRITE", and the name for operators if it is another one. */
+static char *access_of(LadderDocument *document, const struct symbol_row *symbol)
+{
+	char *name = symbol_access_name(document, symbol), *out;
+
+	if (symbol->access == SYMBOL_KEPT)
+		out = g_strdup("");
+	else if (name_equal(name, symbol->text[FIELD_NAME]))
+		out = g_strdup(access_word(symbol->access == SYMBOL_WRITE));
+	else
+		out = g_strdup_printf("%s: %s", access_word(symbol->access == SYMBOL_WRITE), name);
+	g_free(name);
+	return out;
+}
+
 static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row *symbol)
 {
 	LadderPanelRow *row = ladder_panel_row_new();
@@ -94,11 +111,14 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 		row->text[i] = g_strdup(symbol->text[i]);
 	row->text[SYMBOLS_SCOPE] = scope_of(symbol);
 	row->text[SYMBOLS_USES] = g_strdup_printf("%d", symbol->uses);
+	row->text[SYMBOLS_ACCESS] = access_of(document, symbol);
 	row->number = symbol->uses;
 	row->table = symbol->table;
 	row->index = symbol->index;
 	row->flags = (symbol->included ? SYMBOLS_FIXED : 0u) |
 		     (symbol->member ? SYMBOLS_MEMBER : 0u) |
+		     (symbol->exports && !symbol->foreign ? SYMBOLS_EXPORTS : 0u) |
+		     (unsigned)symbol->access << SYMBOLS_ACCESS_AT |
 		     (symbol->flags & SYMBOL_KINDS) | (symbol->included ? 0u :
 		      type_cells_flags(document, symbol->table, symbol->index));
 	row->note = symbol_error(document, symbol, &warning);
@@ -146,6 +166,12 @@ static void show_kind(LadderSymbolsView *view)
 	view->busy = false;
 	gtk_widget_set_visible(view->kind, row && row->table > 0 &&
 			       !(row->flags & (SYMBOLS_FIXED | SYMBOLS_MEMBER)));
+	view->busy = true;
+	gtk_drop_down_set_selected(GTK_DROP_DOWN(view->access), row ?
+				   row->flags >> SYMBOLS_ACCESS_AT & 3 : 0);
+	view->busy = false;
+	gtk_widget_set_visible(view->access, row && row->flags & SYMBOLS_EXPORTS &&
+			       !(row->flags & SYMBOLS_FIXED));
 }
 
 static void fill_rows(LadderSymbolsView *view)
@@ -320,6 +346,32 @@ static void kind_changed(GtkDropDown *drop, GParamSpec *spec, LadderSymbolsView 
 	g_free(why);
 }
 
+static void access_changed(GtkDropDown *drop, GParamSpec *spec, LadderSymbolsView *view)
+{
+	const guint at = gtk_drop_down_get_selected(drop);
+	LadderPanelRow *row = view->watch ? panel_list_row(&view->list) : NULL;
+	char *name, *why = NULL;
+	int table;
+
+	(void)spec;
+	if (view->busy || !row || at > SYMBOL_WRITE ||
+	    (row->flags >> SYMBOLS_ACCESS_AT & 3) == at)
+		return;
+	table = row->table;
+	name = g_strdup(panel_row_text(row, FIELD_NAME));
+	view->turning = true;
+	if (symbol_set_access(panel_watch_document(view->watch), table,
+			      index_of(panel_watch_document(view->watch), row),
+			      (enum symbol_access)at, &why))
+		ladder_symbols_view_show(view, table,
+			last_index(panel_watch_document(view->watch), table, name));
+	view->turning = false;
+	show_kind(view);
+	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL);
+	g_free(name);
+	g_free(why);
+}
+
 static void delete(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
@@ -470,11 +522,13 @@ static void bind_children(GtkWidgetClass *class)
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, box);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, scopes);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, kind);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, access);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, search);
 	panel_bind_list(class, LadderSymbolsView);
 	panel_bind_message(class, LadderSymbolsView);
 	gtk_widget_class_bind_template_callback(class, scope_changed);
 	gtk_widget_class_bind_template_callback(class, kind_changed);
+	gtk_widget_class_bind_template_callback(class, access_changed);
 	gtk_widget_class_bind_template_callback(class, search_changed);
 }
 
@@ -533,6 +587,7 @@ static void add_columns(LadderSymbolsView *view)
 				column[i].field == FIELD_INITIAL ? PANEL_BUTTON : 0,
 				column[i].width);
 	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 150);
+	panel_list_column(&view->list, _("Access"), SYMBOLS_ACCESS, 0, 120);
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
 }
 
@@ -545,6 +600,11 @@ static void fill_kinds(LadderSymbolsView *view)
 		g_ptr_array_add(name, (gpointer)vars_head(kinds[i]));
 	view->busy = true;
 	drop_fill(GTK_DROP_DOWN(view->kind), name);
+	g_ptr_array_set_size(name, 0);
+	g_ptr_array_add(name, (gpointer)_("No access for operators"));
+	g_ptr_array_add(name, (gpointer)access_word(false));
+	g_ptr_array_add(name, (gpointer)access_word(true));
+	drop_fill(GTK_DROP_DOWN(view->access), name);
 	view->busy = false;
 	g_ptr_array_unref(name);
 }

@@ -74,6 +74,7 @@ struct server {
 	struct range look_range[REFS_MOST];
 	struct location place[REFS_MOST];
 	struct order_item item[REFS_MOST];
+	bool allowed[REFS_MOST]; /* items that VAR_ACCESS lets operators write */
 	struct iec_text text[REFS_MOST / 16];
 	struct symbol_cursor cursor;
 	char name[2 * LIMIT_NAME + 64];

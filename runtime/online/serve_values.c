@@ -262,6 +262,38 @@ static void tell_items(struct asked *asked, enum order_kind kind, uint32_t count
 			kind == ORDER_FORCE ? EVENT_FORCE : EVENT_UNFORCE, text, "");
 }
 
+static bool holds(const struct declared_name *name, struct location at)
+{
+	const uint32_t behind = at.where - name->at.where;
+
+	if (at.type != name->at.type || at.area != name->at.area || at.where < name->at.where)
+		return false;
+	if (!name->array.count || !name->stride)
+		return behind == 0;
+	return behind % name->stride == 0 && behind / name->stride < name->array.count;
+}
+
+/* An operator may write what VAR_ACCESS exports with READ_WRITE, by any name of it. */
+static enum refusal check_exported(struct asked *asked, uint32_t count)
+{
+	struct server *server = asked->server;
+	struct declared_cursor cursor = { 0 };
+	struct declared_name name;
+
+	memset(server->allowed, 0, count);
+	while (image_next_access(server->setup.program, &cursor, &name))
+		for (uint32_t i = 0; name.flags & SYMBOL_WRITABLE && i < count; i++)
+			server->allowed[i] |= holds(&name, server->item[i].at);
+	for (uint32_t i = 0; i < count; i++) {
+		if (server->allowed[i])
+			continue;
+		name_place(server, server->item[i].at);
+		asked_detail(asked, server->name, strlen(server->name));
+		return REFUSAL_EXPORTED;
+	}
+	return REFUSAL_NONE;
+}
+
 enum refusal serve_change(struct asked *asked, enum order_kind kind)
 {
 	struct server *server = asked->server;
@@ -276,15 +308,10 @@ enum refusal serve_change(struct asked *asked, enum order_kind kind)
 		refusal = take_items(asked, count);
 	if (refusal == REFUSAL_NONE && kind == ORDER_UNFORCE)
 		refusal = take_places(asked, count);
+	if (refusal == REFUSAL_NONE && kind == ORDER_WRITE && asked->session->role < ROLE_ENG)
+		refusal = check_exported(asked, count);
 	if (refusal != REFUSAL_NONE)
 		return refusal;
-	if (kind == ORDER_WRITE && asked->session->role < ROLE_ENG) {
-		if (count) {
-			name_place(server, server->item[0].at);
-			asked_detail(asked, server->name, strlen(server->name));
-		}
-		return REFUSAL_EXPORTED;
-	}
 	for (uint32_t i = 0; i < count && kind == ORDER_UNFORCE; i++)
 		server->item[i].at = server->place[i];
 	asked->detail[0] = '\0';
@@ -320,6 +347,28 @@ enum refusal serve_forces(struct asked *asked)
 	return REFUSAL_NONE;
 }
 
+/* Of a symbol on the wire, beside SYMBOL_CONSTANT and SYMBOL_RETAIN: a name of VAR_ACCESS. */
+enum { MARK_EXPORTED = 4, MARK_WRITABLE = 8 };
+
+static uint8_t symbol_marks(uint32_t flags)
+{
+	return (uint8_t)((flags & (SYMBOL_CONSTANT | SYMBOL_RETAIN)) |
+			 (flags & SYMBOL_EXPORTED ? MARK_EXPORTED : 0) |
+			 (flags & SYMBOL_WRITABLE ? MARK_WRITABLE : 0));
+}
+
+/* The next variable of a session; behind the last one the names of VAR_ACCESS. */
+static bool next_symbol(struct session *session, const struct image *image,
+			struct symbol *symbol)
+{
+	if (image_next_symbol(image, &session->symbols, symbol))
+		return true;
+	if (session->symbols.access)
+		return false;
+	session->symbols = (struct symbol_cursor){ .access = true };
+	return image_next_symbol(image, &session->symbols, symbol);
+}
+
 /* Moves the session's cursor to symbol @from. */
 static bool seek_symbol(struct asked *asked, uint32_t from, struct symbol *symbol)
 {
@@ -331,7 +380,7 @@ static bool seek_symbol(struct asked *asked, uint32_t from, struct symbol *symbo
 		session->symbol = 0;
 	}
 	for (; session->symbol < from; session->symbol++)
-		if (!image_next_symbol(image, &session->symbols, symbol))
+		if (!next_symbol(session, image, symbol))
 			return false;
 	return true;
 }
@@ -361,7 +410,7 @@ enum refusal serve_symbols(struct asked *asked)
 	while (more && (size_t)(out->end - out->at) > SYMBOL_BYTES && count < UINT16_MAX) {
 		char address[40] = "";
 
-		more = image_next_symbol(&server->mirror, &session->symbols, &symbol);
+		more = next_symbol(session, &server->mirror, &symbol);
 		if (!more)
 			break;
 		session->symbol++;
@@ -370,7 +419,7 @@ enum refusal serve_symbols(struct asked *asked)
 		place_address(program, symbol.at, address, sizeof(address));
 		wire_put_string(out, symbol.name);
 		wire_put_u8(out, (uint8_t)symbol.at.type);
-		wire_put_u8(out, (uint8_t)(symbol.flags & (SYMBOL_CONSTANT | SYMBOL_RETAIN)));
+		wire_put_u8(out, symbol_marks(symbol.flags));
 		wire_put_u32(out, place_word(program, symbol.at));
 		wire_put_string(out, address);
 		count++;

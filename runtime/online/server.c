@@ -359,7 +359,7 @@ static void answer(struct server *server, struct session *session, const struct 
 	if (refusal == REFUSAL_NONE && asked.out.failed)
 		refusal = REFUSAL_TOO_MANY;
 	/* Once a session: a desk that asks again and again must not fill the log. */
-	if (refusal == REFUSAL_ROLE && !session->told_role) {
+	if ((refusal == REFUSAL_ROLE || refusal == REFUSAL_EXPORTED) && !session->told_role) {
 		asked_tell(&asked, EVENT_REFUSED, asked.row->word, "");
 		session->told_role = true;
 	}

@@ -2127,6 +2127,109 @@ def test_each_role_may_do_what_the_table_says():
 
 test_each_role_may_do_what_the_table_says.root = True
 
+EXPORTS = SEAL.replace('VAR\n', '''VAR_ACCESS
+  Made : Count : INT READ_WRITE;
+  Label : Label : STRING READ_WRITE;
+  Row : Table : ARRAY[1..4] OF INT READ_WRITE;
+  Third : Table[3] : INT READ_ONLY;
+  Limit : Main.Slow.PT : TIME READ_WRITE;
+  Since : Main.Slow.ET : TIME READ_ONLY;
+  Lamp : %QX0.1 : BOOL READ_WRITE;
+  Push : Start : BOOL READ_ONLY;
+END_VAR
+
+VAR
+''', 1).replace('PROGRAM Main LD', 'PROGRAM Main LD\nVAR\n  Slow : TON;\nEND_VAR', 1).replace(
+    '  Slow : TON;\nEND_VAR\nVAR CONSTANT', 'END_VAR\nVAR CONSTANT', 1)
+
+
+def test_symbols_end_with_what_is_exported():
+    with Board(EXPORTS) as board:
+        desk = board.client()
+        symbols = desk.symbols()
+        names = {name: flags for name, (_kind, flags, _place, _address) in symbols.items() if flags & 4}
+        assert names == {'Made': 12, 'Label': 12, 'Row[1]': 12, 'Row[2]': 12, 'Row[3]': 12, 'Row[4]': 12,
+                         'Third': 4, 'Limit': 12, 'Since': 4, 'Lamp': 12, 'Push': 4}, names
+        assert symbols['Made'][2] == symbols['Count'][2] and symbols['Lamp'][2:] == symbols['Brake'][2:]
+        assert symbols['Row[3]'][2] == symbols['Third'][2] == symbols['Table[3]'][2]
+        desk.write({'Made': (INT, 4), 'Row[2]': (INT, 5), 'Third': (INT, 6)})
+        assert desk.read('Count', 'Table[2]', 'Third', 'made') == [4, 5, 6, 4]
+        assert desk.publish(['Made', 'Row[1]'])[1] == [INT, INT]
+        assert board.command('get', 'Made', 'Limit', 'Row[3]')[1] == 'Made=4\nLimit=2000\nRow[3]=6\n'
+        assert board.command('set', 'Made=11')[0] == 0
+        assert board.command('watch', 'Made', '--csv', '--count', '1')[1].splitlines()[1].endswith(',11')
+
+
+def number_of(desk, name):
+    """What a desk gets for a write of an INT: 0, or the number of the refusal."""
+    try:
+        desk.write({name: (INT, 1)})
+        return 0
+    except Refused as error:
+        return error.number
+
+
+def writes_as_oper(desk):
+    """What an operator gets for each write: 0, or the number of the refusal and what it names."""
+    places = {name: place for name, (_kind, _flags, place, _address) in desk.symbols().items()}
+
+    def number(values):
+        try:
+            desk.write(values)
+            return 0
+        except Refused as error:
+            return [error.number, *error.parts]
+
+    return {
+        'by its name': number({'Made': (INT, 1)}), 'as in the program': number({'Count': (INT, 2)}),
+        'by place': number({places['Count']: (INT, 3)}), 'a text': number({'Label': (STRING, b'ok')}),
+        'an element': number({'Row[4]': (INT, 4)}), 'a pin': number({'Limit': (TIME, 10 ** 9)}),
+        'read only elsewhere': number({'Third': (INT, 5)}), 'a bit': number({'Lamp': (BOOL, 1)}),
+        'read only': number({'Since': (TIME, 1)}), 'an input': number({'Push': (BOOL, 1)}),
+        'not exported': number({'Motor': (BOOL, 1)}), 'a pin beside': number({'Slow.Q': (BOOL, 1)}),
+        'the byte around': number({'%QB0': (2, 255)}), 'behind': number({places['Table[4]'] + 2: (INT, 5)}),
+        'one of two': number({'Count': (INT, 77), 'Brake': (BOOL, 0), 'Motor': (BOOL, 1)}),
+        'nothing': number({}), 'Count': desk.read('Count')[0],
+    }
+
+
+def test_operators_write_what_is_exported():
+    with Board(EXPORTS) as board:
+        done = in_role(board, GROUPS['oper'], writes_as_oper)
+        assert done == {
+            'by its name': 0, 'as in the program': 0, 'by place': 0, 'a text': 0, 'an element': 0, 'a pin': 0,
+            'read only elsewhere': 0, 'a bit': 0, 'read only': [17, 'Slow.ET'], 'an input': [17, 'Start'],
+            'not exported': [17, 'Motor'], 'a pin beside': [17, 'Slow.Q'], 'the byte around': [17, '%QB0'],
+            'behind': done['behind'], 'one of two': [17, 'Motor'], 'nothing': 0, 'Count': 3}, done
+        assert done['behind'][0] in (7, 17), done
+        assert in_role(board, GROUPS['view'], lambda desk: desk.read('Table[4]', 'Table[3]')) == [4, 5]
+        told = in_role(board, GROUPS['view'],
+                       lambda desk: [event['role'] for event in desk.events() if event['id'] == 12])
+        assert told == [2], told
+        assert in_role(board, GROUPS['view'], writes_as_oper)['by its name'][0] == 5
+        assert in_role(board, GROUPS['eng'], writes_as_oper)['one of two'] == 0
+    with Board() as board:
+        assert in_role(board, GROUPS['oper'], lambda desk: number_of(desk, 'Count')) == 17
+
+
+test_operators_write_what_is_exported.root = True
+
+
+def test_a_download_changes_what_is_exported():
+    other = EXPORTS.replace('Made : Count : INT READ_WRITE', 'Made : Count : INT READ_ONLY')
+    with Board(EXPORTS, '--slots', '.') as board:
+        assert in_role(board, GROUPS['oper'], lambda desk: number_of(desk, 'Count')) == 0
+        parts = build(board, 'other.rung', other)
+
+        def load(desk):
+            desk.download(parts)
+        assert in_role(board, GROUPS['eng'], load) is None
+        assert in_role(board, GROUPS['oper'], lambda desk: number_of(desk, 'Count')) == 17
+        assert in_role(board, GROUPS['oper'], lambda desk: number_of(desk, 'Row[1]')) == 0
+
+
+test_a_download_changes_what_is_exported.root = True
+
 
 # ---- record ----
 

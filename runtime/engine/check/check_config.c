@@ -177,7 +177,8 @@ bool check_config(struct scope *scope, struct uses *uses,
 	for (int i = 0; i < c.config->count; i++) {
 		const struct config_entry *entry = &c.config->entry[i];
 
-		if (entry->kind == CONFIG_VARS || !check_repeated(&c, entry))
+		if (entry->kind == CONFIG_VARS || entry->kind == CONFIG_ACCESS ||
+		    !check_repeated(&c, entry))
 			continue;
 		if (entry->kind == CONFIG_TASK)
 			check_task(&c, entry);

@@ -7,6 +7,7 @@
  */
 #include "engine/base/ascii.h"
 #include "engine/check/check.h"
+#include "engine/check/access.h"
 #include "engine/check/check_config.h"
 #include "engine/check/check_operand.h"
 #include "engine/check/check_sfc.h"
@@ -656,6 +657,7 @@ bool check_names(struct scope *scope, uint8_t *const *bad,
 	check_table(&c, NULL, &c.project->globals);
 	check_bodies(&c, bad);
 	c.good &= check_config(scope, &c.uses, diags);
+	c.good &= check_access(scope, &c.uses, scratch, diags);
 	for (int i = 0; i <= c.project->pou_count; i++)
 		check_uses(&c, i);
 	if (scratch->failed || c.project->arena.failed)

@@ -1145,7 +1145,7 @@ static void compare_entry(struct diff *diff, struct compare_difference what,
 static const char *kind_of(const struct config_entry *entry)
 {
 	static const char *const kind[] = {
-		[CONFIG_VARS] = "", [CONFIG_AREA] = "area",
+		[CONFIG_VARS] = "", [CONFIG_ACCESS] = "", [CONFIG_AREA] = "area",
 		[CONFIG_TASK] = "task", [CONFIG_PROGRAM] = "instance",
 	};
 
@@ -1169,7 +1169,7 @@ static void diff_config(struct diff *diff)
 
 		what.kind = kind_of(entry);
 		what.subject = subject_of(diff->a, entry);
-		if (entry->kind == CONFIG_VARS)
+		if (entry->kind == CONFIG_VARS || entry->kind == CONFIG_ACCESS)
 			continue;
 		other = same_line(diff->b, entry, what.subject);
 		what.change = other ? NULL : "removed";
@@ -1182,8 +1182,50 @@ static void diff_config(struct diff *diff)
 	for (int i = 0; i < b->count; i++) {
 		what.kind = kind_of(&b->entry[i]);
 		what.subject = subject_of(diff->b, &b->entry[i]);
-		if (b->entry[i].kind != CONFIG_VARS &&
+		if (b->entry[i].kind != CONFIG_VARS && b->entry[i].kind != CONFIG_ACCESS &&
 		    !same_line(diff->a, &b->entry[i], what.subject))
+			diff_say(diff, &what);
+	}
+}
+
+/* ---- VAR_ACCESS ---- */
+
+static const struct access *access_named(const struct project *project, const char *name)
+{
+	for (int i = 0; i < project->access_count; i++)
+		if (name_is(project_text(project, project->access[i].var.name), name,
+			    strlen(name)))
+			return &project->access[i];
+	return NULL;
+}
+
+/* What operators and gateways may read and write, by its name. */
+static void diff_access(struct diff *diff)
+{
+	struct compare_difference what = { .kind = "access" };
+
+	for (int i = 0; i < diff->a->access_count; i++) {
+		const struct access *a = &diff->a->access[i], *b;
+
+		what.subject = project_text(diff->a, a->var.name);
+		b = access_named(diff->b, what.subject);
+		what.change = b ? NULL : "removed";
+		if (!b) {
+			diff_say(diff, &what);
+			continue;
+		}
+		diff_texts(diff, what, "path", project_text(diff->a, a->path),
+			   project_text(diff->b, b->path));
+		diff_texts(diff, what, "type", type_text(diff->a, &a->var, diff->from),
+			   type_text(diff->b, &b->var, diff->to));
+		diff_texts(diff, what, "direction", access_word(a->writes),
+			   access_word(b->writes));
+		compare_ids(diff, what, "comment", a->var.comment, b->var.comment);
+	}
+	what.change = "added";
+	for (int i = 0; i < diff->b->access_count; i++) {
+		what.subject = project_text(diff->b, diff->b->access[i].var.name);
+		if (!access_named(diff->a, what.subject))
 			diff_say(diff, &what);
 	}
 }
@@ -1202,6 +1244,7 @@ static void compare(struct diff *diff)
 	compare_parts(diff, PART_USES, "USES");
 	diff->group = COMPARE_CONFIG;
 	diff_config(diff);
+	diff_access(diff);
 	diff->group = COMPARE_TYPES;
 	compare_structures(diff);
 	diff->group = COMPARE_GLOBALS;

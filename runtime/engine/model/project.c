@@ -114,6 +114,21 @@ bool pou_has_frame(const struct pou *pou)
 	return pou->kind == POU_FUNCTION || pou->kind == POU_BLOCK;
 }
 
+const struct access_block *access_block_of(const struct project *project, int index)
+{
+	int at = 0;
+
+	while (at < project->access_block_count - 1 &&
+	       index >= project->access_block[at].first + project->access_block[at].count)
+		at++;
+	return &project->access_block[at];
+}
+
+const char *access_word(bool writes)
+{
+	return writes ? "READ_WRITE" : "READ_ONLY";
+}
+
 const char *pou_word(enum pou_kind kind)
 {
 	static const char *const words[] = {

@@ -19,7 +19,7 @@
 
 /* A CONFIGURATION as it was written, line by line (IEC 61131-3, 2.7 and tables 49 and
  * 50). check/ resolves the names, scan/ decides when a task runs. */
-enum config_kind { CONFIG_VARS, CONFIG_AREA, CONFIG_TASK, CONFIG_PROGRAM };
+enum config_kind { CONFIG_VARS, CONFIG_AREA, CONFIG_TASK, CONFIG_PROGRAM, CONFIG_ACCESS };
 
 /* One line; members of other kinds are 0. */
 struct config_entry {
@@ -33,7 +33,8 @@ struct config_entry {
 	uint32_t priority;    /* TASK: 0 is the highest                       */
 	enum iec_area area;   /* AREA                                         */
 	uint32_t bytes;       /* AREA: its size                               */
-	int block;            /* VARS: index of a block of the globals        */
+	int block;            /* VARS: index of a block of the globals; ACCESS: of
+				 project.access_block                         */
 	uint32_t comment;     /* its comment                                  */
 	int line;
 };
@@ -84,12 +85,29 @@ struct structure {
 	int line;
 };
 
+/* One line of VAR_ACCESS (IEC 61131-3, 2.7.1): operators and gateways may read or write this
+ * variable under this name. check/access.h finds the variable. */
+struct access {
+	struct var var;         /* name, type, comment and line; no address, no value */
+	uint32_t path;          /* string id: as written, such as Main.Delay.ET */
+	bool writes;            /* READ_WRITE                                  */
+};
+
+/* VAR_ACCESS … END_VAR */
+struct access_block {
+	uint32_t comment;       /* above it                                    */
+	int first, count;       /* of project.access                           */
+	const char *file;       /* it stands in; borrowed from the arena       */
+	int line;
+	bool included;          /* came from another file                      */
+};
+
 /* The order of the parts in the file, kept for writing. */
 enum part_kind { PART_VARS, PART_POU, PART_VIEW, PART_INCLUDE,
-		 PART_CONFIG, PART_USES, PART_TYPES };
+		 PART_CONFIG, PART_USES, PART_TYPES, PART_ACCESS };
 struct part {
 	enum part_kind kind;
-	int index;              /* var block of globals, POU, first structure  */
+	int index;              /* var block of globals, POU, first structure, access block */
 	int count;              /* structures                                  */
 	uint32_t text;          /* string id: text from VIEW to END_VIEW; file name */
 	uint32_t comment;       /* above it                                    */
@@ -107,6 +125,10 @@ struct project {
 	uint32_t head;          /* comments above PROJECT or the first part    */
 	uint32_t tail;          /* comments at the end                         */
 	struct var_table globals;
+	struct access *access;  /* lines of all VAR_ACCESS                     */
+	int access_count;
+	struct access_block *access_block;
+	int access_block_count;
 	struct config *config;  /* NULL: none                                  */
 	struct pou *pou;
 	int pou_count;
@@ -156,6 +178,11 @@ bool project_has_head(const struct project *project);
 /** project_text - the string of an id. */
 const char *project_text(const struct project *project, uint32_t id);
 
+/** access_block_of - the block that contains line @index of project.access. */
+const struct access_block *access_block_of(const struct project *project, int index);
+/** access_word - READ_WRITE or READ_ONLY. Static. */
+const char *access_word(bool writes);
+
 /** project_write_type - the type of @var as declared: ARRAY[1..Limit] OF STRING[20].
  * Scan-safe: no. */
 void project_write_type(const struct project *project, const struct var *var,
@@ -177,6 +204,8 @@ enum text_part {
 	TEXT_STEP,  /* of a chart, from its comments to END_STEP; its number  */
 	TEXT_TRANSITION, /* likewise                                          */
 	TEXT_ACTION,
+	TEXT_ACCESS, /* VAR_ACCESS … END_VAR; number of its block              */
+	TEXT_ACCESS_LINE, /* one of its lines; number in the project          */
 };
 struct text_span {
 	enum text_part part;

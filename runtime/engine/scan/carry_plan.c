@@ -81,13 +81,26 @@ static bool same_name(const struct declared_name *a, const struct declared_name 
 	       name_same(a->pou, pou, b->pou, strlen(b->pou)) && is_memory(a) == is_memory(b);
 }
 
+/* All symbols that stand for memory of their own: a line of VAR_ACCESS is one more name. */
+static bool next_name(const struct program *program, struct declared_cursor *cursor,
+		      struct declared_name *out)
+{
+	while (image_next_declared(program, cursor, out)) {
+		struct declared_name access = *out;
+
+		if (!image_as_access(&access))
+			return true;
+	}
+	return false;
+}
+
 static uint32_t count_names(const struct program *program)
 {
 	struct declared_cursor cursor = { .memories = true };
 	struct declared_name name;
 	uint32_t count = 0;
 
-	while (image_next_declared(program, &cursor, &name))
+	while (next_name(program, &cursor, &name))
 		count++;
 	return count;
 }
@@ -121,7 +134,7 @@ static bool make_names(struct work *work)
 	work->last = arena_alloc(work->arena, (work->mask + 1) * sizeof(*work->last));
 	if (!work->known || !work->first || !work->last)
 		return false;
-	while (i < work->count && image_next_declared(from, &cursor, &work->known[i].name))
+	while (i < work->count && next_name(from, &cursor, &work->known[i].name))
 		enter(work, i++);
 	return true;
 }
@@ -402,7 +415,7 @@ static void carry_names(struct work *work)
 	struct declared_name name;
 
 	while (work->values <= VALUES_MOST &&
-	       image_next_declared(work->plan->to, &cursor, &name)) {
+	       next_name(work->plan->to, &cursor, &name)) {
 		struct known *known = find(work, &name, false);
 
 		if (known)
@@ -426,7 +439,7 @@ static void carry_memories(struct work *work, bool whole)
 	struct declared_name name;
 
 	while (work->values <= VALUES_MOST &&
-	       image_next_declared(work->plan->to, &cursor, &name)) {
+	       next_name(work->plan->to, &cursor, &name)) {
 		bool *done = &work->done[cursor.index - 1];
 		struct known *known;
 
@@ -498,7 +511,7 @@ static void begin_edges(struct work *work)
 	struct declared_cursor cursor = { .memories = true };
 	struct declared_name name;
 
-	while (image_next_declared(work->plan->to, &cursor, &name)) {
+	while (next_name(work->plan->to, &cursor, &name)) {
 		struct location at;
 
 		if (work->done[cursor.index - 1] || !is_memory(&name) ||

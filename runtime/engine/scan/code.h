@@ -139,6 +139,10 @@ enum symbol_flag {
 	SYMBOL_BIT = 0x20,    /* the offset counts bits of the areas       */
 	SYMBOL_HIDDEN = 0x40, /* a temporary: not shown                    */
 	SYMBOL_SHARED = 0x80, /* a name that is in several tables          */
+	/* Only in struct declared_name and struct symbol. In an image the line of a
+	 * VAR_ACCESS is a hidden symbol behind all others whose name begins with READ_ONLY
+	 * or READ_WRITE and a blank. */
+	SYMBOL_EXPORTED = 0x100, SYMBOL_WRITABLE = 0x200,
 };
 struct code_group {     /* symbols from here to the next group             */
 	uint32_t first; /* of the symbols; ascending, 0 first              */

@@ -67,7 +67,8 @@ bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
  * areas. Scan-safe: yes. */
 struct location image_locate(const struct image *image, struct iec_addr addr);
 /** image_find - where a variable or address lives, by its name in the source:
- * `Motor`, `Main.Motor`, `Runout.Q`, `Table[3]`, `%QX0.0`, `Q3`. type IEC_NONE: unknown.
+ * `Motor`, `Main.Motor`, `Runout.Q`, `Table[3]`, `%QX0.0`, `Q3`; or a name that VAR_ACCESS
+ * gives it. type IEC_NONE: unknown.
  * Scan-safe: no. */
 struct location image_find(const struct image *image, const char *name,
 			   size_t len);
@@ -114,6 +115,18 @@ bool image_next_declared(const struct program *program,
 struct location declared_element(const struct declared_name *array,
 				 uint32_t number);
 
+/**
+ * image_next_access - steps through the lines of VAR_ACCESS: names for operators and gateways
+ * @cursor: {0} to begin with
+ * @out:    flags has SYMBOL_EXPORTED, and SYMBOL_WRITABLE if it is READ_WRITE; pou ""
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false behind the last one.
+ */
+bool image_next_access(const struct program *p, struct declared_cursor *cursor,
+		       struct declared_name *out);
+/** image_as_access - whether a symbol is such a line; then @symbol becomes it. Scan-safe: yes. */
+bool image_as_access(struct declared_name *symbol);
+
 /** image_find_array - the array of this name; names as in image_find.
  * Scan-safe: no. Fails: false if there is none. */
 bool image_find_array(const struct image *image, const char *name, size_t len,
@@ -147,6 +160,7 @@ struct symbol {
 struct symbol_cursor {
 	struct declared_cursor declared;
 	uint32_t pin;           /* or element                                 */
+	bool access;            /* set before: the lines of VAR_ACCESS instead */
 	bool whole;             /* set before: always put the POU before the name, */
 	char text[2 * LIMIT_NAME + 64];
 };

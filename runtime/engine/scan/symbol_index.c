@@ -67,12 +67,15 @@ const struct symbol_index *symbol_index_new(const struct program *program,
 					    struct arena *arena)
 {
 	struct symbol_index *index = arena_alloc(arena, sizeof(*index));
-	struct declared_cursor cursor = { 0 }, before = cursor;
+	struct declared_cursor cursor = { .memories = true }, before = cursor;
 	struct declared_name symbol;
 
 	if (!index || !make_room(index, program->symbol_count, arena))
 		return NULL;
 	for (; image_next_declared(program, &cursor, &symbol); before = cursor) {
+		if (!image_as_access(&symbol) && symbol.flags & SYMBOL_HIDDEN &&
+		    strchr(symbol.name, ' '))
+			continue; /* nobody names the memory of an edge */
 		index->at[cursor.index - 1] = before;
 		enter_names(index, &symbol, cursor.index - 1);
 	}

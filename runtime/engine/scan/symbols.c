@@ -12,6 +12,61 @@
 #include <stdio.h>
 #include <string.h>
 
+/* ---- VAR_ACCESS ---- */
+
+bool image_as_access(struct declared_name *symbol)
+{
+	static const struct {
+		char word[12];
+		uint32_t flags;
+	} kind[] = {
+		{ "READ_ONLY ", SYMBOL_EXPORTED },
+		{ "READ_WRITE ", SYMBOL_EXPORTED | SYMBOL_WRITABLE },
+	};
+
+	for (int i = 0; symbol->flags & SYMBOL_HIDDEN && i < 2; i++) {
+		const size_t len = strlen(kind[i].word);
+
+		if (strncmp(symbol->name, kind[i].word, len) != 0)
+			continue;
+		symbol->name += len;
+		symbol->array.head -= len;
+		symbol->flags = kind[i].flags;
+		return true;
+	}
+	return false;
+}
+
+bool image_next_access(const struct program *p, struct declared_cursor *cursor,
+		       struct declared_name *out)
+{
+	cursor->memories = true;
+	while (image_next_declared(p, cursor, out))
+		if (image_as_access(out))
+			return true;
+	return false;
+}
+
+/* Whether a symbol has a name that a person may write: memories of edges have none. */
+static bool has_name(struct declared_name *symbol)
+{
+	return image_as_access(symbol) || !(symbol->flags & SYMBOL_HIDDEN) ||
+	       !strchr(symbol->name, ' ');
+}
+
+/* The next of all symbols that a person may name. */
+static bool next_named(const struct program *p, struct declared_cursor *cursor,
+		       struct declared_name *out)
+{
+	cursor->memories = true;
+	while (image_next_declared(p, cursor, out))
+		if (has_name(out))
+			return true;
+	return false;
+}
+
+/* ---- names ---- */
+
 static void skip_blanks(const char **at, const char *end)
 {
 	while (*at < end && **at == ' ')
@@ -102,13 +157,13 @@ static struct location match_whole(const struct program *p,
 static struct location find_declared(const struct program *p, const char *text,
 				     size_t len)
 {
-	struct symbol_search search = { .text = text, .len = len };
+	struct symbol_search search = { .text = text, .len = len, .all.memories = true };
 	struct location first = { .type = IEC_NONE }, at;
 	uint32_t number = UINT32_MAX;
 	struct declared_name symbol;
 
 	while (symbol_search_next(p, &search, &symbol)) {
-		if (search.number >= number)
+		if (search.number >= number || !has_name(&symbol))
 			continue;
 		at = match_whole(p, &symbol, text, len);
 		if (at.type == IEC_NONE)
@@ -136,7 +191,7 @@ bool image_find_array(const struct image *image, const char *name, size_t len,
 {
 	struct declared_cursor cursor = { 0 };
 
-	while (image_next_declared(image->program, &cursor, out))
+	while (next_named(image->program, &cursor, out))
 		if (out->array.count && is_named(out, name, len))
 			return true;
 	return false;
@@ -187,7 +242,7 @@ bool image_find_members(const struct image *image, const char *head, size_t len,
 	int64_t low = 0, high = 0, index;
 	bool found = false;
 
-	while (image_next_declared(image->program, &cursor, &symbol)) {
+	while (next_named(image->program, &cursor, &symbol)) {
 		if (!is_member(&symbol, head, len, &index))
 			continue;
 		low = !found || index < low ? index : low;
@@ -300,6 +355,12 @@ static bool next_pin(const struct program *p, const struct declared_name *whole,
 	return true;
 }
 
+static bool next_of(const struct program *p, bool access, struct declared_cursor *cursor,
+		    struct declared_name *out)
+{
+	return access ? image_next_access(p, cursor, out) : image_next_declared(p, cursor, out);
+}
+
 bool image_next_symbol(const struct image *image, struct symbol_cursor *cursor,
 		       struct symbol *out)
 {
@@ -307,7 +368,7 @@ bool image_next_symbol(const struct image *image, struct symbol_cursor *cursor,
 	struct declared_cursor next = cursor->declared;
 	struct declared_name symbol;
 
-	for (; image_next_declared(p, &next, &symbol); cursor->declared = next) {
+	for (; next_of(p, cursor->access, &next, &symbol); cursor->declared = next) {
 		*out = (struct symbol){
 			.name = cursor->text, .flags = symbol.flags,
 			.at = symbol.at,

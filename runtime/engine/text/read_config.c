@@ -283,6 +283,19 @@ static void read_block(struct reader *r, struct config *config, bool inside)
 	add_entry(r, config, entry);
 }
 
+static void read_access_block(struct reader *r, struct config *config)
+{
+	struct config_entry entry = { .kind = CONFIG_ACCESS, .line = r->lex.token.line };
+	uint32_t above = buffer_take(r, &r->note);
+
+	entry.block = read_access(r);
+	r->comments = COMMENT_NOTE;
+	if (entry.block < 0)
+		return;
+	r->project->access_block[entry.block].comment = above;
+	add_entry(r, config, entry);
+}
+
 /* A word that cannot begin a line here ends the block. */
 static bool ends_config(const struct reader *r)
 {
@@ -330,6 +343,10 @@ static void read_entries(struct reader *r, struct config *config, bool inside)
 			return;
 		if (lex_is(&r->lex, "VAR") || lex_is(&r->lex, "VAR_GLOBAL"))
 			read_block(r, config, inside);
+		else if (lex_is(&r->lex, "VAR_ACCESS") && inside)
+			reader_misplaced_access(r); /* behind the RESOURCE */
+		else if (lex_is(&r->lex, "VAR_ACCESS"))
+			read_access_block(r, config);
 		else if (lex_is(&r->lex, "TASK") ||
 			 lex_is(&r->lex, "PROGRAM") || lex_is(&r->lex, "AREA"))
 			read_entry(r, config, inside);
@@ -346,7 +363,8 @@ static void keep_last_comments(struct reader *r, struct config *config)
 {
 	uint32_t *id = &config->comment;
 
-	if (config->count && config->entry[config->count - 1].kind != CONFIG_VARS)
+	if (config->count && config->entry[config->count - 1].kind != CONFIG_VARS &&
+	    config->entry[config->count - 1].kind != CONFIG_ACCESS)
 		id = &config->entry[config->count - 1].comment;
 	else if (config->has_resource)
 		id = &config->resource_comment;

@@ -164,6 +164,14 @@ static void read_global_vars(struct reader *r)
 		reader_add_part(r, part);
 }
 
+static void read_global_access(struct reader *r)
+{
+	struct part part = { .kind = PART_ACCESS, .index = read_access(r) };
+
+	if (part.index >= 0)
+		reader_add_part(r, part);
+}
+
 /* ---- INCLUDE ---- */
 
 static bool read_file(struct reader *r, const char *text, size_t len);
@@ -313,6 +321,7 @@ bool read_ends_block(const struct reader *r)
 		"FUNCTION_BLOCK", "END_FUNCTION_BLOCK", "TYPE", "END_TYPE",
 		"SUBROUTINE", "END_SUBROUTINE",
 		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP",
+		"VAR_ACCESS",
 	};
 	bool found = r->pou && r->pou->language == LANGUAGE_SFC &&
 		     reader_is_sfc_word(r);
@@ -395,7 +404,9 @@ static void read_parts(struct reader *r)
 			return;
 		if (r->library && is_foreign(r))
 			reader_fail_token(r, DIAG_MISPLACED);
-		if (reader_is_vars(r))
+		if (lex_is(&r->lex, "VAR_ACCESS"))
+			read_global_access(r);
+		else if (reader_is_vars(r))
 			read_global_vars(r);
 		else if (read_pou_kind(r, &kind))
 			read_pou(r, kind);

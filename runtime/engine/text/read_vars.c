@@ -350,8 +350,7 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 	return true;
 }
 
-/* Skips to the next declaration, which may be on this line. */
-static void skip_declaration(struct reader *r)
+void reader_skip_declaration(struct reader *r)
 {
 	while (!reader_at_end(r) && !lex_is(&r->lex, "END_VAR") &&
 	       !(r->members && lex_is(&r->lex, "END_STRUCT"))) {
@@ -379,7 +378,7 @@ static void read_declarations(struct reader *r, struct var_table *table)
 		if (!good && r->closed && r->lex.token.line != r->mended)
 			return;
 		if (!good)
-			skip_declaration(r);
+			reader_skip_declaration(r);
 		if (r->closed)
 			return;
 	}
@@ -407,9 +406,14 @@ static int find_head(const struct reader *r)
 	return -1;
 }
 
+static bool is_access(const struct reader *r)
+{
+	return lex_is(&r->lex, "VAR_ACCESS");
+}
+
 bool reader_is_vars(const struct reader *r)
 {
-	return find_head(r) >= 0;
+	return find_head(r) >= 0 || is_access(r);
 }
 
 /* May a block of this kind stand here? */
@@ -458,7 +462,7 @@ static void keep_last_comments(struct reader *r, struct var_table *table,
 	*id = comment_join(r, *id, &r->note);
 }
 
-static void close_block(struct reader *r, const struct token *head)
+void reader_close_vars(struct reader *r, const struct token *head)
 {
 	if (lex_is(&r->lex, "END_VAR")) {
 		reader_next(r);
@@ -478,6 +482,10 @@ void read_vars(struct reader *r, struct var_table *table, bool global)
 	const struct token head = r->lex.token;
 	struct var_block block = { .first = table->count, .line = head.line };
 
+	if (is_access(r)) { /* in a POU */
+		reader_misplaced_access(r);
+		return;
+	}
 	block.flags = read_flags(r, global);
 	r->var_flags = block.flags;
 	block.comment = buffer_take(r, &r->above);
@@ -496,7 +504,7 @@ void read_vars(struct reader *r, struct var_table *table, bool global)
 		*slot = block;
 	else
 		r->no_memory = true;
-	close_block(r, &head);
+	reader_close_vars(r, &head);
 }
 
 void read_members(struct reader *r, struct var_table *table)

@@ -200,6 +200,14 @@ void read_types(struct reader *r);
 /** read_members - declarations of a structure, up to END_STRUCT. */
 void read_members(struct reader *r, struct var_table *table);
 void read_vars(struct reader *r, struct var_table *table, bool global);
+/** read_access - VAR_ACCESS … END_VAR; its number in the project, or -1: no memory. */
+int read_access(struct reader *r);
+/** reader_misplaced_access - reports one that does not belong here, and drops it. */
+void reader_misplaced_access(struct reader *r);
+/** reader_close_vars - END_VAR of the block that began at @head. */
+void reader_close_vars(struct reader *r, const struct token *head);
+/** reader_skip_declaration - skips to the next declaration, which may be on this line. */
+void reader_skip_declaration(struct reader *r);
 /** read_var - one declaration for a block with these flags, and its comment. */
 bool read_var(struct reader *r, uint16_t flags, struct var *out);
 struct rung *read_rung(struct reader *r);

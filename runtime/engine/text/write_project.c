@@ -186,6 +186,56 @@ void text_write_vars(const struct project *project, const struct var_table *tabl
 		write_block(sink, project, table, i);
 }
 
+/* ---- VAR_ACCESS ---- */
+
+static void write_access_line(const struct sink *sink, const struct project *project,
+			      const struct access *access, int name, int path)
+{
+	const int number = (int)(access - project->access);
+
+	sink_mark(sink, TEXT_ACCESS_LINE, number, true);
+	sink_text(sink, "  ");
+	write_id(sink, project, access->var.name);
+	sink_repeat(sink, " ", name - write_width(project, access->var.name));
+	sink_text(sink, " : ");
+	write_id(sink, project, access->path);
+	sink_repeat(sink, " ", path - write_width(project, access->path));
+	sink_text(sink, " : ");
+	project_write_type(project, &access->var, sink);
+	sink_text(sink, " ");
+	sink_text(sink, access_word(access->writes));
+	sink_text(sink, ";");
+	if (access->var.comment) {
+		sink_text(sink, " ");
+		write_id(sink, project, access->var.comment);
+	}
+	sink_text(sink, "\n");
+	sink_mark(sink, TEXT_ACCESS_LINE, number, false);
+}
+
+/* Names and paths below one another. */
+static void write_access(const struct sink *sink, const struct project *project, int index)
+{
+	const struct access_block *block = &project->access_block[index];
+	const struct access *access = project->access ? project->access + block->first : NULL;
+	int name = 0, path = 0;
+
+	for (int i = 0; i < block->count; i++) {
+		const int one = write_width(project, access[i].var.name);
+		const int two = write_width(project, access[i].path);
+
+		name = one > name ? one : name;
+		path = two > path ? two : path;
+	}
+	write_above(sink, project, block->comment);
+	sink_mark(sink, TEXT_ACCESS, index, true);
+	sink_text(sink, "VAR_ACCESS\n");
+	for (int i = 0; i < block->count; i++)
+		write_access_line(sink, project, &access[i], name, path);
+	sink_text(sink, "END_VAR\n");
+	sink_mark(sink, TEXT_ACCESS, index, false);
+}
+
 /* ---- parts ---- */
 
 static void write_body(const struct sink *sink, const struct project *project,
@@ -333,6 +383,10 @@ static void put_entry(const struct config_writer *w,
 			    entry->block);
 		return;
 	}
+	if (entry->kind == CONFIG_ACCESS) {
+		write_access(w->sink, w->project, entry->block);
+		return;
+	}
 	sink_mark(w->sink, TEXT_ENTRY, number, true);
 	sink_text(w->sink, entry->inside ? "    " : "  ");
 	if (entry->kind == CONFIG_TASK)
@@ -386,6 +440,9 @@ static void write_part(const struct sink *sink, const struct project *project,
 	switch (part->kind) {
 	case PART_VARS:
 		write_block(sink, project, &project->globals, part->index);
+		break;
+	case PART_ACCESS:
+		write_access(sink, project, part->index);
 		break;
 	case PART_POU:
 		write_pou(sink, project, &project->pou[part->index]);

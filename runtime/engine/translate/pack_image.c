@@ -3,6 +3,7 @@
  * pack_image - writes the result of the assembler as a code image, with its power section.
  */
 #include "engine/base/digest.h"
+#include "engine/check/access.h"
 #include "engine/model/shape.h"
 #include "engine/translate/assembler.h"
 #include "engine/translate/temps.h"
@@ -368,6 +369,56 @@ static void add_memories(struct assembler *as, struct maps *maps, int index)
 	}
 }
 
+/* ---- VAR_ACCESS ---- */
+
+/* Hidden symbols behind all others: a board without names has none of them, and a board that
+ * does not know them lets nobody write. */
+static void add_access(struct assembler *as, struct maps *maps, const struct access *access)
+{
+	const struct project *project = as->translation->project;
+	const size_t len = names_len(&project->names, access->var.name);
+	struct word_pin like = { .type = access->var.type, .word = access->var.fb,
+				 .elements = access->var.array.count,
+				 .low = access->var.array.low };
+	uint32_t count = like.type == IEC_NONE && like.elements ? like.elements : 1, at;
+	uint32_t unit = shape_of_var(&project->words, &access->var).unit, marks = SYMBOL_HIDDEN;
+	enum diag_id why;
+	const struct meaning *m = access_find(as->translation->scope, access, &why);
+	char *name = arena_alloc(as->arena, NAME_MOST);
+	size_t used;
+
+	if (!m || !name) {
+		as->failed = true;
+		return;
+	}
+	at = layout_spot(as, m).offset;
+	if (m->addr.area != AREA_NONE && m->addr.bits == 1) {
+		at = areas_byte(as->areas, m->addr) * 8 + m->addr.bit;
+		marks |= SYMBOL_BIT;
+	}
+	used = strlen(strcpy(name, access_word(access->writes)));
+	name[used++] = ' ';
+	memcpy(name + used, project_text(project, access->var.name), len + 1);
+	used += len;
+	for (uint32_t i = 0; i < count && !as->failed; i++) {
+		maps_join_index(name + used, &like, i);
+		if (like.type == IEC_NONE)
+			add_parts(as, maps, name, access->var.fb, at + i * unit, marks);
+		else
+			add_part(as, maps, name, &like, at, marks);
+	}
+}
+
+static void add_accesses(struct assembler *as, struct maps *maps)
+{
+	const struct project *project = as->translation->project;
+
+	if (project->access_count)
+		add_group(as, maps, 0, 0);
+	for (int i = 0; i < project->access_count && !as->failed; i++)
+		add_access(as, maps, &project->access[i]);
+}
+
 static void count_names(struct maps *maps, const struct var_table *vars)
 {
 	for (int i = 0; i < vars->count; i++)
@@ -616,6 +667,7 @@ static bool make_maps(struct assembler *as, struct maps *maps)
 		add_edges(as, maps, i);
 		add_memories(as, maps, i);
 	}
+	add_accesses(as, maps);
 	drop_empty_group(maps);
 	for (int i = 0; i < as->translation->unit_count; i++)
 		as->entry[i].name = add_name(as, maps, project->pou[i].name);

@@ -7,6 +7,7 @@
 #include "engine/xref/xref.h"
 
 #include "engine/base/lex.h"
+#include "engine/check/access.h"
 #include "engine/check/scope.h"
 #include "engine/model/args.h"
 #include "engine/model/init.h"
@@ -623,6 +624,32 @@ static void walk_config(struct xref_walk *walk)
 	}
 }
 
+/* ---- VAR_ACCESS ---- */
+
+static void walk_access(struct xref_walk *walk)
+{
+	struct project *project = walk->project;
+
+	for (int i = 0; i < project->access_count; i++) {
+		struct access *access = &project->access[i];
+		const struct access_block *block = access_block_of(project, i);
+		const struct access_path path = access_split(project, access->path);
+
+		begin_place(walk, -1, block->file, access->var.line, block->included);
+		walk->slot = &access->path;
+		if (path.pou && !path.instance)
+			xref_add(walk, (struct xref_target){ .what = XREF_POU,
+				.index = (int)(path.pou - project->pou) }, XREF_READ,
+				 path.program, path.program_len);
+		walk->pou = path.pou;
+		xref_scan(walk, path.at, names_len(&project->names, access->path) - path.at,
+			  access->writes ? XREF_CHANGED : XREF_READ);
+		walk->pou = NULL;
+		if (access->var.type == IEC_NONE)
+			add_word(walk, access->var.fb, XREF_TYPE);
+	}
+}
+
 /* ---- labels ---- */
 
 static void note_label(struct xref_walk *walk, int pou, uint32_t *name, int at)
@@ -1068,6 +1095,7 @@ bool xref_make(struct xref *out, struct project *project)
 		return false;
 	walk_declarations(&walk);
 	walk_config(&walk);
+	walk_access(&walk);
 	for (int i = 0; i < project->pou_count; i++) {
 		walk.pou = &project->pou[i];
 		if (project->pou[i].sfc) {

@@ -137,7 +137,7 @@ static void test_beside(void)
 static void test_fields(void)
 {
 	LadderDocument *document = opened(sample);
-	char *before = ladder_document_text(document, NULL), *after;
+	char *after;
 
 	CHECK(set(document, "", "Count", FIELD_TYPE, "DINT"));
 	CHECK(has(document, "  Count : DINT := 7; (* of parts *)\n"));
@@ -628,8 +628,96 @@ static void test_expressions(void)
 	g_object_unref(document);
 }
 
+/* ---- access for operators ---- */
+
+static bool give(LadderDocument *document, const char *scope, const char *name,
+		 enum symbol_access access)
+{
+	struct symbols *symbols = symbols_new(document);
+	const struct symbol_row *symbol = find_symbol(symbols, scope, name);
+	char *why = NULL;
+	bool good = symbol && symbol_set_access(document, symbol->table, symbol->index, access,
+						&why);
+
+	CHECK_AS(good || (why && *why), "access is given, or there is a reason");
+	g_free(why);
+	symbols_free(symbols);
+	return good;
+}
+
+static enum symbol_access given(LadderDocument *document, const char *scope, const char *name)
+{
+	struct symbols *symbols = symbols_new(document);
+	const struct symbol_row *symbol = find_symbol(symbols, scope, name);
+	const enum symbol_access access = symbol ? symbol->access : SYMBOL_KEPT;
+
+	symbols_free(symbols);
+	return access;
+}
+
+static void test_access(void)
+{
+	LadderDocument *document = opened(sample);
+	char *before = ladder_document_text(document, NULL), *after;
+
+	CHECK(given(document, "", "Count") == SYMBOL_KEPT);
+	CHECK(give(document, "", "Count", SYMBOL_WRITE));
+	CHECK(has(document, "VAR_ACCESS\n  Count : Count : INT READ_WRITE;\nEND_VAR\n\nPROGRAM"));
+	CHECK(given(document, "", "Count") == SYMBOL_WRITE);
+	CHECK(give(document, "", "Table", SYMBOL_READ));
+	CHECK(give(document, "Main", "\xe7\x81\xaf", SYMBOL_WRITE));
+	CHECK_AS(has(document, "  Table : Table   : ARRAY[1..3] OF INT READ_ONLY;\n") &&
+		 has(document, " : Main.\xe7\x81\xaf : BOOL READ_WRITE;\nEND_VAR"),
+		 "a local is given behind the name of its program, in the same block");
+	CHECK(give(document, "", "Count", SYMBOL_READ));
+	CHECK(has(document, "  Count : Count   : INT READ_ONLY;\n"));
+	CHECK_AS(!give(document, "Main", "Delay", SYMBOL_READ) &&
+		 !give(document, "Recipe", "Speed", SYMBOL_READ) &&
+		 !give(document, "Seal", "On", SYMBOL_READ),
+		 "no instances, no members, nothing of blocks");
+	CHECK(set(document, "", "Count", FIELD_NAME, "Parts"));
+	CHECK_AS(has(document, "  Count : Parts   : INT READ_ONLY;\n") &&
+		 given(document, "", "Parts") == SYMBOL_READ,
+		 "a renamed symbol keeps its name for operators");
+	CHECK(give(document, "", "Parts", SYMBOL_KEPT));
+	CHECK(give(document, "", "Table", SYMBOL_KEPT));
+	CHECK(give(document, "Main", "\xe7\x81\xaf", SYMBOL_KEPT));
+	CHECK(set(document, "", "Parts", FIELD_NAME, "Count"));
+	after = ladder_document_text(document, NULL);
+	CHECK_AS(!strstr(after, "VAR_ACCESS"), "the last line goes with its block");
+	g_free(after);
+	g_object_unref(document);
+}
+
+/* A name that another variable has; a configuration; a symbol that is deleted. */
+static void test_access_places(void)
+{
+	LadderDocument *document = opened("RUNGBOARD 1\n\nVAR CONSTANT\n  Most : INT := 4;\n"
+		"END_VAR\n\nCONFIGURATION Plant\n  PROGRAM One : A;\nEND_CONFIGURATION\n\n"
+		"PROGRAM A LD\nVAR\n  X : ARRAY[1..Most] OF INT;\nEND_VAR\nEND_PROGRAM\n\n"
+		"PROGRAM B LD\nVAR\n  X : INT;\nEND_VAR\nEND_PROGRAM\n");
+	struct symbols *symbols;
+	const struct symbol_row *symbol;
+	char *why = NULL;
+
+	CHECK(give(document, "A", "X", SYMBOL_WRITE) && give(document, "B", "X", SYMBOL_READ));
+	CHECK(has(document, "  PROGRAM One : A;\nVAR_ACCESS\n"
+			    "  A_X : A.X : ARRAY[1..4] OF INT READ_WRITE;\n"
+			    "  B_X : B.X : INT READ_ONLY;\nEND_VAR\nEND_CONFIGURATION\n"));
+	symbols = symbols_new(document);
+	symbol = find_symbol(symbols, "A", "X");
+	CHECK(symbol_delete(document, symbol->table, symbol->index, &why));
+	symbols_free(symbols);
+	CHECK_AS(has(document, "VAR_ACCESS\n  B_X : B.X : INT READ_ONLY;\nEND_VAR"),
+		 "the access goes with the symbol");
+	g_free(why);
+	g_object_unref(document);
+}
+
 int main(void)
 {
+	test_access();
+	test_access_places();
 	test_expressions();
 	test_csv();
 	test_export();

@@ -442,4 +442,37 @@ def again(screen):
 
 
 
-main([finds, declared_already, renames, uses, tables, added, ticked, imported, ordered, scopes, kinds, through, last_letter, again])
+def access(screen):
+    """a symbol is given to operators: by the list above the table, in the file and in the column"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+
+    def choose(text):
+        editor.click(until(lambda: [node for node in editor.all('Access for operators', 'combo box')
+                                    if node.box()[2] > 0], 'a choice')[0])
+        editor.focus_on(role='list item')
+        editor.keys('Home')
+        editor.choose(text)
+        until(lambda: not editor.all('No access for operators', 'list item'), 'the list to be gone')
+    editor.into('Lamp, Name')
+    choose('READ_WRITE')
+    text = editor.save(path)
+    assert 'VAR_ACCESS\n  Lamp : Lamp : BOOL READ_WRITE;\nEND_VAR' in text, text
+    editor.into('Start, Name')
+    choose('READ_WRITE')
+    text = editor.save(path)
+    assert 'Start : Start : BOOL READ_WRITE' in text, text
+    label(editor, 'READ_WRITE')
+    editor.shot('symbols-access')
+    choose('READ_ONLY')
+    text = editor.save(path)
+    assert 'Start : Start : BOOL READ_ONLY' in text, text
+    editor.keys('ctrl+z')
+    assert 'Start : Start : BOOL READ_WRITE' in editor.save(path)
+    editor.into('Lamp, Name')
+    choose('No access for operators')
+    assert '  Lamp : Lamp' not in editor.save(path)
+
+
+main([access, finds, declared_already, renames, uses, tables, added, ticked, imported, ordered, scopes, kinds, through, last_letter, again])

@@ -381,6 +381,26 @@ static void test_besides(void)
 #undef BODY
 }
 
+static void test_access(void)
+{
+#define REST "VAR\nA : INT;\nB : INT;\nEND_VAR\nPROGRAM Main LD\nEND_PROGRAM\n"
+	CHECK_TEXT(compare("VAR_ACCESS\nOne : A : INT READ_ONLY;\nTwo : B : INT;\n"
+			   "Old : A : INT;\nEND_VAR\n" REST,
+			   "VAR_ACCESS\none : A : UINT READ_WRITE;\nTwo : A : INT; // x\n"
+			   "New : B : INT READ_WRITE;\nEND_VAR\n" REST, false),
+		   "access One: type INT -> UINT\n"
+		   "access One: direction READ_ONLY -> READ_WRITE\n"
+		   "access Two: path B -> A\n"
+		   "access Two: comment nothing -> // x\n"
+		   "access Old: removed\n"
+		   "access New: added\n");
+	CHECK(count == 6);
+	/* In a configuration or beside it: the same. */
+	CHECK_TEXT(compare("VAR_ACCESS\nOne : A : INT;\nEND_VAR\n" REST,
+			   "VAR_ACCESS\nOne : A : INT READ_ONLY;\nEND_VAR\n" REST, false), "");
+#undef REST
+}
+
 int main(void)
 {
 	test_cells();
@@ -388,6 +408,7 @@ int main(void)
 	test_variables();
 	test_pous();
 	test_config();
+	test_access();
 	test_json();
 	test_large();
 	test_match();

@@ -144,7 +144,10 @@ static const char rich[] =
 	"    Times : ARRAY[1..3] OF INT;\n  END_STRUCT;\nEND_TYPE\n\n"
 	"CONFIGURATION Plant\n"
 	"  TASK Fast (SINGLE := Go, PRIORITY := 0);\n"
-	"  PROGRAM One WITH Fast : Main;\n  PROGRAM Two : List;\nEND_CONFIGURATION\n\n"
+	"  PROGRAM One WITH Fast : Main;\n  PROGRAM Two : List;\n"
+	"VAR_ACCESS\n  Push : Go : BOOL READ_ONLY;\n  Also : Main.Go2 : BOOL READ_WRITE;\n"
+	"  Third : Some[3].Speed : INT READ_WRITE;\n  Mixes : Some : ARRAY[1..4] OF Recipe;\n"
+	"  Runs : Two.Other.Run : BOOL;\nEND_VAR\nEND_CONFIGURATION\n\n"
 	"VAR\n  Go   AT %IX0.0 : BOOL;\n  Lamp AT %QX0.0 : BOOL;\n  Fan  : Seal;\n"
 	"  Some : ARRAY[1..4] OF Recipe := [(Speed := 3), 2(Times := [2(7)])];\n"
 	"  i    : INT := 1;\nEND_VAR\n\n"
@@ -343,7 +346,7 @@ static void test_good(void)
 	char *text = ladder_rename(ladder, &target, "\xe5\x90\xaf\xe5\x8a\xa8", &len, &how);
 
 	CHECK(text && strstr(text, "SINGLE := \xe5\x90\xaf\xe5\x8a\xa8,"));
-	CHECK_AS(how.why == RENAME_GOOD && how.places == 9,
+	CHECK_AS(how.why == RENAME_GOOD && how.places == 10,
 		 "a rename counts all its places");
 	free(text);
 	text = ladder_rename(ladder, &target, "GO", &len, &how);

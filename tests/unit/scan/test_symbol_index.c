@@ -10,6 +10,8 @@
 #include <glob.h>
 
 static const char alike[] =
+	"VAR_ACCESS\n  Row : Main.Values : ARRAY[1..2] OF BOOL READ_WRITE;\n"
+	"  Rows : Belt.Q : INT;\nEND_VAR\n"
 	"VAR\n"
 	"  Main2 : TON;\n  Value : INT := 1;\n  Values : ARRAY[-2..3] OF INT;\n"
 	"  Q, Q1 : BOOL;\n  I0 : INT;\n  SYS : BOOL;\n"
@@ -97,6 +99,10 @@ static void compare(const struct program *program, const char *name)
 	ask_like(&pair, "SYS_FIRST_SCAN");
 	ask_like(&pair, "%IX0.0");
 	ask_like(&pair, "Q0");
+	ask_like(&pair, "Row");
+	ask_like(&pair, "Rows");
+	ask_like(&pair, "READ_WRITE Row");
+	ask_like(&pair, "P Q");
 	ask(&pair, "");
 	CHECK_AS(pair.found > 0 && pair.found < pair.asked, name);
 	CHECK_AS(pair.wrong == 0, name);
@@ -121,6 +127,13 @@ static void samples(void)
 	globfree(&files);
 }
 
+static bool name_is_known(const struct rig *rig, const char *name)
+{
+	const struct image image = { .program = ladder_program(rig->ladder) };
+
+	return image_find(&image, name, strlen(name)).type != IEC_NONE;
+}
+
 int main(void)
 {
 	struct rig rig;
@@ -128,6 +141,9 @@ int main(void)
 	if (rig_open(&rig, alike, false)) {
 		CHECK(rig_get(&rig, "value") == 1 && rig_get(&rig, "MAIN.VALUE") == 2);
 		CHECK(rig_real(&rig, "Belt.Value") == 3.0);
+		CHECK(rig_get(&rig, "Row[2]") == 0 && rig_get(&rig, "rows") == 0);
+		CHECK_AS(!name_is_known(&rig, "READ_WRITE Row[2]") && !name_is_known(&rig, "P Q"),
+			 "nobody can name the memory of an edge");
 		compare(ladder_program(rig.ladder), "each of the similar names is found");
 	}
 	rig_close(&rig);
