@@ -396,8 +396,7 @@ static void add_access(struct assembler *as, struct maps *maps, const struct acc
 		at = areas_byte(as->areas, m->addr) * 8 + m->addr.bit;
 		marks |= SYMBOL_BIT;
 	}
-	used = strlen(strcpy(name, access_word(access->writes)));
-	name[used++] = ' ';
+	used = (size_t)snprintf(name, NAME_MOST, "%s ", access_word(access->writes));
 	memcpy(name + used, project_text(project, access->var.name), len + 1);
 	used += len;
 	for (uint32_t i = 0; i < count && !as->failed; i++) {
