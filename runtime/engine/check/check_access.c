@@ -143,7 +143,7 @@ static void check_name(struct access_check *c, const struct access *access,
 	for (int i = 0; !taken && i < c->project->pou_count; i++)
 		taken = c->project->pou[i].kind == POU_PROGRAM &&
 			has_other(&c->project->pou[i].vars, access, m);
-	if (taken)
+	if (taken && m) /* an unknown path is one mistake, not two */
 		report(c, DIAG_ACCESS_TAKEN, access, name);
 	if (c->seen[access->var.fold]) {
 		const struct access *first = &c->project->access[c->seen[access->var.fold] - 1];
