@@ -137,7 +137,7 @@ static void test_beside(void)
 static void test_fields(void)
 {
 	LadderDocument *document = opened(sample);
-	char *after;
+	char *before = ladder_document_text(document, NULL), *after;
 
 	CHECK(set(document, "", "Count", FIELD_TYPE, "DINT"));
 	CHECK(has(document, "  Count : DINT := 7; (* of parts *)\n"));
@@ -658,7 +658,7 @@ static enum symbol_access given(LadderDocument *document, const char *scope, con
 static void test_access(void)
 {
 	LadderDocument *document = opened(sample);
-	char *before = ladder_document_text(document, NULL), *after;
+	char *after;
 
 	CHECK(given(document, "", "Count") == SYMBOL_KEPT);
 	CHECK(give(document, "", "Count", SYMBOL_WRITE));
