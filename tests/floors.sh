@@ -23,10 +23,11 @@ runtime/engine/xref       engine/base engine/model engine/scan engine/check engi
 runtime/engine/compare    engine/base engine/model engine/scan engine/check engine/text engine/translate
 runtime/engine/exchange   engine/base
 runtime/engine/exchange/classic engine/base engine/model engine/check engine/text engine/translate engine/xref engine/exchange engine/classic.def
+runtime/engine/exchange/image engine/base engine/scan engine/exchange
 runtime/engine/trial      engine/base engine/model engine/scan engine/check engine/text engine/translate engine/classic.def
 runtime/engine            engine engine/base engine/model engine/scan engine/check engine/text engine/translate engine/show engine/xref engine/compare engine/exchange engine/exchange/classic engine/trial
 hal                       engine/base engine/scan/image.h engine/scan/code_access.h
-runtime/ladder            $doors engine/exchange engine/exchange/classic hal online engine/text engine/catalog.def
+runtime/ladder            $doors engine/exchange engine/exchange/classic engine/exchange/image hal online engine/text engine/catalog.def
 runtime/online            engine/base engine/scan
 runtime/attach
 runtime/ladderd           engine/ladder.h engine/base engine/model engine/scan hal online
@@ -36,7 +37,7 @@ editor-gtk/edit           $doors editor-gtk/kit
 editor-gtk/draw           $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit engine/exchange/classic/classic_say.h
 editor-gtk/document       $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw hal engine/exchange/report.h
 editor-gtk/sim            $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document hal
-editor-gtk/online         $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim hal online
+editor-gtk/online         $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim hal online engine/exchange/image
 editor-gtk/canvas         $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim editor-gtk/online
 "
 sheets='editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document editor-gtk/sim editor-gtk/online editor-gtk/canvas'

@@ -83,4 +83,64 @@ for my $seed (1 .. $count) {
 is($other, 0, "$same random programs and their lists do the same") or
 	diag("not so: @bad");
 ok($same * 10 > $count * 9, 'few random programs are refused');
+# Code images: their lists do the same.
+sub lists_of {
+	my ($from, $to) = @_;
+	my $said = `cd $dir && $ladder build $from -o image.code 2>&1`;
+	return "build: $said" if $?;
+	$said = `cd $dir && $ladder il image.code 2>&1 >$to`;
+	return $? ? "il: $said" : '';
+}
+
+for my $sample (sort glob "$tests/../ladders/*.rung") {
+	my $name = basename($sample);
+	next if $name =~ /plant/;
+	is(lists_of($sample, "image-$name"), '', "$name: its image has lists") or next;
+	(my $scenario = $sample) =~ s/rung$/scn/;
+	next unless -e $scenario;
+	# Members have _ for a dot, and so has the scenario then.
+	my $list = slurp("$dir/image-$name");
+	my $text = slurp($scenario);
+	my %flat = map { $_ => 1 } $list =~ /^  (\w+_\w+) /mg;
+	$text =~ s/\b(\w+)\.(\w+)\b/$flat{"$1_$2"} ? "$1_$2" : "$1.$2"/ge;
+	copy($_, "$dir/" . basename($_)) for glob "$tests/../ladders/*.plant.rung";
+	spew("$dir/image-" . basename($scenario), $text);
+	(my $plant = $name) =~ s/rung$/plant.rung/;
+	copy("$dir/$plant", "$dir/image-$plant") if -e "$dir/$plant";
+	my $tap = `cd $dir && $ladder test image-$name 2>&1`;
+	ok($? == 0 && $tap =~ /^ok/m, "$name: the scenarios hold for the lists of its image") or
+		diag($tap);
+}
+
+($same, $other, @bad) = (0, 0);
+for my $seed (1 .. $count) {
+	my $program = `$random --seed $seed --text`;
+	spew("$dir/a.rung", $program);
+	my $said = lists_of('a.rung', 'b.rung');
+	next if $said =~ /^build/;
+	my $list = slurp("$dir/b.rung");
+	spew("$dir/s", stimulus($seed, grep { $list =~ /^  \Q$_\E /m } names_of($program)));
+	my $one = `cd $dir && $ladder trace a.rung s 2>/dev/null`;
+	my $two = `cd $dir && $ladder trace b.rung s 2>/dev/null`;
+	s/^# STOP.*\n//mg for $one, $two;
+	if ($said eq '' && $one eq $two && $one =~ /^1 t=/) {
+		$same++;
+	} else {
+		$other++;
+		push @bad, "seed $seed $said";
+	}
+}
+is($other, 0, "$same random programs and the lists of their images do the same") or
+	diag("not so: @bad");
+ok($same * 10 > $count * 9, 'few random programs are refused');
+
+# Without names there are still places.
+spew("$dir/a.rung", slurp("$tests/../ladders/garage-door.rung"));
+system("cd $dir && $ladder build --small a.rung -o image.code >/dev/null 2>&1") == 0 or die;
+is(system("cd $dir && $ladder il image.code >b.rung"), 0, 'a small image has lists');
+my $stimulus = '@print %QB0 SYS_ERRORS' . "\n" .
+	join('', map { sprintf "%%IX0.0=%d %%IX0.1=%d %%IX0.2=%d\n", $_ & 1, $_ >> 1 & 1, $_ >> 2 & 1 } 1 .. 20);
+spew("$dir/s", $stimulus);
+is(scalar `cd $dir && $ladder trace b.rung s 2>/dev/null`,
+   scalar `cd $dir && $ladder trace a.rung s 2>/dev/null`, 'they do the same');
 done_testing;

@@ -7,11 +7,14 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/sim_program.h"
 
+#include "engine/exchange/image/image_il.h"
+#include "engine/ladder.h"
 #include "engine/scan/code.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <glib/gstdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -155,6 +158,28 @@ static char *put_file(struct made *made, const char *folder, const char *name, c
 	g_free(parent);
 	g_free(path);
 	return why;
+}
+
+char *board_copy_make_lists(struct board_copy *copy)
+{
+	struct ladder *ladder = ladder_new();
+	char *lost = NULL, *text = NULL, *said;
+	gsize size, len = 0;
+	const void *image = g_bytes_get_data(copy->image, &size);
+
+	if (!ladder)
+		g_error("out of memory");
+	if (!copy->text && ladder_load_text(ladder, "", image, size) && ladder_program(ladder))
+		text = image_il_text(ladder_program(ladder), &len, &lost);
+	if (text) {
+		copy->name = g_strdup("program.rung");
+		copy->text = g_strndup(text, len);
+	}
+	said = g_strdup(lost);
+	free(text);
+	free(lost);
+	ladder_free(ladder);
+	return said;
 }
 
 char *board_copy_save(const struct board_copy *copy, const char *folder, const char *map)

@@ -25,6 +25,10 @@ struct board_copy {
  * leaves the folder. */
 struct board_copy *board_copy_read(const struct stored *stored);
 void board_copy_free(struct board_copy *copy);
+/** board_copy_make_lists - without sources: `name` and `text` become the program as instruction lists
+ * made from the image. Returns NULL, or what they lack, a line each; caller frees. Fails: `text` stays
+ * NULL. */
+char *board_copy_make_lists(struct board_copy *copy);
 /**
  * board_copy_save - writes program, files and map into @folder
  * @map: name of the file of the map, "garage-door.io"

@@ -155,6 +155,23 @@ static void folder_chosen(GtkNativeDialog *chooser, int response, struct online_
 	g_free(folder);
 }
 
+/* A board without sources gives lists. */
+static void make_lists(struct online_move *move, struct board_copy *copy)
+{
+	char *lost = board_copy_make_lists(copy), *text;
+
+	if (copy->text && !lost) {
+		warn(move, _("The board stores no sources. This is its program as instruction lists, "
+			     "made from its code."));
+	} else if (copy->text) {
+		text = g_strdup_printf(_("The board stores no sources. This is its program as "
+			"instruction lists, made from its code. Not expressed: %s"), g_strchomp(lost));
+		warn(move, text);
+		g_free(text);
+	}
+	g_free(lost);
+}
+
 static void upload_came(struct online_move *move, struct board_copy *copy, const char *why)
 {
 	GtkFileChooserNative *chooser;
@@ -163,6 +180,8 @@ static void upload_came(struct online_move *move, struct board_copy *copy, const
 		warn(move, why);
 		return;
 	}
+	if (!copy->text)
+		make_lists(move, copy);
 	if (!copy->text) {
 		no_sources(move);
 		board_copy_free(copy);

@@ -5,6 +5,8 @@
  */
 #define _XOPEN_SOURCE 700 /* mkdir() */
 #include "ladder/remote.h"
+
+#include "engine/exchange/image/image_il.h"
 #include "ladder/tty.h"
 
 #include "engine/base/digest.h"
@@ -489,6 +491,43 @@ static enum status put_sources(struct remote *remote, const char *folder,
 	return status;
 }
 
+/* A board without sources: the program as lists made from its image. */
+static enum status put_lists(struct remote *remote, const char *folder,
+			     const struct stored *stored)
+{
+	struct ladder *ladder = ladder_new();
+	char *text = NULL, *lost = NULL;
+	enum status status;
+	size_t len = 0;
+
+	if (!ladder)
+		return report_no_memory(remote->where);
+	if (ladder_load_text(ladder, "program.rungc", stored_part(stored, STORED_IMAGE),
+			     stored->len[STORED_IMAGE]))
+		text = image_il_text(ladder_program(ladder), &len, &lost);
+	else
+		report_diags(ladder_diags(ladder));
+	status = text ? put_file(remote, folder, "program.rung", 12, (const uint8_t *)text, len) :
+			STATUS_WRONG;
+	if (status == STATUS_GOOD)
+		fputs("the board stores no sources: program.rung is made from its code image\n",
+		      stderr);
+	if (lost)
+		fputs(lost, stderr);
+	free(text);
+	free(lost);
+	ladder_free(ladder);
+	return status;
+}
+
+static bool has_sources(const struct stored *stored)
+{
+	struct wire_reader in = wire_read(stored_part(stored, STORED_SOURCES),
+					  stored->len[STORED_SOURCES]);
+
+	return stored->len[STORED_SOURCES] && wire_u16(&in) > 0;
+}
+
 enum status remote_upload(struct remote *remote)
 {
 	const char *folder = call_option(remote->call, "-o");
@@ -502,7 +541,8 @@ enum status remote_upload(struct remote *remote)
 		return report_usage(remote->call, "%.60s: %s", folder, strerror(errno));
 	status = remote_receive(remote, &stored, &bytes);
 	if (status == STATUS_GOOD)
-		status = put_sources(remote, folder, &stored);
+		status = has_sources(&stored) ? put_sources(remote, folder, &stored) :
+						put_lists(remote, folder, &stored);
 	if (status == STATUS_GOOD)
 		status = put_file(remote, folder, "board.io", 8, stored_part(&stored, STORED_MAP),
 				  stored.len[STORED_MAP]);

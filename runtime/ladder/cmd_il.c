@@ -4,10 +4,14 @@
  *
  * It replaces the rungs of the project in memory by the translated lists and writes the
  * project with the ordinary writer. So the output can be read again, except for charts: IL
- * in a rung file has no EACH, TICK or Step.X.
+ * in a rung file has no EACH, TICK or Step.X. Of a code image it prints lists made from the
+ * instructions.
  */
 #include "ladder/report.h"
 
+#include "engine/exchange/image/image_il.h"
+
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -95,6 +99,23 @@ static bool turn_to_il(struct ladder *ladder, struct project *project)
 	return true;
 }
 
+/* Says on standard error what the lists lack. */
+static enum status print_image(struct call *call, const struct ladder *ladder)
+{
+	size_t len;
+	char *lost, *text = image_il_text(ladder_program(ladder), &len, &lost);
+	const bool whole = !lost;
+
+	if (!text)
+		return report_no_memory(call->arg[0]);
+	sink_write(&call->out, text, len);
+	if (lost)
+		fputs(lost, stderr);
+	free(text);
+	free(lost);
+	return whole ? STATUS_GOOD : STATUS_NO;
+}
+
 enum status cmd_il(struct call *call)
 {
 	struct machine machine;
@@ -113,7 +134,7 @@ enum status cmd_il(struct call *call)
 		else
 			status = report_no_memory(call->arg[0]);
 	} else if (status == STATUS_GOOD) {
-		status = report_no_text(call->arg[0]);
+		status = print_image(call, machine.ladder);
 	}
 	free(text);
 	machine_close(&machine);

@@ -612,6 +612,18 @@ def test_upload_gives_back_what_was_downloaded():
         assert desk.upload() == parts
 
 
+def test_a_board_without_sources_gives_lists():
+    with Board() as board:
+        status, out, err = board.command('upload', '-o', 'up')
+        assert status == 0 and 'made from its code image' in err, err
+        assert out == 'up/program.rung\nup/board.io\nup/program.rungc\n', out
+        assert 'PROGRAM Main IL' in board.read('up/program.rung')
+        board.write('s', '@print Start Motor Count Label Table[2] Slow.ET\n.\nStart=1\n.\nStart=0\n.\nBrake=1\n.\n')
+        one, two = (board.ladder('trace', name, 's').stdout for name in ('program.rung', 'up/program.rung'))
+        assert one == two and 'Count=14' in one, (one, two)
+        assert board.ladder('il', 'up/program.rungc').stdout == board.read('up/program.rung')
+
+
 def test_a_damaged_download_changes_nothing():
     draw = random.Random(3)
     with slots() as board:

@@ -227,16 +227,30 @@ def download(screen):
 
 
 def nothing(screen):
-    """a board that stores no sources says so; it runs on when the window is closed"""
+    """a board that stores no sources gives lists made from its code"""
     board = Board(screen, 'attic')
     editor = Editor(screen, new_file(screen, SEAL, 'seal.rung'))
     editor.to_sheet()
     connect(editor, board.where)
     says(editor, 'The board runs this program.')
-    editor.click(editor.find('Upload…', 'push button'))
+    folder = os.path.join(screen.home, 'lists')
+    os.makedirs(folder)
+    editor.give_path(folder, lambda: press(editor, 'Upload…'), 'Folder')
     says(editor, 'The board stores no sources')
+    until(lambda: os.path.exists(folder + '/program.rung'), 'its program as lists')
+    assert 'PROGRAM Main IL' in open(folder + '/program.rung').read()
+    until(lambda: len(editor.windows()) == 2, 'its window')
     editor.shot('online-no-sources')
-    editor.keys('Escape')
+    board.stop()
+
+
+def remains(screen):
+    """the board runs on when the window is closed"""
+    board = Board(screen, 'attic')
+    editor = Editor(screen, new_file(screen, SEAL, 'seal.rung'))
+    editor.to_sheet()
+    connect(editor, board.where)
+    says(editor, 'The board runs this program.')
     close_window(int(editor.window))
     until(lambda: editor.process.poll() is not None, 'the editor to end')
     assert 'mode: RUN' in board.ask('status'), 'closing the window stopped the machine'
@@ -311,4 +325,4 @@ def ssh(screen):
 
 
 if __name__ == '__main__':
-    main([state, roles, download, nothing, here, ssh])
+    main([state, roles, download, nothing, remains, here, ssh])
