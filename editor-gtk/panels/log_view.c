@@ -158,14 +158,18 @@ static void checked(LadderDocument *document, struct log *log)
 {
 	const struct diag_list *diags = ladder_document_diags(document);
 	const int warnings = diags->count + diags->dropped - diags->errors;
-	char *text;
+	char *errors, *warned, *text;
 
 	if (diags->errors == log->errors && warnings == log->warnings)
 		return;
 	log->errors = diags->errors;
 	log->warnings = warnings;
-	text = g_strdup_printf(_("%d errors, %d warnings"), log->errors, log->warnings);
+	errors = g_strdup_printf(ngettext("%d error", "%d errors", (unsigned long)log->errors), log->errors);
+	warned = g_strdup_printf(ngettext("%d warning", "%d warnings", (unsigned long)warnings), warnings);
+	text = g_strdup_printf("%s, %s", errors, warned);
 	put(log, LOG_COMPILE, 0, text);
+	g_free(errors);
+	g_free(warned);
 	g_free(text);
 }
 
