@@ -46,7 +46,7 @@ static const struct { enum verb verb; const char *states; } works[] = {
 	{ VERB_sim_cold, "sf" }, { VERB_sim_warm, "sf" }, { VERB_sim_back, "sfor" },
 	{ VERB_sim_forth, "sfor" }, { VERB_sim_now, "sfor" }, { VERB_set_value, "sfor" },
 	{ VERB_force, "sfor" }, { VERB_run_board, READ }, { VERB_stop_board, "" },
-	{ VERB_online_connect, "nulicsfr" }, { VERB_online_reconnect, "o" },
+	{ VERB_online_reconnect, "o" },
 	{ VERB_online_disconnect, "o" }, { VERB_online_run, "" }, { VERB_online_stop, "o" },
 	{ VERB_online_reset, "" }, { VERB_online_compare, "o" }, { VERB_online_download, "o" },
 	{ VERB_online_upload, "o" }, { VERB_sim_recording, "nulicsfr" }, { VERB_sim_why, "sfor" },
