@@ -120,7 +120,7 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 	case VM_LUT:
 		at += 4 * part;
 		return snprintf(out, size, "lut     %02x b%u b%u b%u -> b%u",
-				at[3] & 0xff, at[0], at[1], at[2], at[3]);
+				at[3] & 0xff, at[0], at[1], at[2], at[3] >> 8);
 	case VM_BITGET:
 		return snprintf(out, size, "bitget  %u.%u -> b%u", at[0], n, at[1]);
 	case VM_BITPUT:

@@ -264,6 +264,8 @@ static bool prints(const uint32_t *code, const char *want)
 
 static void prints_pairs(void)
 {
+	CHECK(prints((uint32_t[]){ VM_LUT | 1 << 8, 1, 2, 3, 9 << 8 | 0xe8 },
+		     "lut     e8 b1 b2 b3 -> b9"));
 	CHECK(prints((uint32_t[]){ VM_REAL | MATH_SUB << 8, 1, 2, 4, 8, 12 },
 		     "real    SUB en b1 REAL@8 REAL@12 -> REAL@4 eno b2"));
 	CHECK(prints((uint32_t[]){ VM_INT | (MATH_DIV | MATH_ENABLED) << 8, 1, 2, 4, 6, 8 },
