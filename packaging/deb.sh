@@ -103,7 +103,7 @@ for arch; do
 	work=$out/$arch
 	rm -rf "$work"
 	mkdir -p "$work/rungboard"
-	git ls-files -zco --exclude-standard | xargs -0 tar -c | tar -x -C "$work/rungboard"
+	git ls-files -zco --exclude-standard | tar -c --null -T - | tar -x -C "$work/rungboard"
 	cp -r packaging/debian "$work/rungboard/debian"
 	tar -c --sort=name -C "$work" -f "$work/tree.tar" rungboard
 	if ! root_for "$arch" >>"$work/log" 2>&1 || ! (cd "$work" && build_in "$arch"); then
