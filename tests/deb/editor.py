@@ -6,11 +6,11 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '../editor/person'))
 from desk import Editor, main  # noqa: E402
-from online import connect, says  # noqa: E402
+from online import connect, press, says  # noqa: E402
 
 
 def download(screen):
-    """a new board is in STOP, without a program; after the download it runs this one"""
+    """a new board is in STOP, without a program; after the download and Run it runs this one"""
     editor = Editor(screen, os.environ['PROGRAM'])
     editor.to_sheet()
     connect(editor, os.environ['WHERE'])
@@ -20,8 +20,12 @@ def download(screen):
     editor.find('Download to ', 'label')
     editor.shot('deb-download')
     editor.keys('Return')
-    says(editor, 'garage · RUN')
+    says(editor, 'garage · STOP')
     says(editor, 'The board runs this program.')
+    press(editor, 'Run')
+    editor.find('Run the program on “garage”?', 'label')
+    editor.keys('Return')
+    says(editor, 'garage · RUN')
     editor.shot('deb-runs')
 
 
