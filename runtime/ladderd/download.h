@@ -27,6 +27,10 @@ struct slots {
 	uint8_t unlike;        /* the event that says why the next start runs another program
 				* than this one; 0: it does not               */
 	char why[STATUS_TEXT]; /* its argument                                */
+	struct {
+		uint8_t unlike;
+		char why[STATUS_TEXT];
+	} before;              /* the same of the program that ran before     */
 	char path[1024];       /* of a slot                                   */
 };
 

@@ -454,8 +454,9 @@ static enum refusal store(struct asked *asked)
 	slot_seal(&download->wanted, slots->seq + 1, beside, download->pool);
 	good = slots_store(slots, download->pool, SLOT_HEAD + (size_t)download->received + 4,
 			   diags) && slots_keep(slots);
-	if (!good && diags->count) {
-		snprintf(asked->text, sizeof(asked->text), "%.100s", diags->diag[0].arg);
+	if (!good) {
+		slots_drop(slots);
+		snprintf(asked->text, sizeof(asked->text), "%.100s", diags->count ? diags->diag[0].arg : slots->why);
 		asked->detail = asked->text;
 	}
 	free(diags);

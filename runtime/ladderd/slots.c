@@ -85,8 +85,9 @@ static uint8_t *read_slot(struct slots *slots, int number, struct slot *slot, bo
 }
 
 /* Finds the newest good slot. Returns whether it is to be run. */
-static bool find(struct slots *slots, const char *folder, const char *file, const char *map)
+static bool find(struct slots *slots, const struct options *options)
 {
+	const char *folder = options->slots, *file = options->file;
 	uint8_t beside[32];
 
 	memset(slots, 0, sizeof(*slots));
@@ -94,9 +95,9 @@ static bool find(struct slots *slots, const char *folder, const char *file, cons
 	if (!folder)
 		return false;
 	slots->file = file;
-	slots->map = map;
+	slots->map = options->map;
 	for (int i = 0; i < 2; i++)
-		if (path_of(slots, i, FRESH)) /* of a ladderd that was killed in a download */
+		if (!options->check && path_of(slots, i, FRESH)) /* of a ladderd that was killed in a download */
 			unlink(slots->path);
 	for (int i = 0; i < 2; i++) {
 		struct slot slot;
@@ -136,7 +137,7 @@ bool slots_load(struct slots *slots, const struct options *options, struct load 
 	static const char lines[] = "BOARD \"no program\"\n";
 	const struct stored *stored = &slots->slot.stored;
 
-	if (find(slots, options->slots, options->file, options->map))
+	if (find(slots, options))
 		return load_texts(load, stored_part(stored, STORED_IMAGE),
 				  stored->len[STORED_IMAGE],
 				  (const char *)stored_part(stored, STORED_MAP),
@@ -186,6 +187,13 @@ static bool note(struct slots *slots, int error, enum event_id id)
 	return !error;
 }
 
+/* After the program before runs again: what was told of it. */
+static void note_before(struct slots *slots)
+{
+	slots->unlike = slots->before.unlike;
+	memcpy(slots->why, slots->before.why, sizeof(slots->why));
+}
+
 bool slots_reject(struct slots *slots)
 {
 	if (!slots->bytes || put_aside(slots) != 0)
@@ -201,11 +209,13 @@ bool slots_back(struct slots *slots)
 
 	if (!was_kept) { /* it never was a slot */
 		slots_drop(slots);
-		return note(slots, 0, EVENT_NOT_BACK);
+		note_before(slots);
+		return true;
 	}
 	if (!note(slots, put_aside(slots), EVENT_NOT_BACK))
 		return false;
 	slots->next = !slots->next;
+	note_before(slots);
 	return true;
 }
 
@@ -224,6 +234,8 @@ bool slots_store(struct slots *slots, const uint8_t *bytes, size_t len, struct d
 
 bool slots_keep(struct slots *slots)
 {
+	slots->before.unlike = slots->unlike;
+	memcpy(slots->before.why, slots->why, sizeof(slots->why));
 	if (!note(slots, change_name(slots, slots->next, FRESH, ""), EVENT_NOT_KEPT))
 		return false;
 	slots->seq++;

@@ -135,8 +135,10 @@ static enum refusal restore_retained(struct asked *asked)
 	for (int i = 0; i < 3; i++)
 		wire_put_u32(&asked->out, 0);
 	kept = retained_merge(retained, put_misfit, &misfits);
-	if (kept < 0)
+	if (kept < 0) {
+		retained->owner = -1;
 		return REFUSAL_NOT_WHOLE;
+	}
 	{
 		struct wire_writer fill = wire_write(head, 12);
 

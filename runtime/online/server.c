@@ -181,12 +181,19 @@ void asked_tell_mode(struct asked *asked)
 
 /* ---- another program ---- */
 
-/* All that sessions have asked to be sent names places of the old program. */
+/* The next request for symbols begins at the first one. */
+static void begin_symbols(struct session *session)
+{
+	session->symbol = 0;
+	session->symbols = (struct symbol_cursor){ .whole = false };
+}
+
+/* All that sessions have asked to be sent, and how far they read the symbols, is of the old program. */
 static void end_publications(struct server *server)
 {
 	for (int i = 0; i < SERVER_SESSIONS; i++) {
 		publish_init(&server->session[i].publications);
-		server->session[i].symbol = 0;
+		begin_symbols(&server->session[i]);
 		server->session[i].changed = true;
 	}
 }
@@ -509,7 +516,8 @@ int server_open(struct server *server, enum role role, const char *user, uint32_
 		session->role = role;
 		session->who = who;
 		session->opened = ++server->opened;
-		session->requests = session->symbol = 0;
+		session->requests = 0;
+		begin_symbols(session);
 		session->in_len = session->out_len = session->out_sent = 0;
 		memset(session->kept, 0, sizeof(session->kept));
 		publish_init(&session->publications);

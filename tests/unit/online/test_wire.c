@@ -165,7 +165,7 @@ static void test_a_status_comes_back_and_is_cut_nowhere(void)
 	static uint8_t bytes[8192];
 	struct wire_writer out = wire_write(bytes, sizeof(bytes));
 	struct wire_reader in;
-	size_t len;
+	size_t cut_well = 0, len, older; /* of a board that does not tell of its next start */
 
 	given->mode = 2;
 	given->scans = 77;
@@ -177,6 +177,9 @@ static void test_a_status_comes_back_and_is_cut_nowhere(void)
 	given->task[1].max_ns = 9;
 	status_put(&out, given);
 	len = wire_len(&out);
+	wire_put_u8(&out, 0);
+	wire_put_string(&out, "");
+	older = len - (wire_len(&out) - len);
 	wire_put_u64(&out, 1); /* a field of a later version */
 	in = wire_read(bytes, wire_len(&out));
 	status_take(&in, taken);
@@ -184,10 +187,9 @@ static void test_a_status_comes_back_and_is_cut_nowhere(void)
 	for (size_t part = 0; part < len; part++) {
 		in = wire_read(bytes, part);
 		status_take(&in, taken);
-		if (!in.failed)
-			break;
+		cut_well += in.failed == (part != older);
 	}
-	CHECK(in.failed);
+	CHECK(cut_well == len);
 	free(given);
 	free(taken);
 }

@@ -680,7 +680,7 @@ static void put_cmp(struct maker *m, const uint32_t *at, uint32_t type, uint32_t
 	char *left = room(m), *right = room(m), *target = room(m);
 	const bool floating = is_floating(at[0] | own) || is_floating(at[1] | own);
 	struct term c;
-	bool good = typed(m, at[0] | own, left) & typed(m, at[1] | own, right) &
+	bool good = (int)typed(m, at[0] | own, left) & (int)typed(m, at[1] | own, right) &
 		    (int)term_of(m, at[2], &c) & (int)operand(m, IEC_BOOL, at[3], target);
 
 	if (!good) {
@@ -728,7 +728,7 @@ static void put_copy(struct maker *m, const uint32_t *at)
 	struct term en;
 	bool skips;
 
-	if (!(typed(m, at[1], target) & typed(m, at[2], source) & (int)term_of(m, at[0], &en))) {
+	if (!((int)typed(m, at[1], target) & (int)typed(m, at[2], source) & (int)term_of(m, at[0], &en))) {
 		lose(m, "a value without a name");
 		return;
 	}
