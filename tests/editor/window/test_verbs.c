@@ -158,6 +158,7 @@ static void close_window(void)
 static void check_simulated(void)
 {
 	LadderSim *sim = ladder_window_sim(LADDER_WINDOW(window));
+	struct sim_edited edit;
 	guint64 last;
 
 	CHECK(ladder_sim_begin(sim, NULL));
@@ -169,9 +170,10 @@ static void check_simulated(void)
 	do_action("win.rung_duplicate");
 	CHECK_AS(can(VERB_undo) && !can(VERB_redo), "an edit can be undone");
 	ladder_document_check_now(ladder_window_document(LADDER_WINDOW(window)));
+	CHECK_SOON(ladder_sim_next_edit(sim, 0, &edit)); /* the changed program runs */
 	last = ladder_sim_last(sim);
 	ladder_sim_scan(sim, 5);
-	CHECK_SOON(ladder_sim_last(sim) == last + 5);
+	CHECK_SOON(ladder_sim_twin(sim)->scan == last + 5); /* and is shown */
 	CHECK(ladder_sim_show(sim, 2));
 	CHECK_SOON(!can(VERB_contact));
 	check_state('f', "the program before an edit");
