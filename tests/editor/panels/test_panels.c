@@ -356,7 +356,7 @@ static void test_symbols(void)
 	put(widget);
 	CHECK(g_list_model_get_n_items(list) == 7);
 	is_row(list, 1, "\xe7\x94\xb5\xe6\x9c\xba|BOOL|%QX0.0||||"
-	       "\xe4\xb8\xbb\xe7\x94\xb5\xe6\x9c\xba|global|2|");
+	       "\xe4\xb8\xbb\xe7\x94\xb5\xe6\x9c\xba|global|2||");
 	row = g_list_model_get_item(list, row_named(list, "Bad"));
 	CHECK_AS(row->note && row->tone == PANEL_ERROR,
 		 "the reason of a refused field is shown");

@@ -89,7 +89,7 @@ def nothing_added(screen):
     path = new_file(screen, TEXT.replace('PROGRAM Other LD', 'PROGRAM Other XX'))
     editor = Editor(screen, path)
     editor.command('new function block')
-    editor.says('Nothing can be added while a text of the project cannot be read')
+    editor.says('The file cannot be read as a program')
     editor.shot('nothing-added')
     assert open(path).read() == TEXT.replace('PROGRAM Other LD', 'PROGRAM Other XX')
 
