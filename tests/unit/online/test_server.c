@@ -34,6 +34,8 @@ struct bench {
 	bool beside;                   /* a program lies beside its slot       */
 	bool early;                    /* the next start would have run NEW while OLD ran */
 	bool restarts, lines;
+	uint8_t answered[256];         /* the last answer, a frame             */
+	size_t answer;                 /* its bytes                            */
 };
 
 static struct resource *host_resource(void *context)
@@ -185,7 +187,7 @@ static bool bench_open(struct bench *bench, enum trouble trouble)
 	const struct program *program;
 
 	memset(bench, 0, sizeof(*bench));
-	if (!rig_open(&bench->rig, "PROJECT \"P\"\nVAR\n  A AT %QX0.0 : BOOL;\nEND_VAR\n"
+	if (!rig_open(&bench->rig, "PROJECT \"P\"\nVAR\n  A AT %QX0.0 : BOOL;\n  B : INT;\nEND_VAR\n"
 		      "PROGRAM Main LD\nRUNG\n  | NO A | COIL A |\nEND_PROGRAM\n", false))
 		return false;
 	program = ladder_program(bench->rig.ladder);
@@ -236,21 +238,30 @@ static enum refusal ask(struct bench *bench, enum service service, const uint8_t
 	if (!CHECK(frame_next(answer, size, &frame, &used) == FRAME_GOOD))
 		return REFUSAL_BAD_FRAME;
 	server_sent(bench->server, 0, size);
+	bench->answer = size;
+	memcpy(bench->answered, answer, size < sizeof(bench->answered) ? size : sizeof(bench->answered));
 	return frame.flags & WIRE_REFUSED ? (enum refusal)wire_u16(&frame.body) : REFUSAL_NONE;
 }
 
-static enum refusal commit(struct bench *bench, enum commit_how how)
+static void hello(struct bench *bench)
 {
 	uint8_t body[64];
 	struct wire_writer out = wire_write(body, sizeof(body));
-	const struct expect expect = { .mode = STATE_RUN };
 
 	wire_put_u32(&out, ONLINE_MAGIC);
 	wire_put_u16(&out, ONLINE_LOWEST);
 	wire_put_u16(&out, ONLINE_HIGHEST);
 	wire_put_string(&out, "test");
 	CHECK(ask(bench, SERVICE_HELLO, body, (size_t)(out.at - body)) == REFUSAL_NONE);
-	memset(body, 0, sizeof(body));
+}
+
+static enum refusal commit(struct bench *bench, enum commit_how how)
+{
+	uint8_t body[64] = { 0 };
+	struct wire_writer out;
+	const struct expect expect = { .mode = STATE_RUN };
+
+	hello(bench);
 	body[0] = 1;
 	CHECK(ask(bench, SERVICE_DOWNLOAD, body, 44) == REFUSAL_NONE);
 	CHECK(ask(bench, SERVICE_VERIFY, body, 0) == REFUSAL_NONE);
@@ -258,6 +269,42 @@ static enum refusal commit(struct bench *bench, enum commit_how how)
 	wire_put_expect(&out, &expect);
 	wire_put_u8(&out, (uint8_t)how);
 	return ask(bench, SERVICE_COMMIT, body, (size_t)(out.at - body));
+}
+
+/* How many symbols a page from number @from has. */
+static int symbols_from(struct bench *bench, uint8_t from)
+{
+	const uint8_t body[4] = { from };
+	struct frame frame;
+	size_t used;
+
+	if (!CHECK(ask(bench, SERVICE_SYMBOLS, body, sizeof(body)) == REFUSAL_NONE &&
+		   bench->answer <= sizeof(bench->answered)) ||
+	    !CHECK(frame_next(bench->answered, bench->answer, &frame, &used) == FRAME_GOOD))
+		return -1;
+	wire_u32(&frame.body);
+	return wire_u16(&frame.body);
+}
+
+/* A session that never read the first symbols does not go on where another one, or the same one
+ * in another program, has ended. */
+static void test_symbols_begin_anew(void)
+{
+	struct bench bench;
+
+	if (bench_open(&bench, ALL_GOOD)) {
+		hello(&bench);
+		CHECK(symbols_from(&bench, 0) == 2 && symbols_from(&bench, 1) == 1);
+		symbols_from(&bench, 0);
+		server_close(bench.server, 0);
+		CHECK(server_open(bench.server, ROLE_ENG, "desk", 1) == 0);
+		hello(&bench);
+		CHECK_AS(symbols_from(&bench, 1) == 1, "in another session");
+		symbols_from(&bench, 0);
+		CHECK(commit(&bench, COMMIT_LIVE) == REFUSAL_NONE);
+		CHECK_AS(symbols_from(&bench, 1) == 1, "in another program");
+	}
+	bench_close(&bench);
 }
 
 static bool was_told(const struct bench *bench, enum event_id id)
@@ -349,6 +396,7 @@ static void test_a_late_commit_is_settled_later(void)
 
 int main(void)
 {
+	test_symbols_begin_anew();
 	test_a_commit_is_stored_and_runs();
 	test_a_refused_commit_starts_nothing();
 	test_a_full_disk_starts_nothing();
