@@ -350,13 +350,16 @@ char *pin_put(LadderDocument *document, int pou, int index, uint16_t kind, int b
 	char *name = g_strdup(project_text(project, vars->var[index].name));
 	char *mark = before < 0 ? NULL : g_strdup(project_text(project, vars->var[before].name));
 	char *why = NULL;
-	int way;
+	int way, first = 0;
 
 	ladder_document_begin(document, _("Move pin"), NULL);
 	if ((vars_flags(vars, index) & SYMBOL_KINDS) != kind)
 		why = pin_set_kind(document, pou, index, kind);
-	while (!why && (way = way_to(document, pou, name, mark)) != 0)
+	/* A neighbour of another block may be passed at once: it never turns back. */
+	while (!why && (way = way_to(document, pou, name, mark)) != 0 && way != -first) {
 		why = pin_move(document, pou, index_named(document, pou, name), way);
+		first = way;
+	}
 	if (why)
 		ladder_document_cancel(document);
 	else
