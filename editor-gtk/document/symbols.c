@@ -977,7 +977,8 @@ static bool access_is_free(struct project *project, const struct symbol_row *sym
 			   const char *name)
 {
 	for (int i = 0; i < project->access_count; i++)
-		if (name_equal(project_text(project, project->access[i].var.name), name))
+		if (i != symbol->line &&
+		    name_equal(project_text(project, project->access[i].var.name), name))
 			return false;
 	for (int i = 0; i <= project->pou_count; i++)
 		if ((!i || project->pou[i - 1].kind == POU_PROGRAM) &&
@@ -1004,12 +1005,10 @@ static char *access_free_name(struct project *project, const struct symbol_row *
 
 /* "  Name : Main.Name : INT READ_WRITE; (* … *)\n"; the bounds of an array are numbers. */
 static char *access_line(struct project *project, const struct symbol_row *symbol,
-			 enum symbol_access access)
+			 enum symbol_access access, const char *name)
 {
 	const struct access *old = symbol->line < 0 ? NULL : &project->access[symbol->line];
 	struct var var = xref_table(project, symbol->table)->var[symbol->index];
-	char *name = old ? g_strdup(project_text(project, old->var.name)) :
-			   access_free_name(project, symbol);
 	char *path = old ? g_strdup(project_text(project, old->path)) :
 		     *symbol->scope ? g_strdup_printf("%s.%s", symbol->scope,
 						      symbol->text[FIELD_NAME]) :
@@ -1021,7 +1020,6 @@ static char *access_line(struct project *project, const struct symbol_row *symbo
 	type = listing_type(project, &var);
 	line = g_strdup_printf("  %s : %s : %s %s;%s%s\n", name, path, type,
 			       access_word(access == SYMBOL_WRITE), *comment ? " " : "", comment);
-	g_free(name);
 	g_free(path);
 	g_free(type);
 	return line;
@@ -1085,8 +1083,9 @@ static void drop_access(struct symbol_batch *batch, const struct symbol_row *sym
 		add_piece(batch, span->at, span->len, g_strdup(""));
 }
 
+/* @name: for operators. */
 static void change_access(struct symbol_batch *batch, const struct symbol_row *symbol,
-			  enum symbol_access access)
+			  enum symbol_access access, const char *name)
 {
 	const struct text_span *span = symbol->line < 0 ? NULL :
 		find_span(batch, TEXT_ACCESS_LINE, 0, symbol->line);
@@ -1096,7 +1095,7 @@ static void change_access(struct symbol_batch *batch, const struct symbol_row *s
 		drop_access(batch, symbol);
 		return;
 	}
-	line = access_line(batch->project, symbol, access);
+	line = access_line(batch->project, symbol, access, name);
 	if (span)
 		add_piece(batch, span->at, span->len, g_strdup(line));
 	else
@@ -1104,23 +1103,121 @@ static void change_access(struct symbol_batch *batch, const struct symbol_row *s
 	g_free(line);
 }
 
+static bool may_give(const struct symbol_row *symbol, char **why)
+{
+	if (!may_change(symbol, why))
+		return false;
+	if (!symbol->exports)
+		return refuse(why, g_strdup(_("Only values of programs and global ones can be given to operators")));
+	return !symbol->foreign || refuse(why, g_strdup(_("It is declared in another file")));
+}
+
+/* Its name for operators, or the one that it would get. Caller frees. */
+static char *access_name(struct project *project, const struct symbol_row *symbol)
+{
+	return symbol->line < 0 ? access_free_name(project, symbol) :
+	       g_strdup(project_text(project, project->access[symbol->line].var.name));
+}
+
 bool symbol_set_access(LadderDocument *document, int table, int index,
 		       enum symbol_access access, char **why)
 {
 	struct symbol_batch *batch = symbol_batch_new(document);
 	const struct symbol_row *symbol = row_at(batch->symbols, table, index);
-	bool good = may_change(symbol, why) && batch->text;
+	bool good = may_give(symbol, why) && batch->text;
+	char *name;
 
-	if (good && !symbol->exports)
-		good = refuse(why, g_strdup(_("Only values of programs and global ones can be given to operators")));
-	else if (good && symbol->foreign)
-		good = refuse(why, g_strdup(_("It is declared in another file")));
 	if (good && symbol->access != access) {
-		change_access(batch, symbol, access);
+		name = access_name(batch->project, symbol);
+		change_access(batch, symbol, access, name);
 		good = symbol_batch_apply(batch, _("Change access"), why);
+		g_free(name);
 	}
 	symbol_batch_free(batch);
 	return good;
+}
+
+/* What is typed in the column Access. */
+struct wanted_access { enum symbol_access access; char *name; };
+
+/* A word for what operators may do, a name, or both with a colon between them. Without a word, the
+ * symbol keeps what it had; a new one may be read. */
+static struct wanted_access wanted_access(struct project *project,
+					  const struct symbol_row *symbol, const char *text)
+{
+	const char *colon = strchr(text, ':');
+	const gsize len = colon ? (gsize)(colon - text) : strlen(text);
+	char *word = g_strstrip(g_strndup(text, len));
+	const bool reads = name_equal(word, access_word(false));
+	const bool writes = name_equal(word, access_word(true));
+	const char *name = reads || writes ? (colon ? colon + 1 : "") : text;
+	struct wanted_access wanted = {
+		.access = writes ? SYMBOL_WRITE : reads || symbol->access == SYMBOL_KEPT ?
+			  SYMBOL_READ : symbol->access,
+		.name = g_strstrip(g_strdup(name)),
+	};
+
+	g_free(word);
+	if (!*text)
+		wanted.access = SYMBOL_KEPT;
+	else if (!*wanted.name) {
+		g_free(wanted.name);
+		wanted.name = access_free_name(project, symbol);
+	}
+	return wanted;
+}
+
+static bool is_access_name(struct project *project, const struct symbol_row *symbol,
+			   const char *name, char **why)
+{
+	const enum diag_id fault = ladder_name_fault(name);
+
+	if (fault != DIAG_COUNT)
+		return refuse(why, name_reason(fault, name));
+	return access_is_free(project, symbol, name) ||
+	       refuse(why, g_strdup_printf(_("“%s” is declared already"), name));
+}
+
+bool symbol_set_access_text(LadderDocument *document, int table, int index, const char *text,
+			    char **why)
+{
+	struct symbol_batch *batch = symbol_batch_new(document);
+	const struct symbol_row *symbol = row_at(batch->symbols, table, index);
+	bool good = may_give(symbol, why) && batch->text;
+	struct wanted_access wanted;
+	char *clean, *old;
+
+	if (good) {
+		clean = g_strstrip(g_strdup(text));
+		wanted = wanted_access(batch->project, symbol, clean);
+		old = symbol_access_name(document, symbol);
+		good = wanted.access == SYMBOL_KEPT ||
+		       is_access_name(batch->project, symbol, wanted.name, why);
+		if (good && (wanted.access != symbol->access || strcmp(wanted.name, old) != 0)) {
+			change_access(batch, symbol, wanted.access, wanted.name);
+			good = symbol_batch_apply(batch, _("Change access"), why);
+		}
+		g_free(old);
+		g_free(wanted.name);
+		g_free(clean);
+	}
+	symbol_batch_free(batch);
+	return good;
+}
+
+char *symbol_access_text(LadderDocument *document, const struct symbol_row *symbol,
+			 enum symbol_access access)
+{
+	char *name = symbol_access_name(document, symbol), *text;
+
+	if (access == SYMBOL_KEPT)
+		text = g_strdup("");
+	else if (!*name || name_equal(name, symbol->text[FIELD_NAME]))
+		text = g_strdup(access_word(access == SYMBOL_WRITE));
+	else
+		text = g_strdup_printf("%s: %s", access_word(access == SYMBOL_WRITE), name);
+	g_free(name);
+	return text;
 }
 
 char *symbol_access_name(LadderDocument *document, const struct symbol_row *symbol)

@@ -75,6 +75,19 @@ bool symbol_set_kind(LadderDocument *document, int table, int index, uint16_t ki
  * the symbol, or a free one like it. One step of the history. Fails: false, nothing changed. */
 bool symbol_set_access(LadderDocument *document, int table, int index,
 		       enum symbol_access access, char **why);
+/**
+ * symbol_set_access_text - the same, and its name for operators, as a person types both
+ * @text: "READ_WRITE: Oven"; "READ_ONLY" gives it its own name, "Oven" leaves what operators may
+ *        do, or lets them read; "" deletes the line
+ *
+ * Fails: false, nothing changed: such as a name that another line or variable has.
+ */
+bool symbol_set_access_text(LadderDocument *document, int table, int index, const char *text,
+			    char **why);
+/** symbol_access_text - such a text of a symbol as it would be with @access; without a name if
+ * that is its own. Owns: the caller. */
+char *symbol_access_text(LadderDocument *document, const struct symbol_row *symbol,
+			 enum symbol_access access);
 /** symbol_access_name - the name that operators have for it; "": none. Owns: the caller. */
 char *symbol_access_name(LadderDocument *document, const struct symbol_row *symbol);
 /** symbol_add - adds a declaration behind those of its kind.

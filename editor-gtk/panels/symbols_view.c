@@ -87,21 +87,6 @@ static char *scope_of(const struct symbol_row *symbol)
 		      g_strdup(symbol->scope);
 }
 
-/* "READ_WRITE", and the name for operators if it is another one. */
-static char *access_of(LadderDocument *document, const struct symbol_row *symbol)
-{
-	char *name = symbol_access_name(document, symbol), *out;
-
-	if (symbol->access == SYMBOL_KEPT)
-		out = g_strdup("");
-	else if (name_equal(name, symbol->text[FIELD_NAME]))
-		out = g_strdup(access_word(symbol->access == SYMBOL_WRITE));
-	else
-		out = g_strdup_printf("%s: %s", access_word(symbol->access == SYMBOL_WRITE), name);
-	g_free(name);
-	return out;
-}
-
 static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row *symbol)
 {
 	LadderPanelRow *row = ladder_panel_row_new();
@@ -111,7 +96,7 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 		row->text[i] = g_strdup(symbol->text[i]);
 	row->text[SYMBOLS_SCOPE] = scope_of(symbol);
 	row->text[SYMBOLS_USES] = g_strdup_printf("%d", symbol->uses);
-	row->text[SYMBOLS_ACCESS] = access_of(document, symbol);
+	row->text[SYMBOLS_ACCESS] = symbol_access_text(document, symbol, symbol->access);
 	row->number = symbol->uses;
 	row->table = symbol->table;
 	row->index = symbol->index;
@@ -247,33 +232,33 @@ static int index_of(LadderDocument *document, const LadderPanelRow *row)
 	return symbol_find(document, row->table, panel_row_text(row, FIELD_NAME), row->index);
 }
 
+static const char *field_name(int field)
+{
+	return field == SYMBOLS_ACCESS ? _("Access") : symbol_field_name((enum field)field);
+}
+
 /* Names the other symbols at the same address. */
-static char *told_of(LadderDocument *document, const LadderPanelRow *row, enum field field)
+static char *told_of(LadderDocument *document, const LadderPanelRow *row, int field)
 {
 	const char *other = field == FIELD_ADDRESS ?
 		symbol_beside(document, row->table, index_of(document, row)) : NULL;
 
 	return other ? g_strdup_printf(_("%s, %s: %s has the same address"),
-		panel_row_text(row, FIELD_NAME), symbol_field_name(field), other) : NULL;
+		panel_row_text(row, FIELD_NAME), field_name(field), other) : NULL;
 }
 
-static const char *field_name(int field)
-{
-	return symbol_field_name((enum field)field);
-}
-
-static bool set_field(GObject *owner, LadderPanelRow *row, int number, const char *text,
+static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char *text,
 		      char **why)
 {
-	const enum field field = (enum field)number;
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(owner);
 	LadderDocument *document = panel_watch_document(view->watch);
-	const bool good = symbol_set(document, row->table, index_of(document, row), field,
-				     text, why);
+	const int index = index_of(document, row);
+	const bool good = field == SYMBOLS_ACCESS ?
+		symbol_set_access_text(document, row->table, index, text, why) :
+		symbol_set(document, row->table, index, (enum field)field, text, why);
 
 	tell(view, good ? told_of(document, row, field) : g_strdup_printf("%s, %s: %s",
-		panel_row_text(row, FIELD_NAME), symbol_field_name(field),
-		why && *why ? *why : ""));
+		panel_row_text(row, FIELD_NAME), field_name(field), why && *why ? *why : ""));
 	if (good) { /* Found by name again, also after an undo. */
 		g_free(row->text[field]);
 		row->text[field] = g_strstrip(g_strdup(text));
@@ -544,13 +529,41 @@ static void ladder_symbols_view_class_init(LadderSymbolsViewClass *class)
 	bind_children(widget);
 }
 
+/* With the name that operators have for it already. */
+static GPtrArray *access_choices(LadderSymbolsView *view, const LadderPanelRow *row)
+{
+	static const char *const about[] = {
+		[SYMBOL_KEPT] = N_("No access for operators"),
+		[SYMBOL_READ] = N_("A name for operators"),
+		[SYMBOL_WRITE] = N_("Operators may write it"),
+	};
+	GPtrArray *choices = g_ptr_array_new_with_free_func(g_free);
+	LadderDocument *document = panel_watch_document(view->watch);
+	struct symbols *symbols = symbols_new(document);
+	const int index = row ? index_of(document, row) : -1;
+
+	for (int i = 0; i < symbols->count; i++) {
+		const struct symbol_row *symbol = &symbols->symbol[i];
+
+		if (index < 0 || symbol->table != row->table || symbol->index != index)
+			continue;
+		for (int access = SYMBOL_KEPT; access <= SYMBOL_WRITE; access++) {
+			g_ptr_array_add(choices, symbol_access_text(document, symbol,
+						(enum symbol_access)access));
+			g_ptr_array_add(choices, g_strdup(_(about[access])));
+		}
+	}
+	symbols_free(symbols);
+	return choices;
+}
+
 static GPtrArray *choices_of(GObject *owner, int field)
 {
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(owner);
 	const LadderPanelRow *row = panel_list_row(&view->list);
 
-	(void)field;
-	return type_cells_choices(panel_watch_document(view->watch),
+	return field == SYMBOLS_ACCESS ? access_choices(view, row) :
+	       type_cells_choices(panel_watch_document(view->watch),
 				  row && row->flags & SYMBOLS_MEMBER);
 }
 
@@ -564,6 +577,8 @@ static bool is_fixed(const LadderPanelRow *row, int field)
 {
 	if (row->flags & SYMBOLS_FIXED)
 		return true;
+	if (field == SYMBOLS_ACCESS)
+		return !(row->flags & SYMBOLS_EXPORTS);
 	return row->flags & SYMBOLS_MEMBER &&
 	       ((CHECKS >> field & 1) || field == FIELD_ADDRESS);
 }
@@ -580,6 +595,7 @@ static void add_columns(LadderSymbolsView *view)
 		.name = field_name, .set = set_field, .is_fixed = is_fixed,
 		.choices = choices_of, .open_form = open_form };
 	type_cells_join(&view->cells);
+	view->cells.choosable |= 1u << SYMBOLS_ACCESS;
 	panel_list_column(&view->list, "", SYMBOLS_USES, PANEL_ICON, 0);
 	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
 		panel_cells_add(&view->list, &view->cells, (int)column[i].field,
@@ -587,7 +603,7 @@ static void add_columns(LadderSymbolsView *view)
 				column[i].field == FIELD_INITIAL ? PANEL_BUTTON : 0,
 				column[i].width);
 	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 150);
-	panel_list_column(&view->list, _("Access"), SYMBOLS_ACCESS, 0, 120);
+	panel_cells_add(&view->list, &view->cells, SYMBOLS_ACCESS, 0, 150);
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
 }
 

@@ -714,10 +714,64 @@ static void test_access_places(void)
 	g_object_unref(document);
 }
 
+/* What a person types in the column Access; NULL: it is refused. Caller frees. */
+static char *typed(LadderDocument *document, const char *name, const char *text)
+{
+	struct symbols *symbols = symbols_new(document);
+	const struct symbol_row *symbol = find_symbol(symbols, "", name);
+	char *why = NULL, *shown = NULL;
+	const bool good = symbol_set_access_text(document, symbol->table, symbol->index, text, &why);
+
+	CHECK_AS(good == !why, "a refusal has a reason");
+	symbols_free(symbols);
+	symbols = symbols_new(document);
+	symbol = find_symbol(symbols, "", name);
+	if (good)
+		shown = symbol_access_text(document, symbol, symbol->access);
+	symbols_free(symbols);
+	g_free(why);
+	return shown;
+}
+
+static void test_access_names(void)
+{
+	static const struct { const char *text, *shown, *line; } typing[] = {
+		{ "Pieces", "READ_ONLY: Pieces", "  Pieces : Count : INT READ_ONLY;\n" },
+		{ "read_write: Parts", "READ_WRITE: Parts", "  Parts : Count : INT READ_WRITE;\n" },
+		{ " Done ", "READ_WRITE: Done", "  Done : Count : INT READ_WRITE;\n" },
+		{ "READ_ONLY:Done", "READ_ONLY: Done", "  Done : Count : INT READ_ONLY;\n" },
+		{ "READ_ONLY", "READ_ONLY", "  Count : Count : INT READ_ONLY;\n" },
+		{ "count", "READ_ONLY", "  count : Count : INT READ_ONLY;\n" },
+	};
+	static const char *const bad[] = {
+		"Table", "Main", "READ_WRITE: two words", "READ: Done", "1st",
+	};
+	LadderDocument *document = opened(sample);
+	char *shown;
+
+	for (gsize i = 0; i < G_N_ELEMENTS(typing); i++) {
+		shown = typed(document, "Count", typing[i].text);
+		CHECK_TEXT(shown ? shown : "(refused)", typing[i].shown);
+		CHECK_AS(has(document, typing[i].line), typing[i].line);
+		g_free(shown);
+	}
+	for (gsize i = 0; i < G_N_ELEMENTS(bad); i++) {
+		shown = typed(document, "Count", bad[i]);
+		CHECK_AS(!shown && has(document, "  count : Count : INT READ_ONLY;\n"), bad[i]);
+		g_free(shown);
+	}
+	shown = typed(document, "Count", "");
+	CHECK_TEXT(shown, "");
+	CHECK(!has(document, "VAR_ACCESS"));
+	g_free(shown);
+	g_object_unref(document);
+}
+
 int main(void)
 {
 	test_access();
 	test_access_places();
+	test_access_names();
 	test_expressions();
 	test_csv();
 	test_export();
