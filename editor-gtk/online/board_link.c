@@ -32,6 +32,8 @@
 #define SAID_MOST  4096    /* bytes of what a command said at last             */
 #define RETRY_MS   500     /* before the first attempt to connect again        */
 #define RETRY_MOST 15000   /* between two attempts                             */
+#define BUSY_MS    100     /* before the next attempt at a port that is in use */
+#define BUSY_MOST  30      /* attempts: the session before may be ending       */
 #define COME_MOST  256     /* frames that the main thread has not taken yet: then the thread
 			      reads no more, and the board sends less          */
 
@@ -39,6 +41,7 @@
  * the main thread's. */
 struct asked {
 	gint refs;             /* of `pending`, and of the session            */
+	bool given;            /* a session has it, or had it                 */
 	enum service service;
 	GByteArray *fields;
 	enum desk_end (*work)(struct desk *desk, gpointer data); /* instead of fields; or NULL */
@@ -102,6 +105,7 @@ struct _LadderBoardLink {
 	gint64 every_us;         /* between two of them                        */
 	guint timer, retry;
 	guint retry_ms;
+	guint busy;              /* attempts that found the port in use        */
 	GList *pending;          /* of struct asked, which the session has     */
 	uint8_t *fields;         /* WIRE_FRAME_MOST bytes: of the next request   */
 };
@@ -499,15 +503,20 @@ static void answer(LadderBoardLink *link, struct asked *asked, const struct come
 	asked_unref(asked);
 }
 
-/* Requests without an answer: the session has ended. */
-static void answer_gone(LadderBoardLink *link)
+/* Requests that will get no answer. @requests: taken over. */
+static void answer_none(LadderBoardLink *link, GList *requests)
 {
-	GList *pending = g_steal_pointer(&link->pending);
 	const struct come gone = { .end = DESK_GONE, .why = { .id = DIAG_LINK_GONE } };
 
-	for (GList *at = pending; at; at = at->next)
+	for (GList *at = requests; at; at = at->next)
 		answer(link, at->data, &gone);
-	g_list_free(pending);
+	g_list_free(requests);
+}
+
+/* The session has ended. */
+static void answer_gone(LadderBoardLink *link)
+{
+	answer_none(link, g_steal_pointer(&link->pending));
 }
 
 static void set_state(LadderBoardLink *link, enum link_state state, char *reason)
@@ -613,13 +622,13 @@ static void asks(gpointer data, const char *question, bool yes_no)
 	g_signal_emit(data, signals[ASKS], 0, question, yes_no);
 }
 
-/* Only a person who waits for it is asked: not when a lost connection is tried again. */
-static bool begin(LadderBoardLink *link)
+/* @person: waits for it, so ssh may ask; not when a lost connection is tried again. */
+static bool begin(LadderBoardLink *link, bool person)
 {
 	struct stream_where at;
 
 	drop_session(link);
-	if (link->state != LINK_LOST && !stream_parse(link->where, &at) && at.kind == STREAM_SSH)
+	if (person && !stream_parse(link->where, &at) && at.kind == STREAM_SSH)
 		link->ask = ssh_ask_new(asks, link, NULL);
 	link->session = session_new(link, link->where, link->ask);
 	return link->session != NULL;
@@ -631,13 +640,22 @@ void ladder_board_link_answer(LadderBoardLink *link, const char *text)
 		ssh_ask_answer(link->ask, text);
 }
 
+static void retry_later(LadderBoardLink *link);
+
 static gboolean retry_due(gpointer data)
 {
 	LadderBoardLink *link = data;
 
 	link->retry = 0;
-	begin(link);
+	if (!begin(link, false))
+		retry_later(link);
 	return G_SOURCE_REMOVE;
+}
+
+static void retry_later(LadderBoardLink *link)
+{
+	link->retry = g_timeout_add(link->retry_ms, retry_due, link);
+	link->retry_ms = MIN(link->retry_ms * 2, RETRY_MOST);
 }
 
 static void opened(LadderBoardLink *link, const struct come *come)
@@ -732,13 +750,17 @@ static void ended(LadderBoardLink *link, struct come *come)
 	/* A board that refuses hello will not change its mind. */
 	const bool was = link->state == LINK_CONNECTED || link->state == LINK_LOST;
 	const bool again = was && come->end != DESK_REFUSED && come->end != DESK_NONSENSE;
+	const bool busy = come->error == -EBUSY && !was && link->busy++ < BUSY_MOST;
 	char *reason = why_ended(link, come);
 
 	drop_session(link);
-	if (again) {
-		link->retry = g_timeout_add(link->retry_ms, retry_due, link);
-		link->retry_ms = MIN(link->retry_ms * 2, RETRY_MOST);
+	if (busy) {
+		link->retry = g_timeout_add(BUSY_MS, retry_due, link);
+		g_free(reason);
+		return;
 	}
+	if (again)
+		retry_later(link);
 	set_state(link, again ? LINK_LOST : LINK_FAILED, reason);
 }
 
@@ -806,7 +828,8 @@ bool ladder_board_link_connect(LadderBoardLink *link, const char *where, char **
 	link->role = ROLE_NONE;
 	link->board[0] = '\0';
 	link->retry_ms = RETRY_MS;
-	if (begin(link))
+	link->busy = 0;
+	if (begin(link, true))
 		set_state(link, LINK_CONNECTING, NULL);
 	else
 		set_state(link, LINK_FAILED, g_strdup(g_strerror(errno)));
@@ -898,12 +921,20 @@ struct wire_writer ladder_board_link_begin(LadderBoardLink *link)
 	return wire_write(link->fields, WIRE_FRAME_MOST);
 }
 
+/* Requests that came while there was no session; one may have begun since. */
 static gboolean answer_late(gpointer data)
 {
 	LadderBoardLink *link = data;
+	GList *late = NULL;
 
-	if (!link->session)
-		answer_gone(link);
+	for (GList *at = link->pending, *next; at; at = next) {
+		next = at->next;
+		if (((struct asked *)at->data)->given)
+			continue;
+		link->pending = g_list_remove_link(link->pending, at);
+		late = g_list_concat(late, at);
+	}
+	answer_none(link, late);
 	return G_SOURCE_REMOVE;
 }
 
@@ -933,6 +964,7 @@ static void give(LadderBoardLink *link, struct asked *asked)
 		return;
 	}
 	g_atomic_int_inc(&asked->refs);
+	asked->given = true;
 	g_mutex_lock(&link->session->lock);
 	g_queue_push_tail(&link->session->asked, asked);
 	g_mutex_unlock(&link->session->lock);

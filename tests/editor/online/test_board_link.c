@@ -7,6 +7,12 @@
 
 #include "engine/scan/resource.h"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+
 static struct board_answer last;
 static char *last_text;
 static int answers, others, frames;
@@ -118,18 +124,122 @@ static void goes_and_comes_back(void)
 	board_close(&board);
 }
 
+static void asks_once_more(gpointer link, struct board_answer *answer)
+{
+	struct wire_writer fields = ladder_board_link_begin(link);
+
+	CHECK(answer->end == DESK_GONE);
+	wire_put_u16(&fields, 0);
+	ladder_board_link_send(link, SERVICE_READ, &fields, NULL, answered, NULL);
+}
+
+/* A request that is made while a session gives way to the next one is answered, too. */
+static void answers_between_two_sessions(void)
+{
+	LadderBoardLink *link = ladder_board_link_new();
+	struct wire_writer fields;
+	char *why = NULL;
+
+	ladder_board_link_connect(link, "exec:sleep 1000", &why);
+	fields = ladder_board_link_begin(link);
+	wire_put_u16(&fields, 0);
+	ladder_board_link_send(link, SERVICE_READ, &fields, NULL, asks_once_more, link);
+	answers = 0;
+	ladder_board_link_reconnect(link);
+	CHECK_SOON(answers == 1);
+	CHECK(last.end == DESK_GONE && ladder_board_link_state(link) == LINK_CONNECTING);
+	g_object_unref(link);
+}
+
+/* A port that another session still has: it may be ending, so the link tries for a while. */
+static void waits_for_a_port(void)
+{
+	LadderBoardLink *link = ladder_board_link_new();
+	const int other_end = open("/dev/ptmx", O_RDWR | O_NOCTTY | O_CLOEXEC);
+	struct pollfd hello = { .fd = other_end, .events = POLLIN };
+	char *path, *where, *why = NULL;
+	int port, locked = 0, number = 0;
+
+	CHECK(ioctl(other_end, TIOCSPTLCK, &locked) == 0 && ioctl(other_end, TIOCGPTN, &number) == 0);
+	path = g_strdup_printf("/dev/pts/%d", number);
+	where = g_strdup_printf("serial:%s,115200", path);
+	port = open(path, O_RDWR | O_NOCTTY | O_CLOEXEC);
+	CHECK(port >= 0 && flock(port, LOCK_EX | LOCK_NB) == 0);
+	CHECK(ladder_board_link_connect(link, where, &why));
+	turn(300);
+	CHECK(ladder_board_link_state(link) == LINK_CONNECTING && poll(&hello, 1, 0) == 0);
+	flock(port, LOCK_UN);
+	CHECK_SOON(poll(&hello, 1, 0) == 1 && hello.revents & POLLIN);
+	CHECK(ladder_board_link_state(link) == LINK_CONNECTING);
+	g_object_unref(link);
+	close(port);
+	close(other_end);
+	g_free(where);
+	g_free(path);
+}
+
+static char *question;
+
+static void keep_question(LadderBoardLink *link, const char *text, gboolean yes_no)
+{
+	CHECK(!yes_no);
+	g_free(question);
+	question = g_strdup(text);
+	ladder_board_link_answer(link, NULL);
+}
+
+/* A script in a file of its own. Caller: unlink() and g_free(). */
+static char *script_new(const char *text)
+{
+	char *path = g_build_filename(g_get_tmp_dir(), "script-XXXXXX", NULL);
+	const int fd = g_mkstemp(path);
+
+	CHECK(fd >= 0 && write(fd, text, strlen(text)) == (ssize_t)strlen(text));
+	close(fd);
+	return path;
+}
+
+/* Nobody is asked for a password while a lost connection is tried again. A person who connects then,
+ * here or elsewhere, is. */
+static void asks_a_person_after_a_break(void)
+{
+	LadderBoardLink *link = ladder_board_link_new();
+	const char *build = g_getenv("BUILD");
+	char *text = g_strdup_printf("case \"$*\" in *BatchMode*) exit 1;; esac\n"
+				     "exec '%s/ladder-editor' 'Password of pi?'\n",
+				     build ? build : "build");
+	char *script = script_new(text);
+	char *ssh = g_strdup_printf("sh %s", script), *why = NULL;
+	struct test_board board;
+
+	g_setenv("RUNGBOARD_SSH", ssh, TRUE);
+	g_signal_connect(link, "asks", G_CALLBACK(keep_question), NULL);
+	board_open(&board, "eng");
+	ladder_board_link_connect(link, board.where, &why);
+	CHECK_SOON(mode_of(link) == STATE_RUN);
+	board_stop(&board);
+	CHECK_SOON(ladder_board_link_state(link) == LINK_LOST);
+	ladder_board_link_connect(link, "pi@far", &why);
+	CHECK_SOON(ladder_board_link_state(link) == LINK_FAILED);
+	CHECK_TEXT(question ? question : "none", "Password of pi?");
+	g_unsetenv("RUNGBOARD_SSH");
+	unlink(script);
+	g_free(question);
+	g_free(script);
+	g_free(text);
+	g_free(ssh);
+	g_object_unref(link);
+	board_close(&board);
+}
+
 /* More than a pipe holds: if nobody reads it, the command waits, and the board with it. */
 static void hears_a_command_that_says_much(void)
 {
-	static const char text[] = "#!/bin/sh\nhead -c 300000 /dev/zero | tr '\\0' x >&2\n"
-				   "echo >&2\necho the last words >&2\nexit 3\n";
 	LadderBoardLink *link = ladder_board_link_new();
-	char *path = g_build_filename(g_get_tmp_dir(), "says-much-XXXXXX", NULL);
-	const int fd = g_mkstemp(path);
+	char *path = script_new("head -c 300000 /dev/zero | tr '\\0' x >&2\n"
+				"echo >&2\necho the last words >&2\nexit 3\n");
 	char *where, *why = NULL;
 
-	CHECK(fd >= 0 && write(fd, text, sizeof(text) - 1) == (ssize_t)sizeof(text) - 1);
-	close(fd);
 	where = g_strdup_printf("exec:sh %s", path);
 	CHECK(ladder_board_link_connect(link, where, &why));
 	CHECK_SOON(ladder_board_link_state(link) == LINK_FAILED);
@@ -176,6 +286,9 @@ int main(void)
 	goes_and_comes_back();
 	finds_no_board();
 	hears_a_command_that_says_much();
+	answers_between_two_sessions();
+	waits_for_a_port();
+	asks_a_person_after_a_break();
 	g_free(last_text);
 	return tap_done();
 }
