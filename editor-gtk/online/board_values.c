@@ -67,14 +67,21 @@ struct _LadderBoardValues {
 
 G_DEFINE_FINAL_TYPE(LadderBoardValues, ladder_board_values, G_TYPE_OBJECT)
 
+enum { MENDED, SIGNALS };
+static guint signals[SIGNALS];
+
 static const struct location nowhere = { .type = IEC_NONE };
 
 static void set_why(LadderBoardValues *values, const char *why)
 {
-	g_free(values->why);
+	char *before = values->why;
+
 	values->why = g_strdup(why);
 	if (*why)
 		ladder_sim_mirror_refuse(values->sim, nowhere, why);
+	else if (*before)
+		g_signal_emit(values, signals[MENDED], 0, before);
+	g_free(before);
 }
 
 const char *ladder_board_values_why(LadderBoardValues *values)
@@ -611,10 +618,11 @@ static void copied(gpointer data, struct board_copy *copy, const char *why, bool
 		text = g_strdup_printf(_("Values of the board are not shown: %s"),
 			error ? error->message : !copy ? why : !copy->text ?
 			_("it runs another program than this one and has no sources of it") :
+			is_newest(values) ? _("its sources are not those of its program") :
 			_("its program has changed"));
 		set_why(values, text);
 		g_free(text);
-		if (program) /* looks again at the next status */
+		if (!is_newest(values)) /* looks again at the next status */
 			values->tried = false;
 	}
 	g_clear_error(&error);
@@ -855,6 +863,8 @@ static void ladder_board_values_class_init(LadderBoardValuesClass *class)
 {
 	G_OBJECT_CLASS(class)->dispose = ladder_board_values_dispose;
 	G_OBJECT_CLASS(class)->finalize = ladder_board_values_finalize;
+	signals[MENDED] = g_signal_new("mended", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0,
+				       NULL, NULL, NULL, G_TYPE_NONE, 1, G_TYPE_STRING);
 }
 
 static void ladder_board_values_init(LadderBoardValues *values)

@@ -6,6 +6,8 @@
  * turns acts of a person into requests. It follows the link by itself: the views show the board
  * from its first values on, nothing while the link is lost, and the new program when the board
  * gets one. It has no widget.
+ *
+ * Signal: mended (const char *why): what ladder_board_values_why() said is true no more.
  */
 #ifndef EDITOR_BOARD_VALUES_H
 #define EDITOR_BOARD_VALUES_H

@@ -32,6 +32,8 @@
 
 static void open_wanted(LadderWindow *window, const char *path, gboolean as_copy,
 			AdwApplication *application);
+static void open_on_board_wanted(LadderWindow *window, const char *path,
+				 AdwApplication *application);
 static void new_wanted(LadderWindow *window, AdwApplication *application);
 
 static LadderWindow *show_document(AdwApplication *application, LadderDocument *document)
@@ -39,6 +41,8 @@ static LadderWindow *show_document(AdwApplication *application, LadderDocument *
 	LadderWindow *window = ladder_window_new(application, document);
 
 	g_signal_connect(window, "open-wanted", G_CALLBACK(open_wanted), application);
+	g_signal_connect(window, "open-on-board-wanted", G_CALLBACK(open_on_board_wanted),
+			 application);
 	g_signal_connect(window, "new-wanted", G_CALLBACK(new_wanted), application);
 	draft_keep(document);
 	gtk_window_present(GTK_WINDOW(window));
@@ -214,6 +218,19 @@ static void open_wanted(LadderWindow *window, const char *path, gboolean as_copy
 		open_sample(application, window, path, &error);
 	else
 		open_any(application, window, path, &error);
+	if (error)
+		ladder_window_warn(window, error->message);
+	g_clear_error(&error);
+}
+
+static void open_on_board_wanted(LadderWindow *window, const char *path,
+				 AdwApplication *application)
+{
+	GError *error = NULL;
+	LadderWindow *opened = open_any(application, window, path, &error);
+
+	if (opened && opened != window)
+		ladder_window_share_board(opened, window);
 	if (error)
 		ladder_window_warn(window, error->message);
 	g_clear_error(&error);

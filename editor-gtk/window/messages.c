@@ -9,6 +9,8 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/below.h"
 
+#include <string.h>
+
 #define TOLD 1500000 /* us for which cursor moves do not replace a message     */
 #define TOLD_BY_STEP 300000 /* us from the message of a step to the end of its check */
 
@@ -67,6 +69,12 @@ void messages_tell(struct messages *messages, const char *text)
 	gtk_label_set_text(messages->message_label, keys ? keys : text);
 	tip_set(label, keys ? messages->keys : text);
 	g_free(keys);
+}
+
+void messages_untell(struct messages *messages, const char *text)
+{
+	if (strcmp(gtk_label_get_text(messages->message_label), text) == 0)
+		messages_tell(messages, "");
 }
 
 bool messages_can_add(struct messages *messages)

@@ -27,6 +27,8 @@ void messages_clear(struct messages *messages);
 /** messages_tell - shows a short message in the status bar, for a moment at least; "":
  * none. */
 void messages_tell(struct messages *messages, const char *text);
+/** messages_untell - clears the status bar if it still says @text. */
+void messages_untell(struct messages *messages, const char *text);
 /** messages_can_add - can a declaration be added now? If not, it tells why. */
 bool messages_can_add(struct messages *messages);
 /** messages_keys - what the next key would do (taken over), shown while there is no

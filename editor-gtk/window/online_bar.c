@@ -294,6 +294,13 @@ static void failed(LadderBoardLink *link, const char *service, const char *text,
 	g_free(line);
 }
 
+/* What the status bar said is true no more. */
+static void mended(LadderBoardValues *values, const char *why, struct online_bar *bar)
+{
+	(void)values;
+	messages_untell(bar->core->messages, why);
+}
+
 /* ---- orders ---- */
 
 static void ordered(gpointer data, struct board_answer *answer)
@@ -354,6 +361,17 @@ void online_bar_connect(struct online_bar *bar, const char *where)
 	if (!ladder_board_link_connect(link_of(bar), where, &why))
 		messages_warn(bar->core->messages, why);
 	g_free(why);
+}
+
+void online_bar_share(struct online_bar *bar, struct online_bar *with)
+{
+	const char *where = ladder_board_link_where(link_of(bar));
+
+	if (!is_on(bar))
+		return;
+	if (g_str_has_prefix(where, "serial:"))
+		ladder_board_link_disconnect(link_of(bar));
+	online_bar_connect(with, where);
 }
 
 static void chosen(GtkWidget *dialog, const char *where, struct online_bar *bar)
@@ -509,6 +527,7 @@ void online_bar_init(struct online_bar *bar, struct core *core, struct compare *
 	core_connect(core, core->link, "status", G_CALLBACK(show), bar, G_CONNECT_SWAPPED);
 	core_connect(core, core->link, "asks", G_CALLBACK(asks), bar, 0);
 	core_connect(core, core->link, "failed", G_CALLBACK(failed), bar, 0);
+	core_connect(core, core->values, "mended", G_CALLBACK(mended), bar, 0);
 	core_connect(core, core->document, "checked", G_CALLBACK(checked), bar, G_CONNECT_SWAPPED);
 	core_connect(core, bar->mode, "toggled", G_CALLBACK(mode_toggled), bar, G_CONNECT_SWAPPED);
 	checked(bar);

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #define PAST_MOST 50 /* events from before the connection that are logged     */
+#define KEPT_MOST 2048u /* events of all pages: as many as a board keeps        */
 
 /* What a person did has a user. */
 static enum log_kind kind_of(const struct event *event)
@@ -111,6 +112,8 @@ static void answered(gpointer data, struct board_answer *answer)
 		log->next = event.seq + 1;
 		g_array_append_val(log->events, event);
 	}
+	if (log->events->len > KEPT_MOST)
+		g_array_remove_range(log->events, 0, log->events->len - KEPT_MOST);
 	if (count && !answer->body.failed)
 		ask(log); /* the next page */
 	else

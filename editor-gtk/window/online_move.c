@@ -144,8 +144,7 @@ static void folder_chosen(GtkNativeDialog *chooser, int response, struct online_
 			warn(move, why);
 		} else {
 			path = g_build_filename(folder, move->copy->name, NULL);
-			gtk_widget_activate_action(GTK_WIDGET(move->core->window), "win.open-path",
-						   "s", path);
+			g_signal_emit_by_name(move->core->window, "open-on-board-wanted", path);
 			g_free(path);
 		}
 		g_free(why);

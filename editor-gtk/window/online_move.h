@@ -25,7 +25,8 @@ void online_move_clear(struct online_move *move);
 void online_move_compare(struct online_move *move);
 /** online_move_download - sends the document, says what that changes, and asks. */
 void online_move_download(struct online_move *move);
-/** online_move_upload - writes what the board stores into a folder, and opens it. */
+/** online_move_upload - writes what the board stores into a folder, and opens it in a window that is
+ * connected to that board. */
 void online_move_upload(struct online_move *move);
 
 #endif

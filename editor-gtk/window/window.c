@@ -143,6 +143,11 @@ void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin)
 	exchange_imported(&window->exchange);
 }
 
+void ladder_window_share_board(LadderWindow *window, LadderWindow *from)
+{
+	online_bar_share(&from->online_bar, &window->online_bar);
+}
+
 void ladder_window_compare(LadderWindow *window, const char *older, const char *newer)
 {
 	compare_files(&window->compare, older, newer);
@@ -1094,6 +1099,8 @@ static void make_signals(GType type)
 {
 	g_signal_new("open-wanted", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE,
 		     2, G_TYPE_STRING, G_TYPE_BOOLEAN);
+	g_signal_new("open-on-board-wanted", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+		     G_TYPE_NONE, 1, G_TYPE_STRING);
 	g_signal_new("new-wanted", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE,
 		     0);
 	g_signal_new("cursor-moved", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,

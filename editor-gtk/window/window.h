@@ -6,9 +6,10 @@
  * nothing and edits no rung.
  *
  * Signals for the application: "open-wanted" (path, gboolean): open a file, or a copy of a
- * sample; "new-wanted": open a window with a new project. Signals among its parts: "cursor-
- * moved" in the page in front; "place-changed": the status bar shows the place again;
- * "page-changed": another page is in front.
+ * sample; "open-on-board-wanted" (path): open a file that was read from the board of this window,
+ * and connect its window to that board; "new-wanted": open a window with a new project. Signals
+ * among its parts: "cursor-moved" in the page in front; "place-changed": the status bar shows the
+ * place again; "page-changed": another page is in front.
  */
 #ifndef EDITOR_WINDOW_H
 #define EDITOR_WINDOW_H
@@ -48,6 +49,9 @@ void ladder_window_tell_file(LadderWindow *window);
 void ladder_window_set_origin(LadderWindow *window, const char *path);
 /** ladder_window_set_classic - the same for ClassicLadder; shows a banner. */
 void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin);
+/** ladder_window_share_board - connects @window to the board of @from, which stays connected. A
+ * serial line has one session: then @from is disconnected. */
+void ladder_window_share_board(LadderWindow *window, LadderWindow *from);
 /** ladder_window_compare - shows the page that compares two files. */
 void ladder_window_compare(LadderWindow *window, const char *older, const char *newer);
 /** ladder_window_has_file - is that text file open in the window? */

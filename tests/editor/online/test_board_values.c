@@ -22,7 +22,7 @@ static LadderDocument *document;
 static LadderSim *sim;
 static LadderBoardLink *link_;
 static LadderBoardValues *values;
-static char *told;
+static char *told, *mended;
 static struct location refused_at;
 static char *refused;
 
@@ -42,6 +42,13 @@ static void keep_told(LadderSim *of, const char *text, gboolean bad)
 	told = g_strdup(text);
 }
 
+static void keep_mended(LadderBoardValues *of, const char *why)
+{
+	(void)of;
+	g_free(mended);
+	mended = g_strdup(why);
+}
+
 static void open_editor(const char *text)
 {
 	document = ladder_document_new();
@@ -51,6 +58,7 @@ static void open_editor(const char *text)
 	g_signal_connect(sim, "refused", G_CALLBACK(keep_refused), NULL);
 	link_ = ladder_board_link_new();
 	values = ladder_board_values_new(sim, link_);
+	g_signal_connect(values, "mended", G_CALLBACK(keep_mended), NULL);
 }
 
 static void close_editor(void)
@@ -62,6 +70,7 @@ static void close_editor(void)
 	g_object_unref(sim);
 	g_object_unref(document);
 	g_clear_pointer(&told, g_free);
+	g_clear_pointer(&mended, g_free);
 	g_clear_pointer(&refused, g_free);
 }
 
@@ -387,6 +396,12 @@ static void knows_no_sources(void)
 	connect_to(&board);
 	CHECK_SOON(*ladder_board_values_why(values));
 	CHECK(strstr(ladder_board_values_why(values), "sources") && !ladder_sim_is_on(sim));
+	CHECK(told && strcmp(told, ladder_board_values_why(values)) == 0 && !mended);
+	board_write(&board, "other.rung", OTHER);
+	download(&board, "other.rung");
+	CHECK_SOON(ladder_sim_board(sim) != NULL);
+	CHECK_AS(mended && strcmp(mended, told) == 0, "what was told before is true no more");
+	CHECK_TEXT(ladder_board_values_why(values), "");
 	close_editor();
 	board_close(&board);
 }

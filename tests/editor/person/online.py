@@ -175,6 +175,7 @@ def download(screen):
     editor.to_sheet()
     connect(editor, board.where)
     says(editor, 'The board runs another program.')
+    editor.says('Values of the board are not shown: ')
     log = editor.logs('communication', 'its program was read to show values')
     assert 'read the program' not in log, log
     editor.click(editor.sheet())
@@ -223,6 +224,9 @@ def download(screen):
     until(lambda: os.path.exists(folder + '/seal.rung'), 'the program of the board')
     assert open(folder + '/seal.rung').read() == open(path).read() and open(folder + '/seal.io').read() == MAP
     until(lambda: len(editor.windows()) == 2, 'its window')
+    says(editor, 'The board runs this program.')  # its window is connected, too
+    until(lambda: len(editor.all('garage · RUN', 'label')) == 2, 'the board in both windows')
+    editor.shot('online-uploaded')
     board.stop()
 
 
