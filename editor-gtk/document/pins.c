@@ -134,15 +134,12 @@ static bool is_plain_bool(const struct var *var)
 	return var->type == IEC_BOOL && !var->array.count;
 }
 
-/* The pin that power goes to or comes from, with variables @a and @b exchanged. -1: none. */
-static int power_pin(const struct pou *pou, uint16_t kind, int a, int b)
+/* The pin that power goes to or comes from; -1: none. */
+static int power_pin(const struct pou *pou, uint16_t kind)
 {
-	for (int i = 0; i < vars_declared(&pou->vars); i++) {
-		const int at = i == a ? b : i == b ? a : i;
-
-		if (pins_kind(pou, at) == kind && is_plain_bool(&pou->vars.var[at]))
-			return at;
-	}
+	for (int i = 0; i < vars_declared(&pou->vars); i++)
+		if (pins_kind(pou, i) == kind && is_plain_bool(&pou->vars.var[i]))
+			return i;
 	return -1;
 }
 
@@ -155,87 +152,6 @@ static char *why_fixed(LadderDocument *document, int pou)
 	return caller < 0 ? NULL : g_strdup_printf(_("“%s” gives operands by position: they "
 		"would go to other pins. Name the pins there first."),
 		project_text(project, project->pou[caller].name));
-}
-
-/* Why two pins cannot change places; NULL: they can. */
-static char *why_not(LadderDocument *document, int pou, int a, int b)
-{
-	const struct project *project = ladder_document_project(document);
-	const struct pou *of = &project->pou[pou];
-	const uint16_t kind = pins_kind(of, a);
-	char *why = kind ? why_fixed(document, pou) : NULL;
-
-	if (why || !kind)
-		return why;
-	if (of->kind == POU_BLOCK && kind != VAR_IN_OUT &&
-	    power_pin(of, kind, a, b) != power_pin(of, kind, -1, -1) &&
-	    has_boxes(project, of->word))
-		return g_strdup_printf(_("The power of the row is connected to “%s” where the "
-			"block is used: it must stay the first of type BOOL"),
-			project_text(project, of->vars.var[power_pin(of, kind, -1, -1)].name));
-	return NULL;
-}
-
-/* ---- moving ---- */
-
-struct two_spans {
-	int pou, index[2];
-	struct text_span span[2];
-};
-
-static void take_pin(void *context, const struct text_span *span)
-{
-	struct two_spans *two = context;
-
-	for (int i = 0; i < 2; i++)
-		if (span->part == TEXT_VAR && span->pou == two->pou && span->structure < 0 &&
-		    span->number == two->index[i])
-			two->span[i] = *span;
-}
-
-/* The next (@by 1) or previous (-1) variable with the same qualifiers; -1: there is none. */
-static int beside(const struct pou *of, int index, int by)
-{
-	const struct var_table *vars = &of->vars;
-
-	for (int i = index + by; i >= 0 && i < vars_declared(vars); i += by)
-		if (vars_flags(vars, i) == vars_flags(vars, index))
-			return i;
-	return -1;
-}
-
-/* Two variables change places; what is written between them stays. */
-static char *exchange(LadderDocument *document, int pou, int a, int b)
-{
-	struct two_spans two = { .pou = pou, .index = { MIN(a, b), MAX(a, b) } };
-	gsize len;
-	char *all = ladder_document_outline(document, &len, take_pin, &two);
-	const struct text_span *first = &two.span[0], *second = &two.span[1];
-	const gsize between = second->at - first->at - first->len;
-	char *text = g_strdup_printf("%.*s%.*s%.*s", (int)second->len, all + second->at,
-				     (int)between, all + first->at + first->len,
-				     (int)first->len, all + first->at);
-	char *why = ladder_document_replace_step(document, first->at,
-		first->len + between + second->len, text, _("Move pin"));
-
-	g_free(text);
-	g_free(all);
-	return why;
-}
-
-char *pin_move(LadderDocument *document, int pou, int index, int by)
-{
-	const struct pou *of = &ladder_document_project(document)->pou[pou];
-	const int other = beside(of, index, by);
-	char *why;
-
-	if (of->included)
-		return g_strdup(_("It is declared in another file"));
-	if (other < 0)
-		return g_strdup(by < 0 ? _("It is the first one already") :
-					 _("It is the last one already"));
-	why = why_not(document, pou, index, other);
-	return why ? why : exchange(document, pou, index, other);
 }
 
 /* ---- kinds ---- */
@@ -264,7 +180,7 @@ static char *power_name(const struct project *project, int pou, uint16_t kind)
 {
 	const struct pou *of = &project->pou[pou];
 	const int at = of->kind == POU_BLOCK && has_boxes(project, of->word) ?
-		       power_pin(of, kind, -1, -1) : -1;
+		       power_pin(of, kind) : -1;
 
 	return g_strdup(at < 0 ? "" : project_text(project, of->vars.var[at].name));
 }
@@ -327,39 +243,182 @@ static int index_named(LadderDocument *document, int pou, const char *name)
 	return -1;
 }
 
-/* -1, 1: it must go up or down among those of its kind to stand before @before, NULL: at the end;
- * 0: it stands there. */
-static int way_to(LadderDocument *document, int pou, const char *name, const char *before)
-{
-	const struct var_table *vars = &ladder_document_project(document)->pou[pou].vars;
-	const int at = index_named(document, pou, name), to = index_named(document, pou, before);
-	const uint16_t kind = vars_flags(vars, at) & SYMBOL_KINDS;
-	int next = at + 1;
+/* ---- moving ---- */
 
-	while (next < vars_declared(vars) && (vars_flags(vars, next) & SYMBOL_KINDS) != kind)
-		next++;
-	if (to < 0)
-		return next < vars_declared(vars);
-	return to < at ? -1 : to == next || to == at ? 0 : 1;
+/* The next (@by 1) or previous (-1) variable of a kind but @but; -1: none. */
+static int beside(const struct var_table *vars, uint16_t kind, int from, int by, int but)
+{
+	for (int i = from + by; i >= 0 && i < vars_declared(vars); i += by)
+		if (i != but && !(vars_flags(vars, i) & VAR_RESULT) &&
+		    (vars_flags(vars, i) & SYMBOL_KINDS) == kind)
+			return i;
+	return -1;
+}
+
+/* A moved variable and those that it will stand before and behind; -1: none. */
+enum { MOVED, NEXT, PREVIOUS, INVOLVED };
+
+struct way {
+	const struct var_table *vars;
+	int pou, index[INVOLVED], block[INVOLVED];
+	struct text_span var[INVOLVED], around[INVOLVED]; /* and their blocks      */
+};
+
+static void take_spans(void *context, const struct text_span *span)
+{
+	struct way *way = context;
+
+	if (span->pou != way->pou || span->structure >= 0)
+		return;
+	for (int i = 0; i < INVOLVED; i++) {
+		if (span->part == TEXT_VAR && span->number == way->index[i])
+			way->var[i] = *span;
+		if (span->part == TEXT_BLOCK && span->number == way->block[i])
+			way->around[i] = *span;
+	}
+}
+
+static bool is_like(const struct way *way, int other)
+{
+	return way->index[other] >= 0 && vars_flags(way->vars, way->index[other]) ==
+					 vars_flags(way->vars, way->index[MOVED]);
+}
+
+static bool is_inside(const struct way *way)
+{
+	return way->index[NEXT] >= 0 && way->index[PREVIOUS] >= 0 &&
+	       symbol_block(way->vars, way->index[NEXT]) ==
+	       symbol_block(way->vars, way->index[PREVIOUS]);
+}
+
+/* Finds the place before @before. A block with other qualifiers, such as RETAIN, is not divided:
+ * it is passed. False: the variable stands there. */
+static bool find_way(struct way *way, int index, int before)
+{
+	const uint16_t kind = vars_flags(way->vars, index) & SYMBOL_KINDS;
+	const int end = vars_declared(way->vars);
+	const bool down = before < 0 || before > index;
+
+	if (beside(way->vars, kind, index, 1, -1) == before || index == before)
+		return false;
+	way->index[MOVED] = index;
+	way->index[NEXT] = before;
+	way->index[PREVIOUS] = beside(way->vars, kind, before < 0 ? end : before, -1, index);
+	while (is_inside(way) && !is_like(way, NEXT) && !is_like(way, PREVIOUS)) {
+		const int by = down ? 1 : -1;
+		const int from = way->index[down ? NEXT : PREVIOUS];
+
+		way->index[down ? PREVIOUS : NEXT] = from;
+		way->index[down ? NEXT : PREVIOUS] = beside(way->vars, kind, from, by, index);
+	}
+	for (int i = 0; i < INVOLVED; i++)
+		way->block[i] = way->index[i] < 0 ? -1 : symbol_block(way->vars, way->index[i]);
+	return true;
+}
+
+/* The moved variable in a block of its own: that around it, if it is alone there. Caller frees. */
+static char *own_block(const struct way *way, const char *all, bool alone)
+{
+	const struct text_span *var = &way->var[MOVED], *around = &way->around[MOVED];
+	char *head = symbol_text_block(vars_flags(way->vars, way->index[MOVED]));
+	char *text = alone ? g_strndup(all + around->at, around->len) :
+		     g_strdup_printf("%s%.*sEND_VAR\n", head, (int)var->len, all + var->at);
+
+	g_free(head);
+	return text;
+}
+
+/* What is inserted, and where. Caller frees. */
+static char *inserted(const struct way *way, const char *all, bool alone, gsize *at)
+{
+	if (is_like(way, NEXT) || is_like(way, PREVIOUS)) {
+		*at = is_like(way, NEXT) ? way->var[NEXT].at :
+		      way->var[PREVIOUS].at + way->var[PREVIOUS].len;
+		return g_strndup(all + way->var[MOVED].at, way->var[MOVED].len);
+	}
+	*at = way->index[NEXT] >= 0 ? way->around[NEXT].at :
+	      way->around[PREVIOUS].at + way->around[PREVIOUS].len;
+	return own_block(way, all, alone);
+}
+
+/* Whether nothing else is in its block, which goes with it: comments there do not, if it goes to
+ * another block. */
+static bool is_alone(const struct way *way)
+{
+	char *head = symbol_text_block(vars_flags(way->vars, way->index[MOVED]));
+	const gsize plain = strlen(head) + way->var[MOVED].len + strlen("END_VAR\n");
+	const bool only = way->vars->block[way->block[MOVED]].count == 1;
+
+	g_free(head);
+	return only && (way->around[MOVED].len == plain ||
+			(!is_like(way, NEXT) && !is_like(way, PREVIOUS)));
+}
+
+static char *go(LadderDocument *document, const struct way *way, const char *all)
+{
+	const bool alone = is_alone(way);
+	const struct text_span *cut = alone ? &way->around[MOVED] : &way->var[MOVED];
+	gsize at;
+	char *new = inserted(way, all, alone, &at), *text, *why;
+
+	if (at <= cut->at)
+		text = g_strdup_printf("%s%.*s", new, (int)(cut->at - at), all + at);
+	else
+		text = g_strdup_printf("%.*s%s", (int)(at - cut->at - cut->len),
+				       all + cut->at + cut->len, new);
+	why = ladder_document_replace_step(document, MIN(at, cut->at), at <= cut->at ?
+		cut->at + cut->len - at : at - cut->at, text, _("Move pin"));
+	g_free(text);
+	g_free(new);
+	return why;
+}
+
+static char *move(LadderDocument *document, int pou, int index, int before)
+{
+	struct way way = { .pou = pou,
+			   .vars = &ladder_document_project(document)->pou[pou].vars };
+	char *all, *why = pins_kind(&ladder_document_project(document)->pou[pou], index) ?
+			  why_fixed(document, pou) : NULL;
+	gsize len;
+
+	if (why || !find_way(&way, index, before))
+		return why;
+	all = ladder_document_outline(document, &len, take_spans, &way);
+	why = go(document, &way, all);
+	g_free(all);
+	return why;
+}
+
+/* Moves it; it is refused if the power then goes to another pin. */
+static char *move_with_power(LadderDocument *document, int pou, int index, int before)
+{
+	const uint16_t kind = pins_kind(&ladder_document_project(document)->pou[pou], index);
+	char *was = power_name(ladder_document_project(document), pou, kind);
+	char *why = move(document, pou, index, before);
+	char *is = power_name(ladder_document_project(document), pou, kind);
+
+	if (!why && kind && kind != VAR_IN_OUT && strcmp(was, is) != 0)
+		why = g_strdup_printf(_("The power of the row is connected to “%s” where the "
+			"block is used: it must stay the first of type BOOL"), was);
+	g_free(is);
+	g_free(was);
+	return why;
 }
 
 char *pin_put(LadderDocument *document, int pou, int index, uint16_t kind, int before)
 {
 	const struct project *project = ladder_document_project(document);
-	const struct var_table *vars = &project->pou[pou].vars;
-	char *name = g_strdup(project_text(project, vars->var[index].name));
-	char *mark = before < 0 ? NULL : g_strdup(project_text(project, vars->var[before].name));
-	char *why = NULL;
-	int way, first = 0;
+	const struct pou *of = &project->pou[pou];
+	char *name = g_strdup(project_text(project, of->vars.var[index].name));
+	char *mark = before < 0 ? NULL : g_strdup(project_text(project, of->vars.var[before].name));
+	char *why = of->included ? g_strdup(_("It is declared in another file")) : NULL;
 
 	ladder_document_begin(document, _("Move pin"), NULL);
-	if ((vars_flags(vars, index) & SYMBOL_KINDS) != kind)
+	if (!why && (vars_flags(&of->vars, index) & SYMBOL_KINDS) != kind)
 		why = pin_set_kind(document, pou, index, kind);
-	/* A neighbour of another block may be passed at once: it never turns back. */
-	while (!why && (way = way_to(document, pou, name, mark)) != 0 && way != -first) {
-		why = pin_move(document, pou, index_named(document, pou, name), way);
-		first = way;
-	}
+	if (!why)
+		why = move_with_power(document, pou, index_named(document, pou, name),
+				      index_named(document, pou, mark));
 	if (why)
 		ladder_document_cancel(document);
 	else

@@ -710,8 +710,7 @@ static bool insert(struct symbol_batch *batch, int table, uint16_t flags, const 
 
 /* ---- batches ---- */
 
-/* The block of variable @index. */
-static int block_of(const struct var_table *vars, int index)
+int symbol_block(const struct var_table *vars, int index)
 {
 	for (int i = 0; i < vars->block_count; i++)
 		if (index >= vars->block[i].first &&
@@ -726,7 +725,7 @@ static bool move(struct symbol_batch *batch, int table, int index, uint16_t flag
 		 const struct text_span *span, const char *line, char **why)
 {
 	const struct var_table *vars = xref_table(batch->project, table);
-	const int number = block_of(vars, index);
+	const int number = symbol_block(vars, index);
 	const struct text_span *block = find_span(batch, TEXT_BLOCK, table, number);
 
 	if (block && vars->block[number].count == 1) {
@@ -793,7 +792,7 @@ static bool batch_delete(struct symbol_batch *batch, int table, int index, char 
 		return refuse(why, g_strdup(_("It is declared in another file")));
 	if (table > batch->project->pou_count && vars->count == 1)
 		return refuse(why, g_strdup(_("A structure needs a member")));
-	number = block_of(vars, index);
+	number = symbol_block(vars, index);
 	block = find_span(batch, TEXT_BLOCK, table, number);
 	if (block && vars->block[number].count == 1 && !vars->block[number].comment)
 		span = block;

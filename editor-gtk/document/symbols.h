@@ -67,6 +67,8 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
 		const char *text, char **why);
 /** SYMBOL_KINDS - the flags for the kind of block that a symbol is declared in; none: VAR. */
 #define SYMBOL_KINDS (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP)
+/** symbol_block - the number of the block of variable @index; -1: none. */
+int symbol_block(const struct var_table *vars, int index);
 /** symbol_set_kind - moves it to the block with this one of SYMBOL_KINDS, or 0; it stays
  * RETAIN or CONSTANT. One step of the history. Fails: false, nothing changed. */
 bool symbol_set_kind(LadderDocument *document, int table, int index, uint16_t kind,
