@@ -465,16 +465,52 @@ static bool is_part(const struct maker *maker, const struct symbol *symbol, gsiz
 	return symbol->name[head] && !comes_in(area) && !goes_out(area);
 }
 
+static const struct var *var_in(const struct maker *maker, const struct var_table *vars,
+				const char *name, gsize len)
+{
+	const int at = vars_find(vars, names_find_any(&maker->project->names, name, len));
+
+	return at < 0 ? NULL : &vars->var[at];
+}
+
+/* The declaration of a name as in head_len(); NULL: of another table. A name without its POU is
+ * that of a global, or of the only local with this name. */
+static const struct var *declared(const struct maker *maker, const char *name, gsize head)
+{
+	const struct project *project = maker->project;
+	const char *dot = memchr(name, '.', head);
+	const int pou = dot ? project_find_pou(project, name, (gsize)(dot - name)) : -1;
+	const struct var *var = NULL;
+
+	if (pou >= 0)
+		return var_in(maker, &project->pou[pou].vars, dot + 1,
+			      head - (gsize)(dot + 1 - name));
+	var = var_in(maker, &project->globals, name, head);
+	for (int p = 0; !var && p < project->pou_count; p++)
+		if (!pou_has_frame(&project->pou[p]))
+			var = var_in(maker, &project->pou[p].vars, name, head);
+	return var;
+}
+
+/* A structure is a variable, as an array of values is; an instance, and an array of them, are
+ * blocks. */
+static bool is_instance(const struct maker *maker, const char *name, gsize head)
+{
+	const struct var *var = declared(maker, name, head);
+
+	return var && var->type == IEC_NONE &&
+	       words_row(&maker->project->words, var->fb)->kind != WORD_STRUCT;
+}
+
 /* The line of an own block, an array or a structure when its first part comes. */
 static void begin_whole(struct maker *maker, const struct symbol *symbol, gsize head)
 {
-	const bool is = symbol->name[head] == '.' || symbol->block;
-
 	if (maker->whole && strlen(maker->whole->name) == head &&
 	    strncmp(maker->whole->name, symbol->name, head) == 0)
 		return;
-	maker->whole = whole_new(maker, symbol->name, head, is ? SIM_BLOCKS :
-				 SIM_VALUES, NULL);
+	maker->whole = whole_new(maker, symbol->name, head,
+				 is_instance(maker, symbol->name, head) ? SIM_BLOCKS : SIM_VALUES,
+				 NULL);
 }
 
 static void add_symbol(struct maker *maker, const struct symbol *symbol)

@@ -111,22 +111,85 @@ GPtrArray *watch_names_expand(const struct image *image, const char *line)
 	return names;
 }
 
+/* ---- what a chart lists already ---- */
+
+struct listed {
+	struct location at;
+	const char *name;     /* borrowed                                      */
+	int line;             /* -1: none yet                                  */
+};
+
+/* What the lines of a format mean. Caller: g_array_unref(). */
+static GArray *listed_of(const struct image *image, GPtrArray *lines, enum live_format format)
+{
+	GArray *listed = g_array_new(FALSE, FALSE, sizeof(struct listed));
+
+	for (guint i = 0; i < lines->len; i++) {
+		const struct watch_line *line = lines->pdata[i];
+		const struct listed one = { live_value_find(image, line->name), line->name, (int)i };
+
+		if (line->format == format)
+			g_array_append_val(listed, one);
+	}
+	return listed;
+}
+
+static const struct listed *find_listed(const struct image *image, const GArray *listed,
+					const char *name)
+{
+	const struct location at = live_value_find(image, name);
+
+	for (guint i = 0; i < listed->len; i++) {
+		const struct listed *one = &g_array_index(listed, struct listed, i);
+
+		if (name_equal(one->name, name) ||
+		    (at.type != IEC_NONE && live_value_is_same(at, one->at)))
+			return one;
+	}
+	return NULL;
+}
+
+int watch_names_drop_listed(const struct image *image, GPtrArray *names, GPtrArray *lines,
+			    enum live_format format)
+{
+	GArray *listed = listed_of(image, lines, format);
+	int last = -1;
+
+	for (guint i = 0; i < names->len;) {
+		const struct listed *one = find_listed(image, listed, names->pdata[i]);
+
+		if (one) {
+			last = MAX(last, one->line);
+			g_ptr_array_remove_index(names, i);
+		} else {
+			const char *name = names->pdata[i++];
+			const struct listed own = { live_value_find(image, name), name, -1 };
+
+			g_array_append_val(listed, own);
+		}
+	}
+	g_array_unref(listed);
+	return last;
+}
+
 /* Returns how many lines stand there now. */
 static guint unfold_line(const struct image *image, GPtrArray *lines, guint at)
 {
 	struct watch_line *line = lines->pdata[at];
 	GPtrArray *names = watch_names_expand(image, line->name);
-	const guint count = names->len;
+	guint count = 1;
 
-	if (count > 1 || (count == 1 && strcmp(names->pdata[0], line->name) != 0)) {
+	if (names->len > 1 || (names->len == 1 && strcmp(names->pdata[0], line->name) != 0)) {
 		g_ptr_array_steal_index(lines, at);
+		watch_names_drop_listed(image, names, lines, line->format);
+		count = names->len;
 		for (guint i = 0; i < count; i++)
 			g_ptr_array_insert(lines, (int)(at + i), watch_line_new(line->format,
 				names->pdata[i], i == 0 ? line->comment : NULL));
 		watch_line_free(line);
 	}
 	g_ptr_array_unref(names);
-	return MAX(count, 1);
+	return count;
 }
 
 void watch_names_unfold(const struct image *image, GPtrArray *charts)

@@ -24,9 +24,15 @@
 GPtrArray *watch_names_expand(const struct image *image, const char *line);
 
 /** watch_names_unfold - replaces each line of @charts, struct watch *, that names an instance or
- * a range by lines of its variables. They get its format, the first one its comment, too.
- * @image: as above. */
+ * a range by lines of its variables, but those that the chart lists in this format. They get its
+ * format, the first one its comment, too. @image: as above. */
 void watch_names_unfold(const struct image *image, GPtrArray *charts);
+
+/** watch_names_drop_listed - removes those @names that a line of @lines, struct watch_line *,
+ * with @format shows, in any form of the name: `Delay.Q` and `Main.Delay.Q` are one. Returns the
+ * last line that does; -1: none does. @image: as above. */
+int watch_names_drop_listed(const struct image *image, GPtrArray *names, GPtrArray *lines,
+			    enum live_format format);
 
 /** watch_names_offer - adds rows to @popup that complete the word before @cursor (in bytes).
  * @image: as above. */

@@ -692,9 +692,13 @@ bool ladder_watch_view_add(LadderWatchView *view, const char *line)
 	GPtrArray *charts;
 	struct watch *chart = edit_chart(view, &charts);
 	const bool good = names->len > 0 && ladder_document_project(view->document);
+	const int listed = good && chart ? watch_names_drop_listed(image_of(view), names,
+		chart->lines, FORMAT_AUTO) : -1;
 	int at;
 
-	if (good) {
+	if (good && names->len == 0) {
+		select_row(view, listed);
+	} else if (good) {
 		chart = chart ? chart : add_chart(view, charts);
 		at = selected < 0 ? (int)chart->lines->len : selected + 1;
 		for (guint i = 0; i < names->len; i++)

@@ -448,6 +448,26 @@ static void search(const char *text)
 						       GTK_TYPE_SEARCH_ENTRY)), text);
 }
 
+/* A structure is a variable, as an array is, of the program or of all; so is one in an array. An
+ * array of instances is a block. */
+static void test_structures(void)
+{
+	static const char text[] =
+		"RUNGBOARD 1\n\nTYPE\n  Bounds : STRUCT\n    Low : INT;\n    High : INT;\n"
+		"  END_STRUCT;\nEND_TYPE\n\nVAR\n  Limit : Bounds;\n  Limits : ARRAY[1..2] OF Bounds;\n"
+		"  Two : ARRAY[1..2] OF Belt;\n  Own : Belt;\nEND_VAR\n\n"
+		"FUNCTION_BLOCK Belt LD\nVAR_INPUT\n  Run : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Motor : BOOL;\n"
+		"END_VAR\nRUNG\n  | NO Run | COIL Motor |\nEND_FUNCTION_BLOCK\n\n"
+		"PROGRAM Main LD\nVAR\n  Mine : Bounds;\n  My : Belt;\nEND_VAR\n"
+		"RUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n";
+
+	ladder_sim_end(sim);
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
+	CHECK(ladder_sim_begin(sim, NULL));
+	CHECK(lists("[Inputs] %IX0.0 [Outputs] %QX0.0 [Blocks] Two Own My "
+		    "[Values] Limit Limits Mine "));
+}
+
 #define IN_OUT "[Inputs] %IX0.0 %IX0.1 [Outputs] %QX0.0 %QX0.1 %QX0.2 %QX0.3 [Memory] Free "
 
 /* An instance, a chart, an array is one line; it unfolds to its parts, which a search finds. */
@@ -546,6 +566,7 @@ int main(int argc, char **argv)
 	test_plant();
 	test_many();
 	test_map();
+	test_structures();
 	test_wholes();
 	test_empty();
 	test_end();

@@ -343,6 +343,32 @@ static void check_local(void)
 	g_object_unref(other);
 }
 
+/* One variable has one row for each form of its value, whichever form of its name is added. */
+static void check_once(void)
+{
+	static const char text[] =
+		"RUNGBOARD 1\n\nPROGRAM Main LD\nVAR\n  Wait : TON;\n  Count : INT;\nEND_VAR\n"
+		"RUNG\n  | NO %IX0.0 | TON Wait PT:=T#1s | COIL %QX0.0 |\nEND_PROGRAM\n\n"
+		"VIEW\n  status-chart One\n    watch auto Wait.Q\n    watch auto Main.Wait\n"
+		"    watch hex Count\nEND_VIEW\n";
+	LadderDocument *other = ladder_document_new();
+	LadderWatchView *one;
+	char *kept;
+
+	ladder_document_open_text(other, "/tmp/x/once.rung", text, strlen(text), true);
+	ladder_document_check_now(other);
+	one = LADDER_WATCH_VIEW(g_object_ref_sink(ladder_watch_view_new(other, NULL)));
+	CHECK(ladder_watch_view_add(one, "wait.et") && ladder_watch_view_add(one, "Main.Count"));
+	CHECK(ladder_watch_view_add(one, "Count %QX0.0 %Q0.0"));
+	kept = ladder_document_text(other, NULL);
+	CHECK_TEXT(strstr(kept, "VIEW"), "VIEW\n  status-chart One\n    watch auto Wait.Q\n"
+		   "    watch auto Main.Wait.IN\n    watch auto Main.Wait.PT\n    watch auto Main.Wait.ET\n"
+		   "    watch auto Main.Count\n    watch auto %QX0.0\n    watch hex Count\nEND_VIEW\n");
+	g_free(kept);
+	g_object_unref(one);
+	g_object_unref(other);
+}
+
 /* Rows can be made while the simulation is off; unknown names stay. */
 static void check_making(void)
 {
@@ -553,6 +579,7 @@ int main(void)
 	app_style();
 	make();
 	check_local();
+	check_once();
 	check_making();
 	check_running();
 	check_forces();
