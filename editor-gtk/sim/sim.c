@@ -276,10 +276,16 @@ struct ladder *ladder_sim_plant_ladder(LadderSim *sim)
 	return plant ? plant->ladder : NULL;
 }
 
-/* After the scan that is shown may have changed; @before: the program of the one before. */
-static void tell_shown(LadderSim *sim, const struct sim_program *before)
+static bool is_older(LadderSim *sim)
 {
-	if (shown_program(sim) != before)
+	return sim->past && sim->replay->edited_us;
+}
+
+/* After the scan that is shown may have changed. Before: the program that was shown, and whether
+ * an edit had replaced it, which is known before the newer one is taken. */
+static void tell_shown(LadderSim *sim, const struct sim_program *before, bool older)
+{
+	if (shown_program(sim) != before || is_older(sim) != older)
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 	g_signal_emit(sim, signals[SHOWN], 0);
 }
@@ -298,6 +304,7 @@ static bool replay_to(LadderSim *sim, guint64 scan)
 bool ladder_sim_show(LadderSim *sim, guint64 scan)
 {
 	struct sim_program *before = sim_program_ref(shown_program(sim));
+	const bool older = is_older(sim);
 	bool good;
 
 	if (!sim->replay)
@@ -308,20 +315,21 @@ bool ladder_sim_show(LadderSim *sim, guint64 scan)
 	/* A replay that failed on the way may have no program. */
 	sim->past = good || (sim->past && sim->replay->program);
 	if (good || shown_program(sim) != before)
-		tell_shown(sim, before);
+		tell_shown(sim, before, older);
 	sim_program_unref(before);
 	return good;
 }
 
 void ladder_sim_show_now(LadderSim *sim)
 {
+	const bool older = is_older(sim);
 	struct sim_program *before;
 
 	if (!sim->past)
 		return;
 	before = sim_program_ref(shown_program(sim));
 	sim->past = false;
-	tell_shown(sim, before);
+	tell_shown(sim, before, older);
 	sim_program_unref(before);
 }
 

@@ -362,6 +362,44 @@ static void keep_told(LadderSim *of, const char *text, gboolean bad, char **told
 	*told = g_strdup(text);
 }
 
+/* The view is told that it shows an older program, also if it has not taken the newer one yet. */
+static bool shows_before_taken(const char *text)
+{
+	const int before = programs_changed;
+	struct sim_edited edit;
+	char *now = ladder_document_text(document, NULL);
+	bool first;
+
+	CHECK(ladder_document_replace(document, 0, strlen(now), text, NULL));
+	g_free(now);
+	ladder_document_check_now(document);
+	while (!ladder_sim_next_edit(sim, 4, &edit))
+		g_main_context_iteration(NULL, FALSE);
+	first = programs_changed == before && ladder_sim_twin(sim)->scan == 5;
+	if (first) {
+		CHECK(ladder_sim_show(sim, 2) && ladder_sim_older(sim, NULL));
+		CHECK_AS(programs_changed == before + 1, "the sheets show the older program");
+		ladder_sim_show_now(sim);
+		CHECK(programs_changed == before + 2);
+	}
+	return first;
+}
+
+static void test_not_taken(void)
+{
+	bool any = false;
+
+	for (int i = 0; i < 50 && !any; i++) {
+		ladder_sim_end(sim);
+		ladder_document_open_text(document, NULL, motor, strlen(motor), true);
+		CHECK(ladder_sim_begin(sim, NULL));
+		ladder_sim_scan(sim, 5);
+		CHECK_SOON(ladder_sim_twin(sim)->scan == 5);
+		any = shows_before_taken(idle);
+	}
+	CHECK_AS(any, "the view was later than the program once");
+}
+
 static void test_by_hand(void)
 {
 	char *told = NULL;
@@ -483,6 +521,7 @@ int main(int argc, char **argv)
 	g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(count),
 				 &programs_changed);
 	test_by_hand();
+	test_not_taken();
 	test_edits_in_pause();
 	test_bound();
 	test_random(argc > 2 ? (guint64)atoll(argv[2]) : 1, argc > 1 ? atoi(argv[1]) : PROGRAMS);
