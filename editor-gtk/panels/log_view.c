@@ -56,13 +56,32 @@ static void log_free(gpointer pointer)
 	g_free(log);
 }
 
-/* In pixels, because widths of letters differ. */
-static void set_tabs(GtkTextView *text)
+/* Width of the columns in front, with the letters that the text has now. */
+static int width_of(GtkWidget *text, const char *words)
 {
-	PangoTabArray *tabs = pango_tab_array_new_with_positions(2, TRUE,
-		PANGO_TAB_LEFT, 84, PANGO_TAB_LEFT, 206);
+	PangoLayout *layout = gtk_widget_create_pango_layout(text, words);
+	int width;
 
-	gtk_text_view_set_tabs(text, tabs);
+	pango_layout_get_pixel_size(layout, &width, NULL);
+	g_object_unref(layout);
+	return width;
+}
+
+/* In pixels, because widths of letters differ. A long line goes on below its message. */
+static void set_columns(GtkWidget *text)
+{
+	int time = width_of(text, "00:00:00"), kind = 0;
+	const int gap = width_of(text, "00");
+	PangoTabArray *tabs;
+
+	for (int i = 0; i < LOG_KINDS; i++)
+		kind = MAX(kind, width_of(text, _(kinds[i].word)));
+	time += gap;
+	kind += time + gap;
+	tabs = pango_tab_array_new_with_positions(2, TRUE, PANGO_TAB_LEFT, time, PANGO_TAB_LEFT,
+						  kind);
+	gtk_text_view_set_tabs(GTK_TEXT_VIEW(text), tabs);
+	gtk_text_view_set_indent(GTK_TEXT_VIEW(text), -kind);
 	pango_tab_array_free(tabs);
 }
 
@@ -220,7 +239,8 @@ GtkWidget *ladder_log_view_new(LadderDocument *document)
 	g_queue_init(&log->lines);
 	gtk_text_view_set_editable(log->text, FALSE);
 	gtk_text_view_set_monospace(log->text, TRUE);
-	set_tabs(log->text);
+	gtk_text_view_set_wrap_mode(log->text, GTK_WRAP_WORD_CHAR);
+	g_signal_connect(text, "map", G_CALLBACK(set_columns), NULL);
 	gtk_text_view_set_left_margin(log->text, 14);
 	spoken_name(text, _("Log"));
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), text);

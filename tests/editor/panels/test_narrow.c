@@ -4,6 +4,7 @@
  * the width, so that no text is cut beside free room, and all headings are seen.
  */
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/log_view.h"
 #include "editor-gtk/panels/problems.h"
 #include "editor-gtk/panels/symbols_view.h"
 #include "editor-gtk/panels/tasks_view.h"
@@ -70,13 +71,13 @@ static int count_cut(GtkWidget *widget, int *seen)
 	return cut;
 }
 
-static GtkWidget *list_in(GtkWidget *widget)
+static GtkWidget *inside(GtkWidget *widget, GType type)
 {
-	GtkWidget *found = GTK_IS_COLUMN_VIEW(widget) ? widget : NULL;
+	GtkWidget *found = G_TYPE_CHECK_INSTANCE_TYPE(widget, type) ? widget : NULL;
 
 	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found;
 	     child = gtk_widget_get_next_sibling(child))
-		found = list_in(child);
+		found = inside(child, type);
 	return found;
 }
 
@@ -96,7 +97,7 @@ static void check(GtkWidget *view, const char *name, bool all)
 
 	gtk_window_set_child(GTK_WINDOW(window), view);
 	screen_show(window);
-	list = list_in(view);
+	list = inside(view, GTK_TYPE_COLUMN_VIEW);
 	WAIT(gtk_widget_get_width(list) > 0 && (!all || beyond(list) <= 0) &&
 	     (seen = 0, cut = count_cut(list, &seen)) == 0 && seen > 4);
 	CHECK_AS(seen > 4, name);
@@ -131,6 +132,32 @@ static GtkWidget *problems(LadderDocument *document)
 	return view;
 }
 
+/* A long message is there as a whole, without scrolling sideways. */
+static void check_log(LadderDocument *document)
+{
+	GtkWidget *view = ladder_log_view_new(document), *text;
+	GString *long_one = g_string_new("begin");
+	GdkRectangle first, last;
+	GtkTextBuffer *buffer;
+	GtkTextIter at;
+
+	for (int i = 0; i < 60; i++)
+		g_string_append_printf(long_one, " message%d", i);
+	gtk_window_set_child(GTK_WINDOW(window), view);
+	screen_show(window);
+	ladder_log_view_put(view, LOG_OPERATOR, 0, long_one->str);
+	text = inside(view, GTK_TYPE_TEXT_VIEW);
+	buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(text));
+	WAIT(gtk_widget_get_width(text) > 0);
+	gtk_text_buffer_get_end_iter(buffer, &at);
+	gtk_text_iter_set_line_offset(&at, 0);
+	gtk_text_view_get_iter_location(GTK_TEXT_VIEW(text), &at, &first);
+	CHECK(gtk_text_view_forward_display_line(GTK_TEXT_VIEW(text), &at));
+	gtk_text_view_get_iter_location(GTK_TEXT_VIEW(text), &at, &last);
+	CHECK_AS(last.y > first.y && last.x > first.x, "it goes on below, behind time and kind");
+	g_string_free(long_one, TRUE);
+}
+
 int main(void)
 {
 	LadderDocument *document;
@@ -155,6 +182,7 @@ int main(void)
 	check(ladder_tasks_view_new(document), "Tasks", false);
 	check(ladder_types_view_new(document), "Datentypen", true);
 	check(symbols(document), "Symbole", false);
+	check_log(document);
 	gtk_window_destroy(GTK_WINDOW(window));
 	WAIT(G_OBJECT(document)->ref_count == 1);
 	g_assert_finalize_object(document);
