@@ -16,6 +16,7 @@
 #include "editor-gtk/kit/theme.h"
 #include "editor-gtk/kit/gtk48/gl.h"
 #include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/window/preferences.h"
 #include "editor-gtk/window/recent.h"
 #include "editor-gtk/render/render.h"
@@ -435,6 +436,19 @@ void app_style(void)
 	g_object_unref(css);
 }
 
+/* A dialog is named when all its buttons are there. */
+static void windows_changed(GListModel *windows, guint at, guint removed, guint added)
+{
+	(void)removed;
+	for (guint i = at; i < at + added; i++) {
+		GtkWidget *window = g_list_model_get_item(windows, i);
+
+		if (ADW_IS_MESSAGE_DIALOG(window))
+			g_signal_connect(window, "map", G_CALLBACK(spoken_parts), NULL);
+		g_object_unref(window);
+	}
+}
+
 static void startup(GtkApplication *application)
 {
 	gl_forget();
@@ -444,6 +458,8 @@ static void startup(GtkApplication *application)
 	preferences_follow(ADW_APPLICATION(application));
 	gtk_window_set_default_icon_name(APP_ID);
 	draft_on_failure(tell_draft_failed);
+	g_signal_connect(gtk_window_get_toplevels(), "items-changed", G_CALLBACK(windows_changed),
+			 NULL);
 }
 
 /* The folder of translations; NULL: none. */

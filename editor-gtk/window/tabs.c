@@ -779,6 +779,8 @@ static bool is_missing(struct tabs *tabs, const char *name)
 
 static void mark_missing(struct tabs *tabs)
 {
+	bool any = false;
+
 	for (int i = 0; i < adw_tab_view_get_n_pages(tabs->view); i++) {
 		const char *name = page_name(nth(tabs, i));
 		const bool missing = name && is_missing(tabs, name);
@@ -791,7 +793,10 @@ static void mark_missing(struct tabs *tabs)
 		adw_tab_page_set_indicator_tooltip(nth(tabs, i), missing ?
 						   _("not downloaded") : "");
 		g_clear_object(&icon);
+		any = true;
 	}
+	if (any)
+		spoken_parts(GTK_WIDGET(tabs->core->front->tab_bar));
 }
 
 void tabs_init(struct tabs *tabs, struct core *core)

@@ -27,7 +27,8 @@ static GtkWidget *next(GtkWidget *widget, GtkWidget *root)
 static void name_part(GtkWidget *widget)
 {
 	GtkWidget *parent = gtk_widget_get_parent(widget);
-	const char *tip = gtk_widget_get_tooltip_text(widget);
+	const char *text = gtk_widget_get_tooltip_text(widget);
+	const char *tip = text ? text : gtk_widget_get_tooltip_markup(widget);
 
 	if (GTK_IS_TOGGLE_BUTTON(widget) && GTK_IS_DROP_DOWN(parent))
 		gtk_accessible_update_relation(GTK_ACCESSIBLE(widget),
@@ -35,6 +36,9 @@ static void name_part(GtkWidget *widget)
 	else if (GTK_IS_BUTTON(widget) && tip &&
 		 strcmp(G_OBJECT_TYPE_NAME(parent), "AdwTab") == 0)
 		spoken_name(widget, tip);
+	else if (GTK_IS_BUTTON(widget) && gtk_button_get_use_underline(GTK_BUTTON(widget)))
+		gtk_accessible_reset_relation(GTK_ACCESSIBLE(widget),
+					      GTK_ACCESSIBLE_RELATION_LABELLED_BY);
 }
 
 /* It stays visible while it moves in or out. */

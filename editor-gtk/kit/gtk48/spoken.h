@@ -5,7 +5,9 @@
  *
  * Mends in GTK 4.8.3 and libadwaita 1.2:
  * - The button inside a GtkDropDown has the name "GtkToggleButton", the close button of an
- *   AdwTab "GtkImage", an empty label "GtkLabel".
+ *   AdwTab "GtkImage", its indicator "GtkButton", an empty label "GtkLabel".
+ * - A button with a mnemonic, as each one of an AdwMessageDialog, has its label twice as its name:
+ *   as the label that the mnemonic belongs to, and as its content.
  * - What is inside a closed GtkRevealer is still in the accessible tree: a toast that is over.
  * To see it: look at the window with accerciser, or run tests/editor/person/spoken.py without
  * the calls. Try so on each new floor.

@@ -102,6 +102,8 @@ def spoken_all(screen):
     editor.to_sheet()
     editor.keys('ctrl+d', 'ctrl+shift+l')
     editor.find('Download to “mill”?', 'label')
+    until(lambda: [node for node in editor.all('Download', 'push button') if node.name == 'Download'], 'its button')
+    assert not nameless(editor), nameless(editor)
     editor.keys('Escape')
     until(lambda: not editor.all('Download to “mill”?', 'label'), 'the end of the dialog')
     says(editor, 'Changed here, not downloaded.')
