@@ -8,6 +8,19 @@
 
 #include <stdlib.h>
 #include <string.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+
+/* This C library keeps what is freed, the more the larger it was. */
+static void give_back(void)
+{
+	malloc_trim(0);
+}
+#else
+static void give_back(void)
+{
+}
+#endif
 
 const char *source_kinds(void)
 {
@@ -77,6 +90,7 @@ bool source_settle(struct source *source)
 	source->own = NULL;
 	source->image = image;
 	source->program = program;
+	give_back();
 	return true;
 }
 
