@@ -24,6 +24,7 @@
 #define PING_MOST_US 2000000
 #define PING_PART 4          /* of the time of a slow line, that pings take      */
 #define LAPS_MOST 8          /* times that the record may be asked for again   */
+#define LOG_MOST (16u << 20) /* bytes of it that are kept: then it is fetched anew */
 #define LATE_US G_GINT64_CONSTANT(200000) /* less is not told               */
 
 /* A list that the board publishes. */
@@ -51,9 +52,11 @@ struct _LadderBoardValues {
 	bool again;              /* views needed more while the board was asked */
 	GPtrArray *sets;         /* of struct set                              */
 	char *why;
-	/* The board's record, as it comes. */
-	GByteArray *log;         /* NULL: it is not being fetched              */
-	guint64 log_next, log_end; /* bytes of the board's log                  */
+	/* The board's record, as it has come; more is added. */
+	GByteArray *log;         /* NULL: nothing yet                          */
+	guint64 log_next, log_end; /* bytes of the board's log; end: 0: not known yet */
+	bool fetching;
+	bool unrecorded;         /* the board refused it                       */
 	int laps;                /* how often it was begun                     */
 	/* How late. */
 	guint timer;
@@ -420,6 +423,7 @@ static void ask_log(LadderBoardValues *values);
 
 static void end_log(LadderBoardValues *values)
 {
+	values->fetching = false;
 	g_clear_pointer(&values->log, g_byte_array_unref);
 }
 
@@ -432,17 +436,20 @@ static void log_came(gpointer data, struct board_answer *answer)
 	guint64 end, at;
 	gsize len;
 
-	if (!values->log)
+	if (!values->fetching)
 		return;
+	values->unrecorded = answer->end == DESK_REFUSED;
 	wire_u64(in); /* the oldest byte */
 	end = wire_u64(in);
 	at = wire_u64(in);
 	len = wire_left(in);
-	if (!values->log_end || at != values->log_next) {
+	if (at != values->log_next) {
 		g_byte_array_set_size(values->log, 0);
-		values->log_end = end;
+		values->log_end = 0;
 		values->laps++;
 	}
+	if (!values->log_end)
+		values->log_end = end;
 	if (answer->end != DESK_GOOD || in->failed || !values->mirror ||
 	    values->laps > LAPS_MOST || values->log->len + len > RECORD_MOST) {
 		end_log(values);
@@ -455,8 +462,8 @@ static void log_came(gpointer data, struct board_answer *answer)
 		ask_log(values);
 		return;
 	}
+	values->fetching = false;
 	file = open_log(values);
-	end_log(values);
 	if (file)
 		sim_mirror_record(values->mirror, file);
 }
@@ -475,11 +482,17 @@ static void past(gpointer data)
 {
 	LadderBoardValues *values = data;
 
-	if (values->log || !values->mirror)
+	if (values->fetching || values->unrecorded || !values->mirror)
 		return;
-	values->log = g_byte_array_new();
-	values->log_next = values->log_end = 0;
+	if (values->log && values->log->len > LOG_MOST)
+		end_log(values);
+	if (!values->log) {
+		values->log = g_byte_array_new();
+		values->log_next = 0;
+	}
+	values->log_end = 0;
 	values->laps = 0;
+	values->fetching = true;
 	ask_log(values);
 }
 
@@ -489,7 +502,7 @@ static void end(LadderBoardValues *values)
 {
 	while (values->sets->len)
 		drop_set(values, values->sets->len - 1, false);
-	values->filled = values->again = false;
+	values->filled = values->again = values->unrecorded = false;
 	end_log(values);
 	if (values->mirror) {
 		values->mirror = NULL;

@@ -16,6 +16,7 @@
 #define CYCLES_LEAST 4 /* visible ones, at least                               */
 #define FEED_US 4000   /* for reading the record, at a time                    */
 #define NOW_AT 0.9     /* where the running time stands in the picture         */
+#define FETCH_US 1000000 /* before a board is asked again what it recorded       */
 
 struct _LadderTaskChart {
 	GtkBox parent_instance;
@@ -26,6 +27,7 @@ struct _LadderTaskChart {
 	LadderSim *sim;            /* NULL: none                               */
 	struct task_runs *runs;    /* NULL: the simulation is off              */
 	guint reading;             /* idle that reads the record               */
+	gint64 fetched_us;         /* when a board was asked for it            */
 	bool follows;              /* the time that is shown is in sight       */
 	bool moving;               /* it scrolls by itself                     */
 };
@@ -68,6 +70,13 @@ static char *live_text(LadderTaskChart *chart, GtkListBoxRow *row)
 		return task_runs_at_text(chart->runs, chart->at_ns, ladder_sim_period(chart->sim));
 	return row ? lane_text(chart, gtk_list_box_row_get_index(row)) :
 	       g_strdup(_("low, grey: planned · green: ran · high, red: late, or runs left out"));
+}
+
+/* The time that is shown. Of a board it is that of the last scan that was read. */
+static gint64 now_of(const LadderTaskChart *chart, const struct twin *twin)
+{
+	return ladder_sim_may_miss(chart->sim) && !ladder_sim_is_past(chart->sim) &&
+	       task_runs_time(chart->runs) ? task_runs_time(chart->runs) : twin->now_ns;
 }
 
 static void show_text(LadderTaskChart *chart)
@@ -196,7 +205,7 @@ static gint64 real_beside(const LadderTaskChart *chart, int lane, int by)
 {
 	const char *task = g_intern_string(chart->schedule->lane[lane].name);
 	const struct twin *twin = ladder_sim_twin(chart->sim);
-	const gint64 at = chart->at_ns >= 0 || !twin ? chart->at_ns : twin->now_ns + 1;
+	const gint64 at = chart->at_ns >= 0 || !twin ? chart->at_ns : now_of(chart, twin) + 1;
 	const guint count = task_runs_count(chart->runs);
 	guint i = task_runs_from(chart->runs, by > 0 ? at + 1 : at);
 
@@ -284,7 +293,7 @@ static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
 static void show_lanes(LadderTaskChart *chart, const struct twin *twin)
 {
 	const struct task_live live = { chart->runs, twin ? twin->resource.start_ns : 0,
-		twin ? twin->now_ns : 0, twin ? twin->period_ns : 1 };
+		twin ? now_of(chart, twin) : 0, twin ? twin->period_ns : 1 };
 	const bool still = !twin || ladder_sim_state(chart->sim) != SIM_RUN;
 	GtkListBoxRow *row;
 
@@ -316,7 +325,7 @@ static void show_live(LadderTaskChart *chart)
 	const struct twin *twin = ladder_sim_twin(chart->sim);
 
 	if (twin)
-		scroll_to_now(chart, twin->now_ns);
+		scroll_to_now(chart, now_of(chart, twin));
 	show_lanes(chart, twin);
 	show_text(chart);
 }
@@ -344,6 +353,17 @@ static void turn(LadderTaskChart *chart, bool on)
 	set_span(chart, 0, chart->schedule ? (double)chart->schedule->span_ns : 1);
 }
 
+/* What a board recorded since it was asked last. */
+static void fetch(LadderTaskChart *chart)
+{
+	const gint64 now = g_get_monotonic_time();
+
+	if (!ladder_sim_may_miss(chart->sim) || now - chart->fetched_us < FETCH_US)
+		return;
+	chart->fetched_us = now;
+	ladder_sim_fetch(chart->sim);
+}
+
 static void follow(LadderTaskChart *chart)
 {
 	const bool on = chart->sim && ladder_sim_is_on(chart->sim);
@@ -352,6 +372,8 @@ static void follow(LadderTaskChart *chart)
 		return;
 	if (on != (chart->runs != NULL))
 		turn(chart, on);
+	if (on)
+		fetch(chart);
 	if (on && !chart->reading && task_runs_feed(chart->runs, FEED_US))
 		chart->reading = g_idle_add(read_on, chart);
 	show_live(chart);
@@ -363,8 +385,8 @@ static void scrolled_to(GtkAdjustment *time, LadderTaskChart *chart)
 	const double from = gtk_adjustment_get_value(time);
 
 	if (!chart->moving && twin)
-		chart->follows = (double)twin->now_ns >= from &&
-			(double)twin->now_ns <= from + gtk_adjustment_get_page_size(time);
+		chart->follows = (double)now_of(chart, twin) >= from &&
+			(double)now_of(chart, twin) <= from + gtk_adjustment_get_page_size(time);
 }
 
 void ladder_task_chart_follow(LadderTaskChart *chart, LadderSim *sim)

@@ -309,8 +309,8 @@ bool ladder_sim_show(LadderSim *sim, guint64 scan)
 
 	if (!sim->replay)
 		sim->replay = sim_replay_new();
-	if (!sim->past && ladder_sim_is_on(sim))
-		sim->source->past(sim->source);
+	if (!sim->past)
+		ladder_sim_fetch(sim);
 	good = replay_to(sim, scan);
 	/* A replay that failed on the way may have no program. */
 	sim->past = good || (sim->past && sim->replay->program);
@@ -369,6 +369,22 @@ guint64 ladder_sim_last(LadderSim *sim)
 
 	find_span(sim, &first, &last);
 	return last;
+}
+
+bool ladder_sim_computed(LadderSim *sim, guint64 *first, guint64 *last)
+{
+	if (!ladder_sim_is_on(sim))
+		return false;
+	if (sim->mirror)
+		return sim_mirror_computed(sim->mirror, first, last);
+	find_span(sim, first, last);
+	return true;
+}
+
+void ladder_sim_fetch(LadderSim *sim)
+{
+	if (ladder_sim_is_on(sim))
+		sim->source->past(sim->source);
 }
 
 static const struct sim_eras *lock(LadderSim *sim)

@@ -183,6 +183,11 @@ int ladder_sim_forces(LadderSim *sim);
 /** ladder_sim_first, ladder_sim_last - the scans that can be shown. */
 guint64 ladder_sim_first(LadderSim *sim);
 guint64 ladder_sim_last(LadderSim *sim);
+/** ladder_sim_computed - those of which all is known, also which tasks ran: of a simulation all, of
+ * a board those that it recorded and ladder_sim_fetch() has got. False: there are none. */
+bool ladder_sim_computed(LadderSim *sim, guint64 *first, guint64 *last);
+/** ladder_sim_fetch - gets what a board recorded, if it is a board; `shown` comes later. */
+void ladder_sim_fetch(LadderSim *sim);
 /** ladder_sim_show - shows that scan; the simulation is not stopped. False: it is not recorded. */
 bool ladder_sim_show(LadderSim *sim, guint64 scan);
 /** ladder_sim_show_now - shows the newest scan again. */

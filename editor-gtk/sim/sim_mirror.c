@@ -164,6 +164,8 @@ static void leave_texts(const struct sim_mirror *mirror, struct twin *twin)
 
 static bool play(struct sim_mirror *mirror, guint64 scan, struct twin *twin)
 {
+	gint64 clock;
+
 	if (!playback_seek(&mirror->playback, scan + mirror->before) ||
 	    !sim_program_runs(mirror->board.program,
 			      mirror->playback.twin.resource.image.program))
@@ -173,6 +175,11 @@ static bool play(struct sim_mirror *mirror, guint64 scan, struct twin *twin)
 	twin->period_ns = mirror->twin.period_ns;
 	twin->scan = twin->resource.scans = scan;
 	twin->now_ns -= mirror->ahead_ns;
+	/* Start and deadlines are of the board's clock. */
+	clock = mirror->playback.time_ns - twin->now_ns;
+	twin->resource.start_ns -= clock;
+	for (guint i = 0; i < program_of(mirror)->task_count; i++)
+		twin->resource.tasks.state[i].next_ns -= clock;
 	return true;
 }
 
@@ -529,8 +536,19 @@ void sim_mirror_record(struct sim_mirror *mirror, struct record_file *file)
 	mirror->last = scans;
 	mirror->first = first > mirror->before ? first - mirror->before : 1;
 	mirror->ahead_ns = twin->now_ns - here.replay.twin.now_ns;
+	mirror->twin.resource.start_ns = twin->resource.start_ns -
+		(playback->time_ns - here.replay.twin.now_ns);
 	sim_replay_clear(&here);
 	mirror->notify(mirror->notify_data);
+}
+
+bool sim_mirror_computed(const struct sim_mirror *mirror, guint64 *first, guint64 *last)
+{
+	if (!mirror->file)
+		return false;
+	*first = mirror->first;
+	*last = mirror->last;
+	return true;
 }
 
 bool sim_mirror_plays(const struct sim_mirror *mirror)

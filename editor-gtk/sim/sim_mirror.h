@@ -26,7 +26,7 @@ struct sim_board {
 	/* A view needs a value or power that does not come: ask again for
 	 * sim_mirror_places(), sim_mirror_units(). Soon after the need, once for many. */
 	void (*wanted)(gpointer data);
-	/* A person goes into the past: sim_mirror_record() may be called, now or later. */
+	/* A view needs whole scans: sim_mirror_record() may be called, now or later. */
 	void (*past)(gpointer data);
 	gpointer data;
 };
@@ -89,6 +89,8 @@ void sim_mirror_moment(struct sim_mirror *mirror, const struct sim_moment *momen
 /** sim_mirror_record - what the board itself recorded of this program since its last start: each
  * scan is computed again, also those before the desk connected. @file: taken over. */
 void sim_mirror_record(struct sim_mirror *mirror, struct record_file *file);
+/** sim_mirror_computed - the scans of that record, as they are numbered here. False: there are none. */
+bool sim_mirror_computed(const struct sim_mirror *mirror, guint64 *first, guint64 *last);
 /** sim_mirror_play - shows a recording alone, without a board: all of its scans, the last one
  * first. @file: taken over. Fails: false: no memory. */
 bool sim_mirror_play(struct sim_mirror *mirror, struct record_file *file);

@@ -69,7 +69,7 @@ struct sim_source {
 	/* As ladder_sim_knows(), ladder_sim_has_power(). */
 	bool (*knows)(struct sim_source *source, struct location at);
 	bool (*has_power)(struct sim_source *source, const char *unit);
-	/* A person goes into the past. */
+	/* A view needs whole scans, as ladder_sim_fetch(). */
 	void (*past)(struct sim_source *source);
 };
 /** sim_eras_replay - as ladder_sim_replay(), in the records of @eras. */

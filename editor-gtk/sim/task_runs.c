@@ -15,6 +15,7 @@ struct task_runs {
 	struct sim_replay *replay;
 	guint64 life;        /* of the simulation that the runs are of          */
 	guint64 next;        /* the scan to take                                */
+	gint64 time_ns;      /* of the one before; 0: none                      */
 	GArray *run;         /* of struct task_run                              */
 	struct tasks before; /* after the scan `next` - 1                       */
 	guint64 program;     /* that it belongs to; 0: it is not known          */
@@ -49,6 +50,7 @@ static void begin_anew(struct task_runs *runs)
 	runs->replay = sim_replay_new();
 	g_array_set_size(runs->run, 0);
 	runs->next = 0;
+	runs->time_ns = 0;
 	runs->program = 0;
 }
 
@@ -104,22 +106,28 @@ static void take(struct task_runs *runs, const struct twin *twin)
 	runs->before = twin->resource.tasks;
 	runs->program = sim_replay_program(runs->replay);
 	runs->next = twin->scan + 1;
+	runs->time_ns = twin->now_ns;
 }
 
 /* The oldest scan that is worth reading: the runs of older ones would be dropped. */
-static guint64 first_scan(struct task_runs *runs, guint64 last)
+static guint64 first_scan(guint64 first, guint64 last)
 {
 	const guint64 room = last > TASK_RUNS_MOST ? last - TASK_RUNS_MOST : 0;
 
-	return MAX(MAX(ladder_sim_first(runs->sim), room), 1);
+	return MAX(MAX(first, room), 1);
 }
 
 /* Takes one scan, or moves the replay nearer to it. False: there is none to take. */
 static bool step(struct task_runs *runs)
 {
-	const guint64 last = ladder_sim_last(runs->sim), first = first_scan(runs, last);
 	const struct twin *twin;
+	guint64 first, last;
 
+	if (!ladder_sim_computed(runs->sim, &first, &last))
+		return false;
+	first = first_scan(first, last);
+	if (runs->next > last + 1) /* a board was started again: its scans count anew */
+		begin_anew(runs);
 	if (runs->next < first) {
 		runs->next = first;
 		runs->program = 0;
@@ -139,8 +147,6 @@ bool task_runs_feed(struct task_runs *runs, gint64 us)
 
 	if (runs->life != ladder_sim_life(runs->sim))
 		begin_anew(runs);
-	if (!ladder_sim_is_on(runs->sim))
-		return false;
 	while (more && g_get_monotonic_time() < until)
 		more = step(runs);
 	return more;
@@ -156,6 +162,11 @@ guint task_runs_count(const struct task_runs *runs)
 const struct task_run *task_runs_get(const struct task_runs *runs, guint number)
 {
 	return &g_array_index(runs->run, struct task_run, number);
+}
+
+gint64 task_runs_time(const struct task_runs *runs)
+{
+	return runs->time_ns;
 }
 
 guint task_runs_from(const struct task_runs *runs, gint64 ns)

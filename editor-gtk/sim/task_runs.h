@@ -31,6 +31,8 @@ bool task_runs_feed(struct task_runs *runs, gint64 us);
 guint task_runs_count(const struct task_runs *runs);
 /** task_runs_get - by number, oldest first. Borrowed until the next feed. */
 const struct task_run *task_runs_get(const struct task_runs *runs, guint number);
+/** task_runs_time - of the newest scan that was read; 0: none was. */
+gint64 task_runs_time(const struct task_runs *runs);
 /** task_runs_from - the number of the first run at or after @ns; their count: there is none. */
 guint task_runs_from(const struct task_runs *runs, gint64 ns);
 /** task_runs_at_text - what ran in the scan at or before @ns: "At 20 ms: Fast, then Slow (5 ms late, 1

@@ -5,7 +5,9 @@
  * a board that goes and comes back, or is late.
  */
 #include "editor-gtk/online/board_values.h"
+#include "editor-gtk/live/timing.h"
 #include "editor-gtk/sim/live_value.h"
+#include "editor-gtk/sim/task_runs.h"
 #include "tests/editor/online/board.h"
 
 #include <string.h>
@@ -251,6 +253,111 @@ static void shows_its_record(void)
 	board_close(&board);
 }
 
+#define TASKS "RUNGBOARD 1\nPROJECT \"Tasks\"\n\nVAR\n  Start AT %IX0.0 : BOOL;\n" \
+	"  Motor AT %QX0.0 : BOOL;\n  Count : DINT;\nEND_VAR\n\nCONFIGURATION Plant\n" \
+	"  TASK Fast (INTERVAL := T#10ms, PRIORITY := 1);\n" \
+	"  TASK Slow (INTERVAL := T#40ms, PRIORITY := 2);\n" \
+	"  PROGRAM A WITH Fast : Main;\n  PROGRAM B WITH Slow : Other;\nEND_CONFIGURATION\n\n" \
+	"PROGRAM Main LD\nRUNG\n  | NO Start | COIL Motor |\nEND_PROGRAM\n\n" \
+	"PROGRAM Other LD\nRUNG\n  | --- | [ Count := Count + 1 ] |\nEND_PROGRAM\n"
+
+/* How often a task ran, from a run on. */
+static guint ran(const struct task_runs *runs, const char *task, guint from)
+{
+	guint count = 0;
+
+	for (guint i = from; i < task_runs_count(runs); i++)
+		count += strcmp(task_runs_get(runs, i)->task, task) == 0;
+	return count;
+}
+
+/* ns of the run that was most behind its deadline. */
+static gint64 latest(const struct task_runs *runs)
+{
+	gint64 most = 0;
+
+	for (guint i = 0; i < task_runs_count(runs); i++)
+		most = MAX(most, task_runs_get(runs, i)->late_ns);
+	return most;
+}
+
+/* Reads what the board has recorded; it may be more than before. */
+static guint runs_of(struct task_runs *runs)
+{
+	ladder_sim_fetch(sim);
+	turn(20);
+	while (task_runs_feed(runs, G_USEC_PER_SEC))
+		;
+	return task_runs_count(runs);
+}
+
+/* The real runs, also those after a restart; those of the last scans come with the next fetch. */
+static void shows_which_task_ran(void)
+{
+	struct test_board board;
+	struct task_runs *runs;
+	guint first;
+
+	board_open(&board, "eng");
+	board_write(&board, "tasks.rung", TASKS);
+	download(&board, "tasks.rung");
+	open_editor(TASKS);
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) && ladder_sim_last(sim) > ladder_sim_first(sim) + 3);
+	runs = task_runs_new(sim);
+	CHECK_SOON(runs_of(runs) > 20);
+	CHECK(ran(runs, "Fast", 0) > ran(runs, "Slow", 0) && ran(runs, "Slow", 0) > 1);
+	first = task_runs_count(runs);
+	CHECK_SOON(runs_of(runs) > first + 20);
+	CHECK_AS(ran(runs, "Fast", first) > ran(runs, "Slow", first), "later runs are added");
+	for (guint i = 1; i < task_runs_count(runs); i++)
+		if (task_runs_get(runs, i)->at_ns < task_runs_get(runs, i - 1)->at_ns)
+			CHECK_AS(false, "runs follow each other in time");
+	CHECK(task_runs_time(runs) > 0);
+	g_subprocess_send_signal(board.daemon, SIGSTOP);
+	turn(200);
+	g_subprocess_send_signal(board.daemon, SIGCONT);
+	CHECK_SOON(runs_of(runs) && latest(runs) >= G_GINT64_CONSTANT(100000000));
+	CHECK_AS(latest(runs) < G_GINT64_CONSTANT(60000000000),
+		 "how late a run was is counted on the clock of the views");
+	ladder_sim_stop(sim);
+	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
+	ladder_sim_run(sim);
+	CHECK_SOON(ladder_sim_state(sim) == SIM_RUN);
+	CHECK_SOON(runs_of(runs) > 4 && task_runs_get(runs, task_runs_count(runs) - 1)->scan < first);
+	task_runs_free(runs);
+	close_editor();
+	board_close(&board);
+}
+
+/* The timing chart takes what is published, and shows the values of the next program after a swap. */
+static void fills_a_timing_chart(void)
+{
+	struct test_board board;
+	struct timing *timing;
+	double low, high;
+
+	board_open(&board, "eng");
+	board_write(&board, "recorded.rung", RECORDED);
+	download(&board, "recorded.rung");
+	open_editor(RECORDED);
+	connect_to(&board);
+	CHECK_SOON(ladder_sim_board(sim) != NULL);
+	timing = timing_new(sim);
+	CHECK(timing_add(timing, "Motor") && timing_add(timing, "Count"));
+	CHECK_SOON(!timing_feed(timing, 1000) && timing_end(timing) > timing_first(timing) + 10);
+	CHECK(timing_value(timing, 1, timing_end(timing) - 1) >
+	      timing_value(timing, 1, timing_first(timing)) + 5);
+	live_value_force(sim, false, place("Start"), (union iec_value){ .i = 1 });
+	CHECK_SOON(!timing_feed(timing, 1000) &&
+		   timing_value(timing, 0, timing_end(timing) - 1) == 1);
+	CHECK(timing_range(timing, 0, timing_first(timing), timing_end(timing) - 1, &low, &high) &&
+	      low == 0 && high == 1);
+	timing_free(timing);
+	close_editor();
+	board_close(&board);
+}
+
 static void only_looks(void)
 {
 	struct test_board board;
@@ -430,6 +537,8 @@ int main(void)
 {
 	shows_and_changes();
 	shows_its_record();
+	shows_which_task_ran();
+	fills_a_timing_chart();
 	plays_a_recording();
 	only_looks();
 	says_where_it_is_refused();
