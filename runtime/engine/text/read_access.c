@@ -125,21 +125,23 @@ static void read_lines(struct reader *r)
 	}
 }
 
-/* Comments behind the last line go to it; without one, to the block. */
-static void keep_last_comments(struct reader *r, struct access_block *block)
+/* Comments behind the last line go to it; without one, to the block, where they stand
+ * @outside. */
+static void keep_last_comments(struct reader *r, struct access_block *block,
+			       enum comment_place outside)
 {
 	uint32_t *id = block->count > 0 ?
 		       &r->project->access[r->project->access_count - 1].var.comment :
 		       &block->comment;
 
-	if (r->note.len > 0)
-		*id = comment_join(r, *id, &r->note);
+	*id = comment_join(r, *id, &r->note, block->count > 0 ? COMMENT_NOTE : outside);
 }
 
 int read_access(struct reader *r)
 {
 	struct project *project = r->project;
 	const struct token head = r->lex.token;
+	const enum comment_place outside = r->comments;
 	struct access_block *slot, block = {
 		.first = project->access_count, .file = r->place.file, .line = head.line,
 		.included = r->outer != NULL,
@@ -152,12 +154,12 @@ int read_access(struct reader *r)
 		reader_fail_token(r, DIAG_MISPLACED);
 		reader_next(r);
 	}
-	block.comment = buffer_take(r, &r->above);
+	block.comment = buffer_take(r, outside == COMMENT_ABOVE ? &r->above : &r->note);
 	r->comments = COMMENT_NOTE;
 	read_lines(r);
 	block.count = project->access_count - block.first;
-	keep_last_comments(r, &block);
-	r->comments = COMMENT_ABOVE;
+	keep_last_comments(r, &block, outside);
+	r->comments = outside;
 	slot = arena_push(&project->arena, &project->access_block,
 			  &project->access_block_count, sizeof(*slot));
 	if (slot)

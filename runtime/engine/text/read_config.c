@@ -217,14 +217,6 @@ static struct config_entry *add_entry(struct reader *r, struct config *config,
 	return slot;
 }
 
-static void skip_entry(struct reader *r)
-{
-	while (!reader_at_end(r) && !reader_is(r, ';'))
-		reader_next(r);
-	if (reader_is(r, ';'))
-		reader_next(r);
-}
-
 static bool has_tasks(const struct config *config, int most)
 {
 	for (int i = 0; i < config->count; i++)
@@ -259,7 +251,7 @@ static void read_entry(struct reader *r, struct config *config, bool inside)
 	if (good && !reader_is(r, ';'))
 		good = reader_fail_word(r, DIAG_EXPECTED, ";");
 	if (!good) {
-		skip_entry(r);
+		reader_skip_declaration(r);
 		return;
 	}
 	reader_next(r); /* a comment on the same line belongs to this task or program */
@@ -272,28 +264,20 @@ static void read_block(struct reader *r, struct config *config, bool inside)
 	struct project *project = r->project;
 	struct config_entry entry = { .kind = CONFIG_VARS, .inside = inside,
 				    .line = r->lex.token.line };
-	uint32_t above = buffer_take(r, &r->note);
 
 	entry.block = project->globals.block_count;
 	read_vars(r, &project->globals, true);
-	r->comments = COMMENT_NOTE;
-	if (project->globals.block_count == entry.block)
-		return;
-	project->globals.block[entry.block].comment = above;
-	add_entry(r, config, entry);
+	if (project->globals.block_count > entry.block)
+		add_entry(r, config, entry);
 }
 
 static void read_access_block(struct reader *r, struct config *config)
 {
 	struct config_entry entry = { .kind = CONFIG_ACCESS, .line = r->lex.token.line };
-	uint32_t above = buffer_take(r, &r->note);
 
 	entry.block = read_access(r);
-	r->comments = COMMENT_NOTE;
-	if (entry.block < 0)
-		return;
-	r->project->access_block[entry.block].comment = above;
-	add_entry(r, config, entry);
+	if (entry.block >= 0)
+		add_entry(r, config, entry);
 }
 
 /* A word that cannot begin a line here ends the block. */
@@ -359,17 +343,33 @@ static void read_entries(struct reader *r, struct config *config, bool inside)
 	}
 }
 
+/* Where a comment behind a line is kept: behind the last line of a block, if that has one. */
+static uint32_t *comment_of(struct project *project, struct config_entry *entry)
+{
+	struct var_block *vars;
+	struct access_block *access;
+
+	if (entry->kind == CONFIG_VARS) {
+		vars = &project->globals.block[entry->block];
+		return vars->count ? &project->globals.var[vars->first + vars->count - 1].comment :
+				     &vars->comment;
+	}
+	if (entry->kind == CONFIG_ACCESS) {
+		access = &project->access_block[entry->block];
+		return access->count ?
+		       &project->access[access->first + access->count - 1].var.comment :
+		       &access->comment;
+	}
+	return &entry->comment;
+}
+
 static void keep_last_comments(struct reader *r, struct config *config)
 {
-	uint32_t *id = &config->comment;
+	uint32_t *id = config->has_resource ? &config->resource_comment : &config->comment;
 
-	if (config->count && config->entry[config->count - 1].kind != CONFIG_VARS &&
-	    config->entry[config->count - 1].kind != CONFIG_ACCESS)
-		id = &config->entry[config->count - 1].comment;
-	else if (config->has_resource)
-		id = &config->resource_comment;
-	if (r->note.len > 0)
-		*id = comment_join(r, *id, &r->note);
+	if (config->count)
+		id = comment_of(r->project, &config->entry[config->count - 1]);
+	*id = comment_join(r, *id, &r->note, COMMENT_NOTE);
 }
 
 void read_config(struct reader *r, struct config *config)
@@ -378,12 +378,10 @@ void read_config(struct reader *r, struct config *config)
 
 	config->file = r->place.file;
 	config->line = head.line;
-	reader_next(r);
-	if (reader_name(r, "name of the configuration", &config->name)) {
-		r->comments = COMMENT_NOTE;
-		reader_next(r);
-	}
 	r->comments = COMMENT_NOTE;
+	reader_next(r);
+	if (reader_name(r, "name of the configuration", &config->name))
+		reader_next(r);
 	reader_end_line(r);
 	config->comment = buffer_take(r, &r->note);
 	read_entries(r, config, false);

@@ -180,6 +180,17 @@ static bool read_call(struct reader *r, const struct token *word,
 
 /* ---- instructions ---- */
 
+/* Operands follow their instruction without a gap: comments between them go behind. */
+static void put_before_comments(struct il *il)
+{
+	struct il_line *at = &il->line[il->count - 1];
+	const struct il_line line = *at;
+
+	for (; at[-1].kind == IL_COMMENT; at--)
+		*at = at[-1];
+	*at = line;
+}
+
 static bool read_operand(struct reader *r, const struct token *word,
 			 struct il_line *line)
 {
@@ -190,6 +201,8 @@ static bool read_operand(struct reader *r, const struct token *word,
 	line->operand = buffer_take(r, &r->text);
 	if (!add_line(r, *line))
 		return false;
+	if (line->kind == IL_ARG_IN)
+		put_before_comments(r->il);
 	reader_next(r);
 	return true;
 }
@@ -208,25 +221,26 @@ static bool read_more_operands(struct reader *r, const struct token *word,
 	return true;
 }
 
-/* `AND(`, or `AND( A` with the first operand inside. */
+/* `AND(`, or `AND( A` with the first operand inside. A comment before the operand stands
+ * before the line, one behind `AND(` behind it. */
 static bool read_open(struct reader *r, const struct token *word,
 		      struct il_line line)
 {
-	int at = r->il->count;
+	struct lex ahead;
 
 	line.modifiers |= MOD_PAREN;
 	reader_next(r);
-	if (!add_line(r, line)) /* before a comment behind it */
-		return false;
-	reader_next(r);
-	if (reader_at_end(r))
+	ahead = r->lex;
+	ahead.comments = false;
+	lex_next(&ahead);
+	if (ahead.token.kind == TOKEN_NEWLINE || ahead.token.kind == TOKEN_END) {
+		if (!add_line(r, line))
+			return false;
+		reader_next(r);
 		return true;
-	if (!read_operand(r, word, &line))
-		return false;
-	r->il->count--; /* the line with the operand replaces this one */
-	memmove(&r->il->line[at], &r->il->line[at + 1],
-		(size_t)(r->il->count - at) * sizeof(line));
-	return true;
+	}
+	reader_next(r);
+	return read_operand(r, word, &line);
 }
 
 /* Does `( PIN :=` or `( PIN =>` follow? */

@@ -365,9 +365,9 @@ void read_types(struct reader *r)
 		struct structure *last = &r->project->structure[
 			r->project->structure_count - 1];
 
-		last->comment = comment_join(r, last->comment, &r->note);
+		last->comment = comment_join(r, last->comment, &r->note, COMMENT_NOTE);
 	} else if (r->note.len > 0) {
-		part.comment = comment_join(r, part.comment, &r->note);
+		part.comment = comment_join(r, part.comment, &r->note, COMMENT_ABOVE);
 	}
 	r->comments = COMMENT_ABOVE;
 	reader_add_part(r, part);

@@ -388,7 +388,7 @@ static void read_row(struct reader *r)
 		const char *text = names_text(&r->project->names, id);
 
 		buffer_add(r, &r->note, text, strlen(text));
-		last->comment = comment_join(r, last->comment, &r->note);
+		last->comment = comment_join(r, last->comment, &r->note, COMMENT_CELL);
 	}
 	buffer_clear(&r->note);
 	r->comments = COMMENT_ABOVE;

@@ -452,14 +452,15 @@ static uint16_t read_flags(struct reader *r, bool global)
 	return flags;
 }
 
-/* Comments after the last declaration go to it; without one, to the block. */
+/* Comments after the last declaration go to it; without one, to the block, where they stand
+ * @outside. */
 static void keep_last_comments(struct reader *r, struct var_table *table,
-			       struct var_block *block)
+			       struct var_block *block, enum comment_place outside)
 {
-	uint32_t *id = block->count > 0 ?
-		       &table->var[table->count - 1].comment : &block->comment;
+	uint32_t *id = block->count > 0 ? &table->var[table->count - 1].comment :
+					  &block->comment;
 
-	*id = comment_join(r, *id, &r->note);
+	*id = comment_join(r, *id, &r->note, block->count > 0 ? COMMENT_NOTE : outside);
 }
 
 void reader_close_vars(struct reader *r, const struct token *head)
@@ -480,6 +481,7 @@ void reader_close_vars(struct reader *r, const struct token *head)
 void read_vars(struct reader *r, struct var_table *table, bool global)
 {
 	const struct token head = r->lex.token;
+	const enum comment_place outside = r->comments;
 	struct var_block block = { .first = table->count, .line = head.line };
 
 	if (is_access(r)) { /* in a POU */
@@ -488,14 +490,14 @@ void read_vars(struct reader *r, struct var_table *table, bool global)
 	}
 	block.flags = read_flags(r, global);
 	r->var_flags = block.flags;
-	block.comment = buffer_take(r, &r->above);
+	block.comment = buffer_take(r, outside == COMMENT_ABOVE ? &r->above : &r->note);
 	r->comments = COMMENT_NOTE;
 	read_declarations(r, table);
 	r->var_flags = 0;
 	block.count = table->count - block.first;
 	if (r->note.len > 0)
-		keep_last_comments(r, table, &block);
-	r->comments = COMMENT_ABOVE;
+		keep_last_comments(r, table, &block, outside);
+	r->comments = outside;
 	struct var_block *slot = arena_push(&r->project->arena, &table->block,
 					    &table->block_count,
 					    sizeof(block));
@@ -515,7 +517,7 @@ void read_members(struct reader *r, struct var_table *table)
 	if (r->note.len > 0 && table->count > 0) {
 		struct var *last = &table->var[table->count - 1];
 
-		last->comment = comment_join(r, last->comment, &r->note);
+		last->comment = comment_join(r, last->comment, &r->note, COMMENT_NOTE);
 	}
 }
 

@@ -405,22 +405,29 @@ uint32_t buffer_take_cell(struct reader *r, struct buffer *b)
 	return buffer_take(r, b);
 }
 
-uint32_t comment_join(struct reader *r, uint32_t id, struct buffer *b)
+static void add_comments(struct reader *r, struct buffer *b, const char *text, size_t len,
+			 enum comment_place place)
 {
-	struct buffer all = { 0 };
 	struct lex lex;
 
-	if (id == 0 || b->len == 0)
-		return b->len ? buffer_take(r, b) : id;
-	lex_init(&lex, names_text(&r->project->names, id),
-		 names_len(&r->project->names, id));
+	lex_init(&lex, text, len);
 	lex.comments = true;
 	while (lex_next(&lex) == TOKEN_COMMENT)
-		comment_add(r, &all, lex.token.text, lex.token.len,
-			    COMMENT_NOTE);
-	slash_close(r, &all);
-	buffer_add(r, &all, " ", 1);
-	buffer_add(r, &all, b->text, b->len);
+		comment_add(r, b, lex.token.text, lex.token.len, place);
+}
+
+uint32_t comment_join(struct reader *r, uint32_t id, struct buffer *b, enum comment_place place)
+{
+	struct buffer all = { 0 };
+
+	if (b->len == 0)
+		return id;
+	if (id == 0 && place != COMMENT_ABOVE)
+		return buffer_take(r, b);
+	if (id)
+		add_comments(r, &all, names_text(&r->project->names, id),
+			     names_len(&r->project->names, id), place);
+	add_comments(r, &all, b->text, b->len, place);
 	buffer_clear(b);
 	id = reader_intern(r, all.text, all.len);
 	free(all.text);

@@ -127,8 +127,10 @@ void buffer_clear(struct buffer *b);
 uint32_t buffer_take(struct reader *r, struct buffer *b);
 /** buffer_take_cell - the same for comments of a cell: none of them is a //. */
 uint32_t buffer_take_cell(struct reader *r, struct buffer *b);
-/** comment_join - string id of the comments of @id followed by those of @b. */
-uint32_t comment_join(struct reader *r, uint32_t id, struct buffer *b);
+/** comment_join - string id of the comments of @id followed by those of @b, as @place has
+ * them: COMMENT_ABOVE one a line, COMMENT_NOTE on one line. */
+uint32_t comment_join(struct reader *r, uint32_t id, struct buffer *b,
+		      enum comment_place place);
 uint32_t reader_intern(struct reader *r, const char *text, size_t len);
 
 /* These functions check the token under the cursor and stay on it, because stepping would take
