@@ -42,7 +42,7 @@ ENGINE   := $(filter-out %_small.c,$(wildcard runtime/engine/*.c runtime/engine/
 # store something by name.
 CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
 CORE     := $(filter-out $(if $(filter 1,$(SMALL)),$(addprefix runtime/engine/base/,catalog.c explain.c iec_print.c literal.c \
-            name.c names.c nearest.c plain.c sink.c) $(addprefix runtime/engine/scan/,carry.c carry_losses.c carry_moves.c \
+            name.c names.c nearest.c plain.c sink.c) $(addprefix runtime/engine/scan/,carry.c carry_losses.c carry_moves.c recorder.c \
             carry_plan.c code_print.c code_strip.c retain.c retain_plan.c retain_slot.c symbols.c symbol_index.c),%_small.c),$(CORE))
 # SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def.
 ifeq ($(WORDS),core)
@@ -66,6 +66,8 @@ ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*
             hal/gpio_uapi.c hal/hal.c hal/sim.c))
 # Half a percent less for a board: what a loop does not change stays in it.
 $(call obj,$(filter-out $(OFTEN),$(ONCE))): COLD = $(if $(filter -O2,$(CFLAGS)),-Os $(if $(CROSS)$(STATIC),-fno-move-loop-invariants))
+# As much again where no scan comes.
+$(call obj,$(filter-out runtime/engine/scan/% hal/% $(OFTEN),$(ONCE))): COLD += $(if $(filter -O2,$(CFLAGS)),$(if $(CROSS)$(STATIC),-fno-schedule-insns2 -fno-if-conversion))
 
 all: $(BUILD)/libladder.a ## build everything that can be built here
 

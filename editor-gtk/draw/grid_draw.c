@@ -413,7 +413,7 @@ static void draw_shape(const struct pen *pen, int row, int col)
 	float width = layout->column_width[column], y = layout->row[row].wire;
 	unsigned int live = live_of(pen, row, col), left = net_of(pen, row, col);
 	bool last = word->place == PLACE_LAST;
-	struct glyph glyph = { .strokes = word->glyph, .y = y, .half = glyph_half(word),
+	struct glyph glyph = { .strokes = explain_glyph(word), .y = y, .half = glyph_half(word),
 			       .x = layout->column_x[column] + width / 2,
 			       .wire = shape_wire(pen, word, live), .up = RUNG_HALF,
 			       .lit = live & LIVE_CLOSED };
@@ -933,10 +933,10 @@ void grid_draw_icon(const struct word_row *word, const struct theme *theme,
 	struct pen pen = { .scene = &scene, .drafting = &drafting,
 			   .nib = { picture, theme, lettering, TOKEN_INK } };
 	struct wire wire = { TOKEN_INK, STROKE_SOLID, theme->shape_width };
-	struct glyph glyph = { .strokes = word->glyph, .x = width / 2, .y = height / 2,
+	struct glyph glyph = { .strokes = explain_glyph(word), .x = width / 2, .y = height / 2,
 			       .half = glyph_half(word), .wire = wire, .up = RUNG_HALF };
 	bool box = word->kind != WORD_ELEM;
-	bool pointed = !box && strchr("<>", word->glyph[0]);
+	bool pointed = !box && strchr("<>", explain_glyph(word)[0]);
 	bool says = box || rung_is_framed(word) || word->operand == OPND_NONE;
 	float room = width - 2 * EDGE - 2;
 	struct word_lines lines = { .lines = 0 };

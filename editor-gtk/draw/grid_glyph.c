@@ -123,7 +123,7 @@ void glyph_draw(const struct nib *nib, const struct glyph *glyph)
 
 float glyph_half(const struct word_row *word)
 {
-	if (word->glyph[0] == '(')
+	if (explain_glyph(word)[0] == '(')
 		return COIL_HALF;
 	return word->operand == OPND_NONE && word->place == PLACE_SERIES ? 20 : BAR_HALF;
 }

@@ -351,7 +351,7 @@ static bool add_block_inputs(const struct entry_place *place, const struct word_
 /* Default values of a timer or counter, if the line has none. */
 static bool add_first_values(const struct word_row *row, struct entry *entry)
 {
-	const bool counts = !strcmp(row->family, "Counters");
+	const bool counts = !strcmp(explain_family(row), "Counters");
 
 	if (word_is_own(entry->word))
 		return true;

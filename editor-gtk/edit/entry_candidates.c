@@ -506,7 +506,7 @@ static void add_words(struct search *s)
 
 		if (may_stand(s, row) && row->kind != WORD_STRUCT)
 			add(s, ENTRY_WORD, fit(row->word, typed(s), typed_len(s)),
-			    row->word, "", said(row->family), said(words_explain(row)));
+			    row->word, "", said(explain_family(row)), said(words_explain(row)));
 	}
 }
 
@@ -523,7 +523,7 @@ static void add_function(void *context, const struct ladder_word *word,
 		return;
 	snprintf(text, sizeof(text), "%s(", word->text);
 	add(s, ENTRY_WORD, fits, text, "",
-	    row ? said(row->family) : "", said(word->note));
+	    row ? said(explain_family(row)) : "", said(word->note));
 }
 
 static void add_labels(struct search *s)

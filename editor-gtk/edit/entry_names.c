@@ -404,7 +404,7 @@ const char *entry_family_base(const struct word_row *row)
 	};
 
 	for (size_t i = 0; i < sizeof(bases) / sizeof(*bases); i++)
-		if (!strcmp(bases[i].family, row->family))
+		if (!strcmp(bases[i].family, explain_family(row)))
 			return bases[i].base;
 	return row->word;
 }
@@ -489,7 +489,7 @@ size_t entry_glyph(const char *line, enum word *word)
 		if (row->kind != WORD_ELEM || (row->operand != OPND_BOOL_R &&
 					       row->operand != OPND_BOOL_W))
 			continue;
-		len = match(row->glyph, line + before);
+		len = match(explain_glyph(row), line + before);
 		if (len == 0)
 			continue;
 		*word = (enum word)i;

@@ -18,7 +18,7 @@
 static bool same_family(const struct word_row *a, const struct word_row *b)
 {
 	return a->kind == b->kind && a->place == b->place && a->operand == b->operand &&
-	       !strcmp(a->family, b->family);
+	       !strcmp(explain_family(a), explain_family(b));
 }
 
 /* Can an element change from one word to the other and keep everything else? */

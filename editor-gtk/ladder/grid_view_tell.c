@@ -24,7 +24,7 @@ static void say_element(LadderGridView *view, int rung, const struct cell *cell,
 	const struct grid_name name = grid_names_find(view->names, operand);
 
 	g_string_printf(text, _("Rung %d, %s"), view->first + rung + 1,
-			word->word[0] ? word->word : word->id);
+			word->word[0] ? word->word : explain_id(word));
 	if (words_explain(word)[0])
 		g_string_append_printf(text, ", %s", _(words_explain(word)));
 	if (operand[0])

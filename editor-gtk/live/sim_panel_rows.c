@@ -320,9 +320,9 @@ static void end_block(struct maker *maker)
 
 static enum sim_group group_of(const struct word_row *word, bool counts)
 {
-	if (strcmp(word->family, "Counters") == 0 || strstr(word->word, "COUNTER"))
+	if (strcmp(explain_family(word), "Counters") == 0 || strstr(word->word, "COUNTER"))
 		return SIM_COUNTERS;
-	return counts || strcmp(word->family, "Timers") == 0 ? SIM_TIMERS : SIM_BLOCKS;
+	return counts || strcmp(explain_family(word), "Timers") == 0 ? SIM_TIMERS : SIM_BLOCKS;
 }
 
 static LadderSimRow *whole_new(struct maker *maker, const char *name, gsize len,

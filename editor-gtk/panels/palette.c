@@ -46,7 +46,7 @@ G_DEFINE_FINAL_TYPE(LadderPalette, ladder_palette, GTK_TYPE_BOX)
 
 static const char *name_of(const struct word_row *row)
 {
-	return row->word[0] ? row->word : row->id;
+	return row->word[0] ? row->word : explain_id(row);
 }
 
 /* The key that enters this word. Caller frees. */
@@ -164,13 +164,13 @@ static bool has(const char *search, ...)
 
 static bool fits(const struct word_row *row, const char *search)
 {
-	return has(search, row->word, row->id, row->family, words_explain(row),
-		   said(row->family), said(words_explain(row)), NULL);
+	return has(search, row->word, explain_id(row), explain_family(row), words_explain(row),
+		   said(explain_family(row)), said(words_explain(row)), NULL);
 }
 
 static bool is_offered(const struct word_row *row)
 {
-	return row->family && row->family[0] && row->place != PLACE_NONE &&
+	return *explain_family(row) && row->place != PLACE_NONE &&
 	       row->place != PLACE_PIN && row->kind != WORD_STRUCT;
 }
 
@@ -324,7 +324,7 @@ static void add_words(LadderPalette *palette, GHashTable *families)
 		const struct word_row *row = word_row((enum word)i);
 
 		if (is_offered(row) && fits(row, search))
-			add_offer(palette, families, row->family, &(struct offer){ i, row, NULL });
+			add_offer(palette, families, explain_family(row), &(struct offer){ i, row, NULL });
 	}
 	palette->own = project ? project->words.count : 0;
 	for (int i = 0; i < palette->own; i++) {
@@ -332,7 +332,7 @@ static void add_words(LadderPalette *palette, GHashTable *families)
 		const struct word_row *row = words_row(&project->words, (enum word)word);
 
 		if (is_offered(row) && fits(row, search))
-			add_offer(palette, families, row->family,
+			add_offer(palette, families, explain_family(row),
 				  &(struct offer){ word, row, NULL });
 	}
 }

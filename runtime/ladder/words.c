@@ -88,7 +88,7 @@ static void row_entry(const struct word_row *row, struct words_entry *out)
 	out->kind = row->kind == WORD_FB ? WORDS_BLOCK :
 		    row->kind == WORD_FN ? WORDS_FUNCTION : WORDS_ELEMENT;
 	out->word = row->word;
-	out->family = row->family[0] ? row->family : NULL;
+	out->family = *explain_family(row) ? explain_family(row) : NULL;
 	out->doc = words_explain(row);
 	out->row = row;
 }
@@ -305,7 +305,7 @@ static void list_line(const struct words_entry *entry, const struct sink *sink)
 {
 	sink_printf(sink, "  %-16s ", entry->word);
 	if (entry->kind == WORDS_ELEMENT)
-		sink_printf(sink, "%s  ", entry->row->glyph);
+		sink_printf(sink, "%s  ", explain_glyph(entry->row));
 	if (entry->kind == WORDS_TYPE)
 		words_note(entry, sink);
 	else
@@ -383,7 +383,7 @@ static void one_word(const struct words_entry *entry, const struct sink *sink)
 		sink_printf(sink, ": %s", entry->doc);
 	sink_text(sink, "\n");
 	if (entry->kind == WORDS_ELEMENT)
-		sink_printf(sink, "  symbol %s\n", entry->row->glyph);
+		sink_printf(sink, "  symbol %s\n", explain_glyph(entry->row));
 	if (entry->kind != WORDS_BLOCK) {
 		sink_text(sink, "  ");
 		words_note(entry, sink);
@@ -452,7 +452,7 @@ static void json_entry(const struct words_entry *entry, const struct sink *sink)
 	if (entry->family)
 		json_field(sink, "family", entry->family);
 	if (entry->kind == WORDS_ELEMENT) {
-		json_field(sink, "glyph", entry->row->glyph);
+		json_field(sink, "glyph", explain_glyph(entry->row));
 		json_field(sink, "operand", words_operand(entry->row->operand));
 	}
 	if (entry->kind == WORDS_BLOCK || entry->kind == WORDS_FUNCTION)

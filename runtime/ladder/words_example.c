@@ -185,7 +185,7 @@ static enum iec_type text_holds(const struct word_row *row)
 {
 	enum iec_type result = result_type(row);
 
-	return strcmp(row->family, "Convert") == 0 && result != IEC_STRING ?
+	return strcmp(explain_family(row), "Convert") == 0 && result != IEC_STRING ?
 	       result : IEC_NONE;
 }
 

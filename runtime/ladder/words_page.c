@@ -138,7 +138,7 @@ static void table_line(const struct words_entry *entry, const struct sink *sink)
 	code(sink, entry->word);
 	if (entry->kind == WORDS_ELEMENT) {
 		sink_text(sink, " | ");
-		code(sink, entry->row->glyph);
+		code(sink, explain_glyph(entry->row));
 		sink_printf(sink, " | %s",
 			    entry->family ? entry->family : "");
 	}

@@ -37,19 +37,16 @@
 static const struct word_row words[WORD_KNOWN] = {
 #define ELEM(id_, word_, glyph_, family_, place_, operand_, edge_, first_, next_, \
 	     negate_, doc_) \
-	[ELEM_##id_] = { .id = #id_, .word = word_, .glyph = glyph_, \
-		.family = family_, .number = ELEM_##id_, .kind = WORD_ELEM, \
+	[ELEM_##id_] = { .word = word_, .number = ELEM_##id_, .kind = WORD_ELEM, \
 		.place = place_, .operand = operand_, .edge = edge_, \
 		.first = OP_##first_, .next = OP_##next_, .negate = negate_ },
 #define FB(id_, family_, doc_, pins) \
-	[FB_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
-		.family = family_, .number = FB_##id_, .kind = WORD_FB, \
+	[FB_##id_] = { .word = #id_, .number = FB_##id_, .kind = WORD_FB, \
 		.place = PLACE_BOX, .operand = OPND_INSTANCE, \
 		.first = OP_CAL, .next = OP_CAL, PINS(id_), \
 		.size = sizeof(struct fb_##id_) },
 #define FN(id_, family_, doc_, result_, most_, pins) \
-	[FN_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
-		.family = family_, .number = FN_##id_, .kind = WORD_FN, \
+	[FN_##id_] = { .word = #id_, .number = FN_##id_, .kind = WORD_FN, \
 		.place = PLACE_BOX, .operand = OPND_NONE, \
 		.first = OP_LD, .next = OP_AND, .result = (result_) & 0xff, \
 		.result_classes = (result_) >> 8 ? (result_) >> 8 : ANY_NUM, \
@@ -84,8 +81,7 @@ static const struct sys_row sys_rows[SYS_COUNT] = {
 
 /* Reads the parts of a project's word that do not need the project. */
 static const struct word_row own_word = {
-	.id = "", .word = "", .glyph = "", .family = "",
-	.number = WORD_COUNT, .kind = WORD_FB, .place = PLACE_BOX, .operand = OPND_INSTANCE,
+	.word = "", .number = WORD_COUNT, .kind = WORD_FB, .place = PLACE_BOX, .operand = OPND_INSTANCE,
 	.first = OP_CAL, .next = OP_CAL,
 };
 

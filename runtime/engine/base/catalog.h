@@ -162,30 +162,27 @@ static inline union iec_value pin_init(const struct word_pin *pin)
 }
 
 struct word_row {
-	const char *id;      /* "CONTACT_NC"                                   */
 	const char *word;    /* as the rung file spells it: "NC", "TON"        */
-	const char *family;  /* of the palette                                 */
-	char glyph[4];       /* three characters, its strokes; boxes: ""       */
 	enum word number : 16; /* of the catalogue; of a project: WORD_COUNT   */
 	enum word_kind kind : 8;
 	enum place place : 8;
 	enum operand_kind operand : 8;
 	enum edge edge : 8;
 	enum op first : 8, next : 8; /* IL at the rail, and behind others              */
-	bool negate;
+	bool negate : 1;
+	bool retain : 1;     /* of a project: a part of it is RETAIN           */
 	enum iec_type result : 8; /* of a function: a type, or RESULT_…            */
 	uint16_t result_classes; /* of RESULT_OPEN: what it may become         */
 	uint8_t most_inputs; /* of a function                                  */
+	uint8_t depth;       /* of a project: structures and blocks inside one another */
 	enum word runs : 16; /* own rows: function of the catalogue that does it */
 	uint16_t pin_count;
+	uint16_t ordered;    /* how many pins @order has                       */
 	const struct word_pin *pin; /* of a function: inputs only              */
 	uint32_t size;       /* bytes of an FB instance                        */
 	/* Of words of a project: */
 	int owner;           /* index of its POU or structure; -1: none        */
 	const uint16_t *order; /* its pins in the order of memory              */
-	uint16_t ordered;    /* how many of them                               */
-	uint8_t depth;       /* of structures and blocks inside one another    */
-	bool retain;         /* a part of it is RETAIN                         */
 };
 #endif
 
@@ -256,6 +253,12 @@ const struct sys_row *sys_row(enum sys_id id);
 /* Explanations for people, in explain.c, so that a runtime does not link them. Static,
  * without line breaks. */
 
+/** explain_id - "CONTACT_NC"; of a box its word. */
+const char *explain_id(const struct word_row *row);
+/** explain_family - of the palette: "Contacts"; "Own" of a word of a project; "": none. */
+const char *explain_family(const struct word_row *row);
+/** explain_glyph - three characters, its strokes; "" of a box. */
+const char *explain_glyph(const struct word_row *row);
 /** explain_word - what a word does; "" of a word of a project. */
 const char *explain_word(const struct word_row *row);
 /** explain_pin - the purpose of pin @index of the row; "" for an inner pin and for a

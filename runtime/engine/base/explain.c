@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * explain - the column of catalog.def that is for people.
+ * explain - the columns of catalog.def that are for people.
  */
 #include "engine/base/catalog.h"
 
@@ -9,6 +9,23 @@ static const char *const words[WORD_COUNT] = {
 	[ELEM_##id] = doc,
 #define FB(id, family, doc, pins) [FB_##id] = doc,
 #define FN(id, family, doc, result, most, pins) [FN_##id] = doc,
+#include "engine/catalog.def"
+};
+
+static const char *const ids[WORD_COUNT] = {
+#define ELEM(id, ...) [ELEM_##id] = #id,
+#include "engine/catalog.def"
+};
+
+static const char *const families[WORD_COUNT] = {
+#define ELEM(id, word, glyph, family, ...) [ELEM_##id] = family,
+#define FB(id, family, ...) [FB_##id] = family,
+#define FN(id, family, ...) [FN_##id] = family,
+#include "engine/catalog.def"
+};
+
+static const char glyphs[WORD_COUNT][4] = {
+#define ELEM(id, word, glyph, ...) [ELEM_##id] = glyph,
 #include "engine/catalog.def"
 };
 
@@ -63,6 +80,21 @@ static const char *const sys[SYS_COUNT] = {
 #define SYS(id, address, type, doc) [SYS_##id] = doc,
 #include "engine/catalog.def"
 };
+
+const char *explain_id(const struct word_row *row)
+{
+	return row->kind == WORD_ELEM ? ids[row->number] : row->word;
+}
+
+const char *explain_family(const struct word_row *row)
+{
+	return row->number < WORD_COUNT ? families[row->number] : row->word[0] ? "Own" : "";
+}
+
+const char *explain_glyph(const struct word_row *row)
+{
+	return row->kind == WORD_ELEM ? glyphs[row->number] : "";
+}
 
 const char *explain_word(const struct word_row *row)
 {

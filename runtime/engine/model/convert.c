@@ -111,7 +111,7 @@ static void fill(struct convert_word *out, const struct rule *rule,
 	const struct word_row *runs = word_row(rule->runs);
 
 	out->row = *runs;
-	out->row.id = out->row.word = out->name + 1;
+	out->row.word = out->name + 1;
 	out->row.runs = parts->long_time ? FN_CONVERT_NS : rule->runs;
 	out->doc = parts->long_time ? IN_NS : rule->doc;
 	if (parts->to)

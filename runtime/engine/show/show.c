@@ -195,7 +195,7 @@ static struct framed framed_at(const struct draw *draw, int row, int col)
 		memcpy(framed.after, " ]", 2);
 		break;
 	case OPND_LABEL:
-		memcpy(framed.before, word->glyph, 2);
+		memcpy(framed.before, explain_glyph(word), 2);
 		break;
 	case OPND_LOOP:
 		memcpy(framed.before, "FOR ", 4);
@@ -206,8 +206,8 @@ static struct framed framed_at(const struct draw *draw, int row, int col)
 	case OPND_LOOP_END:
 	case OPND_NONE:
 		framed.text = word->word;
-		framed.before[0] = word->glyph[0];
-		framed.after[0] = word->glyph[2];
+		framed.before[0] = explain_glyph(word)[0];
+		framed.after[0] = explain_glyph(word)[2];
 		break;
 	case OPND_BOOL_R:
 	case OPND_BOOL_W:
@@ -267,7 +267,7 @@ static void glyph_stroke(const struct draw *draw, char stroke, bool left)
 
 static void draw_glyph(struct draw *draw, int row, int col)
 {
-	const char *glyph = row_at(draw, row, col)->glyph;
+	const char *glyph = explain_glyph(row_at(draw, row, col));
 	int start = glyph_start(draw, row, col);
 	int rest = draw->width[col] - start - 3;
 

@@ -53,8 +53,7 @@ enum word reader_own_word(struct reader *r, uint32_t name, enum word_kind kind)
 {
 	const char *text = names_text(&r->project->names, name);
 	struct word_row row = {
-		.id = text, .word = text, .glyph = "", .family = "Own",
-		.kind = kind, .owner = -1,
+		.word = text, .kind = kind, .owner = -1,
 		.place = kind == WORD_STRUCT ? PLACE_NONE : PLACE_BOX,
 		.operand = kind == WORD_FB ? OPND_INSTANCE : OPND_NONE,
 		.first = kind == WORD_FB ? OP_CAL : OP_LD,

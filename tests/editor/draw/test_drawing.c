@@ -111,7 +111,7 @@ static int word_faults(struct project *project, struct lettering *lettering, int
 		picture_init(&picture);
 		grid_draw(&scene, &picture);
 		faults += drawn_faults(&picture, rung_layout_width(layout), layout->height,
-				       row->id);
+				       explain_id(row));
 		picture_clear(&picture);
 		rung_layout_free(layout);
 		rung_free(rung);
@@ -134,7 +134,7 @@ static int icon_faults(struct lettering *lettering, int word)
 			  picture.stroke[i].y < -0.5f || picture.stroke[i].y > 32.5f;
 	faults += picture.count == 0;
 	if (faults)
-		printf("# icon of %s: %d\n", word_row(word)->id, faults);
+		printf("# icon of %s: %d\n", explain_id(word_row(word)), faults);
 	picture_clear(&picture);
 	return faults;
 }

@@ -45,9 +45,9 @@ static void rows_are_whole(void)
 	for (int i = 0; i < WORD_COUNT; i++) {
 		const struct word_row *row = word_row((enum word)i);
 
-		whole &= row->id && row->word && row->family &&
+		whole &= explain_id(row) && row->word && explain_family(row) &&
 			 row->number == (enum word)i;
-		whole &= strlen(row->glyph) == (row->kind == WORD_ELEM ? 3 : 0);
+		whole &= strlen(explain_glyph(row)) == (row->kind == WORD_ELEM ? 3 : 0);
 		/* NOT is also an element; the reader finds the function. */
 		if (i == FN_NOT)
 			found &= word_find(row->word, strlen(row->word)) == ELEM_NOT;

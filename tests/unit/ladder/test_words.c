@@ -38,7 +38,7 @@ static void test_all(void)
 	for (int word = ELEM_EMPTY + 1; word < WORD_COUNT; word++)
 		CHECK_AS(strstr(text, word_row((enum word)word)->word) &&
 			 strstr(text, explain_word(word_row((enum word)word))),
-			 word_row((enum word)word)->id);
+			 explain_id(word_row((enum word)word)));
 	CHECK(strstr(text, "\nfunction blocks\n") != NULL);
 	CHECK(strstr(text, "  NC               |/|  closed while FALSE\n"));
 	CHECK(strstr(text, "  INT              2 bytes, -32768 to 32767\n"));

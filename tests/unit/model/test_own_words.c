@@ -19,7 +19,7 @@ static enum word find(const char *name)
 static enum word add(const char *name)
 {
 	return words_add(&table, (struct word_row){
-		.id = name, .word = name, .kind = WORD_FN, .place = PLACE_BOX });
+		.word = name, .kind = WORD_FN, .place = PLACE_BOX });
 }
 
 static void begins_with_the_catalogue(void)
