@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/text/file_view.h"
 
+#include "editor-gtk/kit/gtk48/text_scroll.h"
+
 #include <gtksourceview/gtksource.h>
 
 /* An error in a line. The mark follows the line. */
@@ -40,9 +42,7 @@ void ladder_file_view_go(LadderFileView *view, int line)
 
 	gtk_text_buffer_get_iter_at_line(view->buffer, &at, MAX(line - 1, 0));
 	gtk_text_buffer_place_cursor(view->buffer, &at);
-	gtk_text_view_scroll_to_mark(GTK_TEXT_VIEW(view->text),
-				     gtk_text_buffer_get_insert(view->buffer), 0.1, FALSE, 0,
-				     0);
+	text_scroll_to_cursor(GTK_TEXT_VIEW(view->text));
 	gtk_widget_grab_focus(view->text);
 }
 

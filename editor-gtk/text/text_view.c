@@ -11,6 +11,7 @@
 #include "editor-gtk/document/text_lines.h"
 #include "editor-gtk/sim/live_map.h"
 #include "editor-gtk/kit/text_scheme.h"
+#include "editor-gtk/kit/gtk48/text_scroll.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 #include "engine/base/name.h"
 
@@ -538,7 +539,7 @@ void ladder_text_view_go_here(LadderTextView *view, int line, int column)
 	if (column > 0 && column < gtk_text_iter_get_bytes_in_line(&at))
 		gtk_text_iter_set_line_index(&at, column);
 	gtk_text_buffer_place_cursor(buffer, &at);
-	gtk_text_view_scroll_to_iter(GTK_TEXT_VIEW(view->view), &at, 0.1, FALSE, 0, 0);
+	text_scroll_to_cursor(GTK_TEXT_VIEW(view->view));
 	gtk_widget_grab_focus(GTK_WIDGET(view->view));
 	g_free(shown);
 	g_free(canonical);

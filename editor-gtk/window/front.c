@@ -7,6 +7,7 @@
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/drop.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
+#include "editor-gtk/kit/gtk48/text_scroll.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/window/ask.h"
 #include "editor-gtk/window/messages.h"
@@ -335,7 +336,7 @@ static void go_line(struct front *front, GtkTextBuffer *text, int line)
 	gtk_text_buffer_place_cursor(text, &at);
 	if (!view)
 		return;
-	gtk_text_view_scroll_to_mark(view, gtk_text_buffer_get_insert(text), 0.1, FALSE, 0, 0);
+	text_scroll_to_cursor(view);
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 }
 

@@ -459,6 +459,37 @@ static void test_values(void)
 	g_object_unref(sim);
 }
 
+/* A place is shown that is gone to before the text has a size: its page begins at the first column. */
+static void test_first_place(GtkWidget *window)
+{
+	GtkWidget *shown = gtk_window_get_child(GTK_WINDOW(window)), *inside;
+	GtkWidget *stack = gtk_stack_new();
+	LadderTextView *other = LADDER_TEXT_VIEW(ladder_text_view_new(document, 1));
+	GtkScrolledWindow *scroller;
+	GtkAdjustment *across, *down;
+
+	inside = gtk_widget_get_first_child(GTK_WIDGET(other));
+	while (!GTK_IS_SCROLLED_WINDOW(inside))
+		inside = gtk_widget_get_next_sibling(inside);
+	scroller = GTK_SCROLLED_WINDOW(inside);
+	across = gtk_scrolled_window_get_hadjustment(scroller);
+	down = gtk_scrolled_window_get_vadjustment(scroller);
+	g_object_ref(shown);
+	gtk_stack_add_child(GTK_STACK(stack), gtk_label_new(""));
+	gtk_stack_add_child(GTK_STACK(stack), GTK_WIDGET(other));
+	gtk_window_set_child(GTK_WINDOW(window), stack);
+	gtk_window_set_default_size(GTK_WINDOW(window), 600, 500);
+	screen_show(window);
+	WAIT(gtk_adjustment_get_upper(down) > 100); /* its lines are known before it is shown */
+	gtk_stack_set_visible_child(GTK_STACK(stack), GTK_WIDGET(other));
+	ladder_text_view_go_here(other, 1, 1);
+	WAIT(gtk_adjustment_get_page_size(across) > 300);
+	CHECK(gtk_adjustment_get_page_size(across) > 300 && gtk_adjustment_get_page_size(down) > 300);
+	CHECK(gtk_adjustment_get_value(across) == 0 && gtk_adjustment_get_value(down) == 0);
+	gtk_window_set_child(GTK_WINDOW(window), shown);
+	g_object_unref(shown);
+}
+
 int main(void)
 {
 	GtkWidget *window;
@@ -487,6 +518,7 @@ int main(void)
 	test_values();
 	test_results();
 	test_chart_results();
+	test_first_place(window);
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);
