@@ -73,15 +73,23 @@ static void begin_anew(struct timing *timing)
 	timing->program = 0;
 }
 
+bool timing_has(const struct timing *timing, const char *name)
+{
+	const struct location at = live_value_find(live_image(timing->sim, false), name);
+
+	for (int i = 0; i < timing_lines(timing); i++)
+		if (name_equal(timing_name(timing, i), name) ||
+		    live_value_is_same(timing_at(timing, i), at))
+			return true;
+	return false;
+}
+
 bool timing_add(struct timing *timing, const char *name)
 {
 	struct line *line;
 
-	if (timing->lines->len >= TIMING_LINES)
+	if (timing->lines->len >= TIMING_LINES || timing_has(timing, name))
 		return false;
-	for (int i = 0; i < timing_lines(timing); i++)
-		if (name_equal(timing_name(timing, i), name))
-			return false;
 	line = g_new0(struct line, 1);
 	line->name = g_strdup(name);
 	line->sample = g_new0(double, TIMING_SCANS);

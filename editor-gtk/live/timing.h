@@ -19,8 +19,10 @@ struct timing;
 struct timing *timing_new(LadderSim *sim);
 void timing_free(struct timing *timing);
 
+/** timing_has - is there a line of this variable, by this name or another form of it? */
+bool timing_has(const struct timing *timing, const char *name);
 /** timing_add - adds a variable or address as the last line; the program need not have it.
- * Fails: false: there is a line of this name, or there are TIMING_LINES. */
+ * Fails: false: timing_has(), or there are TIMING_LINES. */
 bool timing_add(struct timing *timing, const char *name);
 void timing_remove(struct timing *timing, int line);
 /** timing_move - @to: its index afterwards. */

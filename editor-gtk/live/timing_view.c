@@ -4,7 +4,6 @@
  */
 #include "editor-gtk/live/timing_view.h"
 
-#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/watch_names.h"
 #include "editor-gtk/sim/live_value.h"
@@ -21,6 +20,7 @@ struct _LadderTimingView {
 	int compared;            /* lines that are the inputs and outputs       */
 	bool keeping;            /* it changes the document itself              */
 	GtkSearchEntry *wanted;
+	GtkLabel *refusal;       /* why it is refused                           */
 	GtkStringList *names;
 	GtkStringFilter *filter;
 	GtkSingleSelection *selection;
@@ -171,16 +171,18 @@ bool ladder_timing_view_add(LadderTimingView *view, const char *name)
 
 /* ---- adding ---- */
 
-static void refuse_wanted(LadderTimingView *view, bool refused)
+/* @why: borrowed; NULL: it is not refused. */
+static void refuse_wanted(LadderTimingView *view, const char *why)
 {
 	GtkWidget *entry = GTK_WIDGET(view->wanted);
 
-	if (refused)
+	if (why)
 		gtk_widget_add_css_class(entry, "error");
 	else
 		gtk_widget_remove_css_class(entry, "error");
-	tip_set(entry, refused ? _("There is no such symbol") : NULL);
-	gtk_accessible_update_state(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_STATE_INVALID, refused ?
+	gtk_label_set_text(view->refusal, why ? why : "");
+	gtk_widget_set_visible(GTK_WIDGET(view->refusal), why != NULL);
+	gtk_accessible_update_state(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_STATE_INVALID, why ?
 		GTK_ACCESSIBLE_INVALID_TRUE : GTK_ACCESSIBLE_INVALID_FALSE, -1);
 }
 
@@ -188,14 +190,22 @@ static void wanted_changed(LadderTimingView *view)
 {
 	gtk_string_filter_set_search(view->filter,
 				     gtk_editable_get_text(GTK_EDITABLE(view->wanted)));
-	refuse_wanted(view, false);
+	refuse_wanted(view, NULL);
+}
+
+static void add_named(LadderTimingView *view, const char *name)
+{
+	if (!ladder_timing_view_add(view, name))
+		refuse_wanted(view, timing_has(ladder_timing_area_timing(view->area), name) ?
+			      _("The chart shows it already") :
+			      _("The chart has no room for more variables"));
 }
 
 static void add_row(LadderTimingView *view, guint row)
 {
 	GtkStringObject *name = g_list_model_get_item(G_LIST_MODEL(view->selection), row);
 
-	ladder_timing_view_add(view, gtk_string_object_get_string(name));
+	add_named(view, gtk_string_object_get_string(name));
 	g_object_unref(name);
 }
 
@@ -205,11 +215,11 @@ static void add_wanted(LadderTimingView *view)
 	const char *text = gtk_editable_get_text(GTK_EDITABLE(view->wanted));
 
 	if (*text && live_value_find(live_image(view->sim, false), text).type != IEC_NONE)
-		ladder_timing_view_add(view, text);
+		add_named(view, text);
 	else if (g_list_model_get_n_items(G_LIST_MODEL(view->selection)))
 		add_row(view, gtk_single_selection_get_selected(view->selection));
 	else
-		refuse_wanted(view, true);
+		refuse_wanted(view, _("There is no such symbol"));
 	gtk_editable_select_region(GTK_EDITABLE(view->wanted), 0, -1);
 }
 
@@ -218,6 +228,7 @@ static void popover_shown(LadderTimingView *view)
 	gtk_string_list_splice(view->names, 0,
 		g_list_model_get_n_items(G_LIST_MODEL(view->names)), NULL);
 	each_name(view, take_name);
+	refuse_wanted(view, NULL);
 	gtk_widget_grab_focus(GTK_WIDGET(view->wanted));
 }
 
@@ -272,6 +283,7 @@ static void ladder_timing_view_class_init(LadderTimingViewClass *class)
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/timing_view.ui");
 	gtk_widget_class_bind_template_child(widget, LadderTimingView, wanted);
+	gtk_widget_class_bind_template_child(widget, LadderTimingView, refusal);
 	gtk_widget_class_bind_template_child(widget, LadderTimingView, names);
 	gtk_widget_class_bind_template_child(widget, LadderTimingView, filter);
 	gtk_widget_class_bind_template_child(widget, LadderTimingView, selection);

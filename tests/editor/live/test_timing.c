@@ -162,6 +162,44 @@ static void test_late(void)
 	view = first;
 }
 
+static GtkWidget *entry_in(GtkWidget *widget)
+{
+	GtkWidget *found = GTK_IS_SEARCH_ENTRY(widget) ? widget : NULL;
+
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found;
+	     child = gtk_widget_get_next_sibling(child))
+		found = entry_in(child);
+	return found;
+}
+
+/* Types a name and presses Enter. @why: the refusal, at the entry; NULL: it is added. */
+static void want(const char *name, const char *why)
+{
+	GtkWidget *entry = entry_in(GTK_WIDGET(view));
+	GtkWidget *label = gtk_widget_get_next_sibling(entry);
+
+	gtk_editable_set_text(GTK_EDITABLE(entry), name);
+	g_signal_emit_by_name(entry, "search-changed");
+	CHECK(!gtk_widget_has_css_class(entry, "error") && !gtk_widget_get_visible(label));
+	g_signal_emit_by_name(entry, "activate");
+	CHECK_AS(gtk_widget_has_css_class(entry, "error") == (why != NULL), name);
+	CHECK_AS(gtk_widget_get_visible(label) == (why != NULL), name);
+	CHECK_TEXT(gtk_label_get_text(GTK_LABEL(label)), why ? why : "");
+}
+
+/* What cannot be added is refused where it is typed, with the reason. */
+static void test_wanted(void)
+{
+	CHECK(has("Start Motor"));
+	want("Nobody", "There is no such symbol");
+	want("start", "The chart shows it already");
+	want("%IX0.0", "The chart shows it already");
+	CHECK(has("Start Motor"));
+	want("Count", NULL);
+	CHECK(has("Start Motor Count"));
+	ladder_document_undo(document);
+}
+
 int main(void)
 {
 	GtkWidget *window;
@@ -183,6 +221,7 @@ int main(void)
 	test_choice();
 	test_file();
 	test_late();
+	test_wanted();
 	gtk_window_destroy(GTK_WINDOW(window));
 	g_object_unref(sim);
 	g_object_unref(document);

@@ -158,6 +158,35 @@ static void check_log(LadderDocument *document)
 	g_string_free(long_one, TRUE);
 }
 
+/* Says how many warnings there are, in the right form. */
+static void check_count(LadderDocument *document, GtkWidget *log, const char *vars, const char *want)
+{
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(
+		inside(log, GTK_TYPE_TEXT_VIEW)));
+	char *text = g_strdup_printf("RUNGBOARD 1\n\nVAR\n%sEND_VAR\n\nPROGRAM Main LD\nRUNG\n"
+		"  | NO %%IX0.0 | COIL %%QX0.0 |\nEND_PROGRAM\n", vars), *all;
+	GtkTextIter first, last;
+
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
+	ladder_document_check_now(document);
+	gtk_text_buffer_get_bounds(buffer, &first, &last);
+	all = gtk_text_buffer_get_text(buffer, &first, &last, TRUE);
+	CHECK_AS(g_str_has_suffix(all, want), all);
+	g_free(all);
+	g_free(text);
+}
+
+static void check_counts(void)
+{
+	LadderDocument *document = ladder_document_new();
+	GtkWidget *log = g_object_ref_sink(ladder_log_view_new(document));
+
+	check_count(document, log, "  A : INT;\n", "\t0 Fehler, 1 Warnung");
+	check_count(document, log, "  A : INT;\n  B : INT;\n", "\t0 Fehler, 2 Warnungen");
+	g_object_unref(log);
+	g_object_unref(document);
+}
+
 int main(void)
 {
 	LadderDocument *document;
@@ -183,6 +212,7 @@ int main(void)
 	check(ladder_types_view_new(document), "Datentypen", true);
 	check(symbols(document), "Symbole", false);
 	check_log(document);
+	check_counts();
 	gtk_window_destroy(GTK_WINDOW(window));
 	WAIT(G_OBJECT(document)->ref_count == 1);
 	g_assert_finalize_object(document);
