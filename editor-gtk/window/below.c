@@ -49,9 +49,33 @@ GtkWidget *below_panel(struct below *below, const char *name)
 	return panel_in(place_of(below, name));
 }
 
+static void set_shown(struct below *below, bool shown)
+{
+	below->away = false;
+	gtk_widget_set_visible(GTK_WIDGET(below->box), shown);
+}
+
+void below_toggle(struct below *below)
+{
+	set_shown(below, !gtk_widget_get_visible(GTK_WIDGET(below->box)));
+}
+
+bool below_is_wanted(const struct below *below)
+{
+	return below->away || gtk_widget_get_visible(GTK_WIDGET(below->box));
+}
+
+void below_leave(struct below *below, bool away)
+{
+	if (below->away == away || !below_is_wanted(below))
+		return;
+	set_shown(below, !away);
+	below->away = away;
+}
+
 GtkWidget *below_show(struct below *below, const char *name)
 {
-	gtk_widget_set_visible(GTK_WIDGET(below->box), TRUE);
+	set_shown(below, true);
 	gtk_stack_set_visible_child_name(below->stack, name);
 	below_open(below);
 	return below_panel(below, name);

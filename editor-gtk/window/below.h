@@ -17,6 +17,7 @@ struct below {
 	GtkWidget *switcher;
 	GtkScrolledWindow *tabs;
 	GtkMenuButton *more;   /* shown while the tabs are wider than the window */
+	bool away;             /* hidden for the page in front, not by the person */
 };
 
 typedef GtkWidget *below_make(gpointer part);
@@ -34,6 +35,13 @@ GtkWidget *below_made(struct below *below, const char *name);
 GtkWidget *below_show(struct below *below, const char *name);
 /** below_show_error - shows the problems and focuses the first error. */
 void below_show_error(struct below *below);
+/** below_toggle - the person shows or hides all panels. */
+void below_toggle(struct below *below);
+/** below_is_wanted - does the person want panels, though the page in front may have none? */
+bool below_is_wanted(const struct below *below);
+/** below_leave - hides the panels while a page without them is in front, until they are asked
+ * for; @away false: shows them again. */
+void below_leave(struct below *below, bool away);
 /** below_offer - shows or hides a tab. */
 void below_offer(struct below *below, const char *name, bool offered);
 /** below_set_title - @title: translated. */

@@ -20,6 +20,7 @@
 #include "editor-gtk/panels/tasks_view.h"
 #include "editor-gtk/panels/types_view.h"
 #include "editor-gtk/window/ask.h"
+#include "editor-gtk/window/below.h"
 #include "editor-gtk/window/messages.h"
 #include "editor-gtk/window/welcome.h"
 
@@ -737,8 +738,17 @@ void tabs_open_anew(struct tabs *tabs)
 
 /* ---- life ---- */
 
+static bool is_welcome(struct tabs *tabs)
+{
+	AdwTabPage *page = front_tab(tabs->core->front);
+
+	return page && g_strcmp0(page_name(page), " welcome") == 0;
+}
+
+/* The welcome page has no problems, and nothing to watch. */
 static void page_selected(struct tabs *tabs)
 {
+	below_leave(tabs->core->below, is_welcome(tabs));
 	g_signal_emit_by_name(tabs->core->window, "place-changed");
 	g_signal_emit_by_name(tabs->core->window, "page-changed");
 	messages_tell(tabs->core->messages, "");

@@ -60,21 +60,27 @@ static void add_row(GtkWidget *group, const char *title, const char *subtitle,
 	g_free(below);
 }
 
-static GtkWidget *add_group(GtkWidget *page, const char *title)
+#define ROWS_WIDE 600   /* px at most                                           */
+#define CARDS_WIDE 1240
+
+static GtkWidget *add_group(GtkWidget *groups, const char *title, int wide)
 {
-	GtkWidget *group = adw_preferences_group_new();
+	GtkWidget *group = adw_preferences_group_new(), *clamp = adw_clamp_new();
 
 	adw_preferences_group_set_title(ADW_PREFERENCES_GROUP(group), title);
-	adw_preferences_page_add(ADW_PREFERENCES_PAGE(page), ADW_PREFERENCES_GROUP(group));
+	adw_clamp_set_maximum_size(ADW_CLAMP(clamp), wide);
+	adw_clamp_set_tightening_threshold(ADW_CLAMP(clamp), wide);
+	adw_clamp_set_child(ADW_CLAMP(clamp), group);
+	gtk_box_append(GTK_BOX(groups), clamp);
 	return group;
 }
 
 /* ---- what there is to open ---- */
 
-static void add_recent(GtkWidget *page)
+static void add_recent(GtkWidget *groups)
 {
 	GPtrArray *paths = recent_paths();
-	GtkWidget *group = paths->len ? add_group(page, _("Recent")) : NULL;
+	GtkWidget *group = paths->len ? add_group(groups, _("Recent"), ROWS_WIDE) : NULL;
 
 	for (guint i = 0; i < paths->len; i++) {
 		char *name = g_path_get_basename(paths->pdata[i]);
@@ -263,7 +269,7 @@ static GtkWidget *cards_new(void)
 
 	gtk_flow_box_set_selection_mode(GTK_FLOW_BOX(cards), GTK_SELECTION_NONE);
 	gtk_flow_box_set_homogeneous(GTK_FLOW_BOX(cards), TRUE);
-	gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(cards), 3);
+	gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(cards), 4);
 	gtk_flow_box_set_column_spacing(GTK_FLOW_BOX(cards), 12);
 	gtk_flow_box_set_row_spacing(GTK_FLOW_BOX(cards), 12);
 	gtk_widget_add_css_class(cards, "samples");
@@ -283,7 +289,7 @@ static bool is_sample(const char *name)
 	return g_str_has_suffix(name, ".rung") && !g_str_has_suffix(name, ".plant.rung");
 }
 
-static void add_samples(GtkWidget *page)
+static void add_samples(GtkWidget *groups)
 {
 	char *folder = samples_folder();
 	GDir *dir = folder ? g_dir_open(folder, 0, NULL) : NULL;
@@ -298,18 +304,30 @@ static void add_samples(GtkWidget *page)
 	for (guint i = 0; i < names->len; i++)
 		gtk_flow_box_append(GTK_FLOW_BOX(cards), card_new(names->pdata[i]));
 	if (cards)
-		adw_preferences_group_add(ADW_PREFERENCES_GROUP(add_group(page,
-			_("Samples, opened as copies"))), cards);
+		adw_preferences_group_add(ADW_PREFERENCES_GROUP(add_group(groups,
+			_("Samples, opened as copies"), CARDS_WIDE)), cards);
 	if (dir)
 		g_dir_close(dir);
 	g_ptr_array_unref(names);
 	g_free(folder);
 }
 
+static GtkWidget *scrolled(GtkWidget *groups)
+{
+	GtkWidget *scroller = gtk_scrolled_window_new();
+
+	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
+				       GTK_POLICY_AUTOMATIC);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), groups);
+	gtk_widget_set_vexpand(scroller, TRUE);
+	return scroller;
+}
+
 GtkWidget *welcome_new(void)
 {
-	GtkWidget *page = adw_preferences_page_new();
-	GtkWidget *begin = add_group(page, _("Begin"));
+	GtkWidget *page = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	GtkWidget *groups = gtk_box_new(GTK_ORIENTATION_VERTICAL, 24);
+	GtkWidget *begin = add_group(groups, _("Begin"), ROWS_WIDE);
 
 	add_row(begin, _("New project"), _("An empty sheet. Type a name to make a contact."),
 		"win.begin", NULL);
@@ -323,7 +341,9 @@ GtkWidget *welcome_new(void)
 		"win.compare_files", NULL);
 	add_row(begin, _("Tutorial"), _("Draw a first program, simulate it and run it on a board."),
 		"win.tutorial", NULL);
-	add_recent(page);
-	add_samples(page);
+	add_recent(groups);
+	add_samples(groups);
+	gtk_widget_add_css_class(groups, "welcome");
+	gtk_box_append(GTK_BOX(page), scrolled(groups));
 	return page;
 }

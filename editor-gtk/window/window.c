@@ -431,7 +431,7 @@ static void do_view(LadderWindow *window, enum verb verb)
 	case VERB_zoom_out: zoom(window, 0.8); break;
 	case VERB_zoom_reset: zoom(window, 0); break;
 	case VERB_side: toggle(GTK_WIDGET(window->side)); break;
-	case VERB_below: toggle(GTK_WIDGET(window->below.box)); break;
+	case VERB_below: below_toggle(&window->below); break;
 	case VERB_appearance: do_appearance(window); break;
 	case VERB_fullscreen: do_fullscreen(window); break;
 	case VERB_palette: commands_show(GTK_WINDOW(window), window->core.with); break;
@@ -1031,7 +1031,7 @@ static void keep_settings(LadderWindow *window)
 			       gtk_widget_get_visible(GTK_WIDGET(window->side)) ||
 			       window->sim_bar.side_hidden);
 	g_settings_set_boolean(settings, "below",
-			       gtk_widget_get_visible(GTK_WIDGET(window->below.box)));
+			       below_is_wanted(&window->below));
 }
 
 /* ---- life ---- */

@@ -186,6 +186,36 @@ static void check_simulated(void)
 	check_state('l', "after the simulation");
 }
 
+static bool has_panels(GtkWidget *in)
+{
+	bool has = gtk_widget_has_css_class(in, "below-tabs") && gtk_widget_get_visible(in);
+
+	for (GtkWidget *child = gtk_widget_get_first_child(in); child && !has;
+	     child = gtk_widget_get_next_sibling(child))
+		has = gtk_widget_get_visible(child) && has_panels(child);
+	return has;
+}
+
+/* The welcome page has no list of problems, until somebody asks for a panel. */
+static void check_welcome(void)
+{
+	CHECK(has_panels(window));
+	do_action("win.welcome");
+	CHECK(!has_panels(window));
+	go(0);
+	CHECK(has_panels(window));
+	do_action("win.welcome");
+	do_action("win.below");
+	CHECK_AS(has_panels(window), "they are shown when they are asked for");
+	go(0);
+	CHECK(has_panels(window));
+	do_action("win.below");
+	do_action("win.welcome");
+	go(0);
+	CHECK_AS(!has_panels(window), "panels that a person has hidden stay hidden");
+	do_action("win.below");
+}
+
 static void check_pages(void)
 {
 	open_window(sample);
@@ -195,6 +225,7 @@ static void check_pages(void)
 	check_state('c', "a chart");
 	go(0);
 	check_state('l', "a ladder");
+	check_welcome();
 	check_simulated();
 	while (can(VERB_close_tab))
 		do_action("win.close_tab");
