@@ -148,11 +148,12 @@ class Editor(Finder):
             self.gone()
 
     def asked(self):
-        """The open entry at the cursor; not a cell of the table above the sheet."""
-        names = [said(name) for name in ('Pins', 'Variables') for said in (str, getattr(self, 'said', gettext).gettext)]
+        """The open entry at the cursor; not a cell of the table above the sheet, nor the log."""
+        names, logs = [[said(name) for name in some for said in (str, getattr(self, 'said', gettext).gettext)]
+                       for some in (('Pins', 'Variables'), ('Log',))]
         tables = [node for part in ('Pins', 'Variables') for node in self.all(part) if node.name in names]
         cells = {node.path for table in tables for node in self.all(role='text', below=table.path)}
-        return [node for node in self.all(role='text') if node.path not in self.lines | cells]
+        return [node for node in self.all(role='text') if node.path not in self.lines | cells and node.name not in logs]
 
     def candidate(self, *parts):
         """The row below the entry whose name has all these parts; waits for it."""
