@@ -146,19 +146,18 @@ static void shows_errors_before_warnings(void)
 
 static void codes_are_unique(void)
 {
+	static const char *codes[DIAG_COUNT], *texts[DIAG_COUNT];
 	bool unique = true, differ = true, shaped = true;
 
 	for (int i = 0; i < DIAG_COUNT; i++) {
-		const char *code = diag_code((enum diag_id)i);
+		const char *code = codes[i] = diag_code((enum diag_id)i);
 
 		shaped &= strlen(code) == 5 && strncmp(code, "LD", 2) == 0 &&
-			  strspn(code + 2, "0123456789") == 3 &&
-			  diag_text((enum diag_id)i)[0] != '\0';
+			  strspn(code + 2, "0123456789") == 3 && diag_text((enum diag_id)i)[0] != '\0';
+		texts[i] = diag_text((enum diag_id)i);
 		for (int k = 0; k < i; k++) {
-			const char *text = diag_text((enum diag_id)k);
-
-			unique &= strcmp(code, diag_code((enum diag_id)k)) != 0;
-			differ &= strcmp(text, diag_text((enum diag_id)i)) != 0;
+			unique &= strcmp(codes[k], code) != 0;
+			differ &= strcmp(texts[k], texts[i]) != 0;
 		}
 	}
 	CHECK(unique);
