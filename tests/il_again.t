@@ -96,6 +96,7 @@ for my $sample (sort glob "$tests/../ladders/*.rung") {
 	my $name = basename($sample);
 	next if $name =~ /plant/;
 	is(lists_of($sample, "image-$name"), '', "$name: its image has lists") or next;
+	is(lists_of("image-$name", 'twice.rung'), '', "$name: the image of these lists has lists, too");
 	(my $scenario = $sample) =~ s/rung$/scn/;
 	next unless -e $scenario;
 	# Members have _ for a dot, and so has the scenario then.
@@ -133,6 +134,63 @@ for my $seed (1 .. $count) {
 is($other, 0, "$same random programs and the lists of their images do the same") or
 	diag("not so: @bad");
 ok($same * 10 > $count * 9, 'few random programs are refused');
+
+# Names that the lists make beside those of the image: each of them is there already.
+spew("$dir/a.rung", <<'END');
+RUNGBOARD 1
+
+CONFIGURATION Image
+VAR_GLOBAL
+  Table : ARRAY[1..40] OF INT;
+  Index : INT := 3;
+  Out   : INT;
+  Index_of_image_INT : INT;
+  Initial_MB10 AT %MB10 : BYTE := 16#07;
+  Wide AT %MW12 : INT := 700;
+  MW12_INT : INT := 5;
+  Twice AT %QX1.0 : BOOL;
+  Mix : Recipe;
+  Only : INT;
+END_VAR
+TASK Task0 (INTERVAL := T#10ms, PRIORITY := 1);
+PROGRAM Run0 WITH Task0 : Main;
+VAR_ACCESS
+  Fill  : Out : INT READ_WRITE;
+  Other : Only : INT READ_WRITE;
+  Mixed : Mix : Recipe READ_WRITE;
+END_VAR
+END_CONFIGURATION
+
+TYPE
+  Recipe : STRUCT
+    Speed : INT;
+    Level : INT;
+  END_STRUCT;
+END_TYPE
+
+PROGRAM Main LD
+VAR
+  N0 : BOOL;
+  Zero_of_image : INT := 1;
+END_VAR
+RUNG
+  | NO N0 | [ Out := Table[Index] + Wide + MW12_INT ] | [ Table[Index] := Zero_of_image ] | COIL %QX0.1 |
+RUNG
+  | NO N0 | [ Index := Index + 1 ] | [ Mix.Speed := Out + Index_of_image_INT ] | COIL Twice |
+RUNG
+  | NO %IX0.0 | COIL N0 |
+END_PROGRAM
+END
+is(lists_of('a.rung', 'b.rung'), "il: VAR_ACCESS: an access as it was named; it is now Mixed_Speed\n" .
+	"VAR_ACCESS: an access as it was named; it is now Mixed_Level\n",
+   'an access by a name with a point is told');
+is(lists_of('b.rung', 'c.rung'), '', 'the lists of an image have an image and lists');
+is(lists_of('c.rung', 'd.rung'), '', 'and these, too');
+spew("$dir/s", '@print %QB0 %QB1 %MB10 %MW12 SYS_ERRORS' . "\n" . "%IX0.0=1\n" x 60);
+my $first = `cd $dir && $ladder trace a.rung s 2>/dev/null`;
+like($first, qr/SYS_ERRORS=[1-9]/, 'an index goes beyond its array');
+is(scalar `cd $dir && $ladder trace $_.rung s 2>/dev/null`, $first, "$_ does the same")
+	for qw(b c d);
 
 # Without names there are still places.
 spew("$dir/a.rung", slurp("$tests/../ladders/garage-door.rung"));

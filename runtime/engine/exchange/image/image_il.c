@@ -8,6 +8,8 @@
  */
 #include "engine/exchange/image/image_il.h"
 
+#include "engine/base/ascii.h"
+#include "engine/base/lex.h"
 #include "engine/base/literal.h"
 #include "engine/base/name.h"
 #include "engine/scan/image.h"
@@ -33,15 +35,16 @@ struct object {
 	char *name;          /* as an operand: Speed, Table[3]                */
 };
 
+/* A name of the file. Local variables of several programs may have the same. */
+struct taken {
+	const char *name;
+	bool global;
+};
+
 /* The list of a block, made for one instance: the copy to the frame and back is left out. */
 struct special {
 	uint32_t entry, frame, size, instance;
 	char *name;
-};
-
-struct call_text {
-	char text[8192];
-	size_t used;
 };
 
 struct maker {
@@ -56,19 +59,25 @@ struct maker {
 	int at_count;
 	uint8_t *target;     /* of each word of the code: 1: a jump leads here */
 	const char *pou;     /* for the report                                */
+	const char *within;  /* whose variables it sees, as the image writes it; NULL: only globals */
 	uint32_t entry, end; /* of it: its first word, and behind its last    */
 	uint32_t labels;     /* made so far                                   */
-	bool counts;         /* an index may fail: needs a division by 0      */
 	bool writing;        /* second pass                                   */
 	struct special *special;
 	int special_count;
 	const struct special *now; /* whose list is written; NULL: of no instance */
-	uint32_t clocks;     /* timers for TICK                               */
+	char **clock;        /* timers for TICK                               */
+	int clock_count;
+	uint32_t clocks;     /* of them in use                                */
 	bool *called;        /* by entry: as it is                            */
-	bool index[IEC_TYPE_COUNT]; /* types of variables that hold an index      */
+	char **entry_name;   /* by entry                                      */
+	char *index[IEC_TYPE_COUNT]; /* variables that hold an index; NULL: none  */
+	char *zero;          /* an index may fail: divides by 0; NULL: none may */
 	char (*rooms)[ROOM]; /* for texts: in use up to room_used             */
 	int room_used;
-	struct call_text call;
+	struct sink_memory call; /* parameters of the call that is written     */
+	struct taken *taken; /* every name of the file, by its hash           */
+	uint32_t taken_size, taken_count; /* a power of 2                     */
 };
 
 #define ROOMS 64 /* texts of one instruction, or of one element of an array     */
@@ -125,52 +134,96 @@ static void lose(struct maker *m, const char *what)
 
 /* ---- names ---- */
 
-/* Whether a name is that of @of, perhaps with an index behind it. */
-static bool is_head(const char *of, const char *name)
+/* Its slot: the one of the name, or a free one. */
+static struct taken *taken_slot(const struct maker *m, const char *name)
 {
-	return of && name_same(of, strcspn(of, "["), name, strlen(name));
+	uint32_t at = name_hash(name, strlen(name));
+
+	while (m->taken[at &= m->taken_size - 1].name && !name_equal(m->taken[at].name, name))
+		at++;
+	return &m->taken[at];
 }
 
 static bool is_taken(const struct maker *m, const char *name)
 {
-	for (int i = 0; i < m->count; i++)
-		if (is_head(m->object[i].name, name))
-			return true;
-	for (int i = 0; i < m->special_count; i++)
-		if (is_head(m->special[i].name, name))
-			return true;
-	for (int i = 0; i < m->at_count; i++)
-		if (m->at[i].name && name_equal(m->at[i].name, name))
-			return true;
-	for (uint32_t i = 0; i < m->program->entry_count && m->program->string_bytes; i++)
-		if (name_equal(m->program->string + m->program->entry[i].name, name))
-			return true;
-	return false;
+	return taken_slot(m, name)->name != NULL;
 }
 
-/* A free name like @like; NULL: no memory. */
+static bool grow_taken(struct maker *m)
+{
+	struct taken *old = m->taken;
+	const uint32_t size = m->taken_size;
+
+	m->taken_size = size ? 2 * size : 256;
+	m->taken = arena_alloc(&m->arena, m->taken_size * sizeof(*m->taken));
+	if (!m->taken) {
+		m->taken = old;
+		m->taken_size = size;
+		return false;
+	}
+	for (uint32_t i = 0; i < size; i++)
+		if (old[i].name)
+			*taken_slot(m, old[i].name) = old[i];
+	return true;
+}
+
+/* Owns: nothing; @name lives as long as the maker. */
+static void take_name(struct maker *m, const char *name, bool global)
+{
+	struct taken *slot;
+
+	if (2 * m->taken_count >= m->taken_size && !grow_taken(m))
+		return;
+	slot = taken_slot(m, name);
+	m->taken_count += !slot->name;
+	*slot = (struct taken){ slot->name ? slot->name : name, slot->global || global };
+}
+
+/* A name like @like that was free; NULL: no memory. */
 static char *free_name(struct maker *m, const char *like)
 {
 	char text[NAME_SIZE];
 	size_t len = strlen(like) < LIMIT_NAME - 8 ? strlen(like) : LIMIT_NAME - 8;
+	char *name;
 
+	while (len < strlen(like) && ((unsigned char)like[len] & 0xc0) == 0x80)
+		len--; /* no half of a character */
 	snprintf(text, sizeof(text), "%.*s", (int)len, like);
 	for (unsigned i = 2; is_taken(m, text); i++)
 		snprintf(text, sizeof(text), "%.*s_%u", (int)len, like, i);
-	return arena_copy(&m->arena, text, strlen(text));
+	name = arena_copy(&m->arena, text, strlen(text));
+	if (name)
+		take_name(m, name, true);
+	return name;
 }
 
-/* Dots, brackets and signs of a name become _. */
+/* The bytes of a character that may stand in a name; 0: it may not. */
+static size_t name_letter(const char *text, size_t len)
+{
+	const size_t size = utf8_length(text, len);
+
+	if (size == 1)
+		return (ascii_upper(*text) >= 'A' && ascii_upper(*text) <= 'Z') || ascii_digit(*text) || *text == '_';
+	return size > 1 && utf8_is_letter(text, size) ? size : 0;
+}
+
+/* A name of an image as a name of a file: each byte that cannot stand in one becomes _, and a ]
+ * goes. An image may hold any bytes. */
 static void flatten(char *out, size_t size, const char *name, size_t len)
 {
-	size_t used = 0;
+	size_t used = 0, step;
 
-	for (size_t i = 0; i < len && used + 1 < size; i++) {
-		const char c = name[i];
-
-		if (c == ']')
-			continue;
-		out[used++] = c == '.' || c == '[' || c == '-' || c == ' ' || c == ':' ? '_' : c;
+	if (len == 0 || ascii_digit(*name))
+		out[used++] = '_';
+	for (size_t i = 0; i < len; i += step ? step : 1) {
+		step = name_letter(name + i, len - i);
+		if (used + step + 1 >= size || used + step >= LIMIT_NAME)
+			break;
+		if (step)
+			memcpy(out + used, name + i, step);
+		else if (name[i] != ']')
+			out[used] = '_';
+		used += step ? step : name[i] != ']';
 	}
 	out[used] = '\0';
 }
@@ -232,11 +285,13 @@ static struct object *unnamed(const struct maker *m, const struct declared_name 
 	return o && !o->name && o->offset == offset && o->type == symbol->at.type ? o : NULL;
 }
 
-/* All elements are values of the image's own data that have no name yet. */
+/* All elements are values of the image's own data that have no name yet, one behind the other. */
 static bool names_all(const struct maker *m, const struct declared_name *symbol)
 {
+	const struct object *first = unnamed(m, symbol, 0);
+
 	for (uint32_t i = 0; i == 0 || i < symbol->array.count; i++)
-		if (!unnamed(m, symbol, i))
+		if (!first || unnamed(m, symbol, i) != first + i)
 			return false;
 	return true;
 }
@@ -246,20 +301,35 @@ static bool is_member(const struct declared_name *symbol)
 	return memchr(symbol->name, '.', symbol->array.head) != NULL;
 }
 
+/* A free name like @flat, or like that of @pou if it is taken. */
+static char *global_name(struct maker *m, const char *pou, const char *flat)
+{
+	char longer[NAME_SIZE];
+	size_t len;
+
+	if (!*pou || !is_taken(m, flat))
+		return free_name(m, flat);
+	flatten(longer, 100, pou, strlen(pou));
+	len = strlen(longer);
+	longer[len++] = '_';
+	flatten(longer + len, LIMIT_NAME - len, flat, strlen(flat));
+	return free_name(m, longer);
+}
+
 /* A plain name stays what it is, in its program. One of a member loses its dots. */
 static void name_one(struct maker *m, const struct declared_name *symbol)
 {
 	const uint32_t count = symbol->array.count ? symbol->array.count : 1;
 	char flat[NAME_SIZE], *text = room(m);
-	const bool local = *symbol->pou && !is_member(symbol);
+	bool local = *symbol->pou && !is_member(symbol);
 	char *head;
 
 	flatten(flat, sizeof(flat), symbol->name, symbol->array.head);
-	if (!local && *symbol->pou && is_taken(m, flat)) {
-		snprintf(text, ROOM, "%.200s_%.255s", symbol->pou, flat);
-		flatten(flat, sizeof(flat), text, strlen(text));
-	}
-	head = local ? arena_copy(&m->arena, flat, strlen(flat)) : free_name(m, flat);
+	local = local && !taken_slot(m, flat)->global; /* it would hide that one */
+	head = local ? arena_copy(&m->arena, flat, strlen(flat)) :
+		       global_name(m, symbol->pou, flat);
+	if (head && local)
+		take_name(m, head, false);
 	for (uint32_t i = 0; head && i < count; i++) {
 		struct object *o = unnamed(m, symbol, i);
 
@@ -291,6 +361,12 @@ static void name_objects(struct maker *m, bool members)
 			name_one(m, &symbol);
 			m->room_used = 0;
 		}
+}
+
+/* May the list that is written name this object? */
+static bool is_seen(const struct maker *m, const struct object *o)
+{
+	return !o->pou || (m->within && name_equal(o->pou, m->within));
 }
 
 static const char *object_name(struct maker *m, struct object *o)
@@ -355,7 +431,7 @@ static const char *area_name(struct maker *m, uint32_t type, uint32_t offset)
 
 	for (int i = 0; i < m->at_count; i++)
 		if (m->at[i].offset == offset && m->at[i].type == type &&
-		    !m->at[i].array.count && m->at[i].used)
+		    !m->at[i].array.count && !m->at[i].inside)
 			return m->at[i].name;
 	print_place(m, type, false, offset, address);
 	snprintf(text, sizeof(text), "%s_%s", address + 1,
@@ -363,7 +439,7 @@ static const char *area_name(struct maker *m, uint32_t type, uint32_t offset)
 	o = arena_push(&m->arena, &m->at, &m->at_count, sizeof(*o));
 	if (!o)
 		return "";
-	*o = (struct object){ .offset = offset, .type = (uint8_t)type, .used = true };
+	*o = (struct object){ .offset = offset, .type = (uint8_t)type };
 	o->name = free_name(m, text);
 	return o->name ? o->name : "";
 }
@@ -454,7 +530,7 @@ static bool operand(struct maker *m, uint32_t type, uint32_t place, char *text)
 		return true;
 	}
 	o = object_at(m, offset);
-	if (!o)
+	if (!o || !is_seen(m, o))
 		return false;
 	if (o->type == IEC_NONE)
 		return print_pin(m, o, type, offset, text);
@@ -739,75 +815,73 @@ static void put_copy(struct maker *m, const uint32_t *at)
 		put_label(m, "N", m->labels++);
 }
 
-static struct call_text *begin_call(struct maker *m)
+static struct sink begin_call(struct maker *m)
 {
-	m->call.used = 0;
-	m->call.text[0] = '\0';
-	return &m->call;
+	m->call.len = 0;
+	return sink_to_memory(&m->call);
 }
 
-static void add_arg(struct call_text *call, const char *pin, const char *sign, const char *value)
+static void add_arg(const struct sink *call, const char *pin, const char *sign, const char *value)
 {
-	int len = snprintf(call->text + call->used, sizeof(call->text) - call->used, "%s%s %s %s",
-			   call->used ? ", " : "", pin, sign, value);
+	const struct sink_memory *memory = call->context;
 
-	if (len > 0)
-		call->used += (size_t)len;
-	if (call->used >= sizeof(call->text))
-		call->used = sizeof(call->text) - 1;
+	sink_text(call, memory->len ? ", " : "");
+	sink_text(call, pin);
+	sink_text(call, sign);
+	sink_text(call, value);
 }
 
-static void put_call(struct maker *m, const char *word, const struct call_text *call)
+static void put_call(struct maker *m, const char *word)
 {
 	if (!m->writing)
 		return;
 	sink_text(m->sink, "  ");
 	sink_text(m->sink, word);
 	sink_text(m->sink, "(");
-	sink_text(m->sink, call->text);
+	sink_write(m->sink, sink_memory_text(&m->call), m->call.len);
 	sink_text(m->sink, ")\n");
 }
 
 /* EN and the outputs of a function. */
-static bool add_ends(struct maker *m, struct call_text *call, uint32_t eno, uint32_t target)
+static bool add_ends(struct maker *m, const struct sink *call, uint32_t eno, uint32_t target)
 {
 	char *text = room(m);
 
 	if (!operand(m, IEC_BOOL, eno, text))
 		return false;
 	if (!(eno == CODE_FALSE_AT(&m->program->areas)))
-		add_arg(call, "ENO", "=>", text);
+		add_arg(call, "ENO", " => ", text);
 	if (!typed(m, target, text))
 		return false;
-	add_arg(call, "OUT", "=>", text);
+	add_arg(call, "OUT", " => ", text);
 	return true;
 }
 
-static bool add_enable(struct maker *m, struct call_text *call, uint32_t en)
+static bool add_enable(struct maker *m, const struct sink *call, uint32_t en)
 {
 	struct term term;
 
 	if (!term_of(m, en, &term))
 		return false;
 	if (!term.known || !term.value)
-		add_arg(call, "EN", ":=", term.text);
+		add_arg(call, "EN", " := ", term.text);
 	return true;
 }
 
 static void put_math(struct maker *m, const uint32_t *at, uint32_t type, uint32_t n)
 {
 	static const char *const math[MATH_COUNT] = { "ADD", "SUB", "MUL", "DIV" };
-	struct call_text *call = begin_call(m);
+	const struct sink to_call = begin_call(m), *call = &to_call;
 	char *text = room(m);
 	bool good = add_enable(m, call, at[0]);
 
 	good &= operand(m, type, at[3], text);
-	add_arg(call, "IN1", ":=", text);
+	add_arg(call, "IN1", " := ", text);
 	good &= operand(m, type, at[4], text);
-	add_arg(call, "IN2", ":=", text);
+	add_arg(call, "IN2", " := ", text);
 	good &= add_ends(m, call, at[1], CODE_OPERAND(type, at[2]));
 	if (good)
-		put_call(m, math[n % MATH_COUNT], call);
+		put_call(m, math[n % MATH_COUNT]);
 	else
 		lose(m, "a sum of values without names");
 }
@@ -827,7 +901,7 @@ static void put_fn(struct maker *m, const uint32_t *at, uint32_t n)
 {
 	const struct word_row *row = word_row((enum word)at[0]);
 	const uint32_t count = n >> 8 & 0xff;
-	struct call_text *call = begin_call(m);
+	const struct sink to_call = begin_call(m), *call = &to_call;
 	char *text = room(m);
 	char word[64], pin[24];
 	bool good = add_enable(m, call, at[1]);
@@ -841,12 +915,12 @@ static void put_fn(struct maker *m, const uint32_t *at, uint32_t n)
 			snprintf(pin, sizeof(pin), "%s", input->name);
 		else
 			snprintf(pin, sizeof(pin), "IN%d", number + (int)i - row->pin_count + 1);
-		add_arg(call, pin, ":=", text);
+		add_arg(call, pin, " := ", text);
 	}
 	good &= add_ends(m, call, at[2], at[3]);
 	print_function(word, sizeof(word), row, CODE_TYPE(at[4] & ~CODE_OWN), CODE_TYPE(at[3]));
 	if (good && (count || row->pin_count == 0))
-		put_call(m, word, call);
+		put_call(m, word);
 	else
 		lose(m, row->word);
 }
@@ -857,9 +931,13 @@ static void put_fn(struct maker *m, const uint32_t *at, uint32_t n)
 static void count_failure(struct maker *m, const struct term *en)
 {
 	const bool skips = begin_enabled(m, en);
+	char *text = room(m);
 
-	m->counts = true;
-	out(m, "DIV(IN1 := INT#1, IN2 := Zero_of_image, OUT => Zero_of_image)", "");
+	if (!m->zero)
+		m->zero = free_name(m, "Zero_of_image");
+	snprintf(text, ROOM, "DIV(IN1 := INT#1, IN2 := %.300s, OUT => %.300s)",
+		 m->zero ? m->zero : "", m->zero ? m->zero : "");
+	out(m, text, "");
 	if (skips)
 		put_label(m, "N", m->labels++);
 }
@@ -931,6 +1009,17 @@ static uint64_t chain_count(const struct chain *chain)
 	return count;
 }
 
+/* Has each index a name or a value? */
+static bool has_indices(struct maker *m, const struct chain *chain)
+{
+	char *text = room(m);
+	bool all = true;
+
+	for (uint32_t i = 0; i < chain->dimensions; i++)
+		all = typed(m, chain->dimension[i * CODE_DIMENSION], text) && all;
+	return all;
+}
+
 /* The conditions under which element @number is meant, and its offset; false: never. */
 static bool put_selected(struct maker *m, const struct chain *chain, uint32_t number,
 			 uint64_t *where)
@@ -996,8 +1085,9 @@ static void put_chain(struct maker *m, const struct chain *chain)
 	char *ok = room(m);
 	bool good = term_of(m, at[0], &en) && operand(m, IEC_BOOL, at[1], ok) && count <= CHAIN_LIMIT;
 
-	if (!good) {
-		lose(m, "an array of many elements");
+	if (!good || !has_indices(m, chain)) {
+		lose(m, good ? "an array with an index without a name" :
+			       "an array of many elements");
 		return;
 	}
 	if (!(en.known && en.value)) {
@@ -1039,8 +1129,8 @@ static const char *area_array(struct maker *m, uint32_t type, bool bits, uint32_
 
 	for (int i = 0; i < m->at_count; i++) {
 		o = &m->at[i];
-		if (o->array.count == array.count && o->array.low == array.low && o->used &&
-		    o->offset == offset && o->type == type)
+		if (o->array.count == array.count && o->array.low == array.low &&
+		    o->offset == offset && o->type == type && o->inside == bits)
 			return o->name;
 	}
 	print_place(m, type, bits, offset, address);
@@ -1050,7 +1140,7 @@ static const char *area_array(struct maker *m, uint32_t type, bool bits, uint32_
 	o = arena_push(&m->arena, &m->at, &m->at_count, sizeof(*o));
 	if (!o)
 		return "";
-	*o = (struct object){ .offset = offset, .type = (uint8_t)type, .used = true,
+	*o = (struct object){ .offset = offset, .type = (uint8_t)type,
 			      .array = array, .inside = bits };
 	o->name = free_name(m, like);
 	return o->name ? o->name : "";
@@ -1070,7 +1160,7 @@ static bool find_array(struct maker *m, const uint32_t *at, bool bits, char *tex
 		return true;
 	}
 	o = object_at(m, real(m, base));
-	if (!o || o->offset != real(m, base) || o->type != type || !o->name ||
+	if (!o || o->offset != real(m, base) || o->type != type || !o->name || !is_seen(m, o) ||
 	    o->array.low != array.low || o->array.count != array.count)
 		return false;
 	snprintf(text, NAME_SIZE, "%.*s", (int)strcspn(o->name, "["), o->name);
@@ -1086,8 +1176,12 @@ static bool put_range(struct maker *m, const uint32_t *at, uint32_t label, char 
 
 	if (!typed(m, at[4], text))
 		return false;
-	m->index[CODE_TYPE(at[4])] = true;
-	snprintf(index, NAME_SIZE, "Index_of_image_%s", row->word);
+	if (!m->index[CODE_TYPE(at[4])]) {
+		snprintf(index, NAME_SIZE, "Index_of_image_%s", row->word);
+		m->index[CODE_TYPE(at[4])] = free_name(m, index);
+	}
+	snprintf(index, NAME_SIZE, "%.300s", m->index[CODE_TYPE(at[4])] ?
+		 m->index[CODE_TYPE(at[4])] : "");
 	out(m, "LD", text);
 	out(m, "ST", index);
 	if (print_index(at[4], low, text)) {
@@ -1116,7 +1210,8 @@ static bool put_indexed(struct maker *m, const struct chain *chain)
 	struct term en;
 
 	if (!find_array(m, at, chain->bit, array) || !term_of(m, at[0], &en) ||
-	    !operand(m, IEC_BOOL, at[1], ok) || !typed(m, at[2], value))
+	    !operand(m, IEC_BOOL, at[1], ok) || !typed(m, at[2], value) ||
+	    !typed(m, at[4], text))
 		return false;
 	m->labels++;
 	if (!(en.known && en.value)) {
@@ -1166,16 +1261,29 @@ static void put_block(struct maker *m, const uint32_t *at)
 
 /* ---- blocks of the project ---- */
 
-static const char *entry_name(const struct maker *m, uint32_t entry, char *text)
+/* What the image calls an entry; "": it has no names. */
+static const char *entry_text(const struct maker *m, uint32_t entry)
 {
-	if (m->program->string_bytes)
-		snprintf(text, NAME_SIZE, "%.255s",
-			 m->program->string + m->program->entry[entry].name);
-	else
-		snprintf(text, NAME_SIZE, "P%u", (unsigned)entry);
-	return text;
+	return m->program->string_bytes ?
+	       m->program->string + m->program->entry[entry].name : "";
 }
 
+/* Entries have their names first. */
+static bool name_entries(struct maker *m)
+{
+	const struct program *p = m->program;
+	char text[NAME_SIZE];
+	bool good = true;
+
+	for (uint32_t i = 0; i < p->entry_count; i++) {
+		snprintf(text, sizeof(text), "P%u", (unsigned)i);
+		if (*entry_text(m, i))
+			flatten(text, sizeof(text), entry_text(m, i), strlen(entry_text(m, i)));
+		m->entry_name[i] = free_name(m, text);
+		good = good && m->entry_name[i];
+	}
+	return good;
+}
 
 /* The list of a block for one instance; NULL: no memory. */
 static const struct special *special_of(struct maker *m, const struct special *like)
@@ -1189,8 +1297,7 @@ static const struct special *special_of(struct maker *m, const struct special *l
 		    s->size == like->size && s->instance == like->instance)
 			return s;
 	}
-	entry_name(m, like->entry, text);
-	snprintf(text + strlen(text), sizeof(text) - strlen(text), "_%u", (unsigned)like->instance);
+	snprintf(text, sizeof(text), "%s_%u", m->entry_name[like->entry], (unsigned)like->instance);
 	s = arena_push(&m->arena, &m->special, &m->special_count, sizeof(*s));
 	if (!s)
 		return NULL;
@@ -1248,11 +1355,28 @@ static void put_each(struct maker *m, const uint32_t *at, uint32_t n)
 	out(m, "ST", cursor);
 }
 
+static const char *next_clock(struct maker *m)
+{
+	char text[32];
+	char **slot;
+
+	if ((int)m->clocks == m->clock_count) {
+		slot = arena_push(&m->arena, &m->clock, &m->clock_count, sizeof(*slot));
+		if (!slot)
+			return "";
+		snprintf(text, sizeof(text), "Clock_of_image_%u", (unsigned)m->clocks);
+		*slot = free_name(m, text);
+	}
+	slot = &m->clock[m->clocks++];
+	return *slot ? *slot : "";
+}
+
 /* A timer that runs for ever tells the time that has passed. */
 static void put_tick(struct maker *m, const uint32_t *at, uint32_t n)
 {
 	char *last = room(m), *dt = room(m), *bit = room(m), *time = room(m);
-	char clock[64], text[96];
+	const char *clock;
+	char text[NAME_SIZE + 40];
 	struct term hold;
 	bool good = term_of(m, at[0], &hold) && operand(m, IEC_TIME, at[1], last) &&
 		    operand(m, IEC_TIME, at[2], dt);
@@ -1264,7 +1388,7 @@ static void put_tick(struct maker *m, const uint32_t *at, uint32_t n)
 		lose(m, "the time of steps");
 		return;
 	}
-	snprintf(clock, sizeof(clock), "Clock_of_image_%u", (unsigned)m->clocks++);
+	clock = next_clock(m);
 	snprintf(text, sizeof(text), "%s(IN := TRUE, PT := T#106751d)", clock);
 	out(m, "CAL", text);
 	snprintf(text, sizeof(text), "%s.ET", clock);
@@ -1336,7 +1460,6 @@ static void put_code_text(struct maker *m, const uint32_t *code)
 {
 	const uint32_t n = *code >> 8, *at = code + 1;
 	const enum vm_op op = (enum vm_op)(*code & 0xff);
-	char *text = room(m);
 	struct object *o;
 
 	switch (op) {
@@ -1367,7 +1490,7 @@ static void put_code_text(struct maker *m, const uint32_t *code)
 		break;
 	case VM_FB:
 		o = object_at(m, real(m, at[0]));
-		if (o && o->offset == real(m, at[0]) && o->type == IEC_NONE)
+		if (o && o->offset == real(m, at[0]) && o->type == IEC_NONE && is_seen(m, o))
 			out(m, "CAL", object_name(m, o));
 		else
 			lose(m, "a call of an unknown function block");
@@ -1377,7 +1500,7 @@ static void put_code_text(struct maker *m, const uint32_t *code)
 		break;
 	case VM_CALL:
 		m->called[at[0]] = true;
-		out(m, "CAL", entry_name(m, at[0], text));
+		out(m, "CAL", m->entry_name[at[0]]);
 		break;
 	case VM_STOP:
 		put_conditional(m, "STPC", at[0]);
@@ -1472,19 +1595,23 @@ static void put_body(struct maker *m, uint32_t entry)
 	}
 }
 
-static void put_pou(struct maker *m, const char *word, const char *name, uint32_t entry)
+/* @within: whose variables it sees; NULL: only globals. */
+static void put_pou(struct maker *m, const char *word, const char *name, uint32_t entry,
+		    const char *within)
 {
 	m->pou = name;
+	m->within = within;
 	if (m->writing) {
 		sink_printf(m->sink, "\n%s ", word);
 		sink_text(m->sink, name);
 		sink_text(m->sink, " IL\n");
-		put_locals(m, name);
+		if (within)
+			put_locals(m, within);
 	}
 	put_body(m, entry);
 	if (m->writing)
 		sink_printf(m->sink, "END_%s\n", word);
-	m->pou = NULL;
+	m->pou = m->within = NULL;
 }
 
 /* ---- declarations ---- */
@@ -1586,97 +1713,112 @@ static void put_locals(struct maker *m, const char *pou)
 	put_vars(m, pou, false);
 }
 
-/* Initial values in areas, byte by byte: several variables may lie on one. */
-static void put_area_values(struct maker *m)
-{
-	char address[40];
-
-	for (int area = AREA_NONE + 1; area < AREA_COUNT; area++) {
-		const uint8_t *bytes = image_area(&m->image, (enum iec_area)area);
-
-		if (iec_area_row((enum iec_area)area)->access == ACCESS_READ)
-			continue;
-		for (uint32_t i = 0; i < m->program->areas.bytes[area]; i++) {
-			struct iec_addr addr = { .area = (enum iec_area)area, .bits = 8, .byte = i };
-
-			if (!bytes[i])
-				continue;
-			iec_addr_print(addr, address, sizeof(address));
-			sink_printf(m->sink, "  Initial_%s AT %s : BYTE := 16#%02X;\n",
-				    address + 1, address, bytes[i]);
-		}
-	}
-}
-
 /* Offset of a place in the areas: bits, or bytes. */
 static uint32_t place_of(const struct maker *m, struct location at)
 {
 	return at.area == AREA_NONE ? at.where : m->program->areas.at[at.area] * 8 + at.where;
 }
 
-/* Variables with an address, as the image names them, and typed places that it uses. */
-static void put_addresses(struct maker *m)
+/* Variables with an address get the names of the image. */
+static void name_places(struct maker *m)
 {
 	struct declared_cursor cursor = { 0 };
 	struct declared_name symbol;
-	char flat[NAME_SIZE], address[40];
+	char flat[NAME_SIZE];
+	struct object *o;
 
-	sink_text(m->sink, "\nVAR\n");
 	while (image_next_declared(m->program, &cursor, &symbol)) {
-		struct iec_addr addr = { .area = symbol.at.area, .bits = 1 };
-
 		if (symbol.at.type == IEC_NONE ||
 		    (symbol.at.area == AREA_NONE && symbol.at.where >= m->program->areas.size))
 			continue;
-		addr.byte = symbol.at.where / 8;
-		addr.bit = symbol.at.where % 8;
-		if (symbol.at.area == AREA_NONE) {
-			addr.area = areas_find(&m->program->areas, symbol.at.where);
-			addr.bits = (uint8_t)(8 * iec_type_row(symbol.at.type)->size);
-			addr.byte = symbol.at.where - m->program->areas.at[addr.area];
-			addr.bit = 0;
-		}
+		o = arena_push(&m->arena, &m->at, &m->at_count, sizeof(*o));
+		if (!o)
+			return;
 		flatten(flat, sizeof(flat), symbol.name, symbol.array.head);
-		if (is_taken(m, flat))
-			continue;
-		iec_addr_print(addr, address, sizeof(address));
-		sink_printf(m->sink, "  %.255s AT %s : ", flat, address);
-		if (symbol.array.count)
-			sink_printf(m->sink, "ARRAY[%d..%lld] OF ", (int)symbol.array.low,
-				    (long long)symbol.array.low + symbol.array.count - 1);
-		sink_printf(m->sink, "%s;\n", iec_type_row(symbol.at.type)->word);
-		/* Its name is taken from now on. */
-		struct object *o = arena_push(&m->arena, &m->at, &m->at_count, sizeof(*o));
-		if (o)
-			*o = (struct object){
-				.name = arena_copy(&m->arena, flat, strlen(flat)),
-				.type = (uint8_t)symbol.at.type, .offset = place_of(m, symbol.at),
-				.inside = symbol.at.area != AREA_NONE,
-				.array = { symbol.array.low, symbol.array.count },
-			};
+		*o = (struct object){
+			.name = global_name(m, symbol.pou, flat),
+			.type = (uint8_t)symbol.at.type, .offset = place_of(m, symbol.at),
+			.inside = symbol.at.area != AREA_NONE,
+			.array = { symbol.array.low, symbol.array.count },
+		};
 	}
-	for (int i = 0; i < m->at_count; i++) {
-		const struct object *o = &m->at[i];
+}
 
-		if (!o->used)
-			continue;
-		print_place(m, o->type, o->inside, o->offset, address);
-		sink_printf(m->sink, "  %.255s AT %s : ", o->name, address);
-		if (o->array.count)
-			sink_printf(m->sink, "ARRAY[%d..%lld] OF ", (int)o->array.low,
-				    (long long)o->array.low + o->array.count - 1);
-		sink_printf(m->sink, "%s;\n", iec_type_row((enum iec_type)o->type)->word);
+/* The byte at a place in the areas, as a cold start has it, if a program may write it. */
+static uint8_t first_byte(struct maker *m, uint32_t offset)
+{
+	const enum iec_area area = areas_find(&m->program->areas, offset);
+
+	return iec_area_row(area)->access == ACCESS_READ ? 0 :
+	       image_area(&m->image, area)[offset - m->program->areas.at[area]];
+}
+
+static void put_place(struct maker *m, const struct object *o)
+{
+	char address[40];
+	uint8_t byte = 0;
+
+	print_place(m, o->type, o->inside, o->offset, address);
+	sink_printf(m->sink, "  %.255s AT %s : ", o->name ? o->name : "", address);
+	if (o->array.count)
+		sink_printf(m->sink, "ARRAY[%d..%lld] OF ", (int)o->array.low,
+			    (long long)o->array.low + o->array.count - 1);
+	sink_text(m->sink, iec_type_row((enum iec_type)o->type)->word);
+	if (o->type == IEC_BYTE && !o->array.count && !o->inside)
+		byte = first_byte(m, o->offset);
+	if (byte)
+		sink_printf(m->sink, " := 16#%02X", byte);
+	sink_text(m->sink, ";\n");
+}
+
+static bool has_byte(const struct maker *m, uint32_t offset)
+{
+	for (int i = 0; i < m->at_count; i++)
+		if (m->at[i].type == IEC_BYTE && m->at[i].offset == offset &&
+		    !m->at[i].array.count && !m->at[i].inside)
+			return true;
+	return false;
+}
+
+/* Initial values in areas, byte by byte: several variables may lie on one. */
+static void put_area_values(struct maker *m)
+{
+	char address[40], name[64];
+
+	for (int area = AREA_NONE + 1; area < AREA_COUNT; area++) {
+		const uint32_t at = m->program->areas.at[area];
+
+		for (uint32_t i = 0; i < m->program->areas.bytes[area]; i++) {
+			struct iec_addr addr = { .area = (enum iec_area)area, .bits = 8, .byte = i };
+			const uint8_t byte = first_byte(m, at + i);
+
+			if (!byte || has_byte(m, at + i))
+				continue;
+			iec_addr_print(addr, address, sizeof(address));
+			snprintf(name, sizeof(name), "Initial_%s", address + 1);
+			const char *made = free_name(m, name);
+
+			sink_printf(m->sink, "  %s AT %s : BYTE := 16#%02X;\n",
+				    made ? made : "", address, byte);
+		}
 	}
+}
+
+/* Variables with an address, and what the lists need besides those of the image. */
+static void put_addresses(struct maker *m)
+{
+	sink_text(m->sink, "\nVAR\n");
+	for (int i = 0; i < m->at_count; i++)
+		put_place(m, &m->at[i]);
 	for (int i = 0; i < IEC_TYPE_COUNT; i++)
 		if (m->index[i])
-			sink_printf(m->sink, "  Index_of_image_%s : %s;\n",
-				    iec_type_row((enum iec_type)i)->word,
+			sink_printf(m->sink, "  %s : %s;\n", m->index[i],
 				    iec_type_row((enum iec_type)i)->word);
 	put_area_values(m);
-	for (uint32_t i = 0; i < m->clocks; i++)
-		sink_printf(m->sink, "  Clock_of_image_%u : TON;\n", (unsigned)i);
-	if (m->counts)
-		sink_text(m->sink, "  Zero_of_image : INT;\n");
+	for (int i = 0; i < m->clock_count && m->clock[i]; i++)
+		sink_printf(m->sink, "  %s : TON;\n", m->clock[i]);
+	if (m->zero)
+		sink_printf(m->sink, "  %s : INT;\n", m->zero);
 	sink_text(m->sink, "END_VAR\n");
 }
 
@@ -1688,6 +1830,7 @@ static bool print_path(struct maker *m, const struct declared_name *access, char
 	const struct location at = access->at;
 	struct object *o;
 	char *name = room(m);
+	bool good;
 
 	if (at.area != AREA_NONE || at.where < m->program->areas.size) {
 		for (int i = 0; i < m->at_count; i++)
@@ -1702,7 +1845,13 @@ static bool print_path(struct maker *m, const struct declared_name *access, char
 		return !access->array.count;
 	}
 	o = object_at(m, at.where);
-	if (!o || !operand(m, at.type, at.where, name))
+	if (!o || code_run_at(m->program, at.where) == NULL ||
+	    code_run_at(m->program, at.where)->kind == RUN_CONSTANTS)
+		return false;
+	m->within = o->pou;
+	good = operand(m, at.type, at.where, name);
+	m->within = NULL;
+	if (!good)
 		return false;
 	if (access->array.count && (o->array.count != access->array.count ||
 				    o->array.low != access->array.low))
@@ -1713,20 +1862,39 @@ static bool print_path(struct maker *m, const struct declared_name *access, char
 	return true;
 }
 
+/* What a name of VAR_ACCESS becomes; false: nothing. @path: gets the variable's. It may be the
+ * variable's own name. */
+static bool name_access(struct maker *m, const struct declared_name *access, char *path,
+			char *name)
+{
+	char flat[NAME_SIZE];
+	const char *own, *made;
+
+	if (!print_path(m, access, path))
+		return false;
+	flatten(flat, sizeof(flat), access->name, access->array.head);
+	own = strrchr(path, '.') ? strrchr(path, '.') + 1 : path;
+	made = name_equal(own, flat) ? flat : free_name(m, flat);
+	snprintf(name, NAME_SIZE, "%s", made ? made : "");
+	return true;
+}
+
 static void put_access_line(struct maker *m, const struct declared_name *access)
 {
 	const struct object *o = object_at(m, access->at.where);
-	char *path = room(m);
-	char name[NAME_SIZE], text[NAME_SIZE + 40];
+	char *path = room(m), *name = room(m), *text = room(m);
+	const int len = (int)access->array.head;
 
-	flatten(name, sizeof(name), access->name, access->array.head);
-	if (!print_path(m, access, path) ||
-	    (is_taken(m, name) && !name_equal(strrchr(path, '.') ? strrchr(path, '.') + 1 : path, name))) {
-		m->pou = "VAR_ACCESS";
-		snprintf(text, sizeof(text), "access to %.255s", name);
+	m->pou = "VAR_ACCESS";
+	if (!name_access(m, access, path, name)) {
+		flatten(name, NAME_SIZE, access->name, access->array.head);
+		snprintf(text, ROOM, "access to %.255s", name);
 		lose(m, text);
-		m->pou = NULL;
 		return;
+	}
+	if ((int)strlen(name) != len || memcmp(name, access->name, strlen(name))) {
+		snprintf(text, ROOM, "an access as it was named; it is now %.255s", name);
+		lose(m, text);
 	}
 	sink_printf(m->sink, "  %.255s : ", name);
 	sink_text(m->sink, path);
@@ -1738,6 +1906,18 @@ static void put_access_line(struct maker *m, const struct declared_name *access)
 	if (access->at.type == IEC_STRING && o)
 		sink_printf(m->sink, "[%u]", (unsigned)o->word);
 	sink_printf(m->sink, " %s;\n", access->flags & SYMBOL_WRITABLE ? "READ_WRITE" : "READ_ONLY");
+}
+
+/* Variables that only operators use get their names before declarations are written. */
+static void find_accessed(struct maker *m)
+{
+	struct declared_cursor cursor = { 0 };
+	struct declared_name access;
+
+	while (image_next_access(m->program, &cursor, &access)) {
+		print_path(m, &access, room(m));
+		m->room_used = 0;
+	}
 }
 
 static void put_access(struct maker *m)
@@ -1754,6 +1934,7 @@ static void put_access(struct maker *m)
 		put_access_line(m, &access);
 		m->room_used = 0;
 	}
+	m->pou = NULL;
 	if (any)
 		sink_text(m->sink, "END_VAR\n");
 }
@@ -1764,8 +1945,10 @@ static const char *task_name(const struct maker *m, uint32_t task, char *text)
 {
 	const struct code_task *at = &m->program->task[task];
 
-	if (m->program->string_bytes && m->program->string[at->name])
-		snprintf(text, NAME_SIZE, "%.255s", m->program->string + at->name);
+	const char *name = m->program->string_bytes ? m->program->string + at->name : "";
+
+	if (*name)
+		flatten(text, NAME_SIZE, name, strlen(name));
 	else
 		snprintf(text, NAME_SIZE, "Task%u", (unsigned)task);
 	return text;
@@ -1781,6 +1964,7 @@ static void put_task(struct maker *m, uint32_t task)
 	const struct code_task *at = &m->program->task[task];
 	char *text = room(m);
 	char name[NAME_SIZE];
+	bool good = true;
 
 	if (at->kind == TASK_CYCLE)
 		return;
@@ -1792,7 +1976,7 @@ static void put_task(struct maker *m, uint32_t task)
 		if (CODE_OFFSET(at->single) < m->program->areas.size)
 			print_bit(m, CODE_OFFSET(at->single), at->single >> CODE_OFFSET_BITS, text);
 		else
-			operand(m, IEC_BOOL, CODE_OFFSET(at->single), text);
+			good = operand(m, IEC_BOOL, CODE_OFFSET(at->single), text);
 		sink_printf(m->sink, "SINGLE := %s", text);
 	}
 	sink_printf(m->sink, ", PRIORITY := %u", (unsigned)at->priority);
@@ -1801,14 +1985,17 @@ static void put_task(struct maker *m, uint32_t task)
 		sink_printf(m->sink, ", WATCHDOG := %s", text);
 	}
 	sink_text(m->sink, ");\n");
+	if (!good)
+		lose(m, "a task that starts with a bit without a name");
 }
 
 static void put_tasks(struct maker *m)
 {
 	const struct program *p = m->program;
 	struct areas usual;
-	char name[NAME_SIZE], pou[NAME_SIZE];
+	char name[NAME_SIZE];
 
+	m->writing = true;
 	areas_init(&usual);
 	sink_text(m->sink, "\nCONFIGURATION Image\n");
 	for (int i = AREA_NONE + 1; i < AREA_COUNT; i++)
@@ -1827,7 +2014,7 @@ static void put_tasks(struct maker *m)
 			sink_printf(m->sink, "  PROGRAM Run%u", (unsigned)(p->task[i].first + k));
 			if (p->task[i].kind != TASK_CYCLE)
 				sink_printf(m->sink, " WITH %s", task_name(m, i, name));
-			sink_printf(m->sink, " : %s;\n", entry_name(m, entry, pou));
+			sink_printf(m->sink, " : %s;\n", m->entry_name[entry]);
 		}
 	sink_text(m->sink, "END_CONFIGURATION\n");
 }
@@ -1840,17 +2027,15 @@ static void put_lists(struct maker *m, bool writing)
 	m->writing = writing;
 	m->labels = m->clocks = 0;
 	for (uint32_t i = 0; i < m->program->entry_count; i++) {
-		char name[NAME_SIZE];
-
 		if (is_program(m, i) || m->called[i])
 			put_pou(m, is_program(m, i) ? "PROGRAM" : "SUBROUTINE",
-				entry_name(m, i, name), i);
+				m->entry_name[i], i, entry_text(m, i));
 	}
 	for (int i = 0; i < m->special_count; i++) {
 		struct special now = m->special[i];
 
 		m->now = &now;
-		put_pou(m, "SUBROUTINE", now.name, now.entry);
+		put_pou(m, "SUBROUTINE", now.name, now.entry, NULL);
 		m->now = NULL;
 	}
 }
@@ -1878,6 +2063,7 @@ static void find_called(struct maker *m)
 static void put_file(struct maker *m)
 {
 	find_called(m); /* and which names are needed */
+	find_accessed(m);
 	sink_text(m->sink, "RUNGBOARD 1\n(* Made from a code image. *)\nPROJECT \"Image\"\n");
 	put_tasks(m);
 	put_vars(m, NULL, true);
@@ -1902,13 +2088,18 @@ bool image_il_write(const struct program *program, const struct sink *sink,
 	m->target = arena_alloc(&m->arena, program->text_words + 1u);
 	m->rooms = arena_alloc(&m->arena, ROOMS * sizeof(*m->rooms));
 	m->called = arena_alloc(&m->arena, program->entry_count + 1u);
-	if (memory && m->target && m->called && m->rooms && add_objects(m)) {
+	m->entry_name = arena_alloc(&m->arena, (program->entry_count + 1u) * sizeof(*m->entry_name));
+	sink_memory_init(&m->call);
+	if (memory && m->target && m->called && m->rooms && m->entry_name && grow_taken(m) &&
+	    add_objects(m) && name_entries(m)) {
 		image_init(&m->image, program, memory);
 		name_objects(m, false);
 		name_objects(m, true);
+		name_places(m);
 		put_file(m);
-		good = !m->arena.failed;
+		good = !m->arena.failed && !m->call.failed;
 	}
+	sink_memory_free(&m->call);
 	arena_free(&m->arena);
 	free(m);
 	return good;
