@@ -7,7 +7,9 @@
  * format changes.
  */
 #include "engine/base/digest.h"
+#include "engine/exchange/image/image_il.h"
 #include "engine/ladder.h"
+#include "engine/text/text.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdlib.h>
@@ -115,6 +117,33 @@ static void run(const struct program *program)
 	free(memory);
 }
 
+/* Its lists are read as a rung file, whatever it says; names may be refused as names. */
+static void list(const struct program *program)
+{
+	struct diag_list *diags;
+	struct project *project;
+	size_t len;
+	char *lost, *text;
+
+	if (image_memory_size(program) > DATA_MAX)
+		return;
+	text = image_il_text(program, &len, &lost);
+	project = project_new("list.rung");
+	diags = malloc(sizeof(*diags));
+	if (text && project && diags) {
+		diag_init(diags);
+		text_read(project, "list.rung", text, len, NULL, diags);
+		for (int i = 0; i < diags->count; i++)
+			fuzz_expect(diags->diag[i].id != DIAG_BAD_BYTE &&
+				    diags->diag[i].id != DIAG_BAD_UTF8 &&
+				    diags->diag[i].id != DIAG_SYNTAX, "the list is read");
+	}
+	free(diags);
+	project_free(project);
+	free(text);
+	free(lost);
+}
+
 static void open_image(const uint8_t *bytes, size_t len, bool repair)
 {
 	size_t room = (len + 8) / 8 * 8;
@@ -131,7 +160,10 @@ static void open_image(const uint8_t *bytes, size_t len, bool repair)
 		make_good(copy, len);
 	arena_init(&scratch);
 	if (code_open(copy, len, &scratch, &program, &why, &where))
+	{
+		list(&program);
 		run(&program);
+	}
 	else
 		fuzz_expect(why < DIAG_COUNT, "a refused image has a reason");
 	arena_free(&scratch);
