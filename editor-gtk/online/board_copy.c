@@ -381,6 +381,10 @@ static void part_came(gpointer data, struct board_answer *answer)
 		stored.len[i] = wire_u32(&answer->body);
 	size = stored_size(&stored);
 	len = wire_left(&answer->body);
+	if (!answer->body.failed && !stored.len[STORED_IMAGE]) {
+		upload_end(upload, NULL, _("The board has no program."), false);
+		return;
+	}
 	if (answer->body.failed || !size || len > size - MIN(size, upload->bytes->len) ||
 	    (!len && upload->bytes->len < size)) {
 		upload_end(upload, NULL, _("What the board sent is no program"), false);

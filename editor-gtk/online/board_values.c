@@ -663,6 +663,10 @@ static void find_program(LadderBoardValues *values, const struct board_status *s
 	values->tried = true;
 	if (ladder_board_link_role(values->link) < ROLE_VIEW)
 		return;
+	if (!status_has_program(status)) {
+		set_why(values, _("The board has no program."));
+		return;
+	}
 	if (begin_own(values))
 		return;
 	if (!ladder_board_link_may(values->link, SERVICE_UPLOAD)) {

@@ -135,7 +135,7 @@ static void show_facts(struct device *device, const struct board_status *status)
 {
 	char program[65];
 
-	digest_hex(status->program, sizeof(status->program), program);
+	event_program(status->program, program);
 	device->row = 0;
 	fact(device, _("Board"), g_strdup(ladder_board_link_board(device->link)));
 	fact(device, _("Place"), g_strdup(ladder_board_link_where(device->link)));

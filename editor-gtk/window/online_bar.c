@@ -83,16 +83,15 @@ enum same { SAME_UNKNOWN, SAME, SAME_ERRORS, SAME_CHANGED, SAME_OTHER, SAME_NONE
 static enum same compare_programs(struct online_bar *bar)
 {
 	const struct board_status *status = ladder_board_link_status(link_of(bar));
-	static const guint8 none[32];
 
 	if (!status)
 		return SAME_UNKNOWN;
+	if (!status_has_program(status))
+		return SAME_NONE;
 	if (!bar->has_identity)
 		return SAME_ERRORS;
 	if (memcmp(status->program, bar->identity, sizeof(bar->identity)) == 0)
 		return SAME;
-	if (memcmp(status->program, none, sizeof(none)) == 0)
-		return SAME_NONE;
 	return bar->was_same ? SAME_CHANGED : SAME_OTHER;
 }
 

@@ -29,6 +29,13 @@ static const char *board_name(struct online_move *move)
 	return ladder_board_link_board(move->core->link);
 }
 
+static bool is_empty(struct online_move *move)
+{
+	const struct board_status *status = ladder_board_link_status(move->core->link);
+
+	return status && !status_has_program(status);
+}
+
 /* ---- what the board stores ---- */
 
 static void upload(struct online_move *move);
@@ -254,7 +261,9 @@ static void show_progress(struct online_move *move)
 
 	if (!move->dialog) {
 		heading = g_strdup_printf(_("Sending to “%s”"), board_name(move));
-		move->dialog = dialog_new(move, heading, _("The board goes on with its program."));
+		move->dialog = dialog_new(move, heading, is_empty(move) ?
+					  _("The board has no program.") :
+					  _("The board goes on with its program."));
 		move->progress = gtk_progress_bar_new();
 		spoken_name(move->progress, heading);
 		adw_message_dialog_set_extra_child(move->dialog, move->progress);
@@ -298,7 +307,8 @@ static void ask(struct online_move *move)
 	const guint losses = ladder_board_download_losses(move->download)->len +
 			     ladder_board_download_more(move->download);
 	char *heading = g_strdup_printf(_("Download to “%s”?"), board_name(move));
-	const char *body = restart ?
+	const char *body = is_empty(move) ?
+		_("The board has no program yet, so there are no values to keep.") : restart ?
 		_("The I/O map differs from the one of the board, so ladderd begins again with "
 		  "it: the outputs get their safe values for a moment, and values that are not "
 		  "retained begin anew.") : losses ?

@@ -414,6 +414,8 @@ enum status remote_receive(struct remote *remote, struct stored *stored, struct 
 			stored->len[i] = wire_u32(&in);
 		size = stored_size(stored);
 		len = wire_left(&in);
+		if (!in.failed && !stored->len[STORED_IMAGE])
+			return report_usage(remote->call, "the board has no program yet; download one first");
 		if (in.failed || !size || len > size - bytes->len || (!len && bytes->len < size))
 			return remote_fail(remote, DESK_NONSENSE);
 		bytes_add(bytes, wire_bytes(&in, len), len);

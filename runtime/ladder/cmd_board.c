@@ -176,7 +176,7 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 	const struct sink *out = &remote->call->out;
 	char program[65];
 
-	digest_hex(status->program, sizeof(status->program), program);
+	event_program(status->program, program);
 	sink_text(out, "board: ");
 	sink_text(out, status->board);
 	sink_text(out, "\nmode: ");
@@ -238,7 +238,7 @@ static void json_status(const struct sink *out, const struct board_status *statu
 {
 	char program[65], next[300];
 
-	digest_hex(status->program, sizeof(status->program), program);
+	event_program(status->program, program);
 	sink_text(out, "{\"board\": ");
 	sink_json_text(out, status->board);
 	report_json_field("mode", mode_word(status->mode), out);
@@ -246,7 +246,7 @@ static void json_status(const struct sink *out, const struct board_status *statu
 	report_json_field("stop", *status->stop ? status->stop : NULL, out);
 	status_next(status, event_text(status->next), next, sizeof(next));
 	report_json_field("next_start", status->next ? next : NULL, out);
-	report_json_field("program", program, out);
+	report_json_field("program", status_has_program(status) ? program : NULL, out);
 	report_json_field("version", status->version, out);
 	report_json_field("role", role_word(desk->role), out);
 	sink_printf(out, ", \"forces\": %u, \"errors\": %u, \"scans\": %llu, \"missed\": %llu",

@@ -353,7 +353,7 @@ static void keep_image(struct download *download)
 		if (download->past[i].image &&
 		    memcmp(download->past[i].identity, running_identity(download), 32) == 0)
 			return; /* it ran before, too */
-	past = (struct past){ .image = malloc(len ? len : 1), .len = len };
+	past = (struct past){ .image = len ? malloc(len) : NULL, .len = len };
 	if (!past.image)
 		return;
 	memcpy(past.image, stored_part(stored, STORED_IMAGE), len);
@@ -370,7 +370,7 @@ const uint8_t *download_image(struct download *download, const uint8_t identity[
 
 	if (memcmp(running_identity(download), identity, 32) == 0) {
 		*len = stored->len[STORED_IMAGE];
-		return stored_part(stored, STORED_IMAGE);
+		return *len ? stored_part(stored, STORED_IMAGE) : NULL;
 	}
 	for (int i = 0; i < PAST; i++) {
 		const struct past *past = &download->past[i];
@@ -447,7 +447,7 @@ static void take(struct cycle *cycle, const struct resource *resource, const uin
 	cycle->resource = *resource;
 	cycle->store = NULL;
 	memcpy(cycle->identity_bytes, identity, sizeof(cycle->identity_bytes));
-	digest_hex(identity, sizeof(cycle->identity_bytes), cycle->identity);
+	event_program(identity, cycle->identity);
 	monitor_limit(cycle_plan(cycle, cycle->wanted_ns, cycle->watchdog));
 	cycle->failed = cycle->resource.vm.errors != 0;
 	link_note(cycle->link, NOTE_SWAP, 0);
@@ -501,7 +501,8 @@ void cycle_pass(struct cycle *cycle)
 
 /* ---- all of it ---- */
 
-/* The program that ladderd began with: its slot, or its image and map without sources. */
+/* The program that ladderd began with: its slot, or its image and map without sources; of an empty
+ * board nothing. */
 static bool take_first(struct download *download)
 {
 	const struct program *program = download->cycle->resource.image.program;
@@ -511,16 +512,18 @@ static bool take_first(struct download *download)
 		*first = download->slots->slot.stored;
 		return true;
 	}
-	first->len[STORED_IMAGE] = program->header->size;
-	first->len[STORED_MAP] = (uint32_t)download->map_len;
-	if (!stored_size(first))
-		return false;
-	download->first_bytes = malloc(stored_size(first));
+	if (!download->slots->empty) {
+		first->len[STORED_IMAGE] = program->header->size;
+		first->len[STORED_MAP] = (uint32_t)download->map_len;
+		if (!stored_size(first))
+			return false;
+	}
+	download->first_bytes = malloc(stored_size(first) + 1);
 	if (!download->first_bytes)
 		return false;
-	memcpy(download->first_bytes, program->base, program->header->size);
-	memcpy(download->first_bytes + program->header->size, download->map_text,
-	       download->map_len);
+	memcpy(download->first_bytes, program->base, first->len[STORED_IMAGE]);
+	memcpy(download->first_bytes + first->len[STORED_IMAGE], download->map_text,
+	       first->len[STORED_MAP]);
 	first->bytes = download->first_bytes;
 	return true;
 }

@@ -16,6 +16,8 @@
 
 /* ---- slots ---- */
 
+#define HOST_MOST 64 /* bytes of the name of this machine that become the name of the board */
+
 struct slots {
 	const char *folder;    /* of prog.A and prog.B; NULL: no --slots      */
 	const char *file, *map; /* of the command line, or NULL               */
@@ -23,6 +25,8 @@ struct slots {
 	struct slot slot;
 	int next;              /* the slot to be written                      */
 	bool bad[2];           /* damaged, at the start                       */
+	bool empty;            /* no program has been loaded: slots_load()    */
+	char lines[HOST_MOST + 16]; /* the map of such a board: its name      */
 	uint32_t seq;          /* of the newest one                           */
 	uint8_t unlike;        /* the event that says why the next start runs another program
 				* than this one; 0: it does not               */
@@ -37,7 +41,7 @@ struct slots {
 /**
  * slots_load - loads the newest good slot; else the files of the command line; else a program
  * that does nothing, so that a desk can bring one
- * @stopped: set for the last of them
+ * @stopped: set for the last of them, as is slots->empty: its identity is 32 zero bytes
  *
  * If a file of the command line has changed since the slot was written, it is newer. Prints
  * what is wrong with a slot. Owns: the caller, slots_close(). Scan-safe: no. Fails: as

@@ -506,7 +506,7 @@ static void go_back(struct link *link)
 	const struct program *program = use(link, standby);
 	char to[65];
 
-	digest_hex(bad->before_identity, sizeof(bad->before_identity), to);
+	event_program(bad->before_identity, to);
 	journal_add(link->journal, EVENT_BACK, 0, "", to, bad->why);
 	if (!aside)
 		journal_add(link->journal, EVENT_NOT_BACK, 0, "", slots->why, "");

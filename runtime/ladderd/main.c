@@ -179,8 +179,12 @@ static int run(struct daemon *daemon)
 		return 1;
 	}
 	resource_init(&cycle->resource, program, memory);
-	code_identity(program, cycle->identity_bytes);
-	digest_hex(cycle->identity_bytes, sizeof(cycle->identity_bytes), cycle->identity);
+	if (daemon->slots.empty) {
+		memcpy(cycle->identity, "none", 5);
+	} else {
+		code_identity(program, cycle->identity_bytes);
+		digest_hex(cycle->identity_bytes, sizeof(cycle->identity_bytes), cycle->identity);
+	}
 	cycle_name(cycle, options->name, load->map.board);
 	cycle->late_limit = options->late;
 	limit_ns = cycle_plan(cycle, options->period_ns, options->watchdog);

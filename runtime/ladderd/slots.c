@@ -130,11 +130,23 @@ static bool find(struct slots *slots, const struct options *options)
 	return true;
 }
 
+/* A board without program has no map, so it is called as the machine is. */
+static void name_board(struct slots *slots)
+{
+	char host[HOST_MOST + 1] = "";
+
+	if (gethostname(host, HOST_MOST) != 0 || !*host)
+		memcpy(host, "board", 6);
+	for (char *at = host; *at; at++) /* root may give any bytes */
+		if (*at <= ' ' || *at >= 127 || *at == '"' || *at == '\\')
+			*at = '-';
+	snprintf(slots->lines, sizeof(slots->lines), "BOARD \"%s\"\n", host);
+}
+
 bool slots_load(struct slots *slots, const struct options *options, struct load *load,
 		bool *stopped)
 {
 	static const char empty[] = "RUNGBOARD 1\nPROJECT \"none\"\n\nPROGRAM Main LD\nEND_PROGRAM\n";
-	static const char lines[] = "BOARD \"no program\"\n";
 	const struct stored *stored = &slots->slot.stored;
 
 	if (find(slots, options))
@@ -146,8 +158,9 @@ bool slots_load(struct slots *slots, const struct options *options, struct load 
 		return load_files(load, options->file, options->map,
 				  options->link || options->serial);
 	fprintf(stderr, "ladderd: no program yet: STOP\n");
-	*stopped = true;
-	return load_texts(load, empty, sizeof(empty) - 1, lines, sizeof(lines) - 1);
+	*stopped = slots->empty = true;
+	name_board(slots);
+	return load_texts(load, empty, sizeof(empty) - 1, slots->lines, strlen(slots->lines));
 }
 
 /* One file beside a slot, or the slot itself, gets the name of another, also after a power cut. */

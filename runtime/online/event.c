@@ -21,6 +21,15 @@ const char *event_text(uint8_t id)
 	return NULL;
 }
 
+void event_program(const uint8_t identity[32], char out[65])
+{
+	static const uint8_t none[32];
+
+	digest_hex(identity, 32, out);
+	if (memcmp(identity, none, 32) == 0)
+		memcpy(out, "none", 5);
+}
+
 void event_put(struct wire_writer *out, const struct event *event)
 {
 	wire_put_u32(out, event->seq);

@@ -29,6 +29,8 @@ struct event {
 
 /** event_text - of events.def; NULL: no event has this number. Static. */
 const char *event_text(uint8_t id);
+/** event_program - how the log names a program: its identity in hex; "none": the board has none. */
+void event_program(const uint8_t identity[32], char out[65]);
 /** event_put, event_take - the fields of an event. Scan-safe: yes. Fails: the reader has
  * failed. */
 void event_put(struct wire_writer *out, const struct event *event);

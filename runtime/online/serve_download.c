@@ -272,8 +272,8 @@ static void tell_download(const struct asked *asked, const struct expect *before
 {
 	char from[65], to[65];
 
-	digest_hex(before->program, sizeof(before->program), from);
-	digest_hex(asked->server->standby.identity, 32, to);
+	event_program(before->program, from);
+	event_program(asked->server->standby.identity, to);
 	asked_tell(asked, EVENT_DOWNLOAD, from, to);
 }
 

@@ -49,6 +49,13 @@ void status_put(struct wire_writer *out, const struct board_status *status)
 	wire_put_string(out, status->next_why);
 }
 
+bool status_has_program(const struct board_status *status)
+{
+	static const uint8_t none[sizeof(status->program)];
+
+	return memcmp(status->program, none, sizeof(none)) != 0;
+}
+
 static void take_task(struct wire_reader *in, struct task_status *task)
 {
 	wire_copy_text(in, task->name, sizeof(task->name));

@@ -24,7 +24,7 @@ struct board_status {
 	uint8_t mode;                  /* enum resource_state: STOP, RUN, FAULT */
 	uint8_t io;                    /* enum hal_quality: good, stale, fault */
 	uint16_t forces;
-	uint8_t program[32];           /* identity of what runs                */
+	uint8_t program[32];           /* identity of what runs; zero bytes: the board has no program */
 	uint64_t scans, late, resets;
 	int64_t period_ns;
 	int64_t scan_mean_ns, scan_max_ns, scan_p999_ns;
@@ -53,6 +53,8 @@ void status_put(struct wire_writer *out, const struct board_status *status);
 /** status_take - Fails: the reader has failed. Bytes behind the known fields are ignored;
  * texts are cut and end with NUL. */
 void status_take(struct wire_reader *in, struct board_status *status);
+/** status_has_program - false: nothing was ever downloaded to this board. */
+bool status_has_program(const struct board_status *status);
 /** status_next - @text: that of the event status->next, or its translation; gets why the next
  * start runs another program than this one. As snprintf. */
 int status_next(const struct board_status *status, const char *text, char *out, size_t size);

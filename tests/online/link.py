@@ -960,7 +960,31 @@ def test_without_a_program_it_waits_in_stop():
         board.arguments = []
         board.start()
         desk = board.client()
-        assert desk.status()['mode'] == client.STOP
+        status, none = desk.status(), bytes(32)
+        assert status['mode'] == client.STOP and status['program'] == none, status
+        assert status['board'] == re.sub(r'[^!-~]|["\\\\]', '-', socket.gethostname()), status
+        assert desk.upload() == [b'', b'', b'']
+        assert '\nprogram: none\n' in board.command('status')[1]
+        assert json.loads(board.command('status', '--json')[1])['program'] is None
+        result, _out, err = board.command('upload', '-o', 'none')
+        assert result == 2 and 'the board has no program yet' in err, err
+        # Between two scans; a desk that expects a program is stale.
+        desk.send_from(b''.join(parts), desk.begin(parts))
+        losses = desk.verify()[3]
+        assert set(losses.values()) == {1}, losses  # new variables, which lose nothing
+        refused(6, lambda: desk.commit(program=hashlib.sha256(b'').digest()))
+        desk.commit(program=none)
+        assert desk.status()['mode'] == client.STOP and desk.upload() == parts
+        desk.set_mode(1)
+        until(lambda: desk.status()['scans'] > 1)
+        new = desk.status()['program'].hex()
+        assert [event['args'] for event in desk.events() if event['id'] == 10] == [['none', new]], desk.events()
+        board.stop()
+        # With a restart.
+        os.unlink(board.folder + '/prog.A')
+        board.start()
+        desk = board.client()
+        assert desk.status()['program'] == none
         desk.send_from(b''.join(parts), desk.begin(parts))
         desk.verify()
         desk.commit(restart=True)

@@ -20,6 +20,7 @@
 
 struct test_board {
 	char *folder, *where;
+	bool empty; /* it begins without a program                           */
 	GSubprocess *daemon;
 };
 
@@ -61,7 +62,8 @@ static inline void board_start(struct test_board *board)
 		G_SUBPROCESS_FLAGS_STDOUT_SILENCE | G_SUBPROCESS_FLAGS_STDERR_SILENCE);
 
 	g_subprocess_launcher_set_cwd(launcher, board->folder);
-	board->daemon = g_subprocess_launcher_spawn(launcher, NULL, program, "seal.rung", "--io",
+	board->daemon = g_subprocess_launcher_spawn(launcher, NULL, program, board->empty ? "" :
+						    "seal.rung", "--io", board->empty ? "" :
 						    "board.io", "--link", "link", "--groups",
 						    "group", "--slots", "slots", NULL);
 	g_object_unref(launcher);

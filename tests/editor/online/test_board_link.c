@@ -49,7 +49,7 @@ static int mode_of(LadderBoardLink *link)
 static void begins_and_orders(void)
 {
 	LadderBoardLink *link = ladder_board_link_new();
-	struct test_board board;
+	struct test_board board = { .empty = false };
 	struct wire_writer fields;
 	struct expect seen;
 	char *why = NULL;
@@ -99,7 +99,7 @@ static void begins_and_orders(void)
 static void goes_and_comes_back(void)
 {
 	LadderBoardLink *link = ladder_board_link_new();
-	struct test_board board;
+	struct test_board board = { .empty = false };
 	GObject *owner = g_object_new(G_TYPE_OBJECT, NULL);
 	struct expect seen;
 	char *why = NULL;
@@ -210,7 +210,7 @@ static void asks_a_person_after_a_break(void)
 				     build ? build : "build");
 	char *script = script_new(text);
 	char *ssh = g_strdup_printf("sh %s", script), *why = NULL;
-	struct test_board board;
+	struct test_board board = { .empty = false };
 
 	g_setenv("RUNGBOARD_SSH", ssh, TRUE);
 	g_signal_connect(link, "asks", G_CALLBACK(keep_question), NULL);
@@ -254,7 +254,7 @@ static void hears_a_command_that_says_much(void)
 static void finds_no_board(void)
 {
 	LadderBoardLink *link = ladder_board_link_new();
-	struct test_board board;
+	struct test_board board = { .empty = false };
 	char *why = NULL;
 
 	CHECK(!ladder_board_link_connect(link, "pi@-oProxyCommand=x", &why));

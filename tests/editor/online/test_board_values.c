@@ -107,7 +107,7 @@ static bool power(guint rung, guint col)
 
 static void shows_and_changes(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 	guint64 scan;
 
 	board_open(&board, "eng");
@@ -177,7 +177,7 @@ static void download(const struct test_board *board, const char *file)
 /* A file of `ladder board … record` is shown without its board; only with its program. */
 static void plays_a_recording(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 	GError *error = NULL;
 	char *path;
 	guint64 first, last;
@@ -225,7 +225,7 @@ static void plays_a_recording(void)
 /* The board recorded scans before the editor was there, and each one since. */
 static void shows_its_record(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 	guint64 connected, scan;
 	gint64 count;
 
@@ -294,7 +294,7 @@ static guint runs_of(struct task_runs *runs)
 /* The real runs, also those after a restart; those of the last scans come with the next fetch. */
 static void shows_which_task_ran(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 	struct task_runs *runs;
 	guint first;
 
@@ -333,7 +333,7 @@ static void shows_which_task_ran(void)
 /* The timing chart takes what is published, and shows the values of the next program after a swap. */
 static void fills_a_timing_chart(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 	struct timing *timing;
 	double low, high;
 
@@ -360,7 +360,7 @@ static void fills_a_timing_chart(void)
 
 static void only_looks(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 
 	board_open(&board, "view");
 	open_editor(BOARD_PROGRAM);
@@ -381,7 +381,7 @@ static void only_looks(void)
 /* An operator may write what the program exports. The view in which a person did it can say so. */
 static void says_where_it_is_refused(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 
 	board_open(&board, "oper");
 	open_editor(BOARD_PROGRAM);
@@ -417,7 +417,7 @@ static char *large_program(void)
 /* Those that views need come; the board counts forces that it does not publish, too. */
 static void shows_some_of_many(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 	char *program = large_program();
 	struct location last, first;
 
@@ -456,7 +456,7 @@ static void shows_some_of_many(void)
 /* The rungs of its conditions are those of the board, so their power is shown. */
 static void numbers_a_chart(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 
 	board_open(&board, "eng");
 	board_write(&board, "chart.rung", CHART);
@@ -474,7 +474,7 @@ static void numbers_a_chart(void)
 /* A board that does not answer: what is shown gets older. */
 static void says_how_late_it_is(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 	gint64 late;
 
 	board_open(&board, "eng");
@@ -496,7 +496,7 @@ static void says_how_late_it_is(void)
 /* ladderd was started with a file: it has no sources of it. */
 static void knows_no_sources(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 
 	board_open(&board, "eng");
 	open_editor(OTHER);
@@ -513,10 +513,27 @@ static void knows_no_sources(void)
 	board_close(&board);
 }
 
+static void waits_for_a_program(void)
+{
+	struct test_board board = { .empty = true };
+
+	board_open(&board, "eng");
+	open_editor(OTHER);
+	connect_to(&board);
+	CHECK_SOON(*ladder_board_values_why(values));
+	CHECK_TEXT(ladder_board_values_why(values), "The board has no program.");
+	board_write(&board, "other.rung", OTHER);
+	download(&board, "other.rung");
+	CHECK_SOON(ladder_sim_board(sim) != NULL);
+	CHECK_TEXT(ladder_board_values_why(values), "");
+	close_editor();
+	board_close(&board);
+}
+
 /* Somebody else downloads while the editor is connected. */
 static void gets_another_program(void)
 {
-	struct test_board board;
+	struct test_board board = { .empty = false };
 
 	board_open(&board, "eng");
 	board_write(&board, "other.rung", OTHER);
@@ -546,6 +563,7 @@ int main(void)
 	numbers_a_chart();
 	says_how_late_it_is();
 	knows_no_sources();
+	waits_for_a_program();
 	gets_another_program();
 	return tap_done();
 }

@@ -41,7 +41,8 @@ class Board:
         self.options = options
         self.folder = os.path.join(screen.home, name)
         os.makedirs(self.folder + '/slots')
-        for file, text in (('board.rung', program), ('board.io', board), ('group', 'ladder-%s:x:%d:\n' % (role, os.getgid()))):
+        self.arguments = ['board.rung', '--io', 'board.io'] if program else ['', '--io', '']
+        for file, text in (('board.rung', program or ''), ('board.io', board), ('group', 'ladder-%s:x:%d:\n' % (role, os.getgid()))):
             with open(os.path.join(self.folder, file), 'w') as out:
                 out.write(text)
         self.where = 'unix:%s/link' % self.folder
@@ -54,7 +55,7 @@ class Board:
 
     def start(self):
         self.daemon = subprocess.Popen(
-            [os.path.join(os.path.abspath(BUILD), 'ladderd'), 'board.rung', '--io', 'board.io', '--link', 'link', '--groups', 'group',
+            [os.path.join(os.path.abspath(BUILD), 'ladderd'), *self.arguments, '--link', 'link', '--groups', 'group',
              '--slots', 'slots', *self.options], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL)
         until(self.listens, 'the board')
@@ -148,7 +149,10 @@ def state(screen):
 def roles(screen):
     """a user who may only look gets values and a reason at each button; a user without a group is told what to do"""
     board = Board(screen, 'porch', role='view')
-    editor = Editor(screen, new_file(screen, SEAL, 'seal.rung'))
+    path = new_file(screen, SEAL, 'seal.rung')
+    with open(path[:-5] + '.io', 'w') as out:
+        out.write(MAP)
+    editor = Editor(screen, path)
     editor.to_sheet()
     connect(editor, board.where)
     says(editor, 'you may look')
@@ -162,6 +166,19 @@ def roles(screen):
     editor.shot('online-none')
     connect(editor, 'unix:/nowhere')
     says(editor, 'No ladderd listens at “/nowhere”')
+    board.stop()
+    board = Board(screen, 'shed', program=None)
+    connect(editor, board.where)
+    says(editor, 'The board has no program.')
+    editor.click(editor.sheet())
+    editor.to_sheet()
+    editor.keys('ctrl+shift+l')
+    editor.find('The board has no program yet, so there are no values to keep.', 'label')
+    assert not editor.all('All values go on', 'label')
+    editor.shot('online-empty')
+    editor.keys('Return')
+    says(editor, 'The board runs this program.')
+    assert 'mode: STOP' in board.ask('status')
     board.stop()
 
 
