@@ -161,7 +161,7 @@ static void show_facts(struct device *device, const struct board_status *status)
 	fact(device, _("Lines of the I/O map"), lines_text(status));
 	fact(device, _("Calls to lines that failed"),
 	     g_strdup_printf("%" G_GUINT64_FORMAT, status->io_failed));
-	fact(device, _("Memory"), g_strdup_printf("%" G_GUINT64_FORMAT " KB",
+	fact(device, _("Memory in use"), g_strdup_printf("%" G_GUINT64_FORMAT " KB",
 						  (status->memory_bytes + 1023) / 1024));
 	fact(device, _("Processor"), g_strdup_printf("%u.%u %%", status->cpu_permille / 10,
 						     status->cpu_permille % 10));

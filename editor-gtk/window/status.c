@@ -65,6 +65,13 @@ static void show_board_pill(struct status *status)
 	g_free(text);
 }
 
+/* Also while no values of the board are shown. */
+static bool is_online(struct status *status)
+{
+	return ladder_sim_board(status->core->sim) ||
+	       ladder_board_link_state(status->core->link) != LINK_OFF;
+}
+
 static void show_pill(struct status *status)
 {
 	static const struct { const char *text, *class; } pills[] = {
@@ -81,7 +88,7 @@ static void show_pill(struct status *status)
 		set_pill(status, _("ON THIS MACHINE"), board_class(status));
 		return;
 	}
-	if (ladder_sim_board(status->core->sim) && !ladder_sim_is_past(status->core->sim)) {
+	if (is_online(status) && !ladder_sim_is_past(status->core->sim)) {
 		show_board_pill(status);
 		return;
 	}
@@ -183,6 +190,8 @@ void status_init(struct status *status, struct core *core)
 	core_connect(core, core->sim, "state-changed", G_CALLBACK(show_pill), status,
 		     G_CONNECT_SWAPPED);
 	core_connect(core, core->sim, "shown", G_CALLBACK(show_pill), status,
+		     G_CONNECT_SWAPPED);
+	core_connect(core, core->link, "state-changed", G_CALLBACK(show_pill), status,
 		     G_CONNECT_SWAPPED);
 	core_connect(core, core->board, "changed", G_CALLBACK(show_pill), status,
 		     G_CONNECT_SWAPPED);

@@ -5,16 +5,18 @@
 The boards are ladderds of this machine, whose lines are simulated.
 """
 import os
+import re
 import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../online'))
 from desk import BUILD, Editor, main, new_file, sh, until  # noqa: E402
-from online import Board, connect, says  # noqa: E402
+from languages import Foreign  # noqa: E402
+from online import SEAL, Board, connect, says, shown_log  # noqa: E402
 from online_live import PUMP  # noqa: E402
 from serial_line import Cable  # noqa: E402
-from spoken import nameless  # noqa: E402
+from spoken import ROWS, nameless  # noqa: E402
 
 MAP = 'BOARD "%s"\n%%IX0.0 sim\n%%QX0.0 sim\n'
 MILL = PUMP.replace('"Pump"', '"Mill"')
@@ -113,6 +115,167 @@ def spoken_all(screen):
     board.stop()
 
 
+SEAL_MAP = MAP % 'garage'
+
+
+def exact(editor, name, role='push button', below=None):
+    """The widget of exactly that name, in the language of the editor."""
+    name = editor.said.gettext(name) if isinstance(editor, Foreign) else name
+    return until(lambda: [node for node in editor.all(name, role, below) if node.name == name and node.box()[2] > 0], name)[0]
+
+
+def click_in(editor, node):
+    """Clicks at a widget of the dialog that has the keys."""
+    about = dict(re.findall(r'(Absolute upper-left [XY]|Width|Height): +(-?\d+)', sh('xwininfo', '-id', sh('xdotool', 'getactivewindow'))))
+    nodes, top = editor.known(), node
+    while top.parent in nodes and top.parent != editor.root:
+        top = nodes[top.parent]
+    (left, up, width, height), (_, _, whole, high) = editor.at_rest(node), top.box()
+    editor.clicked = 0.0
+    sh('xdotool', 'mousemove', str(int(about['Absolute upper-left X']) + (int(about['Width']) - whole) // 2 + left + width // 2),
+       str(int(about['Absolute upper-left Y']) + (int(about['Height']) - high) // 2 + up + height // 2), 'click', '1')
+
+
+def closed(editor):
+    """Esc leaves the dialog that has the keys."""
+    until(lambda: len(editor.windows()) == 2, 'the dialog')
+    editor.keys('Escape')
+    until(lambda: len(editor.windows()) == 1 and editor.focused(), 'the end of the dialog')
+
+
+def choice(editor, node, name):
+    """An entry of the context menu of an element, by the pointer."""
+    editor.click(editor.middle(node), button=3)
+    editor.click(editor.popped(until(lambda: [each for each in editor.all(name, 'menu item') if each.box()[2] > 0], name)[0]))
+
+
+def by_mouse(screen):
+    """the mode by the pointer alone: a board of the list, its state, Stop and Run, a force, a value, a download, the log"""
+    board = Board(screen, 'garage', program=PUMP, board=SEAL_MAP)
+    path = new_file(screen, PUMP.replace('500ms', '600ms'), 'pump.rung')
+    with open(path[:-5] + '.io', 'w') as out:
+        out.write(SEAL_MAP)
+    editor = Editor(screen, path)
+    editor.click(exact(editor, 'Online', None))
+    editor.focus_on('Board', 'text')
+    editor.type(board.where)
+    click_in(editor, exact(editor, 'Connect'))
+    says(editor, 'garage · RUN')
+    says(editor, 'The board runs another program.')
+    editor.says('Values of the board are not shown: ')
+    editor.click(exact(editor, 'Disconnect'))
+    until(lambda: not editor.all('garage · RUN', 'label'), 'the bar to go')
+    editor.click(exact(editor, 'Online', None))
+    editor.focus_on('Board', 'text')
+    click_in(editor, until(lambda: [node for node in editor.all('garage/link') if node.role in ROWS and node.box()[2] > 0],
+                           'the recent board')[0])
+    says(editor, 'garage · RUN')
+    editor.says('Values of the board are not shown: ')
+    editor.click(exact(editor, 'Download…'))
+    editor.find('Download to “garage”?', 'label')
+    click_in(editor, exact(editor, 'Download'))
+    says(editor, 'The board runs this program.')
+    editor.element('Rung 2, [ ]', '30 > 20, closed')
+    until(lambda: not editor.all('Values of the board are not shown', 'label'), 'the status bar to take it back')
+    choice(editor, editor.element('Rung 1, COIL', ', off'), 'Force on')
+    editor.element('Rung 1, COIL', ', on, forced')
+    editor.find('1 force', 'push button')
+    assert 'Motor' in board.ask('forces')
+    editor.shot('online-mouse-force')
+    editor.click(exact(editor, 'Stop'))
+    editor.find('Stop the program on “garage”?', 'label')
+    click_in(editor, exact(editor, 'Stop', below=editor.find(role='dialog').path))
+    says(editor, 'garage · STOP')
+    editor.click(exact(editor, 'Run'))
+    click_in(editor, exact(editor, 'Run', below=editor.find(role='dialog').path))
+    says(editor, 'garage · RUN')
+    until(lambda: not editor.all('forced', 'table cell'), 'the start to release it')
+    editor.tab('Status chart')
+    editor.click(exact(editor, 'Motor, Force', None))
+    editor.element('Rung 1, COIL', ', off, forced')
+    editor.shot('online-mouse-chart')
+    editor.click(exact(editor, 'Motor, Force', None))
+    until(lambda: 'Motor' not in board.ask('forces'), 'the end of the force')
+    editor.into('Level, New value')
+    editor.type('7')
+    editor.keys('Return')
+    editor.element('Rung 2, [ ]', '7 > 20, open')
+    editor.tab('Timing chart')
+    until(lambda: [node for node in editor.all('Motor') if node.box()[2] > 0], 'the outputs in the timing chart')
+    editor.shot('online-mouse-timing')
+    editor.click(editor.find('Each scan', 'list item'), count=2)
+    until(lambda: [node for node in editor.all(' run') if 'every' in node.name], 'the runs of the board')
+    editor.shot('online-mouse-tasks')
+    editor.tab('Log')
+    for kind in 'System', 'Compile', 'Operator':
+        editor.click(exact(editor, kind, None))
+    until(lambda: {line.split('\t')[1] for line in shown_log(editor).split('\n')} == {'communication'}, 'one kind of lines')
+    editor.shot('online-mouse-log')
+    board.stop()
+
+
+def told_in(screen, language, **env):
+    """The texts of the bar, its dialogs, the state of the board and the log, none of them English."""
+    board = Board(screen, 'garage', program=SEAL, board=SEAL_MAP)
+    path = new_file(screen, SEAL.replace('Count : INT', 'Total : DINT'), 'seal.rung')
+    with open(path[:-5] + '.io', 'w') as out:
+        out.write(SEAL_MAP)
+    editor = Foreign(screen, language, path, **env)
+    names = set()
+
+    def look(picture):
+        names.update(editor.names())
+        editor.shot('online-%s-%s' % (language, picture))
+
+    editor.to_sheet()
+    editor.click(exact(editor, 'Online', None))
+    until(lambda: editor.all('Connect to a board'), 'the dialog')
+    editor.focus_on(editor.said.gettext('Board'), 'text')
+    look('connect')
+    editor.type(board.where)
+    editor.keys('Return')
+    exact(editor, 'The board runs another program.', 'label')
+    look('differs')
+    for button, heading in (('Download…', 'Download to “%s”?'), ('Stop', 'Stop the program on “%s”?')):
+        editor.click(exact(editor, button))
+        editor.find(editor.said.gettext(heading) % 'garage', 'label')
+        look(button.strip('…').lower())
+        closed(editor)
+    if editor.said.gettext('State of the board').isascii():  # keys type it
+        editor.command(editor.said.gettext('State of the board'))
+        exact(editor, 'Missed scans', 'label')
+        look('device')
+    editor.tab(editor.said.gettext('Log'))
+    exact(editor, 'Communication', None)
+    look('log')
+    log = next(node.text() for node in editor.all('Log', 'text'))
+    board.stop()
+    exact(editor, 'Connect again')
+    look('lost')
+    left = editor.english(names)
+    assert not left, 'still English: %s' % left
+    kinds = [editor.said.gettext(kind) for kind in ('system', 'compile', 'operator', 'communication')]
+    assert {line.split('\t')[1] for line in log.split('\n')} <= set(kinds), log
+
+
+def german(screen):
+    """the mode in German, dark, on a small screen"""
+    told_in(screen, 'de', ADW_DEBUG_COLOR_SCHEME='prefer-dark')
+
+
+def french(screen):
+    """the mode in French"""
+    told_in(screen, 'fr')
+
+
+def chinese(screen):
+    """the mode in Chinese, dark, on a large screen"""
+    told_in(screen, 'zh_CN', ADW_DEBUG_COLOR_SCHEME='prefer-dark')
+
+
+german.size, chinese.size = '1024x700x24', '3840x2160x24'
+
+
 class SerialBoard(Board):
     """The same at the end of a cable."""
 
@@ -170,4 +333,4 @@ def serial(screen):
 
 
 if __name__ == '__main__':
-    main([two, spoken_all, serial])
+    main([two, spoken_all, by_mouse, *([german, french, chinese] if os.path.isdir(os.path.join(BUILD, 'locale')) else []), serial])
