@@ -16,15 +16,24 @@ struct reading {
 	GPtrArray *maps;           /* names that its I/O map may have, the likely one last */
 	char *map;                 /* the path of the map now; NULL: none, or its names are read */
 	GCancellable *cancel;
+	gulong cancelled;          /* handler; 0: none                              */
 	revision_take *take;
 	gpointer data;
 };
+
+static void ignore_cancel(struct reading *reading)
+{
+	if (reading->cancelled)
+		g_cancellable_disconnect(reading->cancel, reading->cancelled);
+	reading->cancelled = 0;
+}
 
 static void reading_free(gpointer data)
 {
 	struct reading *reading = data;
 
 	compare_side_clear(&reading->side);
+	ignore_cancel(reading);
 	g_clear_object(&reading->cancel);
 	g_ptr_array_unref(reading->maps);
 	g_free(reading->map);
@@ -73,6 +82,7 @@ static void ask_next(struct reading *reading)
 		g_free(map);
 		return;
 	}
+	ignore_cancel(reading); /* the callee may cancel */
 	reading->take(reading->data, &reading->side, NULL);
 	reading_free(reading);
 }
@@ -113,6 +123,7 @@ static void take(gpointer data, char *text, gsize len, const char *why)
 	struct reading *reading = data;
 
 	if (!reading->side.text && !text) {
+		ignore_cancel(reading);
 		reading->take(reading->data, NULL, why);
 		reading_free(reading);
 		return;
@@ -135,6 +146,19 @@ static void bytes_free(gpointer bytes)
 		g_bytes_unref(bytes);
 }
 
+static gboolean drop(gpointer reading)
+{
+	reading_free(reading);
+	return G_SOURCE_REMOVE;
+}
+
+/* No answer of git comes any more. A handler cannot disconnect itself. */
+static void cancelled(GCancellable *cancel, gpointer reading)
+{
+	(void)cancel;
+	g_idle_add(drop, reading);
+}
+
 void revision_read(const char *path, const char *hash, const char *name, const char *title,
 		   GCancellable *cancel, revision_take *taken, gpointer data)
 {
@@ -151,5 +175,8 @@ void revision_read(const char *path, const char *hash, const char *name, const c
 	if (dot)
 		g_ptr_array_add(reading->maps, g_strdup_printf("%.*s.io", (int)(dot - name),
 							       name));
+	if (cancel)
+		reading->cancelled = g_cancellable_connect(cancel, G_CALLBACK(cancelled), reading,
+							   NULL);
 	ask(reading, g_strdup(name));
 }

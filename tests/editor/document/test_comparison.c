@@ -5,6 +5,7 @@
 #include "editor-gtk/document/comparison.h"
 #include "editor-gtk/document/git_log.h"
 #include "editor-gtk/document/revision.h"
+#include "tests/editor/soon.h"
 #include "tests/tap.h"
 
 #include <gio/gio.h>
@@ -487,6 +488,25 @@ static void check_revision(void)
 	g_free(folder);
 }
 
+static void never(gpointer data, struct compare_side *side, const char *why)
+{
+	(void)data;
+	(void)side;
+	(void)why;
+	CHECK_AS(false, "nothing comes after it was cancelled");
+}
+
+/* What is cancelled is forgotten: it keeps nothing. */
+static void check_cancelled(void)
+{
+	GCancellable *cancel = g_cancellable_new();
+
+	revision_read("/tmp/x.rung", "HEAD", "x.rung", "then", cancel, never, NULL);
+	g_cancellable_cancel(cancel);
+	CHECK_SOON(G_OBJECT(cancel)->ref_count == 1);
+	g_object_unref(cancel);
+}
+
 int main(void)
 {
 	check_rungs();
@@ -498,5 +518,6 @@ int main(void)
 	check_maps();
 	check_git();
 	check_revision();
+	check_cancelled();
 	return tap_done();
 }
