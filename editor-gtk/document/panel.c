@@ -192,6 +192,7 @@ struct panel_column {
 	int width;    /* wished by the panel; 0: natural                        */
 	int least;    /* px for its heading                                     */
 	int need;     /* px for the longest text so far: widths settle          */
+	int whole;    /* the same, of a text that is wider than COLUMN_MOST, too */
 	int set;      /* given last; another one is a person's                  */
 };
 
@@ -229,6 +230,7 @@ static void measure(struct panel_list *list)
 		pango_layout_set_text(layout, longest(list, each->text), -1);
 		pango_layout_get_pixel_size(layout, &width, NULL);
 		each->need = MAX(each->need, MIN(width + each->room, COLUMN_MOST));
+		each->whole = MAX(each->whole, width + each->room);
 	}
 	g_object_unref(layout);
 }
@@ -249,6 +251,13 @@ static int wish_of(const struct panel_column *column)
 	if (column->width && now != column->set)
 		return now;
 	return MAX(MAX(column->width, column->need), column->least);
+}
+
+/* Px that the texts of a column that expands lack, if it gets its wish alone. */
+static int lack_of(const struct panel_column *column)
+{
+	return gtk_column_view_column_get_expand(column->column) ?
+	       MAX(column->whole - wish_of(column), 0) : 0;
 }
 
 static bool has_column(struct panel_list *list, const GtkColumnViewColumn *column)
@@ -278,10 +287,10 @@ static int width_of_others(struct panel_list *list)
 }
 
 /* Each column has the width that it wishes, or more for its texts. Where that is more than the
- * list has, all give up what their texts do not need. */
+ * list has, or the texts of one that expands lack room, all give up what their texts do not need. */
 static void fit(struct panel_list *list)
 {
-	int all = width_of_others(list), slack = 0, page;
+	int all = width_of_others(list), slack = 0, lack = 0, page;
 
 	measure(list);
 	for (guint i = 0; i < list->columns->len; i++) {
@@ -291,13 +300,14 @@ static void fit(struct panel_list *list)
 			continue;
 		all += wish_of(each);
 		slack += slack_of(each);
+		lack += lack_of(each);
 	}
-	page = list->page > 0 ? list->page : all;
+	page = list->page > 0 ? list->page : all + lack;
 	for (guint i = 0; i < list->columns->len; i++) {
 		struct panel_column *each = &g_array_index(list->columns, struct panel_column, i);
 		const int now = gtk_column_view_column_get_fixed_width(each->column);
-		const int less = all > page && slack ?
-			slack_of(each) * MIN(all - page, slack) / slack : 0;
+		const int over = all + lack - page;
+		const int less = over > 0 && slack ? slack_of(each) * MIN(over, slack) / slack : 0;
 
 		if (!each->width || now != each->set)
 			continue;

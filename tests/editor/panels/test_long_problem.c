@@ -9,6 +9,13 @@
 
 #include <adwaita.h>
 
+/* Px of the columns beside the problem, and what a cell has beside its text. */
+#define ICON 34
+#define PLACE 260
+#define CODE 80
+#define ROOM 24
+#define LACK 30
+
 static const char sample[] =
 	"RUNGBOARD 1\n\nVAR\n  Lamp AT %QX0.0 : BOOL;\nEND_VAR\n\n"
 	"PROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL Lamp |\n"
@@ -37,6 +44,29 @@ static bool shows_both_ends(GtkLabel *label)
 	       !(last->item->analysis.flags & PANGO_ANALYSIS_FLAG_IS_ELLIPSIS);
 }
 
+/* Px of the text on one line. */
+static int width_of(GtkLabel *label)
+{
+	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(label),
+							     gtk_label_get_text(label));
+	int width;
+
+	pango_layout_get_pixel_size(layout, &width, NULL);
+	g_object_unref(layout);
+	return width;
+}
+
+/* No text is cut beside columns that have more room than their texts need: all others have their
+ * wishes here, and the problem lacks LACK px. */
+static void check_room(GtkWindow *window, GtkLabel *label)
+{
+	gtk_window_set_default_size(window, 1200, 200);
+	WAIT(gtk_widget_get_width(GTK_WIDGET(label)) > width_of(label) + 100);
+	gtk_window_set_default_size(window, ICON + PLACE + CODE + width_of(label) + ROOM - LACK, 200);
+	WAIT(gtk_widget_get_width(GTK_WIDGET(label)) < width_of(label) + 100);
+	CHECK_SOON(!pango_layout_is_ellipsized(gtk_label_get_layout(label)));
+}
+
 int main(void)
 {
 	LadderDocument *document;
@@ -62,6 +92,7 @@ int main(void)
 	if (label) {
 		CHECK_SOON(pango_layout_is_ellipsized(gtk_label_get_layout(label)));
 		CHECK(shows_both_ends(label));
+		check_room(GTK_WINDOW(window), label);
 	}
 	ladder_problems_set_document(LADDER_PROBLEMS(problems), NULL);
 	gtk_window_destroy(GTK_WINDOW(window));
