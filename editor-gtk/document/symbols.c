@@ -1082,6 +1082,74 @@ static void drop_access(struct symbol_batch *batch, const struct symbol_row *sym
 		add_piece(batch, span->at, span->len, g_strdup(""));
 }
 
+/* Removes the lines of a block that @drops has. */
+static void drop_lines(struct symbol_batch *batch, int number, const bool *drops)
+{
+	const struct access_block *block = &batch->project->access_block[number];
+	const struct text_span *span = find_span(batch, TEXT_ACCESS, 0, number);
+	int count = 0;
+
+	for (int i = 0; i < block->count; i++)
+		count += drops[block->first + i];
+	if (count && count == block->count && !block->comment && span) {
+		add_piece(batch, span->at, span->len, g_strdup(""));
+		return;
+	}
+	for (int i = 0; i < block->count; i++) {
+		span = drops[block->first + i] ?
+		       find_span(batch, TEXT_ACCESS_LINE, 0, block->first + i) : NULL;
+		if (span)
+			add_piece(batch, span->at, span->len, g_strdup(""));
+	}
+}
+
+/* The line of VAR_ACCESS whose path leads to this symbol, or into it, by a member or an index;
+ * -1: the use is none. */
+static int access_line_of(const struct project *project, const struct xref_use *use)
+{
+	const guintptr at = (guintptr)use->slot, first = (guintptr)project->access;
+	const struct access *access;
+	int depth = 0;
+
+	if (!use->slot || use->included || at < first ||
+	    at >= (guintptr)(project->access + project->access_count))
+		return -1;
+	access = &project->access[(at - first) / sizeof(*access)];
+	if (use->slot != &access->path)
+		return -1;
+	for (uint32_t i = 0; i < use->at; i++) {
+		const char c = project_text(project, access->path)[i];
+
+		depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+	}
+	return depth ? -1 : (int)(access - project->access); /* not for an index in it */
+}
+
+/* All lines that lead to the symbol, whatever name operators have for it. A block goes with its
+ * last line, unless it has a comment. */
+static void drop_accesses(struct symbol_batch *batch, int table, int index)
+{
+	const struct project *project = batch->project;
+	bool *drops = g_new0(bool, (gsize)project->access_count + 1);
+	struct xref xref;
+
+	if (!xref_make(&xref, batch->project))
+		g_error("out of memory");
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+		const int line = use->target.what == XREF_VARIABLE &&
+				 use->target.table == table && use->target.index == index ?
+				 access_line_of(project, use) : -1;
+
+		if (line >= 0)
+			drops[line] = true;
+	}
+	xref_free(&xref);
+	for (int i = 0; i < project->access_block_count; i++)
+		drop_lines(batch, i, drops);
+	g_free(drops);
+}
+
 /* @name: for operators. */
 static void change_access(struct symbol_batch *batch, const struct symbol_row *symbol,
 			  enum symbol_access access, const char *name)
@@ -1241,11 +1309,10 @@ bool symbol_add(LadderDocument *document, int table, uint16_t flags,
 bool symbol_delete(LadderDocument *document, int table, int index, char **why)
 {
 	struct symbol_batch *batch = symbol_batch_new(document);
-	const struct symbol_row *symbol = row_at(batch->symbols, table, index);
 	bool good = batch_delete(batch, table, index, why);
 
-	if (good && symbol && symbol->line >= 0 && !symbol->foreign)
-		drop_access(batch, symbol);
+	if (good)
+		drop_accesses(batch, table, index);
 	good = good && symbol_batch_apply(batch, _("Delete symbol"), why);
 
 	symbol_batch_free(batch);

@@ -689,6 +689,18 @@ static void test_access(void)
 	g_object_unref(document);
 }
 
+static void deleted(LadderDocument *document, const char *scope, const char *name)
+{
+	struct symbols *symbols = symbols_new(document);
+	const struct symbol_row *symbol = find_symbol(symbols, scope, name);
+	char *why = NULL;
+
+	CHECK_AS(symbol && symbol_delete(document, symbol->table, symbol->index, &why),
+		 "the symbol is deleted");
+	symbols_free(symbols);
+	g_free(why);
+}
+
 /* A name that another variable has; a configuration; a symbol that is deleted. */
 static void test_access_places(void)
 {
@@ -696,21 +708,33 @@ static void test_access_places(void)
 		"END_VAR\n\nCONFIGURATION Plant\n  PROGRAM One : A;\nEND_CONFIGURATION\n\n"
 		"PROGRAM A LD\nVAR\n  X : ARRAY[1..Most] OF INT;\nEND_VAR\nEND_PROGRAM\n\n"
 		"PROGRAM B LD\nVAR\n  X : INT;\nEND_VAR\nEND_PROGRAM\n");
-	struct symbols *symbols;
-	const struct symbol_row *symbol;
-	char *why = NULL;
 
 	CHECK(give(document, "A", "X", SYMBOL_WRITE) && give(document, "B", "X", SYMBOL_READ));
 	CHECK(has(document, "  PROGRAM One : A;\nVAR_ACCESS\n"
 			    "  A_X : A.X : ARRAY[1..4] OF INT READ_WRITE;\n"
 			    "  B_X : B.X : INT READ_ONLY;\nEND_VAR\nEND_CONFIGURATION\n"));
-	symbols = symbols_new(document);
-	symbol = find_symbol(symbols, "A", "X");
-	CHECK(symbol_delete(document, symbol->table, symbol->index, &why));
-	symbols_free(symbols);
+	deleted(document, "A", "X");
 	CHECK_AS(has(document, "VAR_ACCESS\n  B_X : B.X : INT READ_ONLY;\nEND_VAR"),
 		 "the access goes with the symbol");
-	g_free(why);
+	g_object_unref(document);
+}
+
+/* Several names for one symbol, or for parts of it; another symbol has it as an index. */
+static void test_access_deleted(void)
+{
+	LadderDocument *document = opened("RUNGBOARD 1\n\nVAR CONSTANT\n  Most : INT := 2;\n"
+		"END_VAR\n\nVAR\n  A : ARRAY[1..4] OF INT;\n  B : ARRAY[1..4] OF INT;\nEND_VAR\n\n"
+		"VAR_ACCESS\n  One : A : ARRAY[1..4] OF INT READ_WRITE;\n"
+		"  Two : A : ARRAY[1..4] OF INT READ_ONLY;\n  Three : B[2] : INT READ_ONLY;\n"
+		"  Four : A[3] : INT READ_ONLY;\n  Five : B[Most] : INT READ_ONLY;\nEND_VAR\n\n"
+		"VAR_ACCESS\n  Six : A[1] : INT READ_ONLY;\nEND_VAR\n\nPROGRAM M LD\nEND_PROGRAM\n");
+
+	deleted(document, "", "A");
+	CHECK_AS(has(document, "END_VAR\n\nVAR_ACCESS\n  Three : B[2]    : INT READ_ONLY;\n"
+			       "  Five  : B[Most] : INT READ_ONLY;\nEND_VAR\n\nPROGRAM"),
+		 "every access to the symbol goes with it, and the block of the last one");
+	deleted(document, "", "Most");
+	CHECK_AS(has(document, "  Five  : B[Most] :"), "an access that has it as an index stays");
 	g_object_unref(document);
 }
 
@@ -771,6 +795,7 @@ int main(void)
 {
 	test_access();
 	test_access_places();
+	test_access_deleted();
 	test_access_names();
 	test_expressions();
 	test_csv();
