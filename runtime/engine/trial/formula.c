@@ -313,7 +313,7 @@ struct formula *formula_new(const struct image *image, const struct image *plant
 		term->left = from->left;
 		term->right = from->right;
 		if (from->op == EXPR_INDEX && (from->inner || from->right >= 0)) {
-			complain(diags, place, DIAG_INDEX_PLAIN, line_start, from);
+			complain(diags, place, DIAG_ONE_INDEX, line_start, from);
 			return NULL;
 		}
 		if (from->op == EXPR_CALL || from->op == EXPR_ARG) {
