@@ -566,13 +566,13 @@ def long_texts(screen):
     path = new_file(screen, EMPTY)
     editor = Editor(screen, path)
     on_chart(editor)
-    wide = editor.place(editor.all(role='frame')[0])[2]
+    wide = editor.place()[2]
     editor.keys('Home')
     asked(editor, 'semicolon', 'why ' * 120 + 'not')
     on_chart(editor)
     editor.shot('charts-long')
     until(lambda: editor.all('why why', 'label'), 'the place in the status bar')
-    assert editor.place(editor.all(role='frame')[0])[2] == wide
+    assert editor.place()[2] == wide
     editor.keys('ctrl+shift+t')
     editor.opened()
     editor.keys('Escape')

@@ -215,7 +215,7 @@ def dropped(screen):
     editor = Editor(screen)
     start = source(screen, *paths)
     before = len(editor.windows())
-    x, y, _, height = editor.place(editor.all(role='frame')[0])
+    x, y, _, height = editor.place()
 
     def edge():
         return sh('import', '-window', 'root', '-crop', '12x1+%d+%d' % (x, y + height // 2), 'txt:-')

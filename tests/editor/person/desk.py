@@ -151,9 +151,18 @@ class Editor(Finder):
         """The open entry at the cursor; not a cell of the table above the sheet, nor the log."""
         names, logs = [[said(name) for name in some for said in (str, getattr(self, 'said', gettext).gettext)]
                        for some in (('Pins', 'Variables'), ('Log',))]
-        tables = [node for part in ('Pins', 'Variables') for node in self.all(part) if node.name in names]
-        cells = {node.path for table in tables for node in self.all(role='text', below=table.path)}
-        return [node for node in self.all(role='text') if node.path not in self.lines | cells and node.name not in logs]
+        seen = list(self.walk())
+        parents = {node.path: node.parent for node in seen}
+        tables = {node.path for node in seen if node.name in names}
+
+        def in_table(path):
+            while path in parents:
+                path = parents[path]
+                if path in tables:
+                    return True
+            return False
+        return [node for node in seen if node.role == ROLES['text'] and node.path not in self.lines and
+                node.name not in logs and not in_table(node.path)]
 
     def candidate(self, *parts):
         """The row below the entry whose name has all these parts; waits for it."""
@@ -210,23 +219,32 @@ class Editor(Finder):
     def list_commands(self):
         """Opens the list of all commands."""
         window = self.brought('ctrl+k')
-        until(lambda: self.all('About Rungboard'), 'all commands')
+        self.find('About Rungboard', 'list item')
         return window
 
     def command(self, name):
         """Runs a command, found by its name in the list of all."""
         window = self.list_commands()
+        other = self.find('About Rungboard', 'list item')
         self.type(name)
-        until(lambda: not self.all('About Rungboard'), 'that command alone')
+        until(lambda: other.path not in self.shown(other.parent), 'that command alone')
         self.keys('Return')
         until(lambda: window not in self.windows(), 'the end of the list')
 
     def type_path(self, path):
         """Types a path into the active file chooser, and waits until its line has all of it. The first / opens the line
-        of a chooser without one; where the / is lost, the chooser takes the rest for a search."""
-        self.keys('ctrl+a')
-        self.type(path)
-        until(lambda: any(node.text() == path and node.has(12) for node in self.all(role='text')), 'the path in the chooser')
+        of a chooser without one; where the / is lost, the chooser takes the rest for a search: then types it again."""
+        def there():
+            return any(node.text() == path and node.has(12) for node in self.all(role='text'))
+        for patience in (PATIENCE / 4, PATIENCE):
+            self.keys('ctrl+a')
+            self.type(path)
+            try:
+                return until(there, 'the path in the chooser', patience)
+            except AssertionError:
+                self.alive()
+                if patience == PATIENCE:
+                    raise
 
     def front(self):
         """Brings its window to the front."""

@@ -129,6 +129,10 @@ class Finder:
         """Waits until a text stands somewhere in the window."""
         return self.find(text)
 
+    def shown(self, path):
+        """The paths of the visible widgets in a widget."""
+        return [child for _, child in self.call(self.name, path, 'Accessible', 'GetChildren')]
+
     def windows(self):
         """The windows that the window manager knows, without tooltips and popups. An empty answer may mean that a
         window closed during the search: it is repeated."""
@@ -137,15 +141,14 @@ class Finder:
         seen = next(filter(None, looks), [])
         return [window for window in seen if int(window) in known]
 
-    def place(self, node):
-        """Where a widget of the main window is on the screen: x, y, width, height."""
+    def place(self, node=None):
+        """Where a widget of the main window is on the screen, or its whole content: x, y, width, height."""
         about = dict(re.findall(r'(Absolute upper-left X|Absolute upper-left Y|Width|Height): +(-?\d+)',
                                 sh('xwininfo', '-id', self.window)))
-        frame = self.call(self.name, self.root, 'Accessible', 'GetChildren')[0][1]
-        _, _, width, height = self.ask([(frame, *EXTENTS)])[0][0]
+        _, _, width, height = self.ask([(self.shown(self.root)[0], *EXTENTS)])[0][0]
         x = int(about['Absolute upper-left X']) + (int(about['Width']) - width * self.scale) // 2
         y = int(about['Absolute upper-left Y']) + (int(about['Height']) - height * self.scale) // 2
-        left, top, width, height = (each * self.scale for each in self.at_rest(node))
+        left, top, width, height = (each * self.scale for each in (self.at_rest(node) if node else (0, 0, width, height)))
         return x + left, y + top, width, height
 
     @staticmethod

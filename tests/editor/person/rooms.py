@@ -23,7 +23,7 @@ def warnings(editor):
 
 def colours(editor):
     """Number of colours from below the tabs to the panels, from the tree to the right edge."""
-    x, y, width, height = editor.place(editor.all(role='frame')[0])
+    x, y, width, height = editor.place()
     picture = subprocess.run(['import', '-window', 'root', '-depth', '8', '-crop', '%dx%d+%d+%d' % (
         width * 6 // 10, height * 7 // 10, x + width // 4, y + TABS_END), 'rgb:-'], capture_output=True).stdout
     return len({picture[at:at + 3] for at in range(0, len(picture), 3)})
@@ -116,7 +116,7 @@ class Hand:
 
     def divide(self):
         """Drags where a divider may be."""
-        x, y, width, height = self.editor.place(self.editor.all(role='frame')[0])
+        x, y, width, height = self.editor.place()
         start = self.dice.choice([(x + width // 2, y + height * 7 // 10), (x + 225, y + height // 2), (x + width - 260, y + height // 2)])
         end = (start[0] + self.dice.randrange(-200, 200), start[1] + self.dice.randrange(-200, 120))
         self.editor.drag(start, end, steps=4)

@@ -39,7 +39,7 @@ class Hand:
 
     def __init__(self, editor, number):
         self.editor, self.dice, self.keys = editor, random.Random(number), keys_of_window()
-        self.left, self.top, self.width, self.height = editor.place(editor.all(role='frame')[0])
+        self.left, self.top, self.width, self.height = editor.place()
 
     def point(self):
         """A point below the heading, whose buttons close the window."""
