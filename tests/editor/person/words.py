@@ -160,6 +160,7 @@ def in_parallel(screen):
     """OR X is placed below the element at the cursor; the status bar says the next keys"""
     path = new_file(screen)
     editor = Editor(screen, path)
+    editor.to_sheet()
     editor.entry('Start')
     editor.entry('OUT Motor')
     editor.keys('Home')
