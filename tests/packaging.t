@@ -26,6 +26,9 @@ SKIP: {
 	ok($exposure <= 1.5, "the unit is exposed by $exposure, at most 1.5");
 }
 is_deeply([$unit =~ /^RestrictAddressFamilies=(.*)$/mg], ['AF_UNIX'], 'sockets of this machine only');
+# Libraries may be executed, nothing else: also a libgpiod that was built on the board.
+is_deeply([$unit =~ /^NoExecPaths=(.*)\n/mg, map { split } $unit =~ /^ExecPaths=(.*)$/mg],
+	[qw(/ /usr/bin/ladderd -/usr/lib -/usr/lib64 -/usr/local/lib -/lib -/lib64 -/bin/kill -/usr/bin/kill)], 'what may be executed');
 like($unit, qr/^$_$/m, $_) for 'PrivateNetwork=yes', 'DynamicUser=yes', 'CapabilityBoundingSet=', 'NoNewPrivileges=yes', 'DevicePolicy=closed';
 
 # The unit without /etc/ladder/active: FILE and MAP are empty.
