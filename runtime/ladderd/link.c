@@ -243,7 +243,8 @@ static bool wait_for_scan(void *context)
 	int64_t now_ns = began_ns, nudged_ns = 0;
 
 	while (!exchange_is_done(&link->exchange)) {
-		if (now_ns - began_ns > PATIENCE_NS)
+		/* After the last scan nobody does an order. */
+		if (now_ns - began_ns > PATIENCE_NS || atomic_load(&link->stop))
 			return false;
 		if (now_ns - nudged_ns > NUDGE_NS && atomic_load(&link->dozes)) {
 			pthread_kill(link->scans, SIGURG);
@@ -381,13 +382,15 @@ static const uint8_t *store_image(void *context, const uint8_t identity[32], uin
 }
 
 /* Between two scans, and only while @program runs if one is given. It is done when this returns,
- * unless a scan hangs. */
+ * unless a scan hangs; then the link does nothing that would need its memory until it is done. No
+ * other order waits: end_trial(), settle() and a change of a setting have seen to that. */
 static void act(struct link *link, void (*what)(void *context, void *other), void *other,
 		const struct program *program)
 {
+	if (!exchange_is_done(&link->exchange))
+		return;
 	link->store_order = (struct order){ .kind = ORDER_ACT, .act = what, .other = other,
 					    .program = program };
-	wait_for_scan(link); /* for an order that is late: there is one at a time */
 	exchange_post(&link->exchange, &link->store_order);
 	wait_for_scan(link);
 }
@@ -516,14 +519,16 @@ static void go_back(struct link *link)
 
 static void end_trial(struct link *link)
 {
-	const enum trial trial = (enum trial)atomic_exchange(&link->trial, TRIAL_NONE);
+	enum trial trial;
 	uint64_t count;
 
-	if (trial == TRIAL_NONE)
+	/* An order that is late may be the exchange before the trial, or need what going back frees. */
+	if (atomic_load(&link->trial) == TRIAL_NONE || !wait_for_scan(link))
 		return;
+	trial = (enum trial)atomic_exchange(&link->trial, TRIAL_NONE);
 	if (read(link->wake, &count, sizeof(count)) < 0)
 		errno = 0;
-	server_settle(link->server); /* the exchange before it may have been late */
+	server_settle(link->server); /* the exchange before the trial */
 	if (trial == TRIAL_BACK)
 		go_back(link);
 	else
@@ -840,6 +845,7 @@ static void *serve_desks(void *argument)
 		log_late(link);
 		journal_sync(link->journal, clock_now());
 	}
+	exchange_post(&link->exchange, NULL); /* what the last scan did not wait for is not done */
 	server_settle(link->server); /* a restart that was late is kept all the same */
 	end_trial(link);
 	journal_add(link->journal, EVENT_END, 0, "", "", "");
