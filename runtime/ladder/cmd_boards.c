@@ -7,6 +7,8 @@
 
 #include "online/finder.h"
 
+#include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #define WAIT_NS    INT64_C(3000000000)
@@ -18,18 +20,6 @@ static int64_t now_ns(void)
 
 	clock_gettime(CLOCK_MONOTONIC, &now);
 	return now.tv_sec * INT64_C(1000000000) + now.tv_nsec;
-}
-
-/* Until all boards that answer at once are there, or the time is over. */
-static void wait_for_all(struct finder *finder, int64_t wait_ns)
-{
-	const int64_t until = now_ns() + wait_ns;
-	int64_t left = wait_ns;
-
-	while (!finder_settled(finder) && left > 0) {
-		finder_wait(finder, (int)(left / 1000000) + 1);
-		left = until - now_ns();
-	}
 }
 
 static void print_board(const struct call *call, const struct found_board *board, bool first)
@@ -69,14 +59,50 @@ static void print_port(const struct call *call, const char *path, bool first)
 	sink_text(out, "\", \"board\": null, \"version\": null, \"port\": null}");
 }
 
-/* Returns how many. */
-static int print_boards(const struct call *call, struct finder *finder)
-{
-	const int count = finder ? finder_count(finder) : 0;
+/* Boards that have been printed. */
+struct printed {
+	struct found_board board[FINDER_MOST];
+	int count;
+};
 
-	for (int i = 0; i < count; i++)
-		print_board(call, finder_board(finder, i), i == 0);
-	return count;
+static bool is_printed(const struct printed *printed, const struct found_board *board)
+{
+	for (int i = 0; i < printed->count; i++)
+		if (strcmp(printed->board[i].where, board->where) == 0 &&
+		    strcmp(printed->board[i].name, board->name) == 0 &&
+		    printed->board[i].port == board->port)
+			return true;
+	return printed->count == FINDER_MOST;
+}
+
+static void print_boards(struct call *call, struct finder *finder, struct printed *printed)
+{
+	for (int i = 0; i < finder_count(finder); i++) {
+		const struct found_board *board = finder_board(finder, i);
+
+		if (is_printed(printed, board))
+			continue;
+		print_board(call, board, !printed->count);
+		printed->board[printed->count++] = *board;
+	}
+	report_flush(call);
+}
+
+/* Until all boards that answer at once are there, or the time is over. A person sees each of
+ * them as soon as it is found; JSON has them by name. */
+static void find_boards(struct call *call, struct finder *finder, int64_t wait_ns,
+			struct printed *printed)
+{
+	const int64_t until = now_ns() + wait_ns;
+	int64_t left = wait_ns;
+
+	while (!finder_settled(finder) && left > 0) {
+		if (finder_wait(finder, (int)(left / 1000000) + 1) &&
+		    !call_flag(call, "--json"))
+			print_boards(call, finder, printed);
+		left = until - now_ns();
+	}
+	print_boards(call, finder, printed);
 }
 
 enum status cmd_boards(struct call *call)
@@ -84,6 +110,7 @@ enum status cmd_boards(struct call *call)
 	char ports[PORTS_MOST][64];
 	const int port_count = finder_ports("/dev", ports, PORTS_MOST);
 	const struct diag place = { .id = DIAG_NO_FINDER, .file = "ladder" };
+	struct printed *printed;
 	const char *why = NULL;
 	struct finder *finder;
 	int64_t wait_ns;
@@ -91,14 +118,18 @@ enum status cmd_boards(struct call *call)
 
 	if (!report_period(call, "--time", WAIT_NS, &wait_ns))
 		return STATUS_WRONG;
-	finder = finder_open(&why);
-	if (finder) {
-		wait_for_all(finder, wait_ns);
-		why = finder_failed(finder);
-	}
+	printed = calloc(1, sizeof(*printed));
+	if (!printed)
+		return report_no_memory("ladder");
 	if (call_flag(call, "--json"))
 		sink_text(&call->out, "[");
-	count = print_boards(call, finder);
+	finder = finder_open(&why);
+	if (finder) {
+		find_boards(call, finder, wait_ns, printed);
+		why = finder_failed(finder);
+	}
+	count = printed->count;
+	free(printed);
 	for (int i = 0; i < port_count; i++)
 		print_port(call, ports[i], count + i == 0);
 	if (call_flag(call, "--json"))

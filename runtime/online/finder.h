@@ -33,8 +33,8 @@ struct finder;
  * Owns: the caller, finder_close(). Fails: NULL.
  */
 struct finder *finder_open(const char **why);
-/** finder_wait - takes what comes within @ms; 0: what is there already. Returns whether the
- * list has changed since the last call. */
+/** finder_wait - takes what comes within @ms, until the list changes or is settled; 0: what is
+ * there already. Returns whether the list has changed since the last call. */
 bool finder_wait(struct finder *finder, int ms);
 /** finder_settled - whether all boards that answer at once are in the list. */
 bool finder_settled(const struct finder *finder);

@@ -202,6 +202,7 @@ static int64_t now_ms(void)
 bool finder_wait(struct finder *finder, int ms)
 {
 	const int64_t until = now_ms() + ms;
+	const bool was_settled = finder_settled(finder);
 	int64_t left = ms;
 	bool changed;
 
@@ -212,7 +213,7 @@ bool finder_wait(struct finder *finder, int ms)
 		left = until - now_ms();
 		if (left <= 0 && ms > 0)
 			break;
-		if (ms > 0 && finder->changed)
+		if (ms > 0 && (finder->changed || finder_settled(finder) != was_settled))
 			break;
 	}
 	changed = finder->changed;
