@@ -109,17 +109,7 @@ def load():
     return 'load of the machine: ' + ' '.join(f'{it:.1f}' for it in os.getloadavg())
 
 
-def real_time():
-    """Options of ladderd for real-time priority; none if this user may not have it."""
-    try:
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
-        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
-        return ['--rt', '40']
-    except OSError:
-        return []
-
-
-RT = real_time()
+RT = link.real_time()
 
 
 def lateness(clients, options):

@@ -156,7 +156,10 @@ COUNTING = SEAL.replace('  Count : INT;', '  Count : INT;\n  Scans : DINT;').rep
     'PROGRAM Main LD\n', 'PROGRAM Main LD\nRUNG\n  | NO SYS_ALWAYS_ON | ADD IN1:=Scans IN2:=1 OUT=>Scans |\n')
 
 
-def disturb(path, stop, draw, counts):
+RATE = 10000  # frames of junk in a second
+
+
+def disturb(path, stop, draw, counts, began):
     """Connects, throws junk, reads slowly or not at all."""
     while not stop.is_set():
         try:
@@ -168,6 +171,8 @@ def disturb(path, stop, draw, counts):
             junk = b''.join(struct.pack('<IBBH', 4 + 20, draw.randrange(30), 0, draw.randrange(65536)) + draw.randbytes(20)
                             for _ in range(200))
             for _ in range(draw.randrange(1, 8)):
+                while counts['frames'] > RATE * (time.monotonic() - began) and not stop.is_set():
+                    stop.wait(0.002)
                 counts['frames'] += bad.stream.send(junk) // 28
                 stop.wait(0.02)
             bad.close()
@@ -178,16 +183,18 @@ def disturb(path, stop, draw, counts):
 def test_a_crowd_disturbs_neither_scans_nor_others():
     draw = random.Random(5)
     wanted = {'connects': 1000, 'frames': 100000} if LONG else {'connects': 30, 'frames': 2000}
-    with Board(COUNTING) as board:
+    rt = link.real_time() if LONG else []
+    with Board(COUNTING, *rt) as board:
         desk = board.client()
         quiet = desk.status()
         if LONG:
             time.sleep(10)
             quiet = desk.status()
         stop, counts = threading.Event(), {'connects': 0, 'frames': 0}
-        crowd = [threading.Thread(target=disturb, args=(board.socket, stop, random.Random(draw.random()), counts))
-                 for _ in range(5)]
         began = time.monotonic()
+        crowd = [threading.Thread(target=disturb,
+                                  args=(board.socket, stop, random.Random(draw.random()), counts, began))
+                 for _ in range(5)]
         for it in crowd:
             it.start()
         longest = 0
@@ -210,6 +217,8 @@ def test_a_crowd_disturbs_neither_scans_nor_others():
              f"({counts['frames'] / took:.0f}/s): p99.9 of lateness {quiet['late_p999'] / 1000:.0f} us before, "
              f"{status['late_p999'] / 1000:.0f} us with it; slowest answer {longest * 1000:.0f} ms")
         assert not LONG or longest < 1
+        # Without real-time priority other programs of this machine decide.
+        assert not rt or status['late_p999'] <= quiet['late_p999'] + 300000, (quiet['late_p999'], status['late_p999'])
 
 
 def test_ten_thousand_variables_are_watched():
