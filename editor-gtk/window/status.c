@@ -153,6 +153,17 @@ static void show_place(struct status *status)
 		     front_list(front) ? keys_in_list() : g_strdup(""));
 }
 
+/* The hint says what is forced at the cursor. */
+static void shown(struct status *status)
+{
+	const int forces = ladder_sim_forces(status->core->sim);
+
+	if (forces == status->forces)
+		return;
+	status->forces = forces;
+	show_place(status);
+}
+
 /* ---- the checks ---- */
 
 static void show_checked(struct status *status)
@@ -191,6 +202,7 @@ void status_init(struct status *status, struct core *core)
 		     G_CONNECT_SWAPPED);
 	core_connect(core, core->sim, "shown", G_CALLBACK(show_pill), status,
 		     G_CONNECT_SWAPPED);
+	core_connect(core, core->sim, "shown", G_CALLBACK(shown), status, G_CONNECT_SWAPPED);
 	core_connect(core, core->link, "state-changed", G_CALLBACK(show_pill), status,
 		     G_CONNECT_SWAPPED);
 	core_connect(core, core->board, "changed", G_CALLBACK(show_pill), status,

@@ -12,6 +12,7 @@
 struct status {
 	struct core *core;
 	GtkLabel *pill, *place, *checked, *zoom;
+	int forces;                /* when the hint was made                  */
 };
 
 void status_init(struct status *status, struct core *core);

@@ -190,6 +190,7 @@ def by_mouse(screen):
     click_in(editor, exact(editor, 'Run', below=editor.find(role='dialog').path))
     says(editor, 'garage · RUN')
     until(lambda: not editor.all('forced', 'table cell'), 'the start to release it')
+    until(lambda: not editor.all('Motor is forced', 'label'), 'the hint to say so')
     editor.tab('Status chart')
     editor.click(exact(editor, 'Motor, Force', None))
     editor.element('Rung 1, COIL', ', off, forced')
