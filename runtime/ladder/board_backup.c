@@ -6,6 +6,7 @@
  * The archive is a tar file, so that other tools can open it: board.txt, retain.txt, board.io,
  * program.rungc and the sources.
  */
+#include "ladder/foreign.h"
 #include "ladder/remote.h"
 #include "ladder/tar.h"
 #include "ladder/values_text.h"
@@ -304,7 +305,7 @@ static enum status put_values(struct remote *remote, uint8_t how, struct restore
 			report_json_field("why", misfit_text(reason), sink);
 			sink_text(sink, "}");
 		} else {
-			sink_write(sink, name, len);
+			foreign_write(sink, name, len);
 			sink_printf(sink, " %s\n", misfit_text(reason));
 		}
 		any = true;
@@ -453,8 +454,12 @@ static enum status restore_all(struct remote *remote, const struct backup *backu
 		status = remote_expect(remote, false);
 	if (status == STATUS_GOOD && keeps)
 		status = put_values(remote, 0, &restored);
-	if (status == STATUS_GOOD && restored.lost && !remote_is_wanted(remote, "Restore the others?"))
+	if (status == STATUS_GOOD && restored.lost && !remote_is_wanted(remote, "Restore the others?")) {
+		report_flush(remote->call);
+		fputs("the board has the program of the backup, without its values; it stays in STOP\n",
+		      stderr);
 		status = STATUS_NO;
+	}
 	if (status == STATUS_GOOD && keeps)
 		status = put_values(remote, 1, &restored);
 	if (status == STATUS_GOOD && next_line(backup, "mode ", &at, mode, sizeof(mode)) &&

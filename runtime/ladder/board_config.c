@@ -2,16 +2,11 @@
  *
  * board_config - `ladder board WHERE config`: shows and changes the settings of a board.
  */
+#include "ladder/foreign.h"
 #include "ladder/remote.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-static void put_text(const struct sink *out, const char *text)
-{
-	for (; *text; text++)
-		sink_write(out, (unsigned char)*text < ' ' || *text == 127 ? "?" : text, 1);
-}
 
 static void print_setting(const struct remote *remote, const struct board_setting *setting,
 			  bool first)
@@ -28,12 +23,12 @@ static void print_setting(const struct remote *remote, const struct board_settin
 		sink_text(out, setting->restart ? ", \"restart\": true}" : ", \"restart\": false}");
 		return;
 	}
-	put_text(out, setting->key);
+	foreign_text(out, setting->key);
 	sink_text(out, "=");
-	put_text(out, setting->now);
+	foreign_text(out, setting->now);
 	if (strcmp(setting->now, setting->next) != 0) {
 		sink_text(out, ", after a restart ");
-		put_text(out, *setting->next ? setting->next : "the default");
+		foreign_text(out, *setting->next ? setting->next : "the default");
 	}
 	sink_text(out, setting->stored ? "\n" : " (default)\n");
 }

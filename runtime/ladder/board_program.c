@@ -4,6 +4,7 @@
  * a program, its I/O map and its sources go to a board and come back.
  */
 #define _XOPEN_SOURCE 700 /* mkdir() */
+#include "ladder/foreign.h"
 #include "ladder/remote.h"
 
 #include "engine/exchange/image/image_il.h"
@@ -242,7 +243,7 @@ static enum status verify(struct remote *remote, const struct stored *stored,
 		const char *name = wire_text(&in, &len);
 
 		verified->losses += is_loss(reason);
-		sink_write(sink, name, len);
+		foreign_write(sink, name, len);
 		sink_printf(sink, " %s\n", loss_text(reason));
 	}
 	if (count > told)

@@ -2,6 +2,7 @@
  *
  * cmd_board - `ladder board`: a session with the program that runs on a board.
  */
+#include "ladder/foreign.h"
 #include "ladder/remote.h"
 
 #include "engine/base/digest.h"
@@ -178,25 +179,25 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 
 	event_program(status->program, program);
 	sink_text(out, "board: ");
-	sink_text(out, status->board);
+	foreign_text(out, status->board);
 	sink_text(out, "\nmode: ");
 	sink_text(out, mode_word(status->mode));
 	sink_text(out, "\nfault: ");
-	sink_text(out, status->fault);
+	foreign_text(out, status->fault);
 	if (*status->stop) {
 		sink_text(out, "\nstop: ");
-		sink_text(out, status->stop);
+		foreign_text(out, status->stop);
 	}
 	if (status->next) {
 		char next[300];
 
 		status_next(status, event_text(status->next), next, sizeof(next));
 		sink_text(out, "\nnext start: ");
-		sink_text(out, next);
+		foreign_text(out, next);
 	}
 	sink_printf(out, "\nforces: %u\nfailed operations: %u", (unsigned)status->forces,
 		    (unsigned)status->errors);
-	sink_text(out, status->error);
+	foreign_text(out, status->error);
 	sink_printf(out, "\nscans: %llu\n", (unsigned long long)status->scans);
 	print_us(out, "period: ", status->period_ns);
 	print_us(out, "\nscan: mean ", status->scan_mean_ns);
@@ -210,7 +211,7 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 		const struct task_status *task = &status->task[i];
 
 		sink_text(out, "task ");
-		sink_text(out, task->name);
+		foreign_text(out, task->name);
 		sink_printf(out, ": runs %llu, missed %llu", (unsigned long long)task->runs,
 			    (unsigned long long)task->overruns);
 		print_us(out, ", last ", task->last_ns);
@@ -227,7 +228,7 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 	sink_text(out, "program: ");
 	sink_text(out, program);
 	sink_text(out, "\nladderd: ");
-	sink_text(out, status->version);
+	foreign_text(out, status->version);
 	sink_text(out, "\nyou may: ");
 	sink_text(out, role_word(remote->desk.role));
 	sink_text(out, "\n");
@@ -319,9 +320,10 @@ static uint32_t print_symbols(const struct remote *remote, struct wire_reader *i
 			sink_json_string(out, address, address_len);
 			sink_text(out, "}");
 		} else {
-			sink_write(out, name, len);
-			sink_printf(out, "\t%s\t%.*s\n", iec_type_row(type)->word, (int)address_len,
-				    address);
+			foreign_write(out, name, len);
+			sink_printf(out, "\t%s\t", iec_type_row(type)->word);
+			foreign_write(out, address, address_len);
+			sink_text(out, "\n");
 		}
 		*any = true;
 	}
@@ -612,7 +614,7 @@ static enum status act_forces(struct remote *remote)
 			print_json(sink, type, value);
 			continue;
 		}
-		sink_write(sink, name, len);
+		foreign_write(sink, name, len);
 		sink_text(sink, "=");
 		print_value(sink, type, value);
 		sink_text(sink, " instead of ");
@@ -645,10 +647,9 @@ static void print_event(const struct remote *remote, const struct event *event, 
 		sink_text(out, "}");
 	} else {
 		sink_printf(out, "%u %s ", (unsigned)event->seq, time_text);
-		for (const char *at = event->user; *at; at++)
-			sink_write(out, (unsigned char)*at < ' ' || *at == 127 ? "?" : at, 1);
+		foreign_text(out, event->user);
 		sink_text(out, *event->user ? " " : "");
-		sink_text(out, text);
+		foreign_text(out, text);
 		sink_text(out, "\n");
 	}
 	*any = true;

@@ -3,6 +3,7 @@
  * cmd_boards - `ladder boards`: the boards that announce themselves in the network, and the
  * serial ports of this machine.
  */
+#include "ladder/foreign.h"
 #include "ladder/report.h"
 
 #include "online/finder.h"
@@ -34,11 +35,11 @@ static void print_board(const struct call *call, const struct found_board *board
 		sink_printf(out, ", \"port\": %u}", (unsigned)board->port);
 		return;
 	}
-	sink_text(out, board->where);
+	foreign_text(out, board->where);
 	sink_text(out, "\t");
-	sink_text(out, board->name);
+	foreign_text(out, board->name);
 	sink_text(out, "\t");
-	sink_text(out, board->version);
+	foreign_text(out, board->version);
 	if (board->port != FINDER_SSH)
 		sink_printf(out, "\tport %u", (unsigned)board->port);
 	sink_text(out, "\n");
