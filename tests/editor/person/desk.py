@@ -162,7 +162,7 @@ class Editor(Finder):
                     return True
             return False
         return [node for node in seen if node.role == ROLES['text'] and node.path not in self.lines and
-                node.name not in logs and not in_table(node.path) and node.has(25)]
+                node.name not in logs and not in_table(node.path)]
 
     def candidate(self, *parts):
         """The row below the entry whose name has all these parts; waits for it."""
