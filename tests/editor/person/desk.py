@@ -14,7 +14,7 @@ import time
 
 import report
 from finder import Finder
-from node import A11Y, EXTENTS, ROLES, Gone, Node  # noqa: F401
+from node import A11Y, EXTENTS, ROLES, WHOLE, Gone, Node  # noqa: F401
 from outcome import BUILD, LADDER, ROOT, check, lines, new_file, trace  # noqa: F401
 from screen import PATIENCE, Screen, dbus, lacking, sh, until
 

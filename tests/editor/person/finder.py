@@ -7,7 +7,7 @@ palette holds most of the widgets and never changes: the search enters it only f
 import os
 import re
 
-from node import A11Y, EXTENTS, ROLES, Node
+from node import A11Y, EXTENTS, ROLES, WHOLE, Node
 from screen import PATIENCE, dbus, sh, until
 
 
@@ -49,9 +49,9 @@ class Finder:
         return {node.path: node for node in nodes}
 
     def seen(self, nodes, top=None):
-        """The visible paths below each node: path -> paths in order. A new widget is unknown until it is asked for,
-        and a page of a stack does not say whether it is in front: where one may be, the children are asked for. The
-        palette is left out unless it is @top."""
+        """The visible paths below each node: path -> paths in order. A hidden widget has the place of the next
+        visible one, and a new one is unknown until it is asked for: so all are asked, except parts of widgets that
+        never hide any, and the palette unless it is @top."""
         family = {path: [] for path in nodes}
         for node in nodes.values():
             family.setdefault(node.parent, []).append(node)
@@ -61,12 +61,10 @@ class Finder:
             node, children = nodes.get(path), sorted(family.get(path, []), key=lambda child: child.place)
             if node and not node.children and path != self.root:
                 continue
-            shown = [child for child in children if child.visible]
-            below[path] = [child.path for child in shown]
-            if not node or not all(child.widget for child in children) or \
-                    [child.place for child in shown] != list(range(node.children)):
+            below[path] = [child.path for child in children]
+            if not node or node.role not in WHOLE or [child.place for child in children] != list(range(node.children)):
                 asked.append(path)
-            paths += [child.path for child in children if child.path != self.palette]
+            paths += [child for child in below[path] if child != self.palette]
         answers = self.ask([(path, 'Accessible', 'GetChildren') for path in asked])
         for path, answer in zip(asked, answers):
             below[path] = [child for _, child in answer[0]] if answer else []

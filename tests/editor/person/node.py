@@ -3,6 +3,7 @@
 
 finder.py finds widgets, desk.py uses them.
 """
+WHOLE = {11, 29, 37, 43, 48, 61, 62}  # roles of widgets that never hide a part
 ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
          'dialog': 16, 'picture': 27, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'panel': 39, 'push button': 43,
          'table': 55, 'table cell': 56, 'table row': 90, 'text': 61, 'toggle button': 62, 'entry': 79}
@@ -23,7 +24,6 @@ class Node:
         self.path, self.parent = str(item[0][1]), str(item[2][1])
         self.place, self.children = int(item[3]), int(item[4])  # among the visible ones
         self.name, self.role, self.states = str(item[6]), int(item[7]), int(item[9][0])
-        self.visible = bool(self.states >> 30 & 1)
         self.widget = A11Y + 'Component' in item[5]  # a page of a stack is not visible itself: only its content is
 
     def ask(self, *question):
