@@ -3,7 +3,7 @@
 
 finder.py finds widgets, desk.py uses them.
 """
-WHOLE = {11, 29, 37, 43, 48, 61, 62}  # roles of widgets that never hide a part
+WHOLE = {7, 11, 29, 37, 43, 48, 56, 61, 62, 90}  # roles of widgets that never hide a part
 ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
          'dialog': 16, 'picture': 27, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'panel': 39, 'push button': 43,
          'table': 55, 'table cell': 56, 'table row': 90, 'text': 61, 'toggle button': 62, 'entry': 79}
