@@ -325,7 +325,8 @@ static void act_answered(gpointer data, struct board_answer *answer)
 }
 
 /* The place is of the program that is shown: the board refuses it if another one runs. */
-static void change(LadderBoardValues *values, enum service service, const struct act *act)
+static void change(LadderBoardValues *values, enum service service, const struct act *acts,
+		   int count)
 {
 	const struct program *program = values->program->program;
 	struct wire_writer fields = ladder_board_link_begin(values->link);
@@ -333,17 +334,17 @@ static void change(LadderBoardValues *values, enum service service, const struct
 
 	memcpy(expect.program, values->identity, sizeof(expect.program));
 	wire_put_expect(&fields, &expect);
-	wire_put_u16(&fields, act->kind == ACT_RELEASE_ALL ? 0 : 1);
-	if (act->kind != ACT_RELEASE_ALL) {
+	wire_put_u16(&fields, acts->kind == ACT_RELEASE_ALL ? 0 : (guint16)count);
+	for (int i = 0; i < count && acts->kind != ACT_RELEASE_ALL; i++) {
 		wire_put_u8(&fields, REF_PLACE);
-		wire_put_u32(&fields, place_word(program, act->at));
-	}
-	if (service != SERVICE_UNFORCE) {
-		wire_put_u8(&fields, (guint8)act->at.type);
-		wire_put_value(&fields, act->at.type, act->value);
+		wire_put_u32(&fields, place_word(program, acts[i].at));
+		if (service == SERVICE_UNFORCE)
+			continue;
+		wire_put_u8(&fields, (guint8)acts[i].at.type);
+		wire_put_value(&fields, acts[i].at.type, acts[i].value);
 	}
 	ladder_board_link_send(values->link, service, &fields, NULL, act_answered,
-			       acted_new(values, act->kind == ACT_RELEASE_ALL ? nowhere : act->at));
+			       acted_new(values, acts->kind == ACT_RELEASE_ALL ? nowhere : acts->at));
 }
 
 static void mode(LadderBoardValues *values, enum mode_wish wish)
@@ -358,15 +359,15 @@ static void mode(LadderBoardValues *values, enum mode_wish wish)
 			       acted_new(values, nowhere));
 }
 
-static void act(gpointer data, const struct act *act)
+static void act(gpointer data, const struct act *acts, int count)
 {
 	LadderBoardValues *values = data;
 
-	switch (act->kind) {
-	case ACT_SET: change(values, SERVICE_WRITE, act); break;
-	case ACT_FORCE: change(values, SERVICE_FORCE, act); break;
+	switch (acts->kind) {
+	case ACT_SET: change(values, SERVICE_WRITE, acts, count); break;
+	case ACT_FORCE: change(values, SERVICE_FORCE, acts, count); break;
 	case ACT_RELEASE: /* fall through */
-	case ACT_RELEASE_ALL: change(values, SERVICE_UNFORCE, act); break;
+	case ACT_RELEASE_ALL: change(values, SERVICE_UNFORCE, acts, count); break;
 	case ACT_START: mode(values, MODE_COLD); break;
 	case ACT_WARM: mode(values, MODE_WARM); break;
 	case ACT_STOP: mode(values, MODE_STOP); break;

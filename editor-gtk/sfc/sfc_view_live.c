@@ -163,25 +163,37 @@ const GArray *sfc_missing(LadderSfcView *view)
 
 /* ---- acts ---- */
 
-static void act_set(LadderSfcView *view, struct location at, int64_t value)
+/* Adds setting a variable to @acts, which are done together. */
+static void add_set(LadderSfcView *view, GArray *acts, struct location at, int64_t value)
 {
 	const struct act act = { .kind = ACT_SET, .at = at, .value.i = value };
 
 	if (at.type == IEC_NONE)
 		return;
 	canvas_acts(LADDER_CANVAS(view), at, _(verb_row(VERB_force)->label));
-	ladder_sim_act(view->canvas->sim, &act);
+	g_array_append_val(acts, act);
+}
+
+static GArray *acts_new(void)
+{
+	return g_array_new(FALSE, FALSE, sizeof(struct act));
+}
+
+static void do_acts(LadderSfcView *view, GArray *acts)
+{
+	ladder_sim_act_all(view->canvas->sim, (const struct act *)(gpointer)acts->data, (int)acts->len);
+	g_array_free(acts, TRUE);
 }
 
 /* Sets and resets of a step that becomes active. */
-static void set_once(LadderSfcView *view, const struct sfc_step *step)
+static void set_once(LadderSfcView *view, const struct sfc_step *step, GArray *acts)
 {
 	for (int i = step->first_use; i < step->first_use + step->use_count; i++) {
 		const struct sfc_use *use = &view->sheet->layout->sfc->use[i];
 		const char *name = project_text(view->sheet->project, use->operand);
 
 		if (use->kind != USE_ACTION)
-			act_set(view, live_map_find(view->places.map, name, strlen(name)),
+			add_set(view, acts, live_map_find(view->places.map, name, strlen(name)),
 				use->kind == USE_SET);
 	}
 }
@@ -200,6 +212,7 @@ static void force_between(LadderSfcView *view, int index)
 {
 	const struct sfc *sfc = view->sheet->layout->sfc;
 	const struct sfc_places *live = &view->places;
+	GArray *acts = acts_new();
 	struct sfc_steps steps;
 	struct arena arena;
 
@@ -210,12 +223,13 @@ static void force_between(LadderSfcView *view, int index)
 		const bool active = is_among(&steps, i);
 
 		if (active != ((live->step[i] & SFC_ACTIVE) != 0))
-			act_set(view, live->active[i], active);
+			add_set(view, acts, live->active[i], active);
 		if (active)
-			act_set(view, live->time[i], 0);
+			add_set(view, acts, live->time[i], 0);
 		if (active)
-			set_once(view, &sfc->step[i]);
+			set_once(view, &sfc->step[i], acts);
 	}
+	do_acts(view, acts);
 	arena_free(&arena);
 	canvas_tell(LADDER_CANVAS(view),
 		    _("The step is active. Actions with P, S, SD, DS or "
@@ -232,6 +246,7 @@ void sfc_live_force(LadderSfcView *view)
 			  NULL;
 	struct location at;
 	struct sfc_live now;
+	GArray *acts;
 	int index;
 
 	if (!sfc_live_look(view, &now)) {
@@ -247,8 +262,11 @@ void sfc_live_force(LadderSfcView *view)
 		return;
 	}
 	at = live_map_find(view->places.map, name, strlen(name));
-	if (!*name || at.type == IEC_NONE)
+	if (!*name || at.type == IEC_NONE) {
 		force_between(view, index);
-	else
-		act_set(view, at, index + 1);
+		return;
+	}
+	acts = acts_new();
+	add_set(view, acts, at, index + 1);
+	do_acts(view, acts);
 }

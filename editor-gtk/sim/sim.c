@@ -951,7 +951,7 @@ static void order(LadderSim *sim, enum act_kind kind, gint64 value)
 	const struct act act = { .kind = kind, .value.i = value };
 
 	if (ladder_sim_is_on(sim))
-		sim->source->act(sim->source, NULL, &act);
+		sim->source->act(sim->source, NULL, &act, 1);
 }
 
 static void start_if_stopped(LadderSim *sim)
@@ -1055,14 +1055,19 @@ void ladder_sim_set_fault_on_error(LadderSim *sim, bool fault)
 
 void ladder_sim_act(LadderSim *sim, const struct act *act)
 {
-	const char *why = ladder_sim_why_not(sim, act->kind == ACT_SET ? SIM_WISH_SET :
-					     SIM_WISH_FORCE);
+	ladder_sim_act_all(sim, act, 1);
+}
 
-	if (!ladder_sim_is_on(sim))
+void ladder_sim_act_all(LadderSim *sim, const struct act *acts, int count)
+{
+	const char *why;
+
+	if (!ladder_sim_is_on(sim) || count == 0)
 		return;
+	why = ladder_sim_why_not(sim, acts->kind == ACT_SET ? SIM_WISH_SET : SIM_WISH_FORCE);
 	if (why) {
-		ladder_sim_mirror_refuse(sim, act->kind == ACT_RELEASE_ALL ?
-			(struct location){ .type = IEC_NONE } : act->at, why);
+		ladder_sim_mirror_refuse(sim, acts->kind == ACT_RELEASE_ALL ?
+			(struct location){ .type = IEC_NONE } : acts->at, why);
 		return;
 	}
 	if (ladder_sim_older(sim, NULL)) {
@@ -1071,7 +1076,7 @@ void ladder_sim_act(LadderSim *sim, const struct act *act)
 		return;
 	}
 	ladder_sim_show_now(sim);
-	sim->source->act(sim->source, act->plant ? sim->view.plant : sim->view.program, act);
+	sim->source->act(sim->source, acts->plant ? sim->view.plant : sim->view.program, acts, count);
 }
 
 void ladder_sim_release_all(LadderSim *sim)

@@ -115,6 +115,9 @@ void ladder_sim_set_fault_on_error(LadderSim *sim, bool fault);
  * shows the newest scan. An act that cannot be done (no such place, or a place of a program
  * before an edit) is told. */
 void ladder_sim_act(LadderSim *sim, const struct act *act);
+/** ladder_sim_act_all - does ACT_SETs of variables of the program (or of the plant) between the
+ * same two scans; a board does all or none, and no more than 128. @count 0: nothing. */
+void ladder_sim_act_all(LadderSim *sim, const struct act *acts, int count);
 /** ladder_sim_release_all - all forces of the program and of the plant. */
 void ladder_sim_release_all(LadderSim *sim);
 

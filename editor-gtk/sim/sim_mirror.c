@@ -126,12 +126,13 @@ static bool take(struct sim_source *source, struct sim_view *view, bool *other)
 	return true;
 }
 
-static void act(struct sim_source *source, struct sim_program *of, const struct act *act)
+static void act(struct sim_source *source, struct sim_program *of, const struct act *acts,
+		int count)
 {
 	struct sim_mirror *mirror = mirror_of(source);
 
 	(void)of;
-	mirror->board.act(mirror->board.data, act);
+	mirror->board.act(mirror->board.data, acts, count);
 }
 
 static const char *why_not(struct sim_source *source, enum sim_wish wish)

@@ -19,8 +19,9 @@ struct sim_board {
 	const char *name;              /* for people; copied                   */
 	struct sim_program *program;   /* what it runs; referenced             */
 	gint64 period_ns;
-	/* An act of a person: a value, a force, a release, a mode. @act is borrowed. */
-	void (*act)(gpointer data, const struct act *act);
+	/* Acts of a person: a value, a force, a release, a mode; or some values for the same
+	 * moment between two scans. @acts is borrowed. */
+	void (*act)(gpointer data, const struct act *acts, int count);
 	/* As ladder_sim_why_not(). */
 	const char *(*why_not)(gpointer data, enum sim_wish wish);
 	/* A view needs a value or power that does not come: ask again for

@@ -12,10 +12,11 @@ static void nothing(gpointer data)
 	(void)data;
 }
 
-static void no_act(gpointer data, const struct act *act)
+static void no_act(gpointer data, const struct act *acts, int count)
 {
 	(void)data;
-	(void)act;
+	(void)acts;
+	(void)count;
 }
 
 static const char *why_not(gpointer data, enum sim_wish wish)

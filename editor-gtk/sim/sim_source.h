@@ -53,9 +53,11 @@ struct sim_source {
 	/* Copies the newest state to @view; *other: it is of another program than before.
 	 * Fails: false: there is none yet; @view is unchanged. */
 	bool (*take)(struct sim_source *source, struct sim_view *view, bool *other);
-	/* @of: the program or plant that has the place; NULL: the act has no place. If it does
-	 * not run any more, the act is refused: another variable may be at that place. */
-	void (*act)(struct sim_source *source, struct sim_program *of, const struct act *act);
+	/* Does the acts between the same two scans. More than one: all are ACT_SET.
+	 * @of: the program or plant that has the places; NULL: the act has no place. If it does
+	 * not run any more, they are refused: other variables may be at these places. */
+	void (*act)(struct sim_source *source, struct sim_program *of, const struct act *acts,
+		    int count);
 	/* Why a person cannot do this now; NULL: it can be tried. Translated, lives for ever. */
 	const char *(*why_not)(struct sim_source *source, enum sim_wish wish);
 	/* As ladder_sim_replay(). */

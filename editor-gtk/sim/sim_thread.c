@@ -341,17 +341,26 @@ static void free_source(struct sim_source *source)
 	sim_thread_free(thread_of(source));
 }
 
-static void order_act(struct sim_source *source, struct sim_program *of, const struct act *act)
+/* No scan runs while an order waits. */
+static void order_act(struct sim_source *source, struct sim_program *of, const struct act *acts,
+		      int count)
 {
-	struct order order = { .kind = ORDER_ACT, .act = *act,
-			       .program = sim_program_ref(of) };
+	GAsyncQueue *orders = thread_of(source)->orders;
 
-	if (act->kind == ACT_SET && act->at.type == IEC_STRING) {
-		order.text = g_memdup2(act->value.s,
-				       sizeof(*act->value.s) + act->value.s->length);
-		order.act.value.s = (const struct iec_string *)(gpointer)order.text;
+	g_async_queue_lock(orders);
+	for (int i = 0; i < count; i++) {
+		const struct act *act = &acts[i];
+		struct order order = { .kind = ORDER_ACT, .act = *act,
+				       .program = sim_program_ref(of) };
+
+		if (act->kind == ACT_SET && act->at.type == IEC_STRING) {
+			order.text = g_memdup2(act->value.s,
+					       sizeof(*act->value.s) + act->value.s->length);
+			order.act.value.s = (const struct iec_string *)(gpointer)order.text;
+		}
+		g_async_queue_push_unlocked(orders, g_memdup2(&order, sizeof(order)));
 	}
-	tell(thread_of(source), &order);
+	g_async_queue_unlock(orders);
 }
 
 static bool take(struct sim_source *source, struct sim_view *view, bool *other)

@@ -35,7 +35,7 @@ static LadderSim *sim;
 static struct sim_mirror *mirror;
 static struct sim_program *program;
 static struct twin board;
-static int shown, changed, asked, acts, pasts;
+static int shown, changed, asked, acts, orders, pasts;
 static struct act last_act;
 static const char *refusal;
 
@@ -46,11 +46,12 @@ static void count(int *counter)
 
 /* ---- the board ---- */
 
-static void act_of(gpointer data, const struct act *act)
+static void act_of(gpointer data, const struct act *of, int count)
 {
 	(void)data;
-	acts++;
-	last_act = *act;
+	orders++;
+	acts += count;
+	last_act = of[count - 1];
 }
 
 static const char *why_not(gpointer data, enum sim_wish wish)
@@ -224,6 +225,9 @@ static void shows_a_board(void)
 
 static void orders_acts(void)
 {
+	const struct act both[] = { { .kind = ACT_SET, .at = place("Count"), .value.i = 7 },
+				    { .kind = ACT_SET, .at = place("Lamp"), .value.i = 8 } };
+
 	acts = 0;
 	live_value_set(sim, false, place("Count"), (union iec_value){ .i = 40 });
 	CHECK(acts == 1 && last_act.kind == ACT_SET && last_act.value.i == 40);
@@ -240,6 +244,13 @@ static void orders_acts(void)
 	ladder_sim_pause(sim);
 	ladder_sim_set_period(sim, 1000000);
 	CHECK_AS(acts == 4, "what a board does not do is not ordered");
+	orders = 0;
+	ladder_sim_act_all(sim, both, 2);
+	CHECK_AS(orders == 1 && acts == 6 && last_act.value.i == 8,
+		 "values that belong together go to the board in one order");
+	ladder_sim_act_all(sim, NULL, 0);
+	CHECK(orders == 1);
+	acts = 4;
 	refusal = "no";
 	CHECK_TEXT(ladder_sim_why_not(sim, SIM_WISH_FORCE), "no");
 	live_value_set(sim, false, place("Count"), (union iec_value){ .i = 41 });

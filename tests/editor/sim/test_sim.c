@@ -268,22 +268,22 @@ static void test_stale(void)
 	CHECK(source->take(source, &view, &is_other) && is_other);
 	image = &view.twin.resource.image;
 	act.at = image_find(image, "Count", 5);
-	source->act(source, old, &act);
+	source->act(source, old, &act, 1);
 	sim_thread_change(thread, new);
 	while (view.program != new)
 		CHECK(source->take(source, &view, &is_other));
 	CHECK_AS(view.refusal.count == 0, "an act before the change is done");
 	CHECK(twin_clone(&before, &view.twin));
-	source->act(source, old, &act);
+	source->act(source, old, &act, 1);
 	act.kind = ACT_FORCE;
-	source->act(source, old, &act);
+	source->act(source, old, &act, 1);
 	wait_refused(source, &view, 2);
 	CHECK(view.refusal.why == SIM_REFUSED_STALE && image->force_count == 0);
 	CHECK_AS(memcmp(image->memory, before.resource.image.memory,
 			view.twin.memory_size) == 0, "a refused act does not change the memory");
 	act.at = image_find(image, "Near", 4);
-	source->act(source, new, &act);
-	source->act(source, NULL, &(struct act){ .kind = ACT_RELEASE });
+	source->act(source, new, &act, 1);
+	source->act(source, NULL, &(struct act){ .kind = ACT_RELEASE }, 1);
 	wait_refused(source, &view, 3);
 	CHECK(view.refusal.why == SIM_REFUSED_PLACE && image->force_count == 1);
 	twin_free(&before);
