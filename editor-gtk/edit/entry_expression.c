@@ -72,10 +72,27 @@ static bool keep_said(struct lex *lex, struct work *w, struct entry *entry)
 	return true;
 }
 
-static bool add_token(const struct token *token, char *out, size_t size)
+/* An address or a pin in the spelling of another dialect is kept as ours: a file has only that. */
+static bool is_foreign(const struct entry_place *place, const struct token *token,
+		       struct entry_target *target)
+{
+	struct iec_addr addr;
+
+	if ((token->kind != TOKEN_ADDRESS && token->kind != TOKEN_NAME) ||
+	    iec_addr_parse(token->text, token->len, &addr) == ADDR_OK)
+		return false;
+	entry_target_find(place, token->text, token->len, target);
+	return target->means == MEANS_VALUE &&
+	       (token->text[0] == '%' || target->addr.area != AREA_NONE);
+}
+
+static bool add_token(const struct entry_place *place, const struct token *token,
+		      struct entry_target *target, char *out, size_t size)
 {
 	bool fits;
 
+	if (is_foreign(place, token, target))
+		return entry_append(out, size, target->text, strlen(target->text));
 	return token->kind == TOKEN_NUMBER &&
 	       entry_literal(token->text, token->len, out, size, &fits) ? fits :
 	       entry_append(out, size, token->text, token->len);
@@ -83,7 +100,8 @@ static bool add_token(const struct token *token, char *out, size_t size)
 
 /* With one blank around := and comparisons, single blanks elsewhere, and without
  * declarations. */
-static bool print(const char *text, size_t len, struct work *w, struct entry *entry)
+static bool print(const struct entry_place *place, const char *text, size_t len, struct work *w,
+		  struct entry *entry)
 {
 	static const char *const wide[] = { ":=", "<", ">", "<=", ">=", "=", "<>" };
 	char *out = entry->operand;
@@ -99,7 +117,7 @@ static bool print(const char *text, size_t len, struct work *w, struct entry *en
 			sign |= lex.token.kind == TOKEN_SYMBOL && lex_is(&lex, wide[i]);
 		if (!first && (before || sign || lex.token.space_before))
 			good = entry_append(out, size, " ", 1);
-		good = good && add_token(&lex.token, out, size);
+		good = good && add_token(place, &lex.token, &w->target, out, size);
 		before = sign;
 		first = false;
 		if (!keep_said(&lex, w, entry))
@@ -474,7 +492,7 @@ bool entry_expression(const struct entry_place *place, const char *text, size_t 
 	w = calloc(1, sizeof(*w));
 	if (!w)
 		return entry_wrong(entry, N_("out of memory"), "", 0);
-	good = print(text, len, w, entry) && read_expression(place, w, entry);
+	good = print(place, text, len, w, entry) && read_expression(place, w, entry);
 	free(w);
 	return good;
 }

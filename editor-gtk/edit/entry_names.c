@@ -305,6 +305,80 @@ static void take_address(const struct entry_place *place, const char *text, size
 		 (int)(len - head), text + head);
 }
 
+/* ---- pins of ClassicLadder ---- */
+
+#define CLASSIC_TIMER      "T"
+#define CLASSIC_MONOSTABLE "Mono"
+#define CLASSIC_IEC_TIMER  "TM"
+#define CLASSIC_COUNTER    "C"
+#define CLASSIC_REGISTER   "Reg"
+
+/* %TM0.Q is the pin Q of TM0, or of TM0_Pause; a step %X3.A is a BOOL X3, or the step Step3. */
+static const struct classic_row { const char *prefix, *attribute, *name, *pin; } classic_rows[] = {
+#define CLASSIC_PIN(type, prefix, attribute, kind, pin, is_bool) \
+	{ prefix, attribute, kind, pin },
+#define CLASSIC_STEP(type, attribute, name, pin) { "X", attribute, name, pin }, \
+	{ "X", attribute, "Step", sizeof(pin) == 1 ? "X" : "T" },
+#include "engine/classic.def"
+};
+
+/* The variable called @stem, or @stem and more behind a _; else the step of that name. NULL: none. */
+static const char *find_stem(const struct entry_place *place, const char *stem, bool step)
+{
+	const struct pou *pou = entry_pou(place);
+	const struct var_table *tables[] = { pou ? &pou->vars : NULL, &place->project->globals };
+	const size_t len = strlen(stem);
+
+	for (int i = 0; step && pou && pou->sfc && i < pou->sfc->step_count; i++) {
+		const char *name = project_text(place->project, pou->sfc->step[i].name);
+
+		if (name_is(name, stem, len))
+			return name;
+	}
+	for (int t = 0; t < 2 && !step; t++)
+		for (int i = 0; tables[t] && i < tables[t]->count; i++) {
+			const char *name = project_text(place->project, tables[t]->var[i].name);
+
+			if (!strncmp(name, stem, len) && (name[len] == '\0' || name[len] == '_'))
+				return name;
+		}
+	return NULL;
+}
+
+/* Is @text such a pin? Then @path is the pin in this project; empty: there is none. */
+static bool find_classic(const struct entry_place *place, const char *text, size_t len, char *path,
+			 size_t size)
+{
+	const char *end = text + len, *at = text + 1;
+	size_t prefix;
+	int of;
+	bool is_pin = false;
+
+	path[0] = '\0';
+	while (at < end && ascii_upper(*at) >= 'A' && ascii_upper(*at) <= 'Z')
+		at++;
+	prefix = (size_t)(at - text) - 1;
+	if (len < 5 || text[0] != '%' || prefix == 0)
+		return false;
+	of = number(&at, end, 10);
+	if (of < 0 || end - at != 2 || *at != '.')
+		return false;
+	for (size_t i = 0; i < sizeof(classic_rows) / sizeof(*classic_rows) && !*path; i++) {
+		const struct classic_row *row = &classic_rows[i];
+		const char *name;
+		char stem[32];
+
+		if (!ascii_is(row->prefix, text + 1, prefix) || !ascii_is(row->attribute, at + 1, 1))
+			continue;
+		is_pin = true;
+		snprintf(stem, sizeof(stem), "%s%d", row->name, of);
+		name = find_stem(place, stem, !strcmp(row->name, "Step"));
+		if (name)
+			snprintf(path, size, "%s%s%s", name, *row->pin ? "." : "", row->pin);
+	}
+	return is_pin;
+}
+
 /* Removes blanks in brackets, as in stored cells. Returns the length. */
 static size_t tighten(const char *text, size_t len, char *out)
 {
@@ -323,7 +397,7 @@ static size_t tighten(const char *text, size_t len, char *out)
 void entry_target_find(const struct entry_place *place, const char *typed, size_t len,
 		       struct entry_target *out)
 {
-	char text[ENTRY_TEXT];
+	char text[ENTRY_TEXT], path[ENTRY_TEXT];
 	uint16_t flags = 0;
 	size_t head = 0, whole = 0;
 
@@ -332,6 +406,14 @@ void entry_target_find(const struct entry_place *place, const char *typed, size_
 		return;
 	len = tighten(typed, len, text);
 	memcpy(out->text, text, len);
+	if (find_classic(place, text, len, path, sizeof(path))) {
+		if (*path)
+			entry_target_find(place, path, strlen(path), out);
+		else
+			fail(out, N_("“%s” is no block or step of this project: write its name and a pin, as in "
+				     "Delay.Q"));
+		return;
+	}
 	while (head < len && text[head] != '.' && text[head] != '[')
 		head++;
 	while (whole < len && text[whole] != '[')

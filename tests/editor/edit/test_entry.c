@@ -27,6 +27,8 @@ static const char project_text_[] =
 	"  Heat  : REAL;\n"
 	"  Wait  : TIME := T#5s;\n"
 	"  FanDelay : TON;\n"
+	"  TM0_Pause : TON;\n"
+	"  X3 : BOOL;\n"
 	"  Lamps AT %QX1.0 : ARRAY[0..7] OF BOOL;\n"
 	"  P1 : Pair;\n"
 	"  i : INT;\n"
@@ -76,6 +78,10 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "%IX0.0", "NO Start" }, { "I0.0", "NO Start" }, { "i0.1", "NO Stop" },
 	{ "I3", "NO %IX0.3" }, { "E0.3", "NO %IX0.3" }, { ">A4.0", "COIL %QX4.0" },
 	{ "X5", "NO %IX0.5" }, { ">Y3", "COIL %QX0.3" }, { "I:1/3", "NO %IX2.3" },
+	{ "%TM0.Q", "NO TM0_Pause.Q" }, { "/%tm0.q", "NC TM0_Pause.Q" }, { "%X3.A", "NO X3" },
+	{ "%TM1.Q", "! “%TM1.Q” is no block or step of this project: write its name and a pin, as in Delay.Q" },
+	{ "%TM0.V", "! “%TM0.V” is not a pin or member" },
+	{ "%TM0.Z", "! “%TM0.Z” is not an address" },
 	{ "O:0/10", "NO %QX1.2" }, { "%B3", "NO %MX0.3" }, { "SM0.5", "NO %SMX0.5" },
 	{ "X10", "! “X10” is octal in some controllers and hexadecimal in others: "
 		 "write %IX1.0" },
@@ -315,7 +321,7 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "XIC tor_", "Motor new:tor@%IX0.2 new:tor@%MX0.1 new:tor@" },
 	{ "FanDelay._", "FanDelay.IN FanDelay.Q" },
 	{ "NO FanDelay.q_", "FanDelay.Q" },
-	{ "TON _", "FanDelay Q=> PT:= ET=>" },
+	{ "TON _", "FanDelay TM0_Pause Q=> PT:= ET=>" },
 	{ "TON Fa_", "FanDelay new:Fa@" },
 	{ "TON FanDelay P_", "PT:= new:P@ new:P@%IL8 new:P@%ML8" },
 	{ "TON FanDelay W_", "Wait new:W@ new:W@%IL8 new:W@%ML8" },
@@ -584,13 +590,15 @@ static void check_conditions(void)
 {
 	static const char chart[] =
 		"RUNGBOARD 1\nVAR\nHeat AT %IX0.0 : BOOL;\nWait : TIME;\nEND_VAR\n"
-		"PROGRAM Way SFC\nINITIAL_STEP Boil:\nEND_STEP\nSTEP Heat:\nEND_STEP\n"
+		"PROGRAM Way SFC\nINITIAL_STEP Boil:\nEND_STEP\nSTEP Heat:\nEND_STEP\nSTEP Step7:\nEND_STEP\n"
 		"TRANSITION FROM Boil TO Heat := Heat; END_TRANSITION\n"
 		"TRANSITION FROM Heat TO Boil := TRUE; END_TRANSITION\nEND_PROGRAM\n";
 	static const struct { const char *line, *means; } cases[] = {
 		{ "Heat.T > 5s", "Heat.T > T#5s" }, { "heat.t>=1m30s", "heat.t >= T#1m30s" },
 		{ "Wait < 2.5s", "Wait < T#2.5s" }, { "Wait < T#5s", "Wait < T#5s" },
 		{ "NOT Boil.X", "NOT Boil.X" }, { "Boil.X AND Heat", "Boil.X AND Heat" },
+		{ "%X7.A", "Step7.X" }, { "Heat AND %X7.V > 5s", "Heat AND Step7.T > T#5s" },
+		{ "%B3 AND X1", "%MX0.3 AND %IX0.1" }, { "%MX0.3 AND E4.0", "%MX0.3 AND %IX4.0" },
 	};
 	struct ladder *ladder = ladder_new();
 	struct entry_place place = { 0 };
