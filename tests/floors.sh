@@ -33,7 +33,7 @@ runtime/attach
 runtime/ladderd           engine/ladder.h engine/base engine/model engine/scan hal online
 editor-gtk/kit/gtk48      $doors
 editor-gtk/kit            $doors editor-gtk/kit/gtk48
-editor-gtk/edit           $doors editor-gtk/kit
+editor-gtk/edit           $doors editor-gtk/kit engine/classic.def
 editor-gtk/draw           $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit engine/exchange/classic/classic_say.h
 editor-gtk/document       $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw hal engine/exchange/report.h
 editor-gtk/sim            $doors editor-gtk/kit/gtk48 editor-gtk/kit editor-gtk/edit editor-gtk/draw editor-gtk/document hal
