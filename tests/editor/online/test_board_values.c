@@ -131,7 +131,7 @@ static void shows_and_changes(void)
 	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
 	ladder_sim_run(sim);
 	CHECK_SOON(ladder_sim_state(sim) == SIM_RUN);
-	CHECK_AS(value("Count") == 0, "Run is a warm start: Count is not retained");
+	CHECK_SOON(value("Count") == 0); /* Run is a warm start, and Count is not retained */
 	CHECK_SOON(ladder_sim_last(sim) > ladder_sim_first(sim) + 3);
 	CHECK(ladder_sim_show(sim, ladder_sim_last(sim) - 1) && ladder_sim_is_past(sim));
 	ladder_sim_show_now(sim);
@@ -296,6 +296,7 @@ static void shows_which_task_ran(void)
 {
 	struct test_board board = { .empty = false };
 	struct task_runs *runs;
+	guint64 before;
 	guint first;
 
 	board_open(&board, "eng");
@@ -322,9 +323,10 @@ static void shows_which_task_ran(void)
 		 "how late a run was is counted on the clock of the views");
 	ladder_sim_stop(sim);
 	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
+	before = task_runs_get(runs, task_runs_count(runs) - 1)->scan;
 	ladder_sim_run(sim);
 	CHECK_SOON(ladder_sim_state(sim) == SIM_RUN);
-	CHECK_SOON(runs_of(runs) > 4 && task_runs_get(runs, task_runs_count(runs) - 1)->scan < first);
+	CHECK_SOON(runs_of(runs) > 4 && task_runs_get(runs, task_runs_count(runs) - 1)->scan < before);
 	task_runs_free(runs);
 	close_editor();
 	board_close(&board);
