@@ -126,8 +126,9 @@ static void accept_drops(struct files *files)
 	gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(drop),
 						   GTK_PHASE_CAPTURE);
 	g_signal_connect(drop, "drop", G_CALLBACK(dropped), files);
-	gtk_widget_add_controller(GTK_WIDGET(files->core->messages->toasts),
-				  GTK_EVENT_CONTROLLER(drop));
+	gtk_widget_add_controller(
+		adw_application_window_get_content(ADW_APPLICATION_WINDOW(files->core->window)),
+		GTK_EVENT_CONTROLLER(drop));
 }
 
 /* ---- saving ---- */
