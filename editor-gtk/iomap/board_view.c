@@ -26,7 +26,6 @@ struct _LadderBoardView {
 	GPtrArray *paths;   /* of the maps in the list                         */
 	char *map;          /* path of the selected map; NULL: none            */
 	bool chosen;        /* a person chose @map: new files do not change it */
-	guint64 version;    /* of the document when the program was started    */
 	bool busy;          /* the list is being filled                        */
 };
 
@@ -87,11 +86,9 @@ static void show_state(LadderBoardView *view, enum board_state state,
 static void show_about(LadderBoardView *view, enum board_state state,
 		       const struct run_status *status)
 {
-	const bool other = view->version != ladder_document_version(view->document);
 	const char *text = state == BOARD_OFF ? "" :
 		status->fault[0] && strcmp(status->fault, "none") != 0 ? status->fault :
-		status->stop[0] ? status->stop :
-		other ? _("The program was changed since it was started") : "";
+		status->stop;
 
 	gtk_label_set_text(GTK_LABEL(view->about), text);
 	tip_set(view->about, text);
@@ -131,8 +128,6 @@ static void show(LadderBoardView *view)
 	gtk_widget_set_visible(view->run_button, state == BOARD_OFF);
 	gtk_widget_set_visible(view->stop_button, state != BOARD_OFF);
 	gtk_widget_set_sensitive(GTK_WIDGET(view->maps), state == BOARD_OFF);
-	if (state == BOARD_STARTING)
-		view->version = ladder_document_version(view->document);
 	g_free(times);
 }
 

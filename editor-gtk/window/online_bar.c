@@ -187,7 +187,8 @@ static void tell_facts(struct online_bar *bar, int mode, enum role role)
 
 	core_with(core, WITH_OFFLINE, !is_on(bar));
 	core_with(core, WITH_LINK, is_on(bar));
-	core_with(core, WITH_MAY_RUN, mode == STATE_STOP && role == ROLE_ENG);
+	core_with(core, WITH_MAY_RUN, mode == STATE_STOP && role == ROLE_ENG &&
+		  status_has_program(ladder_board_link_status(link_of(bar))));
 	core_with(core, WITH_MAY_STOP, mode == STATE_RUN && role == ROLE_ENG);
 	core_with(core, WITH_MAY_RESET, mode == STATE_FAULT && role >= ROLE_OPER);
 	core_with(core, WITH_MAY_DOWNLOAD, may(bar, SERVICE_DOWNLOAD));

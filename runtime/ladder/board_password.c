@@ -58,7 +58,7 @@ static enum status ask_new(struct remote *remote, char *text)
 	if (status == STATUS_GOOD && !call_option(remote->call, "--password-fd")) {
 		status = secret_read(remote->call, "The same again", again);
 		if (status == STATUS_GOOD && strcmp(text, again) != 0)
-			status = report_usage(remote->call, "the two are not the same");
+			status = remote_tell(remote, DIAG_NOT_TWICE);
 	}
 	secret_wipe(again, sizeof(again));
 	return status;

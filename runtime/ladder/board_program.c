@@ -123,8 +123,7 @@ static enum status gather(struct parcel *parcel, const char *path, const char *m
 	return status;
 }
 
-enum status parcel_open(struct parcel *parcel, const struct call *call, const char *path,
-			const char *map_path)
+enum status parcel_open(struct parcel *parcel, const char *path, const char *map_path)
 {
 	enum status status, map_status;
 	char *map = NULL;
@@ -140,9 +139,11 @@ enum status parcel_open(struct parcel *parcel, const struct call *call, const ch
 	if (status == STATUS_GOOD)
 		status = gather(parcel, path, map);
 	free(map);
-	if (status == STATUS_GOOD && !stored_size(&parcel->stored))
-		status = report_usage(call, "the program is larger than %u MiB",
-				      STORED_MOST >> 20);
+	if (status == STATUS_GOOD && !stored_size(&parcel->stored)) {
+		report_diag((struct diag){ .id = DIAG_STORED_TOO_LARGE, .file = path }, "%u",
+			    (unsigned)(STORED_MOST >> 20));
+		status = STATUS_WRONG;
+	}
 	return status;
 }
 
@@ -378,7 +379,7 @@ enum status remote_download(struct remote *remote)
 	if (call->arg_count != 4)
 		return report_usage(call, "download needs FILE and MAP");
 	remote->put = (struct put){ .ask = true, .restart = call_flag(call, "--restart") };
-	status = parcel_open(&parcel, call, call->arg[2], call->arg[3]);
+	status = parcel_open(&parcel, call->arg[2], call->arg[3]);
 	if (status == STATUS_GOOD)
 		status = remote_put(remote, &parcel);
 	parcel_close(&parcel);
@@ -416,7 +417,7 @@ enum status remote_receive(struct remote *remote, struct stored *stored, struct 
 		size = stored_size(stored);
 		len = wire_left(&in);
 		if (!in.failed && !stored->len[STORED_IMAGE])
-			return report_usage(remote->call, "the board has no program yet; download one first");
+			return remote_tell(remote, DIAG_LINK_NO_PROGRAM);
 		if (in.failed || !size || len > size - bytes->len || (!len && bytes->len < size))
 			return remote_fail(remote, DESK_NONSENSE);
 		bytes_add(bytes, wire_bytes(&in, len), len);
@@ -451,67 +452,137 @@ static void make_folders(char *path, size_t from)
 	}
 }
 
-static enum status put_file(struct remote *remote, const char *folder, const char *name,
-			    size_t name_len, const uint8_t *bytes, size_t len)
-{
-	struct diag_list *diags;
-	char path[1400];
-	int used = snprintf(path, sizeof(path), "%.1000s/%.*s", folder, (int)name_len, name);
+/* A file of an upload. */
+struct upload_file {
+	const char *name; /* not ended by a 0 */
+	size_t name_len;
+	const uint8_t *bytes;
+	size_t len;
+};
 
-	if (!is_safe(name, name_len) || used >= (int)sizeof(path))
-		return remote_fail(remote, DESK_NONSENSE);
-	if (access(path, F_OK) == 0)
-		return report_usage(remote->call, "%.60s is there already", path);
-	make_folders(path, strlen(folder) + 1);
-	diags = report_list(path);
-	if (!diags)
+/* An upload on its way to the disk. */
+struct upload {
+	struct remote *remote;
+	const char *folder;
+	const struct stored *stored;
+	const char *list; /* made from the image of a board without sources; or NULL */
+	/* What is done with each file. */
+	enum status (*step)(const struct upload *upload, const struct upload_file *file);
+};
+
+static bool upload_path(const struct upload *upload, const struct upload_file *file,
+			char path[static 1400])
+{
+	const int used = snprintf(path, 1400, "%.1000s/%.*s", upload->folder,
+				  (int)file->name_len, file->name);
+
+	return is_safe(file->name, file->name_len) && used < 1400;
+}
+
+static enum status refuse_known(const struct upload *upload, const struct upload_file *file)
+{
+	char path[1400];
+
+	if (!upload_path(upload, file, path))
+		return remote_fail(upload->remote, DESK_NONSENSE);
+	if (access(path, F_OK) != 0)
+		return STATUS_GOOD;
+	report_diag((struct diag){ .id = DIAG_FILE_EXISTS, .file = path }, "%s", "");
+	return STATUS_WRONG;
+}
+
+static enum status put_file(const struct upload *upload, const struct upload_file *file)
+{
+	char path[1400];
+
+	if (!upload_path(upload, file, path))
+		return remote_fail(upload->remote, DESK_NONSENSE);
+	make_folders(path, strlen(upload->folder) + 1);
+	if (report_save(path, file->bytes, file->len) != STATUS_GOOD)
 		return STATUS_WRONG;
-	file_save(path, bytes, len, diags);
-	if (!report_end(diags))
-		return STATUS_WRONG;
-	sink_text(&remote->call->out, path);
-	sink_text(&remote->call->out, "\n");
+	sink_text(&upload->remote->call->out, path);
+	sink_text(&upload->remote->call->out, "\n");
 	return STATUS_GOOD;
 }
 
-static enum status put_sources(struct remote *remote, const char *folder,
-			       const struct stored *stored)
+static enum status each_source(const struct upload *upload)
 {
+	const struct stored *stored = upload->stored;
 	struct wire_reader in = wire_read(stored_part(stored, STORED_SOURCES),
 					  stored->len[STORED_SOURCES]);
 	const uint16_t count = stored->len[STORED_SOURCES] ? wire_u16(&in) : 0;
 	enum status status = STATUS_GOOD;
 
 	for (uint16_t i = 0; i < count && status == STATUS_GOOD; i++) {
-		size_t name_len;
-		const char *name = wire_text(&in, &name_len);
-		const uint32_t len = wire_u32(&in);
-		const uint8_t *bytes = wire_bytes(&in, len);
+		struct upload_file file;
 
-		status = bytes ? put_file(remote, folder, name, name_len, bytes, len) :
-				 remote_fail(remote, DESK_NONSENSE);
+		file.name = wire_text(&in, &file.name_len);
+		file.len = wire_u32(&in);
+		file.bytes = wire_bytes(&in, file.len);
+		status = file.bytes ? upload->step(upload, &file) :
+				      remote_fail(upload->remote, DESK_NONSENSE);
 	}
 	return status;
 }
 
-/* A board without sources: the program as lists made from its image. */
-static enum status put_lists(struct remote *remote, const char *folder,
-			     const struct stored *stored)
+static enum status one_file(const struct upload *upload, const char *name, const void *bytes,
+			    size_t len)
 {
+	return upload->step(upload, &(struct upload_file){ name, strlen(name), bytes, len });
+}
+
+static enum status each_file(const struct upload *upload)
+{
+	const struct stored *stored = upload->stored;
+	enum status status = upload->list ?
+		one_file(upload, "program.rung", upload->list, strlen(upload->list)) :
+		each_source(upload);
+
+	if (status == STATUS_GOOD)
+		status = one_file(upload, "board.io", stored_part(stored, STORED_MAP),
+				  stored->len[STORED_MAP]);
+	if (status == STATUS_GOOD)
+		status = one_file(upload, "program.rungc", stored_part(stored, STORED_IMAGE),
+				  stored->len[STORED_IMAGE]);
+	return status;
+}
+
+/* Writes nothing if one of the files is there already. */
+static enum status write_upload(struct upload *upload)
+{
+	enum status status;
+
+	upload->step = refuse_known;
+	status = each_file(upload);
+	if (status != STATUS_GOOD)
+		return status;
+	if (mkdir(upload->folder, 0777) != 0 && errno != EEXIST) {
+		report_diag((struct diag){ .id = DIAG_NO_FOLDER, .file = upload->folder }, "%s",
+			    strerror(errno));
+		return STATUS_WRONG;
+	}
+	upload->step = put_file;
+	return each_file(upload);
+}
+
+/* A board without sources: the program as lists made from its image. */
+static enum status write_lists(struct upload *upload)
+{
+	const struct stored *stored = upload->stored;
 	struct ladder *ladder = ladder_new();
 	char *text = NULL, *lost = NULL;
 	enum status status;
 	size_t len = 0;
 
 	if (!ladder)
-		return report_no_memory(remote->where);
+		return report_no_memory(upload->remote->where);
 	if (ladder_load_text(ladder, "program.rungc", stored_part(stored, STORED_IMAGE),
 			     stored->len[STORED_IMAGE]))
 		text = image_il_text(ladder_program(ladder), &len, &lost);
 	else
 		report_diags(ladder_diags(ladder));
-	status = text ? put_file(remote, folder, "program.rung", 12, (const uint8_t *)text, len) :
-			STATUS_WRONG;
+	upload->list = text;
+	status = text ? write_upload(upload) : STATUS_WRONG;
 	if (status == STATUS_GOOD)
 		fputs("the board stores no sources: program.rung is made from its code image\n",
 		      stderr);
@@ -533,25 +604,18 @@ static bool has_sources(const struct stored *stored)
 
 enum status remote_upload(struct remote *remote)
 {
-	const char *folder = call_option(remote->call, "-o");
 	struct stored stored = { .bytes = NULL };
 	struct bytes bytes = { .at = NULL };
+	struct upload upload = {
+		.remote = remote, .folder = call_option(remote->call, "-o"), .stored = &stored,
+	};
 	enum status status;
 
-	if (!folder)
+	if (!upload.folder)
 		return report_usage(remote->call, "upload needs -o FOLDER");
-	if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-		return report_usage(remote->call, "%.60s: %s", folder, strerror(errno));
 	status = remote_receive(remote, &stored, &bytes);
 	if (status == STATUS_GOOD)
-		status = has_sources(&stored) ? put_sources(remote, folder, &stored) :
-						put_lists(remote, folder, &stored);
-	if (status == STATUS_GOOD)
-		status = put_file(remote, folder, "board.io", 8, stored_part(&stored, STORED_MAP),
-				  stored.len[STORED_MAP]);
-	if (status == STATUS_GOOD)
-		status = put_file(remote, folder, "program.rungc", 13,
-				  stored_part(&stored, STORED_IMAGE), stored.len[STORED_IMAGE]);
+		status = has_sources(&stored) ? write_upload(&upload) : write_lists(&upload);
 	free(bytes.at);
 	return status;
 }

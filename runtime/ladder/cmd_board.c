@@ -28,6 +28,12 @@ enum status remote_fail(const struct remote *remote, enum desk_end end)
 	return end == DESK_REFUSED ? STATUS_NO : STATUS_WRONG;
 }
 
+enum status remote_tell(const struct remote *remote, enum diag_id id)
+{
+	report_diag((struct diag){ .id = id, .file = remote->where }, "%s", "");
+	return STATUS_WRONG;
+}
+
 /* ---- values as text ---- */
 
 static void print_value(const struct sink *out, enum iec_type type, union iec_value value)

@@ -506,7 +506,7 @@ static enum link_end over_link(const struct push *push, struct call *call,
 static enum status read_and_put(struct push *push, struct call *call)
 {
 	struct parcel parcel;
-	enum status status = parcel_open(&parcel, call, call->arg[0], call->arg[1]);
+	enum status status = parcel_open(&parcel, call->arg[0], call->arg[1]);
 
 	/* --folder says where the files are to be, so they are copied. */
 	if (status == STATUS_GOOD && (call_option(call, "--folder") ||

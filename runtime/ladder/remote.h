@@ -60,6 +60,8 @@ struct remote {
 
 /** remote_fail - prints why a call failed; its exit status. */
 enum status remote_fail(const struct remote *remote, enum desk_end end);
+/** remote_tell - prints a message that needs no more than the board's place; returns STATUS_WRONG. */
+enum status remote_tell(const struct remote *remote, enum diag_id id);
 /** remote_status - asks what runs, and expects it from now on. Fails: after a message. */
 enum status remote_status(struct remote *remote, struct board_status *status);
 
@@ -85,8 +87,7 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 
 /** parcel_open - reads and checks program and map; both, even if the first has errors. Owns:
  * the caller, parcel_close(), always. Fails: a status after diagnostics. */
-enum status parcel_open(struct parcel *parcel, const struct call *call, const char *path,
-			const char *map_path);
+enum status parcel_open(struct parcel *parcel, const char *path, const char *map_path);
 void parcel_close(struct parcel *parcel);
 /** remote_put - downloads it as remote->put says; prints what does not go on. Fails: after
  * messages; without one if put->no_store is set. */

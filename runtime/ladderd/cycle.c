@@ -166,6 +166,14 @@ static enum refusal stop(struct cycle *cycle)
 	return REFUSAL_NONE;
 }
 
+/* A board that was given no program has the identity of zeros. */
+static bool has_program(const struct cycle *cycle)
+{
+	static const uint8_t none[sizeof(cycle->identity_bytes)];
+
+	return memcmp(cycle->identity_bytes, none, sizeof(none)) != 0;
+}
+
 enum refusal cycle_mode(struct cycle *cycle, enum mode_wish wish)
 {
 	enum refusal refusal;
@@ -175,6 +183,8 @@ enum refusal cycle_mode(struct cycle *cycle, enum mode_wish wish)
 	if (wish == MODE_RESET ? cycle->resource.state != STATE_FAULT :
 				 cycle->resource.state != STATE_STOP)
 		return REFUSAL_NOT_NOW;
+	if (!has_program(cycle))
+		return REFUSAL_NO_PROGRAM;
 	refusal = restart(cycle, wish == MODE_COLD);
 	if (refusal != REFUSAL_NONE)
 		return refusal;

@@ -634,11 +634,17 @@ def test_upload_gives_back_what_was_downloaded():
 
 def test_a_board_without_sources_gives_lists():
     with Board() as board:
+        board.write('s', '@print Start Motor Count Label Table[2] Slow.ET\n.\nStart=1\n.\nStart=0\n.\nBrake=1\n.\n')
         status, out, err = board.command('upload', '-o', 'up')
         assert status == 0 and 'made from its code image' in err, err
         assert out == 'up/program.rung\nup/board.io\nup/program.rungc\n', out
         assert 'PROGRAM Main IL' in board.read('up/program.rung')
-        board.write('s', '@print Start Motor Count Label Table[2] Slow.ET\n.\nStart=1\n.\nStart=0\n.\nBrake=1\n.\n')
+        os.mkdir(os.path.join(board.folder, 'part'))
+        board.write('part/board.io', 'mine')
+        status, out, err = board.command('upload', '-o', 'part')
+        assert status == 2 and not out and 'part/board.io: error LD025: this file is there already' in err, (out, err)
+        assert os.listdir(os.path.join(board.folder, 'part')) == ['board.io'] and board.read('part/board.io') == 'mine'
+        assert 's/sub: error LD026: cannot make this folder: Not a directory' in board.command('upload', '-o', 's/sub')[2]
         one, two = (board.ladder('trace', name, 's').stdout for name in ('program.rung', 'up/program.rung'))
         assert one == two and 'Count=14' in one, (one, two)
         assert board.ladder('il', 'up/program.rungc').stdout == board.read('up/program.rung')
@@ -991,8 +997,10 @@ def test_without_a_program_it_waits_in_stop():
         assert desk.upload() == [b'', b'', b'']
         assert '\nprogram: none\n' in board.command('status')[1]
         assert json.loads(board.command('status', '--json')[1])['program'] is None
+        refused(43, lambda: desk.set_mode(client.RUN))
         result, _out, err = board.command('upload', '-o', 'none')
-        assert result == 2 and 'the board has no program yet' in err, err
+        assert result == 2 and err.endswith('the board has no program yet; download one first\n'), err
+        assert not os.path.exists(os.path.join(board.folder, 'none'))
         # Between two scans; a desk that expects a program is stale.
         desk.send_from(b''.join(parts), desk.begin(parts))
         losses = desk.verify()[3]
