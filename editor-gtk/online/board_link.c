@@ -689,6 +689,10 @@ static char *unreachable(const char *where, int error)
 					  "log in again."), at.rest) :
 			g_strdup_printf(_("No ladderd listens at “%s”. Start it with --link, or "
 					  "connect to another board."), at.rest);
+	if (error == -EBUSY)
+		return g_strdup_printf(_("%s: another program or window uses this line."), where);
+	if (error == -ENOTTY)
+		return g_strdup_printf(_("%s: this is no serial line."), where);
 	return g_strdup_printf("%s: %s", where, g_strerror(-error));
 }
 

@@ -115,13 +115,8 @@ static char *state_text(struct online_bar *bar)
 	case LINK_OFF: case LINK_CONNECTED:
 		break;
 	}
-	if (status) {
+	if (status)
 		g_string_append_printf(text, " · %s", mode_word(status->mode));
-		if (status->mode == STATE_FAULT)
-			g_string_append_printf(text, ": %s", status->fault);
-		else if (*status->stop)
-			g_string_append_printf(text, ": %s", status->stop);
-	}
 	if (status && ladder_board_link_role(link_of(bar)) != ROLE_ENG)
 		g_string_append_printf(text, " · %s", ladder_board_link_role(link_of(bar)) ==
 				       ROLE_OPER ? _("you may operate") : _("you may look"));
@@ -163,15 +158,26 @@ static void show_same(struct online_bar *bar)
 		  same == SAME_ERRORS);
 }
 
+/* Why the program stands still, or why there is no connection. */
+static const char *reason_of(struct online_bar *bar)
+{
+	const struct board_status *status = ladder_board_link_status(link_of(bar));
+
+	return !status ? ladder_board_link_reason(link_of(bar)) :
+	       status->mode == STATE_FAULT ? status->fault : status->stop;
+}
+
 static void show_reason(struct online_bar *bar)
 {
+	const struct board_status *status = ladder_board_link_status(link_of(bar));
 	const enum link_state state = ladder_board_link_state(link_of(bar));
 	const bool none = state == LINK_CONNECTED &&
 			  ladder_board_link_role(link_of(bar)) == ROLE_NONE;
 
 	show_label(bar->reason, none ? _("Your user on the board is in none of the groups "
 		"ladder-view, ladder-oper, ladder-eng, so it may do nothing there. Add it to one "
-		"of them and connect again.") : ladder_board_link_reason(link_of(bar)));
+		"of them and connect again.") : reason_of(bar));
+	set_class(bar->reason, "error", !status || status->mode == STATE_FAULT);
 	gtk_widget_set_visible(bar->again, state == LINK_FAILED || state == LINK_LOST || none);
 }
 
@@ -229,7 +235,7 @@ static void show_actions(struct online_bar *bar)
 /* The log has each change of the state once. */
 static void log_state(struct online_bar *bar, const char *text)
 {
-	const char *reason = ladder_board_link_reason(link_of(bar));
+	const char *reason = reason_of(bar);
 	char *whole = *reason ? g_strdup_printf("%s: %s", text, reason) : g_strdup(text);
 
 	/* board_bar logs a program of this editor. */
@@ -510,7 +516,6 @@ static void make_bar(struct online_bar *bar)
 	bar->reason = label_new();
 	gtk_label_set_wrap(GTK_LABEL(bar->reason), TRUE);
 	gtk_label_set_ellipsize(GTK_LABEL(bar->reason), PANGO_ELLIPSIZE_NONE);
-	gtk_widget_add_css_class(bar->reason, "error");
 	gtk_box_append(GTK_BOX(bar->bar), line);
 	gtk_box_append(GTK_BOX(bar->bar), bar->reason);
 	gtk_widget_set_visible(bar->bar, FALSE);

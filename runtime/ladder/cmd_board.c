@@ -10,6 +10,7 @@
 #include "engine/scan/resource.h"
 #include "engine/trial/value.h"
 #include "online/event.h"
+#include "online/port.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -792,7 +793,8 @@ static enum status begin(struct remote *remote)
 
 	if (error) {
 		report_diag((struct diag){ .id = DIAG_BOARD_AWAY, .file = remote->where }, "%s",
-			    strerror(-error));
+			    remote->to.kind == STREAM_SERIAL ? port_why(error) :
+							       strerror(-error));
 		return STATUS_WRONG;
 	}
 	end = desk_open(&remote->desk, &stream, "ladder " LADDER_VERSION);

@@ -55,9 +55,9 @@ static int make_raw(int fd, speed_t code)
 
 const char *port_why(int error)
 {
-	return error == -EINVAL ? "is no speed of a serial line; try 115200" :
-	       error == -EBUSY ? "another program uses it" :
-	       error == -ENOTTY ? "is no serial line" : strerror(-error);
+	return error == -EINVAL ? "this is no speed of a serial line; try 115200" :
+	       error == -EBUSY ? "another program or window uses it" :
+	       error == -ENOTTY ? "this is no serial line" : strerror(-error);
 }
 
 int port_open(const char *text, uint32_t *baud)

@@ -18,6 +18,6 @@
  * Fails: -errno; -EINVAL: not such a speed; -EBUSY: another program has it; -ENOTTY: no line.
  */
 int port_open(const char *text, uint32_t *baud);
-/** port_why - what an error of port_open() is, for a person: "is no serial line". Static. */
+/** port_why - what an error of port_open() means, for a person: "this is no serial line". Static. */
 const char *port_why(int error);
 #endif

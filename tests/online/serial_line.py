@@ -271,7 +271,7 @@ def test_a_slow_line_loses_messages_and_counts_them():
 
 def test_two_desks_at_one_line_and_other_bad_wishes():
     with Cable() as cable, SerialBoard(cable) as board:
-        for words, text in [(['--serial', cable.board], 'another program uses it'),
+        for words, text in [(['--serial', cable.board], 'another program or window uses it'),
                             (['--serial', cable.desk + ',123'], 'is no speed of a serial line'),
                             (['--serial', '/dev/null'], 'is no serial line'),
                             (['--serial', '/dev/ttyNone9'], 'No such file'),

@@ -391,7 +391,7 @@ def test_a_cable_that_is_pulled_and_put_back():
 def test_bad_wishes():
     with Cable() as cable, SmallBoard(cable) as board:
         assert line(cable).read('%MW0') == [0]
-        for words, text in [(['--serial', cable.board], 'another program uses it'),
+        for words, text in [(['--serial', cable.board], 'another program or window uses it'),
                             (['--serial', '/dev/null'], 'is no serial line'),
                             (['--serial', cable.desk, '--serial-role', 'boss'], 'is not view, oper or eng')]:
             done = subprocess.run([link.BUILD + '/small-serial/ladderd', 'pump.rungc', '--io', 'board.io', *words],

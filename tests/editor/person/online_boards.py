@@ -215,6 +215,37 @@ def by_mouse(screen):
     board.stop()
 
 
+LOOP = SEAL.replace('  Count : INT;', '  Go : BOOL;').replace('PROGRAM Main LD\n', """PROGRAM Main LD
+RUNG Again
+  | NO Go | JMP Again |
+""")
+
+
+def fault(screen):
+    """a FAULT by the pointer alone: the bar says why and offers Reset, for a person who may order it"""
+    board = Board(screen, 'garage', program=LOOP)
+    path = new_file(screen, LOOP, 'loop.rung')
+    with open(path[:-5] + '.io', 'w') as out:
+        out.write(SEAL_MAP)
+    editor = Editor(screen, path)
+    editor.click(exact(editor, 'Online', None))
+    editor.focus_on('Board', 'text')
+    editor.type(board.where)
+    click_in(editor, exact(editor, 'Connect'))
+    says(editor, 'garage · RUN')
+    board.ask('set', 'Go=1')
+    says(editor, 'garage · FAULT')
+    editor.says('instruction budget of the scan exceeded (a loop?), Main rung 1')
+    assert not [node for node in editor.all(role='push button') if node.name in ('Run', 'Stop')], 'Run or Stop in FAULT'
+    editor.shot('online-mouse-fault')
+    editor.click(exact(editor, 'Reset'))
+    editor.find('Reset the fault of “garage”?', 'label')
+    editor.shot('online-mouse-reset')
+    click_in(editor, exact(editor, 'Reset', below=editor.find(role='dialog').path))
+    says(editor, 'garage · RUN')
+    board.stop()
+
+
 def told_in(screen, language, **env):
     """The texts of the bar, its dialogs, the state of the board and the log, none of them English."""
     board = Board(screen, 'garage', program=SEAL, board=SEAL_MAP)
@@ -333,5 +364,30 @@ def serial(screen):
         board.stop()
 
 
+def handed(screen):
+    """two windows and one serial line: the second is told that it is in use, and has it once the first lets go"""
+    with Cable() as cable:
+        board = SerialBoard(screen, cable, 'far', program=PUMP, board=MAP % 'far')
+        paths = [new_file(screen, text, name) for text, name in ((PUMP, 'pump.rung'), (BARN, 'barn.rung'))]
+        editor = Editor(screen, *paths)
+        until(lambda: len(editor.windows()) == 2, 'two windows')
+        frames = {}
+        for name in 'Pump', 'Barn':
+            frames[name] = front(editor, name)
+            until(lambda: any(node.has(12) for node in editor.all('Sheet', below=frames[name])), 'the keys in the sheet')
+            connect(editor, board.where)
+            until(lambda: has(editor, frames[name], 'far · RUN' if name == 'Pump' else 'another program or window uses this line'), name)
+        editor.shot('online-serial-used')
+        cell(editor, frames['Pump'], 'Rung 2, [ ]', '30 > 20, closed')
+        front(editor, 'Pump')
+        editor.command('Disconnect')
+        until(lambda: not has(editor, frames['Pump'], 'far · RUN'), 'the first window to let go')
+        front(editor, 'Barn')
+        editor.command('Connect again')
+        until(lambda: has(editor, frames['Barn'], 'far · RUN'), 'the second window to have it')
+        until(lambda: has(editor, frames['Barn'], 'The board runs another program.'), 'what runs there')
+        board.stop()
+
+
 if __name__ == '__main__':
-    main([two, spoken_all, by_mouse, *([german, french, chinese] if os.path.isdir(os.path.join(BUILD, 'locale')) else []), serial])
+    main([two, spoken_all, by_mouse, fault, *([german, french, chinese] if os.path.isdir(os.path.join(BUILD, 'locale')) else []), serial, handed])
