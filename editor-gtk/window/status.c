@@ -38,6 +38,14 @@ static const char *board_class(struct status *status)
 	       "still";
 }
 
+/* A board was wanted and does not answer. */
+static bool is_away(struct status *status)
+{
+	const enum link_state state = ladder_board_link_state(status->core->link);
+
+	return state == LINK_LOST || state == LINK_FAILED;
+}
+
 static void show_board_pill(struct status *status)
 {
 	static const struct { const char *text, *class; } pills[] = {
@@ -53,6 +61,10 @@ static void show_board_pill(struct status *status)
 
 	if (ladder_sim_is_recording(status->core->sim)) {
 		set_pill(status, _("RECORDING"), "still");
+		return;
+	}
+	if (is_away(status)) {
+		set_pill(status, _("NOT CONNECTED"), "fault");
 		return;
 	}
 	if (!late_ns) {

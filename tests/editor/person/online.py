@@ -138,6 +138,7 @@ def state(screen):
     until(lambda: not editor.all('Held at', 'label'), 'the force to be gone')
     board.stop()
     says(editor, 'connection lost')
+    says(editor, 'NOT CONNECTED')
     editor.shot('online-lost')
     board.start()
     says(editor, 'garage · RUN')
