@@ -539,18 +539,19 @@ static void draw_ground(const struct pen *pen)
 		picture_fill(pen->nib.picture, TOKEN_LINE, 1, 0, layout->height - 1, width, 1);
 }
 
-#define MISSING_ROOM 70 /* from the right end to the middle of the note           */
+#define MISSING_ROOM 31 /* from the right end to the note, left of the rail       */
 
 /* An arrow that waits below the number, and a note at the lower right. */
 static void draw_missing(const struct pen *pen, float x, float y)
 {
 	struct lettering *lettering = pen->drafting->lettering;
-	const float middle = rung_layout_width(pen->layout) - MISSING_ROOM;
+	const struct lettered note =
+		lettering_fit(lettering, LETTER_COMMENT, _("not downloaded"), -1, 0);
 
 	put_text(pen, TOKEN_FORCE, LETTER_HEADING,
 		 lettering_fit(lettering, LETTER_HEADING, "\xe2\x86\x93", -1, 0), x, y + 36);
-	put_text(pen, TOKEN_FORCE, LETTER_COMMENT,
-		 lettering_fit(lettering, LETTER_COMMENT, _("not downloaded"), -1, 0), middle,
+	put_text(pen, TOKEN_FORCE, LETTER_COMMENT, note,
+		 rung_layout_width(pen->layout) - MISSING_ROOM - note.width / 2,
 		 pen->layout->height - 8);
 }
 
