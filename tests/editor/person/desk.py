@@ -310,8 +310,8 @@ class Chinese(Editor):
         self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
         super().__init__(screen, *files, LANGUAGE='zh_CN', **env)
 
-    def all(self, name=None, *more, **named):
-        return super().all(name and self.said.gettext(name), *more, **named)
+    def shown_as(self, text):
+        return self.said.gettext(text)
 
 
 if __name__ == '__main__':  # desk.py COMMAND...: runs a command at a desk of its own

@@ -77,10 +77,37 @@ class Finder:
             answers = self.ask([(path, 'Accessible', 'GetChildren') for path in paths])
             paths = {child for answer in answers if answer for _, child in answer[0]} - known
 
-    def walk(self, path=None):
+    def shown_as(self, text):
+        """A text of the editor in the language that it shows."""
+        return text
+
+    @staticmethod
+    def fits(node, name, role):
+        return (role is None or node.role == ROLES[role]) and (name is None or name in node.name)
+
+    def sole(self, name, role, nodes):
+        """The only visible widget of @nodes whose name contains a text, of a role; None: none, several, or in the
+        palette. It asks only the widgets around those that fit, where walk() asks nearly all."""
+        name = name and self.shown_as(name)
+        fit = [node for node in nodes.values() if self.fits(node, name, role)]
+        ways = []
+        for node in fit if len(fit) <= 8 else []:
+            way = [node.path]
+            while way[-1] != self.root and way[-1] in nodes and way[-1] != self.palette:
+                way.append(nodes[way[-1]].parent)
+            if way[-1] == self.root:
+                ways.append(way)
+        asked = list({path for way in ways for path in way[1:]})
+        answers = self.ask([(path, 'Accessible', 'GetChildren') for path in asked])
+        below = {path: {child for _, child in answer[0]} for path, answer in zip(asked, answers) if answer}
+        seen = [way[0] for way in ways if all(child in below.get(path, ()) for child, path in zip(way, way[1:]))]
+        return nodes[seen[0]] if len(seen) == 1 else None
+
+    def walk(self, path=None, nodes=None):
+        """@nodes: what known() has just returned."""
         unknown, before = {self.root}, set()
         while unknown - before:
-            nodes, before = self.known(), unknown
+            nodes, before = nodes if nodes and not before else self.known(), unknown
             below = self.seen(nodes, path)
             unknown = {child for paths in below.values() for child in paths if child not in nodes}
             self.waken(unknown, set(nodes))
@@ -97,15 +124,15 @@ class Finder:
                         page = child in nodes and not nodes[child].widget
                         paths += below.get(child, []) if page else [child]
 
-    def all(self, name=None, role=None, below=None):
+    def all(self, name=None, role=None, below=None, nodes=None):
         """All widgets whose name contains a text; of a role."""
-        return [node for node in self.walk(below) if (role is None or node.role == ROLES[role]) and
-                (name is None or name in node.name)]
+        name = name and self.shown_as(name)
+        return [node for node in self.walk(below, nodes) if self.fits(node, name, role)]
 
     def find(self, name=None, role=None, seconds=PATIENCE):
         def look():
-            found = self.all(name, role)
-            return found[0] if found else None
+            nodes = self.known()
+            return self.sole(name, role, nodes) or next(iter(self.all(name, role, nodes=nodes)), None)
         return until(look, '%s "%s"' % (role or 'widget', name), seconds)
 
     def tile(self, name):

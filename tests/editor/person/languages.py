@@ -53,8 +53,8 @@ class Foreign(Editor):
         self.said = catalogue(language)
         super().__init__(screen, *files, LANGUAGE=language, **env)
 
-    def all(self, name=None, role=None, *more, **named):
-        return super().all(name and self.said.gettext(name), role, *more, **named)
+    def shown_as(self, text):
+        return self.said.gettext(text)
 
     def names(self):
         return {node.name for node in super().all()}
