@@ -304,6 +304,13 @@ like($out, qr/^ok 1 - sub\/below\/a\.scn: holds\nnot ok 2 - sub\/good\.scn: a \\
 ($out) = is_run(1, 'test of an image', ['test', 'sub/good.scn', 'good.scn']);
 like($out, qr/^not ok 1 .*^ok 2 /ms, 'test continues after a failure');
 put('alone.scn', get('good.scn'));
+put('two.rung', get('good.rung'));
+put('two.scn', "scenario \"good\"\n  at 1s expect not Motor\nscenario \"wrong\"\n  at 1s expect Motor\nscenario \"after\"\n  at 1s expect not Motor\n");
+($out) = is_run(1, 'all scenarios', ['test', 'two.scn', 'good.scn']);
+like($out, qr/^not ok 2 .*^ok 3 .*^ok 4 .*^1\.\.4$/ms, 'a failed scenario does not end a test');
+($out) = is_run(1, 'fail-fast', ['test', '--fail-fast', 'two.scn', 'good.scn']);
+like($out, qr/^ok 1 .*^not ok 2 .*^1\.\.2$/ms, 'with --fail-fast it does');
+unlike($out, qr/^ok 3/m, 'and no other runs');
 ($out) = is_run(1, 'scenarios without a program', ['test', 'alone.scn']);
 like($out, qr/^not ok 1 - alone\.scn: its program is good\n1\.\.1\n/, 'scenarios without a program fail');
 is_run(2, 'test of nothing', ['test', 'nowhere']);

@@ -125,7 +125,7 @@ for my $program (@programs) {
 		($status, $text) = answer('.', $ladder, 'check', "$folder/$name.rung");
 		next if $status; # no longer a valid program
 		$of++;
-		($status, $text) = answer('.', $ladder, 'test', "$folder/$name.scn");
+		($status, $text) = answer('.', $ladder, 'test', '--fail-fast', "$folder/$name.scn");
 		next if $status;
 		push @missed, "$broken->{line}: $broken->{row}";
 		push @missed_chart, $missed[-1] if $broken->{chart};

@@ -18,6 +18,12 @@ struct tap {
 	int count, failed;
 };
 
+/* Does no other scenario run? */
+static bool is_over(const struct tap *tap)
+{
+	return tap->call->out_failed || (tap->failed && call_flag(tap->call, "--fail-fast"));
+}
+
 /* Prints a result line. In TAP 13 a backslash escapes `#`, which begins a directive. */
 static void print_result(struct tap *tap, bool good, const char *path,
 			 const char *name)
@@ -91,7 +97,7 @@ static bool run_text(struct tap *tap, struct machine *machine, const char *path,
 			     &machine->plant.resource.image : NULL, &arena,
 			     &file, diags);
 	report_diags(diags);
-	for (int i = 0; good && i < file.count && !tap->call->out_failed; i++)
+	for (int i = 0; good && i < file.count && !is_over(tap); i++)
 		run_one(tap, machine, &file, i);
 	arena_free(&arena);
 	free(diags);
@@ -150,9 +156,8 @@ enum status cmd_test(struct call *call)
 			status = STATUS_WRONG;
 	if (status == STATUS_GOOD && !paths.count)
 		status = report_usage(call, "there are no scenario files");
-	for (int i = 0; status == STATUS_GOOD && i < paths.count; i++)
-		if (!call->out_failed)
-			run_file(&tap, paths.path[i]);
+	for (int i = 0; status == STATUS_GOOD && i < paths.count && !is_over(&tap); i++)
+		run_file(&tap, paths.path[i]);
 	if (status == STATUS_GOOD) {
 		sink_printf(&call->out, "1..%d\n", tap.count);
 		status = tap.failed ? STATUS_NO : STATUS_GOOD;

@@ -37,7 +37,7 @@ def sh(*args, **more):
 
 def until(look, what, seconds=PATIENCE):
     """Waits until look() returns something true, and returns it. A widget that is gone counts as nothing. It pauses
-    as long as a look takes: the editor answers it, and has something else to do."""
+    twice as long as a look takes: the editor answers it, and has something else to do."""
     end = time.monotonic() + seconds
     while True:
         begin = time.monotonic()
@@ -49,7 +49,7 @@ def until(look, what, seconds=PATIENCE):
             return value
         if time.monotonic() > end:
             raise AssertionError('it did not come: ' + what)
-        time.sleep(max(0.06, time.monotonic() - begin))
+        time.sleep(max(0.06, 2 * (time.monotonic() - begin)))
 
 
 def is_gone(pid):

@@ -352,6 +352,7 @@ static void test_include_total(void)
 /* Reads texts of 300,000 equal bytes in several places. */
 static void test_monotonous(void)
 {
+	const int bytes = tap_rounds(300000);
 	static const char *const heads[] = {
 		"", "RUNGBOARD 1\n", "RUNGBOARD 1\nVAR\n",
 		"RUNGBOARD 1\nPROGRAM M\nRUNG\n|",
@@ -370,8 +371,7 @@ static void test_monotonous(void)
 		for (size_t p = 0; p < sizeof(pieces) / sizeof(*pieces); p++) {
 			text.len = 0;
 			add(&text, heads[h]);
-			add_many(&text, pieces[p], 300000 /
-				 (int)strlen(pieces[p]));
+			add_many(&text, pieces[p], bytes / (int)strlen(pieces[p]));
 			read_text(text.at);
 		}
 	}
