@@ -131,7 +131,10 @@ static void can_be_dragged(GtkWidget *button, LadderIcon *icon)
 
 GtkWidget *tile_new(const struct tile *tile)
 {
-	GtkWidget *button = gtk_button_new(), *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	GtkWidget *button = gtk_button_new();
+	/* The button has the name: a screen reader needs none of its parts. */
+	GtkWidget *box = g_object_new(GTK_TYPE_BOX, "orientation", GTK_ORIENTATION_VERTICAL,
+				      "accessible-role", GTK_ACCESSIBLE_ROLE_NONE, NULL);
 	LadderIcon *icon = g_object_new(LADDER_TYPE_ICON, NULL);
 	char *tip = g_strdup_printf("%s: %s%s%s", tile->name, tile->told,
 				    tile->key[0] ? " · " : "", tile->key);
