@@ -209,9 +209,13 @@ static void make_tiles(GtkExpander *expander)
 
 static GtkWidget *family_new(const char *name)
 {
-	GtkWidget *expander = gtk_expander_new(name);
+	GtkWidget *expander = gtk_expander_new(NULL);
 	GtkWidget *flow = gtk_flow_box_new();
+	/* The expander has the name for a screen reader. */
+	GtkWidget *label = g_object_new(GTK_TYPE_LABEL, "label", name, "accessible-role",
+					GTK_ACCESSIBLE_ROLE_NONE, NULL);
 
+	gtk_expander_set_label_widget(GTK_EXPANDER(expander), label);
 	gtk_flow_box_set_selection_mode(GTK_FLOW_BOX(flow), GTK_SELECTION_NONE);
 	gtk_flow_box_set_min_children_per_line(GTK_FLOW_BOX(flow), 2);
 	gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(flow), 8);
