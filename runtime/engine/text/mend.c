@@ -734,10 +734,165 @@ static void mend_steps(struct mender *m)
 	change(m, start, (size_t)(at - m->text) + 2 - start, made);
 }
 
+/* ---- what is computed where only a name or a number can stand ---- */
+
+/* The first bytes of a computation, for the message. */
+static void show_computed(struct mender *m, size_t at, size_t len)
+{
+	const char *text = m->text + at;
+	const size_t most = sizeof(m->out->from) - sizeof("…");
+	size_t used = 0;
+
+	while (used < len && used + utf8_length(text + used, len - used) <= most)
+		used += utf8_length(text + used, len - used);
+	snprintf(m->out->from, sizeof(m->out->from), "%.*s%s", (int)used, text,
+		 used < len ? "…" : "");
+}
+
+/* What stands at the cursor is an expression. @more: it is more than a name or a number; @inner:
+ * of `(A)` and `A` the name. */
+static bool is_computed(const char *text, size_t len, bool index, bool *more,
+			struct expr_tail *inner)
+{
+	struct expr *expr = malloc(sizeof(*expr));
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct lex lex;
+	bool good = false;
+
+	lex_init(&lex, text, len);
+	lex_next(&lex);
+	if (expr && diags)
+		good = expr_parse(&lex, expr, diags, (struct diag){ .id = DIAG_BAD_EXPRESSION }) &&
+		       lex.token.kind == TOKEN_END;
+	if (good) {
+		const struct expr_node *root = &expr->node[expr->root];
+		const bool plain = root->op == EXPR_NAME || root->op == EXPR_LITERAL;
+
+		*more = !plain || (index && memchr(text, '[', len)) || *text == '(';
+		*inner = plain ? (struct expr_tail){ root->text, root->len } :
+				 (struct expr_tail){ 0 };
+	}
+	free(diags);
+	free(expr);
+	return good;
+}
+
+/* Bytes up to the , or bracket outside of its own that ends the operand at @at, or up to a comment. */
+static size_t operand_length(const struct mender *m, size_t at)
+{
+	size_t end = at;
+	int depth = 0;
+
+	for (; end < m->len && skip_comment(m, end) == end; end++) {
+		const char c = m->text[end];
+
+		if (depth == 0 && strchr(",)]|", c))
+			break;
+		depth += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+	}
+	while (end > at && m->text[end - 1] == ' ')
+		end--;
+	return end - at;
+}
+
+/* Puts @name in the place of @len bytes, if they are computed. Returns the bytes there now. */
+static size_t take_computed(struct mender *m, size_t at, size_t len, const char *name)
+{
+	const bool index = strcmp(name, "Index") == 0, told = m->changed;
+	const bool bracket = !index && len > 2 && m->text[at] == '[' && m->text[at + len - 1] == ']';
+	const char *text = m->text + at + bracket;
+	struct expr_tail inner;
+	char made[MADE];
+	bool more;
+
+	if (!is_computed(text, len - 2 * bracket, index, &more, &inner) || !(more || bracket))
+		return len;
+	if (index)
+		inner.len = 0;
+	snprintf(made, sizeof(made), "%.*s", inner.len ? (int)inner.len : (int)strlen(name),
+		 inner.len ? inner.text : name);
+	if (inner.len == 0 && !told)
+		show_computed(m, at, len);
+	m->changed |= inner.len == 0;
+	change(m, at, len, made);
+	if (inner.len == 0 && !told) {
+		m->out->id = DIAG_COMPUTED;
+		m->out->column = (int)at + 1;
+	}
+	return strlen(made);
+}
+
+/* T[A + 1] → T[Index]; not in [ … ] of a cell, which may hold an expression. */
+static void mend_indices(struct mender *m)
+{
+	size_t at = 0;
+
+	while (at < m->len && !m->full) {
+		const bool index = m->text[at] == '[' && at && mend_is_word(m->text[at - 1]);
+
+		if (skip_comment(m, at) != at)
+			at = skip_comment(m, at);
+		else if (index)
+			at += 1 + take_computed(m, at + 1, operand_length(m, at + 1), "Index");
+		else if (m->text[at] == '[')
+			at += 1 + operand_length(m, at + 1);
+		else
+			at++;
+	}
+}
+
+/* Behind the instruction at the cursor whose operand is a value, and behind its parenthesis; 0:
+ * it has none. */
+static size_t value_place(const struct mender *m)
+{
+	const char *colon = strstr(m->text, ": ");
+	size_t at = colon ? (size_t)(colon - m->text) + 2 : 0, len = word_length(m->text + at);
+	struct word_table *words = &m->in->project->words;
+	enum op op = op_find(m->text + at, len);
+	enum word word = words_find(words, m->text + at, len);
+
+	if (op == OP_COUNT && len > 1 && ascii_upper(m->text[at + len - 1]) == 'N')
+		op = op_find(m->text + at, len - 1);
+	if (op != OP_COUNT ? op_row(op)->operand != OPND_ANY_R && op_row(op)->operand != OPND_INSTANCE :
+			     word == WORD_COUNT || words_row(words, word)->kind != WORD_FN)
+		return 0;
+	at += len;
+	if (op != OP_COUNT && op_row(op)->operand == OPND_INSTANCE)
+		at += strcspn(m->text + at, "(");
+	if (m->text[at] == '(')
+		return at + 1;
+	return at;
+}
+
+/* LD A + 1 → LD Value; ADD(IN1 := A * 2, IN2 := B) → ADD(IN1 := Value, IN2 := B). */
+static void mend_operands(struct mender *m)
+{
+	size_t at = value_place(m), pin;
+
+	while (at && at < m->len && !m->full) {
+		while (m->text[at] == ' ')
+			at++;
+		pin = at + word_length(m->text + at);
+		while (m->text[pin] == ' ')
+			pin++;
+		if (m->text[pin] == ':' && m->text[pin + 1] == '=')
+			at = pin + 2;
+		while (m->text[at] == ' ')
+			at++;
+		at += take_computed(m, at, operand_length(m, at), "Value");
+		if (m->text[at] != ',')
+			return;
+		at++;
+	}
+}
+
 static void mend_row(struct mender *m)
 {
 	size_t from, to, more;
 
+	mend_indices(m);
+	if (m->changed && line_reads(m))
+		return;
 	mend_steps(m);
 	add_bars(m);
 	for (int n = 0; cell_at(m, n, &from, &to) && !m->full && n < LIMIT_COLS; n++) {
@@ -965,6 +1120,11 @@ static void mend_list(struct mender *m)
 	struct piece piece[8];
 	int count = split(m, piece, 8);
 
+	mend_indices(m);
+	if (!m->full && !line_reads(m))
+		mend_operands(m);
+	if (m->changed)
+		return;
 	if (count == 1 && m->in->label) {
 		change(m, piece[0].len + piece[0].at, 0, ":");
 	} else if (count == 3 && piece_is(m, piece[2], ":")) {

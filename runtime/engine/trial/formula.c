@@ -135,6 +135,10 @@ static bool take_element(const struct image *image, const struct expr_node *from
 	const char *open = open_index(from->text, last);
 	const char *end = open ? memchr(open, ']', (size_t)(last - open)) : NULL;
 
+	if (end && open_index(end, last)) {
+		*why = DIAG_ONE_INDEX;
+		return false;
+	}
 	if (!end || !take_array(image, from->text, (size_t)(open - from->text),
 				(struct expr_tail){ end + 1,
 					(uint16_t)(last - end - 1) }, term))
@@ -144,9 +148,9 @@ static bool take_element(const struct image *image, const struct expr_node *from
 	while (end > at && end[-1] == ' ')
 		end--;
 	term->index = value_find(image, at, (size_t)(end - at), why);
-	if (term->index.type == IEC_NONE || kind_of(term->index.type) != KIND_INT)
-		return false;
-	return true;
+	if (term->index.type != IEC_NONE)
+		*why = DIAG_INDEX_TYPE;
+	return term->index.type != IEC_NONE && kind_of(term->index.type) == KIND_INT;
 }
 
 static struct location find_name(const struct formula *formula,
@@ -312,7 +316,10 @@ struct formula *formula_new(const struct image *image, const struct image *plant
 		term->fn = (uint16_t)from->fn;
 		term->left = from->left;
 		term->right = from->right;
-		if (from->op == EXPR_INDEX && (from->inner || from->right >= 0)) {
+		if (from->op == EXPR_INDEX &&
+		    (from->inner || from->right >= 0 ||
+		     open_index(from->text, from->text + from->len) ||
+		     open_index(from->tail.text, from->tail.text + from->tail.len))) {
 			complain(diags, place, DIAG_ONE_INDEX, line_start, from);
 			return NULL;
 		}
