@@ -45,6 +45,9 @@ struct config {
 	bool has_resource;
 	uint32_t resource, on; /* string ids; on 0: not written               */
 	uint32_t resource_comment;
+	uint32_t resource_inside; /* comments in a RESOURCE without entries   */
+	uint32_t resource_behind; /* behind END_RESOURCE                      */
+	int resource_at;          /* entries above RESOURCE                   */
 	struct config_entry *entry;
 	int count;
 	const char *file;     /* it stands in; borrowed from the arena        */

@@ -289,7 +289,37 @@ static bool ends_config(const struct reader *r)
 	       lex_is(&r->lex, "INCLUDE") || lex_is(&r->lex, "VIEW");
 }
 
+/* Where a comment behind a line is kept: behind the last line of a block, if that has one. */
+static uint32_t *comment_of(struct project *project, struct config_entry *entry)
+{
+	struct var_block *vars;
+	struct access_block *access;
+
+	if (entry->kind == CONFIG_VARS) {
+		vars = &project->globals.block[entry->block];
+		return vars->count ? &project->globals.var[vars->first + vars->count - 1].comment :
+				     &vars->comment;
+	}
+	if (entry->kind == CONFIG_ACCESS) {
+		access = &project->access_block[entry->block];
+		return access->count ?
+		       &project->access[access->first + access->count - 1].var.comment :
+		       &access->comment;
+	}
+	return &entry->comment;
+}
+
 static void read_entries(struct reader *r, struct config *config, bool inside);
+
+/* Keeps the comments before END_RESOURCE. */
+static void keep_inside(struct reader *r, struct config *config)
+{
+	uint32_t *id = config->count > config->resource_at ?
+		       comment_of(r->project, &config->entry[config->count - 1]) :
+		       &config->resource_inside;
+
+	*id = comment_join(r, *id, &r->note, COMMENT_NOTE);
+}
 
 static void read_resource(struct reader *r, struct config *config)
 {
@@ -309,13 +339,16 @@ static void read_resource(struct reader *r, struct config *config)
 	}
 	reader_end_line(r);
 	config->resource_comment = buffer_take(r, &r->note);
+	config->resource_at = config->count;
 	read_entries(r, config, true);
 	if (!lex_is(&r->lex, "END_RESOURCE")) {
 		reader_fail_open(r, &head);
 		return;
 	}
+	keep_inside(r, config);
 	reader_next(r);
 	reader_end_line(r);
+	config->resource_behind = buffer_take(r, &r->note);
 }
 
 /* A second level only for lines in the RESOURCE. */
@@ -343,32 +376,15 @@ static void read_entries(struct reader *r, struct config *config, bool inside)
 	}
 }
 
-/* Where a comment behind a line is kept: behind the last line of a block, if that has one. */
-static uint32_t *comment_of(struct project *project, struct config_entry *entry)
-{
-	struct var_block *vars;
-	struct access_block *access;
-
-	if (entry->kind == CONFIG_VARS) {
-		vars = &project->globals.block[entry->block];
-		return vars->count ? &project->globals.var[vars->first + vars->count - 1].comment :
-				     &vars->comment;
-	}
-	if (entry->kind == CONFIG_ACCESS) {
-		access = &project->access_block[entry->block];
-		return access->count ?
-		       &project->access[access->first + access->count - 1].var.comment :
-		       &access->comment;
-	}
-	return &entry->comment;
-}
-
 static void keep_last_comments(struct reader *r, struct config *config)
 {
-	uint32_t *id = config->has_resource ? &config->resource_comment : &config->comment;
+	const int count = config->count;
+	uint32_t *id = &config->comment;
 
-	if (config->count)
-		id = comment_of(r->project, &config->entry[config->count - 1]);
+	if (config->has_resource && (count == config->resource_at || config->entry[count - 1].inside))
+		id = &config->resource_behind;
+	else if (count)
+		id = comment_of(r->project, &config->entry[count - 1]);
 	*id = comment_join(r, *id, &r->note, COMMENT_NOTE);
 }
 

@@ -414,16 +414,21 @@ static void write_config(const struct sink *sink, const struct project *project)
 		const struct config_entry *entry = &config->entry[i];
 		bool inside = i < config->count && entry->inside;
 
-		if (!done && !open && (inside || i == config->count)) {
+		if (!done && !open && i == config->resource_at) {
 			sink_mark(sink, TEXT_RESOURCE, 0, true);
 			put_id(&w, "  RESOURCE ", config->resource);
 			if (config->on)
 				put_id(&w, " ON ", config->on);
 			put_comment(&w, config->resource_comment);
+			if (config->resource_inside) {
+				put_id(&w, "    ", config->resource_inside);
+				sink_text(sink, "\n");
+			}
 			open = true;
 		}
 		if (open && !done && !inside) {
-			sink_text(sink, "  END_RESOURCE\n");
+			sink_text(sink, "  END_RESOURCE");
+			put_comment(&w, config->resource_behind);
 			sink_mark(sink, TEXT_RESOURCE, 0, false);
 			done = true;
 		}

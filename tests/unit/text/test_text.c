@@ -465,9 +465,15 @@ static void test_config(void)
 		  "WATCHDOG := t#5ms); (* above *) // between\n"
 		  "    TASK Once (SINGLE := Main.x, PRIORITY := 0); //twice\n"
 		  "    PROGRAM P WITH Fast : Main;\n"
-		  "    PROGRAM Q : R; (* last *) (* end *) (* very end *)\n"
-		  "  END_RESOURCE\n"
+		  "    PROGRAM Q : R; (* last *) (* end *)\n"
+		  "  END_RESOURCE (* very end *)\n"
 		  "END_CONFIGURATION\n\n// gone above\n");
+	canonical("RUNGBOARD 1\nCONFIGURATION C\nRESOURCE R ON PC (* head *)\n(* in *)\n"
+		  "END_RESOURCE (* behind *)\n(* below *)\nVAR_ACCESS\n  X : M.a : BOOL;\nEND_VAR\n"
+		  "END_CONFIGURATION\n",
+		  "RUNGBOARD 1\n\nCONFIGURATION C\n  RESOURCE R ON PC (* head *)\n    (* in *)\n"
+		  "  END_RESOURCE (* behind *)\n(* below *)\nVAR_ACCESS\n"
+		  "  X : M.a : BOOL READ_ONLY;\nEND_VAR\nEND_CONFIGURATION\n");
 	/* Words of a configuration are names elsewhere. */
 	canonical("RUNGBOARD 1\nVAR\n  Task, Resource, With, Interval, On : BOOL;\n"
 		  "END_VAR\n",
