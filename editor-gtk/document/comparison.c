@@ -32,6 +32,7 @@ static const char *const words[] = {
 	N_("label"), N_("title"), N_("kind"), N_("opening comment"), N_("closing comment"),
 	N_("evolution"), N_("language"), N_("parameters"), N_("task"), N_("program"),
 	N_("bytes"), N_("resource"), N_("kind of the resource"), N_("comment of the resource"),
+	N_("comment in the resource"), N_("comment behind the resource"),
 	N_("link"), N_("variable"), N_("function"), N_("function block"), N_("subroutine"),
 	N_("project"), N_("configuration"), N_("area"), N_("instance"), N_("added"),
 	N_("removed"), N_("changed"), N_("switched off"), N_("switched on"),

@@ -101,11 +101,17 @@ static const char *type_text(const struct project *project,
 	return room;
 }
 
-/* "" for a plain VAR; VAR_GLOBAL is not repeated. */
-static const char *flags_text(uint16_t flags)
+static const char *kept_text(uint16_t flags)
 {
 	static const char *const text[] = { "", "RETAIN", "CONSTANT",
 					    "RETAIN CONSTANT" };
+
+	return text[flags & (VAR_RETAIN | VAR_CONSTANT)];
+}
+
+/* "" for a plain VAR; VAR_GLOBAL is not repeated. */
+static const char *flags_text(uint16_t flags)
+{
 	static const uint8_t kinds = VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP;
 
 	if (flags & kinds && !(flags & VAR_RETAIN))
@@ -114,7 +120,7 @@ static const char *flags_text(uint16_t flags)
 		return "VAR_INPUT RETAIN";
 	if (flags & VAR_OUTPUT)
 		return "VAR_OUTPUT RETAIN";
-	return text[flags & (VAR_RETAIN | VAR_CONSTANT)];
+	return kept_text(flags);
 }
 
 static const char *init_text(const struct project *project,
@@ -355,6 +361,55 @@ static void compare_vars(struct diff *diff, const char *pou,
 			what.subject = project_text(diff->b, b->var[j].name);
 			diff_say(diff, &what);
 		}
+}
+
+/* Comments above VAR blocks: the first VAR_INPUT of one table with the first of the other, and so
+ * on. */
+static uint32_t nth_block(const struct var_table *table, uint16_t flags, int n, bool *found)
+{
+	*found = false;
+	for (int i = 0; i < table->block_count; i++)
+		if (table->block[i].flags == flags && n-- == 0) {
+			*found = true;
+			return table->block[i].comment;
+		}
+	return 0;
+}
+
+static void compare_blocks(struct diff *diff, const char *pou, const struct var_table *a,
+			   const struct var_table *b, uint16_t flags)
+{
+	struct compare_difference what = {
+		.pou = pou, .kind = vars_head(flags), .subject = kept_text(flags),
+	};
+	bool in_a = true, in_b = true;
+
+	for (int n = 0; in_a || in_b; n++) {
+		const uint32_t above = nth_block(a, flags, n, &in_a);
+
+		compare_ids(diff, what, "comment", above, nth_block(b, flags, n, &in_b));
+	}
+}
+
+static bool has_block(const struct var_table *table, int count, uint16_t flags)
+{
+	for (int i = 0; i < count; i++)
+		if (table->block[i].flags == flags)
+			return true;
+	return false;
+}
+
+/* Each kind of block once. */
+static void compare_above(struct diff *diff, const char *pou, const struct var_table *a,
+			  const struct var_table *b)
+{
+	for (int i = 0; i < a->block_count; i++)
+		if (!has_block(a, i, a->block[i].flags))
+			compare_blocks(diff, pou, a, b, a->block[i].flags);
+	for (int i = 0; i < b->block_count; i++)
+		if (!has_block(b, i, b->block[i].flags) &&
+		    !has_block(a, a->block_count, b->block[i].flags))
+			compare_blocks(diff, pou, a, b, b->block[i].flags);
 }
 
 static const struct pou *pou_named(const struct project *project,
@@ -956,6 +1011,7 @@ static void compare_pou(struct diff *diff, const struct pou *a,
 	diff_texts(diff, what, "kind", pou_word(a->kind), pou_word(b->kind));
 	compare_ids(diff, what, "comment", a->comment, b->comment);
 	compare_ids(diff, what, "closing comment", a->tail, b->tail);
+	compare_above(diff, name, &a->vars, &b->vars);
 	compare_vars(diff, name, &a->vars, &b->vars);
 	if (a->sfc && b->sfc)
 		diff_texts(diff, what, "evolution", sfc_evolution_words(a->sfc->evolution),
@@ -1024,10 +1080,13 @@ static void compare_structures(struct diff *diff)
 		what.subject = project_text(diff->a, a->name);
 		what.change = "removed";
 		b = structure_named(diff->b, what.subject);
-		if (b)
-			compare_vars(diff, what.subject, &a->vars, &b->vars);
-		else
+		if (!b) {
 			diff_say(diff, &what);
+			continue;
+		}
+		compare_vars(diff, what.subject, &a->vars, &b->vars);
+		what.change = NULL;
+		compare_ids(diff, what, "closing comment", a->comment, b->comment);
 	}
 	for (int j = 0; j < diff->b->structure_count; j++) {
 		what.subject = project_text(diff->b, diff->b->structure[j].name);
@@ -1039,35 +1098,46 @@ static void compare_structures(struct diff *diff)
 
 /* ---- sections of other programs ---- */
 
-/* Text of the section of @kind after part @*at; NULL: there is none. */
-static const char *next_part(const struct project *project, enum part_kind kind,
-			     int *at)
+/* The part of @kind after part @*at; NULL: there is none. */
+static const struct part *next_part(const struct project *project, enum part_kind kind, int *at)
 {
 	while (*at < project->part_count) {
 		const struct part *part = &project->part[(*at)++];
 
 		if (part->kind == kind && !part->included)
-			return project_text(project, part->text);
+			return part;
 	}
 	return NULL;
 }
 
+static const char *part_text(const struct project *project, const struct part *part)
+{
+	return part ? project_text(project, part->text) : NULL;
+}
+
+/* Files and sections in their order, and the comments above parts. What TYPE and CONFIGURATION hold
+ * is compared elsewhere. */
 static void compare_parts(struct diff *diff, enum part_kind kind,
 			  const char *word)
 {
+	const bool named = kind == PART_INCLUDE || kind == PART_USES;
 	struct compare_difference what = { .kind = word };
 	int at_a = 0, at_b = 0;
 
 	for (;;) {
-		const char *a = next_part(diff->a, kind, &at_a);
-		const char *b = next_part(diff->b, kind, &at_b);
+		const struct part *x = next_part(diff->a, kind, &at_a);
+		const struct part *y = next_part(diff->b, kind, &at_b);
+		const char *a = part_text(diff->a, x), *b = part_text(diff->b, y);
 
 		if (!a && !b)
 			return;
-		if (a && b && strcmp(a, b) == 0)
+		what.subject = !named ? NULL : b ? b : a;
+		what.change = NULL;
+		compare_ids(diff, what, kind == PART_CONFIG ? "opening comment" : "comment",
+			    x ? x->comment : 0, y ? y->comment : 0);
+		if (kind == PART_TYPES || kind == PART_CONFIG || (a && b && strcmp(a, b) == 0))
 			continue;
 		what.change = !a ? "added" : !b ? "removed" : "changed";
-		what.subject = kind == PART_VIEW ? NULL : b ? b : a;
 		diff_say(diff, &what);
 	}
 }
@@ -1164,6 +1234,10 @@ static void diff_config(struct diff *diff)
 	compare_ids(diff, what, "kind of the resource", a->on, b->on);
 	compare_ids(diff, what, "comment of the resource", a->resource_comment,
 		    b->resource_comment);
+	compare_ids(diff, what, "comment in the resource", a->resource_inside,
+		    b->resource_inside);
+	compare_ids(diff, what, "comment behind the resource", a->resource_behind,
+		    b->resource_behind);
 	for (int i = 0; i < a->count; i++) {
 		const struct config_entry *entry = &a->entry[i], *other;
 
@@ -1199,11 +1273,21 @@ static const struct access *access_named(const struct project *project, const ch
 	return NULL;
 }
 
+/* The comment above a block; 0: there is none. */
+static uint32_t access_above(const struct project *project, int index)
+{
+	return index < project->access_block_count ? project->access_block[index].comment : 0;
+}
+
 /* What operators and gateways may read and write, by its name. */
 static void diff_access(struct diff *diff)
 {
-	struct compare_difference what = { .kind = "access" };
+	struct compare_difference what = { .kind = "VAR_ACCESS" };
 
+	for (int i = 0; i < diff->a->access_block_count || i < diff->b->access_block_count; i++)
+		compare_ids(diff, what, "comment", access_above(diff->a, i),
+			    access_above(diff->b, i));
+	what.kind = "access";
 	for (int i = 0; i < diff->a->access_count; i++) {
 		const struct access *a = &diff->a->access[i], *b;
 
@@ -1243,11 +1327,14 @@ static void compare(struct diff *diff)
 	compare_parts(diff, PART_INCLUDE, "INCLUDE");
 	compare_parts(diff, PART_USES, "USES");
 	diff->group = COMPARE_CONFIG;
+	compare_parts(diff, PART_CONFIG, "configuration");
 	diff_config(diff);
 	diff_access(diff);
 	diff->group = COMPARE_TYPES;
+	compare_parts(diff, PART_TYPES, "TYPE");
 	compare_structures(diff);
 	diff->group = COMPARE_GLOBALS;
+	compare_above(diff, NULL, &a->globals, &b->globals);
 	compare_vars(diff, NULL, &a->globals, &b->globals);
 	diff->group = COMPARE_POU;
 	compare_pous(diff);

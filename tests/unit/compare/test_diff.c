@@ -401,8 +401,81 @@ static void test_access(void)
 #undef REST
 }
 
+/* ---- every comment of a file ---- */
+
+/* What a file can hold; a line each. */
+static const char *const everything[] = {
+	"PROJECT \"one\"", "AUTHOR \"a\"", "VAR", "  G : INT;", "END_VAR", "VAR RETAIN", "END_VAR",
+	"VAR CONSTANT", "  K : INT := 1;", "END_VAR", "VAR", "  H : INT;", "END_VAR",
+	"TYPE", "  Pair : STRUCT", "    A : INT;", "  END_STRUCT;", "END_TYPE", "TYPE", "END_TYPE",
+	"CONFIGURATION C", "VAR_GLOBAL", "  V : INT;", "END_VAR", "AREA V 100;", "RESOURCE R ON PC",
+	"TASK T (INTERVAL := T#1s, PRIORITY := 1);", "PROGRAM P WITH T : Main;", "END_RESOURCE",
+	"VAR_ACCESS", "  X : G : INT READ_ONLY;", "END_VAR", "END_CONFIGURATION",
+	"FUNCTION F : INT IL", "VAR_INPUT", "  I : INT;", "END_VAR", "VAR_TEMP", "END_VAR", "LD I",
+	"ST F", "END_FUNCTION", "FUNCTION_BLOCK B LD", "VAR_INPUT", "  I : BOOL;", "END_VAR",
+	"VAR_OUTPUT", "  O : BOOL;", "END_VAR", "VAR", "END_VAR", "RUNG", "| NO I | COIL O |",
+	"END_FUNCTION_BLOCK", "PROGRAM Main LD", "VAR", "  L : BOOL;", "END_VAR", "RUNG Here \"r\"",
+	"| NO L | COIL L |", "| NC L ^|", "RUNG OFF", "| NO L | COIL L |", "END_PROGRAM",
+	"PROGRAM Chart SFC", "VAR", "  S : BOOL;", "END_VAR", "INITIAL_STEP First:", "  Act(N);",
+	"END_STEP", "STEP Second:", "END_STEP", "TRANSITION FROM First TO Second := S;",
+	"END_TRANSITION", "TRANSITION FROM Second TO First:", "RUNG", "| NO S | COIL TRANSITION |",
+	"END_TRANSITION", "ACTION Act:", "RUNG", "| NO S | COIL S |", "END_ACTION", "END_PROGRAM",
+};
+static const char *const bare[] = {
+	"PROJECT \"one\"", "CONFIGURATION C", "RESOURCE R ON PC", "END_RESOURCE", "VAR_ACCESS",
+	"END_VAR", "END_CONFIGURATION", "PROGRAM Main LD", "END_PROGRAM",
+};
+
+/* The canonical text of @lines with comments above and behind each. Owns: the caller. */
+static char *commented(const char *const *lines, size_t line_count)
+{
+	static char text[20000];
+	struct project *project;
+	size_t used = 0;
+	char *written;
+
+	for (size_t i = 0; i < line_count; i++)
+		used += (size_t)snprintf(text + used, sizeof(text) - used, "(* a%zu *)\n%s (* b%zu *)\n",
+					 i, lines[i], i);
+	project = read_text(text);
+	written = text_write(project, &used);
+	project_free(project);
+	return written;
+}
+
+/* Changes each comment in turn, beside another title. */
+static void try_comments(const char *const *lines, size_t line_count, int least)
+{
+	char *text = commented(lines, line_count), *other = strdup(text);
+	const char *first = strchr(text, '\n') + 1; /* compare() writes RUNGBOARD 1 */
+	char changed[16];
+	int tried = 0;
+
+	memcpy(strstr(other, "one"), "two", 3);
+	for (char *at = strstr(other, "(* "); at; at = strstr(at + 1, "(* "), tried++) {
+		const char kind = at[3];
+
+		at[3] = 'x';
+		snprintf(changed, sizeof(changed), "%.*s", (int)(strstr(at, "*)") - at) + 2, at);
+		if (!CHECK_AS(strstr(compare(first, other + (first - text), false), changed),
+			      "a changed comment is a difference"))
+			printf("# %c%s in %s", kind, changed + 4, sink_memory_text(&memory));
+		at[3] = kind;
+	}
+	CHECK(tried >= least);
+	free(text);
+	free(other);
+}
+
+static void test_comments(void)
+{
+	try_comments(everything, sizeof(everything) / sizeof(*everything), 120);
+	try_comments(bare, sizeof(bare) / sizeof(*bare), 12);
+}
+
 int main(void)
 {
+	test_comments();
 	test_cells();
 	test_rungs();
 	test_variables();
