@@ -155,18 +155,47 @@ static void fill_more(GtkMenuButton *button, gpointer data)
 	g_object_unref(menu);
 }
 
-/* Scrolls to the tab of the current panel. */
+/* A tab that is cut by the edge is not drawn: it is in the menu. */
+static void draw_whole_tabs(struct below *below)
+{
+	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(below->tabs);
+	const double left = gtk_adjustment_get_value(along) - 1;
+	const double right = left + gtk_adjustment_get_page_size(along) + 2;
+	graphene_rect_t at;
+
+	for (GtkWidget *tab = gtk_widget_get_first_child(below->switcher); tab;
+	     tab = gtk_widget_get_next_sibling(tab))
+		gtk_widget_set_child_visible(
+			tab, gtk_widget_compute_bounds(tab, below->switcher, &at) &&
+			at.origin.x >= left && at.origin.x + at.size.width <= right);
+}
+
+/* Scrolls as little as shows the tab of the current panel; the first tab drawn is whole. */
 static void reveal_tab(struct below *below)
 {
-	GtkWidget *tab = gtk_widget_get_first_child(below->switcher);
 	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(below->tabs);
-	graphene_rect_t bounds;
+	GtkWidget *first = gtk_widget_get_first_child(below->switcher), *tab = first;
+	graphene_rect_t at, from;
 
 	while (tab && !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(tab)))
 		tab = gtk_widget_get_next_sibling(tab);
-	if (tab && gtk_widget_compute_bounds(tab, below->switcher, &bounds))
-		gtk_adjustment_clamp_page(along, bounds.origin.x,
-					  bounds.origin.x + bounds.size.width);
+	if (!tab || !gtk_widget_compute_bounds(tab, below->switcher, &at))
+		return;
+	while (first != tab && gtk_widget_compute_bounds(first, below->switcher, &from) &&
+	       at.origin.x + at.size.width - from.origin.x > gtk_adjustment_get_page_size(along))
+		first = gtk_widget_get_next_sibling(first);
+	if (gtk_widget_compute_bounds(first, below->switcher, &from))
+		gtk_adjustment_set_value(along, from.origin.x);
+}
+
+static int widest_tab(struct below *below)
+{
+	int widest = 0;
+
+	for (GtkWidget *tab = gtk_widget_get_first_child(below->switcher); tab;
+	     tab = gtk_widget_get_next_sibling(tab))
+		widest = MAX(widest, gtk_widget_get_width(tab));
+	return widest;
 }
 
 static void show_more(struct below *below)
@@ -174,10 +203,14 @@ static void show_more(struct below *below)
 	GtkWidget *more = GTK_WIDGET(below->more);
 	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(below->tabs);
 	const int button = gtk_widget_get_visible(more) ? gtk_widget_get_width(more) : 0;
+	const bool full = gtk_widget_get_width(below->switcher) >
+			  gtk_adjustment_get_page_size(along) + button + 1;
 
-	gtk_widget_set_visible(more, gtk_adjustment_get_upper(along) >
-			       gtk_adjustment_get_page_size(along) + button + 1);
+	gtk_widget_set_visible(more, full);
+	/* Room to scroll the last tab to where a tab begins. */
+	gtk_widget_set_margin_end(below->switcher, full ? widest_tab(below) : 0);
 	reveal_tab(below);
+	draw_whole_tabs(below);
 }
 
 static gboolean look_at_room(gpointer data)

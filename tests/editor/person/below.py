@@ -102,7 +102,7 @@ def chosen(screen):
 
 
 def all_panels(screen):
-    """a small window while simulating: tabs without room are in a menu; the tab of the current panel is visible"""
+    """a small window while simulating: tabs without room are only in a menu; the tab of the current panel is visible"""
     editor = Editor(screen, os.path.join(ROOT, 'ladders', 'conveyor.rung'))
     editor.to_sheet()
     assert not editor.all('All panels')
@@ -111,8 +111,14 @@ def all_panels(screen):
     until(lambda: not editor.all('Find an element'), 'the left side to be folded')
     editor.keys('F4')
     more = editor.find('All panels')
+    end = editor.place(more)[0]
+    places = [(tab, editor.place(tab)) for tab in editor.all(role='page tab')]
+    cut, (x, y, _, height) = next((tab, at) for tab, at in places if at[0] + 8 < end < at[0] + at[2])
+    editor.click((x + 4, y + height // 2))
     editor.click(more)
-    editor.find('Board', 'menu item').press()
+    board = editor.find('Board', 'menu item')
+    assert not editor.find(cut.name, 'page tab').states >> SELECTED & 1, 'a part of the tab %s is shown' % cut.name
+    board.press()
     board = editor.find('Board', 'page tab')
     until(lambda: editor.place(board)[0] + editor.place(board)[2] <= editor.place(more)[0], 'the tab to be seen')
     editor.find('Run…', 'push button')
