@@ -37,6 +37,18 @@ static bool fits(enum verb verb, const char *want)
 }
 
 /* @why: it cannot work now; NULL: it can. */
+static void row_show(GtkWidget *row, const char *why)
+{
+	GtkWidget *label = gtk_widget_get_first_child(
+		gtk_list_box_row_get_child(GTK_LIST_BOX_ROW(row)));
+
+	if (why)
+		gtk_widget_add_css_class(label, "dim-label");
+	else
+		gtk_widget_remove_css_class(label, "dim-label");
+	tip_set(row, why);
+}
+
 static GtkWidget *row_new(enum verb verb, const char *why)
 {
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
@@ -53,11 +65,9 @@ static GtkWidget *row_new(enum verb verb, const char *why)
 	gtk_box_append(GTK_BOX(box), label);
 	gtk_box_append(GTK_BOX(box), group);
 	gtk_box_append(GTK_BOX(box), key);
-	if (why) {
-		gtk_widget_add_css_class(label, "dim-label");
-		tip_set(row, why);
-	}
 	gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(row), box);
+	if (why)
+		row_show(row, why);
 	spoken_name(row, _(verb_row(verb)->label));
 	g_object_set_data(G_OBJECT(row), "verb", GINT_TO_POINTER(verb));
 	g_free(keys);
@@ -97,10 +107,26 @@ static void commands_free(gpointer pointer)
 	g_free(pointer);
 }
 
+static enum verb row_verb(GtkListBoxRow *row)
+{
+	return (enum verb)GPOINTER_TO_INT(g_object_get_data(G_OBJECT(row), "verb"));
+}
+
+/* Something began or ended while the dialog is open. */
+static void facts_changed(GtkWindow *window, unsigned with, GObject *dialog)
+{
+	struct commands *commands = g_object_get_data(dialog, "commands");
+	GtkListBoxRow *row;
+
+	(void)window;
+	commands->with = with;
+	for (int i = 0; (row = gtk_list_box_get_row_at_index(GTK_LIST_BOX(commands->list), i)); i++)
+		row_show(GTK_WIDGET(row), verb_why_not(row_verb(row), with));
+}
+
 static void do_row(struct commands *commands, GtkListBoxRow *row)
 {
-	const enum verb verb = row ? (enum verb)GPOINTER_TO_INT(
-		g_object_get_data(G_OBJECT(row), "verb")) : VERB_COUNT;
+	const enum verb verb = row ? row_verb(row) : VERB_COUNT;
 	const char *why = verb == VERB_COUNT ? NULL : verb_why_not(verb, commands->with);
 	GtkWindow *window = commands->window;
 
@@ -201,6 +227,8 @@ void commands_show(GtkWindow *window, unsigned with)
 	g_signal_connect_swapped(commands->list, "row-activated", G_CALLBACK(do_row),
 				 commands);
 	g_object_set_data_full(G_OBJECT(commands->dialog), "commands", commands, commands_free);
+	g_signal_connect_object(window, "facts-changed", G_CALLBACK(facts_changed),
+				commands->dialog, 0);
 	fill(commands);
 	gtk_window_present(GTK_WINDOW(commands->dialog));
 	gtk_widget_grab_focus(commands->search);

@@ -63,7 +63,7 @@ static inline void core_do(struct core *core, const char *action)
 }
 
 /** core_with - tells whether facts, bits WITH_… of verbs.h, hold now; the commands that need them
- * become sensitive or insensitive. */
+ * become sensitive or insensitive. Emits "facts-changed" of the window, with all that hold. */
 static inline void core_with(struct core *core, unsigned facts, bool hold)
 {
 	const unsigned changed = facts & (hold ? ~core->with : core->with);
@@ -74,6 +74,8 @@ static inline void core_with(struct core *core, unsigned facts, bool hold)
 			gtk_widget_action_set_enabled(GTK_WIDGET(core->window),
 				verb_row((enum verb)i)->action,
 				!verb_why_not((enum verb)i, core->with));
+	if (changed)
+		g_signal_emit_by_name(core->window, "facts-changed", core->with);
 }
 
 /** core_is_own - is the connected board the program that this editor runs on this machine? */

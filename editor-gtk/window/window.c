@@ -1107,6 +1107,8 @@ static void make_signals(GType type)
 		     G_TYPE_NONE, 0);
 	g_signal_new("place-changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
 		     G_TYPE_NONE, 0);
+	g_signal_new("facts-changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+		     G_TYPE_NONE, 1, G_TYPE_UINT);
 	g_signal_new("page-changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
 		     G_TYPE_NONE, 0);
 }

@@ -9,7 +9,8 @@
  * sample; "open-on-board-wanted" (path): open a file that was read from the board of this window,
  * and connect its window to that board; "new-wanted": open a window with a new project. Signals
  * among its parts: "cursor-moved" in the page in front; "place-changed": the status bar shows the
- * place again; "page-changed": another page is in front.
+ * place again; "page-changed": another page is in front;
+ * "facts-changed": other commands can work now (core.h).
  */
 #ifndef EDITOR_WINDOW_H
 #define EDITOR_WINDOW_H

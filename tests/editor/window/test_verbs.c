@@ -155,6 +155,54 @@ static void close_window(void)
 	turn(0);
 }
 
+/* ---- the dialog of all commands ---- */
+
+static GtkWidget *find_list(GtkWidget *in)
+{
+	GtkWidget *found = GTK_IS_LIST_BOX(in) && gtk_widget_has_css_class(in, "commands") ? in : NULL;
+
+	for (GtkWidget *child = gtk_widget_get_first_child(in); child && !found;
+	     child = gtk_widget_get_next_sibling(child))
+		found = find_list(child);
+	return found;
+}
+
+static GtkWindow *commands_dialog(void)
+{
+	GListModel *all = gtk_window_get_toplevels();
+
+	for (guint i = 0; i < g_list_model_get_n_items(all); i++) {
+		GtkWindow *one = g_list_model_get_item(all, i);
+
+		g_object_unref(one);
+		if (gtk_window_get_transient_for(one) == GTK_WINDOW(window) &&
+		    find_list(GTK_WIDGET(one)))
+			return one;
+	}
+	return NULL;
+}
+
+/* Does each row of the open dialog say what the sensitivity of its command says? */
+static bool rows_follow(void)
+{
+	GtkListBox *list = GTK_LIST_BOX(find_list(GTK_WIDGET(commands_dialog())));
+	GtkListBoxRow *row;
+	int i = 0, wrong = 0;
+
+	for (; (row = gtk_list_box_get_row_at_index(list, i)); i++) {
+		const int verb = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(row), "verb"));
+		GtkWidget *label = gtk_widget_get_first_child(gtk_list_box_row_get_child(row));
+		const bool dim = gtk_widget_has_css_class(label, "dim-label");
+
+		if (dim != can((enum verb)verb))
+			continue;
+		printf("# %s: its row is %s\n", verb_row((enum verb)verb)->action,
+		       dim ? "dim" : "not dim");
+		wrong++;
+	}
+	return i > 100 && wrong == 0;
+}
+
 static void check_simulated(void)
 {
 	LadderSim *sim = ladder_window_sim(LADDER_WINDOW(window));
@@ -181,8 +229,17 @@ static void check_simulated(void)
 	CHECK_SOON(can(VERB_contact));
 	do_action("win.undo");
 	CHECK(!can(VERB_undo) && can(VERB_redo));
+	do_action("win.palette");
+	CHECK_AS(rows_follow(), "the rows of the commands while simulating");
 	ladder_sim_end(sim);
 	CHECK_SOON(!can(VERB_sim_cold));
+	CHECK_AS(rows_follow(), "the rows follow when the simulation ends");
+	CHECK(ladder_sim_begin(sim, NULL));
+	CHECK_SOON(can(VERB_sim_cold));
+	CHECK_AS(rows_follow(), "and when it begins");
+	ladder_sim_end(sim);
+	CHECK_SOON(!can(VERB_sim_cold));
+	gtk_window_destroy(commands_dialog());
 	check_state('l', "after the simulation");
 }
 
