@@ -845,12 +845,17 @@ static void mend_indices(struct mender *m)
  * it has none. */
 static size_t value_place(const struct mender *m)
 {
-	const char *colon = strstr(m->text, ": ");
-	size_t at = colon ? (size_t)(colon - m->text) + 2 : 0, len = word_length(m->text + at);
+	const size_t label = word_length(m->text);
+	size_t at = m->text[label] == ':' ? label + 1 : 0, len;
 	struct word_table *words = &m->in->project->words;
-	enum op op = op_find(m->text + at, len);
-	enum word word = words_find(words, m->text + at, len);
+	enum op op;
+	enum word word;
 
+	while (m->text[at] == ' ')
+		at++;
+	len = word_length(m->text + at);
+	op = op_find(m->text + at, len);
+	word = words_find(words, m->text + at, len);
 	if (op == OP_COUNT && len > 1 && ascii_upper(m->text[at + len - 1]) == 'N')
 		op = op_find(m->text + at, len - 1);
 	if (op != OP_COUNT ? op_row(op)->operand != OPND_ANY_R && op_row(op)->operand != OPND_INSTANCE :
