@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/window/below.h"
 
+#include "editor-gtk/kit/gtk48/shrink.h"
+#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/panels/problems.h"
@@ -40,6 +42,8 @@ static GtkWidget *panel_in(AdwBin *place)
 	if (!adw_bin_get_child(place)) {
 		adw_bin_set_child(place, maker->make(maker->part));
 		spoken_parts(adw_bin_get_child(place));
+		shrink_buttons(adw_bin_get_child(place));
+		slow_bar_choose_all(adw_bin_get_child(place));
 	}
 	return adw_bin_get_child(place);
 }

@@ -8,6 +8,8 @@
 #include "editor-gtk/document/draft.h"
 #include "editor-gtk/document/type_edit.h"
 #include "editor-gtk/iomap/iomap_view.h"
+#include "editor-gtk/kit/gtk48/shrink.h"
+#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/gtk48/tab_home.h"
 #include "editor-gtk/kit/gtk48/tab_seen.h"
@@ -146,6 +148,8 @@ static AdwTabPage *insert_page(struct tabs *tabs, int at, GtkWidget *child,
 		g_signal_emit_by_name(tabs->core->window, "page-changed");
 	page_follow(tabs->core, page);
 	spoken_parts(child);
+	shrink_buttons(child);
+	slow_bar_choose_all(child);
 	spoken_parts(GTK_WIDGET(tabs->core->front->tab_bar));
 	return page;
 }
@@ -215,6 +219,8 @@ static GtkWidget *symbols_in(AdwBin *place, struct tabs *tabs)
 						 tabs->core->document);
 		adw_bin_set_child(place, symbols);
 		spoken_parts(symbols);
+		shrink_buttons(symbols);
+		slow_bar_choose_all(symbols);
 	}
 	return symbols;
 }

@@ -96,15 +96,21 @@ static GtkPolicyType policy_of(GtkAdjustment *along)
 	       gtk_adjustment_get_page_size(along) ? GTK_POLICY_ALWAYS : GTK_POLICY_EXTERNAL;
 }
 
+static GtkPolicyType chosen(GtkAdjustment *along, GtkPolicyType now)
+{
+	return along && g_object_get_data(G_OBJECT(along), "bar-chosen") ? policy_of(along) : now;
+}
+
 static gboolean choose_bars(gpointer data)
 {
 	GtkScrolledWindow *scroller = data;
-	GtkAdjustment *level = gtk_scrolled_window_get_hadjustment(scroller);
-	GtkAdjustment *down = gtk_scrolled_window_get_vadjustment(scroller);
+	GtkPolicyType level, down;
 
 	g_object_set_data(data, "bars-due", NULL);
-	if (level && down)
-		gtk_scrolled_window_set_policy(scroller, policy_of(level), policy_of(down));
+	gtk_scrolled_window_get_policy(scroller, &level, &down);
+	gtk_scrolled_window_set_policy(scroller,
+		chosen(gtk_scrolled_window_get_hadjustment(scroller), level),
+		chosen(gtk_scrolled_window_get_vadjustment(scroller), down));
 	return G_SOURCE_REMOVE;
 }
 
@@ -117,13 +123,36 @@ static void bars_changed(GtkScrolledWindow *scroller)
 			g_object_unref);
 }
 
+/* Returns the policy to set now. */
+static GtkPolicyType choose(GtkScrolledWindow *scroller, GtkAdjustment *along, GtkPolicyType policy)
+{
+	if (policy != GTK_POLICY_AUTOMATIC)
+		return policy;
+	g_object_set_data(G_OBJECT(along), "bar-chosen", along);
+	g_signal_connect_object(along, "changed", G_CALLBACK(bars_changed), scroller,
+				G_CONNECT_SWAPPED);
+	return GTK_POLICY_EXTERNAL;
+}
+
 void slow_bar_choose(GtkScrolledWindow *scroller)
 {
-	gtk_scrolled_window_set_policy(scroller, GTK_POLICY_EXTERNAL, GTK_POLICY_EXTERNAL);
-	g_signal_connect_object(gtk_scrolled_window_get_hadjustment(scroller), "changed",
-				G_CALLBACK(bars_changed), scroller, G_CONNECT_SWAPPED);
-	g_signal_connect_object(gtk_scrolled_window_get_vadjustment(scroller), "changed",
-				G_CALLBACK(bars_changed), scroller, G_CONNECT_SWAPPED);
+	GtkPolicyType level, down;
+
+	gtk_scrolled_window_get_policy(scroller, &level, &down);
+	level = choose(scroller, gtk_scrolled_window_get_hadjustment(scroller), level);
+	down = choose(scroller, gtk_scrolled_window_get_vadjustment(scroller), down);
+	gtk_scrolled_window_set_policy(scroller, level, down);
+	bars_changed(scroller);
+}
+
+void slow_bar_choose_all(GtkWidget *root)
+{
+	if (GTK_IS_SCROLLED_WINDOW(root))
+		slow_bar_choose(GTK_SCROLLED_WINDOW(root));
+	for (GtkWidget *child = gtk_widget_get_first_child(root); child;
+	     child = gtk_widget_get_next_sibling(child))
+		if (!GTK_IS_NATIVE(child)) /* a popup is laid out on its own */
+			slow_bar_choose_all(child);
 }
 
 void slow_bar_make(GtkScrolledWindow *scroller)

@@ -22,8 +22,12 @@
 
 #include <gtk/gtk.h>
 
-/** slow_bar_choose - shows the bars that are needed; decided after the layout, not in it. */
+/** slow_bar_choose - shows the bars that are needed; decided after the layout, not in it. A bar
+ * that is always or never shown stays so. Its adjustments stay the same from now on. */
 void slow_bar_choose(GtkScrolledWindow *scroller);
+/** slow_bar_choose_all - slow_bar_choose() for each one that is @root or below it now, except in
+ * popups. It may be called again when more are added. */
+void slow_bar_choose_all(GtkWidget *root);
 /** slow_bar_make - slow_bar_choose(), and makes both bars of @scroller slow, as long as it lives. */
 void slow_bar_make(GtkScrolledWindow *scroller);
 

@@ -29,6 +29,15 @@ RUNG
 END_PROGRAM
 '''
 
+# More tabs than fit, and a line that is wider than the page.
+LISTS = ''.join('''
+PROGRAM Sums%d IL
+  (* %s*)
+  LD Horn
+  ST %%QX0.%d
+END_PROGRAM
+''' % (number, 'it has no room beside the panels ' * 4, number) for number in (3, 4, 5))
+
 
 def listed(editor, text):
     """Waits until the instruction list has that line."""
@@ -103,7 +112,7 @@ def chosen(screen):
 
 def all_panels(screen):
     """a small window while simulating: tabs without room are only in a menu; the tab of the current panel is visible"""
-    editor = Editor(screen, os.path.join(ROOT, 'ladders', 'conveyor.rung'))
+    editor = Editor(screen, new_file(screen, PROJECT + LISTS))
     editor.to_sheet()
     assert not editor.all('All panels')
     editor.keys('ctrl+m')
@@ -115,6 +124,12 @@ def all_panels(screen):
     places = [(tab, editor.place(tab)) for tab in editor.all(role='page tab')]
     cut, (x, y, _, height) = next((tab, at) for tab, at in places if at[0] + 8 < end < at[0] + at[2])
     editor.click((x + 4, y + height // 2))
+    for panel in 'Status chart', 'Scenarios':
+        editor.tab(panel)
+        editor.find({'Status chart': 'Write all new values', 'Scenarios': 'Expect the value at the cursor'}[panel])
+        assert editor.place()[2] <= 1024, 'the window is %d px wide' % editor.place()[2]
+    editor.keys('ctrl+Page_Down', 'ctrl+Page_Down')
+    editor.find('Text of the program')
     editor.click(more)
     board = editor.find('Board', 'menu item')
     assert not editor.find(cut.name, 'page tab').states >> SELECTED & 1, 'a part of the tab %s is shown' % cut.name
@@ -124,6 +139,8 @@ def all_panels(screen):
     editor.find('Run…', 'push button')
     editor.keys('ctrl+m')
     until(lambda: not editor.all('All panels'), 'room for all')
+    # Beside a list the window was blank, and GTK said so.
+    assert 'without a current allocation' not in editor.logged(), editor.logged()
 
 
 all_panels.size = '1024x700x24'

@@ -79,6 +79,40 @@ static void test_less(void)
 	g_signal_handlers_disconnect_by_data(down, &times);
 }
 
+static bool has_policy(GtkWidget *which, GtkPolicyType across, GtkPolicyType along)
+{
+	GtkPolicyType has_across, has_along;
+
+	gtk_scrolled_window_get_policy(GTK_SCROLLED_WINDOW(which), &has_across, &has_along);
+	return has_across == across && has_along == along;
+}
+
+/* Bars come and go after the layout, wherever they are; one that is never shown stays so. */
+static void test_all(void)
+{
+	GtkWidget *window = gtk_window_new(), *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	GtkWidget *outer = gtk_scrolled_window_new(), *fixed = gtk_scrolled_window_new();
+	GtkWidget *child = gtk_drawing_area_new();
+
+	gtk_widget_set_size_request(child, 20, 20000);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(fixed), child);
+	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(fixed), GTK_POLICY_NEVER,
+				       GTK_POLICY_AUTOMATIC);
+	gtk_widget_set_vexpand(outer, TRUE);
+	gtk_widget_set_vexpand(fixed, TRUE);
+	gtk_box_append(GTK_BOX(box), outer);
+	gtk_box_append(GTK_BOX(box), fixed);
+	gtk_window_set_child(GTK_WINDOW(window), box);
+	gtk_window_set_default_size(GTK_WINDOW(window), 300, 400);
+	slow_bar_choose_all(window);
+	CHECK(has_policy(outer, GTK_POLICY_EXTERNAL, GTK_POLICY_EXTERNAL));
+	screen_show(window);
+	CHECK_SOON(has_policy(fixed, GTK_POLICY_NEVER, GTK_POLICY_ALWAYS));
+	slow_bar_choose_all(window);
+	CHECK(has_policy(outer, GTK_POLICY_EXTERNAL, GTK_POLICY_EXTERNAL));
+	gtk_window_destroy(GTK_WINDOW(window));
+}
+
 int main(void)
 {
 	GtkWidget *window, *child;
@@ -102,6 +136,7 @@ int main(void)
 	CHECK_SOON(gtk_widget_get_width(child) < gtk_widget_get_width(GTK_WIDGET(scroller)));
 	test_follows();
 	test_less();
+	test_all();
 	gtk_window_destroy(GTK_WINDOW(window));
 	return tap_done();
 }
