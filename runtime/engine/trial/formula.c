@@ -288,6 +288,21 @@ static const struct expr_node *function_of(const struct expr *expr, int at)
 	return &expr->node[at];
 }
 
+/* The index of an array that is there; else the whole name. */
+static struct expr_node blame_leaf(const struct expr_node *from, const struct formula_term *term)
+{
+	const char *last = from->text + from->len;
+	const char *open = term->count > 0 ? open_index(from->text, last) : NULL;
+	const char *end = open ? memchr(open, ']', (size_t)(last - open)) : NULL;
+	struct expr_node at = *from;
+
+	if (end) {
+		at.text = open + 1;
+		at.len = (uint16_t)(end - open - 1);
+	}
+	return at;
+}
+
 struct formula *formula_new(const struct image *image, const struct image *plant,
 			    const struct expr *expr, struct arena *arena, const char *line_start,
 			    struct diag_list *diags, struct diag place)
@@ -335,8 +350,10 @@ struct formula *formula_new(const struct image *image, const struct image *plant
 		}
 		if (leaf ? !take_leaf(formula, image, from, term, arena, &why) :
 			   !take_operation(formula, term, &why)) {
-			complain(diags, place, why, line_start,
-				 blame(formula, expr, i, why));
+			const struct expr_node at = leaf ? blame_leaf(from, term) :
+							   *blame(formula, expr, i, why);
+
+			complain(diags, place, why, line_start, &at);
 			return NULL;
 		}
 		formula->constant &= term->op != EXPR_NAME &&
