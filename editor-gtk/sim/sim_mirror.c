@@ -39,6 +39,7 @@ struct sim_mirror {
 	/* The board's own record. */
 	struct record_file *file; /* NULL: none                                */
 	struct playback playback; /* of it                                     */
+	bool joined;             /* its end is among what was published: it is shown */
 	guint64 before;          /* scans of it before the last start          */
 	guint64 first, last;     /* the scans that it has, as they are numbered here */
 	gint64 ahead_ns;         /* its time is later than that here           */
@@ -55,6 +56,7 @@ static void drop_record(struct sim_mirror *mirror)
 		return;
 	playback_free(&mirror->playback);
 	g_clear_pointer(&mirror->file, record_file_free);
+	mirror->joined = false;
 }
 
 static struct sim_mirror *mirror_of(struct sim_source *source)
@@ -190,7 +192,7 @@ static bool replay(struct sim_source *source, struct sim_replay *replay, guint64
 
 	if (replay->era != mirror->era && !take_era(mirror, replay))
 		return false;
-	if (mirror->file && scan >= mirror->first && scan <= mirror->last &&
+	if (mirror->joined && scan >= mirror->first && scan <= mirror->last &&
 	    play(mirror, scan, &replay->replay.twin)) {
 		replay->at = 0; /* not in the history */
 		return true;
@@ -202,7 +204,7 @@ static void span(struct sim_source *source, guint64 *first, guint64 *last)
 {
 	*first = sim_history_first(mirror_of(source)->history);
 	*last = sim_history_last(mirror_of(source)->history);
-	if (mirror_of(source)->file)
+	if (mirror_of(source)->joined)
 		*first = MIN(*first, mirror_of(source)->first);
 }
 
@@ -482,6 +484,39 @@ static gboolean tell(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
+/* The record counts scans since ladderd began; here they count since the last start. It is shown
+ * only if it ends within what was published, so that no scan between them is missing. A record that
+ * came before its last scans were published waits for them. */
+static void join_record(struct sim_mirror *mirror)
+{
+	struct playback *playback = &mirror->playback;
+	struct twin *twin = &playback->twin;
+	struct sim_replay here = { .era = 0 };
+	const guint64 first = record_file_first(mirror->file);
+	const guint64 last = record_file_last(mirror->file);
+	const bool good = playback_seek(playback, last) && twin->resource.scans <= last &&
+			  twin->memory_size == mirror->twin.memory_size;
+	const guint64 scans = mirror->plays ? last : twin->resource.scans;
+
+	if (good && scans > sim_history_last(mirror->history))
+		return;
+	if (!good || !take_era(mirror, &here) ||
+	    !sim_history_seek(mirror->history, &here.at, &here.replay.twin, scans)) {
+		sim_replay_clear(&here);
+		drop_record(mirror);
+		return;
+	}
+	mirror->before = last - scans;
+	mirror->last = scans;
+	mirror->first = first > mirror->before ? first - mirror->before : 1;
+	mirror->ahead_ns = twin->now_ns - here.replay.twin.now_ns;
+	mirror->twin.resource.start_ns = twin->resource.start_ns -
+		(playback->time_ns - here.replay.twin.now_ns);
+	sim_replay_clear(&here);
+	mirror->joined = true;
+	mirror->notify(mirror->notify_data);
+}
+
 void sim_mirror_moment(struct sim_mirror *mirror, const struct sim_moment *moment)
 {
 	struct twin *twin = &mirror->twin;
@@ -504,48 +539,26 @@ void sim_mirror_moment(struct sim_mirror *mirror, const struct sim_moment *momen
 	twin->now_ns = moment->now_ns - mirror->base_ns;
 	twin->resource.state = moment->state;
 	sim_history_add(mirror->history, twin);
+	if (mirror->file && !mirror->joined)
+		join_record(mirror);
 	if (!mirror->notify_idle)
 		mirror->notify_idle = g_idle_add_full(G_PRIORITY_DEFAULT, tell, mirror, NULL);
 }
 
-/* The record counts scans since ladderd began; here they count since the last start. It is used
- * only if it ends within what was published, so that no scan between them is missing. */
 void sim_mirror_record(struct sim_mirror *mirror, struct record_file *file)
 {
-	struct playback *playback = &mirror->playback;
-	struct twin *twin = &playback->twin;
-	struct sim_replay here = { .era = 0 };
-	guint64 first, last, scans;
-
 	drop_record(mirror);
 	mirror->file = file;
-	if (!playback_init(playback, file)) {
+	if (!playback_init(&mirror->playback, file)) {
 		g_clear_pointer(&mirror->file, record_file_free);
 		return;
 	}
-	first = record_file_first(file);
-	last = record_file_last(file);
-	if (!playback_seek(playback, last) || twin->resource.scans > last ||
-	    twin->memory_size != mirror->twin.memory_size || !take_era(mirror, &here) ||
-	    !sim_history_seek(mirror->history, &here.at, &here.replay.twin,
-			      scans = mirror->plays ? last : twin->resource.scans)) {
-		sim_replay_clear(&here);
-		drop_record(mirror);
-		return;
-	}
-	mirror->before = last - scans;
-	mirror->last = scans;
-	mirror->first = first > mirror->before ? first - mirror->before : 1;
-	mirror->ahead_ns = twin->now_ns - here.replay.twin.now_ns;
-	mirror->twin.resource.start_ns = twin->resource.start_ns -
-		(playback->time_ns - here.replay.twin.now_ns);
-	sim_replay_clear(&here);
-	mirror->notify(mirror->notify_data);
+	join_record(mirror);
 }
 
 bool sim_mirror_computed(const struct sim_mirror *mirror, guint64 *first, guint64 *last)
 {
-	if (!mirror->file)
+	if (!mirror->joined)
 		return false;
 	*first = mirror->first;
 	*last = mirror->last;

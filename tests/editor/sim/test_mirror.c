@@ -13,6 +13,8 @@
 #include "tests/tap.h"
 
 #include "engine/scan/place.h"
+#include "engine/scan/recorder.h"
+#include "engine/trial/record_file.h"
 
 #include <string.h>
 
@@ -398,6 +400,80 @@ static void shows_the_past(void)
 	timing_free(timing);
 }
 
+/* ---- the board's own record ---- */
+
+#define RING (1u << 20)
+
+static guint8 ring[RECORDER_BESIDE + RING];
+static struct recorder recorder;
+
+static void scan_recorded(int scans)
+{
+	while (scans-- > 0) {
+		recorder_scan(&recorder, &board.resource, board.now_ns + board.period_ns);
+		twin_scan(&board);
+		recorder_scanned(&recorder, &board.resource);
+	}
+}
+
+static struct record_file *record_so_far(void)
+{
+	static guint8 log[RING];
+	static struct record_parts parts;
+	struct recorder_part part = { .out = log, .room = sizeof(log) };
+	struct sink_memory memory;
+	struct sink sink;
+	struct record_file *file;
+	enum diag_id why;
+	size_t where;
+
+	recorder_take(&recorder, &part);
+	parts = (struct record_parts){ .board = "table", .log = log, .len = part.len,
+				       .program_count = 1 };
+	code_identity(program->program, parts.program[0].identity);
+	parts.program[0].image = program->program->base;
+	parts.program[0].len = program->program->header->size;
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	CHECK(record_write(&parts, &sink) && !memory.failed);
+	file = record_file_open(memory.text, memory.len, &why, &where);
+	sink_memory_free(&memory);
+	return file;
+}
+
+/* The record and what is published come in messages of their own: either may be the first. */
+static void waits_for_what_is_published(void)
+{
+	const guint64 before = board.scan;
+	guint8 identity[32];
+	guint64 first, last;
+	struct record_file *file;
+	gint64 counted;
+
+	code_identity(program->program, identity);
+	recorder_init(&recorder, ring, RING);
+	board.resource.scans = board.scan; /* an earlier test has changed the mode */
+	recorder.scan = board.scan; /* it has counted since the start */
+	recorder_begin(&recorder, &board.resource, identity, RECORD_START);
+	scan_recorded(20);
+	show();
+	scan_recorded(15);
+	file = record_so_far();
+	CHECK(file != NULL);
+	sim_mirror_record(mirror, file);
+	CHECK_AS(!sim_mirror_computed(mirror, &first, &last), "its last scans are not published yet");
+	scan_recorded(5);
+	show();
+	CHECK_AS(sim_mirror_computed(mirror, &first, &last), "now they are");
+	CHECK(first <= before + 1 && last == before + 35);
+	CHECK(ladder_sim_show(sim, before + 21));
+	counted = value("Count");
+	for (guint64 i = 1; before + 21 + i <= last; i++)
+		CHECK_AS(ladder_sim_show(sim, before + 21 + i) &&
+			 value("Count") == counted + (gint64)i, "each scan is computed again");
+	ladder_sim_show_now(sim);
+}
+
 static void ends(void)
 {
 	ladder_sim_end(sim);
@@ -424,6 +500,7 @@ int main(void)
 	asks_for_what_is_seen();
 	marks_edits();
 	shows_the_past();
+	waits_for_what_is_published();
 	shows_another_program();
 	ends();
 	twin_free(&board);
