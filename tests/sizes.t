@@ -35,7 +35,8 @@ measure() {
 	if [ "$bytes" -eq 0 ] || [ "$bytes" -gt "$limit" ]; then not='not ' failed=1; fi
 	echo "${not}ok $n - $title has $bytes bytes, at most $limit"
 }
-measure 'ladderd' 350208 '' CFLAGS=-O2
+# 342 KB with the link; 20 KB more for tasks that interrupt, alarms, clocks and what the guard needs.
+measure 'ladderd' 370688 '' CFLAGS=-O2
 measure 'ladderd, SMALL=1' 95232 /small SMALL=1
 measure 'ladderd, SMALL=1 WORDS=core' 62464 /small-core SMALL=1 WORDS=core
 measure 'ladderd, SMALL=1 LINK=serial WORDS=core' 81920 /small-serial SMALL=1 LINK=serial WORDS=core
