@@ -249,7 +249,8 @@ like($out, qr/table 46.*TON Box PT:=T#2s.*TON .*CAL +Box\(/s, 'words: source, ex
 ($out) = is_run(0, 'words --json of one', ['words', '--json', 'ton']);
 like(decode_json($out)->[0]{$_}, qr/TON|CAL|IEC/, "words --json: $_") for qw(source example picture list);
 ($out) = is_run(0, 'complete', ['complete', 'good.rung', '1', '1']);
-is_run(2, 'complete nowhere', ['complete', 'good.rung', '9999', '1']);
+is((is_run(2, 'complete nowhere', ['complete', 'good.rung', '9999', '1']))[1],
+   "good.rung: error LD071: the file has no line 9999 with a column 1\n", 'the file is named, not the usage');
 is_run(2, 'complete without a number', ['complete', 'good.rung', 'one', '1']);
 is_run(2, 'complete of no file', ['complete', 'nowhere.rung', '1', '1']);
 ($out) = is_run(0, 'complete --json', ['complete', '--json', 'good.rung', '1', '1']);
@@ -565,7 +566,10 @@ like(said_of_scenarios("scenario \"a\"\n  plant \"world.rung\"\n$end  expect pla
      qr/p\.scn:5:10: error LD301: .*plant\.Nobody/, 'a plant has no such name');
 my ($why) = is_run(0, 'why', ['why', 'good.rung', '-', 'Motor'], "Stop=1\n");
 like($why, qr/^Motor has no power: \w+ rung 1 \(1,\d\)\n  .*Open/, 'why: the condition that blocks the power');
-is_run(2, 'why: no such coil', ['why', 'good.rung', '-', 'Nobody'], ".\n");
+like((is_run(2, 'why: no such coil', ['why', 'good.rung', '-', 'Nobody'], ".\n"))[1],
+     qr/^good\.rung: error LD070: the program has no coil or rung "Nobody"; `ladder show FILE`/, 'why: where to look');
+like((is_run(2, 'import of a rung file', ['import', 'good.rung']))[1], qr/^good\.rung: error LD072: .*folder/,
+     'import: what it takes');
 is_run(2, 'why: no script', ['why', 'good.rung', 'none.script', 'Motor']);
 
 chdir '/';

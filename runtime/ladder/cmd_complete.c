@@ -106,13 +106,15 @@ static enum status complete(struct call *call, struct ladder *ladder, int line,
 	if (!text)
 		return STATUS_WRONG;
 	ladder_load_text(ladder, call->arg[0], text, len);
-	if (!ladder_complete(ladder, text, len, line, column, take, &list, &place))
-		status = report_usage(call, "the file has no line %d with a column %d",
-				      line, column);
-	else if (list.failed)
+	if (!ladder_complete(ladder, text, len, line, column, take, &list, &place)) {
+		report_diag((struct diag){ .id = DIAG_NO_SUCH_PLACE, .file = call->arg[0] },
+			    "%d" DIAG_AND "%d", line, column);
+		status = STATUS_WRONG;
+	} else if (list.failed) {
 		status = report_no_memory(call->arg[0]);
-	else
+	} else {
 		print_list(&list, &call->out);
+	}
 	for (int i = 0; i < list.count; i++)
 		sink_memory_free(&list.line[i]);
 	free(list.line);

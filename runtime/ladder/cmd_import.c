@@ -107,8 +107,10 @@ static enum status import(struct call *call, struct ladder *ladder)
 	if (status != STATUS_GOOD)
 		return status;
 	report = ladder_import_report(ladder);
-	if (!report)
-		return report_usage(call, "%s is not a project of ClassicLadder", path);
+	if (!report) {
+		report_diag((struct diag){ .id = DIAG_NOT_CLASSIC, .file = path }, "%s", "");
+		return STATUS_WRONG;
+	}
 	if (out)
 		status = write_files(ladder, out);
 	if (status == STATUS_GOOD && call_flag(call, "--json"))

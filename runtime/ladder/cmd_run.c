@@ -175,7 +175,7 @@ static enum status watch_rungs(struct call *call, struct machine *machine,
 	if (project && rungs_show(project, rungs, &machine->resource, options,
 				  &nowhere) > 0)
 		return STATUS_GOOD;
-	return report_usage(call, "there is no rung or instance %.60s", rungs);
+	return report_missing(call, "rung or instance", rungs);
 }
 
 enum status cmd_run(struct call *call)

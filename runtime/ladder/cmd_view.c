@@ -44,8 +44,7 @@ static enum status show(struct call *call, const struct project *project,
 		return report_no_memory(call->arg[0]);
 	if (shown || !name)
 		return STATUS_GOOD;
-	return report_usage(call, resource ? "there is no rung or instance %.60s" :
-			    "there is no rung %.24s", name);
+	return report_missing(call, resource ? "rung or instance" : "rung", name);
 }
 
 /* Shows the rungs after the last scan of a script, also if that was a fault or a STOP. */

@@ -175,8 +175,7 @@ static enum status ask(struct call *call, struct machine *machine)
 	free(asked.why);
 	if (asked.failed)
 		return report_no_memory(call->arg[0]);
-	return asked.found ? STATUS_GOOD :
-	       report_usage(call, "there is no coil or rung %.60s", asked.coil);
+	return asked.found ? STATUS_GOOD : report_missing(call, "coil or rung", asked.coil);
 }
 
 /* Explains the state after the last scan, also if that was a fault or a STOP. */

@@ -90,6 +90,13 @@ enum status report_usage(const struct call *call, const char *format, ...)
 	return STATUS_WRONG;
 }
 
+enum status report_missing(const struct call *call, const char *kind, const char *name)
+{
+	report_diag((struct diag){ .id = DIAG_NOT_IN_PROGRAM, .file = call->arg[0] },
+		    "%s \"%.60s\"", kind, name);
+	return STATUS_WRONG;
+}
+
 void report_diags(const struct diag_list *diags)
 {
 	for (int i = 0; i < diags->count; i++)

@@ -20,6 +20,8 @@ bool report_flush(struct call *call);
 /** report_usage - prints what is wrong with the command line. Returns STATUS_WRONG. */
 enum status report_usage(const struct call *call, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
+/** report_missing - the program of call->arg[0] has no @kind "@name". Returns STATUS_WRONG. */
+enum status report_missing(const struct call *call, const char *kind, const char *name);
 /** report_no_memory - prints LD001 for @path. Returns STATUS_WRONG. */
 enum status report_no_memory(const char *path);
 /** report_no_text - @path is a code image, and the command needs a rung file.
