@@ -35,10 +35,10 @@ MAP = 'BOARD "garage"\n%IX0.0 sim\n%QX0.0 sim\n'
 
 
 class Board:
-    """A ladderd with --link in a folder of its own."""
+    """A ladderd with --link in a folder of its own. The screen ends it if a test fails."""
 
     def __init__(self, screen, name, program=SEAL, role='eng', board=MAP, options=()):
-        self.options = options
+        self.screen, self.options = screen, options
         self.folder = os.path.join(screen.home, name)
         os.makedirs(self.folder + '/slots')
         self.arguments = ['board.rung', '--io', 'board.io'] if program else ['', '--io', '']
@@ -58,6 +58,7 @@ class Board:
             [os.path.join(os.path.abspath(BUILD), 'ladderd'), *self.arguments, '--link', 'link', '--groups', 'group',
              '--slots', 'slots', *self.options], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL)
+        self.screen.running.append(self.daemon)
         until(self.listens, 'the board')
 
     def listens(self):
