@@ -27,6 +27,7 @@ cat >"$work/rows.c" <<'ROWS'
 #define FB_DEF(fb, pin, type, value, doc) N_(doc)
 #define FB_IN(fb, pin, type, doc) N_(doc)
 #define FB_OUT(fb, pin, type, doc) N_(doc)
+#define FB_TEXT(fb, pin, doc) N_(doc)
 #define FB_VAR(fb, pin, type)
 #define FB_STORE(fb, pin, type, count)
 #define FN(id, family, doc, result, most, pins) N_(family) N_(doc) pins

@@ -17,6 +17,7 @@
 	  .has_init = true, .init = (int32_t)(value) }, /* a whole number, also of a REAL */
 #define FB_IN(fb, pin, type, text)  { FB_PIN(fb, pin, PIN_IN, type) },
 #define FB_OUT(fb, pin, type, text) { FB_PIN(fb, pin, PIN_OUT, type) },
+#define FB_TEXT(fb, pin, doc)       { FB_PIN(fb, pin, PIN_IN, STRING), .capacity = WORD_TEXT },
 #define FB_VAR(fb, pin, type)       { FB_PIN(fb, pin, PIN_VAR, type) },
 #define FB_STORE(fb, pin, type, count) \
 	{ FB_PIN(fb, pin, PIN_VAR, type), .elements = (count) > 1 ? (count) : 0 },

@@ -50,6 +50,14 @@ enum vm_op {
 	VM_COUNT
 };
 
+#define WORD_TEXT IEC_STRING_DEFAULT /* bytes that a text of an instance holds */
+/* A STRING in an instance: a struct iec_string with its room. */
+struct word_text {
+	_Alignas(uint32_t) uint16_t capacity;
+	uint16_t length;
+	char text[WORD_TEXT];
+};
+
 /* The memory of an instance. A BOOL is a byte of 0 or 1, TIME is ns. Layouts are
  * the same on every little-endian target with natural alignment. */
 #define TYPE(id, ctype, size, class, low, high) typedef ctype iec_ctype_##id;
@@ -57,6 +65,7 @@ enum vm_op {
 #define FB_IN(fb, pin, type, doc)  iec_ctype_##type pin;
 #define FB_OUT(fb, pin, type, doc) iec_ctype_##type pin;
 #define FB_DEF(fb, pin, type, value, doc) iec_ctype_##type pin;
+#define FB_TEXT(fb, pin, doc)      struct word_text pin;
 #define FB_VAR(fb, pin, type)      iec_ctype_##type pin;
 #define FB_STORE(fb, pin, type, count) iec_ctype_##type pin[count];
 #define FB(id, family, doc, pins)  struct fb_##id { pins };

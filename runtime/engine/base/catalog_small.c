@@ -12,6 +12,7 @@ static const struct word_pin pins[] = {
 #define FB_DEF(fb, pin, type, value, doc) FB_PIN(fb, pin, PIN_IN, type)
 #define FB_IN(fb, pin, type, doc)  FB_PIN(fb, pin, PIN_IN, type)
 #define FB_OUT(fb, pin, type, doc) FB_PIN(fb, pin, PIN_OUT, type)
+#define FB_TEXT(fb, pin, doc)      FB_PIN(fb, pin, PIN_IN, STRING)
 #define FB_VAR(fb, pin, type)      FB_PIN(fb, pin, PIN_VAR, type)
 #define FB_STORE(fb, pin, type, count) /* no pin */
 #define FB(id, family, doc, pins)  pins
@@ -27,6 +28,7 @@ enum pin_place {
 #define FB_DEF(fb, pin, type, value, doc) + 1
 #define FB_IN(fb, pin, type, doc)  + 1
 #define FB_OUT(fb, pin, type, doc) + 1
+#define FB_TEXT(fb, pin, doc)      + 1
 #define FB_VAR(fb, pin, type)      + 1
 #define FB_STORE(fb, pin, type, count)
 #define FB(id, family, doc, pins)  PLACE(id, pins)

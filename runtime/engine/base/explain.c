@@ -34,6 +34,7 @@ static const char *const pins[] = {
 #define FB_DEF(fb, pin, type, value, doc) doc,
 #define FB_IN(fb, pin, type, doc)  doc,
 #define FB_OUT(fb, pin, type, doc) doc,
+#define FB_TEXT(fb, pin, doc)      doc,
 #define FB_VAR(fb, pin, type)      "",
 #define FB_STORE(fb, pin, type, count) "",
 #define FB(id, family, doc, pins)  pins
@@ -47,6 +48,7 @@ enum pin_start {
 #define FB_DEF(fb, pin, type, value, doc) + 1
 #define FB_IN(fb, pin, type, doc)  + 1
 #define FB_OUT(fb, pin, type, doc) + 1
+#define FB_TEXT(fb, pin, doc)      + 1
 #define FB_VAR(fb, pin, type)      + 1
 #define FB_STORE(fb, pin, type, count) + 1
 #define FB(id, family, doc, pins)  START_##id, LAST_##id = START_##id - 1 pins,

@@ -4,7 +4,7 @@
  *
  * A timer without PT elapses at once, a counter without PV is full from the start:
  * legal, and nearly always forgotten. BOOL inputs may stay open; they are not
- * looked at. It only warns.
+ * looked at. Also texts that are too long for their input. It only warns.
  */
 #include "engine/check/check_il.h"
 #include "engine/model/init.h"
@@ -46,6 +46,24 @@ static bool is_call(const struct il_line *line)
 	return line->kind == IL_OP && line->op == OP_CAL;
 }
 
+/* A constant text for a pin that has less room: its end is cut. */
+static void check_room(struct pins *pins, const struct il_pou *list,
+		       const struct il_line *line, const struct word_pin *pin)
+{
+	const struct meaning *m = pin->type == IEC_STRING && line->operand ?
+		find(pins, list->pou, line->operand) : NULL;
+	char text[IEC_STRING_MOST];
+	struct diag place = {
+		.id = DIAG_PIN_TEXT_CUT, .file = list->pou->file, .line = (int)line->line,
+		.pou = scope_text(pins->scope, list->pou->name),
+		.rung = (int)line->rung, .row = line->row, .col = line->col,
+	};
+
+	if (m && m->kind == MEANING_LITERAL && m->literal.type == IEC_STRING &&
+	    literal_string(&m->literal, text) > pin->capacity)
+		diag_add(pins->diags, place, "%s" DIAG_AND "%u", pin->name, pin->capacity);
+}
+
 /* Notes parameters of calls, and stores into pins. */
 static void note_list(struct pins *pins, const struct il_pou *list)
 {
@@ -65,11 +83,13 @@ static void note_list(struct pins *pins, const struct il_pou *list)
 			key = key_of(m, m->pin);
 		if (line->kind == IL_ARG_IN && instance &&
 		    instance->kind == MEANING_INSTANCE) {
-			const char *pin = scope_text(pins->scope, line->pin);
+			const char *name = scope_text(pins->scope, line->pin);
+			const struct word_row *row = scope_row(pins->scope, instance->word);
+			int pin = word_pin_find(row, name, strlen(name));
 
-			key = key_of(instance,
-				     word_pin_find(scope_row(pins->scope, instance->word),
-						   pin, strlen(pin)));
+			key = key_of(instance, pin);
+			if (pin >= 0)
+				check_room(pins, list, line, &row->pin[pin]);
 		}
 		if (key)
 			*slot_of(pins, key) = key;

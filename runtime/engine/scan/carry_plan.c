@@ -232,7 +232,9 @@ static void lose_ends(struct work *work, const struct declared_name *to,
 
 static uint16_t room_of(const struct program *program, struct location at)
 {
-	return code_run_at(program, at.where)->word;
+	const struct code_run *run = code_run_at(program, at.where);
+
+	return run->kind == RUN_INSTANCE ? WORD_TEXT : run->word;
 }
 
 /* @to, @from: the first of @to->array.count elements, or a text. */

@@ -150,6 +150,9 @@ static void mark_instance(struct verifier *v, uint32_t offset,
 	for (int i = 0; i < row->pin_count; i++) {
 		const struct word_pin *pin = &word_pins(row)[i];
 
+		if (pin->type == IEC_STRING)
+			memset(v->mark + offset + pin->offset, MARK_TEXT,
+			       sizeof(struct word_text));
 		if (pin->dir != PIN_VAR)
 			v->mark[offset + pin->offset] = (uint8_t)
 				((pin->dir == PIN_IN ? MARK_VALUE : MARK_FIXED) +

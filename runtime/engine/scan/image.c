@@ -28,6 +28,26 @@ static void load_init(struct image *image)
 	}
 }
 
+static void bound_text(uint8_t *at, uint16_t room)
+{
+	struct iec_string *text = (void *)at;
+
+	text->capacity = room;
+	if (text->length > room)
+		text->length = room;
+}
+
+static void bound_instances(uint8_t *memory, const struct code_run *run)
+{
+	const struct word_row *row = word_row((enum word)run->word);
+	const struct word_pin *pin = word_pins(row);
+
+	for (int i = 0; i < row->pin_count; i++)
+		for (uint32_t k = 0; pin[i].type == IEC_STRING && k < run->count; k++)
+			bound_text(memory + run->offset + k * row->size + pin[i].offset,
+				   WORD_TEXT);
+}
+
 /* The room of a text is set from the layout, whatever its initial bytes say. */
 static void bound_texts(struct image *image)
 {
@@ -37,16 +57,11 @@ static void bound_texts(struct image *image)
 		const struct code_run *run = &program->run[i];
 		uint32_t size = code_run_size(run);
 
-		if (run->kind == RUN_INSTANCE || run->type != IEC_STRING)
-			continue;
-		for (uint32_t k = 0; k < run->count; k++) {
-			struct iec_string *text = (void *)
-				(image->memory + run->offset + k * size);
-
-			text->capacity = run->word;
-			if (text->length > text->capacity)
-				text->length = text->capacity;
-		}
+		if (run->kind == RUN_INSTANCE)
+			bound_instances(image->memory, run);
+		for (uint32_t k = 0; run->kind != RUN_INSTANCE &&
+				     run->type == IEC_STRING && k < run->count; k++)
+			bound_text(image->memory + run->offset + k * size, run->word);
 	}
 }
 

@@ -415,8 +415,10 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 	to = layout_spot(list->as, &pin).offset;
 	if (m->kind == MEANING_LITERAL && list->straight &&
 	    layout_only_stored(list->as, &pin)) {
+		if (list->as->text == &list->as->code && pin.type == IEC_STRING)
+			layout_init_text(list->as, to, WORD_TEXT, m->literal);
 		literal_fit(&m->literal, pin.type, &value);
-		if (list->as->text == &list->as->code)
+		if (list->as->text == &list->as->code && pin.type != IEC_STRING)
 			layout_init_over(list->as, to, pin.type, value);
 		return;
 	}

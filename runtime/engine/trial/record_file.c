@@ -299,7 +299,8 @@ static bool is_sound_instance(const struct word_row *row, const uint8_t *at)
 	for (int i = 0; i < row->pin_count; i++) {
 		const struct word_pin *pin = &word_pins(row)[i];
 
-		if (pin->type == IEC_BOOL && at[pin->offset] > 1)
+		if (pin->type == IEC_BOOL ? at[pin->offset] > 1 :
+		    pin->type == IEC_STRING && !is_sound_text(at + pin->offset, WORD_TEXT))
 			return false;
 	}
 	return true;
