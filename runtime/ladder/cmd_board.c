@@ -296,6 +296,8 @@ static enum status act_status(struct remote *remote)
 		json_status(&remote->call->out, status, &remote->desk);
 	else if (result == STATUS_GOOD)
 		remote_print_status(remote, status);
+	if (result == STATUS_GOOD && !remote->json)
+		remote_print_alarms(remote);
 	free(status);
 	return result;
 }
@@ -771,7 +773,7 @@ static const struct action {
 	{ "password", false, remote_password },
 	{ "restore", true, remote_restore },
 	{ "record", false, remote_record },
-	{ "compare", true, remote_compare },
+	{ "compare", true, remote_compare }, { "alarms", true, remote_alarms },
 };
 
 bool remote_again(struct remote *remote)

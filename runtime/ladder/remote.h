@@ -124,4 +124,8 @@ enum status remote_password(struct remote *remote);
 enum status remote_backup(struct remote *remote);
 enum status remote_restore(struct remote *remote);
 enum status remote_record(struct remote *remote);
+enum status remote_alarms(struct remote *remote);
+/** remote_print_alarms - a line of `status`: how many alarms are active; none, if the board keeps no
+ * list. */
+void remote_print_alarms(struct remote *remote);
 #endif

@@ -12,6 +12,7 @@
 #include "ladderd/control.h"
 #include "ladderd/download.h"
 #include "ladderd/ends.h"
+#include "ladderd/alarm_store.h"
 #include "ladderd/journal.h"
 #include "ladderd/password.h"
 #include "ladderd/peer.h"
@@ -74,6 +75,8 @@ struct link {
 	struct order store_order;      /* given beside those of the server     */
 	struct board_status status;    /* of that order                        */
 	struct journal *journal;
+	struct alarms alarms;
+	struct alarm_store alarm_store;
 	struct server_log log;
 	struct server_conf conf;
 	struct server_password lock;
@@ -176,6 +179,7 @@ void link_serve(struct link *link)
 void link_show(struct link *link, int64_t now_ns)
 {
 	exchange_show(&link->exchange, now_ns);
+	alarm_look(&link->alarms.ring, &link->cycle->resource);
 }
 
 static void wake_up(struct link *link)
@@ -319,6 +323,39 @@ static void log_late(struct link *link)
 	link->late_ns = clock_now();
 	snprintf(number, sizeof(number), "%lld", (long long)link->with.conf->now.late);
 	journal_add(link->journal, EVENT_LATE, 0, "", number, "");
+}
+
+/* ---- alarms ---- */
+
+static int64_t wall_now(void)
+{
+	struct timespec now;
+
+	clock_gettime(CLOCK_REALTIME, &now);
+	return now.tv_sec * SECOND + now.tv_nsec;
+}
+
+/* What the scan thread has told. If another program runs, its blocks are watched from now on. */
+static void follow_alarms(struct link *link)
+{
+	struct alarms *alarms = &link->alarms;
+	const struct image *image = server_image(link->server);
+	const int64_t now_ns = clock_now(), wall_ns = wall_now();
+	struct alarm_note note;
+
+	while (alarm_take(&alarms->ring, &note)) {
+		note.time_ns = note.system ? wall_ns : wall_ns - (now_ns - note.time_ns);
+		alarm_list_note(&alarms->list, &note);
+	}
+	if (!alarms->watch || alarms->watch->program != image->program) {
+		if (alarms->watch)
+			alarm_list_doubt(&alarms->list, false);
+		free(alarms->before);
+		alarms->before = alarms->watch;
+		alarms->watch = alarm_watch_new(image);
+		atomic_store(&alarms->ring.watch, alarms->watch);
+	}
+	alarm_store_write(&link->alarm_store, &alarms->list, now_ns);
 }
 
 /* ---- downloads ---- */
@@ -843,6 +880,7 @@ static void *serve_desks(void *argument)
 		send_all(link);
 		log_state(link);
 		log_late(link);
+		follow_alarms(link);
 		journal_sync(link->journal, clock_now());
 	}
 	exchange_post(&link->exchange, NULL); /* what the last scan did not wait for is not done */
@@ -943,6 +981,9 @@ void link_free(struct link *link)
 		return;
 	server_free(link->server);
 	journal_close(link->journal);
+	alarm_store_close(&link->alarm_store, &link->alarms.list);
+	free(link->alarms.before);
+	free(link->alarms.watch);
 	download_free(link->download);
 	arena_free(&link->retain_arena);
 	free(link->views);
@@ -1011,7 +1052,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		.exchange = &link->exchange, .program = program, .board = cycle->board,
 		.wait = wait_for_scan, .amend = amend_status, .context = link,
 		.store = &link->store, .log = &link->log, .conf = &link->conf, .password = &link->lock,
-		.keeps = cycle->store,
+		.keeps = cycle->store, .alarms = &link->alarms,
 	};
 
 	link->views = calloc(3, size);
@@ -1046,6 +1087,9 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	link->conf = (struct server_conf){ .get = conf_read, .change = conf_write };
 	link->log = (struct server_log){ .add = log_add, .next = log_next };
 	link->journal = journal_open(link->with.slots->folder);
+	link->alarms.clock_ns = wall_now;
+	alarm_store_open(&link->alarm_store, link->with.slots->folder, &link->alarms.list,
+			 wall_now());
 	link->server = server_new(&setup);
 	link->download = download_new(link->with.slots, cycle, link->with.map_text,
 				      link->with.map_len);
@@ -1091,6 +1135,7 @@ struct link *link_open(const struct options *options, struct cycle *cycle,
 	store->program->index = symbol_index_new(store->program, store->arena);
 	link->retain = cycle->store;
 	arena_init(&link->retain_arena);
+	link->alarm_store.fd = -1;
 	link->listening = link->wake = link->port.fd = link->port.session = -1;
 	for (int i = 0; i < SERVER_SESSIONS; i++)
 		link->fd[i] = -1;

@@ -4,7 +4,7 @@
  *
  * server.c has sessions and requests. The services are in serve_board.c (who is there, mode,
  * settings, password), serve_values.c (reading, watching, writing, forcing), serve_download.c
- * (programs) and serve_files.c (retained values, log, record). Only these files include this one.
+ * (programs), serve_files.c (retained values, log, record) and serve_alarms.c. Only these files include this one.
  */
 #ifndef ONLINE_SERVE_H
 #define ONLINE_SERVE_H
@@ -152,4 +152,6 @@ enum refusal serve_password(struct asked *asked);
 enum refusal serve_retain(struct asked *asked);
 enum refusal serve_events(struct asked *asked);
 enum refusal serve_record(struct asked *asked);
+enum refusal serve_alarms(struct asked *asked);
+enum refusal serve_ack(struct asked *asked);
 #endif

@@ -224,6 +224,11 @@ void server_changed(struct server *server, const struct program *program, const 
 	server_learn_forces(server);
 }
 
+const struct image *server_image(const struct server *server)
+{
+	return &server->mirror;
+}
+
 bool asked_is_locked(const struct asked *asked)
 {
 	const struct server_setup *setup = &asked->server->setup;
@@ -291,6 +296,10 @@ static enum refusal serve(struct asked *asked)
 		return serve_password(asked);
 	case SERVICE_RECORD:
 		return serve_record(asked);
+	case SERVICE_ALARMS:
+		return serve_alarms(asked);
+	case SERVICE_ACK:
+		return serve_ack(asked);
 	}
 	return REFUSAL_NO_SERVICE;
 }
@@ -300,7 +309,7 @@ static bool is_change(const struct service_row *row)
 	return row->number == SERVICE_WRITE || row->number == SERVICE_FORCE ||
 	       row->number == SERVICE_UNFORCE || row->number == SERVICE_MODE ||
 	       row->number == SERVICE_COMMIT || row->number == SERVICE_CONFIG ||
-	       row->number == SERVICE_RETAIN || row->number == SERVICE_PASSWORD;
+	       row->number == SERVICE_RETAIN || row->number == SERVICE_ACK || row->number == SERVICE_PASSWORD;
 }
 
 /* Gives the answer of the same request again; it is not done again. */

@@ -11,6 +11,7 @@
 #ifndef ONLINE_SERVER_H
 #define ONLINE_SERVER_H
 
+#include "online/alarms.h"
 #include "online/event.h"
 #include "online/exchange.h"
 #include "online/publish.h"
@@ -110,6 +111,7 @@ struct server_setup {
 	const struct server_log *log;
 	const struct server_conf *conf;
 	const struct server_password *password; /* NULL: there is none    */
+	struct alarms *alarms; /* by the link thread, but its ring; NULL: no list */
 	bool keeps;            /* retained values are stored                  */
 	const struct server_store *store; /* NULL: downloads are refused       */
 	/** Waits until the order of the exchange is done, at most some seconds.
@@ -151,6 +153,9 @@ bool server_is_over(const struct server *server, int session);
 void server_settle(struct server *server);
 /** server_changed - the board went back to @program by itself; each session is told @why. */
 void server_changed(struct server *server, const struct program *program, const char *why);
+
+/** server_image - the program that runs, as the server knows it. */
+const struct image *server_image(const struct server *server);
 
 /** server_step - one request of each session, and published values that are due.
  * Returns whether there may be more to do at once. */

@@ -30,6 +30,7 @@ struct rig {
 	struct exchange exchange;
 	struct exchange_host host;
 	struct server *server;
+	struct alarms alarms;
 	int64_t now_ns;
 };
 
@@ -141,6 +142,11 @@ static const struct stored *runs_any(void *context)
 	return &stored;
 }
 
+static int64_t no_clock(void)
+{
+	return 1;
+}
+
 static bool get_setting(void *context, uint32_t number, struct setting *out)
 {
 	(void)context;
@@ -196,10 +202,12 @@ static void rig_open(struct rig *rig)
 	static const struct server_password password = { is_set, check_password, change_password };
 	static const struct server_conf conf = { get_setting, change_setting };
 	struct server_setup setup = { .keeps = true, .password = &password, .conf = &conf, .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,
-				      .context = rig, .exchange = &rig->exchange };
+				      .context = rig, .exchange = &rig->exchange, .alarms = &rig->alarms };
 	size_t size;
 
 	memset(rig, 0, sizeof(*rig));
+	rig->alarms.clock_ns = no_clock;
+	alarm_list_raise(&rig->alarms.list, ALARM_IO, true, 1);
 	rig->ladder = ladder_new();
 	fuzz_expect(rig->ladder != NULL, "there is memory");
 	ladder_watch(rig->ladder, true);
@@ -302,6 +310,9 @@ static void as_desk(const uint8_t *bytes, size_t len)
 			    "the parts fill a slot");
 	while (frame_next(bytes, len, &frame, &used) == FRAME_GOOD) {
 		struct iec_text text;
+		struct alarm_row row;
+		uint32_t version;
+		bool empty;
 
 		in = frame.body;
 		status_take(&in, &status);
@@ -311,6 +322,11 @@ static void as_desk(const uint8_t *bytes, size_t len)
 		in = frame.body;
 		while (!in.failed && wire_left(&in))
 			wire_ref(&in);
+		in = frame.body;
+		alarm_read(&in, &row);
+		if (frame.body.end - frame.body.at >= (ptrdiff_t)ALARM_BYTES &&
+		    alarm_open(frame.body.at, &row, &version, &empty))
+			fuzz_expect(row.number && !empty, "a row has a number");
 		bytes += used;
 		len -= used;
 	}
@@ -417,6 +433,8 @@ static void put_fields(struct wire_writer *out, enum service service)
 	case SERVICE_BLOCK:
 	case SERVICE_UPLOAD:
 	case SERVICE_EVENTS:
+	case SERVICE_ALARMS:
+	case SERVICE_ACK:
 		wire_put_u32(out, 0);
 		break;
 	case SERVICE_CONFIG:

@@ -11,6 +11,7 @@ import tty
 
 (HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE,
  DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG, RETAIN, PASSWORD) = range(1, 22)
+ALARMS, ACK = 32, 33
 RECORD, SUMS, PIECES = 22, 23, 24
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
@@ -497,6 +498,24 @@ class Client:
             if not count:
                 return found
             first = found[-1]['number'] + 1
+
+    def alarms(self, first=1):
+        """The rows of the list, and the numbers before them."""
+        found = []
+        while True:
+            it = self.call(ALARMS, struct.pack('<I', first))
+            head = dict(zip(('active', 'waiting', 'lost', 'left_out'), [it.number('I') for _ in range(4)]))
+            count = it.number('H')
+            for _ in range(count):
+                found.append({'number': it.number('I'), 'times': it.number('I'), 'state': it.number('B'),
+                              'class': it.number('B'), 'came': it.number('q'), 'went': it.number('q'),
+                              'acked': it.number('q'), 'name': it.text(), 'text': it.text(), 'who': it.text()})
+            if not count:
+                return found, head
+            first = found[-1]['number'] + 1
+
+    def ack(self, number=0):
+        return self.call(ACK, struct.pack('<I', number)).number('I')
 
 
 def take_values(fields, types):

@@ -1339,6 +1339,113 @@ def test_events_are_bounded_and_the_newest_stay():
         assert found[500]['number'] not in numbers and numbers == sorted(numbers) and len(numbers) > 2040
 
 
+# ---- alarms ----
+
+ALARMED = """RUNGBOARD 1
+PROJECT "Alarmed"
+
+VAR
+  In AT %IX0.0 : BOOL;
+  Begin AT %IX0.1 : BOOL;
+  Go AT %QX0.0 : BOOL;
+  Text : STRING[200] := '电机$1B[31m过热$L';
+  热 : ALARM;
+  Note : EVENT;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO In | ALARM 热 MSG:=Text CLASS:=1 | COIL Go |
+RUNG
+  | NO Begin | EVENT Note MSG:='begun' |
+END_PROGRAM
+"""
+ALARMED_MAP = 'BOARD "b"\n%IX0.0 sim\n%IX0.1 sim\n%QX0.0 sim\n'
+
+
+def alarm_states(desk):
+    return [(it['name'], it['state'], it['times']) for it in desk.alarms()[0]]
+
+
+def test_an_alarm_comes_goes_and_is_acknowledged():
+    with Board(ALARMED, '--slots', '.', board=ALARMED_MAP) as board:
+        desk = board.client()
+        assert desk.alarms() == ([], {'active': 0, 'waiting': 0, 'lost': 0, 'left_out': 0})
+        assert board.command('alarms')[1] == '0 active, 0 to acknowledge\n'
+        before = time.time_ns()
+        desk.force({'In': (BOOL, True)})
+        until(lambda: ('热', 1, 1) in alarm_states(desk))
+        rows, head = desk.alarms()
+        row = next(it for it in rows if it['name'] == '热')
+        assert (row['class'], row['text']) == (1, '电机\x1b[31m过热\n') and not row['went'] and not row['acked'], row
+        assert before - 10**9 < row['came'] < time.time_ns() + 10**9 and head['waiting'] == 1, (row, head)
+        assert ('SYS_FORCED_ANY', 2, 1) in alarm_states(desk) and head['active'] == 2, rows
+        assert 'alarms: 2 active, 1 to acknowledge\n' in board.command('status')[1]
+        desk.unforce()
+        until(lambda: ('热', 3, 1) in alarm_states(desk))
+        refused(47, lambda: desk.ack(99), '99')
+        assert desk.ack(row['number']) == 1 and desk.ack(row['number']) == 0
+        row = next(it for it in desk.alarms()[0] if it['name'] == '热')
+        assert row['state'] == 0 and row['went'] and row['acked'] and row['who'], row
+        assert [it['args'][0] for it in desk.events() if it['id'] == 43] == ['热']
+        out = board.command('alarms')[1]
+        assert '\x1b' not in out and '电机' in out and f"acknowledged by {row['who']}\n" in out, out
+        found = json.loads(board.command('alarms', '--json')[1])
+        assert [it['state'] for it in found if it['name'] == '热'] == ['gone'], found
+        assert 'write alarms, alarms ack NUMBER' in board.command('alarms', 'ack', 'some')[2]
+        assert 'has no alarm 99' in board.command('alarms', 'ack', '99')[2]
+
+
+def test_an_acknowledgement_reaches_the_block_as_an_order():
+    with Board(ALARMED, '--slots', '.', board=ALARMED_MAP) as board:
+        desk = board.client()
+        desk.force({'In': (BOOL, True), 'Begin': (BOOL, True)})
+        until(lambda: {('热', 1, 1), ('Note', 4, 1)} <= set(alarm_states(desk)))
+        assert desk.read('热.STATE')[0] == 1
+        assert board.command('alarms', 'ack', 'all')[:2] == (0, '1 acknowledged\n')
+        until(lambda: desk.read('热.STATE')[0] == 2 and not desk.read('热.OP_ACK')[0])
+        until(lambda: ('热', 2, 1) in alarm_states(desk))
+        assert next(it for it in desk.alarms()[0] if it['name'] == '热')['who']
+
+
+def test_the_list_of_alarms_survives_a_kill_and_damage():
+    with Board(ALARMED, '--slots', '.', board=ALARMED_MAP) as board:
+        desk = board.client()
+        desk.force({'In': (BOOL, True)})
+        until(lambda: ('热', 1, 1) in alarm_states(desk))
+        number = next(it for it in desk.alarms()[0] if it['name'] == '热')['number']
+        until(lambda: os.path.getsize(board.folder + '/alarms'))
+        board.daemon.kill()
+        board.daemon.wait()
+        board.start()
+        desk = board.client()
+        until(lambda: ('热', 3, 1) in alarm_states(desk))  # gone, but nobody has seen it
+        assert next(it for it in desk.alarms()[0] if it['name'] == '热')['number'] == number
+        until(lambda: ('SYS_FORCED_ANY', 0, 1) in alarm_states(desk))
+        board.stop()
+        with open(board.folder + '/alarms', 'r+b') as stored:
+            size = os.path.getsize(board.folder + '/alarms')
+            stored.write(b'damage' * (size // 6))
+        board.start()
+        desk = board.client()
+        assert [it[:2] for it in alarm_states(desk)] == [('alarms', 3)]
+        assert desk.ack() == 1 and desk.alarms()[1]['waiting'] == 0
+
+
+def test_more_alarms_than_the_list_holds_are_counted():
+    names = [f'A{i}' for i in range(300)]
+    many = 'RUNGBOARD 1\nVAR\n  In AT %IX0.0 : BOOL;\n' + ''.join(f'  {it} : ALARM;\n' for it in names) + \
+        'END_VAR\nPROGRAM Main LD\n' + ''.join(f"RUNG\n  | NO In | ALARM {it} MSG:='m' |\n" for it in names) + \
+        'END_PROGRAM\n'
+    with Board(many, '--slots', '.', board='BOARD "b"\n%IX0.0 sim\n') as board:
+        desk = board.client()
+        desk.force({'In': (BOOL, True)})
+        until(lambda: desk.alarms()[1]['lost'])
+        until(lambda: len(desk.alarms()[0]) == 256 and desk.alarms()[1]['lost'] == 45)  # one row is of the force
+        assert desk.ack() == 255
+        assert '45 alarms found no room in the list of 256\n' in board.command('alarms')[1]
+
+
 def test_a_fault_is_an_event():
     with Board(LOOP, board='BOARD "b"\n%QX0.0 sim\n') as board:
         desk = board.client()
