@@ -155,6 +155,14 @@ is(scalar(grep { index($said, " $_->{code}: $_->{text}\n") < 0 } @{$json->[1]{di
 ($out) = is_run(1, 'check --json of all golden cases', ['check', '--json', sort glob("$root/tests/golden/*/main.rung")]);
 unlike($out, qr/[\x00-\x09\x0b-\x1f\x7f]|\\u00[01]/, 'check --json: no control character');
 cmp_ok(scalar(grep { defined $_->{arg} } map { @{$_->{diagnostics}} } @{decode_json($out)}), '>', 100, 'check --json: the names of many messages');
+($out) = is_run(0, 'check --tasks', ['check', '--tasks', 'good.rung']);
+like($out, qr/^good\.rung: good\n  task .*\n  - +in every cycle +- +\d+\n  cycles every 10 ms, \d+ words a millisecond are enough\n$/, 'check --tasks: one task');
+put('hasty.rung', "RUNGBOARD 1\nCONFIGURATION P\n  TASK T (INTERVAL := T#100us, PRIORITY := 1);\n  PROGRAM A WITH T : Main;\nEND_CONFIGURATION\n"
+    . "PROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nEND_PROGRAM\n");
+($out) = is_run(1, 'check --speed', ['check', '--json', '--speed', '1', 'hasty.rung']);
+$json = decode_json($out)->[0];
+ok($json->{good} && !$json->{fast_enough} && $json->{enough} > 1 && $json->{tasks}[0]{left_out}, 'check --speed: too slow');
+is_run(2, 'check --speed 0', ['check', '--speed', '0', 'good.rung']);
 ($out) = is_run(2, 'check --json of no file', ['check', '--json', 'nowhere']);
 is(decode_json($out)->[0]{diagnostics}[0]{code}, 'LD002', 'check --json: no file');
 put(qq(we"ird\n\x01.rung), $bad);

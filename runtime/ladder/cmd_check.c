@@ -3,7 +3,7 @@
  * cmd_check - `ladder check`: prints every error and warning of programs. It writes no
  * file.
  */
-#include "ladder/report.h"
+#include "ladder/load_text.h"
 
 #include "hal/iomap.h"
 
@@ -30,6 +30,7 @@ static void print_sum(const char *path, const struct diag_list *diags,
 	sink_text(out, "\n");
 }
 
+/* The closing brace follows. */
 static void print_json(const char *path, const struct diag_list *diags,
 		       bool good, bool first, const struct sink *out)
 {
@@ -40,7 +41,6 @@ static void print_json(const char *path, const struct diag_list *diags,
 		    good ? "true" : "false", diags->errors, warnings_of(diags),
 		    diags->dropped);
 	report_json_diags(diags, out);
-	sink_text(out, "}");
 }
 
 /* Adds errors of the map, and inputs and outputs that it lacks. */
@@ -60,7 +60,33 @@ static enum status check_map(struct ladder *ladder, const char *path, struct are
 	return good ? STATUS_GOOD : STATUS_NO;
 }
 
-static enum status check_one(struct call *call, const char *path, bool json,
+struct wish {
+	bool json, tasks;
+	int64_t speed; /* 0: not given */
+};
+
+/* Prints everything about a file; @ladder is built if @status is good. */
+static enum status print_all(struct call *call, struct ladder *ladder, const char *path,
+			     const struct wish *wish, bool first, enum status status)
+{
+	enum status load = STATUS_GOOD;
+
+	if (wish->json) {
+		print_json(path, ladder_diags(ladder), status == STATUS_GOOD,
+			   first, &call->out);
+	} else {
+		report_diags(ladder_diags(ladder));
+		if (status != STATUS_WRONG)
+			print_sum(path, ladder_diags(ladder), &call->out);
+	}
+	if (wish->tasks && status == STATUS_GOOD)
+		load = load_print(ladder, path, wish->speed, wish->json, &call->out);
+	if (wish->json)
+		sink_text(&call->out, "}");
+	return load > status ? load : status;
+}
+
+static enum status check_one(struct call *call, const char *path, const struct wish *wish,
 			     bool first)
 {
 	const char *map = call_option(call, "--io");
@@ -75,14 +101,7 @@ static enum status check_one(struct call *call, const char *path, bool json,
 		status = ladder_could_read(ladder) ? STATUS_NO : STATUS_WRONG;
 	else if (map)
 		status = check_map(ladder, map, &arena);
-	if (json) {
-		print_json(path, ladder_diags(ladder), status == STATUS_GOOD,
-			   first, &call->out);
-	} else {
-		report_diags(ladder_diags(ladder));
-		if (status != STATUS_WRONG)
-			print_sum(path, ladder_diags(ladder), &call->out);
-	}
+	status = print_all(call, ladder, path, wish, first, status);
 	ladder_free(ladder);
 	arena_free(&arena);
 	return status;
@@ -90,18 +109,21 @@ static enum status check_one(struct call *call, const char *path, bool json,
 
 enum status cmd_check(struct call *call)
 {
-	bool json = call_flag(call, "--json");
+	struct wish wish = { .json = call_flag(call, "--json") };
 	enum status worst = STATUS_GOOD;
 
-	if (json)
+	if (!report_count(call, "--speed", 0, 100000000, &wish.speed))
+		return STATUS_WRONG;
+	wish.tasks = call_flag(call, "--tasks") || wish.speed;
+	if (wish.json)
 		sink_text(&call->out, "[");
 	for (int i = 0; i < call->arg_count && !call->out_failed; i++) {
-		enum status status = check_one(call, call->arg[i], json, !i);
+		enum status status = check_one(call, call->arg[i], &wish, !i);
 
 		if (status > worst)
 			worst = status;
 	}
-	if (json)
+	if (wish.json)
 		sink_text(&call->out, "\n]\n");
 	return worst;
 }

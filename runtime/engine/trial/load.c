@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * load - the words of a run, and a schedule with a virtual clock.
+ */
+#include "engine/trial/load.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define MS_NS UINT64_C(1000000)
+
+/* ---- words ---- */
+
+/* What an instruction costs beside its own words: as the VM takes it from the budget. */
+static uint64_t beside(const uint32_t *pc)
+{
+	switch (*pc & 0xff) {
+	case VM_BLOCK:
+		return pc[3] / 8;
+	case VM_ABLOCK:
+		return pc[5] / 8;
+	case VM_EACH:
+	case VM_TICK:
+		return 1 + (*pc >> 8);
+	default:
+		return 0;
+	}
+}
+
+/* Back to EACH is no loop: each of its targets runs once at most. */
+static bool goes_back(const uint32_t *base, const uint32_t *pc)
+{
+	const uint32_t *to = base + pc[1];
+
+	return to <= pc && (*to & 0xff) != VM_EACH;
+}
+
+struct counted { uint64_t words; bool loops, known; };
+
+/* Calls are at most LIMIT_CALLS deep: the verifier has seen to it. */
+static struct counted count(const struct program *program, struct counted *entry, uint32_t i)
+{
+	const uint32_t *pc = program->text + program->entry[i].text;
+	const uint32_t *end = pc + program->entry[i].text_words;
+	struct counted sum = { .words = 0, .known = true };
+
+	if (entry[i].known)
+		return entry[i];
+	for (; pc < end; pc += code_words(pc)) {
+		const uint32_t op = *pc & 0xff;
+
+		sum.words += code_words(pc) + beside(pc);
+		if (op == VM_CALL) {
+			const struct counted called = count(program, entry, pc[1]);
+
+			sum.words += called.words;
+			sum.loops |= called.loops;
+		}
+		sum.loops |= (op == VM_JMP || op == VM_JMPC) && goes_back(program->text, pc);
+	}
+	return entry[i] = sum;
+}
+
+bool load_measure(const struct program *program, int64_t tick_ns, struct load *out)
+{
+	struct counted *entry = calloc(program->entry_count + 1, sizeof(*entry));
+
+	memset(out, 0, sizeof(*out));
+	out->program = program;
+	out->tick_ns = tick_ns;
+	if (!entry)
+		return false;
+	for (uint32_t i = 0; i < program->task_count; i++) {
+		const struct code_task *task = &program->task[i];
+
+		for (uint32_t k = 0; k < task->count; k++) {
+			const struct counted one = count(program, entry,
+							 program->call[task->first + k]);
+
+			out->task[i].words += one.words;
+			out->task[i].loops |= one.loops;
+		}
+	}
+	free(entry);
+	return true;
+}
+
+/* ---- a schedule ---- */
+
+static void begin(const struct load *load, struct load_schedule *at)
+{
+	memset(at, 0, sizeof(*at));
+	at->program = *load->program;
+	for (uint32_t i = 0; i < at->program.task_count; i++) {
+		at->task[i] = load->program->task[i];
+		at->task[i].single = 0;
+	}
+	at->program.task = at->task;
+	tasks_start(&at->tasks, &at->program, 0);
+}
+
+static int64_t common(int64_t a, int64_t b)
+{
+	while (b) {
+		const int64_t rest = a % b;
+
+		a = b;
+		b = rest;
+	}
+	return a;
+}
+
+/* Until all intervals have met twice; LOAD_CYCLES at most. */
+static int64_t cycles(const struct load *load)
+{
+	int64_t all = 50;
+
+	for (uint32_t i = 0; i < load->program->task_count; i++) {
+		const int64_t interval = task_interval(&load->program->task[i]);
+		const int64_t steps = (interval + load->tick_ns - 1) / load->tick_ns;
+
+		if (load->program->task[i].kind != TASK_INTERVAL)
+			continue;
+		all = all / common(all, steps) * steps;
+		if (all > LOAD_CYCLES / 2)
+			return LOAD_CYCLES;
+	}
+	return 2 * all;
+}
+
+/* An event comes in every cycle. */
+static void begin_cycle(struct load_schedule *at)
+{
+	static const uint8_t zero;
+
+	tasks_begin(&at->tasks, &at->program, &zero, at->now_ns);
+	for (uint32_t i = 0; i < at->program.task_count; i++)
+		if (at->task[i].kind == TASK_EVENT)
+			at->tasks.state[i].due = true;
+}
+
+/* Only a task with an interval has a deadline; the others wait from the cycle on. */
+static void run_one(struct load_task *task, struct load_schedule *at, uint32_t i, int64_t begin_ns)
+{
+	int64_t from = at->due_ns;
+
+	if (at->task[i].kind == TASK_INTERVAL)
+		from = at->tasks.state[i].next_ns;
+	if (at->now_ns - from > task->wait_ns)
+		task->wait_ns = at->now_ns - from;
+	tasks_take(&at->tasks, &at->program, i, begin_ns);
+	at->now_ns += task->run_ns;
+	at->busy_ns += task->run_ns;
+}
+
+/* As run_due() and must_yield() of scan/resource.c. */
+static void run_cycle(struct load *load, struct load_schedule *at, bool first)
+{
+	const int64_t begin_ns = at->now_ns;
+	bool any = false;
+
+	for (begin_cycle(at);; any = true) {
+		const uint32_t i = tasks_next(&at->tasks, &at->program);
+		const bool late = at->now_ns - at->due_ns >= load->tick_ns;
+
+		if (i == at->program.task_count ||
+		    (any && !first &&
+		     tasks_must_yield(&at->tasks, &at->program, i, at->now_ns, late)))
+			return;
+		run_one(&load->task[i], at, i, begin_ns);
+	}
+}
+
+/* As count_late() of ladderd: a tick that has come meanwhile is left out. */
+static void end_cycle(const struct load *load, struct load_schedule *at)
+{
+	at->due_ns += load->tick_ns;
+	if (at->now_ns >= at->due_ns) {
+		const int64_t missed = (at->now_ns - at->due_ns) / load->tick_ns + 1;
+
+		at->due_ns += missed * load->tick_ns;
+		at->skipped += (uint64_t)missed;
+	}
+	at->now_ns = at->due_ns;
+}
+
+static bool is_good(const struct load *load)
+{
+	for (uint32_t i = 0; i < load->program->task_count; i++)
+		if (load->task[i].overruns)
+			return false;
+	return true;
+}
+
+bool load_run(struct load *load, uint64_t speed)
+{
+	const int64_t count = cycles(load);
+	struct load_schedule *at = &load->at;
+
+	begin(load, at);
+	for (uint32_t i = 0; i < at->program.task_count; i++) {
+		load->task[i].run_ns = (int64_t)(load->task[i].words * MS_NS / speed);
+		load->task[i].wait_ns = 0;
+	}
+	for (int64_t i = 0; i < count; i++) {
+		run_cycle(load, at, i == 0);
+		end_cycle(load, at);
+	}
+	for (uint32_t i = 0; i < at->program.task_count; i++) {
+		load->task[i].runs = at->tasks.state[i].runs;
+		load->task[i].overruns = at->task[i].kind == TASK_CYCLE ?
+						 at->skipped : at->tasks.state[i].overruns;
+	}
+	load->busy_permille = (uint32_t)(1000.0 * (double)at->busy_ns / (double)at->now_ns + 0.5);
+	return is_good(load);
+}
+
+uint64_t load_enough(struct load *load)
+{
+	uint64_t low = 0, high = 1;
+
+	while (!load_run(load, high)) {
+		if (high == LOAD_SPEED_MOST)
+			return 0;
+		low = high;
+		high = high * 2 > LOAD_SPEED_MOST ? LOAD_SPEED_MOST : high * 2;
+	}
+	while (high - low > 1) {
+		const uint64_t middle = low + (high - low) / 2;
+
+		if (load_run(load, middle))
+			high = middle;
+		else
+			low = middle;
+	}
+	return high;
+}
