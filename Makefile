@@ -102,7 +102,7 @@ unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
 $(BUILD)/unit/online/tests: $(call obj,$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c tests/walker/random*.c tests/walker/words*.c)))
-$(BUILD)/unit/ladderd/tests: $(call obj,runtime/ladderd/print_static.c runtime/ladderd/password.c)
+$(BUILD)/unit/ladderd/tests: $(call obj,runtime/ladderd/print_static.c runtime/ladderd/password.c runtime/ladderd/disk.c)
 $(BUILD)/unit/ladder/tests: $(call obj,$(wildcard runtime/ladder/words*.c) runtime/ladder/foreign.c)
 words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md
@@ -125,7 +125,7 @@ DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
 # that has no PKG_CONFIG_LIBDIR, and one with another C library.
 CRYPT    ?= $(if $(CROSS)$(filter 1,$(SMALL))$(findstring musl,$(CC)),$(if $(PKG_CONFIG_LIBDIR),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes),no),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes))
 CRYPT_LIB := $(if $(filter yes,$(CRYPT)$(SMALL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libcrypt))
-LADDERD_NOT := $(if $(filter yes,$(CRYPT)),crypt_none,crypt_yescrypt) $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download journal conf ends password crypt_none crypt_yescrypt \
+LADDERD_NOT := $(if $(filter yes,$(CRYPT)),crypt_none,crypt_yescrypt) $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file disk link peer download journal conf ends password crypt_none crypt_yescrypt \
                $(if $(LINK),link_none,slots link_serial nameless),source_image store_none link_none link_serial nameless conf_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
 # Its own table of messages, without those that only a desk gives.
@@ -445,7 +445,7 @@ BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap retain classic link record serial
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
-TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
+TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
@@ -460,7 +460,9 @@ $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free,--wrap=mmap64,--wrap=munmap
 $(BIN)/saving: $(BUILD)/tests/saving.o
 $(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
-$(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c)
+$(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c runtime/ladderd/disk.c)
+$(BIN)/disks: $(call obj,tests/disks.c $(addprefix runtime/ladderd/,store_file.c disk.c journal.c ends.c conf.c password.c slots.c) $(addprefix runtime/online/,stored.c event.c wire.c))
+$(BIN)/disks: WRAP := $(patsubst %,-Wl$(comma)--wrap=%,open open64 mkstemp mkstemp64 fsync fdatasync ftruncate ftruncate64 rename read write pread pread64 pwrite pwrite64)
 $(BIN)/storing: WRAP := -Wl,--wrap=pwrite,--wrap=pwrite64,--wrap=fsync,--wrap=fdatasync,--wrap=rename,--wrap=unlink
 # A second evaluator for ClassicLadder projects, to compare with the import.
 CLASSIC_O := $(call obj,$(wildcard tests/classic/engine*.c) tests/classic/own_read.c tests/classic/run.c)

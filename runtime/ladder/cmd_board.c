@@ -202,6 +202,10 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 		sink_text(out, "\nnext start: ");
 		foreign_text(out, next);
 	}
+	if (*status->disk) {
+		sink_text(out, "\ndisk: ");
+		foreign_text(out, status->disk);
+	}
 	sink_printf(out, "\nforces: %u\nfailed operations: %u", (unsigned)status->forces,
 		    (unsigned)status->errors);
 	foreign_text(out, status->error);
@@ -254,6 +258,7 @@ static void json_status(const struct sink *out, const struct board_status *statu
 	report_json_field("stop", *status->stop ? status->stop : NULL, out);
 	status_next(status, event_text(status->next), next, sizeof(next));
 	report_json_field("next_start", status->next ? next : NULL, out);
+	report_json_field("disk", *status->disk ? status->disk : NULL, out);
 	report_json_field("program", status_has_program(status) ? program : NULL, out);
 	report_json_field("version", status->version, out);
 	report_json_field("role", role_word(desk->role), out);

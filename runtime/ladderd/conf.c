@@ -155,8 +155,10 @@ void conf_load(struct conf *conf, struct options *options)
 	memset(conf, 0, sizeof(*conf));
 	conf->folder = options->slots;
 	conf->defaults = conf->next = *options;
-	if (conf->folder && path_of(conf, path, sizeof(path)) && access(path, F_OK) == 0) {
+	if (conf->folder && path_of(conf, path, sizeof(path)) && (access(path, F_OK) == 0 || errno != ENOENT)) {
 		text = file_read(path, FILE_MOST, &len, NULL);
+		if (!text) /* it may be of the moment */
+			text = file_read(path, FILE_MOST, &len, NULL);
 		conf->damaged = !text || !is_whole(text, len);
 		if (conf->damaged)
 			fprintf(stderr, "ladderd: %s is damaged and is not used\n", path);

@@ -5,6 +5,7 @@
  */
 #define _GNU_SOURCE /* CLOCK_BOOTTIME */
 #include "ladderd/ends.h"
+#include "ladderd/disk.h"
 
 #include "engine/base/digest.h"
 #include "online/wire.h"
@@ -26,24 +27,39 @@ struct ends {
 	int64_t time_s[ENDS_MOST]; /* the newest first; -1: none              */
 };
 
+static void tell(const char *why)
+{
+	fprintf(stderr, "ladderd: abnormal ends are not counted: %s\n", why);
+}
+
 static int open_file(const char *folder)
 {
 	char path[512];
+	int fd = -1;
 
-	if (snprintf(path, sizeof(path), "%s/ends", folder) >= (int)sizeof(path))
-		return -1;
-	return open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0640);
+	errno = ENAMETOOLONG;
+	if (snprintf(path, sizeof(path), "%s/ends", folder) < (int)sizeof(path))
+		for (int i = 0; fd < 0 && i < 2; i++) /* an error may be of the moment */
+			fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0640);
+	if (fd < 0)
+		tell(strerror(errno));
+	return fd;
 }
 
 /* Without boot_id all starts of the machine count as one. */
 static void ask_boot(uint8_t boot[BOOT])
 {
-	const int fd = open("/proc/sys/kernel/random/boot_id", O_RDONLY | O_CLOEXEC);
+	ssize_t got = -1;
 
-	if (fd < 0 || read(fd, boot, BOOT) != BOOT)
+	for (int i = 0; got < 0 && i < 2; i++) { /* an error may be of the moment */
+		const int fd = open("/proc/sys/kernel/random/boot_id", O_RDONLY | O_CLOEXEC);
+
+		got = fd >= 0 ? read(fd, boot, BOOT) : -1;
+		if (fd >= 0)
+			close(fd);
+	}
+	if (got != BOOT)
 		memset(boot, 0, BOOT);
-	if (fd >= 0)
-		close(fd);
 }
 
 static void load(int fd, struct ends *ends)
@@ -51,14 +67,21 @@ static void load(int fd, struct ends *ends)
 	uint8_t bytes[RECORD] = { 0 };
 	struct wire_reader in = wire_read(bytes, RECORD - 4);
 	struct wire_reader sum = wire_read(bytes + RECORD - 4, 4);
+	ssize_t got;
 
 	*ends = (struct ends){ .runs = false };
 	for (int i = 0; i < ENDS_MOST; i++)
 		ends->time_s[i] = -1;
-	if (pread(fd, bytes, RECORD, 0) != RECORD ||
-	    memcmp(wire_bytes(&in, 8), MAGIC, 8) != 0 ||
-	    wire_u32(&sum) != digest_crc32c(0, bytes, RECORD - 4))
+	got = pread(fd, bytes, RECORD, 0);
+	if (got < 0) /* it may be of the moment */
+		got = pread(fd, bytes, RECORD, 0);
+	if (got != RECORD || memcmp(wire_bytes(&in, 8), MAGIC, 8) != 0 ||
+	    wire_u32(&sum) != digest_crc32c(0, bytes, RECORD - 4)) {
+		if (got) /* 0: a new file */
+			fputs("ladderd: the file `ends` is damaged: earlier abnormal ends are "
+			      "forgotten\n", stderr);
 		return;
+	}
 	ends->runs = wire_u8(&in);
 	memcpy(ends->boot, wire_bytes(&in, BOOT), BOOT);
 	for (int i = 0; i < ENDS_MOST; i++)
@@ -69,6 +92,7 @@ static void save(int fd, const struct ends *ends)
 {
 	uint8_t bytes[RECORD];
 	struct wire_writer out = wire_write(bytes, RECORD);
+	int error = 0;
 
 	wire_put_bytes(&out, MAGIC, 8);
 	wire_put_u8(&out, ends->runs);
@@ -76,8 +100,14 @@ static void save(int fd, const struct ends *ends)
 	for (int i = 0; i < ENDS_MOST; i++)
 		wire_put_i64(&out, ends->time_s[i]);
 	wire_put_u32(&out, digest_crc32c(0, bytes, RECORD - 4));
-	if (pwrite(fd, bytes, RECORD, 0) != RECORD || fdatasync(fd) != 0)
-		fprintf(stderr, "ladderd: abnormal ends are not counted: %s\n", strerror(errno));
+	for (int i = 0; i < 2; i++) {
+		error = disk_write(fd, bytes, RECORD, 0);
+		if (!error && fdatasync(fd) != 0)
+			error = -errno;
+		if (!error)
+			return;
+	}
+	tell(strerror(-error));
 }
 
 static int64_t seconds_up(void)

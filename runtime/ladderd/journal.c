@@ -3,6 +3,7 @@
  * journal - event number n lies in place n % EVENT_RING.
  */
 #include "ladderd/journal.h"
+#include "ladderd/disk.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -16,46 +17,92 @@
 
 struct journal {
 	int fd;                /* -1: no file                                 */
-	bool dirty, failing;
+	int error;             /* an errno: why events are not stored; 0: they are */
 	int64_t synced_ns;
 	uint32_t last;         /* number of the newest event                  */
+	uint32_t written;      /* the newest one that is in the file          */
+	uint32_t synced;       /* the newest one that is on the disk          */
+	char path[512];        /* "": no file                                 */
 	uint8_t record[EVENT_BYTES];
 	struct event event[EVENT_RING];
 };
 
-static void load(struct journal *journal)
+/* The record in place @i. Fails: -errno; 1: the file ends before it. */
+static int read_record(struct journal *journal, int fd, uint32_t i)
 {
-	for (uint32_t i = 0; i < EVENT_RING; i++) {
+	ssize_t got = -1;
+
+	for (int tries = 0; got < 0 && tries < 2; tries++) /* an error may be of the moment */
+		got = pread(fd, journal->record, EVENT_BYTES, (off_t)i * EVENT_BYTES);
+	return got < 0 ? -errno : got != (ssize_t)EVENT_BYTES;
+}
+
+static void load(struct journal *journal, int fd)
+{
+	int error = 0;
+
+	for (uint32_t i = 0; i < EVENT_RING && error <= 0; i++) {
 		struct event event;
 
-		if (pread(journal->fd, journal->record, EVENT_BYTES, (off_t)i * EVENT_BYTES) !=
-		    (ssize_t)EVENT_BYTES)
-			continue;
-		if (!event_open(journal->record, &event) || event.seq % EVENT_RING != i)
+		error = read_record(journal, fd, i);
+		if (error < 0)
+			fprintf(stderr, "ladderd: %s: %s; an event cannot be read\n", journal->path,
+				strerror(-error));
+		if (error || !event_open(journal->record, &event) || event.seq % EVENT_RING != i)
 			continue;
 		journal->event[i] = event;
 		if (event.seq > journal->last)
 			journal->last = event.seq;
 	}
+	journal->written = journal->synced = journal->last;
+}
+
+/* Tells it once. */
+static void fail(struct journal *journal, int error)
+{
+	if (!journal->error)
+		fprintf(stderr, "ladderd: %s: %s; events are not stored\n", journal->path,
+			strerror(error));
+	journal->error = error;
+}
+
+static int open_file(struct journal *journal)
+{
+	journal->fd = open(journal->path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0640);
+	return journal->fd >= 0 ? 0 : errno;
 }
 
 struct journal *journal_open(const char *folder)
 {
 	struct journal *journal = calloc(1, sizeof(*journal));
-	char path[512];
+	int error, fd;
 
 	if (!journal)
 		return NULL;
 	journal->fd = -1;
 	if (!folder)
 		return journal;
-	if (snprintf(path, sizeof(path), "%s/events", folder) < (int)sizeof(path))
-		journal->fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0640);
-	if (journal->fd < 0)
-		fprintf(stderr, "ladderd: %s/events: %s; events are not stored\n", folder,
-			strerror(errno));
-	else
-		load(journal);
+	if (snprintf(journal->path, sizeof(journal->path), "%s/events", folder) >=
+	    (int)sizeof(journal->path)) {
+		journal->path[0] = '\0';
+		fprintf(stderr, "ladderd: %s: %s; events are not stored\n", folder,
+			strerror(ENAMETOOLONG));
+		return journal;
+	}
+	error = open_file(journal);
+	if (error == EIO || error == EINTR) /* it may be of the moment */
+		error = open_file(journal);
+	if (!error) {
+		load(journal, journal->fd);
+		return journal;
+	}
+	/* What stands in it can be read all the same. */
+	fd = open(journal->path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+	if (fd >= 0) {
+		load(journal, fd);
+		close(fd);
+	}
+	fail(journal, error);
 	return journal;
 }
 
@@ -69,19 +116,27 @@ void journal_close(struct journal *journal)
 	free(journal);
 }
 
-static void store(struct journal *journal, const struct event *event)
+/* Writes what is not in the file yet: also what could not be written earlier. */
+static void store(struct journal *journal)
 {
-	bool good;
+	int error = journal->fd >= 0 ? 0 : open_file(journal);
 
-	if (journal->fd < 0)
-		return;
-	event_seal(event, journal->record);
-	good = pwrite(journal->fd, journal->record, EVENT_BYTES,
-		      (off_t)(event->seq % EVENT_RING) * EVENT_BYTES) == (ssize_t)EVENT_BYTES;
-	if (!good && !journal->failing)
-		fprintf(stderr, "ladderd: events are not stored: %s\n", strerror(errno));
-	journal->failing = !good;
-	journal->dirty |= good;
+	if (journal->last - journal->written > EVENT_RING)
+		journal->written = journal->last - EVENT_RING;
+	while (!error && journal->written != journal->last) {
+		const uint32_t seq = journal->written + 1;
+		const struct event *event = &journal->event[seq % EVENT_RING];
+
+		if (event->seq == seq) {
+			event_seal(event, journal->record);
+			error = -disk_write(journal->fd, journal->record, EVENT_BYTES,
+					    (off_t)(seq % EVENT_RING) * EVENT_BYTES);
+		}
+		if (!error)
+			journal->written = seq;
+	}
+	if (error)
+		fail(journal, error);
 }
 
 /* Whole characters of UTF-8. */
@@ -112,7 +167,8 @@ void journal_add(struct journal *journal, enum event_id id, uint8_t role, const 
 	copy(event->user, sizeof(event->user), user);
 	copy(event->arg[0], sizeof(event->arg[0]), one);
 	copy(event->arg[1], sizeof(event->arg[1]), two);
-	store(journal, event);
+	if (*journal->path)
+		store(journal);
 }
 
 bool journal_next(const struct journal *journal, uint32_t seq, struct event *out)
@@ -129,8 +185,25 @@ bool journal_next(const struct journal *journal, uint32_t seq, struct event *out
 
 void journal_sync(struct journal *journal, int64_t now_ns)
 {
-	if (!journal->dirty || now_ns - journal->synced_ns < SYNC_NS)
+	if (!*journal->path || journal->synced == journal->last ||
+	    now_ns - journal->synced_ns < SYNC_NS)
 		return;
 	journal->synced_ns = now_ns;
-	journal->dirty = fdatasync(journal->fd) != 0;
+	store(journal);
+	if (journal->written != journal->last)
+		return;
+	if (fdatasync(journal->fd) != 0) {
+		fail(journal, errno);
+		journal->written = journal->synced; /* the kernel may have dropped them */
+		return;
+	}
+	journal->synced = journal->last;
+	if (journal->error)
+		fputs("ladderd: events are stored again\n", stderr);
+	journal->error = 0;
+}
+
+int journal_error(const struct journal *journal)
+{
+	return journal->error;
 }

@@ -3,8 +3,8 @@
  * journal - the log of a board: a ring of records in one file, and the same ring in memory.
  *
  * A record is in the file when journal_add() returns, so it survives the end of ladderd; it is
- * on the disk within a second. Without a file the log lasts as long as ladderd. Used by the
- * link thread only.
+ * on the disk within a second. What a disk does not take is written again each second. Without
+ * a file the log lasts as long as ladderd. Used by the link thread only.
  */
 #ifndef LADDERD_JOURNAL_H
 #define LADDERD_JOURNAL_H
@@ -24,4 +24,6 @@ void journal_add(struct journal *journal, enum event_id id, uint8_t role, const 
 bool journal_next(const struct journal *journal, uint32_t seq, struct event *out);
 /** journal_sync - puts new records on the disk, at most once a second. */
 void journal_sync(struct journal *journal, int64_t now_ns);
+/** journal_error - an errno: why events are not stored now; 0: they are, or there is no file. */
+int journal_error(const struct journal *journal);
 #endif

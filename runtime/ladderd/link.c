@@ -260,6 +260,20 @@ static bool wait_for_scan(void *context)
 	return true;
 }
 
+/* What a disk does not take now; "": it takes everything. */
+static void say_disk(const struct link *link, char *out, size_t size)
+{
+	const int retain = link->retain ? store_error(link->retain) : 0;
+	const int events = journal_error(link->journal);
+	const char *what = retain && events ? "retained values and events" :
+			   retain ? "retained values" : "events";
+
+	*out = '\0';
+	if (retain || events)
+		snprintf(out, size, "%s are not stored: %s", what,
+			 strerror(retain ? retain : events));
+}
+
 /* What the scan thread need not find out. */
 static void amend_status(void *context, struct board_status *status)
 {
@@ -278,6 +292,7 @@ static void amend_status(void *context, struct board_status *status)
 	status->memory_bytes = (uint64_t)used.ru_maxrss * 1024;
 	status->next = slots->unlike;
 	snprintf(status->next_why, sizeof(status->next_why), "%s", slots->why);
+	say_disk(link, status->disk, sizeof(status->disk));
 }
 
 /* ---- the log ---- */

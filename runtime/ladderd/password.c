@@ -3,6 +3,7 @@
  * password - stores a hash, compares, and makes whoever guesses wait.
  */
 #include "ladderd/password.h"
+#include "ladderd/disk.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -30,6 +31,8 @@ void password_load(struct password *password, const char *folder)
 	if (!folder || !path_of(password, "password", path, sizeof(path)))
 		return;
 	fd = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+	if (fd < 0 && errno != ENOENT) /* it may be of the moment */
+		fd = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
 	if (fd < 0 && errno == ENOENT)
 		return;
 	password->set = true;
@@ -92,17 +95,6 @@ enum refusal password_check(struct password *password, uint32_t who, const char 
 	return REFUSAL_WRONG;
 }
 
-/* So that a power cut does not undo it. */
-static void sync_folder(const char *path)
-{
-	const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-
-	if (folder < 0)
-		return;
-	fsync(folder);
-	close(folder);
-}
-
 /* Readable by this user only, and whole or not at all. @hash "": no password. */
 static int store(const struct password *password, const char *hash)
 {
@@ -117,14 +109,16 @@ static int store(const struct password *password, const char *hash)
 	if (!len) {
 		if (unlink(path) != 0 && errno != ENOENT)
 			return -errno;
-		sync_folder(password->folder);
-		return 0;
+		return disk_sync_folder(password->folder);
 	}
 	fd = open(fresh, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
 	if (fd < 0)
 		return -errno;
-	if (write(fd, hash, len) != (ssize_t)len || write(fd, "\n", 1) != 1 || fsync(fd) != 0)
-		error = errno ? -errno : -EIO;
+	error = disk_write(fd, hash, len, 0);
+	if (!error)
+		error = disk_write(fd, "\n", 1, (off_t)len);
+	if (!error && fsync(fd) != 0)
+		error = -errno;
 	close(fd);
 	if (!error && rename(fresh, path) != 0)
 		error = -errno;
@@ -132,7 +126,9 @@ static int store(const struct password *password, const char *hash)
 		unlink(fresh);
 		return error;
 	}
-	sync_folder(password->folder);
+	/* It has its name now, so it is the password, also if a power cut could still undo it. */
+	if (disk_sync_folder(password->folder) != 0)
+		fprintf(stderr, "ladderd: the new program password may not survive a power cut\n");
 	return 0;
 }
 

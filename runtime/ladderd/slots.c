@@ -72,14 +72,16 @@ static uint8_t *read_slot(struct slots *slots, int number, struct slot *slot, bo
 	uint8_t *bytes = NULL;
 
 	*damaged = false;
-	if (path)
+	for (int i = 0; path && !bytes && i < 2; i++) { /* an error may be of the moment */
+		errno = 0;
 		bytes = (uint8_t *)file_read(path, STORED_MOST + SLOT_HEAD + 4, &len, NULL);
-	if (!bytes)
-		return NULL;
-	if (slot_open(bytes, len, slot) && can_run(&slot->stored))
+		if (!bytes && errno == ENOENT)
+			return NULL;
+	}
+	if (bytes && slot_open(bytes, len, slot) && can_run(&slot->stored))
 		return bytes;
 	*damaged = true;
-	fprintf(stderr, "ladderd: %s is damaged and is not used\n", path);
+	fprintf(stderr, "ladderd: %s is damaged and is not used\n", path ? path : slots->folder);
 	free(bytes);
 	return NULL;
 }
@@ -163,12 +165,23 @@ bool slots_load(struct slots *slots, const struct options *options, struct load 
 	return load_texts(load, empty, sizeof(empty) - 1, slots->lines, strlen(slots->lines));
 }
 
+static int sync_folder(const char *path)
+{
+	const int folder = open(path, O_RDONLY | O_CLOEXEC);
+	const int result = folder >= 0 ? fsync(folder) : -1;
+	const int error = errno;
+
+	if (folder >= 0)
+		close(folder);
+	errno = error;
+	return result;
+}
+
 /* One file beside a slot, or the slot itself, gets the name of another, also after a power cut. */
 static int change_name(struct slots *slots, int number, const char *from, const char *to)
 {
 	char old[sizeof(slots->path)];
 	const char *path = path_of(slots, number, from);
-	int folder;
 
 	if (!path)
 		return -ENAMETOOLONG;
@@ -178,11 +191,10 @@ static int change_name(struct slots *slots, int number, const char *from, const 
 		return -ENAMETOOLONG;
 	if (rename(old, path) != 0)
 		return -errno;
-	folder = open(slots->folder, O_RDONLY | O_CLOEXEC);
-	if (folder >= 0) {
-		fsync(folder);
-		close(folder);
-	}
+	/* Twice: an error may be of the moment. */
+	if (sync_folder(slots->folder) != 0 && sync_folder(slots->folder) != 0)
+		fprintf(stderr, "ladderd: %s may not survive a power cut: %s\n", path,
+			strerror(errno));
 	return 0;
 }
 

@@ -6,6 +6,7 @@
  */
 #define _DEFAULT_SOURCE /* flock() */
 #include "ladderd/store_file.h"
+#include "ladderd/disk.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -17,6 +18,7 @@
 #include <unistd.h>
 
 #define FILE_MOST (2u * (LIMIT_RETAIN + 2 * RETAIN_PAGE))
+#define TRIES     3 /* to read it: an error may be of the moment             */
 
 static int lock(int fd)
 {
@@ -66,11 +68,32 @@ static int load(int fd, uint8_t **bytes, size_t *len)
 	return error;
 }
 
+static int open_and_load(struct store_file *file, uint8_t **bytes, size_t *len)
+{
+	int fd, error;
+
+	/* O_NONBLOCK: a pipe must not block the start. */
+	file->fd = fd = open(file->path, O_RDWR | O_CLOEXEC | O_NONBLOCK);
+	if (fd < 0 && errno == ENOENT)
+		return 0;
+	file->exists = true;
+	if (fd < 0)
+		fd = open(file->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+	if (fd < 0)
+		return -errno;
+	error = lock(fd);
+	if (!error)
+		error = load(fd, bytes, len);
+	if (fd != file->fd)
+		close(fd);
+	return error;
+}
+
 int store_file_open(struct store_file *file, const char *path,
 		    struct arena *arena, uint8_t **bytes, size_t *len)
 {
 	size_t size = strlen(path);
-	int fd, error;
+	int error = 0;
 
 	memset(file, 0, sizeof(*file));
 	file->fd = file->fresh_fd = -1;
@@ -82,20 +105,16 @@ int store_file_open(struct store_file *file, const char *path,
 		return -ENOMEM;
 	memcpy(file->fresh_path, path, size);
 	memcpy(file->fresh_path + size, ".new", 5);
-	/* O_NONBLOCK: a pipe must not block the start. */
-	file->fd = fd = open(path, O_RDWR | O_CLOEXEC | O_NONBLOCK);
-	if (fd < 0 && errno == ENOENT)
-		return 0;
-	file->exists = true;
-	if (fd < 0)
-		fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-	if (fd < 0)
-		return -errno;
-	error = lock(fd);
-	if (!error)
-		error = load(fd, bytes, len);
-	if (fd != file->fd)
-		close(fd);
+	for (int i = 0; i < TRIES; i++) {
+		error = open_and_load(file, bytes, len);
+		if (error != -EIO && error != -EINTR)
+			break;
+		if (file->fd >= 0)
+			close(file->fd);
+		file->fd = -1;
+	}
+	file->unread = error && error != -EFBIG;
+	file->nameless = true; /* whoever made it may have failed to sync its name */
 	return error;
 }
 
@@ -110,29 +129,13 @@ void store_file_adopt(struct store_file *file, const struct retain_found *found,
 	file->next = file->fits ? !found->best : 0;
 }
 
-static int write_all(int fd, const uint8_t *bytes, size_t len, off_t at)
-{
-	while (len > 0) {
-		ssize_t done = pwrite(fd, bytes, len, at);
-
-		if (done < 0 && errno == EINTR)
-			continue;
-		if (done <= 0)
-			return done < 0 ? -errno : -EIO;
-		bytes += done;
-		at += done;
-		len -= (size_t)done;
-	}
-	return 0;
-}
-
 /* Writes zeros instead of a hole, so that a full disk fails now. */
 static int allocate(int fd, size_t size)
 {
 	static const uint8_t zeros[512];
 
 	for (size_t at = 0; at < size; at += sizeof(zeros)) {
-		int error = write_all(fd, zeros, sizeof(zeros), (off_t)at);
+		int error = disk_write(fd, zeros, sizeof(zeros), (off_t)at);
 
 		if (error)
 			return error;
@@ -189,26 +192,46 @@ int store_file_prepare(struct store_file *file)
 	return file->fits ? 0 : make_fresh(file);
 }
 
+/* The name of the new file survives a power cut. */
+static int sync_name(struct store_file *file)
+{
+	char *slash = strrchr(file->fresh_path, '/');
+	const char first = slash ? slash[1] : 0;
+	int error;
+
+	if (slash)
+		slash[1] = 0;
+	error = disk_sync_folder(slash ? file->fresh_path : ".");
+	if (slash)
+		slash[1] = first;
+	file->nameless = error != 0;
+	return error;
+}
+
+/* Nobody knows what is in a file that cannot be read: it becomes PATH.old. */
+static int put_aside(struct store_file *file)
+{
+	const size_t len = strlen(file->path);
+	int error;
+
+	memcpy(file->fresh_path + len, ".old", 5);
+	error = rename(file->path, file->fresh_path) == 0 || errno == ENOENT ? 0 : -errno;
+	memcpy(file->fresh_path + len, ".new", 5);
+	file->unread = error != 0;
+	return error;
+}
+
 /* Renames the new file to the old one's name and syncs the folder. After the rename its
  * first slot is the newest copy, also if a later step fails. */
 static int take_over(struct store_file *file)
 {
-	char *slash = strrchr(file->fresh_path, '/');
-	char first = slash ? slash[1] : 0;
-	int folder, error = 0;
+	int error = file->unread ? put_aside(file) : 0;
 
+	if (error)
+		return error;
 	if (rename(file->fresh_path, file->path) != 0)
 		return -errno;
-	if (slash)
-		slash[1] = 0;
-	folder = open(slash ? file->fresh_path : ".",
-		      O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-	if (slash)
-		slash[1] = first;
-	if (folder < 0 || fsync(folder) != 0)
-		error = -errno;
-	if (folder >= 0)
-		close(folder);
+	error = sync_name(file);
 	if (file->fd >= 0)
 		close(file->fd);
 	file->fd = file->fresh_fd;
@@ -231,10 +254,12 @@ int store_file_write(struct store_file *file, struct retain *retain)
 	fd = fresh ? file->fresh_fd : file->fd;
 	size = retain_seal(retain, file->seq + 1, fresh ? RETAIN_FIRST : 0u,
 			   file->slot_size);
-	error = write_all(fd, retain->slot, size,
+	error = disk_write(fd, retain->slot, size,
 			  file->next ? (off_t)file->slot_size : 0);
 	if (!error && fdatasync(fd) != 0)
 		error = -errno;
+	if (!error && file->nameless && !fresh)
+		error = sync_name(file);
 	if (error)
 		return error;
 	if (fresh)

@@ -18,6 +18,8 @@ struct store_file {
 	uint32_t room;         /* bytes that a slot needs                    */
 	bool fits;             /* the file at @path has two such slots       */
 	bool exists;
+	bool unread;           /* nobody knows what is in it: it is put aside, as PATH.old */
+	bool nameless;         /* its name may not be on the disk yet        */
 	int next;              /* slot to write                              */
 	uint32_t seq;          /* of the newest copy                         */
 	uint32_t slot_size;

@@ -59,6 +59,7 @@ struct store {
 	int wake;
 	_Atomic bool hurry, stop;
 	_Atomic uint32_t seq, writes, failures;
+	_Atomic int error;     /* of the last write; 0: it is on the disk    */
 };
 
 /* ---- the scan's side ---- */
@@ -130,6 +131,11 @@ struct store_status store_status(const struct store *store)
 	};
 }
 
+int store_error(const struct store *store)
+{
+	return atomic_load(&store->error);
+}
+
 /* ---- the thread ---- */
 
 static int64_t clock_now(void)
@@ -167,6 +173,7 @@ static void save(struct store *store)
 	retain_fill(&store->retain, store->seen.value, store->seen.clock_ns);
 	error = store_file_write(&store->file, &store->retain);
 	store->wrote_ns = clock_now();
+	atomic_store(&store->error, -error);
 	if (error) {
 		atomic_fetch_add(&store->failures, 1);
 		if (!store->failing)
@@ -467,6 +474,7 @@ struct store *store_open(const struct store_wish *wish,
 		if (ready && !is_mistake(ready))
 			fprintf(stderr, "ladderd: %s: %s; values are not "
 				"stored\n", wish->path, strerror(-ready));
+		atomic_store(&store->error, -ready);
 		error = is_mistake(ready) ? ready : 0;
 	}
 	free(bytes);

@@ -47,6 +47,7 @@ void status_put(struct wire_writer *out, const struct board_status *status)
 	}
 	wire_put_u8(out, status->next);
 	wire_put_string(out, status->next_why);
+	wire_put_string(out, status->disk);
 }
 
 bool status_has_program(const struct board_status *status)
@@ -110,4 +111,6 @@ void status_take(struct wire_reader *in, struct board_status *status)
 		return; /* a board of before these fields */
 	status->next = wire_u8(in);
 	wire_copy_text(in, status->next_why, sizeof(status->next_why));
+	if (wire_left(in))
+		wire_copy_text(in, status->disk, sizeof(status->disk));
 }

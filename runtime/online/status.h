@@ -44,6 +44,7 @@ struct board_status {
 	uint8_t next;                  /* the event that says why the next start runs another
 					* program than this one; 0: it does not */
 	char next_why[STATUS_TEXT];    /* its argument                         */
+	char disk[STATUS_TEXT];        /* what the disk does not take, and why; "" */
 	uint8_t task_count;
 	struct task_status task[LIMIT_TASKS];
 };

@@ -278,7 +278,7 @@ class Client:
         found['tasks'] = [{'name': it.text(), 'interval': it.number('q'), 'runs': it.number('Q'),
                            'missed': it.number('Q'), 'last': it.number('q'), 'longest': it.number('q')}
                           for _ in range(it.number('B'))]
-        found['next'], found['next_why'] = it.number('B'), it.text()
+        found['next'], found['next_why'], found['disk'] = it.number('B'), it.text(), it.text()
         assert not it.rest()
         return found
 

@@ -1041,6 +1041,27 @@ def test_a_disk_that_takes_nothing():
         assert desk.upload() == parts
 
 
+def test_a_log_that_cannot_be_written_is_told_and_written_later():
+    with slots() as board:
+        board.stop()
+        os.remove(board.folder + '/events')
+        os.mkdir(board.folder + '/events')
+        board.start()
+        desk = board.client()
+        assert desk.status()['disk'] == 'events are not stored: Is a directory'
+        assert '\ndisk: events are not stored: Is a directory\n' in board.command('status')[1]
+        assert json.loads(board.command('status', '--json')[1])['disk'] == desk.status()['disk']
+        assert 'events are not stored' in board.read('err')
+        os.rmdir(board.folder + '/events')
+        until(lambda: not desk.status()['disk'])
+        assert '\ndisk:' not in board.command('status')[1]
+        assert [it['id'] for it in desk.events() if it['id'] != 5] == [1]
+        board.daemon.kill()
+        board.daemon.wait()
+        board.start()
+        assert [it['id'] for it in board.client().events() if it['id'] != 5] == [1, 1], 'none is lost, none is there twice'
+
+
 TRIED = SEAL.replace('  Count : INT;', '  Count : INT;\n  Go : BOOL;\n  Old : DINT;')
 
 

@@ -113,8 +113,8 @@ static int write_all(int fd, const char *bytes, size_t len)
 
 		if (put < 0 && errno == EINTR)
 			continue;
-		if (put < 0)
-			return -errno;
+		if (put <= 0)
+			return put < 0 ? -errno : -EIO;
 		bytes += put;
 		len -= (size_t)put;
 	}
@@ -234,7 +234,7 @@ bool file_save(const char *path, const void *bytes, size_t len,
 	result = fd < 0 ? -errno : replace(target, temporary, fd, bytes, len);
 	if (result < 0)
 		fail(diags, DIAG_CANNOT_WRITE, path, -result);
-	else if (sync_folder(target) < 0) /* the file is saved at this point */
+	else if (sync_folder(target) < 0 && sync_folder(target) < 0) /* the file is saved by then */
 		fail(diags, DIAG_NOT_SYNCED, path, 0);
 	free(temporary);
 	free(real);
