@@ -236,6 +236,7 @@ static enum fault scan_lines(struct cycle *cycle, int64_t now_ns)
 	if (!ReadPhysicalInputs(&cycle->hal, image, now_ns))
 		return FAULT_IO;
 	resource->io_fault = hal_quality(&cycle->hal) != QUALITY_GOOD;
+	resource_zone(resource, cycle->wall.zone_ns);
 	if (!scan_program(cycle, now_ns))
 		return resource->fault;
 	if (cycle->monitor.tripped)

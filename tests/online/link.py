@@ -2507,6 +2507,44 @@ def test_a_record_is_replayed_bit_for_bit():
         assert shown.returncode == 0 and len(shown.stdout.splitlines()) == scans + 1
 
 
+CLOCK = '''RUNGBOARD 1
+
+VAR
+  Zone : TIME;
+  Now  : DATE_AND_TIME;
+  Sky  : SUN;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | [ Zone := SYS_ZONE ] | [ Now := SYS_DATE_TIME ] |
+RUNG
+  | --- | SUN Sky NOW:=SYS_DATE_TIME ZONE:=SYS_ZONE LATITUDE:=52.5 LONGITUDE:=13.4 |
+END_PROGRAM
+'''
+
+
+def test_the_zone_of_the_board_is_seen_and_recorded():
+    """A zone without summer time, 5 h 30 min east of Greenwich."""
+    before = os.environ.get('TZ')
+    os.environ['TZ'] = 'EAST-5:30'
+    try:
+        with Board(CLOCK) as board:
+            desk = board.client()
+            until(lambda: desk.read('Zone')[0] == 19800 * 10**9)
+            now, noon = desk.read('Now')[0], desk.read('Sky.RISE')[0] + desk.read('Sky.LENGTH')[0] // 2
+            assert abs(now // 10**9 - 19800 - time.time()) < 60, now
+            assert abs(noon // 10**9 - (12 * 3600 + 19800 - 13.4 * 240)) < 20 * 60, noon
+            let_it_scan(desk)
+            assert board.command('record', '-o', 'a.record')[0] == 0
+            shown = board.ladder('replay', 'a.record', 'Zone', 'Sky.RISE')
+            assert shown.returncode == 0 and 'Zone=19800000 Sky.RISE=' in shown.stdout.splitlines()[-1], shown
+    finally:
+        del os.environ['TZ']
+        if before is not None:
+            os.environ['TZ'] = before
+
+
 def test_a_small_ring_keeps_the_newest_scans():
     with slots('--record', '256') as board:
         desk = board.client()

@@ -153,6 +153,69 @@ static void call_alarm(struct block *block)
 	block_set(block, "Q", block_get(block, "EN") && q);
 }
 
+/* Of one programme: does it begin today or yesterday, and has not ended yet? */
+static bool programme(struct block *block, char number, const struct tm *date, int64_t of_day)
+{
+	const char days[] = { 'D', 'A', 'Y', 'S', number, 0 }, on[] = { 'O', 'N', number, 0 };
+	const char off[] = { 'O', 'F', 'F', number, 0 };
+	const int64_t marked = block_get(block, days), from = block_get(block, on);
+	const int64_t until = block_get(block, off);
+
+	for (int back = 0; back <= 1; back++) {
+		const int64_t at = of_day + back * INT64_C(86400000000000);
+		const int64_t end = until < from ? until + INT64_C(86400000000000) : until;
+
+		if (marked >> (date->tm_wday + 6 - back) % 7 & 1 && at >= from && at < end)
+			return true;
+	}
+	return false;
+}
+
+static int64_t calendar(struct block *block, struct tm *date)
+{
+	int64_t now = block_get(block, "NOW"), second = 1000000000;
+	time_t whole = (time_t)(now / second - (now % second < 0));
+
+	gmtime_r(&whole, date);
+	return (date->tm_hour * 3600 + date->tm_min * 60 + date->tm_sec) * second +
+	       (now - (int64_t)whole * second);
+}
+
+static void call_week(struct block *block)
+{
+	struct tm date;
+	int64_t of_day = calendar(block, &date);
+
+	block_set(block, "Q", block_get(block, "EN") &&
+		  (programme(block, '1', &date, of_day) || programme(block, '2', &date, of_day) ||
+		   programme(block, '3', &date, of_day)));
+}
+
+/* Goes through the days of a leap year, from the first day on, until today or the last. */
+static void call_year(struct block *block)
+{
+	static const char lengths[] = { 31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31 };
+	int64_t month = block_get(block, "FROM_MONTH"), day = block_get(block, "FROM_DAY");
+	const int64_t last_month = block_get(block, "TO_MONTH"), last = block_get(block, "TO_DAY");
+	bool good = block_get(block, "EN"), today = false;
+	struct tm date;
+
+	calendar(block, &date);
+	good = good && month >= 1 && month <= 12 && last_month >= 1 && last_month <= 12 &&
+	       day >= 1 && last >= 1 && day <= lengths[month - 1] && last <= lengths[last_month - 1];
+	block_set(block, "ENO", good);
+	for (int i = 0; good && i < 366; i++) {
+		today = today || (month == date.tm_mon + 1 && day == date.tm_mday);
+		if (month == last_month && day == last)
+			break;
+		if (++day > lengths[month - 1]) {
+			day = 1;
+			month = month % 12 + 1;
+		}
+	}
+	block_set(block, "Q", today);
+}
+
 /* ---- stores ---- */
 
 static int at_most_64(int64_t number)
@@ -414,6 +477,10 @@ void block_call_more(struct block *block, int64_t now_ns)
 		call_pwm(block, now_ns);
 	else if (strcmp(word, "RTC_ALARM") == 0)
 		call_alarm(block);
+	else if (strcmp(word, "WEEK_TIMER") == 0)
+		call_week(block);
+	else if (strcmp(word, "YEAR_TIMER") == 0)
+		call_year(block);
 	else if (strncmp(word, "FIFO", 4) == 0)
 		call_store(block, false);
 	else if (strncmp(word, "LIFO", 4) == 0)

@@ -26,7 +26,8 @@ static const char *const instance[][2] = {
 static const char *const more[][2] = {
 	{ "tonr_a", "TONR" }, { "deb_a", "DEBOUNCE" }, { "deb_b", "DEBOUNCE" },
 	{ "blink_a", "BLINK" }, { "pwm_a", "PWM" }, { "pwm_b", "PWM" },
-	{ "rtc_a", "RTC_ALARM" }, { "sema_a", "SEMA" }, { "fifo_a", "FIFO" },
+	{ "rtc_a", "RTC_ALARM" }, { "week_a", "WEEK_TIMER" }, { "year_a", "YEAR_TIMER" },
+	{ "sema_a", "SEMA" }, { "fifo_a", "FIFO" },
 	{ "lifo_a", "LIFO" }, { "fifo_r", "FIFO_REAL" }, { "lifo_r", "LIFO_REAL" },
 	{ "shift_a", "SHIFT" }, { "hyst_a", "HYSTERESIS" }, { "dead_a", "DEADBAND" },
 	{ "ramp_a", "RAMP" }, { "ramp_b", "RAMP" }, { "scale_a", "SCALE" },

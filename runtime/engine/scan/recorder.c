@@ -122,10 +122,15 @@ uint32_t recorder_core(const struct program *program)
 
 bool recorder_input(const struct program *program, uint32_t i, uint32_t *at, uint32_t *size)
 {
-	static const enum iec_area area[RECORDER_INPUTS] = { AREA_I, AREA_AI, AREA_XI, AREA_XAI };
+	static const enum iec_area area[] = { AREA_I, AREA_AI, AREA_XI, AREA_XAI };
 
 	if (i >= RECORDER_INPUTS)
 		return false;
+	if (i == RECORDER_INPUTS - 1) {
+		*at = program->areas.at[AREA_SM] + RESOURCE_ZONE;
+		*size = sizeof(int64_t);
+		return true;
+	}
 	*at = program->areas.at[area[i]];
 	*size = program->areas.bytes[area[i]];
 	return true;

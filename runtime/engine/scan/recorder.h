@@ -14,7 +14,7 @@
 
 #include "engine/scan/resource.h"
 
-#define RECORDER_INPUTS 4u /* areas of inputs, at most                         */
+#define RECORDER_INPUTS 5u /* areas of inputs, at most, and SYS_ZONE           */
 /* Memory beside the ring. */
 #define RECORDER_BESIDE (RECORDER_INPUTS * LIMIT_AREA)
 

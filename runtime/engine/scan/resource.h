@@ -60,11 +60,16 @@ struct resource {
  * DT#2000-01-01-00:00:00 at time 0. */
 #define RESOURCE_WALL INT64_C(946684800000000000)
 
+#define RESOURCE_ZONE 56 /* of SYS_ZONE in its area                             */
+
 /** resource_init - in STOP, image as at a cold start. @memory as image_init. */
 void resource_init(struct resource *resource, const struct program *program,
 		   void *memory);
 /** resource_start - to RUN with a cold image; resets a latched fault. */
 void resource_start(struct resource *resource);
+/** resource_zone - sets SYS_ZONE, in ns; before a scan, as inputs are read. A cold start and
+ * virtual time have 0. Scan-safe: yes. */
+void resource_zone(struct resource *resource, int64_t zone_ns);
 /** resource_stop - to STOP. The caller sets the outputs to their safe values. */
 void resource_stop(struct resource *resource);
 /** resource_fail - to FAULT, latched; the first cause is kept. */
