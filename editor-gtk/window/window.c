@@ -19,6 +19,7 @@
 #include "editor-gtk/live/timing_view.h"
 #include "editor-gtk/live/watch_view.h"
 #include "editor-gtk/panels/address_view.h"
+#include "editor-gtk/panels/alarm_view.h"
 #include "editor-gtk/panels/code_view.h"
 #include "editor-gtk/panels/log_view.h"
 #include "editor-gtk/panels/palette.h"
@@ -949,6 +950,13 @@ static GtkWidget *make_list(gpointer data)
 	return list;
 }
 
+static GtkWidget *make_alarms(gpointer data)
+{
+	const struct core *core = data;
+
+	return ladder_alarm_view_new(core->sim, core->link);
+}
+
 static GtkWidget *make_log(gpointer data)
 {
 	const struct core *core = data;
@@ -981,6 +989,7 @@ static void add_parts(LadderWindow *window)
 	below_add(&window->below, "timing", N_("Timing chart"), make_timing, core);
 	scenarios_init(&window->scenarios, core, &window->origin, &window->sim_bar);
 	below_add(&window->below, "list", N_("Instruction list"), make_list, core);
+	below_add(&window->below, "alarms", N_("Alarms"), make_alarms, core);
 	below_add(&window->below, "log", N_("Log"), make_log, core);
 	exchange_init(&window->exchange, core, &window->origin, &window->export);
 	files_init(&window->files, core, &window->origin, &window->exchange);

@@ -19,10 +19,11 @@ struct pins {
 #define PINS(id) #id, offsetof(struct fb_##id, COUNT), offsetof(struct fb_##id, MSG), \
 	offsetof(struct fb_##id, CLASS)
 static const struct pins pins[] = {
-	{ PINS(ALARM), offsetof(struct fb_ALARM, STATE), offsetof(struct fb_ALARM, OP_ACK) },
-	{ PINS(ALARM_LIMIT), offsetof(struct fb_ALARM_LIMIT, STATE),
-	  offsetof(struct fb_ALARM_LIMIT, OP_ACK) },
-	{ PINS(EVENT), 0, 0 },
+	[ALARM_OF_CONDITION] = { PINS(ALARM), offsetof(struct fb_ALARM, STATE),
+				 offsetof(struct fb_ALARM, OP_ACK) },
+	[ALARM_OF_LIMIT] = { PINS(ALARM_LIMIT), offsetof(struct fb_ALARM_LIMIT, STATE),
+			     offsetof(struct fb_ALARM_LIMIT, OP_ACK) },
+	[ALARM_OF_EVENT] = { PINS(EVENT), 0, 0 },
 };
 #define KINDS (sizeof(pins) / sizeof(pins[0]))
 
@@ -83,7 +84,7 @@ static uint32_t walk(const struct image *image, struct alarm_watch *out)
 			continue;
 		if (out && count < out->count) {
 			out->block[count] = (struct alarm_block){
-				.at = symbol.at.where - pins[kind].count, .pins = (uint32_t)kind,
+				.at = symbol.at.where - pins[kind].count, .kind = (uint32_t)kind,
 			};
 			copy(out->block[count].name, sizeof(out->block[count].name), symbol.name,
 			     len);
@@ -118,7 +119,7 @@ const struct alarm_block *alarm_block_find(const struct alarm_watch *watch, cons
 
 struct location alarm_block_ack(const struct alarm_block *block)
 {
-	const uint32_t ack = pins[block->pins].ack;
+	const uint32_t ack = pins[block->kind].ack;
 
 	return (struct location){ .type = ack ? IEC_BOOL : IEC_NONE, .where = block->at + ack };
 }
@@ -148,7 +149,7 @@ static int64_t time_of(const struct resource *resource)
 static bool look_at(struct alarm_ring *ring, const struct resource *resource,
 		    struct alarm_block *block)
 {
-	const struct pins *of = &pins[block->pins];
+	const struct pins *of = &pins[block->kind];
 	const uint8_t *at = resource->image.memory + block->at;
 	const struct iec_string *text = (const void *)(at + of->text);
 	const uint8_t state = of->state ? at[of->state] : (uint8_t)ALARM_EVENT;

@@ -44,9 +44,12 @@ struct alarm_row {
 	char who[32];          /* acknowledged it; "": the program             */
 };
 
+enum alarm_kind { ALARM_OF_CONDITION, ALARM_OF_LIMIT, ALARM_OF_EVENT };
+
 /* A block that is watched, at its place in the memory of the program. */
 struct alarm_block {
-	uint32_t at, pins;     /* offsets: of the instance; of its row in a table of pins */
+	uint32_t at;           /* offset of the instance                      */
+	uint32_t kind;         /* enum alarm_kind                             */
 	uint32_t count;        /* that was told last                           */
 	uint8_t state;
 	char name[64];

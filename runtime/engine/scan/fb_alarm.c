@@ -12,7 +12,7 @@ enum { NOTICE = 3 }; /* this CLASS needs no acknowledgement                  */
 /* What both alarms have, so that one function does the work. */
 struct alarm {
 	uint8_t *active, *unack, *running;
-	int64_t *start;
+	int64_t *start, *came, *went, *acked; /* on the clock of the scan       */
 	uint32_t *count;
 	int64_t delay;
 	uint8_t class;
@@ -24,6 +24,8 @@ static uint8_t step(const struct alarm *alarm, bool now, bool ack, int64_t now_n
 {
 	bool before = *alarm->active != 0;
 
+	if (ack && *alarm->unack)
+		*alarm->acked = now_ns;
 	if (ack)
 		*alarm->unack = 0;
 	if (now && !*alarm->running)
@@ -34,7 +36,11 @@ static uint8_t step(const struct alarm *alarm, bool now, bool ack, int64_t now_n
 	if (*alarm->active && !before) {
 		++*alarm->count;
 		*alarm->unack = 1;
+		*alarm->came = now_ns;
+		*alarm->went = *alarm->acked = 0;
 	}
+	if (before && !*alarm->active)
+		*alarm->went = now_ns;
 	*alarm->unack = *alarm->unack && alarm->class != NOTICE;
 	return (uint8_t)(*alarm->active ? 2 - *alarm->unack : 3 * *alarm->unack);
 }
@@ -42,8 +48,8 @@ static uint8_t step(const struct alarm *alarm, bool now, bool ack, int64_t now_n
 #define STEP(fb, condition) do { \
 	bool ack = fb_rises((fb)->ACK, &(fb)->seen); \
 	const struct alarm alarm = { \
-		&(fb)->Q, &(fb)->UNACK, &(fb)->running, &(fb)->start, &(fb)->COUNT, \
-		(fb)->DELAY, (fb)->CLASS, \
+		&(fb)->Q, &(fb)->UNACK, &(fb)->running, &(fb)->start, &(fb)->came, \
+		&(fb)->went, &(fb)->acked, &(fb)->COUNT, (fb)->DELAY, (fb)->CLASS, \
 	}; \
 \
 	ack |= (fb)->OP_ACK != 0; \
@@ -75,7 +81,8 @@ void fb_ALARM_LIMIT_step(struct fb_ALARM_LIMIT *fb, int64_t now_ns)
 
 void fb_EVENT_step(struct fb_EVENT *fb, int64_t now_ns)
 {
-	(void)now_ns;
 	fb->Q = fb_rises(fb->IN, &fb->seen);
 	fb->COUNT += fb->Q;
+	if (fb->Q)
+		fb->came = now_ns;
 }
