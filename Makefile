@@ -445,7 +445,7 @@ BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap retain classic link record serial
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
-TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks $(FUZZ:%=fuzz_%))
+TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing disks wear $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
@@ -463,6 +463,8 @@ $(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
 $(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c runtime/ladderd/disk.c)
 $(BIN)/disks: $(call obj,tests/disks.c $(addprefix runtime/ladderd/,store_file.c disk.c journal.c ends.c conf.c password.c slots.c) $(addprefix runtime/online/,stored.c event.c wire.c))
 $(BIN)/disks: WRAP := $(patsubst %,-Wl$(comma)--wrap=%,open open64 mkstemp mkstemp64 fsync fdatasync ftruncate ftruncate64 rename read write pread pread64 pwrite pwrite64)
+$(BIN)/wear: $(call obj,tests/wear.c $(addprefix runtime/ladderd/,store_thread.c store_file.c disk.c))
+$(BIN)/wear: WRAP := -pthread $(patsubst %,-Wl$(comma)--wrap=%,clock_gettime poll fdatasync pwrite pwrite64)
 $(BIN)/storing: WRAP := -Wl,--wrap=pwrite,--wrap=pwrite64,--wrap=fsync,--wrap=fdatasync,--wrap=rename,--wrap=unlink
 # A second evaluator for ClassicLadder projects, to compare with the import.
 CLASSIC_O := $(call obj,$(wildcard tests/classic/engine*.c) tests/classic/own_read.c tests/classic/run.c)
@@ -532,6 +534,8 @@ guest: $(BUILD)/guest $(BUILD)/replay $(BUILD)/ladderd-count ## the guest suite,
 # With a desk of its own, for boards that cannot run `ladder`.
 $(BUILD)/guest: $(call obj,$(wildcard $(GUEST)/*.c) $(addprefix runtime/online/,desk.c port.c send.c serial.c service.c status.c stored.c stream.c sums.c wire.c)) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^
+$(BUILD)/power: $(call obj,$(GUEST)/power/power.c runtime/online/event.c runtime/online/status.c runtime/online/stored.c runtime/online/wire.c) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^
 $(BUILD)/replay: $(call obj,$(GUEST)/replay/replay.c $(CORE))
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^ -lm
 $(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(if $(filter 1,$(SMALL)),$(ONLINE_SERIAL),$(BUILD)/libonline.a) $(BUILD)/libladder.a
@@ -551,9 +555,9 @@ $(CASES)/stamp: $(BUILD)/make_cases $(BUILD)/ladder $(wildcard ladders/*.rung la
 
 # ---- targets: the runtime on real kernels, in emulators ----
 # tests/targets/ has a script for each target. A missing package is reported.
-VEHICLES  ?= uml arm64 armhf ast2600 m3 riscv
+VEHICLES  ?= uml arm64 armhf ast2600 m3 riscv power
 AT_ONCE   ?= 1
-check-targets: ## the guest suite on emulated boards: VEHICLES="uml arm64 armhf ast2600 m3 riscv" AT_ONCE=1
+check-targets: ## the guest suite on emulated boards: VEHICLES="uml arm64 armhf ast2600 m3 riscv power" AT_ONCE=1
 	@rm -f $(VEHICLES:%=$(BUILD)/targets/%/result); status=0; \
 	  BUILD=$(BUILD) prove $(if $(filter 1,$(AT_ONCE)),-v) -j$(AT_ONCE) -e '' $(VEHICLES:%=tests/targets/%) || status=$$?; \
 	  [ $$status -eq 0 ] || grep -a '^not ok' $(VEHICLES:%=$(BUILD)/targets/%/console) /dev/null; \

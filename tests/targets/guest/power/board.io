@@ -1,0 +1,2 @@
+BOARD "cut"
+%QX0.0 sim
