@@ -208,7 +208,6 @@ static void show_rows(LadderAlarmView *view, GArray *rows)
 	    (!rows->len || memcmp(rows->data, view->shown->data,
 				  rows->len * sizeof(struct alarm_row)) == 0)) {
 		g_array_unref(rows);
-		show_summary(view);
 		return;
 	}
 	g_array_unref(view->shown);
@@ -306,6 +305,12 @@ static void look(LadderAlarmView *view)
 		look_at_sim(view);
 }
 
+static void state_changed(LadderAlarmView *view)
+{
+	look(view);
+	show_summary(view);
+}
+
 static void forget(LadderAlarmView *view)
 {
 	g_clear_pointer(&view->watch, free);
@@ -362,6 +367,7 @@ static void answered(gpointer data, struct board_answer *answer)
 		return;
 	}
 	show_rows(view, g_steal_pointer(&view->asked));
+	show_summary(view);
 	view->asked = rows_new();
 	view->next = 1;
 }
@@ -401,7 +407,7 @@ static void link_changed(LadderAlarmView *view)
 	view->lost = 0;
 	g_array_set_size(view->asked, 0);
 	show_rows(view, rows_new());
-	look(view);
+	state_changed(view);
 	status_came(view);
 }
 
@@ -522,7 +528,7 @@ GtkWidget *ladder_alarm_view_new(LadderSim *sim, LadderBoardLink *link)
 	view->sim = g_object_ref(sim);
 	view->link = g_object_ref(link);
 	g_signal_connect_object(sim, "shown", G_CALLBACK(look), view, G_CONNECT_SWAPPED);
-	g_signal_connect_object(sim, "state-changed", G_CALLBACK(look), view, G_CONNECT_SWAPPED);
+	g_signal_connect_object(sim, "state-changed", G_CALLBACK(state_changed), view, G_CONNECT_SWAPPED);
 	g_signal_connect_object(sim, "program-changed", G_CALLBACK(forget), view, G_CONNECT_SWAPPED);
 	g_signal_connect_object(link, "state-changed", G_CALLBACK(link_changed), view,
 				G_CONNECT_SWAPPED);

@@ -16,10 +16,10 @@
 enum { STATE = 2, BLOCK = 4, MESSAGE = 5, ACKED = 7, TIMES = 8 };
 
 static const char text[] =
-	"RUNGBOARD 1\n\nVAR\n  A : BOOL;\n  B : BOOL;\n  C : BOOL;\n  Hot : ALARM;\n  Low : ALARM;\n"
+	"RUNGBOARD 1\n\nVAR\n  A : BOOL;\n  B : BOOL;\n  C : BOOL;\n  Hot : ALARM;\n  Low : ALARM_LIMIT;\n"
 	"  Note : EVENT;\nEND_VAR\n\nPROGRAM Main LD\n"
 	"RUNG\n  | NO A | ALARM Hot MSG:='$1B[31m热$L' CLASS:=1 |\n"
-	"RUNG\n  | NO B | ALARM Low MSG:='low' |\n"
+	"RUNG\n  | NO B | ALARM_LIMIT Low IN:=5.0 LIMIT:=1.0 MSG:='low' |\n"
 	"RUNG\n  | NO C | EVENT Note MSG:='begun' |\nEND_PROGRAM\n";
 
 static LadderSim *sim;
@@ -105,6 +105,19 @@ static void test_acknowledging(void)
 	CHECK(!gtk_widget_get_sensitive(button("Acknowledge all")));
 }
 
+/* While it runs, and for a limit. */
+static void test_running(void)
+{
+	set("B", false);
+	scan();
+	ladder_sim_run(sim);
+	set("B", true);
+	CHECK_SOON(gtk_widget_get_sensitive(button("Acknowledge all")));
+	g_signal_emit_by_name(button("Acknowledge all"), "clicked");
+	CHECK_SOON(!gtk_widget_get_sensitive(button("Acknowledge all")));
+	ladder_sim_pause(sim);
+}
+
 /* What a recorded scan held is shown, too. */
 static void test_the_past(void)
 {
@@ -139,6 +152,7 @@ int main(void)
 	test_rows();
 	test_acknowledging();
 	test_the_past();
+	test_running();
 	ladder_sim_end(sim);
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
