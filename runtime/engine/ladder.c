@@ -430,10 +430,90 @@ static bool begin_translation(struct ladder *ladder)
 	return t->scope && t->unit;
 }
 
+/* ---- further instances of programs ---- */
+
+static int count_further(struct project *project)
+{
+	int count = 0;
+
+	for (int i = 0; project->config && i < project->config->count; i++)
+		count += project_is_further(project, &project->config->entry[i]);
+	return count;
+}
+
+/* Each becomes a program of its own behind the others: with the same rungs, and the name of
+ * the instance. The vector stays as long as the translation refers to it; project->pou_count
+ * counts them only meanwhile. Fails: false: no memory. */
+static bool add_further(struct project *project, int count)
+{
+	const struct config *config = project->config;
+	int at = project->pou_count, room = 8;
+	struct pou *pou;
+
+	while (room < at + count)
+		room *= 2;
+	pou = arena_alloc(&project->arena, 2 * (size_t)room * sizeof(*pou));
+	if (!pou)
+		return false;
+	memcpy(pou, project->pou, (size_t)at * sizeof(*pou));
+	for (int i = 0; i < config->count; i++) {
+		const struct config_entry *entry = &config->entry[i];
+		const char *of = project_text(project, entry->pou);
+
+		if (!project_is_further(project, entry))
+			continue;
+		pou[at] = pou[project_find_pou(project, of, strlen(of))];
+		pou[at++].name = entry->name;
+	}
+	project->pou = pou;
+	project->pou_count = at;
+	return true;
+}
+
+/* Translates all of it once more, with the further instances. It was checked, so what is said
+ * this time was said before. */
+static bool translate_further(struct ladder *ladder, int count)
+{
+	struct project *project = ladder->project;
+	struct diag_list *diags = &ladder->diags;
+	const int kept = diags->count, dropped = diags->dropped;
+	uint8_t **bad = arena_alloc(&ladder->arena, ((size_t)project->pou_count + (size_t)count) *
+							    sizeof(*bad));
+	bool good = bad && add_further(project, count);
+
+	for (int i = 0; good && i < project->pou_count; i++) {
+		bad[i] = arena_alloc(&ladder->arena, (size_t)project->pou[i].rung_count + 1);
+		good = bad[i] != NULL;
+	}
+	good = good && begin_translation(ladder) && make_units(ladder, bad);
+	if (diags->errors)
+		return false;
+	diags->count = kept;
+	diags->dropped = dropped;
+	return good || no_memory(ladder, project->file);
+}
+
+static bool make_image(struct ladder *ladder)
+{
+	struct project *project = ladder->project;
+
+	ladder->image = assemble(&ladder->translation, ladder->watch,
+				 &ladder->image_len);
+	if (!ladder->image)
+		return ladder->diags.errors ? false :
+		       no_memory(ladder, project->file);
+	arena_reset(&ladder->scratch);
+	return open_image(ladder, project->file, ladder->image,
+			  ladder->image_len);
+}
+
 static bool build(struct ladder *ladder)
 {
 	struct project *project = ladder->project;
+	const int pous = project ? project->pou_count : 0;
 	uint8_t **bad;
+	bool good;
+	int further;
 
 	if (!project || ladder->built || ladder->diags.errors || ladder->leaves)
 		return ladder->program.header && ladder->diags.errors == 0;
@@ -449,14 +529,10 @@ static bool build(struct ladder *ladder)
 		return no_memory(ladder, project->file);
 	if (ladder->diags.errors)
 		return false;
-	ladder->image = assemble(&ladder->translation, ladder->watch,
-				 &ladder->image_len);
-	if (!ladder->image)
-		return ladder->diags.errors ? false :
-		       no_memory(ladder, project->file);
-	arena_reset(&ladder->scratch);
-	return open_image(ladder, project->file, ladder->image,
-			  ladder->image_len);
+	further = count_further(project);
+	good = (!further || translate_further(ladder, further)) && make_image(ladder);
+	project->pou_count = pous;
+	return good;
 }
 
 bool ladder_build(struct ladder *ladder)

@@ -96,10 +96,20 @@ static bool has_task(struct config_check *c, uint32_t name)
 	return false;
 }
 
+/* The variables of a further instance are called by its name: B.Count. */
+static bool has_own_name(struct config_check *c, const struct config_entry *entry)
+{
+	struct project *project = c->project;
+
+	for (int i = 0; i < project->pou_count; i++)
+		if (same_name(c, project->pou[i].name, entry->name))
+			return false;
+	return vars_find(&project->globals, names_fold(&project->names, entry->name)) < 0;
+}
+
 static void check_program(struct config_check *c,
 			  const struct config_entry *entry)
 {
-	const struct config_entry *before = c->config->entry;
 	bool found = false;
 
 	for (int i = 0; i < c->project->pou_count && !found; i++)
@@ -108,12 +118,8 @@ static void check_program(struct config_check *c,
 	if (!found)
 		report(c, DIAG_UNKNOWN_NAME, entry,
 		       scope_text(c->scope, entry->pou));
-	for (; found && before < entry; before++)
-		if (same_name(c, before->pou, entry->pou)) {
-			report(c, DIAG_PROGRAM_TWICE, entry,
-			       scope_text(c->scope, entry->pou));
-			break;
-		}
+	if (found && project_is_further(c->project, entry) && !has_own_name(c, entry))
+		report(c, DIAG_INSTANCE_NAME, entry, scope_text(c->scope, entry->name));
 	if (entry->task && !has_task(c, entry->task))
 		report(c, DIAG_UNKNOWN_NAME, entry,
 		       scope_text(c->scope, entry->task));

@@ -149,6 +149,18 @@ const char *pou_language_word(enum pou_language language)
 	return words[language];
 }
 
+bool project_is_further(struct project *project, const struct config_entry *entry)
+{
+	const struct config_entry *before = project->config->entry;
+	struct names *names = &project->names;
+
+	for (; entry->kind == CONFIG_PROGRAM && before < entry; before++)
+		if (before->kind == CONFIG_PROGRAM &&
+		    names_fold(names, before->pou) == names_fold(names, entry->pou))
+			return true;
+	return false;
+}
+
 int project_find_pou(const struct project *project, const char *name, size_t len)
 {
 	for (int i = 0; i < project->pou_count; i++)

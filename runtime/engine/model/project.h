@@ -174,6 +174,10 @@ bool project_set_view(struct project *project, const char *text);
 const char *pou_word(enum pou_kind kind);
 /** pou_language_word - LD, IL, SFC. Static. */
 const char *pou_language_word(enum pou_language language);
+/** project_is_further - has a PROGRAM line before @entry, of the project's configuration, the
+ * same program? Then this instance has data of its own, and is called by its own name.
+ * Scan-safe: no. */
+bool project_is_further(struct project *project, const struct config_entry *entry);
 /** project_find_pou - index of the POU with this name, in any case; -1: none. @len: bytes. */
 int project_find_pou(const struct project *project, const char *name, size_t len);
 /** project_has_head - whether it has a title or a property. */

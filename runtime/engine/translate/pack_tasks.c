@@ -42,9 +42,12 @@ static void add_named(struct assembler *as, struct code_task *task,
 		if (entry->kind != CONFIG_PROGRAM ||
 		    (name ? !same_name(as, entry->task, name) : entry->task != 0))
 			continue;
+		const uint32_t runs = project_is_further(t->project, entry) ?
+					      entry->name : entry->pou;
+
 		for (int k = 0; k < t->unit_count; k++)
 			if (t->unit[k].pou->kind == POU_PROGRAM &&
-			    same_name(as, t->unit[k].pou->name, entry->pou))
+			    same_name(as, t->unit[k].pou->name, runs))
 				add_call(as, task, k);
 	}
 }
