@@ -313,6 +313,23 @@ static void test_rows_come_and_go(void)
 	g_object_unref(document);
 }
 
+/* Each instance of one program has a row; the name of a further one is its own. */
+static void test_instances(void)
+{
+	LadderDocument *document = checked(
+		"RUNGBOARD 1\n\nCONFIGURATION Plant\n  TASK Fast (INTERVAL := T#5ms, PRIORITY := 0);\n"
+		"  PROGRAM A WITH Fast : Main;\n  PROGRAM B WITH Fast : Main;\nEND_CONFIGURATION\n\n"
+		"PROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n");
+
+	check_order(document, "Fast: A BEach scan:");
+	CHECK(!task_rows_set(document, row_of(document, "B"), TASKS_NAME, "Main", NULL));
+	CHECK(task_rows_set(document, row_of(document, "B"), TASKS_NAME, "East", NULL));
+	check_order(document, "Fast: A EastEach scan:");
+	CHECK(ladder_document_undo(document));
+	check_order(document, "Fast: A BEach scan:");
+	g_object_unref(document);
+}
+
 /* Without a CONFIGURATION the first edit writes one. */
 static void test_implicit(void)
 {
@@ -679,6 +696,7 @@ int main(void)
 	test_moves();
 	test_steps();
 	test_rows_come_and_go();
+	test_instances();
 	test_implicit();
 	test_errors();
 	test_included();
