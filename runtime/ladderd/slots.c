@@ -4,6 +4,7 @@
  * program is written beside its slot, as prog.A.new, and gets the name of the slot when it runs.
  */
 #include "ladderd/download.h"
+#include "ladderd/disk.h"
 
 #include "engine/base/digest.h"
 #include "engine/base/file.h"
@@ -165,23 +166,12 @@ bool slots_load(struct slots *slots, const struct options *options, struct load 
 	return load_texts(load, empty, sizeof(empty) - 1, slots->lines, strlen(slots->lines));
 }
 
-static int sync_folder(const char *path)
-{
-	const int folder = open(path, O_RDONLY | O_CLOEXEC);
-	const int result = folder >= 0 ? fsync(folder) : -1;
-	const int error = errno;
-
-	if (folder >= 0)
-		close(folder);
-	errno = error;
-	return result;
-}
-
 /* One file beside a slot, or the slot itself, gets the name of another, also after a power cut. */
 static int change_name(struct slots *slots, int number, const char *from, const char *to)
 {
 	char old[sizeof(slots->path)];
 	const char *path = path_of(slots, number, from);
+	int error;
 
 	if (!path)
 		return -ENAMETOOLONG;
@@ -191,10 +181,10 @@ static int change_name(struct slots *slots, int number, const char *from, const 
 		return -ENAMETOOLONG;
 	if (rename(old, path) != 0)
 		return -errno;
-	/* Twice: an error may be of the moment. */
-	if (sync_folder(slots->folder) != 0 && sync_folder(slots->folder) != 0)
+	error = disk_sync_folder(slots->folder);
+	if (error)
 		fprintf(stderr, "ladderd: %s may not survive a power cut: %s\n", path,
-			strerror(errno));
+			strerror(-error));
 	return 0;
 }
 
