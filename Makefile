@@ -125,8 +125,8 @@ DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
 # that has no PKG_CONFIG_LIBDIR, and one with another C library.
 CRYPT    ?= $(if $(CROSS)$(filter 1,$(SMALL))$(findstring musl,$(CC)),$(if $(PKG_CONFIG_LIBDIR),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes),no),$(shell $(PKG_CONFIG) --exists libcrypt 2>/dev/null && echo yes))
 CRYPT_LIB := $(if $(filter yes,$(CRYPT)$(SMALL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libcrypt))
-LADDERD_NOT := $(if $(filter yes,$(CRYPT)),crypt_none,crypt_yescrypt) $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download journal conf ends password crypt_none crypt_yescrypt \
-               $(if $(LINK),link_none,disk slots link_serial nameless),source_image store_none link_none link_serial nameless conf_none)
+LADDERD_NOT := $(if $(filter yes,$(CRYPT)),crypt_none,crypt_yescrypt) $(if $(filter 1,$(STATIC)),,print_static) $(if $(filter 1,$(SMALL)),source_any store_thread store_file link peer download journal conf ends password guarded crypt_none crypt_yescrypt \
+               $(if $(LINK),link_none,disk slots link_serial nameless),source_image store_none link_none link_serial nameless conf_none guarded_none)
 LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
 # Its own table of messages, without those that only a desk gives.
 LADDERD  += $(if $(filter 1,$(SMALL)),,$(BUILD)/runtime/ladderd/diag_board.o)
@@ -150,7 +150,11 @@ $(BUILD)/libonline.a: $(ONLINE)
 	$(AR) rcs $@ $^
 $(DRIVERS): CPPFLAGS += $(GPIO_CPP)
 
-all: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach)
+all: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach $(BUILD)/ladder-guard)
+GUARD := $(call obj,$(wildcard runtime/guard/*.c))
+$(GUARD): WARN += $(FRAME)
+$(BUILD)/ladder-guard: $(GUARD)
+	$(CC) $(CFLAGS) $(LDFLAGS) $(LEAN_LD) -o $@ $^
 $(BUILD)/ladder-attach: $(call obj,$(wildcard runtime/attach/*.c))
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^
 # The same with a socket in the folder where it runs.
@@ -197,11 +201,20 @@ $(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(BUILD)/libonline
 $(HAL_TEST)/ladderd_v1: $(call HAL_FAKE,v1,gpiod_v1)
 $(HAL_TEST)/ladderd_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/ladderd_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
+# ladderd and ladder-guard with lines that both share.
+GUARD_FAKES := $(HAL_TEST)/guarded_ladderd $(HAL_TEST)/guarded_guard
+GUARD_WRAP  := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wrap=ioctl,--wrap=opendir
+$(HAL_TEST)/guarded_ladderd: $(LADDERD) $(call obj,tests/hal/guard_fake.c $(HAL_CORE) hal/gpio_find.c hal/gpio_uapi.c) $(BUILD)/libonline.a $(BUILD)/libladder.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(GUARD_WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(CRYPT_LIB) -lm
+$(HAL_TEST)/guarded_guard: $(GUARD) $(call obj,tests/hal/guard_fake.c)
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) $(LDFLAGS) $(GUARD_WRAP) -o $@ $^
 HAL_KINDS := v1 v2 uapi
 HAL_TESTS := $(HAL_TEST)/map $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
-HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%)
+HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%) $(GUARD_FAKES)
 hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(BUILD)/ladder $(HAL_DAEMONS) ## all gpio drivers with fake chips; ladderd from outside
-	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/retain.t
+	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/guard.t tests/hal/retain.t
 check-retain: all ## ladderd --retain killed 1,000 times; `check` does 400 of them
 	BUILD=$(BUILD) RETAIN_KILLS=1000 prove -v -e '' tests/hal/retain.t
 .PHONY: check-retain
@@ -247,13 +260,19 @@ $(BUILD)/man/ladder-attach.1: Makefile
 	@{ printf '.TH LADDER-ATTACH 1 "" "Rungboard" "Rungboard"\n.SH NAME\nladder-attach \\- joins a stream to ladderd on this board\n'; \
 	  printf '.SH SYNOPSIS\n.B ladder-attach\n.SH DESCRIPTION\nJoins standard input and output to the socket of ladderd. ssh runs it for\n.BR ladder-board (1);\n'; \
 	  printf 'it takes no argument.\n.SH FILES\n.I /run/rungboard/link\n.SH EXIT STATUS\n0 one side has ended; 1 no ladderd; 2 wrong usage.\n.SH SEE ALSO\n.BR ladderd (8)\n'; } >$@
-man: $(BUILD)/man/ladderd.8 $(BUILD)/man/ladder-attach.1
+# The page of ladder-guard is made from its --help.
+$(BUILD)/man/ladder-guard.8: $(HERE)/ladder-guard
+	@mkdir -p $(@D)
+	@{ printf '.TH LADDER-GUARD 8 "" "Rungboard" "Rungboard"\n.SH NAME\nladder-guard \\- makes outputs safe when ladderd dies or freezes\n'; \
+	  printf '.SH SYNOPSIS\n.B ladder-guard\n[OPTION]... \\-\\- ladderd ARGUMENT...\n.SH DESCRIPTION\n.nf\n'; \
+	  $< --help | sed -e '1d' -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; printf '.fi\n.SH SEE ALSO\n.BR ladderd (8)\n'; } >$@
+man: $(BUILD)/man/ladderd.8 $(BUILD)/man/ladder-attach.1 $(BUILD)/man/ladder-guard.8
 unitdir ?= /lib/systemd/system
-install-ladderd: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach $(BUILD)/man/ladder-attach.1) $(BUILD)/man/ladderd.8
+install-ladderd: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach $(BUILD)/ladder-guard $(BUILD)/man/ladder-guard.8 $(BUILD)/man/ladder-attach.1) $(BUILD)/man/ladderd.8
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/share/man/man8 \
 	  $(DESTDIR)$(unitdir) $(DESTDIR)/etc/default
-	install -m 755 $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach) $(DESTDIR)$(prefix)/bin/
-	install -m 644 $(BUILD)/man/ladderd.8 $(DESTDIR)$(prefix)/share/man/man8/
+	install -m 755 $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach $(BUILD)/ladder-guard) $(DESTDIR)$(prefix)/bin/
+	install -m 644 $(BUILD)/man/ladderd.8 $(if $(filter 1,$(SMALL)),,$(BUILD)/man/ladder-guard.8) $(DESTDIR)$(prefix)/share/man/man8/
 	$(if $(filter 1,$(SMALL)),,install -d $(DESTDIR)$(prefix)/share/man/man1 && install -m 644 $(BUILD)/man/ladder-attach.1 $(DESTDIR)$(prefix)/share/man/man1/)
 	sed 's|/usr/bin/ladderd |$(prefix)/bin/ladderd |' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
 	test -e $(DESTDIR)/etc/default/ladderd || { sed '$(SMALL:1=s| --retain [^"]*||)' packaging/ladderd.default \

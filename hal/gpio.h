@@ -11,6 +11,7 @@
 #include "hal/drivers.h"
 
 #define GPIO_OWNER "ladderd" /* consumer of our lines, as others see it    */
+#define GPIO_GUARD "ladder-guard" /* gives the line back when ladderd asks */
 #define GPIO_TEXT  40        /* names of the kernel have at most 31 bytes  */
 
 struct gpio_chip {

@@ -422,7 +422,8 @@ bool gpio_find(const struct io_point *point, const char *dev,
 				   point->chip, (unsigned)point->offset,
 				   (unsigned)search.lines);
 	*out = search.at;
-	return !search.line.used || busy(why, point, &search.line);
+	return !search.line.used || strcmp(search.line.owner, GPIO_GUARD) == 0 ||
+	       busy(why, point, &search.line);
 }
 
 static void list_chip(struct gpio_chip *chip, int number,

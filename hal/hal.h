@@ -55,6 +55,14 @@ struct hal {
 bool hal_open(struct hal *hal, const struct iomap *map, struct arena *arena,
 	      struct diag_list *diags);
 
+/**
+ * hal_plan - the first half of hal_open(): finds the lines; requests none
+ * hal_open_planned - the second half
+ */
+bool hal_plan(struct hal *hal, const struct iomap *map, struct arena *arena,
+	      struct diag_list *diags);
+bool hal_open_planned(struct hal *hal, struct diag_list *diags);
+
 /** hal_close - writes the safe values and releases all lines. Scan-safe: no. */
 void hal_close(struct hal *hal);
 

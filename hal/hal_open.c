@@ -293,7 +293,7 @@ static void close_request(struct hal_request *request)
 	request->is_open = false;
 }
 
-bool hal_open(struct hal *hal, const struct iomap *map, struct arena *arena,
+bool hal_plan(struct hal *hal, const struct iomap *map, struct arena *arena,
 	      struct diag_list *diags)
 {
 	size_t before = arena->used;
@@ -307,14 +307,25 @@ bool hal_open(struct hal *hal, const struct iomap *map, struct arena *arena,
 		hal->request_count = 0;
 		return no_memory(map, diags);
 	}
+	hal->bytes = arena->used - before;
+	return true;
+}
+
+bool hal_open_planned(struct hal *hal, struct diag_list *diags)
+{
 	for (uint32_t i = 0; i < hal->request_count; i++) {
 		if (!open_request(hal, &hal->request[i], diags)) {
 			hal_close(hal);
 			return false;
 		}
 	}
-	hal->bytes = arena->used - before;
 	return true;
+}
+
+bool hal_open(struct hal *hal, const struct iomap *map, struct arena *arena,
+	      struct diag_list *diags)
+{
+	return hal_plan(hal, map, arena, diags) && hal_open_planned(hal, diags);
 }
 
 void hal_close(struct hal *hal)

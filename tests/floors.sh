@@ -30,7 +30,8 @@ hal                       engine/base engine/scan/image.h engine/scan/code_acces
 runtime/ladder            $doors engine/exchange engine/exchange/classic engine/exchange/image hal online engine/text engine/catalog.def
 runtime/online            engine/base engine/scan
 runtime/attach
-runtime/ladderd           engine/ladder.h engine/base engine/model engine/scan hal online
+runtime/guard
+runtime/ladderd           engine/ladder.h engine/base engine/model engine/scan hal online guard/say.h
 editor-gtk/kit/gtk48      $doors
 editor-gtk/kit            $doors editor-gtk/kit/gtk48
 editor-gtk/edit           $doors editor-gtk/kit engine/classic.def

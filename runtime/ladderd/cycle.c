@@ -4,6 +4,7 @@
  * have their safe values until a reset. A reset is refused while a line does not answer.
  */
 #include "ladderd/control.h"
+#include "ladderd/guarded.h"
 #include "ladderd/link.h"
 
 #include <errno.h>
@@ -77,6 +78,15 @@ static void enter_fault(struct cycle *cycle, enum fault fault)
 	notify_send(&cycle->notify, "STATUS=FAULT, outputs are safe");
 }
 
+/* A chip that comes again may have another number. */
+static bool guarded_reopen(struct cycle *cycle)
+{
+	const bool good = hal_reopen(&cycle->hal);
+
+	guarded_lines(&cycle->hal);
+	return good;
+}
+
 /* In FAULT: writes the safe values again, and reopens lines that were lost. */
 static void tend_lines(struct cycle *cycle, int64_t now_ns)
 {
@@ -85,7 +95,7 @@ static void tend_lines(struct cycle *cycle, int64_t now_ns)
 	cycle->tended_ns = now_ns;
 	hal_write_safe(&cycle->hal);
 	if (hal_quality(&cycle->hal) == QUALITY_FAULT)
-		hal_reopen(&cycle->hal);
+		guarded_reopen(cycle);
 }
 
 /* The program executed STOP. Only a reset starts it again. */
@@ -120,7 +130,7 @@ static enum refusal restart(struct cycle *cycle, bool cold)
 	struct resource *resource = &cycle->resource;
 
 	if ((hal_quality(&cycle->hal) == QUALITY_FAULT &&
-	     !hal_reopen(&cycle->hal)) || !hal_write_safe(&cycle->hal))
+	     !guarded_reopen(cycle)) || !hal_write_safe(&cycle->hal))
 		return REFUSAL_IO;
 	if (cycle_on_trial(cycle))
 		cycle_pass(cycle);

@@ -4,6 +4,7 @@
  */
 #include "ladderd/download.h"
 #include "ladderd/control.h"
+#include "ladderd/guarded.h"
 #include "ladderd/link.h"
 
 #include "engine/base/digest.h"
@@ -437,6 +438,7 @@ static void take_lines(struct cycle *cycle, struct hal *lines)
 	const bool of_map = strncmp(cycle->board, was, sizeof(cycle->board) - 1) == 0;
 
 	hal_exchange(&cycle->hal, lines);
+	guarded_lines(&cycle->hal);
 	if (of_map)
 		cycle_name(cycle, "", cycle->hal.map->board);
 }

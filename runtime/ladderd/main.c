@@ -11,6 +11,7 @@
 #include "ladderd/conf.h"
 #include "ladderd/control.h"
 #include "ladderd/download.h"
+#include "ladderd/guarded.h"
 #include "ladderd/link.h"
 #include "ladderd/load.h"
 #include "ladderd/options.h"
@@ -162,6 +163,19 @@ static bool open_link(struct daemon *daemon)
 	return cycle->link;
 }
 
+/* A guard that holds the lines gives them back at the last moment. */
+static bool open_lines(struct daemon *daemon)
+{
+	struct hal *hal = &daemon->cycle.hal;
+	struct load *load = &daemon->load;
+
+	if (!hal_plan(hal, &load->map, &load->arena, &load->diags))
+		return false;
+	guarded_lines(hal);
+	guarded_take();
+	return hal_open_planned(hal, &load->diags);
+}
+
 static int run(struct daemon *daemon)
 {
 	const struct options *options = &daemon->options;
@@ -202,7 +216,7 @@ static int run(struct daemon *daemon)
 	if (error)
 		fprintf(stderr, "ladderd: NOTIFY_SOCKET: %s\n",
 			strerror(-error));
-	if (!hal_open(&cycle->hal, &load->map, &load->arena, &load->diags)) {
+	if (!open_lines(daemon)) {
 		print_diags(&load->diags);
 		notify_close(&cycle->notify);
 		if (cycle->store)
@@ -252,7 +266,7 @@ static int load_and_run(struct daemon *daemon)
 	return fflush(stdout) == 0 ? 0 : 1;
 }
 
-enum again { ONCE, AGAIN, AGAIN_STOPPED };
+enum again { ONCE, ONCE_STOPPED, AGAIN, AGAIN_STOPPED };
 
 /* Once, from reading the options to the last safe output. @again: why it
  * begins; gets whether a desk wants another start. */
@@ -262,8 +276,8 @@ static int run_once(int argc, char **argv, enum again *again)
 	int status;
 
 	if (daemon) {
-		daemon->again = *again != ONCE;
-		daemon->cycle.begin_stopped = *again == AGAIN_STOPPED;
+		daemon->again = *again >= AGAIN;
+		daemon->cycle.begin_stopped = *again == AGAIN_STOPPED || *again == ONCE_STOPPED;
 	}
 	*again = ONCE;
 	if (!daemon) {
@@ -294,7 +308,7 @@ static int run_once(int argc, char **argv, enum again *again)
 
 int main(int argc, char **argv)
 {
-	enum again again = ONCE;
+	enum again again = guarded_begin() ? ONCE_STOPPED : ONCE;
 	int status;
 
 	do

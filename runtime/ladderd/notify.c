@@ -6,6 +6,7 @@
 #include "ladderd/notify.h"
 
 #include "engine/base/ascii.h"
+#include "ladderd/guarded.h"
 
 #include <errno.h>
 #include <stddef.h>
@@ -75,6 +76,7 @@ void notify_close(struct notify *notify)
 
 void notify_send(const struct notify *notify, const char *state)
 {
+	guarded_tell(state);
 	if (notify->fd >= 0)
 		sendto(notify->fd, state, strlen(state),
 		       MSG_NOSIGNAL | MSG_DONTWAIT,

@@ -7,6 +7,8 @@
 
 #include "ladderd/safe.h"
 
+#include "ladderd/guarded.h"
+
 #include <errno.h>
 #include <poll.h>
 #include <string.h>
@@ -17,6 +19,7 @@
 static struct requests requests;
 static struct hal *volatile crash_hal;
 static struct monitor *volatile watched;
+static volatile sig_atomic_t tick_ms;
 
 static void on_request(int signal_number)
 {
@@ -73,7 +76,11 @@ static void on_tick(int signal_number, siginfo_t *about, void *context)
 	if (!(monitor->scan & 1) || monitor->scan != monitor->seen) {
 		monitor->seen = monitor->scan;
 		monitor->still = 0;
-	} else if (++monitor->still >= 2) {
+		guarded_beat(tick_ms, false);
+	} else if (++monitor->still < 2) {
+		guarded_beat(tick_ms, false);
+	} else {
+		/* A guard that hears nothing more kills a ladderd whose scan hangs. */
 		monitor->tripped = 1;
 		hal_write_safe(monitor->hal);
 		requests_attend(monitor->requests);
@@ -95,10 +102,21 @@ static int set_limit(int64_t limit_ns)
 	return setitimer(ITIMER_REAL, &tick, NULL) ? -errno : 0;
 }
 
+/* In a time that is too long for the guard it waits for the longest that it takes. */
+static void tell_limit(int64_t limit_ns)
+{
+	const int64_t ms = limit_ns / 2 / 1000000 + 1;
+	const int was = tick_ms;
+
+	tick_ms = ms < GUARDED_PAUSE_MS ? (int)ms : GUARDED_PAUSE_MS;
+	guarded_beat(was > tick_ms ? was : tick_ms, true);
+}
+
 /* It cannot fail when it has worked once. */
 void monitor_limit(int64_t limit_ns)
 {
 	set_limit(limit_ns);
+	tell_limit(limit_ns);
 }
 
 int monitor_start(struct monitor *monitor, struct hal *hal,
@@ -116,6 +134,7 @@ int monitor_start(struct monitor *monitor, struct hal *hal,
 	sigemptyset(&action.sa_mask);
 	if (sigaction(SIGALRM, &action, NULL) != 0)
 		return -errno;
+	tell_limit(limit_ns);
 	return set_limit(limit_ns);
 }
 
@@ -125,6 +144,7 @@ void monitor_stop(struct monitor *monitor)
 
 	(void)monitor;
 	setitimer(ITIMER_REAL, &never, NULL);
+	guarded_beat(GUARDED_PAUSE_MS, true);
 	watched = NULL;
 }
 

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * child - vfork() and exec with an environment in a table of fixed size.
+ */
+#define _GNU_SOURCE
+#include "guard/child.h"
+
+#include "guard/say.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#ifndef SYS_pidfd_open
+#define SYS_pidfd_open 434
+#endif
+#define VARIABLES 512
+
+extern char **environ;
+
+static bool is_variable(const char *text, const char *name)
+{
+	const size_t len = strlen(name);
+
+	return strncmp(text, name, len) == 0 && text[len] == '=';
+}
+
+/* The service manager speaks with the guard alone. */
+static bool make_environment(char **table, char *ours)
+{
+	static const char *const without[] = {
+		"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID", GUARD_VARIABLE,
+	};
+	size_t count = 0;
+
+	for (char **from = environ; *from; from++) {
+		bool drop = false;
+
+		for (size_t i = 0; i < sizeof(without) / sizeof(without[0]); i++)
+			drop = drop || is_variable(*from, without[i]);
+		if (drop)
+			continue;
+		if (count == VARIABLES - 2)
+			return false;
+		table[count++] = *from;
+	}
+	table[count++] = ours;
+	table[count] = NULL;
+	return true;
+}
+
+/* After vfork(): system calls only. */
+static void become(char **argv, const sigset_t *signals, int socket, pid_t guard)
+{
+	prctl(PR_SET_PDEATHSIG, SIGTERM);
+	if (getppid() != guard)
+		_exit(0);
+	fcntl(socket, F_SETFD, 0);
+	sigprocmask(SIG_UNBLOCK, signals, NULL);
+	execvp(argv[0], argv);
+	_exit(CHILD_NO_PROGRAM);
+}
+
+bool child_start(struct child *child, char **argv, const sigset_t *signals, int heartbeat_ms,
+		 bool stopped)
+{
+	static char *table[VARIABLES];
+	static char ours[48];
+	const pid_t guard = getpid();
+	char **before = environ;
+	int pair[2];
+	pid_t pid;
+
+	if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair) != 0) {
+		dprintf(STDERR_FILENO, "ladder-guard: no socket pair: %s\n", strerror(errno));
+		return false;
+	}
+	snprintf(ours, sizeof(ours), GUARD_VARIABLE "=%d %d %d", pair[1], heartbeat_ms, stopped);
+	if (!make_environment(table, ours)) {
+		dprintf(STDERR_FILENO, "ladder-guard: more than %d variables in the environment\n",
+			VARIABLES - 2);
+		close(pair[0]);
+		close(pair[1]);
+		return false;
+	}
+	environ = table;
+	pid = vfork();
+	if (pid == 0)
+		become(argv, signals, pair[1], guard);
+	environ = before;
+	close(pair[1]);
+	if (pid < 0) {
+		dprintf(STDERR_FILENO, "ladder-guard: no process: %s\n", strerror(errno));
+		close(pair[0]);
+		return false;
+	}
+	child->pid = pid;
+	child->socket = pair[0];
+	child->pidfd = (int)syscall(SYS_pidfd_open, pid, 0);
+	return true;
+}
+
+bool child_ended(struct child *child)
+{
+	if (child->pid == 0 || waitpid(child->pid, &child->status, WNOHANG) != child->pid)
+		return false;
+	child->pid = 0;
+	if (child->pidfd >= 0)
+		close(child->pidfd);
+	close(child->socket);
+	child->pidfd = child->socket = -1;
+	return true;
+}

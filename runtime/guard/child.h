@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * child - starts ladderd with the socket of the guard, and sees its end.
+ */
+#ifndef GUARD_CHILD_H
+#define GUARD_CHILD_H
+
+#include <signal.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <sys/types.h>
+
+#define CHILD_NO_PROGRAM 127 /* status of a child that could not be started  */
+
+struct child {
+	pid_t pid;             /* 0: none runs                                */
+	int pidfd;             /* -1: the kernel has none; SIGCHLD tells      */
+	int socket;            /* -1: none                                    */
+	int status;            /* of waitpid(), after the end                 */
+};
+
+/**
+ * child_start - runs @argv with LADDER_GUARD and without the variables of a service manager
+ * @signals: those that the guard has blocked; the child blocks none
+ * @stopped: begin in STOP
+ *
+ * The kernel sends the child SIGTERM if the guard dies. Allocates nothing; vfork() does without
+ * an MMU. Fails: false, told.
+ */
+bool child_start(struct child *child, char **argv, const sigset_t *signals, int heartbeat_ms,
+		 bool stopped);
+/** child_ended - whether it has ended: then status is set, and pidfd and socket are closed. */
+bool child_ended(struct child *child);
+#endif

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * feed - one byte for the watchdog device and WATCHDOG=1 for the service manager.
+ */
+#define _DEFAULT_SOURCE
+#include "guard/feed.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define EVERY_MS 1000
+
+static bool open_socket(struct feed *feed)
+{
+	const char *path = getenv("NOTIFY_SOCKET");
+	const size_t len = path ? strlen(path) : 0;
+
+	if (len == 0)
+		return true;
+	if (len >= sizeof(feed->to.sun_path) || (path[0] != '/' && path[0] != '@')) {
+		dprintf(STDERR_FILENO, "ladder-guard: NOTIFY_SOCKET: no path of a socket\n");
+		return false;
+	}
+	feed->to.sun_family = AF_UNIX;
+	memcpy(feed->to.sun_path, path, len);
+	if (path[0] == '@')
+		feed->to.sun_path[0] = 0;
+	feed->to_len = (socklen_t)(offsetof(struct sockaddr_un, sun_path) + len +
+				   (path[0] == '/'));
+	feed->socket = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+	return true;
+}
+
+/* Half of the time of the service manager, if that is shorter than a second. */
+static int64_t interval(void)
+{
+	const char *us = getenv("WATCHDOG_USEC");
+	const long long wanted = us ? strtoll(us, NULL, 10) / 2000 : 0;
+
+	return wanted >= 1 && wanted < EVERY_MS ? wanted : EVERY_MS;
+}
+
+bool feed_open(struct feed *feed, const char *device)
+{
+	memset(feed, 0, sizeof(*feed));
+	feed->device = feed->socket = -1;
+	feed->every_ms = interval();
+	if (!open_socket(feed))
+		return false;
+	if (!device)
+		return true;
+	feed->device = open(device, O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+	if (feed->device >= 0)
+		return true;
+	dprintf(STDERR_FILENO, "ladder-guard: watchdog \"%s\": %s%s\n", device, strerror(errno),
+		errno == EACCES || errno == EPERM ?
+		"; give the user of the service the right to write it" :
+		errno == EBUSY ? "; another program feeds it" : "");
+	return false;
+}
+
+void feed_give(struct feed *feed, int64_t now_ms)
+{
+	if (now_ms - feed->fed_ms < feed->every_ms)
+		return;
+	feed->fed_ms = now_ms;
+	if (feed->device >= 0 && write(feed->device, "", 1) < 0)
+		dprintf(STDERR_FILENO, "ladder-guard: the watchdog takes no byte: %s\n",
+			strerror(errno));
+	if (getenv("WATCHDOG_USEC"))
+		feed_tell(feed, "WATCHDOG=1");
+}
+
+void feed_tell(const struct feed *feed, const char *state)
+{
+	if (feed->socket >= 0)
+		sendto(feed->socket, state, strlen(state), MSG_NOSIGNAL | MSG_DONTWAIT,
+		       (const struct sockaddr *)&feed->to, feed->to_len);
+}
+
+void feed_close(struct feed *feed)
+{
+	if (feed->device >= 0 && write(feed->device, "V", 1) < 0)
+		dprintf(STDERR_FILENO, "ladder-guard: the watchdog was not stopped: %s\n",
+			strerror(errno));
+	if (feed->device >= 0)
+		close(feed->device);
+	if (feed->socket >= 0)
+		close(feed->socket);
+	feed->device = feed->socket = -1;
+}

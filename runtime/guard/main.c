@@ -1,0 +1,364 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * main - ladder-guard: starts ladderd, and makes the outputs safe when ladderd dies or freezes.
+ *
+ * One loop waits for signals, for packets of ladderd, for its end and for the time at which its
+ * next heartbeat is due. It allocates nothing. From an abnormal end until the next ladderd is
+ * about to request the lines, the guard holds them at their safe levels.
+ */
+#define _GNU_SOURCE
+#include "guard/check.h"
+#include "guard/child.h"
+#include "guard/feed.h"
+#include "guard/lines.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <sched.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/signalfd.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#define BEGIN_MS     60000 /* from the start of ladderd to its first packet   */
+#define TAKING_MS    10000 /* from the request of the lines to the next packet */
+#define AGAIN_MS     1000  /* between two attempts to take a line or to start  */
+#define ENDS         3     /* abnormal ends …                                 */
+#define WITHIN_MS    60000 /* … in this time: begin in STOP                   */
+#define PRIORITY     50    /* above that of ladderd                           */
+
+struct guard {
+	const char *device, *name;
+	char **argv;
+	int heartbeat_ms;
+	sigset_t signals;
+	int signal_fd;
+	struct child child;
+	struct lines lines;
+	struct feed feed;
+	int64_t due_ms;        /* of the next heartbeat                       */
+	int64_t again_ms;      /* next attempt; 0: none                       */
+	int64_t end_ms[ENDS];  /* of the last abnormal ends, the newest first */
+	bool recovers;         /* since an abnormal end ladderd has not scanned */
+	bool safe;             /* the guard keeps the lines                   */
+	bool stop;             /* SIGTERM came                                */
+	bool killed;           /* the guard has killed ladderd                */
+	bool deaf;             /* ladderd has closed its socket               */
+	bool strange;          /* a bad packet was told                       */
+};
+
+/* No stack is large enough on small boards; the memory is locked. */
+static struct guard guard;
+
+static int64_t now_ms(void)
+{
+	struct timespec now;
+
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+}
+
+static const char help[] =
+	"usage: ladder-guard [OPTION]... -- ladderd ARGUMENT...\n"
+	"Starts ladderd. When ladderd dies or freezes, sets its outputs to their safe values and\n"
+	"starts it again.\n"
+	"  --heartbeat MS  ladderd is frozen after this time without a sign (50 to 10000; 200)\n"
+	"  --watchdog DEV  feed this watchdog device while all is well\n"
+	"  --name NAME     a second guard on this machine needs another name (board)\n"
+	"  --help          print this\n"
+	"After three abnormal ends within 60 s ladderd begins in STOP.\n"
+	"Exit status: that of ladderd after an orderly end; 1 refused; 2 wrong usage;\n"
+	"127 ladderd cannot be started.\n";
+
+static int wrong(const char *what, const char *why)
+{
+	dprintf(STDERR_FILENO, "ladder-guard: %s %s\nTry `ladder-guard --help`.\n", what, why);
+	return 2;
+}
+
+/* -1: go on; else the exit status. */
+static int read_options(int argc, char **argv)
+{
+	guard.heartbeat_ms = 200;
+	guard.name = "board";
+	for (int i = 1; i < argc; i++) {
+		const char *word = argv[i];
+
+		if (strcmp(word, "--") == 0) {
+			guard.argv = &argv[i + 1];
+			return guard.argv[0] ? -1 : wrong("--", "names no program");
+		}
+		if (strcmp(word, "--help") == 0)
+			return dprintf(STDOUT_FILENO, "%s", help) < 0;
+		if (i + 1 == argc)
+			return wrong(word, "is no option, or needs a value");
+		i++;
+		if (strcmp(word, "--watchdog") == 0) {
+			guard.device = argv[i];
+		} else if (strcmp(word, "--name") == 0) {
+			guard.name = argv[i];
+		} else if (strcmp(word, "--heartbeat") == 0) {
+			char *end;
+			const long ms = strtol(argv[i], &end, 10);
+
+			if (*end || ms < 50 || ms > 10000)
+				return wrong(word, "takes 50 to 10000 ms");
+			guard.heartbeat_ms = (int)ms;
+		} else {
+			return wrong(word, "is no option");
+		}
+	}
+	return wrong("--", "and the command of ladderd are missing");
+}
+
+/* An abstract address: it needs no file and goes with the process. */
+static bool be_the_only_one(void)
+{
+	struct sockaddr_un address = { .sun_family = AF_UNIX };
+	const int fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+	const int len = snprintf(address.sun_path + 1, sizeof(address.sun_path) - 1,
+				 "rungboard-guard-%s", guard.name);
+
+	if (len >= (int)sizeof(address.sun_path) - 1) {
+		wrong("--name", "is too long");
+		return false;
+	}
+	if (fd >= 0 && bind(fd, (const struct sockaddr *)&address,
+			    (socklen_t)(offsetof(struct sockaddr_un, sun_path) + 1 + len)) == 0)
+		return true;
+	dprintf(STDERR_FILENO, "ladder-guard: %s\n", fd >= 0 && errno == EADDRINUSE ?
+		"another ladder-guard of this name runs; stop it, or give this one another --name" :
+		strerror(errno));
+	return false;
+}
+
+/* It must run while a program of ladderd takes the whole processor. */
+static void make_ready(void)
+{
+	struct sched_param wanted = { .sched_priority = PRIORITY };
+
+	syscall(SYS_sched_setscheduler, 0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted);
+	if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
+		dprintf(STDERR_FILENO, "ladder-guard: memory is not locked: %s\n",
+			strerror(errno));
+}
+
+static bool listen_to_signals(void)
+{
+	static const int wanted[] = { SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGCHLD };
+
+	sigemptyset(&guard.signals);
+	for (size_t i = 0; i < sizeof(wanted) / sizeof(wanted[0]); i++)
+		sigaddset(&guard.signals, wanted[i]);
+	sigprocmask(SIG_BLOCK, &guard.signals, NULL);
+	guard.signal_fd = signalfd(-1, &guard.signals, SFD_CLOEXEC | SFD_NONBLOCK);
+	if (guard.signal_fd < 0)
+		dprintf(STDERR_FILENO, "ladder-guard: no signals: %s\n", strerror(errno));
+	return guard.signal_fd >= 0;
+}
+
+static bool are_many(int64_t now)
+{
+	const int64_t oldest = guard.end_ms[ENDS - 1];
+
+	return oldest && now - oldest <= WITHIN_MS;
+}
+
+static bool start(int64_t now)
+{
+	const bool stopped = are_many(now);
+
+	guard.killed = guard.deaf = false;
+	guard.again_ms = 0;
+	guard.due_ms = now + BEGIN_MS;
+	if (stopped)
+		dprintf(STDERR_FILENO, "ladder-guard: ladderd has ended abnormally %d times within "
+			"%d s: it begins in STOP\n", ENDS, WITHIN_MS / 1000);
+	return child_start(&guard.child, guard.argv, &guard.signals, guard.heartbeat_ms, stopped);
+}
+
+static void on_signals(void)
+{
+	struct signalfd_siginfo info;
+
+	while (read(guard.signal_fd, &info, sizeof(info)) == (ssize_t)sizeof(info)) {
+		if (info.ssi_signo == SIGCHLD)
+			continue;
+		if (info.ssi_signo == SIGTERM || info.ssi_signo == SIGINT)
+			guard.stop = true;
+		if (guard.child.pid)
+			kill(guard.child.pid, (int)info.ssi_signo);
+	}
+}
+
+static void on_packet(const union guard_packet *packet, int64_t now)
+{
+	switch (packet->head.kind) {
+	case GUARD_BEAT:
+		guard.recovers = false;
+		guard.due_ms = now + packet->head.within_ms;
+		break;
+	case GUARD_TABLE:
+		lines_know(&guard.lines, &packet->table);
+		break;
+	case GUARD_TAKE:
+		lines_release(&guard.lines);
+		guard.safe = false;
+		guard.due_ms = now + TAKING_MS;
+		send(guard.child.socket, packet, sizeof(packet->head), MSG_NOSIGNAL | MSG_DONTWAIT);
+		break;
+	default:
+		feed_tell(&guard.feed, packet->tell.text);
+	}
+}
+
+static void hear(int64_t now)
+{
+	static union guard_packet packet;
+
+	for (;;) {
+		const ssize_t got = recv(guard.child.socket, &packet, sizeof(packet),
+					 MSG_DONTWAIT | MSG_TRUNC);
+
+		if (got <= 0) {
+			/* It has closed its end: only its own end is awaited now. */
+			guard.deaf = got == 0;
+			return;
+		}
+		if ((size_t)got <= sizeof(packet) && guard_check(&packet, (size_t)got)) {
+			on_packet(&packet, now);
+			continue;
+		}
+		if (!guard.strange)
+			dprintf(STDERR_FILENO, "ladder-guard: ladderd sent %zd bytes that say "
+				"nothing; they are not used\n", got);
+		guard.strange = true;
+	}
+}
+
+static void count_end(int64_t now)
+{
+	memmove(guard.end_ms + 1, guard.end_ms, sizeof(guard.end_ms) - sizeof(guard.end_ms[0]));
+	guard.end_ms[0] = now ? now : 1;
+}
+
+static void tell_end(void)
+{
+	const int status = guard.child.status;
+	char how[48];
+
+	if (guard.killed)
+		snprintf(how, sizeof(how), "was frozen and is killed");
+	else if (WIFSIGNALED(status))
+		snprintf(how, sizeof(how), "died of signal %d", WTERMSIG(status));
+	else
+		snprintf(how, sizeof(how), "ended with status %d", WEXITSTATUS(status));
+	dprintf(STDERR_FILENO, "ladder-guard: ladderd %s; %s\n", how,
+		guard.safe ? "the outputs are safe" : "not all outputs are safe");
+	feed_tell(&guard.feed, guard.safe ? "STATUS=ladderd has died, outputs are safe" :
+					    "STATUS=ladderd has died, not all outputs are safe");
+}
+
+/* ladderd has ended. -1: it shall begin again; else the exit status of the guard. */
+static int on_end(int64_t now)
+{
+	const int status = guard.child.status;
+
+	if (WIFEXITED(status) && !guard.killed && !guard.recovers) {
+		if (WEXITSTATUS(status) == CHILD_NO_PROGRAM)
+			dprintf(STDERR_FILENO, "ladder-guard: \"%s\" cannot be started\n",
+				guard.argv[0]);
+		return WEXITSTATUS(status);
+	}
+	guard.safe = lines_take(&guard.lines);
+	tell_end();
+	if (guard.stop)
+		return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : 1;
+	/* The first one begins at once; one that never comes to scan must not fill the machine. */
+	guard.again_ms = guard.recovers || are_many(now) ? now + AGAIN_MS : now;
+	guard.recovers = true;
+	count_end(now);
+	return -1;
+}
+
+/* What is due. */
+static void on_time(int64_t now)
+{
+	if (guard.child.pid && now >= guard.due_ms && !guard.killed) {
+		guard.killed = true;
+		kill(guard.child.pid, SIGKILL);
+	}
+	if (guard.child.pid || now < guard.again_ms)
+		return;
+	guard.safe = lines_take(&guard.lines);
+	if (!start(now))
+		guard.again_ms = now + AGAIN_MS;
+}
+
+static void wait_for_it(int64_t now)
+{
+	struct pollfd ready[3] = {
+		{ .fd = guard.signal_fd, .events = POLLIN },
+		{ .fd = guard.child.pid && !guard.deaf ? guard.child.socket : -1, .events = POLLIN },
+		{ .fd = guard.child.pid ? guard.child.pidfd : -1, .events = POLLIN },
+	};
+	int64_t until = guard.feed.fed_ms + guard.feed.every_ms;
+
+	if (guard.child.pid && !guard.killed && guard.due_ms < until)
+		until = guard.due_ms;
+	if (!guard.child.pid && guard.again_ms < until)
+		until = guard.again_ms;
+	poll(ready, 3, until > now ? (int)(until - now) : 0);
+}
+
+/* Until ladderd ends as it shall. Returns the exit status. */
+static int keep_watch(void)
+{
+	for (;;) {
+		int64_t now = now_ms();
+
+		wait_for_it(now);
+		on_signals();
+		now = now_ms();
+		if (guard.child.pid)
+			hear(now);
+		if (child_ended(&guard.child)) {
+			const int status = on_end(now);
+
+			if (status >= 0)
+				return status;
+		}
+		if (!guard.child.pid && guard.stop)
+			return 1;
+		on_time(now);
+		if (!guard.killed)
+			feed_give(&guard.feed, now);
+	}
+}
+
+int main(int argc, char **argv)
+{
+	int status = read_options(argc, argv);
+
+	if (status >= 0)
+		return status;
+	lines_begin(&guard.lines);
+	guard.child.pidfd = guard.child.socket = -1;
+	if (!be_the_only_one() || !listen_to_signals() || !feed_open(&guard.feed, guard.device))
+		return 1;
+	make_ready();
+	if (!start(now_ms()))
+		return 1;
+	status = keep_watch();
+	lines_release(&guard.lines);
+	feed_close(&guard.feed);
+	return status;
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * say - what ladderd tells ladder-guard: packets on a socket pair that ladderd inherits. Each has
+ * one of these forms. Both programs are of one machine and one build, so numbers are those of the
+ * machine; the guard checks each packet all the same (guard/check.h).
+ */
+#ifndef GUARD_SAY_H
+#define GUARD_SAY_H
+
+#include <stdint.h>
+
+/* Environment of ladderd: "FD MS STOPPED": the descriptor, the heartbeat in ms, and 1 if ladderd
+ * shall begin in STOP, else 0. */
+#define GUARD_VARIABLE "LADDER_GUARD"
+#define GUARD_OWNER    "ladder-guard" /* consumer of the lines that the guard holds */
+#define GUARD_LINES    256            /* outputs that it can hold             */
+#define GUARD_DEV      64             /* bytes of the folder of device files  */
+#define GUARD_TEXT     120
+#define GUARD_MAGIC    UINT32_C(0x31475552)
+#define GUARD_LONGEST  120000         /* ms between two heartbeats            */
+
+enum guard_kind {
+	GUARD_BEAT = 1, /* it lives; the next comes within within_ms        */
+	GUARD_TABLE,    /* its outputs, before it requests them             */
+	GUARD_TAKE,     /* it is about to request them; answered with the same */
+	GUARD_TELL,     /* a text for the service manager                   */
+};
+
+struct guard_head {
+	uint32_t magic;
+	uint16_t kind;      /* enum guard_kind                                */
+	uint16_t count;     /* GUARD_TABLE: lines                             */
+	uint32_t within_ms; /* GUARD_BEAT: 1 … GUARD_LONGEST                  */
+};
+
+enum { GUARD_AS_IS, GUARD_FIRST, GUARD_SECOND, GUARD_THIRD };
+/* An output: the level at the pin, not the value, so inversion is done. */
+struct guard_line {
+	uint16_t chip;      /* N of gpiochipN                                 */
+	uint16_t offset;
+	uint8_t level;      /* 0, 1: the safe level                           */
+	uint8_t bias;       /* GUARD_AS_IS; 1 none, 2 up, 3 down              */
+	uint8_t drive;      /* GUARD_AS_IS; 1 push-pull, 2 open drain, 3 open source */
+	uint8_t zero;
+};
+
+/* As long as its lines. */
+struct guard_table {
+	struct guard_head head;
+	char dev[GUARD_DEV]; /* ends with a NUL                               */
+	struct guard_line line[GUARD_LINES];
+};
+
+struct guard_tell {
+	struct guard_head head;
+	char text[GUARD_TEXT]; /* ends with a NUL                             */
+};
+#endif

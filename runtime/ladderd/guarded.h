@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * guarded - what ladderd tells ladder-guard, if that has started it; else nothing happens.
+ */
+#ifndef LADDERD_GUARDED_H
+#define LADDERD_GUARDED_H
+
+#include "hal/hal.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define GUARDED_PAUSE_MS 60000 /* while no monitor runs: an end, another start */
+
+/** guarded_begin - reads LADDER_GUARD. Returns whether ladderd shall begin in STOP. */
+bool guarded_begin(void);
+/** guarded - whether a guard watches. */
+bool guarded(void);
+/**
+ * guarded_beat - a sign of life; the next comes within @next_ms and the heartbeat of the guard
+ *
+ * Sends not more often than the guard needs, unless @now. Async-signal-safe; never waits.
+ */
+void guarded_beat(int64_t next_ms, bool now);
+/** guarded_lines - tells the outputs of @hal and their safe levels. Fails: false and a message on
+ * standard error: the guard does not make all lines safe. Scan-safe: a system call. */
+bool guarded_lines(const struct hal *hal);
+/** guarded_take - the guard gives back the lines that it holds; waits for it up to 2 s. */
+void guarded_take(void);
+/** guarded_tell - hands a text on to the service manager; never waits. */
+void guarded_tell(const char *state);
+#endif

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * guarded_none - a ladderd for small boards: no guard.
+ */
+#include "ladderd/guarded.h"
+
+bool guarded_begin(void)
+{
+	return false;
+}
+
+bool guarded(void)
+{
+	return false;
+}
+
+void guarded_beat(int64_t next_ms, bool now)
+{
+	(void)next_ms, (void)now;
+}
+
+bool guarded_lines(const struct hal *hal)
+{
+	(void)hal;
+	return true;
+}
+
+void guarded_take(void)
+{
+}
+
+void guarded_tell(const char *state)
+{
+	(void)state;
+}

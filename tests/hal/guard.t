@@ -1,0 +1,249 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# guard.t - ladder-guard with a ladderd that is killed, crashes, freezes or hangs: the outputs get
+# their safe values each time, and ladderd begins again as it shall. Both share lines of a fake
+# (guard_fake.c). It prints how long that takes, and fails for no time. GUARD_KILLS and GUARD_STOPS
+# say how often.
+use strict;
+use warnings;
+use Test::More;
+use Fcntl qw(:flock SEEK_SET);
+use File::Temp qw(tempdir);
+use FindBin;
+use IO::Socket::UNIX;
+use POSIX qw(:sys_wait_h);
+use Time::HiRes qw(sleep clock_gettime CLOCK_MONOTONIC);
+use lib "$FindBin::Bin/..";
+use Files;
+
+my $build = $ENV{BUILD} || 'build';
+my ($guard, $ladderd) = map { "$build/tests/hal/guarded_$_" } qw(guard ladderd);
+my $kills = $ENV{GUARD_KILLS} || 20;
+my $stops = $ENV{GUARD_STOPS} || 4;
+my $dir = tempdir(CLEANUP => 1);
+delete @ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC WATCHDOG_PID)};
+my $running;
+END { kill 'KILL', $running if $running }
+
+mkdir "$dir/dev";
+spew("$dir/dev/gpiochip0", '');
+@ENV{qw(FAKE_DEV FAKE_SHARED)} = ("$dir/dev", "$dir/lines");
+# In RUN: Motor 1, Brake 0. Safe: Motor 0, Brake 1.
+my $rung = spew("$dir/run.rung", <<'END');
+RUNGBOARD 1
+
+VAR
+  Motor AT %QX0.0 : BOOL;
+  Brake AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO SYS_ALWAYS_ON | COIL Motor |
+RUNG
+  | NC SYS_ALWAYS_ON | COIL Brake |
+END_PROGRAM
+END
+my $map = spew("$dir/run.io", <<'END');
+BOARD "panel"
+
+%QX0.0 gpio line=OUT0 safe=0
+%QX0.1 gpio line=OUT1 safe=1
+END
+my @ladderd = ($ladderd, $rung, '--io', $map);
+
+sub fresh { spew("$dir/lines", "\0" x 128) }
+sub err { return slurp("$dir/err") // '' }
+
+# Level, consumer and time in s of the last write of the outputs.
+sub lines {
+	my $bytes = slurp("$dir/lines");
+	return map { my ($ns, $level, $owner) = unpack 'q l Z20', substr $bytes, 32 * $_, 32;
+		[$level, $owner, $ns / 1e9] } 2, 3;
+}
+sub is_at {
+	my ($owner, $motor, $brake) = @_;
+	my @line = lines();
+	return $line[0][0] == $motor && $line[1][0] == $brake && !grep { $_->[1] ne $owner } @line;
+}
+sub runs { return is_at('ladderd', 1, 0) }
+# Waits for a condition; the limit is long and reached only by a hang.
+sub until_it {
+	my ($what) = @_;
+	for (1 .. 20000) {
+		return 1 if $what->();
+		sleep 0.002;
+	}
+	return 0;
+}
+my $names = 0;
+sub start {
+	my (@args) = @_;
+	unlink "$dir/err";
+	my $pid = fork // die "fork: $!";
+	if (!$pid) {
+		open STDOUT, '>', "$dir/out" or die;
+		open STDERR, '>', "$dir/err" or die;
+		open STDIN, '<', '/dev/null' or die;
+		exec $guard, @args;
+		die "exec: $!";
+	}
+	return $running = $pid;
+}
+sub named { return ('--name', "test-$$-" . ++$names) }
+sub finish {
+	my ($pid) = @_;
+	my $status = until_it(sub { waitpid($pid, WNOHANG) == $pid }) ? $? : -1;
+	$running = undef;
+	return $status == -1 ? 'hangs' : $status & 127 ? 'signal ' . ($status & 127) : $status >> 8;
+}
+# The ladderd of a guard.
+sub child {
+	my ($pid) = @_;
+	for my $folder (glob '/proc/[0-9]*') {
+		my $text = slurp("$folder/stat") // next;
+		return $folder =~ s{.*/}{}r if $text =~ /\) [^Z] $pid /;
+	}
+	die "no ladderd runs: " . err();
+}
+sub median { my @all = sort { $a <=> $b } @_; return $all[$#all / 2] }
+
+# The time at which the guard wrote the outputs, after a moment; undef: never.
+sub guarded_since {
+	my ($since) = @_;
+	my $at;
+	until_it(sub {
+		my @line = lines();
+		my ($first) = sort { $b <=> $a } map { $_->[2] } @line;
+		$at = $first if $line[0][0] == 0 && $line[1][0] == 1 && $line[0][2] > $since &&
+			$line[1][2] > $since;
+		return defined $at;
+	});
+	return $at;
+}
+
+# ---- deaths and freezes at random moments ----
+# A guard of its own for two ends each: a third within a minute begins in STOP.
+for my $how (['kills', $kills, qw(SEGV FPE BUS ABRT KILL)], ['stops', $stops, 'STOP']) {
+	my ($what, $count, @signals) = @$how;
+	my (@took, $bad, $again);
+	for my $number (1 .. $count) {
+		if ($number % 2) {
+			fresh();
+			start(named(), '--heartbeat', 100, '--', @ladderd);
+		}
+		until_it(\&runs) or BAIL_OUT("ladderd does not run: " . err());
+		my $pid = child($running);
+		sleep rand 0.02;
+		my $since = clock_gettime(CLOCK_MONOTONIC);
+		kill $signals[$number % @signals], $pid;
+		my $at = guarded_since($since);
+		defined $at ? push(@took, $at - $since) : $bad++;
+		$again++ if until_it(\&runs) && child($running) != $pid;
+		next if $number % 2 && $number < $count;
+		kill 'TERM', $running;
+		finish($running);
+	}
+	ok(!$bad, "$count $what: both outputs are safe each time");
+	is($again, $count, "$count $what: ladderd runs again");
+	diag(sprintf '%d %s: safe after p50 %.1f ms, max %.1f ms', $count, $what, 1e3 * median(@took),
+		1e3 * (sort { $b <=> $a } @took)[0]) if @took;
+}
+
+# ---- three abnormal ends: STOP ----
+fresh();
+my $pid = start(named(), '--', @ladderd);
+for my $time (1 .. 3) {
+	until_it(\&runs);
+	kill 'KILL', child($pid);
+	until_it(sub { err() =~ /(?:died of signal 9.*){$time}/s });
+}
+ok(until_it(sub { err() =~ /3 times within 60 s: it begins in STOP/ }), 'the third death is told');
+ok(until_it(sub { is_at('ladderd', 0, 1) }), 'and ladderd holds the outputs at their safe values');
+kill 'USR1', child($pid);
+ok(until_it(sub { (slurp("$dir/out") // '') =~ /^state: STOP$/m }), 'it lives, in STOP');
+kill 'HUP', $pid;
+sleep 0.05;
+kill 'TERM', $pid;
+is(finish($pid), 0, 'SIGTERM ends both');
+
+# ---- orderly ends ----
+fresh();
+is(finish(start(named(), '--', @ladderd, '--scans', 3)), 0, 'an orderly end: the same status');
+ok(is_at('ladderd', 0, 1), 'ladderd made the outputs safe itself');
+unlike(err(), qr/ladder-guard:/, 'nothing is told');
+is(finish(start(named(), '--', $ladderd, '--nonsense')), 2, 'status 2 of ladderd is that of the guard');
+is(finish(start(named(), '--', "$dir/nothing")), 127, 'a program that is not there');
+like(err(), qr/^ladder-guard: "\S+nothing" cannot be started$/m, 'is told');
+
+# ---- a line that another process holds ----
+fresh();
+$pid = start(named(), '--', @ladderd);
+until_it(\&runs);
+{
+	# The child locks OUT0 as soon as ladderd is dead: it waits for the lock of the kernel.
+	my $holder = fork // die;
+	if (!$holder) {
+		open my $file, '+<', "$dir/lines" or POSIX::_exit(1);
+		my $lock = pack 's s x4 q q i x4', POSIX::F_WRLCK(), SEEK_SET, 2, 1, 0;
+		fcntl $file, POSIX::F_SETLKW(), $lock or POSIX::_exit(1);
+		sleep 1 while getppid() != 1;
+		POSIX::_exit(0);
+	}
+	sleep 0.1;
+	kill 'STOP', $pid;
+	kill 'KILL', child($pid);
+	sleep 0.1;
+	kill 'CONT', $pid;
+	ok(until_it(sub { err() =~ /line 2 of gpiochip0 is held by "[^"]*": it is not safe; the guard tries again/ }),
+		'a line that another process holds is told');
+	ok(until_it(sub { (lines())[1][0] == 1 }), 'the other output is safe');
+	kill 'KILL', $holder;
+	waitpid $holder, 0;
+	ok(until_it(\&runs), 'when it is free, ladderd runs again');
+	kill 'TERM', $pid;
+	finish($pid);
+}
+
+# ---- refused ----
+{
+	my @name = named();
+	fresh();
+	$pid = start(@name, '--', @ladderd);
+	until_it(\&runs);
+	is(system("$guard @name -- $ladderd 2>$dir/second") >> 8, 1, 'a second guard is refused');
+	like(slurp("$dir/second"), qr/^ladder-guard: another ladder-guard of this name runs; /, 'with a reason');
+	ok(runs(), 'the first one goes on');
+	kill 'TERM', $pid;
+	is(finish($pid), 0, 'and ends as ever');
+}
+is(finish(start(named(), '--watchdog', $dir, '--', @ladderd)), 1, 'a watchdog that cannot be opened');
+like(err(), qr/^ladder-guard: watchdog "\Q$dir\E": /, 'is told');
+is(finish(start(named(), '--heartbeat', 5, '--', @ladderd)), 2, 'a heartbeat out of range');
+is(finish(start()), 2, 'no command');
+
+# ---- watchdog device and service manager ----
+{
+	my $socket = IO::Socket::UNIX->new(Type => SOCK_DGRAM, Local => "$dir/notify") or die;
+	local @ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC)} = ("$dir/notify", 100000);
+	spew("$dir/watchdog", '');
+	fresh();
+	$pid = start(named(), '--watchdog', "$dir/watchdog", '--', @ladderd);
+	my ($text, %seen) = '';
+	until_it(sub {
+		$socket->recv($text, 200);
+		$seen{$text}++;
+		return $seen{'READY=1'} && ($seen{'WATCHDOG=1'} // 0) >= 3;
+	});
+	ok($seen{'READY=1'}, 'READY=1 of ladderd is passed on');
+	ok($seen{'WATCHDOG=1'}, 'WATCHDOG=1 is sent');
+	kill 'KILL', child($pid);
+	until_it(sub { $socket->recv($text, 200); $text eq 'STATUS=ladderd has died, outputs are safe' });
+	is($text, 'STATUS=ladderd has died, outputs are safe', 'a death is told to the service manager');
+	until_it(\&runs);
+	kill 'TERM', $pid;
+	is(finish($pid), 0, 'it ends');
+	like(slurp("$dir/watchdog"), qr/^\0{3,}V$/, 'the watchdog device was fed, and stopped at the end');
+}
+done_testing;

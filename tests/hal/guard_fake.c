@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * guard_fake - a chip that several processes share: gpiochip0 with the lines IN0, IN1, OUT0, OUT1,
+ * label "panel". Linked with --wrap for open, close, ioctl and opendir into ladderd and ladder-guard.
+ *
+ *   FAKE_DEV     folder in place of /dev; it holds an empty file gpiochip0
+ *   FAKE_SHARED  file of the lines: for each 32 bytes: int64 ns of CLOCK_MONOTONIC of its last
+ *                write, int32 level, char[20] consumer
+ *
+ * A line is locked by a lock of POSIX on its byte, which the kernel takes back when its process
+ * dies, at the same moment as it would close the request of a line.
+ */
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <linux/gpio.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <time.h>
+#include <unistd.h>
+
+#define LINES    4
+#define CHIP_FD  2000
+#define LINES_FD 2001
+#define MOST     8
+
+struct shared {
+	int64_t written_ns;
+	int32_t level;
+	char owner[20];
+};
+struct taken {
+	uint32_t count, offset[LINES];
+};
+
+int __real_open(const char *path, int flags, ...);
+int __real_close(int fd);
+int __real_ioctl(int fd, unsigned long what, ...);
+DIR *__real_opendir(const char *path);
+int __wrap_open(const char *path, int flags, ...);
+int __wrap_open64(const char *path, int flags, ...) __attribute__((alias("__wrap_open")));
+int __wrap_close(int fd);
+int __wrap_ioctl(int fd, unsigned long what, ...);
+DIR *__wrap_opendir(const char *path);
+
+static volatile struct shared *line;
+static int file = -1;
+static struct taken taken[MOST];
+
+__attribute__((constructor)) static void begin(void)
+{
+	const char *path = getenv("FAKE_SHARED");
+
+	file = path ? __real_open(path, O_RDWR | O_CLOEXEC) : -1;
+	if (file >= 0)
+		line = mmap(NULL, LINES * sizeof(*line), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+	if (file < 0 || line == MAP_FAILED)
+		abort();
+}
+
+DIR *__wrap_opendir(const char *path)
+{
+	return __real_opendir(strcmp(path, "/dev") == 0 ? getenv("FAKE_DEV") : path);
+}
+
+int __wrap_open(const char *path, int flags, ...)
+{
+	va_list args;
+	int mode;
+
+	va_start(args, flags);
+	mode = flags & O_CREAT ? va_arg(args, int) : 0;
+	va_end(args);
+	return strstr(path, "/gpiochip0") ? CHIP_FD : __real_open(path, flags, mode);
+}
+
+static int lock(uint32_t at, short type, int command, struct flock *out)
+{
+	*out = (struct flock){ .l_type = type, .l_whence = SEEK_SET, .l_start = at, .l_len = 1 };
+	return fcntl(file, command, out);
+}
+
+int __wrap_close(int fd)
+{
+	struct taken *of = fd >= LINES_FD && fd < LINES_FD + MOST ? &taken[fd - LINES_FD] : NULL;
+	struct flock flock;
+
+	if (fd == CHIP_FD)
+		return 0;
+	for (uint32_t i = 0; of && i < of->count; i++)
+		lock(of->offset[i], F_UNLCK, F_SETLK, &flock);
+	if (!of)
+		return __real_close(fd);
+	of->count = 0;
+	return 0;
+}
+
+static bool is_mine(uint32_t at)
+{
+	for (int i = 0; i < MOST; i++)
+		for (uint32_t k = 0; k < taken[i].count; k++)
+			if (taken[i].offset[k] == at)
+				return true;
+	return false;
+}
+
+static bool is_used(uint32_t at)
+{
+	struct flock flock;
+
+	return is_mine(at) || (lock(at, F_WRLCK, F_GETLK, &flock) == 0 && flock.l_type != F_UNLCK);
+}
+
+static void write_level(uint32_t at, int level)
+{
+	struct timespec now;
+
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	line[at].level = level;
+	line[at].written_ns = (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+static int take(struct gpio_v2_line_request *ask)
+{
+	struct flock flock;
+	int free_one = 0;
+
+	while (free_one < MOST && taken[free_one].count)
+		free_one++;
+	if (free_one == MOST)
+		return errno = EMFILE, -1;
+	for (uint32_t i = 0; i < ask->num_lines; i++)
+		if (is_used(ask->offsets[i]))
+			return errno = EBUSY, -1;
+	for (uint32_t i = 0; i < ask->num_lines; i++) {
+		const uint32_t at = ask->offsets[i];
+
+		if (lock(at, F_WRLCK, F_SETLK, &flock) != 0) {
+			while (i-- > 0)
+				lock(ask->offsets[i], F_UNLCK, F_SETLK, &flock);
+			return errno = EBUSY, -1;
+		}
+		taken[free_one].offset[i] = at;
+	}
+	taken[free_one].count = ask->num_lines;
+	for (uint32_t i = 0; i < ask->num_lines; i++) {
+		memcpy((char *)line[ask->offsets[i]].owner, ask->consumer, 19);
+		for (uint32_t k = 0; k < ask->config.num_attrs; k++)
+			if (ask->config.attrs[k].attr.id == GPIO_V2_LINE_ATTR_ID_OUTPUT_VALUES)
+				write_level(ask->offsets[i],
+					    ask->config.attrs[k].attr.values >> i & 1);
+	}
+	ask->fd = LINES_FD + free_one;
+	return 0;
+}
+
+static int about(struct gpio_v2_line_info *out)
+{
+	static const char *const names[LINES] = { "IN0", "IN1", "OUT0", "OUT1" };
+
+	if (out->offset >= LINES)
+		return errno = EINVAL, -1;
+	memcpy(out->name, names[out->offset], strlen(names[out->offset]) + 1);
+	out->flags = out->offset < 2 ? GPIO_V2_LINE_FLAG_INPUT : GPIO_V2_LINE_FLAG_OUTPUT;
+	if (is_used(out->offset)) {
+		out->flags |= GPIO_V2_LINE_FLAG_USED;
+		memcpy(out->consumer, (const char *)line[out->offset].owner, 20);
+	}
+	return 0;
+}
+
+static int values(const struct taken *of, struct gpio_v2_line_values *values_of, bool set)
+{
+	for (uint32_t i = 0; i < of->count; i++) {
+		const uint64_t mask = UINT64_C(1) << i;
+
+		if (set && values_of->mask & mask)
+			write_level(of->offset[i], !!(values_of->bits & mask));
+		else if (!set)
+			values_of->bits = (values_of->bits & ~mask) |
+					  (line[of->offset[i]].level ? mask : 0);
+	}
+	return 0;
+}
+
+int __wrap_ioctl(int fd, unsigned long what, ...)
+{
+	va_list args;
+	void *with;
+
+	va_start(args, what);
+	with = va_arg(args, void *);
+	va_end(args);
+	if (fd == CHIP_FD && what == GPIO_GET_CHIPINFO_IOCTL) {
+		memcpy(((struct gpiochip_info *)with)->label, "panel", sizeof("panel"));
+		((struct gpiochip_info *)with)->lines = LINES;
+		return 0;
+	}
+	if (fd == CHIP_FD && what == GPIO_V2_GET_LINEINFO_IOCTL)
+		return about(with);
+	if (fd == CHIP_FD && what == GPIO_V2_GET_LINE_IOCTL)
+		return take(with);
+	if (fd >= LINES_FD && fd < LINES_FD + MOST)
+		return values(&taken[fd - LINES_FD], with, what == GPIO_V2_LINE_SET_VALUES_IOCTL);
+	return __real_ioctl(fd, what, with);
+}
