@@ -145,4 +145,20 @@ def all_panels(screen):
 
 all_panels.size = '1024x700x24'
 edits.quick = 'editor-gtk/panels'
-main([edits, simulates, chosen, all_panels])
+
+
+def alarms(screen):
+    """an alarm of the running simulation is acknowledged with the pointer: its block and its row say so"""
+    editor = Editor(screen, os.path.join(ROOT, 'ladders', 'compressed-air.rung'))
+    editor.to_sheet()
+    editor.keys('ctrl+t')
+    editor.click(editor.find('Run', 'push button'))
+    editor.tab('Alarms')
+    editor.says('1 active, 1 to acknowledge')
+    editor.click(editor.find('Acknowledge all', 'push button'))
+    editor.says('1 active, 0 to acknowledge')
+    editor.says('active, acknowledged')
+    editor.shot('below-alarms')
+
+
+main([edits, simulates, chosen, all_panels, alarms])
