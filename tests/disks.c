@@ -589,6 +589,58 @@ static void damage(const struct scenario *it)
 	CHECK_AS(!wrong && len, what);
 }
 
+/* ---- each event ---- */
+
+static const char hostile[] = "\n\x1b[2J%s%n\"\t{}\x7f end";
+
+/* Events in the log from number @first on, one after another without a gap. */
+static uint32_t follow(uint32_t first, struct event *last)
+{
+	struct journal *journal = journal_open(folder);
+	uint32_t count = 0;
+
+	while (journal_next(journal, first + count, last) && last->seq == first + count)
+		count++;
+	journal_close(journal);
+	return count;
+}
+
+static void each_event(void)
+{
+	static const uint8_t id[] = {
+#define EVENT(name, number, text) number,
+#include "online/events.def"
+	};
+	const uint32_t kinds = sizeof(id);
+	struct event event;
+	char line[400];
+	int wrong = 0;
+
+	clear();
+	for (uint32_t i = 0; i < kinds; i++) {
+		struct journal *journal = journal_open(folder);
+
+		journal_add(journal, (enum event_id)id[i], 3, hostile, hostile, "two");
+		/* As after a kill: it is not closed yet. */
+		wrong += follow(i + 1, &event) != 1 || event.id != id[i] || event.role != 3 ||
+			 strcmp(event.user, hostile) != 0 || strcmp(event.arg[0], hostile) != 0;
+		event_print(&event, line, sizeof(line));
+		for (const char *at = line; *at; at++)
+			wrong += (unsigned char)*at < ' ' || *at == 127;
+		journal_close(journal);
+	}
+	CHECK_AS(!wrong, "each event is one record, also after a kill, and no text breaks its line");
+	{
+		struct journal *journal = journal_open(folder);
+
+		for (uint32_t i = 0; i < EVENT_RING; i++)
+			journal_add(journal, EVENT_WRITE, 3, "u", "full", "");
+		CHECK_AS(follow(kinds + 1, &event) == EVENT_RING && event.seq == kinds + EVENT_RING,
+			 "a log that is full has the newest ones, each once");
+		journal_close(journal);
+	}
+}
+
 int main(void)
 {
 	const uint8_t *image;
@@ -617,6 +669,7 @@ int main(void)
 	room /= 2;
 	for (size_t i = 0; i < sizeof(scenario) / sizeof(scenario[0]); i++)
 		damage(&scenario[i]);
+	each_event();
 	clear();
 	rmdir(folder);
 	fclose(stderr);
