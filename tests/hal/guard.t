@@ -53,14 +53,15 @@ BOARD "panel"
 END
 my @ladderd = ($ladderd, $rung, '--io', $map);
 
-sub fresh { spew("$dir/lines", "\0" x 128) }
+sub fresh { spew("$dir/lines", "\0" x 192) }
 sub err { return slurp("$dir/err") // '' }
 
-# Level, consumer and time in s of the last write of the outputs.
+# Of each output: level, consumer, time in s of the last write; time and level when the guard took
+# it last, which stay when ladderd runs again sooner than a test looks.
 sub lines {
 	my $bytes = slurp("$dir/lines");
-	return map { my ($ns, $level, $owner) = unpack 'q l Z20', substr $bytes, 32 * $_, 32;
-		[$level, $owner, $ns / 1e9] } 2, 3;
+	return map { my ($ns, $level, $owner, $guard_ns, $guard_level) = unpack 'q l Z20 q q', substr $bytes, 48 * $_, 48;
+		[$level, $owner, $ns / 1e9, $guard_ns / 1e9, $guard_level] } 2, 3;
 }
 sub is_at {
 	my ($owner, $motor, $brake) = @_;
@@ -115,9 +116,8 @@ sub guarded_since {
 	my $at;
 	until_it(sub {
 		my @line = lines();
-		my ($first) = sort { $b <=> $a } map { $_->[2] } @line;
-		$at = $first if $line[0][0] == 0 && $line[1][0] == 1 && $line[0][2] > $since &&
-			$line[1][2] > $since;
+		my ($last) = sort { $b <=> $a } map { $_->[3] } @line;
+		$at = $last if $line[0][4] == 0 && $line[1][4] == 1 && !grep { $_->[3] < $since } @line;
 		return defined $at;
 	});
 	return $at;

@@ -4,8 +4,9 @@
  * label "panel". Linked with --wrap for open, close, ioctl and opendir into ladderd and ladder-guard.
  *
  *   FAKE_DEV     folder in place of /dev; it holds an empty file gpiochip0
- *   FAKE_SHARED  file of the lines: for each 32 bytes: int64 ns of CLOCK_MONOTONIC of its last
- *                write, int32 level, char[20] consumer
+ *   FAKE_SHARED  file of the lines: for each 48 bytes: int64 ns of CLOCK_MONOTONIC of its last
+ *                write, int32 level, char[20] consumer, int64 ns and level when ladder-guard
+ *                took it last
  *
  * A line is locked by a lock of POSIX on its byte, which the kernel takes back when its process
  * dies, at the same moment as it would close the request of a line.
@@ -32,6 +33,8 @@ struct shared {
 	int64_t written_ns;
 	int32_t level;
 	char owner[20];
+	int64_t guard_ns; /* when ladder-guard took it last                      */
+	int64_t guard_level;
 };
 struct taken {
 	uint32_t count, offset[LINES];
@@ -153,6 +156,10 @@ static int take(struct gpio_v2_line_request *ask)
 			if (ask->config.attrs[k].attr.id == GPIO_V2_LINE_ATTR_ID_OUTPUT_VALUES)
 				write_level(ask->offsets[i],
 					    ask->config.attrs[k].attr.values >> i & 1);
+		if (strcmp(ask->consumer, "ladder-guard") == 0) {
+			line[ask->offsets[i]].guard_level = line[ask->offsets[i]].level;
+			line[ask->offsets[i]].guard_ns = line[ask->offsets[i]].written_ns;
+		}
 	}
 	ask->fd = LINES_FD + free_one;
 	return 0;
