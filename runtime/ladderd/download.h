@@ -36,6 +36,7 @@ struct slots {
 		char why[STATUS_TEXT];
 	} before;              /* the same of the program that ran before     */
 	char path[1024];       /* of a slot                                   */
+	char old[1024];        /* the name that such a file has had           */
 };
 
 /**

@@ -169,17 +169,16 @@ bool slots_load(struct slots *slots, const struct options *options, struct load 
 /* One file beside a slot, or the slot itself, gets the name of another, also after a power cut. */
 static int change_name(struct slots *slots, int number, const char *from, const char *to)
 {
-	char old[sizeof(slots->path)];
 	const char *path = path_of(slots, number, from);
 	int error;
 
 	if (!path)
 		return -ENAMETOOLONG;
-	memcpy(old, path, strlen(path) + 1);
+	memcpy(slots->old, path, strlen(path) + 1);
 	path = path_of(slots, number, to);
 	if (!path)
 		return -ENAMETOOLONG;
-	if (rename(old, path) != 0)
+	if (rename(slots->old, path) != 0)
 		return -errno;
 	error = disk_sync_folder(slots->folder);
 	if (error)
