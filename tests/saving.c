@@ -30,7 +30,7 @@ int __wrap_rename(const char *from, const char *to);
 
 static char calls[STEPS_MAX + 1];
 static int step, fail_at, kill_at; /* counted from 1; 0: never                */
-static bool is_short, is_interrupted;
+static bool is_short, is_interrupted, for_ever; /* `for_ever`: all calls from there on fail */
 
 static const char old_text[] = "the old file\n";
 static const char new_text[] = "the new file, which is longer\n";
@@ -45,7 +45,7 @@ static bool pass(char name)
 	if (step == kill_at)
 		_exit(0);
 	errno = EIO;
-	return step != fail_at;
+	return for_ever ? step < fail_at : step != fail_at;
 }
 
 ssize_t __wrap_write(int fd, const void *bytes, size_t len)
@@ -168,6 +168,11 @@ static void test_errors(void)
 	CHECK_AS(failing > 10 && failing < STEPS_MAX, "each call of a save failed once");
 	CHECK_AS(look() == 'n' && count_files(false) == 1,
 		 "a folder that cannot be synced does not prevent the save");
+	CHECK_AS(diags.count == 0, "it is synced again: an error of the moment is no loss");
+	put_old();
+	for_ever = true;
+	CHECK_AS(save(failing, 0) && look() == 'n', "nor one that stays so");
+	for_ever = false;
 	CHECK_AS(diags.count == 1 && diags.errors == 0 &&
 		 diags.diag[0].id == DIAG_NOT_SYNCED,
 		 "a folder that cannot be synced gives a warning");
