@@ -3,8 +3,9 @@
  * guest - tests ladderd on a real kernel with real lines.
  *
  *   guest [--tier full|small] [--only N] [--longest S] [--flips N]
- *         [--work DIR] CASES LADDERD...
+ *         [--kills N] [--stops N] [--work DIR] CASES LADDERD...
  *   guest --as-user COMMAND...         helper: runs it as an ordinary user
+ *   guest --late MS COMMAND...         helper: runs it after this time
  *   guest --memory BYTES COMMAND...    helper: runs it with little memory
  *   guest --held COMMAND...            helper: runs it under ptrace, held
  *
@@ -38,7 +39,8 @@
 #define SECOND INT64_C(1000000000)
 #define NOBODY 65534
 
-struct guest guest = { .work = "/tmp", .longest_ns = INT64_MAX, .flips = 64 };
+struct guest guest = { .work = "/tmp", .longest_ns = INT64_MAX, .flips = 64,
+		       .kills = 10, .stops = 4 };
 
 static int count, failed;
 
@@ -207,6 +209,13 @@ static int with_memory(const char *bytes, char **command)
 	give_up(command[0]);
 }
 
+static int late(const char *ms, char **command)
+{
+	sleep_ms(strtol(ms, NULL, 10));
+	execv(command[0], command);
+	give_up(command[0]);
+}
+
 /* Stops at its start, so that the parent can step it. */
 static int held(char **command)
 {
@@ -219,8 +228,8 @@ static int held(char **command)
 
 static int usage(void)
 {
-	fprintf(stderr, "usage: guest [--tier full|small] [--only 1..12] "
-		"[--longest S] [--flips N] [--work DIR] CASES LADDERD...\n");
+	fprintf(stderr, "usage: guest [--tier full|small] [--only 1..13] "
+		"[--longest S] [--flips N] [--kills N] [--stops N] [--work DIR] CASES LADDERD...\n");
 	return 2;
 }
 
@@ -241,6 +250,10 @@ static int read_options(int argc, char **argv)
 			guest.longest_ns = strtol(value, NULL, 10) * SECOND;
 		else if (strcmp(argv[i], "--flips") == 0)
 			guest.flips = (unsigned)strtoul(value, NULL, 10);
+		else if (strcmp(argv[i], "--kills") == 0)
+			guest.kills = (int)strtol(value, NULL, 10);
+		else if (strcmp(argv[i], "--stops") == 0)
+			guest.stops = (int)strtol(value, NULL, 10);
 		else if (strcmp(argv[i], "--work") == 0)
 			guest.work = value;
 		else
@@ -266,6 +279,7 @@ static const struct {
 	{ 10, "what ladder io shows", test_picture },
 	{ 11, "a desk changes the program", test_link },
 	{ 12, "a desk at a serial line, without names", test_serial },
+	{ 13, "a guard, and a ladderd that dies or freezes", test_guard },
 };
 
 static void run_all(const char *ladderd)
@@ -314,6 +328,8 @@ int main(int argc, char **argv)
 		return as_user(argv + 2);
 	if (argc > 3 && strcmp(argv[1], "--memory") == 0)
 		return with_memory(argv[2], argv + 3);
+	if (argc > 3 && strcmp(argv[1], "--late") == 0)
+		return late(argv[2], argv + 3);
 	if (argc > 2 && strcmp(argv[1], "--held") == 0)
 		return held(argv + 2);
 	first = read_options(argc, argv);

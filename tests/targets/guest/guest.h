@@ -27,6 +27,7 @@ struct guest {
 	int64_t longest_ns;    /* of a scenario; longer ones are skipped      */
 	unsigned flips;        /* damaged images at most; 0: every byte       */
 	int only;              /* only this test; 0: all                      */
+	int kills, stops;      /* how often ladderd dies and freezes under a guard */
 };
 extern struct guest guest;
 
@@ -66,4 +67,5 @@ void test_memory(void);
 void test_picture(void);
 void test_link(void);
 void test_serial(void);
+void test_guard(void);
 #endif

@@ -21,6 +21,10 @@ extern struct bank panel;
 	"%IX0.2 gpio line=IN2 " in "\n%IX0.3 gpio line=IN3 " in "\n"          \
 	"%QX0.0 gpio line=OUT0 " out0 "\n%QX0.1 gpio line=OUT1 " out1 "\n"    \
 	"%QX0.2 gpio line=OUT2 " out2 "\n%QX0.3 gpio line=OUT3 " out3 "\n"
+/* Levels of the outputs in RUN, with I0, and safe, with this map. */
+#define PANEL_RUNS    0x5u
+#define PANEL_IS_SAFE 0xau
+#define PANEL_SAFE PANEL_MAP("", "safe=0", "safe=1", "active-low safe=1", "active-low safe=0")
 #define PANEL_PLAIN PANEL_MAP("", "", "", "", "")
 
 /** panel_up - creates it with all pulls down. @hog as for bank_up(). */

@@ -13,15 +13,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SAFE  0xau
-#define RUN   0x5u /* with I0                                                */
+#define SAFE  PANEL_IS_SAFE
+#define RUN   PANEL_RUNS
 #define PULLS 0xcu /* of outputs that are not driven                         */
-#define SAFE_MAP PANEL_MAP("", "safe=0", "safe=1", "active-low safe=1",       \
-			   "active-low safe=0")
 
 static const char *safe_map(void)
 {
-	return file_text("safe.io", SAFE_MAP);
+	return file_text("safe.io", PANEL_SAFE);
 }
 
 static void set_up(void)

@@ -250,6 +250,13 @@ programs() {
 	build=$out/build
 	rm -f "$out"/ladderd-*
 	make_programs none guest replay
+	case " $make_with " in
+	*" SMALL=1 "*) ;;
+	*)
+		make_programs none ladder-guard
+		mv "$build/ladder-guard" "$out/"
+		;;
+	esac
 	for driver in "$@"; do
 		# The objects of the library serve all drivers, those of the HAL one.
 		rm -rf "$build/hal"
@@ -268,6 +275,12 @@ programs() {
 		rm -rf "$out/cases"
 		make -s BUILD="$BUILD" cases && cp -r "$BUILD/cases" "$out/cases"
 	) 9>"$BUILD/targets/cases.lock" >>"$log" 2>&1 || broken "the cases could not be made" "$log"
+}
+# Options of the guest's suite for a long run: GUEST_ONLY is the number of one test, GUARD_KILLS and
+# GUARD_STOPS say how often ladderd dies and freezes.
+guest_options() {
+	echo "${GUEST_ONLY:+--only $GUEST_ONLY} ${GUARD_KILLS:+--kills $GUARD_KILLS}" \
+		"${GUARD_STOPS:+--stops $GUARD_STOPS}"
 }
 # A small ladderd with a serial line, which has fewer words.
 small_serial() { # VARIABLE=VALUE...

@@ -17,9 +17,9 @@ virt() {
 	programs CROSS="$triplet-" -- $drivers
 	command_line
 	disk "$triplet-gcc" "$out/build/guest" "$out/build/replay" "$out/ladder" "$out"/ladderd-* \
-		"$out/cases" "$cache/cyclictest-$1/guest"/*
+		"$out/ladder-guard" "$out/cases" "$cache/cyclictest-$1/guest"/*
 	cp -r "$cache/stock-$1/sim" "$root/modules"
-	guest_runs /guest /cases $(printf '/ladderd-%s ' $drivers)
+	guest_runs /guest $(guest_options) /cases $(printf '/ladderd-%s ' $drivers)
 	guest_runs /replay /cases/programs.bundle
 	disk_close
 	# Without the gpio chip of the machine, so that those of the suite come first.
