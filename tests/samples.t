@@ -122,10 +122,9 @@ for my $program (@programs) {
 	my $of = 0;
 	for my $broken (broken(slurp($program))) {
 		spew("$folder/$name.rung", $broken->{text});
-		($status, $text) = answer('.', $ladder, 'check', "$folder/$name.rung");
-		next if $status; # no longer a valid program
-		$of++;
 		($status, $text) = answer('.', $ladder, 'test', '--fail-fast', "$folder/$name.scn");
+		next if $text =~ /^not ok 1 - .*: its program is good$/m; # it is not a program any more
+		$of++;
 		next if $status;
 		push @missed, "$broken->{line}: $broken->{row}";
 		push @missed_chart, $missed[-1] if $broken->{chart};

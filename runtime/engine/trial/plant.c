@@ -108,6 +108,26 @@ static void to_plant(struct image *plant, struct image *program)
 	}
 }
 
+/* Takes the bits of @mask from @from. It runs after each scan and most of a mask is empty, so eight bytes are one step. */
+static void mix(uint8_t *to, const uint8_t *from, const uint8_t *mask, uint32_t bytes)
+{
+	uint32_t at = 0;
+
+	for (; bytes - at >= 8; at += 8) {
+		uint64_t m, t, f;
+
+		memcpy(&m, mask + at, 8);
+		if (m == 0)
+			continue;
+		memcpy(&t, to + at, 8);
+		memcpy(&f, from + at, 8);
+		t = (t & ~m) | (f & m);
+		memcpy(to + at, &t, 8);
+	}
+	for (; at < bytes; at++)
+		to[at] = (uint8_t)((to[at] & ~mask[at]) | (from[at] & mask[at]));
+}
+
 static void from_plant(struct image *plant, const uint8_t *drives,
 		       struct image *program)
 {
@@ -119,10 +139,7 @@ static void from_plant(struct image *plant, const uint8_t *drives,
 		uint8_t *to = image_area(program, in);
 		const uint8_t *from = image_area(plant, out);
 		const uint8_t *mask = drives + here->at[in];
-		const uint32_t bytes = least(here->bytes[in], there->bytes[out]);
-
-		for (uint32_t b = 0; b < bytes; b++)
-			to[b] = (uint8_t)((to[b] & ~mask[b]) | (from[b] & mask[b]));
+		mix(to, from, mask, least(here->bytes[in], there->bytes[out]));
 	}
 }
 
