@@ -478,6 +478,19 @@ my $keys = slurp('packaging/org.rungboard.Editor.gschema.xml');
 my $editor = join '', map { slurp($_) } glob 'editor-gtk/*/*.c editor-gtk/*/*.h';
 is(join(' ', grep { $editor !~ /"\Q$_\E"/ } $keys =~ /<key name="([a-z-]+)"/g), '', 'the editor uses every setting of the schema');
 
+# Each line of the page "What happens when" is run by a test (tests/happens.txt).
+my ($happens) = $text{'docs/boards.md'} =~ /^## What happens when\n(.*?)^## /ms;
+my @told = map { /^\| (.*?) \|/ } grep { !/^\|[-|]+\|$/ && !/^\| (?:what happens|when) \|/ } split /\n/, $happens;
+my @run = map { [split / \| /] } grep { /^[^#]/ } split /\n/, slurp('tests/happens.txt', ':encoding(UTF-8)');
+my %is_run = map { $_->[0] => 1 } @run;
+cmp_ok(scalar @told, '>', 30, 'docs/boards.md: lines of "What happens when"');
+list_is('tests/happens.txt: the lines of docs/boards.md, "What happens when"', [keys %is_run], \@told);
+for my $line (@run) {
+	my ($what, $path, $test) = @$line;
+	ok(defined $test && index(slurp($path, ':encoding(UTF-8)') // '', $test) >= 0, "tests/happens.txt: $what: $path has its test")
+		or diag("not there: " . ($test // 'no text'));
+}
+
 my @vehicles = grep { $_ ne 'sizes' } map { basename($_) } grep { -f && -x } glob 'tests/targets/*';
 list_is('Makefile: the vehicles', [split ' ', (slurp('Makefile') =~ /^VEHICLES +\?= (.*)$/m)[0]], \@vehicles);
 list_is('./run help: the vehicles', [split ' ', ($run =~ /in emulators:\n\s+(.*?);/)[0]], \@vehicles);

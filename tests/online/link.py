@@ -525,6 +525,8 @@ def test_stop_makes_outputs_safe_and_run_starts():
         until(lambda: board.read('err').rstrip().splitlines()[-1] != '%QX0.0 1')
         levels = dict(line.split() for line in board.read('err').splitlines() if line.startswith('%QX'))
         assert levels == {'%QX0.0': '0', '%QX0.1': '1'}
+        assert 'stopped by a desk, outputs are safe' in board.read('err')
+        assert '\nmode: STOP\n' in board.command('status')[1]
         refused(15, lambda: desk.set_mode(0), 'STOP')
         refused(15, lambda: desk.set_mode(3), 'STOP')
         desk.write({'Count': (INT, 3)})

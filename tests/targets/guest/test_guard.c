@@ -138,7 +138,7 @@ static bool figures(const char *what, int64_t bound_ms)
 static void ends(const char *what, int count, const int *signals, int kinds, int64_t bound_ms)
 {
 	int again = 0, safe = 0, orderly = 0, guards = 0;
-	struct child guard;
+	struct child guard = { .pipe = -1 };
 
 	took = 0;
 	for (int i = 0; i < count; i++) {
@@ -165,6 +165,7 @@ static void ends(const char *what, int count, const int *signals, int kinds, int
 	}
 	check(safe == count, "%d %s: the outputs are safe %d times", count, what, safe);
 	check(figures(what, bound_ms), "%s: within %ld ms", what, (long)bound_ms);
+	check(strstr(child_err(&guard), "; the outputs are safe\n") != NULL, "%s: it is told", what);
 	check(again == count, "%s: ladderd runs again %d times", what, again);
 	check(orderly == guards, "%s: SIGTERM ends both, %d of %d times", what, orderly, guards);
 }
