@@ -3,7 +3,7 @@
  * guest - tests ladderd on a real kernel with real lines.
  *
  *   guest [--tier full|small] [--only N] [--longest S] [--flips N]
- *         [--kills N] [--stops N] [--work DIR] CASES LADDERD...
+ *         [--kills N] [--stops N] [--starts N] [--work DIR] CASES LADDERD...
  *   guest --as-user COMMAND...         helper: runs it as an ordinary user
  *   guest --late MS COMMAND...         helper: runs it after this time
  *   guest --memory BYTES COMMAND...    helper: runs it with little memory
@@ -40,7 +40,7 @@
 #define NOBODY 65534
 
 struct guest guest = { .work = "/tmp", .longest_ns = INT64_MAX, .flips = 64,
-		       .kills = 10, .stops = 4 };
+		       .kills = 10, .stops = 4, .starts = 4 };
 
 static int count, failed;
 
@@ -228,8 +228,8 @@ static int held(char **command)
 
 static int usage(void)
 {
-	fprintf(stderr, "usage: guest [--tier full|small] [--only 1..13] "
-		"[--longest S] [--flips N] [--kills N] [--stops N] [--work DIR] CASES LADDERD...\n");
+	fprintf(stderr, "usage: guest [--tier full|small] [--only 1..14] "
+		"[--longest S] [--flips N] [--kills N] [--stops N] [--starts N] [--work DIR] CASES LADDERD...\n");
 	return 2;
 }
 
@@ -254,6 +254,8 @@ static int read_options(int argc, char **argv)
 			guest.kills = (int)strtol(value, NULL, 10);
 		else if (strcmp(argv[i], "--stops") == 0)
 			guest.stops = (int)strtol(value, NULL, 10);
+		else if (strcmp(argv[i], "--starts") == 0)
+			guest.starts = (int)strtol(value, NULL, 10);
 		else if (strcmp(argv[i], "--work") == 0)
 			guest.work = value;
 		else
@@ -280,6 +282,7 @@ static const struct {
 	{ 11, "a desk changes the program", test_link },
 	{ 12, "a desk at a serial line, without names", test_serial },
 	{ 13, "a guard, and a ladderd that dies or freezes", test_guard },
+	{ 14, "starts, and how long they take", test_starts },
 };
 
 static void run_all(const char *ladderd)

@@ -28,6 +28,7 @@ struct guest {
 	unsigned flips;        /* damaged images at most; 0: every byte       */
 	int only;              /* only this test; 0: all                      */
 	int kills, stops;      /* how often ladderd dies and freezes under a guard */
+	int starts;            /* how often its outputs are looked at while it starts */
 };
 extern struct guest guest;
 
@@ -68,4 +69,5 @@ void test_picture(void);
 void test_link(void);
 void test_serial(void);
 void test_guard(void);
+void test_starts(void);
 #endif

@@ -276,11 +276,11 @@ programs() {
 		make -s BUILD="$BUILD" cases && cp -r "$BUILD/cases" "$out/cases"
 	) 9>"$BUILD/targets/cases.lock" >>"$log" 2>&1 || broken "the cases could not be made" "$log"
 }
-# Options of the guest's suite for a long run: GUEST_ONLY is the number of one test, GUARD_KILLS and
-# GUARD_STOPS say how often ladderd dies and freezes.
+# Options of the guest's suite for a long run: GUEST_ONLY is the number of one test, GUARD_KILLS,
+# GUARD_STOPS and GUARD_STARTS say how often ladderd dies, freezes and starts.
 guest_options() {
 	echo "${GUEST_ONLY:+--only $GUEST_ONLY} ${GUARD_KILLS:+--kills $GUARD_KILLS}" \
-		"${GUARD_STOPS:+--stops $GUARD_STOPS}"
+		"${GUARD_STOPS:+--stops $GUARD_STOPS} ${GUARD_STARTS:+--starts $GUARD_STARTS}"
 }
 # A small ladderd with a serial line, which has fewer words.
 small_serial() { # VARIABLE=VALUE...

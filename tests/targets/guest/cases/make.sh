@@ -40,6 +40,9 @@ done
 # A thousand motors with seal-in, to measure memory.
 perl tests/bench/programs.pl seal 1000 >"$cases/thousand.rung"
 "$build/ladder" build "$cases/thousand.rung" -o "$cases/thousand.rungc" 2>/dev/null
+# Four elements each, to measure a start.
+perl tests/bench/programs.pl seal 2500 >"$cases/ten-thousand.rung"
+"$build/ladder" build "$cases/ten-thousand.rung" -o "$cases/ten-thousand.rungc" 2>/dev/null
 cp "$guest"/programs/*.io "$cases"
 "$build/make_cases" bad "$cases" "$cases/panel.rungc"
 "$build/make_cases" bundle "$cases/programs.bundle" "$programs" 1
