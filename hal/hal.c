@@ -25,6 +25,11 @@ bool request_in_fault(const struct hal_request *request)
 	return request->failures >= HAL_FAILURES;
 }
 
+uint64_t request_safe(const struct hal_request *request)
+{
+	return (request->safe & ~request->hold) | (request->value & request->hold);
+}
+
 static enum hal_quality quality_of(const struct hal_request *request)
 {
 	if (request_in_fault(request))
@@ -138,6 +143,8 @@ static void trace_changes(const struct hal *hal,
 static bool write_request(struct hal *hal, struct hal_request *request,
 			  uint64_t value)
 {
+	if (hal->holds && (value ^ request->value) & request->hold)
+		hal->holds(hal, request, value);
 	if (request->ask.driver->write(&request->ask,
 				       value ^ request->invert) < 0) {
 		request_failed(hal, request);
@@ -197,7 +204,7 @@ bool hal_write_safe(struct hal *hal)
 
 		if (!request->ask.output || !request->is_open)
 			continue;
-		if (!write_request(hal, request, request->safe))
+		if (!write_request(hal, request, request_safe(request)))
 			good = false;
 		if (fault)
 			request->failures = HAL_FAILURES;
@@ -212,6 +219,7 @@ static void take_over(struct hal_request *to, struct hal_request *from)
 	memcpy(to->differs_ns, from->differs_ns, sizeof(int64_t) * from->ask.count);
 	to->differs = from->differs;
 	to->value = from->value ^ from->invert ^ to->invert;
+	to->kept = request_safe(to) & to->idle;
 	to->written_ns = from->written_ns;
 	to->written = from->written;
 	to->dirty = from->dirty;
@@ -225,7 +233,7 @@ static void leave(struct hal *hal, struct hal_request *request)
 {
 	const struct hal_request *twin = request->twin;
 	const uint64_t goes = twin ? twin->idle & ~request->idle : UINT64_MAX;
-	const uint64_t value = (request->value & ~goes) | (request->safe & goes);
+	const uint64_t value = (request->value & ~goes) | (request_safe(request) & goes);
 	const uint8_t failures = request->failures;
 
 	if (!request->ask.output || !request->is_open || !goes)

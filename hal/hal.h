@@ -38,6 +38,8 @@ struct hal {
 	 * in a signal handler; or NULL. */
 	void (*trace)(void *context, const struct io_point *point, bool value);
 	void *trace_context;
+	/* Called before an output that holds its value gets @value, in a scan; or NULL. */
+	void (*holds)(const struct hal *hal, const struct hal_request *request, uint64_t value);
 };
 
 /**
@@ -48,7 +50,8 @@ struct hal {
  *
  * First finds every line; requests none unless all exist, are free and named once. Then
  * requests inputs and reads them once, so that the first scan has real values; then
- * outputs, with their safe values.
+ * outputs, with their safe values. An output with safe=hold begins with 0, after
+ * hal_reopen() with its last value.
  * Owns: the caller, hal_close().   Scan-safe: no.
  * Fails: false and an error for each line; all lines are released.
  */
@@ -85,7 +88,8 @@ bool ReadPhysicalInputs(struct hal *hal, struct image *image, int64_t now_ns);
 bool WritePhysicalOutputs(struct hal *hal, struct image *image, int64_t now_ns);
 
 /**
- * hal_write_safe - writes all safe values and holds the outputs there
+ * hal_write_safe - writes all safe values and holds the outputs there; one with safe=hold keeps
+ * the value that was written last
  *
  * Scan-safe: yes; also in a signal handler that interrupted a scan.
  * Fails: false if a driver failed; call it again.

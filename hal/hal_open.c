@@ -171,6 +171,8 @@ static void add_line(struct hal_request *request, const struct io_point *point,
 		request->invert |= mask;
 	if (point->safe)
 		request->safe |= mask;
+	if (point->hold)
+		request->hold |= mask;
 	if (point->debounce_ns > 0)
 		request->debounced |= mask;
 }
@@ -272,14 +274,14 @@ static bool open_request(const struct hal *hal, struct hal_request *request,
 {
 	struct trouble why;
 
-	request->ask.first = request->safe ^ request->invert;
+	request->ask.first = request_safe(request) ^ request->invert;
 	if (!request->ask.driver->open(&request->ask, &why))
 		return refuse(hal, request, &why, diags);
 	request->is_open = true;
 	if (!request->ask.output && !first_read(request, &why))
 		return refuse(hal, request, &why, diags);
 	if (request->ask.output)
-		request->value = request->safe;
+		request->value = request_safe(request);
 	request->written = false;
 	request->dirty = false;
 	request->failures = 0;
@@ -479,7 +481,6 @@ static bool make_twin(struct hal_request *twin, struct hal_request *open,
 		add_line(twin, keep_point(open->ask.line[k].point, arena), open->ask.line[k].at);
 		twin->bit[k].mask = 0;
 	}
-	twin->kept = twin->safe & twin->idle;
 	twin->debounced &= ~twin->idle;
 	twin->twin = open;
 	open->twin = twin;
@@ -590,7 +591,7 @@ void hal_close_rest(struct hal *other)
 
 		if (request->is_open && request->ask.output && request->dirty &&
 		    request->ask.driver->write(&request->ask,
-					       request->safe ^ request->invert) == 0)
+					       request_safe(request) ^ request->invert) == 0)
 			request->dirty = false;
 		close_request(request);
 	}

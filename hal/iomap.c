@@ -173,8 +173,10 @@ static bool set_safe(struct reader *reader, struct io_point *point,
 		     const char *value, size_t len)
 {
 	(void)reader;
+	point->has_safe = true;
+	point->hold = ascii_is("hold", value, len);
 	point->safe = len == 1 && value[0] == '1';
-	return len == 1 && (value[0] == '0' || value[0] == '1');
+	return point->hold || point->safe || (len == 1 && value[0] == '0');
 }
 
 #define SETTER(name, member, constant)                                        \
@@ -200,7 +202,7 @@ static const struct option options[OPTION_COUNT] = {
 	{ "chip",        FOR_BOTH,   true,  "chip=gpiochip0", set_chip },
 	{ "offset",      FOR_BOTH,   true,  "offset=17", set_offset },
 	{ "debounce",    FOR_INPUT,  true,  "debounce=5ms", set_debounce },
-	{ "safe",        FOR_OUTPUT, true,  "safe=1", set_safe },
+	{ "safe",        FOR_OUTPUT, true,  "safe=0, safe=1 or safe=hold", set_safe },
 	{ "active-low",  FOR_BOTH,   false, "active-low", set_active_low },
 	{ "pull-up",     FOR_BOTH,   false, "pull-up", set_pull_up },
 	{ "pull-down",   FOR_BOTH,   false, "pull-down", set_pull_down },

@@ -36,6 +36,8 @@ struct io_point {
 	enum io_drive drive;
 	bool active_low;       /* TRUE is the low level                       */
 	bool safe;             /* value of an output while no program runs    */
+	bool hold;             /* it keeps its last value instead             */
+	bool has_safe;         /* the map says so                             */
 	int64_t debounce_ns;   /* of inputs                                   */
 	int text_line, text_column; /* 1-based, in the file                   */
 };

@@ -20,8 +20,9 @@ struct hal_request {
 	uint64_t differs;        /* lines whose level differs from value      */
 	uint64_t invert;         /* lines that are active low                 */
 	uint64_t safe;           /* safe values, before inversion             */
+	uint64_t hold;           /* lines that keep their last value instead  */
 	uint64_t idle;           /* lines that no point of the map has          */
-	uint64_t kept;           /* safe values of idle lines                 */
+	uint64_t kept;           /* values of idle lines                      */
 	struct hal_request *twin; /* that of the other map with the same lines; or NULL */
 	uint64_t value;          /* values that the program reads or wrote    */
 	int64_t written_ns;
@@ -32,4 +33,6 @@ struct hal_request {
 };
 
 bool request_in_fault(const struct hal_request *request);
+/** request_safe - the values that make an output safe now, before inversion. Scan-safe: yes. */
+uint64_t request_safe(const struct hal_request *request);
 #endif

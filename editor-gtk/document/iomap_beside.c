@@ -45,11 +45,12 @@ static guint8 *safe_of(const struct iomap *map, const struct areas *areas)
 	for (int i = 0; i < map->count; i++) {
 		const struct io_point *point = &map->point[i];
 
-		if (!point->output || !point->safe)
+		if (!point->output || !(point->safe || point->hold))
 			continue;
 		if (!safe)
-			safe = g_malloc0(areas->bytes[AREA_Q]);
-		safe[point->addr.byte] |= (guint8)(1 << point->addr.bit);
+			safe = g_malloc0(2 * areas->bytes[AREA_Q]);
+		safe[point->addr.byte + (point->hold ? areas->bytes[AREA_Q] : 0)] |=
+			(guint8)(1 << point->addr.bit);
 	}
 	return safe;
 }

@@ -21,8 +21,9 @@ bool iomap_is_own(const char *path, const char *map);
  * while nothing runs
  * @areas: of the program
  *
- * Returns a bit for each bit of Q, 8 a byte; NULL: all 0, or there is no map, or one that
- * `ladderd` would refuse. Caller: g_free(). Any thread.
+ * Returns a bit for each bit of Q, 8 a byte, then as many bits for those that keep their value
+ * instead; NULL: all 0, or there is no map, or one that `ladderd` would refuse. Caller: g_free().
+ * Any thread.
  */
 guint8 *iomap_safe_beside(const char *path, const struct areas *areas);
 

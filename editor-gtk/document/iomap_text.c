@@ -693,7 +693,7 @@ const char *const *io_text_choices(enum io_field field)
 	static const char *const pull[] = { "pull-up", "pull-down", "no-pull", NULL };
 	static const char *const drive[] = { "push-pull", "open-drain", "open-source",
 					     NULL };
-	static const char *const safe[] = { "0", "1", NULL };
+	static const char *const safe[] = { "0", "1", "hold", NULL };
 	static const char *const yes[] = { "1", NULL };
 
 	switch (field) {

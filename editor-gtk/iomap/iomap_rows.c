@@ -212,6 +212,7 @@ static const char *about_word(const char *word)
 		{ "open-drain", N_("drives low only") },
 		{ "open-source", N_("drives high only") },
 		{ "0", N_("off while nothing runs") }, { "1", N_("on while nothing runs") },
+		{ "hold", N_("keeps its last value while nothing runs") },
 	};
 
 	for (gsize i = 0; i < G_N_ELEMENTS(row); i++)

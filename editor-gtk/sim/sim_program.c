@@ -154,7 +154,7 @@ static char *plain_text(const struct sim_program *program)
 static bool is_safe_same(const struct sim_program *a, const struct sim_program *b)
 {
 	return a->safe && b->safe ?
-	       memcmp(a->safe, b->safe, a->program->areas.bytes[AREA_Q]) == 0 :
+	       memcmp(a->safe, b->safe, 2 * a->program->areas.bytes[AREA_Q]) == 0 :
 	       a->safe == b->safe;
 }
 

@@ -19,7 +19,7 @@ static bool check_table(const struct guard_table *table, size_t len)
 		const struct guard_line *line = &table->line[i];
 
 		if (line->level > 1 || line->bias > GUARD_THIRD || line->drive > GUARD_THIRD ||
-		    line->zero)
+		    line->hold > GUARD_KNOWN)
 			return false;
 		for (size_t k = 0; k < i; k++)
 			if (table->line[k].chip == line->chip &&
@@ -40,8 +40,11 @@ bool guard_check(const union guard_packet *packet, size_t len)
 		return len == sizeof(*head) && head->within_ms >= 1 &&
 		       head->within_ms <= GUARD_LONGEST;
 	case GUARD_TABLE:
+	case GUARD_MORE:
 		return len >= offsetof(struct guard_table, line) &&
 		       check_table(&packet->table, len);
+	case GUARD_LEVELS:
+		return len == sizeof(packet->levels);
 	case GUARD_TAKE:
 		return len == sizeof(*head);
 	case GUARD_TELL:

@@ -14,6 +14,7 @@ union guard_packet {
 	struct guard_head head;
 	struct guard_table table;
 	struct guard_tell tell;
+	struct guard_levels levels;
 };
 
 /** guard_check - checks all fields of a packet of @len bytes; false: throw it away. */

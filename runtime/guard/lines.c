@@ -29,9 +29,26 @@ void lines_release(struct lines *lines)
 		lines->fd[i] = -1;
 		lines->held[i] = lines->told[i] = false;
 	}
-	if (lines->waits)
+	if (lines->waits) {
 		lines->table = lines->next;
+		lines->more = 0;
+	}
 	lines->waits = false;
+}
+
+static int count_of(const struct lines *lines)
+{
+	return lines->table.head.count + lines->more;
+}
+
+/* The line of the table at the same place; NULL: none. */
+static const struct guard_line *find(const struct lines *lines, const struct guard_line *line)
+{
+	for (int i = 0; i < count_of(lines); i++)
+		if (lines->table.line[i].chip == line->chip &&
+		    lines->table.line[i].offset == line->offset)
+			return &lines->table.line[i];
+	return NULL;
 }
 
 void lines_know(struct lines *lines, const struct guard_table *table)
@@ -39,11 +56,43 @@ void lines_know(struct lines *lines, const struct guard_table *table)
 	memset(&lines->next, 0, sizeof(lines->next));
 	memcpy(&lines->next, table, offsetof(struct guard_table, line) +
 	       table->head.count * sizeof(table->line[0]));
+	for (int i = 0; i < table->head.count; i++) {
+		struct guard_line *line = &lines->next.line[i];
+		const struct guard_line *known = find(lines, line);
+
+		if (line->hold == GUARD_KNOWN && known)
+			line->level = known->level;
+	}
 	lines->waits = true;
 	for (int i = 0; i < GUARD_LINES; i++)
 		if (lines->held[i])
 			return;
 	lines_release(lines);
+}
+
+void lines_more(struct lines *lines, const struct guard_table *more)
+{
+	lines->more = 0;
+	if (lines->waits)
+		return;
+	for (int i = 0; i < more->head.count && count_of(lines) < GUARD_LINES; i++)
+		if (!find(lines, &more->line[i]))
+			lines->table.line[lines->table.head.count + lines->more++] = more->line[i];
+}
+
+void lines_levels(struct lines *lines, const struct guard_levels *levels)
+{
+	for (int i = 0; !lines->waits && i < lines->table.head.count; i++)
+		if (lines->table.line[i].hold)
+			lines->table.line[i].level = levels->bit[i / 8] >> i % 8 & 1;
+}
+
+void lines_answer(const struct lines *lines, struct guard_levels *out)
+{
+	memset(out, 0, sizeof(*out));
+	out->head = (struct guard_head){ .magic = GUARD_MAGIC, .kind = GUARD_TAKE };
+	for (int i = 0; i < lines->table.head.count; i++)
+		out->bit[i / 8] |= (uint8_t)(lines->table.line[i].level << i % 8);
 }
 
 static uint64_t flags_of(const struct guard_line *line)
@@ -116,7 +165,7 @@ static uint32_t gather(const struct lines *lines, int first, bool *tried, int *n
 {
 	uint32_t count = 0;
 
-	for (int i = first; i < lines->table.head.count && count < GPIO_V2_LINES_MAX; i++)
+	for (int i = first; i < count_of(lines) && count < GPIO_V2_LINES_MAX; i++)
 		if (!tried[i] &&
 		    same_request(&lines->table.line[first], &lines->table.line[i])) {
 			tried[i] = true;
@@ -151,10 +200,10 @@ bool lines_take(struct lines *lines)
 	bool all = true, tried[GUARD_LINES];
 
 	memcpy(tried, lines->held, sizeof(tried));
-	for (int i = 0; i < lines->table.head.count; i++)
+	for (int i = 0; i < count_of(lines); i++)
 		if (!tried[i])
 			take_from(lines, i, tried);
-	for (int i = 0; i < lines->table.head.count; i++)
+	for (int i = 0; i < count_of(lines); i++)
 		all = all && lines->held[i];
 	return all;
 }

@@ -201,6 +201,8 @@ static void on_signals(void)
 
 static void on_packet(const union guard_packet *packet, int64_t now)
 {
+	struct guard_levels levels;
+
 	switch (packet->head.kind) {
 	case GUARD_BEAT:
 		guard.recovers = false;
@@ -213,7 +215,14 @@ static void on_packet(const union guard_packet *packet, int64_t now)
 		lines_release(&guard.lines);
 		guard.safe = false;
 		guard.due_ms = now + TAKING_MS;
-		send(guard.child.socket, packet, sizeof(packet->head), MSG_NOSIGNAL | MSG_DONTWAIT);
+		lines_answer(&guard.lines, &levels);
+		send(guard.child.socket, &levels, sizeof(levels), MSG_NOSIGNAL | MSG_DONTWAIT);
+		break;
+	case GUARD_LEVELS:
+		lines_levels(&guard.lines, &packet->levels);
+		break;
+	case GUARD_MORE:
+		lines_more(&guard.lines, &packet->table);
 		break;
 	default:
 		feed_tell(&guard.feed, packet->tell.text);

@@ -22,26 +22,31 @@
 enum guard_kind {
 	GUARD_BEAT = 1, /* it lives; the next comes within within_ms        */
 	GUARD_TABLE,    /* its outputs, before it requests them             */
-	GUARD_TAKE,     /* it is about to request them; answered with the same */
+	GUARD_TAKE,     /* it is about to request them; answered with guard_levels */
 	GUARD_TELL,     /* a text for the service manager                   */
+	GUARD_LEVELS,   /* levels of its outputs that hold, before it writes them */
+	GUARD_MORE,     /* further outputs that it will request; none: no longer */
 };
 
 struct guard_head {
 	uint32_t magic;
 	uint16_t kind;      /* enum guard_kind                                */
-	uint16_t count;     /* GUARD_TABLE: lines                             */
+	uint16_t count;     /* GUARD_TABLE, GUARD_MORE: lines                 */
 	uint32_t within_ms; /* GUARD_BEAT: 1 … GUARD_LONGEST                  */
 };
 
 enum { GUARD_AS_IS, GUARD_FIRST, GUARD_SECOND, GUARD_THIRD };
+/* GUARD_KNOWN: ladderd does not know the level; it is the one that the guard was told last for this
+ * line, or else the given one. */
+enum guard_hold { GUARD_SAFE, GUARD_HOLD, GUARD_KNOWN };
 /* An output: the level at the pin, not the value, so inversion is done. */
 struct guard_line {
 	uint16_t chip;      /* N of gpiochipN                                 */
 	uint16_t offset;
-	uint8_t level;      /* 0, 1: the safe level                           */
+	uint8_t level;      /* 0, 1: the safe level; of one that holds: the present one */
 	uint8_t bias;       /* GUARD_AS_IS; 1 none, 2 up, 3 down              */
 	uint8_t drive;      /* GUARD_AS_IS; 1 push-pull, 2 open drain, 3 open source */
-	uint8_t zero;
+	uint8_t hold;       /* enum guard_hold                                */
 };
 
 /* As long as its lines. */
@@ -49,6 +54,12 @@ struct guard_table {
 	struct guard_head head;
 	char dev[GUARD_DEV]; /* ends with a NUL                               */
 	struct guard_line line[GUARD_LINES];
+};
+
+/* A bit for each line of the last table, in its order. */
+struct guard_levels {
+	struct guard_head head;
+	uint8_t bit[GUARD_LINES / 8];
 };
 
 struct guard_tell {

@@ -271,7 +271,8 @@ bool board_is_on(const struct board *board, const struct lamp *lamp)
 {
 	const struct io_point *point = point_at(board, lamp->at);
 
-	if (board->resource->state == STATE_RUN || lamp->at.area != AREA_Q)
+	if (board->resource->state == STATE_RUN || lamp->at.area != AREA_Q ||
+	    (point && point->hold))
 		return image_get_bit(&board->resource->image, lamp->at.area,
 				     lamp->at.where);
 	return point && point->safe;

@@ -138,7 +138,7 @@ static void tell_settings(struct map_lines *m, const struct io_point *point)
 		tell(m, point, "an output has no pull in ClassicLadder");
 	if (point->output && point->drive != DRIVE_AS_IS && point->drive != DRIVE_PUSH_PULL)
 		tell(m, point, "is driven to both levels in ClassicLadder");
-	if (point->safe)
+	if (point->safe || point->hold)
 		tell(m, point, "has no safe value in ClassicLadder: it stays as it is");
 }
 

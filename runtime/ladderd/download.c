@@ -279,7 +279,10 @@ enum refusal download_open_lines(struct download *download, char *detail, size_t
 	if (!diags)
 		return REFUSAL_MEMORY;
 	diag_init(diags);
+	guarded_more(&download->standby->lines);
 	good = hal_open_new(&download->standby->lines, diags);
+	if (!good)
+		guarded_more(NULL);
 	if (!good && diags->count)
 		say_diag(&diags->diag[0], detail, size);
 	free(diags);
@@ -290,6 +293,7 @@ void download_close_lines(struct download *download)
 {
 	if (download->standby)
 		hal_close_rest(&download->standby->lines);
+	guarded_more(NULL);
 }
 
 enum refusal download_store(struct download *download, char *detail, size_t size)

@@ -25,8 +25,6 @@ static struct {
 	int64_t heartbeat_ms, last_ms;
 } to;
 
-static struct guard_table table; /* no stack of ladderd is so large */
-
 bool guarded_begin(void)
 {
 	const char *text = getenv(GUARD_VARIABLE);
@@ -75,7 +73,32 @@ void guarded_beat(int64_t next_ms, bool now)
 	say(&beat, sizeof(beat));
 }
 
-static void add_request(const struct hal_request *request, uint32_t *count, uint32_t *dropped)
+/* The next line of an output that has a place; those of a table are in this order. */
+struct guard_place {
+	struct hal_request *request, *end;
+	uint32_t line;         /* + 1                                         */
+};
+
+static struct guard_place first_place(const struct hal *hal)
+{
+	return (struct guard_place){ hal->request, hal->request + hal->request_count, 0 };
+}
+
+static bool next_place(struct guard_place *at)
+{
+	for (; at->request < at->end; at->request++, at->line = 0)
+		while (at->request->ask.output && at->line < at->request->ask.count)
+			if (at->request->ask.line[at->line++].at.chip >= 0)
+				return true;
+	return false;
+}
+
+static bool bit_of(uint64_t bits, const struct guard_place *at)
+{
+	return bits >> (at->line - 1) & 1;
+}
+
+static void add_line(struct guard_line *out, const struct guard_place *at)
 {
 	static const uint8_t bias[] = {
 		[BIAS_AS_IS] = 0, [BIAS_NONE] = 1, [BIAS_UP] = 2, [BIAS_DOWN] = 3,
@@ -84,59 +107,103 @@ static void add_request(const struct hal_request *request, uint32_t *count, uint
 		[DRIVE_AS_IS] = 0, [DRIVE_PUSH_PULL] = 1, [DRIVE_OPEN_DRAIN] = 2,
 		[DRIVE_OPEN_SOURCE] = 3,
 	};
-	const uint64_t level = request->safe ^ request->invert;
+	const struct hal_request *request = at->request;
+	const struct request_line *line = &request->ask.line[at->line - 1];
 
-	for (uint32_t i = 0; request->ask.output && i < request->ask.count; i++) {
-		const struct request_line *line = &request->ask.line[i];
-
-		if (line->at.chip < 0)
-			continue;
-		if (*count == GUARD_LINES || line->at.chip > UINT16_MAX) {
-			++*dropped;
-			continue;
-		}
-		table.line[(*count)++] = (struct guard_line){
-			.chip = (uint16_t)line->at.chip, .offset = (uint16_t)line->at.offset,
-			.level = level >> i & 1, .bias = bias[line->point->bias],
-			.drive = drive[line->point->drive],
-		};
-	}
+	*out = (struct guard_line){
+		.chip = (uint16_t)line->at.chip, .offset = (uint16_t)line->at.offset,
+		.level = bit_of(request_safe(request) ^ request->invert, at),
+		.bias = bias[line->point->bias], .drive = drive[line->point->drive],
+		.hold = !bit_of(request->hold, at) ? GUARD_SAFE :
+			request->is_open ? GUARD_HOLD : GUARD_KNOWN,
+	};
 }
 
-bool guarded_lines(const struct hal *hal)
+/* @fresh: only the lines that are not open in another map. */
+static bool send_table(struct guard_table *table, enum guard_kind kind, const struct hal *hal,
+		       bool fresh)
 {
-	uint32_t count = 0, dropped = 0;
+	struct guard_place at = first_place(hal);
+	uint16_t count = 0;
+	unsigned dropped = 0;
 
-	if (!to.fd)
-		return true;
-	memset(&table, 0, sizeof(table));
-	for (uint32_t i = 0; i < hal->request_count; i++)
-		add_request(&hal->request[i], &count, &dropped);
-	table.head = (struct guard_head){ .magic = GUARD_MAGIC, .kind = GUARD_TABLE,
-					  .count = (uint16_t)count };
-	if (strlen(hal->map->dev) < sizeof(table.dev))
-		memcpy(table.dev, hal->map->dev, strlen(hal->map->dev));
+	memset(table, 0, sizeof(*table));
+	while (next_place(&at))
+		if (fresh && at.request->twin)
+			continue;
+		else if (count == GUARD_LINES)
+			dropped++;
+		else
+			add_line(&table->line[count++], &at);
+	table->head = (struct guard_head){ .magic = GUARD_MAGIC, .kind = (uint16_t)kind,
+					   .count = count };
+	if (strlen(hal->map->dev) < sizeof(table->dev))
+		memcpy(table->dev, hal->map->dev, strlen(hal->map->dev));
 	if (dropped)
 		fprintf(stderr, "ladderd: ladder-guard holds %d outputs; %u are not made safe by it\n",
-			GUARD_LINES, (unsigned)dropped);
-	if (send(to.fd - 1, &table, offsetof(struct guard_table, line) +
-		 count * sizeof(table.line[0]), MSG_NOSIGNAL | MSG_DONTWAIT) < 0) {
+			GUARD_LINES, dropped);
+	if (send(to.fd - 1, table, offsetof(struct guard_table, line) +
+		 count * sizeof(table->line[0]), MSG_NOSIGNAL | MSG_DONTWAIT) < 0) {
 		fprintf(stderr, "ladderd: ladder-guard does not listen; it knows no outputs\n");
 		return false;
 	}
 	return dropped == 0;
 }
 
-void guarded_take(void)
+/* Before the write: if ladderd dies between them, the line gets what the program wants. */
+static void tell_levels(const struct hal *hal, const struct hal_request *request, uint64_t value)
 {
-	struct guard_head head = { .magic = GUARD_MAGIC, .kind = GUARD_TAKE };
+	struct guard_levels levels = { .head = { .magic = GUARD_MAGIC, .kind = GUARD_LEVELS } };
+	struct guard_place at = first_place(hal);
+
+	for (uint32_t i = 0; i < GUARD_LINES && next_place(&at); i++) {
+		const uint64_t of = at.request == request ? value : at.request->value;
+
+		levels.bit[i / 8] |= (uint8_t)(bit_of(of ^ at.request->invert, &at) << i % 8);
+	}
+	say(&levels, sizeof(levels));
+}
+
+bool guarded_lines(struct hal *hal)
+{
+	static struct guard_table table; /* no stack of ladderd is so large */
+
+	if (!to.fd)
+		return true;
+	hal->holds = tell_levels;
+	return send_table(&table, GUARD_TABLE, hal, false);
+}
+
+bool guarded_more(const struct hal *next)
+{
+	static const struct iomap no_map = { .dev = "/" };
+	static struct guard_table table; /* another thread than that of guarded_lines() */
+	const struct hal empty = { .map = &no_map };
+
+	if (!to.fd)
+		return true;
+	return send_table(&table, GUARD_MORE, next ? next : &empty, true);
+}
+
+void guarded_take(struct hal *hal)
+{
+	struct guard_levels levels = { .head = { .magic = GUARD_MAGIC, .kind = GUARD_TAKE } };
 	struct pollfd answer = { .fd = to.fd - 1, .events = POLLIN };
+	struct guard_place at = first_place(hal);
 
 	if (!to.fd)
 		return;
-	say(&head, sizeof(head));
-	if (poll(&answer, 1, TAKE_MS) == 1)
-		recv(to.fd - 1, &head, sizeof(head), MSG_DONTWAIT);
+	say(&levels.head, sizeof(levels.head));
+	if (poll(&answer, 1, TAKE_MS) != 1 ||
+	    recv(to.fd - 1, &levels, sizeof(levels), MSG_DONTWAIT) != sizeof(levels))
+		return;
+	for (uint32_t i = 0; i < GUARD_LINES && next_place(&at); i++) {
+		const uint64_t mask = UINT64_C(1) << (at.line - 1) & at.request->hold;
+		const bool level = levels.bit[i / 8] >> i % 8 & 1;
+
+		if (level != bit_of(at.request->invert, &at))
+			at.request->value |= mask;
+	}
 }
 
 void guarded_tell(const char *state)

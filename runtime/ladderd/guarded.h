@@ -24,9 +24,17 @@ bool guarded(void);
 void guarded_beat(int64_t next_ms, bool now);
 /** guarded_lines - tells the outputs of @hal and their safe levels. Fails: false and a message on
  * standard error: the guard does not make all lines safe. Scan-safe: a system call. */
-bool guarded_lines(const struct hal *hal);
-/** guarded_take - the guard gives back the lines that it holds; waits for it up to 2 s. */
-void guarded_take(void);
+bool guarded_lines(struct hal *hal);
+/**
+ * guarded_more - tells the outputs of another map that are about to be requested beside those of
+ * guarded_lines(); NULL: none any more. Call guarded_lines() when the map has been exchanged.
+ *
+ * In one other thread than that of guarded_lines(). Fails: as guarded_lines().
+ */
+bool guarded_more(const struct hal *next);
+/** guarded_take - the guard gives back the lines that it holds, and says which levels outputs with
+ * safe=hold had last: @hal, which is not open yet, begins with these. Waits up to 2 s. */
+void guarded_take(struct hal *hal);
 /** guarded_tell - hands a text on to the service manager; never waits. */
 void guarded_tell(const char *state);
 #endif

@@ -172,7 +172,7 @@ static bool open_lines(struct daemon *daemon)
 	if (!hal_plan(hal, &load->map, &load->arena, &load->diags))
 		return false;
 	guarded_lines(hal);
-	guarded_take();
+	guarded_take(hal);
 	return hal_open_planned(hal, &load->diags);
 }
 

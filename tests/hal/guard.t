@@ -53,19 +53,29 @@ BOARD "panel"
 END
 my @ladderd = ($ladderd, $rung, '--io', $map);
 
-sub fresh { spew("$dir/lines", "\0" x 192) }
+my $count = 6; # lines of the chip
+sub fresh { spew("$dir/lines", "\0" x (56 * $count + 8)) }
+# Sets the level of an input, or how reads behave (guard_fake.c).
+sub poke {
+	my ($at, $packed) = @_;
+	open my $file, '+<:raw', "$dir/lines" or die;
+	sysseek $file, $at, SEEK_SET;
+	syswrite $file, $packed;
+}
+sub input { my ($line, $level) = @_; poke(56 * $line + 8, pack 'l', $level) }
+sub reads { my ($how) = @_; poke(56 * $count, pack 'q', $how) }
 sub err { return slurp("$dir/err") // '' }
 
 # Of each output: level, consumer, time in s of the last write; time and level when the guard took
 # it last, which stay when ladderd runs again sooner than a test looks.
 sub lines {
 	my $bytes = slurp("$dir/lines");
-	return map { my ($ns, $level, $owner, $guard_ns, $guard_level) = unpack 'q l Z20 q q', substr $bytes, 48 * $_, 48;
-		[$level, $owner, $ns / 1e9, $guard_ns / 1e9, $guard_level] } 2, 3;
+	return map { my ($ns, $level, $owner, $guard_ns, $guard_level, $changes) = unpack 'q l Z20 q q q', substr $bytes, 56 * $_, 56;
+		[$level, $owner, $ns / 1e9, $guard_ns / 1e9, $guard_level, $changes] } 2 .. $count - 1;
 }
 sub is_at {
 	my ($owner, $motor, $brake) = @_;
-	my @line = lines();
+	my @line = (lines())[0, 1];
 	return $line[0][0] == $motor && $line[1][0] == $brake && !grep { $_->[1] ne $owner } @line;
 }
 sub runs { return is_at('ladderd', 1, 0) }
@@ -115,7 +125,7 @@ sub guarded_since {
 	my ($since) = @_;
 	my $at;
 	until_it(sub {
-		my @line = lines();
+		my @line = (lines())[0, 1];
 		my ($last) = sort { $b <=> $a } map { $_->[3] } @line;
 		$at = $last if $line[0][4] == 0 && $line[1][4] == 1 && !grep { $_->[3] < $since } @line;
 		return defined $at;
@@ -149,6 +159,65 @@ for my $how (['kills', $kills, qw(SEGV FPE BUS ABRT KILL)], ['stops', $stops, 'S
 	is($again, $count, "$count $what: ladderd runs again");
 	diag(sprintf '%d %s: safe after p50 %.1f ms, max %.1f ms', $count, $what, 1e3 * median(@took),
 		1e3 * (sort { $b <=> $a } @took)[0]) if @took;
+}
+
+# ---- each way out of RUN, each safe value ----
+# Columns: an output of this kind, its level in RUN, and the one after each way out; more kinds of
+# outputs come here. Rows: what ends RUN; `state` is that of ladderd, if it lives; `again`: it runs again.
+my @kinds = (['off', 'gpio line=OUT0 safe=0', 1, 0], ['on', 'gpio line=OUT1 safe=1', 0, 1],
+	['hold', 'gpio line=OUT2 safe=hold', 1, 1], ['hold, active-low', 'gpio line=OUT3 active-low safe=hold', 1, 1]);
+my $stop_rung = "RUNG\n  | NO Go | STOP |\n";
+my @ways = (
+	['STOP', $stop_rung, sub { input(0, 1) }, 'STOP'],
+	['program fault', "RUNG Again\n  | NO Go | JMP Again |\n", sub { input(0, 1) }, 'FAULT'],
+	['watchdog', '', sub { reads(2) }, 'FAULT', sub { reads(0) }],
+	['I/O fault', '', sub { reads(1) }, 'FAULT'],
+	['SIGTERM', '', sub { kill 'TERM', $running }, ''],
+	['kill -9', '', sub { kill 'KILL', child($running) }, 'again'],
+);
+my ($vars, $rungs, $lines) = ('', '', '');
+for my $i (0 .. $#kinds) {
+	my ($name, $line, $in_run) = @{$kinds[$i]};
+	$vars .= "  Out$i AT %QX0.$i : BOOL;\n";
+	$rungs .= 'RUNG' . "\n  | " . ($in_run ? 'NO' : 'NC') . " SYS_ALWAYS_ON | COIL Out$i |\n";
+	$lines .= "%QX0.$i $line\n";
+}
+my @in_run = map { my ($name, $line, $value) = @$_; $value ^ ($line =~ /active-low/ ? 1 : 0) } @kinds;
+my @safe = map { my ($name, $line, $run, $value) = @$_; $value ^ ($line =~ /active-low/ ? 1 : 0) } @kinds;
+sub levels { return join ' ', map { $_->[0] } (lines())[0 .. $#kinds] }
+my $ways_map = spew("$dir/ways.io", "BOARD \"panel\"\n%IX0.0 gpio line=IN0\n$lines");
+for my $way (@ways) {
+	my ($name, $rung_of, $do, $state, $then) = @$way;
+	my $ways_rung = spew("$dir/ways.rung", "RUNGBOARD 1\n\nVAR\n  Go AT %IX0.0 : BOOL;\n${vars}END_VAR\n\nPROGRAM Main LD\n$rungs${rung_of}END_PROGRAM\n");
+	fresh();
+	my $guard_pid = start(named(), '--heartbeat', 1000, '--', $ladderd, $ways_rung, '--io', $ways_map, '--period', '10ms');
+	until_it(sub { levels() eq "@in_run" }) or BAIL_OUT("ladderd does not run: " . err());
+	my @changes = map { $_->[5] } lines();
+	my $pid = child($guard_pid);
+	$do->();
+	my @got;
+	if ($state eq 'again') {
+		ok(until_it(sub { my @line = lines(); !grep { !$_->[3] } @line[0 .. $#kinds] }), "$name: the guard takes the lines");
+		@got = map { $_->[4] } (lines())[0 .. $#kinds];
+	} else {
+		until_it(sub { levels() eq "@safe" });
+		is(finish($guard_pid), 0, 'the guard ends with status 0') if $state eq '';
+		@got = split / /, levels();
+	}
+	is($got[$_], $safe[$_], "$name: $kinds[$_][0]") for 0 .. $#kinds;
+	if ($state eq 'again') {
+		ok(until_it(sub { levels() eq "@in_run" && child($guard_pid) != $pid && err() !~ /STOP/ }), "$name: it runs again");
+	}
+	# What holds its level has not changed it, not even for a moment, also over another start.
+	is_deeply([map { (lines())[$_][5] } 2, 3], [@changes[2, 3]], "$name: what holds was not touched");
+	next if $state eq '';
+	$then->() if $then;
+	if ($state ne 'again') {
+		until_it(sub { kill 'USR1', $pid; sleep 0.02; (slurp("$dir/out") // '') =~ /^state: $state/m });
+		like(slurp("$dir/out"), qr/^state: $state/m, "$name: the state is $state");
+	}
+	kill 'TERM', $guard_pid;
+	finish($guard_pid);
 }
 
 # ---- three abnormal ends: STOP ----

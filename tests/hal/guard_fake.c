@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * guard_fake - a chip that several processes share: gpiochip0 with the lines IN0, IN1, OUT0, OUT1,
+ * guard_fake - a chip that several processes share: gpiochip0 with the lines IN0, IN1, OUT0, OUT1 …,
  * label "panel". Linked with --wrap for open, close, ioctl and opendir into ladderd and ladder-guard.
  *
  *   FAKE_DEV     folder in place of /dev; it holds an empty file gpiochip0
- *   FAKE_SHARED  file of the lines: for each 48 bytes: int64 ns of CLOCK_MONOTONIC of its last
+ *   FAKE_LINES   how many lines (6)
+ *   FAKE_SHARED  file of the lines: for each 56 bytes: int64 ns of CLOCK_MONOTONIC of its last
  *                write, int32 level, char[20] consumer, int64 ns and level when ladder-guard
- *                took it last
+ *                took it last, int64 how often its level has changed. Then an int64: 0 reads
+ *                work, 1 they fail, 2 they wait until it is another number, 3 so, and nothing but
+ *                SIGKILL interrupts them
  *
  * A line is locked by a lock of POSIX on its byte, which the kernel takes back when its process
  * dies, at the same moment as it would close the request of a line.
@@ -15,19 +18,21 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/gpio.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <time.h>
 #include <unistd.h>
 
-#define LINES    4
+#define FIRST_OUT 2
 #define CHIP_FD  2000
 #define LINES_FD 2001
-#define MOST     8
+#define MOST     16
 
 struct shared {
 	int64_t written_ns;
@@ -35,9 +40,10 @@ struct shared {
 	char owner[20];
 	int64_t guard_ns; /* when ladder-guard took it last                      */
 	int64_t guard_level;
+	int64_t changes;
 };
 struct taken {
-	uint32_t count, offset[LINES];
+	uint32_t count, offset[GPIO_V2_LINES_MAX];
 };
 
 int __real_open(const char *path, int flags, ...);
@@ -51,18 +57,24 @@ int __wrap_ioctl(int fd, unsigned long what, ...);
 DIR *__wrap_opendir(const char *path);
 
 static volatile struct shared *line;
+static volatile int64_t *reads;
+static uint32_t lines = 6;
 static int file = -1;
 static struct taken taken[MOST];
 
 __attribute__((constructor)) static void begin(void)
 {
-	const char *path = getenv("FAKE_SHARED");
+	const char *path = getenv("FAKE_SHARED"), *count = getenv("FAKE_LINES");
 
+	if (count)
+		lines = (uint32_t)strtoul(count, NULL, 10);
 	file = path ? __real_open(path, O_RDWR | O_CLOEXEC) : -1;
 	if (file >= 0)
-		line = mmap(NULL, LINES * sizeof(*line), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+		line = mmap(NULL, lines * sizeof(*line) + sizeof(*reads), PROT_READ | PROT_WRITE,
+			    MAP_SHARED, file, 0);
 	if (file < 0 || line == MAP_FAILED)
 		abort();
+	reads = (volatile int64_t *)(line + lines);
 }
 
 DIR *__wrap_opendir(const char *path)
@@ -123,6 +135,7 @@ static void write_level(uint32_t at, int level)
 	struct timespec now;
 
 	clock_gettime(CLOCK_MONOTONIC, &now);
+	line[at].changes += line[at].level != level;
 	line[at].level = level;
 	line[at].written_ns = (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
@@ -167,12 +180,13 @@ static int take(struct gpio_v2_line_request *ask)
 
 static int about(struct gpio_v2_line_info *out)
 {
-	static const char *const names[LINES] = { "IN0", "IN1", "OUT0", "OUT1" };
+	const bool output = out->offset >= FIRST_OUT;
 
-	if (out->offset >= LINES)
+	if (out->offset >= lines)
 		return errno = EINVAL, -1;
-	memcpy(out->name, names[out->offset], strlen(names[out->offset]) + 1);
-	out->flags = out->offset < 2 ? GPIO_V2_LINE_FLAG_INPUT : GPIO_V2_LINE_FLAG_OUTPUT;
+	snprintf(out->name, sizeof(out->name), output ? "OUT%u" : "IN%u",
+		 (unsigned)out->offset - (output ? FIRST_OUT : 0));
+	out->flags = output ? GPIO_V2_LINE_FLAG_OUTPUT : GPIO_V2_LINE_FLAG_INPUT;
 	if (is_used(out->offset)) {
 		out->flags |= GPIO_V2_LINE_FLAG_USED;
 		memcpy(out->consumer, (const char *)line[out->offset].owner, 20);
@@ -180,8 +194,25 @@ static int about(struct gpio_v2_line_info *out)
 	return 0;
 }
 
+/* A driver that waits for its hardware. */
+static int wait_for_read(void)
+{
+	static const struct timespec moment = { 0, 1000000 };
+	const int64_t how = *reads;
+	sigset_t all;
+
+	sigfillset(&all);
+	if (how == 3)
+		sigprocmask(SIG_BLOCK, &all, NULL);
+	while (how >= 2 && *reads == how)
+		nanosleep(&moment, NULL);
+	return how == 1 ? (errno = EIO, -1) : 0;
+}
+
 static int values(const struct taken *of, struct gpio_v2_line_values *values_of, bool set)
 {
+	if (!set && wait_for_read() < 0)
+		return -1;
 	for (uint32_t i = 0; i < of->count; i++) {
 		const uint64_t mask = UINT64_C(1) << i;
 
@@ -204,7 +235,7 @@ int __wrap_ioctl(int fd, unsigned long what, ...)
 	va_end(args);
 	if (fd == CHIP_FD && what == GPIO_GET_CHIPINFO_IOCTL) {
 		memcpy(((struct gpiochip_info *)with)->label, "panel", sizeof("panel"));
-		((struct gpiochip_info *)with)->lines = LINES;
+		((struct gpiochip_info *)with)->lines = lines;
 		return 0;
 	}
 	if (fd == CHIP_FD && what == GPIO_V2_GET_LINEINFO_IOCTL)

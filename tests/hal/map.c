@@ -17,9 +17,10 @@ static void test_all_options(void)
 		"%IX0.0 gpio line=GPIO17 pull-up active-low debounce=2.5ms\n"
 		"I9\tGPIO chip=gpio-0-31 offset=30 (* two *) no-pull\r\n"
 		"%QX1.7 gpio line=\"odd name\" safe=1 open-drain\n"
+		"%QX2.0 sim safe=HOLD\n"
 		"q0 sim # last, without a newline"));
 	CHECK_TEXT(b.map.board, "Caf\xc3\xa9 \"1\"");
-	CHECK(b.map.count == 4);
+	CHECK(b.map.count == 5);
 	point = b.map.point;
 	CHECK_TEXT(point[0].line, "GPIO17");
 	CHECK(point[0].bias == BIAS_UP && point[0].active_low &&
@@ -31,7 +32,8 @@ static void test_all_options(void)
 	CHECK_TEXT(point[2].line, "odd name");
 	CHECK(point[2].output && point[2].safe &&
 	      point[2].drive == DRIVE_OPEN_DRAIN);
-	CHECK(point[3].driver == DRIVER_sim && point[3].output);
+	CHECK(point[2].has_safe && !point[2].hold && point[3].has_safe && point[3].hold && !point[3].safe);
+	CHECK(point[4].driver == DRIVER_sim && point[4].output && !point[4].has_safe);
 	bench_end(&b);
 }
 
@@ -82,6 +84,7 @@ static void test_refusals(void)
 	BAD("%IX0.0 gpio chip=a offset=99999999999999999999", "LD505");
 	BAD("%IX0.0 gpio chip=a offset=x", "LD505");
 	BAD("%QX0.0 gpio line=A safe=2", "LD505");
+	BAD("%QX0.0 gpio line=A safe=holds", "write it like safe=0, safe=1 or safe=hold");
 	BAD("%QX0.0 gpio line=A safe=", "LD505");
 	BAD("%IX0.0 sim\nI0 sim", "test.io:3:1: error LD506");
 	BAD("%IX0.0 gpio line=A\n%IX0.1 gpio line=A", "LD507");

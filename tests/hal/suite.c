@@ -195,6 +195,37 @@ static void test_hold(void)
 	bench_end(&b);
 }
 
+/* safe=hold: the last value stays, also after the line was lost. */
+static void test_keeps(void)
+{
+	struct bench b;
+
+	chips();
+	CHECK(bench_open(&b, "BOARD \"x\"\n%QX0.0 gpio line=OUT0 safe=hold\n"
+			 "%QX0.1 gpio line=OUT1 active-low safe=hold\n%QX0.2 gpio line=OUT2 safe=1\n"));
+	CHECK_AS(level("OUT0") == 0 && level("OUT1") == 1 && level("OUT2") == 1,
+		 "before the first scan an output that holds is 0");
+	output(&b, 0, true);
+	output(&b, 1, true);
+	scan(&b, 0);
+	CHECK(level("OUT0") == 1 && level("OUT1") == 0 && level("OUT2") == 0);
+	CHECK(hal_write_safe(&b.hal));
+	CHECK_AS(level("OUT0") == 1 && level("OUT1") == 0 && level("OUT2") == 1,
+		 "in STOP it has its last value");
+	hal_release(&b.hal);
+	output(&b, 0, false);
+	scan(&b, 1);
+	output(&b, 0, true);
+	fake.write_error = EIO;
+	scan(&b, 2), scan(&b, 3), scan(&b, 4);
+	fake.write_error = 0;
+	fake.chip[0].line[100].level = 1;
+	CHECK(hal_quality(&b.hal) == QUALITY_FAULT && hal_reopen(&b.hal));
+	CHECK_AS(level("OUT0") == 0 && level("OUT1") == 0,
+		 "a line that comes back gets the value that was written last");
+	bench_end(&b);
+}
+
 static void test_flags(void)
 {
 	struct bench b;
@@ -475,6 +506,26 @@ static void test_another_map_and_back(void)
 	close_watched(&b);
 }
 
+/* OUT0 goes, and its request stays for OUT1; a scan does not write it. */
+static void test_another_map_keeps(void)
+{
+	struct bench b;
+	struct hal next;
+
+	chips();
+	CHECK(bench_open(&b, "BOARD \"a\"\n%QX0.0 gpio line=OUT0 safe=hold\n%QX0.1 gpio line=OUT1\n"));
+	output(&b, 0, true);
+	scan(&b, 0);
+	CHECK(beside(&b, &next, "BOARD \"b\"\n%QX0.1 gpio line=OUT1\n") == BESIDE_GOOD &&
+	      hal_open_new(&next, &b.diags));
+	hal_exchange(&b.hal, &next);
+	hal_close_rest(&next);
+	output(&b, 1, true);
+	scan(&b, 10 * MS);
+	CHECK_AS(level("OUT0") == 1 && level("OUT1") == 1, "an output that holds and goes keeps its level");
+	bench_end(&b);
+}
+
 static void test_a_map_without_lines(void)
 {
 	struct bench b;
@@ -645,6 +696,7 @@ int main(void)
 	test_failed_writes();
 	test_unplug();
 	test_hold();
+	test_keeps();
 	test_flags();
 	test_many();
 	test_debounce();
@@ -657,6 +709,7 @@ int main(void)
 	test_check();
 	test_another_map();
 	test_another_map_and_back();
+	test_another_map_keeps();
 	test_a_map_without_lines();
 	test_maps_that_cannot_be_exchanged();
 	bench_remove_dev();

@@ -128,14 +128,17 @@ static bool is_on(const uint8_t *bits, enum iec_area area, uint32_t bit)
 	return area == AREA_Q && bits && (bits[bit / 8] >> bit % 8 & 1);
 }
 
-/* @bits: of Q; NULL: all 0. */
+/* @bits: as of twin_set_safe(). */
 static void put_outputs(struct image *image, const uint8_t *bits)
 {
 	for (size_t i = 0; i < PLANT_PAIRS; i++) {
 		const enum iec_area area = plant_pairs[i].out;
 
-		for (uint32_t bit = 0; bit < 8 * image->program->areas.bytes[area]; bit++)
-			image_set_bit(image, area, bit, is_on(bits, area, bit));
+		const uint32_t count = 8 * image->program->areas.bytes[area];
+
+		for (uint32_t bit = 0; bit < count; bit++)
+			if (!is_on(bits, area, count + bit))
+				image_set_bit(image, area, bit, is_on(bits, area, bit));
 	}
 }
 

@@ -80,8 +80,8 @@ bool twin_act(struct twin *twin, const struct act *act);
 /**
  * twin_set_safe - sets the safe outputs of an I/O map: used now, if it is not in RUN,
  * and whenever it stops. Call it again after twin_change(), which copies the old ones
- * @safe: a bit for each bit of Q, 8 a byte; borrowed, by clones, too. NULL, as at
- *        first: all 0
+ * @safe: a bit for each bit of Q, 8 a byte, then a bit for each that keeps its value
+ *        instead; borrowed, by clones, too. NULL, as at first: all 0
  *
  * Outputs that are not bits become 0. Scan-safe: yes. Fails: no.
  */

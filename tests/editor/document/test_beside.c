@@ -87,7 +87,7 @@ static int safe_of(const char *text)
 	areas_init(&areas);
 	CHECK(g_file_set_contents(map, text, -1, NULL));
 	safe = iomap_safe_beside(program, &areas);
-	got = safe ? safe[0] | safe[1] << 8 : -1;
+	got = safe ? safe[0] | safe[1] << 8 | safe[areas.bytes[AREA_Q]] << 16 : -1;
 	g_free(safe);
 	g_free(map);
 	g_free(program);
@@ -102,6 +102,8 @@ static void test_safe(void)
 	CHECK(safe_of("BOARD \"Desk\"\n%IX0.0 sim\n%QX0.0 sim safe=0\n%QX0.7 sim\n") == -1);
 	CHECK(safe_of("BOARD \"Desk\"\n%QX0.0 sim safe=0\n%QX0.6 sim safe=1\n"
 		      "%QX1.1 sim safe=1 active-low\n") == 0x0240);
+	CHECK_AS(safe_of("BOARD \"Desk\"\n%QX0.0 sim safe=hold\n%QX0.6 sim safe=1\n") == 0x010040,
+		 "an output that holds is in the second half");
 	/* one bad line: ladderd refuses the map */
 	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX0.7 nothing\n") == -1);
 	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX600.7 sim safe=1\n") == -1);

@@ -122,6 +122,7 @@ static void words(void)
 	    "%QX0.0 gpio chip=c offset=9    safe=0");
 	SET("%QX0.1 sim // lamp\n", 0, IO_COMMENT, "horn", "%QX0.1 sim // horn\n");
 	SET("%QX0.1 sim // lamp\n", 0, IO_SAFE, "1", "%QX0.1 sim safe=1 // lamp\n");
+	SET("%QX0.1 sim safe=0 // lamp\n", 0, IO_SAFE, "hold", "%QX0.1 sim safe=hold // lamp\n");
 	SET("%QX0.1 sim #lamp\n", 0, IO_COMMENT, "horn", "%QX0.1 sim # horn\n");
 }
 

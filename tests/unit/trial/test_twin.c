@@ -141,7 +141,7 @@ static void test_states(void)
 /* Q0.1 is 1 in STOP; so are two outputs that the program does not use. */
 static void test_safe(void)
 {
-	static const uint8_t safe[512] = { 0x02, 0x81 };
+	static const uint8_t safe[1024] = { 0x02, 0x81 };
 	static char more[sizeof(program) + 128];
 	struct ladder *ladder, *plant = build(world);
 	struct twin twin, other;
@@ -151,7 +151,7 @@ static void test_safe(void)
 		 (int)(strstr(program, "PROGRAM") - program), program,
 		 strstr(program, "RUNG\n"));
 	ladder = build(more);
-	CHECK(ladder_program(ladder)->areas.bytes[AREA_Q] <= sizeof(safe));
+	CHECK(ladder_program(ladder)->areas.bytes[AREA_Q] <= sizeof(safe) / 2);
 	CHECK(twin_init(&twin, ladder_program(ladder), ladder_program(plant), PERIOD));
 	CHECK(get(&twin, false, "%QX0.1") == 0);
 	twin_set_safe(&twin, safe);
@@ -183,6 +183,31 @@ static void test_safe(void)
 	twin_free(&twin);
 	ladder_free(ladder);
 	ladder_free(plant);
+}
+
+/* Out holds its value in STOP and in FAULT. */
+static void test_holds(void)
+{
+	struct ladder *ladder = build(program);
+	const uint32_t bytes = ladder_program(ladder)->areas.bytes[AREA_Q];
+	static uint8_t safe[1024];
+	struct twin twin;
+
+	CHECK(2 * bytes <= sizeof(safe));
+	safe[0] = 0x02;
+	safe[bytes] = 0x01;
+	CHECK(twin_init(&twin, ladder_program(ladder), NULL, PERIOD));
+	twin_set_safe(&twin, safe);
+	CHECK(get(&twin, false, "Out") == 0 && get(&twin, false, "%QX0.1") == 1);
+	CHECK(do_act(&twin, ACT_START, false, "", 0) && do_act(&twin, ACT_SET, false, "Go", 1));
+	CHECK(twin_scan(&twin) && do_act(&twin, ACT_STOP, false, "", 0));
+	CHECK_AS(get(&twin, false, "Out") == 1 && get(&twin, false, "%QX0.1") == 1,
+		 "in STOP an output that holds has its last value");
+	CHECK(do_act(&twin, ACT_START, false, "", 0) && do_act(&twin, ACT_SET, false, "Go", 1) &&
+	      twin_scan(&twin) && do_act(&twin, ACT_SET, false, "Loop", 1) && !twin_scan(&twin));
+	CHECK_AS(get(&twin, false, "Out") == 1, "and in FAULT");
+	twin_free(&twin);
+	ladder_free(ladder);
 }
 
 /* Only the controller lost power: the plant goes on. */
@@ -244,7 +269,7 @@ static void test_change(void)
 /* An edit in STOP: outputs follow the map for the new program. */
 static void test_safe_change(void)
 {
-	static const uint8_t before[512] = { 0x02 }, after[512] = { 0x04 };
+	static const uint8_t before[1024] = { 0x02 }, after[1024] = { 0x04 };
 	struct ladder *ladder = build(program);
 	struct twin twin, next;
 
@@ -267,6 +292,7 @@ int main(void)
 	test_safe_change();
 	test_plant();
 	test_states();
+	test_holds();
 	test_safe();
 	test_warm();
 	test_change();
