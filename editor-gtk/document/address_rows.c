@@ -291,9 +291,9 @@ static void append_thing(GString *out, const struct address_rows *rows,
 	append_address(out, thing->area, target->addr.bits, target->addr.byte, target->addr.bit);
 	xref_name(rows->xref.project, target, &rows->xref.use[thing->use], name, sizeof(name));
 	if (target->what == XREF_VARIABLE)
-		g_string_append_printf(out, ": %s, ", name);
+		g_string_append_printf(out, _(": %s, "), name);
 	else
-		g_string_append(out, ": ");
+		g_string_append(out, _(": "));
 	g_string_append_printf(out, ngettext("%d use", "%d uses", (gulong)thing->uses),
 			       thing->uses);
 	if (writes > 1) {

@@ -195,7 +195,7 @@ static char *line_of(struct making *making, const struct compare_difference *wha
 		g_string_append_printf(line, "%s%s", line->len ? ", " : "",
 				       word(what->property));
 	if (line->len)
-		g_string_append(line, ": ");
+		g_string_append(line, _(": "));
 	if (is_change(what, "moved"))
 		g_string_append_printf(line, _("moved from %d to %d"), what->at_a, what->at_b);
 	else if (what->change)
@@ -438,7 +438,7 @@ static void take_map(void *context, const struct iomap_difference *what)
 	row->change = !what->in_a ? COMPARE_ADDED : !what->in_b ? COMPARE_REMOVED :
 		      COMPARE_CHANGED;
 	g_array_append_val(row->details, detail);
-	add_words(row, what->field ? g_strdup_printf("%s: %s" ARROW "%s", what->field,
+	add_words(row, what->field ? g_strdup_printf("%s%s%s" ARROW "%s", what->field, _(": "),
 		*what->from ? what->from : _("nothing"), *what->to ? what->to : _("nothing")) :
 		g_strdup(what->in_a ? what->from : what->to));
 }

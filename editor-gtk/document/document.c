@@ -1589,7 +1589,7 @@ static void set_path(LadderDocument *document, const char *path)
 
 static bool fail(GError **error, GFileError code, const char *text, const char *path)
 {
-	g_set_error(error, G_FILE_ERROR, code, "%s: %s", path, text);
+	g_set_error(error, G_FILE_ERROR, code, _("%s: %s"), path, text);
 	return false;
 }
 

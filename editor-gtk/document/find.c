@@ -461,7 +461,7 @@ static char *reason_at(char *place, const struct diag_list *diags)
 {
 	char *what = diags->count ? diag_said_whole(&diags->diag[0]) :
 		     g_strdup(_("The program cannot be read after this change"));
-	char *reason = g_strdup_printf("%s: %s", place, what);
+	char *reason = g_strdup_printf(_("%s: %s"), place, what);
 
 	g_free(what);
 	g_free(place);

@@ -471,7 +471,7 @@ void panel_list_update(struct panel_list *list, GPtrArray *rows)
 
 LadderPanelRow *panel_list_row(struct panel_list *list)
 {
-	return gtk_single_selection_get_selected_item(list->selection);
+	return list->selection ? gtk_single_selection_get_selected_item(list->selection) : NULL;
 }
 
 void panel_list_go(struct panel_list *list, guint at)

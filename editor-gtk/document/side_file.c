@@ -165,7 +165,7 @@ static bool write_text(LadderSideFile *file, const char *text, GError **error)
 		return disk_save(file->path, text, strlen(text), error);
 	if (g_unlink(file->path) == 0)
 		return true;
-	g_set_error(error, G_FILE_ERROR, g_file_error_from_errno(errno), "%s: %s", file->path,
+	g_set_error(error, G_FILE_ERROR, g_file_error_from_errno(errno), _("%s: %s"), file->path,
 		    g_strerror(errno));
 	return false;
 }

@@ -1282,7 +1282,7 @@ char *symbol_access_text(LadderDocument *document, const struct symbol_row *symb
 	else if (!*name || name_equal(name, symbol->text[FIELD_NAME]))
 		text = g_strdup(access_word(access == SYMBOL_WRITE));
 	else
-		text = g_strdup_printf("%s: %s", access_word(access == SYMBOL_WRITE), name);
+		text = g_strdup_printf(_("%s: %s"), access_word(access == SYMBOL_WRITE), name);
 	g_free(name);
 	return text;
 }

@@ -571,7 +571,7 @@ static void draw_number(const struct pen *pen)
 		 lettering_fit(lettering, LETTER_NUMBER, number, -1, 0), x, y);
 	if (pen->rung->off) /* paper may be made smaller */
 		put_text(pen, TOKEN_COMMENT, small,
-			 lettering_fit(lettering, small, "OFF", -1, 0), x, y + 15);
+			 lettering_fit(lettering, small, _("OFF"), -1, 0), x, y + 15);
 	if (sign)
 		put_text(pen, state & RUNG_ADDED ? TOKEN_POWER : state & RUNG_REMOVED ?
 			 TOKEN_ERROR : TOKEN_FORCE, LETTER_HEADING,
@@ -701,8 +701,10 @@ static void mark_element(const struct pen *pen, unsigned int marks, int row, int
 		badge(pen, TOKEN_FORCE, FORCED, behind, y - 28);
 	else if (marks & MARK_FORCED)
 		badge(pen, TOKEN_FORCE, FORCED, middle + half + 3, y + 1.5f);
+	/* Behind the address the badge of a force reaches down to this place. */
 	if (marks & MARK_TWICE)
-		badge(pen, TOKEN_FORCE, TWICE, middle + half + 3, y - 15);
+		badge(pen, TOKEN_FORCE, TWICE, middle + half + 3,
+		      marks & MARK_FORCED && fits ? y + 1.5f : y - 15);
 }
 
 /* Marks of a box stand below it. */

@@ -483,7 +483,7 @@ static void draw_title(const struct pages *pages, int page, struct picture *pict
 static void note_reference(struct pages *pages, const struct cell *cell, const char *text)
 {
 	const struct rung_label label = rung_label(pages->drafting, cell);
-	char *line = g_strdup_printf("%s%s%s: %s", label.symbol.text,
+	char *line = g_strdup_printf(_("%s%s%s: %s"), label.symbol.text,
 				     *label.symbol.text && *label.address.text ? " " : "",
 				     label.address.text, text);
 
@@ -1009,7 +1009,7 @@ static void put_comment(struct pages *pages, const struct sfc_sheet *chart, int 
 	if (!*any)
 		put_heading(pages, _("Comments"), 3 * TEXT_LINE);
 	*any = true;
-	line = g_strdup_printf("%s: %s", chart->name[shape], comment);
+	line = g_strdup_printf(_("%s: %s"), chart->name[shape], comment);
 	put_line(pages, line);
 	g_free(line);
 }

@@ -142,7 +142,7 @@ static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char
 	if (good || !*why)
 		tell(view, NULL);
 	else {
-		char *whole = g_strdup_printf("%s, %s: %s", panel_row_text(row, IO_ADDRESS),
+		char *whole = g_strdup_printf(_("%s, %s: %s"), panel_row_text(row, IO_ADDRESS),
 					      io_field_name((enum io_field)field), *why);
 
 		tell(view, whole);
@@ -345,7 +345,7 @@ static void show_message(LadderIomapView *view)
 	const LadderPanelRow *row = panel_list_row(&view->list);
 	const char *note = row && !view->refused && !view->as_text ? row->note : NULL;
 	char *text = view->refused ? g_strdup(view->refused) :
-		note ? g_strdup_printf("%s: %s", panel_row_text(row, IO_ADDRESS), note) :
+		note ? g_strdup_printf(_("%s: %s"), panel_row_text(row, IO_ADDRESS), note) :
 		g_strdup(view->said);
 	const bool wrong = view->refused || (note ? row->tone == PANEL_ERROR :
 					     view->said_wrong);

@@ -79,7 +79,7 @@ char *diag_said_line(const struct diag *diag)
 
 	add_file(line, diag);
 	add_rung(line, diag);
-	g_string_append_printf(line, "%s %s: %s", diag_severity(diag->id) == SEVERITY_ERROR ?
+	g_string_append_printf(line, _("%s %s: %s"), diag_severity(diag->id) == SEVERITY_ERROR ?
 			       _("error") : _("warning"), diag_code(diag->id), whole);
 	g_free(whole);
 	return g_string_free(line, FALSE);

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/kit/entry_row.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -170,7 +171,7 @@ static gboolean ladder_entry_row_query_tooltip(GtkWidget *widget, int x, int y,
 					       gboolean keyboard, GtkTooltip *tooltip)
 {
 	LadderEntryRow *row = LADDER_ENTRY_ROW(widget);
-	char *text = g_strdup_printf("%s: %s", row->text[TEXT], row->text[NOTE]);
+	char *text = g_strdup_printf(_("%s: %s"), row->text[TEXT], row->text[NOTE]);
 
 	(void)x;
 	(void)y;

@@ -246,7 +246,7 @@ void verb_tell(GString *line, enum verb verb)
 	char *keys = verb_keys_label(verb);
 
 	if (keys[0])
-		g_string_append_printf(line, "%s%s: %s", line->len ? " · " : "", keys,
+		g_string_append_printf(line, _("%s%s: %s"), line->len ? " · " : "", keys,
 				       _(verb_row(verb)->label));
 	g_free(keys);
 }

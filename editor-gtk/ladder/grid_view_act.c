@@ -8,6 +8,7 @@
 #include "editor-gtk/ladder/grid_view_inside.h"
 
 #include "editor-gtk/kit/diag_said.h"
+#include "editor-gtk/kit/i18n.h"
 #include "engine/trial/value.h"
 
 #include <string.h>
@@ -210,7 +211,7 @@ static char *read_value(const struct asked *asked, const char *line, struct iec_
 					      type->word, (long long)type->low,
 					      (long long)type->high);
 		else
-			why = g_strdup_printf("%s: %s", said, type->word);
+			why = g_strdup_printf(_("%s: %s"), said, type->word);
 		g_free(said);
 	} else if (!value_has_room(image_of(asked->view), asked->at, *value)) {
 		why = g_strdup(_("the text is too long"));
@@ -473,7 +474,7 @@ static void add_key(GString *text, enum verb verb, const char *what)
 	char *keys = verb_keys_label(verb);
 
 	if (keys[0])
-		g_string_append_printf(text, "%s%s: %s", text->len ? " · " : "", keys, what);
+		g_string_append_printf(text, _("%s%s: %s"), text->len ? " · " : "", keys, what);
 	g_free(keys);
 }
 

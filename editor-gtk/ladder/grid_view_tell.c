@@ -8,6 +8,7 @@
 
 #include "editor-gtk/draw/place.h"
 #include "editor-gtk/kit/diag_said.h"
+#include "editor-gtk/kit/i18n.h"
 #include "engine/base/name.h"
 
 #include <string.h>
@@ -145,7 +146,7 @@ static void add_faults(LadderGridView *view, GString *text, int rung, int row, i
 		if (mark->rung != rung || mark->row != row || mark->col != col)
 			continue;
 		said = diag_said_whole(mark->diag);
-		line = g_strdup_printf("%s: %s", mark->marks == MARK_ERROR ? _("Error") :
+		line = g_strdup_printf(_("%s: %s"), mark->marks == MARK_ERROR ? _("Error") :
 				       _("Warning"), said);
 		add_line(text, line);
 		g_free(said);
@@ -170,7 +171,7 @@ char *ladder_grid_view_tip(LadderGridView *view, int rung, int row, int col)
 		word = words_row(&project->words, (enum word)cell->word);
 		add_name(view, text, cell);
 		if (word->word[0] && words_explain(word)[0]) {
-			char *line = g_strdup_printf("%s: %s", word->word,
+			char *line = g_strdup_printf(_("%s: %s"), word->word,
 						     _(words_explain(word)));
 
 			add_line(text, line);

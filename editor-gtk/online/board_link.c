@@ -693,7 +693,7 @@ static char *unreachable(const char *where, int error)
 		return g_strdup_printf(_("%s: another program or window uses this line."), where);
 	if (error == -ENOTTY)
 		return g_strdup_printf(_("%s: this is no serial line."), where);
-	return g_strdup_printf("%s: %s", where, g_strerror(-error));
+	return g_strdup_printf(_("%s: %s"), where, g_strerror(-error));
 }
 
 /* The last line that a command said. Caller frees. */
@@ -729,7 +729,7 @@ static char *why_command(LadderBoardLink *link, const char *said_last)
 		why = g_strdup_printf(_("“%s” has no ladder-attach. Install Rungboard there."),
 				      where);
 	else if (*line)
-		why = g_strdup_printf("%s: %s", where, line);
+		why = g_strdup_printf(_("%s: %s"), where, line);
 	g_free(line);
 	return why;
 }

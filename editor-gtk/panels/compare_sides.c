@@ -271,7 +271,7 @@ static float put_texts(const struct side *side)
 		const struct compare_detail *detail = &g_array_index(row->details,
 			struct compare_detail, i);
 		const char *text = side->newer ? detail->to : detail->from;
-		char *line = g_strdup_printf("%s%s%s", detail->label, *detail->label ? ": " : "",
+		char *line = g_strdup_printf("%s%s%s", detail->label, *detail->label ? _(": ") : "",
 					     *text ? text : _("nothing"));
 		const enum token token = side->newer ? TOKEN_POWER : TOKEN_ERROR;
 

@@ -45,7 +45,8 @@ G_DEFINE_FINAL_TYPE(LadderCompareView, ladder_compare_view, GTK_TYPE_WIDGET)
 
 static const struct compare_row *row_now(LadderCompareView *view)
 {
-	const LadderPanelRow *row = gtk_single_selection_get_selected_item(view->selection);
+	const LadderPanelRow *row = view->selection ?
+		gtk_single_selection_get_selected_item(view->selection) : NULL;
 
 	return row && view->of && row->flags < view->of->rows->len ?
 	       view->of->rows->pdata[row->flags] : NULL;

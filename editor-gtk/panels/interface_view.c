@@ -412,7 +412,8 @@ static bool set_field(GObject *owner, LadderPanelRow *row, int number, const cha
 				  (enum field)number, text, why);
 	}
 	if (!good && *why)
-		tell(view, g_strdup_printf("%s: %s", panel_row_text(row, FIELD_NAME), *why), true);
+		tell(view, g_strdup_printf(_("%s: %s"), panel_row_text(row, FIELD_NAME),
+					   *why), true);
 	if (good) { /* for an undo before the next refresh */
 		g_free(row->text[number]);
 		row->text[number] = number == PIN_KIND && find_kind(text, &kind) ?
@@ -551,7 +552,7 @@ static void put(LadderInterfaceView *view, LadderPanelRow *row, uint16_t kind, i
 
 	cells_focused(view->list.view, &field);
 	if (why) {
-		tell(view, g_strdup_printf("%s: %s", name, why), true);
+		tell(view, g_strdup_printf(_("%s: %s"), name, why), true);
 	} else {
 		tell(view, told_calls(row, calls), false);
 		refresh(GTK_WIDGET(view));

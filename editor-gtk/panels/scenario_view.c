@@ -48,7 +48,7 @@ static LadderPanelRow *row_of(const struct scenario_result *result, int index)
 	row->text[NAME] = g_strdup(result->name);
 	row->text[FILE_NAME] = g_path_get_basename(result->path);
 	row->text[RESULT] = held ? g_strdup(outcome_text(result->outcome)) :
-		g_strdup_printf("%s: %s", outcome_text(result->outcome), result->why);
+		g_strdup_printf(_("%s: %s"), outcome_text(result->outcome), result->why);
 	row->tone = held ? PANEL_PLAIN : PANEL_ERROR;
 	row->note = held ? NULL : g_strdup(outcome_text(result->outcome));
 	row->number = result->line;

@@ -257,7 +257,7 @@ static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char
 		symbol_set_access_text(document, row->table, index, text, why) :
 		symbol_set(document, row->table, index, (enum field)field, text, why);
 
-	tell(view, good ? told_of(document, row, field) : g_strdup_printf("%s, %s: %s",
+	tell(view, good ? told_of(document, row, field) : g_strdup_printf(_("%s, %s: %s"),
 		panel_row_text(row, FIELD_NAME), field_name(field), why && *why ? *why : ""));
 	if (good) { /* Found by name again, also after an undo. */
 		g_free(row->text[field]);
@@ -326,7 +326,7 @@ static void kind_changed(GtkDropDown *drop, GParamSpec *spec, LadderSymbolsView 
 		ladder_symbols_view_show(view, table, last_index(document, table, name));
 	view->turning = false;
 	show_kind(view);
-	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL);
+	tell(view, why ? g_strdup_printf(_("%s: %s"), name, why) : NULL);
 	g_free(name);
 	g_free(why);
 }
@@ -352,7 +352,7 @@ static void access_changed(GtkDropDown *drop, GParamSpec *spec, LadderSymbolsVie
 			last_index(panel_watch_document(view->watch), table, name));
 	view->turning = false;
 	show_kind(view);
-	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL);
+	tell(view, why ? g_strdup_printf(_("%s: %s"), name, why) : NULL);
 	g_free(name);
 	g_free(why);
 }

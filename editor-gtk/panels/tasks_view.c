@@ -178,7 +178,7 @@ static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char
 	const bool good = task_rows_set(document_of(view), number_of(view, row),
 				    (enum task_field)field, text, why);
 
-	tell(view, good ? NULL : g_strdup_printf("%s, %s: %s", panel_row_text(row, TASKS_NAME),
+	tell(view, good ? NULL : g_strdup_printf(_("%s, %s: %s"), panel_row_text(row, TASKS_NAME),
 		field_name(field), why && *why ? *why : ""));
 	if (good) { /* Found by name again. */
 		g_free(row->text[field]);

@@ -136,7 +136,7 @@ GtkWidget *tile_new(const struct tile *tile)
 	GtkWidget *box = g_object_new(GTK_TYPE_BOX, "orientation", GTK_ORIENTATION_VERTICAL,
 				      "accessible-role", GTK_ACCESSIBLE_ROLE_NONE, NULL);
 	LadderIcon *icon = g_object_new(LADDER_TYPE_ICON, NULL);
-	char *tip = g_strdup_printf("%s: %s%s%s", tile->name, tile->told,
+	char *tip = g_strdup_printf(_("%s: %s%s%s"), tile->name, tile->told,
 				    tile->key[0] ? " · " : "", tile->key);
 
 	icon->tile = *tile;

@@ -179,7 +179,7 @@ static bool set_field(GObject *owner, LadderPanelRow *row, int field, const char
 	const bool good = symbol_set(document_of(view), row->table, index_of(view, row),
 				     (enum field)field, text, why);
 
-	tell(view, good ? NULL : g_strdup_printf("%s, %s: %s", panel_row_text(row, FIELD_NAME),
+	tell(view, good ? NULL : g_strdup_printf(_("%s, %s: %s"), panel_row_text(row, FIELD_NAME),
 		field_name(field), why && *why ? *why : ""));
 	if (good) { /* found by its name again */
 		g_free(row->text[field]);

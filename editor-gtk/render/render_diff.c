@@ -193,7 +193,7 @@ static void name_pou(struct comparison *of, const char *said)
 			     of->pou_b < 0 ? _("removed") : said;
 	char *heading = g_strdup_printf("%s %s%s%s", pou_word(pou->kind),
 					project_text(project, pou->name),
-					*change ? ": " : "", change);
+					*change ? _(": ") : "", change);
 
 	if (!of->headed)
 		of->y += render_heading(of->lettering, heading, of->y, of->picture);

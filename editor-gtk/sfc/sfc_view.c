@@ -6,6 +6,7 @@
 
 #include "editor-gtk/edit/sfc_lines.h"
 #include "editor-gtk/kit/diag_said.h"
+#include "editor-gtk/kit/i18n.h"
 
 #include <math.h>
 #include <string.h>
@@ -317,7 +318,7 @@ static char *tip_of(LadderSfcView *view, int shape, int use)
 		    of_shape != shape || of_use != use)
 			continue;
 		said = diag_said_whole(diag);
-		g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "",
+		g_string_append_printf(text, _("%s%s: %s"), text->len ? "\n" : "",
 			diag_severity(diag->id) == SEVERITY_ERROR ? _("Error") :
 			_("Warning"), said);
 		g_free(said);

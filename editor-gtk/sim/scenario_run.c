@@ -206,7 +206,7 @@ static bool find_plant(struct running *running)
 						 text, len, &error);
 	if (error) {
 		result = add(running->results, SCENARIO_UNREAD, running->path, "",
-			     g_strdup_printf("%s: %s", name, error->message));
+			     g_strdup_printf(_("%s: %s"), name, error->message));
 		result->line = place.line;
 	}
 	g_free(folder);

@@ -40,7 +40,7 @@ char *sim_fault_words(const struct sim_program *program, const struct resource *
 		text = g_strdup_printf(_("task %s: %s: %s"), resource->fault_at.task,
 				       said(fault_text(resource->fault)), place);
 	else
-		text = g_strdup_printf("%s: %s", said(fault_text(resource->fault)), place);
+		text = g_strdup_printf(_("%s: %s"), said(fault_text(resource->fault)), place);
 	g_free(place);
 	return text;
 }
@@ -55,7 +55,7 @@ static char *words_of(const struct project *project, const struct diag *diag)
 	char *what = diag_said_whole(diag);
 	char *place = project && diag->pou && diag->rung ? place_of(project, &at) :
 		      diag->line ? g_strdup_printf(_("line %d"), diag->line) : NULL;
-	char *text = place ? g_strdup_printf("%s: %s", place, what) : g_strdup(what);
+	char *text = place ? g_strdup_printf(_("%s: %s"), place, what) : g_strdup(what);
 
 	g_free(what);
 	g_free(place);

@@ -30,7 +30,7 @@ static void refuse(GError **error, const char *path, const char *why)
 {
 	char *name = g_path_get_basename(path);
 
-	g_set_error(error, G_IO_ERROR, G_IO_ERROR_FAILED, "%s: %s", name, why);
+	g_set_error(error, G_IO_ERROR, G_IO_ERROR_FAILED, _("%s: %s"), name, why);
 	g_free(name);
 }
 

@@ -291,7 +291,7 @@ static char *said_by(enum board_state state, const struct run_status *status)
 		return g_strdup(_("STOPPING"));
 	if (state != BOARD_RUNNING)
 		return NULL;
-	return g_strdup_printf("%s%s%s", status->state, *why ? ": " : "", why);
+	return g_strdup_printf("%s%s%s", status->state, *why ? _(": ") : "", why);
 }
 
 /* Logs the state only when it changed, because it is polled. */

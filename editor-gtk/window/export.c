@@ -300,7 +300,7 @@ static bool save_pdf(const char *path, GBytes *pdf, GError **error)
 	if (pdf)
 		return disk_save(path, g_bytes_get_data(pdf, NULL), g_bytes_get_size(pdf),
 				 error);
-	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_NOMEM, "%s: %s", path,
+	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_NOMEM, _("%s: %s"), path,
 		    g_strerror(ENOMEM));
 	return false;
 }

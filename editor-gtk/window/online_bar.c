@@ -236,7 +236,7 @@ static void show_actions(struct online_bar *bar)
 static void log_state(struct online_bar *bar, const char *text)
 {
 	const char *reason = reason_of(bar);
-	char *whole = *reason ? g_strdup_printf("%s: %s", text, reason) : g_strdup(text);
+	char *whole = *reason ? g_strdup_printf(_("%s: %s"), text, reason) : g_strdup(text);
 
 	/* board_bar logs a program of this editor. */
 	if (is_on(bar) && !core_is_own(bar->core) && g_strcmp0(bar->said, whole) != 0)
@@ -294,7 +294,7 @@ static void checked(struct online_bar *bar)
 static void failed(LadderBoardLink *link, const char *service, const char *text,
 		   struct online_bar *bar)
 {
-	char *line = g_strdup_printf("%s: %s: %s", ladder_board_link_board(link), service, text);
+	char *line = g_strdup_printf(_("%s: %s: %s"), ladder_board_link_board(link), service, text);
 
 	messages_log_failed(bar->core->messages, line, text);
 	g_free(line);

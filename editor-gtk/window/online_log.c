@@ -62,9 +62,9 @@ static void log_event(struct online_log *log, const struct event *event)
 
 	event_fill(event, text ? said(text) : NULL, said_text, sizeof(said_text));
 	line = *user ?
-		g_strdup_printf("%s: %s: %s", ladder_board_link_board(log->core->link), user,
+		g_strdup_printf(_("%s: %s: %s"), ladder_board_link_board(log->core->link), user,
 				said_text) :
-		g_strdup_printf("%s: %s", ladder_board_link_board(log->core->link), said_text);
+		g_strdup_printf(_("%s: %s"), ladder_board_link_board(log->core->link), said_text);
 	messages_log_at(log->core->messages, kind_of(event), event->time_ns / 1000, line);
 	g_free(line);
 	g_free(user);

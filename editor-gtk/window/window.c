@@ -819,7 +819,7 @@ static void tell_front(LadderWindow *window)
 
 static void name_button(GtkButton *button, const char *verb, const char *step)
 {
-	char *text = step ? g_strdup_printf("%s: %s", verb, step) : g_strdup(verb);
+	char *text = step ? g_strdup_printf(_("%s: %s"), verb, step) : g_strdup(verb);
 
 	tip_set(GTK_WIDGET(button), text);
 	g_free(text);

@@ -57,6 +57,7 @@ static bool bad(const char *text, const char *want)
 static void test_refusals(void)
 {
 	CHECK(bad("", "LD101"));
+	CHECK(bad("\xff\xfe@A", "test.io:1:1: error LD142")); /* UTF-16 */
 	CHECK(bad("\n# nothing\n", "LD519"));
 	CHECK(bad("BOARD\n", "test.io:1:1: error LD519"));
 	CHECK(bad("BOARD x\n", "test.io:1:7: error LD519"));

@@ -189,6 +189,37 @@ static void draw_marks(struct sheet *sheet)
 	draw(sheet, 0, (struct grid_scene){ .takes = takes }, "takes");
 }
 
+/* A coil may be forced and written twice: the two badges have room between them. */
+static void check_badges(struct sheet *sheet)
+{
+	static const struct grid_mark mark[] = { { 0, 5, MARK_FORCED | MARK_TWICE } };
+	const struct grid_scene scene = { .drafting = &sheet->drafting,
+					  .layout = sheet->rung[0], .mark = mark,
+					  .mark_count = G_N_ELEMENTS(mark),
+					  .theme = theme_get(THEME_LIGHT, THEME_GREEN) };
+	graphene_rect_t badge[2], wide;
+	struct picture picture;
+	int badges = 0;
+
+	picture_init(&picture);
+	grid_draw(&scene, &picture);
+	for (int i = 0; i < picture.count; i++) {
+		const struct stroke *stroke = &picture.stroke[i];
+
+		if (stroke->kind != STROKE_FILL || stroke->token != TOKEN_FORCE)
+			continue;
+		if (badges < 2)
+			badge[badges] = GRAPHENE_RECT_INIT(stroke->x, stroke->y, stroke->w,
+							   stroke->h);
+		badges++;
+	}
+	CHECK(badges == 2);
+	graphene_rect_inset_r(&badge[0], -2, -2, &wide);
+	CHECK_AS(!graphene_rect_intersection(&wide, &badge[1], NULL),
+		 "badges of a force and of a coil written twice touch");
+	picture_clear(&picture);
+}
+
 static const char *note_of(void *context, int row, int column)
 {
 	(void)context;
@@ -344,6 +375,7 @@ int main(int argc, char **argv)
 	}
 	draw_live(sheet);
 	draw_marks(sheet);
+	check_badges(sheet);
 	draw_blockers(sheet);
 	draw(sheet, 0, (struct grid_scene){ .state = RUNG_NO_GUTTER,
 					    .reference = reference_of }, "paper");

@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/verbs.h"
 #include "engine/ladder.h"
 #include "tests/tap.h"
 
@@ -206,6 +207,16 @@ static void check_lines_german(void)
 	g_free(wanted);
 }
 
+/* In French a no-break space stands before a colon. */
+static void check_hint_french(void)
+{
+	GString *line = g_string_new(NULL);
+
+	verb_tell(line, VERB_rename);
+	CHECK(strstr(line->str, "F2\xc2\xa0: ") == line->str);
+	g_string_free(line, TRUE);
+}
+
 int main(void)
 {
 	check_lines_english();
@@ -232,5 +243,7 @@ int main(void)
 		   "„Haet“ ist nicht deklariert; gemeint: Heat?"));
 	check_lines_german();
 	check_golden();
+	in_language("fr");
+	check_hint_french();
 	return tap_done();
 }

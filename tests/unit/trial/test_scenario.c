@@ -115,6 +115,7 @@ static void test_values(void)
 
 static void test_wrong(void)
 {
+	CHECK_TEXT(run("\xff\xfe@A"), "LD142:1:1"); /* UTF-16 */
 	CHECK_TEXT(run(""), "LD107:1:1");
 	CHECK_TEXT(run("at 0 Open = 1\n"), "LD107:1:1");
 	CHECK_TEXT(run("scenario\nexpect Motor\n"), "LD107:1:9");

@@ -198,6 +198,7 @@ static void test_wrong(void)
 	CHECK_TEXT(wrong("@\n"), "LD110:1:1");
 	CHECK_TEXT(wrong("a\x01\n"), "LD105:1:2");
 	CHECK_TEXT(wrong(".\n.\xff\n"), "LD104:2:2");
+	CHECK_TEXT(wrong("\xff\xfe@A"), "LD142:1:1"); /* UTF-16 */
 	wrong("Open=2\nOpen\n@what\n");
 	CHECK_AS(bed.diags.errors == 3,
 		 "a script with three errors gives three messages");
