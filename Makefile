@@ -274,7 +274,7 @@ install-ladderd: $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-att
 	install -m 755 $(BUILD)/ladderd $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder-attach $(BUILD)/ladder-guard) $(DESTDIR)$(prefix)/bin/
 	install -m 644 $(BUILD)/man/ladderd.8 $(if $(filter 1,$(SMALL)),,$(BUILD)/man/ladder-guard.8) $(DESTDIR)$(prefix)/share/man/man8/
 	$(if $(filter 1,$(SMALL)),,install -d $(DESTDIR)$(prefix)/share/man/man1 && install -m 644 $(BUILD)/man/ladder-attach.1 $(DESTDIR)$(prefix)/share/man/man1/)
-	sed 's|/usr/bin/ladderd |$(prefix)/bin/ladderd |' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
+	sed $(SMALL:1=-e 's|/usr/bin/ladder-guard.* -- ||' -e 's|=/usr/bin/ladder-guard |=|') -e 's|/usr/bin/ladder|$(prefix)/bin/ladder|g' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
 	test -e $(DESTDIR)/etc/default/ladderd || { sed '$(SMALL:1=s| --retain [^"]*||)' packaging/ladderd.default \
 	  >$(DESTDIR)/etc/default/ladderd && chmod 644 $(DESTDIR)/etc/default/ladderd; }
 cli-tests: $(BUILD)/ladder ## the command line from outside

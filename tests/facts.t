@@ -120,7 +120,8 @@ fact('docs/boards.md', qr/two places of (\d+) KB or more/, constant('runtime/eng
 fact('docs/boards.md', qr/needs (\d+) KB of stack/, constant('runtime/ladderd/main.c', 'STACK_BYTES') >> 10);
 my $unit = slurp('packaging/ladderd.service');
 fact('docs/boards.md', qr/with `WatchdogSec=(\d+)` in the unit/, $unit =~ /^WatchdogSec=(\d+)$/m);
-fact('docs/boards.md', qr/The unit allows up to (\d+) \|/, $unit =~ /^LimitRTPRIO=(\d+)$/m);
+fact('docs/boards.md', qr/The unit allows up to (\d+) \|/, ($unit =~ /^LimitRTPRIO=(\d+)$/m)[0] - 1);
+is(($unit =~ /^LimitRTPRIO=(\d+)$/m)[0], constant('runtime/guard/main.c', 'PRIORITY'), 'the unit allows the priority of the guard');
 fact($_, qr/at most (\d+) KB/, (slurp('tests/targets/sizes') =~ /SMALL=1, all words' (\d+)/)[0] >> 10)
 	for 'README.md', 'docs/boards.md';
 

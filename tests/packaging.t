@@ -28,7 +28,7 @@ SKIP: {
 is_deeply([$unit =~ /^RestrictAddressFamilies=(.*)$/mg], ['AF_UNIX'], 'sockets of this machine only');
 # Libraries may be executed, nothing else: also a libgpiod that was built on the board.
 is_deeply([$unit =~ /^NoExecPaths=(.*)\n/mg, map { split } $unit =~ /^ExecPaths=(.*)$/mg],
-	[qw(/ /usr/bin/ladderd -/usr/lib -/usr/lib64 -/usr/local/lib -/lib -/lib64 -/bin/kill -/usr/bin/kill)], 'what may be executed');
+	[qw(/ /usr/bin/ladder-guard /usr/bin/ladderd -/usr/lib -/usr/lib64 -/usr/local/lib -/lib -/lib64 -/bin/kill -/usr/bin/kill)], 'what may be executed');
 like($unit, qr/^$_$/m, $_) for 'PrivateNetwork=yes', 'DynamicUser=yes', 'CapabilityBoundingSet=', 'NoNewPrivileges=yes', 'DevicePolicy=closed';
 
 # The unit without /etc/ladder/active: FILE and MAP are empty.
@@ -44,6 +44,43 @@ kill 'TERM', $pid;
 waitpid $pid, 0;
 is(system("$build/ladderd '' --io '' >$dir/out 2>&1") >> 8, 2, 'without slots that is wrong usage');
 like(get("$dir/out"), qr/FILE is missing/, 'and says so');
+
+like($unit, qr{^ExecStart=/usr/bin/ladder-guard \$GUARD_OPTIONS -- /usr/bin/ladderd }m, 'the guard starts ladderd');
+is_deeply([$unit =~ /^(NotifyAccess|KillMode|Type)=(.*)$/mg], [qw(Type notify NotifyAccess main KillMode mixed)],
+	'and speaks alone with systemd, and hands SIGTERM on');
+unlike(join('', map { get("packaging/$_") } qw(ladderd.service ladderd.default ladderd-run ladderd.procd)), qr/^[^#]*watchdog \/dev/m,
+	'nobody opens the watchdog device unasked');
+
+# ladderd-run with and without a guard beside it.
+sub until_it { my ($what) = @_; for (1 .. 1200) { return 1 if $what->(); select undef, undef, undef, 0.02 } return 0 }
+sub put { my ($name, $text) = @_; open my $f, '>', $name or die; print $f $text; close $f }
+mkdir "$dir/$_" for qw(bin etc run);
+symlink "$build/ladderd", "$dir/bin/ladderd" or die;
+put("$dir/one.rung", "RUNGBOARD 1\n\nVAR\n  Lamp AT %QX0.0 : BOOL;\nEND_VAR\n\nPROGRAM Main LD\nRUNG\n  | NO SYS_ALWAYS_ON | COIL Lamp |\nEND_PROGRAM\n");
+put("$dir/one.io", "BOARD \"x\"\n%QX0.0 sim safe=0\n");
+put("$dir/etc/active", "LADDERD_FILE=$dir/one.rung\nLADDERD_MAP=$dir/one.io\n");
+put("$dir/default", "LADDERD_OPTIONS=\"--period 10ms\"\nGUARD_OPTIONS=\"--name packaging-$$\"\n");
+my @env = ("LADDERD_FOLDER=$dir/etc", "LADDERD_DEFAULT=$dir/default", "LADDERD_RUN=$dir/run", "PATH=$dir/bin:$ENV{PATH}");
+sub ladderd_of { my ($parent) = @_; my ($pid) = get("/proc/$parent/task/$parent/children") =~ /^(\d+)/; return $pid // 0 }
+for my $guarded (0, 1) {
+	symlink "$build/ladder-guard", "$dir/bin/ladder-guard" or die if $guarded;
+	unlink "$dir/run/ladderd.status";
+	my $run = fork // die;
+	if (!$run) {
+		open STDOUT, '>', "$dir/run/out"; open STDERR, '>&', *STDOUT;
+		exec 'env', @env, 'sh', 'packaging/ladderd-run' or die;
+	}
+	my $comm = $guarded ? 'ladder-guard' : 'ladderd';
+	ok(until_it(sub { get("/proc/$run/comm") eq "$comm\n" }), "ladderd-run becomes $comm");
+	like(`env @env sh packaging/ladderd-run status`, qr/^state: RUN$/m, 'its status is that of ladderd') or diag(get("$dir/run/out"));
+	if ($guarded) {
+		my $first = ladderd_of($run);
+		kill 'KILL', $first if $first;
+		ok(until_it(sub { my $now = ladderd_of($run); $now && $now != $first }), 'a ladderd that was killed is started again');
+	}
+	kill 'TERM', $run;
+	ok(until_it(sub { waitpid($run, 1) == $run }) && $? == 0, 'SIGTERM ends it');
+}
 
 my ($version) = get('runtime/engine/base/version.h') =~ /LADDER_VERSION "(.*)"/;
 like(get('packaging/debian/changelog'), qr/^rungboard \(\Q$version\E\) /, 'the package has the version of the programs');
