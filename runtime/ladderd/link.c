@@ -45,6 +45,7 @@
 #define PATIENCE_NS (2 * SECOND)      /* for an order                               */
 #define STACK_LEAST 262144u
 #define REST_NS    SECOND             /* longest time between two looks at the state */
+#define HANGS_NS   (5 * SECOND)      /* without a turn of the thread              */
 #define LATE_REST_NS (60 * SECOND)    /* between two events about late scans        */
 #define BACKLOG    128               /* of desks that connect at the same time          */
 #define OURS       3                  /* polled: the wake-up, the listening socket, the serial line */
@@ -97,6 +98,10 @@ struct link {
 	bool runs;
 	_Atomic bool stop, dozes;
 	_Atomic int trial;             /* enum trial                           */
+	_Atomic uint32_t turns;        /* of the thread's loop                  */
+	uint32_t turns_seen;           /* by the scan thread, and when          */
+	int64_t turned_ns;
+	bool hangs;                    /* it was told                          */
 };
 
 static int64_t clock_now(void)
@@ -171,8 +176,26 @@ static enum refusal host_restore(void *context, const struct order_retain *value
 	return REFUSAL_NONE;
 }
 
+/* A thread that hangs, in a write to the disk as a rule, is told; the scan goes on. */
+static void watch_thread(struct link *link)
+{
+	const uint32_t turns = atomic_load_explicit(&link->turns, memory_order_relaxed);
+	const int64_t now_ns = clock_now();
+	bool hangs;
+
+	if (turns != link->turns_seen)
+		link->turned_ns = now_ns;
+	link->turns_seen = turns;
+	hangs = now_ns - link->turned_ns > HANGS_NS;
+	if (hangs != link->hangs)
+		control_tell(hangs ? "the link does not answer, its disk perhaps hangs; the program goes on" :
+				     "the link answers again");
+	link->hangs = hangs;
+}
+
 void link_serve(struct link *link)
 {
+	watch_thread(link);
 	exchange_serve(&link->exchange);
 }
 
@@ -889,6 +912,7 @@ static void *serve_desks(void *argument)
 	bool more = false;
 
 	while (!atomic_load(&link->stop)) {
+		atomic_fetch_add_explicit(&link->turns, 1, memory_order_relaxed);
 		watch_streams(link, more);
 		end_trial(link);
 		more = server_step(link->server, clock_now());
@@ -961,7 +985,7 @@ int link_begin(struct link *link)
 	}
 	link->state = -1;
 	link->scans = pthread_self();
-	link->began_ns = clock_now();
+	link->turned_ns = link->began_ns = clock_now();
 	error = start_thread(link);
 	link->runs = !error;
 	if (error)

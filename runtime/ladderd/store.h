@@ -74,6 +74,7 @@ struct store_status {
 };
 /** store_status - figures for the status. Scan-safe: yes. */
 struct store_status store_status(const struct store *store);
-/** store_error - an errno: why values are not stored now; 0: they are. Scan-safe: yes. */
+/** store_error - an errno: why values are not stored now, EINPROGRESS if a write takes longer than
+ * 3 s; 0: they are stored. Scan-safe: yes. */
 int store_error(const struct store *store);
 #endif

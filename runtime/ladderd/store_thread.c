@@ -28,6 +28,7 @@
 #define SECOND     INT64_C(1000000000)
 #define TICK_NS    (SECOND / 10) /* longest time between two looks           */
 #define QUIET_NS   SECOND        /* values are written after so long without a change */
+#define HANGS_MS   3000      /* a write that takes longer is told            */
 #define FRESH      4u            /* the thread has not read `middle` yet     */
 #define STACK_LEAST 65536u
 #define TOLD_MOST  20            /* names of lost values that are printed    */
@@ -60,6 +61,7 @@ struct store {
 	_Atomic bool hurry, stop;
 	_Atomic uint32_t seq, writes, failures;
 	_Atomic int error;     /* of the last write; 0: it is on the disk    */
+	_Atomic uint32_t since_ms; /* of the write that goes on, | 1; 0: none */
 };
 
 /* ---- the scan's side ---- */
@@ -131,13 +133,6 @@ struct store_status store_status(const struct store *store)
 	};
 }
 
-int store_error(const struct store *store)
-{
-	return atomic_load(&store->error);
-}
-
-/* ---- the thread ---- */
-
 static int64_t clock_now(void)
 {
 	struct timespec now;
@@ -145,6 +140,17 @@ static int64_t clock_now(void)
 	clock_gettime(CLOCK_MONOTONIC, &now);
 	return now.tv_sec * SECOND + now.tv_nsec;
 }
+
+int store_error(const struct store *store)
+{
+	const uint32_t since_ms = atomic_load(&store->since_ms);
+
+	if (since_ms && (int32_t)((uint32_t)(clock_now() / 1000000) - since_ms) > HANGS_MS)
+		return EINPROGRESS;
+	return atomic_load(&store->error);
+}
+
+/* ---- the thread ---- */
 
 /* Takes the newest copy of the scan into `seen`. */
 static void look(struct store *store, int64_t now_ns)
@@ -171,7 +177,9 @@ static void save(struct store *store)
 	int error;
 
 	retain_fill(&store->retain, store->seen.value, store->seen.clock_ns);
+	atomic_store(&store->since_ms, (uint32_t)(clock_now() / 1000000) | 1);
 	error = store_file_write(&store->file, &store->retain);
+	atomic_store(&store->since_ms, 0);
 	store->wrote_ns = clock_now();
 	atomic_store(&store->error, -error);
 	if (error) {

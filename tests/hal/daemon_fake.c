@@ -10,6 +10,7 @@
  *   FAKE_SLOW_MS  takes as long as this; FAKE_SLOW_EACH: only every N-th read
  *   FAKE_HANG_AT  this read never returns
  *   FAKE_CRASH_AT this read ends in SIGSEGV
+ *   FAKE_SYNC_HANGS  fdatasync() waits while there is this file
  */
 #include "tests/hal/fake.h"
 
@@ -29,6 +30,19 @@ DIR *__wrap_opendir(const char *path)
 	const char *dev = getenv("FAKE_DEV");
 
 	return __real_opendir(dev && strcmp(path, "/dev") == 0 ? dev : path);
+}
+
+int __real_fdatasync(int fd);
+int __wrap_fdatasync(int fd);
+
+int __wrap_fdatasync(int fd)
+{
+	const char *path = getenv("FAKE_SYNC_HANGS");
+	const struct timespec nap = { 0, 5000000 };
+
+	while (path && access(path, F_OK) == 0)
+		nanosleep(&nap, NULL);
+	return __real_fdatasync(fd);
 }
 
 static long number(const char *name)

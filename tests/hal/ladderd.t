@@ -10,6 +10,7 @@ use Test::More;
 use File::Temp qw(tempdir);
 use FindBin;
 use IO::Socket::UNIX;
+use Socket qw(MSG_DONTWAIT);
 use POSIX qw(:sys_wait_h);
 use Time::HiRes qw(sleep time);
 use lib "$FindBin::Bin/..";
@@ -697,6 +698,81 @@ for my $name ("$dir/notify", "\0ladderd-test-$$") {
 		like(join(' ', @said),
 			qr/^(WATCHDOG=1 )?READY=1 (WATCHDOG=1 )+STOPPING=1$/,
 			'READY, WATCHDOG, STOPPING');
+	}
+}
+
+# ---- what a service manager hears when something hangs: only a scan that hangs ends its patience ----
+{
+	my $fake = "$build/tests/hal/ladderd_uapi";
+	my $socket = IO::Socket::UNIX->new(Type => SOCK_DGRAM, Local => "$dir/patience") or die "socket: $!";
+	local @ENV{qw(FAKE_DEV NOTIFY_SOCKET WATCHDOG_USEC FAKE_SYNC_HANGS)} =
+		("$dir/dev", "$dir/patience", 100000, "$dir/hang");
+	put('group', "ladder-eng:x:" . (split ' ', $))[0] . ":\n");
+	mkdir "$dir/slots";
+	my $kept = put('kept.rung', <<'END');
+RUNGBOARD 1
+
+VAR RETAIN
+  Count : DINT;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | ADD IN1:=Count IN2:=1 OUT=>Count |
+END_PROGRAM
+END
+	my @linked = ('--link', "$dir/link", '--groups', "$dir/group");
+	my $board = sub { return scalar `$build/ladder board unix:$dir/link @_ 2>&1` };
+	my $drain = sub { my $text; 1 while defined $socket->recv($text, 200, MSG_DONTWAIT) };
+	my $fed = sub { my $text = ''; $drain->(); $socket->recv($text, 200) while $text ne 'WATCHDOG=1'; return 1 };
+	my $scans = sub { return $board->('status') =~ /^scans: (\d+)$/m ? $1 : -1 };
+	my $until = sub { my ($what) = @_; for (1 .. 3000) { return 1 if $what->(); sleep 0.02 } return 0 };
+	{
+		local $ENV{FAKE_HANG_AT} = 10;
+		my $pid = start($fake, $rung, '--io', $gpio, '--trace-io', '--watchdog', '20');
+		ok(until_has('err', qr/^%QX0\.1 1$/m), 'a scan hangs');
+		$drain->();
+		sleep 0.5; # ten times what it fed before; nothing can be waited for
+		my $text;
+		ok(!defined $socket->recv($text, 200, MSG_DONTWAIT), 'the service manager hears nothing more');
+		kill 'KILL', $pid;
+		finish($pid);
+	}
+	{
+		my $pid = start($fake, $kept, '--io', $map, '--retain', "$dir/patience.keep", '--retain-period', '10ms', @linked);
+		ok($until->(sub { $board->('status') =~ /^mode: RUN$/m && -s "$dir/patience.keep" }), 'retained values are written');
+		put('hang', '');
+		ok($until->(sub { $board->('status') =~ /^disk: retained values are not stored: Operation now in progress$/m }),
+			'a write that hangs is told');
+		my $before = $scans->();
+		ok($until->(sub { $scans->() > $before + 10 }), 'the scan goes on');
+		ok($fed->(), 'and the service manager is content');
+		unlink "$dir/hang";
+		ok($until->(sub { $board->('status') !~ /^disk:/m }), 'nothing is told any more when it has ended');
+		kill 'TERM', $pid;
+		is(finish($pid), 0, 'it ends');
+	}
+	{
+		my $pid = start($fake, $kept, '--io', $map, '--slots', "$dir/slots", @linked);
+		ok($until->(sub { $board->('status') =~ /^mode: RUN$/m }), 'the link works');
+		unlike(get('err'), qr/the link/, 'nothing is told');
+		put('hang', '');
+		my $desk = fork // die "fork: $!";
+		exec "$build/ladder board unix:$dir/link force Count=5 >$dir/desk 2>&1" if !$desk;
+		ok(until_has('err', qr/the link does not answer, its disk perhaps hangs; the program goes on/), 'a link that hangs is told');
+		my ($count, @scans) = (0);
+		for my $time (1, 2) {
+			kill 'USR1', $pid;
+			$until->(sub { (@scans = get('out') =~ /^scans: (\d+)$/mg) == $time });
+		}
+		cmp_ok($scans[-1] // 0, '>=', $scans[0] // 1, 'the scan goes on');
+		ok($fed->(), 'and the service manager is content');
+		unlink "$dir/hang";
+		ok(until_has('err', qr/the link answers again/), 'it comes back');
+		waitpid $desk, 0;
+		ok($board->('status') =~ /^forces: 1$/m, 'and has done what was ordered');
+		kill 'TERM', $pid;
+		is(finish($pid), 0, 'it ends');
 	}
 }
 
