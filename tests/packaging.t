@@ -9,6 +9,7 @@ use warnings;
 use Cwd qw(abs_path);
 use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
+use POSIX ();
 use Test::More;
 
 my $build = abs_path($ENV{BUILD} // 'build');
@@ -62,6 +63,14 @@ put("$dir/etc/active", "LADDERD_FILE=$dir/one.rung\nLADDERD_MAP=$dir/one.io\n");
 put("$dir/default", "LADDERD_OPTIONS=\"--period 10ms\"\nGUARD_OPTIONS=\"--name packaging-$$\"\n");
 my @env = ("LADDERD_FOLDER=$dir/etc", "LADDERD_DEFAULT=$dir/default", "LADDERD_RUN=$dir/run", "PATH=$dir/bin:$ENV{PATH}");
 sub ladderd_of { my ($parent) = @_; my ($pid) = get("/proc/$parent/task/$parent/children") =~ /^(\d+)/; return $pid // 0 }
+# Before it has handlers, a signal ends it.
+sub listens {
+	my ($pid) = @_;
+	return until_it(sub {
+		my ($caught) = $pid->() && get('/proc/' . $pid->() . '/status') =~ /^SigCgt:\s*\S*(\S{8})$/m;
+		return $caught && hex($caught) & 1 << POSIX::SIGHUP() - 1;
+	});
+}
 for my $guarded (0, 1) {
 	symlink "$build/ladder-guard", "$dir/bin/ladder-guard" or die if $guarded;
 	unlink "$dir/run/ladderd.status";
@@ -72,12 +81,15 @@ for my $guarded (0, 1) {
 	}
 	my $comm = $guarded ? 'ladder-guard' : 'ladderd';
 	ok(until_it(sub { get("/proc/$run/comm") eq "$comm\n" }), "ladderd-run becomes $comm");
+	my $ladderd = sub { return $guarded ? ladderd_of($run) : $run };
+	ok(listens($ladderd), 'ladderd listens to signals');
 	like(`env @env sh packaging/ladderd-run status`, qr/^state: RUN$/m, 'its status is that of ladderd') or diag(get("$dir/run/out"));
 	if ($guarded) {
 		my $first = ladderd_of($run);
 		kill 'KILL', $first if $first;
 		ok(until_it(sub { my $now = ladderd_of($run); $now && $now != $first }), 'a ladderd that was killed is started again');
 	}
+	listens($ladderd);
 	kill 'TERM', $run;
 	ok(until_it(sub { waitpid($run, 1) == $run }) && $? == 0, 'SIGTERM ends it');
 }
