@@ -88,16 +88,16 @@ static bool runs(void)
 	return child_ready() && panel_shows(PANEL_RUNS);
 }
 
-/* Looks at the lines until they stay safe. Returns the time from @since until they were; -1: they
- * never stay so. */
-static int64_t safe_after(int64_t since_ns)
+/* Looks at the lines until they stay at these levels. Returns the time from @since until they were;
+ * -1: they never stay so. */
+static int64_t stays_after(int64_t since_ns, uint32_t levels)
 {
 	int64_t safe_ns = 0;
 
 	for (;;) {
 		const int64_t now_ns = clock_now();
 
-		if (bank_levels(&panel, OUT0, OUTS) != PANEL_IS_SAFE)
+		if (bank_levels(&panel, OUT0, OUTS) != levels)
 			safe_ns = 0;
 		else if (!safe_ns)
 			safe_ns = now_ns;
@@ -107,6 +107,11 @@ static int64_t safe_after(int64_t since_ns)
 			return -1;
 		sleep_until(now_ns + LOOK_NS);
 	}
+}
+
+static int64_t safe_after(int64_t since_ns)
+{
+	return stays_after(since_ns, PANEL_IS_SAFE);
 }
 
 static void keep(int64_t ns)
@@ -223,6 +228,125 @@ static void three_ends(void)
 	check(child_stop(&guard) == 0, "three deaths: ends");
 }
 
+/* ---- each way out of RUN, each safe value ---- */
+
+/* In RUN: Q0 1, Q1 1, Q2 0, Q3 1. Safe: Q0 0, Q2 1, the others hold; Q3 is active-low. */
+#define WAYS_MAP                                                              \
+	"BOARD \"ways\"\n%IX0.0 gpio line=WAY0\n%IX0.2 gpio line=WAY2\n"       \
+	"%IX0.3 gpio line=WAY3\n%QX0.0 gpio line=OUT0 safe=0\n"               \
+	"%QX0.1 gpio line=OUT1 safe=hold\n%QX0.2 gpio line=OUT2 safe=1\n"     \
+	"%QX0.3 gpio line=OUT3 active-low safe=hold\n"
+#define WAYS_RUN  0x3u
+#define WAYS_SAFE 0x6u
+#define UNSEEN    UINT32_MAX /* no ptrace here                                */
+
+static struct bank ways;           /* the inputs, which can be unplugged alone */
+
+static bool is_safe_now(void *context)
+{
+	(void)context;
+	return bank_levels(&panel, OUT0, OUTS) == WAYS_SAFE;
+}
+
+static uint32_t by_stop(struct child *guard)
+{
+	bank_pull(&ways, 2, true);
+	check(child_says(guard, "STOP, outputs are safe"), "STOP: it is told");
+	return bank_levels(&panel, OUT0, OUTS);
+}
+
+static uint32_t by_program_fault(struct child *guard)
+{
+	bank_pull(&ways, 3, true);
+	check(child_says(guard, "FAULT, outputs are safe"), "program fault: it is told");
+	return bank_levels(&panel, OUT0, OUTS);
+}
+
+/* One late scan is too many (--watchdog 1). */
+static uint32_t by_late_scan(struct child *guard)
+{
+	const pid_t pid = child_of(guard->pid);
+
+	kill(pid, SIGSTOP);
+	sleep_ms(60);
+	kill(pid, SIGCONT);
+	check(child_says(guard, "watchdog"), "watchdog: it is told");
+	return bank_levels(&panel, OUT0, OUTS);
+}
+
+static uint32_t by_lost_inputs(struct child *guard)
+{
+	bank_unplug(&ways);
+	check(child_says(guard, "FAULT, outputs are safe"), "I/O fault: it is told");
+	return bank_levels(&panel, OUT0, OUTS);
+}
+
+/* Held before the lines are released, after which they show their pulls. */
+static uint32_t by_sigterm(struct child *guard)
+{
+	struct child ladderd = { .pipe = -1, .pid = child_of(guard->pid) };
+	uint32_t levels = WAYS_RUN;
+
+	if (!child_hold(&ladderd, at_once, NULL))
+		return UNSEEN;
+	child_signal(guard, SIGTERM);
+	if (child_hold(&ladderd, is_safe_now, NULL))
+		levels = bank_levels(&panel, OUT0, OUTS);
+	child_let_go(&ladderd);
+	check(child_end(guard) == 0, "SIGTERM: both end with status 0");
+	return levels;
+}
+
+static uint32_t by_sigkill(struct child *guard)
+{
+	const int64_t since_ns = clock_now();
+
+	kill(child_of(guard->pid), SIGKILL);
+	return stays_after(since_ns, WAYS_SAFE) >= 0 ? WAYS_SAFE : bank_levels(&panel, OUT0, OUTS);
+}
+
+static void one_way(const char *name, uint32_t (*leave)(struct child *guard))
+{
+	static const char *const kind[OUTS] = { "off", "hold", "on", "hold, active-low" };
+	const char *names[] = { "WAY0", NULL, "WAY2", "WAY3" };
+	struct child guard = { .pipe = -1 };
+	const char *argv[] = { binary, "--heartbeat", "1000", "--", guest.self, "--late", LATE_MS,
+			       guest.ladderd, file_case("ways.rungc"), "--io", map, "--watchdog", "1", NULL };
+	uint32_t levels;
+
+	bank_up(&ways, "ways", names, 4, -1);
+	bank_pull(&ways, 0, true);
+	child_start(&guard, 0, argv);
+	if (!check(child_ready() && panel_shows(WAYS_RUN), "%s: runs", name)) {
+		child_stop(&guard);
+		bank_down(&ways);
+		return;
+	}
+	levels = leave(&guard);
+	if (levels == UNSEEN)
+		skip("no ptrace here", "%s: the outputs", name);
+	for (unsigned i = 0; i < OUTS && levels != UNSEEN; i++)
+		check((levels >> i & 1) == (WAYS_SAFE >> i & 1), "%s: %s", name, kind[i]);
+	if (leave == by_sigkill)
+		check(child_ready() && panel_shows(WAYS_RUN), "%s: ladderd runs again", name);
+	if (!guard.ended)
+		child_stop(&guard);
+	bank_down(&ways);
+}
+
+static void each_way_out(void)
+{
+	snprintf(map, sizeof(map), "%s", file_text("ways.io", WAYS_MAP));
+	for (unsigned i = 0; i < OUTS; i++)
+		bank_pull(&panel, OUT0 + i, !(WAYS_SAFE >> i & 1));
+	one_way("STOP", by_stop);
+	one_way("program fault", by_program_fault);
+	one_way("watchdog", by_late_scan);
+	one_way("I/O fault", by_lost_inputs);
+	one_way("SIGTERM", by_sigterm);
+	one_way("kill -9", by_sigkill);
+}
+
 static void first_of_all(bool first)
 {
 	struct sched_param wanted = { .sched_priority = first ? 60 : 0 };
@@ -248,6 +372,7 @@ void test_guard(void)
 	ends("freezes", guest.stops, freezes, 1, HEARTBEAT_MS + BOUND_MS);
 	hangs_in_a_call();
 	three_ends();
+	each_way_out();
 	first_of_all(false);
 	panel_down();
 }
