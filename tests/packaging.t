@@ -32,6 +32,10 @@ is_deeply([$unit =~ /^NoExecPaths=(.*)\n/mg, map { split } $unit =~ /^ExecPaths=
 	[qw(/ /usr/bin/ladder-guard /usr/bin/ladderd -/usr/lib -/usr/lib64 -/usr/local/lib -/lib -/lib64 -/bin/kill -/usr/bin/kill)], 'what may be executed');
 like($unit, qr/^$_$/m, $_) for 'PrivateNetwork=yes', 'DynamicUser=yes', 'CapabilityBoundingSet=', 'NoNewPrivileges=yes', 'DevicePolicy=closed';
 
+# Whoever lets ladderd set the clock gives away nothing else.
+is_deeply([sort grep { !/^(#|\[|$)/ } split /\n/, get('packaging/ladderd-clock.conf')],
+	[sort qw(AmbientCapabilities=CAP_SYS_TIME CapabilityBoundingSet=CAP_SYS_TIME ProtectClock=no SystemCallFilter=@clock)], 'the right to set the clock');
+
 # The unit without /etc/ladder/active: FILE and MAP are empty.
 my $pid = fork // die;
 if (!$pid) {

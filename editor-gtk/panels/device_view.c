@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/panels/device_view.h"
 
+#include "editor-gtk/panels/clock_part.h"
+
 #include "editor-gtk/kit/gtk48/spoken.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/live_value.h"
@@ -294,6 +296,7 @@ static void make_body(struct device *device)
 	gtk_box_append(GTK_BOX(device->forces_part), device->release);
 	device->tasks_part = part_new(_("Tasks"), device->tasks);
 	gtk_box_append(GTK_BOX(device->body), GTK_WIDGET(device->facts));
+	gtk_box_append(GTK_BOX(device->body), ladder_clock_part_new(device->link));
 	gtk_box_append(GTK_BOX(device->body), device->forces_part);
 	gtk_box_append(GTK_BOX(device->body), device->tasks_part);
 }

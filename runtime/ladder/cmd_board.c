@@ -779,6 +779,7 @@ static const struct action {
 	{ "restore", true, remote_restore },
 	{ "record", false, remote_record },
 	{ "compare", true, remote_compare }, { "alarms", true, remote_alarms },
+	{ "time", true, remote_time },
 };
 
 bool remote_again(struct remote *remote)

@@ -13,6 +13,7 @@
 #include "ladderd/download.h"
 #include "ladderd/ends.h"
 #include "ladderd/alarm_store.h"
+#include "ladderd/clock.h"
 #include "ladderd/journal.h"
 #include "ladderd/password.h"
 #include "ladderd/peer.h"
@@ -47,6 +48,7 @@
 #define REST_NS    SECOND             /* longest time between two looks at the state */
 #define HANGS_NS   (5 * SECOND)      /* without a turn of the thread              */
 #define LATE_REST_NS (60 * SECOND)    /* between two events about late scans        */
+#define MOVED_NS   SECOND             /* a step of the clock that the log tells     */
 #define BACKLOG    128               /* of desks that connect at the same time          */
 #define OURS       3                  /* polled: the wake-up, the listening socket, the serial line */
 
@@ -84,6 +86,7 @@ struct link {
 	struct password password;
 	uint32_t late;                 /* rows of late scans that the log has    */
 	int64_t late_ns;               /* of the last event about them           */
+	int64_t wall_ns, moved_ns;     /* the clock of the wall less the other one; when the log told a step */
 	int state;                     /* that the log tells                   */
 	struct peer_groups groups;
 	uint8_t *views;
@@ -363,24 +366,63 @@ static void log_late(struct link *link)
 	journal_add(link->journal, EVENT_LATE, 0, "", number, "");
 }
 
-/* ---- alarms ---- */
+/* ---- the clock ---- */
 
-static int64_t wall_now(void)
+static void add_times(struct link *link, enum event_id id, int64_t from_ns, int64_t to_ns)
 {
-	struct timespec now;
+	char from[20], to[20];
 
-	clock_gettime(CLOCK_REALTIME, &now);
-	return now.tv_sec * SECOND + now.tv_nsec;
+	board_time_print(from_ns, 0, from);
+	board_time_print(to_ns, 0, to);
+	journal_add(link->journal, id, 0, "", from, to);
 }
+
+/* Whoever set the clock: the times in the log and of alarms jump with it. At most once a minute. */
+static void log_moved(struct link *link, int64_t now_ns, int64_t wall_ns)
+{
+	const int64_t by_ns = wall_ns - now_ns - link->wall_ns;
+
+	if (by_ns < MOVED_NS && by_ns > -MOVED_NS) {
+		link->wall_ns += by_ns;
+		return;
+	}
+	if (link->wall_ns && now_ns - link->moved_ns < LATE_REST_NS)
+		return;
+	if (link->wall_ns)
+		add_times(link, EVENT_TIME_MOVED, wall_ns - by_ns, wall_ns);
+	link->moved_ns = link->wall_ns ? now_ns : INT64_MIN / 2;
+	link->wall_ns += by_ns;
+}
+
+static void read_clock(void *context, int64_t at_ns, struct board_time *out)
+{
+	(void)context;
+	clock_read(at_ns, out);
+}
+
+static enum refusal set_clock(void *context, int64_t time_ns)
+{
+	struct link *link = context;
+	const enum refusal refusal = clock_set(time_ns);
+
+	if (refusal == REFUSAL_NONE)
+		link->wall_ns = time_ns - clock_now(); /* the log tells who did it */
+	return refusal;
+}
+
+static const struct server_clock wall_clock = { read_clock, set_clock };
+
+/* ---- alarms ---- */
 
 /* What the scan thread has told. If another program runs, its blocks are watched from now on. */
 static void follow_alarms(struct link *link)
 {
 	struct alarms *alarms = &link->alarms;
 	const struct image *image = server_image(link->server);
-	const int64_t now_ns = clock_now(), wall_ns = wall_now();
+	const int64_t now_ns = clock_now(), wall_ns = clock_wall();
 	struct alarm_note note;
 
+	log_moved(link, now_ns, wall_ns);
 	while (alarm_take(&alarms->ring, &note)) {
 		note.time_ns = note.system ? wall_ns : wall_ns - (now_ns - note.time_ns);
 		alarm_list_note(&alarms->list, &note);
@@ -1091,7 +1133,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 		.exchange = &link->exchange, .program = program, .board = cycle->board,
 		.wait = wait_for_scan, .amend = amend_status, .context = link,
 		.store = &link->store, .log = &link->log, .conf = &link->conf, .password = &link->lock,
-		.keeps = cycle->store, .alarms = &link->alarms,
+		.keeps = cycle->store, .alarms = &link->alarms, .clock = &wall_clock,
 	};
 
 	link->views = calloc(3, size);
@@ -1126,9 +1168,9 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	link->conf = (struct server_conf){ .get = conf_read, .change = conf_write };
 	link->log = (struct server_log){ .add = log_add, .next = log_next };
 	link->journal = journal_open(link->with.slots->folder);
-	link->alarms.clock_ns = wall_now;
+	link->alarms.clock_ns = clock_wall;
 	alarm_store_open(&link->alarm_store, link->with.slots->folder, &link->alarms.list,
-			 wall_now());
+			 clock_wall());
 	link->server = server_new(&setup);
 	link->download = download_new(link->with.slots, cycle, link->with.map_text,
 				      link->with.map_len);

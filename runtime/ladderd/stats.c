@@ -31,8 +31,17 @@ static int64_t bucket_end(unsigned bucket)
 	return ((int64_t)(8 + (bucket - EXACT) % 8 + 1) << (octave - 3)) - 1;
 }
 
+/* A bucket is full: scans of 1 ms need 50 days for that. The shares stay. */
+static void halve(struct stats *stats)
+{
+	for (unsigned i = 0; i < STATS_BUCKETS; i++)
+		stats->bucket[i] /= 2;
+}
+
 void stats_add(struct stats *stats, int64_t ns)
 {
+	uint32_t *bucket;
+
 	if (ns < 0)
 		ns = 0;
 	stats->last_ns = ns;
@@ -40,7 +49,10 @@ void stats_add(struct stats *stats, int64_t ns)
 	stats->count++;
 	if (ns > stats->max_ns)
 		stats->max_ns = ns;
-	stats->bucket[bucket_of((uint64_t)ns)]++;
+	bucket = &stats->bucket[bucket_of((uint64_t)ns)];
+	if (*bucket == UINT32_MAX)
+		halve(stats);
+	++*bucket;
 }
 
 int64_t stats_mean(const struct stats *stats)
@@ -50,11 +62,12 @@ int64_t stats_mean(const struct stats *stats)
 
 int64_t stats_share(const struct stats *stats, unsigned thousandths)
 {
-	/* Number of times that may be longer. */
-	uint64_t above = stats->count / 1000 * (1000 - thousandths) +
-			 stats->count % 1000 * (1000 - thousandths) / 1000;
-	uint64_t seen = 0;
+	uint64_t count = 0, above, seen = 0;
 
+	for (unsigned i = 0; i < STATS_BUCKETS; i++)
+		count += stats->bucket[i];
+	/* Number of times that may be longer. */
+	above = count / 1000 * (1000 - thousandths) + count % 1000 * (1000 - thousandths) / 1000;
 	for (unsigned i = STATS_BUCKETS; i-- > 0;) {
 		seen += stats->bucket[i];
 		if (seen > above)

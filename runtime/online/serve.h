@@ -154,4 +154,5 @@ enum refusal serve_events(struct asked *asked);
 enum refusal serve_record(struct asked *asked);
 enum refusal serve_alarms(struct asked *asked);
 enum refusal serve_ack(struct asked *asked);
+enum refusal serve_time(struct asked *asked);
 #endif

@@ -145,6 +145,59 @@ enum refusal serve_config(struct asked *asked)
 	return what == 1 ? change_setting(asked) : REFUSAL_BAD_FRAME;
 }
 
+static void tell_time(const struct asked *asked, int64_t from_ns, int64_t to_ns)
+{
+	char from[20], to[20];
+
+	board_time_print(from_ns, 0, from);
+	board_time_print(to_ns, 0, to);
+	asked_tell(asked, EVENT_TIME_SET, from, to);
+}
+
+static enum refusal set_time(struct asked *asked, int64_t time_ns, bool anyway)
+{
+	const struct server_setup *setup = &asked->server->setup;
+	struct board_time before;
+	enum refusal refusal;
+
+	if (asked->session->role < ROLE_ENG)
+		return asked_refuse_role(asked, ROLE_ENG);
+	snprintf(asked->detail, sizeof(asked->detail), "time" DIAG_AND "a time from 2000 to 2099");
+	if (time_ns < BOARD_TIME_LEAST || time_ns >= BOARD_TIME_END)
+		return REFUSAL_RANGE;
+	setup->clock->read(setup->context, 0, &before);
+	if (before.sync == SYNC_YES && !anyway)
+		return REFUSAL_TIME_KEPT;
+	refusal = setup->clock->set(setup->context, time_ns);
+	if (refusal == REFUSAL_NONE)
+		tell_time(asked, before.time_ns, time_ns);
+	return refusal;
+}
+
+/* Nothing in the program runs by this clock, so a change expects no mode and no program. */
+enum refusal serve_time(struct asked *asked)
+{
+	const struct server_setup *setup = &asked->server->setup;
+	struct wire_reader *in = &asked->frame.body;
+	const uint8_t what = wire_u8(in);
+	const int64_t time_ns = wire_i64(in);
+	enum refusal refusal = REFUSAL_NONE;
+	struct board_time now;
+
+	if (!wire_done(in) || what > 2)
+		return REFUSAL_BAD_FRAME;
+	if (!setup->clock)
+		return REFUSAL_NO_SERVICE;
+	if (what)
+		refusal = set_time(asked, time_ns, what == 2);
+	if (refusal != REFUSAL_NONE)
+		return refusal;
+	setup->clock->read(setup->context, what ? 0 : time_ns, &now);
+	asked_begin(asked, 0);
+	board_time_put(&asked->out, &now);
+	return REFUSAL_NONE;
+}
+
 #define PASSWORD_TEXT 129
 
 static void wipe(void *bytes, size_t len)

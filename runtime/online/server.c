@@ -300,6 +300,8 @@ static enum refusal serve(struct asked *asked)
 		return serve_alarms(asked);
 	case SERVICE_ACK:
 		return serve_ack(asked);
+	case SERVICE_TIME:
+		return serve_time(asked);
 	}
 	return REFUSAL_NO_SERVICE;
 }
@@ -309,7 +311,8 @@ static bool is_change(const struct service_row *row)
 	return row->number == SERVICE_WRITE || row->number == SERVICE_FORCE ||
 	       row->number == SERVICE_UNFORCE || row->number == SERVICE_MODE ||
 	       row->number == SERVICE_COMMIT || row->number == SERVICE_CONFIG ||
-	       row->number == SERVICE_RETAIN || row->number == SERVICE_ACK || row->number == SERVICE_PASSWORD;
+	       row->number == SERVICE_RETAIN || row->number == SERVICE_ACK || row->number == SERVICE_PASSWORD ||
+	       row->number == SERVICE_TIME;
 }
 
 /* Gives the answer of the same request again; it is not done again. */

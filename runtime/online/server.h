@@ -12,6 +12,7 @@
 #define ONLINE_SERVER_H
 
 #include "online/alarms.h"
+#include "online/board_time.h"
 #include "online/event.h"
 #include "online/exchange.h"
 #include "online/publish.h"
@@ -112,6 +113,7 @@ struct server_setup {
 	const struct server_conf *conf;
 	const struct server_password *password; /* NULL: there is none    */
 	struct alarms *alarms; /* by the link thread, but its ring; NULL: no list */
+	const struct server_clock *clock; /* NULL: the board tells no time     */
 	bool keeps;            /* retained values are stored                  */
 	const struct server_store *store; /* NULL: downloads are refused       */
 	/** Waits until the order of the exchange is done, at most some seconds.

@@ -192,6 +192,18 @@ static bool serve_now(void *context)
 	return exchange_is_done(&rig->exchange);
 }
 
+static void read_clock(void *context, int64_t at_ns, struct board_time *out)
+{
+	(void)context;
+	*out = (struct board_time){ .time_ns = at_ns, .zone = "CEST" };
+}
+
+static enum refusal set_clock(void *context, int64_t time_ns)
+{
+	(void)context, (void)time_ns;
+	return REFUSAL_NONE;
+}
+
 static void rig_open(struct rig *rig)
 {
 	static const struct server_log log = { log_nothing, no_event };
@@ -200,9 +212,10 @@ static void rig_open(struct rig *rig)
 		.open_lines = store_none, .close_lines = abort_any, .store = store_none, .keep = store_none, .drop = abort_any, .abort = abort_any, .running = runs_any,
 	};
 	static const struct server_password password = { is_set, check_password, change_password };
+	static const struct server_clock clock = { read_clock, set_clock };
 	static const struct server_conf conf = { get_setting, change_setting };
 	struct server_setup setup = { .keeps = true, .password = &password, .conf = &conf, .log = &log, .store = &store, .board = "b", .wait = serve_now, .amend = amend,
-				      .context = rig, .exchange = &rig->exchange, .alarms = &rig->alarms };
+				      .context = rig, .exchange = &rig->exchange, .alarms = &rig->alarms, .clock = &clock };
 	size_t size;
 
 	memset(rig, 0, sizeof(*rig));
@@ -443,6 +456,10 @@ static void put_fields(struct wire_writer *out, enum service service)
 		wire_put_u8(out, 0);
 		wire_put_string(out, "period");
 		wire_put_string(out, "5ms");
+		break;
+	case SERVICE_TIME:
+		wire_put_u8(out, 1);
+		wire_put_i64(out, BOARD_TIME_LEAST);
 		break;
 	case SERVICE_RETAIN:
 		wire_put_u8(out, 0);

@@ -11,7 +11,7 @@ import tty
 
 (HELLO, STATUS, SYMBOLS, READ, PUBLISH, UNPUBLISH, WRITE, FORCE, UNFORCE, FORCES, MODE,
  DOWNLOAD, BLOCK, VERIFY, COMMIT, ABORT, UPLOAD, EVENTS, CONFIG, RETAIN, PASSWORD) = range(1, 22)
-ALARMS, ACK = 32, 33
+ALARMS, ACK, CLOCK = 32, 33, 35
 RECORD, SUMS, PIECES = 22, 23, 24
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
@@ -513,6 +513,11 @@ class Client:
             if not count:
                 return found, head
             first = found[-1]['number'] + 1
+
+    def clock(self, at=0, change=0):
+        """The clock of the board; @change: 1: set it to @at, 2: even if a time server keeps it."""
+        it = self.call(CLOCK, struct.pack('<Bq', change, at))
+        return {'time': it.number('q'), 'zone_s': it.number('i'), 'sync': it.number('B'), 'zone': it.text()}
 
     def ack(self, number=0):
         return self.call(ACK, struct.pack('<I', number)).number('I')

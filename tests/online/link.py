@@ -1469,6 +1469,179 @@ def test_more_alarms_than_the_list_holds_are_counted():
         assert '45 alarms found no room in the list of 256\n' in board.command('alarms')[1]
 
 
+# ---- the clock of the board ----
+
+FAKE_CLOCK = """#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <sys/timex.h>
+#include <time.h>
+#include <unistd.h>
+
+/* The file `clock`: how far the board is ahead of this machine; whether ladderd may set it; whether a server keeps it. */
+static struct fake { volatile int64_t by_ns, may, kept; } *fake(void)
+{
+	static struct fake *at;
+
+	if (!at)
+		at = mmap(0, sizeof(*at), PROT_READ | PROT_WRITE, MAP_SHARED, open("clock", O_RDWR), 0);
+	return at;
+}
+int clock_gettime(clockid_t clock, struct timespec *out)
+{
+	const long result = syscall(SYS_clock_gettime, clock, out);
+	int64_t ns;
+
+	if (clock != CLOCK_REALTIME)
+		return (int)result;
+	ns = out->tv_sec * INT64_C(1000000000) + out->tv_nsec + fake()->by_ns;
+	out->tv_sec = ns / 1000000000;
+	out->tv_nsec = ns % 1000000000;
+	return 0;
+}
+int clock_settime(clockid_t clock, const struct timespec *to)
+{
+	struct timespec now;
+
+	clock_gettime(clock, &now);
+	if (!fake()->may)
+		return errno = EPERM, -1;
+	fake()->by_ns += (to->tv_sec - now.tv_sec) * INT64_C(1000000000) + to->tv_nsec - now.tv_nsec;
+	return 0;
+}
+int adjtimex(struct timex *out)
+{
+	out->status = fake()->kept ? 0 : STA_UNSYNC;
+	return 0;
+}
+"""
+WEEKLY = """RUNGBOARD 1
+PROJECT "Weekly"
+
+VAR
+  Lamp AT %QX0.0 : BOOL;
+  Run : BOOL := TRUE;
+  Hours : WEEK_TIMER;
+  Long : TON;
+  Lag : TOF;
+  Flash : TP;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Run | WEEK_TIMER Hours NOW:=SYS_DATE_TIME DAYS1:=16#1F ON1:=TOD#06:00:00 OFF1:=TOD#18:00:00 | COIL Lamp |
+RUNG
+  | NO Run | TON Long PT:=T#30d |
+RUNG
+  | NO Run | TP Flash PT:=T#30d |
+RUNG
+  | NC Lag.Q | TOF Lag PT:=T#1d |
+END_PROGRAM
+"""
+DAY = 86400 * 10**9
+MONDAY = 1780297200 * 10**9  # 2026-06-01 07:00:00 UTC
+
+
+class ClockedBoard(Board):
+    """A board whose clock can be set without a right, and without any harm to this machine."""
+
+    def start(self, wait=True):
+        if not os.path.exists(self.folder + '/clock.so'):
+            self.write('clock.c', FAKE_CLOCK)
+            self.set_fake()
+            os.chmod(self.folder + '/clock', 0o666)
+            if not shutil.which('cc'):
+                raise Skip('no cc')
+            subprocess.run(['cc', '-shared', '-fPIC', '-o', 'clock.so', 'clock.c'], cwd=self.folder, check=True)
+        os.environ.update(LD_PRELOAD=self.folder + '/clock.so', TZ='CET-1CEST,M3.5.0,M10.5.0/3')
+        super().start(wait)
+        del os.environ['LD_PRELOAD'], os.environ['TZ']
+
+    def set_fake(self, by=0, may=1, kept=0):
+        path = self.folder + '/clock'
+        with open(path, 'r+b' if os.path.exists(path) else 'wb') as out:
+            out.write(struct.pack('<3q', by, may, kept))
+
+
+def clocked(program=WEEKLY):
+    board = ClockedBoard(program, '--slots', '.', board='BOARD "b"\n%QX0.0 sim\n')
+    board.set_fake(kept=1)
+    if board.client().clock()['sync'] != 1:
+        board.__exit__()
+        raise Skip('the clock is not this one: a static ladderd')
+    board.set_fake()
+    return board
+
+
+def moves(desk):
+    """What the log tells of the clock, without the seconds: (id, from, to)."""
+    return [(it['id'], *(text[:16] for text in it['args'])) for it in desk.events() if it['id'] in (47, 48)]
+
+
+def test_the_clock_of_a_board_is_read_and_set():
+    with clocked() as board:
+        desk = board.client()
+        now = desk.clock()
+        assert abs(now['time'] - time.time_ns()) < 60 * 10**9 and now['sync'] == 0, now
+        assert desk.clock(MONDAY)['zone'] == 'CEST' and desk.clock(MONDAY)['zone_s'] == 7200
+        assert desk.clock(MONDAY - 150 * DAY)['zone_s'] == 3600
+        assert 'the same as on this machine\n' in board.command('time')[1]
+        status, out, err = board.command('time', 'set', '2026-06-01 09:00')  # local time
+        assert status == 0 and out.startswith('2026-06-01 09:00:0') and ' CEST (UTC+02:00)\nnot synchronised\n' in out and \
+            ' this machine\n' in out, (out, err)
+        assert 0 <= desk.clock()['time'] - MONDAY < 60 * 10**9
+        assert board.command('time', 'set', '2026-12-01T07:00:00Z')[1].startswith('2026-12-01 08:00:0')
+        told = json.loads(board.command('time', '--json')[1])
+        assert told['zone'] == 'CET' and told['synchronised'] is False and told['zone_s'] == 3600, told
+        assert board.command('time', 'set')[0] == 0 and abs(desk.clock()['time'] - time.time_ns()) < 60 * 10**9
+        found = moves(desk)
+        assert [it[0] for it in found] == [47, 47, 47], found
+        assert found[0][2] == found[1][1] == '2026-06-01 07:00' and found[1][2] == found[2][1] == '2026-12-01 07:00', found
+        assert all(it['user'] for it in desk.events() if it['id'] == 47)
+
+
+def test_a_clock_that_cannot_be_set_says_why():
+    with clocked() as board:
+        desk = board.client()
+        for wrong in ('tomorrow', '2026-02-30 07:00', '2026-06-01', '2026-06-01 24:00', '2026-06-01 07:00 CET'):
+            assert 'is no date and time' in board.command('time', 'set', wrong)[2], wrong
+        refused(31, lambda: desk.clock(0, change=1), 'time')
+        assert 'a time from 2000 to 2099' in board.command('time', 'set', '2100-01-01 00:00Z')[2]
+        board.set_fake(kept=1)
+        refused(49, lambda: desk.clock(MONDAY, change=1))
+        status, _out, err = board.command('time', 'set', '2026-06-01 09:00')
+        assert status and 'LD867' in err and '--yes' in err, err
+        assert 'synchronised by a time server\n' in board.command('time')[1] and moves(desk) == []
+        assert board.command('time', 'set', '2026-06-01 09:00', '--yes')[0] == 0 and len(moves(desk)) == 1
+        board.set_fake(may=0)
+        refused(48, lambda: desk.clock(MONDAY, change=1))
+        assert 'LD866' in board.command('time', 'set')[2] and len([it for it in moves(desk) if it[0] == 47]) == 1
+
+
+def test_no_timer_moves_with_the_clock():
+    """The clock is set by a day and more, by a desk and by others; timers go on, the program of the week follows."""
+    names = ('Long.ET', 'Flash.ET', 'Lag.ET')
+    with clocked() as board:
+        desk = board.client()
+        until(lambda: desk.read('Long.ET')[0] > 10**8)
+        began = time.monotonic_ns()
+        first = desk.read(*names)
+        for days, lamp in ((0, True), (1, True), (5, False), (4, True), (6, False), (7, True)):
+            if days % 2:
+                desk.clock(MONDAY + days * DAY, change=1)
+            else:
+                board.set_fake(by=MONDAY + days * DAY - time.time_ns())
+            until(lambda: desk.read('Lamp')[0] == lamp)  # pylint: disable=cell-var-from-loop
+        last = desk.read(*names)
+        took = time.monotonic_ns() - began + 10**8  # a scan before the first reading may have been late
+        assert all(0 <= after - before <= took for before, after in zip(first, last)), (first, last, took)
+        assert desk.read('Long.Q', 'Flash.Q', 'Lag.Q') == [False, True, True] and desk.status()['mode'] == client.RUN
+        until(lambda: any(it[0] == 48 for it in moves(desk)))
+        assert sum(it[0] == 48 for it in moves(desk)) == 1, 'at most once a minute'
+
+
 def test_a_fault_is_an_event():
     with Board(LOOP, board='BOARD "b"\n%QX0.0 sim\n') as board:
         desk = board.client()
@@ -2293,21 +2466,24 @@ def try_all(desk):
         'password': number(desk.has_password), 'unlock': number(lambda: desk.unlock('x')),
         'protect': number(lambda: desk.set_password('', 'x', program=program)),
         'retain': number(desk.retained), 'restore': number(lambda: desk.restore(program=program)),
+        'alarms': number(desk.alarms), 'ack': number(lambda: desk.ack(99)), 'time': number(desk.clock),
+        'clock': number(lambda: desk.clock(change=2)),
         'config': number(desk.config), 'set': number(lambda: desk.set('period', '1s', program=program)),
     }
 
 
 def test_each_role_may_do_what_the_table_says():
-    reading = 'status symbols read publish unpublish forces events record password unlock'.split()
+    reading = 'status symbols read publish unpublish forces events record password unlock alarms time'.split()
     changing = 'write force unforce stop run cold set protect'.split()
+    apart = {'ack': 5, 'clock': 5}
     moving = 'download block sums pieces verify commit abort upload config retain restore'.split()
-    nothing = dict.fromkeys(changing + moving, 5)
+    nothing = {**dict.fromkeys(changing + moving, 5), **apart}
     expected = {
         None: {**dict.fromkeys(reading, 5), **nothing, 'reset': 5},
         'view': {**dict.fromkeys(reading, 0), **nothing, 'reset': 5},
-        'oper': {**dict.fromkeys(reading, 0), **nothing, 'write': 17, 'reset': 6},
+        'oper': {**dict.fromkeys(reading, 0), **nothing, 'write': 17, 'reset': 6, 'ack': 47},
         'eng': {**dict.fromkeys(reading, 0), **dict.fromkeys(changing, 6), **dict.fromkeys(moving, 0), 'reset': 6,
-                'pieces': 1, 'verify': 23, 'commit': 21, 'restore': 32},
+                'pieces': 1, 'verify': 23, 'commit': 21, 'restore': 32, 'ack': 47, 'clock': 31},
     }
 
     def ask(desk):
