@@ -102,7 +102,7 @@ unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
 $(BUILD)/unit/online/tests: $(call obj,$(filter-out %/finder_avahi.c,$(wildcard runtime/online/*.c tests/walker/random*.c tests/walker/words*.c)))
-$(BUILD)/unit/ladderd/tests: $(call obj,runtime/ladderd/print_static.c runtime/ladderd/password.c runtime/ladderd/disk.c runtime/ladderd/stats.c runtime/ladderd/alarm_store.c)
+$(BUILD)/unit/ladderd/tests: $(call obj,runtime/ladderd/print_static.c runtime/ladderd/password.c runtime/ladderd/disk.c runtime/ladderd/stats.c runtime/ladderd/alarm_store.c runtime/online/alarms.c runtime/online/wire.c)
 $(BUILD)/unit/ladder/tests: $(call obj,$(wildcard runtime/ladder/words*.c) runtime/ladder/foreign.c)
 words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md

@@ -187,13 +187,18 @@ enum status remote_alarms(struct remote *remote)
 
 void remote_print_alarms(struct remote *remote)
 {
-	struct wire_writer out = desk_ask(&remote->desk, SERVICE_ALARMS);
+	const struct sink *out = &remote->call->out;
+	struct wire_writer request = desk_ask(&remote->desk, SERVICE_ALARMS);
 	struct alarm_page page;
 	struct wire_reader in;
+	bool told;
 
-	wire_put_u32(&out, UINT32_MAX);
-	if (desk_call(&remote->desk, &out, &in) != DESK_GOOD || !take_page(&in, &page))
-		return; /* an older or a small board */
-	sink_printf(&remote->call->out, "alarms: %u active, %u to acknowledge\n",
-		    (unsigned)page.active, (unsigned)page.waiting);
+	wire_put_u32(&request, UINT32_MAX);
+	told = desk_call(&remote->desk, &request, &in) == DESK_GOOD && take_page(&in, &page);
+	if (!told) /* an older or a small board */
+		sink_text(out, remote->json ? ", \"alarms\": null" : "");
+	else
+		sink_printf(out, remote->json ? ", \"alarms\": {\"active\": %u, \"to_acknowledge\": %u}" :
+			    "alarms: %u active, %u to acknowledge\n", (unsigned)page.active,
+			    (unsigned)page.waiting);
 }

@@ -286,7 +286,7 @@ static void json_status(const struct sink *out, const struct board_status *statu
 			    (unsigned long long)task->overruns, (long long)task->last_ns,
 			    (long long)task->max_ns);
 	}
-	sink_text(out, "]}\n");
+	sink_text(out, "]");
 }
 
 static enum status act_status(struct remote *remote)
@@ -301,8 +301,10 @@ static enum status act_status(struct remote *remote)
 		json_status(&remote->call->out, status, &remote->desk);
 	else if (result == STATUS_GOOD)
 		remote_print_status(remote, status);
-	if (result == STATUS_GOOD && !remote->json)
+	if (result == STATUS_GOOD)
 		remote_print_alarms(remote);
+	if (result == STATUS_GOOD && remote->json)
+		sink_text(&remote->call->out, "}\n");
 	free(status);
 	return result;
 }

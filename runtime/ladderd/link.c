@@ -433,6 +433,8 @@ static void follow_alarms(struct link *link)
 		free(alarms->before);
 		alarms->before = alarms->watch;
 		alarms->watch = alarm_watch_new(image);
+		if (alarms->watch && alarms->before)
+			alarm_watch_carry(alarms->watch, alarms->before);
 		atomic_store(&alarms->ring.watch, alarms->watch);
 	}
 	alarm_store_write(&link->alarm_store, &alarms->list, now_ns);

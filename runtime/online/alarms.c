@@ -117,6 +117,24 @@ const struct alarm_block *alarm_block_find(const struct alarm_watch *watch, cons
 	return NULL;
 }
 
+void alarm_watch_carry(struct alarm_watch *to, const struct alarm_watch *from)
+{
+	uint32_t next = 0; /* both have much the same order */
+
+	for (uint32_t i = 0; i < to->count; i++)
+		for (uint32_t k = 0; k < from->count; k++) {
+			const uint32_t at = (next + k) % from->count;
+
+			if (to->block[i].kind != from->block[at].kind ||
+			    strcmp(to->block[i].name, from->block[at].name) != 0)
+				continue;
+			to->block[i].count = from->block[at].count;
+			to->block[i].state = UINT8_MAX;
+			next = at + 1;
+			break;
+		}
+}
+
 struct location alarm_block_ack(const struct alarm_block *block)
 {
 	const uint32_t ack = pins[block->kind].ack;

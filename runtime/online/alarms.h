@@ -97,6 +97,10 @@ struct alarms {
 /** alarm_watch_new - the blocks of the program of @image, whose memory is not read. Owns: the caller, free(). Scan-safe: no. Fails: NULL:
  * no memory. A program without names has none. */
 struct alarm_watch *alarm_watch_new(const struct image *image);
+/** alarm_watch_carry - @to goes on with what was told of blocks of the same name and kind: what a
+ * block counted before a download does not come again, and its text is told anew. Only when no scan
+ * looks at either. */
+void alarm_watch_carry(struct alarm_watch *to, const struct alarm_watch *from);
 /** alarm_look - after a scan: puts changes into the ring. Scan-safe: yes; bounded by the blocks. */
 void alarm_look(struct alarm_ring *ring, const struct resource *resource);
 /** alarm_take - the next note. The thread of the list. Fails: false: there is none. */

@@ -1469,6 +1469,35 @@ def test_more_alarms_than_the_list_holds_are_counted():
         assert '45 alarms found no room in the list of 256\n' in board.command('alarms')[1]
 
 
+def test_a_download_keeps_alarms_and_their_new_text():
+    hot = ALARMED.replace("MSG:=Text", "MSG:='hot'")
+    with Board(hot, '--slots', '.', board=ALARMED_MAP) as board:
+        desk = board.client()
+        desk.force({'In': (BOOL, True), 'Begin': (BOOL, True)})
+        until(lambda: {('热', 1, 1), ('Note', 4, 1)} <= set(alarm_states(desk)))
+        desk.download(build(board, 'hotter.rung', hot.replace("'hot'", "'hotter'")))
+        until(lambda: 'hotter' in [it['text'] for it in desk.alarms()[0]])
+        assert {('热', 1, 1), ('Note', 4, 1)} <= set(alarm_states(desk)) and len(desk.alarms()[0]) == 3, desk.alarms()
+        told = json.loads(board.command('status', '--json')[1])['alarms']
+        assert told == {'active': 2, 'to_acknowledge': 1}, told
+
+
+def test_an_acknowledgement_is_replayed():
+    with Board(ALARMED, '--slots', '.', '--record', '256', board=ALARMED_MAP) as board:
+        desk = board.client()
+        desk.write({'Text': (STRING, b'hot')})
+        desk.force({'In': (BOOL, True)})
+        until(lambda: ('热', 1, 1) in alarm_states(desk))
+        assert desk.ack() == 1
+        until(lambda: desk.read('热.STATE')[0] == 2)
+        desk.set_mode(0)
+        assert board.command('record', '-o', 'a.record')[0] == 0
+        shown = board.ladder('replay', 'a.record', '热.STATE', '--changes')
+        assert shown.returncode == 0 and not shown.stderr, shown.stderr
+        states = re.findall(r'热\.STATE=(\d)', shown.stdout)
+        assert states[-2:] == ['1', '2'], shown.stdout
+
+
 # ---- the clock of the board ----
 
 FAKE_CLOCK = """#include <errno.h>

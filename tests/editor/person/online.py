@@ -134,6 +134,12 @@ def state(screen):
     says(editor, 'Missed scans')
     until(lambda: 'Held at, Without the force, Motor, TRUE, FALSE' in ', '.join(node.name for node in editor.all(role='label')),
           'the force of Motor')
+    # The clock of the board is that of this computer; the test only looks at the question.
+    says(editor, 'as on this computer')
+    press(editor, 'Set clock…')
+    editor.find('Set the clock of “garage”?', 'label')
+    editor.shot('online-clock')
+    editor.keys('Escape')
     editor.shot('online-device')
     board.ask('unforce', 'Motor')
     until(lambda: not editor.all('Held at', 'label'), 'the force to be gone')

@@ -191,6 +191,81 @@ static void test_look(void)
 	rig_close(&rig);
 }
 
+/* A program with more alarms than a board watches. */
+static void test_more_blocks_than_are_watched(void)
+{
+	static char text[400000];
+	struct alarm_watch *watch;
+	struct rig rig;
+	size_t at = 0;
+
+	at += (size_t)snprintf(text, sizeof(text), "VAR\n  In : BOOL;\n");
+	for (int i = 0; i < 5000; i++)
+		at += (size_t)snprintf(text + at, sizeof(text) - at, "  A%d : ALARM;\n", i);
+	at += (size_t)snprintf(text + at, sizeof(text) - at, "END_VAR\nPROGRAM Main LD\n");
+	for (int i = 0; i < 5000; i++)
+		at += (size_t)snprintf(text + at, sizeof(text) - at, "RUNG\n  | NO In | ALARM A%d |\n", i);
+	snprintf(text + at, sizeof(text) - at, "END_PROGRAM\n");
+	if (!rig_open(&rig, text, false))
+		return;
+	watch = alarm_watch_new(&rig.resource.image);
+	CHECK(watch && watch->count == ALARM_MOST && watch->left_out == 5000 - ALARM_MOST);
+	CHECK(alarm_block_find(watch, "A4095") && !alarm_block_find(watch, "A4096"));
+	free(watch);
+	rig_close(&rig);
+}
+
+static void take_all(struct alarm_ring *ring)
+{
+	struct alarm_note told;
+
+	while (alarm_take(ring, &told))
+		alarm_list_note(list, &told);
+}
+
+/* What a block counted before a download does not come again; a text that the download changed is in
+ * the list at once. */
+static void test_a_download_tells_no_alarm_twice(void)
+{
+	static const char text[] = "VAR\n  In AT %IX0.0 : BOOL;\n  Old, Hot : ALARM;\n  Note : EVENT;\n  Say : STRING[20] := 'hot';\n"
+		"END_VAR\nPROGRAM Main LD\nRUNG\n  | NO In | ALARM Old MSG:='old' |\nRUNG\n  | NC In | ALARM Hot MSG:=Say |\n"
+		"RUNG\n  | NO In | EVENT Note MSG:='note' |\nEND_PROGRAM\n";
+	static struct alarm_ring ring;
+	struct alarm_watch *before, *after;
+	struct rig rig;
+
+	if (!rig_open(&rig, text, false))
+		return;
+	begin();
+	before = alarm_watch_new(&rig.resource.image);
+	ring.watch = before;
+	for (int i = 0; i < 5; i++) {
+		image_set_bit(&rig.resource.image, AREA_I, 0, i % 2);
+		rig_set(&rig, "Old.OP_ACK", 1);
+		rig_scan(&rig);
+		alarm_look(&ring, &rig.resource);
+		take_all(&ring);
+	}
+	CHECK(row_of("Old")->times == 2 && row_of("Old")->state == ALARM_NORMAL && row_of("Note")->times == 2);
+	CHECK(row_of("Hot")->times == 3 && row_of("Hot")->state == ALARM_UNACK);
+	/* An hour later another program has the same blocks, with what they counted. */
+	rig.now += 3600 * SECOND;
+	after = alarm_watch_new(&rig.resource.image);
+	alarm_watch_carry(after, before);
+	alarm_list_doubt(list, false);
+	ring.watch = after;
+	snprintf((char *)image_get(&rig.resource.image, rig_at(&rig, "Say")).s->text, 4, "HOT");
+	rig_scan(&rig);
+	alarm_look(&ring, &rig.resource);
+	take_all(&ring);
+	CHECK(rows() == 3 && row_of("Old")->times == 2 && row_of("Note")->times == 2);
+	CHECK(row_of("Hot")->times == 3 && row_of("Hot")->state == ALARM_UNACK && !row_of("Hot")->went_ns);
+	CHECK_TEXT(row_of("Hot")->text, "HOT");
+	free(before);
+	free(after);
+	rig_close(&rig);
+}
+
 static void test_bytes(void)
 {
 	static uint8_t bytes[ALARM_BYTES];
@@ -223,6 +298,8 @@ int main(void)
 	test_restart();
 	test_bytes();
 	test_look();
+	test_more_blocks_than_are_watched();
+	test_a_download_tells_no_alarm_twice();
 	free(list);
 	return tap_done();
 }
