@@ -266,6 +266,50 @@ static void test_a_download_tells_no_alarm_twice(void)
 	rig_close(&rig);
 }
 
+/* What the board itself notices: a bit for the program, and an alarm that comes and goes with it. */
+static void test_what_the_board_notices(void)
+{
+	static const char text[] = "VAR\n  Forced, Lost, Late, Lines : BOOL;\nEND_VAR\nPROGRAM Main LD\n"
+		"RUNG\n  | NO SYS_FORCED_ANY | COIL Forced |\nRUNG\n  | NO SYS_RETAIN_LOST | COIL Lost |\n"
+		"RUNG\n  | NO SYS_WD_LATE | COIL Late |\nRUNG\n  | NO SYS_IO_FAULT | COIL Lines |\nEND_PROGRAM\n";
+	static const char *const names[] = { "SYS_FORCED_ANY", "SYS_RETAIN_LOST", "SYS_WD_LATE", "SYS_IO_FAULT" };
+	static const char *const bits[] = { "Forced", "Lost", "Late", "Lines" };
+	static struct alarm_ring ring;
+	struct rig rig;
+
+	if (!rig_open(&rig, text, false))
+		return;
+	begin();
+	for (int i = 0; i < 4; i++) {
+		rig_scan(&rig);
+		alarm_look(&ring, &rig.resource);
+		take_all(&ring);
+		CHECK(!rig_get(&rig, bits[i]) && !row_of(names[i]));
+		for (int on = 1; on >= 0; on--) {
+			if (i == 0 && on)
+				rig_force(&rig, "SYS_FIRST_SCAN", 0);
+			else if (i == 0)
+				rig_release(&rig, "SYS_FIRST_SCAN");
+			*(i == 1 ? &rig.resource.retain_lost : i == 2 ? &rig.resource.late : &rig.resource.io_fault) = i && on;
+			rig_scan(&rig);
+			alarm_look(&ring, &rig.resource);
+			take_all(&ring);
+			CHECK(rig_get(&rig, bits[i]) == on && row_of(names[i])->class == 0);
+			CHECK(row_of(names[i])->state == (i ? on ? ALARM_UNACK : ALARM_GONE_UNACK : on ? ALARM_ACKED : ALARM_NORMAL));
+			CHECK((row_of(names[i])->went_ns == 0) == on && row_of(names[i])->times == 1);
+		}
+	}
+	resource_fail(&rig.resource, FAULT_WATCHDOG);
+	alarm_look(&ring, &rig.resource);
+	take_all(&ring);
+	CHECK(row_of("FAULT")->state == ALARM_UNACK);
+	resource_start(&rig.resource);
+	alarm_look(&ring, &rig.resource);
+	take_all(&ring);
+	CHECK(row_of("FAULT")->state == ALARM_GONE_UNACK && rows() == 5);
+	rig_close(&rig);
+}
+
 static void test_bytes(void)
 {
 	static uint8_t bytes[ALARM_BYTES];
@@ -300,6 +344,7 @@ int main(void)
 	test_look();
 	test_more_blocks_than_are_watched();
 	test_a_download_tells_no_alarm_twice();
+	test_what_the_board_notices();
 	free(list);
 	return tap_done();
 }
