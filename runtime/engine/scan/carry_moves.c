@@ -295,9 +295,16 @@ void moves_value(struct moves *moves, struct location to, struct location from)
 
 /* ---- instances ---- */
 
+/* A text has its room in the instance. */
+static uint32_t input_size(const struct word_pin *pin)
+{
+	return pin->type == IEC_STRING ? (uint32_t)sizeof(struct word_text) :
+					 iec_type_row(pin->type)->size;
+}
+
 static uint32_t input_end(const struct word_pin *pin)
 {
-	return pin->offset + iec_type_row(pin->type)->size;
+	return pin->offset + input_size(pin);
 }
 
 static bool is_edited(const struct moves *moves, const struct word_pin *pin, uint32_t to,
@@ -305,8 +312,7 @@ static bool is_edited(const struct moves *moves, const struct word_pin *pin, uin
 {
 	return pin->dir == PIN_IN &&
 	       memcmp(moves->to->memory + to + pin->offset,
-		      moves->from->memory + from + pin->offset,
-		      iec_type_row(pin->type)->size) != 0;
+		      moves->from->memory + from + pin->offset, input_size(pin)) != 0;
 }
 
 /* The first edited input that begins at @at or later. */

@@ -199,6 +199,28 @@ static void test_values(void)
 
 /* ---- forces, faults, tasks ---- */
 
+/* A text that an input of an instance is given: the new one, whole, also of another length. */
+static void test_texts_of_inputs(void)
+{
+#define HOT(text) "VAR\n  In : BOOL;\n  Hot : ALARM;\nEND_VAR\nPROGRAM Main LD\nRUNG\n" \
+		  "  | NO In | ALARM Hot MSG:='" text "' |\nEND_PROGRAM\n"
+	static const char *const after[] = { HOT("hot"), HOT("HOT"), HOT("hotter"), HOT("h"), HOT("") };
+	static const char *const text[] = { "hot", "HOT", "hotter", "h", "" };
+
+	for (size_t i = 0; i < sizeof(after) / sizeof(after[0]); i++) {
+		struct rig old, new;
+
+		if (rig_open(&old, after[0], false) && rig_open(&new, after[i], false)) {
+			rig_set(&old, "In", 1);
+			rig_scan(&old);
+			change(&new, &old);
+			CHECK(has_text(&new, "Hot.MSG", text[i]) && rig_get(&new, "Hot.COUNT") == 1);
+			rig_close(&new);
+		}
+		rig_close(&old);
+	}
+}
+
 static void test_forces(void)
 {
 	struct rig old, new;
@@ -524,6 +546,7 @@ int main(void)
 	test_sfc(sfc_in_order, more_sfc);
 	test_random();
 	test_values();
+	test_texts_of_inputs();
 	test_forces();
 	test_tasks();
 	test_fault();
