@@ -204,17 +204,17 @@ static void test_texts_of_inputs(void)
 {
 #define HOT(text) "VAR\n  In : BOOL;\n  Hot : ALARM;\nEND_VAR\nPROGRAM Main LD\nRUNG\n" \
 		  "  | NO In | ALARM Hot MSG:='" text "' |\nEND_PROGRAM\n"
-	static const char *const after[] = { HOT("hot"), HOT("HOT"), HOT("hotter"), HOT("h"), HOT("") };
-	static const char *const text[] = { "hot", "HOT", "hotter", "h", "" };
+	static const char *const edited[] = { HOT("hot"), HOT("HOT"), HOT("hotter"), HOT("h"), HOT("") };
+	static const char *const given[] = { "hot", "HOT", "hotter", "h", "" };
 
-	for (size_t i = 0; i < sizeof(after) / sizeof(after[0]); i++) {
+	for (size_t i = 0; i < sizeof(edited) / sizeof(edited[0]); i++) {
 		struct rig old, new;
 
-		if (rig_open(&old, after[0], false) && rig_open(&new, after[i], false)) {
+		if (rig_open(&old, edited[0], false) && rig_open(&new, edited[i], false)) {
 			rig_set(&old, "In", 1);
 			rig_scan(&old);
 			change(&new, &old);
-			CHECK(has_text(&new, "Hot.MSG", text[i]) && rig_get(&new, "Hot.COUNT") == 1);
+			CHECK(has_text(&new, "Hot.MSG", given[i]) && rig_get(&new, "Hot.COUNT") == 1);
 			rig_close(&new);
 		}
 		rig_close(&old);
