@@ -457,13 +457,10 @@ static void put_fields(struct wire_writer *out, enum service service)
 		wire_put_string(out, "period");
 		wire_put_string(out, "5ms");
 		break;
-	case SERVICE_TIME:
-		wire_put_u8(out, 1);
-		wire_put_i64(out, BOARD_TIME_LEAST);
-		break;
 	case SERVICE_RETAIN:
+	case SERVICE_TIME:
 		wire_put_u8(out, 0);
-		wire_put_u32(out, 0);
+		service == SERVICE_TIME ? wire_put_i64(out, 0) : wire_put_u32(out, 0);
 		break;
 	case SERVICE_RECORD:
 		wire_put_u8(out, 0);

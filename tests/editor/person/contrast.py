@@ -112,7 +112,7 @@ def look(screen, theme, name, kind=Editor):
     editor.keys('ctrl+F5')
     editor.find('passed')
     told += faint(editor, 'Scenarios', known)
-    for tab in 'Cross reference', 'Status chart', 'Timing chart', 'Scenarios', 'Instruction list', 'Log', 'Board':
+    for tab in 'Cross reference', 'Status chart', 'Timing chart', 'Scenarios', 'Instruction list', 'Alarms', 'Log', 'Board':
         editor.find(tab, 'page tab').press()
         until(lambda: editor.find(tab, 'page tab').states >> SELECTED & 1, 'the tab ' + tab)
         told += faint(editor, tab, known)

@@ -93,7 +93,7 @@ def window(screen):
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     assert not nameless(editor), nameless(editor)
-    for panel in 'Cross reference', 'Status chart', 'Timing chart', 'Scenarios', 'Log', 'Board':
+    for panel in 'Cross reference', 'Status chart', 'Timing chart', 'Scenarios', 'Alarms', 'Log', 'Board':
         editor.tab(panel)
         assert not nameless(editor), (panel, nameless(editor))
     editor.keys('ctrl+alt+s')
