@@ -22,6 +22,7 @@ struct entry_place {
 	struct project *project; /* gets strings and rows of its words, nothing else changes */
 	int pou;                 /* index in it                                */
 	bool output;             /* the cursor is in the last column           */
+	bool box;                /* a block is wanted: blocks are the first candidates */
 	struct xref *xref;       /* of the project, borrowed; NULL: made when needed, which
 				    takes longer */
 };

@@ -38,6 +38,7 @@ struct search {
 	struct entry_candidate *out;
 	int count, most;
 	int *rank;                 /* of each in out                           */
+	enum word_kind adds;       /* of the word that add_words() adds; WORD_ELEM: none */
 };
 
 /* ---- which candidates are wanted, by the text before the word ---- */
@@ -268,6 +269,8 @@ static int kind_rank(const struct search *s, enum entry_kind kind)
 		[ENTRY_WORD] = 5, [ENTRY_NEW] = 9,
 	};
 
+	if (kind == ENTRY_WORD && s->place->box && s->adds != WORD_ELEM)
+		return s->adds == WORD_FB ? 0 : 1;
 	if (kind == ENTRY_INSTANCE && s->want & WANT_INSTANCE)
 		return 0;
 	return kind == ENTRY_PIN && s->want & WANT_PIN_NAME ? 1 : ranks[kind];
@@ -504,10 +507,13 @@ static void add_words(struct search *s)
 						   WORD_FIRST_OWN + i - WORD_KNOWN);
 		const struct word_row *row = words_row(words, word);
 
-		if (may_stand(s, row) && row->kind != WORD_STRUCT)
-			add(s, ENTRY_WORD, fit(row->word, typed(s), typed_len(s)),
-			    row->word, "", said(explain_family(row)), said(words_explain(row)));
+		if (!may_stand(s, row) || row->kind == WORD_STRUCT)
+			continue;
+		s->adds = row->kind;
+		add(s, ENTRY_WORD, fit(row->word, typed(s), typed_len(s)), row->word, "",
+		    said(explain_family(row)), said(words_explain(row)));
 	}
+	s->adds = WORD_ELEM;
 }
 
 static void add_function(void *context, const struct ladder_word *word,

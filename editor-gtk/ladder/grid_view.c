@@ -525,7 +525,7 @@ static void do_verb(LadderCanvas *canvas, enum verb verb)
 	case VERB_contact: entry_begin_word(view, ELEM_CONTACT_NO, false); break;
 	case VERB_contact_not: entry_begin_word(view, ELEM_CONTACT_NC, false); break;
 	case VERB_coil: entry_begin_word(view, ELEM_COIL, false); break;
-	case VERB_block: entry_begin(view, ""); break;
+	case VERB_block: entry_begin_box(view); break;
 	case VERB_parallel: entry_begin_word(view, ELEM_CONTACT_NO, true); break;
 	case VERB_parallel_not: entry_begin_word(view, ELEM_CONTACT_NC, true); break;
 	case VERB_negate: do_negate(view); break;

@@ -31,6 +31,7 @@ struct asked {
 	bool edit;            /* changes the present element, keeps its comment */
 	bool parallel;
 	bool before;          /* insert before the output at the cursor         */
+	bool box;             /* a block is wanted                              */
 	enum verb verb;       /* for a text: title, label, comment, pin         */
 	struct grid_at at;    /* of the element in the preview                 */
 	struct grid_cursor cursor; /* when the entry opened                    */
@@ -44,6 +45,7 @@ static struct entry_place place_of(const struct asked *asked)
 		.project = ladder_document_project(view->canvas->document),
 		.pou = view->canvas->pou,
 		.output = asked->cursor.col == view->columns - 1 && !asked->before,
+		.box = asked->box,
 		.xref = canvas_uses(LADDER_CANVAS(view)),
 	};
 }
@@ -245,6 +247,17 @@ void entry_begin(LadderGridView *view, const char *text)
 {
 	if (!canvas_is_fixed(LADDER_CANVAS(view)) && has_rung(view))
 		open_element(asked_new(view), _("element and operand"), text, true);
+}
+
+void entry_begin_box(LadderGridView *view)
+{
+	struct asked *asked;
+
+	if (canvas_is_fixed(LADDER_CANVAS(view)) || !has_rung(view))
+		return;
+	asked = asked_new(view);
+	asked->box = true;
+	open_element(asked, _("element and operand"), "", true);
 }
 
 /* Shows the element where it will be. */

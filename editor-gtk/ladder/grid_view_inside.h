@@ -238,6 +238,8 @@ void act_said(LadderGridView *view, int rung, int row, int col, GString *text);
 /* ---- grid_view_entry.c: the entry at the cursor ---- */
 /** entry_begin - asks for an element. @text: typed so far. */
 void entry_begin(LadderGridView *view, const char *text);
+/** entry_begin_box - the same; blocks are the first candidates. */
+void entry_begin_box(LadderGridView *view);
 /** entry_begin_word - asks for the operand of a word and shows its preview. */
 void entry_begin_word(LadderGridView *view, enum word word, bool parallel);
 /** entry_begin_drop - the same for a word that was dropped on a cell. */

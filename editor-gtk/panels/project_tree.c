@@ -558,6 +558,20 @@ static void add_controllers(struct tree *tree)
 
 /* ---- the widget ---- */
 
+/* A name that is completely visible needs no tooltip. */
+static gboolean query_tip(GtkLabel *label, int x, int y, gboolean by_key, GtkTooltip *tooltip)
+{
+	(void)x, (void)y, (void)by_key;
+	return tip_show(tooltip, pango_layout_is_ellipsized(gtk_label_get_layout(label)) ?
+			gtk_label_get_text(label) : NULL);
+}
+
+static void setup_tip(GtkWidget *label)
+{
+	gtk_widget_set_has_tooltip(label, TRUE);
+	g_signal_connect(label, "query-tooltip", G_CALLBACK(query_tip), NULL);
+}
+
 static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 {
 	GtkWidget *expander = gtk_tree_expander_new();
@@ -577,6 +591,8 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_box_append(GTK_BOX(box), arrow);
 	gtk_widget_add_css_class(arrow, "not-downloaded");
 	tip_set(arrow, _("not downloaded"));
+	setup_tip(text);
+	setup_tip(note);
 	gtk_tree_expander_set_child(GTK_TREE_EXPANDER(expander), box);
 	gtk_list_item_set_child(item, expander);
 	row_move_stand(expander, item);
@@ -605,7 +621,6 @@ static void show_note(LadderTreeRow *row, GtkLabel *note)
 	gtk_widget_set_visible(arrow, row->missing);
 	gtk_label_set_text(note, row->note ? row->note : "");
 	gtk_widget_set_visible(widget, row->note != NULL);
-	tip_set(widget, gtk_label_get_text(note));
 	speak(row, gtk_widget_get_ancestor(widget, GTK_TYPE_TREE_EXPANDER));
 }
 
@@ -629,7 +644,6 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_label_set_text(GTK_LABEL(text), row->text);
 	gtk_label_set_width_chars(GTK_LABEL(text), MIN((int)g_utf8_strlen(row->text, -1),
 						       TEXT_WIDE));
-	tip_set(text, row->text);
 	show_note(row, GTK_LABEL(note));
 	g_signal_connect_object(row, "changed", G_CALLBACK(show_note), note, 0);
 	g_object_set_data_full(G_OBJECT(note), "row", row, g_object_unref);

@@ -198,6 +198,8 @@ static void add_bookmarks(GListStore *root, LadderDocument *document)
 		return;
 	for (int pou = 0; pou < project->pou_count; pou++)
 		for (int i = 0; i < project->pou[pou].rung_count; i++) {
+			const char *title = project_text(project,
+				project->pou[pou].rung[i]->title);
 			LadderTreeRow *row;
 			char *text;
 
@@ -207,8 +209,9 @@ static void add_bookmarks(GListStore *root, LadderDocument *document)
 				heading = add_heading(root, _("Bookmarks"));
 			text = g_strdup_printf(_("%s, rung %d"), project_text(project,
 				project->pou[pou].name), i + 1);
-			row = add_row(heading->rows, ROW_BOOKMARK, text, g_strdup(
-				project_text(project, project->pou[pou].rung[i]->title)));
+			/* The title gets the room that the place leaves. */
+			row = add_row(heading->rows, ROW_BOOKMARK, *title ? title : text,
+				      g_strdup(*title ? text : ""));
 			row->pou = pou;
 			row->rung = i;
 			g_free(text);

@@ -420,6 +420,25 @@ static void check_offers(struct entry_place *place)
 	place->output = false;
 }
 
+/* Where a block is wanted, the first candidates are function blocks, not variables. */
+static void check_box_first(struct entry_place *place)
+{
+	static struct entry_candidate found[12];
+	int count, blocks = 0;
+
+	place->box = true;
+	count = entry_candidates(place, "", 0, found, 12);
+	while (blocks < count && found[blocks].kind == ENTRY_WORD &&
+	       words_row(&place->project->words,
+			 words_find(&place->project->words, found[blocks].text,
+				    strlen(found[blocks].text)))->kind == WORD_FB)
+		blocks++;
+	CHECK(blocks > 5);
+	count = entry_candidates(place, "Fan", 3, found, 12);
+	CHECK(count > 0 && strcmp(found[0].text, "Fan") == 0);
+	place->box = false;
+}
+
 /* The page of the documentation has all mnemonics. */
 static void check_page(void)
 {
@@ -648,6 +667,7 @@ int main(int argc, char **argv)
 			place.pou = i;
 	check_lines(&place);
 	check_offers(&place);
+	check_box_first(&place);
 	check_notes(&place);
 	check_duplicates(&place);
 	check_conditions();

@@ -543,6 +543,18 @@ static void test_tree_stays(GtkWidget *list)
 	CHECK_SOON(strcmp(note_of(list, 1), "3 rungs") == 0);
 }
 
+/* A tooltip, which a screen reader says too, does not repeat the label that it is of. */
+static void test_no_repeat(GtkWidget *list)
+{
+	GtkWidget *label;
+	int labels = 0, repeated = 0;
+
+	for (; (label = nth_widget(list, GTK_TYPE_LABEL, labels)); labels++)
+		repeated += g_strcmp0(gtk_widget_get_tooltip_text(label),
+				      gtk_label_get_text(GTK_LABEL(label))) == 0;
+	CHECK(labels > 3 && repeated == 0);
+}
+
 /* When a program is deleted, the rows of all others change. */
 static void test_tree(void)
 {
@@ -554,6 +566,7 @@ static void test_tree(void)
 	list = nth_widget(tree, GTK_TYPE_LIST_VIEW, 0);
 	rows = rows_of(list);
 	test_tree_stays(list);
+	test_no_repeat(list);
 	CHECK(rows > 3 && gtk_widget_grab_focus(list) && keys_arrive(window));
 	CHECK(!pou_delete(document, 1));
 	WAIT(rows_of(list) != rows);

@@ -62,8 +62,8 @@ def by_name(screen):
     editor.keys('Down', 'ctrl+b')
     rung = editor.find('Main, rung 2', 'label')
     title = editor.find('Washing is over, all of it is dry', 'label')
-    until(lambda: editor.place(rung)[2] > 70 and
-          editor.place(rung)[0] + editor.place(rung)[2] <= editor.place(title)[0], 'both beside each other')
+    until(lambda: editor.place(title)[2] > 100 and editor.place(rung)[2] > 50 and
+          editor.place(title)[0] + editor.place(title)[2] <= editor.place(rung)[0], 'both beside each other')
     editor.shot('bookmark-title')
     editor.list_commands()
     editor.type('function fun')
