@@ -511,7 +511,7 @@ static void ladder_alarm_view_init(LadderAlarmView *view)
 	panel_list_column(&view->list, "", COL_STATE, PANEL_ICON, 0);
 	panel_list_column(&view->list, _("Came"), COL_CAME, PANEL_NUMBER, 150);
 	/* In a narrow window the rest is to the right of the edge; the icon tells the state. */
-	panel_list_column(&view->list, _("Message"), COL_MESSAGE, PANEL_EXPAND, 0);
+	panel_list_column(&view->list, _("Message"), COL_MESSAGE, PANEL_EXPAND, 260);
 	panel_list_column(&view->list, _("Block"), COL_BLOCK, 0, 120);
 	panel_list_column(&view->list, _("State"), COL_STATE, 0, 110);
 	panel_list_column(&view->list, _("Class"), COL_CLASS, 0, 80);
