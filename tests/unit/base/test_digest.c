@@ -19,6 +19,13 @@ static void crc(void)
 	for (int i = 0; i < 32; i++)
 		bytes[i] = (uint8_t)i;
 	CHECK(digest_crc32c(0, bytes, 32) == 0x46dd794eu);
+	for (size_t len = 0; len <= 32; len++) { /* whole steps and what is left */
+		uint32_t single = 0;
+
+		for (size_t i = 0; i < len; i++)
+			single = digest_crc32c(single, bytes + i, 1);
+		CHECK(digest_crc32c(0, bytes, len) == single);
+	}
 	part = digest_crc32c(0, bytes, 7);
 	CHECK(digest_crc32c(part, bytes + 7, 25) == 0x46dd794eu);
 }
