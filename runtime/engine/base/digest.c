@@ -16,6 +16,16 @@ static const uint32_t crc_of[16] = {
 	0xc38d26c4, 0xd3d3e1ab, 0xe330a81a, 0xf36e6f75,
 };
 
+static uint32_t crc_bytes(uint32_t crc, const uint8_t *at, size_t len)
+{
+	for (size_t i = 0; i < len; i++) {
+		crc ^= at[i];
+		crc = crc >> 4 ^ crc_of[crc & 15];
+		crc = crc >> 4 ^ crc_of[crc & 15];
+	}
+	return crc;
+}
+
 #if UINTPTR_MAX > UINT32_MAX
 /* A machine of 64 bits has room for more: eight bytes a step. Row k: the checksum of each bit of a byte that k further
  * bytes follow; of a whole byte it is the XOR of those of its bits. */
@@ -39,34 +49,22 @@ static const uint32_t crc_before[8][256] = {
 	ROW(0x493c7d27, 0x9278fa4e, 0x211d826d, 0x423b04da, 0x847609b4, 0x0d006599, 0x1a00cb32, 0x34019664),
 };
 
-/* Takes whole steps; the rest is left to crc_more(). */
-static uint32_t crc_steps(uint32_t crc, const uint8_t *at, size_t steps)
+static uint32_t crc_more(uint32_t crc, const uint8_t *at, size_t len)
 {
-	for (; steps; steps--, at += 8) {
+	for (; len >= 8; len -= 8, at += 8) {
 		crc ^= at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
 		crc = crc_before[7][crc & 255] ^ crc_before[6][crc >> 8 & 255] ^ crc_before[5][crc >> 16 & 255] ^
 		      crc_before[4][crc >> 24] ^ crc_before[3][at[4]] ^ crc_before[2][at[5]] ^
 		      crc_before[1][at[6]] ^ crc_before[0][at[7]];
 	}
-	return crc;
+	return crc_bytes(crc, at, len);
 }
-#endif
-
+#else
 static uint32_t crc_more(uint32_t crc, const uint8_t *at, size_t len)
 {
-	size_t i = 0;
-
-#if UINTPTR_MAX > UINT32_MAX
-	i = len & ~(size_t)7;
-	crc = crc_steps(crc, at, len / 8);
-#endif
-	for (; i < len; i++) {
-		crc ^= at[i];
-		crc = crc >> 4 ^ crc_of[crc & 15];
-		crc = crc >> 4 ^ crc_of[crc & 15];
-	}
-	return crc;
+	return crc_bytes(crc, at, len);
 }
+#endif
 
 uint32_t digest_crc32c(uint32_t crc, const void *bytes, size_t len)
 {
