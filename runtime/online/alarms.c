@@ -129,7 +129,6 @@ void alarm_watch_carry(struct alarm_watch *to, const struct alarm_watch *from)
 			    strcmp(to->block[i].name, from->block[at].name) != 0)
 				continue;
 			to->block[i].count = from->block[at].count;
-			to->block[i].state = UINT8_MAX;
 			next = at + 1;
 			break;
 		}

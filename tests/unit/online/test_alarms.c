@@ -252,13 +252,15 @@ static void test_a_download_tells_no_alarm_twice(void)
 	rig.now += 3600 * SECOND;
 	after = alarm_watch_new(&rig.resource.image);
 	alarm_watch_carry(after, before);
+	note("Removed", ALARM_UNACK, 1, 1);
 	alarm_list_doubt(list, false);
 	ring.watch = after;
 	snprintf((char *)image_get(&rig.resource.image, rig_at(&rig, "Say")).s->text, 4, "HOT");
 	rig_scan(&rig);
 	alarm_look(&ring, &rig.resource);
 	take_all(&ring);
-	CHECK(rows() == 3 && row_of("Old")->times == 2 && row_of("Note")->times == 2);
+	CHECK(row_of("Removed")->state == ALARM_GONE_UNACK); /* the next program has no such block */
+	CHECK(rows() == 4 && row_of("Old")->times == 2 && row_of("Note")->times == 2);
 	CHECK(row_of("Hot")->times == 3 && row_of("Hot")->state == ALARM_UNACK && !row_of("Hot")->went_ns);
 	CHECK_TEXT(row_of("Hot")->text, "HOT");
 	free(before);
