@@ -48,6 +48,8 @@
  *                               of n BOOLs at x: those that are TRUE have dt added at t
  *   ABLOCK en, ok, dst, src, size, index, low, count, stride   BLOCK, where src (n bit 0:
  *                               dst) is that of the first element; more indices likewise
+ *   POINT                       a safe point, n: words of code up to the next one or the end.
+ *                               Only in programs of tasks; nothing waits in scratch
  */
 #ifndef SCAN_CODE_H
 #define SCAN_CODE_H

@@ -179,6 +179,7 @@ static void visit_code(const struct visit *visit, const uint32_t *code)
 	case VM_CALL:
 	case VM_JMP:
 	case VM_END:
+	case VM_POINT:
 	case VM_COUNT: return;
 	}
 }

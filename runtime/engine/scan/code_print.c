@@ -165,6 +165,8 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 				at[0], n, at[3], at[4], at[2], at[1]);
 	case VM_END:
 		return snprintf(out, size, "end");
+	case VM_POINT:
+		return snprintf(out, size, "point   %u words", n);
 	case VM_COUNT:
 		break;
 	}

@@ -71,6 +71,7 @@ uint32_t code_words(const uint32_t *code)
 	case VM_TICK:
 		return 6;
 	case VM_END:
+	case VM_POINT:
 	case VM_COUNT:
 		break;
 	}
@@ -370,6 +371,8 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 		       verify_all(v, at[1], n, IEC_BOOL, false);
 	case VM_TICK:
 		return verify_tick(v, at, n);
+	case VM_POINT:
+		return n <= LIMIT_IMAGE / 4;
 	case VM_COUNT:
 		break;
 	}

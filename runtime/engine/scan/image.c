@@ -2,7 +2,7 @@
  *
  * image - areas, bits that live a byte each, forces. Names are in symbols.c.
  */
-#include "engine/scan/image.h"
+#include "engine/scan/interrupt.h"
 
 #include <string.h>
 
@@ -11,7 +11,7 @@
 
 size_t image_memory_size(const struct program *program)
 {
-	return (size_t)program->header->data_size + IMAGE_TAIL;
+	return (size_t)program->header->data_size + IMAGE_TAIL + interrupt_bytes(program);
 }
 
 static void load_init(struct image *image)

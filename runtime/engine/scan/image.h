@@ -25,7 +25,7 @@ struct force {
 };
 
 struct image {
-	uint8_t *memory;        /* program->header->data_size bytes + 8       */
+	uint8_t *memory;        /* image_memory_size() bytes                  */
 	const struct program *program;
 	struct force force[LIMIT_FORCES];
 	int force_count;

@@ -3,9 +3,11 @@
  * resource - the states of a controller, and its scan.
  */
 #include "engine/scan/resource.h"
+
 #include "engine/base/name.h"
+#include "engine/scan/interrupt.h"
 
-
+#include <stddef.h>
 #include <string.h>
 
 #define MS_NS     INT64_C(1000000)
@@ -124,13 +126,11 @@ static void write_wall(struct resource *resource, uint8_t *sm, int64_t now_ns)
 	store64(sm + 32, wall_ns - resource->day_ns);
 }
 
-/* System bits and words, rules R5 of the reliability design. Addresses are rows
- * of catalog.def: SMX0.x, SMX1.x, SMD4, SMD8, SMD12, and the calendar above. */
-static void write_system(struct resource *resource, int64_t now_ns)
+/* What depends on the time: SMX0.x and the calendar. */
+static void write_times(struct resource *resource, int64_t now_ns)
 {
 	uint8_t *sm = image_area(&resource->image, AREA_SM);
 	int64_t since = now_ns - resource->start_ns;
-	bool failed = resource->vm.errors != resource->errors_before;
 
 	sm[0] = (uint8_t)(1u << 0 | (resource->scans == 0) << 1 |
 			  resource->retain_lost << 2 |
@@ -138,6 +138,17 @@ static void write_system(struct resource *resource, int64_t now_ns)
 			  clock_bit(since, 60000) << 4 |
 			  clock_bit(since, 1000) << 5 |
 			  clock_bit(since, 100) << 6 | resource->warm << 7);
+	write_wall(resource, sm, now_ns);
+}
+
+/* System bits and words, rules R5 of the reliability design. Addresses are rows
+ * of catalog.def: SMX0.x, SMX1.x, SMD4, SMD8, SMD12, and the calendar above. */
+static void write_system(struct resource *resource, int64_t now_ns)
+{
+	uint8_t *sm = image_area(&resource->image, AREA_SM);
+	bool failed = resource->vm.errors != resource->errors_before;
+
+	write_times(resource, now_ns);
 	sm[1] = (uint8_t)((resource->image.force_count > 0) << 0 |
 			  resource->late << 1 | resource->io_fault << 2 |
 			  failed << 3);
@@ -145,7 +156,6 @@ static void write_system(struct resource *resource, int64_t now_ns)
 	store32(sm + 8, resource->scan_max_us);
 	store32(sm + 12, resource->vm.errors);
 	resource->errors_before = resource->vm.errors;
-	write_wall(resource, sm, now_ns);
 }
 
 /* The POU, rung and cell of a word of the section that ran. */
@@ -213,6 +223,38 @@ static void write_cycle(struct resource *resource, uint32_t index)
 	store64(image_area(&resource->image, AREA_SM) + 48, cycle_ns);
 }
 
+/* Loops and calls are paid from the budget; they count as words, too. */
+static void count_spent(struct resource *resource)
+{
+	resource->words += resource->budget_seen - resource->vm.budget;
+	resource->budget_seen = resource->vm.budget;
+}
+
+/* Programs without safe points are counted as a whole. */
+static void count_program(struct resource *resource, uint32_t entry)
+{
+	const struct program *program = resource->image.program;
+	const struct code_program *at = &program->entry[entry];
+
+	if (!resource->vm.ask)
+		return;
+	count_spent(resource);
+	if ((program->text[at->text] & 0xff) != VM_POINT)
+		resource->words += at->text_words;
+}
+
+/* A safe point before a program: of the task that runs, or is about to. */
+static void stand_before(struct resource *resource)
+{
+	struct vm *vm = &resource->vm;
+
+	if (!vm->at_point)
+		return;
+	vm->points++;
+	if (vm->ask)
+		vm->at_point(vm, 0);
+}
+
 /* Runs the programs of a task; each task has its own budget. */
 static void run_task(struct resource *resource, uint32_t index, bool watch)
 {
@@ -221,11 +263,19 @@ static void run_task(struct resource *resource, uint32_t index, bool watch)
 	struct vm *vm = &resource->vm;
 	enum fault fault = FAULT_NONE;
 
+	resource->running = index;
 	write_cycle(resource, index);
-	vm->budget = program->header->budget;
-	for (uint32_t i = 0; i < task->count && fault == FAULT_NONE; i++)
+	vm->budget = resource->budget_seen = program->header->budget;
+	for (uint32_t i = 0; i < task->count && fault == FAULT_NONE; i++) {
+		if (i > 0)
+			stand_before(resource);
+		if (resource->state != STATE_RUN)
+			return;
 		fault = vm_run(vm, program->call[task->first + i], watch);
-	if (fault == FAULT_NONE)
+		count_program(resource, program->call[task->first + i]);
+	}
+	/* If a task that interrupted this one is in FAULT, so is all. */
+	if (fault == FAULT_NONE || resource->state != STATE_RUN)
 		return;
 	resource_fail(resource, fault);
 	resource->fault_at = place_in(resource, vm->fault_text, watch);
@@ -233,11 +283,14 @@ static void run_task(struct resource *resource, uint32_t index, bool watch)
 		resource->fault_at.task = task_name(program, index);
 }
 
-static void time_task(struct resource *resource, uint32_t index, bool watch)
+/* @due_ns: its deadline; 0: it has none. */
+static void time_task(struct resource *resource, uint32_t index, int64_t due_ns, bool watch)
 {
 	struct task_state *state = &resource->tasks.state[index];
 	int64_t begin_ns = resource->clock_ns();
 
+	if (begin_ns - due_ns > state->wait_ns && due_ns)
+		state->wait_ns = begin_ns - due_ns;
 	run_task(resource, index, watch);
 	state->last_ns = resource->clock_ns() - begin_ns;
 	if (state->last_ns > state->max_ns)
@@ -253,15 +306,11 @@ static void time_task(struct resource *resource, uint32_t index, bool watch)
 static bool must_yield(const struct resource *resource, uint32_t task)
 {
 	int64_t now_ns;
-	uint32_t ran = 0;
 	bool late;
 
-	if (resource->tasks_most) {
-		for (uint32_t i = 0; i < resource->image.program->task_count; i++)
-			ran += resource->tasks.state[i].ran;
-		return ran >= resource->tasks_most;
-	}
-	if (!resource->clock_ns || resource->scans == 0)
+	if (resource->tasks_most)
+		return resource->tasks_ran >= resource->tasks_most;
+	if (!resource->clock_ns || resource->scans == 0 || resource->vm.at_point)
 		return false;
 	now_ns = resource->clock_ns();
 	late = resource->tick_ns &&
@@ -270,28 +319,129 @@ static bool must_yield(const struct resource *resource, uint32_t task)
 				now_ns, late);
 }
 
+static void run_one(struct resource *resource, uint32_t task, int64_t now_ns, bool watch)
+{
+	const struct program *program = resource->image.program;
+	struct tasks *tasks = &resource->tasks;
+	const int64_t due_ns = program->task[task].kind == TASK_INTERVAL ?
+				       tasks->state[task].next_ns : 0;
+
+	tasks_take(tasks, program, task, now_ns);
+	if (resource->clock_ns)
+		time_task(resource, task, due_ns, watch);
+	else
+		run_task(resource, task, watch);
+	tasks_look(tasks, program, resource->image.memory);
+}
+
 static void run_due(struct resource *resource, int64_t now_ns, bool watch)
 {
 	const struct program *program = resource->image.program;
-	const uint8_t *m = resource->image.memory;
 	struct tasks *tasks = &resource->tasks;
-	bool any = false;
 
-	tasks_begin(tasks, program, m, now_ns);
+	tasks_begin(tasks, program, resource->image.memory, now_ns);
 	while (resource->state == STATE_RUN) {
 		uint32_t task = tasks_next(tasks, program);
 
 		if (task == program->task_count ||
-		    (any && must_yield(resource, task)))
+		    (resource->tasks_ran && must_yield(resource, task)))
 			return;
-		tasks_take(tasks, program, task, now_ns);
-		if (resource->clock_ns)
-			time_task(resource, task, watch);
-		else
-			run_task(resource, task, watch);
-		tasks_look(tasks, program, m);
-		any = true;
+		resource->running = task;
+		if (resource->tasks_ran)
+			stand_before(resource);
+		/* What interrupted may have made another task due. */
+		if (resource->state != STATE_RUN || tasks_next(tasks, program) != task)
+			continue;
+		run_one(resource, task, now_ns, watch);
+		resource->tasks_ran++;
 	}
+}
+
+/* ---- tasks that interrupt others ---- */
+
+/* The tasks above the one that runs, until none of them is due. */
+static void run_above(struct resource *resource, uint32_t count, int64_t now_ns, bool watch)
+{
+	const struct program *program = resource->image.program;
+	struct tasks *tasks = &resource->tasks;
+	uint32_t task;
+
+	tasks_begin_above(tasks, program, count, resource->image.memory, now_ns);
+	while (resource->state == STATE_RUN &&
+	       (task = tasks_next(tasks, program)) < count)
+		run_one(resource, task, now_ns, watch);
+}
+
+/* One cycle of the tasks above the one that runs: inputs, tasks, outputs. */
+static void run_inner(struct resource *resource, uint32_t count, int64_t now_ns)
+{
+	struct image *image = &resource->image;
+	bool watch = resource->watch && image->program->watch_words;
+
+	if (!resource->interrupts->begin(resource, now_ns)) {
+		resource_fail(resource, FAULT_IO);
+		return;
+	}
+	write_times(resource, now_ns);
+	image_begin(image);
+	resource->vm.now_ns = now_ns + resource->timers_ns;
+	run_above(resource, count, now_ns, watch);
+	image_end(image);
+	if (resource->state == STATE_RUN && !resource->vm.stop &&
+	    !resource->interrupts->end(resource, now_ns))
+		resource_fail(resource, FAULT_IO);
+}
+
+/* Afterwards the interrupted task finds its time, inputs and outputs as they were. */
+static void interrupt(struct resource *resource, uint32_t count, int64_t now_ns)
+{
+	const uint32_t running = resource->running, budget = resource->vm.budget;
+	const int64_t task_ns = resource->vm.now_ns, second_ns = resource->second_ns,
+		      day_ns = resource->day_ns;
+
+	interrupt_begin(&resource->image, resource->level++);
+	run_inner(resource, count, now_ns);
+	interrupt_end(&resource->image, --resource->level);
+	resource->running = running;
+	resource->vm.budget = resource->budget_seen = budget;
+	resource->vm.now_ns = task_ns;
+	resource->second_ns = second_ns;
+	resource->day_ns = day_ns;
+}
+
+/* @words: of code up to the next safe point. */
+static enum fault at_point(struct vm *vm, uint32_t words)
+{
+	struct resource *resource =
+		(struct resource *)((char *)vm - offsetof(struct resource, vm));
+	const struct program *program = resource->image.program;
+	const uint32_t count = tasks_above(program, resource->running);
+	int64_t now_ns;
+
+	count_spent(resource);
+	if (count && resource->interrupts->asks(resource, &now_ns) &&
+	    tasks_may_begin(&resource->tasks, program, count, now_ns)) {
+		resource->tasks.state[resource->running].interrupted += words > 0;
+		interrupt(resource, count, now_ns);
+	}
+	resource->words += words;
+	return resource->state == STATE_RUN ? FAULT_NONE : resource->fault;
+}
+
+/* No task interrupts another in the first scan, in which all of them run. */
+static void ready_points(struct resource *resource)
+{
+	const bool on = resource->interrupts && resource->scans > 0 &&
+			interrupt_levels(resource->image.program) > 0;
+
+	resource->vm.at_point = on ? at_point : NULL;
+	resource->vm.points = 0;
+	resource->words = 0;
+	resource->tasks_ran = 0;
+	if (on)
+		interrupt_written(&resource->image);
+	else
+		resource->vm.ask = 0;
 }
 
 static void clear_area(struct resource *resource, enum iec_area area)
@@ -336,6 +486,7 @@ bool resource_scan(struct resource *resource, int64_t now_ns)
 	}
 	write_system(resource, now_ns);
 	image_begin(&resource->image);
+	ready_points(resource);
 	vm->now_ns = now_ns + resource->timers_ns;
 	if (tasks_declared(program))
 		run_due(resource, now_ns, watch);

@@ -20,6 +20,18 @@ struct fault_place {
 	uint32_t line;          /* of the file instead, in a list; 0: unknown */
 };
 
+struct resource;
+/* How tasks interrupt others: of ladderd, of the simulation, of a record. */
+struct interrupts {
+	/* At a safe point, while vm.ask is not 0: shall tasks that have become due run? Then
+	 * @now_ns gets their time. */
+	bool (*asks)(struct resource *resource, int64_t *now_ns);
+	/* Reads inputs into the image. Fails: false: FAULT_IO. */
+	bool (*begin)(struct resource *resource, int64_t now_ns);
+	/* Uses the outputs in the image. Fails: likewise. */
+	bool (*end)(struct resource *resource, int64_t now_ns);
+};
+
 struct resource {
 	struct image image;
 	struct vm vm;
@@ -42,10 +54,17 @@ struct resource {
 	uint32_t scan_us, scan_max_us;
 	uint32_t tasks_most;         /* tasks that run in the scan, when it is computed again;
 				      * 0: as the clock allows               */
+	uint32_t tasks_ran;          /* in this scan, without those that interrupted others */
+	uint32_t running;            /* the task that runs                    */
+	uint32_t level;              /* how many are interrupted              */
+	uint64_t words;              /* of instructions that ran in this scan; counted only while
+				      * vm.ask is not 0                      */
+	uint32_t budget_seen;        /* of the task, when words were counted last */
 	int64_t wall_offset_ns;      /* date and time of the wall - now_ns    */
 	int64_t second_ns, day_ns;   /* what SYS_SECOND and SYS_DATE show     */
 	/* Set once by the caller; a start does not change them. */
 	int64_t (*clock_ns)(void);   /* measures declared tasks; NULL: no times */
+	const struct interrupts *interrupts; /* NULL: no task interrupts another */
 	int64_t tick_ns;             /* from one cycle to the next; 0: unknown */
 	int64_t period_ns;           /* of cycles, where tasks have no INTERVAL */
 	uint32_t patience;           /* watchdog of each task: so many late runs in a row,
@@ -79,8 +98,10 @@ void resource_fail(struct resource *resource, enum fault fault);
  * resource_scan - one scan at @now_ns: system bits, forces, due tasks, forces
  * @now_ns: monotonic; not before that of the scan before
  *
- * Tasks run by priority, each at most once. With a clock it ends early, between two
- * tasks: see tasks_must_yield().
+ * Tasks run by priority, each at most once. At a safe point of a task (between two rungs or
+ * statements, or before a program) tasks of higher priority that are due interrupt it, if
+ * `interrupts` is set; not in the first scan. Without `interrupts`, and with a clock, the scan
+ * ends early, between two tasks: see tasks_must_yield().
  * Inputs must be in the image; outputs are in it afterwards. In STOP and FAULT it
  * does nothing. Scan-safe: yes, it is the scan.
  * Fails: false and STATE_FAULT when a program faults. Also false when a program asked

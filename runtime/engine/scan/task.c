@@ -95,10 +95,36 @@ void tasks_skip(struct tasks *tasks, const struct program *program, int64_t now_
 	}
 }
 
+uint32_t tasks_above(const struct program *program, uint32_t task)
+{
+	uint32_t count = task;
+
+	while (count > 0 && program->task[count - 1].priority >= program->task[task].priority)
+		count--;
+	return count;
+}
+
+bool tasks_may_begin(const struct tasks *tasks, const struct program *program, uint32_t count,
+		     int64_t now_ns)
+{
+	for (uint32_t i = 0; i < count; i++)
+		if (program->task[i].kind == TASK_EVENT ||
+		    (program->task[i].kind == TASK_INTERVAL &&
+		     now_ns >= tasks->state[i].next_ns))
+			return true;
+	return false;
+}
+
 void tasks_begin(struct tasks *tasks, const struct program *program,
 		 const uint8_t *m, int64_t now_ns)
 {
-	for (uint32_t i = 0; i < program->task_count; i++) {
+	tasks_begin_above(tasks, program, program->task_count, m, now_ns);
+}
+
+void tasks_begin_above(struct tasks *tasks, const struct program *program, uint32_t count,
+		       const uint8_t *m, int64_t now_ns)
+{
+	for (uint32_t i = 0; i < count; i++) {
 		struct task_state *state = &tasks->state[i];
 
 		state->ran = false;

@@ -22,6 +22,9 @@ struct task_state {
 	bool due, ran;      /* has run in this cycle                          */
 	bool was;           /* TASK_EVENT: last seen value of its variable    */
 	int64_t last_ns, max_ns; /* how long it ran; 0 without a clock        */
+	uint64_t interrupted; /* how often tasks ran at its safe points       */
+	int64_t wait_ns;    /* the longest time from its deadline to its run; TASK_INTERVAL,
+			     * with a clock                                  */
 };
 
 struct tasks {
@@ -68,6 +71,16 @@ void tasks_skip(struct tasks *tasks, const struct program *program, int64_t now_
  * Scan-safe: yes. */
 void tasks_begin(struct tasks *tasks, const struct program *program,
 		 const uint8_t *m, int64_t now_ns);
+/** tasks_above - how many tasks, from the first one on, have a higher priority than @task.
+ * Scan-safe: yes. */
+uint32_t tasks_above(const struct program *program, uint32_t task);
+/** tasks_may_begin - whether one of the first @count tasks may be due at @now_ns: a deadline
+ * has come, or it waits for an event. Scan-safe: yes. */
+bool tasks_may_begin(const struct tasks *tasks, const struct program *program, uint32_t count,
+		     int64_t now_ns);
+/** tasks_begin_above - as tasks_begin(), for the first @count tasks. Scan-safe: yes. */
+void tasks_begin_above(struct tasks *tasks, const struct program *program, uint32_t count,
+		       const uint8_t *m, int64_t now_ns);
 /** tasks_look - records rising edges of the variables that start tasks. Scan-safe: yes. */
 void tasks_look(struct tasks *tasks, const struct program *program,
 		const uint8_t *m);

@@ -564,6 +564,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	const uint32_t *back[LIMIT_CALLS]; /* return addresses                */
 	const uint32_t *run = pc;          /* last target of EACH            */
 	uint32_t depth = 0, found, budget = vm->budget; /* a local for speed */
+	enum fault fault;
 
 	for (;;) {
 		uint32_t word = *pc, n = word >> 8;
@@ -720,6 +721,19 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				goto out_of_budget;
 			tick(m, pc + 1, n, vm->now_ns);
 			pc += 1 + TICK_WORDS;
+			break;
+		case VM_POINT:
+			vm->points++;
+			if (LIKELY(!vm->ask) || !vm->at_point) {
+				pc++;
+				break;
+			}
+			vm->budget = budget;
+			fault = vm->at_point(vm, n);
+			if (fault != FAULT_NONE)
+				return fault;
+			budget = vm->budget;
+			pc++;
 			break;
 		case VM_COUNT:
 		default:

@@ -31,6 +31,10 @@ struct vm {
 	uint32_t fault_text;   /* word index where it stopped                 */
 	bool stop;             /* a STOP had power                            */
 	uint32_t stop_text;    /* word index of the first one                 */
+	/* Safe points, see resource_scan(). */
+	volatile int ask;      /* call at_point; a signal handler may set it  */
+	uint32_t points;       /* passed since the scan began                 */
+	enum fault (*at_point)(struct vm *vm, uint32_t words);
 };
 
 /**

@@ -461,11 +461,95 @@ static void set_reset(struct list *list, const struct il_line *line)
 
 /* ---- the walk ---- */
 
-/* Between statements nothing waits in scratch slots: they may be used again. */
+/* ---- safe points ---- */
+
+static int unit_number(const struct list *list)
+{
+	return (int)(list->unit - list->as->translation->unit);
+}
+
+/* Is this line the first one of a rung, or of a statement of a list? Lines that translation
+ * makes belong to the rung before them. */
+static bool begins(const struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at], *before = line - 1;
+
+	if (list->at == 0)
+		return true;
+	return line->rung ? line->rung != before->rung || before->kind == IL_LABEL :
+			    line->line != 0 && line->line != before->line;
+}
+
+/* Does a jump behind this line lead back to it? */
+static bool begins_loop(const struct list *list)
+{
+	int at = list->at - 1;
+
+	while (at >= 0 && list->il->line[at].kind == IL_COMMENT)
+		at--;
+	return at >= 0 && list->il->line[at].kind == IL_LABEL &&
+	       list_jumps_back(list, &list->il->line[at]);
+}
+
+/* The words of the last one are known: the code has got so far. */
+static void close_point(struct assembler *as)
+{
+	struct point *point = as->open_point < 0 ? NULL : &as->point[as->open_point];
+
+	if (!point || as->text != &as->code)
+		return;
+	point->words = (uint32_t)as->code.count - point->at;
+	as->code.word[point->at] |= point->words << 8;
+	as->open_point = -1;
+}
+
+static void make_point(struct list *list, uint32_t rung, uint32_t line)
+{
+	struct assembler *as = list->as;
+	struct point *point;
+
+	close_point(as);
+	point = arena_push(as->arena, &as->point, &as->point_count, sizeof(*point));
+	if (!point) {
+		as->failed = true;
+		return;
+	}
+	as->open_point = as->point_count - 1;
+	*point = (struct point){ unit_number(list), rung, line, (uint32_t)as->code.count, 0 };
+	emit_op(as, VM_POINT, 0);
+}
+
+/* In the unwatched section: far enough from the last one, or where a loop begins. In the
+ * watched section: where the unwatched one has it. */
+static void place_point(struct list *list, uint32_t rung, uint32_t line)
+{
+	struct assembler *as = list->as;
+	const struct point *next;
+
+	if (as->text == &as->code) {
+		if (as->open_point < 0 || begins_loop(list) ||
+		    (uint32_t)as->code.count - as->point[as->open_point].at >= POINT_APART)
+			make_point(list, rung, line);
+		return;
+	}
+	next = as->open_point < 0 ? NULL : &as->point[as->open_point];
+	if (!next || next->unit != unit_number(list) || next->rung != rung || next->line != line)
+		return;
+	emit_op(as, VM_POINT, next->words);
+	as->open_point = as->open_point + 1 < as->point_count ? as->open_point + 1 : -1;
+}
+
+/* Between statements nothing waits in scratch slots: they may be used again, also by a task
+ * that interrupts this one. */
 static void begin_statement(struct list *list)
 {
-	if (list->depth == 0 && list->pending_count == 0)
-		list->as->scratch_used = 0;
+	const struct il_line *line = &list->il->line[list->at];
+
+	if (list->depth > 0 || list->pending_count > 0)
+		return;
+	list->as->scratch_used = 0;
+	if (list->as->pointed[unit_number(list)] && begins(list))
+		place_point(list, line->rung, line->line);
 }
 
 static void assemble_op(struct list *list, const struct il_line *line)
@@ -722,6 +806,8 @@ static bool assemble_unit(struct assembler *as, int unit, bool watch)
 	as->scratch_used = 0;
 	if (!list_find_labels(list) || !list_count_reads(list) || !make_slots(list))
 		return false;
+	if (as->pointed[unit])
+		place_point(list, 0, 0);
 	if (frame->temps_size)
 		emit_block(as, frame->temps, frame->temps_model,
 			   frame->temps_size);
@@ -730,6 +816,7 @@ static bool assemble_unit(struct assembler *as, int unit, bool watch)
 		assemble_line(list);
 	end = (uint32_t)as->text->count;
 	emit_op(as, VM_END, 0);
+	close_point(as);
 	if (!as->failed)
 		list_patch(list, end);
 	return !as->failed;
@@ -738,6 +825,7 @@ static bool assemble_unit(struct assembler *as, int unit, bool watch)
 static bool assemble_section(struct assembler *as, bool watch)
 {
 	as->text = watch ? &as->watch : &as->code;
+	as->open_point = watch && as->point_count ? 0 : -1;
 	for (int i = 0; i < as->translation->unit_count; i++) {
 		struct code_program *entry = &as->entry[i];
 		uint32_t first = (uint32_t)as->text->count;
@@ -755,6 +843,25 @@ static bool assemble_section(struct assembler *as, bool watch)
 	return true;
 }
 
+/* The programs of tasks that can be interrupted have safe points. */
+static bool find_pointed(struct assembler *as)
+{
+	struct code_task *task;
+
+	as->pointed = arena_alloc(as->arena, (size_t)as->translation->unit_count + 1);
+	if (!as->pointed)
+		return false;
+	for (int i = 0; i < as->task_count; i++) {
+		task = &as->task[i];
+		for (int k = 0; k < i; k++)
+			if (as->task[k].kind != TASK_CYCLE &&
+			    as->task[k].priority < task->priority)
+				for (uint32_t n = 0; n < task->count; n++)
+					as->pointed[as->call.word[task->first + n]] = true;
+	}
+	return true;
+}
+
 void *assemble(struct translation *translation, bool watch, size_t *len)
 {
 	struct assembler *as = arena_alloc(translation->arena, sizeof(*as));
@@ -767,7 +874,8 @@ void *assemble(struct translation *translation, bool watch, size_t *len)
 	as->watching = watch;
 	as->entry = arena_alloc(as->arena, ((size_t)translation->unit_count + 1) *
 				sizeof(*as->entry));
-	if (!as->entry || !layout_make(as) || !assemble_section(as, false))
+	if (!as->entry || !layout_make(as) || !pack_tasks(as) || !find_pointed(as) ||
+	    !assemble_section(as, false))
 		return NULL;
 	layout_core(as);
 	if (watch) {

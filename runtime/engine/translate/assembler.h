@@ -75,6 +75,13 @@ struct assembler {
 	int task_count;
 	struct words call;
 
+	/* safe points of programs whose tasks can be interrupted */
+	bool *pointed;             /* by unit                                 */
+	struct point *point;       /* of all units, in order                  */
+	int point_count;
+	int open_point;            /* unwatched: the last one of the unit, whose words are being
+				    * counted; watched: the next one; -1: none  */
+
 	/* free scratch slots, used again by the next statement; each called POU has its own,
 	 * so that it does not overwrite its caller's */
 	struct slots *slots, program_slots;
@@ -91,6 +98,11 @@ struct result {
 #define SLOT_NONE 0    /* no line of a list                                      */
 #define SLOT_FREE (-1) /* a line without a result yet                            */
 #define RESULT_TEXT 40u /* bytes that are kept of a STRING, for people to read */
+
+/* A safe point: before this line of a unit; its word in CODE_TEXT, words up to the next one.
+ * The watched section has the same ones. */
+struct point { int unit; uint32_t rung, line, at, words; };
+#define POINT_APART 64u /* words of code from one to the next, at least         */
 
 struct text_key { const char *text; size_t len; uint32_t offset; };
 /* Where the variables of a POU lie while it runs, and their initial values. */

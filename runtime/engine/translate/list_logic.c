@@ -151,9 +151,26 @@ void list_not(struct list *list)
 	list->now.bits = bits_not(list->now.bits);
 }
 
-static uint32_t fold(struct list *list, uint32_t name)
+static uint32_t fold(const struct list *list, uint32_t name)
 {
 	return names_fold(&list->as->translation->project->names, name);
+}
+
+enum { NOT_SEEN, SEEN, JUMPED_BACK };
+
+static void find_loops(struct list *list)
+{
+	for (int i = 0; i < list->il->count; i++) {
+		const struct il_line *line = &list->il->line[i];
+		const bool label = line->kind == IL_LABEL;
+		uint32_t id;
+
+		if (!label && (line->kind != IL_OP || line->op != OP_JMP))
+			continue;
+		id = fold(list, line->operand);
+		if (id < list->label_count && (label || list->looped[id]))
+			list->looped[id] = label ? SEEN : JUMPED_BACK;
+	}
 }
 
 bool list_find_labels(struct list *list)
@@ -166,7 +183,16 @@ bool list_find_labels(struct list *list)
 	list->label_count = (uint32_t)names->count;
 	list->label = arena_alloc(list->as->arena,
 				  list->label_count * sizeof(*list->label));
-	return list->label != NULL;
+	list->looped = arena_alloc(list->as->arena, list->label_count);
+	if (!list->label || !list->looped)
+		return false;
+	find_loops(list);
+	return true;
+}
+
+bool list_jumps_back(const struct list *list, const struct il_line *label)
+{
+	return list->looped[fold(list, label->operand)] == JUMPED_BACK;
 }
 
 static void add_fixup(struct list *list, uint32_t name)

@@ -59,6 +59,7 @@ struct list {
 	struct pending pending[PENDING_MAX];
 	int pending_count;
 	uint32_t *label;              /* by folded name: word index + 1       */
+	uint8_t *looped;              /* by folded name: a jump leads back to it */
 	uint32_t label_count;
 	struct { uint32_t word, fold; } *fixup;
 	int fixup_count;
@@ -164,6 +165,8 @@ void list_copy_if(struct list *list, uint32_t en, uint32_t to, uint32_t from);
 /* ---- jumps ---- */
 /** list_find_labels - before the first line. Fails: false when memory is out. */
 bool list_find_labels(struct list *list);
+/** list_jumps_back - whether a jump behind this label leads to it: it begins a loop. */
+bool list_jumps_back(const struct list *list, const struct il_line *label);
 /** list_flow - JMP and RET. */
 void list_flow(struct list *list, const struct il_line *line);
 /** list_stop - STP. */

@@ -730,7 +730,7 @@ void *pack_image(struct assembler *as, size_t *len)
 {
 	struct maps *maps = arena_alloc(as->arena, sizeof(*maps));
 
-	if (!maps || !pack_tasks(as) || !make_maps(as, maps))
+	if (!maps || !make_maps(as, maps))
 		return NULL;
 	const struct piece piece[CODE_SECTION_COUNT] = {
 		[CODE_PROGRAMS] = PIECE(as->entry, as->translation->unit_count),

@@ -1527,6 +1527,7 @@ static void put_code_text(struct maker *m, const uint32_t *code)
 	case VM_END:
 		out(m, "RET", "");
 		break;
+	case VM_POINT: /* translation finds it again */
 	case VM_COUNT:
 		break;
 	}
@@ -1558,7 +1559,8 @@ static void note_targets(struct maker *m, const uint32_t *code)
 	case VM_END: case VM_LUT: case VM_BITGET: case VM_BITPUT: case VM_COPY: case VM_CMP:
 	case VM_CMP_REAL: case VM_CMP_DINT: case VM_CMP_INT: case VM_REAL: case VM_DINT:
 	case VM_INT: case VM_FN: case VM_FB: case VM_BLOCK: case VM_CALL: case VM_STOP:
-	case VM_AGET: case VM_APUT: case VM_TICK: case VM_ABLOCK: case VM_COUNT:
+	case VM_AGET: case VM_APUT: case VM_TICK: case VM_ABLOCK: case VM_POINT:
+	case VM_COUNT:
 		break;
 	}
 }
