@@ -7,8 +7,11 @@
 #include "ladderd/guarded.h"
 #include "ladderd/link.h"
 
+#include "engine/scan/interrupt.h"
+
 #include <errno.h>
 #include <stdatomic.h>
+#include <stddef.h>
 #include <string.h>
 #include <time.h>
 
@@ -25,6 +28,8 @@ static int64_t clock_now(void)
 	return now.tv_sec * SECOND + now.tv_nsec;
 }
 
+static const struct interrupts by_clock;
+
 /* The limit of a scan with tasks is the sum of their limits. */
 int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 {
@@ -37,12 +42,17 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 	cycle->watchdog = watchdog;
 	wall_offset(&cycle->wall, 0); /* allocates at its first call */
 	cycle->tasks = tasks_declared(program);
-	if (!cycle->tasks)
+	if (!cycle->tasks) {
+		safe_ask(NULL, 0);
 		return watchdog * cycle->period_ns;
+	}
 	resource->clock_ns = clock_now;
 	resource->tick_ns = cycle->period_ns;
 	resource->patience = (uint32_t)watchdog;
 	resource->period_ns = period_ns ? period_ns : PERIOD;
+	resource->interrupts =
+		safe_ask(interrupt_levels(program) ? &resource->vm.ask : NULL,
+			 cycle->period_ns) ? &by_clock : NULL;
 	for (uint32_t i = 0; i < program->task_count; i++)
 		limit_ns += task_limit(&program->task[i], resource->patience,
 				       resource->period_ns);
@@ -257,19 +267,23 @@ static enum fault scan_lines(struct cycle *cycle, int64_t now_ns)
 								  FAULT_IO;
 }
 
-static void count_late(struct cycle *cycle, int64_t *due_ns, int64_t end_ns)
+/* Leaves out the periods that are over; how many. */
+static int64_t skip_periods(struct cycle *cycle, int64_t now_ns)
 {
-	int64_t missed;
+	const int64_t missed = (now_ns - cycle->next_ns) / cycle->period_ns + 1;
 
-	*due_ns += cycle->period_ns;
-	cycle->resource.late = end_ns >= *due_ns;
+	cycle->next_ns += missed * cycle->period_ns;
+	return missed;
+}
+
+static void count_late(struct cycle *cycle, int64_t end_ns)
+{
+	cycle->resource.late = end_ns >= cycle->next_ns;
 	if (!cycle->resource.late) {
 		cycle->late_row = 0;
 		return;
 	}
-	missed = (end_ns - *due_ns) / cycle->period_ns + 1;
-	*due_ns += missed * cycle->period_ns;
-	cycle->late += (uint64_t)missed;
+	cycle->late += (uint64_t)skip_periods(cycle, end_ns);
 	cycle->late_row++;
 	if (cycle->late_row == cycle->late_limit)
 		atomic_fetch_add_explicit(&cycle->late_rows, 1, memory_order_relaxed);
@@ -293,6 +307,47 @@ static void tell_failed(struct cycle *cycle)
 	cycle->failed = failed;
 }
 
+/* ---- tasks that interrupt others: a cycle within a scan ---- */
+
+static struct cycle *cycle_of(struct resource *resource)
+{
+	return (struct cycle *)((char *)resource - offsetof(struct cycle, resource));
+}
+
+static bool asks_clock(struct resource *resource, int64_t *now_ns)
+{
+	resource->vm.ask = 0;
+	*now_ns = clock_now();
+	return *now_ns >= cycle_of(resource)->next_ns;
+}
+
+static bool begin_inner(struct resource *resource, int64_t now_ns)
+{
+	struct cycle *cycle = cycle_of(resource);
+
+	/* The one that begins now is not left out. */
+	cycle->late += (uint64_t)skip_periods(cycle, now_ns) - 1;
+	resource->due_ns = cycle->next_ns - cycle->period_ns;
+	stats_add(&cycle->wake, now_ns - resource->due_ns);
+	note(cycle, NOTE_INTERRUPTING, now_ns);
+	notify_feed(&cycle->notify, now_ns);
+	if (!ReadPhysicalInputs(&cycle->hal, &resource->image, now_ns))
+		return false;
+	note(cycle, NOTE_INTERRUPT, now_ns);
+	return true;
+}
+
+/* When the watchdog has written the safe outputs, they stay. */
+static bool end_inner(struct resource *resource, int64_t now_ns)
+{
+	struct cycle *cycle = cycle_of(resource);
+
+	return cycle->monitor.tripped ||
+	       WritePhysicalOutputs(&cycle->hal, &resource->image, now_ns);
+}
+
+static const struct interrupts by_clock = { asks_clock, begin_inner, end_inner };
+
 static void scan_once(struct cycle *cycle, int64_t *due_ns)
 {
 	struct resource *resource = &cycle->resource;
@@ -300,6 +355,7 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 	enum fault fault;
 
 	resource->due_ns = *due_ns;
+	cycle->next_ns = *due_ns + cycle->period_ns;
 	resource->wall_offset_ns = wall_offset(&cycle->wall, begin_ns);
 	stats_add(&cycle->wake, begin_ns - *due_ns);
 	monitor_begin(&cycle->monitor);
@@ -311,7 +367,8 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 	resource->scan_us = (uint32_t)(took_ns / 1000);
 	if (resource->scan_us > resource->scan_max_us)
 		resource->scan_max_us = resource->scan_us;
-	count_late(cycle, due_ns, begin_ns + took_ns);
+	count_late(cycle, begin_ns + took_ns);
+	*due_ns = cycle->next_ns;
 	if (fault == FAULT_NONE && is_too_slow(cycle, took_ns))
 		fault = FAULT_WATCHDOG;
 	if (fault != FAULT_NONE && cycle_on_trial(cycle))

@@ -32,6 +32,8 @@ struct cycle {
 	int64_t period_ns;   /* from one cycle to the next                  */
 	int64_t watchdog;      /* late scans in a row, or periods of one scan */
 	bool tasks;            /* tasks are declared: each has its own limit  */
+	int64_t next_ns;       /* when the next cycle is due; while a scan runs, also one of
+				* tasks that interrupt it                     */
 	int64_t wanted_ns;     /* --period; 0: not given                      */
 	bool begin_stopped;    /* does not run at the start                   */
 	const char *stopped;   /* why it began in STOP; NULL: not told         */

@@ -238,6 +238,12 @@ void link_note(struct link *link, enum link_note note, int64_t now_ns)
 	case NOTE_SCAN:
 		recorder_scan(&link->recorder, &cycle->resource, now_ns);
 		return;
+	case NOTE_INTERRUPTING:
+		recorder_interrupting(&link->recorder, &cycle->resource);
+		return;
+	case NOTE_INTERRUPT:
+		recorder_interrupt(&link->recorder, &cycle->resource, now_ns);
+		return;
 	case NOTE_SCANNED:
 		recorder_scanned(&link->recorder, &cycle->resource);
 		return;

@@ -32,6 +32,8 @@ enum link_note {
 	NOTE_START,    /* the program has started, with its retained values   */
 	NOTE_SWAP,     /* another program goes on                             */
 	NOTE_SCAN,     /* a scan begins; its inputs are read                  */
+	NOTE_INTERRUPTING, /* a task is interrupted; inputs are not read yet  */
+	NOTE_INTERRUPT,    /* … now they are                                  */
 	NOTE_SCANNED,
 	NOTE_STOP,     /* ordered by a person                                 */
 	NOTE_FAULT,

@@ -3,7 +3,7 @@
  * safe - signal handlers: requests, the watchdog timer, crashes. Handlers use only the
  * static objects below and what these point to.
  */
-#define _XOPEN_SOURCE 700 /* sigaltstack, setitimer */
+#define _GNU_SOURCE /* sigaltstack, setitimer, syscall */
 
 #include "ladderd/safe.h"
 
@@ -12,7 +12,9 @@
 #include <errno.h>
 #include <poll.h>
 #include <string.h>
+#include <sys/syscall.h>
 #include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 
 /* A handler has no argument for them. No other static objects of ladderd change. */
@@ -156,6 +158,68 @@ void monitor_begin(struct monitor *monitor)
 void monitor_end(struct monitor *monitor)
 {
 	monitor->scan = (monitor->scan + 1) & 0xffff;
+}
+
+/* ---- safe points ---- */
+
+static volatile int *volatile asked;
+static int ask_timer = -1;
+
+static void on_ask(int signal_number, siginfo_t *about, void *context)
+{
+	volatile int *ask = asked;
+
+	(void)signal_number, (void)context;
+	if (about->si_code == SI_TIMER && ask)
+		*ask = 1;
+}
+
+/* As the kernel has them: timer_create() and timer_settime() would link thread code of the C
+ * library, and a 32-bit library may have either size of time. */
+static bool make_timer(void)
+{
+	struct sigaction action;
+	struct sigevent event;
+
+	memset(&action, 0, sizeof(action));
+	action.sa_sigaction = on_ask;
+	action.sa_flags = SA_SIGINFO | SA_RESTART;
+	sigemptyset(&action.sa_mask);
+	memset(&event, 0, sizeof(event));
+	event.sigev_notify = SIGEV_SIGNAL;
+	event.sigev_signo = SIGVTALRM;
+	return sigaction(SIGVTALRM, &action, NULL) == 0 &&
+	       syscall(SYS_timer_create, CLOCK_MONOTONIC, &event, &ask_timer) == 0;
+}
+
+static bool set_timer(int64_t period_ns)
+{
+	const int64_t s = period_ns / 1000000000, ns = period_ns % 1000000000;
+#ifdef SYS_timer_settime64
+	const int64_t wide[4] = { s, ns, s, ns };
+#endif
+#ifdef SYS_timer_settime32
+	enum { OLD = SYS_timer_settime32 };
+#else
+	enum { OLD = SYS_timer_settime };
+#endif
+	const long old[4] = { (long)s, (long)ns, (long)s, (long)ns };
+
+#ifdef SYS_timer_settime64
+	if (syscall(SYS_timer_settime64, ask_timer, 0, wide, NULL) == 0)
+		return true;
+#endif
+	return syscall(OLD, ask_timer, 0, old, NULL) == 0;
+}
+
+bool safe_ask(volatile int *ask, int64_t period_ns)
+{
+	asked = ask;
+	if (ask && ask_timer < 0 && !make_timer())
+		ask_timer = -1;
+	if (ask_timer < 0)
+		return false;
+	return set_timer(ask ? period_ns : 0) && ask;
 }
 
 /* SA_RESETHAND has restored the default action, so raise() ends the process. */

@@ -385,16 +385,11 @@ void recorder_scan(struct recorder *recorder, const struct resource *resource, i
 /* How many tasks ran in the scan; 0: all that were due. */
 static uint32_t tasks_cut(const struct resource *resource)
 {
-	uint32_t ran = 0;
 	bool left = false;
 
-	for (uint32_t i = 0; i < resource->image.program->task_count; i++) {
-		const struct task_state *state = &resource->tasks.state[i];
-
-		ran += state->ran;
-		left |= state->due && !state->ran;
-	}
-	return left ? ran : 0;
+	for (uint32_t i = 0; i < resource->image.program->task_count; i++)
+		left |= resource->tasks.state[i].due && !resource->tasks.state[i].ran;
+	return left ? resource->tasks_ran : 0;
 }
 
 static void put_state(struct recorder *recorder, enum record_state state, const uint8_t *more,
@@ -407,11 +402,46 @@ static void put_state(struct recorder *recorder, enum record_state state, const 
 		put_bytes(recorder, more, len);
 }
 
+/* The inputs of the interrupted task, from which a reader goes on. */
+void recorder_interrupting(struct recorder *recorder, const struct resource *resource)
+{
+	if (recorder->on)
+		see_inputs(recorder, resource);
+}
+
+/* What is in the ring is of no use without this scan. */
+static void give_up(struct recorder *recorder)
+{
+	recorder->on = false;
+	recorder->full = true;
+	recorder->oldest = recorder->key = recorder->head;
+}
+
+void recorder_interrupt(struct recorder *recorder, const struct resource *resource, int64_t now_ns)
+{
+	struct record record = { .len = 0 };
+
+	if (!recorder->on)
+		return;
+	put_inputs(recorder, resource);
+	put8(&record, RECORD_STATE | RECORD_INTERRUPTED << RECORD_SUB);
+	put_number(&record, resource->vm.points);
+	put_signed(&record, now_ns - recorder->now_ns);
+	put_record(recorder, &record);
+	if (recorder->head - recorder->key > recorder->size / 2)
+		give_up(recorder);
+}
+
 void recorder_scanned(struct recorder *recorder, const struct resource *resource)
 {
 	const uint8_t ran = tasks_declared(resource->image.program) ?
 				    (uint8_t)tasks_cut(resource) : 0;
 
+	if (recorder->full) {
+		recorder->full = false;
+		recorder->on = true;
+		put_key(recorder, resource, RECORD_NEXT);
+	}
 	if (!recorder->on)
 		return;
 	if (ran)

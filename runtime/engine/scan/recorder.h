@@ -30,7 +30,8 @@ enum { RECORD_LATE = 8, RECORD_IO = 16, RECORD_WATCH = 32, RECORD_DUE = 64, RECO
 #define RECORD_SUB 3
 /* Why there is a keyframe. NEXT: the scans before it lead to the same state. */
 enum record_why { RECORD_NEXT, RECORD_START, RECORD_SWAP, RECORD_WHY_COUNT };
-enum record_state { RECORD_STOPPED, RECORD_FAILED, RECORD_TASKS, RECORD_STATE_COUNT };
+enum record_state { RECORD_STOPPED, RECORD_FAILED, RECORD_TASKS, RECORD_INTERRUPTED,
+		    RECORD_STATE_COUNT };
 /* Flags of a keyframe. */
 enum {
 	KEY_HALTED = 1, KEY_LATE = 2, KEY_IO = 4, KEY_WARM = 8, KEY_LOST = 16, KEY_OLD_COPY = 32,
@@ -48,6 +49,7 @@ struct recorder {
 	uint64_t head, oldest, key;   /* bytes since the start: the next one, the oldest
 				       * one in the ring, the last keyframe        */
 	bool on;                      /* there is room for this program            */
+	bool full;                    /* a scan had too many interruptions: on again after it */
 	uint32_t key_bytes;           /* of a keyframe without forces              */
 	uint32_t input_count;
 	struct { uint32_t at, size; } input[RECORDER_INPUTS];
@@ -79,6 +81,12 @@ void recorder_begin(struct recorder *recorder, const struct resource *resource,
 /** recorder_scan - just before a scan: its inputs are read, `late` and the like are set.
  * recorder_scanned() follows. Scan-safe: yes; bounded by the bytes of the inputs. */
 void recorder_scan(struct recorder *recorder, const struct resource *resource, int64_t now_ns);
+/** recorder_interrupting - before inputs are read for tasks that interrupt another. Scan-safe:
+ * yes. */
+void recorder_interrupting(struct recorder *recorder, const struct resource *resource);
+/** recorder_interrupt - when they are read. A scan that fills half of the ring with them is not
+ * in the record, nor are those before it. Scan-safe: yes. */
+void recorder_interrupt(struct recorder *recorder, const struct resource *resource, int64_t now_ns);
 /** recorder_scanned - just after it. Scan-safe: yes; now and then it copies the data of the
  * program. */
 void recorder_scanned(struct recorder *recorder, const struct resource *resource);

@@ -9,6 +9,7 @@
 #include "engine/scan/place.h"
 #include "engine/scan/recorder.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -117,7 +118,7 @@ struct item {
 	uint64_t value;
 	const uint8_t *text;      /* of a STRING                              */
 	uint32_t text_len;
-	uint8_t number;           /* of a state                               */
+	uint32_t number;          /* of a state                               */
 };
 
 /* The second is in its day; INT64_MIN before the first scan. */
@@ -211,6 +212,16 @@ static void take_change(struct reader *in, struct item *item)
 		item->text = take(in, item->text_len);
 }
 
+static void take_interruption(struct reader *in, struct item *item)
+{
+	const uint64_t points = take_number(in);
+
+	item->number = (uint32_t)points;
+	item->step_ns = take_signed(in);
+	if (points >= UINT32_MAX || !is_time(item->step_ns) || item->step_ns < 0)
+		in->failed = true;
+}
+
 /* The next record. Fails: false: its form is wrong, or there is none. */
 static bool next_item(struct reader *in, struct item *item)
 {
@@ -236,7 +247,9 @@ static bool next_item(struct reader *in, struct item *item)
 		take_change(in, item);
 		break;
 	case RECORD_STATE:
-		if (item->head >> RECORD_SUB != RECORD_STOPPED)
+		if (item->head >> RECORD_SUB == RECORD_INTERRUPTED)
+			take_interruption(in, item);
+		else if (item->head >> RECORD_SUB != RECORD_STOPPED)
 			item->number = take8(in);
 		if (item->head >> RECORD_SUB >= RECORD_STATE_COUNT)
 			in->failed = true;
@@ -921,6 +934,85 @@ static void do_change(struct image *image, const struct item *item)
 		image_unforce(image, at);
 }
 
+static bool is_state(const struct item *item, enum record_state state)
+{
+	return item->kind == RECORD_STATE && item->head >> RECORD_SUB == (uint32_t)state;
+}
+
+/* ---- interruptions ---- */
+
+/* Finds the next one of the scan that runs. Without memory there is none. */
+static void find_interruption(struct playback *playback)
+{
+	struct reader in = reader_at(playback, playback->at);
+	struct item *item = malloc(sizeof(*item));
+	bool good = item && in.at < in.end && next_item(&in, item);
+
+	playback->points = UINT32_MAX;
+	playback->inputs_at = 0;
+	if (good && item->kind == RECORD_INPUTS) {
+		playback->inputs_at = playback->at;
+		good = in.at < in.end && next_item(&in, item);
+	}
+	if (good && is_state(item, RECORD_INTERRUPTED)) {
+		playback->points = item->number;
+		playback->point_ns = add(playback->time_ns, item->step_ns);
+		playback->point_end = (size_t)(in.at - playback->file->log);
+	}
+	free(item);
+}
+
+static struct playback *playback_of(struct resource *resource)
+{
+	return (struct playback *)((char *)resource - offsetof(struct playback, twin.resource));
+}
+
+static bool asks_record(struct resource *resource, int64_t *now_ns)
+{
+	const struct playback *playback = playback_of(resource);
+
+	*now_ns = playback->point_ns;
+	return playback->points == resource->vm.points;
+}
+
+static bool begin_recorded(struct resource *resource, int64_t now_ns)
+{
+	struct playback *playback = playback_of(resource);
+	struct reader in = reader_at(playback, playback->inputs_at);
+	struct item *item = playback->inputs_at ? malloc(sizeof(*item)) : NULL;
+
+	(void)now_ns;
+	if (item && next_item(&in, item))
+		set_inputs(&resource->image, item, in.at);
+	free(item);
+	playback->at = playback->point_end;
+	find_interruption(playback);
+	return true;
+}
+
+static bool end_recorded(struct resource *resource, int64_t now_ns)
+{
+	(void)resource, (void)now_ns;
+	return true;
+}
+
+static const struct interrupts by_record = { asks_record, begin_recorded, end_recorded };
+
+/* Copies of the twin interrupt nothing. */
+static void scan_recorded(struct playback *playback)
+{
+	struct resource *resource = &playback->twin.resource;
+
+	find_interruption(playback);
+	resource->interrupts = &by_record;
+	resource->vm.ask = playback->points != UINT32_MAX;
+	resource_scan(resource, playback->time_ns);
+	resource->interrupts = NULL;
+	resource->vm.ask = 0;
+}
+
+/* ---- a scan ---- */
+
 static void do_scan(struct playback *playback, const struct item *item, uint32_t tasks)
 {
 	struct twin *twin = &playback->twin;
@@ -939,16 +1031,11 @@ static void do_scan(struct playback *playback, const struct item *item, uint32_t
 	if (item->head & RECORD_PERIOD)
 		resource->period_ns = item->period_ns;
 	resource->tasks_most = tasks;
-	resource_scan(resource, playback->time_ns);
+	scan_recorded(playback);
 	twin->scan++;
 	twin->now_ns = playback->time_ns - playback->file->begin_ns;
 	twin->period_ns = playback->step_ns > 0 ? playback->step_ns : 1;
 	playback->wall_ns = add(playback->time_ns, resource->wall_offset_ns);
-}
-
-static bool is_state(const struct item *item, enum record_state state)
-{
-	return item->kind == RECORD_STATE && item->head >> RECORD_SUB == (uint32_t)state;
 }
 
 /* What a scan leads to belongs to it: a FAULT, perhaps with inputs that were read for the next

@@ -77,6 +77,10 @@ struct playback {
 	size_t at;                /* the next record                          */
 	int64_t time_ns, step_ns;
 	uint32_t program;
+	/* The interruption that comes next in the scan that runs. */
+	uint32_t points;          /* the safe point; UINT32_MAX: none         */
+	int64_t point_ns;
+	size_t inputs_at, point_end; /* 0: its inputs are the same; where it ends */
 };
 
 /** playback_init - at the first state. Owns: playback_free(). @file: borrowed. Scan-safe: no; so

@@ -69,7 +69,7 @@ static struct board {
 	int64_t now_ns;
 	uint64_t seen[SCANS + 1];
 	uint64_t scan;
-	bool watches;
+	bool watches, interrupts;
 	uint8_t level[4];      /* of the lines, which are the first bytes of I */
 } board;
 
@@ -221,6 +221,34 @@ static void read_inputs(void)
 	memcpy(image_area(&board.resource.image, AREA_I), board.level, sizeof(board.level));
 }
 
+/* ---- tasks that interrupt others ---- */
+
+static uint64_t interruptions;
+
+static bool asks(struct resource *resource, int64_t *now_ns)
+{
+	(void)resource;
+	*now_ns = board_clock_ns += random_below(&board_clock_source, 3000000);
+	return random_chance(&board_clock_source, 60);
+}
+
+static bool begin(struct resource *resource, int64_t now_ns)
+{
+	recorder_interrupting(&board.recorder, resource);
+	read_inputs();
+	recorder_interrupt(&board.recorder, resource, now_ns);
+	interruptions++;
+	return true;
+}
+
+static bool end(struct resource *resource, int64_t now_ns)
+{
+	(void)resource, (void)now_ns;
+	return true;
+}
+
+static const struct interrupts at_random = { asks, begin, end };
+
 static void fail(enum fault fault)
 {
 	resource_fail(&board.resource, fault);
@@ -245,6 +273,8 @@ static void scan(void)
 	if (random_chance(&board.source, 5))
 		resource->watch = !resource->watch;
 	read_inputs();
+	resource->interrupts = board.interrupts ? &at_random : NULL;
+	resource->vm.ask = 1;
 	recorder_scan(&board.recorder, resource, board.now_ns);
 	resource_scan(resource, board.now_ns);
 	recorder_scanned(&board.recorder, resource);
@@ -291,6 +321,7 @@ static bool open_board(uint64_t seed, uint32_t ring)
 	random_seed(&board.source, seed * 977 + 5);
 	random_seed(&board_clock_source, seed);
 	board.watches = seed % 2;
+	board.interrupts = seed % 3 != 0;
 	if (!open_program(seed))
 		return false;
 	board.ring = calloc(1, RECORDER_BESIDE + ring);
@@ -447,6 +478,8 @@ static void test_random(void)
 	       (unsigned long long)faults, (unsigned long long)dropped);
 	CHECK_AS(good == seeds, "every scan of every record is the board's");
 	CHECK(compared > seeds * 100 && dropped > seeds / 6);
+	printf("# %llu interruptions\n", (unsigned long long)interruptions);
+	CHECK(interruptions > 10 * seeds);
 	CHECK(cuts > seeds && swaps > seeds / 2 && faults > seeds && watched > seeds);
 }
 
