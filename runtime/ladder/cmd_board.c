@@ -227,6 +227,11 @@ void remote_print_status(const struct remote *remote, const struct board_status 
 			    (unsigned long long)task->overruns);
 		print_us(out, ", last ", task->last_ns);
 		print_us(out, ", longest ", task->max_ns);
+		if (task->wait_ns)
+			print_us(out, ", waited ", task->wait_ns);
+		if (task->interrupted)
+			sink_printf(out, ", interrupted %llu",
+				    (unsigned long long)task->interrupted);
 		sink_text(out, "\n");
 	}
 	sink_printf(out, "lines: %u, %s, %llu calls failed\n", (unsigned)status->lines,
@@ -282,9 +287,11 @@ static void json_status(const struct sink *out, const struct board_status *statu
 		sink_text(out, i ? ", {\"name\": " : "{\"name\": ");
 		sink_json_text(out, task->name);
 		sink_printf(out, ", \"runs\": %llu, \"missed\": %llu, \"last_ns\": %lld, "
-			    "\"max_ns\": %lld}", (unsigned long long)task->runs,
+			    "\"max_ns\": %lld, \"wait_ns\": %lld, \"interrupted\": %llu}",
+			    (unsigned long long)task->runs,
 			    (unsigned long long)task->overruns, (long long)task->last_ns,
-			    (long long)task->max_ns);
+			    (long long)task->max_ns, (long long)task->wait_ns,
+			    (unsigned long long)task->interrupted);
 	}
 	sink_text(out, "]");
 }

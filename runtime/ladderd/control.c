@@ -5,6 +5,7 @@
 #include "ladderd/control.h"
 
 #include "engine/base/version.h"
+#include "engine/scan/interrupt.h"
 #include "online/status.h"
 
 #include <poll.h>
@@ -176,6 +177,10 @@ static void put_tasks(const struct resource *resource, struct block *block,
 		    (unsigned long long)state->overruns);
 		add_us(block, ", last", state->last_ns);
 		add_us(block, ", max", state->max_ns);
+		if (task->kind == TASK_INTERVAL)
+			add_us(block, ", waited", state->wait_ns);
+		if (interrupt_can(program, i))
+			add(block, ", interrupted %llu", (unsigned long long)state->interrupted);
 		add(block, "\n");
 	}
 }
@@ -236,6 +241,8 @@ static void fill_tasks(const struct resource *resource, struct board_status *sta
 		task->overruns = state->overruns;
 		task->last_ns = state->last_ns;
 		task->max_ns = state->max_ns;
+		task->interrupted = state->interrupted;
+		task->wait_ns = state->wait_ns;
 	}
 }
 

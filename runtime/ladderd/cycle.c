@@ -43,7 +43,7 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 	wall_offset(&cycle->wall, 0); /* allocates at its first call */
 	cycle->tasks = tasks_declared(program);
 	if (!cycle->tasks) {
-		safe_ask(NULL, 0);
+		safe_ask(NULL);
 		return watchdog * cycle->period_ns;
 	}
 	resource->clock_ns = clock_now;
@@ -51,8 +51,9 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 	resource->patience = (uint32_t)watchdog;
 	resource->period_ns = period_ns ? period_ns : PERIOD;
 	resource->interrupts =
-		safe_ask(interrupt_levels(program) ? &resource->vm.ask : NULL,
-			 cycle->period_ns) ? &by_clock : NULL;
+		safe_ask(interrupt_levels(program) ? &resource->vm.ask : NULL) ?
+			&by_clock : NULL;
+	cycle->asked_ns = 0;
 	for (uint32_t i = 0; i < program->task_count; i++)
 		limit_ns += task_limit(&program->task[i], resource->patience,
 				       resource->period_ns);
@@ -348,6 +349,16 @@ static bool end_inner(struct resource *resource, int64_t now_ns)
 
 static const struct interrupts by_clock = { asks_clock, begin_inner, end_inner };
 
+/* The timer has the phase of the cycles; it changes when the program starts again. */
+static void keep_phase(struct cycle *cycle)
+{
+	if (!cycle->resource.interrupts ||
+	    (cycle->asked_ns && (cycle->next_ns - cycle->asked_ns) % cycle->period_ns == 0))
+		return;
+	cycle->asked_ns = cycle->next_ns;
+	safe_ask_from(cycle->next_ns, cycle->period_ns);
+}
+
 static void scan_once(struct cycle *cycle, int64_t *due_ns)
 {
 	struct resource *resource = &cycle->resource;
@@ -356,6 +367,7 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 
 	resource->due_ns = *due_ns;
 	cycle->next_ns = *due_ns + cycle->period_ns;
+	keep_phase(cycle);
 	resource->wall_offset_ns = wall_offset(&cycle->wall, begin_ns);
 	stats_add(&cycle->wake, begin_ns - *due_ns);
 	monitor_begin(&cycle->monitor);

@@ -34,6 +34,7 @@ struct cycle {
 	bool tasks;            /* tasks are declared: each has its own limit  */
 	int64_t next_ns;       /* when the next cycle is due; while a scan runs, also one of
 				* tasks that interrupt it                     */
+	int64_t asked_ns;      /* a time at which the timer of safe_ask() comes; 0: none */
 	int64_t wanted_ns;     /* --period; 0: not given                      */
 	bool begin_stopped;    /* does not run at the start                   */
 	const char *stopped;   /* why it began in STOP; NULL: not told         */

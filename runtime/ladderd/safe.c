@@ -192,34 +192,38 @@ static bool make_timer(void)
 	       syscall(SYS_timer_create, CLOCK_MONOTONIC, &event, &ask_timer) == 0;
 }
 
-static bool set_timer(int64_t period_ns)
+static bool set_timer(int64_t first_ns, int64_t period_ns)
 {
-	const int64_t s = period_ns / 1000000000, ns = period_ns % 1000000000;
+	const int64_t s = period_ns / 1000000000, ns = period_ns % 1000000000,
+		      at_s = first_ns / 1000000000, at_ns = first_ns % 1000000000;
 #ifdef SYS_timer_settime64
-	const int64_t wide[4] = { s, ns, s, ns };
+	const int64_t wide[4] = { s, ns, at_s, at_ns };
 #endif
 #ifdef SYS_timer_settime32
 	enum { OLD = SYS_timer_settime32 };
 #else
 	enum { OLD = SYS_timer_settime };
 #endif
-	const long old[4] = { (long)s, (long)ns, (long)s, (long)ns };
+	const long old[4] = { (long)s, (long)ns, (long)at_s, (long)at_ns };
 
 #ifdef SYS_timer_settime64
-	if (syscall(SYS_timer_settime64, ask_timer, 0, wide, NULL) == 0)
+	if (syscall(SYS_timer_settime64, ask_timer, TIMER_ABSTIME, wide, NULL) == 0)
 		return true;
 #endif
-	return syscall(OLD, ask_timer, 0, old, NULL) == 0;
+	return syscall(OLD, ask_timer, TIMER_ABSTIME, old, NULL) == 0;
 }
 
-bool safe_ask(volatile int *ask, int64_t period_ns)
+bool safe_ask(volatile int *ask)
 {
 	asked = ask;
 	if (ask && ask_timer < 0 && !make_timer())
 		ask_timer = -1;
-	if (ask_timer < 0)
-		return false;
-	return set_timer(ask ? period_ns : 0) && ask;
+	return ask_timer >= 0 && set_timer(0, 0) && ask;
+}
+
+void safe_ask_from(int64_t first_ns, int64_t period_ns)
+{
+	set_timer(first_ns, period_ns);
 }
 
 /* SA_RESETHAND has restored the default action, so raise() ends the process. */

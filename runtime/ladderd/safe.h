@@ -58,14 +58,17 @@ void monitor_begin(struct monitor *monitor);
 void monitor_end(struct monitor *monitor);
 
 /**
- * safe_ask - sets *@ask to 1 each @period_ns, so that the scan looks at the clock at its next
- * safe point
+ * safe_ask - makes a POSIX timer, whose signal sets *@ask to 1: then the scan looks at the clock
+ * at its next safe point
  * @ask: must not move; NULL: no more
  *
- * A signal of a POSIX timer, without threads. Scan-safe: between scans, some system calls.
- * Fails: false: NULL, or the kernel has no such timers; then no task interrupts another.
+ * Without threads. Scan-safe: between scans, some system calls. Fails: false: NULL, or the kernel
+ * has no such timers; then no task interrupts another.
  */
-bool safe_ask(volatile int *ask, int64_t period_ns);
+bool safe_ask(volatile int *ask);
+/** safe_ask_from - after safe_ask(): at @first_ns of CLOCK_MONOTONIC, and each @period_ns from
+ * then on. Scan-safe: yes, a system call. */
+void safe_ask_from(int64_t first_ns, int64_t period_ns);
 /**
  * safe_on_crash - writes the safe outputs before a signal such as SIGSEGV ends the daemon
  * @stack: SAFE_STACK_BYTES for the handler; NULL: no longer (call before hal_close())

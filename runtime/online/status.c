@@ -48,6 +48,10 @@ void status_put(struct wire_writer *out, const struct board_status *status)
 	wire_put_u8(out, status->next);
 	wire_put_string(out, status->next_why);
 	wire_put_string(out, status->disk);
+	for (uint8_t i = 0; i < status->task_count; i++) {
+		wire_put_u64(out, status->task[i].interrupted);
+		wire_put_i64(out, status->task[i].wait_ns);
+	}
 }
 
 bool status_has_program(const struct board_status *status)
@@ -113,4 +117,8 @@ void status_take(struct wire_reader *in, struct board_status *status)
 	wire_copy_text(in, status->next_why, sizeof(status->next_why));
 	if (wire_left(in))
 		wire_copy_text(in, status->disk, sizeof(status->disk));
+	for (uint8_t i = 0; i < status->task_count && wire_left(in); i++) {
+		status->task[i].interrupted = wire_u64(in);
+		status->task[i].wait_ns = wire_i64(in);
+	}
 }

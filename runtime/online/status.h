@@ -18,6 +18,8 @@ struct task_status {
 	int64_t interval_ns;           /* 0: in every cycle, or on an event    */
 	uint64_t runs, overruns;
 	int64_t last_ns, max_ns;
+	uint64_t interrupted;          /* how often tasks of higher priority ran while it did */
+	int64_t wait_ns;               /* the longest time from its deadline to its run */
 };
 
 struct board_status {

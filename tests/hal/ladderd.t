@@ -383,7 +383,7 @@ END
 		'every 2 ms: 2, 10, and the 10 of events');
 	like($status, qr/^task Ring: on event, runs 1, overruns 0, last /m,
 		'one event, the input that was on at first');
-	like($status, qr/^task Fast: every 2000\.0 us, runs \d\d, overruns \d+, last .* us, max .* us$/m,
+	like($status, qr/^task Fast: every 2000\.0 us, runs \d\d, overruns \d+, last .* us, max .* us, waited \S+ us, interrupted \d+$/m,
 		'the fast one');
 	like($status, qr/^task Slow: every 10000\.0 us, runs \d+, /m,
 		'the slow one');
@@ -404,6 +404,63 @@ END
 	like(get('out'), qr/^fault: task Slow: instruction budget exceeded/m,
 		'names it, too');
 	is_safe('an endless loop in a task');
+}
+
+# ---- tasks that interrupt others: Slow waits for Fast ----
+{
+	my $wait = put('wait.rung', <<'END');
+RUNGBOARD 1
+
+CONFIGURATION Plant
+  TASK Slow (INTERVAL := T#20ms, PRIORITY := 5);
+  TASK Fast (INTERVAL := T#1ms, PRIORITY := 1);
+  PROGRAM A WITH Fast : Quick;
+  PROGRAM B WITH Slow : Waits;
+END_CONFIGURATION
+
+VAR_GLOBAL
+  Runs    : DINT;
+  Whole   AT %QX0.0 : BOOL;
+  Started AT %QX0.1 : BOOL;
+  Waited  AT %QX1.0 : BOOL;
+END_VAR
+
+PROGRAM Quick IL
+  LD    Runs
+  ADD   1
+  ST    Runs
+  LD    Started
+  ST    Whole
+END_PROGRAM
+
+PROGRAM Waits IL
+VAR
+  Until : DINT;
+END_VAR
+  LD    SYS_FIRST_SCAN
+  RETC
+  LD    Runs
+  ADD   3
+  ST    Until
+  LD    TRUE
+  ST    Started
+More:
+  LD    Runs
+  LT    Until
+  JMPC  More
+  LD    FALSE
+  ST    Started
+  LD    TRUE
+  ST    Waited
+END_PROGRAM
+END
+	my $lines = put('wait.io', "BOARD \"x\"\n%QX0.0 sim\n%QX0.1 sim\n%QX1.0 sim\n");
+	is(run($ladderd, $wait, '--io', $lines, '--scans', '60', '--watchdog', '1000', '--trace-io'), 0,
+		'a task that waits for one of higher priority goes on');
+	like(get('err'), qr/^%QX1\.0 1$/m, 'its outputs are set when it has ended');
+	unlike(get('err'), qr/^%QX0\.[01] 1$/m, 'nobody sees an output that it sets meanwhile');
+	like(get('out'), qr/^task Slow: .*, waited \S+ us, interrupted ([3-9]|\d\d+)$/m, 'the status counts that');
+	like(get('out'), qr/^task Fast: (?!.*interrupted)/m, 'the highest one is not interrupted');
 }
 
 # ---- stopped by signals ----

@@ -279,6 +279,8 @@ class Client:
                            'missed': it.number('Q'), 'last': it.number('q'), 'longest': it.number('q')}
                           for _ in range(it.number('B'))]
         found['next'], found['next_why'], found['disk'] = it.number('B'), it.text(), it.text()
+        for task in found['tasks']:
+            task['interrupted'], task['waited'] = it.number('Q'), it.number('q')
         assert not it.rest()
         return found
 

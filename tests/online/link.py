@@ -2752,6 +2752,63 @@ def test_the_zone_of_the_board_is_seen_and_recorded():
             os.environ['TZ'] = before
 
 
+WAIT = '''RUNGBOARD 1
+CONFIGURATION Plant
+  TASK Slow (INTERVAL := T#20ms, PRIORITY := 5);
+  TASK Fast (INTERVAL := T#1ms, PRIORITY := 1);
+  PROGRAM A WITH Fast : Quick;
+  PROGRAM B WITH Slow : Waits;
+END_CONFIGURATION
+VAR_GLOBAL
+  Runs, Until, Loops, Sum : DINT;
+  Since : TIME;
+END_VAR
+PROGRAM Quick IL
+  LD    Runs
+  ADD   1
+  ST    Runs
+  LD    Sum
+  ADD   Loops
+  ST    Sum
+  LD    Since
+  ADD   SYS_CYCLE
+  ST    Since
+END_PROGRAM
+PROGRAM Waits IL
+  LD    SYS_FIRST_SCAN
+  RETC
+  LD    Runs
+  ADD   3
+  ST    Until
+More:
+  LD    Loops
+  ADD   1
+  ST    Loops
+  LD    Runs
+  LT    Until
+  JMPC  More
+END_PROGRAM
+'''
+
+
+def test_tasks_that_interrupt_are_in_the_record():
+    """Sum depends on the place where each run of Fast interrupted Slow."""
+    with Board(WAIT, '--watchdog', '1000') as board:
+        desk = board.client()
+        until(lambda: desk.status()['tasks'][1]['interrupted'] > 30)
+        desk.set_mode(0)
+        task = desk.status()['tasks']
+        assert task[0]['name'] == 'Fast' and task[0]['interrupted'] == 0 < task[0]['waited'], task
+        told = board.command('status')[1]
+        assert ', interrupted %d\n' % task[1]['interrupted'] in told, told
+        assert json.loads(board.command('status', '--json')[1])['tasks'][1]['interrupted'] == task[1]['interrupted']
+        assert board.command('record', '-o', 'a.record')[0] == 0
+        shown = board.ladder('replay', 'a.record', 'Sum', 'Since', 'Runs')
+        assert shown.returncode == 0, shown.stderr
+        found = dict(word.split('=') for word in shown.stdout.splitlines()[-1].split() if '=' in word)
+        assert [int(found[name]) for name in ('Sum', 'Runs')] == [desk.read('Sum')[0], desk.read('Runs')[0]], found
+
+
 def test_a_small_ring_keeps_the_newest_scans():
     with slots('--record', '256') as board:
         desk = board.client()

@@ -289,7 +289,8 @@ static void time_task(struct resource *resource, uint32_t index, int64_t due_ns,
 	struct task_state *state = &resource->tasks.state[index];
 	int64_t begin_ns = resource->clock_ns();
 
-	if (begin_ns - due_ns > state->wait_ns && due_ns)
+	/* In the first scan all of them begin. */
+	if (due_ns && resource->scans && begin_ns - due_ns > state->wait_ns)
 		state->wait_ns = begin_ns - due_ns;
 	run_task(resource, index, watch);
 	state->last_ns = resource->clock_ns() - begin_ns;
