@@ -16,7 +16,7 @@
 
 #include <string.h>
 
-#define TASK_COLUMNS 6
+#define TASK_COLUMNS 8
 enum { FORCE_NAME, FORCE_VALUE, FORCE_ELSE, FORCE_COLUMNS };
 
 struct device {
@@ -180,6 +180,8 @@ static void show_tasks(struct device *device, const struct board_status *status)
 			g_strdup_printf("%" G_GUINT64_FORMAT, task->runs),
 			g_strdup_printf("%" G_GUINT64_FORMAT, task->overruns),
 			time_text(task->last_ns), time_text(task->max_ns),
+			task->interval_ns ? time_text(task->wait_ns) : g_strdup("–"),
+			g_strdup_printf("%" G_GUINT64_FORMAT, task->interrupted),
 		};
 
 		for (int j = 0; j < TASK_COLUMNS; j++) {
@@ -281,7 +283,8 @@ static GtkWidget *part_new(const char *heading, GtkGrid *grid)
 static void make_body(struct device *device)
 {
 	static const char *const tasks[] = { N_("Task"), N_("Interval"), N_("Runs"), N_("Missed"),
-					     N_("Last run"), N_("Longest run") };
+					     N_("Last run"), N_("Longest run"), N_("Longest wait"),
+					     N_("Interrupted") };
 	static const char *const forces[] = { N_("Variable"), N_("Held at"), N_("Without the force") };
 
 	device->body = gtk_box_new(GTK_ORIENTATION_VERTICAL, 24);

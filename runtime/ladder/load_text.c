@@ -34,14 +34,18 @@ static void print_due(const struct load *load, uint32_t i, char *text)
 static void print_row(const struct load *load, uint32_t i, bool timed, const struct sink *out)
 {
 	const struct load_task *task = &load->task[i];
-	char due[ROW_SIZE], priority[16] = "-", words[32];
+	char due[ROW_SIZE], priority[16] = "-", words[32], way[32] = "-";
 
 	print_due(load, i, due);
 	if (load->program->task[i].kind != TASK_CYCLE)
 		snprintf(priority, sizeof(priority), "%u", load->program->task[i].priority);
 	snprintf(words, sizeof(words), "%llu%s", (unsigned long long)task->words,
 		 task->loops ? " + loops" : "");
-	sink_printf(out, "  %-16s %-16s %8s %18s", name_of(load->program, i), due, priority, words);
+	if (task->way)
+		snprintf(way, sizeof(way), "%llu%s", (unsigned long long)task->way,
+			 task->way_loops ? " + loops" : "");
+	sink_printf(out, "  %-16s %-16s %8s %18s %18s", name_of(load->program, i), due, priority,
+		    words, way);
 	if (timed)
 		sink_printf(out, " %11.1f %11.1f %9llu", (double)task->run_ns / 1e3,
 			    (double)task->wait_ns / 1e3, (unsigned long long)task->overruns);
@@ -50,7 +54,8 @@ static void print_row(const struct load *load, uint32_t i, bool timed, const str
 
 static void print_table(struct load *load, int64_t speed, bool good, const struct sink *out)
 {
-	sink_printf(out, "  %-16s %-16s %8s %18s", "task", "is due", "priority", "words of a run");
+	sink_printf(out, "  %-16s %-16s %8s %18s %18s", "task", "is due", "priority", "words of a run",
+		    "to a safe point");
 	if (speed)
 		sink_printf(out, " %11s %11s %9s", "run, us", "waits, us", "left out");
 	sink_text(out, "\n");
@@ -87,6 +92,10 @@ static void print_json(const struct load *load, int64_t speed, uint64_t enough, 
 		sink_printf(out, ", \"interval_ns\": %lld, \"words\": %llu, \"loops\": %s",
 			    (long long)task_interval(row), (unsigned long long)task->words,
 			    task->loops ? "true" : "false");
+		if (task->way)
+			sink_printf(out, ", \"way\": %llu, \"way_loops\": %s",
+				    (unsigned long long)task->way,
+				    task->way_loops ? "true" : "false");
 		if (row->kind != TASK_CYCLE)
 			sink_printf(out, ", \"priority\": %u", row->priority);
 		if (speed)

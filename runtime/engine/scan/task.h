@@ -3,8 +3,9 @@
  * task - when each task of a program runs, and its statistics.
  *
  * (IEC 61131-3, 2.7.2: periodic tasks and tasks that an event starts, by priority.) One
- * thread runs them one after another; no task interrupts another. This file decides
- * which tasks are due; resource.c runs them. It reads no clock: times are arguments.
+ * thread runs them; a task of higher priority may interrupt another at a safe point
+ * (scan/interrupt.h). This file decides which tasks are due; resource.c runs them. It reads no
+ * clock: times are arguments.
  */
 #ifndef SCAN_TASK_H
 #define SCAN_TASK_H

@@ -4,6 +4,8 @@
  */
 #include "engine/trial/load.h"
 
+#include "engine/scan/interrupt.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,6 +63,31 @@ static struct counted count(const struct program *program, struct counted *entry
 	return entry[i] = sum;
 }
 
+/* A loop of the program itself has a safe point in each round. */
+static void measure_way(const struct program *program, struct counted *entry, uint32_t i,
+			struct load_task *task)
+{
+	const uint32_t *pc = program->text + program->entry[i].text;
+	const uint32_t *end = pc + program->entry[i].text_words;
+	uint64_t way = 0;
+
+	for (; pc < end; pc += code_words(pc)) {
+		const uint32_t op = *pc & 0xff;
+
+		if (op == VM_POINT)
+			way = 0;
+		way += code_words(pc) + beside(pc);
+		if (op == VM_CALL) {
+			const struct counted called = count(program, entry, pc[1]);
+
+			way += called.words;
+			task->way_loops |= called.loops;
+		}
+		if (way > task->way)
+			task->way = way;
+	}
+}
+
 bool load_measure(const struct program *program, int64_t tick_ns, struct load *out)
 {
 	struct counted *entry = calloc(program->entry_count + 1, sizeof(*entry));
@@ -79,6 +106,9 @@ bool load_measure(const struct program *program, int64_t tick_ns, struct load *o
 
 			out->task[i].words += one.words;
 			out->task[i].loops |= one.loops;
+			if (interrupt_can(program, i))
+				measure_way(program, entry, program->call[task->first + k],
+					    &out->task[i]);
 		}
 	}
 	free(entry);

@@ -15,6 +15,9 @@ struct load_task {
 	uint64_t words;    /* of its longest run, with POUs that are called; each loop
 			    * is counted once                                    */
 	bool loops;        /* there are loops, so a run may have more words      */
+	uint64_t way;      /* the most words from one safe point to the next; 0: no task
+			    * interrupts this one                                */
+	bool way_loops;    /* … with loops of a function or block that it calls */
 	/* The result of load_run(). */
 	int64_t run_ns;    /* of one run                                         */
 	int64_t wait_ns;   /* the longest time from its deadline to its run      */
@@ -49,6 +52,8 @@ bool load_measure(const struct program *program, int64_t tick_ns, struct load *o
  * event comes in every cycle
  * @speed: words a millisecond, 1 … LOAD_SPEED_MOST
  *
+ * No task interrupts another in it: a board begins tasks of higher priority earlier, by what
+ * their `wait_ns` is longer than the longest `way` of the others.
  * It ends when all intervals have met again, or after LOAD_CYCLES cycles. Reading inputs and
  * writing outputs take no time in it. Scan-safe: no. Returns whether no task leaves out a
  * period. */

@@ -84,6 +84,11 @@ static void words(void)
 	CHECK(load.task[SLOW].words == text[SLOW] + more && !load.task[SLOW].loops);
 	CHECK(load.task[REST].words == text[REST] + 2 * more && !load.task[REST].loops);
 	CHECK(load.task[IDLE].words == text[IDLE] && load.task[IDLE].loops);
+	/* The highest task is not interrupted. A block that is called has no safe point; a loop
+	 * has one in each round. */
+	CHECK(load.task[FAST].way == 0 && load.task[SLOW].way == text[SLOW] + more);
+	CHECK(load.task[REST].way == text[REST] + 2 * more && !load.task[REST].way_loops);
+	CHECK(load.task[IDLE].way > 0 && load.task[IDLE].way == text[IDLE] - 1);
 }
 
 /* From far too slow to fast enough. */
