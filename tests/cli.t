@@ -156,7 +156,7 @@ is(scalar(grep { index($said, " $_->{code}: $_->{text}\n") < 0 } @{$json->[1]{di
 unlike($out, qr/[\x00-\x09\x0b-\x1f\x7f]|\\u00[01]/, 'check --json: no control character');
 cmp_ok(scalar(grep { defined $_->{arg} } map { @{$_->{diagnostics}} } @{decode_json($out)}), '>', 100, 'check --json: the names of many messages');
 ($out) = is_run(0, 'check --tasks', ['check', '--tasks', 'good.rung']);
-like($out, qr/^good\.rung: good\n  task .*\n  - +in every cycle +- +\d+\n  cycles every 10 ms, \d+ words a millisecond are enough\n$/, 'check --tasks: one task');
+like($out, qr/^good\.rung: good\n  task .*\n  - +in every cycle +- +\d+ +-\n  cycles every 10 ms, \d+ words a millisecond are enough\n$/, 'check --tasks: one task');
 put('hasty.rung', "RUNGBOARD 1\nCONFIGURATION P\n  TASK T (INTERVAL := T#100us, PRIORITY := 1);\n  PROGRAM A WITH T : Main;\nEND_CONFIGURATION\n"
     . "PROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nEND_PROGRAM\n");
 ($out) = is_run(1, 'check --speed', ['check', '--json', '--speed', '1', 'hasty.rung']);

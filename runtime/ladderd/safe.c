@@ -192,25 +192,27 @@ static bool make_timer(void)
 	       syscall(SYS_timer_create, CLOCK_MONOTONIC, &event, &ask_timer) == 0;
 }
 
-static bool set_timer(int64_t first_ns, int64_t period_ns)
-{
-	const int64_t s = period_ns / 1000000000, ns = period_ns % 1000000000,
-		      at_s = first_ns / 1000000000, at_ns = first_ns % 1000000000;
 #ifdef SYS_timer_settime64
-	const int64_t wide[4] = { s, ns, at_s, at_ns };
+#define WIDE_SETTIME SYS_timer_settime64
+#else
+#define WIDE_SETTIME (-1)
 #endif
 #ifdef SYS_timer_settime32
-	enum { OLD = SYS_timer_settime32 };
+#define LONG_SETTIME SYS_timer_settime32
 #else
-	enum { OLD = SYS_timer_settime };
+#define LONG_SETTIME SYS_timer_settime
 #endif
-	const long old[4] = { (long)s, (long)ns, (long)at_s, (long)at_ns };
 
-#ifdef SYS_timer_settime64
-	if (syscall(SYS_timer_settime64, ask_timer, TIMER_ABSTIME, wide, NULL) == 0)
-		return true;
-#endif
-	return syscall(OLD, ask_timer, TIMER_ABSTIME, old, NULL) == 0;
+/* Kernels before 5.1 have times of a long only; so has a machine of 64 bits. */
+static bool set_timer(int64_t first_ns, int64_t period_ns)
+{
+	const int64_t wide[4] = { period_ns / 1000000000, period_ns % 1000000000,
+				  first_ns / 1000000000, first_ns % 1000000000 };
+	const long old[4] = { (long)wide[0], (long)wide[1], (long)wide[2], (long)wide[3] };
+
+	return (WIDE_SETTIME >= 0 &&
+		syscall(WIDE_SETTIME, ask_timer, TIMER_ABSTIME, wide, NULL) == 0) ||
+	       syscall(LONG_SETTIME, ask_timer, TIMER_ABSTIME, old, NULL) == 0;
 }
 
 bool safe_ask(volatile int *ask)

@@ -70,8 +70,9 @@ uint32_t code_words(const uint32_t *code)
 		return 3 + n;
 	case VM_TICK:
 		return 6;
-	case VM_END:
 	case VM_POINT:
+		return 1;
+	case VM_END:
 	case VM_COUNT:
 		break;
 	}
