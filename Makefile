@@ -480,7 +480,7 @@ $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap
 $(BIN)/saving: $(BUILD)/tests/saving.o
 $(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
 $(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c runtime/ladderd/disk.c)
-$(BIN)/disks: $(call obj,tests/disks.c $(addprefix runtime/ladderd/,store_file.c disk.c journal.c ends.c conf.c password.c slots.c) $(addprefix runtime/online/,stored.c event.c wire.c))
+$(BIN)/disks: $(call obj,tests/disks.c $(addprefix runtime/ladderd/,store_file.c disk.c journal.c alarm_store.c ends.c conf.c password.c slots.c) $(addprefix runtime/online/,stored.c event.c alarms.c wire.c))
 $(BIN)/disks: WRAP := $(patsubst %,-Wl$(comma)--wrap=%,open open64 mkstemp mkstemp64 fsync fdatasync ftruncate ftruncate64 rename read write pread pread64 pwrite pwrite64)
 $(BIN)/wear: $(call obj,tests/wear.c $(addprefix runtime/ladderd/,store_thread.c store_file.c disk.c))
 $(BIN)/wear: WRAP := -pthread $(patsubst %,-Wl$(comma)--wrap=%,clock_gettime poll fdatasync pwrite pwrite64)

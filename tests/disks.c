@@ -10,6 +10,7 @@
  * loses random bits.
  */
 #define _GNU_SOURCE /* open_memstream(), mkdtemp(), O_TMPFILE */
+#include "ladderd/alarm_store.h"
 #include "ladderd/conf.h"
 #include "ladderd/download.h"
 #include "ladderd/ends.h"
@@ -161,7 +162,7 @@ static void clear(void)
 {
 	static const char *const name[] = { "keep", "keep.new", "keep.old", "events", "ends", "conf",
 					    "password", "password.new", "prog.A", "prog.B",
-					    "prog.A.new", "prog.B.new" };
+					    "prog.A.new", "prog.B.new", "alarms" };
 
 	for (size_t i = 0; i < sizeof(name) / sizeof(name[0]); i++)
 		unlink(file_of(name[i]));
@@ -325,6 +326,74 @@ static bool log_bad(void)
 								   has_said("cannot be read"))));
 }
 
+/* ---- alarms ---- */
+
+static struct alarm_store alarms;
+static struct alarm_list alarm_list;
+
+static void open_alarms(void)
+{
+	memset(&alarm_list, 0, sizeof(alarm_list));
+	memset(&alarms, 0, sizeof(alarms));
+	alarm_store_open(&alarms, folder, &alarm_list, 1);
+}
+
+static void add_alarms(const char *word, int count)
+{
+	for (int i = 0; i < count; i++) {
+		struct alarm_note note = { .state = ALARM_UNACK, .class = 1, .times = 1, .time_ns = 1 };
+
+		snprintf(note.name, sizeof(note.name), "%s%d", word, i);
+		alarm_list_note(&alarm_list, &note);
+	}
+}
+
+/* Each row once, and no two with the same number. */
+static int alarms_of(const char *word)
+{
+	int count = 0;
+
+	for (uint32_t i = 0; i < ALARM_ROWS; i++) {
+		const struct alarm_row *row = &alarm_list.row[i];
+
+		if (!row->number || row->number > alarm_list.last ||
+		    strncmp(row->name, word, strlen(word)) != 0)
+			continue;
+		count += alarm_list_find(&alarm_list, row->number) == row;
+	}
+	return count;
+}
+
+static void alarms_good(void)
+{
+	open_alarms();
+	add_alarms("before", 3);
+	alarm_store_close(&alarms, &alarm_list);
+}
+
+static bool alarms_bad(void)
+{
+	bool told = true;
+	int64_t now_ns = 0;
+
+	open_alarms();
+	for (int i = 1; i <= 3; i++) {
+		add_alarms("meanwhile", i);
+		alarm_store_write(&alarms, &alarm_list, now_ns += 20 * SECOND);
+	}
+	if (fail_at && times > CALLS_MOST && calls >= fail_at && kind == BROKEN)
+		told = alarms.error == EIO && has_said("alarms are not stored");
+	fail_at = 0;
+	alarm_store_write(&alarms, &alarm_list, now_ns += 20 * SECOND);
+	told &= alarms.error == 0 && !alarm_list.changed;
+	close(alarms.fd); /* as after a kill */
+	open_alarms();
+	told &= alarms_of("meanwhile") == 3;
+	told &= alarms_of("before") == 3 || (times > 1 && has_said("rows are damaged and are lost"));
+	alarm_store_close(&alarms, &alarm_list);
+	return told;
+}
+
 /* ---- abnormal ends ---- */
 
 static void ends_good(void)
@@ -477,6 +546,7 @@ static const struct scenario {
 } scenario[] = {
 	{ "retained values", "keep", keep_good, keep_bad },
 	{ "the log", "events", log_good, log_bad },
+	{ "alarms", "alarms", alarms_good, alarms_bad },
 	{ "abnormal ends", "ends", ends_good, ends_bad },
 	{ "settings", "conf", conf_good, conf_bad },
 	{ "the password", "password", password_good, password_bad },
@@ -537,6 +607,13 @@ static bool is_told(const struct scenario *it, const uint8_t *was, size_t len)
 	if (strcmp(it->file, "keep") == 0) {
 		keep(1, 0, room, &value);
 		return value == 0 || value == 4 || value == 5;
+	}
+	if (strcmp(it->file, "alarms") == 0) {
+		open_alarms();
+		told = alarms_of("before") == 3 || has_said("rows are damaged and are lost") ||
+		       got < len;
+		close(alarms.fd);
+		return told;
 	}
 	if (strcmp(it->file, "events") == 0)
 		return events_of("before") <= 3;

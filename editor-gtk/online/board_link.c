@@ -546,6 +546,7 @@ static void make_status_valid(struct board_status *status)
 	make_valid(status->error);
 	make_valid(status->stop);
 	make_valid(status->next_why);
+	make_valid(status->disk);
 	for (guint i = 0; i < status->task_count; i++)
 		make_valid(status->task[i].name);
 }

@@ -148,6 +148,7 @@ static void show_facts(struct device *device, const struct board_status *status)
 	fact(device, _("Fault"), status->mode == STATE_FAULT ? g_strdup(status->fault) : NULL);
 	fact(device, _("STOP of the program"), g_strdup(status->stop));
 	fact(device, _("Next start"), next_text(status));
+	fact(device, _("Disk"), g_strdup(status->disk));
 	fact(device, _("Program"), g_strdup(program));
 	fact(device, _("Runs for"), time_text((int64_t)status->up_ms * 1000000));
 	fact(device, _("Period"), time_text(status->period_ns));

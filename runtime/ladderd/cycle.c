@@ -258,6 +258,7 @@ static enum fault scan_lines(struct cycle *cycle, int64_t now_ns)
 		return FAULT_IO;
 	resource->io_fault = hal_quality(&cycle->hal) != QUALITY_GOOD;
 	resource_zone(resource, cycle->wall.zone_ns);
+	resource_disk(resource, cycle->disk_bad || (cycle->store && store_error(cycle->store)));
 	if (!scan_program(cycle, now_ns))
 		return resource->fault;
 	if (cycle->monitor.tripped)

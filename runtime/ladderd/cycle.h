@@ -51,6 +51,7 @@ struct cycle {
 	int64_t late_row;      /* late scans in a row                         */
 	int64_t late_limit;    /* … that are an event                         */
 	_Atomic uint32_t late_rows; /* how often there were so many           */
+	_Atomic bool disk_bad; /* something cannot be stored: for SYS_DISK_FAULT */
 	bool failed;           /* a failed operation was reported             */
 	struct stats scan, wake;
 	struct stats body;     /* the program alone, no lines                 */

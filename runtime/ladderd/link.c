@@ -88,6 +88,8 @@ struct link {
 	int64_t late_ns;               /* of the last event about them           */
 	int64_t wall_ns, moved_ns;     /* the clock of the wall less the other one; when the log told a step */
 	int state;                     /* that the log tells                   */
+	bool disk_bad, disk_told;      /* … and whether the log tells it       */
+	int64_t disk_ns;               /* when the log told it last            */
 	struct peer_groups groups;
 	uint8_t *views;
 	struct recorder recorder;
@@ -295,15 +297,23 @@ static bool wait_for_scan(void *context)
 /* What a disk does not take now; "": it takes everything. */
 static void say_disk(const struct link *link, char *out, size_t size)
 {
-	const int retain = link->retain ? store_error(link->retain) : 0;
-	const int events = journal_error(link->journal);
-	const char *what = retain && events ? "retained values and events" :
-			   retain ? "retained values" : "events";
+	const int error[] = { link->retain ? store_error(link->retain) : 0,
+			      journal_error(link->journal), link->alarm_store.error };
+	static const char *const what[] = { "retained values", "events", "alarms" };
+	int bad = (error[0] != 0) + (error[1] != 0) + (error[2] != 0), why = 0;
 
 	*out = '\0';
-	if (retain || events)
-		snprintf(out, size, "%s are not stored: %s", what,
-			 strerror(retain ? retain : events));
+	for (int i = 0; i < 3; i++) {
+		const size_t len = strlen(out);
+
+		if (!error[i])
+			continue;
+		bad--;
+		snprintf(out + len, size - len, "%s%s", what[i], bad > 1 ? ", " : bad ? " and " : "");
+		why = why ? why : error[i];
+	}
+	if (why)
+		snprintf(out + strlen(out), size - strlen(out), " are not stored: %s", strerror(why));
 }
 
 /* What the scan thread need not find out. */
@@ -444,6 +454,27 @@ static void follow_alarms(struct link *link)
 		atomic_store(&alarms->ring.watch, alarms->watch);
 	}
 	alarm_store_write(&link->alarm_store, &alarms->list, now_ns);
+}
+
+/* Tells the program, the list of alarms and the log when the disk begins to fail, and when it is
+ * well again; the log at most once a minute. */
+static void follow_disk(struct link *link)
+{
+	char text[STATUS_TEXT];
+	bool bad;
+
+	say_disk(link, text, sizeof(text));
+	bad = *text != '\0';
+	if (bad != link->disk_bad)
+		alarm_list_raise(&link->alarms.list, ALARM_DISK, bad, clock_wall());
+	link->disk_bad = bad;
+	atomic_store(&link->cycle->disk_bad, bad);
+	if (bad == link->disk_told ||
+	    (bad && link->disk_ns && clock_now() - link->disk_ns < LATE_REST_NS))
+		return;
+	link->disk_told = bad;
+	link->disk_ns = clock_now();
+	journal_add(link->journal, bad ? EVENT_DISK_BAD : EVENT_DISK_GOOD, 0, "", text, "");
 }
 
 /* ---- downloads ---- */
@@ -969,6 +1000,7 @@ static void *serve_desks(void *argument)
 		send_all(link);
 		log_state(link);
 		log_late(link);
+		follow_disk(link);
 		follow_alarms(link);
 		journal_sync(link->journal, clock_now());
 	}

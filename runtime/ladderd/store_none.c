@@ -54,6 +54,12 @@ void store_close(struct store *store)
 	(void)store;
 }
 
+int store_error(const struct store *store)
+{
+	(void)store;
+	return 0;
+}
+
 struct store_status store_status(const struct store *store)
 {
 	(void)store;

@@ -37,6 +37,7 @@ static const struct {
 	[ALARM_IO] = { "SYS_IO_FAULT", "an input or output line does not answer", false },
 	[ALARM_FAULT] = { "FAULT", "FAULT: outputs are safe", false },
 	[ALARM_DAMAGED] = { "alarms", "a part of the list of alarms was damaged and is lost", false },
+	[ALARM_DISK] = { "SYS_DISK_FAULT", "something that the board stores cannot be written to its disk", false },
 };
 
 /* Whole characters of UTF-8. */

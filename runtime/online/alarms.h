@@ -26,6 +26,7 @@
 enum alarm_system {
 	ALARM_FORCED, ALARM_RETAIN_LOST, ALARM_LATE, ALARM_IO, ALARM_FAULT,
 	ALARM_DAMAGED, /* rows of the stored list were damaged                 */
+	ALARM_DISK,
 	ALARM_SYSTEMS
 };
 

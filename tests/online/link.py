@@ -76,6 +76,7 @@ MAP = 'BOARD "on a table"\n%IX0.0 sim\n%QX0.0 sim\n%QX0.1 sim safe=1\n'
 
 class Board:
     """A ladderd in a folder of its own."""
+    ladderd = '/ladderd'
 
     def __init__(self, program=SEAL, *options, board=MAP):
         self.folder = tempfile.mkdtemp()
@@ -99,7 +100,7 @@ class Board:
     def start(self, wait=True):
         with open(self.folder + '/out', 'w') as out, open(self.folder + '/err', 'w') as err:
             self.daemon = subprocess.Popen(
-                [BUILD + '/ladderd', *self.arguments, '--link', 'link', '--groups', 'group',
+                [BUILD + self.ladderd, *self.arguments, '--link', 'link', '--groups', 'group',
                  '--trace-io', *self.options], cwd=self.folder, stdout=out, stderr=err, stdin=subprocess.DEVNULL,
                 **as_user(OWN))
         while wait and self.daemon.poll() is None:
@@ -1044,7 +1045,8 @@ def test_a_disk_that_takes_nothing():
 
 
 def test_a_log_that_cannot_be_written_is_told_and_written_later():
-    with slots() as board:
+    with Board(SEAL.replace('VAR\n', 'VAR\n  Sick : BOOL;\n', 1).replace(
+            'END_PROGRAM', 'RUNG\n  | NO SYS_DISK_FAULT | COIL Sick |\nEND_PROGRAM', 1), '--slots', '.') as board:
         board.stop()
         os.remove(board.folder + '/events')
         os.mkdir(board.folder + '/events')
@@ -1054,14 +1056,18 @@ def test_a_log_that_cannot_be_written_is_told_and_written_later():
         assert '\ndisk: events are not stored: Is a directory\n' in board.command('status')[1]
         assert json.loads(board.command('status', '--json')[1])['disk'] == desk.status()['disk']
         assert 'events are not stored' in board.read('err')
+        until(lambda: desk.read('Sick') == [True])  # the program sees it, as the list of alarms does
+        until(lambda: ('SYS_DISK_FAULT', 1, 1) in alarm_states(desk))
         os.rmdir(board.folder + '/events')
-        until(lambda: not desk.status()['disk'])
+        until(lambda: not desk.status()['disk'] and desk.read('Sick') == [False])
         assert '\ndisk:' not in board.command('status')[1]
-        assert [it['id'] for it in desk.events() if it['id'] != 5] == [1]
+        until(lambda: ('SYS_DISK_FAULT', 3, 1) in alarm_states(desk))
+        told = [(it['id'], it['args'][0]) for it in desk.events() if it['id'] not in (1, 5)]
+        assert told == [(44, 'events are not stored: Is a directory'), (45, '')], told
         board.daemon.kill()
         board.daemon.wait()
         board.start()
-        assert [it['id'] for it in board.client().events() if it['id'] != 5] == [1, 1], 'none is lost, none is there twice'
+        assert [it['id'] for it in board.client().events() if it['id'] != 5] == [1, 44, 45, 1], 'none is lost, none is there twice'
 
 
 TRIED = SEAL.replace('  Count : INT;', '  Count : INT;\n  Go : BOOL;\n  Old : DINT;')

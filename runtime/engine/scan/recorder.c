@@ -126,9 +126,11 @@ bool recorder_input(const struct program *program, uint32_t i, uint32_t *at, uin
 
 	if (i >= RECORDER_INPUTS)
 		return false;
-	if (i == RECORDER_INPUTS - 1) {
-		*at = program->areas.at[AREA_SM] + RESOURCE_ZONE;
-		*size = sizeof(int64_t);
+	if (i >= RECORDER_INPUTS - 2) { /* the later ones last: old records have less */
+		const bool zone = i == RECORDER_INPUTS - 2;
+
+		*at = program->areas.at[AREA_SM] + (zone ? RESOURCE_ZONE : RESOURCE_DISK);
+		*size = zone ? sizeof(int64_t) : 1;
 		return true;
 	}
 	*at = program->areas.at[area[i]];

@@ -14,9 +14,9 @@
 
 #include "engine/scan/resource.h"
 
-#define RECORDER_INPUTS 5u /* areas of inputs, at most, and SYS_ZONE           */
-/* Memory beside the ring. */
-#define RECORDER_BESIDE (RECORDER_INPUTS * LIMIT_AREA)
+#define RECORDER_INPUTS 6u /* areas of inputs, at most, SYS_ZONE, SYS_DISK_FAULT */
+/* Memory beside the ring. The last two together are smaller than an area. */
+#define RECORDER_BESIDE ((RECORDER_INPUTS - 1) * LIMIT_AREA)
 
 /* The kinds of records: the low 3 bits of the first byte. */
 enum record_kind {

@@ -90,6 +90,11 @@ void resource_zone(struct resource *resource, int64_t zone_ns)
 	store64(image_area(&resource->image, AREA_SM) + RESOURCE_ZONE, zone_ns);
 }
 
+void resource_disk(struct resource *resource, bool fault)
+{
+	image_area(&resource->image, AREA_SM)[RESOURCE_DISK] = fault;
+}
+
 /* System words that change once a second: SMD24 … SMB47 without the time of day. */
 static void write_calendar(struct resource *resource, uint8_t *sm, int64_t wall_ns)
 {

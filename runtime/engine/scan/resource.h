@@ -80,6 +80,7 @@ struct resource {
 #define RESOURCE_WALL INT64_C(946684800000000000)
 
 #define RESOURCE_ZONE 56 /* of SYS_ZONE in its area                             */
+#define RESOURCE_DISK 2  /* of SYS_DISK_FAULT: the lowest bit                   */
 
 /** resource_init - in STOP, image as at a cold start. @memory as image_init. */
 void resource_init(struct resource *resource, const struct program *program,
@@ -89,6 +90,8 @@ void resource_start(struct resource *resource);
 /** resource_zone - sets SYS_ZONE, in ns; before a scan, as inputs are read. A cold start and
  * virtual time have 0. Scan-safe: yes. */
 void resource_zone(struct resource *resource, int64_t zone_ns);
+/** resource_disk - sets SYS_DISK_FAULT; before a scan, as inputs are read. Scan-safe: yes. */
+void resource_disk(struct resource *resource, bool fault);
 /** resource_stop - to STOP. The caller sets the outputs to their safe values. */
 void resource_stop(struct resource *resource);
 /** resource_fail - to FAULT, latched; the first cause is kept. */

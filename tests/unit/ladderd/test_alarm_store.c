@@ -142,13 +142,13 @@ static void test_a_disk_that_refuses(void)
 	store.fd = bad;
 	note("Late", ALARM_UNACK, 1, 5);
 	alarm_store_write(&store, &list, SECOND);
-	CHECK(store.failing && list.changed);
+	CHECK(store.error && list.changed);
 	store.fd = good;
 	close(bad);
 	alarm_store_write(&store, &list, 2 * SECOND);
-	CHECK(store.failing); /* not in each scan */
+	CHECK(store.error); /* not in each scan */
 	alarm_store_write(&store, &list, SECOND + ALARM_STORE_NS);
-	CHECK(!store.failing && !list.changed);
+	CHECK(!store.error && !list.changed);
 	alarm_store_close(&store, &list);
 	restart(0);
 	CHECK(alarm_list_find(&list, list.last) && strcmp(alarm_list_find(&list, list.last)->name, "Late") == 0);

@@ -95,12 +95,15 @@ static void shows_what_it_is_told(void)
 	r->late = r->io_fault = true;
 	r->scan_us = 70000;
 	r->scan_max_us = 80000;
+	resource_disk(r, true);
 	CHECK(scan_at(200000000));
+	CHECK(rig_get(&rig, "SYS_DISK_FAULT"));
 	CHECK(rig_get(&rig, "SYS_WD_LATE") && rig_get(&rig, "SYS_IO_FAULT"));
 	CHECK(rig_get(&rig, "SYS_SCAN_US") == 70000);
 	CHECK(rig_get(&rig, "SYS_SCAN_MAX_US") == 80000);
 	resource_start(r);
 	CHECK(scan_at(0));
+	CHECK(!rig_get(&rig, "SYS_DISK_FAULT"));
 	CHECK(!rig_get(&rig, "SYS_WD_LATE") && !rig_get(&rig, "SYS_IO_FAULT"));
 	CHECK(rig_get(&rig, "SYS_SCAN_US") == 0);
 }
