@@ -210,9 +210,15 @@ $(HAL_TEST)/guarded_ladderd: $(LADDERD) $(call obj,tests/hal/guard_fake.c $(HAL_
 $(HAL_TEST)/guarded_guard: $(GUARD) $(call obj,tests/hal/guard_fake.c)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(GUARD_WRAP) -o $@ $^
+# ladderd on a disk that fails.
+SICK_DISK := $(HAL_TEST)/sick_ladderd
+$(SICK_DISK): WRAP := $(patsubst %,-Wl$(comma)--wrap=%,open open64 close mkstemp mkstemp64 fsync fdatasync ftruncate ftruncate64 rename read write pread pread64 pwrite pwrite64)
+$(SICK_DISK): $(LADDERD) $(DRIVERS) $(call obj,tests/hal/disk_fake.c) $(BUILD)/libonline.a $(BUILD)/libladder.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -o $@ $^ $(GPIO_LIB) $(CRYPT_LIB) -lm
 HAL_KINDS := v1 v2 uapi
 HAL_TESTS := $(HAL_TEST)/map $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
-HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%) $(GUARD_FAKES)
+HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%) $(GUARD_FAKES) $(SICK_DISK)
 hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(BUILD)/ladder $(HAL_DAEMONS) ## all gpio drivers with fake chips; ladderd from outside
 	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/guard.t tests/hal/retain.t
 check-retain: all ## ladderd --retain killed 1,000 times; `check` does 400 of them
@@ -643,7 +649,7 @@ SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-re
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
-TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/stress.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
+TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/online/link.py tests/online/stress.py tests/online/sick_disk.py tests/online/quiet_scan.py tests/online/serial_line.py tests/online/small_line.py tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 
 tests: all man $(BUILT) $(EDITOR_FAKE) $(HAL_DAEMONS) $(BUILD)/tests/online/ladder-attach

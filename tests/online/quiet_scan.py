@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""quiet_scan - what the scan thread does while desks watch it: its system calls, its page faults, and whether a
+message ever holds values of two scans.
+
+Short in `make check`. SCAN_SNAPSHOTS is the number of messages that the desks compare (1,000,000 for all of it),
+SCAN_CALLS the number of scans whose system calls are counted.
+"""
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import client  # noqa: E402
+import link  # noqa: E402
+from link import Board, Skip, until  # noqa: E402
+
+SNAPSHOTS = int(os.environ.get('SCAN_SNAPSHOTS', '400'))
+CALLS = int(os.environ.get('SCAN_CALLS', '50'))
+WORDS = 2048
+SAME = ('RUNGBOARD 1\nPROJECT "Same"\n\nVAR\n  Scans : DINT;\n' +
+        ''.join(f'  N{i} : DINT;\n' for i in range(WORDS)) +
+        'END_VAR\n\nPROGRAM Main LD\nRUNG\n  | NO SYS_ALWAYS_ON | ADD IN1:=Scans IN2:=1 OUT=>Scans |\n' +
+        ''.join(f'RUNG\n  | [ N{i} := Scans ] |\n' for i in range(WORDS)) + 'END_PROGRAM\n')
+
+
+class Desks:
+    """Desks that watch all words as fast as the board sends, each in a thread of its own."""
+
+    def __init__(self, board, count):
+        self.over, self.seen, self.bad = False, [0] * count, []
+        self.threads = [threading.Thread(target=self.watch, args=(board, i), daemon=True) for i in range(count)]
+        for it in self.threads:
+            it.start()
+
+    def watch(self, board, number):
+        desk = board.client()
+        types = desk.publish([f'N{i}' for i in range(WORDS)])[1]
+        last = offset = None
+        while not self.over:
+            _mode, scan, _time, lost, values = client.take_values(desk.next_told()[1], types)
+            if lost and not values:
+                continue  # it says only that messages were left out
+            found = {it[1] for it in values.values()}
+            if last is None:
+                offset = scan - min(found)
+            if len(values) != WORDS or found != {scan - offset} or (last is not None and scan <= last):
+                self.bad.append((scan, last, len(values), sorted(found)[:4]))
+            last = scan
+            self.seen[number] += 1
+
+    def end(self):
+        self.over = True
+        for it in self.threads:
+            it.join()
+        assert not self.bad, self.bad[:5]
+
+
+def test_a_message_has_the_values_of_one_scan():
+    with Board(SAME, '--period', '5ms') as board:
+        desks = Desks(board, 4)
+        until(lambda: desks.bad or sum(desks.seen) >= SNAPSHOTS)
+        desks.end()
+        print(f'# {sum(desks.seen)} messages of {WORDS} words to 4 desks, each of one scan, none older than the last')
+
+
+def faults(pid):
+    """Page faults of the scan thread, which is the first one: minor, major."""
+    with open(f'/proc/{pid}/task/{pid}/stat', encoding='ascii') as file:
+        fields = file.read().rsplit(')', 1)[1].split()
+    return int(fields[7]), int(fields[9])
+
+
+def test_a_scan_meets_no_page_fault():
+    rt = link.in_real_time()
+    if not rt:
+        raise Skip('this user may lock no memory')
+    with Board(SAME, '--period', '5ms', *rt) as board:
+        desks = Desks(board, 2)
+        desk = board.client()
+        until(lambda: min(desks.seen) > 20)
+        scans = desk.status()['scans']
+        warm = faults(board.daemon.pid)
+        until(lambda: desk.status()['scans'] > scans + 4 * CALLS)
+        now = faults(board.daemon.pid)
+        desks.end()
+        assert now == warm, (warm, now)
+        print(f'# {4 * CALLS} scans, 2 desks: no page fault of the scan thread')
+
+
+test_a_scan_meets_no_page_fault.as_is = True
+
+
+def test_a_scan_calls_nothing_but_its_sleep():
+    if not shutil.which('strace'):
+        raise Skip('needs strace')
+    with Board(SAME, '--period', '5ms') as board, tempfile.NamedTemporaryFile('r') as out:
+        desks = Desks(board, 2)
+        desk = board.client()
+        until(lambda: min(desks.seen) > 3)
+        with subprocess.Popen(['strace', '-o', out.name, '-p', str(board.daemon.pid)], stderr=subprocess.DEVNULL) as trace:
+            until(lambda: trace.poll() is not None or os.path.getsize(out.name))
+            if trace.poll() is not None:
+                desks.end()
+                raise Skip('this user may not trace')
+            scans = desk.status()['scans']
+            until(lambda: desk.status()['scans'] > scans + CALLS)
+            trace.send_signal(signal.SIGINT)
+        desks.end()
+        text = out.read()
+    # A signal ends the sleep when a desk has an order.
+    called = dict.fromkeys(re.findall(r'^(\w+)\(', text, re.M), 0)
+    for name in called:
+        called[name] = len(re.findall(rf'^{name}\(', text, re.M))
+    assert set(called) <= {'clock_nanosleep', 'rt_sigreturn', 'restart_syscall'} and called['clock_nanosleep'] > CALLS, called
+    print(f'# {called}')
+
+
+if __name__ == '__main__':
+    sys.exit(link.main(globals()))
