@@ -80,7 +80,7 @@ bool iomap_fits(const struct iomap *map, const struct areas *areas,
  *
  * As iomap_fits(). Also warns (LD515) about inputs and outputs that the program declares
  * or uses by address, of any area and width, without a line; a value of several bits
- * needs one line.
+ * needs one line. And once about outputs of the map without safe= (LD030).
  * Owns: nothing.   Scan-safe: no.   Fails: false after an error.
  */
 bool iomap_check_program(const struct iomap *map, const struct program *program,

@@ -129,6 +129,30 @@ static void check_bits(struct cover *cover)
 	}
 }
 
+/* Once for all outputs: a map of an older project may name none. */
+static void check_safe(const struct iomap *map, struct diag_list *diags)
+{
+	const struct io_point *first = NULL;
+	unsigned others = 0;
+	char text[24];
+
+	for (int i = 0; i < map->count; i++) {
+		const struct io_point *point = &map->point[i];
+
+		if (!point->output || point->has_safe)
+			continue;
+		others += first != NULL;
+		first = first ? first : point;
+	}
+	if (!first)
+		return;
+	iec_addr_print(first->addr, text, sizeof(text));
+	if (others)
+		diag_add(diags, io_place(map, first, DIAG_IO_NO_SAFE), "%s" DIAG_AND "%u", text, others);
+	else
+		diag_add(diags, io_place(map, first, DIAG_IO_NO_SAFE), "%s", text);
+}
+
 bool iomap_check_program(const struct iomap *map, const struct program *program,
 			 struct arena *arena, struct diag_list *diags)
 {
@@ -146,6 +170,7 @@ bool iomap_check_program(const struct iomap *map, const struct program *program,
 
 		set_bits(cover.mapped, 8 * (uint64_t)areas_byte(areas, at) + at.bit, 1);
 	}
+	check_safe(map, diags);
 	check_names(&cover);
 	check_bits(&cover);
 	code_each_access(program, check_address, &cover);

@@ -115,6 +115,18 @@ is(missing(program("  Index : INT;\n  Row AT %AIW20 : ARRAY[1..2] OF WORD;\n", '
 is(missing(program('', 'LD', rungs(('| NO %XIX0.0 | NO %IX9.0 | [ %AIW0 > AnyW ] | COIL %QX0.0 |') x 3)),
 	   $other, 'again'), '%AIW0 %IX9.0 %QX0.0 %XIX0.0', 'each address once');
 
+# Outputs without safe=: once for a map, at the first one.
+for my $case (['%QX0.0 sim safe=0', undef], ['%QX0.0 sim safe=hold', undef], ["%QX0.0 sim safe=1\n%QX0.1 sim", '%QX0.1', 4],
+	[join("\n", "%QX0.0 sim", map { "%QX1.$_ sim" } 0 .. 7), '%QX0.0', 3]) {
+	my ($outputs, $want, $line) = @$case;
+	missing(program('', 'LD', rungs('| NO %IX0.0 | COIL %QX0.0 |')), "BOARD \"x\"\n%IX0.0 sim\n$outputs\n", 'safe');
+	my @said = grep { /LD030/ } split /\n/, `$ladder check --io $folder/main.io $folder/main.rung 2>&1`;
+	is(scalar @said, defined $want ? 1 : 0, 'what is off without being told so is told once');
+	like($said[0], qr/main\.io:$line:1: warning LD030: "\Q$want\E" has no safe=, so it is off while no program runs/, 'with its place') if $want;
+	unlike($said[0], qr/other outputs/, 'alone') if $want && $line == 4;
+	like($said[0], qr/, as are other outputs: 8; write safe=0, safe=1 or safe=hold$/, 'and how many more') if $want && $line == 3;
+}
+
 my $text = `$ladder check --io $folder/none.io $folder/main.rung 2>&1`;
 is($? >> 8, 2, 'a map that cannot be read');
 put('bad.io', "BOARD \"x\"\n%QX0.0 sim fast\n");

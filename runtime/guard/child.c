@@ -68,10 +68,10 @@ static void become(char **argv, const sigset_t *signals, int socket, pid_t guard
 }
 
 bool child_start(struct child *child, char **argv, const sigset_t *signals, int heartbeat_ms,
-		 bool stopped)
+		 bool stopped, unsigned count, int how)
 {
 	static char *table[VARIABLES];
-	static char ours[48];
+	static char ours[96];
 	const pid_t guard = getpid();
 	char **before = environ;
 	int pair[2];
@@ -81,7 +81,8 @@ bool child_start(struct child *child, char **argv, const sigset_t *signals, int 
 		dprintf(STDERR_FILENO, "ladder-guard: no socket pair: %s\n", strerror(errno));
 		return false;
 	}
-	snprintf(ours, sizeof(ours), GUARD_VARIABLE "=%d %d %d", pair[1], heartbeat_ms, stopped);
+	snprintf(ours, sizeof(ours), GUARD_VARIABLE "=%d %d %d %u %d", pair[1], heartbeat_ms, stopped,
+		 count, how);
 	if (!make_environment(table, ours)) {
 		dprintf(STDERR_FILENO, "ladder-guard: more than %d variables in the environment\n",
 			VARIABLES - 2);

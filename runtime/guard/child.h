@@ -23,12 +23,13 @@ struct child {
  * child_start - runs @argv with LADDER_GUARD and without the variables of a service manager
  * @signals: those that the guard has blocked; the child blocks none
  * @stopped: begin in STOP
+ * @count, @how: the abnormal ends so far, and the last one, as in guard/say.h
  *
  * The kernel sends the child SIGTERM if the guard dies. Allocates nothing; vfork() does without
  * an MMU. Fails: false, told.
  */
 bool child_start(struct child *child, char **argv, const sigset_t *signals, int heartbeat_ms,
-		 bool stopped);
+		 bool stopped, unsigned count, int how);
 /** child_ended - whether it has ended: then status is set, and pidfd and socket are closed. */
 bool child_ended(struct child *child);
 #endif

@@ -47,6 +47,8 @@ struct guard {
 	int64_t due_ms;        /* of the next heartbeat                       */
 	int64_t again_ms;      /* next attempt; 0: none                       */
 	int64_t end_ms[ENDS];  /* of the last abnormal ends, the newest first */
+	unsigned ends;         /* abnormal ones since the start               */
+	int how;               /* the last one, see guard/say.h               */
 	bool recovers;         /* since an abnormal end ladderd has not scanned */
 	bool safe;             /* the guard keeps the lines                   */
 	bool stop;             /* SIGTERM came                                */
@@ -182,7 +184,8 @@ static bool start(int64_t now)
 	if (stopped)
 		dprintf(STDERR_FILENO, "ladder-guard: ladderd has ended abnormally %d times within "
 			"%d s: it begins in STOP\n", ENDS, WITHIN_MS / 1000);
-	return child_start(&guard.child, guard.argv, &guard.signals, guard.heartbeat_ms, stopped);
+	return child_start(&guard.child, guard.argv, &guard.signals, guard.heartbeat_ms, stopped,
+			   guard.ends, guard.how);
 }
 
 static void on_signals(void)
@@ -257,6 +260,9 @@ static void count_end(int64_t now)
 {
 	memmove(guard.end_ms + 1, guard.end_ms, sizeof(guard.end_ms) - sizeof(guard.end_ms[0]));
 	guard.end_ms[0] = now ? now : 1;
+	guard.ends++;
+	guard.how = guard.killed ? GUARD_FROZEN : WIFSIGNALED(guard.child.status) ?
+		    WTERMSIG(guard.child.status) : GUARD_STATUS + WEXITSTATUS(guard.child.status);
 }
 
 static void tell_end(void)

@@ -9,8 +9,11 @@
 
 #include <stdint.h>
 
-/* Environment of ladderd: "FD MS STOPPED": the descriptor, the heartbeat in ms, and 1 if ladderd
- * shall begin in STOP, else 0. */
+/* Environment of ladderd: "FD MS STOPPED COUNT HOW": the descriptor, the heartbeat in ms, 1 if ladderd
+ * shall begin in STOP, else 0, how many ladderd have ended abnormally since the guard began, and how
+ * the last one did: its signal, GUARD_FROZEN, or GUARD_STATUS and its exit status. */
+#define GUARD_FROZEN   128
+#define GUARD_STATUS   256
 #define GUARD_VARIABLE "LADDER_GUARD"
 #define GUARD_OWNER    "ladder-guard" /* consumer of the lines that the guard holds */
 #define GUARD_LINES    256            /* outputs that it can hold             */

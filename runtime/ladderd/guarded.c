@@ -23,26 +23,41 @@
 static struct {
 	volatile int fd;       /* + 1; 0: no guard                            */
 	int64_t heartbeat_ms, last_ms;
+	int how;
+	unsigned ends;
 } to;
 
 bool guarded_begin(void)
 {
 	const char *text = getenv(GUARD_VARIABLE);
 	char *end;
-	long fd, ms, stopped;
+	long fd, ms, stopped, ends, how;
 
 	if (!text)
 		return false;
 	fd = strtol(text, &end, 10);
 	ms = strtol(end, &end, 10);
 	stopped = strtol(end, &end, 10);
+	ends = strtol(end, &end, 10);
+	how = strtol(end, &end, 10);
 	unsetenv(GUARD_VARIABLE);
 	if (*end || fd <= STDERR_FILENO || fd > 65535 || ms < 1 || ms > GUARD_LONGEST / 2 ||
 	    fcntl((int)fd, F_SETFD, FD_CLOEXEC) != 0)
 		return false;
 	to.heartbeat_ms = ms;
+	to.ends = (unsigned)ends;
+	to.how = (int)how;
 	to.fd = (int)fd + 1;
 	return stopped == 1;
+}
+
+int guarded_again(unsigned *count)
+{
+	const int how = to.how;
+
+	to.how = 0;
+	*count = to.ends;
+	return how;
 }
 
 bool guarded(void)

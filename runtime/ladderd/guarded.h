@@ -14,6 +14,9 @@
 
 /** guarded_begin - reads LADDER_GUARD. Returns whether ladderd shall begin in STOP. */
 bool guarded_begin(void);
+/** guarded_again - once: how the ladderd before ended abnormally, as in guard/say.h, and how many did
+ * since the guard began; 0: this is the first start, or there is no guard. */
+int guarded_again(unsigned *count);
 /** guarded - whether a guard watches. */
 bool guarded(void);
 /**

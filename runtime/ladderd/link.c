@@ -14,6 +14,7 @@
 #include "ladderd/ends.h"
 #include "ladderd/alarm_store.h"
 #include "ladderd/clock.h"
+#include "ladderd/guarded.h"
 #include "ladderd/journal.h"
 #include "ladderd/password.h"
 #include "ladderd/peer.h"
@@ -24,6 +25,7 @@
 #include "online/server.h"
 #include "online/port.h"
 
+#include "guard/say.h"
 #include <errno.h>
 #include <limits.h>
 #include <poll.h>
@@ -1043,6 +1045,21 @@ static int start_thread(struct link *link)
 	return error;
 }
 
+/* Why ladder-guard has started ladderd again. */
+static void note_again(struct link *link)
+{
+	char number[12], times[12];
+	unsigned count;
+	const int how = guarded_again(&count);
+
+	if (!how)
+		return;
+	snprintf(number, sizeof(number), "%d", how >= GUARD_STATUS ? how - GUARD_STATUS : how);
+	snprintf(times, sizeof(times), "%u", count);
+	journal_add(link->journal, how >= GUARD_STATUS ? EVENT_FAILED :
+		    how == GUARD_FROZEN ? EVENT_FROZE : EVENT_DIED, 0, "", number, times);
+}
+
 int link_begin(struct link *link)
 {
 	struct sigaction action;
@@ -1053,6 +1070,7 @@ int link_begin(struct link *link)
 	action.sa_flags = SA_RESTART;
 	sigemptyset(&action.sa_mask);
 	sigaction(SIGURG, &action, NULL);
+	note_again(link);
 	journal_add(link->journal, EVENT_START, 0, "", link->cycle->identity, "");
 	if (link->with.conf->damaged)
 		journal_add(link->journal, EVENT_CONF_BAD, 0, "", "", "");

@@ -53,7 +53,7 @@ BOARD "panel"
 END
 my @ladderd = ($ladderd, $rung, '--io', $map);
 
-my $count = 6; # lines of the chip
+our $count = 6; # lines of the chip
 sub fresh { spew("$dir/lines", "\0" x (56 * $count + 8)) }
 # Sets the level of an input, or how reads behave (guard_fake.c).
 sub poke {
@@ -273,6 +273,127 @@ until_it(\&runs);
 	ok(until_it(\&runs), 'when it is free, ladderd runs again');
 	kill 'TERM', $pid;
 	finish($pid);
+}
+
+# ---- a scan that hangs in a driver which nothing but SIGKILL interrupts ----
+{
+	my $hang_map = spew("$dir/hang.io", "BOARD \"panel\"\n%IX0.0 gpio line=IN0\n%QX0.0 gpio line=OUT0 safe=0\n%QX0.1 gpio line=OUT1 safe=1\n");
+	fresh();
+	$pid = start(named(), '--heartbeat', 50, '--', $ladderd, $rung, '--io', $hang_map, '--period', '10ms', '--watchdog', 10);
+	until_it(\&runs) or BAIL_OUT("ladderd does not run: " . err());
+	my $since = clock_gettime(CLOCK_MONOTONIC);
+	reads(3);
+	my $at = guarded_since($since);
+	ok(defined $at, 'the guard makes the outputs safe');
+	diag(sprintf 'a driver hangs, limit of a scan 100 ms: safe after %.1f ms', 1e3 * ($at - $since)) if defined $at;
+	ok(until_it(sub { err() =~ /ladderd was frozen and is killed; the outputs are safe/ }), 'and tells it');
+	reads(0);
+	ok(until_it(\&runs), 'when the driver answers, ladderd runs again');
+	kill 'TERM', $pid;
+	finish($pid);
+}
+
+# ---- a kernel without pidfd: SIGCHLD ----
+{
+	local $ENV{FAKE_NO_PIDFD} = 1;
+	fresh();
+	$pid = start(named(), '--', @ladderd);
+	until_it(\&runs);
+	my $child = child($pid);
+	my $since = clock_gettime(CLOCK_MONOTONIC);
+	kill 'KILL', $child;
+	my $at = guarded_since($since);
+	ok(defined $at, 'without pidfd the outputs are safe, too');
+	diag(sprintf 'without pidfd: safe after %.1f ms', 1e3 * ($at - $since)) if defined $at;
+	until_it(\&runs);
+	kill 'TERM', $pid;
+	is(finish($pid), 0, 'and an orderly end is one');
+}
+
+# ---- more outputs than the guard holds ----
+{
+	local $count = 302;
+	local $ENV{FAKE_LINES} = $count;
+	my $many = spew("$dir/many.io", "BOARD \"panel\"\n" . join '', map { '%QX' . int($_ / 8) . '.' . $_ % 8 . " gpio line=OUT$_ safe=1\n" } 0 .. 299);
+	fresh();
+	$pid = start(named(), '--', $ladderd, $rung, '--io', $many, '--period', '50ms');
+	until_it(sub { my @line = lines(); !grep { $_->[1] ne 'ladderd' } @line });
+	like(err(), qr/^ladderd: ladder-guard holds 256 outputs; 44 are not made safe by it$/m, 'more outputs than the guard holds are told');
+	until_it(sub { (lines())[2][0] == 0 });
+	kill 'KILL', child($pid);
+	ok(until_it(sub { scalar(grep { $_->[3] } lines()) == 256 }), '256 of them are made safe');
+	ok(!(grep { $_->[3] && $_->[4] != 1 } lines()), 'at their safe levels');
+	kill 'TERM', $pid;
+	finish($pid);
+}
+
+# ---- a ladderd that lies ----
+# A script stands for ladderd. It says what no ladderd says, then the truth, and is killed.
+{
+	my $liar = spew("$dir/liar.pl", <<'END');
+use strict; use warnings; use Socket; use IO::Handle;
+my ($fd, $ms, $stopped, $ends, $how) = split / /, $ENV{LADDER_GUARD};
+open my $guard, '+<&=', $fd or die;
+my $magic = 0x31475552;
+sub head { my ($kind, $count, $within) = @_; return pack 'L S S L', $magic, $kind, $count // 0, $within // 0 }
+sub line { return pack 'S S C C C C', @_ }
+sub say_it { send $guard, $_[0], MSG_NOSIGNAL or die "send: $!" }
+if ($ends) {
+	say_it(head(1, 0, 1000));
+	print "$stopped $ends $how\n"; STDOUT->flush;
+	exit 0;
+}
+my $dev = pack 'a64', '/dev';
+my $good = line(0, 2, 1, 0, 0, 0);
+say_it($_) for 'x', pack('L', $magic), head(0), head(99), head(1, 0, 0), head(1, 0, 120001), head(1) . 'x', head(3) . 'x',
+	head(2, 1) . $dev, head(2, 2) . $dev . $good, head(2, 1) . $dev . $good . 'x', head(2, 2) . $dev . $good . $good,
+	head(2, 257) . $dev . $good x 257, head(2, 1) . pack('a64', 'dev') . $good, head(2, 1) . '/' x 64 . $good,
+	head(2, 1) . $dev . line(0, 2, 2, 0, 0, 0), head(2, 1) . $dev . line(0, 2, 1, 4, 0, 0), head(2, 1) . $dev . line(0, 2, 1, 0, 4, 0),
+	head(2, 1) . $dev . line(0, 2, 1, 0, 0, 3), head(4) . 'no end' x 20, head(4) . 'short', head(5) . "\xff" x 31, head(6, 1) . $dev,
+	"\0" x 9000;
+say_it(head(2, 1) . $dev . $good);
+say_it(head(3));
+sysread $guard, my $answer, 100;
+say_it(head(6, 1) . $dev . line(0, 3, 1, 0, 0, 0)) for 1 .. 2;
+say_it(head(6, 1) . $dev . line(0, 2, 0, 0, 0, 0)) if $ENV{LIAR_LESS};
+say_it(head(6, 0) . $dev) if $ENV{LIAR_LESS};
+print length($answer), "\n"; STDOUT->flush;
+kill 'KILL', $$;
+END
+	for my $less (0, 1) {
+		local $ENV{LIAR_LESS} = $less;
+		fresh();
+		$pid = start(named(), '--', 'perl', $liar);
+		is(finish($pid), 0, 'packets that say nothing do no harm');
+		is(scalar(() = err() =~ /ladderd sent \d+ bytes that say nothing; they are not used/g), 1, 'and are told once');
+		my @line = lines();
+		is($line[0][4], 1, 'the output of the table is safe');
+		is($line[1][3] ? 1 : 0, $less ? 0 : 1, $less ? 'one that was not exchanged is left alone' : 'so is one that ladderd was about to request');
+		is(slurp("$dir/out"), "44\n0 1 9\n", 'the next one is told why it is there');
+	}
+}
+
+# ---- the event log of the board ----
+{
+	mkdir "$dir/slots";
+	fresh();
+	$pid = start(named(), '--heartbeat', 100, '--', @ladderd, '--link', "$dir/link", '--slots', "$dir/slots");
+	# Number, and both arguments, of each event.
+	my $events = sub {
+		my $bytes = slurp("$dir/slots/events") // '';
+		return join ', ', map { my (undef, undef, $id, undef, undef, @args) = unpack 'V q< C C v/a v/a v/a', substr $bytes, 256 * $_, 256;
+			$id == 31 || $id == 32 ? join ' ', $id, grep { length } @args : () } 0 .. int(length($bytes) / 256) - 1;
+	};
+	for my $step (['KILL', '31 9 1'], ['STOP', '31 9 1, 32 128 2']) {
+		my ($signal, $want) = @$step;
+		until_it(\&runs);
+		kill $signal, child($pid);
+		until_it(sub { $events->() eq $want });
+		is($events->(), $want, "a start after $signal is an event");
+	}
+	until_it(\&runs);
+	kill 'TERM', $pid;
+	is(finish($pid), 0, 'it ends');
 }
 
 # ---- refused ----

@@ -5,6 +5,7 @@
  *
  *   FAKE_DEV     folder in place of /dev; it holds an empty file gpiochip0
  *   FAKE_LINES   how many lines (6)
+ *   FAKE_NO_PIDFD  if set, the kernel knows no pidfd_open()
  *   FAKE_SHARED  file of the lines: for each 56 bytes: int64 ns of CLOCK_MONOTONIC of its last
  *                write, int32 level, char[20] consumer, int64 ns and level when ladder-guard
  *                took it last, int64 how often its level has changed. Then an int64: 0 reads
@@ -55,6 +56,8 @@ int __wrap_open64(const char *path, int flags, ...) __attribute__((alias("__wrap
 int __wrap_close(int fd);
 int __wrap_ioctl(int fd, unsigned long what, ...);
 DIR *__wrap_opendir(const char *path);
+long __real_syscall(long number, ...);
+long __wrap_syscall(long number, ...);
 
 static volatile struct shared *line;
 static volatile int64_t *reads;
@@ -75,6 +78,22 @@ __attribute__((constructor)) static void begin(void)
 	if (file < 0 || line == MAP_FAILED)
 		abort();
 	reads = (volatile int64_t *)(line + lines);
+}
+
+long __wrap_syscall(long number, ...)
+{
+	va_list args;
+	long a, b, c, d;
+
+	va_start(args, number);
+	a = va_arg(args, long);
+	b = va_arg(args, long);
+	c = va_arg(args, long);
+	d = va_arg(args, long);
+	va_end(args);
+	if (number == 434 && getenv("FAKE_NO_PIDFD"))
+		return errno = ENOSYS, -1;
+	return __real_syscall(number, a, b, c, d);
 }
 
 DIR *__wrap_opendir(const char *path)
