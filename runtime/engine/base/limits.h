@@ -56,6 +56,8 @@
 #define LIMIT_MARKINGS    20000     /* states of a chart that are examined    */
 #define LIMIT_MARKINGS_BYTES (4u << 20) /* and the memory for them            */
 #define LIMIT_TASKS       16        /* tasks of a configuration               */
+#define LIMIT_LEVELS      4         /* tasks that are interrupted at the same time; each needs
+				      * about 600 bytes of stack             */
 #define LIMIT_TICK        100000    /* ns: shortest interval of a task        */
 #define LIMIT_INTERVAL    86400000000000 /* ns: longest one, a day            */
 #define LIMIT_FORCES      256       /* forced variables at one time           */

@@ -82,7 +82,7 @@ uint32_t interrupt_levels(const struct program *program)
 {
 	uint32_t levels = 0, last = 0;
 
-	for (uint32_t i = 0; i < program->task_count; i++) {
+	for (uint32_t i = 0; i < program->task_count && levels < LIMIT_LEVELS; i++) {
 		if (!interrupt_can(program, i) ||
 		    (levels && program->task[i].priority == last))
 			continue;

@@ -14,8 +14,8 @@
 /** interrupt_can - whether a task of higher priority can become due while @task runs.
  * Scan-safe: yes. */
 bool interrupt_can(const struct program *program, uint32_t task);
-/** interrupt_levels - how many tasks can be interrupted at the same time; 0: no task interrupts
- * another. Scan-safe: yes. */
+/** interrupt_levels - how many tasks can be interrupted at the same time, LIMIT_LEVELS at most;
+ * 0: no task interrupts another. Scan-safe: yes. */
 uint32_t interrupt_levels(const struct program *program);
 /** interrupt_bytes - memory for interrupt_levels(), as a part of image_memory_size(). Scan-safe:
  * yes. */

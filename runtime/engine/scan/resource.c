@@ -425,7 +425,7 @@ static enum fault at_point(struct vm *vm, uint32_t words)
 	int64_t now_ns;
 
 	count_spent(resource);
-	if (count && resource->interrupts->asks(resource, &now_ns) &&
+	if (count && resource->level < LIMIT_LEVELS && resource->interrupts->asks(resource, &now_ns) &&
 	    tasks_may_begin(&resource->tasks, program, count, now_ns)) {
 		resource->tasks.state[resource->running].interrupted += words > 0;
 		interrupt(resource, count, now_ns);

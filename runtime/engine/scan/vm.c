@@ -481,8 +481,16 @@ static bool store(uint8_t *m, uint32_t word, const struct fn_args *args)
 	return true;
 }
 
+/* A text of its own takes room on the stack; on a small board not in each vm_run() of tasks that
+ * interrupt each other. */
+#ifdef __OPTIMIZE_SIZE__
+#define OWN_FRAME __attribute__((noinline))
+#else
+#define OWN_FRAME
+#endif
+
 /* True if it ran without an error. */
-static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
+static OWN_FRAME bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
 	uint32_t room[(sizeof(struct iec_string) + IEC_STRING_MOST + 3) / 4];
 	struct fn_args args;

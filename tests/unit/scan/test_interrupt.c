@@ -700,9 +700,47 @@ static void times(void)
 	rig_close(&rig);
 }
 
+/* Seven priorities: the fifth task that interrupts is not interrupted. */
+static uint32_t deepest;
+
+static bool asks_deeper(struct resource *resource, int64_t *now_ns)
+{
+	*now_ns = asked_ns += MS;
+	if (resource->level > deepest)
+		deepest = resource->level;
+	return true;
+}
+
+static void depth(void)
+{
+	static const struct interrupts deeper = { asks_deeper, begin_always, end_always };
+	static char text[4096];
+	size_t at = 0;
+
+#define PUT(...) at += (size_t)snprintf(text + at, sizeof(text) - at, __VA_ARGS__)
+	PUT("VAR_GLOBAL\n  N : DINT;\nEND_VAR\nCONFIGURATION Plant\n  RESOURCE Cpu\n");
+	for (int t = 0; t < 7; t++)
+		PUT("    TASK T%d (INTERVAL := T#%dms, PRIORITY := %d);\n", t, t < 6 ? 1 : 1000, t);
+	for (int t = 0; t < 7; t++)
+		PUT("    PROGRAM R%d WITH T%d : P%d;\n", t, t, t);
+	PUT("  END_RESOURCE\nEND_CONFIGURATION\n");
+	for (int t = 0; t < 7; t++)
+		PUT("PROGRAM P%d IL\n  LD N\n  ADD 1\n  ST N\nEND_PROGRAM\n", t);
+#undef PUT
+	if (!rig_open(&rig, text, false))
+		return;
+	rig.resource.interrupts = &deeper;
+	reads = writes = true;
+	CHECK(interrupt_levels(ladder_program(rig.ladder)) == LIMIT_LEVELS);
+	CHECK(resource_scan(&rig.resource, MS) && scan_pair(1001 * MS));
+	CHECK(deepest == LIMIT_LEVELS - 1 && rig.resource.level == 0);
+	rig_close(&rig);
+}
+
 int main(void)
 {
 	often();
+	depth();
 	budgets();
 	faults();
 	lines(true);
