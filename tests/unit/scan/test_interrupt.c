@@ -197,7 +197,7 @@ static uint32_t hurry; /* one safe point in so many is used */
 
 static void find_places(const struct set *plan)
 {
-	char name[16];
+	char name[24];
 
 	for (int i = 0; i < VALUES; i++)
 		snprintf(name, sizeof(name), "V%d", i), place_of_v[i] = rig_at(&rig, name);
