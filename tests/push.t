@@ -76,7 +76,7 @@ sub program {
 put('one.rung', program('One', 'NO'));
 put('two.rung', program('Two', 'NC'));
 put('bad.rung', program('Bad', 'NO') =~ s/Lamp \|/Lamb |/r);
-put('desk.io', "BOARD \"desk\"\n%IX0.0 sim\n%QX0.0 sim\n");
+put('desk.io', "BOARD \"desk\"\n%IX0.0 sim\n%QX0.0 sim safe=0\n");
 put('bad.io', "BOARD \"x\"\n%IX0.0 nonsense\n");
 put('other.io', "BOARD \"other\"\n%IX0.0 gpio line=NO_BOARD_HAS_THIS\n%QX0.0 sim\n");
 sub identity {

@@ -32,6 +32,7 @@ struct _LadderAlarmView {
 	guint32 next;                /* number of the first row that was not asked for     */
 	guint32 lost;                /* alarms that found no room on the board             */
 	bool asking, none;           /* @none: this board keeps no list                    */
+	char *refused;               /* why the last acknowledgement did nothing; NULL     */
 };
 G_DEFINE_TYPE(LadderAlarmView, ladder_alarm_view, GTK_TYPE_WIDGET)
 
@@ -67,6 +68,7 @@ static const char *message_of(const struct alarm_row *row)
 		N_("variables are forced"), N_("retained values were lost"), N_("scans are late"),
 		N_("an input or output line does not answer"), N_("FAULT: outputs are safe"),
 		N_("a part of the list of alarms was damaged and is lost"),
+		N_("something that the board stores cannot be written to its disk"),
 	};
 
 	for (gsize i = 0; row->class == 0 && i < G_N_ELEMENTS(known); i++)
@@ -183,7 +185,8 @@ static void show_summary(LadderAlarmView *view)
 		_("%u active, %u to acknowledge; %u found no room in the list") :
 		_("%u active, %u to acknowledge"), active, waiting, (guint)view->lost);
 
-	gtk_label_set_text(view->summary, on && !view->none ? text : "");
+	gtk_label_set_text(view->summary, view->refused ? view->refused :
+			   on && !view->none ? text : "");
 	g_free(text);
 	gtk_label_set_text(view->empty, view->none && is_online(view) ?
 		_("This board keeps no list of alarms") : on ? _("No alarms") :
@@ -394,10 +397,13 @@ static void acked(gpointer data, struct board_answer *answer)
 {
 	LadderAlarmView *view = data;
 
-	if (answer->end != DESK_GOOD)
-		gtk_label_set_text(view->summary, answer->text);
-	else
+	if (answer->end != DESK_GOOD) {
+		g_free(view->refused);
+		view->refused = g_strdup(answer->text);
+		show_summary(view);
+	} else {
 		ask(view);
+	}
 }
 
 static void link_changed(LadderAlarmView *view)
@@ -405,6 +411,7 @@ static void link_changed(LadderAlarmView *view)
 	view->asking = view->none = false;
 	view->next = 1;
 	view->lost = 0;
+	g_clear_pointer(&view->refused, g_free);
 	g_array_set_size(view->asked, 0);
 	show_rows(view, rows_new());
 	state_changed(view);
@@ -418,6 +425,7 @@ static void acknowledge(LadderAlarmView *view, const struct alarm_row *row)
 {
 	struct wire_writer fields;
 
+	g_clear_pointer(&view->refused, g_free);
 	if (!is_online(view)) {
 		ack_in_sim(view, row);
 		return;
@@ -475,6 +483,7 @@ static void dispose(GObject *object)
 	g_clear_pointer(&view->watch, free);
 	g_clear_pointer(&view->shown, g_array_unref);
 	g_clear_pointer(&view->asked, g_array_unref);
+	g_clear_pointer(&view->refused, g_free);
 	g_clear_object(&view->sim);
 	g_clear_object(&view->link);
 	G_OBJECT_CLASS(ladder_alarm_view_parent_class)->dispose(object);

@@ -599,6 +599,9 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 }
 
 #define TEXT_WIDE 20 /* characters that remain for the text beside a note */
+/* Of a bookmark the place must be seen, too: it tells two rungs of one title apart. */
+#define TITLE_WIDE 8
+#define PLACE_WIDE 8
 
 /* The accessible name of the row, set on the widget that takes the focus too. */
 static void speak(LadderTreeRow *row, GtkWidget *expander)
@@ -637,13 +640,16 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 	GtkTreeListRow *list_row = gtk_list_item_get_item(item);
 	LadderTreeRow *row = gtk_tree_list_row_get_item(list_row);
 	GtkWidget *text = text_of(item), *note = gtk_widget_get_next_sibling(text);
+	const bool place = row->kind == ROW_BOOKMARK && row->note;
 
 	(void)factory;
 	gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(gtk_list_item_get_child(item)),
 				       list_row);
 	gtk_label_set_text(GTK_LABEL(text), row->text);
 	gtk_label_set_width_chars(GTK_LABEL(text), MIN((int)g_utf8_strlen(row->text, -1),
-						       TEXT_WIDE));
+						       place ? TITLE_WIDE : TEXT_WIDE));
+	gtk_label_set_width_chars(GTK_LABEL(note), place ? MIN((int)g_utf8_strlen(row->note, -1),
+							       PLACE_WIDE) : -1);
 	show_note(row, GTK_LABEL(note));
 	g_signal_connect_object(row, "changed", G_CALLBACK(show_note), note, 0);
 	g_object_set_data_full(G_OBJECT(note), "row", row, g_object_unref);

@@ -209,9 +209,10 @@ static void add_bookmarks(GListStore *root, LadderDocument *document)
 				heading = add_heading(root, _("Bookmarks"));
 			text = g_strdup_printf(_("%s, rung %d"), project_text(project,
 				project->pou[pou].name), i + 1);
-			/* The title gets the room that the place leaves. */
+			/* Beside a title there is little room. */
 			row = add_row(heading->rows, ROW_BOOKMARK, *title ? title : text,
-				      g_strdup(*title ? text : ""));
+				      *title ? g_strdup_printf("%s %d", project_text(project,
+						project->pou[pou].name), i + 1) : g_strdup(""));
 			row->pou = pou;
 			row->rung = i;
 			g_free(text);

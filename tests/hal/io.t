@@ -41,8 +41,8 @@ BOARD "panel"
 %IX0.0 gpio line=IN0
 %IX0.1 gpio line=IN1
 %IX0.2 sim
-%QX0.0 gpio chip=panel offset=2
-%QX0.1 gpio chip=gpiochip0 offset=3
+%QX0.0 gpio chip=panel offset=2 safe=0
+%QX0.1 gpio chip=gpiochip0 offset=3 safe=0
 END
 put('other.io', "BOARD \"other\"\n%IX0.0 gpio line=IN0\n%IX0.1 gpio line=NOWHERE\n");
 put('levels', <<'END');

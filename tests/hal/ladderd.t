@@ -141,7 +141,7 @@ END
 my $map = put('sim.io', <<'END');
 BOARD "on a table"
 %IX0.0 sim pull-up
-%QX0.0 sim
+%QX0.0 sim safe=0
 %QX0.1 sim safe=1
 END
 my $gpio = put('gpio.io', <<'END');

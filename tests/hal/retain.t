@@ -139,7 +139,7 @@ my $count_rungs = "RUNG\n  | [ A := A + 1 ] | [ B := B + 1 ] | [ C := C + 1 ] " 
 	"| S Mark |\nRUNG\n  | NO Mark | TON T PT:=T#1h | COIL Q3 |\n";
 my $count = put('count.rung', program($count_vars, $count_rungs));
 my $io = put('sim.io', join '', "BOARD \"on a table\"\n",
-	map { "%QX0.$_ sim\n" } 0 .. 3);
+	map { "%QX0.$_ sim safe=0\n" } 0 .. 3);
 my @run = ('--io', $io, '--period', '1ms', '--trace-io', '--watchdog', '1000');
 my @keep = (@run, '--retain', $keep);
 

@@ -66,17 +66,18 @@ def size(window):
 
 
 def tip(screen):
-    """a Chinese name under the pointer stands on one line"""
-    editor = Editor(screen, new_file(screen, PROJECT, '水泵站.rung'))
+    """a long Chinese name under the pointer, which the tree cuts, stands on one line"""
+    name = '主程序' * 6
+    editor = Editor(screen, new_file(screen, PROJECT.replace('主程序', name), '水泵站.rung'))
     editor.to_sheet()
-    row = until(lambda: [node for node in editor.all('主程序', 'label') if node.name == '主程序'], 'the program')[0]
+    row = until(lambda: [node for node in editor.all(name, 'label') if node.name == name], 'the program')[0]
     x, y = editor.centre(row)
     sh('xdotool', 'mousemove', str(x - 2), str(y), 'sleep', '0.1', 'mousemove', str(x), str(y))
 
     def shown():
         seen = sh('xdotool', 'search', '--onlyvisible', '--pid', str(editor.pid)).split()
         known = editor.windows()
-        return [size(window) for window in seen if window not in known and size(window)[0] < 200]
+        return [size(window) for window in seen if window not in known and size(window)[0] < 400]
     width, height = until(shown, 'the tooltip')[0]
     editor.shot('chinese-tip')
     assert width > height, 'the tooltip is %d x %d' % (width, height)

@@ -66,6 +66,13 @@ def whole(node, nodes, boxes):
     return True
 
 
+def usable(node, nodes):
+    """A label within a button that cannot be pressed now does not say so itself."""
+    while node.states >> SENSITIVE & 1 and node.parent in nodes:
+        node = nodes[node.parent]
+    return node.states >> SENSITIVE & 1 or node.role == ROLES['frame'] or node.parent not in nodes
+
+
 def faint(editor, where, known):
     """Texts with less than 4.5 : 1, a line each, except @known (path and name)."""
     about = sh('xwininfo', '-id', editor.window)
@@ -76,7 +83,7 @@ def faint(editor, where, known):
     boxes = {path: box[0] for path, box in zip(nodes, boxes) if box}
     frame = next(boxes[node.path] for node in nodes.values() if node.role == ROLES['frame'])
     texts = [node for node in nodes.values() if node.role in (ROLES['label'], ROLES['text']) and
-             node.path in boxes and node.name.strip() and node.states >> SENSITIVE & 1]
+             node.path in boxes and node.name.strip() and usable(node, nodes)]
     typed = editor.ask([(node.path, 'Text', 'GetText', 'ii', 0, 1 << 20) for node in texts])
     # An empty label has a name but draws nothing: another widget may pass there.
     texts = [node for node, text in zip(texts, typed) if text and text[0].strip() or

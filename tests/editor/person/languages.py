@@ -153,7 +153,7 @@ def rendered(screen, path, language):
     for file, (rung, code, text) in places.items():
         done = subprocess.run([EDITOR, '--render', '--check', file, '-o', os.path.join(screen.home, 'a.svg')],
                               capture_output=True, text=True, env={**os.environ, 'LANGUAGE': language})
-        wanted = ' %s%s %s: ' % (rung, said('error'), code)
+        wanted = (' ' + rung + said('%s %s: %s')).replace('%s', said('error'), 1).replace('%s', code, 1).replace('%s', '')
         end = said(text).split('{')[0].split('%1')[-1]
         assert done.returncode and done.stderr.startswith(file + ':') and wanted in done.stderr and end in done.stderr, (wanted, done)
         assert text.split('{')[0].split('%1')[-1] not in done.stderr, done.stderr

@@ -154,6 +154,38 @@ def state(screen):
     board.stop()
 
 
+ALARMS = '''RUNGBOARD 1
+PROJECT "Seal"
+
+PROGRAM Main LD
+VAR
+  Hot : ALARM := (MSG := 'too hot');
+  Low : ALARM := (MSG := 'oil is low');
+END_VAR
+RUNG
+  | NC SYS_IO_FAULT | ALARM Hot |
+RUNG
+  | NC SYS_IO_FAULT | ALARM Low |
+END_PROGRAM
+'''
+
+
+def alarms(screen):
+    """the alarms of a board: one is acknowledged by its row, all with the pointer; what is refused stays on show"""
+    board = Board(screen, 'garage', ALARMS)
+    editor = Editor(screen, new_file(screen, ALARMS, 'alarms.rung'))
+    editor.to_sheet()
+    connect(editor, board.where)
+    says(editor, 'garage · RUN')
+    editor.tab('Alarms')
+    editor.says('2 active, 2 to acknowledge')
+    editor.shot('online-alarms')
+    editor.click(editor.find('Acknowledge all', 'push button'))
+    editor.says('2 active, 0 to acknowledge')
+    assert board.ask('alarms').count('; acknowledged by ') == 2, board.ask('alarms')
+    editor.shot('online-alarms-acked')
+
+
 def roles(screen):
     """a user who may only look gets values and a reason at each button; a user without a group is told what to do"""
     board = Board(screen, 'porch', role='view')
@@ -354,4 +386,4 @@ def ssh(screen):
 
 
 if __name__ == '__main__':
-    main([state, roles, download, nothing, remains, here, ssh])
+    main([state, roles, alarms, download, nothing, remains, here, ssh])

@@ -60,9 +60,9 @@ def by_name(screen):
     path = new_file(screen, TEXT.replace('RUNG\n  | NO %IX0.1', 'RUNG "Washing is over, all of it is dry"\n  | NO %IX0.1'))
     editor = Editor(screen, path)
     editor.keys('Down', 'ctrl+b')
-    rung = editor.find('Main, rung 2', 'label')
+    rung = editor.find('Main 2', 'label')
     title = editor.find('Washing is over, all of it is dry', 'label')
-    until(lambda: editor.place(title)[2] > 100 and editor.place(rung)[2] > 50 and
+    until(lambda: editor.place(title)[2] > 80 and editor.place(rung)[2] > 40 and
           editor.place(title)[0] + editor.place(title)[2] <= editor.place(rung)[0], 'both beside each other')
     editor.shot('bookmark-title')
     editor.list_commands()
