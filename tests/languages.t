@@ -58,6 +58,26 @@ alike() {
 	! msgcat --no-wrap "editor-gtk/po/$1.po" | grep '^msgstr.* …"$'
 }
 
+# kept - French texts have a no-break blank (U+00A0) before a colon and inside of quotes, a narrow
+# one (U+202F) before ; ! ? so that no line begins with the sign. An original that has " : "
+# itself shows a declaration.
+kept() {
+	msgcat --no-wrap "${1:-editor-gtk/po/fr.po}" | perl -CSD -00 -ne '
+		my ($of, $said) = /^msgid (.*?)^msgstr(.*)/ms or next;
+		next if $of eq "\"\"\n";
+		my $colon = $of =~ / : / ? "" : ":";
+		while ($said =~ /(.{0,24}(?: [$colon;!?](?=[ "\\.)\x{a0}]|$)|\x{ab} | \x{bb}))/g) {
+			print "$1\n"; $bad = 1;
+		}
+		END { exit($bad ? 1 : 0) }'
+}
+
+# breaks - tests the test: one ordinary blank is noticed
+breaks() {
+	perl -CSD -pe '$done ||= s/\x{202f};/ ;/' editor-gtk/po/fr.po >"$work/breaks.po"
+	! kept "$work/breaks.po" >/dev/null
+}
+
 # noticed LANGUAGE - tests the test: a missing text is noticed
 noticed() {
 	sed '0,/^msgstr "[^"]/s/^msgstr "[^"].*/msgstr ""/' "editor-gtk/po/$1.po" >"$work/less.po"
@@ -80,4 +100,6 @@ for language in $(cat editor-gtk/po/LINGUAS); do
 	told "$language: is of these sources" current "$language"
 done
 told "a missing text would be noticed" noticed de
+told "fr: no line can begin with : ; ! ? or a closing quote" kept
+told "fr: an ordinary blank there would be noticed" breaks
 echo "1..$count"

@@ -35,7 +35,7 @@ SEEN = {
     'zh_CN': ['程序', '函数和功能块', '“未声明”没有声明', '常开触点：TRUE 时接通', '所有命令', '初始值', '梯级 1'],
     'de': ['Programme', 'Funktionen, Bausteine', '„未声明“ ist nicht deklariert', 'Schließer: geschlossen bei TRUE',
            'Alle Befehle', 'Anfangswert', 'Strompfad 1'],
-    'fr': ['Programmes', 'Fonctions et blocs', '« 未声明 » n\'est pas déclaré', 'contact à fermeture : fermé à TRUE',
+    'fr': ['Programmes', 'Fonctions et blocs', '«\u00a0未声明\u00a0» n\'est pas déclaré', 'contact à fermeture\u00a0: fermé à TRUE',
            'Toutes les commandes', 'Valeur initiale', 'Échelon 1'],
 }
 PRINTED = {'zh_CN': ['程序单元', '读取于', '初始值'], 'de': ['Programmeinheit', 'gelesen in', 'Anfangswert'],
