@@ -200,6 +200,8 @@ static void run_plan(const char *name)
 		else if ((text = behind(&plan, "skip")) != NULL)
 			skip("sets what is no input", "%s: %s", plan.name,
 			     text);
+		else if ((text = behind(&plan, "dated")) != NULL)
+			skip("goes by the date", "%s: %s", plan.name, text);
 	}
 	fclose(plan.from);
 }

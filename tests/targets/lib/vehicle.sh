@@ -25,14 +25,22 @@ ended() {
 	took=$(($(date +%s) - began))
 	[ -s "$out/result" ] || echo "FAILED: it ended before its tests" >"$out/result"
 	echo "# $vehicle took $took s"
+	[ -z "$guest" ] || kill "$guest"
 	printf '%-8s %s (%s s)\n' "$vehicle" "$(cat "$out/result")" "$took" >"$out/result.new"
 	mv "$out/result.new" "$out/result"
+	progress "$(cat "$out/result")"
 	exit "$code"
 }
+guest=
 trap ended EXIT
 trap 'exit 130' INT TERM
 
-note() { echo "# $*"; }
+# prove keeps back what a vehicle prints; what this prints is seen at once.
+progress() { echo "# $vehicle, $(($(date +%s) - began)) s: $*" >&2; }
+note() {
+	echo "# $*"
+	progress "$*"
+}
 skip() {
 	echo "1..0 # SKIP $*"
 	echo "SKIPPED: $*" >"$out/result"
@@ -69,8 +77,17 @@ needs() {
 boot() {
 	booted=$(date +%s)
 	echo BOOT >>"$out/console"
-	timeout -k 5 "$HANGS" "$@" </dev/null >>"$out/console" 2>&1
+	seen=$(stat -c %s "$out/console")
+	timeout -k 5 "$HANGS" "$@" </dev/null >>"$out/console" 2>&1 &
+	guest=$!
+	tail -s 0.2 -c "+$seen" -f --pid=$guest "$out/console" | while IFS= read -r line; do
+		case $line in
+		'# '*' -- '[0-9]*:* | BEGIN\ * | 'not ok '*) progress "$line" ;;
+		esac
+	done
+	wait $guest
 	emulator=$?
+	guest=
 	note "the guest ran for $(($(date +%s) - booted)) s"
 	[ $emulator -ne 124 ] || note "the guest did not end within $HANGS s"
 }
