@@ -351,8 +351,10 @@ int main(int argc, char **argv)
 	note("tier %s", guest.small ? "small: without a reader of programs (code "
 	     "images only), without users, without threads" :
 	     "full: programs and code images, users, limits of memory");
-	for (int i = first + 1; i < argc; i++)
+	for (int i = first + 1; i < argc; i++) {
+		guest.again = i > first + 1;
 		run_all(argv[i]);
+	}
 	printf("1..%d\n", count);
 	fflush(stdout);
 	empty(folder);

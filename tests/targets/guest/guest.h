@@ -23,6 +23,7 @@ struct guest {
 	const char *work;      /* folder for files of a run                   */
 	const char *ladderd;   /* the ladderd under test                      */
 	const char *word;      /* "uapi" of "ladderd-uapi"                    */
+	bool again;            /* not the first ladderd                       */
 	bool small;            /* tier small: images only, no users, no limits */
 	int64_t longest_ns;    /* of a scenario; longer ones are skipped      */
 	unsigned flips;        /* damaged images at most; 0: every byte       */

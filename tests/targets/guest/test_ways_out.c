@@ -56,12 +56,13 @@ static void before_first_scan(void)
 	set_up();
 	bank_watch(&panel);
 	if (!child_start_held(&child, argv)) {
-		if (child_stop(&child) == NO_PTRACE)
-			skip("no ptrace here",
-			     "safe values before the first scan");
+		const int status = child_stop(&child);
+
+		if (status == NO_PTRACE)
+			skip("no ptrace here", "safe values before the first scan");
 		else
-			check(false, "safe values before the first scan: "
-			      "ladderd cannot be held");
+			check(false, "safe values before the first scan: ladderd cannot be held, status %d",
+			      status);
 		panel_down();
 		return;
 	}

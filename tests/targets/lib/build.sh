@@ -341,7 +341,8 @@ disk_close() {
 suite() { # CC
 	disk "$1" "$out/build/guest" "$out"/ladderd-* "$out/cases"
 	rm "$root/cases/programs.bundle"
-	guest_runs /guest --tier small /cases /ladderd-uapi
+	# shellcheck disable=SC2046
+	guest_runs /guest --tier small $(guest_options) /cases /ladderd-uapi
 }
 replay() { # CC
 	disk "$1" "$out/build/replay" "$out/cases/programs.bundle"

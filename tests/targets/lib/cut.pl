@@ -29,6 +29,7 @@ my ($name, $cuts, $path, $socket, $log, @emulator) = @ARGV;
 my $lies = $ENV{POWER_LIES};
 my $seed = $ENV{POWER_SEED} || time ^ $$;
 srand $seed;
+my $began = time;
 
 open my $in, '<:raw', $path or die "$path: $!\n";
 my $disk = do { local $/; <$in> };
@@ -226,6 +227,9 @@ for my $cut (1 .. $cuts + 1) {
 	my $last = $cut == $cuts + 1; # only to see that it comes up
 	boot($last ? ['running', 3] : rand() < 0.15 ? ['mounted', rand 0.3] : ['running', 0.2 + rand 5]);
 	print {$out} "CUT $cut: retain $stored{retain}, slot $stored{slot}, event $stored{event}\n";
+	# prove keeps back what goes to stdout
+	printf STDERR "# power, %s: %d of %d cuts in %d s\n", $name, $cut, $cuts, time - $began
+		if $cut % 10 == 0 || $cut == $cuts;
 	next if !@wrong;
 	$bad++;
 	print "# $name, cut $cut: $_\n" for @wrong;
