@@ -34,13 +34,34 @@ static void fail(struct alarm_store *store, int error)
 	store->error = error;
 }
 
-static ssize_t read_record(struct alarm_store *store, int fd, uint32_t i, uint32_t k)
+/* A disk that fails once is asked again. */
+static ssize_t read_some(struct alarm_store *store, int fd, uint32_t first, uint32_t count)
 {
+	uint8_t *to = store->bytes + first % ALARM_PIECE * ALARM_BYTES;
 	ssize_t got = -1;
 
-	for (int tries = 0; got < 0 && tries < 2; tries++) /* an error may be of the moment */
-		got = pread(fd, store->bytes, ALARM_BYTES, place(i, k));
+	for (int tries = 0; got < 0 && tries < 2; tries++)
+		got = pread(fd, to, count * ALARM_BYTES, (off_t)first * (off_t)ALARM_BYTES);
 	return got;
+}
+
+/* Records from @first on: zeros where the file has none; one that cannot be read is damaged. If the
+ * piece cannot be read, those that can be are. */
+static void read_piece(struct alarm_store *store, int fd, uint32_t first)
+{
+	ssize_t got;
+
+	memset(store->bytes, 0, sizeof(store->bytes));
+	got = read_some(store, fd, first, ALARM_PIECE);
+	if (got >= 0) /* a record that the file ends in was never complete */
+		memset(store->bytes + got - got % (ssize_t)ALARM_BYTES, 0,
+		       (size_t)(got % (ssize_t)ALARM_BYTES));
+	for (uint32_t i = 0; got < 0 && i < ALARM_PIECE; i++) {
+		const ssize_t one = read_some(store, fd, first + i, 1);
+
+		if (one != (ssize_t)ALARM_BYTES)
+			memset(store->bytes + i * ALARM_BYTES, one < 0 ? 0xff : 0, ALARM_BYTES);
+	}
 }
 
 /* The newer record of row @i. Returns whether a row was there that cannot be read any more. */
@@ -48,17 +69,14 @@ static bool load_row(struct alarm_store *store, int fd, uint32_t i, struct alarm
 {
 	bool damaged = false, empty;
 
+	if (2 * i % ALARM_PIECE == 0)
+		read_piece(store, fd, 2 * i);
 	out->number = 0;
-	for (uint32_t k = 0; k < 2; k++) {
-		const ssize_t got = read_record(store, fd, i, k);
+	for (uint32_t k = 2 * i; k < 2 * i + 2; k++) {
 		struct alarm_row row;
 		uint32_t version;
 
-		if (got != (ssize_t)ALARM_BYTES) {
-			damaged |= got < 0;
-			continue;
-		}
-		if (!alarm_open(store->bytes, &row, &version, &empty)) {
+		if (!alarm_open(store->bytes + k % ALARM_PIECE * ALARM_BYTES, &row, &version, &empty)) {
 			damaged |= !empty;
 			continue;
 		}

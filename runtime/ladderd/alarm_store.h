@@ -12,6 +12,7 @@
 #include "online/alarms.h"
 
 #define ALARM_STORE_NS INT64_C(10000000000)
+#define ALARM_PIECE    32u     /* records that are read at once                */
 
 struct alarm_store {
 	const char *folder;            /* of the file `alarms`; NULL: none     */
@@ -20,7 +21,7 @@ struct alarm_store {
 	bool unread;                   /* the file could not be opened yet     */
 	int64_t written_ns;
 	uint32_t version[ALARM_ROWS];
-	uint8_t bytes[ALARM_BYTES];    /* of the row that is read or written   */
+	uint8_t bytes[ALARM_PIECE * ALARM_BYTES]; /* of the rows that are read, or of the one that is written */
 };
 
 /** alarm_store_open - loads the rows of the file `alarms` in @folder; NULL: none

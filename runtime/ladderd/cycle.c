@@ -135,6 +135,13 @@ static void start(struct cycle *cycle, bool cold)
 	note(cycle, NOTE_START, 0);
 }
 
+/* What desks have written since the last scan. In FAULT a scan may have been cut off. */
+static void keep_written(struct cycle *cycle)
+{
+	if (cycle->store && cycle->resource.state != STATE_FAULT)
+		store_keep(cycle->store, &cycle->resource.image);
+}
+
 /* From STOP or FAULT to RUN. */
 static enum refusal restart(struct cycle *cycle, bool cold)
 {
@@ -145,6 +152,7 @@ static enum refusal restart(struct cycle *cycle, bool cold)
 		return REFUSAL_IO;
 	if (cycle_on_trial(cycle))
 		cycle_pass(cycle);
+	keep_written(cycle);
 	resource_stop(resource);
 	start(cycle, cold);
 	cycle->monitor.tripped = 0;
@@ -176,6 +184,7 @@ static enum refusal stop(struct cycle *cycle)
 		return REFUSAL_NOT_NOW;
 	if (cycle_on_trial(cycle))
 		cycle_pass(cycle);
+	keep_written(cycle);
 	resource_stop(&cycle->resource);
 	note(cycle, NOTE_STOP, 0);
 	hal_write_safe(&cycle->hal);
@@ -244,7 +253,7 @@ static bool scan_program(struct cycle *cycle, int64_t now_ns)
 	if (!good && !resource->halted)
 		return false;
 	if (store)
-		store_take(store, &resource->image, now_ns);
+		store_take(store, &resource->image, resource->vm.now_ns);
 	return true;
 }
 
@@ -455,6 +464,7 @@ int cycle_run(struct cycle *cycle)
 			scan_once(cycle, &due_ns);
 		} else {
 			was_fault = true;
+			keep_written(cycle);
 			tend_lines(cycle, clock_now());
 			due_ns = clock_now() + SLICE_NS;
 		}
@@ -470,6 +480,7 @@ int cycle_run(struct cycle *cycle)
 	if (!cycle->restart)
 		notify_send(&cycle->notify, "STOPPING=1");
 	serve_requests(cycle);
+	keep_written(cycle);
 	resource_stop(&cycle->resource);
 	return cycle->resource.state == STATE_FAULT || cycle->clock_error;
 }

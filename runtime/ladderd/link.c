@@ -155,7 +155,10 @@ static enum refusal host_swap(void *context, void *other, uint32_t back)
 
 static void take_store(void *context, void *other)
 {
-	((struct link *)context)->cycle->store = other;
+	struct cycle *cycle = ((struct link *)context)->cycle;
+
+	cycle->store = other;
+	store_go_on(cycle->store, &cycle->resource);
 }
 
 static void take_settings(void *context, void *other)

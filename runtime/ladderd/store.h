@@ -57,9 +57,15 @@ int store_begin(struct store *store);
  */
 void store_restore(struct store *store, struct resource *resource,
 		   int64_t now_ns);
-/** store_take - copies the values after a whole scan at @now_ns for the thread. Never waits.
- * Scan-safe: yes. */
-void store_take(struct store *store, const struct image *image, int64_t now_ns);
+/** store_take - copies the values after a whole scan, whose timers counted from @clock_ns (ns), for the
+ * thread. Never waits. Scan-safe: yes. */
+void store_take(struct store *store, const struct image *image, int64_t clock_ns);
+/** store_keep - the same for what desks have written since the last whole scan, if anything. @image:
+ * no scan was cut off in it. Scan-safe: between scans. */
+void store_keep(struct store *store, const struct image *image);
+/** store_go_on - the values of a program that runs already, put there by a download, are those of this
+ * store; the clock of its timers goes on. Scan-safe: between scans. */
+void store_go_on(struct store *store, const struct resource *resource);
 /** store_put - these values, as of the scan's clock @clock_ns, are those of the next
  * store_restore(). @copy: of a plan of the same program. Scan-safe: between scans. */
 void store_put(struct store *store, const uint8_t *copy, int64_t clock_ns);

@@ -39,9 +39,14 @@ void store_restore(struct store *store, struct resource *resource,
 	(void)store, (void)resource, (void)now_ns;
 }
 
-void store_take(struct store *store, const struct image *image, int64_t now_ns)
+void store_take(struct store *store, const struct image *image, int64_t clock_ns)
 {
-	(void)store, (void)image, (void)now_ns;
+	(void)store, (void)image, (void)clock_ns;
+}
+
+void store_keep(struct store *store, const struct image *image)
+{
+	(void)store, (void)image;
 }
 
 void store_hurry(struct store *store)

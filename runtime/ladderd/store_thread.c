@@ -66,15 +66,39 @@ struct store {
 
 /* ---- the scan's side ---- */
 
-void store_take(struct store *store, const struct image *image, int64_t now_ns)
+static void give(struct store *store)
 {
-	struct copy *copy = &store->copy[store->back];
-
-	copy->clock_ns = now_ns + store->offset_ns;
-	retain_copy(&store->retain, image, copy->value);
 	store->last = store->back;
 	store->back = atomic_exchange(&store->middle, store->back | FRESH) &
 		      ~FRESH;
+}
+
+void store_take(struct store *store, const struct image *image, int64_t clock_ns)
+{
+	struct copy *copy = &store->copy[store->back];
+
+	copy->clock_ns = clock_ns;
+	retain_copy(&store->retain, image, copy->value);
+	give(store);
+}
+
+void store_keep(struct store *store, const struct image *image)
+{
+	const struct copy *last = &store->copy[store->last];
+	struct copy *copy = &store->copy[store->back];
+
+	copy->clock_ns = last->clock_ns;
+	retain_copy(&store->retain, image, copy->value);
+	if (memcmp(copy->value, last->value, store->retain.copy_size) != 0)
+		give(store);
+}
+
+void store_go_on(struct store *store, const struct resource *resource)
+{
+	store->offset_ns = resource->timers_ns;
+	store->restored = true;
+	if (resource->state != STATE_FAULT)
+		store_take(store, &resource->image, resource->vm.now_ns);
 }
 
 void store_restore(struct store *store, struct resource *resource,
@@ -99,9 +123,7 @@ void store_put(struct store *store, const uint8_t *values, int64_t clock_ns)
 
 	copy->clock_ns = clock_ns;
 	memcpy(copy->value, values, store->retain.copy_size);
-	store->last = store->back;
-	store->back = atomic_exchange(&store->middle, store->back | FRESH) &
-		      ~FRESH;
+	give(store);
 	store->restored = false; /* the clock goes on from that of the values */
 	store->warm = true;
 	store->lost = store->old_copy = false;

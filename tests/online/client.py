@@ -16,7 +16,7 @@ RECORD, SUMS, PIECES = 22, 23, 24
 STOP, RUN, FAULT, ANY = 0, 1, 2, 255
 SIZES = [0, 1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 8, 8, 8, 0]
 FORMS = [None, '?', 'B', 'H', 'I', 'Q', 'b', 'h', 'i', 'q', 'B', 'H', 'I', 'Q', 'f', 'd', 'q', 'q', 'q', 'q', None]
-BOOL, INT, TIME, STRING = 1, 7, 16, 20
+BOOL, INT, DINT, TIME, STRING = 1, 7, 8, 16, 20
 
 
 class Refused(Exception):

@@ -1251,9 +1251,13 @@ def test_command_waits_for_a_trial():
 def test_retained_values_survive_a_download_and_a_start():
     retained = SEAL.replace("  Label : STRING := 'hello';\n", '').replace(
         'VAR CONSTANT', "VAR RETAIN\n  Label : STRING := 'hello';\nEND_VAR\nVAR CONSTANT")
-    with Board(retained, '--slots', '.', '--retain', 'retain', '--retain-period', '10ms') as board:
+    with Board(SEAL, '--slots', '.', '--retain', 'retain', '--retain-period', '10ms') as board:
         desk = board.client()
+        desk.download(build(board, 'retained.rung', retained))
         desk.write({'Label': (STRING, b'first')})
+        desk.set_mode(0)
+        desk.set_mode(1)
+        assert desk.read('Label') == [b'first'], 'no store had it before'
         desk.download(build(board, 'other.rung', retained.replace('T#2s', 'T#3s')))
         assert desk.read('Label') == [b'first']
         desk.write({'Label': (STRING, b'second')})
@@ -1261,7 +1265,52 @@ def test_retained_values_survive_a_download_and_a_start():
         until(lambda: desk.status()['scans'] > scans + 2)
         board.stop()
         board.start()
-        assert board.client().read('Label') == [b'second']
+        desk = board.client()
+        assert desk.read('Label') == [b'second']
+        desk.write({'Label': (STRING, b'third')})
+        desk.set_mode(0)
+        assert desk.read('Label') == [b'third']
+        desk.set_mode(1)
+        assert desk.read('Label') == [b'third'], 'written since the last scan'
+        desk.set_mode(0)
+        desk.write({'Label': (STRING, b'fourth')})
+        board.stop()
+        board.start()
+        desk = board.client()
+        assert desk.read('Label') == [b'fourth'], 'written in STOP'
+        desk.set_mode(0)
+        desk.write({'Label': (STRING, b'fifth')})
+        desk.set_mode(1)
+        assert desk.read('Label') == [b'fifth']
+
+
+def test_a_retained_timer_counts_no_time_without_power():
+    """Also after a download: the clock of the values is that of their timers."""
+    held = SEAL.replace('  Slow : TON;\nEND_VAR', 'END_VAR\nVAR RETAIN\n  Slow : TON;\nEND_VAR').replace(
+        '| NO Motor | TON', '| NC Brake | TON').replace('T#2s', 'T#1h')
+    with Board(held, '--slots', '.', '--retain', 'retain', '--retain-period', '10ms') as board:
+        desk = board.client()
+        ran = 0
+
+        def start_again():
+            nonlocal desk, ran
+            desk.set_mode(0)
+            ran = desk.read('Slow.ET')[0]
+            board.stop()
+            time.sleep(0.5)  # without power
+            began = time.monotonic_ns()
+            board.start()
+            desk = board.client()
+            until(lambda: desk.status()['scans'] > 1)
+            now = desk.read('Slow.ET')[0]
+            assert ran <= now <= ran + time.monotonic_ns() - began, (ran, now)
+
+        until(lambda: desk.read('Slow.ET')[0] > 0)
+        start_again()
+        desk.download(build(board, 'other.rung', held.replace('T#1h', 'T#2h')))
+        scans = desk.status()['scans']
+        until(lambda: desk.status()['scans'] > scans + 2)
+        start_again()
 
 
 def test_programs_in_turn():
@@ -2639,6 +2688,102 @@ def test_a_download_changes_what_is_exported():
 
 
 test_a_download_changes_what_is_exported.root = True
+
+
+# ---- further instances of a program ----
+
+INSTANCES = """RUNGBOARD 1
+PROJECT "Two"
+
+CONFIGURATION Plant
+VAR_GLOBAL
+  Go AT %IX0.0 : BOOL;
+END_VAR
+VAR_ACCESS
+  GoalA : A.Goal : INT READ_WRITE;
+  GoalB : B.Goal : INT READ_WRITE;
+  RunsB : B.Runs : DINT READ_ONLY;
+  Spot  : B.Row[2] : INT READ_WRITE;
+END_VAR
+  TASK T (INTERVAL := T#10ms, PRIORITY := 1);
+  PROGRAM A WITH T : P;
+  PROGRAM B WITH T : P;
+END_CONFIGURATION
+
+FUNCTION_BLOCK Sum LD
+VAR_INPUT
+  X : INT;
+END_VAR
+VAR_OUTPUT
+  Y : DINT;
+END_VAR
+RUNG
+  | [ Y := Y + INT_TO_DINT(X) ] |
+END_FUNCTION_BLOCK
+
+PROGRAM P LD
+VAR RETAIN
+  Runs : DINT;
+  Goal : INT := 5;
+END_VAR
+VAR
+  Wait : TON;
+  Own : Sum;
+  Row : ARRAY[1..3] OF INT := [7, 8, 9];
+  Edges : INT;
+END_VAR
+RUNG
+  | NO SYS_ALWAYS_ON | TON Wait PT:=T#1h |
+RUNG
+  | --- | [ Runs := Runs + 1 ] |
+RUNG
+  | --- | Sum Own X:=Goal |
+RUNG
+  | P Go | [ Edges := Edges + 1 ] |
+END_PROGRAM
+"""
+INSTANCES_OF = 'B.Wait.ET', 'B.Own.Y', 'B.Runs', 'B.Goal', 'B.Row[2]', 'B.Edges', 'P.Goal', 'P.Edges'
+
+
+def test_a_further_instance_has_values_of_its_own():
+    with Board(INSTANCES, '--slots', '.', '--retain', 'retain', '--retain-period', '10ms',
+               board='BOARD "b"\n%IX0.0 sim\n') as board:
+        desk = board.client()
+        assert desk.read('GoalA', 'GoalB', 'Spot') == [5, 5, 8]
+        desk.write({'GoalA': (INT, 3), 'GoalB': (INT, 11), 'B.Row[2]': (INT, 80)})
+        assert desk.read('P.Goal', 'B.Goal', 'Spot') == [3, 11, 80]
+        desk.force({'Go': (BOOL, True), 'B.Edges': (INT, 42)})
+        until(lambda: desk.read('P.Edges') == [1])
+        assert desk.read('B.Edges') == [42] and desk.forces()['B.Edges'][0] == 42
+        _request, types = desk.publish(['RunsB', 'B.Runs', 'B.Own.Y', 'P.Own.Y'])
+        seen = {}
+        for _ in range(3):
+            seen.update(client.take_values(desk.next_told()[1], types)[4])
+        assert seen[0] == seen[1] and seen[2][1] > seen[3][1], seen
+        assert desk.publish_cells('B')[1] == desk.publish_cells('P')[1] > 0
+        assert board.command('get', 'GoalB', 'B.Row[2]')[1] == 'GoalB=11\nB.Row[2]=80\n'
+
+        before = desk.read(*INSTANCES_OF)
+        losses = desk.download(build(board, 'later.rung', INSTANCES.replace('T#1h', 'T#2h')))[2:]
+        now = desk.read(*INSTANCES_OF)
+        assert losses == (0, {}) and all(it >= old for it, old in zip(now[:3], before)), (losses, before, now)
+        assert now[3:] == before[3:] and desk.status()['forces'] == 2, (before, now)
+        one = INSTANCES.replace('  PROGRAM B WITH T : P;\n', '')
+        losses = desk.download(build(board, 'one.rung', re.sub(r'  \w+ +: B\..*\n', '', one)))[3]
+        assert {'B.Goal': 0, 'B.Wait': 0, 'B.Edges': 5}.items() <= losses.items() and 'P.Goal' not in losses, losses
+        assert list(desk.forces()) == ['Go'] and desk.read('P.Goal', 'P.Edges') == [3, 1]
+        losses = desk.download(build(board, 'two.rung', INSTANCES))[3]
+        assert losses['B.Goal'] == 1 and desk.read('B.Goal', 'P.Goal', 'B.Edges') == [5, 3, 0], losses
+
+        desk.write({'GoalB': (INT, 12)})
+        desk.set_mode(0)
+        ran = desk.read('B.Runs', 'P.Runs')
+        assert set(desk.retained()[2]) == {'P.Runs', 'P.Goal', 'B.Runs', 'B.Goal'}
+        board.stop()
+        board.start()
+        desk = board.client()
+        assert desk.read('B.Goal', 'P.Goal', 'B.Row[2]') == [12, 3, 8]
+        assert all(it >= old > 0 for it, old in zip(desk.read('B.Runs', 'P.Runs'), ran))
 
 
 # ---- record ----

@@ -129,20 +129,45 @@ static bool has_other(const struct var_table *table, const struct access *access
 	return at >= 0 && !(m && m->var == &table->var[at] && !m->offset);
 }
 
+static bool is_further(struct project *project, const char *name, size_t len)
+{
+	const struct config *config = project->config;
+
+	for (int i = 0; config && i < config->count; i++)
+		if (config->entry[i].kind == CONFIG_PROGRAM &&
+		    is_name(project, config->entry[i].name, name, len) &&
+		    project_is_further(project, &config->entry[i]))
+			return true;
+	return false;
+}
+
+/* Without a program in front, a name is that of the first instance's variable. */
+static const struct meaning *own_name(const struct access_check *c, const struct access *access,
+				      const struct meaning *m)
+{
+	const struct access_path path = access_split(c->project, access->path);
+	const char *text = project_text(c->project, access->path);
+
+	return path.instance && is_further(c->project, text + path.program, path.program_len) ?
+		NULL : m;
+}
+
 static void check_name(struct access_check *c, const struct access *access,
 		       const struct meaning *m)
 {
 	const char *name = text_of(c, access->var.name);
 	const enum diag_id fault = reserved_fault(name);
+	const struct meaning *own = own_name(c, access, m);
 	char arg[4 * LIMIT_ARG];
 	bool taken = project_find_pou(c->project, name, strlen(name)) >= 0 ||
+		     is_further(c->project, name, strlen(name)) ||
 		     has_other(&c->project->globals, access, m);
 
 	if (fault != DIAG_COUNT && fault != DIAG_EXPECTED)
 		report(c, fault, access, name);
 	for (int i = 0; !taken && i < c->project->pou_count; i++)
 		taken = c->project->pou[i].kind == POU_PROGRAM &&
-			has_other(&c->project->pou[i].vars, access, m);
+			has_other(&c->project->pou[i].vars, access, own);
 	if (taken && m) /* an unknown path is one mistake, not two */
 		report(c, DIAG_ACCESS_TAKEN, access, name);
 	if (c->seen[access->var.fold]) {
