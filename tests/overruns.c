@@ -26,7 +26,7 @@ static const char *const program[] = {
 	"CONFIGURATION Plant\n  TASK A (INTERVAL := T#10ms, PRIORITY := 1);\n"
 	"  TASK B (INTERVAL := T#10ms, PRIORITY := 2);\n  PROGRAM First WITH A : One;\n"
 	"  PROGRAM Last WITH B : Main;\nEND_CONFIGURATION\n"
-	"PROGRAM One LD\nRUNG\n  | [ Before := %%IB0 ] |\nEND_PROGRAM\n"
+	"PROGRAM One LD\nRUNG\n  | [ Before := %IB0 ] |\nEND_PROGRAM\n"
 	"PROGRAM Main LD\n%sRUNG\n  | [ Before <> After ] | [ Torn := Torn + 1 ] |\nEND_PROGRAM\n",
 };
 static const char globals[] =
@@ -206,17 +206,29 @@ static bool open_lines(void)
 		     hal_open(&cycle.hal, &map, &arena, &diags));
 }
 
+static char text[40000];
+
+static void add(const char *form, const char *address)
+{
+	const size_t len = strlen(text);
+
+	snprintf(text + len, sizeof(text) - len, form, address);
+}
+
+/* @form has one %s: the rungs of Main. */
 static char *write_program(const char *form)
 {
-	static char rungs[30000], text[40000];
-	char *at = rungs;
+	static const char address[INPUTS][8] = { "%IX0.0", "%IX0.1", "%IX0.2", "%IX0.3" };
+	const char *rest = strstr(form, "%s");
 
-	at += sprintf(at, strstr(form, "CONFIGURATION") ? "" : "RUNG\n  | [ Before := %%IB0 ] |\n");
+	text[0] = '\0';
+	add("%s", globals);
+	snprintf(text + strlen(text), (size_t)(rest - form) + 1, "%s", form);
+	add("%s", strstr(form, "CONFIGURATION") ? "" : "RUNG\n  | [ Before := %IB0 ] |\n");
 	for (int i = 0; i < 300; i++)
-		at += sprintf(at, "RUNG\n  | P %%IX0.%d | [ Ups := Ups + 1 ] |\n", i % INPUTS);
-	sprintf(at, "RUNG\n  | [ After := %%IB0 ] | [ Runs := Runs + 1 ] |\n");
-	memcpy(text, globals, sizeof(globals));
-	snprintf(text + strlen(text), sizeof(text) - strlen(text), form, rungs);
+		add("RUNG\n  | P %s | [ Ups := Ups + 1 ] |\n", address[i % INPUTS]);
+	add("RUNG\n  | [ After := %s ] | [ Runs := Runs + 1 ] |\n", "%IB0");
+	add("%s", rest + 2);
 	return text;
 }
 
