@@ -140,7 +140,7 @@ static enum status print_list(struct remote *remote)
 	sink_printf(out, "%u active, %u to acknowledge\n", (unsigned)page.active,
 		    (unsigned)page.waiting);
 	if (page.lost)
-		sink_printf(out, "%u alarms found no room in the list of %u\n", (unsigned)page.lost,
+		sink_printf(out, "alarms came %u times and found no room in the list of %u\n", (unsigned)page.lost,
 			    (unsigned)ALARM_ROWS);
 	if (page.left_out)
 		sink_printf(out, "%u blocks are not watched: a board watches %u\n",

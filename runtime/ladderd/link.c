@@ -235,6 +235,8 @@ void link_note(struct link *link, enum link_note note, int64_t now_ns)
 {
 	const struct cycle *cycle = link->cycle;
 
+	if (note == NOTE_START)
+		alarm_begin(&link->alarms.ring, &cycle->resource);
 	if (!link->record)
 		return;
 	switch (note) {
@@ -435,11 +437,28 @@ static const struct server_clock wall_clock = { read_clock, set_clock };
 
 /* ---- alarms ---- */
 
-/* What the scan thread has told. If another program runs, its blocks are watched from now on. */
-static void follow_alarms(struct link *link)
+/* If another program runs, its blocks are watched from now on. */
+static void watch_blocks(struct link *link)
 {
 	struct alarms *alarms = &link->alarms;
 	const struct image *image = server_image(link->server);
+
+	if (alarms->watch && alarms->watch->program == image->program)
+		return;
+	if (alarms->watch)
+		alarm_list_doubt(&alarms->list, false);
+	free(alarms->before);
+	alarms->before = alarms->watch;
+	alarms->watch = alarm_watch_new(image);
+	if (alarms->watch && alarms->before)
+		alarm_watch_carry(alarms->watch, alarms->before);
+	atomic_store(&alarms->ring.watch, alarms->watch);
+}
+
+/* What the scan thread has told. */
+static void follow_alarms(struct link *link)
+{
+	struct alarms *alarms = &link->alarms;
 	const int64_t now_ns = clock_now(), wall_ns = clock_wall();
 	struct alarm_note note;
 
@@ -448,16 +467,7 @@ static void follow_alarms(struct link *link)
 		note.time_ns = note.system ? wall_ns : wall_ns - (now_ns - note.time_ns);
 		alarm_list_note(&alarms->list, &note);
 	}
-	if (!alarms->watch || alarms->watch->program != image->program) {
-		if (alarms->watch)
-			alarm_list_doubt(&alarms->list, false);
-		free(alarms->before);
-		alarms->before = alarms->watch;
-		alarms->watch = alarm_watch_new(image);
-		if (alarms->watch && alarms->before)
-			alarm_watch_carry(alarms->watch, alarms->before);
-		atomic_store(&alarms->ring.watch, alarms->watch);
-	}
+	watch_blocks(link);
 	alarm_store_write(&link->alarm_store, &alarms->list, now_ns);
 }
 
@@ -1087,6 +1097,7 @@ int link_begin(struct link *link)
 		journal_add(link->journal, EVENT_ENDS, 0, "", "", "");
 	}
 	link->state = -1;
+	watch_blocks(link); /* before retained values come */
 	link->scans = pthread_self();
 	link->turned_ns = link->began_ns = clock_now();
 	error = start_thread(link);

@@ -192,6 +192,20 @@ static bool look_at(struct alarm_ring *ring, const struct resource *resource,
 	return true;
 }
 
+void alarm_begin(struct alarm_ring *ring, const struct resource *resource)
+{
+	struct alarm_watch *watch = atomic_load_explicit(&ring->watch, memory_order_acquire);
+
+	if (!watch || watch->program != resource->image.program)
+		return;
+	for (uint32_t i = 0; i < watch->count; i++) {
+		struct alarm_block *block = &watch->block[i];
+
+		memcpy(&block->count, resource->image.memory + block->at + pins[block->kind].count,
+		       sizeof(block->count));
+	}
+}
+
 static void look_at_system(struct alarm_ring *ring, const struct resource *resource)
 {
 	const uint8_t now = (uint8_t)((resource->image.force_count > 0) << ALARM_FORCED |
@@ -304,10 +318,11 @@ static struct alarm_row *row_of(struct alarm_list *list, const struct alarm_note
 		return NULL;
 	row = find_room(list);
 	if (!row) {
-		list->lost += list->lost < UINT32_MAX;
+		list->lost += note->times;
 		return NULL;
 	}
-	*row = (struct alarm_row){ .number = ++list->last, .came_ns = note->time_ns };
+	*row = (struct alarm_row){ .number = ++list->last, .came_ns = note->time_ns,
+				   .times = !note->times };
 	memcpy(row->name, note->name, sizeof(row->name));
 	return row;
 }

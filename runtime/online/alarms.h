@@ -81,7 +81,7 @@ struct alarm_ring {
 
 struct alarm_list {
 	uint32_t last;         /* number of the newest row                    */
-	uint32_t lost;         /* how many found no room                       */
+	uint32_t lost;         /* how often one came and found no room         */
 	bool changed;          /* some row is dirty                            */
 	bool dirty[ALARM_ROWS], unsure[ALARM_ROWS];
 	struct alarm_row row[ALARM_ROWS];
@@ -102,6 +102,9 @@ struct alarm_watch *alarm_watch_new(const struct image *image);
  * block counted before a download does not come again, and its text is told anew. Only when no scan
  * looks at either. */
 void alarm_watch_carry(struct alarm_watch *to, const struct alarm_watch *from);
+/** alarm_begin - the program has started, its retained values are there: how often a block came
+ * before does not count again; its state is told after the first scan. Scan-safe: yes. */
+void alarm_begin(struct alarm_ring *ring, const struct resource *resource);
 /** alarm_look - after a scan: puts changes into the ring. Scan-safe: yes; bounded by the blocks. */
 void alarm_look(struct alarm_ring *ring, const struct resource *resource);
 /** alarm_take - the next note. The thread of the list. Fails: false: there is none. */

@@ -1521,7 +1521,44 @@ def test_more_alarms_than_the_list_holds_are_counted():
         until(lambda: desk.alarms()[1]['lost'])
         until(lambda: len(desk.alarms()[0]) == 256 and desk.alarms()[1]['lost'] == 45)  # one row is of the force
         assert desk.ack() == 255
-        assert '45 alarms found no room in the list of 256\n' in board.command('alarms')[1]
+        assert 'alarms came 45 times and found no room in the list of 256\n' in board.command('alarms')[1]
+
+
+def test_a_retained_alarm_is_the_same_one_after_a_start():
+    """What was acknowledged stays so, what has gone does not come again, and what comes afterwards does."""
+    held = ALARMED.replace('  热 : ALARM;\n  Note : EVENT;\nEND_VAR', """END_VAR
+VAR RETAIN
+  热, Cold : ALARM;
+  Note : EVENT;
+END_VAR""").replace('RUNG\n  | NO Begin', "RUNG\n  | NC In | ALARM Cold MSG:='cold' |\nRUNG\n  | NO Begin").replace(
+        '  Text', '  More AT %IX0.2 : BOOL;\n  Text').replace('NO In | ALARM', 'NC More | ALARM')
+    options = '--slots', '.', '--retain', 'retain', '--retain-period', '10ms'
+    with Board(held, *options, board=ALARMED_MAP + '%IX0.2 sim\n') as board:
+        desk = board.client()
+        until(lambda: {('热', 1, 1), ('Cold', 1, 1)} <= set(alarm_states(desk)))
+        assert desk.ack() == 2
+        desk.force({'In': (BOOL, True), 'Begin': (BOOL, True)})
+        until(lambda: {('热', 2, 1), ('Cold', 0, 1), ('Note', 4, 1)} <= set(alarm_states(desk)))
+        rows = [it for it in desk.alarms()[0] if it['class']]
+        desk.unforce()
+        desk.force({'In': (BOOL, True)})
+        for orderly in (True, False):
+            time.sleep(0 if orderly else 0.2)  # the copy is on the disk
+            board.stop() if orderly else (board.daemon.kill(), board.daemon.wait())
+            # The input is FALSE at the start; then `Cold` comes again.
+            board.start()
+            desk = board.client()
+            until(lambda: ('Cold', 1, 2 if orderly else 3) in alarm_states(desk))
+            now = [it for it in desk.alarms()[0] if it['class']]
+            assert [it for it in now if it['name'] != 'Cold'] == [it for it in rows if it['name'] != 'Cold'], (rows, now)
+            assert len(now) == 3, now
+            desk.ack()
+            desk.force({'In': (BOOL, True)})
+            until(lambda: ('Cold', 0, 2 if orderly else 3) in alarm_states(desk))
+        desk.set_mode(0)
+        desk.set_mode(1)
+        desk.force({'Begin': (BOOL, True)})
+        until(lambda: ('Note', 4, 2) in alarm_states(desk) and ('热', 2, 1) in alarm_states(desk))
 
 
 def test_a_download_keeps_alarms_and_their_new_text():

@@ -81,13 +81,13 @@ class SickBoard(Board):
 
 
 def attempt(do):
-    """Whether it was done; False: it was refused with a reason that names the disk."""
+    """Whether it was done, and is kept; False, False: it was refused with a reason that names the disk."""
     try:
         do()
-        return True
+        return True, True
     except Refused as error:
-        assert error.number in (25, 32), error
-        return False
+        assert error.number in (25, 26, 32), error
+        return error.number == 26, False  # 26: it runs, the next start begins with the one before
 
 
 def goes_on(board, desk):
@@ -108,15 +108,15 @@ def one(board, parts, good, orderly):
     assert began == good['program'] or board.failed(), 'the last good program runs'
     desk.write({'Kept': (INT, 77)})
     goes_on(board, desk)
-    named = attempt(lambda: desk.set('name', 'new'))
+    named, _kept = attempt(lambda: desk.set('name', 'new'))
     other = next(it for it in parts if it != began and it != good['program'])
-    loaded = attempt(lambda: desk.download(parts[other]))
+    loaded, kept_on_disk = attempt(lambda: desk.download(parts[other]))
     status = desk.status()
     assert status['program'] == (other if loaded else began)
     goes_on(board, desk)
     if status['disk'] and board.failed() > 3:
         until(lambda: any(it['name'] == 'SYS_DISK_FAULT' for it in desk.alarms()[0]))
-    told = status['disk'] or status['next'] or not named or not loaded
+    told = status['disk'] or status['next'] or not named or not kept_on_disk
     said = board.read('err')
     if orderly:
         assert board.stop() == 0
@@ -130,7 +130,7 @@ def one(board, parts, good, orderly):
     board.start()
     desk = board.client()
     now = desk.status()
-    runs = other if loaded and not status['next'] else good['program']
+    runs = other if kept_on_disk and not status['next'] else good['program']
     assert now['mode'] == client.RUN and now['program'] == runs, (now['program'], runs, status['next_why'])
     assert now['program'] in parts and desk.upload() == parts[now['program']]
     kept = desk.read('Kept')[0]
