@@ -117,16 +117,17 @@ def one(board, parts, good, orderly):
     if status['disk'] and board.failed() > 3:
         until(lambda: any(it['name'] == 'SYS_DISK_FAULT' for it in desk.alarms()[0]))
     told = status['disk'] or status['next'] or not named or not kept_on_disk
-    said = board.read('err')
+    before = board.failed()
     if orderly:
         assert board.stop() == 0
     else:
         board.kill()
+    said = board.read('err')
     sick = board.failed()
     times, kind = struct.unpack_from('<2i', board.page, 4)
     fails = times == EVER and kind < 2  # a write that takes half goes on with the rest
     board.heal()
-    assert not (sick > 3 and fails) or told or 'not stored' in said or 'cannot' in said or 'damaged' in said, said
+    assert not (before > 3 and fails) or told or 'not stored' in said or 'cannot' in said or 'damaged' in said, said
     board.start()
     desk = board.client()
     now = desk.status()
