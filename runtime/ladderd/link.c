@@ -52,6 +52,7 @@
 #define LATE_REST_NS (60 * SECOND)    /* between two events about late scans        */
 #define MOVED_NS   SECOND             /* a step of the clock that the log tells     */
 #define BACKLOG    128               /* of desks that connect at the same time          */
+#define PAGE_LEAST 4096u              /* bytes; touching more often does no harm */
 #define OURS       3                  /* polled: the wake-up, the listening socket, the serial line */
 
 /* The serial line. */
@@ -1197,6 +1198,16 @@ static int listen_at(struct link *link, const char *path)
 	return 0;
 }
 
+/* Without mlockall() each page would be a fault of the scan that comes to it. NULL: no memory. */
+static void *new_record(size_t len)
+{
+	volatile uint8_t *record = calloc(1, len);
+
+	for (size_t at = 0; record && at < len; at += PAGE_LEAST)
+		record[at] = 0;
+	return (void *)record;
+}
+
 static bool set_up(struct link *link, struct cycle *cycle)
 {
 	const struct program *program = cycle->resource.image.program;
@@ -1228,7 +1239,7 @@ static bool set_up(struct link *link, struct cycle *cycle)
 	};
 	password_load(&link->password, link->with.slots->folder);
 	if (link->with.record_kb) {
-		link->record = calloc(1, RECORDER_BESIDE + (size_t)link->with.record_kb * 1024);
+		link->record = new_record(RECORDER_BESIDE + (size_t)link->with.record_kb * 1024);
 		if (!link->record)
 			fprintf(stderr, "ladderd: no memory for --record %u\n",
 				(unsigned)link->with.record_kb);
