@@ -1111,6 +1111,7 @@ def test_a_fault_within_its_first_scans_brings_the_old_program_back():
             event = next(it for it in desk.events() if it['id'] == 24)
             assert event['args'][0] == before['program'].hex() and 'Main rung' in event['args'][1], event
             assert not event['user'] and not any(it['id'] == 3 for it in desk.events())
+            assert [it['args'] for it in desk.events() if it['id'] == 10] == [[before['program'].hex(), identity.hex()]]
             told = [fields for number, fields in other.told if number == 0]
             assert 'Main rung' in told[-1].text() and not told[-1].rest()
             # No output got its safe value meanwhile.
@@ -1397,6 +1398,41 @@ def test_events_survive_a_kill():
                 desk = board.client()
                 wrote = [it['args'][0] for it in desk.events() if it['id'] == 6]
                 assert wrote == [f'Count={i}' for i in range(number + 1)], wrote
+
+
+def test_each_change_is_one_event_that_survives_a_kill():
+    with slots() as board:
+        first = board.client().status()['program']
+        parts = build(board, 'other.rung', OTHER)
+        changes = (
+            (6, lambda desk: desk.write({'Count': (INT, 5)}), ['Count=5', '']),
+            (7, lambda desk: desk.force({'Count': (INT, 6), 'Start': (BOOL, True)}), None),
+            (8, lambda desk: (desk.force({'Count': (INT, 6)}), desk.unforce('Count')), ['Count', '']),
+            (9, lambda desk: desk.set_mode(0), None), (20, lambda desk: desk.set('name', 'a'), ['name=a', '']),
+            (10, lambda desk: desk.download(parts), None), (11, lambda desk: desk.upload(), None),
+            (26, lambda desk: desk.set_password('', 'x'), None), (27, lambda desk: refused(34, lambda: desk.unlock('y')), None),
+        )
+        for number, change, args in changes:
+            desk = board.client()
+            before = [it for it in desk.events() if it['id'] == number]
+            began = time.time_ns()
+            change(desk)
+            board.daemon.kill()
+            board.daemon.wait()
+            ended = time.time_ns()
+            os.unlink(board.folder + '/ends')  # three kills in a minute begin in STOP
+            board.start()
+            desk = board.client()
+            found = [it for it in desk.events() if it['id'] == number]
+            assert found[:-1] == before and len(found) == len(before) + 1, (number, found)
+            it = found[-1]
+            assert it['role'] == desk.role == 3 and it['user'] and began - 10 ** 9 <= it['time'] <= ended + 10 ** 9, it
+            assert args is None or it['args'] == args, it
+            assert desk.forces() == {}, 'a force ends with the program'
+            if number == 10:
+                assert it['args'] == [first.hex(), desk.status()['program'].hex()] and first != desk.status()['program'], it
+        numbers = [it['number'] for it in desk.events()]
+        assert numbers == list(range(1, len(numbers) + 1)), numbers
 
 
 def test_events_are_bounded_and_the_newest_stay():

@@ -104,7 +104,7 @@ static bool check_constant(struct reader *r, const char *text, size_t len)
 	case LITERAL_OK:
 		return true;
 	case LITERAL_RANGE:
-		return reader_fail(r, DIAG_LITERAL_RANGE, text, len);
+		return reader_fail_range(r, text, len);
 	case LITERAL_NONE:
 	case LITERAL_BAD:
 		break;

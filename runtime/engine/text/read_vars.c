@@ -261,8 +261,7 @@ static bool check_constant(struct reader *r, enum iec_type type,
 		kind = false;
 		break;
 	}
-	return reader_fail(r, kind ? DIAG_LITERAL_RANGE : DIAG_BAD_LITERAL,
-			   text, len);
+	return kind ? reader_fail_range(r, text, len) : reader_fail(r, DIAG_BAD_LITERAL, text, len);
 }
 
 bool read_constant(struct reader *r, enum iec_type type, union iec_value *out)

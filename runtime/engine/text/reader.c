@@ -254,6 +254,17 @@ bool reader_fail_many(struct reader *r, enum diag_id id, const char *what, long 
 	return reader_fail_word(r, id, text);
 }
 
+bool reader_fail_range(struct reader *r, const char *text, size_t len)
+{
+	char arg[2 * LIMIT_ARG];
+
+	if (!len || *text != '\'')
+		return reader_fail(r, DIAG_LITERAL_RANGE, text, len);
+	snprintf(arg, sizeof(arg), "%.*s" DIAG_AND "STRING[%u]", LIMIT_ARG - 16 < (int)len ?
+		 LIMIT_ARG - 16 : (int)len, text, IEC_STRING_MOST);
+	return reader_fail_word(r, DIAG_LITERAL_RANGE, arg);
+}
+
 bool reader_fail_token(struct reader *r, enum diag_id id)
 {
 	if (r->lex.token.kind == TOKEN_NEWLINE)

@@ -108,6 +108,8 @@ bool reader_fail(struct reader *r, enum diag_id id, const char *arg,
 bool reader_fail_word(struct reader *r, enum diag_id id, const char *arg);
 /** reader_fail_many - the same: more of @what than @most. */
 bool reader_fail_many(struct reader *r, enum diag_id id, const char *what, long most);
+/** reader_fail_range - the same: no type holds the constant @text; of a text, the longest type is named. */
+bool reader_fail_range(struct reader *r, const char *text, size_t len);
 /** reader_fail_token - the same about the token under the cursor. */
 bool reader_fail_token(struct reader *r, enum diag_id id);
 
