@@ -14,7 +14,7 @@ doors='engine/ladder.h engine/base engine/model engine/scan engine/show engine/c
 rooms="
 runtime/engine/base       engine/catalog.def engine/diag.def
 runtime/engine/scan       engine/base engine/catalog.def
-runtime/engine/model      engine/base engine/catalog.def engine/properties.def
+runtime/engine/model      engine/base engine/catalog.def engine/properties.def engine/classic.def
 runtime/engine/text       engine/base engine/model
 runtime/engine/check      engine/base engine/model engine/scan/vm.h
 runtime/engine/translate  engine/base engine/model engine/check engine/scan/code.h engine/catalog.def

@@ -63,4 +63,30 @@ for my $row (@table) {
 		   ($taken ? 'taken' : 'refused')) or diag("said: $got");
 	}
 }
+
+# A calculation in the place of an operand: the message shows the instructions, and they read.
+my @infix = qw(= <> < > <= >= + - * / MOD AND OR XOR & == != && ||);
+
+sub said {
+	my ($list) = @_;
+	open my $out, '>', "$dir/main.rung" or die $!;
+	print $out "RUNGBOARD 1\n\nVAR\n  A, B, Value : BOOL;\n  I, J : INT;\n  Instance : TON;\nEND_VAR\n\n" .
+		"PROGRAM Main IL\n${list}Label:\n  LD A\n  ST B\nEND_PROGRAM\n";
+	close $out;
+	return `cd $dir && $ladder check main.rung 2>&1`;
+}
+
+for my $row (@table) {
+	my ($word, $has) = @$row;
+	for my $modifier ('', @$has) {
+		my @lines = map { my $bits = /^(?:AND|OR|XOR|&&?|\|\|)$/;
+			"  $word$modifier " . ($bits ? "A $_ B" : "I $_ J") . "\n" } @infix;
+		my $said = said(join '', @lines); # fewer than the messages that are mended
+		my @steps = $said =~ /error LD188: .*?, a line for each: (.*)/g;
+		is(scalar @steps, scalar @lines, "$word$modifier: every calculation is split") or diag($said);
+		my $list = join '', map { join('', map { "  $_\n" } split /, then /) .
+			($modifier =~ /\(/ ? "  )\n" : '') } @steps;
+		unlike(said($list), qr/error LD1/, "$word$modifier: the instructions read") or diag($list);
+	}
+}
 done_testing;

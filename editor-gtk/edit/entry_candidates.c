@@ -621,6 +621,19 @@ static const struct entry_new *declared_as(const struct entry *entry, const char
 	return NULL;
 }
 
+/* T37 is a timer, as in other tools; or it may be an ordinary name. */
+static void add_bool(struct search *s, const char *name)
+{
+	struct entry_new plain = { .type = "BOOL" };
+
+	if (s->count + 1 >= s->most)
+		return;
+	snprintf(plain.name, sizeof(plain.name), "%s", name);
+	snprintf(s->out[s->count].line, ENTRY_TEXT, "%.*s : BOOL%s", (int)s->cursor, s->line,
+		 s->line + s->cursor);
+	add_row(s, &plain, "", _("no address"));
+}
+
 /* Adds the name if the line would declare it. */
 static void add_name(struct search *s, struct entry *entry)
 {
@@ -637,6 +650,9 @@ static void add_name(struct search *s, struct entry *entry)
 	}
 	snprintf(s->out[s->count].line, ENTRY_TEXT, "%s", s->line);
 	add_row(s, declared, declared->address, "");
+	if (iec_type_find(declared->type, strlen(declared->type)) == IEC_NONE &&
+	    s->want & WANT_BOOL)
+		add_bool(s, declared->name);
 }
 
 /* Adds a new name at the end of the list. */

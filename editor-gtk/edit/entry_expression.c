@@ -82,8 +82,9 @@ static bool is_foreign(const struct entry_place *place, const struct token *toke
 	    iec_addr_parse(token->text, token->len, &addr) == ADDR_OK)
 		return false;
 	entry_target_find(place, token->text, token->len, target);
-	return target->means == MEANS_VALUE &&
-	       (token->text[0] == '%' || target->addr.area != AREA_NONE);
+	return target->means == MEANS_NEW_PIN ||
+	       (target->means == MEANS_VALUE &&
+		(token->text[0] == '%' || target->addr.area != AREA_NONE));
 }
 
 static bool add_token(const struct entry_place *place, const struct token *token,
@@ -167,6 +168,8 @@ static enum iec_type type_of_name(const struct infer *in, const char *text, size
 	entry_target_find(in->place, text, len, &target);
 	if (target.means == MEANS_NEW)
 		return type_of(in->work, text, len);
+	if (target.means == MEANS_NEW_PIN)
+		return entry_pin(&target)->type;
 	return target.means == MEANS_VALUE ? target.type : IEC_NONE;
 }
 
@@ -415,6 +418,11 @@ static bool look_up(const struct entry_place *place, const char *text, size_t le
 	if (!entry_operand(place, said ? said->text : text, said ? said->len : len, &fit,
 			   &w->target, entry))
 		return false;
+	/* Which pin is meant, only a contact tells. */
+	if (w->target.means == MEANS_VALUE && w->target.foreign.kind == DIALECT_BLOCK &&
+	    w->target.foreign.name[0])
+		return entry_wrong(entry, N_("“%s” is a timer or counter in other tools: write a pin "
+				   "behind it, as in T37.Q"), text, len);
 	return !write || w->target.means == MEANS_NEW || w->target.write ||
 	       entry_wrong(entry, N_("“%s” cannot be written"), text, len);
 }

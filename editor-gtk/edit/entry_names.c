@@ -49,93 +49,11 @@ bool entry_is_name(const char *text, size_t len)
 
 /* ---- addresses of other dialects ---- */
 
-/* Digits of base @base; -1: none, or too many. */
-static int number(const char **at, const char *end, int base)
-{
-	int value = 0, count = 0;
-
-	for (; *at < end && **at >= '0' && **at < '0' + base && count < 6; ++*at, count++)
-		value = value * base + (**at - '0');
-	return count > 0 && (*at == end || !ascii_digit(**at)) ? value : -1;
-}
-
-static bool bit_of(enum iec_area area, int bit, struct iec_addr *out)
-{
-	*out = (struct iec_addr){ area, 1, (uint8_t)(bit % 8), (uint32_t)(bit / 8) };
-	return out->byte < iec_area_row(area)->most;
-}
-
-/* Mitsubishi: X0 … X7 are the same in octal and hexadecimal; beyond they are not. */
-static bool parse_octal(const char *text, size_t len, struct iec_addr *out,
-			const char **why)
-{
-	const char letter = ascii_upper(text[0]);
-	const char *at = text + 1;
-	int bit;
-
-	if ((letter != 'X' && letter != 'Y') || len < 2 || !ascii_digit(text[1]))
-		return false;
-	bit = number(&at, text + len, 10);
-	if (bit < 0 || at != text + len)
-		return false;
-	if (bit > 7)
-		*why = N_("“%s” is octal in some controllers and hexadecimal in others: "
-			  "write %%IX1.0");
-	return bit > 7 || bit_of(letter == 'X' ? AREA_I : AREA_Q, bit, out);
-}
-
-/* Logix and SLC: I:1/3 is bit 3 of the second word of inputs. */
-static bool parse_slash(const char *text, size_t len, struct iec_addr *out)
-{
-	static const struct { const char *head; enum iec_area area; } heads[] = {
-		{ "I:", AREA_I }, { "O:", AREA_Q }, { "B3:", AREA_M },
-	};
-	const char *end = text + len;
-
-	for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++) {
-		size_t n = ascii_prefix(heads[i].head, text, len);
-		const char *at = text + n;
-		int word, bit;
-
-		if (n == 0)
-			continue;
-		word = number(&at, end, 10);
-		if (word < 0 || at >= end || (*at != '/' && *at != '.'))
-			return false;
-		at++;
-		bit = number(&at, end, 10);
-		return bit >= 0 && bit < 16 && at == end &&
-		       bit_of(heads[i].area, word * 16 + bit, out);
-	}
-	return false;
-}
-
-/* E0.0 and A4.0 of the German STEP 7, %B3 of ClassicLadder. */
-static bool parse_letter(const char *text, size_t len, struct iec_addr *out)
-{
-	char other[32];
-	const bool classic = len > 2 && text[0] == '%' && ascii_upper(text[1]) == 'B' &&
-			     ascii_digit(text[2]) && !memchr(text, '.', len);
-	const char letter = len > 0 ? ascii_upper(text[0]) : '\0';
-
-	if (len >= sizeof(other))
-		return false;
-	memcpy(other, text, len);
-	other[len] = '\0';
-	if (classic) {
-		other[1] = 'M';
-	} else if ((letter == 'E' || letter == 'A') && len > 3 && ascii_digit(text[1]) &&
-		   memchr(text, '.', len)) {
-		other[0] = letter == 'E' ? 'I' : 'Q';
-	} else {
-		return false;
-	}
-	return iec_addr_parse(other, len, out) == ADDR_OK;
-}
-
 bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
 			 const char **why)
 {
+	struct dialect foreign;
+
 	switch (iec_addr_parse(text, len, out)) {
 	case ADDR_OK:
 		return true;
@@ -145,9 +63,14 @@ bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
 	case ADDR_NONE:
 		break;
 	}
-	if (parse_octal(text, len, out, why) || parse_slash(text, len, out) ||
-	    parse_letter(text, len, out))
+	if (dialect_find(text, len, 0, &foreign) &&
+	    (foreign.kind == DIALECT_ADDRESS || foreign.kind == DIALECT_UNSURE)) {
+		*out = foreign.addr;
+		if (foreign.kind == DIALECT_UNSURE)
+			*why = N_("“%s” is octal in some controllers and hexadecimal in others: "
+				  "write %%IX1.0");
 		return true;
+	}
 	if (len > 0 && text[0] == '%')
 		*why = N_("“%s” is not an address");
 	return *why != NULL;
@@ -305,22 +228,7 @@ static void take_address(const struct entry_place *place, const char *text, size
 		 (int)(len - head), text + head);
 }
 
-/* ---- pins of ClassicLadder ---- */
-
-#define CLASSIC_TIMER      "T"
-#define CLASSIC_MONOSTABLE "Mono"
-#define CLASSIC_IEC_TIMER  "TM"
-#define CLASSIC_COUNTER    "C"
-#define CLASSIC_REGISTER   "Reg"
-
-/* %TM0.Q is the pin Q of TM0, or of TM0_Pause; a step %X3.A is a BOOL X3, or the step Step3. */
-static const struct classic_row { const char *prefix, *attribute, *name, *pin; } classic_rows[] = {
-#define CLASSIC_PIN(type, prefix, attribute, kind, pin, is_bool) \
-	{ prefix, attribute, kind, pin },
-#define CLASSIC_STEP(type, attribute, name, pin) { "X", attribute, name, pin }, \
-	{ "X", attribute, "Step", sizeof(pin) == 1 ? "X" : "T" },
-#include "engine/classic.def"
-};
+/* ---- blocks, words and steps of other dialects ---- */
 
 /* The variable called @stem, or @stem and more behind a _; else the step of that name. NULL: none. */
 static const char *find_stem(const struct entry_place *place, const char *stem, bool step)
@@ -345,38 +253,25 @@ static const char *find_stem(const struct entry_place *place, const char *stem, 
 	return NULL;
 }
 
-/* Is @text such a pin? Then @path is the pin in this project; empty: there is none. */
-static bool find_classic(const struct entry_place *place, const char *text, size_t len, char *path,
-			 size_t size)
+/* A pin or step of ClassicLadder: @path gets its name in this project, empty: there is none; and
+ * @out the first meaning. */
+static bool find_pin(const struct entry_place *place, const char *text, size_t len,
+		     struct dialect *out, char *path, size_t size)
 {
-	const char *end = text + len, *at = text + 1;
-	size_t prefix;
-	int of;
-	bool is_pin = false;
+	struct dialect foreign;
 
 	path[0] = '\0';
-	while (at < end && ascii_upper(*at) >= 'A' && ascii_upper(*at) <= 'Z')
-		at++;
-	prefix = (size_t)(at - text) - 1;
-	if (len < 5 || text[0] != '%' || prefix == 0)
+	if (!dialect_find(text, len, 0, out) ||
+	    (out->kind != DIALECT_PIN && out->kind != DIALECT_STEP))
 		return false;
-	of = number(&at, end, 10);
-	if (of < 0 || end - at != 2 || *at != '.')
-		return false;
-	for (size_t i = 0; i < sizeof(classic_rows) / sizeof(*classic_rows) && !*path; i++) {
-		const struct classic_row *row = &classic_rows[i];
-		const char *name;
-		char stem[32];
+	for (int i = 0; !*path && dialect_find(text, len, i, &foreign); i++) {
+		const bool step = !strcmp(foreign.pin, "X") || !strcmp(foreign.pin, "T");
+		const char *name = find_stem(place, foreign.name, step);
 
-		if (!ascii_is(row->prefix, text + 1, prefix) || !ascii_is(row->attribute, at + 1, 1))
-			continue;
-		is_pin = true;
-		snprintf(stem, sizeof(stem), "%s%d", row->name, of);
-		name = find_stem(place, stem, !strcmp(row->name, "Step"));
 		if (name)
-			snprintf(path, size, "%s%s%s", name, *row->pin ? "." : "", row->pin);
+			snprintf(path, size, "%s%s%s", name, *foreign.pin ? "." : "", foreign.pin);
 	}
-	return is_pin;
+	return true;
 }
 
 /* Removes blanks in brackets, as in stored cells. Returns the length. */
@@ -394,10 +289,37 @@ static size_t tighten(const char *text, size_t len, char *out)
 	return n;
 }
 
+/* Another tool's name of a block, word or step, in its meaning here. False: it is none. */
+static bool take_foreign(const struct entry_place *place, const char *text, size_t len,
+			 struct entry_target *out)
+{
+	struct dialect *foreign = &out->foreign;
+	char path[ENTRY_TEXT];
+
+	if (find_pin(place, text, len, foreign, path, sizeof(path))) {
+		if (*path) {
+			entry_target_find(place, path, strlen(path), out);
+			return true;
+		}
+		if (foreign->kind == DIALECT_STEP) {
+			fail(out, N_("“%s” is no step of this program: a step is named as in Step0.X"));
+			return true;
+		}
+		snprintf(out->text, sizeof(out->text), "%s.%s", foreign->name, foreign->pin);
+		out->means = MEANS_NEW_PIN;
+		return true;
+	}
+	if (foreign->kind == DIALECT_BLOCK || foreign->kind == DIALECT_WORD)
+		out->means = MEANS_NEW;
+	else
+		memset(foreign, 0, sizeof(*foreign));
+	return out->means == MEANS_NEW;
+}
+
 void entry_target_find(const struct entry_place *place, const char *typed, size_t len,
 		       struct entry_target *out)
 {
-	char text[ENTRY_TEXT], path[ENTRY_TEXT];
+	char text[ENTRY_TEXT];
 	uint16_t flags = 0;
 	size_t head = 0, whole = 0;
 
@@ -406,14 +328,8 @@ void entry_target_find(const struct entry_place *place, const char *typed, size_
 		return;
 	len = tighten(typed, len, text);
 	memcpy(out->text, text, len);
-	if (find_classic(place, text, len, path, sizeof(path))) {
-		if (*path)
-			entry_target_find(place, path, strlen(path), out);
-		else
-			fail(out, N_("“%s” is no block or step of this project: write its name and a pin, as in "
-				     "Delay.Q"));
+	if (*text == '%' && take_foreign(place, text, len, out))
 		return;
-	}
 	while (head < len && text[head] != '.' && text[head] != '[')
 		head++;
 	while (whole < len && text[whole] != '[')
@@ -437,6 +353,8 @@ void entry_target_find(const struct entry_place *place, const char *typed, size_
 			out->means = MEANS_WRONG;
 		else
 			take_address(place, text, len, whole, out);
+	} else if (take_foreign(place, text, len, out)) {
+		return;
 	} else if (entry_is_name(text, len)) {
 		out->means = MEANS_NEW;
 	} else if (entry_is_name(text, head)) {

@@ -11,12 +11,15 @@
 
 #include "editor-gtk/edit/entry.h"
 
+#include "engine/model/dialect.h"
+
 /* The meaning of a name, path or address. */
 enum entry_means {
 	MEANS_NOTHING,  /* no operand                                          */
 	MEANS_VALUE,    /* an existing value                                   */
 	MEANS_INSTANCE, /* an instance or structure as a whole                 */
 	MEANS_NEW,      /* an unknown plain name                               */
+	MEANS_NEW_PIN,  /* a pin of `foreign`, which is not declared           */
 	MEANS_WRONG,    /* see why                                             */
 };
 
@@ -28,6 +31,8 @@ struct entry_target {
 	bool array;              /* a whole array                              */
 	const struct var *var;   /* base of the path; NULL: none               */
 	struct iec_addr addr;    /* of an address, AREA_NONE: none             */
+	struct dialect foreign;  /* of a new name that has a meaning in another tool; name "":
+				    it has none                                */
 	const char *why;         /* N_() text                                  */
 	char text[ENTRY_TEXT];   /* canonical                                  */
 };

@@ -637,6 +637,61 @@ static bool declare(const struct entry_place *place, const char *text, size_t le
 	return true;
 }
 
+/* ---- names of other tools ---- */
+
+const struct word_pin *entry_pin(const struct entry_target *target)
+{
+	const struct dialect *foreign = &target->foreign;
+	const struct word_row *row = word_row(word_find(foreign->word, strlen(foreign->word)));
+
+	return &row->pin[word_pin_find(row, foreign->pin, strlen(foreign->pin))];
+}
+
+/* T37, %TM0.Q: the instance is declared, the operand is a pin of it. */
+static bool take_pin(const struct entry_place *place, struct entry_target *out,
+		     struct entry *entry)
+{
+	const struct word_pin *pin = entry_pin(out);
+	const struct dialect *foreign = &out->foreign;
+
+	out->means = MEANS_VALUE;
+	out->type = pin->type;
+	out->write = pin->dir == PIN_IN;
+	snprintf(out->text, sizeof(out->text), "%s.%s", foreign->name, pin->name);
+	return entry_declare(place, entry, foreign->name, strlen(foreign->name), foreign->word,
+			     "");
+}
+
+/* D0: a number of 32 bits lies in D0 and D1. */
+static bool take_number(const struct entry_place *place, const struct entry_fit *fit,
+			const struct entry_target *target, struct entry *entry)
+{
+	const struct dialect *foreign = &target->foreign;
+	struct entry_said said = { .type = fit->type };
+	struct iec_addr addr = foreign->addr;
+
+	addr.bits = (uint8_t)bits_of(fit->type);
+	if (!project_has(place->project, addr))
+		return entry_wrong(entry, N_("“%s” is not an address of this project"),
+				   foreign->name, strlen(foreign->name));
+	iec_addr_print(addr, said.address, sizeof(said.address));
+	return declare(place, foreign->name, strlen(foreign->name), fit, &said, entry);
+}
+
+/* Does it mean here what it means there? A name that cannot be meant so is an ordinary one. */
+static bool is_foreign(const struct entry_place *place, const struct entry_fit *fit,
+		       const struct entry_target *target)
+{
+	const struct pou *pou = entry_pou(place);
+
+	if (!target->foreign.name[0] || fit->type == IEC_NONE)
+		return false;
+	if (target->foreign.kind == DIALECT_BLOCK)
+		return fit->type == IEC_BOOL && !fit->write;
+	return bits_of(fit->type) > 1 && pou && !pou_has_frame(pou) &&
+	       iec_type_row(fit->type)->class & (ANY_NUM | CLASS_BITS);
+}
+
 bool entry_operand(const struct entry_place *place, const char *text, size_t len,
 		   const struct entry_fit *fit, struct entry_target *out,
 		   struct entry *entry)
@@ -653,6 +708,10 @@ bool entry_operand(const struct entry_place *place, const char *text, size_t len
 	if (out->means == MEANS_WRONG || out->means == MEANS_NOTHING)
 		return entry_wrong(entry, out->why ? out->why : N_("“%s” is not an operand"),
 				   text, len);
+	if (out->means == MEANS_NEW_PIN || (out->means == MEANS_NEW && name == 0 &&
+					    is_foreign(place, fit, out)))
+		return out->foreign.kind == DIALECT_WORD ? take_number(place, fit, out, entry) :
+							   take_pin(place, out, entry);
 	return out->means != MEANS_NEW ||
 	       declare(place, text, len, fit, name ? &said : NULL, entry);
 }

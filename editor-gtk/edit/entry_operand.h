@@ -34,6 +34,8 @@ struct entry_fit entry_fit_result(const struct word_row *row, enum iec_type shar
 bool entry_operand(const struct entry_place *place, const char *text, size_t len,
 		   const struct entry_fit *fit, struct entry_target *out,
 		   struct entry *entry);
+/** entry_pin - the pin of a MEANS_NEW_PIN. Lives for ever. */
+const struct word_pin *entry_pin(const struct entry_target *target);
 /** entry_each_address - calls @take for each address that the project uses without a name. */
 void entry_each_address(const struct entry_place *place,
 			void (*take)(void *context, struct iec_addr addr),

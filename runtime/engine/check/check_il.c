@@ -60,10 +60,11 @@ static bool il_report_near(struct il_check *c, const struct il_line *line, enum 
 			   unsigned int kinds)
 {
 	char text[LIMIT_ARG];
+	const enum diag_id better = advice_word(scope_project(c->fn.scope), c->fn.pou, kinds,
+						c->fn.diags, il_operand_text(c, line), text,
+						sizeof(text));
 
-	advice_word(scope_project(c->fn.scope), c->fn.pou, kinds, c->fn.diags,
-		    il_operand_text(c, line), text, sizeof(text));
-	return il_report(&c->fn, line, id, text);
+	return il_report(&c->fn, line, better != DIAG_COUNT ? better : id, text);
 }
 
 static void report_unknown(struct il_check *c, const struct il_line *line,

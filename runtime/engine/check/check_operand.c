@@ -46,8 +46,10 @@ static void report_unknown(struct operand_check *c, struct operand_spot at, uint
 		operand_report(c, why, at, name);
 		return;
 	}
-	advice_word(c->project, c->pou, kinds, c->diags, name, text, sizeof(text));
-	operand_report(c, why, at, text);
+	const enum diag_id better = advice_word(c->project, c->pou, kinds, c->diags, name, text,
+						sizeof(text));
+
+	operand_report(c, better != DIAG_COUNT ? better : why, at, text);
 }
 
 /* The meaning of @id, or NULL after a diagnostic. */

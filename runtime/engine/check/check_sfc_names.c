@@ -136,11 +136,14 @@ static const struct meaning *find(struct sfc_names *c, uint32_t id, struct spot 
 		uses_add_index(c->uses, c->scope, c->pou, id, m);
 		return m;
 	}
+	enum diag_id better = DIAG_COUNT;
+
 	if (why == DIAG_UNKNOWN_NAME)
-		advice_word(c->project, c->pou, kinds, c->diags, name, text, sizeof(text));
+		better = advice_word(c->project, c->pou, kinds, c->diags, name, text,
+				     sizeof(text));
 	else
 		snprintf(text, sizeof(text), "%.*s", LIMIT_ARG - 1, name);
-	report(c, why, at, text);
+	report(c, better != DIAG_COUNT ? better : why, at, text);
 	return NULL;
 }
 

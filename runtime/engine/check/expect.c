@@ -7,6 +7,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/catalog.h"
 #include "engine/base/lex.h"
+#include "engine/model/dialect.h"
 #include "engine/base/nearest.h"
 #include "engine/model/convert.h"
 
@@ -445,8 +446,36 @@ static void take_nearest(void *context, const struct expect_word *word)
 		nearest_offer(context, word->text);
 }
 
-void expect_nearest(const struct project *project, const struct pou *pou,
-		    unsigned int kinds, const char *wanted, char *out, size_t size)
+/* What another tool calls so: an address is suggested, anything else must be declared. */
+static enum diag_id say_dialect(const char *wanted, char *out, size_t size)
+{
+	struct dialect found;
+	char addr[40], other[40] = "";
+
+	if (!dialect_find(wanted, strlen(wanted), 0, &found))
+		return DIAG_COUNT;
+	iec_addr_print(found.addr, addr, sizeof(addr));
+	if (found.kind == DIALECT_UNSURE)
+		iec_addr_print(found.other, other, sizeof(other));
+	if (found.kind == DIALECT_ADDRESS || found.kind == DIALECT_UNSURE) {
+		snprintf(out, size, "%s" DIAG_AND "%s%s%s", wanted, addr, *other ? ", " : "", other);
+		return DIAG_COUNT;
+	}
+	if (found.kind == DIALECT_STEP)
+		return DIAG_COUNT;
+	if (found.kind == DIALECT_WORD)
+		snprintf(out, size, "%s" DIAG_AND "%s AT %s : %s;", wanted, found.name, addr,
+			 iec_type_row(found.type)->word);
+	else
+		snprintf(out, size, "%s" DIAG_AND "%s : %s;%s%s%s", wanted, found.name, found.word,
+			 found.kind == DIALECT_BLOCK ? DIAG_AND : "",
+			 found.kind == DIALECT_BLOCK ? found.name : "",
+			 found.kind == DIALECT_BLOCK ? ".Q" : "");
+	return DIAG_AS_ELSEWHERE;
+}
+
+enum diag_id expect_nearest(const struct project *project, const struct pou *pou,
+			    unsigned int kinds, const char *wanted, char *out, size_t size)
 {
 	struct nearest nearest;
 	const struct expect_taker taker = { take_nearest, &nearest };
@@ -456,6 +485,8 @@ void expect_nearest(const struct project *project, const struct pou *pou,
 	nearest_init(&nearest, wanted, strlen(wanted));
 	expect_offer(project, pou, &want, &taker);
 	nearest_print(&nearest, out, size);
+	return nearest.count == 0 && kinds & EXPECT_VARIABLE ? say_dialect(wanted, out, size) :
+							       DIAG_COUNT;
 }
 
 static struct names *names_of(struct scope *scope)

@@ -63,9 +63,9 @@ const char *expect_note(const struct expect_word *word);
 const char *expect_kind_text(enum expect_kind kind);
 
 /** expect_nearest - @wanted, with the words of @kinds that may be meant behind it, as
- * nearest_print(). Who needs it asks advice_word(). Scan-safe: no. */
-void expect_nearest(const struct project *project, const struct pou *pou,
-		    unsigned int kinds, const char *wanted, char *out, size_t size);
+ * nearest_print(). Call advice_word() instead, which has the meaning of the result. Scan-safe: no. */
+enum diag_id expect_nearest(const struct project *project, const struct pou *pou,
+			    unsigned int kinds, const char *wanted, char *out, size_t size);
 
 /* A place in a text. */
 struct expect_place {

@@ -131,8 +131,10 @@ static struct il_result take_name(struct settle *s, int i)
 
 	if (!m) {
 		snprintf(name, sizeof(name), "%.*s", node->len, node->text);
-		advice_word(s->project, s->pou, EXPECT_VARIABLE, s->fn.diags, name, text,
-			    sizeof(text));
+		/* What another tool calls so is no constant. */
+		if (advice_word(s->project, s->pou, EXPECT_VARIABLE, s->fn.diags, name, text,
+				sizeof(text)) != DIAG_COUNT)
+			snprintf(text, sizeof(text), "%s", name);
 		il_report(&s->fn, &s->line, why, why == DIAG_UNKNOWN_NAME ? text : name);
 		return out;
 	}

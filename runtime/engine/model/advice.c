@@ -13,12 +13,12 @@
 /* Messages beyond this number have no suggestions. */
 #define SUGGEST_MOST 20
 
-void advice_word(const struct project *project, const struct pou *pou,
-		 unsigned int kinds, const struct diag_list *diags, const char *wanted,
-		 char *out, size_t size)
+enum diag_id advice_word(const struct project *project, const struct pou *pou,
+			 unsigned int kinds, const struct diag_list *diags, const char *wanted,
+			 char *out, size_t size)
 {
 	if (project->advice && diags->count < SUGGEST_MOST)
-		project->advice->nearest(project, pou, kinds, wanted, out, size);
-	else
-		snprintf(out, size, "%s", wanted);
+		return project->advice->nearest(project, pou, kinds, wanted, out, size);
+	snprintf(out, size, "%s", wanted);
+	return DIAG_COUNT;
 }

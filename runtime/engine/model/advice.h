@@ -43,8 +43,9 @@ struct advice {
 	/* mend_line() of text/mend.h */
 	bool (*mend)(const struct mend_line *line, struct mended *out);
 	/* expect_nearest() of check/expect.h */
-	void (*nearest)(const struct project *project, const struct pou *pou,
-			unsigned int kinds, const char *wanted, char *out, size_t size);
+	enum diag_id (*nearest)(const struct project *project, const struct pou *pou,
+				unsigned int kinds, const char *wanted, char *out,
+				size_t size);
 	/* check_tokens() of check/check_tokens.h */
 	void (*tokens)(struct scope *scope, const struct pou *pou, struct arena *scratch,
 		       struct diag_list *diags);
@@ -57,9 +58,10 @@ struct advice {
  * @diags: suggestions are made for the first few messages only, as they take time
  * @out: of @size bytes, clipped; the word alone if there is no suggestion
  *
- * Scan-safe: no.
+ * Returns DIAG_COUNT, or a message that tells more than the caller's, with @out as its argument:
+ * another tool has a variable of this name. Scan-safe: no.
  */
-void advice_word(const struct project *project, const struct pou *pou,
-		 unsigned int kinds, const struct diag_list *diags, const char *wanted,
-		 char *out, size_t size);
+enum diag_id advice_word(const struct project *project, const struct pou *pou,
+			 unsigned int kinds, const struct diag_list *diags, const char *wanted,
+			 char *out, size_t size);
 #endif

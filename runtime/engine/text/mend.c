@@ -7,8 +7,10 @@
  */
 #include "engine/text/mend.h"
 #include "engine/text/mend_number.h"
+#include "engine/text/mend_steps.h"
 
 #include "engine/base/ascii.h"
+#include "engine/model/dialect.h"
 #include "engine/base/literal.h"
 #include "engine/model/expr_args.h"
 #include "engine/text/reader.h"
@@ -351,6 +353,42 @@ static size_t skip_comment(const struct mender *m, size_t at)
 	return end ? (size_t)(end - m->text) + 2 : m->len;
 }
 
+/* A step %X3.A has the name of its BOOL, if the program has one, else of its step. */
+static bool take_step(const struct mender *m, const char *text, size_t len, struct dialect *found)
+{
+	struct names *names = &m->in->project->names;
+
+	return names_find_any(names, found->name, strlen(found->name)) ||
+	       dialect_find(text, len, 1, found);
+}
+
+/* %B3 → %MX0.3, I:1/3 → %IX2.3, %T0.D → T0.D. Returns the place behind it; @at: nothing is to be
+ * changed. A plain name may be that of a variable. */
+static size_t take_dialect(struct mender *m, size_t at)
+{
+	const char *text = m->text + at;
+	size_t len = *text == '%';
+	struct dialect found;
+	struct iec_addr addr;
+	char made[MADE];
+
+	if (!(m->where & (ROWS | IN_LIST | IN_NAME)) || (at && mend_is_word(text[-1])))
+		return at;
+	while (mend_is_word(text[len]) || (text[len] && strchr(".:/", text[len]) && mend_is_word(text[len + 1])))
+		len++;
+	if ((*text != '%' && !memchr(text, ':', len)) ||
+	    iec_addr_parse(text, len, &addr) != ADDR_NONE || !dialect_find(text, len, 0, &found) ||
+	    (found.kind == DIALECT_STEP && !take_step(m, text, len, &found)))
+		return at;
+	if (found.kind == DIALECT_ADDRESS)
+		iec_addr_print(found.addr, made, sizeof(made));
+	else
+		snprintf(made, sizeof(made), "%s%s%s", found.name, *found.pin ? "." : "", found.pin);
+	change(m, at, len, made);
+	pass(m, made, strlen(made));
+	return at + strlen(made);
+}
+
 static size_t take_one(struct mender *m, size_t at)
 {
 	const struct rule *rule;
@@ -359,6 +397,9 @@ static size_t take_one(struct mender *m, size_t at)
 
 	if (skip_comment(m, at) != at)
 		return skip_comment(m, at);
+	len = take_dialect(m, at);
+	if (len != at)
+		return len;
 	rule = rule_at(m, at);
 	if (rule && strcmp(rule->from, rule->to) != 0) {
 		len = strlen(rule->from);
@@ -1272,6 +1313,8 @@ bool mend_line(const struct mend_line *line, struct mended *out)
 
 	if (line->len >= sizeof(m.text) - 32 || memchr(line->text, '\037', line->len))
 		return false;
+	if (line->kind == MEND_LIST && mend_in_steps(line, out))
+		return true;
 	while (lead < line->len && (line->text[lead] == ' ' || line->text[lead] == '\t'))
 		lead++;
 	m.len -= lead;

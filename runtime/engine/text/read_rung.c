@@ -78,14 +78,18 @@ static bool read_args(struct reader *r, struct cell *cell)
 	return true;
 }
 
-/* Constants are judged in check/; here only for a line that can be mended. */
+/* Constants and addresses are judged in check/; here only for a line that can be mended. */
 static bool has_bad_literal(const struct expr *expr)
 {
 	struct literal literal;
+	struct iec_addr addr;
 
 	for (int i = 0; i < expr->count; i++)
 		if (expr->node[i].op == EXPR_LITERAL &&
 		    literal_parse(expr->node[i].text, expr->node[i].len, &literal) != LITERAL_OK)
+			return true;
+		else if (expr->node[i].op == EXPR_NAME && *expr->node[i].text == '%' &&
+			 iec_addr_parse(expr->node[i].text, expr->node[i].len, &addr) == ADDR_NONE)
 			return true;
 	return false;
 }

@@ -405,7 +405,8 @@ static void test_access(void)
 
 /* What a file can hold; a line each. */
 static const char *const everything[] = {
-	"PROJECT \"one\"", "AUTHOR \"a\"", "VAR", "  G : INT;", "END_VAR", "VAR RETAIN", "END_VAR",
+	"PROJECT \"one\"", "AUTHOR \"a\"", "INCLUDE \"more.rung\"", "USES \"lib.rung\"",
+	"INCLUDE \"last.rung\"", "VAR", "  G : INT;", "END_VAR", "VAR RETAIN", "END_VAR",
 	"VAR CONSTANT", "  K : INT := 1;", "END_VAR", "VAR", "  H : INT;", "END_VAR",
 	"TYPE", "  Pair : STRUCT", "    A : INT;", "  END_STRUCT;", "END_TYPE", "TYPE", "END_TYPE",
 	"CONFIGURATION C", "VAR_GLOBAL", "  V : INT;", "END_VAR", "AREA V 100;", "RESOURCE R ON PC",
@@ -420,6 +421,7 @@ static const char *const everything[] = {
 	"END_STEP", "STEP Second:", "END_STEP", "TRANSITION FROM First TO Second := S;",
 	"END_TRANSITION", "TRANSITION FROM Second TO First:", "RUNG", "| NO S | COIL TRANSITION |",
 	"END_TRANSITION", "ACTION Act:", "RUNG", "| NO S | COIL S |", "END_ACTION", "END_PROGRAM",
+	"VIEW\nzoom 100\nEND_VIEW",
 };
 static const char *const bare[] = {
 	"PROJECT \"one\"", "CONFIGURATION C", "RESOURCE R ON PC", "END_RESOURCE", "VAR_ACCESS",
@@ -469,7 +471,7 @@ static void try_comments(const char *const *lines, size_t line_count, int least)
 
 static void test_comments(void)
 {
-	try_comments(everything, sizeof(everything) / sizeof(*everything), 120);
+	try_comments(everything, sizeof(everything) / sizeof(*everything), 128);
 	try_comments(bare, sizeof(bare) / sizeof(*bare), 12);
 }
 
